@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bim/geometry/plane.h"
+#include "bim/geometry/polygon.h"
+
+namespace plumbline::bim {
+
+/// Closed triangle mesh in W, m. Triangles are counter-clockwise seen from outside.
+struct Solid {
+  std::vector<Eigen::Vector3d> vertices;
+  std::vector<Eigen::Vector3i> triangles;
+};
+
+/// A compromise made while reading an element; listed by `inspect`.
+struct Warning {
+  std::string element;  ///< id of the element, empty for the whole file
+  std::string kind;     ///< not_closed | not_prismatic | no_layers | assumed_height | skipped_representation | ...
+  std::string text;
+};
+
+struct Storey {
+  std::string id;
+  std::string name;
+  double elevation_m = 0.0;  ///< z of the finished floor in W
+  double height_m = 3.0;     ///< to the next storey or the ceiling
+  std::int64_t step_id = 0;  ///< STEP entity number, 0 when not from IFC
+};
+
+enum class OpeningKind { door, window, opening_void };
+enum class Leaf { open, closed, none };
+
+/// A hole through a wall. s, z are in the wall's elevation: s along a to b from a, z above W's z = 0.
+struct Opening {
+  std::string id;
+  int wall = -1;  ///< index into Building::walls
+  OpeningKind kind = OpeningKind::door;
+  double s_m = 0.0;  ///< centre along the wall, from a
+  double width_m = 0.9;
+  double z0_m = 0.0;  ///< sill
+  double z1_m = 2.1;  ///< head
+  Leaf leaf = Leaf::open;
+  std::optional<Solid> solid;   ///< IFC: the opening's uncut body in W; cut instead of the rectangle
+  std::vector<Solid> parts;     ///< IFC: further touching bodies of the same opening
+  std::string filling_id;       ///< id of the door or window that fills it, or empty
+  std::int64_t step_id = 0;
+  int rooms[2] = {-1, -1};      ///< index of the room on the left and on the right of a to b, -1 outside or unknown
+};
+
+/// A wall: reference line a to b, body from offset to offset + thickness across it (positive to the left of a to b).
+struct Wall {
+  std::string id;
+  std::string name;
+  int storey = -1;
+  Eigen::Vector2d a = Eigen::Vector2d::Zero();
+  Eigen::Vector2d b = Eigen::Vector2d::Zero();
+  double offset_m = 0.0;
+  double thickness_m = 0.2;
+  double z0_m = 0.0;
+  double z1_m = 3.0;
+  std::string material;
+  std::optional<Solid> body;  ///< IFC: the uncut body in W; absent for a plain box wall of a plan
+  std::int64_t step_id = 0;
+
+  [[nodiscard]] Eigen::Vector2d direction() const { return (b - a).normalized(); }
+  [[nodiscard]] Eigen::Vector2d left() const {
+    const Eigen::Vector2d e = direction();
+    return {-e.y(), e.x()};
+  }
+  [[nodiscard]] double length() const { return (b - a).norm(); }
+};
+
+struct Room {
+  std::string id;
+  std::string name;
+  int storey = -1;
+  Polygon2 polygon;  ///< counter-clockwise, clear inner outline
+  double z0_m = 0.0;
+  double z1_m = 3.0;
+  std::vector<int> walls;  ///< indices of bounding walls, ascending
+  std::int64_t step_id = 0;
+};
+
+struct Slab {
+  std::string id;
+  int storey = -1;
+  PolygonWithHoles2 polygon;
+  double z0_m = -0.2;  ///< underside
+  double z1_m = 0.0;   ///< top
+  std::optional<Solid> body;
+  std::int64_t step_id = 0;
+};
+
+struct Column {
+  std::string id;
+  int storey = -1;
+  Polygon2 footprint;
+  double z0_m = 0.0;
+  double z1_m = 3.0;
+  std::optional<Solid> body;
+  std::int64_t step_id = 0;
+};
+
+/// Any other solid a robot meets: clutter of a plan; of IFC, door leaves, stairs, railings, furniture.
+struct Obstacle {
+  std::string id;
+  std::string kind;  ///< box | cylinder | door_leaf | window_pane | stair | ...
+  int storey = -1;
+  Solid body;
+  bool planned = true;  ///< false: as-built only
+  std::int64_t step_id = 0;
+};
+
+/// The normalised building: SI units, frame W, canonical order. One type serves as planned and as built.
+struct Building {
+  std::string name;
+  std::string schema;  ///< "plan" | "IFC2X3" | "IFC4"
+  std::string unit;    ///< length unit of the source
+  std::vector<Storey> storeys;
+  std::vector<Wall> walls;
+  std::vector<Opening> openings;
+  std::vector<Room> rooms;
+  std::vector<Slab> slabs;
+  std::vector<Column> columns;
+  std::vector<Obstacle> obstacles;
+  std::vector<Warning> warnings;
+
+  /// Hash of the content (not of names of files, nor of warnings).
+  [[nodiscard]] std::uint64_t hash() const;
+};
+
+}  // namespace plumbline::bim

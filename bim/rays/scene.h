@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <span>
+
+#include "bim/mesh/mesh.h"
+
+namespace plumbline::bim {
+
+struct Ray {
+  Eigen::Vector3d origin_W;
+  Eigen::Vector3d direction_W;  ///< unit
+};
+
+struct Hit {
+  double range_m = 0.0;  ///< distance along the ray, from the face's own plane in double; infinity when nothing is hit
+  int element = -1;      ///< index into BuildingMesh::elements, -1 when nothing is hit
+  int triangle = -1;     ///< index into BuildingMesh::triangles
+  Eigen::Vector3d normal_W = Eigen::Vector3d::Zero();  ///< unit, towards the ray's origin
+};
+
+/// Closest hits on a mesh. Embree proposes (geometry, primitive); range and ties are decided here in double, so that
+/// results depend neither on the CPU nor on packets: among faces hit within 0.1 mm the lowest element id, then
+/// triangle id wins.
+class RayScene {
+ public:
+  explicit RayScene(const BuildingMesh& mesh);
+  ~RayScene();
+  RayScene(RayScene&&) noexcept;
+  RayScene& operator=(RayScene&&) noexcept;
+
+  /// Casts every ray up to range_max_m. Coherent rays (neighbouring beams) should stand next to each other: blocks of
+  /// 8 or 16 are traced as packets. hits.size() == rays.size().
+  void cast(std::span<const Ray> rays, double range_max_m, std::span<Hit> hits) const;
+  [[nodiscard]] Hit cast(const Ray& ray, double range_max_m) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace plumbline::bim

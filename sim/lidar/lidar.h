@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "bim/rays/scene.h"
+#include "slam/io/vlp16.h"
+
+namespace plumbline::sim {
+
+enum class LidarPreset { ideal, datasheet, real, full };
+
+/// Ground truth of one message's returns, for scoring only; index as in slam::Scan.
+struct ReturnLabels {
+  std::vector<std::int32_t> element;         ///< element id, -1 no return
+  std::vector<Eigen::Vector3d> point_W;      ///< noise-free hit point, zero without a return
+};
+
+struct Sweep {
+  std::vector<slam::Vlp16Packet> packets;
+  ReturnLabels labels;
+};
+
+/// Emulated VLP-16: real firing order and times, a pose per firing, 2 mm ranges, noise by range, a bias per unit,
+/// dropouts by incidence and range.
+class Lidar {
+ public:
+  Lidar(LidarPreset preset, double rpm, std::uint64_t seed, const bim::RayScene& scene);
+  ~Lidar();
+
+  /// Fires one message. first_firing counts firings since the start; X_WL has one pose a firing (1,824), each at that
+  /// firing's start. Azimuth and noise depend on the firing number only.
+  [[nodiscard]] Sweep sweep(std::int64_t first_firing, std::span<const Pose> X_WL) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace plumbline::sim

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "bim/building/building.h"
+#include "bim/mesh/mesh.h"
+#include "sim/lidar/lidar.h"
+#include "sim/robot/leg_odometry.h"
+#include "slam/io/records.h"
+
+namespace plumbline::sim {
+
+struct WorldConfig {
+  std::uint64_t seed = 1;
+  LidarPreset lidar = LidarPreset::real;
+  double rpm = 600.0;
+  OdometryPreset odometry = OdometryPreset::noisy;
+  int storey = 0;
+  Eigen::Vector2d start_W = Eigen::Vector2d::Zero();
+  double start_yaw = 0.0;                   ///< rad
+  std::vector<Eigen::Vector2d> waypoints;   ///< the route, from the start on
+  double speed_mps = 0.6;
+  double duration_s = 120.0;
+};
+
+struct TruePose {
+  slam::Nanoseconds stamp = 0;
+  Pose X_WR;
+};
+
+/// Everything that happened up to and including one scan, since the previous one.
+struct WorldFrame {
+  std::vector<slam::Imu> imu;             ///< 250 Hz
+  std::vector<slam::Odometry> odometry;   ///< 100 Hz
+  std::vector<slam::Vlp16Packet> packets; ///< of this message
+  slam::Scan scan;                        ///< decoded from the packets
+  std::vector<TruePose> truth;            ///< 100 Hz and, last, at scan.stamp
+  ReturnLabels labels;
+  std::uint64_t robot_digest = 0;
+};
+
+/// The simulated world: route, gait, physics, sensors. Same config, same frames, bit for bit.
+class World {
+ public:
+  /// mesh is that of as_built; both must outlive the world.
+  World(const WorldConfig& config, const bim::Building& as_built, const bim::BuildingMesh& mesh);
+  ~World();
+
+  /// Advances to the end of the next LiDAR message. False when the route or the time is done (frame untouched).
+  /// Throws ScenarioFailure on a fall or a stall.
+  [[nodiscard]] bool next(WorldFrame& frame);
+  [[nodiscard]] static slam::Calibration calibration();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace plumbline::sim

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bim/geometry/plane.h"
+#include "bim/geometry/polygon.h"
+#include "slam/io/records.h"
+
+namespace plumbline::slam {
+
+/// The frame an estimate is in: M, a map of the method's own, or W, the building's plan.
+enum class Frame { map, world };
+enum class State { searching, ambiguous, converged, lost };
+
+struct StampedPose {
+  Nanoseconds stamp = 0;
+  Pose X_FR;  ///< F is M or W, see Estimate::frame
+};
+
+/// A place where the robot may be.
+struct Hypothesis {
+  double mass = 0.0;  ///< share of the belief, in [0, 1]
+  Pose X_WR;
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of (x, y, yaw)
+  std::string room;                                      ///< PlanRoom name, or empty
+};
+
+/// One particle as drawn in the report.
+struct Particle {
+  double x = 0.0, y = 0.0, yaw = 0.0, weight = 0.0;
+};
+
+struct StageDigest {
+  std::string stage;
+  std::uint64_t digest = 0;
+};
+
+/// CPU time of one call of a stage; only timings.json sees it.
+struct StageTime {
+  std::string stage;
+  double cpu_ms = 0.0;
+};
+
+/// What a method says right after one scan (causal).
+struct Output {
+  Nanoseconds stamp = 0;
+  std::optional<Pose> X_FR;  ///< absent while a plan localization has no single answer
+  State state = State::converged;
+  std::vector<Hypothesis> hypotheses;
+  std::vector<Particle> particles;   ///< at most 500, for the report; empty when there is no particle set
+  std::vector<StageDigest> digests;  ///< in pipeline order
+  std::vector<StageTime> times;
+};
+
+/// A believed wall face. Points satisfy n.x + d = 0, n towards the free space from which it was seen.
+struct PlaneNode {
+  int id = -1;
+  Plane plane_F;
+  Eigen::Vector2d p0 = Eigen::Vector2d::Zero();  ///< extent along the wall, in F
+  Eigen::Vector2d p1 = Eigen::Vector2d::Zero();
+  double z0 = 0.0;
+  double z1 = 0.0;
+  int observations = 0;
+};
+
+enum class RoomKind { four_wall, two_wall };
+
+/// A believed room.
+struct RoomNode {
+  int id = -1;
+  RoomKind kind = RoomKind::four_wall;
+  Eigen::Vector2d center_F = Eigen::Vector2d::Zero();
+  Polygon2 polygon_F;       ///< counter-clockwise; two-wall: the stretch of corridor that was seen
+  std::vector<int> planes;  ///< PlaneNode ids: (x+, x-, y+, y-) or the pair
+};
+
+struct FloorNode {
+  int id = -1;
+  Eigen::Vector3d center_F = Eigen::Vector3d::Zero();
+  Plane plane_F;
+};
+
+/// A method's answer at the end of a run.
+struct Estimate {
+  Frame frame = Frame::map;
+  std::vector<StampedPose> trajectory;  ///< after the last optimisation, one pose a scan
+  std::vector<PlaneNode> planes;
+  std::vector<RoomNode> rooms;
+  std::vector<FloorNode> floors;
+  std::vector<Eigen::Vector3f> map_F;   ///< point map, voxel-thinned to 0.05 m
+};
+
+}  // namespace plumbline::slam
