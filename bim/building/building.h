@@ -46,11 +46,11 @@ struct Opening {
   double z0_m = 0.0;  ///< sill
   double z1_m = 2.1;  ///< head
   Leaf leaf = Leaf::open;
-  std::optional<Solid> solid;   ///< IFC: the opening's uncut body in W; cut instead of the rectangle
-  std::vector<Solid> parts;     ///< IFC: further touching bodies of the same opening
-  std::string filling_id;       ///< id of the door or window that fills it, or empty
+  std::optional<Solid> solid;  ///< IFC: the opening's uncut body in W; cut instead of the rectangle
+  std::vector<Solid> parts;    ///< IFC: further touching bodies of the same opening
+  std::string filling_id;      ///< id of the door or window that fills it, or empty
   std::int64_t step_id = 0;
-  int rooms[2] = {-1, -1};      ///< index of the room on the left and on the right of a to b, -1 outside or unknown
+  int rooms[2] = {-1, -1};  ///< index of the room on the left and on the right of a to b, -1 outside or unknown
 };
 
 /// A wall: reference line a to b, body from offset to offset + thickness across it (positive to the left of a to b).

@@ -35,7 +35,13 @@ class FieldWriter;
 /// A configuration struct lists each field once:
 ///   template <class V> void visit(V& v) { v("speed_mps", speed_mps, Field{.doc = "walking speed", .min = 0.05}); }
 template <class T>
-concept Visitable = requires(T t, FieldReader& r) { t.visit(r); };
+concept EigenValue = requires {
+  typename T::Scalar;
+};
+template <class T>
+concept Visitable = !EigenValue<T> && requires(T t, FieldReader& r) {
+  t.visit(r);
+};
 
 void read_scalar(const Tree& tree, std::string_view key, const Field& field, double& value);
 void read_scalar(const Tree& tree, std::string_view key, const Field& field, int& value);

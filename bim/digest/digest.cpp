@@ -39,9 +39,7 @@ Digest& Digest::add(std::string_view text) {
   return *this;
 }
 
-Digest& Digest::add(const Pose& X) {
-  return add(X.t).add(X.q.w()).add(X.q.x()).add(X.q.y()).add(X.q.z());
-}
+Digest& Digest::add(const Pose& X) { return add(X.t).add(X.q.w()).add(X.q.x()).add(X.q.y()).add(X.q.z()); }
 
 Digest& Digest::add(const Plane& plane) { return add(plane.n).add(plane.d); }
 

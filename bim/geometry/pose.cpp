@@ -32,9 +32,7 @@ double Pose::yaw() const {
   return std::atan2(x.y(), x.x());
 }
 
-Pose Pose::from_xyz_yaw(const Eigen::Vector3d& t, double yaw) {
-  return {exp_so3(Eigen::Vector3d(0.0, 0.0, yaw)), t};
-}
+Pose Pose::from_xyz_yaw(const Eigen::Vector3d& t, double yaw) { return {exp_so3(Eigen::Vector3d(0.0, 0.0, yaw)), t}; }
 
 Eigen::Quaterniond exp_so3(const Eigen::Vector3d& w) {
   const double theta = w.norm();
@@ -56,9 +54,7 @@ Eigen::Matrix3d hat(const Eigen::Vector3d& a) {
   return m;
 }
 
-Pose exp_se3(const Vector6d& xi) {
-  return {exp_so3(xi.tail<3>()), left_jacobian(xi.tail<3>()) * xi.head<3>()};
-}
+Pose exp_se3(const Vector6d& xi) { return {exp_so3(xi.tail<3>()), left_jacobian(xi.tail<3>()) * xi.head<3>()}; }
 
 Vector6d log_se3(const Pose& X) {
   Vector6d xi;

@@ -17,12 +17,28 @@ namespace plumbline {
 namespace {
 
 constexpr std::array<std::string_view, 22> names = {
-    "bim.generate",           "scenario.prior",        "scenario.start",       "sim.gait.command",
-    "sim.imu.accelerometer",  "sim.imu.bias",          "sim.imu.gyro",         "sim.lidar.bias",
-    "sim.lidar.dropout",      "sim.lidar.phase",       "sim.lidar.range",      "sim.lidar.reflectivity",
-    "sim.odometry.contact",   "sim.odometry.encoder",  "sim.odometry.scale",   "sim.odometry.velocity",
-    "slam.localize.init",     "slam.localize.motion",  "slam.localize.resample",
-    "slam.localize.recover",  "slam.loop",             "slam.ransac",
+    "bim.generate",
+    "scenario.prior",
+    "scenario.start",
+    "sim.gait.command",
+    "sim.imu.accelerometer",
+    "sim.imu.bias",
+    "sim.imu.gyro",
+    "sim.lidar.bias",
+    "sim.lidar.dropout",
+    "sim.lidar.phase",
+    "sim.lidar.range",
+    "sim.lidar.reflectivity",
+    "sim.odometry.contact",
+    "sim.odometry.encoder",
+    "sim.odometry.scale",
+    "sim.odometry.velocity",
+    "slam.localize.init",
+    "slam.localize.motion",
+    "slam.localize.resample",
+    "slam.localize.recover",
+    "slam.loop",
+    "slam.ransac",
 };
 
 std::array<std::uint32_t, 4> philox(std::uint64_t key, std::uint64_t tick, std::uint32_t lane, std::uint32_t draw) {

@@ -15,8 +15,8 @@ enum class LidarPreset { ideal, datasheet, real, full };
 
 /// Ground truth of one message's returns, for scoring only; index as in slam::Scan.
 struct ReturnLabels {
-  std::vector<std::int32_t> element;         ///< element id, -1 no return
-  std::vector<Eigen::Vector3d> point_W;      ///< noise-free hit point, zero without a return
+  std::vector<std::int32_t> element;     ///< element id, -1 no return
+  std::vector<Eigen::Vector3d> point_W;  ///< noise-free hit point, zero without a return
 };
 
 struct Sweep {

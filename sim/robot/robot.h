@@ -13,8 +13,8 @@ namespace plumbline::sim {
 
 /// Velocity asked of the robot in its heading frame.
 struct Command {
-  double vx = 0.0;  ///< m/s
-  double vy = 0.0;  ///< m/s
+  double vx = 0.0;        ///< m/s
+  double vy = 0.0;        ///< m/s
   double yaw_rate = 0.0;  ///< rad/s
 };
 
@@ -30,9 +30,9 @@ using Terrain = std::function<double(double x, double y, double z_max)>;
 
 /// What the joints, the IMU and the feet truly did at one physics step; sensors add their noise to it.
 struct Proprioception {
-  std::array<double, 12> q{};       ///< joint angles, rad: per leg FL, FR, HL, HR: hx, hy, kn
-  std::array<double, 12> qd{};      ///< rad/s
-  std::array<double, 4> touch{};    ///< foot normal force, N
+  std::array<double, 12> q{};     ///< joint angles, rad: per leg FL, FR, HL, HR: hx, hy, kn
+  std::array<double, 12> qd{};    ///< rad/s
+  std::array<double, 4> touch{};  ///< foot normal force, N
   Eigen::Vector3d gyro_R = Eigen::Vector3d::Zero();
   Eigen::Vector3d accelerometer_R = Eigen::Vector3d::Zero();
 };
@@ -48,11 +48,11 @@ class Robot {
   /// Advances by one physics step. Throws ScenarioFailure when the robot has fallen.
   void step(const Command& command);
 
-  [[nodiscard]] Pose X_WR() const;              ///< base pose
-  [[nodiscard]] Eigen::Vector3d v_W() const;    ///< base velocity, m/s
+  [[nodiscard]] Pose X_WR() const;            ///< base pose
+  [[nodiscard]] Eigen::Vector3d v_W() const;  ///< base velocity, m/s
   [[nodiscard]] Proprioception proprioception() const;
-  [[nodiscard]] std::uint64_t digest() const;   ///< of the whole physics state
-  [[nodiscard]] static Pose X_RL();             ///< LiDAR mount
+  [[nodiscard]] std::uint64_t digest() const;  ///< of the whole physics state
+  [[nodiscard]] static Pose X_RL();            ///< LiDAR mount
 
  private:
   struct Impl;

@@ -93,7 +93,7 @@ struct Estimate {
   std::vector<PlaneNode> planes;
   std::vector<RoomNode> rooms;
   std::vector<FloorNode> floors;
-  std::vector<Eigen::Vector3f> map_F;   ///< point map, voxel-thinned to 0.05 m
+  std::vector<Eigen::Vector3f> map_F;  ///< point map, voxel-thinned to 0.05 m
 };
 
 }  // namespace plumbline::slam

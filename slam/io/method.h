@@ -17,9 +17,9 @@ namespace plumbline::slam {
 
 /// What plan localization is told besides the plan.
 struct Prior {
-  std::optional<double> yaw_W;         ///< heading of R in W at the start, rad (a compass); absent: unknown
-  double yaw_sigma = 0.05;             ///< rad
-  std::optional<std::string> storey;   ///< name of the storey; absent: unknown
+  std::optional<double> yaw_W;        ///< heading of R in W at the start, rad (a compass); absent: unknown
+  double yaw_sigma = 0.05;            ///< rad
+  std::optional<std::string> storey;  ///< name of the storey; absent: unknown
 };
 
 /// All a method gets. No ground truth can be reached from here.

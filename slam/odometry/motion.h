@@ -26,9 +26,9 @@ struct DeskewedScan {
   Nanoseconds stamp = 0;
   int rings = 16;
   int columns = 0;
-  std::vector<double> range_m;            ///< as measured; 0: no return
-  std::vector<Eigen::Vector3d> point_R;   ///< at stamp; zero where there is no return
-  Pose X_RL;                              ///< sensor in R
+  std::vector<double> range_m;           ///< as measured; 0: no return
+  std::vector<Eigen::Vector3d> point_R;  ///< at stamp; zero where there is no return
+  Pose X_RL;                             ///< sensor in R
 };
 
 /// Undoes the robot's motion during the sweep by the odometry's relative poses.

@@ -10,17 +10,17 @@ namespace plumbline::slam {
 
 /// A planar patch seen in one scan, in R at the scan's stamp, kept as parameters, moments and extent.
 struct PlaneObservation {
-  Plane plane_R;                   ///< normal towards the sensor
-  Eigen::Matrix3d covariance =     ///< of (two tangential angles of n in rad, d in m); tangents by plane_tangents()
+  Plane plane_R;                ///< normal towards the sensor
+  Eigen::Matrix3d covariance =  ///< of (two tangential angles of n in rad, d in m); tangents by plane_tangents()
       Eigen::Matrix3d::Identity();
   int points = 0;
-  double rms_m = 0.0;              ///< rms distance of the points
+  double rms_m = 0.0;  ///< rms distance of the points
   Eigen::Vector3d centroid_R = Eigen::Vector3d::Zero();
   Eigen::Vector3d p0_R = Eigen::Vector3d::Zero();  ///< ends of the patch along its longer horizontal direction
   Eigen::Vector3d p1_R = Eigen::Vector3d::Zero();
-  double z0 = 0.0;                 ///< lowest and highest point along R's z
+  double z0 = 0.0;  ///< lowest and highest point along R's z
   double z1 = 0.0;
-  bool vertical = false;           ///< a wall; else horizontal (floor, ceiling) or slanted
+  bool vertical = false;  ///< a wall; else horizontal (floor, ceiling) or slanted
 };
 
 /// Two unit tangents (u, v) of a normal, a fixed smooth choice: u horizontal where n is not vertical.
@@ -30,9 +30,9 @@ struct Tangents {
 [[nodiscard]] Tangents plane_tangents(const Eigen::Vector3d& n);
 
 struct PlaneDetectorConfig {
-  double max_distance_m = 0.06;    ///< gate of a point to the plane it joins; about 4 sigma of the range noise
+  double max_distance_m = 0.06;  ///< gate of a point to the plane it joins; about 4 sigma of the range noise
   int min_points = 60;
-  double min_length_m = 0.5;       ///< of a wall patch
+  double min_length_m = 0.5;  ///< of a wall patch
   double vertical_max_tilt_deg = 6.0;
 };
 

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <yaml-cpp/eventhandler.h>
+#include <yaml-cpp/yaml.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+#include <sstream>
+
+#include "bim/config/tree.h"
+
+namespace plumbline {
+
+namespace {
+
+constexpr std::size_t max_depth = 64;
+
+/// Builds the tree from the parser's events, so that every value keeps its place and no key is lost silently.
+class TreeBuilder : public YAML::EventHandler {
+ public:
+  explicit TreeBuilder(std::string file) : file_(std::move(file)) {}
+
+  void OnDocumentStart(const YAML::Mark&) override {}
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t) override { add(at(Tree(), mark)); }
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override {
+    throw InputError(place(mark), "aliases (*name) are not supported; write the value out");
+  }
+  void OnScalar(const YAML::Mark& mark, const std::string&, YAML::anchor_t, const std::string& text) override {
+    if (!stack_.empty() && stack_.back().tree.is_map() && !stack_.back().has_key)
+      set_key(mark, text);
+    else
+      add(at(Tree(text), mark));
+  }
+  void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {
+    open(at(Tree::list(), mark), mark);
+  }
+  void OnSequenceEnd() override { close(); }
+  void OnMapStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {
+    open(at(Tree::map(), mark), mark);
+  }
+  void OnMapEnd() override { close(); }
+
+  [[nodiscard]] Mark place(const YAML::Mark& mark) const { return {file_, mark.line + 1, mark.column + 1}; }
+  Tree root;
+
+ private:
+  struct Level {
+    Tree tree;
+    std::string key;
+    bool has_key = false;
+  };
+
+  Tree at(Tree tree, const YAML::Mark& mark) const {
+    tree.mark = place(mark);
+    return tree;
+  }
+
+  void set_key(const YAML::Mark& mark, const std::string& key) {
+    if (stack_.back().tree.find(key) != nullptr)
+      throw InputError(place(mark), "duplicate key '" + key + "'; each key may stand once");
+    stack_.back().key = key;
+    stack_.back().has_key = true;
+  }
+
+  void open(Tree tree, const YAML::Mark& mark) {
+    const bool as_key = !stack_.empty() && stack_.back().tree.is_map() && !stack_.back().has_key;
+    if (as_key) throw InputError(place(mark), "a list or map cannot be a key");
+    if (stack_.size() >= max_depth) throw InputError(place(mark), "nested deeper than 64 levels");
+    stack_.push_back({std::move(tree), {}, false});
+  }
+
+  void close() {
+    Tree done = std::move(stack_.back().tree);
+    stack_.pop_back();
+    add(std::move(done));
+  }
+
+  void add(Tree tree) {
+    if (stack_.empty()) {
+      root = std::move(tree);
+      return;
+    }
+    Level& level = stack_.back();
+    if (level.tree.is_list()) {
+      level.tree.push(std::move(tree));
+      return;
+    }
+    if (!level.has_key) throw InputError(tree.mark, "a key is missing");
+    std::get<Tree::Map>(level.tree.value).emplace_back(std::move(level.key), std::move(tree));
+    level.has_key = false;
+  }
+
+  std::string file_;
+  std::vector<Level> stack_;
+};
+
+bool needs_quotes(const std::string& text) {
+  if (text.empty() || text == "null" || text == "~") return true;
+  if (text.front() == ' ' || text.back() == ' ' || text.front() == '-' || text.front() == '?') return true;
+  return text.find_first_of(":#,[]{}&*!|>'\"%@`\n\t\\") != std::string::npos;
+}
+
+std::string scalar_text(const Tree& tree) {
+  if (const auto* b = std::get_if<bool>(&tree.value)) return *b ? "true" : "false";
+  if (const auto* i = std::get_if<std::int64_t>(&tree.value)) return std::to_string(*i);
+  if (const auto* d = std::get_if<double>(&tree.value)) return format_number(*d);
+  if (const auto* s = std::get_if<std::string>(&tree.value)) return needs_quotes(*s) ? write_json(Tree(*s), 0) : *s;
+  return "~";
+}
+
+bool is_flat(const Tree& tree) {
+  if (tree.is_scalar()) return true;
+  if (tree.is_map()) return tree.as_map().empty();
+  for (const Tree& item : tree.as_list())
+    if (item.is_map() || !is_flat(item)) return false;
+  return true;
+}
+
+std::string flow_text(const Tree& tree) {
+  if (tree.is_map()) return "{}";
+  if (!tree.is_list()) return scalar_text(tree);
+  std::string text = "[";
+  for (const Tree& item : tree.as_list()) text += (text.size() > 1 ? ", " : "") + flow_text(item);
+  return text + "]";
+}
+
+void write_block(const Tree& tree, const std::string& indent, bool after_dash, std::string& out) {
+  bool first = after_dash;
+  const auto lead = [&]() {
+    const std::string text = first ? "" : indent;
+    first = false;
+    return text;
+  };
+  if (tree.is_map()) {
+    for (const auto& [key, child] : tree.as_map()) {
+      out += lead() + scalar_text(Tree(key)) + ":";
+      if (is_flat(child)) {
+        out += " " + flow_text(child) + "\n";
+      } else {
+        out += "\n";
+        write_block(child, indent + "  ", false, out);
+      }
+    }
+    return;
+  }
+  for (const Tree& item : tree.as_list()) {
+    out += lead() + "- ";
+    if (is_flat(item))
+      out += flow_text(item) + "\n";
+    else
+      write_block(item, indent + "  ", true, out);
+  }
+}
+
+}  // namespace
+
+Tree read_yaml(std::string_view text, const std::string& file) {
+  std::istringstream stream{std::string(text)};
+  TreeBuilder builder(file);
+  try {
+    YAML::Parser parser(stream);
+    if (!parser.HandleNextDocument(builder)) throw InputError({file, 1, 1}, "the file holds no value");
+    TreeBuilder second(file);
+    if (parser.HandleNextDocument(second)) throw InputError({file, 0, 0}, "more than one document in a file");
+  } catch (const YAML::Exception& error) {
+    throw InputError(builder.place(error.mark), "no valid YAML: " + error.msg);
+  }
+  return std::move(builder.root);
+}
+
+std::string read_text_file(const std::string& path, std::size_t max_bytes) {
+  namespace fs = std::filesystem;
+  const Mark mark{path, 0, 0};
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (!fs::exists(status)) throw InputError(mark, "no such file");
+  if (fs::is_directory(status)) throw InputError(mark, "is a directory; a file is expected");
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
+  if (!file) throw InputError(mark, std::string("cannot be read: ") + std::strerror(errno));
+  std::string text;
+  std::vector<char> buffer(std::size_t{1} << 16U);
+  while (const std::size_t n = std::fread(buffer.data(), 1, buffer.size(), file.get())) {
+    text.append(buffer.data(), n);
+    if (text.size() > max_bytes)
+      throw InputError(mark, "larger than the " + std::to_string(max_bytes) + " bytes that are read at most");
+  }
+  if (text.empty()) throw InputError(mark, "the file is empty");
+  return text;
+}
+
+std::string write_yaml(const Tree& tree) {
+  if (is_flat(tree)) return flow_text(tree) + "\n";
+  std::string out;
+  write_block(tree, "", false, out);
+  return out;
+}
+
+}  // namespace plumbline

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bim/config/tree.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "bim/random/stream.h"
+
+namespace plumbline {
+namespace {
+
+std::string error_of(const std::function<void()>& f) {
+  try {
+    f();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Tree, YamlKeepsPlaces) {
+  const Tree tree = read_yaml("a: 1\nb:\n  - x\n  - {c: 2.5}\n", "f.yaml");
+  EXPECT_EQ(tree.find("a")->as_int(), 1);
+  const Tree& inner = tree.find("b")->as_list()[1];
+  EXPECT_DOUBLE_EQ(inner.find("c")->as_double(), 2.5);
+  EXPECT_EQ(inner.find("c")->mark.line, 4);
+  EXPECT_EQ(inner.find("c")->mark.col, 9);
+}
+
+TEST(Tree, YamlRefusesDuplicateKeys) {
+  EXPECT_EQ(error_of([] { (void)read_yaml("a: 1\na: 2\n", "f.yaml"); }),
+            "f.yaml:2:1: duplicate key 'a'; each key may stand once");
+}
+
+TEST(Tree, YamlRefusesWhatItCannotKeep) {
+  EXPECT_NE(error_of([] { (void)read_yaml("a: &x 1\nb: *x\n", "f"); }).find("aliases"), std::string::npos);
+  EXPECT_NE(error_of([] { (void)read_yaml("a: [1, 2\n", "f"); }).find("f:"), std::string::npos);
+  EXPECT_NE(error_of([] { (void)read_yaml(std::string(100, '[') + std::string(100, ']'), "f"); }).find("64"),
+            std::string::npos);
+  EXPECT_FALSE(error_of([] { (void)read_yaml(std::string(100000, '['), "f"); }).empty());
+  EXPECT_NE(error_of([] { (void)read_yaml("a: 1\n---\nb: 2\n", "f"); }).find("more than one"), std::string::npos);
+}
+
+TEST(Tree, ConversionsNameTheirPlace) {
+  const Tree tree = read_yaml("a: five\n", "f.yaml");
+  EXPECT_EQ(error_of([&] { (void)tree.find("a")->as_double(); }),
+            "f.yaml:1:4: found 'five' where a number is expected");
+  EXPECT_FALSE(error_of([] { (void)read_yaml("nan", "f").as_double(); }).empty());
+  EXPECT_FALSE(error_of([] { (void)read_yaml("1e400", "f").as_double(); }).empty());
+}
+
+Tree sample() {
+  Tree inner = Tree::map();
+  inner.set("text", "a \"b\"\\ : #\n").set("empty", Tree::list()).set("number-like", "12");
+  Tree tree = Tree::map();
+  tree.set("i", 3).set("d", 0.1).set("flag", true);
+  tree.set("list", Tree(Tree::List{inner, Tree(Tree::List{Tree(1), Tree(2.5)}), Tree("x")}));
+  return tree;
+}
+
+TEST(Tree, JsonRoundTrips) {
+  const std::string text = write_json(sample());
+  EXPECT_EQ(write_json(read_json(text, "f")), text);
+  EXPECT_EQ(write_json(read_json(write_json(sample(), 0), "f")), text);
+}
+
+TEST(Tree, YamlRoundTripsAsText) {
+  const std::string text = write_yaml(sample());
+  EXPECT_EQ(write_yaml(read_yaml(text, "f")), text);
+}
+
+TEST(Tree, NumbersRoundTrip) {
+  const Stream stream(1, "bim.generate");
+  for (std::uint64_t i = 0; i < 1000; ++i) {
+    const double value = stream.gauss(i) * std::pow(10.0, 20.0 * stream.gauss(i, 1));
+    EXPECT_EQ(read_yaml(format_number(value), "f").as_double(), value);
+  }
+  EXPECT_EQ(format_number(-0.0), "0");
+  EXPECT_THROW((void)format_number(std::nan("")), InternalError);
+}
+
+TEST(Tree, SuggestsTheClosestName) {
+  EXPECT_EQ(did_you_mean("sped_mps", {"seed", "speed_mps", "start"}), "speed_mps");
+  EXPECT_EQ(did_you_mean("zzzzzz", {"seed", "start"}), "");
+}
+
+}  // namespace
+}  // namespace plumbline
