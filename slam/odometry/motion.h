@@ -2,6 +2,7 @@
 #pragma once
 
 #include <deque>
+#include <vector>
 
 #include "slam/io/records.h"
 
@@ -10,18 +11,24 @@ namespace plumbline::slam {
 /// Recent odometry, to be asked for the robot's motion between scan times.
 class MotionBuffer {
  public:
+  /// Farthest that at() extrapolates past the newest record: two periods of a 100 Hz odometry.
+  static constexpr Nanoseconds max_extrapolation = 20'000'000;
+
+  /// Records come in time order, else InternalError; one with the newest stamp replaces it.
   void add(const Odometry& odometry);
-  /// X_OR at time t, interpolated; the nearest pose outside the buffer. Needs at least one record, else InternalError.
+  /// X_OR at time t, interpolated. After the newest record the last velocity goes on, for at most max_extrapolation (a
+  /// scan ends between two records, and a robot moves 6 mm in 10 ms); before the oldest it is the oldest pose. Needs at
+  /// least one record, else InternalError.
   [[nodiscard]] Pose at(Nanoseconds t) const;
   [[nodiscard]] bool empty() const { return records_.empty(); }
-  /// Drops what is older than t.
+  /// Drops what is not needed for times from t on.
   void forget_before(Nanoseconds t);
 
  private:
   std::deque<Odometry> records_;
 };
 
-/// A scan with every return moved to R at scan.stamp.
+/// A scan with every return moved to R at scan.stamp. Index of a return as in Scan: column * rings + ring.
 struct DeskewedScan {
   Nanoseconds stamp = 0;
   int rings = 16;
@@ -31,10 +38,8 @@ struct DeskewedScan {
   Pose X_RL;                             ///< sensor in R
 };
 
-/// Undoes the robot's motion during the sweep by the odometry's relative poses.
+/// Undoes the robot's motion during the sweep by the odometry's relative poses. One pose a column: its lasers fire
+/// within 35 us, in which a walking robot moves 0.02 mm.
 [[nodiscard]] DeskewedScan deskew(const Scan& scan, const MotionBuffer& motion, const Calibration& calibration);
-
-/// One point per occupied voxel (the mean of its points), ordered by voxel; voxel size in m.
-[[nodiscard]] std::vector<Eigen::Vector3d> voxel_downsample(const std::vector<Eigen::Vector3d>& points, double size);
 
 }  // namespace plumbline::slam

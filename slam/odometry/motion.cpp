@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/odometry/motion.h"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "bim/errors.h"
+
+namespace plumbline::slam {
+
+namespace {
+
+double fraction(Nanoseconds from, Nanoseconds to, Nanoseconds t) {
+  return static_cast<double>(t - from) / static_cast<double>(to - from);
+}
+
+}  // namespace
+
+void MotionBuffer::add(const Odometry& odometry) {
+  if (!records_.empty() && odometry.stamp < records_.back().stamp)
+    throw InternalError("odometry records are not in time order");
+  if (!records_.empty() && odometry.stamp == records_.back().stamp) records_.pop_back();
+  records_.push_back(odometry);
+}
+
+Pose MotionBuffer::at(Nanoseconds t) const {
+  if (records_.empty()) throw InternalError("motion asked before the first odometry record");
+  if (records_.size() == 1 || t <= records_.front().stamp) return records_.front().X_OR;
+  const auto after = std::lower_bound(records_.begin() + 1, records_.end() - 1, t,
+                                      [](const Odometry& record, Nanoseconds time) { return record.stamp < time; });
+  const Odometry& b = *after;
+  const Odometry& a = *(after - 1);
+  return interpolate(a.X_OR, b.X_OR, fraction(a.stamp, b.stamp, std::min(t, b.stamp + max_extrapolation)));
+}
+
+void MotionBuffer::forget_before(Nanoseconds t) {
+  while (records_.size() > 2 && records_[1].stamp <= t) records_.pop_front();
+}
+
+}  // namespace plumbline::slam

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+namespace plumbline::slam {
+
+/// Integer cell of a voxel grid that is aligned with its frame's axes; ordered by z, y, x.
+struct VoxelKey {
+  std::int32_t x = 0, y = 0, z = 0;
+
+  [[nodiscard]] static VoxelKey of(const Eigen::Vector3d& p, double size);
+  /// 21 bits an axis, order-preserving. InternalError beyond a million cells from the origin.
+  [[nodiscard]] std::uint64_t packed() const;
+  friend bool operator==(const VoxelKey&, const VoxelKey&) = default;
+};
+
+/// One point per occupied voxel (the mean of its points, summed in their order), ordered by voxel; size in m.
+[[nodiscard]] std::vector<Eigen::Vector3d> voxel_downsample(const std::vector<Eigen::Vector3d>& points, double size);
+
+/// Voxels by key, for lookups only: its order of iteration is the order of insertion, so it is deterministic.
+/// Open addressing; never shrinks.
+class VoxelIndex {
+ public:
+  /// Slot of a voxel: existing, or the next free one (0, 1, 2, ...).
+  [[nodiscard]] int insert(const VoxelKey& key);
+  /// Slot of a voxel, -1 when it is not there.
+  [[nodiscard]] int find(const VoxelKey& key) const;
+  [[nodiscard]] int size() const { return size_; }
+  void clear();
+
+ private:
+  void grow();
+  [[nodiscard]] std::size_t probe(std::uint64_t packed) const;
+
+  std::vector<std::uint64_t> keys_;
+  std::vector<int> slots_;
+  int size_ = 0;
+};
+
+}  // namespace plumbline::slam
