@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bim/geometry/polygon_boolean.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "bim/random/stream.h"
+
+namespace plumbline {
+namespace {
+
+Polygon2 rectangle(double x0, double y0, double x1, double y1) { return {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}; }
+
+Polygon2 random_rectangle(const Stream& stream, std::uint64_t tick, std::uint32_t lane) {
+  const auto draw = [&](std::uint32_t i, double low, double high) {
+    return low + (high - low) * stream.uniform(tick, lane, i);
+  };
+  const double x = draw(0, 0, 5), y = draw(1, 0, 5);
+  return rectangle(x, y, x + draw(2, 0.1, 3), y + draw(3, 0.1, 3));
+}
+
+TEST(PolygonBoolean, UniteMergesTouchingRectanglesIntoOneRing) {
+  const std::vector<Polygon2> parts = {rectangle(0, 0, 1, 1), rectangle(1, 0, 2, 1)};
+  const Region2 region = unite(parts);
+  ASSERT_EQ(region.size(), 1U);
+  EXPECT_EQ(region[0].outer, rectangle(0, 0, 2, 1));
+  EXPECT_TRUE(region[0].holes.empty());
+}
+
+TEST(PolygonBoolean, UniteIgnoresOrientationAndSlivers) {
+  Polygon2 clockwise = rectangle(0, 0, 1, 1);
+  std::reverse(clockwise.begin(), clockwise.end());
+  const std::vector<Polygon2> parts = {clockwise, {{0, 0}, {1, 1e-6}, {2, 0}}};
+  const Region2 region = unite(parts);
+  ASSERT_EQ(region.size(), 1U);
+  EXPECT_EQ(region[0].outer, rectangle(0, 0, 1, 1));
+}
+
+TEST(PolygonBoolean, SubtractMakesHolesAndPieces) {
+  const Region2 wall = unite(std::vector<Polygon2>{rectangle(0, 0, 10, 3)});
+  const Region2 cut = subtract(wall, std::vector<Polygon2>{rectangle(1, 1, 2, 2), rectangle(5, -1, 6, 4)});
+  ASSERT_EQ(cut.size(), 2U);
+  ASSERT_EQ(cut[0].holes.size(), 1U);
+  EXPECT_LT(signed_area(cut[0].holes[0]), 0.0);
+  EXPECT_NEAR(area(cut), 30.0 - 1.0 - 3.0, 1e-12);
+  EXPECT_FALSE(contains(cut[0], {1.5, 1.5}));
+  EXPECT_TRUE(contains(cut[0], {1.0, 1.5}));
+}
+
+TEST(PolygonBoolean, InclusionExclusionAtRandom) {
+  const Stream stream(4, "bim.generate");
+  for (std::uint64_t tick = 0; tick < 100; ++tick) {
+    const Polygon2 a = random_rectangle(stream, tick, 0), b = random_rectangle(stream, tick, 1);
+    const Region2 only_a = unite(std::vector<Polygon2>{a}), only_b = unite(std::vector<Polygon2>{b});
+    const double both = area(intersect(only_a, only_b));
+    // Axis-parallel edges on the grid make no new coordinates: sums agree to rounding.
+    EXPECT_NEAR(area(unite(std::vector<Polygon2>{a, b})), area(only_a) + area(only_b) - both, 1e-9);
+    EXPECT_NEAR(area(subtract(only_a, std::vector<Polygon2>{b})), area(only_a) - both, 1e-9);
+  }
+}
+
+TEST(PolygonBoolean, ResultDoesNotDependOnTheOrderOfTheParts) {
+  const Stream stream(5, "bim.generate");
+  for (std::uint64_t tick = 0; tick < 20; ++tick) {
+    std::vector<Polygon2> parts;
+    for (std::uint32_t i = 0; i < 8; ++i) parts.push_back(random_rectangle(stream, tick, i));
+    const Region2 forward = unite(parts);
+    std::reverse(parts.begin(), parts.end());
+    const Region2 backward = unite(parts);
+    ASSERT_EQ(forward.size(), backward.size());
+    for (std::size_t i = 0; i < forward.size(); ++i) {
+      EXPECT_EQ(forward[i].outer, backward[i].outer);
+      EXPECT_EQ(forward[i].holes, backward[i].holes);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace plumbline
