@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenarios/report/svg.h"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+
+#include "bim/errors.h"
+
+namespace plumbline::scenarios::svg {
+
+std::string number(double value, int decimals) {
+  if (!std::isfinite(value)) throw InternalError("report: a coordinate is not finite");
+  std::array<char, 64> buffer{};
+  const auto [end, error] =
+      std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::fixed, decimals);
+  if (error != std::errc()) throw InternalError("report: a number does not fit its text");
+  std::string text(buffer.data(), end);
+  if (text.find('.') != std::string::npos) {
+    while (text.back() == '0') text.pop_back();
+    if (text.back() == '.') text.pop_back();
+  }
+  return text == "-0" ? "0" : text;
+}
+
+std::string escape(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      default:
+        out += c;
+    }
+  }
+  return out;
+}
+
+std::string points(const std::vector<Eigen::Vector2d>& p, int decimals) {
+  std::string out;
+  for (const auto& v : p) {
+    if (!out.empty()) out += ' ';
+    out += number(v.x(), decimals) + "," + number(-v.y(), decimals);
+  }
+  return out;
+}
+
+std::string polyline(const std::vector<Eigen::Vector2d>& p, const std::string& attributes) {
+  return "<polyline points=\"" + points(p) + "\" " + attributes + "/>";
+}
+
+std::string polygon(const Polygon2& p, const std::string& attributes) {
+  return "<polygon points=\"" + points(p) + "\" " + attributes + "/>";
+}
+
+std::string line(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const std::string& attributes) {
+  return "<line x1=\"" + number(a.x()) + "\" y1=\"" + number(-a.y()) + "\" x2=\"" + number(b.x()) + "\" y2=\"" +
+         number(-b.y()) + "\" " + attributes + "/>";
+}
+
+std::string circle(const Eigen::Vector2d& center, double radius, const std::string& attributes) {
+  return "<circle cx=\"" + number(center.x()) + "\" cy=\"" + number(-center.y()) + "\" r=\"" + number(radius) + "\" " +
+         attributes + "/>";
+}
+
+std::string text(const Eigen::Vector2d& at, std::string_view content, const std::string& attributes) {
+  return "<text x=\"" + number(at.x()) + "\" y=\"" + number(-at.y()) + "\" " + attributes + ">" + escape(content) +
+         "</text>";
+}
+
+}  // namespace plumbline::scenarios::svg

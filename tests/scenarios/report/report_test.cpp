@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenarios/report/report.h"
+
+#include <gtest/gtest.h>
+
+#include "scenarios/report/plot.h"
+#include "scenarios/report/svg.h"
+
+namespace plumbline::scenarios {
+namespace {
+
+ReportInput sample() {
+  ReportInput input;
+  Tree gate = Tree::map();
+  gate.set("metric", "ate_aligned_rmse_m").set("method", "m").set("op", "<=").set("limit", 0.05).set("value", 0.08);
+  gate.set("passed", false);
+  Tree method = Tree::map();
+  method.set("verdict", "ok").set("ate_aligned_rmse_m", 0.08);
+  input.results = Tree::map();
+  input.results.set("scenario", "a <b> & \"c\"").set("seed", "1").set("duration_s", 10.0);
+  input.results.set("gates", Tree(Tree::List{gate})).set("methods", Tree(Tree::Map{{"m", method}}));
+  bim::PlanFace face;
+  face.storey = 0;
+  face.p1 = {4.0, 0.0};
+  face.holes = {{1.0, 2.0, 0.0, 2.1}};
+  input.plan.faces = {face};
+  for (int i = 0; i <= 100; ++i) input.truth.push_back({0.1 * i, 0.04 * i, 1.0, 0.0, 0.0});
+  ReportMethod m;
+  m.name = "m";
+  for (const auto& s : input.truth) m.samples.push_back({s.t_s, s.x, s.y + 0.08, 0.0, 0.08});
+  m.beliefs.push_back({"start", 0.0, {{1.0, 1.0, 0.0, 1.0}}, {0.0, 1.0}});
+  input.methods.push_back(m);
+  return input;
+}
+
+std::size_t count(const std::string& text, const std::string& what) {
+  std::size_t n = 0;
+  for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; at += what.size()) ++n;
+  return n;
+}
+
+TEST(Report, IsSelfContainedAndSaysWhatFailed) {
+  const std::string page = render_report(sample());
+  EXPECT_EQ(count(page, "http://") + count(page, "https://") + count(page, "src=") + count(page, "<link"), 0U);
+  EXPECT_NE(page.find("FAIL"), std::string::npos);
+  EXPECT_NE(page.find("8 cm off the true one"), std::string::npos);
+  EXPECT_NE(page.find("a &lt;b&gt; &amp; &quot;c&quot;"), std::string::npos);
+}
+
+TEST(Report, LeavesDoorsOpenInWalls) {
+  // One door splits the face into two strokes.
+  const std::string page = render_report(sample());
+  const std::string map =
+      page.substr(page.find("<svg class=\"map\""), page.find("</svg>") - page.find("<svg class=\"map\""));
+  EXPECT_EQ(count(map, "class=\"wall\""), 2U);
+}
+
+TEST(Report, SameInputSameBytes) { EXPECT_EQ(render_report(sample()), render_report(sample())); }
+
+TEST(Report, WorksWithoutAnyMethod) {
+  ReportInput input = sample();
+  input.methods.clear();
+  input.truth.clear();
+  EXPECT_NE(render_report(input).find("</html>"), std::string::npos);
+}
+
+TEST(Svg, NumbersAreShort) {
+  EXPECT_EQ(svg::number(1.5), "1.5");
+  EXPECT_EQ(svg::number(-0.0001), "0");
+  EXPECT_EQ(svg::number(100.0), "100");
+}
+
+TEST(Plot, StepsAreRound) {
+  EXPECT_DOUBLE_EQ(round_step(10.0, 5), 2.0);
+  EXPECT_DOUBLE_EQ(round_step(0.9, 5), 0.2);
+  EXPECT_DOUBLE_EQ(round_step(120.0, 10), 20.0);
+}
+
+}  // namespace
+}  // namespace plumbline::scenarios
