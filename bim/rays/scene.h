@@ -2,8 +2,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <memory>
 #include <span>
+#include <string_view>
 
 #include "bim/mesh/mesh.h"
 
@@ -15,24 +17,27 @@ struct Ray {
 };
 
 struct Hit {
-  double range_m = 0.0;  ///< distance along the ray, from the face's own plane in double; infinity when nothing is hit
-  int element = -1;      ///< index into BuildingMesh::elements, -1 when nothing is hit
-  int triangle = -1;     ///< index into BuildingMesh::triangles
+  double range_m = std::numeric_limits<double>::infinity();  ///< along the ray, from the face's own plane in double
+  int element = -1;                                    ///< index into BuildingMesh::elements, -1 when nothing is hit
+  int triangle = -1;                                   ///< index into BuildingMesh::triangles
   Eigen::Vector3d normal_W = Eigen::Vector3d::Zero();  ///< unit, towards the ray's origin
 };
 
-/// Closest hits on a mesh. Embree proposes (geometry, primitive); range and ties are decided here in double, so that
-/// results depend neither on the CPU nor on packets: among faces hit within 0.1 mm the lowest element id, then
-/// triangle id wins.
+/// Closest hits on a mesh, from either side of a face. Embree proposes (geometry, primitive); range and ties are
+/// decided here in double, so that results depend neither on the CPU nor on packets: among faces hit within 0.1 mm
+/// of the nearest the lowest element id, then triangle id wins. A ray in the plane of a face does not hit it.
+/// Triangles without area are ignored.
 class RayScene {
  public:
-  explicit RayScene(const BuildingMesh& mesh);
+  /// device_options are appended to Embree's device string; for tests ("isa=sse4.2"), results must not depend on
+  /// them. Throws EnvironmentError when Embree fails.
+  explicit RayScene(const BuildingMesh& mesh, std::string_view device_options = {});
   ~RayScene();
   RayScene(RayScene&&) noexcept;
   RayScene& operator=(RayScene&&) noexcept;
 
-  /// Casts every ray up to range_max_m. Coherent rays (neighbouring beams) should stand next to each other: blocks of
-  /// 8 or 16 are traced as packets. hits.size() == rays.size().
+  /// Casts every ray up to range_max_m. Neighbouring beams should stand next to each other: blocks of 8 are traced
+  /// as packets. hits.size() == rays.size().
   void cast(std::span<const Ray> rays, double range_max_m, std::span<Hit> hits) const;
   [[nodiscard]] Hit cast(const Ray& ray, double range_max_m) const;
 
