@@ -8,21 +8,16 @@
 #include <vector>
 
 #include "bim/geometry/pose.h"
+#include "sim/robot/collision.h"
 
 namespace plumbline::sim {
 
 /// Velocity asked of the robot in its heading frame.
 struct Command {
-  double vx = 0.0;        ///< m/s
-  double vy = 0.0;        ///< m/s
-  double yaw_rate = 0.0;  ///< rad/s
-};
-
-/// Static box the robot can bump into: pose of its centre, half sizes, m. Robots collide with boxes near them only.
-struct CollisionBox {
-  int id = 0;  ///< stable order
-  Pose X_WB;
-  Eigen::Vector3d half = Eigen::Vector3d::Constant(0.5);
+  double vx = 0.0;                 ///< m/s
+  double vy = 0.0;                 ///< m/s
+  double yaw_rate = 0.0;           ///< rad/s
+  double gait_period_scale = 1.0;  ///< of the nominal period; varied so that the gait does not lock to the sensor
 };
 
 /// Height of the walkable floor under (x, y) at or below `z_max`, m.
@@ -30,11 +25,11 @@ using Terrain = std::function<double(double x, double y, double z_max)>;
 
 /// What the joints, the IMU and the feet truly did at one physics step; sensors add their noise to it.
 struct Proprioception {
-  std::array<double, 12> q{};     ///< joint angles, rad: per leg FL, FR, HL, HR: hx, hy, kn
-  std::array<double, 12> qd{};    ///< rad/s
-  std::array<double, 4> touch{};  ///< foot normal force, N
-  Eigen::Vector3d gyro_R = Eigen::Vector3d::Zero();
-  Eigen::Vector3d accelerometer_R = Eigen::Vector3d::Zero();
+  std::array<double, 12> q{};                                 ///< joint angles, rad: per leg FL, FR, HL, HR: hx, hy, kn
+  std::array<double, 12> qd{};                                ///< rad/s
+  std::array<double, 4> touch{};                              ///< foot normal force, N
+  Eigen::Vector3d gyro_R = Eigen::Vector3d::Zero();           ///< rad/s
+  Eigen::Vector3d accelerometer_R = Eigen::Vector3d::Zero();  ///< m/s^2, includes -g
 };
 
 /// Quadruped in MuJoCo with a trot controller; deterministic. One step is 2 ms.
@@ -42,12 +37,17 @@ class Robot {
  public:
   static constexpr std::int64_t step_ns = 2'000'000;
 
+  /// Stands the robot at the position and heading of X_WR_start on the terrain at or below it (the height of
+  /// X_WR_start is only that bound) and lets it settle for 0.5 s; time starts after that. The floor is one plane at
+  /// the terrain's height under the start.
   Robot(const Pose& X_WR_start, Terrain terrain, std::vector<CollisionBox> boxes);
   ~Robot();
 
-  /// Advances by one physics step. Throws ScenarioFailure when the robot has fallen.
+  /// Advances by one physics step. Throws ScenarioFailure, with time and place, when the robot has fallen, and
+  /// InternalError when more boxes than the pool holds are near or the physics breaks down.
   void step(const Command& command);
 
+  [[nodiscard]] std::int64_t steps() const;   ///< since the start
   [[nodiscard]] Pose X_WR() const;            ///< base pose
   [[nodiscard]] Eigen::Vector3d v_W() const;  ///< base velocity, m/s
   [[nodiscard]] Proprioception proprioception() const;

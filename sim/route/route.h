@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "bim/building/building.h"
-#include "sim/robot/robot.h"
 
 namespace plumbline::sim {
 
@@ -28,25 +27,6 @@ class FreeSpace {
   int nx_ = 0, ny_ = 0;
   double cell_ = 0.05, radius_ = 0.4;
   std::vector<float> clearance_;
-};
-
-/// Pure pursuit along waypoints [facts: legged section 5] with command jitter, so that the gait is not phase-locked.
-class Follower {
- public:
-  Follower(std::vector<Eigen::Vector2d> waypoints, double speed_mps, std::uint64_t seed);
-  /// Command for the robot at X_WR; tick counts physics steps. Throws ScenarioFailure when it has been stuck.
-  [[nodiscard]] Command update(const Pose& X_WR, std::int64_t tick);
-  [[nodiscard]] bool done() const { return next_ >= waypoints_.size(); }
-
- private:
-  std::vector<Eigen::Vector2d> waypoints_;
-  double speed_;
-  std::uint64_t seed_;
-  std::size_t next_ = 1;
-  bool turning_ = false;
-  Eigen::Vector2d progress_point_ = Eigen::Vector2d::Zero();
-  double progress_yaw_ = 0.0;
-  std::int64_t progress_tick_ = 0;
 };
 
 }  // namespace plumbline::sim

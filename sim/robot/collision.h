@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "bim/building/building.h"
+#include "bim/geometry/pose.h"
+
+namespace plumbline::sim {
+
+/// Static box the robot can bump into: pose of its centre, half sizes, m. Robots collide with boxes near them only.
+struct CollisionBox {
+  int id = 0;  ///< stable order
+  Pose X_WB;
+  Eigen::Vector3d half = Eigen::Vector3d::Constant(0.5);
+};
+
+/// Distance from a point to a box, m, 0 inside.
+[[nodiscard]] double distance(const CollisionBox& box, const Eigen::Vector3d& p_W);
+
+struct CollisionConfig {
+  double floor_gap_m = 0.03;  ///< what ends this low above the floor is no obstacle
+  double reach_m = 1.2;       ///< what starts this high above the floor cannot be touched
+  double length_max_m = 4.0;  ///< longer walls are split, so that distant parts stay out of the pool
+};
+
+/// Boxes of what stands on a storey of the as-built building, ids ascending from 0: walls with their openings cut out
+/// (pieces beside the opening, lintel above, sill below), columns and obstacles.
+[[nodiscard]] std::vector<CollisionBox> collision_boxes(const bim::Building& as_built, int storey,
+                                                        const CollisionConfig& config = {});
+
+}  // namespace plumbline::sim

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <string>
+#include <vector>
+
+struct mjModel_;
+struct mjData_;
+
+namespace plumbline::sim {
+
+/// What the physics model is built with, besides the robot's dimensions [facts: legged sections 2 and 9].
+struct ModelConfig {
+  double step_s = 0.002;          ///< s
+  double friction = 0.8;          ///< sliding, of feet, floor and boxes
+  double floor_height_m = 0.0;    ///< z of the floor plane in W
+  int box_pool = 64;              ///< boxes near the robot that can exist at once
+  int constraint_rows_max = 500;  ///< njmax; MuJoCo preallocates its square
+  int contacts_max = 120;         ///< nconmax
+};
+
+struct ModelDeleter {
+  void operator()(mjModel_* model) const;
+};
+struct DataDeleter {
+  void operator()(mjData_* data) const;
+};
+using ModelPtr = std::unique_ptr<mjModel_, ModelDeleter>;
+using DataPtr = std::unique_ptr<mjData_, DataDeleter>;
+
+/// The quadruped, a floor plane and the box pool as MJCF text. Bodies: base, lidar_mount, then per leg hip, upper and
+/// lower; joints and actuators per leg hx, hy, kn; sensors in the order of SensorLayout.
+[[nodiscard]] std::string model_xml(const ModelConfig& config);
+
+/// Where each sensor starts in mjData::sensordata.
+struct SensorLayout {
+  int accelerometer = 0;
+  int gyro = 3;
+  int orientation = 6;
+  int joint_position = 10;
+  int joint_velocity = 22;
+  int touch = 34;
+  int lidar_position = 38;
+  int lidar_orientation = 41;
+  int size = 45;
+};
+
+/// Compiles a model from text in memory. Throws EnvironmentError with MuJoCo's own message when it is refused.
+[[nodiscard]] ModelPtr load_model(const std::string& xml);
+[[nodiscard]] DataPtr make_data(const mjModel_& model);
+
+/// Indices of the pool's geoms, ascending.
+[[nodiscard]] std::vector<int> pool_geoms(const mjModel_& model, int box_pool);
+
+/// Moves a box geom of the world body, in W. Its bounding sphere moves along: without it contacts would be missed.
+void place_box(mjModel_& model, int geom, const Eigen::Vector3d& center_W, const Eigen::Vector4d& q_wxyz,
+               const Eigen::Vector3d& half);
+
+}  // namespace plumbline::sim

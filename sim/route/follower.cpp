@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/route/follower.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "sim/robot/failure.h"
+
+namespace plumbline::sim {
+
+namespace {
+
+constexpr double step_s = 1e-9 * static_cast<double>(Robot::step_ns);
+
+}  // namespace
+
+Follower::Follower(const FollowerConfig& config, std::vector<Eigen::Vector2d> waypoints, std::uint64_t seed)
+    : config_(config), waypoints_(std::move(waypoints)), jitter_(seed, "sim.gait.command") {}
+
+Command Follower::update(const Pose& X_WR, std::int64_t tick) {
+  const Eigen::Vector2d p_W = X_WR.t.head<2>();
+  skip_reached(p_W);
+  if (done()) return {};
+  check_progress(X_WR, tick);
+
+  const Eigen::Vector2d ahead_W = goal(p_W) - p_W;
+  const double error = wrap_angle(std::atan2(ahead_W.y(), ahead_W.x()) - X_WR.yaw());
+  turning_ = std::abs(error) > (turning_ ? config_.turn_end : config_.turn_start);
+
+  Command command;
+  const double gain = turning_ ? config_.turn_gain : config_.steer_gain;
+  command.yaw_rate = std::clamp(gain * error, -config_.yaw_rate_max, config_.yaw_rate_max);
+  command.vx = turning_ ? 0.0 : walking_speed(error, p_W);
+  return jittered(command, tick);
+}
+
+void Follower::skip_reached(const Eigen::Vector2d& p_W) {
+  while (!done() && (waypoints_[next_] - p_W).norm() < config_.reached_m) ++next_;
+}
+
+void Follower::check_progress(const Pose& X_WR, std::int64_t tick) {
+  const Eigen::Vector2d p_W = X_WR.t.head<2>();
+  const double yaw = X_WR.yaw();
+  const bool moved = (p_W - progress_point_).norm() > config_.stuck_distance_m ||
+                     std::abs(wrap_angle(yaw - progress_yaw_)) > config_.stuck_angle;
+  if (moved || !started_) {
+    started_ = true;
+    progress_point_ = p_W;
+    progress_yaw_ = yaw;
+    progress_tick_ = tick;
+  } else if (static_cast<double>(tick - progress_tick_) * step_s > config_.stuck_s) {
+    throw scenario_failure("the robot stalled", static_cast<double>(tick) * step_s, X_WR.t);
+  }
+}
+
+Eigen::Vector2d Follower::goal(const Eigen::Vector2d& p_W) const {
+  const Eigen::Vector2d& from = waypoints_[next_ - 1];
+  const Eigen::Vector2d& to = waypoints_[next_];
+  const double length = (to - from).norm();
+  if (length <= 0.0) return to;
+  const Eigen::Vector2d e = (to - from) / length;
+  const double along = std::clamp(e.dot(p_W - from) + config_.lookahead_m, 0.0, length);
+  const Eigen::Vector2d ahead = from + along * e;
+  return (ahead - p_W).norm() < config_.goal_min_m ? to : ahead;
+}
+
+double Follower::walking_speed(double heading_error, const Eigen::Vector2d& p_W) const {
+  const double v = config_.speed_mps * std::max(config_.slow_min, std::cos(config_.slow_angle_gain * heading_error));
+  if (next_ + 1 < waypoints_.size()) return v;
+  const double distance = (waypoints_[next_] - p_W).norm();
+  return std::min(v, std::max(config_.approach_min_mps, config_.approach_gain * distance));
+}
+
+Command Follower::jittered(Command command, std::int64_t tick) const {
+  const auto block = static_cast<std::uint64_t>(static_cast<double>(tick) * step_s / config_.jitter_s);
+  command.vx *= 1.0 + config_.speed_jitter * (2.0 * jitter_.uniform(block, 0) - 1.0);
+  command.gait_period_scale = 1.0 + config_.period_jitter * (2.0 * jitter_.uniform(block, 1) - 1.0);
+  return command;
+}
+
+}  // namespace plumbline::sim

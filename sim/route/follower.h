@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "bim/random/stream.h"
+#include "sim/robot/robot.h"
+
+namespace plumbline::sim {
+
+/// Pure pursuit [facts: legged section 5], the stuck check, and the jitter that keeps the gait (2.27 Hz) from meeting
+/// the LiDAR's 10 Hz sweep at the same phase every time.
+struct FollowerConfig {
+  double speed_mps = 0.6;
+  double reached_m = 0.25;  ///< a waypoint counts as reached
+  double lookahead_m = 0.6;
+  double goal_min_m = 0.2;       ///< a goal nearer than this gives way to the waypoint itself
+  double yaw_rate_max = 1.0;     ///< rad/s
+  double turn_start = 0.8;       ///< rad, heading error that starts a turn in place
+  double turn_end = 0.2;         ///< rad
+  double turn_gain = 2.5;        ///< 1/s, in place
+  double steer_gain = 2.0;       ///< 1/s, while walking
+  double slow_min = 0.25;        ///< share of the speed kept in the sharpest curve
+  double slow_angle_gain = 1.5;  ///< speed falls with the cosine of this times the heading error
+  double approach_gain = 0.8;    ///< 1/s, speed by distance on the last leg
+  double approach_min_mps = 0.15;
+  double stuck_s = 6.0;            ///< without progress: stalled
+  double stuck_distance_m = 0.15;  ///< this counts as progress,
+  double stuck_angle = 0.15;       ///< or this, rad
+  double jitter_s = 0.5;           ///< one draw of the jitter
+  double speed_jitter = 0.05;      ///< share, uniform to both sides
+  double period_jitter = 0.04;     ///< share of the gait period, uniform to both sides
+};
+
+/// Walks the robot along waypoints, the first of which is the start.
+class Follower {
+ public:
+  Follower(const FollowerConfig& config, std::vector<Eigen::Vector2d> waypoints, std::uint64_t seed);
+
+  /// Command for the robot at X_WR; tick counts physics steps of step_s. A zero command when done. Throws
+  /// ScenarioFailure "the robot stalled ..." when it was asked to move and did not.
+  [[nodiscard]] Command update(const Pose& X_WR, std::int64_t tick);
+  [[nodiscard]] bool done() const { return next_ >= waypoints_.size(); }
+
+ private:
+  void skip_reached(const Eigen::Vector2d& p_W);
+  void check_progress(const Pose& X_WR, std::int64_t tick);
+  [[nodiscard]] Eigen::Vector2d goal(const Eigen::Vector2d& p_W) const;
+  [[nodiscard]] double walking_speed(double heading_error, const Eigen::Vector2d& p_W) const;
+  [[nodiscard]] Command jittered(Command command, std::int64_t tick) const;
+
+  FollowerConfig config_;
+  std::vector<Eigen::Vector2d> waypoints_;
+  Stream jitter_;
+  std::size_t next_ = 1;
+  bool turning_ = false;
+  bool started_ = false;
+  Eigen::Vector2d progress_point_ = Eigen::Vector2d::Zero();
+  double progress_yaw_ = 0.0;
+  std::int64_t progress_tick_ = 0;
+};
+
+}  // namespace plumbline::sim

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/robot/collision.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "bim/random/stream.h"
+
+namespace plumbline::sim {
+namespace {
+
+/// One storey with one wall from a to b.
+bim::Building one_wall(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  bim::Building building;
+  building.storeys.push_back({.id = "ground", .name = "ground"});
+  bim::Wall wall;
+  wall.storey = 0;
+  wall.a = a;
+  wall.b = b;
+  wall.offset_m = -0.05;
+  building.walls.push_back(wall);
+  return building;
+}
+
+bim::Opening opening(double s, double width, double z0, double z1) {
+  bim::Opening o;
+  o.wall = 0;
+  o.s_m = s;
+  o.width_m = width;
+  o.z0_m = z0;
+  o.z1_m = z1;
+  return o;
+}
+
+/// So that lintels and whole walls are seen.
+CollisionConfig whole_height() {
+  CollisionConfig config;
+  config.reach_m = 10.0;
+  return config;
+}
+
+bool inside_any(const std::vector<CollisionBox>& boxes, const Eigen::Vector3d& p) {
+  for (const CollisionBox& box : boxes)
+    if (distance(box, p) <= 0.0) return true;
+  return false;
+}
+
+double total_volume(const std::vector<CollisionBox>& boxes) {
+  double sum = 0.0;
+  for (const CollisionBox& box : boxes) sum += 8.0 * box.half.prod();
+  return sum;
+}
+
+bool in_opening(const bim::Opening& o, double s, double z) {
+  return std::abs(s - o.s_m) < 0.5 * o.width_m && z > o.z0_m && z < o.z1_m;
+}
+
+TEST(Collision, WallBoxesFillTheWallButNotItsOpenings) {
+  bim::Building building = one_wall({1.0, 2.0}, {7.0, 5.0});
+  building.openings = {opening(1.5, 0.9, 0.0, 2.1), opening(4.0, 1.2, 0.9, 2.2), opening(4.8, 1.0, 0.5, 1.5)};
+  const bim::Wall& wall = building.walls[0];
+  const std::vector<CollisionBox> boxes = collision_boxes(building, 0, whole_height());
+
+  const Stream stream(1, "bim.generate");
+  for (std::uint64_t i = 0; i < 5000; ++i) {
+    const double s = -0.5 + (wall.length() + 1.0) * stream.uniform(i, 0);
+    const double t = -0.3 + 0.6 * stream.uniform(i, 1);
+    const double z = -0.5 + 4.0 * stream.uniform(i, 2);
+    const Eigen::Vector2d p = wall.a + s * wall.direction() + t * wall.left();
+    bool solid = s > 0.0 && s < wall.length() && t > -0.05 && t < 0.15 && z > 0.0 && z < 3.0;
+    for (const bim::Opening& o : building.openings) solid = solid && !in_opening(o, s, z);
+    EXPECT_EQ(inside_any(boxes, {p.x(), p.y(), z}), solid) << "s " << s << " t " << t << " z " << z;
+  }
+  // Openings 2 and 3 overlap on s in [4.3, 4.6], z in [0.9, 1.5].
+  const double cut = 0.9 * 2.1 + 1.2 * 1.3 + 1.0 * 1.0 - 0.3 * 0.6;
+  EXPECT_NEAR(total_volume(boxes), 0.2 * (3.0 * wall.length() - cut), 1e-9);
+}
+
+TEST(Collision, ADoorInReachHasNoLintel) {
+  bim::Building building = one_wall({0.0, 0.0}, {4.0, 0.0});
+  building.openings = {opening(2.0, 0.9, 0.0, 2.1)};
+  EXPECT_EQ(collision_boxes(building, 0).size(), 2U);
+  EXPECT_EQ(collision_boxes(building, 0, whole_height()).size(), 3U);
+}
+
+TEST(Collision, AClosedLeafBlocks) {
+  bim::Building building = one_wall({0.0, 0.0}, {4.0, 0.0});
+  building.openings = {opening(2.0, 0.9, 0.0, 2.1)};
+  building.openings[0].leaf = bim::Leaf::closed;
+  EXPECT_TRUE(inside_any(collision_boxes(building, 0), {2.0, 0.0, 0.5}));
+}
+
+TEST(Collision, LongWallsAreSplit) {
+  const std::vector<CollisionBox> boxes = collision_boxes(one_wall({0.0, 0.0}, {10.0, 0.0}), 0);
+  ASSERT_EQ(boxes.size(), 3U);
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    EXPECT_EQ(boxes[i].id, static_cast<int>(i));
+    EXPECT_NEAR(boxes[i].half.x(), 10.0 / 6.0, 1e-12);
+  }
+}
+
+TEST(Collision, AYawedColumnGetsItsOwnRectangle) {
+  bim::Building building = one_wall({0.0, 0.0}, {1.0, 0.0});
+  building.walls.clear();
+  bim::Column column;
+  const Pose X = Pose::from_xyz_yaw({3.0, 1.0, 0.0}, 0.5235987755982988);  // 30 degrees, one of the directions tried
+  for (const auto& [x, y] : {std::pair{0.4, 0.2}, {-0.4, 0.2}, {-0.4, -0.2}, {0.4, -0.2}})
+    column.footprint.emplace_back((X * Eigen::Vector3d(x, y, 0.0)).head<2>());
+  building.columns.push_back(column);
+  const std::vector<CollisionBox> boxes = collision_boxes(building, 0);
+  ASSERT_EQ(boxes.size(), 1U);
+  EXPECT_NEAR(4.0 * boxes[0].half.x() * boxes[0].half.y(), 0.32, 1e-9);
+  EXPECT_NEAR((boxes[0].X_WB.t.head<2>() - Eigen::Vector2d(3.0, 1.0)).norm(), 0.0, 1e-9);
+}
+
+TEST(Collision, WhatLiesFlatOrHighIsNoObstacle) {
+  bim::Building building = one_wall({0.0, 0.0}, {1.0, 0.0});
+  building.walls.clear();
+  for (const double z : {-0.2, 0.3, 2.0}) {
+    bim::Obstacle obstacle;
+    for (const double x : {0.0, 1.0})
+      for (const double y : {0.0, 1.0})
+        for (const double dz : {0.0, 0.21}) obstacle.body.vertices.emplace_back(x, y, z + dz);
+    building.obstacles.push_back(obstacle);
+  }
+  const std::vector<CollisionBox> boxes = collision_boxes(building, 0);
+  ASSERT_EQ(boxes.size(), 1U);
+  EXPECT_NEAR(boxes[0].X_WB.t.z(), 0.405, 1e-12);
+}
+
+}  // namespace
+}  // namespace plumbline::sim
