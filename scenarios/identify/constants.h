@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+
+namespace plumbline::scenarios {
+
+/// The constants of identifiability. Changing one changes every published table, and the changelog must say so.
+struct IdentifyConstants {
+  double step_m = 0.5;  ///< one scan per this distance of the run
+  int azimuths = 360;   ///< beams a ring
+  std::array<double, 8> elevations_deg = {-15.0, -11.0, -7.0, -3.0, 1.0, 5.0, 9.0, 13.0};  ///< every second VLP-16 ring
+  double sensor_sigma_m = 0.012;    ///< range noise of a VLP-16 at room distances (facts: 6-18 mm)
+  double model_sigma_m = 0.02;      ///< what a plan leaves open
+  double residual_cap_sigma = 3.0;  ///< residuals count no further
+  double correlation = 8.0;  ///< the log-likelihood ratio is divided by this: neighbouring beams are not independent
+  double drop_llr = 20.0;    ///< a hypothesis above this is dropped
+  double weak_llr = 5.0;     ///< between this and drop_llr it is weak
+  double range_max_m = 100.0;
+  double grid_m = 0.5;           ///< spacing of candidate places; half the basin of the refinement
+  double yaw_step_deg = 10.0;    ///< spacing of candidate headings when the heading is not known
+  double known_yaw_deg = 10.0;   ///< with a compass, headings further off than this are no candidates
+  double min_clearance_m = 0.3;  ///< a robot's centre is never nearer to a wall
+  double distinct_m = 0.5;       ///< nearer than this and distinct_deg to the truth is the truth
+  double distinct_deg = 10.0;
+  int max_seeds = 400;  ///< refined candidates, best first
+  int refine_iterations = 14;
+};
+inline constexpr IdentifyConstants identify_constants;
+
+}  // namespace plumbline::scenarios

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "bim/rays/scene.h"
+#include "slam/io/records.h"
+
+namespace plumbline::scenarios {
+
+/// Where candidates are looked for: the floor of one storey.
+struct IdentifyStorey {
+  Eigen::Vector2d min = Eigen::Vector2d::Zero();
+  Eigen::Vector2d max = Eigen::Vector2d::Zero();
+  double sensor_z_W = 0.66;  ///< height of the sensor on this storey
+};
+
+struct IdentifyInput {
+  const bim::RayScene* as_planned = nullptr;
+  const bim::RayScene* as_built = nullptr;
+  std::vector<IdentifyStorey> storeys;  ///< those a robot with this prior may be on
+  double truth_sensor_z_W = 0.66;
+  bool yaw_known = false;
+};
+
+struct TruthSample {
+  double t_s = 0.0;
+  Pose X_WR;
+};
+
+/// A start pose that could not be told from the true one so far. twin maps true poses to the twin's: X_twin = twin *
+/// X_WR.
+struct Twin {
+  Pose twin;
+  double llr = 0.0;
+};
+
+struct IdentifyStep {
+  double t_s = 0.0;
+  double distance_m = 0.0;
+  std::vector<Twin> alive;  ///< all with llr <= drop_llr, ordered by where they were found
+};
+
+/// What any estimator could have known, seed and method aside.
+struct RunIdentifiability {
+  std::vector<IdentifyStep> steps;
+  bool identifiable = false;                ///< no twin is alive at the end
+  std::optional<double> identifiable_at_s;  ///< first time from which on none is
+  std::optional<double> identifiable_at_m;
+
+  /// Poses that cannot be told from X_WR at time t, the true one left out.
+  [[nodiscard]] std::vector<Pose> ambiguity_set(double t_s, const Pose& X_WR) const;
+};
+
+/// Follows every start pose that looks like the true one along the run [facts: localization 3.2].
+[[nodiscard]] RunIdentifiability identify_run(const IdentifyInput& input, const std::vector<TruthSample>& truth);
+
+}  // namespace plumbline::scenarios
