@@ -23,7 +23,8 @@ struct IdentifyConstants {
   double min_clearance_m = 0.3;  ///< a robot's centre is never nearer to a wall
   double distinct_m = 0.5;       ///< nearer than this and distinct_deg to the truth is the truth
   double distinct_deg = 10.0;
-  int max_seeds = 400;  ///< refined candidates, best first
+  int max_seeds = 400;       ///< refined candidates, best first
+  int refine_azimuths = 90;  ///< beams a ring while refining
   int refine_iterations = 14;
 };
 inline constexpr IdentifyConstants identify_constants;

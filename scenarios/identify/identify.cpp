@@ -95,12 +95,14 @@ Place refine(const Viewer& viewer, const IdentifyInput& input, const View& seen,
 }
 
 std::vector<Twin> find_twins(const Viewer& viewer, const IdentifyInput& input, const Place& truth) {
+  const Viewer coarse(k.refine_azimuths);
   const View seen = viewer.look(*input.as_built, truth.position_W, truth.yaw);
+  const View seen_coarse = coarse.look(*input.as_built, truth.position_W, truth.yaw);
   const double own = viewer.cost(seen, viewer.look(*input.as_planned, truth.position_W, truth.yaw));
   std::vector<Place> found;
   std::vector<Twin> twins;
   for (const Seed& seed : find_seeds(viewer, input, seen, truth)) {
-    const Place place = refine(viewer, input, seen, seed.place);
+    const Place place = refine(coarse, input, seen_coarse, seed.place);
     if (input.yaw_known && std::abs(wrap_angle(place.yaw - truth.yaw)) > k.known_yaw_deg * rad) continue;
     if (same_place(place, truth, k.distinct_m, k.distinct_deg)) continue;
     const auto known = [&](const Place& other) { return same_place(place, other, 0.3, 6.0); };

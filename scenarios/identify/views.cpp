@@ -12,10 +12,10 @@ constexpr double rad = std::numbers::pi / 180.0;
 constexpr const IdentifyConstants& k = identify_constants;
 }  // namespace
 
-Viewer::Viewer() {
+Viewer::Viewer(int azimuths) : azimuths_(azimuths) {
   for (const double elevation : k.elevations_deg)
-    for (int a = 0; a < k.azimuths; ++a) {
-      const double azimuth = 2.0 * std::numbers::pi * a / k.azimuths;
+    for (int a = 0; a < azimuths; ++a) {
+      const double azimuth = 2.0 * std::numbers::pi * a / azimuths;
       directions_.emplace_back(std::cos(elevation * rad) * std::cos(azimuth),
                                std::cos(elevation * rad) * std::sin(azimuth), std::sin(elevation * rad));
     }
@@ -42,7 +42,7 @@ View Viewer::look(const bim::RayScene& scene, const Eigen::Vector3d& position_W,
 double Viewer::cost(const View& seen, const View& expected, int shift) const {
   const double variance = k.sensor_sigma_m * k.sensor_sigma_m + k.model_sigma_m * k.model_sigma_m;
   const double cap = k.residual_cap_sigma * k.residual_cap_sigma;
-  const int n = k.azimuths;
+  const int n = azimuths_;
   const int turn = ((shift % n) + n) % n;
   double sum = 0.0;
   for (std::size_t ring = 0; ring < k.elevations_deg.size(); ++ring) {

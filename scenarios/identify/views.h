@@ -17,7 +17,7 @@ struct View {
 /// Casts views and compares them. Directions are fixed tables in the levelled sensor frame.
 class Viewer {
  public:
-  Viewer();
+  explicit Viewer(int azimuths = identify_constants.azimuths);
   [[nodiscard]] View look(const bim::RayScene& scene, const Eigen::Vector3d& position_W, double yaw) const;
   /// Negative log-likelihood of seeing `seen` where `expected` is predicted; beams of `seen` shifted by `shift`
   /// azimuth steps (a view from the same place turned by that many steps).
@@ -25,6 +25,7 @@ class Viewer {
   [[nodiscard]] const std::vector<Eigen::Vector3d>& directions() const { return directions_; }
 
  private:
+  int azimuths_;
   std::vector<Eigen::Vector3d> directions_;
 };
 
