@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "bim/config/visit.h"
 #include "bim/geometry/plane.h"
 #include "slam/odometry/motion.h"
 
@@ -11,7 +12,7 @@ namespace plumbline::slam {
 /// A planar patch seen in one scan, in R at the scan's stamp, kept as parameters, moments and extent.
 struct PlaneObservation {
   Plane plane_R;                ///< normal towards the sensor
-  Eigen::Matrix3d covariance =  ///< of (two tangential angles of n in rad, d in m); tangents by plane_tangents()
+  Eigen::Matrix3d covariance =  ///< of (angle of n towards u, angle towards v, d), rad, rad, m; u, v: plane_tangents()
       Eigen::Matrix3d::Identity();
   int points = 0;
   double rms_m = 0.0;  ///< rms distance of the points
@@ -20,7 +21,7 @@ struct PlaneObservation {
   Eigen::Vector3d p1_R = Eigen::Vector3d::Zero();
   double z0 = 0.0;  ///< lowest and highest point along R's z
   double z1 = 0.0;
-  bool vertical = false;  ///< a wall; else horizontal (floor, ceiling) or slanted
+  bool vertical = false;  ///< a wall; else horizontal (floor, ceiling)
 };
 
 /// Two unit tangents (u, v) of a normal, a fixed smooth choice: u horizontal where n is not vertical.
@@ -30,13 +31,55 @@ struct Tangents {
 [[nodiscard]] Tangents plane_tangents(const Eigen::Vector3d& n);
 
 struct PlaneDetectorConfig {
-  double max_distance_m = 0.06;  ///< gate of a point to the plane it joins; about 4 sigma of the range noise
+  double min_range_m = 0.4;
+  double max_range_m = 30.0;
+  double flat_slope = 0.25;         ///< rise over run between neighbouring rings up to which a return is no wall
+  double gap_m = 0.25;              ///< jump between neighbouring returns of a ring that ends a segment ...
+  double gap_per_m = 0.02;          ///< ... plus this times the range (grazing incidence)
+  double segment_rms_m = 0.03;      ///< of a ring's stretch around a line; walls show 12-17 mm [facts: lidar 2.5]
+  int segment_points = 6;           ///< fewest of a segment
+  double segment_length_m = 0.15;   ///< shortest segment
+  double max_distance_m = 0.06;     ///< gate of a point to the plane it joins; about 4 sigma of the range noise
+  double max_tilt_prior_deg = 3.0;  ///< sigma of a wall's tilt in R while few rings are in: gait and mounting
+  double merge_gap_m = 1.2;         ///< coplanar stretches this near are one patch: a wall goes on behind a door
   int min_points = 60;
+  int min_rings = 3;          ///< fewer do not fix a wall's tilt
   double min_length_m = 0.5;  ///< of a wall patch
+  double min_height_m = 0.2;  ///< of a wall patch
   double vertical_max_tilt_deg = 6.0;
+  double floor_area_m2 = 0.5;     ///< smallest extent (length by width) of a floor or ceiling patch
+  double sigma_min_m = 0.01;      ///< least range noise assumed
+  double bias_floor_m = 0.01;     ///< what averaging cannot remove: range bias of a unit, deskew [facts: lidar 2.2]
+  double bias_floor_rad = 0.002;  ///< the same for angles: a bias b bends a wall seen aslant by b (1 - cos) / length
+
+  template <class V>
+  void visit(V& v) {
+    v("min_range_m", min_range_m, Field{.min = 0.0});
+    v("max_range_m", max_range_m, Field{.min = 1.0});
+    v("flat_slope", flat_slope, Field{.min = 0.0, .max = 1.0});
+    v("gap_m", gap_m, Field{.min = 0.0});
+    v("gap_per_m", gap_per_m, Field{.min = 0.0});
+    v("segment_rms_m", segment_rms_m, Field{.min = 0.001});
+    v("segment_points", segment_points, Field{.min = 3});
+    v("segment_length_m", segment_length_m, Field{.min = 0.0});
+    v("max_distance_m", max_distance_m, Field{.min = 0.001});
+    v("max_tilt_prior_deg", max_tilt_prior_deg, Field{.min = 0.01});
+    v("merge_gap_m", merge_gap_m, Field{.min = 0.0});
+    v("min_points", min_points, Field{.min = 3});
+    v("min_rings", min_rings, Field{.min = 2});
+    v("min_length_m", min_length_m, Field{.min = 0.0});
+    v("min_height_m", min_height_m, Field{.min = 0.0});
+    v("vertical_max_tilt_deg", vertical_max_tilt_deg, Field{.min = 0.0, .max = 45.0});
+    v("floor_area_m2", floor_area_m2, Field{.min = 0.0});
+    v("sigma_min_m", sigma_min_m, Field{.min = 1e-4});
+    v("bias_floor_m", bias_floor_m, Field{.min = 0.0});
+    v("bias_floor_rad", bias_floor_rad, Field{.min = 0.0});
+  }
 };
 
-/// Planes by region growing on the ring image, largest first (ties: lower first index).
+/// Walls, floor and ceiling of one scan, largest (most points) first, ties: lower centroid x, y. Walls: each ring is
+/// cut into straight stretches, and stretches of different rings that lie in one upright plane make a wall. Floor and
+/// ceiling: robust fit to the returns whose neighbours above and below are level with them.
 [[nodiscard]] std::vector<PlaneObservation> detect_planes(const DeskewedScan& scan, const PlaneDetectorConfig& config);
 
 }  // namespace plumbline::slam

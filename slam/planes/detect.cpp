@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/planes/detect.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <tuple>
+
+#include "slam/planes/horizontal.h"
+#include "slam/planes/moments.h"
+#include "slam/planes/patch.h"
+#include "slam/planes/segments.h"
+
+namespace plumbline::slam {
+
+namespace {
+
+/// A wall while it collects segments.
+struct Wall {
+  Plane plane;
+  Moments moments;
+  std::vector<std::size_t> segments;
+  double s0 = 0.0, s1 = 0.0;  ///< extent along u at the time of the last join
+};
+
+/// Upright plane through a segment, normal towards the sensor.
+Plane upright_plane(const RingSegment& segment, const Eigen::Vector3d& sensor_R) {
+  const Eigen::Vector3d n(-segment.direction.y(), segment.direction.x(), 0.0);
+  const Plane plane{n, -n.dot(segment.moments.mean())};
+  return plane.distance(sensor_R) >= 0.0 ? plane : plane.flipped();
+}
+
+class WallGrower {
+ public:
+  WallGrower(const DeskewedScan& scan, const std::vector<RingSegment>& segments, const PlaneDetectorConfig& config)
+      : scan_(scan), segments_(segments), config_(config), taken_(segments.size(), false) {
+    const double tilt = config.max_tilt_prior_deg * std::numbers::pi / 180.0;
+    tilt_weight_ = config.segment_rms_m * config.segment_rms_m / (tilt * tilt);
+  }
+
+  /// Every segment once as seed, most points first (ties: lower index).
+  [[nodiscard]] std::vector<Wall> grow_all() {
+    std::vector<std::size_t> order(segments_.size());
+    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+      return segments_[a].points.size() > segments_[b].points.size();
+    });
+    std::vector<Wall> walls;
+    for (const std::size_t seed : order)
+      if (!taken_[seed]) walls.push_back(grow(seed));
+    return walls;
+  }
+
+ private:
+  /// Takes segments of the nearest rings first, so that the tilt is known before far rings are asked.
+  [[nodiscard]] Wall grow(std::size_t seed) {
+    std::vector<std::size_t> candidates;
+    for (std::size_t i = 0; i < segments_.size(); ++i)
+      if (!taken_[i] && i != seed) candidates.push_back(i);
+    std::stable_sort(candidates.begin(), candidates.end(), [&](std::size_t a, std::size_t b) {
+      return std::abs(segments_[a].ring - segments_[seed].ring) < std::abs(segments_[b].ring - segments_[seed].ring);
+    });
+    Wall wall;
+    wall.plane = upright_plane(segments_[seed], scan_.X_RL.t);
+    join(wall, seed);
+    for (bool grown = true; grown;) {
+      grown = false;
+      for (const std::size_t i : candidates) {
+        if (taken_[i] || !fits(wall, segments_[i])) continue;
+        join(wall, i);
+        grown = true;
+      }
+    }
+    return wall;
+  }
+
+  void join(Wall& wall, std::size_t i) {
+    taken_[i] = true;
+    wall.segments.push_back(i);
+    wall.moments.add(segments_[i].moments);
+    wall.plane = refine_plane(wall.moments, wall.plane, tilt_weight_);
+    const Eigen::Vector3d u = plane_tangents(wall.plane.n).u;
+    wall.s0 = std::numeric_limits<double>::infinity();
+    wall.s1 = -wall.s0;
+    for (const std::size_t k : wall.segments) {
+      const double a = u.dot(segments_[k].p0_R);
+      const double b = u.dot(segments_[k].p1_R);
+      wall.s0 = std::min({wall.s0, a, b});
+      wall.s1 = std::max({wall.s1, a, b});
+    }
+  }
+
+  [[nodiscard]] bool fits(const Wall& wall, const RingSegment& segment) const {
+    if (std::abs(wall.plane.distance(segment.p0_R)) > config_.max_distance_m) return false;
+    if (std::abs(wall.plane.distance(segment.p1_R)) > config_.max_distance_m) return false;
+    const Eigen::Vector3d u = plane_tangents(wall.plane.n).u;
+    const double a = u.dot(segment.p0_R);
+    const double b = u.dot(segment.p1_R);
+    // Seen along the wall a segment must run along it too, not through it.
+    if (std::abs(b - a) < 0.9 * (segment.p1_R - segment.p0_R).head<2>().norm()) return false;
+    return std::max(wall.s0, std::min(a, b)) - std::min(wall.s1, std::max(a, b)) <= config_.merge_gap_m;
+  }
+
+  const DeskewedScan& scan_;
+  const std::vector<RingSegment>& segments_;
+  const PlaneDetectorConfig& config_;
+  std::vector<bool> taken_;
+  double tilt_weight_ = 0.0;  ///< points times m^2: variance of a point over that of the tilt
+};
+
+/// Fits the wall to its points, twice gated, without any prior on its tilt; nothing when it is too small for a wall.
+std::optional<PlaneObservation> observe_wall(const DeskewedScan& scan, const std::vector<RingSegment>& segments,
+                                             const Wall& wall, const PlaneDetectorConfig& config) {
+  std::vector<int> rings;
+  std::vector<std::uint32_t> points;
+  for (const std::size_t k : wall.segments) {
+    rings.push_back(segments[k].ring);
+    points.insert(points.end(), segments[k].points.begin(), segments[k].points.end());
+  }
+  std::sort(rings.begin(), rings.end());
+  const auto distinct = std::unique(rings.begin(), rings.end()) - rings.begin();
+  if (distinct < config.min_rings || points.size() < static_cast<std::size_t>(config.min_points)) return std::nullopt;
+  const std::optional<PlaneObservation> patch = fit_patch(scan, points, wall.plane, config);
+  if (!patch || (patch->p1_R - patch->p0_R).norm() < config.min_length_m) return std::nullopt;
+  if (patch->z1 - patch->z0 < config.min_height_m) return std::nullopt;
+  const double tilt = std::asin(std::min(1.0, std::abs(patch->plane_R.n.z())));
+  if (tilt > config.vertical_max_tilt_deg * std::numbers::pi / 180.0) return std::nullopt;
+  return patch;
+}
+
+}  // namespace
+
+std::vector<PlaneObservation> detect_planes(const DeskewedScan& scan, const PlaneDetectorConfig& config) {
+  const std::vector<Facing> facing = classify_returns(scan, config);
+  const std::vector<RingSegment> segments = ring_segments(scan, facing, config);
+  std::vector<PlaneObservation> planes;
+  for (const Wall& wall : WallGrower(scan, segments, config).grow_all())
+    if (std::optional<PlaneObservation> patch = observe_wall(scan, segments, wall, config)) {
+      patch->vertical = true;
+      planes.push_back(*patch);
+    }
+  for (const PlaneObservation& patch : horizontal_planes(scan, facing, config)) planes.push_back(patch);
+  std::stable_sort(planes.begin(), planes.end(), [](const PlaneObservation& a, const PlaneObservation& b) {
+    return std::make_tuple(-a.points, a.centroid_R.x(), a.centroid_R.y()) <
+           std::make_tuple(-b.points, b.centroid_R.x(), b.centroid_R.y());
+  });
+  return planes;
+}
+
+}  // namespace plumbline::slam

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+
+#include "bim/geometry/plane.h"
+
+namespace plumbline::slam {
+
+/// Sums of points, enough to fit planes to them and to pool them.
+struct Moments {
+  double n = 0.0;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d outer = Eigen::Matrix3d::Zero();  ///< sum of p p^T
+
+  void add(const Eigen::Vector3d& p, double weight = 1.0) {
+    n += weight;
+    sum += weight * p;
+    outer += weight * p * p.transpose();
+  }
+  void add(const Moments& other) {
+    n += other.n;
+    sum += other.sum;
+    outer += other.outer;
+  }
+  [[nodiscard]] Eigen::Vector3d mean() const { return sum / n; }
+};
+
+/// Sum over the points of (J^T J) with J the derivative of n.p + d by (angle towards u, angle towards v, d).
+[[nodiscard]] Eigen::Matrix3d plane_normal_matrix(const Moments& moments, const Plane& plane);
+
+/// One Gauss-Newton step of the least-squares plane, from `plane`. tilt_weight (in points times m^2) pulls the normal
+/// towards the horizontal; 0 for none. The sums must span a plane, or tilt_weight be positive.
+[[nodiscard]] Plane refine_plane(const Moments& moments, const Plane& plane, double tilt_weight);
+
+/// rms distance of the points to the plane, m.
+[[nodiscard]] double plane_rms(const Moments& moments, const Plane& plane);
+
+/// Covariance of (angle towards u, angle towards v, d) from independent noise sigma, m, plus a systematic part at the
+/// centroid: bias_m of the offset and bias_rad of both angles, which no number of points averages away.
+[[nodiscard]] Eigen::Matrix3d plane_covariance(const Moments& moments, const Plane& plane, double sigma, double bias_m,
+                                               double bias_rad);
+
+}  // namespace plumbline::slam

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/planes/patch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "slam/planes/moments.h"
+
+namespace plumbline::slam {
+
+namespace {
+
+constexpr int gated_fits = 3;
+
+/// Longer horizontal direction of a patch: along a wall, or the main axis of a floor.
+Eigen::Vector3d long_axis(const Plane& plane, const Moments& moments) {
+  const Tangents t = plane_tangents(plane.n);
+  if (std::abs(plane.n.z()) < 0.5) return t.u;
+  const Eigen::Vector3d c = moments.mean();
+  const Eigen::Matrix2d s = (moments.outer / moments.n - c * c.transpose()).topLeftCorner<2, 2>();
+  const double angle = 0.5 * std::atan2(2.0 * s(0, 1), s(0, 0) - s(1, 1));
+  return {std::cos(angle), std::sin(angle), 0.0};
+}
+
+void set_extent(const DeskewedScan& scan, const std::vector<std::uint32_t>& points, double gate,
+                const Eigen::Vector3d& axis, PlaneObservation& patch) {
+  double s0 = std::numeric_limits<double>::infinity();
+  double s1 = -s0;
+  patch.z0 = s0;
+  patch.z1 = s1;
+  for (const std::uint32_t i : points) {
+    const Eigen::Vector3d& p = scan.point_R[i];
+    if (std::abs(patch.plane_R.distance(p)) > gate) continue;
+    const double s = axis.dot(p - patch.centroid_R);
+    s0 = std::min(s0, s);
+    s1 = std::max(s1, s);
+    patch.z0 = std::min(patch.z0, p.z());
+    patch.z1 = std::max(patch.z1, p.z());
+  }
+  patch.p0_R = patch.centroid_R + s0 * axis;
+  patch.p1_R = patch.centroid_R + s1 * axis;
+}
+
+}  // namespace
+
+std::optional<PlaneObservation> fit_patch(const DeskewedScan& scan, const std::vector<std::uint32_t>& points,
+                                          const Plane& start, const PlaneDetectorConfig& config) {
+  PlaneObservation patch;
+  patch.plane_R = start;
+  Moments moments;
+  for (int k = 0; k < gated_fits; ++k) {
+    moments = {};
+    for (const std::uint32_t i : points)
+      if (std::abs(patch.plane_R.distance(scan.point_R[i])) <= config.max_distance_m) moments.add(scan.point_R[i]);
+    if (moments.n < config.min_points) return std::nullopt;
+    patch.plane_R = refine_plane(moments, patch.plane_R, 0.0);
+  }
+  if (patch.plane_R.distance(scan.X_RL.t) < 0.0) patch.plane_R = patch.plane_R.flipped();
+  patch.points = static_cast<int>(moments.n);
+  patch.rms_m = plane_rms(moments, patch.plane_R);
+  patch.centroid_R = moments.mean();
+  patch.covariance = plane_covariance(moments, patch.plane_R, std::max(patch.rms_m, config.sigma_min_m),
+                                      config.bias_floor_m, config.bias_floor_rad);
+  set_extent(scan, points, config.max_distance_m, long_axis(patch.plane_R, moments), patch);
+  return patch;
+}
+
+}  // namespace plumbline::slam

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/planes/segments.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace plumbline::slam {
+
+namespace {
+
+/// Line in the plane by least squares: centre, unit direction and rms across.
+struct Line2 {
+  Eigen::Vector2d centre;
+  Eigen::Vector2d direction;
+  double rms = 0.0;
+};
+
+/// Prefix sums of x, y, xx, xy, yy along a ring, so that any stretch is fitted in constant time.
+class LineSums {
+ public:
+  LineSums(const DeskewedScan& scan, const std::vector<std::uint32_t>& points) : sums_(points.size() + 1) {
+    sums_[0].setZero();
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const Eigen::Vector3d& p = scan.point_R[points[i]];
+      Sums s;
+      s << p.x(), p.y(), p.x() * p.x(), p.x() * p.y(), p.y() * p.y();
+      sums_[i + 1] = sums_[i] + s;
+    }
+  }
+
+  /// Of points [begin, end).
+  [[nodiscard]] Line2 fit(std::size_t begin, std::size_t end) const {
+    const Sums s = (sums_[end] - sums_[begin]) / static_cast<double>(end - begin);
+    const double xx = s(2) - s(0) * s(0);
+    const double xy = s(3) - s(0) * s(1);
+    const double yy = s(4) - s(1) * s(1);
+    const double half = 0.5 * (xx - yy);
+    const double root = std::sqrt(half * half + xy * xy);
+    const double least = std::max(0.0, 0.5 * (xx + yy) - root);
+    // Of two equal forms of the long axis the one that does not cancel.
+    Eigen::Vector2d axis = half >= 0.0 ? Eigen::Vector2d(root + half, xy) : Eigen::Vector2d(xy, root - half);
+    const double norm = axis.norm();
+    axis = norm > 0.0 ? Eigen::Vector2d(axis / norm) : Eigen::Vector2d::UnitX();
+    return {{s(0), s(1)}, axis, std::sqrt(least)};
+  }
+
+ private:
+  using Sums = Eigen::Matrix<double, 5, 1>;
+  std::vector<Sums> sums_;
+};
+
+/// Cuts one ring.
+class RingCutter {
+ public:
+  RingCutter(const DeskewedScan& scan, int ring, std::vector<std::uint32_t> points, const PlaneDetectorConfig& config)
+      : scan_(scan), ring_(ring), points_(std::move(points)), config_(config), sums_(scan, points_) {}
+
+  void cut(std::vector<RingSegment>& out) const {
+    std::size_t begin = 0;
+    for (std::size_t i = 1; i <= points_.size(); ++i) {
+      if (i < points_.size() && !jumps(i)) continue;
+      split(begin, i, out);
+      begin = i;
+    }
+  }
+
+ private:
+  [[nodiscard]] Eigen::Vector2d xy(std::size_t i) const { return scan_.point_R[points_[i]].head<2>(); }
+
+  [[nodiscard]] bool jumps(std::size_t i) const {
+    const double gap = config_.gap_m + config_.gap_per_m * scan_.range_m[points_[i]];
+    return (xy(i) - xy(i - 1)).squaredNorm() > gap * gap;
+  }
+
+  void split(std::size_t begin, std::size_t end, std::vector<RingSegment>& out) const {
+    if (end - begin < static_cast<std::size_t>(config_.segment_points)) return;
+    const Line2 line = sums_.fit(begin, end);
+    if (line.rms <= config_.segment_rms_m) {
+      keep(begin, end, line, out);
+      return;
+    }
+    const std::size_t middle = corner(begin, end);
+    split(begin, middle, out);
+    split(middle, end, out);
+  }
+
+  /// Point farthest from the chord (ties: the first), never an end.
+  [[nodiscard]] std::size_t corner(std::size_t begin, std::size_t end) const {
+    const Eigen::Vector2d a = (xy(begin) + xy(begin + 1) + xy(begin + 2)) / 3.0;
+    const Eigen::Vector2d b = (xy(end - 1) + xy(end - 2) + xy(end - 3)) / 3.0;
+    const Eigen::Vector2d across(a.y() - b.y(), b.x() - a.x());
+    std::size_t best = begin + (end - begin) / 2;
+    double most = -1.0;
+    for (std::size_t i = begin + 2; i + 2 < end; ++i) {
+      const double distance = std::abs(across.dot(xy(i) - a));
+      if (distance > most) {
+        most = distance;
+        best = i;
+      }
+    }
+    return best;
+  }
+
+  void keep(std::size_t begin, std::size_t end, const Line2& line, std::vector<RingSegment>& out) const {
+    const auto on_line = [&](std::size_t i) -> Eigen::Vector3d {
+      const Eigen::Vector3d& p = scan_.point_R[points_[i]];
+      const Eigen::Vector2d q = line.centre + line.direction * line.direction.dot(p.head<2>() - line.centre);
+      return {q.x(), q.y(), p.z()};
+    };
+    RingSegment segment;
+    segment.ring = ring_;
+    segment.p0_R = on_line(begin);
+    segment.p1_R = on_line(end - 1);
+    segment.direction = line.direction;
+    if ((segment.p1_R - segment.p0_R).head<2>().norm() < config_.segment_length_m) return;
+    segment.points.assign(points_.begin() + static_cast<std::ptrdiff_t>(begin),
+                          points_.begin() + static_cast<std::ptrdiff_t>(end));
+    for (const std::uint32_t i : segment.points) segment.moments.add(scan_.point_R[i]);
+    out.push_back(std::move(segment));
+  }
+
+  const DeskewedScan& scan_;
+  int ring_;
+  std::vector<std::uint32_t> points_;
+  const PlaneDetectorConfig& config_;
+  LineSums sums_;
+};
+
+}  // namespace
+
+std::vector<Facing> classify_returns(const DeskewedScan& scan, const PlaneDetectorConfig& config) {
+  const auto rings = static_cast<std::size_t>(scan.rings);
+  std::vector<Facing> facing(scan.range_m.size(), Facing::none);
+  std::vector<double> reach(rings);  // horizontal distance from the sensor
+  std::vector<bool> flat(rings);
+  std::vector<bool> steep(rings);
+  for (std::size_t first = 0; first + rings <= facing.size(); first += rings) {
+    for (std::size_t r = 0; r < rings; ++r) {
+      const double range = scan.range_m[first + r];
+      if (range < config.min_range_m || range > config.max_range_m) continue;
+      facing[first + r] = Facing::upright;
+      reach[r] = (scan.point_R[first + r] - scan.X_RL.t).head<2>().norm();
+    }
+    // Links to the ring above; a steep one wins, so that a depth jump over a wall does not take the wall's edge away.
+    std::fill(flat.begin(), flat.end(), false);
+    std::fill(steep.begin(), steep.end(), false);
+    for (std::size_t r = 0; r + 1 < rings; ++r) {
+      if (facing[first + r] == Facing::none || facing[first + r + 1] == Facing::none) continue;
+      const double rise = std::abs(scan.point_R[first + r + 1].z() - scan.point_R[first + r].z());
+      const double run = std::abs(reach[r + 1] - reach[r]);
+      if (rise <= config.flat_slope * run) flat[r] = flat[r + 1] = true;
+      if (rise >= run) steep[r] = steep[r + 1] = true;
+    }
+    for (std::size_t r = 0; r < rings; ++r)
+      if (flat[r] && !steep[r]) facing[first + r] = Facing::flat;
+  }
+  return facing;
+}
+
+std::vector<RingSegment> ring_segments(const DeskewedScan& scan, const std::vector<Facing>& facing,
+                                       const PlaneDetectorConfig& config) {
+  const auto rings = static_cast<std::size_t>(scan.rings);
+  std::vector<RingSegment> segments;
+  for (std::size_t ring = 0; ring < rings; ++ring) {
+    std::vector<std::uint32_t> points;
+    points.reserve(static_cast<std::size_t>(scan.columns));
+    for (std::size_t i = ring; i < facing.size(); i += rings)
+      if (facing[i] == Facing::upright) points.push_back(static_cast<std::uint32_t>(i));
+    RingCutter(scan, static_cast<int>(ring), std::move(points), config).cut(segments);
+  }
+  return segments;
+}
+
+}  // namespace plumbline::slam
