@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "bim/building/building.h"
+#include "bim/mesh/solid.h"
+#include "bim/mesh/wall_cut.h"
 
 namespace plumbline::bim {
 
@@ -17,7 +19,7 @@ struct MeshElement {
   int index = -1;  ///< into Building::walls, slabs, columns or obstacles
   int storey = -1;
   bool closed = true;
-  double volume_m3 = 0.0;
+  double volume_m3 = 0.0;  ///< 0 when not closed
   int first_triangle = 0;
   int triangle_count = 0;
 };
@@ -32,12 +34,7 @@ struct BuildingMesh {
 };
 
 /// Cuts every wall (2D booleans on the elevation where the wall is prismatic, corefinement otherwise), extrudes
-/// slabs and columns, and joins all in canonical order (walls, slabs, columns, obstacles).
-[[nodiscard]] BuildingMesh build_mesh(const Building& building);
-
-/// Signed volume of a closed solid, m^3.
-[[nodiscard]] double volume(const Solid& solid);
-/// True when every edge is shared by exactly two triangles in opposite directions.
-[[nodiscard]] bool is_closed(const Solid& solid);
+/// slabs and columns, and joins all in the order of the building: walls, slabs, columns, obstacles.
+[[nodiscard]] BuildingMesh build_mesh(const Building& building, const MeshConfig& config = {});
 
 }  // namespace plumbline::bim

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bim/mesh/corefine.h"
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Polygon_mesh_processing/corefinement.h>
+#include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
+#include <CGAL/Polygon_mesh_processing/orientation.h>
+#include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
+#include <CGAL/Polygon_mesh_processing/repair_polygon_soup.h>
+#include <CGAL/Surface_mesh.h>
+
+#include <array>
+#include <exception>
+
+#include "bim/geometry/polygon_boolean.h"
+
+namespace plumbline::bim {
+
+namespace {
+
+namespace pmp = CGAL::Polygon_mesh_processing;
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
+
+constexpr double grid_m = 1e-5;
+
+std::optional<Mesh> to_mesh(const Solid& solid) {
+  std::vector<Kernel::Point_3> points;
+  std::vector<std::array<std::size_t, 3>> triangles;
+  for (const Eigen::Vector3d& p : solid.vertices)
+    points.emplace_back(snap(p.x(), grid_m), snap(p.y(), grid_m), snap(p.z(), grid_m));
+  for (const Eigen::Vector3i& t : solid.triangles)
+    triangles.push_back(
+        {static_cast<std::size_t>(t[0]), static_cast<std::size_t>(t[1]), static_cast<std::size_t>(t[2])});
+  pmp::repair_polygon_soup(points, triangles);
+  if (!pmp::orient_polygon_soup(points, triangles)) return std::nullopt;
+  Mesh mesh;
+  pmp::polygon_soup_to_polygon_mesh(points, triangles, mesh);
+  if (mesh.is_empty() || !CGAL::is_closed(mesh)) return std::nullopt;
+  pmp::orient_to_bound_a_volume(mesh);
+  return mesh;
+}
+
+Solid to_solid(const Mesh& mesh) {
+  Solid solid;
+  std::vector<int> index(mesh.number_of_vertices() + mesh.number_of_removed_vertices(), -1);
+  for (const auto vertex : mesh.vertices()) {
+    const Kernel::Point_3& p = mesh.point(vertex);
+    index[static_cast<std::size_t>(vertex)] = static_cast<int>(solid.vertices.size());
+    solid.vertices.emplace_back(p.x(), p.y(), p.z());
+  }
+  for (const auto face : mesh.faces()) {
+    Eigen::Vector3i triangle;
+    int corner = 0;
+    for (const auto vertex : CGAL::vertices_around_face(mesh.halfedge(face), mesh))
+      triangle[corner++] = index[static_cast<std::size_t>(vertex)];
+    solid.triangles.push_back(triangle);
+  }
+  return solid;
+}
+
+}  // namespace
+
+std::optional<Solid> repaired(const Solid& solid) {
+  const std::optional<Mesh> mesh = to_mesh(solid);
+  if (!mesh) return std::nullopt;
+  return to_solid(*mesh);
+}
+
+std::optional<Solid> difference(const Solid& body, const Solid& cutter) {
+  std::optional<Mesh> a = to_mesh(body), b = to_mesh(cutter);
+  if (!a || !b) return std::nullopt;
+  Mesh result;
+  try {
+    const bool manifold =
+        pmp::corefine_and_compute_difference(*a, *b, result, CGAL::parameters::throw_on_self_intersection(true));
+    if (!manifold) return std::nullopt;
+  } catch (const std::exception&) {  // self-intersection, or a CGAL precondition that bad input breaks
+    return std::nullopt;
+  }
+  return to_solid(result);
+}
+
+}  // namespace plumbline::bim

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bim/building/building.h"
+
+namespace plumbline::bim {
+
+/// A solid with unjoined or unevenly turned triangles made into one closed solid, outward; nullopt when its surface
+/// does not close. Coordinates are put on a grid of 0.01 mm.
+[[nodiscard]] std::optional<Solid> repaired(const Solid& solid);
+
+/// Body minus one closed cutter, by corefinement in 3D; nullopt when the two cannot be corefined (self-intersections,
+/// non-manifold result). Both must be closed and outward. The order of vertices and triangles depends on what ran
+/// before: canonicalise.
+[[nodiscard]] std::optional<Solid> difference(const Solid& body, const Solid& cutter);
+
+}  // namespace plumbline::bim

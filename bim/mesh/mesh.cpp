@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bim/mesh/mesh.h"
+
+#include <utility>
+
+#include "bim/mesh/solid.h"
+#include "bim/mesh/sweep.h"
+
+namespace plumbline::bim {
+
+namespace {
+
+/// A body as it came: welded where its triangles were not joined, outward where it closes.
+CutWall taken_over(const std::string& id, const Solid& body, const MeshConfig& config) {
+  Solid solid = is_closed(body) ? body : welded(body, config.weld_m);
+  const bool closed = is_closed(solid);
+  if (closed) solid = turned_outward(solid);
+  CutWall result{canonical(solid, config.grid_m), closed, {}};
+  if (!closed) result.warnings.push_back({id, "not_closed", "the body's surface does not close"});
+  return result;
+}
+
+CutWall swept(const Region2& region, double z0_m, double z1_m, const MeshConfig& config) {
+  return {canonical(extrude(region, z0_m, z1_m), config.grid_m), true, {}};
+}
+
+CutWall slab_solid(const Slab& slab, const MeshConfig& config) {
+  if (slab.body) return taken_over(slab.id, *slab.body, config);
+  return swept(subtract(unite(std::vector<Polygon2>{slab.polygon.outer}), slab.polygon.holes), slab.z0_m, slab.z1_m,
+               config);
+}
+
+CutWall column_solid(const Column& column, const MeshConfig& config) {
+  if (column.body) return taken_over(column.id, *column.body, config);
+  return swept(unite(std::vector<Polygon2>{column.footprint}), column.z0_m, column.z1_m, config);
+}
+
+/// Appends elements in the order of the calls.
+class Assembly {
+ public:
+  void add(ElementKind kind, int index, const std::string& id, int storey, CutWall part) {
+    MeshElement element{id, kind, index, storey, part.closed};
+    element.volume_m3 = part.closed ? volume(part.solid) : 0.0;
+    element.first_triangle = static_cast<int>(mesh_.triangles.size());
+    element.triangle_count = static_cast<int>(part.solid.triangles.size());
+    const int first_vertex = static_cast<int>(mesh_.vertices.size());
+    const int number = static_cast<int>(mesh_.elements.size());
+    mesh_.vertices.insert(mesh_.vertices.end(), part.solid.vertices.begin(), part.solid.vertices.end());
+    for (const Eigen::Vector3i& t : part.solid.triangles) {
+      mesh_.triangles.push_back(t.array() + first_vertex);
+      mesh_.element.push_back(number);
+    }
+    mesh_.elements.push_back(std::move(element));
+    mesh_.warnings.insert(mesh_.warnings.end(), part.warnings.begin(), part.warnings.end());
+  }
+
+  [[nodiscard]] BuildingMesh take() { return std::move(mesh_); }
+
+ private:
+  BuildingMesh mesh_;
+};
+
+std::vector<std::vector<Opening>> openings_by_wall(const Building& building) {
+  std::vector<std::vector<Opening>> by_wall(building.walls.size());
+  for (const Opening& opening : building.openings)
+    if (opening.wall >= 0) by_wall[static_cast<std::size_t>(opening.wall)].push_back(opening);
+  return by_wall;
+}
+
+}  // namespace
+
+BuildingMesh build_mesh(const Building& building, const MeshConfig& config) {
+  const auto openings = openings_by_wall(building);
+  Assembly assembly;
+  int index = 0;
+  for (const Wall& wall : building.walls) {
+    const std::vector<Opening>& own = openings[static_cast<std::size_t>(index)];
+    assembly.add(ElementKind::wall, index++, wall.id, wall.storey, cut_wall(wall, own, config));
+  }
+  index = 0;
+  for (const Slab& slab : building.slabs)
+    assembly.add(ElementKind::slab, index++, slab.id, slab.storey, slab_solid(slab, config));
+  index = 0;
+  for (const Column& column : building.columns)
+    assembly.add(ElementKind::column, index++, column.id, column.storey, column_solid(column, config));
+  index = 0;
+  for (const Obstacle& obstacle : building.obstacles)
+    assembly.add(ElementKind::obstacle, index++, obstacle.id, obstacle.storey,
+                 taken_over(obstacle.id, obstacle.body, config));
+  return assembly.take();
+}
+
+}  // namespace plumbline::bim

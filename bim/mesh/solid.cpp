@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bim/mesh/solid.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <numeric>
+#include <tuple>
+
+#include "bim/geometry/polygon_boolean.h"
+
+namespace plumbline::bim {
+
+namespace {
+
+using Key = std::tuple<double, double, double>;
+
+Eigen::Vector3d snapped(const Eigen::Vector3d& p, double grid_m) {
+  return {snap(p.x(), grid_m), snap(p.y(), grid_m), snap(p.z(), grid_m)};
+}
+
+/// Adding zero turns -0 into +0, so that equal positions are equal keys and equal bytes.
+Key key(const Eigen::Vector3d& p) { return {p.x() + 0.0, p.y() + 0.0, p.z() + 0.0}; }
+
+Eigen::Vector3i lowest_first(const Eigen::Vector3i& t) {
+  if (t[0] <= t[1] && t[0] <= t[2]) return t;
+  return t[1] <= t[2] ? Eigen::Vector3i(t[1], t[2], t[0]) : Eigen::Vector3i(t[2], t[0], t[1]);
+}
+
+bool before(const Eigen::Vector3i& a, const Eigen::Vector3i& b) {
+  return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
+}
+
+}  // namespace
+
+double volume(const Solid& solid) {
+  if (solid.vertices.empty()) return 0.0;
+  const Eigen::Vector3d origin = solid.vertices.front();
+  double six = 0.0;
+  for (const Eigen::Vector3i& t : solid.triangles) {
+    const auto corner = [&](int i) -> Eigen::Vector3d {
+      return solid.vertices[static_cast<std::size_t>(t[i])] - origin;
+    };
+    six += corner(0).dot(corner(1).cross(corner(2)));
+  }
+  return six / 6.0;
+}
+
+bool is_closed(const Solid& solid) {
+  std::map<std::array<int, 2>, int> uses;
+  for (const Eigen::Vector3i& t : solid.triangles) {
+    for (int i = 0; i < 3; ++i) {
+      const int from = t[i], to = t[(i + 1) % 3];
+      if (from == to || ++uses[{from, to}] > 1) return false;
+    }
+  }
+  return !uses.empty() && std::all_of(uses.begin(), uses.end(), [&](const auto& use) {
+    return uses.contains({use.first[1], use.first[0]});
+  });
+}
+
+Solid canonical(const Solid& solid, double grid_m) {
+  std::vector<Eigen::Vector3d> points;
+  for (const Eigen::Vector3d& p : solid.vertices) points.push_back(snapped(p, grid_m));
+  std::vector<int> order(points.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
+    return key(points[static_cast<std::size_t>(a)]) < key(points[static_cast<std::size_t>(b)]);
+  });
+  Solid result;
+  std::vector<int> rank(points.size());
+  for (const int old : order) {
+    rank[static_cast<std::size_t>(old)] = static_cast<int>(result.vertices.size());
+    result.vertices.push_back(points[static_cast<std::size_t>(old)] + Eigen::Vector3d::Zero());
+  }
+  for (const Eigen::Vector3i& t : solid.triangles)
+    result.triangles.push_back(lowest_first(t.unaryExpr([&](int i) { return rank[static_cast<std::size_t>(i)]; })));
+  std::sort(result.triangles.begin(), result.triangles.end(), before);
+  return result;
+}
+
+Solid welded(const Solid& solid, double grid_m) {
+  std::map<Key, int> index;
+  std::vector<int> joined;
+  Solid result;
+  for (const Eigen::Vector3d& p : solid.vertices) {
+    const Eigen::Vector3d q = snapped(p, grid_m);
+    const auto [place, is_new] = index.try_emplace(key(q), static_cast<int>(result.vertices.size()));
+    if (is_new) result.vertices.push_back(q);
+    joined.push_back(place->second);
+  }
+  for (const Eigen::Vector3i& t : solid.triangles) {
+    const Eigen::Vector3i j = t.unaryExpr([&](int i) { return joined[static_cast<std::size_t>(i)]; });
+    if (j[0] != j[1] && j[1] != j[2] && j[2] != j[0]) result.triangles.push_back(j);
+  }
+  return result;
+}
+
+Solid turned_outward(const Solid& solid) {
+  Solid result = solid;
+  if (volume(solid) < 0.0)
+    for (Eigen::Vector3i& t : result.triangles) std::swap(t[1], t[2]);
+  return result;
+}
+
+}  // namespace plumbline::bim

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "bim/building/building.h"
+
+namespace plumbline::bim {
+
+/// Frame of a wall: x along a to b from a, y across to the left, z as in W.
+class WallFrame {
+ public:
+  explicit WallFrame(const Wall& wall) : origin_(wall.a), along_(wall.direction()), left_(wall.left()) {}
+
+  [[nodiscard]] Eigen::Vector3d to_wall(const Eigen::Vector3d& p_W) const {
+    const Eigen::Vector2d p = p_W.head<2>() - origin_;
+    return {p.dot(along_), p.dot(left_), p_W.z()};
+  }
+  [[nodiscard]] Eigen::Vector3d to_world(const Eigen::Vector3d& p) const {
+    const Eigen::Vector2d q = origin_ + p.x() * along_ + p.y() * left_;
+    return {q.x(), q.y(), p.z()};
+  }
+  [[nodiscard]] std::vector<Eigen::Vector3d> to_wall(const std::vector<Eigen::Vector3d>& points_W) const {
+    std::vector<Eigen::Vector3d> points;
+    points.reserve(points_W.size());
+    for (const Eigen::Vector3d& p_W : points_W) points.push_back(to_wall(p_W));
+    return points;
+  }
+
+ private:
+  Eigen::Vector2d origin_, along_, left_;
+};
+
+/// All solids of an opening that came from a model; empty for a plain rectangle.
+[[nodiscard]] inline std::vector<Solid> solids_of(const Opening& opening) {
+  std::vector<Solid> solids;
+  if (opening.solid) solids.push_back(*opening.solid);
+  solids.insert(solids.end(), opening.parts.begin(), opening.parts.end());
+  return solids;
+}
+
+}  // namespace plumbline::bim
