@@ -21,13 +21,17 @@ inline constexpr std::int64_t firing_period_ns = 55296;
 inline constexpr double range_unit_m = 0.002;
 /// Elevation of laser id k (firing order), degrees.
 [[nodiscard]] double elevation_deg(int laser);
+[[nodiscard]] double cos_elevation(int laser);
+[[nodiscard]] double sin_elevation(int laser);
 /// Height of laser id k's origin above the sensor's origin, m.
 [[nodiscard]] double vertical_offset_m(int laser);
 /// Rank by elevation (0 lowest) of laser id k.
 [[nodiscard]] int ring_of_laser(int laser);
+/// Unit direction in L of laser id k at an azimuth (rad, clockwise seen from above, 0 along x).
+[[nodiscard]] Eigen::Vector3d direction_L(int laser, double azimuth);
 }  // namespace vlp16
 
-/// One data packet: 12 blocks of 2 firings, strongest return.
+/// One data packet: 12 blocks of 2 firings, one return (strongest).
 struct Vlp16Packet {
   Nanoseconds stamp = 0;  ///< time of its first firing
   std::array<std::uint8_t, vlp16::payload_bytes> payload{};
@@ -40,11 +44,15 @@ struct Vlp16Firing {
   std::array<std::uint8_t, 16> reflectivity{};  ///< by laser id
 };
 
+/// Packs 24 firings. The packet holds the azimuth of every second firing only; stamp's microseconds of the hour stand
+/// in its payload. Throws InternalError on an azimuth of 360 degrees or more.
 [[nodiscard]] Vlp16Packet encode_packet(Nanoseconds stamp, std::span<const Vlp16Firing, 24> firings);
 
-/// Packets of one message to a scan. Azimuths between blocks are interpolated as the manual says.
-/// vertical_offsets false gives the calibration of drivers before 2023 (all 0).
-/// Throws InputError on a packet with wrong flags, product id or return mode.
+/// Packets of one message to a scan. Azimuths between blocks are interpolated as the manual says (pages 55-59), over
+/// the last block with the step before it. Scan::stamp is the time of the last return slot (laser 15 of the last
+/// firing); points lie in L at the return's own time. vertical_offsets false gives the calibration of drivers before
+/// 2023 (all 0). Throws InputError on no packets or on a packet with wrong flags, product id or return mode (dual
+/// return is not in this version).
 [[nodiscard]] Scan decode_message(std::span<const Vlp16Packet> packets, bool vertical_offsets = true);
 
 }  // namespace plumbline::slam
