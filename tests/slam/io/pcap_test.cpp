@@ -60,6 +60,16 @@ TEST_F(PcapTest, GivesBackWhatWasWritten) {
   EXPECT_FALSE(fs::exists(file("a.pcap.part")));
 }
 
+TEST_F(PcapTest, ForeignStampsComeFromThePacketsOwnClockAcrossTheHour) {
+  std::vector<Vlp16Packet> packets = some_packets();
+  for (Vlp16Packet& packet : packets) packet.stamp += 77'123'456'789;  // arrival times of another clock
+  write_pcap(file("foreign.pcap"), packets);
+  const std::vector<Vlp16Packet> again = read_pcap(file("foreign.pcap"));
+  ASSERT_EQ(again.size(), packets.size());
+  for (std::size_t i = 0; i < again.size(); ++i)
+    EXPECT_NEAR(static_cast<double>(again[i].stamp), static_cast<double>(i) * 24 * 55296, 1'000.0);
+}
+
 TEST_F(PcapTest, ReadsTheCaptureOfARealSensor) {
   if (!fs::exists(sample())) GTEST_SKIP() << "no capture at " << sample();
   const std::vector<Vlp16Packet> packets = read_pcap(sample());
