@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "slam/rooms/free_space.h"
+
+namespace plumbline::slam {
+
+struct ClusterConfig {
+  double neck_ratio = 0.75;  ///< a passage splits two spaces where its clearance is below this share of the smaller's
+  double min_clearance_m = 0.45;  ///< of a cluster's widest place: rooms from 0.9 m width on
+  double min_area_m2 = 1.5;       ///< [facts: slam 4.1]
+
+  template <class V>
+  void visit(V& v) {
+    v("neck_ratio", neck_ratio,
+      Field{.doc = "clearance of a passage over that of a room it closes", .min = 0, .max = 1});
+    v("min_clearance_m", min_clearance_m, Field{.doc = "at a cluster's widest place", .min = 0});
+    v("min_area_m2", min_area_m2, Field{.doc = "of a cluster", .min = 0});
+  }
+};
+
+/// A stretch of free space between necks: a room, or a corridor.
+struct Cluster {
+  std::vector<std::size_t> cells;                      ///< ascending
+  std::vector<std::size_t> boundary;                   ///< cells with a 4-neighbour outside the cluster, ascending
+  Eigen::Vector2d center_M = Eigen::Vector2d::Zero();  ///< mean of the cells
+  double clearance_m = 0.0;                            ///< at the widest place
+  double area_m2 = 0.0;
+};
+
+/// Distance of every free cell to the nearest cell that is not free, m, exact on cell centres; 0 where not free.
+[[nodiscard]] std::vector<float> clearance(const FreeGrid& grid);
+
+/// Clusters of free space, in the order of their widest place (ties: lower cell). [S-Graphs+ Alg. 1] cuts at one fixed
+/// clearance and loses what is narrower than twice of it; here a passage cuts where it is narrow relative to the spaces
+/// it joins: cells are added by falling clearance, each hilltop opens a basin, and two basins that meet become one
+/// unless the pass between them lies below neck_ratio times the lower hilltop.
+[[nodiscard]] std::vector<Cluster> clusters(const FreeGrid& grid, const ClusterConfig& config);
+
+}  // namespace plumbline::slam

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/rooms/detect.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+namespace plumbline::slam {
+
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double rad = std::numbers::pi / 180.0;
+
+/// A wall face in plan: m.p + e = 0, m into free space, and the stretch [s0, s1] along `along`.
+struct Line {
+  int id = -1;
+  Vector2d m, along;
+  double e = 0.0, s0 = 0.0, s1 = 0.0;
+  double support = 0.0;  ///< m of the cluster's border on it
+
+  [[nodiscard]] double distance(const Vector2d& p) const { return m.dot(p) + e; }
+};
+
+Line make_line(const PlaneNode& wall) {
+  Line line;
+  line.id = wall.id;
+  const Vector2d xy = wall.plane_F.n.head<2>();
+  line.m = xy / xy.norm();
+  line.along = Vector2d(-line.m.y(), line.m.x());
+  // Through the middle of what was seen: a tilted plane's trace at z = 0 may lie elsewhere.
+  line.e = -line.m.dot(0.5 * (wall.p0 + wall.p1));
+  line.s0 = std::min(line.along.dot(wall.p0), line.along.dot(wall.p1));
+  line.s1 = std::max(line.along.dot(wall.p0), line.along.dot(wall.p1));
+  return line;
+}
+
+struct Pair {
+  Line a, b;
+  [[nodiscard]] double support() const { return a.support + b.support; }
+  [[nodiscard]] double width_at(const Vector2d& p) const { return a.distance(p) + b.distance(p); }
+  [[nodiscard]] Vector2d across() const { return (a.m - b.m).normalized(); }
+};
+
+/// Length of the cluster's border that lies on the wall, on its free side.
+double support_of(const Line& line, const FreeGrid& grid, const Cluster& cluster, const RoomConfig& config) {
+  const double cell = grid.frame.cell;
+  std::vector<bool> covered(static_cast<std::size_t>((line.s1 - line.s0) / cell) + 1, false);
+  for (const std::size_t k : cluster.boundary) {
+    const Vector2d p = grid.frame.center(k);
+    const double distance = line.distance(p);
+    if (distance < -config.slack_m || distance > config.reach_m) continue;
+    const double s = line.along.dot(p) - line.s0;
+    if (s < 0.0 || s > line.s1 - line.s0) continue;
+    covered[static_cast<std::size_t>(s / cell)] = true;
+  }
+  return cell * static_cast<double>(std::count(covered.begin(), covered.end(), true));
+}
+
+double share_between(const Pair& pair, const FreeGrid& grid, const Cluster& cluster, double slack) {
+  std::size_t inside = 0;
+  for (const std::size_t k : cluster.cells) {
+    const Vector2d p = grid.frame.center(k);
+    if (pair.a.distance(p) > -slack && pair.b.distance(p) > -slack) ++inside;
+  }
+  return static_cast<double>(inside) / static_cast<double>(cluster.cells.size());
+}
+
+/// One cluster and the wall faces its border lies on.
+struct Scene {
+  const FreeGrid& grid;
+  const Cluster& cluster;
+  const RoomConfig& config;
+  std::vector<Line> walls;
+};
+
+/// The best-supported opposed pair around the cluster, perpendicular to `axis` where one is given.
+std::optional<Pair> best_pair(const Scene& scene, const std::optional<Vector2d>& axis) {
+  const RoomConfig& config = scene.config;
+  std::optional<Pair> best;
+  for (std::size_t i = 0; i < scene.walls.size(); ++i)
+    for (std::size_t j = i + 1; j < scene.walls.size(); ++j) {
+      const Pair pair{scene.walls[i], scene.walls[j]};
+      if (best && pair.support() <= best->support()) continue;
+      if (pair.a.m.dot(pair.b.m) > -std::cos(config.opposed_deg * rad)) continue;
+      if (axis && std::abs(axis->dot(pair.across())) > std::sin(config.perpendicular_deg * rad)) continue;
+      if (pair.a.distance(scene.cluster.center_M) <= 0.0 || pair.b.distance(scene.cluster.center_M) <= 0.0) continue;
+      if (pair.width_at(scene.cluster.center_M) < config.min_width_m) continue;
+      if (share_between(pair, scene.grid, scene.cluster, config.slack_m) < config.inside_share) continue;
+      best = pair;
+    }
+  return best;
+}
+
+/// Free share of a polygon, counting the cluster's own cells only.
+double fill_of(const Polygon2& polygon, const FreeGrid& grid, const Cluster& cluster) {
+  std::size_t inside = 0;
+  for (const std::size_t k : cluster.cells)
+    if (contains(polygon, grid.frame.center(k))) ++inside;
+  return static_cast<double>(inside) * grid.frame.cell * grid.frame.cell / std::abs(signed_area(polygon));
+}
+
+Vector2d meet(const Line& a, const Line& b) {
+  Eigen::Matrix2d A;
+  A << a.m.transpose(), b.m.transpose();
+  return -(A.inverse() * Vector2d(a.e, b.e));
+}
+
+Polygon2 counter_clockwise(Polygon2 polygon) {
+  if (signed_area(polygon) < 0.0) std::reverse(polygon.begin(), polygon.end());
+  return polygon;
+}
+
+/// [S-Graphs+ eq. 4] and the enclosure test of section IV-C: each side must be seen along part of its length.
+std::optional<RoomCandidate> four_walls(const Scene& scene, const Pair& x, const Pair& y) {
+  RoomCandidate room;
+  room.kind = RoomKind::four_wall;
+  room.planes = {x.a.id, x.b.id, y.a.id, y.b.id};
+  room.polygon_M = counter_clockwise({meet(x.a, y.a), meet(x.b, y.a), meet(x.b, y.b), meet(x.a, y.b)});
+  room.center_M = 0.25 * (room.polygon_M[0] + room.polygon_M[1] + room.polygon_M[2] + room.polygon_M[3]);
+  room.cluster_M = scene.cluster.center_M;
+  const double wx = x.width_at(room.center_M), wy = y.width_at(room.center_M);
+  const double share = scene.config.min_side_share;
+  if (std::min(x.a.support, x.b.support) < share * wy || std::min(y.a.support, y.b.support) < share * wx) return {};
+  room.fill = fill_of(room.polygon_M, scene.grid, scene.cluster);
+  if (room.fill < scene.config.min_fill) return {};
+  return room;
+}
+
+/// [S-Graphs+ eq. 5, 6]: between the walls, along them as far as the cluster reaches.
+std::optional<RoomCandidate> two_walls(const Scene& scene, const Pair& pair) {
+  if (std::min(pair.a.support, pair.b.support) < scene.config.min_two_wall_m) return {};
+  const Vector2d n = pair.across();
+  const Vector2d t(-n.y(), n.x());
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const std::size_t k : scene.cluster.cells) {
+    const Vector2d p = scene.grid.frame.center(k);
+    if (pair.a.distance(p) < 0.0 || pair.b.distance(p) < 0.0) continue;
+    low = std::min(low, t.dot(p));
+    high = std::max(high, t.dot(p));
+  }
+  Line start, end;
+  start.m = t;
+  start.e = -(low - 0.5 * scene.grid.frame.cell);
+  end.m = -t;
+  end.e = high + 0.5 * scene.grid.frame.cell;
+  RoomCandidate room;
+  room.kind = RoomKind::two_wall;
+  room.planes = {pair.a.id, pair.b.id};
+  room.polygon_M = counter_clockwise({meet(pair.a, start), meet(pair.b, start), meet(pair.b, end), meet(pair.a, end)});
+  room.center_M = 0.25 * (room.polygon_M[0] + room.polygon_M[1] + room.polygon_M[2] + room.polygon_M[3]);
+  room.cluster_M = room.center_M;
+  room.fill = fill_of(room.polygon_M, scene.grid, scene.cluster);
+  if (room.fill < scene.config.min_fill) return {};
+  return room;
+}
+
+std::optional<RoomCandidate> room_of(const Scene& scene) {
+  const std::optional<Pair> x = best_pair(scene, std::nullopt);
+  if (!x) return {};
+  if (const std::optional<Pair> y = best_pair(scene, x->across())) {
+    if (std::optional<RoomCandidate> room = four_walls(scene, *x, *y)) return room;
+  }
+  return two_walls(scene, *x);
+}
+
+double overlap_of(const Polygon2& a, const Polygon2& b) {
+  return intersection_area(a, b) / std::min(std::abs(signed_area(a)), std::abs(signed_area(b)));
+}
+
+bool better(const RoomCandidate& a, const RoomCandidate& b) {
+  if (a.kind != b.kind) return a.kind == RoomKind::four_wall;
+  return a.fill > b.fill;
+}
+
+/// Of two rooms in one place keeps the better one (ties: the earlier).
+void drop_overlapping(std::vector<RoomCandidate>& rooms, double max_overlap) {
+  std::vector<bool> dropped(rooms.size(), false);
+  for (std::size_t i = 0; i < rooms.size(); ++i)
+    for (std::size_t j = i + 1; j < rooms.size(); ++j)
+      if (overlap_of(rooms[i].polygon_M, rooms[j].polygon_M) > max_overlap)
+        dropped[better(rooms[j], rooms[i]) ? i : j] = true;
+  std::vector<RoomCandidate> kept;
+  for (std::size_t i = 0; i < rooms.size(); ++i)
+    if (!dropped[i]) kept.push_back(std::move(rooms[i]));
+  rooms = std::move(kept);
+}
+
+}  // namespace
+
+std::vector<RoomCandidate> detect_rooms(const FreeGrid& grid, std::span<const Cluster> clusters,
+                                        std::span<const PlaneNode> walls_M, std::span<const Vector2d> visited_M,
+                                        const RoomConfig& config) {
+  std::vector<RoomCandidate> rooms;
+  for (const Cluster& cluster : clusters) {
+    Scene scene{grid, cluster, config, {}};
+    for (const PlaneNode& wall : walls_M) {
+      Line line = make_line(wall);
+      line.support = support_of(line, grid, cluster, config);
+      if (line.support >= config.min_support_m) scene.walls.push_back(line);
+    }
+    std::optional<RoomCandidate> room = room_of(scene);
+    if (!room) continue;
+    const bool visited = std::any_of(visited_M.begin(), visited_M.end(),
+                                     [&](const Vector2d& p) { return contains(room->polygon_M, p); });
+    if (visited) rooms.push_back(std::move(*room));
+  }
+  drop_overlapping(rooms, config.max_overlap);
+  return rooms;
+}
+
+std::vector<int> associate_rooms(std::span<const Polygon2> known_M, std::span<const RoomCandidate> candidates,
+                                 double overlap) {
+  struct Match {
+    double overlap;
+    std::size_t known, candidate;
+  };
+  std::vector<Match> matches;
+  for (std::size_t k = 0; k < known_M.size(); ++k)
+    for (std::size_t c = 0; c < candidates.size(); ++c) {
+      const double shared = overlap_of(known_M[k], candidates[c].polygon_M);
+      if (shared > overlap) matches.push_back({shared, k, c});
+    }
+  std::stable_sort(matches.begin(), matches.end(),
+                   [](const Match& a, const Match& b) { return a.overlap > b.overlap; });
+  std::vector<int> result(candidates.size(), -1);
+  std::vector<bool> taken(known_M.size(), false);
+  for (const Match& m : matches) {
+    if (taken[m.known] || result[m.candidate] >= 0) continue;
+    taken[m.known] = true;
+    result[m.candidate] = static_cast<int>(m.known);
+  }
+  return result;
+}
+
+}  // namespace plumbline::slam

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "bim/config/visit.h"
+#include "slam/odometry/motion.h"
+
+namespace plumbline::slam {
+
+struct FreeSpaceConfig {
+  double cell_m = 0.1;
+  double max_range_m = 12.0;      ///< beyond, rays of one azimuth step leave gaps wider than a cell
+  int azimuths = 720;             ///< rays kept of a scan
+  double height_low_m = 0.3;      ///< above the floor
+  double height_high_m = 1.8;     ///< below a door's lintel
+  double sensor_height_m = 0.66;  ///< above the floor, from the calibration
+  double island_area_m2 = 1.0;    ///< obstacles not joined to a wall and smaller than this do not shape rooms
+
+  template <class V>
+  void visit(V& v) {
+    v("cell_m", cell_m, Field{.doc = "of the free-space grid", .min = 0.02, .max = 0.5});
+    v("max_range_m", max_range_m, Field{.doc = "of a free ray", .min = 1});
+    v("azimuths", azimuths, Field{.doc = "free rays of a scan", .min = 90});
+    v("height_low_m", height_low_m, Field{.doc = "of a free ray's end, above the floor"});
+    v("height_high_m", height_high_m, Field{.doc = "of a free ray's end, above the floor"});
+    v("island_area_m2", island_area_m2, Field{.doc = "smaller free-standing obstacles are ignored", .min = 0});
+  }
+};
+
+/// Free space as one scan saw it: per azimuth the farthest return at robot height, so that low furniture is seen over.
+struct FreeRays {
+  Eigen::Vector3d origin_R = Eigen::Vector3d::Zero();
+  std::vector<Eigen::Vector3d> end_R;  ///< azimuths without a return in the band are left out
+  std::vector<bool> hit;               ///< false: cut at max_range_m
+};
+
+/// up_R: the vertical in R, unit.
+[[nodiscard]] FreeRays free_rays(const DeskewedScan& scan, const Eigen::Vector3d& up_R, const FreeSpaceConfig& config);
+
+/// Where a grid's cells lie in M: cell (i, j) covers origin + cell * [i, i + 1) x [j, j + 1).
+struct GridFrame {
+  Eigen::Vector2d origin_M = Eigen::Vector2d::Zero();
+  double cell = 0.1;
+  int nx = 0, ny = 0;
+
+  [[nodiscard]] std::size_t index(int i, int j) const {
+    return static_cast<std::size_t>(j) * static_cast<std::size_t>(nx) + static_cast<std::size_t>(i);
+  }
+  [[nodiscard]] std::size_t size() const { return static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny); }
+  [[nodiscard]] Eigen::Vector2d center(std::size_t index) const;
+  /// Index of the cell that holds p, or -1 outside.
+  [[nodiscard]] std::ptrdiff_t find(const Eigen::Vector2d& p_M) const;
+};
+
+/// Free or not, per cell; unknown counts as not free.
+struct FreeGrid {
+  GridFrame frame;
+  std::vector<std::uint8_t> free;
+};
+
+/// Counts, per cell of M's xy plane, rays that passed and rays that ended.
+class FreeSpaceMap {
+ public:
+  explicit FreeSpaceMap(const FreeSpaceConfig& config) : config_(config) { frame_.cell = config.cell_m; }
+
+  void carve(const FreeRays& rays, const Pose& X_MR);
+  void clear();
+  /// A cell is free when at least twice as many rays passed as ended there; small islands are filled.
+  [[nodiscard]] FreeGrid grid() const;
+
+ private:
+  void grow(const Eigen::Vector2d& low, const Eigen::Vector2d& high);
+
+  FreeSpaceConfig config_;
+  GridFrame frame_;
+  std::vector<std::uint32_t> passed_, ended_;
+};
+
+}  // namespace plumbline::slam

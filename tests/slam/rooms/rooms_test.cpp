@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "bim/random/stream.h"
+#include "slam/rooms/detect.h"
+#include "tests/slam/synthetic.h"
+
+namespace plumbline::slam {
+namespace {
+
+/// Grid of nx x ny cells of 0.1 m, free where the test says so.
+template <class Free>
+FreeGrid make_grid(int nx, int ny, Free free) {
+  FreeGrid grid{{{0.0, 0.0}, 0.1, nx, ny}, {}};
+  grid.free.resize(grid.frame.size());
+  for (std::size_t k = 0; k < grid.free.size(); ++k) grid.free[k] = free(grid.frame.center(k)) ? 1 : 0;
+  return grid;
+}
+
+bool in_box(const Eigen::Vector2d& p, double x0, double y0, double x1, double y1) {
+  return p.x() > x0 && p.x() < x1 && p.y() > y0 && p.y() < y1;
+}
+
+TEST(Clearance, IsTheDistanceToTheNearestObstacleOnRandomGrids) {
+  const Stream stream(1, "bim.generate");
+  for (std::uint64_t trial = 0; trial < 20; ++trial) {
+    FreeGrid grid = make_grid(23, 17, [](const auto&) { return true; });
+    for (std::size_t k = 0; k < grid.free.size(); ++k)
+      grid.free[k] = stream.uniform(trial, static_cast<std::uint32_t>(k)) < 0.95 ? 1 : 0;
+    const std::vector<float> fast = clearance(grid);
+    for (std::size_t k = 0; k < grid.free.size(); ++k) {
+      double slow = 1e9;
+      for (std::size_t o = 0; o < grid.free.size(); ++o)
+        if (grid.free[o] == 0) slow = std::min(slow, (grid.frame.center(k) - grid.frame.center(o)).norm());
+      EXPECT_NEAR(static_cast<double>(fast[k]), slow, 1e-5);  // float
+    }
+  }
+}
+
+TEST(Clusters, ADoorSplitsAndANarrowCorridorIsKept) {
+  // A room of 4 x 4 m, a door of 0.9 m, a corridor 1.4 m wide: the fixed threshold of 0.8 m would lose the corridor.
+  const FreeGrid grid = make_grid(80, 120, [](const auto& p) {
+    return in_box(p, 1, 1, 5, 5) || in_box(p, 5, 2.5, 5.2, 3.4) || in_box(p, 5.2, 1, 6.6, 11);
+  });
+  const std::vector<Cluster> found = clusters(grid, {});
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_NEAR(found[0].area_m2, 16.0, 0.8);
+  EXPECT_NEAR(found[1].area_m2, 14.0, 0.8);
+}
+
+TEST(Clusters, SmallIslandsDoNotSplitARoom) {
+  FreeSpaceMap map{FreeSpaceConfig{}};
+  // Rays from a walk round a column of 0.4 m in the middle of a 6 x 4 m room.
+  const auto column = [](const Eigen::Vector2d& p) { return in_box(p, -0.2, -0.2, 0.2, 0.2); };
+  for (int k = 0; k < 24; ++k) {
+    const double a = 2.0 * std::numbers::pi * k / 24.0;
+    FreeRays rays;
+    rays.origin_R = {2.0 * std::cos(a), 1.2 * std::sin(a), 0.0};
+    for (int r = 0; r < 720; ++r) {
+      const double b = std::numbers::pi * r / 360.0;
+      Eigen::Vector2d p = rays.origin_R.head<2>();
+      const Eigen::Vector2d step = 0.02 * Eigen::Vector2d(std::cos(b), std::sin(b));
+      while (in_box(p, -3, -2, 3, 2) && !column(p)) p += step;
+      rays.end_R.emplace_back(p.x(), p.y(), 0.0);
+      rays.hit.push_back(true);
+    }
+    map.carve(rays, Pose{});
+  }
+  const std::vector<Cluster> found = clusters(map.grid(), {});
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_NEAR(found[0].area_m2, 24.0, 1.5);  // half a cell along a border of 20 m
+}
+
+/// The inner faces of a house's rooms as mapped planes, moved by X_MW.
+std::vector<PlaneNode> wall_faces(const synthetic::House& house, const Pose& X_MW) {
+  std::vector<PlaneNode> faces;
+  for (const Polygon2& room : house.rooms)
+    for (std::size_t k = 0; k < room.size(); ++k) {
+      const Eigen::Vector2d a = room[k], b = room[(k + 1) % room.size()];
+      const Eigen::Vector2d inward = Eigen::Vector2d(-(b - a).y(), (b - a).x()).normalized();
+      PlaneNode face;
+      face.id = static_cast<int>(faces.size());
+      face.plane_F = X_MW * Plane{{inward.x(), inward.y(), 0.0}, -inward.dot(a)};
+      face.p0 = (X_MW * Eigen::Vector3d(a.x(), a.y(), 0)).head<2>();
+      face.p1 = (X_MW * Eigen::Vector3d(b.x(), b.y(), 0)).head<2>();
+      face.z1 = house.height_m;
+      faces.push_back(face);
+    }
+  return faces;
+}
+
+/// Standing scans every 1.5 s of a walk, with their true poses: the rooms stage alone is under test here.
+struct Look {
+  std::vector<DeskewedScan> scans;
+  std::vector<Pose> X_WR;
+};
+
+Look look(const synthetic::House& house, std::uint64_t seed, double duration_s) {
+  Look look;
+  synthetic::WalkConfig walk;
+  walk.seed = seed;
+  MotionBuffer still;
+  still.add(Odometry{});
+  for (double t = 0.0; t < duration_s; t += 1.5) {
+    look.X_WR.push_back(synthetic::walk_pose(synthetic::corridor_house_walk(), walk, t));
+    const Scan scan = synthetic::standing_scan(house, look.X_WR.back(), walk);
+    look.scans.push_back(deskew(scan, still, synthetic::calibration()));
+  }
+  return look;
+}
+
+struct Seen {
+  FreeSpaceMap map{FreeSpaceConfig{}};
+  std::vector<Eigen::Vector2d> visited_M;
+};
+
+Seen carve(const Look& look, const Pose& X_MW) {
+  Seen seen;
+  for (std::size_t k = 0; k < look.scans.size(); ++k) {
+    const Pose X_MR = X_MW * look.X_WR[k];
+    const Eigen::Vector3d up_R = X_MR.q.conjugate() * Eigen::Vector3d::UnitZ();
+    seen.map.carve(free_rays(look.scans[k], up_R, FreeSpaceConfig{}), X_MR);
+    seen.visited_M.emplace_back(X_MR.t.head<2>());
+  }
+  return seen;
+}
+
+double iou(const Polygon2& a, const Polygon2& b) {
+  const double shared = intersection_area(a, b);
+  return shared / (std::abs(signed_area(a)) + std::abs(signed_area(b)) - shared);
+}
+
+Polygon2 moved(const Polygon2& polygon_W, const Pose& X_MW) {
+  Polygon2 polygon_M;
+  for (const Eigen::Vector2d& p : polygon_W)
+    polygon_M.emplace_back((X_MW * Eigen::Vector3d(p.x(), p.y(), 0.0)).head<2>());
+  return polygon_M;
+}
+
+TEST(Rooms, FindsEveryRoomOfAHouseAndNoOtherAtAnyHeading) {
+  const synthetic::House house = synthetic::corridor_house();
+  const Look all = look(house, 1, 120.0);
+  for (const double yaw : {0.0, 0.4, -1.1}) {
+    const Pose X_MW = Pose::from_xyz_yaw({-3.0, 5.0, 0.0}, yaw);
+    const Seen seen = carve(all, X_MW);
+    const FreeGrid grid = seen.map.grid();
+    const std::vector<RoomCandidate> rooms =
+        detect_rooms(grid, clusters(grid, {}), wall_faces(house, X_MW), seen.visited_M, {});
+    EXPECT_EQ(rooms.size(), house.rooms.size()) << "yaw " << yaw;
+    for (const Polygon2& room_W : house.rooms) {
+      double best = 0.0;
+      for (const RoomCandidate& room : rooms) best = std::max(best, iou(room.polygon_M, moved(room_W, X_MW)));
+      // Walls are exact here, so a four-wall polygon is too; the corridor may be cut by its cluster's ends.
+      EXPECT_GT(best, 0.9) << "yaw " << yaw;
+    }
+  }
+}
+
+TEST(Rooms, AreNotClaimedBeforeTheyAreEntered) {
+  const synthetic::House house = synthetic::corridor_house();
+  const Seen seen = carve(look(house, 2, 12.0), Pose{});
+  const FreeGrid grid = seen.map.grid();
+  const std::vector<PlaneNode> walls = wall_faces(house, Pose{});
+  for (const RoomCandidate& room : detect_rooms(grid, clusters(grid, {}), walls, seen.visited_M, {})) {
+    int entered = 0;
+    for (const Eigen::Vector2d& p : seen.visited_M) entered += contains(room.polygon_M, p) ? 1 : 0;
+    EXPECT_GT(entered, 0);
+  }
+  const std::vector<Eigen::Vector2d> nowhere;
+  EXPECT_TRUE(detect_rooms(grid, clusters(grid, {}), walls, nowhere, {}).empty());
+}
+
+TEST(Rooms, AreFoundAgainByOverlap) {
+  const auto square = [](double x, double y) { return Polygon2{{x, y}, {x + 4, y}, {x + 4, y + 4}, {x, y + 4}}; };
+  std::vector<RoomCandidate> candidates(3);
+  candidates[0].polygon_M = square(10.2, 0.1);
+  candidates[1].polygon_M = square(30, 0);
+  candidates[2].polygon_M = square(0.1, 0);
+  const std::vector<Polygon2> known = {square(0, 0), square(10, 0)};
+  EXPECT_EQ(associate_rooms(known, candidates, 0.3), (std::vector<int>{1, -1, 0}));
+}
+
+}  // namespace
+}  // namespace plumbline::slam
