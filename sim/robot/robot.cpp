@@ -106,8 +106,7 @@ struct Robot::Impl {
   void check_physics() const {
     for (int i = 0; i < mjNWARNING; ++i)
       if (data->warning[i].number > 0)
-        throw InternalError(std::string("MuJoCo: ") +
-                            mju_warningText(i, data->warning[i].lastinfo));
+        throw InternalError(std::string("MuJoCo: ") + mju_warningText(i, data->warning[i].lastinfo));
   }
 
   void check_upright() const {
