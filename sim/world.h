@@ -19,8 +19,8 @@ struct WorldConfig {
   OdometryPreset odometry = OdometryPreset::noisy;
   int storey = 0;
   Eigen::Vector2d start_W = Eigen::Vector2d::Zero();
-  double start_yaw = 0.0;                   ///< rad
-  std::vector<Eigen::Vector2d> waypoints;   ///< the route, from the start on
+  double start_yaw = 0.0;                  ///< rad
+  std::vector<Eigen::Vector2d> waypoints;  ///< the route, from the start on
   double speed_mps = 0.6;
   double duration_s = 120.0;
 };
@@ -32,11 +32,11 @@ struct TruePose {
 
 /// Everything that happened up to and including one scan, since the previous one.
 struct WorldFrame {
-  std::vector<slam::Imu> imu;             ///< 250 Hz
-  std::vector<slam::Odometry> odometry;   ///< 100 Hz
-  std::vector<slam::Vlp16Packet> packets; ///< of this message
-  slam::Scan scan;                        ///< decoded from the packets
-  std::vector<TruePose> truth;            ///< 100 Hz and, last, at scan.stamp
+  std::vector<slam::Imu> imu;              ///< 250 Hz
+  std::vector<slam::Odometry> odometry;    ///< 100 Hz
+  std::vector<slam::Vlp16Packet> packets;  ///< of this message
+  slam::Scan scan;                         ///< decoded from the packets
+  std::vector<TruePose> truth;             ///< 100 Hz and, last, at scan.stamp
   ReturnLabels labels;
   std::uint64_t robot_digest = 0;
 };
