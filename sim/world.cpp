@@ -1,4 +1,165 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/world.h"
 
-#include "sim/route/route.h"
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "bim/digest/digest.h"
+#include "bim/errors.h"
+#include "bim/rays/scene.h"
+#include "sim/pose_track.h"
+#include "sim/robot/collision.h"
+#include "sim/robot/leg_odometry.h"
+#include "sim/robot/robot.h"
+#include "sim/route/follower.h"
+
+namespace plumbline::sim {
+
+namespace {
+
+using slam::Nanoseconds;
+
+constexpr int imu_every = 2;               ///< physics steps: 250 Hz
+constexpr int pose_every = 5;              ///< physics steps: 100 Hz, odometry and truth
+constexpr double start_clearance_m = 1.0;  ///< the floor is looked for below this height above the storey
+constexpr std::int64_t firings_per_message = slam::vlp16::firings_per_packet * slam::vlp16::packets_per_message;
+
+double elevation(const bim::Building& building, int storey) {
+  if (storey < 0 || static_cast<std::size_t>(storey) >= building.storeys.size())
+    throw InputError({}, "the building has no storey number " + std::to_string(storey));
+  return building.storeys[static_cast<std::size_t>(storey)].elevation_m;
+}
+
+Pose start_pose(const WorldConfig& config, double floor) {
+  return Pose::from_xyz_yaw({config.start_W.x(), config.start_W.y(), floor + start_clearance_m}, config.start_yaw);
+}
+
+FollowerConfig follower_config(const WorldConfig& config) {
+  FollowerConfig out;
+  out.speed_mps = config.speed_mps;
+  return out;
+}
+
+Nanoseconds nanoseconds(double seconds) { return std::llround(seconds * 1e9); }
+
+/// Time of the last return slot of the firing before `firing`.
+Nanoseconds end_of_firings(std::int64_t firing) {
+  return (firing - 1) * slam::vlp16::firing_period_ns + (slam::vlp16::rings - 1) * slam::vlp16::laser_period_ns;
+}
+
+/// Moves the records up to and including time t from the front of `pending` to `out`.
+template <class Record>
+void take_until(Nanoseconds t, std::vector<Record>& pending, std::vector<Record>& out) {
+  auto end = pending.begin();
+  while (end != pending.end() && end->stamp <= t) ++end;
+  out.assign(pending.begin(), end);
+  pending.erase(pending.begin(), end);
+}
+
+}  // namespace
+
+struct World::Impl {
+  Impl(const WorldConfig& config_in, const bim::Building& as_built, const bim::BuildingMesh& mesh)
+      : config(config_in),
+        floor(elevation(as_built, config.storey)),
+        scene(mesh),
+        lidar(config.lidar, config.rpm, config.seed, scene),
+        robot(
+            start_pose(config, floor), [z = floor](double, double, double) { return z; },
+            collision_boxes(as_built, config.storey)),
+        follower(follower_config(config), config.waypoints, config.seed),
+        sensors(config.odometry, config.seed),
+        legs(leg_odometry_config(config.odometry, config.seed)) {
+    record(0);
+  }
+
+  bool next(WorldFrame& frame) {
+    const std::int64_t end_firing = next_firing + firings_per_message;
+    const Nanoseconds stamp = end_of_firings(end_firing);
+    if (finished(stamp)) return false;
+    while (track.last_stamp() < stamp) step();
+
+    WorldFrame out;
+    take_until(stamp, imu, out.imu);
+    take_until(stamp, odometry, out.odometry);
+    take_until(stamp, truth, out.truth);
+    if (out.truth.empty() || out.truth.back().stamp < stamp) out.truth.push_back({stamp, track.at(stamp)});
+    scan(out);
+    if (out.scan.stamp != stamp) throw InternalError("the decoded scan does not end when its last laser fired");
+    out.robot_digest = Digest().add(robot.digest()).add(legs.X_OR()).value();
+    next_firing = end_firing;
+    track.forget_before(next_firing * slam::vlp16::firing_period_ns);
+    frame = std::move(out);
+    return true;
+  }
+
+  [[nodiscard]] bool finished(Nanoseconds stamp) const {
+    if (stamp > nanoseconds(config.duration_s)) return true;
+    return route_done_at && stamp > *route_done_at + nanoseconds(config.stand_s);
+  }
+
+  void step() {
+    const std::int64_t tick = robot.steps();
+    robot.step(follower.update(robot.X_WR(), tick));
+    if (config.waypoints.size() > 1 && follower.done() && !route_done_at) route_done_at = tick * Robot::step_ns;
+    record(tick + 1);
+  }
+
+  /// What the sensors and the scorer note at a physics step.
+  void record(std::int64_t tick) {
+    const Nanoseconds stamp = tick * Robot::step_ns;
+    const Pose X_WR = robot.X_WR();
+    const SensorReading reading = sensors.read(robot.proprioception(), tick);
+    if (tick > 0) legs.update(reading, 1e-9 * static_cast<double>(Robot::step_ns));
+    track.add(stamp, X_WR);
+    if (tick % imu_every == 0) imu.push_back({stamp, reading.gyro_R, reading.accelerometer_R});
+    if (tick % pose_every == 0) {
+      odometry.push_back({stamp, legs.X_OR()});
+      truth.push_back({stamp, X_WR});
+    }
+  }
+
+  void scan(WorldFrame& out) const {
+    std::vector<Pose> X_WL;
+    X_WL.reserve(static_cast<std::size_t>(firings_per_message));
+    for (std::int64_t i = 0; i < firings_per_message; ++i)
+      X_WL.push_back(track.at((next_firing + i) * slam::vlp16::firing_period_ns) * Robot::X_RL());
+    Sweep sweep = lidar.sweep(next_firing, X_WL);
+    out.packets = std::move(sweep.packets);
+    out.labels = std::move(sweep.labels);
+    out.scan = slam::decode_message(out.packets);
+  }
+
+  WorldConfig config;
+  double floor;
+  bim::RayScene scene;
+  Lidar lidar;
+  Robot robot;
+  Follower follower;
+  ProprioceptiveSensors sensors;
+  LegOdometry legs;
+
+  PoseTrack track;
+  std::vector<slam::Imu> imu;
+  std::vector<slam::Odometry> odometry;
+  std::vector<TruePose> truth;
+  std::int64_t next_firing = 0;
+  std::optional<Nanoseconds> route_done_at;
+};
+
+World::World(const WorldConfig& config, const bim::Building& as_built, const bim::BuildingMesh& mesh)
+    : impl_(std::make_unique<Impl>(config, as_built, mesh)) {}
+
+World::~World() = default;
+
+bool World::next(WorldFrame& frame) { return impl_->next(frame); }
+
+slam::Calibration World::calibration() {
+  slam::Calibration calibration;
+  calibration.X_RL = Robot::X_RL();
+  return calibration;
+}
+
+}  // namespace plumbline::sim

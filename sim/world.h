@@ -7,7 +7,7 @@
 #include "bim/building/building.h"
 #include "bim/mesh/mesh.h"
 #include "sim/lidar/lidar.h"
-#include "sim/robot/leg_odometry.h"
+#include "sim/robot/sensors.h"
 #include "slam/io/records.h"
 
 namespace plumbline::sim {
@@ -20,9 +20,10 @@ struct WorldConfig {
   int storey = 0;
   Eigen::Vector2d start_W = Eigen::Vector2d::Zero();
   double start_yaw = 0.0;                  ///< rad
-  std::vector<Eigen::Vector2d> waypoints;  ///< the route, from the start on
+  std::vector<Eigen::Vector2d> waypoints;  ///< the route, from the start on; fewer than two: stand all the time
   double speed_mps = 0.6;
   double duration_s = 120.0;
+  double stand_s = 1.0;  ///< after the end of the route
 };
 
 struct TruePose {
@@ -33,7 +34,7 @@ struct TruePose {
 /// Everything that happened up to and including one scan, since the previous one.
 struct WorldFrame {
   std::vector<slam::Imu> imu;              ///< 250 Hz
-  std::vector<slam::Odometry> odometry;    ///< 100 Hz
+  std::vector<slam::Odometry> odometry;    ///< 100 Hz; O is the robot's pose at time 0
   std::vector<slam::Vlp16Packet> packets;  ///< of this message
   slam::Scan scan;                         ///< decoded from the packets
   std::vector<TruePose> truth;             ///< 100 Hz and, last, at scan.stamp
@@ -41,10 +42,11 @@ struct WorldFrame {
   std::uint64_t robot_digest = 0;
 };
 
-/// The simulated world: route, gait, physics, sensors. Same config, same frames, bit for bit.
+/// The simulated world: route, gait, physics, sensors. Same config, same frames, bit for bit. The LiDAR does not see
+/// the robot itself.
 class World {
  public:
-  /// mesh is that of as_built; both must outlive the world.
+  /// mesh is that of as_built; both must outlive the world. Throws InputError when the storey does not exist.
   World(const WorldConfig& config, const bim::Building& as_built, const bim::BuildingMesh& mesh);
   ~World();
 
