@@ -2,31 +2,58 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <string>
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "bim/building/building.h"
+#include "sim/route/grid.h"
 
 namespace plumbline::sim {
 
-/// 2D free space of one storey of the as-built building at robot height, eroded by the robot's radius.
+struct RouteConfig {
+  double radius_m = 0.40;  ///< of the robot seen from above, turning included
+  double cell_m = 0.05;
+  double band_low_m = 0.05;     ///< what ends below this above the floor is stepped over
+  double band_high_m = 1.0;     ///< what begins above this is walked under
+  double sill_max_m = 0.05;     ///< openings with a higher sill are not passed
+  double head_min_m = 1.2;      ///< nor those with a lower head
+  double comfort_m = 0.8;       ///< more clearance than this is worth no detour
+  double shortcut_m = 0.6;      ///< straight lines pass walls nearer than this only where the way around did too
+  double crowding = 3.0;        ///< a metre at `radius` clearance counts as 1 + this many at `comfort`
+  double floor_below_m = 0.35;  ///< a slab's top this far below the storey (floor covering) still carries it
+  double floor_gap_m = 0.3;     ///< gaps in the floor up to twice this (between slabs, under walls) are stepped over
+};
+
+/// Where a robot's centre can be on one storey of the as-built building. Walls stand where they are not opened by a
+/// passable door or void; columns, obstacles and edges of the floor count as walls.
 class FreeSpace {
  public:
-  FreeSpace(const bim::Building& as_built, int storey, double radius_m = 0.40, double cell_m = 0.05);
+  /// Throws InputError when the storey is too large for a grid of this cell size (2^24 cells).
+  FreeSpace(const bim::Building& as_built, int storey, const RouteConfig& config = {});
 
+  /// Clearance of at least the radius, to half a cell.
   [[nodiscard]] bool free(const Eigen::Vector2d& p) const;
-  /// Distance to the nearest obstacle, m (0 in a wall).
+  /// Distance to the nearest obstacle or edge of the floor, m; 0 inside one and off the grid.
   [[nodiscard]] double clearance(const Eigen::Vector2d& p) const;
-  /// Shortest path that keeps clear of walls, as few waypoints as that allows; empty when b cannot be reached from a.
+  /// Short path from a to b that keeps the radius clear and to the middle of narrow places, as few waypoints as that
+  /// allows, a and b included; empty when b cannot be reached from a.
   [[nodiscard]] std::vector<Eigen::Vector2d> path(const Eigen::Vector2d& a, const Eigen::Vector2d& b) const;
   /// The free point of a room with the most clearance (ties: lowest cell), or none.
   [[nodiscard]] std::vector<Eigen::Vector2d> room_target(const Polygon2& room) const;
 
  private:
-  Eigen::Vector2d origin_;
-  int nx_ = 0, ny_ = 0;
-  double cell_ = 0.05, radius_ = 0.4;
-  std::vector<float> clearance_;
+  [[nodiscard]] double clearance_min() const { return config_.radius_m - 0.5 * config_.cell_m; }
+  [[nodiscard]] bool passable(std::size_t cell) const { return clearance_[cell] >= clearance_min(); }
+  /// Cost of a tenth of a cell walked in a cell.
+  [[nodiscard]] std::int64_t step_cost(std::size_t cell) const;
+  [[nodiscard]] std::vector<std::size_t> search(std::size_t from, std::size_t to) const;
+  [[nodiscard]] bool clear_line(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double clearance_m) const;
+  [[nodiscard]] std::vector<Eigen::Vector2d> shortened(const std::vector<Eigen::Vector2d>& points) const;
+
+  RouteConfig config_;
+  Grid grid_;
+  std::vector<double> clearance_;  ///< by cell, at its centre
 };
 
 }  // namespace plumbline::sim

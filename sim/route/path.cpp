@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <functional>
+#include <limits>
+#include <queue>
+#include <utility>
+
+#include "sim/route/route.h"
+
+namespace plumbline::sim {
+
+namespace {
+
+constexpr std::int64_t unit_cost = 100;      // of a tenth of a cell at comfortable clearance
+constexpr std::int64_t straight_steps = 10;  // lengths of steps: 10 and 14, near 1 : sqrt 2
+constexpr std::int64_t diagonal_steps = 14;
+
+struct Step {
+  int dx = 0;
+  int dy = 0;
+  std::int64_t length = 0;
+};
+
+constexpr std::array<Step, 8> steps = {{{1, 0, straight_steps},
+                                        {0, 1, straight_steps},
+                                        {-1, 0, straight_steps},
+                                        {0, -1, straight_steps},
+                                        {1, 1, diagonal_steps},
+                                        {-1, 1, diagonal_steps},
+                                        {-1, -1, diagonal_steps},
+                                        {1, -1, diagonal_steps}}};
+
+/// Cost of the way over open ground, never above the true one.
+std::int64_t open_ground_cost(const Grid& grid, std::size_t from, std::size_t to) {
+  const std::int64_t dx = std::abs(grid.ix(from) - grid.ix(to));
+  const std::int64_t dy = std::abs(grid.iy(from) - grid.iy(to));
+  return unit_cost * (straight_steps * (std::max(dx, dy) - std::min(dx, dy)) + diagonal_steps * std::min(dx, dy));
+}
+
+}  // namespace
+
+std::int64_t FreeSpace::step_cost(std::size_t cell) const {
+  const double crowded = (config_.comfort_m - clearance_[cell]) / (config_.comfort_m - config_.radius_m);
+  return unit_cost +
+         static_cast<std::int64_t>(static_cast<double>(unit_cost) * config_.crowding * std::max(0.0, crowded));
+}
+
+/// A*: integer costs; of equal costs the cell with the lowest index goes first, and the first way found stays.
+std::vector<std::size_t> FreeSpace::search(std::size_t from, std::size_t to) const {
+  constexpr std::int64_t unknown = std::numeric_limits<std::int64_t>::max();
+  using Entry = std::pair<std::int64_t, std::size_t>;
+  std::vector<std::int64_t> cost(grid_.size(), unknown);
+  std::vector<std::size_t> before(grid_.size(), grid_.size());
+  std::vector<char> done(grid_.size(), 0);
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
+  cost[from] = 0;
+  open.emplace(open_ground_cost(grid_, from, to), from);
+  while (!open.empty() && done[to] == 0) {
+    const std::size_t cell = open.top().second;
+    open.pop();
+    if (done[cell] != 0) continue;
+    done[cell] = 1;
+    for (const Step& step : steps) {
+      const int x = grid_.ix(cell) + step.dx;
+      const int y = grid_.iy(cell) + step.dy;
+      if (!grid_.holds(x, y) || !passable(grid_.index(x, y))) continue;
+      const std::size_t next = grid_.index(x, y);
+      const std::int64_t reached = cost[cell] + step.length * step_cost(next);
+      if (reached >= cost[next]) continue;
+      cost[next] = reached;
+      before[next] = cell;
+      open.emplace(reached + open_ground_cost(grid_, next, to), next);
+    }
+  }
+  if (done[to] == 0) return {};
+  std::vector<std::size_t> cells = {to};
+  while (cells.back() != from) cells.push_back(before[cells.back()]);
+  std::reverse(cells.begin(), cells.end());
+  return cells;
+}
+
+bool FreeSpace::clear_line(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double clearance_m) const {
+  const int count = 1 + static_cast<int>(2.0 * (b - a).norm() / grid_.cell);
+  for (int i = 0; i <= count; ++i)
+    if (clearance(a + (b - a) * (static_cast<double>(i) / count)) < clearance_m) return false;
+  return true;
+}
+
+/// Leaves out points as long as the straight line keeps the clearance that the way around them had, or enough.
+std::vector<Eigen::Vector2d> FreeSpace::shortened(const std::vector<Eigen::Vector2d>& points) const {
+  const double slack = 0.25 * config_.cell_m;  // a line off the cells' centres is a little nearer to a wall
+  std::vector<Eigen::Vector2d> kept = {points.front()};
+  std::size_t from = 0;
+  while (from + 1 < points.size()) {
+    double narrowest = std::min(clearance(points[from]), clearance(points[from + 1]));
+    std::size_t to = from + 1;
+    while (to + 1 < points.size()) {
+      narrowest = std::min(narrowest, clearance(points[to + 1]));
+      const double wanted = std::max(clearance_min(), std::min(narrowest - slack, config_.shortcut_m));
+      if (!clear_line(points[from], points[to + 1], wanted)) break;
+      ++to;
+    }
+    kept.push_back(points[to]);
+    from = to;
+  }
+  return kept;
+}
+
+std::vector<Eigen::Vector2d> FreeSpace::path(const Eigen::Vector2d& a, const Eigen::Vector2d& b) const {
+  const auto from = grid_.cell_at(a);
+  const auto to = grid_.cell_at(b);
+  if (!from || !to || !passable(*from) || !passable(*to)) return {};
+  const std::vector<std::size_t> cells = search(*from, *to);
+  if (cells.empty()) return {};
+  std::vector<Eigen::Vector2d> points = {a};
+  for (std::size_t i = 1; i + 1 < cells.size(); ++i) points.push_back(grid_.center(cells[i]));
+  points.push_back(b);
+  return shortened(points);
+}
+
+}  // namespace plumbline::sim

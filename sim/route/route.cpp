@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/route/route.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <optional>
+#include <string>
+
+#include "bim/errors.h"
+#include "sim/route/blockage.h"
+#include "sim/route/clearance.h"
+
+namespace plumbline::sim {
+
+namespace {
+
+constexpr double margin_m = 1.0;            // around the rooms: their walls, and a step outside
+constexpr double cells_max = 16'777'216.0;  // 2^24, 200 m x 200 m of 5 cm cells
+
+/// Grid over the rooms of a storey, or over its walls where there are no rooms.
+Grid make_grid(const bim::Building& building, int storey, double cell) {
+  Eigen::AlignedBox2d box;
+  for (const bim::Room& room : building.rooms)
+    if (room.storey == storey)
+      for (const Eigen::Vector2d& p : room.polygon) box.extend(p);
+  if (box.isEmpty()) {
+    for (const bim::Wall& wall : building.walls)
+      if (wall.storey == storey) box.extend(wall.a).extend(wall.b);
+  }
+  if (box.isEmpty()) return {};
+  const Eigen::Vector2d cells = ((box.sizes().array() + 2.0 * margin_m) / cell).ceil();
+  if (!(cells.prod() <= cells_max))
+    throw InputError({}, "storey '" + building.storeys[static_cast<std::size_t>(storey)].id +
+                             "' is too large to plan a route on; at most 200 m by 200 m would be right");
+  return {box.min() - Eigen::Vector2d::Constant(margin_m), cell, static_cast<int>(cells.x()),
+          static_cast<int>(cells.y())};
+}
+
+}  // namespace
+
+FreeSpace::FreeSpace(const bim::Building& as_built, int storey, const RouteConfig& config) : config_(config) {
+  const double floor_z = as_built.storeys.at(static_cast<std::size_t>(storey)).elevation_m;
+  grid_ = make_grid(as_built, storey, config.cell_m);
+  clearance_ =
+      clearances(grid_, find_blockages(as_built, floor_z, config), floor_cells(as_built, storey, grid_, config));
+}
+
+double FreeSpace::clearance(const Eigen::Vector2d& p) const {
+  if (!grid_.cell_at(p)) return 0.0;
+  // Between the centres of the four cells around p.
+  const Eigen::Vector2d g = (p - grid_.origin) / grid_.cell - Eigen::Vector2d::Constant(0.5);
+  const int ix = std::clamp(static_cast<int>(std::floor(g.x())), 0, std::max(0, grid_.nx - 2));
+  const int iy = std::clamp(static_cast<int>(std::floor(g.y())), 0, std::max(0, grid_.ny - 2));
+  const double u = std::clamp(g.x() - ix, 0.0, 1.0);
+  const double v = std::clamp(g.y() - iy, 0.0, 1.0);
+  const auto at = [&](int jx, int jy) {
+    return clearance_[grid_.index(std::min(jx, grid_.nx - 1), std::min(jy, grid_.ny - 1))];
+  };
+  return (1.0 - v) * ((1.0 - u) * at(ix, iy) + u * at(ix + 1, iy)) +
+         v * ((1.0 - u) * at(ix, iy + 1) + u * at(ix + 1, iy + 1));
+}
+
+bool FreeSpace::free(const Eigen::Vector2d& p) const { return clearance(p) >= clearance_min(); }
+
+std::vector<Eigen::Vector2d> FreeSpace::room_target(const Polygon2& room) const {
+  std::optional<std::size_t> best;
+  for (std::size_t cell = 0; cell < clearance_.size(); ++cell) {
+    if (!passable(cell) || (best && clearance_[cell] <= clearance_[*best])) continue;
+    if (contains(room, grid_.center(cell))) best = cell;
+  }
+  if (!best) return {};
+  return {grid_.center(*best)};
+}
+
+}  // namespace plumbline::sim

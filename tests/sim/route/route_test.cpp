@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/route/route.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "bim/random/stream.h"
+#include "tests/sim/route/floor_plan.h"
+
+namespace plumbline::sim {
+namespace {
+
+const Eigen::Vector2d west(2.0, 2.5);
+const Eigen::Vector2d east(6.0, 2.5);
+
+/// Least distance of a path to the walls (with their doors cut out), columns and obstacles of two_rooms and the like:
+/// sampled every 5 mm, against the rectangles themselves.
+double least_clearance(const std::vector<Eigen::Vector2d>& path, const std::vector<Polygon2>& solids) {
+  double least = 1e9;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const int count = 1 + static_cast<int>((path[i] - path[i - 1]).norm() / 0.005);
+    for (int k = 0; k <= count; ++k) {
+      const Eigen::Vector2d p = path[i - 1] + (path[i] - path[i - 1]) * (static_cast<double>(k) / count);
+      for (const Polygon2& solid : solids)
+        least = std::min(least, contains(solid, p) ? 0.0 : boundary_distance(solid, p));
+    }
+  }
+  return least;
+}
+
+/// The wall at x = 4 with an opening from y0 to y1, and the walls around.
+std::vector<Polygon2> solids_of_two_rooms(double y0, double y1) {
+  return {rectangle({3.9, 0}, {4.1, y0}),     rectangle({3.9, y1}, {4.1, 5}),   rectangle({-0.1, -0.1}, {8.1, 0.1}),
+          rectangle({-0.1, 4.9}, {8.1, 5.1}), rectangle({-0.1, 0}, {0.1, 5.0}), rectangle({7.9, 0}, {8.1, 5.0})};
+}
+
+TEST(FreeSpace, WalksThroughTheMiddleOfADoor) {
+  bim::Building building = two_rooms();
+  add_door(building, 0, 1.2, 1.0);
+  const FreeSpace space(building, 0);
+  const std::vector<Eigen::Vector2d> path = space.path(west, east);
+  ASSERT_GE(path.size(), 3U);
+  EXPECT_LE(path.size(), 6U);
+  EXPECT_EQ(path.front(), west);
+  EXPECT_EQ(path.back(), east);
+  // Half a cell of planning and half a cell of bilinear clearance.
+  EXPECT_GE(least_clearance(path, solids_of_two_rooms(0.7, 1.7)), 0.40 - 0.05);
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    if ((path[i - 1].x() < 4.0) == (path[i].x() < 4.0)) continue;
+    const double s = (4.0 - path[i - 1].x()) / (path[i].x() - path[i - 1].x());
+    EXPECT_NEAR(path[i - 1].y() + s * (path[i].y() - path[i - 1].y()), 1.2, 0.06);
+  }
+}
+
+TEST(FreeSpace, StraightLineStaysOneLeg) {
+  const FreeSpace space(two_rooms(), 0);
+  EXPECT_EQ(space.path({1.0, 1.0}, {3.0, 4.0}).size(), 2U);
+  EXPECT_EQ(space.path(west, west).size(), 2U);
+}
+
+TEST(FreeSpace, OnlyPassableOpeningsArePassed) {
+  const auto reached = [](auto&& change) {
+    bim::Building building = two_rooms();
+    change(add_door(building, 0, 2.5, 1.0));
+    return !FreeSpace(building, 0).path(west, east).empty();
+  };
+  using bim::Leaf;
+  using bim::OpeningKind;
+  EXPECT_TRUE(reached([](bim::Opening&) {}));
+  EXPECT_TRUE(reached([](bim::Opening& o) { o.leaf = Leaf::none; }));
+  EXPECT_FALSE(reached([](bim::Opening& o) { o.leaf = Leaf::closed; }));
+  EXPECT_FALSE(reached([](bim::Opening& o) { o.kind = OpeningKind::window; }));
+  EXPECT_TRUE(reached([](bim::Opening& o) { o.kind = OpeningKind::opening_void; }));
+  EXPECT_TRUE(reached([](bim::Opening& o) { o.z0_m = 0.04; }));
+  EXPECT_FALSE(reached([](bim::Opening& o) { o.z0_m = 0.10; }));
+  EXPECT_FALSE(reached([](bim::Opening& o) { o.z1_m = 1.1; }));
+  EXPECT_FALSE(reached([](bim::Opening& o) { o.width_m = 0.7; }));
+}
+
+TEST(FreeSpace, DoorsAsWideAsTheRobotArePassedWhereverTheyLieOnTheGrid) {
+  const Stream stream(1, "bim.generate");
+  for (std::uint64_t i = 0; i < 40; ++i) {
+    bim::Building building = two_rooms();
+    const double s = 0.8 + 3.4 * stream.uniform(i);
+    add_door(building, 0, s, 0.80);
+    const std::vector<Eigen::Vector2d> path = FreeSpace(building, 0).path(west, east);
+    ASSERT_FALSE(path.empty()) << "door at " << s;
+    EXPECT_GE(least_clearance(path, solids_of_two_rooms(s - 0.4, s + 0.4)), 0.40 - 0.05);
+  }
+}
+
+TEST(FreeSpace, ClearanceIsTheDistanceToTheNearestSolid) {
+  bim::Building building = two_rooms();
+  add_door(building, 0, 3.0, 1.0);
+  const Polygon2 turned = {{1.0, 1.0}, {1.6, 1.3}, {1.4, 1.7}, {0.8, 1.4}};
+  add_obstacle(building, turned, 0.0, 0.8);
+  bim::Column column;
+  column.storey = 0;
+  column.footprint = rectangle({6.3, 1.2}, {6.7, 1.6});
+  building.columns.push_back(column);
+  std::vector<Polygon2> solids = solids_of_two_rooms(2.5, 3.5);
+  solids.push_back(turned);
+  solids.push_back(column.footprint);
+  const FreeSpace space(building, 0);
+  const Stream stream(2, "bim.generate");
+  for (std::uint64_t i = 0; i < 4000; ++i) {
+    const Eigen::Vector2d p(0.1 + 7.8 * stream.uniform(i, 0), 0.1 + 4.8 * stream.uniform(i, 1));
+    double expected = 1e9;
+    for (const Polygon2& solid : solids)
+      expected = std::min(expected, contains(solid, p) ? 0.0 : boundary_distance(solid, p));
+    // Bilinear between exact values at most 0.035 m away, at an edge of a solid at worst.
+    EXPECT_NEAR(space.clearance(p), expected, 0.035) << p.transpose();
+  }
+  EXPECT_EQ(space.clearance({100.0, 0.0}), 0.0);
+  EXPECT_FALSE(space.free({4.0, 1.0}));
+}
+
+TEST(FreeSpace, OnlyWhatIsAtTheRobotsHeightIsInTheWay) {
+  const auto free_at = [](double z0, double z1) {
+    bim::Building building = two_rooms(6.0);
+    add_obstacle(building, rectangle({1.5, 2.0}, {2.5, 3.0}), 6.0 + z0, 6.0 + z1);
+    return FreeSpace(building, 0).free(west);
+  };
+  EXPECT_TRUE(free_at(0.0, 0.04));
+  EXPECT_FALSE(free_at(0.0, 0.06));
+  EXPECT_FALSE(free_at(0.3, 0.5));
+  EXPECT_FALSE(free_at(0.9, 2.0));
+  EXPECT_TRUE(free_at(1.1, 2.0));
+  EXPECT_TRUE(free_at(-2.0, -0.5));
+}
+
+TEST(FreeSpace, BigSolidsAreNotFreeInside) {
+  bim::Building building = two_rooms();
+  add_obstacle(building, rectangle({0.8, 1.0}, {3.2, 4.0}), 0.0, 2.0);
+  const FreeSpace space(building, 0);
+  EXPECT_EQ(space.clearance(west), 0.0);
+  EXPECT_TRUE(space.path(west, {0.5, 2.5}).empty());
+}
+
+TEST(FreeSpace, HolesInTheFloorAreWalkedAround) {
+  bim::Building building = two_rooms();
+  building.slabs[0].polygon.holes.push_back({{1.5, 1.5}, {1.5, 3.5}, {2.5, 3.5}, {2.5, 1.5}});
+  const FreeSpace space(building, 0);
+  EXPECT_FALSE(space.free(west));
+  const std::vector<Eigen::Vector2d> path = space.path({0.8, 2.5}, {3.2, 2.5});
+  ASSERT_GE(path.size(), 3U);
+  EXPECT_GE(least_clearance(path, {rectangle({1.5, 1.5}, {2.5, 3.5})}), 0.40 - 0.05);
+}
+
+TEST(FreeSpace, GapsBetweenSlabsUnderADoorAreSteppedOver) {
+  bim::Building building = two_rooms();
+  add_door(building, 0, 2.5, 1.0);
+  building.slabs[0].polygon.outer = rectangle({0.0, 0.0}, {3.8, 5.0});
+  building.slabs.push_back(building.slabs[0]);
+  building.slabs[1].polygon.outer = rectangle({4.2, 0.0}, {8.0, 5.0});
+  EXPECT_FALSE(FreeSpace(building, 0).path(west, east).empty());
+  building.slabs[1].polygon.outer = rectangle({5.0, 0.0}, {8.0, 5.0});
+  EXPECT_TRUE(FreeSpace(building, 0).path(west, east).empty());
+}
+
+TEST(FreeSpace, WallsWithABodyAreAsGoodAsBoxes) {
+  bim::Building boxes = two_rooms();
+  add_door(boxes, 0, 1.7, 0.9);
+  bim::Building bodies = boxes;
+  for (bim::Wall& wall : bodies.walls) {
+    const Eigen::Vector2d near = wall.offset_m * wall.left();
+    const Eigen::Vector2d far = (wall.offset_m + wall.thickness_m) * wall.left();
+    wall.body = prism({wall.a + near, wall.b + near, wall.b + far, wall.a + far}, 0.0, 3.0);
+  }
+  const FreeSpace a(boxes, 0);
+  const FreeSpace b(bodies, 0);
+  const Stream stream(3, "bim.generate");
+  for (std::uint64_t i = 0; i < 2000; ++i) {
+    const Eigen::Vector2d p(8.0 * stream.uniform(i, 0), 5.0 * stream.uniform(i, 1));
+    EXPECT_NEAR(a.clearance(p), b.clearance(p), 1e-12) << p.transpose();
+  }
+  EXPECT_EQ(a.path(west, east), b.path(west, east));
+}
+
+TEST(FreeSpace, TargetOfARoomIsItsFreestPoint) {
+  bim::Building building = two_rooms();
+  const FreeSpace space(building, 0);
+  const auto target = space.room_target(building.rooms[0].polygon);
+  ASSERT_EQ(target.size(), 1U);
+  EXPECT_TRUE(contains(building.rooms[0].polygon, target[0]));
+  EXPECT_NEAR(space.clearance(target[0]), 1.9, 0.03);
+  add_obstacle(building, rectangle({0.0, 0.0}, {4.0, 5.0}), 0.0, 1.0);
+  EXPECT_TRUE(FreeSpace(building, 0).room_target(building.rooms[0].polygon).empty());
+}
+
+TEST(FreeSpace, UnreachableOrOccupiedEndsGiveNoPath) {
+  const FreeSpace space(two_rooms(), 0);
+  EXPECT_TRUE(space.path(west, east).empty());
+  EXPECT_TRUE(space.path(west, {4.0, 2.5}).empty());
+  EXPECT_TRUE(space.path({0.2, 2.5}, west).empty());
+  EXPECT_TRUE(space.path(west, {1000.0, 0.0}).empty());
+  EXPECT_TRUE(space.path(west, {std::nan(""), 0.0}).empty());
+}
+
+}  // namespace
+}  // namespace plumbline::sim
