@@ -3,32 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
+
+#include "sim/robot/solid_boxes.h"
 
 namespace plumbline::sim {
 
 namespace {
 
-struct Interval {
-  double from = 0.0;
-  double to = 0.0;
-};
-
 /// Heights a robot on the storey can touch, in W.
-Interval touchable(const bim::Building& building, int storey, const CollisionConfig& config) {
+HeightRange touchable(const bim::Building& building, int storey, const CollisionConfig& config) {
   const double floor = building.storeys.at(static_cast<std::size_t>(storey)).elevation_m;
   return {floor + config.floor_gap_m, floor + config.reach_m};
-}
-
-bool overlap(const Interval& a, const Interval& b) { return a.from < b.to && b.from < a.to; }
-
-/// Rectangle with a height, its x axis along `yaw`.
-CollisionBox upright_box(const Eigen::Vector2d& center, double yaw, const Eigen::Vector2d& half, const Interval& z) {
-  CollisionBox box;
-  box.X_WB = Pose::from_xyz_yaw({center.x(), center.y(), 0.5 * (z.from + z.to)}, yaw);
-  box.half = {half.x(), half.y(), 0.5 * (z.to - z.from)};
-  return box;
 }
 
 /// A closed leaf fills its opening.
@@ -55,12 +41,13 @@ std::vector<double> wall_cuts(const bim::Wall& wall, const std::vector<const bim
 }
 
 /// Heights of the wall that are solid at s: the wall's own, minus every opening there.
-std::vector<Interval> solid_heights(const bim::Wall& wall, const std::vector<const bim::Opening*>& openings, double s) {
-  std::vector<Interval> solid = {{wall.z0_m, wall.z1_m}};
+std::vector<HeightRange> solid_heights(const bim::Wall& wall, const std::vector<const bim::Opening*>& openings,
+                                       double s) {
+  std::vector<HeightRange> solid = {{wall.z0_m, wall.z1_m}};
   for (const bim::Opening* o : openings) {
     if (std::abs(s - o->s_m) >= 0.5 * o->width_m) continue;
-    std::vector<Interval> rest;
-    for (const Interval& z : solid) {
+    std::vector<HeightRange> rest;
+    for (const HeightRange& z : solid) {
       if (o->z0_m > z.from) rest.push_back({z.from, std::min(z.to, o->z0_m)});
       if (o->z1_m < z.to) rest.push_back({std::max(z.from, o->z1_m), z.to});
     }
@@ -69,7 +56,7 @@ std::vector<Interval> solid_heights(const bim::Wall& wall, const std::vector<con
   return solid;
 }
 
-void add_wall(const bim::Building& building, int index, const Interval& reach, const CollisionConfig& config,
+void add_wall(const bim::Building& building, int index, const HeightRange& reach, const CollisionConfig& config,
               std::vector<CollisionBox>& boxes) {
   const bim::Wall& wall = building.walls[static_cast<std::size_t>(index)];
   std::vector<const bim::Opening*> openings;
@@ -82,53 +69,11 @@ void add_wall(const bim::Building& building, int index, const Interval& reach, c
   for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
     const double s = 0.5 * (cuts[i] + cuts[i + 1]);
     const Eigen::Vector2d center = wall.a + s * e + across * wall.left();
-    for (const Interval& z : solid_heights(wall, openings, s))
+    for (const HeightRange& z : solid_heights(wall, openings, s))
       if (overlap(z, reach))
         boxes.push_back(
             upright_box(center, std::atan2(e.y(), e.x()), {0.5 * (cuts[i + 1] - cuts[i]), 0.5 * wall.thickness_m}, z));
   }
-}
-
-/// The smallest of the bounding rectangles along `directions` (ties: the first).
-CollisionBox bounding_box(const std::vector<Eigen::Vector2d>& points, const std::vector<double>& directions,
-                          const Interval& z) {
-  CollisionBox best;
-  double best_area = -1.0;
-  for (const double yaw : directions) {
-    const Eigen::Vector2d ex(std::cos(yaw), std::sin(yaw));
-    const Eigen::Vector2d ey(-ex.y(), ex.x());
-    Eigen::Vector2d low(ex.dot(points[0]), ey.dot(points[0]));
-    Eigen::Vector2d high = low;
-    for (const Eigen::Vector2d& p : points) {
-      const Eigen::Vector2d local(ex.dot(p), ey.dot(p));
-      low = low.cwiseMin(local);
-      high = high.cwiseMax(local);
-    }
-    const double area = (high - low).prod();
-    if (best_area >= 0.0 && area >= best_area - 1e-9) continue;
-    best_area = area;
-    const Eigen::Vector2d mid = 0.5 * (low + high);
-    best = upright_box(mid.x() * ex + mid.y() * ey, yaw, 0.5 * (high - low), z);
-  }
-  return best;
-}
-
-void add_outline(const std::vector<Eigen::Vector2d>& points, const Interval& z, std::vector<CollisionBox>& boxes) {
-  constexpr int direction_count = 36;  // every 2.5 degrees of a quarter turn
-  if (points.empty()) return;
-  std::vector<double> directions;
-  for (int i = 0; i < direction_count; ++i) directions.push_back(i * 0.5 * std::numbers::pi / direction_count);
-  boxes.push_back(bounding_box(points, directions, z));
-}
-
-void add_obstacle(const bim::Obstacle& obstacle, const Interval& reach, std::vector<CollisionBox>& boxes) {
-  std::vector<Eigen::Vector2d> points;
-  Interval z{1e9, -1e9};
-  for (const Eigen::Vector3d& v : obstacle.body.vertices) {
-    points.emplace_back(v.head<2>());
-    z = {std::min(z.from, v.z()), std::max(z.to, v.z())};
-  }
-  if (overlap(z, reach)) add_outline(points, z, boxes);
 }
 
 }  // namespace
@@ -139,12 +84,14 @@ double distance(const CollisionBox& box, const Eigen::Vector3d& p_W) {
 }
 
 std::vector<CollisionBox> collision_boxes(const bim::Building& as_built, int storey, const CollisionConfig& config) {
-  const Interval reach = touchable(as_built, storey, config);
+  const HeightRange reach = touchable(as_built, storey, config);
   std::vector<CollisionBox> boxes;
   for (std::size_t i = 0; i < as_built.walls.size(); ++i) add_wall(as_built, static_cast<int>(i), reach, config, boxes);
   for (const bim::Column& column : as_built.columns)
-    if (overlap({column.z0_m, column.z1_m}, reach)) add_outline(column.footprint, {column.z0_m, column.z1_m}, boxes);
-  for (const bim::Obstacle& obstacle : as_built.obstacles) add_obstacle(obstacle, reach, boxes);
+    if (overlap({column.z0_m, column.z1_m}, reach))
+      boxes.push_back(bounding_box(column.footprint, {column.z0_m, column.z1_m}));
+  for (const bim::Obstacle& obstacle : as_built.obstacles)
+    for (const CollisionBox& box : solid_boxes(obstacle.body, reach, config)) boxes.push_back(box);
   for (std::size_t i = 0; i < boxes.size(); ++i) boxes[i].id = static_cast<int>(i);
   return boxes;
 }

@@ -22,6 +22,8 @@ struct CollisionConfig {
   double floor_gap_m = 0.03;  ///< what ends this low above the floor is no obstacle
   double reach_m = 1.2;       ///< what starts this high above the floor cannot be touched
   double length_max_m = 4.0;  ///< longer walls are split, so that distant parts stay out of the pool
+  double box_fill = 0.5;      ///< an obstacle that fills less of its bounding box is taken apart
+  double cell_m = 0.10;       ///< into cells of this size
 };
 
 /// Boxes of what stands on a storey of the as-built building, ids ascending from 0: walls with their openings cut out

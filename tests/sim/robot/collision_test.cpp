@@ -114,19 +114,59 @@ TEST(Collision, AYawedColumnGetsItsOwnRectangle) {
   EXPECT_NEAR((boxes[0].X_WB.t.head<2>() - Eigen::Vector2d(3.0, 1.0)).norm(), 0.0, 1e-9);
 }
 
-TEST(Collision, WhatLiesFlatOrHighIsNoObstacle) {
+/// Closed box between two corners.
+bim::Solid box_solid(const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
+  bim::Solid solid;
+  for (int i = 0; i < 8; ++i)
+    solid.vertices.emplace_back((i & 1) != 0 ? high.x() : low.x(), (i & 2) != 0 ? high.y() : low.y(),
+                                (i & 4) != 0 ? high.z() : low.z());
+  solid.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                     {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  return solid;
+}
+
+bim::Solid joined(bim::Solid a, const bim::Solid& b) {
+  const auto shift = static_cast<int>(a.vertices.size());
+  a.vertices.insert(a.vertices.end(), b.vertices.begin(), b.vertices.end());
+  for (const Eigen::Vector3i& t : b.triangles) a.triangles.emplace_back(t.array() + shift);
+  return a;
+}
+
+bim::Building only(const bim::Solid& solid) {
   bim::Building building = one_wall({0.0, 0.0}, {1.0, 0.0});
   building.walls.clear();
-  for (const double z : {-0.2, 0.3, 2.0}) {
-    bim::Obstacle obstacle;
-    for (const double x : {0.0, 1.0})
-      for (const double y : {0.0, 1.0})
-        for (const double dz : {0.0, 0.21}) obstacle.body.vertices.emplace_back(x, y, z + dz);
-    building.obstacles.push_back(obstacle);
-  }
-  const std::vector<CollisionBox> boxes = collision_boxes(building, 0);
+  bim::Obstacle obstacle;
+  obstacle.body = solid;
+  building.obstacles.push_back(obstacle);
+  return building;
+}
+
+TEST(Collision, WhatLiesFlatOrHighIsNoObstacle) {
+  const auto slab = [](double z) { return only(box_solid({0.0, 0.0, z}, {1.0, 1.0, z + 0.21})); };
+  EXPECT_TRUE(collision_boxes(slab(-0.2), 0).empty());
+  EXPECT_TRUE(collision_boxes(slab(2.0), 0).empty());
+  const std::vector<CollisionBox> boxes = collision_boxes(slab(0.3), 0);
   ASSERT_EQ(boxes.size(), 1U);
   EXPECT_NEAR(boxes[0].X_WB.t.z(), 0.405, 1e-12);
+}
+
+TEST(Collision, AnObstacleRoundACornerLeavesTheCornerFree) {
+  // Two rails, 3 m and 2 m long, that meet in a right angle; their bounding box would fill 6 m^2.
+  const bim::Building building =
+      only(joined(box_solid({0.0, 0.0, 0.0}, {3.0, 0.05, 1.0}), box_solid({0.0, 0.05, 0.0}, {0.05, 2.0, 1.0})));
+  const std::vector<CollisionBox> boxes = collision_boxes(building, 0);
+  EXPECT_LE(boxes.size(), 4U);
+  double covered = 0.0;
+  for (const CollisionBox& box : boxes) covered += 4.0 * box.half.x() * box.half.y();
+  EXPECT_LT(covered, 0.75);  // 5 m of rail, at most a cell and a half wide
+  EXPECT_FALSE(inside_any(boxes, {1.5, 1.0, 0.5}));
+  const Stream stream(2, "bim.generate");
+  for (std::uint64_t i = 0; i < 1000; ++i) {
+    const double s = 5.0 * stream.uniform(i, 0);
+    const Eigen::Vector2d p = s < 3.0 ? Eigen::Vector2d(s, 0.0) : Eigen::Vector2d(0.0, s - 3.0);
+    const double z = 0.03 + 0.96 * stream.uniform(i, 1);
+    EXPECT_TRUE(inside_any(boxes, {p.x(), p.y(), z})) << p.transpose() << " " << z;
+  }
 }
 
 }  // namespace

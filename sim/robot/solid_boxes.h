@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "bim/building/building.h"
+#include "sim/robot/collision.h"
+
+namespace plumbline::sim {
+
+/// Heights in W, m.
+struct HeightRange {
+  double from = 0.0;
+  double to = 0.0;
+};
+
+[[nodiscard]] inline bool overlap(const HeightRange& a, const HeightRange& b) { return a.from < b.to && b.from < a.to; }
+
+/// Box over a rectangle whose x axis points along `yaw`.
+[[nodiscard]] CollisionBox upright_box(const Eigen::Vector2d& center, double yaw, const Eigen::Vector2d& half,
+                                       const HeightRange& z);
+
+/// The smallest upright box over points, its direction one of 36 (ties: the first). points must not be empty.
+[[nodiscard]] CollisionBox bounding_box(const std::vector<Eigen::Vector2d>& points, const HeightRange& z);
+
+/// Boxes that cover what of a solid lies between the heights: its bounding box where it fills at least `box_fill` of
+/// that, else its surface in cells of cell_m, joined to rectangles. No boxes when nothing lies there.
+[[nodiscard]] std::vector<CollisionBox> solid_boxes(const bim::Solid& solid, const HeightRange& reach,
+                                                    const CollisionConfig& config);
+
+}  // namespace plumbline::sim
