@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstddef>
 
+#include "bim/digest/digest.h"
 #include "slam/odometry/motion.h"
 
 namespace plumbline::slam {
 
 namespace {
+
+constexpr std::size_t digest_stride = 8;
 
 /// Time of a column relative to the scan's stamp: that of its first return slot.
 Nanoseconds column_offset(const Scan& scan, std::size_t first) { return scan.offset_ns[first]; }
@@ -32,6 +35,15 @@ DeskewedScan deskew(const Scan& scan, const MotionBuffer& motion, const Calibrat
       if (scan.range_m[i] > 0.0) out.point_R[i] = R_RL * scan.point_L[i] + X_RL.t;
   }
   return out;
+}
+
+std::uint64_t digest(const DeskewedScan& scan) {
+  Digest sum;
+  sum.add(scan.stamp);
+  const auto rings = static_cast<std::size_t>(scan.rings);
+  for (std::size_t first = 0; first + rings <= scan.point_R.size(); first += digest_stride * rings)
+    for (std::size_t i = first; i < first + rings; ++i) sum.add(scan.point_R[i]);
+  return sum.value();
 }
 
 }  // namespace plumbline::slam

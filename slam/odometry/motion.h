@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <deque>
 #include <vector>
 
@@ -41,5 +42,8 @@ struct DeskewedScan {
 /// Undoes the robot's motion during the sweep by the odometry's relative poses. One pose a column: its lasers fire
 /// within 35 us, in which a walking robot moves 0.02 mm.
 [[nodiscard]] DeskewedScan deskew(const Scan& scan, const MotionBuffer& motion, const Calibration& calibration);
+
+/// Of every eighth column's points; what differs elsewhere shows in the stages behind.
+[[nodiscard]] std::uint64_t digest(const DeskewedScan& scan);
 
 }  // namespace plumbline::slam

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/baseline/vgicp_method.h"
+
+#include "bim/digest/digest.h"
+#include "slam/io/stopwatch.h"
+#include "slam/odometry/map_cloud.h"
+#include "slam/odometry/motion.h"
+#include "slam/odometry/vgicp.h"
+
+namespace plumbline::slam {
+
+namespace {
+
+class VgicpMethod final : public Method {
+ public:
+  explicit VgicpMethod(const MethodInput& input) : calibration_(input.calibration), odometry_({}), map_({}) {}
+
+  void on_odometry(const Odometry& odometry) override { motion_.add(odometry); }
+
+  [[nodiscard]] Output on_scan(const Scan& scan) override {
+    Output output;
+    output.stamp = scan.stamp;
+    Stopwatch watch;
+    const DeskewedScan deskewed = deskew(scan, motion_, calibration_);
+    output.times.push_back({"deskew", watch.cpu_ms()});
+    output.digests.push_back({"deskew", digest(deskewed)});
+
+    watch.restart();
+    const Registration registration = odometry_.update(deskewed, motion_.at(scan.stamp));
+    output.times.push_back({"odometry", watch.cpu_ms()});
+    output.digests.push_back({"odometry", Digest().add(registration.X_MR).add(registration.matched).value()});
+
+    motion_.forget_before(scan.stamp);
+    output.X_FR = registration.X_MR;
+    trajectory_.push_back({scan.stamp, registration.X_MR});
+    map_.add(deskewed, registration.X_MR);
+    return output;
+  }
+
+  [[nodiscard]] Estimate finish() override {
+    Estimate estimate;
+    estimate.trajectory = trajectory_;
+    estimate.map_F = map_.cloud();
+    return estimate;
+  }
+
+ private:
+  Calibration calibration_;
+  MotionBuffer motion_;
+  VgicpOdometry odometry_;
+  MapCloudRecorder map_;
+  std::vector<StampedPose> trajectory_;
+};
+
+}  // namespace
+
+std::unique_ptr<Method> make_vgicp_method(const MethodInput& input) { return std::make_unique<VgicpMethod>(input); }
+
+}  // namespace plumbline::slam
