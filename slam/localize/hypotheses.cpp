@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/localize/hypotheses.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+namespace plumbline::slam {
+
+namespace {
+
+bool near(const Pose2& a, const Pose2& b, double near_m, double near_rad) {
+  return (a.t - b.t).norm() <= near_m && std::abs(wrap_angle(a.yaw - b.yaw)) <= near_rad;
+}
+
+bool walks_through_wall(const StoreyIndex& storey, const Pose2& from, const Pose2& to, double body_height) {
+  const Eigen::Vector2d way = to.t - from.t;
+  if (way.norm() < 1e-6) return false;
+  const PlanRay ray{from.t, way.normalized(), storey.floor_z + body_height, 0.0};
+  return storey.grid.cast(storey.segments, ray, way.norm()).segment >= 0;
+}
+
+}  // namespace
+
+void HypothesisSet::follow(const PlanIndex& index, const Pose2& u, const View& view) {
+  history_.push_back({u, view});
+  if (static_cast<int>(history_.size()) > config_.history) history_.pop_front();
+  double top = -1e300;
+  std::vector<double> said;
+  for (Candidate& candidate : candidates_) {
+    const StoreyIndex& storey = index.storeys[static_cast<std::size_t>(candidate.storey)];
+    const Pose2 moved = candidate.X_IH * u;
+    if (walks_through_wall(storey, candidate.X_IH, moved, index.config.body_height_m))
+      candidate.evidence -= config_.crossing_cost;
+    const Refined refined = refine(storey, moved, view, likelihood_, refine_);
+    candidate.X_IH = refined.X_IH;
+    candidate.covariance = refined.covariance;
+    candidate.agreement = agreement(storey, refined.X_IH, view, likelihood_, refine_);
+    said.push_back(beam_log_likelihood(storey, refined.X_IH, view, 1, likelihood_));
+    top = std::max(top, said.back());
+  }
+  for (std::size_t i = 0; i < candidates_.size(); ++i)
+    candidates_[i].evidence += std::max(said[i], top - config_.step_cap);
+}
+
+void HypothesisSet::adopt(const PlanIndex& index, const Clustering& clustering) {
+  double covered = 0.0;
+  int count = 0;
+  for (const PoseCluster& cluster : clustering.clusters) {
+    if (covered >= config_.covered_mass) break;
+    if (!cluster.compact && cluster.mass >= config_.min_mass) return;
+    covered += cluster.mass;
+    ++count;
+  }
+  if (covered < config_.covered_mass || count > config_.max_count) return;
+  for (const PoseCluster& cluster : clustering.clusters)
+    if (cluster.mass >= config_.min_mass && cluster.compact) adopt(index, cluster.storey, cluster.mean);
+}
+
+bool HypothesisSet::adopt(const PlanIndex& index, int storey, const Pose2& X_IH) {
+  if (history_.empty() || find(storey, X_IH, config_.match_m, config_.match_rad) >= 0) return false;
+  const StoreyIndex& tables = index.storeys[static_cast<std::size_t>(storey)];
+  const View& view = history_.back().view;
+  const Refined refined = refine(tables, X_IH, view, likelihood_, refine_);
+  if (find(storey, refined.X_IH, config_.match_m, config_.match_rad) >= 0) return false;
+  Candidate candidate{next_id_, storey, refined.X_IH, refined.covariance, 0.0, 0.0, {}};
+  candidate.agreement = agreement(tables, refined.X_IH, view, likelihood_, refine_);
+  candidate.evidence = replay(tables, refined.X_IH);
+  if (!candidates_.empty()) {
+    // Judged over the kept views against the best, then set off from the best's whole account.
+    const Candidate& best = candidates_[static_cast<std::size_t>(
+        std::max_element(candidates_.begin(), candidates_.end(),
+                         [](const Candidate& a, const Candidate& b) { return a.evidence < b.evidence; }) -
+        candidates_.begin())];
+    const double best_window = replay(index.storeys[static_cast<std::size_t>(best.storey)], best.X_IH);
+    candidate.evidence += best.evidence - best_window;
+    if (candidate.evidence < best.evidence - config_.drop_ratio) return false;
+  }
+  ++next_id_;
+  candidates_.push_back(candidate);
+  return true;
+}
+
+void HypothesisSet::settle() {
+  std::stable_sort(candidates_.begin(), candidates_.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.evidence > b.evidence; });
+  std::vector<Candidate> kept;
+  for (const Candidate& candidate : candidates_) {
+    if (candidate.evidence < candidates_.front().evidence - config_.drop_ratio) break;
+    const bool known = std::any_of(kept.begin(), kept.end(), [&](const Candidate& other) {
+      return other.storey == candidate.storey && near(other.X_IH, candidate.X_IH, config_.merge_m, config_.merge_rad);
+    });
+    if (!known) kept.push_back(candidate);
+  }
+  double sum = 0.0;
+  for (Candidate& candidate : kept) sum += candidate.mass = std::exp(candidate.evidence - kept.front().evidence);
+  for (Candidate& candidate : kept) candidate.mass /= sum;
+  candidates_ = std::move(kept);
+}
+
+void HypothesisSet::impose(ParticleSet& particles, const Clustering& clustering, int quota, std::uint64_t seed,
+                           std::uint64_t tick) const {
+  if (candidates_.empty()) return;
+  std::vector<double> mass_of_candidate(candidates_.size(), 0.0);
+  std::vector<int> candidate_of_cluster;
+  double stray = 0.0;
+  for (const PoseCluster& cluster : clustering.clusters) {
+    const int i = find(cluster.storey, cluster.mean, config_.match_m, config_.match_rad);
+    candidate_of_cluster.push_back(i);
+    (i >= 0 ? mass_of_candidate[static_cast<std::size_t>(i)] : stray) += cluster.mass;
+  }
+  for (LocalParticle& particle : particles) {
+    const int i = particle.cluster < 0 ? -1 : candidate_of_cluster[static_cast<std::size_t>(particle.cluster)];
+    if (i >= 0) {
+      const auto c = static_cast<std::size_t>(i);
+      particle.weight *= (1.0 - config_.stray_mass) * candidates_[c].mass / mass_of_candidate[c];
+    } else {
+      particle.weight *= particle.cluster < 0 || stray <= 0.0 ? config_.stray_mass : config_.stray_mass / stray;
+    }
+  }
+  const Stream stream(seed, "slam.localize.recover");
+  for (std::size_t c = 0; c < candidates_.size(); ++c) {
+    if (mass_of_candidate[c] > 0.0) continue;
+    const Candidate& candidate = candidates_[c];
+    const Eigen::Matrix3d root = candidate.covariance.llt().matrixL();
+    for (int k = 0; k < quota; ++k) {
+      const auto lane = static_cast<std::uint32_t>(candidate.id);
+      const auto draw = static_cast<std::uint32_t>(3 * k);
+      const Eigen::Vector3d e =
+          root * Eigen::Vector3d(stream.gauss(tick, lane, draw), stream.gauss(tick, lane, draw + 1),
+                                 stream.gauss(tick, lane, draw + 2));
+      particles.push_back({{candidate.X_IH.t + e.head<2>(), wrap_angle(candidate.X_IH.yaw + e.z())},
+                           candidate.storey,
+                           candidate.mass / quota,
+                           -1});
+    }
+  }
+  normalise(particles);
+}
+
+void HypothesisSet::clear() {
+  candidates_.clear();
+  history_.clear();
+}
+
+double HypothesisSet::replay(const StoreyIndex& storey, const Pose2& X_IH) const {
+  Pose2 X = X_IH;
+  double sum = 0.0;
+  for (auto step = history_.rbegin(); step != history_.rend(); ++step) {
+    X = refine(storey, X, step->view, likelihood_, refine_).X_IH;
+    sum += beam_log_likelihood(storey, X, step->view, 1, likelihood_);
+    X = X * step->u.inverse();
+  }
+  return sum;
+}
+
+int HypothesisSet::find(int storey, const Pose2& X_IH, double near_m, double near_rad) const {
+  for (std::size_t i = 0; i < candidates_.size(); ++i)
+    if (candidates_[i].storey == storey && near(candidates_[i].X_IH, X_IH, near_m, near_rad))
+      return static_cast<int>(i);
+  return -1;
+}
+
+}  // namespace plumbline::slam

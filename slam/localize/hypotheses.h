@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <deque>
+#include <vector>
+
+#include "slam/localize/pose_clusters.h"
+#include "slam/localize/refine.h"
+
+namespace plumbline::slam {
+
+struct HypothesisConfig {
+  int max_count = 24;          ///< clusters up to which places are followed one by one
+  double covered_mass = 0.99;  ///< of the particles that these clusters must hold
+  double min_mass = 0.005;     ///< of a cluster that becomes a hypothesis
+  double match_m = 0.75;       ///< a cluster this close to a hypothesis is the same place
+  double match_rad = 0.35;
+  double merge_m = 0.30;  ///< hypotheses this close are one
+  double merge_rad = 0.15;
+  double step_cap = 6.0;       ///< most that one view says against a hypothesis
+  double crossing_cost = 3.0;  ///< against one that walks through a wall: may be a door jamb and noise
+  double drop_ratio = 15.0;    ///< log-ratio to the best below which a hypothesis is dropped
+  int history = 60;            ///< views kept to judge a hypothesis that turns up later; 15 m of way
+  double stray_mass = 0.01;    ///< left to particles of no hypothesis
+};
+
+/// A place the robot may be in, followed by itself.
+struct Candidate {
+  int id = -1;
+  int storey = 0;
+  Pose2 X_IH;
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();
+  double evidence = 0.0;  ///< accumulated log-likelihood
+  double mass = 0.0;      ///< share by evidence
+  Agreement agreement;    ///< with the last view
+};
+
+/// Places followed one by one. The evidence of a place is the log-likelihood of every view at the pose that fits it
+/// best there, not the luck of where its particles fell: places that look exactly alike keep exactly equal shares.
+class HypothesisSet {
+ public:
+  HypothesisSet(HypothesisConfig config, RefineConfig refine, LikelihoodConfig likelihood)
+      : config_(config), refine_(refine), likelihood_(likelihood) {}
+
+  /// Moves every candidate by u, fits it to the view and adds what the view says.
+  void follow(const PlanIndex& index, const Pose2& u, const View& view);
+  /// Adds clusters that are no candidate yet, once few compact ones hold nearly all of the mass.
+  void adopt(const PlanIndex& index, const Clustering& clustering);
+  /// Adds one place judged by the whole kept history; false when it is already known or far less likely.
+  bool adopt(const PlanIndex& index, int storey, const Pose2& X_IH);
+  /// Merges, drops the hopeless, shares out the mass.
+  void settle();
+  /// Scales the particles so that each candidate's cluster has its mass, and brings back candidates without particles.
+  void impose(ParticleSet& particles, const Clustering& clustering, int quota, std::uint64_t seed,
+              std::uint64_t tick) const;
+  void clear();
+
+  [[nodiscard]] const std::vector<Candidate>& candidates() const { return candidates_; }  ///< by mass, then id
+
+ private:
+  struct Step {
+    Pose2 u;  ///< motion that led to this view
+    View view;
+  };
+  /// Log-likelihood of the kept views along the odometry back from the pose at the last one.
+  [[nodiscard]] double replay(const StoreyIndex& storey, const Pose2& X_IH) const;
+  [[nodiscard]] int find(int storey, const Pose2& X_IH, double near_m, double near_rad) const;
+
+  HypothesisConfig config_;
+  RefineConfig refine_;
+  LikelihoodConfig likelihood_;
+  std::vector<Candidate> candidates_;
+  std::deque<Step> history_;
+  int next_id_ = 0;
+};
+
+}  // namespace plumbline::slam

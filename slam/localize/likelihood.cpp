@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/localize/likelihood.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace plumbline::slam {
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// Difference of two angles in (-pi, pi].
+double difference(double a, double b) {
+  const double d = a - b;
+  return d > pi ? d - 2.0 * pi : d <= -pi ? d + 2.0 * pi : d;
+}
+
+/// Squared Mahalanobis distance of an observed wall to a line, or infinity where it does not fit.
+double mismatch(const WallView& wall, const WallLine& line, double azimuth_H, const Eigen::Vector2d& sensor_I,
+                double inverse_var_azimuth, double inverse_var_distance, const LikelihoodConfig& config) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const double distance = line.n.dot(sensor_I) + line.d;
+  const double e_azimuth = difference(wall.azimuth, azimuth_H);
+  if (distance <= 0.0 || std::abs(e_azimuth) > config.azimuth_gate) return infinity;
+  const double foot = line.e.dot(sensor_I - line.a);
+  const double margin = config.overlap_margin_m;
+  const double overlap = std::min(foot + wall.s1, line.length + margin) - std::max(foot + wall.s0, -margin);
+  if (overlap < config.overlap_min * (wall.s1 - wall.s0)) return infinity;
+  const double e_distance = wall.distance - distance;
+  return e_azimuth * e_azimuth * inverse_var_azimuth + e_distance * e_distance * inverse_var_distance;
+}
+
+}  // namespace
+
+double wall_log_likelihood(const StoreyIndex& storey, const Pose2& X_IH, const View& view,
+                           const LikelihoodConfig& config) {
+  const Eigen::Vector2d sensor_I = X_IH * view.sensor_H;
+  const int cell = storey.grid.cell_at(sensor_I);
+  const double outlier = config.plane_outlier / (4.0 * config.azimuth_gate * config.distance_gate_m);
+  double sum = 0.0;
+  for (const WallView& wall : view.walls) {
+    const double var_azimuth = wall.sigma_azimuth * wall.sigma_azimuth + config.azimuth_sigma * config.azimuth_sigma;
+    const double var_distance =
+        wall.sigma_distance * wall.sigma_distance + config.distance_sigma_m * config.distance_sigma_m;
+    double best = std::numeric_limits<double>::infinity();
+    if (cell >= 0) {
+      for (const int i : storey.visible[static_cast<std::size_t>(cell)]) {
+        const WallLine& line = storey.lines[static_cast<std::size_t>(i)];
+        const double azimuth_H = wrap_angle(line.azimuth - X_IH.yaw);
+        best = std::min(best, mismatch(wall, line, azimuth_H, sensor_I, 1.0 / var_azimuth, 1.0 / var_distance, config));
+      }
+    }
+    const double peak = (1.0 - config.plane_outlier) / (2.0 * pi * std::sqrt(var_azimuth * var_distance));
+    sum += std::log(outlier + (best < 100.0 ? peak * std::exp(-0.5 * best) : 0.0));
+  }
+  return config.plane_weight * sum;
+}
+
+BeamResidual beam_residual(const StoreyIndex& storey, const Eigen::Vector2d& sensor_I, const Eigen::Matrix2d& R_IH,
+                           const Beam& beam, double sensor_height, const LikelihoodConfig& config) {
+  const PlanRay ray{sensor_I, R_IH * beam.direction_H, storey.floor_z + sensor_height, beam.slope};
+  // Beyond this the beam has long gone through a wall; farther faces change nothing.
+  double reach = beam.range + 1.0;
+  if (beam.slope < 0.0) reach = std::min(reach, -sensor_height / beam.slope);
+  if (beam.slope > 0.0) reach = std::min(reach, (storey.ceiling_z - ray.z) / beam.slope);
+  const PlanHit hit = storey.grid.cast(storey.segments, ray, std::max(reach, 0.0));
+  BeamResidual residual{beam.range - hit.distance, hit.segment, hit.distance};
+  if (hit.segment >= 0) {
+    const double incidence = std::abs(storey.segments[static_cast<std::size_t>(hit.segment)].n.dot(ray.direction));
+    residual.across *= std::max(incidence, config.beam_min_incidence);
+  }
+  return residual;
+}
+
+double beam_log_likelihood(const StoreyIndex& storey, const Pose2& X_IH, const View& view, int stride,
+                           const LikelihoodConfig& config) {
+  const Eigen::Matrix2d R_IH = X_IH.rotation();
+  const Eigen::Vector2d sensor_I = R_IH * view.sensor_H + X_IH.t;
+  const double inverse_sigma = 1.0 / config.beam_sigma_m;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < view.beams.size(); i += static_cast<std::size_t>(stride)) {
+    const double e =
+        inverse_sigma * beam_residual(storey, sensor_I, R_IH, view.beams[i], view.sensor_height, config).across;
+    sum -= std::min(0.5 * e * e, e > 0.0 ? config.beam_long_cap : config.beam_short_cap);
+  }
+  return config.beam_weight * stride * sum;
+}
+
+}  // namespace plumbline::slam

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "slam/localize/plan_index.h"
+#include "slam/localize/view.h"
+
+namespace plumbline::slam {
+
+struct LikelihoodConfig {
+  double azimuth_sigma = 0.02;     ///< rad: tilt of the walking body, plan tolerance; added to the fit's
+  double distance_sigma_m = 0.05;  ///< plan tolerance and the spacing of particles; added to the fit's
+  double azimuth_gate = 0.45;      ///< rad: an observed wall is compared with faces this close in direction
+  double distance_gate_m = 5.0;    ///< half width of the residual volume over which an outlier is spread
+  double overlap_min = 0.5;        ///< share of the patch that must lie on the face
+  double overlap_margin_m = 0.3;   ///< by which a face is lengthened for that
+  double plane_outlier = 0.2;      ///< share of patches that are no wall of the plan
+  double plane_weight = 0.5;       ///< patches of one scan share their errors: not all evidence is new
+
+  double beam_sigma_m = 0.06;       ///< range noise, bias and plan tolerance, across the face
+  double beam_min_incidence = 0.2;  ///< cosine below which a grazing beam's residual no longer shrinks
+  double beam_short_cap = 2.0;      ///< of the negative log-likelihood of a beam cut short: clutter does that
+  double beam_long_cap = 4.5;       ///< of one that goes through a wall of the plan, 3 sigma
+  double beam_weight = 0.15;        ///< of one beam; neighbouring beams share their errors [facts: 8 by 360 / 8]
+};
+
+/// log p(walls | pose): each observed wall is a mixture of the best face of the plan and an outlier, so that every
+/// observation counts [BIM-Loc eq. 6-9, corrected]. Frame I; pose is that of H.
+[[nodiscard]] double wall_log_likelihood(const StoreyIndex& storey, const Pose2& X_IH, const View& view,
+                                         const LikelihoodConfig& config);
+
+/// log p(beams | pose) of every stride-th beam against first hits in the plan.
+[[nodiscard]] double beam_log_likelihood(const StoreyIndex& storey, const Pose2& X_IH, const View& view, int stride,
+                                         const LikelihoodConfig& config);
+
+/// One beam against the plan.
+struct BeamResidual {
+  double across = 0.0;    ///< measured minus expected range, across the face hit, m; positive: through the wall
+  int segment = -1;       ///< -1: floor, ceiling or nothing
+  double expected = 0.0;  ///< horizontal range
+};
+[[nodiscard]] BeamResidual beam_residual(const StoreyIndex& storey, const Eigen::Vector2d& sensor_I,
+                                         const Eigen::Matrix2d& R_IH, const Beam& beam, double sensor_height,
+                                         const LikelihoodConfig& config);
+
+}  // namespace plumbline::slam

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "bim/random/stream.h"
+#include "slam/localize/likelihood.h"
+#include "slam/localize/plan_index.h"
+#include "slam/localize/view.h"
+
+namespace plumbline::slam {
+
+/// A guess of the robot's pose on one storey; frame I.
+struct LocalParticle {
+  Pose2 X_IH;
+  int storey = 0;       ///< index into PlanIndex::storeys
+  double weight = 0.0;  ///< normalised over the set
+  int cluster = -1;     ///< label of the last clustering, -1 none
+};
+using ParticleSet = std::vector<LocalParticle>;
+
+struct FilterConfig {
+  double density_per_m2 = 30.0;     ///< at the start, yaw known [facts: 20-40]
+  double unknown_yaw_factor = 3.0;  ///< more particles when yaw is unknown
+  int min_particles = 600;
+  int max_particles = 20000;
+  double wall_clearance_m = 0.25;  ///< of the start from a room's outline: the robot has a body
+  double aligned_share = 0.5;      ///< yaw unknown: share drawn so that an observed wall is parallel to a planned one
+  double aligned_sigma = 0.05;     ///< rad, of those
+
+  double trans_per_m = 0.05;      ///< sigma of translation per metre walked; leg odometry is 0.5-7 % off
+  double trans_per_rad_m = 0.02;  ///< m per rad turned
+  double rot_per_rad = 0.04;      ///< sigma of rotation per radian turned
+  double rot_per_m = 0.01;        ///< rad per metre walked
+
+  int beam_stride = 6;        ///< particles meet every 6th beam of the view, hypotheses all
+  double ess_floor = 0.1;     ///< share of N that tempering keeps effective in one update
+  double ess_resample = 0.5;  ///< share of N below which the set is drawn again
+  double kld_error = 0.05;    ///< Fox 2001
+  double kld_quantile = 3.0;  ///< normal quantile of 99.9 %
+  double rough_scale = 0.25;  ///< roughening after resampling, of the cluster's standard deviation
+  double rough_min_m = 0.01;
+  double rough_max_m = 0.10;
+  double rough_min_rad = 0.003;
+  double rough_max_rad = 0.05;
+  int quota = 120;  ///< least particles of a cluster that stands for a hypothesis
+};
+
+/// What is told of the pose before anything is seen, in I.
+struct StartBelief {
+  std::optional<double> yaw_I;
+  double yaw_sigma = 0.05;
+};
+
+/// Uniform over the rooms of the storeys in use, stratified; yaw as told, else uniform together with yaws at which an
+/// observed wall is parallel to one of the plan. Weights equal.
+[[nodiscard]] ParticleSet draw_start(const PlanIndex& index, const StartBelief& belief, const View& view,
+                                     const FilterConfig& config, std::uint64_t seed, std::uint64_t tick);
+
+/// x_t ~ p(x_t | x_{t-1}, u) [BIM-Loc eq. 4] with u = X_{t-1}^-1 X_t [eq. 5, the right way round]. A particle that
+/// walks through a wall gets weight 0.
+void propagate(ParticleSet& particles, const Pose2& u, const PlanIndex& index, const FilterConfig& config,
+               std::uint64_t seed, std::uint64_t tick);
+
+/// What one reweighting did.
+struct Reweighting {
+  double temper = 1.0;               ///< exponent the likelihood was raised to
+  double effective = 0.0;            ///< sample size after it
+  double mean_log_likelihood = 0.0;  ///< before normalisation
+};
+/// w <- w p(view | x)^a, a in (0, 1] the largest that leaves ess_floor N effective particles.
+[[nodiscard]] Reweighting reweight(ParticleSet& particles, const View& view, const PlanIndex& index,
+                                   const LikelihoodConfig& likelihood, const FilterConfig& config);
+
+/// 1 / sum w^2.
+[[nodiscard]] double effective_size(const ParticleSet& particles);
+/// Scales weights to sum 1; all equal when they sum to 0.
+void normalise(ParticleSet& particles);
+
+}  // namespace plumbline::slam

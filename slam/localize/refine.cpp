@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/localize/refine.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+namespace plumbline::slam {
+
+namespace {
+
+struct NormalEquations {
+  Eigen::Matrix3d H = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d b = Eigen::Vector3d::Zero();
+
+  void add(const Eigen::RowVector3d& J, double e, double information) {
+    H += information * J.transpose() * J;
+    b -= information * J.transpose() * e;
+  }
+};
+
+/// Distances of the beams' ends to the faces they should meet, linearised in (x, y, yaw).
+NormalEquations beam_equations(const StoreyIndex& storey, const Pose2& X_IH, const View& view, double gate,
+                               const LikelihoodConfig& likelihood) {
+  NormalEquations equations;
+  const Eigen::Matrix2d R_IH = X_IH.rotation();
+  const Eigen::Vector2d sensor_I = R_IH * view.sensor_H + X_IH.t;
+  // The share of evidence of a beam keeps its errors from being averaged away as if they were independent.
+  const double information = likelihood.beam_weight / (likelihood.beam_sigma_m * likelihood.beam_sigma_m);
+  for (const Beam& beam : view.beams) {
+    const BeamResidual residual = beam_residual(storey, sensor_I, R_IH, beam, view.sensor_height, likelihood);
+    if (residual.segment < 0 || std::abs(residual.across) > gate) continue;
+    const PlanSegment& segment = storey.segments[static_cast<std::size_t>(residual.segment)];
+    if (segment.n.dot(R_IH * beam.direction_H) >= 0.0) continue;  // the back of a face stands for a jamb
+    const Eigen::Vector2d arm = R_IH * (view.sensor_H + beam.range * beam.direction_H);
+    const double e = segment.n.dot(arm + X_IH.t - segment.a);
+    const Eigen::RowVector3d J(segment.n.x(), segment.n.y(), segment.n.dot(Eigen::Vector2d(-arm.y(), arm.x())));
+    equations.add(J, e, information);
+  }
+  return equations;
+}
+
+void add_prior(NormalEquations& equations, const Pose2& X_prior, const Pose2& X, const RefineConfig& config) {
+  const double position = 1.0 / (config.prior_sigma_m * config.prior_sigma_m);
+  const double angle = 1.0 / (config.prior_sigma_rad * config.prior_sigma_rad);
+  const Eigen::Vector2d e = X.t - X_prior.t;
+  equations.add({1.0, 0.0, 0.0}, e.x(), position);
+  equations.add({0.0, 1.0, 0.0}, e.y(), position);
+  equations.add({0.0, 0.0, 1.0}, wrap_angle(X.yaw - X_prior.yaw), angle);
+}
+
+}  // namespace
+
+Refined refine(const StoreyIndex& storey, const Pose2& X_IH, const View& view, const LikelihoodConfig& likelihood,
+               const RefineConfig& config) {
+  Refined result{X_IH, {}};
+  double gate = config.first_gate_m;
+  for (int i = 0; i < config.iterations; ++i) {
+    NormalEquations equations = beam_equations(storey, result.X_IH, view, gate, likelihood);
+    add_prior(equations, X_IH, result.X_IH, config);
+    const Eigen::Vector3d step = equations.H.ldlt().solve(equations.b);
+    result.X_IH.t += step.head<2>();
+    result.X_IH.yaw = wrap_angle(result.X_IH.yaw + step.z());
+    result.covariance = equations.H.inverse();
+    gate = std::max(0.5 * gate, config.last_gate_m);
+  }
+  return result;
+}
+
+Agreement agreement(const StoreyIndex& storey, const Pose2& X_IH, const View& view, const LikelihoodConfig& likelihood,
+                    const RefineConfig& config) {
+  const Eigen::Matrix2d R_IH = X_IH.rotation();
+  const Eigen::Vector2d sensor_I = R_IH * view.sensor_H + X_IH.t;
+  int near = 0, through = 0;
+  for (const Beam& beam : view.beams) {
+    const BeamResidual residual = beam_residual(storey, sensor_I, R_IH, beam, view.sensor_height, likelihood);
+    if (std::abs(residual.across) <= config.inlier_m) ++near;
+    if (residual.across > config.inlier_m) ++through;
+  }
+  const auto share = [](int part, int whole) { return whole > 0 ? static_cast<double>(part) / whole : 0.0; };
+  return {share(near, near + through), share(through, static_cast<int>(view.beams.size()))};
+}
+
+}  // namespace plumbline::slam

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+
+#include "slam/localize/likelihood.h"
+
+namespace plumbline::slam {
+
+struct RefineConfig {
+  int iterations = 4;
+  double first_gate_m = 0.6;  ///< beams farther from the face they should meet are left out; halves each iteration
+  double last_gate_m = 0.15;
+  double prior_sigma_m = 0.10;  ///< of the pose handed in: holds what the beams do not see, as along a corridor
+  double prior_sigma_rad = 0.03;
+  double inlier_m = 0.15;  ///< a beam this close to the face it should meet agrees with the plan
+};
+
+/// A pose moved to where the beams meet the plan's faces best.
+struct Refined {
+  Pose2 X_IH;
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();  ///< of (x, y, yaw) in I
+};
+
+/// Gauss-Newton on point-to-face distances over (x, y, yaw).
+[[nodiscard]] Refined refine(const StoreyIndex& storey, const Pose2& X_IH, const View& view,
+                             const LikelihoodConfig& likelihood, const RefineConfig& config);
+
+/// How well one view agrees with the plan at a pose.
+struct Agreement {
+  double inliers = 0.0;  ///< share of beams within inlier_m of their face, of those not cut short
+  double through = 0.0;  ///< share of all beams that go through a face of the plan
+};
+[[nodiscard]] Agreement agreement(const StoreyIndex& storey, const Pose2& X_IH, const View& view,
+                                  const LikelihoodConfig& likelihood, const RefineConfig& config);
+
+}  // namespace plumbline::slam

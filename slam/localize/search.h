@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "slam/io/estimate.h"
+#include "slam/localize/hypotheses.h"
+
+namespace plumbline::slam {
+
+/// When a single answer may be announced, and when it is taken back.
+struct ConvergenceConfig {
+  double top_mass = 0.95;
+  double log_ratio = 5.0;      ///< to the next place [facts: 1.3]
+  int updates = 5;             ///< for which this must have held
+  double travel_m = 1.0;       ///< and the way walked meanwhile
+  double inliers_min = 0.70;   ///< residual test: share of beams that agree with the plan
+  double through_max = 0.10;   ///< share of beams that go through walls of the plan
+  double lost_inliers = 0.50;  ///< the same after convergence, to call an update failed
+  double lost_through = 0.25;
+  int lost_updates = 5;
+  int rivals = 12;            ///< places looked at before an announcement
+  double rival_gap_m = 0.75;  ///< between them
+  double rival_gap_rad = 0.35;
+  double yaw_drift = 0.001;  ///< rad/s by which the told yaw grows stale [facts: legged 10]
+};
+
+struct SearchConfig {
+  LikelihoodConfig likelihood;
+  FilterConfig filter;
+  PoseClusterConfig clusters;
+  RefineConfig refine;
+  HypothesisConfig hypotheses;
+  ConvergenceConfig convergence;
+};
+
+/// Global localization in the plan until one place is left [BIM-Loc section 3.3].
+class PlanSearch {
+ public:
+  PlanSearch(SearchConfig config, std::uint64_t seed);
+
+  /// Takes in one view. start is what is told of the pose now; it matters when the set is drawn anew. Returns the
+  /// digest of each stage.
+  std::vector<StageDigest> update(const PlanIndex& index, const StartBelief& start, const View& view);
+  /// Forgets everything; the next update draws the set anew.
+  void restart();
+
+  [[nodiscard]] State state() const { return state_; }
+  [[nodiscard]] const std::vector<Candidate>& candidates() const { return hypotheses_.candidates(); }
+  [[nodiscard]] const ParticleSet& particles() const { return particles_; }
+
+ private:
+  void judge(const PlanIndex& index, const StartBelief& start, const View& view, double walked);
+  /// Looks over the whole storey for a place that would have seen the same; true when one was found.
+  bool find_rivals(const PlanIndex& index, const StartBelief& start, const View& view);
+
+  SearchConfig config_;
+  std::uint64_t seed_;
+  std::uint64_t tick_ = 0;
+  State state_ = State::searching;
+  ParticleSet particles_;
+  HypothesisSet hypotheses_;
+  std::optional<Pose2> last_X_OH_;
+  int sure_updates_ = 0;
+  double sure_travel_m_ = 0.0;
+  int failed_updates_ = 0;
+};
+
+}  // namespace plumbline::slam

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "slam/io/estimate.h"
+#include "slam/localize/tracker.h"
+
+namespace plumbline::slam {
+
+/// Walls and rooms of the plan that were really seen, as they were seen: where the as-built wall stands off its plan,
+/// the wall reported here does too.
+class SeenWalls {
+ public:
+  /// Takes in a pose after its last optimisation.
+  void add(const StoreyIndex& storey, const TrackedPose& pose);
+
+  /// Faces in W, by first sighting.
+  [[nodiscard]] std::vector<PlaneNode> planes(const Pose& X_WI) const;
+  /// Rooms entered, in W, in the order of the plan.
+  [[nodiscard]] std::vector<RoomNode> rooms(const StoreyIndex& storey, const Pose& X_WI) const;
+
+ private:
+  struct Wall {
+    int line = -1;
+    WallLine planned;
+    double offset_sum = 0.0;  ///< of the face seen from the face planned, along the normal
+    double s0 = 0.0, s1 = 0.0, z0 = 0.0, z1 = 0.0;
+    int observations = 0;
+  };
+  std::vector<Wall> walls_;
+  std::vector<int> room_visits_;
+};
+
+}  // namespace plumbline::slam

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "slam/localize/pose2.h"
+#include "slam/odometry/motion.h"
+#include "slam/planes/detect.h"
+
+namespace plumbline::slam {
+
+struct ViewConfig {
+  int beams = 180;            ///< spread over the turn; the particles use a fixed stride of them
+  double min_height_m = 0.3;  ///< above the floor: lower returns are floor or feet
+  double max_height_m = 2.5;  ///< above the floor: higher returns are ceiling
+  double min_range_m = 0.5;   ///< the robot's own body
+  double max_range_m = 25.0;
+  double min_wall_length_m = 0.6;  ///< shorter patches are furniture as often as walls
+  double min_wall_top_m = 0.8;     ///< patches that end below this height are furniture
+  double floor_max_tilt_rad = 0.1;
+};
+
+/// One return seen from the sensor in the heading frame H (origin at R, z along gravity, x ahead).
+struct Beam {
+  Eigen::Vector2d direction_H = Eigen::Vector2d::UnitX();  ///< unit
+  double range = 0.0;                                      ///< horizontal, m
+  double slope = 0.0;                                      ///< rise per horizontal metre
+};
+
+/// A wall patch seen from the sensor, in H [BIM-Loc eq. 3, as (n, d) with n towards the sensor].
+struct WallView {
+  double azimuth = 0.0;         ///< of the normal, rad
+  double distance = 0.0;        ///< of the sensor from the plane, m
+  double s0 = 0.0, s1 = 0.0;    ///< ends along the wall from the sensor's foot point, free space on the left
+  double sigma_azimuth = 0.0;   ///< of the fit, rad
+  double sigma_distance = 0.0;  ///< of the fit, m
+  int observation = -1;         ///< index into the observations it was made of
+};
+
+/// What one scan says to the localization. The plan is met in the sensor's heading frame, not in W: a residual in W
+/// would grow with the distance from W's origin.
+struct View {
+  Nanoseconds stamp = 0;
+  Pose X_OR;
+  Eigen::Quaterniond q_HR;                             ///< roll and pitch, from gravity
+  Eigen::Vector2d sensor_H = Eigen::Vector2d::Zero();  ///< position of L
+  double sensor_height = 0.0;                          ///< of L above the floor, m
+  std::vector<Beam> beams;                             ///< by azimuth of the sweep
+  std::vector<WallView> walls;                         ///< in the order of the observations
+};
+
+/// Gravity comes from the odometry's attitude, the height from the floor plane where one is seen, else from the
+/// calibration.
+[[nodiscard]] View make_view(const DeskewedScan& scan, const std::vector<PlaneObservation>& planes, const Pose& X_OR,
+                             const Calibration& calibration, const ViewConfig& config);
+
+}  // namespace plumbline::slam

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/localize/segment_grid.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "bim/random/stream.h"
+
+namespace plumbline::slam {
+namespace {
+
+PlanSegment random_segment(const Stream& stream, std::uint32_t lane) {
+  PlanSegment segment;
+  segment.a = {20.0 * stream.uniform(0, lane, 0), 12.0 * stream.uniform(0, lane, 1)};
+  const double angle = 2.0 * std::numbers::pi * stream.uniform(0, lane, 2);
+  segment.e = {std::cos(angle), std::sin(angle)};
+  segment.n = {-segment.e.y(), segment.e.x()};
+  segment.length = 0.2 + 5.0 * stream.uniform(0, lane, 3);
+  segment.holes.push_back({0.3 * segment.length, 0.6 * segment.length, 0.0, 2.1});
+  return segment;
+}
+
+/// Solves for the crossing with every segment, without a grid.
+double brute_force(const std::vector<PlanSegment>& segments, const PlanRay& ray, double most) {
+  double best = most;
+  for (const PlanSegment& segment : segments) {
+    Eigen::Matrix2d A;
+    A << ray.direction, -segment.e;
+    const Eigen::Vector2d ts = A.inverse() * (segment.a - ray.origin);
+    const double z = ray.z + ts.x() * ray.slope;
+    const bim::FaceHole& hole = segment.holes.front();
+    const bool open = ts.y() > hole.s0 && ts.y() < hole.s1 && z > hole.z0 && z < hole.z1;
+    const bool on_face = ts.y() >= 0.0 && ts.y() <= segment.length && z >= segment.z0 && z <= segment.z1;
+    if (ts.x() > 0.0 && on_face && !open) best = std::min(best, ts.x());
+  }
+  return best;
+}
+
+TEST(SegmentGrid, FindsTheFirstHitOfRandomRays) {
+  const Stream stream(3, "slam.localize.init");
+  std::vector<PlanSegment> segments;
+  for (std::uint32_t i = 0; i < 40; ++i) segments.push_back(random_segment(stream, i));
+  const SegmentGrid grid(segments, 0.5);
+  int hits = 0;
+  for (std::uint32_t i = 0; i < 3000; ++i) {
+    // Also from outside of the grid.
+    const double angle = 2.0 * std::numbers::pi * stream.uniform(1, i, 2);
+    const PlanRay ray{{26.0 * stream.uniform(1, i, 0) - 3.0, 18.0 * stream.uniform(1, i, 1) - 3.0},
+                      {std::cos(angle), std::sin(angle)},
+                      0.3 + 2.0 * stream.uniform(1, i, 3),
+                      0.4 * (stream.uniform(1, i, 4) - 0.5)};
+    const PlanHit hit = grid.cast(segments, ray, 15.0);
+    ASSERT_NEAR(hit.distance, brute_force(segments, ray, 15.0), 1e-9) << "ray " << i;
+    hits += hit.segment >= 0 ? 1 : 0;
+  }
+  EXPECT_GT(hits, 1000);
+}
+
+TEST(SegmentGrid, CrossesADoorBelowItsHeadOnly) {
+  PlanSegment wall;
+  wall.length = 4.0;
+  wall.holes.push_back({1.5, 2.5, 0.0, 2.1});
+  const std::vector<PlanSegment> segments{wall};
+  const SegmentGrid grid(segments, 0.5);
+  const Eigen::Vector2d ahead(0.0, 1.0);
+  EXPECT_EQ(grid.cast(segments, {{2.0, -1.0}, ahead, 1.0, 0.0}, 5.0).segment, -1);
+  EXPECT_EQ(grid.cast(segments, {{2.0, -1.0}, ahead, 2.5, 0.0}, 5.0).segment, 0);
+  EXPECT_NEAR(grid.cast(segments, {{1.0, -1.0}, ahead, 1.0, 0.0}, 5.0).distance, 1.0, 1e-12);
+}
+
+TEST(SegmentGrid, OfEqualDistancesTheLowestIndexWins) {
+  PlanSegment wall;
+  wall.length = 4.0;
+  const std::vector<PlanSegment> segments{wall, wall};
+  const SegmentGrid grid(segments, 0.5);
+  EXPECT_EQ(grid.cast(segments, {{2.0, -1.0}, {0.0, 1.0}, 1.0, 0.0}, 5.0).segment, 0);
+}
+
+}  // namespace
+}  // namespace plumbline::slam
