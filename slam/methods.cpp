@@ -5,6 +5,7 @@
 
 #include "slam/baseline/odometry_method.h"
 #include "slam/baseline/vgicp_method.h"
+#include "slam/localize/s_graph_localization.h"
 
 namespace plumbline::slam {
 
@@ -12,6 +13,8 @@ std::span<const MethodRow> methods() {
   static const std::array rows = {
       MethodRow{"odometry", "dead reckoning of the legs", false, make_odometry_method},
       MethodRow{"vgicp", "LiDAR odometry: voxelized GICP against a sliding local map", false, make_vgicp_method},
+      MethodRow{"s_graph_localization", "particle filter on the plan's walls and rooms, then a graph against them",
+                true, [](const MethodInput& input) { return make_s_graph_localization(input); }},
   };
   return rows;
 }
