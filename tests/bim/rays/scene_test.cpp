@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "bim/digest/float_mode.h"
@@ -145,6 +146,38 @@ TEST(RayScene, MatchesBruteForceInBuildingsWithCoplanarAndCrossingWalls) {
     const Eigen::Vector3d high = origin + Eigen::Vector3d(22, 16, 2.9);
     expect_brute_force(mesh, RandomRays(200 + seed).rays(4000, origin + Eigen::Vector3d(0, 0, 0.1), high));
   }
+}
+
+TEST(RayScene, MatchesBruteForceInACutAndMeshedBuilding) {
+  Building building;
+  building.storeys.push_back({"ground", "ground", 0.0, 3.0, 0});
+  const auto wall = [&](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+    Wall& w = building.walls.emplace_back();
+    w.id = "w" + std::to_string(building.walls.size());
+    w.storey = 0;
+    w.a = a;
+    w.b = b;
+    w.offset_m = -0.5 * w.thickness_m;
+  };
+  wall({0, 0}, {8, 0});
+  wall({8, 0}, {8, 5});
+  wall({8, 5}, {0, 5});
+  wall({0, 5}, {0, 0});
+  wall({4, 0}, {4, 5});
+  wall({0, 2}, {4, 3});
+  for (int w = 0; w < 6; ++w) {
+    Opening& door = building.openings.emplace_back();
+    door.id = "d" + std::to_string(w);
+    door.wall = w;
+    door.s_m = 1.5 + 0.2 * w;
+  }
+  Slab& slab = building.slabs.emplace_back();
+  slab.id = "slab";
+  slab.storey = 0;
+  slab.polygon.outer = {{-1, -1}, {9, -1}, {9, 6}, {-1, 6}};
+  const BuildingMesh mesh = build_mesh(building);
+  ASSERT_GT(mesh.triangles.size(), 100U);
+  expect_brute_force(mesh, RandomRays(31).rays(20000, {0.2, 0.2, 0.1}, {7.8, 4.8, 2.9}));
 }
 
 TEST(RayScene, MatchesBruteForceNextToEdges) {
