@@ -117,6 +117,14 @@ struct Obstacle {
   std::int64_t step_id = 0;
 };
 
+/// What a surface does to light. Named by Wall::material; kept, not yet simulated.
+struct Material {
+  std::string id;
+  double reflectivity = 0.5;  ///< share of light given back diffusely, 0 to 1
+  double transmission = 0.0;  ///< share that goes through, 0 to 1
+  double specular = 0.0;      ///< share mirrored, 0 to 1
+};
+
 /// The normalised building: SI units, frame W, canonical order. One type serves as planned and as built.
 struct Building {
   std::string name;
@@ -129,9 +137,11 @@ struct Building {
   std::vector<Slab> slabs;
   std::vector<Column> columns;
   std::vector<Obstacle> obstacles;
+  std::vector<Material> materials;
   std::vector<Warning> warnings;
 
-  /// Hash of the content (not of names of files, nor of warnings).
+  /// Hash of the content: ids and geometry of every element in their order; not the building's name, its source's
+  /// unit and entity numbers, nor warnings.
   [[nodiscard]] std::uint64_t hash() const;
 };
 

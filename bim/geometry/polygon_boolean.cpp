@@ -49,31 +49,46 @@ ExactPolygon counter_clockwise(const Polygon2& ring) {
   return result;
 }
 
-ExactPiece exact(const PolygonWithHoles2& piece) {
-  ExactPiece result(counter_clockwise(piece.outer));
-  for (const Polygon2& hole : piece.holes) {
-    ExactPolygon ring = counter_clockwise(hole);
-    ring.reverse_orientation();
-    result.add_hole(ring);
-  }
+ExactPolygon clockwise(const Polygon2& ring) {
+  ExactPolygon result = counter_clockwise(ring);
+  result.reverse_orientation();
   return result;
 }
 
-ExactSet exact(const Region2& region) {
+// Only two operations of CGAL are used, the union of a range and the difference: each further one costs a good part of
+// a minute of compile time.
+
+ExactSet joined(const std::vector<ExactPiece>& pieces) {
   ExactSet set;
-  for (const PolygonWithHoles2& piece : region) set.join(exact(piece));
+  set.join(pieces.begin(), pieces.end());
   return set;
 }
 
+ExactSet exact(const Region2& region) {
+  std::vector<ExactPiece> pieces;
+  for (const PolygonWithHoles2& piece : region) {
+    pieces.emplace_back(counter_clockwise(piece.outer));
+    for (const Polygon2& hole : piece.holes) pieces.back().add_hole(clockwise(hole));
+  }
+  return joined(pieces);
+}
+
 ExactSet joined(std::span<const Polygon2> polygons) {
-  std::vector<ExactPolygon> rings;
+  std::vector<ExactPiece> pieces;
   for (const Polygon2& polygon : polygons) {
     const Polygon2 ring = snapped(polygon);
-    if (is_simple(ring)) rings.push_back(counter_clockwise(ring));
+    if (is_simple(ring)) pieces.emplace_back(counter_clockwise(ring));
   }
-  ExactSet set;
-  set.join(rings.begin(), rings.end());
-  return set;
+  return joined(pieces);
+}
+
+/// a and b, as a without (a without b).
+ExactSet common(const ExactSet& a, const ExactSet& b) {
+  ExactSet outside_b = a;
+  outside_b.difference(b);
+  ExactSet result = a;
+  result.difference(outside_b);
+  return result;
 }
 
 /// Grid steps are whole numbers, so that "on one line" can be decided without rounding.
@@ -84,42 +99,81 @@ bool on_one_line(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen
   return ux * vy == uy * vx;
 }
 
-/// Ring on the grid, without straight vertices, starting at its smallest vertex; empty when nothing is left.
-Polygon2 canonical_ring(const ExactPolygon& polygon) {
-  Polygon2 ring;
-  for (const Kernel::Point_2& p : polygon.container())
-    ring.emplace_back(CGAL::to_double(p.x()), CGAL::to_double(p.y()));
-  ring = snapped(ring);
-  for (bool changed = true; changed && ring.size() >= 3;) {
+/// Loops of a ring that touches itself in single vertices.
+std::vector<Polygon2> split_at_touching_vertices(const Polygon2& ring) {
+  std::vector<Polygon2> loops;
+  Polygon2 open;
+  for (const Eigen::Vector2d& p : ring) {
+    const auto seen = std::find(open.begin(), open.end(), p);
+    if (seen != open.end()) {
+      loops.emplace_back(seen, open.end());
+      open.erase(seen, open.end());
+    }
+    open.push_back(p);
+  }
+  loops.push_back(std::move(open));
+  return loops;
+}
+
+/// Loop without straight vertices, starting at its smallest vertex; empty when nothing is left.
+Polygon2 canonical_loop(Polygon2 loop) {
+  for (bool changed = true; changed && loop.size() >= 3;) {
     changed = false;
-    for (std::size_t i = 0; i < ring.size() && ring.size() >= 3; ++i) {
-      const std::size_t n = ring.size();
-      if (!on_one_line(ring[(i + n - 1) % n], ring[i], ring[(i + 1) % n])) continue;
-      ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(i));
+    for (std::size_t i = 0; i < loop.size() && loop.size() >= 3; ++i) {
+      const std::size_t n = loop.size();
+      if (!on_one_line(loop[(i + n - 1) % n], loop[i], loop[(i + 1) % n])) continue;
+      loop.erase(loop.begin() + static_cast<std::ptrdiff_t>(i));
       changed = true;
     }
   }
-  if (ring.size() < 3) return {};
-  std::rotate(ring.begin(), std::min_element(ring.begin(), ring.end(), before), ring.end());
-  return ring;
+  if (loop.size() < 3) return {};
+  std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end(), before), loop.end());
+  return loop;
+}
+
+std::vector<Polygon2> canonical_loops(const ExactPolygon& polygon) {
+  Polygon2 ring;
+  for (const Kernel::Point_2& p : polygon.container())
+    ring.emplace_back(CGAL::to_double(p.x()), CGAL::to_double(p.y()));
+  std::vector<Polygon2> loops;
+  for (Polygon2& loop : split_at_touching_vertices(snapped(ring))) {
+    Polygon2 result = canonical_loop(std::move(loop));
+    if (!result.empty()) loops.push_back(std::move(result));
+  }
+  return loops;
+}
+
+bool piece_before(const PolygonWithHoles2& a, const PolygonWithHoles2& b) { return ring_before(a.outer, b.outer); }
+
+bool encloses(const Polygon2& outer, const Polygon2& hole) {
+  return std::all_of(hole.begin(), hole.end(), [&](const Eigen::Vector2d& p) { return contains(outer, p); });
+}
+
+/// Pieces of one connected result: loops that turn left are outlines, those that turn right holes.
+Region2 pieces_of(const ExactPiece& piece) {
+  std::vector<Polygon2> loops = canonical_loops(piece.outer_boundary());
+  for (auto hole = piece.holes_begin(); hole != piece.holes_end(); ++hole)
+    for (Polygon2& loop : canonical_loops(*hole)) loops.push_back(std::move(loop));
+  std::sort(loops.begin(), loops.end(), ring_before);
+  Region2 pieces;
+  for (const Polygon2& loop : loops)
+    if (signed_area(loop) > 0.0) pieces.push_back({loop, {}});
+  for (Polygon2& loop : loops) {
+    if (signed_area(loop) > 0.0) continue;
+    const auto owner =
+        std::find_if(pieces.begin(), pieces.end(), [&](const PolygonWithHoles2& p) { return encloses(p.outer, loop); });
+    if (owner != pieces.end()) owner->holes.push_back(std::move(loop));
+  }
+  return pieces;
 }
 
 Region2 canonical(const ExactSet& set) {
-  std::vector<ExactPiece> pieces;
-  set.polygons_with_holes(std::back_inserter(pieces));
+  std::vector<ExactPiece> exact_pieces;
+  set.polygons_with_holes(std::back_inserter(exact_pieces));
   Region2 region;
-  for (const ExactPiece& piece : pieces) {
-    PolygonWithHoles2 result{canonical_ring(piece.outer_boundary()), {}};
-    if (result.outer.empty()) continue;
-    for (auto hole = piece.holes_begin(); hole != piece.holes_end(); ++hole) {
-      Polygon2 ring = canonical_ring(*hole);
-      if (!ring.empty()) result.holes.push_back(std::move(ring));
-    }
-    std::sort(result.holes.begin(), result.holes.end(), ring_before);
-    region.push_back(std::move(result));
-  }
-  std::sort(region.begin(), region.end(),
-            [](const PolygonWithHoles2& a, const PolygonWithHoles2& b) { return ring_before(a.outer, b.outer); });
+  for (const ExactPiece& piece : exact_pieces)
+    for (PolygonWithHoles2& part : pieces_of(piece)) region.push_back(std::move(part));
+  std::sort(region.begin(), region.end(), piece_before);
   return region;
 }
 
@@ -150,11 +204,7 @@ Region2 subtract(const Region2& region, std::span<const Polygon2> polygons) {
   return canonical(set);
 }
 
-Region2 intersect(const Region2& a, const Region2& b) {
-  ExactSet set = exact(a);
-  set.intersection(exact(b));
-  return canonical(set);
-}
+Region2 intersect(const Region2& a, const Region2& b) { return canonical(common(exact(a), exact(b))); }
 
 double area(const Region2& region) {
   double total = 0.0;
@@ -173,9 +223,7 @@ bool contains(const PolygonWithHoles2& polygon, const Eigen::Vector2d& p) {
 
 double intersection_area(const Polygon2& a, const Polygon2& b) {
   if (!is_simple(a) || !is_simple(b)) throw InternalError("intersection area of a polygon that is not simple");
-  ExactSet set(counter_clockwise(a));
-  set.intersection(ExactSet(counter_clockwise(b)));
-  return exact_area(set);
+  return exact_area(common(ExactSet(counter_clockwise(a)), ExactSet(counter_clockwise(b))));
 }
 
 }  // namespace plumbline

@@ -13,7 +13,8 @@ namespace plumbline {
 inline constexpr double boolean_grid_m = 1e-4;
 
 /// Pieces that share no inner point. Canonical: every ring starts at its lexicographically smallest vertex, holes and
-/// pieces are in lexicographic order, no vertex lies within a straight edge of its ring.
+/// pieces are in lexicographic order, no vertex lies within a straight edge of its ring, and rings are simple (one that
+/// would touch itself in a vertex is split there).
 using Region2 = std::vector<PolygonWithHoles2>;
 
 [[nodiscard]] double snap(double value, double grid_m = boolean_grid_m);

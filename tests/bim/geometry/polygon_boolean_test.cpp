@@ -48,6 +48,30 @@ TEST(PolygonBoolean, SubtractMakesHolesAndPieces) {
   EXPECT_TRUE(contains(cut[0], {1.0, 1.5}));
 }
 
+TEST(PolygonBoolean, RingsThatTouchInACornerComeApart) {
+  const Region2 square = unite(std::vector<Polygon2>{rectangle(0, 0, 2, 2)});
+  const Region2 diagonal = subtract(square, std::vector<Polygon2>{rectangle(0, 1, 1, 2), rectangle(1, 0, 2, 1)});
+  ASSERT_EQ(diagonal.size(), 2U);
+  EXPECT_EQ(diagonal[0].outer, rectangle(0, 0, 1, 1));
+  EXPECT_EQ(diagonal[1].outer, rectangle(1, 1, 2, 2));
+  const Region2 bitten = subtract(square, std::vector<Polygon2>{{{0, 0}, {1.5, 0.5}, {0.5, 1.5}}});
+  ASSERT_EQ(bitten.size(), 1U);
+  EXPECT_NEAR(area(bitten), 4.0 - 1.0, 1e-9);
+  for (const Polygon2& hole : bitten[0].holes) EXPECT_TRUE(is_simple(hole));
+  EXPECT_TRUE(is_simple(bitten[0].outer));
+}
+
+TEST(PolygonBoolean, IslandInAHoleSurvives) {
+  const Region2 ring =
+      subtract(unite(std::vector<Polygon2>{rectangle(0, 0, 5, 5)}), std::vector<Polygon2>{rectangle(1, 1, 4, 4)});
+  Region2 both = ring;
+  both.push_back({rectangle(2, 2, 3, 3), {}});
+  const Region2 cut = subtract(both, std::vector<Polygon2>{rectangle(-1, -1, 0.5, 6)});
+  ASSERT_EQ(cut.size(), 2U);
+  EXPECT_NEAR(area(cut), 25.0 - 9.0 + 1.0 - 2.5, 1e-9);
+  EXPECT_NEAR(area(intersect(both, unite(std::vector<Polygon2>{rectangle(1, 1, 4, 4)}))), 1.0, 1e-9);
+}
+
 TEST(PolygonBoolean, InclusionExclusionAtRandom) {
   const Stream stream(4, "bim.generate");
   for (std::uint64_t tick = 0; tick < 100; ++tick) {

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bim/building/load.h"
+
+#include <string_view>
+
+#include "bim/building/plan_yaml.h"
+#include "bim/config/tree.h"
+#include "bim/errors.h"
+
+namespace plumbline::bim {
+
+namespace {
+
+bool starts_with(std::string_view text, std::string_view head) { return text.substr(0, head.size()) == head; }
+
+bool ends_with(std::string_view text, std::string_view tail) {
+  return text.size() >= tail.size() && text.substr(text.size() - tail.size()) == tail;
+}
+
+/// The text from its first line that is neither blank nor a YAML comment.
+std::string_view first_content(std::string_view text) {
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+  if (starts_with(text, byte_order_mark)) text.remove_prefix(byte_order_mark.size());
+  while (!text.empty()) {
+    const std::size_t begin = text.find_first_not_of(" \t\r\n");
+    if (begin == std::string_view::npos) return {};
+    text.remove_prefix(begin);
+    if (text.front() != '#') return text;
+    const std::size_t end = text.find('\n');
+    text.remove_prefix(end == std::string_view::npos ? text.size() : end);
+  }
+  return {};
+}
+
+}  // namespace
+
+Building load_building(const std::string& path) {
+  const std::string text = read_text_file(path);
+  const std::string_view content = first_content(text);
+  const bool yaml = ends_with(path, ".yaml") || ends_with(path, ".yml");
+  if (yaml || starts_with(content, "plan:")) return read_plan_text(text, path);
+  throw InputError({path, 0, 0}, "this is no building; a plan begins with 'plan: 1'");
+}
+
+}  // namespace plumbline::bim

@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bim/building/plan_yaml.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "bim/building/plan_file.h"
+#include "bim/building/rooms.h"
+#include "bim/building/wall_face.h"
+#include "bim/errors.h"
+#include "bim/geometry/polygon_boolean.h"
+#include "bim/mesh/sweep.h"
+
+namespace plumbline::bim {
+
+namespace {
+
+double body_offset(const PlanWallEntry& wall) {
+  switch (wall.just) {
+    case Just::center:
+      return -0.5 * wall.thickness_m;
+    case Just::left:
+      return -wall.thickness_m;
+    case Just::right:
+      return 0.0;
+  }
+  throw InternalError("unknown justification of a wall");
+}
+
+/// Rectangle of the given size around `at`, turned by yaw.
+Polygon2 turned_rectangle(const Eigen::Vector2d& at, const Eigen::Vector2d& size, double yaw_deg) {
+  const Eigen::Rotation2Dd turn(yaw_deg * std::numbers::pi / 180.0);
+  Polygon2 polygon;
+  for (const auto& [x, y] : {std::pair{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}})
+    polygon.push_back(at + turn * Eigen::Vector2d(x * size.x(), y * size.y()));
+  return polygon;
+}
+
+/// Polygon with its corners on the ellipse of the given diameters.
+Polygon2 turned_ellipse(const Eigen::Vector2d& at, const Eigen::Vector2d& size, double yaw_deg, int sides) {
+  const Eigen::Rotation2Dd turn(yaw_deg * std::numbers::pi / 180.0);
+  Polygon2 polygon;
+  for (int i = 0; i < sides; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / sides;
+    const Eigen::Vector2d p(std::cos(angle) * 0.5 * size.x(), std::sin(angle) * 0.5 * size.y());
+    polygon.push_back(at + turn * p);
+  }
+  return polygon;
+}
+
+/// Turns a checked file into a building, storey by storey; a copied storey gets the entries of its source again.
+class PlanBuilder {
+ public:
+  PlanBuilder(const PlanFile& plan, const Tree& tree, const PlanSolids& solids)
+      : plan_(plan), tree_(tree), solids_(solids) {}
+
+  Building build() {
+    building_.name = plan_.name;
+    building_.schema = "plan";
+    building_.unit = "m";
+    for (const PlanMaterialEntry& material : plan_.materials) add_material(material);
+    for (std::size_t i = 0; i < plan_.storeys.size(); ++i) add_storey(static_cast<int>(i));
+    find_room_walls(building_);
+    find_opening_rooms(building_);
+    check_rooms();
+    return std::move(building_);
+  }
+
+ private:
+  /// Where the entries of the storey at hand come from and how high it is.
+  struct Level {
+    int index = 0;
+    std::string source;  ///< storey id the entries name
+    std::string prefix;  ///< of the ids of a copy
+    double floor_z = 0.0, top_z = 3.0;
+    double ceiling_z0 = 3.0, ceiling_z1 = 3.2;
+    std::size_t first_wall = 0;
+  };
+
+  void add_material(const PlanMaterialEntry& material) {
+    building_.materials.push_back(material);
+    if (material.transmission > 0.0 || material.specular > 0.0)
+      building_.warnings.push_back({material.id, "not_simulated", "transmission and specular light are not simulated"});
+  }
+
+  Level level_of(int index) const {
+    const PlanStoreyEntry& storey = plan_.storeys[static_cast<std::size_t>(index)];
+    Level level;
+    level.index = index;
+    level.source = storey.copy_of.empty() ? storey.id : storey.copy_of;
+    level.prefix = storey.copy_of.empty() ? "" : storey.id + "/";
+    level.floor_z = storey.elevation_m;
+    level.top_z = storey.elevation_m + storey_height(plan_, storey);
+    level.ceiling_z1 = level.top_z + solids_.slab_m;
+    // Under a further storey the ceiling is the slab that storey stands on.
+    for (const PlanStoreyEntry& other : plan_.storeys)
+      if (other.elevation_m > storey.elevation_m) level.ceiling_z1 = std::min(level.ceiling_z1, other.elevation_m);
+    level.ceiling_z0 = level.ceiling_z1 - solids_.slab_m;
+    level.first_wall = building_.walls.size();
+    return level;
+  }
+
+  void add_storey(int index) {
+    const PlanStoreyEntry& entry = plan_.storeys[static_cast<std::size_t>(index)];
+    building_.storeys.push_back({entry.id, entry.id, entry.elevation_m, storey_height(plan_, entry)});
+    const Level level = level_of(index);
+    // A copy's own entries follow those it repeats.
+    add_entries(level);
+    if (!level.prefix.empty()) {
+      Level own = level;
+      own.source = entry.id;
+      own.prefix.clear();
+      add_entries(own);
+    }
+    add_rooms(level);
+    add_slabs(level);
+  }
+
+  void add_entries(const Level& level) {
+    const std::size_t first_wall = building_.walls.size();
+    for (const PlanWallEntry& wall : plan_.walls)
+      if (wall.storey == level.source) add_wall(wall, level);
+    for (std::size_t w = first_wall; w < building_.walls.size(); ++w)
+      for (const PlanOpeningEntry& opening : plan_.openings)
+        if (level.prefix + opening.wall == building_.walls[w].id) add_opening(opening, static_cast<int>(w), level);
+    for (const PlanColumnEntry& column : plan_.columns)
+      if (column.storey == level.source) add_column(column, level);
+    for (const PlanClutterEntry& clutter : plan_.clutter)
+      if (clutter.storey == level.source) add_clutter(clutter, level);
+  }
+
+  void add_wall(const PlanWallEntry& entry, const Level& level) {
+    Wall wall;
+    wall.id = level.prefix + entry.id;
+    wall.name = wall.id;
+    wall.storey = level.index;
+    wall.a = entry.a;
+    wall.b = entry.b;
+    wall.thickness_m = entry.thickness_m;
+    wall.offset_m = body_offset(entry);
+    wall.z0_m = level.floor_z;
+    wall.z1_m = entry.height_m ? level.floor_z + *entry.height_m : level.top_z;
+    wall.material = entry.material;
+    building_.walls.push_back(std::move(wall));
+  }
+
+  void add_opening(const PlanOpeningEntry& entry, int wall_index, const Level& level) {
+    const Wall& wall = building_.walls[static_cast<std::size_t>(wall_index)];
+    Opening opening;
+    opening.id = level.prefix + entry.id;
+    opening.wall = wall_index;
+    opening.kind = entry.kind;
+    opening.s_m = entry.s_m;
+    opening.width_m = entry.width_m;
+    opening.z0_m = wall.z0_m + entry.sill_m;
+    opening.z1_m = opening.z0_m + entry.height_m;
+    opening.leaf = entry.leaf.value_or(entry.kind == OpeningKind::door ? Leaf::open : Leaf::none);
+    if (opening.leaf == Leaf::closed) add_leaf(opening, wall);
+    building_.openings.push_back(std::move(opening));
+  }
+
+  /// A closed leaf fills its opening in the middle of the wall. An open one lies against nothing.
+  void add_leaf(const Opening& opening, const Wall& wall) {
+    const double thickness = std::min(solids_.leaf_m, wall.thickness_m);
+    const Eigen::Vector2d along = 0.5 * opening.width_m * wall.direction();
+    const Eigen::Vector2d across = 0.5 * thickness * wall.left();
+    const Eigen::Vector2d centre =
+        wall.a + opening.s_m * wall.direction() + (wall.offset_m + 0.5 * wall.thickness_m) * wall.left();
+    const Polygon2 outline = {centre - along - across, centre + along - across, centre + along + across,
+                              centre - along + across};
+    building_.obstacles.push_back(
+        {opening.id + "/leaf", "door_leaf", wall.storey, extrude({{outline, {}}}, opening.z0_m, opening.z1_m)});
+  }
+
+  void add_column(const PlanColumnEntry& entry, const Level& level) {
+    Column column;
+    column.id = level.prefix + entry.id;
+    column.storey = level.index;
+    column.footprint = turned_rectangle(entry.at, entry.size, entry.yaw_deg);
+    column.z0_m = level.floor_z;
+    column.z1_m = entry.height_m ? level.floor_z + *entry.height_m : level.top_z;
+    building_.columns.push_back(std::move(column));
+  }
+
+  void add_clutter(const PlanClutterEntry& entry, const Level& level) {
+    const bool round = entry.shape == ClutterShape::cylinder;
+    const Polygon2 outline = round ? turned_ellipse(entry.at, entry.size, entry.yaw_deg, solids_.cylinder_sides)
+                                   : turned_rectangle(entry.at, entry.size, entry.yaw_deg);
+    building_.obstacles.push_back({level.prefix + entry.id, round ? "cylinder" : "box", level.index,
+                                   extrude({{outline, {}}}, level.floor_z, level.floor_z + entry.height_m)});
+  }
+
+  void add_rooms(const Level& level) {
+    for (std::size_t i = 0; i < plan_.rooms.size(); ++i) {
+      const std::string& storey = plan_.rooms[i].storey;
+      if (storey == level.source) add_room(i, level.prefix, level);
+      if (!level.prefix.empty() && storey + "/" == level.prefix) add_room(i, "", level);
+    }
+  }
+
+  void add_room(std::size_t entry_index, const std::string& prefix, const Level& level) {
+    const PlanRoomEntry& entry = plan_.rooms[entry_index];
+    const std::vector<Wall> walls(building_.walls.begin() + static_cast<std::ptrdiff_t>(level.first_wall),
+                                  building_.walls.end());
+    const std::vector<Polygon2> outlines = clear_outlines(entry.polygon, walls);
+    if (outlines.empty())
+      throw InputError(place_of_room(entry_index),
+                       "the polygon of room '" + entry.id + "' lies inside walls; draw it around free space");
+    if (outlines.size() > 1 && signed_area(outlines[1]) > solids_.room_remnant_m2)
+      throw InputError(place_of_room(entry_index),
+                       "a wall divides room '" + entry.id + "'; draw a polygon on each side of it");
+    Room room;
+    room.id = prefix + entry.id;
+    room.name = room.id;
+    room.storey = level.index;
+    room.polygon = outlines.front();
+    room.z0_m = level.floor_z;
+    room.z1_m = std::min(level.top_z, level.ceiling_z0);
+    for (const std::string& wall : entry.walls) room.walls.push_back(wall_index(prefix + wall));
+    std::sort(room.walls.begin(), room.walls.end());
+    room.walls.erase(std::unique(room.walls.begin(), room.walls.end()), room.walls.end());
+    building_.rooms.push_back(std::move(room));
+    room_entries_.push_back(entry_index);
+  }
+
+  int wall_index(const std::string& id) const {
+    const auto found =
+        std::find_if(building_.walls.begin(), building_.walls.end(), [&](const Wall& wall) { return wall.id == id; });
+    if (found == building_.walls.end()) throw InternalError("a room names a wall that was not built");
+    return static_cast<int>(found - building_.walls.begin());
+  }
+
+  /// Floor and ceiling over everything within the outermost walls and room outlines.
+  void add_slabs(const Level& level) {
+    std::vector<Polygon2> parts;
+    for (std::size_t w = level.first_wall; w < building_.walls.size(); ++w)
+      parts.push_back(footprint(building_.walls[w]));
+    const std::string& storey = plan_.storeys[static_cast<std::size_t>(level.index)].id;
+    for (const PlanRoomEntry& room : plan_.rooms)
+      if (room.storey == level.source || room.storey == storey) parts.push_back(room.polygon);
+    std::vector<Polygon2> outlines;
+    for (const PolygonWithHoles2& piece : unite(parts)) outlines.push_back(piece.outer);
+    int number = 0;
+    for (const PolygonWithHoles2& piece : unite(outlines)) {
+      const std::string suffix = number++ == 0 ? "" : "-" + std::to_string(number);
+      add_slab(storey + "/floor" + suffix, piece, level.index, level.floor_z - solids_.slab_m, level.floor_z);
+      add_slab(storey + "/ceiling" + suffix, piece, level.index, level.ceiling_z0, level.ceiling_z1);
+    }
+  }
+
+  void add_slab(std::string id, const PolygonWithHoles2& polygon, int storey, double z0, double z1) {
+    Slab slab;
+    slab.id = std::move(id);
+    slab.storey = storey;
+    slab.polygon = polygon;
+    slab.z0_m = z0;
+    slab.z1_m = z1;
+    building_.slabs.push_back(std::move(slab));
+  }
+
+  void check_rooms() const {
+    for (std::size_t i = 0; i < building_.rooms.size(); ++i) {
+      const Room& room = building_.rooms[i];
+      if (room.walls.empty())
+        throw InputError(place_of_room(room_entries_[i]), "no wall runs along the outline of room '" + room.id +
+                                                              "'; draw its polygon along walls or name its walls");
+      for (std::size_t j = 0; j < i; ++j) {
+        const Room& other = building_.rooms[j];
+        if (other.storey != room.storey || intersection_area(room.polygon, other.polygon) <= solids_.room_overlap_m2)
+          continue;
+        throw InputError(place_of_room(room_entries_[i]), "room '" + room.id + "' overlaps room '" + other.id +
+                                                              "'; rooms of a storey must lie beside each other");
+      }
+    }
+  }
+
+  Mark place_of_room(std::size_t entry_index) const {
+    return tree_.find("rooms")->as_list().at(entry_index).find("polygon")->mark;
+  }
+
+  const PlanFile& plan_;
+  const Tree& tree_;
+  const PlanSolids& solids_;
+  Building building_;
+  std::vector<std::size_t> room_entries_;  ///< entry each room came from
+};
+
+}  // namespace
+
+Building read_plan(const std::string& path) { return read_plan_text(read_text_file(path), path); }
+
+Building read_plan_text(std::string_view text, const std::string& file, const PlanSolids& solids) {
+  const Tree tree = read_yaml(text, file);
+  if (!tree.is_map() || tree.as_map().empty() || tree.as_map().front().first != "plan")
+    throw InputError(tree.mark, "this is no plan; its first key must be 'plan: 1'");
+  refuse_what_is_not_built(tree);
+  const PlanFile plan = from_tree<PlanFile>(tree);
+  check_plan(plan, tree);
+  return PlanBuilder(plan, tree, solids).build();
+}
+
+}  // namespace plumbline::bim
