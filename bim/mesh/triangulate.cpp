@@ -6,7 +6,10 @@
 #include <CGAL/Triangulation_face_base_with_info_2.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 
+#include <algorithm>
 #include <deque>
+#include <numeric>
+#include <utility>
 
 #include "bim/errors.h"
 
@@ -57,9 +60,13 @@ void mark_levels(Triangulation& triangulation) {
   }
 }
 
+/// Inside faces with points in lexicographic order.
 FlatMesh inside_faces(Triangulation& triangulation) {
+  std::vector<Triangulation::Vertex_handle> vertices;
+  for (const auto vertex : triangulation.finite_vertex_handles()) vertices.push_back(vertex);
+  std::sort(vertices.begin(), vertices.end(), [](const auto& a, const auto& b) { return a->point() < b->point(); });
   FlatMesh mesh;
-  for (auto vertex : triangulation.finite_vertex_handles()) {
+  for (const auto& vertex : vertices) {
     vertex->info() = static_cast<int>(mesh.points.size());
     mesh.points.emplace_back(vertex->point().x(), vertex->point().y());
   }
@@ -80,6 +87,91 @@ FlatMesh inside_faces(Triangulation& triangulation) {
   return mesh;
 }
 
+/// The two triangles at an inner edge, seen as a quadrilateral: edge `i` of triangle `t`, edge `j` of triangle `u`.
+struct Quad {
+  std::size_t t, i, u, j;
+};
+
+Quad quad_at(const FlatMesh& mesh, std::size_t t, std::size_t i) {
+  const auto u = static_cast<std::size_t>(mesh.triangles[t].neighbours[i]);
+  const auto& back = mesh.triangles[u].neighbours;
+  const auto j = static_cast<std::size_t>(std::find(back.begin(), back.end(), static_cast<int>(t)) - back.begin());
+  return {t, i, u, j};
+}
+
+/// On one circle, and the lowest of the four points is not on the common edge.
+bool ties_the_wrong_way(const FlatMesh& mesh, const Quad& quad) {
+  const auto& t = mesh.triangles[quad.t].points;
+  const int p = t[quad.i], q = mesh.triangles[quad.u].points[quad.j];
+  if (std::min(p, q) > std::min(t[(quad.i + 1) % 3], t[(quad.i + 2) % 3])) return false;
+  const auto point = [&](int k) {
+    const Eigen::Vector2d& v = mesh.points[static_cast<std::size_t>(k)];
+    return Kernel::Point_2(v.x(), v.y());
+  };
+  return CGAL::side_of_oriented_circle(point(t[0]), point(t[1]), point(t[2]), point(q)) == CGAL::ON_ORIENTED_BOUNDARY;
+}
+
+void replace_neighbour(FlatMesh& mesh, int triangle, std::size_t from, std::size_t to) {
+  if (triangle < 0) return;
+  auto& neighbours = mesh.triangles[static_cast<std::size_t>(triangle)].neighbours;
+  std::replace(neighbours.begin(), neighbours.end(), static_cast<int>(from), static_cast<int>(to));
+}
+
+void flip(FlatMesh& mesh, const Quad& quad) {
+  const FlatTriangle t = mesh.triangles[quad.t], u = mesh.triangles[quad.u];
+  const std::size_t i = quad.i, j = quad.j;
+  const int p = t.points[i], a = t.points[(i + 1) % 3], b = t.points[(i + 2) % 3], q = u.points[j];
+  const int t_b = t.neighbours[(i + 1) % 3], t_a = t.neighbours[(i + 2) % 3];  // across b-p and across p-a
+  const int u_a = u.neighbours[(j + 1) % 3], u_b = u.neighbours[(j + 2) % 3];  // across a-q and across q-b
+  const int T = static_cast<int>(quad.t), U = static_cast<int>(quad.u);
+  mesh.triangles[quad.t] = {{p, a, q}, {u_a, U, t_a}};
+  mesh.triangles[quad.u] = {{p, q, b}, {u_b, t_b, T}};
+  replace_neighbour(mesh, u_a, quad.u, quad.t);
+  replace_neighbour(mesh, t_b, quad.t, quad.u);
+}
+
+/// Points on one circle leave the diagonal open, and CGAL decides by addresses in memory. Here the diagonal goes to
+/// the lowest point: the flips end, as each lowers a lifted surface, and the end does not depend on their order.
+void settle_ties(FlatMesh& mesh) {
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        if (mesh.triangles[t].neighbours[i] < 0) continue;
+        const Quad quad = quad_at(mesh, t, i);
+        if (!ties_the_wrong_way(mesh, quad)) continue;
+        flip(mesh, quad);
+        changed = true;
+      }
+    }
+  }
+}
+
+FlatTriangle lowest_first(const FlatTriangle& t) {
+  const auto k = static_cast<std::size_t>(std::min_element(t.points.begin(), t.points.end()) - t.points.begin());
+  return {{t.points[k], t.points[(k + 1) % 3], t.points[(k + 2) % 3]},
+          {t.neighbours[k], t.neighbours[(k + 1) % 3], t.neighbours[(k + 2) % 3]}};
+}
+
+void sort_triangles(FlatMesh& mesh) {
+  for (FlatTriangle& t : mesh.triangles) t = lowest_first(t);
+  std::vector<int> order(mesh.triangles.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](int a, int b) {
+    return mesh.triangles[static_cast<std::size_t>(a)].points < mesh.triangles[static_cast<std::size_t>(b)].points;
+  });
+  std::vector<int> rank(order.size());
+  std::vector<FlatTriangle> sorted;
+  for (const int old : order) {
+    rank[static_cast<std::size_t>(old)] = static_cast<int>(sorted.size());
+    sorted.push_back(mesh.triangles[static_cast<std::size_t>(old)]);
+  }
+  for (FlatTriangle& t : sorted)
+    for (int& neighbour : t.neighbours)
+      if (neighbour >= 0) neighbour = rank[static_cast<std::size_t>(neighbour)];
+  mesh.triangles = std::move(sorted);
+}
+
 }  // namespace
 
 FlatMesh triangulate(const Region2& region) {
@@ -94,7 +186,10 @@ FlatMesh triangulate(const Region2& region) {
   }
   if (triangulation.dimension() < 2) return {};
   mark_levels(triangulation);
-  return inside_faces(triangulation);
+  FlatMesh mesh = inside_faces(triangulation);
+  settle_ties(mesh);
+  sort_triangles(mesh);
+  return mesh;
 }
 
 }  // namespace plumbline::bim

@@ -19,7 +19,9 @@ struct FlatMesh {
   std::vector<FlatTriangle> triangles;
 };
 
-/// Constrained Delaunay triangulation of a region. Throws InternalError when rings cross each other.
+/// Constrained Delaunay triangulation of a region. Of points on one circle the lexicographically lowest gets the
+/// diagonals, and points and triangles are sorted, so that the result depends on the region alone. Throws InternalError
+/// when rings cross each other.
 [[nodiscard]] FlatMesh triangulate(const Region2& region);
 
 }  // namespace plumbline::bim

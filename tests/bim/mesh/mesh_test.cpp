@@ -270,6 +270,25 @@ TEST(WallCut, ThreeDAndElevationAgreeAtRandom) {
   }
 }
 
+TEST(WallCut, ThreeDCutDoesNotDependOnWhatRanBefore) {
+  const Stream stream(7, "bim.generate");
+  const auto cut_in_space = [&](std::uint64_t tick) {
+    RandomWall r = random_wall(stream, tick);
+    r.wall.body = cut(r.wall, {});
+    Opening outside = hole(0, 1, 0, 1);
+    outside.solid = box({900, 900, 900}, {901, 901, 901});
+    r.openings.push_back(outside);
+    return cut_wall(r.wall, r.openings, {}).solid;
+  };
+  std::vector<Solid> first;
+  for (std::uint64_t tick = 0; tick < 10; ++tick) first.push_back(cut_in_space(tick));
+  for (std::uint64_t i = 10; i-- > 0;) {
+    const Solid again = cut_in_space(i);
+    EXPECT_EQ(again.vertices, first[i].vertices) << i;
+    EXPECT_EQ(again.triangles, first[i].triangles) << i;
+  }
+}
+
 TEST(WallCut, OpenBodyIsKeptAndReported) {
   Wall wall = with_body(wall_of(4.0, 0.3), 0.0);
   std::erase_if(wall.body->triangles, [&](const Eigen::Vector3i& t) {  // the face at y = -0.15
