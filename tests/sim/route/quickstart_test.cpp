@@ -1,22 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <vector>
 
-#include "bim/config/tree.h"
+#include "bim/building/plan_yaml.h"
 #include "sim/route/route.h"
-#include "tests/sim/route/floor_plan.h"
 
 namespace plumbline::sim {
 namespace {
 
-Eigen::Vector2d point(const Tree& pair) { return {pair.as_list().at(0).as_double(), pair.as_list().at(1).as_double()}; }
-
-/// The shipped floor plan as this test needs it: centred walls, doors, rooms, boxes around columns and clutter.
 class QuickstartRoutes : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -24,42 +19,20 @@ class QuickstartRoutes : public ::testing::Test {
     const auto path =
         std::filesystem::path(source != nullptr ? source : ".") / "scenarios/library/quickstart.plan.yaml";
     if (!std::filesystem::exists(path)) GTEST_SKIP() << "no plan at " << path;
-    const Tree plan = read_yaml(read_text_file(path.string()), path.string());
-    read_walls(plan);
-    for (const Tree& room : plan.find("rooms")->as_list()) {
-      Polygon2 polygon;
-      for (const Tree& p : room.find("polygon")->as_list()) polygon.push_back(point(p));
-      add_room(building_, room.find("id")->as_string(), polygon);
+    building_ = bim::read_plan(path.string());
+    for (const bim::Column& column : building_.columns) solids_.push_back(column.footprint);
+    for (const bim::Obstacle& obstacle : building_.obstacles) {
+      // Upright prisms: their walls stand on their lowest vertices, in order around.
+      Polygon2 base;
+      for (const Eigen::Vector3d& v : obstacle.body.vertices)
+        if (v.z() < 0.05) base.emplace_back(v.head<2>());
+      if (base.size() >= 3) solids_.push_back(base);
     }
-    for (const char* key : {"columns", "clutter"})
-      for (const Tree& item : plan.find(key)->as_list()) read_box(item);
+    ASSERT_GE(solids_.size(), 7U);
   }
 
-  bim::Building building_ = empty_storey();
+  bim::Building building_;
   std::vector<Polygon2> solids_;  ///< everything but the walls
-
- private:
-  void read_walls(const Tree& plan) {
-    std::vector<std::string> ids;
-    for (const Tree& wall : plan.find("walls")->as_list()) {
-      ids.push_back(wall.find("id")->as_string());
-      add_wall(building_, point(*wall.find("a")), point(*wall.find("b")), wall.find("thickness_m")->as_double());
-    }
-    for (const Tree& opening : plan.find("openings")->as_list()) {
-      if (opening.find("kind")->as_string() != "door") continue;
-      const auto wall = std::find(ids.begin(), ids.end(), opening.find("wall")->as_string()) - ids.begin();
-      bim::Opening& door = add_door(building_, static_cast<int>(wall), opening.find("s_m")->as_double(),
-                                    opening.find("width_m")->as_double());
-      if (opening.find("leaf")->as_string() == "closed") door.leaf = bim::Leaf::closed;
-    }
-  }
-
-  void read_box(const Tree& item) {
-    const Eigen::Vector2d half = 0.5 * point(*item.find("size"));
-    const Eigen::Vector2d at = point(*item.find("at"));
-    solids_.push_back(rectangle(at - half, at + half));
-    add_obstacle(building_, solids_.back(), 0.0, item.find("height_m")->as_double());
-  }
 };
 
 TEST_F(QuickstartRoutes, EveryRoomIsReachedFromEveryOther) {
