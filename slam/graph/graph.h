@@ -32,6 +32,7 @@ struct RoomVertex {
   RoomKind kind = RoomKind::four_wall;
   Eigen::Vector2d center_M = Eigen::Vector2d::Zero();
   int storey = 0;
+  bool found = true;  ///< false: the map no longer shows it; its factors are gone, its id stays
 };
 
 /// Layer 4: centre of a storey.

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+
+#include "bim/config/visit.h"
+#include "slam/graph/graph.h"
+#include "slam/planes/detect.h"
+
+namespace plumbline::slam {
+
+struct FloorLayerConfig {
+  double storey_step_m = 1.0;  ///< a floor this much above or below all known ones is another storey's
+  double opposed_cos = 0.9;    ///< least |n_a . n_b| of a widest pair [facts: slam 3.5]
+  double min_width_m = 1.0;
+  double refresh_m = 0.5;     ///< t_f: a floor centre that moves further renews the rooms' places on it
+  double room_sigma_m = 1.0;  ///< of a room's place on its floor; weak, rooms are not known to be fixed to it
+
+  template <class V>
+  void visit(V& v) {
+    v("storey_step_m", storey_step_m, Field{.doc = "height between storeys, at least", .min = 0.1});
+    v("opposed_cos", opposed_cos, Field{.doc = "of the widest pair of walls", .min = 0, .max = 1});
+    v("min_width_m", min_width_m, Field{.doc = "of the widest pair of walls", .min = 0});
+    v("refresh_m", refresh_m, Field{.doc = "move of a floor's centre that renews its factors", .min = 0});
+    v("room_sigma_m", room_sigma_m, Field{.doc = "of a room's place on its floor", .min = 1e-3});
+  }
+};
+
+/// Storey of the newest keyframe: that of the nearest known floor plane, a new one when no floor is near, the former
+/// keyframe's when no floor is seen.
+[[nodiscard]] int storey_of(const Graph& graph, const Pose& X_MR, std::span<const PlaneObservation> seen,
+                            const FloorLayerConfig& config);
+
+/// The floor layer [S-Graphs+ sections IV-D, V]: a floor's centre lies midway between the widest opposed pairs of its
+/// walls; every room is tied to it [eq. 9].
+class FloorLayer {
+ public:
+  explicit FloorLayer(const FloorLayerConfig& config) : config_(config) {}
+
+  void update(Graph& graph, int storey, std::span<const PlaneNode> walls);
+
+ private:
+  struct Place {
+    int room = 0;
+    Eigen::Vector2d offset_M = Eigen::Vector2d::Zero();
+  };
+
+  FloorLayerConfig config_;
+  std::vector<Place> places_;  ///< by room id, ascending
+};
+
+}  // namespace plumbline::slam

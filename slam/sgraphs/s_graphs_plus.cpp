@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/sgraphs/s_graphs_plus.h"
+
+#include <algorithm>
+
+#include "bim/digest/digest.h"
+#include "slam/io/stopwatch.h"
+
+namespace plumbline::slam {
+
+namespace {
+
+RoomLayerConfig with_mount(RoomLayerConfig config, const Calibration& calibration) {
+  config.free_space.sensor_height_m = calibration.sensor_height_m;
+  return config;
+}
+
+/// M's z axis stands on the first floor seen, so that walls are upright in M whatever the gait's phase at the start.
+Pose levelled_start(std::span<const PlaneObservation> seen) {
+  const auto floor = std::find_if(seen.begin(), seen.end(),
+                                  [](const PlaneObservation& o) { return !o.vertical && o.plane_R.n.z() > 0.0; });
+  if (floor == seen.end()) return {};
+  return {Eigen::Quaterniond::FromTwoVectors(floor->plane_R.n, Eigen::Vector3d::UnitZ()), Eigen::Vector3d::Zero()};
+}
+
+std::uint64_t digest_of(std::span<const PlaneObservation> planes) {
+  Digest digest;
+  for (const PlaneObservation& p : planes) digest.add(p.plane_R).add(p.points).add(p.p0_R).add(p.p1_R);
+  return digest.value();
+}
+
+std::uint64_t digest_of(std::span<const RoomNode> rooms) {
+  Digest digest;
+  for (const RoomNode& room : rooms) {
+    digest.add(room.id).add(room.center_F);
+    for (const int plane : room.planes) digest.add(plane);
+    for (const Eigen::Vector2d& p : room.polygon_F) digest.add(p);
+  }
+  return digest.value();
+}
+
+std::uint64_t digest_of(std::span<const int> ids) {
+  Digest digest;
+  for (const int id : ids) digest.add(id);
+  return digest.value();
+}
+
+/// Files a stage's digest and its CPU time since the last one.
+void file(Output& output, Stopwatch& watch, const std::string& stage, std::uint64_t digest) {
+  output.times.push_back({stage, watch.cpu_ms()});
+  output.digests.push_back({stage, digest});
+  watch.restart();
+}
+
+}  // namespace
+
+SGraphsPlus::SGraphsPlus(const MethodInput& input, const SGraphsPlusConfig& config)
+    : config_(config),
+      calibration_(input.calibration),
+      odometry_(config.odometry),
+      walls_(config.walls),
+      rooms_(with_mount(config.rooms, input.calibration)),
+      floors_(config.floors),
+      loop_(config.loop) {}
+
+Output SGraphsPlus::on_scan(const Scan& scan) {
+  Output output;
+  output.stamp = scan.stamp;
+  Stopwatch watch;
+  const DeskewedScan deskewed = deskew(scan, motion_, calibration_);
+  const Pose legs_OR = motion_.at(scan.stamp);
+  motion_.forget_before(scan.stamp);
+  file(output, watch, "deskew", digest(deskewed));
+
+  const Registration odometry = odometry_.update(deskewed, legs_OR);
+  file(output, watch, "odometry", Digest().add(odometry.X_MR).value());
+
+  const Pose& X_OR = odometry.X_MR;
+  if (is_keyframe(X_OR)) add_keyframe(deskewed, odometry, output);
+  const auto keyframe = graph_.keyframes.size() - 1;
+  scans_.push_back({scan.stamp, static_cast<int>(keyframe), X_OR});
+  output.X_FR = X_MO(keyframe) * X_OR;
+  return output;
+}
+
+bool SGraphsPlus::is_keyframe(const Pose& X_OR) const {
+  if (graph_.keyframes.empty()) return true;
+  const Pose step = graph_.keyframes.back().X_OR.inverse() * X_OR;
+  return step.t.norm() > config_.keyframe_distance_m || log_so3(step.q).norm() > config_.keyframe_angle_rad;
+}
+
+// [S-Graphs+ Fig. 2]: walls, rooms, floors and loops of one keyframe, then the back end.
+void SGraphsPlus::add_keyframe(const DeskewedScan& scan, const Registration& odometry, Output& output) {
+  Stopwatch watch;
+  const std::vector<PlaneObservation> seen = detect_planes(scan, config_.planes);
+  file(output, watch, "planes", digest_of(seen));
+
+  add_keyframe_vertex(scan.stamp, odometry, seen);
+  const int storey = graph_.keyframes.back().storey;
+  file(output, watch, "association", digest_of(walls_.observe(graph_, seen, walked_m_)));
+
+  rooms_.look(graph_, scan);
+  full_wanted_ |= walls_.find_duplicates(graph_, storey);
+  const std::vector<PlaneNode> walls = walls_.walls(graph_, storey);
+  rooms_.update(graph_, storey, walls);
+  floors_.update(graph_, storey, walls);
+  file(output, watch, "rooms", digest_of(rooms_.nodes(graph_)));
+
+  close_loop(scan);
+  file(output, watch, "loop", Digest().add(static_cast<std::int64_t>(graph_.pose_factors.size())).value());
+
+  optimize_graph();
+  file(output, watch, "graph", slam::digest_of(graph_));
+  clouds_.push_back({graph_.keyframes.back().X_MR, thin_scan(scan, config_.map)});
+}
+
+void SGraphsPlus::add_keyframe_vertex(Nanoseconds stamp, const Registration& odometry,
+                                      std::span<const PlaneObservation> seen) {
+  const Pose& X_OR = odometry.X_MR;
+  if (graph_.keyframes.empty()) {
+    graph_.keyframes.push_back({stamp, levelled_start(seen), X_OR, 0});
+    return;
+  }
+  const KeyframeVertex& last = graph_.keyframes.back();
+  const Pose step = last.X_OR.inverse() * X_OR;
+  const Pose X_MR = last.X_MR * step;
+  const int from = static_cast<int>(graph_.keyframes.size()) - 1;
+  walked_m_ += step.t.norm();
+  graph_.pose_factors.push_back({from, from + 1, step,
+                                 trusted_information(odometry.information, config_.odometry_inflation,
+                                                     config_.odometry_sigma_m, config_.odometry_sigma_rad),
+                                 false});
+  graph_.keyframes.push_back({stamp, X_MR, X_OR, storey_of(graph_, X_MR, seen, config_.floors)});
+}
+
+void SGraphsPlus::close_loop(const DeskewedScan& scan) {
+  const std::optional<PoseFactor> loop = loop_.update(graph_, scan, walked_m_);
+  if (!loop) return;
+  graph_.pose_factors.push_back(*loop);
+  full_wanted_ = true;
+}
+
+void SGraphsPlus::optimize_graph() {
+  const int keyframes = static_cast<int>(graph_.keyframes.size());
+  if (keyframes < 2) return;
+  const bool full = full_wanted_ || ++since_full_ >= config_.full_every;
+  optimize(graph_, full ? 1 : keyframes - config_.window, config_.optimizer);
+  if (!full) return;
+  since_full_ = 0;
+  full_wanted_ = walls_.merge_duplicates(graph_) > 0;
+}
+
+Pose SGraphsPlus::X_MO(std::size_t keyframe) const {
+  return graph_.keyframes[keyframe].X_MR * graph_.keyframes[keyframe].X_OR.inverse();
+}
+
+Estimate SGraphsPlus::finish() {
+  Estimate estimate;
+  if (graph_.keyframes.empty()) return estimate;
+  if (graph_.keyframes.size() > 1) optimize(graph_, 1, config_.optimizer);
+  walls_.merge_duplicates(graph_);
+  rooms_.redraw(graph_);
+  const int storeys = 1 + std::max_element(graph_.keyframes.begin(), graph_.keyframes.end(), [](auto& a, auto& b) {
+                            return a.storey < b.storey;
+                          })->storey;
+  for (int storey = 0; storey < storeys; ++storey) {
+    const std::vector<PlaneNode> walls = walls_.walls(graph_, storey);
+    rooms_.update(graph_, storey, walls);
+    floors_.update(graph_, storey, walls);
+    estimate.planes.insert(estimate.planes.end(), walls.begin(), walls.end());
+  }
+  estimate.trajectory = trajectory();
+  estimate.rooms = rooms_.nodes(graph_);
+  for (const FloorVertex& floor : graph_.floors) {
+    if (floor.plane < 0) continue;
+    const Plane& plane = graph_.planes[static_cast<std::size_t>(floor.plane)].plane_M;
+    const double z = -(plane.d + plane.n.head<2>().dot(floor.center_M)) / plane.n.z();
+    estimate.floors.push_back({floor.storey, {floor.center_M.x(), floor.center_M.y(), z}, plane});
+  }
+  estimate.map_F = point_map();
+  return estimate;
+}
+
+// Between two keyframes the correction changes linearly from the one's to the other's.
+std::vector<StampedPose> SGraphsPlus::trajectory() const {
+  std::vector<StampedPose> poses;
+  for (const TrackedScan& scan : scans_) {
+    const auto k = static_cast<std::size_t>(scan.keyframe);
+    Pose X_MR = X_MO(k) * scan.X_OR;
+    if (k + 1 < graph_.keyframes.size()) {
+      const Nanoseconds from = graph_.keyframes[k].stamp, to = graph_.keyframes[k + 1].stamp;
+      const double s = seconds(scan.stamp - from) / seconds(to - from);
+      X_MR = interpolate(X_MR, X_MO(k + 1) * scan.X_OR, s);
+    }
+    poses.push_back({scan.stamp, X_MR});
+  }
+  return poses;
+}
+
+std::vector<Eigen::Vector3f> SGraphsPlus::point_map() {
+  for (std::size_t k = 0; k < clouds_.size(); ++k) clouds_[k].X_FR = graph_.keyframes[k].X_MR;
+  return map_cloud(clouds_, config_.map);
+}
+
+std::unique_ptr<Method> make_s_graphs_plus_method(const MethodInput& input) {
+  return std::make_unique<SGraphsPlus>(input, SGraphsPlusConfig{});
+}
+
+}  // namespace plumbline::slam

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+
+#include "bim/config/visit.h"
+#include "slam/graph/optimize.h"
+#include "slam/io/method.h"
+#include "slam/loop/loop_closure.h"
+#include "slam/odometry/map_cloud.h"
+#include "slam/odometry/motion.h"
+#include "slam/odometry/vgicp.h"
+#include "slam/planes/detect.h"
+#include "slam/sgraphs/floor_layer.h"
+#include "slam/sgraphs/room_layer.h"
+#include "slam/sgraphs/wall_layer.h"
+
+namespace plumbline::slam {
+
+struct SGraphsPlusConfig {
+  double keyframe_distance_m = 0.6;
+  double keyframe_angle_rad = 0.35;
+  int window = 15;                   ///< latest keyframes that every keyframe's optimisation may move
+  int full_every = 10;               ///< keyframes between optimisations of the whole graph without a loop or duplicate
+  double odometry_inflation = 50.0;  ///< of the registration's covariance: surfels are not independent
+  double odometry_sigma_m = 0.006;   ///< of a step between keyframes, added
+  double odometry_sigma_rad = 0.002;
+  VgicpConfig odometry;
+  PlaneDetectorConfig planes;
+  WallLayerConfig walls;
+  RoomLayerConfig rooms;
+  FloorLayerConfig floors;
+  LoopConfig loop;
+  OptimizerConfig optimizer;
+  MapCloudConfig map;
+
+  template <class V>
+  void visit(V& v) {
+    v("keyframe_distance_m", keyframe_distance_m, Field{.doc = "way to the next keyframe", .min = 0.05});
+    v("keyframe_angle_rad", keyframe_angle_rad, Field{.doc = "turn to the next keyframe", .min = 0.02});
+    v("window", window, Field{.doc = "latest keyframes that move at each keyframe", .min = 2});
+    v("full_every", full_every, Field{.doc = "keyframes between optimisations of the whole graph", .min = 1});
+    v("odometry_inflation", odometry_inflation, Field{.doc = "of the registration's covariance", .min = 1});
+    v("odometry_sigma_m", odometry_sigma_m, Field{.doc = "of a step between keyframes", .min = 1e-4});
+    v("odometry_sigma_rad", odometry_sigma_rad, Field{.doc = "of a step between keyframes", .min = 1e-5});
+    v("odometry", odometry);
+    v("planes", planes);
+    v("walls", walls);
+    v("rooms", rooms);
+    v("floors", floors);
+    v("loop", loop);
+    v("optimizer", optimizer);
+    v("map", map);
+  }
+};
+
+/// S-Graphs+ [S-Graphs+ Fig. 2]: odometry, walls, free-space rooms, floors and loops in one four-layered graph.
+class SGraphsPlus : public Method {
+ public:
+  SGraphsPlus(const MethodInput& input, const SGraphsPlusConfig& config);
+
+  void on_odometry(const Odometry& odometry) override { motion_.add(odometry); }
+  [[nodiscard]] Output on_scan(const Scan& scan) override;
+  [[nodiscard]] Estimate finish() override;
+
+  [[nodiscard]] const Graph& graph() const { return graph_; }
+
+ private:
+  /// One scan's odometry, and the last keyframe before it.
+  struct TrackedScan {
+    Nanoseconds stamp = 0;
+    int keyframe = 0;
+    Pose X_OR;
+  };
+
+  [[nodiscard]] bool is_keyframe(const Pose& X_OR) const;
+  void add_keyframe(const DeskewedScan& scan, const Registration& odometry, Output& output);
+  void add_keyframe_vertex(Nanoseconds stamp, const Registration& odometry, std::span<const PlaneObservation> seen);
+  void close_loop(const DeskewedScan& scan);
+  void optimize_graph();
+  [[nodiscard]] Pose X_MO(std::size_t keyframe) const;
+  [[nodiscard]] std::vector<StampedPose> trajectory() const;
+  [[nodiscard]] std::vector<Eigen::Vector3f> point_map();
+
+  SGraphsPlusConfig config_;
+  Calibration calibration_;
+  MotionBuffer motion_;
+  VgicpOdometry odometry_;
+  WallLayer walls_;
+  RoomLayer rooms_;
+  FloorLayer floors_;
+  LoopClosure loop_;
+  Graph graph_;
+  std::vector<TrackedScan> scans_;
+  std::vector<CloudKeyframe> clouds_;  ///< index = keyframe
+  double walked_m_ = 0.0;
+  int since_full_ = 0;        ///< keyframes since the whole graph was optimised
+  bool full_wanted_ = false;  ///< a loop or a duplicate came in
+};
+
+[[nodiscard]] std::unique_ptr<Method> make_s_graphs_plus_method(const MethodInput& input);
+
+}  // namespace plumbline::slam

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/sgraphs/wall_layer.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "slam/graph/factors.h"
+
+namespace plumbline::slam {
+
+namespace {
+
+PlaneKind kind_of(const PlaneObservation& seen) {
+  if (seen.vertical) return PlaneKind::wall;
+  return seen.plane_R.n.z() > 0.0 ? PlaneKind::floor : PlaneKind::ceiling;
+}
+
+/// Direction of a wall in plan: its horizontal tangent.
+Eigen::Vector2d along(const Plane& plane) { return Eigen::Vector2d(-plane.n.y(), plane.n.x()).normalized(); }
+
+struct Interval {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -std::numeric_limits<double>::infinity();
+  void add(double v) {
+    low = std::min(low, v);
+    high = std::max(high, v);
+  }
+  [[nodiscard]] double length() const { return high - low; }
+};
+
+Interval interval(const Eigen::Vector2d& direction, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  Interval i;
+  i.add(direction.dot(a));
+  i.add(direction.dot(b));
+  return i;
+}
+
+/// Positive: the gap between two intervals; negative: their overlap.
+double gap(const Interval& a, const Interval& b) { return std::max(a.low, b.low) - std::min(a.high, b.high); }
+
+Eigen::Vector2d middle(const PlaneNode& wall) { return 0.5 * (wall.p0 + wall.p1); }
+
+/// Do two vertices overlap so much, on the same side and so near, that one would hide the other?
+bool one_face(const PlaneNode& a, const PlaneNode& b, const WallLayerConfig& config) {
+  if (a.plane_F.n.dot(b.plane_F.n) < std::cos(config.duplicate_angle_rad)) return false;
+  const Eigen::Vector2d t = along(a.plane_F);
+  const Interval ia = interval(t, a.p0, a.p1), ib = interval(t, b.p0, b.p1);
+  if (-gap(ia, ib) < config.duplicate_overlap * std::min(ia.length(), ib.length())) return false;
+  const Interval za{a.z0, a.z1}, zb{b.z0, b.z1};
+  if (-gap(za, zb) < config.duplicate_overlap * std::min(za.length(), zb.length())) return false;
+  const PlaneNode& shorter = ib.length() < ia.length() ? b : a;
+  const PlaneNode& longer = ib.length() < ia.length() ? a : b;
+  const Eigen::Vector3d p(middle(shorter).x(), middle(shorter).y(), 0.5 * (shorter.z0 + shorter.z1));
+  return std::abs(longer.plane_F.distance(p) - shorter.plane_F.distance(p)) < config.duplicate_offset_m;
+}
+
+}  // namespace
+
+std::vector<int> WallLayer::observe(Graph& graph, std::span<const PlaneObservation> seen, double walked_m) {
+  const int keyframe = static_cast<int>(graph.keyframes.size()) - 1;
+  const Pose& X_MR = graph.keyframes.back().X_MR;
+  const std::vector<PlaneNode> known = extents(graph);
+  std::vector<int> ids;
+  for (const PlaneObservation& observation : seen) {
+    const PlaneKind kind = kind_of(observation);
+    int id = match(graph, known, observation, kind, walked_m);
+    if (id < 0) {
+      id = static_cast<int>(graph.planes.size());
+      graph.planes.push_back({X_MR * observation.plane_R, kind, graph.keyframes.back().storey, -1});
+      last_seen_m_.push_back(walked_m);
+    }
+    const Eigen::Matrix3d information =
+        observation.covariance.llt().solve(Eigen::Matrix3d::Identity()).selfadjointView<Eigen::Lower>();
+    graph.plane_factors.push_back({keyframe, id, observation.plane_R, information});
+    patches_.push_back({observation.p0_R, observation.p1_R, observation.z0, observation.z1});
+    ids.push_back(id);
+  }
+  for (const int id : ids) last_seen_m_[static_cast<std::size_t>(id)] = walked_m;
+  return ids;
+}
+
+int WallLayer::match(const Graph& graph, const std::vector<PlaneNode>& known, const PlaneObservation& seen,
+                     PlaneKind kind, double walked_m) const {
+  const KeyframeVertex& keyframe = graph.keyframes.back();
+  int best = -1;
+  double best_distance = config_.gate_chi2;
+  for (const PlaneNode& node : known) {
+    const PlaneVertex& plane = graph.planes[static_cast<std::size_t>(node.id)];
+    if (plane.merged_into >= 0 || plane.kind != kind || plane.storey != keyframe.storey) continue;
+    const PlaneResidual r = plane_residual(keyframe.X_MR, plane.plane_M, seen.plane_R);
+    if ((keyframe.X_MR.q * seen.plane_R.n).dot(plane.plane_M.n) < 0.9) continue;
+    if (kind != PlaneKind::wall) {
+      if (std::abs(r.e.z()) < config_.floor_offset_m && r.e.head<2>().norm() < config_.floor_angle_rad) return node.id;
+      continue;
+    }
+    const Eigen::Vector2d t = along(plane.plane_M);
+    const Interval here = interval(t, (keyframe.X_MR * seen.p0_R).head<2>(), (keyframe.X_MR * seen.p1_R).head<2>());
+    if (gap(here, interval(t, node.p0, node.p1)) > config_.max_gap_m) continue;
+    const double walked = walked_m - last_seen_m_[static_cast<std::size_t>(node.id)];
+    const double sigma_m = config_.drift_m + config_.drift_per_m * walked;
+    const double sigma_rad = config_.drift_rad + config_.drift_rad_per_m * walked;
+    Vector6d drift;
+    drift << Eigen::Vector3d::Constant(sigma_m * sigma_m), Eigen::Vector3d::Constant(sigma_rad * sigma_rad);
+    const Eigen::Matrix3d S = seen.covariance + r.J_pose * drift.asDiagonal() * r.J_pose.transpose();
+    const double distance = r.e.dot(S.llt().solve(r.e));
+    if (distance >= best_distance) continue;
+    best_distance = distance;
+    best = node.id;
+  }
+  return best;
+}
+
+std::vector<PlaneNode> WallLayer::extents(const Graph& graph) const {
+  std::vector<Interval> s(graph.planes.size()), z(graph.planes.size());
+  std::vector<int> count(graph.planes.size(), 0);
+  for (std::size_t f = 0; f < graph.plane_factors.size(); ++f) {
+    const PlaneFactor& factor = graph.plane_factors[f];
+    const auto id = static_cast<std::size_t>(factor.plane);
+    const Pose& X_MR = graph.keyframes[static_cast<std::size_t>(factor.keyframe)].X_MR;
+    const Eigen::Vector2d t = along(graph.planes[id].plane_M);
+    s[id].add(t.dot((X_MR * patches_[f].p0_R).head<2>()));
+    s[id].add(t.dot((X_MR * patches_[f].p1_R).head<2>()));
+    z[id].add(X_MR.t.z() + patches_[f].z0);
+    z[id].add(X_MR.t.z() + patches_[f].z1);
+    ++count[id];
+  }
+  std::vector<PlaneNode> nodes(graph.planes.size());
+  for (std::size_t id = 0; id < nodes.size(); ++id) {
+    PlaneNode& node = nodes[id];
+    node.id = static_cast<int>(id);
+    node.plane_F = graph.planes[id].plane_M;
+    node.observations = count[id];
+    if (count[id] == 0) continue;
+    node.z0 = z[id].low;
+    node.z1 = z[id].high;
+    if (graph.planes[id].kind != PlaneKind::wall) continue;
+    const Eigen::Vector2d t = along(node.plane_F);
+    const Eigen::Vector2d m = node.plane_F.n.head<2>();
+    // Trace of the plane at the middle of what was seen of it.
+    const double offset = (node.plane_F.d + node.plane_F.n.z() * 0.5 * (node.z0 + node.z1)) / m.squaredNorm();
+    node.p0 = t * s[id].low - m * offset;
+    node.p1 = t * s[id].high - m * offset;
+  }
+  return nodes;
+}
+
+std::vector<PlaneNode> WallLayer::walls(const Graph& graph, int storey) const {
+  std::vector<PlaneNode> walls;
+  for (const PlaneNode& node : extents(graph)) {
+    const PlaneVertex& plane = graph.planes[static_cast<std::size_t>(node.id)];
+    if (plane.kind != PlaneKind::wall || plane.storey != storey) continue;
+    if (node.observations < config_.min_observations || (node.p1 - node.p0).norm() < config_.min_length_m) continue;
+    walls.push_back(node);
+  }
+  return walls;
+}
+
+bool WallLayer::find_duplicates(Graph& graph, int storey) const {
+  const std::vector<PlaneNode> nodes = walls(graph, storey);
+  bool found = false;
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    for (std::size_t j = i + 1; j < nodes.size(); ++j) {
+      if (!one_face(nodes[i], nodes[j], config_)) continue;
+      const int a = nodes[i].id, b = nodes[j].id;
+      const bool known = std::any_of(graph.duplicate_factors.begin(), graph.duplicate_factors.end(),
+                                     [&](const DuplicateFactor& f) { return f.a == a && f.b == b; });
+      if (known) continue;
+      const Eigen::Vector2d p = 0.5 * (middle(nodes[i]) + middle(nodes[j]));
+      const double z = 0.25 * (nodes[i].z0 + nodes[i].z1 + nodes[j].z0 + nodes[j].z1);
+      graph.duplicate_factors.push_back({.a = a, .b = b, .anchor_M = {p.x(), p.y(), z}});
+      found = true;
+    }
+  return found;
+}
+
+int WallLayer::merge_duplicates(Graph& graph) {
+  int merged = 0;
+  std::vector<DuplicateFactor> open;
+  for (const DuplicateFactor& f : graph.duplicate_factors) {
+    PlaneVertex& kept = graph.planes[static_cast<std::size_t>(f.a)];
+    PlaneVertex& gone = graph.planes[static_cast<std::size_t>(f.b)];
+    if (kept.merged_into >= 0 || gone.merged_into >= 0) continue;
+    const Eigen::Vector4d e = duplicate_residual(kept.plane_M, gone.plane_M, f.anchor_M).e;
+    if (std::abs(e(3)) > config_.merge_offset_m || e.head<3>().norm() > config_.merge_angle_rad) {
+      open.push_back(f);
+      continue;
+    }
+    gone.merged_into = f.a;
+    for (PlaneFactor& factor : graph.plane_factors)
+      if (factor.plane == f.b) factor.plane = f.a;
+    ++merged;
+  }
+  graph.duplicate_factors = std::move(open);
+  return merged;
+}
+
+}  // namespace plumbline::slam

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+
+#include "bim/config/visit.h"
+#include "slam/graph/graph.h"
+#include "slam/planes/detect.h"
+
+namespace plumbline::slam {
+
+struct WallLayerConfig {
+  double gate_chi2 = 16.27;    ///< squared Mahalanobis distance, 3 dof, 99.9 %
+  double drift_m = 0.03;       ///< sigma of the robot's position against a plane seen just now ...
+  double drift_per_m = 0.005;  ///< ... plus this per metre walked since it was seen
+  double drift_rad = 0.006;    ///< the same for its attitude
+  double drift_rad_per_m = 0.0005;
+  double max_gap_m = 1.0;             ///< between an observation and the known stretch of its wall
+  double floor_offset_m = 0.25;       ///< a floor or ceiling this near and ...
+  double floor_angle_rad = 0.08;      ///< ... this level is the storey's
+  int min_observations = 3;           ///< of a wall that shapes rooms and is reported
+  double min_length_m = 0.5;          ///< of a wall that is reported
+  double duplicate_offset_m = 0.12;   ///< two faces of one side this near ...
+  double duplicate_angle_rad = 0.04;  ///< ... and this parallel cannot both be seen
+  double duplicate_overlap = 0.5;     ///< of the shorter one's length and height
+  double merge_offset_m = 0.02;       ///< duplicates that the graph has pulled this near ...
+  double merge_angle_rad = 0.01;      ///< ... become one
+
+  template <class V>
+  void visit(V& v) {
+    v("gate_chi2", gate_chi2, Field{.doc = "squared Mahalanobis distance of an association", .min = 0});
+    v("drift_m", drift_m, Field{.doc = "sigma of the position against a plane just seen", .min = 0});
+    v("drift_per_m", drift_per_m, Field{.doc = "growth per metre since the plane was seen", .min = 0});
+    v("drift_rad", drift_rad, Field{.doc = "sigma of the attitude against a plane just seen", .min = 0});
+    v("drift_rad_per_m", drift_rad_per_m, Field{.doc = "growth per metre since the plane was seen", .min = 0});
+    v("max_gap_m", max_gap_m, Field{.doc = "along a wall between what is known and what is seen", .min = 0});
+    v("floor_offset_m", floor_offset_m, Field{.doc = "of a floor observation to its storey's floor", .min = 0});
+    v("floor_angle_rad", floor_angle_rad, Field{.doc = "of a floor observation to its storey's floor", .min = 0});
+    v("min_observations", min_observations, Field{.doc = "of a wall that counts", .min = 1});
+    v("min_length_m", min_length_m, Field{.doc = "of a wall that counts", .min = 0});
+    v("duplicate_offset_m", duplicate_offset_m, Field{.doc = "between two vertices of one face", .min = 0});
+    v("duplicate_angle_rad", duplicate_angle_rad, Field{.doc = "between two vertices of one face", .min = 0});
+    v("duplicate_overlap", duplicate_overlap, Field{.doc = "of two vertices of one face", .min = 0, .max = 1});
+    v("merge_offset_m", merge_offset_m, Field{.doc = "at which duplicates become one", .min = 0});
+    v("merge_angle_rad", merge_angle_rad, Field{.doc = "at which duplicates become one", .min = 0});
+  }
+};
+
+/// The wall layer of a graph [S-Graphs+ section IV-B]: data association, extents and duplicates. It owns the extent of
+/// every observation; plane vertices and factors live in the graph.
+class WallLayer {
+ public:
+  explicit WallLayer(const WallLayerConfig& config) : config_(config) {}
+
+  /// Ties the planes seen from the newest keyframe to the graph: a known plane of the same kind, side and storey within
+  /// the gate (nearest first, ties: lower id) or a new vertex. walked_m: length of the way so far. Returns the plane
+  /// ids.
+  std::vector<int> observe(Graph& graph, std::span<const PlaneObservation> seen, double walked_m);
+
+  /// Every plane vertex with the union of its observations' extents; index = id. Merged planes have 0 observations.
+  [[nodiscard]] std::vector<PlaneNode> extents(const Graph& graph) const;
+  /// The walls of a storey that count: seen often and long enough.
+  [[nodiscard]] std::vector<PlaneNode> walls(const Graph& graph, int storey) const;
+
+  /// Adds a duplicate factor for each pair of one face that has none yet; true when one was added.
+  bool find_duplicates(Graph& graph, int storey) const;
+  /// Duplicates that now agree become one vertex, the one with the lower id. Returns how many.
+  int merge_duplicates(Graph& graph);
+
+ private:
+  /// Extent of one observation; index as in Graph::plane_factors.
+  struct Patch {
+    Eigen::Vector3d p0_R, p1_R;
+    double z0 = 0.0, z1 = 0.0;
+  };
+
+  [[nodiscard]] int match(const Graph& graph, const std::vector<PlaneNode>& known, const PlaneObservation& seen,
+                          PlaneKind kind, double walked_m) const;
+
+  WallLayerConfig config_;
+  std::vector<Patch> patches_;
+  std::vector<double> last_seen_m_;  ///< way walked when a plane was last seen; index = plane id
+};
+
+}  // namespace plumbline::slam
