@@ -33,7 +33,7 @@ std::optional<Mesh> to_mesh(const Solid& solid) {
     triangles.push_back(
         {static_cast<std::size_t>(t[0]), static_cast<std::size_t>(t[1]), static_cast<std::size_t>(t[2])});
   pmp::repair_polygon_soup(points, triangles);
-  if (!pmp::orient_polygon_soup(points, triangles)) return std::nullopt;
+  pmp::orient_polygon_soup(points, triangles);  // doubles points where the surface touches itself
   Mesh mesh;
   pmp::polygon_soup_to_polygon_mesh(points, triangles, mesh);
   if (mesh.is_empty() || !CGAL::is_closed(mesh)) return std::nullopt;

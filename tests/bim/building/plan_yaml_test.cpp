@@ -7,6 +7,7 @@
 
 #include "bim/errors.h"
 #include "bim/mesh/mesh.h"
+#include "bim/random/stream.h"
 
 namespace plumbline::bim {
 namespace {
@@ -253,6 +254,24 @@ TEST(PlanYamlErrors, WhatIsNotSimulated) {
   expect_error(sound + "stairs:\n  - {id: s}\n", "22", "'stairs' are not simulated");
   expect_error(sound + "deviations:\n  - {op: move_wall}\n", "22", "'deviations' are not simulated");
   EXPECT_EQ(error_of(sound + "stairs: []\ndeviations: []\n"), "no error");
+}
+
+/// Whatever is written, the answer is a building or an InputError: no other exception, no crash.
+TEST(PlanYamlErrors, SpoiltTextIsReadOrRefused) {
+  const Stream stream(11, "bim.generate");
+  const std::string ink = "0123456789.-,:[]{}' \nabdrsw";
+  int refused = 0;
+  for (std::uint64_t tick = 0; tick < 400; ++tick) {
+    std::string text = sound;
+    for (std::uint32_t k = 0; k <= tick % 3; ++k) {
+      const auto at = static_cast<std::size_t>(stream.uniform(tick, 0, k) * static_cast<double>(text.size()));
+      const auto letter = static_cast<std::size_t>(stream.uniform(tick, 1, k) * static_cast<double>(ink.size()));
+      text[at] = ink[letter];
+    }
+    refused += error_of(text) == "no error" ? 0 : 1;
+  }
+  EXPECT_GT(refused, 100);
+  EXPECT_LT(refused, 400);
 }
 
 }  // namespace
