@@ -3,6 +3,12 @@
 
 namespace plumbline::sim {
 
+PerLeg<Eigen::Vector3d> zero_per_leg() {
+  PerLeg<Eigen::Vector3d> zero;
+  zero.fill(Eigen::Vector3d::Zero());
+  return zero;
+}
+
 Posture posture_of(const BodyState& state) {
   Posture posture;
   posture.yaw = state.X_WR.yaw();

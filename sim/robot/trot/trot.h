@@ -36,7 +36,7 @@ class Trot {
   Reference reference_;
   Gait gait_;
   PerLeg<LegContact> legs_;
-  PerLeg<Eigen::Vector3d> foothold_W_{};
+  PerLeg<Eigen::Vector3d> foothold_W_ = zero_per_leg();
   SupportPlane plane_;
   ForceDistribution distribution_;
   std::int64_t steps_ = 0;
