@@ -6,6 +6,7 @@
 #include "bim/building/plan_yaml.h"
 #include "bim/config/tree.h"
 #include "bim/errors.h"
+#include "bim/ifc/ifc.h"
 
 namespace plumbline::bim {
 
@@ -38,8 +39,9 @@ Building load_building(const std::string& path) {
   const std::string text = read_text_file(path);
   const std::string_view content = first_content(text);
   const bool yaml = ends_with(path, ".yaml") || ends_with(path, ".yml");
+  if (ends_with(path, ".ifc") || starts_with(content, "ISO-10303-21")) return read_ifc_text(text, path);
   if (yaml || starts_with(content, "plan:")) return read_plan_text(text, path);
-  throw InputError({path, 0, 0}, "this is no building; a plan begins with 'plan: 1'");
+  throw InputError({path, 0, 0}, "this is no building; a plan begins with 'plan: 1', an IFC file with 'ISO-10303-21;'");
 }
 
 }  // namespace plumbline::bim

@@ -7,7 +7,8 @@
 
 namespace plumbline::bim {
 
-/// Reads a building of any kind this version knows, told by its content: a plan (YAML whose first key is `plan: 1`).
+/// Reads a building of any kind this version knows, told by its content: a plan (YAML whose first key is
+/// `plan: 1`) or an IFC file.
 /// Throws InputError when the file is missing, a directory, empty or of another kind.
 [[nodiscard]] Building load_building(const std::string& path);
 

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bim/ifc/ifc.h"
+
+#include <cmath>
+
+#include "bim/building/rooms.h"
+#include "bim/config/tree.h"
+#include "bim/errors.h"
+#include "bim/ifc/interpret.h"
+#include "bim/ifc/step_text.h"
+
+namespace plumbline::bim {
+namespace {
+
+std::string unit_name(double unit_m) {
+  const auto is = [&](double v) { return std::abs(unit_m - v) < 1e-9 * v; };
+  if (is(1.0)) return "m";
+  if (is(0.1)) return "dm";
+  if (is(0.01)) return "cm";
+  if (is(0.001)) return "mm";
+  if (is(0.3048)) return "ft";
+  if (is(0.0254)) return "in";
+  return format_number(unit_m) + " m";
+}
+
+}  // namespace
+
+Building read_ifc_text(std::string_view text, const std::string& file, const IfcConfig& config) {
+  const std::string clean = without_comments(text);
+  const StepText checked = check_step_text(clean, file);
+  const StepModel model = read_step_model(clean, checked, file);
+
+  Interpreter interpreter(model, config);
+  interpreter.add_storeys();
+  interpreter.add_walls();
+  interpreter.add_openings();
+  interpreter.add_rooms();
+  interpreter.add_slabs();
+  interpreter.add_columns();
+  interpreter.add_obstacles();
+  Building building = interpreter.finish();
+
+  building.name = model.name;
+  building.schema = checked.schema;
+  building.unit = unit_name(model.unit_m);
+  if (building.storeys.empty()) throw InputError({file, 0, 0}, "no storey in it; a building has IfcBuildingStorey");
+  if (building.walls.empty()) throw InputError({file, 0, 0}, "no wall in it; a building has IfcWall with a Body");
+  if (!model.has_unit) building.warnings.push_back({"", "assumed_unit", "the file gives no unit; metres assumed"});
+  find_room_walls(building);
+  find_opening_rooms(building);
+  return building;
+}
+
+Building read_ifc(const std::string& path, const IfcConfig& config) {
+  return read_ifc_text(read_text_file(path), path, config);
+}
+
+}  // namespace plumbline::bim

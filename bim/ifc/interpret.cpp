@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bim/ifc/interpret.h"
+
+#include <algorithm>
+#include <numeric>
+#include <tuple>
+
+#include "bim/geometry/polygon_boolean.h"
+#include "bim/mesh/solid.h"
+
+namespace plumbline::bim {
+namespace {
+
+/// Sorts by (storey, id); returns the new place of each old index.
+template <class Element>
+std::vector<int> sort_elements(std::vector<Element>& elements) {
+  std::vector<std::size_t> order(elements.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return std::tie(elements[a].storey, elements[a].id) < std::tie(elements[b].storey, elements[b].id);
+  });
+  std::vector<int> place(elements.size());
+  std::vector<Element> sorted;
+  for (const std::size_t old : order) {
+    place[old] = static_cast<int>(sorted.size());
+    sorted.push_back(std::move(elements[old]));
+  }
+  elements = std::move(sorted);
+  return place;
+}
+
+}  // namespace
+
+Extent extent(const Solid& solid) {
+  Extent box{solid.vertices.front(), solid.vertices.front()};
+  for (const Eigen::Vector3d& p : solid.vertices) {
+    box.low = box.low.cwiseMin(p);
+    box.high = box.high.cwiseMax(p);
+  }
+  return box;
+}
+
+std::vector<PolygonWithHoles2> footprint(const Solid& solid) {
+  std::vector<Polygon2> triangles;
+  for (const Eigen::Vector3i& t : solid.triangles) {
+    Polygon2& triangle = triangles.emplace_back();
+    for (const int corner : t) triangle.push_back(solid.vertices[static_cast<std::size_t>(corner)].head<2>());
+  }
+  return unite(triangles);
+}
+
+double Interpreter::snapped(double v) const { return snap(v, config_.grid_m) + 0.0; }
+
+void Interpreter::warn(const StepProduct& product, const std::string& kind, const std::string& text) {
+  building_.warnings.push_back({product.id, kind, product.type + " #" + std::to_string(product.step_id) + ": " + text});
+}
+
+int Interpreter::storey_index(const StepProduct& product, double z0_m) const {
+  const auto named = storeys_.find(product.storey);
+  if (named != storeys_.end()) return named->second;
+  int index = 0;
+  for (std::size_t i = 0; i < building_.storeys.size(); ++i)
+    if (building_.storeys[i].elevation_m <= z0_m + config_.storey_below_m) index = static_cast<int>(i);
+  return index;
+}
+
+std::vector<Solid> Interpreter::solids_of(const StepProduct& product) {
+  std::vector<Solid> solids;
+  for (const Shape& shape : product.body) {
+    std::vector<std::string> problems;
+    Solid solid = solid_of(shape, problems);
+    for (const std::string& problem : problems) warn(product, "not_clipped", problem);
+    if (!solid.triangles.empty()) solids.push_back(std::move(solid));
+  }
+  for (const std::string& complaint : product.complaints) warn(product, "geometry", complaint);
+  return solids;
+}
+
+Solid Interpreter::body_of(const StepProduct& product) {
+  Solid body = joined(solids_of(product));
+  if (body.triangles.empty()) warn(product, "no_body", "has no body that can be read, and is left out");
+  return body;
+}
+
+void Interpreter::add_storeys() {
+  for (const StepProduct& product : model_.products) {
+    if (product.kind != StepClass::storey) continue;
+    Storey storey;
+    storey.id = product.id;
+    storey.name = product.name;
+    // The attribute Elevation may be null or stale; the placement is what the elements hang on.
+    storey.elevation_m = snapped(product.X_WP.translation().z());
+    storey.step_id = product.step_id;
+    building_.storeys.push_back(std::move(storey));
+  }
+  std::sort(building_.storeys.begin(), building_.storeys.end(), [](const Storey& a, const Storey& b) {
+    return std::tie(a.elevation_m, a.id) < std::tie(b.elevation_m, b.id);
+  });
+  for (std::size_t i = 0; i < building_.storeys.size(); ++i)
+    storeys_[building_.storeys[i].step_id] = static_cast<int>(i);
+}
+
+void Interpreter::set_heights() {
+  for (std::size_t i = 0; i < building_.storeys.size(); ++i) {
+    Storey& storey = building_.storeys[i];
+    const auto next = std::find_if(building_.storeys.begin(), building_.storeys.end(),
+                                   [&](const Storey& other) { return other.elevation_m > storey.elevation_m; });
+    double top = storey.elevation_m;
+    if (next != building_.storeys.end()) {
+      top = next->elevation_m;
+    } else {
+      for (const Room& room : building_.rooms)
+        if (room.storey == static_cast<int>(i)) top = std::max(top, room.z1_m);
+      for (const Wall& wall : building_.walls)
+        if (wall.storey == static_cast<int>(i)) top = std::max(top, wall.z1_m);
+    }
+    storey.height_m = snapped(top - storey.elevation_m);
+    if (storey.height_m > 0.0) continue;
+    storey.height_m = config_.assumed_height_m;
+    building_.warnings.push_back({storey.id, "assumed_height", "nothing says how high the storey is; 3 m assumed"});
+  }
+}
+
+void Interpreter::sort_all() {
+  const std::vector<int> wall_place = sort_elements(building_.walls);
+  for (Opening& opening : building_.openings) opening.wall = wall_place[static_cast<std::size_t>(opening.wall)];
+  std::sort(building_.openings.begin(), building_.openings.end(),
+            [](const Opening& a, const Opening& b) { return std::tie(a.wall, a.id) < std::tie(b.wall, b.id); });
+  sort_elements(building_.rooms);
+  sort_elements(building_.slabs);
+  sort_elements(building_.columns);
+  sort_elements(building_.obstacles);
+  std::sort(building_.warnings.begin(), building_.warnings.end(), [](const Warning& a, const Warning& b) {
+    return std::tie(a.element, a.kind, a.text) < std::tie(b.element, b.kind, b.text);
+  });
+}
+
+Building Interpreter::finish() {
+  set_heights();
+  sort_all();
+  return std::move(building_);
+}
+
+}  // namespace plumbline::bim

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <ios>
+#include <string>
+
+namespace plumbline::bim {
+
+/// While it lives, IFC++ and Carve write to no stream and read numbers with a decimal point, and what they set is put
+/// back: streams' buffers and the C locale are the process's, so only one may live at a time.
+class Quiet {
+ public:
+  Quiet();
+  ~Quiet();
+  Quiet(const Quiet&) = delete;
+  Quiet& operator=(const Quiet&) = delete;
+
+ private:
+  std::string locale_;
+  std::streambuf* out_;
+  std::streambuf* error_;
+  std::wstreambuf* wide_out_;
+};
+
+}  // namespace plumbline::bim

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bim/ifc/shape.h"
+#include "bim/ifc/step_text.h"
+
+namespace plumbline::bim {
+
+/// What an entity is to a building; everything else in the file is left out.
+enum class StepClass {
+  storey,
+  wall,
+  opening,
+  door,
+  window,
+  space,
+  slab,
+  column,
+  stair,
+  railing,
+  beam,
+  member,
+  plate,
+  covering,
+  footing,
+  roof,
+  proxy,
+  furniture
+};
+
+/// IfcMaterialLayerSetUsage across the wall: layers from offset to offset + sense * thickness along the wall's y axis.
+struct StepLayers {
+  double offset_m = 0.0;
+  int sense = 1;
+  double thickness_m = 0.0;
+};
+
+/// A product as the file has it: relations resolved, geometry uncut, in W.
+struct StepProduct {
+  std::int64_t step_id = 0;
+  StepClass kind = StepClass::proxy;
+  std::string type;  ///< IFC class, such as IfcWallStandardCase
+  std::string id;    ///< GlobalId
+  std::string name;
+  Eigen::Affine3d X_WP = Eigen::Affine3d::Identity();  ///< placement
+  std::int64_t storey = 0;                             ///< STEP number of the storey it belongs to, 0 for none
+  std::int64_t host = 0;                               ///< opening: the element it voids; door or window: its opening
+  std::optional<StepLayers> layers;
+  std::string material;                 ///< of the thickest layer
+  std::vector<Eigen::Vector3d> axis_W;  ///< points of the Axis representation
+  std::vector<Shape> body;              ///< items of the Body (openings: Body or Reference)
+  std::vector<std::string> complaints;  ///< what the geometry reader said
+};
+
+struct StepModel {
+  std::string name;                   ///< of the project
+  double unit_m = 1.0;                ///< length of the file's unit
+  bool has_unit = true;               ///< false: no length unit given, metres assumed
+  std::vector<StepProduct> products;  ///< by GlobalId
+};
+
+/// Reads checked STEP text through IFC++: entity graph, placements and uncut solids. Its booleans are never used.
+/// Throws InputError with the line of the entity where the file does not make sense.
+[[nodiscard]] StepModel read_step_model(const std::string& text, const StepText& checked, const std::string& file);
+
+}  // namespace plumbline::bim
