@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+// What must be true of every estimator: it lives on what a robot's sensors gave, and on nothing else.
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "bim/random/stream.h"
+#include "slam/io/vlp16.h"
+#include "slam/methods.h"
+#include "tests/laws/walk.h"
+
+namespace plumbline {
+namespace {
+
+const Walk& short_walk() {
+  static const Walk walk = walk_quickstart(3, {"office_a", "corridor", "kitchen"}, 14.0);
+  return walk;
+}
+
+class EveryMethod : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(EveryMethod, AnswersTheSameWithoutTruthAndLabels) {
+  const Walk& walk = short_walk();
+  const auto input = method_input(walk, GetParam());
+  std::vector<sim::WorldFrame> bare;
+  for (const auto& frame : walk.frames) {
+    sim::WorldFrame& copy = bare.emplace_back();
+    copy.imu = frame.imu;
+    copy.odometry = frame.odometry;
+    copy.scan = slam::decode_message(frame.packets);
+  }
+  EXPECT_EQ(digest_of(answer_of(GetParam(), input, bare)), digest_of(answer_of(GetParam(), input, walk.frames)));
+}
+
+TEST_P(EveryMethod, AnswersTheSameTwice) {
+  const Walk& walk = short_walk();
+  const auto input = method_input(walk, GetParam());
+  EXPECT_EQ(digest_of(answer_of(GetParam(), input, walk.frames)), digest_of(answer_of(GetParam(), input, walk.frames)));
+}
+
+std::vector<std::string> all_methods() {
+  std::vector<std::string> names;
+  for (const auto& row : slam::methods()) names.emplace_back(row.name);
+  return names;
+}
+
+INSTANTIATE_TEST_SUITE_P(Laws, EveryMethod, ::testing::ValuesIn(all_methods()),
+                         [](const auto& info) { return info.param; });
+
+TEST(PlanLocalization, MovesWithThePlan) {
+  const Walk& walk = short_walk();
+  const std::string method = "s_graph_localization";
+  const auto input = method_input(walk, method);
+  const Answer here = answer_of(method, input, walk.frames);
+  ASSERT_TRUE(here.outputs.back().X_FR.has_value()) << "this walk must converge, or the law says nothing";
+
+  const Stream stream(5, "bim.generate");
+  const double angle = 2.0 * std::numbers::pi * stream.uniform(0);
+  const Pose X_VW = Pose::from_xyz_yaw({20.0 * stream.gauss(1), 20.0 * stream.gauss(2), 0.0}, angle);
+  auto moved = input;
+  moved.plan = std::make_shared<const bim::Plan>(bim::transformed(*walk.plan, X_VW));
+  moved.prior.yaw_W = wrap_angle(*input.prior.yaw_W + angle);
+  const Answer there = answer_of(method, moved, walk.frames);
+
+  for (std::size_t i = 0; i < walk.frames.size(); ++i) {
+    ASSERT_EQ(here.outputs[i].X_FR.has_value(), there.outputs[i].X_FR.has_value()) << "scan " << i;
+    if (!here.outputs[i].X_FR) continue;
+    EXPECT_LT((X_VW * here.outputs[i].X_FR->t - there.outputs[i].X_FR->t).norm(), 1e-3) << "scan " << i;
+  }
+}
+
+TEST(SGraphsPlus, HalvesAPlantedOdometryScaleError) {
+  Walk walk = walk_quickstart(4, {"office_a", "corridor", "lab", "studio"}, 45.0);
+  for (auto& frame : walk.frames)
+    for (auto& odometry : frame.odometry) odometry.X_OR.t *= 1.02;
+  const auto planted =
+      rmse_from_first_pose(answer_of("odometry", method_input(walk, "odometry"), walk.frames), walk.frames);
+  const auto corrected =
+      rmse_from_first_pose(answer_of("s_graphs_plus", method_input(walk, "s_graphs_plus"), walk.frames), walk.frames);
+  EXPECT_LE(corrected, 0.5 * planted) << "planted " << planted << " m, corrected " << corrected << " m";
+}
+
+}  // namespace
+}  // namespace plumbline

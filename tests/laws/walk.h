@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bim/building/plan.h"
+#include "sim/world.h"
+#include "slam/io/method.h"
+
+namespace plumbline {
+
+/// A short real walk through the quickstart floor, with the sensors' noise.
+struct Walk {
+  std::shared_ptr<const bim::Plan> plan;
+  std::vector<sim::WorldFrame> frames;
+};
+
+[[nodiscard]] Walk walk_quickstart(std::uint64_t seed, const std::vector<std::string>& rooms, double duration_s);
+
+/// What a method needs for this walk, with a compass of the given heading error.
+[[nodiscard]] slam::MethodInput method_input(const Walk& walk, const std::string& method, double yaw_error = 0.02);
+
+/// Feeds a method everything the robot's sensors gave, and nothing else.
+struct Answer {
+  std::vector<slam::Output> outputs;
+  slam::Estimate estimate;
+};
+[[nodiscard]] Answer answer_of(const std::string& method, const slam::MethodInput& input,
+                               const std::vector<sim::WorldFrame>& frames);
+
+/// Hash of everything an answer says.
+[[nodiscard]] std::uint64_t digest_of(const Answer& answer);
+
+/// Root mean square distance of the causal positions to the truth, M placed on W by the first pose.
+[[nodiscard]] double rmse_from_first_pose(const Answer& answer, const std::vector<sim::WorldFrame>& frames);
+
+}  // namespace plumbline
