@@ -36,6 +36,9 @@ const Tree* results_of(const ReportInput& input, const std::string& method) {
 
 std::string centimetres(double metres) { return svg::number(100.0 * metres, 1) + " cm"; }
 
+/// The row that checks the scorer; it would lie under everything it is compared with.
+bool is_truth(const ReportMethod& method) { return method.name == "truth"; }
+
 bool is_good(const std::string& verdict) {
   return verdict == "ok" || verdict == "success" || verdict == "honest_ambiguity";
 }
@@ -120,9 +123,18 @@ std::string draw_plan(const ReportInput& input) {
     if (room.storey == input.storey) out += svg::polygon(room.polygon, "class=\"room\"");
   for (const auto& face : input.plan.faces)
     if (face.storey == input.storey) out += face_strokes(face);
-  for (const auto& room : input.plan.rooms)
-    if (room.storey == input.storey && room.name.size() <= 18)
-      out += svg::text(interior_point(room.polygon), room.name, "");
+  return out;
+}
+
+/// Names stand in the upper left corner of their rooms, away from most paths.
+std::string room_names(const ReportInput& input) {
+  std::string out;
+  for (const auto& room : input.plan.rooms) {
+    if (room.storey != input.storey || room.name.size() > 18) continue;
+    Eigen::Vector2d corner(1e9, -1e9);
+    for (const auto& p : room.polygon) corner = {std::min(corner.x(), p.x()), std::max(corner.y(), p.y())};
+    out += svg::text(corner + Eigen::Vector2d(0.3, -0.6), room.name, "");
+  }
   return out;
 }
 
@@ -150,8 +162,9 @@ std::string draw_method(const ReportMethod& method, std::size_t index) {
 
 std::string draw_map(const ReportInput& input, const Box& box) {
   std::string out = open_map(box, "floor plan with the true and the estimated paths") + draw_plan(input);
-  for (std::size_t i = 0; i < input.methods.size(); ++i) out += draw_method(input.methods[i], i);
-  out += svg::polyline(path_of(input.truth), "class=\"truth\"") + robot_mark("truth", "#111");
+  for (std::size_t i = 0; i < input.methods.size(); ++i)
+    if (!is_truth(input.methods[i])) out += draw_method(input.methods[i], i);
+  out += room_names(input) + svg::polyline(path_of(input.truth), "class=\"truth\"") + robot_mark("truth", "#111");
   return out + "</svg>";
 }
 
@@ -171,6 +184,7 @@ std::string method_cards(const ReportInput& input) {
   std::string out;
   for (std::size_t i = 0; i < input.methods.size(); ++i) {
     const ReportMethod& method = input.methods[i];
+    if (is_truth(method)) continue;
     const Tree* results = results_of(input, method.name);
     const std::string verdict = results == nullptr ? "" : text_of(*results, "verdict");
     const std::string name = svg::escape(method.name);
@@ -302,7 +316,8 @@ Tree track(const std::vector<ReportSample>& samples, bool with_error) {
 std::string script_data(const ReportInput& input, double end_s) {
   Tree tracks = Tree::map();
   tracks.set("truth", track(input.truth, false));
-  for (const auto& method : input.methods) tracks.set(method.name, track(method.samples, true));
+  for (const auto& method : input.methods)
+    if (!is_truth(method)) tracks.set(method.name, track(method.samples, true));
   Tree plot = Tree::map();
   plot.set("x0", plot_frame.x0).set("x1", plot_frame.x1).set("w", plot_frame.width);
   Tree data = Tree::map();
@@ -317,6 +332,7 @@ std::string plots(const ReportInput& input, double end_s) {
   std::vector<PlotCurve> curves;
   std::vector<PlotCurve> counts;
   for (std::size_t i = 0; i < input.methods.size(); ++i) {
+    if (is_truth(input.methods[i])) continue;
     PlotCurve curve{input.methods[i].name, colour(i), {}};
     for (const auto& sample : input.methods[i].samples) curve.points.emplace_back(sample.t_s, 100.0 * sample.error_m);
     curves.push_back(std::move(curve));
