@@ -62,16 +62,15 @@ double plane_rms(const Moments& moments, const Plane& plane) {
   return std::sqrt(std::max(0.0, coefficients.dot(homogeneous(moments) * coefficients)) / moments.n);
 }
 
-Eigen::Matrix3d plane_covariance(const Moments& moments, const Plane& plane, double sigma, double bias_m,
-                                 double bias_rad) {
+Eigen::Matrix3d plane_covariance(const Moments& moments, const Plane& plane, double sigma,
+                                 const Eigen::Vector3d& bias) {
   const Tangents t = plane_tangents(plane.n);
   const Eigen::Vector3d c = moments.mean();
   Eigen::Matrix3d at_centroid = Eigen::Matrix3d::Identity();  // an angle about the centroid moves d by -(u.c) or -(v.c)
   at_centroid(2, 0) = -t.u.dot(c);
   at_centroid(2, 1) = -t.v.dot(c);
-  const Eigen::Vector3d bias(bias_rad * bias_rad, bias_rad * bias_rad, bias_m * bias_m);
   return sigma * sigma * plane_normal_matrix(moments, plane).inverse() +
-         at_centroid * bias.asDiagonal() * at_centroid.transpose();
+         at_centroid * bias.cwiseAbs2().asDiagonal() * at_centroid.transpose();
 }
 
 }  // namespace plumbline::slam

@@ -36,9 +36,9 @@ struct Moments {
 /// rms distance of the points to the plane, m.
 [[nodiscard]] double plane_rms(const Moments& moments, const Plane& plane);
 
-/// Covariance of (angle towards u, angle towards v, d) from independent noise sigma, m, plus a systematic part at the
-/// centroid: bias_m of the offset and bias_rad of both angles, which no number of points averages away.
-[[nodiscard]] Eigen::Matrix3d plane_covariance(const Moments& moments, const Plane& plane, double sigma, double bias_m,
-                                               double bias_rad);
+/// Covariance of (angle towards u, angle towards v, d) from independent noise sigma, m, plus a systematic part that no
+/// number of points averages away: standard deviations of the two angles, rad, and of the offset at the centroid, m.
+[[nodiscard]] Eigen::Matrix3d plane_covariance(const Moments& moments, const Plane& plane, double sigma,
+                                               const Eigen::Vector3d& bias);
 
 }  // namespace plumbline::slam

@@ -61,7 +61,7 @@ std::optional<PlaneObservation> fit_patch(const DeskewedScan& scan, const std::v
   patch.rms_m = plane_rms(moments, patch.plane_R);
   patch.centroid_R = moments.mean();
   patch.covariance = plane_covariance(moments, patch.plane_R, std::max(patch.rms_m, config.sigma_min_m),
-                                      config.bias_floor_m, config.bias_floor_rad);
+                                      {config.bias_floor_rad, config.bias_floor_tilt_rad, config.bias_floor_m});
   set_extent(scan, points, config.max_distance_m, long_axis(patch.plane_R, moments), patch);
   return patch;
 }

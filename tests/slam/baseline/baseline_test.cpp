@@ -34,7 +34,7 @@ Answer run(std::string_view name, const synthetic::Recording& recording) {
 
 synthetic::Recording short_walk() {
   synthetic::WalkConfig config;
-  config.duration_s = 4.0;
+  config.duration_s = 2.5;
   return synthetic::walk(synthetic::corridor_house(), synthetic::corridor_house_walk(), config);
 }
 

@@ -68,7 +68,7 @@ TEST(MomentsTest, CovarianceIsTheSpreadOfFits) {
     const Plane plane = refine_plane(moments, truth, 0.0);
     const Eigen::Vector3d e(t.u.dot(plane.n), t.v.dot(plane.n), plane.d - truth.d);
     spread += e * e.transpose() / fits;
-    predicted += plane_covariance(moments, truth, sigma, 0.0, 0.0) / fits;
+    predicted += plane_covariance(moments, truth, sigma, Eigen::Vector3d::Zero()) / fits;
   }
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(spread(i, i) / predicted(i, i), 1.0, 0.3);
 }
@@ -77,13 +77,14 @@ TEST(MomentsTest, BiasActsAtTheCentroid) {
   const Stream random(14, "bim.generate");
   const Plane plane = random_plane(random, 5);
   const Moments moments = patch(random, plane, 5, 0.0);
-  const Eigen::Matrix3d covariance = plane_covariance(moments, plane, 0.0, 0.02, 0.003);
+  const Eigen::Matrix3d covariance = plane_covariance(moments, plane, 0.0, {0.003, 0.005, 0.02});
   const Tangents t = plane_tangents(plane.n);
   const Eigen::Vector3d c = moments.mean();
   // Variance of the signed distance of the centroid: J = (u.c, v.c, 1).
   const Eigen::Vector3d j(t.u.dot(c), t.v.dot(c), 1.0);
   EXPECT_NEAR(std::sqrt(j.dot(covariance * j)), 0.02, 1e-9);
   EXPECT_NEAR(std::sqrt(covariance(0, 0)), 0.003, 1e-12);
+  EXPECT_NEAR(std::sqrt(covariance(1, 1)), 0.005, 1e-12);
 }
 
 }  // namespace
