@@ -1,2 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-int main() { return 0; }
+#include "scenarios/commands/program.h"
+
+int main(int argc, char** argv) { return plumbline::scenarios::run_program(argc, argv); }

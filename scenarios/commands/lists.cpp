@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+
+#include "scenarios/commands/commands.h"
+#include "scenarios/run/participant.h"
+
+namespace plumbline::scenarios {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+int list_methods() {
+  for (const slam::MethodRow& row : slam::methods())
+    std::printf("%-22s %s%s\n", std::string(row.name).c_str(), std::string(row.summary).c_str(),
+                row.needs_plan ? " (needs the plan)" : "");
+  std::printf("%-22s %s\n", std::string(truth_method).c_str(), "the true poses; scores 0, which checks the scorer");
+  return 0;
+}
+
+int list_scenarios(const std::string& folder) {
+  if (!fs::is_directory(folder)) throw InputError({folder, 0, 0}, "no such directory; name one with scenarios in it");
+  std::vector<std::string> paths;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+    if (entry.path().extension() == ".yaml") paths.push_back(entry.path().string());
+  std::sort(paths.begin(), paths.end());
+  for (const std::string& path : paths) {
+    const Tree tree = read_yaml(read_text_file(path), path);
+    if (tree.find("scenario") == nullptr) continue;
+    const Scenario scenario = read_scenario(read_text_file(path), path).scenario;
+    std::string methods;
+    for (const std::string& name : scenario.methods) methods += " " + name;
+    std::printf("%-40s %-20s%s\n", path.c_str(), scenario.name.c_str(), methods.c_str());
+  }
+  return 0;
+}
+
+}  // namespace
+
+Command add_methods(CLI::App& program) {
+  CLI::App* app = program.add_subcommand("methods", "Lists the methods a scenario may ask for");
+  app->footer("Example: plumbline methods");
+  return {app, list_methods};
+}
+
+Command add_scenarios(CLI::App& program) {
+  const auto folder = std::make_shared<std::string>("scenarios/library");
+  CLI::App* app = program.add_subcommand("scenarios", "Lists the scenarios of a folder");
+  app->add_option("FOLDER", *folder, "folder with scenarios")->capture_default_str();
+  app->footer("Example: plumbline scenarios scenarios/library");
+  return {app, [folder] { return list_scenarios(*folder); }};
+}
+
+}  // namespace plumbline::scenarios

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenarios/commands/program.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <string>
+
+#include "bim/errors.h"
+#include "scenarios/commands/commands.h"
+#include "scenarios/commands/process.h"
+#include "scenarios/run/interrupt.h"
+
+namespace plumbline::scenarios {
+
+namespace {
+
+enum ExitCode { bad_input = 2, environment_or_internal = 3, scenario_failed = 4 };
+
+int complain(const std::string& text, int code) {
+  std::string line = text;
+  for (char& c : line)
+    if (c == '\n') c = ' ';
+  std::fprintf(stderr, "%s\n", line.c_str());
+  return code;
+}
+
+/// One line on stderr and the exit code for whatever is being thrown.
+int report_failure() {
+  try {
+    throw;
+  } catch (const InputError& error) {
+    return complain(error.what(), bad_input);
+  } catch (const ScenarioFailure& error) {
+    return complain(error.what(), scenario_failed);
+  } catch (const Interrupted& error) {
+    return complain("plumbline: interrupted; nothing was written", 128 + error.signal());
+  } catch (const EnvironmentError& error) {
+    return complain(error.what(), environment_or_internal);
+  } catch (const std::exception& error) {
+    return complain(std::string("plumbline: internal error: ") + error.what(), environment_or_internal);
+  }
+}
+
+int parse_and_run(int argc, char** argv) {
+  CLI::App program{
+      "Walks a legged robot with an emulated VLP-16 through a building model and scores SLAM and "
+      "localization methods against ground truth.",
+      "plumbline"};
+  program.set_version_flag("--version", std::string("plumbline ") + PLUMBLINE_VERSION);
+  program.require_subcommand(1);
+  program.footer(
+      "Example: plumbline run scenarios/library/quickstart.yaml --out runs/first\n"
+      "Exit codes: 0 gates passed, 1 a gate failed, 2 bad usage or input, 3 environment or internal error, "
+      "4 the robot fell or stalled");
+  const std::vector<Command> commands = {add_run(program),      add_score(program), add_report(program),
+                                         add_replay(program),   add_diff(program),  add_methods(program),
+                                         add_scenarios(program)};
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return program.exit(error);  // --help, --version
+    return complain(std::string("plumbline: ") + error.what() + "; see plumbline --help", bad_input);
+  }
+  for (const Command& command : commands)
+    if (command.app->parsed()) return command.action();
+  return bad_input;
+}
+
+}  // namespace
+
+int run_program(int argc, char** argv) {
+  settle_process();
+  reexecute_with_tunables(argv);
+  try {
+    const int code = parse_and_run(argc, argv);
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+      throw EnvironmentError("plumbline: stdout cannot be written");
+    return code;
+  } catch (...) {
+    return report_failure();
+  }
+}
+
+}  // namespace plumbline::scenarios

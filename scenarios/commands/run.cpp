@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+
+#include "bim/errors.h"
+#include "scenarios/commands/commands.h"
+#include "scenarios/commands/process.h"
+#include "scenarios/run/files.h"
+#include "scenarios/run/interrupt.h"
+#include "scenarios/run/progress.h"
+#include "scenarios/run/run_files.h"
+#include "scenarios/run/runner.h"
+#include "scenarios/run/summary.h"
+#include "scenarios/run/timings.h"
+#include "slam/io/stopwatch.h"
+
+namespace plumbline::scenarios {
+
+namespace {
+
+struct Options {
+  std::string input;
+  std::vector<std::string> methods;
+  std::uint64_t seed = 0;
+  std::string out;
+  int threads = 0;
+  bool record = false;
+  bool force = false;
+  CLI::Option* methods_option = nullptr;
+  CLI::Option* seed_option = nullptr;
+};
+
+/// runs/<scenario>-<seed>, with what does not belong into a file name replaced.
+std::string default_out(const Scenario& scenario) {
+  std::string name = scenario.name;
+  for (char& c : name) {
+    const bool plain =
+        (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
+    if (!plain) c = '_';
+  }
+  return "runs/" + name + "-" + std::to_string(scenario.seed);
+}
+
+Overrides overrides_of(const Options& options) {
+  Overrides overrides;
+  if (options.methods_option->count() > 0) overrides.methods = options.methods;
+  if (options.seed_option->count() > 0) overrides.seed = options.seed;
+  return overrides;
+}
+
+int run(const Options& options) {
+  const double start = slam::wall_s();
+  const ResolvedScenario resolved = resolve(options.input, overrides_of(options));
+  const std::string out = options.out.empty() ? default_out(resolved.scenario) : options.out;
+  if (resolved.dropped_gates > 0)
+    std::fprintf(stderr, "plumbline: %d gates of methods left out by --method are not asked\n", resolved.dropped_gates);
+
+  catch_interrupts();
+  RunDirectory directory(out, options.force);
+  Progress progress(resolved.scenario.name, resolved.scenario.duration_s);
+  const int threads = options.threads > 0 ? options.threads : allowed_cpus();
+  RunOptions run_options{threads, options.record, std::nullopt, [&](double t) { progress.at(t); }};
+  const RunRecord record = execute(resolved, run_options);
+  if (record.truth_W.empty())
+    throw ScenarioFailure(record.failure.empty() ? "the run ended before its first scan" : record.failure);
+
+  progress.phase("scoring");
+  write_run_files(directory.staging(), resolved, record);
+  if (options.record) write_recording(directory.staging(), record.sensors);
+  const RunFiles files = read_run_files(directory.staging());
+  const score::RunScore score = score_and_report(files);
+  check_interrupt();
+  const RunCost cost{slam::wall_s() - start, slam::process_cpu_s(), score.duration_s, threads};
+  write_file(directory.staging() + "/timings.json", write_timings(record, cost));
+  directory.commit();
+
+  if (!record.failure.empty()) std::fprintf(stderr, "%s\n", record.failure.c_str());
+  std::fputs(("report: " + out + "/report.html\n" + summarise(files, score)).c_str(), stdout);
+  return exit_code(files, score);
+}
+
+}  // namespace
+
+Command add_run(CLI::App& program) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* app = program.add_subcommand("run", "Simulates a scenario, runs the methods, scores and reports them");
+  app->add_option("INPUT", options->input, "scenario (.yaml), plan (.yaml) or building (.ifc)")->required();
+  options->methods_option =
+      app->add_option("--method", options->methods, "methods to run, comma-separated [the scenario's]")->delimiter(',');
+  options->seed_option = app->add_option("--seed", options->seed, "seed [the scenario's]");
+  app->add_option("--out", options->out, "run directory [runs/<scenario>-<seed>]");
+  app->add_option("--threads", options->threads, "threads [the CPUs allowed]")->check(CLI::Range(1, 1024));
+  app->add_flag("--record", options->record, "also write lidar.pcap, odometry.tum and imu.csv");
+  app->add_flag("--force", options->force, "replace the run that stands in --out");
+  app->footer(
+      "Example: plumbline run scenarios/library/quickstart.yaml --method vgicp,truth --seed 7 --out runs/seven");
+  return {app, [options] { return run(*options); }};
+}
+
+}  // namespace plumbline::scenarios

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+
+#include "scenarios/commands/commands.h"
+#include "scenarios/run/run_files.h"
+#include "scenarios/run/summary.h"
+#include "scenarios/run/trajectory_file.h"
+
+namespace plumbline::scenarios {
+
+namespace {
+
+bool is_plain_name(const std::string& name) {
+  const auto plain = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+  };
+  return !name.empty() && std::all_of(name.begin(), name.end(), plain);
+}
+
+/// NAME=FILE[,frame=W|M]
+MethodRecord read_outside(const std::string& text) {
+  const Mark mark{"--estimate", 0, 0};
+  const std::size_t equals = text.find('=');
+  std::string path = equals == std::string::npos ? "" : text.substr(equals + 1);
+  MethodRecord method;
+  method.name = text.substr(0, equals);
+  for (const auto& [end, world] : {std::pair{",frame=W", true}, std::pair{",frame=M", false}}) {
+    if (!path.ends_with(end)) continue;
+    path.resize(path.size() - std::string_view(end).size());
+    method.localization = world;
+    break;
+  }
+  if (!is_plain_name(method.name) || path.empty())
+    throw InputError(mark, "'" + text + "' must be NAME=trajectory.tum or NAME=trajectory.tum,frame=W");
+  method.estimate.frame = method.localization ? slam::Frame::world : slam::Frame::map;
+  method.causal = read_tum(read_text_file(path), path);
+  if (method.causal.empty()) throw InputError({path, 0, 0}, "holds no pose");
+  return method;
+}
+
+int score_again(const std::string& dir, const std::vector<std::string>& estimates) {
+  RunFiles files = read_run_files(dir);
+  std::vector<MethodRecord> outside;
+  for (const std::string& text : estimates) {
+    outside.push_back(read_outside(text));
+    const auto& names = files.scenario.methods;
+    if (std::find(names.begin(), names.end(), outside.back().name) != names.end())
+      throw InputError({"--estimate", 0, 0},
+                       "'" + outside.back().name + "' is a method of this run; give another name");
+  }
+  for (const MethodRecord& method : outside) write_method(dir, method);
+  if (!outside.empty()) files = read_run_files(dir);
+  const score::RunScore score = score_and_report(files);
+  std::fputs(("report: " + dir + "/report.html\n" + summarise(files, score)).c_str(), stdout);
+  return exit_code(files, score);
+}
+
+}  // namespace
+
+Command add_score(CLI::App& program) {
+  struct Options {
+    std::string dir;
+    std::vector<std::string> estimates;
+  };
+  const auto options = std::make_shared<Options>();
+  CLI::App* app = program.add_subcommand("score", "Scores a run again from what is on disk, with outside trajectories");
+  app->add_option("DIR", options->dir, "run directory")->required();
+  app->add_option("--estimate", options->estimates,
+                  "NAME=trajectory.tum[,frame=W|M]: poses of the robot in the plan's frame W or its own M [M]");
+  app->footer("Example: plumbline score runs/quickstart-1 --estimate kiss=kiss.tum --estimate amcl=amcl.tum,frame=W");
+  return {app, [options] { return score_again(options->dir, options->estimates); }};
+}
+
+}  // namespace plumbline::scenarios

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenarios/resolve.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+
+#include "bim/building/load.h"
+#include "bim/random/stream.h"
+#include "scenarios/route_plan.h"
+#include "scenarios/run/participant.h"
+
+namespace plumbline::scenarios {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Of the default scenario: time to walk the route with its turns, and to stand at the end.
+struct DefaultDuration {
+  double factor = 1.8;  ///< over distance / speed; a walk through rooms turns on the spot at each goal
+  double extra_s = 20.0;
+  double longest_s = 900.0;
+};
+
+bool is_ifc(const std::string& text) { return text.substr(0, 256).find("ISO-10303-21") != std::string::npos; }
+
+/// The first key of a YAML file, which names its kind.
+std::string kind_of(const std::string& text, const std::string& path) {
+  const Tree tree = read_yaml(text, path);
+  if (!tree.is_map() || tree.as_map().empty())
+    throw InputError({path, 1, 1}, "a scenario or plan is expected: the first key must be 'scenario: 1' or 'plan: 1'");
+  return tree.find("levels") != nullptr ? "plan" : tree.as_map().front().first;
+}
+
+/// The default scenario of a bare building.
+ScenarioText default_scenario(const std::string& path) {
+  ScenarioText text;
+  text.tree = Tree::map();
+  text.tree.mark = {path, 0, 0};
+  text.scenario.building = fs::path(path).filename().string();
+  std::string name = text.scenario.building.substr(0, text.scenario.building.find('.'));
+  text.scenario.name = name.empty() ? "unnamed" : name;
+  return text;
+}
+
+ScenarioText read_input(const std::string& path) {
+  const std::string text = read_text_file(path);
+  if (is_ifc(text) || fs::path(path).extension() == ".ifc") return default_scenario(path);
+  const std::string kind = kind_of(text, path);
+  if (kind == "plan") return default_scenario(path);
+  if (kind == "scenario") return read_scenario(text, path);
+  throw InputError({path, 1, 1}, "the first key is '" + kind + "'; it must be 'scenario: 1' or 'plan: 1'");
+}
+
+std::vector<Mark> marks_of(const Tree& tree, std::initializer_list<std::string_view> path, std::size_t count) {
+  const Tree* node = &tree;
+  for (const std::string_view key : path) node = node != nullptr && node->is_map() ? node->find(key) : nullptr;
+  std::vector<Mark> marks(count, mark_at(tree, path));
+  if (node != nullptr && node->is_list())
+    for (std::size_t i = 0; i < std::min(count, node->as_list().size()); ++i) marks[i] = node->as_list()[i].mark;
+  return marks;
+}
+
+void settle_methods(ScenarioText& text, const Overrides& overrides, int& dropped_gates) {
+  Scenario& scenario = text.scenario;
+  if (overrides.methods) {
+    check_methods(*overrides.methods, std::vector<Mark>(overrides.methods->size(), Mark{"--method", 0, 0}));
+    scenario.methods = *overrides.methods;
+  } else {
+    check_methods(scenario.methods, marks_of(text.tree, {"methods"}, scenario.methods.size()));
+  }
+  if (scenario.methods.empty())
+    for (const slam::MethodRow& row : slam::methods()) scenario.methods.emplace_back(row.name);
+  const auto asked = [&](const GateSpec& gate) {
+    return std::find(scenario.methods.begin(), scenario.methods.end(), gate.method) != scenario.methods.end();
+  };
+  const std::vector<Mark> marks = marks_of(text.tree, {"gates"}, scenario.gates.size());
+  for (std::size_t i = 0; i < scenario.gates.size(); ++i) {
+    if (asked(scenario.gates[i]) || overrides.methods) continue;
+    throw InputError(marks[i],
+                     "the gate's method '" + scenario.gates[i].method + "' is not one of the scenario's methods");
+  }
+  const auto kept = std::stable_partition(scenario.gates.begin(), scenario.gates.end(), asked);
+  dropped_gates = static_cast<int>(scenario.gates.end() - kept);
+  scenario.gates.erase(kept, scenario.gates.end());
+}
+
+/// A compass with slam::Prior's error, drawn once a run.
+slam::Prior make_prior(const Scenario& scenario, const bim::Building& building, const RoutePlan& plan) {
+  slam::Prior prior;
+  const double yaw = plan.yaw_deg * std::numbers::pi / 180.0;
+  if (scenario.prior.yaw == Knowledge::known)
+    prior.yaw_W = wrap_angle(yaw + prior.yaw_sigma * Stream(scenario.seed, "scenario.prior").gauss(0));
+  if (scenario.prior.storey == Knowledge::known)
+    prior.storey = building.storeys[static_cast<std::size_t>(plan.storey)].id;
+  return prior;
+}
+
+sim::WorldConfig make_world(const Scenario& scenario, const RoutePlan& plan) {
+  sim::WorldConfig world;
+  world.seed = scenario.seed;
+  world.lidar = scenario.lidar.preset;
+  world.odometry = scenario.odometry.preset;
+  world.storey = plan.storey;
+  world.start_W = plan.start_W;
+  world.start_yaw = plan.yaw_deg * std::numbers::pi / 180.0;
+  world.waypoints = plan.waypoints;
+  world.speed_mps = scenario.speed_mps;
+  world.duration_s = scenario.duration_s;
+  return world;
+}
+
+double default_duration(const RoutePlan& plan, double speed) {
+  const DefaultDuration rule;
+  return std::min(rule.longest_s, std::ceil(rule.factor * plan.length_m / speed + rule.extra_s));
+}
+
+}  // namespace
+
+void check_methods(const std::vector<std::string>& names, const std::vector<Mark>& marks) {
+  const std::vector<std::string> known = method_names();
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (std::find(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(i), names[i]) !=
+        names.begin() + static_cast<std::ptrdiff_t>(i))
+      throw InputError(marks[i], "method '" + names[i] + "' is asked for twice");
+    if (std::find(known.begin(), known.end(), names[i]) != known.end()) continue;
+    const std::string close = did_you_mean(names[i], known);
+    std::string list;
+    for (const std::string& name : known) list += (list.empty() ? "" : ", ") + name;
+    throw InputError(marks[i], "unknown method '" + names[i] + "'; " +
+                                   (close.empty() ? "known: " + list : "did you mean '" + close + "'?"));
+  }
+}
+
+ResolvedScenario resolve(const std::string& input_path, const Overrides& overrides) {
+  ResolvedScenario resolved;
+  ScenarioText text = read_input(input_path);
+  settle_methods(text, overrides, resolved.dropped_gates);
+  if (overrides.seed) text.scenario.seed = *overrides.seed;
+  const bool bare = text.tree.as_map().empty();
+
+  const fs::path building = fs::path(input_path).parent_path() / text.scenario.building;
+  if (!bare && !fs::exists(building))
+    throw InputError(mark_at(text.tree, {"building"}), "the building '" + building.string() + "' does not exist");
+  resolved.building_bytes = read_text_file(building.string());
+  resolved.building = bim::load_building(building.string());
+
+  const RouteMarks marks{mark_at(text.tree, {"start"}), mark_at(text.tree, {"route"}),
+                         marks_of(text.tree, {"route", "rooms"}, text.scenario.route.rooms.size())};
+  const RoutePlan plan = plan_route(resolved.building, text.scenario.start, text.scenario.route, marks);
+  if (bare) text.scenario.duration_s = default_duration(plan, text.scenario.speed_mps);
+
+  Scenario& scenario = text.scenario;
+  const std::string& storey = resolved.building.storeys[static_cast<std::size_t>(plan.storey)].id;
+  scenario.start = Start{std::nullopt, storey, plan.start_W, plan.yaw_deg};
+  if (!scenario.route.shuttle) scenario.route.rooms = plan.rooms;
+  scenario.building = is_ifc(resolved.building_bytes) ? "building.ifc" : "building.plan.yaml";
+  resolved.world = make_world(scenario, plan);
+  resolved.prior = make_prior(scenario, resolved.building, plan);
+  resolved.scenario = std::move(scenario);
+  return resolved;
+}
+
+}  // namespace plumbline::scenarios

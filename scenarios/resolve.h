@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bim/building/building.h"
+#include "scenarios/scenario.h"
+#include "sim/world.h"
+#include "slam/io/method.h"
+
+namespace plumbline::scenarios {
+
+/// What the command line says over the scenario.
+struct Overrides {
+  std::optional<std::vector<std::string>> methods;  ///< gates of methods left out are dropped
+  std::optional<std::uint64_t> seed;
+};
+
+/// A scenario with its building, every choice made.
+struct ResolvedScenario {
+  Scenario scenario;           ///< start, route and methods settled; `building` names the copy in a run directory
+  bim::Building building;      ///< as planned and, without deviations, as built
+  std::string building_bytes;  ///< the file as it was read
+  sim::WorldConfig world;
+  slam::Prior prior;
+  int dropped_gates = 0;  ///< gates of methods that Overrides left out
+};
+
+/// Reads INPUT (a scenario, a plan or an .ifc; the last two get the default scenario: start in the largest room of
+/// the lowest habitable storey, route through all rooms reachable on it, every method) and checks everything that can
+/// be known before the first step. Throws InputError at the place in the file that is wrong.
+[[nodiscard]] ResolvedScenario resolve(const std::string& input_path, const Overrides& overrides);
+
+/// Checks that methods are known and asked for once; `mark(i)` says where name i stands.
+void check_methods(const std::vector<std::string>& names, const std::vector<Mark>& marks);
+
+}  // namespace plumbline::scenarios

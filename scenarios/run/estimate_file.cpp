@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenarios/run/estimate_file.h"
+
+#include <array>
+#include <cmath>
+
+#include "bim/config/tree.h"
+
+namespace plumbline::scenarios {
+
+namespace {
+
+constexpr std::array<std::string_view, 4> state_names = {"SEARCHING", "AMBIGUOUS", "CONVERGED", "LOST"};
+constexpr std::array<std::string_view, 2> room_names = {"four_wall", "two_wall"};
+
+Tree numbers(std::initializer_list<double> values) {
+  Tree list = Tree::list();
+  for (const double v : values) list.push(v);
+  return list;
+}
+Tree numbers(const Eigen::Vector2d& v) { return numbers({v.x(), v.y()}); }
+Tree numbers(const Eigen::Vector3d& v) { return numbers({v.x(), v.y(), v.z()}); }
+Tree numbers(const Pose& X) { return numbers({X.t.x(), X.t.y(), X.t.z(), X.q.x(), X.q.y(), X.q.z(), X.q.w()}); }
+
+const Tree& child(const Tree& tree, std::string_view key) {
+  const Tree* found = tree.find(key);
+  if (found == nullptr) throw InputError(tree.mark, "the key '" + std::string(key) + "' is missing");
+  return *found;
+}
+
+template <std::size_t N>
+std::array<double, N> read_numbers(const Tree& tree) {
+  const Tree::List& list = tree.as_list();
+  if (list.size() != N) throw InputError(tree.mark, std::to_string(N) + " numbers are expected");
+  std::array<double, N> values{};
+  for (std::size_t i = 0; i < N; ++i) values[i] = list[i].as_double();
+  return values;
+}
+
+Eigen::Vector2d read_2d(const Tree& tree) {
+  const auto v = read_numbers<2>(tree);
+  return {v[0], v[1]};
+}
+Eigen::Vector3d read_3d(const Tree& tree) {
+  const auto v = read_numbers<3>(tree);
+  return {v[0], v[1], v[2]};
+}
+Pose read_pose(const Tree& tree) {
+  const auto v = read_numbers<7>(tree);
+  return {Eigen::Quaterniond(v[6], v[3], v[4], v[5]), {v[0], v[1], v[2]}};
+}
+
+template <std::size_t N>
+int index_of(const Tree& tree, const std::array<std::string_view, N>& names) {
+  for (std::size_t i = 0; i < N; ++i)
+    if (names[i] == tree.as_string()) return static_cast<int>(i);
+  throw InputError(tree.mark, "unknown name '" + tree.as_string() + "'");
+}
+
+Tree write(const slam::PlaneNode& plane) {
+  Tree tree = Tree::map();
+  tree.set("id", plane.id).set("n", numbers(plane.plane_F.n)).set("d", plane.plane_F.d);
+  tree.set("p0", numbers(plane.p0)).set("p1", numbers(plane.p1)).set("z0", plane.z0).set("z1", plane.z1);
+  return tree.set("observations", plane.observations);
+}
+
+slam::PlaneNode read_plane(const Tree& tree) {
+  slam::PlaneNode plane;
+  plane.id = static_cast<int>(child(tree, "id").as_int());
+  plane.plane_F = {read_3d(child(tree, "n")), child(tree, "d").as_double()};
+  plane.p0 = read_2d(child(tree, "p0"));
+  plane.p1 = read_2d(child(tree, "p1"));
+  plane.z0 = child(tree, "z0").as_double();
+  plane.z1 = child(tree, "z1").as_double();
+  plane.observations = static_cast<int>(child(tree, "observations").as_int());
+  return plane;
+}
+
+Tree write(const slam::RoomNode& room) {
+  Tree polygon = Tree::list();
+  for (const Eigen::Vector2d& p : room.polygon_F) polygon.push(numbers(p));
+  Tree planes = Tree::list();
+  for (const int id : room.planes) planes.push(id);
+  Tree tree = Tree::map();
+  tree.set("id", room.id).set("kind", room_names[static_cast<std::size_t>(room.kind)]);
+  return tree.set("center", numbers(room.center_F)).set("polygon", polygon).set("planes", planes);
+}
+
+slam::RoomNode read_room(const Tree& tree) {
+  slam::RoomNode room;
+  room.id = static_cast<int>(child(tree, "id").as_int());
+  room.kind = static_cast<slam::RoomKind>(index_of(child(tree, "kind"), room_names));
+  room.center_F = read_2d(child(tree, "center"));
+  for (const Tree& p : child(tree, "polygon").as_list()) room.polygon_F.push_back(read_2d(p));
+  for (const Tree& id : child(tree, "planes").as_list()) room.planes.push_back(static_cast<int>(id.as_int()));
+  return room;
+}
+
+Tree write(const slam::FloorNode& floor) {
+  Tree tree = Tree::map();
+  tree.set("id", floor.id).set("center", numbers(floor.center_F));
+  return tree.set("n", numbers(floor.plane_F.n)).set("d", floor.plane_F.d);
+}
+
+slam::FloorNode read_floor(const Tree& tree) {
+  return {static_cast<int>(child(tree, "id").as_int()),
+          read_3d(child(tree, "center")),
+          {read_3d(child(tree, "n")), child(tree, "d").as_double()}};
+}
+
+double round_to(double value, double steps) { return std::round(value * steps) / steps; }
+
+Tree write(const slam::Hypothesis& hypothesis) {
+  Tree covariance = Tree::list();
+  for (int row = 0; row < 3; ++row)
+    for (int col = 0; col < 3; ++col) covariance.push(hypothesis.covariance(row, col));
+  Tree tree = Tree::map();
+  tree.set("mass", hypothesis.mass).set("room", hypothesis.room);
+  return tree.set("pose", numbers(hypothesis.X_WR)).set("covariance", covariance);
+}
+
+Tree write(const slam::Particle& particle) {
+  return numbers({round_to(particle.x, 1e3), round_to(particle.y, 1e3), round_to(particle.yaw, 1e3),
+                  round_to(particle.weight, 1e6)});
+}
+
+template <class T>
+Tree write_list(const std::vector<T>& values) {
+  Tree list = Tree::list();
+  for (const T& value : values) list.push(write(value));
+  return list;
+}
+
+slam::Hypothesis read_hypothesis(const Tree& tree) {
+  slam::Hypothesis hypothesis;
+  hypothesis.mass = child(tree, "mass").as_double();
+  hypothesis.room = child(tree, "room").as_string();
+  hypothesis.X_WR = read_pose(child(tree, "pose"));
+  const auto c = read_numbers<9>(child(tree, "covariance"));
+  for (int row = 0; row < 3; ++row)
+    for (int col = 0; col < 3; ++col) hypothesis.covariance(row, col) = c[static_cast<std::size_t>(3 * row + col)];
+  return hypothesis;
+}
+
+BeliefRecord read_belief(const Tree& tree) {
+  BeliefRecord belief;
+  belief.stamp = child(tree, "stamp_ns").as_int();
+  belief.state = static_cast<slam::State>(index_of(child(tree, "state"), state_names));
+  for (const Tree& h : child(tree, "hypotheses").as_list()) belief.hypotheses.push_back(read_hypothesis(h));
+  if (const Tree* particles = tree.find("particles"))
+    for (const Tree& p : particles->as_list()) {
+      const auto v = read_numbers<4>(p);
+      belief.particles.push_back({v[0], v[1], v[2], v[3]});
+    }
+  return belief;
+}
+
+}  // namespace
+
+std::string write_estimate(const MethodRecord& method) {
+  Tree tree = Tree::map();
+  tree.set("method", method.name);
+  tree.set("frame", method.estimate.frame == slam::Frame::world ? "world" : "map");
+  tree.set("scored_as", method.localization ? "localization" : "slam");
+  if (method.crashed) tree.set("crashed", method.error);
+  tree.set("planes", write_list(method.estimate.planes));
+  tree.set("rooms", write_list(method.estimate.rooms));
+  tree.set("floors", write_list(method.estimate.floors));
+  return write_json(tree) + "\n";
+}
+
+void read_estimate(std::string_view text, const std::string& file, MethodRecord& method) {
+  const Tree tree = read_json(text, file);
+  method.name = child(tree, "method").as_string();
+  method.estimate.frame = child(tree, "frame").as_string() == "world" ? slam::Frame::world : slam::Frame::map;
+  method.localization = child(tree, "scored_as").as_string() == "localization";
+  if (const Tree* error = tree.find("crashed")) {
+    method.crashed = true;
+    method.error = error->as_string();
+  }
+  for (const Tree& plane : child(tree, "planes").as_list()) method.estimate.planes.push_back(read_plane(plane));
+  for (const Tree& room : child(tree, "rooms").as_list()) method.estimate.rooms.push_back(read_room(room));
+  for (const Tree& floor : child(tree, "floors").as_list()) method.estimate.floors.push_back(read_floor(floor));
+}
+
+std::string write_beliefs(const std::vector<BeliefRecord>& beliefs) {
+  std::string text;
+  for (const BeliefRecord& belief : beliefs) {
+    Tree tree = Tree::map();
+    tree.set("stamp_ns", belief.stamp).set("state", state_names[static_cast<std::size_t>(belief.state)]);
+    tree.set("hypotheses", write_list(belief.hypotheses));
+    if (!belief.particles.empty()) tree.set("particles", write_list(belief.particles));
+    text += write_json(tree, 0) + "\n";
+  }
+  return text;
+}
+
+std::vector<BeliefRecord> read_beliefs(std::string_view text, const std::string& file) {
+  std::vector<BeliefRecord> beliefs;
+  int line = 0;
+  while (!text.empty()) {
+    ++line;
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    Tree tree;
+    try {
+      tree = read_json(text.substr(0, end), file);
+      beliefs.push_back(read_belief(tree));
+    } catch (const InputError&) {
+      throw InputError({file, line, 1}, "the line is no belief: {stamp_ns, state, hypotheses}");
+    }
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return beliefs;
+}
+
+}  // namespace plumbline::scenarios

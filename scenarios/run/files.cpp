@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenarios/run/files.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <utility>
+
+#include "bim/errors.h"
+
+namespace plumbline::scenarios {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::string_view staging_name = ".partial";
+
+[[noreturn]] void fail(const std::string& path, const std::string& what, int error) {
+  throw EnvironmentError(path + ": " + what + ": " + std::strerror(error));
+}
+
+/// Closes on every way out.
+class Descriptor {
+ public:
+  explicit Descriptor(int fd) : fd_(fd) {}
+  ~Descriptor() { close_now(); }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  [[nodiscard]] int get() const { return fd_; }
+  int close_now() { return fd_ >= 0 ? ::close(std::exchange(fd_, -1)) : 0; }
+
+ private:
+  int fd_;
+};
+
+void write_all(int fd, std::string_view bytes, const std::string& path) {
+  while (!bytes.empty()) {
+    const ssize_t n = ::write(fd, bytes.data(), bytes.size());
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) fail(path, "cannot be written", errno);
+    bytes.remove_prefix(static_cast<std::size_t>(n));
+  }
+}
+
+void sync_directory(const std::string& path) {
+  const Descriptor dir(::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (dir.get() >= 0) static_cast<void>(::fsync(dir.get()));
+}
+
+bool ends_with(std::string_view text, std::string_view end) {
+  return text.size() > end.size() && text.substr(text.size() - end.size()) == end;
+}
+
+std::vector<std::string> names_in(const std::string& path) {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (fs::directory_iterator it(path, error), end; !error && it != end; it.increment(error))
+    names.push_back(it->path().filename().string());
+  if (error) fail(path, "cannot be listed", error.value());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+}  // namespace
+
+void write_file(const std::string& path, std::string_view bytes) {
+  const std::string temporary = path + ".tmp";
+  try {
+    Descriptor file(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
+    if (file.get() < 0) fail(path, "cannot be written", errno);
+    write_all(file.get(), bytes, path);
+    if (::fsync(file.get()) != 0 && errno != EINVAL) fail(path, "cannot be written", errno);
+    if (file.close_now() != 0) fail(path, "cannot be written", errno);
+    if (::rename(temporary.c_str(), path.c_str()) != 0) fail(path, "cannot be written", errno);
+  } catch (...) {
+    ::unlink(temporary.c_str());
+    throw;
+  }
+}
+
+bool is_run_file(std::string_view name) {
+  static constexpr std::array<std::string_view, 15> names = {
+      "scenario.yaml", "building.plan.yaml", "building.ifc", "results.json", "timings.json",
+      "digests.csv",   "truth.tum",          "report.html",  "junit.xml",    "truth_surface.ply",
+      "lidar.pcap",    "odometry.tum",       "imu.csv",      "failure.txt",  staging_name};
+  static constexpr std::array<std::string_view, 4> ends = {".tum", ".hypotheses.jsonl", ".estimate.json", ".map.ply"};
+  return std::find(names.begin(), names.end(), name) != names.end() ||
+         std::any_of(ends.begin(), ends.end(), [&](std::string_view end) { return ends_with(name, end); });
+}
+
+RunDirectory::RunDirectory(const std::string& path, bool force)
+    : path_(path), staging_((fs::path(path) / staging_name).string()) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path_, error);
+  const Mark mark{path_, 0, 0};
+  if (fs::exists(status)) {
+    if (!fs::is_directory(status)) throw InputError(mark, "is a file; --out must name a directory");
+    for (const std::string& name : names_in(path_)) {
+      if (name == staging_name) continue;
+      if (!force) throw InputError(mark, "exists and is not empty; name another --out or add --force");
+      if (!is_run_file(name))
+        throw InputError(mark, "holds '" + name + "', which no run wrote; --force replaces runs only");
+    }
+  }
+  try {
+    create();
+  } catch (...) {
+    discard();
+    throw;
+  }
+}
+
+void RunDirectory::create() {
+  std::vector<std::string> missing;
+  for (fs::path p = fs::path(staging_); !p.empty() && !fs::exists(p); p = p.parent_path())
+    missing.push_back(p.string());
+  std::reverse(missing.begin(), missing.end());
+  for (const std::string& folder : missing) {
+    std::error_code error;
+    if (!fs::create_directory(folder, error) && error) fail(path_, "cannot be created", error.value());
+    created_.push_back(folder);
+  }
+  const std::string lock_path = staging_ + "/lock";
+  lock_ = ::open(lock_path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
+  if (lock_ < 0) fail(path_, "cannot be written", errno);
+  if (::flock(lock_, LOCK_EX | LOCK_NB) != 0) {
+    ::close(std::exchange(lock_, -1));
+    throw InputError({path_, 0, 0}, "another run is writing here; name another --out");
+  }
+  for (const std::string& name : names_in(staging_))  // what an interrupted run left
+    if (name != "lock") fs::remove_all(fs::path(staging_) / name);
+}
+
+void RunDirectory::commit() {
+  const fs::path target(path_);
+  std::error_code error;
+  fs::remove(target / "results.json", error);
+  for (const std::string& name : names_in(path_))
+    if (name != staging_name) fs::remove(target / name, error);
+  std::vector<std::string> names = names_in(staging_);
+  std::stable_partition(names.begin(), names.end(), [](const std::string& name) { return name != "results.json"; });
+  for (const std::string& name : names) {
+    if (name == "lock") continue;
+    fs::rename(fs::path(staging_) / name, target / name, error);
+    if (error) fail((target / name).string(), "cannot be moved into place", error.value());
+  }
+  fs::remove_all(staging_, error);
+  sync_directory(path_);
+  committed_ = true;
+}
+
+void RunDirectory::discard() noexcept {
+  std::error_code error;
+  if (lock_ >= 0) {
+    fs::remove_all(staging_, error);
+    ::close(std::exchange(lock_, -1));
+  }
+  for (auto it = created_.rbegin(); it != created_.rend(); ++it) fs::remove(*it, error);  // empty ones only
+}
+
+RunDirectory::~RunDirectory() {
+  if (!committed_) discard();
+  if (lock_ >= 0) ::close(lock_);
+}
+
+}  // namespace plumbline::scenarios

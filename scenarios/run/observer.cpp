@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenarios/run/observer.h"
+
+#include <cmath>
+
+#include "bim/digest/digest.h"
+#include "bim/errors.h"
+
+namespace plumbline::scenarios {
+
+namespace {
+
+std::uint64_t digest_of_odometry(const sim::WorldFrame& frame) {
+  Digest digest;
+  for (const slam::Imu& imu : frame.imu)
+    digest.add(imu.stamp).add(imu.angular_velocity_R).add(imu.linear_acceleration_R);
+  for (const slam::Odometry& odometry : frame.odometry) digest.add(odometry.stamp).add(odometry.X_OR);
+  return digest.value();
+}
+
+std::uint64_t digest_of_lidar(const sim::WorldFrame& frame) {
+  Digest digest;
+  for (const slam::Vlp16Packet& packet : frame.packets) digest.add(packet.stamp).add_bytes(packet.payload);
+  digest.add(frame.scan.stamp).add(frame.scan.columns);
+  for (std::size_t i = 0; i < frame.scan.size(); ++i)
+    if (frame.scan.range_m[i] > 0.0) digest.add(frame.scan.point_L[i]);
+  return digest.value();
+}
+
+}  // namespace
+
+SurfaceRecorder::SurfaceRecorder(const bim::BuildingMesh& mesh, double voxel_m) : voxel_m_(voxel_m) {
+  if (mesh.vertices.empty()) throw InternalError("the as-built mesh is empty");
+  Eigen::Vector3d high = mesh.vertices.front();
+  origin_ = high;
+  for (const Eigen::Vector3d& v : mesh.vertices) {
+    origin_ = origin_.cwiseMin(v);
+    high = high.cwiseMax(v);
+  }
+  origin_ -= Eigen::Vector3d::Constant(0.5 * voxel_m_);  // faces on round coordinates lie inside voxels, not between
+  count_ = ((high - origin_) / voxel_m_).array().floor().cast<int>() + 2;
+  taken_.assign(static_cast<std::size_t>(count_.cast<std::int64_t>().prod()), false);
+}
+
+void SurfaceRecorder::add(const sim::ReturnLabels& labels) {
+  const Eigen::Vector3i last = count_ - Eigen::Vector3i::Ones();
+  for (std::size_t i = 0; i < labels.element.size(); ++i) {
+    if (labels.element[i] < 0) continue;
+    const Eigen::Vector3d& p = labels.point_W[i];
+    const Eigen::Vector3i cell =
+        ((p - origin_) / voxel_m_).array().floor().cast<int>().max(0).min(last.array()).matrix();
+    const std::int64_t index =
+        (static_cast<std::int64_t>(cell.z()) * count_.y() + cell.y()) * static_cast<std::int64_t>(count_.x()) +
+        cell.x();
+    if (taken_[static_cast<std::size_t>(index)]) continue;
+    taken_[static_cast<std::size_t>(index)] = true;
+    points_.push_back(p.cast<float>());
+  }
+}
+
+FrameRecorder::FrameRecorder(const bim::BuildingMesh& mesh, bool keep_sensors)
+    : surface_(mesh), keep_sensors_(keep_sensors) {}
+
+void FrameRecorder::observe(const sim::WorldFrame& frame) {
+  const slam::Nanoseconds tick = frame.scan.stamp;
+  digests_.push_back({tick, "sim.robot", frame.robot_digest});
+  digests_.push_back({tick, "sim.odometry", digest_of_odometry(frame)});
+  digests_.push_back({tick, "sim.lidar", digest_of_lidar(frame)});
+  for (const sim::TruePose& truth : frame.truth)
+    if (truth_.empty() || truth.stamp > truth_.back().stamp) truth_.push_back({truth.stamp, truth.X_WR});
+  surface_.add(frame.labels);
+  if (!keep_sensors_) return;
+  sensors_.packets.insert(sensors_.packets.end(), frame.packets.begin(), frame.packets.end());
+  sensors_.odometry.insert(sensors_.odometry.end(), frame.odometry.begin(), frame.odometry.end());
+  sensors_.imu.insert(sensors_.imu.end(), frame.imu.begin(), frame.imu.end());
+}
+
+void FrameRecorder::move_into(RunRecord& record) {
+  record.truth_W = std::move(truth_);
+  record.surface_W = surface_.points_W();
+  record.sensors = std::move(sensors_);
+}
+
+}  // namespace plumbline::scenarios

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "bim/mesh/mesh.h"
+#include "scenarios/run/record.h"
+#include "sim/world.h"
+
+namespace plumbline::scenarios {
+
+/// Keeps one truly hit point of each voxel of the building's box, in the order of time.
+class SurfaceRecorder {
+ public:
+  explicit SurfaceRecorder(const bim::BuildingMesh& mesh, double voxel_m = 0.1);
+  void add(const sim::ReturnLabels& labels);
+  [[nodiscard]] const std::vector<Eigen::Vector3f>& points_W() const { return points_; }
+
+ private:
+  Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
+  double voxel_m_;
+  Eigen::Vector3i count_ = Eigen::Vector3i::Zero();
+  std::vector<bool> taken_;
+  std::vector<Eigen::Vector3f> points_;
+};
+
+/// Keeps what scoring, replay and --record need of every frame.
+class FrameRecorder {
+ public:
+  FrameRecorder(const bim::BuildingMesh& mesh, bool keep_sensors);
+  void observe(const sim::WorldFrame& frame);
+  /// Hands over truth, surface and sensor records. Call once.
+  void move_into(RunRecord& record);
+  /// Digests of sim.robot, sim.odometry and sim.lidar, in time order.
+  [[nodiscard]] const DigestLog& digests() const { return digests_; }
+
+ private:
+  SurfaceRecorder surface_;
+  bool keep_sensors_;
+  std::vector<slam::StampedPose> truth_;
+  SensorRecord sensors_;
+  DigestLog digests_;
+};
+
+}  // namespace plumbline::scenarios

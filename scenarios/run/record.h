@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scenarios/run/digest_log.h"
+#include "scenarios/scenario.h"
+#include "slam/io/estimate.h"
+#include "slam/io/vlp16.h"
+
+namespace plumbline::scenarios {
+
+/// What a method said after one scan, as kept for scoring and the report.
+struct BeliefRecord {
+  slam::Nanoseconds stamp = 0;
+  slam::State state = slam::State::searching;
+  std::vector<slam::Hypothesis> hypotheses;
+  std::vector<slam::Particle> particles;  ///< of some scans only: see BeliefThinning
+};
+
+/// CPU times of the calls of one stage, ms, in call order.
+struct StageTimes {
+  std::string stage;
+  std::vector<float> cpu_ms;
+};
+
+/// Everything one method left behind.
+struct MethodRecord {
+  std::string name;
+  bool crashed = false;
+  std::string error;                      ///< why it crashed
+  bool localization = false;              ///< answers in W and is scored as a plan localization
+  std::vector<slam::StampedPose> causal;  ///< each pose as first given
+  std::vector<BeliefRecord> beliefs;      ///< of plan localization: one a scan
+  slam::Estimate estimate;
+  DigestLog digests;
+  std::vector<StageTimes> times;
+};
+
+/// What the sensors recorded, kept with --record only.
+struct SensorRecord {
+  std::vector<slam::Vlp16Packet> packets;
+  std::vector<slam::Odometry> odometry;
+  std::vector<slam::Imu> imu;
+};
+
+/// Everything one simulated run left behind. Truth is for scoring only.
+struct RunRecord {
+  std::vector<slam::StampedPose> truth_W;  ///< X_WR, 100 Hz and at every scan
+  std::vector<Eigen::Vector3f> surface_W;  ///< as-built points hit by true returns, one a 0.1 m voxel
+  std::vector<MethodRecord> methods;       ///< in the scenario's order
+  DigestLog digests;                       ///< of all stages
+  std::vector<StageTimes> sim_times;
+  std::string failure;  ///< why the scenario ended early: a fall or a stall; else empty
+  SensorRecord sensors;
+};
+
+}  // namespace plumbline::scenarios

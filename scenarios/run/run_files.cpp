@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenarios/run/run_files.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "bim/building/load.h"
+#include "scenarios/run/cloud_file.h"
+#include "scenarios/run/estimate_file.h"
+#include "scenarios/run/files.h"
+#include "scenarios/run/participant.h"
+#include "scenarios/run/trajectory_file.h"
+#include "slam/io/pcap.h"
+
+namespace plumbline::scenarios {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::string_view estimate_end = ".estimate.json";
+
+MethodRecord read_method(const std::string& dir, const std::string& name) {
+  const std::string stem = dir + "/" + name;
+  const auto text_if_there = [](const std::string& path) {
+    std::error_code error;
+    return fs::exists(path) && fs::file_size(path, error) > 0 ? read_text_file(path) : std::string();
+  };
+  MethodRecord method;
+  const std::string estimate = stem + std::string(estimate_end);
+  read_estimate(read_text_file(estimate), estimate, method);
+  if (method.name != name) throw InputError({estimate, 0, 0}, "is of method '" + method.name + "', not " + name);
+  method.causal = read_tum(text_if_there(stem + ".tum"), stem + ".tum");
+  method.estimate.trajectory = read_tum(text_if_there(stem + ".final.tum"), stem + ".final.tum");
+  const std::string map = text_if_there(stem + ".map.ply");
+  if (!map.empty()) method.estimate.map_F = read_ply(map, stem + ".map.ply");
+  method.beliefs = read_beliefs(text_if_there(stem + ".hypotheses.jsonl"), stem + ".hypotheses.jsonl");
+  return method;
+}
+
+/// The scenario's methods in its order, then every other method with an estimate here, by name.
+std::vector<std::string> method_names_in(const std::string& dir, const Scenario& scenario) {
+  std::vector<std::string> outside;
+  for (const fs::directory_entry& entry : fs::directory_iterator(dir)) {
+    const std::string file = entry.path().filename().string();
+    if (file.size() <= estimate_end.size() || !file.ends_with(estimate_end)) continue;
+    const std::string name = file.substr(0, file.size() - estimate_end.size());
+    if (std::find(scenario.methods.begin(), scenario.methods.end(), name) == scenario.methods.end())
+      outside.push_back(name);
+  }
+  std::sort(outside.begin(), outside.end());
+  std::vector<std::string> names = scenario.methods;
+  names.insert(names.end(), outside.begin(), outside.end());
+  return names;
+}
+
+std::string write_imu(const std::vector<slam::Imu>& records) {
+  std::string text = "t,wx,wy,wz,ax,ay,az\n";
+  for (const slam::Imu& imu : records) {
+    text += format_stamp(imu.stamp);
+    for (const double v : imu.angular_velocity_R) text += "," + format_number(v);
+    for (const double v : imu.linear_acceleration_R) text += "," + format_number(v);
+    text += "\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+void write_method(const std::string& dir, const MethodRecord& method) {
+  const std::string stem = dir + "/" + method.name;
+  write_file(stem + std::string(estimate_end), write_estimate(method));
+  if (method.name == truth_method) return;  // truth.tum and truth_surface.ply hold what it knows
+  write_file(stem + ".tum", write_tum(method.causal));
+  write_file(stem + ".final.tum", write_tum(method.estimate.trajectory));
+  if (!method.estimate.map_F.empty()) write_file(stem + ".map.ply", write_ply(method.estimate.map_F));
+  if (method.localization) write_file(stem + ".hypotheses.jsonl", write_beliefs(method.beliefs));
+}
+
+void write_run_files(const std::string& dir, const ResolvedScenario& resolved, const RunRecord& record) {
+  write_file(dir + "/" + resolved.scenario.building, resolved.building_bytes);
+  write_file(dir + "/scenario.yaml", write_scenario(resolved.scenario));
+  write_file(dir + "/digests.csv", write_digests(record.digests));
+  write_file(dir + "/truth.tum", write_tum(record.truth_W));
+  write_file(dir + "/truth_surface.ply", write_ply(record.surface_W));
+  for (const MethodRecord& method : record.methods) write_method(dir, method);
+  if (!record.failure.empty()) write_file(dir + "/failure.txt", record.failure + "\n");
+}
+
+void write_recording(const std::string& dir, const SensorRecord& sensors) {
+  slam::write_pcap(dir + "/lidar.pcap", sensors.packets);
+  std::vector<slam::StampedPose> odometry;
+  for (const slam::Odometry& record : sensors.odometry) odometry.push_back({record.stamp, record.X_OR});
+  write_file(dir + "/odometry.tum", write_tum(odometry));
+  write_file(dir + "/imu.csv", write_imu(sensors.imu));
+}
+
+RunFiles read_run_files(const std::string& dir) {
+  if (!fs::is_directory(dir)) throw InputError({dir, 0, 0}, "no such directory; a run directory is expected");
+  const auto path = [&](std::string_view name) { return dir + "/" + std::string(name); };
+  RunFiles files;
+  files.dir = dir;
+  files.scenario = read_scenario(read_text_file(path("scenario.yaml")), path("scenario.yaml")).scenario;
+  files.building = bim::load_building(path(files.scenario.building));
+  files.digests = read_digests(read_text_file(path("digests.csv")), path("digests.csv"));
+  for (const DigestEntry& entry : files.digests)
+    if (entry.stage == "sim.lidar") files.scans.push_back(entry.tick);
+  if (files.scans.empty())
+    throw InputError({path("digests.csv"), 0, 0}, "holds no scan; the run ended before its first");
+  files.truth_W = read_tum(read_text_file(path("truth.tum")), path("truth.tum"));
+  files.surface_W = read_ply(read_text_file(path("truth_surface.ply")), path("truth_surface.ply"));
+  for (const std::string& name : method_names_in(dir, files.scenario)) {
+    MethodRecord& method = files.methods.emplace_back(read_method(dir, name));
+    if (name != truth_method) continue;
+    method.estimate.trajectory = files.truth_W;
+    method.estimate.map_F = files.surface_W;
+  }
+  if (fs::exists(path("failure.txt"))) {
+    files.failure = read_text_file(path("failure.txt"));
+    while (!files.failure.empty() && files.failure.back() == '\n') files.failure.pop_back();
+  }
+  return files;
+}
+
+}  // namespace plumbline::scenarios

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bim/building/building.h"
+#include "scenarios/resolve.h"
+#include "scenarios/run/record.h"
+
+namespace plumbline::scenarios {
+
+/// What a run directory holds, as far as scoring and the report need it.
+struct RunFiles {
+  std::string dir;
+  Scenario scenario;
+  bim::Building building;
+  DigestLog digests;
+  std::vector<slam::Nanoseconds> scans;  ///< stamps of all scans
+  std::vector<slam::StampedPose> truth_W;
+  std::vector<Eigen::Vector3f> surface_W;
+  std::vector<MethodRecord> methods;  ///< the scenario's in its order, then outside trajectories by name
+  std::string failure;                ///< why the scenario ended early, or empty
+};
+
+/// Writes everything but scores and report into `dir`: building, scenario.yaml, digests.csv, truth.tum,
+/// truth_surface.ply, and of each method <method>.tum, .final.tum, .estimate.json, .map.ply, .hypotheses.jsonl (the
+/// last three where there is something to say), failure.txt where the scenario failed. Throws EnvironmentError.
+void write_run_files(const std::string& dir, const ResolvedScenario& resolved, const RunRecord& record);
+
+/// lidar.pcap, odometry.tum and imu.csv.
+void write_recording(const std::string& dir, const SensorRecord& sensors);
+
+/// Reads a run directory. Throws InputError at the file and line that is missing or damaged.
+[[nodiscard]] RunFiles read_run_files(const std::string& dir);
+
+/// Writes the files of one method.
+void write_method(const std::string& dir, const MethodRecord& method);
+
+}  // namespace plumbline::scenarios

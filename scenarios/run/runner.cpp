@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenarios/run/runner.h"
+
+#include <memory>
+
+#include "bim/building/plan.h"
+#include "bim/digest/float_mode.h"
+#include "bim/errors.h"
+#include "bim/mesh/mesh.h"
+#include "bim/random/stream.h"
+#include "scenarios/run/observer.h"
+#include "scenarios/run/participant.h"
+#include "scenarios/run/pipeline.h"
+#include "slam/io/stopwatch.h"
+
+namespace plumbline::scenarios {
+
+namespace {
+
+std::vector<std::unique_ptr<Participant>> make_participants(const ResolvedScenario& resolved) {
+  const auto plan = std::make_shared<const bim::Plan>(bim::make_plan(resolved.building));
+  std::vector<std::unique_ptr<Participant>> participants;
+  for (const std::string& name : resolved.scenario.methods) {
+    if (name == truth_method) {
+      participants.push_back(make_truth());
+      continue;
+    }
+    const slam::MethodRow* row = slam::find_method(name);
+    if (row == nullptr) throw InternalError("method '" + name + "' is not in the table");
+    slam::MethodInput input;
+    input.seed = method_seed(resolved.scenario.seed, name);
+    input.calibration = sim::World::calibration();
+    if (row->needs_plan) {
+      input.plan = plan;
+      input.prior = resolved.prior;
+    }
+    participants.push_back(make_estimator(*row, input));
+  }
+  return participants;
+}
+
+}  // namespace
+
+RunRecord execute(const ResolvedScenario& resolved, const RunOptions& options) {
+  set_float_mode();
+  const bim::BuildingMesh mesh = bim::build_mesh(resolved.building);
+  sim::World world(resolved.world, resolved.building, mesh);
+  FrameRecorder recorder(mesh, options.keep_sensors);
+  RunRecord record;
+  StageTimes world_times{"sim", {}};
+
+  const FrameSource source = [&](sim::WorldFrame& frame) {
+    const slam::Stopwatch watch;
+    try {
+      if (!world.next(frame)) return false;
+    } catch (const ScenarioFailure& failure) {
+      record.failure = failure.what();
+      return false;
+    }
+    world_times.cpu_ms.push_back(static_cast<float>(watch.cpu_ms()));
+    return !options.until_s || slam::seconds(frame.scan.stamp) <= *options.until_s;
+  };
+  const FrameObserver observe = [&](const sim::WorldFrame& frame) {
+    recorder.observe(frame);
+    if (options.tick) options.tick(slam::seconds(frame.scan.stamp));
+  };
+  record.methods = run_pipeline(source, observe, make_participants(resolved), {.threads = options.threads});
+
+  recorder.move_into(record);
+  std::vector<DigestLog> logs = {recorder.digests()};
+  for (const MethodRecord& method : record.methods) logs.push_back(method.digests);
+  record.digests = merge_logs(logs);
+  record.sim_times.push_back(std::move(world_times));
+  return record;
+}
+
+}  // namespace plumbline::scenarios

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "scenarios/resolve.h"
+#include "scenarios/run/record.h"
+
+namespace plumbline::scenarios {
+
+struct RunOptions {
+  int threads = 1;
+  bool keep_sensors = false;                     ///< for --record
+  std::optional<double> until_s;                 ///< stop after this simulated time
+  std::function<void(double simulated_s)> tick;  ///< called after each scan, for the progress line; may be empty
+};
+
+/// Simulates the scenario once and feeds every method it asks for. The same scenario gives the same record, apart
+/// from the times, at any number of threads. A fall or stall ends the run early and stands in RunRecord::failure.
+/// Throws Interrupted; EnvironmentError and InternalError of the simulation.
+[[nodiscard]] RunRecord execute(const ResolvedScenario& resolved, const RunOptions& options);
+
+}  // namespace plumbline::scenarios

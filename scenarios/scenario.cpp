@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenarios/scenario.h"
+
+#include <algorithm>
+
+#include "scenarios/score/metrics.h"
+
+namespace plumbline::scenarios {
+
+namespace {
+
+/// `rooms: all` is a scalar in the file; lists are read everywhere else.
+Tree with_room_list(Tree tree) {
+  for (auto& [key, child] : std::get<Tree::Map>(tree.value)) {
+    if (key != "route" || !child.is_map()) continue;
+    for (auto& [route_key, rooms] : std::get<Tree::Map>(child.value)) {
+      if (route_key != "rooms" || !rooms.is_scalar() || rooms.is_null()) continue;
+      Tree list = Tree::list();
+      list.mark = rooms.mark;
+      list.push(rooms);
+      rooms = std::move(list);
+    }
+  }
+  return tree;
+}
+
+void check_gates(const Scenario& scenario, const Tree& tree) {
+  const Tree* gates = tree.find("gates");
+  for (std::size_t i = 0; i < scenario.gates.size(); ++i) {
+    const GateSpec& gate = scenario.gates[i];
+    const Tree& written = gates->as_list()[i];
+    if (gate.max.has_value() == gate.min.has_value()) throw InputError(written.mark, "a gate needs either max or min");
+    if (score::find_metric(gate.metric) != nullptr) continue;
+    std::vector<std::string> known;
+    for (const score::MetricRow& row : score::metrics()) known.emplace_back(row.name);
+    const std::string close = did_you_mean(gate.metric, known);
+    throw InputError(written.find("metric")->mark,
+                     "unknown metric '" + gate.metric + "'" + (close.empty() ? "" : "; did you mean '" + close + "'?"));
+  }
+}
+
+void check_route_and_start(const Scenario& scenario, const Tree& tree) {
+  if (scenario.start.room && scenario.start.at)
+    throw InputError(mark_at(tree, {"start"}), "start takes either a room or a point `at`, not both");
+  if (scenario.route.shuttle && tree.find("route")->find("rooms") != nullptr)
+    throw InputError(mark_at(tree, {"route"}), "route takes either rooms or shuttle, not both");
+}
+
+}  // namespace
+
+ScenarioText read_scenario(std::string_view text, const std::string& file) {
+  Tree tree = read_yaml(text, file);
+  if (!tree.is_map() || tree.as_map().empty() || tree.as_map().front().first != "scenario")
+    throw InputError({file, 1, 1}, "the first key of a scenario must be 'scenario: 1'");
+  tree = with_room_list(std::move(tree));
+  ScenarioText result{from_tree<Scenario>(tree), tree};
+  check_gates(result.scenario, tree);
+  check_route_and_start(result.scenario, tree);
+  return result;
+}
+
+std::string write_scenario(const Scenario& scenario) { return write_yaml(to_tree(scenario)); }
+
+Mark mark_at(const Tree& tree, std::initializer_list<std::string_view> path) {
+  const Tree* node = &tree;
+  for (const std::string_view key : path) {
+    const Tree* child = node->is_map() ? node->find(key) : nullptr;
+    if (child == nullptr) break;
+    node = child;
+  }
+  return node->mark;
+}
+
+std::vector<std::string> off_defaults(const Scenario& scenario) {
+  std::vector<std::string> names;
+  const Scenario defaults;
+  if (scenario.lidar.preset != defaults.lidar.preset)
+    names.push_back("lidar.preset: " + to_tree(scenario.lidar).find("preset")->as_string());
+  if (scenario.odometry.preset != defaults.odometry.preset)
+    names.push_back("odometry.preset: " + to_tree(scenario.odometry).find("preset")->as_string());
+  return names;
+}
+
+}  // namespace plumbline::scenarios

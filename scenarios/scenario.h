@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bim/config/visit.h"
+#include "sim/lidar/lidar.h"
+#include "sim/robot/leg_odometry.h"
+
+namespace plumbline {
+
+template <>
+struct EnumNames<sim::LidarPreset> {
+  static constexpr std::array<std::string_view, 4> names = {"ideal", "datasheet", "real", "full"};
+};
+template <>
+struct EnumNames<sim::OdometryPreset> {
+  static constexpr std::array<std::string_view, 3> names = {"ideal", "noisy", "uncorrected"};
+};
+
+}  // namespace plumbline
+
+namespace plumbline::scenarios {
+
+enum class LidarModel { vlp16 };
+enum class Knowledge { unknown, known };
+
+/// Where the robot stands at the start: a room (its freest point), or a point of a storey, in W.
+struct Start {
+  std::optional<std::string> room;
+  std::optional<std::string> storey;
+  std::optional<Eigen::Vector2d> at;  ///< m, W
+  std::optional<double> yaw_deg;      ///< absent: along the first leg of the route
+  template <class V>
+  void visit(V& v) {
+    v("room", room, Field{.doc = "start at the freest point of this room"});
+    v("storey", storey, Field{.doc = "storey of `at`; the lowest with rooms when not given"});
+    v("at", at, Field{.doc = "start here: [x, y] in the plan, m"});
+    v("yaw_deg", yaw_deg, Field{.doc = "heading, degrees counter-clockwise from x", .min = -360.0, .max = 360.0});
+  }
+};
+
+/// Rooms to walk through, in order; `shuttle` instead walks one room from end to end.
+struct Route {
+  std::vector<std::string> rooms = {"all"};  ///< "all": every room that can be reached, nearest first
+  int loop = 1;                              ///< how many times the list is walked
+  std::optional<std::string> shuttle;
+  int times = 1;
+  template <class V>
+  void visit(V& v) {
+    v("rooms", rooms, Field{.doc = "rooms to visit in order, or all"});
+    v("loop", loop, Field{.doc = "walk the list so many times", .min = 1, .max = 1000});
+    v("shuttle", shuttle, Field{.doc = "walk this room from end to end instead"});
+    v("times", times, Field{.doc = "how many times there and back", .min = 1, .max = 1000});
+  }
+};
+
+struct LidarSpec {
+  LidarModel model = LidarModel::vlp16;
+  sim::LidarPreset preset = sim::LidarPreset::real;
+  template <class V>
+  void visit(V& v) {
+    v("model", model, Field{.doc = "sensor model"});
+    v("preset", preset, Field{.doc = "noise: as measured on real units (real) unless said otherwise"});
+  }
+};
+
+struct OdometrySpec {
+  sim::OdometryPreset preset = sim::OdometryPreset::noisy;
+  template <class V>
+  void visit(V& v) {
+    v("preset", preset, Field{.doc = "noise of encoders, gyro and contacts"});
+  }
+};
+
+/// What plan localization is told besides the plan.
+struct PriorSpec {
+  Knowledge yaw = Knowledge::unknown;
+  Knowledge storey = Knowledge::known;
+  template <class V>
+  void visit(V& v) {
+    v("yaw", yaw, Field{.doc = "heading at the start: a compass with slam::Prior's sigma, or nothing"});
+    v("storey", storey, Field{.doc = "storey of the start"});
+  }
+};
+
+/// A bound on one metric of one method; exactly one of max and min.
+struct GateSpec {
+  std::string metric;
+  std::string method;
+  std::optional<double> max;
+  std::optional<double> min;
+  template <class V>
+  void visit(V& v) {
+    v("metric", metric, Field{.doc = "name of the metric, as in results.json", .required = true});
+    v("method", method, Field{.doc = "method it is asked of", .required = true});
+    v("max", max, Field{.doc = "passes when value <= max"});
+    v("min", min, Field{.doc = "passes when value >= min"});
+  }
+};
+
+/// One run, as written by a user (`scenario: 1`).
+struct Scenario {
+  int version = 1;
+  std::string name = "unnamed";
+  std::string building;  ///< path of the plan or IFC file, relative to the scenario's folder
+  std::uint64_t seed = 1;
+  Start start;
+  Route route;
+  double speed_mps = 0.6;
+  double duration_s = 120.0;
+  LidarSpec lidar;
+  OdometrySpec odometry;
+  PriorSpec prior;
+  std::vector<std::string> methods;  ///< empty: every estimator of the table
+  std::vector<GateSpec> gates;
+  template <class V>
+  void visit(V& v) {
+    v("scenario", version, Field{.doc = "version of this format", .min = 1, .max = 1, .required = true});
+    v("name", name, Field{.doc = "name of the run"});
+    v("building", building, Field{.doc = "plan or IFC file, relative to this file", .required = true});
+    v("seed", seed, Field{.doc = "seed of everything random", .min = 0, .max = 9.2e18});
+    v("start", start, Field{.doc = "where the robot starts"});
+    v("route", route, Field{.doc = "where it walks"});
+    v("speed_mps", speed_mps, Field{.doc = "walking speed, m/s", .min = 0.1, .max = 0.8});
+    v("duration_s", duration_s, Field{.doc = "longest duration, s", .min = 1.0, .max = 36000.0});
+    v("lidar", lidar, Field{.doc = "LiDAR"});
+    v("odometry", odometry, Field{.doc = "leg odometry"});
+    v("prior", prior, Field{.doc = "what plan localization is told"});
+    v("methods", methods, Field{.doc = "methods to run"});
+    v("gates", gates, Field{.doc = "bounds that decide pass or fail"});
+  }
+};
+
+/// A scenario with the tree it was read from, whose marks say where each value stands.
+struct ScenarioText {
+  Scenario scenario;
+  Tree tree;
+};
+
+/// Reads and checks the form of a scenario (keys, types, ranges, gates); what needs the building is checked by
+/// resolve(). Throws InputError.
+[[nodiscard]] ScenarioText read_scenario(std::string_view text, const std::string& file);
+[[nodiscard]] std::string write_scenario(const Scenario& scenario);
+/// Mark of a nested value ("route", "rooms"); of the innermost that exists where some are missing.
+[[nodiscard]] Mark mark_at(const Tree& tree, std::initializer_list<std::string_view> path);
+/// Switches of the sensors that differ from the defaults, as "lidar.preset: ideal", in the order of the fields.
+[[nodiscard]] std::vector<std::string> off_defaults(const Scenario& scenario);
+
+}  // namespace plumbline::scenarios
+
+namespace plumbline {
+
+template <>
+struct EnumNames<scenarios::LidarModel> {
+  static constexpr std::array<std::string_view, 1> names = {"vlp16"};
+};
+template <>
+struct EnumNames<scenarios::Knowledge> {
+  static constexpr std::array<std::string_view, 2> names = {"unknown", "known"};
+};
+
+}  // namespace plumbline

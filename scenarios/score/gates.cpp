@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include "scenarios/scenario.h"
+#include "scenarios/score/metrics.h"
+
+namespace plumbline::scenarios::score {
+
+namespace {
+
+std::string escape_xml(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '&')
+      out += "&amp;";
+    else if (c == '<')
+      out += "&lt;";
+    else if (c == '>')
+      out += "&gt;";
+    else if (c == '"')
+      out += "&quot;";
+    else
+      out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+  }
+  return out;
+}
+
+std::string test_case(const std::string& class_name, const std::string& name, const std::string& failure) {
+  std::string text = "  <testcase classname=\"" + escape_xml(class_name) + "\" name=\"" + escape_xml(name) + "\"";
+  if (failure.empty()) return text + "/>\n";
+  return text + ">\n    <failure message=\"" + escape_xml(failure) + "\">see report.html</failure>\n  </testcase>\n";
+}
+
+}  // namespace
+
+std::vector<GateResult> judge_gates(const std::vector<GateSpec>& gates, const std::vector<MethodScore>& scores,
+                                    bool run_completed) {
+  std::vector<GateResult> results;
+  for (const GateSpec& gate : gates) {
+    GateResult result{gate.metric, gate.method, gate.max ? "<=" : ">=", gate.max ? *gate.max : *gate.min, {}, false};
+    const auto score =
+        std::find_if(scores.begin(), scores.end(), [&](const MethodScore& s) { return s.name == gate.method; });
+    if (score != scores.end()) {
+      result.value = find_metric(gate.metric)->value(*score);
+      const bool whole = run_completed && score->verdict != "crashed" && score->verdict != "lost";
+      const bool within = result.value && (gate.max ? *result.value <= *gate.max : *result.value >= *gate.min);
+      result.passed = whole && within;
+    }
+    results.push_back(std::move(result));
+  }
+  return results;
+}
+
+Tree to_results(const GateResult& gate) {
+  Tree tree = Tree::map();
+  tree.set("metric", gate.metric).set("method", gate.method).set("op", gate.op).set("limit", gate.limit);
+  if (gate.value) tree.set("value", *gate.value);
+  return tree.set("passed", gate.passed);
+}
+
+std::string describe(const GateResult& gate) {
+  const std::string what = gate.metric + " of " + gate.method;
+  const std::string must = ", must be " + gate.op + " " + format_number(gate.limit);
+  return what + (gate.value ? " is " + format_number(*gate.value) : " is absent") + must;
+}
+
+std::string write_junit(const std::string& suite, const std::vector<GateResult>& gates,
+                        const std::vector<MethodScore>& scores) {
+  std::string cases;
+  std::size_t count = 0;
+  std::size_t failures = 0;
+  const auto add = [&](const std::string& class_name, const std::string& name, const std::string& failure) {
+    cases += test_case(class_name, name, failure);
+    ++count;
+    if (!failure.empty()) ++failures;
+  };
+  for (const GateResult& gate : gates)
+    add(suite + "." + gate.method, gate.metric + " " + gate.op + " " + format_number(gate.limit),
+        gate.passed ? "" : describe(gate));
+  for (const MethodScore& score : scores)
+    add(suite + "." + score.name, "runs to the end", score.verdict == "crashed" ? "crashed: " + score.error : "");
+  return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuite name=\"" + escape_xml(suite) + "\" tests=\"" +
+         std::to_string(count) + "\" failures=\"" + std::to_string(failures) + "\">\n" + cases + "</testsuite>\n";
+}
+
+}  // namespace plumbline::scenarios::score

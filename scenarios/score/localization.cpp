@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenarios/score/localization.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "bim/errors.h"
+
+namespace plumbline::scenarios::score {
+
+namespace {
+
+constexpr double degrees = 180.0 / std::numbers::pi;
+
+double position_error(const Pose& X_WR, const Pose& X_WR_true) { return (X_WR.t - X_WR_true.t).norm(); }
+
+double yaw_error_deg(const Pose& X_WR, const Pose& X_WR_true) {
+  return std::abs(wrap_angle(X_WR.yaw() - X_WR_true.yaw())) * degrees;
+}
+
+bool right(const Pose& X_WR, const Pose& X_WR_true, const LocalizationRules& rules) {
+  return position_error(X_WR, X_WR_true) <= rules.position_m && yaw_error_deg(X_WR, X_WR_true) <= rules.yaw_deg;
+}
+
+/// What happened from the first convergence to the end.
+struct Course {
+  std::size_t first = 0;  ///< index of the first converged belief
+  bool right_at_first = false;
+  bool right_to_the_end = true;
+  bool wrong_while_converged = false;
+  double ape_sum = 0.0;
+  double yaw_sum = 0.0;
+  std::size_t count = 0;
+};
+
+std::optional<Course> follow(const Truth& truth, const std::vector<Belief>& beliefs, const LocalizationRules& rules) {
+  const auto converged = std::find_if(beliefs.begin(), beliefs.end(), [](const Belief& b) {
+    return b.state == slam::State::converged && b.X_WR.has_value();
+  });
+  if (converged == beliefs.end()) return std::nullopt;
+  Course course;
+  course.first = static_cast<std::size_t>(converged - beliefs.begin());
+  Pose X_WR;
+  for (std::size_t i = course.first; i < beliefs.size(); ++i) {
+    const Belief& belief = beliefs[i];
+    if (belief.X_WR) X_WR = *belief.X_WR;
+    const Pose X_WR_true = truth.at(belief.stamp);
+    const bool is_right = right(X_WR, X_WR_true, rules);
+    if (i == course.first) course.right_at_first = is_right;
+    course.right_to_the_end = course.right_to_the_end && is_right;
+    if (!is_right && belief.state == slam::State::converged) course.wrong_while_converged = true;
+    course.ape_sum += std::pow(position_error(X_WR, X_WR_true), 2);
+    course.yaw_sum += std::pow(yaw_error_deg(X_WR, X_WR_true), 2);
+    ++course.count;
+  }
+  return course;
+}
+
+double walked_at(const Truth& truth, slam::Nanoseconds t) {
+  const std::vector<double> walked = truth.walked();
+  const auto next = std::upper_bound(truth.scans.begin(), truth.scans.end(), t);
+  const auto passed = static_cast<std::size_t>(next - truth.scans.begin());
+  return passed == 0 ? 0.0 : walked[passed - 1];
+}
+
+/// [contract: honest_ambiguity] Every hypothesis is the true pose or one the plan cannot tell from it, they are few,
+/// and the true one keeps its share.
+bool is_honest(const Belief& last, const Pose& X_WR_true, const std::vector<Pose>& others_W,
+               const LocalizationRules& rules) {
+  if (last.hypotheses.empty() || last.hypotheses.size() > 2 * others_W.size() + 1) return false;
+  double true_mass = 0.0;
+  for (const slam::Hypothesis& hypothesis : last.hypotheses) {
+    const bool is_true = right(hypothesis.X_WR, X_WR_true, rules);
+    const bool is_twin = std::any_of(others_W.begin(), others_W.end(),
+                                     [&](const Pose& X_WT) { return right(hypothesis.X_WR, X_WT, rules); });
+    if (!is_true && !is_twin) return false;
+    if (is_true) true_mass += hypothesis.mass;
+  }
+  return true_mass >= 0.5 / (static_cast<double>(others_W.size()) + 1.0);
+}
+
+LocalizationVerdict judge_unique(const std::optional<Course>& course, slam::State last, bool held) {
+  if (!course) return last == slam::State::lost ? LocalizationVerdict::lost : LocalizationVerdict::late;
+  if (!course->right_at_first || course->wrong_while_converged) return LocalizationVerdict::false_convergence;
+  if (!course->right_to_the_end) return LocalizationVerdict::lost;
+  return held ? LocalizationVerdict::success : LocalizationVerdict::late;
+}
+
+/// Where the plan has several answers, a single one is never a success.
+LocalizationVerdict judge_ambiguous(const std::optional<Course>& course, const Belief& last, bool held, bool honest) {
+  if (last.state == slam::State::converged)
+    return held && course->right_to_the_end ? LocalizationVerdict::lucky : LocalizationVerdict::overconfident;
+  if (honest) return LocalizationVerdict::honest_ambiguity;
+  return last.state == slam::State::lost ? LocalizationVerdict::lost : LocalizationVerdict::late;
+}
+
+}  // namespace
+
+std::string to_string(LocalizationVerdict verdict) {
+  static constexpr std::array<const char*, 7> names = {
+      "success", "false_convergence", "overconfident", "honest_ambiguity", "late", "lost", "lucky"};
+  return names[static_cast<std::size_t>(verdict)];
+}
+
+LocalizationScore score_localization(const Truth& truth, const std::vector<Belief>& beliefs,
+                                     const std::optional<Identifiability>& identifiability,
+                                     const LocalizationRules& rules) {
+  if (beliefs.empty()) throw InternalError("score: a localization without any belief");
+  const Belief& last = beliefs.back();
+  LocalizationScore score;
+  score.state = last.state;
+  score.hypotheses = static_cast<int>(last.hypotheses.size());
+  const std::optional<Course> course = follow(truth, beliefs, rules);
+  bool held = false;
+  if (course) {
+    const slam::Nanoseconds t = beliefs[course->first].stamp;
+    score.converged_at_s = slam::seconds(t - truth.scans.front());
+    score.converged_at_m = walked_at(truth, t);
+    const auto n = static_cast<double>(course->count);
+    score.ape_rmse_m = std::sqrt(course->ape_sum / n);
+    score.yaw_rmse_deg = std::sqrt(course->yaw_sum / n);
+    held = slam::seconds(last.stamp - t) >= rules.hold_s &&
+           walked_at(truth, last.stamp) - *score.converged_at_m >= rules.hold_m;
+  }
+  if (identifiability) {
+    score.identifiable = identifiability->identifiable;
+    score.identifiable_at_s = identifiability->at_s;
+    score.identifiable_at_m = identifiability->at_m;
+  }
+  const bool ambiguous = identifiability && !identifiability->others_W.empty();
+  score.verdict = ambiguous ? judge_ambiguous(course, last, held,
+                                              is_honest(last, truth.at(last.stamp), identifiability->others_W, rules))
+                            : judge_unique(course, last.state, held);
+  return score;
+}
+
+}  // namespace plumbline::scenarios::score

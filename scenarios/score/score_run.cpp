@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenarios/score/score_run.h"
+
+#include <algorithm>
+
+#include "bim/digest/digest.h"
+#include "bim/mesh/mesh.h"
+#include "scenarios/run/files.h"
+
+namespace plumbline::scenarios::score {
+
+namespace {
+
+/// What the methods of a run are scored against.
+struct Reference {
+  const bim::Plan& as_built;
+  const Truth& truth;
+  const std::vector<Eigen::Vector3d>& surface_W;
+  const SurfaceDistance& distance;
+};
+
+/// Beliefs with the poses given for them. An outside trajectory in W claims to know where it is from its first pose.
+std::vector<Belief> beliefs_of(const MethodRecord& method, const Truth& truth) {
+  std::vector<Belief> beliefs;
+  const auto pose_at = [&](slam::Nanoseconds stamp) -> std::optional<Pose> {
+    const auto it = std::lower_bound(method.causal.begin(), method.causal.end(), stamp,
+                                     [](const slam::StampedPose& pose, slam::Nanoseconds t) { return pose.stamp < t; });
+    if (it == method.causal.end() || it->stamp != stamp) return std::nullopt;
+    return it->X_FR;
+  };
+  for (const BeliefRecord& belief : method.beliefs)
+    beliefs.push_back({belief.stamp, belief.state, pose_at(belief.stamp), belief.hypotheses});
+  if (!beliefs.empty()) return beliefs;
+  for (const PosePair& pair : associate(truth, method.causal, {})) {
+    const slam::Hypothesis only{1.0, pair.X_FR, Eigen::Matrix3d::Zero(), ""};
+    beliefs.push_back({truth.scans[pair.scan], slam::State::converged, pair.X_FR, {only}});
+  }
+  return beliefs;
+}
+
+void score_structure(const MethodRecord& method, const Pose& X_WF, const Reference& reference, MethodScore& score) {
+  const slam::Estimate& estimate = method.estimate;
+  if (!estimate.map_F.empty() && !reference.surface_W.empty())
+    score.map = score_map(estimate.map_F, X_WF, reference.distance, reference.surface_W);
+  if (estimate.planes.empty()) return;
+  score.walls = score_walls(estimate, X_WF, reference.as_built, reference.surface_W);
+  if (method.localization && estimate.rooms.empty()) return;  // it is given the rooms
+  score.rooms = score_rooms(estimate, X_WF, reference.as_built, *score.walls, reference.truth);
+}
+
+MethodScore score_slam(const MethodRecord& method, const Reference& reference) {
+  MethodScore score;
+  score.trajectory = score_trajectory(reference.truth, method.causal, method.estimate.trajectory);
+  const bool covered = score.trajectory && score.trajectory->coverage >= TrajectoryRules().min_coverage;
+  score.verdict = covered ? "ok" : "lost";
+  if (score.trajectory) score_structure(method, score.trajectory->X_WF_final, reference, score);
+  return score;
+}
+
+MethodScore score_localizer(const MethodRecord& method, const Reference& reference,
+                            const std::optional<Identifiability>& identifiability) {
+  MethodScore score;
+  const std::vector<Belief> beliefs = beliefs_of(method, reference.truth);
+  score.verdict = to_string(LocalizationVerdict::lost);
+  if (beliefs.empty()) return score;
+  score.localization = score_localization(reference.truth, beliefs, identifiability);
+  score.verdict = to_string(score.localization->verdict);
+  if (score.localization->converged_at_s) score_structure(method, Pose(), reference, score);
+  return score;
+}
+
+/// The strictest bound in the good direction of each metric, asked of an outside trajectory.
+std::vector<GateSpec> gates_for_outside(const std::vector<GateSpec>& gates, const MethodScore& score) {
+  std::vector<GateSpec> strictest;
+  for (const GateSpec& gate : gates) {
+    const MetricRow& row = *find_metric(gate.metric);
+    const bool good_direction = (row.better == Better::lower && gate.max) || (row.better == Better::higher && gate.min);
+    if (!good_direction || !row.value(score)) continue;
+    const auto same = std::find_if(strictest.begin(), strictest.end(),
+                                   [&](const GateSpec& other) { return other.metric == gate.metric; });
+    if (same == strictest.end())
+      strictest.push_back({gate.metric, score.name, gate.max, gate.min});
+    else if (gate.max)
+      same->max = std::min(*same->max, *gate.max);
+    else
+      same->min = std::max(*same->min, *gate.min);
+  }
+  return strictest;
+}
+
+std::vector<GateSpec> all_gates(const RunFiles& files, const std::vector<MethodScore>& scores) {
+  std::vector<GateSpec> gates = files.scenario.gates;
+  for (std::size_t i = files.scenario.methods.size(); i < scores.size(); ++i) {
+    const std::vector<GateSpec> more = gates_for_outside(files.scenario.gates, scores[i]);
+    gates.insert(gates.end(), more.begin(), more.end());
+  }
+  return gates;
+}
+
+std::vector<Eigen::Vector3d> to_double(const std::vector<Eigen::Vector3f>& points) {
+  std::vector<Eigen::Vector3d> result;
+  result.reserve(points.size());
+  for (const Eigen::Vector3f& p : points) result.emplace_back(p.cast<double>());
+  return result;
+}
+
+Tree sensors_of(const Scenario& scenario) {
+  Tree tree = Tree::map();
+  tree.set("lidar", to_tree(scenario.lidar)).set("odometry", to_tree(scenario.odometry));
+  Tree off = Tree::list();
+  for (const std::string& name : off_defaults(scenario)) off.push(name);
+  return tree.set("off_default", off);
+}
+
+}  // namespace
+
+bool RunScore::passed() const {
+  return std::all_of(gates.begin(), gates.end(), [](const GateResult& gate) { return gate.passed; });
+}
+
+RunScore score_run(const RunFiles& files, Identify identify) {
+  RunScore score;
+  score.as_built = bim::make_plan(files.building);
+  score.truth = {files.truth_W, files.scans};
+  score.digest = hex64(digest_of(files.digests));
+  score.duration_s = slam::seconds(files.scans.back());
+  score.distance_m = score.truth.walked().back();
+
+  const std::vector<Eigen::Vector3d> surface_W = to_double(files.surface_W);
+  const SurfaceDistance distance(bim::build_mesh(files.building), MapRules().cap_m);
+  const Reference reference{score.as_built, score.truth, surface_W, distance};
+  const bool localizes = std::any_of(files.methods.begin(), files.methods.end(),
+                                     [](const MethodRecord& m) { return m.localization && !m.crashed; });
+  const auto identifiability =
+      localizes && identify != nullptr ? identify(files, score.truth) : std::optional<Identifiability>();
+  for (const MethodRecord& method : files.methods) {
+    MethodScore one;
+    if (method.crashed)
+      one.verdict = "crashed";
+    else
+      one = method.localization ? score_localizer(method, reference, identifiability) : score_slam(method, reference);
+    one.name = method.name;
+    one.error = method.error;
+    score.methods.push_back(std::move(one));
+  }
+  score.gates = judge_gates(all_gates(files, score.methods), score.methods, files.failure.empty());
+  return score;
+}
+
+std::string write_results(const RunFiles& files, const RunScore& score) {
+  Tree tree = Tree::map();
+  tree.set("plumbline", PLUMBLINE_VERSION).set("scenario", files.scenario.name);
+  tree.set("seed", std::to_string(files.scenario.seed)).set("digest", score.digest);
+  tree.set("duration_s", score.duration_s).set("distance_m", score.distance_m);
+  if (!files.failure.empty()) tree.set("failure", files.failure);
+  tree.set("sensors", sensors_of(files.scenario));
+  Tree gates = Tree::list();
+  for (const GateResult& gate : score.gates) gates.push(to_results(gate));
+  tree.set("gates", gates);
+  Tree methods = Tree::map();
+  for (const MethodScore& method : score.methods) methods.set(method.name, to_results(method));
+  return write_json(tree.set("methods", methods)) + "\n";
+}
+
+void write_scores(const RunFiles& files, const RunScore& score) {
+  write_file(files.dir + "/junit.xml", write_junit(files.scenario.name, score.gates, score.methods));
+  write_file(files.dir + "/results.json", write_results(files, score));
+}
+
+}  // namespace plumbline::scenarios::score

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bim/building/plan.h"
+#include "scenarios/run/run_files.h"
+#include "scenarios/score/metrics.h"
+
+namespace plumbline::scenarios::score {
+
+/// Everything scored of one run, from what is on disk.
+struct RunScore {
+  bim::Plan as_built;
+  Truth truth;
+  std::vector<MethodScore> methods;  ///< index as in RunFiles::methods
+  std::vector<GateResult> gates;
+  double duration_s = 0.0;
+  double distance_m = 0.0;
+  std::string digest;  ///< of all stages, 16 hex digits
+
+  [[nodiscard]] bool passed() const;
+};
+
+/// What the plan allows to be known on the run; asked for only when a plan localization is to be scored.
+using Identify = std::optional<Identifiability> (*)(const RunFiles& files, const Truth& truth);
+
+/// Scores every method of a run directory [contract: Metrics]. Outside trajectories (those the scenario did not run)
+/// are held to the strictest bound that the scenario asks of any method on each metric they have.
+[[nodiscard]] RunScore score_run(const RunFiles& files, Identify identify = nullptr);
+
+/// results.json
+[[nodiscard]] std::string write_results(const RunFiles& files, const RunScore& score);
+/// Writes results.json and junit.xml into files.dir.
+void write_scores(const RunFiles& files, const RunScore& score);
+
+}  // namespace plumbline::scenarios::score

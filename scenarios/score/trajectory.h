@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "slam/io/estimate.h"
+
+namespace plumbline::scenarios::score {
+
+/// Rules of the trajectory metrics [contract: Metrics].
+struct TrajectoryRules {
+  double max_stamp_difference_s = 0.01;  ///< of a scan and the pose given for it
+  double min_coverage = 0.95;            ///< share of scans with a pose; below, a method is lost
+  double rpe_distance_m = 1.0;           ///< walked distance between the two ends of a relative error
+};
+
+/// True poses X_WR in time order, 100 Hz and at every scan, and the stamps of the scans.
+struct Truth {
+  std::vector<slam::StampedPose> poses_W;
+  std::vector<slam::Nanoseconds> scans;
+
+  /// X_WR at t, interpolated between neighbours; the first or last pose outside.
+  [[nodiscard]] Pose at(slam::Nanoseconds t) const;
+  /// Horizontal distance walked from the first scan to each scan, m. Sampled at the scans, so that the sway of the
+  /// gait between them does not count.
+  [[nodiscard]] std::vector<double> walked() const;
+};
+
+/// The pose given for one scan, beside the true pose at the same time.
+struct PosePair {
+  std::size_t scan = 0;  ///< index into Truth::scans
+  Pose X_FR;
+  Pose X_WR;
+};
+
+/// For each scan the nearest pose in time within the rule (ties: the earlier). Poses must be in time order.
+[[nodiscard]] std::vector<PosePair> associate(const Truth& truth, const std::vector<slam::StampedPose>& poses_F,
+                                              const TrajectoryRules& rules);
+
+/// X_WF of the rigid motion (no scale) that brings the positions in F closest to those in W in the least-squares
+/// sense [Umeyama 1991, with the reflection fix]. At least one pair; where positions leave rotations free (a single
+/// point, a straight line), some minimiser.
+[[nodiscard]] Pose umeyama(const std::vector<PosePair>& pairs);
+/// X_WF by the first pair alone.
+[[nodiscard]] Pose place_by_first(const std::vector<PosePair>& pairs);
+
+/// Root mean square of the position error |X_WF p_F - p_W|, m. Throws InternalError on no pairs.
+[[nodiscard]] double position_rmse(const std::vector<PosePair>& pairs, const Pose& X_WF);
+/// Root mean square of the translation of relative errors over every stretch of `rpe_distance_m` walked, m; absent
+/// when the walk is shorter.
+[[nodiscard]] std::optional<double> relative_rmse(const std::vector<PosePair>& pairs, const Truth& truth,
+                                                  const TrajectoryRules& rules);
+
+/// What the SLAM trajectory metrics say of one method.
+struct TrajectoryScore {
+  double coverage = 0.0;  ///< share of scans with a pose
+  double ate_rmse_m = 0.0;
+  double ate_aligned_rmse_m = 0.0;
+  std::optional<double> ate_final_rmse_m;
+  std::optional<double> rpe_1m_rmse_m;
+  Pose X_WF_final;  ///< alignment of the final trajectory; places the map, planes and rooms
+};
+
+/// Absent when no scan has a pose. final_F may be empty.
+[[nodiscard]] std::optional<TrajectoryScore> score_trajectory(const Truth& truth,
+                                                              const std::vector<slam::StampedPose>& causal_F,
+                                                              const std::vector<slam::StampedPose>& final_F,
+                                                              const TrajectoryRules& rules = {});
+
+}  // namespace plumbline::scenarios::score

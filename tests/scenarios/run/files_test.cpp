@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenarios/run/files.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <limits>
+
+#include "bim/config/tree.h"
+#include "scenarios/run/cloud_file.h"
+#include "scenarios/run/digest_log.h"
+#include "scenarios/run/estimate_file.h"
+#include "scenarios/run/trajectory_file.h"
+
+namespace plumbline::scenarios {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Files : public ::testing::Test {
+ protected:
+  Files() : dir_(fs::temp_directory_path() / ("plumbline_files_" + std::to_string(getpid()))) {
+    fs::remove_all(dir_);
+    fs::create_directories(dir_);
+  }
+  ~Files() override { fs::remove_all(dir_); }
+  [[nodiscard]] std::string path(const std::string& name) const { return (dir_ / name).string(); }
+
+  fs::path dir_;
+};
+
+TEST_F(Files, WholeOrNotAtAll) {
+  write_file(path("a"), "one");
+  write_file(path("a"), "two");
+  EXPECT_EQ(read_text_file(path("a")), "two");
+  EXPECT_FALSE(fs::exists(path("a.tmp")));
+  EXPECT_THROW(write_file(path("none/b"), "x"), EnvironmentError);
+  EXPECT_THROW(write_file("/proc/plumbline", "x"), EnvironmentError);  // not even root may write there
+}
+
+TEST_F(Files, ARunDirectoryAppearsAtTheEnd) {
+  {
+    RunDirectory run(path("runs/one"), false);
+    write_file(run.staging() + "/results.json", "{}");
+    write_file(run.staging() + "/truth.tum", "");
+    EXPECT_FALSE(fs::exists(path("runs/one/results.json")));
+    run.commit();
+  }
+  EXPECT_TRUE(fs::exists(path("runs/one/results.json")));
+  EXPECT_TRUE(fs::exists(path("runs/one/truth.tum")));
+  EXPECT_FALSE(fs::exists(path("runs/one/.partial")));
+}
+
+TEST_F(Files, AnAbandonedRunLeavesNothing) {
+  { const RunDirectory run(path("runs/one"), false); }
+  EXPECT_FALSE(fs::exists(path("runs")));
+}
+
+TEST_F(Files, OccupiedDirectoriesAreRefused) {
+  fs::create_directories(path("full"));
+  write_file(path("full/results.json"), "{}");
+  EXPECT_THROW(RunDirectory(path("full"), false), InputError);
+  EXPECT_EQ(read_text_file(path("full/results.json")), "{}");
+  {
+    RunDirectory run(path("full"), true);
+    EXPECT_THROW(RunDirectory(path("full"), true), InputError);  // another one is writing
+    write_file(run.staging() + "/truth.tum", "new");
+    run.commit();
+  }
+  EXPECT_FALSE(fs::exists(path("full/results.json")));
+  EXPECT_EQ(read_text_file(path("full/truth.tum")), "new");
+  write_file(path("full/thesis.tex"), "mine");
+  EXPECT_THROW(RunDirectory(path("full"), true), InputError);
+  EXPECT_THROW(RunDirectory(path("full/truth.tum"), false), InputError);
+}
+
+TEST_F(Files, WhatAKilledRunLeftIsNoObstacle) {
+  fs::create_directories(path("killed/.partial"));
+  write_file(path("killed/.partial/results.json"), "half");
+  RunDirectory run(path("killed"), false);
+  write_file(run.staging() + "/truth.tum", "");
+  run.commit();
+  EXPECT_FALSE(fs::exists(path("killed/results.json")));
+}
+
+TEST(TrajectoryFile, RoundTripIsExact) {
+  std::vector<slam::StampedPose> poses;
+  for (int i = 0; i < 100; ++i)
+    poses.push_back(
+        {123456789LL * i - 5, exp_se3((Vector6d() << 0.1 * i, 1e-9, -3.0, 0.01 * i, 0.2, -0.1).finished())});
+  const std::string text = write_tum(poses);
+  const auto again = read_tum(text, "t.tum");
+  ASSERT_EQ(again.size(), poses.size());
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    EXPECT_EQ(again[i].stamp, poses[i].stamp);
+    EXPECT_EQ(again[i].X_FR.t, poses[i].X_FR.t);
+    EXPECT_EQ(again[i].X_FR.q.coeffs(), poses[i].X_FR.q.coeffs());
+  }
+  EXPECT_EQ(write_tum(again), text);
+  EXPECT_EQ(text.find("  "), std::string::npos);
+  EXPECT_EQ(text.find(" \n"), std::string::npos);
+}
+
+TEST(TrajectoryFile, NamesTheLineThatIsWrong) {
+  const auto complaint = [](const std::string& text) {
+    try {
+      static_cast<void>(read_tum(text, "t.tum"));
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("none");
+  };
+  const std::string good = "0.5 1 2 3 0 0 0 1\n";
+  EXPECT_EQ(complaint(good), "none");
+  EXPECT_EQ(complaint(good + "1.0 1 2 3 0 0 1\n").rfind("t.tum:2:1: 7 columns", 0), 0U);
+  EXPECT_EQ(complaint(good + "1.0,1,2,3,0,0,0,1\n").rfind("t.tum:2:1: 1 columns", 0), 0U);
+  EXPECT_EQ(complaint(good + "1.0 1 2 x 0 0 0 1\n").rfind("t.tum:2:1: not a number", 0), 0U);
+  EXPECT_EQ(complaint(good + "1.0 1 2 nan 0 0 0 1\n").rfind("t.tum:2:1: not a number", 0), 0U);
+  EXPECT_EQ(complaint(good + "1.0 1 2 3 0 0 0 2\n").rfind("t.tum:2:1: the quaternion", 0), 0U);
+  EXPECT_EQ(complaint(good + good).rfind("t.tum:2:1: stamps must increase", 0), 0U);
+  const auto other = read_tum("# comment\n\n1.5e0 1 2 3 0 0 0 1\n1403636580.123456789 1\t2 3 0 0 0 1\r\n", "t");
+  ASSERT_EQ(other.size(), 2U);
+  EXPECT_EQ(other[0].stamp, 1'500'000'000);
+  EXPECT_EQ(other[1].stamp, 1'403'636'580'123'456'789);
+}
+
+TEST(DigestLog, RoundTripAndFirstDifference) {
+  const DigestLog log =
+      merge_logs({{{10, "sim.lidar", 1}, {20, "sim.lidar", 2}}, {{10, "m/a", 3}, {20, "m/a", ~0ULL}}});
+  EXPECT_EQ(write_digests(log),
+            "tick_ns,stage,digest\n10,sim.lidar,0000000000000001\n10,m/a,0000000000000003\n"
+            "20,sim.lidar,0000000000000002\n20,m/a,ffffffffffffffff\n");
+  const DigestLog again = read_digests(write_digests(log), "d.csv");
+  EXPECT_FALSE(first_difference(log, again));
+  EXPECT_EQ(digest_of(log), digest_of(again));
+
+  DigestLog changed = log;
+  changed[3].digest = 7;
+  EXPECT_NE(digest_of(changed), digest_of(log));
+  EXPECT_EQ(first_difference(log, changed)->stage, "m/a");
+  EXPECT_EQ(first_difference(log, changed)->tick, 20);
+  changed.pop_back();
+  EXPECT_EQ(first_difference(log, changed)->what, "only in the first");
+  EXPECT_EQ(first_difference(changed, log)->what, "only in the second");
+  changed[2].tick = 15;
+  EXPECT_EQ(first_difference(log, changed)->tick, 15);
+  EXPECT_THROW(static_cast<void>(read_digests("tick_ns,stage,digest\n10,sim", "d.csv")), InputError);
+  EXPECT_THROW(static_cast<void>(read_digests("tick_ns,stage,digest\n10,sim,xyz\n", "d.csv")), InputError);
+  EXPECT_THROW(static_cast<void>(read_digests("stage\n", "d.csv")), InputError);
+}
+
+TEST(CloudFile, RoundTripAndDamage) {
+  const std::vector<Eigen::Vector3f> points = {{1.5F, -2.0F, 1e-9F}, {0.0F, 3.25F, 1e9F}};
+  const std::string bytes = write_ply(points);
+  EXPECT_EQ(read_ply(bytes, "p.ply"), points);
+  EXPECT_TRUE(read_ply(write_ply({}), "p.ply").empty());
+  for (std::size_t n = 0; n < bytes.size(); ++n)
+    EXPECT_THROW(static_cast<void>(read_ply(std::string_view(bytes).substr(0, n), "p.ply")), InputError) << n;
+  EXPECT_THROW(static_cast<void>(write_ply({{std::numeric_limits<float>::quiet_NaN(), 0, 0}})), InternalError);
+}
+
+TEST(EstimateFile, RoundTrip) {
+  MethodRecord method;
+  method.name = "s_graphs_plus";
+  method.estimate.frame = slam::Frame::world;
+  method.localization = true;
+  method.crashed = true;
+  method.error = "a \"quoted\" reason";
+  method.estimate.planes.push_back({7, {{0.6, 0.8, 0.0}, -1.25}, {1, 2}, {3, 4}, 0.1, 2.9, 12});
+  method.estimate.rooms.push_back({2, slam::RoomKind::two_wall, {1, 2}, {{0, 0}, {1, 0}, {1, 1}}, {7, 8}});
+  method.estimate.floors.push_back({1, {1, 2, 3}, {{0, 0, 1}, 0.0}});
+  MethodRecord again;
+  read_estimate(write_estimate(method), "e.json", again);
+  EXPECT_EQ(write_estimate(again), write_estimate(method));
+  EXPECT_EQ(again.estimate.rooms[0].kind, slam::RoomKind::two_wall);
+  EXPECT_EQ(again.error, method.error);
+  EXPECT_THROW(read_estimate("{}", "e.json", again), InputError);
+}
+
+TEST(EstimateFile, BeliefsRoundTrip) {
+  BeliefRecord belief;
+  belief.stamp = 100'859'000;
+  belief.state = slam::State::ambiguous;
+  belief.hypotheses = {{0.5, Pose::from_xyz_yaw({1, 2, 3}, 0.5), Eigen::Matrix3d::Identity() * 0.1, "office_a"}};
+  belief.particles = {{1.0004, 2.0, 0.1234, 0.002}};
+  const std::string text = write_beliefs({belief, belief});
+  const auto again = read_beliefs(text, "h.jsonl");
+  ASSERT_EQ(again.size(), 2U);
+  EXPECT_EQ(write_beliefs(again), text);
+  EXPECT_EQ(again[1].hypotheses[0].X_WR.q.coeffs(), belief.hypotheses[0].X_WR.q.coeffs());
+  EXPECT_EQ(again[0].particles[0].x, 1.0);  // to the millimetre
+  EXPECT_THROW(static_cast<void>(read_beliefs(text + "{}\n", "h.jsonl")), InputError);
+}
+
+}  // namespace
+}  // namespace plumbline::scenarios

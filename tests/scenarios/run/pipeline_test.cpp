@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenarios/run/pipeline.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <stdexcept>
+#include <thread>
+
+#include "bim/digest/digest.h"
+#include "bim/digest/float_mode.h"
+#include "scenarios/run/digest_log.h"
+
+namespace plumbline::scenarios {
+namespace {
+
+constexpr int frames = 60;
+
+/// A source of small frames: 10 odometry and 25 IMU records and a scan each.
+FrameSource small_source(int count = frames) {
+  return [i = 0, count](sim::WorldFrame& frame) mutable {
+    if (i == count) return false;
+    ++i;
+    frame = sim::WorldFrame{};
+    frame.scan.stamp = i * 100'000'000LL;
+    for (int k = 9; k >= 0; --k)
+      frame.odometry.push_back({frame.scan.stamp - k * 10'000'000LL, Pose::from_xyz_yaw({0.01 * i, 0, 0}, 0)});
+    for (int k = 24; k >= 0; --k) frame.imu.emplace_back().stamp = frame.scan.stamp - k * 4'000'000LL;
+    frame.truth.push_back({frame.scan.stamp, Pose::from_xyz_yaw({0.01 * i, 1, 0}, 0.001 * i)});
+    return true;
+  };
+}
+
+/// What a method was given, as digests; optionally slow, or failing at a scan.
+struct Probe : slam::Method {
+  int fail_at = -1;
+  int count = 0;
+  slam::Nanoseconds last = 0;
+  bool ordered = true;
+  Digest digest;
+
+  void see(slam::Nanoseconds stamp) {
+    ordered = ordered && stamp >= last;
+    last = stamp;
+  }
+  void on_imu(const slam::Imu& imu) override {
+    see(imu.stamp);
+    digest.add(imu.stamp);
+  }
+  void on_odometry(const slam::Odometry& odometry) override {
+    see(odometry.stamp);
+    digest.add(odometry.stamp).add(odometry.X_OR);
+  }
+  slam::Output on_scan(const slam::Scan& scan) override {
+    see(scan.stamp);
+    if (++count == fail_at) throw std::runtime_error("planned failure");
+    if (!ordered) throw std::runtime_error("records out of order");
+    if (float_mode() != required_float_mode) throw std::runtime_error("wrong floating-point mode");
+    slam::Output output;
+    output.stamp = scan.stamp;
+    output.X_FR = Pose::from_xyz_yaw({0.01 * count, 0, 0}, 0);
+    output.digests = {{"seen", digest.value()}};
+    output.times = {{"seen", 1.0}};
+    return output;
+  }
+  slam::Estimate finish() override { return {}; }
+};
+
+std::unique_ptr<Participant> probe(std::string_view name, int fail_at = -1) {
+  slam::MethodRow row;
+  row.name = name;
+  row.make = [fail_at](const slam::MethodInput&) {
+    auto method = std::make_unique<Probe>();
+    method->fail_at = fail_at;
+    return method;
+  };
+  return make_estimator(row, {});
+}
+
+std::vector<std::unique_ptr<Participant>> three() {
+  std::vector<std::unique_ptr<Participant>> participants;
+  participants.push_back(probe("a"));
+  participants.push_back(make_truth());
+  participants.push_back(probe("b"));
+  return participants;
+}
+
+DigestLog joined(const std::vector<MethodRecord>& records) {
+  std::vector<DigestLog> logs;
+  for (const MethodRecord& record : records) logs.push_back(record.digests);
+  return merge_logs(logs);
+}
+
+TEST(Pipeline, ThreadsChangeNothing) {
+  const auto alone = run_pipeline(small_source(), [](const auto&) {}, three(), {.threads = 1});
+  for (const int threads : {2, 3, 8}) {
+    const auto together =
+        run_pipeline(small_source(), [](const auto&) {}, three(), {.threads = threads, .frames_ahead = 2});
+    EXPECT_FALSE(first_difference(joined(alone), joined(together))) << threads;
+    ASSERT_EQ(together.size(), 3U);
+    for (const MethodRecord& record : together) EXPECT_FALSE(record.crashed) << record.error;
+    EXPECT_EQ(together[0].causal.size(), static_cast<std::size_t>(frames));
+  }
+  EXPECT_EQ(alone[1].name, "truth");
+  EXPECT_EQ(alone[1].causal.back().X_FR.t.x(), 0.01 * frames);
+}
+
+TEST(Pipeline, AMethodThatThrowsCrashesAlone) {
+  for (const int threads : {1, 4}) {
+    std::vector<std::unique_ptr<Participant>> participants;
+    participants.push_back(probe("bad", 7));
+    participants.push_back(probe("good"));
+    const auto records =
+        run_pipeline(small_source(), [](const auto&) {}, std::move(participants), {.threads = threads});
+    EXPECT_TRUE(records[0].crashed);
+    EXPECT_EQ(records[0].error, "planned failure");
+    EXPECT_EQ(records[0].causal.size(), 6U);
+    EXPECT_FALSE(records[1].crashed);
+    EXPECT_EQ(records[1].causal.size(), static_cast<std::size_t>(frames));
+  }
+}
+
+TEST(Pipeline, AMethodThatCannotStartCrashes) {
+  slam::MethodRow row;
+  row.name = "never";
+  row.make = [](const slam::MethodInput&) -> std::unique_ptr<slam::Method> { throw std::runtime_error("no plan"); };
+  std::vector<std::unique_ptr<Participant>> participants;
+  participants.push_back(make_estimator(row, {}));
+  const auto records = run_pipeline(small_source(), [](const auto&) {}, std::move(participants), {.threads = 2});
+  EXPECT_TRUE(records[0].crashed);
+  EXPECT_EQ(records[0].error, "no plan");
+}
+
+TEST(Pipeline, WhatTheSourceThrowsArrives) {
+  for (const int threads : {1, 4}) {
+    int given = 0;
+    const FrameSource failing = [&, source = small_source()](sim::WorldFrame& frame) mutable {
+      if (++given == 5) throw std::runtime_error("disk");
+      return source(frame);
+    };
+    EXPECT_THROW(static_cast<void>(run_pipeline(failing, [](const auto&) {}, three(), {.threads = threads})),
+                 std::runtime_error);
+  }
+}
+
+TEST(Pipeline, NoMoreWorkAtOneTimeThanAllowed) {
+  std::atomic<int> working = 0;
+  std::atomic<int> most = 0;
+  struct Counting : Probe {
+    std::atomic<int>* working = nullptr;
+    std::atomic<int>* most = nullptr;
+    slam::Output on_scan(const slam::Scan& scan) override {
+      const int now = ++*working;
+      for (int seen = *most; now > seen && !most->compare_exchange_weak(seen, now);) continue;
+      std::this_thread::yield();
+      --*working;
+      return Probe::on_scan(scan);
+    }
+  };
+  slam::MethodRow row;
+  row.name = "counting";
+  row.make = [&](const slam::MethodInput&) {
+    auto method = std::make_unique<Counting>();
+    method->working = &working;
+    method->most = &most;
+    return method;
+  };
+  std::vector<std::unique_ptr<Participant>> participants;
+  for (int i = 0; i < 6; ++i) participants.push_back(make_estimator(row, {}));
+  static_cast<void>(run_pipeline(small_source(), [](const auto&) {}, std::move(participants), {.threads = 2}));
+  EXPECT_LE(most, 2);
+  EXPECT_GE(most, 1);
+}
+
+TEST(Participant, ParticlesAreKeptAtChangesAndEveryTwoSeconds) {
+  struct Localizer : slam::Method {
+    int count = 0;
+    slam::Output on_scan(const slam::Scan& scan) override {
+      slam::Output output;
+      output.stamp = scan.stamp;
+      output.state = ++count >= 30 ? slam::State::converged : slam::State::searching;
+      output.particles = {{1, 2, 3, 1}};
+      return output;
+    }
+    slam::Estimate finish() override { return {}; }
+  };
+  slam::MethodRow row;
+  row.name = "localizer";
+  row.needs_plan = true;
+  row.make = [](const slam::MethodInput&) { return std::make_unique<Localizer>(); };
+  std::vector<std::unique_ptr<Participant>> participants;
+  participants.push_back(make_estimator(row, {}));
+  const auto records = run_pipeline(small_source(40), [](const auto&) {}, std::move(participants), {});
+  ASSERT_EQ(records[0].beliefs.size(), 40U);
+  std::vector<std::size_t> kept;
+  for (std::size_t i = 0; i < 40; ++i)
+    if (!records[0].beliefs[i].particles.empty()) kept.push_back(i);
+  EXPECT_EQ(kept, (std::vector<std::size_t>{0, 20, 29}));
+}
+
+}  // namespace
+}  // namespace plumbline::scenarios

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenarios/scenario.h"
+
+#include <gtest/gtest.h>
+
+namespace plumbline::scenarios {
+namespace {
+
+const std::string good = R"(scenario: 1
+name: test
+building: two.plan.yaml
+seed: 7
+start: {storey: ground, at: [1.5, 2], yaw_deg: 90}
+route: {rooms: all, loop: 2}
+speed_mps: 0.5
+duration_s: 30
+lidar: {model: vlp16, preset: ideal}
+odometry: {preset: uncorrected}
+prior: {yaw: known, storey: unknown}
+methods: [vgicp]
+gates:
+  - {metric: ate_aligned_rmse_m, method: vgicp, max: 0.25}
+  - {metric: rooms.recall, method: vgicp, min: 0.8}
+)";
+
+std::string complaint(const std::string& text) {
+  try {
+    static_cast<void>(read_scenario(text, "s.yaml"));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+std::string with(const std::string& from, const std::string& to) {
+  std::string text = good;
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+TEST(Scenario, ReadsEveryField) {
+  const Scenario scenario = read_scenario(good, "s.yaml").scenario;
+  EXPECT_EQ(scenario.seed, 7U);
+  EXPECT_EQ(*scenario.start.at, Eigen::Vector2d(1.5, 2.0));
+  EXPECT_EQ(scenario.route.rooms, std::vector<std::string>{"all"});
+  EXPECT_EQ(scenario.route.loop, 2);
+  EXPECT_EQ(scenario.lidar.preset, sim::LidarPreset::ideal);
+  EXPECT_EQ(scenario.prior.yaw, Knowledge::known);
+  ASSERT_EQ(scenario.gates.size(), 2U);
+  EXPECT_EQ(*scenario.gates[1].min, 0.8);
+  EXPECT_EQ(off_defaults(scenario), (std::vector<std::string>{"lidar.preset: ideal", "odometry.preset: uncorrected"}));
+}
+
+TEST(Scenario, WritingAndReadingIsAFixedPoint) {
+  const std::string once = write_scenario(read_scenario(good, "s.yaml").scenario);
+  EXPECT_EQ(write_scenario(read_scenario(once, "s.yaml").scenario), once);
+}
+
+TEST(Scenario, MarksPointIntoTheFile) {
+  const Tree tree = read_scenario(good, "s.yaml").tree;
+  EXPECT_EQ(mark_at(tree, {"start"}).line, 5);
+  EXPECT_EQ(mark_at(tree, {"route", "rooms"}).line, 6);
+  EXPECT_EQ(mark_at(tree, {"start", "room"}).line, 5);
+}
+
+TEST(Scenario, ComplaintsNameThePlaceAndWhatWouldBeRight) {
+  EXPECT_EQ(complaint(good), "none");
+  EXPECT_EQ(complaint("name: x\nscenario: 1\n").rfind("s.yaml:1:1: the first key", 0), 0U);
+  EXPECT_EQ(complaint(with("scenario: 1", "scenario: 2")).rfind("s.yaml:1:", 0), 0U);
+  EXPECT_NE(complaint(with("speed_mps", "speed_msp")).find("s.yaml:7:"), std::string::npos);
+  EXPECT_NE(complaint(with("speed_mps", "speed_msp")).find("did you mean 'speed_mps'"), std::string::npos);
+  EXPECT_NE(complaint(with("seed: 7", "seed: many")).find("s.yaml:4:7"), std::string::npos);
+  EXPECT_NE(complaint(with("seed: 7", "seed: -1")).find("s.yaml:4:7"), std::string::npos);
+  EXPECT_NE(complaint(with("speed_mps: 0.5", "speed_mps: 5")).find("between"), std::string::npos);
+  EXPECT_NE(complaint(good + "seed: 8\n").find("s.yaml:16:1: duplicate key"), std::string::npos);
+  EXPECT_NE(complaint(with("preset: ideal", "preset: idael")).find("did you mean 'ideal'"), std::string::npos);
+  EXPECT_NE(complaint(with("metric: rooms.recall", "metric: rooms.recal")).find("s.yaml:15:"), std::string::npos);
+  EXPECT_NE(complaint(with("metric: rooms.recall", "metric: rooms.recal")).find("'rooms.recall'"), std::string::npos);
+  EXPECT_NE(complaint(with("min: 0.8", "min: 0.8, max: 1")).find("either max or min"), std::string::npos);
+  EXPECT_NE(complaint(with("{storey: ground", "{room: hall, storey: ground")).find("not both"), std::string::npos);
+  EXPECT_NE(complaint(with("loop: 2", "shuttle: hall")).find("not both"), std::string::npos);
+  EXPECT_NE(complaint(with("building: two.plan.yaml\n", "")).find("'building' is missing"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace plumbline::scenarios

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenarios/score/localization.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+namespace plumbline::scenarios::score {
+namespace {
+
+constexpr slam::Nanoseconds scan_ns = 100'000'000;
+constexpr int scans = 200;  // 20 s at 0.5 m/s
+
+Truth straight_walk() {
+  Truth truth;
+  for (int i = 0; i < scans; ++i) {
+    truth.scans.push_back(i * scan_ns);
+    truth.poses_W.push_back({i * scan_ns, Pose::from_xyz_yaw({0.05 * i, 0.0, 0.5}, 0.0)});
+  }
+  return truth;
+}
+
+/// Converged from scan `from` on, with poses off by `offset_m`.
+std::vector<Belief> converges_at(int from, double offset_m) {
+  const Truth truth = straight_walk();
+  std::vector<Belief> beliefs;
+  for (int i = 0; i < scans; ++i) {
+    Belief belief;
+    belief.stamp = i * scan_ns;
+    if (i >= from) {
+      belief.state = slam::State::converged;
+      belief.X_WR = Pose::from_xyz_yaw(Eigen::Vector3d(0.0, offset_m, 0.0), 0.0) * truth.at(belief.stamp);
+      belief.hypotheses = {{1.0, *belief.X_WR, Eigen::Matrix3d::Zero(), ""}};
+    }
+    beliefs.push_back(belief);
+  }
+  return beliefs;
+}
+
+LocalizationScore judge(const std::vector<Belief>& beliefs, const std::optional<Identifiability>& known = {}) {
+  return score_localization(straight_walk(), beliefs, known);
+}
+
+TEST(Localization, SuccessWithItsNumbers) {
+  const LocalizationScore score = judge(converges_at(40, 0.1));
+  EXPECT_EQ(score.verdict, LocalizationVerdict::success);
+  EXPECT_NEAR(*score.converged_at_s, 4.0, 1e-12);
+  EXPECT_NEAR(*score.converged_at_m, 2.0, 1e-9);
+  EXPECT_NEAR(*score.ape_rmse_m, 0.1, 1e-12);
+  EXPECT_NEAR(*score.yaw_rmse_deg, 0.0, 1e-12);
+  EXPECT_EQ(score.hypotheses, 1);
+  EXPECT_FALSE(score.identifiable);
+}
+
+TEST(Localization, WrongSingleAnswerIsFalseConvergence) {
+  EXPECT_EQ(judge(converges_at(40, 0.51)).verdict, LocalizationVerdict::false_convergence);
+  auto turned = converges_at(40, 0.0);
+  for (Belief& belief : turned)
+    if (belief.X_WR) belief.X_WR->q = exp_so3({0, 0, 11.0 * std::numbers::pi / 180.0}) * belief.X_WR->q;
+  EXPECT_EQ(judge(turned).verdict, LocalizationVerdict::false_convergence);
+}
+
+TEST(Localization, NeverOrTooLateIsLate) {
+  EXPECT_EQ(judge(converges_at(scans, 0.0)).verdict, LocalizationVerdict::late);
+  EXPECT_FALSE(judge(converges_at(scans, 0.0)).ape_rmse_m);
+  EXPECT_EQ(judge(converges_at(scans - 40, 0.0)).verdict, LocalizationVerdict::late);  // held for 3.9 s only
+}
+
+TEST(Localization, ErrorsWhileLostCount) {
+  auto beliefs = converges_at(0, 0.0);
+  for (int i = 100; i < scans; ++i) {
+    beliefs[static_cast<std::size_t>(i)].state = slam::State::lost;
+    beliefs[static_cast<std::size_t>(i)].X_WR.reset();  // held against its last answer, which the robot walks away from
+  }
+  const LocalizationScore score = judge(beliefs);
+  EXPECT_EQ(score.verdict, LocalizationVerdict::lost);
+  EXPECT_GT(*score.ape_rmse_m, 1.0);
+}
+
+TEST(Localization, WrongAgainAfterConvergenceIsNoSuccess) {
+  auto beliefs = converges_at(0, 0.0);
+  beliefs[150].X_WR->t.y() += 3.0;
+  EXPECT_EQ(judge(beliefs).verdict, LocalizationVerdict::false_convergence);
+}
+
+TEST(Localization, WhereThePlanHasTwoAnswers) {
+  Identifiability twin;
+  twin.others_W = {Pose::from_xyz_yaw({50.0, 0.0, 0.5}, std::numbers::pi)};
+  EXPECT_EQ(judge(converges_at(40, 0.0), twin).verdict, LocalizationVerdict::lucky);
+  EXPECT_EQ(judge(converges_at(40, 3.0), twin).verdict, LocalizationVerdict::overconfident);
+
+  auto both = converges_at(scans, 0.0);
+  const Pose X_WR = straight_walk().at(both.back().stamp);
+  const auto answer = [&](double true_mass, std::size_t copies) {
+    both.back().hypotheses.assign(copies, {true_mass, X_WR, Eigen::Matrix3d::Zero(), ""});
+    both.back().hypotheses.push_back({1.0 - true_mass, twin.others_W[0], Eigen::Matrix3d::Zero(), ""});
+    return judge(both, twin).verdict;
+  };
+  EXPECT_EQ(answer(0.5, 1), LocalizationVerdict::honest_ambiguity);
+  EXPECT_EQ(answer(0.25, 1), LocalizationVerdict::honest_ambiguity);  // the least share: 0.5 / 2
+  EXPECT_EQ(answer(0.2, 1), LocalizationVerdict::late);
+  EXPECT_EQ(answer(0.3, 3), LocalizationVerdict::late);  // more than 2 |A| + 1 hypotheses
+  both.back().hypotheses = {{0.6, X_WR, Eigen::Matrix3d::Zero(), ""},
+                            {0.4, Pose::from_xyz_yaw({20, 9, 0.5}, 0.0), Eigen::Matrix3d::Zero(), ""}};
+  EXPECT_EQ(judge(both, twin).verdict, LocalizationVerdict::late);  // one that is no twin
+}
+
+}  // namespace
+}  // namespace plumbline::scenarios::score
