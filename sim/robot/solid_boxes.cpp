@@ -5,8 +5,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "bim/mesh/mesh.h"
-
 namespace plumbline::sim {
 
 namespace {
@@ -135,6 +133,18 @@ std::vector<Polygon3> surface_between(const bim::Solid& solid, const HeightRange
   return out;
 }
 
+/// Volume inside a closed surface that was cut at two heights, m^3: the flux of (x, 0, 0), to which the missing
+/// horizontal faces would add nothing.
+double enclosed_volume(const std::vector<Polygon3>& surface) {
+  double sum = 0.0;
+  for (const Polygon3& p : surface)
+    for (std::size_t i = 1; i + 1 < p.size(); ++i) {
+      const double area_x = 0.5 * (p[i] - p[0]).cross(p[i + 1] - p[0]).x();
+      sum += area_x * (p[0].x() + p[i].x() + p[i + 1].x()) / 3.0;
+    }
+  return sum;
+}
+
 }  // namespace
 
 CollisionBox upright_box(const Eigen::Vector2d& center, double yaw, const Eigen::Vector2d& half, const HeightRange& z) {
@@ -172,21 +182,21 @@ std::vector<CollisionBox> solid_boxes(const bim::Solid& solid, const HeightRange
   const std::vector<Polygon3> surface = surface_between(solid, reach);
   if (surface.empty()) return {};
   std::vector<Eigen::Vector2d> points;
-  HeightRange z{solid.vertices[0].z(), solid.vertices[0].z()};
-  for (const Eigen::Vector3d& v : solid.vertices) {
-    points.emplace_back(v.head<2>());
-    z = {std::min(z.from, v.z()), std::max(z.to, v.z())};
-  }
-  const CollisionBox whole = bounding_box(points, z);
-  if (bim::volume(solid) >= config.box_fill * 8.0 * whole.half.prod()) return {whole};
-
-  Eigen::Vector2d low = surface[0][0].head<2>();
-  Eigen::Vector2d high = low;
+  HeightRange z{surface[0][0].z(), surface[0][0].z()};
   for (const Polygon3& polygon : surface)
     for (const Eigen::Vector3d& p : polygon) {
-      low = low.cwiseMin(p.head<2>());
-      high = high.cwiseMax(p.head<2>());
+      points.emplace_back(p.head<2>());
+      z = {std::min(z.from, p.z()), std::max(z.to, p.z())};
     }
+  const CollisionBox whole = bounding_box(points, z);
+  if (enclosed_volume(surface) >= config.box_fill * 8.0 * whole.half.prod()) return {whole};
+
+  Eigen::Vector2d low = points[0];
+  Eigen::Vector2d high = points[0];
+  for (const Eigen::Vector2d& p : points) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
   CellGrid grid(low, high, config.cell_m);
   for (const Polygon3& polygon : surface) grid.add(polygon);
   std::vector<CollisionBox> boxes;

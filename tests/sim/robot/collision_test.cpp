@@ -148,6 +148,17 @@ TEST(Collision, WhatLiesFlatOrHighIsNoObstacle) {
   const std::vector<CollisionBox> boxes = collision_boxes(slab(0.3), 0);
   ASSERT_EQ(boxes.size(), 1U);
   EXPECT_NEAR(boxes[0].X_WB.t.z(), 0.405, 1e-12);
+  EXPECT_NEAR(boxes[0].half.prod(), 0.5 * 0.5 * 0.105, 1e-12);
+}
+
+TEST(Collision, OnlyThePartInReachOfAnObstacleBlocks) {
+  // A beam that rises from the floor at x = 0 to 4 m at x = 4, as a stair's string does.
+  bim::Solid beam = box_solid({0.0, 0.0, 0.0}, {4.0, 0.1, 0.2});
+  for (Eigen::Vector3d& v : beam.vertices) v.z() += v.x();
+  const std::vector<CollisionBox> boxes = collision_boxes(only(beam), 0);
+  EXPECT_TRUE(inside_any(boxes, {0.5, 0.05, 0.6}));
+  EXPECT_FALSE(inside_any(boxes, {1.5, 0.05, 0.6}));
+  for (const CollisionBox& box : boxes) EXPECT_LT(box.X_WB.t.x() + box.half.x(), 1.2 + 0.11);
 }
 
 TEST(Collision, AnObstacleRoundACornerLeavesTheCornerFree) {
