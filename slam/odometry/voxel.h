@@ -11,8 +11,9 @@ namespace plumbline::slam {
 struct VoxelKey {
   std::int32_t x = 0, y = 0, z = 0;
 
+  /// InternalError beyond a million cells from the origin.
   [[nodiscard]] static VoxelKey of(const Eigen::Vector3d& p, double size);
-  /// 21 bits an axis, order-preserving. InternalError beyond a million cells from the origin.
+  /// 21 bits an axis, order-preserving.
   [[nodiscard]] std::uint64_t packed() const;
   friend bool operator==(const VoxelKey&, const VoxelKey&) = default;
 };

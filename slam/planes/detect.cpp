@@ -111,7 +111,7 @@ class WallGrower {
   double tilt_weight_ = 0.0;  ///< points times m^2: variance of a point over that of the tilt
 };
 
-/// Fits the wall to its points, twice gated, without any prior on its tilt; nothing when it is too small for a wall.
+/// Fits the wall to its points without any prior on its tilt; nothing when it is too small for a wall.
 std::optional<PlaneObservation> observe_wall(const DeskewedScan& scan, const std::vector<RingSegment>& segments,
                                              const Wall& wall, const PlaneDetectorConfig& config) {
   std::vector<int> rings;

@@ -55,6 +55,7 @@ std::optional<PlaneObservation> fit_patch(const DeskewedScan& scan, const std::v
       if (std::abs(patch.plane_R.distance(scan.point_R[i])) <= config.max_distance_m) moments.add(scan.point_R[i]);
     if (moments.n < config.min_points) return std::nullopt;
     patch.plane_R = refine_plane(moments, patch.plane_R, 0.0);
+    if (!patch.plane_R.n.allFinite()) return std::nullopt;  // the returns span no plane
   }
   if (patch.plane_R.distance(scan.X_RL.t) < 0.0) patch.plane_R = patch.plane_R.flipped();
   patch.points = static_cast<int>(moments.n);

@@ -164,6 +164,14 @@ TEST(DetectPlanesTest, ExtentsEndWhereTheWallsEnd) {
   }
 }
 
+TEST(DetectPlanesTest, ReturnsThatSpanNoPlaneMakeNone) {
+  DeskewedScan scan;
+  scan.columns = 100;
+  scan.range_m.assign(1600, 2.0);
+  scan.point_R.assign(1600, Eigen::Vector3d(2.0, 0.0, 0.0));
+  EXPECT_TRUE(detect_planes(scan, {}).empty());
+}
+
 TEST(DetectPlanesTest, NothingIsSeenInAnEmptyScan) {
   DeskewedScan scan;
   scan.columns = 100;
