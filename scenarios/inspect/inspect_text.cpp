@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cstdio>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "bim/building/plan.h"
+#include "bim/digest/digest.h"
+#include "scenarios/inspect/inspect.h"
+
+namespace plumbline::scenarios {
+namespace {
+
+using bim::Building;
+using bim::BuildingMesh;
+
+std::string fixed(double value, int digits) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.*f", digits, value == 0.0 ? 0.0 : value);
+  return text;
+}
+
+/// Characters of UTF-8 text.
+std::size_t width(const std::string& text) {
+  return static_cast<std::size_t>(
+      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
+}
+
+/// Rows of cells in columns as wide as their longest cell; the first column left, the others right, the last as it is.
+class Table {
+ public:
+  explicit Table(std::vector<std::string> header) { rows_.push_back(std::move(header)); }
+  void add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }
+
+  [[nodiscard]] std::string text() const {
+    std::vector<std::size_t> widths(rows_.front().size(), 0);
+    for (const auto& row : rows_)
+      for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], width(row[i]));
+    std::string text;
+    for (const auto& row : rows_) {
+      std::string line = " ";
+      for (std::size_t i = 0; i < row.size(); ++i) {
+        const std::string blanks(widths[i] - width(row[i]), ' ');
+        const bool last = i + 1 == row.size();
+        line += " " + (i == 0 || last ? row[i] + blanks : blanks + row[i]) + " ";
+      }
+      line.erase(line.find_last_not_of(' ') + 1);
+      text += line + "\n";
+    }
+    return text;
+  }
+
+ private:
+  std::vector<std::vector<std::string>> rows_;
+};
+
+template <class Elements>
+int on_storey(const Elements& elements, int storey) {
+  return static_cast<int>(
+      std::count_if(elements.begin(), elements.end(), [&](const auto& e) { return e.storey == storey; }));
+}
+
+int openings_on(const Building& building, int storey, bim::OpeningKind kind) {
+  return static_cast<int>(
+      std::count_if(building.openings.begin(), building.openings.end(), [&](const bim::Opening& opening) {
+        return opening.kind == kind && building.walls[static_cast<std::size_t>(opening.wall)].storey == storey;
+      }));
+}
+
+std::string label(const std::string& name, const std::string& id) { return name.empty() ? id : name; }
+
+std::string storey_table(const Building& building) {
+  Table table({"storey", "floor m", "height m", "walls", "rooms", "doors", "windows", "voids", "slabs", "columns",
+               "obstacles"});
+  for (std::size_t i = 0; i < building.storeys.size(); ++i) {
+    const bim::Storey& storey = building.storeys[i];
+    const int s = static_cast<int>(i);
+    const auto openings = [&](bim::OpeningKind kind) { return std::to_string(openings_on(building, s, kind)); };
+    table.add({label(storey.name, storey.id), fixed(storey.elevation_m, 2), fixed(storey.height_m, 2),
+               std::to_string(on_storey(building.walls, s)), std::to_string(on_storey(building.rooms, s)),
+               openings(bim::OpeningKind::door), openings(bim::OpeningKind::window),
+               openings(bim::OpeningKind::opening_void), std::to_string(on_storey(building.slabs, s)),
+               std::to_string(on_storey(building.columns, s)), std::to_string(on_storey(building.obstacles, s))});
+  }
+  return table.text();
+}
+
+std::string room_table(const Building& building) {
+  const bim::Plan plan = bim::make_plan(building);
+  Table table({"room", "storey", "area m2", "height m", "faces", "leads to"});
+  for (std::size_t i = 0; i < building.rooms.size(); ++i) {
+    const bim::Room& room = building.rooms[i];
+    std::string neighbours;
+    for (const int n : plan.rooms[i].neighbours) {
+      const bim::Room& other = building.rooms[static_cast<std::size_t>(n)];
+      neighbours += (neighbours.empty() ? "" : ", ") + label(other.name, other.id);
+    }
+    const bool out = std::any_of(building.openings.begin(), building.openings.end(), [&](const bim::Opening& opening) {
+      const int here = static_cast<int>(i), a = opening.rooms[0], b = opening.rooms[1];
+      return opening.kind == bim::OpeningKind::door && ((a == here && b < 0) || (b == here && a < 0));
+    });
+    if (out) neighbours += neighbours.empty() ? "outside" : ", outside";
+    const bim::Storey& storey = building.storeys[static_cast<std::size_t>(room.storey)];
+    table.add({label(room.name, room.id), label(storey.name, storey.id), fixed(signed_area(room.polygon), 1),
+               fixed(room.z1_m - room.z0_m, 2), std::to_string(plan.rooms[i].faces.size()), neighbours});
+  }
+  return table.text();
+}
+
+std::string warning_lines(const Building& building, const BuildingMesh& mesh) {
+  std::map<std::string, std::vector<const bim::Warning*>> kinds;
+  for (const bim::Warning& warning : building.warnings) kinds[warning.kind].push_back(&warning);
+  for (const bim::Warning& warning : mesh.warnings) kinds[warning.kind].push_back(&warning);
+  Table table({"warning", "times", "such as"});
+  for (const auto& [kind, warnings] : kinds) {
+    const bim::Warning& first = *warnings.front();
+    table.add(
+        {kind, std::to_string(warnings.size()), (first.element.empty() ? "" : first.element + ": ") + first.text});
+  }
+  return kinds.empty() ? "  no warnings\n" : table.text();
+}
+
+std::string totals(const Building& building, const BuildingMesh& mesh) {
+  double area = 0.0, volume = 0.0;
+  for (const bim::Room& room : building.rooms) area += signed_area(room.polygon);
+  std::size_t closed = 0;
+  for (const bim::MeshElement& element : mesh.elements) {
+    if (element.closed) ++closed;
+    if (element.kind == bim::ElementKind::wall) volume += element.volume_m3;
+  }
+  return "  " + std::to_string(building.walls.size()) + " walls of " + fixed(volume, 1) + " m3, " +
+         std::to_string(building.openings.size()) + " openings, " + std::to_string(building.rooms.size()) +
+         " rooms of " + fixed(area, 1) + " m2; " + std::to_string(mesh.elements.size()) + " solids (" +
+         std::to_string(closed) + " closed) of " + std::to_string(mesh.triangles.size()) + " triangles\n";
+}
+
+}  // namespace
+
+std::string inspect_text(const Building& building, const BuildingMesh& mesh) {
+  std::string text = (building.name.empty() ? "building" : building.name) + " (" + building.schema + ", unit " +
+                     building.unit + "), hash " + hex64(building.hash()) + "\n\n";
+  text += storey_table(building) + "\n";
+  if (!building.rooms.empty()) text += room_table(building) + "\n";
+  return text + totals(building, mesh) + "\n" + warning_lines(building, mesh);
+}
+
+}  // namespace plumbline::scenarios
