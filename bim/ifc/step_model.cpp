@@ -8,6 +8,7 @@
 #include <ifcpp/IFC4/include/IfcBuildingStorey.h>
 #include <ifcpp/IFC4/include/IfcGloballyUniqueId.h>
 #include <ifcpp/IFC4/include/IfcLabel.h>
+#include <ifcpp/IFC4/include/IfcNamedUnit.h>
 #include <ifcpp/IFC4/include/IfcOpeningElement.h>
 #include <ifcpp/IFC4/include/IfcProductRepresentation.h>
 #include <ifcpp/IFC4/include/IfcProject.h>
@@ -19,6 +20,7 @@
 #include <ifcpp/IFC4/include/IfcSpace.h>
 #include <ifcpp/IFC4/include/IfcSpatialElement.h>
 #include <ifcpp/IFC4/include/IfcUnitAssignment.h>
+#include <ifcpp/IFC4/include/IfcUnitEnum.h>
 #include <ifcpp/model/BuildingModel.h>
 #include <ifcpp/model/UnitConverter.h>
 #pragma GCC diagnostic pop
@@ -141,6 +143,15 @@ void read_geometry(const IfcProduct& source, StepGeometry& geometry, StepProduct
   }
 }
 
+bool has_length_unit(const IfcProject& project) {
+  if (!project.m_UnitsInContext) return false;
+  const auto& units = project.m_UnitsInContext->m_Units;
+  return std::any_of(units.begin(), units.end(), [](const auto& select) {
+    const auto unit = std::dynamic_pointer_cast<IfcNamedUnit>(select);
+    return unit && unit->m_UnitType && unit->m_UnitType->m_enum == IfcUnitEnum::ENUM_LENGTHUNIT;
+  });
+}
+
 /// Doors and windows are known by their openings, furniture is not part of the shell.
 bool needs_geometry(StepClass kind) {
   return kind != StepClass::storey && kind != StepClass::door && kind != StepClass::window &&
@@ -157,7 +168,7 @@ class Reader {
     const std::shared_ptr<IfcProject> project = model_->getIfcProject();
     if (!project) throw InputError({file_, 0, 0}, "the file has no IfcProject, so nothing says its unit");
     result.name = project->m_Name ? utf8(project->m_Name->m_value) : std::string();
-    result.has_unit = project->m_UnitsInContext != nullptr && !project->m_UnitsInContext->m_Units.empty();
+    result.has_unit = has_length_unit(*project);
     result.unit_m = model_->getUnitConverter()->getLengthInMeterFactor();
     for (const auto& [step_id, entity] : model_->getMapIfcEntities()) {
       const auto product = std::dynamic_pointer_cast<IfcProduct>(entity);
