@@ -7,7 +7,7 @@
 
 namespace plumbline::bim {
 
-/// Thresholds of finding out which rooms, walls and openings belong together, m (facts: rooms, doors).
+/// Thresholds of finding out which rooms, walls and openings belong together, m.
 struct AdjacencyConfig {
   double gap_m = 0.05;           ///< a room edge this close to a wall face lies on it
   double overlap_m = 0.20;       ///< the two run along each other for more than this

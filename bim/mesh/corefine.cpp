@@ -22,9 +22,7 @@ namespace pmp = CGAL::Polygon_mesh_processing;
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 
-constexpr double grid_m = 1e-5;
-
-std::optional<Mesh> to_mesh(const Solid& solid) {
+std::optional<Mesh> to_mesh(const Solid& solid, double grid_m) {
   std::vector<Kernel::Point_3> points;
   std::vector<std::array<std::size_t, 3>> triangles;
   for (const Eigen::Vector3d& p : solid.vertices)
@@ -61,14 +59,14 @@ Solid to_solid(const Mesh& mesh) {
 
 }  // namespace
 
-std::optional<Solid> repaired(const Solid& solid) {
-  const std::optional<Mesh> mesh = to_mesh(solid);
+std::optional<Solid> repaired(const Solid& solid, double grid_m) {
+  const std::optional<Mesh> mesh = to_mesh(solid, grid_m);
   if (!mesh) return std::nullopt;
   return to_solid(*mesh);
 }
 
-std::optional<Solid> difference(const Solid& body, const Solid& cutter) {
-  std::optional<Mesh> a = to_mesh(body), b = to_mesh(cutter);
+std::optional<Solid> difference(const Solid& body, const Solid& cutter, double grid_m) {
+  std::optional<Mesh> a = to_mesh(body, grid_m), b = to_mesh(cutter, grid_m);
   if (!a || !b) return std::nullopt;
   Mesh result;
   try {

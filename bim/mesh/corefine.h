@@ -6,16 +6,18 @@
 #include <vector>
 
 #include "bim/building/building.h"
+#include "bim/mesh/wall_cut.h"
 
 namespace plumbline::bim {
 
 /// A solid with unjoined or unevenly turned triangles made into one closed solid, outward; nullopt when its surface
-/// does not close. Coordinates are put on a grid of 0.01 mm.
-[[nodiscard]] std::optional<Solid> repaired(const Solid& solid);
+/// does not close. Coordinates are put on the grid.
+[[nodiscard]] std::optional<Solid> repaired(const Solid& solid, double grid_m = MeshConfig{}.weld_m);
 
 /// Body minus one closed cutter, by corefinement in 3D; nullopt when the two cannot be corefined (self-intersections,
 /// non-manifold result). Both must be closed and outward. The order of vertices and triangles depends on what ran
 /// before: canonicalise.
-[[nodiscard]] std::optional<Solid> difference(const Solid& body, const Solid& cutter);
+[[nodiscard]] std::optional<Solid> difference(const Solid& body, const Solid& cutter,
+                                              double grid_m = MeshConfig{}.weld_m);
 
 }  // namespace plumbline::bim

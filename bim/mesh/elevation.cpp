@@ -14,18 +14,6 @@ namespace plumbline::bim {
 
 namespace {
 
-using Points = std::vector<Eigen::Vector3d>;
-
-struct Interval {
-  double low = std::numeric_limits<double>::infinity();
-  double high = -std::numeric_limits<double>::infinity();
-
-  void add(double v) {
-    low = std::min(low, v);
-    high = std::max(high, v);
-  }
-};
-
 /// The wall's outline in (x, z) with its ends stretched to the longer face, and how to place it on the two faces.
 struct Elevation {
   Region2 region;
@@ -47,21 +35,15 @@ Elevation plain_elevation(const Wall& wall) {
   return {unite(std::vector<Polygon2>{outline}), {wall.offset_m, wall.offset_m + wall.thickness_m}, ends, ends, ends};
 }
 
-/// Silhouette of the triangles for which take(three corners) holds, in (x, z).
-template <class Take>
-std::vector<Polygon2> projected(const Points& points, const std::vector<Eigen::Vector3i>& triangles, const Take& take) {
-  std::vector<Polygon2> flat;
-  for (const Eigen::Vector3i& t : triangles) {
-    const Eigen::Vector3d& a = points[static_cast<std::size_t>(t[0])];
-    const Eigen::Vector3d& b = points[static_cast<std::size_t>(t[1])];
-    const Eigen::Vector3d& c = points[static_cast<std::size_t>(t[2])];
-    if (take(a) && take(b) && take(c)) flat.push_back({{a.x(), a.z()}, {b.x(), b.z()}, {c.x(), c.z()}});
-  }
-  return flat;
-}
-
-Region2 face_outline(const Points& points, const Solid& body, double y, double tolerance) {
-  return unite(projected(points, body.triangles, [&](const Eigen::Vector3d& p) { return near(p.y(), y, tolerance); }));
+/// Outline of the body's triangles that lie on the face at y.
+Region2 face_outline(const WallFrame& frame, const Solid& body, double y, double tolerance) {
+  const auto on_face = [&](int i) {
+    return near(frame.to_wall(body.vertices[static_cast<std::size_t>(i)]).y(), y, tolerance);
+  };
+  Solid face{body.vertices, {}};
+  for (const Eigen::Vector3i& t : body.triangles)
+    if (on_face(t[0]) && on_face(t[1]) && on_face(t[2])) face.triangles.push_back(t);
+  return unite(projected(frame, {face}));
 }
 
 Interval x_extent(const Polygon2& outline) {
@@ -93,16 +75,14 @@ double perimeter(const Polygon2& ring) {
 
 /// Elevation of a body, or why it has none.
 std::variant<Elevation, Refusal> body_elevation(const WallFrame& frame, const Solid& body, const MeshConfig& config) {
-  const Points points = frame.to_wall(body.vertices);
-  Interval y;
-  for (const Eigen::Vector3d& p : points) y.add(p.y());
-  for (const Eigen::Vector3d& p : points)
+  const Interval y = extent_across(frame, {body});
+  for (const Eigen::Vector3d& p : frame.to_wall(body.vertices))
     if (!near(p.y(), y.low, config.face_m) && !near(p.y(), y.high, config.face_m))
       return not_prismatic("a vertex lies between the two faces");
   if (y.high - y.low <= 2.0 * config.face_m) return not_prismatic("the body has no thickness");
 
-  const Region2 low = face_outline(points, body, y.low, config.face_m);
-  const Region2 high = face_outline(points, body, y.high, config.face_m);
+  const Region2 low = face_outline(frame, body, y.low, config.face_m);
+  const Region2 high = face_outline(frame, body, y.high, config.face_m);
   if (low.size() != 1 || high.size() != 1) return not_prismatic("a face is not in one piece");
 
   const Interval x_low = x_extent(low[0].outer), x_high = x_extent(high[0].outer);
@@ -126,13 +106,9 @@ std::optional<Refusal> add_silhouette(const WallFrame& frame, const Opening& ope
     silhouettes.push_back(rectangle(opening.s_m - half, opening.s_m + half, opening.z0_m, opening.z1_m));
     return std::nullopt;
   }
-  Interval depth;
-  for (const Solid& solid : solids) {
-    const Points points = frame.to_wall(solid.vertices);
-    for (const Eigen::Vector3d& p : points) depth.add(p.y());
-    const std::vector<Polygon2> flat = projected(points, solid.triangles, [](const Eigen::Vector3d&) { return true; });
-    silhouettes.insert(silhouettes.end(), flat.begin(), flat.end());
-  }
+  const std::vector<Polygon2> flat = projected(frame, solids);
+  silhouettes.insert(silhouettes.end(), flat.begin(), flat.end());
+  const Interval depth = extent_across(frame, solids);
   if (depth.low > y.low + config.depth_m || depth.high < y.high - config.depth_m)
     return Refusal{"niche", "opening '" + opening.id + "' does not go through the wall"};
   return std::nullopt;

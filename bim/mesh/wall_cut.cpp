@@ -14,33 +14,31 @@ namespace plumbline::bim {
 
 namespace {
 
-struct Across {
-  double low = 0.0, high = 0.0;
-};
-
 /// Extent of the wall across its reference line.
-Across thickness_of(const Wall& wall, const WallFrame& frame) {
-  if (!wall.body || wall.body->vertices.empty()) return {wall.offset_m, wall.offset_m + wall.thickness_m};
-  const auto points = frame.to_wall(wall.body->vertices);
-  const auto [low, high] = std::minmax_element(
-      points.begin(), points.end(), [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return a.y() < b.y(); });
-  return {low->y(), high->y()};
+Interval thickness_of(const Wall& wall, const WallFrame& frame) {
+  if (wall.body && !wall.body->vertices.empty()) return extent_across(frame, {*wall.body});
+  return {wall.offset_m, wall.offset_m + wall.thickness_m};
 }
 
-/// Box through the whole wall.
-Solid rectangle_cutter(const Opening& opening, const WallFrame& frame, const Across& y, const MeshConfig& config) {
+/// Cutter through the whole wall with the given outline in its elevation.
+Solid through_cutter(const Region2& outline, const WallFrame& frame, const Interval& y, const MeshConfig& config) {
+  return sweep(
+      outline,
+      [&](const Eigen::Vector2d& p) {
+        return frame.to_world({p.x(), y.high + config.margin_m, p.y()});
+      },
+      [&](const Eigen::Vector2d& p) {
+        return frame.to_world({p.x(), y.low - config.margin_m, p.y()});
+      });
+}
+
+Polygon2 rectangle_of(const Opening& opening) {
   const double x0 = opening.s_m - 0.5 * opening.width_m, x1 = opening.s_m + 0.5 * opening.width_m;
-  const Polygon2 outline = {{x0, y.low - config.margin_m},
-                            {x1, y.low - config.margin_m},
-                            {x1, y.high + config.margin_m},
-                            {x0, y.high + config.margin_m}};
-  Solid box = extrude(unite(std::vector<Polygon2>{outline}), opening.z0_m, opening.z1_m);
-  for (Eigen::Vector3d& p : box.vertices) p = frame.to_world(p);
-  return box;
+  return {{x0, opening.z0_m}, {x1, opening.z0_m}, {x1, opening.z1_m}, {x0, opening.z1_m}};
 }
 
 /// Pushes what ends at a face of the wall out of it: rounding would otherwise leave a film across the opening.
-Solid overhanging(Solid cutter, const WallFrame& frame, const Across& y, const MeshConfig& config) {
+Solid overhanging(Solid cutter, const WallFrame& frame, const Interval& y, const MeshConfig& config) {
   for (Eigen::Vector3d& p_W : cutter.vertices) {
     Eigen::Vector3d p = frame.to_wall(p_W);
     if (p.y() <= y.low + config.depth_m) p.y() = std::min(p.y(), y.low - config.margin_m);
@@ -50,27 +48,29 @@ Solid overhanging(Solid cutter, const WallFrame& frame, const Across& y, const M
   return cutter;
 }
 
-std::vector<Solid> cutters_of(const Opening& opening, const WallFrame& frame, const Across& y,
+std::vector<Solid> cutters_of(const Opening& opening, const WallFrame& frame, const Interval& y,
                               const MeshConfig& config) {
   std::vector<Solid> cutters = solids_of(opening);
-  if (cutters.empty()) return {rectangle_cutter(opening, frame, y, config)};
+  if (cutters.empty()) return {through_cutter(unite(std::vector<Polygon2>{rectangle_of(opening)}), frame, y, config)};
+  const Interval depth = extent_across(frame, cutters);
+  const bool through = depth.low <= y.low + config.depth_m && depth.high >= y.high - config.depth_m;
+  // Touching parts cut one by one would leave a film where they meet.
+  if (through && cutters.size() > 1) return {through_cutter(unite(projected(frame, cutters)), frame, y, config)};
   for (Solid& cutter : cutters) cutter = overhanging(std::move(cutter), frame, y, config);
   return cutters;
 }
 
 /// The uncut body of a wall as one solid.
 Solid whole_body(const Wall& wall, const MeshConfig& config) {
-  if (wall.body) return *wall.body;
-  Wall plain = wall;
-  return std::get<Solid>(cut_in_elevation(plain, {}, config));
+  return wall.body ? *wall.body : std::get<Solid>(cut_in_elevation(wall, {}, config));
 }
 
 CutWall cut_in_space(const Wall& wall, const std::vector<Opening>& openings, const MeshConfig& config) {
   const WallFrame frame(wall);
-  const Across y = thickness_of(wall, frame);
+  const Interval y = thickness_of(wall, frame);
   CutWall cut;
   const Solid whole = whole_body(wall, config);
-  std::optional<Solid> body = repaired(whole);
+  std::optional<Solid> body = repaired(whole, config.weld_m);
   cut.closed = body.has_value();
   if (!body) {
     cut.warnings.push_back({wall.id, "not_closed", "the body's surface does not close; openings are not cut"});
@@ -79,8 +79,8 @@ CutWall cut_in_space(const Wall& wall, const std::vector<Opening>& openings, con
   }
   for (const Opening& opening : openings) {
     for (const Solid& part : cutters_of(opening, frame, y, config)) {
-      const std::optional<Solid> cutter = repaired(part);
-      std::optional<Solid> rest = cutter ? difference(*body, *cutter) : std::nullopt;
+      const std::optional<Solid> cutter = repaired(part, config.weld_m);
+      std::optional<Solid> rest = cutter ? difference(*body, *cutter, config.weld_m) : std::nullopt;
       if (rest)
         body = std::move(rest);
       else

@@ -15,7 +15,7 @@ struct MeshConfig {
   double depth_m = 2e-3;   ///< an opening that stops this much before a face still goes through
   double margin_m = 1e-2;  ///< overhang of a 3D cutter beyond the face it pierces
   double grid_m = 1e-6;    ///< grid of the finished vertices; finer than the 2D grid, so that oblique walls stay flat
-  double weld_m = 1e-5;    ///< vertices of a body that came unjoined
+  double weld_m = 1e-5;    ///< grid of bodies whose vertices came unjoined, and of 3D cuts
 };
 
 /// A wall that the 2D method does not take, and why.
@@ -25,7 +25,7 @@ struct Refusal {
 };
 
 /// Cuts a wall in its elevation: silhouettes of the openings are subtracted from the wall's, and the rest is swept
-/// through the thickness, between the two faces [facts: prismatic walls, ends may be mitred]. An empty solid when
+/// through the thickness, between the two faces (a prismatic wall, whose ends may be mitred). An empty solid when
 /// nothing is left of the wall.
 [[nodiscard]] std::variant<Solid, Refusal> cut_in_elevation(const Wall& wall, const std::vector<Opening>& openings,
                                                             const MeshConfig& config);

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <limits>
 #include <vector>
 
 #include "bim/building/building.h"
@@ -32,12 +34,21 @@ class WallFrame {
   Eigen::Vector2d origin_, along_, left_;
 };
 
+struct Interval {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -std::numeric_limits<double>::infinity();
+
+  void add(double v) {
+    low = std::min(low, v);
+    high = std::max(high, v);
+  }
+};
+
 /// All solids of an opening that came from a model; empty for a plain rectangle.
-[[nodiscard]] inline std::vector<Solid> solids_of(const Opening& opening) {
-  std::vector<Solid> solids;
-  if (opening.solid) solids.push_back(*opening.solid);
-  solids.insert(solids.end(), opening.parts.begin(), opening.parts.end());
-  return solids;
-}
+[[nodiscard]] std::vector<Solid> solids_of(const Opening& opening);
+/// Extent of solids across the wall.
+[[nodiscard]] Interval extent_across(const WallFrame& frame, const std::vector<Solid>& solids);
+/// The triangles of solids in the wall's elevation (x, z); their union is the silhouette.
+[[nodiscard]] std::vector<Polygon2> projected(const WallFrame& frame, const std::vector<Solid>& solids);
 
 }  // namespace plumbline::bim

@@ -270,6 +270,30 @@ TEST(WallCut, ThreeDAndElevationAgreeAtRandom) {
   }
 }
 
+TEST(WallCut, TouchingPartsLeaveNoFilmIn3D) {
+  const double angle = 0.7, t = 0.3;
+  Wall wall = mitred_wall(5.0, t);
+  Opening opening = hole(0.1, 1.0, 0, 2.1);  // reaches into the mitre
+  opening.solid = box({0.1, -t / 2, 0}, {1.0, 0.0, 2.1});
+  opening.parts = {box({0.1, 0.0, 0}, {1.0, t / 2, 2.1})};  // meets the other in the middle of the wall
+  const Eigen::AngleAxisd turn(angle, Eigen::Vector3d::UnitZ());
+  wall.b = Eigen::Rotation2Dd(angle) * wall.b;
+  for (Solid* solid : {&*wall.body, &*opening.solid, &opening.parts[0]})
+    for (Eigen::Vector3d& p : solid->vertices) p = turn * p;
+  const CutWall result = cut_wall(wall, {opening}, {});
+  ASSERT_EQ(result.warnings.size(), 1U);
+  EXPECT_EQ(result.warnings[0].kind, "not_prismatic");
+  EXPECT_TRUE(is_closed(result.solid));
+  // No triangle has its middle in the clear opening.
+  for (const Eigen::Vector3i& triangle : result.solid.triangles) {
+    Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+    for (int i = 0; i < 3; ++i) middle += result.solid.vertices[static_cast<std::size_t>(triangle[i])] / 3.0;
+    const Eigen::Vector3d p = turn.inverse() * middle;
+    EXPECT_FALSE(p.x() > 0.4 && p.x() < 0.99 && p.z() > 0.01 && p.z() < 2.09 && std::abs(p.y()) < 0.14)
+        << p.transpose();
+  }
+}
+
 TEST(WallCut, ThreeDCutDoesNotDependOnWhatRanBefore) {
   const Stream stream(7, "bim.generate");
   const auto cut_in_space = [&](std::uint64_t tick) {
