@@ -2,7 +2,9 @@
 #include "slam/rooms/detect.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 
@@ -17,7 +19,7 @@ constexpr double rad = std::numbers::pi / 180.0;
 /// A wall face in plan: m.p + e = 0, m into free space, and the stretch [s0, s1] along `along`.
 struct Line {
   int id = -1;
-  Vector2d m, along;
+  Vector2d m = Vector2d::UnitX(), along = Vector2d::UnitY();
   double e = 0.0, s0 = 0.0, s1 = 0.0;
   double support = 0.0;  ///< m of the cluster's border on it
 
@@ -76,29 +78,38 @@ struct Scene {
   std::vector<Line> walls;
 };
 
-/// The best-supported opposed pair around the cluster, perpendicular to `axis` where one is given.
-std::optional<Pair> best_pair(const Scene& scene, const std::optional<Vector2d>& axis) {
+/// Opposed pairs around the cluster, perpendicular to `axis` where one is given; by falling support, ties: lower ids.
+std::vector<Pair> opposed_pairs(const Scene& scene, const std::optional<Vector2d>& axis) {
   const RoomConfig& config = scene.config;
-  std::optional<Pair> best;
+  const Vector2d& center = scene.cluster.center_M;
+  std::vector<Pair> pairs;
   for (std::size_t i = 0; i < scene.walls.size(); ++i)
     for (std::size_t j = i + 1; j < scene.walls.size(); ++j) {
       const Pair pair{scene.walls[i], scene.walls[j]};
-      if (best && pair.support() <= best->support()) continue;
       if (pair.a.m.dot(pair.b.m) > -std::cos(config.opposed_deg * rad)) continue;
       if (axis && std::abs(axis->dot(pair.across())) > std::sin(config.perpendicular_deg * rad)) continue;
-      if (pair.a.distance(scene.cluster.center_M) <= 0.0 || pair.b.distance(scene.cluster.center_M) <= 0.0) continue;
-      if (pair.width_at(scene.cluster.center_M) < config.min_width_m) continue;
-      if (share_between(pair, scene.grid, scene.cluster, config.slack_m) < config.inside_share) continue;
-      best = pair;
+      if (pair.a.distance(center) <= 0.0 || pair.b.distance(center) <= 0.0) continue;
+      if (pair.width_at(center) < config.min_width_m) continue;
+      pairs.push_back(pair);
     }
-  return best;
+  std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) { return a.support() > b.support(); });
+  return pairs;
 }
 
-/// Free share of a polygon, counting the cluster's own cells only.
-double fill_of(const Polygon2& polygon, const FreeGrid& grid, const Cluster& cluster) {
-  std::size_t inside = 0;
-  for (const std::size_t k : cluster.cells)
-    if (contains(polygon, grid.frame.center(k))) ++inside;
+/// The best-supported of them that has the cluster between its walls.
+std::optional<Pair> best_pair(const Scene& scene, const std::optional<Vector2d>& axis) {
+  for (const Pair& pair : opposed_pairs(scene, axis))
+    if (share_between(pair, scene.grid, scene.cluster, scene.config.slack_m) >= scene.config.inside_share) return pair;
+  return {};
+}
+
+/// Free share of the polygon that four lines cut out, counting the cluster's own cells only.
+double fill_of(const Polygon2& polygon, const std::array<Line, 4>& sides, const FreeGrid& grid,
+               const Cluster& cluster) {
+  const auto inside = std::count_if(cluster.cells.begin(), cluster.cells.end(), [&](std::size_t k) {
+    const Vector2d p = grid.frame.center(k);
+    return std::all_of(sides.begin(), sides.end(), [&](const Line& side) { return side.distance(p) > 0.0; });
+  });
   return static_cast<double>(inside) * grid.frame.cell * grid.frame.cell / std::abs(signed_area(polygon));
 }
 
@@ -124,7 +135,7 @@ std::optional<RoomCandidate> four_walls(const Scene& scene, const Pair& x, const
   const double wx = x.width_at(room.center_M), wy = y.width_at(room.center_M);
   const double share = scene.config.min_side_share;
   if (std::min(x.a.support, x.b.support) < share * wy || std::min(y.a.support, y.b.support) < share * wx) return {};
-  room.fill = fill_of(room.polygon_M, scene.grid, scene.cluster);
+  room.fill = fill_of(room.polygon_M, {x.a, x.b, y.a, y.b}, scene.grid, scene.cluster);
   if (room.fill < scene.config.min_fill) return {};
   return room;
 }
@@ -152,7 +163,7 @@ std::optional<RoomCandidate> two_walls(const Scene& scene, const Pair& pair) {
   room.polygon_M = counter_clockwise({meet(pair.a, start), meet(pair.b, start), meet(pair.b, end), meet(pair.a, end)});
   room.center_M = 0.25 * (room.polygon_M[0] + room.polygon_M[1] + room.polygon_M[2] + room.polygon_M[3]);
   room.cluster_M = room.center_M;
-  room.fill = fill_of(room.polygon_M, scene.grid, scene.cluster);
+  room.fill = fill_of(room.polygon_M, {pair.a, pair.b, start, end}, scene.grid, scene.cluster);
   if (room.fill < scene.config.min_fill) return {};
   return room;
 }

@@ -24,8 +24,8 @@ void walk(const GridFrame& frame, const Eigen::Vector2d& a, const Eigen::Vector2
   }
 }
 
-/// Turns components of non-free cells that touch no border and are smaller than max_cells into free space.
-void fill_islands(FreeGrid& grid, std::size_t max_cells) {
+/// Turns components of non-free cells that touch no border and fit into a square of max_cells into free space.
+void fill_islands(FreeGrid& grid, int max_cells) {
   const GridFrame& f = grid.frame;
   std::vector<std::uint8_t> seen(f.size(), 0);
   std::vector<std::size_t> component;
@@ -34,9 +34,12 @@ void fill_islands(FreeGrid& grid, std::size_t max_cells) {
     component.assign(1, start);
     seen[start] = 1;
     bool inside = true;
+    Eigen::Array2i low(f.nx, f.ny), high(0, 0);
     for (std::size_t k = 0; k < component.size(); ++k) {
       const int i = static_cast<int>(component[k] % static_cast<std::size_t>(f.nx));
       const int j = static_cast<int>(component[k] / static_cast<std::size_t>(f.nx));
+      low = low.min(Eigen::Array2i(i, j));
+      high = high.max(Eigen::Array2i(i, j));
       if (i == 0 || j == 0 || i + 1 == f.nx || j + 1 == f.ny) {
         inside = false;
         continue;
@@ -47,7 +50,7 @@ void fill_islands(FreeGrid& grid, std::size_t max_cells) {
         component.push_back(n);
       }
     }
-    if (inside && component.size() <= max_cells)
+    if (inside && (high - low).maxCoeff() < max_cells)
       for (const std::size_t c : component) grid.free[c] = 1;
   }
 }
@@ -120,7 +123,7 @@ void FreeSpaceMap::clear() {
 FreeGrid FreeSpaceMap::grid() const {
   FreeGrid grid{frame_, std::vector<std::uint8_t>(frame_.size(), 0)};
   for (std::size_t k = 0; k < grid.free.size(); ++k) grid.free[k] = passed_[k] > 0 && passed_[k] >= 2 * ended_[k];
-  fill_islands(grid, static_cast<std::size_t>(config_.island_area_m2 / (frame_.cell * frame_.cell)));
+  fill_islands(grid, static_cast<int>(std::lround(config_.island_m / frame_.cell)));
   return grid;
 }
 

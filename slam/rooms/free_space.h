@@ -17,7 +17,8 @@ struct FreeSpaceConfig {
   double height_low_m = 0.3;      ///< above the floor
   double height_high_m = 1.8;     ///< below a door's lintel
   double sensor_height_m = 0.66;  ///< above the floor, from the calibration
-  double island_area_m2 = 1.0;    ///< obstacles not joined to a wall and smaller than this do not shape rooms
+  double island_m = 0.8;  ///< free-standing obstacles within a square of this side (columns) do not shape rooms; a
+                          ///< wall between two doors is longer
 
   template <class V>
   void visit(V& v) {
@@ -26,7 +27,7 @@ struct FreeSpaceConfig {
     v("azimuths", azimuths, Field{.doc = "free rays of a scan", .min = 90});
     v("height_low_m", height_low_m, Field{.doc = "of a free ray's end, above the floor"});
     v("height_high_m", height_high_m, Field{.doc = "of a free ray's end, above the floor"});
-    v("island_area_m2", island_area_m2, Field{.doc = "smaller free-standing obstacles are ignored", .min = 0});
+    v("island_m", island_m, Field{.doc = "smaller free-standing obstacles are ignored", .min = 0});
   }
 };
 

@@ -9,11 +9,6 @@ namespace plumbline::slam {
 
 namespace {
 
-/// Height of a horizontal plane under or over (x, y).
-double height_at(const Plane& plane, const Eigen::Vector2d& p) {
-  return -(plane.d + plane.n.head<2>().dot(p)) / plane.n.z();
-}
-
 struct WidePair {
   Eigen::Vector2d across;
   double middle = 0.0;  ///< along `across`
@@ -40,14 +35,6 @@ std::optional<WidePair> widest_pair(std::span<const PlaneNode> walls, const std:
   return best;
 }
 
-int floor_plane_of(const Graph& graph, int storey) {
-  for (std::size_t id = 0; id < graph.planes.size(); ++id)
-    if (graph.planes[id].kind == PlaneKind::floor && graph.planes[id].storey == storey &&
-        graph.planes[id].merged_into < 0)
-      return static_cast<int>(id);
-  return -1;
-}
-
 /// The storey's floor vertex, made on first use.
 int floor_vertex_of(Graph& graph, int storey, const Eigen::Vector2d& center_M) {
   for (std::size_t id = 0; id < graph.floors.size(); ++id)
@@ -57,6 +44,18 @@ int floor_vertex_of(Graph& graph, int storey, const Eigen::Vector2d& center_M) {
 }
 
 }  // namespace
+
+double height_at(const Plane& plane, const Eigen::Vector2d& p) {
+  return -(plane.d + plane.n.head<2>().dot(p)) / plane.n.z();
+}
+
+int floor_plane_of(const Graph& graph, int storey) {
+  for (std::size_t id = 0; id < graph.planes.size(); ++id)
+    if (graph.planes[id].kind == PlaneKind::floor && graph.planes[id].storey == storey &&
+        graph.planes[id].merged_into < 0)
+      return static_cast<int>(id);
+  return -1;
+}
 
 int storey_of(const Graph& graph, const Pose& X_MR, std::span<const PlaneObservation> seen,
               const FloorLayerConfig& config) {

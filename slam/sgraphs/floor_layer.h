@@ -31,6 +31,11 @@ struct FloorLayerConfig {
 [[nodiscard]] int storey_of(const Graph& graph, const Pose& X_MR, std::span<const PlaneObservation> seen,
                             const FloorLayerConfig& config);
 
+/// Vertex of a storey's floor plane (ties: lower id), or -1.
+[[nodiscard]] int floor_plane_of(const Graph& graph, int storey);
+/// Height of a horizontal plane at (x, y), m.
+[[nodiscard]] double height_at(const Plane& plane, const Eigen::Vector2d& p);
+
 /// The floor layer [S-Graphs+ sections IV-D, V]: a floor's centre lies midway between the widest opposed pairs of its
 /// walls; every room is tied to it [eq. 9].
 class FloorLayer {

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "slam/graph/factors.h"
+#include "slam/sgraphs/floor_layer.h"
 
 namespace plumbline::slam {
 
@@ -147,11 +148,16 @@ std::vector<PlaneNode> WallLayer::extents(const Graph& graph) const {
 }
 
 std::vector<PlaneNode> WallLayer::walls(const Graph& graph, int storey) const {
+  const int floor = floor_plane_of(graph, storey);
   std::vector<PlaneNode> walls;
   for (const PlaneNode& node : extents(graph)) {
     const PlaneVertex& plane = graph.planes[static_cast<std::size_t>(node.id)];
     if (plane.kind != PlaneKind::wall || plane.storey != storey) continue;
     if (node.observations < config_.min_observations || (node.p1 - node.p0).norm() < config_.min_length_m) continue;
+    if (floor >= 0) {
+      const Plane& floor_M = graph.planes[static_cast<std::size_t>(floor)].plane_M;
+      if (node.z1 - height_at(floor_M, middle(node)) < config_.min_top_m) continue;
+    }
     walls.push_back(node);
   }
   return walls;

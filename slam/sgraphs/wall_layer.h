@@ -18,13 +18,14 @@ struct WallLayerConfig {
   double max_gap_m = 1.0;             ///< between an observation and the known stretch of its wall
   double floor_offset_m = 0.25;       ///< a floor or ceiling this near and ...
   double floor_angle_rad = 0.08;      ///< ... this level is the storey's
-  int min_observations = 3;           ///< of a wall that shapes rooms and is reported
+  int min_observations = 4;           ///< of a wall that shapes rooms and is reported
+  double min_top_m = 1.3;             ///< above the floor up to which a wall must be seen; lower faces are furniture
   double min_length_m = 0.5;          ///< of a wall that is reported
   double duplicate_offset_m = 0.12;   ///< two faces of one side this near ...
   double duplicate_angle_rad = 0.04;  ///< ... and this parallel cannot both be seen
   double duplicate_overlap = 0.5;     ///< of the shorter one's length and height
-  double merge_offset_m = 0.02;       ///< duplicates that the graph has pulled this near ...
-  double merge_angle_rad = 0.01;      ///< ... become one
+  double merge_offset_m = 0.06;       ///< duplicates that the graph has pulled this near ...
+  double merge_angle_rad = 0.025;     ///< ... become one
 
   template <class V>
   void visit(V& v) {
@@ -37,6 +38,7 @@ struct WallLayerConfig {
     v("floor_offset_m", floor_offset_m, Field{.doc = "of a floor observation to its storey's floor", .min = 0});
     v("floor_angle_rad", floor_angle_rad, Field{.doc = "of a floor observation to its storey's floor", .min = 0});
     v("min_observations", min_observations, Field{.doc = "of a wall that counts", .min = 1});
+    v("min_top_m", min_top_m, Field{.doc = "of a wall above the floor", .min = 0});
     v("min_length_m", min_length_m, Field{.doc = "of a wall that counts", .min = 0});
     v("duplicate_offset_m", duplicate_offset_m, Field{.doc = "between two vertices of one face", .min = 0});
     v("duplicate_angle_rad", duplicate_angle_rad, Field{.doc = "between two vertices of one face", .min = 0});
@@ -59,7 +61,7 @@ class WallLayer {
 
   /// Every plane vertex with the union of its observations' extents; index = id. Merged planes have 0 observations.
   [[nodiscard]] std::vector<PlaneNode> extents(const Graph& graph) const;
-  /// The walls of a storey that count: seen often and long enough.
+  /// The walls of a storey that count: seen often, long and high enough.
   [[nodiscard]] std::vector<PlaneNode> walls(const Graph& graph, int storey) const;
 
   /// Adds a duplicate factor for each pair of one face that has none yet; true when one was added.

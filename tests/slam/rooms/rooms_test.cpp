@@ -51,10 +51,10 @@ TEST(Clusters, ADoorSplitsAndANarrowCorridorIsKept) {
   EXPECT_NEAR(found[1].area_m2, 14.0, 0.8);
 }
 
-TEST(Clusters, SmallIslandsDoNotSplitARoom) {
+/// Free space after a walk round `solid` in the middle of a 6 x 4 m room.
+template <class Solid>
+FreeGrid walk_round(Solid solid) {
   FreeSpaceMap map{FreeSpaceConfig{}};
-  // Rays from a walk round a column of 0.4 m in the middle of a 6 x 4 m room.
-  const auto column = [](const Eigen::Vector2d& p) { return in_box(p, -0.2, -0.2, 0.2, 0.2); };
   for (int k = 0; k < 24; ++k) {
     const double a = 2.0 * std::numbers::pi * k / 24.0;
     FreeRays rays;
@@ -63,13 +63,24 @@ TEST(Clusters, SmallIslandsDoNotSplitARoom) {
       const double b = std::numbers::pi * r / 360.0;
       Eigen::Vector2d p = rays.origin_R.head<2>();
       const Eigen::Vector2d step = 0.02 * Eigen::Vector2d(std::cos(b), std::sin(b));
-      while (in_box(p, -3, -2, 3, 2) && !column(p)) p += step;
+      while (in_box(p, -3, -2, 3, 2) && !solid(p)) p += step;
       rays.end_R.emplace_back(p.x(), p.y(), 0.0);
       rays.hit.push_back(true);
     }
     map.carve(rays, Pose{});
   }
-  const std::vector<Cluster> found = clusters(map.grid(), {});
+  return map.grid();
+}
+
+TEST(Clusters, AWallBetweenTwoDoorsSplitsARoom) {
+  // 2 m of wall stand free between two doors of 1 m; their area is less than a column's of 0.8 m.
+  const FreeGrid grid = walk_round([](const auto& p) { return in_box(p, -0.1, -1, 0.1, 1); });
+  EXPECT_EQ(clusters(grid, {}).size(), 2U);
+}
+
+TEST(Clusters, SmallIslandsDoNotSplitARoom) {
+  const FreeGrid grid = walk_round([](const auto& p) { return in_box(p, -0.2, -0.2, 0.2, 0.2); });
+  const std::vector<Cluster> found = clusters(grid, {});
   ASSERT_EQ(found.size(), 1U);
   EXPECT_NEAR(found[0].area_m2, 24.0, 1.5);  // half a cell along a border of 20 m
 }
