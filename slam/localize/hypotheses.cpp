@@ -65,14 +65,15 @@ bool HypothesisSet::adopt(const PlanIndex& index, int storey, const Pose2& X_IH)
   if (find(storey, refined.X_IH, config_.match_m, config_.match_rad) >= 0) return false;
   Candidate candidate{next_id_, storey, refined.X_IH, refined.covariance, 0.0, 0.0, {}};
   candidate.agreement = agreement(tables, refined.X_IH, view, likelihood_, refine_);
-  candidate.evidence = replay(tables, refined.X_IH);
+  candidate.evidence = replay(tables, refined.X_IH, index.config.body_height_m);
   if (!candidates_.empty()) {
     // Judged over the kept views against the best, then set off from the best's whole account.
     const Candidate& best = candidates_[static_cast<std::size_t>(
         std::max_element(candidates_.begin(), candidates_.end(),
                          [](const Candidate& a, const Candidate& b) { return a.evidence < b.evidence; }) -
         candidates_.begin())];
-    const double best_window = replay(index.storeys[static_cast<std::size_t>(best.storey)], best.X_IH);
+    const double best_window =
+        replay(index.storeys[static_cast<std::size_t>(best.storey)], best.X_IH, index.config.body_height_m);
     candidate.evidence += best.evidence - best_window;
     if (candidate.evidence < best.evidence - config_.drop_ratio) return false;
   }
@@ -143,13 +144,15 @@ void HypothesisSet::clear() {
   history_.clear();
 }
 
-double HypothesisSet::replay(const StoreyIndex& storey, const Pose2& X_IH) const {
+double HypothesisSet::replay(const StoreyIndex& storey, const Pose2& X_IH, double body_height) const {
   Pose2 X = X_IH;
   double sum = 0.0;
   for (auto step = history_.rbegin(); step != history_.rend(); ++step) {
     X = refine(storey, X, step->view, likelihood_, refine_).X_IH;
     sum += beam_log_likelihood(storey, X, step->view, 1, likelihood_);
-    X = X * step->u.inverse();
+    const Pose2 before = X * step->u.inverse();
+    if (walks_through_wall(storey, before, X, body_height)) sum -= config_.crossing_cost;
+    X = before;
   }
   return sum;
 }

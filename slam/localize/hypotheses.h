@@ -64,7 +64,7 @@ class HypothesisSet {
     View view;
   };
   /// Log-likelihood of the kept views along the odometry back from the pose at the last one.
-  [[nodiscard]] double replay(const StoreyIndex& storey, const Pose2& X_IH) const;
+  [[nodiscard]] double replay(const StoreyIndex& storey, const Pose2& X_IH, double body_height) const;
   [[nodiscard]] int find(int storey, const Pose2& X_IH, double near_m, double near_rad) const;
 
   HypothesisConfig config_;

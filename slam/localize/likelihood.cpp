@@ -19,43 +19,70 @@ double difference(double a, double b) {
   return d > pi ? d - 2.0 * pi : d <= -pi ? d + 2.0 * pi : d;
 }
 
-/// Squared Mahalanobis distance of an observed wall to a line, or infinity where it does not fit.
-double mismatch(const WallView& wall, const WallLine& line, double azimuth_H, const Eigen::Vector2d& sensor_I,
-                double inverse_var_azimuth, double inverse_var_distance, const LikelihoodConfig& config) {
+/// A line of the plan as the sensor at one pose would see it.
+struct ExpectedWall {
+  double azimuth_H, distance, foot, length;
+};
+
+/// Squared Mahalanobis distance of an observed wall to an expected one, infinity where it does not fit.
+double mismatch(const WallView& wall, const ExpectedWall& expected, double inverse_var_azimuth,
+                double inverse_var_distance, const LikelihoodConfig& config) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  const double distance = line.n.dot(sensor_I) + line.d;
-  const double e_azimuth = difference(wall.azimuth, azimuth_H);
-  if (distance <= 0.0 || std::abs(e_azimuth) > config.azimuth_gate) return infinity;
-  const double foot = line.e.dot(sensor_I - line.a);
+  const double e_azimuth = difference(wall.azimuth, expected.azimuth_H);
+  if (std::abs(e_azimuth) > config.azimuth_gate) return infinity;
   const double margin = config.overlap_margin_m;
-  const double overlap = std::min(foot + wall.s1, line.length + margin) - std::max(foot + wall.s0, -margin);
+  const double overlap =
+      std::min(expected.foot + wall.s1, expected.length + margin) - std::max(expected.foot + wall.s0, -margin);
   if (overlap < config.overlap_min * (wall.s1 - wall.s0)) return infinity;
-  const double e_distance = wall.distance - distance;
+  const double e_distance = wall.distance - expected.distance;
   return e_azimuth * e_azimuth * inverse_var_azimuth + e_distance * e_distance * inverse_var_distance;
+}
+
+/// Variances of each observed wall's residual.
+struct WallVariances {
+  std::array<double, max_walls> azimuth, distance;
+};
+
+WallVariances variances(const View& view, const LikelihoodConfig& config) {
+  WallVariances v{};
+  for (std::size_t i = 0; i < view.walls.size(); ++i) {
+    const WallView& wall = view.walls[i];
+    v.azimuth[i] = wall.sigma_azimuth * wall.sigma_azimuth + config.azimuth_sigma * config.azimuth_sigma;
+    v.distance[i] = wall.sigma_distance * wall.sigma_distance + config.distance_sigma_m * config.distance_sigma_m;
+  }
+  return v;
+}
+
+/// Smallest mismatch of each observed wall over the lines seen from the sensor's cell.
+std::array<double, max_walls> best_mismatch(const StoreyIndex& storey, const Pose2& X_IH, const View& view,
+                                            const WallVariances& v, const LikelihoodConfig& config) {
+  std::array<double, max_walls> best;
+  best.fill(std::numeric_limits<double>::infinity());
+  const Eigen::Vector2d sensor_I = X_IH * view.sensor_H;
+  const int cell = storey.grid.cell_at(sensor_I);
+  if (cell < 0) return best;
+  for (const int i : storey.visible[static_cast<std::size_t>(cell)]) {
+    const WallLine& line = storey.lines[static_cast<std::size_t>(i)];
+    const ExpectedWall expected{difference(line.azimuth, X_IH.yaw), line.n.dot(sensor_I) + line.d,
+                                line.e.dot(sensor_I - line.a), line.length};
+    if (expected.distance <= 0.0) continue;
+    for (std::size_t k = 0; k < view.walls.size(); ++k)
+      best[k] = std::min(best[k], mismatch(view.walls[k], expected, 1.0 / v.azimuth[k], 1.0 / v.distance[k], config));
+  }
+  return best;
 }
 
 }  // namespace
 
 double wall_log_likelihood(const StoreyIndex& storey, const Pose2& X_IH, const View& view,
                            const LikelihoodConfig& config) {
-  const Eigen::Vector2d sensor_I = X_IH * view.sensor_H;
-  const int cell = storey.grid.cell_at(sensor_I);
+  const WallVariances v = variances(view, config);
+  const std::array<double, max_walls> best = best_mismatch(storey, X_IH, view, v, config);
   const double outlier = config.plane_outlier / (4.0 * config.azimuth_gate * config.distance_gate_m);
   double sum = 0.0;
-  for (const WallView& wall : view.walls) {
-    const double var_azimuth = wall.sigma_azimuth * wall.sigma_azimuth + config.azimuth_sigma * config.azimuth_sigma;
-    const double var_distance =
-        wall.sigma_distance * wall.sigma_distance + config.distance_sigma_m * config.distance_sigma_m;
-    double best = std::numeric_limits<double>::infinity();
-    if (cell >= 0) {
-      for (const int i : storey.visible[static_cast<std::size_t>(cell)]) {
-        const WallLine& line = storey.lines[static_cast<std::size_t>(i)];
-        const double azimuth_H = wrap_angle(line.azimuth - X_IH.yaw);
-        best = std::min(best, mismatch(wall, line, azimuth_H, sensor_I, 1.0 / var_azimuth, 1.0 / var_distance, config));
-      }
-    }
-    const double peak = (1.0 - config.plane_outlier) / (2.0 * pi * std::sqrt(var_azimuth * var_distance));
-    sum += std::log(outlier + (best < 100.0 ? peak * std::exp(-0.5 * best) : 0.0));
+  for (std::size_t k = 0; k < view.walls.size(); ++k) {
+    const double peak = (1.0 - config.plane_outlier) / (2.0 * pi * std::sqrt(v.azimuth[k] * v.distance[k]));
+    sum += std::log(outlier + (best[k] < 100.0 ? peak * std::exp(-0.5 * best[k]) : 0.0));
   }
   return config.plane_weight * sum;
 }

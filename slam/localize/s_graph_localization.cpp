@@ -9,6 +9,7 @@
 #include "slam/io/stopwatch.h"
 #include "slam/localize/seen_walls.h"
 #include "slam/localize/trail.h"
+#include "slam/odometry/map_cloud.h"
 
 namespace plumbline::slam {
 
@@ -41,7 +42,8 @@ class SGraphLocalization final : public Method {
       : config_(config),
         input_(input),
         index_(make_plan_index(*input.plan, input.prior.storey, config.index)),
-        search_(config.search, input.seed) {}
+        search_(config.search, input.seed),
+        cloud_(config.map) {}
 
   void on_odometry(const Odometry& odometry) override { motion_.add(odometry); }
   [[nodiscard]] Output on_scan(const Scan& scan) override;
@@ -74,6 +76,8 @@ class SGraphLocalization final : public Method {
   std::optional<Pose> X_IO_last_;  ///< of the last tracking, also after it was lost
   Trail trail_;
   SeenWalls seen_;
+  MapCloudRecorder cloud_;  ///< in O until the end
+  std::vector<Nanoseconds> cloud_stamps_;
 };
 
 Output SGraphLocalization::on_scan(const Scan& scan) {
@@ -84,6 +88,7 @@ Output SGraphLocalization::on_scan(const Scan& scan) {
   if (!X_OR_start_) X_OR_start_ = X_OR;
   if (is_due(X_OR)) {
     const DeskewedScan deskewed = deskew(scan, motion_, input_.calibration);
+    if (cloud_.add(deskewed, X_OR)) cloud_stamps_.push_back(scan.stamp);
     note("deskew", watch, output);
     const std::vector<PlaneObservation> planes = detect_planes(deskewed, config_.planes);  // [BIM-Loc eq. 3]
     const View view = make_view(deskewed, planes, X_OR, input_.calibration, config_.view);
@@ -221,12 +226,14 @@ Estimate SGraphLocalization::finish() {
   Estimate estimate;
   estimate.frame = Frame::world;
   if (tracker_) keep({tracker_->window().begin(), tracker_->window().end()});
+  if (trail_.empty()) return estimate;
   estimate.trajectory = trail_.poses(index_.X_WI);
-  if (!trail_.empty()) {
-    estimate.planes = seen_.planes(index_.X_WI);
-    const StoreyIndex& storey = tracker_ ? tracker_->storey() : index_.storeys.front();
-    estimate.rooms = seen_.rooms(storey, index_.X_WI);
-  }
+  estimate.planes = seen_.planes(index_.X_WI);
+  estimate.rooms = seen_.rooms(index_.X_WI);
+  std::vector<CloudKeyframe> keyframes(cloud_.keyframes().begin(), cloud_.keyframes().end());
+  for (std::size_t i = 0; i < keyframes.size(); ++i)
+    keyframes[i].X_FR = index_.X_WI * (trail_.correction_at(cloud_stamps_[i], keyframes[i].X_FR) * keyframes[i].X_FR);
+  estimate.map_F = map_cloud(keyframes, config_.map);
   return estimate;
 }
 

@@ -6,6 +6,7 @@
 #include "slam/io/method.h"
 #include "slam/localize/search.h"
 #include "slam/localize/tracker.h"
+#include "slam/odometry/map_cloud.h"
 
 namespace plumbline::slam {
 
@@ -19,6 +20,7 @@ struct LocalizationConfig {
   PlanIndexConfig index;
   SearchConfig search;
   TrackerConfig tracker;
+  MapCloudConfig map;
 };
 
 /// Localization in an architectural plan from an unknown position: a particle filter on the plan's walls and rooms

@@ -15,24 +15,36 @@ constexpr int visits_min = 3;
 }  // namespace
 
 void SeenWalls::add(const StoreyIndex& storey, const TrackedPose& pose) {
-  room_visits_.resize(storey.rooms.size(), 0);
-  if (pose.room >= 0) ++room_visits_[static_cast<std::size_t>(pose.room)];
-  for (const WallLink& link : pose.walls) {
-    auto wall = std::find_if(walls_.begin(), walls_.end(), [&](const Wall& w) { return w.line == link.line; });
-    const WallLine& planned = storey.lines[static_cast<std::size_t>(link.line)];
-    const Eigen::Vector3d p0_I = pose.X_IR * link.observed.p0_R, p1_I = pose.X_IR * link.observed.p1_R;
-    const double a = planned.e.dot(p0_I.head<2>() - planned.a), b = planned.e.dot(p1_I.head<2>() - planned.a);
-    const double z0 = pose.X_IR.t.z() + link.observed.z0, z1 = pose.X_IR.t.z() + link.observed.z1;
-    if (wall == walls_.end())
-      wall = walls_.insert(walls_.end(), {link.line, planned, 0.0, std::min(a, b), std::max(a, b), z0, z1, 0});
-    const Eigen::Vector3d center_I = pose.X_IR * link.observed.centroid_R;
-    wall->offset_sum += planned.n.dot(center_I.head<2>()) + planned.d;
-    wall->s0 = std::min({wall->s0, a, b});
-    wall->s1 = std::max({wall->s1, a, b});
-    wall->z0 = std::min(wall->z0, z0);
-    wall->z1 = std::max(wall->z1, z1);
-    ++wall->observations;
-  }
+  if (pose.room >= 0) add_room(storey.rooms[static_cast<std::size_t>(pose.room)]);
+  for (const WallLink& link : pose.walls) add_wall(storey, pose, link);
+}
+
+void SeenWalls::add_room(const IndexRoom& room) {
+  const auto known =
+      std::find_if(rooms_.begin(), rooms_.end(), [&](const Room& r) { return r.plan_room == room.plan_room; });
+  if (known == rooms_.end())
+    rooms_.push_back({room.plan_room, room.polygon, 1});
+  else
+    ++known->visits;
+}
+
+void SeenWalls::add_wall(const StoreyIndex& storey, const TrackedPose& pose, const WallLink& link) {
+  const WallLine& planned = storey.lines[static_cast<std::size_t>(link.line)];
+  const Eigen::Vector3d p0_I = pose.X_IR * link.observed.p0_R, p1_I = pose.X_IR * link.observed.p1_R;
+  const double a = planned.e.dot(p0_I.head<2>() - planned.a), b = planned.e.dot(p1_I.head<2>() - planned.a);
+  const double z0 = pose.X_IR.t.z() + link.observed.z0, z1 = pose.X_IR.t.z() + link.observed.z1;
+  auto wall = std::find_if(walls_.begin(), walls_.end(),
+                           [&](const Wall& w) { return w.plan_storey == storey.plan_storey && w.line == link.line; });
+  if (wall == walls_.end())
+    wall = walls_.insert(walls_.end(),
+                         {storey.plan_storey, link.line, planned, 0.0, std::min(a, b), std::max(a, b), z0, z1, 0});
+  const Eigen::Vector3d center_I = pose.X_IR * link.observed.centroid_R;
+  wall->offset_sum += planned.n.dot(center_I.head<2>()) + planned.d;
+  wall->s0 = std::min({wall->s0, a, b});
+  wall->s1 = std::max({wall->s1, a, b});
+  wall->z0 = std::min(wall->z0, z0);
+  wall->z1 = std::max(wall->z1, z1);
+  ++wall->observations;
 }
 
 std::vector<PlaneNode> SeenWalls::planes(const Pose& X_WI) const {
@@ -58,13 +70,13 @@ std::vector<PlaneNode> SeenWalls::planes(const Pose& X_WI) const {
   return nodes;
 }
 
-std::vector<RoomNode> SeenWalls::rooms(const StoreyIndex& storey, const Pose& X_WI) const {
+std::vector<RoomNode> SeenWalls::rooms(const Pose& X_WI) const {
   std::vector<RoomNode> nodes;
-  for (std::size_t i = 0; i < room_visits_.size(); ++i) {
-    if (room_visits_[i] < visits_min) continue;
+  for (const Room& room : rooms_) {
+    if (room.visits < visits_min) continue;
     RoomNode node;
     node.id = static_cast<int>(nodes.size());
-    for (const Eigen::Vector2d& p_I : storey.rooms[i].polygon)
+    for (const Eigen::Vector2d& p_I : room.polygon)
       node.polygon_F.push_back((X_WI * Eigen::Vector3d(p_I.x(), p_I.y(), 0.0)).head<2>());
     if (signed_area(node.polygon_F) < 0.0) std::reverse(node.polygon_F.begin(), node.polygon_F.end());
     node.center_F = centroid(node.polygon_F);

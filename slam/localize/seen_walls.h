@@ -17,19 +17,28 @@ class SeenWalls {
 
   /// Faces in W, by first sighting.
   [[nodiscard]] std::vector<PlaneNode> planes(const Pose& X_WI) const;
-  /// Rooms entered, in W, in the order of the plan.
-  [[nodiscard]] std::vector<RoomNode> rooms(const StoreyIndex& storey, const Pose& X_WI) const;
+  /// Rooms entered, in W, by first entry; their outline is the plan's.
+  [[nodiscard]] std::vector<RoomNode> rooms(const Pose& X_WI) const;
 
  private:
   struct Wall {
+    int plan_storey = -1;
     int line = -1;
     WallLine planned;
     double offset_sum = 0.0;  ///< of the face seen from the face planned, along the normal
     double s0 = 0.0, s1 = 0.0, z0 = 0.0, z1 = 0.0;
     int observations = 0;
   };
+  struct Room {
+    int plan_room = -1;
+    Polygon2 polygon;
+    int visits = 0;
+  };
+  void add_wall(const StoreyIndex& storey, const TrackedPose& pose, const WallLink& link);
+  void add_room(const IndexRoom& room);
+
   std::vector<Wall> walls_;
-  std::vector<int> room_visits_;
+  std::vector<Room> rooms_;
 };
 
 }  // namespace plumbline::slam

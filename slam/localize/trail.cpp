@@ -1,25 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slam/localize/trail.h"
 
+#include <algorithm>
+
 namespace plumbline::slam {
+
+Pose Trail::correction_at(Nanoseconds stamp, const Pose& X_OR) const {
+  const auto after = std::lower_bound(corrections_.begin(), corrections_.end(), stamp,
+                                      [](const StampedPose& c, Nanoseconds t) { return c.stamp < t; });
+  if (after == corrections_.end()) return corrections_.back().X_FR;
+  if (after == corrections_.begin()) return after->X_FR;
+  const auto before = after - 1;
+  const double s = static_cast<double>(stamp - before->stamp) / static_cast<double>(after->stamp - before->stamp);
+  // Interpolated at the robot: O's origin may be far, and turning about it would swing the pose.
+  return interpolate(before->X_FR * X_OR, after->X_FR * X_OR, s) * X_OR.inverse();
+}
 
 std::vector<StampedPose> Trail::poses(const Pose& X_WI) const {
   std::vector<StampedPose> poses;
   if (corrections_.empty()) return poses;
-  std::size_t next = 0;
-  for (const StampedPose& scan : scans_) {
-    while (next < corrections_.size() && corrections_[next].stamp < scan.stamp) ++next;
-    Pose X_IO = corrections_[next == corrections_.size() ? next - 1 : next].X_FR;
-    if (next > 0 && next < corrections_.size()) {
-      const StampedPose& before = corrections_[next - 1];
-      const StampedPose& after = corrections_[next];
-      const double s = static_cast<double>(scan.stamp - before.stamp) / static_cast<double>(after.stamp - before.stamp);
-      // Interpolated at the robot: O's origin may be far, and turning about it would swing the pose.
-      poses.push_back({scan.stamp, X_WI * interpolate(before.X_FR * scan.X_FR, after.X_FR * scan.X_FR, s)});
-      continue;
-    }
-    poses.push_back({scan.stamp, X_WI * (X_IO * scan.X_FR)});
-  }
+  for (const StampedPose& scan : scans_)
+    poses.push_back({scan.stamp, X_WI * (correction_at(scan.stamp, scan.X_FR) * scan.X_FR)});
   return poses;
 }
 

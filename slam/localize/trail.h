@@ -17,6 +17,8 @@ class Trail {
   /// X_WR at every scan: the correction interpolated between the nearest ones, held before the first (which carries
   /// the pose found back to the start) and after the last. Empty when there is no correction.
   [[nodiscard]] std::vector<StampedPose> poses(const Pose& X_WI) const;
+  /// X_IO at one time, for the robot at X_OR. Needs a correction.
+  [[nodiscard]] Pose correction_at(Nanoseconds stamp, const Pose& X_OR) const;
 
  private:
   std::vector<StampedPose> scans_;

@@ -89,7 +89,7 @@ View make_view(const DeskewedScan& scan, const std::vector<PlaneObservation>& pl
   const std::optional<double> height_R = height_over_floor(planes, view.q_HR, config.floor_max_tilt_rad);
   view.sensor_height = height_R ? *height_R + sensor_H.z() : calibration.sensor_height_m;
   view.beams = pick_beams(scan, view, config);
-  for (std::size_t i = 0; i < planes.size(); ++i) {
+  for (std::size_t i = 0; i < planes.size() && view.walls.size() < max_walls; ++i) {
     std::optional<WallView> wall = wall_view(planes[i], view, scan.X_RL.t, config);
     if (!wall) continue;
     wall->observation = static_cast<int>(i);

@@ -38,6 +38,9 @@ struct WallView {
   int observation = -1;         ///< index into the observations it was made of
 };
 
+/// Most walls a view holds, so that the inner loops need no memory of their own.
+inline constexpr std::size_t max_walls = 32;
+
 /// What one scan says to the localization. The plan is met in the sensor's heading frame, not in W: a residual in W
 /// would grow with the distance from W's origin.
 struct View {
@@ -47,7 +50,7 @@ struct View {
   Eigen::Vector2d sensor_H = Eigen::Vector2d::Zero();  ///< position of L
   double sensor_height = 0.0;                          ///< of L above the floor, m
   std::vector<Beam> beams;                             ///< by azimuth of the sweep
-  std::vector<WallView> walls;                         ///< in the order of the observations
+  std::vector<WallView> walls;  ///< in the order of the observations (largest first), at most max_walls
 };
 
 /// Gravity comes from the odometry's attitude, the height from the floor plane where one is seen, else from the
