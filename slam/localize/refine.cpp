@@ -77,8 +77,8 @@ Agreement agreement(const StoreyIndex& storey, const Pose2& X_IH, const View& vi
     if (std::abs(residual.across) <= config.inlier_m) ++near;
     if (residual.across > config.inlier_m) ++through;
   }
-  const auto share = [](int part, int whole) { return whole > 0 ? static_cast<double>(part) / whole : 0.0; };
-  return {share(near, near + through), share(through, static_cast<int>(view.beams.size()))};
+  const double count = std::max<double>(1.0, static_cast<double>(view.beams.size()));
+  return {near / count, through / count};
 }
 
 }  // namespace plumbline::slam

@@ -28,8 +28,8 @@ struct Refined {
 
 /// How well one view agrees with the plan at a pose.
 struct Agreement {
-  double inliers = 0.0;  ///< share of beams within inlier_m of their face, of those not cut short
-  double through = 0.0;  ///< share of all beams that go through a face of the plan
+  double inliers = 0.0;  ///< share of beams that end within inlier_m of the face they should meet
+  double through = 0.0;  ///< share that goes through a face of the plan; the rest is cut short, by clutter or so
 };
 [[nodiscard]] Agreement agreement(const StoreyIndex& storey, const Pose2& X_IH, const View& view,
                                   const LikelihoodConfig& likelihood, const RefineConfig& config);
