@@ -24,7 +24,8 @@ using slam::Nanoseconds;
 constexpr int imu_every = 2;               ///< physics steps: 250 Hz
 constexpr int pose_every = 5;              ///< physics steps: 100 Hz, odometry and truth
 constexpr double start_clearance_m = 1.0;  ///< the floor is looked for below this height above the storey
-constexpr std::int64_t firings_per_message = slam::vlp16::firings_per_packet * slam::vlp16::packets_per_message;
+constexpr std::int64_t firings_per_message =
+    std::int64_t{slam::vlp16::firings_per_packet} * slam::vlp16::packets_per_message;
 
 double elevation(const bim::Building& building, int storey) {
   if (storey < 0 || static_cast<std::size_t>(storey) >= building.storeys.size())

@@ -49,6 +49,10 @@ class World {
   /// mesh is that of as_built; both must outlive the world. Throws InputError when the storey does not exist.
   World(const WorldConfig& config, const bim::Building& as_built, const bim::BuildingMesh& mesh);
   ~World();
+  World(const World&) = delete;
+  World& operator=(const World&) = delete;
+  World(World&&) = delete;
+  World& operator=(World&&) = delete;
 
   /// Advances to the end of the next LiDAR message. False when the route or the time is done (frame untouched).
   /// Throws ScenarioFailure on a fall or a stall.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 
 #include "bim/errors.h"
 
@@ -59,6 +60,7 @@ DataPtr make_data(const mjModel_& model) {
 
 std::vector<int> pool_geoms(const mjModel_& model, int box_pool) {
   std::vector<int> geoms;
+  geoms.reserve(static_cast<std::size_t>(box_pool));
   for (int i = 0; i < box_pool; ++i)
     geoms.push_back(mj_name2id(&model, mjOBJ_GEOM, ("pool" + std::to_string(i)).c_str()));
   return geoms;
@@ -66,9 +68,9 @@ std::vector<int> pool_geoms(const mjModel_& model, int box_pool) {
 
 void place_box(mjModel_& model, int geom, const Eigen::Vector3d& center_W, const Eigen::Vector4d& q_wxyz,
                const Eigen::Vector3d& half) {
-  std::copy_n(center_W.data(), 3, model.geom_pos + 3 * geom);
-  std::copy_n(q_wxyz.data(), 4, model.geom_quat + 4 * geom);
-  std::copy_n(half.data(), 3, model.geom_size + 3 * geom);
+  std::copy_n(center_W.data(), 3, model.geom_pos + std::ptrdiff_t{3} * geom);
+  std::copy_n(q_wxyz.data(), 4, model.geom_quat + std::ptrdiff_t{4} * geom);
+  std::copy_n(half.data(), 3, model.geom_size + std::ptrdiff_t{3} * geom);
   model.geom_rbound[geom] = half.norm();
   model.geom_sameframe[geom] = 0;  // a geom at its body's origin would otherwise keep its old pose
 }

@@ -30,7 +30,7 @@ struct RobotConfig {
   double fallen_height_m = 0.22;  ///< base above the ground
 };
 
-constexpr int base_body = 1;
+constexpr std::ptrdiff_t base_body = 1;
 constexpr int joint_qpos = 7;  ///< after the free joint's position and quaternion
 constexpr int joint_dof = 6;
 

@@ -42,6 +42,10 @@ class Robot {
   /// the terrain's height under the start.
   Robot(const Pose& X_WR_start, Terrain terrain, std::vector<CollisionBox> boxes);
   ~Robot();
+  Robot(const Robot&) = delete;
+  Robot& operator=(const Robot&) = delete;
+  Robot(Robot&&) = delete;
+  Robot& operator=(Robot&&) = delete;
 
   /// Advances by one physics step. Throws ScenarioFailure, with time and place, when the robot has fallen, and
   /// InternalError when more boxes than the pool holds are near or the physics breaks down.
