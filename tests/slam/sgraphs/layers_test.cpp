@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include "slam/graph/factors.h"
+#include "slam/sgraphs/floor_layer.h"
+#include "slam/sgraphs/wall_layer.h"
+#include "tests/slam/graph/random_values.h"
+
+namespace plumbline::slam {
+namespace {
+
+/// What a robot at X_MR sees of the stretch a-b of a wall whose free side lies left of a to b; z from 0 to 2.4 m above
+/// the floor, which is 0.5 m below R.
+PlaneObservation see(const Pose& X_MR, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  const Eigen::Vector2d n = Eigen::Vector2d(-(b - a).y(), (b - a).x()).normalized();
+  const Pose X_RM = X_MR.inverse();
+  PlaneObservation seen;
+  seen.plane_R = X_RM * Plane{{n.x(), n.y(), 0.0}, -n.dot(a)};
+  seen.covariance = Eigen::Vector3d(1e-5, 1e-4, 1e-4).asDiagonal();
+  seen.points = 1000;
+  seen.p0_R = X_RM * Eigen::Vector3d(a.x(), a.y(), 0.0);
+  seen.p1_R = X_RM * Eigen::Vector3d(b.x(), b.y(), 0.0);
+  seen.z0 = -0.5;
+  seen.z1 = 1.9;
+  seen.vertical = true;
+  return seen;
+}
+
+PlaneObservation see_floor(const Pose& X_MR, double height_M) {
+  PlaneObservation seen;
+  seen.plane_R = X_MR.inverse() * Plane{Eigen::Vector3d::UnitZ(), -height_M};
+  seen.covariance = Eigen::Vector3d(1e-5, 1e-5, 1e-4).asDiagonal();
+  return seen;
+}
+
+Graph at(const Pose& X_MR) {
+  Graph graph;
+  graph.keyframes.push_back({0, X_MR, X_MR, 0});
+  return graph;
+}
+
+/// The next keyframe, which sees `seen`; returns the plane ids.
+std::vector<int> step(Graph& graph, WallLayer& walls, const Pose& X_MR, const std::vector<PlaneObservation>& seen) {
+  const int storey = graph.keyframes.back().storey;
+  graph.keyframes.push_back({graph.keyframes.back().stamp + 1, X_MR, X_MR, storey});
+  return walls.observe(graph, seen, 1.0);
+}
+
+TEST(WallLayer, KnowsAWallAgainFromAnyPoseAndWithinTheDrift) {
+  for (std::uint64_t trial = 0; trial < 100; ++trial) {
+    RandomValues random(1, trial);
+    const double yaw = random.uniform(-3.0, 3.0);
+    const Pose X_MW = Pose::from_xyz_yaw(random.vector(10.0), yaw);
+    const auto in_M = [&](double x, double y) { return Eigen::Vector2d((X_MW * Eigen::Vector3d(x, y, 0)).head<2>()); };
+    const auto pose = [&](double x, double y, double a) { return X_MW * Pose::from_xyz_yaw({x, y, 0}, a); };
+    Graph graph = at(pose(1.0, 2.0, 0.3));
+    WallLayer walls({});
+    const std::vector<int> first = walls.observe(graph, std::vector{see(pose(1, 2, 0.3), in_M(0, 0), in_M(4, 0))}, 0);
+    // Truth and belief of the second pose differ by less than one sigma of the drift.
+    const Pose truth = pose(3.0, 1.5, -1.0);
+    const Pose belief = truth * Pose::from_xyz_yaw({0.015, 0.015, 0.0}, 0.003);
+    const std::vector<int> second = step(graph, walls, belief, {see(truth, in_M(2, 0), in_M(6, 0))});
+    EXPECT_EQ(first, second);
+    const PlaneNode node = walls.extents(graph).at(0);
+    EXPECT_EQ(node.observations, 2);
+    EXPECT_NEAR((node.p1 - node.p0).norm(), 6.0, 0.05);
+  }
+}
+
+TEST(WallLayer, KeepsApartWhatIsNotOneFace) {
+  const Pose X = Pose::from_xyz_yaw({2, 2, 0}, 0);
+  const Eigen::Vector2d a(0, 0), b(4, 0);
+  const std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> others = {
+      {{0, 0.4}, {4, 0.4}},      // parallel, 0.4 m in front
+      {{4, -0.15}, {0, -0.15}},  // the other side of the wall
+      {{7, 0}, {9, 0}},          // coplanar, but 3 m of nothing in between
+      {{0, 0}, {4, 0.6}}};       // turned by 8.5 degrees
+  for (const auto& [c, d] : others) {
+    Graph graph = at(X);
+    WallLayer walls({});
+    (void)walls.observe(graph, std::vector{see(X, a, b)}, 0.0);
+    EXPECT_EQ(step(graph, walls, X, {see(X, c, d)}), std::vector<int>{1});
+  }
+}
+
+TEST(WallLayer, ReportsHighWallsThatWereSeenOften) {
+  const Pose X = Pose::from_xyz_yaw({2, 2, 0.5}, 0);
+  Graph graph = at(X);
+  WallLayer walls({});
+  PlaneObservation counter = see(X, {3, 3}, {1, 3});
+  counter.z1 = 0.4;
+  const std::vector<PlaneObservation> seen = {see(X, {0, 0}, {4, 0}), counter, see_floor(X, 0.0)};
+  (void)walls.observe(graph, seen, 0.0);
+  EXPECT_TRUE(walls.walls(graph, 0).empty());
+  for (int k = 1; k < WallLayerConfig{}.min_observations; ++k) (void)step(graph, walls, X, seen);
+  const std::vector<PlaneNode> known = walls.walls(graph, 0);
+  ASSERT_EQ(known.size(), 1U);
+  EXPECT_EQ(known[0].id, 0);
+  EXPECT_TRUE(walls.walls(graph, 1).empty());
+}
+
+TEST(WallLayer, PullsDuplicatesTogetherAndMergesThem) {
+  const Pose X = Pose::from_xyz_yaw({2, 2, 0}, 0);
+  WallLayerConfig config;
+  config.gate_chi2 = 0.0;  // no association: every look makes a vertex
+  config.min_observations = 1;
+  Graph graph = at(X);
+  WallLayer walls(config);
+  (void)walls.observe(graph, std::vector{see(X, {0, 0}, {4, 0}), see(X, {1, 0.05}, {3, 0.05})}, 0.0);
+  EXPECT_TRUE(walls.find_duplicates(graph, 0));
+  EXPECT_FALSE(walls.find_duplicates(graph, 0)) << "a pair was found twice";
+  ASSERT_EQ(graph.duplicate_factors.size(), 1U);
+  EXPECT_EQ(walls.merge_duplicates(graph), 1);
+  EXPECT_EQ(graph.planes[1].merged_into, 0);
+  for (const PlaneFactor& f : graph.plane_factors) EXPECT_EQ(f.plane, 0);
+  EXPECT_EQ(walls.walls(graph, 0).size(), 1U);
+  EXPECT_TRUE(graph.duplicate_factors.empty());
+}
+
+TEST(FloorLayer, ANewStoreyBeginsWhereTheFloorIsAnother) {
+  const FloorLayerConfig config;
+  const Pose ground = Pose::from_xyz_yaw({0, 0, 0.5}, 0), first = Pose::from_xyz_yaw({5, 0, 3.5}, 0);
+  Graph graph;
+  EXPECT_EQ(storey_of(graph, ground, std::vector{see_floor(ground, 0.0)}, config), 0);
+  graph.keyframes.push_back({0, ground, ground, 0});
+  graph.planes.push_back({Plane{Eigen::Vector3d::UnitZ(), 0.0}, PlaneKind::floor, 0, -1});
+  EXPECT_EQ(storey_of(graph, ground, std::vector{see_floor(ground, 0.05)}, config), 0);
+  EXPECT_EQ(storey_of(graph, first, std::vector{see_floor(first, 3.0)}, config), 1);
+  graph.keyframes.push_back({1, first, first, 1});
+  graph.planes.push_back({Plane{Eigen::Vector3d::UnitZ(), -3.0}, PlaneKind::floor, 1, -1});
+  EXPECT_EQ(storey_of(graph, first, {}, config), 1) << "no floor seen: where it was";
+  EXPECT_EQ(storey_of(graph, ground, std::vector{see_floor(ground, 0.0)}, config), 0) << "back down";
+}
+
+TEST(FloorLayer, CentreIsMidwayBetweenTheWidestPairsAndRoomsHangOnIt) {
+  const Pose X = Pose::from_xyz_yaw({2, 2, 0}, 0);
+  Graph graph = at(X);
+  WallLayerConfig config;
+  config.min_observations = 1;
+  WallLayer walls(config);
+  // A storey of 10 x 6 m with a partition's two faces at x = 4 and 4.1.
+  (void)walls.observe(graph,
+                      std::vector{see(X, {0, 0}, {10, 0}), see(X, {10, 0}, {10, 6}), see(X, {10, 6}, {0, 6}),
+                                  see(X, {0, 6}, {0, 0}), see(X, {4, 0}, {4, 6}), see(X, {4.1, 6}, {4.1, 0})},
+                      0.0);
+  graph.rooms.push_back({RoomKind::four_wall, {2.0, 3.0}, 0, true});
+  graph.rooms.push_back({RoomKind::four_wall, {7.0, 3.0}, 0, false});
+  FloorLayer floors({});
+  floors.update(graph, 0, walls.walls(graph, 0));
+  floors.update(graph, 0, walls.walls(graph, 0));
+  ASSERT_EQ(graph.floors.size(), 1U);
+  EXPECT_LT((graph.floors[0].center_M - Eigen::Vector2d(5, 3)).norm(), 1e-9);
+  ASSERT_EQ(graph.floor_factors.size(), 1U) << "one factor a room that is found, however often it is updated";
+  const FloorFactor& f = graph.floor_factors[0];
+  EXPECT_LT(floor_residual(graph.floors[0].center_M, graph.rooms[0].center_M, f.offset_M).norm(), 1e-9);
+}
+
+}  // namespace
+}  // namespace plumbline::slam
