@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "bim/geometry/polygon_boolean.h"
+#include "bim/ifc/infer_rooms.h"
 #include "bim/mesh/solid.h"
 
 namespace plumbline::bim {
@@ -135,8 +136,19 @@ void Interpreter::sort_all() {
   });
 }
 
+void Interpreter::add_missing_rooms() {
+  if (!building_.rooms.empty()) return;
+  for (std::size_t i = 0; i < building_.storeys.size(); ++i) {
+    const std::vector<Room> rooms = infer_rooms(building_, static_cast<int>(i));
+    for (const Room& room : rooms)
+      building_.warnings.push_back({room.id, "inferred_room", "the file has no spaces; walls enclose this"});
+    building_.rooms.insert(building_.rooms.end(), rooms.begin(), rooms.end());
+  }
+}
+
 Building Interpreter::finish() {
   set_heights();
+  add_missing_rooms();
   sort_all();
   return std::move(building_);
 }

@@ -22,7 +22,7 @@ class Interpreter {
   void add_slabs();
   void add_columns();
   void add_obstacles();
-  /// Storey heights from what stands on them; canonical order of all lists.
+  /// Storey heights from what stands on them; rooms from walls in a file without spaces; canonical order of all lists.
   [[nodiscard]] Building finish();
 
  private:
@@ -33,6 +33,7 @@ class Interpreter {
   void read_reference_line(const StepProduct& product, const Solid& body, Wall& wall);
   void read_faces(const StepProduct& product, const Solid& body, Wall& wall);
   void set_heights();
+  void add_missing_rooms();
   void sort_all();
   void warn(const StepProduct& product, const std::string& kind, const std::string& text);
   [[nodiscard]] double snapped(double v) const;

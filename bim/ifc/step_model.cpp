@@ -34,6 +34,7 @@
 #include "bim/ifc/step_material.h"
 #include "bim/ifc/step_parse.h"
 #include "bim/ifc/step_placement.h"
+#include "bim/ifc/step_sound.h"
 
 namespace plumbline::bim {
 namespace {
@@ -125,16 +126,18 @@ std::string identifier(const std::shared_ptr<IfcRepresentation>& representation)
 }
 
 /// Body items and axis of a product, moved to W. Openings may name their body Reference.
-void read_geometry(const IfcProduct& source, StepGeometry& geometry, StepProduct& product) {
+void read_geometry(const IfcProduct& source, StepSoundness& soundness, StepGeometry& geometry, StepProduct& product) {
   if (!source.m_Representation) return;
   for (const auto& representation : source.m_Representation->m_Representations) {
     const std::string what = identifier(representation);
     if (what == "Axis" && product.kind == StepClass::wall) {
+      soundness.check(*representation);
       product.axis_W = geometry.curve(representation, product.complaints);
       for (Eigen::Vector3d& p : product.axis_W) p = product.X_WP * p;
     }
     const bool body = what == "Body" || (what == "Reference" && product.kind == StepClass::opening);
     if (!body || !product.body.empty()) continue;
+    soundness.check(*representation);
     for (Shape& shape : geometry.shapes(representation, product.complaints)) {
       Shape& moved = product.body.emplace_back();
       moved.base = transformed(product.X_WP, std::move(shape.base));
@@ -161,7 +164,7 @@ bool needs_geometry(StepClass kind) {
 class Reader {
  public:
   Reader(const std::shared_ptr<BuildingModel>& model, const StepText& checked, const std::string& file)
-      : model_(model), geometry_(model), checked_(checked), file_(file) {}
+      : model_(model), soundness_(checked, file), geometry_(model), checked_(checked), file_(file) {}
 
   StepModel read() {
     StepModel result;
@@ -198,7 +201,7 @@ class Reader {
     product.storey = kind == StepClass::storey ? product.step_id : storey_of(source);
     product.host = host_of(source, kind);
     read_material(*source, unit_m, product);
-    if (needs_geometry(kind)) read_geometry(*source, geometry_, product);
+    if (needs_geometry(kind)) read_geometry(*source, soundness_, geometry_, product);
     return product;
   }
 
@@ -216,6 +219,7 @@ class Reader {
   }
 
   std::shared_ptr<BuildingModel> model_;
+  StepSoundness soundness_;
   StepGeometry geometry_;
   const StepText& checked_;
   const std::string& file_;

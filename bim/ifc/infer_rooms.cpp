@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bim/ifc/infer_rooms.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "bim/building/rooms.h"
+#include "bim/building/wall_face.h"
+#include "bim/geometry/polygon_boolean.h"
+
+namespace plumbline::bim {
+namespace {
+
+/// The wall made longer and thicker by `margin_m` on every side.
+Wall grown(Wall wall, double margin_m) {
+  const Eigen::Vector2d e = wall.direction() * margin_m;
+  wall.a -= e;
+  wall.b += e;
+  wall.offset_m -= margin_m;
+  wall.thickness_m += 2.0 * margin_m;
+  return wall;
+}
+
+/// A counter-clockwise polygon with every edge moved outward; corners where the moved lines meet.
+Polygon2 grown(const Polygon2& polygon, double margin_m) {
+  Polygon2 result;
+  const std::size_t n = polygon.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const Eigen::Vector2d u = (polygon[i] - polygon[(i + n - 1) % n]).normalized();
+    const Eigen::Vector2d v = (polygon[(i + 1) % n] - polygon[i]).normalized();
+    const Eigen::Vector2d out_u(u.y(), -u.x()), out_v(v.y(), -v.x());
+    // p + m with m.out_u = m.out_v = margin: along the bisector; a hairpin is left where it is.
+    const double lean = 1.0 + out_u.dot(out_v);
+    result.push_back(lean > 0.1 ? Eigen::Vector2d(polygon[i] + margin_m / lean * (out_u + out_v)) : polygon[i]);
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<Room> infer_rooms(const Building& building, int storey, const InferConfig& config) {
+  const Storey& level = building.storeys[static_cast<std::size_t>(storey)];
+  if (level.height_m < config.least_height_m) return {};
+  const double slice_m = level.elevation_m + config.slice_m;
+  std::vector<Wall> walls;
+  for (const Wall& wall : building.walls)
+    if (wall.z0_m <= slice_m && wall.z1_m >= slice_m) walls.push_back(wall);
+  std::vector<Polygon2> footprints;
+  for (const Wall& wall : walls) footprints.push_back(footprint(grown(wall, config.closing_m)));
+  std::vector<Room> rooms;
+  for (const PolygonWithHoles2& piece : unite(footprints)) {
+    for (Polygon2 hole : piece.holes) {
+      std::reverse(hole.begin(), hole.end());
+      // Grown past the wall faces and cut back to them.
+      const std::vector<Polygon2> outlines = clear_outlines(grown(hole, 2.0 * config.closing_m), walls);
+      if (outlines.empty() || signed_area(outlines.front()) < config.least_area_m2) continue;
+      Room room;
+      room.id = level.id + "/room" + std::to_string(rooms.size() + 1);
+      room.name = "room " + std::to_string(rooms.size() + 1);
+      room.storey = storey;
+      room.polygon = outlines.front();
+      room.z0_m = level.elevation_m;
+      room.z1_m = level.elevation_m + level.height_m;
+      rooms.push_back(std::move(room));
+    }
+  }
+  return rooms;
+}
+
+}  // namespace plumbline::bim
