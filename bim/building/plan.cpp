@@ -100,7 +100,7 @@ Eigen::Vector2d moved(const Pose& X_VW, const Eigen::Vector2d& p_W) {
 Plan make_plan(const Building& as_planned) {
   Plan plan;
   for (const Storey& storey : as_planned.storeys)
-    plan.storeys.push_back({storey.name, storey.elevation_m, storey.height_m});
+    plan.storeys.push_back({storey.id, storey.elevation_m, storey.height_m});
   for (std::size_t wall = 0; wall < as_planned.walls.size(); ++wall)
     for (const int side : {0, 1}) plan.faces.push_back(face_of(as_planned, static_cast<int>(wall), side));
   for (std::size_t room = 0; room < as_planned.rooms.size(); ++room)

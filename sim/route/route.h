@@ -12,7 +12,7 @@
 namespace plumbline::sim {
 
 struct RouteConfig {
-  double radius_m = 0.40;  ///< of the robot seen from above, turning included
+  double radius_m = 0.35;  ///< of the robot seen from above, turning included
   double cell_m = 0.05;
   double band_low_m = 0.05;     ///< what ends below this above the floor is stepped over
   double band_high_m = 1.0;     ///< what begins above this is walked under
