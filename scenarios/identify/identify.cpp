@@ -150,6 +150,19 @@ std::vector<Pose> RunIdentifiability::ambiguity_set(double t_s, const Pose& X_WR
   return poses;
 }
 
+std::optional<double> RunIdentifiability::tellable_from_s() const {
+  std::optional<double> from;
+  for (const auto& step : steps) {
+    const bool strong =
+        std::any_of(step.alive.begin(), step.alive.end(), [](const Twin& t) { return t.llr < k.weak_llr; });
+    if (strong)
+      from.reset();
+    else if (!from)
+      from = step.t_s;
+  }
+  return from;
+}
+
 RunIdentifiability identify_run(const IdentifyInput& input, const std::vector<TruthSample>& truth) {
   RunIdentifiability run;
   const Viewer viewer;

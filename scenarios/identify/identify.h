@@ -49,6 +49,8 @@ struct RunIdentifiability {
   std::optional<double> identifiable_at_s;  ///< first time from which on none is
   std::optional<double> identifiable_at_m;
 
+  /// First time from which on every twin that is left is at least weak (llr >= weak_llr), absent when never.
+  [[nodiscard]] std::optional<double> tellable_from_s() const;
   /// Poses that cannot be told from X_WR at time t, the true one left out.
   [[nodiscard]] std::vector<Pose> ambiguity_set(double t_s, const Pose& X_WR) const;
 };

@@ -133,6 +133,9 @@ LocalizationScore score_localization(const Truth& truth, const std::vector<Belie
   score.verdict = ambiguous ? judge_ambiguous(course, last, held,
                                               is_honest(last, truth.at(last.stamp), identifiability->others_W, rules))
                             : judge_unique(course, last.state, held);
+  const bool early = identifiability && score.converged_at_s && identifiability->tellable_from_s &&
+                     *score.converged_at_s < *identifiability->tellable_from_s;
+  if (early && score.verdict == LocalizationVerdict::success) score.verdict = LocalizationVerdict::lucky;
   return score;
 }
 

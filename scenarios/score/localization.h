@@ -32,6 +32,9 @@ struct Identifiability {
   bool identifiable = false;
   std::optional<double> at_s;
   std::optional<double> at_m;
+  /// First time from which on no other pose explains what was seen as well as the true one does (all are at least
+  /// weak); a single answer given before is luck.
+  std::optional<double> tellable_from_s;
   std::vector<Pose> others_W;  ///< poses at the end that the plan cannot tell from the true one; empty when unique
 };
 

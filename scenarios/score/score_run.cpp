@@ -6,6 +6,7 @@
 #include "bim/digest/digest.h"
 #include "bim/mesh/mesh.h"
 #include "scenarios/run/files.h"
+#include "scenarios/score/identifiability.h"
 
 namespace plumbline::scenarios::score {
 
@@ -118,7 +119,7 @@ bool RunScore::passed() const {
   return std::all_of(gates.begin(), gates.end(), [](const GateResult& gate) { return gate.passed; });
 }
 
-RunScore score_run(const RunFiles& files, Identify identify) {
+RunScore score_run(const RunFiles& files) {
   RunScore score;
   score.as_built = bim::make_plan(files.building);
   score.truth = {files.truth_W, files.scans};
@@ -131,8 +132,7 @@ RunScore score_run(const RunFiles& files, Identify identify) {
   const Reference reference{score.as_built, score.truth, surface_W, distance};
   const bool localizes = std::any_of(files.methods.begin(), files.methods.end(),
                                      [](const MethodRecord& m) { return m.localization && !m.crashed; });
-  const auto identifiability =
-      localizes && identify != nullptr ? identify(files, score.truth) : std::optional<Identifiability>();
+  const auto identifiability = localizes ? identifiability_of(files, score.truth) : std::optional<Identifiability>();
   for (const MethodRecord& method : files.methods) {
     MethodScore one;
     if (method.crashed)

@@ -24,12 +24,9 @@ struct RunScore {
   [[nodiscard]] bool passed() const;
 };
 
-/// What the plan allows to be known on the run; asked for only when a plan localization is to be scored.
-using Identify = std::optional<Identifiability> (*)(const RunFiles& files, const Truth& truth);
-
 /// Scores every method of a run directory [contract: Metrics]. Outside trajectories (those the scenario did not run)
 /// are held to the strictest bound that the scenario asks of any method on each metric they have.
-[[nodiscard]] RunScore score_run(const RunFiles& files, Identify identify = nullptr);
+[[nodiscard]] RunScore score_run(const RunFiles& files);
 
 /// results.json
 [[nodiscard]] std::string write_results(const RunFiles& files, const RunScore& score);

@@ -75,7 +75,7 @@ TEST(FreeSpace, OnlyPassableOpeningsArePassed) {
   EXPECT_TRUE(reached([](bim::Opening& o) { o.z0_m = 0.04; }));
   EXPECT_FALSE(reached([](bim::Opening& o) { o.z0_m = 0.10; }));
   EXPECT_FALSE(reached([](bim::Opening& o) { o.z1_m = 1.1; }));
-  EXPECT_FALSE(reached([](bim::Opening& o) { o.width_m = 0.7; }));
+  EXPECT_FALSE(reached([](bim::Opening& o) { o.width_m = 0.6; }));
 }
 
 TEST(FreeSpace, DoorsAsWideAsTheRobotArePassedWhereverTheyLieOnTheGrid) {
@@ -83,10 +83,10 @@ TEST(FreeSpace, DoorsAsWideAsTheRobotArePassedWhereverTheyLieOnTheGrid) {
   for (std::uint64_t i = 0; i < 40; ++i) {
     bim::Building building = two_rooms();
     const double s = 0.8 + 3.4 * stream.uniform(i);
-    add_door(building, 0, s, 0.80);
+    add_door(building, 0, s, 0.70);
     const std::vector<Eigen::Vector2d> path = FreeSpace(building, 0).path(west, east);
     ASSERT_FALSE(path.empty()) << "door at " << s;
-    EXPECT_GE(least_clearance(path, solids_of_two_rooms(s - 0.4, s + 0.4)), 0.40 - 0.05);
+    EXPECT_GE(least_clearance(path, solids_of_two_rooms(s - 0.35, s + 0.35)), 0.35 - 0.05);
   }
 }
 
