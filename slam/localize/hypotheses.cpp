@@ -29,18 +29,17 @@ void HypothesisSet::follow(const PlanIndex& index, const Pose2& u, const View& v
   std::vector<double> said;
   for (Candidate& candidate : candidates_) {
     const StoreyIndex& storey = index.storeys[static_cast<std::size_t>(candidate.storey)];
-    const Pose2 moved = candidate.X_IH * u;
-    if (walks_through_wall(storey, candidate.X_IH, moved, index.config.body_height_m))
-      candidate.evidence -= config_.crossing_cost;
-    const Refined refined = refine(storey, moved, view, likelihood_, refine_);
+    const Pose2 before = candidate.X_IH;
+    const Refined refined = refine(storey, before * u, view, likelihood_, refine_);
     candidate.X_IH = refined.X_IH;
     candidate.covariance = refined.covariance;
     candidate.agreement = agreement(storey, refined.X_IH, view, likelihood_, refine_);
     said.push_back(beam_log_likelihood(storey, refined.X_IH, view, 1, likelihood_));
+    if (walks_through_wall(storey, before, before * u, index.config.body_height_m))
+      said.back() -= config_.crossing_cost;
     top = std::max(top, said.back());
   }
-  for (std::size_t i = 0; i < candidates_.size(); ++i)
-    candidates_[i].evidence += std::max(said[i], top - config_.step_cap);
+  for (std::size_t i = 0; i < candidates_.size(); ++i) candidates_[i].evidence += ratio(said[i], top);
 }
 
 void HypothesisSet::adopt(const PlanIndex& index, const Clustering& clustering) {
@@ -53,33 +52,32 @@ void HypothesisSet::adopt(const PlanIndex& index, const Clustering& clustering) 
     ++count;
   }
   if (covered < config_.covered_mass || count > config_.max_count) return;
+  std::vector<Place> places;
   for (const PoseCluster& cluster : clustering.clusters)
-    if (cluster.mass >= config_.min_mass && cluster.compact) adopt(index, cluster.storey, cluster.mean);
+    if (cluster.mass >= config_.min_mass && cluster.compact) places.push_back({cluster.storey, cluster.mean});
+  adopt(index, places);
 }
 
-bool HypothesisSet::adopt(const PlanIndex& index, int storey, const Pose2& X_IH) {
-  if (history_.empty() || find(storey, X_IH, config_.match_m, config_.match_rad) >= 0) return false;
-  const StoreyIndex& tables = index.storeys[static_cast<std::size_t>(storey)];
+void HypothesisSet::adopt(const PlanIndex& index, const std::vector<Place>& places) {
+  if (history_.empty()) return;
   const View& view = history_.back().view;
-  const Refined refined = refine(tables, X_IH, view, likelihood_, refine_);
-  if (find(storey, refined.X_IH, config_.match_m, config_.match_rad) >= 0) return false;
-  Candidate candidate{next_id_, storey, refined.X_IH, refined.covariance, 0.0, 0.0, {}};
-  candidate.agreement = agreement(tables, refined.X_IH, view, likelihood_, refine_);
-  candidate.evidence = replay(tables, refined.X_IH, index.config.body_height_m);
-  if (!candidates_.empty()) {
-    // Judged over the kept views against the best, then set off from the best's whole account.
-    const Candidate& best = candidates_[static_cast<std::size_t>(
-        std::max_element(candidates_.begin(), candidates_.end(),
-                         [](const Candidate& a, const Candidate& b) { return a.evidence < b.evidence; }) -
-        candidates_.begin())];
-    const double best_window =
-        replay(index.storeys[static_cast<std::size_t>(best.storey)], best.X_IH, index.config.body_height_m);
-    candidate.evidence += best.evidence - best_window;
-    if (candidate.evidence < best.evidence - config_.drop_ratio) return false;
+  std::vector<double> reference;
+  for (const Place& place : places) {
+    if (find(place, config_.match_m, config_.match_rad) >= 0) continue;
+    const StoreyIndex& storey = index.storeys[static_cast<std::size_t>(place.storey)];
+    const Refined refined = refine(storey, place.X_IH, view, likelihood_, refine_);
+    const Place fitted{place.storey, refined.X_IH};
+    if (find(fitted, config_.match_m, config_.match_rad) >= 0) continue;
+    if (reference.empty() && !candidates_.empty())
+      reference = replay(index, {candidates_.front().storey, candidates_.front().X_IH}, {});
+    const std::vector<double> said = replay(index, fitted, reference);
+    double evidence = candidates_.empty() ? 0.0 : candidates_.front().evidence;
+    for (std::size_t k = 0; k < said.size() && k < reference.size(); ++k) evidence += ratio(said[k], reference[k]);
+    if (!candidates_.empty() && evidence < candidates_.front().evidence - config_.drop_ratio) continue;
+    candidates_.push_back({next_id_++, fitted.storey, fitted.X_IH, refined.covariance, evidence, 0.0,
+                           agreement(storey, fitted.X_IH, view, likelihood_, refine_)});
+    if (reference.empty()) reference = said;
   }
-  ++next_id_;
-  candidates_.push_back(candidate);
-  return true;
 }
 
 void HypothesisSet::settle() {
@@ -106,7 +104,7 @@ void HypothesisSet::impose(ParticleSet& particles, const Clustering& clustering,
   std::vector<int> candidate_of_cluster;
   double stray = 0.0;
   for (const PoseCluster& cluster : clustering.clusters) {
-    const int i = find(cluster.storey, cluster.mean, config_.match_m, config_.match_rad);
+    const int i = find({cluster.storey, cluster.mean}, config_.match_m, config_.match_rad);
     candidate_of_cluster.push_back(i);
     (i >= 0 ? mass_of_candidate[static_cast<std::size_t>(i)] : stray) += cluster.mass;
   }
@@ -144,22 +142,34 @@ void HypothesisSet::clear() {
   history_.clear();
 }
 
-double HypothesisSet::replay(const StoreyIndex& storey, const Pose2& X_IH, double body_height) const {
-  Pose2 X = X_IH;
+double HypothesisSet::ratio(double said, double reference) const {
+  const double difference = said - reference;
+  const double beyond = std::max(0.0, std::abs(difference) - config_.indifference);
+  return std::copysign(std::min(beyond, config_.step_cap), difference);
+}
+
+std::vector<double> HypothesisSet::replay(const PlanIndex& index, const Place& place,
+                                          const std::vector<double>& reference) const {
+  const StoreyIndex& storey = index.storeys[static_cast<std::size_t>(place.storey)];
+  Pose2 X = place.X_IH;
+  std::vector<double> said;
   double sum = 0.0;
   for (auto step = history_.rbegin(); step != history_.rend(); ++step) {
     X = refine(storey, X, step->view, likelihood_, refine_).X_IH;
-    sum += beam_log_likelihood(storey, X, step->view, 1, likelihood_);
+    said.push_back(beam_log_likelihood(storey, X, step->view, 1, likelihood_));
     const Pose2 before = X * step->u.inverse();
-    if (walks_through_wall(storey, before, X, body_height)) sum -= config_.crossing_cost;
+    if (walks_through_wall(storey, before, X, index.config.body_height_m)) said.back() -= config_.crossing_cost;
     X = before;
+    if (said.size() > reference.size()) continue;
+    sum += ratio(said.back(), reference[said.size() - 1]);
+    if (sum < -config_.drop_ratio) break;
   }
-  return sum;
+  return said;
 }
 
-int HypothesisSet::find(int storey, const Pose2& X_IH, double near_m, double near_rad) const {
+int HypothesisSet::find(const Place& place, double near_m, double near_rad) const {
   for (std::size_t i = 0; i < candidates_.size(); ++i)
-    if (candidates_[i].storey == storey && near(candidates_[i].X_IH, X_IH, near_m, near_rad))
+    if (candidates_[i].storey == place.storey && near(candidates_[i].X_IH, place.X_IH, near_m, near_rad))
       return static_cast<int>(i);
   return -1;
 }

@@ -18,6 +18,8 @@ struct HypothesisConfig {
   double match_rad = 0.35;
   double merge_m = 0.30;  ///< hypotheses this close are one
   double merge_rad = 0.15;
+  double indifference = 1.0;   ///< a view says nothing against a place less than this worse than the best: a plan is a
+                               ///< few centimetres off, and every view says so again
   double step_cap = 6.0;       ///< most that one view says against a hypothesis
   double crossing_cost = 3.0;  ///< against one that walks through a wall: may be a door jamb and noise
   double drop_ratio = 15.0;    ///< log-ratio to the best below which a hypothesis is dropped
@@ -31,9 +33,14 @@ struct Candidate {
   int storey = 0;
   Pose2 X_IH;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();
-  double evidence = 0.0;  ///< accumulated log-likelihood
+  double evidence = 0.0;  ///< accumulated log-likelihood ratio; only differences between candidates mean something
   double mass = 0.0;      ///< share by evidence
   Agreement agreement;    ///< with the last view
+};
+
+struct Place {
+  int storey = 0;
+  Pose2 X_IH;
 };
 
 /// Places followed one by one. The evidence of a place is the log-likelihood of every view at the pose that fits it
@@ -47,8 +54,8 @@ class HypothesisSet {
   void follow(const PlanIndex& index, const Pose2& u, const View& view);
   /// Adds clusters that are no candidate yet, once few compact ones hold nearly all of the mass.
   void adopt(const PlanIndex& index, const Clustering& clustering);
-  /// Adds one place judged by the whole kept history; false when it is already known or far less likely.
-  bool adopt(const PlanIndex& index, int storey, const Pose2& X_IH);
+  /// Adds the places that are not known yet and that the kept history does not rule out.
+  void adopt(const PlanIndex& index, const std::vector<Place>& places);
   /// Merges, drops the hopeless, shares out the mass.
   void settle();
   /// Scales the particles so that each candidate's cluster has its mass, and brings back candidates without particles.
@@ -63,9 +70,13 @@ class HypothesisSet {
     Pose2 u;  ///< motion that led to this view
     View view;
   };
-  /// Log-likelihood of the kept views along the odometry back from the pose at the last one.
-  [[nodiscard]] double replay(const StoreyIndex& storey, const Pose2& X_IH, double body_height) const;
-  [[nodiscard]] int find(int storey, const Pose2& X_IH, double near_m, double near_rad) const;
+  /// What one view says against a place at log-likelihood `said` where the reference has `reference`.
+  [[nodiscard]] double ratio(double said, double reference) const;
+  /// Log-likelihood of each kept view, newest first, along the odometry back from the pose at the last one. Stops once
+  /// the ratio to the reference (when there is one) has fallen below the drop ratio.
+  [[nodiscard]] std::vector<double> replay(const PlanIndex& index, const Place& place,
+                                           const std::vector<double>& reference) const;
+  [[nodiscard]] int find(const Place& place, double near_m, double near_rad) const;
 
   HypothesisConfig config_;
   RefineConfig refine_;

@@ -71,8 +71,11 @@ std::vector<StageDigest> PlanSearch::update(const PlanIndex& index, const StartB
   done("clusters", digest_of(clustering));
 
   hypotheses_.follow(index, u, view);
+  const bool first = hypotheses_.candidates().empty();
   hypotheses_.adopt(index, clustering);
   hypotheses_.settle();
+  // Particles may have died out by chance where the plan repeats itself; look there before the first word.
+  if (first && !hypotheses_.candidates().empty()) find_rivals(index, start, view);
   judge(index, start, view, u.t.norm());
   done("hypotheses", digest_of(hypotheses_.candidates()));
 
@@ -115,7 +118,8 @@ void PlanSearch::judge(const PlanIndex& index, const StartBelief& start, const V
   sure_travel_m_ = sure && sure_updates_ > 0 ? sure_travel_m_ + walked : 0.0;
   sure_updates_ = sure ? sure_updates_ + 1 : 0;
   if (sure_updates_ < c.updates || sure_travel_m_ < c.travel_m) return;
-  if (find_rivals(index, start, view) && !sure_of_best()) {
+  find_rivals(index, start, view);
+  if (!sure_of_best()) {
     sure_updates_ = 0;
     state_ = State::ambiguous;
     return;
@@ -123,18 +127,18 @@ void PlanSearch::judge(const PlanIndex& index, const StartBelief& start, const V
   state_ = State::converged;
 }
 
-bool PlanSearch::find_rivals(const PlanIndex& index, const StartBelief& start, const View& view) {
+void PlanSearch::find_rivals(const PlanIndex& index, const StartBelief& start, const View& view) {
   StartBelief belief = start;
   if (belief.yaw_I) belief.yaw_I = hypotheses_.candidates().front().X_IH.yaw;
   ParticleSet sample = draw_start(index, belief, view, config_.filter, seed_, tick_);
   FilterConfig untempered = config_.filter;
   untempered.ess_floor = 0.0;
   static_cast<void>(reweight(sample, view, index, config_.likelihood, untempered));
-  bool found = false;
+  std::vector<Place> places;
   for (const LocalParticle& particle : best_apart(std::move(sample), config_.convergence))
-    found = hypotheses_.adopt(index, particle.storey, particle.X_IH) || found;
+    places.push_back({particle.storey, particle.X_IH});
+  hypotheses_.adopt(index, places);
   hypotheses_.settle();
-  return found;
 }
 
 }  // namespace plumbline::slam

@@ -53,8 +53,8 @@ class PlanSearch {
 
  private:
   void judge(const PlanIndex& index, const StartBelief& start, const View& view, double walked);
-  /// Looks over the whole storey for a place that would have seen the same; true when one was found.
-  bool find_rivals(const PlanIndex& index, const StartBelief& start, const View& view);
+  /// Looks over the whole storey for places that would have seen the same.
+  void find_rivals(const PlanIndex& index, const StartBelief& start, const View& view);
 
   SearchConfig config_;
   std::uint64_t seed_;
