@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "bim/building/load.h"
+#include "bim/building/plan.h"
 #include "bim/random/stream.h"
 #include "scenarios/route_plan.h"
 #include "scenarios/run/participant.h"
@@ -94,7 +95,7 @@ slam::Prior make_prior(const Scenario& scenario, const bim::Building& building, 
   if (scenario.prior.yaw == Knowledge::known)
     prior.yaw_W = wrap_angle(yaw + prior.yaw_sigma * Stream(scenario.seed, "scenario.prior").gauss(0));
   if (scenario.prior.storey == Knowledge::known)
-    prior.storey = building.storeys[static_cast<std::size_t>(plan.storey)].id;
+    prior.storey = bim::make_plan(building).storeys[static_cast<std::size_t>(plan.storey)].name;
   return prior;
 }
 

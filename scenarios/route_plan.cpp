@@ -36,6 +36,14 @@ std::string unknown(const std::string& kind, const std::string& name, const std:
   return message;
 }
 
+/// In the plane; openings do not count, since nobody starts in a doorway.
+bool in_body(const bim::Wall& wall, const Eigen::Vector2d& p) {
+  const double along = (p - wall.a).dot(wall.direction());
+  const double across = (p - wall.a).dot(wall.left());
+  return along >= 0.0 && along <= wall.length() && across >= wall.offset_m &&
+         across <= wall.offset_m + wall.thickness_m;
+}
+
 int find_storey(const bim::Building& building, const std::string& name, const Mark& mark) {
   std::vector<std::string> known;
   for (std::size_t i = 0; i < building.storeys.size(); ++i) {
@@ -81,14 +89,17 @@ class Planner {
   }
 
   [[nodiscard]] Eigen::Vector2d check_start(const Eigen::Vector2d& at) const {
+    for (const bim::Wall& wall : building_.walls)
+      if (wall.storey == storey_ && in_body(wall, at))
+        throw InputError(marks_.start,
+                         "the start " + text(at) + " is inside a wall ('" + wall.id + "'); it must be in a room");
     const auto in_room = [&](const bim::Room& room) { return room.storey == storey_ && contains(room.polygon, at); };
     const bool has_rooms = std::any_of(building_.rooms.begin(), building_.rooms.end(),
                                        [&](const bim::Room& room) { return room.storey == storey_; });
     if (has_rooms && std::none_of(building_.rooms.begin(), building_.rooms.end(), in_room))
       throw InputError(marks_.start, "the start " + text(at) + " is outside every room; it must be in a room");
     if (!space_.free(at))
-      throw InputError(marks_.start, "the start " + text(at) +
-                                         " is inside a wall or another thing, or too near to one (" +
+      throw InputError(marks_.start, "the start " + text(at) + " is in or too near to a wall or another thing (" +
                                          format_number(round_coordinate(space_.clearance(at))) +
                                          " m clear); the robot needs more room around it");
     return at;
@@ -136,7 +147,8 @@ class Planner {
     append(leg, plan);
   }
 
-  /// Nearest room first, by the way to walk (ties: lower index); rooms out of reach are left out.
+  /// Nearest room first, by the way to walk (ties: lower index), and back to the room of the start; rooms out of
+  /// reach are left out.
   void walk_all(int laps, RoutePlan& plan) const {
     std::vector<int> left;
     for (std::size_t i = 0; i < building_.rooms.size(); ++i) {
@@ -158,8 +170,19 @@ class Planner {
       plan.rooms.push_back(building_.rooms[static_cast<std::size_t>(left[*best])].id);
       left.erase(left.begin() + static_cast<std::ptrdiff_t>(*best));
     }
+    if (!plan.rooms.empty()) return_home(plan);
     for (int lap = 1; lap < laps; ++lap)
       for (const std::string& room : std::vector<std::string>(plan.rooms)) walk_to(room, marks_.route, plan);
+  }
+
+  void return_home(RoutePlan& plan) const {
+    for (const bim::Room& room : building_.rooms) {
+      if (room.storey != storey_ || !contains(room.polygon, plan.start_W)) continue;
+      if (space_.room_target(room.polygon).empty()) return;
+      walk_to(room.id, marks_.route, plan);
+      plan.rooms.push_back(room.id);
+      return;
+    }
   }
 
   /// Both ends of the room along its longer side, and between them.

@@ -44,7 +44,7 @@ struct Start {
 
 /// Rooms to walk through, in order; `shuttle` instead walks one room from end to end.
 struct Route {
-  std::vector<std::string> rooms = {"all"};  ///< "all": every room that can be reached, nearest first
+  std::vector<std::string> rooms = {"all"};  ///< "all": every room in reach, nearest first, and back
   int loop = 1;                              ///< how many times the list is walked
   std::optional<std::string> shuttle;
   int times = 1;

@@ -14,6 +14,7 @@
 #include "sim/robot/leg_odometry.h"
 #include "sim/robot/robot.h"
 #include "sim/route/follower.h"
+#include "slam/io/stopwatch.h"
 
 namespace plumbline::sim {
 
@@ -80,14 +81,18 @@ struct World::Impl {
     const std::int64_t end_firing = next_firing + firings_per_message;
     const Nanoseconds stamp = end_of_firings(end_firing);
     if (finished(stamp)) return false;
+    slam::Stopwatch watch;
     while (track.last_stamp() < stamp) step();
 
     WorldFrame out;
+    out.times.push_back({"sim.physics", watch.cpu_ms()});
     take_until(stamp, imu, out.imu);
     take_until(stamp, odometry, out.odometry);
     take_until(stamp, truth, out.truth);
     if (out.truth.empty() || out.truth.back().stamp < stamp) out.truth.push_back({stamp, track.at(stamp)});
+    watch.restart();
     scan(out);
+    out.times.push_back({"sim.lidar", watch.cpu_ms()});
     if (out.scan.stamp != stamp) throw InternalError("the decoded scan does not end when its last laser fired");
     out.robot_digest = Digest().add(robot.digest()).add(legs.X_OR()).value();
     next_firing = end_firing;

@@ -8,6 +8,7 @@
 #include "bim/mesh/mesh.h"
 #include "sim/lidar/lidar.h"
 #include "sim/robot/sensors.h"
+#include "slam/io/estimate.h"
 #include "slam/io/records.h"
 
 namespace plumbline::sim {
@@ -40,6 +41,7 @@ struct WorldFrame {
   std::vector<TruePose> truth;             ///< 100 Hz and, last, at scan.stamp
   ReturnLabels labels;
   std::uint64_t robot_digest = 0;
+  std::vector<slam::StageTime> times;  ///< CPU time of sim.physics and sim.lidar
 };
 
 /// The simulated world: route, gait, physics, sensors. Same config, same frames, bit for bit. The LiDAR does not see

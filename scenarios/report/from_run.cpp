@@ -57,10 +57,10 @@ void add_beliefs(const MethodRecord& method, const score::Truth& truth, ReportMe
   }
   if (kept.empty()) return;
   const bool has_converged = converged < method.beliefs.size();
+  const std::string last = kept.back() == converged ? "convergence" : has_converged ? "before convergence" : "end";
   shown.beliefs.push_back(belief_at(method, kept.front(), "start", truth));
   if (kept.size() > 2) shown.beliefs.push_back(belief_at(method, kept[kept.size() / 2], "middle", truth));
-  if (kept.size() > 1)
-    shown.beliefs.push_back(belief_at(method, kept.back(), has_converged ? "convergence" : "end", truth));
+  if (kept.size() > 1) shown.beliefs.push_back(belief_at(method, kept.back(), last, truth));
 }
 
 }  // namespace

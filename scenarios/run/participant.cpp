@@ -12,7 +12,7 @@ namespace plumbline::scenarios {
 namespace {
 
 /// Particle sets are large: between changes of the state one is kept every so often.
-constexpr slam::Nanoseconds particle_interval = 2'000'000'000;
+constexpr slam::Nanoseconds particle_interval = 1'000'000'000;
 
 Digest& add_pose(Digest& digest, const std::optional<Pose>& X) {
   digest.add(X ? 1 : 0);
@@ -120,7 +120,7 @@ void Participant::keep(const slam::Output& output) {
   log("output", digest_of(output));
   if (output.X_FR) record_.causal.push_back({output.stamp, *output.X_FR});
   if (record_.localization) keep_belief(output);
-  for (const slam::StageTime& time : output.times) add_time(time);
+  for (const slam::StageTime& time : output.times) add_time(record_.times, time);
 }
 
 void Participant::keep_belief(const slam::Output& output) {
@@ -132,13 +132,6 @@ void Participant::keep_belief(const slam::Output& output) {
     particles_stamp_ = output.stamp;
   }
   record_.beliefs.push_back(std::move(belief));
-}
-
-void Participant::add_time(const slam::StageTime& time) {
-  const auto it = std::find_if(record_.times.begin(), record_.times.end(),
-                               [&](const StageTimes& times) { return times.stage == time.stage; });
-  StageTimes& times = it != record_.times.end() ? *it : record_.times.emplace_back(StageTimes{time.stage, {}});
-  times.cpu_ms.push_back(static_cast<float>(time.cpu_ms));
 }
 
 MethodRecord Participant::finish() {

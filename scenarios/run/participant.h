@@ -34,7 +34,6 @@ class Participant {
  private:
   void keep(const slam::Output& output);
   void keep_belief(const slam::Output& output);
-  void add_time(const slam::StageTime& time);
 
   MethodRecord record_;
   slam::Nanoseconds last_stamp_ = 0;

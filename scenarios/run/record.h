@@ -16,7 +16,7 @@ struct BeliefRecord {
   slam::Nanoseconds stamp = 0;
   slam::State state = slam::State::searching;
   std::vector<slam::Hypothesis> hypotheses;
-  std::vector<slam::Particle> particles;  ///< of some scans only: see BeliefThinning
+  std::vector<slam::Particle> particles;  ///< of the scans where the state changed, and one a second
 };
 
 /// CPU times of the calls of one stage, ms, in call order.
@@ -24,6 +24,9 @@ struct StageTimes {
   std::string stage;
   std::vector<float> cpu_ms;
 };
+
+/// Adds one call to the times of its stage, which is appended where it is new.
+void add_time(std::vector<StageTimes>& times, const slam::StageTime& call);
 
 /// Everything one method left behind.
 struct MethodRecord {

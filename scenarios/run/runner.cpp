@@ -11,7 +11,6 @@
 #include "scenarios/run/observer.h"
 #include "scenarios/run/participant.h"
 #include "scenarios/run/pipeline.h"
-#include "slam/io/stopwatch.h"
 
 namespace plumbline::scenarios {
 
@@ -47,17 +46,15 @@ RunRecord execute(const ResolvedScenario& resolved, const RunOptions& options) {
   sim::World world(resolved.world, resolved.building, mesh);
   FrameRecorder recorder(mesh, options.keep_sensors);
   RunRecord record;
-  StageTimes world_times{"sim", {}};
 
   const FrameSource source = [&](sim::WorldFrame& frame) {
-    const slam::Stopwatch watch;
     try {
       if (!world.next(frame)) return false;
     } catch (const ScenarioFailure& failure) {
       record.failure = failure.what();
       return false;
     }
-    world_times.cpu_ms.push_back(static_cast<float>(watch.cpu_ms()));
+    for (const slam::StageTime& time : frame.times) add_time(record.sim_times, time);
     return !options.until_s || slam::seconds(frame.scan.stamp) <= *options.until_s;
   };
   const FrameObserver observe = [&](const sim::WorldFrame& frame) {
@@ -70,7 +67,6 @@ RunRecord execute(const ResolvedScenario& resolved, const RunOptions& options) {
   std::vector<DigestLog> logs = {recorder.digests()};
   for (const MethodRecord& method : record.methods) logs.push_back(method.digests);
   record.digests = merge_logs(logs);
-  record.sim_times.push_back(std::move(world_times));
   return record;
 }
 

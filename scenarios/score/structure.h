@@ -39,8 +39,10 @@ struct RoomScore {
   std::vector<int> room_of_node;    ///< PlanRoom id matched by each found room, -1 none
 };
 
-/// Matches found walls with faces of the as-built plan one to one: candidates in order of (offset, plane, face).
-/// The estimate's planes are placed in W by X_WF; there must be at least one.
+/// Matches found walls with stretches of the faces of the as-built plan one to one: candidates in order of (offset,
+/// plane, face). Two found walls may lie on one face where they are different stretches of it, as the rooms along a
+/// facade see it; a second one on the same stretch is not matched. The estimate's planes are placed in W by X_WF; there
+/// must be at least one.
 [[nodiscard]] WallScore score_walls(const slam::Estimate& estimate, const Pose& X_WF, const bim::Plan& as_built,
                                     const std::vector<Eigen::Vector3d>& surface_W, const StructureRules& rules = {});
 

@@ -2,7 +2,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <tuple>
+#include <utility>
 
 #include "scenarios/score/structure.h"
 
@@ -10,10 +12,18 @@ namespace plumbline::scenarios::score {
 
 namespace {
 
+/// Part of a face, from and to along it, m.
+struct Stretch {
+  double low = 0.0;
+  double high = 0.0;
+  [[nodiscard]] double length() const { return high - low; }
+};
+
 struct Candidate {
   double offset = 0.0;
   int plane = 0;  ///< index into Estimate::planes
   int face = 0;   ///< index into Plan::faces
+  Stretch stretch;
 };
 
 /// Position of p along a face from p0, m.
@@ -35,15 +45,26 @@ PlacedWall place(const slam::PlaneNode& node, const Pose& X_WF) {
           X_WF * Eigen::Vector3d(node.p1.x(), node.p1.y(), z)};
 }
 
-bool matches(const PlacedWall& wall, const bim::PlanFace& face, const StructureRules& rules, double& offset) {
+/// The stretch of the face that is this wall, and how far off it is; nothing when they do not match.
+std::optional<std::pair<double, Stretch>> match(const PlacedWall& wall, const bim::PlanFace& face,
+                                                const StructureRules& rules) {
   const double cos_limit = std::cos(rules.wall_angle_deg * std::numbers::pi / 180.0);
-  if (wall.n_W.dot(face.plane_W.n) < cos_limit) return false;
+  if (wall.n_W.dot(face.plane_W.n) < cos_limit) return std::nullopt;
   const Eigen::Vector3d middle = 0.5 * (wall.p0_W + wall.p1_W);
-  offset = std::abs(face.plane_W.distance(middle));
-  if (offset > rules.wall_offset_m || middle.z() < face.z0 || middle.z() > face.z1) return false;
+  const double offset = std::abs(face.plane_W.distance(middle));
+  if (offset > rules.wall_offset_m || middle.z() < face.z0 || middle.z() > face.z1) return std::nullopt;
   const auto [low, high] = std::minmax({along(face, wall.p0_W.head<2>()), along(face, wall.p1_W.head<2>())});
-  const double shared = std::min(high, length(face)) - std::max(low, 0.0);
-  return shared > 0.0 && shared >= rules.wall_overlap * (high - low);
+  const Stretch shared{std::max(low, 0.0), std::min(high, length(face))};
+  if (shared.length() <= 0.0 || shared.length() < rules.wall_overlap * (high - low)) return std::nullopt;
+  return std::pair{offset, shared};
+}
+
+/// True when the stretch is, by more than half of the shorter one, a stretch that was matched before.
+bool is_taken(const std::vector<Stretch>& taken, const Stretch& stretch) {
+  return std::any_of(taken.begin(), taken.end(), [&](const Stretch& other) {
+    const double shared = std::min(other.high, stretch.high) - std::max(other.low, stretch.low);
+    return shared > 0.5 * std::min(other.length(), stretch.length());
+  });
 }
 
 /// A face is seen when enough of the truly hit points lie on it, far enough apart.
@@ -70,9 +91,8 @@ WallScore score_walls(const slam::Estimate& estimate, const Pose& X_WF, const bi
   for (std::size_t i = 0; i < estimate.planes.size(); ++i) {
     const PlacedWall wall = place(estimate.planes[i], X_WF);
     for (std::size_t j = 0; j < as_built.faces.size(); ++j) {
-      double offset = 0.0;
-      if (matches(wall, as_built.faces[j], rules, offset))
-        candidates.push_back({offset, static_cast<int>(i), static_cast<int>(j)});
+      if (const auto found = match(wall, as_built.faces[j], rules))
+        candidates.push_back({found->first, static_cast<int>(i), static_cast<int>(j), found->second});
     }
   }
   std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
@@ -81,14 +101,14 @@ WallScore score_walls(const slam::Estimate& estimate, const Pose& X_WF, const bi
 
   WallScore score;
   score.face_of_plane.assign(estimate.planes.size(), -1);
-  std::vector<bool> taken(as_built.faces.size(), false);
+  std::vector<std::vector<Stretch>> taken(as_built.faces.size());
   int matched = 0;
   for (const Candidate& c : candidates) {
     int& face_id = score.face_of_plane[static_cast<std::size_t>(c.plane)];
     const auto face = static_cast<std::size_t>(c.face);
-    if (face_id >= 0 || taken[face]) continue;
+    if (face_id >= 0 || is_taken(taken[face], c.stretch)) continue;
     face_id = as_built.faces[face].id;
-    taken[face] = true;
+    taken[face].push_back(c.stretch);
     ++matched;
   }
   int seen = 0;
@@ -96,7 +116,7 @@ WallScore score_walls(const slam::Estimate& estimate, const Pose& X_WF, const bi
   for (std::size_t j = 0; j < as_built.faces.size(); ++j) {
     if (!is_seen(as_built.faces[j], surface_W, rules)) continue;
     ++seen;
-    if (taken[j]) ++seen_matched;
+    if (!taken[j].empty()) ++seen_matched;
   }
   score.precision = static_cast<double>(matched) / static_cast<double>(estimate.planes.size());
   if (seen > 0) score.recall = static_cast<double>(seen_matched) / seen;

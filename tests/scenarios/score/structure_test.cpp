@@ -166,6 +166,17 @@ TEST(Walls, EachFaceMatchesOnce) {
   EXPECT_EQ(*score_walls(estimate, Pose(), plan, hits_on(plan.faces[5])).recall, 0.0);
 }
 
+TEST(Walls, StretchesOfOneFaceAreWallsOfTheirOwn) {
+  const bim::Plan plan = small_plan();
+  slam::Estimate estimate;
+  estimate.planes = {node_of(plan.faces[0], 0), node_of(plan.faces[0], 1)};
+  estimate.planes[0].p1.x() = 1.7;  // of 0.1 to 3.9
+  estimate.planes[1].p0.x() = 2.1;
+  EXPECT_EQ(score_walls(estimate, Pose(), plan, {}).precision, 1.0);
+  estimate.planes[1].p0.x() = 0.2;
+  EXPECT_EQ(score_walls(estimate, Pose(), plan, {}).precision, 0.5);
+}
+
 TEST(Rooms, InventedAndMissedRoomsCount) {
   const bim::Plan plan = small_plan();
   slam::Estimate estimate = perfect(plan);

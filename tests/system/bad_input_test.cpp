@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+// Bad input: exit 2, one line on stderr that names the place and what would be right, and no run directory.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "tests/system/program.h"
+
+namespace plumbline::system_tests {
+namespace {
+
+namespace fs = std::filesystem;
+
+class BadInput : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (!available()) GTEST_SKIP() << "PLUMBLINE_BINARY and PLUMBLINE_SOURCE are not set; run through ctest";
+    plan_ = read_file(project_file("tests/system/short.plan.yaml"));
+    scenario_ = read_file(project_file("tests/system/short.yaml"));
+  }
+
+  /// The text with the first `from` replaced; `from` must be there.
+  static std::string with(std::string text, const std::string& from, const std::string& to) {
+    const std::size_t at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    return text.replace(at, from.size(), to);
+  }
+
+  /// Runs the scenario on the plan and expects the refusal to name all of `words`.
+  void refuse(const std::string& scenario, const std::string& plan, const std::vector<std::string>& words) {
+    write_file(folder_ / "short.yaml", scenario);
+    write_file(folder_ / "short.plan.yaml", plan);
+    refuse_file("short.yaml", words);
+  }
+
+  void refuse_file(const std::string& name, const std::vector<std::string>& words,
+                   const std::vector<std::string>& more = {}) {
+    std::vector<std::string> arguments = {"run", folder_ / name, "--out", folder_ / "out"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome outcome = plumbline(arguments);
+    EXPECT_EQ(outcome.code, 2) << outcome.out << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    for (const std::string& word : words)
+      EXPECT_NE(outcome.err.find(word), std::string::npos) << word << " in: " << outcome.err;
+    EXPECT_FALSE(fs::exists(folder_ / "out"));
+  }
+
+  Folder folder_;
+  std::string plan_;
+  std::string scenario_;
+};
+
+TEST_F(BadInput, Files) {
+  refuse_file("missing.yaml", {"missing.yaml: no such file"});
+  refuse_file("missing.ifc", {"missing.ifc: no such file"});
+  fs::create_directory(folder_ / "dir.yaml");
+  refuse_file("dir.yaml", {"dir.yaml", "directory"});
+  write_file(folder_ / "empty.yaml", "");
+  refuse_file("empty.yaml", {"empty.yaml", "empty"});
+  write_file(folder_ / "empty.ifc", "");
+  refuse_file("empty.ifc", {"empty.ifc", "empty"});
+  write_file(folder_ / "words.ifc", "this is no building\nat all\n");
+  refuse_file("words.ifc", {"words.ifc"});
+  write_file(folder_ / "words.yaml", "just words\n");
+  refuse_file("words.yaml", {"words.yaml:1:1", "scenario: 1", "plan: 1"});
+  write_file(folder_ / "other.yaml", "sweep: 1\n");
+  refuse_file("other.yaml", {"other.yaml:1:1", "sweep"});
+  write_file(folder_ / "broken.yaml", "scenario: 1\nname: [a, b\n");
+  refuse_file("broken.yaml", {"broken.yaml:"});
+}
+
+TEST_F(BadInput, AnIfcFileCutOffInTheMiddle) {
+  const char* data = std::getenv("PLUMBLINE_DATA");
+  const std::string root = data != nullptr ? data : project_file("../shared/data");
+  const std::string ifc = read_file(root + "/ifc/ManySimpleWalls.ifc");
+  if (ifc.empty()) GTEST_SKIP() << "no test data; set PLUMBLINE_DATA";
+  for (const double share : {0.1, 0.5, 0.9}) {
+    write_file(folder_ / "cut.ifc", ifc.substr(0, static_cast<std::size_t>(share * static_cast<double>(ifc.size()))));
+    refuse_file("cut.ifc", {"cut.ifc"});
+  }
+}
+
+TEST_F(BadInput, ScenarioKeysAndValues) {
+  refuse(with(scenario_, "speed_mps:", "speed_msp:"), plan_,
+         {"short.yaml:9:", "unknown key 'speed_msp'", "'speed_mps'"});
+  refuse(scenario_ + "seed: 4\n", plan_, {"short.yaml:15:1", "duplicate key 'seed'"});
+  refuse(with(scenario_, "seed: 3", "seed: three"), plan_, {"short.yaml:6:7", "whole number"});
+  refuse(with(scenario_, "speed_mps: 0.6", "speed_mps: 60"), plan_, {"short.yaml:9:", "between"});
+  refuse(with(scenario_, "odometry, vgicp", "odometry, vgcip"), plan_,
+         {"short.yaml:12:", "unknown method 'vgcip'", "'vgicp'"});
+  refuse(with(scenario_, "short.plan.yaml", "none.plan.yaml"), plan_, {"short.yaml:5:", "none.plan.yaml"});
+  refuse(with(scenario_, "method: truth", "method: nobody"), plan_, {"short.yaml:14:", "nobody"});
+}
+
+TEST_F(BadInput, StartAndRoute) {
+  refuse(with(scenario_, "{room: left}", "{at: [5, 2]}"), plan_, {"short.yaml:7:", "inside a wall"});
+  refuse(with(scenario_, "{room: left}", "{at: [30, 2]}"), plan_, {"short.yaml:7:", "outside every room"});
+  refuse(with(scenario_, "{room: left}", "{room: lift}"), plan_, {"short.yaml:7:", "'left'"});
+  refuse(with(scenario_, "{room: left}", "{storey: first, at: [2, 2]}"), plan_, {"short.yaml:7:", "storey 'first'"});
+  refuse(with(scenario_, "[hall, right]", "[hall, closet]"), plan_, {"short.yaml:8:23", "closet", "cannot be reached"});
+  refuse(with(scenario_, "[hall, right]", "[hall, cellar]"), plan_, {"short.yaml:8:23", "unknown room 'cellar'"});
+}
+
+TEST_F(BadInput, Plan) {
+  refuse(scenario_, with(plan_, "b: [9, 0]", "b: [0, 0]"), {"short.plan.yaml:7:", "south"});
+  refuse(scenario_, with(plan_, "width_m: 1.0", "width_m: 12"), {"short.plan.yaml:15:", "door_left"});
+  refuse(scenario_, with(plan_, "[0, 4.4]]}", "[0, 4.4]], walls: [ghost]}"), {"short.plan.yaml:19:", "ghost"});
+  refuse(scenario_, with(plan_, "wall: hall_south", "wall: hall_north"), {"short.plan.yaml:15:", "hall_north"});
+  refuse(scenario_, with(plan_, "height_m: 2.8", "height_m: -2.8"), {"short.plan.yaml:5:"});
+  refuse(scenario_, with(plan_, "name: short", "nmae: short"), {"short.plan.yaml:4:", "'name'"});
+}
+
+TEST_F(BadInput, CommandLine) {
+  const auto refuse_line = [](const std::vector<std::string>& arguments) {
+    const Outcome outcome = plumbline(arguments);
+    EXPECT_EQ(outcome.code, 2) << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  };
+  refuse_line({});
+  refuse_line({"walk"});
+  refuse_line({"run"});
+  refuse_line({"run", project_file("tests/system/short.yaml"), "--threads", "0"});
+  refuse_line({"run", project_file("tests/system/short.yaml"), "--sed", "1"});
+  refuse_line({"score", folder_ / "nothing"});
+  refuse_line({"report", folder_ / "nothing"});
+  refuse_line({"replay", folder_ / "nothing"});
+  refuse_line({"diff", folder_ / "nothing", folder_ / "nothing"});
+  write_file(folder_ / "short.yaml", scenario_);
+  write_file(folder_ / "short.plan.yaml", plan_);
+  refuse_file("short.yaml", {"unknown method 'vgcip'", "'vgicp'"}, {"--method", "truth,vgcip"});
+  refuse_file("short.yaml", {"twice"}, {"--method", "truth,truth"});
+}
+
+TEST(Help, EveryCommandShowsAnExample) {
+  if (!available()) GTEST_SKIP() << "PLUMBLINE_BINARY is not set; run through ctest";
+  for (const char* command : {"run", "score", "report", "replay", "diff", "methods", "scenarios"}) {
+    const Outcome outcome = plumbline({command, "--help"});
+    EXPECT_EQ(outcome.code, 0) << command;
+    EXPECT_NE(outcome.out.find("Example: plumbline " + std::string(command)), std::string::npos) << outcome.out;
+  }
+  EXPECT_EQ(plumbline({"--version"}).out.rfind("plumbline ", 0), 0U);
+}
+
+}  // namespace
+}  // namespace plumbline::system_tests

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: Apache-2.0
+// The real program on a short scenario: its files, and that nothing around it changes their bytes.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "tests/system/program.h"
+
+namespace plumbline::system_tests {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> names_in(const std::string& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder)) names.push_back(entry.path().filename().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+/// Every file but timings.json must have the same bytes.
+void expect_equal(const std::string& a, const std::string& b) {
+  ASSERT_EQ(names_in(a), names_in(b));
+  for (const std::string& name : names_in(a)) {
+    if (name == "timings.json") continue;
+    EXPECT_TRUE(read_file(a + "/" + name) == read_file(b + "/" + name)) << name;
+  }
+}
+
+/// One run for all tests of this file, made on first use.
+class ShortRun : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    if (!available()) return;
+    folder_ = new Folder();
+    outcome_ = new Outcome(plumbline({"run", input(), "--out", dir(), "--threads", "2", "--record"}));
+  }
+  static void TearDownTestSuite() {
+    delete folder_;
+    delete outcome_;
+    folder_ = nullptr;
+    outcome_ = nullptr;
+  }
+  void SetUp() override {
+    if (!available()) GTEST_SKIP() << "PLUMBLINE_BINARY and PLUMBLINE_SOURCE are not set; run through ctest";
+    ASSERT_EQ(outcome_->code, 0) << outcome_->out << outcome_->err;
+  }
+  static std::string input() { return project_file("tests/system/short.yaml"); }
+  static std::string dir() { return *folder_ / "short"; }
+
+  static Folder* folder_;
+  static Outcome* outcome_;
+};
+Folder* ShortRun::folder_ = nullptr;
+Outcome* ShortRun::outcome_ = nullptr;
+
+TEST_F(ShortRun, LeavesTheFilesOfTheContract) {
+  for (const char* name :
+       {"scenario.yaml", "results.json", "timings.json", "digests.csv", "truth.tum", "report.html", "junit.xml",
+        "building.plan.yaml", "truth_surface.ply", "vgicp.tum", "vgicp.final.tum", "vgicp.map.ply",
+        "s_graph_localization.hypotheses.jsonl", "lidar.pcap", "odometry.tum", "imu.csv"})
+    EXPECT_GT(read_file(dir() + "/" + name).size(), 0U) << name;
+  EXPECT_EQ(outcome_->err, "");  // stderr is no terminal here
+  EXPECT_NE(outcome_->out.find("gates: 1 of 1 passed\n"), std::string::npos) << outcome_->out;
+}
+
+TEST_F(ShortRun, ResultsAndTimingsHaveTheKeysOfTheContract) {
+  const auto results = nlohmann::json::parse(read_file(dir() + "/results.json"));
+  EXPECT_EQ(results["scenario"], "short");
+  EXPECT_EQ(results["seed"], "3");
+  EXPECT_EQ(results["digest"].get<std::string>().size(), 16U);
+  EXPECT_GT(results["distance_m"], 3.0);
+  EXPECT_GT(results["duration_s"], 8.0);
+  const auto& methods = results["methods"];
+  EXPECT_EQ(methods["truth"]["verdict"], "ok");
+  EXPECT_LT(methods["truth"]["ate_rmse_m"], 1e-9);
+  EXPECT_LT(methods["truth"]["map_rmse_m"], 1e-5);  // float coordinates
+  for (const char* method : {"odometry", "vgicp", "s_graphs_plus"}) {
+    EXPECT_EQ(methods[method]["verdict"], "ok") << method;
+    EXPECT_GT(methods[method]["ate_aligned_rmse_m"], 1e-4) << method;  // real estimates are never perfect
+    EXPECT_FALSE(methods[method].contains("localization")) << method;
+  }
+  EXPECT_FALSE(methods["s_graph_localization"].contains("ate_aligned_rmse_m"));
+  EXPECT_TRUE(methods["s_graph_localization"]["localization"].contains("state"));
+
+  const auto timings = nlohmann::json::parse(read_file(dir() + "/timings.json"));
+  for (const char* key : {"total_s", "cpu_s", "simulated_s", "peak_rss_mb", "threads", "cpu_features", "stages"})
+    EXPECT_TRUE(timings.contains(key)) << key;
+  for (const char* stage : {"sim.physics", "sim.lidar", "vgicp/odometry"})
+    EXPECT_TRUE(timings["stages"].contains(stage)) << stage;
+}
+
+TEST_F(ShortRun, SameBytesAgain) {
+  const std::string again = *folder_ / "again";
+  ASSERT_EQ(plumbline({"run", input(), "--out", again, "--threads", "2", "--record"}).code, 0);
+  expect_equal(dir(), again);
+}
+
+TEST_F(ShortRun, SameBytesWithOneThreadElsewhereInAnotherLocale) {
+  const std::string other = *folder_ / "other";
+  Setting setting;
+  setting.cwd = "/";
+  setting.one_cpu = true;
+  setting.env = {
+      {"LC_ALL", "de_DE.UTF-8"}, {"TZ", "Asia/Kathmandu"}, {"HOME", std::nullopt}, {"GLIBC_TUNABLES", std::nullopt}};
+  ASSERT_EQ(plumbline({"run", input(), "--out", other, "--threads", "1", "--record"}, setting).code, 0);
+  expect_equal(dir(), other);
+}
+
+TEST_F(ShortRun, ACopyElsewhereIsScoredReportedAndReplayedTheSame) {
+  const std::string copy = *folder_ / "copy";
+  fs::copy(dir(), copy);
+  for (const char* name : {"results.json", "junit.xml", "report.html"}) fs::remove(copy + "/" + name);
+  EXPECT_EQ(plumbline({"score", copy}).code, 0);
+  expect_equal(dir(), copy);
+  fs::remove(copy + "/report.html");
+  EXPECT_EQ(plumbline({"report", copy}).code, 0);
+  expect_equal(dir(), copy);
+
+  Setting closed;
+  closed.cwd = "/proc";  // nothing can be written here
+  closed.close_stdin = true;
+  const Outcome replay = plumbline({"replay", copy, "--until", "3"}, closed);
+  EXPECT_EQ(replay.code, 0) << replay.err;
+  EXPECT_EQ(replay.out.rfind("equal: ", 0), 0U) << replay.out;
+  EXPECT_EQ(plumbline({"diff", dir(), copy}, closed).out, "equal\n");
+}
+
+TEST_F(ShortRun, ReplayAndDiffNameTheFirstDifference) {
+  const std::string copy = *folder_ / "changed";
+  fs::copy(dir(), copy);
+  std::string digests = read_file(copy + "/digests.csv");
+  const std::size_t stage = digests.find("vgicp/odometry,", digests.size() / 10);
+  ASSERT_NE(stage, std::string::npos);
+  char& digit = digests[stage + std::string("vgicp/odometry,").size()];
+  digit = digit == '0' ? '1' : '0';
+  write_file(copy + "/digests.csv", digests);
+  const Outcome replay = plumbline({"replay", copy, "--until", "3"});
+  EXPECT_EQ(replay.code, 1);
+  EXPECT_NE(replay.out.find(" s in vgicp/odometry: "), std::string::npos) << replay.out;
+  const Outcome diff = plumbline({"diff", dir(), copy});
+  EXPECT_EQ(diff.code, 1);
+  EXPECT_NE(diff.out.find(" s in vgicp/odometry: "), std::string::npos) << diff.out;
+}
+
+TEST_F(ShortRun, OutsideTrajectoriesAreScoredLikeOurs) {
+  const std::string copy = *folder_ / "outside";
+  fs::copy(dir(), copy);
+  const Outcome scored = plumbline({"score", copy, "--estimate", "mine=" + dir() + "/vgicp.tum", "--estimate",
+                                    "given=" + dir() + "/truth.tum,frame=W"});
+  // The gate on the truth is 1e-9: `mine` is held to it too, and fails.
+  EXPECT_EQ(scored.code, 1) << scored.out << scored.err;
+  const auto results = nlohmann::json::parse(read_file(copy + "/results.json"));
+  EXPECT_EQ(results["methods"]["mine"]["ate_aligned_rmse_m"], results["methods"]["vgicp"]["ate_aligned_rmse_m"]);
+  EXPECT_EQ(results["methods"]["given"]["verdict"], "success");
+  EXPECT_LT(results["methods"]["given"]["localization"]["ape_rmse_m"], 1e-9);
+  EXPECT_NE(read_file(copy + "/report.html").find("mine"), std::string::npos);
+  EXPECT_EQ(plumbline({"score", copy, "--estimate", "vgicp=" + dir() + "/vgicp.tum"}).code, 2);
+  EXPECT_EQ(plumbline({"score", copy, "--estimate", "x=" + dir() + "/missing.tum"}).code, 2);
+}
+
+TEST_F(ShortRun, AnotherSeedGivesAnotherRun) {
+  const std::string other = *folder_ / "seed";
+  ASSERT_EQ(plumbline({"run", input(), "--out", other, "--seed", "4", "--method", "truth"}).code, 0);
+  const Outcome diff = plumbline({"diff", dir(), other});
+  EXPECT_EQ(diff.code, 1);
+  EXPECT_NE(diff.out.find(" in sim."), std::string::npos) << diff.out;
+}
+
+TEST_F(ShortRun, OccupiedOutputIsRefusedUnlessForced) {
+  const Outcome refused = plumbline({"run", input(), "--out", dir()});
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.err.find("--force"), std::string::npos);
+  const std::string other = *folder_ / "forced";
+  fs::copy(dir(), other);
+  EXPECT_EQ(plumbline({"run", input(), "--out", other, "--method", "truth", "--force"}).code, 0);
+  EXPECT_FALSE(fs::exists(other + "/vgicp.tum"));
+}
+
+}  // namespace
+}  // namespace plumbline::system_tests

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// What goes wrong around a run: output that cannot be written, a full disk, a kill in the middle, a robot that is
+// stuck.
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <filesystem>
+
+#include "tests/system/program.h"
+
+namespace plumbline::system_tests {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Trouble : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (!available()) GTEST_SKIP() << "PLUMBLINE_BINARY and PLUMBLINE_SOURCE are not set; run through ctest";
+  }
+  static std::string input() { return project_file("tests/system/short.yaml"); }
+
+  /// Sends the signal once the run has begun to write.
+  Outcome interrupt(int signal) {
+    Setting setting;
+    setting.signal = signal;
+    setting.kill_when = [&] { return fs::exists(folder_ / "out/.partial/lock"); };
+    return plumbline({"run", input(), "--out", folder_ / "out"}, setting);
+  }
+
+  Folder folder_;
+};
+
+TEST_F(Trouble, OutputThatCannotBeWritten) {
+  EXPECT_EQ(plumbline({"run", input(), "--method", "truth", "--out", "/proc/plumbline"}).code, 3);
+  Setting nowhere;
+  nowhere.cwd = "/proc";
+  const Outcome outcome = plumbline({"run", input(), "--method", "truth"}, nowhere);
+  EXPECT_EQ(outcome.code, 3) << outcome.err;
+  EXPECT_NE(outcome.err.find("runs/short-3"), std::string::npos) << outcome.err;
+}
+
+TEST_F(Trouble, OutputThatIsFull) {
+  Setting setting;
+  setting.largest_file = 20'000;
+  const Outcome outcome = plumbline({"run", input(), "--method", "truth", "--out", folder_ / "out"}, setting);
+  EXPECT_EQ(outcome.code, 3) << outcome.err;
+  EXPECT_NE(outcome.err.find("cannot be written"), std::string::npos) << outcome.err;
+  EXPECT_FALSE(fs::exists(folder_ / "out"));
+}
+
+TEST_F(Trouble, InterruptsLeaveNothing) {
+  EXPECT_EQ(interrupt(SIGINT).code, 130);
+  EXPECT_FALSE(fs::exists(folder_ / "out"));
+  EXPECT_EQ(interrupt(SIGTERM).code, 143);
+  EXPECT_FALSE(fs::exists(folder_ / "out"));
+}
+
+TEST_F(Trouble, AKillLeavesNothingThatLooksComplete) {
+  EXPECT_EQ(interrupt(SIGKILL).code, 128 + SIGKILL);
+  for (const auto& entry : fs::directory_iterator(folder_ / "out"))
+    EXPECT_EQ(entry.path().filename().string(), ".partial");
+  // And it is no obstacle to the next run.
+  EXPECT_EQ(plumbline({"run", input(), "--method", "truth", "--out", folder_ / "out"}).code, 0);
+  EXPECT_TRUE(fs::exists(folder_ / "out/results.json"));
+}
+
+TEST_F(Trouble, ReadOnlyFolderAndNoStdin) {
+  Setting setting;
+  setting.cwd = "/proc";
+  setting.close_stdin = true;
+  EXPECT_EQ(plumbline({"run", input(), "--method", "truth", "--out", folder_ / "out"}, setting).code, 0);
+  EXPECT_EQ(plumbline({"methods"}, setting).code, 0);
+  EXPECT_EQ(plumbline({"scenarios", project_file("scenarios/library")}, setting).code, 0);
+  EXPECT_EQ(plumbline({"score", folder_ / "out"}, setting).code, 0);
+  EXPECT_EQ(plumbline({"report", folder_ / "out"}, setting).code, 0);
+}
+
+}  // namespace
+}  // namespace plumbline::system_tests
