@@ -2,6 +2,7 @@
 #include "bim/ifc/interpret.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <tuple>
 
@@ -50,7 +51,10 @@ std::vector<PolygonWithHoles2> footprint(const Solid& solid) {
   return unite(triangles);
 }
 
-double Interpreter::snapped(double v) const { return snap(v, config_.grid_m) + 0.0; }
+double Interpreter::snapped(double v) const {
+  // Divided by a whole number, so that the result is the double nearest to its decimals; + 0.0 turns -0 into +0.
+  return std::round(v / config_.grid_m) / std::round(1.0 / config_.grid_m) + 0.0;
+}
 
 void Interpreter::warn(const StepProduct& product, const std::string& kind, const std::string& text) {
   building_.warnings.push_back({product.id, kind, product.type + " #" + std::to_string(product.step_id) + ": " + text});

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenarios/inspect/inspect.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include "bim/building/load.h"
+#include "bim/mesh/export.h"
+#include "scenarios/commands/commands.h"
+
+namespace plumbline::scenarios {
+
+namespace {
+
+struct InspectOptions {
+  std::string building;
+  std::string mesh;
+  bool json = false;
+};
+
+int inspect(const InspectOptions& options) {
+  const bim::Building building = bim::load_building(options.building);
+  const bim::BuildingMesh mesh = bim::build_mesh(building);
+  if (!options.mesh.empty()) bim::write_mesh(mesh, options.mesh);
+  const std::string text =
+      options.json ? write_json(inspect_json(building, mesh)) + "\n" : inspect_text(building, mesh);
+  std::fwrite(text.data(), 1, text.size(), stdout);
+  return 0;
+}
+
+}  // namespace
+
+Command add_inspect(CLI::App& program) {
+  const auto options = std::make_shared<InspectOptions>();
+  CLI::App* app = program.add_subcommand("inspect", "Says what is in a building: storeys, rooms, walls, warnings");
+  app->add_option("BUILDING", options->building, "plan (.yaml) or .ifc")->required();
+  app->add_flag("--json", options->json, "for programs, every element");
+  app->add_option("--mesh", options->mesh, "writes the cut building as .glb, .obj or .ply");
+  app->footer("Example: plumbline inspect house.ifc --mesh house.glb");
+  return {app, [options] { return inspect(*options); }};
+}
+
+}  // namespace plumbline::scenarios
