@@ -150,6 +150,41 @@ TEST(SGraphLocalization, AWrongPlanIsNotBelieved) {
   for (const Output& output : result.outputs) EXPECT_NE(output.state, State::converged);
 }
 
+/// The walk with the time from t0 to t1 cut out: odometry goes on as if nothing had happened, the robot is elsewhere.
+synthetic::Recording kidnapped(const synthetic::Recording& recording, Nanoseconds t0, Nanoseconds t1) {
+  synthetic::Recording result;
+  result.calibration = recording.calibration;
+  Pose X_OR_t0, X_OR_t1;
+  for (const Odometry& o : recording.odometry) {
+    if (o.stamp <= t0) X_OR_t0 = o.X_OR;
+    if (o.stamp <= t1) X_OR_t1 = o.X_OR;
+  }
+  const Pose X_patch = X_OR_t0 * X_OR_t1.inverse();
+  for (const Odometry& o : recording.odometry) {
+    if (o.stamp <= t0) result.odometry.push_back(o);
+    if (o.stamp > t1) result.odometry.push_back({o.stamp - (t1 - t0), X_patch * o.X_OR});
+  }
+  for (std::size_t i = 0; i < recording.scans.size(); ++i) {
+    Scan scan = recording.scans[i];
+    if (scan.stamp > t0 && scan.stamp <= t1 + 200'000'000) continue;
+    if (scan.stamp > t1) scan.stamp -= t1 - t0;
+    result.scans.push_back(scan);
+    result.truth.push_back({scan.stamp, recording.truth[i].X_FR});
+  }
+  return result;
+}
+
+TEST(SGraphLocalization, AKidnappedRobotNoticesAndFindsItselfAgain) {
+  const synthetic::Recording recording = kidnapped(short_walk(34.0), 6'000'000'000, 20'000'000'000);
+  const Answers result = run(recording, input_for(recording, synthetic::plan_of(synthetic::corridor_house()), false));
+  bool lost = false;
+  for (const Output& output : result.outputs) lost = lost || output.state == State::lost;
+  EXPECT_TRUE(lost);
+  EXPECT_EQ(result.outputs.back().state, State::converged);
+  ASSERT_TRUE(result.outputs.back().X_FR.has_value());
+  EXPECT_LT((result.outputs.back().X_FR->t - recording.truth.back().X_FR.t).norm(), 0.05);
+}
+
 TEST(SGraphLocalization, RefusesToRunWithoutAPlan) {
   EXPECT_THROW(static_cast<void>(make_s_graph_localization({})), InputError);
 }

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/localize/hypotheses.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/slam/localize/house_plan.h"
+#include "tests/slam/localize/house_view.h"
+
+namespace plumbline::slam {
+namespace {
+
+struct TwinScene {
+  PlanIndex index;
+  std::vector<View> views;
+  std::vector<Pose2> u;
+  Pose2 here, there;  ///< the true place and its twin at the first view
+};
+
+TwinScene twin_scene() {
+  const synthetic::House house = synthetic::twin_rooms();
+  TwinScene scene{make_plan_index(synthetic::plan_of(house), "ground", {}), {}, {}, {}, {}};
+  for (int i = 0; i < 6; ++i) {
+    const Pose X_WR = Pose::from_xyz_yaw({1.5 + 0.25 * i, 1.4, 0.46}, 0.2);
+    scene.views.push_back(synthetic::standing_view(house, X_WR, Pose{}, static_cast<std::uint64_t>(i + 1)).view);
+    const Pose2 X_IH = heading(scene.index.X_WI.inverse() * X_WR);
+    const Pose2 before =
+        i == 0 ? X_IH : heading(scene.index.X_WI.inverse() * Pose::from_xyz_yaw({1.25 + 0.25 * i, 1.4, 0.46}, 0.2));
+    scene.u.push_back(before.inverse() * X_IH);
+    if (i > 0) continue;
+    scene.here = X_IH;
+    scene.there = heading(scene.index.X_WI.inverse() * Pose::from_xyz_yaw({10.5, 2.4, 0.46}, 0.2));
+  }
+  return scene;
+}
+
+TEST(Hypotheses, TwinsKeepEqualSharesAndOthersDie) {
+  const TwinScene scene = twin_scene();
+  HypothesisSet set({}, {}, {});
+  set.follow(scene.index, scene.u[0], scene.views[0]);
+  Pose2 elsewhere = scene.here;
+  elsewhere.t += Eigen::Vector2d(1.2, 0.9);
+  set.adopt(scene.index, {{0, scene.here}, {0, scene.there}, {0, elsewhere}});
+  for (std::size_t i = 1; i < scene.views.size(); ++i) {
+    set.follow(scene.index, scene.u[i], scene.views[i]);
+    set.settle();
+  }
+  ASSERT_EQ(set.candidates().size(), 2U);
+  EXPECT_NEAR(set.candidates()[0].mass, 0.5, 1e-6);
+}
+
+TEST(Hypotheses, APlaceThatTurnsUpLateIsJudgedByTheWholeHistory) {
+  const TwinScene scene = twin_scene();
+  HypothesisSet set({}, {}, {});
+  set.follow(scene.index, scene.u[0], scene.views[0]);
+  set.adopt(scene.index, std::vector<Place>{{0, scene.here}});
+  for (std::size_t i = 1; i < scene.views.size(); ++i) set.follow(scene.index, scene.u[i], scene.views[i]);
+  Pose2 twin = scene.there;
+  for (std::size_t i = 1; i < scene.views.size(); ++i) twin = twin * scene.u[i];
+  set.adopt(scene.index, std::vector<Place>{{0, twin}});
+  set.settle();
+  ASSERT_EQ(set.candidates().size(), 2U);
+  EXPECT_NEAR(set.candidates()[0].mass, 0.5, 1e-6);
+}
+
+TEST(Hypotheses, ImposeGivesEachPlaceItsMassAndBringsBackTheLost) {
+  const TwinScene scene = twin_scene();
+  HypothesisSet set({}, {}, {});
+  set.follow(scene.index, scene.u[0], scene.views[0]);
+  set.adopt(scene.index, {{0, scene.here}, {0, scene.there}});
+  set.settle();
+  // Every particle stands at one of the twins.
+  ParticleSet particles(200, {scene.here, 0, 1.0 / 200, -1});
+  const Clustering clustering = find_clusters(particles, {});
+  set.impose(particles, clustering, 100, 3, 1);
+  double mass = 0.0;
+  for (const LocalParticle& p : particles)
+    if ((p.X_IH.t - scene.there.t).norm() < 0.5) mass += p.weight;
+  EXPECT_NEAR(mass, 0.5, 0.01);
+}
+
+}  // namespace
+}  // namespace plumbline::slam
