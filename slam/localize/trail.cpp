@@ -13,7 +13,9 @@ Pose Trail::correction_at(Nanoseconds stamp, const Pose& X_OR) const {
   const auto before = after - 1;
   const double s = static_cast<double>(stamp - before->stamp) / static_cast<double>(after->stamp - before->stamp);
   // Interpolated at the robot: O's origin may be far, and turning about it would swing the pose.
-  return interpolate(before->X_FR * X_OR, after->X_FR * X_OR, s) * X_OR.inverse();
+  const Pose& X_FO_before = before->X_FR;
+  const Pose& X_FO_after = after->X_FR;
+  return interpolate(X_FO_before * X_OR, X_FO_after * X_OR, s) * X_OR.inverse();
 }
 
 std::vector<StampedPose> Trail::poses(const Pose& X_WI) const {
