@@ -69,6 +69,11 @@ ReportInput report_input(const RunFiles& files, const score::RunScore& score) {
   ReportInput input;
   input.results = read_json(score::write_results(files, score), "results.json");
   input.plan = score.as_built;
+  for (bim::PlanRoom& room : input.plan.rooms) {
+    const auto named = std::find_if(files.building.rooms.begin(), files.building.rooms.end(),
+                                    [&](const bim::Room& candidate) { return candidate.id == room.name; });
+    if (named != files.building.rooms.end() && !named->name.empty()) room.name = named->name;
+  }
   for (std::size_t i = 0; i < files.building.storeys.size(); ++i)
     if (files.building.storeys[i].id == files.scenario.start.storey) input.storey = static_cast<int>(i);
   for (const slam::Nanoseconds stamp : score.truth.scans)

@@ -19,6 +19,7 @@ h2{font-size:16px;margin:0 0 10px}
 .top{display:grid;grid-template-columns:minmax(0,1fr) 330px;gap:16px}
 @media(max-width:980px){.top{grid-template-columns:1fr}}
 svg{display:block;width:100%;height:auto}
+.map{max-height:82vh}
 .map text{font-size:.36px;fill:#6b7889;paint-order:stroke;stroke:#f8fafc;stroke-width:.12px}
 .room{fill:#f8fafc;stroke:none}
 .wall{stroke:var(--wall);stroke-width:.07;stroke-linecap:square}

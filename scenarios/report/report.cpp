@@ -51,7 +51,13 @@ std::string sentence(const ReportMethod& method, const Tree* results) {
     const Tree* where = results == nullptr ? nullptr : results->find("localization");
     const auto time = number_of(where, "converged_at_s");
     const auto error = number_of(where, "ape_rmse_m");
+    const auto places = number_of(where, "hypotheses");
+    if (verdict == "honest_ambiguity" && places)
+      return "Kept " + svg::number(*places, 0) + " places in mind, rightly: what was seen does not tell them apart.";
+    if (verdict == "overconfident") return "Settled on one place though what was seen fits several.";
     if (!time) return "Never settled on one place in the building.";
+    if (verdict == "lucky") return "Settled on the right place before anything seen could tell it from another.";
+    if (verdict == "false_convergence") return "Settled on a wrong place.";
     std::string text = "Knew its place in the building after " + svg::number(*time, 1) + " s";
     if (error) text += " and was " + centimetres(*error) + " off from then on (rms)";
     return text + ".";

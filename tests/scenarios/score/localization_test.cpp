@@ -105,5 +105,15 @@ TEST(Localization, WhereThePlanHasTwoAnswers) {
   EXPECT_EQ(judge(both, twin).verdict, LocalizationVerdict::late);  // one that is no twin
 }
 
+TEST(Localization, ARightAnswerBeforeAnythingCouldTellIsLuck) {
+  Identifiability known;
+  known.identifiable = true;
+  known.at_s = 8.0;
+  known.tellable_from_s = 6.0;
+  EXPECT_EQ(judge(converges_at(40, 0.0), known).verdict, LocalizationVerdict::lucky);    // at 4 s
+  EXPECT_EQ(judge(converges_at(60, 0.0), known).verdict, LocalizationVerdict::success);  // at 6 s, on weak evidence
+  EXPECT_EQ(judge(converges_at(40, 3.0), known).verdict, LocalizationVerdict::false_convergence);
+}
+
 }  // namespace
 }  // namespace plumbline::scenarios::score
