@@ -155,13 +155,20 @@ std::string robot_mark(const std::string& name, const std::string& fill) {
          "\" stroke=\"#fff\" stroke-width=\".04\"/>";
 }
 
-std::string draw_method(const ReportMethod& method, std::size_t index) {
-  const std::string c = colour(index);
-  std::string out = "<g class=\"layer-" + svg::escape(method.name) + "\">";
+std::string draw_structure(const ReportMethod& method, const std::string& c) {
+  std::string out;
   for (const auto& room : method.rooms)
     out += svg::polygon(room.polygon_W, room.matched ? "class=\"foundroom\" fill=\"" + c + "\" stroke=\"" + c + "\""
                                                      : std::string("class=\"foundroom invented\""));
   for (const auto& wall : method.walls) out += svg::line(wall.p0, wall.p1, "class=\"found\" stroke=\"" + c + "\"");
+  return out;
+}
+
+std::string draw_method(const ReportMethod& method, std::size_t index) {
+  const std::string c = colour(index);
+  std::string out = "<g class=\"layer-" + svg::escape(method.name) + "\">";
+  // What a localization finds are the plan's own walls and rooms, which are drawn already.
+  if (!method.localization) out += draw_structure(method, c);
   out += svg::polyline(path_of(method.samples), "class=\"path\" stroke=\"" + c + "\"");
   return out + robot_mark(method.name, c) + "</g>";
 }
