@@ -25,12 +25,16 @@ struct Warning {
   std::string text;
 };
 
+/// What a storey is by its content: foundations and roofs hold no rooms to walk in.
+enum class StoreyKind { habitable, foundation, roof };
+
 struct Storey {
   std::string id;
   std::string name;
   double elevation_m = 0.0;  ///< z of the finished floor in W
   double height_m = 3.0;     ///< to the next storey or the ceiling
   std::int64_t step_id = 0;  ///< STEP entity number, 0 when not from IFC
+  StoreyKind kind = StoreyKind::habitable;
 };
 
 enum class OpeningKind { door, window, opening_void };
@@ -46,6 +50,7 @@ struct Opening {
   double z0_m = 0.0;  ///< sill
   double z1_m = 2.1;  ///< head
   Leaf leaf = Leaf::open;
+  std::string material;        ///< of the leaf or pane that fills it; empty: opaque leaf, no pane
   std::optional<Solid> solid;  ///< IFC: the opening's uncut body in W; cut instead of the rectangle
   std::vector<Solid> parts;    ///< IFC: further touching bodies of the same opening
   std::string filling_id;      ///< id of the door or window that fills it, or empty
@@ -76,6 +81,13 @@ struct Wall {
   [[nodiscard]] double length() const { return (b - a).norm(); }
 };
 
+/// A stretch of a room's outline where no wall stands (open plan).
+struct VirtualEdge {
+  Eigen::Vector2d a = Eigen::Vector2d::Zero();
+  Eigen::Vector2d b = Eigen::Vector2d::Zero();  ///< along the outline, counter-clockwise
+  int room = -1;                                ///< index of the room beyond, -1 outside or unknown
+};
+
 struct Room {
   std::string id;
   std::string name;
@@ -84,6 +96,7 @@ struct Room {
   double z0_m = 0.0;
   double z1_m = 3.0;
   std::vector<int> walls;  ///< indices of bounding walls, ascending
+  std::vector<VirtualEdge> virtual_edges;
   std::int64_t step_id = 0;
 };
 
@@ -93,6 +106,7 @@ struct Slab {
   PolygonWithHoles2 polygon;
   double z0_m = -0.2;  ///< underside
   double z1_m = 0.0;   ///< top
+  std::string material;
   std::optional<Solid> body;
   std::int64_t step_id = 0;
 };
@@ -103,18 +117,51 @@ struct Column {
   Polygon2 footprint;
   double z0_m = 0.0;
   double z1_m = 3.0;
+  std::string material;
   std::optional<Solid> body;
   std::int64_t step_id = 0;
 };
 
-/// Any other solid a robot meets: clutter of a plan; of IFC, door leaves, stairs, railings, furniture.
+/// One straight run of equal steps. Tread k (from 0) lies at z0 + (k + 1) rise, between k run and (k + 1) run from
+/// start along yaw; the flight is centred on that line.
+struct StairFlight {
+  Eigen::Vector2d start = Eigen::Vector2d::Zero();  ///< middle of the foot of the first riser
+  double yaw = 0.0;                                 ///< rad, direction of ascent
+  double width_m = 1.0;
+  double z0_m = 0.0;  ///< level below the first riser
+  int steps = 0;
+  double rise_m = 0.17;
+  double run_m = 0.28;
+};
+
+struct Landing {
+  Polygon2 polygon;  ///< counter-clockwise
+  double z_m = 0.0;
+};
+
+/// A walkable way from one storey to another: flights from the lowest up, with the landings between them.
+struct Stair {
+  std::string id;
+  std::string name;
+  int from = -1;            ///< storey at the foot
+  int to = -1;              ///< storey at the head, -1 when it reaches none
+  int rooms[2] = {-1, -1};  ///< room at the foot and at the head, -1 outside or unknown
+  std::vector<StairFlight> flights;
+  std::vector<Landing> landings;
+  std::string material;
+  std::vector<Solid> bodies;  ///< in W
+  std::int64_t step_id = 0;
+};
+
+/// Any other solid a robot meets: clutter of a plan; door leaves and window panes; of IFC, railings, furniture, ...
 struct Obstacle {
   std::string id;
-  std::string kind;  ///< box | cylinder | door_leaf | window_pane | stair | ...
+  std::string kind;  ///< box | cylinder | door_leaf | window_pane | railing | furniture | ...
   int storey = -1;
   Solid body;
   bool planned = true;  ///< false: as-built only
   std::int64_t step_id = 0;
+  std::string material = {};
 };
 
 /// What a surface does to light. Named by Wall::material; kept, not yet simulated.
@@ -136,6 +183,7 @@ struct Building {
   std::vector<Room> rooms;
   std::vector<Slab> slabs;
   std::vector<Column> columns;
+  std::vector<Stair> stairs;
   std::vector<Obstacle> obstacles;
   std::vector<Material> materials;
   std::vector<Warning> warnings;

@@ -35,6 +35,13 @@ std::string_view first_content(std::string_view text) {
 
 }  // namespace
 
+Site load_site(const std::string& path) {
+  Site site;
+  site.as_planned = load_building(path);
+  site.as_built = site.as_planned;
+  return site;
+}
+
 Building load_building(const std::string& path) {
   const std::string text = read_text_file(path);
   const std::string_view content = first_content(text);

@@ -35,6 +35,20 @@ CutWall column_solid(const Column& column, const MeshConfig& config) {
   return swept(unite(std::vector<Polygon2>{column.footprint}), column.z0_m, column.z1_m, config);
 }
 
+/// All bodies of a stair as one element; it closes when each of them does.
+CutWall stair_solid(const Stair& stair, const MeshConfig& config) {
+  CutWall whole{{}, true, {}};
+  for (const Solid& body : stair.bodies) {
+    const CutWall part = taken_over(stair.id, body, config);
+    const int first = static_cast<int>(whole.solid.vertices.size());
+    whole.solid.vertices.insert(whole.solid.vertices.end(), part.solid.vertices.begin(), part.solid.vertices.end());
+    for (const Eigen::Vector3i& t : part.solid.triangles) whole.solid.triangles.push_back(t.array() + first);
+    whole.closed = whole.closed && part.closed;
+    whole.warnings.insert(whole.warnings.end(), part.warnings.begin(), part.warnings.end());
+  }
+  return whole;
+}
+
 /// Appends elements in the order of the calls.
 class Assembly {
  public:
@@ -83,6 +97,9 @@ BuildingMesh build_mesh(const Building& building, const MeshConfig& config) {
   index = 0;
   for (const Column& column : building.columns)
     assembly.add(ElementKind::column, index++, column.id, column.storey, column_solid(column, config));
+  index = 0;
+  for (const Stair& stair : building.stairs)
+    assembly.add(ElementKind::stair, index++, stair.id, stair.from, stair_solid(stair, config));
   index = 0;
   for (const Obstacle& obstacle : building.obstacles)
     assembly.add(ElementKind::obstacle, index++, obstacle.id, obstacle.storey,

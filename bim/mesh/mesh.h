@@ -10,13 +10,13 @@
 
 namespace plumbline::bim {
 
-enum class ElementKind { wall, slab, column, obstacle };
+enum class ElementKind { wall, slab, column, stair, obstacle };
 
 /// One physical element of the mesh; its position in BuildingMesh::elements is the element id of its triangles.
 struct MeshElement {
   std::string id;
   ElementKind kind = ElementKind::wall;
-  int index = -1;  ///< into Building::walls, slabs, columns or obstacles
+  int index = -1;  ///< into Building::walls, slabs, columns, stairs or obstacles
   int storey = -1;
   bool closed = true;
   double volume_m3 = 0.0;  ///< 0 when not closed
@@ -34,7 +34,8 @@ struct BuildingMesh {
 };
 
 /// Cuts every wall (2D booleans on the elevation where the wall is prismatic, corefinement otherwise), extrudes
-/// slabs and columns, and joins all in the order of the building: walls, slabs, columns, obstacles.
+/// slabs and columns, and joins all in the order of the building: walls, slabs, columns, stairs,
+/// obstacles.
 [[nodiscard]] BuildingMesh build_mesh(const Building& building, const MeshConfig& config = {});
 
 }  // namespace plumbline::bim

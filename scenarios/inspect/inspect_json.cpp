@@ -87,6 +87,8 @@ class Inspector {
         return building_.slabs[i].step_id;
       case ElementKind::column:
         return building_.columns[i].step_id;
+      case ElementKind::stair:
+        return building_.stairs[i].step_id;
       case ElementKind::obstacle:
         return building_.obstacles[i].step_id;
     }
