@@ -29,7 +29,7 @@ void add(Digest& digest, const Storey& storey) {
 
 void add(Digest& digest, const Wall& wall) {
   digest.add(wall.id).add(wall.storey).add(wall.a).add(wall.b).add(wall.offset_m).add(wall.thickness_m);
-  digest.add(wall.z0_m).add(wall.z1_m).add(wall.material);
+  digest.add(wall.z0_m).add(wall.z1_m).add(wall.slope).add(wall.material);
   add(digest, wall.body);
 }
 

@@ -59,6 +59,8 @@ struct Opening {
 };
 
 /// A wall: reference line a to b, body from offset to offset + thickness across it (positive to the left of a to b).
+/// A leaning one is sheared: what stands upright moves slope m to the left for every metre above z0; bodies and the
+/// solids of its openings are given sheared.
 struct Wall {
   std::string id;
   std::string name;
@@ -69,6 +71,7 @@ struct Wall {
   double thickness_m = 0.2;
   double z0_m = 0.0;
   double z1_m = 3.0;
+  double slope = 0.0;  ///< tangent of the angle it leans to the left
   std::string material;
   std::optional<Solid> body;  ///< IFC: the uncut body in W; absent for a plain box wall of a plan
   std::int64_t step_id = 0;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bim/building/wall_face.h"
 
+#include <cmath>
+
 #include "bim/errors.h"
 
 namespace plumbline::bim {
@@ -22,9 +24,15 @@ Polygon2 footprint(const Wall& wall) {
 Plane face_plane(const Wall& wall, int side) {
   const Eigen::Vector2d left = wall.left();
   const Eigen::Vector2d on_right = wall.a + wall.offset_m * left;
-  const Plane right{Eigen::Vector3d(-left.x(), -left.y(), 0.0), left.dot(on_right)};
   constexpr int body_behind = -1;
-  return side == 0 ? twin_plane(right, wall.thickness_m, body_behind) : right;
+  if (wall.slope == 0.0) {
+    const Plane right{Eigen::Vector3d(-left.x(), -left.y(), 0.0), left.dot(on_right)};
+    return side == 0 ? twin_plane(right, wall.thickness_m, body_behind) : right;
+  }
+  const double cosine = 1.0 / std::sqrt(1.0 + wall.slope * wall.slope);
+  const Eigen::Vector3d n = cosine * Eigen::Vector3d(-left.x(), -left.y(), wall.slope);
+  const Plane right{n, -n.dot(Eigen::Vector3d(on_right.x(), on_right.y(), wall.z0_m))};
+  return side == 0 ? twin_plane(right, wall.thickness_m * cosine, body_behind) : right;
 }
 
 Plane twin_plane(const Plane& plane, double thickness_m, int body_side) {

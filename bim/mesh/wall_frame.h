@@ -10,17 +10,18 @@
 
 namespace plumbline::bim {
 
-/// Frame of a wall: x along a to b from a, y across to the left, z as in W.
+/// Frame of a wall: x along a to b from a, y across to the left, z as in W. A leaning wall stands upright in it.
 class WallFrame {
  public:
-  explicit WallFrame(const Wall& wall) : origin_(wall.a), along_(wall.direction()), left_(wall.left()) {}
+  explicit WallFrame(const Wall& wall)
+      : origin_(wall.a), along_(wall.direction()), left_(wall.left()), z0_(wall.z0_m), slope_(wall.slope) {}
 
   [[nodiscard]] Eigen::Vector3d to_wall(const Eigen::Vector3d& p_W) const {
     const Eigen::Vector2d p = p_W.head<2>() - origin_;
-    return {p.dot(along_), p.dot(left_), p_W.z()};
+    return {p.dot(along_), p.dot(left_) - slope_ * (p_W.z() - z0_), p_W.z()};
   }
   [[nodiscard]] Eigen::Vector3d to_world(const Eigen::Vector3d& p) const {
-    const Eigen::Vector2d q = origin_ + p.x() * along_ + p.y() * left_;
+    const Eigen::Vector2d q = origin_ + p.x() * along_ + (p.y() + slope_ * (p.z() - z0_)) * left_;
     return {q.x(), q.y(), p.z()};
   }
   [[nodiscard]] std::vector<Eigen::Vector3d> to_wall(const std::vector<Eigen::Vector3d>& points_W) const {
@@ -32,6 +33,7 @@ class WallFrame {
 
  private:
   Eigen::Vector2d origin_, along_, left_;
+  double z0_, slope_;
 };
 
 struct Interval {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "bim/building/wall_face.h"
 #include "bim/mesh/sweep.h"
 #include "bim/random/stream.h"
 
@@ -183,6 +184,22 @@ TEST(WallCut, VolumeIsAreaTimesThicknessAtRandom) {
     EXPECT_TRUE(is_closed(solid)) << tick;
     // 1 um of vertex grid on at most 60 m2 of surface.
     EXPECT_NEAR(volume(solid), r.area * r.wall.thickness_m, 3e-5) << tick;
+  }
+}
+
+TEST(WallCut, ALeaningWallKeepsItsVolumeAndLiesBetweenItsTwoFaces) {
+  const Stream stream(16, "bim.generate");
+  for (std::uint64_t tick = 0; tick < 100; ++tick) {
+    RandomWall r = random_wall(stream, tick);
+    r.wall.slope = 0.4 * stream.uniform(tick, 1, 0) - 0.2;
+    const Solid solid = cut(r.wall, r.openings);
+    EXPECT_TRUE(is_closed(solid)) << tick;
+    EXPECT_NEAR(volume(solid), r.area * r.wall.thickness_m, 3e-5) << tick;
+    const Plane left = face_plane(r.wall, 0), right = face_plane(r.wall, 1);
+    EXPECT_NEAR(left.n.norm(), 1.0, 1e-15);
+    EXPECT_NEAR(std::abs(left.n.z()), std::abs(r.wall.slope) / std::hypot(1.0, r.wall.slope), 1e-12);
+    for (const Eigen::Vector3d& p : solid.vertices)  // within the grid of the vertices
+      EXPECT_NEAR(std::min(std::abs(left.distance(p)), std::abs(right.distance(p))), 0.0, 2e-6) << tick;
   }
 }
 
