@@ -125,6 +125,28 @@ std::string identifier(const std::shared_ptr<IfcRepresentation>& representation)
              : std::string();
 }
 
+/// False where a coordinate is not a number, or further out than any map grid, or a body too large for a building or
+/// too far from its placement.
+bool within_reach(const StepProduct& product) {
+  constexpr double furthest_m = 1e7, largest_m = 1e4;
+  Eigen::AlignedBox3d box;
+  const auto extend = [&](const std::vector<Eigen::Vector3d>& points) {
+    for (const Eigen::Vector3d& p : points) {
+      if (!p.allFinite()) return false;
+      box.extend(p);
+    }
+    return true;
+  };
+  bool finite = extend(product.axis_W) && extend({product.X_WP.translation()});
+  for (const Shape& shape : product.body) {
+    finite = finite && extend(shape.base.points);
+    for (const Facets& cut : shape.minus) finite = finite && extend(cut.points);
+  }
+  if (!finite) return false;
+  return box.isEmpty() || (box.min().cwiseAbs().maxCoeff() <= furthest_m &&
+                           box.max().cwiseAbs().maxCoeff() <= furthest_m && box.sizes().maxCoeff() <= largest_m);
+}
+
 /// Body items and axis of a product, moved to W. Openings may name their body Reference.
 void read_geometry(const IfcProduct& source, StepSoundness& soundness, StepGeometry& geometry, StepProduct& product) {
   if (!source.m_Representation) return;
@@ -202,6 +224,7 @@ class Reader {
     product.host = host_of(source, kind);
     read_material(*source, unit_m, product);
     if (needs_geometry(kind)) read_geometry(*source, soundness_, geometry_, product);
+    if (!within_reach(product)) fail(product.step_id, product.type + " is larger than 10 km or further than 10000 km");
     return product;
   }
 

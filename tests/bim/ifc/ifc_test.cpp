@@ -208,21 +208,46 @@ TEST(Ifc, CutAnywhereIsAnInputError) {
     EXPECT_THROW((void)read_ifc_text(whole.substr(0, length), "small.ifc"), InputError) << length;
 }
 
-/// One character replaced: either it is still IFC or an InputError; never a crash or another exception.
-TEST(Ifc, SpoiltTextNeverCrashes) {
-  const std::string whole = small_ifc({});
-  const std::string bad = "$*0'(),;#.9A";
-  int refused = 0;
-  for (std::size_t at = 0; at < whole.size(); at += 11) {
-    std::string text = whole;
-    text[at] = bad[(at / 11) % bad.size()];
-    try {
-      (void)read_ifc_text(text, "small.ifc");
-    } catch (const InputError&) {
-      ++refused;
-    }
+/// Whatever it is, it is read or it is an InputError.
+bool refused(const std::string& text) {
+  try {
+    (void)build_mesh(read_ifc_text(text, "small.ifc"));
+    return false;
+  } catch (const InputError&) {
+    return true;
   }
-  EXPECT_GT(refused, 50);
+}
+
+TEST(Ifc, SpoiltCharactersNeverCrash) {
+  const std::string whole = small_ifc({});
+  const std::string bad = "$*0'(),;#.9A-\n";
+  int count = 0;
+  for (std::size_t at = 0; at < whole.size(); at += 3) {
+    std::string text = whole;
+    text[at] = bad[(at / 3) % bad.size()];
+    count += refused(text) ? 1 : 0;
+  }
+  EXPECT_GT(count, 500);
+}
+
+/// References that lead to entities of another kind, missing arguments, absurd numbers.
+TEST(Ifc, SpoiltArgumentsNeverCrash) {
+  const std::string whole = small_ifc({});
+  const std::vector<std::string> bad = {"$",   "*",  "#3",   "#53",           "-1.", "1E300",
+                                        "'x'", "()", "(#3)", "IFCLABEL('x')", ""};
+  const std::string separators = "(),=";
+  int count = 0, tried = 0;
+  for (std::size_t begin = whole.find("DATA;") + 6; begin < whole.size();) {
+    const std::size_t end = std::min(whole.find_first_of(separators + ";", begin), whole.size());
+    if (end > begin && separators.find(whole[begin - 1]) != std::string::npos) {
+      std::string text = whole;
+      text.replace(begin, end - begin, bad[static_cast<std::size_t>(tried++) % bad.size()]);
+      count += refused(text) ? 1 : 0;
+    }
+    begin = end + 1;
+  }
+  EXPECT_GT(tried, 300);
+  EXPECT_GT(count, 100);
 }
 
 TEST(Ifc, LeavesStreamsAndLocaleAsTheyWere) {
