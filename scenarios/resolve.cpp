@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <numbers>
 
-#include "bim/building/load.h"
 #include "bim/building/plan.h"
 #include "bim/random/stream.h"
 #include "scenarios/route_plan.h"
@@ -113,6 +112,16 @@ sim::WorldConfig make_world(const Scenario& scenario, const RoutePlan& plan) {
   return world;
 }
 
+/// What the robot walks through: as built, with the rooms of the plan, so that a route may name any of them.
+bim::Building walked_building(const bim::Site& site) {
+  bim::Building walked = site.as_built;
+  for (const bim::Room& planned : site.as_planned.rooms) {
+    const auto same = [&](const bim::Room& room) { return room.id == planned.id; };
+    if (std::none_of(walked.rooms.begin(), walked.rooms.end(), same)) walked.rooms.push_back(planned);
+  }
+  return walked;
+}
+
 double default_duration(const RoutePlan& plan, double speed) {
   const DefaultDuration rule;
   return std::min(rule.longest_s, std::ceil(rule.factor * plan.length_m / speed + rule.extra_s));
@@ -146,20 +155,20 @@ ResolvedScenario resolve(const std::string& input_path, const Overrides& overrid
   if (!bare && !fs::exists(building))
     throw InputError(mark_at(text.tree, {"building"}), "the building '" + building.string() + "' does not exist");
   resolved.building_bytes = read_text_file(building.string());
-  resolved.building = bim::load_building(building.string());
+  resolved.site = bim::load_site(building.string(), text.scenario.building_options);
 
   const RouteMarks marks{mark_at(text.tree, {"start"}), mark_at(text.tree, {"route"}),
                          marks_of(text.tree, {"route", "rooms"}, text.scenario.route.rooms.size())};
-  const RoutePlan plan = plan_route(resolved.building, text.scenario.start, text.scenario.route, marks);
+  const RoutePlan plan = plan_route(walked_building(resolved.site), text.scenario.start, text.scenario.route, marks);
   if (bare) text.scenario.duration_s = default_duration(plan, text.scenario.speed_mps);
 
   Scenario& scenario = text.scenario;
-  const std::string& storey = resolved.building.storeys[static_cast<std::size_t>(plan.storey)].id;
+  const std::string& storey = resolved.site.as_planned.storeys[static_cast<std::size_t>(plan.storey)].id;
   scenario.start = Start{std::nullopt, storey, plan.start_W, plan.yaw_deg};
   if (!scenario.route.shuttle) scenario.route.rooms = plan.rooms;
   scenario.building = is_ifc(resolved.building_bytes) ? "building.ifc" : "building.plan.yaml";
   resolved.world = make_world(scenario, plan);
-  resolved.prior = make_prior(scenario, resolved.building, plan);
+  resolved.prior = make_prior(scenario, resolved.site.as_planned, plan);
   resolved.scenario = std::move(scenario);
   return resolved;
 }

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "bim/building/building.h"
+#include "bim/building/load.h"
 #include "scenarios/scenario.h"
 #include "sim/world.h"
 #include "slam/io/method.h"
@@ -21,7 +21,7 @@ struct Overrides {
 /// A scenario with its building, every choice made.
 struct ResolvedScenario {
   Scenario scenario;           ///< start, route and methods settled; `building` names the copy in a run directory
-  bim::Building building;      ///< as planned and, without deviations, as built
+  bim::Site site;              ///< as planned for the methods, as built for the world
   std::string building_bytes;  ///< the file as it was read
   sim::WorldConfig world;
   slam::Prior prior;

@@ -78,6 +78,11 @@ std::vector<std::string> off_defaults(const Scenario& scenario) {
     names.push_back("lidar.preset: " + to_tree(scenario.lidar).find("preset")->as_string());
   if (scenario.odometry.preset != defaults.odometry.preset)
     names.push_back("odometry.preset: " + to_tree(scenario.odometry).find("preset")->as_string());
+  const bim::BuildingOptions& options = scenario.building_options;
+  if (options.doors != defaults.building_options.doors)
+    names.push_back("doors: " + to_tree(options).find("doors")->as_string());
+  if (options.furniture != defaults.building_options.furniture)
+    names.push_back(std::string("furniture: ") + (options.furniture ? "true" : "false"));
   return names;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "bim/building/building_options.h"
 #include "bim/config/visit.h"
 #include "sim/lidar/lidar.h"
 #include "sim/robot/leg_odometry.h"
@@ -105,7 +106,8 @@ struct GateSpec {
 struct Scenario {
   int version = 1;
   std::string name = "unnamed";
-  std::string building;  ///< path of the plan or IFC file, relative to the scenario's folder
+  std::string building;                   ///< path of the plan or IFC file, relative to the scenario's folder
+  bim::BuildingOptions building_options;  ///< its keys stand beside `building`
   std::uint64_t seed = 1;
   Start start;
   Route route;
@@ -121,6 +123,7 @@ struct Scenario {
     v("scenario", version, Field{.doc = "version of this format", .min = 1, .max = 1, .required = true});
     v("name", name, Field{.doc = "name of the run"});
     v("building", building, Field{.doc = "plan or IFC file, relative to this file", .required = true});
+    building_options.visit(v);
     v("seed", seed, Field{.doc = "seed of everything random", .min = 0, .max = 9.2e18});
     v("start", start, Field{.doc = "where the robot starts"});
     v("route", route, Field{.doc = "where it walks"});
@@ -146,7 +149,8 @@ struct ScenarioText {
 [[nodiscard]] std::string write_scenario(const Scenario& scenario);
 /// Mark of a nested value ("route", "rooms"); of the innermost that exists where some are missing.
 [[nodiscard]] Mark mark_at(const Tree& tree, std::initializer_list<std::string_view> path);
-/// Switches of the sensors that differ from the defaults, as "lidar.preset: ideal", in the order of the fields.
+/// Switches of the sensors and the building that differ from the defaults, as "lidar.preset: ideal", in the order of
+/// the fields.
 [[nodiscard]] std::vector<std::string> off_defaults(const Scenario& scenario);
 
 }  // namespace plumbline::scenarios

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bim/building/building.h"
 
+#include "bim/building/fillings.h"
 #include "bim/digest/digest.h"
 
 namespace plumbline::bim {
@@ -109,7 +110,9 @@ std::uint64_t Building::hash() const {
   add_all(digest, slabs);
   add_all(digest, columns);
   add_all(digest, stairs);
-  add_all(digest, obstacles);
+  std::vector<Obstacle> content = obstacles;
+  std::erase_if(content, is_filling);
+  add_all(digest, content);
   add_all(digest, materials);
   return digest.value();
 }

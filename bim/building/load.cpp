@@ -2,7 +2,9 @@
 #include "bim/building/load.h"
 
 #include <string_view>
+#include <utility>
 
+#include "bim/building/fillings.h"
 #include "bim/building/plan_yaml.h"
 #include "bim/config/tree.h"
 #include "bim/errors.h"
@@ -33,22 +35,37 @@ std::string_view first_content(std::string_view text) {
   return {};
 }
 
-}  // namespace
-
-Site load_site(const std::string& path) {
+/// A building of any kind, from its text.
+Site read_site(const std::string& text, const std::string& path) {
+  const std::string_view content = first_content(text);
+  const bool yaml = ends_with(path, ".yaml") || ends_with(path, ".yml");
   Site site;
-  site.as_planned = load_building(path);
-  site.as_built = site.as_planned;
+  if (ends_with(path, ".ifc") || starts_with(content, "ISO-10303-21")) {
+    site.as_planned = read_ifc_text(text, path);
+    site.as_built = site.as_planned;
+  } else if (yaml || starts_with(content, "plan:")) {
+    PlanSite plan = read_plan_site(text, path);
+    site.as_planned = std::move(plan.as_planned);
+    site.as_built = std::move(plan.as_built.building);
+    site.changes = std::move(plan.as_built.changes);
+  } else {
+    throw InputError({path, 0, 0},
+                     "this is no building; a plan begins with 'plan: 1', an IFC file with 'ISO-10303-21;'");
+  }
   return site;
 }
 
-Building load_building(const std::string& path) {
-  const std::string text = read_text_file(path);
-  const std::string_view content = first_content(text);
-  const bool yaml = ends_with(path, ".yaml") || ends_with(path, ".yml");
-  if (ends_with(path, ".ifc") || starts_with(content, "ISO-10303-21")) return read_ifc_text(text, path);
-  if (yaml || starts_with(content, "plan:")) return read_plan_text(text, path);
-  throw InputError({path, 0, 0}, "this is no building; a plan begins with 'plan: 1', an IFC file with 'ISO-10303-21;'");
+}  // namespace
+
+Site load_site(const std::string& path, const BuildingOptions& options) {
+  Site site = read_site(read_text_file(path), path);
+  for (Building* building : {&site.as_planned, &site.as_built}) {
+    apply_options(*building, options);
+    add_fillings(*building);
+  }
+  return site;
 }
+
+Building load_building(const std::string& path) { return read_site(read_text_file(path), path).as_planned; }
 
 }  // namespace plumbline::bim

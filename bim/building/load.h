@@ -2,8 +2,11 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "bim/building/building.h"
+#include "bim/building/building_options.h"
+#include "bim/building/deviations.h"
 
 namespace plumbline::bim {
 
@@ -11,15 +14,17 @@ namespace plumbline::bim {
 struct Site {
   Building as_planned;
   Building as_built;
-  bool has_plan = true;  ///< false: a mere mesh, in which nothing can be localized
+  std::vector<Change> changes;  ///< what differs, as built
+  bool has_plan = true;         ///< false: a mere mesh, in which nothing can be localized
 };
 
-/// Reads a building with its as-built deviations. Errors as load_building.
-[[nodiscard]] Site load_site(const std::string& path);
+/// Reads a building with its as-built deviations, as a scenario wants it, and fills its closed doors and its windows
+/// (bim/building/fillings.h). Errors as load_building.
+[[nodiscard]] Site load_site(const std::string& path, const BuildingOptions& options = {});
 
-/// Reads a building, as planned, of any kind this version knows, told by its content: a plan (YAML whose first key is
-/// `plan: 1`) or an IFC file.
-/// Throws InputError when the file is missing, a directory, empty or of another kind.
+/// Reads a building, as planned and without fillings, of any kind this version knows, told by its content: a plan (YAML
+/// whose first key is `plan: 1`) or an IFC file. Throws InputError when the file is missing, a directory, empty or of
+/// another kind.
 [[nodiscard]] Building load_building(const std::string& path);
 
 }  // namespace plumbline::bim

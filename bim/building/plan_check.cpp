@@ -3,6 +3,7 @@
 #include <cmath>
 #include <set>
 
+#include "bim/building/materials.h"
 #include "bim/building/plan_file.h"
 #include "bim/errors.h"
 
@@ -46,9 +47,7 @@ void check_ids(const std::vector<Entry>& entries, std::string_view section, cons
   for (std::size_t i = 0; i < entries.size(); ++i) {
     const std::string& id = entries[i].id;
     const Mark mark = places.value(section, i, "id");
-    if (id.empty()) throw InputError(mark, "an id must not be empty");
-    if (id.find('/') != std::string::npos)
-      throw InputError(mark, "the id " + quoted(id) + " contains '/', which is kept for copies of storeys");
+    check_plan_id(id, mark);
     if (!taken.insert(id).second) throw InputError(mark, "the id " + quoted(id) + " is taken; ids must be unique");
   }
 }
@@ -108,15 +107,14 @@ void check_heights(const PlanFile& plan, const Places& places) {
 void check_wall(const PlanFile& plan, std::size_t i, const Places& places) {
   const PlanWallEntry& wall = plan.walls[i];
   const std::size_t storey = refer(plan.storeys, wall.storey, "storey", places.value("walls", i, "storey"));
-  if ((wall.b - wall.a).norm() < 0.01)
-    throw InputError(places.value("walls", i, "b"),
-                     "wall " + quoted(wall.id) + " has zero length; a and b must lie at least 0.01 m apart");
+  if ((wall.b - wall.a).norm() < plan_length_min_m)
+    throw InputError(places.value("walls", i, "b"), "wall " + quoted(wall.id) +
+                                                        " has zero length; a and b must lie at least " +
+                                                        metres(plan_length_min_m) + " apart");
   const double height = storey_height(plan, plan.storeys[storey]);
   if (wall.height_m.value_or(height) > height + touching_m)
     throw InputError(places.value("walls", i, "height_m"), "wall " + quoted(wall.id) + " is higher than its storey, " +
                                                                metres(height) + "; it must fit below the ceiling");
-  if (!wall.material.empty())
-    (void)refer(plan.materials, wall.material, "material", places.value("walls", i, "material"));
 }
 
 void check_opening(const PlanFile& plan, std::size_t i, const Places& places) {
@@ -175,6 +173,26 @@ void check_room(const PlanFile& plan, std::size_t i, const Places& places) {
 }
 
 template <class Entry>
+void check_materials_of(const Building& materials, const std::vector<Entry>& entries, std::string_view section,
+                        const Places& places) {
+  for (std::size_t i = 0; i < entries.size(); ++i)
+    if (!entries[i].material.empty())
+      check_material_id(materials, entries[i].material, places.value(section, i, "material"));
+}
+
+void check_all_materials(const PlanFile& plan, const Places& places) {
+  Building declared;
+  declared.materials.assign(plan.materials.begin(), plan.materials.end());
+  for (std::size_t i = 0; i < plan.storeys.size(); ++i)
+    if (!plan.storeys[i].floor_material.empty())
+      check_material_id(declared, plan.storeys[i].floor_material, places.value("storeys", i, "floor_material"));
+  check_materials_of(declared, plan.walls, "walls", places);
+  check_materials_of(declared, plan.openings, "openings", places);
+  check_materials_of(declared, plan.columns, "columns", places);
+  check_materials_of(declared, plan.clutter, "clutter", places);
+}
+
+template <class Entry>
 void check_storey_of(const PlanFile& plan, const std::vector<Entry>& entries, std::string_view section,
                      const Places& places) {
   for (std::size_t i = 0; i < entries.size(); ++i)
@@ -190,8 +208,26 @@ double storey_height(const PlanFile& plan, const PlanStoreyEntry& storey) {
   return source < 0 ? usual_height_m : plan.storeys[static_cast<std::size_t>(source)].height_m.value_or(usual_height_m);
 }
 
+void check_plan_id(const std::string& id, const Mark& mark) {
+  if (id.empty()) throw InputError(mark, "an id must not be empty");
+  if (id.find('/') != std::string::npos)
+    throw InputError(mark, "the id " + quoted(id) + " contains '/', which is kept for copies of storeys");
+}
+
+void check_material_id(const Building& building, const std::string& material, const Mark& mark) {
+  if (find_material(building, material) != nullptr) return;
+  std::vector<std::string> known;
+  for (const Material& own : building.materials) known.push_back(own.id);
+  for (const Material& preset : preset_materials()) known.push_back(preset.id);
+  const std::string close = did_you_mean(material, known);
+  std::string list;
+  for (const std::string& name : known) list += (list.empty() ? "" : ", ") + name;
+  throw InputError(mark, "there is no material " + quoted(material) +
+                             (close.empty() ? "; known: " + list : "; did you mean " + quoted(close) + "?"));
+}
+
 void refuse_what_is_not_built(const Tree& tree) {
-  for (const std::string_view section : {"stairs", "deviations"}) {
+  for (const std::string_view section : {"stairs"}) {
     const Tree* list = tree.find(section);
     if (list == nullptr || !list->is_list() || list->as_list().empty()) continue;
     throw InputError(list->as_list().front().mark,
@@ -212,6 +248,7 @@ void check_plan(const PlanFile& plan, const Tree& tree) {
   for (std::size_t i = 0; i < plan.rooms.size(); ++i) check_room(plan, i, places);
   check_storey_of(plan, plan.columns, "columns", places);
   check_storey_of(plan, plan.clutter, "clutter", places);
+  check_all_materials(plan, places);
 }
 
 }  // namespace plumbline::bim

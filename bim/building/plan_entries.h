@@ -44,6 +44,7 @@ namespace plumbline::bim {
 /// Limits of what a plan may say. A building reaches at most 10 km from its origin, so that a float keeps 1 mm.
 inline constexpr double plan_reach_m = 1e4;
 inline constexpr double plan_size_max_m = 1e3;
+inline constexpr double plan_length_min_m = 0.01;  ///< of a wall
 
 inline constexpr Field plan_id{.doc = "unique in its list, without '/'", .required = true};
 inline constexpr Field plan_reference{.doc = "id of another element", .required = true};
@@ -53,11 +54,14 @@ inline constexpr Field plan_size{.doc = "m", .min = 0.01, .max = plan_size_max_m
 inline constexpr Field plan_yaw{.doc = "degrees, counter-clockwise", .min = -360.0, .max = 360.0};
 inline constexpr Field plan_share{.doc = "share of the light", .min = 0.0, .max = 1.0};
 
+inline constexpr Field plan_material{.doc = "id of a material, declared or preset"};
+
 struct PlanStoreyEntry {
   std::string id;
   double elevation_m = 0.0;
   std::optional<double> height_m;  ///< 3 m, or that of the storey it copies
   std::string copy_of;
+  std::string floor_material;  ///< of its floor slab
 
   template <class V>
   void visit(V& v) {
@@ -65,6 +69,7 @@ struct PlanStoreyEntry {
     v("elevation_m", elevation_m, Field{.doc = "m", .min = -plan_reach_m, .max = plan_reach_m});
     v("height_m", height_m, Field{.doc = "m, floor to ceiling", .min = 0.5, .max = plan_size_max_m});
     v("copy_of", copy_of, Field{.doc = "storey whose content stands here again"});
+    v("floor_material", floor_material, plan_material);
   }
 };
 
@@ -84,8 +89,8 @@ struct PlanWallEntry {
     v("b", b, plan_place);
     v("thickness_m", thickness_m, Field{.doc = "m", .min = 0.01, .max = 10.0});
     v("just", just, Field{.doc = "where a-b lies in the thickness, seen from a to b"});
-    v("material", material, Field{.doc = "id of a material"});
-    v("height_m", height_m, plan_height);
+    v("material", material, plan_material);
+    v("height_m", height_m, Field{.doc = "m; the storey's when not given", .min = 0.01, .max = plan_size_max_m});
   }
 };
 
@@ -97,17 +102,19 @@ struct PlanOpeningEntry {
   double height_m = 2.1;
   double sill_m = 0.0;
   std::optional<Leaf> leaf;  ///< door: open; window and void: none
+  std::string material;      ///< of the leaf or pane; a window's is glass when not given
 
   template <class V>
   void visit(V& v) {
     v("id", id, plan_id);
     v("wall", wall, plan_reference);
-    v("kind", kind);
+    v("kind", kind, Field{.doc = "a void has neither leaf nor pane"});
     v("s_m", s_m, Field{.doc = "centre along the wall from a, m", .min = 0.0, .max = plan_reach_m, .required = true});
     v("width_m", width_m, plan_height);
     v("height_m", height_m, plan_height);
     v("sill_m", sill_m, Field{.doc = "above the wall's lower edge, m", .min = 0.0, .max = plan_size_max_m});
-    v("leaf", leaf, Field{.doc = "of a door"});
+    v("leaf", leaf, Field{.doc = "of a door; an open leaf is not drawn"});
+    v("material", material, Field{.doc = "of the leaf or pane; a window's is glass when not given"});
   }
 };
 
@@ -130,6 +137,7 @@ struct PlanColumnEntry {
   Eigen::Vector2d at = Eigen::Vector2d::Zero(), size = Eigen::Vector2d::Zero();
   double yaw_deg = 0.0;
   std::optional<double> height_m;  ///< the storey's
+  std::string material;
 
   template <class V>
   void visit(V& v) {
@@ -138,7 +146,8 @@ struct PlanColumnEntry {
     v("at", at, plan_place);
     v("size", size, plan_size);
     v("yaw_deg", yaw_deg, plan_yaw);
-    v("height_m", height_m, plan_height);
+    v("height_m", height_m, Field{.doc = "m; the storey's when not given", .min = 0.01, .max = plan_size_max_m});
+    v("material", material, plan_material);
   }
 };
 
@@ -148,6 +157,7 @@ struct PlanClutterEntry {
   Eigen::Vector2d at = Eigen::Vector2d::Zero(), size = Eigen::Vector2d::Zero();
   double yaw_deg = 0.0;
   double height_m = 1.0;
+  std::string material;
 
   template <class V>
   void visit(V& v) {
@@ -158,6 +168,7 @@ struct PlanClutterEntry {
     v("size", size, plan_size);
     v("yaw_deg", yaw_deg, plan_yaw);
     v("height_m", height_m, plan_height);
+    v("material", material, plan_material);
   }
 };
 

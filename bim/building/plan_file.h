@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "bim/building/plan_deviation.h"
 #include "bim/building/plan_entries.h"
 #include "bim/config/tree.h"
 
@@ -22,7 +23,7 @@ struct PlanFile {
   std::vector<NotBuiltEntry> stairs;
   std::vector<PlanClutterEntry> clutter;
   std::vector<PlanMaterialEntry> materials;
-  std::vector<NotBuiltEntry> deviations;
+  std::vector<PlanDeviationEntry> deviations;
 
   template <class V>
   void visit(V& v) {
@@ -51,7 +52,11 @@ template <class Entry>
 /// Height of a storey with its default resolved; `storey` must be in the file.
 [[nodiscard]] double storey_height(const PlanFile& plan, const PlanStoreyEntry& storey);
 
-/// InputError at the first element of a kind this version does not simulate (stairs, deviations).
+/// InputError unless the id can be given: not empty, and without '/', which is kept for copies of storeys.
+void check_plan_id(const std::string& id, const Mark& mark);
+/// InputError unless the material is one of the building or a preset.
+void check_material_id(const Building& building, const std::string& material, const Mark& mark);
+/// InputError at the first element of a kind this version does not simulate (stairs).
 void refuse_what_is_not_built(const Tree& tree);
 /// Every rule that a single field cannot know (references, lengths, overlaps). Throws InputError at the offending
 /// place of `tree`, which the file was read from.

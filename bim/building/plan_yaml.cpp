@@ -2,52 +2,18 @@
 #include "bim/building/plan_yaml.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 
+#include "bim/building/materials.h"
+#include "bim/building/plan_elements.h"
 #include "bim/building/plan_file.h"
 #include "bim/building/rooms.h"
 #include "bim/building/wall_face.h"
 #include "bim/errors.h"
 #include "bim/geometry/polygon_boolean.h"
-#include "bim/mesh/sweep.h"
 
 namespace plumbline::bim {
 
 namespace {
-
-double body_offset(const PlanWallEntry& wall) {
-  switch (wall.just) {
-    case Just::center:
-      return -0.5 * wall.thickness_m;
-    case Just::left:
-      return -wall.thickness_m;
-    case Just::right:
-      return 0.0;
-  }
-  throw InternalError("unknown justification of a wall");
-}
-
-/// Rectangle of the given size around `at`, turned by yaw.
-Polygon2 turned_rectangle(const Eigen::Vector2d& at, const Eigen::Vector2d& size, double yaw_deg) {
-  const Eigen::Rotation2Dd turn(yaw_deg * std::numbers::pi / 180.0);
-  Polygon2 polygon;
-  for (const auto& [x, y] : {std::pair{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}})
-    polygon.push_back(at + turn * Eigen::Vector2d(x * size.x(), y * size.y()));
-  return polygon;
-}
-
-/// Polygon with its corners on the ellipse of the given diameters.
-Polygon2 turned_ellipse(const Eigen::Vector2d& at, const Eigen::Vector2d& size, double yaw_deg, int sides) {
-  const Eigen::Rotation2Dd turn(yaw_deg * std::numbers::pi / 180.0);
-  Polygon2 polygon;
-  for (int i = 0; i < sides; ++i) {
-    const double angle = 2.0 * std::numbers::pi * i / sides;
-    const Eigen::Vector2d p(std::cos(angle) * 0.5 * size.x(), std::sin(angle) * 0.5 * size.y());
-    polygon.push_back(at + turn * p);
-  }
-  return polygon;
-}
 
 /// Turns a checked file into a building, storey by storey; a copied storey gets the entries of its source again.
 class PlanBuilder {
@@ -69,18 +35,17 @@ class PlanBuilder {
 
  private:
   /// Where the entries of the storey at hand come from and how high it is.
-  struct Level {
-    int index = 0;
+  struct Level : PlanLevel {
     std::string source;  ///< storey id the entries name
-    std::string prefix;  ///< of the ids of a copy
-    double floor_z = 0.0, top_z = 3.0;
     double ceiling_z0 = 3.0, ceiling_z1 = 3.2;
     std::size_t first_wall = 0;
   };
 
   void add_material(const PlanMaterialEntry& material) {
     building_.materials.push_back(material);
-    if (material.transmission > 0.0 || material.specular > 0.0)
+    if (material.transmission >= see_through_share)
+      building_.warnings.push_back({material.id, "see_through", "the LiDAR looks through it as if it were not there"});
+    else if (material.transmission > 0.0 || material.specular > 0.0)
       building_.warnings.push_back({material.id, "not_simulated", "transmission and specular light are not simulated"});
   }
 
@@ -90,9 +55,9 @@ class PlanBuilder {
     level.index = index;
     level.source = storey.copy_of.empty() ? storey.id : storey.copy_of;
     level.prefix = storey.copy_of.empty() ? "" : storey.id + "/";
-    level.floor_z = storey.elevation_m;
-    level.top_z = storey.elevation_m + storey_height(plan_, storey);
-    level.ceiling_z1 = level.top_z + solids_.slab_m;
+    level.floor_z_m = storey.elevation_m;
+    level.top_z_m = storey.elevation_m + storey_height(plan_, storey);
+    level.ceiling_z1 = level.top_z_m + solids_.slab_m;
     // Under a further storey the ceiling is the slab that storey stands on.
     for (const PlanStoreyEntry& other : plan_.storeys)
       if (other.elevation_m > storey.elevation_m) level.ceiling_z1 = std::min(level.ceiling_z1, other.elevation_m);
@@ -131,64 +96,24 @@ class PlanBuilder {
   }
 
   void add_wall(const PlanWallEntry& entry, const Level& level) {
-    Wall wall;
-    wall.id = level.prefix + entry.id;
-    wall.name = wall.id;
-    wall.storey = level.index;
-    wall.a = entry.a;
-    wall.b = entry.b;
-    wall.thickness_m = entry.thickness_m;
-    wall.offset_m = body_offset(entry);
-    wall.z0_m = level.floor_z;
-    wall.z1_m = entry.height_m ? level.floor_z + *entry.height_m : level.top_z;
-    wall.material = entry.material;
-    building_.walls.push_back(std::move(wall));
+    use_material(building_, entry.material);
+    building_.walls.push_back(wall_of(entry, level));
   }
 
-  void add_opening(const PlanOpeningEntry& entry, int wall_index, const Level& level) {
-    const Wall& wall = building_.walls[static_cast<std::size_t>(wall_index)];
-    Opening opening;
-    opening.id = level.prefix + entry.id;
-    opening.wall = wall_index;
-    opening.kind = entry.kind;
-    opening.s_m = entry.s_m;
-    opening.width_m = entry.width_m;
-    opening.z0_m = wall.z0_m + entry.sill_m;
-    opening.z1_m = opening.z0_m + entry.height_m;
-    opening.leaf = entry.leaf.value_or(entry.kind == OpeningKind::door ? Leaf::open : Leaf::none);
-    if (opening.leaf == Leaf::closed) add_leaf(opening, wall);
-    building_.openings.push_back(std::move(opening));
-  }
-
-  /// A closed leaf fills its opening in the middle of the wall. An open one lies against nothing.
-  void add_leaf(const Opening& opening, const Wall& wall) {
-    const double thickness = std::min(solids_.leaf_m, wall.thickness_m);
-    const Eigen::Vector2d along = 0.5 * opening.width_m * wall.direction();
-    const Eigen::Vector2d across = 0.5 * thickness * wall.left();
-    const Eigen::Vector2d centre =
-        wall.a + opening.s_m * wall.direction() + (wall.offset_m + 0.5 * wall.thickness_m) * wall.left();
-    const Polygon2 outline = {centre - along - across, centre + along - across, centre + along + across,
-                              centre - along + across};
-    building_.obstacles.push_back(
-        {opening.id + "/leaf", "door_leaf", wall.storey, extrude({{outline, {}}}, opening.z0_m, opening.z1_m)});
+  void add_opening(const PlanOpeningEntry& entry, int wall, const Level& level) {
+    use_material(building_, entry.material);
+    building_.openings.push_back(
+        opening_of(entry, level.prefix, wall, building_.walls[static_cast<std::size_t>(wall)]));
   }
 
   void add_column(const PlanColumnEntry& entry, const Level& level) {
-    Column column;
-    column.id = level.prefix + entry.id;
-    column.storey = level.index;
-    column.footprint = turned_rectangle(entry.at, entry.size, entry.yaw_deg);
-    column.z0_m = level.floor_z;
-    column.z1_m = entry.height_m ? level.floor_z + *entry.height_m : level.top_z;
-    building_.columns.push_back(std::move(column));
+    use_material(building_, entry.material);
+    building_.columns.push_back(column_of(entry, level));
   }
 
   void add_clutter(const PlanClutterEntry& entry, const Level& level) {
-    const bool round = entry.shape == ClutterShape::cylinder;
-    const Polygon2 outline = round ? turned_ellipse(entry.at, entry.size, entry.yaw_deg, solids_.cylinder_sides)
-                                   : turned_rectangle(entry.at, entry.size, entry.yaw_deg);
-    building_.obstacles.push_back({level.prefix + entry.id, round ? "cylinder" : "box", level.index,
-                                   extrude({{outline, {}}}, level.floor_z, level.floor_z + entry.height_m)});
+    use_material(building_, entry.material);
+    building_.obstacles.push_back(clutter_of(entry, level, solids_.cylinder_sides));
   }
 
   void add_rooms(const Level& level) {
@@ -215,8 +140,8 @@ class PlanBuilder {
     room.name = room.id;
     room.storey = level.index;
     room.polygon = outlines.front();
-    room.z0_m = level.floor_z;
-    room.z1_m = std::min(level.top_z, level.ceiling_z0);
+    room.z0_m = level.floor_z_m;
+    room.z1_m = std::min(level.top_z_m, level.ceiling_z0);
     for (const std::string& wall : entry.walls) room.walls.push_back(wall_index(prefix + wall));
     std::sort(room.walls.begin(), room.walls.end());
     room.walls.erase(std::unique(room.walls.begin(), room.walls.end()), room.walls.end());
@@ -244,7 +169,7 @@ class PlanBuilder {
     int number = 0;
     for (const PolygonWithHoles2& piece : unite(outlines)) {
       const std::string suffix = number++ == 0 ? "" : "-" + std::to_string(number);
-      add_slab(storey + "/floor" + suffix, piece, level.index, level.floor_z - solids_.slab_m, level.floor_z);
+      add_slab(storey + "/floor" + suffix, piece, level.index, level.floor_z_m - solids_.slab_m, level.floor_z_m);
       add_slab(storey + "/ceiling" + suffix, piece, level.index, level.ceiling_z0, level.ceiling_z1);
     }
   }
@@ -291,13 +216,21 @@ class PlanBuilder {
 Building read_plan(const std::string& path) { return read_plan_text(read_text_file(path), path); }
 
 Building read_plan_text(std::string_view text, const std::string& file, const PlanSolids& solids) {
+  return read_plan_site(text, file, solids).as_planned;
+}
+
+PlanSite read_plan_site(std::string_view text, const std::string& file, const PlanSolids& solids) {
   const Tree tree = read_yaml(text, file);
   if (!tree.is_map() || tree.as_map().empty() || tree.as_map().front().first != "plan")
     throw InputError(tree.mark, "this is no plan; its first key must be 'plan: 1'");
   refuse_what_is_not_built(tree);
   const PlanFile plan = from_tree<PlanFile>(tree);
   check_plan(plan, tree);
-  return PlanBuilder(plan, tree, solids).build();
+  PlanSite site;
+  site.as_planned = PlanBuilder(plan, tree, solids).build();
+  const Tree* deviations = tree.find("deviations");
+  site.as_built = apply_deviations(site.as_planned, plan.deviations, deviations != nullptr ? *deviations : tree);
+  return site;
 }
 
 }  // namespace plumbline::bim

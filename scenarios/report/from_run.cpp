@@ -69,13 +69,14 @@ ReportInput report_input(const RunFiles& files, const score::RunScore& score) {
   ReportInput input;
   input.results = read_json(score::write_results(files, score), "results.json");
   input.plan = score.as_built;
+  const std::vector<bim::Room>& rooms = files.site.as_built.rooms;
   for (bim::PlanRoom& room : input.plan.rooms) {
-    const auto named = std::find_if(files.building.rooms.begin(), files.building.rooms.end(),
-                                    [&](const bim::Room& candidate) { return candidate.id == room.name; });
-    if (named != files.building.rooms.end() && !named->name.empty()) room.name = named->name;
+    const auto named =
+        std::find_if(rooms.begin(), rooms.end(), [&](const bim::Room& candidate) { return candidate.id == room.name; });
+    if (named != rooms.end() && !named->name.empty()) room.name = named->name;
   }
-  for (std::size_t i = 0; i < files.building.storeys.size(); ++i)
-    if (files.building.storeys[i].id == files.scenario.start.storey) input.storey = static_cast<int>(i);
+  for (std::size_t i = 0; i < files.site.as_built.storeys.size(); ++i)
+    if (files.site.as_built.storeys[i].id == files.scenario.start.storey) input.storey = static_cast<int>(i);
   for (const slam::Nanoseconds stamp : score.truth.scans)
     input.truth.push_back(sample(stamp, score.truth.at(stamp), 0.0));
   for (std::size_t i = 0; i < files.methods.size(); ++i) {

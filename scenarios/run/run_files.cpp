@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "bim/building/load.h"
 #include "scenarios/run/cloud_file.h"
 #include "scenarios/run/estimate_file.h"
 #include "scenarios/run/files.h"
@@ -101,7 +100,7 @@ RunFiles read_run_files(const std::string& dir) {
   RunFiles files;
   files.dir = dir;
   files.scenario = read_scenario(read_text_file(path("scenario.yaml")), path("scenario.yaml")).scenario;
-  files.building = bim::load_building(path(files.scenario.building));
+  files.site = bim::load_site(path(files.scenario.building), files.scenario.building_options);
   files.digests = read_digests(read_text_file(path("digests.csv")), path("digests.csv"));
   for (const DigestEntry& entry : files.digests)
     if (entry.stage == "sim.lidar") files.scans.push_back(entry.tick);

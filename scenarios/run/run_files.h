@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "bim/building/building.h"
+#include "bim/building/load.h"
 #include "scenarios/resolve.h"
 #include "scenarios/run/record.h"
 
@@ -14,7 +14,7 @@ namespace plumbline::scenarios {
 struct RunFiles {
   std::string dir;
   Scenario scenario;
-  bim::Building building;
+  bim::Site site;
   DigestLog digests;
   std::vector<slam::Nanoseconds> scans;  ///< stamps of all scans
   std::vector<slam::StampedPose> truth_W;

@@ -7,6 +7,7 @@
 #include "bim/digest/float_mode.h"
 #include "bim/errors.h"
 #include "bim/mesh/mesh.h"
+#include "bim/mesh/visible.h"
 #include "bim/random/stream.h"
 #include "scenarios/run/observer.h"
 #include "scenarios/run/participant.h"
@@ -17,7 +18,7 @@ namespace plumbline::scenarios {
 namespace {
 
 std::vector<std::unique_ptr<Participant>> make_participants(const ResolvedScenario& resolved) {
-  const auto plan = std::make_shared<const bim::Plan>(bim::make_plan(resolved.building));
+  const auto plan = std::make_shared<const bim::Plan>(bim::make_plan(resolved.site.as_planned));
   std::vector<std::unique_ptr<Participant>> participants;
   for (const std::string& name : resolved.scenario.methods) {
     if (name == truth_method) {
@@ -42,8 +43,9 @@ std::vector<std::unique_ptr<Participant>> make_participants(const ResolvedScenar
 
 RunRecord execute(const ResolvedScenario& resolved, const RunOptions& options) {
   set_float_mode();
-  const bim::BuildingMesh mesh = bim::build_mesh(resolved.building);
-  sim::World world(resolved.world, resolved.building, mesh);
+  const bim::Building& as_built = resolved.site.as_built;
+  const bim::BuildingMesh mesh = bim::visible_mesh(as_built, bim::build_mesh(as_built));
+  sim::World world(resolved.world, as_built, mesh);
   FrameRecorder recorder(mesh, options.keep_sensors);
   RunRecord record;
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "bim/mesh/mesh.h"
+#include "bim/mesh/visible.h"
 #include "bim/rays/scene.h"
 #include "scenarios/identify/constants.h"
 #include "scenarios/identify/identify.h"
@@ -40,21 +41,28 @@ IdentifyStorey search_area(const bim::Building& building, std::size_t storey) {
   return area;
 }
 
+bim::RayScene scene_of(const bim::Building& building) {
+  return bim::RayScene(bim::visible_mesh(building, bim::build_mesh(building)));
+}
+
 }  // namespace
 
 std::optional<Identifiability> identifiability_of(const RunFiles& files, const Truth& truth) {
   if (files.scans.empty() || files.truth_W.empty()) return std::nullopt;
-  const bim::RayScene scene(bim::build_mesh(files.building));
-  const std::size_t start = storey_of(files.building, files.truth_W.front().X_FR);
+  const bim::Building& as_planned = files.site.as_planned;
+  const bim::RayScene planned_scene = scene_of(as_planned);
+  std::optional<bim::RayScene> built_scene;
+  if (!files.site.changes.empty()) built_scene = scene_of(files.site.as_built);
+  const std::size_t start = storey_of(as_planned, files.truth_W.front().X_FR);
 
   IdentifyInput input;
-  input.as_planned = &scene;
-  input.as_built = &scene;
+  input.as_planned = &planned_scene;
+  input.as_built = built_scene ? &*built_scene : &planned_scene;
   input.yaw_known = files.scenario.prior.yaw == Knowledge::known;
-  input.truth_sensor_z_W = search_area(files.building, start).sensor_z_W;
-  for (std::size_t i = 0; i < files.building.storeys.size(); ++i)
+  input.truth_sensor_z_W = search_area(as_planned, start).sensor_z_W;
+  for (std::size_t i = 0; i < as_planned.storeys.size(); ++i)
     if (i == start || files.scenario.prior.storey == Knowledge::unknown)
-      input.storeys.push_back(search_area(files.building, i));
+      input.storeys.push_back(search_area(as_planned, i));
 
   std::vector<TruthSample> samples;
   for (const slam::Nanoseconds t : files.scans)

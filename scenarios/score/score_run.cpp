@@ -5,6 +5,7 @@
 
 #include "bim/digest/digest.h"
 #include "bim/mesh/mesh.h"
+#include "bim/mesh/visible.h"
 #include "scenarios/run/files.h"
 #include "scenarios/score/identifiability.h"
 
@@ -113,6 +114,14 @@ Tree sensors_of(const Scenario& scenario) {
   return tree.set("off_default", off);
 }
 
+/// What was built otherwise than planned.
+Tree changes_of(const bim::Site& site) {
+  Tree list = Tree::list();
+  for (const bim::Change& change : site.changes)
+    list.push(Tree::map().set("op", change.op).set("element", change.element));
+  return list;
+}
+
 }  // namespace
 
 bool RunScore::passed() const {
@@ -121,14 +130,15 @@ bool RunScore::passed() const {
 
 RunScore score_run(const RunFiles& files) {
   RunScore score;
-  score.as_built = bim::make_plan(files.building);
+  score.as_built = bim::make_plan(files.site.as_built);
   score.truth = {files.truth_W, files.scans};
   score.digest = hex64(digest_of(files.digests));
   score.duration_s = slam::seconds(files.scans.back());
   score.distance_m = score.truth.walked().back();
 
   const std::vector<Eigen::Vector3d> surface_W = to_double(files.surface_W);
-  const SurfaceDistance distance(bim::build_mesh(files.building), MapRules().cap_m);
+  const bim::Building& as_built = files.site.as_built;
+  const SurfaceDistance distance(bim::visible_mesh(as_built, bim::build_mesh(as_built)), MapRules().cap_m);
   const Reference reference{score.as_built, score.truth, surface_W, distance};
   const bool localizes = std::any_of(files.methods.begin(), files.methods.end(),
                                      [](const MethodRecord& m) { return m.localization && !m.crashed; });
@@ -154,6 +164,7 @@ std::string write_results(const RunFiles& files, const RunScore& score) {
   tree.set("duration_s", score.duration_s).set("distance_m", score.distance_m);
   if (!files.failure.empty()) tree.set("failure", files.failure);
   tree.set("sensors", sensors_of(files.scenario));
+  if (!files.site.changes.empty()) tree.set("as_built", changes_of(files.site));
   Tree gates = Tree::list();
   for (const GateResult& gate : score.gates) gates.push(to_results(gate));
   tree.set("gates", gates);

@@ -118,17 +118,6 @@ TEST(PlanYaml, EveryStoreyGetsFloorAndCeiling) {
   EXPECT_NEAR(signed_area(building.slabs[0].polygon.outer), 8.2 * 5.2 - 4 * 0.01, 1e-9);
 }
 
-TEST(PlanYaml, ClosedLeafFillsItsDoor) {
-  const Building building = read_plan_text(with("height_m: 2.1}", "height_m: 2.1, leaf: closed}"), "p.yaml");
-  ASSERT_EQ(building.obstacles.size(), 2U);
-  const Obstacle& leaf = building.obstacles[0];
-  EXPECT_EQ(leaf.id, "door/leaf");
-  EXPECT_EQ(leaf.kind, "door_leaf");
-  EXPECT_TRUE(is_closed(leaf.body));
-  EXPECT_NEAR(volume(leaf.body), 1.0 * 0.04 * 2.1, 1e-12);
-  for (const Eigen::Vector3d& p : leaf.body.vertices) EXPECT_NEAR(std::abs(p.x() - 4.0), 0.02, 1e-12);
-}
-
 TEST(PlanYaml, CopiedStoreyRepeatsItsSource) {
   const Building building = read_plan_text(
       with("height_m: 3}\n", "height_m: 3}\n  - {id: first, elevation_m: 3.3, copy_of: ground}\n"), "p.yaml");
@@ -161,7 +150,7 @@ TEST(PlanYaml, MaterialsAreKeptAndWhatIsNotSimulatedIsSaid) {
   ASSERT_EQ(building.materials.size(), 1U);
   EXPECT_EQ(building.materials[0].transmission, 0.8);
   ASSERT_EQ(building.warnings.size(), 1U);
-  EXPECT_EQ(building.warnings[0].kind, "not_simulated");
+  EXPECT_EQ(building.warnings[0].kind, "see_through");
 }
 
 TEST(PlanYaml, MeshOfAPlanIsClosed) {
@@ -252,7 +241,6 @@ TEST(PlanYamlErrors, Rooms) {
 
 TEST(PlanYamlErrors, WhatIsNotSimulated) {
   expect_error(sound + "stairs:\n  - {id: s}\n", "22", "'stairs' are not simulated");
-  expect_error(sound + "deviations:\n  - {op: move_wall}\n", "22", "'deviations' are not simulated");
   EXPECT_EQ(error_of(sound + "stairs: []\ndeviations: []\n"), "no error");
 }
 

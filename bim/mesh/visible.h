@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "bim/mesh/mesh.h"
+
+namespace plumbline::bim {
+
+/// The mesh as a LiDAR sees it: without the triangles of elements whose material it looks through (transmission of at
+/// least see_through_share), such as window panes. Elements keep their ids; those left out have no triangles.
+[[nodiscard]] BuildingMesh visible_mesh(const Building& building, const BuildingMesh& mesh);
+
+}  // namespace plumbline::bim
