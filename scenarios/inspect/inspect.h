@@ -10,9 +10,10 @@
 namespace plumbline::scenarios {
 
 /// What `inspect --json` prints: {hash, schema, unit, storeys, walls, rooms, doors, windows, openings, slabs, columns,
-/// stairs, obstacles, adjacency, warnings}. Each element has id, step_id (IFC), storey (its id), volume_m3, closed and
-/// bbox [[x, y, z], [x, y, z]] in W, m; a wall its two faces {n, d}; a room polygon, faces and area_m2. `mesh` is that
-/// of `building`. An opening's volume and box are those of the hole as given, before it is cut to its wall.
+/// stairs, obstacles, adjacency, symmetry, warnings}. Each element has id, step_id (IFC), storey (its id), volume_m3,
+/// closed and bbox [[x, y, z], [x, y, z]] in W, m; a wall its two faces {n, d}; a room polygon, faces and area_m2.
+/// `mesh` is that of `building`. An opening's volume and box are those of the hole as given, before it is cut to its
+/// wall.
 [[nodiscard]] Tree inspect_json(const bim::Building& building, const bim::BuildingMesh& mesh);
 
 /// The same for people: storeys with counts, rooms with areas and neighbours, warnings by kind, totals.

@@ -8,6 +8,7 @@
 #include "bim/mesh/solid.h"
 #include "bim/mesh/wall_frame.h"
 #include "scenarios/inspect/inspect.h"
+#include "scenarios/inspect/inspect_symmetry.h"
 
 namespace plumbline::scenarios {
 namespace {
@@ -55,6 +56,7 @@ class Inspector {
     tree.set("stairs", obstacles(true));
     tree.set("obstacles", obstacles(false));
     tree.set("adjacency", adjacency());
+    tree.set("symmetry", symmetry_json(building_, bim::analyse_symmetry(building_)));
     tree.set("warnings", warnings());
     return tree;
   }

@@ -8,6 +8,7 @@
 #include "bim/building/plan.h"
 #include "bim/digest/digest.h"
 #include "scenarios/inspect/inspect.h"
+#include "scenarios/inspect/inspect_symmetry.h"
 
 namespace plumbline::scenarios {
 namespace {
@@ -142,6 +143,7 @@ std::string inspect_text(const Building& building, const BuildingMesh& mesh) {
                      building.unit + "), hash " + hex64(building.hash()) + "\n\n";
   text += storey_table(building) + "\n";
   if (!building.rooms.empty()) text += room_table(building) + "\n";
+  text += symmetry_text(building, bim::analyse_symmetry(building)) + "\n";
   return text + totals(building, mesh) + "\n" + warning_lines(building, mesh);
 }
 

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bim/building/building.h"
+#include "bim/symmetry/isometry.h"
+
+namespace plumbline::bim {
+
+/// Thresholds of the analysis.
+struct SymmetryConfig {
+  double exact_m = 6e-3;         ///< deviations up to this are `exact`: the range noise of a VLP-16 at its best
+  double near_m = 0.5;           ///< deviations up to this, together with iou_min: `near`
+  double iou_min = 0.95;         ///< share of the volume in common, of what either holds
+  double touch_m = 0.012;        ///< a gap this narrow is no gap: a beam is as wide
+  double sliver_m = 1e-3;        ///< surfaces this narrow are rounding
+  double sample_m = 0.5;         ///< spacing of the points at which a surface is measured
+  double reach_m = 2.0;          ///< larger deviations count as this
+  double shift_max_m = 1.0;      ///< how far a small difference moves the centre of a storey
+  double direction = 2e-3;       ///< rad, surfaces this close run the same way
+  double like_m = 0.02;          ///< lengths and heights of two like surfaces differ by this at most
+  double direction_share = 0.8;  ///< share of the surface whose directions a turn must map onto each other
+  double room_share = 0.95;      ///< of two like rooms: smaller area over larger
+  double through_m = 0.06;       ///< how far in front of a surface the room that sees it is looked up
+  int deviations_max = 8;        ///< elements listed for one isometry
+};
+
+/// Where two views of a building differ: an element that has no counterpart within `size_m`.
+struct Deviation {
+  std::string element;
+  Eigen::Vector2d at = Eigen::Vector2d::Zero();  ///< place of the largest difference, in W
+  double size_m = 0.0;  ///< distance to the nearest counterpart, no more than the element's own size in plan
+};
+
+enum class Likeliness { exact, near, different };
+
+/// How well an image covers its counterpart.
+struct Likeness {
+  Likeliness grade = Likeliness::different;
+  double iou = 0.0;                   ///< volume in common over volume of both
+  double deviation_m = 0.0;           ///< largest of the deviations, which is how far the two surfaces are apart
+  std::vector<Deviation> deviations;  ///< above exact_m, the largest first
+};
+
+/// An isometry that maps storey `from` onto storey `to` as a LiDAR sees them.
+struct StoreySymmetry {
+  int from = -1;
+  int to = -1;
+  Isometry2 isometry;
+  Likeness likeness;
+};
+
+/// An isometry of the plane under which every habitable storey maps onto itself.
+struct BuildingSymmetry {
+  Isometry2 isometry;
+  Likeness likeness;
+};
+
+struct LikeRoom {
+  int room = -1;       ///< into Building::rooms
+  Isometry2 isometry;  ///< takes the first room of the class to this one
+  Likeness likeness;   ///< of the surfaces around and in the room; iou is that of the outlines
+};
+
+/// Rooms that look alike from inside under proper isometries, the first under the identity.
+struct RoomClass {
+  std::vector<LikeRoom> rooms;   ///< two or more, ascending
+  std::vector<Isometry2> turns;  ///< exact proper isometries of the first room onto itself, save the identity
+};
+
+/// What in a building looks like what else. A robot is a rigid body, so only proper isometries (turns and shifts)
+/// confuse it; mirror images are listed apart.
+struct SymmetryReport {
+  std::vector<StoreySymmetry> storeys;      ///< proper, from == to, without the identity; by storey, then angle
+  std::vector<StoreySymmetry> copies;       ///< proper, from < to, `from` the first storey of its kind
+  std::vector<StoreySymmetry> reflections;  ///< mirror images, from == to
+  std::vector<BuildingSymmetry> building;   ///< proper, without the identity
+  std::vector<RoomClass> rooms;             ///< by their first room
+};
+
+/// Symmetries of what stands in a building as planned: walls with their openings, columns, stairs, obstacles, edges of
+/// openings in floors. Storeys that hold nothing, and foundations and roofs, have none.
+[[nodiscard]] SymmetryReport analyse_symmetry(const Building& as_planned, const SymmetryConfig& config = {});
+
+}  // namespace plumbline::bim

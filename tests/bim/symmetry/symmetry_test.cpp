@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bim/symmetry/symmetry.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <numbers>
+
+#include "bim/building/load.h"
+#include "bim/building/plan_yaml.h"
+#include "bim/config/tree.h"
+#include "bim/random/stream.h"
+#include "tests/bim/ifc/data.h"
+#include "tests/bim/symmetry/moved.h"
+
+namespace plumbline::bim {
+namespace {
+
+constexpr double half_turn = std::numbers::pi;
+
+std::string wall(const std::string& id, Eigen::Vector2d a, Eigen::Vector2d b) {
+  return "  - {id: " + id + ", storey: ground, a: [" + format_number(a.x()) + ", " + format_number(a.y()) + "], b: [" +
+         format_number(b.x()) + ", " + format_number(b.y()) + "], thickness_m: 0.2}\n";
+}
+
+/// A box of rooms; further sections follow.
+Building box(double width, double depth, const std::string& more) {
+  return read_plan_text("plan: 1\nname: box\nstoreys: [{id: ground, elevation_m: 0, height_m: 3}]\nwalls:\n" +
+                            wall("s", {0, 0}, {width, 0}) + wall("e", {width, 0}, {width, depth}) +
+                            wall("n", {width, depth}, {0, depth}) + wall("w", {0, depth}, {0, 0}) + more,
+                        "box.plan.yaml");
+}
+
+std::string room(double width, double depth) {
+  return "rooms: [{id: hall, storey: ground, polygon: [[0, 0], [" + format_number(width) + ", 0], [" +
+         format_number(width) + ", " + format_number(depth) + "], [0, " + format_number(depth) + "]]}]\n";
+}
+
+/// Two rooms that a half turn swaps; the door in the south may be shifted from its place.
+Building twins(double shift_m) {
+  return box(10, 6,
+             wall("m", {5, 0}, {5, 6}) +
+                 "openings:\n"
+                 "  - {id: middle, wall: m, kind: door, s_m: 3, width_m: 1}\n"
+                 "  - {id: south, wall: s, kind: door, s_m: " +
+                 format_number(2 + shift_m) +
+                 ", width_m: 1}\n"
+                 "  - {id: north, wall: n, kind: door, s_m: 2, width_m: 1}\n"
+                 "rooms:\n"
+                 "  - {id: west, storey: ground, polygon: [[0, 0], [5, 0], [5, 6], [0, 6]]}\n"
+                 "  - {id: east, storey: ground, polygon: [[5, 0], [10, 0], [10, 6], [5, 6]]}\n");
+}
+
+/// Boxes drawn at random: no symmetry.
+Building random_building(std::uint64_t seed) {
+  const Stream stream(seed, "bim.generate");
+  const auto u = [&](std::uint32_t lane) { return stream.uniform(0, lane); };
+  std::string clutter = "clutter:\n";
+  for (std::uint32_t i = 0; i < 5; ++i)
+    clutter += "  - {id: c" + std::to_string(i) + ", storey: ground, at: [" + format_number(1 + 9 * u(10 * i)) + ", " +
+               format_number(1 + 5 * u(10 * i + 1)) + "], size: [" + format_number(0.6 + u(10 * i + 2)) + ", " +
+               format_number(0.6 + u(10 * i + 3)) + "], yaw_deg: " + format_number(90 * u(10 * i + 4)) +
+               ", height_m: " + format_number(0.5 + u(10 * i + 5)) + "}\n";
+  return box(11, 7, room(11, 7) + clutter);
+}
+
+bool has(const std::vector<BuildingSymmetry>& group, const Isometry2& g, double angle_tol, double shift_tol) {
+  const Eigen::Vector2d probe(3.0, 2.0);
+  return std::any_of(group.begin(), group.end(), [&](const BuildingSymmetry& symmetry) {
+    const double turn = std::abs(std::remainder(symmetry.isometry.angle - g.angle, 2.0 * std::numbers::pi));
+    return turn < angle_tol && (symmetry.isometry * probe - g * probe).norm() < shift_tol;
+  });
+}
+
+TEST(Symmetry, SquareHasThreeTurnsAndItsMirrorImagesApart) {
+  const SymmetryReport report = analyse_symmetry(box(6, 6, room(6, 6)));
+  ASSERT_EQ(report.building.size(), 3U);
+  for (int k = 1; k < 4; ++k)
+    EXPECT_TRUE(has(report.building, Isometry2::turn(k * half_turn / 2, {3, 3}), 1e-9, 1e-9)) << k;
+  for (const BuildingSymmetry& symmetry : report.building) {
+    EXPECT_EQ(symmetry.likeness.grade, Likeliness::exact);
+    EXPECT_NEAR(symmetry.likeness.iou, 1.0, 1e-9);
+    EXPECT_FALSE(symmetry.isometry.mirrored);
+  }
+  EXPECT_EQ(report.reflections.size(), 4U);
+  for (const StoreySymmetry& reflection : report.reflections) EXPECT_TRUE(reflection.isometry.mirrored);
+}
+
+TEST(Symmetry, OneDoorLeavesOneMirrorImageAndNoTurn) {
+  const SymmetryReport report =
+      analyse_symmetry(box(6, 6, "openings: [{id: d, wall: s, kind: door, s_m: 3, width_m: 1}]\n" + room(6, 6)));
+  for (const BuildingSymmetry& symmetry : report.building)
+    EXPECT_NE(symmetry.likeness.grade, Likeliness::exact) << symmetry.isometry.angle;
+  const auto exact = std::count_if(report.reflections.begin(), report.reflections.end(),
+                                   [](const StoreySymmetry& s) { return s.likeness.grade == Likeliness::exact; });
+  EXPECT_EQ(exact, 1);
+}
+
+TEST(Symmetry, HalfTurnSwapsTheTwinRooms) {
+  const SymmetryReport report = analyse_symmetry(twins(0.0));
+  ASSERT_EQ(report.building.size(), 1U);
+  EXPECT_TRUE(has(report.building, Isometry2::turn(half_turn, {5, 3}), 1e-9, 1e-9));
+  EXPECT_EQ(report.building.front().likeness.grade, Likeliness::exact);
+  ASSERT_EQ(report.rooms.size(), 1U);
+  EXPECT_EQ(report.rooms.front().rooms.size(), 2U);
+  EXPECT_NEAR(std::abs(report.rooms.front().rooms[1].isometry.angle), half_turn, 1e-9);
+}
+
+TEST(Symmetry, ShiftedDoorIsTheDeviation) {
+  for (const double shift : {0.02, 0.1, 0.3, 0.5}) {
+    const SymmetryReport report = analyse_symmetry(twins(shift));
+    ASSERT_EQ(report.building.size(), 1U) << shift;
+    const Likeness& likeness = report.building.front().likeness;
+    EXPECT_EQ(likeness.grade, Likeliness::near);
+    // The jamb stands where the wall was or the other way round.
+    EXPECT_NEAR(likeness.deviation_m, shift, 1e-6);
+    ASSERT_FALSE(likeness.deviations.empty());
+    EXPECT_TRUE(likeness.deviations.front().element == "s" || likeness.deviations.front().element == "n");
+    EXPECT_LT(likeness.iou, 1.0);
+  }
+}
+
+TEST(Symmetry, MovedBuildingHasTheConjugatedGroup) {
+  const Stream stream(1, "bim.generate");
+  for (std::uint64_t i = 0; i < 10; ++i) {
+    const Isometry2 move{6.0 * stream.uniform(i, 0) - 3.0,
+                         100.0 * Eigen::Vector2d(stream.uniform(i, 1), stream.uniform(i, 2)), false};
+    for (const Building& building : {box(6, 6, room(6, 6)), twins(0.0), twins(0.2)}) {
+      const SymmetryReport here = analyse_symmetry(building), there = analyse_symmetry(moved_building(building, move));
+      ASSERT_EQ(there.building.size(), here.building.size());
+      for (const BuildingSymmetry& symmetry : here.building)
+        EXPECT_TRUE(has(there.building, move * symmetry.isometry * move.inverse(), 1e-6, 1e-5));
+      EXPECT_EQ(there.rooms.size(), here.rooms.size());
+      EXPECT_EQ(there.reflections.size(), here.reflections.size());
+    }
+  }
+}
+
+TEST(Symmetry, FoundIsometriesAreAGroupAndKeepTheBuilding) {
+  const Building building = box(6, 6, room(6, 6));
+  const SymmetryReport report = analyse_symmetry(building);
+  for (const BuildingSymmetry& a : report.building) {
+    EXPECT_TRUE(has(report.building, a.isometry.inverse(), 1e-9, 1e-8));
+    for (const BuildingSymmetry& b : report.building) {
+      const Isometry2 product = a.isometry * b.isometry;
+      const bool identity = std::abs(product.angle) < 1e-9 && product.t.norm() < 1e-8;
+      EXPECT_TRUE(identity || has(report.building, product, 1e-9, 1e-8));
+    }
+    const SymmetryReport again = analyse_symmetry(moved_building(building, a.isometry));
+    ASSERT_EQ(again.building.size(), report.building.size());
+    for (const BuildingSymmetry& b : report.building) EXPECT_TRUE(has(again.building, b.isometry, 1e-9, 1e-8));
+  }
+}
+
+TEST(Symmetry, RandomBuildingsHaveNone) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const SymmetryReport report = analyse_symmetry(random_building(seed));
+    EXPECT_TRUE(report.building.empty()) << seed;
+    EXPECT_TRUE(report.storeys.empty()) << seed;
+    EXPECT_TRUE(report.reflections.empty()) << seed;
+  }
+}
+
+TEST(Symmetry, CopiedStoreysAreAlike) {
+  const Building building = read_plan_text(
+      "plan: 1\nname: tower\nstoreys:\n"
+      "  - {id: ground, elevation_m: 0, height_m: 3}\n"
+      "  - {id: first, elevation_m: 3.2, copy_of: ground}\n"
+      "  - {id: second, elevation_m: 6.4, copy_of: ground}\nwalls:\n" +
+          wall("s", {0, 0}, {9, 0}) + wall("e", {9, 0}, {9, 5}) + wall("n", {9, 5}, {0, 5}) +
+          wall("w", {0, 5}, {0, 0}) + "openings: [{id: d, wall: s, kind: door, s_m: 2, width_m: 1}]\n" + room(9, 5),
+      "tower.plan.yaml");
+  const SymmetryReport report = analyse_symmetry(building);
+  ASSERT_EQ(report.copies.size(), 2U);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(report.copies[i].from, 0);
+    EXPECT_EQ(report.copies[i].to, static_cast<int>(i) + 1);
+    EXPECT_NEAR(report.copies[i].isometry.angle, 0.0, 1e-9);
+    EXPECT_LT(report.copies[i].isometry.t.norm(), 1e-9);
+    EXPECT_EQ(report.copies[i].likeness.grade, Likeliness::exact);
+  }
+  ASSERT_EQ(report.rooms.size(), 1U);
+  EXPECT_EQ(report.rooms.front().rooms.size(), 3U);
+}
+
+TEST(Symmetry, DuplexIsTwoUnitsHalfATurnApart) {
+  const std::string path = data_path("ifc/duplex.ifc");
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is absent";
+  const Building building = load_building(path);
+  const SymmetryReport report = analyse_symmetry(building);
+  const auto on = [&](const char* name) {
+    return std::find_if(report.storeys.begin(), report.storeys.end(), [&](const StoreySymmetry& s) {
+      return building.storeys[static_cast<std::size_t>(s.from)].name == name;
+    });
+  };
+  const auto first = on("Level 1"), second = on("Level 2");
+  ASSERT_NE(first, report.storeys.end());
+  ASSERT_NE(second, report.storeys.end());
+  EXPECT_NEAR(std::abs(first->isometry.angle), half_turn, 1e-4);
+  EXPECT_EQ(first->likeness.grade, Likeliness::exact);
+  EXPECT_GT(first->likeness.iou, 0.9995);
+  EXPECT_EQ(second->likeness.grade, Likeliness::near);
+  EXPECT_GT(second->likeness.iou, 0.99);
+  EXPECT_EQ(report.building.size(), 1U);
+  // All ten rooms of either level pair up.
+  std::size_t paired = 0;
+  for (const RoomClass& like : report.rooms) paired += like.rooms.size();
+  EXPECT_EQ(paired, 20U);
+}
+
+}  // namespace
+}  // namespace plumbline::bim
