@@ -6,6 +6,7 @@
 
 #include "bim/building/fillings.h"
 #include "bim/building/plan_yaml.h"
+#include "bim/building/traffic_editor.h"
 #include "bim/config/tree.h"
 #include "bim/errors.h"
 #include "bim/ifc/ifc.h"
@@ -35,6 +36,11 @@ std::string_view first_content(std::string_view text) {
   return {};
 }
 
+/// True when a line begins with the key, which then is a key of the file's outermost map.
+bool has_top_key(std::string_view text, const std::string& key) {
+  return starts_with(text, key) || text.find("\n" + key) != std::string_view::npos;
+}
+
 /// A building of any kind, from its text.
 Site read_site(const std::string& text, const std::string& path) {
   const std::string_view content = first_content(text);
@@ -43,6 +49,9 @@ Site read_site(const std::string& text, const std::string& path) {
   if (ends_with(path, ".ifc") || starts_with(content, "ISO-10303-21")) {
     site.as_planned = read_ifc_text(text, path);
     site.as_built = site.as_planned;
+  } else if (!starts_with(content, "plan:") && has_top_key(text, "levels:")) {
+    site.as_planned = read_traffic_editor_text(text, path);
+    site.as_built = site.as_planned;
   } else if (yaml || starts_with(content, "plan:")) {
     PlanSite plan = read_plan_site(text, path);
     site.as_planned = std::move(plan.as_planned);
@@ -50,7 +59,8 @@ Site read_site(const std::string& text, const std::string& path) {
     site.changes = std::move(plan.as_built.changes);
   } else {
     throw InputError({path, 0, 0},
-                     "this is no building; a plan begins with 'plan: 1', an IFC file with 'ISO-10303-21;'");
+                     "this is no building; a plan begins with 'plan: 1', an IFC file with 'ISO-10303-21;', a "
+                     "traffic-editor plan has 'levels:'");
   }
   return site;
 }

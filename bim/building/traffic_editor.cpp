@@ -230,21 +230,32 @@ class TrafficBuilder {
     Building alone;
     alone.storeys = {storey()};
     alone.walls.assign(building_.walls.begin() + static_cast<std::ptrdiff_t>(first_wall_), building_.walls.end());
+    std::vector<Room> rooms = infer_rooms(alone, 0);
+    // A room may stand within another; the smaller one comes first, so that a point in both belongs to it.
+    std::stable_sort(rooms.begin(), rooms.end(),
+                     [](const Room& a, const Room& b) { return signed_area(a.polygon) < signed_area(b.polygon); });
     int number = 0;
-    for (Room& room : infer_rooms(alone, 0)) {
+    for (Room& room : rooms) {
       const Region2 whole = unite(std::vector<Polygon2>{room.polygon});
       if (area(intersect(whole, floor_)) < config_.least_floor * signed_area(room.polygon)) continue;
       room.storey = storey_;
       room.id = level.name + "/room" + std::to_string(++number);
-      room.name = room.id;
-      for (const TrafficVertex& vertex : level.vertices) {
-        if (vertex.name.empty() || !contains(room.polygon, vertex.p_W)) continue;
-        room.name = vertex.name;
-        break;
-      }
+      room.name = name_of(room, level);
       building_.rooms.push_back(std::move(room));
     }
     if (number == 0) warn(level.name, "no_rooms", "walls enclose no room over a floor");
+  }
+
+  /// The first named vertex that lies in this room and in none before it; its id without one.
+  [[nodiscard]] std::string name_of(const Room& room, const TrafficLevel& level) const {
+    for (const TrafficVertex& vertex : level.vertices) {
+      const auto holds = [&](const Room& other) {
+        return other.storey == storey_ && contains(other.polygon, vertex.p_W);
+      };
+      const bool taken = std::any_of(building_.rooms.begin(), building_.rooms.end(), holds);
+      if (!vertex.name.empty() && !taken && contains(room.polygon, vertex.p_W)) return vertex.name;
+    }
+    return room.id;
   }
 
   const TrafficFile& file_;

@@ -21,19 +21,25 @@ Wall grown(Wall wall, double margin_m) {
   return wall;
 }
 
-/// A counter-clockwise polygon with every edge moved outward; corners where the moved lines meet.
+/// A counter-clockwise polygon with every edge moved outward, up to where the moved lines meet: the polygon joined with
+/// a band along each edge and a kite at each corner that points outward. (Moving the corners instead would fold
+/// edges shorter than the margin over.)
 Polygon2 grown(const Polygon2& polygon, double margin_m) {
-  Polygon2 result;
+  std::vector<Polygon2> parts = {polygon};
   const std::size_t n = polygon.size();
   for (std::size_t i = 0; i < n; ++i) {
-    const Eigen::Vector2d u = (polygon[i] - polygon[(i + n - 1) % n]).normalized();
-    const Eigen::Vector2d v = (polygon[(i + 1) % n] - polygon[i]).normalized();
-    const Eigen::Vector2d out_u(u.y(), -u.x()), out_v(v.y(), -v.x());
-    // p + m with m.out_u = m.out_v = margin: along the bisector; a hairpin is left where it is.
-    const double lean = 1.0 + out_u.dot(out_v);
-    result.push_back(lean > 0.1 ? Eigen::Vector2d(polygon[i] + margin_m / lean * (out_u + out_v)) : polygon[i]);
+    const Eigen::Vector2d &p = polygon[i], &q = polygon[(i + 1) % n];
+    const Eigen::Vector2d u = (p - polygon[(i + n - 1) % n]).normalized(), v = (q - p).normalized();
+    const Eigen::Vector2d out_u = margin_m * Eigen::Vector2d(u.y(), -u.x());
+    const Eigen::Vector2d out_v = margin_m * Eigen::Vector2d(v.y(), -v.x());
+    parts.push_back({p, p + out_v, q + out_v, q});
+    // p + m with m.out_u = m.out_v = margin^2 lies on the bisector; a hairpin gets no kite.
+    const double lean = 1.0 + u.dot(v);
+    const bool outward = u.x() * v.y() - u.y() * v.x() > 0.0;
+    if (outward && lean > 0.1) parts.push_back({p, p + out_u, p + (out_u + out_v) / lean, p + out_v});
   }
-  return result;
+  const Region2 region = unite(parts);
+  return region.empty() ? polygon : region.front().outer;
 }
 
 }  // namespace
