@@ -5,12 +5,14 @@
 
 #include "bim/building/materials.h"
 #include "bim/building/plan_file.h"
+#include "bim/building/stair_shape.h"
 #include "bim/errors.h"
 
 namespace plumbline::bim {
 
 namespace {
 
+constexpr double max_steps = 1000;   ///< of a stair
 constexpr double touching_m = 1e-6;  ///< openings may touch each other and the ends of their wall
 
 /// Finds the place of entry i of a list, or of one of its values.
@@ -71,6 +73,7 @@ void check_all_ids(const PlanFile& plan, const Places& places) {
   check_ids(plan.walls, "walls", places, solids);
   check_ids(plan.columns, "columns", places, solids);
   check_ids(plan.clutter, "clutter", places, solids);
+  check_ids(plan.stairs, "stairs", places, solids);
   check_ids(plan.openings, "openings", places, openings);
   check_ids(plan.rooms, "rooms", places, rooms);
   check_ids(plan.materials, "materials", places, materials);
@@ -172,6 +175,30 @@ void check_room(const PlanFile& plan, std::size_t i, const Places& places) {
   }
 }
 
+void check_stair(const PlanFile& plan, std::size_t i, const Places& places) {
+  const PlanStairEntry& stair = plan.stairs[i];
+  const auto at = [&](std::string_view key) { return places.value("stairs", i, key); };
+  const std::string who = "stair " + quoted(stair.id);
+  const double foot = plan.storeys[refer(plan.storeys, stair.from, "storey", at("from"))].elevation_m;
+  const double head = plan.storeys[refer(plan.storeys, stair.to, "storey", at("to"))].elevation_m;
+  if (head <= foot + touching_m)
+    throw InputError(at("to"),
+                     who + " must lead up: storey " + quoted(stair.to) + " is not above " + quoted(stair.from));
+  const double steps = step_count(head - foot, stair.rise_m);
+  if (steps > max_steps)
+    throw InputError(at("to"), who + " would have " + format_number(steps) + " steps; at most " +
+                                   format_number(max_steps) + " can be built");
+  if (stair.landing_after && *stair.landing_after >= steps)
+    throw InputError(at("landing_after"),
+                     who + " has only " + format_number(steps) + " steps; its landing must come before the last");
+  if (stair.turn != Turn::none && !stair.landing_after)
+    throw InputError(at("turn"), who + " can turn only at a landing; give landing_after");
+  const bool quarter = stair.turn == Turn::left || stair.turn == Turn::right;
+  if (quarter && stair.landing_m.value_or(stair.width_m) < stair.width_m - touching_m)
+    throw InputError(at("landing_m"), who + " turns on a landing that is less deep than the stair is wide; landing_m " +
+                                          "must be at least " + metres(stair.width_m));
+}
+
 template <class Entry>
 void check_materials_of(const Building& materials, const std::vector<Entry>& entries, std::string_view section,
                         const Places& places) {
@@ -190,6 +217,7 @@ void check_all_materials(const PlanFile& plan, const Places& places) {
   check_materials_of(declared, plan.openings, "openings", places);
   check_materials_of(declared, plan.columns, "columns", places);
   check_materials_of(declared, plan.clutter, "clutter", places);
+  check_materials_of(declared, plan.stairs, "stairs", places);
 }
 
 template <class Entry>
@@ -226,15 +254,6 @@ void check_material_id(const Building& building, const std::string& material, co
                              (close.empty() ? "; known: " + list : "; did you mean " + quoted(close) + "?"));
 }
 
-void refuse_what_is_not_built(const Tree& tree) {
-  for (const std::string_view section : {"stairs"}) {
-    const Tree* list = tree.find(section);
-    if (list == nullptr || !list->is_list() || list->as_list().empty()) continue;
-    throw InputError(list->as_list().front().mark,
-                     quoted(std::string(section)) + " are not simulated by this version; leave the list empty");
-  }
-}
-
 void check_plan(const PlanFile& plan, const Tree& tree) {
   const Places places(tree);
   if (plan.storeys.empty()) throw InputError(places.list("storeys"), "the plan has no storeys; it needs at least one");
@@ -248,6 +267,7 @@ void check_plan(const PlanFile& plan, const Tree& tree) {
   for (std::size_t i = 0; i < plan.rooms.size(); ++i) check_room(plan, i, places);
   check_storey_of(plan, plan.columns, "columns", places);
   check_storey_of(plan, plan.clutter, "clutter", places);
+  for (std::size_t i = 0; i < plan.stairs.size(); ++i) check_stair(plan, i, places);
   check_all_materials(plan, places);
 }
 

@@ -182,10 +182,4 @@ struct PlanMaterialEntry : Material {
   }
 };
 
-/// An element this version does not build: its list must be empty.
-struct NotBuiltEntry {
-  template <class V>
-  void visit(V&) {}
-};
-
 }  // namespace plumbline::bim

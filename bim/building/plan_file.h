@@ -7,6 +7,7 @@
 
 #include "bim/building/plan_deviation.h"
 #include "bim/building/plan_entries.h"
+#include "bim/building/plan_stair.h"
 #include "bim/config/tree.h"
 
 namespace plumbline::bim {
@@ -20,7 +21,7 @@ struct PlanFile {
   std::vector<PlanOpeningEntry> openings;
   std::vector<PlanRoomEntry> rooms;
   std::vector<PlanColumnEntry> columns;
-  std::vector<NotBuiltEntry> stairs;
+  std::vector<PlanStairEntry> stairs;
   std::vector<PlanClutterEntry> clutter;
   std::vector<PlanMaterialEntry> materials;
   std::vector<PlanDeviationEntry> deviations;
@@ -56,8 +57,6 @@ template <class Entry>
 void check_plan_id(const std::string& id, const Mark& mark);
 /// InputError unless the material is one of the building or a preset.
 void check_material_id(const Building& building, const std::string& material, const Mark& mark);
-/// InputError at the first element of a kind this version does not simulate (stairs).
-void refuse_what_is_not_built(const Tree& tree);
 /// Every rule that a single field cannot know (references, lengths, overlaps). Throws InputError at the offending
 /// place of `tree`, which the file was read from.
 void check_plan(const PlanFile& plan, const Tree& tree);

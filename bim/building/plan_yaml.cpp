@@ -6,6 +6,7 @@
 #include "bim/building/materials.h"
 #include "bim/building/plan_elements.h"
 #include "bim/building/plan_file.h"
+#include "bim/building/plan_stairs.h"
 #include "bim/building/rooms.h"
 #include "bim/building/wall_face.h"
 #include "bim/errors.h"
@@ -30,6 +31,7 @@ class PlanBuilder {
     find_room_walls(building_);
     find_opening_rooms(building_);
     check_rooms();
+    add_stairs(plan_, tree_, building_);
     return std::move(building_);
   }
 
@@ -170,6 +172,8 @@ class PlanBuilder {
     for (const PolygonWithHoles2& piece : unite(outlines)) {
       const std::string suffix = number++ == 0 ? "" : "-" + std::to_string(number);
       add_slab(storey + "/floor" + suffix, piece, level.index, level.floor_z_m - solids_.slab_m, level.floor_z_m);
+      building_.slabs.back().material = plan_.storeys[static_cast<std::size_t>(level.index)].floor_material;
+      use_material(building_, building_.slabs.back().material);
       add_slab(storey + "/ceiling" + suffix, piece, level.index, level.ceiling_z0, level.ceiling_z1);
     }
   }
@@ -223,7 +227,6 @@ PlanSite read_plan_site(std::string_view text, const std::string& file, const Pl
   const Tree tree = read_yaml(text, file);
   if (!tree.is_map() || tree.as_map().empty() || tree.as_map().front().first != "plan")
     throw InputError(tree.mark, "this is no plan; its first key must be 'plan: 1'");
-  refuse_what_is_not_built(tree);
   const PlanFile plan = from_tree<PlanFile>(tree);
   check_plan(plan, tree);
   PlanSite site;

@@ -90,6 +90,9 @@ std::vector<CollisionBox> collision_boxes(const bim::Building& as_built, int sto
   for (const bim::Column& column : as_built.columns)
     if (overlap({column.z0_m, column.z1_m}, reach))
       boxes.push_back(bounding_box(column.footprint, {column.z0_m, column.z1_m}));
+  for (const bim::Stair& stair : as_built.stairs)
+    for (const bim::Solid& body : stair.bodies)
+      for (const CollisionBox& box : solid_boxes(body, reach, config)) boxes.push_back(box);
   for (const bim::Obstacle& obstacle : as_built.obstacles)
     for (const CollisionBox& box : solid_boxes(obstacle.body, reach, config)) boxes.push_back(box);
   for (std::size_t i = 0; i < boxes.size(); ++i) boxes[i].id = static_cast<int>(i);

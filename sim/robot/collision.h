@@ -27,7 +27,7 @@ struct CollisionConfig {
 };
 
 /// Boxes of what stands on a storey of the as-built building, ids ascending from 0: walls with their openings cut out
-/// (pieces beside the opening, lintel above, sill below), columns and obstacles.
+/// (pieces beside the opening, lintel above, sill below), columns, stairs and obstacles.
 [[nodiscard]] std::vector<CollisionBox> collision_boxes(const bim::Building& as_built, int storey,
                                                         const CollisionConfig& config = {});
 

@@ -164,6 +164,9 @@ std::vector<Blockage> find_blockages(const bim::Building& building, double floor
   for (const bim::Column& column : building.columns)
     if (band.meets(column.z0_m, column.z1_m))
       result.push_back(column.body ? from_solid(*column.body, band) : from_polygon({column.footprint, {}}));
+  for (const bim::Stair& stair : building.stairs)
+    for (const bim::Solid& body : stair.bodies)
+      if (Blockage blockage = from_solid(body, band); !blockage.edges.empty()) result.push_back(std::move(blockage));
   for (const bim::Obstacle& obstacle : building.obstacles) {
     Blockage blockage = from_solid(obstacle.body, band);
     if (!blockage.edges.empty()) result.push_back(std::move(blockage));
