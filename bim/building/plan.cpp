@@ -85,6 +85,8 @@ void link_rooms(const Building& building, Plan& plan) {
     for (std::size_t j = i + 1; j < building.rooms.size(); ++j)
       if (open_length(building.rooms[i], building.rooms[j], config) > config.overlap_m)
         join(plan, static_cast<int>(i), static_cast<int>(j));
+  for (std::size_t i = 0; i < building.rooms.size(); ++i)
+    for (const VirtualEdge& edge : building.rooms[i].virtual_edges) join(plan, static_cast<int>(i), edge.room);
   for (PlanRoom& room : plan.rooms) {
     std::sort(room.neighbours.begin(), room.neighbours.end());
     room.neighbours.erase(std::unique(room.neighbours.begin(), room.neighbours.end()), room.neighbours.end());

@@ -8,6 +8,7 @@
 #include "bim/building/plan_file.h"
 #include "bim/building/plan_stairs.h"
 #include "bim/building/rooms.h"
+#include "bim/building/virtual_edges.h"
 #include "bim/building/wall_face.h"
 #include "bim/errors.h"
 #include "bim/geometry/polygon_boolean.h"
@@ -30,6 +31,8 @@ class PlanBuilder {
     for (std::size_t i = 0; i < plan_.storeys.size(); ++i) add_storey(static_cast<int>(i));
     find_room_walls(building_);
     find_opening_rooms(building_);
+    find_virtual_edges(building_);
+    find_stair_rooms(building_);
     check_rooms();
     add_stairs(plan_, tree_, building_);
     return std::move(building_);

@@ -28,16 +28,6 @@ double common_height(const Room& room, const Wall& wall) {
   return std::min(room.z1_m, wall.z1_m) - std::max(room.z0_m, wall.z0_m);
 }
 
-int room_at(const Building& building, const Eigen::Vector2d& p, double sill_m, const AdjacencyConfig& config) {
-  const double z = sill_m + config.above_sill_m;
-  for (std::size_t i = 0; i < building.rooms.size(); ++i) {
-    const Room& room = building.rooms[i];
-    const bool at_height = z >= room.z0_m - config.below_floor_m && z <= room.z1_m;
-    if (at_height && contains(room.polygon, p)) return static_cast<int>(i);
-  }
-  return -1;
-}
-
 }  // namespace
 
 double shared_length(const Room& room, const Wall& wall, int side, const AdjacencyConfig& config) {
@@ -92,6 +82,16 @@ std::vector<Polygon2> clear_outlines(const Polygon2& outline, const std::vector<
   std::stable_sort(pieces.begin(), pieces.end(),
                    [](const Polygon2& a, const Polygon2& b) { return signed_area(a) > signed_area(b); });
   return pieces;
+}
+
+int room_at(const Building& building, const Eigen::Vector2d& p, double sill_m, const AdjacencyConfig& config) {
+  const double z = sill_m + config.above_sill_m;
+  for (std::size_t i = 0; i < building.rooms.size(); ++i) {
+    const Room& room = building.rooms[i];
+    const bool at_height = z >= room.z0_m - config.below_floor_m && z <= room.z1_m;
+    if (at_height && contains(room.polygon, p)) return static_cast<int>(i);
+  }
+  return -1;
 }
 
 void find_room_walls(Building& building, const AdjacencyConfig& config) {

@@ -34,6 +34,10 @@ struct AdjacencyConfig {
 /// none when walls cover it whole. `walls`: uncut walls of the same storey.
 [[nodiscard]] std::vector<Polygon2> clear_outlines(const Polygon2& outline, const std::vector<Wall>& walls);
 
+/// The first room that holds a point of the plan at the height above a sill or floor where rooms are looked up, or -1.
+[[nodiscard]] int room_at(const Building& building, const Eigen::Vector2d& p, double sill_m,
+                          const AdjacencyConfig& config = {});
+
 /// Fills Room::walls of every room that names none.
 void find_room_walls(Building& building, const AdjacencyConfig& config = {});
 /// Fills Opening::rooms of every opening from the points in front of it on either side; of several rooms the first.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "bim/building/rooms.h"
+#include "bim/building/virtual_edges.h"
 #include "bim/config/tree.h"
 #include "bim/errors.h"
 #include "bim/ifc/interpret.h"
@@ -34,9 +35,11 @@ Building read_ifc_text(std::string_view text, const std::string& file, const Ifc
   interpreter.add_storeys();
   interpreter.add_walls();
   interpreter.add_openings();
+  interpreter.add_unlinked_fillings();
   interpreter.add_rooms();
   interpreter.add_slabs();
   interpreter.add_columns();
+  interpreter.add_stairs();
   interpreter.add_obstacles();
   Building building = interpreter.finish();
 
@@ -48,6 +51,8 @@ Building read_ifc_text(std::string_view text, const std::string& file, const Ifc
   if (!model.has_unit) building.warnings.push_back({"", "assumed_unit", "the file gives no unit; metres assumed"});
   find_room_walls(building);
   find_opening_rooms(building);
+  find_virtual_edges(building);
+  find_stair_rooms(building);
   return building;
 }
 

@@ -8,6 +8,8 @@
 
 #include "bim/geometry/polygon_boolean.h"
 #include "bim/ifc/infer_rooms.h"
+#include "bim/ifc/material_names.h"
+#include "bim/ifc/storey_kinds.h"
 #include "bim/mesh/solid.h"
 
 namespace plumbline::bim {
@@ -51,6 +53,12 @@ std::vector<PolygonWithHoles2> footprint(const Solid& solid) {
   return unite(triangles);
 }
 
+Interpreter::Interpreter(const StepModel& model, const IfcConfig& config) : model_(model), config_(config) {
+  for (const StepProduct& product : model.products) products_[product.step_id] = &product;
+  for (const StepProduct& product : model.products)
+    if (product.whole != 0 && product.whole != product.step_id) parts_[product.whole].push_back(&product);
+}
+
 double Interpreter::snapped(double v) const {
   // Divided by a whole number, so that the result is the double nearest to its decimals; + 0.0 turns -0 into +0.
   return std::round(v / config_.grid_m) / std::round(1.0 / config_.grid_m) + 0.0;
@@ -81,10 +89,53 @@ std::vector<Solid> Interpreter::solids_of(const StepProduct& product) {
   return solids;
 }
 
+const StepProduct* Interpreter::find(std::int64_t step_id) const {
+  const auto found = products_.find(step_id);
+  return found == products_.end() ? nullptr : found->second;
+}
+
+bool Interpreter::within(const StepProduct& product, StepClass kind) const {
+  for (const StepProduct* at = &product; at != nullptr; at = find(at->whole))
+    if (at->kind == kind) return true;
+  return false;
+}
+
+std::vector<Solid> Interpreter::uncut_solids(const StepProduct& product) {
+  std::vector<Solid> solids = solids_of(product);
+  const auto parts = parts_.find(product.step_id);
+  if (parts == parts_.end()) return solids;
+  const bool whole = !solids.empty();
+  for (const StepProduct* part : parts->second) {
+    if (part->kind != StepClass::part && part->kind != StepClass::obstacle) continue;
+    taken_.insert(part->step_id);
+    if (whole) continue;
+    for (Solid& solid : uncut_solids(*part)) solids.push_back(std::move(solid));
+  }
+  if (!whole && !solids.empty())
+    warn(product, "body_of_parts", "has no body of its own; those of its parts stand for it");
+  return solids;
+}
+
 Solid Interpreter::body_of(const StepProduct& product) {
-  Solid body = joined(solids_of(product));
-  if (body.triangles.empty()) warn(product, "no_body", "has no body that can be read, and is left out");
-  return body;
+  std::vector<Solid> solids = uncut_solids(product);
+  if (solids.empty()) {
+    const bool group = !product.has_body && parts_.contains(product.step_id);
+    if (!group) warn(product, "no_body", "has no body that can be read, and is left out");
+    return {};
+  }
+  std::vector<Solid> cuts;
+  for (const StepProduct* at = &product; at != nullptr; at = find(at->whole)) {
+    const auto cutters = cutters_.find(at->step_id);
+    if (cutters == cutters_.end()) continue;
+    cutters_used_.insert(at->step_id);
+    for (const StepProduct* cutter : cutters->second)
+      for (Solid& cut : solids_of(*cutter)) cuts.push_back(std::move(cut));
+  }
+  if (cuts.empty()) return joined(solids);
+  std::vector<std::string> problems;
+  for (Solid& solid : solids) solid = without(std::move(solid), cuts, problems);
+  for (const std::string& problem : problems) warn(product, "not_cut", problem);
+  return joined(solids);
 }
 
 void Interpreter::add_storeys() {
@@ -135,6 +186,8 @@ void Interpreter::sort_all() {
   sort_elements(building_.slabs);
   sort_elements(building_.columns);
   sort_elements(building_.obstacles);
+  std::sort(building_.stairs.begin(), building_.stairs.end(),
+            [](const Stair& a, const Stair& b) { return std::tie(a.from, a.id) < std::tie(b.from, b.id); });
   std::sort(building_.warnings.begin(), building_.warnings.end(), [](const Warning& a, const Warning& b) {
     return std::tie(a.element, a.kind, a.text) < std::tie(b.element, b.kind, b.text);
   });
@@ -150,9 +203,29 @@ void Interpreter::add_missing_rooms() {
   }
 }
 
+/// Every material that an element names, by name. A name says what is glass; of all else it is not known how it
+/// reflects.
+void Interpreter::add_materials() {
+  std::set<std::string> names;
+  for (const Wall& wall : building_.walls) names.insert(wall.material);
+  for (const Opening& opening : building_.openings) names.insert(opening.material);
+  for (const Slab& slab : building_.slabs) names.insert(slab.material);
+  for (const Column& column : building_.columns) names.insert(column.material);
+  for (const Stair& stair : building_.stairs) names.insert(stair.material);
+  for (const Obstacle& obstacle : building_.obstacles) names.insert(obstacle.material);
+  names.erase("");
+  for (const std::string& name : names) building_.materials.push_back(material_named(name));
+}
+
 Building Interpreter::finish() {
   set_heights();
+  set_storey_kinds(building_);
   add_missing_rooms();
+  add_materials();
+  for (const auto& [host, cutters] : cutters_) {
+    if (cutters_used_.contains(host)) continue;
+    for (const StepProduct* cutter : cutters) warn(*cutter, "opening_unused", "what it should cut has no body");
+  }
   sort_all();
   return std::move(building_);
 }

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <array>
-#include <string_view>
 
 #include "bim/geometry/polygon_boolean.h"
 #include "bim/ifc/interpret.h"
-#include "bim/ifc/shape.h"
+#include "bim/ifc/material_names.h"
 
 namespace plumbline::bim {
 namespace {
@@ -17,17 +15,13 @@ const PolygonWithHoles2& largest(const std::vector<PolygonWithHoles2>& pieces) {
   });
 }
 
-struct ObstacleKind {
-  StepClass kind;
-  std::string_view name;
-};
-constexpr std::array<ObstacleKind, 7> obstacle_kinds{{{StepClass::stair, "stair"},
-                                                      {StepClass::railing, "railing"},
-                                                      {StepClass::beam, "beam"},
-                                                      {StepClass::member, "member"},
-                                                      {StepClass::plate, "plate"},
-                                                      {StepClass::covering, "covering"},
-                                                      {StepClass::footing, "footing"}}};
+template <class Element>
+Element element_of(const StepProduct& product) {
+  Element element;
+  element.id = product.id;
+  element.step_id = product.step_id;
+  return element;
+}
 
 }  // namespace
 
@@ -44,10 +38,8 @@ void Interpreter::add_rooms() {
     if (outline.size() > 1) warn(product, "room_pieces", "its outline has several pieces; the largest is the room");
     const PolygonWithHoles2& piece = largest(outline);
     if (!piece.holes.empty()) warn(product, "room_hole", "holes of its outline are filled");
-    Room room;
-    room.id = product.id;
+    Room room = element_of<Room>(product);
     room.name = product.name;
-    room.step_id = product.step_id;
     room.polygon = piece.outer;
     const Extent box = extent(body);
     room.z0_m = snapped(box.low.z());
@@ -59,25 +51,21 @@ void Interpreter::add_rooms() {
 
 void Interpreter::add_slabs() {
   for (const StepProduct& product : model_.products) {
-    const bool roof = product.kind == StepClass::roof && !product.body.empty();
-    if (product.kind != StepClass::slab && !roof) continue;
+    const bool roof = product.kind == StepClass::roof;
+    if ((product.kind != StepClass::slab && !roof) || within(product, StepClass::stair)) continue;
+    if (roof && !product.has_body && parts_.contains(product.step_id)) continue;  // its slabs stand for themselves
     Solid body = body_of(product);
     if (body.triangles.empty()) continue;
-    if (const auto cuts = slab_openings_.find(product.step_id); cuts != slab_openings_.end()) {
-      std::vector<std::string> problems;
-      body = without(std::move(body), cuts->second, problems);
-      for (const std::string& problem : problems) warn(product, "not_cut", problem);
-    }
     const std::vector<PolygonWithHoles2> outline = footprint(body);
+    const Extent box = extent(body);
     if (outline.empty()) {
-      warn(product, "no_body", "has no area on the plan, and is left out");
+      warn(product, "no_area", "has no area on the plan; kept as an obstacle");
+      add_obstacle(product, "slab", product.material, std::move(body));
       continue;
     }
-    Slab slab;
-    slab.id = product.id;
-    slab.step_id = product.step_id;
+    Slab slab = element_of<Slab>(product);
+    slab.material = product.material;
     slab.polygon = largest(outline);
-    const Extent box = extent(body);
     slab.z0_m = snapped(box.low.z());
     slab.z1_m = snapped(box.high.z());
     slab.storey = storey_index(product, slab.z0_m);
@@ -91,9 +79,8 @@ void Interpreter::add_columns() {
     if (product.kind != StepClass::column) continue;
     Solid body = body_of(product);
     if (body.triangles.empty()) continue;
-    Column column;
-    column.id = product.id;
-    column.step_id = product.step_id;
+    Column column = element_of<Column>(product);
+    column.material = product.material;
     const std::vector<PolygonWithHoles2> outline = footprint(body);
     if (!outline.empty()) column.footprint = largest(outline).outer;
     const Extent box = extent(body);
@@ -105,25 +92,34 @@ void Interpreter::add_columns() {
   }
 }
 
+void Interpreter::add_obstacle(const StepProduct& product, const std::string& kind, const std::string& material,
+                               Solid body) {
+  Obstacle obstacle = element_of<Obstacle>(product);
+  obstacle.kind = kind;
+  obstacle.material = material;
+  obstacle.storey = storey_index(product, extent(body).low.z());
+  obstacle.body = std::move(body);
+  building_.obstacles.push_back(std::move(obstacle));
+}
+
 void Interpreter::add_obstacles() {
   for (const StepProduct& product : model_.products) {
-    if (product.kind == StepClass::furniture || product.kind == StepClass::proxy) {
-      warn(product, "left_out", "furniture and proxies are not part of the shell");
+    if (product.kind == StepClass::hidden) {
+      if (product.has_body) warn(product, "left_out", "lies within other elements or around the building");
       continue;
     }
-    const auto kind = std::find_if(obstacle_kinds.begin(), obstacle_kinds.end(),
-                                   [&](const ObstacleKind& k) { return k.kind == product.kind; });
-    // A stair may be a mere group of flights, which stand for themselves.
-    if (kind == obstacle_kinds.end() || product.body.empty()) continue;
+    const bool obstacle = product.kind == StepClass::obstacle || product.kind == StepClass::part ||
+                          product.kind == StepClass::curtain_wall;
+    if (!obstacle || taken_.contains(product.step_id)) continue;
+    const bool in_curtain = within(product, StepClass::curtain_wall);
+    const bool group = !product.has_body && (parts_.contains(product.step_id) || in_curtain);
+    if (group) continue;  // its parts stand for themselves
     Solid body = body_of(product);
     if (body.triangles.empty()) continue;
-    Obstacle obstacle;
-    obstacle.id = product.id;
-    obstacle.step_id = product.step_id;
-    obstacle.kind = kind->name;
-    obstacle.storey = storey_index(product, extent(body).low.z());
-    obstacle.body = std::move(body);
-    building_.obstacles.push_back(std::move(obstacle));
+    std::string kind = obstacle_kind(product.type);
+    if (in_curtain) kind = kind == "plate" ? "curtain_panel" : kind == "member" ? "mullion" : kind;
+    const bool pane = kind == "curtain_panel" && (says_glass(product.material) || says_glass(product.name));
+    add_obstacle(product, kind, pane ? "glass" : product.material, std::move(body));
   }
 }
 

@@ -64,7 +64,9 @@ void collect_complaint(void* complaints, std::shared_ptr<StatusCallback::Message
 
 struct StepGeometry::Impl {
   explicit Impl(const std::shared_ptr<BuildingModel>& model)
-      : converter(std::make_shared<GeometrySettings>(), model->getUnitConverter()) {}
+      : converter(std::make_shared<GeometrySettings>(), model->getUnitConverter()) {
+    converter.getGeomSettings()->setHandleStyledItems(false);  // colours
+  }
 
   void convert(const std::shared_ptr<IfcRepresentation>& representation, const Eigen::Affine3d& X,
                std::vector<Shape>& shapes) {

@@ -21,12 +21,14 @@
 #include <ifcpp/IFC4/include/IfcSpatialElement.h>
 #include <ifcpp/IFC4/include/IfcUnitAssignment.h>
 #include <ifcpp/IFC4/include/IfcUnitEnum.h>
+#include <ifcpp/IFC4/include/IfcWall.h>
 #include <ifcpp/model/BuildingModel.h>
 #include <ifcpp/model/UnitConverter.h>
 #pragma GCC diagnostic pop
 
 #include <algorithm>
 #include <array>
+#include <string_view>
 
 #include "bim/errors.h"
 #include "bim/ifc/quiet.h"
@@ -39,46 +41,12 @@
 namespace plumbline::bim {
 namespace {
 
-struct ClassName {
-  std::string_view type;
-  StepClass kind;
-};
-
-/// IFC classes that are read, IFC2X3 and IFC4; subtypes stand by themselves.
-constexpr std::array<ClassName, 27> class_names{{
-    {"IfcBeam", StepClass::beam},
-    {"IfcBeamStandardCase", StepClass::beam},
-    {"IfcBuildingElementProxy", StepClass::proxy},
-    {"IfcBuildingStorey", StepClass::storey},
-    {"IfcColumn", StepClass::column},
-    {"IfcColumnStandardCase", StepClass::column},
-    {"IfcCovering", StepClass::covering},
-    {"IfcDoor", StepClass::door},
-    {"IfcDoorStandardCase", StepClass::door},
-    {"IfcFooting", StepClass::footing},
-    {"IfcFurnishingElement", StepClass::furniture},
-    {"IfcFurniture", StepClass::furniture},
-    {"IfcMember", StepClass::member},
-    {"IfcMemberStandardCase", StepClass::member},
-    {"IfcOpeningElement", StepClass::opening},
-    {"IfcOpeningStandardCase", StepClass::opening},
-    {"IfcPlate", StepClass::plate},
-    {"IfcPlateStandardCase", StepClass::plate},
-    {"IfcRailing", StepClass::railing},
-    {"IfcRoof", StepClass::roof},
-    {"IfcSlab", StepClass::slab},
-    {"IfcSpace", StepClass::space},
-    {"IfcStair", StepClass::stair},
-    {"IfcStairFlight", StepClass::stair},
-    {"IfcWall", StepClass::wall},
-    {"IfcWallStandardCase", StepClass::wall},
-    {"IfcWindow", StepClass::window},
-}};
-
-std::optional<StepClass> class_of(std::string_view type) {
-  for (const ClassName& name : class_names)
-    if (name.type == type) return name.kind;
-  return std::nullopt;
+/// Class of a product; an element of a type that has no own is in the way.
+std::optional<StepClass> class_of_product(const IfcProduct& product) {
+  if (const std::optional<StepClass> known = class_of(product.className())) return known;
+  if (dynamic_cast<const IfcElement*>(&product) == nullptr) return std::nullopt;
+  return dynamic_cast<const IfcFeatureElementSubtraction*>(&product) != nullptr ? StepClass::opening
+                                                                                : StepClass::obstacle;
 }
 
 /// What an element hangs on, one step up: container, then filled opening, then voided element, then whole.
@@ -119,10 +87,13 @@ std::int64_t host_of(const std::shared_ptr<IfcProduct>& product, StepClass kind)
   return 0;
 }
 
-std::string identifier(const std::shared_ptr<IfcRepresentation>& representation) {
-  return representation && representation->m_RepresentationIdentifier
-             ? utf8(representation->m_RepresentationIdentifier->m_value)
-             : std::string();
+std::int64_t whole_of(const IfcProduct& product) {
+  for (const auto& link : product.m_Decomposes_inverse) {
+    const auto relation = link.lock();
+    const auto whole = relation ? std::dynamic_pointer_cast<IfcProduct>(relation->m_RelatingObject) : nullptr;
+    if (whole) return whole->m_entity_id;
+  }
+  return 0;
 }
 
 /// False where a coordinate is not a number, or further out than any map grid, or a body too large for a building or
@@ -147,25 +118,66 @@ bool within_reach(const StepProduct& product) {
                            box.max().cwiseAbs().maxCoeff() <= furthest_m && box.sizes().maxCoeff() <= largest_m);
 }
 
-/// Body items and axis of a product, moved to W. Openings may name their body Reference.
-void read_geometry(const IfcProduct& source, StepSoundness& soundness, StepGeometry& geometry, StepProduct& product) {
-  if (!source.m_Representation) return;
+/// How well a representation serves as a body: 0 best, nullopt not at all. Old files leave its name out; then its type
+/// tells.
+std::optional<int> body_rank(const IfcRepresentation& representation, StepClass kind) {
+  constexpr std::array<std::string_view, 11> solid_types{
+      "AdvancedBrep", "AdvancedSweptSolid", "Brep",       "CSG",          "Clipping",           "MappedRepresentation",
+      "SolidModel",   "SurfaceModel",       "SweptSolid", "Tessellation", "SurfaceOrSolidModel"};
+  constexpr std::array<std::string_view, 10> others{"Annotation", "Annotation2D", "Axis",    "Box",      "Clearance",
+                                                    "CoG",        "FootPrint",    "Profile", "Lighting", "Plan"};
+  const auto text = [](const auto& label) { return label ? utf8(label->m_value) : std::string(); };
+  const std::string name = text(representation.m_RepresentationIdentifier);
+  if (name == "Body") return 0;
+  if (name == "Reference") return kind == StepClass::opening ? std::optional(1) : std::nullopt;
+  if (std::find(others.begin(), others.end(), name) != others.end()) return std::nullopt;
+  const std::string type = text(representation.m_RepresentationType);
+  return std::find(solid_types.begin(), solid_types.end(), type) != solid_types.end() ? std::optional(2) : std::nullopt;
+}
+
+/// Representations that may serve as a body, the best first.
+std::vector<std::shared_ptr<IfcRepresentation>> bodies_of(const IfcProduct& source, StepClass kind) {
+  std::vector<std::pair<int, std::shared_ptr<IfcRepresentation>>> ranked;
   for (const auto& representation : source.m_Representation->m_Representations) {
-    const std::string what = identifier(representation);
-    if (what == "Axis" && product.kind == StepClass::wall) {
-      soundness.check(*representation);
-      product.axis_W = geometry.curve(representation, product.complaints);
-      for (Eigen::Vector3d& p : product.axis_W) p = product.X_WP * p;
-    }
-    const bool body = what == "Body" || (what == "Reference" && product.kind == StepClass::opening);
-    if (!body || !product.body.empty()) continue;
+    const std::optional<int> rank = representation ? body_rank(*representation, kind) : std::nullopt;
+    if (rank) ranked.emplace_back(*rank, representation);
+  }
+  std::stable_sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<std::shared_ptr<IfcRepresentation>> bodies;
+  for (const auto& [rank, representation] : ranked) bodies.push_back(representation);
+  return bodies;
+}
+
+/// Points of the Axis of a wall, in W.
+void read_axis(const IfcProduct& source, StepSoundness& soundness, StepGeometry& geometry, StepProduct& product) {
+  for (const auto& representation : source.m_Representation->m_Representations) {
+    const bool named = representation && representation->m_RepresentationIdentifier;
+    if (!named || utf8(representation->m_RepresentationIdentifier->m_value) != "Axis") continue;
+    soundness.check(*representation);
+    product.axis_W = geometry.curve(representation, product.complaints);
+    for (Eigen::Vector3d& p : product.axis_W) p = product.X_WP * p;
+  }
+}
+
+/// Items of the first body that has any, moved to W.
+void read_body(const IfcProduct& source, StepSoundness& soundness, StepGeometry& geometry, StepProduct& product) {
+  for (const auto& representation : bodies_of(source, product.kind)) {
     soundness.check(*representation);
     for (Shape& shape : geometry.shapes(representation, product.complaints)) {
       Shape& moved = product.body.emplace_back();
       moved.base = transformed(product.X_WP, std::move(shape.base));
       for (Facets& cut : shape.minus) moved.minus.push_back(transformed(product.X_WP, std::move(cut)));
     }
+    if (!product.body.empty()) return;
   }
+}
+
+/// Doors and windows are known by their openings in walls; others have nothing but their body to tell where they are.
+bool needs_geometry(const std::shared_ptr<IfcProduct>& source, StepClass kind) {
+  if (kind == StepClass::storey || kind == StepClass::hidden) return false;
+  if (kind != StepClass::door && kind != StepClass::window) return true;
+  const auto opening = std::dynamic_pointer_cast<IfcFeatureElementSubtraction>(parent_of(source));
+  return !opening || !std::dynamic_pointer_cast<IfcWall>(parent_of(opening));
 }
 
 bool has_length_unit(const IfcProject& project) {
@@ -175,12 +187,6 @@ bool has_length_unit(const IfcProject& project) {
     const auto unit = std::dynamic_pointer_cast<IfcNamedUnit>(select);
     return unit && unit->m_UnitType && unit->m_UnitType->m_enum == IfcUnitEnum::ENUM_LENGTHUNIT;
   });
-}
-
-/// Doors and windows are known by their openings, furniture is not part of the shell.
-bool needs_geometry(StepClass kind) {
-  return kind != StepClass::storey && kind != StepClass::door && kind != StepClass::window &&
-         kind != StepClass::furniture && kind != StepClass::proxy;
 }
 
 class Reader {
@@ -197,7 +203,7 @@ class Reader {
     result.unit_m = model_->getUnitConverter()->getLengthInMeterFactor();
     for (const auto& [step_id, entity] : model_->getMapIfcEntities()) {
       const auto product = std::dynamic_pointer_cast<IfcProduct>(entity);
-      const std::optional<StepClass> kind = product ? class_of(product->className()) : std::nullopt;
+      const std::optional<StepClass> kind = product ? class_of_product(*product) : std::nullopt;
       if (kind) result.products.push_back(read_product(product, *kind, result.unit_m));
     }
     std::sort(result.products.begin(), result.products.end(),
@@ -222,10 +228,17 @@ class Reader {
     product.X_WP = *X_WP;
     product.storey = kind == StepClass::storey ? product.step_id : storey_of(source);
     product.host = host_of(source, kind);
+    product.whole = whole_of(*source);
     read_material(*source, unit_m, product);
-    if (needs_geometry(kind)) read_geometry(*source, soundness_, geometry_, product);
+    if (source->m_Representation) read_geometry(source, product);
     if (!within_reach(product)) fail(product.step_id, product.type + " is larger than 10 km or further than 10000 km");
     return product;
+  }
+
+  void read_geometry(const std::shared_ptr<IfcProduct>& source, StepProduct& product) {
+    product.has_body = !bodies_of(*source, product.kind).empty();
+    if (product.kind == StepClass::wall) read_axis(*source, soundness_, geometry_, product);
+    if (needs_geometry(source, product.kind)) read_body(*source, soundness_, geometry_, product);
   }
 
   /// Rooms have a number for a name and say what they are in the long name: "Kitchen A102".

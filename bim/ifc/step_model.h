@@ -10,31 +10,10 @@
 #include <vector>
 
 #include "bim/ifc/shape.h"
+#include "bim/ifc/step_class.h"
 #include "bim/ifc/step_text.h"
 
 namespace plumbline::bim {
-
-/// What an entity is to a building; everything else in the file is left out.
-enum class StepClass {
-  storey,
-  wall,
-  opening,
-  door,
-  window,
-  space,
-  slab,
-  column,
-  stair,
-  railing,
-  beam,
-  member,
-  plate,
-  covering,
-  footing,
-  roof,
-  proxy,
-  furniture
-};
 
 /// IfcMaterialLayerSetUsage across the wall: layers from offset to offset + sense * thickness along the wall's y axis.
 struct StepLayers {
@@ -46,13 +25,15 @@ struct StepLayers {
 /// A product as the file has it: relations resolved, geometry uncut, in W.
 struct StepProduct {
   std::int64_t step_id = 0;
-  StepClass kind = StepClass::proxy;
+  StepClass kind = StepClass::obstacle;
   std::string type;  ///< IFC class, such as IfcWallStandardCase
   std::string id;    ///< GlobalId
   std::string name;
   Eigen::Affine3d X_WP = Eigen::Affine3d::Identity();  ///< placement
   std::int64_t storey = 0;                             ///< STEP number of the storey it belongs to, 0 for none
   std::int64_t host = 0;                               ///< opening: the element it voids; door or window: its opening
+  std::int64_t whole = 0;                              ///< STEP number of the product it is a part of, 0 for none
+  bool has_body = false;                               ///< the file gives a body, whether or not it was read
   std::optional<StepLayers> layers;
   std::string material;                 ///< of the thickest layer
   std::vector<Eigen::Vector3d> axis_W;  ///< points of the Axis representation

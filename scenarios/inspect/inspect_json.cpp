@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <Eigen/Geometry>
-#include <set>
 #include <string_view>
 
+#include "bim/building/adjacency.h"
 #include "bim/building/plan.h"
 #include "bim/digest/digest.h"
 #include "bim/mesh/solid.h"
@@ -36,6 +36,16 @@ Tree polygon_tree(const Polygon2& polygon) {
   return list;
 }
 
+std::string_view name_of(bim::Passage by) {
+  constexpr std::string_view names[] = {"door", "window", "void", "open edge", "stair"};
+  return names[static_cast<std::size_t>(by)];
+}
+
+std::string_view name_of(bim::StoreyKind kind) {
+  constexpr std::string_view names[] = {"habitable", "foundation", "roof"};
+  return names[static_cast<std::size_t>(kind)];
+}
+
 /// Writes the elements of one building.
 class Inspector {
  public:
@@ -53,8 +63,8 @@ class Inspector {
     tree.set("openings", openings(std::nullopt));
     tree.set("slabs", elements(ElementKind::slab));
     tree.set("columns", elements(ElementKind::column));
-    tree.set("stairs", obstacles(true));
-    tree.set("obstacles", obstacles(false));
+    tree.set("stairs", elements(ElementKind::stair));
+    tree.set("obstacles", elements(ElementKind::obstacle));
     tree.set("adjacency", adjacency());
     tree.set("symmetry", symmetry_json(building_, bim::analyse_symmetry(building_)));
     tree.set("warnings", warnings());
@@ -75,6 +85,7 @@ class Inspector {
     for (const bim::Storey& storey : building_.storeys) {
       Tree tree = head(storey.id, storey.step_id, -1);
       tree.set("name", storey.name).set("elevation_m", storey.elevation_m).set("height_m", storey.height_m);
+      tree.set("kind", name_of(storey.kind));
       list.push(std::move(tree));
     }
     return list;
@@ -107,8 +118,12 @@ class Inspector {
         box.extend(mesh_.vertices[static_cast<std::size_t>(corner)]);
     tree.set("bbox", box_tree(box));
     if (element.kind == ElementKind::wall) add_wall(building_.walls[static_cast<std::size_t>(element.index)], tree);
-    if (element.kind == ElementKind::obstacle)
-      tree.set("kind", building_.obstacles[static_cast<std::size_t>(element.index)].kind);
+    if (element.kind == ElementKind::stair) add_stair(building_.stairs[static_cast<std::size_t>(element.index)], tree);
+    if (element.kind == ElementKind::obstacle) {
+      const bim::Obstacle& obstacle = building_.obstacles[static_cast<std::size_t>(element.index)];
+      tree.set("kind", obstacle.kind);
+      if (!obstacle.material.empty()) tree.set("material", obstacle.material);
+    }
     return tree;
   }
 
@@ -125,20 +140,31 @@ class Inspector {
     tree.set("faces", std::move(faces));
   }
 
+  void add_stair(const bim::Stair& stair, Tree& tree) const {
+    const auto storey_id = [&](int storey) {
+      return storey < 0 ? Tree() : Tree(building_.storeys[static_cast<std::size_t>(storey)].id);
+    };
+    tree.set("name", stair.name).set("from", storey_id(stair.from)).set("to", storey_id(stair.to));
+    tree.set("rooms", Tree(Tree::List{room_id(stair.rooms[0]), room_id(stair.rooms[1])}));
+    Tree flights = Tree::list();
+    for (const bim::StairFlight& flight : stair.flights) {
+      Tree flight_tree = Tree::map();
+      flight_tree.set("start", vector_tree(flight.start)).set("yaw_rad", flight.yaw).set("width_m", flight.width_m);
+      flight_tree.set("z0_m", flight.z0_m).set("steps", flight.steps).set("rise_m", flight.rise_m);
+      flights.push(std::move(flight_tree.set("run_m", flight.run_m)));
+    }
+    Tree landings = Tree::list();
+    for (const bim::Landing& landing : stair.landings) {
+      Tree landing_tree = Tree::map();
+      landings.push(std::move(landing_tree.set("polygon", polygon_tree(landing.polygon)).set("z_m", landing.z_m)));
+    }
+    tree.set("flights", std::move(flights)).set("landings", std::move(landings));
+  }
+
   [[nodiscard]] Tree elements(ElementKind kind) const {
     Tree list = Tree::list();
     for (const MeshElement& element : mesh_.elements)
       if (element.kind == kind) list.push(element_tree(element));
-    return list;
-  }
-
-  [[nodiscard]] Tree obstacles(bool stairs) const {
-    Tree list = Tree::list();
-    for (const MeshElement& element : mesh_.elements) {
-      if (element.kind != ElementKind::obstacle) continue;
-      const bool stair = building_.obstacles[static_cast<std::size_t>(element.index)].kind == "stair";
-      if (stair == stairs) list.push(element_tree(element));
-    }
     return list;
   }
 
@@ -163,6 +189,16 @@ class Inspector {
         faces.push(std::move(face_tree));
       }
       tree.set("faces", std::move(faces));
+      list.push(std::move(tree.set("virtual_edges", virtual_edges(room))));
+    }
+    return list;
+  }
+
+  [[nodiscard]] Tree virtual_edges(const bim::Room& room) const {
+    Tree list = Tree::list();
+    for (const bim::VirtualEdge& edge : room.virtual_edges) {
+      Tree tree = Tree::map();
+      tree.set("a", vector_tree(edge.a)).set("b", vector_tree(edge.b)).set("room", room_id(edge.room));
       list.push(std::move(tree));
     }
     return list;
@@ -204,27 +240,24 @@ class Inspector {
     Tree list = Tree::list();
     for (const bim::Opening& opening : building_.openings)
       if (!kind || opening.kind == *kind) list.push(opening_tree(opening));
+    if (kind != bim::OpeningKind::window) return list;
+    // Those of a roof, and those that stand for themselves, are solids of their own.
+    for (const MeshElement& element : mesh_.elements) {
+      if (element.kind != ElementKind::obstacle) continue;
+      const std::string& name = building_.obstacles[static_cast<std::size_t>(element.index)].kind;
+      if (name == "roof_window" || name == "window") list.push(element_tree(element));
+    }
     return list;
   }
 
-  /// Pairs of rooms one can walk between: by a door or void, or where nothing stands between them; null is outside.
+  /// Pairs of rooms that meet, and how; null is outside.
   [[nodiscard]] Tree adjacency() const {
     Tree list = Tree::list();
-    std::set<std::pair<int, int>> through;
-    for (const bim::Opening& opening : building_.openings) {
-      const int a = opening.rooms[0], b = opening.rooms[1];
-      if (opening.kind == bim::OpeningKind::window || a == b) continue;
-      through.insert(std::minmax(a, b));
+    for (const bim::Adjacent& pair : bim::adjacency(building_)) {
       Tree tree = Tree::map();
-      tree.set("rooms", Tree(Tree::List{room_id(a), room_id(b)})).set("opening", opening.id);
-      list.push(std::move(tree));
-    }
-    for (const bim::PlanRoom& room : plan_.rooms) {
-      for (const int other : room.neighbours) {
-        if (other <= room.id || through.contains({room.id, other})) continue;
-        Tree tree = Tree::map();
-        list.push(std::move(tree.set("rooms", Tree(Tree::List{room_id(room.id), room_id(other)}))));
-      }
+      tree.set("rooms", Tree(Tree::List{room_id(pair.a), room_id(pair.b)})).set("by", name_of(pair.by));
+      if (!pair.element.empty()) tree.set(pair.by == bim::Passage::stair ? "stair" : "opening", pair.element);
+      list.push(std::move(tree.set("width_m", pair.width_m)));
     }
     return list;
   }

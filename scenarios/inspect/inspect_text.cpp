@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "bim/building/adjacency.h"
 #include "bim/building/plan.h"
 #include "bim/digest/digest.h"
 #include "scenarios/inspect/inspect.h"
@@ -73,7 +74,8 @@ std::string label(const std::string& name, const std::string& id) { return name.
 
 std::string storey_table(const Building& building) {
   Table table({"storey", "floor m", "height m", "walls", "rooms", "doors", "windows", "voids", "slabs", "columns",
-               "obstacles"});
+               "obstacles", "kind"});
+  constexpr const char* kinds[] = {"habitable", "foundation", "roof"};
   for (std::size_t i = 0; i < building.storeys.size(); ++i) {
     const bim::Storey& storey = building.storeys[i];
     const int s = static_cast<int>(i);
@@ -82,26 +84,64 @@ std::string storey_table(const Building& building) {
                std::to_string(on_storey(building.walls, s)), std::to_string(on_storey(building.rooms, s)),
                openings(bim::OpeningKind::door), openings(bim::OpeningKind::window),
                openings(bim::OpeningKind::opening_void), std::to_string(on_storey(building.slabs, s)),
-               std::to_string(on_storey(building.columns, s)), std::to_string(on_storey(building.obstacles, s))});
+               std::to_string(on_storey(building.columns, s)), std::to_string(on_storey(building.obstacles, s)),
+               kinds[static_cast<std::size_t>(storey.kind)]});
+  }
+  return table.text();
+}
+
+/// Each neighbour once, with every way there but windows: "Hall (door, open edge), outside (door)".
+std::string leads_to(const Building& building, const std::vector<bim::Adjacent>& pairs, int room) {
+  constexpr const char* ways[] = {"door", "window", "void", "open", "stair"};
+  std::map<std::pair<bool, int>, std::string> neighbours;  // outside last
+  for (const bim::Adjacent& pair : pairs) {
+    if ((pair.a != room && pair.b != room) || pair.by == bim::Passage::window) continue;
+    const int other = pair.a == room ? pair.b : pair.a;
+    std::string& way = neighbours[{other < 0, other}];
+    const std::string name = ways[static_cast<std::size_t>(pair.by)];
+    if (way.find(name) == std::string::npos) way += (way.empty() ? "" : ", ") + name;
+  }
+  std::string text;
+  for (const auto& [key, way] : neighbours) {
+    const std::string name = key.first ? "outside"
+                                       : label(building.rooms[static_cast<std::size_t>(key.second)].name,
+                                               building.rooms[static_cast<std::size_t>(key.second)].id);
+    text += (text.empty() ? "" : "; ") + name + " (" + way + ")";
+  }
+  return text;
+}
+
+std::string stair_table(const Building& building) {
+  Table table({"stair", "from", "to", "steps", "rise m", "run m", "width m", "landings", "rooms"});
+  const auto storey = [&](int i) {
+    return i < 0 ? std::string("nowhere")
+                 : label(building.storeys[static_cast<std::size_t>(i)].name,
+                         building.storeys[static_cast<std::size_t>(i)].id);
+  };
+  const auto room = [&](int i) {
+    return i < 0 ? std::string("outside")
+                 : label(building.rooms[static_cast<std::size_t>(i)].name,
+                         building.rooms[static_cast<std::size_t>(i)].id);
+  };
+  for (const bim::Stair& stair : building.stairs) {
+    int steps = 0;
+    for (const bim::StairFlight& flight : stair.flights) steps += flight.steps;
+    const bim::StairFlight first = stair.flights.empty() ? bim::StairFlight{} : stair.flights.front();
+    const auto length = [&](double v) { return stair.flights.empty() ? std::string("-") : fixed(v, 3); };
+    table.add({label(stair.name, stair.id), storey(stair.from), storey(stair.to), std::to_string(steps),
+               length(first.rise_m), length(first.run_m), length(first.width_m), std::to_string(stair.landings.size()),
+               room(stair.rooms[0]) + " to " + room(stair.rooms[1])});
   }
   return table.text();
 }
 
 std::string room_table(const Building& building) {
   const bim::Plan plan = bim::make_plan(building);
+  const std::vector<bim::Adjacent> pairs = bim::adjacency(building);
   Table table({"room", "storey", "area m2", "height m", "faces", "leads to"});
   for (std::size_t i = 0; i < building.rooms.size(); ++i) {
     const bim::Room& room = building.rooms[i];
-    std::string neighbours;
-    for (const int n : plan.rooms[i].neighbours) {
-      const bim::Room& other = building.rooms[static_cast<std::size_t>(n)];
-      neighbours += (neighbours.empty() ? "" : ", ") + label(other.name, other.id);
-    }
-    const bool out = std::any_of(building.openings.begin(), building.openings.end(), [&](const bim::Opening& opening) {
-      const int here = static_cast<int>(i), a = opening.rooms[0], b = opening.rooms[1];
-      return opening.kind == bim::OpeningKind::door && ((a == here && b < 0) || (b == here && a < 0));
-    });
-    if (out) neighbours += neighbours.empty() ? "outside" : ", outside";
+    const std::string neighbours = leads_to(building, pairs, static_cast<int>(i));
     const bim::Storey& storey = building.storeys[static_cast<std::size_t>(room.storey)];
     table.add({label(room.name, room.id), label(storey.name, storey.id), fixed(signed_area(room.polygon), 1),
                fixed(room.z1_m - room.z0_m, 2), std::to_string(plan.rooms[i].faces.size()), neighbours});
@@ -143,6 +183,7 @@ std::string inspect_text(const Building& building, const BuildingMesh& mesh) {
                      building.unit + "), hash " + hex64(building.hash()) + "\n\n";
   text += storey_table(building) + "\n";
   if (!building.rooms.empty()) text += room_table(building) + "\n";
+  if (!building.stairs.empty()) text += stair_table(building) + "\n";
   text += symmetry_text(building, bim::analyse_symmetry(building)) + "\n";
   return text + totals(building, mesh) + "\n" + warning_lines(building, mesh);
 }
