@@ -71,6 +71,11 @@ double clear_height(const Building& building, int storey) {
   return building.storeys[static_cast<std::size_t>(storey)].height_m;
 }
 
+/// Furniture of a model moves and is modelled at will; clutter of a plan is there on purpose.
+bool is_loose(const Obstacle& obstacle) {
+  return obstacle.kind == "furniture" || obstacle.kind == "covering" || obstacle.kind == "proxy";
+}
+
 /// Collects the bodies of one storey.
 class Collector {
  public:
@@ -94,7 +99,7 @@ class Collector {
     }
     for (const Obstacle& obstacle : building_.obstacles) {
       bodies_.elements.push_back(obstacle.id);
-      if (obstacle.planned) add_solid(obstacle.body);
+      if (obstacle.planned && !is_loose(obstacle)) add_solid(obstacle.body);
     }
     return std::move(bodies_);
   }
