@@ -8,7 +8,9 @@
 #include "bim/config/tree.h"
 #include "bim/errors.h"
 #include "bim/ifc/interpret.h"
+#include "bim/ifc/read_written.h"
 #include "bim/ifc/step_text.h"
+#include "bim/ifc/written_mark.h"
 
 namespace plumbline::bim {
 namespace {
@@ -29,6 +31,7 @@ std::string unit_name(double unit_m) {
 Building read_ifc_text(std::string_view text, const std::string& file, const IfcConfig& config) {
   const std::string clean = without_comments(text);
   const StepText checked = check_step_text(clean, file);
+  if (has_written_mark(text)) return read_written(clean, file);
   const StepModel model = read_step_model(clean, checked, file);
 
   Interpreter interpreter(model, config);

@@ -7,8 +7,10 @@
 #include <string>
 
 #include "bim/building/load.h"
+#include "bim/ifc/write_ifc.h"
 #include "bim/mesh/export.h"
 #include "scenarios/commands/commands.h"
+#include "scenarios/run/files.h"
 
 namespace plumbline::scenarios {
 
@@ -17,6 +19,7 @@ namespace {
 struct InspectOptions {
   std::string building;
   std::string mesh;
+  std::string ifc;
   bool json = false;
 };
 
@@ -24,6 +27,7 @@ int inspect(const InspectOptions& options) {
   const bim::Building building = bim::load_building(options.building);
   const bim::BuildingMesh mesh = bim::build_mesh(building);
   if (!options.mesh.empty()) bim::write_mesh(mesh, options.mesh);
+  if (!options.ifc.empty()) write_file(options.ifc, bim::write_ifc(building));
   const std::string text =
       options.json ? write_json(inspect_json(building, mesh)) + "\n" : inspect_text(building, mesh);
   std::fwrite(text.data(), 1, text.size(), stdout);
@@ -38,6 +42,7 @@ Command add_inspect(CLI::App& program) {
   app->add_option("BUILDING", options->building, "plan (.yaml) or .ifc")->required();
   app->add_flag("--json", options->json, "for programs, every element");
   app->add_option("--mesh", options->mesh, "writes the cut building as .glb, .obj or .ply");
+  app->add_option("--ifc", options->ifc, "writes the building as IFC4");
   app->footer("Example: plumbline inspect house.ifc --mesh house.glb");
   return {app, [options] { return inspect(*options); }};
 }

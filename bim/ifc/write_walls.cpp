@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include "bim/building/wall_face.h"
+#include "bim/ifc/step_string.h"
+#include "bim/ifc/write_elements.h"
+#include "bim/ifc/written_mark.h"
+
+namespace plumbline::bim {
+
+using step::none;
+using step::ref;
+
+void ElementWriter::add_walls() {
+  for (const Wall& wall : building_.walls) {
+    ShapeWriter shape(document_);
+    shape.axis(wall.a, wall.b);
+    if (wall.body) {
+      shape.body({*wall.body});
+    } else {
+      shape.body(Prism{{footprint(wall), {}}, wall.z0_m, wall.z1_m, wall.slope * wall.left()});
+    }
+    const int number = document_.add_product("IFCWALL", {"wall", wall.id, wall.name, wall.storey}, shape.finish(),
+                                             {step_string(wall.id), ".SOLIDWALL."});
+    walls_.push_back(number);
+    document_.contain(number, wall.storey);
+    add_layers(wall, number);
+    document_.add_properties(number, "Pset_WallCommon",
+                             {{"Reference", step::typed("IFCIDENTIFIER", step_string(wall.id))}});
+    document_.add_properties(
+        number, "Plumbline_Wall",
+        {text_property("Id", wall.id), length_property("Bottom", wall.z0_m), length_property("Top", wall.z1_m),
+         real_property("Slope", wall.slope), flag_property("OwnBody", wall.body.has_value())});
+  }
+}
+
+void ElementWriter::add_layers(const Wall& wall, int product) {
+  StepWriter& out = document_.step();
+  const std::optional<int> material = document_.material(wall.material);
+  const int layer = out.add("IFCMATERIALLAYER", {material ? ref(*material) : none, step_real(wall.thickness_m), none,
+                                                 none, none, none, none});
+  const int set = out.add("IFCMATERIALLAYERSET", {step::refs({layer}), none, none});
+  const int usage =
+      out.add("IFCMATERIALLAYERSETUSAGE", {ref(set), ".AXIS2.", ".POSITIVE.", step_real(wall.offset_m), none});
+  document_.relate("IFCRELASSOCIATESMATERIAL", {step::refs({product}), ref(usage)});
+}
+
+Prism ElementWriter::across(const Opening& opening, double low_m, double high_m) const {
+  const Wall& wall = building_.walls[static_cast<std::size_t>(opening.wall)];
+  // A leaning wall has moved aside at the sill.
+  const double rise = wall.slope * (opening.z0_m - wall.z0_m);
+  Wall piece = wall;
+  piece.a = wall.a + (opening.s_m - 0.5 * opening.width_m) * wall.direction() + rise * wall.left();
+  piece.b = piece.a + opening.width_m * wall.direction();
+  piece.offset_m = low_m;
+  piece.thickness_m = high_m - low_m;
+  return {{footprint(piece), {}}, opening.z0_m, opening.z1_m, wall.slope * wall.left()};
+}
+
+Prism ElementWriter::opening_prism(const Opening& opening) const {
+  const Wall& wall = building_.walls[static_cast<std::size_t>(opening.wall)];
+  return across(opening, wall.offset_m - config_.overhang_m, wall.offset_m + wall.thickness_m + config_.overhang_m);
+}
+
+Prism ElementWriter::leaf_prism(const Opening& opening) const {
+  const Wall& wall = building_.walls[static_cast<std::size_t>(opening.wall)];
+  const double middle = wall.offset_m + 0.5 * wall.thickness_m;
+  const double half = 0.5 * std::min(config_.leaf_m, wall.thickness_m);
+  return across(opening, middle - half, middle + half);
+}
+
+void ElementWriter::add_openings() {
+  filled_.assign(building_.openings.size(), false);
+  for (const Opening& opening : building_.openings) {
+    const int storey = building_.walls[static_cast<std::size_t>(opening.wall)].storey;
+    ShapeWriter shape(document_);
+    if (opening.solid) {
+      std::vector<Solid> solids{*opening.solid};
+      solids.insert(solids.end(), opening.parts.begin(), opening.parts.end());
+      shape.body(solids);
+    } else {
+      shape.body(opening_prism(opening));
+    }
+    const int number = document_.add_product("IFCOPENINGELEMENT", {"opening", opening.id, opening.id, storey},
+                                             shape.finish(), {step_string(opening.id), ".OPENING."});
+    openings_.push_back(number);
+    const int wall = walls_[static_cast<std::size_t>(opening.wall)];
+    document_.relate("IFCRELVOIDSELEMENT", {ref(wall), ref(number)});
+    document_.add_properties(
+        number, "Plumbline_Opening",
+        {text_property("Id", opening.id), text_property("Kind", name_of(opening.kind)),
+         length_property("Along", opening.s_m), length_property("Width", opening.width_m),
+         length_property("Bottom", opening.z0_m), length_property("Top", opening.z1_m),
+         text_property("Leaf", name_of(opening.leaf)), text_property("Material", opening.material),
+         text_property("Filling", opening.filling_id), room_property("RoomLeft", opening.rooms[0]),
+         room_property("RoomRight", opening.rooms[1]), flag_property("OwnBody", opening.solid.has_value())});
+  }
+}
+
+int ElementWriter::add_filling(const Opening& opening, int number, int shape) {
+  const bool door = opening.kind == OpeningKind::door;
+  const int storey = building_.walls[static_cast<std::size_t>(opening.wall)].storey;
+  const std::string id = opening.filling_id.empty() ? opening.id : opening.filling_id;
+  const double height = opening.z1_m - opening.z0_m;
+  const int filling = document_.add_product(
+      door ? "IFCDOOR" : "IFCWINDOW", {door ? "door" : "window", id, id, storey}, shape,
+      {step_string(id), height > 0.0 ? step_real(height) : none,
+       opening.width_m > 0.0 ? step_real(opening.width_m) : none, door ? ".DOOR." : ".WINDOW.", ".NOTDEFINED.", none});
+  document_.contain(filling, storey);
+  document_.relate("IFCRELFILLSELEMENT", {ref(number), ref(filling)});
+  return filling;
+}
+
+void ElementWriter::add_fillings() {
+  for (std::size_t i = 0; i < building_.openings.size(); ++i) {
+    const Opening& opening = building_.openings[i];
+    if (filled_[i] || opening.kind == OpeningKind::opening_void) continue;
+    ShapeWriter shape(document_);
+    if (opening.kind == OpeningKind::window || opening.leaf != Leaf::none) shape.body(leaf_prism(opening));
+    const int filling = add_filling(opening, openings_[i], shape.finish());
+    document_.assign_material(filling, opening.material);
+  }
+}
+
+}  // namespace plumbline::bim
