@@ -205,6 +205,7 @@ TEST_P(WrittenFile, IsTheSameBuildingToAForeignReader) {
 INSTANTIATE_TEST_SUITE_P(Files, WrittenFile,
                          testing::Values("ifc/duplex.ifc", "ifc/AC20-FZK-Haus.ifc", "ifc/IfcOpenHouse_IFC4.ifc",
                                          "ifc/LargeBuilding.ifc", "ifc/ManySimpleWalls.ifc",
+                                         "plans/office.building.yaml", "plans/hotel.building.yaml",
                                          "scenarios/library/quickstart.plan.yaml"),
                          [](const testing::TestParamInfo<const char*>& info) {
                            std::string name = std::filesystem::path(info.param).stem();
