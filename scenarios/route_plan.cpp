@@ -6,6 +6,7 @@
 #include <numbers>
 #include <optional>
 
+#include "scenarios/closed_doors.h"
 #include "sim/route/route.h"
 
 namespace plumbline::scenarios {
@@ -141,10 +142,16 @@ class Planner {
   void walk_to(const std::string& room, const Mark& mark, RoutePlan& plan) const {
     const Eigen::Vector2d goal = target(find_room(building_, room, mark), mark);
     const Path leg = path(plan.waypoints.back(), goal);
-    if (leg.empty())
-      throw InputError(mark, "room '" + room + "' cannot be reached from " + text(plan.waypoints.back()) +
-                                 "; is a door on the way open and at least 0.9 m wide?");
+    if (leg.empty()) refuse(room, plan.waypoints.back(), goal, mark);
     append(leg, plan);
+  }
+
+  [[noreturn]] void refuse(const std::string& room, const Eigen::Vector2d& from, const Eigen::Vector2d& goal,
+                           const Mark& mark) const {
+    const std::vector<std::string> doors = closed_doors_between(building_, storey_, from, goal);
+    const std::string why =
+        doors.empty() ? "; is every door on the way at least 0.9 m wide, and nothing in it?" : ": " + open_them(doors);
+    throw InputError(mark, "room '" + room + "' cannot be reached from " + text(from) + why);
   }
 
   /// Nearest room first, by the way to walk (ties: lower index), and back to the room of the start; rooms out of
@@ -170,9 +177,18 @@ class Planner {
       plan.rooms.push_back(building_.rooms[static_cast<std::size_t>(left[*best])].id);
       left.erase(left.begin() + static_cast<std::ptrdiff_t>(*best));
     }
+    if (plan.rooms.empty()) refuse_when_shut_in(left, plan);
     if (!plan.rooms.empty()) return_home(plan);
     for (int lap = 1; lap < laps; ++lap)
       for (const std::string& room : std::vector<std::string>(plan.rooms)) walk_to(room, marks_.route, plan);
+  }
+
+  /// A walk of no steps is refused where closed doors are the reason.
+  void refuse_when_shut_in(const std::vector<int>& others, const RoutePlan& plan) const {
+    for (const int room : others)
+      if (!closed_doors_between(building_, storey_, plan.start_W, target(room, marks_.route)).empty())
+        refuse(building_.rooms[static_cast<std::size_t>(room)].id, plan.start_W, target(room, marks_.route),
+               marks_.route);
   }
 
   void return_home(RoutePlan& plan) const {
@@ -193,7 +209,7 @@ class Planner {
     const Path ends = {last_free(middle, axis), last_free(middle, -axis)};
     for (int i = 0; i < 2 * route.times; ++i) {
       const Path leg = path(plan.waypoints.back(), ends[static_cast<std::size_t>(i % 2)]);
-      if (leg.empty()) throw InputError(marks_.route, "room '" + *route.shuttle + "' cannot be reached from the start");
+      if (leg.empty()) refuse(*route.shuttle, plan.waypoints.back(), middle, marks_.route);
       append(leg, plan);
     }
   }

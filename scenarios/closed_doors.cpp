@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenarios/closed_doors.h"
+
+#include <algorithm>
+
+#include "bim/building/fillings.h"
+#include "sim/route/route.h"
+
+namespace plumbline::scenarios {
+
+namespace {
+
+bool is_shut(const bim::Opening& opening) {
+  return opening.wall >= 0 && opening.kind == bim::OpeningKind::door && opening.leaf == bim::Leaf::closed;
+}
+
+double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+/// True when the segment p-q passes through the opening, along its wall's reference line.
+bool passes(const Eigen::Vector2d& p, const Eigen::Vector2d& q, const bim::Opening& opening, const bim::Wall& wall) {
+  const Eigen::Vector2d e = wall.direction();
+  const double dp = cross(e, p - wall.a), dq = cross(e, q - wall.a);
+  if ((dp > 0.0) == (dq > 0.0)) return false;
+  const double s = e.dot(p + (q - p) * (dp / (dp - dq)) - wall.a);
+  return std::abs(s - opening.s_m) <= 0.5 * opening.width_m;
+}
+
+}  // namespace
+
+std::vector<std::string> closed_doors_between(const bim::Building& building, int storey, const Eigen::Vector2d& a,
+                                              const Eigen::Vector2d& b) {
+  bim::Building open = building;
+  std::erase_if(open.obstacles, bim::is_filling);
+  bim::apply_options(open, {bim::Doors::open, true});
+  const std::vector<Eigen::Vector2d> path = sim::FreeSpace(open, storey).path(a, b);
+  std::vector<std::string> doors;
+  for (const bim::Opening& opening : building.openings) {
+    if (!is_shut(opening)) continue;
+    const bim::Wall& wall = building.walls[static_cast<std::size_t>(opening.wall)];
+    if (wall.storey != storey) continue;
+    for (std::size_t i = 1; i < path.size(); ++i) {
+      if (!passes(path[i - 1], path[i], opening, wall)) continue;
+      doors.push_back(opening.id);
+      break;
+    }
+  }
+  return doors;
+}
+
+std::string open_them(const std::vector<std::string>& doors) {
+  std::string list;
+  for (const std::string& door : doors) list += (list.empty() ? "'" : ", '") + door + "'";
+  return (doors.size() == 1 ? "door " + list + " on the way is" : "doors " + list + " on the way are") +
+         " closed; open with `leaf: open` in the plan or `doors: open` in the scenario";
+}
+
+}  // namespace plumbline::scenarios
