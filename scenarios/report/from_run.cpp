@@ -77,6 +77,7 @@ ReportInput report_input(const RunFiles& files, const score::RunScore& score) {
   }
   for (std::size_t i = 0; i < files.site.as_built.storeys.size(); ++i)
     if (files.site.as_built.storeys[i].id == files.scenario.start.storey) input.storey = static_cast<int>(i);
+  input.deviations = report_deviations(files.site, input.storey);
   for (const slam::Nanoseconds stamp : score.truth.scans)
     input.truth.push_back(sample(stamp, score.truth.at(stamp), 0.0));
   for (std::size_t i = 0; i < files.methods.size(); ++i) {

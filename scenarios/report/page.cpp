@@ -22,6 +22,8 @@ svg{display:block;width:100%;height:auto}
 .map{max-height:82vh}
 .map text{font-size:.36px;fill:#6b7889;paint-order:stroke;stroke:#f8fafc;stroke-width:.12px}
 .room{fill:#f8fafc;stroke:none}
+.asbuilt{fill:#e8871e;fill-opacity:.55;stroke:#e8871e;stroke-width:.05}
+.planned{fill:none;stroke:#7a4a9e;stroke-width:.05;stroke-dasharray:.14 .1}
 .wall{stroke:var(--wall);stroke-width:.07;stroke-linecap:square}
 .truth{fill:none;stroke:#111;stroke-width:.05;stroke-dasharray:.16 .12}
 .path{fill:none;stroke-width:.06;stroke-linejoin:round;stroke-opacity:.9}

@@ -174,7 +174,8 @@ std::string draw_method(const ReportMethod& method, std::size_t index) {
 }
 
 std::string draw_map(const ReportInput& input, const Box& box) {
-  std::string out = open_map(box, "floor plan with the true and the estimated paths") + draw_plan(input);
+  std::string out = open_map(box, "floor plan with the true and the estimated paths") + draw_plan(input) +
+                    draw_deviations(input.deviations);
   for (std::size_t i = 0; i < input.methods.size(); ++i)
     if (!is_truth(input.methods[i])) out += draw_method(input.methods[i], i);
   out += room_names(input) + svg::polyline(path_of(input.truth), "class=\"truth\"") + robot_mark("truth", "#111");
@@ -377,7 +378,8 @@ std::string render_report(const ReportInput& input) {
           "<input id=\"time\" type=\"range\" min=\"0\" max=\"1\" step=\"0.1\" aria-label=\"time\">"
           "<span class=\"clock\" id=\"clock\"></span></div></section><aside class=\"card\">" +
           method_cards(input) + "</aside></div>\n";
-  page += plots(input, end_s) + "\n" + beliefs(input, box) + "\n" + gates_table(input) + "\n" + numbers_table(input);
+  page += plots(input, end_s) + "\n" + list_deviations(input.deviations) + "\n" + beliefs(input, box) + "\n" +
+          gates_table(input) + "\n" + numbers_table(input);
   page += "<details class=\"card\"><summary>What was simulated</summary><pre><code>" +
           svg::escape(input.results.find("sensors") == nullptr ? "" : write_yaml(*input.results.find("sensors"))) +
           "digest: " + svg::escape(text_of(input.results, "digest")) + "\n</code></pre></details></main>\n";

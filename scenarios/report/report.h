@@ -8,6 +8,7 @@
 
 #include "bim/building/plan.h"
 #include "bim/config/tree.h"
+#include "scenarios/report/deviations.h"
 #include "slam/io/estimate.h"
 
 namespace plumbline::scenarios {
@@ -64,10 +65,12 @@ struct ReportInput {
   int storey = 0;
   std::vector<ReportSample> truth;
   std::vector<ReportMethod> methods;
+  std::vector<ReportDeviation> deviations;  ///< of the storey
 };
 
 /// One self-contained HTML page: plan, true and estimated trajectories, found walls and rooms, error over time,
-/// particles at start, middle and convergence, gates, every number. The same input gives the same bytes.
+/// what was built otherwise than planned, particles at start, middle and convergence, gates, every number. The same
+/// input gives the same bytes.
 [[nodiscard]] std::string render_report(const ReportInput& input);
 
 }  // namespace plumbline::scenarios
