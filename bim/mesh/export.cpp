@@ -1,41 +1,41 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bim/mesh/export.h"
 
+#include <assimp/material.h>
 #include <assimp/scene.h>
-#include <fcntl.h>
-#include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <assimp/Exporter.hpp>
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
 #include <memory>
 #include <string_view>
 
 #include "bim/errors.h"
+#include "bim/mesh/paint.h"
 
 namespace plumbline::bim {
 namespace {
 
 struct Format {
   std::string_view ending;
+  MeshFormat format;
   const char* assimp_id;
-  bool y_up;
 };
-constexpr std::array<Format, 3> formats{{{".glb", "glb2", true}, {".obj", "objnomtl", false}, {".ply", "ply", false}}};
+constexpr std::array<Format, 3> formats{
+    {{".glb", MeshFormat::glb, "glb2"}, {".obj", MeshFormat::obj, "objnomtl"}, {".ply", MeshFormat::ply, "ply"}}};
 
-const Format& format_of(const std::string& path) {
-  for (const Format& format : formats)
-    if (path.ends_with(format.ending)) return format;
-  throw InputError({path, 0, 0}, "a mesh is written as .glb, .obj or .ply");
+/// Formats of lines cannot hold a name with a line break.
+std::string node_name(std::string id) {
+  std::replace_if(
+      id.begin(), id.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+  return id;
 }
 
 /// The triangles of one element with their own vertices. The scene owns what it is given.
 aiMesh* mesh_of(const BuildingMesh& mesh, const MeshElement& element) {
   auto result = std::make_unique<aiMesh>();
   const auto count = static_cast<unsigned>(element.triangle_count);
-  result->mName = aiString(element.id);
+  result->mName = aiString(node_name(element.id));
   result->mPrimitiveTypes = aiPrimitiveType_TRIANGLE;
   result->mNumVertices = 3 * count;
   result->mVertices = new aiVector3D[result->mNumVertices];
@@ -56,66 +56,74 @@ aiMesh* mesh_of(const BuildingMesh& mesh, const MeshElement& element) {
   return result.release();
 }
 
-std::unique_ptr<aiScene> scene_of(const BuildingMesh& mesh, bool y_up) {
+aiMaterial* material_of(const Paint& paint) {
+  auto result = std::make_unique<aiMaterial>();
+  const aiString name{std::string(paint.name)};
+  const aiColor4D colour(paint.red, paint.green, paint.blue, 1.0F);  // assimp multiplies it by the opacity
+  const float metal = 0.0F, rough = 0.9F;
+  result->AddProperty(&name, AI_MATKEY_NAME);
+  result->AddProperty(&colour, 1, AI_MATKEY_BASE_COLOR);
+  result->AddProperty(&metal, 1, AI_MATKEY_METALLIC_FACTOR);
+  result->AddProperty(&rough, 1, AI_MATKEY_ROUGHNESS_FACTOR);
+  if (paint.opacity < 1.0F) result->AddProperty(&paint.opacity, 1, AI_MATKEY_OPACITY);
+  return result.release();
+}
+
+void colour_vertices(aiMesh& mesh, const Paint& paint) {
+  mesh.mColors[0] = new aiColor4D[mesh.mNumVertices];
+  std::fill_n(mesh.mColors[0], mesh.mNumVertices, aiColor4D(paint.red, paint.green, paint.blue, paint.opacity));
+}
+
+void add_materials(aiScene& scene) {
+  scene.mMaterials = new aiMaterial*[paints().size()];
+  for (const Paint& paint : paints()) scene.mMaterials[scene.mNumMaterials++] = material_of(paint);
+}
+
+std::unique_ptr<aiScene> scene_of(const Building& building, const BuildingMesh& mesh, MeshFormat format) {
   std::vector<const MeshElement*> elements;
   for (const MeshElement& element : mesh.elements)
     if (element.triangle_count > 0) elements.push_back(&element);
   auto scene = std::make_unique<aiScene>();
-  scene->mNumMaterials = 1;
-  scene->mMaterials = new aiMaterial* [1] { new aiMaterial };
+  add_materials(*scene);
   scene->mRootNode = new aiNode("building");
   // (x, y, z) to (x, z, -y).
-  if (y_up) scene->mRootNode->mTransformation = aiMatrix4x4(1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1);
+  if (format == MeshFormat::glb)
+    scene->mRootNode->mTransformation = aiMatrix4x4(1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1);
   scene->mMeshes = new aiMesh*[elements.size()];
   std::vector<aiNode*> nodes;
   for (const MeshElement* element : elements) {
-    aiNode* node = new aiNode(element->id);
+    aiNode* node = new aiNode(node_name(element->id));
     node->mNumMeshes = 1;
     node->mMeshes = new unsigned[1]{scene->mNumMeshes};
-    scene->mMeshes[scene->mNumMeshes++] = mesh_of(mesh, *element);
+    aiMesh* part = mesh_of(mesh, *element);
+    const std::size_t paint = paint_of(building, *element);
+    part->mMaterialIndex = static_cast<unsigned>(paint);
+    if (format == MeshFormat::ply) colour_vertices(*part, paints()[paint]);
+    scene->mMeshes[scene->mNumMeshes++] = part;
     nodes.push_back(node);
   }
   scene->mRootNode->addChildren(static_cast<unsigned>(nodes.size()), nodes.data());
   return scene;
 }
 
-void write_atomically(const std::string& path, const void* data, std::size_t size) {
-  const std::string temporary = path + ".part";
-  const auto fail = [&](const char* what) {
-    const std::string reason = std::strerror(errno);
-    std::remove(temporary.c_str());
-    throw EnvironmentError(path + ": cannot " + what + ": " + reason);
-  };
-  const int file = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
-  if (file < 0) fail("create");
-  const char* at = static_cast<const char*>(data);
-  while (size > 0) {
-    const ssize_t written = ::write(file, at, size);
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) {
-      const int reason = errno;
-      ::close(file);
-      errno = reason;
-      fail("write");
-    }
-    at += written;
-    size -= static_cast<std::size_t>(written);
-  }
-  const bool synced = ::fsync(file) == 0;
-  if (::close(file) != 0 || !synced) fail("write");
-  if (std::rename(temporary.c_str(), path.c_str()) != 0) fail("rename");
-}
-
 }  // namespace
 
-void write_mesh(const BuildingMesh& mesh, const std::string& path) {
-  const Format& format = format_of(path);
-  if (mesh.triangles.empty()) throw InputError({path, 0, 0}, "the building has no triangle to write");
-  const std::unique_ptr<aiScene> scene = scene_of(mesh, format.y_up);
+MeshFormat mesh_format(const std::string& path) {
+  for (const Format& format : formats)
+    if (path.ends_with(format.ending)) return format.format;
+  throw InputError({path, 0, 0}, "a mesh is written as .glb, .obj or .ply");
+}
+
+std::string write_mesh(const Building& building, const BuildingMesh& mesh, MeshFormat format) {
+  if (mesh.triangles.empty()) throw InputError({}, "the building has no triangle to write");
+  const auto* entry =
+      std::find_if(formats.begin(), formats.end(), [&](const Format& known) { return known.format == format; });
+  const std::unique_ptr<aiScene> scene = scene_of(building, mesh, format);
   Assimp::Exporter exporter;
-  const aiExportDataBlob* blob = exporter.ExportToBlob(scene.get(), format.assimp_id, 0u);
-  if (blob == nullptr) throw EnvironmentError(path + ": assimp cannot export it: " + exporter.GetErrorString());
-  write_atomically(path, blob->data, blob->size);
+  const aiExportDataBlob* blob = exporter.ExportToBlob(scene.get(), entry->assimp_id, 0u);
+  if (blob == nullptr)
+    throw EnvironmentError(std::string("assimp cannot write the mesh: ") + exporter.GetErrorString());
+  return {static_cast<const char*>(blob->data), blob->size};
 }
 
 }  // namespace plumbline::bim

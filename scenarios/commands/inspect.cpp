@@ -3,10 +3,13 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "bim/building/load.h"
+#include "bim/errors.h"
 #include "bim/ifc/write_ifc.h"
 #include "bim/mesh/export.h"
 #include "scenarios/commands/commands.h"
@@ -23,10 +26,21 @@ struct InspectOptions {
   bool json = false;
 };
 
+/// Throws InputError where a file to write is the one that is read.
+void check_output(const std::string& path, const std::string& building) {
+  std::error_code unknown;  // a file that is not there is no building either
+  if (std::filesystem::equivalent(path, building, unknown))
+    throw InputError({path, 0, 0}, "this would overwrite the building that is read; give another name");
+}
+
 int inspect(const InspectOptions& options) {
+  std::optional<bim::MeshFormat> format;
+  if (!options.mesh.empty()) format = bim::mesh_format(options.mesh);
+  for (const std::string& output : {options.mesh, options.ifc})
+    if (!output.empty()) check_output(output, options.building);
   const bim::Building building = bim::load_building(options.building);
   const bim::BuildingMesh mesh = bim::build_mesh(building);
-  if (!options.mesh.empty()) bim::write_mesh(mesh, options.mesh);
+  if (format) write_file(options.mesh, bim::write_mesh(building, mesh, *format));
   if (!options.ifc.empty()) write_file(options.ifc, bim::write_ifc(building));
   const std::string text =
       options.json ? write_json(inspect_json(building, mesh)) + "\n" : inspect_text(building, mesh);
