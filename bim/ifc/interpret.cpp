@@ -214,7 +214,10 @@ void Interpreter::add_materials() {
   for (const Stair& stair : building_.stairs) names.insert(stair.material);
   for (const Obstacle& obstacle : building_.obstacles) names.insert(obstacle.material);
   names.erase("");
-  for (const std::string& name : names) building_.materials.push_back(material_named(name));
+  for (const std::string& name : names) {
+    const auto said = model_.optics.find(name);
+    building_.materials.push_back(said == model_.optics.end() ? material_named(name) : said->second);
+  }
 }
 
 Building Interpreter::finish() {

@@ -34,6 +34,7 @@
 #include "bim/ifc/quiet.h"
 #include "bim/ifc/step_geometry.h"
 #include "bim/ifc/step_material.h"
+#include "bim/ifc/step_optics.h"
 #include "bim/ifc/step_parse.h"
 #include "bim/ifc/step_placement.h"
 #include "bim/ifc/step_sound.h"
@@ -201,6 +202,7 @@ class Reader {
     result.name = project->m_Name ? utf8(project->m_Name->m_value) : std::string();
     result.has_unit = has_length_unit(*project);
     result.unit_m = model_->getUnitConverter()->getLengthInMeterFactor();
+    result.optics = read_optics(*model_);
     for (const auto& [step_id, entity] : model_->getMapIfcEntities()) {
       const auto product = std::dynamic_pointer_cast<IfcProduct>(entity);
       const std::optional<StepClass> kind = product ? class_of_product(*product) : std::nullopt;

@@ -42,10 +42,11 @@ struct StepProduct {
 };
 
 struct StepModel {
-  std::string name;                   ///< of the project
-  double unit_m = 1.0;                ///< length of the file's unit
-  bool has_unit = true;               ///< false: no length unit given, metres assumed
-  std::vector<StepProduct> products;  ///< by GlobalId
+  std::string name;                        ///< of the project
+  double unit_m = 1.0;                     ///< length of the file's unit
+  bool has_unit = true;                    ///< false: no length unit given, metres assumed
+  std::vector<StepProduct> products;       ///< by GlobalId
+  std::map<std::string, Material> optics;  ///< what the file says about light, by material name
 };
 
 /// Reads checked STEP text through IFC++: entity graph, placements and uncut solids. Its booleans are never used.

@@ -61,7 +61,7 @@ void IfcDocument::add_head(const Building& building) {
   const int user = step_.add("IFCPERSONANDORGANIZATION", {ref(person), ref(organization), none});
   const int application =
       step_.add("IFCAPPLICATION", {ref(organization), step_string("1"), step_string(program), step_string(program)});
-  owner_ = step_.add("IFCOWNERHISTORY", {ref(user), ref(application), none, ".ADDED.", none, none, none, "0"});
+  owner_ = step_.add("IFCOWNERHISTORY", {ref(user), ref(application), none, ".NOCHANGE.", none, none, none, "0"});
 
   const int origin = step_.add("IFCCARTESIANPOINT", {"(0.,0.,0.)"});
   world_ = step_.add("IFCAXIS2PLACEMENT3D", {ref(origin), none, none});
@@ -139,7 +139,8 @@ void IfcDocument::add_material(const Material* optics, const std::string& name) 
                                    {"Transmission", optics->transmission},
                                    {"Specular", optics->specular}})
     values.push_back(
-        step_.add("IFCPROPERTYSINGLEVALUE", {step_string(key), none, step::typed("IFCREAL", step_real(value)), none}));
+        step_.add("IFCPROPERTYSINGLEVALUE",
+                  {step_string(key), none, step::typed("IFCNORMALISEDRATIOMEASURE", step_real(value)), none}));
   step_.add("IFCMATERIALPROPERTIES", {step_string("Plumbline_Optics"), none, step::refs(values), ref(number)});
 }
 

@@ -167,6 +167,23 @@ TEST(WriteIfc, RandomDamageIsCaught) {
   EXPECT_GT(refused, 100);
 }
 
+TEST(WriteIfc, AForeignReaderSeesReflectivityAndGlass) {
+  Building building = small_plan();
+  building.materials.push_back({"Spiegel", 0.1, 0.2, 0.7});
+  building.walls[1].material = "Spiegel";
+  const Building back = read_ifc_text(as_foreign(write_ifc(building)), "foreign.ifc");
+  const auto material = [&](const std::string& id) {
+    const auto found = std::find_if(back.materials.begin(), back.materials.end(),
+                                    [&](const Material& candidate) { return candidate.id == id; });
+    EXPECT_NE(found, back.materials.end()) << id;
+    return found == back.materials.end() ? Material{} : *found;
+  };
+  EXPECT_EQ(material("Spiegel").reflectivity, 0.1);
+  EXPECT_EQ(material("Spiegel").transmission, 0.2);
+  EXPECT_EQ(material("Spiegel").specular, 0.7);
+  EXPECT_EQ(material("plaster").reflectivity, 0.7);
+}
+
 class WrittenFile : public testing::TestWithParam<const char*> {
  protected:
   void SetUp() override {
