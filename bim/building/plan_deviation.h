@@ -57,11 +57,11 @@ struct PlanDeviationEntry {
         break;
       case DeviationOp::tilt_wall:
         v("wall", target, plan_reference);
-        v("deg", deg, Field{.doc = "to the left of a to b, degrees", .min = -10.0, .max = 10.0, .required = true});
+        v("deg", deg, Field{.doc = "upper edge to the left of a to b", .min = -10.0, .max = 10.0, .required = true});
         break;
       case DeviationOp::move_opening:
         v("opening", target, plan_reference);
-        v("by_m", by_m, Field{.doc = "towards b, m", .min = -plan_reach_m, .max = plan_reach_m, .required = true});
+        v("by_m", by_m, Field{.doc = "towards b", .min = -plan_reach_m, .max = plan_reach_m, .required = true});
         break;
       case DeviationOp::remove_opening:
         v("opening", target, plan_reference);

@@ -48,10 +48,12 @@ inline constexpr double plan_length_min_m = 0.01;  ///< of a wall
 
 inline constexpr Field plan_id{.doc = "unique in its list, without '/'", .required = true};
 inline constexpr Field plan_reference{.doc = "id of another element", .required = true};
-inline constexpr Field plan_place{.doc = "m", .min = -plan_reach_m, .max = plan_reach_m, .required = true};
-inline constexpr Field plan_height{.doc = "m", .min = 0.01, .max = plan_size_max_m};
-inline constexpr Field plan_size{.doc = "m", .min = 0.01, .max = plan_size_max_m, .required = true};
-inline constexpr Field plan_yaw{.doc = "degrees, counter-clockwise", .min = -360.0, .max = 360.0};
+inline constexpr Field plan_place{.doc = "in the plan, m", .min = -plan_reach_m, .max = plan_reach_m, .required = true};
+inline constexpr Field plan_height{.doc = "height", .min = 0.01, .max = plan_size_max_m};
+inline constexpr Field plan_width{.doc = "along the wall", .min = 0.01, .max = plan_size_max_m};
+inline constexpr Field plan_size{
+    .doc = "along its own x and y, m", .min = 0.01, .max = plan_size_max_m, .required = true};
+inline constexpr Field plan_yaw{.doc = "turned about its centre", .min = -360.0, .max = 360.0};
 inline constexpr Field plan_share{.doc = "share of the light", .min = 0.0, .max = 1.0};
 
 inline constexpr Field plan_material{.doc = "id of a material, declared or preset"};
@@ -66,8 +68,9 @@ struct PlanStoreyEntry {
   template <class V>
   void visit(V& v) {
     v("id", id, plan_id);
-    v("elevation_m", elevation_m, Field{.doc = "m", .min = -plan_reach_m, .max = plan_reach_m});
-    v("height_m", height_m, Field{.doc = "m, floor to ceiling", .min = 0.5, .max = plan_size_max_m});
+    v("elevation_m", elevation_m, Field{.doc = "of the finished floor", .min = -plan_reach_m, .max = plan_reach_m});
+    v("height_m", height_m,
+      Field{.doc = "floor to ceiling; 3 m, or that of the storey it copies", .min = 0.5, .max = plan_size_max_m});
     v("copy_of", copy_of, Field{.doc = "storey whose content stands here again"});
     v("floor_material", floor_material, plan_material);
   }
@@ -87,10 +90,10 @@ struct PlanWallEntry {
     v("storey", storey, plan_reference);
     v("a", a, plan_place);
     v("b", b, plan_place);
-    v("thickness_m", thickness_m, Field{.doc = "m", .min = 0.01, .max = 10.0});
+    v("thickness_m", thickness_m, Field{.doc = "across", .min = 0.01, .max = 10.0});
     v("just", just, Field{.doc = "where a-b lies in the thickness, seen from a to b"});
     v("material", material, plan_material);
-    v("height_m", height_m, Field{.doc = "m; the storey's when not given", .min = 0.01, .max = plan_size_max_m});
+    v("height_m", height_m, Field{.doc = "the storey's when not given", .min = 0.01, .max = plan_size_max_m});
   }
 };
 
@@ -109,11 +112,11 @@ struct PlanOpeningEntry {
     v("id", id, plan_id);
     v("wall", wall, plan_reference);
     v("kind", kind, Field{.doc = "a void has neither leaf nor pane"});
-    v("s_m", s_m, Field{.doc = "centre along the wall from a, m", .min = 0.0, .max = plan_reach_m, .required = true});
-    v("width_m", width_m, plan_height);
+    v("s_m", s_m, Field{.doc = "centre along the wall, from a", .min = 0.0, .max = plan_reach_m, .required = true});
+    v("width_m", width_m, plan_width);
     v("height_m", height_m, plan_height);
-    v("sill_m", sill_m, Field{.doc = "above the wall's lower edge, m", .min = 0.0, .max = plan_size_max_m});
-    v("leaf", leaf, Field{.doc = "of a door; an open leaf is not drawn"});
+    v("sill_m", sill_m, Field{.doc = "above the wall's lower edge", .min = 0.0, .max = plan_size_max_m});
+    v("leaf", leaf, Field{.doc = "of a door, open when not given; an open leaf stands nowhere"});
     v("material", material, Field{.doc = "of the leaf or pane; a window's is glass when not given"});
   }
 };
@@ -146,7 +149,7 @@ struct PlanColumnEntry {
     v("at", at, plan_place);
     v("size", size, plan_size);
     v("yaw_deg", yaw_deg, plan_yaw);
-    v("height_m", height_m, Field{.doc = "m; the storey's when not given", .min = 0.01, .max = plan_size_max_m});
+    v("height_m", height_m, Field{.doc = "the storey's when not given", .min = 0.01, .max = plan_size_max_m});
     v("material", material, plan_material);
   }
 };
@@ -163,7 +166,7 @@ struct PlanClutterEntry {
   void visit(V& v) {
     v("id", id, plan_id);
     v("storey", storey, plan_reference);
-    v("shape", shape);
+    v("shape", shape, Field{.doc = "a cylinder has `size` as its diameters"});
     v("at", at, plan_place);
     v("size", size, plan_size);
     v("yaw_deg", yaw_deg, plan_yaw);

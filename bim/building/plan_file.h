@@ -29,16 +29,16 @@ struct PlanFile {
   template <class V>
   void visit(V& v) {
     v("plan", plan, Field{.doc = "version of the format", .min = 1, .max = 1, .required = true});
-    v("name", name);
-    v("storeys", storeys, Field{.required = true});
-    v("walls", walls, Field{.required = true});
-    v("openings", openings);
-    v("rooms", rooms);
-    v("columns", columns);
-    v("stairs", stairs);
-    v("clutter", clutter);
-    v("materials", materials);
-    v("deviations", deviations);
+    v("name", name, Field{.doc = "of the building"});
+    v("storeys", storeys, Field{.doc = "at least one", .required = true});
+    v("walls", walls, Field{.doc = "at least one", .required = true});
+    v("openings", openings, Field{.doc = "doors, windows and voids in walls"});
+    v("rooms", rooms, Field{.doc = "what methods may know as rooms"});
+    v("columns", columns, Field{.doc = "upright blocks"});
+    v("stairs", stairs, Field{.doc = "from one storey to another"});
+    v("clutter", clutter, Field{.doc = "planned furniture and the like"});
+    v("materials", materials, Field{.doc = "beyond the presets"});
+    v("deviations", deviations, Field{.doc = "what was built otherwise"});
   }
 };
 

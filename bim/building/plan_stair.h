@@ -41,16 +41,15 @@ struct PlanStairEntry {
     v("to", to, Field{.doc = "storey at the head, above", .required = true});
     v("start", start,
       Field{.doc = "middle of the first step's foot, m", .min = -plan_reach_m, .max = plan_reach_m, .required = true});
-    v("yaw_deg", yaw_deg, Field{.doc = "direction of ascent, degrees", .min = -360.0, .max = 360.0});
-    v("width_m", width_m, Field{.doc = "m", .min = 0.5, .max = 10.0});
-    v("rise_m", rise_m, Field{.doc = "greatest height of a step; all are equal, m", .min = 0.05, .max = 0.25});
-    v("run_m", run_m, Field{.doc = "depth of a step, m", .min = 0.2, .max = 0.5});
+    v("yaw_deg", yaw_deg, Field{.doc = "direction of ascent", .min = -360.0, .max = 360.0});
+    v("width_m", width_m, Field{.doc = "of the steps", .min = 0.5, .max = 10.0});
+    v("rise_m", rise_m, Field{.doc = "greatest height of a step; all are equal", .min = 0.05, .max = 0.25});
+    v("run_m", run_m, Field{.doc = "depth of a step", .min = 0.2, .max = 0.5});
     v("landing_after", landing_after,
       Field{.doc = "steps below the landing; none when not given", .min = 1, .max = 1000});
-    v("landing_m", landing_m,
-      Field{.doc = "depth of the landing; the width when not given, m", .min = 0.5, .max = 10.0});
+    v("landing_m", landing_m, Field{.doc = "depth of the landing; the width when not given", .min = 0.5, .max = 10.0});
     v("turn", turn, Field{.doc = "at the landing"});
-    v("gap_m", gap_m, Field{.doc = "between the two flights of a turn back, m", .min = 0.0, .max = 10.0});
+    v("gap_m", gap_m, Field{.doc = "between the two flights of a turn back", .min = 0.0, .max = 10.0});
     v("material", material, plan_material);
   }
 };

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "bim/building/load.h"
+#include "bim/building/plan_schema.h"
 #include "bim/errors.h"
 #include "bim/ifc/write_ifc.h"
 #include "bim/mesh/export.h"
@@ -24,6 +25,7 @@ struct InspectOptions {
   std::string mesh;
   std::string ifc;
   bool json = false;
+  bool schema = false;
 };
 
 /// Throws InputError where a file to write is the one that is read.
@@ -34,6 +36,11 @@ void check_output(const std::string& path, const std::string& building) {
 }
 
 int inspect(const InspectOptions& options) {
+  if (options.schema) {
+    std::fputs(bim::plan_page().c_str(), stdout);
+    return 0;
+  }
+  if (options.building.empty()) throw InputError({"BUILDING", 0, 0}, "is missing; name a plan or an .ifc");
   std::optional<bim::MeshFormat> format;
   if (!options.mesh.empty()) format = bim::mesh_format(options.mesh);
   for (const std::string& output : {options.mesh, options.ifc})
@@ -53,9 +60,10 @@ int inspect(const InspectOptions& options) {
 Command add_inspect(CLI::App& program) {
   const auto options = std::make_shared<InspectOptions>();
   CLI::App* app = program.add_subcommand("inspect", "Says what is in a building: storeys, rooms, walls, warnings");
-  app->add_option("BUILDING", options->building, "plan (.yaml) or .ifc")->required();
+  app->add_option("BUILDING", options->building, "plan (.yaml) or .ifc");
   app->add_flag("--json", options->json, "for programs, every element");
   app->add_option("--mesh", options->mesh, "writes the cut building as .glb, .obj or .ply");
+  app->add_flag("--schema", options->schema, "prints instead every key of plan files, with examples");
   app->add_option("--ifc", options->ifc, "writes the building as IFC4");
   app->footer("Example: plumbline inspect house.ifc --mesh house.glb");
   return {app, [options] { return inspect(*options); }};

@@ -8,6 +8,7 @@
 
 #include "scenarios/commands/commands.h"
 #include "scenarios/run/participant.h"
+#include "scenarios/scenario_schema.h"
 
 namespace plumbline::scenarios {
 
@@ -40,6 +41,11 @@ int list_scenarios(const std::string& folder) {
   return 0;
 }
 
+int print_schema() {
+  std::fputs(scenario_page().c_str(), stdout);
+  return 0;
+}
+
 }  // namespace
 
 Command add_methods(CLI::App& program) {
@@ -49,11 +55,16 @@ Command add_methods(CLI::App& program) {
 }
 
 Command add_scenarios(CLI::App& program) {
-  const auto folder = std::make_shared<std::string>("scenarios/library");
+  struct Options {
+    std::string folder = "scenarios/library";
+    bool schema = false;
+  };
+  const auto options = std::make_shared<Options>();
   CLI::App* app = program.add_subcommand("scenarios", "Lists the scenarios of a folder");
-  app->add_option("FOLDER", *folder, "folder with scenarios")->capture_default_str();
+  app->add_option("FOLDER", options->folder, "folder with scenarios")->capture_default_str();
+  app->add_flag("--schema", options->schema, "prints instead every key of scenario files, with examples");
   app->footer("Example: plumbline scenarios scenarios/library");
-  return {app, [folder] { return list_scenarios(*folder); }};
+  return {app, [options] { return options->schema ? print_schema() : list_scenarios(options->folder); }};
 }
 
 }  // namespace plumbline::scenarios

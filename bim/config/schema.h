@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bim/config/visit.h"
+
+namespace plumbline {
+
+/// One key of a file, as its visit tells.
+struct SchemaField {
+  std::string key;  ///< dotted below a nested map
+  std::string type;
+  std::string unit;      ///< from the key's ending
+  std::string range;     ///< empty when every value goes
+  std::string standard;  ///< what it is when not given, empty when that is nothing in particular
+  std::string meaning;
+  bool required = false;
+};
+
+/// The keys of the file itself (no name) or of the entries of one of its lists.
+struct SchemaSection {
+  std::string name;
+  std::string variant;  ///< "op: move_wall" where the first key decides which others there are
+  std::vector<SchemaField> fields;
+};
+
+/// A struct whose first key decides about the others specialises this with their number, a name for each and how to
+/// make it.
+template <class T>
+struct SchemaVariants {
+  static constexpr std::size_t count = 1;
+  static std::string name(std::size_t) { return {}; }
+  static T make(std::size_t) { return {}; }
+};
+
+/// A tree in one line of YAML.
+[[nodiscard]] std::string flow_text(const Tree& tree);
+[[nodiscard]] SchemaField schema_field(std::string key, std::string type, const Field& field);
+
+/// Lists what a struct's visit lists.
+class SchemaVisitor {
+ public:
+  template <class T>
+  [[nodiscard]] static std::vector<SchemaSection> sections_of() {
+    std::vector<SchemaSection> sections;
+    add_sections<T>(sections, "");
+    return sections;
+  }
+
+  template <class T>
+  void operator()(std::string_view key, T& value, const Field& field = {}) {
+    const std::string path = prefix_ + std::string(key);
+    if constexpr (Visitable<T>) {
+      SchemaVisitor inner(sections_, section_, path + ".");
+      value.visit(inner);
+    } else {
+      SchemaField row = schema_field(path, type_of(value), field);
+      if constexpr (!requires { value.has_value(); })
+        if (!field.required) row.standard = flow_text(FieldWriter::write(value));
+      sections_[section_].fields.push_back(std::move(row));
+      add_items(path, value);
+    }
+  }
+
+ private:
+  SchemaVisitor(std::vector<SchemaSection>& sections, std::size_t section, std::string prefix)
+      : sections_(sections), section_(section), prefix_(std::move(prefix)) {}
+
+  template <class T>
+  static void add_sections(std::vector<SchemaSection>& sections, const std::string& name) {
+    for (std::size_t i = 0; i < SchemaVariants<T>::count; ++i) {
+      T value = SchemaVariants<T>::make(i);
+      sections.push_back({name, SchemaVariants<T>::name(i), {}});
+      SchemaVisitor visitor(sections, sections.size() - 1, "");
+      value.visit(visitor);
+    }
+  }
+  template <class T>
+  void add_items(const std::string&, const T&) {}
+  template <Visitable T>
+  void add_items(const std::string& path, const std::vector<T>&) {
+    add_sections<T>(sections_, path);
+  }
+
+  template <class T>
+  static std::string type_of(const T&) {
+    if constexpr (std::is_enum_v<T>) {
+      std::string names;
+      for (const std::string_view name : EnumNames<T>::names) names += (names.empty() ? "" : ", ") + std::string(name);
+      return names;
+    } else if constexpr (Visitable<T>) {
+      return "entry";
+    } else if constexpr (std::same_as<T, bool>) {
+      return "true, false";
+    } else if constexpr (std::is_integral_v<T>) {
+      return "integer";
+    } else if constexpr (std::is_floating_point_v<T>) {
+      return "number";
+    } else if constexpr (std::same_as<T, Eigen::Vector2d>) {
+      return "[x, y]";
+    } else {
+      return "text";
+    }
+  }
+  template <class T>
+  static std::string type_of(const std::optional<T>&) {
+    return type_of(T());
+  }
+  template <class T>
+  static std::string type_of(const std::vector<T>&) {
+    return "list of " + type_of(T());
+  }
+
+  std::vector<SchemaSection>& sections_;
+  std::size_t section_;
+  std::string prefix_;
+};
+
+/// The first value of this key in examples of the file, as text; empty when they have none.
+[[nodiscard]] std::string example_of(const std::vector<Tree>& examples, const SchemaSection& section,
+                                     const SchemaField& field);
+/// Markdown: for each section a table of its keys, with values of the examples.
+[[nodiscard]] std::string schema_tables(const std::vector<SchemaSection>& sections, const std::vector<Tree>& examples);
+
+}  // namespace plumbline

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenarios/scenario_schema.h"
+
+#include "scenarios/scenario.h"
+
+namespace plumbline::scenarios {
+
+namespace {
+
+constexpr std::string_view introduction = R"md(# Scenario files
+
+One run: a building, a walk through it, sensors, methods, and the bounds they must keep. `plumbline run SCENARIO` runs it.
+This page is what `plumbline scenarios --schema` prints: it is made from the reader itself.
+
+- `building` is a plan ([../bim/PLAN.md](../bim/PLAN.md)), an IFC file or another building that `plumbline inspect`
+  reads, relative to the scenario. Methods are given it as planned; the robot walks through and sees it as built.
+- `doors` and `furniture` change the building for this run only, as planned and as built; a value off its default is
+  named in `results.json`. With closed doors a room behind one cannot be reached: the run is refused and the door named.
+- `start` takes a room or a point of a storey; `route` takes `rooms` (`all`, or a list) or `shuttle`.
+- Methods are listed by `plumbline methods`; none named means all. A gate has either `max` or `min`; its metrics are
+  those of `results.json`.
+
+)md";
+
+}  // namespace
+
+const std::vector<std::string>& scenario_examples() {
+  static const std::vector<std::string> examples = {
+      R"yaml(scenario: 1
+name: example
+building: library/house.plan.yaml
+doors: as_designed
+furniture: true
+seed: 1
+start: {room: living}
+route: {rooms: [hall, kitchen, living], loop: 1}
+speed_mps: 0.6
+duration_s: 120
+lidar: {model: vlp16, preset: real}
+odometry: {preset: noisy}
+prior: {yaw: unknown, storey: known}
+methods: [vgicp, s_graphs_plus, s_graph_localization]
+gates:
+  - {metric: ate_aligned_rmse_m, method: s_graphs_plus, max: 0.05}
+  - {metric: rooms.recall, method: s_graphs_plus, min: 0.5}
+)yaml",
+      R"yaml(scenario: 1
+name: there and back
+building: library/quickstart.plan.yaml
+furniture: false
+start: {storey: ground, at: [4, 6], yaw_deg: 90}
+route: {shuttle: corridor, times: 2}
+)yaml"};
+  return examples;
+}
+
+std::vector<SchemaSection> scenario_schema() { return SchemaVisitor::sections_of<Scenario>(); }
+
+std::string scenario_page() {
+  std::string page(introduction);
+  std::vector<Tree> examples;
+  for (const std::string& text : scenario_examples()) {
+    page += "```yaml\n" + text + "```\n\n";
+    examples.push_back(read_yaml(text, "example"));
+  }
+  return page + "## The file\n\n" + schema_tables(scenario_schema(), examples);
+}
+
+}  // namespace plumbline::scenarios
