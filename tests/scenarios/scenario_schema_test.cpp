@@ -21,7 +21,7 @@ TEST(ScenarioSchema, TheExamplesResolveBesideTheLibrary) {
   const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "plumbline_schema";
   std::filesystem::create_directories(folder);
   std::filesystem::copy(source() + "/scenarios/library", folder / "library",
-                        std::filesystem::copy_options::overwrite_existing);
+                        std::filesystem::copy_options::recursive | std::filesystem::copy_options::overwrite_existing);
   for (const std::string& example : scenario_examples()) {
     std::ofstream(folder / "example.yaml") << example;
     EXPECT_GE(resolve((folder / "example.yaml").string(), {}).world.waypoints.size(), 2U) << example;
@@ -35,8 +35,8 @@ TEST(ScenarioSchema, EveryKeyHasAMeaningAndAnExample) {
   for (const SchemaSection& section : scenario_schema())
     for (const SchemaField& field : section.fields) {
       EXPECT_FALSE(field.meaning.empty()) << field.key;
-      if (field.type != "list of entry")
-        EXPECT_FALSE(example_of(examples, section, field).empty()) << section.name << " " << field.key;
+      if (field.type == "list of entry") continue;
+      EXPECT_FALSE(example_of(examples, section, field).empty()) << section.name << " " << field.key;
     }
 }
 

@@ -37,7 +37,8 @@ TEST(PlanSchema, EveryDeviationHasItsOwnKeys) {
     if (section.name != "deviations") continue;
     ++ops;
     EXPECT_EQ(section.fields[0].key, "op");
-    if (section.variant == "op: tilt_wall") EXPECT_EQ(section.fields[2].range, "-10 to 10");
+    if (section.variant != "op: tilt_wall") continue;
+    EXPECT_EQ(section.fields[2].range, "-10 to 10");
   }
   EXPECT_EQ(ops, 9U);
 }
