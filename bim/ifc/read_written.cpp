@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 
+#include "bim/ifc/wall_placement.h"
 #include "bim/ifc/written_mark.h"
 #include "bim/ifc/written_products.h"
 
@@ -102,12 +103,11 @@ class WrittenReader {
       wall.id = product.text("Id");
       wall.name = product.name();
       wall.storey = storey_of(product);
-      const std::vector<Polygon2> axis = products_.curves(product, "Axis");
-      if (axis.size() != 1 || axis[0].front() == axis[0].back()) fail(product, "a wall has a reference line");
-      wall.a = axis[0].front();
-      wall.b = axis[0].back();
-      const auto [usage, layer] = products_.layers_of(product);
-      wall.offset_m = usage.at(3).as_number();
+      wall.a = {product.real("StartX"), product.real("StartY")};
+      wall.b = {product.real("EndX"), product.real("EndY")};
+      if (wall.a == wall.b) fail(product, "a wall begins where it ends");
+      const StepValue layer = products_.layer_of(product);
+      wall.offset_m = product.real("Offset");
       wall.thickness_m = layer.at(1).as_number();
       if (layer.at(0).kind == StepValue::Kind::reference)
         wall.material = entities_.attributes(layer.at(0), "IFCMATERIAL").at(0).as_text();
@@ -115,6 +115,7 @@ class WrittenReader {
       wall.z1_m = product.real("Top");
       wall.slope = product.real("Slope");
       wall.body = own_body(product);
+      if (wall.body && product.flag("Placed")) wall.body = out_of_placement(wall, *std::move(wall.body));
       wall.step_id = product.number;
       walls_[product.number] = static_cast<int>(building_.walls.size());
       building_.walls.push_back(std::move(wall));

@@ -158,9 +158,20 @@ std::string IfcDocument::new_id(const ProductText& text) {
 
 int IfcDocument::add_placement(int parent) { return step_.add("IFCLOCALPLACEMENT", {ref(parent), ref(world_)}); }
 
+int IfcDocument::add_placement(const Eigen::Vector2d& origin, const Eigen::Vector2d& x_axis) {
+  const auto triple = [](const Eigen::Vector2d& v) {
+    return step::list({step_real(v.x()), step_real(v.y()), step_real(0.0)});
+  };
+  const int corner = step_.add("IFCCARTESIANPOINT", {triple(origin)});
+  const int up = step_.add("IFCDIRECTION", {"(0.,0.,1.)"});
+  const int along = step_.add("IFCDIRECTION", {triple(x_axis)});
+  const int axes = step_.add("IFCAXIS2PLACEMENT3D", {ref(corner), ref(up), ref(along)});
+  return step_.add("IFCLOCALPLACEMENT", {ref(building_placement_), ref(axes)});
+}
+
 int IfcDocument::add_product(std::string_view type, const ProductText& text, int shape,
                              const std::vector<std::string>& rest) {
-  const int placement = add_placement(building_placement_);
+  const int placement = text.placement != 0 ? text.placement : add_placement(building_placement_);
   const std::string id = new_id(text);
   std::vector<std::string> attributes{step_string(id),
                                       ref(owner_),

@@ -30,6 +30,7 @@ struct ProductText {
   std::string name;
   int storey = -1;
   std::string object_type = {};
+  int placement = 0;  ///< number of an IfcLocalPlacement, 0 for the identity
 };
 
 /// An IFC file that grows product by product, begun with storeys and materials. Placements are the identity: all
@@ -45,6 +46,8 @@ class IfcDocument {
 
   /// A product with GlobalId, owner, name, type, placement and shape (0: none), then `rest` of its attributes.
   int add_product(std::string_view type, const ProductText& text, int shape, const std::vector<std::string>& rest);
+  /// A placement in W with z up.
+  int add_placement(const Eigen::Vector2d& origin, const Eigen::Vector2d& x_axis);
   /// A relation: GlobalId, owner and two empty attributes, then `rest`.
   int relate(std::string_view type, const std::vector<std::string>& rest);
   void add_properties(int product, std::string_view set, const std::vector<StepProperty>& properties);

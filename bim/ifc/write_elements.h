@@ -34,7 +34,9 @@ class ElementWriter {
   void add_fillings();
 
  private:
-  void add_layers(const Wall& wall, int product);
+  void add_layers(const Wall& wall, int product, bool placed);
+  void add_wall_properties(const Wall& wall, int product, bool placed);
+  [[nodiscard]] static Prism box_in_placement(const Wall& wall);
   [[nodiscard]] Prism opening_prism(const Opening& opening) const;
   [[nodiscard]] Prism leaf_prism(const Opening& opening) const;
   /// Outline in a wall's plan, across it from `low` to `high` of its reference line, upright as the wall is.

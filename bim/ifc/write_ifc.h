@@ -13,7 +13,7 @@ struct IfcWriteConfig {
   double leaf_m = 0.04;      ///< thickness of the doors and windows drawn in openings; never above the wall's
 };
 
-/// The building as IFC4 text: metres, frame W, GlobalIds kept where an id is one and else made of the building's name,
+/// The building as IFC4 text in metres: GlobalIds kept where an id is one and else made of the building's name,
 /// the kind, the storey and the id. The same building gives the same bytes; read_ifc_text() gives back a building with
 /// the same hash().
 [[nodiscard]] std::string write_ifc(const Building& building, const IfcWriteConfig& config = {});

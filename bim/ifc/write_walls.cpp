@@ -3,6 +3,7 @@
 
 #include "bim/building/wall_face.h"
 #include "bim/ifc/step_string.h"
+#include "bim/ifc/wall_placement.h"
 #include "bim/ifc/write_elements.h"
 #include "bim/ifc/written_mark.h"
 
@@ -11,38 +12,60 @@ namespace plumbline::bim {
 using step::none;
 using step::ref;
 
+/// A wall is placed at its start with x along it, since its layers are counted along y. A body that would not survive
+/// the turn stays in W, and its layers then say nothing of where they lie.
 void ElementWriter::add_walls() {
   for (const Wall& wall : building_.walls) {
+    const std::optional<Solid> body_Q = wall.body ? into_placement(wall, *wall.body) : std::nullopt;
+    const bool placed = !wall.body || body_Q;
     ShapeWriter shape(document_);
-    shape.axis(wall.a, wall.b);
-    if (wall.body) {
-      shape.body({*wall.body});
+    ProductText text{"wall", wall.id, wall.name, wall.storey};
+    if (placed) {
+      text.placement = document_.add_placement(wall.a, wall.direction());
+      shape.axis({0.0, 0.0}, {wall.length(), 0.0});
     } else {
-      shape.body(Prism{{footprint(wall), {}}, wall.z0_m, wall.z1_m, wall.slope * wall.left()});
+      shape.axis(wall.a, wall.b);
     }
-    const int number = document_.add_product("IFCWALL", {"wall", wall.id, wall.name, wall.storey}, shape.finish(),
-                                             {step_string(wall.id), ".SOLIDWALL."});
+    if (wall.body) {
+      shape.body({placed ? *body_Q : *wall.body});
+    } else {
+      shape.body(box_in_placement(wall));
+    }
+    const int number = document_.add_product("IFCWALL", text, shape.finish(), {step_string(wall.id), ".SOLIDWALL."});
     walls_.push_back(number);
     document_.contain(number, wall.storey);
-    add_layers(wall, number);
-    document_.add_properties(number, "Pset_WallCommon",
-                             {{"Reference", step::typed("IFCIDENTIFIER", step_string(wall.id))}});
-    document_.add_properties(
-        number, "Plumbline_Wall",
-        {text_property("Id", wall.id), length_property("Bottom", wall.z0_m), length_property("Top", wall.z1_m),
-         real_property("Slope", wall.slope), flag_property("OwnBody", wall.body.has_value())});
+    add_layers(wall, number, placed);
+    add_wall_properties(wall, number, placed);
   }
 }
 
-void ElementWriter::add_layers(const Wall& wall, int product) {
+Prism ElementWriter::box_in_placement(const Wall& wall) {
+  const double low = wall.offset_m, high = wall.offset_m + wall.thickness_m, end = wall.length();
+  return {{{{0.0, low}, {end, low}, {end, high}, {0.0, high}}, {}}, wall.z0_m, wall.z1_m, {0.0, wall.slope}};
+}
+
+void ElementWriter::add_wall_properties(const Wall& wall, int product, bool placed) {
+  document_.add_properties(product, "Pset_WallCommon",
+                           {{"Reference", step::typed("IFCIDENTIFIER", step_string(wall.id))}});
+  document_.add_properties(
+      product, "Plumbline_Wall",
+      {text_property("Id", wall.id), length_property("StartX", wall.a.x()), length_property("StartY", wall.a.y()),
+       length_property("EndX", wall.b.x()), length_property("EndY", wall.b.y()),
+       length_property("Offset", wall.offset_m), length_property("Bottom", wall.z0_m),
+       length_property("Top", wall.z1_m), real_property("Slope", wall.slope),
+       flag_property("OwnBody", wall.body.has_value()), flag_property("Placed", placed)});
+}
+
+void ElementWriter::add_layers(const Wall& wall, int product, bool placed) {
   StepWriter& out = document_.step();
   const std::optional<int> material = document_.material(wall.material);
   const int layer = out.add("IFCMATERIALLAYER", {material ? ref(*material) : none, step_real(wall.thickness_m), none,
                                                  none, none, none, none});
-  const int set = out.add("IFCMATERIALLAYERSET", {step::refs({layer}), none, none});
-  const int usage =
-      out.add("IFCMATERIALLAYERSETUSAGE", {ref(set), ".AXIS2.", ".POSITIVE.", step_real(wall.offset_m), none});
-  document_.relate("IFCRELASSOCIATESMATERIAL", {step::refs({product}), ref(usage)});
+  int layers = out.add("IFCMATERIALLAYERSET", {step::refs({layer}), none, none});
+  if (placed)
+    layers =
+        out.add("IFCMATERIALLAYERSETUSAGE", {ref(layers), ".AXIS2.", ".POSITIVE.", step_real(wall.offset_m), none});
+  document_.relate("IFCRELASSOCIATESMATERIAL", {step::refs({product}), ref(layers)});
 }
 
 Prism ElementWriter::across(const Opening& opening, double low_m, double high_m) const {

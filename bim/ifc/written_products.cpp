@@ -97,12 +97,14 @@ const std::vector<std::int64_t>& WrittenProducts::bounds_of(std::int64_t space) 
   return found == bounds_.end() ? none_ : found->second;
 }
 
-std::pair<StepValue, StepValue> WrittenProducts::layers_of(const WrittenProduct& wall) const {
+StepValue WrittenProducts::layer_of(const WrittenProduct& wall) const {
   const auto found = materials_.find(wall.number);
   if (found == materials_.end()) throw InputError(wall.attributes.mark, "this wall has no layers");
-  const StepValue usage = entities_.attributes(found->second, "IFCMATERIALLAYERSETUSAGE");
-  const StepValue set = entities_.attributes(usage.at(0), "IFCMATERIALLAYERSET");
-  return {usage, entities_.attributes(set.at(0).at(0), "IFCMATERIALLAYER")};
+  StepValue set = found->second;
+  if (entities_.entity(set.as_reference()).type == "IFCMATERIALLAYERSETUSAGE")
+    set = entities_.attributes(set, "IFCMATERIALLAYERSETUSAGE").at(0);
+  const StepValue layers = entities_.attributes(set, "IFCMATERIALLAYERSET");
+  return entities_.attributes(layers.at(0).at(0), "IFCMATERIALLAYER");
 }
 
 std::string WrittenProducts::material_of(std::int64_t product) const {

@@ -4,7 +4,6 @@
 #include <map>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "bim/building/building.h"
@@ -47,8 +46,8 @@ class WrittenProducts {
   [[nodiscard]] const std::vector<std::int64_t>& bounds_of(std::int64_t space) const;
   /// Name of the material, empty without one.
   [[nodiscard]] std::string material_of(std::int64_t product) const;
-  /// Attributes of its IfcMaterialLayerSetUsage and of the layer.
-  [[nodiscard]] std::pair<StepValue, StepValue> layers_of(const WrittenProduct& wall) const;
+  /// Attributes of the one IfcMaterialLayer of a wall.
+  [[nodiscard]] StepValue layer_of(const WrittenProduct& wall) const;
 
   [[nodiscard]] std::vector<Solid> solids(const WrittenProduct& product) const;
   /// Polylines of a representation, as they stand.
