@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
+#include <string>
 #include <string_view>
 
 #include "bim/building/materials.h"
@@ -62,7 +64,12 @@ void apply_options(Building& building, const BuildingOptions& options) {
 }
 
 void add_fillings(Building& building, const FillingConfig& config) {
+  // A building that was written as built comes with them.
+  std::set<std::string> there;
+  for (const Obstacle& obstacle : building.obstacles)
+    if (is_filling(obstacle)) there.insert(obstacle.id);
   for (const Opening& opening : building.openings) {
+    if (there.contains(opening.id + "/leaf") || there.contains(opening.id + "/pane")) continue;
     if (opening.wall < 0 || opening.width_m <= 0.0 || opening.z1_m <= opening.z0_m) continue;
     if (opening.kind == OpeningKind::door && opening.leaf == Leaf::closed)
       fill(building, opening, leaf_kind, config.leaf_m, opening.material);

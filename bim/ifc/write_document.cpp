@@ -55,14 +55,16 @@ IfcDocument::IfcDocument(const Building& building) : building_name_(building.nam
   add_materials(building);
 }
 
-void IfcDocument::add_head(const Building& building) {
+void IfcDocument::add_owner() {
   const int person = step_.add("IFCPERSON", {none, step_string(program), none, none, none, none, none, none});
   const int organization = step_.add("IFCORGANIZATION", {none, step_string(program), none, none, none});
   const int user = step_.add("IFCPERSONANDORGANIZATION", {ref(person), ref(organization), none});
   const int application =
       step_.add("IFCAPPLICATION", {ref(organization), step_string("1"), step_string(program), step_string(program)});
   owner_ = step_.add("IFCOWNERHISTORY", {ref(user), ref(application), none, ".NOCHANGE.", none, none, none, "0"});
+}
 
+void IfcDocument::add_contexts() {
   const int origin = step_.add("IFCCARTESIANPOINT", {"(0.,0.,0.)"});
   world_ = step_.add("IFCAXIS2PLACEMENT3D", {ref(origin), none, none});
   context_ = step_.add("IFCGEOMETRICREPRESENTATIONCONTEXT",
@@ -75,15 +77,22 @@ void IfcDocument::add_head(const Building& building) {
   body_context_ = subcontext("Body", "MODEL_VIEW");
   axis_context_ = subcontext("Axis", "GRAPH_VIEW");
   footprint_context_ = subcontext("FootPrint", "PLAN_VIEW");
+}
 
+int IfcDocument::add_units() {
   std::vector<int> units;
   for (const auto& [what, name] : {std::pair{"LENGTHUNIT", "METRE"},
                                    {"AREAUNIT", "SQUARE_METRE"},
                                    {"VOLUMEUNIT", "CUBIC_METRE"},
                                    {"PLANEANGLEUNIT", "RADIAN"}})
     units.push_back(step_.add("IFCSIUNIT", {step::inherited, step::enumeration(what), none, step::enumeration(name)}));
-  const int assignment = step_.add("IFCUNITASSIGNMENT", {step::refs(units)});
+  return step_.add("IFCUNITASSIGNMENT", {step::refs(units)});
+}
 
+void IfcDocument::add_head(const Building& building) {
+  add_owner();
+  add_contexts();
+  const int assignment = add_units();
   const int project =
       step_.add("IFCPROJECT", {step_string(new_id({"project", "", "", -1})), ref(owner_), step_string(building.name),
                                none, none, none, none, step::refs({context_}), ref(assignment)});

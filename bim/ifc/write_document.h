@@ -69,6 +69,10 @@ class IfcDocument {
   [[nodiscard]] std::string finish();
 
  private:
+  void add_owner();
+  void add_contexts();
+  /// Number of the IfcUnitAssignment.
+  int add_units();
   void add_head(const Building& building);
   void add_storeys(const std::vector<Storey>& storeys);
   /// IfcMaterials: those with optics first, in their order, then all further names.

@@ -25,6 +25,7 @@ struct InspectOptions {
   std::string mesh;
   std::string ifc;
   bool json = false;
+  bool as_built = false;
   bool schema = false;
 };
 
@@ -45,7 +46,8 @@ int inspect(const InspectOptions& options) {
   if (!options.mesh.empty()) format = bim::mesh_format(options.mesh);
   for (const std::string& output : {options.mesh, options.ifc})
     if (!output.empty()) check_output(output, options.building);
-  const bim::Building building = bim::load_building(options.building);
+  const bim::Building building =
+      options.as_built ? bim::load_site(options.building).as_built : bim::load_building(options.building);
   const bim::BuildingMesh mesh = bim::build_mesh(building);
   if (format) write_file(options.mesh, bim::write_mesh(building, mesh, *format));
   if (!options.ifc.empty()) write_file(options.ifc, bim::write_ifc(building));
@@ -62,10 +64,13 @@ Command add_inspect(CLI::App& program) {
   CLI::App* app = program.add_subcommand("inspect", "Says what is in a building: storeys, rooms, walls, warnings");
   app->add_option("BUILDING", options->building, "plan (.yaml) or .ifc");
   app->add_flag("--json", options->json, "for programs, every element");
+  app->add_flag("--as-built", options->as_built, "with its deviations, closed doors and window panes");
   app->add_option("--mesh", options->mesh, "writes the cut building as .glb, .obj or .ply");
   app->add_flag("--schema", options->schema, "prints instead every key of plan files, with examples");
   app->add_option("--ifc", options->ifc, "writes the building as IFC4");
-  app->footer("Example: plumbline inspect house.ifc --mesh house.glb");
+  app->footer(
+      "Examples: plumbline inspect house.ifc --mesh house.glb\n"
+      "          plumbline inspect site.plan.yaml --as-built --ifc built.ifc");
   return {app, [options] { return inspect(*options); }};
 }
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <set>
 
 #include "bim/building/load.h"
@@ -212,11 +213,13 @@ class WrittenFile : public testing::TestWithParam<std::string> {
     const std::string path = name.starts_with("scenarios/") ? source_path(name).string() : data_path(name);
     if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
     building_ = load_building(path);
+    as_built_ = load_site(path).as_built;
   }
-  Building building_;
+  Building building_, as_built_;
 };
 
 TEST_P(WrittenFile, ComesBack) { expect_same_after_writing(building_); }
+TEST_P(WrittenFile, ComesBackAsBuilt) { expect_same_after_writing(as_built_); }
 
 /// Nothing of this rests on our property sets: reference lines, bodies, openings and spaces speak for themselves.
 TEST_P(WrittenFile, IsTheSameBuildingToAForeignReader) {
@@ -250,6 +253,15 @@ std::vector<std::string> files() {
   }
   std::sort(names.begin(), names.end());
   return names;
+}
+
+/// A building written as built has its doors and panes, and gets no second ones.
+TEST_P(WrittenFile, IsFilledOnce) {
+  const std::string name = "plumbline_" + std::filesystem::path(GetParam()).stem().string() + ".ifc";
+  const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / name;
+  std::ofstream(path, std::ios::binary) << write_ifc(as_built_);
+  EXPECT_EQ(load_site(path).as_built.hash(), as_built_.hash());
+  std::filesystem::remove(path);
 }
 
 INSTANTIATE_TEST_SUITE_P(Files, WrittenFile, testing::ValuesIn(files()),
