@@ -12,6 +12,9 @@
 namespace plumbline::bim {
 namespace {
 
+constexpr double shortest_wall_m = 1e-6;
+constexpr int most_steps = 10000;
+
 /// Takes the parts of a building from its products, kind by kind.
 class WrittenReader {
  public:
@@ -56,7 +59,7 @@ class WrittenReader {
       Storey storey;
       storey.id = product.text("Id");
       storey.name = product.name();
-      storey.elevation_m = product.attributes.at(9).as_number();
+      storey.elevation_m = length_of(product.attributes.at(9));
       storey.height_m = product.real("Height");
       const std::optional<StoreyKind> kind = storey_kind_of(product.text("Kind"));
       if (!kind) fail(product, "a storey is habitable, foundation or roof");
@@ -105,10 +108,10 @@ class WrittenReader {
       wall.storey = storey_of(product);
       wall.a = {product.real("StartX"), product.real("StartY")};
       wall.b = {product.real("EndX"), product.real("EndY")};
-      if (wall.a == wall.b) fail(product, "a wall begins where it ends");
+      if (wall.length() < shortest_wall_m) fail(product, "a wall begins where it ends");
       const StepValue layer = products_.layer_of(product);
       wall.offset_m = product.real("Offset");
-      wall.thickness_m = layer.at(1).as_number();
+      wall.thickness_m = length_of(layer.at(1));
       if (layer.at(0).kind == StepValue::Kind::reference)
         wall.material = entities_.attributes(layer.at(0), "IFCMATERIAL").at(0).as_text();
       wall.z0_m = product.real("Bottom");
@@ -223,9 +226,10 @@ class WrittenReader {
     }
     const std::vector<Polygon2> axis = products_.curves(part, "Axis");
     if (axis.size() != 1) fail(part, "a flight has a walking line");
-    stair.flights.push_back({axis[0].front(), part.real("Yaw"), part.real("Width"), part.real("Bottom"),
-                             part.attributes.at(8).as_integer(), part.attributes.at(10).as_number(),
-                             part.attributes.at(11).as_number()});
+    const int steps = part.attributes.at(8).as_integer();
+    if (steps < 0 || steps > most_steps) fail(part, "a flight has 0 to " + std::to_string(most_steps) + " steps");
+    stair.flights.push_back({axis[0].front(), part.real("Yaw"), part.real("Width"), part.real("Bottom"), steps,
+                             length_of(part.attributes.at(10)), length_of(part.attributes.at(11))});
   }
 
   void read_obstacles() {

@@ -8,13 +8,13 @@ namespace {
 
 constexpr double furthest_m = 1e7;  // as for any IFC file
 
-double coordinate(const StepValue& value) {
+}  // namespace
+
+double length_of(const StepValue& value) {
   const double v = value.as_number();
-  if (std::abs(v) > furthest_m) throw InputError(value.mark, "a coordinate is further than 10000 km");
+  if (std::abs(v) > furthest_m) throw InputError(value.mark, "a length is further than 10000 km");
   return v;
 }
-
-}  // namespace
 
 const StepValue& WrittenProduct::property(const std::string& name) const {
   const auto found = properties.find(name);
@@ -23,7 +23,7 @@ const StepValue& WrittenProduct::property(const std::string& name) const {
 }
 
 std::string WrittenProduct::text(const std::string& name) const { return property(name).as_text(); }
-double WrittenProduct::real(const std::string& name) const { return coordinate(property(name)); }
+double WrittenProduct::real(const std::string& name) const { return length_of(property(name)); }
 bool WrittenProduct::flag(const std::string& name) const { return property(name).as_flag(); }
 std::string WrittenProduct::name() const { return attributes.at(2).as_text(); }
 
@@ -127,7 +127,7 @@ Solid WrittenProducts::solid(const StepValue& face_set) const {
   const StepValue faces = entities_.attributes(face_set, "IFCTRIANGULATEDFACESET");
   Solid solid;
   for (const StepValue& p : entities_.attributes(faces.at(0), "IFCCARTESIANPOINTLIST3D").at(0).as_list())
-    solid.vertices.emplace_back(coordinate(p.at(0)), coordinate(p.at(1)), coordinate(p.at(2)));
+    solid.vertices.emplace_back(length_of(p.at(0)), length_of(p.at(1)), length_of(p.at(2)));
   const int count = static_cast<int>(solid.vertices.size());
   for (const StepValue& corners : faces.at(3).as_list()) {
     const Eigen::Vector3i t(corners.at(0).as_integer(), corners.at(1).as_integer(), corners.at(2).as_integer());
@@ -150,7 +150,7 @@ std::vector<Polygon2> WrittenProducts::curves(const WrittenProduct& product, std
     Polygon2& curve = result.emplace_back();
     for (const StepValue& point : entities_.attributes(item, "IFCPOLYLINE").at(0).as_list()) {
       const StepValue p = entities_.attributes(point, "IFCCARTESIANPOINT").at(0);
-      curve.emplace_back(coordinate(p.at(0)), coordinate(p.at(1)));
+      curve.emplace_back(length_of(p.at(0)), length_of(p.at(1)));
     }
     if (curve.size() < 2) throw InputError(item.mark, "a line with less than two points");
   }

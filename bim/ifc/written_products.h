@@ -11,6 +11,9 @@
 
 namespace plumbline::bim {
 
+/// A number of metres. Throws InputError where it is further than any map grid.
+[[nodiscard]] double length_of(const StepValue& value);
+
 /// A product of a file that write_ifc() wrote, with its own property set.
 struct WrittenProduct {
   std::int64_t number = 0;

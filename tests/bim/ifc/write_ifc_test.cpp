@@ -143,7 +143,8 @@ TEST(WriteIfc, SpoiledTextIsAnInputErrorWithItsLine) {
                                                         {"IFCLENGTHMEASURE(0.9)", "IFCLENGTHMEASURE(9e300)"},
                                                         {"'Bottom'", "'Button'"},
                                                         {"'EndX'", "'EndZ'"},
-                                                        {"IFCTRIANGULATEDFACESET(#", "IFCWALL(#"},
+                                                        {"IFCMATERIALLAYER($,0.2", "IFCMATERIALLAYER($,2.E300"},
+           {"IFCTRIANGULATEDFACESET(#", "IFCWALL(#"},
                                                         {"IFCRELVOIDSELEMENT", "IFCRELFILLSELEMENT"}}) {
     EXPECT_NE(line_of_fault(replaced(what, by)).find("s.ifc:"), std::string::npos) << what;
   }
@@ -212,14 +213,25 @@ class WrittenFile : public testing::TestWithParam<std::string> {
     const std::string& name = GetParam();
     const std::string path = name.starts_with("scenarios/") ? source_path(name).string() : data_path(name);
     if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
+    path_ = path;
     building_ = load_building(path);
-    as_built_ = load_site(path).as_built;
   }
-  Building building_, as_built_;
+  std::string path_;
+  Building building_;
 };
 
 TEST_P(WrittenFile, ComesBack) { expect_same_after_writing(building_); }
-TEST_P(WrittenFile, ComesBackAsBuilt) { expect_same_after_writing(as_built_); }
+
+/// It has its doors and panes, and gets no second ones.
+TEST_P(WrittenFile, ComesBackAsBuilt) {
+  const Building as_built = load_site(path_).as_built;
+  expect_same_after_writing(as_built);
+  const std::string name = "plumbline_" + std::filesystem::path(GetParam()).stem().string() + ".ifc";
+  const std::filesystem::path written = std::filesystem::path(testing::TempDir()) / name;
+  std::ofstream(written, std::ios::binary) << write_ifc(as_built);
+  EXPECT_EQ(load_site(written).as_built.hash(), as_built.hash());
+  std::filesystem::remove(written);
+}
 
 /// Nothing of this rests on our property sets: reference lines, bodies, openings and spaces speak for themselves.
 TEST_P(WrittenFile, IsTheSameBuildingToAForeignReader) {
@@ -253,15 +265,6 @@ std::vector<std::string> files() {
   }
   std::sort(names.begin(), names.end());
   return names;
-}
-
-/// A building written as built has its doors and panes, and gets no second ones.
-TEST_P(WrittenFile, IsFilledOnce) {
-  const std::string name = "plumbline_" + std::filesystem::path(GetParam()).stem().string() + ".ifc";
-  const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / name;
-  std::ofstream(path, std::ios::binary) << write_ifc(as_built_);
-  EXPECT_EQ(load_site(path).as_built.hash(), as_built_.hash());
-  std::filesystem::remove(path);
 }
 
 INSTANTIATE_TEST_SUITE_P(Files, WrittenFile, testing::ValuesIn(files()),
