@@ -50,6 +50,23 @@ TEST_F(Exchange, AsBuiltIsAnotherBuilding) {
   EXPECT_EQ(hash_of(folder_ / "built.ifc"), built);
 }
 
+/// The strongest sense of being the same building: no stage of a run sees a difference.
+TEST_F(Exchange, ARunInWrittenIfcIsTheRunInThePlan) {
+  const std::string scenario = read_file(project_file("tests/system/short.yaml"));
+  const std::size_t at = scenario.find("short.plan.yaml");
+  ASSERT_NE(at, std::string::npos);
+  write_file(folder_ / "plan.yaml", scenario);
+  write_file(folder_ / "ifc.yaml", std::string(scenario).replace(at, 15, "short.ifc"));
+  write_file(folder_ / "short.plan.yaml", read_file(project_file("tests/system/short.plan.yaml")));
+  (void)hash_of(folder_ / "short.plan.yaml", {"--ifc", folder_ / "short.ifc"});
+  for (const char* name : {"plan", "ifc"}) {
+    const Outcome outcome = plumbline({"run", (folder_ / name) + ".yaml", "--out", folder_ / name});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+  }
+  for (const char* name : {"digests.csv", "results.json", "truth.tum"})
+    EXPECT_EQ(read_file((folder_ / "ifc/") + name), read_file((folder_ / "plan/") + name)) << name;
+}
+
 TEST_F(Exchange, MeshesAreTheSameBytesInEachProcess) {
   for (const char* name : {"a.glb", "a.obj", "a.ply"}) {
     (void)hash_of(plan_, {"--mesh", folder_ / name});
