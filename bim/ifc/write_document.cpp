@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bim/ifc/write_document.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "bim/digest/digest.h"
 #include "bim/ifc/global_id.h"
 #include "bim/ifc/step_string.h"
 #include "bim/ifc/written_mark.h"
+#include "bim/mesh/paint.h"
 
 namespace plumbline::bim {
 
@@ -151,6 +155,22 @@ void IfcDocument::add_material(const Material* optics, const std::string& name) 
         step_.add("IFCPROPERTYSINGLEVALUE",
                   {step_string(key), none, step::typed("IFCNORMALISEDRATIOMEASURE", step_real(value)), none}));
   step_.add("IFCMATERIALPROPERTIES", {step_string("Plumbline_Optics"), none, step::refs(values), ref(number)});
+}
+
+void IfcDocument::paint(int item, std::string_view name) {
+  const auto all = paints();
+  const auto known = std::find_if(all.begin(), all.end(), [&](const Paint& paint) { return paint.name == name; });
+  if (known == all.end()) return;
+  if (!styles_.contains(name)) {
+    // IFC's colours are those of a screen, whose curve is close to a square root.
+    const auto shown = [](float linear) { return step_real(std::sqrt(static_cast<double>(linear))); };
+    const int colour = step_.add("IFCCOLOURRGB", {none, shown(known->red), shown(known->green), shown(known->blue)});
+    const int shading =
+        step_.add("IFCSURFACESTYLERENDERING", {ref(colour), step_real(1.0 - static_cast<double>(known->opacity)), none,
+                                               none, none, none, none, none, ".NOTDEFINED."});
+    styles_[std::string(name)] = step_.add("IFCSURFACESTYLE", {step_string(name), ".BOTH.", step::refs({shading})});
+  }
+  step_.add("IFCSTYLEDITEM", {ref(item), step::refs({styles_.find(name)->second}), none});
 }
 
 std::string IfcDocument::new_id(const ProductText& text) {

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "bim/ifc/step_string.h"
+#include "bim/mesh/paint.h"
 
 namespace plumbline::bim {
 
@@ -92,7 +93,7 @@ void ElementWriter::add_virtual_edge(const Room& room, int space, const VirtualE
 
 void ElementWriter::add_slabs() {
   for (const Slab& slab : building_.slabs) {
-    ShapeWriter shape(document_);
+    ShapeWriter shape(document_, "slab");
     shape.footprint(slab.polygon);
     if (slab.body) {
       shape.body({*slab.body});
@@ -112,7 +113,7 @@ void ElementWriter::add_slabs() {
 void ElementWriter::add_columns() {
   for (const Column& column : building_.columns) {
     const PolygonWithHoles2 outline{column.footprint, {}};
-    ShapeWriter shape(document_);
+    ShapeWriter shape(document_, "column");
     shape.footprint(outline);
     if (column.body) {
       shape.body({*column.body});
@@ -141,7 +142,7 @@ int ElementWriter::opening_of(const Obstacle& obstacle) const {
 
 void ElementWriter::add_obstacles() {
   for (const Obstacle& obstacle : building_.obstacles) {
-    const int shape = ShapeWriter(document_).body({obstacle.body}).finish();
+    const int shape = ShapeWriter(document_, paint_of(obstacle)).body({obstacle.body}).finish();
     const int opening = opening_of(obstacle);
     int number = 0;
     if (opening >= 0) {

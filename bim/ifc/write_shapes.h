@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string_view>
 #include <vector>
 
 #include "bim/building/building.h"
@@ -19,7 +20,8 @@ struct Prism {
 /// Representations of one product, gathered.
 class ShapeWriter {
  public:
-  explicit ShapeWriter(IfcDocument& document) : document_(document) {}
+  /// Bodies are coloured by the name of a paint, or left as they are.
+  explicit ShapeWriter(IfcDocument& document, std::string_view paint = "") : document_(document), paint_(paint) {}
 
   /// Body of triangles, each solid an item. Nothing without triangles.
   ShapeWriter& body(const std::vector<Solid>& solids);
@@ -37,6 +39,7 @@ class ShapeWriter {
   void represent(int context, const char* name, const char* type, const std::vector<int>& items);
 
   IfcDocument& document_;
+  std::string_view paint_;
   std::vector<int> representations_;
 };
 

@@ -14,7 +14,7 @@ void ElementWriter::add_stairs() {
     // One body a flight and landing belongs to these; anything else is the stair's own.
     const std::size_t parts = stair.flights.size() + stair.landings.size();
     const bool own = stair.bodies.size() != parts;
-    const int shape = ShapeWriter(document_).body(own ? stair.bodies : std::vector<Solid>{}).finish();
+    const int shape = ShapeWriter(document_, "stair").body(own ? stair.bodies : std::vector<Solid>{}).finish();
     const int number = document_.add_product("IFCSTAIR", {"stair", stair.id, stair.name, stair.from}, shape,
                                              {step_string(stair.id), ".NOTDEFINED."});
     document_.contain(number, stair.from);
@@ -35,8 +35,10 @@ void ElementWriter::add_stairs() {
 int ElementWriter::add_flight(const Stair& stair, const StairFlight& flight, int count,
                               const std::vector<Solid>& bodies) {
   const Eigen::Vector2d way(std::cos(flight.yaw), std::sin(flight.yaw));
-  const int shape =
-      ShapeWriter(document_).axis(flight.start, flight.start + flight.steps * flight.run_m * way).body(bodies).finish();
+  const int shape = ShapeWriter(document_, "stair")
+                        .axis(flight.start, flight.start + flight.steps * flight.run_m * way)
+                        .body(bodies)
+                        .finish();
   const std::string name = stair.id + "/part" + std::to_string(count);
   const int number = document_.add_product("IFCSTAIRFLIGHT", {"flight", name, name, stair.from}, shape,
                                            {none, step::integer(flight.steps), step::integer(flight.steps),
@@ -50,7 +52,7 @@ int ElementWriter::add_flight(const Stair& stair, const StairFlight& flight, int
 
 int ElementWriter::add_landing(const Stair& stair, const Landing& landing, int count,
                                const std::vector<Solid>& bodies) {
-  const int shape = ShapeWriter(document_).footprint({landing.polygon, {}}).body(bodies).finish();
+  const int shape = ShapeWriter(document_, "stair").footprint({landing.polygon, {}}).body(bodies).finish();
   const std::string name = stair.id + "/part" + std::to_string(count);
   const int number = document_.add_product("IFCSLAB", {"landing", name, name, stair.from}, shape, {none, ".LANDING."});
   document_.add_properties(number, "Plumbline_Landing", {length_property("Level", landing.z_m)});

@@ -18,7 +18,7 @@ void ElementWriter::add_walls() {
   for (const Wall& wall : building_.walls) {
     const std::optional<Solid> body_Q = wall.body ? into_placement(wall, *wall.body) : std::nullopt;
     const bool placed = !wall.body || body_Q;
-    ShapeWriter shape(document_);
+    ShapeWriter shape(document_, "wall");
     ProductText text{"wall", wall.id, wall.name, wall.storey};
     if (placed) {
       text.placement = document_.add_placement(wall.a, wall.direction());
@@ -138,7 +138,7 @@ void ElementWriter::add_fillings() {
   for (std::size_t i = 0; i < building_.openings.size(); ++i) {
     const Opening& opening = building_.openings[i];
     if (filled_[i] || opening.kind == OpeningKind::opening_void) continue;
-    ShapeWriter shape(document_);
+    ShapeWriter shape(document_, opening.kind == OpeningKind::door ? "door" : "glass");
     if (opening.kind == OpeningKind::window || opening.leaf != Leaf::none) shape.body(leaf_prism(opening));
     const int filling = add_filling(opening, openings_[i], shape.finish());
     document_.assign_material(filling, opening.material);

@@ -41,17 +41,19 @@ std::string_view name_of(const Building& building, const MeshElement& element) {
       break;
   }
   const auto index = static_cast<std::size_t>(element.index);
-  if (index >= building.obstacles.size()) return "other";
-  const Obstacle& obstacle = building.obstacles[index];
-  if (obstacle.material == "glass") return "glass";
-  for (const KindPaint& known : obstacle_paints)
-    if (known.kind == obstacle.kind) return known.paint;
-  return "other";
+  return index < building.obstacles.size() ? paint_of(building.obstacles[index]) : "other";
 }
 
 }  // namespace
 
 std::span<const Paint> paints() { return all_paints; }
+
+std::string_view paint_of(const Obstacle& obstacle) {
+  if (obstacle.material == "glass") return "glass";
+  for (const KindPaint& known : obstacle_paints)
+    if (known.kind == obstacle.kind) return known.paint;
+  return "other";
+}
 
 std::size_t paint_of(const Building& building, const MeshElement& element) {
   const std::string_view name = name_of(building, element);

@@ -19,6 +19,9 @@ struct Paint {
 /// All paints, the one of walls first.
 [[nodiscard]] std::span<const Paint> paints();
 
+/// Name of its paint by kind and material.
+[[nodiscard]] std::string_view paint_of(const Obstacle& obstacle);
+
 /// Index into paints() by the kind of the element and the material of an obstacle.
 [[nodiscard]] std::size_t paint_of(const Building& building, const MeshElement& element);
 
