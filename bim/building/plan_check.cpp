@@ -269,6 +269,7 @@ void check_plan(const PlanFile& plan, const Tree& tree) {
   check_storey_of(plan, plan.clutter, "clutter", places);
   for (std::size_t i = 0; i < plan.stairs.size(); ++i) check_stair(plan, i, places);
   check_all_materials(plan, places);
+  if (plan.symmetry) check_plan_symmetry(plan, tree);
 }
 
 }  // namespace plumbline::bim

@@ -8,6 +8,7 @@
 #include "bim/building/plan_deviation.h"
 #include "bim/building/plan_entries.h"
 #include "bim/building/plan_stair.h"
+#include "bim/building/plan_symmetry.h"
 #include "bim/config/tree.h"
 
 namespace plumbline::bim {
@@ -25,6 +26,7 @@ struct PlanFile {
   std::vector<PlanClutterEntry> clutter;
   std::vector<PlanMaterialEntry> materials;
   std::vector<PlanDeviationEntry> deviations;
+  std::optional<PlanSymmetryEntry> symmetry;
 
   template <class V>
   void visit(V& v) {
@@ -39,6 +41,7 @@ struct PlanFile {
     v("clutter", clutter, Field{.doc = "planned furniture and the like"});
     v("materials", materials, Field{.doc = "beyond the presets"});
     v("deviations", deviations, Field{.doc = "what was built otherwise"});
+    v("symmetry", symmetry, Field{.doc = "what the plan says of its own symmetry, as `generate` writes it"});
   }
 };
 
@@ -57,6 +60,8 @@ template <class Entry>
 void check_plan_id(const std::string& id, const Mark& mark);
 /// InputError unless the material is one of the building or a preset.
 void check_material_id(const Building& building, const std::string& material, const Mark& mark);
+/// The storeys and rooms that `symmetry` names are in the plan. Throws InputError.
+void check_plan_symmetry(const PlanFile& plan, const Tree& tree);
 /// Every rule that a single field cannot know (references, lengths, overlaps). Throws InputError at the offending
 /// place of `tree`, which the file was read from.
 void check_plan(const PlanFile& plan, const Tree& tree);

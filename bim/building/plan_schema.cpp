@@ -59,6 +59,10 @@ deviations:
   - {op: add_opening, id: hatch, wall: partition, kind: door, s_m: 6, width_m: 1, height_m: 2.1, sill_m: 0, leaf: closed, material: metal}
   - {op: add_clutter, id: pallet, storey: ground, shape: cylinder, at: [3, 2], size: [1.2, 0.8], yaw_deg: 10, height_m: 1, material: wood}
   - {op: add_column, id: prop, storey: ground, at: [5, 6], size: [0.1, 0.1], yaw_deg: 0, height_m: 2.8, material: metal}
+symmetry:
+  exact: true
+  group: [{angle_deg: 0, about: [0, 0], from: [ground], to: [upper]}]
+  rooms_alike: [[hall, upper/hall], [office, upper/office]]
 )yaml";
 
 constexpr std::string_view introduction = R"md(# Plan files

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bim/building/materials.h"
 #include "bim/building/wall_face.h"
 #include "bim/mesh/solid.h"
 
@@ -99,7 +100,8 @@ class Collector {
     }
     for (const Obstacle& obstacle : building_.obstacles) {
       bodies_.elements.push_back(obstacle.id);
-      if (obstacle.planned && !is_loose(obstacle)) add_solid(obstacle.body);
+      const bool hidden = !obstacle.planned || is_loose(obstacle) || is_see_through(building_, obstacle.material);
+      if (!hidden) add_solid(obstacle.body);
     }
     return std::move(bodies_);
   }
@@ -114,6 +116,7 @@ class Collector {
 
   void add_wall(const Wall& wall, const std::vector<const Opening*>& openings) {
     bodies_.elements.push_back(wall.id);
+    if (is_see_through(building_, wall.material)) return;
     const std::vector<Span> cuts = spans_along(wall, openings);
     const Eigen::Vector2d e = wall.direction();
     for (const Polygon2& outline : outlines_of(wall)) {
@@ -178,6 +181,7 @@ class Collector {
 
   void add_column(const Column& column) {
     bodies_.elements.push_back(column.id);
+    if (is_see_through(building_, column.material)) return;
     if (column.body)
       add_solid(*column.body);
     else

@@ -32,8 +32,9 @@ struct BodiesConfig {
 };
 
 /// Walls with their openings cut out over their heights, columns, stairs and planned obstacles that reach into the
-/// storey, between its floor and the ceiling of most of its rooms. Sloped tops are taken as level over each triangle,
-/// and bodies with free space under them (railings) as their convex outline over their whole height.
+/// storey, without what light goes through, between its floor and the ceiling of most of its rooms. Sloped tops are
+/// taken as level over each triangle, and bodies with free space under them (railings) as their convex outline over
+/// their whole height.
 [[nodiscard]] Bodies bodies_of(const Building& building, int storey, const BodiesConfig& config = {});
 
 /// The part of a convex polygon where n.p <= d.

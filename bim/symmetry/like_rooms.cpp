@@ -86,7 +86,7 @@ Deviation largest_deviation(const Interior& from, const Interior& to, const Isom
   Deviation largest;
   for (const SurfaceRect& rect : from.surfaces) {
     const SurfaceRect image = moved(g, rect);
-    const int along = std::max(1, static_cast<int>(std::ceil(image.length() / config.sample_m)));
+    const int along = std::max(2, static_cast<int>(std::ceil(image.length() / config.sample_m)));
     for (int i = 0; i <= along; ++i) {
       const Eigen::Vector2d p = image.p + (image.q - image.p) * i / along;
       for (const double z : {image.z0, 0.5 * (image.z0 + image.z1), image.z1}) {
@@ -160,6 +160,29 @@ std::optional<LikeRoom> best_likeness(const Interior& from, const Interior& to, 
   return best;
 }
 
+/// Adds a room to the class whose first room it is most like, at least in this grade (of equal ones the first), or
+/// founds one.
+void join_class(const Interior& interior, Likeliness grade, const SymmetryConfig& config,
+                std::vector<const Interior*>& firsts, std::vector<RoomClass>& classes) {
+  std::optional<LikeRoom> best;
+  std::size_t chosen = 0;
+  for (std::size_t c = 0; c < firsts.size(); ++c) {
+    if (!comparable(*firsts[c], interior, config)) continue;
+    const auto found = best_likeness(*firsts[c], interior, config);
+    if (!found || found->likeness.grade > grade) continue;
+    if (best && found->likeness.deviation_m >= best->likeness.deviation_m - config.sliver_m) continue;
+    best = found;
+    chosen = c;
+    if (best->likeness.grade == Likeliness::exact) break;
+  }
+  if (best) {
+    classes[chosen].rooms.push_back(*best);
+    return;
+  }
+  firsts.push_back(&interior);
+  classes.push_back({{{interior.room, {}, {Likeliness::exact, 1.0, 0.0, {}}}}, {}});
+}
+
 std::vector<Isometry2> own_turns(const Interior& room, const SymmetryConfig& config) {
   constexpr double smallest_turn = 1e-3;
   std::vector<Isometry2> turns;
@@ -184,31 +207,17 @@ std::vector<Interior> interiors_of(const Building& building, const std::vector<S
 void find_like_rooms(const Building& building, const std::vector<StoreyScene>& scenes, const SymmetryConfig& config,
                      std::vector<RoomClass>& classes) {
   const std::vector<Interior> interiors = interiors_of(building, scenes, config);
-  std::vector<RoomClass> all;
-  std::vector<const Interior*> firsts;
-  for (const Interior& interior : interiors) {
-    std::optional<LikeRoom> best;
-    std::size_t chosen = 0;
-    for (std::size_t c = 0; c < firsts.size(); ++c) {
-      if (!comparable(*firsts[c], interior, config)) continue;
-      const auto found = best_likeness(*firsts[c], interior, config);
-      if (!found || (best && found->likeness.deviation_m >= best->likeness.deviation_m - config.sliver_m)) continue;
-      best = found;
-      chosen = c;
-      if (best->likeness.grade == Likeliness::exact) break;
-    }
-    if (best) {
-      all[chosen].rooms.push_back(*best);
-    } else {
-      firsts.push_back(&interior);
-      all.push_back({{{interior.room, {}, {Likeliness::exact, 1.0, 0.0, {}}}}, {}});
-    }
+  std::vector<RoomClass> exact, nearly;
+  std::vector<const Interior*> firsts, first_firsts;
+  for (const Interior& interior : interiors) join_class(interior, Likeliness::exact, config, firsts, exact);
+  for (const Interior* first : firsts) join_class(*first, Likeliness::near, config, first_firsts, nearly);
+  for (std::size_t c = 0; c < exact.size(); ++c) {
+    if (exact[c].rooms.size() < 2) continue;
+    exact[c].turns = own_turns(*firsts[c], config);
+    classes.push_back(std::move(exact[c]));
   }
-  for (std::size_t c = 0; c < all.size(); ++c) {
-    if (all[c].rooms.size() < 2) continue;
-    all[c].turns = own_turns(*firsts[c], config);
-    classes.push_back(std::move(all[c]));
-  }
+  for (RoomClass& like : nearly)
+    if (like.rooms.size() > 1) classes.push_back(std::move(like));
 }
 
 }  // namespace plumbline::bim

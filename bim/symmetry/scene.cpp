@@ -15,15 +15,28 @@ std::vector<Eigen::AlignedBox2d> boxes_of(const std::vector<Prism>& prisms) {
   return boxes;
 }
 
+/// Extent of an element in plan, along and across its first surface.
+struct Extent {
+  Eigen::Vector2d along = Eigen::Vector2d::UnitX();
+  Eigen::AlignedBox2d box;
+
+  void add(const Eigen::Vector2d& p) {
+    box.extend(Eigen::Vector2d(along.dot(p), along.x() * p.y() - along.y() * p.x()));
+  }
+};
+
 /// Distance of each sample of one set of surfaces to another set, kept as the largest of each element.
 class Measure {
  public:
   Measure(const StoreyScene& scene, const SymmetryConfig& config) : scene_(scene), config_(config) {
     for (const SurfaceRect& rect : scene.surfaces().rects()) {
-      sizes_.resize(std::max(sizes_.size(), static_cast<std::size_t>(rect.element) + 1));
-      sizes_[static_cast<std::size_t>(rect.element)].extend(rect.p).extend(rect.q);
+      extents_.resize(std::max(extents_.size(), static_cast<std::size_t>(rect.element) + 1));
+      Extent& extent = extents_[static_cast<std::size_t>(rect.element)];
+      if (extent.box.isEmpty()) extent.along = rect.direction();
+      extent.add(rect.p);
+      extent.add(rect.q);
     }
-    largest_.resize(sizes_.size());
+    largest_.resize(extents_.size());
   }
 
   /// Measures every surface, taken through g, against `target`.
@@ -64,11 +77,11 @@ class Measure {
   }
 
   void sample(const SurfaceIndex& target, const SurfaceRect& image, const SurfaceRect& rect, const Isometry2& g) {
-    const int along = std::max(1, static_cast<int>(std::ceil(image.length() / config_.sample_m)));
-    const int up = std::max(1, static_cast<int>(std::ceil((image.z1 - image.z0) / config_.sample_m)));
+    const int along = std::max(2, static_cast<int>(std::ceil(image.length() / config_.sample_m)));
+    const int up = std::max(2, static_cast<int>(std::ceil((image.z1 - image.z0) / config_.sample_up_m)));
     const auto element = static_cast<std::size_t>(rect.element);
     Deviation& largest = largest_[element];
-    const double size = std::min(config_.reach_m, sizes_[element].diagonal().norm());
+    const double size = std::min(config_.reach_m, extents_[element].box.sizes().maxCoeff());
     for (int i = 0; i <= along; ++i) {
       const Eigen::Vector2d p = image.p + (image.q - image.p) * i / along;
       for (int k = 0; k <= up; ++k) {
@@ -83,7 +96,7 @@ class Measure {
 
   const StoreyScene& scene_;
   const SymmetryConfig& config_;
-  std::vector<Eigen::AlignedBox2d> sizes_;
+  std::vector<Extent> extents_;
   std::vector<Deviation> largest_;
 };
 

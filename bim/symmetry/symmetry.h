@@ -16,7 +16,8 @@ struct SymmetryConfig {
   double iou_min = 0.95;         ///< share of the volume in common, of what either holds
   double touch_m = 0.012;        ///< a gap this narrow is no gap: a beam is as wide
   double sliver_m = 1e-3;        ///< surfaces this narrow are rounding
-  double sample_m = 0.5;         ///< spacing of the points at which a surface is measured
+  double sample_m = 0.1;         ///< spacing of the points at which a surface without counterpart is measured
+  double sample_up_m = 0.5;      ///< ... and upwards
   double reach_m = 2.0;          ///< larger deviations count as this
   double shift_max_m = 1.0;      ///< how far a small difference moves the centre of a storey
   double direction = 2e-3;       ///< rad, surfaces this close run the same way
@@ -77,7 +78,7 @@ struct SymmetryReport {
   std::vector<StoreySymmetry> copies;       ///< proper, from < to, `from` the first storey of its kind
   std::vector<StoreySymmetry> reflections;  ///< mirror images, from == to
   std::vector<BuildingSymmetry> building;   ///< proper, without the identity
-  std::vector<RoomClass> rooms;             ///< by their first room
+  std::vector<RoomClass> rooms;             ///< exact ones by their first room, then near ones
 };
 
 /// Symmetries of what stands in a building as planned: walls with their openings, columns, stairs, obstacles, edges of

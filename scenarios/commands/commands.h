@@ -19,6 +19,7 @@ struct Command {
 
 [[nodiscard]] Command add_run(CLI::App& program);
 [[nodiscard]] Command add_inspect(CLI::App& program);
+[[nodiscard]] Command add_generate(CLI::App& program);
 [[nodiscard]] Command add_score(CLI::App& program);
 [[nodiscard]] Command add_report(CLI::App& program);
 [[nodiscard]] Command add_replay(CLI::App& program);

@@ -142,7 +142,10 @@ std::string symmetry_text(const bim::Building& building, const bim::SymmetryRepo
   for (const bim::StoreySymmetry& symmetry : report.copies)
     text += "  " + storey(symmetry.to) + " like " + storey(symmetry.from) + ": " + motion(symmetry.isometry) + ", " +
             likeness_text(symmetry.likeness) + "\n";
-  for (const bim::RoomClass& like : report.rooms) text += "  rooms alike: " + rooms_text(building, like) + "\n";
+  for (const bim::RoomClass& like : report.rooms)
+    text += std::string(like.rooms.back().likeness.grade == Likeliness::exact ? "  rooms alike: "
+                                                                              : "  rooms nearly alike: ") +
+            rooms_text(building, like) + "\n";
   for (const bim::StoreySymmetry& symmetry : report.reflections)
     text += "  no confusion for a robot: " + storey(symmetry.from) + ", " + motion(symmetry.isometry) + ", " +
             likeness_text(symmetry.likeness) + "\n";
