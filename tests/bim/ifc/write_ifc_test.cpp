@@ -144,7 +144,7 @@ TEST(WriteIfc, SpoiledTextIsAnInputErrorWithItsLine) {
                                                         {"'Bottom'", "'Button'"},
                                                         {"'EndX'", "'EndZ'"},
                                                         {"IFCMATERIALLAYER($,0.2", "IFCMATERIALLAYER($,2.E300"},
-           {"IFCTRIANGULATEDFACESET(#", "IFCWALL(#"},
+                                                        {"IFCTRIANGULATEDFACESET(#", "IFCWALL(#"},
                                                         {"IFCRELVOIDSELEMENT", "IFCRELFILLSELEMENT"}}) {
     EXPECT_NE(line_of_fault(replaced(what, by)).find("s.ifc:"), std::string::npos) << what;
   }
