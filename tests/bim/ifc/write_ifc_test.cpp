@@ -10,9 +10,11 @@
 #include <set>
 
 #include "bim/building/load.h"
+#include "bim/building/plan_write.h"
 #include "bim/building/plan_yaml.h"
 #include "bim/config/tree.h"
 #include "bim/errors.h"
+#include "bim/families/families.h"
 #include "bim/ifc/global_id.h"
 #include "bim/ifc/ifc.h"
 #include "bim/ifc/read_written.h"
@@ -73,6 +75,19 @@ TEST(WriteIfc, RandomBuildingsComeBack) {
     SCOPED_TRACE(seed);
     expect_same_after_writing(RandomBuilding(seed).make());
     if (HasFailure()) return;
+  }
+}
+
+/// Sizes drawn by a seed, so that no number is round; every other one with glass.
+TEST(WriteIfc, StressBuildingsComeBack) {
+  for (const FamilyRow& family : families()) {
+    for (int seed = 1; seed <= 4; ++seed) {
+      SCOPED_TRACE(std::string(family.name) + " " + std::to_string(seed));
+      Tree options = Tree::map();
+      options.set("seed", seed).set("glass", seed % 2 == 0);
+      expect_same_after_writing(
+          read_plan_text(write_plan(generate(family.name, options).plan), std::string(family.name) + ".plan.yaml"));
+    }
   }
 }
 
