@@ -13,6 +13,12 @@ namespace {
 /// A wall goes on this far beside an opening.
 constexpr double beside_opening_m = 0.3;
 
+/// Windows of rooms in a row stand off the middle by this share of the room's width, so that the outer wall has room
+/// for a niche.
+constexpr double window_off = 0.2;
+
+double window_width(double room_width_m) { return std::min(1.4, 0.35 * room_width_m); }
+
 /// A door of this offset must leave wall on both sides of it, between the middles of the side walls.
 void check_door(double room_width_m, double offset_m, const FamilyOptions& options, const Mark& mark) {
   const double reach = offset_m + 0.5 * options.door_m + beside_opening_m;
@@ -70,7 +76,7 @@ Design corridor(const CorridorOptions& o, const Mark& mark) {
     const double y0 = o.corridor_width_m, y1 = y0 + o.room_depth_m;
     side.add_room("room_" + number, rectangle(x0, y0, x0 + o.room_width_m, y1));
     side.add_door("door_" + number, {middle - o.door_offset_m, y0}, o.door_m);
-    side.add_window("window_" + number, {middle, y1}, std::min(1.6, o.room_width_m - 1.2));
+    side.add_window("window_" + number, {middle + window_off * o.room_width_m, y1}, window_width(o.room_width_m));
     // Behind glass the outer wall shows which room is the last.
     if (!o.glass || (i > 0 && i + 1 < o.rooms)) alike.push_back("room_" + number);
   }
@@ -162,7 +168,7 @@ Design ring(const RingOptions& o, const Mark& mark) {
     const double x0 = -l + j * width, middle = x0 + 0.5 * width;
     side.add_room("room" + number, rectangle(x0, l, x0 + width, l + o.room_depth_m));
     side.add_door("door" + number, {middle - o.door_offset_m, l}, o.door_m);
-    side.add_window("window" + number, {middle, l + o.room_depth_m}, std::min(1.6, width - 1.2));
+    side.add_window("window" + number, {middle + window_off * width, l + o.room_depth_m}, window_width(width));
   }
   Design design;
   const char* const suffixes[] = {"_north", "_west", "_south", "_east"};

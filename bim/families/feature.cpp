@@ -81,6 +81,8 @@ class Placer {
       if (wall < 0) return;
       featured.element = plan.walls[static_cast<std::size_t>(wall)].id;
     }
+    constexpr double steps = 1e6;  // as all written coordinates
+    featured.at = (featured.at * steps).array().round() / steps;
     placed_.push_back(std::move(featured));
   }
 
