@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "bim/building/plan.h"
+#include "bim/import/mesh_file.h"
 #include "bim/random/stream.h"
 #include "scenarios/route_plan.h"
 #include "scenarios/run/participant.h"
@@ -46,6 +47,7 @@ ScenarioText default_scenario(const std::string& path) {
 }
 
 ScenarioText read_input(const std::string& path) {
+  if (bim::is_mesh_path(path)) return default_scenario(path);
   const std::string text = read_text_file(path);
   if (is_ifc(text) || fs::path(path).extension() == ".ifc") return default_scenario(path);
   const std::string kind = kind_of(text, path);
@@ -63,16 +65,30 @@ std::vector<Mark> marks_of(const Tree& tree, std::initializer_list<std::string_v
   return marks;
 }
 
-void settle_methods(ScenarioText& text, const Overrides& overrides, int& dropped_gates) {
+bool needs_plan(const std::string& method) {
+  const slam::MethodRow* row = slam::find_method(method);
+  return row != nullptr && row->needs_plan;
+}
+
+/// Without a plan the default is every method that needs none, and asking for another is wrong.
+void choose_methods(ScenarioText& text, const Overrides& overrides, bool has_plan) {
+  std::vector<std::string>& methods = text.scenario.methods;
+  if (overrides.methods) methods = *overrides.methods;
+  const std::vector<Mark> marks = overrides.methods ? std::vector<Mark>(methods.size(), Mark{"--method", 0, 0})
+                                                    : marks_of(text.tree, {"methods"}, methods.size());
+  check_methods(methods, marks);
+  for (std::size_t i = 0; i < methods.size(); ++i)
+    if (!has_plan && needs_plan(methods[i]))
+      throw InputError(marks[i], "method '" + methods[i] + "' localizes in a plan, which the mesh '" +
+                                     text.scenario.building + "' does not have; ask for SLAM methods only");
+  if (!methods.empty()) return;
+  for (const slam::MethodRow& row : slam::methods())
+    if (has_plan || !row.needs_plan) methods.emplace_back(row.name);
+}
+
+void settle_methods(ScenarioText& text, const Overrides& overrides, bool has_plan, int& dropped_gates) {
   Scenario& scenario = text.scenario;
-  if (overrides.methods) {
-    check_methods(*overrides.methods, std::vector<Mark>(overrides.methods->size(), Mark{"--method", 0, 0}));
-    scenario.methods = *overrides.methods;
-  } else {
-    check_methods(scenario.methods, marks_of(text.tree, {"methods"}, scenario.methods.size()));
-  }
-  if (scenario.methods.empty())
-    for (const slam::MethodRow& row : slam::methods()) scenario.methods.emplace_back(row.name);
+  choose_methods(text, overrides, has_plan);
   const auto asked = [&](const GateSpec& gate) {
     return std::find(scenario.methods.begin(), scenario.methods.end(), gate.method) != scenario.methods.end();
   };
@@ -122,6 +138,12 @@ bim::Building walked_building(const bim::Site& site) {
   return walked;
 }
 
+/// What a run directory calls its copy of the building. A mesh is told by its ending, which stays.
+std::string name_of_copy(const fs::path& building, const std::string& bytes) {
+  if (bim::is_mesh_path(building.string())) return "building" + building.extension().string();
+  return is_ifc(bytes) ? "building.ifc" : "building.plan.yaml";
+}
+
 double default_duration(const RoutePlan& plan, double speed) {
   const DefaultDuration rule;
   return std::min(rule.longest_s, std::ceil(rule.factor * plan.length_m / speed + rule.extra_s));
@@ -147,7 +169,7 @@ void check_methods(const std::vector<std::string>& names, const std::vector<Mark
 ResolvedScenario resolve(const std::string& input_path, const Overrides& overrides) {
   ResolvedScenario resolved;
   ScenarioText text = read_input(input_path);
-  settle_methods(text, overrides, resolved.dropped_gates);
+  settle_methods(text, overrides, !bim::is_mesh_path(text.scenario.building), resolved.dropped_gates);
   if (overrides.seed) text.scenario.seed = *overrides.seed;
   const bool bare = text.tree.as_map().empty();
 
@@ -166,7 +188,7 @@ ResolvedScenario resolve(const std::string& input_path, const Overrides& overrid
   const std::string& storey = resolved.site.as_planned.storeys[static_cast<std::size_t>(plan.storey)].id;
   scenario.start = Start{std::nullopt, storey, plan.start_W, plan.yaw_deg};
   if (!scenario.route.shuttle) scenario.route.rooms = plan.rooms;
-  scenario.building = is_ifc(resolved.building_bytes) ? "building.ifc" : "building.plan.yaml";
+  scenario.building = name_of_copy(building, resolved.building_bytes);
   resolved.world = make_world(scenario, plan);
   resolved.prior = make_prior(scenario, resolved.site.as_planned, plan);
   resolved.scenario = std::move(scenario);

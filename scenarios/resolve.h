@@ -28,9 +28,10 @@ struct ResolvedScenario {
   int dropped_gates = 0;  ///< gates of methods that Overrides left out
 };
 
-/// Reads INPUT (a scenario, a plan or an .ifc; the last two get the default scenario: start in the largest room of
-/// the lowest habitable storey, route through all rooms reachable on it, every method) and checks everything that can
-/// be known before the first step. Throws InputError at the place in the file that is wrong.
+/// Reads INPUT (a scenario, a plan, an .ifc or a mesh; all but the first get the default scenario: start in the largest
+/// room of the lowest habitable storey, route through all rooms reachable on it, every method; in a mesh, which has
+/// no rooms, the freest place, a round through what can be reached, and the methods that need no plan) and checks
+/// everything that can be known before the first step. Throws InputError at the place in the file that is wrong.
 [[nodiscard]] ResolvedScenario resolve(const std::string& input_path, const Overrides& overrides);
 
 /// Checks that methods are known and asked for once; `mark(i)` says where name i stands.

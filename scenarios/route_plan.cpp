@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "scenarios/closed_doors.h"
+#include "scenarios/roam.h"
 #include "sim/route/route.h"
 
 namespace plumbline::scenarios {
@@ -55,6 +56,9 @@ int find_storey(const bim::Building& building, const std::string& name, const Ma
 }
 
 int find_room(const bim::Building& building, const std::string& name, const Mark& mark) {
+  if (building.rooms.empty())
+    throw InputError(mark, "there is no room '" + name + "': no rooms are known in this building; " +
+                               "give a start by {at: [x, y]} and the route {rooms: all}");
   std::vector<std::string> known;
   for (std::size_t i = 0; i < building.rooms.size(); ++i) {
     if (building.rooms[i].id == name || building.rooms[i].name == name) return static_cast<int>(i);
@@ -71,6 +75,7 @@ class Planner {
 
   [[nodiscard]] Eigen::Vector2d place(const Start& start) const {
     if (start.at) return check_start(*start.at);
+    if (!start.room && building_.rooms.empty()) return freest_place();
     return target(start.room ? find_room(building_, *start.room, marks_.start) : largest_room(), marks_.start);
   }
 
@@ -78,7 +83,9 @@ class Planner {
   void walk(const Route& route, RoutePlan& plan) const {
     plan.waypoints = {plan.start_W};
     if (route.shuttle) return shuttle(route, plan);
-    if (route.rooms.size() == 1 && route.rooms.front() == all_rooms) return walk_all(route.loop, plan);
+    const bool all = route.rooms.size() == 1 && route.rooms.front() == all_rooms;
+    if (all && building_.rooms.empty()) return walk_round(route.loop, plan);
+    if (all) return walk_all(route.loop, plan);
     for (int lap = 0; lap < route.loop; ++lap)
       for (std::size_t i = 0; i < route.rooms.size(); ++i) walk_to(route.rooms[i], mark_of(i), plan);
     plan.rooms = route.rooms;
@@ -104,6 +111,34 @@ class Planner {
                                          format_number(round_coordinate(space_.clearance(at))) +
                                          " m clear); the robot needs more room around it");
     return at;
+  }
+
+  /// Box around the floor of the storey.
+  [[nodiscard]] Eigen::AlignedBox2d floor_box() const {
+    Eigen::AlignedBox2d box;
+    for (const bim::Slab& slab : building_.slabs)
+      for (const Eigen::Vector2d& p : slab.polygon.outer)
+        if (slab.storey == storey_) box.extend(p);
+    return box;
+  }
+
+  /// Where no rooms are known.
+  [[nodiscard]] Eigen::Vector2d freest_place() const {
+    const Eigen::AlignedBox2d box = floor_box();
+    Path found;
+    if (!box.isEmpty()) {
+      const Eigen::Vector2d low = box.min(), high = box.max();
+      found = space_.room_target({low, {high.x(), low.y()}, high, {low.x(), high.y()}});
+    }
+    if (found.empty()) throw InputError(marks_.start, "there is no place on the floor where the robot fits");
+    return {round_coordinate(found.front().x()), round_coordinate(found.front().y())};
+  }
+
+  void walk_round(int laps, RoutePlan& plan) const {
+    const Eigen::AlignedBox2d box = floor_box();
+    const Path round = box.isEmpty() ? Path{} : roam(space_, box, plan.start_W);
+    for (int lap = 0; lap < laps; ++lap) append(round, plan);
+    plan.rooms = {std::string(all_rooms)};
   }
 
   /// Rooms of this storey that can be stood in, largest first (ties: lower index).
@@ -242,6 +277,7 @@ class Planner {
 int start_storey(const bim::Building& building, const Start& start, const RouteMarks& marks) {
   if (start.room) return building.rooms[static_cast<std::size_t>(find_room(building, *start.room, marks.start))].storey;
   if (start.storey) return find_storey(building, *start.storey, marks.start);
+  if (building.rooms.empty() && !building.storeys.empty()) return 0;
   const int lowest = lowest_habitable_storey(building);
   if (lowest < 0 && !start.at)
     throw InputError(marks.start,

@@ -10,6 +10,8 @@
 #include "bim/config/tree.h"
 #include "bim/errors.h"
 #include "bim/ifc/ifc.h"
+#include "bim/import/mesh_file.h"
+#include "bim/import/mesh_world.h"
 
 namespace plumbline::bim {
 
@@ -46,7 +48,11 @@ Site read_site(const std::string& text, const std::string& path) {
   const std::string_view content = first_content(text);
   const bool yaml = ends_with(path, ".yaml") || ends_with(path, ".yml");
   Site site;
-  if (ends_with(path, ".ifc") || starts_with(content, "ISO-10303-21")) {
+  if (is_mesh_path(path)) {
+    site.as_planned = read_mesh_world(text, path);
+    site.as_built = site.as_planned;
+    site.has_plan = false;
+  } else if (ends_with(path, ".ifc") || starts_with(content, "ISO-10303-21")) {
     site.as_planned = read_ifc_text(text, path);
     site.as_built = site.as_planned;
   } else if (!starts_with(content, "plan:") && has_top_key(text, "levels:")) {
@@ -60,7 +66,7 @@ Site read_site(const std::string& text, const std::string& path) {
   } else {
     throw InputError({path, 0, 0},
                      "this is no building; a plan begins with 'plan: 1', an IFC file with 'ISO-10303-21;', a "
-                     "traffic-editor plan has 'levels:'");
+                     "traffic-editor plan has 'levels:', a mesh ends in .obj, .dae, .glb, .ply or .stl");
   }
   return site;
 }

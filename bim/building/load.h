@@ -23,8 +23,8 @@ struct Site {
 [[nodiscard]] Site load_site(const std::string& path, const BuildingOptions& options = {});
 
 /// Reads a building, as planned and without fillings, of any kind this version knows, told by its content: a plan (YAML
-/// whose first key is `plan: 1`), a traffic-editor plan (`levels:`) or an IFC file. Throws InputError when the file is missing, a directory, empty or of
-/// another kind.
+/// whose first key is `plan: 1`), a traffic-editor plan (`levels:`) or an IFC file; and a mesh, told by its ending.
+/// Throws InputError when the file is missing, a directory, empty or of another kind.
 [[nodiscard]] Building load_building(const std::string& path);
 
 }  // namespace plumbline::bim

@@ -16,10 +16,13 @@ class BoxPool {
   BoxPool(std::vector<CollisionBox> boxes, std::vector<int> geoms, double radius_m);
 
   /// Puts the boxes within the radius of p_W into the pool, in the order of their ids, and the rest of the pool away.
-  /// Throws InternalError when they are too many.
+  /// Of too many the nearest (ties: lower id). Throws ScenarioFailure when one the robot could touch has no place.
   void refresh(mjModel_& model, const Eigen::Vector3d& p_W) const;
 
  private:
+  /// Positions in boxes_, ascending.
+  [[nodiscard]] std::vector<std::size_t> near(const Eigen::Vector3d& p_W) const;
+
   std::vector<CollisionBox> boxes_;  ///< by id
   std::vector<int> geoms_;
   double radius_m_;

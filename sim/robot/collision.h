@@ -23,7 +23,10 @@ struct CollisionConfig {
   double reach_m = 1.2;       ///< what starts this high above the floor cannot be touched
   double length_max_m = 4.0;  ///< longer walls are split, so that distant parts stay out of the pool
   double box_fill = 0.5;      ///< an obstacle that fills less of its bounding box is taken apart
+  double full_fill = 0.95;    ///< one larger than passage_m that fills less than this may have a way through it
+  double passage_m = 1.2;     ///< least length of a thing that a robot can walk through: 0.8 m and its two sides
   double cell_m = 0.10;       ///< into cells of this size
+  double weld_m = 1e-5;       ///< vertices this close are one where it is asked whether an obstacle is closed
 };
 
 /// Boxes of what stands on a storey of the as-built building, ids ascending from 0: walls with their openings cut out

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "bim/mesh/solid.h"
+
 namespace plumbline::sim {
 
 namespace {
@@ -62,14 +64,17 @@ class CellGrid {
   /// Runs of occupied cells along x; a run that repeats in the next row joins it.
   [[nodiscard]] std::vector<CellBlock> blocks() const {
     std::vector<CellBlock> blocks;
+    std::vector<std::size_t> before;  // blocks that reach into the row before
     for (int y = 0; y < ny_; ++y) {
+      std::vector<std::size_t> now;
       for (int x = 0; x < nx_; ++x) {
         if (!occupied(x, y)) continue;
         CellBlock run{x, x, y, y + 1, at(x, y)};
         for (; run.x1 < nx_ && occupied(run.x1, y); ++run.x1) widen(at(run.x1, y), run.z);
-        join(run, blocks);
+        now.push_back(join(run, before, blocks));
         x = run.x1;
       }
+      before = std::move(now);
     }
     return blocks;
   }
@@ -104,14 +109,18 @@ class CellGrid {
 
   static void widen(const HeightRange& by, HeightRange& z) { z = {std::min(z.from, by.from), std::max(z.to, by.to)}; }
 
-  static void join(const CellBlock& run, std::vector<CellBlock>& blocks) {
-    for (CellBlock& b : blocks) {
-      if (b.y1 != run.y0 || b.x0 != run.x0 || b.x1 != run.x1) continue;
+  /// Index of the block that the run has become part of.
+  static std::size_t join(const CellBlock& run, const std::vector<std::size_t>& before,
+                          std::vector<CellBlock>& blocks) {
+    for (const std::size_t i : before) {
+      CellBlock& b = blocks[i];
+      if (b.x0 != run.x0 || b.x1 != run.x1) continue;
       b.y1 = run.y1;
       widen(run.z, b.z);
-      return;
+      return i;
     }
     blocks.push_back(run);
+    return blocks.size() - 1;
   }
 
   Eigen::Vector2d low_;
@@ -189,7 +198,10 @@ std::vector<CollisionBox> solid_boxes(const bim::Solid& solid, const HeightRange
       z = {std::min(z.from, p.z()), std::max(z.to, p.z())};
     }
   const CollisionBox whole = bounding_box(points, z);
-  if (enclosed_volume(surface) >= config.box_fill * 8.0 * whole.half.prod()) return {whole};
+  // An open surface encloses nothing, whatever its flux.
+  const double fill = enclosed_volume(surface) / (8.0 * whole.half.prod());
+  const bool passage = fill < config.full_fill && whole.half.head<2>().maxCoeff() > 0.5 * config.passage_m;
+  if (fill >= config.box_fill && !passage && bim::is_closed(bim::welded(solid, config.weld_m))) return {whole};
 
   Eigen::Vector2d low = points[0];
   Eigen::Vector2d high = points[0];

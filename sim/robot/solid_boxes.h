@@ -23,8 +23,9 @@ struct HeightRange {
 /// The smallest upright box over points, its direction one of 36 (ties: the first). points must not be empty.
 [[nodiscard]] CollisionBox bounding_box(const std::vector<Eigen::Vector2d>& points, const HeightRange& z);
 
-/// Boxes that cover what of a closed solid lies between the heights: its bounding box where it fills at least
-/// `box_fill` of that, else its surface in cells of cell_m, joined to rectangles. No boxes when nothing lies there.
+/// Boxes that cover what of a closed solid lies between the heights: its bounding box where it is closed and
+/// fills at least `box_fill` of that (`full_fill` when it is large enough for a way through it), else its surface in
+/// cells of cell_m, joined to rectangles. No boxes when nothing lies there.
 [[nodiscard]] std::vector<CollisionBox> solid_boxes(const bim::Solid& solid, const HeightRange& reach,
                                                     const CollisionConfig& config);
 

@@ -5,6 +5,8 @@
 #include <array>
 #include <optional>
 
+#include "bim/mesh/solid.h"
+
 namespace plumbline::sim {
 
 namespace {
@@ -61,9 +63,16 @@ std::optional<Segment2> cut_triangle(const std::array<Eigen::Vector3d, 3>& t, do
   return Segment2{ends[0], ends[1]};
 }
 
-Blockage from_solid(const bim::Solid& solid, const Band& band) {
+/// Inside is solid in a closed surface that looks outwards only; others (a room as a shell, a wall without thickness)
+/// stand in the way with their surface alone.
+bool has_inside(const bim::Solid& solid, double weld_m) {
+  const bim::Solid joined = bim::welded(solid, weld_m);
+  return bim::is_closed(joined) && bim::volume(joined) > 0.0;
+}
+
+Blockage from_solid(const bim::Solid& solid, const Band& band, double weld_m) {
   Blockage blockage;
-  blockage.sections.resize(section_shares.size());
+  if (has_inside(solid, weld_m)) blockage.sections.resize(section_shares.size());
   for (const Eigen::Vector3i& triangle : solid.triangles) {
     std::array<Eigen::Vector3d, 3> t;
     for (int k = 0; k < 3; ++k)
@@ -72,7 +81,7 @@ Blockage from_solid(const bim::Solid& solid, const Band& band) {
     for (const Eigen::Vector3d& p : clip_z(clip_z({t.begin(), t.end()}, -1.0, band.low), 1.0, band.high))
       seen.emplace_back(p.head<2>());
     add_ring(seen, blockage.edges);
-    for (std::size_t i = 0; i < section_shares.size(); ++i)
+    for (std::size_t i = 0; i < blockage.sections.size(); ++i)
       if (const auto cut = cut_triangle(t, band.low + section_shares[i] * (band.high - band.low)))
         blockage.sections[i].push_back(*cut);
   }
@@ -140,7 +149,7 @@ Blockage wall_blockage(const bim::Building& building, int index, double floor_z,
   const bim::Wall& wall = building.walls[static_cast<std::size_t>(index)];
   Blockage blockage;
   if (wall.body) {
-    blockage = from_solid(*wall.body, band);
+    blockage = from_solid(*wall.body, band, config.weld_m);
   } else {
     const Eigen::Vector2d near = wall.offset_m * wall.left();
     const Eigen::Vector2d far = (wall.offset_m + wall.thickness_m) * wall.left();
@@ -160,15 +169,17 @@ std::vector<Blockage> find_blockages(const bim::Building& building, double floor
       result.push_back(wall_blockage(building, static_cast<int>(i), floor_z, band, config));
   for (const bim::Slab& slab : building.slabs)
     if (band.meets(slab.z0_m, slab.z1_m))
-      result.push_back(slab.body ? from_solid(*slab.body, band) : from_polygon(slab.polygon));
+      result.push_back(slab.body ? from_solid(*slab.body, band, config.weld_m) : from_polygon(slab.polygon));
   for (const bim::Column& column : building.columns)
     if (band.meets(column.z0_m, column.z1_m))
-      result.push_back(column.body ? from_solid(*column.body, band) : from_polygon({column.footprint, {}}));
+      result.push_back(column.body ? from_solid(*column.body, band, config.weld_m)
+                                   : from_polygon({column.footprint, {}}));
   for (const bim::Stair& stair : building.stairs)
     for (const bim::Solid& body : stair.bodies)
-      if (Blockage blockage = from_solid(body, band); !blockage.edges.empty()) result.push_back(std::move(blockage));
+      if (Blockage blockage = from_solid(body, band, config.weld_m); !blockage.edges.empty())
+        result.push_back(std::move(blockage));
   for (const bim::Obstacle& obstacle : building.obstacles) {
-    Blockage blockage = from_solid(obstacle.body, band);
+    Blockage blockage = from_solid(obstacle.body, band, config.weld_m);
     if (!blockage.edges.empty()) result.push_back(std::move(blockage));
   }
   return result;

@@ -17,7 +17,7 @@ namespace {
 constexpr double margin_m = 1.0;            // around the rooms: their walls, and a step outside
 constexpr double cells_max = 16'777'216.0;  // 2^24, 200 m x 200 m of 5 cm cells
 
-/// Grid over the rooms of a storey, or over its walls where there are no rooms.
+/// Grid over the rooms of a storey, or over its walls where there are no rooms, or over its floor without either.
 Grid make_grid(const bim::Building& building, int storey, double cell) {
   Eigen::AlignedBox2d box;
   for (const bim::Room& room : building.rooms)
@@ -26,6 +26,11 @@ Grid make_grid(const bim::Building& building, int storey, double cell) {
   if (box.isEmpty()) {
     for (const bim::Wall& wall : building.walls)
       if (wall.storey == storey) box.extend(wall.a).extend(wall.b);
+  }
+  if (box.isEmpty()) {
+    for (const bim::Slab& slab : building.slabs)
+      for (const Eigen::Vector2d& p : slab.polygon.outer)
+        if (slab.storey == storey) box.extend(p);
   }
   if (box.isEmpty()) return {};
   const Eigen::Vector2d cells = ((box.sizes().array() + 2.0 * margin_m) / cell).ceil();

@@ -22,6 +22,7 @@ struct RouteConfig {
   double shortcut_m = 0.6;      ///< straight lines pass walls nearer than this only where the way around did too
   double crowding = 3.0;        ///< a metre at `radius` clearance counts as 1 + this many at `comfort`
   double floor_below_m = 0.35;  ///< a slab's top this far below the storey (floor covering) still carries it
+  double weld_m = 1e-5;         ///< vertices this close are one where it is asked whether a solid is closed
   double floor_gap_m = 0.3;     ///< gaps in the floor up to twice this (between slabs, under walls) are stepped over
 };
 

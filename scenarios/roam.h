@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Geometry>
+#include <vector>
+
+#include "sim/route/route.h"
+
+namespace plumbline::scenarios {
+
+/// How a round is found where no rooms say where to go.
+struct RoamConfig {
+  double step_m = 1.0;       ///< least distance of the places looked at
+  double most_places = 900;  ///< looked at; a larger world gets a larger step
+  int goals = 6;             ///< places walked to before the way home
+  int tries = 24;            ///< ways looked for; places out of reach cost one each
+  double longest_m = 80.0;   ///< no further goal once the walk is this long
+  double nearest_m = 2.0;    ///< a goal lies at least this far from where the walk has been
+};
+
+/// Waypoints of a round from `start` and back through places within `bounds` (a box), each the one furthest from where
+/// the walk has been by then (ties: lowest, then leftmost); `start` alone where none can be reached.
+[[nodiscard]] std::vector<Eigen::Vector2d> roam(const sim::FreeSpace& space, const Eigen::AlignedBox2d& bounds,
+                                                const Eigen::Vector2d& start, const RoamConfig& config = {});
+
+}  // namespace plumbline::scenarios
