@@ -192,6 +192,11 @@ std::string printable(std::string name) {
   return name;
 }
 
+/// assimp's reason, without the name it gives to what lies in memory.
+std::string reason(const std::string& text) {
+  return text.find("$$$") == std::string::npos ? printable(text) : "it holds something else";
+}
+
 void make_names_unique(std::vector<MeshPart>& parts) {
   std::map<std::string, int> uses;
   for (std::size_t i = 0; i < parts.size(); ++i) {
@@ -229,7 +234,7 @@ std::vector<MeshPart> read_mesh_parts(std::string_view bytes, const std::string&
   const auto kind = static_cast<Answer>(unpacker.get());
   if (kind == Answer::refused)
     throw InputError(mark, "this is no sound " + std::string(format->ending) +
-                               " file: " + printable(answer->substr(sizeof(std::uint64_t))));
+                               " file: " + reason(answer->substr(sizeof(std::uint64_t))));
   if (kind == Answer::too_large)
     throw InputError(mark, "more than " + std::to_string(config.most_triangles) + " triangles or " +
                                std::to_string(config.most_vertices) + " vertices; make it coarser");
