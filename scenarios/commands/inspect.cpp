@@ -62,7 +62,8 @@ int inspect(const InspectOptions& options) {
 Command add_inspect(CLI::App& program) {
   const auto options = std::make_shared<InspectOptions>();
   CLI::App* app = program.add_subcommand("inspect", "Says what is in a building: storeys, rooms, walls, warnings");
-  app->add_option("BUILDING", options->building, "plan or traffic-editor plan (.yaml), .ifc, or mesh (.glb, .obj, .dae, .ply, .stl)");
+  app->add_option("BUILDING", options->building,
+                  "plan or traffic-editor plan (.yaml), .ifc, or mesh (.glb, .obj, .dae, .ply, .stl)");
   app->add_flag("--json", options->json, "for programs, every element");
   app->add_flag("--as-built", options->as_built, "with its deviations, closed doors and window panes");
   app->add_option("--mesh", options->mesh, "writes the cut building as .glb, .obj or .ply");

@@ -85,7 +85,9 @@ int run(const Options& options) {
 Command add_run(CLI::App& program) {
   const auto options = std::make_shared<Options>();
   CLI::App* app = program.add_subcommand("run", "Simulates a scenario, runs the methods, scores and reports them");
-  app->add_option("INPUT", options->input, "scenario, plan or traffic-editor plan (.yaml), .ifc, or mesh (.glb, .obj, .dae, .ply, .stl)")->required();
+  app->add_option("INPUT", options->input,
+                  "scenario, plan or traffic-editor plan (.yaml), .ifc, or mesh (.glb, .obj, .dae, .ply, .stl)")
+      ->required();
   options->methods_option =
       app->add_option("--method", options->methods, "methods to run, comma-separated [the scenario's]")->delimiter(',');
   options->seed_option = app->add_option("--seed", options->seed, "seed [the scenario's]");
