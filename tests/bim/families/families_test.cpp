@@ -179,5 +179,39 @@ TEST(Families, FeatureIsSeenOrNotAsAskedFor) {
   }
 }
 
+bool exactly_symmetric(const Building& building) {
+  const std::vector<BuildingSymmetry> found = analyse_symmetry(building).building;
+  return std::any_of(found.begin(), found.end(), [](const auto& s) { return s.likeness.grade == Likeliness::exact; });
+}
+
+/// The plan with one door built elsewhere along its wall.
+std::string with_moved_door(PlanFile plan, const std::string& door, double by_m) {
+  PlanDeviationEntry& moved = plan.deviations.emplace_back();
+  moved.op = DeviationOp::move_opening;
+  moved.target = door;
+  moved.by_m = by_m;
+  return write_plan(plan);
+}
+
+TEST(Families, DeviationsBreakAndCreateSymmetry) {
+  Tree options = Tree::map();
+  options.set("seed", "3");
+  const PlanFile even = generate("rot180", options).plan;
+  options.set("feature", "door_shift").set("epsilon_m", "0.3");
+  const PlanFile uneven = generate("rot180", options).plan;
+  const std::string door = uneven.symmetry->feature->element;
+  const auto place = [&](const PlanFile& plan) {
+    return plan.openings[static_cast<std::size_t>(find_entry(plan.openings, door))].s_m;
+  };
+  const double shift = place(uneven) - place(even);
+  ASSERT_NEAR(std::abs(shift), 0.3, 1e-6);
+  const PlanSite broken = read_plan_site(with_moved_door(even, door, shift), "broken");
+  EXPECT_TRUE(exactly_symmetric(broken.as_planned));
+  EXPECT_FALSE(exactly_symmetric(broken.as_built.building));
+  const PlanSite created = read_plan_site(with_moved_door(uneven, door, -shift), "created");
+  EXPECT_FALSE(exactly_symmetric(created.as_planned));
+  EXPECT_TRUE(exactly_symmetric(created.as_built.building));
+}
+
 }  // namespace
 }  // namespace plumbline::bim

@@ -39,7 +39,7 @@ class InspectTest : public testing::Test {
 
 TEST_F(InspectTest, HasTheKeysOfTheContract) {
   for (const char* key : {"hash", "schema", "unit", "storeys", "walls", "rooms", "doors", "windows", "openings",
-                          "slabs", "columns", "stairs", "adjacency", "warnings"})
+                          "slabs", "columns", "stairs", "adjacency", "symmetry", "warnings"})
     EXPECT_NE(json_.find(key), nullptr) << key;
   for (const char* key : {"walls", "rooms", "doors", "windows", "openings"})
     for (const Tree& element : json_.find(key)->as_list())
@@ -73,11 +73,11 @@ TEST_F(InspectTest, RoomsHaveAreaFacesAndNeighbours) {
   EXPECT_NEAR(at("rooms", 0).find("area_m2")->as_double(), 3.8 * 4.8, 1e-9);
   EXPECT_EQ(at("rooms", 0).find("faces")->as_list().size(), 4u);
   const auto& adjacency = json_.find("adjacency")->as_list();
-  ASSERT_EQ(adjacency.size(), 2u);
+  ASSERT_EQ(adjacency.size(), 3u);  // both doors and the window
   int outside = 0;
   for (const Tree& pair : adjacency)
     for (const Tree& room : pair.find("rooms")->as_list()) outside += room.is_null() ? 1 : 0;
-  EXPECT_EQ(outside, 1);
+  EXPECT_EQ(outside, 2);
 }
 
 TEST_F(InspectTest, JsonIsTheSameTwice) { EXPECT_EQ(write_json(json_), write_json(inspect_json(building_, mesh_))); }
