@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "bim/building/materials.h"
@@ -15,10 +16,23 @@ namespace {
 constexpr double max_steps = 1000;   ///< of a stair
 constexpr double touching_m = 1e-6;  ///< openings may touch each other and the ends of their wall
 
-/// Finds the place of entry i of a list, or of one of its values.
+using Ids = std::map<std::string_view, std::size_t>;
+
+/// Where each id stands in its list; of doubled ones the first.
+template <class Entry>
+Ids ids_of(const std::vector<Entry>& entries) {
+  Ids ids;
+  for (std::size_t i = 0; i < entries.size(); ++i) ids.emplace(entries[i].id, i);
+  return ids;
+}
+
+/// Finds the place of entry i of a list, or of one of its values, and storeys and walls by their ids.
 class Places {
  public:
-  explicit Places(const Tree& root) : root_(root) {}
+  Places(const PlanFile& plan, const Tree& root)
+      : storeys(ids_of(plan.storeys)), walls(ids_of(plan.walls)), root_(root) {}
+
+  const Ids storeys, walls;
 
   [[nodiscard]] Mark list(std::string_view section) const {
     const Tree* tree = root_.find(section);
@@ -55,16 +69,33 @@ void check_ids(const std::vector<Entry>& entries, std::string_view section, cons
 }
 
 /// Index of a referenced entry, or InputError with the closest known id.
-template <class Entry>
-std::size_t refer(const std::vector<Entry>& entries, const std::string& id, const std::string& kind, const Mark& mark) {
-  const int index = find_entry(entries, id);
-  if (index >= 0) return static_cast<std::size_t>(index);
+std::size_t refer(const Ids& ids, const std::string& id, const std::string& kind, const Mark& mark) {
+  const auto found = ids.find(id);
+  if (found != ids.end()) return found->second;
   std::vector<std::string> known;
-  for (const Entry& entry : entries) known.push_back(entry.id);
+  for (const auto& [name, index] : ids) known.emplace_back(name);
   const std::string guess = did_you_mean(id, known);
   throw InputError(mark,
                    "there is no " + kind + " " + quoted(id) +
                        (guess.empty() ? "; name one that the plan lists" : "; did you mean " + quoted(guess) + "?"));
+}
+
+/// Lists that would keep the reader busy for minutes are no plan of a building.
+void check_sizes(const PlanFile& plan, const Places& places) {
+  const auto check = [&](std::string_view section, std::size_t size, std::size_t most) {
+    if (size > most)
+      throw InputError(places.list(section), "the plan lists " + std::to_string(size) + " " + std::string(section) +
+                                                 "; at most " + std::to_string(most) + " can be read");
+  };
+  check("storeys", plan.storeys.size(), plan_storeys_max);
+  check("walls", plan.walls.size(), plan_entries_max);
+  check("openings", plan.openings.size(), plan_entries_max);
+  check("rooms", plan.rooms.size(), plan_entries_max);
+  check("columns", plan.columns.size(), plan_entries_max);
+  check("stairs", plan.stairs.size(), plan_storeys_max);
+  check("clutter", plan.clutter.size(), plan_entries_max);
+  check("materials", plan.materials.size(), plan_entries_max);
+  check("deviations", plan.deviations.size(), plan_storeys_max);
 }
 
 void check_all_ids(const PlanFile& plan, const Places& places) {
@@ -84,7 +115,7 @@ void check_copies(const PlanFile& plan, const Places& places) {
     const PlanStoreyEntry& storey = plan.storeys[i];
     if (storey.copy_of.empty()) continue;
     const Mark mark = places.value("storeys", i, "copy_of");
-    const std::size_t source = refer(plan.storeys, storey.copy_of, "storey", mark);
+    const std::size_t source = refer(places.storeys, storey.copy_of, "storey", mark);
     if (source == i) throw InputError(mark, "storey " + quoted(storey.id) + " copies itself; name another storey");
     if (!plan.storeys[source].copy_of.empty())
       throw InputError(mark, quoted(storey.copy_of) + " is a copy itself; name the storey it copies, " +
@@ -109,7 +140,7 @@ void check_heights(const PlanFile& plan, const Places& places) {
 
 void check_wall(const PlanFile& plan, std::size_t i, const Places& places) {
   const PlanWallEntry& wall = plan.walls[i];
-  const std::size_t storey = refer(plan.storeys, wall.storey, "storey", places.value("walls", i, "storey"));
+  const std::size_t storey = refer(places.storeys, wall.storey, "storey", places.value("walls", i, "storey"));
   if ((wall.b - wall.a).norm() < plan_length_min_m)
     throw InputError(places.value("walls", i, "b"), "wall " + quoted(wall.id) +
                                                         " has zero length; a and b must lie at least " +
@@ -123,7 +154,7 @@ void check_wall(const PlanFile& plan, std::size_t i, const Places& places) {
 void check_opening(const PlanFile& plan, std::size_t i, const Places& places) {
   const PlanOpeningEntry& opening = plan.openings[i];
   const auto at = [&](std::string_view key) { return places.value("openings", i, key); };
-  const PlanWallEntry& wall = plan.walls[refer(plan.walls, opening.wall, "wall", at("wall"))];
+  const PlanWallEntry& wall = plan.walls[refer(places.walls, opening.wall, "wall", at("wall"))];
   const double length = (wall.b - wall.a).norm();
   const std::string who = "opening " + quoted(opening.id);
   if (opening.width_m > length + touching_m)
@@ -149,17 +180,21 @@ bool overlap(const PlanOpeningEntry& a, const PlanOpeningEntry& b) {
 }
 
 void check_overlaps(const PlanFile& plan, const Places& places) {
-  for (std::size_t i = 0; i < plan.openings.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j)
+  std::map<std::string_view, std::vector<std::size_t>> by_wall;
+  for (std::size_t i = 0; i < plan.openings.size(); ++i) {
+    std::vector<std::size_t>& others = by_wall[plan.openings[i].wall];
+    for (const std::size_t j : others)
       if (overlap(plan.openings[i], plan.openings[j]))
         throw InputError(places.value("openings", i, "s_m"),
                          "opening " + quoted(plan.openings[i].id) + " overlaps " + quoted(plan.openings[j].id) +
                              " in wall " + quoted(plan.openings[i].wall) + "; move or narrow one of them");
+    others.push_back(i);
+  }
 }
 
 void check_room(const PlanFile& plan, std::size_t i, const Places& places) {
   const PlanRoomEntry& room = plan.rooms[i];
-  (void)refer(plan.storeys, room.storey, "storey", places.value("rooms", i, "storey"));
+  (void)refer(places.storeys, room.storey, "storey", places.value("rooms", i, "storey"));
   const Mark outline = places.value("rooms", i, "polygon");
   if (room.polygon.size() < 3)
     throw InputError(outline, "the polygon of room " + quoted(room.id) + " needs at least 3 corners");
@@ -168,7 +203,7 @@ void check_room(const PlanFile& plan, std::size_t i, const Places& places) {
                                   " touches or crosses itself; list its corners once, in order around the room");
   for (std::size_t k = 0; k < room.walls.size(); ++k) {
     const Mark mark = places.value("rooms", i, "walls", k);
-    const PlanWallEntry& wall = plan.walls[refer(plan.walls, room.walls[k], "wall", mark)];
+    const PlanWallEntry& wall = plan.walls[refer(places.walls, room.walls[k], "wall", mark)];
     if (wall.storey != room.storey)
       throw InputError(mark, "wall " + quoted(wall.id) + " stands on storey " + quoted(wall.storey) + ", room " +
                                  quoted(room.id) + " on " + quoted(room.storey));
@@ -179,8 +214,8 @@ void check_stair(const PlanFile& plan, std::size_t i, const Places& places) {
   const PlanStairEntry& stair = plan.stairs[i];
   const auto at = [&](std::string_view key) { return places.value("stairs", i, key); };
   const std::string who = "stair " + quoted(stair.id);
-  const double foot = plan.storeys[refer(plan.storeys, stair.from, "storey", at("from"))].elevation_m;
-  const double head = plan.storeys[refer(plan.storeys, stair.to, "storey", at("to"))].elevation_m;
+  const double foot = plan.storeys[refer(places.storeys, stair.from, "storey", at("from"))].elevation_m;
+  const double head = plan.storeys[refer(places.storeys, stair.to, "storey", at("to"))].elevation_m;
   if (head <= foot + touching_m)
     throw InputError(at("to"),
                      who + " must lead up: storey " + quoted(stair.to) + " is not above " + quoted(stair.from));
@@ -221,10 +256,9 @@ void check_all_materials(const PlanFile& plan, const Places& places) {
 }
 
 template <class Entry>
-void check_storey_of(const PlanFile& plan, const std::vector<Entry>& entries, std::string_view section,
-                     const Places& places) {
+void check_storey_of(const std::vector<Entry>& entries, std::string_view section, const Places& places) {
   for (std::size_t i = 0; i < entries.size(); ++i)
-    (void)refer(plan.storeys, entries[i].storey, "storey", places.value(section, i, "storey"));
+    (void)refer(places.storeys, entries[i].storey, "storey", places.value(section, i, "storey"));
 }
 
 }  // namespace
@@ -255,7 +289,8 @@ void check_material_id(const Building& building, const std::string& material, co
 }
 
 void check_plan(const PlanFile& plan, const Tree& tree) {
-  const Places places(tree);
+  const Places places(plan, tree);
+  check_sizes(plan, places);
   if (plan.storeys.empty()) throw InputError(places.list("storeys"), "the plan has no storeys; it needs at least one");
   if (plan.walls.empty()) throw InputError(places.list("walls"), "the plan has no walls; it needs at least one");
   check_all_ids(plan, places);
@@ -265,8 +300,8 @@ void check_plan(const PlanFile& plan, const Tree& tree) {
   for (std::size_t i = 0; i < plan.openings.size(); ++i) check_opening(plan, i, places);
   check_overlaps(plan, places);
   for (std::size_t i = 0; i < plan.rooms.size(); ++i) check_room(plan, i, places);
-  check_storey_of(plan, plan.columns, "columns", places);
-  check_storey_of(plan, plan.clutter, "clutter", places);
+  check_storey_of(plan.columns, "columns", places);
+  check_storey_of(plan.clutter, "clutter", places);
   for (std::size_t i = 0; i < plan.stairs.size(); ++i) check_stair(plan, i, places);
   check_all_materials(plan, places);
   if (plan.symmetry) check_plan_symmetry(plan, tree);

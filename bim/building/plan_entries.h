@@ -44,7 +44,9 @@ namespace plumbline::bim {
 /// Limits of what a plan may say. A building reaches at most 10 km from its origin, so that a float keeps 1 mm.
 inline constexpr double plan_reach_m = 1e4;
 inline constexpr double plan_size_max_m = 1e3;
-inline constexpr double plan_length_min_m = 0.01;  ///< of a wall
+inline constexpr std::size_t plan_entries_max = 20000;  ///< of a list
+inline constexpr std::size_t plan_storeys_max = 1000;   ///< storeys, stairs and deviations
+inline constexpr double plan_length_min_m = 0.01;       ///< of a wall
 
 inline constexpr Field plan_id{.doc = "unique in its list, without '/'", .required = true};
 inline constexpr Field plan_reference{.doc = "id of another element", .required = true};

@@ -2,6 +2,7 @@
 #include "bim/building/plan_yaml.h"
 
 #include <algorithm>
+#include <map>
 
 #include "bim/building/materials.h"
 #include "bim/building/plan_elements.h"
@@ -21,7 +22,9 @@ namespace {
 class PlanBuilder {
  public:
   PlanBuilder(const PlanFile& plan, const Tree& tree, const PlanSolids& solids)
-      : plan_(plan), tree_(tree), solids_(solids) {}
+      : plan_(plan), tree_(tree), solids_(solids) {
+    for (const PlanOpeningEntry& opening : plan.openings) openings_.emplace(opening.wall, &opening);
+  }
 
   Building build() {
     building_.name = plan_.name;
@@ -91,9 +94,10 @@ class PlanBuilder {
     const std::size_t first_wall = building_.walls.size();
     for (const PlanWallEntry& wall : plan_.walls)
       if (wall.storey == level.source) add_wall(wall, level);
-    for (std::size_t w = first_wall; w < building_.walls.size(); ++w)
-      for (const PlanOpeningEntry& opening : plan_.openings)
-        if (level.prefix + opening.wall == building_.walls[w].id) add_opening(opening, static_cast<int>(w), level);
+    for (std::size_t w = first_wall; w < building_.walls.size(); ++w) {
+      const auto [first, last] = openings_.equal_range(building_.walls[w].id.substr(level.prefix.size()));
+      for (auto opening = first; opening != last; ++opening) add_opening(*opening->second, static_cast<int>(w), level);
+    }
     for (const PlanColumnEntry& column : plan_.columns)
       if (column.storey == level.source) add_column(column, level);
     for (const PlanClutterEntry& clutter : plan_.clutter)
@@ -214,6 +218,7 @@ class PlanBuilder {
   const PlanFile& plan_;
   const Tree& tree_;
   const PlanSolids& solids_;
+  std::multimap<std::string, const PlanOpeningEntry*> openings_;  ///< by wall, those of one wall as listed
   Building building_;
   std::vector<std::size_t> room_entries_;  ///< entry each room came from
 };

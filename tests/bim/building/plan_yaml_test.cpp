@@ -259,5 +259,11 @@ TEST(PlanYamlErrors, SpoiltTextIsReadOrRefused) {
   EXPECT_LT(refused, 400);
 }
 
+TEST(PlanYaml, ListsTooLongAreRefusedAtOnce) {
+  std::string text = "plan: 1\nstoreys: [{id: g}]\nwalls:\n";
+  for (int i = 0; i <= 20000; ++i) text += "- {id: w" + std::to_string(i) + ", storey: g, a: [0, 0], b: [1, 0]}\n";
+  expect_error(text, "4", "lists 20001 walls; at most 20000");
+}
+
 }  // namespace
 }  // namespace plumbline::bim
