@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bim/building/plan_yaml.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <map>
 
@@ -196,6 +197,9 @@ class PlanBuilder {
   }
 
   void check_rooms() const {
+    std::vector<Eigen::AlignedBox2d> boxes(building_.rooms.size());
+    for (std::size_t i = 0; i < boxes.size(); ++i)
+      for (const Eigen::Vector2d& p : building_.rooms[i].polygon) boxes[i].extend(p);
     for (std::size_t i = 0; i < building_.rooms.size(); ++i) {
       const Room& room = building_.rooms[i];
       if (room.walls.empty())
@@ -203,8 +207,8 @@ class PlanBuilder {
                                                               "'; draw its polygon along walls or name its walls");
       for (std::size_t j = 0; j < i; ++j) {
         const Room& other = building_.rooms[j];
-        if (other.storey != room.storey || intersection_area(room.polygon, other.polygon) <= solids_.room_overlap_m2)
-          continue;
+        if (other.storey != room.storey || !boxes[i].intersects(boxes[j])) continue;
+        if (intersection_area(room.polygon, other.polygon) <= solids_.room_overlap_m2) continue;
         throw InputError(place_of_room(room_entries_[i]), "room '" + room.id + "' overlaps room '" + other.id +
                                                               "'; rooms of a storey must lie beside each other");
       }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bim/building/rooms.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -22,6 +23,12 @@ double overlap(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::
   if (std::abs(normal.dot(c - a)) > gap_m || std::abs(normal.dot(d - a)) > gap_m) return 0.0;
   const double sc = u.dot(c - a), sd = u.dot(d - a);
   return std::max(0.0, std::min(length_ab, std::max(sc, sd)) - std::max(0.0, std::min(sc, sd)));
+}
+
+Eigen::AlignedBox2d box_of(const Polygon2& polygon) {
+  Eigen::AlignedBox2d box;
+  for (const Eigen::Vector2d& p : polygon) box.extend(p);
+  return box;
 }
 
 double common_height(const Room& room, const Wall& wall) {
@@ -75,7 +82,12 @@ double open_length(const Room& a, const Room& b, const AdjacencyConfig& config) 
 
 std::vector<Polygon2> clear_outlines(const Polygon2& outline, const std::vector<Wall>& walls) {
   std::vector<Polygon2> footprints, pieces;
-  for (const Wall& wall : walls) footprints.push_back(footprint(wall));
+  // Walls out of the outline's reach take nothing off it; exact booleans of a whole storey for each room would.
+  const Eigen::AlignedBox2d reach = box_of(outline);
+  for (const Wall& wall : walls) {
+    Polygon2 body = footprint(wall);
+    if (box_of(body).intersects(reach)) footprints.push_back(std::move(body));
+  }
   for (const PolygonWithHoles2& piece : subtract(unite(std::vector<Polygon2>{outline}), footprints))
     pieces.push_back(piece.outer);
   // Pieces of equal size keep their canonical order.
