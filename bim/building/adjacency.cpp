@@ -33,10 +33,15 @@ std::vector<Adjacent> adjacency(const Building& building) {
   std::vector<Adjacent> list;
   for (const Opening& opening : building.openings)
     add(list, opening.rooms[0], opening.rooms[1], passage_of(opening.kind), opening.id, opening.width_m);
-  std::map<std::pair<int, int>, double> open_edges;
+  // By (room, room beyond): the two may see different parts of what is open between them (a stair beside a gallery).
+  std::map<std::pair<int, int>, double> seen, open_edges;
   for (std::size_t i = 0; i < building.rooms.size(); ++i)
     for (const VirtualEdge& edge : building.rooms[i].virtual_edges)
-      if (edge.room > static_cast<int>(i)) open_edges[{static_cast<int>(i), edge.room}] += (edge.b - edge.a).norm();
+      if (edge.room >= 0) seen[{static_cast<int>(i), edge.room}] += (edge.b - edge.a).norm();
+  for (const auto& [rooms, width_m] : seen) {
+    double& widest = open_edges[std::minmax(rooms.first, rooms.second)];
+    widest = std::max(widest, width_m);
+  }
   for (const auto& [rooms, width_m] : open_edges) add(list, rooms.first, rooms.second, Passage::open_edge, "", width_m);
   for (const Stair& stair : building.stairs) {
     const double width_m = stair.flights.empty() ? 0.0 : stair.flights.front().width_m;

@@ -31,14 +31,14 @@ Eigen::AlignedBox2d box_of(const Polygon2& polygon) {
   return box;
 }
 
-double common_height(const Room& room, const Wall& wall) {
-  return std::min(room.z1_m, wall.z1_m) - std::max(room.z0_m, wall.z0_m);
+double common_height(const Room& room, const Wall& wall, const AdjacencyConfig& config) {
+  return std::min({room.z1_m, room.z0_m + config.walking_m, wall.z1_m}) - std::max(room.z0_m, wall.z0_m);
 }
 
 }  // namespace
 
 double shared_length(const Room& room, const Wall& wall, int side, const AdjacencyConfig& config) {
-  if (common_height(room, wall) <= config.z_overlap_m) return 0.0;
+  if (common_height(room, wall, config) <= config.z_overlap_m) return 0.0;
   const FaceLine face = face_line(wall, side);
   double length = 0.0;
   // The room lies left of its counter-clockwise edges, free space left of the face: both run the same way.
@@ -52,7 +52,7 @@ std::vector<int> bounding_sides(const Room& room, const Wall& wall, const Adjace
   std::vector<int> sides;
   for (const int side : {0, 1})
     if (shared_length(room, wall, side, config) > config.overlap_m) sides.push_back(side);
-  if (!sides.empty() || common_height(room, wall) <= config.z_overlap_m) return sides;
+  if (!sides.empty() || common_height(room, wall, config) <= config.z_overlap_m) return sides;
   const Eigen::Vector2d inner = interior_point(room.polygon);
   for (const int side : {0, 1})
     if (face_plane(wall, side).distance({inner.x(), inner.y(), 0.0}) > 0.0) sides.push_back(side);

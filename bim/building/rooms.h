@@ -9,12 +9,13 @@ namespace plumbline::bim {
 
 /// Thresholds of finding out which rooms, walls and openings belong together, m.
 struct AdjacencyConfig {
-  double gap_m = 0.05;           ///< a room edge this close to a wall face lies on it
-  double overlap_m = 0.20;       ///< the two run along each other for more than this
-  double tilt = 0.02;            ///< sine of the angle between them, at most
-  double z_overlap_m = 0.2;      ///< common height of wall and room
-  double step_m = 0.25;          ///< how far out of a wall face the room of an opening is looked up
-  double above_sill_m = 0.5;     ///< ... and how far above the opening's lower edge
+  double gap_m = 0.05;        ///< a room edge this close to a wall face lies on it
+  double overlap_m = 0.20;    ///< the two run along each other for more than this
+  double tilt = 0.02;         ///< sine of the angle between them, at most
+  double z_overlap_m = 0.2;   ///< common height of wall and room
+  double walking_m = 2.0;     ///< ... counted up to this above the room's floor: walls of the next storey bound nothing
+  double step_m = 0.25;       ///< how far out of a wall face the room of an opening is looked up
+  double above_sill_m = 0.5;  ///< ... and how far above the opening's lower edge
   double below_floor_m = 0.3;    ///< ... allowed below the room's floor
   double virtual_gap_m = 0.005;  ///< edges of two rooms this close have no wall between them
 };

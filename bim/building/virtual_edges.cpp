@@ -117,8 +117,9 @@ std::vector<Stretch> without(const std::vector<Stretch>& stretches, const Stretc
   return rest;
 }
 
-double common_height(double low_a, double high_a, double low_b, double high_b) {
-  return std::min(high_a, high_b) - std::max(low_a, low_b);
+/// Height over which something stands before the walking height of a room, m.
+double common_height(const Room& room, double low_m, double high_m, const AdjacencyConfig& config) {
+  return std::min({room.z1_m, room.z0_m + config.walking_m, high_m}) - std::max(room.z0_m, low_m);
 }
 
 /// Finds the virtual edges of one room.
@@ -144,7 +145,7 @@ class EdgeFinder {
   [[nodiscard]] std::vector<Stretch> open_stretches(const Edge& edge) const {
     std::vector<Stretch> open{{0.0, edge.length()}};
     for (const Blocker& blocker : blockers_) {
-      if (common_height(room_.z0_m, room_.z1_m, blocker.z0_m, blocker.z1_m) <= config_.z_overlap_m) continue;
+      if (common_height(room_, blocker.z0_m, blocker.z1_m, config_) <= config_.z_overlap_m) continue;
       if (const auto covered = inside(edge, blocker.hull, config_.gap_m)) open = without(open, *covered);
     }
     return open;
@@ -155,8 +156,8 @@ class EdgeFinder {
     std::vector<Stretch> rest{stretch};
     for (std::size_t i = 0; i < building_.rooms.size(); ++i) {
       const Room& other = building_.rooms[i];
-      const bool meet = static_cast<int>(i) != index_ &&
-                        common_height(room_.z0_m, room_.z1_m, other.z0_m, other.z1_m) > config_.z_overlap_m;
+      const bool meet =
+          static_cast<int>(i) != index_ && common_height(room_, other.z0_m, other.z1_m, config_) > config_.z_overlap_m;
       for (std::size_t k = 0; meet && k < other.polygon.size(); ++k) {
         const auto shared = along(edge, {other.polygon[k], other.polygon[(k + 1) % other.polygon.size()]});
         if (!shared) continue;

@@ -9,6 +9,7 @@
 #include "bim/errors.h"
 #include "bim/ifc/interpret.h"
 #include "bim/ifc/read_written.h"
+#include "bim/ifc/step_parse.h"
 #include "bim/ifc/step_text.h"
 #include "bim/ifc/written_mark.h"
 
@@ -24,6 +25,12 @@ std::string unit_name(double unit_m) {
   if (is(0.3048)) return "ft";
   if (is(0.0254)) return "in";
   return format_number(unit_m) + " m";
+}
+
+std::string moved_text(const Eigen::Vector3d& move) {
+  const auto number = [](double v) { return format_number(v + 0.0); };
+  return "the file's coordinates are those of a map; moved by (" + number(move.x()) + ", " + number(move.y()) + ", " +
+         number(move.z()) + ") m";
 }
 
 }  // namespace
@@ -52,6 +59,10 @@ Building read_ifc_text(std::string_view text, const std::string& file, const Ifc
   if (building.storeys.empty()) throw InputError({file, 0, 0}, "no storey in it; a building has IfcBuildingStorey");
   if (building.walls.empty()) throw InputError({file, 0, 0}, "no wall in it; a building has IfcWall with a Body");
   if (!model.has_unit) building.warnings.push_back({"", "assumed_unit", "the file gives no unit; metres assumed"});
+  if (model.move) building.warnings.push_back({"", "recentred", moved_text(*model.move)});
+  const std::string read_as = schema_for_reader(checked.schema);
+  if (read_as != checked.schema)
+    building.warnings.push_back({"", "other_schema", checked.schema + " read as " + read_as});
   find_room_walls(building);
   find_opening_rooms(building);
   find_virtual_edges(building);

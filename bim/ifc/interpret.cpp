@@ -83,7 +83,7 @@ std::vector<Solid> Interpreter::solids_of(const StepProduct& product) {
     std::vector<std::string> problems;
     Solid solid = solid_of(shape, problems);
     for (const std::string& problem : problems) warn(product, "not_clipped", problem);
-    if (!solid.triangles.empty()) solids.push_back(std::move(solid));
+    if (!solid.triangles.empty()) solids.push_back(placed(product.X_WP, std::move(solid)));
   }
   for (const std::string& complaint : product.complaints) warn(product, "geometry", complaint);
   return solids;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "bim/errors.h"
 #include "bim/geometry/polygon_boolean.h"
@@ -73,10 +74,57 @@ bool is_convex(const Polygon2& polygon) {
   return true;
 }
 
+double turn(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
+  return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
+}
+
+/// True when corner i of what is left of a polygon can be cut off: it is convex, and no other corner but those at the
+/// same places lies in its triangle.
+bool is_ear(const Polygon2& flat, const std::vector<std::size_t>& left, std::size_t i) {
+  const std::size_t n = left.size();
+  const Eigen::Vector2d &a = flat[left[(i + n - 1) % n]], &b = flat[left[i]], &c = flat[left[(i + 1) % n]];
+  if (turn(a, b, c) <= 0.0) return false;
+  return std::none_of(left.begin(), left.end(), [&](std::size_t k) {
+    const Eigen::Vector2d& p = flat[k];
+    return p != a && p != b && p != c && turn(a, b, p) >= 0.0 && turn(b, c, p) >= 0.0 && turn(c, a, p) >= 0.0;
+  });
+}
+
+/// Cuts off ears, always the first there is. Takes loops that run into their holes and back along one bridge, which
+/// the converter makes of faces with holes. False when some loop has no ear.
+bool add_ears(Solid& solid, const Ring& ring, const Polygon2& flat) {
+  std::vector<std::size_t> left(ring.size());
+  std::iota(left.begin(), left.end(), std::size_t{0});
+  Solid ears;
+  while (left.size() >= 3) {
+    const std::size_t n = left.size();
+    std::size_t i = 0;
+    while (i < n && !is_ear(flat, left, i)) ++i;
+    if (i == n) break;
+    add_triangle(ears, ring[left[(i + n - 1) % n]], ring[left[i]], ring[left[(i + 1) % n]]);
+    left.erase(left.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+  // What is left of a sound loop is a line with no area, there and back.
+  double rest = 0.0;
+  for (std::size_t i = 1; i + 1 < left.size(); ++i) rest += turn(flat[left[0]], flat[left[i]], flat[left[i + 1]]);
+  if (std::abs(rest) > solid_grid_m * solid_grid_m) return false;
+  const int first = static_cast<int>(solid.vertices.size());
+  solid.vertices.insert(solid.vertices.end(), ears.vertices.begin(), ears.vertices.end());
+  for (const Eigen::Vector3i& t : ears.triangles) solid.triangles.push_back(t.array() + first);
+  return true;
+}
+
+/// Faces with more corners than this are not cut into ears, which takes the square of their number.
+constexpr std::size_t most_ears = 3000;
+
 void add_face(Solid& solid, const Ring& ring) {
   if (ring.size() < 3) return;
   const Polygon2 flat = flattened(ring, vector_area(ring));
-  if (ring.size() == 3 || is_convex(flat) || !is_simple(flat)) return add_fan(solid, ring);
+  if (ring.size() == 3 || is_convex(flat)) return add_fan(solid, ring);
+  if (!is_simple(flat)) {
+    if (ring.size() > most_ears || !add_ears(solid, ring, flat)) add_fan(solid, ring);
+    return;
+  }
   const FlatMesh mesh = triangulate({PolygonWithHoles2{flat, {}}});
   std::vector<std::size_t> corner(mesh.points.size());
   for (std::size_t i = 0; i < mesh.points.size(); ++i)
@@ -96,10 +144,22 @@ Facets transformed(const Eigen::Affine3d& X, Facets facets) {
   return facets;
 }
 
+Shape transformed(const Eigen::Affine3d& X, Shape shape) {
+  shape.base = transformed(X, std::move(shape.base));
+  for (Facets& facets : shape.minus) facets = transformed(X, std::move(facets));
+  for (Facets& facets : shape.within) facets = transformed(X, std::move(facets));
+  return shape;
+}
+
+Solid placed(const Eigen::Affine3d& X_WP, Solid solid) {
+  for (Eigen::Vector3d& p : solid.vertices) p = X_WP * p;
+  return canonical(solid, placed_grid_m);
+}
+
 Solid triangulated(const Facets& facets) {
   Solid solid;
   for (const std::vector<int>& loop : facets.loops) add_face(solid, canonical_ring(facets, loop));
-  solid = welded(solid, solid_grid_m);
+  solid = without_slivers(welded(solid, solid_grid_m), solid_grid_m);
   // Reversed input: mirrored bodies and files whose shells point inwards.
   return canonical(is_closed(solid) ? turned_outward(solid) : solid, solid_grid_m);
 }
@@ -108,7 +168,7 @@ Solid without(Solid body, const std::vector<Solid>& cuts, std::vector<std::strin
   for (const Solid& cut : cuts) {
     const std::optional<Solid> rest = difference(body, cut);
     if (rest) {
-      body = canonical(welded(*rest, solid_grid_m), solid_grid_m);
+      body = canonical(without_slivers(welded(*rest, solid_grid_m), solid_grid_m), solid_grid_m);
     } else {
       problems.emplace_back("a part could not be cut off and stays");
     }
@@ -119,7 +179,16 @@ Solid without(Solid body, const std::vector<Solid>& cuts, std::vector<std::strin
 Solid solid_of(const Shape& shape, std::vector<std::string>& problems) {
   std::vector<Solid> cuts;
   for (const Facets& facets : shape.minus) cuts.push_back(triangulated(facets));
-  return without(triangulated(shape.base), cuts, problems);
+  Solid body = triangulated(shape.base);
+  for (const Facets& facets : shape.within) {
+    const std::optional<Solid> common = intersection(body, triangulated(facets));
+    if (common) {
+      body = canonical(without_slivers(welded(*common, solid_grid_m), solid_grid_m), solid_grid_m);
+    } else {
+      problems.emplace_back("a common part could not be found; the whole stays");
+    }
+  }
+  return without(std::move(body), cuts, problems);
 }
 
 Solid joined(const std::vector<Solid>& solids) {

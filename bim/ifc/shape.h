@@ -15,17 +15,25 @@ struct Facets {
   std::vector<std::vector<int>> loops;  ///< indices into points, counter-clockwise seen from outside
 };
 
-/// One item of a body before booleans: base minus the operands of its IfcBooleanResults, half spaces as large boxes.
+/// One item of a body before booleans: what the base has in common with all of `within`, less all of `minus` (operands
+/// of IfcBooleanResults; half spaces as large boxes).
 struct Shape {
   Facets base;
   std::vector<Facets> minus;
+  std::vector<Facets> within = {};
 };
 
-/// Grid of the vertices of solids, m: coarse against the reader's rounding, fine enough to keep oblique walls flat.
+/// Grid of the vertices of solids in their product's own frame, m: coarse against the reader's rounding.
 inline constexpr double solid_grid_m = 1e-5;
+/// ... and in W, where products may be turned: fine enough to keep their faces flat.
+inline constexpr double placed_grid_m = 1e-6;
 
 /// Facets moved by a transform; loops are reversed where it mirrors.
 [[nodiscard]] Facets transformed(const Eigen::Affine3d& X, Facets facets);
+
+[[nodiscard]] Shape transformed(const Eigen::Affine3d& X, Shape shape);
+/// A solid of a product's frame in W, canonical.
+[[nodiscard]] Solid placed(const Eigen::Affine3d& X_WP, Solid solid);
 
 /// Triangles of the facets in canonical form, whatever the order of points and loops: vertices on the grid, each once,
 /// sorted; triangles sorted; turned outward.

@@ -7,11 +7,17 @@
 #pragma GCC diagnostic ignored "-Wconversion"
 #pragma GCC diagnostic ignored "-Wunknown-pragmas"
 #include <ifcpp/IFC4/include/IfcBooleanResult.h>
+#include <ifcpp/IFC4/include/IfcBoxedHalfSpace.h>
+#include <ifcpp/IFC4/include/IfcCsgPrimitive3D.h>
+#include <ifcpp/IFC4/include/IfcCsgSolid.h>
+#include <ifcpp/IFC4/include/IfcHalfSpaceSolid.h>
 #include <ifcpp/IFC4/include/IfcMappedItem.h>
 #include <ifcpp/IFC4/include/IfcShapeRepresentation.h>
 #include <ifcpp/geometry/Carve/RepresentationConverter.h>
 #include <ifcpp/model/BuildingModel.h>
 #pragma GCC diagnostic pop
+
+#include <map>
 
 namespace plumbline::bim {
 namespace {
@@ -90,37 +96,88 @@ struct StepGeometry::Impl {
     if (place) placements->convertIfcPlacement(place, origin);
     const Eigen::Affine3d X_target = target ? to_eigen(target->m_matrix) : Eigen::Affine3d::Identity();
     const Eigen::Affine3d X_origin = origin ? to_eigen(origin->m_matrix) : Eigen::Affine3d::Identity();
-    convert(mapped.m_MappingSource->m_MappedRepresentation, X * X_target * X_origin, shapes);
+    for (const Shape& shape : once(mapped.m_MappingSource->m_MappedRepresentation))
+      shapes.push_back(transformed(X * X_target * X_origin, shape));
   }
 
-  /// A boolean difference is taken apart into its operands, whose solids are then cut elsewhere: the converter's own
-  /// booleans lose parts, and not always the same ones.
+  /// A representation that many items map is converted for the first of them.
+  const std::vector<Shape>& once(const std::shared_ptr<IfcRepresentation>& representation) {
+    const auto [found, is_new] = converted.try_emplace(representation->m_entity_id);
+    if (is_new) {
+      std::vector<Shape> shapes;
+      convert(representation, Eigen::Affine3d::Identity(), shapes);
+      found->second = std::move(shapes);
+    }
+    return found->second;
+  }
+
+  /// Booleans are taken apart into their operands, whose solids are then joined elsewhere: the converter's own lose
+  /// parts, and not always the same ones.
   void convert_item(const std::shared_ptr<IfcGeometricRepresentationItem>& item, const Eigen::Affine3d& X,
                     std::vector<Shape>& shapes) {
-    const auto boolean = std::dynamic_pointer_cast<IfcBooleanResult>(item);
-    if (!boolean) {
-      const auto data = std::make_shared<ItemShapeData>();
-      converter.convertIfcGeometricRepresentationItem(item, data);
-      for (Facets& facets : facets_of(*data)) shapes.push_back({transformed(X, std::move(facets)), {}});
-      return;
+    if (const auto boolean = std::dynamic_pointer_cast<IfcBooleanResult>(item)) {
+      return convert_boolean(*boolean, X, shapes);
     }
-    if (!boolean->m_Operator || !boolean->m_FirstOperand || !boolean->m_SecondOperand) {
+    if (const auto solid = std::dynamic_pointer_cast<IfcCsgSolid>(item)) {
+      const auto root = std::dynamic_pointer_cast<IfcGeometricRepresentationItem>(solid->m_TreeRootExpression);
+      return root ? convert_item(root, X, shapes) : complain("a CSG solid lacks its tree");
+    }
+    const auto data = std::make_shared<ItemShapeData>();
+    const auto& solids = converter.getSolidConverter();
+    if (const auto half_space = std::dynamic_pointer_cast<IfcHalfSpaceSolid>(item)) {
+      solids->convertIfcHalfSpaceSolid(unboxed(half_space), data, nullptr);
+    } else if (const auto primitive = std::dynamic_pointer_cast<IfcCsgPrimitive3D>(item)) {
+      solids->convertIfcCsgPrimitive3D(primitive, data);
+    } else {
+      converter.convertIfcGeometricRepresentationItem(item, data);
+    }
+    for (Facets& facets : facets_of(*data)) shapes.push_back({transformed(X, std::move(facets)), {}, {}});
+  }
+
+  /// The box of a boxed half space is a hint for readers; it bounds nothing [IFC4, IfcBoxedHalfSpace].
+  static std::shared_ptr<IfcHalfSpaceSolid> unboxed(const std::shared_ptr<IfcHalfSpaceSolid>& half_space) {
+    if (!std::dynamic_pointer_cast<IfcBoxedHalfSpace>(half_space)) return half_space;
+    auto plain = std::make_shared<IfcHalfSpaceSolid>(half_space->m_entity_id);
+    plain->m_BaseSurface = half_space->m_BaseSurface;
+    plain->m_AgreementFlag = half_space->m_AgreementFlag;
+    return plain;
+  }
+
+  void convert_boolean(const IfcBooleanResult& boolean, const Eigen::Affine3d& X, std::vector<Shape>& shapes) {
+    if (!boolean.m_Operator || !boolean.m_FirstOperand || !boolean.m_SecondOperand) {
       return complain("a boolean result lacks an operand");
     }
-    if (boolean->m_Operator->m_enum == IfcBooleanOperator::ENUM_INTERSECTION) {
-      return complain("a boolean intersection is not read");
+    std::vector<Shape> first, second;
+    convert_operand(boolean.m_FirstOperand, X, first);
+    convert_operand(boolean.m_SecondOperand, X, second);
+    switch (boolean.m_Operator->m_enum) {
+      case IfcBooleanOperator::ENUM_UNION:
+        shapes.insert(shapes.end(), first.begin(), first.end());
+        shapes.insert(shapes.end(), second.begin(), second.end());
+        return;
+      case IfcBooleanOperator::ENUM_DIFFERENCE:
+        for (Shape& shape : first)
+          for (const Shape& cut : second) shape.minus.push_back(whole_of(cut));
+        shapes.insert(shapes.end(), first.begin(), first.end());
+        return;
+      case IfcBooleanOperator::ENUM_INTERSECTION:
+        for (const Shape& shape : first) {
+          for (const Shape& other : second) {
+            shapes.push_back(shape);
+            shapes.back().within.push_back(whole_of(other));
+          }
+        }
+        return;
     }
-    std::vector<Shape> first;
-    convert_operand(boolean->m_FirstOperand, X, first);
-    if (boolean->m_Operator->m_enum == IfcBooleanOperator::ENUM_UNION) {
-      convert_operand(boolean->m_SecondOperand, X, first);
-    } else {
-      const auto second = std::make_shared<ItemShapeData>();
-      converter.getSolidConverter()->convertIfcBooleanOperand(boolean->m_SecondOperand, second, nullptr);
-      for (const Facets& facets : facets_of(*second))
-        for (Shape& shape : first) shape.minus.push_back(transformed(X, facets));
-    }
-    shapes.insert(shapes.end(), first.begin(), first.end());
+  }
+
+  /// An operand that is itself the result of booleans as the one solid it makes.
+  Facets whole_of(const Shape& shape) {
+    if (shape.minus.empty() && shape.within.empty()) return shape.base;
+    const Solid solid = solid_of(shape, *complaints);
+    Facets facets{solid.vertices, {}};
+    for (const Eigen::Vector3i& t : solid.triangles) facets.loops.push_back({t[0], t[1], t[2]});
+    return facets;
   }
 
   void convert_operand(const std::shared_ptr<IfcBooleanOperand>& operand, const Eigen::Affine3d& X,
@@ -135,6 +192,7 @@ struct StepGeometry::Impl {
   void complain(const std::string& text) { complaints->push_back(text); }
 
   RepresentationConverter converter;
+  std::map<int, std::vector<Shape>> converted;  ///< mapped representations by STEP number
   std::vector<std::string>* complaints = nullptr;
 };
 

@@ -32,11 +32,13 @@
 
 #include "bim/errors.h"
 #include "bim/ifc/quiet.h"
+#include "bim/ifc/step_body.h"
 #include "bim/ifc/step_geometry.h"
 #include "bim/ifc/step_material.h"
 #include "bim/ifc/step_optics.h"
 #include "bim/ifc/step_parse.h"
 #include "bim/ifc/step_placement.h"
+#include "bim/ifc/step_reach.h"
 #include "bim/ifc/step_sound.h"
 
 namespace plumbline::bim {
@@ -95,82 +97,6 @@ std::int64_t whole_of(const IfcProduct& product) {
     if (whole) return whole->m_entity_id;
   }
   return 0;
-}
-
-/// False where a coordinate is not a number, or further out than any map grid, or a body too large for a building or
-/// too far from its placement.
-bool within_reach(const StepProduct& product) {
-  constexpr double furthest_m = 1e7, largest_m = 1e4;
-  Eigen::AlignedBox3d box;
-  const auto extend = [&](const std::vector<Eigen::Vector3d>& points) {
-    for (const Eigen::Vector3d& p : points) {
-      if (!p.allFinite()) return false;
-      box.extend(p);
-    }
-    return true;
-  };
-  bool finite = extend(product.axis_W) && extend({product.X_WP.translation()});
-  for (const Shape& shape : product.body) {
-    finite = finite && extend(shape.base.points);
-    for (const Facets& cut : shape.minus) finite = finite && extend(cut.points);
-  }
-  if (!finite) return false;
-  return box.isEmpty() || (box.min().cwiseAbs().maxCoeff() <= furthest_m &&
-                           box.max().cwiseAbs().maxCoeff() <= furthest_m && box.sizes().maxCoeff() <= largest_m);
-}
-
-/// How well a representation serves as a body: 0 best, nullopt not at all. Old files leave its name out; then its type
-/// tells.
-std::optional<int> body_rank(const IfcRepresentation& representation, StepClass kind) {
-  constexpr std::array<std::string_view, 11> solid_types{
-      "AdvancedBrep", "AdvancedSweptSolid", "Brep",       "CSG",          "Clipping",           "MappedRepresentation",
-      "SolidModel",   "SurfaceModel",       "SweptSolid", "Tessellation", "SurfaceOrSolidModel"};
-  constexpr std::array<std::string_view, 10> others{"Annotation", "Annotation2D", "Axis",    "Box",      "Clearance",
-                                                    "CoG",        "FootPrint",    "Profile", "Lighting", "Plan"};
-  const auto text = [](const auto& label) { return label ? utf8(label->m_value) : std::string(); };
-  const std::string name = text(representation.m_RepresentationIdentifier);
-  if (name == "Body") return 0;
-  if (name == "Reference") return kind == StepClass::opening ? std::optional(1) : std::nullopt;
-  if (std::find(others.begin(), others.end(), name) != others.end()) return std::nullopt;
-  const std::string type = text(representation.m_RepresentationType);
-  return std::find(solid_types.begin(), solid_types.end(), type) != solid_types.end() ? std::optional(2) : std::nullopt;
-}
-
-/// Representations that may serve as a body, the best first.
-std::vector<std::shared_ptr<IfcRepresentation>> bodies_of(const IfcProduct& source, StepClass kind) {
-  std::vector<std::pair<int, std::shared_ptr<IfcRepresentation>>> ranked;
-  for (const auto& representation : source.m_Representation->m_Representations) {
-    const std::optional<int> rank = representation ? body_rank(*representation, kind) : std::nullopt;
-    if (rank) ranked.emplace_back(*rank, representation);
-  }
-  std::stable_sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  std::vector<std::shared_ptr<IfcRepresentation>> bodies;
-  for (const auto& [rank, representation] : ranked) bodies.push_back(representation);
-  return bodies;
-}
-
-/// Points of the Axis of a wall, in W.
-void read_axis(const IfcProduct& source, StepSoundness& soundness, StepGeometry& geometry, StepProduct& product) {
-  for (const auto& representation : source.m_Representation->m_Representations) {
-    const bool named = representation && representation->m_RepresentationIdentifier;
-    if (!named || utf8(representation->m_RepresentationIdentifier->m_value) != "Axis") continue;
-    soundness.check(*representation);
-    product.axis_W = geometry.curve(representation, product.complaints);
-    for (Eigen::Vector3d& p : product.axis_W) p = product.X_WP * p;
-  }
-}
-
-/// Items of the first body that has any, moved to W.
-void read_body(const IfcProduct& source, StepSoundness& soundness, StepGeometry& geometry, StepProduct& product) {
-  for (const auto& representation : bodies_of(source, product.kind)) {
-    soundness.check(*representation);
-    for (Shape& shape : geometry.shapes(representation, product.complaints)) {
-      Shape& moved = product.body.emplace_back();
-      moved.base = transformed(product.X_WP, std::move(shape.base));
-      for (Facets& cut : shape.minus) moved.minus.push_back(transformed(product.X_WP, std::move(cut)));
-    }
-    if (!product.body.empty()) return;
-  }
 }
 
 /// Doors and windows are known by their openings in walls; others have nothing but their body to tell where they are.
@@ -238,7 +164,7 @@ class Reader {
   }
 
   void read_geometry(const std::shared_ptr<IfcProduct>& source, StepProduct& product) {
-    product.has_body = !bodies_of(*source, product.kind).empty();
+    product.has_body = has_body(*source, product.kind);
     if (product.kind == StepClass::wall) read_axis(*source, soundness_, geometry_, product);
     if (needs_geometry(source, product.kind)) read_body(*source, soundness_, geometry_, product);
   }
@@ -267,8 +193,10 @@ class Reader {
 
 StepModel read_step_model(const std::string& text, const StepText& checked, const std::string& file) {
   const Quiet quiet;
-  const std::shared_ptr<BuildingModel> model = parse_step(text, file);
-  return Reader(model, checked, file).read();
+  const std::shared_ptr<BuildingModel> model = parse_step(text, checked.schema, file);
+  StepModel result = Reader(model, checked, file).read();
+  result.move = recentre(result);
+  return result;
 }
 
 }  // namespace plumbline::bim

@@ -37,7 +37,7 @@ struct StepProduct {
   std::optional<StepLayers> layers;
   std::string material;                 ///< of the thickest layer
   std::vector<Eigen::Vector3d> axis_W;  ///< points of the Axis representation
-  std::vector<Shape> body;              ///< items of the Body (openings: Body or Reference)
+  std::vector<Shape> body;              ///< items of the Body in its own frame (openings: Body or Reference)
   std::vector<std::string> complaints;  ///< what the geometry reader said
 };
 
@@ -47,6 +47,7 @@ struct StepModel {
   bool has_unit = true;                    ///< false: no length unit given, metres assumed
   std::vector<StepProduct> products;       ///< by GlobalId
   std::map<std::string, Material> optics;  ///< what the file says about light, by material name
+  std::optional<Eigen::Vector3d> move;     ///< from the file's world to W, where it stands in map coordinates
 };
 
 /// Reads checked STEP text through IFC++: entity graph, placements and uncut solids. Its booleans are never used.

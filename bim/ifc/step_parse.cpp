@@ -15,12 +15,22 @@
 
 namespace plumbline::bim {
 
-std::shared_ptr<BuildingModel> parse_step(const std::string& text, const std::string& file) {
+std::string schema_for_reader(const std::string& schema) {
+  if (schema == "IFC2X3" || schema == "IFC4") return schema;
+  return schema.starts_with("IFC2X") ? "IFC2X3" : "IFC4";
+}
+
+std::shared_ptr<BuildingModel> parse_step(const std::string& text, const std::string& schema, const std::string& file) {
   // loadModelFromFile() wants the locale en_US and gives an empty model without it; this does not.
   auto model = std::make_shared<BuildingModel>();
   try {
     ReaderSTEP reader;
     std::string content = text;
+    // It reads files of no other schema than these two, and knows them by this name.
+    const std::size_t header = content.find("FILE_SCHEMA");
+    const std::size_t begin = header == std::string::npos ? header : content.find('\'', header);
+    const std::size_t end = begin == std::string::npos ? begin : content.find('\'', begin + 1);
+    if (end != std::string::npos) content.replace(begin + 1, end - begin - 1, schema_for_reader(schema));
     reader.loadModelFromString(content, model);
   } catch (const std::exception& error) {
     throw InputError({file, 0, 0}, std::string("the file cannot be read as IFC: ") + error.what());

@@ -57,6 +57,19 @@ Solid to_solid(const Mesh& mesh) {
   return solid;
 }
 
+template <class Operation>
+std::optional<Solid> corefined(const Solid& first, const Solid& second, double grid_m, const Operation& operation) {
+  std::optional<Mesh> a = to_mesh(first, grid_m), b = to_mesh(second, grid_m);
+  if (!a || !b) return std::nullopt;
+  Mesh result;
+  try {
+    if (!operation(*a, *b, result)) return std::nullopt;  // the result would not be manifold
+  } catch (const std::exception&) {  // self-intersection, or a CGAL precondition that bad input breaks
+    return std::nullopt;
+  }
+  return to_solid(result);
+}
+
 }  // namespace
 
 std::optional<Solid> repaired(const Solid& solid, double grid_m) {
@@ -66,17 +79,16 @@ std::optional<Solid> repaired(const Solid& solid, double grid_m) {
 }
 
 std::optional<Solid> difference(const Solid& body, const Solid& cutter, double grid_m) {
-  std::optional<Mesh> a = to_mesh(body, grid_m), b = to_mesh(cutter, grid_m);
-  if (!a || !b) return std::nullopt;
-  Mesh result;
-  try {
-    const bool manifold =
-        pmp::corefine_and_compute_difference(*a, *b, result, CGAL::parameters::throw_on_self_intersection(true));
-    if (!manifold) return std::nullopt;
-  } catch (const std::exception&) {  // self-intersection, or a CGAL precondition that bad input breaks
-    return std::nullopt;
-  }
-  return to_solid(result);
+  return corefined(body, cutter, grid_m, [](Mesh& a, Mesh& b, Mesh& result) {
+    return pmp::corefine_and_compute_difference(a, b, result, CGAL::parameters::throw_on_self_intersection(true));
+  });
+}
+
+std::optional<Solid> intersection(const Solid& a, const Solid& b, double grid_m) {
+  return corefined(a, b, grid_m, [](Mesh& left, Mesh& right, Mesh& result) {
+    return pmp::corefine_and_compute_intersection(left, right, result,
+                                                  CGAL::parameters::throw_on_self_intersection(true));
+  });
 }
 
 }  // namespace plumbline::bim

@@ -20,4 +20,7 @@ namespace plumbline::bim {
 [[nodiscard]] std::optional<Solid> difference(const Solid& body, const Solid& cutter,
                                               double grid_m = MeshConfig{}.weld_m);
 
+/// What two closed solids have in common, likewise.
+[[nodiscard]] std::optional<Solid> intersection(const Solid& a, const Solid& b, double grid_m = MeshConfig{}.weld_m);
+
 }  // namespace plumbline::bim

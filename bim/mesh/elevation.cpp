@@ -114,6 +114,24 @@ std::optional<Refusal> add_silhouette(const WallFrame& frame, const Opening& ope
   return std::nullopt;
 }
 
+/// Pushes what ends at an end of the wall past it, since the film left between the two would collapse with the end; and
+/// what ends where a mitre begins away from it, since the wall would touch itself along that line.
+void clear_of_ends(std::vector<Polygon2>& silhouettes, const Elevation& e, double tolerance) {
+  const double low = std::max(e.x_low.low, e.x_high.low), high = std::min(e.x_low.high, e.x_high.high);
+  for (Polygon2& silhouette : silhouettes) {
+    for (Eigen::Vector2d& p : silhouette) {
+      if (near(p.x(), e.x.low, tolerance))
+        p.x() = e.x.low - tolerance;
+      else if (near(p.x(), e.x.high, tolerance))
+        p.x() = e.x.high + tolerance;
+      else if (near(p.x(), low, tolerance))
+        p.x() = low + tolerance;
+      else if (near(p.x(), high, tolerance))
+        p.x() = high - tolerance;
+    }
+  }
+}
+
 /// In a mitred end only the end itself may have vertices: anything between would fold when the end is slanted.
 bool bends_in_a_mitre(const Elevation& e, double tolerance) {
   const double clear_low = std::max(e.x_low.low, e.x_high.low), clear_high = std::min(e.x_low.high, e.x_high.high);
@@ -152,6 +170,7 @@ std::variant<Solid, Refusal> cut_in_elevation(const Wall& wall, const std::vecto
   std::vector<Polygon2> silhouettes;
   for (const Opening& opening : openings)
     if (const auto refusal = add_silhouette(frame, opening, elevation.y, config, silhouettes)) return *refusal;
+  clear_of_ends(silhouettes, elevation, config.face_m);
   elevation.region = subtract(elevation.region, silhouettes);
   if (bends_in_a_mitre(elevation, config.face_m)) return not_prismatic("an opening reaches into a slanted end");
 

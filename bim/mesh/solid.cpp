@@ -103,4 +103,64 @@ Solid turned_outward(const Solid& solid) {
   return result;
 }
 
+namespace {
+
+/// Corner opposite to the longest side, of equal ones the first.
+int top_corner(const Solid& solid, const Eigen::Vector3i& t) {
+  int top = 0;
+  double longest = -1.0;
+  for (int k = 0; k < 3; ++k) {
+    const double side = (solid.vertices[static_cast<std::size_t>(t[(k + 1) % 3])] -
+                         solid.vertices[static_cast<std::size_t>(t[(k + 2) % 3])])
+                            .norm();
+    if (side <= longest) continue;
+    longest = side;
+    top = k;
+  }
+  return top;
+}
+
+bool is_sliver(const Solid& solid, const Eigen::Vector3i& t, double grid_m) {
+  const auto p = [&](int k) { return solid.vertices[static_cast<std::size_t>(t[k % 3])]; };
+  const int top = top_corner(solid, t);
+  const double side = (p(top + 1) - p(top + 2)).norm();
+  return (p(1) - p(0)).cross(p(2) - p(0)).norm() <= grid_m * side;
+}
+
+}  // namespace
+
+Solid without_slivers(Solid solid, double grid_m) {
+  std::map<std::pair<int, int>, int> owner;  // of each directed edge
+  const auto enter = [&](int t) {
+    const Eigen::Vector3i& triangle = solid.triangles[static_cast<std::size_t>(t)];
+    for (int k = 0; k < 3; ++k) owner[{triangle[k], triangle[(k + 1) % 3]}] = t;
+  };
+  for (int t = 0; t < static_cast<int>(solid.triangles.size()); ++t) enter(t);
+  // Turning one may make another of its neighbour, further along the line; a few rounds take them all.
+  constexpr int most_rounds = 8;
+  for (int round = 0, turned = 1; round < most_rounds && turned > 0; ++round) {
+    turned = 0;
+    for (int t = 0; t < static_cast<int>(solid.triangles.size()); ++t) {
+      Eigen::Vector3i& triangle = solid.triangles[static_cast<std::size_t>(t)];
+      if (!is_sliver(solid, triangle, grid_m)) continue;
+      const int top = top_corner(solid, triangle);
+      const int b = triangle[top], c = triangle[(top + 1) % 3], a = triangle[(top + 2) % 3];
+      const auto beyond = owner.find({a, c});
+      if (beyond == owner.end() || beyond->second == t) continue;
+      Eigen::Vector3i& other = solid.triangles[static_cast<std::size_t>(beyond->second)];
+      const int d = other.sum() - a - c;
+      if (d == b || owner.contains({b, d}) || owner.contains({d, b})) continue;
+      const int neighbour = beyond->second;
+      owner.erase({a, c});
+      owner.erase({c, a});
+      triangle = {a, b, d};
+      other = {b, c, d};
+      enter(t);
+      enter(neighbour);
+      ++turned;
+    }
+  }
+  return solid;
+}
+
 }  // namespace plumbline::bim

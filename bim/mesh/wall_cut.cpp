@@ -65,12 +65,23 @@ Solid whole_body(const Wall& wall, const MeshConfig& config) {
   return wall.body ? *wall.body : std::get<Solid>(cut_in_elevation(wall, {}, config));
 }
 
+Solid in_wall(Solid solid, const WallFrame& frame) {
+  for (Eigen::Vector3d& p : solid.vertices) p = frame.to_wall(p);
+  return solid;
+}
+
+Solid in_world(Solid solid, const WallFrame& frame) {
+  for (Eigen::Vector3d& p : solid.vertices) p = frame.to_world(p);
+  return solid;
+}
+
+/// In the wall's own frame, where its faces lie square to the grid however the wall is turned.
 CutWall cut_in_space(const Wall& wall, const std::vector<Opening>& openings, const MeshConfig& config) {
   const WallFrame frame(wall);
   const Interval y = thickness_of(wall, frame);
   CutWall cut;
   const Solid whole = whole_body(wall, config);
-  std::optional<Solid> body = repaired(whole, config.weld_m);
+  std::optional<Solid> body = repaired(in_wall(whole, frame), config.weld_m);
   cut.closed = body.has_value();
   if (!body) {
     cut.warnings.push_back({wall.id, "not_closed", "the body's surface does not close; openings are not cut"});
@@ -79,7 +90,7 @@ CutWall cut_in_space(const Wall& wall, const std::vector<Opening>& openings, con
   }
   for (const Opening& opening : openings) {
     for (const Solid& part : cutters_of(opening, frame, y, config)) {
-      const std::optional<Solid> cutter = repaired(part, config.weld_m);
+      const std::optional<Solid> cutter = repaired(in_wall(part, frame), config.weld_m);
       std::optional<Solid> rest = cutter ? difference(*body, *cutter, config.weld_m) : std::nullopt;
       if (rest)
         body = std::move(rest);
@@ -87,7 +98,7 @@ CutWall cut_in_space(const Wall& wall, const std::vector<Opening>& openings, con
         cut.warnings.push_back({wall.id, "not_cut", "opening '" + opening.id + "' could not be cut out"});
     }
   }
-  cut.solid = canonical(*body, config.grid_m);
+  cut.solid = canonical(in_world(*body, frame), config.grid_m);
   return cut;
 }
 

@@ -11,6 +11,7 @@
 #include "bim/ifc/ifc.h"
 #include "bim/mesh/mesh.h"
 #include "tests/bim/ifc/data.h"
+#include "tests/bim/ifc/self_intersection.h"
 
 namespace plumbline::bim {
 namespace {
@@ -129,6 +130,17 @@ TEST_P(GoldenTest, CutWallsAndSlabsHaveTheGoldenVolumeAndBox) {
     ++compared;
   }
   EXPECT_GT(compared, 0);
+}
+
+/// No wall or slab mesh cuts through itself (CGAL's exact test), and no source wall here is left open.
+TEST_P(GoldenTest, WallsAndSlabsDoNotIntersectThemselves) {
+  const BuildingMesh mesh = build_mesh(building_);
+  for (const MeshElement& element : mesh.elements) {
+    if (element.kind != ElementKind::wall && element.kind != ElementKind::slab) continue;
+    EXPECT_TRUE(element.closed) << element.id;
+    EXPECT_GT(element.volume_m3, 0.0) << element.id;  // outward
+    EXPECT_FALSE(intersects_itself(mesh, element)) << element.id;
+  }
 }
 
 /// Where a space is a prism its volume is area times height; others (a stair's) have at most that.
