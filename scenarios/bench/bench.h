@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bim/config/tree.h"
+
+namespace plumbline::scenarios {
+
+/// Bound on a figure. A ratio within one run gates; an absolute time depends on the machine and is a target only.
+struct BenchLimit {
+  double value = 0.0;
+  bool at_most = true;
+  bool gates = false;
+};
+
+/// One figure: the median over repetitions, with its spread.
+struct BenchRow {
+  std::string name;  ///< "bim.mesh_1000_walls_s"
+  std::string unit;
+  double value = 0.0;
+  double low = 0.0;
+  double high = 0.0;
+  std::optional<BenchLimit> limit;
+
+  /// True without a limit.
+  [[nodiscard]] bool passed() const;
+};
+
+struct BenchSetting {
+  int repetitions = 5;
+  std::string data_dir;  ///< folder with ifc/duplex.ifc; empty: what needs it is left out, with a line to stderr
+};
+
+/// A part of the program whose costs are measured, and what is said of it in help.
+struct BenchPart {
+  std::string_view name;
+  std::string_view summary;
+  std::function<std::vector<BenchRow>(const BenchSetting&)> measure;
+};
+[[nodiscard]] const std::vector<BenchPart>& bench_parts();
+
+/// The median of `samples` (not empty) and their range as a row.
+[[nodiscard]] BenchRow make_row(std::string name, std::string unit, std::vector<double> samples,
+                                std::optional<BenchLimit> limit = std::nullopt);
+/// Exponent e of cost = c n^e between two sizes.
+[[nodiscard]] double growth_exponent(double n0, double cost0, double n1, double cost1);
+
+/// {"bench": [{name, value, unit, low, high, limit, op, gate, passed}]}; limit, op, gate and passed only where there
+/// is a limit.
+[[nodiscard]] Tree bench_json(const std::vector<BenchRow>& rows);
+[[nodiscard]] std::string bench_text(const std::vector<BenchRow>& rows);
+
+[[nodiscard]] std::vector<BenchRow> bench_bim(const BenchSetting& setting);
+
+}  // namespace plumbline::scenarios
