@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "bim/building/plan_boxes.h"
 #include "bim/building/rooms.h"
 #include "bim/building/wall_face.h"
 #include "bim/errors.h"
@@ -81,10 +82,12 @@ void link_rooms(const Building& building, Plan& plan) {
   for (const Opening& opening : building.openings)
     if (opening.kind != OpeningKind::window) join(plan, opening.rooms[0], opening.rooms[1]);
   const AdjacencyConfig config;
+  const PlanBoxes boxes = boxes_of(building.rooms);
   for (std::size_t i = 0; i < building.rooms.size(); ++i)
-    for (std::size_t j = i + 1; j < building.rooms.size(); ++j)
-      if (open_length(building.rooms[i], building.rooms[j], config) > config.overlap_m)
-        join(plan, static_cast<int>(i), static_cast<int>(j));
+    for (const int j : boxes.near(building.rooms[i].polygon, config.virtual_gap_m))
+      if (j > static_cast<int>(i) &&
+          open_length(building.rooms[i], building.rooms[static_cast<std::size_t>(j)], config) > config.overlap_m)
+        join(plan, static_cast<int>(i), j);
   for (std::size_t i = 0; i < building.rooms.size(); ++i)
     for (const VirtualEdge& edge : building.rooms[i].virtual_edges) join(plan, static_cast<int>(i), edge.room);
   for (PlanRoom& room : plan.rooms) {

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "bim/building/materials.h"
+#include "bim/building/plan_boxes.h"
 #include "bim/building/plan_elements.h"
 #include "bim/building/plan_file.h"
 #include "bim/building/plan_stairs.h"
@@ -127,17 +128,19 @@ class PlanBuilder {
   }
 
   void add_rooms(const Level& level) {
+    const PlanBoxes walls = boxes_of(building_.walls, level.first_wall);
     for (std::size_t i = 0; i < plan_.rooms.size(); ++i) {
       const std::string& storey = plan_.rooms[i].storey;
-      if (storey == level.source) add_room(i, level.prefix, level);
-      if (!level.prefix.empty() && storey + "/" == level.prefix) add_room(i, "", level);
+      if (storey == level.source) add_room(i, level.prefix, level, walls);
+      if (!level.prefix.empty() && storey + "/" == level.prefix) add_room(i, "", level, walls);
     }
   }
 
-  void add_room(std::size_t entry_index, const std::string& prefix, const Level& level) {
+  void add_room(std::size_t entry_index, const std::string& prefix, const Level& level, const PlanBoxes& boxes) {
     const PlanRoomEntry& entry = plan_.rooms[entry_index];
-    const std::vector<Wall> walls(building_.walls.begin() + static_cast<std::ptrdiff_t>(level.first_wall),
-                                  building_.walls.end());
+    std::vector<Wall> walls;
+    for (const int i : boxes.near(entry.polygon, 0.0))
+      walls.push_back(building_.walls[level.first_wall + static_cast<std::size_t>(i)]);
     const std::vector<Polygon2> outlines = clear_outlines(entry.polygon, walls);
     if (outlines.empty())
       throw InputError(place_of_room(entry_index),

@@ -3,8 +3,10 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "bim/building/plan_boxes.h"
 #include "bim/building/wall_face.h"
 #include "bim/geometry/polygon_boolean.h"
 
@@ -35,6 +37,30 @@ double common_height(const Room& room, const Wall& wall, const AdjacencyConfig& 
   return std::min({room.z1_m, room.z0_m + config.walking_m, wall.z1_m}) - std::max(room.z0_m, wall.z0_m);
 }
 
+/// The first of the given rooms that holds the point at the height z, or -1.
+int room_among(const Building& building, const std::vector<int>& rooms, const Eigen::Vector2d& p, double z,
+               const AdjacencyConfig& config) {
+  for (const int i : rooms) {
+    const Room& room = building.rooms[static_cast<std::size_t>(i)];
+    const bool at_height = z >= room.z0_m - config.below_floor_m && z <= room.z1_m;
+    if (at_height && contains(room.polygon, p)) return i;
+  }
+  return -1;
+}
+
+/// Those of the given walls whose sides a room's outline runs along.
+std::vector<int> walls_among(const Building& building, const Room& room, const std::vector<int>& walls,
+                             const AdjacencyConfig& config) {
+  std::vector<int> along;
+  for (const int i : walls) {
+    const Wall& wall = building.walls[static_cast<std::size_t>(i)];
+    if (shared_length(room, wall, 0, config) > config.overlap_m ||
+        shared_length(room, wall, 1, config) > config.overlap_m)
+      along.push_back(i);
+  }
+  return along;
+}
+
 }  // namespace
 
 double shared_length(const Room& room, const Wall& wall, int side, const AdjacencyConfig& config) {
@@ -60,14 +86,7 @@ std::vector<int> bounding_sides(const Room& room, const Wall& wall, const Adjace
 }
 
 std::vector<int> walls_along(const Building& building, const Room& room, const AdjacencyConfig& config) {
-  std::vector<int> walls;
-  for (std::size_t i = 0; i < building.walls.size(); ++i) {
-    const Wall& wall = building.walls[i];
-    if (shared_length(room, wall, 0, config) > config.overlap_m ||
-        shared_length(room, wall, 1, config) > config.overlap_m)
-      walls.push_back(static_cast<int>(i));
-  }
-  return walls;
+  return walls_among(building, room, boxes_of(building.walls).near(room.polygon, config.gap_m), config);
 }
 
 double open_length(const Room& a, const Room& b, const AdjacencyConfig& config) {
@@ -97,28 +116,26 @@ std::vector<Polygon2> clear_outlines(const Polygon2& outline, const std::vector<
 }
 
 int room_at(const Building& building, const Eigen::Vector2d& p, double sill_m, const AdjacencyConfig& config) {
-  const double z = sill_m + config.above_sill_m;
-  for (std::size_t i = 0; i < building.rooms.size(); ++i) {
-    const Room& room = building.rooms[i];
-    const bool at_height = z >= room.z0_m - config.below_floor_m && z <= room.z1_m;
-    if (at_height && contains(room.polygon, p)) return static_cast<int>(i);
-  }
-  return -1;
+  return room_among(building, boxes_of(building.rooms).near({p}, 0.0), p, sill_m + config.above_sill_m, config);
 }
 
 void find_room_walls(Building& building, const AdjacencyConfig& config) {
+  const PlanBoxes boxes = boxes_of(building.walls);
   for (Room& room : building.rooms)
-    if (room.walls.empty()) room.walls = walls_along(building, room, config);
+    if (room.walls.empty()) room.walls = walls_among(building, room, boxes.near(room.polygon, config.gap_m), config);
 }
 
 void find_opening_rooms(Building& building, const AdjacencyConfig& config) {
+  const PlanBoxes boxes = boxes_of(building.rooms);
   for (Opening& opening : building.openings) {
     if (opening.wall < 0) continue;
     const Wall& wall = building.walls[static_cast<std::size_t>(opening.wall)];
     const Eigen::Vector2d on_line = wall.a + opening.s_m * wall.direction();
     const double left = wall.offset_m + wall.thickness_m + config.step_m, right = wall.offset_m - config.step_m;
-    opening.rooms[0] = room_at(building, on_line + left * wall.left(), opening.z0_m, config);
-    opening.rooms[1] = room_at(building, on_line + right * wall.left(), opening.z0_m, config);
+    const std::array<Eigen::Vector2d, 2> points = {on_line + left * wall.left(), on_line + right * wall.left()};
+    const double z = opening.z0_m + config.above_sill_m;
+    for (std::size_t side = 0; side < points.size(); ++side)
+      opening.rooms[side] = room_among(building, boxes.near({points[side]}, 0.0), points[side], z, config);
   }
 }
 

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string_view>
 
+#include "bim/building/plan_boxes.h"
 #include "bim/building/wall_face.h"
 
 namespace plumbline::bim {
@@ -122,14 +123,28 @@ double common_height(const Room& room, double low_m, double high_m, const Adjace
   return std::min({room.z1_m, room.z0_m + config.walking_m, high_m}) - std::max(room.z0_m, low_m);
 }
 
+/// What may bound rooms.
+struct Surroundings {
+  std::vector<Blocker> blockers;
+  PlanBoxes blocker_boxes, room_boxes;
+};
+
+Surroundings surroundings_of(const Building& building) {
+  Surroundings around{blockers_of(building), {}, boxes_of(building.rooms)};
+  for (const Blocker& blocker : around.blockers) around.blocker_boxes.add(blocker.hull);
+  return around;
+}
+
 /// Finds the virtual edges of one room.
 class EdgeFinder {
  public:
-  EdgeFinder(const Building& building, const std::vector<Blocker>& blockers, int room, const AdjacencyConfig& config)
+  EdgeFinder(const Building& building, const Surroundings& around, int room, const AdjacencyConfig& config)
       : building_(building),
-        blockers_(blockers),
+        blockers_(around.blockers),
         index_(room),
         room_(building.rooms[static_cast<std::size_t>(room)]),
+        near_blockers_(around.blocker_boxes.near(room_.polygon, config.gap_m)),
+        near_rooms_(around.room_boxes.near(room_.polygon, config.virtual_gap_m)),
         config_(config) {}
 
   [[nodiscard]] std::vector<VirtualEdge> find() const {
@@ -144,7 +159,8 @@ class EdgeFinder {
  private:
   [[nodiscard]] std::vector<Stretch> open_stretches(const Edge& edge) const {
     std::vector<Stretch> open{{0.0, edge.length()}};
-    for (const Blocker& blocker : blockers_) {
+    for (const int index : near_blockers_) {
+      const Blocker& blocker = blockers_[static_cast<std::size_t>(index)];
       if (common_height(room_, blocker.z0_m, blocker.z1_m, config_) <= config_.z_overlap_m) continue;
       if (const auto covered = inside(edge, blocker.hull, config_.gap_m)) open = without(open, *covered);
     }
@@ -154,15 +170,14 @@ class EdgeFinder {
   /// A stretch is divided among the rooms whose outlines run along it; what is left belongs to whoever lies beyond.
   void add(const Edge& edge, const Stretch& stretch, std::vector<VirtualEdge>& edges) const {
     std::vector<Stretch> rest{stretch};
-    for (std::size_t i = 0; i < building_.rooms.size(); ++i) {
-      const Room& other = building_.rooms[i];
-      const bool meet =
-          static_cast<int>(i) != index_ && common_height(room_, other.z0_m, other.z1_m, config_) > config_.z_overlap_m;
+    for (const int i : near_rooms_) {
+      const Room& other = building_.rooms[static_cast<std::size_t>(i)];
+      const bool meet = i != index_ && common_height(room_, other.z0_m, other.z1_m, config_) > config_.z_overlap_m;
       for (std::size_t k = 0; meet && k < other.polygon.size(); ++k) {
         const auto shared = along(edge, {other.polygon[k], other.polygon[(k + 1) % other.polygon.size()]});
         if (!shared) continue;
         for (const Stretch& part : rest)
-          emit(edge, {std::max(part.from, shared->from), std::min(part.to, shared->to)}, static_cast<int>(i), edges);
+          emit(edge, {std::max(part.from, shared->from), std::min(part.to, shared->to)}, i, edges);
         rest = without(rest, *shared);
       }
     }
@@ -198,6 +213,7 @@ class EdgeFinder {
   const std::vector<Blocker>& blockers_;
   int index_;
   const Room& room_;
+  std::vector<int> near_blockers_, near_rooms_;
   AdjacencyConfig config_;
 };
 
@@ -224,9 +240,9 @@ int room_at_one_of(const Building& building, int storey, const std::array<Eigen:
 }  // namespace
 
 void find_virtual_edges(Building& building, const AdjacencyConfig& config) {
-  const std::vector<Blocker> blockers = blockers_of(building);
+  const Surroundings around = surroundings_of(building);
   for (std::size_t i = 0; i < building.rooms.size(); ++i)
-    building.rooms[i].virtual_edges = EdgeFinder(building, blockers, static_cast<int>(i), config).find();
+    building.rooms[i].virtual_edges = EdgeFinder(building, around, static_cast<int>(i), config).find();
 }
 
 void find_stair_rooms(Building& building, const AdjacencyConfig& config) {
