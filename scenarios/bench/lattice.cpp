@@ -32,7 +32,7 @@ class Lattice {
 
   [[nodiscard]] std::string text() const {
     return "plan: 1\nname: lattice\nstoreys: [{id: s}]\nwalls:\n" + walls_text_ + "openings:\n" + openings_text_ +
-           "rooms:\n" + rooms_text_;
+           (rooms_text_.empty() ? "" : "rooms:\n" + rooms_text_);
   }
 
  private:
