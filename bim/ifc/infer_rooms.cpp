@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bim/ifc/infer_rooms.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -42,6 +43,21 @@ Polygon2 grown(const Polygon2& polygon, double margin_m) {
   return region.empty() ? polygon : region.front().outer;
 }
 
+Eigen::AlignedBox2d box_of(const Polygon2& polygon) {
+  Eigen::AlignedBox2d box;
+  for (const Eigen::Vector2d& p : polygon) box.extend(p);
+  return box;
+}
+
+/// Walls that can cut an outline: all others would only cost time.
+std::vector<Wall> walls_near(const Polygon2& outline, const std::vector<Wall>& walls) {
+  const Eigen::AlignedBox2d box = box_of(outline);
+  std::vector<Wall> near;
+  for (const Wall& wall : walls)
+    if (box.intersects(box_of(footprint(wall)))) near.push_back(wall);
+  return near;
+}
+
 }  // namespace
 
 std::vector<Room> infer_rooms(const Building& building, int storey, const InferConfig& config) {
@@ -58,7 +74,8 @@ std::vector<Room> infer_rooms(const Building& building, int storey, const InferC
     for (Polygon2 hole : piece.holes) {
       std::reverse(hole.begin(), hole.end());
       // Grown past the wall faces and cut back to them.
-      const std::vector<Polygon2> outlines = clear_outlines(grown(hole, 2.0 * config.closing_m), walls);
+      const Polygon2 outline = grown(hole, 2.0 * config.closing_m);
+      const std::vector<Polygon2> outlines = clear_outlines(outline, walls_near(outline, walls));
       if (outlines.empty() || signed_area(outlines.front()) < config.least_area_m2) continue;
       Room room;
       room.id = level.id + "/room" + std::to_string(rooms.size() + 1);
