@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -20,7 +21,8 @@ class GenerateCommand : public testing::Test {
     const char* binary = std::getenv("PLUMBLINE_BINARY");
     if (binary == nullptr) GTEST_SKIP() << "PLUMBLINE_BINARY is not set; run through ctest";
     binary_ = binary;
-    folder_ = fs::path(testing::TempDir()) / "plumbline_generate";
+    // Tests of one fixture run at the same time, each in a process of its own.
+    folder_ = fs::path(testing::TempDir()) / ("plumbline_generate_" + std::to_string(getpid()));
     fs::remove_all(folder_);
     fs::create_directories(folder_);
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
@@ -38,7 +39,8 @@ class InspectCommandTest : public testing::Test {
     return testing::internal::GetCapturedStdout();
   }
 
-  const std::filesystem::path folder_ = std::filesystem::path(testing::TempDir()) / "plumbline_inspect_command";
+  const std::filesystem::path folder_ =
+      std::filesystem::path(testing::TempDir()) / ("plumbline_inspect_command_" + std::to_string(getpid()));
   const std::string plan_ = (folder_ / "wall.plan.yaml").string();
 };
 
