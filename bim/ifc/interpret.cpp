@@ -54,6 +54,7 @@ std::vector<PolygonWithHoles2> footprint(const Solid& solid) {
 }
 
 Interpreter::Interpreter(const StepModel& model, const IfcConfig& config) : model_(model), config_(config) {
+  building_.warnings = model.skipped;
   for (const StepProduct& product : model.products) products_[product.step_id] = &product;
   for (const StepProduct& product : model.products)
     if (product.whole != 0 && product.whole != product.step_id) parts_[product.whole].push_back(&product);

@@ -34,6 +34,7 @@
 #include "bim/ifc/quiet.h"
 #include "bim/ifc/step_body.h"
 #include "bim/ifc/step_geometry.h"
+#include "bim/ifc/step_known_placements.h"
 #include "bim/ifc/step_material.h"
 #include "bim/ifc/step_optics.h"
 #include "bim/ifc/step_parse.h"
@@ -132,7 +133,10 @@ class Reader {
     for (const auto& [step_id, entity] : model_->getMapIfcEntities()) {
       const auto product = std::dynamic_pointer_cast<IfcProduct>(entity);
       const std::optional<StepClass> kind = product ? class_of_product(*product) : std::nullopt;
-      if (kind) result.products.push_back(read_product(product, *kind, result.unit_m));
+      if (!kind) continue;
+      if (std::optional<StepProduct> read = read_product(product, *kind, result)) {
+        result.products.push_back(std::move(*read));
+      }
     }
     std::sort(result.products.begin(), result.products.end(),
               [](const StepProduct& a, const StepProduct& b) { return a.id < b.id; });
@@ -143,7 +147,8 @@ class Reader {
   }
 
  private:
-  StepProduct read_product(const std::shared_ptr<IfcProduct>& source, StepClass kind, double unit_m) {
+  /// Nullopt, with a warning, for a product that stands where cannot be told.
+  std::optional<StepProduct> read_product(const std::shared_ptr<IfcProduct>& source, StepClass kind, StepModel& model) {
     StepProduct product;
     product.step_id = source->m_entity_id;
     product.kind = kind;
@@ -151,13 +156,19 @@ class Reader {
     product.id = source->m_GlobalId ? utf8(source->m_GlobalId->m_value) : std::string();
     if (product.id.empty()) fail(product.step_id, product.type + " has no GlobalId");
     product.name = name_of(*source);
-    const std::optional<Eigen::Affine3d> X_WP = placement(source->m_ObjectPlacement, unit_m);
-    if (!X_WP) fail(product.step_id, product.type + " has a placement that makes no sense");
-    product.X_WP = *X_WP;
+    const ProductPose pose = placement(source->m_ObjectPlacement, model.unit_m);
+    if (pose.malformed) fail(product.step_id, product.type + " has a placement that makes no sense");
+    if (!pose.X_WP) {
+      model.skipped.push_back({product.id, "skipped_placement",
+                               product.type + " #" + std::to_string(product.step_id) +
+                                   ": stands on a grid or an alignment that cannot be evaluated, and is left out"});
+      return std::nullopt;
+    }
+    product.X_WP = *pose.X_WP;
     product.storey = kind == StepClass::storey ? product.step_id : storey_of(source);
     product.host = host_of(source, kind);
     product.whole = whole_of(*source);
-    read_material(*source, unit_m, product);
+    read_material(*source, model.unit_m, product);
     if (source->m_Representation) read_geometry(source, product);
     if (!within_reach(product)) fail(product.step_id, product.type + " is larger than 10 km or further than 10000 km");
     return product;
@@ -193,7 +204,7 @@ class Reader {
 
 StepModel read_step_model(const std::string& text, const StepText& checked, const std::string& file) {
   const Quiet quiet;
-  const std::shared_ptr<BuildingModel> model = parse_step(text, checked.schema, file);
+  const std::shared_ptr<BuildingModel> model = parse_step(with_known_placements(text, file), checked.schema, file);
   StepModel result = Reader(model, checked, file).read();
   result.move = recentre(result);
   return result;

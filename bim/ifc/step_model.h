@@ -47,6 +47,7 @@ struct StepModel {
   bool has_unit = true;                    ///< false: no length unit given, metres assumed
   std::vector<StepProduct> products;       ///< by GlobalId
   std::map<std::string, Material> optics;  ///< what the file says about light, by material name
+  std::vector<Warning> skipped;            ///< products that stand where cannot be told
   std::optional<Eigen::Vector3d> move;     ///< from the file's world to W, where it stands in map coordinates
 };
 

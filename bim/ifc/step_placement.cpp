@@ -9,25 +9,17 @@
 #include <ifcpp/IFC4/include/IfcAxis2Placement3D.h>
 #include <ifcpp/IFC4/include/IfcCartesianPoint.h>
 #include <ifcpp/IFC4/include/IfcDirection.h>
+#include <ifcpp/IFC4/include/IfcGridPlacement.h>
 #include <ifcpp/IFC4/include/IfcLengthMeasure.h>
 #include <ifcpp/IFC4/include/IfcLocalPlacement.h>
 #include <ifcpp/IFC4/include/IfcReal.h>
 #pragma GCC diagnostic pop
 
+#include "bim/ifc/step_grid.h"
+#include "bim/ifc/step_vector.h"
+
 namespace plumbline::bim {
 namespace {
-
-/// Two or three numbers as a vector, the third 0 when absent.
-template <class Measures>
-std::optional<Eigen::Vector3d> vector_of(const Measures& measures) {
-  Eigen::Vector3d v = Eigen::Vector3d::Zero();
-  if (measures.size() < 2 || measures.size() > 3) return std::nullopt;
-  for (std::size_t i = 0; i < measures.size(); ++i) {
-    if (!measures[i]) return std::nullopt;
-    v[static_cast<Eigen::Index>(i)] = measures[i]->m_value;
-  }
-  return v.allFinite() ? std::optional(v) : std::nullopt;
-}
 
 std::optional<Eigen::Vector3d> direction_of(const std::shared_ptr<IfcDirection>& direction,
                                             const Eigen::Vector3d& standard) {
@@ -69,18 +61,29 @@ std::optional<Eigen::Affine3d> relative(const std::shared_ptr<IfcAxis2Placement>
 
 }  // namespace
 
-std::optional<Eigen::Affine3d> placement(const std::shared_ptr<IfcObjectPlacement>& object_placement, double unit_m) {
+ProductPose placement(const std::shared_ptr<IfcObjectPlacement>& object_placement, double unit_m) {
+  // References in circles do not get past check_step_text(), but a grid may stand on itself: its axes know it by an
+  // inverse relation.
+  constexpr int most_steps = 1000;
   Eigen::Affine3d X = Eigen::Affine3d::Identity();
-  // The chain has an end: references in circles do not get past check_step_text().
-  for (auto at = object_placement; at;) {
+  auto at = object_placement;
+  for (int step = 0; at; ++step) {
+    if (step == most_steps) return {};
+    if (const auto on_grid = std::dynamic_pointer_cast<IfcGridPlacement>(at)) {
+      const std::optional<GridPose> pose = grid_pose(*on_grid, unit_m);
+      if (!pose) return {};
+      X = pose->X_GP * X;
+      at = pose->grid;
+      continue;
+    }
     const auto local = std::dynamic_pointer_cast<IfcLocalPlacement>(at);
-    if (!local) return std::nullopt;
-    const std::optional<Eigen::Affine3d> step = relative(local->m_RelativePlacement, unit_m);
-    if (!step) return std::nullopt;
-    X = *step * X;
+    const std::optional<Eigen::Affine3d> in_parent =
+        local ? relative(local->m_RelativePlacement, unit_m) : std::nullopt;
+    if (!in_parent) return {std::nullopt, true};
+    X = *in_parent * X;
     at = local->m_PlacementRelTo;
   }
-  return X;
+  return {X, false};
 }
 
 }  // namespace plumbline::bim

@@ -9,9 +9,14 @@ class IfcObjectPlacement;
 
 namespace plumbline::bim {
 
-/// Pose of a product in W from its chain of local placements, m. Identity without a placement; nullopt where an axis
-/// has no direction or a coordinate is missing or not a number.
-[[nodiscard]] std::optional<Eigen::Affine3d> placement(const std::shared_ptr<IfcObjectPlacement>& object_placement,
-                                                       double unit_m);
+/// Pose of a product in W, or why there is none.
+struct ProductPose {
+  std::optional<Eigen::Affine3d> X_WP;  ///< m
+  bool malformed = false;               ///< an axis has no direction, or a coordinate is missing or not a number
+};
+
+/// Follows the chain of local and grid placements; identity without a placement. No pose, though nothing is malformed,
+/// where a grid has no intersection that can be found.
+[[nodiscard]] ProductPose placement(const std::shared_ptr<IfcObjectPlacement>& object_placement, double unit_m);
 
 }  // namespace plumbline::bim
