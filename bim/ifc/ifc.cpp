@@ -33,6 +33,18 @@ std::string moved_text(const Eigen::Vector3d& move) {
          number(move.z()) + ") m";
 }
 
+/// A door that joins nothing that is known: no room on either side, or the same on both.
+void warn_of_unresolved_doors(Building& building) {
+  for (const Opening& opening : building.openings) {
+    if (opening.kind != OpeningKind::door || (opening.rooms[0] != opening.rooms[1])) continue;
+    const int room = opening.rooms[0];
+    const std::string where =
+        room < 0 ? "in no room" : "in the same room, " + building.rooms[static_cast<std::size_t>(room)].id;
+    building.warnings.push_back({opening.filling_id.empty() ? opening.id : opening.filling_id, "door_unresolved",
+                                 "both of its sides are " + where + "; where it leads is not known"});
+  }
+}
+
 }  // namespace
 
 Building read_ifc_text(std::string_view text, const std::string& file, const IfcConfig& config) {
@@ -65,6 +77,7 @@ Building read_ifc_text(std::string_view text, const std::string& file, const Ifc
     building.warnings.push_back({"", "other_schema", checked.schema + " read as " + read_as});
   find_room_walls(building);
   find_opening_rooms(building);
+  warn_of_unresolved_doors(building);
   find_virtual_edges(building);
   find_stair_rooms(building);
   return building;

@@ -17,7 +17,12 @@
 namespace plumbline::bim {
 namespace {
 
-Building read(const SmallIfc& options) { return read_ifc_text(small_ifc(options), "small.ifc"); }
+/// Without the warning that the door leads from nowhere to nowhere, which it does in each of these.
+Building read(const SmallIfc& options) {
+  Building building = read_ifc_text(small_ifc(options), "small.ifc");
+  std::erase_if(building.warnings, [](const Warning& warning) { return warning.kind == "door_unresolved"; });
+  return building;
+}
 
 /// The wall of the fixture in W: origin (1, 2), along x, body 0.2 to the left, whatever it took to say so.
 void expect_standard(const Building& building) {
