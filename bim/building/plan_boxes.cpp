@@ -5,15 +5,11 @@
 
 namespace plumbline::bim {
 
-namespace {
-
 Eigen::AlignedBox2d box_of(const Polygon2& outline) {
   Eigen::AlignedBox2d box;
   for (const Eigen::Vector2d& p : outline) box.extend(p);
   return box;
 }
-
-}  // namespace
 
 void PlanBoxes::add(const Polygon2& outline) { boxes_.push_back(box_of(outline)); }
 

@@ -8,6 +8,8 @@
 
 namespace plumbline::bim {
 
+[[nodiscard]] Eigen::AlignedBox2d box_of(const Polygon2& outline);
+
 /// Bounding boxes on the plan of a list of things, to pass over what is out of reach of another: a scan that costs
 /// about a nanosecond a box, where looking at the things themselves costs a hundred.
 class PlanBoxes {

@@ -27,12 +27,6 @@ double overlap(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::
   return std::max(0.0, std::min(length_ab, std::max(sc, sd)) - std::max(0.0, std::min(sc, sd)));
 }
 
-Eigen::AlignedBox2d box_of(const Polygon2& polygon) {
-  Eigen::AlignedBox2d box;
-  for (const Eigen::Vector2d& p : polygon) box.extend(p);
-  return box;
-}
-
 double common_height(const Room& room, const Wall& wall, const AdjacencyConfig& config) {
   return std::min({room.z1_m, room.z0_m + config.walking_m, wall.z1_m}) - std::max(room.z0_m, wall.z0_m);
 }

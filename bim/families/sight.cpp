@@ -4,18 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bim/building/plan_boxes.h"
 #include "bim/symmetry/bodies.h"
 #include "bim/symmetry/grid.h"
 
 namespace plumbline::bim {
 
 namespace {
-
-Eigen::AlignedBox2d box_of(const Polygon2& polygon) {
-  Eigen::AlignedBox2d box;
-  for (const Eigen::Vector2d& p : polygon) box.extend(p);
-  return box;
-}
 
 /// The segment p-q has a point inside the convex outline.
 bool crosses(const Polygon2& outline, const Eigen::Vector2d& p, const Eigen::Vector2d& q) {

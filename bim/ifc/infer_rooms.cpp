@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bim/building/plan_boxes.h"
 #include "bim/building/rooms.h"
 #include "bim/building/wall_face.h"
 #include "bim/geometry/polygon_boolean.h"
@@ -41,12 +42,6 @@ Polygon2 grown(const Polygon2& polygon, double margin_m) {
   }
   const Region2 region = unite(parts);
   return region.empty() ? polygon : region.front().outer;
-}
-
-Eigen::AlignedBox2d box_of(const Polygon2& polygon) {
-  Eigen::AlignedBox2d box;
-  for (const Eigen::Vector2d& p : polygon) box.extend(p);
-  return box;
 }
 
 /// Walls that can cut an outline: all others would only cost time.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
+#include "bim/building/plan_boxes.h"
 #include "bim/symmetry/bodies.h"
 #include "bim/symmetry/grid.h"
 
@@ -19,12 +20,6 @@ Side side_of(const Polygon2& polygon, std::size_t k) {
   const Eigen::Vector2d e = polygon[(k + 1) % polygon.size()] - p;
   const Eigen::Vector2d n(e.y(), -e.x());
   return {n, n.dot(p)};
-}
-
-Eigen::AlignedBox2d box_of(const Polygon2& polygon) {
-  Eigen::AlignedBox2d box;
-  for (const Eigen::Vector2d& p : polygon) box.extend(p);
-  return box;
 }
 
 bool large(const Polygon2& polygon, const BodiesConfig& config) {

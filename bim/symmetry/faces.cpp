@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bim/building/plan_boxes.h"
+
 namespace plumbline::bim {
 
 namespace {
@@ -12,12 +14,6 @@ namespace {
 struct Patch {
   double s0 = 0.0, s1 = 0.0, z0 = 0.0, z1 = 0.0;
 };
-
-Eigen::AlignedBox2d box_of(const Polygon2& polygon) {
-  Eigen::AlignedBox2d box;
-  for (const Eigen::Vector2d& p : polygon) box.extend(p);
-  return box;
-}
 
 std::vector<Eigen::AlignedBox2d> boxes_of(const std::vector<SurfaceRect>& rects) {
   std::vector<Eigen::AlignedBox2d> boxes;
