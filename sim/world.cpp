@@ -13,7 +13,6 @@
 #include "sim/robot/collision.h"
 #include "sim/robot/leg_odometry.h"
 #include "sim/robot/robot.h"
-#include "sim/route/follower.h"
 #include "slam/io/stopwatch.h"
 
 namespace plumbline::sim {

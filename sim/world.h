@@ -8,6 +8,7 @@
 #include "bim/mesh/mesh.h"
 #include "sim/lidar/lidar.h"
 #include "sim/robot/sensors.h"
+#include "sim/route/follower.h"
 #include "slam/io/estimate.h"
 #include "slam/io/records.h"
 
@@ -20,8 +21,8 @@ struct WorldConfig {
   OdometryPreset odometry = OdometryPreset::noisy;
   int storey = 0;
   Eigen::Vector2d start_W = Eigen::Vector2d::Zero();
-  double start_yaw = 0.0;                  ///< rad
-  std::vector<Eigen::Vector2d> waypoints;  ///< the route, from the start on; fewer than two: stand all the time
+  double start_yaw = 0.0;           ///< rad
+  std::vector<Waypoint> waypoints;  ///< the route, from the start on; fewer than two: stand all the time
   double speed_mps = 0.6;
   double duration_s = 120.0;
   double stand_s = 1.0;  ///< after the end of the route

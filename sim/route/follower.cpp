@@ -15,18 +15,26 @@ constexpr double step_s = 1e-9 * static_cast<double>(Robot::step_ns);
 
 }  // namespace
 
-Follower::Follower(const FollowerConfig& config, std::vector<Eigen::Vector2d> waypoints, std::uint64_t seed)
+std::vector<Waypoint> on_floor(const std::vector<Eigen::Vector2d>& points_W, double floor_z_W) {
+  std::vector<Waypoint> out;
+  out.reserve(points_W.size());
+  for (const Eigen::Vector2d& p : points_W) out.push_back({{p.x(), p.y(), floor_z_W}, false});
+  return out;
+}
+
+Follower::Follower(const FollowerConfig& config, std::vector<Waypoint> waypoints, std::uint64_t seed)
     : config_(config), waypoints_(std::move(waypoints)), jitter_(seed, "sim.gait.command") {}
 
 Command Follower::update(const Pose& X_WR, std::int64_t tick) {
   const Eigen::Vector2d p_W = X_WR.t.head<2>();
-  skip_reached(p_W);
+  skip_reached(X_WR.t);
   if (done()) return {};
   check_progress(X_WR, tick);
 
   const Eigen::Vector2d ahead_W = goal(p_W) - p_W;
   const double error = wrap_angle(std::atan2(ahead_W.y(), ahead_W.x()) - X_WR.yaw());
-  turning_ = std::abs(error) > (turning_ ? config_.turn_end : config_.turn_start);
+  const double turn_end = waypoints_[next_].stairs ? config_.stairs_aligned : config_.turn_end;
+  turning_ = std::abs(error) > (turning_ ? turn_end : config_.turn_start);
 
   Command command;
   const double gain = turning_ ? config_.turn_gain : config_.steer_gain;
@@ -35,8 +43,14 @@ Command Follower::update(const Pose& X_WR, std::int64_t tick) {
   return jittered(command, tick);
 }
 
-void Follower::skip_reached(const Eigen::Vector2d& p_W) {
-  while (!done() && (waypoints_[next_] - p_W).norm() < config_.reached_m) ++next_;
+void Follower::skip_reached(const Eigen::Vector3d& p_W) {
+  const Eigen::Vector3d sole_W = p_W - Eigen::Vector3d(0.0, 0.0, config_.standing_height_m);
+  while (!done()) {
+    const Eigen::Vector3d off = waypoints_[next_].p_W - sole_W;
+    if (off.head<2>().norm() >= config_.reached_m || std::abs(off.z()) >= config_.reached_height_m) return;
+    ++next_;
+    if (!done() && waypoints_[next_].stairs && !waypoints_[next_ - 1].stairs) turning_ = true;
+  }
 }
 
 void Follower::check_progress(const Pose& X_WR, std::int64_t tick) {
@@ -55,8 +69,8 @@ void Follower::check_progress(const Pose& X_WR, std::int64_t tick) {
 }
 
 Eigen::Vector2d Follower::goal(const Eigen::Vector2d& p_W) const {
-  const Eigen::Vector2d& from = waypoints_[next_ - 1];
-  const Eigen::Vector2d& to = waypoints_[next_];
+  const Eigen::Vector2d from = waypoints_[next_ - 1].p_W.head<2>();
+  const Eigen::Vector2d to = waypoints_[next_].p_W.head<2>();
   const double length = (to - from).norm();
   if (length <= 0.0) return to;
   const Eigen::Vector2d e = (to - from) / length;
@@ -66,9 +80,11 @@ Eigen::Vector2d Follower::goal(const Eigen::Vector2d& p_W) const {
 }
 
 double Follower::walking_speed(double heading_error, const Eigen::Vector2d& p_W) const {
-  const double v = config_.speed_mps * std::max(config_.slow_min, std::cos(config_.slow_angle_gain * heading_error));
+  const bool stairs = waypoints_[next_].stairs;
+  const double speed = stairs ? std::min(config_.speed_mps, config_.stairs_mps) : config_.speed_mps;
+  const double v = speed * std::max(config_.slow_min, std::cos(config_.slow_angle_gain * heading_error));
   if (next_ + 1 < waypoints_.size()) return v;
-  const double distance = (waypoints_[next_] - p_W).norm();
+  const double distance = (waypoints_[next_].p_W.head<2>() - p_W).norm();
   return std::min(v, std::max(config_.approach_min_mps, config_.approach_gain * distance));
 }
 

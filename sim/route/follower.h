@@ -10,6 +10,15 @@
 
 namespace plumbline::sim {
 
+/// A corner of the robot's way, on the floor.
+struct Waypoint {
+  Eigen::Vector3d p_W = Eigen::Vector3d::Zero();  ///< m, z that of the floor there
+  bool stairs = false;                            ///< the way to here from the waypoint before goes over steps
+};
+
+/// A way on one level.
+[[nodiscard]] std::vector<Waypoint> on_floor(const std::vector<Eigen::Vector2d>& points_W, double floor_z_W);
+
 /// Pure pursuit [facts: legged section 5], the stuck check, and the jitter that keeps the gait (2.27 Hz) from meeting
 /// the LiDAR's 10 Hz sweep at the same phase every time.
 struct FollowerConfig {
@@ -26,6 +35,10 @@ struct FollowerConfig {
   double slow_angle_gain = 1.5;  ///< speed falls with the cosine of this times the heading error
   double approach_gain = 0.8;    ///< 1/s, speed by distance on the last leg
   double approach_min_mps = 0.15;
+  double stairs_mps = 0.4;         ///< highest speed on stairs
+  double stairs_aligned = 0.1;     ///< rad, heading error with which a flight is entered
+  double reached_height_m = 0.6;   ///< a waypoint of another level is not reached, however near in the plane
+  double standing_height_m = 0.5;  ///< of the base above the floor
   double stuck_s = 6.0;            ///< without progress: stalled
   double stuck_distance_m = 0.15;  ///< this counts as progress,
   double stuck_angle = 0.15;       ///< or this, rad
@@ -37,7 +50,7 @@ struct FollowerConfig {
 /// Walks the robot along waypoints, the first of which is the start.
 class Follower {
  public:
-  Follower(const FollowerConfig& config, std::vector<Eigen::Vector2d> waypoints, std::uint64_t seed);
+  Follower(const FollowerConfig& config, std::vector<Waypoint> waypoints, std::uint64_t seed);
 
   /// Command for the robot at X_WR; tick counts physics steps of step_s. A zero command when done. Throws
   /// ScenarioFailure "the robot stalled ..." when it was asked to move and did not.
@@ -45,14 +58,14 @@ class Follower {
   [[nodiscard]] bool done() const { return next_ >= waypoints_.size(); }
 
  private:
-  void skip_reached(const Eigen::Vector2d& p_W);
+  void skip_reached(const Eigen::Vector3d& p_W);
   void check_progress(const Pose& X_WR, std::int64_t tick);
   [[nodiscard]] Eigen::Vector2d goal(const Eigen::Vector2d& p_W) const;
   [[nodiscard]] double walking_speed(double heading_error, const Eigen::Vector2d& p_W) const;
   [[nodiscard]] Command jittered(Command command, std::int64_t tick) const;
 
   FollowerConfig config_;
-  std::vector<Eigen::Vector2d> waypoints_;
+  std::vector<Waypoint> waypoints_;
   Stream jitter_;
   std::size_t next_ = 1;
   bool turning_ = false;

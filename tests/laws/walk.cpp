@@ -34,11 +34,13 @@ Walk walk_quickstart(std::uint64_t seed, const std::vector<std::string>& rooms, 
   config.seed = seed;
   config.start_W = targets.at(0);
   config.duration_s = duration_s;
+  std::vector<Eigen::Vector2d> way;
   for (std::size_t i = 1; i < targets.size(); ++i) {
     const auto leg = space.path(targets[i - 1], targets[i]);
-    config.waypoints.insert(config.waypoints.end(), leg.begin() + (i > 1 ? 1 : 0), leg.end());
+    way.insert(way.end(), leg.begin() + (i > 1 ? 1 : 0), leg.end());
   }
-  const Eigen::Vector2d ahead = config.waypoints.at(1) - config.waypoints.at(0);
+  const Eigen::Vector2d ahead = way.at(1) - way.at(0);
+  config.waypoints = sim::on_floor(way, building.storeys.at(0).elevation_m);
   config.start_yaw = std::atan2(ahead.y(), ahead.x());
 
   Walk walk;

@@ -56,10 +56,10 @@ const House& house() {
   return made;
 }
 
-WorldConfig config(std::vector<Eigen::Vector2d> waypoints, double duration_s) {
+WorldConfig config(const std::vector<Eigen::Vector2d>& waypoints, double duration_s) {
   WorldConfig c;
   c.start_W = {1.5, 2.5};
-  c.waypoints = std::move(waypoints);
+  c.waypoints = on_floor(waypoints, 0.0);
   c.duration_s = duration_s;
   return c;
 }

@@ -33,7 +33,7 @@ double distance_to_path(const std::vector<Eigen::Vector2d>& path, const Eigen::V
 
 TEST(Follower, WalksRoundASquare) {
   Robot robot(Pose::from_xyz_yaw({0.0, 0.0, 1.0}, 0.0), flat, {});
-  Follower follower(at_speed(0.8), square, 1);
+  Follower follower(at_speed(0.8), on_floor(square, 0.0), 1);
   double cross_track_max = 0.0;
   std::int64_t tick = 0;
   while (!follower.done() && tick < 20000) {
@@ -51,7 +51,7 @@ TEST(Follower, ReportsAStallAgainstAWall) {
   wall.X_WB = Pose::from_xyz_yaw({1.5, 0.0, 1.0}, 0.0);
   wall.half = {0.1, 5.0, 1.0};
   Robot robot(Pose::from_xyz_yaw({0.0, 0.0, 1.0}, 0.0), flat, {wall});
-  Follower follower(at_speed(0.6), {{0.0, 0.0}, {4.0, 0.0}}, 1);
+  Follower follower(at_speed(0.6), on_floor({{0.0, 0.0}, {4.0, 0.0}}, 0.0), 1);
   try {
     for (std::int64_t tick = 0; tick < 10000; ++tick) robot.step(follower.update(robot.X_WR(), tick));
     FAIL() << "no stall was reported";
@@ -61,7 +61,7 @@ TEST(Follower, ReportsAStallAgainstAWall) {
 }
 
 TEST(Follower, ARouteOfOnePointIsDone) {
-  Follower follower(at_speed(0.6), {{0.0, 0.0}}, 1);
+  Follower follower(at_speed(0.6), on_floor({{0.0, 0.0}}, 0.0), 1);
   EXPECT_TRUE(follower.done());
   const Command command = follower.update(Pose{}, 0);
   EXPECT_EQ(command.vx, 0.0);
@@ -71,15 +71,38 @@ TEST(Follower, ARouteOfOnePointIsDone) {
 TEST(Follower, JitterDependsOnSeedAndTimeOnly) {
   const Pose X_WR;
   const auto speed = [&](std::uint64_t seed, std::int64_t tick) {
-    return Follower(at_speed(1.0), {{0.0, 0.0}, {9.0, 0.0}}, seed).update(X_WR, tick).vx;
+    return Follower(at_speed(1.0), on_floor({{0.0, 0.0}, {9.0, 0.0}}, 0.0), seed).update(X_WR, tick).vx;
   };
   EXPECT_EQ(speed(1, 0), speed(1, 249));
   EXPECT_NE(speed(1, 0), speed(1, 250));
   EXPECT_NE(speed(1, 0), speed(2, 0));
 }
 
+Pose standing_at(double x, double y, double floor_z, double yaw = 0.0) {
+  return Pose::from_xyz_yaw({x, y, floor_z + 0.5}, yaw);
+}
+
+TEST(Follower, AWaypointOfAnotherStoreyIsNotReachedFromBelow) {
+  Follower follower(at_speed(0.6), {{{0.0, 0.0, 0.0}}, {{1.0, 0.0, 3.0}}}, 1);
+  static_cast<void>(follower.update(standing_at(1.0, 0.1, 0.0), 0));
+  EXPECT_FALSE(follower.done());
+  static_cast<void>(follower.update(standing_at(1.0, 0.1, 3.0), 1));
+  EXPECT_TRUE(follower.done());
+}
+
+TEST(Follower, FacesAFlightBeforeItClimbsIt) {
+  FollowerConfig config = at_speed(0.8);
+  config.speed_jitter = 0.0;
+  Follower follower(config, {{{0.0, 0.0, 0.0}}, {{1.0, 0.0, 0.0}}, {{4.0, 0.0, 2.0}, true}, {{9.0, 0.0, 2.0}}}, 1);
+  EXPECT_EQ(follower.update(standing_at(0.5, 0.0, 0.0), 0).vx, config.speed_mps);
+  EXPECT_EQ(follower.update(standing_at(1.0, 0.0, 0.0, 0.15), 1).vx, 0.0);
+  EXPECT_NEAR(follower.update(standing_at(1.0, 0.0, 0.0, 0.05), 2).vx, config.stairs_mps, 0.01);
+  EXPECT_NEAR(follower.update(standing_at(2.0, 0.0, 0.7, 0.15), 3).vx, config.stairs_mps, 0.02);
+  EXPECT_EQ(follower.update(standing_at(4.0, 0.0, 2.0), 4).vx, config.speed_mps);
+}
+
 TEST(Follower, TurnsInPlaceTowardsAGoalBehind) {
-  Follower follower(at_speed(0.6), {{0.0, 0.0}, {-3.0, 0.1}}, 1);
+  Follower follower(at_speed(0.6), on_floor({{0.0, 0.0}, {-3.0, 0.1}}, 0.0), 1);
   const Command command = follower.update(Pose{}, 0);
   EXPECT_EQ(command.vx, 0.0);
   EXPECT_EQ(command.yaw_rate, 1.0);
