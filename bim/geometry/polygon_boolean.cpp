@@ -194,7 +194,8 @@ double exact_area(const ExactSet& set) {
 
 }  // namespace
 
-double snap(double value, double grid_m) { return std::round(value / grid_m) * grid_m; }
+// + 0.0 turns -0 into +0.
+double snap(double value, double grid_m) { return std::round(value / grid_m) / std::round(1.0 / grid_m) + 0.0; }
 
 Region2 unite(std::span<const Polygon2> polygons) { return canonical(joined(polygons)); }
 

@@ -17,6 +17,8 @@ inline constexpr double boolean_grid_m = 1e-4;
 /// would touch itself in a vertex is split there).
 using Region2 = std::vector<PolygonWithHoles2>;
 
+/// The nearest point of a grid that is one over a whole number, m: divided by that number, so that the result is the
+/// double nearest to its decimals. Never -0.
 [[nodiscard]] double snap(double value, double grid_m = boolean_grid_m);
 
 /// Union of polygons of either orientation. Polygons that are not simple once snapped to the grid (slivers of a

@@ -60,10 +60,7 @@ Interpreter::Interpreter(const StepModel& model, const IfcConfig& config) : mode
     if (product.whole != 0 && product.whole != product.step_id) parts_[product.whole].push_back(&product);
 }
 
-double Interpreter::snapped(double v) const {
-  // Divided by a whole number, so that the result is the double nearest to its decimals; + 0.0 turns -0 into +0.
-  return std::round(v / config_.grid_m) / std::round(1.0 / config_.grid_m) + 0.0;
-}
+double Interpreter::snapped(double v) const { return snap(v, config_.grid_m); }
 
 void Interpreter::warn(const StepProduct& product, const std::string& kind, const std::string& text) {
   building_.warnings.push_back({product.id, kind, product.type + " #" + std::to_string(product.step_id) + ": " + text});

@@ -21,8 +21,7 @@ bool before(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
 }
 
 Eigen::Vector3d on_grid(const Eigen::Vector3d& p) {
-  // Adding zero turns -0 into +0.
-  return p.unaryExpr([](double v) { return snap(v, solid_grid_m) + 0.0; });
+  return p.unaryExpr([](double v) { return snap(v, solid_grid_m); });
 }
 
 /// The loop on the grid without repeated points, starting at its smallest vertex, so that its triangulation depends on

@@ -137,9 +137,6 @@ Eigen::Vector2d square_to_edge(const Tread& tread, const Eigen::Vector2d& way, c
   return best;
 }
 
-/// Divided by a whole number, so that the result is the double nearest to its decimals; + 0.0 turns -0 into +0.
-double on_grid(double v, double grid_m) { return std::round(v / grid_m) / std::round(1.0 / grid_m) + 0.0; }
-
 struct Span {
   double low = std::numeric_limits<double>::infinity();
   double high = -std::numeric_limits<double>::infinity();
@@ -166,13 +163,13 @@ StairFlight flight_of(const std::vector<Tread>& treads, std::size_t first, std::
   flight.steps = static_cast<int>(n);
   flight.run_m = n > 1 ? (head.low - foot.low) / static_cast<double>(n - 1) : foot.high - foot.low;
   flight.rise_m = n > 1 ? (treads[last - 1].z - treads[first].z) / static_cast<double>(n - 1) : treads[first].z - below;
-  flight.z0_m = on_grid(treads[first].z - flight.rise_m, config.grid_m);
-  flight.width_m = on_grid(across.high - across.low, config.grid_m);
-  flight.run_m = on_grid(flight.run_m, config.step_grid_m);
-  flight.rise_m = on_grid(flight.rise_m, config.step_grid_m);
+  flight.z0_m = snap(treads[first].z - flight.rise_m, config.grid_m);
+  flight.width_m = snap(across.high - across.low, config.grid_m);
+  flight.run_m = snap(flight.run_m, config.step_grid_m);
+  flight.rise_m = snap(flight.rise_m, config.step_grid_m);
   flight.yaw = std::atan2(u.y(), u.x()) + 0.0;
   const Eigen::Vector2d start = foot.low * u + 0.5 * (across.low + across.high) * v;
-  flight.start = {on_grid(start.x(), config.grid_m), on_grid(start.y(), config.grid_m)};
+  flight.start = {snap(start.x(), config.grid_m), snap(start.y(), config.grid_m)};
   return flight;
 }
 
@@ -200,7 +197,7 @@ StairShape stair_shape(const std::vector<Solid>& bodies, const StairShapeConfig&
   StairShape shape;
   for (std::size_t i = 0; i < treads.size();) {
     if (treads[i].landing || ways[i].isZero(0.0)) {
-      if (treads[i].landing) shape.landings.push_back({treads[i].outline, on_grid(treads[i].z, config.grid_m)});
+      if (treads[i].landing) shape.landings.push_back({treads[i].outline, snap(treads[i].z, config.grid_m)});
       ++i;
       continue;
     }

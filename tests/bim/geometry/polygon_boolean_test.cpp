@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
 
 #include "bim/random/stream.h"
 
@@ -18,6 +21,21 @@ Polygon2 random_rectangle(const Stream& stream, std::uint64_t tick, std::uint32_
   };
   const double x = draw(0, 0, 5), y = draw(1, 0, 5);
   return rectangle(x, y, x + draw(2, 0.1, 3), y + draw(3, 0.1, 3));
+}
+
+TEST(PolygonBoolean, SnapGivesTheDoubleNearestToItsDecimals) {
+  EXPECT_EQ(snap(-12.60000004), -12.6);
+  EXPECT_FALSE(std::signbit(snap(-1e-9)));
+  const Stream stream(1, "bim.generate");
+  for (std::uint64_t i = 0; i < 10000; ++i) {
+    const double steps = std::round(1e6 * (stream.uniform(i, 0, 0) - 0.5));
+    const double off = 0.98 * (stream.uniform(i, 0, 1) - 0.5);  // of a step
+    char decimals[32];
+    std::snprintf(decimals, sizeof decimals, "%.0fe-4", steps);
+    EXPECT_EQ(snap((steps + off) * 1e-4), std::strtod(decimals, nullptr)) << decimals;
+    std::snprintf(decimals, sizeof decimals, "%.0fe-6", steps);
+    EXPECT_EQ(snap((steps + off) * 1e-6, 1e-6), std::strtod(decimals, nullptr)) << decimals;
+  }
 }
 
 TEST(PolygonBoolean, UniteMergesTouchingRectanglesIntoOneRing) {
