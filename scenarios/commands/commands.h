@@ -26,6 +26,8 @@ struct Command {
 [[nodiscard]] Command add_diff(CLI::App& program);
 [[nodiscard]] Command add_methods(CLI::App& program);
 [[nodiscard]] Command add_scenarios(CLI::App& program);
+[[nodiscard]] Command add_simulate(CLI::App& program);
+[[nodiscard]] Command add_estimate(CLI::App& program);
 [[nodiscard]] Command add_bench(CLI::App& program);
 
 }  // namespace plumbline::scenarios

@@ -6,7 +6,7 @@
 #include "bim/config/tree.h"
 #include "scenarios/commands/commands.h"
 #include "scenarios/run/digest_log.h"
-#include "scenarios/run/trajectory_file.h"
+#include "slam/io/tum.h"
 
 namespace plumbline::scenarios {
 
@@ -34,7 +34,7 @@ Command add_diff(CLI::App& program) {
               std::puts("equal");
               return 0;
             }
-            std::printf("first difference at %s s in %s: %s\n", format_stamp(difference->tick).c_str(),
+            std::printf("first difference at %s s in %s: %s\n", slam::format_stamp(difference->tick).c_str(),
                         difference->stage.c_str(), difference->what.c_str());
             return 1;
           }};

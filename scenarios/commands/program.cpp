@@ -53,9 +53,10 @@ int parse_and_run(int argc, char** argv) {
       "Example: plumbline run scenarios/library/quickstart.yaml --out runs/first\n"
       "Exit codes: 0 gates passed, 1 a gate failed, 2 bad usage or input, 3 environment or internal error, "
       "4 the robot fell or stalled");
-  const std::vector<Command> commands = {
-      add_run(program),    add_inspect(program), add_generate(program), add_score(program),     add_report(program),
-      add_replay(program), add_diff(program),    add_methods(program),  add_scenarios(program), add_bench(program)};
+  const std::vector<Command> commands = {add_run(program),   add_inspect(program),  add_generate(program),
+                                         add_score(program), add_report(program),   add_replay(program),
+                                         add_diff(program),  add_methods(program),  add_scenarios(program),
+                                         add_bench(program), add_simulate(program), add_estimate(program)};
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -10,7 +10,7 @@
 #include "scenarios/run/interrupt.h"
 #include "scenarios/run/progress.h"
 #include "scenarios/run/runner.h"
-#include "scenarios/run/trajectory_file.h"
+#include "slam/io/tum.h"
 
 namespace plumbline::scenarios {
 
@@ -53,7 +53,7 @@ int replay(const Options& options) {
     return 0;
   }
   std::printf("first difference at %s s in %s: %s (the first is the recorded run)\n",
-              format_stamp(difference->tick).c_str(), difference->stage.c_str(), difference->what.c_str());
+              slam::format_stamp(difference->tick).c_str(), difference->stage.c_str(), difference->what.c_str());
   return 1;
 }
 

@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
+#include <optional>
 
 #include "bim/errors.h"
 #include "scenarios/commands/commands.h"
@@ -9,6 +10,7 @@
 #include "scenarios/run/files.h"
 #include "scenarios/run/interrupt.h"
 #include "scenarios/run/progress.h"
+#include "scenarios/run/recorder.h"
 #include "scenarios/run/run_files.h"
 #include "scenarios/run/runner.h"
 #include "scenarios/run/summary.h"
@@ -60,14 +62,21 @@ int run(const Options& options) {
   RunDirectory directory(out, options.force);
   Progress progress(resolved.scenario.name, resolved.scenario.duration_s);
   const int threads = options.threads > 0 ? options.threads : allowed_cpus();
-  RunOptions run_options{threads, options.record, std::nullopt, [&](double t) { progress.at(t); }};
+  RunOptions run_options;
+  run_options.threads = threads;
+  run_options.tick = [&](double t) { progress.at(t); };
+  std::optional<Recorder> recorder;
+  if (options.record) {
+    recorder.emplace(directory.staging() + "/" + std::string(recording_folder), resolved);
+    run_options.sensors = [&](const sim::WorldFrame& frame) { recorder->add(frame); };
+  }
   const RunRecord record = execute(resolved, run_options);
   if (record.truth_W.empty())
     throw ScenarioFailure(record.failure.empty() ? "the run ended before its first scan" : record.failure);
 
   progress.phase("scoring");
   write_run_files(directory.staging(), resolved, record);
-  if (options.record) write_recording(directory.staging(), record.sensors);
+  if (recorder) recorder->finish();
   const RunFiles files = read_run_files(directory.staging());
   const score::RunScore score = score_and_report(files);
   check_interrupt();
@@ -93,7 +102,7 @@ Command add_run(CLI::App& program) {
   options->seed_option = app->add_option("--seed", options->seed, "seed [the scenario's]");
   app->add_option("--out", options->out, "run directory [runs/<scenario>-<seed>]");
   app->add_option("--threads", options->threads, "threads [the CPUs allowed]")->check(CLI::Range(1, 1024));
-  app->add_flag("--record", options->record, "also write lidar.pcap, odometry.tum and imu.csv");
+  app->add_flag("--record", options->record, "also write the recording, as simulate does, into the folder recording");
   app->add_flag("--force", options->force, "replace the run that stands in --out");
   app->footer(
       "Example: plumbline run scenarios/library/quickstart.yaml --method vgicp,truth --seed 7 --out runs/seven");

@@ -7,7 +7,7 @@
 #include "scenarios/commands/commands.h"
 #include "scenarios/run/run_files.h"
 #include "scenarios/run/summary.h"
-#include "scenarios/run/trajectory_file.h"
+#include "slam/io/tum.h"
 
 namespace plumbline::scenarios {
 
@@ -36,7 +36,7 @@ MethodRecord read_outside(const std::string& text) {
   if (!is_plain_name(method.name) || path.empty())
     throw InputError(mark, "'" + text + "' must be NAME=trajectory.tum or NAME=trajectory.tum,frame=W");
   method.estimate.frame = method.localization ? slam::Frame::world : slam::Frame::map;
-  method.causal = read_tum(read_text_file(path), path);
+  method.causal = slam::read_tum(read_text_file(path), path);
   if (method.causal.empty()) throw InputError({path, 0, 0}, "holds no pose");
   return method;
 }

@@ -86,10 +86,11 @@ void write_file(const std::string& path, std::string_view bytes) {
 }
 
 bool is_run_file(std::string_view name) {
-  static constexpr std::array<std::string_view, 15> names = {
-      "scenario.yaml", "building.plan.yaml", "building.ifc", "results.json", "timings.json",
-      "digests.csv",   "truth.tum",          "report.html",  "junit.xml",    "truth_surface.ply",
-      "lidar.pcap",    "odometry.tum",       "imu.csv",      "failure.txt",  staging_name};
+  static constexpr std::array<std::string_view, 19> names = {
+      "scenario.yaml",  "building.plan.yaml", "building.ifc",  "results.json", "timings.json",
+      "digests.csv",    "truth.tum",          "report.html",   "junit.xml",    "truth_surface.ply",
+      "lidar.pcap",     "odometry.tum",       "imu.csv",       "failure.txt",  "recording.yaml",
+      recording_folder, "recording.bag",      "estimate.yaml", staging_name};
   static constexpr std::array<std::string_view, 4> ends = {".tum", ".hypotheses.jsonl", ".estimate.json", ".map.ply"};
   return std::find(names.begin(), names.end(), name) != names.end() ||
          std::any_of(ends.begin(), ends.end(), [&](std::string_view end) { return ends_with(name, end); });
@@ -143,7 +144,7 @@ void RunDirectory::commit() {
   std::error_code error;
   fs::remove(target / "results.json", error);
   for (const std::string& name : names_in(path_))
-    if (name != staging_name) fs::remove(target / name, error);
+    if (name != staging_name) fs::remove_all(target / name, error);
   std::vector<std::string> names = names_in(staging_);
   std::stable_partition(names.begin(), names.end(), [](const std::string& name) { return name != "results.json"; });
   for (const std::string& name : names) {

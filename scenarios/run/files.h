@@ -7,6 +7,9 @@
 
 namespace plumbline::scenarios {
 
+/// Where a run directory holds the recording of --record: one of its files has the name of a method's.
+inline constexpr std::string_view recording_folder = "recording";
+
 /// Writes a whole file so that it appears complete or not at all: a temporary file beside it, fsync, rename.
 /// Throws EnvironmentError.
 void write_file(const std::string& path, std::string_view bytes);

@@ -58,8 +58,7 @@ void SurfaceRecorder::add(const sim::ReturnLabels& labels) {
   }
 }
 
-FrameRecorder::FrameRecorder(const bim::BuildingMesh& mesh, bool keep_sensors)
-    : surface_(mesh), keep_sensors_(keep_sensors) {}
+FrameRecorder::FrameRecorder(const bim::BuildingMesh& mesh) : surface_(mesh) {}
 
 void FrameRecorder::observe(const sim::WorldFrame& frame) {
   const slam::Nanoseconds tick = frame.scan.stamp;
@@ -69,16 +68,11 @@ void FrameRecorder::observe(const sim::WorldFrame& frame) {
   for (const sim::TruePose& truth : frame.truth)
     if (truth_.empty() || truth.stamp > truth_.back().stamp) truth_.push_back({truth.stamp, truth.X_WR});
   surface_.add(frame.labels);
-  if (!keep_sensors_) return;
-  sensors_.packets.insert(sensors_.packets.end(), frame.packets.begin(), frame.packets.end());
-  sensors_.odometry.insert(sensors_.odometry.end(), frame.odometry.begin(), frame.odometry.end());
-  sensors_.imu.insert(sensors_.imu.end(), frame.imu.begin(), frame.imu.end());
 }
 
 void FrameRecorder::move_into(RunRecord& record) {
   record.truth_W = std::move(truth_);
   record.surface_W = surface_.points_W();
-  record.sensors = std::move(sensors_);
 }
 
 }  // namespace plumbline::scenarios

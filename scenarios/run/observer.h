@@ -25,21 +25,19 @@ class SurfaceRecorder {
   std::vector<Eigen::Vector3f> points_;
 };
 
-/// Keeps what scoring, replay and --record need of every frame.
+/// Keeps what scoring and replay need of every frame.
 class FrameRecorder {
  public:
-  FrameRecorder(const bim::BuildingMesh& mesh, bool keep_sensors);
+  explicit FrameRecorder(const bim::BuildingMesh& mesh);
   void observe(const sim::WorldFrame& frame);
-  /// Hands over truth, surface and sensor records. Call once.
+  /// Hands over truth and surface. Call once.
   void move_into(RunRecord& record);
   /// Digests of sim.robot, sim.odometry and sim.lidar, in time order.
   [[nodiscard]] const DigestLog& digests() const { return digests_; }
 
  private:
   SurfaceRecorder surface_;
-  bool keep_sensors_;
   std::vector<slam::StampedPose> truth_;
-  SensorRecord sensors_;
   DigestLog digests_;
 };
 

@@ -7,7 +7,6 @@
 #include "scenarios/run/digest_log.h"
 #include "scenarios/scenario.h"
 #include "slam/io/estimate.h"
-#include "slam/io/vlp16.h"
 
 namespace plumbline::scenarios {
 
@@ -41,13 +40,6 @@ struct MethodRecord {
   std::vector<StageTimes> times;
 };
 
-/// What the sensors recorded, kept with --record only.
-struct SensorRecord {
-  std::vector<slam::Vlp16Packet> packets;
-  std::vector<slam::Odometry> odometry;
-  std::vector<slam::Imu> imu;
-};
-
 /// Everything one simulated run left behind. Truth is for scoring only.
 struct RunRecord {
   std::vector<slam::StampedPose> truth_W;  ///< X_WR, 100 Hz and at every scan
@@ -56,7 +48,6 @@ struct RunRecord {
   DigestLog digests;                       ///< of all stages
   std::vector<StageTimes> sim_times;
   std::string failure;  ///< why the scenario ended early: a fall or a stall; else empty
-  SensorRecord sensors;
 };
 
 }  // namespace plumbline::scenarios

@@ -8,8 +8,7 @@
 #include "scenarios/run/estimate_file.h"
 #include "scenarios/run/files.h"
 #include "scenarios/run/participant.h"
-#include "scenarios/run/trajectory_file.h"
-#include "slam/io/pcap.h"
+#include "slam/io/tum.h"
 
 namespace plumbline::scenarios {
 
@@ -29,8 +28,8 @@ MethodRecord read_method(const std::string& dir, const std::string& name) {
   const std::string estimate = stem + std::string(estimate_end);
   read_estimate(read_text_file(estimate), estimate, method);
   if (method.name != name) throw InputError({estimate, 0, 0}, "is of method '" + method.name + "', not " + name);
-  method.causal = read_tum(text_if_there(stem + ".tum"), stem + ".tum");
-  method.estimate.trajectory = read_tum(text_if_there(stem + ".final.tum"), stem + ".final.tum");
+  method.causal = slam::read_tum(text_if_there(stem + ".tum"), stem + ".tum");
+  method.estimate.trajectory = slam::read_tum(text_if_there(stem + ".final.tum"), stem + ".final.tum");
   const std::string map = text_if_there(stem + ".map.ply");
   if (!map.empty()) method.estimate.map_F = read_ply(map, stem + ".map.ply");
   method.beliefs = read_beliefs(text_if_there(stem + ".hypotheses.jsonl"), stem + ".hypotheses.jsonl");
@@ -53,25 +52,14 @@ std::vector<std::string> method_names_in(const std::string& dir, const Scenario&
   return names;
 }
 
-std::string write_imu(const std::vector<slam::Imu>& records) {
-  std::string text = "t,wx,wy,wz,ax,ay,az\n";
-  for (const slam::Imu& imu : records) {
-    text += format_stamp(imu.stamp);
-    for (const double v : imu.angular_velocity_R) text += "," + format_number(v);
-    for (const double v : imu.linear_acceleration_R) text += "," + format_number(v);
-    text += "\n";
-  }
-  return text;
-}
-
 }  // namespace
 
 void write_method(const std::string& dir, const MethodRecord& method) {
   const std::string stem = dir + "/" + method.name;
   write_file(stem + std::string(estimate_end), write_estimate(method));
   if (method.name == truth_method) return;  // truth.tum and truth_surface.ply hold what it knows
-  write_file(stem + ".tum", write_tum(method.causal));
-  write_file(stem + ".final.tum", write_tum(method.estimate.trajectory));
+  write_file(stem + ".tum", slam::write_tum(method.causal));
+  write_file(stem + ".final.tum", slam::write_tum(method.estimate.trajectory));
   if (!method.estimate.map_F.empty()) write_file(stem + ".map.ply", write_ply(method.estimate.map_F));
   if (method.localization) write_file(stem + ".hypotheses.jsonl", write_beliefs(method.beliefs));
 }
@@ -80,18 +68,10 @@ void write_run_files(const std::string& dir, const ResolvedScenario& resolved, c
   write_file(dir + "/" + resolved.scenario.building, resolved.building_bytes);
   write_file(dir + "/scenario.yaml", write_scenario(resolved.scenario));
   write_file(dir + "/digests.csv", write_digests(record.digests));
-  write_file(dir + "/truth.tum", write_tum(record.truth_W));
+  write_file(dir + "/truth.tum", slam::write_tum(record.truth_W));
   write_file(dir + "/truth_surface.ply", write_ply(record.surface_W));
   for (const MethodRecord& method : record.methods) write_method(dir, method);
   if (!record.failure.empty()) write_file(dir + "/failure.txt", record.failure + "\n");
-}
-
-void write_recording(const std::string& dir, const SensorRecord& sensors) {
-  slam::write_pcap(dir + "/lidar.pcap", sensors.packets);
-  std::vector<slam::StampedPose> odometry;
-  for (const slam::Odometry& record : sensors.odometry) odometry.push_back({record.stamp, record.X_OR});
-  write_file(dir + "/odometry.tum", write_tum(odometry));
-  write_file(dir + "/imu.csv", write_imu(sensors.imu));
 }
 
 RunFiles read_run_files(const std::string& dir) {
@@ -106,7 +86,7 @@ RunFiles read_run_files(const std::string& dir) {
     if (entry.stage == "sim.lidar") files.scans.push_back(entry.tick);
   if (files.scans.empty())
     throw InputError({path("digests.csv"), 0, 0}, "holds no scan; the run ended before its first");
-  files.truth_W = read_tum(read_text_file(path("truth.tum")), path("truth.tum"));
+  files.truth_W = slam::read_tum(read_text_file(path("truth.tum")), path("truth.tum"));
   files.surface_W = read_ply(read_text_file(path("truth_surface.ply")), path("truth_surface.ply"));
   for (const std::string& name : method_names_in(dir, files.scenario)) {
     MethodRecord& method = files.methods.emplace_back(read_method(dir, name));

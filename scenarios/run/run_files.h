@@ -28,9 +28,6 @@ struct RunFiles {
 /// last three where there is something to say), failure.txt where the scenario failed. Throws EnvironmentError.
 void write_run_files(const std::string& dir, const ResolvedScenario& resolved, const RunRecord& record);
 
-/// lidar.pcap, odometry.tum and imu.csv.
-void write_recording(const std::string& dir, const SensorRecord& sensors);
-
 /// Reads a run directory. Throws InputError at the file and line that is missing or damaged.
 [[nodiscard]] RunFiles read_run_files(const std::string& dir);
 

@@ -46,7 +46,7 @@ RunRecord execute(const ResolvedScenario& resolved, const RunOptions& options) {
   const bim::Building& as_built = resolved.site.as_built;
   const bim::BuildingMesh mesh = bim::visible_mesh(as_built, bim::build_mesh(as_built));
   sim::World world(resolved.world, as_built, mesh);
-  FrameRecorder recorder(mesh, options.keep_sensors);
+  FrameRecorder recorder(mesh);
   RunRecord record;
 
   const FrameSource source = [&](sim::WorldFrame& frame) {
@@ -61,9 +61,12 @@ RunRecord execute(const ResolvedScenario& resolved, const RunOptions& options) {
   };
   const FrameObserver observe = [&](const sim::WorldFrame& frame) {
     recorder.observe(frame);
+    if (options.sensors) options.sensors(frame);
     if (options.tick) options.tick(slam::seconds(frame.scan.stamp));
   };
-  record.methods = run_pipeline(source, observe, make_participants(resolved), {.threads = options.threads});
+  std::vector<std::unique_ptr<Participant>> participants;
+  if (options.methods) participants = make_participants(resolved);
+  record.methods = run_pipeline(source, observe, std::move(participants), {.threads = options.threads});
 
   recorder.move_into(record);
   std::vector<DigestLog> logs = {recorder.digests()};

@@ -6,14 +6,16 @@
 
 #include "scenarios/resolve.h"
 #include "scenarios/run/record.h"
+#include "sim/world.h"
 
 namespace plumbline::scenarios {
 
 struct RunOptions {
   int threads = 1;
-  bool keep_sensors = false;                     ///< for --record
-  std::optional<double> until_s;                 ///< stop after this simulated time
-  std::function<void(double simulated_s)> tick;  ///< called after each scan, for the progress line; may be empty
+  bool methods = true;                                  ///< false: simulate only
+  std::optional<double> until_s;                        ///< stop after this simulated time
+  std::function<void(double simulated_s)> tick;         ///< called after each scan, for the progress line; may be empty
+  std::function<void(const sim::WorldFrame&)> sensors;  ///< given each frame, to record it; may be empty
 };
 
 /// Simulates the scenario once and feeds every method it asks for. The same scenario gives the same record, apart

@@ -9,10 +9,11 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <memory>
 #include <optional>
+#include <set>
 
 #include "bim/errors.h"
+#include "slam/io/udp_frame.h"
 
 namespace plumbline::slam {
 
@@ -24,7 +25,9 @@ constexpr std::size_t udp_bytes = 8;
 constexpr std::size_t header_bytes = ethernet_bytes + ip_bytes + udp_bytes;
 constexpr std::size_t frame_bytes = header_bytes + vlp16::payload_bytes;
 constexpr unsigned data_port = 2368;
+constexpr unsigned position_port = 8308;
 constexpr std::int64_t hour_us = 3'600'000'000;
+constexpr std::int64_t second_ns = 1'000'000'000;
 
 using Frame = std::array<std::uint8_t, frame_bytes>;
 
@@ -38,34 +41,26 @@ using Pcap = std::unique_ptr<pcap_t, ClosePcap>;
 
 unsigned big16(const std::uint8_t* p) { return (static_cast<unsigned>(p[0]) << 8U) | p[1]; }
 
-/// UDP payload of an IPv4 frame sent to the data port, or nothing.
-std::optional<std::span<const std::uint8_t>> data_payload(std::span<const std::uint8_t> frame) {
-  if (frame.size() < header_bytes || big16(&frame[12]) != 0x0800 || frame[14] >> 4U != 4) return std::nullopt;
-  const std::size_t udp = ethernet_bytes + 4 * (frame[14] & 0x0fU);
-  if (frame[23] != 17 || frame.size() < udp + udp_bytes || big16(&frame[udp + 2]) != data_port) return std::nullopt;
-  return frame.subspan(udp + udp_bytes);
-}
-
 std::int64_t payload_us(const Vlp16Packet& packet) {
   std::int64_t us = 0;
   for (std::size_t i = 4; i-- > 0;) us = (us << 8) | packet.payload[1200 + i];
   return us;
 }
 
-/// Stamps of a foreign capture: the packets' own clock from the first packet on, which restarts every hour.
-void restamp(std::vector<Vlp16Packet>& packets) {
-  std::int64_t hours = 0;
-  for (std::size_t i = 0; i < packets.size(); ++i) {
-    const std::int64_t before = i == 0 ? payload_us(packets[0]) : payload_us(packets[i - 1]);
-    if (payload_us(packets[i]) + hour_us / 2 < before) ++hours;
-    packets[i].stamp = (payload_us(packets[i]) + hours * hour_us - payload_us(packets[0])) * 1000;
+std::optional<Link> link_of(int type) {
+  switch (type) {
+    case DLT_EN10MB:
+      return Link::ethernet;
+    case DLT_LINUX_SLL:
+      return Link::linux_cooked;
+    case DLT_LINUX_SLL2:
+      return Link::linux_cooked_2;
+    case DLT_RAW:
+    case DLT_IPV4:
+      return Link::raw_ip;
+    default:
+      return std::nullopt;
   }
-}
-
-/// True when the capture's stamps are the packets' own, as write_pcap leaves them.
-bool stamped_by_us(const std::vector<Vlp16Packet>& packets) {
-  return std::all_of(packets.begin(), packets.end(),
-                     [](const Vlp16Packet& packet) { return packet.stamp / 1000 % hour_us == payload_us(packet); });
 }
 
 std::uint16_t ip_checksum(const Frame& frame) {
@@ -90,65 +85,164 @@ Frame make_frame(const Vlp16Packet& packet) {
   return frame;
 }
 
-[[noreturn]] void fail_write(const std::string& path, const std::string& temporary) {
-  const std::string reason = std::strerror(errno);
-  std::remove(temporary.c_str());
-  throw EnvironmentError(path + ": cannot be written: " + reason);
-}
-
 }  // namespace
 
-std::vector<Vlp16Packet> read_pcap(const std::string& path) {
-  const Mark mark{path, 0, 0};
-  if (!std::filesystem::is_regular_file(path)) throw InputError(mark, "no such file; a pcap capture would be right");
-  std::array<char, PCAP_ERRBUF_SIZE> error{};
-  const Pcap capture(pcap_open_offline_with_tstamp_precision(path.c_str(), PCAP_TSTAMP_PRECISION_NANO, error.data()));
-  if (capture == nullptr) throw InputError(mark, std::string("no pcap capture: ") + error.data());
-  if (pcap_datalink(capture.get()) != DLT_EN10MB) throw InputError(mark, "link type is not Ethernet, as it should be");
+struct PcapReader::Impl {
+  Mark mark;
+  Pcap capture;
+  Link link = Link::ethernet;
+  std::int64_t frames = 0;         ///< read so far, of any kind
+  std::set<unsigned> other_ports;  ///< destinations of other datagrams, the first few
+  bool any = false;                ///< a data packet has come
+  bool ours = false;               ///< stamps are the capture's own
+  std::int64_t first_us = 0;       ///< clock of the first packet, of the last one
+  std::int64_t last_us = 0;
+  std::int64_t hours = 0;
+  Nanoseconds last_stamp = 0;
+  Nanoseconds origin = 0;
 
-  std::vector<Vlp16Packet> packets;
+  [[noreturn]] void fail(const std::string& what) const {
+    throw InputError(mark, "frame " + std::to_string(frames) + ": " + what);
+  }
+
+  [[noreturn]] void fail_empty() const {
+    std::string ports;
+    for (const unsigned port : other_ports) ports += (ports.empty() ? "" : ", ") + std::to_string(port);
+    throw InputError(mark, "no VLP-16 data packets (UDP port 2368) in the capture" +
+                               (ports.empty() ? "" : "; there is traffic to port " + ports));
+  }
+
+  /// Data payload of a frame, or nothing where the frame is something else.
+  std::optional<std::span<const std::uint8_t>> data_payload(std::span<const std::uint8_t> frame) {
+    const std::optional<UdpDatagram> datagram = find_udp(frame, link);
+    if (!datagram) return std::nullopt;
+    if (datagram->port == data_port) return datagram->payload;
+    if (datagram->port != position_port && other_ports.size() < 4) other_ports.insert(datagram->port);
+    return std::nullopt;
+  }
+
+  /// Stamp of a data packet captured at `captured`, in time order.
+  Nanoseconds stamp_of(const Vlp16Packet& packet, Nanoseconds captured) {
+    const std::int64_t us = payload_us(packet);
+    if (us >= hour_us) fail("its time, " + std::to_string(us) + " us, is beyond the hour");
+    if (!any) {
+      ours = captured / 1000 % hour_us == us;
+      origin = ours ? 0 : captured;
+      first_us = last_us = us;
+    }
+    if (us + hour_us / 2 < last_us) ++hours;
+    last_us = us;
+    if (ours && captured / 1000 % hour_us != us) fail("its time of capture and its own time do not agree");
+    const Nanoseconds stamp = ours ? captured : (us + hours * hour_us - first_us) * 1000;
+    if (any && stamp <= last_stamp)
+      fail("its time lies " + std::to_string((last_stamp - stamp) / 1000) + " us before that of the packet before it");
+    if (any && stamp - last_stamp > max_gap)
+      fail("the clock leaps by " + std::to_string((stamp - last_stamp) / 1'000'000) +
+           " ms; at most 1000 would be right, cut the capture there");
+    return stamp;
+  }
+};
+
+PcapReader::PcapReader(const std::string& path) : impl_(std::make_unique<Impl>()) {
+  impl_->mark = {path, 0, 0};
+  if (!std::filesystem::is_regular_file(path))
+    throw InputError(impl_->mark, "no such file; a pcap capture would be right");
+  std::array<char, PCAP_ERRBUF_SIZE> error{};
+  impl_->capture.reset(pcap_open_offline_with_tstamp_precision(path.c_str(), PCAP_TSTAMP_PRECISION_NANO, error.data()));
+  if (impl_->capture == nullptr) throw InputError(impl_->mark, std::string("no pcap capture: ") + error.data());
+  const std::optional<Link> link = link_of(pcap_datalink(impl_->capture.get()));
+  if (!link) throw InputError(impl_->mark, "frames of a link type that is not known; Ethernet would be right");
+  impl_->link = *link;
+}
+
+PcapReader::~PcapReader() = default;
+
+Nanoseconds PcapReader::origin() const { return impl_->origin; }
+
+bool PcapReader::next(Vlp16Packet& packet) {
   pcap_pkthdr* header = nullptr;
   const std::uint8_t* bytes = nullptr;
   int status = 0;
-  while ((status = pcap_next_ex(capture.get(), &header, &bytes)) == 1) {
-    const auto payload = data_payload({bytes, header->caplen});
+  while ((status = pcap_next_ex(impl_->capture.get(), &header, &bytes)) == 1) {
+    ++impl_->frames;
+    const auto payload = impl_->data_payload({bytes, header->caplen});
     if (!payload) continue;
-    if (payload->size() < vlp16::payload_bytes)
-      throw InputError(mark, "data packet " + std::to_string(packets.size()) + " has " +
-                                 std::to_string(payload->size()) + " bytes; 1206 would be right");
-    Vlp16Packet& packet = packets.emplace_back();
-    packet.stamp = std::int64_t{header->ts.tv_sec} * 1'000'000'000 + header->ts.tv_usec;
+    if (payload->size() != vlp16::payload_bytes)
+      impl_->fail("a data packet of " + std::to_string(payload->size()) + " bytes; 1206 would be right");
     std::copy_n(payload->begin(), packet.payload.size(), packet.payload.begin());
+    if (header->ts.tv_sec < 0 || header->ts.tv_sec > 4'500'000'000) impl_->fail("its time of capture is no time");
+    packet.stamp = impl_->stamp_of(packet, std::int64_t{header->ts.tv_sec} * second_ns + header->ts.tv_usec);
+    impl_->last_stamp = packet.stamp;
+    impl_->any = true;
+    return true;
   }
-  if (status == PCAP_ERROR) throw InputError(mark, std::string("damaged capture: ") + pcap_geterr(capture.get()));
-  if (packets.empty()) throw InputError(mark, "no VLP-16 data packets (UDP port 2368) in the capture");
-  if (!stamped_by_us(packets)) restamp(packets);
+  if (status == PCAP_ERROR)
+    throw InputError(impl_->mark, std::string("damaged capture: ") + pcap_geterr(impl_->capture.get()));
+  if (!impl_->any) impl_->fail_empty();
+  return false;
+}
+
+struct PcapWriter::Impl {
+  std::string path;
+  std::string temporary;
+  Pcap link;
+  std::FILE* file = nullptr;  ///< owned by dump
+  std::unique_ptr<pcap_dumper_t, CloseDump> dump;
+
+  [[noreturn]] void fail() const { throw EnvironmentError(path + ": cannot be written: " + std::strerror(errno)); }
+};
+
+PcapWriter::PcapWriter(const std::string& path) : impl_(std::make_unique<Impl>()) {
+  impl_->path = path;
+  impl_->temporary = path + ".part";
+  impl_->link.reset(pcap_open_dead_with_tstamp_precision(DLT_EN10MB, 65535, PCAP_TSTAMP_PRECISION_NANO));
+  if (impl_->link == nullptr) throw EnvironmentError("libpcap cannot open a capture for writing");
+  impl_->file = std::fopen(impl_->temporary.c_str(), "wb");
+  if (impl_->file == nullptr) impl_->fail();
+  impl_->dump.reset(pcap_dump_fopen(impl_->link.get(), impl_->file));
+  if (impl_->dump != nullptr) return;
+  std::fclose(impl_->file);
+  impl_->fail();
+}
+
+PcapWriter::~PcapWriter() {
+  if (impl_->dump == nullptr) return;
+  impl_->dump.reset();
+  std::remove(impl_->temporary.c_str());
+}
+
+void PcapWriter::add(const Vlp16Packet& packet) {
+  pcap_pkthdr header{};
+  header.ts.tv_sec = packet.stamp / second_ns;
+  header.ts.tv_usec = packet.stamp % second_ns;
+  header.caplen = header.len = static_cast<bpf_u_int32>(frame_bytes);
+  const Frame frame = make_frame(packet);
+  pcap_dump(reinterpret_cast<u_char*>(impl_->dump.get()), &header, frame.data());
+  if (std::ferror(impl_->file) != 0) impl_->fail();
+}
+
+void PcapWriter::finish() {
+  if (pcap_dump_flush(impl_->dump.get()) != 0 || std::ferror(impl_->file) != 0 || ::fsync(::fileno(impl_->file)) != 0)
+    impl_->fail();
+  impl_->dump.reset();
+  if (std::rename(impl_->temporary.c_str(), impl_->path.c_str()) == 0) return;
+  const int error = errno;
+  std::remove(impl_->temporary.c_str());
+  errno = error;
+  impl_->fail();
+}
+
+std::vector<Vlp16Packet> read_pcap(const std::string& path) {
+  PcapReader reader(path);
+  std::vector<Vlp16Packet> packets;
+  for (Vlp16Packet packet; reader.next(packet);) packets.push_back(packet);
   return packets;
 }
 
 void write_pcap(const std::string& path, std::span<const Vlp16Packet> packets) {
-  const Pcap link(pcap_open_dead_with_tstamp_precision(DLT_EN10MB, 65535, PCAP_TSTAMP_PRECISION_NANO));
-  if (link == nullptr) throw EnvironmentError("libpcap cannot open a capture for writing");
-  const std::string temporary = path + ".part";
-  std::FILE* file = std::fopen(temporary.c_str(), "wb");
-  if (file == nullptr) fail_write(path, temporary);
-  std::unique_ptr<pcap_dumper_t, CloseDump> dump(pcap_dump_fopen(link.get(), file));
-  if (dump == nullptr) {
-    std::fclose(file);
-    fail_write(path, temporary);
-  }
-  for (const Vlp16Packet& packet : packets) {
-    pcap_pkthdr header{};
-    header.ts.tv_sec = packet.stamp / 1'000'000'000;
-    header.ts.tv_usec = packet.stamp % 1'000'000'000;
-    header.caplen = header.len = static_cast<bpf_u_int32>(frame_bytes);
-    const Frame frame = make_frame(packet);
-    pcap_dump(reinterpret_cast<u_char*>(dump.get()), &header, frame.data());
-  }
-  if (pcap_dump_flush(dump.get()) != 0 || std::ferror(file) != 0 || ::fsync(::fileno(file)) != 0)
-    fail_write(path, temporary);
-  dump.reset();
-  if (std::rename(temporary.c_str(), path.c_str()) != 0) fail_write(path, temporary);
+  PcapWriter writer(path);
+  for (const Vlp16Packet& packet : packets) writer.add(packet);
+  writer.finish();
 }
 
 }  // namespace plumbline::slam

@@ -15,7 +15,8 @@ namespace fs = std::filesystem;
 
 std::vector<std::string> names_in(const std::string& folder) {
   std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(folder)) names.push_back(entry.path().filename().string());
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (entry.is_regular_file()) names.push_back(fs::relative(entry.path(), folder).string());
   std::sort(names.begin(), names.end());
   return names;
 }
@@ -57,10 +58,10 @@ Folder* ShortRun::folder_ = nullptr;
 Outcome* ShortRun::outcome_ = nullptr;
 
 TEST_F(ShortRun, LeavesTheFilesOfTheContract) {
-  for (const char* name :
-       {"scenario.yaml", "results.json", "timings.json", "digests.csv", "truth.tum", "report.html", "junit.xml",
-        "building.plan.yaml", "truth_surface.ply", "vgicp.tum", "vgicp.final.tum", "vgicp.map.ply",
-        "s_graph_localization.hypotheses.jsonl", "lidar.pcap", "odometry.tum", "imu.csv"})
+  for (const char* name : {"scenario.yaml", "results.json", "timings.json", "digests.csv", "truth.tum", "report.html",
+                           "junit.xml", "building.plan.yaml", "truth_surface.ply", "vgicp.tum", "vgicp.final.tum",
+                           "vgicp.map.ply", "s_graph_localization.hypotheses.jsonl", "recording/lidar.pcap",
+                           "recording/odometry.tum", "recording/imu.csv", "recording/recording.yaml"})
     EXPECT_GT(read_file(dir() + "/" + name).size(), 0U) << name;
   EXPECT_EQ(outcome_->err, "");  // stderr is no terminal here
   EXPECT_NE(outcome_->out.find("gates: 1 of 1 passed\n"), std::string::npos) << outcome_->out;
@@ -111,7 +112,7 @@ TEST_F(ShortRun, SameBytesWithOneThreadElsewhereInAnotherLocale) {
 
 TEST_F(ShortRun, ACopyElsewhereIsScoredReportedAndReplayedTheSame) {
   const std::string copy = *folder_ / "copy";
-  fs::copy(dir(), copy);
+  fs::copy(dir(), copy, fs::copy_options::recursive);
   for (const char* name : {"results.json", "junit.xml", "report.html"}) fs::remove(copy + "/" + name);
   EXPECT_EQ(plumbline({"score", copy}).code, 0);
   expect_equal(dir(), copy);
@@ -130,7 +131,7 @@ TEST_F(ShortRun, ACopyElsewhereIsScoredReportedAndReplayedTheSame) {
 
 TEST_F(ShortRun, ReplayAndDiffNameTheFirstDifference) {
   const std::string copy = *folder_ / "changed";
-  fs::copy(dir(), copy);
+  fs::copy(dir(), copy, fs::copy_options::recursive);
   std::string digests = read_file(copy + "/digests.csv");
   const std::size_t stage = digests.find("vgicp/odometry,", digests.size() / 10);
   ASSERT_NE(stage, std::string::npos);
@@ -147,7 +148,7 @@ TEST_F(ShortRun, ReplayAndDiffNameTheFirstDifference) {
 
 TEST_F(ShortRun, OutsideTrajectoriesAreScoredLikeOurs) {
   const std::string copy = *folder_ / "outside";
-  fs::copy(dir(), copy);
+  fs::copy(dir(), copy, fs::copy_options::recursive);
   const Outcome scored = plumbline({"score", copy, "--estimate", "mine=" + dir() + "/vgicp.tum", "--estimate",
                                     "given=" + dir() + "/truth.tum,frame=W"});
   // The gate on the truth is 1e-9: `mine` is held to it too, and fails.
@@ -174,7 +175,7 @@ TEST_F(ShortRun, OccupiedOutputIsRefusedUnlessForced) {
   EXPECT_EQ(refused.code, 2);
   EXPECT_NE(refused.err.find("--force"), std::string::npos);
   const std::string other = *folder_ / "forced";
-  fs::copy(dir(), other);
+  fs::copy(dir(), other, fs::copy_options::recursive);
   EXPECT_EQ(plumbline({"run", input(), "--out", other, "--method", "truth", "--force"}).code, 0);
   EXPECT_FALSE(fs::exists(other + "/vgicp.tum"));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scenarios/run/trajectory_file.h"
+#include "slam/io/tum.h"
 
 #include <array>
 #include <charconv>
@@ -7,7 +7,7 @@
 
 #include "bim/config/tree.h"
 
-namespace plumbline::scenarios {
+namespace plumbline::slam {
 
 namespace {
 
@@ -24,18 +24,20 @@ std::vector<std::string_view> columns_of(std::string_view line) {
   return columns;
 }
 
-bool parse(std::string_view text, double& value) {
+}  // namespace
+
+bool parse_number(std::string_view text, double& value) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   return error == std::errc() && end == text.data() + text.size() && std::isfinite(value);
 }
 
-/// Plain decimals to the nanosecond without a detour through double; other notations through one.
-bool parse_stamp(std::string_view text, slam::Nanoseconds& stamp) {
+// Plain decimals without a detour through double; other notations through one.
+bool parse_stamp(std::string_view text, Nanoseconds& stamp) {
   double value = 0.0;
-  if (!parse(text, value) || std::abs(value) > 9e9) return false;
+  if (!parse_number(text, value) || std::abs(value) > 9e9) return false;
   const std::size_t dot = text.find('.');
   if (text.find_first_of("eE-") != std::string_view::npos || dot == std::string_view::npos) {
-    stamp = static_cast<slam::Nanoseconds>(std::llround(value * 1e9));
+    stamp = static_cast<Nanoseconds>(std::llround(value * 1e9));
     return true;
   }
   std::int64_t whole = 0;
@@ -47,14 +49,14 @@ bool parse_stamp(std::string_view text, slam::Nanoseconds& stamp) {
   return true;
 }
 
-slam::StampedPose parse_pose(std::string_view line, const Mark& mark) {
+StampedPose parse_tum_line(std::string_view line, const Mark& mark) {
   const std::vector<std::string_view> columns = columns_of(line);
   if (columns.size() != 8)
     throw InputError(mark, std::to_string(columns.size()) + " columns; a TUM line has 8: t tx ty tz qx qy qz qw");
-  slam::StampedPose pose;
+  StampedPose pose;
   std::array<double, 7> v{};
   bool good = parse_stamp(columns[0], pose.stamp);
-  for (std::size_t i = 0; i < v.size(); ++i) good = parse(columns[i + 1], v[i]) && good;
+  for (std::size_t i = 0; i < v.size(); ++i) good = parse_number(columns[i + 1], v[i]) && good;
   if (!good) throw InputError(mark, "not a number; a TUM line has 8 numbers: t tx ty tz qx qy qz qw");
   pose.X_FR.t = Eigen::Vector3d(v[0], v[1], v[2]);
   pose.X_FR.q = Eigen::Quaterniond(v[6], v[3], v[4], v[5]);
@@ -65,18 +67,16 @@ slam::StampedPose parse_pose(std::string_view line, const Mark& mark) {
   return pose;
 }
 
-}  // namespace
-
-std::string format_stamp(slam::Nanoseconds stamp) {
+std::string format_stamp(Nanoseconds stamp) {
   const std::int64_t magnitude = stamp < 0 ? -stamp : stamp;
   std::string fraction = std::to_string(magnitude % second_ns);
   fraction.insert(0, 9 - fraction.size(), '0');
   return (stamp < 0 ? "-" : "") + std::to_string(magnitude / second_ns) + "." + fraction;
 }
 
-std::string write_tum(const std::vector<slam::StampedPose>& poses) {
+std::string write_tum(const std::vector<StampedPose>& poses) {
   std::string text;
-  for (const slam::StampedPose& pose : poses) {
+  for (const StampedPose& pose : poses) {
     text += format_stamp(pose.stamp);
     const Eigen::Quaterniond& q = pose.X_FR.q;
     const Eigen::Vector3d& t = pose.X_FR.t;
@@ -86,8 +86,8 @@ std::string write_tum(const std::vector<slam::StampedPose>& poses) {
   return text;
 }
 
-std::vector<slam::StampedPose> read_tum(std::string_view text, const std::string& file) {
-  std::vector<slam::StampedPose> poses;
+std::vector<StampedPose> read_tum(std::string_view text, const std::string& file) {
+  std::vector<StampedPose> poses;
   int line_number = 0;
   while (!text.empty()) {
     ++line_number;
@@ -96,11 +96,11 @@ std::vector<slam::StampedPose> read_tum(std::string_view text, const std::string
     text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
     if (line.empty() || line.front() == '#' || columns_of(line).empty()) continue;
     const Mark mark{file, line_number, 1};
-    poses.push_back(parse_pose(line, mark));
+    poses.push_back(parse_tum_line(line, mark));
     if (poses.size() > 1 && poses.back().stamp <= poses[poses.size() - 2].stamp)
       throw InputError(mark, "stamps must increase from line to line");
   }
   return poses;
 }
 
-}  // namespace plumbline::scenarios
+}  // namespace plumbline::slam

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <numbers>
+#include <optional>
+
+#include "bim/building/load.h"
+#include "bim/building/plan.h"
+#include "bim/errors.h"
+#include "bim/random/stream.h"
+#include "scenarios/commands/commands.h"
+#include "scenarios/resolve.h"
+#include "scenarios/run/files.h"
+#include "scenarios/run/interrupt.h"
+#include "scenarios/run/participant.h"
+#include "scenarios/run/pipeline.h"
+#include "scenarios/run/progress.h"
+#include "scenarios/run/run_files.h"
+#include "slam/io/recording.h"
+#include "slam/methods.h"
+
+namespace plumbline::scenarios {
+
+namespace {
+
+struct Options {
+  std::string recording;
+  std::string method;
+  std::string plan;
+  std::string out;
+  std::uint64_t seed = 1;
+  double yaw_deg = 0.0;
+  std::string storey;
+  bool force = false;
+  CLI::Option* seed_option = nullptr;
+  CLI::Option* yaw_option = nullptr;
+};
+
+const slam::MethodRow& find_row(const std::string& name) {
+  check_methods({name}, {Mark{"--method", 0, 0}});
+  const slam::MethodRow* row = slam::find_method(name);
+  if (row == nullptr)
+    throw InputError({"--method", 0, 0}, "'" + name + "' is no estimator; a recording holds no truth");
+  return *row;
+}
+
+std::shared_ptr<const bim::Plan> load_plan(const Options& options, const slam::MethodRow& row) {
+  if (!row.needs_plan) return nullptr;
+  if (options.plan.empty())
+    throw InputError({"--plan", 0, 0}, "is missing; method '" + options.method + "' localizes in a plan");
+  return std::make_shared<const bim::Plan>(bim::make_plan(bim::load_site(options.plan).as_planned));
+}
+
+/// A run directory holds its recording in a folder.
+std::unique_ptr<slam::Recording> open_input(const std::string& path) {
+  const std::string inner = path + "/" + std::string(recording_folder);
+  return slam::open_recording(std::filesystem::is_directory(inner) ? inner : path);
+}
+
+/// What the recording tells, and the command line over it.
+slam::Prior make_prior(const Options& options, const slam::RecordingInfo& info, const bim::Plan& plan) {
+  slam::Prior prior = slam::prior_of(info);
+  if (options.yaw_option->count() > 0) prior.yaw_W = wrap_angle(options.yaw_deg * std::numbers::pi / 180.0);
+  if (!options.storey.empty()) prior.storey = options.storey;
+  if (!prior.storey) return prior;
+  std::vector<std::string> names;
+  for (const bim::PlanStorey& storey : plan.storeys) names.push_back(storey.name);
+  if (std::find(names.begin(), names.end(), *prior.storey) != names.end()) return prior;
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+  throw InputError({"--storey", 0, 0}, "the plan has no storey '" + *prior.storey + "'; it has " + list);
+}
+
+slam::MethodInput make_input(const Options& options, const slam::MethodRow& row, const slam::RecordingInfo& info) {
+  slam::MethodInput input;
+  const std::uint64_t seed = options.seed_option->count() > 0 ? options.seed : info.seed.value_or(options.seed);
+  input.seed = method_seed(seed, row.name);
+  input.calibration = slam::calibration_of(info);
+  input.plan = load_plan(options, row);
+  if (input.plan) input.prior = make_prior(options, info, *input.plan);
+  return input;
+}
+
+void shift(std::vector<slam::StampedPose>& poses, slam::Nanoseconds by) {
+  for (slam::StampedPose& pose : poses) pose.stamp += by;
+}
+
+/// The method's answer, on the recording's own clock.
+MethodRecord run_method(slam::Recording& recording, const slam::MethodRow& row, const slam::MethodInput& input) {
+  Progress progress(std::string(row.name), 0.0);
+  const FrameSource source = [&](sim::WorldFrame& frame) {
+    slam::SensorFrame sensors;
+    if (!recording.next(sensors)) return false;
+    frame = {};
+    frame.imu = std::move(sensors.imu);
+    frame.odometry = std::move(sensors.odometry);
+    frame.scan = std::move(sensors.scan);
+    progress.at(slam::seconds(frame.scan.stamp));
+    return true;
+  };
+  std::vector<std::unique_ptr<Participant>> participants;
+  participants.push_back(make_estimator(row, input));
+  MethodRecord record =
+      std::move(run_pipeline(source, [](const sim::WorldFrame&) {}, std::move(participants), {}).front());
+  shift(record.causal, recording.origin());
+  shift(record.estimate.trajectory, recording.origin());
+  for (BeliefRecord& belief : record.beliefs) belief.stamp += recording.origin();
+  return record;
+}
+
+int estimate(const Options& options) {
+  const slam::MethodRow& row = find_row(options.method);
+  const std::unique_ptr<slam::Recording> recording = open_input(options.recording);
+  const slam::MethodInput input = make_input(options, row, recording->info());
+
+  catch_interrupts();
+  RunDirectory directory(options.out, options.force);
+  const MethodRecord record = run_method(*recording, row, input);
+  write_method(directory.staging(), record);
+  write_file(directory.staging() + "/digests.csv", write_digests(record.digests));
+  directory.commit();
+  if (record.crashed) {
+    std::fprintf(stderr, "plumbline: method '%s' crashed: %s\n", record.name.c_str(), record.error.c_str());
+    return 1;
+  }
+  std::printf("%s/%s.tum: %zu poses\n", options.out.c_str(), record.name.c_str(), record.causal.size());
+  return 0;
+}
+
+}  // namespace
+
+Command add_estimate(CLI::App& program) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* app = program.add_subcommand("estimate", "Runs a method on a recording, simulated or real");
+  app->add_option("RECORDING", options->recording,
+                  "directory of simulate or of run --record, or capture of a VLP-16 (.pcap)")
+      ->required();
+  app->add_option("--method", options->method, "one of plumbline methods")->required();
+  app->add_option("--plan", options->plan, "building, for methods that localize in a plan");
+  app->add_option("-o,--out", options->out, "directory to write")->required();
+  options->seed_option = app->add_option("--seed", options->seed, "seed of the run [the recording's, else 1]");
+  options->yaw_option = app->add_option("--yaw-deg", options->yaw_deg,
+                                        "compass: heading in the plan at the start [the recording's, else unknown]")
+                            ->check(CLI::Range(-360.0, 360.0));
+  app->add_option("--storey", options->storey, "storey of the start [the recording's, else unknown]");
+  app->add_flag("--force", options->force, "replace the estimate that stands in --out");
+  app->footer(
+      "Examples: plumbline estimate walk --method s_graphs_plus -o out\n"
+      "          plumbline estimate walk --method s_graph_localization --plan house.plan.yaml -o out\n"
+      "          plumbline estimate vlp16.pcap --method vgicp -o out");
+  return {app, [options] { return estimate(*options); }};
+}
+
+}  // namespace plumbline::scenarios

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+
+#include "bim/errors.h"
+#include "scenarios/commands/commands.h"
+#include "scenarios/run/files.h"
+#include "scenarios/run/interrupt.h"
+#include "scenarios/run/progress.h"
+#include "scenarios/run/recorder.h"
+#include "scenarios/run/runner.h"
+#include "slam/io/tum.h"
+
+namespace plumbline::scenarios {
+
+namespace {
+
+struct Options {
+  std::string input;
+  std::string out;
+  std::uint64_t seed = 0;
+  bool force = false;
+  CLI::Option* seed_option = nullptr;
+};
+
+int simulate(const Options& options) {
+  Overrides overrides;
+  if (options.seed_option->count() > 0) overrides.seed = options.seed;
+  const ResolvedScenario resolved = resolve(options.input, overrides);
+
+  catch_interrupts();
+  RunDirectory directory(options.out, options.force);
+  const std::string& dir = directory.staging();
+  Recorder recorder(dir, resolved);
+  RunOptions run_options;
+  run_options.methods = false;
+  run_options.sensors = [&](const sim::WorldFrame& frame) { recorder.add(frame); };
+  RunRecord record;
+  {
+    Progress progress(resolved.scenario.name, resolved.scenario.duration_s);
+    run_options.tick = [&](double t) { progress.at(t); };
+    record = execute(resolved, run_options);
+  }
+  if (record.truth_W.empty())
+    throw ScenarioFailure(record.failure.empty() ? "the run ended before its first scan" : record.failure);
+  recorder.finish();
+  write_file(dir + "/truth.tum", slam::write_tum(record.truth_W));
+  write_file(dir + "/" + resolved.scenario.building, resolved.building_bytes);
+  write_file(dir + "/scenario.yaml", write_scenario(resolved.scenario));
+  directory.commit();
+
+  std::printf("recording: %s (%s s)\n", options.out.c_str(), slam::format_stamp(record.truth_W.back().stamp).c_str());
+  if (record.failure.empty()) return 0;
+  throw ScenarioFailure(record.failure);
+}
+
+}  // namespace
+
+Command add_simulate(CLI::App& program) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* app =
+      program.add_subcommand("simulate", "Records what the sensors see on a walk, with the truth beside it");
+  app->add_option("INPUT", options->input, "scenario, plan or building, as for run")->required();
+  app->add_option("-o,--out", options->out, "directory to write")->required();
+  options->seed_option = app->add_option("--seed", options->seed, "seed [the scenario's]");
+  app->add_flag("--force", options->force, "replace the recording that stands in --out");
+  app->footer(
+      "Example: plumbline simulate scenarios/library/house.yaml -o walk\n"
+      "Writes lidar.pcap (packets of a VLP-16), odometry.tum, imu.csv, recording.yaml and truth.tum; plumbline "
+      "estimate "
+      "reads all but the last.");
+  return {app, [options] { return simulate(*options); }};
+}
+
+}  // namespace plumbline::scenarios

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/io/recording.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <optional>
+
+#include "bim/config/tree.h"
+#include "slam/io/pcap.h"
+#include "slam/io/record_file.h"
+
+namespace plumbline::slam {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr Nanoseconds longest_message = 2'000'000'000;  ///< offsets within a scan are 32-bit nanoseconds
+
+/// Records of one kind, the next of them looked at ahead.
+template <class Reader, class Record>
+class Stream {
+ public:
+  explicit Stream(const std::string& path) : reader_(path) { advance(); }
+  [[nodiscard]] const std::optional<Record>& front() const { return front_; }
+  /// Appends the records up to and including time t, counted from `origin` on as t is.
+  void take_until(Nanoseconds t, Nanoseconds origin, std::vector<Record>& out) {
+    for (; front_ && front_->stamp - origin <= t; advance()) {
+      out.push_back(*front_);
+      out.back().stamp -= origin;
+    }
+  }
+
+ private:
+  void advance() {
+    Record record;
+    front_.reset();
+    if (reader_.next(record)) front_ = record;
+  }
+
+  Reader reader_;
+  std::optional<Record> front_;
+};
+
+/// LiDAR packets, with odometry and IMU beside them where there are any.
+class PacketRecording final : public Recording {
+ public:
+  PacketRecording(const std::string& pcap, RecordingInfo info)
+      : mark_{pcap, 0, 0}, info_(std::move(info)), pcap_(pcap) {}
+  void add_odometry(const std::string& path) { odometry_.emplace(path); }
+  void add_imu(const std::string& path) { imu_.emplace(path); }
+
+  [[nodiscard]] const RecordingInfo& info() const override { return info_; }
+  [[nodiscard]] bool has_odometry() const override { return odometry_.has_value(); }
+  [[nodiscard]] Nanoseconds origin() const override { return pcap_.origin(); }
+
+  [[nodiscard]] bool next(SensorFrame& frame) override {
+    SensorFrame out;
+    do {
+      if (!read_message(out.packets)) return false;
+      out.scan = decode(out.packets);
+    } while (odometry_ && !odometry_started(out.scan.stamp));
+    if (imu_) imu_->take_until(out.scan.stamp, origin(), out.imu);
+    if (odometry_) odometry_->take_until(out.scan.stamp, origin(), out.odometry);
+    frame = std::move(out);
+    return true;
+  }
+
+ private:
+  bool read_message(std::vector<Vlp16Packet>& packets) {
+    packets.clear();
+    Vlp16Packet packet;
+    while (packets.size() < static_cast<std::size_t>(info_.lidar.packets_per_message.value_or(1)) || packets.empty()) {
+      if (!pcap_.next(packet)) {
+        if (messages_ == 0) fail_short(packets.size());
+        return false;
+      }
+      if (!info_.lidar.packets_per_message) info_.lidar.packets_per_message = packets_per_turn(packet);
+      packets.push_back(packet);
+    }
+    if (packets.back().stamp - packets.front().stamp > longest_message)
+      throw InputError(mark_, "message " + std::to_string(messages_) + " lasts more than 2 s; packets are missing");
+    ++messages_;
+    return true;
+  }
+
+  [[noreturn]] void fail_short(std::size_t packets) const {
+    throw InputError(mark_, "holds " + std::to_string(packets) + " data packets; one scan needs " +
+                                std::to_string(info_.lidar.packets_per_message.value_or(1)));
+  }
+
+  [[nodiscard]] Scan decode(const std::vector<Vlp16Packet>& packets) const {
+    try {
+      return decode_message(packets, info_.lidar.vertical_offsets);
+    } catch (const InputError& error) {
+      throw InputError(mark_, "message " + std::to_string(messages_) + ": " + error.what());
+    }
+  }
+
+  [[nodiscard]] bool odometry_started(Nanoseconds stamp) {
+    if (!started_) started_ = odometry_->front() && odometry_->front()->stamp - origin() <= stamp;
+    return started_;
+  }
+
+  Mark mark_;
+  RecordingInfo info_;
+  PcapReader pcap_;
+  std::optional<Stream<OdometryReader, Odometry>> odometry_;
+  std::optional<Stream<ImuReader, Imu>> imu_;
+  std::int64_t messages_ = 0;
+  bool started_ = false;
+};
+
+std::unique_ptr<Recording> open_directory(const std::string& dir) {
+  const auto path = [&](std::string_view name) { return dir + "/" + std::string(name); };
+  const std::string pcap = path(recording_files::lidar);
+  if (!fs::exists(pcap)) throw InputError({dir, 0, 0}, "holds no lidar.pcap; it is no recording");
+  RecordingInfo info;
+  if (const std::string file = path(recording_files::info); fs::exists(file))
+    info = read_recording_info(read_text_file(file), file);
+  auto recording = std::make_unique<PacketRecording>(pcap, info);
+  if (const std::string file = path(recording_files::odometry); fs::exists(file)) recording->add_odometry(file);
+  if (const std::string file = path(recording_files::imu); fs::exists(file)) recording->add_imu(file);
+  return recording;
+}
+
+}  // namespace
+
+int packets_per_turn(const Vlp16Packet& packet) {
+  constexpr double packets_per_s = 754.0;  // as drivers count
+  constexpr int blocks_apart = 10;         // even, so that the two blocks of a dual return count once
+  const auto azimuth = [&](std::size_t block) {
+    return packet.payload[100 * block + 2] | (packet.payload[100 * block + 3] << 8);
+  };
+  const int turn_cdeg = ((azimuth(blocks_apart) - azimuth(0)) % 36000 + 36000) % 36000;
+  const bool dual = azimuth(0) == azimuth(1) && azimuth(2) == azimuth(3);
+  const double block_s = 2e-9 * static_cast<double>(vlp16::firing_period_ns) / (dual ? 2.0 : 1.0);
+  const double turns_per_s = turn_cdeg / 36000.0 / (blocks_apart * block_s);
+  const double rounded = std::clamp(std::round(turns_per_s), 1.0, 20.0);
+  return static_cast<int>(std::ceil(packets_per_s * (dual ? 2.0 : 1.0) / rounded));
+}
+
+std::unique_ptr<Recording> open_recording(const std::string& path) {
+  if (fs::is_directory(path)) return open_directory(path);
+  if (!fs::exists(path))
+    throw InputError({path, 0, 0}, "no such file; a recording directory or a capture (.pcap) would be right");
+  return std::make_unique<PacketRecording>(path, RecordingInfo{});
+}
+
+}  // namespace plumbline::slam

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "slam/io/recording_info.h"
+#include "slam/io/records.h"
+#include "slam/io/vlp16.h"
+
+namespace plumbline::slam {
+
+/// What the sensors said up to and including one scan, since the one before it.
+struct SensorFrame {
+  std::vector<Imu> imu;
+  std::vector<Odometry> odometry;
+  std::vector<Vlp16Packet> packets;  ///< empty where the recording holds points
+  Scan scan;
+};
+
+/// Records of a simulated or a real robot, read as a stream: never more than one message of them is in memory.
+class Recording {
+ public:
+  virtual ~Recording() = default;
+  /// The next scan with what came before it; false at the end. Times count from the start of the recording. Throws
+  /// InputError, naming the place, on anything that is not as it should be.
+  [[nodiscard]] virtual bool next(SensorFrame& frame) = 0;
+  [[nodiscard]] virtual const RecordingInfo& info() const = 0;
+  [[nodiscard]] virtual bool has_odometry() const = 0;
+  /// Time 0 on the recording's own clock, known after the first scan; 0 where the two are one.
+  [[nodiscard]] virtual Nanoseconds origin() const = 0;
+};
+
+/// Files of a recording directory.
+namespace recording_files {
+inline constexpr std::string_view info = "recording.yaml";
+inline constexpr std::string_view lidar = "lidar.pcap";
+inline constexpr std::string_view odometry = "odometry.tum";
+inline constexpr std::string_view imu = "imu.csv";
+}  // namespace recording_files
+
+/// Opens a recording directory (lidar.pcap; recording.yaml, odometry.tum and imu.csv where they are there) or a bare
+/// capture of a VLP-16. Messages are cut as drivers do, by the number of packets; scans before the first odometry
+/// record and a message that the end cuts short are left out. Throws InputError.
+[[nodiscard]] std::unique_ptr<Recording> open_recording(const std::string& path);
+
+/// Packets of a full turn, rounded up, at the speed one packet tells (a multiple of 60 rpm): 76 at 600 rpm.
+[[nodiscard]] int packets_per_turn(const Vlp16Packet& packet);
+
+}  // namespace plumbline::slam
