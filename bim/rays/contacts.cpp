@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bim/rays/contacts.h"
 
+#include <CGAL/Box_intersection_d/Box_d.h>
+#include <CGAL/box_intersection_d.h>
+
 #include <algorithm>
 #include <array>
-#include <numeric>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
 
 namespace plumbline::bim {
 
@@ -55,64 +61,147 @@ void clip_to_sides(ConvexPolygon& polygon, const Face& face, double grow) {
   }
 }
 
-/// Adds to `contacts` of `face` what `other` means to it, if anything.
-void add_contact(const Face& face, const Face& other, int other_index, const RayTolerances& tol,
-                 FaceContacts& contacts) {
+/// True when all of `other` lies more than `distance` on one side of the face's plane.
+bool beside(const Face& face, const Face& other, double distance) {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  for (const Eigen::Vector3d& v : other.v) {
+    const double height = face.n.dot(v - face.v[0]);
+    low = std::min(low, height);
+    high = std::max(high, height);
+  }
+  return low > distance || high < -distance;
+}
+
+/// What `other` means to `face`: a contact inside, one at the border (with an empty region), or nothing.
+std::optional<Contact> contact_of(const Face& face, const Face& other, int other_index, const RayTolerances& tol) {
+  if (beside(face, other, 1.01 * tol.contact)) return std::nullopt;  // spares most pairs the clipping
   const double offset = face.n.dot(face.v[0]);
   ConvexPolygon near(other.v);
   near.clip(face.n, offset + tol.contact);
-  if (near.empty()) return;
+  if (near.empty()) return std::nullopt;
   near.clip(-face.n, tol.contact - offset);
-  if (near.empty()) return;
+  if (near.empty()) return std::nullopt;
   near.flatten(face.n, face.v[0]);
   clip_to_sides(near, face, tol.contact);
-  if (near.empty()) return;
+  if (near.empty()) return std::nullopt;
   ConvexPolygon inner = near;
   clip_to_sides(inner, face, tol.contact - tol.edge_band);
-  if (inner.empty()) {
-    contacts.border.push_back(other_index);
-  } else {
-    contacts.inside.push_back({near.box(tol.contact), other_index});
-  }
+  if (inner.empty()) return Contact{{}, other_index};
+  return Contact{near.box(tol.contact), other_index};
 }
 
-/// Boxes of the faces as Embree will see them, grown by the contact distance.
-std::vector<Eigen::AlignedBox3d> boxes_of(std::span<const Face> faces, const RayTolerances& tolerances) {
+/// Box of a face as Embree will see it, grown by the contact distance, with the face's index.
+class FaceBox : public CGAL::Box_intersection_d::Box_d<double, 3, CGAL::Box_intersection_d::ID_NONE> {
+ public:
+  FaceBox(const Eigen::AlignedBox3d& box, std::size_t face)
+      : Box_d(CGAL::Bbox_3(box.min().x(), box.min().y(), box.min().z(), box.max().x(), box.max().y(), box.max().z())),
+        face_(face) {}
+  [[nodiscard]] std::size_t id() const { return face_; }
+
+ private:
+  std::size_t face_;
+};
+
+/// Pairs (a, b) and (b, a) of faces whose boxes meet, in ascending order.
+std::vector<std::pair<int, int>> pairs_of(std::span<const Face> faces, const RayTolerances& tolerances) {
   const Eigen::Vector3d margin = Eigen::Vector3d::Constant(tolerances.contact);
-  std::vector<Eigen::AlignedBox3d> boxes;
+  std::vector<FaceBox> boxes;
   boxes.reserve(faces.size());
   for (const Face& face : faces) {
     Eigen::AlignedBox3d box;
     for (const Eigen::Vector3d& v : inflate(face, tolerances).v) box.extend(v);
-    boxes.emplace_back(box.min() - margin, box.max() + margin);
+    boxes.emplace_back(Eigen::AlignedBox3d(box.min() - margin, box.max() + margin), boxes.size());
   }
-  return boxes;
+  std::vector<std::pair<int, int>> pairs;
+  CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const FaceBox& a, const FaceBox& b) {
+    const auto i = static_cast<int>(a.id());
+    const auto j = static_cast<int>(b.id());
+    pairs.emplace_back(i, j);
+    pairs.emplace_back(j, i);
+  });
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
 }
 
 }  // namespace
 
-std::vector<FaceContacts> find_contacts(std::span<const Face> faces, const RayTolerances& tolerances) {
-  const std::vector<Eigen::AlignedBox3d> boxes = boxes_of(faces, tolerances);
-  std::vector<std::size_t> by_x(faces.size());
-  std::iota(by_x.begin(), by_x.end(), std::size_t{0});
-  std::stable_sort(by_x.begin(), by_x.end(),
-                   [&](std::size_t a, std::size_t b) { return boxes[a].min().x() < boxes[b].min().x(); });
+ContactGrid::ContactGrid(std::span<const Contact> contacts, const Eigen::Vector3d& normal) {
+  int steepest = 0;
+  normal.cwiseAbs().maxCoeff(&steepest);
+  axis_[0] = steepest == 0 ? 1 : 0;
+  axis_[1] = steepest == 2 ? 1 : 2;
+  Eigen::AlignedBox3d box;
+  for (const Contact& contact : contacts) box.extend(contact.region_W);
+  for (int k = 0; k < 2; ++k) {
+    low_[k] = box.min()[axis_[k]];
+    size_[k] = box.max()[axis_[k]] - low_[k];
+  }
+  double side = std::sqrt(size_[0] * size_[1] / static_cast<double>(contacts.size()));
+  divide(side);
+  const auto entries = [&] {
+    std::size_t count = 0;
+    for (const Contact& contact : contacts) for_each_cell(contact, [&](std::size_t) { ++count; });
+    return count;
+  };
+  while (cells_[0] * cells_[1] > 1 && entries() > 16 * contacts.size()) divide(side *= 2.0);
 
-  std::vector<FaceContacts> contacts(faces.size());
-  for (std::size_t i = 0; i < by_x.size(); ++i) {
-    const std::size_t a = by_x[i];
-    for (std::size_t j = i + 1; j < by_x.size() && boxes[by_x[j]].min().x() <= boxes[a].max().x(); ++j) {
-      const std::size_t b = by_x[j];
-      if (!boxes[a].intersects(boxes[b])) continue;
-      add_contact(faces[a], faces[b], static_cast<int>(b), tolerances, contacts[a]);
-      add_contact(faces[b], faces[a], static_cast<int>(a), tolerances, contacts[b]);
+  begin_.assign(static_cast<std::size_t>(cells_[0] * cells_[1]) + 1, 0);
+  for (const Contact& contact : contacts) for_each_cell(contact, [&](std::size_t c) { ++begin_[c + 1]; });
+  for (std::size_t c = 1; c < begin_.size(); ++c) begin_[c] += begin_[c - 1];
+  contacts_.resize(begin_.back());
+  std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
+  for (std::uint32_t i = 0; i < contacts.size(); ++i)
+    for_each_cell(contacts[i], [&](std::size_t c) { contacts_[next[c]++] = i; });
+}
+
+void ContactGrid::divide(double side) {
+  for (int k = 0; k < 2; ++k) {
+    cells_[k] = 1 + static_cast<int>(std::min(size_[k] / side, 4e3));
+    per_m_[k] = cells_[k] / size_[k];
+  }
+}
+
+template <class Visit>
+void ContactGrid::for_each_cell(const Contact& contact, Visit&& visit) const {
+  const Eigen::Vector3d& low = contact.region_W.min();
+  const Eigen::Vector3d& high = contact.region_W.max();
+  for (int v = cell(1, low[axis_[1]]); v <= cell(1, high[axis_[1]]); ++v)
+    for (int u = cell(0, low[axis_[0]]); u <= cell(0, high[axis_[0]]); ++u)
+      visit(static_cast<std::size_t>(v * cells_[0] + u));
+}
+
+ContactTable::ContactTable(std::span<const Face> faces, const RayTolerances& tolerances) {
+  inside_begin_.reserve(faces.size() + 1);
+  border_begin_.reserve(faces.size() + 1);
+  const std::vector<std::pair<int, int>> pairs = pairs_of(faces, tolerances);
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    inside_begin_.push_back(inside_.size());
+    border_begin_.push_back(border_.size());
+    for (; next < pairs.size() && pairs[next].first == static_cast<int>(i); ++next) {
+      const int other = pairs[next].second;
+      const auto contact = contact_of(faces[i], faces[static_cast<std::size_t>(other)], other, tolerances);
+      if (!contact) continue;
+      if (contact->region_W.isEmpty()) {
+        border_.push_back(other);
+      } else {
+        inside_.push_back(*contact);
+      }
     }
   }
-  for (FaceContacts& c : contacts) {
-    std::sort(c.inside.begin(), c.inside.end(), [](const Contact& a, const Contact& b) { return a.face < b.face; });
-    std::sort(c.border.begin(), c.border.end());
-  }
-  return contacts;
+  inside_begin_.push_back(inside_.size());
+  border_begin_.push_back(border_.size());
+  for (std::size_t i = 0; i < faces.size(); ++i)
+    if (inside(i).size() > grid_min) {
+      gridded_.push_back(i);
+      grids_.emplace_back(inside(i), faces[i].n);
+    }
+}
+
+const ContactGrid& ContactTable::grid_of(std::size_t face) const {
+  const auto at = std::lower_bound(gridded_.begin(), gridded_.end(), face);
+  return grids_[static_cast<std::size_t>(at - gridded_.begin())];
 }
 
 }  // namespace plumbline::bim

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -16,15 +17,72 @@ struct Contact {
   int face = -1;                 ///< the other face
 };
 
-/// Contacts of one face: `inside` for those that reach into it (overlapping coplanar faces, crossing walls), `border`
-/// for those that touch it in its edge band only (neighbours over an edge).
-struct FaceContacts {
-  std::vector<Contact> inside;
-  std::vector<int> border;
+/// Contacts of one face by cells of a grid over the two axes it is flattest along.
+class ContactGrid {
+ public:
+  /// About one cell a contact; fewer where contacts are so large that each would fill many.
+  ContactGrid(std::span<const Contact> contacts, const Eigen::Vector3d& normal);
+  /// Indices of the contacts whose region may hold p_W.
+  [[nodiscard]] std::span<const std::uint32_t> at(const Eigen::Vector3d& p_W) const {
+    const auto c = static_cast<std::size_t>(cell(1, p_W[axis_[1]]) * cells_[0] + cell(0, p_W[axis_[0]]));
+    return std::span(contacts_).subspan(begin_[c], begin_[c + 1] - begin_[c]);
+  }
+
+ private:
+  void divide(double side);
+  [[nodiscard]] int cell(int k, double x) const {
+    const double c = (x - low_[k]) * per_m_[k];
+    return c > 0.0 ? (c < cells_[k] ? static_cast<int>(c) : cells_[k] - 1) : 0;
+  }
+  template <class Visit>
+  void for_each_cell(const Contact& contact, Visit&& visit) const;
+
+  int axis_[2] = {0, 1};
+  double low_[2] = {0.0, 0.0}, size_[2] = {0.0, 0.0}, per_m_[2] = {0.0, 0.0};
+  int cells_[2] = {1, 1};
+  std::vector<std::uint32_t> begin_, contacts_;
 };
 
-/// Contacts of every face, in order of the other face's index. Found once when a scene is built, so that only marked
-/// faces pay for ties.
-[[nodiscard]] std::vector<FaceContacts> find_contacts(std::span<const Face> faces, const RayTolerances& tolerances);
+/// Contacts of every face: `inside` those that reach into it (overlapping coplanar faces, crossing walls), `border`
+/// those that touch it in its edge band only (neighbours over an edge). Found once when a scene is built, so that only
+/// marked faces pay for ties. A face with many (a floor full of furniture) looks them up by place.
+class ContactTable {
+ public:
+  ContactTable() = default;
+  ContactTable(std::span<const Face> faces, const RayTolerances& tolerances);
+
+  /// Both in order of the other face's index.
+  [[nodiscard]] std::span<const Contact> inside(std::size_t face) const {
+    return std::span(inside_).subspan(inside_begin_[face], inside_begin_[face + 1] - inside_begin_[face]);
+  }
+  [[nodiscard]] std::span<const int> border(std::size_t face) const {
+    return std::span(border_).subspan(border_begin_[face], border_begin_[face + 1] - border_begin_[face]);
+  }
+
+  /// visit(int other) for each contact inside a face whose region holds p_W, in no particular order. Ends, and gives
+  /// true, as soon as visit gives true.
+  template <class Visit>
+  bool any_at(std::size_t face, const Eigen::Vector3d& p_W, Visit&& visit) const {
+    const std::span<const Contact> all = inside(face);
+    if (all.size() <= grid_min) {
+      for (const Contact& contact : all)
+        if (contact.region_W.contains(p_W) && visit(contact.face)) return true;
+      return false;
+    }
+    for (const std::uint32_t i : grid_of(face).at(p_W))
+      if (all[i].region_W.contains(p_W) && visit(all[i].face)) return true;
+    return false;
+  }
+
+ private:
+  static constexpr std::size_t grid_min = 8;
+  [[nodiscard]] const ContactGrid& grid_of(std::size_t face) const;
+
+  std::vector<std::size_t> inside_begin_, border_begin_;
+  std::vector<Contact> inside_;
+  std::vector<int> border_;
+  std::vector<std::size_t> gridded_;  ///< faces with more than grid_min contacts inside, ascending
+  std::vector<ContactGrid> grids_;    ///< theirs
+};
 
 }  // namespace plumbline::bim

@@ -23,21 +23,27 @@ struct Hit {
   Eigen::Vector3d normal_W = Eigen::Vector3d::Zero();  ///< unit, towards the ray's origin
 };
 
+/// For tests and measurements: results must not depend on these.
+struct RaySceneOptions {
+  std::string_view embree = {};  ///< appended to Embree's device string, as "isa=sse4.2"
+  std::size_t width = 0;         ///< rays traced together: 1, 8 or 16; 0 by what the CPU has
+};
+
 /// Closest hits on a mesh, from either side of a face. Embree proposes (geometry, primitive); range and ties are
 /// decided here in double, so that results depend neither on the CPU nor on packets: among faces hit within 0.1 mm
 /// of the nearest the lowest element id, then triangle id wins. A ray in the plane of a face does not hit it.
 /// Triangles without area are ignored.
 class RayScene {
  public:
-  /// device_options are appended to Embree's device string; for tests ("isa=sse4.2"), results must not depend on
-  /// them. Throws EnvironmentError when Embree fails.
-  explicit RayScene(const BuildingMesh& mesh, std::string_view device_options = {});
+  /// Throws EnvironmentError when Embree fails.
+  explicit RayScene(const BuildingMesh& mesh, const RaySceneOptions& options = {});
   ~RayScene();
   RayScene(RayScene&&) noexcept;
   RayScene& operator=(RayScene&&) noexcept;
 
-  /// Casts every ray up to range_max_m. Neighbouring beams should stand next to each other: blocks of 8 are traced
-  /// as packets. hits.size() == rays.size().
+  /// Casts every ray up to range_max_m. Blocks of 16 (8 on a CPU without AVX-512) are traced as packets, so
+  /// neighbouring beams should stand next to each other; best 8 neighbouring columns of a ring, then the same of the
+  /// next ring. hits.size() == rays.size(). Allocates nothing.
   void cast(std::span<const Ray> rays, double range_max_m, std::span<Hit> hits) const;
   [[nodiscard]] Hit cast(const Ray& ray, double range_max_m) const;
 

@@ -214,7 +214,7 @@ TEST(RayScene, InstructionSetsAgree) {
   for (const char* isa : {"isa=sse2", "isa=sse4.2", "isa=avx", "isa=avx2", "isa=avx512"}) {
     std::optional<RayScene> scene;
     try {
-      scene.emplace(mesh, isa);
+      scene.emplace(mesh, RaySceneOptions{.embree = isa});
     } catch (const EnvironmentError&) {
       continue;  // this CPU has no such instructions
     }
