@@ -44,7 +44,9 @@ double growth_exponent(double n0, double cost0, double n1, double cost1) {
 
 const std::vector<BenchPart>& bench_parts() {
   static const std::vector<BenchPart> parts = {
-      {"bim", "reading, cutting and comparing buildings, and how it grows with the number of walls", bench_bim}};
+      {"bim", "reading, cutting and comparing buildings, and how it grows with the number of walls", bench_bim},
+      {"lidar", "casting rays, against a plain loop over Embree, and how it grows with the number of triangles",
+       bench_lidar}};
   return parts;
 }
 

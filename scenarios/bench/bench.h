@@ -56,5 +56,6 @@ struct BenchPart {
 [[nodiscard]] std::string bench_text(const std::vector<BenchRow>& rows);
 
 [[nodiscard]] std::vector<BenchRow> bench_bim(const BenchSetting& setting);
+[[nodiscard]] std::vector<BenchRow> bench_lidar(const BenchSetting& setting);
 
 }  // namespace plumbline::scenarios
