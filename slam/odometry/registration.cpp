@@ -19,6 +19,32 @@ Matrix6d block_rotation(const Eigen::Matrix3d& R_MR) {
 
 }  // namespace
 
+void add_point(Normal6& sum, const Eigen::Vector3d& arm_M, const Eigen::Matrix3d& weight,
+               const Eigen::Vector3d& weighted) {
+  const Eigen::Matrix3d arm = hat(arm_M);  // J = [I, -arm]
+  const Eigen::Matrix3d side = weight * arm;
+  sum.h.topLeftCorner<3, 3>() += weight;
+  sum.h.topRightCorner<3, 3>() -= side;
+  sum.h.bottomRightCorner<3, 3>() -= arm * side;
+  sum.g.head<3>() += weighted;
+  sum.g.tail<3>() += arm_M.cross(weighted);
+}
+
+void to_right_increment(Normal6& sum, const Eigen::Matrix3d& R_MR) {
+  sum.h.bottomLeftCorner<3, 3>() = sum.h.topRightCorner<3, 3>().transpose();
+  const Matrix6d b = block_rotation(R_MR);
+  sum.h = b.transpose() * sum.h * b;
+  sum.g = b.transpose() * sum.g;
+}
+
+std::optional<Vector6d> solve_step(const Normal6& normal) {
+  const Eigen::LDLT<Matrix6d> solver(normal.h);
+  if (solver.info() != Eigen::Success || !solver.isPositive() || normal.inliers == 0.0) return std::nullopt;
+  const Vector6d step = -solver.solve(normal.g);
+  if (!step.allFinite()) return std::nullopt;
+  return step;
+}
+
 Normal6 linearize(std::span<const Surfel> surfels, const SurfelMap& map, const Pose& X_MR,
                   const RegistrationConfig& config) {
   const Eigen::Matrix3d R_MR = X_MR.rotation();
@@ -39,22 +65,13 @@ Normal6 linearize(std::span<const Surfel> surfels, const SurfelMap& map, const P
     const Eigen::Vector3d weighted = information * e;
     const double squared = e.dot(weighted);
     const double w = 1.0 / (1.0 + squared / kernel2);
-    const Eigen::Matrix3d arm = hat(arm_M);  // J = [I, -arm]
-    const Eigen::Matrix3d side = w * information * arm;
-    sum.h.topLeftCorner<3, 3>() += w * information;
-    sum.h.topRightCorner<3, 3>() -= side;
-    sum.h.bottomRightCorner<3, 3>() -= arm * side;
-    sum.g.head<3>() += w * weighted;
-    sum.g.tail<3>() += w * arm_M.cross(weighted);
+    add_point(sum, arm_M, w * information, w * weighted);
     sum.cost += 0.5 * kernel2 * std::log1p(squared / kernel2);
     if (squared > 2.0 * kernel2) continue;
     sum.inliers += 1.0;
     sum.squared += squared;
   }
-  sum.h.bottomLeftCorner<3, 3>() = sum.h.topRightCorner<3, 3>().transpose();
-  const Matrix6d b = block_rotation(R_MR);
-  sum.h = b.transpose() * sum.h * b;
-  sum.g = b.transpose() * sum.g;
+  to_right_increment(sum, R_MR);
   return sum;
 }
 
@@ -71,13 +88,11 @@ Registration align(std::span<const Surfel> surfels, const SurfelMap& map, const 
       normal.h += prior->information;
       normal.g += prior->information * log_se3(prior->X_MR.inverse() * result.X_MR);
     }
-    const Eigen::LDLT<Matrix6d> solver(normal.h);
-    if (solver.info() != Eigen::Success || !solver.isPositive() || normal.inliers == 0.0) break;
-    const Vector6d step = -solver.solve(normal.g);
-    if (!step.allFinite()) break;
-    result.X_MR = result.X_MR * exp_se3(step);
+    const std::optional<Vector6d> step = solve_step(normal);
+    if (!step) break;
+    result.X_MR = result.X_MR * exp_se3(*step);
     result.converged =
-        step.head<3>().norm() < config.translation_epsilon_m && step.tail<3>().norm() < config.rotation_epsilon_rad;
+        step->head<3>().norm() < config.translation_epsilon_m && step->tail<3>().norm() < config.rotation_epsilon_rad;
   }
   if (!surfels.empty()) result.matched = normal.inliers / static_cast<double>(surfels.size());
   if (normal.inliers > 0.0) result.rms = std::sqrt(normal.squared / normal.inliers);

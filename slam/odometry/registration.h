@@ -52,7 +52,7 @@ struct Registration {
 [[nodiscard]] Registration align(std::span<const Surfel> surfels, const SurfelMap& map, const Pose& start,
                                  const std::optional<PosePrior>& prior, const RegistrationConfig& config);
 
-/// Cost of align() at X_MR and its gradient and Gauss-Newton Hessian by the right increment, robust weights included.
+/// Normal equations of a registration: cost, gradient and Gauss-Newton Hessian by an increment (rho, phi).
 struct Normal6 {
   Matrix6d h = Matrix6d::Zero();
   Vector6d g = Vector6d::Zero();
@@ -60,6 +60,14 @@ struct Normal6 {
   double inliers = 0.0;
   double squared = 0.0;  ///< sum over the inliers of the squared Mahalanobis distance
 };
+/// Adds a point at arm_M from the robot, displaced by e: weighted information W and W e, axes of M.
+void add_point(Normal6& sum, const Eigen::Vector3d& arm_M, const Eigen::Matrix3d& weight,
+               const Eigen::Vector3d& weighted);
+/// From increments in axes M about the robot to the right increment.
+void to_right_increment(Normal6& sum, const Eigen::Matrix3d& R_MR);
+/// Gauss-Newton step, nothing when the problem is singular.
+[[nodiscard]] std::optional<Vector6d> solve_step(const Normal6& normal);
+/// Normal equations of align() at X_MR by the right increment, robust weights included.
 [[nodiscard]] Normal6 linearize(std::span<const Surfel> surfels, const SurfelMap& map, const Pose& X_MR,
                                 const RegistrationConfig& config);
 

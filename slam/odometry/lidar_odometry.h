@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string_view>
+
+#include "bim/config/visit.h"
+#include "slam/odometry/loam/aloam.h"
+#include "slam/odometry/loam/floam.h"
+#include "slam/odometry/motion.h"
+#include "slam/odometry/registration.h"
+#include "slam/odometry/vgicp.h"
+
+namespace plumbline::slam {
+
+/// Which front end a method walks on. legs: dead reckoning alone.
+enum class OdometryKind { vgicp, floam, aloam, legs };
+
+struct LidarOdometryConfig {
+  OdometryKind kind = OdometryKind::vgicp;
+  VgicpConfig vgicp;
+  loam::FloamConfig floam;
+  loam::AloamConfig aloam;
+  double legs_m = 0.02;    ///< standard deviation of a metre of dead reckoning, per root metre
+  double legs_rad = 0.01;  ///< and of its heading
+
+  template <class V>
+  void visit(V& v) {
+    v("kind", kind, Field{.doc = "vgicp, floam, aloam or legs"});
+    v("vgicp", vgicp);
+    v("floam", floam);
+    v("aloam", aloam);
+    v("legs_m", legs_m, Field{.doc = "of a metre of dead reckoning, m", .min = 1e-4});
+    v("legs_rad", legs_rad, Field{.doc = "of a metre of dead reckoning, rad", .min = 1e-5});
+  }
+};
+
+/// Scan by scan pose in M, which starts at the first pose: X_MR = identity.
+class LidarOdometry {
+ public:
+  virtual ~LidarOdometry() = default;
+  /// X_OR: leg odometry at scan.stamp; only its increments may be used.
+  [[nodiscard]] virtual Registration update(const DeskewedScan& scan, const Pose& X_OR) = 0;
+};
+
+[[nodiscard]] std::unique_ptr<LidarOdometry> make_lidar_odometry(const LidarOdometryConfig& config);
+
+}  // namespace plumbline::slam
+
+namespace plumbline {
+
+template <>
+struct EnumNames<slam::OdometryKind> {
+  static constexpr std::array<std::string_view, 4> names = {"vgicp", "floam", "aloam", "legs"};
+};
+
+}  // namespace plumbline
