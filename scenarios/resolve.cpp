@@ -83,7 +83,7 @@ void choose_methods(ScenarioText& text, const Overrides& overrides, bool has_pla
                                      text.scenario.building + "' does not have; ask for SLAM methods only");
   if (!methods.empty()) return;
   for (const slam::MethodRow& row : slam::methods())
-    if (has_plan || !row.needs_plan) methods.emplace_back(row.name);
+    if (row.standard && (has_plan || !row.needs_plan)) methods.emplace_back(row.name);
 }
 
 void settle_methods(ScenarioText& text, const Overrides& overrides, bool has_plan, int& dropped_gates) {

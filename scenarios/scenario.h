@@ -116,7 +116,7 @@ struct Scenario {
   LidarSpec lidar;
   OdometrySpec odometry;
   PriorSpec prior;
-  std::vector<std::string> methods;  ///< empty: every estimator of the table
+  std::vector<std::string> methods;  ///< empty: the standard ones of the table
   std::vector<GateSpec> gates;
   template <class V>
   void visit(V& v) {

@@ -16,6 +16,7 @@ struct MethodRow {
   std::string_view summary;
   bool needs_plan = false;
   std::function<std::unique_ptr<Method>(const MethodInput&)> make;
+  bool standard = true;  ///< runs where neither scenario nor command line names methods
 };
 
 /// Every estimator, in the order of `plumbline methods`.

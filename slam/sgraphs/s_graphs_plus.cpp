@@ -57,7 +57,7 @@ void file(Output& output, Stopwatch& watch, const std::string& stage, std::uint6
 SGraphsPlus::SGraphsPlus(const MethodInput& input, const SGraphsPlusConfig& config)
     : config_(config),
       calibration_(input.calibration),
-      odometry_(config.odometry),
+      odometry_(make_lidar_odometry(config.odometry)),
       walls_(config.walls),
       rooms_(with_mount(config.rooms, input.calibration)),
       floors_(config.floors),
@@ -72,7 +72,7 @@ Output SGraphsPlus::on_scan(const Scan& scan) {
   motion_.forget_before(scan.stamp);
   file(output, watch, "deskew", digest(deskewed));
 
-  const Registration odometry = odometry_.update(deskewed, legs_OR);
+  const Registration odometry = odometry_->update(deskewed, legs_OR);
   file(output, watch, "odometry", Digest().add(odometry.X_MR).value());
 
   const Pose& X_OR = odometry.X_MR;

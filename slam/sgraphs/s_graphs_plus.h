@@ -9,7 +9,7 @@
 #include "slam/loop/loop_closure.h"
 #include "slam/odometry/map_cloud.h"
 #include "slam/odometry/motion.h"
-#include "slam/odometry/vgicp.h"
+#include "slam/odometry/lidar_odometry.h"
 #include "slam/planes/detect.h"
 #include "slam/sgraphs/floor_layer.h"
 #include "slam/sgraphs/room_layer.h"
@@ -25,7 +25,7 @@ struct SGraphsPlusConfig {
   double odometry_inflation = 50.0;  ///< of the registration's covariance: surfels are not independent
   double odometry_sigma_m = 0.006;   ///< of a step between keyframes, added
   double odometry_sigma_rad = 0.002;
-  VgicpConfig odometry;
+  LidarOdometryConfig odometry;
   PlaneDetectorConfig planes;
   WallLayerConfig walls;
   RoomLayerConfig rooms;
@@ -85,7 +85,7 @@ class SGraphsPlus : public Method {
   SGraphsPlusConfig config_;
   Calibration calibration_;
   MotionBuffer motion_;
-  VgicpOdometry odometry_;
+  std::unique_ptr<LidarOdometry> odometry_;
   WallLayer walls_;
   RoomLayer rooms_;
   FloorLayer floors_;

@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "slam/baseline/vgicp_method.h"
+#include "slam/baseline/lidar_odometry_method.h"
 
 #include "bim/digest/digest.h"
 #include "slam/io/stopwatch.h"
+#include "slam/odometry/lidar_odometry.h"
 #include "slam/odometry/map_cloud.h"
 #include "slam/odometry/motion.h"
-#include "slam/odometry/vgicp.h"
 
 namespace plumbline::slam {
 
 namespace {
 
-class VgicpMethod final : public Method {
+class LidarOdometryMethod final : public Method {
  public:
-  explicit VgicpMethod(const MethodInput& input) : calibration_(input.calibration), odometry_({}), map_({}) {}
+  LidarOdometryMethod(const MethodInput& input, const LidarOdometryConfig& config)
+      : calibration_(input.calibration), odometry_(make_lidar_odometry(config)), map_({}) {}
 
   void on_odometry(const Odometry& odometry) override { motion_.add(odometry); }
 
@@ -26,7 +27,7 @@ class VgicpMethod final : public Method {
     output.digests.push_back({"deskew", digest(deskewed)});
 
     watch.restart();
-    const Registration registration = odometry_.update(deskewed, motion_.at(scan.stamp));
+    const Registration registration = odometry_->update(deskewed, motion_.at(scan.stamp));
     output.times.push_back({"odometry", watch.cpu_ms()});
     output.digests.push_back({"odometry", Digest().add(registration.X_MR).add(registration.matched).value()});
 
@@ -47,13 +48,15 @@ class VgicpMethod final : public Method {
  private:
   Calibration calibration_;
   MotionBuffer motion_;
-  VgicpOdometry odometry_;
+  std::unique_ptr<LidarOdometry> odometry_;
   MapCloudRecorder map_;
   std::vector<StampedPose> trajectory_;
 };
 
 }  // namespace
 
-std::unique_ptr<Method> make_vgicp_method(const MethodInput& input) { return std::make_unique<VgicpMethod>(input); }
+std::unique_ptr<Method> make_lidar_odometry_method(const MethodInput& input, const LidarOdometryConfig& config) {
+  return std::make_unique<LidarOdometryMethod>(input, config);
+}
 
 }  // namespace plumbline::slam
