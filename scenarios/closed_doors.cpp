@@ -4,11 +4,12 @@
 #include <algorithm>
 
 #include "bim/building/fillings.h"
-#include "sim/route/route.h"
 
 namespace plumbline::scenarios {
 
 namespace {
+
+constexpr double sill_m = 0.3;  ///< a door whose sill is this far above the floor still stands on it
 
 bool is_shut(const bim::Opening& opening) {
   return opening.wall >= 0 && opening.kind == bim::OpeningKind::door && opening.leaf == bim::Leaf::closed;
@@ -27,19 +28,20 @@ bool passes(const Eigen::Vector2d& p, const Eigen::Vector2d& q, const bim::Openi
 
 }  // namespace
 
-std::vector<std::string> closed_doors_between(const bim::Building& building, int storey, const Eigen::Vector2d& a,
-                                              const Eigen::Vector2d& b) {
+std::vector<std::string> closed_doors_between(const bim::Building& building, const sim::Place& a, const sim::Place& b) {
   bim::Building open = building;
   std::erase_if(open.obstacles, bim::is_filling);
   bim::apply_options(open, {bim::Doors::open, true});
-  const std::vector<Eigen::Vector2d> path = sim::FreeSpace(open, storey).path(a, b);
+  const std::vector<sim::Waypoint> path = sim::WalkSpace(open).path(a, b);
   std::vector<std::string> doors;
   for (const bim::Opening& opening : building.openings) {
     if (!is_shut(opening)) continue;
     const bim::Wall& wall = building.walls[static_cast<std::size_t>(opening.wall)];
-    if (wall.storey != storey) continue;
     for (std::size_t i = 1; i < path.size(); ++i) {
-      if (!passes(path[i - 1], path[i], opening, wall)) continue;
+      const double low = std::min(path[i - 1].p_W.z(), path[i].p_W.z());
+      const double high = std::max(path[i - 1].p_W.z(), path[i].p_W.z());
+      if (opening.z1_m < low || opening.z0_m > high + sill_m) continue;
+      if (!passes(path[i - 1].p_W.head<2>(), path[i].p_W.head<2>(), opening, wall)) continue;
       doors.push_back(opening.id);
       break;
     }

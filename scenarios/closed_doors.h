@@ -5,13 +5,14 @@
 #include <vector>
 
 #include "bim/building/building.h"
+#include "sim/route/walk_space.h"
 
 namespace plumbline::scenarios {
 
-/// Ids of the closed doors on the way from a to b on a storey, as it would be with every door open; none when there
-/// would be no way even so. In the order of the building.
-[[nodiscard]] std::vector<std::string> closed_doors_between(const bim::Building& building, int storey,
-                                                            const Eigen::Vector2d& a, const Eigen::Vector2d& b);
+/// Ids of the closed doors on the way from a to b, as it would be with every door open; none when there would be no
+/// way even so. In the order of the building.
+[[nodiscard]] std::vector<std::string> closed_doors_between(const bim::Building& building, const sim::Place& a,
+                                                            const sim::Place& b);
 
 /// What to do about closed doors, for a complaint.
 [[nodiscard]] std::string open_them(const std::vector<std::string>& doors);

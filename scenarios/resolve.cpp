@@ -114,7 +114,7 @@ slam::Prior make_prior(const Scenario& scenario, const bim::Building& building, 
   return prior;
 }
 
-sim::WorldConfig make_world(const Scenario& scenario, const RoutePlan& plan, const bim::Building& as_built) {
+sim::WorldConfig make_world(const Scenario& scenario, const RoutePlan& plan) {
   sim::WorldConfig world;
   world.seed = scenario.seed;
   world.lidar = scenario.lidar.preset;
@@ -122,8 +122,7 @@ sim::WorldConfig make_world(const Scenario& scenario, const RoutePlan& plan, con
   world.storey = plan.storey;
   world.start_W = plan.start_W;
   world.start_yaw = plan.yaw_deg * std::numbers::pi / 180.0;
-  world.waypoints =
-      sim::on_floor(plan.waypoints, as_built.storeys.at(static_cast<std::size_t>(plan.storey)).elevation_m);
+  world.waypoints = plan.waypoints;
   world.speed_mps = scenario.speed_mps;
   world.duration_s = scenario.duration_s;
   return world;
@@ -189,8 +188,9 @@ ResolvedScenario resolve(const std::string& input_path, const Overrides& overrid
   const std::string& storey = resolved.site.as_planned.storeys[static_cast<std::size_t>(plan.storey)].id;
   scenario.start = Start{std::nullopt, storey, plan.start_W, plan.yaw_deg};
   if (!scenario.route.shuttle) scenario.route.rooms = plan.rooms;
+  scenario.route.storeys = RouteStoreys::start;
   scenario.building = name_of_copy(building, resolved.building_bytes);
-  resolved.world = make_world(scenario, plan, resolved.site.as_built);
+  resolved.world = make_world(scenario, plan);
   resolved.prior = make_prior(scenario, resolved.site.as_planned, plan);
   resolved.scenario = std::move(scenario);
   return resolved;

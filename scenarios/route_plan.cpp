@@ -2,19 +2,22 @@
 #include "scenarios/route_plan.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
 
+#include "bim/building/stair_shape.h"
 #include "scenarios/closed_doors.h"
 #include "scenarios/roam.h"
-#include "sim/route/route.h"
+#include "sim/route/walk_space.h"
 
 namespace plumbline::scenarios {
 
 namespace {
 
-using Path = std::vector<Eigen::Vector2d>;
+using sim::Place;
+using Path = std::vector<sim::Waypoint>;
 
 constexpr std::string_view all_rooms = "all";
 /// Start points and headings are written with this many decimals (0.1 mm), so that the resolved file reads well.
@@ -23,12 +26,6 @@ constexpr double coordinate_steps = 1e4;
 double round_coordinate(double x) { return std::round(x * coordinate_steps) / coordinate_steps; }
 
 std::string text(const Eigen::Vector2d& p) { return "[" + format_number(p.x()) + ", " + format_number(p.y()) + "]"; }
-
-double length(const Path& path) {
-  double sum = 0.0;
-  for (std::size_t i = 1; i < path.size(); ++i) sum += (path[i] - path[i - 1]).norm();
-  return sum;
-}
 
 std::string unknown(const std::string& kind, const std::string& name, const std::vector<std::string>& known) {
   const std::string close = did_you_mean(name, known);
@@ -67,27 +64,38 @@ int find_room(const bim::Building& building, const std::string& name, const Mark
   throw InputError(mark, unknown("room", name, known));
 }
 
-/// Plans on one storey of a building, with the place in the file to blame.
+/// Where in the plane a stair stands.
+bool on_stair(const bim::Stair& stair, const Eigen::Vector2d& p) {
+  return std::any_of(stair.flights.begin(), stair.flights.end(),
+                     [&](const bim::StairFlight& f) {
+                       return f.steps > 0 && contains(bim::steps_outline(f, 0, f.steps - 1), p);
+                     }) ||
+         std::any_of(stair.landings.begin(), stair.landings.end(),
+                     [&](const bim::Landing& landing) { return contains(landing.polygon, p); });
+}
+
+/// Plans from a start on one storey of a building, with the place in the file to blame.
 class Planner {
  public:
   Planner(const bim::Building& building, int storey, const RouteMarks& marks)
-      : building_(building), storey_(storey), marks_(marks), space_(building, storey) {}
+      : building_(building), storey_(storey), marks_(marks), space_(building) {}
 
   [[nodiscard]] Eigen::Vector2d place(const Start& start) const {
     if (start.at) return check_start(*start.at);
     if (!start.room && building_.rooms.empty()) return freest_place();
-    return target(start.room ? find_room(building_, *start.room, marks_.start) : largest_room(), marks_.start);
+    return target(start.room ? find_room(building_, *start.room, marks_.start) : largest_room(), marks_.start).p_W;
   }
 
   /// Room indices in the order of the walk and the waypoints through them.
   void walk(const Route& route, RoutePlan& plan) const {
-    plan.waypoints = {plan.start_W};
-    if (route.shuttle) return shuttle(route, plan);
+    plan.waypoints = sim::on_floor({plan.start_W}, elevation(storey_));
+    Place at{storey_, plan.start_W};
+    if (route.shuttle) return shuttle(route, at, plan);
     const bool all = route.rooms.size() == 1 && route.rooms.front() == all_rooms;
     if (all && building_.rooms.empty()) return walk_round(route.loop, plan);
-    if (all) return walk_all(route.loop, plan);
+    if (all) return walk_all(route, at, plan);
     for (int lap = 0; lap < route.loop; ++lap)
-      for (std::size_t i = 0; i < route.rooms.size(); ++i) walk_to(route.rooms[i], mark_of(i), plan);
+      for (std::size_t i = 0; i < route.rooms.size(); ++i) walk_to(route.rooms[i], mark_of(i), at, plan);
     plan.rooms = route.rooms;
   }
 
@@ -96,24 +104,33 @@ class Planner {
     return i < marks_.rooms.size() ? marks_.rooms[i] : marks_.route;
   }
 
+  [[nodiscard]] double elevation(int storey) const {
+    return building_.storeys.at(static_cast<std::size_t>(storey)).elevation_m;
+  }
+
+  [[nodiscard]] const bim::Room& room(int index) const { return building_.rooms[static_cast<std::size_t>(index)]; }
+
   [[nodiscard]] Eigen::Vector2d check_start(const Eigen::Vector2d& at) const {
+    const std::string start = "the start " + text(at);
     for (const bim::Wall& wall : building_.walls)
       if (wall.storey == storey_ && in_body(wall, at))
-        throw InputError(marks_.start,
-                         "the start " + text(at) + " is inside a wall ('" + wall.id + "'); it must be in a room");
-    const auto in_room = [&](const bim::Room& room) { return room.storey == storey_ && contains(room.polygon, at); };
+        throw InputError(marks_.start, start + " is inside a wall ('" + wall.id + "'); it must be in a room");
+    for (const bim::Stair& stair : building_.stairs)
+      if ((stair.from == storey_ || stair.to == storey_) && on_stair(stair, at))
+        throw InputError(marks_.start, start + " is on stair '" + stair.id + "'; it must be on the floor of a storey");
+    const auto in_room = [&](const bim::Room& r) { return r.storey == storey_ && contains(r.polygon, at); };
     const bool has_rooms = std::any_of(building_.rooms.begin(), building_.rooms.end(),
-                                       [&](const bim::Room& room) { return room.storey == storey_; });
+                                       [&](const bim::Room& r) { return r.storey == storey_; });
     if (has_rooms && std::none_of(building_.rooms.begin(), building_.rooms.end(), in_room))
-      throw InputError(marks_.start, "the start " + text(at) + " is outside every room; it must be in a room");
-    if (!space_.free(at))
-      throw InputError(marks_.start, "the start " + text(at) + " is in or too near to a wall or another thing (" +
-                                         format_number(round_coordinate(space_.clearance(at))) +
+      throw InputError(marks_.start, start + " is outside every room; it must be in a room");
+    if (!space_.storey(storey_).free(at))
+      throw InputError(marks_.start, start + " is in or too near to a wall or another thing (" +
+                                         format_number(round_coordinate(space_.storey(storey_).clearance(at))) +
                                          " m clear); the robot needs more room around it");
     return at;
   }
 
-  /// Box around the floor of the storey.
+  /// Box around the floor of the start's storey.
   [[nodiscard]] Eigen::AlignedBox2d floor_box() const {
     Eigen::AlignedBox2d box;
     for (const bim::Slab& slab : building_.slabs)
@@ -122,33 +139,41 @@ class Planner {
     return box;
   }
 
+  /// The freest place of a room, if the robot fits in it.
+  [[nodiscard]] std::optional<Place> place_in(int storey, const Polygon2& polygon) const {
+    const std::vector<Eigen::Vector2d> found = space_.storey(storey).room_target(polygon);
+    if (found.empty()) return std::nullopt;
+    return Place{storey, {round_coordinate(found.front().x()), round_coordinate(found.front().y())}};
+  }
+
   /// Where no rooms are known.
   [[nodiscard]] Eigen::Vector2d freest_place() const {
     const Eigen::AlignedBox2d box = floor_box();
-    Path found;
+    std::optional<Place> found;
     if (!box.isEmpty()) {
       const Eigen::Vector2d low = box.min(), high = box.max();
-      found = space_.room_target({low, {high.x(), low.y()}, high, {low.x(), high.y()}});
+      found = place_in(storey_, {low, {high.x(), low.y()}, high, {low.x(), high.y()}});
     }
-    if (found.empty()) throw InputError(marks_.start, "there is no place on the floor where the robot fits");
-    return {round_coordinate(found.front().x()), round_coordinate(found.front().y())};
+    if (!found) throw InputError(marks_.start, "there is no place on the floor where the robot fits");
+    return found->p_W;
   }
 
   void walk_round(int laps, RoutePlan& plan) const {
     const Eigen::AlignedBox2d box = floor_box();
-    const Path round = box.isEmpty() ? Path{} : roam(space_, box, plan.start_W);
+    const Path round =
+        box.isEmpty() ? Path{} : sim::on_floor(roam(space_.storey(storey_), box, plan.start_W), elevation(storey_));
     for (int lap = 0; lap < laps; ++lap) append(round, plan);
     plan.rooms = {std::string(all_rooms)};
   }
 
-  /// Rooms of this storey that can be stood in, largest first (ties: lower index).
+  /// Rooms of the start's storey that can be stood in, largest first (ties: lower index).
   [[nodiscard]] int largest_room() const {
     int best = -1;
     double best_area = 0.0;
     for (std::size_t i = 0; i < building_.rooms.size(); ++i) {
-      const bim::Room& room = building_.rooms[i];
-      const double area = std::abs(signed_area(room.polygon));
-      if (room.storey != storey_ || area <= best_area || space_.room_target(room.polygon).empty()) continue;
+      const bim::Room& candidate = building_.rooms[i];
+      const double area = std::abs(signed_area(candidate.polygon));
+      if (candidate.storey != storey_ || area <= best_area || !place_in(storey_, candidate.polygon)) continue;
       best = static_cast<int>(i);
       best_area = area;
     }
@@ -156,96 +181,124 @@ class Planner {
     return best;
   }
 
-  [[nodiscard]] Eigen::Vector2d target(int room, const Mark& mark) const {
-    const bim::Room& r = building_.rooms[static_cast<std::size_t>(room)];
-    if (r.storey != storey_)
-      throw InputError(mark, "room '" + r.id + "' is on another storey; this version walks on one");
-    const Path found = space_.room_target(r.polygon);
-    if (found.empty()) throw InputError(mark, "room '" + r.id + "' has no place where the robot fits");
-    return {round_coordinate(found.front().x()), round_coordinate(found.front().y())};
-  }
-
-  [[nodiscard]] Path path(const Eigen::Vector2d& a, const Eigen::Vector2d& b) const {
-    if ((b - a).norm() < 1e-9) return {a};
-    return space_.path(a, b);
+  [[nodiscard]] Place target(int index, const Mark& mark) const {
+    const std::optional<Place> found = place_in(room(index).storey, room(index).polygon);
+    if (!found) throw InputError(mark, "room '" + room(index).id + "' has no place where the robot fits");
+    return *found;
   }
 
   static void append(const Path& path, RoutePlan& plan) {
     plan.waypoints.insert(plan.waypoints.end(), path.begin() + (path.empty() ? 0 : 1), path.end());
   }
 
-  void walk_to(const std::string& room, const Mark& mark, RoutePlan& plan) const {
-    const Eigen::Vector2d goal = target(find_room(building_, room, mark), mark);
-    const Path leg = path(plan.waypoints.back(), goal);
-    if (leg.empty()) refuse(room, plan.waypoints.back(), goal, mark);
+  void walk_to(const std::string& name, const Mark& mark, Place& at, RoutePlan& plan) const {
+    const Place goal = target(find_room(building_, name, mark), mark);
+    const Path leg = space_.path(at, goal);
+    if (leg.empty()) refuse(name, at, goal, mark);
     append(leg, plan);
+    at = goal;
   }
 
-  [[noreturn]] void refuse(const std::string& room, const Eigen::Vector2d& from, const Eigen::Vector2d& goal,
-                           const Mark& mark) const {
-    const std::vector<std::string> doors = closed_doors_between(building_, storey_, from, goal);
-    const std::string why =
-        doors.empty() ? "; is every door on the way at least 0.9 m wide, and nothing in it?" : ": " + open_them(doors);
-    throw InputError(mark, "room '" + room + "' cannot be reached from " + text(from) + why);
+  [[noreturn]] void refuse(const std::string& name, const Place& from, const Place& goal, const Mark& mark) const {
+    const std::vector<std::string> doors = closed_doors_between(building_, from, goal);
+    std::string why = "; is every door on the way at least 0.9 m wide, and nothing in it?";
+    if (!doors.empty())
+      why = ": " + open_them(doors);
+    else if (from.storey != goal.storey)
+      why = ", since it is on storey '" + building_.storeys[static_cast<std::size_t>(goal.storey)].id +
+            "': " + stairs_at_fault();
+    throw InputError(mark, "room '" + name + "' cannot be reached from " + text(from.p_W) + why);
   }
 
-  /// Nearest room first, by the way to walk (ties: lower index), and back to the room of the start; rooms out of
-  /// reach are left out.
-  void walk_all(int laps, RoutePlan& plan) const {
-    std::vector<int> left;
+  /// Why the stairs of the building do not help.
+  [[nodiscard]] std::string stairs_at_fault() const {
+    std::string list;
+    for (const sim::StairWay& way : space_.stairs())
+      if (!way.fault.empty()) list += (list.empty() ? "" : ", ") + ("stair '" + way.id + "' " + way.fault);
+    if (!list.empty()) return list;
+    return building_.stairs.empty() ? "the building has no stairs" : "no stair that can be walked to leads there";
+  }
+
+  /// Indices of the rooms that `all` means, without the one of the start.
+  [[nodiscard]] std::vector<int> rooms_of_all(const Route& route, const Place& at) const {
+    const std::vector<int> storeys =
+        route.storeys == RouteStoreys::all ? space_.reachable_storeys(at) : std::vector<int>{at.storey};
+    std::vector<int> found;
     for (std::size_t i = 0; i < building_.rooms.size(); ++i) {
-      const bim::Room& room = building_.rooms[i];
-      if (room.storey != storey_ || contains(room.polygon, plan.start_W)) continue;
-      if (!space_.room_target(room.polygon).empty()) left.push_back(static_cast<int>(i));
+      const bim::Room& candidate = building_.rooms[i];
+      if (!std::binary_search(storeys.begin(), storeys.end(), candidate.storey)) continue;
+      if (candidate.storey == at.storey && contains(candidate.polygon, at.p_W)) continue;
+      if (place_in(candidate.storey, candidate.polygon)) found.push_back(static_cast<int>(i));
     }
-    while (!left.empty()) {
+    return found;
+  }
+
+  /// Index into `left` of the room nearest by the way to walk (ties: lower index): of the storey the robot is on, and
+  /// of others when none of those can be reached.
+  [[nodiscard]] std::optional<std::size_t> nearest_room(const std::vector<int>& left, const Place& at,
+                                                        Path& way) const {
+    for (const bool here : {true, false}) {
       std::optional<std::size_t> best;
-      Path best_path;
       for (std::size_t i = 0; i < left.size(); ++i) {
-        Path leg = path(plan.waypoints.back(), target(left[i], marks_.route));
-        if (leg.empty() || (best && length(leg) >= length(best_path))) continue;
+        if ((room(left[i]).storey == at.storey) != here) continue;
+        Path leg = space_.path(at, target(left[i], marks_.route));
+        if (leg.empty() || (best && sim::length(leg) >= sim::length(way))) continue;
         best = i;
-        best_path = std::move(leg);
+        way = std::move(leg);
       }
-      if (!best) break;
-      append(best_path, plan);
-      plan.rooms.push_back(building_.rooms[static_cast<std::size_t>(left[*best])].id);
-      left.erase(left.begin() + static_cast<std::ptrdiff_t>(*best));
+      if (best) return best;
     }
-    if (plan.rooms.empty()) refuse_when_shut_in(left, plan);
-    if (!plan.rooms.empty()) return_home(plan);
-    for (int lap = 1; lap < laps; ++lap)
-      for (const std::string& room : std::vector<std::string>(plan.rooms)) walk_to(room, marks_.route, plan);
+    return std::nullopt;
+  }
+
+  /// Nearest room first, each storey before the next, and back to the room of the start; rooms out of reach are left
+  /// out.
+  void walk_all(const Route& route, Place at, RoutePlan& plan) const {
+    const Place start = at;
+    std::vector<int> left = rooms_of_all(route, at);
+    Path way;
+    while (const std::optional<std::size_t> next = nearest_room(left, at, way)) {
+      append(way, plan);
+      plan.rooms.push_back(room(left[*next]).id);
+      at = target(left[*next], marks_.route);
+      left.erase(left.begin() + static_cast<std::ptrdiff_t>(*next));
+    }
+    if (plan.rooms.empty()) refuse_when_shut_in(left, start);
+    if (!plan.rooms.empty()) return_home(start, at, plan);
+    for (int lap = 1; lap < route.loop; ++lap)
+      for (const std::string& name : std::vector<std::string>(plan.rooms)) walk_to(name, marks_.route, at, plan);
   }
 
   /// A walk of no steps is refused where closed doors are the reason.
-  void refuse_when_shut_in(const std::vector<int>& others, const RoutePlan& plan) const {
-    for (const int room : others)
-      if (!closed_doors_between(building_, storey_, plan.start_W, target(room, marks_.route)).empty())
-        refuse(building_.rooms[static_cast<std::size_t>(room)].id, plan.start_W, target(room, marks_.route),
-               marks_.route);
+  void refuse_when_shut_in(const std::vector<int>& others, const Place& start) const {
+    for (const int other : others) {
+      const Place goal = target(other, marks_.route);
+      if (!closed_doors_between(building_, start, goal).empty()) refuse(room(other).id, start, goal, marks_.route);
+    }
   }
 
-  void return_home(RoutePlan& plan) const {
-    for (const bim::Room& room : building_.rooms) {
-      if (room.storey != storey_ || !contains(room.polygon, plan.start_W)) continue;
-      if (space_.room_target(room.polygon).empty()) return;
-      walk_to(room.id, marks_.route, plan);
-      plan.rooms.push_back(room.id);
+  void return_home(const Place& start, Place& at, RoutePlan& plan) const {
+    for (const bim::Room& home : building_.rooms) {
+      if (home.storey != start.storey || !contains(home.polygon, start.p_W)) continue;
+      if (!place_in(home.storey, home.polygon)) return;
+      walk_to(home.id, marks_.route, at, plan);
+      plan.rooms.push_back(home.id);
       return;
     }
   }
 
   /// Both ends of the room along its longer side, and between them.
-  void shuttle(const Route& route, RoutePlan& plan) const {
+  void shuttle(const Route& route, Place at, RoutePlan& plan) const {
     const int index = find_room(building_, *route.shuttle, marks_.route);
-    const Eigen::Vector2d middle = target(index, marks_.route);
-    const Eigen::Vector2d axis = long_axis(building_.rooms[static_cast<std::size_t>(index)].polygon);
-    const Path ends = {last_free(middle, axis), last_free(middle, -axis)};
+    const Place middle = target(index, marks_.route);
+    const Eigen::Vector2d axis = long_axis(room(index).polygon);
+    const std::array<Place, 2> ends = {last_free(middle, axis), last_free(middle, -axis)};
     for (int i = 0; i < 2 * route.times; ++i) {
-      const Path leg = path(plan.waypoints.back(), ends[static_cast<std::size_t>(i % 2)]);
-      if (leg.empty()) refuse(*route.shuttle, plan.waypoints.back(), middle, marks_.route);
+      const Place& end = ends[static_cast<std::size_t>(i % 2)];
+      const Path leg = space_.path(at, end);
+      if (leg.empty()) refuse(*route.shuttle, at, middle, marks_.route);
       append(leg, plan);
+      at = end;
     }
   }
 
@@ -261,17 +314,18 @@ class Planner {
     return axis;
   }
 
-  [[nodiscard]] Eigen::Vector2d last_free(const Eigen::Vector2d& from, const Eigen::Vector2d& direction) const {
+  [[nodiscard]] Place last_free(const Place& from, const Eigen::Vector2d& direction) const {
     constexpr double step = 0.05;
+    const sim::FreeSpace& space = space_.storey(from.storey);
     int i = 0;
-    while (space_.free(from + (i + 1) * step * direction)) ++i;
-    return from + i * step * direction;
+    while (space.free(from.p_W + (i + 1) * step * direction)) ++i;
+    return {from.storey, from.p_W + i * step * direction};
   }
 
   const bim::Building& building_;
   int storey_;
   const RouteMarks& marks_;
-  sim::FreeSpace space_;
+  sim::WalkSpace space_;
 };
 
 int start_storey(const bim::Building& building, const Start& start, const RouteMarks& marks) {
@@ -287,7 +341,7 @@ int start_storey(const bim::Building& building, const Start& start, const RouteM
 
 double first_heading_deg(const Path& waypoints) {
   for (std::size_t i = 1; i < waypoints.size(); ++i) {
-    const Eigen::Vector2d leg = waypoints[i] - waypoints[0];
+    const Eigen::Vector2d leg = (waypoints[i].p_W - waypoints[0].p_W).head<2>();
     if (leg.norm() > 0.1) return round_coordinate(std::atan2(leg.y(), leg.x()) * 180.0 / std::numbers::pi);
   }
   return 0.0;
@@ -319,7 +373,8 @@ RoutePlan plan_route(const bim::Building& building, const Start& start, const Ro
   const Planner planner(building, plan.storey, marks);
   plan.start_W = planner.place(start);
   planner.walk(route, plan);
-  plan.length_m = length(plan.waypoints);
+  plan.length_m = sim::length(plan.waypoints);
+  plan.stairs_m = sim::length_on_stairs(plan.waypoints);
   plan.yaw_deg = start.yaw_deg ? *start.yaw_deg : first_heading_deg(plan.waypoints);
   return plan;
 }

@@ -6,6 +6,7 @@
 
 #include "bim/building/building.h"
 #include "scenarios/scenario.h"
+#include "sim/route/waypoint.h"
 
 namespace plumbline::scenarios {
 
@@ -16,21 +17,22 @@ struct RouteMarks {
   std::vector<Mark> rooms;  ///< of the names in Route::rooms
 };
 
-/// Start and route in the plane of one storey.
+/// Start and route over the storeys of a building.
 struct RoutePlan {
-  int storey = -1;
+  int storey = -1;  ///< of the start
   Eigen::Vector2d start_W = Eigen::Vector2d::Zero();
   double yaw_deg = 0.0;
-  std::vector<std::string> rooms;          ///< ids in the order of the walk; "all" settled
-  std::vector<Eigen::Vector2d> waypoints;  ///< from the start on
+  std::vector<std::string> rooms;        ///< ids in the order of the walk; "all" settled
+  std::vector<sim::Waypoint> waypoints;  ///< from the start on
   double length_m = 0.0;
+  double stairs_m = 0.0;  ///< of the length, how much leads over stairs
 };
 
 /// The lowest storey with a room the robot can stand in, or -1.
 [[nodiscard]] int lowest_habitable_storey(const bim::Building& building);
 
-/// Plans the walk through the as-built free space. Throws InputError when the start is inside something or outside
-/// every room, a room is not known, or a goal cannot be reached.
+/// Plans the walk through the as-built free space and over its stairs. Throws InputError when the start is inside
+/// something, on a stair or outside every room, a room is not known, or a goal cannot be reached.
 [[nodiscard]] RoutePlan plan_route(const bim::Building& building, const Start& start, const Route& route,
                                    const RouteMarks& marks);
 

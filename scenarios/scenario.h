@@ -27,6 +27,8 @@ namespace plumbline::scenarios {
 
 enum class LidarModel { vlp16 };
 enum class Knowledge { unknown, known };
+/// Which storeys `rooms: all` means.
+enum class RouteStoreys { start, all };
 
 /// Where the robot stands at the start: a room (its freest point), or a point of a storey, in W.
 struct Start {
@@ -46,12 +48,14 @@ struct Start {
 /// Rooms to walk through, in order; `shuttle` instead walks one room from end to end.
 struct Route {
   std::vector<std::string> rooms = {"all"};  ///< "all": every room in reach, nearest first, and back
-  int loop = 1;                              ///< how many times the list is walked
+  RouteStoreys storeys = RouteStoreys::start;
+  int loop = 1;  ///< how many times the list is walked
   std::optional<std::string> shuttle;
   int times = 1;
   template <class V>
   void visit(V& v) {
-    v("rooms", rooms, Field{.doc = "rooms to visit in order, or all"});
+    v("rooms", rooms, Field{.doc = "rooms to visit in order, also over stairs; or all in reach"});
+    v("storeys", storeys, Field{.doc = "of `rooms: all`: the start's storey alone, or all that stairs lead to"});
     v("loop", loop, Field{.doc = "walk the list so many times", .min = 1, .max = 1000});
     v("shuttle", shuttle, Field{.doc = "walk this room from end to end instead"});
     v("times", times, Field{.doc = "how many times there and back", .min = 1, .max = 1000});
@@ -127,7 +131,7 @@ struct Scenario {
     v("seed", seed, Field{.doc = "seed of everything random", .min = 0, .max = 9.2e18});
     v("start", start, Field{.doc = "where the robot starts"});
     v("route", route, Field{.doc = "where it walks"});
-    v("speed_mps", speed_mps, Field{.doc = "walking speed, m/s", .min = 0.1, .max = 0.8});
+    v("speed_mps", speed_mps, Field{.doc = "walking speed, m/s", .min = 0.1, .max = 1.2});
     v("duration_s", duration_s, Field{.doc = "longest duration, s", .min = 1.0, .max = 36000.0});
     v("lidar", lidar, Field{.doc = "LiDAR"});
     v("odometry", odometry, Field{.doc = "leg odometry"});
@@ -160,6 +164,10 @@ namespace plumbline {
 template <>
 struct EnumNames<scenarios::LidarModel> {
   static constexpr std::array<std::string_view, 1> names = {"vlp16"};
+};
+template <>
+struct EnumNames<scenarios::RouteStoreys> {
+  static constexpr std::array<std::string_view, 2> names = {"start", "all"};
 };
 template <>
 struct EnumNames<scenarios::Knowledge> {

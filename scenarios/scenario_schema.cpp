@@ -16,7 +16,8 @@ This page is what `plumbline scenarios --schema` prints: it is made from the rea
   reads, relative to the scenario. Methods are given it as planned; the robot walks through and sees it as built.
 - `doors` and `furniture` change the building for this run only, as planned and as built; a value off its default is
   named in `results.json`. With closed doors a room behind one cannot be reached: the run is refused and the door named.
-- `start` takes a room or a point of a storey; `route` takes `rooms` (`all`, or a list) or `shuttle`.
+- `start` takes a room or a point of a storey; `route` takes `rooms` (`all`, or a list) or `shuttle`. Rooms of other
+  storeys are reached over stairs that the robot can climb; `all` stays on the start's storey unless `storeys: all`.
 - Methods are listed by `plumbline methods`; none named means all. A gate has either `max` or `min`; its metrics are
   those of `results.json`.
 
@@ -50,6 +51,13 @@ building: library/quickstart.plan.yaml
 furniture: false
 start: {storey: ground, at: [4, 6], yaw_deg: 90}
 route: {shuttle: corridor, times: 2}
+)yaml",
+      R"yaml(scenario: 1
+name: every room of both storeys
+building: library/house.plan.yaml
+start: {room: living}
+route: {rooms: all, storeys: all}
+duration_s: 300
 )yaml"};
   return examples;
 }

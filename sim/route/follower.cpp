@@ -15,13 +15,6 @@ constexpr double step_s = 1e-9 * static_cast<double>(Robot::step_ns);
 
 }  // namespace
 
-std::vector<Waypoint> on_floor(const std::vector<Eigen::Vector2d>& points_W, double floor_z_W) {
-  std::vector<Waypoint> out;
-  out.reserve(points_W.size());
-  for (const Eigen::Vector2d& p : points_W) out.push_back({{p.x(), p.y(), floor_z_W}, false});
-  return out;
-}
-
 Follower::Follower(const FollowerConfig& config, std::vector<Waypoint> waypoints, std::uint64_t seed)
     : config_(config), waypoints_(std::move(waypoints)), jitter_(seed, "sim.gait.command") {}
 

@@ -7,17 +7,9 @@
 
 #include "bim/random/stream.h"
 #include "sim/robot/robot.h"
+#include "sim/route/waypoint.h"
 
 namespace plumbline::sim {
-
-/// A corner of the robot's way, on the floor.
-struct Waypoint {
-  Eigen::Vector3d p_W = Eigen::Vector3d::Zero();  ///< m, z that of the floor there
-  bool stairs = false;                            ///< the way to here from the waypoint before goes over steps
-};
-
-/// A way on one level.
-[[nodiscard]] std::vector<Waypoint> on_floor(const std::vector<Eigen::Vector2d>& points_W, double floor_z_W);
 
 /// Pure pursuit [facts: legged section 5], the stuck check, and the jitter that keeps the gait (2.27 Hz) from meeting
 /// the LiDAR's 10 Hz sweep at the same phase every time.
