@@ -168,7 +168,7 @@ RunIdentifiability identify_run(const IdentifyInput& input, const std::vector<Tr
   const Viewer viewer;
   std::vector<Twin> twins;
   for (const auto& [walked, sample] : stations(truth)) {
-    const Place place = levelled(sample->X_WR, input.truth_sensor_z_W);
+    const Place place = levelled(sample->X_WR, sample->sensor_z_W);
     if (run.steps.empty()) twins = find_twins(viewer, input, place);
     if (!twins.empty()) {
       const View seen = viewer.look(*input.as_built, place.position_W, place.yaw);

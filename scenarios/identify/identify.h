@@ -20,13 +20,13 @@ struct IdentifyInput {
   const bim::RayScene* as_planned = nullptr;
   const bim::RayScene* as_built = nullptr;
   std::vector<IdentifyStorey> storeys;  ///< those a robot with this prior may be on
-  double truth_sensor_z_W = 0.66;
   bool yaw_known = false;
 };
 
 struct TruthSample {
   double t_s = 0.0;
   Pose X_WR;
+  double sensor_z_W = 0.66;  ///< height of the levelled sensor
 };
 
 /// A start pose that could not be told from the true one so far. twin maps true poses to the twin's: X_twin = twin *

@@ -2,51 +2,65 @@
 #include "scenarios/report/from_run.h"
 
 #include <algorithm>
+#include <set>
+
+#include "scenarios/score/storey.h"
 
 namespace plumbline::scenarios {
 
 namespace {
 
-ReportSample sample(slam::Nanoseconds stamp, const Pose& X_WR, double error_m) {
-  return {slam::seconds(stamp), X_WR.t.x(), X_WR.t.y(), X_WR.yaw(), error_m};
+ReportSample sample(const bim::Plan& plan, slam::Nanoseconds stamp, const Pose& X_WR, double error_m) {
+  const int storey = score::storey_of_base(plan.storeys, X_WR.t.z());
+  return {slam::seconds(stamp), X_WR.t.x(), X_WR.t.y(), X_WR.yaw(), error_m, storey};
 }
 
 /// The causal trajectory as scored: SLAM aligned once over the whole run, localization as it stands.
-std::vector<ReportSample> samples_of(const MethodRecord& method, const score::Truth& truth) {
+std::vector<ReportSample> samples_of(const bim::Plan& plan, const MethodRecord& method, const score::Truth& truth) {
   const std::vector<score::PosePair> pairs = score::associate(truth, method.causal, {});
   std::vector<ReportSample> samples;
   if (pairs.empty()) return samples;
   const Pose X_WF = method.localization ? Pose() : score::umeyama(pairs);
   for (const score::PosePair& pair : pairs) {
     const Pose X_WR = X_WF * pair.X_FR;
-    samples.push_back(sample(truth.scans[pair.scan], X_WR, (X_WR.t - pair.X_WR.t).norm()));
+    samples.push_back(sample(plan, truth.scans[pair.scan], X_WR, (X_WR.t - pair.X_WR.t).norm()));
   }
   return samples;
 }
 
-Eigen::Vector2d place(const Pose& X_WF, const Eigen::Vector2d& p_F) {
-  return (X_WF * Eigen::Vector3d(p_F.x(), p_F.y(), 0.0)).head<2>();
+Eigen::Vector3d place(const Pose& X_WF, const Eigen::Vector2d& p_F, double z_F = 0.0) {
+  return X_WF * Eigen::Vector3d(p_F.x(), p_F.y(), z_F);
 }
 
-void add_structure(const MethodRecord& method, const score::MethodScore& score, ReportMethod& shown) {
+void add_structure(const bim::Plan& plan, const MethodRecord& method, const score::MethodScore& score,
+                   ReportMethod& shown) {
   const Pose X_WF = method.localization || !score.trajectory ? Pose() : score.trajectory->X_WF_final;
-  for (const slam::PlaneNode& plane : method.estimate.planes)
-    shown.walls.push_back({place(X_WF, plane.p0), place(X_WF, plane.p1)});
+  for (const slam::PlaneNode& plane : method.estimate.planes) {
+    const Eigen::Vector3d p0_W = place(X_WF, plane.p0, 0.5 * (plane.z0 + plane.z1));
+    const int storey = score::storey_of_height(plan.storeys, p0_W.z());
+    shown.walls.push_back({p0_W.head<2>(), place(X_WF, plane.p1).head<2>(), storey});
+  }
   for (std::size_t i = 0; i < method.estimate.rooms.size(); ++i) {
+    const slam::RoomNode& node = method.estimate.rooms[i];
     ReportRoom room;
-    for (const Eigen::Vector2d& p : method.estimate.rooms[i].polygon_F) room.polygon_W.push_back(place(X_WF, p));
+    for (const Eigen::Vector2d& p : node.polygon_F) room.polygon_W.push_back(place(X_WF, p).head<2>());
     room.matched = score.rooms && score.rooms->room_of_node[i] >= 0;
+    const double z_F = score::height_of_room(method.estimate, node).value_or(0.0);
+    room.storey = score::storey_of_height(plan.storeys, place(X_WF, node.center_F, z_F).z());
     shown.rooms.push_back(std::move(room));
   }
 }
 
-ReportBelief belief_at(const MethodRecord& method, std::size_t i, const std::string& label, const score::Truth& truth) {
+ReportBelief belief_at(const bim::Plan& plan, const MethodRecord& method, std::size_t i, const std::string& label,
+                       const score::Truth& truth) {
   const BeliefRecord& belief = method.beliefs[i];
-  return {label, slam::seconds(belief.stamp), belief.particles, truth.at(belief.stamp).t.head<2>()};
+  const Eigen::Vector3d p_W = truth.at(belief.stamp).t;
+  return {label, slam::seconds(belief.stamp), belief.particles, p_W.head<2>(),
+          score::storey_of_base(plan.storeys, p_W.z())};
 }
 
 /// Particles at the start, half-way to the convergence (or the end) and there.
-void add_beliefs(const MethodRecord& method, const score::Truth& truth, ReportMethod& shown) {
+void add_beliefs(const bim::Plan& plan, const MethodRecord& method, const score::Truth& truth, ReportMethod& shown) {
   std::vector<std::size_t> kept;
   std::size_t converged = method.beliefs.size();
   for (std::size_t i = 0; i < method.beliefs.size(); ++i) {
@@ -58,9 +72,26 @@ void add_beliefs(const MethodRecord& method, const score::Truth& truth, ReportMe
   if (kept.empty()) return;
   const bool has_converged = converged < method.beliefs.size();
   const std::string last = kept.back() == converged ? "convergence" : has_converged ? "before convergence" : "end";
-  shown.beliefs.push_back(belief_at(method, kept.front(), "start", truth));
-  if (kept.size() > 2) shown.beliefs.push_back(belief_at(method, kept[kept.size() / 2], "middle", truth));
-  if (kept.size() > 1) shown.beliefs.push_back(belief_at(method, kept.back(), last, truth));
+  shown.beliefs.push_back(belief_at(plan, method, kept.front(), "start", truth));
+  if (kept.size() > 2) shown.beliefs.push_back(belief_at(plan, method, kept[kept.size() / 2], "middle", truth));
+  if (kept.size() > 1) shown.beliefs.push_back(belief_at(plan, method, kept.back(), last, truth));
+}
+
+/// The storey of the start and those the robot was on, from the lowest up.
+std::vector<ReportStorey> storeys_of(const RunFiles& files, const std::vector<ReportSample>& truth) {
+  const std::vector<bim::Storey>& storeys = files.site.as_built.storeys;
+  std::set<std::pair<double, int>> shown;
+  const auto show = [&](int index) { shown.emplace(storeys.at(static_cast<std::size_t>(index)).elevation_m, index); };
+  for (const ReportSample& at : truth) show(at.storey);
+  for (std::size_t i = 0; i < storeys.size(); ++i)
+    if (storeys[i].id == files.scenario.start.storey) show(static_cast<int>(i));
+  if (shown.empty()) show(0);
+  std::vector<ReportStorey> out;
+  for (const auto& [elevation, index] : shown) {
+    const bim::Storey& storey = storeys[static_cast<std::size_t>(index)];
+    out.push_back({index, storey.name.empty() ? storey.id : storey.name, report_deviations(files.site, index)});
+  }
+  return out;
 }
 
 }  // namespace
@@ -75,19 +106,17 @@ ReportInput report_input(const RunFiles& files, const score::RunScore& score) {
         std::find_if(rooms.begin(), rooms.end(), [&](const bim::Room& candidate) { return candidate.id == room.name; });
     if (named != rooms.end() && !named->name.empty()) room.name = named->name;
   }
-  for (std::size_t i = 0; i < files.site.as_built.storeys.size(); ++i)
-    if (files.site.as_built.storeys[i].id == files.scenario.start.storey) input.storey = static_cast<int>(i);
-  input.deviations = report_deviations(files.site, input.storey);
   for (const slam::Nanoseconds stamp : score.truth.scans)
-    input.truth.push_back(sample(stamp, score.truth.at(stamp), 0.0));
+    input.truth.push_back(sample(input.plan, stamp, score.truth.at(stamp), 0.0));
+  input.storeys = storeys_of(files, input.truth);
   for (std::size_t i = 0; i < files.methods.size(); ++i) {
     const MethodRecord& method = files.methods[i];
     ReportMethod shown;
     shown.name = method.name;
     shown.localization = method.localization;
-    shown.samples = samples_of(method, score.truth);
-    add_structure(method, score.methods[i], shown);
-    add_beliefs(method, score.truth, shown);
+    shown.samples = samples_of(input.plan, method, score.truth);
+    add_structure(input.plan, method, score.methods[i], shown);
+    add_beliefs(input.plan, method, score.truth, shown);
     input.methods.push_back(std::move(shown));
   }
   return input;

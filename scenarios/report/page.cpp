@@ -20,6 +20,8 @@ h2{font-size:16px;margin:0 0 10px}
 @media(max-width:980px){.top{grid-template-columns:1fr}}
 svg{display:block;width:100%;height:auto}
 .map{max-height:82vh}
+.maps{display:grid;grid-template-columns:repeat(auto-fit,minmax(380px,1fr));gap:12px}
+.storey{margin:0 0 4px;font-weight:600}
 .map text{font-size:.36px;fill:#6b7889;paint-order:stroke;stroke:#f8fafc;stroke-width:.12px}
 .room{fill:#f8fafc;stroke:none}
 .asbuilt{fill:#e8871e;fill-opacity:.55;stroke:#e8871e;stroke-width:.05}
@@ -73,17 +75,20 @@ std::string_view page_script() {
       var mid = (lo + hi + 1) >> 1;
       if (track.t[mid] <= t) lo = mid; else hi = mid - 1;
     }
-    return { x: track.x[lo], y: track.y[lo], yaw: track.yaw[lo], e: track.e ? track.e[lo] : 0 };
+    return { x: track.x[lo], y: track.y[lo], yaw: track.yaw[lo], s: track.s[lo], e: track.e ? track.e[lo] : 0 };
   }
   function show(t) {
     t = Math.min(Math.max(t, 0), data.end);
     slider.value = t;
     clock.textContent = t.toFixed(1) + " s";
     Object.keys(data.tracks).forEach(function (name) {
-      var mark = document.getElementById("robot-" + name), p = at(data.tracks[name], t);
-      if (!mark) return;
-      mark.style.display = p ? "" : "none";
-      if (p) mark.setAttribute("transform", "translate(" + p.x + " " + -p.y + ") rotate(" + (-p.yaw * 180 / Math.PI) + ")");
+      var p = at(data.tracks[name], t);
+      document.querySelectorAll(".robot").forEach(function (mark) {
+        if (mark.dataset.robot !== name) return;
+        var here = p && p.s === +mark.dataset.storey;
+        mark.style.display = here ? "" : "none";
+        if (here) mark.setAttribute("transform", "translate(" + p.x + " " + -p.y + ") rotate(" + (-p.yaw * 180 / Math.PI) + ")");
+      });
       var now = document.getElementById("now-" + name);
       if (now) now.textContent = p ? "now " + (p.e * 100).toFixed(1) + " cm off" : "no single answer yet";
     });

@@ -2,9 +2,9 @@
 #include "scenarios/report/report.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
+#include "scenarios/report/map.h"
 #include "scenarios/report/page.h"
 #include "scenarios/report/plot.h"
 #include "scenarios/report/svg.h"
@@ -12,11 +12,6 @@
 namespace plumbline::scenarios {
 
 namespace {
-
-// Colours that stay apart for colour-blind readers (Okabe and Ito), in the order of the methods.
-constexpr std::array<std::string_view, 6> colours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#b58900", "#56b4e9"};
-
-std::string colour(std::size_t method) { return std::string(colours[method % colours.size()]); }
 
 std::string text_of(const Tree& map, std::string_view key) {
   const Tree* value = map.find(key);
@@ -35,9 +30,6 @@ const Tree* results_of(const ReportInput& input, const std::string& method) {
 }
 
 std::string centimetres(double metres) { return svg::number(100.0 * metres, 1) + " cm"; }
-
-/// The row that checks the scorer; it would lie under everything it is compared with.
-bool is_truth(const ReportMethod& method) { return method.name == "truth"; }
 
 bool is_good(const std::string& verdict) {
   return verdict == "ok" || verdict == "success" || verdict == "honest_ambiguity";
@@ -73,125 +65,11 @@ std::string sentence(const ReportMethod& method, const Tree* results) {
   return text + ".";
 }
 
-/// Wall segments of a face without its openings, as strokes.
-std::string face_strokes(const bim::PlanFace& face) {
-  const double length = (face.p1 - face.p0).norm();
-  if (length <= 0.0) return "";
-  const Eigen::Vector2d e = (face.p1 - face.p0) / length;
-  std::vector<std::pair<double, double>> gaps;
-  for (const auto& hole : face.holes)
-    if (hole.z0 < face.z0 + 0.3) gaps.emplace_back(hole.s0, hole.s1);
-  std::sort(gaps.begin(), gaps.end());
-  std::string out;
-  double s = 0.0;
-  const auto stroke = [&](double s0, double s1) {
-    if (s1 > s0) out += svg::line(face.p0 + s0 * e, face.p0 + s1 * e, "class=\"wall\"");
-  };
-  for (const auto& [s0, s1] : gaps) {
-    stroke(s, s0);
-    s = std::max(s, s1);
-  }
-  stroke(s, length);
-  return out;
-}
-
-struct Box {
-  Eigen::Vector2d min = Eigen::Vector2d::Constant(1e9);
-  Eigen::Vector2d max = Eigen::Vector2d::Constant(-1e9);
-  void add(const Eigen::Vector2d& p) {
-    min = min.cwiseMin(p);
-    max = max.cwiseMax(p);
-  }
-};
-
-Box bounds(const ReportInput& input) {
-  Box box;
-  for (const auto& face : input.plan.faces) {
-    if (face.storey != input.storey) continue;
-    box.add(face.p0);
-    box.add(face.p1);
-  }
-  for (const auto& sample : input.truth) box.add({sample.x, sample.y});
-  const Eigen::Vector2d margin = Eigen::Vector2d::Constant(0.5);
-  return {box.min - margin, box.max + margin};
-}
-
-std::string open_map(const Box& box, const std::string& label) {
-  const Eigen::Vector2d size = box.max - box.min;
-  return "<svg class=\"map\" role=\"img\" aria-label=\"" + svg::escape(label) + "\" viewBox=\"" +
-         svg::number(box.min.x()) + " " + svg::number(-box.max.y()) + " " + svg::number(size.x()) + " " +
-         svg::number(size.y()) + "\">";
-}
-
-std::string draw_plan(const ReportInput& input) {
-  std::string out;
-  for (const auto& room : input.plan.rooms)
-    if (room.storey == input.storey) out += svg::polygon(room.polygon, "class=\"room\"");
-  for (const auto& face : input.plan.faces)
-    if (face.storey == input.storey) out += face_strokes(face);
-  return out;
-}
-
-/// Names stand in the upper left corner of their rooms, away from most paths.
-std::string room_names(const ReportInput& input) {
-  std::string out;
-  for (const auto& room : input.plan.rooms) {
-    if (room.storey != input.storey || room.name.size() > 18) continue;
-    Eigen::Vector2d corner(1e9, -1e9);
-    for (const auto& p : room.polygon) corner = {std::min(corner.x(), p.x()), std::max(corner.y(), p.y())};
-    out += svg::text(corner + Eigen::Vector2d(0.3, -0.6), room.name, "");
-  }
-  return out;
-}
-
-std::vector<Eigen::Vector2d> path_of(const std::vector<ReportSample>& samples) {
-  std::vector<Eigen::Vector2d> path;
-  for (const auto& sample : samples) path.emplace_back(sample.x, sample.y);
-  return path;
-}
-
-std::string robot_mark(const std::string& name, const std::string& fill) {
-  return "<path id=\"robot-" + svg::escape(name) + "\" d=\"M.36 0L-.22 -.2L-.12 0L-.22 .2Z\" fill=\"" + fill +
-         "\" stroke=\"#fff\" stroke-width=\".04\"/>";
-}
-
-std::string draw_structure(const ReportMethod& method, const std::string& c) {
-  std::string out;
-  for (const auto& room : method.rooms)
-    out += svg::polygon(room.polygon_W, room.matched ? "class=\"foundroom\" fill=\"" + c + "\" stroke=\"" + c + "\""
-                                                     : std::string("class=\"foundroom invented\""));
-  for (const auto& wall : method.walls) out += svg::line(wall.p0, wall.p1, "class=\"found\" stroke=\"" + c + "\"");
-  return out;
-}
-
-std::string draw_method(const ReportMethod& method, std::size_t index) {
-  const std::string c = colour(index);
-  std::string out = "<g class=\"layer-" + svg::escape(method.name) + "\">";
-  // What a localization finds are the plan's own walls and rooms, which are drawn already.
-  if (!method.localization) out += draw_structure(method, c);
-  out += svg::polyline(path_of(method.samples), "class=\"path\" stroke=\"" + c + "\"");
-  return out + robot_mark(method.name, c) + "</g>";
-}
-
-std::string draw_map(const ReportInput& input, const Box& box) {
-  std::string out = open_map(box, "floor plan with the true and the estimated paths") + draw_plan(input) +
-                    draw_deviations(input.deviations);
-  for (std::size_t i = 0; i < input.methods.size(); ++i)
-    if (!is_truth(input.methods[i])) out += draw_method(input.methods[i], i);
-  out += room_names(input) + svg::polyline(path_of(input.truth), "class=\"truth\"") + robot_mark("truth", "#111");
-  return out + "</svg>";
-}
-
-std::string map_key() {
-  const auto item = [](const std::string& stroke, const std::string& label) {
-    return "<span><svg viewBox=\"0 0 34 10\"><line x1=\"1\" y1=\"5\" x2=\"33\" y2=\"5\" " + stroke + "/></svg>" +
-           label + "</span>";
-  };
-  return "<div class=\"key\">" + item("stroke=\"#39424e\" stroke-width=\"3\"", "wall of the building") +
-         item("stroke=\"#111\" stroke-width=\"2\" stroke-dasharray=\"5 4\"", "where the robot truly walked") +
-         item("stroke=\"#0072b2\" stroke-width=\"2\"", "where a method says it walked (its colour)") +
-         item("stroke=\"#0072b2\" stroke-width=\"4\" stroke-opacity=\".8\"", "wall a method found") +
-         "<span>tinted area: room a method found (red: there is none)</span></div>";
+std::vector<ReportDeviation> all_deviations(const ReportInput& input) {
+  std::vector<ReportDeviation> all;
+  for (const ReportStorey& storey : input.storeys)
+    all.insert(all.end(), storey.deviations.begin(), storey.deviations.end());
+  return all;
 }
 
 std::string method_cards(const ReportInput& input) {
@@ -286,7 +164,7 @@ std::string numbers_table(const ReportInput& input) {
   return out + "</table></div></section>";
 }
 
-std::string beliefs(const ReportInput& input, const Box& box) {
+std::string beliefs(const ReportInput& input, const MapBox& box) {
   std::string out;
   for (std::size_t i = 0; i < input.methods.size(); ++i) {
     const ReportMethod& method = input.methods[i];
@@ -295,7 +173,7 @@ std::string beliefs(const ReportInput& input, const Box& box) {
            " thought the robot could be</h2><div class=\"beliefs\">";
     for (const auto& belief : method.beliefs) {
       out += "<div><p>" + svg::escape(belief.label) + ", " + svg::number(belief.t_s, 1) + " s</p>" +
-             open_map(box, "particles at " + belief.label) + draw_plan(input);
+             open_map(box, "particles at " + belief.label) + draw_plan(input, belief.storey);
       for (const auto& particle : belief.particles)
         out += svg::circle({particle.x, particle.y}, 0.09, "fill=\"" + colour(i) + "\" fill-opacity=\".55\"");
       out += svg::circle(belief.truth, 0.28, "fill=\"none\" stroke=\"#111\" stroke-width=\".08\"") + "</svg></div>";
@@ -312,6 +190,7 @@ Tree track(const std::vector<ReportSample>& samples, bool with_error) {
   Tree x = Tree::list();
   Tree y = Tree::list();
   Tree yaw = Tree::list();
+  Tree storey = Tree::list();
   Tree error = Tree::list();
   const auto rounded = [](double v, double unit) { return Tree(std::round(v / unit) * unit); };
   for (const auto& sample : samples) {
@@ -319,10 +198,15 @@ Tree track(const std::vector<ReportSample>& samples, bool with_error) {
     x.push(rounded(sample.x, 0.001));
     y.push(rounded(sample.y, 0.001));
     yaw.push(rounded(sample.yaw, 0.001));
+    storey.push(sample.storey);
     error.push(rounded(sample.error_m, 0.0001));
   }
   Tree out = Tree::map();
-  out.set("t", std::move(t)).set("x", std::move(x)).set("y", std::move(y)).set("yaw", std::move(yaw));
+  out.set("t", std::move(t))
+      .set("x", std::move(x))
+      .set("y", std::move(y))
+      .set("yaw", std::move(yaw))
+      .set("s", std::move(storey));
   if (with_error) out.set("e", std::move(error));
   return out;
 }
@@ -365,7 +249,7 @@ std::string plots(const ReportInput& input, double end_s) {
 }  // namespace
 
 std::string render_report(const ReportInput& input) {
-  const Box box = bounds(input);
+  const MapBox box = bounds(input);
   const double end_s = input.truth.empty() ? 0.0 : input.truth.back().t_s;
   std::string page =
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
@@ -373,12 +257,12 @@ std::string render_report(const ReportInput& input) {
       svg::escape(text_of(input.results, "scenario")) + " · Plumbline</title><style>";
   page += page_style();
   page += "</style></head>\n<body><main>" + header(input);
-  page += "<div class=\"top\"><section class=\"card\">" + draw_map(input, box) + map_key() +
+  page += "<div class=\"top\"><section class=\"card\">" + draw_maps(input, box) + map_key() +
           "<div class=\"controls\"><button id=\"play\" type=\"button\">Play</button>"
           "<input id=\"time\" type=\"range\" min=\"0\" max=\"1\" step=\"0.1\" aria-label=\"time\">"
           "<span class=\"clock\" id=\"clock\"></span></div></section><aside class=\"card\">" +
           method_cards(input) + "</aside></div>\n";
-  page += plots(input, end_s) + "\n" + list_deviations(input.deviations) + "\n" + beliefs(input, box) + "\n" +
+  page += plots(input, end_s) + "\n" + list_deviations(all_deviations(input)) + "\n" + beliefs(input, box) + "\n" +
           gates_table(input) + "\n" + numbers_table(input);
   page += "<details class=\"card\"><summary>What was simulated</summary><pre><code>" +
           svg::escape(input.results.find("sensors") == nullptr ? "" : write_yaml(*input.results.find("sensors"))) +

@@ -4,28 +4,26 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bim/building/plan.h"
 #include "bim/mesh/mesh.h"
 #include "bim/mesh/visible.h"
 #include "bim/rays/scene.h"
 #include "scenarios/identify/constants.h"
 #include "scenarios/identify/identify.h"
+#include "scenarios/score/storey.h"
 #include "sim/world.h"
 
 namespace plumbline::scenarios::score {
 
 namespace {
 
-/// The storey whose floor is nearest below the robot (ties: the lower index).
-std::size_t storey_of(const bim::Building& building, const Pose& X_WR) {
-  std::size_t best = 0;
-  for (std::size_t i = 1; i < building.storeys.size(); ++i) {
-    const double here =
-        std::abs(X_WR.t.z() - sim::World::calibration().sensor_height_m - building.storeys[i].elevation_m);
-    const double there =
-        std::abs(X_WR.t.z() - sim::World::calibration().sensor_height_m - building.storeys[best].elevation_m);
-    if (here < there) best = i;
-  }
-  return best;
+/// Height of the levelled sensor: over the floor of a storey while the robot walks on one, its own on a stair.
+double sensor_z_W(const bim::Plan& plan, const Pose& X_WR) {
+  constexpr double on_floor_m = 0.15;  // the base of a walking robot stays this close to its height
+  const auto storey = static_cast<std::size_t>(storey_of_base(plan.storeys, X_WR.t.z()));
+  const double floor = plan.storeys[storey].elevation_m;
+  const double under = X_WR.t.z() - base_height_m();
+  return (std::abs(under - floor) < on_floor_m ? floor : under) + sim::World::calibration().sensor_height_m;
 }
 
 IdentifyStorey search_area(const bim::Building& building, std::size_t storey) {
@@ -53,20 +51,20 @@ std::optional<Identifiability> identifiability_of(const RunFiles& files, const T
   const bim::RayScene planned_scene = scene_of(as_planned);
   std::optional<bim::RayScene> built_scene;
   if (!files.site.changes.empty()) built_scene = scene_of(files.site.as_built);
-  const std::size_t start = storey_of(as_planned, files.truth_W.front().X_FR);
+  const bim::Plan plan = bim::make_plan(as_planned);
+  const auto start = static_cast<std::size_t>(storey_of_base(plan.storeys, files.truth_W.front().X_FR.t.z()));
 
   IdentifyInput input;
   input.as_planned = &planned_scene;
   input.as_built = built_scene ? &*built_scene : &planned_scene;
   input.yaw_known = files.scenario.prior.yaw == Knowledge::known;
-  input.truth_sensor_z_W = search_area(as_planned, start).sensor_z_W;
   for (std::size_t i = 0; i < as_planned.storeys.size(); ++i)
     if (i == start || files.scenario.prior.storey == Knowledge::unknown)
       input.storeys.push_back(search_area(as_planned, i));
 
   std::vector<TruthSample> samples;
   for (const slam::Nanoseconds t : files.scans)
-    samples.push_back({slam::seconds(t - files.scans.front()), truth.at(t)});
+    samples.push_back({slam::seconds(t - files.scans.front()), truth.at(t), sensor_z_W(plan, truth.at(t))});
   const RunIdentifiability run = identify_run(input, samples);
 
   Identifiability result{run.identifiable, run.identifiable_at_s, run.identifiable_at_m, run.tellable_from_s(), {}};

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "scenarios/score/storey.h"
 #include "scenarios/score/structure.h"
 
 namespace plumbline::scenarios::score {
@@ -38,6 +39,15 @@ int face_of(const slam::Estimate& estimate, const WallScore& walls, int plane_id
   for (std::size_t i = 0; i < estimate.planes.size(); ++i)
     if (estimate.planes[i].id == plane_id) return walls.face_of_plane[i];
   return -1;
+}
+
+/// False for rooms whose walls stand on another storey; one that names no walls may be any.
+bool same_storey(const slam::Estimate& estimate, const slam::RoomNode& node, const Pose& X_WF, const bim::Plan& plan,
+                 const bim::PlanRoom& room) {
+  const std::optional<double> height_F = height_of_room(estimate, node);
+  if (!height_F || plan.storeys.empty()) return true;
+  const double z_W = (X_WF * Eigen::Vector3d(node.center_F.x(), node.center_F.y(), *height_F)).z();
+  return storey_of_height(plan.storeys, z_W) == room.storey;
 }
 
 /// Both faces of a corridor matched, and the centre in the middle between them, within the room along it.
@@ -89,6 +99,7 @@ RoomScore score_rooms(const slam::Estimate& estimate, const Pose& X_WF, const bi
     const Polygon2 outline_W = place(node.polygon_F, X_WF);
     for (std::size_t j = 0; j < as_built.rooms.size(); ++j) {
       const bim::PlanRoom& room = as_built.rooms[j];
+      if (!same_storey(estimate, node, X_WF, as_built, room)) continue;
       const double overlap = iou(outline_W, room.polygon);
       const bool corridor =
           node.kind == slam::RoomKind::two_wall && corridor_matches(estimate, node, X_WF, as_built, room, walls, rules);

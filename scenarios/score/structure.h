@@ -46,7 +46,8 @@ struct RoomScore {
 [[nodiscard]] WallScore score_walls(const slam::Estimate& estimate, const Pose& X_WF, const bim::Plan& as_built,
                                     const std::vector<Eigen::Vector3d>& surface_W, const StructureRules& rules = {});
 
-/// Matches found rooms with rooms one to one: candidates by falling overlap, ties by found room, then room.
+/// Matches found rooms with rooms of the storey their walls stand on, one to one: candidates by falling overlap, ties
+/// by found room, then room.
 [[nodiscard]] RoomScore score_rooms(const slam::Estimate& estimate, const Pose& X_WF, const bim::Plan& as_built,
                                     const WallScore& walls, const Truth& truth, const StructureRules& rules = {});
 

@@ -24,11 +24,12 @@ ReportInput sample() {
   face.p1 = {4.0, 0.0};
   face.holes = {{1.0, 2.0, 0.0, 2.1}};
   input.plan.faces = {face};
-  for (int i = 0; i <= 100; ++i) input.truth.push_back({0.1 * i, 0.04 * i, 1.0, 0.0, 0.0});
+  input.storeys = {{0, "ground", {}}};
+  for (int i = 0; i <= 100; ++i) input.truth.push_back({0.1 * i, 0.04 * i, 1.0, 0.0, 0.0, 0});
   ReportMethod m;
   m.name = "m";
-  for (const auto& s : input.truth) m.samples.push_back({s.t_s, s.x, s.y + 0.08, 0.0, 0.08});
-  m.beliefs.push_back({"start", 0.0, {{1.0, 1.0, 0.0, 1.0}}, {0.0, 1.0}});
+  for (const auto& s : input.truth) m.samples.push_back({s.t_s, s.x, s.y + 0.08, 0.0, 0.08, 0});
+  m.beliefs.push_back({"start", 0.0, {{1.0, 1.0, 0.0, 1.0}}, {0.0, 1.0}, 0});
   input.methods.push_back(m);
   return input;
 }
@@ -53,6 +54,20 @@ TEST(Report, LeavesDoorsOpenInWalls) {
   const std::string map =
       page.substr(page.find("<svg class=\"map\""), page.find("</svg>") - page.find("<svg class=\"map\""));
   EXPECT_EQ(count(map, "class=\"wall\""), 2U);
+}
+
+TEST(Report, DrawsTheMapOfEveryStoreyWithThePathOnIt) {
+  ReportInput input = sample();
+  input.storeys.push_back({1, "upper <floor>", {}});
+  input.plan.faces.push_back(input.plan.faces.front());
+  input.plan.faces.back().storey = 1;
+  for (std::size_t i = 60; i < input.truth.size(); ++i) input.truth[i].storey = 1;
+  const std::string page = render_report(input);
+  EXPECT_EQ(count(page, "data-robot=\"truth\""), 2U);
+  EXPECT_EQ(count(page, "class=\"truth\""), 2U);
+  EXPECT_EQ(count(page, "<p class=\"storey\">"), 2U);
+  EXPECT_NE(page.find("upper &lt;floor&gt;"), std::string::npos);
+  EXPECT_EQ(count(render_report(sample()), "<p class=\"storey\">"), 0U);
 }
 
 TEST(Report, SameInputSameBytes) { EXPECT_EQ(render_report(sample()), render_report(sample())); }

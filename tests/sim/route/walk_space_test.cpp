@@ -3,9 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
+#include <optional>
 #include <string>
 
 #include "bim/building/plan_yaml.h"
+#include "bim/config/tree.h"
+#include "bim/errors.h"
+#include "bim/random/stream.h"
 
 namespace plumbline::sim {
 namespace {
@@ -128,6 +134,64 @@ TEST(WalkSpace, StairsThatCannotBeWalkedSayWhy) {
   EXPECT_EQ(fault(straight, box + "[0.65, 3.0], size: [0.6, 0.6], height_m: 1}\n"),
             "has no room before its first step");
   EXPECT_NE(fault(straight, box + "[3.0, 2.3], size: [0.8, 0.8], height_m: 2}\n").find("free near"), std::string::npos);
+}
+
+/// A stair drawn at random that keeps clear of the facade, or nothing when the plan refuses it.
+std::optional<bim::Building> random_tower(const Stream& stream, std::uint64_t i) {
+  constexpr std::array<const char*, 5> turns = {"none", "left", "right", "back_left", "back_right"};
+  const auto between = [&](std::uint64_t draw, double low, double high) {
+    return format_number(std::round(1e3 * (low + (high - low) * stream.uniform(i, draw))) / 1e3);
+  };
+  const auto turn = static_cast<std::size_t>(5.0 * stream.uniform(i, 9));
+  std::string stair = "{id: stair, from: ground, to: upper, start: [" + between(0, 1.0, 7.0) + ", " +
+                      between(1, 1.0, 5.0) + "], yaw_deg: " + between(2, -180.0, 180.0) +
+                      ", width_m: " + between(3, 0.6, 1.4) + ", rise_m: " + between(4, 0.15, 0.2) +
+                      ", run_m: " + between(5, 0.24, 0.3);
+  if (stream.uniform(i, 8) < 0.8)
+    stair += ", landing_after: " + std::to_string(4 + static_cast<int>(8.0 * stream.uniform(i, 6))) +
+             ", landing_m: " + between(7, 1.0, 1.5) + ", turn: " + turns[turn];
+  try {
+    return building(stair + "}");
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+}
+
+TEST(WalkSpace, RandomStairsAreClimbedInTheMiddleOrRefused) {
+  const Stream stream(7, "bim.generate");
+  int walked = 0, refused = 0;
+  for (std::uint64_t i = 0; i < 400; ++i) {
+    const std::optional<bim::Building> tower = random_tower(stream, i);
+    if (!tower) continue;
+    const bim::Stair& stair = tower->stairs.front();
+    const WalkSpace space(*tower);
+    const StairWay& way = space.stairs().front();
+    if (!way.fault.empty()) {
+      ++refused;
+      continue;
+    }
+    ++walked;
+    // Over every flight from its first to its last step along its middle.
+    for (const bim::StairFlight& flight : stair.flights) {
+      const Eigen::Vector2d e(std::cos(flight.yaw), std::sin(flight.yaw));
+      for (const double s : {0.0, 0.5, 1.0}) {
+        const Eigen::Vector2d p = flight.start + s * flight.steps * flight.run_m * e;
+        double off = 1e9;
+        for (std::size_t k = 1; k < way.points.size(); ++k)
+          off = std::min(off, segment_distance(way.points[k - 1].head<2>(), way.points[k].head<2>(), p));
+        EXPECT_LT(off, 1e-6) << i;
+      }
+    }
+    // Each turn has the robot's radius to the landing's edges that are no step's.
+    for (std::size_t k = 1; k + 1 < way.points.size(); ++k) {
+      EXPECT_TRUE(contains(stair.landings.front().polygon, Eigen::Vector2d(way.points[k].head<2>()))) << i;
+      EXPECT_GE(boundary_distance(stair.landings.front().polygon, way.points[k].head<2>()), 0.35 - 0.025) << i;
+    }
+    EXPECT_TRUE(space.storey(0).free(way.points.front().head<2>()));
+    EXPECT_TRUE(space.storey(1).free(way.points.back().head<2>()));
+  }
+  EXPECT_GE(walked, 20);
+  EXPECT_GE(refused, 5);
 }
 
 TEST(WalkSpace, AStairWithoutStepsIsABody) {

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "scenarios/report/report.h"
+
+namespace plumbline::scenarios {
+
+/// What a map shows of the plane, m.
+struct MapBox {
+  Eigen::Vector2d min = Eigen::Vector2d::Constant(1e9);
+  Eigen::Vector2d max = Eigen::Vector2d::Constant(-1e9);
+  void add(const Eigen::Vector2d& p) {
+    min = min.cwiseMin(p);
+    max = max.cwiseMax(p);
+  }
+};
+
+/// Of all storeys shown, so that their maps lie over each other.
+[[nodiscard]] MapBox bounds(const ReportInput& input);
+/// Start tag of a map.
+[[nodiscard]] std::string open_map(const MapBox& box, const std::string& label);
+/// Rooms and walls of a storey.
+[[nodiscard]] std::string draw_plan(const ReportInput& input, int storey);
+/// A map of every storey with the parts of the paths on it, and what was found there.
+[[nodiscard]] std::string draw_maps(const ReportInput& input, const MapBox& box);
+/// What the lines of a map mean.
+[[nodiscard]] std::string map_key();
+
+/// Colour of the method with this index.
+[[nodiscard]] std::string colour(std::size_t method);
+/// The row that checks the scorer; it would lie under everything it is compared with.
+[[nodiscard]] bool is_truth(const ReportMethod& method);
+
+}  // namespace plumbline::scenarios
