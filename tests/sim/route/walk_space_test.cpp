@@ -139,7 +139,7 @@ TEST(WalkSpace, StairsThatCannotBeWalkedSayWhy) {
 /// A stair drawn at random that keeps clear of the facade, or nothing when the plan refuses it.
 std::optional<bim::Building> random_tower(const Stream& stream, std::uint64_t i) {
   constexpr std::array<const char*, 5> turns = {"none", "left", "right", "back_left", "back_right"};
-  const auto between = [&](std::uint64_t draw, double low, double high) {
+  const auto between = [&](std::uint32_t draw, double low, double high) {
     return format_number(std::round(1e3 * (low + (high - low) * stream.uniform(i, draw))) / 1e3);
   };
   const auto turn = static_cast<std::size_t>(5.0 * stream.uniform(i, 9));
