@@ -2,6 +2,7 @@
 #include "slam/methods.h"
 
 #include <array>
+#include <utility>
 
 #include "slam/baseline/lidar_odometry_method.h"
 #include "slam/baseline/odometry_method.h"
@@ -12,28 +13,51 @@ namespace plumbline::slam {
 
 namespace {
 
-template <OdometryKind kind>
-std::unique_ptr<Method> odometry_alone(const MethodInput& input) {
-  LidarOdometryConfig config;
-  config.kind = kind;
-  return make_lidar_odometry_method(input, config);
+/// Completes the row of a front end that stands alone.
+template <class FrontEnd>
+MethodRow odometry_alone(OdometryKind kind, FrontEnd LidarOdometryConfig::*front_end, MethodRow row) {
+  using Config = LidarOdometryMethodConfig<FrontEnd>;
+  row.make = [kind, front_end](const MethodInput& input) {
+    const auto told = config_of<Config>(input);
+    LidarOdometryConfig config;
+    config.kind = kind;
+    config.*front_end = told.odometry;
+    return make_lidar_odometry_method(input, config, told.map);
+  };
+  return with_config<Config>(std::move(row));
+}
+
+std::unique_ptr<Method> localize_in_plan(const MethodInput& input) {
+  return make_s_graph_localization(input, config_of<LocalizationConfig>(input));
 }
 
 }  // namespace
 
 std::span<const MethodRow> methods() {
   static const std::array rows = {
-      MethodRow{"odometry", "dead reckoning of the legs", false, make_odometry_method},
-      MethodRow{"vgicp", "LiDAR odometry: voxelized GICP against a sliding local map", false,
-                odometry_alone<OdometryKind::vgicp>},
-      MethodRow{"floam", "LiDAR odometry: edges and planes against a feature map, in the style of F-LOAM", false,
-                odometry_alone<OdometryKind::floam>, false},
-      MethodRow{"aloam", "LiDAR odometry: scan to scan, then against a feature map, in the style of A-LOAM", false,
-                odometry_alone<OdometryKind::aloam>, false},
-      MethodRow{"s_graphs_plus", "S-Graphs+: walls, rooms, floors and loops in one four-layered graph", false,
-                make_s_graphs_plus_method},
-      MethodRow{"s_graph_localization", "particle filter on the plan's walls and rooms, then a graph against them",
-                true, [](const MethodInput& input) { return make_s_graph_localization(input); }},
+      with_config<OdometryMethodConfig>({.name = "odometry",
+                                         .summary = "dead reckoning of the legs",
+                                         .make = make_odometry_method,
+                                         .needs_odometry = true}),
+      odometry_alone(OdometryKind::vgicp, &LidarOdometryConfig::vgicp,
+                     {.name = "vgicp", .summary = "LiDAR odometry: voxelized GICP against a sliding local map"}),
+      odometry_alone(OdometryKind::floam, &LidarOdometryConfig::floam,
+                     {.name = "floam",
+                      .summary = "LiDAR odometry: edges and planes against a feature map, in the style of F-LOAM",
+                      .standard = false}),
+      odometry_alone(OdometryKind::aloam, &LidarOdometryConfig::aloam,
+                     {.name = "aloam",
+                      .summary = "LiDAR odometry: scan to scan, then against a feature map, in the style of A-LOAM",
+                      .standard = false}),
+      with_config<SGraphsPlusConfig>({.name = "s_graphs_plus",
+                                      .summary = "S-Graphs+: walls, rooms, floors and loops in one four-layered graph",
+                                      .make = make_s_graphs_plus_method}),
+      with_config<LocalizationConfig>(
+          {.name = "s_graph_localization",
+           .summary = "particle filter on the plan's walls and rooms, then a graph against them",
+           .needs_plan = true,
+           .make = localize_in_plan,
+           .needs_odometry = true}),
   };
   return rows;
 }

@@ -5,19 +5,34 @@
 #include <memory>
 #include <span>
 #include <string_view>
+#include <vector>
 
+#include "bim/config/schema.h"
 #include "slam/io/method.h"
 
 namespace plumbline::slam {
 
 /// One row of the table of estimators.
 struct MethodRow {
-  std::string_view name;
-  std::string_view summary;
+  std::string_view name = {};
+  std::string_view summary = {};
   bool needs_plan = false;
-  std::function<std::unique_ptr<Method>(const MethodInput&)> make;
-  bool standard = true;  ///< runs where neither scenario nor command line names methods
+  std::function<std::unique_ptr<Method>(const MethodInput&)> make = {};
+  bool standard = true;         ///< runs where neither scenario nor command line names methods
+  bool needs_odometry = false;  ///< else it assumes constant velocity where there is none
+  /// Every value of the method's config struct: those of the tree (which may be null) over the defaults. Throws
+  /// InputError. Empty where the method has no config.
+  std::function<Tree(const Tree&)> configure = {};
+  std::function<std::vector<SchemaSection>()> config_schema = {};  ///< its keys; empty where there is no config
 };
+
+/// The row of a method that reads its config by config_of<Config>.
+template <class Config>
+[[nodiscard]] MethodRow with_config(MethodRow row) {
+  row.configure = [](const Tree& tree) { return to_tree(tree.is_null() ? Config{} : from_tree<Config>(tree)); };
+  row.config_schema = [] { return SchemaVisitor::sections_of<Config>(); };
+  return row;
+}
 
 /// Every estimator, in the order of `plumbline methods`.
 [[nodiscard]] std::span<const MethodRow> methods();

@@ -96,6 +96,25 @@ std::string example_of(const std::vector<Tree>& examples, const SchemaSection& s
   return "";
 }
 
+std::string schema_yaml(const std::vector<SchemaField>& fields) {
+  std::string text, last;
+  for (const SchemaField& field : fields) {
+    std::string indent;
+    for (std::size_t dot = field.key.find('.'), from = 0; dot != std::string::npos; dot = field.key.find('.', from)) {
+      const std::string map = field.key.substr(0, dot + 1);
+      if (last.substr(0, map.size()) != map) text += indent + field.key.substr(from, dot - from) + ":\n";
+      indent += "  ";
+      from = dot + 1;
+    }
+    last = field.key;
+    std::string said = field.meaning;
+    if (!field.range.empty()) said += (said.empty() ? "" : " ") + ("(" + field.range + ")");
+    text += indent + field.key.substr(field.key.rfind('.') + 1) + ": " + field.standard;
+    text += said.empty() ? "\n" : "  # " + said + "\n";
+  }
+  return text;
+}
+
 std::string schema_tables(const std::vector<SchemaSection>& sections, const std::vector<Tree>& examples) {
   std::string page, last;
   for (const SchemaSection& section : sections) {

@@ -122,6 +122,8 @@ class SchemaVisitor {
 /// The first value of this key in examples of the file, as text; empty when they have none.
 [[nodiscard]] std::string example_of(const std::vector<Tree>& examples, const SchemaSection& section,
                                      const SchemaField& field);
+/// YAML with every key of a file without lists of entries at its default, each with what is said of it as a comment.
+[[nodiscard]] std::string schema_yaml(const std::vector<SchemaField>& fields);
 /// Markdown: for each section a table of its keys, with values of the examples.
 [[nodiscard]] std::string schema_tables(const std::vector<SchemaSection>& sections, const std::vector<Tree>& examples);
 

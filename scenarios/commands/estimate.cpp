@@ -19,6 +19,7 @@
 #include "scenarios/run/pipeline.h"
 #include "scenarios/run/progress.h"
 #include "scenarios/run/run_files.h"
+#include "slam/io/bag.h"
 #include "slam/io/recording.h"
 #include "slam/methods.h"
 
@@ -30,6 +31,9 @@ struct Options {
   std::string recording;
   std::string method;
   std::string plan;
+  std::string config;
+  std::string description;
+  slam::BagTopics topics;
   std::string out;
   std::uint64_t seed = 1;
   double yaw_deg = 0.0;
@@ -55,9 +59,14 @@ std::shared_ptr<const bim::Plan> load_plan(const Options& options, const slam::M
 }
 
 /// A run directory holds its recording in a folder.
-std::unique_ptr<slam::Recording> open_input(const std::string& path) {
-  const std::string inner = path + "/" + std::string(recording_folder);
-  return slam::open_recording(std::filesystem::is_directory(inner) ? inner : path);
+std::unique_ptr<slam::Recording> open_input(const Options& options) {
+  std::optional<slam::RecordingInfo> info;
+  if (!options.description.empty())
+    info = slam::read_recording_info(read_text_file(options.description), options.description);
+  const slam::RecordingInfo* given = info ? &*info : nullptr;
+  if (slam::is_bag(options.recording)) return slam::open_bag(options.recording, options.topics, given);
+  const std::string inner = options.recording + "/" + std::string(recording_folder);
+  return slam::open_recording(std::filesystem::is_directory(inner) ? inner : options.recording, given);
 }
 
 /// What the recording tells, and the command line over it.
@@ -74,10 +83,26 @@ slam::Prior make_prior(const Options& options, const slam::RecordingInfo& info, 
   throw InputError({"--storey", 0, 0}, "the plan has no storey '" + *prior.storey + "'; it has " + list);
 }
 
-slam::MethodInput make_input(const Options& options, const slam::MethodRow& row, const slam::RecordingInfo& info) {
+/// Every value of the method's config: those of --config over the defaults.
+Tree make_config(const Options& options, const slam::MethodRow& row) {
+  if (options.config.empty()) return row.configure ? row.configure({}) : Tree();
+  if (!row.configure) throw InputError({"--config", 0, 0}, "method '" + options.method + "' has no values to set");
+  return row.configure(read_yaml(read_text_file(options.config), options.config));
+}
+
+std::uint64_t run_seed(const Options& options, const slam::RecordingInfo& info) {
+  return options.seed_option->count() > 0 ? options.seed : info.seed.value_or(options.seed);
+}
+
+slam::MethodInput make_input(const Options& options, const slam::MethodRow& row, const slam::Recording& recording) {
+  const slam::RecordingInfo& info = recording.info();
   slam::MethodInput input;
-  const std::uint64_t seed = options.seed_option->count() > 0 ? options.seed : info.seed.value_or(options.seed);
-  input.seed = method_seed(seed, row.name);
+  input.config = make_config(options, row);
+  input.has_odometry = recording.has_odometry();
+  if (row.needs_odometry && !input.has_odometry)
+    throw InputError({options.recording, 0, 0}, "holds no odometry, which method '" + options.method +
+                                                    "' needs; vgicp and s_graphs_plus do without");
+  input.seed = method_seed(run_seed(options, info), row.name);
   input.calibration = slam::calibration_of(info);
   input.plan = load_plan(options, row);
   if (input.plan) input.prior = make_prior(options, info, *input.plan);
@@ -111,16 +136,25 @@ MethodRecord run_method(slam::Recording& recording, const slam::MethodRow& row, 
   return record;
 }
 
+/// estimate.yaml: what the answer depends on besides recording and plan.
+std::string describe(const slam::MethodRow& row, std::uint64_t seed, const slam::MethodInput& input) {
+  Tree tree = Tree::map();
+  tree.set("estimate", 1).set("method", row.name).set("seed", static_cast<std::int64_t>(seed));
+  if (!input.config.is_null()) tree.set("config", input.config);
+  return write_yaml(tree);
+}
+
 int estimate(const Options& options) {
   const slam::MethodRow& row = find_row(options.method);
-  const std::unique_ptr<slam::Recording> recording = open_input(options.recording);
-  const slam::MethodInput input = make_input(options, row, recording->info());
+  const std::unique_ptr<slam::Recording> recording = open_input(options);
+  const slam::MethodInput input = make_input(options, row, *recording);
 
   catch_interrupts();
   RunDirectory directory(options.out, options.force);
   const MethodRecord record = run_method(*recording, row, input);
   write_method(directory.staging(), record);
   write_file(directory.staging() + "/digests.csv", write_digests(record.digests));
+  write_file(directory.staging() + "/estimate.yaml", describe(row, run_seed(options, recording->info()), input));
   directory.commit();
   if (record.crashed) {
     std::fprintf(stderr, "plumbline: method '%s' crashed: %s\n", record.name.c_str(), record.error.c_str());
@@ -136,10 +170,16 @@ Command add_estimate(CLI::App& program) {
   const auto options = std::make_shared<Options>();
   CLI::App* app = program.add_subcommand("estimate", "Runs a method on a recording, simulated or real");
   app->add_option("RECORDING", options->recording,
-                  "directory of simulate or of run --record, or capture of a VLP-16 (.pcap)")
+                  "directory of simulate or of run --record, capture of a VLP-16 (.pcap), or ROS 1 bag")
       ->required();
+  app->add_option("--description", options->description, "a recording.yaml, for what has none: where the LiDAR sits");
+  app->add_option("--points-topic", options->topics.points, "of a bag [the first PointCloud2]");
+  app->add_option("--odometry-topic", options->topics.odometry, "of a bag [the first Odometry]");
+  app->add_option("--imu-topic", options->topics.imu, "of a bag [the first Imu]");
   app->add_option("--method", options->method, "one of plumbline methods")->required();
   app->add_option("--plan", options->plan, "building, for methods that localize in a plan");
+  app->add_option("--config", options->config,
+                  "values of the method (YAML); plumbline methods --config NAME prints all");
   app->add_option("-o,--out", options->out, "directory to write")->required();
   options->seed_option = app->add_option("--seed", options->seed, "seed of the run [the recording's, else 1]");
   options->yaw_option = app->add_option("--yaw-deg", options->yaw_deg,

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "scenarios/commands/commands.h"
+#include "scenarios/resolve.h"
 #include "scenarios/run/participant.h"
 #include "scenarios/scenario_schema.h"
 
@@ -21,6 +22,15 @@ int list_methods() {
     std::printf("%-22s %s%s\n", std::string(row.name).c_str(), std::string(row.summary).c_str(),
                 row.needs_plan ? " (needs the plan)" : "");
   std::printf("%-22s %s\n", std::string(truth_method).c_str(), "the true poses; scores 0, which checks the scorer");
+  return 0;
+}
+
+int print_config(const std::string& name) {
+  check_methods({name}, {Mark{"--config", 0, 0}});
+  const slam::MethodRow* row = slam::find_method(name);
+  if (row == nullptr || !row->config_schema)
+    throw InputError({"--config", 0, 0}, "method '" + name + "' has no values to set");
+  std::fputs(schema_yaml(row->config_schema().front().fields).c_str(), stdout);
   return 0;
 }
 
@@ -49,9 +59,11 @@ int print_schema() {
 }  // namespace
 
 Command add_methods(CLI::App& program) {
+  const auto config = std::make_shared<std::string>();
   CLI::App* app = program.add_subcommand("methods", "Lists the methods a scenario may ask for");
-  app->footer("Example: plumbline methods");
-  return {app, list_methods};
+  app->add_option("--config", *config, "prints instead every value of this method's --config file, at its default");
+  app->footer("Examples: plumbline methods\n          plumbline methods --config vgicp > vgicp.yaml");
+  return {app, [config] { return config->empty() ? list_methods() : print_config(*config); }};
 }
 
 Command add_scenarios(CLI::App& program) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 
@@ -21,8 +22,22 @@ struct Options {
   std::string out;
   std::uint64_t seed = 0;
   bool force = false;
+  bool bag = false;
+  bool bag_truth = false;
+  std::string profile = "velodyne";
   CLI::Option* seed_option = nullptr;
 };
+
+std::vector<std::string> profile_names() {
+  std::vector<std::string> names;
+  for (const slam::BagProfile& profile : slam::bag_profiles) names.emplace_back(profile.name);
+  return names;
+}
+
+const slam::BagProfile& find_profile(const std::string& name) {
+  const auto& rows = slam::bag_profiles;
+  return *std::find_if(rows.begin(), rows.end(), [&](const slam::BagProfile& row) { return row.name == name; });
+}
 
 int simulate(const Options& options) {
   Overrides overrides;
@@ -33,6 +48,7 @@ int simulate(const Options& options) {
   RunDirectory directory(options.out, options.force);
   const std::string& dir = directory.staging();
   Recorder recorder(dir, resolved);
+  if (options.bag) recorder.add_bag(find_profile(options.profile), options.bag_truth);
   RunOptions run_options;
   run_options.methods = false;
   run_options.sensors = [&](const sim::WorldFrame& frame) { recorder.add(frame); };
@@ -64,9 +80,15 @@ Command add_simulate(CLI::App& program) {
   app->add_option("INPUT", options->input, "scenario, plan or building, as for run")->required();
   app->add_option("-o,--out", options->out, "directory to write")->required();
   options->seed_option = app->add_option("--seed", options->seed, "seed [the scenario's]");
+  CLI::Option* bag = app->add_flag("--bag", options->bag, "also write recording.bag (ROS 1, LZ4)");
+  app->add_option("--ros-profile", options->profile, "topics, frames and cloud layout of the bag")
+      ->check(CLI::IsMember(profile_names()))
+      ->capture_default_str()
+      ->needs(bag);
+  app->add_flag("--bag-truth", options->bag_truth, "true poses in the bag, on /ground_truth/odom")->needs(bag);
   app->add_flag("--force", options->force, "replace the recording that stands in --out");
   app->footer(
-      "Example: plumbline simulate scenarios/library/house.yaml -o walk\n"
+      "Example: plumbline simulate scenarios/library/house.yaml -o walk --bag\n"
       "Writes lidar.pcap (packets of a VLP-16), odometry.tum, imu.csv, recording.yaml and truth.tum; plumbline "
       "estimate "
       "reads all but the last.");

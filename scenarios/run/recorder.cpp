@@ -19,10 +19,27 @@ const std::string& made(const std::string& dir) {
 }  // namespace
 
 Recorder::Recorder(const std::string& dir, const ResolvedScenario& resolved)
-    : writer_(made(dir), slam::recording_info(resolved.scenario.seed, sim::World::calibration(), resolved.prior)) {}
+    : dir_(dir),
+      writer_(made(dir), slam::recording_info(resolved.scenario.seed, sim::World::calibration(), resolved.prior)) {}
 
-void Recorder::add(const sim::WorldFrame& frame) { writer_.add(frame.packets, frame.odometry, frame.imu); }
+void Recorder::add_bag(const slam::BagProfile& profile, bool with_truth) {
+  bag_ = std::make_unique<slam::BagWriter>(dir_ + "/recording.bag", profile, sim::World::calibration());
+  truth_in_bag_ = with_truth;
+}
 
-void Recorder::finish() { writer_.finish(); }
+void Recorder::add(const sim::WorldFrame& frame) {
+  writer_.add(frame.packets, frame.odometry, frame.imu);
+  if (!bag_) return;
+  bag_->add(frame.scan, frame.odometry, frame.imu);
+  if (!truth_in_bag_) return;
+  std::vector<slam::StampedPose> truth;
+  for (const sim::TruePose& pose : frame.truth) truth.push_back({pose.stamp, pose.X_WR});
+  bag_->add_truth(truth);
+}
+
+void Recorder::finish() {
+  writer_.finish();
+  if (bag_) bag_->finish();
+}
 
 }  // namespace plumbline::scenarios

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <string>
 
 #include "scenarios/resolve.h"
 #include "sim/world.h"
+#include "slam/io/bag.h"
 #include "slam/io/recording_writer.h"
 
 namespace plumbline::scenarios {
@@ -14,12 +16,17 @@ class Recorder {
  public:
   /// Writes into `dir`, which is made where it does not exist. Throws EnvironmentError.
   Recorder(const std::string& dir, const ResolvedScenario& resolved);
+  /// Also writes recording.bag. Call before the first frame.
+  void add_bag(const slam::BagProfile& profile, bool with_truth);
   void add(const sim::WorldFrame& frame);
   /// Completes the files.
   void finish();
 
  private:
+  std::string dir_;
   slam::RecordingWriter writer_;
+  std::unique_ptr<slam::BagWriter> bag_;
+  bool truth_in_bag_ = false;
 };
 
 }  // namespace plumbline::scenarios

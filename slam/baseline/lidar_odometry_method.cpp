@@ -2,9 +2,9 @@
 #include "slam/baseline/lidar_odometry_method.h"
 
 #include "bim/digest/digest.h"
+#include "slam/baseline/constant_velocity.h"
 #include "slam/io/stopwatch.h"
 #include "slam/odometry/lidar_odometry.h"
-#include "slam/odometry/map_cloud.h"
 #include "slam/odometry/motion.h"
 
 namespace plumbline::slam {
@@ -13,8 +13,8 @@ namespace {
 
 class LidarOdometryMethod final : public Method {
  public:
-  LidarOdometryMethod(const MethodInput& input, const LidarOdometryConfig& config)
-      : calibration_(input.calibration), odometry_(make_lidar_odometry(config)), map_({}) {}
+  LidarOdometryMethod(const MethodInput& input, const LidarOdometryConfig& config, const MapCloudConfig& map)
+      : calibration_(input.calibration), odometry_(make_lidar_odometry(config)), map_(map) {}
 
   void on_odometry(const Odometry& odometry) override { motion_.add(odometry); }
 
@@ -55,8 +55,12 @@ class LidarOdometryMethod final : public Method {
 
 }  // namespace
 
-std::unique_ptr<Method> make_lidar_odometry_method(const MethodInput& input, const LidarOdometryConfig& config) {
-  return std::make_unique<LidarOdometryMethod>(input, config);
+std::unique_ptr<Method> make_lidar_odometry_method(const MethodInput& input, LidarOdometryConfig config,
+                                                   const MapCloudConfig& map) {
+  config.vgicp.odometry_prior &= input.has_odometry;
+  auto method = std::make_unique<LidarOdometryMethod>(input, config, map);
+  if (input.has_odometry) return method;
+  return with_constant_velocity(std::move(method));
 }
 
 }  // namespace plumbline::slam

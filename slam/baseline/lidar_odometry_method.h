@@ -5,11 +5,25 @@
 
 #include "slam/io/method.h"
 #include "slam/odometry/lidar_odometry.h"
+#include "slam/odometry/map_cloud.h"
 
 namespace plumbline::slam {
 
-/// Odometry and mapping alone: each scan's pose as the front end gives it, never corrected.
-[[nodiscard]] std::unique_ptr<Method> make_lidar_odometry_method(const MethodInput& input,
-                                                                 const LidarOdometryConfig& config);
+/// What one front end by itself can be told.
+template <class FrontEnd>
+struct LidarOdometryMethodConfig {
+  FrontEnd odometry;
+  MapCloudConfig map;
+  template <class V>
+  void visit(V& v) {
+    v("odometry", odometry);
+    v("map", map);
+  }
+};
+
+/// Odometry and mapping alone: each scan's pose as the front end gives it, never corrected. Without odometry of the
+/// robot it assumes constant velocity.
+[[nodiscard]] std::unique_ptr<Method> make_lidar_odometry_method(const MethodInput& input, LidarOdometryConfig config,
+                                                                 const MapCloudConfig& map);
 
 }  // namespace plumbline::slam

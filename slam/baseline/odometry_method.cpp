@@ -3,7 +3,6 @@
 
 #include "bim/digest/digest.h"
 #include "slam/io/stopwatch.h"
-#include "slam/odometry/map_cloud.h"
 #include "slam/odometry/motion.h"
 
 namespace plumbline::slam {
@@ -12,7 +11,8 @@ namespace {
 
 class OdometryMethod final : public Method {
  public:
-  explicit OdometryMethod(const MethodInput& input) : calibration_(input.calibration), map_({}) {}
+  OdometryMethod(const MethodInput& input, const OdometryMethodConfig& config)
+      : calibration_(input.calibration), map_(config.map) {}
 
   void on_odometry(const Odometry& odometry) override { motion_.add(odometry); }
 
@@ -50,7 +50,7 @@ class OdometryMethod final : public Method {
 }  // namespace
 
 std::unique_ptr<Method> make_odometry_method(const MethodInput& input) {
-  return std::make_unique<OdometryMethod>(input);
+  return std::make_unique<OdometryMethod>(input, config_of<OdometryMethodConfig>(input));
 }
 
 }  // namespace plumbline::slam

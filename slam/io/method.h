@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "bim/building/plan.h"
+#include "bim/config/visit.h"
 #include "slam/io/estimate.h"
 #include "slam/io/records.h"
 
@@ -28,7 +29,15 @@ struct MethodInput {
   Calibration calibration;
   std::shared_ptr<const bim::Plan> plan;  ///< null when there is none; SLAM methods ignore it
   Prior prior;
+  bool has_odometry = true;  ///< false: on_odometry is never called
+  Tree config;               ///< values over the defaults of the method's config struct, or null
 };
+
+/// The config struct of a method: what the input says over its defaults. Throws InputError at the value that is wrong.
+template <class Config>
+[[nodiscard]] Config config_of(const MethodInput& input) {
+  return input.config.is_null() ? Config{} : from_tree<Config>(input.config);
+}
 
 /// A SLAM or localization method. Records come in time order; within one time odometry and IMU come before the scan.
 class Method {

@@ -112,12 +112,14 @@ class PacketRecording final : public Recording {
   bool started_ = false;
 };
 
-std::unique_ptr<Recording> open_directory(const std::string& dir) {
+std::unique_ptr<Recording> open_directory(const std::string& dir, const RecordingInfo* given) {
   const auto path = [&](std::string_view name) { return dir + "/" + std::string(name); };
   const std::string pcap = path(recording_files::lidar);
   if (!fs::exists(pcap)) throw InputError({dir, 0, 0}, "holds no lidar.pcap; it is no recording");
   RecordingInfo info;
-  if (const std::string file = path(recording_files::info); fs::exists(file))
+  if (const std::string file = path(recording_files::info); given != nullptr)
+    info = *given;
+  else if (fs::exists(file))
     info = read_recording_info(read_text_file(file), file);
   auto recording = std::make_unique<PacketRecording>(pcap, info);
   if (const std::string file = path(recording_files::odometry); fs::exists(file)) recording->add_odometry(file);
@@ -141,11 +143,11 @@ int packets_per_turn(const Vlp16Packet& packet) {
   return static_cast<int>(std::ceil(packets_per_s * (dual ? 2.0 : 1.0) / rounded));
 }
 
-std::unique_ptr<Recording> open_recording(const std::string& path) {
-  if (fs::is_directory(path)) return open_directory(path);
+std::unique_ptr<Recording> open_recording(const std::string& path, const RecordingInfo* info) {
+  if (fs::is_directory(path)) return open_directory(path, info);
   if (!fs::exists(path))
     throw InputError({path, 0, 0}, "no such file; a recording directory or a capture (.pcap) would be right");
-  return std::make_unique<PacketRecording>(path, RecordingInfo{});
+  return std::make_unique<PacketRecording>(path, info != nullptr ? *info : RecordingInfo{});
 }
 
 }  // namespace plumbline::slam

@@ -41,9 +41,10 @@ inline constexpr std::string_view imu = "imu.csv";
 }  // namespace recording_files
 
 /// Opens a recording directory (lidar.pcap; recording.yaml, odometry.tum and imu.csv where they are there) or a bare
-/// capture of a VLP-16. Messages are cut as drivers do, by the number of packets; scans before the first odometry
-/// record and a message that the end cuts short are left out. Throws InputError.
-[[nodiscard]] std::unique_ptr<Recording> open_recording(const std::string& path);
+/// capture of a VLP-16; `info`, where it is not null, stands for recording.yaml. Messages are cut as drivers do, by the
+/// number of packets; scans before the first odometry record and a message that the end cuts short are left out. Throws
+/// InputError.
+[[nodiscard]] std::unique_ptr<Recording> open_recording(const std::string& path, const RecordingInfo* info = nullptr);
 
 /// Packets of a full turn, rounded up, at the speed one packet tells (a multiple of 60 rpm): 76 at 600 rpm.
 [[nodiscard]] int packets_per_turn(const Vlp16Packet& packet);

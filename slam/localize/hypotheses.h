@@ -5,6 +5,7 @@
 #include <deque>
 #include <vector>
 
+#include "bim/config/visit.h"
 #include "slam/localize/pose_clusters.h"
 #include "slam/localize/refine.h"
 
@@ -25,6 +26,27 @@ struct HypothesisConfig {
   double drop_ratio = 15.0;    ///< log-ratio to the best below which a hypothesis is dropped
   int history = 60;            ///< views kept to judge a hypothesis that turns up later; 15 m of way
   double stray_mass = 0.01;    ///< left to particles of no hypothesis
+
+  template <class V>
+  void visit(V& v) {
+    v("max_count", max_count,
+      Field{.doc = "clusters up to which places are followed one by one", .min = 1, .max = 1000});
+    v("covered_mass", covered_mass, Field{.doc = "of the particles that these clusters must hold", .min = 0, .max = 1});
+    v("min_mass", min_mass, Field{.doc = "of a cluster that becomes a hypothesis", .min = 0, .max = 1});
+    v("match_m", match_m, Field{.doc = "a cluster this close to a hypothesis is the same place", .min = 0});
+    v("match_rad", match_rad, Field{.min = 0});
+    v("merge_m", merge_m, Field{.doc = "hypotheses this close are one", .min = 0});
+    v("merge_rad", merge_rad, Field{.min = 0});
+    v("indifference", indifference,
+      Field{.doc = "a view says nothing against a place less than this worse than the best", .min = 0});
+    v("step_cap", step_cap, Field{.doc = "most that one view says against a hypothesis", .min = 0});
+    v("crossing_cost", crossing_cost,
+      Field{.doc = "against one that walks through a wall: may be a door jamb and noise", .min = 0});
+    v("drop_ratio", drop_ratio, Field{.doc = "log-ratio to the best below which a hypothesis is dropped", .min = 0});
+    v("history", history,
+      Field{.doc = "views kept to judge a hypothesis that turns up later; 15 m of way", .min = 1, .max = 10000});
+    v("stray_mass", stray_mass, Field{.doc = "left to particles of no hypothesis", .min = 0, .max = 1});
+  }
 };
 
 /// A place the robot may be in, followed by itself.

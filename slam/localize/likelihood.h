@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "bim/config/visit.h"
 #include "slam/localize/plan_index.h"
 #include "slam/localize/view.h"
 
@@ -21,6 +22,31 @@ struct LikelihoodConfig {
   double beam_short_cap = 2.0;      ///< of the negative log-likelihood of a beam cut short: clutter does that
   double beam_long_cap = 4.5;       ///< of one that goes through a wall of the plan, 3 sigma
   double beam_weight = 0.15;        ///< of one beam; neighbouring beams share their errors [facts: 8 by 360 / 8]
+
+  template <class V>
+  void visit(V& v) {
+    v("azimuth_sigma", azimuth_sigma,
+      Field{.doc = "rad: tilt of the walking body, plan tolerance; added to the fit's", .min = 1e-6});
+    v("distance_sigma_m", distance_sigma_m,
+      Field{.doc = "plan tolerance and the spacing of particles; added to the fit's", .min = 1e-6});
+    v("azimuth_gate", azimuth_gate,
+      Field{.doc = "rad: an observed wall is compared with faces this close in direction", .min = 0});
+    v("distance_gate_m", distance_gate_m,
+      Field{.doc = "half width of the residual volume over which an outlier is spread", .min = 0});
+    v("overlap_min", overlap_min, Field{.doc = "share of the patch that must lie on the face", .min = 0, .max = 1});
+    v("overlap_margin_m", overlap_margin_m, Field{.doc = "by which a face is lengthened for that", .min = 0});
+    v("plane_outlier", plane_outlier,
+      Field{.doc = "share of patches that are no wall of the plan", .min = 0, .max = 1});
+    v("plane_weight", plane_weight,
+      Field{.doc = "patches of one scan share their errors: not all evidence is new", .min = 0});
+    v("beam_sigma_m", beam_sigma_m, Field{.doc = "range noise, bias and plan tolerance, across the face", .min = 1e-6});
+    v("beam_min_incidence", beam_min_incidence,
+      Field{.doc = "cosine below which a grazing beam's residual no longer shrinks", .min = 0, .max = 1});
+    v("beam_short_cap", beam_short_cap,
+      Field{.doc = "of the negative log-likelihood of a beam cut short: clutter does that", .min = 0});
+    v("beam_long_cap", beam_long_cap, Field{.doc = "of one that goes through a wall of the plan, 3 sigma", .min = 0});
+    v("beam_weight", beam_weight, Field{.doc = "of one beam; neighbouring beams share their errors", .min = 0});
+  }
 };
 
 /// log p(walls | pose): each observed wall is a mixture of the best face of the plan and an outlier, so that every

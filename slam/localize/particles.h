@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "bim/config/visit.h"
 #include "bim/random/stream.h"
 #include "slam/localize/likelihood.h"
 #include "slam/localize/plan_index.h"
@@ -46,6 +47,40 @@ struct FilterConfig {
   double rough_min_rad = 0.003;
   double rough_max_rad = 0.05;
   int quota = 120;  ///< least particles of a cluster that stands for a hypothesis
+
+  template <class V>
+  void visit(V& v) {
+    v("density_per_m2", density_per_m2, Field{.doc = "at the start, yaw known", .min = 0.1});
+    v("unknown_yaw_factor", unknown_yaw_factor, Field{.doc = "more particles when yaw is unknown", .min = 0});
+    v("min_particles", min_particles, Field{.min = 10, .max = 1000000});
+    v("max_particles", max_particles, Field{.min = 10, .max = 1000000});
+    v("wall_clearance_m", wall_clearance_m,
+      Field{.doc = "of the start from a room's outline: the robot has a body", .min = 0});
+    v("aligned_share", aligned_share,
+      Field{
+          .doc = "yaw unknown: share drawn so that an observed wall is parallel to a planned one", .min = 0, .max = 1});
+    v("aligned_sigma", aligned_sigma, Field{.doc = "rad, of those", .min = 1e-6});
+    v("trans_per_m", trans_per_m,
+      Field{.doc = "sigma of translation per metre walked; leg odometry is 0.5-7 % off", .min = 0});
+    v("trans_per_rad_m", trans_per_rad_m, Field{.doc = "m per rad turned", .min = 0});
+    v("rot_per_rad", rot_per_rad, Field{.doc = "sigma of rotation per radian turned", .min = 0});
+    v("rot_per_m", rot_per_m, Field{.doc = "rad per metre walked", .min = 0});
+    v("beam_stride", beam_stride, Field{.doc = "particles meet every 6th beam of the view, hypotheses all", .min = 1});
+    v("ess_floor", ess_floor,
+      Field{.doc = "share of N that tempering keeps effective in one update", .min = 0, .max = 1});
+    v("ess_resample", ess_resample, Field{.doc = "share of N below which the set is drawn again", .min = 0, .max = 1});
+    v("kld_error", kld_error,
+      Field{.doc = "of the distribution, which sets the number of particles (Fox 2001)", .min = 0.001});
+    v("kld_quantile", kld_quantile, Field{.doc = "normal quantile of 99.9 %", .min = 0.1});
+    v("rough_scale", rough_scale,
+      Field{.doc = "roughening after resampling, of the cluster's standard deviation", .min = 0});
+    v("rough_min_m", rough_min_m, Field{.min = 0});
+    v("rough_max_m", rough_max_m, Field{.min = 0});
+    v("rough_min_rad", rough_min_rad, Field{.min = 0});
+    v("rough_max_rad", rough_max_rad, Field{.min = 0});
+    v("quota", quota,
+      Field{.doc = "least particles of a cluster that stands for a hypothesis", .min = 1, .max = 100000});
+  }
 };
 
 /// What is told of the pose before anything is seen, in I.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bim/building/plan.h"
+#include "bim/config/visit.h"
 #include "bim/geometry/polygon.h"
 #include "slam/localize/segment_grid.h"
 
@@ -21,6 +22,21 @@ struct PlanIndexConfig {
   int visibility_rays = 72;          ///< rays per sample point of a cell when listing the lines seen from it
   double visibility_range_m = 25.0;  ///< 100 m in theory, but a VLP-16 wall patch beyond this has too few rings
   double body_height_m = 0.4;        ///< of the robot's trunk: what it must pass through a door with
+
+  template <class V>
+  void visit(V& v) {
+    v("cell_m", cell_m, Field{.doc = "of the look-up grid", .min = 0.05});
+    v("line_gap_m", line_gap_m, Field{.doc = "coplanar faces closer than this make one line", .min = 0});
+    v("line_offset_m", line_offset_m, Field{.doc = "faces of one line lie this close to one plane", .min = 0});
+    v("line_angle_rad", line_angle_rad, Field{.doc = "and this close in direction", .min = 0});
+    v("wall_band_m", wall_band_m, Field{.doc = "height above the floor at which a face counts as wall", .min = 0});
+    v("visibility_rays", visibility_rays,
+      Field{.doc = "rays per sample point of a cell when listing the lines seen from it", .min = 8, .max = 10000});
+    v("visibility_range_m", visibility_range_m,
+      Field{.doc = "100 m in theory, but a VLP-16 wall patch beyond this has too few rings", .min = 0});
+    v("body_height_m", body_height_m,
+      Field{.doc = "of the robot's trunk: what it must pass through a door with", .min = 0});
+  }
 };
 
 /// Coplanar faces of one storey seen as one plane [BIM-Loc eq. 1-2]; frame I.

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "bim/config/visit.h"
 #include "slam/localize/particles.h"
 
 namespace plumbline::slam {
@@ -14,6 +15,16 @@ struct PoseClusterConfig {
   double bin_share = 0.01;  ///< bins below this share of the heaviest one join nothing
   double compact_m = 0.40;  ///< standard deviation per axis below which a cluster is one place
   double compact_rad = 0.20;
+
+  template <class V>
+  void visit(V& v) {
+    v("bin_m", bin_m, Field{.min = 0.05});
+    v("yaw_bins", yaw_bins, Field{.doc = "of a turn", .min = 4, .max = 3600});
+    v("bin_share", bin_share,
+      Field{.doc = "bins below this share of the heaviest one join nothing", .min = 0, .max = 1});
+    v("compact_m", compact_m, Field{.doc = "standard deviation per axis below which a cluster is one place", .min = 0});
+    v("compact_rad", compact_rad, Field{.min = 0});
+  }
 };
 
 /// Particles in bins that touch (also diagonally, yaw wrapped).

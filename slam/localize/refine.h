@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 
+#include "bim/config/visit.h"
 #include "slam/localize/likelihood.h"
 
 namespace plumbline::slam {
@@ -14,6 +15,18 @@ struct RefineConfig {
   double prior_sigma_m = 0.10;  ///< of the pose handed in: holds what the beams do not see, as along a corridor
   double prior_sigma_rad = 0.03;
   double inlier_m = 0.15;  ///< a beam this close to the face it should meet agrees with the plan
+
+  template <class V>
+  void visit(V& v) {
+    v("iterations", iterations, Field{.min = 1});
+    v("first_gate_m", first_gate_m,
+      Field{.doc = "beams farther from the face they should meet are left out", .min = 0});
+    v("last_gate_m", last_gate_m, Field{.min = 0});
+    v("prior_sigma_m", prior_sigma_m, Field{.doc = "of the pose handed in", .min = 1e-6});
+    v("prior_sigma_rad", prior_sigma_rad, Field{.min = 1e-6});
+    v("inlier_m", inlier_m,
+      Field{.doc = "a beam this close to the face it should meet agrees with the plan", .min = 0});
+  }
 };
 
 /// A pose moved to where the beams meet the plan's faces best.

@@ -241,6 +241,7 @@ Estimate SGraphLocalization::finish() {
 
 std::unique_ptr<Method> make_s_graph_localization(const MethodInput& input, const LocalizationConfig& config) {
   if (!input.plan) throw InputError({}, "s_graph_localization needs a plan; give a plan or an IFC file");
+  if (!input.has_odometry) throw InputError({}, "s_graph_localization needs odometry, which there is none of");
   return std::make_unique<SGraphLocalization>(input, config);
 }
 

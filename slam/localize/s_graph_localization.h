@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "bim/config/visit.h"
 #include "slam/io/method.h"
 #include "slam/localize/search.h"
 #include "slam/localize/tracker.h"
@@ -21,6 +22,20 @@ struct LocalizationConfig {
   SearchConfig search;
   TrackerConfig tracker;
   MapCloudConfig map;
+
+  template <class V>
+  void visit(V& v) {
+    v("update_m", update_m, Field{.doc = "way walked between two updates; scans of one place are not news", .min = 0});
+    v("update_rad", update_rad, Field{.doc = "or angle turned", .min = 0});
+    v("particles_shown", particles_shown, Field{.doc = "most that an Output carries", .min = 1, .max = 500});
+    v("mass_shown", mass_shown, Field{.doc = "least of a hypothesis in an Output", .min = 0, .max = 1});
+    v("planes", planes);
+    v("view", view);
+    v("index", index);
+    v("search", search);
+    v("tracker", tracker);
+    v("map", map);
+  }
 };
 
 /// Localization in an architectural plan from an unknown position: a particle filter on the plan's walls and rooms

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "bim/config/visit.h"
 #include "slam/io/estimate.h"
 #include "slam/localize/hypotheses.h"
 
@@ -25,6 +26,25 @@ struct ConvergenceConfig {
   double rival_gap_m = 0.75;  ///< between them
   double rival_gap_rad = 0.35;
   double yaw_drift = 0.001;  ///< rad/s by which the told yaw grows stale [facts: legged 10]
+
+  template <class V>
+  void visit(V& v) {
+    v("top_mass", top_mass, Field{.min = 0, .max = 1});
+    v("log_ratio", log_ratio, Field{.doc = "to the next place", .min = 0});
+    v("updates", updates, Field{.doc = "for which this must have held", .min = 1});
+    v("travel_m", travel_m, Field{.doc = "and the way walked meanwhile", .min = 0});
+    v("inliers_min", inliers_min, Field{.doc = "residual test, share of beams on their face", .min = 0, .max = 1});
+    v("through_max", through_max,
+      Field{.doc = "share of beams through walls of the plan; measured up to 0.03", .min = 0, .max = 1});
+    v("lost_inliers", lost_inliers,
+      Field{.doc = "the same after convergence, to call an update failed", .min = 0, .max = 1});
+    v("lost_through", lost_through, Field{.min = 0, .max = 1});
+    v("lost_updates", lost_updates, Field{.min = 1});
+    v("rivals", rivals, Field{.doc = "places looked at before an announcement", .min = 1});
+    v("rival_gap_m", rival_gap_m, Field{.doc = "between them", .min = 0});
+    v("rival_gap_rad", rival_gap_rad, Field{.min = 0});
+    v("yaw_drift", yaw_drift, Field{.doc = "rad/s by which the told yaw grows stale", .min = 0});
+  }
 };
 
 struct SearchConfig {
@@ -34,6 +54,16 @@ struct SearchConfig {
   RefineConfig refine;
   HypothesisConfig hypotheses;
   ConvergenceConfig convergence;
+
+  template <class V>
+  void visit(V& v) {
+    v("likelihood", likelihood);
+    v("filter", filter);
+    v("clusters", clusters);
+    v("refine", refine);
+    v("hypotheses", hypotheses);
+    v("convergence", convergence);
+  }
 };
 
 /// Global localization in the plan until one place is left [BIM-Loc section 3.3].

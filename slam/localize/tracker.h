@@ -5,6 +5,7 @@
 #include <deque>
 #include <vector>
 
+#include "bim/config/visit.h"
 #include "slam/localize/plan_index.h"
 #include "slam/localize/view.h"
 #include "slam/planes/detect.h"
@@ -32,6 +33,34 @@ struct TrackerConfig {
   double hold_m = 0.03;                 ///< sigma with which the oldest pose stays where it was
   double hold_rad = 0.01;
   double huber = 2.0;  ///< sigmas
+
+  template <class V>
+  void visit(V& v) {
+    v("window", window, Field{.doc = "poses optimised together, 0.2 m apart: 2.5 m of way", .min = 2, .max = 1000});
+    v("iterations", iterations, Field{.doc = "Gauss-Newton steps", .min = 1});
+    v("gate", gate, Field{.doc = "sigmas of an observed wall to a face of the plan", .min = 0});
+    v("overlap_min", overlap_min, Field{.doc = "share of the patch on the face", .min = 0, .max = 1});
+    v("overlap_margin_m", overlap_margin_m, Field{.min = 0});
+    v("plane_angle_sigma", plane_angle_sigma,
+      Field{.doc = "rad, plan tolerance and body sway, added to the fit's", .min = 1e-6});
+    v("plane_offset_sigma_m", plane_offset_sigma_m,
+      Field{.doc = "plan tolerance and the unit's range bias (15 mm), added to the fit's", .min = 1e-6});
+    v("pair_sigma_m", pair_sigma_m,
+      Field{.doc = "of the middle between two opposed walls, where the range bias cancels", .min = 1e-6});
+    v("pair_min_cos", pair_min_cos, Field{.doc = "opposed walls of a room are this parallel", .min = 0, .max = 1});
+    v("floor_offset_sigma_m", floor_offset_sigma_m, Field{.min = 1e-6});
+    v("floor_angle_sigma", floor_angle_sigma, Field{.doc = "rad", .min = 1e-6});
+    v("floor_max_tilt", floor_max_tilt, Field{.doc = "rad", .min = 0});
+    v("odometry_trans_per_m", odometry_trans_per_m, Field{.min = 0});
+    v("odometry_rot_per_rad", odometry_rot_per_rad, Field{.min = 0});
+    v("odometry_min_m", odometry_min_m, Field{.min = 0});
+    v("odometry_min_rad", odometry_min_rad, Field{.min = 0});
+    v("odometry_height_per_m", odometry_height_per_m,
+      Field{.doc = "leg odometry's height is its worst axis", .min = 0});
+    v("hold_m", hold_m, Field{.doc = "sigma with which the oldest pose stays where it was", .min = 0});
+    v("hold_rad", hold_rad, Field{.min = 0});
+    v("huber", huber, Field{.doc = "sigmas", .min = 1e-6});
+  }
 };
 
 /// An observed wall and the plan's wall it was found to be.

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "bim/config/visit.h"
 #include "slam/localize/pose2.h"
 #include "slam/odometry/motion.h"
 #include "slam/planes/detect.h"
@@ -19,6 +20,20 @@ struct ViewConfig {
   double min_wall_length_m = 0.6;  ///< shorter patches are furniture as often as walls
   double min_wall_top_m = 0.8;     ///< patches that end below this height are furniture
   double floor_max_tilt_rad = 0.1;
+
+  template <class V>
+  void visit(V& v) {
+    v("beams", beams,
+      Field{.doc = "spread over the turn; the particles use a fixed stride of them", .min = 8, .max = 10000});
+    v("min_height_m", min_height_m, Field{.doc = "above the floor: lower returns are floor or feet", .min = 0});
+    v("max_height_m", max_height_m, Field{.doc = "above the floor: higher returns are ceiling", .min = 0});
+    v("min_range_m", min_range_m, Field{.doc = "the robot's own body", .min = 0});
+    v("max_range_m", max_range_m, Field{.min = 0});
+    v("min_wall_length_m", min_wall_length_m,
+      Field{.doc = "shorter patches are furniture as often as walls", .min = 0});
+    v("min_wall_top_m", min_wall_top_m, Field{.doc = "patches that end below this height are furniture", .min = 0});
+    v("floor_max_tilt_rad", floor_max_tilt_rad, Field{.min = 0});
+  }
 };
 
 /// One return seen from the sensor in the heading frame H (origin at R, z along gravity, x ahead).

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "bim/digest/digest.h"
+#include "slam/baseline/constant_velocity.h"
 #include "slam/io/stopwatch.h"
 
 namespace plumbline::slam {
@@ -203,7 +204,11 @@ std::vector<Eigen::Vector3f> SGraphsPlus::point_map() {
 }
 
 std::unique_ptr<Method> make_s_graphs_plus_method(const MethodInput& input) {
-  return std::make_unique<SGraphsPlus>(input, SGraphsPlusConfig{});
+  auto config = config_of<SGraphsPlusConfig>(input);
+  config.odometry.vgicp.odometry_prior &= input.has_odometry;
+  auto method = std::make_unique<SGraphsPlus>(input, config);
+  if (input.has_odometry) return method;
+  return with_constant_velocity(std::move(method));
 }
 
 }  // namespace plumbline::slam

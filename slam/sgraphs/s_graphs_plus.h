@@ -98,6 +98,7 @@ class SGraphsPlus : public Method {
   bool full_wanted_ = false;  ///< a loop or a duplicate came in
 };
 
+/// Without odometry it assumes constant velocity.
 [[nodiscard]] std::unique_ptr<Method> make_s_graphs_plus_method(const MethodInput& input);
 
 }  // namespace plumbline::slam

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "slam/io/records.h"
+
+namespace plumbline::slam {
+
+/// Types of a point's fields, with the numbers that ROS gives them.
+enum class PointType : std::uint8_t { i8 = 1, u8, i16, u16, i32, u32, f32, f64 };
+
+struct PointField {
+  std::string name;
+  std::uint32_t offset = 0;  ///< bytes from the point's start
+  PointType type = PointType::f32;
+};
+
+/// Points as messages carry them: height rows of width points, little endian.
+struct PointCloud {
+  Nanoseconds stamp = 0;  ///< of the message; the points' times count from it
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  std::uint32_t point_step = 0;  ///< bytes a point
+  std::uint32_t row_step = 0;    ///< bytes a row
+  bool dense = false;            ///< no point is not-a-number
+  std::vector<PointField> fields;
+  std::vector<std::uint8_t> data;
+};
+
+/// What a cloud is written as.
+enum class CloudLayout {
+  organised,  ///< a row a firing, sorted by ring, not-a-number where there is no return; `time` f32, s
+  dense,      ///< returns only; `t` u32, ns
+};
+
+/// The scan's points in L, in the order of time: x, y, z and intensity f32, ring u16 and the time since the first
+/// return slot, which is the cloud's stamp.
+[[nodiscard]] PointCloud cloud_of(const Scan& scan, CloudLayout layout);
+
+/// The scan of a cloud whose fields are found by name and type: x, y, z (f32 or f64); intensity or reflectivity; ring
+/// (else by elevation, for a VLP-16); time (f32, s), timestamp (f64, s, from the stamp or absolute) or t (u32, ns),
+/// else spread over 0.1 s. Columns are the rows or columns of an organised cloud, else found by time or azimuth. Points
+/// that are not finite, at the origin or beyond 1 km are no returns. Scan::stamp is the time of the last point. Throws
+/// InputError without a mark on a cloud without points or fields, of wrong size, with rings above 127 or times over
+/// more than 1 s.
+[[nodiscard]] Scan scan_of(const PointCloud& cloud);
+
+}  // namespace plumbline::slam

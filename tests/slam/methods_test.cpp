@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/methods.h"
+
+#include <gtest/gtest.h>
+
+#include "bim/errors.h"
+
+namespace plumbline::slam {
+namespace {
+
+class MethodConfigTest : public testing::TestWithParam<MethodRow> {
+ protected:
+  [[nodiscard]] static Tree configure(const std::string& text) { return GetParam().configure(read_yaml(text, "c.yaml")); }
+};
+
+TEST_P(MethodConfigTest, WhatIsPrintedWithDefaultsReadsBackAsTheDefaults) {
+  const std::string page = schema_yaml(GetParam().config_schema().front().fields);
+  EXPECT_EQ(GetParam().config_schema().size(), 1U);  // no lists of entries
+  EXPECT_EQ(write_yaml(configure(page)), write_yaml(GetParam().configure({})));
+  EXPECT_EQ(write_yaml(configure(write_yaml(GetParam().configure({})))), write_yaml(GetParam().configure({})));
+}
+
+TEST_P(MethodConfigTest, OneValueIsSetAndTheOthersStay) {
+  const Tree tree = configure("map: {voxel_m: 0.1}");
+  EXPECT_EQ(tree.find("map")->find("voxel_m")->as_double(), 0.1);
+  EXPECT_EQ(tree.find("map")->find("max_range_m")->as_double(), 25.0);
+}
+
+TEST_P(MethodConfigTest, WrongKeysAndValuesAreNamed) {
+  const auto complaint = [](const std::string& text) {
+    try {
+      static_cast<void>(configure(text));
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("none");
+  };
+  EXPECT_NE(complaint("map: {voxel: 0.1}").find("'voxel_m'"), std::string::npos);
+  EXPECT_EQ(complaint("map: {voxel_m: 0}").rfind("c.yaml:1:", 0), 0U);
+  EXPECT_EQ(complaint("map: {voxel_m: wide}").rfind("c.yaml:1:", 0), 0U);
+  EXPECT_NE(complaint("[1, 2]"), "none");
+}
+
+
+INSTANTIATE_TEST_SUITE_P(Methods, MethodConfigTest, testing::ValuesIn(methods().begin(), methods().end()),
+                         [](const auto& row) { return std::string(row.param.name); });
+
+}  // namespace
+}  // namespace plumbline::slam
