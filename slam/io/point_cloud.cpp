@@ -20,8 +20,9 @@ static_assert(std::endian::native == std::endian::little);
 namespace {
 
 constexpr double farthest_m = 1000.0;
-constexpr double column_azimuth = 0.3 * std::numbers::pi / 180.0;  ///< lasers of one firing lie this close together
-constexpr Nanoseconds spread_ns = 100'000'000;                     ///< one turn, where points have no time
+constexpr double column_azimuth =
+    0.3 * std::numbers::pi / 180.0;             ///< lasers of a VLP-16 that fire together lie this close
+constexpr Nanoseconds spread_ns = 100'000'000;  ///< one turn, where points have no time
 constexpr Nanoseconds longest_ns = 1'000'000'000;
 constexpr std::uint64_t most_points = 4'000'000;
 constexpr int most_rings = 128;
@@ -187,15 +188,15 @@ bool columns_by_time(std::vector<Point>& points) {
 }
 
 /// Columns in the order of the points, whose place in a firing is place[ring]: a new one where the place does not
-/// increase or the azimuth has gone on. Returns their number.
-int columns_in_order(std::vector<Point>& points, const std::array<int, most_rings>& place) {
+/// increase or the azimuth has gone on by more than azimuth_max. Returns their number.
+int columns_in_order(std::vector<Point>& points, const std::array<int, most_rings>& place, double azimuth_max) {
   int column = -1, last_place = 0;
   double azimuth = 0.0;
   for (Point& point : points) {
     if (!point.valid || point.ring < 0) continue;
     const double here = std::atan2(point.p_L.y(), point.p_L.x());
     const int here_place = place[static_cast<std::size_t>(point.ring)];
-    if (column < 0 || here_place <= last_place || std::abs(wrap_angle(here - azimuth)) > column_azimuth) {
+    if (column < 0 || here_place <= last_place || std::abs(wrap_angle(here - azimuth)) > azimuth_max) {
       ++column;
       azimuth = here;
     }
@@ -211,8 +212,10 @@ void columns_by_azimuth(std::vector<Point>& points, int rings) {
   for (int r = 0; r < most_rings; ++r) by_ring[static_cast<std::size_t>(r)] = by_laser[static_cast<std::size_t>(r)] = r;
   for (int k = 0; k < vlp16::rings && rings == vlp16::rings; ++k)
     by_laser[static_cast<std::size_t>(vlp16::ring_of_laser(k))] = k;
-  if (columns_in_order(points, by_laser) >= columns_in_order(points, by_ring)) return;
-  static_cast<void>(columns_in_order(points, by_laser));
+  // Other sensors' lasers may look degrees apart.
+  const double azimuth_max = rings == vlp16::rings ? column_azimuth : std::numbers::pi;
+  if (columns_in_order(points, by_laser, azimuth_max) >= columns_in_order(points, by_ring, azimuth_max)) return;
+  static_cast<void>(columns_in_order(points, by_laser, azimuth_max));
 }
 
 /// Gives every point its column; returns how many there are.

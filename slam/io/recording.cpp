@@ -76,7 +76,7 @@ class PacketRecording final : public Recording {
         if (messages_ == 0) fail_short(packets.size());
         return false;
       }
-      if (!info_.lidar.packets_per_message) info_.lidar.packets_per_message = packets_per_turn(packet);
+      if (!info_.lidar.packets_per_message) named([&] { info_.lidar.packets_per_message = packets_per_turn(packet); });
       packets.push_back(packet);
     }
     if (packets.back().stamp - packets.front().stamp > longest_message)
@@ -90,12 +90,20 @@ class PacketRecording final : public Recording {
                                 std::to_string(info_.lidar.packets_per_message.value_or(1)));
   }
 
-  [[nodiscard]] Scan decode(const std::vector<Vlp16Packet>& packets) const {
+  /// Adds the place to what is wrong with a packet.
+  template <class F>
+  void named(const F& function) const {
     try {
-      return decode_message(packets, info_.lidar.vertical_offsets);
+      function();
     } catch (const InputError& error) {
       throw InputError(mark_, "message " + std::to_string(messages_) + ": " + error.what());
     }
+  }
+
+  [[nodiscard]] Scan decode(const std::vector<Vlp16Packet>& packets) const {
+    Scan scan;
+    named([&] { scan = decode_message(packets, info_.lidar.vertical_offsets); });
+    return scan;
   }
 
   [[nodiscard]] bool odometry_started(Nanoseconds stamp) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <sstream>
 
 #include "tests/system/program.h"
 
@@ -36,8 +37,123 @@ class Recordings : public ::testing::Test {
     EXPECT_GE(compared, 4);
   }
 
+  /// Expects estimate to refuse: exit 2, one line that starts with `where` and holds `what`, nothing written.
+  void refuse(const std::vector<std::string>& arguments, const std::string& where, const std::string& what) {
+    std::vector<std::string> all = {"estimate"};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    all.insert(all.end(), {"-o", folder_ / "refused"});
+    const Outcome outcome = plumbline(all);
+    EXPECT_EQ(outcome.code, 2) << outcome.out << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_EQ(outcome.err.rfind(where, 0), 0U) << outcome.err;
+    EXPECT_NE(outcome.err.find(what), std::string::npos) << outcome.err;
+    EXPECT_FALSE(fs::exists(folder_ / "refused"));
+  }
+
+  /// A recording of a second, made on first use; the path of its copy under this name.
+  std::string walk(const std::string& name) {
+    const std::string made = folder_ / "made";
+    if (!fs::exists(made)) {
+      std::string scenario = read_file(input());
+      scenario.replace(scenario.find("duration_s: 5"), 13, "duration_s: 1");
+      write_file(folder_ / "second.yaml", scenario);
+      write_file(folder_ / "short.plan.yaml", read_file(plan()));
+      EXPECT_EQ(plumbline({"simulate", folder_ / "second.yaml", "-o", made, "--bag"}).code, 0);
+    }
+    fs::copy(made, folder_ / name, fs::copy_options::recursive);
+    return folder_ / name;
+  }
+
+  static void cut(const std::string& file, double share) {
+    fs::resize_file(file, static_cast<std::uintmax_t>(share * static_cast<double>(fs::file_size(file))));
+  }
+
   Folder folder_;
 };
+
+TEST_F(Recordings, WhatIsNoRecordingIsRefused) {
+  refuse({folder_ / "none", "--method", "vgicp"}, folder_ / "none", "no such file");
+  refuse({folder_.path(), "--method", "vgicp"}, folder_.path(), "no lidar.pcap");
+  refuse({plan(), "--method", "vgicp"}, plan(), "no pcap capture");
+  const std::string good = walk("good");
+  refuse({good, "--method", "vgcip"}, "--method", "'vgicp'");
+  refuse({good, "--method", "truth"}, "--method", "no estimator");
+  refuse({good, "--method", "s_graph_localization"}, "--plan", "is missing");
+  refuse({good, "--method", "s_graph_localization", "--plan", plan(), "--storey", "attic"}, "--storey", "ground");
+  refuse({good + "/lidar.pcap", "--method", "odometry"}, good, "holds no odometry");
+}
+
+TEST_F(Recordings, DamagedOnesAreRefusedWhole) {
+  const std::string dir = walk("bad"), pcap = dir + "/lidar.pcap", bag = dir + "/recording.bag";
+  const std::string packets = read_file(pcap);
+  cut(pcap, 0.7);
+  refuse({dir, "--method", "vgicp"}, pcap, "truncated");
+  write_file(pcap, packets.substr(0, 24));
+  refuse({dir, "--method", "vgicp"}, pcap, "no VLP-16 data packets");
+  std::string ports = packets;
+  for (std::size_t at = 0; (at = ports.find("\x09\x40\x09\x40", at)) != std::string::npos;)
+    ports.replace(at, 4, "\x09\x41\x09\x41");
+  write_file(pcap, ports);
+  refuse({dir, "--method", "vgicp"}, pcap, "there is traffic to port 2369");
+  std::string product = packets;
+  product[packets.size() - 1] = '\x77';
+  write_file(pcap, product);
+  refuse({dir, "--method", "vgicp"}, pcap, "product");
+  write_file(pcap, packets);
+  write_file(dir + "/odometry.tum", "0.5 0 0 0 0 0 0 1\n0.25 0 0 0 0 0 0 1\n");
+  refuse({dir, "--method", "vgicp"}, dir + "/odometry.tum:2:1", "stamps must increase");
+  cut(bag, 0.6);
+  refuse({bag, "--method", "vgicp"}, bag, "");
+}
+
+TEST_F(Recordings, ABagGivesWhatThePacketsGiveUpToItsFloats) {
+  const std::string dir = walk("walk");
+  ASSERT_EQ(plumbline({"estimate", dir, "--method", "odometry", "-o", folder_ / "a"}).code, 0);
+  ASSERT_EQ(plumbline({"estimate", dir + "/recording.bag", "--method", "odometry", "-o", folder_ / "b"}).code, 0);
+  std::istringstream a(read_file(folder_ / "a/odometry.tum")), b(read_file(folder_ / "b/odometry.tum"));
+  int numbers = 0;
+  for (double x = 0, y = 0; a >> x && b >> y; ++numbers)
+    EXPECT_NEAR(x, y, 1e-7);  // poses at the scans' stamps, which a bag holds to 8 ns, at 0.6 m/s
+  EXPECT_GE(numbers, 8 * 9);
+}
+
+TEST_F(Recordings, ValuesOfAMethodAreReadShownAndChecked) {
+  const std::string dir = walk("walk");
+  const Outcome page = plumbline({"methods", "--config", "vgicp"});
+  ASSERT_EQ(page.code, 0);
+  write_file(folder_ / "all.yaml", page.out);
+  write_file(folder_ / "some.yaml", "odometry: {map_voxel_m: 0.75}\n");
+  ASSERT_EQ(plumbline({"estimate", dir, "--method", "vgicp", "-o", folder_ / "plain"}).code, 0);
+  ASSERT_EQ(
+      plumbline({"estimate", dir, "--method", "vgicp", "--config", folder_ / "all.yaml", "-o", folder_ / "all"}).code,
+      0);
+  ASSERT_EQ(
+      plumbline({"estimate", dir, "--method", "vgicp", "--config", folder_ / "some.yaml", "-o", folder_ / "some"}).code,
+      0);
+  EXPECT_TRUE(read_file(folder_ / "all/vgicp.tum") == read_file(folder_ / "plain/vgicp.tum"));
+  EXPECT_TRUE(read_file(folder_ / "all/estimate.yaml") == read_file(folder_ / "plain/estimate.yaml"));
+  EXPECT_FALSE(read_file(folder_ / "some/vgicp.tum") == read_file(folder_ / "plain/vgicp.tum"));
+  EXPECT_NE(read_file(folder_ / "some/estimate.yaml").find("map_voxel_m: 0.75"), std::string::npos);
+  write_file(folder_ / "bad.yaml", "odometry: {map_vxel_m: 0.75}\n");
+  refuse({dir, "--method", "vgicp", "--config", folder_ / "bad.yaml"}, folder_ / "bad.yaml", "'map_voxel_m'");
+  write_file(folder_ / "bad.yaml", "odometry: {map_voxel_m: -1}\n");
+  refuse({dir, "--method", "vgicp", "--config", folder_ / "bad.yaml"}, folder_ / "bad.yaml", "at least");
+}
+
+TEST_F(Recordings, ACaptureOfARealSensorNeedsNothingElse) {
+  const char* data = std::getenv("PLUMBLINE_DATA");
+  const std::string root = data != nullptr ? data : project_file("../shared/data");
+  const std::string capture = root + "/vlp16/sample_velodyne_vlp16_gps.pcap";
+  if (!fs::exists(capture)) GTEST_SKIP() << "no capture; set PLUMBLINE_DATA";
+  for (const char* method : {"vgicp", "s_graphs_plus"}) {
+    const Outcome outcome = plumbline({"estimate", capture, "--method", method, "-o", folder_ / method});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    const std::string poses = read_file(folder_ / (std::string(method) + "/" + method + ".tum"));
+    EXPECT_EQ(std::count(poses.begin(), poses.end(), '\n'), 3) << method;  // 293 packets
+    EXPECT_EQ(poses.rfind("1453364282.", 0), 0U) << poses;                 // the day it was captured
+  }
+}
 
 TEST_F(Recordings, EstimateSaysWhatRunSaid) {
   const std::string run = folder_ / "run";

@@ -2,9 +2,11 @@
 #include "slam/io/recording.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <bit>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 
@@ -165,6 +167,34 @@ TEST_F(RecordingTest, ScansBeforeTheFirstOdometryAreLeftOut) {
   EXPECT_GT(frame.scan.stamp, 150'000'000);
   EXPECT_EQ(frame.odometry.size(), 1U);
   EXPECT_GT(frame.imu.size(), 40U);  // those of the scans left out, too
+}
+
+TEST_F(RecordingTest, ALongCaptureNeedsNoMoreMemoryThanAShortOne) {
+  const auto peak_mb = [] {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return usage.ru_maxrss / 1024;
+  };
+  const std::vector<Vlp16Packet> turn = turning_packets(76);
+  const auto read_all = [&](int messages) {
+    PcapWriter writer(path("long.pcap"));
+    for (int p = 0; p < 76 * messages; ++p) {
+      Vlp16Packet packet = turn[static_cast<std::size_t>(p % 76)];
+      packet.stamp = p * 24 * vlp16::firing_period_ns;
+      const auto us = static_cast<std::uint32_t>(packet.stamp / 1000);
+      std::memcpy(&packet.payload[1200], &us, 4);
+      writer.add(packet);
+    }
+    writer.finish();
+    const auto recording = open_recording(path("long.pcap"));
+    int count = 0;
+    for (SensorFrame frame; recording->next(frame);) ++count;
+    EXPECT_EQ(count, messages);
+  };
+  read_all(20);
+  const auto before = peak_mb();
+  read_all(600);  // 58 MB
+  EXPECT_LT(peak_mb() - before, 8) << before;
 }
 
 TEST_F(RecordingTest, NamesWhatIsWrongWithPackets) {
