@@ -188,9 +188,9 @@ Command add_estimate(CLI::App& program) {
   app->add_option("--storey", options->storey, "storey of the start [the recording's, else unknown]");
   app->add_flag("--force", options->force, "replace the estimate that stands in --out");
   app->footer(
-      "Examples: plumbline estimate walk --method s_graphs_plus -o out\n"
-      "          plumbline estimate walk --method s_graph_localization --plan house.plan.yaml -o out\n"
-      "          plumbline estimate vlp16.pcap --method vgicp -o out");
+      "Example: plumbline estimate walk --method s_graphs_plus -o out\n"
+      "         plumbline estimate walk --method s_graph_localization --plan house.plan.yaml -o out\n"
+      "         plumbline estimate vlp16.pcap --method vgicp -o out");
   return {app, [options] { return estimate(*options); }};
 }
 

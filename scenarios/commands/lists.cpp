@@ -62,7 +62,7 @@ Command add_methods(CLI::App& program) {
   const auto config = std::make_shared<std::string>();
   CLI::App* app = program.add_subcommand("methods", "Lists the methods a scenario may ask for");
   app->add_option("--config", *config, "prints instead every value of this method's --config file, at its default");
-  app->footer("Examples: plumbline methods\n          plumbline methods --config vgicp > vgicp.yaml");
+  app->footer("Example: plumbline methods\n         plumbline methods --config vgicp > vgicp.yaml");
   return {app, [config] { return config->empty() ? list_methods() : print_config(*config); }};
 }
 
