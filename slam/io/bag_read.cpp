@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Apart, for what it includes takes long to compile.
+#include <console_bridge/console.h>
 #include <nav_msgs/Odometry.h>
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
@@ -260,6 +261,7 @@ bool is_bag(const std::string& path) {
 }
 
 std::unique_ptr<Recording> open_bag(const std::string& path, const BagTopics& topics, const RecordingInfo* info) {
+  console_bridge::noOutputHandler();  // the library prints what it also throws
   return std::make_unique<BagRecording>(path, topics, info);
 }
 

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -13,6 +14,7 @@
 #include "slam/io/point_cloud.h"
 #include "slam/io/record_file.h"
 #include "slam/io/recording.h"
+#include "slam/io/ros_message.h"
 
 namespace {
 
@@ -66,15 +68,35 @@ void read_cloud(Bytes bytes) {
   (void)plumbline::slam::scan_of(cloud);
 }
 
+/// The first byte chooses the message of a bag.
+void read_message(Bytes bytes) {
+  namespace ros = plumbline::slam::ros;
+  if (bytes.empty()) return;
+  const std::span rest(reinterpret_cast<const std::uint8_t*>(bytes.data()) + 1, bytes.size() - 1);
+  switch (bytes[0] & 3) {
+    case 0:
+      (void)plumbline::slam::scan_of(ros::read_cloud(rest).cloud);
+      break;
+    case 1:
+      (void)ros::read_odometry(rest);
+      break;
+    case 2:
+      (void)ros::read_imu(rest);
+      break;
+    default:
+      (void)ros::read_transforms(rest);
+  }
+}
+
 }  // namespace
 
-/// The first byte chooses what the rest is: a capture, odometry.tum, imu.csv, recording.yaml or a point cloud; it can
-/// be read, or is an InputError.
+/// The first byte chooses what the rest is: a capture, odometry.tum, imu.csv, recording.yaml, a point cloud or a
+/// message of a bag; it can be read, or is an InputError.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   const Bytes rest(reinterpret_cast<const char*>(data + 1), size - 1);
   try {
-    switch (data[0] % 5) {
+    switch (data[0] % 6) {
       case 0:
         read_capture(rest);
         break;
@@ -87,8 +109,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       case 3:
         (void)plumbline::slam::read_recording_info(rest, "fuzz.yaml");
         break;
-      default:
+      case 4:
         read_cloud(rest);
+        break;
+      default:
+        read_message(rest);
     }
   } catch (const plumbline::InputError&) {
   }
