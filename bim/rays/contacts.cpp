@@ -15,6 +15,8 @@ namespace plumbline::bim {
 
 namespace {
 
+constexpr std::size_t cells_per_contact = 8;
+
 /// A triangle clipped by at most eight half spaces.
 class ConvexPolygon {
  public:
@@ -24,17 +26,22 @@ class ConvexPolygon {
 
   /// Keeps the part where m.x <= limit.
   void clip(const Eigen::Vector3d& m, double limit) {
+    std::array<double, capacity> over;
+    bool any = false;
+    for (std::size_t i = 0; i < size_; ++i) {
+      over[i] = m.dot(p_[i]) - limit;
+      any = any || over[i] > 0.0;
+    }
+    if (!any) return;
     std::array<Eigen::Vector3d, capacity> kept;
     std::size_t count = 0;
     for (std::size_t i = 0; i < size_; ++i) {
-      const Eigen::Vector3d& a = p_[i];
-      const Eigen::Vector3d& b = p_[(i + 1) % size_];
-      const double da = m.dot(a) - limit;
-      const double db = m.dot(b) - limit;
-      if (da <= 0.0) kept[count++] = a;
-      if ((da < 0.0 && db > 0.0) || (da > 0.0 && db < 0.0)) kept[count++] = a + (b - a) * (da / (da - db));
+      const std::size_t j = i + 1 < size_ ? i + 1 : 0;
+      if (over[i] <= 0.0) kept[count++] = p_[i];
+      if ((over[i] < 0.0 && over[j] > 0.0) || (over[i] > 0.0 && over[j] < 0.0))
+        kept[count++] = p_[i] + (p_[j] - p_[i]) * (over[i] / (over[i] - over[j]));
     }
-    p_ = kept;
+    std::copy_n(kept.begin(), count, p_.begin());
     size_ = count;
   }
   void flatten(const Eigen::Vector3d& n, const Eigen::Vector3d& origin) {
@@ -54,11 +61,9 @@ class ConvexPolygon {
   std::size_t size_;
 };
 
-void clip_to_sides(ConvexPolygon& polygon, const Face& face, double grow) {
-  for (std::size_t k = 0; k < 3 && !polygon.empty(); ++k) {
-    const Eigen::Vector3d outward = (face.v[(k + 1) % 3] - face.v[k]).cross(face.n).normalized();
-    polygon.clip(outward, outward.dot(face.v[k]) + grow);
-  }
+void clip_to_sides(ConvexPolygon& polygon, const Face& face, const std::array<Eigen::Vector3d, 3>& outward,
+                   double grow) {
+  for (std::size_t k = 0; k < 3 && !polygon.empty(); ++k) polygon.clip(outward[k], outward[k].dot(face.v[k]) + grow);
 }
 
 /// True when all of `other` lies more than `distance` on one side of the face's plane.
@@ -73,9 +78,29 @@ bool beside(const Face& face, const Face& other, double distance) {
   return low > distance || high < -distance;
 }
 
+/// Outward normals of the three sides, in the face's plane.
+std::array<Eigen::Vector3d, 3> side_normals(const Face& face) {
+  std::array<Eigen::Vector3d, 3> normals;
+  for (std::size_t k = 0; k < 3; ++k) normals[k] = (face.v[(k + 1) % 3] - face.v[k]).cross(face.n).normalized();
+  return normals;
+}
+
+/// True when all of `other` lies more than `distance` beyond one side of the face.
+bool beyond_a_side(const Face& face, const std::array<Eigen::Vector3d, 3>& outward, const Face& other,
+                   double distance) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double limit = outward[k].dot(face.v[k]) + distance;
+    if (outward[k].dot(other.v[0]) > limit && outward[k].dot(other.v[1]) > limit && outward[k].dot(other.v[2]) > limit)
+      return true;
+  }
+  return false;
+}
+
 /// What `other` means to `face`: a contact inside, one at the border (with an empty region), or nothing.
-std::optional<Contact> contact_of(const Face& face, const Face& other, int other_index, const RayTolerances& tol) {
-  if (beside(face, other, 1.01 * tol.contact)) return std::nullopt;  // spares most pairs the clipping
+std::optional<Contact> contact_of(const Face& face, const std::array<Eigen::Vector3d, 3>& outward, const Face& other,
+                                  int other_index, const RayTolerances& tol) {
+  const double clear = 1.01 * tol.contact;  // spares most pairs the clipping
+  if (beside(face, other, clear) || beyond_a_side(face, outward, other, clear)) return std::nullopt;
   const double offset = face.n.dot(face.v[0]);
   ConvexPolygon near(other.v);
   near.clip(face.n, offset + tol.contact);
@@ -83,10 +108,10 @@ std::optional<Contact> contact_of(const Face& face, const Face& other, int other
   near.clip(-face.n, tol.contact - offset);
   if (near.empty()) return std::nullopt;
   near.flatten(face.n, face.v[0]);
-  clip_to_sides(near, face, tol.contact);
+  clip_to_sides(near, face, outward, tol.contact);
   if (near.empty()) return std::nullopt;
   ConvexPolygon inner = near;
-  clip_to_sides(inner, face, tol.contact - tol.edge_band);
+  clip_to_sides(inner, face, outward, tol.contact - tol.edge_band);
   if (inner.empty()) return Contact{{}, other_index};
   return Contact{near.box(tol.contact), other_index};
 }
@@ -103,26 +128,49 @@ class FaceBox : public CGAL::Box_intersection_d::Box_d<double, 3, CGAL::Box_inte
   std::size_t face_;
 };
 
-/// Pairs (a, b) and (b, a) of faces whose boxes meet, in ascending order.
-std::vector<std::pair<int, int>> pairs_of(std::span<const Face> faces, const RayTolerances& tolerances) {
-  const Eigen::Vector3d margin = Eigen::Vector3d::Constant(tolerances.contact);
-  std::vector<FaceBox> boxes;
-  boxes.reserve(faces.size());
-  for (const Face& face : faces) {
-    Eigen::AlignedBox3d box;
-    for (const Eigen::Vector3d& v : inflate(face, tolerances).v) box.extend(v);
-    boxes.emplace_back(Eigen::AlignedBox3d(box.min() - margin, box.max() + margin), boxes.size());
+/// For each face those whose boxes meet its own, in ascending order.
+class Neighbours {
+ public:
+  Neighbours(std::span<const Face> faces, const RayTolerances& tolerances) : begin_(faces.size() + 1, 0) {
+    const Eigen::Vector3d margin = Eigen::Vector3d::Constant(tolerances.contact);
+    std::vector<FaceBox> boxes;
+    boxes.reserve(faces.size());
+    for (const Face& face : faces) {
+      Eigen::AlignedBox3d box;
+      for (const Eigen::Vector3d& v : inflate(face, tolerances).v) box.extend(v);
+      boxes.emplace_back(Eigen::AlignedBox3d(box.min() - margin, box.max() + margin), boxes.size());
+    }
+    std::vector<std::pair<int, int>> pairs;
+    CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const FaceBox& a, const FaceBox& b) {
+      pairs.emplace_back(static_cast<int>(a.id()), static_cast<int>(b.id()));
+    });
+    sort_out(pairs);
   }
-  std::vector<std::pair<int, int>> pairs;
-  CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const FaceBox& a, const FaceBox& b) {
-    const auto i = static_cast<int>(a.id());
-    const auto j = static_cast<int>(b.id());
-    pairs.emplace_back(i, j);
-    pairs.emplace_back(j, i);
-  });
-  std::sort(pairs.begin(), pairs.end());
-  return pairs;
-}
+  [[nodiscard]] std::span<const int> of(std::size_t face) const {
+    return std::span(faces_).subspan(begin_[face], begin_[face + 1] - begin_[face]);
+  }
+
+ private:
+  void sort_out(const std::vector<std::pair<int, int>>& pairs) {
+    for (const auto& [a, b] : pairs) {
+      ++begin_[static_cast<std::size_t>(a) + 1];
+      ++begin_[static_cast<std::size_t>(b) + 1];
+    }
+    for (std::size_t i = 1; i < begin_.size(); ++i) begin_[i] += begin_[i - 1];
+    faces_.resize(begin_.back());
+    std::vector<std::size_t> next(begin_.begin(), begin_.end() - 1);
+    for (const auto& [a, b] : pairs) {
+      faces_[next[static_cast<std::size_t>(a)]++] = b;
+      faces_[next[static_cast<std::size_t>(b)]++] = a;
+    }
+    for (std::size_t i = 0; i + 1 < begin_.size(); ++i)
+      std::sort(faces_.begin() + static_cast<std::ptrdiff_t>(begin_[i]),
+                faces_.begin() + static_cast<std::ptrdiff_t>(begin_[i + 1]));
+  }
+
+  std::vector<std::size_t> begin_;
+  std::vector<int> faces_;
+};
 
 }  // namespace
 
@@ -137,14 +185,14 @@ ContactGrid::ContactGrid(std::span<const Contact> contacts, const Eigen::Vector3
     low_[k] = box.min()[axis_[k]];
     size_[k] = box.max()[axis_[k]] - low_[k];
   }
-  double side = std::sqrt(size_[0] * size_[1] / static_cast<double>(contacts.size()));
+  double side = std::sqrt(size_[0] * size_[1] / static_cast<double>(cells_per_contact * contacts.size()));
   divide(side);
   const auto entries = [&] {
     std::size_t count = 0;
     for (const Contact& contact : contacts) for_each_cell(contact, [&](std::size_t) { ++count; });
     return count;
   };
-  while (cells_[0] * cells_[1] > 1 && entries() > 16 * contacts.size()) divide(side *= 2.0);
+  while (cells_[0] * cells_[1] > 1 && entries() > 4 * cells_per_contact * contacts.size()) divide(side *= 2.0);
 
   begin_.assign(static_cast<std::size_t>(cells_[0] * cells_[1]) + 1, 0);
   for (const Contact& contact : contacts) for_each_cell(contact, [&](std::size_t c) { ++begin_[c + 1]; });
@@ -174,14 +222,13 @@ void ContactGrid::for_each_cell(const Contact& contact, Visit&& visit) const {
 ContactTable::ContactTable(std::span<const Face> faces, const RayTolerances& tolerances) {
   inside_begin_.reserve(faces.size() + 1);
   border_begin_.reserve(faces.size() + 1);
-  const std::vector<std::pair<int, int>> pairs = pairs_of(faces, tolerances);
-  std::size_t next = 0;
+  const Neighbours neighbours(faces, tolerances);
   for (std::size_t i = 0; i < faces.size(); ++i) {
     inside_begin_.push_back(inside_.size());
     border_begin_.push_back(border_.size());
-    for (; next < pairs.size() && pairs[next].first == static_cast<int>(i); ++next) {
-      const int other = pairs[next].second;
-      const auto contact = contact_of(faces[i], faces[static_cast<std::size_t>(other)], other, tolerances);
+    const std::array<Eigen::Vector3d, 3> outward = side_normals(faces[i]);
+    for (const int other : neighbours.of(i)) {
+      const auto contact = contact_of(faces[i], outward, faces[static_cast<std::size_t>(other)], other, tolerances);
       if (!contact) continue;
       if (contact->region_W.isEmpty()) {
         border_.push_back(other);
@@ -194,14 +241,10 @@ ContactTable::ContactTable(std::span<const Face> faces, const RayTolerances& tol
   border_begin_.push_back(border_.size());
   for (std::size_t i = 0; i < faces.size(); ++i)
     if (inside(i).size() > grid_min) {
-      gridded_.push_back(i);
+      grid_.resize(faces.size(), -1);
+      grid_[i] = static_cast<int>(grids_.size());
       grids_.emplace_back(inside(i), faces[i].n);
     }
-}
-
-const ContactGrid& ContactTable::grid_of(std::size_t face) const {
-  const auto at = std::lower_bound(gridded_.begin(), gridded_.end(), face);
-  return grids_[static_cast<std::size_t>(at - gridded_.begin())];
 }
 
 }  // namespace plumbline::bim

@@ -20,7 +20,7 @@ struct Contact {
 /// Contacts of one face by cells of a grid over the two axes it is flattest along.
 class ContactGrid {
  public:
-  /// About one cell a contact; fewer where contacts are so large that each would fill many.
+  /// Some cells a contact; fewer where contacts are so large that each would fill many.
   ContactGrid(std::span<const Contact> contacts, const Eigen::Vector3d& normal);
   /// Indices of the contacts whose region may hold p_W.
   [[nodiscard]] std::span<const std::uint32_t> at(const Eigen::Vector3d& p_W) const {
@@ -69,20 +69,19 @@ class ContactTable {
         if (contact.region_W.contains(p_W) && visit(contact.face)) return true;
       return false;
     }
-    for (const std::uint32_t i : grid_of(face).at(p_W))
+    for (const std::uint32_t i : grids_[static_cast<std::size_t>(grid_[face])].at(p_W))
       if (all[i].region_W.contains(p_W) && visit(all[i].face)) return true;
     return false;
   }
 
  private:
   static constexpr std::size_t grid_min = 8;
-  [[nodiscard]] const ContactGrid& grid_of(std::size_t face) const;
 
   std::vector<std::size_t> inside_begin_, border_begin_;
   std::vector<Contact> inside_;
   std::vector<int> border_;
-  std::vector<std::size_t> gridded_;  ///< faces with more than grid_min contacts inside, ascending
-  std::vector<ContactGrid> grids_;    ///< theirs
+  std::vector<int> grid_;  ///< of each face into grids_, -1 none; empty where no face has one
+  std::vector<ContactGrid> grids_;
 };
 
 }  // namespace plumbline::bim

@@ -53,13 +53,6 @@ std::array<std::uint16_t, 3> edge_band_of(const Face& face) {
   return {band(2, 0), band(0, 1), band(1, 2)};
 }
 
-/// Range at which a ray meets a face, or infinity.
-double exact_range(const Face& face, const Ray& ray, double range_max_m) {
-  const std::optional<double> t = face.plane_range(ray.origin_W, ray.direction_W);
-  const bool hit = t && *t > 0.0 && *t <= range_max_m && face.pierced_by(ray.origin_W, ray.direction_W);
-  return hit ? *t : infinity;
-}
-
 /// A face that Embree proposes for a ray.
 struct Proposal {
   std::size_t face = 0;
@@ -81,10 +74,11 @@ struct RayScene::Impl {
   Impl(const BuildingMesh& mesh, const RaySceneOptions& options);
 
   void decide(std::span<const Ray> rays, double range_max_m, const Proposals& proposals, std::span<Hit> hits) const;
-  [[nodiscard]] Hit search(const Ray& ray, double range_max_m, Proposals proposals) const;
+  [[nodiscard]] Hit search(const Ray& ray, double range_max_m, Proposals& proposals) const;
   [[nodiscard]] const Face* settle(const Ray& ray, double range_max_m, const Proposal& proposal,
                                    bool in_edge_band) const;
   [[nodiscard]] const Face* settle_ties(const Ray& ray, double range_max_m, const Proposal& proposal) const;
+  [[nodiscard]] double exact_range(std::size_t face, const Ray& ray, double range_max_m, double limit) const;
   [[nodiscard]] bool touched_at(std::size_t face, const Eigen::Vector3d& p_W) const;
 };
 
@@ -101,6 +95,8 @@ RayScene::Impl::Impl(const BuildingMesh& mesh, const RaySceneOptions& options)
 /// By far most hits lie well inside a face and away from every other; the rest is searched one by one.
 void RayScene::Impl::decide(std::span<const Ray> rays, double range_max_m, const Proposals& proposals,
                             std::span<Hit> hits) const {
+  for (std::size_t i = 0; i < rays.size(); ++i)
+    if (proposals.face[i] != Proposals::none) __builtin_prefetch(&planes[proposals.face[i]]);
   for (std::size_t i = 0; i < rays.size(); ++i) {
     if (proposals.face[i] == Proposals::none) {
       hits[i] = {};
@@ -126,7 +122,7 @@ void RayScene::Impl::decide(std::span<const Ray> rays, double range_max_m, const
   }
 }
 
-Hit RayScene::Impl::search(const Ray& ray, double range_max_m, Proposals proposals) const {
+Hit RayScene::Impl::search(const Ray& ray, double range_max_m, Proposals& proposals) const {
   double tnear = 0.0;
   while (proposals.face[0] != Proposals::none) {
     Proposal proposal;
@@ -166,12 +162,10 @@ const Face* RayScene::Impl::settle(const Ray& ray, double range_max_m, const Pro
 
 /// Nearest exact hit on a face and its contacts; within the tie distance of it the lowest element, then triangle.
 const Face* RayScene::Impl::settle_ties(const Ray& ray, double range_max_m, const Proposal& proposal) const {
-  const Face& proposed = faces[proposal.face];
   const auto for_each = [&](auto&& visit) {
-    visit(proposed);
-    for (const int border : contacts.border(proposal.face)) visit(faces[static_cast<std::size_t>(border)]);
+    for (const int border : contacts.border(proposal.face)) visit(static_cast<std::size_t>(border));
     const auto visit_inside = [&](int other) {
-      visit(faces[static_cast<std::size_t>(other)]);
+      visit(static_cast<std::size_t>(other));
       return false;
     };
     if (proposal.exact) {
@@ -180,17 +174,37 @@ const Face* RayScene::Impl::settle_ties(const Ray& ray, double range_max_m, cons
       for (const Contact& contact : contacts.inside(proposal.face)) (void)visit_inside(contact.face);
     }
   };
-  double nearest = infinity;
-  for_each([&](const Face& face) { nearest = std::min(nearest, exact_range(face, ray, range_max_m)); });
-  // A contact hit farther away may have other faces before it.
-  const bool certain = nearest <= proposal.reach() + tol.tie || nearest == exact_range(proposed, ray, range_max_m);
-  if (std::isinf(nearest) || !certain) return nullptr;
-  const Face* winner = nullptr;
-  for_each([&](const Face& face) {
-    if (exact_range(face, ray, range_max_m) <= nearest + tol.tie && (winner == nullptr || face.precedes(*winner)))
-      winner = &face;
+  // Ranges first: few faces are near enough to be worth the test of their borders.
+  const double proposed = exact_range(proposal.face, ray, range_max_m, range_max_m);
+  double nearest = proposed;
+  std::size_t winner = proposal.face;
+  for_each([&](std::size_t other) {
+    const double range = exact_range(other, ray, range_max_m, nearest);
+    if (range < nearest) {
+      nearest = range;
+      winner = other;
+    }
   });
-  return winner;
+  // A contact hit farther away may have other faces before it.
+  const bool certain = nearest <= proposal.reach() + tol.tie || nearest == proposed;
+  if (std::isinf(nearest) || !certain) return nullptr;
+  const auto challenge = [&](std::size_t other) {
+    if (faces[other].precedes(faces[winner]) && exact_range(other, ray, range_max_m, nearest + tol.tie) < infinity)
+      winner = other;
+  };
+  challenge(proposal.face);
+  for_each(challenge);
+  return &faces[winner];
+}
+
+/// Range at which a ray meets a face, or infinity where that is more than `limit` or the ray's end.
+double RayScene::Impl::exact_range(std::size_t face, const Ray& ray, double range_max_m, double limit) const {
+  const FacePlane& plane = planes[face];
+  const double slope = plane.n.dot(ray.direction_W);
+  if (slope == 0.0) return infinity;
+  const double range = plane.n.dot(plane.v0 - ray.origin_W) / slope;
+  const bool near = range > 0.0 && range <= range_max_m && range <= limit;
+  return near && faces[face].pierced_by(ray.origin_W, ray.direction_W) ? range : infinity;
 }
 
 RayScene::RayScene(const BuildingMesh& mesh, const RaySceneOptions& options)
