@@ -7,9 +7,11 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "bim/errors.h"
+#include "bim/rays/bodies.h"
 #include "bim/rays/contacts.h"
 #include "bim/rays/embree_scene.h"
 #include "bim/rays/face.h"
@@ -70,6 +72,7 @@ struct RayScene::Impl {
   std::vector<FacePlane> planes;
   ContactTable contacts;
   EmbreeScene embree;
+  Bodies bodies;
 
   Impl(const BuildingMesh& mesh, const RaySceneOptions& options);
 
@@ -221,13 +224,18 @@ void RayScene::cast(std::span<const Ray> rays, double range_max_m, std::span<Hit
     const std::size_t count = std::min(width, rays.size() - begin);
     impl_->embree.propose(rays.subspan(begin, count), range_max_m, proposals);
     impl_->decide(rays.subspan(begin, count), range_max_m, proposals, hits.subspan(begin, count));
+    if (!impl_->bodies.empty()) impl_->bodies.cast(rays.subspan(begin, count), range_max_m, hits.subspan(begin, count));
   }
 }
 
 Hit RayScene::cast(const Ray& ray, double range_max_m) const {
   Proposals proposals;
   impl_->embree.propose_after(ray, range_max_m, 0.0F, proposals);
-  return impl_->search(ray, range_max_m, proposals);
+  Hit hit = impl_->search(ray, range_max_m, proposals);
+  if (!impl_->bodies.empty()) impl_->bodies.cast(std::span(&ray, 1), range_max_m, std::span(&hit, 1));
+  return hit;
 }
+
+void RayScene::set_bodies(std::vector<MovingBody> bodies) { impl_->bodies = Bodies(std::move(bodies)); }
 
 }  // namespace plumbline::bim

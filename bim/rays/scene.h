@@ -6,6 +6,7 @@
 #include <memory>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "bim/mesh/mesh.h"
 
@@ -14,13 +15,33 @@ namespace plumbline::bim {
 struct Ray {
   Eigen::Vector3d origin_W;
   Eigen::Vector3d direction_W;  ///< unit
+  double time_s = 0.0;          ///< when it is shot; where moving bodies are then
 };
 
 struct Hit {
   double range_m = std::numeric_limits<double>::infinity();  ///< along the ray, from the face's own plane in double
   int element = -1;                                    ///< index into BuildingMesh::elements, -1 when nothing is hit
-  int triangle = -1;                                   ///< index into BuildingMesh::triangles
+  int triangle = -1;                                   ///< index into BuildingMesh::triangles, -1 on a moving body
   Eigen::Vector3d normal_W = Eigen::Vector3d::Zero();  ///< unit, towards the ray's origin
+};
+
+enum class BodyShape { capsule, box };
+
+/// Where the origin of a moving body is at a time, and how it is turned about the vertical, rad.
+struct BodyStation {
+  double time_s = 0.0;
+  Eigen::Vector3d position_W = Eigen::Vector3d::Zero();
+  double yaw = 0.0;
+};
+
+/// Something upright and rigid that moves: a capsule (around B's z axis from low_B.z to high_B.z, its radius
+/// high_B.x) or a box.
+struct MovingBody {
+  BodyShape shape = BodyShape::capsule;
+  Eigen::Vector3d low_B = Eigen::Vector3d::Zero();
+  Eigen::Vector3d high_B = Eigen::Vector3d::Zero();
+  int element = -1;                   ///< beyond those of the mesh, so that what stands wins ties
+  std::vector<BodyStation> stations;  ///< times ascend; even motion between them, rest beyond
 };
 
 /// For tests and measurements: results must not depend on these.
@@ -46,6 +67,9 @@ class RayScene {
   /// next ring. hits.size() == rays.size(). Allocates nothing.
   void cast(std::span<const Ray> rays, double range_max_m, std::span<Hit> hits) const;
   [[nodiscard]] Hit cast(const Ray& ray, double range_max_m) const;
+
+  /// Casts hit these as well, each where it is at the ray's time; Hit::triangle is -1 there.
+  void set_bodies(std::vector<MovingBody> bodies);
 
  private:
   struct Impl;
