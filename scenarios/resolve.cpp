@@ -9,6 +9,7 @@
 #include "bim/building/plan.h"
 #include "bim/import/mesh_file.h"
 #include "bim/random/stream.h"
+#include "scenarios/moving.h"
 #include "scenarios/route_plan.h"
 #include "scenarios/run/participant.h"
 
@@ -191,6 +192,8 @@ ResolvedScenario resolve(const std::string& input_path, const Overrides& overrid
   scenario.route.storeys = RouteStoreys::start;
   scenario.building = name_of_copy(building, resolved.building_bytes);
   resolved.world = make_world(scenario, plan);
+  resolved.world.people = place_people(walked_building(resolved.site), scenario, text.tree, plan.storey);
+  resolved.world.doors = hang_doors(resolved.site.as_built, scenario, text.tree);
   resolved.prior = make_prior(scenario, resolved.site.as_planned, plan);
   resolved.scenario = std::move(scenario);
   return resolved;

@@ -29,6 +29,8 @@ enum class LidarModel { vlp16 };
 enum class Knowledge { unknown, known };
 /// Which storeys `rooms: all` means.
 enum class RouteStoreys { start, all };
+enum class Hinge { a, b };
+enum class Swing { left, right };
 
 /// Where the robot stands at the start: a room (its freest point), or a point of a storey, in W.
 struct Start {
@@ -80,6 +82,45 @@ struct OdometrySpec {
   }
 };
 
+/// Someone who walks to and fro; exactly one of rooms and points.
+struct PersonSpec {
+  std::vector<std::string> rooms;
+  std::vector<Eigen::Vector2d> points;  ///< m, W
+  double speed_mps = 0.8;
+  double radius_m = 0.25;
+  double height_m = 1.75;
+  template <class V>
+  void visit(V& v) {
+    v("rooms", rooms, Field{.doc = "rooms to walk through on the storey of the start, in order, and back"});
+    v("points", points, Field{.doc = "or points [x, y], m, straight from one to the next, and back"});
+    v("speed_mps", speed_mps,
+      Field{.doc = "walking speed, m/s; stands while the robot is within 1 m", .min = 0.0, .max = 3.0});
+    v("radius_m", radius_m, Field{.doc = "radius of the upright capsule, m", .min = 0.05, .max = 0.5});
+    v("height_m", height_m, Field{.doc = "height, m", .min = 1.05, .max = 2.5});
+  }
+};
+
+/// A door whose leaf turns, shut until then.
+struct MovingDoorSpec {
+  std::string door;
+  Hinge hinge = Hinge::a;
+  Swing swing = Swing::left;
+  double angle_deg = 90.0;
+  double near_m = 1.5;
+  double travel_s = 1.0;
+  std::vector<double> times_s;
+  template <class V>
+  void visit(V& v) {
+    v("door", door, Field{.doc = "id of a door that is open in the building", .required = true});
+    v("hinge", hinge, Field{.doc = "end of the opening with the hinge, along the wall's line from a to b"});
+    v("swing", swing, Field{.doc = "side it opens to, seen from a to b"});
+    v("angle_deg", angle_deg, Field{.doc = "how far it opens, degrees", .min = 10.0, .max = 175.0});
+    v("near_m", near_m, Field{.doc = "opens while the robot is this near to its middle, m", .min = 1.0, .max = 20.0});
+    v("travel_s", travel_s, Field{.doc = "time to open or to shut, s", .min = 0.2, .max = 10.0});
+    v("times_s", times_s, Field{.doc = "opens, shuts, opens, ... at these times as well, s", .min = 0.0});
+  }
+};
+
 /// What plan localization is told besides the plan.
 struct PriorSpec {
   Knowledge yaw = Knowledge::unknown;
@@ -119,6 +160,8 @@ struct Scenario {
   double duration_s = 120.0;
   LidarSpec lidar;
   OdometrySpec odometry;
+  std::vector<PersonSpec> people;
+  std::vector<MovingDoorSpec> moving_doors;
   PriorSpec prior;
   std::vector<std::string> methods;  ///< empty: the standard ones of the table
   std::vector<GateSpec> gates;
@@ -135,6 +178,8 @@ struct Scenario {
     v("duration_s", duration_s, Field{.doc = "longest duration, s", .min = 1.0, .max = 36000.0});
     v("lidar", lidar, Field{.doc = "LiDAR"});
     v("odometry", odometry, Field{.doc = "leg odometry"});
+    v("people", people, Field{.doc = "people who walk about; the LiDAR sees them, no plan knows them"});
+    v("moving_doors", moving_doors, Field{.doc = "doors that open and shut; the LiDAR sees their leaves"});
     v("prior", prior, Field{.doc = "what plan localization is told"});
     v("methods", methods, Field{.doc = "methods to run"});
     v("gates", gates, Field{.doc = "bounds that decide pass or fail"});
@@ -168,6 +213,14 @@ struct EnumNames<scenarios::LidarModel> {
 template <>
 struct EnumNames<scenarios::RouteStoreys> {
   static constexpr std::array<std::string_view, 2> names = {"start", "all"};
+};
+template <>
+struct EnumNames<scenarios::Hinge> {
+  static constexpr std::array<std::string_view, 2> names = {"a", "b"};
+};
+template <>
+struct EnumNames<scenarios::Swing> {
+  static constexpr std::array<std::string_view, 2> names = {"left", "right"};
 };
 template <>
 struct EnumNames<scenarios::Knowledge> {

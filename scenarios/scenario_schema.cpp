@@ -18,6 +18,9 @@ This page is what `plumbline scenarios --schema` prints: it is made from the rea
   named in `results.json`. With closed doors a room behind one cannot be reached: the run is refused and the door named.
 - `start` takes a room or a point of a storey; `route` takes `rooms` (`all`, or a list) or `shuttle`. Rooms of other
   storeys are reached over stairs that the robot can climb; `all` stays on the start's storey unless `storeys: all`.
+- `people` and `moving_doors` are there for the LiDAR only: the robot does not feel them, no plan knows them, and
+  what the LiDAR sees of them is not counted as surface of the building. A moving door stands open wherever the robot
+  comes near.
 - Methods are listed by `plumbline methods`; none named means all. A gate has either `max` or `min`; its metrics are
   those of `results.json`.
 
@@ -39,6 +42,11 @@ speed_mps: 0.6
 duration_s: 120
 lidar: {model: vlp16, preset: real}
 odometry: {preset: noisy}
+people:
+  - {rooms: [kitchen, hall], speed_mps: 0.8}
+  - {points: [[2, 1], [4, 1]], radius_m: 0.3, height_m: 1.6}
+moving_doors:
+  - {door: door_kitchen, hinge: b, swing: right, near_m: 2}
 prior: {yaw: unknown, storey: known}
 methods: [vgicp, s_graphs_plus, s_graph_localization]
 gates:

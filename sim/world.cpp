@@ -66,6 +66,7 @@ struct World::Impl {
       : config(config_in),
         floor(elevation(as_built, config.storey)),
         scene(mesh),
+        moving(config.people, config.doors, static_cast<int>(mesh.elements.size())),
         lidar(config.lidar, config.rpm, config.seed, scene),
         robot(
             start_pose(config, floor), [z = floor](double, double, double) { return z; },
@@ -96,6 +97,7 @@ struct World::Impl {
     out.robot_digest = Digest().add(robot.digest()).add(legs.X_OR()).value();
     next_firing = end_firing;
     track.forget_before(next_firing * slam::vlp16::firing_period_ns);
+    moving.forget_before(next_firing * slam::vlp16::firing_period_ns);
     frame = std::move(out);
     return true;
   }
@@ -119,6 +121,7 @@ struct World::Impl {
     const SensorReading reading = sensors.read(robot.proprioception(), tick);
     if (tick > 0) legs.update(reading, 1e-9 * static_cast<double>(Robot::step_ns));
     track.add(stamp, X_WR);
+    moving.step(stamp, X_WR.t);
     if (tick % imu_every == 0) imu.push_back({stamp, reading.gyro_R, reading.accelerometer_R});
     if (tick % pose_every == 0) {
       odometry.push_back({stamp, legs.X_OR()});
@@ -126,7 +129,8 @@ struct World::Impl {
     }
   }
 
-  void scan(WorldFrame& out) const {
+  void scan(WorldFrame& out) {
+    if (!moving.empty()) scene.set_bodies(moving.bodies());
     std::vector<Pose> X_WL;
     X_WL.reserve(static_cast<std::size_t>(firings_per_message));
     for (std::int64_t i = 0; i < firings_per_message; ++i)
@@ -140,6 +144,7 @@ struct World::Impl {
   WorldConfig config;
   double floor;
   bim::RayScene scene;
+  MovingThings moving;
   Lidar lidar;
   Robot robot;
   Follower follower;

@@ -7,6 +7,7 @@
 #include "bim/building/building.h"
 #include "bim/mesh/mesh.h"
 #include "sim/lidar/lidar.h"
+#include "sim/moving/moving_things.h"
 #include "sim/robot/sensors.h"
 #include "sim/route/follower.h"
 #include "slam/io/estimate.h"
@@ -26,6 +27,8 @@ struct WorldConfig {
   double speed_mps = 0.6;
   double duration_s = 120.0;
   double stand_s = 1.0;  ///< after the end of the route
+  std::vector<PersonConfig> people;
+  std::vector<SwingDoorConfig> doors;  ///< that move
 };
 
 struct TruePose {
@@ -46,7 +49,7 @@ struct WorldFrame {
 };
 
 /// The simulated world: route, gait, physics, sensors. Same config, same frames, bit for bit. The LiDAR does not see
-/// the robot itself.
+/// the robot itself; people and moving doors are there for the LiDAR only, with element ids from mesh.elements.size().
 class World {
  public:
   /// mesh is that of as_built; both must outlive the world. Throws InputError when the storey does not exist.

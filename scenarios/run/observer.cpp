@@ -29,7 +29,8 @@ std::uint64_t digest_of_lidar(const sim::WorldFrame& frame) {
 
 }  // namespace
 
-SurfaceRecorder::SurfaceRecorder(const bim::BuildingMesh& mesh, double voxel_m) : voxel_m_(voxel_m) {
+SurfaceRecorder::SurfaceRecorder(const bim::BuildingMesh& mesh, double voxel_m)
+    : voxel_m_(voxel_m), element_count_(static_cast<int>(mesh.elements.size())) {
   if (mesh.vertices.empty()) throw InternalError("the as-built mesh is empty");
   Eigen::Vector3d high = mesh.vertices.front();
   origin_ = high;
@@ -45,7 +46,7 @@ SurfaceRecorder::SurfaceRecorder(const bim::BuildingMesh& mesh, double voxel_m) 
 void SurfaceRecorder::add(const sim::ReturnLabels& labels) {
   const Eigen::Vector3i last = count_ - Eigen::Vector3i::Ones();
   for (std::size_t i = 0; i < labels.element.size(); ++i) {
-    if (labels.element[i] < 0) continue;
+    if (labels.element[i] < 0 || labels.element[i] >= element_count_) continue;
     const Eigen::Vector3d& p = labels.point_W[i];
     const Eigen::Vector3i cell =
         ((p - origin_) / voxel_m_).array().floor().cast<int>().max(0).min(last.array()).matrix();

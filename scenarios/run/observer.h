@@ -20,6 +20,7 @@ class SurfaceRecorder {
  private:
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
   double voxel_m_;
+  int element_count_;  ///< beyond are things that move, which are no surface of the building
   Eigen::Vector3i count_ = Eigen::Vector3i::Zero();
   std::vector<bool> taken_;
   std::vector<Eigen::Vector3f> points_;

@@ -99,6 +99,7 @@ void Lidar::Impl::aim(std::int64_t firing, const Pose& X_WL, std::size_t column,
     bim::Ray& ray = tile.rays[k * tile_columns + column];
     ray.direction_W = R_WL * Eigen::Vector3d(flat * c, -flat * s, vlp16::sin_elevation(laser));
     ray.origin_W = X_WL.t + vlp16::vertical_offset_m(laser) * R_WL.col(2);
+    ray.time_s = 1e-9 * static_cast<double>(firing * vlp16::firing_period_ns + laser * vlp16::laser_period_ns);
   }
 }
 
