@@ -46,7 +46,7 @@ people:
   - {rooms: [kitchen, hall], speed_mps: 0.8}
   - {points: [[2, 1], [4, 1]], radius_m: 0.3, height_m: 1.6}
 moving_doors:
-  - {door: door_kitchen, hinge: b, swing: right, near_m: 2}
+  - {door: door_kitchen, hinge: b, swing: right, angle_deg: 100, near_m: 2, travel_s: 1.5, times_s: [20, 35]}
 prior: {yaw: unknown, storey: known}
 methods: [vgicp, s_graphs_plus, s_graph_localization]
 gates:

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cmath>
 #include <string>
 
 #include "scenarios/bench/bench.h"
 #include "scenarios/bench/furnished.h"
 #include "scenarios/bench/plain_rays.h"
+#include "sim/lidar/lidar.h"
 #include "slam/io/stopwatch.h"
 
 namespace plumbline::scenarios {
@@ -13,6 +15,8 @@ namespace {
 struct LidarLimits {
   double rays_vs_intersect1 = 2.5;
   double mrays_per_cpu_s = 6.0;
+  double scan_ms = 12.0;
+  double growth = 1.35;  ///< exponent of building a scene: n log n is 1.07 there, caches cost the rest
 };
 
 constexpr double range_max_m = 100.0;
@@ -40,8 +44,29 @@ std::vector<bim::Ray> rays_in(const FurnishedConfig& config) {
   return rays;
 }
 
-/// Rates of the kernel, and what they are to the plain loop's in the same moments.
-void measure_kernel(const BenchSetting& setting, const StoreySize& size, bool gates, std::vector<BenchRow>& rows) {
+/// One message of a walking robot's LiDAR, packets included.
+void measure_scan(const BenchSetting& setting, std::vector<BenchRow>& rows) {
+  const FurnishedConfig config;
+  const bim::RayScene scene(furnished_storey(config, 1));
+  const sim::Lidar lidar(sim::LidarPreset::real, 600.0, 1, scene);
+  constexpr std::size_t firings = 1824;
+  std::vector<double> times;
+  for (int k = -1; k < 10 * setting.repetitions; ++k) {
+    std::vector<Pose> X_WL;
+    for (std::size_t i = 0; i < firings; ++i) {
+      const double walked = 0.06 * (static_cast<double>(k) + static_cast<double>(i) / firings);
+      X_WL.push_back(Pose::from_xyz_yaw({2.0, 4.5 + 0.5 * std::sin(walked), 0.65}, walked));
+    }
+    const slam::Stopwatch watch;
+    const sim::Sweep sweep = lidar.sweep(static_cast<std::int64_t>(k + 1) * firings, X_WL);
+    if (k >= 0) times.push_back(watch.cpu_ms());
+  }
+  rows.push_back(make_row("lidar.scan_ms", "ms", times, BenchLimit{LidarLimits{}.scan_ms}));
+}
+
+/// Rates of the kernel, and what they are to the plain loop's in the same moments. Gives the seconds it took to build
+/// the scene.
+double measure_kernel(const BenchSetting& setting, const StoreySize& size, bool gates, std::vector<BenchRow>& rows) {
   const bim::BuildingMesh mesh = furnished_storey(size.config, 1);
   const slam::Stopwatch building;
   const bim::RayScene scene(mesh);
@@ -65,15 +90,21 @@ void measure_kernel(const BenchSetting& setting, const StoreySize& size, bool ga
   rows.push_back(make_row("lidar.mrays_per_cpu_s" + suffix, "M/s", rates,
                           gates ? std::optional(BenchLimit{limits.mrays_per_cpu_s, false}) : std::nullopt));
   rows.push_back(make_row("lidar.ray_scene_" + size.name + "_s", "s", {build_s}));
+  return build_s;
 }
 
 }  // namespace
 
 std::vector<BenchRow> bench_lidar(const BenchSetting& setting) {
   std::vector<BenchRow> rows;
-  measure_kernel(setting, {"1k", {1, 1, 400}}, false, rows);
-  measure_kernel(setting, {"50k", {}}, true, rows);
-  measure_kernel(setting, {"1M", {40, 5, 2512}}, false, rows);
+  const FurnishedConfig large{40, 5, 2512};
+  (void)measure_kernel(setting, {"1k", {1, 1, 400}}, false, rows);
+  const double before = measure_kernel(setting, {"50k", {}}, true, rows);
+  const double after = measure_kernel(setting, {"1M", large}, false, rows);
+  rows.push_back(make_row("lidar.ray_scene_growth", "power",
+                          {growth_exponent(FurnishedConfig{}.rooms(), before, large.rooms(), after)},
+                          BenchLimit{LidarLimits{}.growth, true, true}));
+  measure_scan(setting, rows);
   return rows;
 }
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -73,6 +74,55 @@ std::uint64_t digest(const WorldFrame& frame) {
   for (const TruePose& r : frame.truth) d.add(r.stamp).add(r.X_WR);
   for (const slam::Vlp16Packet& p : frame.packets) d.add(p.stamp).add_bytes(p.payload);
   return d.add(frame.robot_digest).value();
+}
+
+/// Returns of a run by what gave them: the building, the person, the leaf.
+struct Seen {
+  std::vector<std::uint64_t> digests;
+  std::array<int, 3> returns{};
+  std::array<Eigen::Vector3d, 2> last_W;  ///< a point on the person, on the leaf
+};
+
+Seen run_with_moving_things() {
+  WorldConfig c = config({{1.5, 2.5}}, 2.0);
+  PersonConfig person;
+  person.points_W = {{3.2, 1.0, 0.0}, {3.2, 4.0, 0.0}};
+  SwingDoorConfig door;
+  door.hinge_W = {4.0, 2.06, 0.0};
+  door.yaw_shut = 0.5 * std::numbers::pi;
+  door.swing = 0.5 * std::numbers::pi;  // towards the robot
+  door.width_m = 0.88;
+  door.times_s = {0.5};
+  c.people = {person};
+  c.doors = {door};
+  World world = make_world(c);
+  const auto first = static_cast<int>(house().mesh.elements.size());
+  Seen seen;
+  for (WorldFrame frame; world.next(frame);) {
+    seen.digests.push_back(digest(frame));
+    for (std::size_t i = 0; i < frame.labels.element.size(); ++i) {
+      const int element = frame.labels.element[i];
+      if (element < 0) continue;
+      const int kind = element < first ? 0 : element - first + 1;
+      ++seen.returns.at(static_cast<std::size_t>(kind));
+      if (kind > 0) seen.last_W.at(static_cast<std::size_t>(kind - 1)) = frame.labels.point_W[i];
+    }
+  }
+  return seen;
+}
+
+TEST(World, TheLidarSeesPeopleAndDoorsMoveTheSameTwice) {
+  const Seen seen = run_with_moving_things();
+  ASSERT_GT(seen.digests.size(), 10U);
+  EXPECT_GT(seen.returns[0], 10000);
+  EXPECT_GT(seen.returns[1], 1000);
+  EXPECT_GT(seen.returns[2], 200);
+  // The person has walked 1.5 m in two seconds; the leaf is open, and so stands at y = 2.06, to the robot's side.
+  EXPECT_NEAR(seen.last_W[0].y(), 1.0 + 0.8 * 1.9, 0.3);
+  EXPECT_NEAR(seen.last_W[0].x(), 3.0, 0.3);
+  EXPECT_NEAR(seen.last_W[1].y(), 2.06, 0.05);
+  EXPECT_LT(seen.last_W[1].x(), 4.0);
+  EXPECT_EQ(run_with_moving_things().digests, seen.digests);
 }
 
 TEST(World, RecordsComeInTimeAtTheirRates) {
