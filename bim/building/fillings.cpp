@@ -8,9 +8,9 @@
 #include <string_view>
 
 #include "bim/building/materials.h"
+#include "bim/building/sweep.h"
+#include "bim/building/wall_frame.h"
 #include "bim/geometry/polygon_boolean.h"
-#include "bim/mesh/sweep.h"
-#include "bim/mesh/wall_frame.h"
 
 namespace plumbline::bim {
 

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "bim/building/sweep.h"
 #include "bim/errors.h"
 #include "bim/geometry/polygon_boolean.h"
-#include "bim/mesh/sweep.h"
 
 namespace plumbline::bim {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "bim/building/sweep.h"
 #include "bim/geometry/polygon_boolean.h"
-#include "bim/mesh/sweep.h"
 
 namespace plumbline::bim {
 

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bim/building/wall_frame.h"
 #include "bim/ifc/interpret.h"
-#include "bim/mesh/wall_frame.h"
 
 namespace plumbline::bim {
 namespace {

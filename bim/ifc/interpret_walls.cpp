@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bim/building/wall_frame.h"
 #include "bim/ifc/interpret.h"
 #include "bim/mesh/solid.h"
-#include "bim/mesh/wall_frame.h"
 
 namespace plumbline::bim {
 namespace {

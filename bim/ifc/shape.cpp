@@ -5,11 +5,11 @@
 #include <cmath>
 #include <numeric>
 
+#include "bim/building/triangulate.h"
 #include "bim/errors.h"
 #include "bim/geometry/polygon_boolean.h"
 #include "bim/mesh/corefine.h"
 #include "bim/mesh/solid.h"
-#include "bim/mesh/triangulate.h"
 
 namespace plumbline::bim {
 namespace {

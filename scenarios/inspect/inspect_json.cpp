@@ -4,9 +4,9 @@
 
 #include "bim/building/adjacency.h"
 #include "bim/building/plan.h"
+#include "bim/building/wall_frame.h"
 #include "bim/digest/digest.h"
 #include "bim/mesh/solid.h"
-#include "bim/mesh/wall_frame.h"
 #include "scenarios/inspect/inspect.h"
 #include "scenarios/inspect/inspect_symmetry.h"
 

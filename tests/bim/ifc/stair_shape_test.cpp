@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "bim/mesh/sweep.h"
+#include "bim/building/sweep.h"
 
 namespace plumbline::bim {
 namespace {

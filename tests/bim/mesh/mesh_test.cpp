@@ -7,8 +7,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "bim/building/sweep.h"
 #include "bim/building/wall_face.h"
-#include "bim/mesh/sweep.h"
 #include "bim/random/stream.h"
 
 namespace plumbline::bim {

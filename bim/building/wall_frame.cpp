@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bim/mesh/wall_frame.h"
+#include "bim/building/wall_frame.h"
 
 namespace plumbline::bim {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bim/mesh/sweep.h"
+#include "bim/building/sweep.h"
 
 #include <numeric>
 
-#include "bim/mesh/triangulate.h"
+#include "bim/building/triangulate.h"
 
 namespace plumbline::bim {
 

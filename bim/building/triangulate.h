@@ -20,8 +20,8 @@ struct FlatMesh {
 };
 
 /// Constrained Delaunay triangulation of a region. Of points on one circle the lexicographically lowest gets the
-/// diagonals, and points and triangles are sorted, so that the result depends on the region alone. Throws InternalError
-/// when rings cross each other.
+/// diagonals, and points and triangles are sorted, so that the result depends on the region alone. A point that a ring
+/// repeats counts once. Throws InternalError when rings cross each other.
 [[nodiscard]] FlatMesh triangulate(const Region2& region);
 
 }  // namespace plumbline::bim

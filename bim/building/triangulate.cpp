@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bim/mesh/triangulate.h"
+#include "bim/building/triangulate.h"
 
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -34,8 +34,10 @@ using Face = Triangulation::Face_handle;
 void insert_ring(Triangulation& triangulation, const Polygon2& ring) {
   std::vector<Triangulation::Vertex_handle> handles;
   for (const Eigen::Vector2d& p : ring) handles.push_back(triangulation.insert(Kernel::Point_2(p.x(), p.y())));
-  for (std::size_t i = 0; i < handles.size(); ++i)
-    triangulation.insert_constraint(handles[i], handles[(i + 1) % handles.size()]);
+  for (std::size_t i = 0; i < handles.size(); ++i) {
+    const auto from = handles[i], to = handles[(i + 1) % handles.size()];
+    if (from != to) triangulation.insert_constraint(from, to);  // CGAL does not guard against edges without length
+  }
 }
 
 /// Floods from infinity: each constrained edge that is crossed raises the level by one.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bim/mesh/triangulate.h"
+#include "bim/building/triangulate.h"
 
 #include <gtest/gtest.h>
 
@@ -48,6 +48,18 @@ void expect_sound(const FlatMesh& mesh, double area) {
 TEST(Triangulate, CoversTheRegionWithMatchingNeighbours) {
   expect_sound(triangulate(facade(5, 3)), 11.0 * 7.0 - 15.0);
   EXPECT_TRUE(triangulate({}).triangles.empty());
+}
+
+TEST(Triangulate, RepeatedPointsCountOnce) {
+  const Polygon2 doubled = {{0, 0}, {0, 0}, {3, 0}, {3, 2}, {3, 2}, {3, 2}, {0, 2}, {0, 0}};
+  const Polygon2 hole = {{1, 1}, {1, 1.5}, {1, 1.5}, {2, 1.5}};
+  const FlatMesh mesh = triangulate({PolygonWithHoles2{doubled, {hole}}});
+  expect_sound(mesh, 6.0 - 0.25);
+  const FlatMesh plain = triangulate({PolygonWithHoles2{rectangle(0, 0, 3, 2), {{{1, 1}, {1, 1.5}, {2, 1.5}}}}});
+  ASSERT_EQ(mesh.triangles.size(), plain.triangles.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    EXPECT_EQ(mesh.triangles[t].points, plain.triangles[t].points);
+  EXPECT_TRUE(triangulate({PolygonWithHoles2{{{1, 1}, {1, 1}, {1, 1}}, {}}}).triangles.empty());
 }
 
 TEST(Triangulate, RandomRegions) {
