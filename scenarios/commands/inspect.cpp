@@ -46,13 +46,13 @@ int inspect(const InspectOptions& options) {
   if (!options.mesh.empty()) format = bim::mesh_format(options.mesh);
   for (const std::string& output : {options.mesh, options.ifc})
     if (!output.empty()) check_output(output, options.building);
-  const bim::Building building =
-      options.as_built ? bim::load_site(options.building).as_built : bim::load_building(options.building);
+  const bim::Site site = options.as_built ? bim::load_site(options.building) : bim::Site{};
+  const bim::Building building = options.as_built ? site.as_built : bim::load_building(options.building);
   const bim::BuildingMesh mesh = bim::build_mesh(building);
   if (format) write_file(options.mesh, bim::write_mesh(building, mesh, *format));
   if (!options.ifc.empty()) write_file(options.ifc, bim::write_ifc(building));
   const std::string text =
-      options.json ? write_json(inspect_json(building, mesh)) + "\n" : inspect_text(building, mesh);
+      options.json ? write_json(inspect_json(building, mesh)) + "\n" : inspect_text(building, mesh, site.changes);
   std::fwrite(text.data(), 1, text.size(), stdout);
   return 0;
 }

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "bim/building/building.h"
+#include "bim/building/deviations.h"
 #include "bim/config/tree.h"
 #include "bim/mesh/mesh.h"
 
@@ -16,7 +18,9 @@ namespace plumbline::scenarios {
 /// wall.
 [[nodiscard]] Tree inspect_json(const bim::Building& building, const bim::BuildingMesh& mesh);
 
-/// The same for people: storeys with counts, rooms with areas and neighbours, warnings by kind, totals.
-[[nodiscard]] std::string inspect_text(const bim::Building& building, const bim::BuildingMesh& mesh);
+/// The same for people: storeys with counts, rooms with areas and neighbours, solids by kind, `changes` (what is not as
+/// planned), warnings by kind, totals.
+[[nodiscard]] std::string inspect_text(const bim::Building& building, const bim::BuildingMesh& mesh,
+                                       const std::vector<bim::Change>& changes);
 
 }  // namespace plumbline::scenarios

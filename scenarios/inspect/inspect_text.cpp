@@ -149,6 +149,37 @@ std::string room_table(const Building& building) {
   return table.text();
 }
 
+/// Obstacles by what they are: railings, furniture, clutter.
+std::string kind_of(const Building& building, const bim::MeshElement& element) {
+  constexpr const char* kinds[] = {"wall", "slab", "column", "stair"};
+  return element.kind == bim::ElementKind::obstacle ? building.obstacles[static_cast<std::size_t>(element.index)].kind
+                                                    : kinds[static_cast<std::size_t>(element.kind)];
+}
+
+std::string solid_table(const Building& building, const BuildingMesh& mesh) {
+  struct Kind {
+    int count = 0, closed = 0;
+    double volume_m3 = 0.0;
+  };
+  std::map<std::string, Kind> kinds;
+  for (const bim::MeshElement& element : mesh.elements) {
+    Kind& kind = kinds[kind_of(building, element)];
+    ++kind.count;
+    kind.closed += element.closed ? 1 : 0;
+    kind.volume_m3 += element.volume_m3;
+  }
+  Table table({"solid", "number", "closed", "volume m3"});
+  for (const auto& [name, kind] : kinds)
+    table.add({name, std::to_string(kind.count), std::to_string(kind.closed), fixed(kind.volume_m3, 2)});
+  return table.text();
+}
+
+std::string change_table(const std::vector<bim::Change>& changes) {
+  Table table({"not as planned", "element"});
+  for (const bim::Change& change : changes) table.add({change.op, change.element});
+  return table.text();
+}
+
 std::string warning_lines(const Building& building, const BuildingMesh& mesh) {
   std::map<std::string, std::vector<const bim::Warning*>> kinds;
   for (const bim::Warning& warning : building.warnings) kinds[warning.kind].push_back(&warning);
@@ -178,12 +209,14 @@ std::string totals(const Building& building, const BuildingMesh& mesh) {
 
 }  // namespace
 
-std::string inspect_text(const Building& building, const BuildingMesh& mesh) {
+std::string inspect_text(const Building& building, const BuildingMesh& mesh, const std::vector<bim::Change>& changes) {
   std::string text = (building.name.empty() ? "building" : building.name) + " (" + building.schema + ", unit " +
                      building.unit + "), hash " + hex64(building.hash()) + "\n\n";
   text += storey_table(building) + "\n";
   if (!building.rooms.empty()) text += room_table(building) + "\n";
   if (!building.stairs.empty()) text += stair_table(building) + "\n";
+  if (!mesh.elements.empty()) text += solid_table(building, mesh) + "\n";
+  if (!changes.empty()) text += change_table(changes) + "\n";
   text += symmetry_text(building, bim::analyse_symmetry(building)) + "\n";
   return text + totals(building, mesh) + "\n" + warning_lines(building, mesh);
 }

@@ -83,17 +83,26 @@ TEST_F(InspectTest, RoomsHaveAreaFacesAndNeighbours) {
 TEST_F(InspectTest, JsonIsTheSameTwice) { EXPECT_EQ(write_json(json_), write_json(inspect_json(building_, mesh_))); }
 
 TEST_F(InspectTest, TextNamesStoreysRoomsAndTotals) {
-  const std::string text = inspect_text(building_, mesh_);
+  const std::string text = inspect_text(building_, mesh_, {});
   for (const char* part : {"ground", "west", "east", "outside", "18.2", "5 walls", "no warnings"})
     EXPECT_NE(text.find(part), std::string::npos) << part << " in\n" << text;
 }
 
 TEST_F(InspectTest, TextGroupsWarningsByKind) {
   building_.warnings = {{"a", "no_layers", "first"}, {"b", "no_layers", "second"}, {"", "assumed_unit", "metres"}};
-  const std::string text = inspect_text(building_, mesh_);
+  const std::string text = inspect_text(building_, mesh_, {});
   EXPECT_NE(text.find("a: first"), std::string::npos);
   EXPECT_EQ(text.find("second"), std::string::npos);
   EXPECT_NE(text.find("assumed_unit"), std::string::npos);
+}
+
+TEST_F(InspectTest, TextListsSolidsByKindAndWhatIsNotAsPlanned) {
+  const std::string planned = inspect_text(building_, mesh_, {});
+  EXPECT_NE(planned.find("wall         5       5"), std::string::npos) << planned;
+  EXPECT_EQ(planned.find("not as planned"), std::string::npos);
+  const std::string built = inspect_text(building_, mesh_, {{"move_wall", "w1"}, {"drop_room", "west"}});
+  EXPECT_NE(built.find("not as planned  element"), std::string::npos) << built;
+  EXPECT_NE(built.find("move_wall       w1"), std::string::npos) << built;
 }
 
 }  // namespace
