@@ -66,30 +66,30 @@ std::vector<Mark> marks_of(const Tree& tree, std::initializer_list<std::string_v
   return marks;
 }
 
-bool needs_plan(const std::string& method) {
-  const slam::MethodRow* row = slam::find_method(method);
+bool needs_plan(const std::string& method, slam::MethodTable table) {
+  const slam::MethodRow* row = slam::find_method(method, table);
   return row != nullptr && row->needs_plan;
 }
 
 /// Without a plan the default is every method that needs none, and asking for another is wrong.
-void choose_methods(ScenarioText& text, const Overrides& overrides, bool has_plan) {
+void choose_methods(ScenarioText& text, const Overrides& overrides, bool has_plan, slam::MethodTable table) {
   std::vector<std::string>& methods = text.scenario.methods;
   if (overrides.methods) methods = *overrides.methods;
   const std::vector<Mark> marks = overrides.methods ? std::vector<Mark>(methods.size(), Mark{"--method", 0, 0})
                                                     : marks_of(text.tree, {"methods"}, methods.size());
-  check_methods(methods, marks);
+  check_methods(methods, marks, table);
   for (std::size_t i = 0; i < methods.size(); ++i)
-    if (!has_plan && needs_plan(methods[i]))
+    if (!has_plan && needs_plan(methods[i], table))
       throw InputError(marks[i], "method '" + methods[i] + "' localizes in a plan, which the mesh '" +
                                      text.scenario.building + "' does not have; ask for SLAM methods only");
   if (!methods.empty()) return;
-  for (const slam::MethodRow& row : slam::methods())
+  for (const slam::MethodRow& row : table)
     if (row.standard && (has_plan || !row.needs_plan)) methods.emplace_back(row.name);
 }
 
-void settle_methods(ScenarioText& text, const Overrides& overrides, bool has_plan, int& dropped_gates) {
+void settle_methods(ScenarioText& text, const Overrides& overrides, bool has_plan, ResolvedScenario& resolved) {
   Scenario& scenario = text.scenario;
-  choose_methods(text, overrides, has_plan);
+  choose_methods(text, overrides, has_plan, resolved.table);
   const auto asked = [&](const GateSpec& gate) {
     return std::find(scenario.methods.begin(), scenario.methods.end(), gate.method) != scenario.methods.end();
   };
@@ -100,7 +100,7 @@ void settle_methods(ScenarioText& text, const Overrides& overrides, bool has_pla
                      "the gate's method '" + scenario.gates[i].method + "' is not one of the scenario's methods");
   }
   const auto kept = std::stable_partition(scenario.gates.begin(), scenario.gates.end(), asked);
-  dropped_gates = static_cast<int>(scenario.gates.end() - kept);
+  resolved.dropped_gates = static_cast<int>(scenario.gates.end() - kept);
   scenario.gates.erase(kept, scenario.gates.end());
 }
 
@@ -152,8 +152,8 @@ double default_duration(const RoutePlan& plan, double speed) {
 
 }  // namespace
 
-void check_methods(const std::vector<std::string>& names, const std::vector<Mark>& marks) {
-  const std::vector<std::string> known = method_names();
+void check_methods(const std::vector<std::string>& names, const std::vector<Mark>& marks, slam::MethodTable table) {
+  const std::vector<std::string> known = method_names(table);
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (std::find(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(i), names[i]) !=
         names.begin() + static_cast<std::ptrdiff_t>(i))
@@ -167,10 +167,11 @@ void check_methods(const std::vector<std::string>& names, const std::vector<Mark
   }
 }
 
-ResolvedScenario resolve(const std::string& input_path, const Overrides& overrides) {
+ResolvedScenario resolve(const std::string& input_path, const Overrides& overrides, slam::MethodTable table) {
   ResolvedScenario resolved;
+  resolved.table = table;
   ScenarioText text = read_input(input_path);
-  settle_methods(text, overrides, !bim::is_mesh_path(text.scenario.building), resolved.dropped_gates);
+  settle_methods(text, overrides, !bim::is_mesh_path(text.scenario.building), resolved);
   if (overrides.seed) text.scenario.seed = *overrides.seed;
   const bool bare = text.tree.as_map().empty();
 

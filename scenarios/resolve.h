@@ -8,7 +8,7 @@
 #include "bim/building/load.h"
 #include "scenarios/scenario.h"
 #include "sim/world.h"
-#include "slam/io/method.h"
+#include "slam/methods.h"
 
 namespace plumbline::scenarios {
 
@@ -25,16 +25,19 @@ struct ResolvedScenario {
   std::string building_bytes;  ///< the file as it was read
   sim::WorldConfig world;
   slam::Prior prior;
-  int dropped_gates = 0;  ///< gates of methods that Overrides left out
+  int dropped_gates = 0;    ///< gates of methods that Overrides left out
+  slam::MethodTable table;  ///< where its methods stand; must outlive this
 };
 
 /// Reads INPUT (a scenario, a plan, an .ifc or a mesh; all but the first get the default scenario: start in the largest
 /// room of the lowest habitable storey, route through all rooms reachable on it, every method; in a mesh, which has
 /// no rooms, the freest place, a round through what can be reached, and the methods that need no plan) and checks
 /// everything that can be known before the first step. Throws InputError at the place in the file that is wrong.
-[[nodiscard]] ResolvedScenario resolve(const std::string& input_path, const Overrides& overrides);
+[[nodiscard]] ResolvedScenario resolve(const std::string& input_path, const Overrides& overrides,
+                                       slam::MethodTable table = slam::methods());
 
 /// Checks that methods are known and asked for once; `mark(i)` says where name i stands.
-void check_methods(const std::vector<std::string>& names, const std::vector<Mark>& marks);
+void check_methods(const std::vector<std::string>& names, const std::vector<Mark>& marks,
+                   slam::MethodTable table = slam::methods());
 
 }  // namespace plumbline::scenarios

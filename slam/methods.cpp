@@ -33,7 +33,7 @@ std::unique_ptr<Method> localize_in_plan(const MethodInput& input) {
 
 }  // namespace
 
-std::span<const MethodRow> methods() {
+MethodTable methods() {
   static const std::array rows = {
       with_config<OdometryMethodConfig>({.name = "odometry",
                                          .summary = "dead reckoning of the legs",
@@ -62,8 +62,8 @@ std::span<const MethodRow> methods() {
   return rows;
 }
 
-const MethodRow* find_method(std::string_view name) {
-  for (const MethodRow& row : methods())
+const MethodRow* find_method(std::string_view name, MethodTable table) {
+  for (const MethodRow& row : table)
     if (row.name == name) return &row;
   return nullptr;
 }

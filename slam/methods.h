@@ -14,7 +14,7 @@ namespace plumbline::slam {
 
 /// One row of the table of estimators.
 struct MethodRow {
-  std::string_view name = {};
+  std::string_view name = {};  ///< of literals, as is the summary
   std::string_view summary = {};
   bool needs_plan = false;
   std::function<std::unique_ptr<Method>(const MethodInput&)> make = {};
@@ -34,9 +34,12 @@ template <class Config>
   return row;
 }
 
-/// Every estimator, in the order of `plumbline methods`.
-[[nodiscard]] std::span<const MethodRow> methods();
+/// Estimators to choose from: ours, or ours and those a program brings along.
+using MethodTable = std::span<const MethodRow>;
+
+/// Ours, in the order of `plumbline methods`.
+[[nodiscard]] MethodTable methods();
 /// Row of a method, or nullptr.
-[[nodiscard]] const MethodRow* find_method(std::string_view name);
+[[nodiscard]] const MethodRow* find_method(std::string_view name, MethodTable table = methods());
 
 }  // namespace plumbline::slam

@@ -43,9 +43,9 @@ struct Options {
   CLI::Option* yaw_option = nullptr;
 };
 
-const slam::MethodRow& find_row(const std::string& name) {
-  check_methods({name}, {Mark{"--method", 0, 0}});
-  const slam::MethodRow* row = slam::find_method(name);
+const slam::MethodRow& find_row(const std::string& name, slam::MethodTable table) {
+  check_methods({name}, {Mark{"--method", 0, 0}}, table);
+  const slam::MethodRow* row = slam::find_method(name, table);
   if (row == nullptr)
     throw InputError({"--method", 0, 0}, "'" + name + "' is no estimator; a recording holds no truth");
   return *row;
@@ -144,8 +144,8 @@ std::string describe(const slam::MethodRow& row, std::uint64_t seed, const slam:
   return write_yaml(tree);
 }
 
-int estimate(const Options& options) {
-  const slam::MethodRow& row = find_row(options.method);
+int estimate(const Options& options, slam::MethodTable table) {
+  const slam::MethodRow& row = find_row(options.method, table);
   const std::unique_ptr<slam::Recording> recording = open_input(options);
   const slam::MethodInput input = make_input(options, row, *recording);
 
@@ -166,7 +166,7 @@ int estimate(const Options& options) {
 
 }  // namespace
 
-Command add_estimate(CLI::App& program) {
+Command add_estimate(CLI::App& program, slam::MethodTable table) {
   const auto options = std::make_shared<Options>();
   CLI::App* app = program.add_subcommand("estimate", "Runs a method on a recording, simulated or real");
   app->add_option("RECORDING", options->recording,
@@ -191,7 +191,7 @@ Command add_estimate(CLI::App& program) {
       "Example: plumbline estimate walk --method s_graphs_plus -o out\n"
       "         plumbline estimate walk --method s_graph_localization --plan house.plan.yaml -o out\n"
       "         plumbline estimate vlp16.pcap --method vgicp -o out");
-  return {app, [options] { return estimate(*options); }};
+  return {app, [options, table] { return estimate(*options, table); }};
 }
 
 }  // namespace plumbline::scenarios

@@ -17,17 +17,17 @@ namespace fs = std::filesystem;
 
 namespace {
 
-int list_methods() {
-  for (const slam::MethodRow& row : slam::methods())
+int list_methods(slam::MethodTable table) {
+  for (const slam::MethodRow& row : table)
     std::printf("%-22s %s%s\n", std::string(row.name).c_str(), std::string(row.summary).c_str(),
                 row.needs_plan ? " (needs the plan)" : "");
   std::printf("%-22s %s\n", std::string(truth_method).c_str(), "the true poses; scores 0, which checks the scorer");
   return 0;
 }
 
-int print_config(const std::string& name) {
-  check_methods({name}, {Mark{"--config", 0, 0}});
-  const slam::MethodRow* row = slam::find_method(name);
+int print_config(const std::string& name, slam::MethodTable table) {
+  check_methods({name}, {Mark{"--config", 0, 0}}, table);
+  const slam::MethodRow* row = slam::find_method(name, table);
   if (row == nullptr || !row->config_schema)
     throw InputError({"--config", 0, 0}, "method '" + name + "' has no values to set");
   std::fputs(schema_yaml(row->config_schema().front().fields).c_str(), stdout);
@@ -58,12 +58,12 @@ int print_schema() {
 
 }  // namespace
 
-Command add_methods(CLI::App& program) {
+Command add_methods(CLI::App& program, slam::MethodTable table) {
   const auto config = std::make_shared<std::string>();
   CLI::App* app = program.add_subcommand("methods", "Lists the methods a scenario may ask for");
   app->add_option("--config", *config, "prints instead every value of this method's --config file, at its default");
   app->footer("Example: plumbline methods\n         plumbline methods --config vgicp > vgicp.yaml");
-  return {app, [config] { return config->empty() ? list_methods() : print_config(*config); }};
+  return {app, [config, table] { return config->empty() ? list_methods(table) : print_config(*config, table); }};
 }
 
 Command add_scenarios(CLI::App& program) {

@@ -5,11 +5,13 @@
 #include <cstdio>
 #include <exception>
 #include <string>
+#include <utility>
 
 #include "bim/errors.h"
 #include "scenarios/commands/commands.h"
 #include "scenarios/commands/process.h"
 #include "scenarios/run/interrupt.h"
+#include "scenarios/run/participant.h"
 
 namespace plumbline::scenarios {
 
@@ -42,7 +44,18 @@ int report_failure() {
   }
 }
 
-int parse_and_run(int argc, char** argv) {
+/// The table of methods: ours, then the program's own. Throws InternalError where two have one name.
+std::vector<slam::MethodRow> with_ours(std::vector<slam::MethodRow> own_methods) {
+  std::vector<slam::MethodRow> table(slam::methods().begin(), slam::methods().end());
+  for (slam::MethodRow& row : own_methods) {
+    if (row.name == truth_method || slam::find_method(row.name, table) != nullptr)
+      throw InternalError("method '" + std::string(row.name) + "' stands in the table already; give it another name");
+    table.push_back(std::move(row));
+  }
+  return table;
+}
+
+int parse_and_run(int argc, char** argv, slam::MethodTable table) {
   CLI::App program{
       "Walks a legged robot with an emulated VLP-16 through a building model and scores SLAM and "
       "localization methods against ground truth.",
@@ -53,10 +66,11 @@ int parse_and_run(int argc, char** argv) {
       "Example: plumbline run scenarios/library/quickstart.yaml --out runs/first\n"
       "Exit codes: 0 gates passed, 1 a gate failed, 2 bad usage or input, 3 environment or internal error, "
       "4 the robot fell or stalled");
-  const std::vector<Command> commands = {add_run(program),   add_inspect(program),  add_generate(program),
-                                         add_score(program), add_report(program),   add_replay(program),
-                                         add_diff(program),  add_methods(program),  add_scenarios(program),
-                                         add_bench(program), add_simulate(program), add_estimate(program)};
+  const std::vector<Command> commands = {
+      add_run(program, table), add_inspect(program),         add_generate(program),
+      add_score(program),      add_report(program),          add_replay(program, table),
+      add_diff(program),       add_methods(program, table),  add_scenarios(program),
+      add_bench(program),      add_simulate(program, table), add_estimate(program, table)};
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -70,11 +84,12 @@ int parse_and_run(int argc, char** argv) {
 
 }  // namespace
 
-int run_program(int argc, char** argv) {
+int run_program(int argc, char** argv, std::vector<slam::MethodRow> own_methods) {
   settle_process();
   reexecute_with_tunables(argv);
   try {
-    const int code = parse_and_run(argc, argv);
+    const std::vector<slam::MethodRow> table = with_ours(std::move(own_methods));
+    const int code = parse_and_run(argc, argv, table);
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
       throw EnvironmentError("plumbline: stdout cannot be written");
     return code;

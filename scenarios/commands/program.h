@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <vector>
+
+#include "slam/methods.h"
+
 namespace plumbline::scenarios {
 
 /// The whole program: settles the process (see process.h), reads the command line, runs the subcommand, turns
-/// exceptions into one line on stderr. Returns the exit code of the contract.
-int run_program(int argc, char** argv);
+/// exceptions into one line on stderr. Returns the exit code of the contract. `own_methods` stand beside ours in every
+/// command: a main of one line that brings a method of its own is a whole testbench for it.
+int run_program(int argc, char** argv, std::vector<slam::MethodRow> own_methods = {});
 
 }  // namespace plumbline::scenarios

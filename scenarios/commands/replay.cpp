@@ -31,10 +31,10 @@ DigestLog cut(DigestLog log, const std::optional<double>& until_s) {
   return log;
 }
 
-int replay(const Options& options) {
+int replay(const Options& options, slam::MethodTable table) {
   const std::string path = options.dir + "/digests.csv";
   const DigestLog recorded = read_digests(read_text_file(path), path);
-  const ResolvedScenario resolved = resolve(options.dir + "/scenario.yaml", {});
+  const ResolvedScenario resolved = resolve(options.dir + "/scenario.yaml", {}, table);
   RunOptions run_options;
   run_options.threads = options.threads > 0 ? options.threads : allowed_cpus();
   if (options.until_option->count() > 0) run_options.until_s = options.until_s;
@@ -59,7 +59,7 @@ int replay(const Options& options) {
 
 }  // namespace
 
-Command add_replay(CLI::App& program) {
+Command add_replay(CLI::App& program, slam::MethodTable table) {
   const auto options = std::make_shared<Options>();
   CLI::App* app = program.add_subcommand("replay", "Runs a run directory again and compares every digest");
   app->add_option("DIR", options->dir, "run directory")->required();
@@ -67,7 +67,7 @@ Command add_replay(CLI::App& program) {
       app->add_option("--until", options->until_s, "stop after so many simulated seconds")->check(CLI::PositiveNumber);
   app->add_option("--threads", options->threads, "threads [the CPUs allowed]")->check(CLI::Range(1, 1024));
   app->footer("Example: plumbline replay runs/quickstart-1 --until 12.5\nExit code 1 when a digest differs");
-  return {app, [options] { return replay(*options); }};
+  return {app, [options, table] { return replay(*options, table); }};
 }
 
 }  // namespace plumbline::scenarios

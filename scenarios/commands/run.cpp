@@ -51,9 +51,9 @@ Overrides overrides_of(const Options& options) {
   return overrides;
 }
 
-int run(const Options& options) {
+int run(const Options& options, slam::MethodTable table) {
   const double start = slam::wall_s();
-  const ResolvedScenario resolved = resolve(options.input, overrides_of(options));
+  const ResolvedScenario resolved = resolve(options.input, overrides_of(options), table);
   const std::string out = options.out.empty() ? default_out(resolved.scenario) : options.out;
   if (resolved.dropped_gates > 0)
     std::fprintf(stderr, "plumbline: %d gates of methods left out by --method are not asked\n", resolved.dropped_gates);
@@ -91,7 +91,7 @@ int run(const Options& options) {
 
 }  // namespace
 
-Command add_run(CLI::App& program) {
+Command add_run(CLI::App& program, slam::MethodTable table) {
   const auto options = std::make_shared<Options>();
   CLI::App* app = program.add_subcommand("run", "Simulates a scenario, runs the methods, scores and reports them");
   app->add_option("INPUT", options->input,
@@ -106,7 +106,7 @@ Command add_run(CLI::App& program) {
   app->add_flag("--force", options->force, "replace the run that stands in --out");
   app->footer(
       "Example: plumbline run scenarios/library/quickstart.yaml --method vgicp,truth --seed 7 --out runs/seven");
-  return {app, [options] { return run(*options); }};
+  return {app, [options, table] { return run(*options, table); }};
 }
 
 }  // namespace plumbline::scenarios

@@ -39,10 +39,10 @@ const slam::BagProfile& find_profile(const std::string& name) {
   return *std::find_if(rows.begin(), rows.end(), [&](const slam::BagProfile& row) { return row.name == name; });
 }
 
-int simulate(const Options& options) {
+int simulate(const Options& options, slam::MethodTable table) {
   Overrides overrides;
   if (options.seed_option->count() > 0) overrides.seed = options.seed;
-  const ResolvedScenario resolved = resolve(options.input, overrides);
+  const ResolvedScenario resolved = resolve(options.input, overrides, table);
 
   catch_interrupts();
   RunDirectory directory(options.out, options.force);
@@ -73,7 +73,7 @@ int simulate(const Options& options) {
 
 }  // namespace
 
-Command add_simulate(CLI::App& program) {
+Command add_simulate(CLI::App& program, slam::MethodTable table) {
   const auto options = std::make_shared<Options>();
   CLI::App* app =
       program.add_subcommand("simulate", "Records what the sensors see on a walk, with the truth beside it");
@@ -92,7 +92,7 @@ Command add_simulate(CLI::App& program) {
       "Writes lidar.pcap (packets of a VLP-16), odometry.tum, imu.csv, recording.yaml and truth.tum; plumbline "
       "estimate "
       "reads all but the last.");
-  return {app, [options] { return simulate(*options); }};
+  return {app, [options, table] { return simulate(*options, table); }};
 }
 
 }  // namespace plumbline::scenarios

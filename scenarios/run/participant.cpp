@@ -89,9 +89,9 @@ class TruthTeller : public Participant {
 
 }  // namespace
 
-std::vector<std::string> method_names() {
+std::vector<std::string> method_names(slam::MethodTable table) {
   std::vector<std::string> names;
-  for (const slam::MethodRow& row : slam::methods()) names.emplace_back(row.name);
+  for (const slam::MethodRow& row : table) names.emplace_back(row.name);
   names.emplace_back(truth_method);
   return names;
 }

@@ -15,7 +15,7 @@ namespace plumbline::scenarios {
 inline constexpr std::string_view truth_method = "truth";
 
 /// Names of every method a scenario may ask for, in the order of `plumbline methods`.
-[[nodiscard]] std::vector<std::string> method_names();
+[[nodiscard]] std::vector<std::string> method_names(slam::MethodTable table = slam::methods());
 
 /// One method of a run: feeds it the frames in time order and keeps what it says. A method that throws has crashed;
 /// it gets no further frame and does not disturb the others.

@@ -25,7 +25,7 @@ std::vector<std::unique_ptr<Participant>> make_participants(const ResolvedScenar
       participants.push_back(make_truth());
       continue;
     }
-    const slam::MethodRow* row = slam::find_method(name);
+    const slam::MethodRow* row = slam::find_method(name, resolved.table);
     if (row == nullptr) throw InternalError("method '" + name + "' is not in the table");
     slam::MethodInput input;
     input.seed = method_seed(resolved.scenario.seed, name);
