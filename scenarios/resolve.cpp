@@ -118,7 +118,9 @@ slam::Prior make_prior(const Scenario& scenario, const bim::Building& building, 
 sim::WorldConfig make_world(const Scenario& scenario, const RoutePlan& plan) {
   sim::WorldConfig world;
   world.seed = scenario.seed;
-  world.lidar = scenario.lidar.preset;
+  world.lidar = lidar_config(scenario.lidar);
+  world.rpm = scenario.lidar.rpm;
+  world.vertical_offsets = scenario.lidar.vertical_offsets;
   world.odometry = scenario.odometry.preset;
   world.storey = plan.storey;
   world.start_W = plan.start_W;

@@ -71,11 +71,38 @@ Mark mark_at(const Tree& tree, std::initializer_list<std::string_view> path) {
   return node->mark;
 }
 
+sim::LidarConfig lidar_config(const LidarSpec& spec) {
+  sim::LidarConfig config = sim::lidar_config(spec.preset);
+  config.model = spec.model;
+  config.returns = spec.returns;
+  config.range_noise = spec.range_noise.value_or(config.range_noise);
+  config.unit_bias = spec.unit_bias.value_or(config.unit_bias);
+  config.laser_bias = spec.laser_bias.value_or(config.laser_bias);
+  config.dropout = spec.dropout.value_or(config.dropout);
+  config.optics = spec.optics.value_or(config.optics);
+  config.footprint = spec.footprint.value_or(config.footprint);
+  return config;
+}
+
+namespace {
+
+std::string text_of(const Tree& scalar) {
+  const auto* text = std::get_if<std::string>(&scalar.value);
+  return text != nullptr ? *text : write_json(scalar, 0);
+}
+
+}  // namespace
+
 std::vector<std::string> off_defaults(const Scenario& scenario) {
   std::vector<std::string> names;
   const Scenario defaults;
-  if (scenario.lidar.preset != defaults.lidar.preset)
-    names.push_back("lidar.preset: " + to_tree(scenario.lidar).find("preset")->as_string());
+  const Tree usual = to_tree(defaults.lidar);
+  const Tree lidar = to_tree(scenario.lidar);
+  for (const auto& [key, value] : lidar.as_map()) {
+    const Tree* other = usual.find(key);
+    const std::string text = text_of(value);
+    if (other == nullptr || text != text_of(*other)) names.push_back("lidar." + key + ": " + text);
+  }
   if (scenario.odometry.preset != defaults.odometry.preset)
     names.push_back("odometry.preset: " + to_tree(scenario.odometry).find("preset")->as_string());
   const bim::BuildingOptions& options = scenario.building_options;

@@ -17,6 +17,18 @@ struct EnumNames<sim::LidarPreset> {
   static constexpr std::array<std::string_view, 4> names = {"ideal", "datasheet", "real", "full"};
 };
 template <>
+struct EnumNames<sim::Footprint> {
+  static constexpr std::array<std::string_view, 3> names = {"none", "edges", "everywhere"};
+};
+template <>
+struct EnumNames<slam::LidarModelId> {
+  static constexpr std::array<std::string_view, 4> names = {"vlp16", "vlp32c", "hdl32e", "os1_64"};
+};
+template <>
+struct EnumNames<slam::ReturnMode> {
+  static constexpr std::array<std::string_view, 3> names = {"strongest", "last", "dual"};
+};
+template <>
 struct EnumNames<sim::OdometryPreset> {
   static constexpr std::array<std::string_view, 3> names = {"ideal", "noisy", "uncorrected"};
 };
@@ -25,7 +37,6 @@ struct EnumNames<sim::OdometryPreset> {
 
 namespace plumbline::scenarios {
 
-enum class LidarModel { vlp16 };
 enum class Knowledge { unknown, known };
 /// Which storeys `rooms: all` means.
 enum class RouteStoreys { start, all };
@@ -64,15 +75,36 @@ struct Route {
   }
 };
 
+/// The sensor. A switch that is not given is as the preset has it.
 struct LidarSpec {
-  LidarModel model = LidarModel::vlp16;
+  slam::LidarModelId model = slam::LidarModelId::vlp16;
   sim::LidarPreset preset = sim::LidarPreset::real;
+  slam::ReturnMode returns = slam::ReturnMode::strongest;
+  double rpm = 600.0;
+  bool vertical_offsets = true;
+  std::optional<bool> range_noise;
+  std::optional<bool> unit_bias;
+  std::optional<bool> laser_bias;
+  std::optional<bool> dropout;
+  std::optional<bool> optics;
+  std::optional<sim::Footprint> footprint;
   template <class V>
   void visit(V& v) {
     v("model", model, Field{.doc = "sensor model"});
     v("preset", preset, Field{.doc = "noise: as measured on real units (real) unless said otherwise"});
+    v("returns", returns, Field{.doc = "echo of a beam that is sent: the strongest, the last, or both (dual)"});
+    v("rpm", rpm, Field{.doc = "turns a minute", .min = 300.0, .max = 1200.0});
+    v("vertical_offsets", vertical_offsets, Field{.doc = "the driver knows that lasers do not leave from one point"});
+    v("range_noise", range_noise, Field{.doc = "noise of each range; the preset's when not given"});
+    v("unit_bias", unit_bias, Field{.doc = "one range bias of the unit; the preset's when not given"});
+    v("laser_bias", laser_bias, Field{.doc = "one range bias a laser; the preset's when not given"});
+    v("dropout", dropout, Field{.doc = "lost returns; the preset's when not given"});
+    v("optics", optics, Field{.doc = "glass and mirrors; off: glass is not there; the preset's when not given"});
+    v("footprint", footprint, Field{.doc = "where a beam has a width; the preset's when not given"});
   }
 };
+/// The preset with the switches that are given.
+[[nodiscard]] sim::LidarConfig lidar_config(const LidarSpec& spec);
 
 struct OdometrySpec {
   sim::OdometryPreset preset = sim::OdometryPreset::noisy;
@@ -206,10 +238,6 @@ struct ScenarioText {
 
 namespace plumbline {
 
-template <>
-struct EnumNames<scenarios::LidarModel> {
-  static constexpr std::array<std::string_view, 1> names = {"vlp16"};
-};
 template <>
 struct EnumNames<scenarios::RouteStoreys> {
   static constexpr std::array<std::string_view, 2> names = {"start", "all"};

@@ -59,6 +59,18 @@ building: library/quickstart.plan.yaml
 furniture: false
 start: {storey: ground, at: [4, 6], yaw_deg: 90}
 route: {shuttle: corridor, times: 2}
+lidar:
+  model: hdl32e
+  preset: full
+  returns: dual
+  rpm: 1200
+  vertical_offsets: false
+  range_noise: true
+  unit_bias: false
+  laser_bias: false
+  dropout: true
+  optics: true
+  footprint: edges
 )yaml",
       R"yaml(scenario: 1
 name: every room of both storeys

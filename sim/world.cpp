@@ -8,6 +8,7 @@
 
 #include "bim/digest/digest.h"
 #include "bim/errors.h"
+#include "bim/mesh/visible.h"
 #include "bim/rays/scene.h"
 #include "sim/pose_track.h"
 #include "sim/robot/collision.h"
@@ -24,8 +25,6 @@ using slam::Nanoseconds;
 constexpr int imu_every = 2;               ///< physics steps: 250 Hz
 constexpr int pose_every = 5;              ///< physics steps: 100 Hz, odometry and truth
 constexpr double start_clearance_m = 1.0;  ///< the floor is looked for below this height above the storey
-constexpr std::int64_t firings_per_message =
-    std::int64_t{slam::vlp16::firings_per_packet} * slam::vlp16::packets_per_message;
 
 double elevation(const bim::Building& building, int storey) {
   if (storey < 0 || static_cast<std::size_t>(storey) >= building.storeys.size())
@@ -46,8 +45,13 @@ FollowerConfig follower_config(const WorldConfig& config) {
 Nanoseconds nanoseconds(double seconds) { return std::llround(seconds * 1e9); }
 
 /// Time of the last return slot of the firing before `firing`.
-Nanoseconds end_of_firings(std::int64_t firing) {
-  return (firing - 1) * slam::vlp16::firing_period_ns + (slam::vlp16::rings - 1) * slam::vlp16::laser_period_ns;
+Nanoseconds end_of_firings(const slam::LidarModel& model, std::int64_t firing) {
+  return (firing - 1) * model.firing_period_ns + slam::last_laser_ns(model);
+}
+
+/// The faces light can meet: without optics panes are not there.
+bim::RayScene make_scene(const LidarConfig& lidar, const bim::Building& as_built, const bim::BuildingMesh& mesh) {
+  return lidar.optics ? bim::RayScene(mesh) : bim::RayScene(bim::visible_mesh(as_built, mesh));
 }
 
 /// Moves the records up to and including time t from the front of `pending` to `out`.
@@ -65,9 +69,12 @@ struct World::Impl {
   Impl(const WorldConfig& config_in, const bim::Building& as_built, const bim::BuildingMesh& mesh)
       : config(config_in),
         floor(elevation(as_built, config.storey)),
-        scene(mesh),
+        scene(make_scene(config.lidar, as_built, mesh)),
         moving(config.people, config.doors, static_cast<int>(mesh.elements.size())),
-        lidar(config.lidar, config.rpm, config.seed, scene),
+        rooms(as_built),
+        lidar(config.lidar, config.rpm, config.seed, scene, surfaces_of(as_built, mesh, config.lidar.reflectivity),
+              &rooms),
+        X_WL(static_cast<std::size_t>(slam::firings_per_message(lidar.model(), config.rpm))),
         robot(
             start_pose(config, floor), [z = floor](double, double, double) { return z; },
             collision_boxes(as_built, config.storey)),
@@ -78,8 +85,8 @@ struct World::Impl {
   }
 
   bool next(WorldFrame& frame) {
-    const std::int64_t end_firing = next_firing + firings_per_message;
-    const Nanoseconds stamp = end_of_firings(end_firing);
+    const std::int64_t end_firing = next_firing + static_cast<std::int64_t>(X_WL.size());
+    const Nanoseconds stamp = end_of_firings(lidar.model(), end_firing);
     if (finished(stamp)) return false;
     slam::Stopwatch watch;
     while (track.last_stamp() < stamp) step();
@@ -96,8 +103,8 @@ struct World::Impl {
     if (out.scan.stamp != stamp) throw InternalError("the decoded scan does not end when its last laser fired");
     out.robot_digest = Digest().add(robot.digest()).add(legs.X_OR()).value();
     next_firing = end_firing;
-    track.forget_before(next_firing * slam::vlp16::firing_period_ns);
-    moving.forget_before(next_firing * slam::vlp16::firing_period_ns);
+    track.forget_before(next_firing * lidar.model().firing_period_ns);
+    moving.forget_before(next_firing * lidar.model().firing_period_ns);
     frame = std::move(out);
     return true;
   }
@@ -131,21 +138,24 @@ struct World::Impl {
 
   void scan(WorldFrame& out) {
     if (!moving.empty()) scene.set_bodies(moving.bodies());
-    std::vector<Pose> X_WL;
-    X_WL.reserve(static_cast<std::size_t>(firings_per_message));
-    for (std::int64_t i = 0; i < firings_per_message; ++i)
-      X_WL.push_back(track.at((next_firing + i) * slam::vlp16::firing_period_ns) * Robot::X_RL());
-    Sweep sweep = lidar.sweep(next_firing, X_WL);
-    out.packets = std::move(sweep.packets);
-    out.labels = std::move(sweep.labels);
-    out.scan = slam::decode_message(out.packets);
+    for (std::size_t i = 0; i < X_WL.size(); ++i) {
+      const std::int64_t firing = next_firing + static_cast<std::int64_t>(i);
+      X_WL[i] = track.at(firing * lidar.model().firing_period_ns) * Robot::X_RL();
+    }
+    lidar.sweep(next_firing, X_WL, sweep);
+    out.packets = sweep.packets;
+    out.labels = sweep.labels;
+    out.scan = lidar.decode(next_firing, sweep, config.vertical_offsets);
   }
 
   WorldConfig config;
   double floor;
   bim::RayScene scene;
   MovingThings moving;
+  RoomLookup rooms;
   Lidar lidar;
+  std::vector<Pose> X_WL;  ///< of the firings of one message
+  Sweep sweep;
   Robot robot;
   Follower follower;
   ProprioceptiveSensors sensors;

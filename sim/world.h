@@ -17,8 +17,9 @@ namespace plumbline::sim {
 
 struct WorldConfig {
   std::uint64_t seed = 1;
-  LidarPreset lidar = LidarPreset::real;
+  LidarConfig lidar;
   double rpm = 600.0;
+  bool vertical_offsets = true;  ///< of the lasers, in the driver's calibration
   OdometryPreset odometry = OdometryPreset::noisy;
   int storey = 0;
   Eigen::Vector2d start_W = Eigen::Vector2d::Zero();
@@ -52,7 +53,8 @@ struct WorldFrame {
 /// the robot itself; people and moving doors are there for the LiDAR only, with element ids from mesh.elements.size().
 class World {
  public:
-  /// mesh is that of as_built; both must outlive the world. Throws InputError when the storey does not exist.
+  /// mesh is that of as_built, panes included; both must outlive the world. Throws InputError when the storey does not
+  /// exist.
   World(const WorldConfig& config, const bim::Building& as_built, const bim::BuildingMesh& mesh);
   ~World();
   World(const World&) = delete;

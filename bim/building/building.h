@@ -167,7 +167,7 @@ struct Obstacle {
   std::string material = {};
 };
 
-/// What a surface does to light. Named by Wall::material; kept, not yet simulated.
+/// What a surface does to light. Named by Wall::material and others.
 struct Material {
   std::string id;
   double reflectivity = 0.5;  ///< share of light given back diffusely, 0 to 1

@@ -9,8 +9,8 @@
 
 namespace plumbline::bim {
 
-/// What lets this share of the light through does not return it to a LiDAR: optics are not simulated yet, and a pane
-/// that stopped every beam would be the greater error.
+/// What lets this share of the light through is as good as not there for a LiDAR, save from straight ahead: views
+/// from the plan and symmetries leave it out.
 inline constexpr double see_through_share = 0.5;
 
 /// Materials that a plan may name without declaring them; its own of the same id goes before.

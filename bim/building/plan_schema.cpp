@@ -77,8 +77,8 @@ page is what `plumbline inspect --schema` prints: it is made from the reader its
 - A room's polygon may run along the reference lines of its walls; what walls cover is taken off.
 - Every storey gets a floor and a ceiling 0.2 m thick over its walls and rooms. Stairs cut them where less than 2.1 m of
   head room would be left.
-- A closed door has a leaf, a window a pane, glass unless it names another material. What lets half of the light or more
-  through is not seen by the LiDAR, yet stands in the robot's way.
+- A closed door has a leaf, a window a pane, glass unless it names another material. The LiDAR looks through what lets half
+  of the light or more through, save from straight ahead; it stands in the robot's way.
 - `deviations` are done one after the other to what was built. Methods are given the plan without them, the robot walks
   through and sees what was built, and scores hold the building as built. Walls that met a moved wall stay where they are.
   A room that its walls no longer enclose is no room as built; rooms that became one are one; a room cut in two is two.

@@ -54,9 +54,7 @@ class PlanBuilder {
   void add_material(const PlanMaterialEntry& material) {
     building_.materials.push_back(material);
     if (material.transmission >= see_through_share)
-      building_.warnings.push_back({material.id, "see_through", "the LiDAR looks through it as if it were not there"});
-    else if (material.transmission > 0.0 || material.specular > 0.0)
-      building_.warnings.push_back({material.id, "not_simulated", "transmission and specular light are not simulated"});
+      building_.warnings.push_back({material.id, "see_through", "the LiDAR looks through it, save from straight ahead"});
   }
 
   Level level_of(int index) const {

@@ -5,8 +5,6 @@
 
 namespace plumbline::bim {
 
-namespace {
-
 const std::string& material_of(const Building& building, const MeshElement& element) {
   const auto i = static_cast<std::size_t>(element.index);
   switch (element.kind) {
@@ -23,8 +21,6 @@ const std::string& material_of(const Building& building, const MeshElement& elem
   }
   return building.obstacles[i].material;
 }
-
-}  // namespace
 
 BuildingMesh visible_mesh(const Building& building, const BuildingMesh& mesh) {
   BuildingMesh visible{mesh.vertices, {}, {}, mesh.elements, mesh.warnings};

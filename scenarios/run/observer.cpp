@@ -5,6 +5,7 @@
 
 #include "bim/digest/digest.h"
 #include "bim/errors.h"
+#include "sim/lidar/light.h"
 
 namespace plumbline::scenarios {
 
@@ -46,7 +47,9 @@ SurfaceRecorder::SurfaceRecorder(const bim::BuildingMesh& mesh, double voxel_m)
 void SurfaceRecorder::add(const sim::ReturnLabels& labels) {
   const Eigen::Vector3i last = count_ - Eigen::Vector3i::Ones();
   for (std::size_t i = 0; i < labels.element.size(); ++i) {
+    // People and doors are no part of the building, and a mirror shows a place where it is not.
     if (labels.element[i] < 0 || labels.element[i] >= element_count_) continue;
+    if ((labels.path[i] & sim::light_path::mirrored) != 0) continue;
     const Eigen::Vector3d& p = labels.point_W[i];
     const Eigen::Vector3i cell =
         ((p - origin_) / voxel_m_).array().floor().cast<int>().max(0).min(last.array()).matrix();

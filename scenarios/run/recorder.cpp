@@ -16,11 +16,20 @@ const std::string& made(const std::string& dir) {
   return dir;
 }
 
+slam::RecordingInfo info_of(const ResolvedScenario& resolved) {
+  const slam::LidarModel& model = slam::lidar_model(resolved.world.lidar.model);
+  if (model.product == 0)
+    throw InputError({}, "LiDAR model " + std::string(model.name) +
+                             " sends no packets to record; vlp16, vlp32c or hdl32e would be right");
+  slam::RecordingInfo info = slam::recording_info(resolved.scenario.seed, sim::World::calibration(), resolved.prior);
+  info.lidar.vertical_offsets = resolved.world.vertical_offsets;
+  return info;
+}
+
 }  // namespace
 
 Recorder::Recorder(const std::string& dir, const ResolvedScenario& resolved)
-    : dir_(dir),
-      writer_(made(dir), slam::recording_info(resolved.scenario.seed, sim::World::calibration(), resolved.prior)) {}
+    : dir_(dir), writer_(made(dir), info_of(resolved)) {}
 
 void Recorder::add_bag(const slam::BagProfile& profile, bool with_truth) {
   bag_ = std::make_unique<slam::BagWriter>(dir_ + "/recording.bag", profile, sim::World::calibration());

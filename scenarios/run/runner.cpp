@@ -7,7 +7,6 @@
 #include "bim/digest/float_mode.h"
 #include "bim/errors.h"
 #include "bim/mesh/mesh.h"
-#include "bim/mesh/visible.h"
 #include "bim/random/stream.h"
 #include "scenarios/run/observer.h"
 #include "scenarios/run/participant.h"
@@ -44,7 +43,7 @@ std::vector<std::unique_ptr<Participant>> make_participants(const ResolvedScenar
 RunRecord execute(const ResolvedScenario& resolved, const RunOptions& options) {
   set_float_mode();
   const bim::Building& as_built = resolved.site.as_built;
-  const bim::BuildingMesh mesh = bim::visible_mesh(as_built, bim::build_mesh(as_built));
+  const bim::BuildingMesh mesh = bim::build_mesh(as_built);
   sim::World world(resolved.world, as_built, mesh);
   FrameRecorder recorder(mesh);
   RunRecord record;

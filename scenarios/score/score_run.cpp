@@ -5,7 +5,6 @@
 
 #include "bim/digest/digest.h"
 #include "bim/mesh/mesh.h"
-#include "bim/mesh/visible.h"
 #include "scenarios/run/files.h"
 #include "scenarios/score/identifiability.h"
 
@@ -138,7 +137,7 @@ RunScore score_run(const RunFiles& files) {
 
   const std::vector<Eigen::Vector3d> surface_W = to_double(files.surface_W);
   const bim::Building& as_built = files.site.as_built;
-  const SurfaceDistance distance(bim::visible_mesh(as_built, bim::build_mesh(as_built)), MapRules().cap_m);
+  const SurfaceDistance distance(bim::build_mesh(as_built), MapRules().cap_m);
   const Reference reference{score.as_built, score.truth, surface_W, distance};
   const bool localizes = std::any_of(files.methods.begin(), files.methods.end(),
                                      [](const MethodRecord& m) { return m.localization && !m.crashed; });

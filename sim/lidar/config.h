@@ -3,11 +3,17 @@
 
 #include <array>
 
+#include "slam/io/lidar_model.h"
+
 namespace plumbline::sim {
 
 /// ideal: packets and timing only. datasheet: the data sheet's accuracy taken as noise. real: as measured on two real
-/// units. full: real with mixed pixels and glass, not in this version.
+/// units, with the beam's footprint where it meets an edge. full: real with the footprint of every beam.
 enum class LidarPreset { ideal, datasheet, real, full };
+
+/// Where a beam is a bundle of sub-rays: nowhere, where it or a neighbour of its ring meets another face or a jump in
+/// range, or everywhere.
+enum class Footprint { none, edges, everywhere };
 
 /// Standard deviation of a range at one distance; linear in between, constant beyond the ends.
 struct RangeSigma {
@@ -17,27 +23,41 @@ struct RangeSigma {
 
 /// What one unit measures. Defaults: preset real [facts: lidar section 2].
 struct LidarConfig {
-  double range_min_m = 0.4;    ///< nearer returns are lost [ROS driver's launch files]
-  double range_max_m = 100.0;  ///< [manual]
+  slam::LidarModelId model = slam::LidarModelId::vlp16;
+  slam::ReturnMode returns = slam::ReturnMode::strongest;
+
+  bool range_noise = true;
+  bool unit_bias = true;
+  bool laser_bias = true;
+  bool dropout = true;
+  bool optics = true;  ///< panes let light through, polished surfaces mirror it; off: panes are not there
+  Footprint footprint = Footprint::edges;
+
   /// Repeatability on a static target [facts: lidar section 2.2, between the two units].
   std::array<RangeSigma, 4> sigma = {{{3.0, 0.006}, {5.0, 0.010}, {8.0, 0.015}, {40.0, 0.018}}};
-  double unit_bias_sigma_m = 0.015;   ///< one draw a run, for all lasers [section 2.2: a unit was off by 30 mm]
-  double laser_bias_sigma_m = 0.011;  ///< one draw a run and laser; makes walls 12-17 mm thick [section 2.5]
-  double dropout = 0.04;              ///< share of returns lost whatever they hit
+  double unit_bias_sigma_m = 0.015;    ///< one draw a run, for all lasers [section 2.2: a unit was off by 30 mm]
+  double laser_bias_sigma_m = 0.0135;  ///< one draw a run and laser; makes walls 12-17 mm thick [section 2.5]
+
+  double dropout_share = 0.04;  ///< share of returns lost whatever they hit
   /// Half of the returns are lost where the cosine of the incidence is this (share c^2 / (c^2 + half^2) returns) ...
   double dropout_cosine_half = 0.07;
   /// ... and at this range on a surface of reflectivity 0.5 (1 / (1 + (r / half)^4) returns); 80-95 % of the beams
   /// that hit a building's surface return [section 2.3].
   double dropout_range_half_m = 60.0;
-  double reflectivity = 0.5;  ///< of every surface, diffuse, 0-1; no materials in this version
+  double reflectivity = 0.5;  ///< of surfaces whose material is not known, diffuse, 0-1
+
+  double divergence_horizontal_rad = 0.003;  ///< full angle [VLS-128 manual; none published for the VLP-16]
+  double divergence_vertical_rad = 0.0015;
+  double edge_jump_m = 0.1;        ///< between neighbours of a ring: an edge
+  double echo_separation_m = 1.0;  ///< nearer surfaces in one beam give one echo between them [VLS-128 manual]
+  double glint_rad = 0.01;         ///< a polished surface this close to square shines back as a retro-reflector
 };
 
-/// Throws InputError for `full`.
 [[nodiscard]] LidarConfig lidar_config(LidarPreset preset);
 
 /// Standard deviation of a range, m.
 [[nodiscard]] double range_sigma(const LidarConfig& config, double range_m);
-/// Share of beams that return from a surface at this range and cosine of the angle of incidence.
-[[nodiscard]] double return_share(const LidarConfig& config, double range_m, double cosine);
+/// Share of beams that return from a surface of this reflectivity at this range and cosine of the angle of incidence.
+[[nodiscard]] double return_share(const LidarConfig& config, double range_m, double cosine, double reflectivity);
 
 }  // namespace plumbline::sim

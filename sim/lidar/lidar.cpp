@@ -5,172 +5,383 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <string>
+#include <tuple>
+#include <utility>
 
 #include "bim/errors.h"
 #include "bim/random/stream.h"
+#include "sim/lidar/detector.h"
+#include "sim/lidar/echo.h"
+#include "sim/lidar/light.h"
 
 namespace plumbline::sim {
 
 namespace {
 
-namespace vlp16 = slam::vlp16;
+using slam::ReturnMode;
+using slam::ReturnWord;
 
-constexpr std::size_t lasers = 16;
 constexpr std::size_t tile_columns = 8;              // one packet of rays: eight neighbouring columns of one laser
 constexpr std::int64_t full_turn = 360'000'000'000;  // 1e-9 degrees
 constexpr double units_to_rad = std::numbers::pi / 180.0 * 1e-9;
 constexpr std::int64_t units_per_cdeg = 10'000'000;
+constexpr std::size_t grid = 4;          // sub-rays across a footprint, and along it
+constexpr double room_step_m = 0.05;     // a return is in the room where its light came from
+constexpr std::size_t batch_beams = 64;  // beams whose light is followed together
 
-/// Random draws of one sensor and run. Each is addressed by firing and laser alone.
-struct Draws {
-  explicit Draws(std::uint64_t seed)
-      : bias(seed, "sim.lidar.bias"),
-        dropout(seed, "sim.lidar.dropout"),
-        phase(seed, "sim.lidar.phase"),
-        range(seed, "sim.lidar.range") {}
-  Stream bias;
-  Stream dropout;
-  Stream phase;
-  Stream range;
+/// An angle by its cosine and sine.
+struct Turn {
+  double c = 1.0;
+  double s = 0.0;
 };
 
-/// Turn of the motor from the start of a firing to the shot of each laser.
-struct LaserTurns {
-  std::array<double, lasers> cosine{};
-  std::array<double, lasers> sine{};
+/// One beam that takes more than its central ray.
+struct HardBeam {
+  std::uint32_t column = 0;
+  std::uint32_t laser = 0;
+  bool bundle = false;  ///< cast as sub-rays
 };
 
-/// Rays and hits of eight columns, laser by laser: index laser * 8 + column.
-struct Tile {
-  std::array<bim::Ray, lasers * tile_columns> rays;
-  std::array<bim::Hit, lasers * tile_columns> hits;
+/// A sub-ray of a footprint: offsets along the horizontal and vertical tangent, and what makes the direction unit.
+struct SubRay {
+  double across = 0.0;
+  double up = 0.0;
+  double unit = 1.0;
 };
+
+std::array<SubRay, grid * grid> footprint_of(const LidarConfig& config) {
+  std::array<SubRay, grid * grid> out;
+  const auto offset = [](std::size_t i, double full) {
+    return full * ((static_cast<double>(i) + 0.5) / static_cast<double>(grid) - 0.5);
+  };
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const double across = offset(i % grid, config.divergence_horizontal_rad);
+    const double up = offset(i / grid, config.divergence_vertical_rad);
+    out[i] = {across, up, 1.0 / std::sqrt(1.0 + across * across + up * up)};
+  }
+  return out;
+}
 
 }  // namespace
 
 struct Lidar::Impl {
   LidarConfig config;
+  const slam::LidarModel& model;
   const bim::RayScene& scene;
-  Draws draws;
+  std::vector<Surface> surfaces;
+  const RoomLookup* rooms;
+  Detector detector;
   std::int64_t turn_per_firing;  ///< 1e-9 degrees
   std::int64_t phase;            ///< azimuth of firing 0, 1e-9 degrees
-  LaserTurns turns;
-  std::array<double, lasers> bias_m{};
+  std::vector<Turn> laser_turns;
+  std::vector<std::size_t> rank_of_laser;  ///< place in a tile: neighbouring rings stand next to each other
+  std::array<SubRay, grid * grid> footprint;
 
-  Impl(const LidarConfig& config_in, double rpm, std::uint64_t seed, const bim::RayScene& scene_in);
+  // Memory of one sweep, used again.
+  std::int64_t first_firing = 0;
+  std::span<const Pose> X_WL;
+  std::vector<Turn> heads;  ///< azimuths of the firings, from column -1 on
+  std::vector<bim::Ray> rays;
+  std::vector<bim::Hit> hits;
+  std::vector<HardBeam> hard;
+  std::vector<Leg> legs;
+  std::vector<bim::Ray> leg_rays;
+  std::vector<bim::Hit> leg_hits;
+  std::vector<Reflection> reflections;
+  std::vector<Reflection> grouped;
+  std::vector<std::pair<std::uint32_t, std::size_t>> order;
+  std::vector<Echo> echoes;
+  Light light;
+
+  Impl(const LidarConfig& config_in, double rpm, std::uint64_t seed, const bim::RayScene& scene_in,
+       std::vector<Surface> surfaces_in, const RoomLookup* rooms_in);
 
   [[nodiscard]] std::int64_t azimuth(std::int64_t firing) const {
-    return (phase + firing * turn_per_firing) % full_turn;
+    return ((phase + firing * turn_per_firing) % full_turn + full_turn) % full_turn;
   }
-  void aim(std::int64_t firing, const Pose& X_WL, std::size_t column, Tile& tile) const;
-  [[nodiscard]] std::uint16_t measure(std::int64_t firing, std::size_t laser, const bim::Ray& ray,
-                                      const bim::Hit& hit) const;
-  void fire_tile(std::int64_t first_firing, std::span<const Pose> X_WL, Tile& tile,
-                 std::span<slam::Vlp16Firing> firings, std::size_t first_column, ReturnLabels& labels) const;
+  /// Rays and hits stand in tiles of eight columns, laser by laser; column -1 and one behind the last are the
+  /// neighbours of the message's ends.
+  [[nodiscard]] std::size_t ray_index(std::int64_t column, std::size_t laser) const {
+    const auto c = static_cast<std::size_t>(column + 1);
+    return ((c / tile_columns) * model.lasers.size() + rank_of_laser[laser]) * tile_columns + c % tile_columns;
+  }
+  [[nodiscard]] std::size_t slot(std::size_t column, std::size_t laser) const {
+    return column * model.lasers.size() + static_cast<std::size_t>(model.lasers[laser].ring);
+  }
+  [[nodiscard]] Turn turn_of(std::int64_t column, std::size_t laser) const {
+    const Turn& head = heads[static_cast<std::size_t>(column + 1)];
+    const Turn& turn = laser_turns[laser];
+    return {head.c * turn.c - head.s * turn.s, head.s * turn.c + head.c * turn.s};
+  }
+
+  void start(std::int64_t first, std::span<const Pose> poses, Sweep& sweep);
+  void cast_centres();
+  void aim(std::int64_t column);
+  [[nodiscard]] bool at_edge(std::int64_t column, std::size_t laser) const;
+  [[nodiscard]] bool differ(const bim::Hit& a, const bim::Hit& b) const;
+  void fire_plain(Sweep& sweep);
+  void fire_hard(std::span<const HardBeam> beams, Sweep& sweep);
+  void group_by_beam();
+  void add_legs(const HardBeam& beam, std::uint32_t number);
+  void receive(const HardBeam& beam, Sweep& sweep);
+  void label(std::size_t slot, const Reflection& reflection, ReturnLabels& labels) const;
+  void pack(Sweep& sweep) const;
 };
 
-Lidar::Impl::Impl(const LidarConfig& config_in, double rpm, std::uint64_t seed, const bim::RayScene& scene_in)
-    : config(config_in), scene(scene_in), draws(seed) {
-  if (!(rpm >= 300.0 && rpm <= 1200.0))
-    throw InputError({}, "LiDAR speed of " + std::to_string(rpm) + " rpm; 300 to 1200 would be right");
-  turn_per_firing = std::llround(6.0 * rpm * static_cast<double>(vlp16::firing_period_ns));
-  phase = static_cast<std::int64_t>(draws.phase.uniform(0) * static_cast<double>(full_turn));
-  for (std::size_t k = 0; k < lasers; ++k) {
-    const double turn = 6.0 * rpm * static_cast<double>(vlp16::laser_period_ns) * static_cast<double>(k) * units_to_rad;
-    turns.cosine[k] = std::cos(turn);
-    turns.sine[k] = std::sin(turn);
-    bias_m[k] = config.unit_bias_sigma_m * draws.bias.gauss(0, 0) +
-                config.laser_bias_sigma_m * draws.bias.gauss(0, 1 + static_cast<std::uint32_t>(k));
+Lidar::Impl::Impl(const LidarConfig& config_in, double rpm, std::uint64_t seed, const bim::RayScene& scene_in,
+                  std::vector<Surface> surfaces_in, const RoomLookup* rooms_in)
+    : config(config_in),
+      model(slam::lidar_model(config.model)),
+      scene(scene_in),
+      surfaces(std::move(surfaces_in)),
+      rooms(rooms_in),
+      detector(config, seed),
+      footprint(footprint_of(config)),
+      light(scene, surfaces, config) {
+  (void)slam::firings_per_message(model, rpm);
+  turn_per_firing = std::llround(6.0 * rpm * static_cast<double>(model.firing_period_ns));
+  phase = static_cast<std::int64_t>(Stream(seed, "sim.lidar.phase").uniform(0) * static_cast<double>(full_turn));
+  for (const slam::Laser& laser : model.lasers) {
+    const double turn = (6.0 * rpm * static_cast<double>(laser.time_ns) + 1e9 * laser.azimuth_deg) * units_to_rad;
+    laser_turns.push_back({std::cos(turn), std::sin(turn)});
+    rank_of_laser.push_back(static_cast<std::size_t>(laser.ring));
   }
 }
 
-/// Rays of one firing into one column of the tile.
-void Lidar::Impl::aim(std::int64_t firing, const Pose& X_WL, std::size_t column, Tile& tile) const {
-  const double angle = static_cast<double>(azimuth(firing)) * units_to_rad;
-  const double c0 = std::cos(angle);
-  const double s0 = std::sin(angle);
-  const Eigen::Matrix3d R_WL = X_WL.rotation();
-  for (std::size_t k = 0; k < lasers; ++k) {
-    const int laser = static_cast<int>(k);
-    const double c = c0 * turns.cosine[k] - s0 * turns.sine[k];
-    const double s = s0 * turns.cosine[k] + c0 * turns.sine[k];
-    const double flat = vlp16::cos_elevation(laser);
-    bim::Ray& ray = tile.rays[k * tile_columns + column];
-    ray.direction_W = R_WL * Eigen::Vector3d(flat * c, -flat * s, vlp16::sin_elevation(laser));
-    ray.origin_W = X_WL.t + vlp16::vertical_offset_m(laser) * R_WL.col(2);
-    ray.time_s = 1e-9 * static_cast<double>(firing * vlp16::firing_period_ns + laser * vlp16::laser_period_ns);
+void Lidar::Impl::start(std::int64_t first, std::span<const Pose> poses, Sweep& sweep) {
+  first_firing = first;
+  X_WL = poses;
+  const std::size_t size = poses.size() * model.lasers.size();
+  sweep.words.assign(size, {});
+  sweep.last.assign(config.returns == ReturnMode::dual ? size : 0, {});
+  sweep.azimuth.resize(poses.size());
+  sweep.azimuth_cdeg.resize(poses.size());
+  sweep.labels.element.assign(size, -1);
+  sweep.labels.triangle.assign(size, -1);
+  sweep.labels.path.assign(size, 0);
+  sweep.labels.point_W.assign(size, Eigen::Vector3d::Zero());
+  sweep.labels.room.assign(size, -1);
+  for (std::size_t c = 0; c < poses.size(); ++c) {
+    const std::int64_t units = azimuth(first + static_cast<std::int64_t>(c));
+    const std::int64_t cdeg = (units + units_per_cdeg / 2) / units_per_cdeg;
+    sweep.azimuth_cdeg[c] = static_cast<std::uint16_t>(cdeg % (full_turn / units_per_cdeg));
+    sweep.azimuth[c] = static_cast<double>(units) * units_to_rad;
   }
 }
 
-/// Distance word of one shot, 0 where nothing returns.
-std::uint16_t Lidar::Impl::measure(std::int64_t firing, std::size_t laser, const bim::Ray& ray,
-                                   const bim::Hit& hit) const {
-  if (hit.element < 0) return 0;
-  const auto tick = static_cast<std::uint64_t>(firing);
-  const auto lane = static_cast<std::uint32_t>(laser);
-  const double share = return_share(config, hit.range_m, std::abs(hit.normal_W.dot(ray.direction_W)));
-  if (share < 1.0 && draws.dropout.uniform(tick, lane) >= share) return 0;
-  const double sigma = range_sigma(config, hit.range_m);
-  const double noise = sigma > 0.0 ? sigma * draws.range.gauss(tick, lane) : 0.0;
-  const double range = hit.range_m + bias_m[laser] + noise;
-  if (range < config.range_min_m || range > config.range_max_m) return 0;
-  return static_cast<std::uint16_t>(std::lround(range / vlp16::range_unit_m));
+/// Central rays of one firing. A neighbour beyond the message's ends is fired from the pose at that end.
+void Lidar::Impl::aim(std::int64_t column) {
+  const auto last = static_cast<std::int64_t>(X_WL.size()) - 1;
+  const Pose& pose = X_WL[static_cast<std::size_t>(std::clamp(column, std::int64_t{0}, last))];
+  const double angle = static_cast<double>(azimuth(first_firing + column)) * units_to_rad;
+  heads[static_cast<std::size_t>(column + 1)] = {std::cos(angle), std::sin(angle)};
+  const Eigen::Matrix3d R_WL = pose.rotation();
+  for (std::size_t k = 0; k < model.lasers.size(); ++k) {
+    const Turn turn = turn_of(column, k);
+    bim::Ray& ray = rays[ray_index(column, k)];
+    const slam::Laser& laser = model.lasers[k];
+    ray.direction_W = R_WL * Eigen::Vector3d(laser.cosine * turn.c, -laser.cosine * turn.s, laser.sine);
+    ray.origin_W = pose.t + laser.height_m * R_WL.col(2);
+    ray.time_s = 1e-9 * static_cast<double>((first_firing + column) * model.firing_period_ns + laser.time_ns);
+  }
 }
 
-/// Fires eight columns: aims, casts, measures.
-void Lidar::Impl::fire_tile(std::int64_t first_firing, std::span<const Pose> X_WL, Tile& tile,
-                            std::span<slam::Vlp16Firing> firings, std::size_t first_column,
-                            ReturnLabels& labels) const {
-  for (std::size_t c = 0; c < tile_columns; ++c) aim(first_firing + static_cast<std::int64_t>(c), X_WL[c], c, tile);
-  scene.cast(tile.rays, config.range_max_m, tile.hits);
-  for (std::size_t c = 0; c < tile_columns; ++c) {
-    const std::int64_t firing = first_firing + static_cast<std::int64_t>(c);
-    const std::int64_t cdeg = (azimuth(firing) + units_per_cdeg / 2) / units_per_cdeg;
-    firings[c].azimuth_cdeg = static_cast<std::uint16_t>(cdeg % (full_turn / units_per_cdeg));
+void Lidar::Impl::cast_centres() {
+  const std::size_t tiles = (X_WL.size() + 2 + tile_columns - 1) / tile_columns;
+  heads.resize(tiles * tile_columns);
+  rays.resize(tiles * tile_columns * model.lasers.size());
+  hits.resize(rays.size());
+  for (std::int64_t column = -1; column + 1 < static_cast<std::int64_t>(tiles * tile_columns); ++column) aim(column);
+  scene.cast(rays, model.range_max_m, hits);
+}
+
+/// True when two neighbouring beams do not meet one flat face without a jump.
+bool Lidar::Impl::differ(const bim::Hit& a, const bim::Hit& b) const {
+  constexpr double same_face = 0.999;  // cosine: 2.6 degrees
+  if (a.element != b.element) return true;
+  return a.element >= 0 &&
+         (a.normal_W.dot(b.normal_W) < same_face || std::abs(a.range_m - b.range_m) > config.edge_jump_m);
+}
+
+bool Lidar::Impl::at_edge(std::int64_t column, std::size_t laser) const {
+  const bim::Hit& hit = hits[ray_index(column, laser)];
+  return differ(hit, hits[ray_index(column - 1, laser)]) || differ(hit, hits[ray_index(column + 1, laser)]);
+}
+
+/// Beams of one surface that only reflects; all others are noted for later.
+void Lidar::Impl::fire_plain(Sweep& sweep) {
+  hard.clear();
+  const std::size_t lasers = model.lasers.size();
+  for (std::size_t column = 0; column < X_WL.size(); ++column) {
+    const auto c = static_cast<std::int64_t>(column);
     for (std::size_t k = 0; k < lasers; ++k) {
-      const bim::Ray& ray = tile.rays[k * tile_columns + c];
-      const bim::Hit& hit = tile.hits[k * tile_columns + c];
-      const std::uint16_t distance = measure(firing, k, ray, hit);
-      firings[c].distance[k] = distance;
-      if (distance == 0) continue;
-      const double cosine = std::abs(hit.normal_W.dot(ray.direction_W));
-      firings[c].reflectivity[k] = static_cast<std::uint8_t>(std::lround(100.0 * config.reflectivity * cosine));
-      const auto ring = static_cast<std::size_t>(vlp16::ring_of_laser(static_cast<int>(k)));
-      const std::size_t slot = (first_column + c) * lasers + ring;
-      labels.element[slot] = hit.element;
-      labels.point_W[slot] = ray.origin_W + hit.range_m * ray.direction_W;
+      const std::size_t i = ray_index(c, k);
+      const bim::Hit& hit = hits[i];
+      const bool bundle =
+          config.footprint == Footprint::everywhere || (config.footprint == Footprint::edges && at_edge(c, k));
+      if (!bundle && hit.element < 0) continue;
+      const Surface surface = hit.element < 0 ? Surface{} : light.surface(hit.element);
+      if (bundle || (config.optics && !surface.plain())) {
+        hard.push_back({static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(k), bundle});
+        continue;
+      }
+      const double cosine = std::abs(hit.normal_W.dot(rays[i].direction_W));
+      const ReturnWord word = detector.measure(first_firing + c, k, 0, hit.range_m, surface.reflectivity, cosine);
+      if (word.distance == 0) continue;
+      sweep.words[column * lasers + k] = word;
+      if (config.returns == ReturnMode::dual) sweep.last[column * lasers + k] = word;
+      Reflection reflection;
+      reflection.element = hit.element;
+      reflection.triangle = hit.triangle;
+      reflection.direction_W = rays[i].direction_W;
+      reflection.point_W = rays[i].origin_W + hit.range_m * rays[i].direction_W;
+      label(slot(column, k), reflection, sweep.labels);
     }
+  }
+}
+
+/// Sub-rays of a beam, or its central ray where it needs no footprint.
+void Lidar::Impl::add_legs(const HardBeam& beam, std::uint32_t number) {
+  const std::size_t i = ray_index(beam.column, beam.laser);
+  Leg leg;
+  leg.beam = number;
+  leg.ray = rays[i];
+  if (!beam.bundle) {
+    legs.push_back(leg);
+    return;
+  }
+  leg.gain = 1.0 / static_cast<double>(footprint.size());
+  const Turn turn = turn_of(beam.column, beam.laser);
+  const slam::Laser& laser = model.lasers[beam.laser];
+  const Eigen::Matrix3d R_WL = X_WL[beam.column].rotation();
+  const Eigen::Vector3d across_W = R_WL * Eigen::Vector3d(-turn.s, -turn.c, 0.0);
+  const Eigen::Vector3d up_W = R_WL * Eigen::Vector3d(-laser.sine * turn.c, laser.sine * turn.s, laser.cosine);
+  for (const SubRay& sub : footprint) {
+    leg.ray.direction_W = sub.unit * (rays[i].direction_W + sub.across * across_W + sub.up * up_W);
+    legs.push_back(leg);
+  }
+}
+
+/// Brings the reflections of each beam together, in the order in which they were found.
+void Lidar::Impl::group_by_beam() {
+  const auto by_beam = [](const Reflection& a, const Reflection& b) { return a.beam < b.beam; };
+  if (std::is_sorted(reflections.begin(), reflections.end(), by_beam)) return;
+  order.clear();
+  for (std::size_t i = 0; i < reflections.size(); ++i) order.emplace_back(reflections[i].beam, i);
+  std::sort(order.begin(), order.end());
+  grouped.clear();
+  for (const auto& [beam, i] : order) grouped.push_back(reflections[i]);
+  reflections.swap(grouped);
+}
+
+void Lidar::Impl::fire_hard(std::span<const HardBeam> beams, Sweep& sweep) {
+  legs.clear();
+  reflections.clear();
+  for (std::size_t i = 0; i < beams.size(); ++i) add_legs(beams[i], static_cast<std::uint32_t>(i));
+  leg_rays.clear();
+  for (const Leg& leg : legs) leg_rays.push_back(leg.ray);
+  leg_hits.resize(legs.size());
+  scene.cast(leg_rays, model.range_max_m, leg_hits);
+  light.follow(legs, leg_hits, reflections);
+  group_by_beam();
+  for (std::size_t begin = 0; begin < reflections.size();) {
+    std::size_t end = begin + 1;
+    while (end < reflections.size() && reflections[end].beam == reflections[begin].beam) ++end;
+    find_echoes(std::span(reflections).subspan(begin, end - begin), config.echo_separation_m, echoes);
+    receive(beams[reflections[begin].beam], sweep);
+    begin = end;
+  }
+}
+
+/// Detects the echoes of one beam and keeps those its mode asks for.
+void Lidar::Impl::receive(const HardBeam& beam, Sweep& sweep) {
+  struct Detected {
+    ReturnWord word;
+    const Echo* echo = nullptr;
+  };
+  Detected strongest, second, last;
+  for (std::size_t rank = 0; rank < echoes.size(); ++rank) {
+    const Echo& echo = echoes[rank];
+    const ReturnWord word = detector.measure(first_firing + beam.column, beam.laser, static_cast<std::uint32_t>(rank),
+                                             echo.range_m, echo.strength, echo.cosine);
+    if (word.distance == 0) continue;
+    last = {word, &echo};
+    if (strongest.echo == nullptr || echo.energy > strongest.echo->energy)
+      second = std::exchange(strongest, last);
+    else if (second.echo == nullptr || echo.energy > second.echo->energy)
+      second = last;
+  }
+  if (last.echo == nullptr) return;
+  const std::size_t i = beam.column * model.lasers.size() + beam.laser;
+  if (config.returns == ReturnMode::last) strongest = last;
+  if (config.returns == ReturnMode::dual) {
+    sweep.last[i] = last.word;
+    if (last.echo == strongest.echo && second.echo != nullptr) strongest = second;
+  }
+  sweep.words[i] = strongest.word;
+  const bool last_seems_stronger =
+      config.returns == ReturnMode::dual && !slam::seems_stronger(strongest.word, last.word);
+  label(slot(beam.column, beam.laser), (last_seems_stronger ? last : strongest).echo->main, sweep.labels);
+}
+
+void Lidar::Impl::label(std::size_t slot, const Reflection& reflection, ReturnLabels& labels) const {
+  labels.element[slot] = reflection.element;
+  labels.triangle[slot] = reflection.triangle;
+  labels.path[slot] = reflection.flags;
+  labels.point_W[slot] = reflection.point_W;
+  if (rooms != nullptr) labels.room[slot] = rooms->at(reflection.point_W - room_step_m * reflection.direction_W);
+}
+
+void Lidar::Impl::pack(Sweep& sweep) const {
+  sweep.packets.clear();
+  if (model.product == 0) return;
+  const auto firings = static_cast<std::size_t>(slam::firings_in_packet(model, config.returns));
+  const std::size_t lasers = model.lasers.size();
+  sweep.packets.resize(X_WL.size() / firings);
+  for (std::size_t p = 0; p < sweep.packets.size(); ++p) {
+    const std::size_t f = p * firings;
+    const auto words = std::span<const ReturnWord>(sweep.words).subspan(f * lasers, firings * lasers);
+    const auto last = sweep.last.empty()
+                          ? std::span<const ReturnWord>()
+                          : std::span<const ReturnWord>(sweep.last).subspan(f * lasers, firings * lasers);
+    slam::encode_packet(model, config.returns, (first_firing + static_cast<std::int64_t>(f)) * model.firing_period_ns,
+                        std::span<const std::uint16_t>(sweep.azimuth_cdeg).subspan(f, firings), words, last,
+                        sweep.packets[p]);
   }
 }
 
 Lidar::Lidar(LidarPreset preset, double rpm, std::uint64_t seed, const bim::RayScene& scene)
     : Lidar(lidar_config(preset), rpm, seed, scene) {}
-Lidar::Lidar(const LidarConfig& config, double rpm, std::uint64_t seed, const bim::RayScene& scene)
-    : impl_(std::make_unique<Impl>(config, rpm, seed, scene)) {}
+Lidar::Lidar(const LidarConfig& config, double rpm, std::uint64_t seed, const bim::RayScene& scene,
+             std::vector<Surface> surfaces, const RoomLookup* rooms)
+    : impl_(std::make_unique<Impl>(config, rpm, seed, scene, std::move(surfaces), rooms)) {}
 Lidar::~Lidar() = default;
 
-Sweep Lidar::sweep(std::int64_t first_firing, std::span<const Pose> X_WL) const {
-  constexpr std::size_t per_packet = vlp16::firings_per_packet;
-  static_assert(per_packet % tile_columns == 0);
+const slam::LidarModel& Lidar::model() const { return impl_->model; }
+
+void Lidar::sweep(std::int64_t first_firing, std::span<const Pose> X_WL, Sweep& sweep) const {
+  const auto per_packet = static_cast<std::size_t>(impl_->model.firings_per_packet);
   if (first_firing < 0 || X_WL.empty() || X_WL.size() % per_packet != 0)
     throw InternalError("Lidar::sweep: poses of whole packets are needed");
-  Sweep sweep;
-  sweep.packets.reserve(X_WL.size() / per_packet);
-  sweep.labels.element.assign(X_WL.size() * lasers, -1);
-  sweep.labels.point_W.assign(X_WL.size() * lasers, Eigen::Vector3d::Zero());
-  Tile tile;
-  for (std::size_t packet = 0; packet < X_WL.size(); packet += per_packet) {
-    std::array<slam::Vlp16Firing, per_packet> firings;
-    for (std::size_t c = 0; c < per_packet; c += tile_columns) {
-      const std::size_t column = packet + c;
-      impl_->fire_tile(first_firing + static_cast<std::int64_t>(column), X_WL.subspan(column, tile_columns), tile,
-                       std::span(firings).subspan(c, tile_columns), column, sweep.labels);
-    }
-    const std::int64_t firing = first_firing + static_cast<std::int64_t>(packet);
-    sweep.packets.push_back(slam::encode_packet(firing * vlp16::firing_period_ns, firings));
-  }
-  return sweep;
+  impl_->start(first_firing, X_WL, sweep);
+  impl_->cast_centres();
+  impl_->fire_plain(sweep);
+  const std::span<const HardBeam> hard = impl_->hard;
+  for (std::size_t i = 0; i < hard.size(); i += batch_beams)
+    impl_->fire_hard(hard.subspan(i, std::min(batch_beams, hard.size() - i)), sweep);
+  impl_->pack(sweep);
+}
+
+Sweep Lidar::sweep(std::int64_t first_firing, std::span<const Pose> X_WL) const {
+  Sweep out;
+  sweep(first_firing, X_WL, out);
+  return out;
+}
+
+slam::Scan Lidar::decode(std::int64_t first_firing, const Sweep& sweep, bool vertical_offsets) const {
+  if (!sweep.packets.empty()) return slam::decode_message(sweep.packets, vertical_offsets);
+  return slam::scan_of_words(impl_->model, first_firing * impl_->model.firing_period_ns, sweep.azimuth, sweep.words,
+                             vertical_offsets);
 }
 
 }  // namespace plumbline::sim

@@ -13,6 +13,7 @@
 #include <set>
 
 #include "bim/errors.h"
+#include "slam/io/position_packet.h"
 #include "slam/io/udp_frame.h"
 
 namespace plumbline::slam {
@@ -26,6 +27,7 @@ constexpr std::size_t header_bytes = ethernet_bytes + ip_bytes + udp_bytes;
 constexpr std::size_t frame_bytes = header_bytes + vlp16::payload_bytes;
 constexpr unsigned data_port = 2368;
 constexpr unsigned position_port = 8308;
+constexpr std::int64_t data_packets_per_position = 5;  // about as real units send them [facts: lidar section 2.1]
 constexpr std::int64_t hour_us = 3'600'000'000;
 constexpr std::int64_t second_ns = 1'000'000'000;
 
@@ -70,18 +72,25 @@ std::uint16_t ip_checksum(const Frame& frame) {
   return static_cast<std::uint16_t>(~sum);
 }
 
-/// The frame a VLP-16 in its factory setting (192.168.1.201) broadcasts.
-Frame make_frame(const Vlp16Packet& packet) {
+void put_big16(Frame& frame, std::size_t i, std::size_t value) {
+  frame[i] = static_cast<std::uint8_t>(value >> 8U);
+  frame[i + 1] = static_cast<std::uint8_t>(value & 0xffU);
+}
+
+/// The frame in which a VLP-16 in its factory setting (192.168.1.201) broadcasts a payload; its first bytes count.
+Frame make_frame(unsigned port, std::span<const std::uint8_t> payload) {
   constexpr std::array<std::uint8_t, header_bytes> header = {
       0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0x60, 0x76, 0x88, 0x00, 0x00, 0x00, 0x08, 0x00,          // Ethernet
-      0x45, 0x00, 0x04, 0xd2, 0x00, 0x00, 0x40, 0x00, 0xff, 0x11, 0x00, 0x00, 192,  168,  1, 201,  // IPv4
-      0xff, 0xff, 0xff, 0xff, 0x09, 0x40, 0x09, 0x40, 0x04, 0xbe, 0x00, 0x00};                     // UDP
+      0x45, 0x00, 0x00, 0x00, 0x00, 0x00, 0x40, 0x00, 0xff, 0x11, 0x00, 0x00, 192,  168,  1, 201,  // IPv4
+      0xff, 0xff, 0xff, 0xff, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00};                     // UDP
   Frame frame{};
   std::copy(header.begin(), header.end(), frame.begin());
-  const std::uint16_t checksum = ip_checksum(frame);
-  frame[24] = static_cast<std::uint8_t>(checksum >> 8U);
-  frame[25] = static_cast<std::uint8_t>(checksum & 0xffU);
-  std::copy(packet.payload.begin(), packet.payload.end(), frame.begin() + header_bytes);
+  put_big16(frame, 16, header_bytes - ethernet_bytes + payload.size());
+  put_big16(frame, 34, port);
+  put_big16(frame, 36, port);
+  put_big16(frame, 38, udp_bytes + payload.size());
+  put_big16(frame, 24, ip_checksum(frame));
+  std::copy(payload.begin(), payload.end(), frame.begin() + header_bytes);
   return frame;
 }
 
@@ -189,7 +198,19 @@ struct PcapWriter::Impl {
   std::FILE* file = nullptr;  ///< owned by dump
   std::unique_ptr<pcap_dumper_t, CloseDump> dump;
 
+  std::int64_t packets = 0;
+
   [[noreturn]] void fail() const { throw EnvironmentError(path + ": cannot be written: " + std::strerror(errno)); }
+
+  void write(Nanoseconds stamp, unsigned port, std::span<const std::uint8_t> payload) {
+    pcap_pkthdr header{};
+    header.ts.tv_sec = stamp / second_ns;
+    header.ts.tv_usec = stamp % second_ns;
+    header.caplen = header.len = static_cast<bpf_u_int32>(header_bytes + payload.size());
+    const Frame frame = make_frame(port, payload);
+    pcap_dump(reinterpret_cast<u_char*>(dump.get()), &header, frame.data());
+    if (std::ferror(file) != 0) fail();
+  }
 };
 
 PcapWriter::PcapWriter(const std::string& path) : impl_(std::make_unique<Impl>()) {
@@ -212,13 +233,9 @@ PcapWriter::~PcapWriter() {
 }
 
 void PcapWriter::add(const Vlp16Packet& packet) {
-  pcap_pkthdr header{};
-  header.ts.tv_sec = packet.stamp / second_ns;
-  header.ts.tv_usec = packet.stamp % second_ns;
-  header.caplen = header.len = static_cast<bpf_u_int32>(frame_bytes);
-  const Frame frame = make_frame(packet);
-  pcap_dump(reinterpret_cast<u_char*>(impl_->dump.get()), &header, frame.data());
-  if (std::ferror(impl_->file) != 0) impl_->fail();
+  if (impl_->packets++ % data_packets_per_position == 0)
+    impl_->write(packet.stamp, position_port, position_payload(packet.stamp));
+  impl_->write(packet.stamp, data_port, packet.payload);
 }
 
 void PcapWriter::finish() {

@@ -36,7 +36,8 @@ class PcapReader {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Writes packets as the sensor sends them (1,248 bytes each), with nanosecond stamps. The file appears complete on
+/// Writes packets as the sensor sends them (1,248 bytes each), a position packet (554 bytes) before every fifth, with
+/// nanosecond stamps. The file appears complete on
 /// finish() or not at all. Throws EnvironmentError when it cannot be written.
 class PcapWriter {
  public:

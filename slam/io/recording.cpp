@@ -138,17 +138,18 @@ std::unique_ptr<Recording> open_directory(const std::string& dir, const Recordin
 }  // namespace
 
 int packets_per_turn(const Vlp16Packet& packet) {
-  constexpr double packets_per_s = 754.0;  // as drivers count
-  constexpr int blocks_apart = 10;         // even, so that the two blocks of a dual return count once
+  constexpr int blocks_apart = 10;  // even, so that the two blocks of a dual return count once
   const auto azimuth = [&](std::size_t block) {
     return packet.payload[100 * block + 2] | (packet.payload[100 * block + 3] << 8);
   };
+  const PacketKind kind = packet_kind(packet);
+  const int returns = kind.mode == ReturnMode::dual ? 2 : 1;
   const int turn_cdeg = ((azimuth(blocks_apart) - azimuth(0)) % 36000 + 36000) % 36000;
-  const bool dual = azimuth(0) == azimuth(1) && azimuth(2) == azimuth(3);
-  const double block_s = 2e-9 * static_cast<double>(vlp16::firing_period_ns) / (dual ? 2.0 : 1.0);
-  const double turns_per_s = turn_cdeg / 36000.0 / (blocks_apart * block_s);
-  const double rounded = std::clamp(std::round(turns_per_s), 1.0, 20.0);
-  return static_cast<int>(std::ceil(packets_per_s * (dual ? 2.0 : 1.0) / rounded));
+  const int firings = blocks_apart * kind.model->firings_per_packet / 12 / returns;
+  const double turns_per_s = turn_cdeg / 36000.0 / (1e-9 * static_cast<double>(firings * kind.model->firing_period_ns));
+  const double rounded = std::clamp(std::round(turns_per_s), 5.0, 20.0);
+  const auto messages = firings_per_message(*kind.model, 60.0 * rounded) / kind.model->firings_per_packet;
+  return static_cast<int>(messages) * returns;
 }
 
 std::unique_ptr<Recording> open_recording(const std::string& path, const RecordingInfo* info) {

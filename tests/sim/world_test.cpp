@@ -172,7 +172,7 @@ TEST(World, OdometryStartsAtIdentityAndFollowsTheTruth) {
 
 TEST(World, EveryReturnLiesWhereItsBeamWasFiredFrom) {
   WorldConfig c = config({{1.5, 2.5}, {3.0, 3.5}}, 2.5);
-  c.lidar = LidarPreset::ideal;
+  c.lidar = lidar_config(LidarPreset::ideal);
   World world = make_world(c);
   std::vector<TruePose> poses;
   WorldFrame frame;

@@ -144,7 +144,7 @@ TEST(PlanYaml, CeilingUnderAStoreyIsTheSlabItStandsOn) {
   EXPECT_NEAR(building.slabs[3].z0_m, 6.0, 1e-12);
 }
 
-TEST(PlanYaml, MaterialsAreKeptAndWhatIsNotSimulatedIsSaid) {
+TEST(PlanYaml, MaterialsAreKeptAndWhatIsSeenThroughIsSaid) {
   const Building building =
       read_plan_text(sound + "materials:\n  - {id: glass, reflectivity: 0.1, transmission: 0.8}\n", "p.yaml");
   ASSERT_EQ(building.materials.size(), 1U);

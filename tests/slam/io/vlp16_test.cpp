@@ -117,6 +117,98 @@ TEST(Vlp16, VerticalOffsetsAreASwitch) {
   }
 }
 
+/// One packet of random words of any model and mode; the head turns by 0.2 degrees a firing from azimuth 350 on.
+struct RandomPacket {
+  RandomPacket(LidarModelId id, ReturnMode mode) : model(lidar_model(id)) {
+    const Stream stream(7, "bim.generate");
+    const auto firings = static_cast<std::size_t>(firings_in_packet(model, mode));
+    for (std::size_t f = 0; f < firings; ++f)
+      azimuth_cdeg.push_back(static_cast<std::uint16_t>((35000 + 20 * f) % 36000));
+    const auto draw = [&](std::uint32_t lane) {
+      std::vector<ReturnWord> words;
+      for (std::size_t i = 0; i < firings * model.lasers.size(); ++i) {
+        const std::uint64_t bits = stream.bits(i, lane);
+        words.push_back(
+            {bits % 7 == 0 ? 0U : static_cast<std::uint16_t>(bits >> 48U), static_cast<std::uint8_t>(bits)});
+      }
+      return words;
+    };
+    words = draw(0);
+    if (mode == ReturnMode::dual) last = draw(1);
+    encode_packet(model, mode, 1'000'000, azimuth_cdeg, words, last, packet);
+  }
+  const LidarModel& model;
+  std::vector<std::uint16_t> azimuth_cdeg;
+  std::vector<ReturnWord> words, last;
+  Vlp16Packet packet;
+};
+
+TEST(Velodyne, EveryModelAndModeComesBackAsItWasSent) {
+  for (const LidarModelId id : {LidarModelId::vlp16, LidarModelId::vlp32c, LidarModelId::hdl32e})
+    for (const ReturnMode mode : {ReturnMode::strongest, ReturnMode::last, ReturnMode::dual}) {
+      const RandomPacket sent(id, mode);
+      EXPECT_EQ(packet_kind(sent.packet).model, &sent.model);
+      EXPECT_EQ(packet_kind(sent.packet).mode, mode);
+      const bool dual = mode == ReturnMode::dual;
+      const Scan scan = decode_message(std::span(&sent.packet, 1));
+      const Scan last = decode_message(std::span(&sent.packet, 1), true, ReturnMode::last);
+      const std::size_t lasers = sent.model.lasers.size();
+      ASSERT_EQ(scan.size(), sent.words.size());
+      for (std::size_t i = 0; i < sent.words.size(); ++i) {
+        const Laser& laser = sent.model.lasers[i % lasers];
+        const std::size_t slot = i / lasers * lasers + static_cast<std::size_t>(laser.ring);
+        const bool take_last = dual && !seems_stronger(sent.words[i], sent.last[i]);
+        const ReturnWord& word = take_last ? sent.last[i] : sent.words[i];
+        EXPECT_EQ(scan.range_m[slot], word.distance * sent.model.range_unit_m);
+        EXPECT_EQ(last.range_m[slot], (dual ? sent.last[i] : sent.words[i]).distance * sent.model.range_unit_m);
+        EXPECT_EQ(scan.stamp + scan.offset_ns[slot],
+                  1'000'000 + static_cast<Nanoseconds>(i / lasers) * sent.model.firing_period_ns + laser.time_ns);
+        if (word.distance == 0) continue;
+        EXPECT_EQ(scan.reflectivity[slot], word.reflectivity);
+        const double turned =
+            0.2 * static_cast<double>(laser.time_ns) / static_cast<double>(sent.model.firing_period_ns);
+        const double azimuth = degree * (350.0 + 0.2 * static_cast<double>(i / lasers) + turned + laser.azimuth_deg);
+        const Eigen::Vector3d expected(scan.range_m[slot] * laser.cosine * std::cos(azimuth),
+                                       -scan.range_m[slot] * laser.cosine * std::sin(azimuth),
+                                       scan.range_m[slot] * laser.sine + laser.height_m);
+        EXPECT_LT((scan.point_L[slot] - expected).norm(), 1e-9);
+      }
+    }
+}
+
+TEST(Velodyne, DualBlocksComeInPairsTheLastReturnsFirst) {
+  const RandomPacket sent(LidarModelId::vlp16, ReturnMode::dual);
+  const auto& bytes = sent.packet.payload;
+  EXPECT_EQ(bytes[1204], 0x39);
+  for (std::size_t block = 0; block < 12; block += 2) {
+    EXPECT_EQ(bytes[100 * block + 2], bytes[100 * (block + 1) + 2]);
+    EXPECT_EQ(bytes[100 * block + 3], bytes[100 * (block + 1) + 3]);
+    EXPECT_EQ(bytes[100 * block + 4] + 256U * bytes[100 * block + 5], sent.last[16 * block].distance);
+    EXPECT_EQ(bytes[100 * block + 104] + 256U * bytes[100 * block + 105], sent.words[16 * block].distance);
+  }
+}
+
+TEST(Velodyne, RefusesToMixSensorsAndModes) {
+  const Vlp16Packet strongest = RandomPacket(LidarModelId::vlp16, ReturnMode::strongest).packet;
+  for (const auto& other :
+       {RandomPacket(LidarModelId::vlp16, ReturnMode::dual), RandomPacket(LidarModelId::vlp32c, ReturnMode::strongest)})
+    EXPECT_THROW((void)decode_message(std::vector<Vlp16Packet>{strongest, other.packet}), InputError);
+}
+
+TEST(Velodyne, AModelWithoutPacketsGivesTheSameScanFromItsWords) {
+  const RandomPacket sent(LidarModelId::vlp32c, ReturnMode::strongest);
+  std::vector<double> azimuth;
+  for (const std::uint16_t cdeg : sent.azimuth_cdeg) azimuth.push_back(0.01 * degree * cdeg);
+  const Scan direct = scan_of_words(sent.model, 1'000'000, azimuth, sent.words);
+  const Scan decoded = decode_message(std::span(&sent.packet, 1));
+  EXPECT_EQ(direct.stamp, decoded.stamp);
+  EXPECT_EQ(direct.offset_ns, decoded.offset_ns);
+  EXPECT_EQ(direct.range_m, decoded.range_m);
+  EXPECT_THROW(encode_packet(lidar_model(LidarModelId::os1_64), ReturnMode::strongest, 0, {}, {}, {},
+                             std::vector<Vlp16Packet>(1)[0]),
+               InternalError);
+}
+
 TEST(Vlp16, RefusesForeignPackets) {
   EXPECT_THROW((void)decode_message({}), InputError);
   for (const std::size_t byte : {std::size_t{0}, std::size_t{501}, std::size_t{1204}, std::size_t{1205}}) {

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/lidar/detector.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace plumbline::sim {
+
+namespace {
+
+/// As the manual calibrates it: 0-100 for diffuse surfaces, above for retro-reflectors, whatever the range.
+std::uint8_t reflectivity_byte(double strength, double cosine) {
+  const double diffuse = std::min(100.0, 100.0 * strength * cosine);
+  const double retro = strength <= 1.0 ? 0.0 : std::min(155.0, 100.0 * std::log10(strength));
+  return static_cast<std::uint8_t>(std::lround(diffuse + retro));
+}
+
+}  // namespace
+
+Detector::Detector(const LidarConfig& config, std::uint64_t seed)
+    : config_(config),
+      model_(slam::lidar_model(config.model)),
+      dropout_(seed, "sim.lidar.dropout"),
+      range_(seed, "sim.lidar.range") {
+  const Stream bias(seed, "sim.lidar.bias");
+  for (std::size_t k = 0; k < model_.lasers.size(); ++k)
+    bias_m_.push_back(
+        (config.unit_bias ? config.unit_bias_sigma_m * bias.gauss(0, 0) : 0.0) +
+        (config.laser_bias ? config.laser_bias_sigma_m * bias.gauss(0, 1 + static_cast<std::uint32_t>(k)) : 0.0));
+}
+
+slam::ReturnWord Detector::measure(std::int64_t firing, std::size_t laser, std::uint32_t rank, double range_m,
+                                   double strength, double cosine) const {
+  const auto tick = static_cast<std::uint64_t>(firing);
+  const auto lane = static_cast<std::uint32_t>(laser);
+  if (config_.dropout && dropout_.uniform(tick, lane, rank) >= return_share(config_, range_m, cosine, strength))
+    return {};
+  const double noise = config_.range_noise ? range_sigma(config_, range_m) * range_.gauss(tick, lane, rank) : 0.0;
+  const double range = range_m + bias_m_[laser] + noise;
+  if (range < model_.range_min_m || range > model_.range_max_m) return {};
+  return {static_cast<std::uint32_t>(std::lround(range / model_.range_unit_m)), reflectivity_byte(strength, cosine)};
+}
+
+}  // namespace plumbline::sim

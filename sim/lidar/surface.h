@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "bim/building/building.h"
+#include "bim/mesh/mesh.h"
+
+namespace plumbline::sim {
+
+/// What an element's surface does to light: shares of it, 0 to 1.
+struct Surface {
+  double reflectivity = 0.5;  ///< given back diffusely
+  double transmission = 0.0;  ///< let through the whole body, such as a pane
+  double specular = 0.0;      ///< mirrored
+
+  [[nodiscard]] bool plain() const { return transmission == 0.0 && specular == 0.0; }
+};
+
+/// Surfaces by element id of the mesh. An element whose material is not known reflects `reflectivity`.
+[[nodiscard]] std::vector<Surface> surfaces_of(const bim::Building& building, const bim::BuildingMesh& mesh,
+                                               double reflectivity);
+
+}  // namespace plumbline::sim
