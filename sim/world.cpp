@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/world.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "bim/digest/digest.h"
 #include "bim/errors.h"
@@ -24,7 +26,20 @@ using slam::Nanoseconds;
 
 constexpr int imu_every = 2;               ///< physics steps: 250 Hz
 constexpr int pose_every = 5;              ///< physics steps: 100 Hz, odometry and truth
+constexpr double same_floor_m = 0.3;       ///< a waypoint this close to a storey's floor lies on it
 constexpr double start_clearance_m = 1.0;  ///< the floor is looked for below this height above the storey
+
+/// The storey of the start and those on whose floor a waypoint lies, ascending.
+std::vector<int> walked_storeys(const WorldConfig& config, const bim::Building& building) {
+  std::vector<int> out;
+  for (int i = 0; i < static_cast<int>(building.storeys.size()); ++i) {
+    const double z = building.storeys[static_cast<std::size_t>(i)].elevation_m;
+    const bool visited = std::any_of(config.waypoints.begin(), config.waypoints.end(),
+                                     [&](const Waypoint& w) { return std::abs(w.p_W.z() - z) < same_floor_m; });
+    if (i == config.storey || visited) out.push_back(i);
+  }
+  return out;
+}
 
 double elevation(const bim::Building& building, int storey) {
   if (storey < 0 || static_cast<std::size_t>(storey) >= building.storeys.size())
@@ -75,9 +90,8 @@ struct World::Impl {
         lidar(config.lidar, config.rpm, config.seed, scene, surfaces_of(as_built, mesh, config.lidar.reflectivity),
               &rooms),
         X_WL(static_cast<std::size_t>(slam::firings_per_message(lidar.model(), config.rpm))),
-        robot(
-            start_pose(config, floor), [z = floor](double, double, double) { return z; },
-            collision_boxes(as_built, config.storey)),
+        robot(start_pose(config, floor), building_ground(as_built, walked_storeys(config, as_built)),
+              collision_boxes(as_built, walked_storeys(config, as_built))),
         follower(follower_config(config), config.waypoints, config.seed),
         sensors(config.odometry, config.seed),
         legs(leg_odometry_config(config.odometry, config.seed)) {

@@ -11,10 +11,30 @@ namespace plumbline::sim {
 
 namespace {
 
-/// Heights a robot on the storey can touch, in W.
-HeightRange touchable(const bim::Building& building, int storey, const CollisionConfig& config) {
-  const double floor = building.storeys.at(static_cast<std::size_t>(storey)).elevation_m;
-  return {floor + config.floor_gap_m, floor + config.reach_m};
+/// Heights a robot on the storeys can touch, in W, ascending and apart.
+std::vector<HeightRange> touchable(const bim::Building& building, const std::vector<int>& storeys,
+                                   const CollisionConfig& config) {
+  std::vector<double> floors;
+  for (const int storey : storeys) floors.push_back(building.storeys.at(static_cast<std::size_t>(storey)).elevation_m);
+  std::sort(floors.begin(), floors.end());
+  std::vector<HeightRange> out;
+  for (const double floor : floors) {
+    const HeightRange range{floor + config.floor_gap_m, floor + config.reach_m};
+    if (!out.empty() && overlap(range, out.back()))
+      out.back().to = range.to;
+    else
+      out.push_back(range);
+  }
+  return out;
+}
+
+/// The wall under an open door, low enough to be walked over from the floor of the range.
+bool is_sill(const HeightRange& z, const std::vector<const bim::Opening*>& openings, double s, const HeightRange& reach,
+             const CollisionConfig& config) {
+  if (z.to > reach.from - config.floor_gap_m + config.sill_max_m) return false;
+  return std::any_of(openings.begin(), openings.end(), [&](const bim::Opening* o) {
+    return o->kind != bim::OpeningKind::window && o->z0_m == z.to && std::abs(s - o->s_m) < 0.5 * o->width_m;
+  });
 }
 
 /// A closed leaf fills its opening.
@@ -56,8 +76,8 @@ std::vector<HeightRange> solid_heights(const bim::Wall& wall, const std::vector<
   return solid;
 }
 
-void add_wall(const bim::Building& building, int index, const HeightRange& reach, const CollisionConfig& config,
-              std::vector<CollisionBox>& boxes) {
+void add_wall(const bim::Building& building, int index, const std::vector<HeightRange>& reaches,
+              const CollisionConfig& config, std::vector<CollisionBox>& boxes) {
   const bim::Wall& wall = building.walls[static_cast<std::size_t>(index)];
   std::vector<const bim::Opening*> openings;
   for (const bim::Opening& o : building.openings)
@@ -70,7 +90,9 @@ void add_wall(const bim::Building& building, int index, const HeightRange& reach
     const double s = 0.5 * (cuts[i] + cuts[i + 1]);
     const Eigen::Vector2d center = wall.a + s * e + across * wall.left();
     for (const HeightRange& z : solid_heights(wall, openings, s))
-      if (overlap(z, reach))
+      if (std::any_of(reaches.begin(), reaches.end(), [&](const HeightRange& reach) {
+            return overlap(z, reach) && !is_sill(z, openings, s, reach, config);
+          }))
         boxes.push_back(
             upright_box(center, std::atan2(e.y(), e.x()), {0.5 * (cuts[i + 1] - cuts[i]), 0.5 * wall.thickness_m}, z));
   }
@@ -83,18 +105,31 @@ double distance(const CollisionBox& box, const Eigen::Vector3d& p_W) {
   return (p_B.cwiseAbs() - box.half).cwiseMax(0.0).norm();
 }
 
-std::vector<CollisionBox> collision_boxes(const bim::Building& as_built, int storey, const CollisionConfig& config) {
-  const HeightRange reach = touchable(as_built, storey, config);
+bool is_walked(const bim::Stair& stair, const std::vector<int>& storeys) {
+  const auto among = [&](int storey) { return std::find(storeys.begin(), storeys.end(), storey) != storeys.end(); };
+  return !stair.flights.empty() && among(stair.from) && among(stair.to);
+}
+
+std::vector<CollisionBox> collision_boxes(const bim::Building& as_built, const std::vector<int>& storeys,
+                                          const CollisionConfig& config) {
+  const std::vector<HeightRange> reaches = touchable(as_built, storeys, config);
+  const auto reached = [&](const HeightRange& z) {
+    return std::any_of(reaches.begin(), reaches.end(), [&](const HeightRange& reach) { return overlap(z, reach); });
+  };
   std::vector<CollisionBox> boxes;
-  for (std::size_t i = 0; i < as_built.walls.size(); ++i) add_wall(as_built, static_cast<int>(i), reach, config, boxes);
+  const auto add_solid = [&](const bim::Solid& solid) {
+    for (const HeightRange& reach : reaches)
+      for (const CollisionBox& box : solid_boxes(solid, reach, config)) boxes.push_back(box);
+  };
+  for (std::size_t i = 0; i < as_built.walls.size(); ++i)
+    add_wall(as_built, static_cast<int>(i), reaches, config, boxes);
   for (const bim::Column& column : as_built.columns)
-    if (overlap({column.z0_m, column.z1_m}, reach))
+    if (reached({column.z0_m, column.z1_m}))
       boxes.push_back(bounding_box(column.footprint, {column.z0_m, column.z1_m}));
   for (const bim::Stair& stair : as_built.stairs)
-    for (const bim::Solid& body : stair.bodies)
-      for (const CollisionBox& box : solid_boxes(body, reach, config)) boxes.push_back(box);
-  for (const bim::Obstacle& obstacle : as_built.obstacles)
-    for (const CollisionBox& box : solid_boxes(obstacle.body, reach, config)) boxes.push_back(box);
+    if (!is_walked(stair, storeys))
+      for (const bim::Solid& body : stair.bodies) add_solid(body);
+  for (const bim::Obstacle& obstacle : as_built.obstacles) add_solid(obstacle.body);
   for (std::size_t i = 0; i < boxes.size(); ++i) boxes[i].id = static_cast<int>(i);
   return boxes;
 }

@@ -26,12 +26,16 @@ struct CollisionConfig {
   double full_fill = 0.95;    ///< one larger than passage_m that fills less than this may have a way through it
   double passage_m = 1.2;     ///< least length of a thing that a robot can walk through: 0.8 m and its two sides
   double cell_m = 0.10;       ///< into cells of this size
+  double sill_max_m = 0.2;    ///< the wall under a door that ends so low is floor (see building_ground)
   double weld_m = 1e-5;       ///< vertices this close are one where it is asked whether an obstacle is closed
 };
 
-/// Boxes of what stands on a storey of the as-built building, ids ascending from 0: walls with their openings cut out
-/// (pieces beside the opening, lintel above, sill below), columns, stairs and obstacles.
-[[nodiscard]] std::vector<CollisionBox> collision_boxes(const bim::Building& as_built, int storey,
+/// True when the stair has steps and joins two of the storeys: it is floor there (see building_ground), no obstacle.
+[[nodiscard]] bool is_walked(const bim::Stair& stair, const std::vector<int>& storeys);
+
+/// Boxes of what stands on the given storeys of the as-built building, ids ascending from 0: walls with their openings
+/// cut out (pieces beside the opening, lintel above, sill below), columns, stairs that are not walked, and obstacles.
+[[nodiscard]] std::vector<CollisionBox> collision_boxes(const bim::Building& as_built, const std::vector<int>& storeys,
                                                         const CollisionConfig& config = {});
 
 }  // namespace plumbline::sim

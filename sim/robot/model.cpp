@@ -66,6 +66,12 @@ std::vector<int> pool_geoms(const mjModel_& model, int box_pool) {
   return geoms;
 }
 
+void place_floor(mjModel_& model, double z_W) {
+  const int geom = mj_name2id(&model, mjOBJ_GEOM, "floor");
+  model.geom_pos[std::ptrdiff_t{3} * geom + 2] = z_W;
+  model.geom_sameframe[geom] = 0;
+}
+
 void place_box(mjModel_& model, int geom, const Eigen::Vector3d& center_W, const Eigen::Vector4d& q_wxyz,
                const Eigen::Vector3d& half) {
   std::copy_n(center_W.data(), 3, model.geom_pos + std::ptrdiff_t{3} * geom);

@@ -15,7 +15,6 @@ namespace plumbline::sim {
 struct ModelConfig {
   double step_s = 0.002;          ///< s
   double friction = 0.8;          ///< sliding, of feet, floor and boxes
-  double floor_height_m = 0.0;    ///< z of the floor plane in W
   int box_pool = 64;              ///< boxes near the robot that can exist at once
   int constraint_rows_max = 500;  ///< njmax; MuJoCo preallocates its square
   int contacts_max = 120;         ///< nconmax
@@ -53,6 +52,9 @@ struct SensorLayout {
 
 /// Indices of the pool's geoms, ascending.
 [[nodiscard]] std::vector<int> pool_geoms(const mjModel_& model, int box_pool);
+
+/// Moves the floor plane to a height in W.
+void place_floor(mjModel_& model, double z_W);
 
 /// Moves a box geom of the world body, in W. Its bounding sphere moves along: without it contacts would be missed.
 void place_box(mjModel_& model, int geom, const Eigen::Vector3d& center_W, const Eigen::Vector4d& q_wxyz,

@@ -28,7 +28,7 @@ void write_header(std::ostream& out, const ModelConfig& c) {
 
 /// The floor and the pool stand in the world body; an unused box waits far below the floor.
 void write_world(std::ostream& out, const ModelConfig& c) {
-  out << "<geom class='world' name='floor' type='plane' size='0 0 1' pos='0 0 " << c.floor_height_m << "'/>";
+  out << "<geom class='world' name='floor' type='plane' size='0 0 1' />";
   for (int i = 0; i < c.box_pool; ++i)
     out << "<geom class='world' name='pool" << i << "' type='box' size='0.01 0.01 0.01' pos='0 0 -50'/>";
 }

@@ -36,21 +36,26 @@ constexpr int joint_dof = 6;
 
 Eigen::Vector3d vector3(const double* v) { return {v[0], v[1], v[2]}; }
 
-ModelConfig model_config(double floor_height_m) {
-  ModelConfig config;
-  config.floor_height_m = floor_height_m;
-  return config;
+/// Everything that can be touched: what stands in the way, then the ground.
+std::vector<CollisionBox> joined(std::vector<CollisionBox> boxes, const Ground& ground) {
+  int id = 0;
+  for (const CollisionBox& box : boxes) id = std::max(id, box.id + 1);
+  for (CollisionBox box : ground.surfaces()) {
+    box.id = id++;
+    boxes.push_back(box);
+  }
+  return boxes;
 }
 
 }  // namespace
 
 struct Robot::Impl {
-  Impl(const Pose& X_WR_start, Terrain terrain_in, std::vector<CollisionBox> boxes)
-      : terrain(std::move(terrain_in)),
-        model_cfg(model_config(terrain(X_WR_start.t.x(), X_WR_start.t.y(), X_WR_start.t.z()))),
+  Impl(const Pose& X_WR_start, Ground ground_in, std::vector<CollisionBox> boxes)
+      : ground(std::move(ground_in)),
+        terrain([this](double x, double y, double z_max) { return ground.height(x, y, z_max); }),
         model(load_model(model_xml(model_cfg))),
         data(make_data(*model)),
-        pool(std::move(boxes), pool_geoms(*model, model_cfg.box_pool), config.pool_radius_m) {
+        pool(joined(std::move(boxes), ground), pool_geoms(*model, model_cfg.box_pool), config.pool_radius_m) {
     place(X_WR_start);
     trot = std::make_unique<Trot>(TrotConfig{}, state(), mj_getTotalmass(model.get()), model_cfg.step_s);
     steps = -config.settle_steps;
@@ -58,8 +63,10 @@ struct Robot::Impl {
   }
 
   void place(const Pose& X_WR_start) {
-    const Pose X_WR = Pose::from_xyz_yaw(
-        {X_WR_start.t.x(), X_WR_start.t.y(), model_cfg.floor_height_m + config.start_height_m}, X_WR_start.yaw());
+    const Pose X_WR =
+        Pose::from_xyz_yaw({X_WR_start.t.x(), X_WR_start.t.y(),
+                            terrain(X_WR_start.t.x(), X_WR_start.t.y(), X_WR_start.t.z()) + config.start_height_m},
+                           X_WR_start.yaw());
     std::copy_n(X_WR.t.data(), 3, data->qpos);
     const Eigen::Vector4d q(X_WR.q.w(), X_WR.q.x(), X_WR.q.y(), X_WR.q.z());
     std::copy_n(q.data(), 4, data->qpos + 3);
@@ -68,7 +75,7 @@ struct Robot::Impl {
       const LegAngles angles = leg_angles(leg, hip_R(leg) + below);
       std::copy_n(angles.data(), 3, data->qpos + joint_qpos + 3 * leg);
     }
-    pool.refresh(*model, X_WR.t);
+    look_around(X_WR.t);
     mj_forward(model.get(), data.get());
   }
 
@@ -92,8 +99,14 @@ struct Robot::Impl {
     return s;
   }
 
+  /// Puts what is near into the physics.
+  void look_around(const Eigen::Vector3d& p_W) {
+    pool.refresh(*model, p_W);
+    place_floor(*model, ground.plane_height(p_W));
+  }
+
   void step(const Command& command) {
-    if (steps % config.pool_refresh_steps == 0) pool.refresh(*model, vector3(data->qpos));
+    if (steps % config.pool_refresh_steps == 0) look_around(vector3(data->qpos));
     const Torques torques = trot->update(state(), command, terrain);
     std::copy(torques.begin(), torques.end(), data->ctrl);
     mj_step(model.get(), data.get());
@@ -119,6 +132,7 @@ struct Robot::Impl {
 
   RobotConfig config;
   SensorLayout sensors;
+  Ground ground;
   Terrain terrain;
   ModelConfig model_cfg;
   ModelPtr model;
@@ -128,8 +142,8 @@ struct Robot::Impl {
   std::int64_t steps = 0;
 };
 
-Robot::Robot(const Pose& X_WR_start, Terrain terrain, std::vector<CollisionBox> boxes)
-    : impl_(std::make_unique<Impl>(X_WR_start, std::move(terrain), std::move(boxes))) {}
+Robot::Robot(const Pose& X_WR_start, Ground ground, std::vector<CollisionBox> boxes)
+    : impl_(std::make_unique<Impl>(X_WR_start, std::move(ground), std::move(boxes))) {}
 
 Robot::~Robot() = default;
 

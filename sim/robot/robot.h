@@ -3,12 +3,11 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <vector>
 
 #include "bim/geometry/pose.h"
-#include "sim/robot/collision.h"
+#include "sim/robot/ground.h"
 
 namespace plumbline::sim {
 
@@ -19,9 +18,6 @@ struct Command {
   double yaw_rate = 0.0;           ///< rad/s
   double gait_period_scale = 1.0;  ///< of the nominal period; varied so that the gait does not lock to the sensor
 };
-
-/// Height of the walkable floor under (x, y) at or below `z_max`, m.
-using Terrain = std::function<double(double x, double y, double z_max)>;
 
 /// What the joints, the IMU and the feet truly did at one physics step; sensors add their noise to it.
 struct Proprioception {
@@ -37,10 +33,9 @@ class Robot {
  public:
   static constexpr std::int64_t step_ns = 2'000'000;
 
-  /// Stands the robot at the position and heading of X_WR_start on the terrain at or below it (the height of
-  /// X_WR_start is only that bound) and lets it settle for 0.5 s; time starts after that. The floor is one plane at
-  /// the terrain's height under the start.
-  Robot(const Pose& X_WR_start, Terrain terrain, std::vector<CollisionBox> boxes);
+  /// Stands the robot at the position and heading of X_WR_start on the ground at or below it (the height of
+  /// X_WR_start is only that bound) and lets it settle for 0.5 s; time starts after that. boxes: what is in its way.
+  Robot(const Pose& X_WR_start, Ground ground, std::vector<CollisionBox> boxes);
   ~Robot();
   Robot(const Robot&) = delete;
   Robot& operator=(const Robot&) = delete;

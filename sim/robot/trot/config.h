@@ -24,7 +24,9 @@ struct CommandConfig {
 struct ContactConfig {
   double on_n = 8.0;             ///< N, touch force
   double off_n = 2.0;            ///< N
-  double early_after = 0.5;      ///< part of the swing after which a contact ends it
+  double early_after = 0.5;      ///< part of the swing after which a contact ends it,
+  double early_off_m = 0.03;     ///< if the sole is so close to the level of the ground
+  double early_near_m = 0.05;    ///< under it or so far beside it: else it is the face of a step
   double late_push_m = 0.01;     ///< a foot without expected contact aims so far below itself
   double late_push_rate = 10.0;  ///< 1/s: downward speed is late_push_m times this
 };
@@ -36,11 +38,31 @@ struct FootholdConfig {
   double below_ground_m = 0.006;    ///< aims into the ground, to be sure of contact
   int replan_steps = 5;             ///< 10 ms
   double freeze_after = 0.8;        ///< part of the swing
+  double freeze_steps_after = 0.6;  ///< the same over steps: a foot cannot change to another tread
+  double search_step_m = 0.03;      ///< other places are tried in this grid
+  int search_along = 5;             ///< so many to each side along the heading,
+  int search_across = 1;            ///< and across it
+  double probe_m = 0.055;           ///< a foothold is rough when the ground so far from it
+  double rough_m = 0.03;            ///< is so much higher or lower
+  double rough_cost_m2 = 0.05;      ///< more than any place of the search is away
 };
 
 struct SwingConfig {
   double clearance_m = 0.07;
   double apex_at = 0.5;           ///< part of the swing
+  int way_points = 5;             ///< of the ground between lift-off and target that are looked at
+  double over_ground_m = 0.05;    ///< sole above them at the apex
+  double steps_m = 0.03;          ///< ground that differs by more along the way is stepped over as stairs are:
+  double step_m = 0.05;           ///< a target higher or lower by more
+  double apex_up_at = 0.45;       ///< has its apex here
+  double apex_down_at = 0.55;     ///< or here,
+  double across_from = 0.12;      ///< and the foot moves across from here
+  double across_to = 0.88;        ///< to here, part of the swing;
+  double up_across_from = 0.25;   ///< upwards from here
+  double up_across_to = 0.95;     ///< to here
+  double ahead_m = 0.06;          ///< while the ground so far ahead is too high for it the foot waits,
+  double wait_rate = 2.0;         ///< part of the swing lost a part waited
+  double across_latest = 0.6;     ///< but not beyond here
   double kp = 300.0;              ///< N m/rad
   double kd = 9.0;                ///< N m s/rad
   double joint_speed_max = 20.0;  ///< rad/s

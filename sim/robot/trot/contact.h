@@ -19,8 +19,9 @@ struct LegContact {
 /// All four legs, standing on their feet.
 [[nodiscard]] PerLeg<LegContact> initial_contacts(const PerLeg<Eigen::Vector3d>& foot_W);
 
-/// One step of the contact logic of all legs.
+/// One step of the contact logic of all legs; on_ground: the sole is
+/// at the height of ground.
 void update_contacts(const ContactConfig& config, const Gait& gait, const PerLeg<double>& touch,
-                     const PerLeg<Eigen::Vector3d>& foot_W, PerLeg<LegContact>& legs);
+                     const PerLeg<Eigen::Vector3d>& foot_W, const PerLeg<bool>& on_ground, PerLeg<LegContact>& legs);
 
 }  // namespace plumbline::sim

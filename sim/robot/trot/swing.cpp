@@ -21,7 +21,47 @@ Eigen::Vector3d rotate_z(double angle, const Eigen::Vector3d& v) {
 
 Eigen::Vector3d horizontal(const Eigen::Vector3d& v) { return {v.x(), v.y(), 0.0}; }
 
+/// Ground under a point at or below z_max.
+double ground(const Terrain& terrain, const Eigen::Vector3d& p_W, double z_max) {
+  return terrain(p_W.x(), p_W.y(), z_max);
+}
+
+bool rough(const FootholdConfig& config, const Terrain& terrain, const Eigen::Vector3d& p_W, double yaw, double z_max) {
+  const double z = ground(terrain, p_W, z_max);
+  const Eigen::Vector3d ahead_W = rotate_z(yaw, {config.probe_m, 0.0, 0.0});
+  const Eigen::Vector3d left_W(-ahead_W.y(), ahead_W.x(), 0.0);
+  for (const Eigen::Vector3d& d_W : {ahead_W, Eigen::Vector3d(-ahead_W), left_W, Eigen::Vector3d(-left_W)})
+    if (std::abs(ground(terrain, p_W + d_W, z_max) - z) > config.rough_m) return true;
+  return false;
+}
+
+/// The nearest place to p_W with even ground around it, or p_W itself.
+Eigen::Vector3d even_place(const FootholdConfig& config, const Terrain& terrain, const Eigen::Vector3d& p_W, double yaw,
+                           double z_max) {
+  if (!rough(config, terrain, p_W, yaw, z_max)) return p_W;
+  Eigen::Vector3d best_W = p_W;
+  double best = config.rough_cost_m2;
+  for (int i = -config.search_along; i <= config.search_along; ++i)
+    for (int j = -config.search_across; j <= config.search_across; ++j) {
+      const Eigen::Vector3d d_W = rotate_z(yaw, {i * config.search_step_m, j * config.search_step_m, 0.0});
+      const double cost = d_W.squaredNorm();
+      if (cost >= best || rough(config, terrain, p_W + d_W, yaw, z_max)) continue;
+      best = cost;
+      best_W = p_W + d_W;
+    }
+  return best_W;
+}
+
 }  // namespace
+
+bool at_ground_level(const ContactConfig& config, const Terrain& terrain, double z_max, const Eigen::Vector3d& foot_W) {
+  const double sole = foot_W.z() - robot_dimensions.foot_radius;
+  const double d = config.early_near_m;
+  for (const Eigen::Vector3d& off : {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(d, 0, 0), Eigen::Vector3d(-d, 0, 0),
+                                     Eigen::Vector3d(0, d, 0), Eigen::Vector3d(0, -d, 0)})
+    if (std::abs(sole - ground(terrain, foot_W + off, z_max)) < config.early_off_m) return true;
+  return false;
+}
 
 Eigen::Vector3d foothold(const FootholdConfig& config, const Gait& gait, const BodyState& state,
                          const Reference& reference, const Terrain& terrain, std::size_t leg) {
@@ -40,24 +80,63 @@ Eigen::Vector3d foothold(const FootholdConfig& config, const Gait& gait, const B
   const double length = offset_W.norm();
   if (length > config.offset_max_m) offset_W *= config.offset_max_m / length;
 
-  Eigen::Vector3d p_W = base_W + offset_W;
+  Eigen::Vector3d p_W = even_place(config, terrain, base_W + offset_W, yaw, state.X_WR.t.z());
   p_W.z() = terrain(p_W.x(), p_W.y(), state.X_WR.t.z()) + d.foot_radius - config.below_ground_m;
   return p_W;
 }
 
-FootTarget swing_point(const SwingConfig& config, const Eigen::Vector3d& lift_off_W, const Eigen::Vector3d& target_W,
-                       double progress, double swing_s) {
-  const Eigen::Vector3d span_W = target_W - lift_off_W;
-  FootTarget out;
-  out.p_W = lift_off_W + span_W * smooth5(progress);
-  out.v_W = span_W * smooth5_derivative(progress) / swing_s;
+bool over_steps(const SwingConfig& config, const Terrain& terrain, double z_max, const Eigen::Vector3d& from_W,
+                const Eigen::Vector3d& to_W) {
+  double low = ground(terrain, from_W, z_max);
+  double high = low;
+  for (int i = 1; i <= config.way_points; ++i) {
+    const double z = ground(terrain, from_W + (to_W - from_W) * i / config.way_points, z_max);
+    low = std::min(low, z);
+    high = std::max(high, z);
+  }
+  return high - low > config.steps_m;
+}
 
-  const double apex = std::max(lift_off_W.z(), target_W.z()) + config.clearance_m;
-  const bool rising = progress < config.apex_at;
-  const double from = rising ? lift_off_W.z() : apex;
-  const double to = rising ? apex : target_W.z();
-  const double part = rising ? config.apex_at : 1.0 - config.apex_at;
-  const double s = rising ? progress / part : (progress - config.apex_at) / part;
+SwingPath swing_path(const SwingConfig& config, const Terrain& terrain, double z_max, const Eigen::Vector3d& from_W,
+                     const Eigen::Vector3d& to_W, bool steps) {
+  SwingPath path{from_W, to_W, std::max(from_W.z(), to_W.z()) + config.clearance_m, steps};
+  if (!steps) return path;
+  const bool up = to_W.z() - from_W.z() > config.step_m;
+  path.across_from = up ? config.up_across_from : config.across_from;
+  path.across_to = up ? config.up_across_to : config.across_to;
+  for (int i = 1; i <= config.way_points; ++i) {
+    const double z = ground(terrain, from_W + (to_W - from_W) * i / (config.way_points + 1), z_max);
+    path.apex_z_W = std::max(path.apex_z_W, z + robot_dimensions.foot_radius + config.over_ground_m);
+  }
+  return path;
+}
+
+void wait_for_height(const SwingConfig& config, const Terrain& terrain, double z_max, const Eigen::Vector3d& foot_W,
+                     double progress_step, SwingPath& path) {
+  const Eigen::Vector3d left_W = horizontal(path.to_W - foot_W);
+  const double distance = left_W.norm();
+  if (!path.steps || distance < config.ahead_m) return;
+  const double ahead = ground(terrain, foot_W + left_W * (config.ahead_m / distance), z_max);
+  if (foot_W.z() > ahead + robot_dimensions.foot_radius) return;
+  path.across_from = std::min(config.across_latest, path.across_from + config.wait_rate * progress_step);
+}
+
+FootTarget swing_point(const SwingConfig& config, const SwingPath& path, double progress, double swing_s) {
+  const Eigen::Vector3d span_W = path.to_W - path.from_W;
+  const double length = path.across_to - path.across_from;
+  const double across = std::clamp((progress - path.across_from) / length, 0.0, 1.0);
+  FootTarget out;
+  out.p_W = path.from_W + span_W * smooth5(across);
+  out.v_W = span_W * smooth5_derivative(across) / (length * swing_s);
+
+  double apex_at = config.apex_at;
+  if (path.steps && span_W.z() > config.step_m) apex_at = config.apex_up_at;
+  if (path.steps && span_W.z() < -config.step_m) apex_at = config.apex_down_at;
+  const bool rising = progress < apex_at;
+  const double from = rising ? path.from_W.z() : path.apex_z_W;
+  const double to = rising ? path.apex_z_W : path.to_W.z();
+  const double part = rising ? apex_at : 1.0 - apex_at;
+  const double s = rising ? progress / part : (progress - apex_at) / part;
   out.p_W.z() = from + (to - from) * smooth5(s);
   out.v_W.z() = (to - from) * smooth5_derivative(s) / (part * swing_s);
   return out;

@@ -14,13 +14,39 @@ struct FootTarget {
   Eigen::Vector3d v_W = Eigen::Vector3d::Zero();  ///< m/s
 };
 
-/// Where a swinging foot should land, as foot centre [facts: legged section 4.5].
+/// True when the sole of a foot is at the level of the ground under or right beside it.
+[[nodiscard]] bool at_ground_level(const ContactConfig& config, const Terrain& terrain, double z_max,
+                                   const Eigen::Vector3d& foot_W);
+
+/// How a foot swings to its target.
+struct SwingPath {
+  Eigen::Vector3d from_W = Eigen::Vector3d::Zero();  ///< foot centre at lift-off
+  Eigen::Vector3d to_W = Eigen::Vector3d::Zero();
+  double apex_z_W = 0.0;     ///< m
+  bool steps = false;        ///< over steps: up first, then across, then down
+  double across_from = 0.0;  ///< part of the swing at which the foot starts across,
+  double across_to = 1.0;    ///< and at which it ends
+};
+
+/// Where a swinging foot should land, as foot centre [facts: legged section 4.5]; near edges, the nearest place with
+/// even ground around it [facts: legged section 6] (ties: the one farthest back, then to the right).
 [[nodiscard]] Eigen::Vector3d foothold(const FootholdConfig& config, const Gait& gait, const BodyState& state,
                                        const Reference& reference, const Terrain& terrain, std::size_t leg);
 
-/// Point on the swing from lift_off_W to target_W at progress in [0, 1) [facts: legged section 4.6].
-[[nodiscard]] FootTarget swing_point(const SwingConfig& config, const Eigen::Vector3d& lift_off_W,
-                                     const Eigen::Vector3d& target_W, double progress, double swing_s);
+/// True when the ground between two foot centres, up to z_max, is not even.
+[[nodiscard]] bool over_steps(const SwingConfig& config, const Terrain& terrain, double z_max,
+                              const Eigen::Vector3d& from_W, const Eigen::Vector3d& to_W);
+
+/// Path between two foot centres that clears the ground between them up to z_max.
+[[nodiscard]] SwingPath swing_path(const SwingConfig& config, const Terrain& terrain, double z_max,
+                                   const Eigen::Vector3d& from_W, const Eigen::Vector3d& to_W, bool steps);
+
+/// Lets a foot at foot_W, which is still too low for the ground ahead of it, wait: it starts across later.
+void wait_for_height(const SwingConfig& config, const Terrain& terrain, double z_max, const Eigen::Vector3d& foot_W,
+                     double progress_step, SwingPath& path);
+
+/// Point on the path at progress in [0, 1) [facts: legged sections 4.6 and 6].
+[[nodiscard]] FootTarget swing_point(const SwingConfig& config, const SwingPath& path, double progress, double swing_s);
 
 /// Torques that follow a foot target [facts: legged section 4.7], N m.
 [[nodiscard]] Eigen::Vector3d swing_torque(const SwingConfig& config, const BodyState& state, const Posture& posture,

@@ -20,8 +20,12 @@ Torques Trot::update(const BodyState& state, const Command& command, const Terra
   const Posture posture = posture_of(state);
   reference_.update(command, state.X_WR, step_s_);
   gait_.update(gait_demand(state, command), step_s_);
-  update_contacts(config_.contact, gait_, state.touch, posture.foot_W, legs_);
-  plan_footholds(state, terrain);
+  PerLeg<bool> on_ground{};
+  for (std::size_t leg = 0; leg < leg_count; ++leg)
+    on_ground[leg] =
+        legs_[leg].scheduled_swing && at_ground_level(config_.contact, terrain, state.X_WR.t.z(), posture.foot_W[leg]);
+  update_contacts(config_.contact, gait_, state.touch, posture.foot_W, on_ground, legs_);
+  plan_footholds(state, posture, terrain);
   plane_.update(legs_, step_s_);
 
   PerLeg<Eigen::Vector3d> lever_W;
@@ -59,13 +63,24 @@ GaitDemand Trot::gait_demand(const BodyState& state, const Command& command) con
   return demand;
 }
 
-void Trot::plan_footholds(const BodyState& state, const Terrain& terrain) {
+void Trot::plan_footholds(const BodyState& state, const Posture& posture, const Terrain& terrain) {
   const bool replan = steps_ % config_.foothold.replan_steps == 0;
   for (std::size_t leg = 0; leg < leg_count; ++leg) {
     if (!legs_[leg].swinging) continue;
-    const bool open = gait_.swing_progress(leg) < config_.foothold.freeze_after;
-    if (legs_[leg].lifted_off || (replan && open))
-      foothold_W_[leg] = foothold(config_.foothold, gait_, state, reference_, terrain, leg);
+    const bool open = gait_.swing_progress(leg) <
+                      (swing_[leg].steps ? config_.foothold.freeze_steps_after : config_.foothold.freeze_after);
+    if (!legs_[leg].lifted_off)
+      wait_for_height(config_.swing, terrain, state.X_WR.t.z(), posture.foot_W[leg], step_s_ / gait_.swing_s(),
+                      swing_[leg]);
+    if (!legs_[leg].lifted_off && !(replan && open)) continue;
+    const Eigen::Vector3d& from_W = legs_[leg].lift_off_W;
+    const Eigen::Vector3d to_W = foothold(config_.foothold, gait_, state, reference_, terrain, leg);
+    const double z_max = state.X_WR.t.z();
+    const bool steps = legs_[leg].lifted_off ? over_steps(config_.swing, terrain, z_max, from_W, to_W)
+                                             : swing_[leg].steps;  // a change under way would make the foot jump
+    const double waited = legs_[leg].lifted_off ? 0.0 : swing_[leg].across_from;
+    swing_[leg] = swing_path(config_.swing, terrain, z_max, from_W, to_W, steps);
+    swing_[leg].across_from = std::max(swing_[leg].across_from, waited);
   }
 }
 
@@ -79,9 +94,7 @@ double Trot::force_limit(std::size_t leg) const {
 }
 
 FootTarget Trot::foot_target(const Posture& posture, std::size_t leg) const {
-  if (legs_[leg].swinging)
-    return swing_point(config_.swing, legs_[leg].lift_off_W, foothold_W_[leg], gait_.swing_progress(leg),
-                       gait_.swing_s());
+  if (legs_[leg].swinging) return swing_point(config_.swing, swing_[leg], gait_.swing_progress(leg), gait_.swing_s());
   const ContactConfig& c = config_.contact;
   return {posture.foot_W[leg] - Eigen::Vector3d(0.0, 0.0, c.late_push_m),
           Eigen::Vector3d(0.0, 0.0, -c.late_push_m * c.late_push_rate)};

@@ -26,7 +26,7 @@ class Trot {
 
  private:
   [[nodiscard]] GaitDemand gait_demand(const BodyState& state, const Command& command) const;
-  void plan_footholds(const BodyState& state, const Terrain& terrain);
+  void plan_footholds(const BodyState& state, const Posture& posture, const Terrain& terrain);
   [[nodiscard]] double force_limit(std::size_t leg) const;
   [[nodiscard]] FootTarget foot_target(const Posture& posture, std::size_t leg) const;
 
@@ -36,7 +36,7 @@ class Trot {
   Reference reference_;
   Gait gait_;
   PerLeg<LegContact> legs_;
-  PerLeg<Eigen::Vector3d> foothold_W_ = zero_per_leg();
+  PerLeg<SwingPath> swing_;
   SupportPlane plane_;
   ForceDistribution distribution_;
   std::int64_t steps_ = 0;

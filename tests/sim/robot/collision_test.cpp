@@ -60,7 +60,7 @@ TEST(Collision, WallBoxesFillTheWallButNotItsOpenings) {
   bim::Building building = one_wall({1.0, 2.0}, {7.0, 5.0});
   building.openings = {opening(1.5, 0.9, 0.0, 2.1), opening(4.0, 1.2, 0.9, 2.2), opening(4.8, 1.0, 0.5, 1.5)};
   const bim::Wall& wall = building.walls[0];
-  const std::vector<CollisionBox> boxes = collision_boxes(building, 0, whole_height());
+  const std::vector<CollisionBox> boxes = collision_boxes(building, {0}, whole_height());
 
   const Stream stream(1, "bim.generate");
   for (std::uint64_t i = 0; i < 5000; ++i) {
@@ -80,19 +80,19 @@ TEST(Collision, WallBoxesFillTheWallButNotItsOpenings) {
 TEST(Collision, ADoorInReachHasNoLintel) {
   bim::Building building = one_wall({0.0, 0.0}, {4.0, 0.0});
   building.openings = {opening(2.0, 0.9, 0.0, 2.1)};
-  EXPECT_EQ(collision_boxes(building, 0).size(), 2U);
-  EXPECT_EQ(collision_boxes(building, 0, whole_height()).size(), 3U);
+  EXPECT_EQ(collision_boxes(building, {0}).size(), 2U);
+  EXPECT_EQ(collision_boxes(building, {0}, whole_height()).size(), 3U);
 }
 
 TEST(Collision, AClosedLeafBlocks) {
   bim::Building building = one_wall({0.0, 0.0}, {4.0, 0.0});
   building.openings = {opening(2.0, 0.9, 0.0, 2.1)};
   building.openings[0].leaf = bim::Leaf::closed;
-  EXPECT_TRUE(inside_any(collision_boxes(building, 0), {2.0, 0.0, 0.5}));
+  EXPECT_TRUE(inside_any(collision_boxes(building, {0}), {2.0, 0.0, 0.5}));
 }
 
 TEST(Collision, LongWallsAreSplit) {
-  const std::vector<CollisionBox> boxes = collision_boxes(one_wall({0.0, 0.0}, {10.0, 0.0}), 0);
+  const std::vector<CollisionBox> boxes = collision_boxes(one_wall({0.0, 0.0}, {10.0, 0.0}), {0});
   ASSERT_EQ(boxes.size(), 3U);
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     EXPECT_EQ(boxes[i].id, static_cast<int>(i));
@@ -108,7 +108,7 @@ TEST(Collision, AYawedColumnGetsItsOwnRectangle) {
   for (const auto& [x, y] : {std::pair{0.4, 0.2}, {-0.4, 0.2}, {-0.4, -0.2}, {0.4, -0.2}})
     column.footprint.emplace_back((X * Eigen::Vector3d(x, y, 0.0)).head<2>());
   building.columns.push_back(column);
-  const std::vector<CollisionBox> boxes = collision_boxes(building, 0);
+  const std::vector<CollisionBox> boxes = collision_boxes(building, {0});
   ASSERT_EQ(boxes.size(), 1U);
   EXPECT_NEAR(4.0 * boxes[0].half.x() * boxes[0].half.y(), 0.32, 1e-9);
   EXPECT_NEAR((boxes[0].X_WB.t.head<2>() - Eigen::Vector2d(3.0, 1.0)).norm(), 0.0, 1e-9);
@@ -143,9 +143,9 @@ bim::Building only(const bim::Solid& solid) {
 
 TEST(Collision, WhatLiesFlatOrHighIsNoObstacle) {
   const auto slab = [](double z) { return only(box_solid({0.0, 0.0, z}, {1.0, 1.0, z + 0.21})); };
-  EXPECT_TRUE(collision_boxes(slab(-0.2), 0).empty());
-  EXPECT_TRUE(collision_boxes(slab(2.0), 0).empty());
-  const std::vector<CollisionBox> boxes = collision_boxes(slab(0.3), 0);
+  EXPECT_TRUE(collision_boxes(slab(-0.2), {0}).empty());
+  EXPECT_TRUE(collision_boxes(slab(2.0), {0}).empty());
+  const std::vector<CollisionBox> boxes = collision_boxes(slab(0.3), {0});
   ASSERT_EQ(boxes.size(), 1U);
   EXPECT_NEAR(boxes[0].X_WB.t.z(), 0.405, 1e-12);
   EXPECT_NEAR(boxes[0].half.prod(), 0.5 * 0.5 * 0.105, 1e-12);
@@ -155,7 +155,7 @@ TEST(Collision, OnlyThePartInReachOfAnObstacleBlocks) {
   // A beam that rises from the floor at x = 0 to 4 m at x = 4, as a stair's string does.
   bim::Solid beam = box_solid({0.0, 0.0, 0.0}, {4.0, 0.1, 0.2});
   for (Eigen::Vector3d& v : beam.vertices) v.z() += v.x();
-  const std::vector<CollisionBox> boxes = collision_boxes(only(beam), 0);
+  const std::vector<CollisionBox> boxes = collision_boxes(only(beam), {0});
   EXPECT_TRUE(inside_any(boxes, {0.5, 0.05, 0.6}));
   EXPECT_FALSE(inside_any(boxes, {1.5, 0.05, 0.6}));
   for (const CollisionBox& box : boxes) EXPECT_LT(box.X_WB.t.x() + box.half.x(), 1.2 + 0.11);
@@ -165,7 +165,7 @@ TEST(Collision, AnObstacleRoundACornerLeavesTheCornerFree) {
   // Two rails, 3 m and 2 m long, that meet in a right angle; their bounding box would fill 6 m^2.
   const bim::Building building =
       only(joined(box_solid({0.0, 0.0, 0.0}, {3.0, 0.05, 1.0}), box_solid({0.0, 0.05, 0.0}, {0.05, 2.0, 1.0})));
-  const std::vector<CollisionBox> boxes = collision_boxes(building, 0);
+  const std::vector<CollisionBox> boxes = collision_boxes(building, {0});
   EXPECT_LE(boxes.size(), 4U);
   double covered = 0.0;
   for (const CollisionBox& box : boxes) covered += 4.0 * box.half.x() * box.half.y();

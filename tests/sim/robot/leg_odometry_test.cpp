@@ -26,7 +26,7 @@ struct Walk {
 const Walk& walk() {
   static const Walk made = [] {
     Walk w;
-    Robot robot(Pose::from_xyz_yaw({0.0, 0.0, 1.0}, 0.0), [](double, double, double) { return 0.0; }, {});
+    Robot robot(Pose::from_xyz_yaw({0.0, 0.0, 1.0}, 0.0), Ground(), {});
     for (int i = 0; i < 500 * seconds; ++i) {
       const double t = i * step_s;
       robot.step({0.7, 0.0, 0.6 * std::sin(0.5 * t), 1.0 + 0.04 * std::sin(2.0 * t)});

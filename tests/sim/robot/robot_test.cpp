@@ -14,7 +14,7 @@
 namespace plumbline::sim {
 namespace {
 
-double flat(double, double, double) { return 0.0; }
+const Ground flat;
 
 Robot flat_robot(std::vector<CollisionBox> boxes = {}) {
   return {Pose::from_xyz_yaw({0.0, 0.0, 1.0}, 0.0), flat, std::move(boxes)};
@@ -160,7 +160,7 @@ TEST(Robot, AFallIsAFailureWithTimeAndPlace) {
 }
 
 TEST(Robot, StandsOnTheFloorOfAnUpperStorey) {
-  Robot robot(Pose::from_xyz_yaw({2.0, 1.0, 4.0}, 0.5), [](double, double, double) { return 3.1; }, {});
+  Robot robot(Pose::from_xyz_yaw({2.0, 1.0, 4.0}, 0.5), Ground(3.1), {});
   const Pose X_WR = robot.X_WR();
   EXPECT_NEAR(X_WR.t.z(), 3.6, 0.01);
   EXPECT_NEAR(X_WR.yaw(), 0.5, 0.01);

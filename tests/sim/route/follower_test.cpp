@@ -11,7 +11,7 @@
 namespace plumbline::sim {
 namespace {
 
-double flat(double, double, double) { return 0.0; }
+const Ground flat;
 
 const std::vector<Eigen::Vector2d> square = {{0.0, 0.0}, {3.0, 0.0}, {3.0, 2.0}, {0.0, 2.0}, {0.0, 0.3}};
 

@@ -71,7 +71,7 @@ TEST(Gait, AFootThatTouchesDownEarlyStands) {
   PerLeg<LegContact> legs = initial_contacts(foot_W);
   const auto step = [&](double touch) {
     gait.update(walk, dt);
-    update_contacts(ContactConfig{}, gait, {touch, 100.0, 100.0, touch}, foot_W, legs);
+    update_contacts(ContactConfig{}, gait, {touch, 100.0, 100.0, touch}, foot_W, {true, true, true, true}, legs);
   };
   step(100.0);
   while (gait.scheduled_stance(0)) step(100.0);
@@ -90,7 +90,7 @@ TEST(Gait, ContactHasHysteresis) {
   const Gait gait{GaitConfig{}};
   PerLeg<LegContact> legs = initial_contacts(zero_per_leg());
   const auto contact_at = [&](double touch) {
-    update_contacts(ContactConfig{}, gait, {touch, 0.0, 0.0, 0.0}, zero_per_leg(), legs);
+    update_contacts(ContactConfig{}, gait, {touch, 0.0, 0.0, 0.0}, zero_per_leg(), {true, true, true, true}, legs);
     return legs[0].contact;
   };
   EXPECT_TRUE(contact_at(3.0));

@@ -18,17 +18,24 @@ Eigen::Vector3d random_point(const Stream& stream, int i, std::uint32_t lane) {
   return {stream.uniform(tick, lane, 0), stream.uniform(tick, lane, 1), 0.2 * stream.uniform(tick, lane, 2)};
 }
 
+double flat(double, double, double) { return 0.0; }
+
+SwingPath flat_path(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+  return swing_path(SwingConfig{}, flat, 1.0, from, to, false);
+}
+
 TEST(Swing, StartsAtLiftOffEndsAtTheTargetAndClearsBoth) {
   const Stream stream(1, "sim.gait.command");
   for (int i = 0; i < 200; ++i) {
     const Eigen::Vector3d from = random_point(stream, i, 0);
     const Eigen::Vector3d to = random_point(stream, i, 1);
-    const FootTarget start = swing_point(SwingConfig{}, from, to, 0.0, swing_s);
-    const FootTarget end = swing_point(SwingConfig{}, from, to, 1.0, swing_s);
+    const FootTarget start = swing_point(SwingConfig{}, flat_path(from, to), 0.0, swing_s);
+    const FootTarget end = swing_point(SwingConfig{}, flat_path(from, to), 1.0, swing_s);
     EXPECT_LT((start.p_W - from).norm() + start.v_W.norm(), 1e-12);
     EXPECT_LT((end.p_W - to).norm() + end.v_W.norm(), 1e-9);
     double top = 0.0;
-    for (int k = 0; k <= 100; ++k) top = std::max(top, swing_point(SwingConfig{}, from, to, 0.01 * k, swing_s).p_W.z());
+    for (int k = 0; k <= 100; ++k)
+      top = std::max(top, swing_point(SwingConfig{}, flat_path(from, to), 0.01 * k, swing_s).p_W.z());
     EXPECT_NEAR(top, std::max(from.z(), to.z()) + SwingConfig{}.clearance_m, 1e-9);
   }
 }
@@ -40,11 +47,11 @@ TEST(Swing, VelocityIsTheDerivativeOfThePosition) {
     const Eigen::Vector3d from = random_point(stream, i, 0);
     const Eigen::Vector3d to = random_point(stream, i, 1);
     const double s = 0.01 + 0.98 * stream.uniform(static_cast<std::uint64_t>(i), 2);
-    const Eigen::Vector3d before = swing_point(SwingConfig{}, from, to, s - h, swing_s).p_W;
-    const Eigen::Vector3d after = swing_point(SwingConfig{}, from, to, s + h, swing_s).p_W;
+    const Eigen::Vector3d before = swing_point(SwingConfig{}, flat_path(from, to), s - h, swing_s).p_W;
+    const Eigen::Vector3d after = swing_point(SwingConfig{}, flat_path(from, to), s + h, swing_s).p_W;
     const Eigen::Vector3d numeric = (after - before) / (2.0 * h * swing_s);
     // Truncation h^2 times a third derivative of some 1e4, and at the apex h times a jump in the second derivative.
-    EXPECT_LT((numeric - swing_point(SwingConfig{}, from, to, s, swing_s).v_W).norm(), 1e-4);
+    EXPECT_LT((numeric - swing_point(SwingConfig{}, flat_path(from, to), s, swing_s).v_W).norm(), 1e-4);
   }
 }
 

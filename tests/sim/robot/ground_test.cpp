@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/robot/ground.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <stdexcept>
+#include <string>
+
+#include "bim/building/load.h"
+#include "bim/building/stair_shape.h"
+#include "bim/errors.h"
+#include "sim/robot/robot.h"
+#include "sim/robot/solid_boxes.h"
+#include "sim/route/follower.h"
+
+namespace plumbline::sim {
+namespace {
+
+const bim::Building& house() {
+  static const bim::Building building = [] {
+    const char* source = std::getenv("PLUMBLINE_SOURCE");
+    if (source == nullptr) throw std::runtime_error("PLUMBLINE_SOURCE is not set; run through ctest");
+    return bim::load_building(std::string(source) + "/scenarios/library/house.plan.yaml");
+  }();
+  return building;
+}
+
+TEST(Ground, OneFloorIsEverywhere) {
+  const Ground ground(3.1);
+  for (const double x : {-50.0, 0.0, 7.0}) {
+    EXPECT_EQ(ground.height(x, 2.0, 4.0), 3.1);
+    EXPECT_EQ(ground.plane_height({x, 2.0, 3.6}), 3.1);
+  }
+}
+
+TEST(Ground, ATiltedBoxIsARamp) {
+  CollisionBox ramp;
+  ramp.X_WB = {exp_so3({0.0, -0.2, 0.0}), {3.0, 0.0, 0.0}};
+  ramp.half = {2.0, 1.0, 0.1};
+  const Ground ground({{-1.0, {}}}, {ramp});
+  const double middle = ground.height(3.0, 0.0, 2.0);
+  EXPECT_NEAR(middle, 0.1 / std::cos(0.2), 1e-12);
+  EXPECT_NEAR(ground.height(4.0, 0.5, 2.0) - middle, std::tan(0.2), 1e-12);
+  EXPECT_EQ(ground.height(4.0, 1.5, 2.0), -1.0);
+}
+
+TEST(BuildingGround, StepsLandingsAndBothFloorsOfTheHouse) {
+  const Ground ground = building_ground(house(), {0, 1});
+  for (const bim::StairFlight& flight : house().stairs.at(0).flights)
+    for (int k = 0; k < flight.steps; ++k) {
+      const Eigen::Vector2d p =
+          flight.start + (k + 0.5) * flight.run_m * Eigen::Vector2d(std::cos(flight.yaw), std::sin(flight.yaw));
+      const double z = flight.z0_m + (k + 1) * flight.rise_m;
+      EXPECT_NEAR(ground.height(p.x(), p.y(), z + 0.3), z, 1e-9);
+    }
+  const bim::Landing& landing = house().stairs.at(0).landings.at(0);
+  EXPECT_NEAR(ground.height(9.22, 4.9, 1.9), landing.z_m, 1e-9);
+  EXPECT_EQ(ground.height(2.0, 2.0, 0.5), 0.0);
+  // The upper floor: endless far from the well, boxes near it; one does not stand on it from below.
+  for (const double x : {1.0, 4.0, 6.0}) {
+    EXPECT_NEAR(ground.height(x, 5.4, 3.4), 2.9, 1e-9);
+    EXPECT_EQ(ground.height(x, 5.4, 0.5), 0.0);
+  }
+  EXPECT_EQ(ground.plane_height({1.0, 1.0, 3.4}), 2.9);
+  EXPECT_EQ(ground.plane_height({6.2, 5.4, 3.4}), 0.0);
+}
+
+TEST(BuildingGround, AStairToAStoreyThatIsNotWalkedIsAnObstacle) {
+  EXPECT_TRUE(building_ground(house(), {0}).surfaces().empty());
+  EXPECT_GT(collision_boxes(house(), {0}).size(), collision_boxes(house(), {0, 1}).size() / 2);
+  EXPECT_TRUE(is_walked(house().stairs.at(0), {1, 0}));
+  EXPECT_FALSE(is_walked(house().stairs.at(0), {0}));
+}
+
+TEST(BuildingGround, AMissingStoreyIsBadInput) {
+  EXPECT_THROW(building_ground(house(), {0, 2}), InputError);
+  EXPECT_THROW(building_ground(house(), {}), InputError);
+}
+
+/// Ten steps up to a floor and back down.
+TEST(Robot, ClimbsAFlightAndComesDown) {
+  constexpr double rise = 0.15;
+  constexpr double run = 0.30;
+  std::vector<CollisionBox> steps;
+  for (int k = 0; k < 10; ++k)
+    steps.push_back(
+        upright_box({2.0 + (k + 0.5) * run, 0.0}, 0.0, {0.5 * run, 1.0}, {k * rise - 0.15, (k + 1) * rise}));
+  steps.push_back(upright_box({7.0, 0.0}, 0.0, {2.0, 2.0}, {1.3, 1.5}));
+  Robot robot(Pose::from_xyz_yaw({1.0, 0.0, 0.9}, 0.0), Ground({{0.0, {}}}, steps), {});
+  Follower follower(
+      FollowerConfig{},
+      {{{1.0, 0.0, 0.0}}, {{5.4, 0.0, 1.5}, true}, {{6.5, 0.0, 1.5}}, {{5.6, 0.0, 1.5}}, {{1.4, 0.0, 0.0}, true}}, 1);
+  double z_max = 0.0;
+  for (std::int64_t tick = 0; !follower.done() && tick < 30000; ++tick) {
+    robot.step(follower.update(robot.X_WR(), tick));
+    z_max = std::max(z_max, robot.X_WR().t.z());
+  }
+  EXPECT_TRUE(follower.done());
+  EXPECT_NEAR(z_max, 2.0, 0.1);
+  EXPECT_NEAR(robot.X_WR().t.z(), 0.5, 0.1);
+}
+
+}  // namespace
+}  // namespace plumbline::sim
