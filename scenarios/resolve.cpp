@@ -149,7 +149,9 @@ std::string name_of_copy(const fs::path& building, const std::string& bytes) {
 
 double default_duration(const RoutePlan& plan, double speed) {
   const DefaultDuration rule;
-  return std::min(rule.longest_s, std::ceil(rule.factor * plan.length_m / speed + rule.extra_s));
+  const double walk_s = (plan.length_m - plan.stairs_m) / speed;
+  const double climb_s = plan.stairs_m / std::min(speed, sim::SpeedConfig().stairs_mps);
+  return std::min(rule.longest_s, std::ceil(rule.factor * (walk_s + climb_s) + rule.extra_s));
 }
 
 }  // namespace

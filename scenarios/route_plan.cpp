@@ -160,8 +160,10 @@ class Planner {
 
   void walk_round(int laps, RoutePlan& plan) const {
     const Eigen::AlignedBox2d box = floor_box();
-    const Path round =
-        box.isEmpty() ? Path{} : sim::on_floor(roam(space_.storey(storey_), box, plan.start_W), elevation(storey_));
+    const Path round = box.isEmpty()
+                           ? Path{}
+                           : sim::with_clearance(space_.storey(storey_),
+                                                 roam(space_.storey(storey_), box, plan.start_W), elevation(storey_));
     for (int lap = 0; lap < laps; ++lap) append(round, plan);
     plan.rooms = {std::string(all_rooms)};
   }

@@ -53,7 +53,7 @@ Pose start_pose(const WorldConfig& config, double floor) {
 
 FollowerConfig follower_config(const WorldConfig& config) {
   FollowerConfig out;
-  out.speed_mps = config.speed_mps;
+  out.speed.speed_mps = config.speed_mps;
   return out;
 }
 

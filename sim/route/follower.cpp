@@ -17,7 +17,11 @@ constexpr double step_s = 1e-9 * static_cast<double>(Robot::step_ns);
 }  // namespace
 
 Follower::Follower(const FollowerConfig& config, std::vector<Waypoint> waypoints, std::uint64_t seed)
-    : config_(config), waypoints_(std::move(waypoints)), jitter_(seed, "sim.gait.command") {}
+    : config_(config),
+      waypoints_(std::move(waypoints)),
+      jitter_(seed, "sim.gait.command"),
+      speeds_(config.speed, waypoints_),
+      progress_(config.progress) {}
 
 Command Follower::update(const Pose& X_WR, std::int64_t tick) {
   skip_reached(X_WR.t);
@@ -28,15 +32,13 @@ Command Follower::update(const Pose& X_WR, std::int64_t tick) {
 }
 
 Command Follower::on_level(const Pose& X_WR) {
-  const Eigen::Vector2d p_W = X_WR.t.head<2>();
-  const Eigen::Vector2d ahead_W = goal(p_W) - p_W;
-  const double error = wrap_angle(std::atan2(ahead_W.y(), ahead_W.x()) - X_WR.yaw());
+  const double error = heading_error(X_WR);
   turning_ = std::abs(error) > (turning_ ? config_.turn_end : config_.turn_start);
 
   Command command;
   const double gain = turning_ ? config_.turn_gain : config_.steer_gain;
   command.yaw_rate = std::clamp(gain * error, -config_.yaw_rate_max, config_.yaw_rate_max);
-  command.vx = turning_ ? 0.0 : walking_speed(error, p_W);
+  command.vx = turning_ ? 0.0 : walking_speed(error, X_WR.t.head<2>());
   return command;
 }
 
@@ -46,7 +48,7 @@ Command Follower::on_stairs(const Pose& X_WR) {
   const Eigen::Vector2d e = (waypoints_[next_].p_W.head<2>() - from).normalized();
   const Eigen::Vector2d off = X_WR.t.head<2>() - from;
   const Eigen::Vector2d left(-e.y(), e.x());
-  const double error = wrap_angle(std::atan2(e.y(), e.x()) - X_WR.yaw());
+  const double error = heading_error(X_WR);
   const double side = left.dot(off);
   turning_ = turning_ && (std::abs(error) > config_.stairs_aligned || std::abs(side) > config_.stairs_centred_m);
 
@@ -65,27 +67,38 @@ Command Follower::on_stairs(const Pose& X_WR) {
 
 void Follower::skip_reached(const Eigen::Vector3d& p_W) {
   const Eigen::Vector3d sole_W = p_W - Eigen::Vector3d(0.0, 0.0, config_.standing_height_m);
-  while (!done()) {
-    const Eigen::Vector3d off = waypoints_[next_].p_W - sole_W;
-    if (off.head<2>().norm() >= config_.reached_m || std::abs(off.z()) >= config_.reached_height_m) return;
+  while (!done() && reached(sole_W)) {
     ++next_;
     if (!done() && waypoints_[next_].stairs) turning_ = true;
   }
 }
 
-void Follower::check_progress(const Pose& X_WR, std::int64_t tick) {
+bool Follower::reached(const Eigen::Vector3d& sole_W) const {
+  const Eigen::Vector3d off = waypoints_[next_].p_W - sole_W;
+  if (std::abs(off.z()) >= config_.reached_height_m) return false;
+  return off.head<2>().norm() < config_.reached_m || passed(sole_W.head<2>());
+}
+
+/// Only on the way through: the end of a route and where a stair begins are walked up to.
+bool Follower::passed(const Eigen::Vector2d& p_W) const {
+  if (waypoints_[next_].stairs || next_ + 1 >= waypoints_.size() || waypoints_[next_ + 1].stairs) return false;
+  const Eigen::Vector2d leg = (waypoints_[next_].p_W - waypoints_[next_ - 1].p_W).head<2>();
+  const Eigen::Vector2d beyond = p_W - waypoints_[next_].p_W.head<2>();
+  return leg.dot(beyond) > 0.0 && beyond.norm() < config_.passed_m;
+}
+
+double Follower::heading_error(const Pose& X_WR) const {
   const Eigen::Vector2d p_W = X_WR.t.head<2>();
-  const double yaw = X_WR.yaw();
-  const bool moved = (p_W - progress_point_).norm() > config_.stuck_distance_m ||
-                     std::abs(wrap_angle(yaw - progress_yaw_)) > config_.stuck_angle;
-  if (moved || !started_) {
-    started_ = true;
-    progress_point_ = p_W;
-    progress_yaw_ = yaw;
-    progress_tick_ = tick;
-  } else if (static_cast<double>(tick - progress_tick_) * step_s > config_.stuck_s) {
-    throw scenario_failure("the robot stalled", static_cast<double>(tick) * step_s, X_WR.t);
-  }
+  const Eigen::Vector2d leg = (waypoints_[next_].p_W - waypoints_[next_ - 1].p_W).head<2>();
+  const Eigen::Vector2d ahead = waypoints_[next_].stairs ? leg : Eigen::Vector2d(goal(p_W) - p_W);
+  return wrap_angle(std::atan2(ahead.y(), ahead.x()) - X_WR.yaw());
+}
+
+void Follower::check_progress(const Pose& X_WR, std::int64_t tick) {
+  const double t_s = static_cast<double>(tick) * step_s;
+  const double left_m = (waypoints_[next_].p_W - X_WR.t).head<2>().norm();
+  if (progress_.stalled(next_, waypoints_[next_].stairs, left_m, heading_error(X_WR), t_s))
+    throw scenario_failure("the robot stalled", t_s, X_WR.t);
 }
 
 Eigen::Vector2d Follower::goal(const Eigen::Vector2d& p_W) const {
@@ -94,18 +107,18 @@ Eigen::Vector2d Follower::goal(const Eigen::Vector2d& p_W) const {
   const double length = (to - from).norm();
   if (length <= 0.0) return to;
   const Eigen::Vector2d e = (to - from) / length;
-  const double along = std::clamp(e.dot(p_W - from) + config_.lookahead_m, 0.0, length);
+  const double lookahead = std::max(config_.lookahead_m, config_.lookahead_s * speeds_.limit(next_, length));
+  const double along = std::clamp(e.dot(p_W - from) + lookahead, 0.0, length);
   const Eigen::Vector2d ahead = from + along * e;
   return (ahead - p_W).norm() < config_.goal_min_m ? to : ahead;
 }
 
 double Follower::walking_speed(double heading_error, const Eigen::Vector2d& p_W) const {
-  const bool stairs = waypoints_[next_].stairs;
-  const double speed = stairs ? std::min(config_.speed_mps, config_.stairs_mps) : config_.speed_mps;
+  const double left_m = (waypoints_[next_].p_W.head<2>() - p_W).norm();
+  const double speed = speeds_.limit(next_, left_m - config_.reached_m);
   const double v = speed * std::max(config_.slow_min, std::cos(config_.slow_angle_gain * heading_error));
   if (next_ + 1 < waypoints_.size()) return v;
-  const double distance = (waypoints_[next_].p_W.head<2>() - p_W).norm();
-  return std::min(v, std::max(config_.approach_min_mps, config_.approach_gain * distance));
+  return std::min(v, std::max(config_.approach_min_mps, config_.approach_gain * left_m));
 }
 
 Command Follower::jittered(Command command, std::int64_t tick) const {

@@ -7,6 +7,8 @@
 
 #include "bim/random/stream.h"
 #include "sim/robot/robot.h"
+#include "sim/route/progress.h"
+#include "sim/route/speed_profile.h"
 #include "sim/route/waypoint.h"
 
 namespace plumbline::sim {
@@ -14,9 +16,12 @@ namespace plumbline::sim {
 /// Pure pursuit [facts: legged section 5], the stuck check, and the jitter that keeps the gait (2.27 Hz) from meeting
 /// the LiDAR's 10 Hz sweep at the same phase every time.
 struct FollowerConfig {
-  double speed_mps = 0.6;
-  double reached_m = 0.25;  ///< a waypoint counts as reached
-  double lookahead_m = 0.6;
+  SpeedConfig speed;
+  ProgressConfig progress;
+  double reached_m = 0.25;       ///< a waypoint counts as reached
+  double passed_m = 0.5;         ///< also one left behind no further to the side than this
+  double lookahead_m = 0.6;      ///< at least,
+  double lookahead_s = 0.8;      ///< and as far as the robot walks in this time
   double goal_min_m = 0.2;       ///< a goal nearer than this gives way to the waypoint itself
   double yaw_rate_max = 1.0;     ///< rad/s
   double turn_start = 0.8;       ///< rad, heading error that starts a turn in place
@@ -27,7 +32,6 @@ struct FollowerConfig {
   double slow_angle_gain = 1.5;  ///< speed falls with the cosine of this times the heading error
   double approach_gain = 0.8;    ///< 1/s, speed by distance on the last leg
   double approach_min_mps = 0.15;
-  double stairs_mps = 0.4;            ///< highest speed on stairs
   double stairs_aligned = 0.1;        ///< rad, heading error with which a flight is entered,
   double stairs_centred_m = 0.05;     ///< and distance from its line
   double stairs_period_scale = 1.25;  ///< of the gait period there: a foot has farther to go
@@ -35,9 +39,6 @@ struct FollowerConfig {
   double side_mps = 0.2;              ///< highest speed of that
   double reached_height_m = 0.6;      ///< a waypoint of another level is not reached, however near in the plane
   double standing_height_m = 0.5;     ///< of the base above the floor
-  double stuck_s = 6.0;               ///< without progress: stalled
-  double stuck_distance_m = 0.15;     ///< this counts as progress,
-  double stuck_angle = 0.15;          ///< or this, rad
   double jitter_s = 0.5;              ///< one draw of the jitter
   double speed_jitter = 0.05;         ///< share, uniform to both sides
   double period_jitter = 0.04;        ///< share of the gait period, uniform to both sides
@@ -55,7 +56,11 @@ class Follower {
 
  private:
   void skip_reached(const Eigen::Vector3d& p_W);
+  [[nodiscard]] bool reached(const Eigen::Vector3d& sole_W) const;
+  [[nodiscard]] bool passed(const Eigen::Vector2d& p_W) const;
   void check_progress(const Pose& X_WR, std::int64_t tick);
+  /// From the heading of the robot to the one asked for, rad.
+  [[nodiscard]] double heading_error(const Pose& X_WR) const;
   [[nodiscard]] Command on_stairs(const Pose& X_WR);
   [[nodiscard]] Command on_level(const Pose& X_WR);
   [[nodiscard]] Eigen::Vector2d goal(const Eigen::Vector2d& p_W) const;
@@ -67,10 +72,8 @@ class Follower {
   Stream jitter_;
   std::size_t next_ = 1;
   bool turning_ = false;
-  bool started_ = false;
-  Eigen::Vector2d progress_point_ = Eigen::Vector2d::Zero();
-  double progress_yaw_ = 0.0;
-  std::int64_t progress_tick_ = 0;
+  SpeedProfile speeds_;
+  Progress progress_;
 };
 
 }  // namespace plumbline::sim

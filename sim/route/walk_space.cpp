@@ -78,7 +78,7 @@ const std::vector<StairWay>& WalkSpace::stairs() const {
 WalkSpace::Path WalkSpace::on_storey(const Place& a, const Place& b) const {
   const double z = building_.storeys.at(static_cast<std::size_t>(a.storey)).elevation_m;
   if ((b.p_W - a.p_W).norm() < same_place_m) return {{{a.p_W.x(), a.p_W.y(), z}, false}};
-  return on_floor(storey(a.storey).path(a.p_W, b.p_W), z);
+  return with_clearance(storey(a.storey), storey(a.storey).path(a.p_W, b.p_W), z, config_.narrow);
 }
 
 WalkSpace::Path WalkSpace::over_stair(const StairWay& way, bool up) const {

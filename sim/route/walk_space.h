@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bim/building/building.h"
+#include "sim/route/narrow.h"
 #include "sim/route/route.h"
 #include "sim/route/stair_way.h"
 #include "sim/route/waypoint.h"
@@ -23,6 +24,7 @@ struct Place {
 struct WalkSpaceConfig {
   RouteConfig route;
   StairWayConfig stair;
+  NarrowConfig narrow;
   double approach_m = 0.7;      ///< wanted between a stair and where the robot lines up with it,
   double approach_min_m = 0.4;  ///< and the least
   double approach_step_m = 0.05;

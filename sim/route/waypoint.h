@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <vector>
 
 namespace plumbline::sim {
@@ -10,6 +11,7 @@ namespace plumbline::sim {
 struct Waypoint {
   Eigen::Vector3d p_W = Eigen::Vector3d::Zero();  ///< m, z that of the floor there
   bool stairs = false;                            ///< the way to here from the waypoint before goes over steps
+  double clearance_m = std::numeric_limits<double>::infinity();  ///< least on that way, where it is narrow
 };
 
 /// A way on one level.
