@@ -23,6 +23,8 @@ constexpr std::string_view all_rooms = "all";
 /// Start points and headings are written with this many decimals (0.1 mm), so that the resolved file reads well.
 constexpr double coordinate_steps = 1e4;
 
+constexpr double shuttle_min_m = 0.5;  ///< of a way worth walking to and fro
+
 double round_coordinate(double x) { return std::round(x * coordinate_steps) / coordinate_steps; }
 
 std::string text(const Eigen::Vector2d& p) { return "[" + format_number(p.x()) + ", " + format_number(p.y()) + "]"; }
@@ -295,6 +297,10 @@ class Planner {
     const Place middle = target(index, marks_.route);
     const Eigen::Vector2d axis = long_axis(room(index).polygon);
     const std::array<Place, 2> ends = {last_free(middle, axis), last_free(middle, -axis)};
+    if ((ends[0].p_W - ends[1].p_W).norm() < shuttle_min_m)
+      throw InputError(marks_.route, "room '" + room(index).id + "' is too small to walk to and fro in: " +
+                                         format_number(round_coordinate((ends[0].p_W - ends[1].p_W).norm())) +
+                                         " m; it must be at least " + format_number(shuttle_min_m) + " m");
     for (int i = 0; i < 2 * route.times; ++i) {
       const Place& end = ends[static_cast<std::size_t>(i % 2)];
       const Path leg = space_.path(at, end);

@@ -114,6 +114,27 @@ TEST(RoutePlan, AShuttleMayLieOnAnotherStorey) {
   EXPECT_EQ(plan.waypoints.back().p_W.z(), 2.9);
 }
 
+TEST(RoutePlan, AShuttleNeedsRoom) {
+  bim::Building cell;
+  cell.storeys.push_back({"ground", "ground", 0.0, 3.0, 0});
+  cell.rooms.push_back({"cell", "cell", 0, {{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.1}, {0.0, 1.1}}});
+  const Polygon2& outline = cell.rooms.front().polygon;
+  for (std::size_t i = 0; i < 4; ++i) {
+    bim::Wall wall;
+    wall.id = std::to_string(i);
+    wall.storey = 0;
+    wall.a = outline[i];
+    wall.b = outline[(i + 1) % 4];
+    wall.offset_m = -0.2;
+    cell.walls.push_back(wall);
+  }
+  Route route;
+  route.shuttle = "cell";
+  EXPECT_NE(complaint(cell, in("cell"), route).find("room 'cell' is too small to walk to and fro in"),
+            std::string::npos)
+      << complaint(cell, in("cell"), route);
+}
+
 TEST(RoutePlan, ARoomWithoutAWayUpIsRefused) {
   bim::Building flat = house();
   flat.stairs.clear();
