@@ -193,7 +193,7 @@ ResolvedScenario resolve(const std::string& input_path, const Overrides& overrid
   Scenario& scenario = text.scenario;
   const std::string& storey = resolved.site.as_planned.storeys[static_cast<std::size_t>(plan.storey)].id;
   scenario.start = Start{std::nullopt, storey, plan.start_W, plan.yaw_deg};
-  if (!scenario.route.shuttle) scenario.route.rooms = plan.rooms;
+  scenario.route.rooms = scenario.route.shuttle ? std::vector<std::string>{} : plan.rooms;
   scenario.route.storeys = RouteStoreys::start;
   scenario.building = name_of_copy(building, resolved.building_bytes);
   resolved.world = make_world(scenario, plan);

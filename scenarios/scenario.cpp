@@ -42,7 +42,8 @@ void check_gates(const Scenario& scenario, const Tree& tree) {
 void check_route_and_start(const Scenario& scenario, const Tree& tree) {
   if (scenario.start.room && scenario.start.at)
     throw InputError(mark_at(tree, {"start"}), "start takes either a room or a point `at`, not both");
-  if (scenario.route.shuttle && tree.find("route")->find("rooms") != nullptr)
+  const bool names_rooms = tree.find("route") != nullptr && tree.find("route")->find("rooms") != nullptr;
+  if (scenario.route.shuttle && names_rooms && !scenario.route.rooms.empty())
     throw InputError(mark_at(tree, {"route"}), "route takes either rooms or shuttle, not both");
 }
 

@@ -117,12 +117,19 @@ struct Level {
   Eigen::Vector2d b = Eigen::Vector2d::Zero();
 };
 
-std::vector<Level> levels_of(const bim::Stair& stair, const std::vector<Eigen::Vector3d>& points) {
+/// On a flight what is no higher than the steps within the radius ahead, or than the floor they lead to, is not in the
+/// way: the level is theirs.
+std::vector<Level> levels_of(const bim::Stair& stair, const std::vector<Eigen::Vector3d>& points,
+                             const RouteConfig& route) {
   std::vector<Level> levels;
-  for (const bim::StairFlight& flight : stair.flights) {
+  for (std::size_t i = 0; i < stair.flights.size(); ++i) {
+    const bim::StairFlight& flight = stair.flights[i];
+    const double top = i + 1 < stair.flights.size() ? stair.flights[i + 1].z0_m : points.back().z();
+    const double ahead = std::ceil(route.radius_m / flight.run_m) * flight.rise_m;
     for (int k = 0; k < flight.steps; ++k) {
       const Eigen::Vector2d a = flight.start + k * flight.run_m * ascent(flight);
-      levels.push_back({flight.z0_m + (k + 1) * flight.rise_m, a, a + flight.run_m * ascent(flight)});
+      const double z = flight.z0_m + (k + 1) * flight.rise_m;
+      levels.push_back({std::min(top, z + ahead), a, a + flight.run_m * ascent(flight)});
     }
   }
   for (std::size_t i = 1; i + 1 < points.size(); ++i) {
@@ -152,7 +159,7 @@ std::string things_fault(const bim::Building& building, const bim::Stair& stair,
   for (const Eigen::Vector3d& p : way.points) box.extend(Eigen::Vector2d(p.head<2>()));
   const Eigen::Vector2d margin = Eigen::Vector2d::Constant(2.0 * route.radius_m);
   const bim::Building near = surroundings(building, {box.min() - margin, box.max() + margin});
-  for (const Level& level : levels_of(stair, way.points))
+  for (const Level& level : levels_of(stair, way.points, route))
     if (blocked(near, level, route, config))
       return "has less than " + metres(2.0 * route.radius_m) + " free near [" +
              format_number(std::round(level.a.x() * 1e2) / 1e2) + ", " +

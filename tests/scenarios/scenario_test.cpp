@@ -80,7 +80,17 @@ TEST(Scenario, ComplaintsNameThePlaceAndWhatWouldBeRight) {
   EXPECT_NE(complaint(with("min: 0.8", "min: 0.8, max: 1")).find("either max or min"), std::string::npos);
   EXPECT_NE(complaint(with("{storey: ground", "{room: hall, storey: ground")).find("not both"), std::string::npos);
   EXPECT_NE(complaint(with("loop: 2", "shuttle: hall")).find("not both"), std::string::npos);
+  EXPECT_NE(complaint(with("loop: 2", "loop: 0")).find("between"), std::string::npos);
+  EXPECT_NE(complaint(with("loop: 2", "storeys: every")).find("storeys"), std::string::npos);
   EXPECT_NE(complaint(with("building: two.plan.yaml\n", "")).find("'building' is missing"), std::string::npos);
+}
+
+TEST(Scenario, AShuttleIsReadAgainAsItIsWritten) {
+  Scenario scenario;
+  scenario.building = "two.plan.yaml";
+  scenario.route.shuttle = "hall";
+  scenario.route.rooms.clear();
+  EXPECT_EQ(read_scenario(write_scenario(scenario), "s.yaml").scenario.route.shuttle, "hall");
 }
 
 }  // namespace

@@ -194,6 +194,19 @@ TEST(WalkSpace, RandomStairsAreClimbedInTheMiddleOrRefused) {
   EXPECT_GE(refused, 5);
 }
 
+TEST(WalkSpace, WhatEndsUnderTheFloorAboveIsNotInTheWayOfTheLastSteps) {
+  bim::Building tower = building(straight);
+  bim::Wall under = tower.walls.front();
+  under.id = "under";
+  under.a = {6.5, 2.0};
+  under.b = {6.5, 4.0};
+  under.z1_m = 2.95;
+  tower.walls.push_back(under);
+  EXPECT_EQ(WalkSpace(tower).stairs().front().fault, "");
+  tower.walls.back().z1_m = 3.6;
+  EXPECT_NE(WalkSpace(tower).stairs().front().fault, "");
+}
+
 TEST(WalkSpace, AStairWithoutStepsIsABody) {
   bim::Building tower = building(straight);
   tower.stairs.front().flights.clear();
