@@ -117,7 +117,11 @@ TEST(RoutePlan, AShuttleMayLieOnAnotherStorey) {
 TEST(RoutePlan, AShuttleNeedsRoom) {
   bim::Building cell;
   cell.storeys.push_back({"ground", "ground", 0.0, 3.0, 0});
-  cell.rooms.push_back({"cell", "cell", 0, {{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.1}, {0.0, 1.1}}});
+  bim::Room room;
+  room.id = room.name = "cell";
+  room.storey = 0;
+  room.polygon = {{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.1}, {0.0, 1.1}};
+  cell.rooms.push_back(room);
   const Polygon2& outline = cell.rooms.front().polygon;
   for (std::size_t i = 0; i < 4; ++i) {
     bim::Wall wall;

@@ -98,7 +98,7 @@ TEST_F(InspectTest, TextGroupsWarningsByKind) {
 
 TEST_F(InspectTest, TextListsSolidsByKindAndWhatIsNotAsPlanned) {
   const std::string planned = inspect_text(building_, mesh_, {});
-  EXPECT_NE(planned.find("wall         5       5"), std::string::npos) << planned;
+  EXPECT_NE(planned.find("wall        5       5"), std::string::npos) << planned;
   EXPECT_EQ(planned.find("not as planned"), std::string::npos);
   const std::string built = inspect_text(building_, mesh_, {{"move_wall", "w1"}, {"drop_room", "west"}});
   EXPECT_NE(built.find("not as planned  element"), std::string::npos) << built;

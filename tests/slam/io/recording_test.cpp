@@ -207,11 +207,11 @@ TEST_F(RecordingTest, NamesWhatIsWrongWithPackets) {
   };
   const std::string bad = path("bad.pcap");
   EXPECT_EQ(complaint(with(0, [](Vlp16Packet&) {})), "none");
-  expect_complaint(with(3, [](Vlp16Packet& p) { p.payload[1205] = 0x28; }), bad, "product 40");
+  expect_complaint(with(3, [](Vlp16Packet& p) { p.payload[1205] = 0x28; }), bad, "from different sensors");
   expect_complaint(with(3, [](Vlp16Packet& p) { p.payload[300] = 0; }), bad, "flag");
-  expect_complaint(with(9, [&](Vlp16Packet& p) { p = packets[7]; }), bad, "frame 10: its time lies");
-  expect_complaint(with(9, [&](Vlp16Packet& p) { p.stamp += 5'000'000; }), bad, "frame 10: its time of capture");
-  expect_complaint(with(9, [](Vlp16Packet& p) { p.payload[1203] = 0xff; }), bad, "frame 10: its time");
+  expect_complaint(with(9, [&](Vlp16Packet& p) { p = packets[7]; }), bad, "frame 12: its time lies");
+  expect_complaint(with(9, [&](Vlp16Packet& p) { p.stamp += 5'000'000; }), bad, "frame 12: its time of capture");
+  expect_complaint(with(9, [](Vlp16Packet& p) { p.payload[1203] = 0xff; }), bad, "frame 12: its time");
   std::vector<Vlp16Packet> leap = turning_packets(40);
   for (Vlp16Packet& packet : turning_packets(40, 8'000'000'000)) leap.push_back(packet);
   write_pcap(bad, leap);
