@@ -49,6 +49,11 @@ MethodTable methods() {
                      {.name = "aloam",
                       .summary = "LiDAR odometry: scan to scan, then against a feature map, in the style of A-LOAM",
                       .standard = false}),
+      with_config<HdlSlamConfig>(
+          {.name = "hdl_slam",
+           .summary = "keyframe pose graph with floor plane and loop closures, in the style of HDL graph SLAM",
+           .make = make_hdl_slam_method,
+           .standard = false}),
       with_config<SGraphsPlusConfig>({.name = "s_graphs_plus",
                                       .summary = "S-Graphs+: walls, rooms, floors and loops in one four-layered graph",
                                       .make = make_s_graphs_plus_method}),

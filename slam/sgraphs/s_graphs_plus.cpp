@@ -16,10 +16,11 @@ RoomLayerConfig with_mount(RoomLayerConfig config, const Calibration& calibratio
   return config;
 }
 
+bool is_floor(const PlaneObservation& o) { return !o.vertical && o.plane_R.n.z() > 0.0; }
+
 /// M's z axis stands on the first floor seen, so that walls are upright in M whatever the gait's phase at the start.
 Pose levelled_start(std::span<const PlaneObservation> seen) {
-  const auto floor = std::find_if(seen.begin(), seen.end(),
-                                  [](const PlaneObservation& o) { return !o.vertical && o.plane_R.n.z() > 0.0; });
+  const auto floor = std::find_if(seen.begin(), seen.end(), is_floor);
   if (floor == seen.end()) return {};
   return {Eigen::Quaterniond::FromTwoVectors(floor->plane_R.n, Eigen::Vector3d::UnitZ()), Eigen::Vector3d::Zero()};
 }
@@ -51,6 +52,13 @@ void file(Output& output, Stopwatch& watch, const std::string& stage, std::uint6
   output.times.push_back({stage, watch.cpu_ms()});
   output.digests.push_back({stage, digest});
   watch.restart();
+}
+
+std::unique_ptr<Method> make(const MethodInput& input, SGraphsPlusConfig config) {
+  config.odometry.vgicp.odometry_prior &= input.has_odometry;
+  auto method = std::make_unique<SGraphsPlus>(input, config);
+  if (input.has_odometry) return method;
+  return with_constant_velocity(std::move(method));
 }
 
 }  // namespace
@@ -93,26 +101,31 @@ bool SGraphsPlus::is_keyframe(const Pose& X_OR) const {
 // [S-Graphs+ Fig. 2]: walls, rooms, floors and loops of one keyframe, then the back end.
 void SGraphsPlus::add_keyframe(const DeskewedScan& scan, const Registration& odometry, Output& output) {
   Stopwatch watch;
-  const std::vector<PlaneObservation> seen = detect_planes(scan, config_.planes);
+  std::vector<PlaneObservation> seen = detect_planes(scan, config_.planes);
+  if (!config_.parts.walls) std::erase_if(seen, [](const PlaneObservation& o) { return !is_floor(o); });
   file(output, watch, "planes", digest_of(seen));
 
   add_keyframe_vertex(scan.stamp, odometry, seen);
   const int storey = graph_.keyframes.back().storey;
   file(output, watch, "association", digest_of(walls_.observe(graph_, seen, walked_m_)));
 
-  rooms_.look(graph_, scan);
   full_wanted_ |= walls_.find_duplicates(graph_, storey);
-  const std::vector<PlaneNode> walls = walls_.walls(graph_, storey);
-  rooms_.update(graph_, storey, walls);
-  floors_.update(graph_, storey, walls);
+  if (config_.parts.rooms) rooms_.look(graph_, scan);
+  update_rooms(storey, walls_.walls(graph_, storey));
   file(output, watch, "rooms", digest_of(rooms_.nodes(graph_)));
 
-  close_loop(scan);
+  if (config_.parts.loops) close_loop(scan);
   file(output, watch, "loop", Digest().add(static_cast<std::int64_t>(graph_.pose_factors.size())).value());
 
   optimize_graph();
   file(output, watch, "graph", slam::digest_of(graph_));
   clouds_.push_back({graph_.keyframes.back().X_MR, thin_scan(scan, config_.map)});
+}
+
+void SGraphsPlus::update_rooms(int storey, std::span<const PlaneNode> walls) {
+  if (!config_.parts.rooms) return;
+  rooms_.update(graph_, storey, walls);
+  if (config_.parts.floors) floors_.update(graph_, storey, walls);
 }
 
 void SGraphsPlus::add_keyframe_vertex(Nanoseconds stamp, const Registration& odometry,
@@ -160,14 +173,13 @@ Estimate SGraphsPlus::finish() {
   if (graph_.keyframes.empty()) return estimate;
   if (graph_.keyframes.size() > 1) optimize(graph_, 1, config_.optimizer);
   walls_.merge_duplicates(graph_);
-  rooms_.redraw(graph_);
+  if (config_.parts.rooms) rooms_.redraw(graph_);
   const int storeys = 1 + std::max_element(graph_.keyframes.begin(), graph_.keyframes.end(), [](auto& a, auto& b) {
                             return a.storey < b.storey;
                           })->storey;
   for (int storey = 0; storey < storeys; ++storey) {
     const std::vector<PlaneNode> walls = walls_.walls(graph_, storey);
-    rooms_.update(graph_, storey, walls);
-    floors_.update(graph_, storey, walls);
+    update_rooms(storey, walls);
     estimate.planes.insert(estimate.planes.end(), walls.begin(), walls.end());
   }
   estimate.trajectory = trajectory();
@@ -204,11 +216,11 @@ std::vector<Eigen::Vector3f> SGraphsPlus::point_map() {
 }
 
 std::unique_ptr<Method> make_s_graphs_plus_method(const MethodInput& input) {
-  auto config = config_of<SGraphsPlusConfig>(input);
-  config.odometry.vgicp.odometry_prior &= input.has_odometry;
-  auto method = std::make_unique<SGraphsPlus>(input, config);
-  if (input.has_odometry) return method;
-  return with_constant_velocity(std::move(method));
+  return make(input, config_of<SGraphsPlusConfig>(input));
+}
+
+std::unique_ptr<Method> make_hdl_slam_method(const MethodInput& input) {
+  return make(input, config_of<HdlSlamConfig>(input));
 }
 
 }  // namespace plumbline::slam

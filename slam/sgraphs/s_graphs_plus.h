@@ -17,7 +17,24 @@
 
 namespace plumbline::slam {
 
+/// Parts of the graph that a baseline or an ablation does without.
+struct GraphParts {
+  bool walls = true;   ///< without: of the planes only floors are kept
+  bool rooms = true;   ///< needs walls
+  bool floors = true;  ///< floor centres and the rooms tied to them; needs rooms
+  bool loops = true;   ///< hard loop closures
+
+  template <class V>
+  void visit(V& v) {
+    v("walls", walls, Field{.doc = "wall planes"});
+    v("rooms", rooms, Field{.doc = "rooms between walls"});
+    v("floors", floors, Field{.doc = "floor centres, rooms tied to them"});
+    v("loops", loops, Field{.doc = "loop closures by scan matching"});
+  }
+};
+
 struct SGraphsPlusConfig {
+  GraphParts parts;
   double keyframe_distance_m = 0.6;
   double keyframe_angle_rad = 0.35;
   int window = 15;                   ///< latest keyframes that every keyframe's optimisation may move
@@ -36,6 +53,7 @@ struct SGraphsPlusConfig {
 
   template <class V>
   void visit(V& v) {
+    v("parts", parts);
     v("keyframe_distance_m", keyframe_distance_m, Field{.doc = "way to the next keyframe", .min = 0.05});
     v("keyframe_angle_rad", keyframe_angle_rad, Field{.doc = "turn to the next keyframe", .min = 0.02});
     v("window", window, Field{.doc = "latest keyframes that move at each keyframe", .min = 2});
@@ -52,6 +70,11 @@ struct SGraphsPlusConfig {
     v("optimizer", optimizer);
     v("map", map);
   }
+};
+
+/// HDL graph SLAM [facts: slam 6]: keyframes, odometry, floor plane and loop closures; no walls, no rooms.
+struct HdlSlamConfig : SGraphsPlusConfig {
+  HdlSlamConfig() { parts = {.walls = false, .rooms = false, .floors = false, .loops = true}; }
 };
 
 /// S-Graphs+ [S-Graphs+ Fig. 2]: odometry, walls, free-space rooms, floors and loops in one four-layered graph.
@@ -76,6 +99,7 @@ class SGraphsPlus : public Method {
   [[nodiscard]] bool is_keyframe(const Pose& X_OR) const;
   void add_keyframe(const DeskewedScan& scan, const Registration& odometry, Output& output);
   void add_keyframe_vertex(Nanoseconds stamp, const Registration& odometry, std::span<const PlaneObservation> seen);
+  void update_rooms(int storey, std::span<const PlaneNode> walls);
   void close_loop(const DeskewedScan& scan);
   void optimize_graph();
   [[nodiscard]] Pose X_MO(std::size_t keyframe) const;
@@ -98,7 +122,8 @@ class SGraphsPlus : public Method {
   bool full_wanted_ = false;  ///< a loop or a duplicate came in
 };
 
-/// Without odometry it assumes constant velocity.
+/// Both assume constant velocity where there is no odometry.
 [[nodiscard]] std::unique_ptr<Method> make_s_graphs_plus_method(const MethodInput& input);
+[[nodiscard]] std::unique_ptr<Method> make_hdl_slam_method(const MethodInput& input);
 
 }  // namespace plumbline::slam

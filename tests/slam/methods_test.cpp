@@ -3,9 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <ostream>
+
 #include "bim/errors.h"
 
 namespace plumbline::slam {
+
+static void PrintTo(const MethodRow& row, std::ostream* out) { *out << row.name; }
+
 namespace {
 
 class MethodConfigTest : public testing::TestWithParam<MethodRow> {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slam/odometry/loam/scan_to_scan.h"
 
-#include <cstdlib>
-#include <limits>
+#include <algorithm>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "slam/odometry/loam/match.h"
@@ -16,28 +16,49 @@ namespace {
 /// Points of the former scan, ring by ring.
 class FormerPoints {
  public:
-  explicit FormerPoints(std::vector<FeaturePoint> points) : points_(std::move(points)) {}
+  explicit FormerPoints(std::vector<FeaturePoint> points) : points_(std::move(points)) {
+    for (std::size_t i = 0; i < points_.size(); ++i)
+      while (static_cast<int>(begins_.size()) <= points_[i].ring) begins_.push_back(i);
+  }
 
-  struct Found {
-    int index = -1;
-    double distance2 = std::numeric_limits<double>::infinity();
-  };
-
-  /// Nearest point that `wanted` lets through, within max_distance2.
-  template <class Wanted>
-  [[nodiscard]] Found nearest(const Eigen::Vector3d& p, double max_distance2, Wanted&& wanted) const {
-    Found found{-1, max_distance2};
-    for (std::size_t i = 0; i < points_.size(); ++i) {
+  /// Nearest point on the rings [first, last] but `without`, -1 when none is within max_distance2.
+  [[nodiscard]] int nearest(const Eigen::Vector3d& p, double max_distance2, int first, int last, int without) const {
+    double best = max_distance2;
+    int found = -1;
+    for (std::size_t i = begin_of(first); i < begin_of(last + 1); ++i) {
       const double distance2 = (points_[i].p_R - p).squaredNorm();
-      if (distance2 >= found.distance2 || !wanted(static_cast<int>(i))) continue;
-      found = {static_cast<int>(i), distance2};
+      if (distance2 >= best || static_cast<int>(i) == without) continue;
+      best = distance2;
+      found = static_cast<int>(i);
     }
     return found;
+  }
+  /// Nearest of all.
+  [[nodiscard]] int nearest(const Eigen::Vector3d& p, double max_distance2) const {
+    return nearest(p, max_distance2, 0, rings(), -1);
+  }
+  /// Nearest on the rings beside that of point a, up to `reach` away (ties: the lower ring).
+  [[nodiscard]] int nearest_beside(const Eigen::Vector3d& p, double max_distance2, int a, int reach) const {
+    const int ring = (*this)[a].ring;
+    const int below = nearest(p, max_distance2, ring - reach, ring - 1, -1);
+    const int above = nearest(p, max_distance2, ring + 1, ring + reach, -1);
+    if (below < 0 || above < 0) return std::max(below, above);
+    return ((*this)[above].p_R - p).squaredNorm() < ((*this)[below].p_R - p).squaredNorm() ? above : below;
+  }
+  [[nodiscard]] int nearest_on_ring(const Eigen::Vector3d& p, double max_distance2, int a) const {
+    return nearest(p, max_distance2, (*this)[a].ring, (*this)[a].ring, a);
   }
   [[nodiscard]] const FeaturePoint& operator[](int i) const { return points_[static_cast<std::size_t>(i)]; }
 
  private:
+  [[nodiscard]] int rings() const { return static_cast<int>(begins_.size()); }
+  [[nodiscard]] std::size_t begin_of(int ring) const {
+    if (ring <= 0) return 0;
+    return ring < rings() ? begins_[static_cast<std::size_t>(ring)] : points_.size();
+  }
+
   std::vector<FeaturePoint> points_;
+  std::vector<std::size_t> begins_;  ///< first point of each ring
 };
 
 /// One mean point a voxel and ring.
@@ -55,30 +76,21 @@ std::vector<FeaturePoint> thin_by_ring(const std::vector<FeaturePoint>& points, 
 
 std::optional<Match> match_line(const Eigen::Vector3d& p_R, const Eigen::Vector3d& p_L, const FormerPoints& former,
                                 const ScanToScanConfig& config) {
-  const auto a = former.nearest(p_L, config.max_distance2_m2, [](int) { return true; });
-  if (a.index < 0) return std::nullopt;
-  const int ring = former[a.index].ring;
-  const auto b = former.nearest(p_L, config.max_distance2_m2, [&](int i) {
-    const int gap = std::abs(former[i].ring - ring);
-    return gap > 0 && gap <= config.max_rings;
-  });
-  if (b.index < 0) return std::nullopt;
-  return line_match(p_R, former[a.index].p_R, former[b.index].p_R);
+  const int a = former.nearest(p_L, config.max_distance2_m2);
+  if (a < 0) return std::nullopt;
+  const int b = former.nearest_beside(p_L, config.max_distance2_m2, a, config.max_rings);
+  if (b < 0) return std::nullopt;
+  return line_match(p_R, former[a].p_R, former[b].p_R);
 }
 
 std::optional<Match> match_plane(const Eigen::Vector3d& p_R, const Eigen::Vector3d& p_L, const FormerPoints& former,
                                  const ScanToScanConfig& config) {
-  const auto a = former.nearest(p_L, config.max_distance2_m2, [](int) { return true; });
-  if (a.index < 0) return std::nullopt;
-  const int ring = former[a.index].ring;
-  const auto same =
-      former.nearest(p_L, config.max_distance2_m2, [&](int i) { return i != a.index && former[i].ring == ring; });
-  const auto other = former.nearest(p_L, config.max_distance2_m2, [&](int i) {
-    const int gap = std::abs(former[i].ring - ring);
-    return gap > 0 && gap <= config.max_rings;
-  });
-  if (same.index < 0 || other.index < 0) return std::nullopt;
-  return plane_match(p_R, former[a.index].p_R, former[same.index].p_R, former[other.index].p_R);
+  const int a = former.nearest(p_L, config.max_distance2_m2);
+  if (a < 0) return std::nullopt;
+  const int same = former.nearest_on_ring(p_L, config.max_distance2_m2, a);
+  const int beside = former.nearest_beside(p_L, config.max_distance2_m2, a, config.max_rings);
+  if (same < 0 || beside < 0) return std::nullopt;
+  return plane_match(p_R, former[a].p_R, former[same].p_R, former[beside].p_R);
 }
 
 }  // namespace

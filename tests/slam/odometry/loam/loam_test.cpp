@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <ostream>
 #include <string>
 
 #include "bim/random/stream.h"
@@ -12,6 +13,11 @@
 #include "tests/slam/synthetic.h"
 
 namespace plumbline::slam {
+
+static void PrintTo(OdometryKind kind, std::ostream* out) {
+  *out << EnumNames<OdometryKind>::names[static_cast<std::size_t>(kind)];
+}
+
 namespace {
 
 const Pose X_WR = Pose::from_xyz_yaw({2.0, 1.5, 0.5}, 0.3);
