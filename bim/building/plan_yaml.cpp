@@ -54,7 +54,8 @@ class PlanBuilder {
   void add_material(const PlanMaterialEntry& material) {
     building_.materials.push_back(material);
     if (material.transmission >= see_through_share)
-      building_.warnings.push_back({material.id, "see_through", "the LiDAR looks through it, save from straight ahead"});
+      building_.warnings.push_back(
+          {material.id, "see_through", "the LiDAR looks through it, save from straight ahead"});
   }
 
   Level level_of(int index) const {

@@ -15,7 +15,9 @@ namespace {
 
 class MethodConfigTest : public testing::TestWithParam<MethodRow> {
  protected:
-  [[nodiscard]] static Tree configure(const std::string& text) { return GetParam().configure(read_yaml(text, "c.yaml")); }
+  [[nodiscard]] static Tree configure(const std::string& text) {
+    return GetParam().configure(read_yaml(text, "c.yaml"));
+  }
 };
 
 TEST_P(MethodConfigTest, WhatIsPrintedWithDefaultsReadsBackAsTheDefaults) {
@@ -45,7 +47,6 @@ TEST_P(MethodConfigTest, WrongKeysAndValuesAreNamed) {
   EXPECT_EQ(complaint("map: {voxel_m: wide}").rfind("c.yaml:1:", 0), 0U);
   EXPECT_NE(complaint("[1, 2]"), "none");
 }
-
 
 INSTANTIATE_TEST_SUITE_P(Methods, MethodConfigTest, testing::ValuesIn(methods().begin(), methods().end()),
                          [](const auto& row) { return std::string(row.param.name); });
