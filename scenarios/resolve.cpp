@@ -122,6 +122,7 @@ sim::WorldConfig make_world(const Scenario& scenario, const RoutePlan& plan) {
   world.rpm = scenario.lidar.rpm;
   world.vertical_offsets = scenario.lidar.vertical_offsets;
   world.odometry = scenario.odometry.preset;
+  world.conditions = conditions(scenario.ground, scenario.pushes);
   world.storey = plan.storey;
   world.start_W = plan.start_W;
   world.start_yaw = plan.yaw_deg * std::numbers::pi / 180.0;

@@ -47,6 +47,11 @@ void check_route_and_start(const Scenario& scenario, const Tree& tree) {
     throw InputError(mark_at(tree, {"route"}), "route takes either rooms or shuttle, not both");
 }
 
+void check_pushes(const PushesSpec& pushes, const Tree& tree) {
+  if (pushes.min_n && *pushes.min_n > pushes.max_n)
+    throw InputError(mark_at(tree, {"pushes", "min_n"}), "min_n must not be greater than max_n");
+}
+
 }  // namespace
 
 ScenarioText read_scenario(std::string_view text, const std::string& file) {
@@ -57,6 +62,7 @@ ScenarioText read_scenario(std::string_view text, const std::string& file) {
   ScenarioText result{from_tree<Scenario>(tree), tree};
   check_gates(result.scenario, tree);
   check_route_and_start(result.scenario, tree);
+  check_pushes(result.scenario.pushes, tree);
   return result;
 }
 
@@ -85,6 +91,17 @@ sim::LidarConfig lidar_config(const LidarSpec& spec) {
   return config;
 }
 
+sim::Conditions conditions(const GroundSpec& ground, const PushesSpec& pushes) {
+  constexpr double least_share = 0.3;  // [facts: legged section 7.3]
+  sim::Conditions out;
+  out.friction = ground.friction;
+  out.uneven_m = 1e-3 * ground.uneven_mm;
+  out.pushes.max_n = pushes.max_n;
+  out.pushes.min_n = pushes.min_n.value_or(least_share * pushes.max_n);
+  out.pushes.every_s = pushes.every_s;
+  return out;
+}
+
 namespace {
 
 std::string text_of(const Tree& scalar) {
@@ -92,20 +109,25 @@ std::string text_of(const Tree& scalar) {
   return text != nullptr ? *text : write_json(scalar, 0);
 }
 
+/// Fields of one part of the scenario that are not as usual.
+void add_differences(const std::string& part, const Tree& usual, const Tree& written, std::vector<std::string>& names) {
+  for (const auto& [key, value] : written.as_map()) {
+    const Tree* other = usual.find(key);
+    const std::string text = text_of(value);
+    if (other == nullptr || text != text_of(*other)) names.push_back(part + "." + key + ": " + text);
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> off_defaults(const Scenario& scenario) {
   std::vector<std::string> names;
   const Scenario defaults;
-  const Tree usual = to_tree(defaults.lidar);
-  const Tree lidar = to_tree(scenario.lidar);
-  for (const auto& [key, value] : lidar.as_map()) {
-    const Tree* other = usual.find(key);
-    const std::string text = text_of(value);
-    if (other == nullptr || text != text_of(*other)) names.push_back("lidar." + key + ": " + text);
-  }
+  add_differences("lidar", to_tree(defaults.lidar), to_tree(scenario.lidar), names);
   if (scenario.odometry.preset != defaults.odometry.preset)
     names.push_back("odometry.preset: " + to_tree(scenario.odometry).find("preset")->as_string());
+  add_differences("ground", to_tree(defaults.ground), to_tree(scenario.ground), names);
+  if (scenario.pushes.max_n > 0.0) add_differences("pushes", to_tree(defaults.pushes), to_tree(scenario.pushes), names);
   const bim::BuildingOptions& options = scenario.building_options;
   if (options.doors != defaults.building_options.doors)
     names.push_back("doors: " + to_tree(options).find("doors")->as_string());

@@ -8,6 +8,7 @@
 #include "bim/building/building_options.h"
 #include "bim/config/visit.h"
 #include "sim/lidar/lidar.h"
+#include "sim/robot/conditions.h"
 #include "sim/robot/leg_odometry.h"
 
 namespace plumbline {
@@ -114,6 +115,33 @@ struct OdometrySpec {
   }
 };
 
+/// What the robot walks on. The LiDAR does not see it, the gait does not know it.
+struct GroundSpec {
+  double friction = sim::Conditions().friction;
+  double uneven_mm = 1e3 * sim::Conditions().uneven_m;
+  template <class V>
+  void visit(V& v) {
+    v("friction", friction,
+      Field{.doc = "sliding friction of the feet on the floor and of the robot on all else", .min = 0.05, .max = 1.5});
+    v("uneven_mm", uneven_mm,
+      Field{.doc = "tilted plates lie on the floor, at most so high, mm; 0: even", .min = 0.0, .max = 40.0});
+  }
+};
+
+/// Pushes of 0.15 s against the robot, horizontal, of any direction.
+struct PushesSpec {
+  std::optional<double> min_n;  ///< absent: 0.3 of max_n
+  double max_n = sim::PushConfig().max_n;
+  double every_s = sim::PushConfig().every_s;
+  template <class V>
+  void visit(V& v) {
+    v("min_n", min_n, Field{.doc = "least force, N; 0.3 of max_n when not given", .min = 0.0, .max = 1000.0});
+    v("max_n", max_n, Field{.doc = "largest force, N; 0: no pushes", .min = 0.0, .max = 1000.0});
+    v("every_s", every_s, Field{.doc = "one push in each span of so long, s", .min = 1.0, .max = 3600.0});
+  }
+};
+[[nodiscard]] sim::Conditions conditions(const GroundSpec& ground, const PushesSpec& pushes);
+
 /// Someone who walks to and fro; exactly one of rooms and points.
 struct PersonSpec {
   std::vector<std::string> rooms;
@@ -192,6 +220,8 @@ struct Scenario {
   double duration_s = 120.0;
   LidarSpec lidar;
   OdometrySpec odometry;
+  GroundSpec ground;
+  PushesSpec pushes;
   std::vector<PersonSpec> people;
   std::vector<MovingDoorSpec> moving_doors;
   PriorSpec prior;
@@ -210,6 +240,8 @@ struct Scenario {
     v("duration_s", duration_s, Field{.doc = "longest duration, s", .min = 1.0, .max = 36000.0});
     v("lidar", lidar, Field{.doc = "LiDAR"});
     v("odometry", odometry, Field{.doc = "leg odometry"});
+    v("ground", ground, Field{.doc = "what the robot walks on; unseen by the LiDAR, unknown to the gait"});
+    v("pushes", pushes, Field{.doc = "pushes of 0.15 s against the robot, horizontal, from any side"});
     v("people", people, Field{.doc = "people who walk about; the LiDAR sees them, no plan knows them"});
     v("moving_doors", moving_doors, Field{.doc = "doors that open and shut; the LiDAR sees their leaves"});
     v("prior", prior, Field{.doc = "what plan localization is told"});

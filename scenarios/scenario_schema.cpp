@@ -21,6 +21,8 @@ This page is what `plumbline scenarios --schema` prints: it is made from the rea
 - `people` and `moving_doors` are there for the LiDAR only: the robot does not feel them, no plan knows them, and
   what the LiDAR sees of them is not counted as surface of the building. A moving door stands open wherever the robot
   comes near.
+- `ground` and `pushes` make walking harder; off their defaults they are named in `results.json`. A fall ends the run with
+  exit code 4: the scenario failed, no method did.
 - Methods are listed by `plumbline methods`; none named means all. A gate has either `max` or `min`; its metrics are
   those of `results.json`.
 
@@ -42,6 +44,8 @@ speed_mps: 0.6
 duration_s: 120
 lidar: {model: vlp16, preset: real}
 odometry: {preset: noisy}
+ground: {friction: 0.6, uneven_mm: 10}
+pushes: {min_n: 40, max_n: 120, every_s: 6}
 people:
   - {rooms: [kitchen, hall], speed_mps: 0.8}
   - {points: [[2, 1], [4, 1]], radius_m: 0.3, height_m: 1.6}

@@ -91,7 +91,7 @@ struct World::Impl {
               &rooms),
         X_WL(static_cast<std::size_t>(slam::firings_per_message(lidar.model(), config.rpm))),
         robot(start_pose(config, floor), building_ground(as_built, walked_storeys(config, as_built)),
-              collision_boxes(as_built, walked_storeys(config, as_built))),
+              collision_boxes(as_built, walked_storeys(config, as_built)), config.conditions, config.seed),
         follower(follower_config(config), config.waypoints, config.seed),
         sensors(config.odometry, config.seed),
         legs(leg_odometry_config(config.odometry, config.seed)) {

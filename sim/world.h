@@ -8,6 +8,7 @@
 #include "bim/mesh/mesh.h"
 #include "sim/lidar/lidar.h"
 #include "sim/moving/moving_things.h"
+#include "sim/robot/conditions.h"
 #include "sim/robot/sensors.h"
 #include "sim/route/follower.h"
 #include "slam/io/estimate.h"
@@ -21,6 +22,7 @@ struct WorldConfig {
   double rpm = 600.0;
   bool vertical_offsets = true;  ///< of the lasers, in the driver's calibration
   OdometryPreset odometry = OdometryPreset::noisy;
+  Conditions conditions;  ///< friction, uneven floor, pushes
   int storey = 0;
   Eigen::Vector2d start_W = Eigen::Vector2d::Zero();
   double start_yaw = 0.0;           ///< rad

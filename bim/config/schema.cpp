@@ -8,8 +8,8 @@ namespace plumbline {
 
 namespace {
 
-constexpr std::array<std::pair<std::string_view, std::string_view>, 4> units = {
-    {{"_m", "m"}, {"_deg", "°"}, {"_mps", "m/s"}, {"_s", "s"}}};
+constexpr std::array<std::pair<std::string_view, std::string_view>, 6> units = {
+    {{"_mm", "mm"}, {"_m", "m"}, {"_deg", "°"}, {"_mps", "m/s"}, {"_s", "s"}, {"_n", "N"}}};
 
 std::string unit_of(std::string_view key) {
   for (const auto& [ending, unit] : units)

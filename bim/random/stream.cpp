@@ -16,11 +16,12 @@ namespace plumbline {
 
 namespace {
 
-constexpr std::array<std::string_view, 22> names = {
+constexpr std::array<std::string_view, 24> names = {
     "bim.generate",
     "scenario.prior",
     "scenario.start",
     "sim.gait.command",
+    "sim.ground.uneven",
     "sim.imu.accelerometer",
     "sim.imu.bias",
     "sim.imu.gyro",
@@ -33,6 +34,7 @@ constexpr std::array<std::string_view, 22> names = {
     "sim.odometry.encoder",
     "sim.odometry.scale",
     "sim.odometry.velocity",
+    "sim.robot.push",
     "slam.localize.init",
     "slam.localize.motion",
     "slam.localize.resample",

@@ -58,13 +58,20 @@ DataPtr make_data(const mjModel_& model) {
   return data;
 }
 
-std::vector<int> pool_geoms(const mjModel_& model, int box_pool) {
+namespace {
+
+std::vector<int> geoms_named(const std::string& name, const mjModel_& model, int count) {
   std::vector<int> geoms;
-  geoms.reserve(static_cast<std::size_t>(box_pool));
-  for (int i = 0; i < box_pool; ++i)
-    geoms.push_back(mj_name2id(&model, mjOBJ_GEOM, ("pool" + std::to_string(i)).c_str()));
+  geoms.reserve(static_cast<std::size_t>(count));
+  for (int i = 0; i < count; ++i) geoms.push_back(mj_name2id(&model, mjOBJ_GEOM, (name + std::to_string(i)).c_str()));
   return geoms;
 }
+
+}  // namespace
+
+std::vector<int> pool_geoms(const mjModel_& model, int box_pool) { return geoms_named("pool", model, box_pool); }
+
+std::vector<int> plate_geoms(const mjModel_& model, int plates) { return geoms_named("plate", model, plates); }
 
 void place_floor(mjModel_& model, double z_W) {
   const int geom = mj_name2id(&model, mjOBJ_GEOM, "floor");

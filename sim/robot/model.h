@@ -16,6 +16,7 @@ struct ModelConfig {
   double step_s = 0.002;          ///< s
   double friction = 0.8;          ///< sliding, of feet, floor and boxes
   int box_pool = 64;              ///< boxes near the robot that can exist at once
+  int plates = 0;                 ///< of an uneven floor that can exist at once
   int constraint_rows_max = 500;  ///< njmax; MuJoCo preallocates its square
   int contacts_max = 120;         ///< nconmax
 };
@@ -29,8 +30,8 @@ struct DataDeleter {
 using ModelPtr = std::unique_ptr<mjModel_, ModelDeleter>;
 using DataPtr = std::unique_ptr<mjData_, DataDeleter>;
 
-/// The quadruped, a floor plane and the box pool as MJCF text. Bodies: base, lidar_mount, then per leg hip, upper and
-/// lower; joints and actuators per leg hx, hy, kn; sensors in the order of SensorLayout.
+/// The quadruped, a floor plane, the box pool and the plates as MJCF text. Bodies: base, lidar_mount, then per leg hip,
+/// upper and lower; joints and actuators per leg hx, hy, kn; sensors in the order of SensorLayout.
 [[nodiscard]] std::string model_xml(const ModelConfig& config);
 
 /// Where each sensor starts in mjData::sensordata.
@@ -50,8 +51,9 @@ struct SensorLayout {
 [[nodiscard]] ModelPtr load_model(const std::string& xml);
 [[nodiscard]] DataPtr make_data(const mjModel_& model);
 
-/// Indices of the pool's geoms, ascending.
+/// Indices of the geoms of the pool and of the plates, ascending.
 [[nodiscard]] std::vector<int> pool_geoms(const mjModel_& model, int box_pool);
+[[nodiscard]] std::vector<int> plate_geoms(const mjModel_& model, int plates);
 
 /// Moves the floor plane to a height in W.
 void place_floor(mjModel_& model, double z_W);

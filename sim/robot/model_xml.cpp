@@ -26,11 +26,16 @@ void write_header(std::ostream& out, const ModelConfig& c) {
       << "<motor ctrllimited='true'/></default>";
 }
 
-/// The floor and the pool stand in the world body; an unused box waits far below the floor.
+/// Boxes of the world body; an unused one waits far below the floor.
+void write_boxes(std::ostream& out, const char* name, int count) {
+  for (int i = 0; i < count; ++i)
+    out << "<geom class='world' name='" << name << i << "' type='box' size='0.01 0.01 0.01' pos='0 0 -50'/>";
+}
+
 void write_world(std::ostream& out, const ModelConfig& c) {
   out << "<geom class='world' name='floor' type='plane' size='0 0 1' />";
-  for (int i = 0; i < c.box_pool; ++i)
-    out << "<geom class='world' name='pool" << i << "' type='box' size='0.01 0.01 0.01' pos='0 0 -50'/>";
+  write_boxes(out, "pool", c.box_pool);
+  write_boxes(out, "plate", c.plates);
 }
 
 void write_inertia(std::ostream& out, double mass, const Eigen::Vector3d& com, const Eigen::Vector3d& inertia) {

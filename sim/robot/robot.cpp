@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -14,6 +15,7 @@
 #include "sim/robot/failure.h"
 #include "sim/robot/model.h"
 #include "sim/robot/trot/trot.h"
+#include "sim/robot/uneven.h"
 
 namespace plumbline::sim {
 
@@ -31,7 +33,8 @@ struct RobotConfig {
 };
 
 constexpr std::ptrdiff_t base_body = 1;
-constexpr int joint_qpos = 7;  ///< after the free joint's position and quaternion
+constexpr std::ptrdiff_t wrench_size = 6;  ///< force, then torque
+constexpr int joint_qpos = 7;              ///< after the free joint's position and quaternion
 constexpr int joint_dof = 6;
 
 Eigen::Vector3d vector3(const double* v) { return {v[0], v[1], v[2]}; }
@@ -50,12 +53,17 @@ std::vector<CollisionBox> joined(std::vector<CollisionBox> boxes, const Ground& 
 }  // namespace
 
 struct Robot::Impl {
-  Impl(const Pose& X_WR_start, Ground ground_in, std::vector<CollisionBox> boxes)
+  Impl(const Pose& X_WR_start, Ground ground_in, std::vector<CollisionBox> boxes, const Conditions& conditions,
+       std::uint64_t seed)
       : ground(std::move(ground_in)),
         terrain([this](double x, double y, double z_max) { return ground.height(x, y, z_max); }),
+        model_cfg{.friction = conditions.friction, .plates = conditions.uneven_m > 0.0 ? UnevenConfig().plates() : 0},
         model(load_model(model_xml(model_cfg))),
         data(make_data(*model)),
-        pool(joined(std::move(boxes), ground), pool_geoms(*model, model_cfg.box_pool), config.pool_radius_m) {
+        pool(joined(std::move(boxes), ground), pool_geoms(*model, model_cfg.box_pool), config.pool_radius_m),
+        pushes(conditions.pushes, model_cfg.step_s, seed) {
+    if (conditions.uneven_m > 0.0)
+      uneven.emplace(conditions.uneven_m, X_WR_start.t.head<2>(), plate_geoms(*model, model_cfg.plates), seed);
     place(X_WR_start);
     trot = std::make_unique<Trot>(TrotConfig{}, state(), mj_getTotalmass(model.get()), model_cfg.step_s);
     steps = -config.settle_steps;
@@ -107,12 +115,20 @@ struct Robot::Impl {
 
   void step(const Command& command) {
     if (steps % config.pool_refresh_steps == 0) look_around(vector3(data->qpos));
+    lay_plates();
     const Torques torques = trot->update(state(), command, terrain);
     std::copy(torques.begin(), torques.end(), data->ctrl);
+    const Eigen::Vector2d push_W = pushes.force_W(steps);
+    std::copy_n(push_W.data(), 2, data->xfrc_applied + wrench_size * base_body);
     mj_step(model.get(), data.get());
     ++steps;
     check_physics();
     check_upright();
+  }
+
+  void lay_plates() {
+    const Eigen::Vector3d p_W = vector3(data->qpos);
+    if (uneven) uneven->refresh(*model, p_W.head<2>(), ground.plane_height(p_W));
   }
 
   /// MuJoCo goes on after a warning, from a reset state if a number was bad.
@@ -138,12 +154,15 @@ struct Robot::Impl {
   ModelPtr model;
   DataPtr data;
   BoxPool pool;
+  Pushes pushes;
+  std::optional<Uneven> uneven;
   std::unique_ptr<Trot> trot;
   std::int64_t steps = 0;
 };
 
-Robot::Robot(const Pose& X_WR_start, Ground ground, std::vector<CollisionBox> boxes)
-    : impl_(std::make_unique<Impl>(X_WR_start, std::move(ground), std::move(boxes))) {}
+Robot::Robot(const Pose& X_WR_start, Ground ground, std::vector<CollisionBox> boxes, const Conditions& conditions,
+             std::uint64_t seed)
+    : impl_(std::make_unique<Impl>(X_WR_start, std::move(ground), std::move(boxes), conditions, seed)) {}
 
 Robot::~Robot() = default;
 

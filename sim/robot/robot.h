@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bim/geometry/pose.h"
+#include "sim/robot/conditions.h"
 #include "sim/robot/ground.h"
 
 namespace plumbline::sim {
@@ -35,7 +36,9 @@ class Robot {
 
   /// Stands the robot at the position and heading of X_WR_start on the ground at or below it (the height of
   /// X_WR_start is only that bound) and lets it settle for 0.5 s; time starts after that. boxes: what is in its way.
-  Robot(const Pose& X_WR_start, Ground ground, std::vector<CollisionBox> boxes);
+  /// seed: of what is random in the conditions.
+  Robot(const Pose& X_WR_start, Ground ground, std::vector<CollisionBox> boxes, const Conditions& conditions = {},
+        std::uint64_t seed = 0);
   ~Robot();
   Robot(const Robot&) = delete;
   Robot& operator=(const Robot&) = delete;

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace plumbline::scenarios {
 namespace {
 
@@ -50,6 +52,35 @@ TEST(Scenario, ReadsEveryField) {
   ASSERT_EQ(scenario.gates.size(), 2U);
   EXPECT_EQ(*scenario.gates[1].min, 0.8);
   EXPECT_EQ(off_defaults(scenario), (std::vector<std::string>{"lidar.preset: ideal", "odometry.preset: uncorrected"}));
+}
+
+TEST(Scenario, GroundAndPushesBecomeConditions) {
+  const sim::Conditions usual = conditions({}, {});
+  EXPECT_EQ(usual.friction, 0.8);
+  EXPECT_EQ(usual.uneven_m, 0.0);
+  EXPECT_EQ(usual.pushes.max_n, 0.0);
+  const std::string text =
+      std::string(good) + "ground: {friction: 0.4, uneven_mm: 15}\npushes: {max_n: 100, every_s: 4}\n";
+  const Scenario scenario = read_scenario(text, "s.yaml").scenario;
+  const sim::Conditions hard = conditions(scenario.ground, scenario.pushes);
+  EXPECT_EQ(hard.friction, 0.4);
+  EXPECT_DOUBLE_EQ(hard.uneven_m, 0.015);
+  EXPECT_DOUBLE_EQ(hard.pushes.min_n, 30.0);
+  EXPECT_EQ(hard.pushes.max_n, 100.0);
+  EXPECT_EQ(hard.pushes.every_s, 4.0);
+  EXPECT_EQ(write_scenario(read_scenario(write_scenario(scenario), "s.yaml").scenario), write_scenario(scenario));
+  const std::vector<std::string> off = off_defaults(scenario);
+  for (const char* name : {"ground.friction: 0.4", "ground.uneven_mm: 15", "pushes.max_n: 100", "pushes.every_s: 4"})
+    EXPECT_NE(std::find(off.begin(), off.end(), name), off.end()) << name;
+}
+
+TEST(Scenario, PushesAndGroundOutOfRangeAreRefused) {
+  const std::string text(good);
+  EXPECT_NE(complaint(text + "pushes: {min_n: 90, max_n: 80}\n").find("min_n must not be greater"), std::string::npos);
+  EXPECT_NE(complaint(text + "pushes: {max_n: -1}\n"), "none");
+  EXPECT_NE(complaint(text + "pushes: {every_s: 0}\n"), "none");
+  EXPECT_NE(complaint(text + "ground: {friction: 0}\n"), "none");
+  EXPECT_NE(complaint(text + "ground: {uneven_mm: 400}\n"), "none");
 }
 
 TEST(Scenario, WritingAndReadingIsAFixedPoint) {

@@ -5,6 +5,7 @@
 
 #include <csignal>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "tests/system/program.h"
 
@@ -63,6 +64,23 @@ TEST_F(Trouble, AKillLeavesNothingThatLooksComplete) {
   // And it is no obstacle to the next run.
   EXPECT_EQ(plumbline({"run", input(), "--method", "truth", "--out", folder_ / "out"}).code, 0);
   EXPECT_TRUE(fs::exists(folder_ / "out/results.json"));
+}
+
+/// Who falls on ice and under blows does so whatever method is asked: exit 4, and the methods' verdicts stand.
+TEST_F(Trouble, AFallIsTheScenariosFailureNotAMethods) {
+  std::string scenario = read_file(input());
+  scenario.replace(scenario.find("short.plan.yaml"), 15, project_file("tests/system/short.plan.yaml"));
+  write_file(folder_ / "ice.yaml",
+             scenario + "ground: {friction: 0.05}\npushes: {min_n: 400, max_n: 500, every_s: 1}\n");
+  const Outcome outcome =
+      plumbline({"run", folder_ / "ice.yaml", "--method", "truth,odometry", "--out", folder_ / "out"});
+  EXPECT_EQ(outcome.code, 4) << outcome.out << outcome.err;
+  EXPECT_NE(outcome.err.find("the robot fell at "), std::string::npos) << outcome.err;
+  const auto results = nlohmann::json::parse(read_file(folder_ / "out/results.json"));
+  EXPECT_EQ(results["failure"].get<std::string>().rfind("the robot fell at ", 0), 0U) << results["failure"];
+  EXPECT_EQ(results["sensors"]["off_default"],
+            nlohmann::json({"ground.friction: 0.05", "pushes.min_n: 400", "pushes.max_n: 500", "pushes.every_s: 1"}));
+  for (const auto& [name, method] : results["methods"].items()) EXPECT_EQ(method["verdict"], "ok") << name;
 }
 
 TEST_F(Trouble, ReadOnlyFolderAndNoStdin) {
