@@ -74,9 +74,9 @@ TEST(Conditions, APushMovesARobotThatStands) {
   EXPECT_LT(robot.v_W().head<2>().norm(), 0.01);
   for (std::int64_t i = 0; i < push.length; ++i) robot.step({});
   const Eigen::Vector2d v = robot.v_W().head<2>();
-  // 100 N for 0.15 s on 33.6 kg is 0.45 m/s, of which the legs take a part; measured 0.25 to 0.35.
-  EXPECT_GT(v.dot(push.force_W.normalized()), 0.15);
-  EXPECT_LT(v.norm(), 0.5);
+  // 100 N for 0.15 s on 33.6 kg is 0.45 m/s, of which the legs take a part; 8 seeds gave 0.249 to 0.255.
+  EXPECT_GT(v.dot(push.force_W.normalized()), 0.2);
+  EXPECT_LT(v.norm(), 0.45);
 }
 
 /// Feet cannot drive a robot faster than friction allows, whatever the gait asks for.
@@ -90,8 +90,8 @@ TEST(Conditions, FrictionOfTheFloorBoundsTheAcceleration) {
   };
   const double slippery = speed_after_half_a_second(0.05);
   const double firm = speed_after_half_a_second(0.8);
-  EXPECT_LT(slippery, 0.05 * gravity * 0.5 + 0.1);  // the base swings by 0.1 m/s against the centre of mass
-  EXPECT_GT(firm, 0.45);  // measured 0.51
+  EXPECT_LT(slippery, 0.05 * gravity * 0.5);  // measured 0.18
+  EXPECT_GT(firm, 0.45);                      // measured 0.51
 }
 
 TEST(Conditions, OtherSeedsAreOtherPushes) {
@@ -148,7 +148,7 @@ TEST(Conditions, AnUnevenFloorShakesTheRobotButDoesNotFellIt) {
     }
     return std::sqrt(std::max(0.0, squares - sum * sum));
   };
-  EXPECT_GT(heights(uneven), 1.5 * heights(even));
+  EXPECT_GT(heights(uneven), 1.2 * heights(even));  // measured 1.5 times
   EXPECT_GT(walk(uneven, 2), 0.4);
 }
 
