@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/robot/leg_odometry.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "sim/robot/kinematics.h"
@@ -41,9 +40,10 @@ void LegOdometry::update(const SensorReading& reading, double dt) {
   update_attitude(reading, dt);
   update_contacts(reading, dt);
   update_velocity(reading);
-  const Eigen::Vector3d moved_O = X_OR_.q * v_R_ * dt;
-  X_OR_.t += moved_O;
-  update_height(reading, dt);
+  X_OR_.t += X_OR_.q * v_R_ * dt;
+  height_.update(reading, X_OR_.q, {sole_m(reading, 0), sole_m(reading, 1), sole_m(reading, 2), sole_m(reading, 3)},
+                 dt);
+  X_OR_.t.z() = height_.z();
 }
 
 /// Gyro, pulled towards gravity in roll and pitch; yaw must not follow the accelerometer. What the legs know of the
@@ -55,17 +55,12 @@ void LegOdometry::update_attitude(const SensorReading& reading, double dt) {
   const Eigen::Vector3d gravity_R = reading.accelerometer_R - own_R;
   const Eigen::Vector3d tilt_R = gravity_R.cross(up_R) / config_.gravity;
   const Eigen::Vector3d correction_R = (tilt_R - tilt_R.dot(up_R) * up_R) / config_.tilt_time_constant_s;
-  X_OR_.q = (X_OR_.q * exp_so3((reading.gyro_R + correction_R) * dt)).normalized();
+  gyro_bias_R_ -= correction_R * dt / config_.bias_time_constant_s;
+  X_OR_.q = (X_OR_.q * exp_so3((reading.gyro_R - gyro_bias_R_ + correction_R) * dt)).normalized();
 }
 
 void LegOdometry::update_contacts(const SensorReading& reading, double dt) {
-  for (std::size_t leg = 0; leg < feet_.size(); ++leg) {
-    Foot& foot = feet_[leg];
-    const bool stood = foot.stands;
-    foot.contact_s = reading.contact[leg] ? foot.contact_s + dt : 0.0;
-    foot.stands = foot.contact_s >= config_.contact_min_s;
-    foot.landed = foot.stands && !stood;
-  }
+  for (std::size_t leg = 0; leg < leg_count; ++leg) contact_s_[leg] = reading.contact[leg] ? contact_s_[leg] + dt : 0.0;
 }
 
 /// Mean over the standing feet; a foot's centre moves as its sphere rolls on the ground. Kept while none stands.
@@ -73,8 +68,8 @@ void LegOdometry::update_velocity(const SensorReading& reading) {
   const Eigen::Vector3d up_R = X_OR_.q.conjugate() * Eigen::Vector3d::UnitZ();
   Eigen::Vector3d sum_R = Eigen::Vector3d::Zero();
   int count = 0;
-  for (std::size_t leg = 0; leg < feet_.size(); ++leg) {
-    if (!feet_[leg].stands) continue;
+  for (std::size_t leg = 0; leg < leg_count; ++leg) {
+    if (!stands(leg)) continue;
     const Eigen::Vector3d foot_rate_R =
         config_.leg_scale * (foot_jacobian_R(leg, leg_values(reading.q, leg)) * leg_values(reading.qd, leg));
     Eigen::Vector3d v_R = -(reading.gyro_R.cross(calibrated_foot_R(reading, leg, config_.leg_scale)) + foot_rate_R);
@@ -86,33 +81,9 @@ void LegOdometry::update_velocity(const SensorReading& reading) {
   if (count > 0) v_R_ = sum_R / count;
 }
 
-double LegOdometry::sole_below_base(const SensorReading& reading, std::size_t leg) const {
+/// Lowest point of the foot against the base, along z of O.
+double LegOdometry::sole_m(const SensorReading& reading, std::size_t leg) const {
   return (X_OR_.q * calibrated_foot_R(reading, leg, config_.leg_scale)).z() - robot_dimensions.foot_radius;
-}
-
-/// Height of the known floor nearest to height_O (ties: the lowest leg), or height_O itself for a new floor.
-double LegOdometry::nearest_level(double height_O) const {
-  double best = feet_[0].level_O;
-  for (const Foot& foot : feet_)
-    if (std::abs(foot.level_O - height_O) < std::abs(best - height_O)) best = foot.level_O;
-  return std::abs(best - height_O) < config_.level_step_m ? best : height_O;
-}
-
-void LegOdometry::update_height(const SensorReading& reading, double dt) {
-  double sum = 0.0;
-  int count = 0;
-  for (std::size_t leg = 0; leg < feet_.size(); ++leg) {
-    if (!feet_[leg].stands) continue;
-    const double sole = sole_below_base(reading, leg);
-    if (!started_) {
-      for (Foot& foot : feet_) foot.level_O = X_OR_.t.z() + sole;
-      started_ = true;
-    }
-    if (feet_[leg].landed) feet_[leg].level_O = nearest_level(X_OR_.t.z() + sole);
-    sum += feet_[leg].level_O - sole;
-    ++count;
-  }
-  if (count > 0) X_OR_.t.z() += (sum / count - X_OR_.t.z()) * std::min(1.0, dt / config_.height_time_constant_s);
 }
 
 }  // namespace plumbline::sim
