@@ -2,6 +2,7 @@
 #include "sim/robot/leg_odometry.h"
 
 #include <cmath>
+#include <utility>
 
 #include "sim/robot/kinematics.h"
 
@@ -32,6 +33,7 @@ Eigen::Vector3d shank_rate_R(const SensorReading& reading, std::size_t leg) {
 LegOdometryConfig leg_odometry_config(OdometryPreset preset, std::uint64_t seed) {
   LegOdometryConfig config;
   config.leg_scale = 1.0 + noise_of(preset).leg_scale * Stream(seed, "sim.odometry.scale").gauss(0);
+  config.covariance.noise = noise_of(preset);
   config.rolling = preset != OdometryPreset::uncorrected;
   return config;
 }
@@ -44,7 +46,11 @@ void LegOdometry::update(const SensorReading& reading, double dt) {
   height_.update(reading, X_OR_.q, {sole_m(reading, 0), sole_m(reading, 1), sole_m(reading, 2), sole_m(reading, 3)},
                  dt);
   X_OR_.t.z() = height_.z();
+  covariance_ +=
+      leg_increment_covariance(config_.covariance, reading, {stands(0), stands(1), stands(2), stands(3)}, v_R_, dt);
 }
+
+Matrix6d LegOdometry::take_covariance() { return std::exchange(covariance_, Matrix6d::Zero()); }
 
 /// Gyro, pulled towards gravity in roll and pitch; yaw must not follow the accelerometer. What the legs know of the
 /// robot's own acceleration is taken out first: starts and curves would look like a lean of degrees. The difference

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "bim/geometry/pose.h"
+#include "sim/robot/leg_covariance.h"
 #include "sim/robot/leg_height.h"
 #include "sim/robot/sensors.h"
 
@@ -19,6 +20,7 @@ struct LegOdometryConfig {
   double leg_scale = 1.0;              ///< calibrated over true length of the legs
   bool rolling = true;                 ///< feet are spheres that roll: without this odometry is 6.5 % short
   LegHeightConfig height;
+  LegCovarianceConfig covariance;
 };
 
 /// The preset's odometry; the seed draws the calibration error of the legs.
@@ -33,6 +35,9 @@ class LegOdometry {
   /// Advances by one reading, taken dt seconds after the one before.
   void update(const SensorReading& reading, double dt);
   [[nodiscard]] const Pose& X_OR() const { return X_OR_; }
+  /// Covariance of the motion since the last call: right increment (rho, phi) in R, m and rad. The readings' own are
+  /// summed, as if R did not turn in between: right to a share of the angle turned.
+  [[nodiscard]] Matrix6d take_covariance();
 
  private:
   void update_attitude(const SensorReading& reading, double dt);
@@ -48,6 +53,7 @@ class LegOdometry {
   Eigen::Vector3d gyro_bias_R_ = Eigen::Vector3d::Zero();  ///< learnt, rad/s
   std::array<double, 4> contact_s_{};                      ///< without a break so far
   LegHeight height_;
+  Matrix6d covariance_ = Matrix6d::Zero();
 };
 
 }  // namespace plumbline::sim

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -125,7 +126,7 @@ TEST(LegOdometry, WithoutNoiseItHardlyDrifts) {
   const Drift d = drift(odometry(walk(), OdometryPreset::ideal, 1));
   EXPECT_LT(d.xy_share, 0.002);                 // measured 0.0005 to 0.0011
   EXPECT_LT(std::abs(d.yaw_deg_per_min), 0.1);  // measured 0.00
-  EXPECT_LT(d.z_per_10m, 0.02);                 // measured below
+  EXPECT_LT(d.z_per_10m, 0.02);                 // measured: 16 mm over all 35 m
 }
 
 TEST(LegOdometry, WithNoiseItDriftsAsRealLeggedRobotsDo) {
@@ -165,6 +166,51 @@ TEST(LegOdometry, ClimbsWhatTheRobotClimbs) {
     EXPECT_NEAR(said, 0.93 * rise, 0.10) << seed;
     EXPECT_GT(rise, 0.3);
   }
+}
+
+/// Adjoint of X: carries right increments of what comes before X to after its inverse.
+Matrix6d adjoint(const Pose& X) {
+  Matrix6d out = Matrix6d::Zero();
+  out.topLeftCorner<3, 3>() = out.bottomRightCorner<3, 3>() = X.rotation();
+  out.topRightCorner<3, 3>() = hat(X.t) * X.rotation();
+  return out;
+}
+
+/// Mean normalised squared error of the increments over 1 s, covariances of 10 ms compounded as if independent.
+double mean_nees(std::uint64_t seed) {
+  ProprioceptiveSensors sensors(OdometryPreset::noisy, seed);
+  LegOdometry legs(leg_odometry_config(OdometryPreset::noisy, seed));
+  const Walk& w = walk();
+  Pose X_OR_record, X_OR_begin;
+  Matrix6d covariance = Matrix6d::Zero();
+  double sum = 0.0;
+  int count = 0;
+  for (std::size_t i = 0; i < w.felt.size(); ++i) {
+    legs.update(sensors.read(w.felt[i], static_cast<std::int64_t>(i)), step_s);
+    if (i % 5 != 0) continue;
+    const Matrix6d carried = adjoint(legs.X_OR().inverse() * X_OR_record);
+    covariance = carried * covariance * carried.transpose() + legs.take_covariance();
+    X_OR_record = legs.X_OR();
+    if (i % 500 != 0) continue;
+    if (i > 0) {
+      const Pose true_R = w.X_WR[i - 500].inverse() * w.X_WR[i];
+      const Vector6d error = log_se3(true_R.inverse() * (X_OR_begin.inverse() * X_OR_record));
+      sum += error.dot(covariance.ldlt().solve(error));
+      ++count;
+    }
+    X_OR_begin = X_OR_record;
+    covariance.setZero();
+  }
+  return sum / count;
+}
+
+/// Errors that last a run count once a draw, so the mean over 20 draws knows at least what 20 x 6 squares know: 99.9 %
+/// of chi^2 with 120 degrees of freedom, over 20, lies in 3.8 to 8.9.
+TEST(LegOdometry, CovarianceIsConsistentOverASecond) {
+  double sum = 0.0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) sum += mean_nees(seed);
+  EXPECT_GT(sum / 20.0, 3.8);
+  EXPECT_LT(sum / 20.0, 8.9);
 }
 
 TEST(LegOdometry, ForgettingThatFeetRollMakesItShort) {
