@@ -54,6 +54,16 @@ MethodTable methods() {
            .summary = "keyframe pose graph with floor plane and loop closures, in the style of HDL graph SLAM",
            .make = make_hdl_slam_method,
            .standard = false}),
+      with_config<SGraphsConfig>(
+          {.name = "s_graphs",
+           .summary = "S-Graphs of 2022: walls, rooms from the planes of one keyframe, loops, as printed",
+           .make = make_s_graphs_method,
+           .standard = false}),
+      with_config<SGraphsPlusPaperConfig>(
+          {.name = "s_graphs_plus_paper",
+           .summary = "S-Graphs+ as printed: RANSAC planes, rooms cut at a fixed distance, the papers' weights",
+           .make = make_s_graphs_plus_paper_method,
+           .standard = false}),
       with_config<SGraphsPlusConfig>({.name = "s_graphs_plus",
                                       .summary = "S-Graphs+: walls, rooms, floors and loops in one four-layered graph",
                                       .make = make_s_graphs_plus_method}),

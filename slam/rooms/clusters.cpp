@@ -134,6 +134,53 @@ void find_boundary(const GridFrame& frame, const std::vector<int>& owner, int id
   }
 }
 
+/// Clusters from the owner of every cell; those that are too small or too narrow are left out. top[id]: clearance.
+std::vector<Cluster> collect(const FreeGrid& grid, const std::vector<int>& owner, const std::vector<double>& top,
+                             const ClusterConfig& config) {
+  std::vector<Cluster> all(top.size());
+  for (std::size_t cell = 0; cell < owner.size(); ++cell)
+    if (owner[cell] != none) all[static_cast<std::size_t>(owner[cell])].cells.push_back(cell);
+  std::vector<Cluster> kept;
+  for (std::size_t id = 0; id < all.size(); ++id) {
+    Cluster& c = all[id];
+    c.clearance_m = top[id];
+    c.area_m2 = static_cast<double>(c.cells.size()) * grid.frame.cell * grid.frame.cell;
+    if (c.clearance_m < config.min_clearance_m || c.area_m2 < config.min_area_m2) continue;
+    for (const std::size_t cell : c.cells) c.center_M += grid.frame.center(cell);
+    c.center_M /= static_cast<double>(c.cells.size());
+    find_boundary(grid.frame, owner, static_cast<int>(id), c);
+    kept.push_back(std::move(c));
+  }
+  return kept;
+}
+
+std::vector<Cluster> cut_at_necks(const FreeGrid& grid, const std::vector<float>& height, const ClusterConfig& config) {
+  Basins basins(grid.frame, height, config.neck_ratio);
+  basins.flood();
+  std::vector<int> owner(grid.frame.size(), none);
+  for (std::size_t cell = 0; cell < owner.size(); ++cell) owner[cell] = basins.root_of(cell);
+  std::vector<double> top;
+  for (std::size_t id = 0; id < basins.count(); ++id)
+    top.push_back(static_cast<double>(basins.top(static_cast<int>(id))));
+  return collect(grid, owner, top, config);
+}
+
+std::vector<Cluster> cut_at_threshold(const FreeGrid& grid, const std::vector<float>& height,
+                                      const ClusterConfig& config) {
+  const FreeGraph graph = free_graph(grid, height, config.spacing_m);
+  const std::vector<int> cluster = cluster_vertices(graph, config.threshold_m, config.removal);
+  std::vector<double> top(graph.vertices.size(), 0.0);
+  for (std::size_t v = 0; v < cluster.size(); ++v)
+    if (cluster[v] != none) {
+      double& highest = top[static_cast<std::size_t>(cluster[v])];
+      highest = std::max(highest, graph.vertices[v].distance_m);
+    }
+  std::vector<int> owner(grid.frame.size(), none);
+  for (std::size_t cell = 0; cell < owner.size(); ++cell)
+    if (graph.owner[cell] != none) owner[cell] = cluster[static_cast<std::size_t>(graph.owner[cell])];
+  return collect(grid, owner, top, config);
+}
+
 }  // namespace
 
 std::vector<float> clearance(const FreeGrid& grid) {
@@ -159,26 +206,7 @@ std::vector<float> clearance(const FreeGrid& grid) {
 std::vector<Cluster> clusters(const FreeGrid& grid, const ClusterConfig& config) {
   if (grid.frame.size() == 0) return {};
   const std::vector<float> height = clearance(grid);
-  Basins basins(grid.frame, height, config.neck_ratio);
-  basins.flood();
-  std::vector<Cluster> all(basins.count());
-  std::vector<int> owner(grid.frame.size(), none);
-  for (std::size_t cell = 0; cell < owner.size(); ++cell) {
-    owner[cell] = basins.root_of(cell);
-    if (owner[cell] != none) all[static_cast<std::size_t>(owner[cell])].cells.push_back(cell);
-  }
-  std::vector<Cluster> kept;
-  for (std::size_t id = 0; id < all.size(); ++id) {
-    Cluster& c = all[id];
-    c.clearance_m = static_cast<double>(basins.top(static_cast<int>(id)));
-    c.area_m2 = static_cast<double>(c.cells.size()) * grid.frame.cell * grid.frame.cell;
-    if (c.clearance_m < config.min_clearance_m || c.area_m2 < config.min_area_m2) continue;
-    for (const std::size_t cell : c.cells) c.center_M += grid.frame.center(cell);
-    c.center_M /= static_cast<double>(c.cells.size());
-    find_boundary(grid.frame, owner, static_cast<int>(id), c);
-    kept.push_back(std::move(c));
-  }
-  return kept;
+  return config.cut == Cut::necks ? cut_at_necks(grid, height, config) : cut_at_threshold(grid, height, config);
 }
 
 }  // namespace plumbline::slam

@@ -214,8 +214,9 @@ std::vector<RoomCandidate> detect_rooms(const FreeGrid& grid, std::span<const Cl
     }
     std::optional<RoomCandidate> room = room_of(scene);
     if (!room) continue;
-    const bool visited = std::any_of(visited_M.begin(), visited_M.end(),
-                                     [&](const Vector2d& p) { return contains(room->polygon_M, p); });
+    const bool visited =
+        !config.entered_only || std::any_of(visited_M.begin(), visited_M.end(),
+                                            [&](const Vector2d& p) { return contains(room->polygon_M, p); });
     if (visited) rooms.push_back(std::move(*room));
   }
   drop_overlapping(rooms, config.max_overlap);

@@ -20,6 +20,7 @@ struct RoomConfig {
   double min_side_share = 0.25;     ///< of a four-wall room's side that must be seen as wall
   double min_two_wall_m = 1.5;      ///< border on each wall of a two-wall room
   double max_overlap = 0.3;         ///< of the smaller of two rooms; else the worse one is dropped
+  bool entered_only = true;         ///< rooms that were merely looked into are not claimed
 
   template <class V>
   void visit(V& v) {
@@ -34,6 +35,7 @@ struct RoomConfig {
     v("min_side_share", min_side_share, Field{.doc = "share of a side seen as wall", .min = 0, .max = 1});
     v("min_two_wall_m", min_two_wall_m, Field{.doc = "border on each wall of a two-wall room", .min = 0});
     v("max_overlap", max_overlap, Field{.doc = "of two rooms", .min = 0, .max = 1});
+    v("entered_only", entered_only, Field{.doc = "rooms that were merely looked into are not claimed"});
   }
 };
 
@@ -49,7 +51,7 @@ struct RoomCandidate {
 
 /// Rooms that have been entered [S-Graphs+ section IV-C]: per cluster the opposed pair of wall faces that carries most
 /// of its border (ties: lower ids) with the cluster between them, and the best perpendicular pair if there is one.
-/// visited_M: positions of the robot; a room that holds none of them is not claimed. In the clusters' order.
+/// visited_M: positions of the robot, for entered_only. In the clusters' order.
 [[nodiscard]] std::vector<RoomCandidate> detect_rooms(const FreeGrid& grid, std::span<const Cluster> clusters,
                                                       std::span<const PlaneNode> walls_M,
                                                       std::span<const Eigen::Vector2d> visited_M,

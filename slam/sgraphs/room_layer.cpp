@@ -3,9 +3,12 @@
 
 #include <algorithm>
 
+#include "slam/rooms/keyframe_rooms.h"
+
 namespace plumbline::slam {
 
 void RoomLayer::look(const Graph& graph, const DeskewedScan& scan) {
+  if (config_.source != RoomSource::free_space) return;
   const KeyframeVertex& keyframe = graph.keyframes.back();
   const Eigen::Vector3d up_R = keyframe.X_MR.q.conjugate() * Eigen::Vector3d::UnitZ();
   looks_.push_back({free_rays(scan, up_R, config_.free_space), keyframe.X_MR, keyframe.storey});
@@ -13,6 +16,7 @@ void RoomLayer::look(const Graph& graph, const DeskewedScan& scan) {
 }
 
 void RoomLayer::update(Graph& graph, int storey, std::span<const PlaneNode> walls) {
+  if (config_.source != RoomSource::free_space) return;
   redraw_if_moved(graph);
   const FreeGrid grid = map_of(storey).grid();
   std::vector<Eigen::Vector2d> visited_M;
@@ -23,13 +27,46 @@ void RoomLayer::update(Graph& graph, int storey, std::span<const PlaneNode> wall
   const std::vector<int> ids = tie(graph, storey, found);
   std::erase_if(graph.room_factors,
                 [&](const RoomFactor& f) { return graph.rooms[static_cast<std::size_t>(f.room)].storey == storey; });
-  const double weight = 1.0 / (config_.sigma_m * config_.sigma_m);
-  for (std::size_t k = 0; k < found.size(); ++k)
-    graph.room_factors.push_back({.room = ids[k],
-                                  .planes = found[k].planes,
-                                  .cluster_M = found[k].cluster_M,
-                                  .height_M = graph.keyframes.back().X_MR.t.z(),
-                                  .information = weight * Eigen::Matrix2d::Identity()});
+  for (std::size_t k = 0; k < found.size(); ++k) graph.room_factors.push_back(factor_of(graph, ids[k], found[k]));
+}
+
+RoomFactor RoomLayer::factor_of(const Graph& graph, int id, const RoomCandidate& room) const {
+  const double sigma_m = room.kind == RoomKind::four_wall ? config_.sigma_m : config_.two_wall_sigma_m;
+  return {.room = id,
+          .planes = room.planes,
+          .cluster_M = room.cluster_M,
+          .height_M = graph.keyframes.back().X_MR.t.z(),
+          .information = Eigen::Matrix2d::Identity() / (sigma_m * sigma_m)};
+}
+
+// A room is known again by its kind and centre [S-Graphs+ section IV-C]; the walls of the latest look replace the
+// former ones. A two-wall room inside a four-wall one gives way to it [facts: slam 3.3].
+void RoomLayer::add_from_keyframe(Graph& graph, std::span<const PlaneNode> seen_M) {
+  const KeyframeVertex& keyframe = graph.keyframes.back();
+  for (const RoomCandidate& room : keyframe_rooms(seen_M, keyframe.X_MR.t.head<2>(), config_.rooms)) {
+    int id = -1;
+    double nearest = config_.same_center_m;
+    for (std::size_t k = 0; k < candidates_.size(); ++k) {
+      if (!graph.rooms[k].found || graph.rooms[k].storey != keyframe.storey) continue;
+      const double distance = (graph.rooms[k].center_M - room.center_M).norm();
+      if (distance >= nearest) continue;
+      nearest = distance;
+      id = static_cast<int>(k);
+    }
+    const bool known = id >= 0;
+    if (known && candidates_[static_cast<std::size_t>(id)].kind == RoomKind::four_wall &&
+        room.kind == RoomKind::two_wall)
+      continue;
+    if (!known) {
+      id = static_cast<int>(graph.rooms.size());
+      graph.rooms.push_back({.storey = keyframe.storey});
+      candidates_.emplace_back();
+    }
+    graph.rooms[static_cast<std::size_t>(id)] = {room.kind, room.center_M, keyframe.storey, true};
+    candidates_[static_cast<std::size_t>(id)] = room;
+    std::erase_if(graph.room_factors, [&](const RoomFactor& f) { return f.room == id; });
+    graph.room_factors.push_back(factor_of(graph, id, room));
+  }
 }
 
 void RoomLayer::redraw(const Graph& graph) {

@@ -1,29 +1,41 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <map>
+#include <span>
+#include <string_view>
 
 #include "slam/graph/graph.h"
 #include "slam/rooms/detect.h"
 
 namespace plumbline::slam {
 
+/// What rooms are made of: free space and the whole map's walls, or the planes of one keyframe alone.
+enum class RoomSource { free_space, keyframe };
+
 struct RoomLayerConfig {
+  RoomSource source = RoomSource::free_space;
   FreeSpaceConfig free_space;
   ClusterConfig clusters;
   RoomConfig rooms;
-  double redraw_m = 0.1;      ///< a keyframe that the graph moved this far has its free space drawn again
-  double same_overlap = 0.3;  ///< of a known room and a candidate that are one
-  double sigma_m = 0.05;      ///< of a room's centre between its walls
+  double redraw_m = 0.1;       ///< a keyframe that the graph moved this far has its free space drawn again
+  double same_overlap = 0.3;   ///< of a known room and a candidate that are one
+  double same_center_m = 1.0;  ///< between the centres of one room seen from two keyframes [facts: slam 2.3]
+  double sigma_m = 0.05;       ///< of a room's centre between its walls
+  double two_wall_sigma_m = 0.05;
 
   template <class V>
   void visit(V& v) {
+    v("source", source, Field{.doc = "free_space, or keyframe: the planes of one keyframe alone"});
     v("free_space", free_space);
     v("clusters", clusters);
     v("rooms", rooms);
     v("redraw_m", redraw_m, Field{.doc = "correction of a keyframe that redraws free space", .min = 0});
     v("same_overlap", same_overlap, Field{.doc = "of a known room and a candidate that are one", .min = 0, .max = 1});
+    v("same_center_m", same_center_m, Field{.doc = "of one room seen from two keyframes", .min = 0});
     v("sigma_m", sigma_m, Field{.doc = "of a room's centre between its walls", .min = 1e-4});
+    v("two_wall_sigma_m", two_wall_sigma_m, Field{.doc = "of a two-wall room's centre", .min = 1e-4});
   }
 };
 
@@ -38,6 +50,8 @@ class RoomLayer {
   void look(const Graph& graph, const DeskewedScan& scan);
   /// Rooms of a storey from its walls: vertices, and factors in place of the former ones.
   void update(Graph& graph, int storey, std::span<const PlaneNode> walls);
+  /// The room that the newest keyframe's own planes close round it, for RoomSource::keyframe; known rooms stay.
+  void add_from_keyframe(Graph& graph, std::span<const PlaneNode> seen_M);
   /// Draws all free space again from the keyframes' present poses.
   void redraw(const Graph& graph);
 
@@ -52,6 +66,7 @@ class RoomLayer {
   };
 
   void redraw_if_moved(const Graph& graph);
+  [[nodiscard]] RoomFactor factor_of(const Graph& graph, int id, const RoomCandidate& room) const;
   [[nodiscard]] std::vector<int> tie(Graph& graph, int storey, const std::vector<RoomCandidate>& candidates);
   FreeSpaceMap& map_of(int storey);
 
@@ -62,3 +77,12 @@ class RoomLayer {
 };
 
 }  // namespace plumbline::slam
+
+namespace plumbline {
+
+template <>
+struct EnumNames<slam::RoomSource> {
+  static constexpr std::array<std::string_view, 2> names = {"free_space", "keyframe"};
+};
+
+}  // namespace plumbline

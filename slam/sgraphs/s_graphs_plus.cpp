@@ -65,6 +65,7 @@ std::unique_ptr<Method> make(const MethodInput& input, SGraphsPlusConfig config)
 
 SGraphsPlus::SGraphsPlus(const MethodInput& input, const SGraphsPlusConfig& config)
     : config_(config),
+      seed_(input.seed),
       calibration_(input.calibration),
       odometry_(make_lidar_odometry(config.odometry)),
       walls_(config.walls),
@@ -101,16 +102,21 @@ bool SGraphsPlus::is_keyframe(const Pose& X_OR) const {
 // [S-Graphs+ Fig. 2]: walls, rooms, floors and loops of one keyframe, then the back end.
 void SGraphsPlus::add_keyframe(const DeskewedScan& scan, const Registration& odometry, Output& output) {
   Stopwatch watch;
-  std::vector<PlaneObservation> seen = detect_planes(scan, config_.planes);
-  if (!config_.parts.walls) std::erase_if(seen, [](const PlaneObservation& o) { return !is_floor(o); });
+  const std::vector<PlaneObservation> seen = planes_of(scan);
   file(output, watch, "planes", digest_of(seen));
 
   add_keyframe_vertex(scan.stamp, odometry, seen);
+  if (config_.pose_weights == PoseWeights::fitness) {
+    fitness_clouds_.push_back(fitness_cloud(scan, config_.fitness));
+    if (graph_.keyframes.size() > 1) weigh_by_fitness(graph_.pose_factors.back());
+  }
   const int storey = graph_.keyframes.back().storey;
   file(output, watch, "association", digest_of(walls_.observe(graph_, seen, walked_m_)));
 
   full_wanted_ |= walls_.find_duplicates(graph_, storey);
   if (config_.parts.rooms) rooms_.look(graph_, scan);
+  if (config_.parts.rooms && config_.rooms.source == RoomSource::keyframe)
+    rooms_.add_from_keyframe(graph_, walls_.seen_now(graph_));
   update_rooms(storey, walls_.walls(graph_, storey));
   file(output, watch, "rooms", digest_of(rooms_.nodes(graph_)));
 
@@ -120,6 +126,21 @@ void SGraphsPlus::add_keyframe(const DeskewedScan& scan, const Registration& odo
   optimize_graph();
   file(output, watch, "graph", slam::digest_of(graph_));
   clouds_.push_back({graph_.keyframes.back().X_MR, thin_scan(scan, config_.map)});
+}
+
+std::vector<PlaneObservation> SGraphsPlus::planes_of(const DeskewedScan& scan) const {
+  std::vector<PlaneObservation> seen = config_.plane_source == PlaneSource::rings
+                                           ? detect_planes(scan, config_.planes)
+                                           : ransac_planes(scan, config_.ransac, config_.planes, seed_);
+  if (!config_.parts.walls) std::erase_if(seen, [](const PlaneObservation& o) { return !is_floor(o); });
+  return seen;
+}
+
+void SGraphsPlus::weigh_by_fitness(PoseFactor& factor) const {
+  const auto& from = fitness_clouds_[static_cast<std::size_t>(factor.from)];
+  const auto& to = fitness_clouds_[static_cast<std::size_t>(factor.to)];
+  if (from.empty() || to.empty()) return;
+  factor.information = fitness_information(fitness(from, to, factor.X_FT), config_.fitness);
 }
 
 void SGraphsPlus::update_rooms(int storey, std::span<const PlaneNode> walls) {
@@ -151,6 +172,7 @@ void SGraphsPlus::close_loop(const DeskewedScan& scan) {
   const std::optional<PoseFactor> loop = loop_.update(graph_, scan, walked_m_);
   if (!loop) return;
   graph_.pose_factors.push_back(*loop);
+  if (config_.pose_weights == PoseWeights::fitness) weigh_by_fitness(graph_.pose_factors.back());
   full_wanted_ = true;
 }
 
@@ -217,6 +239,14 @@ std::vector<Eigen::Vector3f> SGraphsPlus::point_map() {
 
 std::unique_ptr<Method> make_s_graphs_plus_method(const MethodInput& input) {
   return make(input, config_of<SGraphsPlusConfig>(input));
+}
+
+std::unique_ptr<Method> make_s_graphs_plus_paper_method(const MethodInput& input) {
+  return make(input, config_of<SGraphsPlusPaperConfig>(input));
+}
+
+std::unique_ptr<Method> make_s_graphs_method(const MethodInput& input) {
+  return make(input, config_of<SGraphsConfig>(input));
 }
 
 std::unique_ptr<Method> make_hdl_slam_method(const MethodInput& input) {

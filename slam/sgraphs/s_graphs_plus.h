@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <memory>
+#include <string_view>
 
 #include "bim/config/visit.h"
 #include "slam/graph/optimize.h"
 #include "slam/io/method.h"
+#include "slam/loop/fitness.h"
 #include "slam/loop/loop_closure.h"
 #include "slam/odometry/lidar_odometry.h"
 #include "slam/odometry/map_cloud.h"
 #include "slam/odometry/motion.h"
 #include "slam/planes/detect.h"
+#include "slam/planes/ransac.h"
 #include "slam/sgraphs/floor_layer.h"
 #include "slam/sgraphs/room_layer.h"
 #include "slam/sgraphs/wall_layer.h"
@@ -33,8 +37,15 @@ struct GraphParts {
   }
 };
 
+/// Which planes a keyframe sees: by straight stretches of rings, or by sequential RANSAC as in the papers.
+enum class PlaneSource { rings, ransac };
+/// What odometry and loops weigh: by the registration's covariance, or by the clouds' fitness as in the papers' code.
+enum class PoseWeights { registration, fitness };
+
 struct SGraphsPlusConfig {
   GraphParts parts;
+  PlaneSource plane_source = PlaneSource::rings;
+  PoseWeights pose_weights = PoseWeights::registration;
   double keyframe_distance_m = 0.6;
   double keyframe_angle_rad = 0.35;
   int window = 15;                   ///< latest keyframes that every keyframe's optimisation may move
@@ -44,6 +55,8 @@ struct SGraphsPlusConfig {
   double odometry_sigma_rad = 0.002;
   LidarOdometryConfig odometry;
   PlaneDetectorConfig planes;
+  RansacConfig ransac;
+  FitnessConfig fitness;
   WallLayerConfig walls;
   RoomLayerConfig rooms;
   FloorLayerConfig floors;
@@ -54,6 +67,8 @@ struct SGraphsPlusConfig {
   template <class V>
   void visit(V& v) {
     v("parts", parts);
+    v("plane_source", plane_source, Field{.doc = "rings or ransac"});
+    v("pose_weights", pose_weights, Field{.doc = "registration or fitness"});
     v("keyframe_distance_m", keyframe_distance_m, Field{.doc = "way to the next keyframe", .min = 0.05});
     v("keyframe_angle_rad", keyframe_angle_rad, Field{.doc = "turn to the next keyframe", .min = 0.02});
     v("window", window, Field{.doc = "latest keyframes that move at each keyframe", .min = 2});
@@ -63,6 +78,8 @@ struct SGraphsPlusConfig {
     v("odometry_sigma_rad", odometry_sigma_rad, Field{.doc = "of a step between keyframes", .min = 1e-5});
     v("odometry", odometry);
     v("planes", planes);
+    v("ransac", ransac);
+    v("fitness", fitness);
     v("walls", walls);
     v("rooms", rooms);
     v("floors", floors);
@@ -70,6 +87,16 @@ struct SGraphsPlusConfig {
     v("optimizer", optimizer);
     v("map", map);
   }
+};
+
+/// S-Graphs+ as printed, with the parameters of the papers' code [facts: slam 2.2-2.4, 4.1].
+struct SGraphsPlusPaperConfig : SGraphsPlusConfig {
+  SGraphsPlusPaperConfig();
+};
+
+/// S-Graphs of 2022: its rooms come from the planes of one keyframe, and there is no floor layer.
+struct SGraphsConfig : SGraphsPlusPaperConfig {
+  SGraphsConfig();
 };
 
 /// HDL graph SLAM [facts: slam 6]: keyframes, odometry, floor plane and loop closures; no walls, no rooms.
@@ -98,15 +125,18 @@ class SGraphsPlus : public Method {
 
   [[nodiscard]] bool is_keyframe(const Pose& X_OR) const;
   void add_keyframe(const DeskewedScan& scan, const Registration& odometry, Output& output);
+  [[nodiscard]] std::vector<PlaneObservation> planes_of(const DeskewedScan& scan) const;
   void add_keyframe_vertex(Nanoseconds stamp, const Registration& odometry, std::span<const PlaneObservation> seen);
   void update_rooms(int storey, std::span<const PlaneNode> walls);
   void close_loop(const DeskewedScan& scan);
   void optimize_graph();
+  void weigh_by_fitness(PoseFactor& factor) const;
   [[nodiscard]] Pose X_MO(std::size_t keyframe) const;
   [[nodiscard]] std::vector<StampedPose> trajectory() const;
   [[nodiscard]] std::vector<Eigen::Vector3f> point_map();
 
   SGraphsPlusConfig config_;
+  std::uint64_t seed_;
   Calibration calibration_;
   MotionBuffer motion_;
   std::unique_ptr<LidarOdometry> odometry_;
@@ -116,14 +146,30 @@ class SGraphsPlus : public Method {
   LoopClosure loop_;
   Graph graph_;
   std::vector<TrackedScan> scans_;
-  std::vector<CloudKeyframe> clouds_;  ///< index = keyframe
+  std::vector<CloudKeyframe> clouds_;                         ///< index = keyframe
+  std::vector<std::vector<Eigen::Vector3d>> fitness_clouds_;  ///< index = keyframe, for PoseWeights::fitness
   double walked_m_ = 0.0;
   int since_full_ = 0;        ///< keyframes since the whole graph was optimised
   bool full_wanted_ = false;  ///< a loop or a duplicate came in
 };
 
-/// Both assume constant velocity where there is no odometry.
+/// All assume constant velocity where there is no odometry.
 [[nodiscard]] std::unique_ptr<Method> make_s_graphs_plus_method(const MethodInput& input);
+[[nodiscard]] std::unique_ptr<Method> make_s_graphs_plus_paper_method(const MethodInput& input);
+[[nodiscard]] std::unique_ptr<Method> make_s_graphs_method(const MethodInput& input);
 [[nodiscard]] std::unique_ptr<Method> make_hdl_slam_method(const MethodInput& input);
 
 }  // namespace plumbline::slam
+
+namespace plumbline {
+
+template <>
+struct EnumNames<slam::PlaneSource> {
+  static constexpr std::array<std::string_view, 2> names = {"rings", "ransac"};
+};
+template <>
+struct EnumNames<slam::PoseWeights> {
+  static constexpr std::array<std::string_view, 2> names = {"registration", "fitness"};
+};
+
+}  // namespace plumbline

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "slam/graph/factors.h"
+#include "slam/planes/forms.h"
 #include "slam/sgraphs/floor_layer.h"
 
 namespace plumbline::slam {
@@ -72,8 +73,11 @@ std::vector<int> WallLayer::observe(Graph& graph, std::span<const PlaneObservati
       graph.planes.push_back({X_MR * observation.plane_R, kind, graph.keyframes.back().storey, -1});
       last_seen_m_.push_back(walked_m);
     }
+    const Eigen::Matrix3d covariance = config_.information > 0.0
+                                           ? Eigen::Matrix3d(Eigen::Matrix3d::Identity() / config_.information)
+                                           : observation.covariance;
     const Eigen::Matrix3d information =
-        observation.covariance.llt().solve(Eigen::Matrix3d::Identity()).selfadjointView<Eigen::Lower>();
+        covariance.llt().solve(Eigen::Matrix3d::Identity()).selfadjointView<Eigen::Lower>();
     graph.plane_factors.push_back({keyframe, id, observation.plane_R, information});
     patches_.push_back({observation.p0_R, observation.p1_R, observation.z0, observation.z1});
     ids.push_back(id);
@@ -85,32 +89,57 @@ std::vector<int> WallLayer::observe(Graph& graph, std::span<const PlaneObservati
 int WallLayer::match(const Graph& graph, const std::vector<PlaneNode>& known, const PlaneObservation& seen,
                      PlaneKind kind, double walked_m) const {
   const KeyframeVertex& keyframe = graph.keyframes.back();
+  const bool as_printed = config_.association == Association::angles;
   int best = -1;
-  double best_distance = config_.gate_chi2;
+  double least = 1.0;
   for (const PlaneNode& node : known) {
     const PlaneVertex& plane = graph.planes[static_cast<std::size_t>(node.id)];
     if (plane.merged_into >= 0 || plane.kind != kind || plane.storey != keyframe.storey) continue;
-    const PlaneResidual r = plane_residual(keyframe.X_MR, plane.plane_M, seen.plane_R);
-    if ((keyframe.X_MR.q * seen.plane_R.n).dot(plane.plane_M.n) < 0.9) continue;
-    if (kind != PlaneKind::wall) {
-      if (std::abs(r.e.z()) < config_.floor_offset_m && r.e.head<2>().norm() < config_.floor_angle_rad) return node.id;
-      continue;
-    }
-    const Eigen::Vector2d t = along(plane.plane_M);
-    const Interval here = interval(t, (keyframe.X_MR * seen.p0_R).head<2>(), (keyframe.X_MR * seen.p1_R).head<2>());
-    if (gap(here, interval(t, node.p0, node.p1)) > config_.max_gap_m) continue;
-    const double walked = walked_m - last_seen_m_[static_cast<std::size_t>(node.id)];
-    const double sigma_m = config_.drift_m + config_.drift_per_m * walked;
-    const double sigma_rad = config_.drift_rad + config_.drift_rad_per_m * walked;
-    Vector6d drift;
-    drift << Eigen::Vector3d::Constant(sigma_m * sigma_m), Eigen::Vector3d::Constant(sigma_rad * sigma_rad);
-    const Eigen::Matrix3d S = seen.covariance + r.J_pose * drift.asDiagonal() * r.J_pose.transpose();
-    const double distance = r.e.dot(S.llt().solve(r.e));
-    if (distance >= best_distance) continue;
-    best_distance = distance;
+    const double misfit = as_printed ? misfit_as_printed(graph, node, seen) : this->misfit(graph, node, seen, walked_m);
+    if (misfit >= least) continue;
+    least = misfit;
     best = node.id;
   }
   return best;
+}
+
+double WallLayer::misfit(const Graph& graph, const PlaneNode& known, const PlaneObservation& seen,
+                         double walked_m) const {
+  constexpr double another = 2.0;
+  const KeyframeVertex& keyframe = graph.keyframes.back();
+  const PlaneVertex& plane = graph.planes[static_cast<std::size_t>(known.id)];
+  const PlaneResidual r = plane_residual(keyframe.X_MR, plane.plane_M, seen.plane_R);
+  if ((keyframe.X_MR.q * seen.plane_R.n).dot(plane.plane_M.n) < 0.9) return another;
+  if (plane.kind != PlaneKind::wall) {
+    const bool near = std::abs(r.e.z()) < config_.floor_offset_m && r.e.head<2>().norm() < config_.floor_angle_rad;
+    return near ? 0.0 : another;
+  }
+  const Eigen::Vector2d t = along(plane.plane_M);
+  const Interval here = interval(t, (keyframe.X_MR * seen.p0_R).head<2>(), (keyframe.X_MR * seen.p1_R).head<2>());
+  if (gap(here, interval(t, known.p0, known.p1)) > config_.max_gap_m) return another;
+  const double walked = walked_m - last_seen_m_[static_cast<std::size_t>(known.id)];
+  const double sigma_m = config_.drift_m + config_.drift_per_m * walked;
+  const double sigma_rad = config_.drift_rad + config_.drift_rad_per_m * walked;
+  Vector6d drift;
+  drift << Eigen::Vector3d::Constant(sigma_m * sigma_m), Eigen::Vector3d::Constant(sigma_rad * sigma_rad);
+  const Eigen::Matrix3d S = seen.covariance + r.J_pose * drift.asDiagonal() * r.J_pose.transpose();
+  return r.e.dot(S.llt().solve(r.e)) / config_.gate_chi2;
+}
+
+// The papers call it a Mahalanobis distance; their code's covariance is the identity [facts: slam 2.3].
+double WallLayer::misfit_as_printed(const Graph& graph, const PlaneNode& known, const PlaneObservation& seen) const {
+  constexpr double another = 2.0;
+  const KeyframeVertex& keyframe = graph.keyframes.back();
+  const Plane& plane_M = graph.planes[static_cast<std::size_t>(known.id)].plane_M;
+  if (axis_of(keyframe.X_MR.q * seen.plane_R.n) != axis_of(plane_M.n)) return another;
+  const double gate = seen.points <= config_.angles_few ? config_.angles_gate_few : config_.angles_gate;
+  const double e = angle_difference(keyframe.X_MR.inverse() * plane_M, seen.plane_R).norm();
+  if (seen.vertical) {
+    const Eigen::Vector2d t = along(plane_M);
+    const Interval here = interval(t, (keyframe.X_MR * seen.p0_R).head<2>(), (keyframe.X_MR * seen.p1_R).head<2>());
+    if (gap(here, interval(t, known.p0, known.p1)) > config_.max_gap_m) return another;
+  }
+  return e * e / (gate * gate);
 }
 
 std::vector<PlaneNode> WallLayer::extents(const Graph& graph) const {
@@ -147,6 +176,21 @@ std::vector<PlaneNode> WallLayer::extents(const Graph& graph) const {
   return nodes;
 }
 
+std::vector<PlaneNode> WallLayer::seen_now(const Graph& graph) const {
+  const int newest = static_cast<int>(graph.keyframes.size()) - 1;
+  const Pose& X_MR = graph.keyframes.back().X_MR;
+  std::vector<PlaneNode> nodes;
+  for (std::size_t f = graph.plane_factors.size(); f > 0 && graph.plane_factors[f - 1].keyframe == newest; --f) {
+    const int id = graph.plane_factors[f - 1].plane;
+    const Patch& patch = patches_[f - 1];
+    const PlaneVertex& plane = graph.planes[static_cast<std::size_t>(id)];
+    if (plane.kind != PlaneKind::wall) continue;
+    nodes.push_back({id, plane.plane_M, (X_MR * patch.p0_R).head<2>(), (X_MR * patch.p1_R).head<2>(),
+                     X_MR.t.z() + patch.z0, X_MR.t.z() + patch.z1, 1});
+  }
+  return nodes;
+}
+
 std::vector<PlaneNode> WallLayer::walls(const Graph& graph, int storey) const {
   const int floor = floor_plane_of(graph, storey);
   std::vector<PlaneNode> walls;
@@ -175,7 +219,8 @@ bool WallLayer::find_duplicates(Graph& graph, int storey) const {
       if (known) continue;
       const Eigen::Vector2d p = 0.5 * (middle(nodes[i]) + middle(nodes[j]));
       const double z = 0.25 * (nodes[i].z0 + nodes[i].z1 + nodes[j].z0 + nodes[j].z1);
-      graph.duplicate_factors.push_back({.a = a, .b = b, .anchor_M = {p.x(), p.y(), z}});
+      graph.duplicate_factors.push_back(
+          {a, b, {p.x(), p.y(), z}, config_.duplicate_sigma_rad, config_.duplicate_sigma_m});
       found = true;
     }
   return found;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <span>
+#include <string_view>
 
 #include "bim/config/visit.h"
 #include "slam/graph/graph.h"
@@ -9,13 +11,22 @@
 
 namespace plumbline::slam {
 
+/// How a seen plane is held against a known one. mahalanobis: by both covariances, and side, stretch and storey;
+/// angles: as printed in the papers, by the norm of (azimuth, elevation, offset) within an axis class.
+enum class Association { mahalanobis, angles };
+
 struct WallLayerConfig {
+  Association association = Association::mahalanobis;
   double gate_chi2 = 16.27;    ///< squared Mahalanobis distance, 3 dof, 99.9 %
   double drift_m = 0.03;       ///< sigma of the robot's position against a plane seen just now ...
   double drift_per_m = 0.005;  ///< ... plus this per metre walked since it was seen
   double drift_rad = 0.006;    ///< the same for its attitude
   double drift_rad_per_m = 0.0005;
   double max_gap_m = 1.0;             ///< between an observation and the known stretch of its wall
+  double angles_gate = 0.35;          ///< of the papers' association, rad and m alike [facts: slam 2.3] ...
+  double angles_gate_few = 0.05;      ///< ... and for planes of at most ...
+  int angles_few = 150;               ///< ... so many points
+  double information = 0.0;           ///< of every observation, per rad^2 and m^2; 0: from its covariance
   double floor_offset_m = 0.25;       ///< a floor or ceiling this near and ...
   double floor_angle_rad = 0.08;      ///< ... this level is the storey's
   int min_observations = 4;           ///< of a wall that shapes rooms and is reported
@@ -26,15 +37,22 @@ struct WallLayerConfig {
   double duplicate_overlap = 0.5;     ///< of the shorter one's length and height
   double merge_offset_m = 0.06;       ///< duplicates that the graph has pulled this near ...
   double merge_angle_rad = 0.025;     ///< ... become one
+  double duplicate_sigma_rad = 0.01;  ///< of the factor between duplicates
+  double duplicate_sigma_m = 0.02;
 
   template <class V>
   void visit(V& v) {
+    v("association", association, Field{.doc = "mahalanobis or angles (as printed)"});
     v("gate_chi2", gate_chi2, Field{.doc = "squared Mahalanobis distance of an association", .min = 0});
     v("drift_m", drift_m, Field{.doc = "sigma of the position against a plane just seen", .min = 0});
     v("drift_per_m", drift_per_m, Field{.doc = "growth per metre since the plane was seen", .min = 0});
     v("drift_rad", drift_rad, Field{.doc = "sigma of the attitude against a plane just seen", .min = 0});
     v("drift_rad_per_m", drift_rad_per_m, Field{.doc = "growth per metre since the plane was seen", .min = 0});
     v("max_gap_m", max_gap_m, Field{.doc = "along a wall between what is known and what is seen", .min = 0});
+    v("angles_gate", angles_gate, Field{.doc = "of association by angles, rad and m alike", .min = 0});
+    v("angles_gate_few", angles_gate_few, Field{.doc = "the same for planes of few points", .min = 0});
+    v("angles_few", angles_few, Field{.doc = "points of those", .min = 0});
+    v("information", information, Field{.doc = "of a plane observation; 0: from its covariance", .min = 0});
     v("floor_offset_m", floor_offset_m, Field{.doc = "of a floor observation to its storey's floor", .min = 0});
     v("floor_angle_rad", floor_angle_rad, Field{.doc = "of a floor observation to its storey's floor", .min = 0});
     v("min_observations", min_observations, Field{.doc = "of a wall that counts", .min = 1});
@@ -45,6 +63,8 @@ struct WallLayerConfig {
     v("duplicate_overlap", duplicate_overlap, Field{.doc = "of two vertices of one face", .min = 0, .max = 1});
     v("merge_offset_m", merge_offset_m, Field{.doc = "at which duplicates become one", .min = 0});
     v("merge_angle_rad", merge_angle_rad, Field{.doc = "at which duplicates become one", .min = 0});
+    v("duplicate_sigma_rad", duplicate_sigma_rad, Field{.doc = "of the factor between duplicates", .min = 1e-5});
+    v("duplicate_sigma_m", duplicate_sigma_m, Field{.doc = "of the factor between duplicates", .min = 1e-5});
   }
 };
 
@@ -61,6 +81,8 @@ class WallLayer {
 
   /// Every plane vertex with the union of its observations' extents; index = id. Merged planes have 0 observations.
   [[nodiscard]] std::vector<PlaneNode> extents(const Graph& graph) const;
+  /// The walls seen from the newest keyframe, each as far as this keyframe saw it.
+  [[nodiscard]] std::vector<PlaneNode> seen_now(const Graph& graph) const;
   /// The walls of a storey that count: seen often, long and high enough.
   [[nodiscard]] std::vector<PlaneNode> walls(const Graph& graph, int storey) const;
 
@@ -78,6 +100,11 @@ class WallLayer {
 
   [[nodiscard]] int match(const Graph& graph, const std::vector<PlaneNode>& known, const PlaneObservation& seen,
                           PlaneKind kind, double walked_m) const;
+  /// Squared distance of an observation to a known plane over the gate's; above 1: another plane.
+  [[nodiscard]] double misfit(const Graph& graph, const PlaneNode& known, const PlaneObservation& seen,
+                              double walked_m) const;
+  [[nodiscard]] double misfit_as_printed(const Graph& graph, const PlaneNode& known,
+                                         const PlaneObservation& seen) const;
 
   WallLayerConfig config_;
   std::vector<Patch> patches_;
@@ -85,3 +112,12 @@ class WallLayer {
 };
 
 }  // namespace plumbline::slam
+
+namespace plumbline {
+
+template <>
+struct EnumNames<slam::Association> {
+  static constexpr std::array<std::string_view, 2> names = {"mahalanobis", "angles"};
+};
+
+}  // namespace plumbline

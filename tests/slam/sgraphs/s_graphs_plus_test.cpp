@@ -18,10 +18,10 @@ struct Walked {
   std::uint64_t digest = 0;
 };
 
-Walked run(const synthetic::Recording& recording) {
+Walked run(const synthetic::Recording& recording, const SGraphsPlusConfig& config = {}) {
   MethodInput input;
   input.calibration = recording.calibration;
-  SGraphsPlus method(input, {});
+  SGraphsPlus method(input, config);
   Walked run;
   Digest digest;
   MotionBuffer legs;
@@ -101,6 +101,25 @@ TEST(SGraphsPlus, SurvivesTheMapsOriginAtARoomsCentre) {
   EXPECT_LT(center_M.norm(), 0.02);
   EXPECT_LT((r.estimate.rooms[0].center_F - center_M).norm(), 0.02);
   EXPECT_NEAR(std::abs(signed_area(r.estimate.rooms[0].polygon_F)), 24.0, 0.5);
+}
+
+// As printed: RANSAC planes, association by angles, constant weights; rooms from free space or from one keyframe.
+TEST(PrintedMethods, WalkThroughARoomAndFindIt) {
+  synthetic::WalkConfig walk;
+  walk.duration_s = 8.0;
+  walk.range_sigma_m = 0.004;  // RANSAC's band is 1 cm
+  const std::vector<Eigen::Vector2d> way = {{1.0, 1.0}, {5.0, 1.0}, {5.0, 3.0}, {2.0, 3.0}};
+  const synthetic::Recording recording = synthetic::walk(synthetic::one_room(), way, walk);
+  for (const SGraphsPlusConfig& config :
+       {SGraphsPlusConfig(SGraphsPlusPaperConfig()), SGraphsPlusConfig(SGraphsConfig())}) {
+    const Walked r = run(recording, config);
+    EXPECT_LT(ate(r.causal, r.truth), 0.03);
+    EXPECT_EQ(r.estimate.floors.size(), config.parts.floors ? 1U : 0U);
+    ASSERT_EQ(r.estimate.rooms.size(), 1U);
+    EXPECT_EQ(r.estimate.rooms[0].kind, RoomKind::four_wall);
+    EXPECT_NEAR(std::abs(signed_area(r.estimate.rooms[0].polygon_F)), 24.0, 1.0);
+    EXPECT_EQ(run(recording, config).digest, r.digest);
+  }
 }
 
 TEST(SGraphsPlus, GivesTheSameDigestsTwice) {
