@@ -4,11 +4,10 @@
 #include <ceres/ceres.h>
 
 #include <algorithm>
-#include <array>
-#include <memory>
 
 #include "bim/errors.h"
 #include "slam/graph/cost_functions.h"
+#include "slam/graph/terms.h"
 
 namespace plumbline::slam {
 
@@ -36,111 +35,76 @@ Scope make_scope(const Graph& graph, int first_free) {
   return scope;
 }
 
-/// The graph's values as flat parameter blocks, and the problem over them.
-class Builder {
+/// The factors that bear on what may move.
+FactorSelection select(const Graph& graph, const Scope& scope) {
+  const auto in = [](const std::vector<bool>& set, int id) { return set[static_cast<std::size_t>(id)]; };
+  const auto indices = [](const auto& factors, const auto& wanted) {
+    std::vector<std::size_t> list;
+    for (std::size_t i = 0; i < factors.size(); ++i)
+      if (wanted(factors[i])) list.push_back(i);
+    return list;
+  };
+  return {
+      .pose = indices(graph.pose_factors,
+                      [&](const PoseFactor& f) { return in(scope.keyframes, f.from) || in(scope.keyframes, f.to); }),
+      .plane = indices(graph.plane_factors, [&](const PlaneFactor& f) { return in(scope.planes, f.plane); }),
+      .room = indices(graph.room_factors, [&](const RoomFactor& f) { return in(scope.rooms, f.room); }),
+      .floor = indices(graph.floor_factors, [&](const FloorFactor& f) { return in(scope.floors, f.floor); }),
+      .duplicate = indices(graph.duplicate_factors,
+                           [&](const DuplicateFactor& f) { return in(scope.planes, f.a) || in(scope.planes, f.b); })};
+}
+
+bool free(const Scope& scope, VertexId vertex) {
+  const auto id = static_cast<std::size_t>(vertex.id);
+  switch (vertex.layer) {
+    case Layer::keyframe:
+      return scope.keyframes[id];
+    case Layer::plane:
+      return scope.planes[id];
+    case Layer::room:
+      return scope.rooms[id];
+    case Layer::floor:
+      return scope.floors[id];
+  }
+  return false;
+}
+
+/// Terms and values as a Ceres problem, which refers to them.
+class CeresProblem {
  public:
-  Builder(const Graph& graph, const Scope& scope, const OptimizerConfig& config)
-      : graph_(graph), scope_(scope), config_(config) {
-    for (const KeyframeVertex& k : graph.keyframes) keyframes_.push_back(to_block(k.X_MR));
-    for (const PlaneVertex& p : graph.planes) planes_.push_back(to_block(p.plane_M));
-    for (const RoomVertex& r : graph.rooms) rooms_.push_back({r.center_M.x(), r.center_M.y()});
-    for (const FloorVertex& f : graph.floors) floors_.push_back({f.center_M.x(), f.center_M.y()});
+  CeresProblem(const std::vector<Term>& terms, Values& values, const Scope& scope, const OptimizerConfig& config)
+      : loss_(config.huber), loop_loss_(config.loop_huber) {
+    // Layer by layer in order of ids, so that the elimination order does not depend on the factors.
+    for (auto& [vertex, block] : values) {
+      problem_.AddParameterBlock(block.data(), block_size(vertex.layer), manifold(vertex.layer));
+      if (!free(scope, vertex)) problem_.SetParameterBlockConstant(block.data());
+    }
+    for (const Term& term : terms) {
+      std::vector<double*> blocks;
+      for (const VertexId vertex : term.vertices) blocks.push_back(values.at(vertex).data());
+      const bool loop = term.vertices.back().layer == Layer::keyframe;
+      problem_.AddResidualBlock(term.cost.get(), term.huber > 0.0 ? (loop ? &loop_loss_ : &loss_) : nullptr, blocks);
+    }
   }
-
-  void build() {
-    add_blocks();
-    add_pose_factors();
-    add_plane_factors();
-    add_room_factors();
-    add_floor_factors();
-    add_duplicate_factors();
-  }
-
   [[nodiscard]] ceres::Problem& problem() { return problem_; }
 
-  void write_back(Graph& graph) const {
-    for (std::size_t k = 0; k < keyframes_.size(); ++k)
-      if (scope_.keyframes[k]) graph.keyframes[k].X_MR = to_pose(keyframes_[k].data());
-    for (std::size_t p = 0; p < planes_.size(); ++p)
-      if (scope_.planes[p]) graph.planes[p].plane_M = to_plane(planes_[p].data());
-    for (std::size_t r = 0; r < rooms_.size(); ++r)
-      if (scope_.rooms[r]) graph.rooms[r].center_M = Eigen::Vector2d(rooms_[r][0], rooms_[r][1]);
-    for (std::size_t f = 0; f < floors_.size(); ++f)
-      if (scope_.floors[f]) graph.floors[f].center_M = Eigen::Vector2d(floors_[f][0], floors_[f][1]);
-  }
-
  private:
-  template <class Blocks>
-  double* block(Blocks& blocks, int id) {
-    return blocks[static_cast<std::size_t>(id)].data();
+  static int block_size(Layer layer) { return layer == Layer::keyframe ? 7 : layer == Layer::plane ? 4 : 2; }
+  ceres::Manifold* manifold(Layer layer) {
+    if (layer == Layer::keyframe) return &pose_manifold_;
+    return layer == Layer::plane ? &plane_manifold_ : nullptr;
   }
-  [[nodiscard]] static bool in(const std::vector<bool>& set, int id) { return set[static_cast<std::size_t>(id)]; }
-
-  // Blocks are added layer by layer in order of ids, so that the elimination order does not depend on the factors.
-  void add_blocks() {
-    for (PoseBlock& b : keyframes_) problem_.AddParameterBlock(b.data(), 7, &pose_manifold_);
-    for (PlaneBlock& b : planes_) problem_.AddParameterBlock(b.data(), 4, &plane_manifold_);
-    for (CenterBlock& b : rooms_) problem_.AddParameterBlock(b.data(), 2);
-    for (CenterBlock& b : floors_) problem_.AddParameterBlock(b.data(), 2);
-    fix(keyframes_, scope_.keyframes);
-    fix(planes_, scope_.planes);
-    fix(rooms_, scope_.rooms);
-    fix(floors_, scope_.floors);
-  }
-  template <class Blocks>
-  void fix(Blocks& blocks, const std::vector<bool>& free) {
-    for (std::size_t i = 0; i < blocks.size(); ++i)
-      if (!free[i]) problem_.SetParameterBlockConstant(blocks[i].data());
-  }
-
-  void add_pose_factors() {
-    for (const PoseFactor& f : graph_.pose_factors) {
-      if (!in(scope_.keyframes, f.from) && !in(scope_.keyframes, f.to)) continue;
-      problem_.AddResidualBlock(pose_cost(f), f.loop ? &loop_loss_ : nullptr, block(keyframes_, f.from),
-                                block(keyframes_, f.to));
-    }
-  }
-  void add_plane_factors() {
-    for (const PlaneFactor& f : graph_.plane_factors)
-      if (in(scope_.planes, f.plane))
-        problem_.AddResidualBlock(plane_cost(f), &loss_, block(keyframes_, f.keyframe), block(planes_, f.plane));
-  }
-  void add_room_factors() {
-    for (const RoomFactor& f : graph_.room_factors) {
-      if (!in(scope_.rooms, f.room)) continue;
-      std::vector<double*> blocks = {block(rooms_, f.room)};
-      for (const int p : f.planes) blocks.push_back(block(planes_, p));
-      problem_.AddResidualBlock(room_cost(f), &loss_, blocks);
-    }
-  }
-  void add_floor_factors() {
-    for (const FloorFactor& f : graph_.floor_factors)
-      if (in(scope_.floors, f.floor))
-        problem_.AddResidualBlock(floor_cost(f), nullptr, block(floors_, f.floor), block(rooms_, f.room));
-  }
-  void add_duplicate_factors() {
-    for (const DuplicateFactor& f : graph_.duplicate_factors)
-      if (in(scope_.planes, f.a) || in(scope_.planes, f.b))
-        problem_.AddResidualBlock(duplicate_cost(f), &loss_, block(planes_, f.a), block(planes_, f.b));
-  }
-
   static ceres::Problem::Options options() {
     ceres::Problem::Options options;
+    options.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
     options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
     options.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
     return options;
   }
 
-  const Graph& graph_;
-  const Scope& scope_;
-  const OptimizerConfig config_;
   PoseManifold pose_manifold_;
   PlaneManifold plane_manifold_;
-  ceres::HuberLoss loss_{config_.huber};
-  ceres::HuberLoss loop_loss_{config_.loop_huber};
-  std::vector<PoseBlock> keyframes_;
-  std::vector<PlaneBlock> planes_;
-  std::vector<CenterBlock> rooms_, floors_;
+  ceres::HuberLoss loss_, loop_loss_;
   ceres::Problem problem_{options()};
 };
 
@@ -160,14 +124,18 @@ ceres::Solver::Options solver_options(const OptimizerConfig& config) {
 
 OptimizeReport optimize(Graph& graph, int first_free, const OptimizerConfig& config) {
   const Scope scope = make_scope(graph, first_free);
-  Builder builder(graph, scope, config);
-  builder.build();
+  const std::vector<Term> terms = make_terms(graph, select(graph, scope), config);
+  Values values;
+  add_values(graph, terms, values);
+  CeresProblem problem(terms, values, scope, config);
   ceres::Solver::Summary summary;
-  ceres::Solve(solver_options(config), &builder.problem(), &summary);
+  ceres::Solve(solver_options(config), &problem.problem(), &summary);
   if (!summary.IsSolutionUsable()) throw InternalError("graph optimisation failed: " + summary.message);
-  builder.write_back(graph);
+  for (const auto& [vertex, block] : values)
+    if (free(scope, vertex)) write_back(vertex, block, graph);
   return {static_cast<int>(summary.iterations.size()), summary.initial_cost, summary.final_cost,
-          static_cast<int>(std::count(scope.keyframes.begin(), scope.keyframes.end(), true))};
+          static_cast<int>(std::count(scope.keyframes.begin(), scope.keyframes.end(), true)),
+          static_cast<int>(terms.size())};
 }
 
 }  // namespace plumbline::slam

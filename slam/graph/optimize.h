@@ -26,6 +26,7 @@ struct OptimizeReport {
   double initial_cost = 0.0;
   double final_cost = 0.0;
   int keyframes = 0;  ///< that were free to move
+  int terms = 0;      ///< factors in the problem
 };
 
 /// Optimises the keyframes from first_free on (at least 1: keyframe 0 holds the gauge), the planes they see, and the

@@ -41,7 +41,7 @@ SGraphsPlusPaperConfig::SGraphsPlusPaperConfig() {
   pose_weights = PoseWeights::fitness;
   keyframe_distance_m = 2.0;
   keyframe_angle_rad = 2.0;
-  full_every = 1;
+  incremental.everything = true;
   walls = printed_walls();
   rooms = printed_rooms();
   floors.room_sigma_m = sigma(1e-4);

@@ -5,6 +5,7 @@
 
 #include "bim/digest/digest.h"
 #include "slam/baseline/constant_velocity.h"
+#include "slam/graph/factors.h"
 #include "slam/io/stopwatch.h"
 
 namespace plumbline::slam {
@@ -71,7 +72,8 @@ SGraphsPlus::SGraphsPlus(const MethodInput& input, const SGraphsPlusConfig& conf
       walls_(config.walls),
       rooms_(with_mount(config.rooms, input.calibration)),
       floors_(config.floors),
-      loop_(config.loop) {}
+      loop_(config.loop),
+      back_end_(config.incremental, config.optimizer) {}
 
 Output SGraphsPlus::on_scan(const Scan& scan) {
   Output output;
@@ -173,17 +175,32 @@ void SGraphsPlus::close_loop(const DeskewedScan& scan) {
   if (!loop) return;
   graph_.pose_factors.push_back(*loop);
   if (config_.pose_weights == PoseWeights::fitness) weigh_by_fitness(graph_.pose_factors.back());
+  const PoseFactor& factor = graph_.pose_factors.back();
+  const auto X_M = [&](int k) { return graph_.keyframes[static_cast<std::size_t>(k)].X_MR; };
+  const Vector6d e = pose_residual(X_M(factor.from), X_M(factor.to), factor.X_FT).e;
   full_wanted_ = true;
+  full_urgent_ |= e.dot(factor.information * e) > config_.incremental.urgent_chi2;
 }
 
+// The window at each keyframe; the storey when something leads back to before it.
 void SGraphsPlus::optimize_graph() {
-  const int keyframes = static_cast<int>(graph_.keyframes.size());
-  if (keyframes < 2) return;
-  const bool full = full_wanted_ || ++since_full_ >= config_.full_every;
-  optimize(graph_, full ? 1 : keyframes - config_.window, config_.optimizer);
-  if (!full) return;
-  since_full_ = 0;
+  if (graph_.keyframes.size() < 2) return;
+  if (config_.incremental.everything) {
+    optimize(graph_, 1, config_.optimizer);
+    walls_.merge_duplicates(graph_);
+    return;
+  }
+  back_end_.update(graph_);
+  full_wanted_ |= back_end_.returned();
+  if (!full_urgent_ && !(full_wanted_ && back_end_.solve_is_due(graph_))) return;
+  // Storeys share no planes, so that what leads back within one leaves those before it as they are.
+  const int storey = graph_.keyframes.back().storey;
+  const auto first = std::find_if(graph_.keyframes.begin(), graph_.keyframes.end(),
+                                  [&](const KeyframeVertex& k) { return k.storey == storey; });
+  back_end_.solve(graph_, static_cast<int>(first - graph_.keyframes.begin()));
   full_wanted_ = walls_.merge_duplicates(graph_) > 0;
+  full_urgent_ = false;
+  back_end_.relinearize(graph_);
 }
 
 Pose SGraphsPlus::X_MO(std::size_t keyframe) const {

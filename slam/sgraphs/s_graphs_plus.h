@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "bim/config/visit.h"
-#include "slam/graph/optimize.h"
+#include "slam/graph/incremental.h"
 #include "slam/io/method.h"
 #include "slam/loop/fitness.h"
 #include "slam/loop/loop_closure.h"
@@ -48,8 +48,6 @@ struct SGraphsPlusConfig {
   PoseWeights pose_weights = PoseWeights::registration;
   double keyframe_distance_m = 0.6;
   double keyframe_angle_rad = 0.35;
-  int window = 15;                   ///< latest keyframes that every keyframe's optimisation may move
-  int full_every = 10;               ///< keyframes between optimisations of the whole graph without a loop or duplicate
   double odometry_inflation = 50.0;  ///< of the registration's covariance: surfels are not independent
   double odometry_sigma_m = 0.006;   ///< of a step between keyframes, added
   double odometry_sigma_rad = 0.002;
@@ -61,6 +59,7 @@ struct SGraphsPlusConfig {
   RoomLayerConfig rooms;
   FloorLayerConfig floors;
   LoopConfig loop;
+  IncrementalConfig incremental;
   OptimizerConfig optimizer;
   MapCloudConfig map;
 
@@ -71,8 +70,6 @@ struct SGraphsPlusConfig {
     v("pose_weights", pose_weights, Field{.doc = "registration or fitness"});
     v("keyframe_distance_m", keyframe_distance_m, Field{.doc = "way to the next keyframe", .min = 0.05});
     v("keyframe_angle_rad", keyframe_angle_rad, Field{.doc = "turn to the next keyframe", .min = 0.02});
-    v("window", window, Field{.doc = "latest keyframes that move at each keyframe", .min = 2});
-    v("full_every", full_every, Field{.doc = "keyframes between optimisations of the whole graph", .min = 1});
     v("odometry_inflation", odometry_inflation, Field{.doc = "of the registration's covariance", .min = 1});
     v("odometry_sigma_m", odometry_sigma_m, Field{.doc = "of a step between keyframes", .min = 1e-4});
     v("odometry_sigma_rad", odometry_sigma_rad, Field{.doc = "of a step between keyframes", .min = 1e-5});
@@ -84,6 +81,7 @@ struct SGraphsPlusConfig {
     v("rooms", rooms);
     v("floors", floors);
     v("loop", loop);
+    v("incremental", incremental);
     v("optimizer", optimizer);
     v("map", map);
   }
@@ -145,12 +143,13 @@ class SGraphsPlus : public Method {
   FloorLayer floors_;
   LoopClosure loop_;
   Graph graph_;
+  IncrementalOptimizer back_end_;
   std::vector<TrackedScan> scans_;
   std::vector<CloudKeyframe> clouds_;                         ///< index = keyframe
   std::vector<std::vector<Eigen::Vector3d>> fitness_clouds_;  ///< index = keyframe, for PoseWeights::fitness
   double walked_m_ = 0.0;
-  int since_full_ = 0;        ///< keyframes since the whole graph was optimised
-  bool full_wanted_ = false;  ///< a loop or a duplicate came in
+  bool full_wanted_ = false;  ///< a loop, a duplicate or a wall from before the prior came in
+  bool full_urgent_ = false;  ///< a loop that contradicts the estimate
 };
 
 /// All assume constant velocity where there is no odometry.
