@@ -19,8 +19,10 @@
 #include "scenarios/run/pipeline.h"
 #include "scenarios/run/progress.h"
 #include "scenarios/run/run_files.h"
+#include "scenarios/run/timings.h"
 #include "slam/io/bag.h"
 #include "slam/io/recording.h"
+#include "slam/io/stopwatch.h"
 #include "slam/methods.h"
 
 namespace plumbline::scenarios {
@@ -144,7 +146,19 @@ std::string describe(const slam::MethodRow& row, std::uint64_t seed, const slam:
   return write_yaml(tree);
 }
 
+/// timings.json, as that of a run.
+std::string write_cost(const MethodRecord& method, double start_s) {
+  const double simulated_s =
+      method.causal.empty() ? 0.0 : slam::seconds(method.causal.back().stamp - method.causal.front().stamp);
+  RunRecord record;
+  MethodRecord& timed = record.methods.emplace_back();
+  timed.name = method.name;
+  timed.times = method.times;
+  return write_timings(record, {slam::wall_s() - start_s, slam::process_cpu_s(), simulated_s, 1});
+}
+
 int estimate(const Options& options, slam::MethodTable table) {
+  const double start_s = slam::wall_s();
   const slam::MethodRow& row = find_row(options.method, table);
   const std::unique_ptr<slam::Recording> recording = open_input(options);
   const slam::MethodInput input = make_input(options, row, *recording);
@@ -155,6 +169,7 @@ int estimate(const Options& options, slam::MethodTable table) {
   write_method(directory.staging(), record);
   write_file(directory.staging() + "/digests.csv", write_digests(record.digests));
   write_file(directory.staging() + "/estimate.yaml", describe(row, run_seed(options, recording->info()), input));
+  write_file(directory.staging() + "/timings.json", write_cost(record, start_s));
   directory.commit();
   if (record.crashed) {
     std::fprintf(stderr, "plumbline: method '%s' crashed: %s\n", record.name.c_str(), record.error.c_str());

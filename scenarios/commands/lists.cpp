@@ -37,7 +37,7 @@ int print_config(const std::string& name, slam::MethodTable table) {
 int list_scenarios(const std::string& folder) {
   if (!fs::is_directory(folder)) throw InputError({folder, 0, 0}, "no such directory; name one with scenarios in it");
   std::vector<std::string> paths;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder))
     if (entry.path().extension() == ".yaml") paths.push_back(entry.path().string());
   std::sort(paths.begin(), paths.end());
   for (const std::string& path : paths) {
@@ -72,7 +72,7 @@ Command add_scenarios(CLI::App& program) {
     bool schema = false;
   };
   const auto options = std::make_shared<Options>();
-  CLI::App* app = program.add_subcommand("scenarios", "Lists the scenarios of a folder");
+  CLI::App* app = program.add_subcommand("scenarios", "Lists the scenarios of a folder and the folders in it");
   app->add_option("FOLDER", options->folder, "folder with scenarios")->capture_default_str();
   app->add_flag("--schema", options->schema, "prints instead every key of scenario files, with examples");
   app->footer("Example: plumbline scenarios scenarios/library");

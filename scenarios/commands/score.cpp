@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 
 #include "scenarios/commands/commands.h"
@@ -20,13 +21,26 @@ bool is_plain_name(const std::string& name) {
   return !name.empty() && std::all_of(name.begin(), name.end(), plain);
 }
 
-/// NAME=FILE[,frame=W|M]
+/// What `plumbline estimate` left: planes, rooms and map beside the trajectories.
+MethodRecord read_estimate_directory(const std::string& dir, const std::string& name) {
+  const std::vector<std::string> methods = estimates_in(dir);
+  if (methods.size() != 1)
+    throw InputError({dir, 0, 0}, methods.empty() ? "holds no estimate; give what plumbline estimate wrote"
+                                                  : "holds several estimates; give a directory of plumbline estimate");
+  MethodRecord method = read_method(dir, methods.front());
+  method.name = name;
+  return method;
+}
+
+/// NAME=DIR or NAME=FILE[,frame=W|M]
 MethodRecord read_outside(const std::string& text) {
   const Mark mark{"--estimate", 0, 0};
   const std::size_t equals = text.find('=');
   std::string path = equals == std::string::npos ? "" : text.substr(equals + 1);
   MethodRecord method;
   method.name = text.substr(0, equals);
+  if (is_plain_name(method.name) && std::filesystem::is_directory(path))
+    return read_estimate_directory(path, method.name);
   for (const auto& [end, world] : {std::pair{",frame=W", true}, std::pair{",frame=M", false}}) {
     if (!path.ends_with(end)) continue;
     path.resize(path.size() - std::string_view(end).size());
@@ -34,7 +48,8 @@ MethodRecord read_outside(const std::string& text) {
     break;
   }
   if (!is_plain_name(method.name) || path.empty())
-    throw InputError(mark, "'" + text + "' must be NAME=trajectory.tum or NAME=trajectory.tum,frame=W");
+    throw InputError(
+        mark, "'" + text + "' must be NAME=trajectory.tum, NAME=trajectory.tum,frame=W or NAME=directory of estimate");
   method.estimate.frame = method.localization ? slam::Frame::world : slam::Frame::map;
   method.causal = slam::read_tum(read_text_file(path), path);
   if (method.causal.empty()) throw InputError({path, 0, 0}, "holds no pose");
@@ -66,11 +81,14 @@ Command add_score(CLI::App& program) {
     std::vector<std::string> estimates;
   };
   const auto options = std::make_shared<Options>();
-  CLI::App* app = program.add_subcommand("score", "Scores a run again from what is on disk, with outside trajectories");
+  CLI::App* app = program.add_subcommand("score", "Scores a run again from what is on disk, with outside estimates");
   app->add_option("DIR", options->dir, "run directory")->required();
   app->add_option("--estimate", options->estimates,
-                  "NAME=trajectory.tum[,frame=W|M]: poses of the robot in the plan's frame W or its own M [M]");
-  app->footer("Example: plumbline score runs/quickstart-1 --estimate kiss=kiss.tum --estimate amcl=amcl.tum,frame=W");
+                  "NAME=trajectory.tum[,frame=W|M]: poses of the robot in the plan's frame W or its own M [M]; or "
+                  "NAME=directory that plumbline estimate wrote, of the run's recording");
+  app->footer(
+      "Example: plumbline score runs/quickstart-1 --estimate kiss=kiss.tum --estimate amcl=amcl.tum,frame=W\n"
+      "         plumbline score runs/quickstart-1 --estimate paper=estimates/paper");
   return {app, [options] { return score_again(options->dir, options->estimates); }};
 }
 

@@ -18,6 +18,27 @@ namespace {
 
 constexpr std::string_view estimate_end = ".estimate.json";
 
+/// The scenario's methods in its order, then every other method with an estimate here, by name.
+std::vector<std::string> method_names_in(const std::string& dir, const Scenario& scenario) {
+  std::vector<std::string> names = scenario.methods;
+  for (std::string& name : estimates_in(dir))
+    if (std::find(scenario.methods.begin(), scenario.methods.end(), name) == scenario.methods.end())
+      names.push_back(std::move(name));
+  return names;
+}
+
+}  // namespace
+
+void write_method(const std::string& dir, const MethodRecord& method) {
+  const std::string stem = dir + "/" + method.name;
+  write_file(stem + std::string(estimate_end), write_estimate(method));
+  if (method.name == truth_method) return;  // truth.tum and truth_surface.ply hold what it knows
+  write_file(stem + ".tum", slam::write_tum(method.causal));
+  write_file(stem + ".final.tum", slam::write_tum(method.estimate.trajectory));
+  if (!method.estimate.map_F.empty()) write_file(stem + ".map.ply", write_ply(method.estimate.map_F));
+  if (method.localization) write_file(stem + ".hypotheses.jsonl", write_beliefs(method.beliefs));
+}
+
 MethodRecord read_method(const std::string& dir, const std::string& name) {
   const std::string stem = dir + "/" + name;
   const auto text_if_there = [](const std::string& path) {
@@ -36,32 +57,15 @@ MethodRecord read_method(const std::string& dir, const std::string& name) {
   return method;
 }
 
-/// The scenario's methods in its order, then every other method with an estimate here, by name.
-std::vector<std::string> method_names_in(const std::string& dir, const Scenario& scenario) {
-  std::vector<std::string> outside;
+std::vector<std::string> estimates_in(const std::string& dir) {
+  std::vector<std::string> names;
   for (const fs::directory_entry& entry : fs::directory_iterator(dir)) {
     const std::string file = entry.path().filename().string();
-    if (file.size() <= estimate_end.size() || !file.ends_with(estimate_end)) continue;
-    const std::string name = file.substr(0, file.size() - estimate_end.size());
-    if (std::find(scenario.methods.begin(), scenario.methods.end(), name) == scenario.methods.end())
-      outside.push_back(name);
+    if (file.size() > estimate_end.size() && file.ends_with(estimate_end))
+      names.push_back(file.substr(0, file.size() - estimate_end.size()));
   }
-  std::sort(outside.begin(), outside.end());
-  std::vector<std::string> names = scenario.methods;
-  names.insert(names.end(), outside.begin(), outside.end());
+  std::sort(names.begin(), names.end());
   return names;
-}
-
-}  // namespace
-
-void write_method(const std::string& dir, const MethodRecord& method) {
-  const std::string stem = dir + "/" + method.name;
-  write_file(stem + std::string(estimate_end), write_estimate(method));
-  if (method.name == truth_method) return;  // truth.tum and truth_surface.ply hold what it knows
-  write_file(stem + ".tum", slam::write_tum(method.causal));
-  write_file(stem + ".final.tum", slam::write_tum(method.estimate.trajectory));
-  if (!method.estimate.map_F.empty()) write_file(stem + ".map.ply", write_ply(method.estimate.map_F));
-  if (method.localization) write_file(stem + ".hypotheses.jsonl", write_beliefs(method.beliefs));
 }
 
 void write_run_files(const std::string& dir, const ResolvedScenario& resolved, const RunRecord& record) {

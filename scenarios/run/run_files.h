@@ -33,5 +33,9 @@ void write_run_files(const std::string& dir, const ResolvedScenario& resolved, c
 
 /// Writes the files of one method.
 void write_method(const std::string& dir, const MethodRecord& method);
+/// Reads them. Throws InputError.
+[[nodiscard]] MethodRecord read_method(const std::string& dir, const std::string& name);
+/// Methods with an estimate in `dir`, by name.
+[[nodiscard]] std::vector<std::string> estimates_in(const std::string& dir);
 
 }  // namespace plumbline::scenarios

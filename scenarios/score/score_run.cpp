@@ -6,6 +6,7 @@
 #include "bim/digest/digest.h"
 #include "bim/mesh/mesh.h"
 #include "scenarios/run/files.h"
+#include "scenarios/run/participant.h"
 #include "scenarios/score/identifiability.h"
 
 namespace plumbline::scenarios::score {
@@ -70,13 +71,14 @@ MethodScore score_localizer(const MethodRecord& method, const Reference& referen
   return score;
 }
 
-/// The strictest bound in the good direction of each metric, asked of an outside trajectory.
+/// The strictest bound in the good direction of each metric, asked of an outside estimate. Bounds on the truth check
+/// the scorer and are nobody else's.
 std::vector<GateSpec> gates_for_outside(const std::vector<GateSpec>& gates, const MethodScore& score) {
   std::vector<GateSpec> strictest;
   for (const GateSpec& gate : gates) {
     const MetricRow& row = *find_metric(gate.metric);
     const bool good_direction = (row.better == Better::lower && gate.max) || (row.better == Better::higher && gate.min);
-    if (!good_direction || !row.value(score)) continue;
+    if (!good_direction || gate.method == truth_method || !row.value(score)) continue;
     const auto same = std::find_if(strictest.begin(), strictest.end(),
                                    [&](const GateSpec& other) { return other.metric == gate.metric; });
     if (same == strictest.end())

@@ -24,8 +24,8 @@ struct RunScore {
   [[nodiscard]] bool passed() const;
 };
 
-/// Scores every method of a run directory [contract: Metrics]. Outside trajectories (those the scenario did not run)
-/// are held to the strictest bound that the scenario asks of any method on each metric they have.
+/// Scores every method of a run directory [contract: Metrics]. Outside estimates (those the scenario did not run) are
+/// held to the strictest bound that the scenario asks of any estimator on each metric they have.
 [[nodiscard]] RunScore score_run(const RunFiles& files);
 
 /// results.json

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "bim/building/load.h"
+#include "bim/ifc/write_ifc.h"
 #include "bim/mesh/mesh.h"
 #include "scenarios/resolve.h"
 
@@ -20,7 +21,7 @@ std::string library() {
 
 std::vector<std::string> files_of_kind(const std::string& kind) {
   std::vector<std::string> files;
-  for (const auto& entry : std::filesystem::directory_iterator(library())) {
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(library())) {
     const std::string path = entry.path().string();
     if (entry.path().extension() == ".yaml" && read_yaml(read_text_file(path), path).find(kind) != nullptr)
       files.push_back(path);
@@ -31,7 +32,7 @@ std::vector<std::string> files_of_kind(const std::string& kind) {
 
 TEST(Library, PlansAreSoundAndTheirMeshesClosed) {
   const std::vector<std::string> plans = files_of_kind("plan");
-  EXPECT_GE(plans.size(), 3U);
+  EXPECT_GE(plans.size(), 13U);
   for (const std::string& path : plans) {
     const bim::Site site = bim::load_site(path);
     for (const bim::Building* building : {&site.as_planned, &site.as_built}) {
@@ -44,11 +45,17 @@ TEST(Library, PlansAreSoundAndTheirMeshesClosed) {
 
 TEST(Library, ScenariosResolve) {
   const std::vector<std::string> scenarios = files_of_kind("scenario");
-  EXPECT_GE(scenarios.size(), 3U);
+  EXPECT_GE(scenarios.size(), 19U);
   for (const std::string& path : scenarios) {
     const ResolvedScenario resolved = resolve(path, {});
     EXPECT_GE(resolved.world.waypoints.size(), 2U) << path;
   }
+}
+
+TEST(Library, TheHouseOfTheFirstSiteIsWhatOurWriterMakesOfItsPlan) {
+  const std::string house = library() + "/s_graphs/c1";
+  EXPECT_TRUE(read_text_file(house + ".ifc") == bim::write_ifc(bim::load_building(house + ".plan.yaml")))
+      << "write it again: plumbline inspect c1.plan.yaml --ifc c1.ifc";
 }
 
 TEST(Library, MethodsOfTheSiteAreGivenThePlanAndTheWorldWhatWasBuilt) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "tests/system/program.h"
@@ -168,6 +169,20 @@ TEST_F(Recordings, EstimateSaysWhatRunSaid) {
   for (const char* name : {"truth.tum", "scenario.yaml", "building.plan.yaml"}) fs::remove(walk + "/" + name);
   for (const char* method : {"odometry", "vgicp", "s_graphs_plus", "s_graph_localization"})
     expect_same(walk, run, method);
+
+  // An estimate's directory is scored whole: map, walls and rooms beside the trajectory.
+  const Outcome scored = plumbline({"score", run, "--estimate", "again=" + (folder_ / "out_s_graphs_plus"),
+                                    "--estimate", "there=" + (folder_ / "out_s_graph_localization")});
+  EXPECT_EQ(scored.code, 0) << scored.err;
+  const auto results = nlohmann::json::parse(read_file(run + "/results.json"));
+  EXPECT_EQ(results["methods"]["again"], results["methods"]["s_graphs_plus"]);
+  EXPECT_EQ(results["methods"]["there"], results["methods"]["s_graph_localization"]);
+  EXPECT_TRUE(results["methods"]["again"].contains("rooms"));
+  const auto timings = nlohmann::json::parse(read_file(folder_ / "out_s_graphs_plus/timings.json"));
+  EXPECT_TRUE(timings["stages"].contains("s_graphs_plus/planes"));
+  const Outcome refused = plumbline({"score", run, "--estimate", "walk=" + walk});
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.err.find("holds no estimate"), std::string::npos) << refused.err;
 }
 
 }  // namespace
