@@ -35,6 +35,8 @@ std::vector<MetricRow> make_rows() {
       {"ate_aligned_rmse_m", "m", Better::lower, field(&S::trajectory, &T::ate_aligned_rmse_m)},
       {"ate_final_rmse_m", "m", Better::lower, field(&S::trajectory, &T::ate_final_rmse_m)},
       {"rpe_1m_rmse_m", "m", Better::lower, field(&S::trajectory, &T::rpe_1m_rmse_m)},
+      {"drift_10m_percent", "%", Better::lower, field(&S::trajectory, &T::drift_10m_percent)},
+      {"drift_10m_deg_per_m", "deg/m", Better::lower, field(&S::trajectory, &T::drift_10m_deg_per_m)},
       {"coverage", "", Better::higher, field(&S::trajectory, &T::coverage)},
       {"map_rmse_m", "m", Better::lower, field(&S::map, &MapScore::rmse_m)},
       {"map_capped_share", "", Better::lower, field(&S::map, &MapScore::capped_share)},

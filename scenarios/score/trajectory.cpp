@@ -5,6 +5,7 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "bim/errors.h"
 
@@ -83,23 +84,29 @@ double position_rmse(const std::vector<PosePair>& pairs, const Pose& X_WF) {
   return std::sqrt(sum / static_cast<double>(pairs.size()));
 }
 
-std::optional<double> relative_rmse(const std::vector<PosePair>& pairs, const Truth& truth,
-                                    const TrajectoryRules& rules) {
+std::optional<RelativeErrors> relative_errors(const std::vector<PosePair>& pairs, const Truth& truth,
+                                              double distance_m) {
   const std::vector<double> walked = truth.walked();
-  double sum = 0.0;
+  RelativeErrors errors;
   int count = 0;
   std::size_t j = 0;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const double goal = walked[pairs[i].scan] + rules.rpe_distance_m;
+    const double goal = walked[pairs[i].scan] + distance_m;
     while (j < pairs.size() && walked[pairs[j].scan] < goal) ++j;
     if (j == pairs.size()) break;
     const Pose step_F = pairs[i].X_FR.inverse() * pairs[j].X_FR;
     const Pose step_W = pairs[i].X_WR.inverse() * pairs[j].X_WR;
-    sum += (step_W.inverse() * step_F).t.squaredNorm();
+    const Pose error = step_W.inverse() * step_F;
+    errors.translation_rmse_m += error.t.squaredNorm();
+    errors.translation_mean_m += error.t.norm();
+    errors.rotation_mean_rad += log_so3(error.q).norm();
     ++count;
   }
   if (count == 0) return std::nullopt;
-  return std::sqrt(sum / count);
+  errors.translation_rmse_m = std::sqrt(errors.translation_rmse_m / count);
+  errors.translation_mean_m /= count;
+  errors.rotation_mean_rad /= count;
+  return errors;
 }
 
 std::optional<TrajectoryScore> score_trajectory(const Truth& truth, const std::vector<slam::StampedPose>& causal_F,
@@ -111,7 +118,12 @@ std::optional<TrajectoryScore> score_trajectory(const Truth& truth, const std::v
   score.coverage = static_cast<double>(causal.size()) / static_cast<double>(truth.scans.size());
   score.ate_rmse_m = position_rmse(causal, place_by_first(causal));
   score.ate_aligned_rmse_m = position_rmse(causal, umeyama(causal));
-  score.rpe_1m_rmse_m = relative_rmse(causal, truth, rules);
+  if (const auto errors = relative_errors(causal, truth, rules.rpe_distance_m))
+    score.rpe_1m_rmse_m = errors->translation_rmse_m;
+  if (const auto drift = relative_errors(causal, truth, rules.drift_distance_m)) {
+    score.drift_10m_percent = 100.0 * drift->translation_mean_m / rules.drift_distance_m;
+    score.drift_10m_deg_per_m = drift->rotation_mean_rad / rules.drift_distance_m * 180.0 / std::numbers::pi;
+  }
   const std::vector<PosePair> last = associate(truth, final_F, rules);
   score.X_WF_final = umeyama(last.empty() ? causal : last);
   if (!last.empty()) score.ate_final_rmse_m = position_rmse(last, score.X_WF_final);

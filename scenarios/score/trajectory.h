@@ -12,7 +12,8 @@ namespace plumbline::scenarios::score {
 struct TrajectoryRules {
   double max_stamp_difference_s = 0.01;  ///< of a scan and the pose given for it
   double min_coverage = 0.95;            ///< share of scans with a pose; below, a method is lost
-  double rpe_distance_m = 1.0;           ///< walked distance between the two ends of a relative error
+  double rpe_distance_m = 1.0;           ///< walked between the two ends of a relative error
+  double drift_distance_m = 10.0;        ///< walked between the two ends of a stretch whose drift is taken
 };
 
 /// True poses X_WR in time order, 100 Hz and at every scan, and the stamps of the scans.
@@ -47,10 +48,16 @@ struct PosePair {
 
 /// Root mean square of the position error |X_WF p_F - p_W|, m. Throws InternalError on no pairs.
 [[nodiscard]] double position_rmse(const std::vector<PosePair>& pairs, const Pose& X_WF);
-/// Root mean square of the translation of relative errors over every stretch of `rpe_distance_m` walked, m; absent
-/// when the walk is shorter.
-[[nodiscard]] std::optional<double> relative_rmse(const std::vector<PosePair>& pairs, const Truth& truth,
-                                                  const TrajectoryRules& rules);
+/// Relative errors over every stretch of one length.
+struct RelativeErrors {
+  double translation_rmse_m = 0.0;
+  double translation_mean_m = 0.0;
+  double rotation_mean_rad = 0.0;
+};
+
+/// Of every stretch of `distance_m` walked; absent when the walk is shorter.
+[[nodiscard]] std::optional<RelativeErrors> relative_errors(const std::vector<PosePair>& pairs, const Truth& truth,
+                                                            double distance_m);
 
 /// What the SLAM trajectory metrics say of one method.
 struct TrajectoryScore {
@@ -59,7 +66,9 @@ struct TrajectoryScore {
   double ate_aligned_rmse_m = 0.0;
   std::optional<double> ate_final_rmse_m;
   std::optional<double> rpe_1m_rmse_m;
-  Pose X_WF_final;  ///< alignment of the final trajectory; places the map, planes and rooms
+  std::optional<double> drift_10m_percent;    ///< mean error of translation over 10 m walked
+  std::optional<double> drift_10m_deg_per_m;  ///< mean error of rotation over 10 m walked
+  Pose X_WF_final;                            ///< alignment of the final trajectory; places the map, planes and rooms
 };
 
 /// Absent when no scan has a pose. final_F may be empty.

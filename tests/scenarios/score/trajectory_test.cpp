@@ -116,6 +116,29 @@ TEST(Trajectory, HandComputed) {
   EXPECT_NEAR(truth.walked().back(), 2.0, 1e-12);
 }
 
+TEST(Trajectory, DriftOverTenMetres) {
+  Truth truth;
+  std::vector<slam::StampedPose> poses;
+  const double turn_per_m = 0.3 * std::numbers::pi / 180.0;
+  for (int i = 0; i <= 1500; ++i) {
+    const auto stamp = static_cast<slam::Nanoseconds>(i) * scan_ns;
+    truth.scans.push_back(stamp);
+    truth.poses_W.push_back({stamp, Pose::from_xyz_yaw({0.01 * i, 0.0, 0.0}, 0.0)});
+    // A straight way taken for an arc.
+    const double a = turn_per_m * 0.01 * i;
+    poses.push_back({stamp, Pose::from_xyz_yaw({std::sin(a) / turn_per_m, (1.0 - std::cos(a)) / turn_per_m, 0.0}, a)});
+  }
+  const auto score = score_trajectory(truth, poses, {});
+  ASSERT_TRUE(score && score->drift_10m_percent && score->drift_10m_deg_per_m);
+  const double a = 10.0 * turn_per_m;
+  const double off = std::hypot(10.0 - std::sin(a) / turn_per_m, (1.0 - std::cos(a)) / turn_per_m);
+  EXPECT_NEAR(*score->drift_10m_deg_per_m, 0.3, 0.3 * 0.0011);  // plus at most one step of a cm
+  EXPECT_NEAR(*score->drift_10m_percent, 10.0 * off, 10.0 * off * 0.0025);
+  EXPECT_FALSE(
+      score_trajectory({.poses_W = truth.poses_W, .scans = {truth.scans.begin(), truth.scans.begin() + 900}}, poses, {})
+          ->drift_10m_percent);  // 9 m
+}
+
 TEST(Trajectory, AWrongTrajectoryScoresBadly) {
   const Truth truth = random_truth(11, 400);
   auto poses = moved(truth, Pose());
