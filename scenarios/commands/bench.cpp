@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenarios/bench/bench.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "bim/errors.h"
 #include "scenarios/commands/commands.h"
@@ -41,20 +42,20 @@ int bench(const BenchOptions& options) {
 
 }  // namespace
 
-Command add_bench(CLI::App& program) {
+Command add_bench(CommandLine& program) {
   const auto options = std::make_shared<BenchOptions>();
-  CLI::App* app = program.add_subcommand("bench", "Measures what a part of the program costs, in CPU time");
+  CommandLine line = program.add_command("bench", "Measures what a part of the program costs, in CPU time");
   std::string parts;
   for (const BenchPart& part : bench_parts())
     parts += "\n  " + std::string(part.name) + ": " + std::string(part.summary);
-  app->add_option("PART", options->part, "one of:" + parts)->required();
-  app->add_flag("--json", options->json, "for programs");
-  app->add_option("--repetitions", options->setting.repetitions, "of each figure; the median counts")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
-  app->add_option("--data", options->setting.data_dir, "folder with ifc/duplex.ifc")->envname("PLUMBLINE_DATA");
-  app->footer("Example: plumbline bench bim --json\nExit code 1 when a ratio misses its gate; times are targets.");
-  return {app, [options] { return bench(*options); }};
+  line.option("PART", options->part, "one of:" + parts).required();
+  line.flag("--json", options->json, "for programs");
+  line.option("--repetitions", options->setting.repetitions, "of each figure; the median counts")
+      .range(1, 1000)
+      .shows_default();
+  line.option("--data", options->setting.data_dir, "folder with ifc/duplex.ifc").environment("PLUMBLINE_DATA");
+  line.footer("Example: plumbline bench bim --json\nExit code 1 when a ratio misses its gate; times are targets.");
+  return {line, [options] { return bench(*options); }};
 }
 
 }  // namespace plumbline::scenarios

@@ -2,13 +2,9 @@
 #pragma once
 
 #include <functional>
-#include <vector>
 
+#include "scenarios/commands/command_line.h"
 #include "slam/methods.h"
-
-namespace CLI {
-class App;
-}
 
 namespace plumbline::scenarios {
 
@@ -16,21 +12,21 @@ namespace plumbline::scenarios {
 /// `table`: the methods to choose from; must outlive the action.
 using Action = std::function<int()>;
 struct Command {
-  CLI::App* app = nullptr;
+  CommandLine line;
   Action action;
 };
 
-[[nodiscard]] Command add_run(CLI::App& program, slam::MethodTable table);
-[[nodiscard]] Command add_inspect(CLI::App& program);
-[[nodiscard]] Command add_generate(CLI::App& program);
-[[nodiscard]] Command add_score(CLI::App& program);
-[[nodiscard]] Command add_report(CLI::App& program);
-[[nodiscard]] Command add_replay(CLI::App& program, slam::MethodTable table);
-[[nodiscard]] Command add_diff(CLI::App& program);
-[[nodiscard]] Command add_methods(CLI::App& program, slam::MethodTable table);
-[[nodiscard]] Command add_scenarios(CLI::App& program);
-[[nodiscard]] Command add_simulate(CLI::App& program, slam::MethodTable table);
-[[nodiscard]] Command add_estimate(CLI::App& program, slam::MethodTable table);
-[[nodiscard]] Command add_bench(CLI::App& program);
+[[nodiscard]] Command add_run(CommandLine& program, slam::MethodTable table);
+[[nodiscard]] Command add_inspect(CommandLine& program);
+[[nodiscard]] Command add_generate(CommandLine& program);
+[[nodiscard]] Command add_score(CommandLine& program);
+[[nodiscard]] Command add_report(CommandLine& program);
+[[nodiscard]] Command add_replay(CommandLine& program, slam::MethodTable table);
+[[nodiscard]] Command add_diff(CommandLine& program);
+[[nodiscard]] Command add_methods(CommandLine& program, slam::MethodTable table);
+[[nodiscard]] Command add_scenarios(CommandLine& program);
+[[nodiscard]] Command add_simulate(CommandLine& program, slam::MethodTable table);
+[[nodiscard]] Command add_estimate(CommandLine& program, slam::MethodTable table);
+[[nodiscard]] Command add_bench(CommandLine& program);
 
 }  // namespace plumbline::scenarios

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
+#include <string>
 
 #include "bim/config/tree.h"
 #include "scenarios/commands/commands.h"
@@ -19,16 +19,16 @@ DigestLog load(const std::string& dir) {
 
 }  // namespace
 
-Command add_diff(CLI::App& program) {
+Command add_diff(CommandLine& program) {
   struct Options {
     std::string a, b;
   };
   const auto options = std::make_shared<Options>();
-  CLI::App* app = program.add_subcommand("diff", "Names the first stage and tick in which two runs differ");
-  app->add_option("A", options->a, "run directory")->required();
-  app->add_option("B", options->b, "run directory")->required();
-  app->footer("Example: plumbline diff runs/quickstart-1 runs/quickstart-1-changed\nExit code 1 when they differ");
-  return {app, [options] {
+  CommandLine line = program.add_command("diff", "Names the first stage and tick in which two runs differ");
+  line.option("A", options->a, "run directory").required();
+  line.option("B", options->b, "run directory").required();
+  line.footer("Example: plumbline diff runs/quickstart-1 runs/quickstart-1-changed\nExit code 1 when they differ");
+  return {line, [options] {
             const auto difference = first_difference(load(options->a), load(options->b));
             if (!difference) {
               std::puts("equal");

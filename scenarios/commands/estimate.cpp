@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <numbers>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "bim/building/load.h"
 #include "bim/building/plan.h"
@@ -41,8 +42,8 @@ struct Options {
   double yaw_deg = 0.0;
   std::string storey;
   bool force = false;
-  CLI::Option* seed_option = nullptr;
-  CLI::Option* yaw_option = nullptr;
+  std::optional<Argument> seed_option;
+  std::optional<Argument> yaw_option;
 };
 
 const slam::MethodRow& find_row(const std::string& name, slam::MethodTable table) {
@@ -74,7 +75,7 @@ std::unique_ptr<slam::Recording> open_input(const Options& options) {
 /// What the recording tells, and the command line over it.
 slam::Prior make_prior(const Options& options, const slam::RecordingInfo& info, const bim::Plan& plan) {
   slam::Prior prior = slam::prior_of(info);
-  if (options.yaw_option->count() > 0) prior.yaw_W = wrap_angle(options.yaw_deg * std::numbers::pi / 180.0);
+  if (options.yaw_option->given()) prior.yaw_W = wrap_angle(options.yaw_deg * std::numbers::pi / 180.0);
   if (!options.storey.empty()) prior.storey = options.storey;
   if (!prior.storey) return prior;
   std::vector<std::string> names;
@@ -93,7 +94,7 @@ Tree make_config(const Options& options, const slam::MethodRow& row) {
 }
 
 std::uint64_t run_seed(const Options& options, const slam::RecordingInfo& info) {
-  return options.seed_option->count() > 0 ? options.seed : info.seed.value_or(options.seed);
+  return options.seed_option->given() ? options.seed : info.seed.value_or(options.seed);
 }
 
 slam::MethodInput make_input(const Options& options, const slam::MethodRow& row, const slam::Recording& recording) {
@@ -181,32 +182,31 @@ int estimate(const Options& options, slam::MethodTable table) {
 
 }  // namespace
 
-Command add_estimate(CLI::App& program, slam::MethodTable table) {
+Command add_estimate(CommandLine& program, slam::MethodTable table) {
   const auto options = std::make_shared<Options>();
-  CLI::App* app = program.add_subcommand("estimate", "Runs a method on a recording, simulated or real");
-  app->add_option("RECORDING", options->recording,
-                  "directory of simulate or of run --record, capture of a VLP-16 (.pcap), or ROS 1 bag")
-      ->required();
-  app->add_option("--description", options->description, "a recording.yaml, for what has none: where the LiDAR sits");
-  app->add_option("--points-topic", options->topics.points, "of a bag [the first PointCloud2]");
-  app->add_option("--odometry-topic", options->topics.odometry, "of a bag [the first Odometry]");
-  app->add_option("--imu-topic", options->topics.imu, "of a bag [the first Imu]");
-  app->add_option("--method", options->method, "one of plumbline methods")->required();
-  app->add_option("--plan", options->plan, "building, for methods that localize in a plan");
-  app->add_option("--config", options->config,
-                  "values of the method (YAML); plumbline methods --config NAME prints all");
-  app->add_option("-o,--out", options->out, "directory to write")->required();
-  options->seed_option = app->add_option("--seed", options->seed, "seed of the run [the recording's, else 1]");
-  options->yaw_option = app->add_option("--yaw-deg", options->yaw_deg,
-                                        "compass: heading in the plan at the start [the recording's, else unknown]")
-                            ->check(CLI::Range(-360.0, 360.0));
-  app->add_option("--storey", options->storey, "storey of the start [the recording's, else unknown]");
-  app->add_flag("--force", options->force, "replace the estimate that stands in --out");
-  app->footer(
+  CommandLine line = program.add_command("estimate", "Runs a method on a recording, simulated or real");
+  line.option("RECORDING", options->recording,
+              "directory of simulate or of run --record, capture of a VLP-16 (.pcap), or ROS 1 bag")
+      .required();
+  line.option("--description", options->description, "a recording.yaml, for what has none: where the LiDAR sits");
+  line.option("--points-topic", options->topics.points, "of a bag [the first PointCloud2]");
+  line.option("--odometry-topic", options->topics.odometry, "of a bag [the first Odometry]");
+  line.option("--imu-topic", options->topics.imu, "of a bag [the first Imu]");
+  line.option("--method", options->method, "one of plumbline methods").required();
+  line.option("--plan", options->plan, "building, for methods that localize in a plan");
+  line.option("--config", options->config, "values of the method (YAML); plumbline methods --config NAME prints all");
+  line.option("-o,--out", options->out, "directory to write").required();
+  options->seed_option = line.option("--seed", options->seed, "seed of the run [the recording's, else 1]");
+  options->yaw_option = line.option("--yaw-deg", options->yaw_deg,
+                                    "compass: heading in the plan at the start [the recording's, else unknown]")
+                            .range(-360.0, 360.0);
+  line.option("--storey", options->storey, "storey of the start [the recording's, else unknown]");
+  line.flag("--force", options->force, "replace the estimate that stands in --out");
+  line.footer(
       "Example: plumbline estimate walk --method s_graphs_plus -o out\n"
       "         plumbline estimate walk --method s_graph_localization --plan house.plan.yaml -o out\n"
       "         plumbline estimate vlp16.pcap --method vgicp -o out");
-  return {app, [options, table] { return estimate(*options, table); }};
+  return {line, [options, table] { return estimate(*options, table); }};
 }
 
 }  // namespace plumbline::scenarios

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "bim/building/plan_write.h"
 #include "bim/building/plan_yaml.h"
@@ -26,7 +27,7 @@ struct GenerateOptions {
   std::string scenario;
   bool force = false;
   std::string unknown_family;
-  std::vector<CLI::App*> families;
+  std::vector<CommandLine> families;
   std::map<std::string, std::string> values;  ///< by "family key", as written
 };
 
@@ -83,8 +84,8 @@ std::string scenario_for(const bim::GeneratedPlan& generated, const std::string&
 
 int generate(const GenerateOptions& options) {
   std::string family = options.unknown_family;
-  for (const CLI::App* app : options.families)
-    if (app->parsed()) family = app->get_name();
+  for (const CommandLine& line : options.families)
+    if (line.asked()) family = line.name();
   if (family.empty()) throw InputError({"plumbline generate", 0, 0}, "name a family; see plumbline generate --help");
   const Asked asked = asked_for(options, family);
   const bim::GeneratedPlan generated = bim::generate(family, asked.options);
@@ -102,36 +103,36 @@ int generate(const GenerateOptions& options) {
   return 0;
 }
 
-CLI::App* add_family(CLI::App& program, const bim::FamilyRow& row, const std::shared_ptr<GenerateOptions>& options) {
+CommandLine add_family(CommandLine& program, const bim::FamilyRow& row,
+                       const std::shared_ptr<GenerateOptions>& options) {
   const std::string name(row.name);
-  CLI::App* app = program.add_subcommand(name, std::string(row.summary));
-  app->add_option("-o,--out", options->out, "plan to write; - for stdout")->required();
-  app->add_option("--scenario", options->scenario, "also writes a scenario that walks through all rooms");
-  app->add_flag("--force", options->force, "replace files that are there");
+  CommandLine line = program.add_command(name, std::string(row.summary));
+  line.option("-o,--out", options->out, "plan to write; - for stdout").required();
+  line.option("--scenario", options->scenario, "also writes a scenario that walks through all rooms");
+  line.flag("--force", options->force, "replace files that are there");
   for (const bim::OptionRow& option : bim::family_options(name)) {
     const std::string choices = option.choices.empty() ? "" : ": " + option.choices;
     const std::string value = option.value.empty() ? "" : " [" + option.value + "]";
-    app->add_option(flag_of(option.key), options->values[name + " " + option.key], option.doc + choices + value);
+    line.option(flag_of(option.key), options->values[name + " " + option.key], option.doc + choices + value);
   }
-  app->footer("Example: plumbline generate " + name + " --seed 7 --feature column --epsilon 0.3 -o " + name +
+  line.footer("Example: plumbline generate " + name + " --seed 7 --feature column --epsilon 0.3 -o " + name +
               ".plan.yaml");
-  return app;
+  return line;
 }
 
 }  // namespace
 
-Command add_generate(CLI::App& program) {
+Command add_generate(CommandLine& program) {
   const auto options = std::make_shared<GenerateOptions>();
-  CLI::App* app = program.add_subcommand("generate", "Makes a building that is hard to tell one's place in");
-  for (const bim::FamilyRow& row : bim::families()) options->families.push_back(add_family(*app, row, options));
+  CommandLine line = program.add_command("generate", "Makes a building that is hard to tell one's place in");
+  for (const bim::FamilyRow& row : bim::families()) options->families.push_back(add_family(line, row, options));
   // An unknown name is told apart from the known ones by what the families say of it.
-  app->add_option("FAMILY", options->unknown_family)->group("");
-  app->require_subcommand(0, 1);
-  app->allow_extras();
-  app->footer(
+  line.option("FAMILY", options->unknown_family).hidden();
+  line.takes_command_or_any();
+  line.footer(
       "Example: plumbline generate corridor --rooms 6 --feature door_shift --epsilon 0.1 -o corridor.plan.yaml\n"
       "plumbline generate FAMILY --help lists the sizes and features of a family.");
-  return {app, [options] { return generate(*options); }};
+  return {line, [options] { return generate(*options); }};
 }
 
 }  // namespace plumbline::scenarios

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenarios/inspect/inspect.h"
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -59,20 +58,20 @@ int inspect(const InspectOptions& options) {
 
 }  // namespace
 
-Command add_inspect(CLI::App& program) {
+Command add_inspect(CommandLine& program) {
   const auto options = std::make_shared<InspectOptions>();
-  CLI::App* app = program.add_subcommand("inspect", "Says what is in a building: storeys, rooms, walls, warnings");
-  app->add_option("BUILDING", options->building,
-                  "plan or traffic-editor plan (.yaml), .ifc, or mesh (.glb, .obj, .dae, .ply, .stl)");
-  app->add_flag("--json", options->json, "for programs, every element");
-  app->add_flag("--as-built", options->as_built, "with its deviations, closed doors and window panes");
-  app->add_option("--mesh", options->mesh, "writes the cut building as .glb, .obj or .ply");
-  app->add_flag("--schema", options->schema, "prints instead every key of plan files, with examples");
-  app->add_option("--ifc", options->ifc, "writes the building as IFC4");
-  app->footer(
+  CommandLine line = program.add_command("inspect", "Says what is in a building: storeys, rooms, walls, warnings");
+  line.option("BUILDING", options->building,
+              "plan or traffic-editor plan (.yaml), .ifc, or mesh (.glb, .obj, .dae, .ply, .stl)");
+  line.flag("--json", options->json, "for programs, every element");
+  line.flag("--as-built", options->as_built, "with its deviations, closed doors and window panes");
+  line.option("--mesh", options->mesh, "writes the cut building as .glb, .obj or .ply");
+  line.flag("--schema", options->schema, "prints instead every key of plan files, with examples");
+  line.option("--ifc", options->ifc, "writes the building as IFC4");
+  line.footer(
       "Examples: plumbline inspect house.ifc --mesh house.glb\n"
       "          plumbline inspect site.plan.yaml --as-built --ifc built.ifc");
-  return {app, [options] { return inspect(*options); }};
+  return {line, [options] { return inspect(*options); }};
 }
 
 }  // namespace plumbline::scenarios

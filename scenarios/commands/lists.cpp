@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "scenarios/commands/commands.h"
 #include "scenarios/resolve.h"
@@ -58,25 +59,25 @@ int print_schema() {
 
 }  // namespace
 
-Command add_methods(CLI::App& program, slam::MethodTable table) {
+Command add_methods(CommandLine& program, slam::MethodTable table) {
   const auto config = std::make_shared<std::string>();
-  CLI::App* app = program.add_subcommand("methods", "Lists the methods a scenario may ask for");
-  app->add_option("--config", *config, "prints instead every value of this method's --config file, at its default");
-  app->footer("Example: plumbline methods\n         plumbline methods --config vgicp > vgicp.yaml");
-  return {app, [config, table] { return config->empty() ? list_methods(table) : print_config(*config, table); }};
+  CommandLine line = program.add_command("methods", "Lists the methods a scenario may ask for");
+  line.option("--config", *config, "prints instead every value of this method's --config file, at its default");
+  line.footer("Example: plumbline methods\n         plumbline methods --config vgicp > vgicp.yaml");
+  return {line, [config, table] { return config->empty() ? list_methods(table) : print_config(*config, table); }};
 }
 
-Command add_scenarios(CLI::App& program) {
+Command add_scenarios(CommandLine& program) {
   struct Options {
     std::string folder = "scenarios/library";
     bool schema = false;
   };
   const auto options = std::make_shared<Options>();
-  CLI::App* app = program.add_subcommand("scenarios", "Lists the scenarios of a folder and the folders in it");
-  app->add_option("FOLDER", options->folder, "folder with scenarios")->capture_default_str();
-  app->add_flag("--schema", options->schema, "prints instead every key of scenario files, with examples");
-  app->footer("Example: plumbline scenarios scenarios/library");
-  return {app, [options] { return options->schema ? print_schema() : list_scenarios(options->folder); }};
+  CommandLine line = program.add_command("scenarios", "Lists the scenarios of a folder and the folders in it");
+  line.option("FOLDER", options->folder, "folder with scenarios").shows_default();
+  line.flag("--schema", options->schema, "prints instead every key of scenario files, with examples");
+  line.footer("Example: plumbline scenarios scenarios/library");
+  return {line, [options] { return options->schema ? print_schema() : list_scenarios(options->folder); }};
 }
 
 }  // namespace plumbline::scenarios

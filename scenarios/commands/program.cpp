@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenarios/commands/program.h"
 
-#include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <string>
@@ -56,12 +56,12 @@ std::vector<slam::MethodRow> with_ours(std::vector<slam::MethodRow> own_methods)
 }
 
 int parse_and_run(int argc, char** argv, slam::MethodTable table) {
-  CLI::App program{
+  CommandLine program(
       "Walks a legged robot with an emulated VLP-16 through a building model and scores SLAM and "
       "localization methods against ground truth.",
-      "plumbline"};
-  program.set_version_flag("--version", std::string("plumbline ") + PLUMBLINE_VERSION);
-  program.require_subcommand(1);
+      "plumbline");
+  program.version(std::string("plumbline ") + PLUMBLINE_VERSION);
+  program.needs_command();
   program.footer(
       "Example: plumbline run scenarios/library/quickstart.yaml --out runs/first\n"
       "Exit codes: 0 gates passed, 1 a gate failed, 2 bad usage or input, 3 environment or internal error, "
@@ -71,14 +71,9 @@ int parse_and_run(int argc, char** argv, slam::MethodTable table) {
       add_score(program),      add_report(program),          add_replay(program, table),
       add_diff(program),       add_methods(program, table),  add_scenarios(program),
       add_bench(program),      add_simulate(program, table), add_estimate(program, table)};
-  try {
-    program.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return program.exit(error);  // --help, --version
-    return complain(std::string("plumbline: ") + error.what() + "; see plumbline --help", bad_input);
-  }
+  if (!program.parse({argv + std::min(argc, 1), argv + argc})) return 0;
   for (const Command& command : commands)
-    if (command.app->parsed()) return command.action();
+    if (command.line.asked()) return command.action();
   return bad_input;
 }
 

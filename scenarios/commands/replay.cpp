@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <optional>
+#include <string>
 
 #include "scenarios/commands/commands.h"
 #include "scenarios/commands/process.h"
@@ -20,7 +21,7 @@ struct Options {
   std::string dir;
   double until_s = 0.0;
   int threads = 0;
-  CLI::Option* until_option = nullptr;
+  std::optional<Argument> until_option;
 };
 
 /// Leaves out what comes after `until`, and the answers at the end of a run, which a shorter one gives earlier.
@@ -37,7 +38,7 @@ int replay(const Options& options, slam::MethodTable table) {
   const ResolvedScenario resolved = resolve(options.dir + "/scenario.yaml", {}, table);
   RunOptions run_options;
   run_options.threads = options.threads > 0 ? options.threads : allowed_cpus();
-  if (options.until_option->count() > 0) run_options.until_s = options.until_s;
+  if (options.until_option->given()) run_options.until_s = options.until_s;
 
   catch_interrupts();
   RunRecord record;
@@ -59,15 +60,14 @@ int replay(const Options& options, slam::MethodTable table) {
 
 }  // namespace
 
-Command add_replay(CLI::App& program, slam::MethodTable table) {
+Command add_replay(CommandLine& program, slam::MethodTable table) {
   const auto options = std::make_shared<Options>();
-  CLI::App* app = program.add_subcommand("replay", "Runs a run directory again and compares every digest");
-  app->add_option("DIR", options->dir, "run directory")->required();
-  options->until_option =
-      app->add_option("--until", options->until_s, "stop after so many simulated seconds")->check(CLI::PositiveNumber);
-  app->add_option("--threads", options->threads, "threads [the CPUs allowed]")->check(CLI::Range(1, 1024));
-  app->footer("Example: plumbline replay runs/quickstart-1 --until 12.5\nExit code 1 when a digest differs");
-  return {app, [options, table] { return replay(*options, table); }};
+  CommandLine line = program.add_command("replay", "Runs a run directory again and compares every digest");
+  line.option("DIR", options->dir, "run directory").required();
+  options->until_option = line.option("--until", options->until_s, "stop after so many simulated seconds").positive();
+  line.option("--threads", options->threads, "threads [the CPUs allowed]").range(1, 1024);
+  line.footer("Example: plumbline replay runs/quickstart-1 --until 12.5\nExit code 1 when a digest differs");
+  return {line, [options, table] { return replay(*options, table); }};
 }
 
 }  // namespace plumbline::scenarios

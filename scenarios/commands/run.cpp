@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "bim/errors.h"
 #include "scenarios/commands/commands.h"
@@ -29,8 +30,8 @@ struct Options {
   int threads = 0;
   bool record = false;
   bool force = false;
-  CLI::Option* methods_option = nullptr;
-  CLI::Option* seed_option = nullptr;
+  std::optional<Argument> methods_option;
+  std::optional<Argument> seed_option;
 };
 
 /// runs/<scenario>-<seed>, with what does not belong into a file name replaced.
@@ -46,8 +47,8 @@ std::string default_out(const Scenario& scenario) {
 
 Overrides overrides_of(const Options& options) {
   Overrides overrides;
-  if (options.methods_option->count() > 0) overrides.methods = options.methods;
-  if (options.seed_option->count() > 0) overrides.seed = options.seed;
+  if (options.methods_option->given()) overrides.methods = options.methods;
+  if (options.seed_option->given()) overrides.seed = options.seed;
   return overrides;
 }
 
@@ -91,22 +92,22 @@ int run(const Options& options, slam::MethodTable table) {
 
 }  // namespace
 
-Command add_run(CLI::App& program, slam::MethodTable table) {
+Command add_run(CommandLine& program, slam::MethodTable table) {
   const auto options = std::make_shared<Options>();
-  CLI::App* app = program.add_subcommand("run", "Simulates a scenario, runs the methods, scores and reports them");
-  app->add_option("INPUT", options->input,
-                  "scenario, plan or traffic-editor plan (.yaml), .ifc, or mesh (.glb, .obj, .dae, .ply, .stl)")
-      ->required();
+  CommandLine line = program.add_command("run", "Simulates a scenario, runs the methods, scores and reports them");
+  line.option("INPUT", options->input,
+              "scenario, plan or traffic-editor plan (.yaml), .ifc, or mesh (.glb, .obj, .dae, .ply, .stl)")
+      .required();
   options->methods_option =
-      app->add_option("--method", options->methods, "methods to run, comma-separated [the scenario's]")->delimiter(',');
-  options->seed_option = app->add_option("--seed", options->seed, "seed [the scenario's]");
-  app->add_option("--out", options->out, "run directory [runs/<scenario>-<seed>]");
-  app->add_option("--threads", options->threads, "threads [the CPUs allowed]")->check(CLI::Range(1, 1024));
-  app->add_flag("--record", options->record, "also write the recording, as simulate does, into the folder recording");
-  app->add_flag("--force", options->force, "replace the run that stands in --out");
-  app->footer(
+      line.option("--method", options->methods, "methods to run, comma-separated [the scenario's]").delimiter(',');
+  options->seed_option = line.option("--seed", options->seed, "seed [the scenario's]");
+  line.option("--out", options->out, "run directory [runs/<scenario>-<seed>]");
+  line.option("--threads", options->threads, "threads [the CPUs allowed]").range(1, 1024);
+  line.flag("--record", options->record, "also write the recording, as simulate does, into the folder recording");
+  line.flag("--force", options->force, "replace the run that stands in --out");
+  line.footer(
       "Example: plumbline run scenarios/library/quickstart.yaml --method vgicp,truth --seed 7 --out runs/seven");
-  return {app, [options, table] { return run(*options, table); }};
+  return {line, [options, table] { return run(*options, table); }};
 }
 
 }  // namespace plumbline::scenarios

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "scenarios/commands/commands.h"
 #include "scenarios/run/run_files.h"
@@ -75,21 +78,21 @@ int score_again(const std::string& dir, const std::vector<std::string>& estimate
 
 }  // namespace
 
-Command add_score(CLI::App& program) {
+Command add_score(CommandLine& program) {
   struct Options {
     std::string dir;
     std::vector<std::string> estimates;
   };
   const auto options = std::make_shared<Options>();
-  CLI::App* app = program.add_subcommand("score", "Scores a run again from what is on disk, with outside estimates");
-  app->add_option("DIR", options->dir, "run directory")->required();
-  app->add_option("--estimate", options->estimates,
-                  "NAME=trajectory.tum[,frame=W|M]: poses of the robot in the plan's frame W or its own M [M]; or "
-                  "NAME=directory that plumbline estimate wrote, of the run's recording");
-  app->footer(
+  CommandLine line = program.add_command("score", "Scores a run again from what is on disk, with outside estimates");
+  line.option("DIR", options->dir, "run directory").required();
+  line.option("--estimate", options->estimates,
+              "NAME=trajectory.tum[,frame=W|M]: poses of the robot in the plan's frame W or its own M [M]; or "
+              "NAME=directory that plumbline estimate wrote, of the run's recording");
+  line.footer(
       "Example: plumbline score runs/quickstart-1 --estimate kiss=kiss.tum --estimate amcl=amcl.tum,frame=W\n"
       "         plumbline score runs/quickstart-1 --estimate paper=estimates/paper");
-  return {app, [options] { return score_again(options->dir, options->estimates); }};
+  return {line, [options] { return score_again(options->dir, options->estimates); }};
 }
 
 }  // namespace plumbline::scenarios

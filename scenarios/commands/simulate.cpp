@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "bim/errors.h"
 #include "scenarios/commands/commands.h"
@@ -25,7 +27,7 @@ struct Options {
   bool bag = false;
   bool bag_truth = false;
   std::string profile = "velodyne";
-  CLI::Option* seed_option = nullptr;
+  std::optional<Argument> seed_option;
 };
 
 std::vector<std::string> profile_names() {
@@ -41,7 +43,7 @@ const slam::BagProfile& find_profile(const std::string& name) {
 
 int simulate(const Options& options, slam::MethodTable table) {
   Overrides overrides;
-  if (options.seed_option->count() > 0) overrides.seed = options.seed;
+  if (options.seed_option->given()) overrides.seed = options.seed;
   const ResolvedScenario resolved = resolve(options.input, overrides, table);
 
   catch_interrupts();
@@ -73,26 +75,26 @@ int simulate(const Options& options, slam::MethodTable table) {
 
 }  // namespace
 
-Command add_simulate(CLI::App& program, slam::MethodTable table) {
+Command add_simulate(CommandLine& program, slam::MethodTable table) {
   const auto options = std::make_shared<Options>();
-  CLI::App* app =
-      program.add_subcommand("simulate", "Records what the sensors see on a walk, with the truth beside it");
-  app->add_option("INPUT", options->input, "scenario, plan or building, as for run")->required();
-  app->add_option("-o,--out", options->out, "directory to write")->required();
-  options->seed_option = app->add_option("--seed", options->seed, "seed [the scenario's]");
-  CLI::Option* bag = app->add_flag("--bag", options->bag, "also write recording.bag (ROS 1, LZ4)");
-  app->add_option("--ros-profile", options->profile, "topics, frames and cloud layout of the bag")
-      ->check(CLI::IsMember(profile_names()))
-      ->capture_default_str()
-      ->needs(bag);
-  app->add_flag("--bag-truth", options->bag_truth, "true poses in the bag, on /ground_truth/odom")->needs(bag);
-  app->add_flag("--force", options->force, "replace the recording that stands in --out");
-  app->footer(
+  CommandLine line =
+      program.add_command("simulate", "Records what the sensors see on a walk, with the truth beside it");
+  line.option("INPUT", options->input, "scenario, plan or building, as for run").required();
+  line.option("-o,--out", options->out, "directory to write").required();
+  options->seed_option = line.option("--seed", options->seed, "seed [the scenario's]");
+  const Argument bag = line.flag("--bag", options->bag, "also write recording.bag (ROS 1, LZ4)");
+  line.option("--ros-profile", options->profile, "topics, frames and cloud layout of the bag")
+      .one_of(profile_names())
+      .shows_default()
+      .needs(bag);
+  line.flag("--bag-truth", options->bag_truth, "true poses in the bag, on /ground_truth/odom").needs(bag);
+  line.flag("--force", options->force, "replace the recording that stands in --out");
+  line.footer(
       "Example: plumbline simulate scenarios/library/house.yaml -o walk --bag\n"
       "Writes lidar.pcap (packets of a VLP-16), odometry.tum, imu.csv, recording.yaml and truth.tum; plumbline "
       "estimate "
       "reads all but the last.");
-  return {app, [options, table] { return simulate(*options, table); }};
+  return {line, [options, table] { return simulate(*options, table); }};
 }
 
 }  // namespace plumbline::scenarios

@@ -2,10 +2,10 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <vector>
 
 #include "bim/config/tree.h"
 #include "bim/errors.h"
@@ -23,10 +23,12 @@ class InspectCommandTest : public testing::Test {
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }
 
-  std::string run(const std::string& arguments) {
-    CLI::App program;
-    const Command command = add_inspect(program);
-    program.parse("inspect " + arguments);
+  std::string run(const std::vector<std::string>& arguments) {
+    CommandLine program("", "plumbline");
+    Command command = add_inspect(program);
+    std::vector<std::string> all = {"inspect"};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    EXPECT_TRUE(program.parse(all));
     testing::internal::CaptureStdout();
     int code = -1;
     try {
@@ -45,19 +47,21 @@ class InspectCommandTest : public testing::Test {
 };
 
 TEST_F(InspectCommandTest, PrintsJsonThatReadsBack) {
-  const Tree tree = read_json(run(plan_ + " --json"), "stdout");
+  const Tree tree = read_json(run({plan_, "--json"}), "stdout");
   EXPECT_EQ(tree.find("walls")->as_list().size(), 1u);
   EXPECT_EQ(tree.find("schema")->as_string(), "plan");
 }
 
 TEST_F(InspectCommandTest, WritesTheMeshAskedForAndNothingElse) {
   const std::string mesh = (folder_ / "wall.glb").string();
-  EXPECT_NE(run(plan_ + " --mesh " + mesh).find("1 walls"), std::string::npos);
+  EXPECT_NE(run({plan_, "--mesh", mesh}).find("1 walls"), std::string::npos);
   EXPECT_GT(std::filesystem::file_size(mesh), 100u);
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_), {}), 2);
 }
 
-TEST_F(InspectCommandTest, MissingFileIsAnInputError) { EXPECT_THROW(run((folder_ / "no.ifc").string()), InputError); }
+TEST_F(InspectCommandTest, MissingFileIsAnInputError) {
+  EXPECT_THROW(run({(folder_ / "no.ifc").string()}), InputError);
+}
 
 }  // namespace
 }  // namespace plumbline::scenarios

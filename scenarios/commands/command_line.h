@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
+
+namespace plumbline::scenarios {
+
+/// What an argument may be, given one after the other: line.option(...).required().
+class Argument {
+ public:
+  explicit Argument(CLI::Option* option) : option_(option) {}
+
+  Argument& required();
+  Argument& range(int least, int most);
+  Argument& range(double least, double most);
+  Argument& positive();
+  Argument& one_of(const std::vector<std::string>& words);
+  Argument& delimiter(char between);
+  Argument& environment(const std::string& variable);  ///< stands in where the argument is not given
+  Argument& needs(const Argument& other);
+  Argument& shows_default();
+  Argument& hidden();
+
+  /// Whether the command line that was read has it.
+  [[nodiscard]] bool given() const;
+
+ private:
+  CLI::Option* option_;
+};
+
+/// The program's command line or that of one of its subcommands. Copies are the same line. Values are written when the
+/// line is read and must live until then.
+class CommandLine {
+ public:
+  CommandLine(const std::string& summary, const std::string& name);
+
+  [[nodiscard]] CommandLine add_command(const std::string& name, const std::string& summary);
+
+  /// `name`: NAME by position, or "-n,--name".
+  Argument option(const std::string& name, std::string& value, const std::string& doc = "");
+  Argument option(const std::string& name, std::vector<std::string>& value, const std::string& doc);
+  Argument option(const std::string& name, int& value, const std::string& doc);
+  Argument option(const std::string& name, std::uint64_t& value, const std::string& doc);
+  Argument option(const std::string& name, double& value, const std::string& doc);
+  Argument flag(const std::string& name, bool& value, const std::string& doc);
+
+  void version(const std::string& text);
+  void footer(const std::string& text);
+  void needs_command();
+  /// At most one subcommand; what is none of them is left to the action to refuse.
+  void takes_command_or_any();
+
+  /// Reads the arguments after the program's name. False where help or version was asked for, which is then printed.
+  /// Throws InputError.
+  [[nodiscard]] bool parse(const std::vector<std::string>& arguments);
+
+  /// Whether the line that was read names this subcommand.
+  [[nodiscard]] bool asked() const;
+  [[nodiscard]] std::string name() const;
+
+ private:
+  explicit CommandLine(std::shared_ptr<CLI::App> app) : app_(std::move(app)) {}
+  template <class T>
+  Argument add(const std::string& name, T& value, const std::string& doc);
+
+  std::shared_ptr<CLI::App> app_;
+};
+
+}  // namespace plumbline::scenarios
