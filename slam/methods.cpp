@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "slam/baseline/lidar_odometry_method.h"
-#include "slam/baseline/odometry_method.h"
 #include "slam/localize/s_graph_localization.h"
 #include "slam/sgraphs/s_graphs_plus.h"
 
@@ -27,6 +26,12 @@ MethodRow odometry_alone(OdometryKind kind, FrontEnd LidarOdometryConfig::*front
   return with_config<Config>(std::move(row));
 }
 
+std::unique_ptr<Method> reckon_dead(const MethodInput& input) {
+  LidarOdometryConfig config;
+  config.kind = OdometryKind::legs;
+  return make_lidar_odometry_method(input, config, config_of<DeadReckoningConfig>(input).map);
+}
+
 std::unique_ptr<Method> localize_in_plan(const MethodInput& input) {
   return make_s_graph_localization(input, config_of<LocalizationConfig>(input));
 }
@@ -35,10 +40,8 @@ std::unique_ptr<Method> localize_in_plan(const MethodInput& input) {
 
 MethodTable methods() {
   static const std::array rows = {
-      with_config<OdometryMethodConfig>({.name = "odometry",
-                                         .summary = "dead reckoning of the legs",
-                                         .make = make_odometry_method,
-                                         .needs_odometry = true}),
+      with_config<DeadReckoningConfig>(
+          {.name = "odometry", .summary = "dead reckoning of the legs", .make = reckon_dead, .needs_odometry = true}),
       odometry_alone(OdometryKind::vgicp, &LidarOdometryConfig::vgicp,
                      {.name = "vgicp", .summary = "LiDAR odometry: voxelized GICP against a sliding local map"}),
       odometry_alone(OdometryKind::floam, &LidarOdometryConfig::floam,

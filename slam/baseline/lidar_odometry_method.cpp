@@ -11,10 +11,21 @@ namespace plumbline::slam {
 
 namespace {
 
+/// M is O.
+Registration dead_reckoning(const Pose& X_OR) {
+  Registration result;
+  result.X_MR = X_OR;
+  result.matched = 1.0;
+  result.converged = true;
+  return result;
+}
+
 class LidarOdometryMethod final : public Method {
  public:
   LidarOdometryMethod(const MethodInput& input, const LidarOdometryConfig& config, const MapCloudConfig& map)
-      : calibration_(input.calibration), odometry_(make_lidar_odometry(config)), map_(map) {}
+      : calibration_(input.calibration),
+        odometry_(config.kind == OdometryKind::legs ? nullptr : make_lidar_odometry(config)),
+        map_(map) {}
 
   void on_odometry(const Odometry& odometry) override { motion_.add(odometry); }
 
@@ -27,7 +38,8 @@ class LidarOdometryMethod final : public Method {
     output.digests.push_back({"deskew", digest(deskewed)});
 
     watch.restart();
-    const Registration registration = odometry_->update(deskewed, motion_.at(scan.stamp));
+    const Pose X_OR = motion_.at(scan.stamp);
+    const Registration registration = odometry_ ? odometry_->update(deskewed, X_OR) : dead_reckoning(X_OR);
     output.times.push_back({"odometry", watch.cpu_ms()});
     output.digests.push_back({"odometry", Digest().add(registration.X_MR).add(registration.matched).value()});
 
@@ -48,7 +60,7 @@ class LidarOdometryMethod final : public Method {
  private:
   Calibration calibration_;
   MotionBuffer motion_;
-  std::unique_ptr<LidarOdometry> odometry_;
+  std::unique_ptr<LidarOdometry> odometry_;  ///< none: the legs alone
   MapCloudRecorder map_;
   std::vector<StampedPose> trajectory_;
 };

@@ -21,8 +21,17 @@ struct LidarOdometryMethodConfig {
   }
 };
 
-/// Odometry and mapping alone: each scan's pose as the front end gives it, never corrected. Without odometry of the
-/// robot it assumes constant velocity.
+/// And what dead reckoning can be told.
+struct DeadReckoningConfig {
+  MapCloudConfig map;
+  template <class V>
+  void visit(V& v) {
+    v("map", map);
+  }
+};
+
+/// Odometry and mapping alone: each scan's pose as the front end gives it, never corrected; of kind legs M is O, and
+/// the pose is the leg odometry's at the scan's stamp. Without odometry of the robot it assumes constant velocity.
 [[nodiscard]] std::unique_ptr<Method> make_lidar_odometry_method(const MethodInput& input, LidarOdometryConfig config,
                                                                  const MapCloudConfig& map);
 
