@@ -12,14 +12,15 @@ namespace plumbline::slam {
 
 namespace {
 
-constexpr int reach_columns = 3;               // columns asked on each side of a return, spread over the radius
-constexpr int reach_rings = 1;                 // rings asked above and below
-constexpr double azimuth_step_rad = 0.003474;  // between columns of a VLP-16 at 600 rpm [facts: lidar 1.2]
+constexpr int reach_columns = 3;       // columns asked on each side of a return, spread over the radius
+constexpr int reach_rings = 1;         // rings asked above and below
+constexpr double scan_rad = 6.336576;  // a scan's columns: one turn, rounded up to whole packets [facts: lidar 2.4]
 
 /// Scatter of a return's neighbours in the ring image.
 class Neighbourhood {
  public:
-  Neighbourhood(const DeskewedScan& scan, const SurfelConfig& config) : scan_(scan), config_(config) {}
+  Neighbourhood(const DeskewedScan& scan, const SurfelConfig& config)
+      : scan_(scan), config_(config), azimuth_step_rad_(scan_rad / scan.columns) {}
 
   [[nodiscard]] std::optional<Surfel> surfel(int column, int ring) const {
     const std::size_t centre = index(column, ring);
@@ -27,7 +28,7 @@ class Neighbourhood {
     const double range = scan_.range_m[centre];
     const double gap = std::max(config_.radius_m, config_.ring_gap_per_m * range);
     const double step_m = config_.radius_m / reach_columns;
-    const int step = std::max(1, static_cast<int>(step_m / (range * azimuth_step_rad)));
+    const int step = std::max(1, static_cast<int>(step_m / (range * azimuth_step_rad_)));
 
     int n = 0;
     bool other_ring = false;
@@ -67,6 +68,7 @@ class Neighbourhood {
 
   const DeskewedScan& scan_;
   const SurfelConfig& config_;
+  const double azimuth_step_rad_;  ///< between columns
 };
 
 }  // namespace
