@@ -93,7 +93,15 @@ void FieldReader::finish() const {
 }
 
 void FieldReader::fail_missing(std::string_view key) const {
-  throw InputError(map_.mark, "the key '" + std::string(key) + "' is missing");
+  std::vector<std::string> others;
+  for (const auto& [other, child] : map_.as_map()) {
+    const bool named = std::find(known_.begin(), known_.end(), other) != known_.end();
+    if (!named && std::min(other.size(), key.size()) > 2) others.push_back(other);  // shorter names are all alike
+  }
+  const std::string meant = did_you_mean(key, others);
+  throw InputError(meant.empty() ? map_.mark : map_.find(meant)->mark,
+                   "the key '" + std::string(key) + "' is missing" +
+                       (meant.empty() ? "" : "; is '" + meant + "' meant to be it?"));
 }
 
 void FieldReader::read_value(const Tree& tree, std::string_view key, const Field& field, Eigen::Vector2d& value) {

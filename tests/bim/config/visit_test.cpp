@@ -72,6 +72,8 @@ TEST(Visit, RoundTrips) {
 TEST(Visit, NamesEveryMistake) {
   EXPECT_EQ(error_of("name: x\ncuont: 3\n"), "f.yaml:2:8: unknown key 'cuont'; did you mean 'count'?");
   EXPECT_EQ(error_of("count: 3\n"), "f.yaml:1:1: the key 'name' is missing");
+  EXPECT_EQ(error_of("nmae: x\n"), "f.yaml:1:7: the key 'name' is missing; is 'nmae' meant to be it?");
+  EXPECT_EQ(error_of("cuont: 3\n"), "f.yaml:1:1: the key 'name' is missing");
   EXPECT_EQ(error_of("name: x\ncount: -1\n"), "f.yaml:2:8: 'count': -1 is out of range; it must be at least 0");
   EXPECT_EQ(error_of("name: x\ncount: 1.5\n"), "f.yaml:2:8: 'count': found '1.5' where a whole number is expected");
   EXPECT_EQ(error_of("name: x\nparts: [{colour: gren}]\n"),
