@@ -54,11 +54,12 @@ const slam::MethodRow& find_row(const std::string& name, slam::MethodTable table
   return *row;
 }
 
-std::shared_ptr<const bim::Plan> load_plan(const Options& options, const slam::MethodRow& row) {
+std::shared_ptr<const bim::Plan> load_plan(const Options& options, const slam::MethodRow& row,
+                                           const bim::BuildingOptions& taken) {
   if (!row.needs_plan) return nullptr;
   if (options.plan.empty())
     throw InputError({"--plan", 0, 0}, "is missing; method '" + options.method + "' localizes in a plan");
-  return std::make_shared<const bim::Plan>(bim::make_plan(bim::load_site(options.plan).as_planned));
+  return std::make_shared<const bim::Plan>(bim::make_plan(bim::load_site(options.plan, taken).as_planned));
 }
 
 /// A run directory holds its recording in a folder.
@@ -107,7 +108,7 @@ slam::MethodInput make_input(const Options& options, const slam::MethodRow& row,
                                                     "' needs; vgicp and s_graphs_plus do without");
   input.seed = method_seed(run_seed(options, info), row.name);
   input.calibration = slam::calibration_of(info);
-  input.plan = load_plan(options, row);
+  input.plan = load_plan(options, row, info.plan);
   if (input.plan) input.prior = make_prior(options, info, *input.plan);
   return input;
 }

@@ -23,6 +23,7 @@ slam::RecordingInfo info_of(const ResolvedScenario& resolved) {
                              " sends no packets to record; vlp16, vlp32c or hdl32e would be right");
   slam::RecordingInfo info = slam::recording_info(resolved.scenario.seed, sim::World::calibration(), resolved.prior);
   info.lidar.vertical_offsets = resolved.world.vertical_offsets;
+  info.plan = resolved.scenario.building_options;
   return info;
 }
 

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "bim/building/building_options.h"
 #include "bim/config/visit.h"
 #include "slam/io/method.h"
 
@@ -58,6 +59,7 @@ struct RecordingInfo {
   MessageSpec lidar;
   MountSpec mount;
   ToldSpec told;
+  bim::BuildingOptions plan;  ///< as the run had it
   template <class V>
   void visit(V& v) {
     v("recording", version, Field{.doc = "version of this format", .min = 1, .max = 1, .required = true});
@@ -65,6 +67,7 @@ struct RecordingInfo {
     v("lidar", lidar, Field{.doc = "how packets become scans"});
     v("mount", mount, Field{.doc = "where the LiDAR sits"});
     v("told", told, Field{.doc = "what plan localization is told"});
+    v("plan", plan, Field{.doc = "how the plan is taken"});
   }
 };
 

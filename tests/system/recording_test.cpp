@@ -157,11 +157,13 @@ TEST_F(Recordings, ACaptureOfARealSensorNeedsNothingElse) {
 }
 
 TEST_F(Recordings, EstimateSaysWhatRunSaid) {
-  const std::string run = folder_ / "run";
+  write_file(folder_ / "open.yaml", read_file(input()) + "doors: open\n");  // that of the closet too
+  write_file(folder_ / "short.plan.yaml", read_file(plan()));
+  const std::string open = folder_ / "open.yaml", run = folder_ / "run";
   const std::string methods = "odometry,vgicp,s_graphs_plus,s_graph_localization";
-  ASSERT_EQ(plumbline({"run", input(), "--out", run, "--record", "--method", methods}).code, 0);
+  ASSERT_EQ(plumbline({"run", open, "--out", run, "--record", "--method", methods}).code, 0);
   const std::string walk = folder_ / "walk";
-  ASSERT_EQ(plumbline({"simulate", input(), "-o", walk}).code, 0);
+  ASSERT_EQ(plumbline({"simulate", open, "-o", walk}).code, 0);
   for (const char* name : {"lidar.pcap", "odometry.tum", "imu.csv", "recording.yaml"})
     EXPECT_TRUE(read_file(walk + "/" + name) == read_file(run + "/recording/" + name)) << name;
   EXPECT_TRUE(read_file(walk + "/truth.tum") == read_file(run + "/truth.tum"));
