@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "bim/rays/bodies.h"
 #include "scenarios/score/metrics.h"
 
 namespace plumbline::scenarios {
@@ -47,6 +48,16 @@ void check_route_and_start(const Scenario& scenario, const Tree& tree) {
     throw InputError(mark_at(tree, {"route"}), "route takes either rooms or shuttle, not both");
 }
 
+void check_bodies(const Scenario& scenario, const Tree& tree) {
+  constexpr std::size_t most = bim::Bodies::most;
+  const std::size_t people = scenario.people.size();
+  if (people + scenario.moving_doors.size() <= most) return;
+  const Tree& first_too_many =
+      people > most ? tree.find("people")->as_list()[most] : tree.find("moving_doors")->as_list()[most - people];
+  throw InputError(first_too_many.mark, "people and moving doors together must be at most " + std::to_string(most) +
+                                            ", not " + std::to_string(people + scenario.moving_doors.size()));
+}
+
 void check_pushes(const PushesSpec& pushes, const Tree& tree) {
   if (pushes.min_n && *pushes.min_n > pushes.max_n)
     throw InputError(mark_at(tree, {"pushes", "min_n"}), "min_n must not be greater than max_n");
@@ -63,6 +74,7 @@ ScenarioText read_scenario(std::string_view text, const std::string& file) {
   check_gates(result.scenario, tree);
   check_route_and_start(result.scenario, tree);
   check_pushes(result.scenario.pushes, tree);
+  check_bodies(result.scenario, tree);
   return result;
 }
 
@@ -133,6 +145,8 @@ std::vector<std::string> off_defaults(const Scenario& scenario) {
     names.push_back("doors: " + to_tree(options).find("doors")->as_string());
   if (options.furniture != defaults.building_options.furniture)
     names.push_back(std::string("furniture: ") + (options.furniture ? "true" : "false"));
+  if (!scenario.people.empty()) names.push_back("people: " + std::to_string(scenario.people.size()));
+  if (!scenario.moving_doors.empty()) names.push_back("moving_doors: " + std::to_string(scenario.moving_doors.size()));
   return names;
 }
 

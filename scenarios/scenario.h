@@ -263,7 +263,7 @@ struct ScenarioText {
 /// Mark of a nested value ("route", "rooms"); of the innermost that exists where some are missing.
 [[nodiscard]] Mark mark_at(const Tree& tree, std::initializer_list<std::string_view> path);
 /// Switches of the sensors and the building that differ from the defaults, as "lidar.preset: ideal", in the order of
-/// the fields.
+/// the fields; then how many people and moving doors there are.
 [[nodiscard]] std::vector<std::string> off_defaults(const Scenario& scenario);
 
 }  // namespace plumbline::scenarios

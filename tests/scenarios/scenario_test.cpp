@@ -74,6 +74,25 @@ TEST(Scenario, GroundAndPushesBecomeConditions) {
     EXPECT_NE(std::find(off.begin(), off.end(), name), off.end()) << name;
 }
 
+TEST(Scenario, PeopleAndMovingDoorsAreOffTheDefaults) {
+  const std::string text =
+      std::string(good) + "people: [{rooms: [hall]}, {rooms: [hall]}]\nmoving_doors: [{door: d}]\n";
+  const std::vector<std::string> off = off_defaults(read_scenario(text, "s.yaml").scenario);
+  ASSERT_GE(off.size(), 2U);
+  EXPECT_EQ(off[off.size() - 2], "people: 2");
+  EXPECT_EQ(off.back(), "moving_doors: 1");
+}
+
+TEST(Scenario, MoreBodiesThanTheLidarTakesAreRefusedWhereTheyStand) {
+  std::string text = std::string(good) + "moving_doors: [{door: d}]\npeople:\n";
+  for (int i = 0; i < 255; ++i) text += "  - {rooms: [hall]}\n";
+  EXPECT_EQ(complaint(text), "none");
+  EXPECT_NE(complaint(text + "  - {rooms: [hall]}\n").find("s.yaml:16:16: people and moving doors"), std::string::npos);
+  for (int i = 0; i < 3; ++i) text += "  - {rooms: [hall]}\n";
+  EXPECT_NE(complaint(text).find("at most 256, not 259"), std::string::npos);
+  EXPECT_NE(complaint(text).find("s.yaml:274:5"), std::string::npos);
+}
+
 TEST(Scenario, PushesAndGroundOutOfRangeAreRefused) {
   const std::string text(good);
   EXPECT_NE(complaint(text + "pushes: {min_n: 90, max_n: 80}\n").find("min_n must not be greater"), std::string::npos);
