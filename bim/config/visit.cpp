@@ -99,9 +99,9 @@ void FieldReader::fail_missing(std::string_view key) const {
     if (!named && std::min(other.size(), key.size()) > 2) others.push_back(other);  // shorter names are all alike
   }
   const std::string meant = did_you_mean(key, others);
-  throw InputError(meant.empty() ? map_.mark : map_.find(meant)->mark,
-                   "the key '" + std::string(key) + "' is missing" +
-                       (meant.empty() ? "" : "; is '" + meant + "' meant to be it?"));
+  throw InputError(
+      meant.empty() ? map_.mark : map_.find(meant)->mark,
+      "the key '" + std::string(key) + "' is missing" + (meant.empty() ? "" : "; is '" + meant + "' meant to be it?"));
 }
 
 void FieldReader::read_value(const Tree& tree, std::string_view key, const Field& field, Eigen::Vector2d& value) {
