@@ -44,6 +44,8 @@ SGraphsPlusPaperConfig::SGraphsPlusPaperConfig() {
   incremental.everything = true;
   walls = printed_walls();
   rooms = printed_rooms();
+  map.spacing_m = 2.0;
+  reflections.remove = false;
   floors.room_sigma_m = sigma(1e-4);
   loop.radius_m = 1.0;
   loop.min_walked_m = 3.0;

@@ -91,6 +91,9 @@ Output SGraphsPlus::on_scan(const Scan& scan) {
   if (is_keyframe(X_OR)) add_keyframe(deskewed, odometry, output);
   const auto keyframe = graph_.keyframes.size() - 1;
   scans_.push_back({scan.stamp, static_cast<int>(keyframe), X_OR});
+  watch.restart();
+  keep_cloud(deskewed);
+  output.times.push_back({"map", watch.cpu_ms()});
   output.X_FR = X_MO(keyframe) * X_OR;
   return output;
 }
@@ -127,7 +130,13 @@ void SGraphsPlus::add_keyframe(const DeskewedScan& scan, const Registration& odo
 
   optimize_graph();
   file(output, watch, "graph", slam::digest_of(graph_));
-  clouds_.push_back({graph_.keyframes.back().X_MR, thin_scan(scan, config_.map)});
+}
+
+void SGraphsPlus::keep_cloud(const DeskewedScan& scan) {
+  const Pose& X_OR = scans_.back().X_OR;
+  if (!clouds_.empty() && (scans_[cloud_scans_.back()].X_OR.t - X_OR.t).norm() < config_.map.spacing_m) return;
+  clouds_.push_back({X_OR, thin_scan(scan, config_.map)});
+  cloud_scans_.push_back(scans_.size() - 1);
 }
 
 std::vector<PlaneObservation> SGraphsPlus::planes_of(const DeskewedScan& scan) const {
@@ -229,7 +238,7 @@ Estimate SGraphsPlus::finish() {
     const double z = -(plane.d + plane.n.head<2>().dot(floor.center_M)) / plane.n.z();
     estimate.floors.push_back({floor.storey, {floor.center_M.x(), floor.center_M.y(), z}, plane});
   }
-  estimate.map_F = point_map();
+  estimate.map_F = point_map(estimate);
   return estimate;
 }
 
@@ -249,8 +258,13 @@ std::vector<StampedPose> SGraphsPlus::trajectory() const {
   return poses;
 }
 
-std::vector<Eigen::Vector3f> SGraphsPlus::point_map() {
-  for (std::size_t k = 0; k < clouds_.size(); ++k) clouds_[k].X_FR = graph_.keyframes[k].X_MR;
+std::vector<Eigen::Vector3f> SGraphsPlus::point_map(const Estimate& estimate) {
+  for (std::size_t k = 0; k < clouds_.size(); ++k) clouds_[k].X_FR = estimate.trajectory[cloud_scans_[k]].X_FR;
+  std::vector<Plane> levels_M;
+  for (const FloorNode& floor : estimate.floors) levels_M.push_back(floor.plane_F);
+  for (const PlaneVertex& plane : graph_.planes)
+    if (plane.kind == PlaneKind::ceiling && plane.merged_into < 0) levels_M.push_back(plane.plane_M);
+  remove_reflections(clouds_, estimate.planes, levels_M, calibration_.X_RL.t, config_.reflections);
   return map_cloud(clouds_, config_.map);
 }
 

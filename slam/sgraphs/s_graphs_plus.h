@@ -16,6 +16,7 @@
 #include "slam/planes/detect.h"
 #include "slam/planes/ransac.h"
 #include "slam/sgraphs/floor_layer.h"
+#include "slam/sgraphs/reflections.h"
 #include "slam/sgraphs/room_layer.h"
 #include "slam/sgraphs/wall_layer.h"
 
@@ -61,7 +62,8 @@ struct SGraphsPlusConfig {
   LoopConfig loop;
   IncrementalConfig incremental;
   OptimizerConfig optimizer;
-  MapCloudConfig map;
+  MapCloudConfig map{.spacing_m = 0.2};
+  ReflectionConfig reflections;
 
   template <class V>
   void visit(V& v) {
@@ -84,6 +86,7 @@ struct SGraphsPlusConfig {
     v("incremental", incremental);
     v("optimizer", optimizer);
     v("map", map);
+    v("reflections", reflections);
   }
 };
 
@@ -131,7 +134,8 @@ class SGraphsPlus : public Method {
   void weigh_by_fitness(PoseFactor& factor) const;
   [[nodiscard]] Pose X_MO(std::size_t keyframe) const;
   [[nodiscard]] std::vector<StampedPose> trajectory() const;
-  [[nodiscard]] std::vector<Eigen::Vector3f> point_map();
+  void keep_cloud(const DeskewedScan& scan);
+  [[nodiscard]] std::vector<Eigen::Vector3f> point_map(const Estimate& estimate);
 
   SGraphsPlusConfig config_;
   std::uint64_t seed_;
@@ -145,7 +149,8 @@ class SGraphsPlus : public Method {
   Graph graph_;
   IncrementalOptimizer back_end_;
   std::vector<TrackedScan> scans_;
-  std::vector<CloudKeyframe> clouds_;                         ///< index = keyframe
+  std::vector<CloudKeyframe> clouds_;                         ///< of scans at least map.spacing_m apart along the way
+  std::vector<std::size_t> cloud_scans_;                      ///< index into scans_ of each cloud
   std::vector<std::vector<Eigen::Vector3d>> fitness_clouds_;  ///< index = keyframe, for PoseWeights::fitness
   double walked_m_ = 0.0;
   bool full_wanted_ = false;  ///< a loop, a duplicate or a wall from before the prior came in

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/sgraphs/reflections.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <tuple>
+
+#include "slam/odometry/voxel.h"
+
+namespace plumbline::slam {
+
+namespace {
+
+/// A wall face with the stretch of it that was seen.
+struct Face {
+  Plane plane;
+  Eigen::Vector2d along = Eigen::Vector2d::UnitX();
+  double s0 = 0.0, s1 = 0.0, z0 = 0.0, z1 = 0.0;
+};
+
+/// Where a ray went through a face.
+struct Crossing {
+  int face = -1;
+  double share = 1.0;  ///< of the ray's length, from the sensor
+  int s_cell = 0, z_cell = 0;
+  Eigen::Vector3d q_F = Eigen::Vector3d::Zero();
+};
+
+/// A point that was seen through a face.
+struct Through {
+  std::size_t cloud = 0, point = 0;
+  Eigen::Vector3d p_F;
+  Crossing crossing;
+};
+
+std::vector<Face> faces_of(std::span<const PlaneNode> walls) {
+  std::vector<Face> faces;
+  for (const PlaneNode& wall : walls) {
+    Face face{wall.plane_F, (wall.p1 - wall.p0).normalized(), 0.0, 0.0, wall.z0, wall.z1};
+    face.s0 = face.along.dot(wall.p0);
+    face.s1 = face.along.dot(wall.p1);
+    faces.push_back(face);
+  }
+  return faces;
+}
+
+class Judge {
+ public:
+  Judge(std::vector<CloudKeyframe>& clouds, std::span<const PlaneNode> walls, std::span<const Plane> levels,
+        const ReflectionConfig& config)
+      : clouds_(clouds), faces_(faces_of(walls)), levels_(levels), config_(config) {}
+
+  std::size_t run(const Eigen::Vector3d& sensor_R) {
+    for (std::size_t c = 0; c < clouds_.size(); ++c) sort_points(c, sensor_R);
+    std::vector<std::vector<bool>> removed;
+    for (const CloudKeyframe& cloud : clouds_) removed.emplace_back(cloud.points_R.size(), false);
+    std::size_t count = 0;
+    for (const std::vector<std::size_t>& opening : openings()) {
+      if (!mirrors(opening)) continue;
+      for (const std::size_t k : opening) {
+        const Through& t = through_[k];
+        if (seen_directly(t.p_F)) continue;
+        removed[t.cloud][t.point] = true;
+        ++count;
+      }
+    }
+    for (std::size_t c = 0; c < clouds_.size(); ++c) erase(clouds_[c].points_R, removed[c]);
+    return count;
+  }
+
+ private:
+  /// Files every point as seen directly or through a face.
+  void sort_points(std::size_t c, const Eigen::Vector3d& sensor_R) {
+    const CloudKeyframe& cloud = clouds_[c];
+    const Eigen::Vector3d origin = cloud.X_FR * sensor_R;
+    for (std::size_t k = 0; k < cloud.points_R.size(); ++k) {
+      const Eigen::Vector3d p = cloud.X_FR * cloud.points_R[k].cast<double>();
+      const std::optional<Crossing> crossing = last_crossing(origin, p);
+      if (crossing)
+        through_.push_back({c, k, p, *crossing});
+      else
+        static_cast<void>(direct_.insert(VoxelKey::of(p, config_.cell_m)));
+    }
+  }
+
+  /// The last face that the ray crosses from its free side and far enough before its end; ties: lower index.
+  [[nodiscard]] std::optional<Crossing> last_crossing(const Eigen::Vector3d& origin, const Eigen::Vector3d& p) const {
+    std::optional<Crossing> last;
+    for (std::size_t f = 0; f < faces_.size(); ++f) {
+      const Face& face = faces_[f];
+      const double to = face.plane.distance(p);
+      if (to > -config_.behind_m) continue;
+      const double from = face.plane.distance(origin);
+      if (from <= 0.0) continue;
+      const double share = from / (from - to);
+      if (last && share <= last->share) continue;
+      const Eigen::Vector3d q = origin + share * (p - origin);
+      const double s = face.along.dot(q.head<2>());
+      if (s < face.s0 || s > face.s1) continue;
+      if (q.z() < face.z0 - config_.above_m || q.z() > face.z1 + config_.above_m) continue;
+      last = Crossing{static_cast<int>(f), share, static_cast<int>(std::floor(s / config_.cell_m)),
+                      static_cast<int>(std::floor(q.z() / config_.cell_m)), q};
+    }
+    return last;
+  }
+
+  using Key = std::tuple<int, int, int>;  ///< face, cell along it, cell up
+  using Cells = std::map<Key, std::vector<std::size_t>>;
+
+  /// Points seen through neighbouring cells of one face, in order of face and cell. Doors that the robot went through
+  /// are left out.
+  [[nodiscard]] std::vector<std::vector<std::size_t>> openings() const {
+    Cells cells;
+    for (std::size_t k = 0; k < through_.size(); ++k) {
+      const Crossing& x = through_[k].crossing;
+      cells[{x.face, x.s_cell, x.z_cell}].push_back(k);
+    }
+    drop_passages(cells);
+    std::vector<std::vector<std::size_t>> result;
+    while (!cells.empty()) {
+      std::vector<Key> front = {cells.begin()->first};
+      std::vector<std::size_t> points;
+      while (!front.empty()) {
+        const auto [face, s, z] = front.back();
+        front.pop_back();
+        const auto cell = cells.find({face, s, z});
+        if (cell == cells.end()) continue;
+        points.insert(points.end(), cell->second.begin(), cell->second.end());
+        cells.erase(cell);
+        for (int ds = -1; ds <= 1; ++ds)
+          for (int dz = -1; dz <= 1; ++dz) front.emplace_back(face, s + ds, z + dz);
+      }
+      result.push_back(std::move(points));
+    }
+    return result;
+  }
+
+  /// Takes out the columns of a face through which mostly things were seen that were seen directly too: doors, and
+  /// panes between rooms that the robot has entered both.
+  void drop_passages(Cells& cells) const {
+    std::map<std::pair<int, int>, std::pair<std::size_t, std::size_t>> columns;  // of points: known, all
+    for (const auto& [key, points] : cells) {
+      auto& [known, all] = columns[{std::get<0>(key), std::get<1>(key)}];
+      all += points.size();
+      known += static_cast<std::size_t>(
+          std::count_if(points.begin(), points.end(), [&](std::size_t k) { return seen_directly(through_[k].p_F); }));
+    }
+    std::erase_if(cells, [&](const auto& cell) {
+      const auto& [known, all] = columns[{std::get<0>(cell.first), std::get<1>(cell.first)}];
+      return 2 * known > all;
+    });
+  }
+
+  /// All images of a mirror come from one depth of its pane.
+  [[nodiscard]] bool mirrors(const std::vector<std::size_t>& opening) const {
+    if (opening.size() < static_cast<std::size_t>(config_.min_points) || reaches_floor(opening)) return false;
+    std::vector<std::size_t> voters;
+    for (const std::size_t k : opening)
+      if (!near_level(through_[k].p_F) && !on_side_wall(through_[k])) voters.push_back(k);
+    std::ptrdiff_t images = 0;
+    for (double depth = 0.0; depth <= config_.pane_depth_m; depth += 0.5 * config_.wall_m)
+      images = std::max(images, std::count_if(voters.begin(), voters.end(),
+                                              [&](std::size_t k) { return is_image(through_[k], depth); }));
+    return images > 0 && static_cast<double>(images) >= config_.share * static_cast<double>(voters.size());
+  }
+
+  /// A door, then: what lies behind it is there even if the robot only looked in.
+  [[nodiscard]] bool reaches_floor(const std::vector<std::size_t>& opening) const {
+    return std::any_of(opening.begin(), opening.end(), [&](std::size_t k) {
+      return std::any_of(levels_.begin(), levels_.end(), [&](const Plane& level) {
+        return level.n.z() > 0.0 && std::abs(level.distance(through_[k].crossing.q_F)) < config_.sill_m;
+      });
+    });
+  }
+
+  [[nodiscard]] bool near_level(const Eigen::Vector3d& p_F) const {
+    return std::any_of(levels_.begin(), levels_.end(),
+                       [&](const Plane& level) { return std::abs(level.distance(p_F)) < config_.level_m; });
+  }
+
+  /// On a wall that runs through the face, whose image is itself.
+  [[nodiscard]] bool on_side_wall(const Through& t) const {
+    const Eigen::Vector3d& n = faces_[static_cast<std::size_t>(t.crossing.face)].plane.n;
+    return std::any_of(faces_.begin(), faces_.end(), [&](const Face& face) {
+      return std::abs(face.plane.n.dot(n)) < 0.5 && std::abs(face.plane.distance(t.p_F)) < config_.behind_m;
+    });
+  }
+
+  [[nodiscard]] bool seen_directly(const Eigen::Vector3d& p_F) const {
+    return direct_.find(VoxelKey::of(p_F, config_.cell_m)) >= 0;
+  }
+
+  /// Does the point, mirrored by a pane that deep behind its face, lie on what was seen directly, or on a wall that
+  /// faces the pane? Over a mirror the sensor sees such a wall higher up than it does directly.
+  [[nodiscard]] bool is_image(const Through& t, double depth_m) const {
+    const Plane& plane = faces_[static_cast<std::size_t>(t.crossing.face)].plane;
+    const Eigen::Vector3d image_F = t.p_F - 2.0 * (plane.distance(t.p_F) + depth_m) * plane.n;
+    if (seen_directly(image_F)) return true;
+    return std::any_of(faces_.begin(), faces_.end(), [&](const Face& face) {
+      const double s = face.along.dot(image_F.head<2>());
+      return face.plane.n.dot(plane.n) < -0.9 && std::abs(face.plane.distance(image_F)) < config_.wall_m &&
+             s > face.s0 && s < face.s1;
+    });
+  }
+
+  static void erase(std::vector<Eigen::Vector3f>& points, const std::vector<bool>& removed) {
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < points.size(); ++k)
+      if (!removed[k]) points[kept++] = points[k];
+    points.resize(kept);
+  }
+
+  std::vector<CloudKeyframe>& clouds_;
+  const std::vector<Face> faces_;
+  const std::span<const Plane> levels_;
+  const ReflectionConfig& config_;
+  VoxelIndex direct_;
+  std::vector<Through> through_;
+};
+
+}  // namespace
+
+std::size_t remove_reflections(std::vector<CloudKeyframe>& clouds, std::span<const PlaneNode> walls,
+                               std::span<const Plane> levels, const Eigen::Vector3d& sensor_R,
+                               const ReflectionConfig& config) {
+  if (!config.remove || walls.empty()) return 0;
+  return Judge(clouds, walls, levels, config).run(sensor_R);
+}
+
+}  // namespace plumbline::slam

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/sgraphs/reflections.h"
+
+#include <gtest/gtest.h>
+
+namespace plumbline::slam {
+namespace {
+
+/// A room of 6 x 4 x 2.6 m round the frame's origin corner, its floor at z = 0; the sensor stands at (3, 2, 0.7).
+class Reflections : public testing::Test {
+ protected:
+  Reflections() {
+    add_wall({1, 0}, {0, 0}, {0, 4});
+    add_wall({-1, 0}, {6, 0}, {6, 4});
+    add_wall({0, 1}, {0, 0}, {6, 0});
+    add_wall({0, -1}, {0, 4}, {6, 4});
+    cloud_.X_FR = Pose::from_xyz_yaw({3, 2, 0.5}, 0.7);
+    for (double z = 0.1; z < 1.4; z += 0.05)  // as high as the sensor sees of its own room
+      for (double s = 0.05; s < 6.0; s += 0.05) {
+        look_at({s, 0, z});
+        look_at({s, 4, z});
+        if (s >= 4.0) continue;
+        look_at({0, s, z});
+        look_at({6, s, z});
+      }
+  }
+
+  void add_wall(const Eigen::Vector2d& n, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+    walls_.push_back({static_cast<int>(walls_.size()), Plane{{n.x(), n.y(), 0.0}, -n.dot(a)}, a, b, 0.0, 1.4, 9});
+  }
+  void look_at(const Eigen::Vector3d& p_F) { cloud_.points_R.push_back((cloud_.X_FR.inverse() * p_F).cast<float>()); }
+  /// What a ray through (x, z) of the wall y = 4 brings back from `far`, a plane y = far_y.
+  void look_through(double x0, double x1, double z0, double z1, double far_y) {
+    const Eigen::Vector3d eye(3, 2, 0.7);
+    for (double x = x0; x < x1; x += 0.03)
+      for (double z = z0; z < z1; z += 0.03) {
+        const Eigen::Vector3d q(x, 4, z);
+        look_at(eye + (q - eye) * ((far_y - eye.y()) / (q.y() - eye.y())));
+        ++through_;
+      }
+  }
+  std::size_t remove(const ReflectionConfig& config = {}) {
+    std::vector<CloudKeyframe> clouds = {cloud_};
+    const std::vector<Plane> levels = {{Eigen::Vector3d::UnitZ(), 0.0}, {-Eigen::Vector3d::UnitZ(), 2.6}};
+    const std::size_t removed = remove_reflections(clouds, walls_, levels, {0, 0, 0.2}, config);
+    EXPECT_EQ(clouds[0].points_R.size() + removed, cloud_.points_R.size());
+    return removed;
+  }
+
+  std::vector<PlaneNode> walls_;
+  CloudKeyframe cloud_;
+  std::size_t through_ = 0;
+};
+
+TEST_F(Reflections, LeaveARoomWithoutPanesAlone) { EXPECT_EQ(remove(), 0U); }
+
+// A pane at y = 4.15 shows the wall y = 0 at y = 8.3; where it is seen higher than directly, too.
+TEST_F(Reflections, OfTheRoomBehindAPaneGo) {
+  look_through(2.4, 3.6, 0.9, 1.25, 8.3);
+  EXPECT_EQ(remove(), through_);
+  ReflectionConfig off;
+  off.remove = false;
+  EXPECT_EQ(remove(off), 0U);
+}
+
+TEST_F(Reflections, AreNotWhatAPaneLetsThrough) {
+  look_through(2.4, 3.6, 0.9, 1.25, 11.0);
+  EXPECT_EQ(remove(), 0U);
+}
+
+// A room of the same depth may lie behind a door, and the robot need not have entered it.
+TEST_F(Reflections, AreNotLookedForBehindDoors) {
+  look_through(2.4, 3.4, 0.03, 1.25, 8.3);
+  EXPECT_EQ(remove(), 0U);
+}
+
+TEST_F(Reflections, AreNotWhatWasSeenDirectlyToo) {
+  look_through(2.4, 3.6, 0.9, 1.25, 8.3);
+  CloudKeyframe entered;
+  entered.X_FR = Pose::from_xyz_yaw({3, 6, 0.5}, 0.0);
+  for (const Eigen::Vector3f& p_R : cloud_.points_R) {
+    const Eigen::Vector3d p_F = cloud_.X_FR * p_R.cast<double>();
+    if (p_F.y() > 8.0) entered.points_R.push_back((entered.X_FR.inverse() * p_F).cast<float>());
+  }
+  std::vector<CloudKeyframe> clouds = {cloud_, entered};
+  EXPECT_EQ(remove_reflections(clouds, walls_, {}, {0, 0, 0.2}, {}), 0U);
+}
+
+TEST_F(Reflections, NeedWallsAndPoints) {
+  std::vector<CloudKeyframe> clouds = {cloud_};
+  EXPECT_EQ(remove_reflections(clouds, {}, {}, {0, 0, 0.2}, {}), 0U);
+  clouds.clear();
+  EXPECT_EQ(remove_reflections(clouds, walls_, {}, {0, 0, 0.2}, {}), 0U);
+}
+
+}  // namespace
+}  // namespace plumbline::slam
