@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <numbers>
+#include <vector>
 
 #include "bim/digest/digest.h"
 #include "slam/odometry/motion.h"
@@ -13,6 +17,32 @@ constexpr std::size_t digest_stride = 8;
 /// Time of a column relative to the scan's stamp: that of its first return slot.
 Nanoseconds column_offset(const Scan& scan, std::size_t first) { return scan.offset_ns[first]; }
 
+/// By how many columns each ring stands behind the lowest at the same azimuth. Rings of one firing less than two
+/// columns apart, as those of a VLP-16, count as in line.
+std::vector<int> column_shifts(const Scan& scan) {
+  constexpr int every = 16;  // columns: enough for a median
+  std::vector<int> shifts(static_cast<std::size_t>(scan.rings), 0);
+  std::vector<double> apart;
+  for (int ring = 1; ring < scan.rings; ++ring) {
+    apart.clear();
+    for (int column = 0; column < scan.columns; column += every) {
+      const auto i = static_cast<std::size_t>(column * scan.rings + ring);
+      if (scan.range_m[i] <= 0.0 || scan.range_m[i - 1] <= 0.0) continue;
+      const Eigen::Vector3d &p = scan.point_L[i], &below = scan.point_L[i - 1];
+      apart.push_back(std::atan2(below.x() * p.y() - below.y() * p.x(), below.x() * p.x() + below.y() * p.y()));
+    }
+    int shift = 0;
+    if (!apart.empty()) {
+      const auto middle = apart.begin() + static_cast<std::ptrdiff_t>(apart.size() / 2);
+      std::nth_element(apart.begin(), middle, apart.end());
+      shift = static_cast<int>(std::lround(*middle * scan.columns / (2.0 * std::numbers::pi)));  // turns clockwise
+    }
+    const auto r = static_cast<std::size_t>(ring);
+    shifts[r] = shifts[r - 1] + (std::abs(shift) < 2 ? 0 : shift);
+  }
+  return shifts;
+}
+
 }  // namespace
 
 DeskewedScan deskew(const Scan& scan, const MotionBuffer& motion, const Calibration& calibration) {
@@ -20,19 +50,26 @@ DeskewedScan deskew(const Scan& scan, const MotionBuffer& motion, const Calibrat
   out.stamp = scan.stamp;
   out.rings = scan.rings;
   out.columns = scan.columns;
-  out.range_m = scan.range_m;
+  out.range_m.assign(scan.size(), 0.0);
   out.point_R.assign(scan.size(), Eigen::Vector3d::Zero());
   out.X_RL = calibration.X_RL;
 
   const Pose X_RO = motion.at(scan.stamp).inverse();
   const auto rings = static_cast<std::size_t>(scan.rings);
-  for (std::size_t first = 0; first + rings <= scan.size(); first += rings) {
+  const std::vector<int> shifts = column_shifts(scan);
+  for (int column = 0; column < scan.columns; ++column) {
+    const auto first = static_cast<std::size_t>(column) * rings;
     // X_RC: the robot at the column's time, seen from the robot at the stamp.
     const Pose X_RC = X_RO * motion.at(scan.stamp + column_offset(scan, first));
     const Pose X_RL = X_RC * calibration.X_RL;
     const Eigen::Matrix3d R_RL = X_RL.rotation();
-    for (std::size_t i = first; i < first + rings; ++i)
-      if (scan.range_m[i] > 0.0) out.point_R[i] = R_RL * scan.point_L[i] + X_RL.t;
+    for (std::size_t ring = 0; ring < rings; ++ring) {
+      const int aligned = column - shifts[ring];
+      if (scan.range_m[first + ring] <= 0.0 || aligned < 0 || aligned >= scan.columns) continue;
+      const std::size_t i = static_cast<std::size_t>(aligned) * rings + ring;
+      out.range_m[i] = scan.range_m[first + ring];
+      out.point_R[i] = R_RL * scan.point_L[first + ring] + X_RL.t;
+    }
   }
   return out;
 }

@@ -29,7 +29,8 @@ class MotionBuffer {
   std::deque<Odometry> records_;
 };
 
-/// A scan with every return moved to R at scan.stamp. Index of a return as in Scan: column * rings + ring.
+/// A scan with every return moved to R at scan.stamp. Index of a return: column * rings + ring; rings are in line, that
+/// is, returns of a column have one azimuth also where lasers of one firing look to different sides (VLP-32C).
 struct DeskewedScan {
   Nanoseconds stamp = 0;
   int rings = 16;
@@ -40,7 +41,8 @@ struct DeskewedScan {
 };
 
 /// Undoes the robot's motion during the sweep by the odometry's relative poses. One pose a column: its lasers fire
-/// within 35 us, in which a walking robot moves 0.02 mm.
+/// within 35 us, in which a walking robot moves 0.02 mm. Putting rings in line drops at either end of the scan the few
+/// columns that some rings do not have; a message's overlap is as wide.
 [[nodiscard]] DeskewedScan deskew(const Scan& scan, const MotionBuffer& motion, const Calibration& calibration);
 
 /// Of every eighth column's points; what differs elsewhere shows in the stages behind.

@@ -19,9 +19,11 @@ const Walk& short_walk() {
 
 class EveryMethod : public ::testing::TestWithParam<std::string> {};
 
-TEST_P(EveryMethod, AnswersTheSameWithoutTruthAndLabels) {
+TEST_P(EveryMethod, AnswersTheSameTwiceAndWithoutTruthAndLabels) {
   const Walk& walk = short_walk();
   const auto input = method_input(walk, GetParam());
+  const std::uint64_t told = digest_of(answer_of(GetParam(), input, walk.frames));
+  EXPECT_EQ(digest_of(answer_of(GetParam(), input, walk.frames)), told);
   std::vector<sim::WorldFrame> bare;
   for (const auto& frame : walk.frames) {
     sim::WorldFrame& copy = bare.emplace_back();
@@ -29,13 +31,7 @@ TEST_P(EveryMethod, AnswersTheSameWithoutTruthAndLabels) {
     copy.odometry = frame.odometry;
     copy.scan = slam::decode_message(frame.packets);
   }
-  EXPECT_EQ(digest_of(answer_of(GetParam(), input, bare)), digest_of(answer_of(GetParam(), input, walk.frames)));
-}
-
-TEST_P(EveryMethod, AnswersTheSameTwice) {
-  const Walk& walk = short_walk();
-  const auto input = method_input(walk, GetParam());
-  EXPECT_EQ(digest_of(answer_of(GetParam(), input, walk.frames)), digest_of(answer_of(GetParam(), input, walk.frames)));
+  EXPECT_EQ(digest_of(answer_of(GetParam(), input, bare)), told);
 }
 
 std::vector<std::string> all_methods() {

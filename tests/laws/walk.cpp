@@ -16,7 +16,8 @@
 
 namespace plumbline {
 
-Walk walk_quickstart(std::uint64_t seed, const std::vector<std::string>& rooms, double duration_s) {
+Walk walk_quickstart(std::uint64_t seed, const std::vector<std::string>& rooms, double duration_s,
+                     slam::LidarModelId lidar) {
   set_float_mode();
   const char* source = std::getenv("PLUMBLINE_SOURCE");
   if (source == nullptr) throw std::runtime_error("PLUMBLINE_SOURCE is not set; run through ctest");
@@ -32,6 +33,7 @@ Walk walk_quickstart(std::uint64_t seed, const std::vector<std::string>& rooms, 
   }
   sim::WorldConfig config;
   config.seed = seed;
+  config.lidar.model = lidar;
   config.start_W = targets.at(0);
   config.duration_s = duration_s;
   std::vector<Eigen::Vector2d> way;

@@ -17,7 +17,8 @@ struct Walk {
   std::vector<sim::WorldFrame> frames;
 };
 
-[[nodiscard]] Walk walk_quickstart(std::uint64_t seed, const std::vector<std::string>& rooms, double duration_s);
+[[nodiscard]] Walk walk_quickstart(std::uint64_t seed, const std::vector<std::string>& rooms, double duration_s,
+                                   slam::LidarModelId lidar = slam::LidarModelId::vlp16);
 
 /// What a method needs for this walk, with a compass of the given heading error.
 [[nodiscard]] slam::MethodInput method_input(const Walk& walk, const std::string& method, double yaw_error = 0.02);
