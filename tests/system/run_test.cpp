@@ -64,7 +64,7 @@ TEST_F(ShortRun, LeavesTheFilesOfTheContract) {
                            "recording/odometry.tum", "recording/imu.csv", "recording/recording.yaml"})
     EXPECT_GT(read_file(dir() + "/" + name).size(), 0U) << name;
   EXPECT_EQ(outcome_->err, "");  // stderr is no terminal here
-  EXPECT_NE(outcome_->out.find("gates: 1 of 1 passed\n"), std::string::npos) << outcome_->out;
+  EXPECT_NE(outcome_->out.find("gates: 2 of 2 passed\n"), std::string::npos) << outcome_->out;
 }
 
 TEST_F(ShortRun, ResultsAndTimingsHaveTheKeysOfTheContract) {
