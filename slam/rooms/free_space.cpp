@@ -9,17 +9,19 @@ namespace plumbline::slam {
 
 namespace {
 
-/// Visits the cells of a segment in order, sampled at half a cell; the cell of b is not visited.
+/// Visits the cells of a segment inside the grid in order, sampled at half a cell; the cell of b is not visited.
 template <class Visit>
 void walk(const GridFrame& frame, const Eigen::Vector2d& a, const Eigen::Vector2d& b, Visit visit) {
-  const double length = (b - a).norm();
-  const int steps = std::max(1, static_cast<int>(std::ceil(2.0 * length / frame.cell)));
-  const std::ptrdiff_t last = frame.find(b);
-  std::ptrdiff_t previous = -1;
+  const Eigen::Vector2d from = (a - frame.origin_M) / frame.cell;
+  const Eigen::Vector2d way = (b - a) / frame.cell;
+  const int steps = std::max(1, static_cast<int>(std::ceil(2.0 * way.norm())));
+  const auto last = static_cast<std::size_t>(frame.find(b));
+  std::size_t previous = last;
   for (int s = 0; s < steps; ++s) {
-    const std::ptrdiff_t cell = frame.find(a + (b - a) * (static_cast<double>(s) / steps));
-    if (cell < 0 || cell == previous || cell == last) continue;
-    visit(static_cast<std::size_t>(cell));
+    const Eigen::Vector2d p = from + way * (static_cast<double>(s) / steps);
+    const std::size_t cell = frame.index(static_cast<int>(p.x()), static_cast<int>(p.y()));
+    if (cell == previous || cell == last) continue;
+    visit(cell);
     previous = cell;
   }
 }
@@ -62,17 +64,29 @@ FreeRays free_rays(const DeskewedScan& scan, const Eigen::Vector3d& up_R, const 
   rays.origin_R = scan.X_RL.t;
   std::vector<double> range(static_cast<std::size_t>(config.azimuths), 0.0);
   std::vector<Eigen::Vector3d> end(range.size());
-  for (std::size_t k = 0; k < scan.point_R.size(); ++k) {
-    if (scan.range_m[k] <= 0.0) continue;
-    const Eigen::Vector3d ray = scan.point_R[k] - rays.origin_R;
-    const double height = config.sensor_height_m + up_R.dot(ray);
-    if (height < config.height_low_m || height > config.height_high_m) continue;
-    const double horizontal = (ray - up_R * up_R.dot(ray)).norm();
-    const double turn = (std::atan2(ray.y(), ray.x()) / (2.0 * std::numbers::pi)) + 0.5;
+  const auto rings = static_cast<std::size_t>(scan.rings);
+  for (std::size_t column = 0; column < static_cast<std::size_t>(scan.columns); ++column) {
+    // The returns of one firing share its azimuth.
+    std::size_t farthest = 0;
+    double reach = 0.0;
+    for (std::size_t k = column * rings; k < (column + 1) * rings; ++k) {
+      if (scan.range_m[k] <= 0.0) continue;
+      const Eigen::Vector3d ray = scan.point_R[k] - rays.origin_R;
+      const double rise = up_R.dot(ray);
+      const double height = config.sensor_height_m + rise;
+      if (height < config.height_low_m || height > config.height_high_m) continue;
+      const double horizontal = (ray - up_R * rise).norm();
+      if (horizontal <= reach) continue;
+      reach = horizontal;
+      farthest = k;
+    }
+    if (reach <= 0.0) continue;
+    const Eigen::Vector3d ray = scan.point_R[farthest] - rays.origin_R;
+    const double turn = std::atan2(ray.y(), ray.x()) / (2.0 * std::numbers::pi) + 0.5;
     const auto bin = std::min(static_cast<std::size_t>(turn * config.azimuths), range.size() - 1);
-    if (horizontal <= range[bin]) continue;
-    range[bin] = horizontal;
-    end[bin] = scan.point_R[k];
+    if (reach <= range[bin]) continue;
+    range[bin] = reach;
+    end[bin] = scan.point_R[farthest];
   }
   for (std::size_t bin = 0; bin < range.size(); ++bin) {
     if (range[bin] <= 0.0) continue;
@@ -84,6 +98,28 @@ FreeRays free_rays(const DeskewedScan& scan, const Eigen::Vector3d& up_R, const 
   return rays;
 }
 
+std::vector<Eigen::Vector3d> wall_points(const DeskewedScan& scan, std::span<const PlaneObservation> planes,
+                                         const FreeSpaceConfig& config) {
+  const double floor_R = scan.X_RL.t.z() - config.sensor_height_m;
+  const double bin_m = 0.5 * config.cell_m;
+  std::vector<Eigen::Vector3d> result;
+  for (const PlaneObservation& plane : planes) {
+    if (!plane.vertical || plane.z1 - floor_R < config.wall_top_m) continue;
+    const Eigen::Vector3d way = plane.p1_R - plane.p0_R;
+    const double length = way.norm();
+    const Eigen::Vector3d along = way / std::max(length, 1e-9);
+    std::vector<bool> hit(static_cast<std::size_t>(length / bin_m) + 1, false);
+    for (std::size_t k = 0; k < scan.point_R.size(); ++k) {
+      if (std::abs(plane.plane_R.distance(scan.point_R[k])) > config.wall_gate_m || scan.range_m[k] <= 0.0) continue;
+      const double s = along.dot(scan.point_R[k] - plane.p0_R);
+      if (s >= 0.0 && s <= length) hit[static_cast<std::size_t>(s / bin_m)] = true;
+    }
+    for (std::size_t b = 0; b < hit.size(); ++b)
+      if (hit[b]) result.push_back(plane.p0_R + along * (bin_m * (static_cast<double>(b) + 0.5)));
+  }
+  return result;
+}
+
 Eigen::Vector2d GridFrame::center(std::size_t index) const {
   const auto i = static_cast<double>(index % static_cast<std::size_t>(nx));
   const auto j = static_cast<double>(index / static_cast<std::size_t>(nx));
@@ -91,8 +127,8 @@ Eigen::Vector2d GridFrame::center(std::size_t index) const {
 }
 
 std::ptrdiff_t GridFrame::find(const Eigen::Vector2d& p_M) const {
-  const double x = std::floor((p_M.x() - origin_M.x()) / cell);
-  const double y = std::floor((p_M.y() - origin_M.y()) / cell);
+  const double x = (p_M.x() - origin_M.x()) / cell;
+  const double y = (p_M.y() - origin_M.y()) / cell;
   if (x < 0.0 || y < 0.0 || x >= nx || y >= ny) return -1;
   return static_cast<std::ptrdiff_t>(index(static_cast<int>(x), static_cast<int>(y)));
 }
@@ -107,7 +143,15 @@ void FreeSpaceMap::carve(const FreeRays& rays, const Pose& X_MR) {
     low = low.cwiseMin(ends.back());
     high = high.cwiseMax(ends.back());
   }
+  std::vector<Eigen::Vector2d> walls;
+  walls.reserve(rays.wall_R.size());
+  for (const Eigen::Vector3d& p_R : rays.wall_R) {
+    walls.emplace_back((X_MR * p_R).head<2>());
+    low = low.cwiseMin(walls.back());
+    high = high.cwiseMax(walls.back());
+  }
   grow(low, high);
+  for (const Eigen::Vector2d& p : walls) ++walled_[static_cast<std::size_t>(frame_.find(p))];
   for (std::size_t k = 0; k < ends.size(); ++k) {
     walk(frame_, origin, ends[k], [&](std::size_t cell) { ++passed_[cell]; });
     if (rays.hit[k]) ++ended_[static_cast<std::size_t>(frame_.find(ends[k]))];
@@ -118,11 +162,14 @@ void FreeSpaceMap::clear() {
   frame_ = {.cell = config_.cell_m};
   passed_.clear();
   ended_.clear();
+  walled_.clear();
 }
 
 FreeGrid FreeSpaceMap::grid() const {
+  const auto wall_hits = static_cast<std::uint32_t>(config_.wall_hits);
   FreeGrid grid{frame_, std::vector<std::uint8_t>(frame_.size(), 0)};
-  for (std::size_t k = 0; k < grid.free.size(); ++k) grid.free[k] = passed_[k] > 0 && passed_[k] >= 2 * ended_[k];
+  for (std::size_t k = 0; k < grid.free.size(); ++k)
+    grid.free[k] = passed_[k] > 0 && passed_[k] >= 2 * ended_[k] && walled_[k] < wall_hits;
   fill_islands(grid, static_cast<int>(std::lround(config_.island_m / frame_.cell)));
   return grid;
 }
@@ -143,17 +190,19 @@ void FreeSpaceMap::grow(const Eigen::Vector2d& low, const Eigen::Vector2d& high)
   grown.nx = static_cast<int>(std::lround((new_high.x() - new_low.x()) / frame_.cell));
   grown.ny = static_cast<int>(std::lround((new_high.y() - new_low.y()) / frame_.cell));
   if (grown.nx == frame_.nx && grown.ny == frame_.ny) return;
-  std::vector<std::uint32_t> passed(grown.size(), 0), ended(grown.size(), 0);
+  std::vector<std::uint32_t> passed(grown.size(), 0), ended(grown.size(), 0), walled(grown.size(), 0);
   const int di = static_cast<int>(std::lround((frame_.origin_M.x() - new_low.x()) / frame_.cell));
   const int dj = static_cast<int>(std::lround((frame_.origin_M.y() - new_low.y()) / frame_.cell));
   for (int j = 0; j < frame_.ny; ++j)
     for (int i = 0; i < frame_.nx; ++i) {
       passed[grown.index(i + di, j + dj)] = passed_[frame_.index(i, j)];
       ended[grown.index(i + di, j + dj)] = ended_[frame_.index(i, j)];
+      walled[grown.index(i + di, j + dj)] = walled_[frame_.index(i, j)];
     }
   frame_ = grown;
   passed_ = std::move(passed);
   ended_ = std::move(ended);
+  walled_ = std::move(walled);
 }
 
 }  // namespace plumbline::slam

@@ -3,10 +3,12 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "bim/config/visit.h"
 #include "slam/odometry/motion.h"
+#include "slam/planes/detect.h"
 
 namespace plumbline::slam {
 
@@ -17,8 +19,12 @@ struct FreeSpaceConfig {
   double height_low_m = 0.3;      ///< above the floor
   double height_high_m = 1.8;     ///< below a door's lintel
   double sensor_height_m = 0.66;  ///< above the floor, from the calibration
-  double island_m = 0.8;  ///< free-standing obstacles within a square of this side (columns) do not shape rooms; a
-                          ///< wall between two doors is longer
+  double wall_top_m =
+      1.2;  ///< a plane that reaches this high above the floor is a wall, and closes cells above a sill too
+  double wall_gate_m = 0.06;  ///< of a return to its wall
+  int wall_hits = 4;          ///< of walls that close a cell, whatever passes over them; two a look
+  double island_m = 0.8;      ///< free-standing obstacles within a square of this side (columns) do not shape rooms; a
+                              ///< wall between two doors is longer
 
   template <class V>
   void visit(V& v) {
@@ -27,6 +33,9 @@ struct FreeSpaceConfig {
     v("azimuths", azimuths, Field{.doc = "free rays of a scan", .min = 90});
     v("height_low_m", height_low_m, Field{.doc = "of a free ray's end, above the floor"});
     v("height_high_m", height_high_m, Field{.doc = "of a free ray's end, above the floor"});
+    v("wall_top_m", wall_top_m, Field{.doc = "least height of a wall's top above the floor", .min = 0});
+    v("wall_gate_m", wall_gate_m, Field{.doc = "of a return to its wall", .min = 0});
+    v("wall_hits", wall_hits, Field{.doc = "of walls that close a cell", .min = 1});
     v("island_m", island_m, Field{.doc = "smaller free-standing obstacles are ignored", .min = 0});
   }
 };
@@ -34,12 +43,18 @@ struct FreeSpaceConfig {
 /// Free space as one scan saw it: per azimuth the farthest return at robot height, so that low furniture is seen over.
 struct FreeRays {
   Eigen::Vector3d origin_R = Eigen::Vector3d::Zero();
-  std::vector<Eigen::Vector3d> end_R;  ///< azimuths without a return in the band are left out
-  std::vector<bool> hit;               ///< false: cut at max_range_m
+  std::vector<Eigen::Vector3d> end_R;   ///< azimuths without a return in the band are left out
+  std::vector<bool> hit;                ///< false: cut at max_range_m
+  std::vector<Eigen::Vector3d> wall_R;  ///< where walls were hit, one point a half cell
 };
 
 /// up_R: the vertical in R, unit.
 [[nodiscard]] FreeRays free_rays(const DeskewedScan& scan, const Eigen::Vector3d& up_R, const FreeSpaceConfig& config);
+
+/// Where the scan hit walls among its planes, at any height: below a window, light passes over it [facts: slam 10].
+[[nodiscard]] std::vector<Eigen::Vector3d> wall_points(const DeskewedScan& scan,
+                                                       std::span<const PlaneObservation> planes,
+                                                       const FreeSpaceConfig& config);
 
 /// Where a grid's cells lie in M: cell (i, j) covers origin + cell * [i, i + 1) x [j, j + 1).
 struct GridFrame {
@@ -62,14 +77,15 @@ struct FreeGrid {
   std::vector<std::uint8_t> free;
 };
 
-/// Counts, per cell of M's xy plane, rays that passed and rays that ended.
+/// Counts, per cell of M's xy plane, rays that passed, rays that ended and hits of walls.
 class FreeSpaceMap {
  public:
   explicit FreeSpaceMap(const FreeSpaceConfig& config) : config_(config) { frame_.cell = config.cell_m; }
 
   void carve(const FreeRays& rays, const Pose& X_MR);
   void clear();
-  /// A cell is free when at least twice as many rays passed as ended there; small islands are filled.
+  /// A cell is free when at least twice as many rays passed as ended there and no wall was hit in it; small islands are
+  /// filled.
   [[nodiscard]] FreeGrid grid() const;
 
  private:
@@ -77,7 +93,7 @@ class FreeSpaceMap {
 
   FreeSpaceConfig config_;
   GridFrame frame_;
-  std::vector<std::uint32_t> passed_, ended_;
+  std::vector<std::uint32_t> passed_, ended_, walled_;
 };
 
 }  // namespace plumbline::slam

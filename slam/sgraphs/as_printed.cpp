@@ -26,6 +26,7 @@ RoomLayerConfig printed_rooms() {
   RoomLayerConfig rooms;
   rooms.free_space.cell_m = 0.2;
   rooms.free_space.max_range_m = 5.0;
+  rooms.free_space.wall_hits = 1'000'000;  // free space knows nothing of planes
   rooms.clusters.cut = Cut::fixed;
   rooms.rooms.reach_m = 1.0;
   rooms.rooms.entered_only = false;

@@ -7,11 +7,12 @@
 
 namespace plumbline::slam {
 
-void RoomLayer::look(const Graph& graph, const DeskewedScan& scan) {
+void RoomLayer::look(const Graph& graph, const DeskewedScan& scan, std::span<const PlaneObservation> seen) {
   if (config_.source != RoomSource::free_space) return;
   const KeyframeVertex& keyframe = graph.keyframes.back();
   const Eigen::Vector3d up_R = keyframe.X_MR.q.conjugate() * Eigen::Vector3d::UnitZ();
   looks_.push_back({free_rays(scan, up_R, config_.free_space), keyframe.X_MR, keyframe.storey});
+  looks_.back().rays.wall_R = wall_points(scan, seen, config_.free_space);
   map_of(keyframe.storey).carve(looks_.back().rays, keyframe.X_MR);
 }
 

@@ -46,8 +46,8 @@ class RoomLayer {
  public:
   explicit RoomLayer(const RoomLayerConfig& config) : config_(config) {}
 
-  /// Takes the newest keyframe's scan into the free space of its storey.
-  void look(const Graph& graph, const DeskewedScan& scan);
+  /// Takes the newest keyframe's scan and planes into the free space of its storey.
+  void look(const Graph& graph, const DeskewedScan& scan, std::span<const PlaneObservation> seen);
   /// Rooms of a storey from its walls: vertices, and factors in place of the former ones.
   void update(Graph& graph, int storey, std::span<const PlaneNode> walls);
   /// The room that the newest keyframe's own planes close round it, for RoomSource::keyframe; known rooms stay.

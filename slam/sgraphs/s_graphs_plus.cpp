@@ -119,7 +119,7 @@ void SGraphsPlus::add_keyframe(const DeskewedScan& scan, const Registration& odo
   file(output, watch, "association", digest_of(walls_.observe(graph_, seen, walked_m_)));
 
   full_wanted_ |= walls_.find_duplicates(graph_, storey);
-  if (config_.parts.rooms) rooms_.look(graph_, scan);
+  if (config_.parts.rooms) rooms_.look(graph_, scan, seen);
   if (config_.parts.rooms && config_.rooms.source == RoomSource::keyframe)
     rooms_.add_from_keyframe(graph_, walls_.seen_now(graph_));
   update_rooms(storey, walls_.walls(graph_, storey));
