@@ -60,11 +60,7 @@ class Basins {
 
   /// Cells by falling height, ties by index.
   void flood() {
-    std::vector<std::size_t> order;
-    for (std::size_t k = 0; k < height_.size(); ++k)
-      if (height_[k] > 0.0F) order.push_back(k);
-    std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return height_[a] > height_[b]; });
-    for (const std::size_t cell : order) add(cell);
+    for (const std::size_t cell : by_falling_clearance(frame_, height_)) add(cell);
   }
 
   [[nodiscard]] int root_of(std::size_t cell) { return label_[cell] == none ? none : find(label_[cell]); }
@@ -201,6 +197,31 @@ std::vector<float> clearance(const FreeGrid& grid) {
       d[f.index(i, j)] = static_cast<float>(f.cell) * std::sqrt(out[static_cast<std::size_t>(i)]);
   }
   return d;
+}
+
+std::vector<std::size_t> by_falling_clearance(const GridFrame& frame, const std::vector<float>& clearance_m) {
+  // Squares of distances between cells are whole numbers of cells, so counting sorts them.
+  const double scale = 1.0 / (frame.cell * frame.cell);
+  const auto level = [&](std::size_t k) {
+    const auto h = static_cast<double>(clearance_m[k]);
+    return static_cast<std::size_t>(std::lround(h * h * scale));
+  };
+  std::vector<std::size_t> start;
+  for (std::size_t k = 0; k < clearance_m.size(); ++k) {
+    const std::size_t l = level(k);
+    if (l >= start.size()) start.resize(l + 1, 0);
+    ++start[l];
+  }
+  std::size_t above = 0;
+  for (std::size_t l = start.size(); l-- > 1;) {
+    const std::size_t count = start[l];
+    start[l] = above;
+    above += count;
+  }
+  std::vector<std::size_t> order(above);
+  for (std::size_t k = 0; k < clearance_m.size(); ++k)
+    if (const std::size_t l = level(k); l > 0) order[start[l]++] = k;
+  return order;
 }
 
 std::vector<Cluster> clusters(const FreeGrid& grid, const ClusterConfig& config) {

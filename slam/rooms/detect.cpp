@@ -8,6 +8,8 @@
 #include <numbers>
 #include <optional>
 
+#include "slam/rooms/overlap.h"
+
 namespace plumbline::slam {
 
 namespace {
@@ -178,7 +180,7 @@ std::optional<RoomCandidate> room_of(const Scene& scene) {
 }
 
 double overlap_of(const Polygon2& a, const Polygon2& b) {
-  return intersection_area(a, b) / std::min(std::abs(signed_area(a)), std::abs(signed_area(b)));
+  return overlap_area(a, b) / std::min(std::abs(signed_area(a)), std::abs(signed_area(b)));
 }
 
 bool better(const RoomCandidate& a, const RoomCandidate& b) {

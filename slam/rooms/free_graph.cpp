@@ -19,12 +19,7 @@ class Builder {
   }
 
   FreeGraph build() {
-    std::vector<std::size_t> order;
-    for (std::size_t k = 0; k < distance_m_.size(); ++k)
-      if (distance_m_[k] > 0.0F) order.push_back(k);
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return distance_m_[a] > distance_m_[b]; });
-    for (const std::size_t cell : order) own(cell);
+    for (const std::size_t cell : by_falling_clearance(frame_, distance_m_)) own(cell);
     connect();
     return std::move(graph_);
   }

@@ -25,6 +25,10 @@ struct FreeGraph {
   std::vector<int> owner;            ///< of every grid cell its vertex, -1 where not free
 };
 
+/// Free cells by falling clearance, ties by index. clearance_m: of clearance().
+[[nodiscard]] std::vector<std::size_t> by_falling_clearance(const GridFrame& frame,
+                                                            const std::vector<float>& clearance_m);
+
 /// Cells by falling distance; one without an owned neighbour becomes a vertex, and so does one at least spacing_m from
 /// obstacles that no neighbour's vertex covers: neither by its ball nor by one of spacing_m. distance_m: clearance() of
 /// the grid.

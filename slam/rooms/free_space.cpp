@@ -133,6 +133,21 @@ std::ptrdiff_t GridFrame::find(const Eigen::Vector2d& p_M) const {
   return static_cast<std::ptrdiff_t>(index(static_cast<int>(x), static_cast<int>(y)));
 }
 
+std::size_t changed_cells(const FreeGrid& before, const FreeGrid& after) {
+  const auto count = [](const FreeGrid& grid) {
+    return static_cast<std::size_t>(std::count(grid.free.begin(), grid.free.end(), std::uint8_t{1}));
+  };
+  const GridFrame &f = before.frame, &g = after.frame;
+  if (f.size() == 0 || g.size() == 0) return count(before) + count(after);
+  const auto di = static_cast<int>(std::lround((f.origin_M.x() - g.origin_M.x()) / g.cell));
+  const auto dj = static_cast<int>(std::lround((f.origin_M.y() - g.origin_M.y()) / g.cell));
+  std::size_t both = 0;
+  for (int j = std::max(0, -dj); j < std::min(f.ny, g.ny - dj); ++j)
+    for (int i = std::max(0, -di); i < std::min(f.nx, g.nx - di); ++i)
+      both += before.free[f.index(i, j)] & after.free[g.index(i + di, j + dj)];
+  return count(before) + count(after) - 2 * both;
+}
+
 void FreeSpaceMap::carve(const FreeRays& rays, const Pose& X_MR) {
   const Eigen::Vector2d origin = (X_MR * rays.origin_R).head<2>();
   std::vector<Eigen::Vector2d> ends;

@@ -77,6 +77,9 @@ struct FreeGrid {
   std::vector<std::uint8_t> free;
 };
 
+/// Cells that are free in one grid and not in the other; both on the same lattice, whatever their extents.
+[[nodiscard]] std::size_t changed_cells(const FreeGrid& before, const FreeGrid& after);
+
 /// Counts, per cell of M's xy plane, rays that passed, rays that ended and hits of walls.
 class FreeSpaceMap {
  public:

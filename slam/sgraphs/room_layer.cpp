@@ -19,12 +19,12 @@ void RoomLayer::look(const Graph& graph, const DeskewedScan& scan, std::span<con
 void RoomLayer::update(Graph& graph, int storey, std::span<const PlaneNode> walls) {
   if (config_.source != RoomSource::free_space) return;
   redraw_if_moved(graph);
-  const FreeGrid grid = map_of(storey).grid();
+  const Partition& partition = partition_of(storey);
   std::vector<Eigen::Vector2d> visited_M;
   for (const KeyframeVertex& keyframe : graph.keyframes)
     if (keyframe.storey == storey) visited_M.emplace_back(keyframe.X_MR.t.head<2>());
   const std::vector<RoomCandidate> found =
-      detect_rooms(grid, clusters(grid, config_.clusters), walls, visited_M, config_.rooms);
+      detect_rooms(partition.grid, partition.clusters, walls, visited_M, config_.rooms);
   const std::vector<int> ids = tie(graph, storey, found);
   std::erase_if(graph.room_factors,
                 [&](const RoomFactor& f) { return graph.rooms[static_cast<std::size_t>(f.room)].storey == storey; });
@@ -71,6 +71,7 @@ void RoomLayer::add_from_keyframe(Graph& graph, std::span<const PlaneNode> seen_
 }
 
 void RoomLayer::redraw(const Graph& graph) {
+  partitions_.clear();
   for (auto& [storey, map] : maps_) map.clear();
   for (std::size_t k = 0; k < looks_.size(); ++k) {
     looks_[k].X_MR = graph.keyframes[k].X_MR;
@@ -119,6 +120,16 @@ std::vector<int> RoomLayer::tie(Graph& graph, int storey, const std::vector<Room
     candidates_[id] = found[k];
   }
   return ids;
+}
+
+const RoomLayer::Partition& RoomLayer::partition_of(int storey) {
+  Partition& known = partitions_[storey];
+  FreeGrid grid = map_of(storey).grid();
+  const double cell_m2 = grid.frame.cell * grid.frame.cell;
+  if (static_cast<double>(changed_cells(known.grid, grid)) * cell_m2 < config_.refresh_m2) return known;
+  known.clusters = clusters(grid, config_.clusters);
+  known.grid = std::move(grid);
+  return known;
 }
 
 FreeSpaceMap& RoomLayer::map_of(int storey) { return maps_.try_emplace(storey, config_.free_space).first->second; }

@@ -19,6 +19,7 @@ struct RoomLayerConfig {
   FreeSpaceConfig free_space;
   ClusterConfig clusters;
   RoomConfig rooms;
+  double refresh_m2 = 0.5;     ///< change of a storey's free space from which it is cut into clusters again
   double redraw_m = 0.1;       ///< a keyframe that the graph moved this far has its free space drawn again
   double same_overlap = 0.3;   ///< of a known room and a candidate that are one
   double same_center_m = 1.0;  ///< between the centres of one room seen from two keyframes [facts: slam 2.3]
@@ -31,6 +32,7 @@ struct RoomLayerConfig {
     v("free_space", free_space);
     v("clusters", clusters);
     v("rooms", rooms);
+    v("refresh_m2", refresh_m2, Field{.doc = "change of free space that renews its clusters", .min = 0});
     v("redraw_m", redraw_m, Field{.doc = "correction of a keyframe that redraws free space", .min = 0});
     v("same_overlap", same_overlap, Field{.doc = "of a known room and a candidate that are one", .min = 0, .max = 1});
     v("same_center_m", same_center_m, Field{.doc = "of one room seen from two keyframes", .min = 0});
@@ -70,9 +72,17 @@ class RoomLayer {
   [[nodiscard]] std::vector<int> tie(Graph& graph, int storey, const std::vector<RoomCandidate>& candidates);
   FreeSpaceMap& map_of(int storey);
 
+  /// Free space as it was when it was last cut into clusters.
+  struct Partition {
+    FreeGrid grid;
+    std::vector<Cluster> clusters;
+  };
+  const Partition& partition_of(int storey);
+
   RoomLayerConfig config_;
   std::vector<Look> looks_;                ///< index = keyframe
   std::map<int, FreeSpaceMap> maps_;       ///< by storey
+  std::map<int, Partition> partitions_;    ///< by storey
   std::vector<RoomCandidate> candidates_;  ///< latest shape of each room; index = room id
 };
 
