@@ -3,26 +3,33 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace plumbline::slam {
 
 namespace {
 
-/// Visits the cells of a segment inside the grid in order, sampled at half a cell; the cell of b is not visited.
+/// Visits the cells that a segment inside the grid goes through, in order; the cell of b is not visited.
 template <class Visit>
 void walk(const GridFrame& frame, const Eigen::Vector2d& a, const Eigen::Vector2d& b, Visit visit) {
-  const Eigen::Vector2d from = (a - frame.origin_M) / frame.cell;
-  const Eigen::Vector2d way = (b - a) / frame.cell;
-  const int steps = std::max(1, static_cast<int>(std::ceil(2.0 * way.norm())));
-  const auto last = static_cast<std::size_t>(frame.find(b));
-  std::size_t previous = last;
-  for (int s = 0; s < steps; ++s) {
-    const Eigen::Vector2d p = from + way * (static_cast<double>(s) / steps);
-    const std::size_t cell = frame.index(static_cast<int>(p.x()), static_cast<int>(p.y()));
-    if (cell == previous || cell == last) continue;
-    visit(cell);
-    previous = cell;
+  const Eigen::Vector2d from = (a - frame.origin_M) / frame.cell, to = (b - frame.origin_M) / frame.cell;
+  const Eigen::Vector2d way = to - from;
+  Eigen::Vector2i cell = from.cast<int>();
+  const Eigen::Vector2i last = to.cast<int>();
+  Eigen::Vector2d next, step;  // shares of the way to the next column and row, and between two of them
+  for (int k = 0; k < 2; ++k) {
+    step[k] = way[k] == 0.0 ? std::numeric_limits<double>::infinity() : std::abs(1.0 / way[k]);
+    const double rest = way[k] > 0.0 ? cell[k] + 1 - from[k] : from[k] - cell[k];
+    next[k] = way[k] == 0.0 ? step[k] : rest * step[k];
+  }
+  const int crossings = std::abs(last.x() - cell.x()) + std::abs(last.y() - cell.y());
+  for (int n = 0; n < crossings; ++n) {
+    visit(frame.index(cell.x(), cell.y()));
+    // Where rounding would leave the way to the last cell, that axis is done.
+    const int k = cell.x() == last.x() ? 1 : cell.y() == last.y() ? 0 : next.x() < next.y() ? 0 : 1;
+    cell[k] += way[k] > 0.0 ? 1 : -1;
+    next[k] += step[k];
   }
 }
 
@@ -102,6 +109,7 @@ std::vector<Eigen::Vector3d> wall_points(const DeskewedScan& scan, std::span<con
                                          const FreeSpaceConfig& config) {
   const double floor_R = scan.X_RL.t.z() - config.sensor_height_m;
   const double bin_m = 0.5 * config.cell_m;
+  const auto rings = static_cast<std::size_t>(scan.rings), columns = static_cast<std::size_t>(scan.columns);
   std::vector<Eigen::Vector3d> result;
   for (const PlaneObservation& plane : planes) {
     if (!plane.vertical || plane.z1 - floor_R < config.wall_top_m) continue;
@@ -109,10 +117,12 @@ std::vector<Eigen::Vector3d> wall_points(const DeskewedScan& scan, std::span<con
     const double length = way.norm();
     const Eigen::Vector3d along = way / std::max(length, 1e-9);
     std::vector<bool> hit(static_cast<std::size_t>(length / bin_m) + 1, false);
-    for (std::size_t k = 0; k < scan.point_R.size(); ++k) {
-      if (std::abs(plane.plane_R.distance(scan.point_R[k])) > config.wall_gate_m || scan.range_m[k] <= 0.0) continue;
-      const double s = along.dot(scan.point_R[k] - plane.p0_R);
-      if (s >= 0.0 && s <= length) hit[static_cast<std::size_t>(s / bin_m)] = true;
+    for (std::size_t column = 0; column < columns; column += 2) {
+      for (std::size_t k = column * rings; k < (column + 1) * rings; ++k) {
+        if (std::abs(plane.plane_R.distance(scan.point_R[k])) > config.wall_gate_m || scan.range_m[k] <= 0.0) continue;
+        const double s = along.dot(scan.point_R[k] - plane.p0_R);
+        if (s >= 0.0 && s <= length) hit[static_cast<std::size_t>(s / bin_m)] = true;
+      }
     }
     for (std::size_t b = 0; b < hit.size(); ++b)
       if (hit[b]) result.push_back(plane.p0_R + along * (bin_m * (static_cast<double>(b) + 0.5)));
