@@ -143,6 +143,11 @@ std::ptrdiff_t GridFrame::find(const Eigen::Vector2d& p_M) const {
   return static_cast<std::ptrdiff_t>(index(static_cast<int>(x), static_cast<int>(y)));
 }
 
+FreeGrid without_islands(FreeGrid grid, const FreeSpaceConfig& config) {
+  fill_islands(grid, static_cast<int>(std::lround(config.island_m / grid.frame.cell)));
+  return grid;
+}
+
 std::size_t changed_cells(const FreeGrid& before, const FreeGrid& after) {
   const auto count = [](const FreeGrid& grid) {
     return static_cast<std::size_t>(std::count(grid.free.begin(), grid.free.end(), std::uint8_t{1}));
@@ -190,12 +195,11 @@ void FreeSpaceMap::clear() {
   walled_.clear();
 }
 
-FreeGrid FreeSpaceMap::grid() const {
+FreeGrid FreeSpaceMap::seen_free() const {
   const auto wall_hits = static_cast<std::uint32_t>(config_.wall_hits);
   FreeGrid grid{frame_, std::vector<std::uint8_t>(frame_.size(), 0)};
   for (std::size_t k = 0; k < grid.free.size(); ++k)
     grid.free[k] = passed_[k] > 0 && passed_[k] >= 2 * ended_[k] && walled_[k] < wall_hits;
-  fill_islands(grid, static_cast<int>(std::lround(config_.island_m / frame_.cell)));
   return grid;
 }
 

@@ -80,6 +80,9 @@ struct FreeGrid {
 /// Cells that are free in one grid and not in the other; both on the same lattice, whatever their extents.
 [[nodiscard]] std::size_t changed_cells(const FreeGrid& before, const FreeGrid& after);
 
+/// Fills obstacles that stand free and fit into a square of island_m.
+[[nodiscard]] FreeGrid without_islands(FreeGrid grid, const FreeSpaceConfig& config);
+
 /// Counts, per cell of M's xy plane, rays that passed, rays that ended and hits of walls.
 class FreeSpaceMap {
  public:
@@ -89,7 +92,9 @@ class FreeSpaceMap {
   void clear();
   /// A cell is free when at least twice as many rays passed as ended there and no wall was hit in it; small islands are
   /// filled.
-  [[nodiscard]] FreeGrid grid() const;
+  [[nodiscard]] FreeGrid grid() const { return without_islands(seen_free(), config_); }
+  /// The same, islands and all.
+  [[nodiscard]] FreeGrid seen_free() const;
 
  private:
   void grow(const Eigen::Vector2d& low, const Eigen::Vector2d& high);

@@ -124,11 +124,12 @@ std::vector<int> RoomLayer::tie(Graph& graph, int storey, const std::vector<Room
 
 const RoomLayer::Partition& RoomLayer::partition_of(int storey) {
   Partition& known = partitions_[storey];
-  FreeGrid grid = map_of(storey).grid();
-  const double cell_m2 = grid.frame.cell * grid.frame.cell;
-  if (static_cast<double>(changed_cells(known.grid, grid)) * cell_m2 < config_.refresh_m2) return known;
-  known.clusters = clusters(grid, config_.clusters);
-  known.grid = std::move(grid);
+  FreeGrid seen = map_of(storey).seen_free();
+  const double cell_m2 = seen.frame.cell * seen.frame.cell;
+  if (static_cast<double>(changed_cells(known.seen, seen)) * cell_m2 < config_.refresh_m2) return known;
+  known.seen = std::move(seen);
+  known.grid = without_islands(known.seen, config_.free_space);
+  known.clusters = clusters(known.grid, config_.clusters);
   return known;
 }
 

@@ -19,7 +19,7 @@ struct RoomLayerConfig {
   FreeSpaceConfig free_space;
   ClusterConfig clusters;
   RoomConfig rooms;
-  double refresh_m2 = 0.5;     ///< change of a storey's free space from which it is cut into clusters again
+  double refresh_m2 = 1.0;     ///< change of a storey's free space from which it is cut into clusters again
   double redraw_m = 0.1;       ///< a keyframe that the graph moved this far has its free space drawn again
   double same_overlap = 0.3;   ///< of a known room and a candidate that are one
   double same_center_m = 1.0;  ///< between the centres of one room seen from two keyframes [facts: slam 2.3]
@@ -74,7 +74,8 @@ class RoomLayer {
 
   /// Free space as it was when it was last cut into clusters.
   struct Partition {
-    FreeGrid grid;
+    FreeGrid seen;  ///< as drawn
+    FreeGrid grid;  ///< without islands
     std::vector<Cluster> clusters;
   };
   const Partition& partition_of(int storey);
