@@ -47,7 +47,9 @@ const std::vector<BenchPart>& bench_parts() {
       {"bim", "reading, cutting and comparing buildings, and how it grows with the number of walls", bench_bim},
       {"lidar", "casting rays, against a plain loop over Embree, and how it grows with the number of triangles",
        bench_lidar},
-      {"legs", "laps of 120 s on several floors, with a seed each: falls, errors of speed and way", bench_legs}};
+      {"legs",
+       "laps of 120 s on several floors and stairs up and down, with a seed each: falls, errors of speed and way",
+       bench_legs}};
   return parts;
 }
 

@@ -7,6 +7,7 @@
 
 #include "bim/errors.h"
 #include "scenarios/bench/bench.h"
+#include "scenarios/bench/bench_stairs.h"
 #include "sim/route/follower.h"
 
 namespace plumbline::scenarios {
@@ -161,6 +162,7 @@ std::vector<BenchRow> bench_legs(const BenchSetting& setting) {
     rows.push_back(make_row(name + "_speed_error_mps", "m/s", speeds));
     rows.push_back(make_row(name + "_cross_track_m", "m", tracks));
   }
+  for (const BenchRow& row : bench_stairs(setting)) rows.push_back(row);
   return rows;
 }
 

@@ -18,6 +18,7 @@ struct Command {
   double vy = 0.0;                 ///< m/s
   double yaw_rate = 0.0;           ///< rad/s
   double gait_period_scale = 1.0;  ///< of the nominal period; varied so that the gait does not lock to the sensor
+  bool careful = false;            ///< longer on all four feet, as stairs ask for
 };
 
 /// What the joints, the IMU and the feet truly did at one physics step; sensors add their noise to it.

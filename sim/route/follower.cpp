@@ -42,7 +42,7 @@ Command Follower::on_level(const Pose& X_WR) {
   return command;
 }
 
-/// Facing along the leg all the time, sideways to its line: a flight is too narrow for curves. First on the spot.
+/// Facing up the flight all the time, sideways to its line: a flight is too narrow for curves. First on the spot.
 Command Follower::on_stairs(const Pose& X_WR) {
   const Eigen::Vector2d from = waypoints_[next_ - 1].p_W.head<2>();
   const Eigen::Vector2d e = (waypoints_[next_].p_W.head<2>() - from).normalized();
@@ -61,7 +61,7 @@ Command Follower::on_stairs(const Pose& X_WR) {
   command.yaw_rate = std::clamp(config_.turn_gain * error, -config_.yaw_rate_max, config_.yaw_rate_max);
   command.vx = v_R.x();
   command.vy = v_R.y();
-  command.gait_period_scale = config_.stairs_period_scale;
+  command.careful = true;
   return command;
 }
 
@@ -89,8 +89,10 @@ bool Follower::passed(const Eigen::Vector2d& p_W) const {
 
 double Follower::heading_error(const Pose& X_WR) const {
   const Eigen::Vector2d p_W = X_WR.t.head<2>();
-  const Eigen::Vector2d leg = (waypoints_[next_].p_W - waypoints_[next_ - 1].p_W).head<2>();
-  const Eigen::Vector2d ahead = waypoints_[next_].stairs ? leg : Eigen::Vector2d(goal(p_W) - p_W);
+  const Eigen::Vector3d leg = waypoints_[next_].p_W - waypoints_[next_ - 1].p_W;
+  // Down a flight backwards: the knees point back, and facing down the shanks would meet the edges of the treads.
+  const double sign = leg.z() < -config_.landing_m ? -1.0 : 1.0;
+  const Eigen::Vector2d ahead = waypoints_[next_].stairs ? Eigen::Vector2d(sign * leg.head<2>()) : goal(p_W) - p_W;
   return wrap_angle(std::atan2(ahead.y(), ahead.x()) - X_WR.yaw());
 }
 

@@ -32,16 +32,16 @@ struct FollowerConfig {
   double slow_angle_gain = 1.5;  ///< speed falls with the cosine of this times the heading error
   double approach_gain = 0.8;    ///< 1/s, speed by distance on the last leg
   double approach_min_mps = 0.15;
-  double stairs_aligned = 0.1;        ///< rad, heading error with which a flight is entered,
-  double stairs_centred_m = 0.05;     ///< and distance from its line
-  double stairs_period_scale = 1.25;  ///< of the gait period there: a foot has farther to go
-  double side_gain = 1.5;             ///< 1/s, sideways back to that line
-  double side_mps = 0.2;              ///< highest speed of that
-  double reached_height_m = 0.6;      ///< a waypoint of another level is not reached, however near in the plane
-  double standing_height_m = 0.5;     ///< of the base above the floor
-  double jitter_s = 0.5;              ///< one draw of the jitter
-  double speed_jitter = 0.05;         ///< share, uniform to both sides
-  double period_jitter = 0.04;        ///< share of the gait period, uniform to both sides
+  double stairs_aligned = 0.1;     ///< rad, heading error with which a flight is entered,
+  double stairs_centred_m = 0.05;  ///< and distance from its line
+  double landing_m = 0.05;         ///< a leg over stairs that falls by no more is a landing
+  double side_gain = 1.5;          ///< 1/s, sideways back to that line
+  double side_mps = 0.2;           ///< highest speed of that
+  double reached_height_m = 0.6;   ///< a waypoint of another level is not reached, however near in the plane
+  double standing_height_m = 0.5;  ///< of the base above the floor
+  double jitter_s = 0.5;           ///< one draw of the jitter
+  double speed_jitter = 0.05;      ///< share, uniform to both sides
+  double period_jitter = 0.04;     ///< share of the gait period, uniform to both sides
 };
 
 /// Walks the robot along waypoints, the first of which is the start.

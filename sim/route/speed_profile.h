@@ -11,7 +11,7 @@ namespace plumbline::sim {
 /// How fast a way may be walked where it bends, is narrow or leads over stairs.
 struct SpeedConfig {
   double speed_mps = 0.6;        ///< where nothing is in the way
-  double stairs_mps = 0.4;       ///< highest on stairs
+  double stairs_mps = 0.25;      ///< highest on stairs
   double braking = 0.7;          ///< m/s^2, before whatever asks for less
   double corner_m = 0.25;        ///< a bend begins this far before its waypoint,
   double corner_rate = 0.8;      ///< is walked with this yaw rate, rad/s,

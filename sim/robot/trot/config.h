@@ -6,7 +6,9 @@ namespace plumbline::sim {
 /// Gait, command shaping and contact logic [facts: legged section 4].
 struct GaitConfig {
   double period_s = 0.44;
-  double duty = 0.56;                    ///< share of the period in stance
+  double duty = 0.56;              ///< share of the period in stance
+  double careful_period_s = 0.70;  ///< the same where each step must be right
+  double careful_duty = 0.70;
   double still_command = 1e-3;           ///< |vx| + |vy| + |yaw rate| below: asked to stand
   double still_speed = 0.02;             ///< m/s and rad/s of the slewed command
   double disturbed_speed = 0.25;         ///< m/s off the desired velocity: step even when asked to stand
@@ -22,13 +24,14 @@ struct CommandConfig {
 };
 
 struct ContactConfig {
-  double on_n = 8.0;             ///< N, touch force
-  double off_n = 2.0;            ///< N
-  double early_after = 0.5;      ///< part of the swing after which a contact ends it,
-  double early_off_m = 0.03;     ///< if the sole is so close to the level of the ground
-  double early_near_m = 0.05;    ///< under it or so far beside it: else it is the face of a step
-  double late_push_m = 0.01;     ///< a foot without expected contact aims so far below itself
-  double late_push_rate = 10.0;  ///< 1/s: downward speed is late_push_m times this
+  double on_n = 8.0;                ///< N, touch force
+  double off_n = 2.0;               ///< N
+  double early_after = 0.5;         ///< part of the swing after which a contact ends it,
+  double early_off_m = 0.03;        ///< if the sole is so close to the level of the ground
+  double early_near_m = 0.05;       ///< under it or so far beside it: else it is the face of a step
+  double late_push_m = 0.01;        ///< a foot without expected contact aims so far below itself
+  double late_push_rate = 10.0;     ///< 1/s: downward speed is late_push_m times this,
+  double careful_push_rate = 60.0;  ///< and this where the tread may be far below
 };
 
 struct FootholdConfig {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/robot/trot/gait.h"
 
+#include <algorithm>
+
 namespace plumbline::sim {
 
 namespace {
@@ -14,23 +16,27 @@ double wrap_phase(double phase) { return phase >= 1.0 ? phase - 1.0 : phase; }
 
 double Gait::leg_phase(std::size_t leg) const { return wrap_phase(phase_ + phase_offset[leg]); }
 
-bool Gait::scheduled_stance(std::size_t leg) const { return standing_ || leg_phase(leg) < config_.duty; }
+bool Gait::scheduled_stance(std::size_t leg) const { return standing_ || leg_phase(leg) < duty_; }
 
-double Gait::swing_progress(std::size_t leg) const { return (leg_phase(leg) - config_.duty) / (1.0 - config_.duty); }
+double Gait::swing_progress(std::size_t leg) const { return (leg_phase(leg) - duty_) / (1.0 - duty_); }
 
 double Gait::since_stance_start_s(std::size_t leg) const { return leg_phase(leg) * period_s_; }
 
-double Gait::until_stance_end_s(std::size_t leg) const { return (config_.duty - leg_phase(leg)) * period_s_; }
+double Gait::until_stance_end_s(std::size_t leg) const { return (duty_ - leg_phase(leg)) * period_s_; }
 
-bool Gait::all_in_stance() const {
+bool Gait::all_in_stance(double duty) const {
   for (std::size_t leg = 0; leg < leg_count; ++leg)
-    if (!scheduled_stance(leg)) return false;
+    if (!standing_ && leg_phase(leg) >= duty) return false;
   return true;
 }
 
 void Gait::update(const GaitDemand& demand, double dt) {
   const bool calm = demand.still && !demand.disturbed;
-  period_s_ = config_.period_s * demand.period_scale;
+  if (demand.careful != careful_ && all_in_stance(std::min(config_.duty, config_.careful_duty))) {
+    careful_ = demand.careful;
+    duty_ = careful_ ? config_.careful_duty : config_.duty;
+  }
+  period_s_ = (careful_ ? config_.careful_period_s : config_.period_s) * demand.period_scale;
   if (standing_) {
     if (calm) return;
     standing_ = false;
@@ -40,7 +46,7 @@ void Gait::update(const GaitDemand& demand, double dt) {
   }
   phase_ = wrap_phase(phase_ + dt / period_s_);
   still_s_ = calm ? still_s_ + dt : 0.0;
-  if (still_s_ > config_.settle_time_s && all_in_stance()) standing_ = true;
+  if (still_s_ > config_.settle_time_s && all_in_stance(duty_)) standing_ = true;
 }
 
 }  // namespace plumbline::sim

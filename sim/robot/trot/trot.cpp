@@ -60,6 +60,7 @@ GaitDemand Trot::gait_demand(const BodyState& state, const Command& command) con
       asked < c.still_command && reference_.speed() < c.still_speed && std::abs(reference_.yaw_rate()) < c.still_speed;
   demand.disturbed = off_W.norm() > c.disturbed_speed || lean_W.norm() > c.disturbed_com_offset_m;
   demand.period_scale = command.gait_period_scale;
+  demand.careful = command.careful;
   return demand;
 }
 
@@ -96,8 +97,9 @@ double Trot::force_limit(std::size_t leg) const {
 FootTarget Trot::foot_target(const Posture& posture, std::size_t leg) const {
   if (legs_[leg].swinging) return swing_point(config_.swing, swing_[leg], gait_.swing_progress(leg), gait_.swing_s());
   const ContactConfig& c = config_.contact;
+  const double rate = gait_.careful() ? c.careful_push_rate : c.late_push_rate;
   return {posture.foot_W[leg] - Eigen::Vector3d(0.0, 0.0, c.late_push_m),
-          Eigen::Vector3d(0.0, 0.0, -c.late_push_m * c.late_push_rate)};
+          Eigen::Vector3d(0.0, 0.0, -c.late_push_m * rate)};
 }
 
 }  // namespace plumbline::sim

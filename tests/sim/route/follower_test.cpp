@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <string>
 
 #include "bim/errors.h"
@@ -123,6 +124,22 @@ TEST(Follower, FacesAFlightBeforeItClimbsIt) {
   EXPECT_NEAR(follower.update(standing_at(1.0, 0.0, 0.0, 0.05), 2).vx, config.speed.stairs_mps, 0.01);
   EXPECT_NEAR(follower.update(standing_at(2.0, 0.0, 0.7, 0.15), 3).vx, config.speed.stairs_mps, 0.02);
   EXPECT_EQ(follower.update(standing_at(4.0, 0.0, 2.0), 4).vx, config.speed.speed_mps);
+}
+
+TEST(Follower, WalksDownAFlightBackwards) {
+  const FollowerConfig config = at_speed(0.6);
+  Follower follower(config, {{{0.0, 0.0, 2.0}}, {{3.0, 0.0, 0.0}, true}, {{3.0, 1.0, 0.0}, true}, {{6.0, 1.0, 0.0}}},
+                    1);
+  const Command down = follower.update(standing_at(1.0, 0.0, 1.3, std::numbers::pi), 0);
+  EXPECT_NEAR(down.vx, -config.speed.stairs_mps, 0.02);
+  EXPECT_NEAR(down.vy, 0.0, 1e-9);
+  EXPECT_NEAR(down.yaw_rate, 0.0, 1e-9);
+  EXPECT_TRUE(down.careful);
+  // On the landing it faces along the way again.
+  const Command across = follower.update(standing_at(3.0, 0.0, 0.0, 0.5 * std::numbers::pi), 1);
+  EXPECT_NEAR(across.yaw_rate, 0.0, 1e-9);
+  EXPECT_TRUE(across.careful);
+  EXPECT_FALSE(follower.update(standing_at(3.0, 1.0, 0.0), 2).careful);
 }
 
 TEST(Follower, TurnsInPlaceTowardsAGoalBehind) {

@@ -50,6 +50,31 @@ TEST(Gait, ALongerPeriodTakesLonger) {
   EXPECT_NEAR(steps_to_first_swing(1.5), 0.56 * 0.66, 2.0 * dt);
 }
 
+/// More time on the ground; no foot is lifted or set down by the change itself.
+TEST(Gait, ChangesToCarefulOnAllFourFeet) {
+  const GaitConfig config;
+  Gait gait{config};
+  gait.update(walk, dt);
+  while (gait.scheduled_stance(0)) gait.update(walk, dt);
+  const auto stances = [&] {
+    PerLeg<bool> out{};
+    for (std::size_t leg = 0; leg < leg_count; ++leg) out[leg] = gait.scheduled_stance(leg);
+    return out;
+  };
+  for (const bool careful : {true, false}) {
+    while (gait.careful() != careful) {
+      const PerLeg<bool> before = stances();
+      gait.update({.still = false, .careful = careful}, dt);
+      for (std::size_t leg = 0; gait.careful() == careful && leg < leg_count; ++leg)
+        EXPECT_TRUE(before[leg] && gait.scheduled_stance(leg)) << leg;
+    }
+    const double duty = careful ? config.careful_duty : config.duty;
+    const double period_s = careful ? config.careful_period_s : config.period_s;
+    EXPECT_NEAR(gait.stance_s(), duty * period_s, 1e-12);
+    EXPECT_NEAR(gait.swing_s(), (1.0 - duty) * period_s, 1e-12);
+  }
+}
+
 TEST(Gait, StopsOnAllFourFeetAfterASecondOfCalm) {
   Gait gait{GaitConfig{}};
   for (int i = 0; i < 137; ++i) gait.update(walk, dt);
