@@ -47,6 +47,7 @@ const std::vector<BenchPart>& bench_parts() {
       {"bim", "reading, cutting and comparing buildings, and how it grows with the number of walls", bench_bim},
       {"lidar", "casting rays, against a plain loop over Embree, and how it grows with the number of triangles",
        bench_lidar},
+      {"sim", "walking and scanning in 100 rooms, against real time, and the memory it takes", bench_sim},
       {"legs",
        "laps of 120 s on several floors and stairs up and down, with a seed each: falls, errors of speed and way",
        bench_legs}};

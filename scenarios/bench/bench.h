@@ -58,6 +58,8 @@ struct BenchPart {
 [[nodiscard]] std::vector<BenchRow> bench_bim(const BenchSetting& setting);
 [[nodiscard]] std::vector<BenchRow> bench_lidar(const BenchSetting& setting);
 /// Each walk has its own seed, 1 to setting.repetitions.
+[[nodiscard]] std::vector<BenchRow> bench_sim(const BenchSetting& setting);
+/// Each walk has its own seed, 1 to setting.repetitions.
 [[nodiscard]] std::vector<BenchRow> bench_legs(const BenchSetting& setting);
 
 }  // namespace plumbline::scenarios
