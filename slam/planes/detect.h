@@ -37,6 +37,8 @@ struct PlaneDetectorConfig {
   double gap_m = 0.25;              ///< jump between neighbouring returns of a ring that ends a segment ...
   double gap_per_m = 0.02;          ///< ... plus this times the range (grazing incidence)
   double segment_rms_m = 0.03;      ///< of a ring's stretch around a line; walls show 12-17 mm [facts: lidar 2.5]
+  double step_chi2 = 20.0;          ///< gain of two lines over one, in variances, at which a stretch is cut
+  double step_sigma_m = 0.004;      ///< least noise across a line assumed there: aslant, range noise runs along it
   int segment_points = 6;           ///< fewest of a segment
   double segment_length_m = 0.15;   ///< shortest segment
   double max_distance_m = 0.06;     ///< gate of a point to the plane it joins; about 4 sigma of the range noise
@@ -50,7 +52,8 @@ struct PlaneDetectorConfig {
   double floor_area_m2 = 0.5;     ///< smallest extent (length by width) of a floor or ceiling patch
   double sigma_min_m = 0.01;      ///< least range noise assumed
   double bias_floor_m = 0.01;     ///< what averaging cannot remove: range bias of a unit, deskew [facts: lidar 2.2]
-  double bias_floor_rad = 0.002;  ///< the same for the turn of a wall: a bias b bends what is seen aslant
+  double bias_floor_rad = 0.002;  ///< the same for the turn of a wall: a bias b bends what is seen aslant ...
+  double bias_end_m = 0.01;  ///< ... and a frame or skirting this thick at one end turns it by this over its length
   double bias_floor_tilt_rad = 0.005;  ///< and for its tilt: lasers differ by 11 mm among themselves [facts: lidar 2.5]
 
   template <class V>
@@ -61,6 +64,8 @@ struct PlaneDetectorConfig {
     v("gap_m", gap_m, Field{.min = 0.0});
     v("gap_per_m", gap_per_m, Field{.min = 0.0});
     v("segment_rms_m", segment_rms_m, Field{.min = 0.001});
+    v("step_chi2", step_chi2, Field{.doc = "gain of two lines over one at which a stretch is cut", .min = 1.0});
+    v("step_sigma_m", step_sigma_m, Field{.doc = "least noise across a line assumed there", .min = 1e-4});
     v("segment_points", segment_points, Field{.min = 3});
     v("segment_length_m", segment_length_m, Field{.min = 0.0});
     v("max_distance_m", max_distance_m, Field{.min = 0.001});
@@ -75,6 +80,7 @@ struct PlaneDetectorConfig {
     v("sigma_min_m", sigma_min_m, Field{.min = 1e-4});
     v("bias_floor_m", bias_floor_m, Field{.min = 0.0});
     v("bias_floor_rad", bias_floor_rad, Field{.min = 0.0});
+    v("bias_end_m", bias_end_m, Field{.doc = "unevenness at one end of a patch, which turns it", .min = 0.0});
     v("bias_floor_tilt_rad", bias_floor_tilt_rad, Field{.min = 0.0});
   }
 };

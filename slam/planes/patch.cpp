@@ -61,9 +61,11 @@ std::optional<PlaneObservation> fit_patch(const DeskewedScan& scan, const std::v
   patch.points = static_cast<int>(moments.n);
   patch.rms_m = plane_rms(moments, patch.plane_R);
   patch.centroid_R = moments.mean();
-  patch.covariance = plane_covariance(moments, patch.plane_R, std::max(patch.rms_m, config.sigma_min_m),
-                                      {config.bias_floor_rad, config.bias_floor_tilt_rad, config.bias_floor_m});
   set_extent(scan, points, config.max_distance_m, long_axis(patch.plane_R, moments), patch);
+  const double length = std::max((patch.p1_R - patch.p0_R).norm(), config.min_length_m);
+  const double turn = std::hypot(config.bias_floor_rad, config.bias_end_m / length);
+  patch.covariance = plane_covariance(moments, patch.plane_R, std::max(patch.rms_m, config.sigma_min_m),
+                                      {turn, config.bias_floor_tilt_rad, config.bias_floor_m});
   return patch;
 }
 

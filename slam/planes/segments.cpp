@@ -4,10 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 namespace plumbline::slam {
 
 namespace {
+
+constexpr std::size_t step_candidates = 16;  ///< places of a stretch where a step is looked for
 
 /// Line in the plane by least squares: centre, unit direction and rms across.
 struct Line2 {
@@ -76,13 +79,35 @@ class RingCutter {
   void split(std::size_t begin, std::size_t end, std::vector<RingSegment>& out) const {
     if (end - begin < static_cast<std::size_t>(config_.segment_points)) return;
     const Line2 line = sums_.fit(begin, end);
-    if (line.rms <= config_.segment_rms_m) {
+    const std::size_t middle = line.rms > config_.segment_rms_m ? corner(begin, end) : step(begin, end, line);
+    if (middle == end) {
       keep(begin, end, line, out);
       return;
     }
-    const std::size_t middle = corner(begin, end);
     split(begin, middle, out);
     split(middle, end, out);
+  }
+
+  /// Where two lines explain the stretch so much better than one that noise cannot be the cause; `end` where nowhere.
+  /// A leaf set back in its wall, or a pillar before it, gives a line that runs along neither.
+  [[nodiscard]] std::size_t step(std::size_t begin, std::size_t end, const Line2& line) const {
+    const std::size_t least = static_cast<std::size_t>(config_.segment_points);
+    const std::size_t stride = std::max<std::size_t>(1, (end - begin) / step_candidates);
+    const auto square_sum = [&](std::size_t a, std::size_t b) {
+      const double rms = sums_.fit(a, b).rms;
+      return rms * rms * static_cast<double>(b - a);
+    };
+    std::size_t best = end;
+    double apart = std::numeric_limits<double>::infinity();
+    for (std::size_t i = begin + least; i + least <= end; i += stride) {
+      const double sum = square_sum(begin, i) + square_sum(i, end);
+      if (sum >= apart) continue;
+      apart = sum;
+      best = i;
+    }
+    const auto n = static_cast<double>(end - begin);
+    const double variance = std::max(config_.step_sigma_m * config_.step_sigma_m, apart / n);
+    return line.rms * line.rms * n - apart > config_.step_chi2 * variance ? best : end;
   }
 
   /// Point farthest from the chord (ties: the first), never an end.

@@ -49,8 +49,8 @@ struct SGraphsPlusConfig {
   PoseWeights pose_weights = PoseWeights::registration;
   double keyframe_distance_m = 0.6;
   double keyframe_angle_rad = 0.35;
-  double odometry_inflation = 50.0;  ///< of the registration's covariance: surfels are not independent
-  double odometry_sigma_m = 0.006;   ///< of a step between keyframes, added
+  double odometry_inflation = 8.0;  ///< of the registration's covariance: surfels are not independent
+  double odometry_sigma_m = 0.006;  ///< of a step between keyframes, added
   double odometry_sigma_rad = 0.002;
   LidarOdometryConfig odometry;
   PlaneDetectorConfig planes;
