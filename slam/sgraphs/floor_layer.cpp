@@ -65,20 +65,35 @@ int storey_of(const Graph& graph, const Pose& X_MR, std::span<const PlaneObserva
   if (floor == seen.end()) return former;
   const Eigen::Vector2d here = X_MR.t.head<2>();
   const double height = height_at(X_MR * floor->plane_R, here);
-  int nearest = -1, last = -1;
-  double distance = config.storey_step_m;
-  for (const PlaneVertex& plane : graph.planes) {
-    last = std::max(last, plane.storey);
-    if (plane.kind != PlaneKind::floor || plane.merged_into >= 0) continue;
-    const double d = std::abs(height_at(plane.plane_M, here) - height);
-    if (d >= distance) continue;
-    distance = d;
-    nearest = plane.storey;
+  if (std::abs(X_MR.t.z() - height - config.stand_m) > config.underfoot_m) return former;
+  int last = -1;
+  for (const PlaneVertex& plane : graph.planes) last = std::max(last, plane.storey);
+  // Stairs and their landings belong to the storey below, or, where none is known, to the one above.
+  int below = -1, above = -1;
+  double over = config.storey_step_m, under = config.storey_step_m;
+  bool any_floor = false;
+  for (int storey = 0; storey <= last; ++storey) {
+    const int id = floor_plane_of(graph, storey);
+    if (id < 0) continue;
+    any_floor = true;
+    const double d = height - height_at(graph.planes[static_cast<std::size_t>(id)].plane_M, here);
+    if (d > -config.same_floor_m && d < over) {
+      over = d;
+      below = storey;
+    } else if (d <= 0.0 && -d < under) {
+      under = -d;
+      above = storey;
+    }
   }
-  const bool no_floor_yet = std::none_of(graph.planes.begin(), graph.planes.end(),
-                                         [](const PlaneVertex& p) { return p.kind == PlaneKind::floor; });
-  if (no_floor_yet) return former;
-  return nearest >= 0 ? nearest : last + 1;
+  if (!any_floor) return former;
+  if (below >= 0) return below;
+  return above >= 0 ? above : last + 1;
+}
+
+void keep_level(std::vector<PlaneObservation>& seen, const Pose& X_MR, const FloorLayerConfig& config) {
+  const double least = std::cos(config.level_rad);
+  std::erase_if(seen,
+                [&](const PlaneObservation& o) { return !o.vertical && std::abs((X_MR.q * o.plane_R.n).z()) < least; });
 }
 
 void FloorLayer::update(Graph& graph, int storey, std::span<const PlaneNode> walls) {

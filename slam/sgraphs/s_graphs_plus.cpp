@@ -73,7 +73,9 @@ SGraphsPlus::SGraphsPlus(const MethodInput& input, const SGraphsPlusConfig& conf
       rooms_(with_mount(config.rooms, input.calibration)),
       floors_(config.floors),
       loop_(config.loop),
-      back_end_(config.incremental, config.optimizer) {}
+      back_end_(config.incremental, config.optimizer) {
+  config_.floors.stand_m = input.calibration.sensor_height_m - input.calibration.X_RL.t.z();
+}
 
 Output SGraphsPlus::on_scan(const Scan& scan) {
   Output output;
@@ -107,7 +109,7 @@ bool SGraphsPlus::is_keyframe(const Pose& X_OR) const {
 // [S-Graphs+ Fig. 2]: walls, rooms, floors and loops of one keyframe, then the back end.
 void SGraphsPlus::add_keyframe(const DeskewedScan& scan, const Registration& odometry, Output& output) {
   Stopwatch watch;
-  const std::vector<PlaneObservation> seen = planes_of(scan);
+  std::vector<PlaneObservation> seen = planes_of(scan);
   file(output, watch, "planes", digest_of(seen));
 
   add_keyframe_vertex(scan.stamp, odometry, seen);
@@ -161,7 +163,7 @@ void SGraphsPlus::update_rooms(int storey, std::span<const PlaneNode> walls) {
 }
 
 void SGraphsPlus::add_keyframe_vertex(Nanoseconds stamp, const Registration& odometry,
-                                      std::span<const PlaneObservation> seen) {
+                                      std::vector<PlaneObservation>& seen) {
   const Pose& X_OR = odometry.X_MR;
   if (graph_.keyframes.empty()) {
     graph_.keyframes.push_back({stamp, levelled_start(seen), X_OR, 0});
@@ -170,6 +172,7 @@ void SGraphsPlus::add_keyframe_vertex(Nanoseconds stamp, const Registration& odo
   const KeyframeVertex& last = graph_.keyframes.back();
   const Pose step = last.X_OR.inverse() * X_OR;
   const Pose X_MR = last.X_MR * step;
+  keep_level(seen, X_MR, config_.floors);
   const int from = static_cast<int>(graph_.keyframes.size()) - 1;
   walked_m_ += step.t.norm();
   graph_.pose_factors.push_back({from, from + 1, step,

@@ -127,7 +127,8 @@ class SGraphsPlus : public Method {
   [[nodiscard]] bool is_keyframe(const Pose& X_OR) const;
   void add_keyframe(const DeskewedScan& scan, const Registration& odometry, Output& output);
   [[nodiscard]] std::vector<PlaneObservation> planes_of(const DeskewedScan& scan) const;
-  void add_keyframe_vertex(Nanoseconds stamp, const Registration& odometry, std::span<const PlaneObservation> seen);
+  /// Drops from what was seen the planes that are neither walls nor level.
+  void add_keyframe_vertex(Nanoseconds stamp, const Registration& odometry, std::vector<PlaneObservation>& seen);
   void update_rooms(int storey, std::span<const PlaneNode> walls);
   void close_loop(const DeskewedScan& scan);
   void optimize_graph();

@@ -194,13 +194,15 @@ std::vector<PlaneNode> WallLayer::seen_now(const Graph& graph) const {
 std::vector<PlaneNode> WallLayer::walls(const Graph& graph, int storey) const {
   const int floor = floor_plane_of(graph, storey);
   std::vector<PlaneNode> walls;
-  for (const PlaneNode& node : extents(graph)) {
+  for (PlaneNode& node : extents(graph)) {
     const PlaneVertex& plane = graph.planes[static_cast<std::size_t>(node.id)];
     if (plane.kind != PlaneKind::wall || plane.storey != storey) continue;
     if (node.observations < config_.min_observations || (node.p1 - node.p0).norm() < config_.min_length_m) continue;
     if (floor >= 0) {
       const Plane& floor_M = graph.planes[static_cast<std::size_t>(floor)].plane_M;
-      if (node.z1 - height_at(floor_M, middle(node)) < config_.min_top_m) continue;
+      const double floor_z = height_at(floor_M, middle(node));
+      if (node.z1 - floor_z < config_.min_top_m) continue;
+      node.z0 = std::max(node.z0, floor_z);  // down a stairwell it is the wall of the storey below
     }
     walls.push_back(node);
   }

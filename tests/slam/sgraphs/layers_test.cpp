@@ -132,6 +132,58 @@ TEST(FloorLayer, ANewStoreyBeginsWhereTheFloorIsAnother) {
   EXPECT_EQ(storey_of(graph, ground, std::vector{see_floor(ground, 0.0)}, config), 0) << "back down";
 }
 
+/// Storeys at 0 and 3 m.
+Graph two_storeys() {
+  Graph graph = at(Pose::from_xyz_yaw({0, 0, 0.5}, 0));
+  graph.planes.push_back({Plane{Eigen::Vector3d::UnitZ(), 0.0}, PlaneKind::floor, 0, -1});
+  graph.planes.push_back({Plane{Eigen::Vector3d::UnitZ(), -3.0}, PlaneKind::floor, 1, -1});
+  return graph;
+}
+
+TEST(FloorLayer, ALandingBelongsToTheStoreyBelow) {
+  Graph graph = two_storeys();
+  for (const int former : {0, 1}) {
+    graph.keyframes.back().storey = former;
+    const Pose landing = Pose::from_xyz_yaw({2, 0, 2.0}, 0);
+    EXPECT_EQ(storey_of(graph, landing, std::vector{see_floor(landing, 1.5)}, {}), 0);
+  }
+  graph.planes.pop_back();
+  const Pose half_down = Pose::from_xyz_yaw({2, 0, -0.9}, 0), cellar = Pose::from_xyz_yaw({2, 0, -2.4}, 0);
+  EXPECT_EQ(storey_of(graph, half_down, std::vector{see_floor(half_down, -1.4)}, {}), 0) << "nothing known below";
+  EXPECT_EQ(storey_of(graph, cellar, std::vector{see_floor(cellar, -2.9)}, {}), 1);
+}
+
+TEST(FloorLayer, AFloorSeenFromAboveIsNotWhereTheRobotStands) {
+  Graph graph = two_storeys();
+  graph.keyframes.back().storey = 1;
+  const Pose above = Pose::from_xyz_yaw({2, 0, 3.5}, 0);
+  EXPECT_EQ(storey_of(graph, above, std::vector{see_floor(above, 0.0)}, {}), 1);
+}
+
+TEST(FloorLayer, FlightsOfStairsAreNoFloors) {
+  const Pose X = Pose::from_xyz_yaw({2, 0, 0.5}, 0.7);
+  PlaneObservation flight = see_floor(X, 0.0), ramp = flight;
+  flight.plane_R.n = (X.q.conjugate() * Eigen::Vector3d(-0.5, 0.0, 0.8)).normalized();
+  ramp.plane_R.n = X.q.conjugate() * Eigen::Vector3d(std::sin(0.05), 0.0, std::cos(0.05));
+  std::vector<PlaneObservation> seen = {flight, see_floor(X, 0.0), ramp, see(X, {0, 0}, {4, 0})};
+  keep_level(seen, X, {});
+  ASSERT_EQ(seen.size(), 3U);
+  EXPECT_EQ(seen[0].plane_R.n, see_floor(X, 0.0).plane_R.n);
+  EXPECT_TRUE(seen[2].vertical);
+}
+
+TEST(WallLayer, WallsOfOneOutlineOnTwoStoreysAreTwoWalls) {
+  const Pose low = Pose::from_xyz_yaw({2, 2, 0.5}, 0), high = Pose::from_xyz_yaw({2, 2, 3.5}, 0);
+  Graph graph = at(low);
+  WallLayer walls({});
+  const std::vector<int> first = walls.observe(graph, std::vector{see(low, {0, 0}, {4, 0})}, 0.0);
+  graph.keyframes.push_back({1, high, high, 1});
+  const std::vector<int> second = walls.observe(graph, std::vector{see(high, {0, 0}, {4, 0})}, 6.0);
+  EXPECT_NE(first, second);
+  EXPECT_FALSE(walls.find_duplicates(graph, 0));
+  EXPECT_FALSE(walls.find_duplicates(graph, 1));
+}
+
 TEST(FloorLayer, CentreIsMidwayBetweenTheWidestPairsAndRoomsHangOnIt) {
   const Pose X = Pose::from_xyz_yaw({2, 2, 0}, 0);
   Graph graph = at(X);
