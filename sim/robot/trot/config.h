@@ -74,6 +74,8 @@ struct SwingConfig {
 
 struct PostureConfig {
   double height_m = 0.50;
+  double careful_height_m = 0.45;  ///< with the careful gait: legs that are bent more reach down farther
+  double height_rate = 0.1;        ///< m/s, from one to the other
   double normal_time_constant_s = 0.15;
   double plane_damping = 1e-4;       ///< on the diagonal of the plane fit
   double kp_xy = 20.0, kd_xy = 8.0;  ///< 1/s^2, 1/s

@@ -14,6 +14,7 @@ Trot::Trot(const TrotConfig& config, const BodyState& state, double mass, double
       gait_(config.gait),
       legs_(initial_contacts(posture_of(state).foot_W)),
       plane_(config.posture),
+      posture_(config.posture),
       distribution_(config.force) {}
 
 Torques Trot::update(const BodyState& state, const Command& command, const Terrain& terrain) {
@@ -27,6 +28,7 @@ Torques Trot::update(const BodyState& state, const Command& command, const Terra
   update_contacts(config_.contact, gait_, state.touch, posture.foot_W, on_ground, legs_);
   plan_footholds(state, posture, terrain);
   plane_.update(legs_, step_s_);
+  change_height();
 
   PerLeg<Eigen::Vector3d> lever_W;
   PerLeg<double> fz_max;
@@ -34,7 +36,7 @@ Torques Trot::update(const BodyState& state, const Command& command, const Terra
     lever_W[leg] = posture.foot_W[leg] - Eigen::Vector3d(0.0, 0.0, robot_dimensions.foot_radius) - state.com_W;
     fz_max[leg] = force_limit(leg);
   }
-  const Wrench wrench = desired_wrench(config_.posture, state, reference_, plane_, mass_);
+  const Wrench wrench = desired_wrench(posture_, state, reference_, plane_, mass_);
   const PerLeg<Eigen::Vector3d> force_W = distribution_.solve(wrench, lever_W, fz_max);
 
   Torques torques{};
@@ -48,6 +50,13 @@ Torques Trot::update(const BodyState& state, const Command& command, const Terra
   }
   ++steps_;
   return torques;
+}
+
+void Trot::change_height() {
+  const PostureConfig& c = config_.posture;
+  const double step = c.height_rate * step_s_;
+  const double asked = gait_.careful() ? c.careful_height_m : c.height_m;
+  posture_.height_m += std::clamp(asked - posture_.height_m, -step, step);
 }
 
 GaitDemand Trot::gait_demand(const BodyState& state, const Command& command) const {

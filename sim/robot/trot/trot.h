@@ -25,6 +25,7 @@ class Trot {
   [[nodiscard]] Torques update(const BodyState& state, const Command& command, const Terrain& terrain);
 
  private:
+  void change_height();
   [[nodiscard]] GaitDemand gait_demand(const BodyState& state, const Command& command) const;
   void plan_footholds(const BodyState& state, const Posture& posture, const Terrain& terrain);
   [[nodiscard]] double force_limit(std::size_t leg) const;
@@ -38,6 +39,7 @@ class Trot {
   PerLeg<LegContact> legs_;
   PerLeg<SwingPath> swing_;
   SupportPlane plane_;
+  PostureConfig posture_;  ///< with the height of the moment
   ForceDistribution distribution_;
   std::int64_t steps_ = 0;
 };
