@@ -35,7 +35,10 @@ void write_method(const std::string& dir, const MethodRecord& method) {
   if (method.name == truth_method) return;  // truth.tum and truth_surface.ply hold what it knows
   write_file(stem + ".tum", slam::write_tum(method.causal));
   write_file(stem + ".final.tum", slam::write_tum(method.estimate.trajectory));
-  if (!method.estimate.map_F.empty()) write_file(stem + ".map.ply", write_ply(method.estimate.map_F));
+  if (!method.estimate.map_F.empty()) {
+    write_file(stem + ".map.ply", write_ply(method.estimate.map_F));
+    write_file(stem + ".map.pcd", write_pcd(method.estimate.map_F));
+  }
   if (method.localization) write_file(stem + ".hypotheses.jsonl", write_beliefs(method.beliefs));
 }
 

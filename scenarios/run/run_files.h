@@ -24,8 +24,9 @@ struct RunFiles {
 };
 
 /// Writes everything but scores and report into `dir`: building, scenario.yaml, digests.csv, truth.tum,
-/// truth_surface.ply, and of each method <method>.tum, .final.tum, .estimate.json, .map.ply, .hypotheses.jsonl (the
-/// last three where there is something to say), failure.txt where the scenario failed. Throws EnvironmentError.
+/// truth_surface.ply, and of each method <method>.tum, .final.tum, .estimate.json, .map.ply, .map.pcd,
+/// .hypotheses.jsonl (the last four where there is something to say), failure.txt where the scenario failed. Throws
+/// EnvironmentError.
 void write_run_files(const std::string& dir, const ResolvedScenario& resolved, const RunRecord& record);
 
 /// Reads a run directory. Throws InputError at the file and line that is missing or damaged.

@@ -29,7 +29,7 @@ class Recordings : public ::testing::Test {
     const Outcome outcome = plumbline({"estimate", recording, "--method", method, "--plan", plan(), "-o", out});
     ASSERT_EQ(outcome.code, 0) << outcome.err;
     int compared = 0;
-    for (const char* end : {".tum", ".final.tum", ".estimate.json", ".map.ply", ".hypotheses.jsonl"}) {
+    for (const char* end : {".tum", ".final.tum", ".estimate.json", ".map.ply", ".map.pcd", ".hypotheses.jsonl"}) {
       ASSERT_EQ(fs::exists(out + "/" + method + end), fs::exists(run + "/" + method + end)) << method << end;
       if (!fs::exists(out + "/" + method + end)) continue;
       EXPECT_TRUE(read_file(out + "/" + method + end) == read_file(run + "/" + method + end)) << method << end;

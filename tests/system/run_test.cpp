@@ -58,10 +58,11 @@ Folder* ShortRun::folder_ = nullptr;
 Outcome* ShortRun::outcome_ = nullptr;
 
 TEST_F(ShortRun, LeavesTheFilesOfTheContract) {
-  for (const char* name : {"scenario.yaml", "results.json", "timings.json", "digests.csv", "truth.tum", "report.html",
-                           "junit.xml", "building.plan.yaml", "truth_surface.ply", "vgicp.tum", "vgicp.final.tum",
-                           "vgicp.map.ply", "s_graph_localization.hypotheses.jsonl", "recording/lidar.pcap",
-                           "recording/odometry.tum", "recording/imu.csv", "recording/recording.yaml"})
+  for (const char* name :
+       {"scenario.yaml", "results.json", "timings.json", "digests.csv", "truth.tum", "report.html", "junit.xml",
+        "building.plan.yaml", "truth_surface.ply", "vgicp.tum", "vgicp.final.tum", "vgicp.map.ply", "vgicp.map.pcd",
+        "s_graph_localization.hypotheses.jsonl", "recording/lidar.pcap", "recording/odometry.tum", "recording/imu.csv",
+        "recording/recording.yaml"})
     EXPECT_GT(read_file(dir() + "/" + name).size(), 0U) << name;
   EXPECT_EQ(outcome_->err, "");  // stderr is no terminal here
   EXPECT_NE(outcome_->out.find("gates: 2 of 2 passed\n"), std::string::npos) << outcome_->out;
