@@ -39,6 +39,7 @@ void write_method(const std::string& dir, const MethodRecord& method) {
     write_file(stem + ".map.ply", write_ply(method.estimate.map_F));
     write_file(stem + ".map.pcd", write_pcd(method.estimate.map_F));
   }
+  if (!method.estimate.graph.is_null()) write_file(stem + ".graph.json", write_json(method.estimate.graph, 0) + "\n");
   if (method.localization) write_file(stem + ".hypotheses.jsonl", write_beliefs(method.beliefs));
 }
 

@@ -24,7 +24,7 @@ struct RunFiles {
 };
 
 /// Writes everything but scores and report into `dir`: building, scenario.yaml, digests.csv, truth.tum,
-/// truth_surface.ply, and of each method <method>.tum, .final.tum, .estimate.json, .map.ply, .map.pcd,
+/// truth_surface.ply, and of each method <method>.tum, .final.tum, .estimate.json, .map.ply, .map.pcd, .graph.json,
 /// .hypotheses.jsonl (the last four where there is something to say), failure.txt where the scenario failed. Throws
 /// EnvironmentError.
 void write_run_files(const std::string& dir, const ResolvedScenario& resolved, const RunRecord& record);

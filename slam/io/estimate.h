@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "bim/config/tree.h"
 #include "bim/geometry/plane.h"
 #include "bim/geometry/polygon.h"
 #include "slam/io/records.h"
@@ -94,6 +95,7 @@ struct Estimate {
   std::vector<RoomNode> rooms;
   std::vector<FloorNode> floors;
   std::vector<Eigen::Vector3f> map_F;  ///< point map, voxel-thinned to 0.05 m
+  Tree graph;                          ///< as graph_tree() writes it; null where the method has none
 };
 
 }  // namespace plumbline::slam
