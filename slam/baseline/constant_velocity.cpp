@@ -33,7 +33,7 @@ class ConstantVelocity final : public Method {
   }
 
   void predict(Nanoseconds stamp) {
-    if (last_ && before_) {
+    if (last_ && before_ && last_->stamp > before_->stamp) {
       const double share =
           static_cast<double>(stamp - last_->stamp) / static_cast<double>(last_->stamp - before_->stamp);
       X_OR_ = X_OR_ * interpolate(Pose{}, before_->X_FR.inverse() * last_->X_FR, share);

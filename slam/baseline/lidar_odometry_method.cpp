@@ -45,8 +45,9 @@ class LidarOdometryMethod final : public Method {
 
     motion_.forget_before(scan.stamp);
     output.X_FR = registration.X_MR;
+    if (registration.lost) output.state = State::lost;
     trajectory_.push_back({scan.stamp, registration.X_MR});
-    map_.add(deskewed, registration.X_MR);
+    if (registration.believed || trajectory_.size() == 1) map_.add(deskewed, registration.X_MR);
     return output;
   }
 

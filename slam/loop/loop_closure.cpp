@@ -37,8 +37,11 @@ std::optional<PoseFactor> LoopClosure::verify(const Graph& graph, int old) const
   SurfelMap map_I(config_.voxel_m);
   const int first = std::max(0, old - config_.map_keyframes);
   const int last = std::min(now - 1, old + config_.map_keyframes);
-  for (int k = first; k <= last; ++k)
-    map_I.add(entries_[static_cast<std::size_t>(k)].surfels, X_IM * graph.keyframes[static_cast<std::size_t>(k)].X_MR);
+  for (int k = first; k <= last; ++k) {
+    const KeyframeVertex& keyframe = graph.keyframes[static_cast<std::size_t>(k)];
+    if (keyframe.storey == graph.keyframes.back().storey)
+      map_I.add(entries_[static_cast<std::size_t>(k)].surfels, X_IM * keyframe.X_MR);
+  }
   const Pose start_IR = X_IM * graph.keyframes.back().X_MR;
   const Registration found = align(entries_.back().surfels, map_I, start_IR, std::nullopt, config_.registration);
   if (!found.converged || found.matched < config_.min_matched || found.rms > config_.max_rms) return {};

@@ -13,9 +13,17 @@ namespace plumbline::slam {
 namespace {
 
 constexpr std::size_t digest_stride = 8;
+constexpr double max_range_m = 1e3;  ///< beyond what any of the LiDARs can measure
 
 /// Time of a column relative to the scan's stamp: that of its first return slot.
 Nanoseconds column_offset(const Scan& scan, std::size_t first) { return scan.offset_ns[first]; }
+
+/// A finite point no farther than its range says; NaN compares false.
+bool is_return(const Scan& scan, std::size_t i) {
+  const double range = scan.range_m[i];
+  const double farthest = 1.01 * range + 1.0;
+  return range > 0.0 && range < max_range_m && scan.point_L[i].squaredNorm() < farthest * farthest;
+}
 
 /// By how many columns each ring stands behind the lowest at the same azimuth. Rings of one firing less than two
 /// columns apart, as those of a VLP-16, count as in line.
@@ -27,7 +35,7 @@ std::vector<int> column_shifts(const Scan& scan) {
     apart.clear();
     for (int column = 0; column < scan.columns; column += every) {
       const auto i = static_cast<std::size_t>(column * scan.rings + ring);
-      if (scan.range_m[i] <= 0.0 || scan.range_m[i - 1] <= 0.0) continue;
+      if (!is_return(scan, i) || !is_return(scan, i - 1)) continue;
       const Eigen::Vector3d &p = scan.point_L[i], &below = scan.point_L[i - 1];
       apart.push_back(std::atan2(below.x() * p.y() - below.y() * p.x(), below.x() * p.x() + below.y() * p.y()));
     }
@@ -65,7 +73,7 @@ DeskewedScan deskew(const Scan& scan, const MotionBuffer& motion, const Calibrat
     const Eigen::Matrix3d R_RL = X_RL.rotation();
     for (std::size_t ring = 0; ring < rings; ++ring) {
       const int aligned = column - shifts[ring];
-      if (scan.range_m[first + ring] <= 0.0 || aligned < 0 || aligned >= scan.columns) continue;
+      if (!is_return(scan, first + ring) || aligned < 0 || aligned >= scan.columns) continue;
       const std::size_t i = static_cast<std::size_t>(aligned) * rings + ring;
       out.range_m[i] = scan.range_m[first + ring];
       out.point_R[i] = R_RL * scan.point_L[first + ring] + X_RL.t;

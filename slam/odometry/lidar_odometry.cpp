@@ -10,18 +10,66 @@ namespace plumbline::slam {
 
 namespace {
 
-/// Any of the scan matchers behind the common face.
-template <class Matcher>
-class Wrapped final : public LidarOdometry {
+/// Information of dead reckoning over a way.
+Matrix6d reckoned_information(const LidarOdometryConfig& config, double way_m) {
+  constexpr double least_step_m = 1e-3;  // standing still is not known for certain
+  const double way = std::max(way_m, least_step_m);
+  Matrix6d information = Matrix6d::Zero();
+  information.diagonal().head<3>().setConstant(1.0 / (config.legs_m * config.legs_m * way));
+  information.diagonal().tail<3>().setConstant(1.0 / (config.legs_rad * config.legs_rad * way));
+  return information;
+}
+
+/// The legs' motion from scan to scan.
+class Steps {
  public:
-  template <class Config>
-  explicit Wrapped(const Config& config) : matcher_(config) {}
-  [[nodiscard]] Registration update(const DeskewedScan& scan, const Pose& X_OR) override {
-    return matcher_.update(scan, X_OR);
+  [[nodiscard]] Pose to(const Pose& X_OR) {
+    const Pose step = started_ ? X_OR_.inverse() * X_OR : Pose{};
+    started_ = true;
+    X_OR_ = X_OR;
+    return step;
   }
 
  private:
+  bool started_ = false;
+  Pose X_OR_;
+};
+
+/// Any of the scan matchers behind the common face. A scan that does not fit is dead reckoned and not mapped; after
+/// many of them the map is begun anew.
+template <class Matcher>
+class Wrapped final : public LidarOdometry {
+ public:
+  template <class MatcherConfig>
+  Wrapped(const LidarOdometryConfig& config, const MatcherConfig& matcher)
+      : config_(config), matcher_(matcher), health_(config.health) {}
+
+  [[nodiscard]] Registration update(const DeskewedScan& scan, const Pose& X_OR) override {
+    const Pose step = steps_.to(X_OR);
+    const bool ready = matcher_.ready();
+    Registration result = matcher_.match(scan, X_OR);
+    // The first scan of a map lies where dead reckoning says.
+    result.believed = ready && health_.judge(result, X_MR_.inverse() * result.X_MR, scan.stamp - stamp_);
+    if (!result.believed) {
+      result.X_MR = X_MR_ * step;
+      result.information = reckoned_information(config_, step.t.norm());
+    }
+    X_MR_ = result.X_MR;
+    stamp_ = scan.stamp;
+    matcher_.commit(X_MR_, result.believed || !ready);
+    if (!matcher_.ready()) (void)health_.judge(Registration{}, step, 0);  // nothing seen to begin a map with
+    if (ready && !result.believed && health_.wants_restart()) matcher_.forget();
+    result.lost = health_.lost();
+    return result;
+  }
+
+ private:
+  const LidarOdometryConfig config_;
   Matcher matcher_;
+  OdometryHealth health_;
+  Steps steps_;
+  Pose X_MR_;
+  Nanoseconds stamp_ = 0;
 };
 
 class Legs final : public LidarOdometry {
@@ -30,15 +78,9 @@ class Legs final : public LidarOdometry {
 
   [[nodiscard]] Registration update(const DeskewedScan&, const Pose& X_OR) override {
     Registration result;
-    if (started_) {
-      const Pose step = X_OR_.inverse() * X_OR;
-      const double way_m = std::max(step.t.norm(), least_step_m);
-      X_MR_ = X_MR_ * step;
-      result.information.diagonal().head<3>().setConstant(1.0 / (config_.legs_m * config_.legs_m * way_m));
-      result.information.diagonal().tail<3>().setConstant(1.0 / (config_.legs_rad * config_.legs_rad * way_m));
-    }
-    started_ = true;
-    X_OR_ = X_OR;
+    const Pose step = steps_.to(X_OR);
+    X_MR_ = X_MR_ * step;
+    result.information = reckoned_information(config_, step.t.norm());
     result.X_MR = X_MR_;
     result.matched = 1.0;
     result.converged = true;
@@ -46,12 +88,9 @@ class Legs final : public LidarOdometry {
   }
 
  private:
-  static constexpr double least_step_m = 1e-3;  ///< standing still is not known for certain
-
   const LidarOdometryConfig config_;
-  bool started_ = false;
+  Steps steps_;
   Pose X_MR_;
-  Pose X_OR_;
 };
 
 }  // namespace
@@ -59,11 +98,11 @@ class Legs final : public LidarOdometry {
 std::unique_ptr<LidarOdometry> make_lidar_odometry(const LidarOdometryConfig& config) {
   switch (config.kind) {
     case OdometryKind::vgicp:
-      return std::make_unique<Wrapped<VgicpOdometry>>(config.vgicp);
+      return std::make_unique<Wrapped<VgicpOdometry>>(config, config.vgicp);
     case OdometryKind::floam:
-      return std::make_unique<Wrapped<loam::FloamOdometry>>(config.floam);
+      return std::make_unique<Wrapped<loam::FloamOdometry>>(config, config.floam);
     case OdometryKind::aloam:
-      return std::make_unique<Wrapped<loam::AloamOdometry>>(config.aloam);
+      return std::make_unique<Wrapped<loam::AloamOdometry>>(config, config.aloam);
     case OdometryKind::legs:
       return std::make_unique<Legs>(config);
   }

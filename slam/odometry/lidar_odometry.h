@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "bim/config/visit.h"
+#include "slam/odometry/health.h"
 #include "slam/odometry/loam/aloam.h"
 #include "slam/odometry/loam/floam.h"
 #include "slam/odometry/motion.h"
@@ -22,6 +23,7 @@ struct LidarOdometryConfig {
   VgicpConfig vgicp;
   loam::FloamConfig floam;
   loam::AloamConfig aloam;
+  HealthConfig health;
   double legs_m = 0.02;    ///< standard deviation of a metre of dead reckoning, per root metre
   double legs_rad = 0.01;  ///< and of its heading
 
@@ -31,12 +33,14 @@ struct LidarOdometryConfig {
     v("vgicp", vgicp);
     v("floam", floam);
     v("aloam", aloam);
+    v("health", health);
     v("legs_m", legs_m, Field{.doc = "of a metre of dead reckoning, m", .min = 1e-4});
     v("legs_rad", legs_rad, Field{.doc = "of a metre of dead reckoning, rad", .min = 1e-5});
   }
 };
 
-/// Scan by scan pose in M, which starts at the first pose: X_MR = identity.
+/// Scan by scan pose in M, which starts at the first pose: X_MR = identity. A scan that does not fit leaves the pose to
+/// dead reckoning, see Registration::believed.
 class LidarOdometry {
  public:
   virtual ~LidarOdometry() = default;

@@ -19,8 +19,22 @@ double fraction(Nanoseconds from, Nanoseconds to, Nanoseconds t) {
 void MotionBuffer::add(const Odometry& odometry) {
   if (!records_.empty() && odometry.stamp < records_.back().stamp)
     throw InternalError("odometry records are not in time order");
-  if (!records_.empty() && odometry.stamp == records_.back().stamp) records_.pop_back();
-  records_.push_back(odometry);
+  if (!odometry.X_OR.t.allFinite() || !odometry.X_OR.q.coeffs().allFinite()) return;
+  Odometry record = odometry;
+  if (moved_) record.X_OR = *moved_ * record.X_OR;
+  if (!records_.empty() && jumps(records_.back(), record)) {
+    moved_ = records_.back().X_OR * odometry.X_OR.inverse();
+    record.X_OR = records_.back().X_OR;
+  }
+  if (!records_.empty() && record.stamp == records_.back().stamp) records_.pop_back();
+  records_.push_back(record);
+}
+
+bool MotionBuffer::jumps(const Odometry& from, const Odometry& to) const {
+  constexpr double shake_m = 0.05, shake_rad = 0.05;  // of an odometry's own noise
+  const double dt = seconds(to.stamp - from.stamp);
+  const Pose step = from.X_OR.inverse() * to.X_OR;
+  return step.t.norm() > max_speed_mps * dt + shake_m || log_so3(step.q).norm() > max_turn_radps * dt + shake_rad;
 }
 
 Pose MotionBuffer::at(Nanoseconds t) const {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <optional>
 #include <vector>
 
 #include "slam/io/records.h"
@@ -14,8 +15,13 @@ class MotionBuffer {
  public:
   /// Farthest that at() extrapolates past the newest record: two periods of a 100 Hz odometry.
   static constexpr Nanoseconds max_extrapolation = 20'000'000;
+  /// Farther than a robot goes between two records: the odometry has jumped. Its frame is then moved along, so that the
+  /// robot stands still over the jump; only increments mean anything.
+  static constexpr double max_speed_mps = 10.0;
+  static constexpr double max_turn_radps = 20.0;
 
-  /// Records come in time order, else InternalError; one with the newest stamp replaces it.
+  /// Records come in time order, else InternalError; one with the newest stamp replaces it, one that is not finite is
+  /// left out.
   void add(const Odometry& odometry);
   /// X_OR at time t, interpolated. After the newest record the last velocity goes on, for at most max_extrapolation (a
   /// scan ends between two records, and a robot moves 6 mm in 10 ms); before the oldest it is the oldest pose. Needs at
@@ -26,7 +32,10 @@ class MotionBuffer {
   void forget_before(Nanoseconds t);
 
  private:
+  [[nodiscard]] bool jumps(const Odometry& from, const Odometry& to) const;
+
   std::deque<Odometry> records_;
+  std::optional<Pose> moved_;  ///< of the odometry's frame, since a jump
 };
 
 /// A scan with every return moved to R at scan.stamp. Index of a return: column * rings + ring; rings are in line, that
@@ -35,7 +44,7 @@ struct DeskewedScan {
   Nanoseconds stamp = 0;
   int rings = 16;
   int columns = 0;
-  std::vector<double> range_m;           ///< as measured; 0: no return
+  std::vector<double> range_m;           ///< as measured; 0: no return, or one that is no finite point in its range
   std::vector<Eigen::Vector3d> point_R;  ///< at stamp; zero where there is no return
   Pose X_RL;                             ///< sensor in R
 };

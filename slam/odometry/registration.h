@@ -45,6 +45,8 @@ struct Registration {
   double rms = 0.0;                         ///< of the inliers' Mahalanobis distances; 0.3 to 0.8 for a good match
   int iterations = 0;
   bool converged = false;
+  bool believed = true;  ///< false: X_MR is dead reckoning, the scan did not fit
+  bool lost = false;     ///< scans have not fitted for a while
 };
 
 /// Voxelized GICP: minimises sum rho(e^T (C_voxel + R C_surfel R^T)^-1 e) with e the way from the moved surfel to the

@@ -9,20 +9,37 @@ namespace plumbline::slam {
 VgicpOdometry::VgicpOdometry(const VgicpConfig& config) : config_(config), map_(config.map_voxel_m) {}
 
 Registration VgicpOdometry::update(const DeskewedScan& scan, const Pose& X_OR) {
-  std::vector<Surfel> surfels = make_surfels(scan, config_.surfels);
+  Registration result = match(scan, X_OR);
+  commit(result.X_MR, true);
+  return result;
+}
+
+Registration VgicpOdometry::match(const DeskewedScan& scan, const Pose& X_OR) {
+  scan_ = make_surfels(scan, config_.surfels);
   Registration result;
-  is_keyframe_ = keyframes_.empty();
-  if (!keyframes_.empty()) {
+  result.X_MR = X_MR_;
+  if (ready()) {
     const PosePrior prediction = predict(X_OR);
     const std::optional<PosePrior> prior = config_.odometry_prior ? std::optional(prediction) : std::nullopt;
-    result = align(surfels, map_, prediction.X_MR, prior, config_.registration);
-    const Pose X_KR = keyframes_.back().X_MR.inverse() * result.X_MR;
+    result = align(scan_, map_, prediction.X_MR, prior, config_.registration);
+  }
+  X_OR_ = X_OR;
+  return result;
+}
+
+void VgicpOdometry::commit(const Pose& X_MR, bool mapped) {
+  X_MR_ = X_MR;
+  is_keyframe_ = mapped && !scan_.empty();
+  if (is_keyframe_ && ready()) {
+    const Pose X_KR = keyframes_.back().X_MR.inverse() * X_MR;
     is_keyframe_ = X_KR.t.norm() >= config_.keyframe_distance_m || log_so3(X_KR.q).norm() >= config_.keyframe_angle_rad;
   }
-  X_MR_ = result.X_MR;
-  X_OR_ = X_OR;
-  if (is_keyframe_) insert(std::move(surfels), X_MR_);
-  return result;
+  if (is_keyframe_) insert(std::move(scan_), X_MR_);
+}
+
+void VgicpOdometry::forget() {
+  map_ = SurfelMap(config_.map_voxel_m);
+  keyframes_.clear();
 }
 
 PosePrior VgicpOdometry::predict(const Pose& X_OR) const {

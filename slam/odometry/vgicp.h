@@ -47,6 +47,13 @@ class VgicpOdometry {
 
   /// X_OR: leg odometry at scan.stamp; only its increments are used, as start and as prior.
   [[nodiscard]] Registration update(const DeskewedScan& scan, const Pose& X_OR);
+  /// The two halves of update(): where the scan fits, and taking it in there, into the map only if `mapped`.
+  [[nodiscard]] Registration match(const DeskewedScan& scan, const Pose& X_OR);
+  void commit(const Pose& X_MR, bool mapped);
+  /// Whether there is a map to match against.
+  [[nodiscard]] bool ready() const { return !keyframes_.empty(); }
+  /// Drops the map.
+  void forget();
   /// True when the last scan entered the local map.
   [[nodiscard]] bool is_keyframe() const { return is_keyframe_; }
 
@@ -62,6 +69,7 @@ class VgicpOdometry {
   VgicpConfig config_;
   SurfelMap map_;
   std::deque<Keyframe> keyframes_;
+  std::vector<Surfel> scan_;  ///< surfels of the scan last matched
   Pose X_MR_;
   Pose X_OR_;
   bool is_keyframe_ = false;

@@ -6,6 +6,7 @@
 #include "bim/digest/digest.h"
 #include "slam/baseline/constant_velocity.h"
 #include "slam/graph/factors.h"
+#include "slam/graph/graph_json.h"
 #include "slam/io/stopwatch.h"
 
 namespace plumbline::slam {
@@ -48,11 +49,21 @@ std::uint64_t digest_of(std::span<const int> ids) {
   return digest.value();
 }
 
-/// Files a stage's digest and its CPU time since the last one.
-void file(Output& output, Stopwatch& watch, const std::string& stage, std::uint64_t digest) {
-  output.times.push_back({stage, watch.cpu_ms()});
+/// Files a stage's digest, and its CPU time since the last one under the name that the papers' tables give it.
+void file(Output& output, Stopwatch& watch, const std::string& stage, std::uint64_t digest,
+          const std::string& timed_as) {
+  output.times.push_back({timed_as, watch.cpu_ms()});
   output.digests.push_back({stage, digest});
   watch.restart();
+}
+void file(Output& output, Stopwatch& watch, const std::string& stage, std::uint64_t digest) {
+  file(output, watch, stage, digest, stage);
+}
+
+std::uint64_t digest_of(const std::vector<FloorVertex>& floors) {
+  Digest digest;
+  for (const FloorVertex& floor : floors) digest.add(floor.center_M).add(floor.plane);
+  return digest.value();
 }
 
 std::unique_ptr<Method> make(const MethodInput& input, SGraphsPlusConfig config) {
@@ -90,11 +101,16 @@ Output SGraphsPlus::on_scan(const Scan& scan) {
   file(output, watch, "odometry", Digest().add(odometry.X_MR).value());
 
   const Pose& X_OR = odometry.X_MR;
-  if (is_keyframe(X_OR)) add_keyframe(deskewed, odometry, output);
+  if (odometry.lost) output.state = State::lost;
+  // Where a scan does not fit, what it shows would be put in the wrong place.
+  if (!odometry.believed && !graph_.keyframes.empty())
+    reckoned_ = reckoned_.value_or(Vector6d(Vector6d::Zero())) + odometry.information.diagonal().cwiseInverse();
+  if (graph_.keyframes.empty() || (odometry.believed && !odometry.lost && is_keyframe(X_OR)))
+    add_keyframe(deskewed, odometry, output);
   const auto keyframe = graph_.keyframes.size() - 1;
   scans_.push_back({scan.stamp, static_cast<int>(keyframe), X_OR});
   watch.restart();
-  keep_cloud(deskewed);
+  if (odometry.believed || scans_.size() == 1) keep_cloud(deskewed);
   output.times.push_back({"map", watch.cpu_ms()});
   output.X_FR = X_MO(keyframe) * X_OR;
   return output;
@@ -110,7 +126,7 @@ bool SGraphsPlus::is_keyframe(const Pose& X_OR) const {
 void SGraphsPlus::add_keyframe(const DeskewedScan& scan, const Registration& odometry, Output& output) {
   Stopwatch watch;
   std::vector<PlaneObservation> seen = planes_of(scan);
-  file(output, watch, "planes", digest_of(seen));
+  file(output, watch, "planes", digest_of(seen), "plane_segmentation");
 
   add_keyframe_vertex(scan.stamp, odometry, seen);
   if (config_.pose_weights == PoseWeights::fitness) {
@@ -124,14 +140,18 @@ void SGraphsPlus::add_keyframe(const DeskewedScan& scan, const Registration& odo
   if (config_.parts.rooms) rooms_.look(graph_, scan, seen);
   if (config_.parts.rooms && config_.rooms.source == RoomSource::keyframe)
     rooms_.add_from_keyframe(graph_, walls_.seen_now(graph_));
-  update_rooms(storey, walls_.walls(graph_, storey));
-  file(output, watch, "rooms", digest_of(rooms_.nodes(graph_)));
+  const std::vector<PlaneNode> walls = walls_.walls(graph_, storey);
+  if (config_.parts.rooms) rooms_.update(graph_, storey, walls);
+  file(output, watch, "rooms", digest_of(rooms_.nodes(graph_)), "room_segmentation");
+  if (config_.parts.rooms && config_.parts.floors) floors_.update(graph_, storey, walls);
+  file(output, watch, "floors", digest_of(graph_.floors), "floor_segmentation");
 
   if (config_.parts.loops) close_loop(scan);
-  file(output, watch, "loop", Digest().add(static_cast<std::int64_t>(graph_.pose_factors.size())).value());
+  file(output, watch, "loop", Digest().add(static_cast<std::int64_t>(graph_.pose_factors.size())).value(),
+       "loop_closure");
 
   optimize_graph();
-  file(output, watch, "graph", slam::digest_of(graph_));
+  file(output, watch, "graph", slam::digest_of(graph_), "back_end");
 }
 
 void SGraphsPlus::keep_cloud(const DeskewedScan& scan) {
@@ -174,11 +194,13 @@ void SGraphsPlus::add_keyframe_vertex(Nanoseconds stamp, const Registration& odo
   const Pose X_MR = last.X_MR * step;
   keep_level(seen, X_MR, config_.floors);
   const int from = static_cast<int>(graph_.keyframes.size()) - 1;
+  const Matrix6d information = reckoned_ ? Matrix6d(reckoned_->cwiseInverse().asDiagonal()) : odometry.information;
   walked_m_ += step.t.norm();
   graph_.pose_factors.push_back({from, from + 1, step,
-                                 trusted_information(odometry.information, config_.odometry_inflation,
-                                                     config_.odometry_sigma_m, config_.odometry_sigma_rad),
+                                 trusted_information(information, config_.odometry_inflation, config_.odometry_sigma_m,
+                                                     config_.odometry_sigma_rad),
                                  false});
+  reckoned_.reset();
   graph_.keyframes.push_back({stamp, X_MR, X_OR, storey_of(graph_, X_MR, seen, config_.floors)});
 }
 
@@ -242,6 +264,7 @@ Estimate SGraphsPlus::finish() {
     estimate.floors.push_back({floor.storey, {floor.center_M.x(), floor.center_M.y(), z}, plane});
   }
   estimate.map_F = point_map(estimate);
+  estimate.graph = graph_tree(graph_);
   return estimate;
 }
 
@@ -253,7 +276,7 @@ std::vector<StampedPose> SGraphsPlus::trajectory() const {
     Pose X_MR = X_MO(k) * scan.X_OR;
     if (k + 1 < graph_.keyframes.size()) {
       const Nanoseconds from = graph_.keyframes[k].stamp, to = graph_.keyframes[k + 1].stamp;
-      const double s = seconds(scan.stamp - from) / seconds(to - from);
+      const double s = to > from ? seconds(scan.stamp - from) / seconds(to - from) : 0.0;
       X_MR = interpolate(X_MR, X_MO(k + 1) * scan.X_OR, s);
     }
     poses.push_back({scan.stamp, X_MR});

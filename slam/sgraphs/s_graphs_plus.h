@@ -3,6 +3,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <string_view>
 
 #include "bim/config/visit.h"
@@ -153,6 +154,7 @@ class SGraphsPlus : public Method {
   std::vector<CloudKeyframe> clouds_;                         ///< of scans at least map.spacing_m apart along the way
   std::vector<std::size_t> cloud_scans_;                      ///< index into scans_ of each cloud
   std::vector<std::vector<Eigen::Vector3d>> fitness_clouds_;  ///< index = keyframe, for PoseWeights::fitness
+  std::optional<Vector6d> reckoned_;  ///< variances of the dead reckoning since the last keyframe, if there was any
   double walked_m_ = 0.0;
   bool full_wanted_ = false;  ///< a loop, a duplicate or a wall from before the prior came in
   bool full_urgent_ = false;  ///< a loop that contradicts the estimate

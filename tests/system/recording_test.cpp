@@ -29,7 +29,8 @@ class Recordings : public ::testing::Test {
     const Outcome outcome = plumbline({"estimate", recording, "--method", method, "--plan", plan(), "-o", out});
     ASSERT_EQ(outcome.code, 0) << outcome.err;
     int compared = 0;
-    for (const char* end : {".tum", ".final.tum", ".estimate.json", ".map.ply", ".map.pcd", ".hypotheses.jsonl"}) {
+    for (const char* end :
+         {".tum", ".final.tum", ".estimate.json", ".map.ply", ".map.pcd", ".graph.json", ".hypotheses.jsonl"}) {
       ASSERT_EQ(fs::exists(out + "/" + method + end), fs::exists(run + "/" + method + end)) << method << end;
       if (!fs::exists(out + "/" + method + end)) continue;
       EXPECT_TRUE(read_file(out + "/" + method + end) == read_file(run + "/" + method + end)) << method << end;
@@ -181,7 +182,7 @@ TEST_F(Recordings, EstimateSaysWhatRunSaid) {
   EXPECT_EQ(results["methods"]["there"], results["methods"]["s_graph_localization"]);
   EXPECT_TRUE(results["methods"]["again"].contains("rooms"));
   const auto timings = nlohmann::json::parse(read_file(folder_ / "out_s_graphs_plus/timings.json"));
-  EXPECT_TRUE(timings["stages"].contains("s_graphs_plus/planes"));
+  EXPECT_TRUE(timings["stages"].contains("s_graphs_plus/plane_segmentation"));
   const Outcome refused = plumbline({"score", run, "--estimate", "walk=" + walk});
   EXPECT_EQ(refused.code, 2);
   EXPECT_NE(refused.err.find("holds no estimate"), std::string::npos) << refused.err;

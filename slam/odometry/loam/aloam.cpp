@@ -5,18 +5,23 @@
 
 namespace plumbline::slam::loam {
 
-Registration AloamOdometry::update(const DeskewedScan& scan, const Pose& /*X_OR*/) {
-  Features features = find_features(scan, config_.features);
-  const ThinFeatures thinned = thin(features, config_.map);
+Registration AloamOdometry::match(const DeskewedScan& scan, const Pose& /*X_OR*/) {
+  scan_ = find_features(scan, config_.features);
+  thinned_ = thin(scan_, config_.map);
   Registration result;
-  if (!map_.empty()) {
-    X_LR_ = align_scans(features, last_, X_LR_, config_.scan_to_scan);
-    result = map_.align(thinned, X_MR_ * X_LR_, config_.rounds);
-  }
-  X_MR_ = result.X_MR;
-  map_.add(thinned, X_MR_);
-  last_ = std::move(features);
-  return result;
+  result.X_MR = X_MR_;
+  if (!ready()) return result;
+  X_LR_ = align_scans(scan_, last_, X_LR_, config_.scan_to_scan);
+  return map_.align(thinned_, X_MR_ * X_LR_, config_.rounds);
 }
+
+void AloamOdometry::commit(const Pose& X_MR, bool mapped) {
+  if (!mapped) X_LR_ = X_MR_.inverse() * X_MR;
+  X_MR_ = X_MR;
+  if (mapped) map_.add(thinned_, X_MR_);
+  last_ = std::move(scan_);
+}
+
+void AloamOdometry::forget() { map_ = FeatureMap(config_.map); }
 
 }  // namespace plumbline::slam::loam

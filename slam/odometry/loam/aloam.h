@@ -28,11 +28,20 @@ class AloamOdometry {
  public:
   explicit AloamOdometry(const AloamConfig& config) : config_(config), map_(config.map) {}
 
-  [[nodiscard]] Registration update(const DeskewedScan& scan, const Pose& X_OR);
+  /// Where the scan fits. X_OR is not asked.
+  [[nodiscard]] Registration match(const DeskewedScan& scan, const Pose& X_OR);
+  /// Takes it in at X_MR, into the map only if `mapped`.
+  void commit(const Pose& X_MR, bool mapped);
+  /// Whether there is a map to match against.
+  [[nodiscard]] bool ready() const { return !map_.empty(); }
+  /// Drops the map.
+  void forget();
 
  private:
   AloamConfig config_;
   Features last_;
+  Features scan_;  ///< of the scan last matched
+  ThinFeatures thinned_;
   FeatureMap map_;
   Pose X_MR_;
   Pose X_LR_;  ///< latest step, scan to scan: this scan's pose in the one before

@@ -5,17 +5,25 @@
 
 namespace plumbline::slam::loam {
 
-Registration FloamOdometry::update(const DeskewedScan& scan, const Pose& /*X_OR*/) {
-  const ThinFeatures features = thin(find_features(scan, config_.features), config_.map);
+Registration FloamOdometry::match(const DeskewedScan& scan, const Pose& /*X_OR*/) {
+  scan_ = thin(find_features(scan, config_.features), config_.map);
   Registration result;
-  if (!map_.empty()) {
-    result = map_.align(features, X_MR_ * X_LR_, rounds_);
-    rounds_ = std::max(rounds_ - 1, config_.rounds);
-    X_LR_ = X_MR_.inverse() * result.X_MR;
-  }
-  X_MR_ = result.X_MR;
-  map_.add(features, X_MR_);
+  result.X_MR = X_MR_;
+  if (!ready()) return result;
+  result = map_.align(scan_, X_MR_ * X_LR_, rounds_);
+  rounds_ = std::max(rounds_ - 1, config_.rounds);
   return result;
+}
+
+void FloamOdometry::commit(const Pose& X_MR, bool mapped) {
+  if (ready()) X_LR_ = X_MR_.inverse() * X_MR;
+  X_MR_ = X_MR;
+  if (mapped) map_.add(scan_, X_MR_);
+}
+
+void FloamOdometry::forget() {
+  map_ = FeatureMap(config_.map);
+  rounds_ = config_.first_rounds;
 }
 
 }  // namespace plumbline::slam::loam

@@ -27,11 +27,19 @@ class FloamOdometry {
  public:
   explicit FloamOdometry(const FloamConfig& config) : config_(config), map_(config.map), rounds_(config.first_rounds) {}
 
-  [[nodiscard]] Registration update(const DeskewedScan& scan, const Pose& X_OR);
+  /// Where the scan fits. X_OR is not asked.
+  [[nodiscard]] Registration match(const DeskewedScan& scan, const Pose& X_OR);
+  /// Takes it in at X_MR, into the map only if `mapped`.
+  void commit(const Pose& X_MR, bool mapped);
+  /// Whether there is a map to match against.
+  [[nodiscard]] bool ready() const { return !map_.empty(); }
+  /// Drops the map.
+  void forget();
 
  private:
   FloamConfig config_;
   FeatureMap map_;
+  ThinFeatures scan_;  ///< of the scan last matched
   int rounds_;
   Pose X_MR_;
   Pose X_LR_;  ///< latest step: this scan's pose in the one before

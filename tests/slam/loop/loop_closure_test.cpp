@@ -18,7 +18,7 @@ DeskewedScan look(const synthetic::House& house, const Pose& X_WR) {
 Pose standing(double x, double y, double yaw) { return Pose::from_xyz_yaw({x, y, 0.5}, yaw); }
 
 /// A walk from the corridor and back whose belief has drifted by `drift` at the end; returns what the loop says there.
-std::optional<PoseFactor> walk_and_return(const Pose& drift, double way_m, Pose& truth_FT) {
+std::optional<PoseFactor> walk_and_return(const Pose& drift, double way_m, Pose& truth_FT, int last_storey = 0) {
   const synthetic::House house = synthetic::corridor_house();
   const std::vector<Pose> X_WR = {standing(2.0, 1.1, 0.0), standing(3.0, 1.1, 0.1), standing(8.0, 1.0, 0.0),
                                   standing(2.2, 1.2, 3.0)};
@@ -27,7 +27,7 @@ std::optional<PoseFactor> walk_and_return(const Pose& drift, double way_m, Pose&
   std::optional<PoseFactor> found;
   for (std::size_t k = 0; k < X_WR.size(); ++k) {
     const Pose belief = k + 1 == X_WR.size() ? X_WR[k] * drift : X_WR[k];
-    graph.keyframes.push_back({static_cast<Nanoseconds>(k), belief, belief, 0});
+    graph.keyframes.push_back({static_cast<Nanoseconds>(k), belief, belief, k + 1 == X_WR.size() ? last_storey : 0});
     found = loop.update(graph, look(house, X_WR[k]), way_m * static_cast<double>(k) / 3.0);
     if (k + 1 < X_WR.size()) {
       EXPECT_FALSE(found.has_value()) << k;
@@ -59,6 +59,16 @@ TEST(LoopClosure, DoesNotBelieveLargeCorrectionsNorShortWays) {
   Pose truth_FT;
   EXPECT_FALSE(walk_and_return(Pose::from_xyz_yaw({0.0, 0.0, 0.0}, 0.3), 30.0, truth_FT).has_value());
   EXPECT_FALSE(walk_and_return(Pose{}, 8.0, truth_FT).has_value()) << "too short a way for a loop";
+}
+
+// The same scan that closes a loop on its own storey closes none where the robot took the stairs in between.
+TEST(LoopClosure, StoreysThatLookAlikeAreNotJoined) {
+  Pose truth_FT;
+  ASSERT_TRUE(walk_and_return(Pose{}, 30.0, truth_FT).has_value());
+  EXPECT_FALSE(walk_and_return(Pose{}, 30.0, truth_FT, 1).has_value());
+  const Pose upstairs = Pose::from_xyz_yaw({0.0, 0.0, 3.0}, 0.0);
+  EXPECT_FALSE(walk_and_return(upstairs, 30.0, truth_FT, 1).has_value());
+  EXPECT_FALSE(walk_and_return(upstairs, 30.0, truth_FT).has_value()) << "3 m up is no drift";
 }
 
 TEST(LoopClosure, TrustedInformationOfAnUnseenDirectionIsWeak) {

@@ -43,6 +43,22 @@ TEST(MotionBufferTest, ForgettingKeepsWhatLaterTimesNeed) {
   expect_pose_near(motion.at(20'000'000), straight(0.05), 1e-9);
 }
 
+// A jump of the odometry's frame is none of the robot: what came before and after joins without it.
+TEST(MotionBufferTest, JumpsAndNonsenseAreNoMotion) {
+  const Pose jump = Pose::from_xyz_yaw({1000.0, -500.0, 3.0}, 0.65);
+  MotionBuffer motion;
+  for (Nanoseconds t = 0; t <= 50'000'000; t += 10'000'000) motion.add({t, straight(seconds(t))});
+  Pose nonsense = straight(0.055);
+  nonsense.t.y() = std::nan("");
+  motion.add({55'000'000, nonsense});
+  for (Nanoseconds t = 60'000'000; t <= 100'000'000; t += 10'000'000) motion.add({t, jump * straight(seconds(t))});
+  expect_pose_near(motion.at(50'000'000), straight(0.05), 1e-9);
+  expect_pose_near(motion.at(60'000'000), straight(0.05), 1e-9);
+  // 1 km away a double holds 1e-13 m.
+  expect_pose_near(motion.at(60'000'000).inverse() * motion.at(100'000'000), straight(0.06).inverse() * straight(0.1),
+                   1e-9);
+}
+
 TEST(MotionBufferTest, RefusesToGuess) {
   MotionBuffer motion;
   EXPECT_THROW((void)motion.at(0), InternalError);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "slam/graph/factors.h"
 #include "slam/sgraphs/floor_layer.h"
 #include "slam/sgraphs/wall_layer.h"
@@ -81,6 +83,25 @@ TEST(WallLayer, KeepsApartWhatIsNotOneFace) {
     (void)walls.observe(graph, std::vector{see(X, a, b)}, 0.0);
     EXPECT_EQ(step(graph, walls, X, {see(X, c, d)}), std::vector<int>{1});
   }
+}
+
+// Storeys with the same walls: what is seen upstairs is another wall and no duplicate, though the belief's height had
+// drifted down to the storey below.
+TEST(WallLayer, StoreysThatLookAlikeShareNoWall) {
+  const Pose X_MR = Pose::from_xyz_yaw({1.0, 2.0, 0.0}, 0.3);
+  Graph graph = at(X_MR);
+  WallLayer walls({});
+  const std::vector<PlaneObservation> seen = {see(X_MR, {0, 0}, {4, 0}), see(X_MR, {4, 5}, {0, 5})};
+  const std::vector<int> below = walls.observe(graph, seen, 0);
+  for (int k = 0; k < 5; ++k) EXPECT_EQ(step(graph, walls, X_MR, seen), below);
+  graph.keyframes.back().storey = 1;
+  const std::vector<int> above = step(graph, walls, X_MR, seen);
+  for (int k = 0; k < 5; ++k) EXPECT_EQ(step(graph, walls, X_MR, seen), above);
+  for (const int id : above) EXPECT_EQ(std::count(below.begin(), below.end(), id), 0) << id;
+  EXPECT_FALSE(walls.find_duplicates(graph, 0));
+  EXPECT_FALSE(walls.find_duplicates(graph, 1));
+  EXPECT_EQ(walls.walls(graph, 0).size(), 2U);
+  EXPECT_EQ(walls.walls(graph, 1).size(), 2U);
 }
 
 TEST(WallLayer, ReportsHighWallsThatWereSeenOften) {

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/odometry/health.h"
+
+#include <algorithm>
+
+namespace plumbline::slam {
+
+namespace {
+
+constexpr double shake_m = 0.05;  ///< registration's own scatter, which no speed explains
+constexpr double shake_rad = 0.05;
+constexpr double least_dt_s = 1e-3;
+
+}  // namespace
+
+bool OdometryHealth::judge(const Registration& registration, const Pose& step, Nanoseconds dt) {
+  const double dt_s = std::max(seconds(dt), least_dt_s);
+  const bool sound = step.t.allFinite() && step.q.coeffs().allFinite();
+  const bool good = sound && registration.matched >= config_.min_matched &&
+                    step.t.norm() <= config_.max_speed_mps * dt_s + shake_m &&
+                    log_so3(step.q).norm() <= config_.max_turn_radps * dt_s + shake_rad;
+  good_ = good ? good_ + 1 : 0;
+  bad_ = good ? 0 : bad_ + 1;
+  if (bad_ >= config_.bad_scans) lost_ = true;
+  if (good_ >= config_.good_scans) lost_ = false;
+  return good;
+}
+
+}  // namespace plumbline::slam
