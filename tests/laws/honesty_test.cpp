@@ -65,6 +65,29 @@ TEST(PlanLocalization, MovesWithThePlan) {
   }
 }
 
+// Where odometry has its origin, 1 km away and turned by 37 degrees, is nobody's business.
+TEST_P(EveryMethod, AnswersTheSameFromAnotherOdometryFrame) {
+  const Walk& walk = short_walk();
+  const auto input = method_input(walk, GetParam());
+  const double degree = std::numbers::pi / 180.0;
+  const Pose X_PO = Pose::from_xyz_yaw({600.0, -800.0, 0.0}, 37.0 * degree);
+  const std::vector<sim::WorldFrame> frames(walk.frames.begin(), walk.frames.begin() + 60);
+  std::vector<sim::WorldFrame> moved = frames;
+  for (auto& frame : moved)
+    for (auto& odometry : frame.odometry) odometry.X_OR = X_PO * odometry.X_OR;
+  const Answer here = answer_of(GetParam(), input, frames);
+  const Answer there = answer_of(GetParam(), input, moved);
+  // Only dead reckoning answers in the odometry's frame.
+  const Pose X_NM = GetParam() == "odometry" ? X_PO : Pose{};
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    ASSERT_EQ(here.outputs[i].X_FR.has_value(), there.outputs[i].X_FR.has_value()) << "scan " << i;
+    if (!here.outputs[i].X_FR) continue;
+    const Pose error = (X_NM * *here.outputs[i].X_FR).inverse() * *there.outputs[i].X_FR;
+    EXPECT_LT(error.t.norm(), 1e-3) << "scan " << i;
+    EXPECT_LT(log_so3(error.q).norm(), 0.01 * degree) << "scan " << i;
+  }
+}
+
 TEST(SGraphsPlus, HalvesAPlantedOdometryScaleError) {
   Walk walk = walk_quickstart(4, {"office_a", "corridor", "lab", "studio"}, 45.0);
   for (auto& frame : walk.frames)
