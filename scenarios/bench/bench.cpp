@@ -47,6 +47,8 @@ const std::vector<BenchPart>& bench_parts() {
       {"bim", "reading, cutting and comparing buildings, and how it grows with the number of walls", bench_bim},
       {"lidar", "casting rays, against a plain loop over Embree, and how it grows with the number of triangles",
        bench_lidar},
+      {"slam", "s_graphs_plus, stage by stage, on quickstart walks with a seed each, and how it grows over 1,020 s",
+       bench_slam},
       {"sim", "walking and scanning in 100 rooms, against real time, and the memory it takes", bench_sim},
       {"legs",
        "laps of 120 s on several floors and stairs up and down, with a seed each: falls, errors of speed and way",

@@ -33,6 +33,7 @@ struct BenchRow {
 
 struct BenchSetting {
   int repetitions = 5;
+  std::string library = "scenarios/library";  ///< folder with quickstart.yaml and s_graphs/long.yaml
   std::string data_dir;  ///< folder with ifc/duplex.ifc; empty: what needs it is left out, with a line to stderr
 };
 
@@ -57,6 +58,8 @@ struct BenchPart {
 
 [[nodiscard]] std::vector<BenchRow> bench_bim(const BenchSetting& setting);
 [[nodiscard]] std::vector<BenchRow> bench_lidar(const BenchSetting& setting);
+/// The method on quickstart walks with a seed each, 1 to setting.repetitions, and on one long walk.
+[[nodiscard]] std::vector<BenchRow> bench_slam(const BenchSetting& setting);
 /// Each walk has its own seed, 1 to setting.repetitions.
 [[nodiscard]] std::vector<BenchRow> bench_sim(const BenchSetting& setting);
 /// Each walk has its own seed, 1 to setting.repetitions.

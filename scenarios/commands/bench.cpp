@@ -53,6 +53,8 @@ Command add_bench(CommandLine& program) {
   line.option("--repetitions", options->setting.repetitions, "of each figure; the median counts")
       .range(1, 1000)
       .shows_default();
+  line.option("--library", options->setting.library, "folder with quickstart.yaml and s_graphs/long.yaml")
+      .shows_default();
   line.option("--data", options->setting.data_dir, "folder with ifc/duplex.ifc").environment("PLUMBLINE_DATA");
   line.footer("Example: plumbline bench bim --json\nExit code 1 when a ratio misses its gate; times are targets.");
   return {line, [options] { return bench(*options); }};

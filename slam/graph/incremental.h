@@ -9,7 +9,7 @@ namespace plumbline::slam {
 struct IncrementalConfig {
   bool everything = false;   ///< no window: the whole graph at each keyframe, as in the papers
   int window = 15;           ///< latest keyframes that every keyframe's optimisation may move
-  int boundary_planes = 40;  ///< planes, the latest seen, that the prior goes on describing when the window left them
+  int boundary_planes = 20;  ///< planes, the latest seen, that the prior goes on describing when the window left them
   double full_share = 0.05;  ///< keyframes between two solves of a storey, of all keyframes: a solve is paid for before
                              ///< the next, so that the mean cost of a keyframe does not grow
   int full_spacing = 5;      ///< and at least so many
