@@ -18,6 +18,10 @@ namespace plumbline::slam {
 
 namespace {
 
+/// What is known of any vertex before all factors, 1/m^2 and 1/rad^2: a direction that factors leave open, or whose
+/// information drowns in that of others, is known to a kilometre instead of making the graph singular.
+constexpr double least_information = 1e-6;
+
 constexpr int max_rows = 6;
 constexpr int max_blocks = 5;
 
@@ -205,6 +209,7 @@ MarginalPrior marginalize(const Graph& graph, const MarginalPrior& former, const
   add_prior(former, values, rows.ordering, &g, &H);
 
   MarginalPrior prior = prior_over(graph, rows);
+  H.diagonal().array() += least_information;
   const Eigen::LLT<Eigen::MatrixXd> llt(H.topLeftCorner(m, m));
   if (llt.info() != Eigen::Success) throw InternalError("a vertex to be marginalised is not determined");
   const Eigen::MatrixXd Y = llt.matrixL().solve(H.bottomLeftCorner(n - m, m).transpose());
@@ -229,6 +234,7 @@ MarginalPrior marginalize_sparse(const Graph& graph, const std::vector<Term>& te
       for (int i = 0; i < block.rows(); ++i)
         if (row + i >= column + j) triplets.emplace_back(row + i, column + j, block(i, j));
   });
+  for (int i = 0; i < n; ++i) triplets.emplace_back(i, i, least_information);
   SparseMatrix H(n, n);
   H.setFromTriplets(triplets.begin(), triplets.end());
 

@@ -10,16 +10,6 @@ namespace plumbline::slam {
 
 namespace {
 
-/// Information of dead reckoning over a way.
-Matrix6d reckoned_information(const LidarOdometryConfig& config, double way_m) {
-  constexpr double least_step_m = 1e-3;  // standing still is not known for certain
-  const double way = std::max(way_m, least_step_m);
-  Matrix6d information = Matrix6d::Zero();
-  information.diagonal().head<3>().setConstant(1.0 / (config.legs_m * config.legs_m * way));
-  information.diagonal().tail<3>().setConstant(1.0 / (config.legs_rad * config.legs_rad * way));
-  return information;
-}
-
 /// The legs' motion from scan to scan.
 class Steps {
  public:
@@ -94,6 +84,15 @@ class Legs final : public LidarOdometry {
 };
 
 }  // namespace
+
+Matrix6d reckoned_information(const LidarOdometryConfig& config, double way_m) {
+  constexpr double least_step_m = 1e-3;  // standing still is not known for certain
+  const double way = std::max(way_m, least_step_m);
+  Matrix6d information = Matrix6d::Zero();
+  information.diagonal().head<3>().setConstant(1.0 / (config.legs_m * config.legs_m * way));
+  information.diagonal().tail<3>().setConstant(1.0 / (config.legs_rad * config.legs_rad * way));
+  return information;
+}
 
 std::unique_ptr<LidarOdometry> make_lidar_odometry(const LidarOdometryConfig& config) {
   switch (config.kind) {

@@ -48,6 +48,9 @@ class LidarOdometry {
   [[nodiscard]] virtual Registration update(const DeskewedScan& scan, const Pose& X_OR) = 0;
 };
 
+/// Information of a step by dead reckoning over `way_m` walked, of the right increment: errors grow with its root.
+[[nodiscard]] Matrix6d reckoned_information(const LidarOdometryConfig& config, double way_m);
+
 [[nodiscard]] std::unique_ptr<LidarOdometry> make_lidar_odometry(const LidarOdometryConfig& config);
 
 }  // namespace plumbline::slam

@@ -94,8 +94,10 @@ class WallGrower {
   }
 
   [[nodiscard]] bool fits(const Wall& wall, const RingSegment& segment) const {
-    if (std::abs(wall.plane.distance(segment.p0_R)) > config_.max_distance_m) return false;
-    if (std::abs(wall.plane.distance(segment.p1_R)) > config_.max_distance_m) return false;
+    const double d0 = wall.plane.distance(segment.p0_R);
+    const double d1 = wall.plane.distance(segment.p1_R);
+    if (std::abs(d0) > config_.max_distance_m || std::abs(d1) > config_.max_distance_m) return false;
+    if (std::abs(d0 - d1) > config_.max_turn_m) return false;
     const Eigen::Vector3d u = plane_tangents(wall.plane.n).u;
     const double a = u.dot(segment.p0_R);
     const double b = u.dot(segment.p1_R);

@@ -194,14 +194,21 @@ void SGraphsPlus::add_keyframe_vertex(Nanoseconds stamp, const Registration& odo
   const Pose X_MR = last.X_MR * step;
   keep_level(seen, X_MR, config_.floors);
   const int from = static_cast<int>(graph_.keyframes.size()) - 1;
-  const Matrix6d information = reckoned_ ? Matrix6d(reckoned_->cwiseInverse().asDiagonal()) : odometry.information;
   walked_m_ += step.t.norm();
-  graph_.pose_factors.push_back({from, from + 1, step,
-                                 trusted_information(information, config_.odometry_inflation, config_.odometry_sigma_m,
-                                                     config_.odometry_sigma_rad),
-                                 false});
+  graph_.pose_factors.push_back({from, from + 1, step, step_information(odometry, step.t.norm()), false});
   reckoned_.reset();
   graph_.keyframes.push_back({stamp, X_MR, X_OR, storey_of(graph_, X_MR, seen, config_.floors)});
+}
+
+// Where surfels say nothing, as along a corridor, VGICP's step is that of the legs, and as certain as theirs.
+Matrix6d SGraphsPlus::step_information(const Registration& odometry, double way_m) const {
+  const LidarOdometryConfig& config = config_.odometry;
+  if (reckoned_) return reckoned_->cwiseInverse().asDiagonal();
+  const Matrix6d legs = reckoned_information(config, way_m);
+  if (config.kind == OdometryKind::legs) return legs;
+  const Matrix6d information = trusted_information(odometry.information, config_.odometry_inflation,
+                                                   config_.odometry_sigma_m, config_.odometry_sigma_rad);
+  return config.kind == OdometryKind::vgicp && config.vgicp.odometry_prior ? Matrix6d(information + legs) : information;
 }
 
 void SGraphsPlus::close_loop(const DeskewedScan& scan) {

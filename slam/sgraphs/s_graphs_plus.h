@@ -130,6 +130,8 @@ class SGraphsPlus : public Method {
   [[nodiscard]] std::vector<PlaneObservation> planes_of(const DeskewedScan& scan) const;
   /// Drops from what was seen the planes that are neither walls nor level.
   void add_keyframe_vertex(Nanoseconds stamp, const Registration& odometry, std::vector<PlaneObservation>& seen);
+  /// Of a keyframe's step from the last one over `way_m`.
+  [[nodiscard]] Matrix6d step_information(const Registration& odometry, double way_m) const;
   void update_rooms(int storey, std::span<const PlaneNode> walls);
   void close_loop(const DeskewedScan& scan);
   void optimize_graph();
