@@ -91,8 +91,8 @@ bool is_run_file(std::string_view name) {
       "digests.csv",    "truth.tum",          "report.html",   "junit.xml",    "truth_surface.ply",
       "lidar.pcap",     "odometry.tum",       "imu.csv",       "failure.txt",  "recording.yaml",
       recording_folder, "recording.bag",      "estimate.yaml", staging_name};
-  static constexpr std::array<std::string_view, 5> ends = {".tum", ".hypotheses.jsonl", ".estimate.json", ".map.ply",
-                                                           ".map.pcd"};
+  static constexpr std::array<std::string_view, 6> ends = {".tum",     ".hypotheses.jsonl", ".estimate.json",
+                                                           ".map.ply", ".map.pcd",          ".graph.json"};
   return std::find(names.begin(), names.end(), name) != names.end() ||
          std::any_of(ends.begin(), ends.end(), [&](std::string_view end) { return ends_with(name, end); });
 }
