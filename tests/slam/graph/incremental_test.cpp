@@ -210,5 +210,29 @@ TEST(Incremental, SolvesAreSpacedByWhatTheyCost) {
   EXPECT_TRUE(optimizer.solve_is_due(walk.graph));
 }
 
+// Along a corridor a face may be seen so weakly that its offset drowns in the information of all else.
+TEST(Incremental, WhatNothingDeterminesCanStillBeEliminated) {
+  Graph graph;
+  graph.keyframes.resize(2);
+  graph.keyframes[1].X_MR.t.x() = 0.6;
+  graph.pose_factors.push_back({0, 1, graph.keyframes[1].X_MR, Matrix6d::Identity() * 1e6, false});
+  for (const int k : {0, 1}) {
+    graph.planes.push_back({{Eigen::Vector3d::UnitY(), 1.0}});
+    PlaneFactor factor{k, k, {Eigen::Vector3d::UnitY(), 1.0}};
+    factor.information = Eigen::Vector3d(1e6, 1e6, 1e-12).asDiagonal();
+    graph.plane_factors.push_back(factor);
+  }
+  graph.duplicate_factors.push_back({.a = 0, .b = 1, .angle_sigma = 1e-3, .offset_sigma = 1e-4});
+  const std::vector<Term> terms = make_terms(graph, everything(graph), {});
+  const std::vector<VertexId> kept = {{Layer::keyframe, 1}};
+  for (const MarginalPrior& prior :
+       {marginalize(graph, {}, terms, kept, {gauge}), marginalize_sparse(graph, terms, kept, {gauge})}) {
+    ASSERT_EQ(prior.information.rows(), 6);
+    EXPECT_TRUE(prior.information.allFinite());
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(prior.information);
+    EXPECT_GE(eigen.eigenvalues().minCoeff(), 0.99e6);  // the step alone gives 1e6
+  }
+}
+
 }  // namespace
 }  // namespace plumbline::slam
