@@ -85,7 +85,7 @@ TEST_F(BadInput, AnIfcFileCutOffInTheMiddle) {
 TEST_F(BadInput, ScenarioKeysAndValues) {
   refuse(with(scenario_, "speed_mps:", "speed_msp:"), plan_,
          {"short.yaml:9:", "unknown key 'speed_msp'", "'speed_mps'"});
-  refuse(scenario_ + "seed: 4\n", plan_, {"short.yaml:15:1", "duplicate key 'seed'"});
+  refuse(scenario_ + "seed: 4\n", plan_, {"short.yaml:16:1", "duplicate key 'seed'"});
   refuse(with(scenario_, "seed: 3", "seed: three"), plan_, {"short.yaml:6:7", "whole number"});
   refuse(with(scenario_, "speed_mps: 0.6", "speed_mps: 60"), plan_, {"short.yaml:9:", "between"});
   refuse(with(scenario_, "odometry, vgicp", "odometry, vgcip"), plan_,
