@@ -203,12 +203,13 @@ void SGraphsPlus::add_keyframe_vertex(Nanoseconds stamp, const Registration& odo
 // Where surfels say nothing, as along a corridor, VGICP's step is that of the legs, and as certain as theirs.
 Matrix6d SGraphsPlus::step_information(const Registration& odometry, double way_m) const {
   const LidarOdometryConfig& config = config_.odometry;
-  if (reckoned_) return reckoned_->cwiseInverse().asDiagonal();
   const Matrix6d legs = reckoned_information(config, way_m);
   if (config.kind == OdometryKind::legs) return legs;
-  const Matrix6d information = trusted_information(odometry.information, config_.odometry_inflation,
-                                                   config_.odometry_sigma_m, config_.odometry_sigma_rad);
-  return config.kind == OdometryKind::vgicp && config.vgicp.odometry_prior ? Matrix6d(information + legs) : information;
+  const Matrix6d seen = reckoned_ ? Matrix6d(reckoned_->cwiseInverse().asDiagonal()) : odometry.information;
+  const Matrix6d information =
+      trusted_information(seen, config_.odometry_inflation, config_.odometry_sigma_m, config_.odometry_sigma_rad);
+  const bool with_legs = config.kind == OdometryKind::vgicp && config.vgicp.odometry_prior && !reckoned_;
+  return with_legs ? Matrix6d(information + legs) : information;
 }
 
 void SGraphsPlus::close_loop(const DeskewedScan& scan) {

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "tests/bim/rays/same_bits.h"
+
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <Eigen/Geometry>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <numbers>
 #include <optional>
@@ -87,22 +85,12 @@ std::vector<std::uint64_t> digests(const RayScene& scene, const BuildingMesh& me
   return result;
 }
 
-std::string one_line(const std::vector<std::uint64_t>& digests) {
-  Digest all;
-  for (const std::uint64_t digest : digests) all.add(digest);
-  return all.hex();
-}
-
-/// Prints a row of ci/results/same_bits.tsv.
-void print_row(const std::string& way, const std::vector<std::uint64_t>& digests) {
-  std::printf("same_bits\t%s\t%.1f\t%s\n", way.c_str(), 1e-6 * static_cast<double>(digests.size() * rays_a_turn),
-              one_line(digests).c_str());
-}
+double mrays(const Digests& digests) { return 1e-6 * static_cast<double>(digests.size() * rays_a_turn); }
 
 TEST(SameBits, InstructionsAndPacketsAgree) {
   const BuildingMesh mesh = awkward_building();
   const std::vector<std::uint64_t> expected = digests(RayScene(mesh), mesh);
-  print_row("default", expected);
+  print_row("default", mrays(expected), expected);
   int compared = 0;
   for (const char* isa : {"sse4.2", "avx2", "avx512"})
     for (const std::size_t width : {1U, 8U, 16U}) {
@@ -115,7 +103,7 @@ TEST(SameBits, InstructionsAndPacketsAgree) {
       }
       const std::vector<std::uint64_t> found = digests(*scene, mesh);
       EXPECT_EQ(found, expected) << isa << " " << width;
-      print_row(option + ", " + std::to_string(width) + " wide", found);
+      print_row(option + ", " + std::to_string(width) + " wide", mrays(found), found);
       ++compared;
     }
   EXPECT_GE(compared, 3);
@@ -126,30 +114,13 @@ TEST(SameBits, ThreadsAgree) {
   const RayScene scene(mesh);
   const std::vector<std::uint64_t> two = digests(scene, mesh, 2);
   EXPECT_EQ(two, digests(scene, mesh, 1));
-  print_row("2 threads", two);
+  print_row("2 threads", mrays(two), two);
 }
 
 TEST(SameBits, ProcessesAgree) {
   const BuildingMesh mesh = awkward_building();
-  int channel[2];
-  ASSERT_EQ(pipe(channel), 0);
-  const pid_t child = fork();
-  ASSERT_GE(child, 0);
-  if (child == 0) {
-    const std::string text = one_line(digests(RayScene(mesh), mesh));
-    const bool written = write(channel[1], text.data(), text.size()) == static_cast<ssize_t>(text.size());
-    _exit(written ? 0 : 1);
-  }
-  const std::vector<std::uint64_t> own = digests(RayScene(mesh), mesh);
-  std::array<char, 16> theirs{};
-  int status = 0;
-  ASSERT_EQ(waitpid(child, &status, 0), child);
-  ASSERT_EQ(status, 0);
-  ASSERT_EQ(read(channel[0], theirs.data(), theirs.size()), 16);
-  close(channel[0]);
-  close(channel[1]);
-  EXPECT_EQ(std::string(theirs.data(), theirs.size()), one_line(own));
-  print_row("2 processes", own);
+  const Digests own = expect_same_in_another_process([&] { return digests(RayScene(mesh), mesh); });
+  print_row("2 processes", mrays(own), own);
 }
 
 }  // namespace

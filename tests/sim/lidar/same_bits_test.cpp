@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whole sweeps of the preset full, labels and intensities included, whatever Embree is told to use.
-#include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
+#include "tests/bim/rays/same_bits.h"
 
-#include <array>
-#include <cstdio>
+#include <gtest/gtest.h>
+
 #include <cstdlib>
 #include <optional>
 #include <string>
@@ -89,16 +87,8 @@ class SweepSameBits : public ::testing::Test {
     return result;
   }
 
-  static std::string one_line(const std::vector<std::uint64_t>& digests) {
-    Digest all;
-    for (const std::uint64_t digest : digests) all.add(digest);
-    return all.hex();
-  }
-
-  /// Prints a row of ci/results/same_bits.tsv.
-  static void print_row(const std::string& way, const std::vector<std::uint64_t>& digests) {
-    std::printf("same_bits\tsweeps, %s\t%.1f\t%s\n", way.c_str(),
-                1e-6 * static_cast<double>(digests.size() * rays_a_sweep), one_line(digests).c_str());
+  static void print_row(const std::string& way, const bim::Digests& digests) {
+    bim::print_row("sweeps, " + way, 1e-6 * static_cast<double>(digests.size() * rays_a_sweep), digests);
   }
 
   const bim::BuildingMesh mesh_ = bim::awkward_building();
@@ -130,25 +120,7 @@ TEST_F(SweepSameBits, InstructionsPacketsAndThreadsAgree) {
 }
 
 TEST_F(SweepSameBits, ProcessesAgree) {
-  int channel[2];
-  ASSERT_EQ(pipe(channel), 0);
-  const pid_t child = fork();
-  ASSERT_GE(child, 0);
-  if (child == 0) {
-    const std::string text = one_line(digests(bim::RayScene(mesh_)));
-    const bool written = write(channel[1], text.data(), text.size()) == static_cast<ssize_t>(text.size());
-    _exit(written ? 0 : 1);
-  }
-  const std::vector<std::uint64_t> own = digests(bim::RayScene(mesh_));
-  std::array<char, 16> theirs{};
-  int status = 0;
-  ASSERT_EQ(waitpid(child, &status, 0), child);
-  ASSERT_EQ(status, 0);
-  ASSERT_EQ(read(channel[0], theirs.data(), theirs.size()), 16);
-  close(channel[0]);
-  close(channel[1]);
-  EXPECT_EQ(std::string(theirs.data(), theirs.size()), one_line(own));
-  print_row("2 processes", own);
+  print_row("2 processes", bim::expect_same_in_another_process([&] { return digests(bim::RayScene(mesh_)); }));
 }
 
 }  // namespace
