@@ -91,20 +91,24 @@ class RingCutter {
   /// Where two lines explain the stretch so much better than one that noise cannot be the cause; `end` where nowhere.
   /// A leaf set back in its wall, or a pillar before it, gives a line that runs along neither.
   [[nodiscard]] std::size_t step(std::size_t begin, std::size_t end, const Line2& line) const {
-    const std::size_t least = static_cast<std::size_t>(config_.segment_points);
+    constexpr std::size_t least = 2;  // what a cut corner left over may be less than a segment
     const std::size_t stride = std::max<std::size_t>(1, (end - begin) / step_candidates);
-    const auto square_sum = [&](std::size_t a, std::size_t b) {
-      const double rms = sums_.fit(a, b).rms;
-      return rms * rms * static_cast<double>(b - a);
+    const auto square_sum = [&](std::size_t from, std::size_t to) {
+      const double rms = sums_.fit(from, to).rms;
+      return rms * rms * static_cast<double>(to - from);
     };
     std::size_t best = end;
     double apart = std::numeric_limits<double>::infinity();
-    for (std::size_t i = begin + least; i + least <= end; i += stride) {
-      const double sum = square_sum(begin, i) + square_sum(i, end);
-      if (sum >= apart) continue;
-      apart = sum;
-      best = i;
-    }
+    const auto look = [&](std::size_t first, std::size_t last, std::size_t by) {
+      for (std::size_t i = first; i <= last; i += by) {
+        const double sum = square_sum(begin, i) + square_sum(i, end);
+        if (sum >= apart) continue;
+        apart = sum;
+        best = i;
+      }
+    };
+    look(begin + least, end - least, stride);
+    look(std::max(begin + least, best - (stride - 1)), std::min(end - least, best + (stride - 1)), 1);
     const auto n = static_cast<double>(end - begin);
     const double variance = std::max(config_.step_sigma_m * config_.step_sigma_m, apart / n);
     return line.rms * line.rms * n - apart > config_.step_chi2 * variance ? best : end;

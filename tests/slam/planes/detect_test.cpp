@@ -65,7 +65,7 @@ Plane nearest_face(const RandomRoom& room, const PlaneObservation& seen) {
 TEST(DetectPlanesTest, ErrorsOfRandomRoomsAreThosePredicted) {
   PlaneDetectorConfig config;
   config.bias_floor_m = 0.0;
-  config.bias_floor_rad = config.bias_floor_tilt_rad = 0.0;
+  config.bias_floor_rad = config.bias_floor_tilt_rad = config.bias_end_m = 0.0;
   config.sigma_min_m = 0.001;
   synthetic::WalkConfig walk;
   walk.range_sigma_m = 0.015;
