@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -42,7 +43,7 @@ void add_steps(const bim::Stair& stair, const BuildingGroundConfig& config, std:
 class Well {
  public:
   Well(const bim::Building& building, const bim::Stair& stair, const BuildingGroundConfig& config)
-      : config_(config), yaw_(stair.flights.front().yaw), level_(building.storeys[index(stair.to)].elevation_m) {
+      : yaw_(stair.flights.front().yaw) {
     for (const bim::StairFlight& flight : stair.flights)
       outlines_.push_back(bim::steps_outline(flight, 0, flight.steps - 1));
     for (const bim::Landing& landing : stair.landings) outlines_.push_back(landing.polygon);
@@ -50,18 +51,59 @@ class Well {
       for (const Eigen::Vector2d& p : outline) bounds_F_.extend(to_frame(p));
     bounds_F_.min().array() -= config.well_margin_m;
     bounds_F_.max().array() += config.well_margin_m;
+    const double level = building.storeys[static_cast<std::size_t>(stair.to)].elevation_m;
     for (const bim::Slab& slab : building.slabs)
-      if (slab.z1_m > level_ - config.level_m && slab.z1_m < level_ + 0.1 * config.level_m) slabs_.push_back(&slab);
+      if (slab.z1_m > level - config.level_m && slab.z1_m < level + 0.1 * config.level_m) slabs_.push_back(&slab);
+  }
+
+  [[nodiscard]] double yaw() const { return yaw_; }
+
+  [[nodiscard]] std::array<Eigen::Vector2d, 4> corners_W() const {
+    std::array<Eigen::Vector2d, 4> corners;
+    for (int i = 0; i < 4; ++i)
+      corners[static_cast<std::size_t>(i)] =
+          Eigen::Rotation2Dd(yaw_) * bounds_F_.corner(static_cast<Eigen::AlignedBox2d::CornerType>(i));
+    return corners;
   }
 
   [[nodiscard]] Eigen::AlignedBox2d bounds_W() const {
     Eigen::AlignedBox2d box;
-    for (int i = 0; i < 4; ++i) box.extend(to_world(bounds_F_.corner(static_cast<Eigen::AlignedBox2d::CornerType>(i))));
+    for (const Eigen::Vector2d& corner : corners_W()) box.extend(corner);
     return box;
   }
 
-  /// Floor around the well as boxes: rows of cells inside its bounds, four boxes around them.
-  void add_floor(double reach_m, std::vector<CollisionBox>& out) const {
+  /// Beside the well everything is floor; in it, where no slab is known, all that is not stair.
+  [[nodiscard]] bool floor_at(const Eigen::Vector2d& p_W) const {
+    if (!bounds_F_.contains(to_frame(p_W))) return true;
+    const auto covers = [&](const bim::Slab* slab) {
+      const auto in = [&](const Polygon2& polygon) { return plumbline::contains(polygon, p_W); };
+      return in(slab->polygon.outer) && std::none_of(slab->polygon.holes.begin(), slab->polygon.holes.end(), in);
+    };
+    if (!slabs_.empty()) return std::any_of(slabs_.begin(), slabs_.end(), covers);
+    return std::none_of(outlines_.begin(), outlines_.end(),
+                        [&](const Polygon2& outline) { return plumbline::contains(outline, p_W); });
+  }
+
+ private:
+  [[nodiscard]] Eigen::Vector2d to_frame(const Eigen::Vector2d& p_W) const { return Eigen::Rotation2Dd(-yaw_) * p_W; }
+
+  double yaw_;
+  std::vector<Polygon2> outlines_;
+  Eigen::AlignedBox2d bounds_F_;  ///< in the plane turned by yaw_
+  std::vector<const bim::Slab*> slabs_;
+};
+
+/// Floor around wells of one level that are so near each other that what surrounds one would cover another.
+class FloorAround {
+ public:
+  FloorAround(std::vector<Well> wells, double level_m, const BuildingGroundConfig& config)
+      : config_(config), wells_(std::move(wells)), yaw_(wells_.front().yaw()), level_(level_m) {
+    for (const Well& well : wells_)
+      for (const Eigen::Vector2d& corner : well.corners_W()) bounds_F_.extend(Eigen::Rotation2Dd(-yaw_) * corner);
+  }
+
+  /// Adds boxes: rows of cells inside the bounds of the wells, four boxes around them.
+  void add_to(std::vector<CollisionBox>& out, double reach_m) const {
     const Eigen::Vector2d low = bounds_F_.min();
     const Eigen::Vector2d high = bounds_F_.max();
     const Eigen::Vector2d far_low = low.array() - reach_m;
@@ -80,20 +122,10 @@ class Well {
     bool operator==(const Run&) const = default;
   };
 
-  static std::size_t index(int i) { return static_cast<std::size_t>(i); }
-
-  [[nodiscard]] Eigen::Vector2d to_frame(const Eigen::Vector2d& p_W) const { return Eigen::Rotation2Dd(-yaw_) * p_W; }
   [[nodiscard]] Eigen::Vector2d to_world(const Eigen::Vector2d& p_F) const { return Eigen::Rotation2Dd(yaw_) * p_F; }
 
-  /// Where no slab is known the floor is all that is not stair.
   [[nodiscard]] bool floor_at(const Eigen::Vector2d& p_W) const {
-    const auto covers = [&](const bim::Slab* slab) {
-      const auto in = [&](const Polygon2& polygon) { return plumbline::contains(polygon, p_W); };
-      return in(slab->polygon.outer) && std::none_of(slab->polygon.holes.begin(), slab->polygon.holes.end(), in);
-    };
-    if (!slabs_.empty()) return std::any_of(slabs_.begin(), slabs_.end(), covers);
-    return std::none_of(outlines_.begin(), outlines_.end(),
-                        [&](const Polygon2& outline) { return plumbline::contains(outline, p_W); });
+    return std::all_of(wells_.begin(), wells_.end(), [&](const Well& well) { return well.floor_at(p_W); });
   }
 
   [[nodiscard]] std::vector<Run> runs(int row, int columns, const Eigen::Vector2d& cell) const {
@@ -133,12 +165,36 @@ class Well {
   }
 
   BuildingGroundConfig config_;
+  std::vector<Well> wells_;
   double yaw_;
   double level_;
-  std::vector<Polygon2> outlines_;
-  Eigen::AlignedBox2d bounds_F_;  ///< in the plane turned by yaw_
-  std::vector<const bim::Slab*> slabs_;
+  Eigen::AlignedBox2d bounds_F_;  ///< of all wells, in the plane turned by yaw_
 };
+
+/// Wells in groups: whose surroundings, up to reach_m, meet a well of the group belongs to it.
+std::vector<std::vector<Well>> grouped(const std::vector<Well>& wells, double reach_m) {
+  std::vector<std::vector<Well>> groups;
+  const auto meet = [&](const Well& a, const Well& b) {
+    Eigen::AlignedBox2d around = a.bounds_W();
+    around.min().array() -= reach_m;
+    around.max().array() += reach_m;
+    return around.intersects(b.bounds_W());
+  };
+  for (const Well& well : wells) {
+    std::vector<Well> joined = {well};
+    std::vector<std::vector<Well>> apart;
+    for (std::vector<Well>& group : groups) {
+      const bool near = std::any_of(group.begin(), group.end(), [&](const Well& other) { return meet(well, other); });
+      if (near)
+        joined.insert(joined.begin(), group.begin(), group.end());
+      else
+        apart.push_back(std::move(group));
+    }
+    apart.push_back(std::move(joined));
+    groups = std::move(apart);
+  }
+  return groups;
+}
 
 /// Low walls under passable doors.
 void add_sills(const bim::Building& building, double floor_z, const BuildingGroundConfig& config,
@@ -166,12 +222,12 @@ Ground building_ground(const bim::Building& as_built, const std::vector<int>& st
     if (storey < 0 || static_cast<std::size_t>(storey) >= as_built.storeys.size())
       throw InputError({}, "the building has no storey number " + std::to_string(storey));
     GroundLevel level{as_built.storeys[static_cast<std::size_t>(storey)].elevation_m, {}};
-    for (const bim::Stair& stair : as_built.stairs) {
-      if (stair.to != storey || !is_walked(stair, storeys)) continue;
-      const Well well(as_built, stair, config);
-      level.wells_W.push_back(well.bounds_W());
-      well.add_floor(well_config.boxes_to_m, surfaces);
-    }
+    std::vector<Well> wells;
+    for (const bim::Stair& stair : as_built.stairs)
+      if (stair.to == storey && is_walked(stair, storeys)) wells.emplace_back(as_built, stair, config);
+    for (const Well& well : wells) level.wells_W.push_back(well.bounds_W());
+    for (std::vector<Well>& group : grouped(wells, well_config.boxes_to_m))
+      FloorAround(std::move(group), level.z_m, config).add_to(surfaces, well_config.boxes_to_m);
     add_sills(as_built, level.z_m, config, surfaces);
     levels.push_back(std::move(level));
   }

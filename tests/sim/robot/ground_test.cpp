@@ -18,12 +18,14 @@
 namespace plumbline::sim {
 namespace {
 
+bim::Building library_building(const std::string& name) {
+  const char* source = std::getenv("PLUMBLINE_SOURCE");
+  if (source == nullptr) throw std::runtime_error("PLUMBLINE_SOURCE is not set; run through ctest");
+  return bim::load_building(std::string(source) + "/scenarios/library/" + name);
+}
+
 const bim::Building& house() {
-  static const bim::Building building = [] {
-    const char* source = std::getenv("PLUMBLINE_SOURCE");
-    if (source == nullptr) throw std::runtime_error("PLUMBLINE_SOURCE is not set; run through ctest");
-    return bim::load_building(std::string(source) + "/scenarios/library/house.plan.yaml");
-  }();
+  static const bim::Building building = library_building("house.plan.yaml");
   return building;
 }
 
@@ -72,6 +74,20 @@ TEST(BuildingGround, AStairToAStoreyThatIsNotWalkedIsAnObstacle) {
   EXPECT_GT(collision_boxes(house(), {0}).size(), collision_boxes(house(), {0, 1}).size() / 2);
   EXPECT_TRUE(is_walked(house().stairs.at(0), {1, 0}));
   EXPECT_FALSE(is_walked(house().stairs.at(0), {0}));
+}
+
+TEST(BuildingGround, TheFloorAroundOneWellLeavesItsNeighboursOpen) {
+  const bim::Building houses = library_building("s_graphs/c2.plan.yaml");
+  const Ground ground = building_ground(houses, {0, 1, 2});
+  for (const bim::Stair& stair : houses.stairs)
+    for (const bim::StairFlight& flight : stair.flights)
+      for (int k = 0; k < flight.steps; ++k) {
+        const Eigen::Vector2d p =
+            flight.start + (k + 0.5) * flight.run_m * Eigen::Vector2d(std::cos(flight.yaw), std::sin(flight.yaw));
+        const double z = flight.z0_m + (k + 1) * flight.rise_m;
+        EXPECT_NEAR(ground.height(p.x(), p.y(), z + 1.0), z, 1e-9) << stair.id << ", step " << k;
+      }
+  for (const double x : {3.0, 7.5, 10.0, 14.5, 18.0}) EXPECT_NEAR(ground.height(x, 5.2, 3.3), 2.8, 1e-9) << x;
 }
 
 TEST(BuildingGround, AMissingStoreyIsBadInput) {
