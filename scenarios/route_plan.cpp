@@ -187,7 +187,9 @@ class Planner {
 
   [[nodiscard]] Place target(int index, const Mark& mark) const {
     const std::optional<Place> found = place_in(room(index).storey, room(index).polygon);
-    if (!found) throw InputError(mark, "room '" + room(index).id + "' has no place where the robot fits");
+    if (!found)
+      throw InputError(mark, "room '" + room(index).id + "' has no place where the robot can turn round; it needs " +
+                                 format_number(2.0 * sim::RouteConfig().turn_m) + " m");
     return *found;
   }
 

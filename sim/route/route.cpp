@@ -70,7 +70,8 @@ bool FreeSpace::free(const Eigen::Vector2d& p) const { return clearance(p) >= cl
 std::vector<Eigen::Vector2d> FreeSpace::room_target(const Polygon2& room) const {
   std::optional<std::size_t> best;
   for (std::size_t cell = 0; cell < clearance_.size(); ++cell) {
-    if (!passable(cell) || (best && clearance_[cell] <= clearance_[*best])) continue;
+    if (clearance_[cell] < config_.turn_m - 0.5 * config_.cell_m) continue;
+    if (best && clearance_[cell] <= clearance_[*best]) continue;
     if (contains(room, grid_.center(cell))) best = cell;
   }
   if (!best) return {};

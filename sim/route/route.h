@@ -12,7 +12,8 @@
 namespace plumbline::sim {
 
 struct RouteConfig {
-  double radius_m = 0.35;  ///< of the robot seen from above, turning included
+  double radius_m = 0.35;  ///< of the robot seen from above while it walks
+  double turn_m = 0.55;    ///< the same while it turns round: 1.0 m long from nose to knees and 0.4 m wide
   double cell_m = 0.05;
   double band_low_m = 0.05;     ///< what ends below this above the floor is stepped over
   double band_high_m = 1.0;     ///< what begins above this is walked under
@@ -40,7 +41,8 @@ class FreeSpace {
   /// Short path from a to b that keeps the radius clear and to the middle of narrow places, as few waypoints as that
   /// allows, a and b included; empty when b cannot be reached from a.
   [[nodiscard]] std::vector<Eigen::Vector2d> path(const Eigen::Vector2d& a, const Eigen::Vector2d& b) const;
-  /// The free point of a room with the most clearance (ties: lowest cell), or none.
+  /// The point of a room with the most clearance (ties: lowest cell), or none where the robot cannot turn round: what
+  /// walks into such a room does not come out again.
   [[nodiscard]] std::vector<Eigen::Vector2d> room_target(const Polygon2& room) const;
 
  private:

@@ -189,6 +189,20 @@ TEST(FreeSpace, TargetOfARoomIsItsFreestPoint) {
   EXPECT_TRUE(FreeSpace(building, 0).room_target(building.rooms[0].polygon).empty());
 }
 
+TEST(FreeSpace, ARoomInWhichTheRobotCannotTurnIsNoTarget) {
+  const bim::Building building = two_rooms();
+  const Polygon2 room = building.rooms[0].polygon;
+  // Two boxes leave a lane along the middle of the room, which is walked through but not turned in.
+  for (const double lane : {0.95, 1.2}) {
+    bim::Building filled = building;
+    add_obstacle(filled, rectangle({0.0, 0.0}, {4.0, 2.5 - 0.5 * lane}), 0.0, 1.0);
+    add_obstacle(filled, rectangle({0.0, 2.5 + 0.5 * lane}, {4.0, 5.0}), 0.0, 1.0);
+    const FreeSpace space(filled, 0);
+    EXPECT_TRUE(space.free({2.0, 2.5})) << lane;
+    EXPECT_EQ(space.room_target(room).empty(), lane < 1.1) << lane;
+  }
+}
+
 TEST(FreeSpace, UnreachableOrOccupiedEndsGiveNoPath) {
   const FreeSpace space(two_rooms(), 0);
   EXPECT_TRUE(space.path(west, east).empty());
