@@ -120,7 +120,7 @@ TEST(RoutePlan, AShuttleNeedsRoom) {
   bim::Room room;
   room.id = room.name = "cell";
   room.storey = 0;
-  room.polygon = {{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.1}, {0.0, 1.1}};
+  room.polygon = {{0.0, 0.0}, {1.1, 0.0}, {1.1, 1.1}, {0.0, 1.1}};
   cell.rooms.push_back(room);
   const Polygon2& outline = cell.rooms.front().polygon;
   for (std::size_t i = 0; i < 4; ++i) {
