@@ -70,7 +70,8 @@ int parse_and_run(int argc, char** argv, slam::MethodTable table) {
       add_run(program, table), add_inspect(program),         add_generate(program),
       add_score(program),      add_report(program),          add_replay(program, table),
       add_diff(program),       add_methods(program, table),  add_scenarios(program),
-      add_bench(program),      add_simulate(program, table), add_estimate(program, table)};
+      add_bench(program),      add_simulate(program, table), add_estimate(program, table),
+      add_identify(program)};
   if (!program.parse({argv + std::min(argc, 1), argv + argc})) return 0;
   for (const Command& command : commands)
     if (command.line.asked()) return command.action();

@@ -18,13 +18,22 @@ struct IdentifyConstants {
   double weak_llr = 5.0;     ///< between this and drop_llr it is weak
   double range_max_m = 100.0;
   double grid_m = 0.5;           ///< spacing of candidate places; half the basin of the refinement
-  double yaw_step_deg = 10.0;    ///< spacing of candidate headings when the heading is not known
   double known_yaw_deg = 10.0;   ///< with a compass, headings further off than this are no candidates
   double min_clearance_m = 0.3;  ///< a robot's centre is never nearer to a wall
   double distinct_m = 0.5;       ///< nearer than this and distinct_deg to the truth is the truth
   double distinct_deg = 10.0;
-  int max_seeds = 400;       ///< refined candidates, best first
-  int refine_azimuths = 90;  ///< beams a ring while refining
+  int signature_azimuths = 72;      ///< beams a ring of the views by which candidates are chosen
+  double signature_range_m = 30.0;  ///< ranges count no further there
+  double like_quantiles_m = 0.6;    ///< candidates' ranges, sorted, differ by no more than this on average
+  double like_level_m = 0.55;       ///< nor do those of the level ring, turned to the candidate's heading,
+  double like_level_cap_m = 1.0;    ///< each counted up to this
+  int headings_a_place = 4;         ///< kept, best first
+  int max_seeds = 400;              ///< refined candidates, best first
+  int give_up_after = 50;           ///< candidates in a row that lead to no twin; measured: at most 12 before one does
+  double basin_m = 0.3;             ///< a candidate this near to one refined before would end where that did
+  double basin_deg = 10.0;
+  int refine_azimuths = 72;  ///< beams a ring while refining
+  std::array<double, 3> refine_elevations_deg = {-7.0, 1.0, 9.0};
   int refine_iterations = 14;
 };
 inline constexpr IdentifyConstants identify_constants;

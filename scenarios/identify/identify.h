@@ -5,22 +5,17 @@
 #include <vector>
 
 #include "bim/rays/scene.h"
+#include "scenarios/identify/place_index.h"
 #include "slam/io/records.h"
 
 namespace plumbline::scenarios {
-
-/// Where candidates are looked for: the floor of one storey.
-struct IdentifyStorey {
-  Eigen::Vector2d min = Eigen::Vector2d::Zero();
-  Eigen::Vector2d max = Eigen::Vector2d::Zero();
-  double sensor_z_W = 0.66;  ///< height of the sensor on this storey
-};
 
 struct IdentifyInput {
   const bim::RayScene* as_planned = nullptr;
   const bim::RayScene* as_built = nullptr;
   std::vector<IdentifyStorey> storeys;  ///< those a robot with this prior may be on
   bool yaw_known = false;
+  int threads = 1;
 };
 
 struct TruthSample {
@@ -42,11 +37,19 @@ struct IdentifyStep {
   std::vector<Twin> alive;  ///< all with llr <= drop_llr, ordered by where they were found
 };
 
+/// The element that told the last twin from the truth: most of the log-likelihood ratio comes from beams to it.
+struct DecidingFeature {
+  bool missing = false;  ///< it would be seen from the twin, and is not; else it is seen, and would not be
+  int element = -1;      ///< of the planned mesh where missing, else of the one as built
+  double share = 0.0;    ///< of the positive evidence
+};
+
 /// What any estimator could have known, seed and method aside.
 struct RunIdentifiability {
   std::vector<IdentifyStep> steps;
-  bool identifiable = false;                ///< no twin is alive at the end
-  std::optional<double> identifiable_at_s;  ///< first time from which on none is
+  std::optional<DecidingFeature> decided_by;  ///< absent when the first look sufficed or nothing did
+  bool identifiable = false;                  ///< no twin is alive at the end
+  std::optional<double> identifiable_at_s;    ///< first time from which on none is
   std::optional<double> identifiable_at_m;
 
   /// First time from which on every twin that is left is at least weak (llr >= weak_llr), absent when never.

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "bim/errors.h"
+
 namespace plumbline::scenarios {
 
 namespace {
@@ -12,8 +14,12 @@ constexpr double rad = std::numbers::pi / 180.0;
 constexpr const IdentifyConstants& k = identify_constants;
 }  // namespace
 
-Viewer::Viewer(int azimuths) : azimuths_(azimuths) {
-  for (const double elevation : k.elevations_deg)
+bool same_place(const Place& a, const Place& b, double metres, double degrees) {
+  return (a.position_W - b.position_W).norm() <= metres && std::abs(wrap_angle(a.yaw - b.yaw)) <= degrees * rad;
+}
+
+Viewer::Viewer(int azimuths, std::span<const double> elevations_deg) : azimuths_(azimuths) {
+  for (const double elevation : elevations_deg)
     for (int a = 0; a < azimuths; ++a) {
       const double azimuth = 2.0 * std::numbers::pi * a / azimuths;
       directions_.emplace_back(std::cos(elevation * rad) * std::cos(azimuth),
@@ -21,42 +27,41 @@ Viewer::Viewer(int azimuths) : azimuths_(azimuths) {
     }
 }
 
-View Viewer::look(const bim::RayScene& scene, const Eigen::Vector3d& position_W, double yaw) const {
-  const double c = std::cos(yaw);
-  const double s = std::sin(yaw);
+View Viewer::look(const bim::RayScene& scene, const Place& place) const {
+  const double c = std::cos(place.yaw);
+  const double s = std::sin(place.yaw);
   std::vector<bim::Ray> rays;
   rays.reserve(directions_.size());
-  for (const auto& d : directions_) rays.push_back({position_W, {c * d.x() - s * d.y(), s * d.x() + c * d.y(), d.z()}});
+  for (const auto& d : directions_)
+    rays.push_back({place.position_W, {c * d.x() - s * d.y(), s * d.x() + c * d.y(), d.z()}});
   std::vector<bim::Hit> hits(rays.size());
   scene.cast(rays, k.range_max_m, hits);
   View view;
   view.range_m.reserve(hits.size());
   view.normal_W.reserve(hits.size());
+  view.element.reserve(hits.size());
   for (const auto& hit : hits) {
     view.range_m.push_back(hit.range_m);
     view.normal_W.push_back(hit.normal_W);
+    view.element.push_back(hit.element);
   }
   return view;
 }
 
-double Viewer::cost(const View& seen, const View& expected, int shift) const {
-  const double variance = k.sensor_sigma_m * k.sensor_sigma_m + k.model_sigma_m * k.model_sigma_m;
-  const double cap = k.residual_cap_sigma * k.residual_cap_sigma;
-  const int n = azimuths_;
-  const int turn = ((shift % n) + n) % n;
+double beam_cost(double seen_m, double expected_m) {
+  constexpr double variance = k.sensor_sigma_m * k.sensor_sigma_m + k.model_sigma_m * k.model_sigma_m;
+  constexpr double cap = k.residual_cap_sigma * k.residual_cap_sigma;
+  if (seen_m == expected_m) return 0.0;  // also two misses
+  const double dr = seen_m - expected_m;
+  return 0.5 * (std::isfinite(dr) ? std::min(dr * dr / variance, cap) : cap) / k.correlation;
+}
+
+double Viewer::cost(const std::vector<double>& seen, const std::vector<double>& expected) const {
+  if (seen.size() != directions_.size() || expected.size() != directions_.size())
+    throw InternalError("identify: views of another size");
   double sum = 0.0;
-  for (std::size_t ring = 0; ring < k.elevations_deg.size(); ++ring) {
-    const std::size_t base = ring * static_cast<std::size_t>(n);
-    for (int a = 0; a < n; ++a) {
-      const int b = a + turn < n ? a + turn : a + turn - n;
-      const double r0 = seen.range_m[base + static_cast<std::size_t>(a)];
-      const double r1 = expected.range_m[base + static_cast<std::size_t>(b)];
-      if (r0 == r1) continue;  // also two misses
-      const double dr = r0 - r1;
-      sum += std::isfinite(dr) ? std::min(dr * dr / variance, cap) : cap;
-    }
-  }
-  return 0.5 * sum / k.correlation;
+  for (std::size_t i = 0; i < seen.size(); ++i) sum += beam_cost(seen[i], expected[i]);
+  return sum;
 }
 
 }  // namespace plumbline::scenarios

@@ -5,10 +5,7 @@
 #include <cmath>
 
 #include "bim/building/plan.h"
-#include "bim/mesh/mesh.h"
-#include "bim/mesh/visible.h"
-#include "bim/rays/scene.h"
-#include "scenarios/identify/constants.h"
+#include "scenarios/identify/floor.h"
 #include "scenarios/identify/identify.h"
 #include "scenarios/score/storey.h"
 #include "sim/world.h"
@@ -26,37 +23,20 @@ double sensor_z_W(const bim::Plan& plan, const Pose& X_WR) {
   return (std::abs(under - floor) < on_floor_m ? floor : under) + sim::World::calibration().sensor_height_m;
 }
 
-IdentifyStorey search_area(const bim::Building& building, std::size_t storey) {
-  IdentifyStorey area;
-  area.sensor_z_W = building.storeys[storey].elevation_m + sim::World::calibration().sensor_height_m;
-  area.min = Eigen::Vector2d::Constant(1e9);
-  area.max = Eigen::Vector2d::Constant(-1e9);
-  for (const bim::Wall& wall : building.walls) {
-    if (wall.storey != static_cast<int>(storey)) continue;
-    area.min = area.min.cwiseMin(wall.a).cwiseMin(wall.b);
-    area.max = area.max.cwiseMax(wall.a).cwiseMax(wall.b);
-  }
-  return area;
-}
-
-bim::RayScene scene_of(const bim::Building& building) {
-  return bim::RayScene(bim::visible_mesh(building, bim::build_mesh(building)));
-}
-
 }  // namespace
 
 std::optional<Identifiability> identifiability_of(const RunFiles& files, const Truth& truth) {
   if (files.scans.empty() || files.truth_W.empty()) return std::nullopt;
   const bim::Building& as_planned = files.site.as_planned;
-  const bim::RayScene planned_scene = scene_of(as_planned);
-  std::optional<bim::RayScene> built_scene;
-  if (!files.site.changes.empty()) built_scene = scene_of(files.site.as_built);
+  const SeenBuilding planned = seen_building(as_planned);
+  std::optional<SeenBuilding> built;
+  if (!files.site.changes.empty()) built.emplace(seen_building(files.site.as_built));
   const bim::Plan plan = bim::make_plan(as_planned);
   const auto start = static_cast<std::size_t>(storey_of_base(plan.storeys, files.truth_W.front().X_FR.t.z()));
 
   IdentifyInput input;
-  input.as_planned = &planned_scene;
-  input.as_built = built_scene ? &*built_scene : &planned_scene;
+  input.as_planned = &planned.scene;
+  input.as_built = built ? &built->scene : &planned.scene;
   input.yaw_known = files.scenario.prior.yaw == Knowledge::known;
   for (std::size_t i = 0; i < as_planned.storeys.size(); ++i)
     if (i == start || files.scenario.prior.storey == Knowledge::unknown)

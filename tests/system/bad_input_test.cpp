@@ -127,6 +127,9 @@ TEST_F(BadInput, CommandLine) {
   refuse_line({"report", folder_ / "nothing"});
   refuse_line({"replay", folder_ / "nothing"});
   refuse_line({"diff", folder_ / "nothing", folder_ / "nothing"});
+  refuse_line({"identify", folder_ / "nothing"});
+  refuse_line({"identify", project_file("tests/system/short.plan.yaml"), "--storey", "attic"});
+  refuse_line({"identify", project_file("tests/system/short.plan.yaml"), "--step", "0"});
   write_file(folder_ / "short.yaml", scenario_);
   write_file(folder_ / "short.plan.yaml", plan_);
   refuse_file("short.yaml", {"unknown method 'vgcip'", "'vgicp'"}, {"--method", "truth,vgcip"});
@@ -136,7 +139,7 @@ TEST_F(BadInput, CommandLine) {
 TEST(Help, EveryCommandShowsAnExample) {
   if (!available()) GTEST_SKIP() << "PLUMBLINE_BINARY is not set; run through ctest";
   for (const char* command :
-       {"run", "simulate", "estimate", "score", "report", "replay", "diff", "methods", "scenarios"}) {
+       {"run", "simulate", "estimate", "score", "report", "replay", "diff", "methods", "scenarios", "identify"}) {
     const Outcome outcome = plumbline({command, "--help"});
     EXPECT_EQ(outcome.code, 0) << command;
     EXPECT_NE(outcome.out.find("Example: plumbline " + std::string(command)), std::string::npos) << outcome.out;
