@@ -9,6 +9,7 @@
 #include "bim/building/plan.h"
 #include "bim/import/mesh_file.h"
 #include "bim/random/stream.h"
+#include "scenarios/draw.h"
 #include "scenarios/moving.h"
 #include "scenarios/route_plan.h"
 #include "scenarios/run/participant.h"
@@ -188,17 +189,20 @@ ResolvedScenario resolve(const std::string& input_path, const Overrides& overrid
 
   const RouteMarks marks{mark_at(text.tree, {"start"}), mark_at(text.tree, {"route"}),
                          marks_of(text.tree, {"route", "rooms"}, text.scenario.route.rooms.size())};
-  const RoutePlan plan = plan_route(walked_building(resolved.site), text.scenario.start, text.scenario.route, marks);
+  const bim::Building walked = walked_building(resolved.site);
+  settle_draws(walked, text.scenario, marks);
+  const RoutePlan plan = plan_route(walked, text.scenario.start, text.scenario.route, marks);
   if (bare) text.scenario.duration_s = default_duration(plan, text.scenario.speed_mps);
 
   Scenario& scenario = text.scenario;
   const std::string& storey = resolved.site.as_planned.storeys[static_cast<std::size_t>(plan.storey)].id;
-  scenario.start = Start{std::nullopt, storey, plan.start_W, plan.yaw_deg};
+  scenario.start = Start{std::nullopt, std::nullopt, storey, plan.start_W, plan.yaw_deg};
   scenario.route.rooms = scenario.route.shuttle ? std::vector<std::string>{} : plan.rooms;
   scenario.route.storeys = RouteStoreys::start;
+  scenario.route.random.reset();
   scenario.building = name_of_copy(building, resolved.building_bytes);
   resolved.world = make_world(scenario, plan);
-  resolved.world.people = place_people(walked_building(resolved.site), scenario, text.tree, plan.storey);
+  resolved.world.people = place_people(walked, scenario, text.tree, plan.storey);
   resolved.world.doors = hang_doors(resolved.site.as_built, scenario, text.tree);
   resolved.prior = make_prior(scenario, resolved.site.as_planned, plan);
   resolved.scenario = std::move(scenario);

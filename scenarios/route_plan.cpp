@@ -377,6 +377,18 @@ int lowest_habitable_storey(const bim::Building& building) {
   return -1;
 }
 
+bool on_a_stair(const bim::Building& building, int storey, const Eigen::Vector2d& p_W) {
+  return std::any_of(building.stairs.begin(), building.stairs.end(), [&](const bim::Stair& stair) {
+    return (stair.from == storey || stair.to == storey) && on_stair(stair, p_W);
+  });
+}
+
+int storey_of(const bim::Building& building, const std::optional<std::string>& name, const Mark& mark) {
+  Start start;
+  start.storey = name;
+  return start_storey(building, start, {mark, {}, {}});
+}
+
 RoutePlan plan_route(const bim::Building& building, const Start& start, const Route& route, const RouteMarks& marks) {
   RoutePlan plan;
   plan.storey = start_storey(building, start, marks);

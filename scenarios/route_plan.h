@@ -31,6 +31,12 @@ struct RoutePlan {
 /// The lowest storey with a room the robot can stand in, or -1.
 [[nodiscard]] int lowest_habitable_storey(const bim::Building& building);
 
+/// Index of a storey by id or name, or of the lowest habitable one without a name. Throws InputError at `mark`.
+[[nodiscard]] int storey_of(const bim::Building& building, const std::optional<std::string>& name, const Mark& mark);
+
+/// Where on a storey no floor is stood on: under or over a stair.
+[[nodiscard]] bool on_a_stair(const bim::Building& building, int storey, const Eigen::Vector2d& p_W);
+
 /// Plans the walk through the as-built free space and over its stairs. Throws InputError when the start is inside
 /// something, on a stair or outside every room, a room is not known, or a goal cannot be reached.
 [[nodiscard]] RoutePlan plan_route(const bim::Building& building, const Start& start, const Route& route,

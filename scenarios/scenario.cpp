@@ -43,9 +43,13 @@ void check_gates(const Scenario& scenario, const Tree& tree) {
 void check_route_and_start(const Scenario& scenario, const Tree& tree) {
   if (scenario.start.room && scenario.start.at)
     throw InputError(mark_at(tree, {"start"}), "start takes either a room or a point `at`, not both");
+  if (scenario.start.random && (scenario.start.room || scenario.start.at))
+    throw InputError(mark_at(tree, {"start", "random"}), "a drawn start takes neither a room nor a point `at`");
   const bool names_rooms = tree.find("route") != nullptr && tree.find("route")->find("rooms") != nullptr;
   if (scenario.route.shuttle && names_rooms && !scenario.route.rooms.empty())
     throw InputError(mark_at(tree, {"route"}), "route takes either rooms or shuttle, not both");
+  if (scenario.route.random && (scenario.route.shuttle || names_rooms))
+    throw InputError(mark_at(tree, {"route", "random"}), "a drawn route takes neither rooms nor shuttle");
 }
 
 void check_bodies(const Scenario& scenario, const Tree& tree) {

@@ -41,21 +41,27 @@ namespace plumbline::scenarios {
 enum class Knowledge { unknown, known };
 /// Which storeys `rooms: all` means.
 enum class RouteStoreys { start, all };
+/// Of a start that is drawn: a room with even chances and a place in it, or a place on all of the rooms' floor.
+enum class StartDraw { rooms, anywhere };
 enum class Hinge { a, b };
 enum class Swing { left, right };
 
-/// Where the robot stands at the start: a room (its freest point), or a point of a storey, in W.
+/// Where the robot stands at the start: a room (its freest point), a point of a storey, in W, or a place that the seed
+/// draws.
 struct Start {
+  std::optional<StartDraw> random;
   std::optional<std::string> room;
   std::optional<std::string> storey;
   std::optional<Eigen::Vector2d> at;  ///< m, W
   std::optional<double> yaw_deg;      ///< absent: along the first leg of the route
   template <class V>
   void visit(V& v) {
+    v("random", random, Field{.doc = "start where the seed says: in a room drawn first, or anywhere in the rooms"});
     v("room", room, Field{.doc = "start at the freest point of this room"});
-    v("storey", storey, Field{.doc = "storey of `at`; the lowest with rooms when not given"});
+    v("storey", storey, Field{.doc = "storey of `at` and `random`; the lowest with rooms when not given"});
     v("at", at, Field{.doc = "start here: [x, y] in the plan, m"});
-    v("yaw_deg", yaw_deg, Field{.doc = "heading, degrees counter-clockwise from x", .min = -360.0, .max = 360.0});
+    v("yaw_deg", yaw_deg,
+      Field{.doc = "heading, degrees counter-clockwise from x; of a drawn start any", .min = -360.0, .max = 360.0});
   }
 };
 
@@ -66,6 +72,7 @@ struct Route {
   int loop = 1;  ///< how many times the list is walked
   std::optional<std::string> shuttle;
   int times = 1;
+  std::optional<int> random;  ///< so many rooms, drawn by the seed
   template <class V>
   void visit(V& v) {
     v("rooms", rooms, Field{.doc = "rooms to visit in order, also over stairs; or all in reach"});
@@ -73,6 +80,8 @@ struct Route {
     v("loop", loop, Field{.doc = "walk the list so many times", .min = 1, .max = 1000});
     v("shuttle", shuttle, Field{.doc = "walk this room from end to end instead"});
     v("times", times, Field{.doc = "how many times there and back", .min = 1, .max = 1000});
+    v("random", random,
+      Field{.doc = "walk to so many rooms of the start's storey that the seed draws", .min = 1, .max = 1000});
   }
 };
 
@@ -273,6 +282,10 @@ namespace plumbline {
 template <>
 struct EnumNames<scenarios::RouteStoreys> {
   static constexpr std::array<std::string_view, 2> names = {"start", "all"};
+};
+template <>
+struct EnumNames<scenarios::StartDraw> {
+  static constexpr std::array<std::string_view, 2> names = {"rooms", "anywhere"};
 };
 template <>
 struct EnumNames<scenarios::Hinge> {

@@ -18,6 +18,8 @@ This page is what `plumbline scenarios --schema` prints: it is made from the rea
   named in `results.json`. With closed doors a room behind one cannot be reached: the run is refused and the door named.
 - `start` takes a room or a point of a storey; `route` takes `rooms` (`all`, or a list) or `shuttle`. Rooms of other
   storeys are reached over stairs that the robot can climb; `all` stays on the start's storey unless `storeys: all`.
+- `start: {random: rooms}` and `route: {random: 5}` are drawn by the seed, so that every seed is another walk; the resolved
+  scenario of a run says what was drawn.
 - `people` and `moving_doors` are there for the LiDAR only: the robot does not feel them, no plan knows them, and
   what the LiDAR sees of them is not counted as surface of the building. A moving door stands open wherever the robot
   comes near.
@@ -82,6 +84,13 @@ building: library/house.plan.yaml
 start: {room: living}
 route: {rooms: all, storeys: all}
 duration_s: 300
+)yaml",
+      R"yaml(scenario: 1
+name: another walk with every seed
+building: library/house.plan.yaml
+start: {random: rooms, storey: ground}
+route: {random: 5}
+duration_s: 90
 )yaml"};
   return examples;
 }

@@ -9,6 +9,7 @@
 #include "scenarios/commands/commands.h"
 #include "scenarios/commands/process.h"
 #include "scenarios/identify/building_map.h"
+#include "scenarios/identify/planned_walk.h"
 #include "scenarios/run/files.h"
 #include "scenarios/run/interrupt.h"
 
@@ -22,6 +23,7 @@ struct IdentifyOptions {
   std::string out;
   BuildingMapOptions map;
   int threads = 0;
+  int seeds = 20;
   bool json = false;
   bool force = false;
 };
@@ -36,14 +38,31 @@ std::string page_path(const IdentifyOptions& options) {
   return path;
 }
 
+bool is_scenario(const std::string& path) {
+  if (std::filesystem::path(path).extension() != ".yaml") return false;
+  return read_yaml(read_text_file(path), path).find("scenario") != nullptr;
+}
+
+int identify_scenario(const IdentifyOptions& options, int threads) {
+  const std::vector<WalkAnswers> walks = identify_walks(options.building, options.seeds, threads);
+  const std::string text = options.json ? write_json(walks_json(walks)) + "\n" : walks_text(walks);
+  std::fwrite(text.data(), 1, text.size(), stdout);
+  return 0;
+}
+
 int identify(const IdentifyOptions& options) {
+  const int threads = options.threads > 0 ? options.threads : std::min(allowed_cpus(), 2);
   if (bim::is_mesh_path(options.building))
     throw InputError({options.building, 0, 0}, "is a mesh, which has no plan; name a plan or an .ifc");
+  if (is_scenario(options.building)) {
+    catch_interrupts();
+    return identify_scenario(options, threads);
+  }
   const std::string page = page_path(options);
   const bim::Site site = bim::load_site(options.building);
   BuildingMapOptions map_options = options.map;
   if (!options.storey.empty()) map_options.storey = options.storey;
-  map_options.threads = options.threads > 0 ? options.threads : std::min(allowed_cpus(), 2);
+  map_options.threads = threads;
   catch_interrupts();
   const BuildingMap map = map_of(site, map_options);
   if (!page.empty()) {
@@ -63,7 +82,9 @@ Command add_identify(CommandLine& program) {
   const auto options = std::make_shared<IdentifyOptions>();
   CommandLine line =
       program.add_command("identify", "Says where in a building a VLP-16 can tell where it is, and after what walk");
-  line.option("BUILDING", options->building, "plan or traffic-editor plan (.yaml) or .ifc").required();
+  line.option("BUILDING", options->building,
+              "plan or traffic-editor plan (.yaml) or .ifc; or a scenario, to be told of the walks it plans")
+      .required();
   line.option("--storey", options->storey, "of this storey alone, by its id or name");
   line.option("--step", options->map.step_m, "distance between the places asked about, m")
       .range(0.1, 5.0)
@@ -74,7 +95,12 @@ Command add_identify(CommandLine& program) {
   line.flag("--force", options->force, "replaces the page that is there");
   line.flag("--json", options->json, "for programs, every place");
   line.option("--threads", options->threads, "threads [2, or the CPUs allowed]").range(1, 1024);
-  line.footer("Example: plumbline identify house.plan.yaml -o house.html");
+  line.option("--seeds", options->seeds, "of a scenario: walks with the seeds from 1 on")
+      .range(1, 100000)
+      .shows_default();
+  line.footer(
+      "Example: plumbline identify house.plan.yaml -o house.html\n"
+      "         plumbline identify scenario.yaml --seeds 100");
   return {line, [options] { return identify(*options); }};
 }
 
