@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace plumbline::scenarios {
+
+/// How a child ended: its exit code, or 128 + the signal, and the last line it wrote to stderr.
+struct ChildEnd {
+  int code = 0;
+  std::string complaint;
+};
+
+/// Runs this program `count` times, at most `jobs` at a time: `arguments(i)` are those of child i, `log(i)` is the file
+/// that takes what it writes to stderr, and `ended(i, end)` is called on this thread for each that ended, in no order.
+/// No child outlives this process. Throws what `ended` throws, Interrupted and EnvironmentError, after all children
+/// have been stopped. Call while the process has one thread.
+void run_children(std::size_t count, int jobs, const std::function<std::vector<std::string>(std::size_t)>& arguments,
+                  const std::function<std::string(std::size_t)>& log,
+                  const std::function<void(std::size_t, const ChildEnd&)>& ended);
+
+}  // namespace plumbline::scenarios

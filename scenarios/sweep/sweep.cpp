@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenarios/sweep/sweep.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <set>
+
+#include "bim/errors.h"
+#include "scenarios/run/files.h"
+#include "scenarios/sweep/children.h"
+#include "scenarios/sweep/table.h"
+
+namespace plumbline::scenarios {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// The folder of a sweep; one process at a time writes there.
+class SweepFolder {
+ public:
+  explicit SweepFolder(const std::string& path) : path_(path) {
+    static const std::set<std::string> known = {"results",   ".work",      "runs.csv",     "table.txt",
+                                                "table.csv", "table.html", "sweep.sqlite", ".lock"};
+    std::error_code error;
+    if (fs::exists(path))
+      for (fs::directory_iterator it(path, error), end; !error && it != end; it.increment(error)) {
+        const std::string name = it->path().filename().string();
+        if (!known.contains(name) && it->path().extension() != ".tmp")
+          throw InputError({path, 0, 0}, "holds '" + name + "', which no sweep wrote; name another --out");
+      }
+    fs::create_directories(results(), error);
+    lock_ = ::open((path + "/.lock").c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
+    if (lock_ < 0) throw EnvironmentError(path + ": cannot be written: " + std::strerror(errno));
+    if (::flock(lock_, LOCK_EX | LOCK_NB) != 0) {
+      ::close(lock_);
+      throw InputError({path, 0, 0}, "another sweep is writing here; name another --out");
+    }
+    fs::remove_all(work(), error);
+    if (!fs::create_directory(work(), error)) throw EnvironmentError(path + ": cannot be written");
+  }
+  ~SweepFolder() {
+    std::error_code error;
+    fs::remove_all(work(), error);
+    ::close(lock_);
+  }
+  SweepFolder(const SweepFolder&) = delete;
+  SweepFolder& operator=(const SweepFolder&) = delete;
+
+  [[nodiscard]] std::string results() const { return path_ + "/results"; }
+  [[nodiscard]] std::string work() const { return path_ + "/.work"; }
+  [[nodiscard]] std::string result(const SweepRun& run) const { return results() + "/" + run.key + ".json"; }
+
+ private:
+  std::string path_;
+  int lock_ = -1;
+};
+
+bool is_made(const std::string& path, const SweepRun& run) {
+  if (!fs::exists(path)) return false;
+  try {
+    const Tree* input = nullptr;
+    const Tree result = read_json(read_text_file(path), path);
+    input = result.is_map() ? result.find("input") : nullptr;
+    return input != nullptr && input->as_string() == run.input_digest;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+/// What is kept of a run. `results`: its results.json, or nothing where the scenario failed.
+Tree result_of(const SweepRun& run, const std::optional<Tree>& results, const std::vector<std::string>& methods,
+               const std::string& failure) {
+  Tree tree = Tree::map();
+  tree.set("input", run.input_digest).set("scenario", run.scenario).set("variant", run.variant).set("start", run.start);
+  tree.set("seed", std::to_string(run.seed));
+  if (results && results->find("failure") == nullptr) {
+    tree.set("digest", *results->find("digest")).set("duration_s", *results->find("duration_s"));
+    tree.set("distance_m", *results->find("distance_m")).set("methods", *results->find("methods"));
+    return tree;
+  }
+  Tree failed = Tree::map();
+  for (const std::string& method : methods) failed.set(method, Tree::map().set("verdict", "failed"));
+  return tree.set("failure", failure).set("methods", failed);
+}
+
+std::vector<std::string> methods_of(const SweepRun& run) {
+  std::vector<std::string> methods = read_scenario(run.scenario_text, run.scenario).scenario.methods;
+  if (methods.empty()) methods.emplace_back("all");
+  return methods;
+}
+
+void keep(const SweepFolder& folder, const SweepRun& run, const ChildEnd& end) {
+  constexpr int bad_input = 2, scenario_failed = 4;
+  if (end.code == bad_input)
+    throw InputError({run.scenario, 0, 0}, "seed " + std::to_string(run.seed) + ": " + end.complaint);
+  if (end.code != 0 && end.code != 1 && end.code != scenario_failed)
+    throw EnvironmentError("sweep: run " + run.key + " ended with " + std::to_string(end.code) + ": " + end.complaint);
+  const std::string file = folder.work() + "/" + run.key + "/results.json";
+  std::optional<Tree> results;
+  if (fs::exists(file)) results = read_json(read_text_file(file), file);
+  write_file(folder.result(run), write_json(result_of(run, results, methods_of(run), end.complaint)) + "\n");
+  std::error_code error;
+  fs::remove_all(folder.work() + "/" + run.key, error);
+}
+
+void make_missing(const Sweep& sweep, const SweepOptions& options, const SweepFolder& folder) {
+  std::vector<const SweepRun*> missing;
+  for (const SweepRun& run : sweep.runs)
+    if (!is_made(folder.result(run), run)) missing.push_back(&run);
+  std::size_t done = sweep.runs.size() - missing.size();
+  run_children(
+      missing.size(), options.jobs,
+      [&](std::size_t i) -> std::vector<std::string> {
+        const std::string base = folder.work() + "/" + missing[i]->key;
+        write_file(base + ".yaml", missing[i]->scenario_text);
+        return {"run", base + ".yaml", "--seed", std::to_string(missing[i]->seed), "--out", base, "--threads", "1"};
+      },
+      [&](std::size_t i) { return folder.work() + "/" + missing[i]->key + ".log"; },
+      [&](std::size_t i, const ChildEnd& end) {
+        keep(folder, *missing[i], end);
+        if (options.progress) options.progress(++done, sweep.runs.size());
+      });
+}
+
+}  // namespace
+
+std::string run_sweep(const Sweep& sweep, const SweepOptions& options) {
+  const SweepFolder folder(options.out);
+  make_missing(sweep, options, folder);
+  std::vector<SweepRow> rows;
+  for (const SweepRun& run : sweep.runs) {
+    const std::string file = folder.result(run);
+    for (SweepRow& row : rows_of(read_json(read_text_file(file), file), file)) rows.push_back(std::move(row));
+  }
+  const std::vector<SweepCell> cells = cells_of(rows);
+  const std::string text = table_text(cells);
+  write_file(options.out + "/runs.csv", runs_csv(rows));
+  write_file(options.out + "/table.csv", table_csv(cells));
+  write_file(options.out + "/table.html", table_html(sweep.file.name, cells));
+  write_database(options.out + "/sweep.sqlite", rows, cells);
+  write_file(options.out + "/table.txt", text);
+  return text;
+}
+
+}  // namespace plumbline::scenarios

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenarios/sweep/sweep_file.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <set>
+
+#include "bim/digest/digest.h"
+#include "scenarios/resolve.h"
+
+namespace plumbline::scenarios {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::size_t most_runs = 1000000;
+
+/// A scenario's text with some of its values replaced.
+class Template {
+ public:
+  Template(const std::string& path, const Mark& mark) : path_(path) {
+    if (!fs::exists(path)) throw InputError(mark, "the scenario '" + path + "' does not exist");
+    tree_ = read_yaml(read_text_file(path), path);
+    if (!tree_.is_map() || tree_.find("scenario") == nullptr)
+      throw InputError(mark, "'" + path + "' is no scenario; its first key must be 'scenario: 1'");
+    const Tree* building = tree_.find("building");
+    if (building == nullptr) throw InputError(tree_.mark, "a scenario needs a building");
+    building_ = fs::absolute(fs::path(path).parent_path() / building->as_string()).lexically_normal().string();
+    building_bytes_ = fs::exists(building_) ? read_text_file(building_) : "";
+  }
+
+  [[nodiscard]] std::string name() const { return fs::path(path_).stem().string(); }
+  [[nodiscard]] const std::string& building_bytes() const { return building_bytes_; }
+
+  /// The scenario with what a sweep asks for; its form is checked.
+  [[nodiscard]] Tree with(const SweepVariant& variant, const Start* start, const std::vector<std::string>& methods,
+                          const Mark& mark) const {
+    Tree tree = tree_;
+    for (const std::string& text : variant.set) set(tree, text, mark);
+    if (start != nullptr) tree.set("start", to_tree(*start));
+    if (!methods.empty()) {
+      Tree list = Tree::list();
+      for (const std::string& method : methods) list.push(method);
+      tree.set("methods", list).set("gates", Tree::list());
+    }
+    (void)read_scenario(write_yaml(tree), path_ + (variant.name.empty() ? "" : " as " + variant.name));
+    return tree;
+  }
+
+  [[nodiscard]] std::string text(Tree tree) const { return write_yaml(tree.set("building", building_)); }
+
+ private:
+  static void set(Tree& tree, const std::string& text, const Mark& mark) {
+    const std::size_t equals = text.find('=');
+    if (equals == 0 || equals == std::string::npos || equals + 1 == text.size())
+      throw InputError(mark, "'" + text + "' must be key.key=value");
+    const Tree value = read_yaml("value: " + text.substr(equals + 1), mark.file);
+    set_at(tree, text.substr(0, equals), *value.find("value"));
+  }
+
+  static void set_at(Tree& tree, const std::string& path, const Tree& value) {
+    const std::size_t dot = path.find('.');
+    const std::string key = path.substr(0, dot);
+    if (dot == std::string::npos) {
+      tree.set(key, value);
+      return;
+    }
+    const Tree* old = tree.find(key);
+    Tree child = old != nullptr && old->is_map() ? *old : Tree::map();
+    set_at(child, path.substr(dot + 1), value);
+    tree.set(key, std::move(child));
+  }
+
+  std::string path_;
+  std::string building_;
+  std::string building_bytes_;
+  Tree tree_;
+};
+
+Mark mark_of(const Tree& tree, std::string_view key, std::size_t i) {
+  const Tree* list = tree.find(key);
+  if (list == nullptr) return tree.mark;
+  return list->is_list() && i < list->as_list().size() ? list->as_list()[i].mark : list->mark;
+}
+
+std::string file_name(const std::string& text) {
+  std::string name = text;
+  for (char& c : name)
+    if (!((c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_')) c = '_';
+  return name;
+}
+
+void check(const SweepFile& file, const Tree& tree) {
+  if (file.scenarios.empty()) throw InputError(tree.find("scenarios")->mark, "names no scenario; it must name one");
+  const std::size_t each =
+      std::max<std::size_t>(file.variants.size(), 1) * std::max<std::size_t>(file.starts.size(), 1);
+  if (file.scenarios.size() * each * static_cast<std::size_t>(file.seeds) > most_runs)
+    throw InputError(tree.mark, "this would be more than " + std::to_string(most_runs) + " runs");
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < file.variants.size(); ++i)
+    if (!names.insert(file_name(file.variants[i].name)).second)
+      throw InputError(mark_of(tree, "variants", i), "a variant of this name stands there already");
+  std::set<std::string> scenarios;
+  for (std::size_t i = 0; i < file.scenarios.size(); ++i)
+    if (!scenarios.insert(file_name(fs::path(file.scenarios[i]).stem().string())).second)
+      throw InputError(mark_of(tree, "scenarios", i), "a scenario of this name stands there already");
+  std::vector<Mark> marks;
+  for (std::size_t i = 0; i < file.methods.size(); ++i) marks.push_back(mark_of(tree, "methods", i));
+  check_methods(file.methods, marks);
+}
+
+}  // namespace
+
+Sweep read_sweep(const std::string& path) {
+  const Tree tree = read_yaml(read_text_file(path), path);
+  if (!tree.is_map() || tree.as_map().empty() || tree.as_map().front().first != "sweep")
+    throw InputError({path, 1, 1}, "the first key of a sweep must be 'sweep: 1'");
+  Sweep sweep{from_tree<SweepFile>(tree), {}};
+  const SweepFile& file = sweep.file;
+  check(file, tree);
+  const std::vector<SweepVariant> variants = file.variants.empty() ? std::vector<SweepVariant>(1) : file.variants;
+  for (std::size_t i = 0; i < file.scenarios.size(); ++i) {
+    const Template scenario((fs::path(path).parent_path() / file.scenarios[i]).string(), mark_of(tree, "scenarios", i));
+    for (std::size_t v = 0; v < variants.size(); ++v)
+      for (std::size_t s = 0; s < std::max<std::size_t>(file.starts.size(), 1); ++s) {
+        const Start* start = file.starts.empty() ? nullptr : &file.starts[s];
+        const Tree made = scenario.with(variants[v], start, file.methods, mark_of(tree, "variants", v));
+        const std::string part = file_name(scenario.name()) +
+                                 (file.variants.empty() ? "" : "-" + file_name(variants[v].name)) +
+                                 (start == nullptr ? "" : "-start" + std::to_string(s + 1));
+        for (int k = 0; k < file.seeds; ++k) {
+          const std::uint64_t seed = file.first_seed + static_cast<std::uint64_t>(k);
+          const std::string digest = hex64(
+              Digest().add(write_yaml(made)).add(scenario.building_bytes()).add(seed).add(PLUMBLINE_VERSION).value());
+          sweep.runs.push_back({part + "-" + std::to_string(seed), scenario.name(), variants[v].name,
+                                start == nullptr ? "" : flow_text(to_tree(*start)), seed, scenario.text(made), digest});
+        }
+      }
+  }
+  return sweep;
+}
+
+const std::vector<std::string>& sweep_examples() {
+  static const std::vector<std::string> examples = {R"yaml(sweep: 1
+name: with and without a compass
+scenarios: [library/quickstart.yaml, library/house.yaml]
+seeds: 20
+first_seed: 1
+methods: [vgicp, s_graph_localization]
+variants:
+  - {name: compass, set: [prior.yaw=known]}
+  - {name: no compass, set: [prior.yaw=unknown, duration_s=90]}
+)yaml",
+                                                    R"yaml(sweep: 1
+name: where it starts
+scenarios: [library/house.yaml]
+seeds: 5
+starts:
+  - {room: living}
+  - {storey: ground, at: [1.5, 2.5], yaw_deg: 90}
+  - {random: anywhere}
+)yaml"};
+  return examples;
+}
+
+std::string sweep_page() {
+  std::string page = R"md(# Sweep files
+
+Many runs and one table: scenarios x variants x starts x seeds, every run with all methods. `plumbline sweep SWEEP.yaml` runs
+them. This page is what `plumbline sweep --schema` prints: it is made from the reader itself.
+
+- `scenarios` are files; a variant replaces values in them, `set: [prior.yaw=known]`, and `starts` their start.
+- Runs are processes of their own, `--jobs` at a time. Each leaves one file in `results/`, complete or not at all; what is
+  there and was made from the same scenario, building, seed and version is not run again, so that a sweep that was stopped,
+  however, goes on where it was.
+- `runs.csv` has a row a run and method, `table.txt`, `table.csv` and `table.html` one a scenario, variant, start and method
+  over its seeds, `sweep.sqlite` both. None of them depends on `--jobs` or on how often the sweep was stopped.
+- Of a plan localization the table has success over the runs that can be told (with the 95 % interval of Wilson), the
+  share of `honest_ambiguity` over the others, false convergences, and medians over all runs, in which one that never
+  converged counts as infinite. Of a SLAM method it has the share of `ok` and the median error.
+
+)md";
+  std::vector<Tree> examples;
+  for (const std::string& text : sweep_examples()) {
+    page += "```yaml\n" + text + "```\n\n";
+    examples.push_back(read_yaml(text, "example"));
+  }
+  return page + "## The file\n\n" + schema_tables(SchemaVisitor::sections_of<SweepFile>(), examples);
+}
+
+}  // namespace plumbline::scenarios

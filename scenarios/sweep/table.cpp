@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenarios/sweep/table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <set>
+
+#include "scenarios/report/page.h"
+#include "scenarios/report/svg.h"
+#include "scenarios/score/metrics.h"
+
+namespace plumbline::scenarios {
+
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+const Tree* find_path(const Tree& tree, std::string_view path) {
+  const std::size_t dot = path.find('.');
+  const Tree* child = tree.is_map() ? tree.find(path.substr(0, dot)) : nullptr;
+  return child == nullptr || dot == std::string_view::npos ? child : find_path(*child, path.substr(dot + 1));
+}
+
+std::string text_at(const Tree& tree, std::string_view key) {
+  const Tree* value = tree.find(key);
+  return value == nullptr ? "" : value->as_string();
+}
+
+std::size_t metric_index(std::string_view name) {
+  const auto rows = score::metrics();
+  const auto it = std::find_if(rows.begin(), rows.end(), [&](const score::MetricRow& row) { return row.name == name; });
+  return static_cast<std::size_t>(it - rows.begin());
+}
+
+/// Median where absent values count as infinite; absent when it is.
+std::optional<double> median(std::vector<double> values) {
+  if (values.empty()) return std::nullopt;
+  std::sort(values.begin(), values.end());
+  const std::size_t n = values.size();
+  const double middle = n % 2 == 1 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
+  return std::isfinite(middle) ? std::optional(middle) : std::nullopt;
+}
+
+/// What the medians of a cell are taken over.
+struct Samples {
+  std::vector<double> identifiable_at_s, identifiable_at_m, converged_at_m, error_m;
+};
+
+void count(const SweepRow& row, SweepCell& cell, Samples& samples) {
+  static const std::size_t at_s = metric_index("localization.identifiable_at_s");
+  static const std::size_t at_m = metric_index("localization.identifiable_at_m");
+  static const std::size_t converged_m = metric_index("localization.converged_at_m");
+  static const std::size_t ape = metric_index("localization.ape_rmse_m");
+  static const std::size_t ate = metric_index("ate_aligned_rmse_m");
+  ++cell.runs;
+  ++cell.verdicts[row.verdict];
+  if (row.verdict == "failed") {
+    ++cell.failed;
+    return;
+  }
+  if (row.identifiable) cell.localizes = true;
+  const std::optional<double> error = row.values[cell.localizes ? ape : ate];
+  if (error) samples.error_m.push_back(*error);
+  if (row.verdict == "false_convergence" || row.verdict == "overconfident") ++cell.false_convergences;
+  if (row.identifiable.value_or(true)) {
+    ++cell.judged;
+    if (row.verdict == "success" || row.verdict == "ok") ++cell.succeeded;
+    samples.converged_at_m.push_back(row.values[converged_m].value_or(infinite));
+    if (row.values[at_s]) samples.identifiable_at_s.push_back(*row.values[at_s]);
+    if (row.values[at_m]) samples.identifiable_at_m.push_back(*row.values[at_m]);
+  } else {
+    ++cell.ambiguous;
+    if (row.verdict == "honest_ambiguity") ++cell.honest;
+  }
+}
+
+void conclude(const Samples& samples, SweepCell& cell) {
+  if (cell.localizes) cell.median_converged_at_m = median(samples.converged_at_m);
+  cell.median_identifiable_at_s = median(samples.identifiable_at_s);
+  cell.median_identifiable_at_m = median(samples.identifiable_at_m);
+  cell.median_error_m = median(samples.error_m);
+}
+
+std::string percent(double share) { return svg::number(100.0 * share, 0); }
+
+/// "96 % [80, 99]"
+std::string share_text(int k, int n) {
+  if (n == 0) return "-";
+  const auto [low, high] = wilson95(k, n);
+  return percent(static_cast<double>(k) / n) + " % [" + percent(low) + ", " + percent(high) + "]";
+}
+
+std::string optional_text(const std::optional<double>& value, int decimals) {
+  return value ? svg::number(*value, decimals) : "-";
+}
+
+std::string verdict_list(const SweepCell& cell) {
+  std::string list;
+  for (const auto& [verdict, n] : cell.verdicts) list += (list.empty() ? "" : " ") + verdict + ":" + std::to_string(n);
+  return list;
+}
+
+using Line = std::vector<std::string>;
+
+std::vector<Line> table_lines(const std::vector<SweepCell>& cells) {
+  std::vector<Line> lines = {{"scenario", "variant", "start", "method", "runs", "can be told", "success", "honest",
+                              "wrong", "told at s", "told at m", "found at m", "error m", "verdicts"}};
+  for (const SweepCell& c : cells)
+    lines.push_back(
+        {c.scenario, c.variant.empty() ? "-" : c.variant, c.start.empty() ? "-" : c.start, c.method,
+         std::to_string(c.runs), c.localizes ? std::to_string(c.judged) : "-", share_text(c.succeeded, c.judged),
+         share_text(c.honest, c.ambiguous), std::to_string(c.false_convergences),
+         optional_text(c.median_identifiable_at_s, 1), optional_text(c.median_identifiable_at_m, 1),
+         c.localizes && c.judged > 0 && !c.median_converged_at_m ? "never" : optional_text(c.median_converged_at_m, 1),
+         optional_text(c.median_error_m, 3), verdict_list(c)});
+  return lines;
+}
+
+std::string csv(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
+std::string csv_line(const Line& line) {
+  std::string text;
+  for (std::size_t i = 0; i < line.size(); ++i) text += (i == 0 ? "" : ",") + csv(line[i]);
+  return text + "\n";
+}
+
+}  // namespace
+
+std::pair<double, double> wilson95(int k, int n) {
+  if (n <= 0) return {0.0, 1.0};
+  constexpr double z = 1.959963984540054;
+  const double p = static_cast<double>(k) / n;
+  const double zz = z * z / n;
+  const double middle = (p + 0.5 * zz) / (1.0 + zz);
+  const double half = z * std::sqrt(p * (1.0 - p) / n + 0.25 * zz / n) / (1.0 + zz);
+  return {std::max(0.0, middle - half), std::min(1.0, middle + half)};
+}
+
+std::vector<SweepRow> rows_of(const Tree& result, const std::string& file) {
+  SweepRow common;
+  common.scenario = text_at(result, "scenario");
+  common.variant = text_at(result, "variant");
+  common.start = text_at(result, "start");
+  common.seed = text_at(result, "seed");
+  common.digest = text_at(result, "digest");
+  common.values.resize(score::metrics().size());
+  const Tree* methods = result.find("methods");
+  if (methods == nullptr) throw InputError({file, 0, 0}, "has no methods; remove it, so that it is made again");
+  std::vector<SweepRow> rows;
+  for (const auto& [name, scores] : methods->as_map()) {
+    SweepRow row = common;
+    row.method = name;
+    row.verdict = text_at(scores, "verdict");
+    if (const Tree* told = find_path(scores, "localization.identifiable")) row.identifiable = told->as_bool();
+    for (std::size_t i = 0; i < row.values.size(); ++i)
+      if (const Tree* value = find_path(scores, score::metrics()[i].name)) row.values[i] = value->as_double();
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+std::vector<SweepCell> cells_of(const std::vector<SweepRow>& rows) {
+  std::vector<SweepCell> cells;
+  std::vector<Samples> samples;
+  for (const SweepRow& row : rows) {
+    auto it = std::find_if(cells.begin(), cells.end(), [&](const SweepCell& c) {
+      return c.scenario == row.scenario && c.variant == row.variant && c.start == row.start && c.method == row.method;
+    });
+    if (it == cells.end()) {
+      SweepCell fresh;
+      fresh.scenario = row.scenario;
+      fresh.variant = row.variant;
+      fresh.start = row.start;
+      fresh.method = row.method;
+      it = cells.insert(cells.end(), std::move(fresh));
+      samples.emplace_back();
+    }
+    count(row, *it, samples[static_cast<std::size_t>(it - cells.begin())]);
+  }
+  for (std::size_t i = 0; i < cells.size(); ++i) conclude(samples[i], cells[i]);
+  return cells;
+}
+
+std::string runs_csv(const std::vector<SweepRow>& rows) {
+  Line head = {"scenario", "variant", "start", "seed", "method", "verdict", "digest", "identifiable"};
+  for (const score::MetricRow& metric : score::metrics()) head.emplace_back(metric.name);
+  std::string text = csv_line(head);
+  for (const SweepRow& row : rows) {
+    Line line = {row.scenario, row.variant, row.start,  row.seed,
+                 row.method,   row.verdict, row.digest, row.identifiable ? (*row.identifiable ? "true" : "false") : ""};
+    for (const auto& value : row.values) line.push_back(value ? format_number(*value) : "");
+    text += csv_line(line);
+  }
+  return text;
+}
+
+std::string table_text(const std::vector<SweepCell>& cells) {
+  const std::vector<Line> lines = table_lines(cells);
+  std::vector<std::size_t> width(lines.front().size(), 0);
+  for (const Line& line : lines)
+    for (std::size_t i = 0; i < line.size(); ++i) width[i] = std::max(width[i], line[i].size());
+  std::string text;
+  for (const Line& line : lines) {
+    std::string row;
+    for (std::size_t i = 0; i < line.size(); ++i) row += line[i] + std::string(width[i] - line[i].size() + 2, ' ');
+    row.erase(row.find_last_not_of(' ') + 1);
+    text += row + "\n";
+  }
+  return text;
+}
+
+std::string table_csv(const std::vector<SweepCell>& cells) {
+  std::string text;
+  for (const Line& line : table_lines(cells)) text += csv_line(line);
+  return text;
+}
+
+std::string table_html(const std::string& name, const std::vector<SweepCell>& cells) {
+  std::string page = "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>" + svg::escape(name) +
+                     " · Plumbline</title><style>" + std::string(page_style()) +
+                     "</style></head>\n<body><main><header><h1>" + svg::escape(name) +
+                     "</h1></header><section class=\"card\"><div class=\"scroll\"><table>\n";
+  bool head = true;
+  for (const Line& line : table_lines(cells)) {
+    page += "<tr>";
+    for (const std::string& text : line)
+      page += (head ? "<th>" : "<td>") + svg::escape(text) + (head ? "</th>" : "</td>");
+    page += "</tr>\n";
+    head = false;
+  }
+  return page +
+         "</table></div><p class=\"facts\">Success of a plan localization is over the runs that can be told; in "
+         "brackets the "
+         "95 % interval of Wilson. Told at: when what was seen left one place, median. Found at: after how many metres "
+         "the "
+         "method was right for good, median over the runs that can be told.</p></section></main></body></html>\n";
+}
+
+}  // namespace plumbline::scenarios

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bim/config/tree.h"
+
+namespace plumbline::scenarios {
+
+/// Interval of Wilson that holds a share with 95 %: of k in n. (0, 1) when n is 0.
+[[nodiscard]] std::pair<double, double> wilson95(int k, int n);
+
+/// One method of one run.
+struct SweepRow {
+  std::string scenario, variant, start, seed, method;
+  std::string verdict;  ///< of the method; "failed" where the scenario did
+  std::string digest;
+  std::optional<bool> identifiable;
+  std::vector<std::optional<double>> values;  ///< by score::metrics()
+};
+
+/// Rows of the result of a run, as run_result() made it.
+[[nodiscard]] std::vector<SweepRow> rows_of(const Tree& result, const std::string& file);
+
+/// The seeds of one scenario, variant, start and method.
+struct SweepCell {
+  std::string scenario, variant, start, method;
+  int runs = 0;
+  int failed = 0;  ///< the scenario did
+  bool localizes = false;
+  int judged = 0;  ///< runs that success counts over: those that can be told, of a localization
+  int succeeded = 0;
+  int ambiguous = 0;
+  int honest = 0;
+  int false_convergences = 0;  ///< and overconfident answers
+  std::map<std::string, int> verdicts;
+  std::optional<double> median_identifiable_at_s;  ///< of those that can be told
+  std::optional<double> median_converged_at_m;     ///< absent when it is infinite
+  std::optional<double> median_identifiable_at_m;
+  std::optional<double> median_error_m;  ///< APE of a localization, aligned ATE of SLAM, where there is one
+};
+/// In the order in which they come up first.
+[[nodiscard]] std::vector<SweepCell> cells_of(const std::vector<SweepRow>& rows);
+
+[[nodiscard]] std::string runs_csv(const std::vector<SweepRow>& rows);
+[[nodiscard]] std::string table_text(const std::vector<SweepCell>& cells);
+[[nodiscard]] std::string table_csv(const std::vector<SweepCell>& cells);
+[[nodiscard]] std::string table_html(const std::string& name, const std::vector<SweepCell>& cells);
+/// Writes both as tables `runs` and `cells`, so that the file appears complete or not at all. Throws EnvironmentError.
+void write_database(const std::string& path, const std::vector<SweepRow>& rows, const std::vector<SweepCell>& cells);
+
+}  // namespace plumbline::scenarios

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenarios/sweep/sweep_file.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <set>
+
+namespace plumbline::scenarios {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string source() {
+  const char* folder = std::getenv("PLUMBLINE_SOURCE");
+  return folder == nullptr ? "." : folder;
+}
+
+/// Sweep files beside a copy of the library.
+class SweepFiles : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::path(testing::TempDir()) / ("plumbline_sweep_" + std::to_string(::getpid()));
+    fs::create_directories(folder_ / "library");
+    for (const char* name : {"quickstart.yaml", "quickstart.plan.yaml", "house.yaml", "house.plan.yaml"})
+      fs::copy_file(source() + "/scenarios/library/" + name, folder_ / "library" / name);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  [[nodiscard]] Sweep read(const std::string& text) const {
+    std::ofstream(folder_ / "sweep.yaml") << text;
+    return read_sweep((folder_ / "sweep.yaml").string());
+  }
+  [[nodiscard]] std::string complaint(const std::string& text) const {
+    try {
+      (void)read(text);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(SweepFiles, ExamplesGiveEveryCombinationOnce) {
+  const Sweep first = read(sweep_examples()[0]);
+  EXPECT_EQ(first.runs.size(), 2U * 2U * 20U);
+  std::set<std::string> keys, digests;
+  for (const SweepRun& run : first.runs) {
+    keys.insert(run.key);
+    digests.insert(run.input_digest);
+  }
+  EXPECT_EQ(keys.size(), first.runs.size());
+  EXPECT_EQ(digests.size(), first.runs.size());
+  EXPECT_EQ(read(sweep_examples()[1]).runs.size(), 3U * 5U);
+}
+
+TEST_F(SweepFiles, AVariantReplacesValues) {
+  const Sweep sweep = read(
+      "sweep: 1\nscenarios: [library/quickstart.yaml]\nseeds: 1\nvariants: [{name: x, set: [prior.yaw=unknown, "
+      "speed_mps=0.5]}]\nstarts: [{random: rooms}]\n");
+  const Scenario scenario = read_scenario(sweep.runs.at(0).scenario_text, "made").scenario;
+  EXPECT_EQ(scenario.prior.yaw, Knowledge::unknown);
+  EXPECT_EQ(scenario.prior.storey, Knowledge::known);
+  EXPECT_EQ(scenario.speed_mps, 0.5);
+  EXPECT_EQ(scenario.start.random, StartDraw::rooms);
+  EXPECT_FALSE(scenario.start.room.has_value());
+}
+
+TEST_F(SweepFiles, FaultsAreNamedWhereTheyStand) {
+  const std::string head = "sweep: 1\nscenarios: [library/quickstart.yaml]\n";
+  EXPECT_NE(complaint("scenarios: [a]\n").find("sweep.yaml:1:1"), std::string::npos);
+  EXPECT_NE(complaint("sweep: 1\n").find("scenarios"), std::string::npos);
+  EXPECT_NE(complaint("sweep: 1\nscenarios: [library/none.yaml]\n").find("sweep.yaml:2:13"), std::string::npos);
+  EXPECT_NE(complaint("sweep: 1\nscenarios: [library/house.plan.yaml]\n").find("no scenario"), std::string::npos);
+  EXPECT_NE(complaint(head + "methods: [vgcip]\n").find("sweep.yaml:3:11"), std::string::npos);
+  EXPECT_NE(complaint(head + "seeds: 0\n").find("sweep.yaml:3:8"), std::string::npos);
+  EXPECT_NE(complaint(head + "variants: [{name: a, set: [speed_mps]}]\n").find("key.key=value"), std::string::npos);
+  EXPECT_NE(complaint(head + "variants: [{name: a, set: [sped_mps=1]}]\n").find("did you mean"), std::string::npos);
+  EXPECT_NE(complaint(head + "variants: [{name: a}, {name: a}]\n").find("there already"), std::string::npos);
+}
+
+TEST(SweepPage, IsTheOneThatIsKept) {
+  EXPECT_EQ(read_text_file(source() + "/scenarios/SWEEP.md"), sweep_page())
+      << "write it with: plumbline sweep --schema > scenarios/SWEEP.md";
+}
+
+}  // namespace
+}  // namespace plumbline::scenarios

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenarios/sweep/table.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace plumbline::scenarios {
+namespace {
+
+TEST(Wilson, KnownIntervals) {
+  // [facts: localization 1.1] 6, 5 and 10 of 10, rounded to percent there
+  EXPECT_NEAR(wilson95(6, 10).first, 0.31, 0.005);
+  EXPECT_NEAR(wilson95(6, 10).second, 0.83, 0.005);
+  EXPECT_NEAR(wilson95(5, 10).first, 0.24, 0.005);
+  EXPECT_NEAR(wilson95(10, 10).first, 0.72, 0.005);
+  EXPECT_NEAR(wilson95(10, 10).second, 1.0, 1e-12);
+  EXPECT_EQ(wilson95(0, 0), (std::pair<double, double>(0.0, 1.0)));
+}
+
+TEST(Wilson, HoldsTheShareAndNarrowsWithMore) {
+  for (int n = 1; n <= 200; ++n)
+    for (int k = 0; k <= n; ++k) {
+      const auto [low, high] = wilson95(k, n);
+      const double p = static_cast<double>(k) / n;
+      EXPECT_LE(low, p + 1e-12);
+      EXPECT_GE(high, p - 1e-12);
+      // Its ends are where a share is 1.96 standard deviations from what was seen.
+      for (const double end : {low, high})
+        if (end > 1e-9 && end < 1.0 - 1e-9) {
+          EXPECT_NEAR((p - end) * (p - end), 1.959963984540054 * 1.959963984540054 * end * (1.0 - end) / n, 1e-12);
+        }
+    }
+}
+
+Tree result(const std::string& seed, const std::string& verdict, bool identifiable, double converged_at_m) {
+  Tree where = Tree::map();
+  where.set("identifiable", identifiable);
+  if (identifiable) where.set("identifiable_at_s", 4.0).set("identifiable_at_m", 2.0);
+  if (converged_at_m > 0.0) where.set("converged_at_m", converged_at_m).set("ape_rmse_m", 0.1);
+  Tree methods = Tree::map();
+  methods.set("finder", Tree::map().set("verdict", verdict).set("localization", where));
+  methods.set("mapper", Tree::map().set("verdict", "ok").set("ate_aligned_rmse_m", 0.02));
+  return Tree::map().set("scenario", "a").set("seed", seed).set("digest", "0").set("methods", methods);
+}
+
+std::vector<SweepRow> rows() {
+  std::vector<SweepRow> all;
+  for (const Tree& tree : {result("1", "success", true, 3.0), result("2", "success", true, 5.0),
+                           result("3", "late", true, 0.0), result("4", "false_convergence", true, 4.0),
+                           result("5", "honest_ambiguity", false, 0.0), result("6", "lucky", false, 1.0)})
+    for (const SweepRow& row : rows_of(tree, "x")) all.push_back(row);
+  return all;
+}
+
+TEST(SweepTable, CountsSuccessOverWhatCanBeTold) {
+  const std::vector<SweepCell> cells = cells_of(rows());
+  ASSERT_EQ(cells.size(), 2U);
+  const SweepCell& finder = cells[0];
+  EXPECT_EQ(finder.runs, 6);
+  EXPECT_EQ(finder.judged, 4);
+  EXPECT_EQ(finder.succeeded, 2);
+  EXPECT_EQ(finder.ambiguous, 2);
+  EXPECT_EQ(finder.honest, 1);
+  EXPECT_EQ(finder.false_convergences, 1);
+  EXPECT_EQ(finder.median_converged_at_m, 4.5);  // 3, 4, 5 and one that never did
+  EXPECT_EQ(finder.median_identifiable_at_s, 4.0);
+  EXPECT_EQ(cells[1].method, "mapper");
+  EXPECT_EQ(cells[1].succeeded, 6);
+  EXPECT_EQ(cells[1].median_error_m, 0.02);
+}
+
+TEST(SweepTable, AMedianOfMostlyNeverIsNever) {
+  std::vector<SweepRow> all;
+  for (const Tree& tree :
+       {result("1", "success", true, 3.0), result("2", "late", true, 0.0), result("3", "late", true, 0.0)})
+    for (const SweepRow& row : rows_of(tree, "x")) all.push_back(row);
+  EXPECT_FALSE(cells_of(all)[0].median_converged_at_m.has_value());
+  EXPECT_NE(table_text(cells_of(all)).find("never"), std::string::npos);
+}
+
+TEST(SweepTable, CsvQuotesWhatNeedsIt) {
+  std::vector<SweepRow> all = rows();
+  all[0].start = "{at: [1, 2], storey: \"x\"}";
+  EXPECT_NE(runs_csv(all).find("a,,\"{at: [1, 2], storey: \"\"x\"\"}\",1,finder,success"), std::string::npos);
+}
+
+TEST(SweepTable, AResultWithoutMethodsIsRefused) {
+  EXPECT_THROW((void)rows_of(Tree::map().set("scenario", "a"), "x.json"), InputError);
+}
+
+}  // namespace
+}  // namespace plumbline::scenarios

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// A sweep that is killed at any moment goes on where it was. PLUMBLINE_SWEEP_KILLS: how often (ci/full: 10).
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+
+#include "tests/system/program.h"
+
+namespace plumbline::system_tests {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* tables[] = {"table.txt", "table.csv", "table.html", "runs.csv", "sweep.sqlite"};
+
+/// Starts a sweep and kills it after so many times 10 ms; false when it had ended before.
+bool killed_after(const std::string& file, const std::string& out, int ticks) {
+  Setting setting;
+  setting.signal = SIGKILL;
+  setting.kill_when = [ticks]() mutable { return --ticks < 0; };
+  return plumbline({"sweep", file, "-o", out, "--jobs", "2"}, setting).code == 128 + SIGKILL;
+}
+
+TEST(Sweep, KilledAtAnyMomentItGivesTheSameTable) {
+  if (!available()) GTEST_SKIP() << "PLUMBLINE_BINARY and PLUMBLINE_SOURCE are not set; run through ctest";
+  const Folder folder;
+  for (const char* name : {"short.yaml", "short.plan.yaml"})
+    write_file(folder / name, read_file(project_file(std::string("tests/system/") + name)));
+  const std::string sweep = folder / "sweep.yaml";
+  write_file(sweep,
+             "sweep: 1\nscenarios: [short.yaml]\nseeds: 4\nmethods: [odometry]\n"
+             "variants: [{name: two, set: [duration_s=2]}, {name: three, set: [duration_s=3]}]\n");
+  const char* asked = std::getenv("PLUMBLINE_SWEEP_KILLS");
+  const int kills = asked == nullptr ? 3 : std::atoi(asked);
+  int killed = 0;
+  for (int i = 0; i < kills; ++i)
+    if (killed_after(sweep, folder / "broken", 15 + (i * 61) % 90)) ++killed;
+  EXPECT_GE(killed, 1);
+  const Outcome resumed = plumbline({"sweep", sweep, "-o", folder / "broken", "--jobs", "2"});
+  ASSERT_EQ(resumed.code, 0) << resumed.err;
+  const Outcome whole = plumbline({"sweep", sweep, "-o", folder / "whole", "--jobs", "1"});
+  ASSERT_EQ(whole.code, 0) << whole.err;
+  for (const char* table : tables) {
+    const std::string bytes = read_file((folder / "whole") + "/" + table);
+    EXPECT_FALSE(bytes.empty()) << table;
+    EXPECT_TRUE(bytes == read_file((folder / "broken") + "/" + table)) << table;
+  }
+  EXPECT_FALSE(fs::exists((folder / "broken") + "/.work"));
+  EXPECT_EQ(std::distance(fs::directory_iterator((folder / "whole") + "/results"), fs::directory_iterator()), 8);
+}
+
+TEST(Sweep, BadInputIsOneLineAndLeavesNothing) {
+  if (!available()) GTEST_SKIP() << "PLUMBLINE_BINARY and PLUMBLINE_SOURCE are not set; run through ctest";
+  const Folder folder;
+  write_file(folder / "sweep.yaml", "sweep: 1\nscenarios: [none.yaml]\n");
+  const Outcome outcome = plumbline({"sweep", folder / "sweep.yaml", "-o", folder / "out"});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_NE(outcome.err.find("sweep.yaml:2:13"), std::string::npos) << outcome.err;
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1);
+  EXPECT_FALSE(fs::exists(folder / "out"));
+}
+
+}  // namespace
+}  // namespace plumbline::system_tests
