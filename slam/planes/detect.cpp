@@ -97,13 +97,19 @@ class WallGrower {
     const double d0 = wall.plane.distance(segment.p0_R);
     const double d1 = wall.plane.distance(segment.p1_R);
     if (std::abs(d0) > config_.max_distance_m || std::abs(d1) > config_.max_distance_m) return false;
-    if (std::abs(d0 - d1) > config_.max_turn_m) return false;
+    if (std::abs(d0 - d1) > turn_gate(segment)) return false;
     const Eigen::Vector3d u = plane_tangents(wall.plane.n).u;
     const double a = u.dot(segment.p0_R);
     const double b = u.dot(segment.p1_R);
     // Seen along the wall a segment must run along it too, not through it.
     if (std::abs(b - a) < 0.9 * (segment.p1_R - segment.p0_R).head<2>().norm()) return false;
     return std::max(wall.s0, std::min(a, b)) - std::min(wall.s1, std::max(a, b)) <= config_.merge_gap_m;
+  }
+
+  /// Of many points the direction is known well: 3 sigma of what noise turns a line's ends apart, over a bias.
+  [[nodiscard]] double turn_gate(const RingSegment& segment) const {
+    const double noise = 3.0 * std::sqrt(12.0 / segment.moments.n) * 0.5 * config_.segment_rms_m;
+    return std::min(config_.max_turn_m, config_.max_turn_m / 3.0 + noise);
   }
 
   const DeskewedScan& scan_;
@@ -133,6 +139,28 @@ std::optional<PlaneObservation> observe_wall(const DeskewedScan& scan, const std
   return patch;
 }
 
+/// Whether a wall is a mixture of what a longer one runs through: it lies along that one, on the same side and within a
+/// niche's depth of it, and yet is turned out of it.
+bool runs_through(const PlaneObservation& wall, const PlaneObservation& longer, const PlaneDetectorConfig& config) {
+  const double length = (wall.p1_R - wall.p0_R).norm();
+  if (length >= (longer.p1_R - longer.p0_R).norm() || wall.plane_R.n.dot(longer.plane_R.n) < 0.9) return false;
+  if (std::abs(longer.plane_R.distance(wall.centroid_R)) > config.niche_m) return false;
+  const Eigen::Vector3d u = plane_tangents(longer.plane_R.n).u;
+  if (std::abs(wall.plane_R.n.dot(u)) * length < config.max_turn_m) return false;
+  const auto span = [&](const PlaneObservation& o) { return std::minmax({u.dot(o.p0_R), u.dot(o.p1_R)}); };
+  const auto [a0, a1] = span(wall);
+  const auto [b0, b1] = span(longer);
+  return std::min(a1, b1) - std::max(a0, b0) > 0.5 * (a1 - a0);
+}
+
+void drop_mixtures(std::vector<PlaneObservation>& walls, const PlaneDetectorConfig& config) {
+  std::vector<PlaneObservation> kept;
+  for (const PlaneObservation& wall : walls)
+    if (std::none_of(walls.begin(), walls.end(), [&](const auto& other) { return runs_through(wall, other, config); }))
+      kept.push_back(wall);
+  walls = std::move(kept);
+}
+
 }  // namespace
 
 std::vector<PlaneObservation> detect_planes(const DeskewedScan& scan, const PlaneDetectorConfig& config) {
@@ -144,6 +172,7 @@ std::vector<PlaneObservation> detect_planes(const DeskewedScan& scan, const Plan
       patch->vertical = true;
       planes.push_back(*patch);
     }
+  drop_mixtures(planes, config);
   for (const PlaneObservation& patch : horizontal_planes(scan, facing, config)) planes.push_back(patch);
   std::stable_sort(planes.begin(), planes.end(), [](const PlaneObservation& a, const PlaneObservation& b) {
     return std::make_tuple(-a.points, a.centroid_R.x(), a.centroid_R.y()) <

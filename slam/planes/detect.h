@@ -43,6 +43,7 @@ struct PlaneDetectorConfig {
   double segment_length_m = 0.15;   ///< shortest segment
   double max_distance_m = 0.06;     ///< gate of a point to the plane it joins; about 4 sigma of the range noise
   double max_turn_m = 0.03;         ///< gate of the distances of a segment's ends, one less the other: it runs along
+  double niche_m = 0.2;             ///< a wall within this of a longer one that it is turned out of is no wall
   double max_tilt_prior_deg = 3.0;  ///< sigma of a wall's tilt in R while few rings are in: gait and mounting
   double merge_gap_m = 1.2;         ///< coplanar stretches this near are one patch: a wall goes on behind a door
   int min_points = 60;
@@ -71,6 +72,7 @@ struct PlaneDetectorConfig {
     v("segment_length_m", segment_length_m, Field{.min = 0.0});
     v("max_distance_m", max_distance_m, Field{.min = 0.001});
     v("max_turn_m", max_turn_m, Field{.doc = "of a segment out of the plane it joins, over its length", .min = 0.001});
+    v("niche_m", niche_m, Field{.doc = "of a longer wall within which one turned out of it is none", .min = 0.0});
     v("max_tilt_prior_deg", max_tilt_prior_deg, Field{.min = 0.01});
     v("merge_gap_m", merge_gap_m, Field{.min = 0.0});
     v("min_points", min_points, Field{.min = 3});

@@ -233,6 +233,7 @@ void SGraphsPlus::optimize_graph() {
     return;
   }
   back_end_.update(graph_);
+  walls_.settle(graph_, back_end_.first_keyframe());
   full_wanted_ |= back_end_.returned();
   if (!full_urgent_ && !(full_wanted_ && back_end_.solve_is_due(graph_))) return;
   // Storeys share no planes, so that what leads back within one leaves those before it as they are.
@@ -240,6 +241,7 @@ void SGraphsPlus::optimize_graph() {
   const auto first = std::find_if(graph_.keyframes.begin(), graph_.keyframes.end(),
                                   [&](const KeyframeVertex& k) { return k.storey == storey; });
   back_end_.solve(graph_, static_cast<int>(first - graph_.keyframes.begin()));
+  walls_.unsettle();
   full_wanted_ = walls_.merge_duplicates(graph_) > 0;
   full_urgent_ = false;
   back_end_.relinearize(graph_);
@@ -253,6 +255,7 @@ Estimate SGraphsPlus::finish() {
   Estimate estimate;
   if (graph_.keyframes.empty()) return estimate;
   if (graph_.keyframes.size() > 1) optimize(graph_, 1, config_.optimizer);
+  walls_.unsettle();
   walls_.merge_duplicates(graph_);
   if (config_.parts.rooms) rooms_.redraw(graph_);
   const int storeys = 1 + std::max_element(graph_.keyframes.begin(), graph_.keyframes.end(), [](auto& a, auto& b) {

@@ -14,6 +14,8 @@ namespace plumbline::slam {
 
 namespace {
 
+constexpr double same_side = 0.9;  ///< cosine between the normals of faces that may be one
+
 PlaneKind kind_of(const PlaneObservation& seen) {
   if (seen.vertical) return PlaneKind::wall;
   return seen.plane_R.n.z() > 0.0 ? PlaneKind::floor : PlaneKind::ceiling;
@@ -58,19 +60,34 @@ bool one_face(const PlaneNode& a, const PlaneNode& b, const WallLayerConfig& con
   return std::abs(longer.plane_F.distance(p) - shorter.plane_F.distance(p)) < config.duplicate_offset_m;
 }
 
+/// Variance of a plane's offset at p, m^2.
+double offset_variance(const PlaneObservation& seen, const Eigen::Vector3d& p_R) {
+  const Tangents t = plane_tangents(seen.plane_R.n);
+  const Eigen::Vector3d J(t.u.dot(p_R), t.v.dot(p_R), 1.0);
+  return J.dot(seen.covariance * J);
+}
+
+/// Are two wall patches of one scan two faces? Compared where the shorter one is.
+bool are_apart(const PlaneObservation& a, const PlaneObservation& b, double chi2) {
+  if (!a.vertical || !b.vertical) return false;
+  const bool a_longer = (a.p1_R - a.p0_R).squaredNorm() >= (b.p1_R - b.p0_R).squaredNorm();
+  const PlaneObservation &longer = a_longer ? a : b, &shorter = a_longer ? b : a;
+  const Eigen::Vector3d& p = shorter.centroid_R;
+  const double offset = longer.plane_R.distance(p);
+  return offset * offset > chi2 * (offset_variance(longer, p) + offset_variance(shorter, p));
+}
+
 }  // namespace
 
 std::vector<int> WallLayer::observe(Graph& graph, std::span<const PlaneObservation> seen, double walked_m) {
   const int keyframe = static_cast<int>(graph.keyframes.size()) - 1;
   const Pose& X_MR = graph.keyframes.back().X_MR;
-  const std::vector<PlaneNode> known = extents(graph);
-  std::vector<int> ids;
-  for (const PlaneObservation& observation : seen) {
-    const PlaneKind kind = kind_of(observation);
-    int id = match(graph, known, observation, kind, walked_m);
-    if (id < 0) {
-      id = static_cast<int>(graph.planes.size());
-      graph.planes.push_back({X_MR * observation.plane_R, kind, graph.keyframes.back().storey, -1});
+  std::vector<int> ids = match(graph, seen, walked_m);
+  for (std::size_t k = 0; k < seen.size(); ++k) {
+    const PlaneObservation& observation = seen[k];
+    if (ids[k] < 0) {
+      ids[k] = static_cast<int>(graph.planes.size());
+      graph.planes.push_back({X_MR * observation.plane_R, kind_of(observation), graph.keyframes.back().storey, -1});
       last_seen_m_.push_back(walked_m);
     }
     const Eigen::Matrix3d covariance = config_.information > 0.0
@@ -78,29 +95,58 @@ std::vector<int> WallLayer::observe(Graph& graph, std::span<const PlaneObservati
                                            : observation.covariance;
     const Eigen::Matrix3d information =
         covariance.llt().solve(Eigen::Matrix3d::Identity()).selfadjointView<Eigen::Lower>();
-    graph.plane_factors.push_back({keyframe, id, observation.plane_R, information});
+    graph.plane_factors.push_back({keyframe, ids[k], observation.plane_R, information});
     patches_.push_back({observation.p0_R, observation.p1_R, observation.z0, observation.z1});
-    ids.push_back(id);
   }
   for (const int id : ids) last_seen_m_[static_cast<std::size_t>(id)] = walked_m;
+  if (config_.association == Association::mahalanobis) note_apart(seen, ids);
   return ids;
 }
 
-int WallLayer::match(const Graph& graph, const std::vector<PlaneNode>& known, const PlaneObservation& seen,
-                     PlaneKind kind, double walked_m) const {
-  const KeyframeVertex& keyframe = graph.keyframes.back();
+std::vector<int> WallLayer::match(const Graph& graph, std::span<const PlaneObservation> seen, double walked_m) const {
+  struct Candidate {
+    double misfit = 0.0;
+    std::size_t seen = 0;
+    int plane = 0;
+  };
+  const int storey = graph.keyframes.back().storey;
   const bool as_printed = config_.association == Association::angles;
-  int best = -1;
-  double least = 1.0;
-  for (const PlaneNode& node : known) {
-    const PlaneVertex& plane = graph.planes[static_cast<std::size_t>(node.id)];
-    if (plane.merged_into >= 0 || plane.kind != kind || plane.storey != keyframe.storey) continue;
-    const double misfit = as_printed ? misfit_as_printed(graph, node, seen) : this->misfit(graph, node, seen, walked_m);
-    if (misfit >= least) continue;
-    least = misfit;
-    best = node.id;
+  std::vector<Candidate> candidates;
+  const std::vector<PlaneNode> known = extents(graph);
+  for (std::size_t k = 0; k < seen.size(); ++k)
+    for (const PlaneNode& node : known) {
+      const PlaneVertex& plane = graph.planes[static_cast<std::size_t>(node.id)];
+      if (plane.merged_into >= 0 || plane.kind != kind_of(seen[k]) || plane.storey != storey) continue;
+      const double misfit =
+          as_printed ? misfit_as_printed(graph, node, seen[k]) : this->misfit(graph, node, seen[k], walked_m);
+      if (misfit < 1.0) candidates.push_back({misfit, k, node.id});
+    }
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.misfit < b.misfit; });
+  std::vector<int> ids(seen.size(), -1);
+  for (const Candidate& c : candidates) {
+    if (ids[c.seen] >= 0) continue;
+    bool fits = true;
+    for (std::size_t k = 0; k < seen.size() && fits && !as_printed; ++k)
+      fits = ids[k] != c.plane || !are_apart(seen[k], seen[c.seen], config_.apart_chi2);
+    if (fits) ids[c.seen] = c.plane;
   }
-  return best;
+  return ids;
+}
+
+void WallLayer::note_apart(std::span<const PlaneObservation> seen, std::span<const int> ids) {
+  for (std::size_t i = 0; i < seen.size(); ++i)
+    for (std::size_t j = i + 1; j < seen.size(); ++j) {
+      if (ids[i] == ids[j] || !seen[i].vertical || !seen[j].vertical) continue;
+      if (seen[i].plane_R.n.dot(seen[j].plane_R.n) < same_side) continue;
+      if (std::abs(seen[i].plane_R.distance(seen[j].centroid_R)) > 2.0 * config_.duplicate_offset_m) continue;
+      apart_[std::minmax(ids[i], ids[j])] += are_apart(seen[i], seen[j], config_.apart_chi2) ? 1 : -1;
+    }
+}
+
+bool WallLayer::known_apart(int a, int b) const {
+  const auto found = apart_.find(std::minmax(a, b));
+  return found != apart_.end() && found->second > 0;
 }
 
 double WallLayer::misfit(const Graph& graph, const PlaneNode& known, const PlaneObservation& seen,
@@ -109,7 +155,7 @@ double WallLayer::misfit(const Graph& graph, const PlaneNode& known, const Plane
   const KeyframeVertex& keyframe = graph.keyframes.back();
   const PlaneVertex& plane = graph.planes[static_cast<std::size_t>(known.id)];
   const PlaneResidual r = plane_residual(keyframe.X_MR, plane.plane_M, seen.plane_R);
-  if ((keyframe.X_MR.q * seen.plane_R.n).dot(plane.plane_M.n) < 0.9) return another;
+  if ((keyframe.X_MR.q * seen.plane_R.n).dot(plane.plane_M.n) < same_side) return another;
   if (plane.kind != PlaneKind::wall) {
     const bool near = std::abs(r.e.z()) < config_.floor_offset_m && r.e.head<2>().norm() < config_.floor_angle_rad;
     return near ? 0.0 : another;
@@ -142,10 +188,46 @@ double WallLayer::misfit_as_printed(const Graph& graph, const PlaneNode& known, 
   return e * e / (gate * gate);
 }
 
+void WallLayer::settle(const Graph& graph, int first) {
+  settled_.resize(graph.planes.size());
+  for (; settled_factors_ < graph.plane_factors.size(); ++settled_factors_) {
+    const PlaneFactor& factor = graph.plane_factors[settled_factors_];
+    if (factor.keyframe >= first) return;
+    const Pose& X_MR = graph.keyframes[static_cast<std::size_t>(factor.keyframe)].X_MR;
+    const Patch& patch = patches_[settled_factors_];
+    Extent& known = settled_[static_cast<std::size_t>(factor.plane)];
+    const int seen = known.observations;
+    const Eigen::Vector2d t = along(graph.planes[static_cast<std::size_t>(factor.plane)].plane_M);
+    for (const Eigen::Vector3d& p_R : {patch.p0_R, patch.p1_R}) {
+      const Eigen::Vector2d p = (X_MR * p_R).head<2>();
+      const bool none = known.observations == 0;
+      if (none || t.dot(p) < t.dot(known.low_M)) known.low_M = p;
+      if (none || t.dot(p) > t.dot(known.high_M)) known.high_M = p;
+      known.z0 = none ? X_MR.t.z() + patch.z0 : std::min(known.z0, X_MR.t.z() + patch.z0);
+      known.z1 = none ? X_MR.t.z() + patch.z1 : std::max(known.z1, X_MR.t.z() + patch.z1);
+      known.observations = std::max(known.observations, 1);
+    }
+    known.observations = seen + 1;
+  }
+}
+
+void WallLayer::unsettle() {
+  settled_.clear();
+  settled_factors_ = 0;
+}
+
 std::vector<PlaneNode> WallLayer::extents(const Graph& graph) const {
   std::vector<Interval> s(graph.planes.size()), z(graph.planes.size());
   std::vector<int> count(graph.planes.size(), 0);
-  for (std::size_t f = 0; f < graph.plane_factors.size(); ++f) {
+  for (std::size_t id = 0; id < settled_.size(); ++id) {
+    const Extent& known = settled_[id];
+    count[id] = known.observations;
+    if (known.observations == 0) continue;
+    const Eigen::Vector2d t = along(graph.planes[id].plane_M);
+    s[id] = interval(t, known.low_M, known.high_M);
+    z[id] = {known.z0, known.z1};
+  }
+  for (std::size_t f = settled_factors_; f < graph.plane_factors.size(); ++f) {
     const PlaneFactor& factor = graph.plane_factors[f];
     const auto id = static_cast<std::size_t>(factor.plane);
     const Pose& X_MR = graph.keyframes[static_cast<std::size_t>(factor.keyframe)].X_MR;
@@ -214,8 +296,8 @@ bool WallLayer::find_duplicates(Graph& graph, int storey) const {
   bool found = false;
   for (std::size_t i = 0; i < nodes.size(); ++i)
     for (std::size_t j = i + 1; j < nodes.size(); ++j) {
-      if (!one_face(nodes[i], nodes[j], config_)) continue;
       const int a = nodes[i].id, b = nodes[j].id;
+      if (!one_face(nodes[i], nodes[j], config_) || known_apart(a, b)) continue;
       const bool known = std::any_of(graph.duplicate_factors.begin(), graph.duplicate_factors.end(),
                                      [&](const DuplicateFactor& f) { return f.a == a && f.b == b; });
       if (known) continue;
@@ -241,11 +323,16 @@ int WallLayer::merge_duplicates(Graph& graph) {
       continue;
     }
     gone.merged_into = f.a;
+    // What stands apart from the one stands apart from both.
+    for (const auto& [pair, scans] : std::map(apart_))
+      if (pair.first == f.b || pair.second == f.b)
+        apart_[std::minmax(f.a, pair.first == f.b ? pair.second : pair.first)] += scans;
     for (PlaneFactor& factor : graph.plane_factors)
       if (factor.plane == f.b) factor.plane = f.a;
     ++merged;
   }
   graph.duplicate_factors = std::move(open);
+  if (merged > 0) unsettle();
   return merged;
 }
 

@@ -2,8 +2,11 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <span>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "bim/config/visit.h"
 #include "slam/graph/graph.h"
@@ -22,16 +25,17 @@ struct WallLayerConfig {
   double drift_per_m = 0.005;  ///< ... plus this per metre walked since it was seen
   double drift_rad = 0.006;    ///< the same for its attitude
   double drift_rad_per_m = 0.0005;
-  double max_gap_m = 1.0;             ///< between an observation and the known stretch of its wall
-  double angles_gate = 0.35;          ///< of the papers' association, rad and m alike [facts: slam 2.3] ...
-  double angles_gate_few = 0.05;      ///< ... and for planes of at most ...
-  int angles_few = 150;               ///< ... so many points
-  double information = 0.0;           ///< of every observation, per rad^2 and m^2; 0: from its covariance
-  double floor_offset_m = 0.25;       ///< a floor or ceiling this near and ...
-  double floor_angle_rad = 0.08;      ///< ... this level is the storey's
-  int min_observations = 4;           ///< of a wall that shapes rooms and is reported
-  double min_top_m = 1.3;             ///< above the floor up to which a wall must be seen; lower faces are furniture
-  double min_length_m = 0.5;          ///< of a wall that is reported
+  double apart_chi2 = 9.0;        ///< of two patches of one scan that are then two faces, 1 dof: no drift between them
+  double max_gap_m = 1.0;         ///< between an observation and the known stretch of its wall
+  double angles_gate = 0.35;      ///< of the papers' association, rad and m alike [facts: slam 2.3] ...
+  double angles_gate_few = 0.05;  ///< ... and for planes of at most ...
+  int angles_few = 150;           ///< ... so many points
+  double information = 0.0;       ///< of every observation, per rad^2 and m^2; 0: from its covariance
+  double floor_offset_m = 0.25;   ///< a floor or ceiling this near and ...
+  double floor_angle_rad = 0.08;  ///< ... this level is the storey's
+  int min_observations = 4;       ///< of a wall that shapes rooms and is reported
+  double min_top_m = 1.3;         ///< above the floor up to which a wall must be seen; lower faces are furniture
+  double min_length_m = 0.5;      ///< of a wall that is reported
   double duplicate_offset_m = 0.12;   ///< two faces of one side this near ...
   double duplicate_angle_rad = 0.04;  ///< ... and this parallel cannot both be seen
   double duplicate_overlap = 0.5;     ///< of the shorter one's length and height
@@ -48,6 +52,7 @@ struct WallLayerConfig {
     v("drift_per_m", drift_per_m, Field{.doc = "growth per metre since the plane was seen", .min = 0});
     v("drift_rad", drift_rad, Field{.doc = "sigma of the attitude against a plane just seen", .min = 0});
     v("drift_rad_per_m", drift_rad_per_m, Field{.doc = "growth per metre since the plane was seen", .min = 0});
+    v("apart_chi2", apart_chi2, Field{.doc = "offset of two patches of one scan that are two faces", .min = 0});
     v("max_gap_m", max_gap_m, Field{.doc = "along a wall between what is known and what is seen", .min = 0});
     v("angles_gate", angles_gate, Field{.doc = "of association by angles, rad and m alike", .min = 0});
     v("angles_gate_few", angles_gate_few, Field{.doc = "the same for planes of few points", .min = 0});
@@ -75,12 +80,18 @@ class WallLayer {
   explicit WallLayer(const WallLayerConfig& config) : config_(config) {}
 
   /// Ties the planes seen from the newest keyframe to the graph: a known plane of the same kind, side and storey within
-  /// the gate (nearest first, ties: lower id) or a new vertex. walked_m: length of the way so far. Returns the plane
-  /// ids.
+  /// the gate (best fit first, ties: earlier observation, lower id) or a new vertex. Two patches of one scan that are
+  /// not coplanar, as a door leaf and its wall, never share a plane, however far the robot may have drifted. walked_m:
+  /// length of the way so far. Returns the plane ids.
   std::vector<int> observe(Graph& graph, std::span<const PlaneObservation> seen, double walked_m);
 
   /// Every plane vertex with the union of its observations' extents; index = id. Merged planes have 0 observations.
   [[nodiscard]] std::vector<PlaneNode> extents(const Graph& graph) const;
+  /// Sums up what keyframes before `first` saw, which must then stay where they are and keep their planes until
+  /// unsettle(): so that extents() looks at later observations only.
+  void settle(const Graph& graph, int first);
+  void unsettle();
+
   /// The walls seen from the newest keyframe, each as far as this keyframe saw it.
   [[nodiscard]] std::vector<PlaneNode> seen_now(const Graph& graph) const;
   /// The walls of a storey that count: seen often, long and high enough.
@@ -98,17 +109,31 @@ class WallLayer {
     double z0 = 0.0, z1 = 0.0;
   };
 
-  [[nodiscard]] int match(const Graph& graph, const std::vector<PlaneNode>& known, const PlaneObservation& seen,
-                          PlaneKind kind, double walked_m) const;
+  /// The plane of each observation, -1 for a new one.
+  [[nodiscard]] std::vector<int> match(const Graph& graph, std::span<const PlaneObservation> seen,
+                                       double walked_m) const;
+  void note_apart(std::span<const PlaneObservation> seen, std::span<const int> ids);
+  [[nodiscard]] bool known_apart(int a, int b) const;
   /// Squared distance of an observation to a known plane over the gate's; above 1: another plane.
   [[nodiscard]] double misfit(const Graph& graph, const PlaneNode& known, const PlaneObservation& seen,
                               double walked_m) const;
   [[nodiscard]] double misfit_as_printed(const Graph& graph, const PlaneNode& known,
                                          const PlaneObservation& seen) const;
 
+  /// What settled observations saw of one plane.
+  struct Extent {
+    Eigen::Vector2d low_M, high_M;  ///< its ends along the wall
+    double z0 = 0.0, z1 = 0.0;
+    int observations = 0;
+  };
+
   WallLayerConfig config_;
   std::vector<Patch> patches_;
-  std::vector<double> last_seen_m_;  ///< way walked when a plane was last seen; index = plane id
+  std::vector<Extent> settled_;               ///< index = plane id; may be shorter than the planes
+  std::size_t settled_factors_ = 0;           ///< plane factors summed up in them
+  std::vector<double> last_seen_m_;           ///< way walked when a plane was last seen; index = plane id
+  std::map<std::pair<int, int>, int> apart_;  ///< of planes, lower id first: scans that showed them as two faces, less
+                                              ///< those that showed them as one
 };
 
 }  // namespace plumbline::slam

@@ -228,5 +228,64 @@ TEST(FloorLayer, CentreIsMidwayBetweenTheWidestPairsAndRoomsHangOnIt) {
   EXPECT_LT(floor_residual(graph.floors[0].center_M, graph.rooms[0].center_M, f.offset_M).norm(), 1e-9);
 }
 
+// A leaf 8 cm back in its wall is within the drift of it, but one scan shows both.
+TEST(WallLayer, ALeafIsNeverItsWall) {
+  for (std::uint64_t trial = 0; trial < 50; ++trial) {
+    RandomValues random(32, trial);
+    const Pose start = Pose::from_xyz_yaw({1.0, 2.0, 0.0}, random.uniform(-3.0, 3.0));
+    const auto look = [&](const Pose& X_WR) {
+      std::vector<PlaneObservation> seen = {see(X_WR, {0, 0}, {4, 0}), see(X_WR, {4, -0.08}, {4.9, -0.08})};
+      for (PlaneObservation& o : seen) o.centroid_R = 0.5 * (o.p0_R + o.p1_R);
+      if (trial % 2 == 1) std::swap(seen[0], seen[1]);
+      return seen;
+    };
+    Graph graph = at(start);
+    WallLayer walls({});
+    const std::vector<int> first = walls.observe(graph, look(start), 0.0);
+    EXPECT_NE(first[0], first[1]);
+    for (int k = 0; k < 6; ++k) {
+      const Pose truth = Pose::from_xyz_yaw({1.0 + 0.5 * k, 2.0, 0.0}, random.uniform(-3.0, 3.0));
+      const Pose belief = Pose::from_xyz_yaw({0.0, 0.012 * random.gauss(), 0.0}, 0.0) * truth;
+      EXPECT_EQ(step(graph, walls, belief, look(truth)), first) << "trial " << trial;
+    }
+    EXPECT_FALSE(walls.find_duplicates(graph, 0));
+  }
+}
+
+TEST(WallLayer, WhatIsSettledHasTheExtentItHad) {
+  for (std::uint64_t trial = 0; trial < 50; ++trial) {
+    RandomValues random(31, trial);
+    const double yaw = random.uniform(-3.0, 3.0);
+    const auto pose = [&](double x) {
+      return Pose::from_xyz_yaw({0, 0, 0}, yaw) * Pose::from_xyz_yaw({x, random.uniform(1, 3), 0}, random.gauss());
+    };
+    const auto in_M = [&](double x, double y) {
+      return Eigen::Vector2d((Pose::from_xyz_yaw({0, 0, 0}, yaw) * Eigen::Vector3d(x, y, 0)).head<2>());
+    };
+    const auto look = [&](const Pose& X_MR, double x) {
+      return std::vector{see(X_MR, in_M(x - 1, 0), in_M(x + random.uniform(0.5, 2), 0)),
+                         see(X_MR, in_M(x + 2, 5), in_M(x - random.uniform(0, 2), 5))};
+    };
+    Graph graph = at(pose(0.0));
+    WallLayer walls({});
+    walls.observe(graph, look(graph.keyframes[0].X_MR, 0.0), 0.0);
+    for (int k = 1; k < 12; ++k) {
+      const Pose X_MR = pose(k);
+      step(graph, walls, X_MR, look(X_MR, k));
+      const std::vector<PlaneNode> whole = walls.extents(graph);
+      walls.settle(graph, k - 4);
+      const std::vector<PlaneNode> summed = walls.extents(graph);
+      ASSERT_EQ(summed.size(), whole.size());
+      for (std::size_t id = 0; id < whole.size(); ++id) {
+        EXPECT_EQ(summed[id].observations, whole[id].observations);
+        EXPECT_LT((summed[id].p0 - whole[id].p0).norm() + (summed[id].p1 - whole[id].p1).norm(), 1e-9);
+        EXPECT_EQ(summed[id].z0, whole[id].z0);
+        EXPECT_EQ(summed[id].z1, whole[id].z1);
+      }
+      if (k == 6) walls.unsettle();
+    }
+  }
+}
+
 }  // namespace
 }  // namespace plumbline::slam
