@@ -11,7 +11,7 @@ namespace plumbline::scenarios {
 namespace {
 
 constexpr std::array<std::string_view, 4> state_names = {"SEARCHING", "AMBIGUOUS", "CONVERGED", "LOST"};
-constexpr std::array<std::string_view, 2> room_names = {"four_wall", "two_wall"};
+constexpr std::array<std::string_view, 3> room_names = {"four_wall", "two_wall", "polygon"};
 
 Tree numbers(std::initializer_list<double> values) {
   Tree list = Tree::list();

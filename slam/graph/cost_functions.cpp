@@ -104,6 +104,33 @@ class TwoWallCost : public ceres::SizedCostFunction<2, 2, 4, 4> {
   Eigen::Matrix2d root_;
 };
 
+class PolygonCost : public ceres::CostFunction {
+ public:
+  explicit PolygonCost(const RoomFactor& f)
+      : corners_(f.corners), z_M_(f.height_M), root_(square_root<2>(f.information)), walls_(f.planes.size()) {
+    set_num_residuals(2);
+    mutable_parameter_block_sizes()->push_back(2);
+    for (std::size_t i = 0; i < walls_; ++i) mutable_parameter_block_sizes()->push_back(4);
+  }
+  bool Evaluate(double const* const* x, double* e, double** J) const override {
+    std::vector<Plane> planes;
+    for (std::size_t i = 0; i < walls_; ++i) planes.push_back(to_plane(x[i + 1]));
+    const PolygonResidual r = polygon_residual(Map<const Eigen::Vector2d>(x[0]), planes, corners_, z_M_);
+    Map<Eigen::Vector2d>{e} = root_ * r.e;
+    if (J == nullptr) return true;
+    if (J[0] != nullptr) write<2, 2>(J[0], root_ * r.J_center);
+    for (std::size_t i = 0; i < walls_; ++i)
+      if (J[i + 1] != nullptr) write<2, 4>(J[i + 1], root_ * r.J_plane[i]);
+    return true;
+  }
+
+ private:
+  std::vector<RoomCorner> corners_;
+  double z_M_;
+  Eigen::Matrix2d root_;
+  std::size_t walls_;
+};
+
 class FloorCost : public ceres::SizedCostFunction<2, 2, 2> {
  public:
   explicit FloorCost(const FloorFactor& f) : offset_M_(f.offset_M), root_(square_root<2>(f.information)) {}
@@ -174,6 +201,7 @@ bool PlaneManifold::Plus(const double* x, const double* delta, double* x_plus_de
 ceres::CostFunction* pose_cost(const PoseFactor& factor) { return new PoseCost(factor); }
 ceres::CostFunction* plane_cost(const PlaneFactor& factor) { return new PlaneCost(factor); }
 ceres::CostFunction* room_cost(const RoomFactor& factor) {
+  if (!factor.corners.empty()) return new PolygonCost(factor);
   if (factor.planes.size() == 4) return new FourWallCost(factor);
   if (factor.planes.size() == 2) return new TwoWallCost(factor);
   throw InternalError("room factor needs two or four planes");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slam/graph/factors.h"
 
+#include <Eigen/LU>
 #include <cmath>
 
 #include "bim/errors.h"
@@ -149,6 +150,33 @@ TwoWallResidual two_wall_residual(const Eigen::Vector2d& center_M, const Plane& 
   r.J_center << across.J_center, (turn * n).transpose();
   r.J_plane[0] << across.J_a, d_along * a.dm;
   r.J_plane[1] << across.J_b, -d_along * b.dm;
+  return r;
+}
+
+PolygonResidual polygon_residual(const Eigen::Vector2d& center_M, std::span<const Plane> planes_M,
+                                 std::span<const RoomCorner> corners, double z_M) {
+  constexpr double least_sine = 1e-3;
+  if (corners.empty()) throw InternalError("a polygon room without a corner");
+  std::vector<WallLine> lines;
+  for (const Plane& plane : planes_M) lines.push_back(cut(plane, z_M));
+  PolygonResidual r;
+  r.J_center.setIdentity();
+  r.J_plane.assign(planes_M.size(), Matrix23d::Zero());
+  const double share = 1.0 / static_cast<double>(corners.size());
+  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+  for (const RoomCorner& corner : corners) {
+    Eigen::Matrix2d A;  // A p + (e_a, e_b) = 0
+    for (int i = 0; i < 2; ++i) A.row(i) = lines[static_cast<std::size_t>(corner[static_cast<std::size_t>(i)])].m;
+    if (std::abs(A.determinant()) < least_sine) throw InternalError("a polygon room's corner between parallel walls");
+    const Eigen::Matrix2d inverse = A.inverse();
+    const auto line = [&](int i) { return lines[static_cast<std::size_t>(corner[static_cast<std::size_t>(i)])]; };
+    const Eigen::Vector2d p = -(inverse * Eigen::Vector2d(line(0).e, line(1).e));
+    mean += share * p;
+    for (int i = 0; i < 2; ++i)
+      r.J_plane[static_cast<std::size_t>(corner[static_cast<std::size_t>(i)])] +=
+          share * inverse.col(i) * (p.transpose() * line(i).dm + line(i).de);
+  }
+  r.e = center_M - mean;
   return r;
 }
 

@@ -2,8 +2,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <span>
+#include <vector>
 
 #include "bim/geometry/plane.h"
+#include "slam/graph/graph.h"
 
 /// Residuals of the situational graph with analytic Jacobians. Increments:
 ///   pose  X <- X * (rho, phi):  t <- t + R rho, R <- R exp(phi)   (6)
@@ -64,6 +67,17 @@ struct TwoWallResidual {
 /// normals).
 [[nodiscard]] TwoWallResidual two_wall_residual(const Eigen::Vector2d& center_M, const Plane& a_M, const Plane& b_M,
                                                 const Eigen::Vector2d& cluster_M, double z_M);
+
+struct PolygonResidual {
+  Eigen::Vector2d e;  ///< centre less the mean of the corners, m
+  Eigen::Matrix2d J_center;
+  std::vector<Matrix23d> J_plane;  ///< in the order of planes_M
+};
+/// A room of any shape: its centre is the mean of the corners in which its walls meet, cut at height z_M. Moves with
+/// the walls, wherever the map's origin is. Throws InternalError when there is no corner or a corner's walls are
+/// parallel.
+[[nodiscard]] PolygonResidual polygon_residual(const Eigen::Vector2d& center_M, std::span<const Plane> planes_M,
+                                               std::span<const RoomCorner> corners, double z_M);
 
 struct DuplicateResidual {
   Eigen::Vector4d e;  ///< difference of the normals, difference of the distances of the anchor (m)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <vector>
 
 #include "bim/geometry/plane.h"
@@ -27,7 +28,7 @@ struct PlaneVertex {
   int merged_into = -1;  ///< id of the plane that took over its observations; -1: alive
 };
 
-/// Layer 3: centre of a four-wall room or of a two-wall stretch.
+/// Layer 3: centre of a four-wall room, of a two-wall stretch or of a polygon's corners.
 struct RoomVertex {
   RoomKind kind = RoomKind::four_wall;
   Eigen::Vector2d center_M = Eigen::Vector2d::Zero();
@@ -57,13 +58,21 @@ struct PlaneFactor {
   Eigen::Matrix3d information = Eigen::Matrix3d::Identity();
 };
 
-/// A room and its two or four walls: first and second are opposed, third and fourth too.
+/// A room that takes more is too ragged to be one.
+inline constexpr int max_room_planes = 16;
+
+/// Where two walls of a room meet, by their places among its planes.
+using RoomCorner = std::array<int, 2>;
+
+/// A room and its walls. Two or four: first and second are opposed, third and fourth too. A polygon's: its corners
+/// are where two of its walls meet, each by its place in `planes`; corners at openings are left out.
 struct RoomFactor {
   int room = 0;
   std::vector<int> planes;
   Eigen::Vector2d cluster_M = Eigen::Vector2d::Zero();  ///< centre of the free-space cluster, kept fixed
   double height_M = 0.0;                                ///< z at which the walls are cut, m
   Eigen::Matrix2d information = Eigen::Matrix2d::Identity();
+  std::vector<RoomCorner> corners = {};  ///< of a polygon, else empty
 };
 
 /// Where a room stands from the centre of its floor.

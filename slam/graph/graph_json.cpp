@@ -12,7 +12,7 @@ namespace plumbline::slam {
 namespace {
 
 constexpr std::array<std::string_view, 3> plane_kinds = {"wall", "floor", "ceiling"};
-constexpr std::array<std::string_view, 2> room_kinds = {"four_wall", "two_wall"};
+constexpr std::array<std::string_view, 3> room_kinds = {"four_wall", "two_wall", "polygon"};
 constexpr double unit_tolerance = 1e-6;  ///< of a normal's or quaternion's norm; written ones are off by 1e-16
 
 Tree numbers(std::initializer_list<double> values) {
@@ -66,7 +66,13 @@ Tree write(const RoomFactor& f) {
   Tree planes = Tree::list();
   for (const int id : f.planes) planes.push(id);
   Tree tree = Tree::map();
-  tree.set("room", f.room).set("planes", planes).set("cluster_M", write(f.cluster_M)).set("height_M", f.height_M);
+  tree.set("room", f.room).set("planes", planes);
+  if (!f.corners.empty()) {
+    Tree corners = Tree::list();
+    for (const auto& [a, b] : f.corners) corners.push(Tree::list().push(a).push(b));
+    tree.set("corners", corners);
+  }
+  tree.set("cluster_M", write(f.cluster_M)).set("height_M", f.height_M);
   return tree.set("information", write_information(f.information));
 }
 Tree write(const FloorFactor& f) {
@@ -115,8 +121,26 @@ class Reader {
   [[nodiscard]] std::vector<int> planes(std::string_view key) const {
     std::vector<int> ids;
     for (const Tree& id : child(key).as_list()) ids.push_back(index(id, graph_.planes.size()));
-    if (ids.size() != 2 && ids.size() != 4) throw InputError(child(key).mark, "two or four planes are expected");
+    const bool polygon = tree_.find("corners") != nullptr;
+    if (polygon && (ids.size() < 2 || ids.size() > max_room_planes))
+      throw InputError(child(key).mark, "2 to " + std::to_string(max_room_planes) + " planes are expected");
+    if (!polygon && ids.size() != 2 && ids.size() != 4)
+      throw InputError(child(key).mark, "two or four planes are expected");
     return ids;
+  }
+  /// Of a room of so many planes; empty where there is no such key.
+  [[nodiscard]] std::vector<RoomCorner> corners(std::string_view key, std::size_t planes) const {
+    std::vector<RoomCorner> corners;
+    const Tree* list = tree_.find(key);
+    if (list == nullptr) return corners;
+    for (const Tree& corner : list->as_list()) {
+      const std::vector<Tree>& walls = corner.as_list();
+      if (walls.size() != 2) throw InputError(corner.mark, "a corner of two walls is expected");
+      corners.push_back({index(walls[0], planes), index(walls[1], planes)});
+    }
+    if (corners.empty() || corners.size() > max_room_planes)
+      throw InputError(list->mark, "1 to " + std::to_string(max_room_planes) + " corners are expected");
+    return corners;
   }
   template <std::size_t N>
   [[nodiscard]] int kind(std::string_view key, const std::array<std::string_view, N>& names) const {
@@ -212,8 +236,13 @@ void read_factors(const Tree& tree, Graph& graph) {
                        r.information<3>("information")};
   });
   read_list(tree, "room_factors", graph, graph.room_factors, [](const Reader& r) {
-    return RoomFactor{r.room("room"), r.planes("planes"), r.vector<2>("cluster_M"), r.number("height_M"),
-                      r.information<2>("information")};
+    const std::vector<int> planes = r.planes("planes");
+    return RoomFactor{r.room("room"),
+                      planes,
+                      r.vector<2>("cluster_M"),
+                      r.number("height_M"),
+                      r.information<2>("information"),
+                      r.corners("corners", planes.size())};
   });
   read_list(tree, "floor_factors", graph, graph.floor_factors, [](const Reader& r) {
     return FloorFactor{r.floor("floor"), r.room("room"), r.vector<2>("offset_M"), r.information<2>("information")};

@@ -23,7 +23,7 @@ namespace {
 constexpr double least_information = 1e-6;
 
 constexpr int max_rows = 6;
-constexpr int max_blocks = 5;
+constexpr int max_blocks = 1 + max_room_planes;
 
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using SparseMatrix = Eigen::SparseMatrix<double>;

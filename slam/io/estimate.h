@@ -70,7 +70,8 @@ struct PlaneNode {
   int observations = 0;
 };
 
-enum class RoomKind { four_wall, two_wall };
+/// polygon: any closed chain of walls, of at least three sides, with openings between them or none.
+enum class RoomKind { four_wall, two_wall, polygon };
 
 /// A believed room.
 struct RoomNode {
@@ -78,7 +79,7 @@ struct RoomNode {
   RoomKind kind = RoomKind::four_wall;
   Eigen::Vector2d center_F = Eigen::Vector2d::Zero();
   Polygon2 polygon_F;       ///< counter-clockwise; two-wall: the stretch of corridor that was seen
-  std::vector<int> planes;  ///< PlaneNode ids: (x+, x-, y+, y-) or the pair
+  std::vector<int> planes;  ///< PlaneNode ids: (x+, x-, y+, y-), the pair, or the chain counter-clockwise
 };
 
 struct FloorNode {

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace plumbline::slam {
 
@@ -130,6 +131,14 @@ void find_boundary(const GridFrame& frame, const std::vector<int>& owner, int id
   }
 }
 
+/// From its cells.
+void measure(const GridFrame& frame, const std::vector<int>& owner, int id, Cluster& cluster) {
+  cluster.area_m2 = static_cast<double>(cluster.cells.size()) * frame.cell * frame.cell;
+  for (const std::size_t cell : cluster.cells) cluster.center_M += frame.center(cell);
+  cluster.center_M /= static_cast<double>(cluster.cells.size());
+  find_boundary(frame, owner, id, cluster);
+}
+
 /// Clusters from the owner of every cell; those that are too small or too narrow are left out. top[id]: clearance.
 std::vector<Cluster> collect(const FreeGrid& grid, const std::vector<int>& owner, const std::vector<double>& top,
                              const ClusterConfig& config) {
@@ -140,11 +149,9 @@ std::vector<Cluster> collect(const FreeGrid& grid, const std::vector<int>& owner
   for (std::size_t id = 0; id < all.size(); ++id) {
     Cluster& c = all[id];
     c.clearance_m = top[id];
-    c.area_m2 = static_cast<double>(c.cells.size()) * grid.frame.cell * grid.frame.cell;
-    if (c.clearance_m < config.min_clearance_m || c.area_m2 < config.min_area_m2) continue;
-    for (const std::size_t cell : c.cells) c.center_M += grid.frame.center(cell);
-    c.center_M /= static_cast<double>(c.cells.size());
-    find_boundary(grid.frame, owner, static_cast<int>(id), c);
+    const double area_m2 = static_cast<double>(c.cells.size()) * grid.frame.cell * grid.frame.cell;
+    if (c.clearance_m < config.min_clearance_m || area_m2 < config.min_area_m2) continue;
+    measure(grid.frame, owner, static_cast<int>(id), c);
     kept.push_back(std::move(c));
   }
   return kept;
@@ -178,6 +185,15 @@ std::vector<Cluster> cut_at_threshold(const FreeGrid& grid, const std::vector<fl
 }
 
 }  // namespace
+
+Cluster cluster_of(const FreeGrid& grid, std::vector<std::size_t> cells) {
+  std::vector<int> owner(grid.frame.size(), none);
+  for (const std::size_t cell : cells) owner[cell] = 0;
+  Cluster cluster;
+  cluster.cells = std::move(cells);
+  measure(grid.frame, owner, 0, cluster);
+  return cluster;
+}
 
 std::vector<float> clearance(const FreeGrid& grid) {
   const GridFrame& f = grid.frame;

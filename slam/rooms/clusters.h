@@ -42,6 +42,9 @@ struct Cluster {
   double area_m2 = 0.0;
 };
 
+/// Cells of a grid, ascending, as a cluster; its clearance is left at 0.
+[[nodiscard]] Cluster cluster_of(const FreeGrid& grid, std::vector<std::size_t> cells);
+
 /// Distance of every free cell to the nearest cell that is not free, m, exact on cell centres; 0 where not free.
 [[nodiscard]] std::vector<float> clearance(const FreeGrid& grid);
 

@@ -8,7 +8,11 @@
 #include <numbers>
 #include <optional>
 
+#include "slam/graph/graph.h"
+#include "slam/rooms/outline.h"
 #include "slam/rooms/overlap.h"
+#include "slam/rooms/scene.h"
+#include "slam/rooms/straight.h"
 
 namespace plumbline::slam {
 
@@ -17,51 +21,14 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double rad = std::numbers::pi / 180.0;
-
-/// A wall face in plan: m.p + e = 0, m into free space, and the stretch [s0, s1] along `along`.
-struct Line {
-  int id = -1;
-  Vector2d m = Vector2d::UnitX(), along = Vector2d::UnitY();
-  double e = 0.0, s0 = 0.0, s1 = 0.0;
-  double support = 0.0;  ///< m of the cluster's border on it
-
-  [[nodiscard]] double distance(const Vector2d& p) const { return m.dot(p) + e; }
-};
-
-Line make_line(const PlaneNode& wall) {
-  Line line;
-  line.id = wall.id;
-  const Vector2d xy = wall.plane_F.n.head<2>();
-  line.m = xy / xy.norm();
-  line.along = Vector2d(-line.m.y(), line.m.x());
-  // Through the middle of what was seen: a tilted plane's trace at z = 0 may lie elsewhere.
-  line.e = -line.m.dot(0.5 * (wall.p0 + wall.p1));
-  line.s0 = std::min(line.along.dot(wall.p0), line.along.dot(wall.p1));
-  line.s1 = std::max(line.along.dot(wall.p0), line.along.dot(wall.p1));
-  return line;
-}
+constexpr double fuller = 0.1;  ///< share by which a polygon must be freer than the rectangle it replaces
 
 struct Pair {
-  Line a, b;
+  FaceLine a, b;
   [[nodiscard]] double support() const { return a.support + b.support; }
   [[nodiscard]] double width_at(const Vector2d& p) const { return a.distance(p) + b.distance(p); }
   [[nodiscard]] Vector2d across() const { return (a.m - b.m).normalized(); }
 };
-
-/// Length of the cluster's border that lies on the wall, on its free side.
-double support_of(const Line& line, const FreeGrid& grid, const Cluster& cluster, const RoomConfig& config) {
-  const double cell = grid.frame.cell;
-  std::vector<bool> covered(static_cast<std::size_t>((line.s1 - line.s0) / cell) + 1, false);
-  for (const std::size_t k : cluster.boundary) {
-    const Vector2d p = grid.frame.center(k);
-    const double distance = line.distance(p);
-    if (distance < -config.slack_m || distance > config.reach_m) continue;
-    const double s = line.along.dot(p) - line.s0;
-    if (s < 0.0 || s > line.s1 - line.s0) continue;
-    covered[static_cast<std::size_t>(s / cell)] = true;
-  }
-  return cell * static_cast<double>(std::count(covered.begin(), covered.end(), true));
-}
 
 double share_between(const Pair& pair, const FreeGrid& grid, const Cluster& cluster, double slack) {
   std::size_t inside = 0;
@@ -71,14 +38,6 @@ double share_between(const Pair& pair, const FreeGrid& grid, const Cluster& clus
   }
   return static_cast<double>(inside) / static_cast<double>(cluster.cells.size());
 }
-
-/// One cluster and the wall faces its border lies on.
-struct Scene {
-  const FreeGrid& grid;
-  const Cluster& cluster;
-  const RoomConfig& config;
-  std::vector<Line> walls;
-};
 
 /// Opposed pairs around the cluster, perpendicular to `axis` where one is given; by falling support, ties: lower ids.
 std::vector<Pair> opposed_pairs(const Scene& scene, const std::optional<Vector2d>& axis) {
@@ -106,24 +65,13 @@ std::optional<Pair> best_pair(const Scene& scene, const std::optional<Vector2d>&
 }
 
 /// Free share of the polygon that four lines cut out, counting the cluster's own cells only.
-double fill_of(const Polygon2& polygon, const std::array<Line, 4>& sides, const FreeGrid& grid,
+double fill_of(const Polygon2& polygon, const std::array<FaceLine, 4>& sides, const FreeGrid& grid,
                const Cluster& cluster) {
   const auto inside = std::count_if(cluster.cells.begin(), cluster.cells.end(), [&](std::size_t k) {
     const Vector2d p = grid.frame.center(k);
-    return std::all_of(sides.begin(), sides.end(), [&](const Line& side) { return side.distance(p) > 0.0; });
+    return std::all_of(sides.begin(), sides.end(), [&](const FaceLine& side) { return side.distance(p) > 0.0; });
   });
   return static_cast<double>(inside) * grid.frame.cell * grid.frame.cell / std::abs(signed_area(polygon));
-}
-
-Vector2d meet(const Line& a, const Line& b) {
-  Eigen::Matrix2d A;
-  A << a.m.transpose(), b.m.transpose();
-  return -(A.inverse() * Vector2d(a.e, b.e));
-}
-
-Polygon2 counter_clockwise(Polygon2 polygon) {
-  if (signed_area(polygon) < 0.0) std::reverse(polygon.begin(), polygon.end());
-  return polygon;
 }
 
 /// [S-Graphs+ eq. 4] and the enclosure test of section IV-C: each side must be seen along part of its length.
@@ -154,11 +102,8 @@ std::optional<RoomCandidate> two_walls(const Scene& scene, const Pair& pair) {
     low = std::min(low, t.dot(p));
     high = std::max(high, t.dot(p));
   }
-  Line start, end;
-  start.m = t;
-  start.e = -(low - 0.5 * scene.grid.frame.cell);
-  end.m = -t;
-  end.e = high + 0.5 * scene.grid.frame.cell;
+  const double half = 0.5 * scene.grid.frame.cell;
+  const FaceLine start = cut_line(t, (low - half) * t), end = cut_line(-t, (high + half) * t);
   RoomCandidate room;
   room.kind = RoomKind::two_wall;
   room.planes = {pair.a.id, pair.b.id};
@@ -170,13 +115,72 @@ std::optional<RoomCandidate> two_walls(const Scene& scene, const Pair& pair) {
   return room;
 }
 
-std::optional<RoomCandidate> room_of(const Scene& scene) {
+std::optional<RoomCandidate> rectangle(const Scene& scene) {
   const std::optional<Pair> x = best_pair(scene, std::nullopt);
   if (!x) return {};
-  if (const std::optional<Pair> y = best_pair(scene, x->across())) {
+  if (const std::optional<Pair> y = best_pair(scene, x->across()))
     if (std::optional<RoomCandidate> room = four_walls(scene, *x, *y)) return room;
-  }
   return two_walls(scene, *x);
+}
+
+/// Planes of the outline's walls in order, the corners where two of them meet, and those corners' mean.
+void chain(const Outline& outline, RoomCandidate& room) {
+  const std::size_t n = outline.sides.size();
+  const auto place = [&](int wall) {
+    const auto known = std::find(room.planes.begin(), room.planes.end(), wall);
+    if (known == room.planes.end()) room.planes.push_back(wall);
+    return static_cast<int>(std::find(room.planes.begin(), room.planes.end(), wall) - room.planes.begin());
+  };
+  for (std::size_t k = 0; k < n; ++k) {
+    const int wall = outline.sides[k].wall, next = outline.sides[(k + 1) % n].wall;
+    if (wall < 0) continue;
+    const int here = place(wall);
+    if (next < 0) continue;
+    room.corners.push_back({here, place(next)});
+    room.center_M += outline.sides[(k + 1) % n].from_M;
+  }
+  if (!room.corners.empty()) room.center_M /= static_cast<double>(room.corners.size());
+}
+
+/// A room of more than four sides.
+std::optional<RoomCandidate> polygon(const Scene& scene, const Outline& outline) {
+  constexpr std::size_t least_sides = 5, least_corners = 2;
+  const RoomConfig& config = scene.config;
+  if (outline.ring || outline.sides.size() < least_sides || outline.inside < config.inside_share ||
+      outline.fill < config.polygon_fill || outline.walled < config.polygon_walled)
+    return {};
+  RoomCandidate room;
+  room.kind = RoomKind::polygon;
+  room.polygon_M = polygon_of(outline);
+  room.fill = outline.fill;
+  room.cluster_M = scene.cluster.center_M;
+  chain(outline, room);
+  if (room.corners.size() < least_corners || room.planes.size() > max_room_planes ||
+      room.corners.size() > max_room_planes || !is_simple(room.polygon_M))
+    return {};
+  return room;
+}
+
+/// Rooms in the straight parts of a ring.
+std::vector<RoomCandidate> parts_of(const Scene& scene) {
+  std::vector<RoomCandidate> rooms;
+  for (const Cluster& part : straight_parts(scene))
+    if (std::optional<RoomCandidate> room = rectangle(make_scene(scene.grid, part, scene.walls, scene.config)))
+      rooms.push_back(std::move(*room));
+  return rooms;
+}
+
+std::vector<RoomCandidate> rooms_of(const Scene& scene) {
+  std::optional<RoomCandidate> room = rectangle(scene);
+  if (scene.config.polygons && (!room || room->fill < scene.config.rectangle_fill)) {
+    const std::optional<Outline> outline = outline_of(scene);
+    if (outline && outline->ring)
+      if (std::vector<RoomCandidate> parts = parts_of(scene); parts.size() > 1) return parts;
+    std::optional<RoomCandidate> any = outline ? polygon(scene, *outline) : std::nullopt;
+    if (any && (!room || any->fill > room->fill + fuller)) room = std::move(any);
+  }
+  if (!room) return {};
+  return {std::move(*room)};
 }
 
 double overlap_of(const Polygon2& a, const Polygon2& b) {
@@ -184,7 +188,8 @@ double overlap_of(const Polygon2& a, const Polygon2& b) {
 }
 
 bool better(const RoomCandidate& a, const RoomCandidate& b) {
-  if (a.kind != b.kind) return a.kind == RoomKind::four_wall;
+  const auto rank = [](RoomKind kind) { return kind == RoomKind::four_wall ? 0 : kind == RoomKind::polygon ? 1 : 2; };
+  if (a.kind != b.kind) return rank(a.kind) < rank(b.kind);
   return a.fill > b.fill;
 }
 
@@ -206,21 +211,16 @@ void drop_overlapping(std::vector<RoomCandidate>& rooms, double max_overlap) {
 std::vector<RoomCandidate> detect_rooms(const FreeGrid& grid, std::span<const Cluster> clusters,
                                         std::span<const PlaneNode> walls_M, std::span<const Vector2d> visited_M,
                                         const RoomConfig& config) {
+  std::vector<FaceLine> faces;
+  for (const PlaneNode& wall : walls_M) faces.push_back(face_line(wall));
+  const auto entered = [&](const RoomCandidate& room) {
+    return std::any_of(visited_M.begin(), visited_M.end(),
+                       [&](const Vector2d& p) { return contains(room.polygon_M, p); });
+  };
   std::vector<RoomCandidate> rooms;
-  for (const Cluster& cluster : clusters) {
-    Scene scene{grid, cluster, config, {}};
-    for (const PlaneNode& wall : walls_M) {
-      Line line = make_line(wall);
-      line.support = support_of(line, grid, cluster, config);
-      if (line.support >= config.min_support_m) scene.walls.push_back(line);
-    }
-    std::optional<RoomCandidate> room = room_of(scene);
-    if (!room) continue;
-    const bool visited =
-        !config.entered_only || std::any_of(visited_M.begin(), visited_M.end(),
-                                            [&](const Vector2d& p) { return contains(room->polygon_M, p); });
-    if (visited) rooms.push_back(std::move(*room));
-  }
+  for (const Cluster& cluster : clusters)
+    for (RoomCandidate& room : rooms_of(make_scene(grid, cluster, faces, config)))
+      if (!config.entered_only || entered(room)) rooms.push_back(std::move(room));
   drop_overlapping(rooms, config.max_overlap);
   return rooms;
 }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <span>
+#include <vector>
 
 #include "slam/io/estimate.h"
 #include "slam/rooms/clusters.h"
@@ -19,6 +21,11 @@ struct RoomConfig {
   double min_fill = 0.6;            ///< of a room's polygon that must be seen free
   double min_side_share = 0.25;     ///< of a four-wall room's side that must be seen as wall
   double min_two_wall_m = 1.5;      ///< border on each wall of a two-wall room
+  bool polygons = true;             ///< rooms of more sides than four, and corridors that bend or run in a ring
+  double rectangle_fill = 0.85;     ///< free share from which a four-wall room is not asked for a better outline
+  double polygon_fill = 0.75;       ///< of a polygon that must be seen free
+  double polygon_walled = 0.5;      ///< of its outline that must lie on walls that were seen
+  double min_part_m2 = 2.0;         ///< of a straight part of a corridor in a ring
   double max_overlap = 0.3;         ///< of the smaller of two rooms; else the worse one is dropped
   bool entered_only = true;         ///< rooms that were merely looked into are not claimed
 
@@ -34,6 +41,11 @@ struct RoomConfig {
     v("min_fill", min_fill, Field{.doc = "free share of a room's polygon", .min = 0, .max = 1});
     v("min_side_share", min_side_share, Field{.doc = "share of a side seen as wall", .min = 0, .max = 1});
     v("min_two_wall_m", min_two_wall_m, Field{.doc = "border on each wall of a two-wall room", .min = 0});
+    v("polygons", polygons, Field{.doc = "rooms of more than four sides, parts of rings"});
+    v("rectangle_fill", rectangle_fill, Field{.doc = "of a four-wall room that is one", .min = 0, .max = 1});
+    v("polygon_fill", polygon_fill, Field{.doc = "free share of a polygon", .min = 0, .max = 1});
+    v("polygon_walled", polygon_walled, Field{.doc = "of a polygon's outline", .min = 0, .max = 1});
+    v("min_part_m2", min_part_m2, Field{.doc = "of a ring's straight part", .min = 0});
     v("max_overlap", max_overlap, Field{.doc = "of two rooms", .min = 0, .max = 1});
     v("entered_only", entered_only, Field{.doc = "rooms that were merely looked into are not claimed"});
   }
@@ -42,15 +54,19 @@ struct RoomConfig {
 /// A room as one look at the map shows it.
 struct RoomCandidate {
   RoomKind kind = RoomKind::four_wall;
-  std::vector<int> planes;  ///< PlaneNode ids: (x_a, x_b, y_a, y_b) or (a, b), opposed in pairs, lower id first
-  Eigen::Vector2d center_M = Eigen::Vector2d::Zero();   ///< [S-Graphs+ eq. 4, 5]
+  std::vector<int> planes;  ///< PlaneNode ids: (x_a, x_b, y_a, y_b) or (a, b), opposed in pairs, lower id first; of a
+                            ///< polygon its walls in order
+  Eigen::Vector2d center_M = Eigen::Vector2d::Zero();   ///< [S-Graphs+ eq. 4, 5]; of a polygon the mean of `corners`
   Eigen::Vector2d cluster_M = Eigen::Vector2d::Zero();  ///< midpoint of the cluster's ends [S-Graphs+ eq. 6]
   Polygon2 polygon_M;                                   ///< counter-clockwise
   double fill = 0.0;                                    ///< free share of the polygon
+  std::vector<std::array<int, 2>> corners = {};         ///< of a polygon: walls that meet, by their places in `planes`
 };
 
 /// Rooms that have been entered [S-Graphs+ section IV-C]: per cluster the opposed pair of wall faces that carries most
 /// of its border (ties: lower ids) with the cluster between them, and the best perpendicular pair if there is one.
+/// Beyond the papers: where no rectangle fits, the closed chain of walls and openings round the cluster; a cluster that
+/// runs in a ring falls into its straight parts, the longest first.
 /// visited_M: positions of the robot, for entered_only. In the clusters' order.
 [[nodiscard]] std::vector<RoomCandidate> detect_rooms(const FreeGrid& grid, std::span<const Cluster> clusters,
                                                       std::span<const PlaneNode> walls_M,

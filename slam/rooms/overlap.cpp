@@ -43,9 +43,13 @@ bool is_convex(const Polygon2& polygon) {
 
 double overlap_area(const Polygon2& a, const Polygon2& b) {
   if (a.size() < 3 || b.size() < 3 || !boxes_meet(a, b)) return 0.0;
-  if (!is_convex(a) || !is_convex(b)) return intersection_area(a, b);
-  Polygon2 shared = a;
-  for (std::size_t k = 0; k < b.size() && shared.size() > 2; ++k) shared = left_of(shared, b[k], b[(k + 1) % b.size()]);
+  const bool b_convex = is_convex(b);
+  if (!b_convex && !is_convex(a)) return intersection_area(a, b);
+  // Clipping a polygon that is not convex may leave edges that run there and back along the clip, which add no area.
+  const Polygon2& clip = b_convex ? b : a;
+  Polygon2 shared = b_convex ? a : b;
+  for (std::size_t k = 0; k < clip.size() && shared.size() > 2; ++k)
+    shared = left_of(shared, clip[k], clip[(k + 1) % clip.size()]);
   return shared.size() > 2 ? std::abs(signed_area(shared)) : 0.0;
 }
 

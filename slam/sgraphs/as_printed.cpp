@@ -30,6 +30,7 @@ RoomLayerConfig printed_rooms() {
   rooms.clusters.cut = Cut::fixed;
   rooms.rooms.reach_m = 1.0;
   rooms.rooms.entered_only = false;
+  rooms.rooms.polygons = false;
   rooms.sigma_m = sigma(0.1);
   rooms.two_wall_sigma_m = sigma(0.01);
   return rooms;

@@ -32,12 +32,13 @@ void RoomLayer::update(Graph& graph, int storey, std::span<const PlaneNode> wall
 }
 
 RoomFactor RoomLayer::factor_of(const Graph& graph, int id, const RoomCandidate& room) const {
-  const double sigma_m = room.kind == RoomKind::four_wall ? config_.sigma_m : config_.two_wall_sigma_m;
+  const double sigma_m = room.kind == RoomKind::two_wall ? config_.two_wall_sigma_m : config_.sigma_m;
   return {.room = id,
           .planes = room.planes,
           .cluster_M = room.cluster_M,
           .height_M = graph.keyframes.back().X_MR.t.z(),
-          .information = Eigen::Matrix2d::Identity() / (sigma_m * sigma_m)};
+          .information = Eigen::Matrix2d::Identity() / (sigma_m * sigma_m),
+          .corners = room.corners};
 }
 
 // A room is known again by its kind and centre [S-Graphs+ section IV-C]; the walls of the latest look replace the

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <vector>
 
+#include "bim/errors.h"
 #include "tests/slam/graph/random_values.h"
 
 namespace plumbline::slam {
@@ -124,6 +126,75 @@ TEST(Factors, TwoWallJacobiansAreTheNumericOnes) {
                 numeric(3, [&](const auto& s) { return two_wall_residual(c, increment(a, s), b, k, z).e; }), trial);
     expect_near(r.J_plane[1],
                 numeric(3, [&](const auto& s) { return two_wall_residual(c, a, increment(b, s), k, z).e; }), trial);
+  }
+}
+
+/// Walls of an L at a random place and heading, counter-clockwise, a little off square; the corner between the fifth
+/// and the sixth is an opening's.
+struct Ell {
+  std::vector<Plane> planes;
+  std::vector<RoomCorner> corners = {{0, 1}, {1, 2}, {2, 3}, {3, 4}, {5, 0}};
+  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+};
+
+Ell make_ell(RandomValues& random, double tilt) {
+  const Eigen::Vector2d points[6] = {{0, 0}, {6, 0}, {6, 2}, {2, 2}, {2, 5}, {0, 5}};
+  const Pose X = Pose::from_xyz_yaw(random.vector(10.0), random.uniform(-3.0, 3.0));
+  Ell ell;
+  for (int k = 0; k < 6; ++k) {
+    const Eigen::Vector2d side = points[(k + 1) % 6] - points[k];
+    const Eigen::Vector3d n(-side.y(), side.x(), 0.0);
+    const Plane wall{n.normalized(), -n.normalized().head<2>().dot(points[k])};
+    ell.planes.push_back(X * increment(wall, tilt * random.vector(1.0)));
+  }
+  for (const RoomCorner& corner : ell.corners)
+    ell.mean += 0.2 * (X * Eigen::Vector3d(points[corner[1]].x(), points[corner[1]].y(), 0.0)).head<2>();
+  return ell;
+}
+
+TEST(Factors, PolygonJacobiansAreTheNumericOnes) {
+  for (int trial = 0; trial < trials; ++trial) {
+    RandomValues random(14, static_cast<std::uint64_t>(trial));
+    const Ell ell = make_ell(random, 0.02);
+    const double z = random.uniform(-1.0, 4.0);
+    const Eigen::Vector2d c = ell.mean + random.vector(0.1).head<2>();
+    const PolygonResidual r = polygon_residual(c, ell.planes, ell.corners, z);
+    expect_near(r.J_center,
+                numeric(2, [&](const auto& s) { return polygon_residual(c + s, ell.planes, ell.corners, z).e; }),
+                trial);
+    for (std::size_t i = 0; i < ell.planes.size(); ++i)
+      expect_near(r.J_plane[i],
+                  numeric(3,
+                          [&](const auto& s) {
+                            std::vector<Plane> planes = ell.planes;
+                            planes[i] = increment(planes[i], s);
+                            return polygon_residual(c, planes, ell.corners, z).e;
+                          }),
+                  trial);
+  }
+}
+
+TEST(Factors, PolygonCentreIsTheMeanOfItsCorners) {
+  for (int trial = 0; trial < trials; ++trial) {
+    RandomValues random(15, static_cast<std::uint64_t>(trial));
+    const Ell ell = make_ell(random, 0.0);
+    EXPECT_LT(polygon_residual(ell.mean, ell.planes, ell.corners, random.gauss()).e.norm(), 1e-11);
+  }
+  RandomValues random(15, 0);
+  const Ell ell = make_ell(random, 0.0);
+  const std::vector<RoomCorner> parallel = {{0, 4}};
+  EXPECT_THROW((void)polygon_residual(ell.mean, ell.planes, parallel, 0.0), InternalError);
+  EXPECT_THROW((void)polygon_residual(ell.mean, ell.planes, {}, 0.0), InternalError);
+}
+
+TEST(Factors, FloorJacobiansAreTheNumericOnes) {
+  for (int trial = 0; trial < trials; ++trial) {
+    RandomValues random(16, static_cast<std::uint64_t>(trial));
+    const Eigen::Vector2d floor = random.vector(10.0).head<2>(), room = random.vector(10.0).head<2>();
+    const Eigen::Vector2d offset = random.vector(5.0).head<2>();
+    const Eigen::Matrix2d I = Eigen::Matrix2d::Identity();
+    expect_near(I, numeric(2, [&](const auto& s) { return floor_residual(floor + s, room, offset); }), trial);
+    expect_near(-I, numeric(2, [&](const auto& s) { return floor_residual(floor, room + s, offset); }), trial);
   }
 }
 

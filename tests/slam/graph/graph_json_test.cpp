@@ -27,7 +27,7 @@ Graph random_graph(std::uint64_t tick) {
     graph.keyframes.push_back({k * 123'456'789LL, random.pose(1e3, 1.0), random.pose(1e-9, 1.0), k % 2});
     graph.planes.push_back(
         {random.wall(random.uniform(-3, 3), 1e4 * random.gauss()), static_cast<PlaneKind>(k), k, -1});
-    graph.rooms.push_back({static_cast<RoomKind>(k % 2), random.vector(9.0).head<2>(), k, k != 1});
+    graph.rooms.push_back({static_cast<RoomKind>(k), random.vector(9.0).head<2>(), k, k != 1});
     graph.floors.push_back({random.vector(9.0).head<2>(), k, k - 1});
   }
   graph.planes.push_back({random.wall(0.1, 0.0), PlaneKind::wall, 0, 1});
@@ -36,6 +36,8 @@ Graph random_graph(std::uint64_t tick) {
   graph.plane_factors.push_back({2, 3, random.wall(1.0, 2.0), random_information<3>(random)});
   graph.room_factors.push_back({0, {0, 1, 2, 3}, {0.1, 0.2}, 0.3, random_information<2>(random)});
   graph.room_factors.push_back({1, {1, 3}, {0.1, 0.2}, 0.3, random_information<2>(random)});
+  graph.room_factors.push_back(
+      {2, {3, 1, 0}, {0.1, 0.2}, 0.3, random_information<2>(random), {{0, 1}, {1, 2}, {2, 0}}});
   graph.floor_factors.push_back({0, 2, {1.0 / 3.0, -0.1}, random_information<2>(random)});
   graph.duplicate_factors.push_back({0, 3, random.vector(5.0), 0.011, 1e-3});
   return graph;
@@ -52,6 +54,8 @@ TEST(GraphJson, ReadsBackToTheLastBit) {
     EXPECT_EQ(again.pose_factors[1].information, graph.pose_factors[1].information);
     EXPECT_EQ(again.keyframes[2].X_OR.t, graph.keyframes[2].X_OR.t);
     EXPECT_EQ(again.room_factors[0].planes, graph.room_factors[0].planes);
+    EXPECT_EQ(again.room_factors[2].corners, graph.room_factors[2].corners);
+    EXPECT_EQ(again.rooms[2].kind, RoomKind::polygon);
     EXPECT_EQ(again.rooms[1].found, graph.rooms[1].found);
     EXPECT_EQ(again.planes[3].merged_into, 1);
   }

@@ -43,9 +43,12 @@ Graph house(std::uint64_t seed) {
   graph.plane_factors.push_back({11, 7, X_WR_before.inverse() * planes[3], Eigen::Matrix3d::Identity() * 1e4});
   graph.plane_factors.back().plane_R = graph.keyframes[11].X_MR.inverse() * graph.planes[7].plane_M;
   graph.duplicate_factors.push_back({3, 7, {3.0, 4.0, 0.5}});
-  graph.rooms = {{RoomKind::four_wall, {2.9, 2.1}, 0}, {RoomKind::two_wall, {3.1, 5.3}, 0}};
+  graph.rooms = {
+      {RoomKind::four_wall, {2.9, 2.1}, 0}, {RoomKind::two_wall, {3.1, 5.3}, 0}, {RoomKind::polygon, {3.0, 3.0}, 0}};
   const Eigen::Matrix2d weight = Eigen::Matrix2d::Identity() * 400.0;
-  graph.room_factors = {{0, {0, 1, 2, 3}, {3.0, 2.0}, 0.1, weight}, {1, {4, 5}, {3.2, 5.1}, 0.1, weight}};
+  graph.room_factors = {{0, {0, 1, 2, 3}, {3.0, 2.0}, 0.1, weight},
+                        {1, {4, 5}, {3.2, 5.1}, 0.1, weight},
+                        {2, {0, 2, 1, 5}, {3.0, 3.0}, 0.1, weight, {{0, 1}, {1, 2}, {3, 2}}}};
   graph.floors = {{{3.0, 3.1}, 0, 6}};
   graph.floor_factors = {{0, 0, {0.1, 1.0}, Eigen::Matrix2d::Identity()},
                          {0, 1, {0.0, -2.0}, Eigen::Matrix2d::Identity()}};

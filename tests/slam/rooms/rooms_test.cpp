@@ -226,6 +226,93 @@ TEST(Rooms, FindsEveryRoomOfAHouseAndNoOtherAtAnyHeading) {
   }
 }
 
+/// Free space inside `outline`, which is turned by X_MW, less what `solid` holds, and the wall faces along both, seen
+/// but for their last 0.2 m; `open` sides have none.
+struct Shape {
+  FreeGrid grid;
+  std::vector<PlaneNode> walls;
+};
+
+Shape shape(const Polygon2& outline, const Polygon2& solid, const Pose& X_MW, const std::vector<std::size_t>& open) {
+  const Polygon2 outer = moved(outline, X_MW), core = moved(solid, X_MW);
+  Shape s;
+  s.grid =
+      make_grid(300, 300, [&](const auto& p) { return contains(outer, p) && (core.empty() || !contains(core, p)); });
+  synthetic::House house;
+  house.rooms = {outline};
+  if (!solid.empty()) house.rooms.push_back(solid);
+  s.walls = wall_faces(house, X_MW);
+  for (PlaneNode& wall : s.walls) {
+    const Eigen::Vector2d t = 0.2 * (wall.p1 - wall.p0).normalized();
+    wall.p0 += t;
+    wall.p1 -= t;
+  }
+  for (const std::size_t side : open) s.walls[side].p1 = s.walls[side].p0;
+  return s;
+}
+
+const double headings[] = {0.0, 0.3, 1.2};
+
+std::vector<RoomCandidate> rooms_in(const Shape& s) {
+  std::vector<Eigen::Vector2d> everywhere;
+  for (std::size_t k = 0; k < s.grid.free.size(); k += 7)
+    if (s.grid.free[k] != 0) everywhere.push_back(s.grid.frame.center(k));
+  return detect_rooms(s.grid, clusters(s.grid, {}), s.walls, everywhere, {});
+}
+
+TEST(Rooms, OfAnyShapeAreTheirChainOfWalls) {
+  const std::vector<Polygon2> shapes = {
+      {{0, 0}, {8, 0}, {8, 3}, {3, 3}, {3, 7}, {0, 7}},                                // L
+      {{0, 0}, {12, 0}, {12, 2.2}, {8, 2.2}, {8, 7}, {5.8, 7}, {5.8, 2.2}, {0, 2.2}},  // T
+      {{0, 0}, {9, 0}, {9, 6}, {6.5, 6}, {6.5, 2.5}, {2.5, 2.5}, {2.5, 6}, {0, 6}},    // U
+      {{0, 0}, {4, 0}, {8, 4}, {8, 6}, {0, 6}}};                                       // a corner cut off
+  for (const Polygon2& outline : shapes)
+    for (const double yaw : headings) {
+      const Pose X_MW = Pose::from_xyz_yaw({13.0, 9.0, 0.0}, yaw);
+      const std::vector<RoomCandidate> rooms = rooms_in(shape(outline, {}, X_MW, {}));
+      ASSERT_EQ(rooms.size(), 1U) << outline.size() << " sides, yaw " << yaw;
+      EXPECT_EQ(rooms[0].kind, RoomKind::polygon);
+      EXPECT_EQ(rooms[0].planes.size(), outline.size());
+      EXPECT_EQ(rooms[0].corners.size(), outline.size());
+      EXPECT_GT(signed_area(rooms[0].polygon_M), 0.0);
+      EXPECT_GT(iou(rooms[0].polygon_M, moved(outline, X_MW)), 1.0 - 1e-6);  // the walls are exact
+      Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+      for (const Eigen::Vector2d& p : moved(outline, X_MW)) mean += p / static_cast<double>(outline.size());
+      EXPECT_LT((rooms[0].center_M - mean).norm(), 1e-6);
+    }
+}
+
+TEST(Rooms, OfAnyShapeMayHaveOpenSides) {
+  const Polygon2 tee = {{0, 0}, {12, 0}, {12, 2.2}, {8, 2.2}, {8, 7}, {5.8, 7}, {5.8, 2.2}, {0, 2.2}};
+  for (const double yaw : headings) {
+    const Pose X_MW = Pose::from_xyz_yaw({13.0, 9.0, 0.0}, yaw);
+    const std::vector<RoomCandidate> rooms = rooms_in(shape(tee, {}, X_MW, {1, 7}));
+    ASSERT_EQ(rooms.size(), 1U) << "yaw " << yaw;
+    EXPECT_EQ(rooms[0].kind, RoomKind::polygon);
+    EXPECT_EQ(rooms[0].planes.size(), 6U);
+    EXPECT_EQ(rooms[0].corners.size(), 4U);
+    EXPECT_GT(iou(rooms[0].polygon_M, moved(tee, X_MW)), 0.95);  // a cell at each open end of 12 m
+  }
+}
+
+TEST(Rooms, ARingIsItsStraightParts) {
+  const Polygon2 outer = {{0, 0}, {14, 0}, {14, 9}, {0, 9}}, core = {{2.2, 2}, {2.2, 7}, {11.8, 7}, {11.8, 2}};
+  const std::vector<Polygon2> parts = {{{0, 0}, {14, 0}, {14, 2}, {0, 2}},
+                                       {{0, 7}, {14, 7}, {14, 9}, {0, 9}},
+                                       {{0, 2}, {2.2, 2}, {2.2, 7}, {0, 7}},
+                                       {{11.8, 2}, {14, 2}, {14, 7}, {11.8, 7}}};
+  for (const double yaw : headings) {
+    const Pose X_MW = Pose::from_xyz_yaw({13.0, 9.0, 0.0}, yaw);
+    const std::vector<RoomCandidate> rooms = rooms_in(shape(outer, core, X_MW, {}));
+    EXPECT_EQ(rooms.size(), parts.size()) << "yaw " << yaw;
+    for (const Polygon2& part : parts) {
+      double best = 0.0;
+      for (const RoomCandidate& room : rooms) best = std::max(best, iou(room.polygon_M, moved(part, X_MW)));
+      EXPECT_GT(best, 0.9) << "yaw " << yaw;  // a stretch ends where cells do, within one of 0.1 m at each end of 5 m
+    }
+  }
+}
+
 TEST(Rooms, AreNotClaimedBeforeTheyAreEntered) {
   const synthetic::House house = synthetic::corridor_house();
   const Seen seen = carve(look(house, 2, 12.0), Pose{});
