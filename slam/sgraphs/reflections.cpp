@@ -35,10 +35,31 @@ struct Through {
   Crossing crossing;
 };
 
-std::vector<Face> faces_of(std::span<const PlaneNode> walls) {
+/// Walls stand upright: what was seen of one may be too low to tell, and a mirror image is far behind it.
+Plane upright(const PlaneNode& wall) {
+  const Eigen::Vector3d n = Eigen::Vector3d(wall.plane_F.n.x(), wall.plane_F.n.y(), 0.0).normalized();
+  const Eigen::Vector2d middle = 0.5 * (wall.p0 + wall.p1);
+  return {n, -n.head<2>().dot(middle)};
+}
+
+/// True when `other` is the better known face of the wall that `wall` is a part of: a pane or a leaf set back in it, or
+/// the same face found twice.
+bool is_part_of(const PlaneNode& wall, const PlaneNode& other, const ReflectionConfig& config) {
+  constexpr double parallel = 0.99;  // cosine: 8 degrees, as a pane of few points may be off
+  if (std::tie(other.observations, wall.id) <= std::tie(wall.observations, other.id)) return false;
+  const Eigen::Vector2d along = (other.p1 - other.p0).normalized();
+  const Eigen::Vector2d middle = 0.5 * (wall.p0 + wall.p1);
+  const double s = along.dot(middle);
+  return wall.plane_F.n.dot(other.plane_F.n) > parallel && s > along.dot(other.p0) && s < along.dot(other.p1) &&
+         std::abs(upright(other).distance({middle.x(), middle.y(), 0.0})) < config.pane_depth_m;
+}
+
+std::vector<Face> faces_of(std::span<const PlaneNode> walls, const ReflectionConfig& config) {
   std::vector<Face> faces;
   for (const PlaneNode& wall : walls) {
-    Face face{wall.plane_F, (wall.p1 - wall.p0).normalized(), 0.0, 0.0, wall.z0, wall.z1};
+    const auto holds = [&](const PlaneNode& other) { return is_part_of(wall, other, config); };
+    if (std::any_of(walls.begin(), walls.end(), holds)) continue;
+    Face face{upright(wall), (wall.p1 - wall.p0).normalized(), 0.0, 0.0, wall.z0, wall.z1};
     face.s0 = face.along.dot(wall.p0);
     face.s1 = face.along.dot(wall.p1);
     faces.push_back(face);
@@ -50,7 +71,7 @@ class Judge {
  public:
   Judge(std::vector<CloudKeyframe>& clouds, std::span<const PlaneNode> walls, std::span<const Plane> levels,
         const ReflectionConfig& config)
-      : clouds_(clouds), faces_(faces_of(walls)), levels_(levels), config_(config) {}
+      : clouds_(clouds), faces_(faces_of(walls, config)), levels_(levels), config_(config) {}
 
   std::size_t run(const Eigen::Vector3d& sensor_R) {
     for (std::size_t c = 0; c < clouds_.size(); ++c) sort_points(c, sensor_R);

@@ -63,6 +63,16 @@ TEST_F(Reflections, OfTheRoomBehindAPaneGo) {
   EXPECT_EQ(remove(off), 0U);
 }
 
+// The pane itself gives back a little, from which comes a small plane that leans.
+TEST_F(Reflections, GoThoughThePaneIsAPlaneOfItsOwn) {
+  look_through(2.4, 3.6, 0.9, 1.25, 8.3);
+  add_wall({0, -1}, {2.4, 4.15}, {3.6, 4.15});
+  walls_.back().observations = 3;
+  walls_.back().plane_F.n = Eigen::Vector3d(0.0, -1.0, 0.05).normalized();
+  walls_.back().plane_F.d = -walls_.back().plane_F.n.dot(Eigen::Vector3d(3.0, 4.15, 1.0));
+  EXPECT_EQ(remove(), through_);
+}
+
 TEST_F(Reflections, AreNotWhatAPaneLetsThrough) {
   look_through(2.4, 3.6, 0.9, 1.25, 11.0);
   EXPECT_EQ(remove(), 0U);
