@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bim/config/tree.h"
 #include "scenarios/report/map.h"
 #include "scenarios/report/page.h"
 #include "scenarios/report/plot.h"
@@ -121,7 +122,7 @@ std::string gates_table(const ReportInput& input) {
     const auto value = number_of(&gate, "value");
     out += "<tr><td>" + svg::escape(text_of(gate, "metric")) + "</td><td>" + svg::escape(text_of(gate, "method")) +
            "</td><td class=\"num\">" + (value ? svg::number(*value, 4) : "absent") + "</td><td class=\"num\">" +
-           svg::escape(text_of(gate, "op")) + " " + svg::number(number_of(&gate, "limit").value_or(0.0), 4) +
+           svg::escape(text_of(gate, "op")) + " " + format_number(number_of(&gate, "limit").value_or(0.0)) +
            "</td><td class=\"verdict " + (passed ? "good\">passed" : "bad\">failed") + "</td></tr>";
   }
   return out + "</table></div></section>";

@@ -48,6 +48,15 @@ TEST(Report, IsSelfContainedAndSaysWhatFailed) {
   EXPECT_NE(page.find("a &lt;b&gt; &amp; &quot;c&quot;"), std::string::npos);
 }
 
+TEST(Report, ShowsAGatesLimitHoweverSmall) {
+  ReportInput input = sample();
+  Tree gate = Tree::map();
+  gate.set("metric", "ate_aligned_rmse_m").set("method", "truth").set("op", "<=").set("limit", 1e-9).set("value", 0.0);
+  gate.set("passed", true);
+  input.results.set("gates", Tree(Tree::List{gate}));
+  EXPECT_NE(render_report(input).find("&lt;= 1e-09"), std::string::npos);
+}
+
 TEST(Report, LeavesDoorsOpenInWalls) {
   // One door splits the face into two strokes.
   const std::string page = render_report(sample());
