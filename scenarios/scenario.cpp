@@ -101,6 +101,7 @@ sim::LidarConfig lidar_config(const LidarSpec& spec) {
   config.range_noise = spec.range_noise.value_or(config.range_noise);
   config.unit_bias = spec.unit_bias.value_or(config.unit_bias);
   config.laser_bias = spec.laser_bias.value_or(config.laser_bias);
+  config.reflectivity_noise = spec.reflectivity_noise.value_or(config.reflectivity_noise);
   config.dropout = spec.dropout.value_or(config.dropout);
   config.optics = spec.optics.value_or(config.optics);
   config.footprint = spec.footprint.value_or(config.footprint);

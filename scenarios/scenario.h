@@ -95,6 +95,7 @@ struct LidarSpec {
   std::optional<bool> range_noise;
   std::optional<bool> unit_bias;
   std::optional<bool> laser_bias;
+  std::optional<bool> reflectivity_noise;
   std::optional<bool> dropout;
   std::optional<bool> optics;
   std::optional<sim::Footprint> footprint;
@@ -108,6 +109,8 @@ struct LidarSpec {
     v("range_noise", range_noise, Field{.doc = "noise of each range; the preset's when not given"});
     v("unit_bias", unit_bias, Field{.doc = "one range bias of the unit; the preset's when not given"});
     v("laser_bias", laser_bias, Field{.doc = "one range bias a laser; the preset's when not given"});
+    v("reflectivity_noise", reflectivity_noise,
+      Field{.doc = "noise of each reflectivity; the preset's when not given"});
     v("dropout", dropout, Field{.doc = "lost returns; the preset's when not given"});
     v("optics", optics, Field{.doc = "glass and mirrors; off: glass is not there; the preset's when not given"});
     v("footprint", footprint, Field{.doc = "where a beam has a width; the preset's when not given"});

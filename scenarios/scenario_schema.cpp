@@ -74,6 +74,7 @@ lidar:
   range_noise: true
   unit_bias: false
   laser_bias: false
+  reflectivity_noise: true
   dropout: true
   optics: true
   footprint: edges

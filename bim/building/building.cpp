@@ -90,7 +90,11 @@ void add(Digest& digest, const Obstacle& obstacle) {
 }
 
 void add(Digest& digest, const Material& material) {
-  digest.add(material.id).add(material.reflectivity).add(material.transmission).add(material.specular);
+  digest.add(material.id)
+      .add(material.reflectivity)
+      .add(material.transmission)
+      .add(material.specular)
+      .add(material.retro);
 }
 
 template <class Element>

@@ -173,6 +173,7 @@ struct Material {
   double reflectivity = 0.5;  ///< share of light given back diffusely, 0 to 1
   double transmission = 0.0;  ///< share that goes through, 0 to 1
   double specular = 0.0;      ///< share mirrored, 0 to 1
+  double retro = 0.0;         ///< share sent back where it came from, as signs and tapes do, 0 to 1
 };
 
 /// The normalised building: SI units, frame W, canonical order. One type serves as planned and as built.

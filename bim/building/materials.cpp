@@ -9,7 +9,7 @@ const std::vector<Material>& preset_materials() {
   // Round figures of ours for near infrared light (905 nm): reflectivity is the diffuse share only.
   static const std::vector<Material> presets = {
       {"black", 0.05, 0.0, 0.0},  {"concrete", 0.4, 0.0, 0.0}, {"glass", 0.001, 0.85, 0.08}, {"metal", 0.3, 0.0, 0.4},
-      {"mirror", 0.03, 0.0, 0.9}, {"plaster", 0.7, 0.0, 0.0},  {"wood", 0.5, 0.0, 0.0},
+      {"mirror", 0.03, 0.0, 0.9}, {"plaster", 0.7, 0.0, 0.0},  {"sign", 0.3, 0.0, 0.0, 0.3}, {"wood", 0.5, 0.0, 0.0},
   };
   return presets;
 }

@@ -184,6 +184,7 @@ struct PlanMaterialEntry : Material {
     v("reflectivity", reflectivity, plan_share);
     v("transmission", transmission, plan_share);
     v("specular", specular, plan_share);
+    v("retro", retro, plan_share);
   }
 };
 

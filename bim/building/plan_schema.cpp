@@ -48,7 +48,7 @@ stairs:
 clutter:
   - {id: desk, storey: ground, shape: box, at: [10.5, 1.5], size: [1.6, 0.8], yaw_deg: 90, height_m: 0.75, material: wood}
 materials:
-  - {id: brick, reflectivity: 0.35, transmission: 0, specular: 0}
+  - {id: brick, reflectivity: 0.35, transmission: 0, specular: 0, retro: 0}
 deviations:
   - {op: move_wall, wall: partition, by: [0.2, 0]}
   - {op: remove_wall, wall: upper/partition}
@@ -87,10 +87,12 @@ page is what `plumbline inspect --schema` prints: it is made from the reader its
 
 std::string preset_table() {
   std::string table =
-      "## Materials that need no entry\n\n| id | reflectivity | transmission | specular |\n|---|---|---|---|\n";
+      "## Materials that need no entry\n\n| id | reflectivity | transmission | specular | retro "
+      "|\n|---|---|---|---|---|\n";
   for (const Material& material : preset_materials())
     table += "| `" + material.id + "` | " + format_number(material.reflectivity) + " | " +
-             format_number(material.transmission) + " | " + format_number(material.specular) + " |\n";
+             format_number(material.transmission) + " | " + format_number(material.specular) + " | " +
+             format_number(material.retro) + " |\n";
   return table + "\nRound figures of ours for the light of a LiDAR (905 nm). An entry of the same id goes before.\n";
 }
 

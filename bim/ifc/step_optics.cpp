@@ -37,7 +37,8 @@ bool take(const IfcPropertySingleValue& property, Material& material) {
   if (name == "Reflectivity") material.reflectivity = *share;
   if (name == "Transmission") material.transmission = *share;
   if (name == "Specular") material.specular = *share;
-  return name == "Reflectivity" || name == "Transmission" || name == "Specular";
+  if (name == "Retro") material.retro = *share;
+  return name == "Reflectivity" || name == "Transmission" || name == "Specular" || name == "Retro";
 }
 
 }  // namespace

@@ -150,7 +150,8 @@ void IfcDocument::add_material(const Material* optics, const std::string& name) 
   std::vector<int> values;
   for (const auto& [key, value] : {std::pair{"Reflectivity", optics->reflectivity},
                                    {"Transmission", optics->transmission},
-                                   {"Specular", optics->specular}})
+                                   {"Specular", optics->specular},
+                                   {"Retro", optics->retro}})
     values.push_back(
         step_.add("IFCPROPERTYSINGLEVALUE",
                   {step_string(key), none, step::typed("IFCNORMALISEDRATIOMEASURE", step_real(value)), none}));

@@ -9,7 +9,7 @@ LidarConfig lidar_config(LidarPreset preset) {
   if (preset == LidarPreset::real || preset == LidarPreset::full) return config;
   config.range_noise = preset == LidarPreset::datasheet;
   if (config.range_noise) config.sigma.fill({0.0, 0.03});  // the data sheet's accuracy
-  config.unit_bias = config.laser_bias = config.dropout = config.optics = false;
+  config.unit_bias = config.laser_bias = config.reflectivity_noise = config.dropout = config.optics = false;
   config.footprint = Footprint::none;
   return config;
 }

@@ -9,10 +9,10 @@ namespace plumbline::sim {
 namespace {
 
 /// As the manual calibrates it: 0-100 for diffuse surfaces, above for retro-reflectors, whatever the range.
-std::uint8_t reflectivity_byte(double strength, double cosine) {
+double calibrated_reflectivity(double strength, double cosine) {
   const double diffuse = std::min(100.0, 100.0 * strength * cosine);
   const double retro = strength <= 1.0 ? 0.0 : std::min(155.0, 100.0 * std::log10(strength));
-  return static_cast<std::uint8_t>(std::lround(diffuse + retro));
+  return diffuse + retro;
 }
 
 }  // namespace
@@ -21,7 +21,8 @@ Detector::Detector(const LidarConfig& config, std::uint64_t seed)
     : config_(config),
       model_(slam::lidar_model(config.model)),
       dropout_(seed, "sim.lidar.dropout"),
-      range_(seed, "sim.lidar.range") {
+      range_(seed, "sim.lidar.range"),
+      reflectivity_(seed, "sim.lidar.reflectivity") {
   const Stream bias(seed, "sim.lidar.bias");
   for (std::size_t k = 0; k < model_.lasers.size(); ++k)
     bias_m_.push_back(
@@ -38,7 +39,12 @@ slam::ReturnWord Detector::measure(std::int64_t firing, std::size_t laser, std::
   const double noise = config_.range_noise ? range_sigma(config_, range_m) * range_.gauss(tick, lane, rank) : 0.0;
   const double range = range_m + bias_m_[laser] + noise;
   if (range < model_.range_min_m || range > model_.range_max_m) return {};
-  return {static_cast<std::uint32_t>(std::lround(range / model_.range_unit_m)), reflectivity_byte(strength, cosine)};
+  double reflectivity = calibrated_reflectivity(strength, cosine);
+  if (config_.reflectivity_noise)
+    reflectivity += (config_.reflectivity_sigma + config_.reflectivity_sigma_share * reflectivity) *
+                    reflectivity_.gauss(tick, lane, rank);
+  return {static_cast<std::uint32_t>(std::lround(range / model_.range_unit_m)),
+          static_cast<std::uint8_t>(std::lround(std::clamp(reflectivity, 0.0, 255.0)))};
 }
 
 }  // namespace plumbline::sim

@@ -27,6 +27,7 @@ class Detector {
   const slam::LidarModel& model_;
   Stream dropout_;
   Stream range_;
+  Stream reflectivity_;
   std::vector<double> bias_m_;  ///< by laser
 };
 

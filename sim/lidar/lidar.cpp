@@ -12,6 +12,7 @@
 #include "bim/random/stream.h"
 #include "sim/lidar/detector.h"
 #include "sim/lidar/echo.h"
+#include "sim/lidar/footprint.h"
 #include "sim/lidar/light.h"
 
 namespace plumbline::sim {
@@ -25,7 +26,6 @@ constexpr std::size_t tile_columns = 8;              // one packet of rays: eigh
 constexpr std::int64_t full_turn = 360'000'000'000;  // 1e-9 degrees
 constexpr double units_to_rad = std::numbers::pi / 180.0 * 1e-9;
 constexpr std::int64_t units_per_cdeg = 10'000'000;
-constexpr std::size_t grid = 4;          // sub-rays across a footprint, and along it
 constexpr double room_step_m = 0.05;     // a return is in the room where its light came from
 constexpr std::size_t batch_beams = 64;  // beams whose light is followed together
 
@@ -42,26 +42,6 @@ struct HardBeam {
   bool bundle = false;  ///< cast as sub-rays
 };
 
-/// A sub-ray of a footprint: offsets along the horizontal and vertical tangent, and what makes the direction unit.
-struct SubRay {
-  double across = 0.0;
-  double up = 0.0;
-  double unit = 1.0;
-};
-
-std::array<SubRay, grid * grid> footprint_of(const LidarConfig& config) {
-  std::array<SubRay, grid * grid> out;
-  const auto offset = [](std::size_t i, double full) {
-    return full * ((static_cast<double>(i) + 0.5) / static_cast<double>(grid) - 0.5);
-  };
-  for (std::size_t i = 0; i < out.size(); ++i) {
-    const double across = offset(i % grid, config.divergence_horizontal_rad);
-    const double up = offset(i / grid, config.divergence_vertical_rad);
-    out[i] = {across, up, 1.0 / std::sqrt(1.0 + across * across + up * up)};
-  }
-  return out;
-}
-
 }  // namespace
 
 struct Lidar::Impl {
@@ -75,7 +55,7 @@ struct Lidar::Impl {
   std::int64_t phase;            ///< azimuth of firing 0, 1e-9 degrees
   std::vector<Turn> laser_turns;
   std::vector<std::size_t> rank_of_laser;  ///< place in a tile: neighbouring rings stand next to each other
-  std::array<SubRay, grid * grid> footprint;
+  SubRays footprint;
 
   // Memory of one sweep, used again.
   std::int64_t first_firing = 0;
@@ -83,6 +63,10 @@ struct Lidar::Impl {
   std::vector<Turn> heads;  ///< azimuths of the firings, from column -1 on
   std::vector<bim::Ray> rays;
   std::vector<bim::Hit> hits;
+  std::vector<std::uint8_t> bundle;  ///< by beam, as words: cast as sub-rays
+  std::vector<HardBeam> probed;      ///< beams that may meet an edge along their ring
+  std::vector<bim::Ray> probe_rays;  ///< the upper and the lower end of their footprints
+  std::vector<bim::Hit> probe_hits;
   std::vector<HardBeam> hard;
   std::vector<Leg> legs;
   std::vector<bim::Ray> leg_rays;
@@ -117,8 +101,12 @@ struct Lidar::Impl {
   void start(std::int64_t first, std::span<const Pose> poses, Sweep& sweep);
   void cast_centres();
   void aim(std::int64_t column);
+  [[nodiscard]] Tangents tangents(std::size_t column, std::size_t laser) const;
+  [[nodiscard]] bool differ(std::size_t a, std::size_t b) const;
   [[nodiscard]] bool at_edge(std::int64_t column, std::size_t laser) const;
-  [[nodiscard]] bool differ(const bim::Hit& a, const bim::Hit& b) const;
+  [[nodiscard]] bool near_edge(std::size_t ray, std::size_t laser) const;
+  void find_bundles();
+  void probe_heights(std::span<const HardBeam> beams);
   void fire_plain(Sweep& sweep);
   void fire_hard(std::span<const HardBeam> beams, Sweep& sweep);
   void group_by_beam();
@@ -186,6 +174,14 @@ void Lidar::Impl::aim(std::int64_t column) {
   }
 }
 
+Tangents Lidar::Impl::tangents(std::size_t column, std::size_t laser) const {
+  const Turn turn = turn_of(static_cast<std::int64_t>(column), laser);
+  const slam::Laser& tilt = model.lasers[laser];
+  const Eigen::Matrix3d R_WL = X_WL[column].rotation();
+  return {R_WL * Eigen::Vector3d(-turn.s, -turn.c, 0.0),
+          R_WL * Eigen::Vector3d(-tilt.sine * turn.c, tilt.sine * turn.s, tilt.cosine)};
+}
+
 void Lidar::Impl::cast_centres() {
   const std::size_t tiles = (X_WL.size() + 2 + tile_columns - 1) / tile_columns;
   heads.resize(tiles * tile_columns);
@@ -195,17 +191,68 @@ void Lidar::Impl::cast_centres() {
   scene.cast(rays, model.range_max_m, hits);
 }
 
-/// True when two neighbouring beams do not meet one flat face without a jump.
-bool Lidar::Impl::differ(const bim::Hit& a, const bim::Hit& b) const {
-  constexpr double same_face = 0.999;  // cosine: 2.6 degrees
-  if (a.element != b.element) return true;
-  return a.element >= 0 &&
-         (a.normal_W.dot(b.normal_W) < same_face || std::abs(a.range_m - b.range_m) > config.edge_jump_m);
+/// True when two neighbouring beams of a ring do not meet one flat face without a jump.
+bool Lidar::Impl::differ(std::size_t a, std::size_t b) const {
+  return breaks(rays[a], hits[a], rays[b], hits[b], config.edge_jump_m) ||
+         (hits[a].element >= 0 && std::abs(hits[a].range_m - hits[b].range_m) > config.edge_jump_m);
 }
 
 bool Lidar::Impl::at_edge(std::int64_t column, std::size_t laser) const {
-  const bim::Hit& hit = hits[ray_index(column, laser)];
-  return differ(hit, hits[ray_index(column - 1, laser)]) || differ(hit, hits[ray_index(column + 1, laser)]);
+  const std::size_t i = ray_index(column, laser);
+  return differ(i, ray_index(column - 1, laser)) || differ(i, ray_index(column + 1, laser));
+}
+
+/// True when the ring above or below meets another face. Rings are far apart, so an edge between them seldom is in the
+/// beam itself; and their ranges on one face differ.
+bool Lidar::Impl::near_edge(std::size_t ray, std::size_t laser) const {
+  const std::size_t rank = rank_of_laser[laser];
+  const auto other = [&](std::size_t neighbour) {
+    return breaks(rays[ray], hits[ray], rays[neighbour], hits[neighbour], config.edge_jump_m);
+  };
+  return (rank > 0 && other(ray - tile_columns)) || (rank + 1 < model.lasers.size() && other(ray + tile_columns));
+}
+
+/// Casts the ends of a footprint where an edge may run along a ring.
+void Lidar::Impl::probe_heights(std::span<const HardBeam> beams) {
+  const double end = 0.5 * config.divergence_vertical_rad;
+  const double unit = 1.0 / std::sqrt(1.0 + end * end);
+  probe_rays.clear();
+  for (const HardBeam& beam : beams) {
+    const bim::Ray& centre = rays[ray_index(beam.column, beam.laser)];
+    const Tangents tangents = this->tangents(beam.column, beam.laser);
+    for (const double up : {-end, end}) probe_rays.push_back(sub_ray(centre, tangents, {0.0, up, unit}));
+  }
+  probe_hits.resize(probe_rays.size());
+  scene.cast(probe_rays, model.range_max_m, probe_hits);
+  for (std::size_t n = 0; n < beams.size(); ++n) {
+    const HardBeam& beam = beams[n];
+    const std::size_t centre = ray_index(beam.column, beam.laser);
+    const auto meets_other = [&](std::size_t probe) {
+      return breaks(rays[centre], hits[centre], probe_rays[probe], probe_hits[probe], config.edge_jump_m);
+    };
+    if (meets_other(2 * n) || meets_other(2 * n + 1)) bundle[beam.column * model.lasers.size() + beam.laser] = 1;
+  }
+}
+
+/// Finds the beams that are cast as sub-rays.
+void Lidar::Impl::find_bundles() {
+  const std::size_t lasers = model.lasers.size();
+  bundle.assign(X_WL.size() * lasers, config.footprint == Footprint::everywhere ? 1 : 0);
+  if (config.footprint != Footprint::edges) return;
+  probed.clear();
+  probed.reserve(bundle.size());
+  for (std::size_t column = 0; column < X_WL.size(); ++column) {
+    const auto c = static_cast<std::int64_t>(column);
+    for (std::size_t k = 0; k < lasers; ++k) {
+      if (at_edge(c, k))
+        bundle[column * lasers + k] = 1;
+      else if (near_edge(ray_index(c, k), k))
+        probed.push_back({static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(k), true});
+    }
+  }
+  const std::span<const HardBeam> all = probed;
+  for (std::size_t i = 0; i < all.size(); i += batch_beams)
+    probe_heights(all.subspan(i, std::min(batch_beams, all.size() - i)));
 }
 
 /// Beams of one surface that only reflects; all others are noted for later.
@@ -217,12 +264,11 @@ void Lidar::Impl::fire_plain(Sweep& sweep) {
     for (std::size_t k = 0; k < lasers; ++k) {
       const std::size_t i = ray_index(c, k);
       const bim::Hit& hit = hits[i];
-      const bool bundle =
-          config.footprint == Footprint::everywhere || (config.footprint == Footprint::edges && at_edge(c, k));
-      if (!bundle && hit.element < 0) continue;
+      const bool wide = bundle[column * lasers + k] != 0;
+      if (!wide && hit.element < 0) continue;
       const Surface surface = hit.element < 0 ? Surface{} : light.surface(hit.element);
-      if (bundle || (config.optics && !surface.plain())) {
-        hard.push_back({static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(k), bundle});
+      if (wide || (config.optics && !surface.plain())) {
+        hard.push_back({static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(k), wide});
         continue;
       }
       const double cosine = std::abs(hit.normal_W.dot(rays[i].direction_W));
@@ -251,13 +297,9 @@ void Lidar::Impl::add_legs(const HardBeam& beam, std::uint32_t number) {
     return;
   }
   leg.gain = 1.0 / static_cast<double>(footprint.size());
-  const Turn turn = turn_of(beam.column, beam.laser);
-  const slam::Laser& laser = model.lasers[beam.laser];
-  const Eigen::Matrix3d R_WL = X_WL[beam.column].rotation();
-  const Eigen::Vector3d across_W = R_WL * Eigen::Vector3d(-turn.s, -turn.c, 0.0);
-  const Eigen::Vector3d up_W = R_WL * Eigen::Vector3d(-laser.sine * turn.c, laser.sine * turn.s, laser.cosine);
+  const Tangents tangents = this->tangents(beam.column, beam.laser);
   for (const SubRay& sub : footprint) {
-    leg.ray.direction_W = sub.unit * (rays[i].direction_W + sub.across * across_W + sub.up * up_W);
+    leg.ray = sub_ray(rays[i], tangents, sub);
     legs.push_back(leg);
   }
 }
@@ -365,6 +407,7 @@ void Lidar::sweep(std::int64_t first_firing, std::span<const Pose> X_WL, Sweep& 
     throw InternalError("Lidar::sweep: poses of whole packets are needed");
   impl_->start(first_firing, X_WL, sweep);
   impl_->cast_centres();
+  impl_->find_bundles();
   impl_->fire_plain(sweep);
   const std::span<const HardBeam> hard = impl_->hard;
   for (std::size_t i = 0; i < hard.size(); i += batch_beams)

@@ -14,8 +14,6 @@ constexpr int bounces_max = 2;
 constexpr double gain_min = 1e-5;
 /// A ray goes on this far behind a surface; more than the distance within which faces are one.
 constexpr double step_m = 2e-4;
-/// A mirror that faces the sensor gives back this many times what a white wall does.
-constexpr double glint_gain = 100.0;
 
 }  // namespace
 
@@ -62,7 +60,7 @@ void Light::arrive(const Leg& leg, const bim::Hit& hit, std::vector<Reflection>&
   add(leg.gain * surface.reflectivity, leg.flags);
   if (!optics_ || surface.plain()) return;
   if (surface.specular > 0.0 && leg.bounces == 0 && cosine >= glint_cosine_)
-    add(leg.gain * surface.specular * glint_gain, leg.flags | light_path::glint);
+    add(leg.gain * surface.specular * retro_gain, leg.flags | light_path::glint);
   go_on(leg, hit, surface);
 }
 

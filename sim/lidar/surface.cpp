@@ -11,9 +11,9 @@ std::vector<Surface> surfaces_of(const bim::Building& building, const bim::Build
   surfaces.reserve(mesh.elements.size());
   for (const bim::MeshElement& element : mesh.elements) {
     const bim::Material* material = bim::find_material(building, bim::material_of(building, element));
-    surfaces.push_back(material == nullptr
-                           ? Surface{reflectivity, 0.0, 0.0}
-                           : Surface{material->reflectivity, material->transmission, material->specular});
+    surfaces.push_back(material == nullptr ? Surface{reflectivity, 0.0, 0.0}
+                                           : Surface{material->reflectivity + retro_gain * material->retro,
+                                                     material->transmission, material->specular});
   }
   return surfaces;
 }

@@ -8,9 +8,12 @@
 
 namespace plumbline::sim {
 
+/// What sends light back where it came from gives this many times what a white wall gives.
+inline constexpr double retro_gain = 100.0;
+
 /// What an element's surface does to light: shares of it, 0 to 1.
 struct Surface {
-  double reflectivity = 0.5;  ///< given back diffusely
+  double reflectivity = 0.5;  ///< given back diffusely; above 1 a retro-reflector
   double transmission = 0.0;  ///< let through the whole body, such as a pane
   double specular = 0.0;      ///< mirrored
 

@@ -202,7 +202,7 @@ TEST(WriteIfc, AForeignReaderSeesLayersWhereTheyAre) {
 
 TEST(WriteIfc, AForeignReaderSeesReflectivityAndGlass) {
   Building building = small_plan();
-  building.materials.push_back({"Spiegel", 0.1, 0.2, 0.7});
+  building.materials.push_back({"Spiegel", 0.1, 0.2, 0.7, 0.25});
   building.walls[1].material = "Spiegel";
   const Building back = read_ifc_text(as_foreign(write_ifc(building)), "foreign.ifc");
   const auto material = [&](const std::string& id) {
@@ -214,6 +214,7 @@ TEST(WriteIfc, AForeignReaderSeesReflectivityAndGlass) {
   EXPECT_EQ(material("Spiegel").reflectivity, 0.1);
   EXPECT_EQ(material("Spiegel").transmission, 0.2);
   EXPECT_EQ(material("Spiegel").specular, 0.7);
+  EXPECT_EQ(material("Spiegel").retro, 0.25);
   EXPECT_EQ(material("plaster").reflectivity, 0.7);
 }
 

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "bim/errors.h"
+#include "bim/random/stream.h"
 #include "tests/bim/rays/box_mesh.h"
 
 namespace plumbline::sim {
@@ -134,9 +135,10 @@ struct Switch {
 TEST_F(LidarTest, SwitchingAnEffectOffLeavesTheOthersAlone) {
   LidarConfig config = lidar_config(LidarPreset::real);
   config.footprint = Footprint::none;
-  const std::array<Switch, 4> switches = {{{"range_noise", [](LidarConfig& c) { c.range_noise = false; }},
+  const std::array<Switch, 5> switches = {{{"range_noise", [](LidarConfig& c) { c.range_noise = false; }},
                                            {"unit_bias", [](LidarConfig& c) { c.unit_bias = false; }},
                                            {"laser_bias", [](LidarConfig& c) { c.laser_bias = false; }},
+                                           {"reflectivity_noise", [](LidarConfig& c) { c.reflectivity_noise = false; }},
                                            {"optics", [](LidarConfig& c) { c.optics = false; }}}};
   const slam::Scan with = slam::decode_message(Lidar(config, 600.0, 6, scene_).sweep(0, standing_).packets);
   LidarConfig certain = config;
@@ -155,7 +157,9 @@ TEST_F(LidarTest, SwitchingAnEffectOffLeavesTheOthersAlone) {
       EXPECT_EQ(scan.range_m[i] > 0.0, with.range_m[i] > 0.0) << s.name;
       moved += scan.range_m[i] != with.range_m[i] ? 1U : 0U;
     }
-    EXPECT_EQ(moved > 0, std::string_view(s.name) != "optics") << s.name;
+    const std::string_view name = s.name;
+    EXPECT_EQ(moved > 0, name != "optics" && name != "reflectivity_noise") << name;
+    EXPECT_EQ(scan.reflectivity != with.reflectivity, name == "reflectivity_noise") << name;
   }
 }
 
@@ -174,6 +178,48 @@ TEST_F(LidarTest, NoiseOfEachRangeIsTheSameWithAndWithoutTheFootprint) {
   // In a box room the mean over a footprint is the middle but in the corners: chances and ranges hardly change.
   EXPECT_LE(flipped, thin.size() / 500);
   EXPECT_GE(same, thin.size() * 95 / 100);
+}
+
+TEST_F(LidarTest, TheFootprintMatchesAtEdgesInEveryDirection) {
+  bim::BuildingMesh mesh = bim::box_room({10.0, 8.0, 3.0});
+  bim::add_box(mesh, {5.0, 1.0, 0.0}, {5.5, 7.0, 0.75});  // edges that run along rings
+  bim::add_box(mesh, {1.0, 5.0, 0.8}, {2.5, 6.0, 0.9});
+  const bim::RayScene scene(mesh);
+  LidarConfig config = lidar_config(LidarPreset::ideal);
+  config.footprint = Footprint::edges;
+  const Lidar edges(config, 600.0, 1, scene);
+  config.footprint = Footprint::everywhere;
+  const Lidar everywhere(config, 600.0, 1, scene);
+  config.footprint = Footprint::none;
+  const Lidar none(config, 600.0, 1, scene);
+  const Stream random(3, "sim.lidar.phase");
+  std::size_t missed = 0;
+  std::size_t mixed = 0;
+  for (std::uint64_t draw = 0; draw < 20; ++draw) {
+    const Pose X_WL = Pose::from_xyz_yaw({3.0, 3.5, 0.5 + 0.6 * random.uniform(draw)}, 0.3);
+    const std::vector<Pose> poses(message, X_WL);
+    const slam::Scan found = slam::decode_message(edges.sweep(0, poses).packets);
+    const slam::Scan all = slam::decode_message(everywhere.sweep(0, poses).packets);
+    const slam::Scan thin = slam::decode_message(none.sweep(0, poses).packets);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      mixed += std::abs(thin.range_m[i] - all.range_m[i]) > 0.05 ? 1U : 0U;
+      missed += std::abs(found.range_m[i] - all.range_m[i]) > 0.05 ? 1U : 0U;
+    }
+  }
+  // What is left: an edge within the footprint that neither its ends nor a neighbour's middle see, as of a corner.
+  EXPECT_GE(mixed, 200U);
+  EXPECT_LE(missed, mixed / 50);
+}
+
+TEST_F(LidarTest, RetroReflectorsAreBrighterThanAnyWall) {
+  const std::vector<Surface> surfaces(mesh_.elements.size(), Surface{0.3 + retro_gain * 0.3, 0.0, 0.0});
+  LidarConfig config = lidar_config(LidarPreset::real);
+  const slam::Scan plain = slam::decode_message(Lidar(config, 600.0, 6, scene_).sweep(0, standing_).packets);
+  const slam::Scan bright = slam::decode_message(Lidar(config, 600.0, 6, scene_, surfaces).sweep(0, standing_).packets);
+  for (std::size_t i = 0; i < plain.size(); ++i) {
+    EXPECT_LE(plain.reflectivity[i], 115.0F);
+    EXPECT_EQ(bright.range_m[i] > 0.0, bright.reflectivity[i] > 115.0F);
+  }
 }
 
 TEST_F(LidarTest, ReturnsAreAsManyAsRealUnitsGive) {

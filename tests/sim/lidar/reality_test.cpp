@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <map>
 #include <numbers>
 #include <optional>
@@ -16,6 +17,7 @@
 #include "bim/mesh/mesh.h"
 #include "sim/lidar/lidar.h"
 #include "sim/lidar/light.h"
+#include "slam/io/pcap.h"
 
 namespace plumbline::sim {
 namespace {
@@ -95,6 +97,56 @@ TEST_F(RealityTest, RangesRepeatAsWellAsThoseOfRealUnits) {
     EXPECT_GE(sigma, bands[bin][0]) << bin;
     EXPECT_LE(sigma, bands[bin][1]) << bin;
   }
+}
+
+/// Rms of the noise of reflectivities of 10-40, 40-70 and 70-100: second differences of three neighbours of a ring at
+/// one distance, without their largest twentieth.
+std::array<double, 3> reflectivity_noise(const slam::Scan& scan) {
+  std::array<std::vector<double>, 3> noise;
+  const auto rings = static_cast<std::size_t>(scan.rings);
+  for (std::size_t i = rings; i + rings < scan.size(); ++i) {
+    const std::size_t before = i - rings, after = i + rings;
+    const double range = scan.range_m[i];
+    if (range == 0.0 || scan.range_m[before] == 0.0 || scan.range_m[after] == 0.0) continue;
+    if (std::abs(scan.range_m[before] - range) > 0.05 || std::abs(scan.range_m[after] - range) > 0.05) continue;
+    const double a = scan.reflectivity[before], b = scan.reflectivity[i], c = scan.reflectivity[after];
+    if (std::max({a, b, c}) > 100.0 || a + b + c < 30.0) continue;
+    noise[std::min<std::size_t>(2, static_cast<std::size_t>((a + b + c - 30.0) / 90.0))].push_back(
+        std::pow(a - 2.0 * b + c, 2) / 6.0);
+  }
+  std::array<double, 3> rms{};
+  for (std::size_t bin = 0; bin < 3; ++bin) {
+    std::sort(noise[bin].begin(), noise[bin].end());
+    noise[bin].resize(noise[bin].size() * 19 / 20);
+    double sum = 0.0;
+    for (const double x : noise[bin]) sum += x;
+    if (noise[bin].size() >= 200) rms[bin] = std::sqrt(sum / static_cast<double>(noise[bin].size()));
+  }
+  return rms;
+}
+
+TEST_F(RealityTest, ReflectivitiesAreAsNoisyAsThoseOfARealUnit) {
+  const char* data = std::getenv("PLUMBLINE_DATA");
+  const std::string path = std::string(data == nullptr ? "." : data) + "/vlp16/sample_velodyne_vlp16_gps.pcap";
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << "no capture at " << path;
+  const std::array<double, 3> real = reflectivity_noise(slam::decode_message(slam::read_pcap(path)));
+  std::array<double, 3> ours{};
+  std::array<double, 3> rooms{};
+  for (std::size_t room = 0; room < building_.rooms.size(); ++room) {
+    const Lidar lidar = unit(room + 1);
+    const std::array<double, 3> noise = reflectivity_noise(lidar.decode(0, lidar.sweep(0, standing(room))));
+    for (std::size_t bin = 0; bin < 3; ++bin) {
+      ours[bin] += noise[bin];
+      rooms[bin] += noise[bin] > 0.0 ? 1.0 : 0.0;
+    }
+  }
+  for (std::size_t bin = 0; bin < 3; ++bin) {
+    if (rooms[bin] == 0.0) continue;  // nothing so bright stands in the building
+    EXPECT_GE(ours[bin] / rooms[bin], 0.7 * real[bin]) << bin;
+    EXPECT_LE(ours[bin] / rooms[bin], 1.4 * real[bin]) << bin;
+  }
+  EXPECT_GE(rooms[0], 3.0);
+  EXPECT_GE(rooms[1], 3.0);
 }
 
 /// Rms distance of points to their own plane; those farther than 0.06 m from it are left out, as with the real ones.
