@@ -30,13 +30,15 @@ struct OpenRoom {
 std::vector<Eigen::Vector2d> places_in(const bim::Building& building, const bim::Room& room,
                                        const sim::FreeSpace& space) {
   const Polygon2& polygon = room.polygon;
+  const double turn_m = sim::RouteConfig().turn_m;  // a drawn heading is seldom that of the first leg
   Eigen::AlignedBox2d box;
   for (const Eigen::Vector2d& p : polygon) box.extend(p);
   std::vector<Eigen::Vector2d> places;
   for (double x = box.min().x() + 0.5 * cell_m; x < box.max().x(); x += cell_m)
     for (double y = box.min().y() + 0.5 * cell_m; y < box.max().y(); y += cell_m) {
       const Eigen::Vector2d p(rounded(x), rounded(y));
-      if (contains(polygon, p) && space.free(p) && !on_a_stair(building, room.storey, p)) places.push_back(p);
+      if (contains(polygon, p) && space.clearance(p) >= turn_m && !on_a_stair(building, room.storey, p))
+        places.push_back(p);
     }
   return places;
 }
@@ -72,17 +74,18 @@ class Draw {
 
   [[nodiscard]] std::vector<std::string> route(const Eigen::Vector2d& start, int count, const Mark& mark) const {
     std::vector<std::string> ids;
-    std::vector<std::size_t> reached;
-    for (std::size_t i = 0; i < rooms_.size(); ++i)
-      if (reaches(start, rooms_[i])) reached.push_back(i);
-    if (reached.size() < 2) throw InputError(mark, "fewer than two rooms to draw from can be reached from the start");
-    std::size_t at = nearest(start, reached);
-    for (int i = 0; i < count; ++i) {
-      std::vector<std::size_t> others = reached;
-      std::erase(others, at);
-      at = others[one_of(others.size(), static_cast<std::uint64_t>(i), route_lane)];
+    if (rooms_.empty()) throw InputError(mark, "no room to draw on this storey");
+    std::size_t at = nearest(start);
+    Eigen::Vector2d from = start;
+    const std::uint64_t most_tries = 200 + static_cast<std::uint64_t>(count);
+    for (std::uint64_t i = 0; i < most_tries && ids.size() < static_cast<std::size_t>(count); ++i) {
+      const std::size_t next = one_of(rooms_.size(), i, route_lane);
+      if (next == at || !reaches(from, rooms_[next])) continue;
+      at = next;
+      from = rooms_[at].middle_W;
       ids.push_back(rooms_[at].id);
     }
+    if (ids.empty()) throw InputError(mark, "no room to draw can be reached from the start");
     return ids;
   }
 
@@ -109,10 +112,10 @@ class Draw {
   }
 
   /// The room the start stands in: where its places come nearest (ties: the first).
-  [[nodiscard]] std::size_t nearest(const Eigen::Vector2d& p, const std::vector<std::size_t>& among) const {
-    std::size_t best = among.front();
+  [[nodiscard]] std::size_t nearest(const Eigen::Vector2d& p) const {
+    std::size_t best = 0;
     double least = std::numeric_limits<double>::infinity();
-    for (const std::size_t i : among)
+    for (std::size_t i = 0; i < rooms_.size(); ++i)
       for (const Eigen::Vector2d& place : rooms_[i].places_W)
         if ((place - p).squaredNorm() < least) {
           least = (place - p).squaredNorm();

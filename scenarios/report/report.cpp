@@ -36,6 +36,21 @@ bool is_good(const std::string& verdict) {
   return verdict == "ok" || verdict == "success" || verdict == "honest_ambiguity";
 }
 
+/// ", since ... (at 12.3 s)", or nothing.
+std::string why_it_failed(const Tree* where) {
+  const std::string failure = where == nullptr ? "" : text_of(*where, "failure");
+  std::string why;
+  if (failure == "never_sampled") why = "the true place never came into question";
+  if (failure == "depleted") why = "the true place dropped out of question";
+  if (failure == "twin_preferred") why = "a place that looked the same at the start was preferred";
+  if (failure == "wrong_model") why = "a place that looks different was preferred";
+  if (failure == "tracking_lost") why = "the right place was lost again";
+  if (failure == "undecided") why = "the true place was one of several to the end";
+  if (why.empty()) return "";
+  const auto at = number_of(where, "failure_at_s");
+  return ", since " + why + (at ? " (at " + svg::number(*at, 1) + " s)" : "");
+}
+
 /// What happened, in one sentence that needs no glossary.
 std::string sentence(const ReportMethod& method, const Tree* results) {
   const std::string verdict = results == nullptr ? "" : text_of(*results, "verdict");
@@ -48,9 +63,9 @@ std::string sentence(const ReportMethod& method, const Tree* results) {
     if (verdict == "honest_ambiguity" && places)
       return "Kept " + svg::number(*places, 0) + " places in mind, rightly: what was seen does not tell them apart.";
     if (verdict == "overconfident") return "Settled on one place though what was seen fits several.";
-    if (!time) return "Never settled on one place in the building.";
+    if (!time) return "Never settled on one place in the building" + why_it_failed(where) + ".";
     if (verdict == "lucky") return "Settled on the right place before anything seen could tell it from another.";
-    if (verdict == "false_convergence") return "Settled on a wrong place.";
+    if (verdict == "false_convergence") return "Settled on a wrong place" + why_it_failed(where) + ".";
     std::string text = "Knew its place in the building after " + svg::number(*time, 1) + " s";
     if (error) text += " and was " + centimetres(*error) + " off from then on (rms)";
     return text + ".";
@@ -227,6 +242,36 @@ std::string script_data(const ReportInput& input, double end_s) {
   return json;
 }
 
+/// How many places what was seen leaves at best, over time.
+PlotCurve places_left(const ReportInput& input, double end_s) {
+  PlotCurve curve{"could be told", "#5d6b7c", {}};
+  const Tree* known = input.results.find("identifiability");
+  if (known == nullptr) return curve;
+  constexpr double step_s = 0.5;  // a curve with larger gaps would be drawn open
+  const Tree::List& places = known->find("places")->as_list();
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const double until = i + 1 < places.size() ? places[i + 1].find("t_s")->as_double() : end_s;
+    for (double t = places[i].find("t_s")->as_double(); t <= until; t += step_s)
+      curve.points.emplace_back(t, 1.0 + places[i].find("twins")->as_double());
+  }
+  return curve;
+}
+
+std::string what_could_be_known(const ReportInput& input) {
+  const Tree* known = input.results.find("identifiability");
+  if (known == nullptr) return "";
+  std::string text = "What was seen never left a single place.";
+  if (const auto at = number_of(known, "at_s"))
+    text = *at <= 0.0 ? "The first look left a single place."
+                      : "What was seen left a single place after " + svg::number(*at, 1) + " s and " +
+                            svg::number(number_of(known, "at_m").value_or(0.0), 1) + " m.";
+  if (const Tree* element = known->find("decided_by"))
+    text += " What told: " + text_of(*element, "element") +
+            (element->find("missing")->as_bool() ? ", which would be seen from the other place and was not."
+                                                 : ", which was seen and would not be from the other place.");
+  return "<p class=\"facts\">" + svg::escape(text) + "</p>";
+}
+
 std::string plots(const ReportInput& input, double end_s) {
   std::vector<PlotCurve> curves;
   std::vector<PlotCurve> counts;
@@ -239,11 +284,13 @@ std::string plots(const ReportInput& input, double end_s) {
     for (const auto& state : input.methods[i].states) count.points.emplace_back(state.t_s, state.hypotheses);
     if (!count.points.empty()) counts.push_back(std::move(count));
   }
+  if (PlotCurve possible = places_left(input, end_s); !counts.empty() && !possible.points.empty())
+    counts.push_back(std::move(possible));
   std::string out = "<section class=\"card\"><h2>Position error over time, cm (click to jump)</h2>" +
                     draw_plot("errors", curves, end_s) + "</section>";
   if (!counts.empty())
     out += "<section class=\"card\"><h2>Places still thought possible, over time</h2>" +
-           draw_plot("hypotheses", counts, end_s) + "</section>";
+           draw_plot("hypotheses", counts, end_s) + what_could_be_known(input) + "</section>";
   return out;
 }
 

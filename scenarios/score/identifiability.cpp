@@ -23,6 +23,17 @@ double sensor_z_W(const bim::Plan& plan, const Pose& X_WR) {
   return (std::abs(under - floor) < on_floor_m ? floor : under) + sim::World::calibration().sensor_height_m;
 }
 
+std::vector<PlacesLeft> places_left(const RunIdentifiability& run) {
+  std::vector<PlacesLeft> places;
+  for (const IdentifyStep& step : run.steps) {
+    const auto weak = std::count_if(step.alive.begin(), step.alive.end(),
+                                    [](const Twin& twin) { return twin.llr >= identify_constants.weak_llr; });
+    const PlacesLeft left{step.t_s, step.distance_m, static_cast<int>(step.alive.size()), static_cast<int>(weak)};
+    if (places.empty() || places.back().twins != left.twins || places.back().weak != left.weak) places.push_back(left);
+  }
+  return places;
+}
+
 }  // namespace
 
 std::optional<Identifiability> identifiability_of(const RunFiles& files, const Truth& truth) {
@@ -47,7 +58,18 @@ std::optional<Identifiability> identifiability_of(const RunFiles& files, const T
     samples.push_back({slam::seconds(t - files.scans.front()), truth.at(t), sensor_z_W(plan, truth.at(t))});
   const RunIdentifiability run = identify_run(input, samples);
 
-  Identifiability result{run.identifiable, run.identifiable_at_s, run.identifiable_at_m, run.tellable_from_s(), {}};
+  Identifiability result;
+  result.identifiable = run.identifiable;
+  result.at_s = run.identifiable_at_s;
+  result.at_m = run.identifiable_at_m;
+  result.tellable_from_s = run.tellable_from_s();
+  for (const Twin& twin : run.steps.front().alive) result.twins_at_start.push_back(twin.twin);
+  result.places = places_left(run);
+  if (run.decided_by) {
+    const SeenBuilding& seen = run.decided_by->missing || !built ? planned : *built;
+    result.decided_by = DecidingElement{seen.elements.at(static_cast<std::size_t>(run.decided_by->element)),
+                                        run.decided_by->missing, run.decided_by->share};
+  }
   result.others_W = run.ambiguity_set(samples.back().t_s, samples.back().X_WR);
   return result;
 }

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenarios/score/localization.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 
 #include "bim/errors.h"
+#include "scenarios/score/failure.h"
 
 namespace plumbline::scenarios::score {
 
@@ -81,6 +83,49 @@ bool is_honest(const Belief& last, const Pose& X_WR_true, const std::vector<Pose
   return true_mass >= 0.5 / (static_cast<double>(others_W.size()) + 1.0);
 }
 
+/// Mean normalised estimation error squared over the converged scans that are right and have a covariance.
+std::optional<double> mean_nees(const Truth& truth, const std::vector<Belief>& beliefs,
+                                const LocalizationRules& rules) {
+  double sum = 0.0;
+  int count = 0;
+  for (const Belief& belief : beliefs) {
+    if (belief.state != slam::State::converged || belief.hypotheses.empty()) continue;
+    const slam::Hypothesis& best = *std::max_element(belief.hypotheses.begin(), belief.hypotheses.end(),
+                                                     [](const auto& a, const auto& b) { return a.mass < b.mass; });
+    const Pose X_WR_true = truth.at(belief.stamp);
+    const Eigen::LLT<Eigen::Matrix3d> root(best.covariance);
+    if (root.info() != Eigen::Success || !right(best.X_WR, X_WR_true, rules)) continue;
+    const Eigen::Vector3d e(best.X_WR.t.x() - X_WR_true.t.x(), best.X_WR.t.y() - X_WR_true.t.y(),
+                            wrap_angle(best.X_WR.yaw() - X_WR_true.yaw()));
+    const double nees = e.dot(root.solve(e));
+    if (!std::isfinite(nees)) continue;
+    sum += nees;
+    ++count;
+  }
+  return count > 0 ? std::optional(sum / count) : std::nullopt;
+}
+
+double true_mass_of(const Belief& belief, const Pose& X_WR_true, const LocalizationRules& rules) {
+  double mass = 0.0;
+  for (const slam::Hypothesis& hypothesis : belief.hypotheses)
+    if (right(hypothesis.X_WR, X_WR_true, rules)) mass += hypothesis.mass;
+  return mass;
+}
+
+std::optional<double> twin_error(const Truth& truth, const std::vector<Belief>& beliefs, std::size_t first,
+                                 const std::vector<Pose>& twins) {
+  double sum = 0.0;
+  Pose X_WR;
+  for (std::size_t i = first; i < beliefs.size(); ++i) {
+    if (beliefs[i].X_WR) X_WR = *beliefs[i].X_WR;
+    const Pose X_WR_true = truth.at(beliefs[i].stamp);
+    double least = position_error(X_WR, X_WR_true);
+    for (const Pose& twin : twins) least = std::min(least, position_error(X_WR, twin * X_WR_true));
+    sum += least * least;
+  }
+  return std::sqrt(sum / static_cast<double>(beliefs.size() - first));
+}
+
 LocalizationVerdict judge_unique(const std::optional<Course>& course, slam::State last, bool held) {
   if (!course) return last == slam::State::lost ? LocalizationVerdict::lost : LocalizationVerdict::late;
   if (!course->right_at_first || course->wrong_while_converged) return LocalizationVerdict::false_convergence;
@@ -136,6 +181,14 @@ LocalizationScore score_localization(const Truth& truth, const std::vector<Belie
   const bool early = identifiability && score.converged_at_s && identifiability->tellable_from_s &&
                      *score.converged_at_s < *identifiability->tellable_from_s;
   if (early && score.verdict == LocalizationVerdict::success) score.verdict = LocalizationVerdict::lucky;
+  const std::vector<Pose> twins = identifiability ? identifiability->twins_at_start : std::vector<Pose>();
+  if (course) score.twin_error_rmse_m = twin_error(truth, beliefs, course->first, twins);
+  if (!last.hypotheses.empty()) score.true_mass = true_mass_of(last, truth.at(last.stamp), rules);
+  score.nees = mean_nees(truth, beliefs, rules);
+  if (const auto why = failure_of(truth, beliefs, score.verdict, twins, rules)) {
+    score.failure = why->failure;
+    score.failure_at_s = slam::seconds(why->stamp - truth.scans.front());
+  }
   return score;
 }
 

@@ -24,6 +24,22 @@ struct Belief {
   slam::State state = slam::State::searching;
   std::optional<Pose> X_WR;
   std::vector<slam::Hypothesis> hypotheses;
+  std::vector<slam::Particle> particles;  ///< a sample, of some scans
+};
+
+/// How many places were left at a moment of the run, the true one left out.
+struct PlacesLeft {
+  double t_s = 0.0;
+  double distance_m = 0.0;
+  int twins = 0;
+  int weak = 0;  ///< of them, those that are nearly out
+};
+
+/// What told the last other place from the true one.
+struct DecidingElement {
+  std::string id;
+  bool missing = false;  ///< it would be seen from the other place, and is not; else it is seen, and would not be
+  double share = 0.0;    ///< of the evidence
 };
 
 /// What the plan allows to be known on this route, from scenarios/identify. A run is scored without it where it has
@@ -36,10 +52,24 @@ struct Identifiability {
   /// weak); a single answer given before is luck.
   std::optional<double> tellable_from_s;
   std::vector<Pose> others_W;  ///< poses at the end that the plan cannot tell from the true one; empty when unique
+  std::vector<Pose> twins_at_start;  ///< X_twin = twin * X_WR, of what the first look could not tell
+  std::vector<PlacesLeft> places;    ///< at the start and wherever their numbers change
+  std::optional<DecidingElement> decided_by;
 };
 
 enum class LocalizationVerdict { success, false_convergence, overconfident, honest_ambiguity, late, lost, lucky };
 [[nodiscard]] std::string to_string(LocalizationVerdict verdict);
+
+/// Why a plan localization failed, from what it said after each scan.
+enum class Failure {
+  never_sampled,   ///< the true pose was never among the hypotheses or the particles kept
+  depleted,        ///< it was, and went, before the answer was given or the run ended
+  twin_preferred,  ///< a place that looked the same at the start was chosen over it
+  wrong_model,     ///< a place that looks different was
+  tracking_lost,   ///< the right answer was given, and lost
+  undecided        ///< it was there to the end, and never chosen
+};
+[[nodiscard]] std::string to_string(Failure failure);
 
 struct LocalizationScore {
   LocalizationVerdict verdict = LocalizationVerdict::late;
@@ -52,6 +82,13 @@ struct LocalizationScore {
   std::optional<bool> identifiable;
   std::optional<double> identifiable_at_s;
   std::optional<double> identifiable_at_m;
+  /// As ape_rmse_m, each pose held against the nearest of the true one and its twins at the start: a small value
+  /// beside a large ape_rmse_m says "right shape, wrong twin".
+  std::optional<double> twin_error_rmse_m;
+  std::optional<double> true_mass;  ///< share of the last hypotheses that are right
+  std::optional<double> nees;       ///< mean of e' P^-1 e of (x, y, yaw) while converged and right; 3 where P is honest
+  std::optional<Failure> failure;
+  std::optional<double> failure_at_s;  ///< `replay --until` stops there
 };
 
 /// Scores the beliefs of a run, one a scan in time order; nothing is ever aligned. A scan without a pose after the

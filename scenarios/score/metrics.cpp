@@ -55,6 +55,10 @@ std::vector<MetricRow> make_rows() {
       {"localization.hypotheses", "", Better::neither, field(&S::localization, &L::hypotheses)},
       {"localization.identifiable_at_s", "s", Better::neither, field(&S::localization, &L::identifiable_at_s)},
       {"localization.identifiable_at_m", "m", Better::neither, field(&S::localization, &L::identifiable_at_m)},
+      {"localization.twin_error_rmse_m", "m", Better::lower, field(&S::localization, &L::twin_error_rmse_m)},
+      {"localization.true_mass", "", Better::higher, field(&S::localization, &L::true_mass)},
+      {"localization.nees", "", Better::neither, field(&S::localization, &L::nees)},
+      {"localization.failure_at_s", "s", Better::neither, field(&S::localization, &L::failure_at_s)},
   };
 }
 
@@ -87,6 +91,7 @@ Tree to_results(const MethodScore& score) {
   };
   if (score.localization) {
     block_of("localization").set("state", state_name(score.localization->state));
+    if (score.localization->failure) block_of("localization").set("failure", to_string(*score.localization->failure));
     if (score.localization->identifiable)
       block_of("localization").set("identifiable", *score.localization->identifiable);
   }

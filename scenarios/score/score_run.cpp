@@ -31,11 +31,11 @@ std::vector<Belief> beliefs_of(const MethodRecord& method, const Truth& truth) {
     return it->X_FR;
   };
   for (const BeliefRecord& belief : method.beliefs)
-    beliefs.push_back({belief.stamp, belief.state, pose_at(belief.stamp), belief.hypotheses});
+    beliefs.push_back({belief.stamp, belief.state, pose_at(belief.stamp), belief.hypotheses, belief.particles});
   if (!beliefs.empty()) return beliefs;
   for (const PosePair& pair : associate(truth, method.causal, {})) {
     const slam::Hypothesis only{1.0, pair.X_FR, Eigen::Matrix3d::Zero(), ""};
-    beliefs.push_back({truth.scans[pair.scan], slam::State::converged, pair.X_FR, {only}});
+    beliefs.push_back({truth.scans[pair.scan], slam::State::converged, pair.X_FR, {only}, {}});
   }
   return beliefs;
 }
@@ -123,6 +123,25 @@ Tree changes_of(const bim::Site& site) {
   return list;
 }
 
+Tree to_results(const Identifiability& known) {
+  Tree tree = Tree::map();
+  tree.set("identifiable", known.identifiable);
+  if (known.at_s) tree.set("at_s", *known.at_s).set("at_m", known.at_m.value());
+  if (known.decided_by)
+    tree.set("decided_by", Tree::map()
+                               .set("element", known.decided_by->id)
+                               .set("missing", known.decided_by->missing)
+                               .set("share", known.decided_by->share));
+  Tree places = Tree::list();
+  for (const PlacesLeft& left : known.places)
+    places.push(Tree::map()
+                    .set("t_s", left.t_s)
+                    .set("distance_m", left.distance_m)
+                    .set("twins", left.twins)
+                    .set("weak", left.weak));
+  return tree.set("places", std::move(places));
+}
+
 }  // namespace
 
 bool RunScore::passed() const {
@@ -143,13 +162,14 @@ RunScore score_run(const RunFiles& files) {
   const Reference reference{score.as_built, score.truth, surface_W, distance};
   const bool localizes = std::any_of(files.methods.begin(), files.methods.end(),
                                      [](const MethodRecord& m) { return m.localization && !m.crashed; });
-  const auto identifiability = localizes ? identifiability_of(files, score.truth) : std::optional<Identifiability>();
+  if (localizes) score.identifiability = identifiability_of(files, score.truth);
   for (const MethodRecord& method : files.methods) {
     MethodScore one;
     if (method.crashed)
       one.verdict = "crashed";
     else
-      one = method.localization ? score_localizer(method, reference, identifiability) : score_slam(method, reference);
+      one = method.localization ? score_localizer(method, reference, score.identifiability)
+                                : score_slam(method, reference);
     one.name = method.name;
     one.error = method.error;
     score.methods.push_back(std::move(one));
@@ -166,6 +186,7 @@ std::string write_results(const RunFiles& files, const RunScore& score) {
   if (!files.failure.empty()) tree.set("failure", files.failure);
   tree.set("sensors", sensors_of(files.scenario));
   if (!files.site.changes.empty()) tree.set("as_built", changes_of(files.site));
+  if (score.identifiability) tree.set("identifiability", to_results(*score.identifiability));
   Tree gates = Tree::list();
   for (const GateResult& gate : score.gates) gates.push(to_results(gate));
   tree.set("gates", gates);

@@ -17,6 +17,7 @@ struct RunScore {
   Truth truth;
   std::vector<MethodScore> methods;  ///< index as in RunFiles::methods
   std::vector<GateResult> gates;
+  std::optional<Identifiability> identifiability;  ///< where a method localizes
   double duration_s = 0.0;
   double distance_m = 0.0;
   std::string digest;  ///< of all stages, 16 hex digits

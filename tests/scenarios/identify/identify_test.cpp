@@ -67,6 +67,24 @@ TEST(Identify, OnePillarBreaksTheSymmetry) {
   const auto run = identify(mesh, {6.0, 4.0}, false, walk({1.5, 1.2}, {2.0, 2.5}));
   EXPECT_TRUE(run.identifiable);
   EXPECT_EQ(run.identifiable_at_m, 0.0);
+  EXPECT_FALSE(run.decided_by.has_value());  // the first look sufficed
+}
+
+TEST(Identify, WhatTellsIsNamedWhetherItIsSeenOrMissing) {
+  // A low box of which one look shows too little to tell; a wall hides nothing, so both places see it or miss it.
+  for (const bool beside : {true, false}) {
+    auto mesh = bim::box_room({12.0, 4.0, 3.0});
+    const int room_elements = mesh.element.back() + 1;
+    add_box(mesh, {10.0, 1.9, 0.0}, {10.06, 1.96, 3.0});
+    const auto path = beside ? walk({8.0, 2.6}, {9.5, 2.6}) : walk({4.0, 1.4}, {2.5, 1.4});
+    const auto run = identify(mesh, {12.0, 4.0}, false, path);
+    ASSERT_EQ(run.steps.front().alive.size(), 1U);
+    ASSERT_TRUE(run.identifiable);
+    ASSERT_TRUE(run.decided_by.has_value());
+    EXPECT_EQ(run.decided_by->element, room_elements);
+    EXPECT_EQ(run.decided_by->missing, !beside);
+    EXPECT_GT(run.decided_by->share, 0.5);
+  }
 }
 
 /// Two identical 4 x 4 m rooms with doors onto a corridor of 8 x 2 m, whose ends differ in distance.
