@@ -57,6 +57,8 @@ struct BenchPart {
 [[nodiscard]] std::string bench_text(const std::vector<BenchRow>& rows);
 
 [[nodiscard]] std::vector<BenchRow> bench_bim(const BenchSetting& setting);
+/// The map of a building, what a run lets be known, and how the map grows.
+[[nodiscard]] std::vector<BenchRow> bench_identify(const BenchSetting& setting);
 [[nodiscard]] std::vector<BenchRow> bench_lidar(const BenchSetting& setting);
 /// The method on quickstart walks with a seed each, 1 to setting.repetitions, and on one long walk.
 [[nodiscard]] std::vector<BenchRow> bench_slam(const BenchSetting& setting);
