@@ -116,6 +116,7 @@ sim::Conditions conditions(const GroundSpec& ground, const PushesSpec& pushes) {
   out.pushes.max_n = pushes.max_n;
   out.pushes.min_n = pushes.min_n.value_or(least_share * pushes.max_n);
   out.pushes.every_s = pushes.every_s;
+  out.pushes.on_stairs = pushes.on_stairs;
   return out;
 }
 

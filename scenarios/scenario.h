@@ -145,11 +145,13 @@ struct PushesSpec {
   std::optional<double> min_n;  ///< absent: 0.3 of max_n
   double max_n = sim::PushConfig().max_n;
   double every_s = sim::PushConfig().every_s;
+  bool on_stairs = sim::PushConfig().on_stairs;
   template <class V>
   void visit(V& v) {
     v("min_n", min_n, Field{.doc = "least force, N; 0.3 of max_n when not given", .min = 0.0, .max = 1000.0});
     v("max_n", max_n, Field{.doc = "largest force, N; 0: no pushes", .min = 0.0, .max = 1000.0});
     v("every_s", every_s, Field{.doc = "one push in each span of so long, s", .min = 1.0, .max = 3600.0});
+    v("on_stairs", on_stairs, Field{.doc = "also on stairs and their landings, where a strong push can end in a fall"});
   }
 };
 [[nodiscard]] sim::Conditions conditions(const GroundSpec& ground, const PushesSpec& pushes);

@@ -23,8 +23,8 @@ This page is what `plumbline scenarios --schema` prints: it is made from the rea
 - `people` and `moving_doors` are there for the LiDAR only: the robot does not feel them, no plan knows them, and
   what the LiDAR sees of them is not counted as surface of the building. A moving door stands open wherever the robot
   comes near.
-- `ground` and `pushes` make walking harder; off their defaults they are named in `results.json`. A fall ends the run with
-  exit code 4: the scenario failed, no method did.
+- `ground` and `pushes` make walking harder; off their defaults they are named in `results.json`. Nobody pushes on
+  stairs and their landings unless `on_stairs`. A fall ends the run with exit code 4: the scenario failed, no method did.
 - Methods are listed by `plumbline methods`; none named means all. A gate has either `max` or `min`; its metrics are
   those of `results.json`.
 

@@ -109,6 +109,7 @@ struct World::Impl {
     out.times.push_back({"sim.physics", watch.cpu_ms()});
     take_until(stamp, imu, out.imu);
     take_until(stamp, odometry, out.odometry);
+    take_until(stamp, covariances, out.covariances);
     take_until(stamp, truth, out.truth);
     if (out.truth.empty() || out.truth.back().stamp < stamp) out.truth.push_back({stamp, track.at(stamp)});
     watch.restart();
@@ -146,6 +147,7 @@ struct World::Impl {
     if (tick % imu_every == 0) imu.push_back({stamp, reading.gyro_R, reading.accelerometer_R});
     if (tick % pose_every == 0) {
       odometry.push_back({stamp, legs.X_OR()});
+      if (tick > 0) covariances.push_back({stamp, legs.take_covariance()});
       truth.push_back({stamp, X_WR});
     }
   }
@@ -178,6 +180,7 @@ struct World::Impl {
   PoseTrack track;
   std::vector<slam::Imu> imu;
   std::vector<slam::Odometry> odometry;
+  std::vector<slam::OdometryCovariance> covariances;
   std::vector<TruePose> truth;
   std::int64_t next_firing = 0;
   std::optional<Nanoseconds> route_done_at;

@@ -12,6 +12,7 @@
 #include "sim/robot/sensors.h"
 #include "sim/route/follower.h"
 #include "slam/io/estimate.h"
+#include "slam/io/odometry_covariance.h"
 #include "slam/io/records.h"
 
 namespace plumbline::sim {
@@ -41,11 +42,12 @@ struct TruePose {
 
 /// Everything that happened up to and including one scan, since the previous one.
 struct WorldFrame {
-  std::vector<slam::Imu> imu;              ///< 250 Hz
-  std::vector<slam::Odometry> odometry;    ///< 100 Hz; O is the robot's pose at time 0
-  std::vector<slam::Vlp16Packet> packets;  ///< of this message
-  slam::Scan scan;                         ///< decoded from the packets
-  std::vector<TruePose> truth;             ///< 100 Hz and, last, at scan.stamp
+  std::vector<slam::Imu> imu;                         ///< 250 Hz
+  std::vector<slam::Odometry> odometry;               ///< 100 Hz; O is the robot's pose at time 0
+  std::vector<slam::OdometryCovariance> covariances;  ///< of the odometry
+  std::vector<slam::Vlp16Packet> packets;             ///< of this message
+  slam::Scan scan;                                    ///< decoded from the packets
+  std::vector<TruePose> truth;                        ///< 100 Hz and, last, at scan.stamp
   ReturnLabels labels;
   std::uint64_t robot_digest = 0;
   std::vector<slam::StageTime> times;  ///< CPU time of sim.physics and sim.lidar

@@ -86,11 +86,11 @@ void write_file(const std::string& path, std::string_view bytes) {
 }
 
 bool is_run_file(std::string_view name) {
-  static constexpr std::array<std::string_view, 19> names = {
+  static constexpr std::array<std::string_view, 20> names = {
       "scenario.yaml",  "building.plan.yaml", "building.ifc",  "results.json", "timings.json",
       "digests.csv",    "truth.tum",          "report.html",   "junit.xml",    "truth_surface.ply",
       "lidar.pcap",     "odometry.tum",       "imu.csv",       "failure.txt",  "recording.yaml",
-      recording_folder, "recording.bag",      "estimate.yaml", staging_name};
+      recording_folder, "recording.bag",      "estimate.yaml", staging_name,   "odometry_covariance.csv"};
   static constexpr std::array<std::string_view, 6> ends = {".tum",     ".hypotheses.jsonl", ".estimate.json",
                                                            ".map.ply", ".map.pcd",          ".graph.json"};
   return std::find(names.begin(), names.end(), name) != names.end() ||

@@ -2,6 +2,7 @@
 #include "scenarios/run/observer.h"
 
 #include <cmath>
+#include <span>
 
 #include "bim/digest/digest.h"
 #include "bim/errors.h"
@@ -16,6 +17,8 @@ std::uint64_t digest_of_odometry(const sim::WorldFrame& frame) {
   for (const slam::Imu& imu : frame.imu)
     digest.add(imu.stamp).add(imu.angular_velocity_R).add(imu.linear_acceleration_R);
   for (const slam::Odometry& odometry : frame.odometry) digest.add(odometry.stamp).add(odometry.X_OR);
+  for (const slam::OdometryCovariance& record : frame.covariances)
+    digest.add(record.stamp).add(std::span(record.covariance.data(), 36));
   return digest.value();
 }
 

@@ -39,8 +39,9 @@ void Recorder::add_bag(const slam::BagProfile& profile, bool with_truth) {
 
 void Recorder::add(const sim::WorldFrame& frame) {
   writer_.add(frame.packets, frame.odometry, frame.imu);
+  writer_.add(frame.covariances);
   if (!bag_) return;
-  bag_->add(frame.scan, frame.odometry, frame.imu);
+  bag_->add(frame.scan, frame.odometry, frame.imu, frame.covariances);
   if (!truth_in_bag_) return;
   std::vector<slam::StampedPose> truth;
   for (const sim::TruePose& pose : frame.truth) truth.push_back({pose.stamp, pose.X_WR});

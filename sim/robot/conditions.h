@@ -15,6 +15,7 @@ struct PushConfig {
   double max_n = 0.0;    ///< to here; 0: nobody pushes
   double every_s = 6.0;  ///< one in each such span; two follow each other after 2/3 to 4/3 of it
   double duration_s = 0.15;
+  bool on_stairs = false;  ///< also while the robot walks carefully, as stairs ask for
 };
 
 /// What makes walking harder; the gait knows nothing of it.

@@ -6,10 +6,12 @@
 namespace plumbline::sim {
 
 void LegHeight::update(const SensorReading& reading, const Eigen::Quaterniond& q_OR,
-                       const std::array<double, 4>& sole_m, double dt) {
+                       const std::array<double, 4>& sole_m, const std::array<double, 4>& rolling, double dt) {
   climb_ += ((q_OR * reading.accelerometer_R).z() - config_.gravity) * dt;
   z_ += climb_ * dt;
   update_contacts(reading, dt);
+  for (std::size_t leg = 0; leg < feet_.size(); ++leg)
+    if (feet_[leg].anchored) feet_[leg].ground_O += rolling[leg] * dt;
   held_ = settled();
   if (held_) follow_feet(sole_m, dt);
 }

@@ -24,9 +24,10 @@ class LegHeight {
  public:
   explicit LegHeight(const LegHeightConfig& config) : config_(config) {}
 
-  /// Advances by dt seconds. q_OR: attitude; sole_m: the feet's lowest points against the base along z of O, m.
+  /// Advances by dt seconds. q_OR: attitude; sole_m: the feet's lowest points against the base along z of O, m;
+  /// rolling: climb rates of feet that stand and roll uphill, m/s.
   void update(const SensorReading& reading, const Eigen::Quaterniond& q_OR, const std::array<double, 4>& sole_m,
-              double dt);
+              const std::array<double, 4>& rolling, double dt);
 
   [[nodiscard]] double z() const { return z_; }      ///< m, 0 at the start
   [[nodiscard]] bool held() const { return held_; }  ///< by feet, at the last update

@@ -43,14 +43,16 @@ void LegOdometry::update(const SensorReading& reading, double dt) {
   update_contacts(reading, dt);
   update_velocity(reading);
   X_OR_.t += X_OR_.q * v_R_ * dt;
-  height_.update(reading, X_OR_.q, {sole_m(reading, 0), sole_m(reading, 1), sole_m(reading, 2), sole_m(reading, 3)},
-                 dt);
-  X_OR_.t.z() = height_.z();
+  update_height(reading, dt);
   covariance_ +=
       leg_increment_covariance(config_.covariance, reading, {stands(0), stands(1), stands(2), stands(3)}, v_R_, dt);
 }
 
-Matrix6d LegOdometry::take_covariance() { return std::exchange(covariance_, Matrix6d::Zero()); }
+Matrix6d LegOdometry::take_covariance() {
+  Matrix6d out = std::exchange(covariance_, Matrix6d::Zero());
+  out.triangularView<Eigen::StrictlyLower>() = out.transpose();  // sums of products differ in their last bits
+  return out;
+}
 
 /// Gyro, pulled towards gravity in roll and pitch; yaw must not follow the accelerometer. What the legs know of the
 /// robot's own acceleration is taken out first: starts and curves would look like a lean of degrees. The difference
@@ -69,9 +71,13 @@ void LegOdometry::update_contacts(const SensorReading& reading, double dt) {
   for (std::size_t leg = 0; leg < leg_count; ++leg) contact_s_[leg] = reading.contact[leg] ? contact_s_[leg] + dt : 0.0;
 }
 
+Eigen::Vector3d LegOdometry::rolling_O(const SensorReading& reading, std::size_t leg) const {
+  if (!config_.rolling) return Eigen::Vector3d::Zero();
+  return (X_OR_.q * shank_rate_R(reading, leg)).cross(robot_dimensions.foot_radius * slope_.normal_O());
+}
+
 /// Mean over the standing feet; a foot's centre moves as its sphere rolls on the ground. Kept while none stands.
 void LegOdometry::update_velocity(const SensorReading& reading) {
-  const Eigen::Vector3d up_R = X_OR_.q.conjugate() * Eigen::Vector3d::UnitZ();
   Eigen::Vector3d sum_R = Eigen::Vector3d::Zero();
   int count = 0;
   for (std::size_t leg = 0; leg < leg_count; ++leg) {
@@ -79,7 +85,7 @@ void LegOdometry::update_velocity(const SensorReading& reading) {
     const Eigen::Vector3d foot_rate_R =
         config_.leg_scale * (foot_jacobian_R(leg, leg_values(reading.q, leg)) * leg_values(reading.qd, leg));
     Eigen::Vector3d v_R = -(reading.gyro_R.cross(calibrated_foot_R(reading, leg, config_.leg_scale)) + foot_rate_R);
-    if (config_.rolling) v_R += shank_rate_R(reading, leg).cross(robot_dimensions.foot_radius * up_R);
+    v_R += X_OR_.q.conjugate() * rolling_O(reading, leg);
     sum_R += v_R;
     ++count;
   }
@@ -87,9 +93,21 @@ void LegOdometry::update_velocity(const SensorReading& reading) {
   if (count > 0) v_R_ = sum_R / count;
 }
 
-/// Lowest point of the foot against the base, along z of O.
-double LegOdometry::sole_m(const SensorReading& reading, std::size_t leg) const {
-  return (X_OR_.q * calibrated_foot_R(reading, leg, config_.leg_scale)).z() - robot_dimensions.foot_radius;
+/// From the lowest points of the feet against the base, along z of O, and what those that stand climb as they roll.
+void LegOdometry::update_height(const SensorReading& reading, double dt) {
+  std::array<Eigen::Vector3d, leg_count> foot_O;
+  std::array<double, leg_count> sole_m{}, climb{};
+  std::array<bool, leg_count> standing{};
+  for (std::size_t leg = 0; leg < leg_count; ++leg) {
+    const Eigen::Vector3d lever_O = X_OR_.q * calibrated_foot_R(reading, leg, config_.leg_scale);
+    foot_O[leg] = X_OR_.t + lever_O;
+    sole_m[leg] = lever_O.z() - robot_dimensions.foot_radius;
+    climb[leg] = rolling_O(reading, leg).z();
+    standing[leg] = stands(leg);
+  }
+  slope_.update(foot_O, standing, dt);
+  height_.update(reading, X_OR_.q, sole_m, climb, dt);
+  X_OR_.t.z() = height_.z();
 }
 
 }  // namespace plumbline::sim

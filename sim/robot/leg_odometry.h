@@ -7,6 +7,7 @@
 #include "bim/geometry/pose.h"
 #include "sim/robot/leg_covariance.h"
 #include "sim/robot/leg_height.h"
+#include "sim/robot/leg_slope.h"
 #include "sim/robot/sensors.h"
 
 namespace plumbline::sim {
@@ -20,6 +21,7 @@ struct LegOdometryConfig {
   double leg_scale = 1.0;              ///< calibrated over true length of the legs
   bool rolling = true;                 ///< feet are spheres that roll: without this odometry is 6.5 % short
   LegHeightConfig height;
+  LegSlopeConfig slope;
   LegCovarianceConfig covariance;
 };
 
@@ -27,10 +29,12 @@ struct LegOdometryConfig {
 [[nodiscard]] LegOdometryConfig leg_odometry_config(OdometryPreset preset, std::uint64_t seed);
 
 /// Dead reckoning from readings alone: X_OR, starting at identity. Roll and pitch lean on gravity, and what they lean
-/// tells the gyro's bias about the level axes; yaw is the integrated gyro. Height comes from the feet that stand.
+/// tells the gyro's bias about the level axes; yaw is the integrated gyro. Height comes from the feet that stand. Feet
+/// are spheres that roll on the ground's slope.
 class LegOdometry {
  public:
-  explicit LegOdometry(const LegOdometryConfig& config) : config_(config), height_(config.height) {}
+  explicit LegOdometry(const LegOdometryConfig& config)
+      : config_(config), height_(config.height), slope_(config.slope) {}
 
   /// Advances by one reading, taken dt seconds after the one before.
   void update(const SensorReading& reading, double dt);
@@ -44,7 +48,9 @@ class LegOdometry {
   void update_contacts(const SensorReading& reading, double dt);
   void update_velocity(const SensorReading& reading);
   [[nodiscard]] bool stands(std::size_t leg) const { return contact_s_[leg] >= config_.contact_min_s; }
-  [[nodiscard]] double sole_m(const SensorReading& reading, std::size_t leg) const;
+  /// Velocity of a standing foot's centre as it rolls, m/s in O.
+  [[nodiscard]] Eigen::Vector3d rolling_O(const SensorReading& reading, std::size_t leg) const;
+  void update_height(const SensorReading& reading, double dt);
 
   LegOdometryConfig config_;
   Pose X_OR_;
@@ -53,6 +59,7 @@ class LegOdometry {
   Eigen::Vector3d gyro_bias_R_ = Eigen::Vector3d::Zero();  ///< learnt, rad/s
   std::array<double, 4> contact_s_{};                      ///< without a break so far
   LegHeight height_;
+  LegSlope slope_;
   Matrix6d covariance_ = Matrix6d::Zero();
 };
 

@@ -61,7 +61,8 @@ struct Robot::Impl {
         model(load_model(model_xml(model_cfg))),
         data(make_data(*model)),
         pool(joined(std::move(boxes), ground), pool_geoms(*model, model_cfg.box_pool), config.pool_radius_m),
-        pushes(conditions.pushes, model_cfg.step_s, seed) {
+        pushes(conditions.pushes, model_cfg.step_s, seed),
+        push_on_stairs(conditions.pushes.on_stairs) {
     if (conditions.uneven_m > 0.0)
       uneven.emplace(conditions.uneven_m, X_WR_start.t.head<2>(), plate_geoms(*model, model_cfg.plates), seed);
     place(X_WR_start);
@@ -118,7 +119,8 @@ struct Robot::Impl {
     lay_plates();
     const Torques torques = trot->update(state(), command, terrain);
     std::copy(torques.begin(), torques.end(), data->ctrl);
-    const Eigen::Vector2d push_W = pushes.force_W(steps);
+    const bool held_off = command.careful && !push_on_stairs;
+    const Eigen::Vector2d push_W = held_off ? Eigen::Vector2d::Zero() : pushes.force_W(steps);
     std::copy_n(push_W.data(), 2, data->xfrc_applied + wrench_size * base_body);
     mj_step(model.get(), data.get());
     ++steps;
@@ -155,6 +157,7 @@ struct Robot::Impl {
   DataPtr data;
   BoxPool pool;
   Pushes pushes;
+  bool push_on_stairs;
   std::optional<Uneven> uneven;
   std::unique_ptr<Trot> trot;
   std::int64_t steps = 0;

@@ -14,12 +14,14 @@ namespace plumbline::sim {
 struct StairWayConfig {
   double rise_max_m = 0.20;
   double run_min_m = 0.24;
-  double level_m = 0.05;   ///< a landing and the end of a flight this near in height belong together
-  double offset_m = 0.05;  ///< flights without a landing between them run straight on, to within this
-  double sample_m = 0.1;   ///< spacing at which the way is checked for things in it
+  double level_m = 0.05;         ///< a landing and the end of a flight this near in height belong together
+  double offset_m = 0.05;        ///< flights without a landing between them run straight on, to within this
+  double behind_m = 0.6;         ///< where the robot turns to face a flight it needs so much of the landing behind it,
+  double turn_at_least_m = 0.3;  ///< but no nearer to the flight than this
+  double sample_m = 0.1;         ///< spacing at which the way is checked for things in it
 };
 
-/// The way up one stair: along the middle of each flight, over the middle of each landing.
+/// The way up one stair: along the middle of each flight, over each landing.
 struct StairWay {
   std::string id;
   int from = -1;                        ///< storey at the foot

@@ -41,7 +41,8 @@ class BagWriter {
   BagWriter& operator=(const BagWriter&) = delete;
 
   /// A scan and the records since the one before it, up to its stamp.
-  void add(const Scan& scan, std::span<const Odometry> odometry, std::span<const Imu> imu);
+  void add(const Scan& scan, std::span<const Odometry> odometry, std::span<const Imu> imu,
+           std::span<const OdometryCovariance> covariances = {});
   /// For scoring elsewhere, never read here: X_WR on /ground_truth/odom.
   void add_truth(std::span<const StampedPose> truth_W);
   void finish();

@@ -18,6 +18,7 @@
 
 #include "bim/errors.h"
 #include "slam/io/bag.h"
+#include "slam/io/odometry_motion.h"
 #include "slam/io/ros_message.h"
 
 namespace plumbline::slam {
@@ -165,7 +166,7 @@ class BagRecording final : public Recording {
           mounts[plain(t.child)] = {plain(t.parent), t.X};
     std::string base, frame;
     for (const rosbag::MessageInstance& message : rosbag::View(bag_, rosbag::TopicQuery(names))) {
-      if (is<nav_msgs::Odometry>(message)) base = plain(ros::read_odometry(bytes_of(message)).child);
+      if (is<nav_msgs::Odometry>(message)) base = plain(ros::read_odometry(bytes_of(message)).X_OR.child);
       if (is<sensor_msgs::PointCloud2>(message)) frame = plain(ros::read_cloud(bytes_of(message)).frame);
       if (!frame.empty() && (!base.empty() || topics_.odometry.empty())) break;
     }
@@ -190,6 +191,7 @@ class BagRecording final : public Recording {
       out.scan = scans_.take();
       imu_.take_until(out.scan.stamp, out.imu);
       odometry_.take_until(out.scan.stamp, out.odometry);
+      covariances_.take_until(out.scan.stamp, out.covariances);
       started_ = started_ || !has_odometry() || !out.odometry.empty();
       if (!started_) continue;
       frame = std::move(out);
@@ -219,9 +221,14 @@ class BagRecording final : public Recording {
       scan.stamp = shifted(scan.stamp);
       scans_.add(scan, topics_.points);
     } else if (is<nav_msgs::Odometry>(message)) {
-      const ros::Transform X_BR = ros::read_odometry(bytes_of(message));
-      if (!X_OB_) X_OB_ = start_of(X_BR.X);
-      odometry_.add({shifted(X_BR.stamp), *X_OB_ * X_BR.X}, topics_.odometry);
+      const ros::OdometryMessage said = ros::read_odometry(bytes_of(message));
+      if (!X_OB_) X_OB_ = start_of(said.X_OR.X);
+      const Nanoseconds stamp = shifted(said.X_OR.stamp);
+      odometry_.add({stamp, *X_OB_ * said.X_OR.X}, topics_.odometry);
+      const Nanoseconds dt = odometry_stamp_ ? stamp - *odometry_stamp_ : 0;
+      if (const auto covariance = increment_covariance(said, dt))
+        covariances_.add({stamp, *covariance}, topics_.odometry);
+      odometry_stamp_ = stamp;
     } else if (is<sensor_msgs::Imu>(message)) {
       Imu record = ros::read_imu(bytes_of(message));
       record.stamp = shifted(record.stamp);
@@ -244,8 +251,10 @@ class BagRecording final : public Recording {
   RecordingInfo info_;
   Waiting<Scan> scans_;
   Waiting<Odometry> odometry_;
+  Waiting<OdometryCovariance> covariances_;
   Waiting<Imu> imu_;
   std::optional<Nanoseconds> origin_;
+  std::optional<Nanoseconds> odometry_stamp_;  ///< of the last message
   std::optional<Pose> X_OB_;
   std::int64_t messages_ = 0;
   bool started_ = false;

@@ -9,9 +9,11 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <optional>
 
 #include "bim/errors.h"
 #include "slam/io/bag.h"
+#include "slam/io/odometry_motion.h"
 #include "slam/io/ros_message.h"
 
 namespace plumbline::slam {
@@ -80,6 +82,7 @@ struct BagWriter::Impl {
   BagProfile profile;
   rosbag::Bag bag;
   bool open = false;
+  OdometryMotion motion;
 
   template <class F>
   void guarded(const F& function) const {
@@ -111,11 +114,13 @@ struct BagWriter::Impl {
     write(profile.imu, imu.stamp, raw<sensor_msgs::Imu>(ros::write_imu(imu, profile.base)));
   }
 
-  void write_odometry(const Odometry& record) {
-    const ros::Transform transform{record.stamp, std::string(profile.odom), std::string(profile.base), record.X_OR};
+  void write_odometry(const Odometry& record, const std::optional<Matrix6d>& covariance) {
+    ros::OdometryMessage message = motion.message(record, covariance);
+    message.X_OR.parent = profile.odom;
+    message.X_OR.child = profile.base;
     write("/clock", record.stamp, raw<rosgraph_msgs::Clock>(ros::write_clock(record.stamp)));
-    write(profile.odometry, record.stamp, raw<nav_msgs::Odometry>(ros::write_odometry(transform)));
-    write_transform("/tf", transform, false);
+    write(profile.odometry, record.stamp, raw<nav_msgs::Odometry>(ros::write_odometry(message)));
+    write_transform("/tf", message.X_OR, false);
   }
 };
 
@@ -143,11 +148,15 @@ BagWriter::~BagWriter() {
   std::remove(impl_->temporary.c_str());
 }
 
-void BagWriter::add(const Scan& scan, std::span<const Odometry> odometry, std::span<const Imu> imu) {
+void BagWriter::add(const Scan& scan, std::span<const Odometry> odometry, std::span<const Imu> imu,
+                    std::span<const OdometryCovariance> covariances) {
   auto next = imu.begin();
+  auto known = covariances.begin();
   for (const Odometry& record : odometry) {
     for (; next != imu.end() && next->stamp <= record.stamp; ++next) impl_->write_imu(*next);
-    impl_->write_odometry(record);
+    while (known != covariances.end() && known->stamp < record.stamp) ++known;
+    const bool found = known != covariances.end() && known->stamp == record.stamp;
+    impl_->write_odometry(record, found ? std::optional(known->covariance) : std::nullopt);
   }
   for (; next != imu.end(); ++next) impl_->write_imu(*next);
   const BagProfile& profile = impl_->profile;
@@ -159,7 +168,7 @@ void BagWriter::add_truth(std::span<const StampedPose> truth_W) {
   for (const StampedPose& truth : truth_W)
     impl_->write("/ground_truth/odom", truth.stamp,
                  raw<nav_msgs::Odometry>(
-                     ros::write_odometry({truth.stamp, "map", std::string(impl_->profile.base), truth.X_FR})));
+                     ros::write_odometry({{truth.stamp, "map", std::string(impl_->profile.base), truth.X_FR}})));
 }
 
 void BagWriter::finish() {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "bim/config/tree.h"
 #include "slam/io/tum.h"
@@ -17,6 +18,34 @@ void check_order(bool& any, Nanoseconds& last, Nanoseconds stamp, const Mark& ma
   if (any && stamp <= last) throw InputError(mark, "stamps must increase from line to line");
   any = true;
   last = stamp;
+}
+
+/// The next line below the header, which the first one must be.
+bool next_row(LineReader& lines, std::string_view header, bool& header_read, std::string& line) {
+  if (!lines.next(line)) return false;
+  if (header_read) return true;
+  if (line != header) throw InputError(lines.mark(), "the first line must be '" + std::string(header) + "'");
+  header_read = true;
+  return lines.next(line);
+}
+
+/// A stamp and as many numbers as there is room for.
+void parse_row(std::string_view line, std::string_view header, const Mark& mark, Nanoseconds& stamp,
+               std::span<double> values) {
+  std::string_view rest = line;
+  std::size_t columns = 0;
+  bool good = true;
+  while (good && columns < values.size() + 2) {
+    const std::string_view text = rest.substr(0, rest.find(','));
+    if (columns == 0) good = parse_stamp(text, stamp);
+    if (columns > 0 && columns <= values.size()) good = parse_number(text, values[columns - 1]);
+    ++columns;
+    if (text.size() == rest.size()) break;
+    rest.remove_prefix(text.size() + 1);
+  }
+  if (!good || columns != values.size() + 1)
+    throw InputError(
+        mark, "not " + std::to_string(values.size() + 1) + " numbers with commas between them: " + std::string(header));
 }
 
 }  // namespace
@@ -49,27 +78,26 @@ bool OdometryReader::next(Odometry& record) {
   return true;
 }
 
+bool CovarianceReader::next(OdometryCovariance& record) {
+  std::string line;
+  if (!next_row(lines_, covariance_header, header_, line)) return false;
+  std::array<double, 21> v{};
+  parse_row(line, covariance_header, lines_.mark(), record.stamp, v);
+  check_order(any_, last_, record.stamp, lines_.mark());
+  Matrix6d m;
+  std::size_t k = 0;
+  for (int i = 0; i < 6; ++i)
+    for (int j = i; j < 6; ++j) m(i, j) = m(j, i) = v[k++];
+  if (!(m.diagonal().minCoeff() >= 0.0)) throw InputError(lines_.mark(), "a variance below 0");
+  record.covariance = m;
+  return true;
+}
+
 bool ImuReader::next(Imu& record) {
   std::string line;
-  if (!lines_.next(line)) return false;
-  if (!header_ && line != imu_header)
-    throw InputError(lines_.mark(), "the first line must be '" + std::string(imu_header) + "'");
-  if (!header_ && !lines_.next(line)) return false;
-  header_ = true;
+  if (!next_row(lines_, imu_header, header_, line)) return false;
   std::array<double, 6> v{};
-  std::string_view rest = line;
-  std::size_t columns = 0;
-  bool good = true;
-  while (good && columns < 8) {
-    const std::string_view text = rest.substr(0, rest.find(','));
-    if (columns == 0) good = parse_stamp(text, record.stamp);
-    if (columns > 0 && columns < 7) good = parse_number(text, v[columns - 1]);
-    ++columns;
-    if (text.size() == rest.size()) break;
-    rest.remove_prefix(text.size() + 1);
-  }
-  if (!good || columns != 7)
-    throw InputError(lines_.mark(), "not 7 numbers with commas between them: " + std::string(imu_header));
+  parse_row(line, imu_header, lines_.mark(), record.stamp, v);
   check_order(any_, last_, record.stamp, lines_.mark());
   record.angular_velocity_R = {v[0], v[1], v[2]};
   record.linear_acceleration_R = {v[3], v[4], v[5]};
@@ -81,6 +109,14 @@ std::string odometry_line(const Odometry& record) {
   const Eigen::Vector3d& t = record.X_OR.t;
   std::string line = format_stamp(record.stamp);
   for (const double v : {t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w()}) line += " " + exact(v);
+  return line + "\n";
+}
+
+std::string covariance_line(const OdometryCovariance& record) {
+  const Matrix6d& m = record.covariance;
+  std::string line = format_stamp(record.stamp);
+  for (int i = 0; i < 6; ++i)
+    for (int j = i; j < 6; ++j) line += "," + exact(m(i, j));
   return line + "\n";
 }
 

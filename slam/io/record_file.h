@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "bim/errors.h"
-#include "slam/io/records.h"
+#include "slam/io/odometry_covariance.h"
 
 namespace plumbline::slam {
 
@@ -40,6 +40,20 @@ class OdometryReader {
   Nanoseconds last_ = 0;
 };
 
+/// odometry_covariance.csv (a line a record: its stamp and the upper triangle, row by row), record by record.
+class CovarianceReader {
+ public:
+  explicit CovarianceReader(const std::string& path) : lines_(path) {}
+  /// As OdometryReader; a negative variance is wrong, too.
+  [[nodiscard]] bool next(OdometryCovariance& record);
+
+ private:
+  LineReader lines_;
+  bool any_ = false;
+  bool header_ = false;
+  Nanoseconds last_ = 0;
+};
+
 /// imu.csv ("t,wx,wy,wz,ax,ay,az" and a line a record), record by record.
 class ImuReader {
  public:
@@ -56,7 +70,10 @@ class ImuReader {
 
 /// One line of each, numbers to the last bit (also that of a negative zero), with the line break.
 [[nodiscard]] std::string odometry_line(const Odometry& record);
+[[nodiscard]] std::string covariance_line(const OdometryCovariance& record);
 [[nodiscard]] std::string imu_line(const Imu& record);
+inline constexpr std::string_view covariance_header =
+    "t,xx,xy,xz,xa,xb,xc,yy,yz,ya,yb,yc,zz,za,zb,zc,aa,ab,ac,bb,bc,cc";
 inline constexpr std::string_view imu_header = "t,wx,wy,wz,ax,ay,az";
 
 }  // namespace plumbline::slam

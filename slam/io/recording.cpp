@@ -49,6 +49,7 @@ class PacketRecording final : public Recording {
   PacketRecording(const std::string& pcap, RecordingInfo info)
       : mark_{pcap, 0, 0}, info_(std::move(info)), pcap_(pcap) {}
   void add_odometry(const std::string& path) { odometry_.emplace(path); }
+  void add_covariances(const std::string& path) { covariances_.emplace(path); }
   void add_imu(const std::string& path) { imu_.emplace(path); }
 
   [[nodiscard]] const RecordingInfo& info() const override { return info_; }
@@ -63,6 +64,7 @@ class PacketRecording final : public Recording {
     } while (odometry_ && !odometry_started(out.scan.stamp));
     if (imu_) imu_->take_until(out.scan.stamp, origin(), out.imu);
     if (odometry_) odometry_->take_until(out.scan.stamp, origin(), out.odometry);
+    if (covariances_) covariances_->take_until(out.scan.stamp, origin(), out.covariances);
     frame = std::move(out);
     return true;
   }
@@ -115,6 +117,7 @@ class PacketRecording final : public Recording {
   RecordingInfo info_;
   PcapReader pcap_;
   std::optional<Stream<OdometryReader, Odometry>> odometry_;
+  std::optional<Stream<CovarianceReader, OdometryCovariance>> covariances_;
   std::optional<Stream<ImuReader, Imu>> imu_;
   std::int64_t messages_ = 0;
   bool started_ = false;
@@ -131,6 +134,7 @@ std::unique_ptr<Recording> open_directory(const std::string& dir, const Recordin
     info = read_recording_info(read_text_file(file), file);
   auto recording = std::make_unique<PacketRecording>(pcap, info);
   if (const std::string file = path(recording_files::odometry); fs::exists(file)) recording->add_odometry(file);
+  if (const std::string file = path(recording_files::covariance); fs::exists(file)) recording->add_covariances(file);
   if (const std::string file = path(recording_files::imu); fs::exists(file)) recording->add_imu(file);
   return recording;
 }

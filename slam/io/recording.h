@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "slam/io/odometry_covariance.h"
 #include "slam/io/recording_info.h"
 #include "slam/io/records.h"
 #include "slam/io/vlp16.h"
@@ -15,7 +16,8 @@ namespace plumbline::slam {
 struct SensorFrame {
   std::vector<Imu> imu;
   std::vector<Odometry> odometry;
-  std::vector<Vlp16Packet> packets;  ///< empty where the recording holds points
+  std::vector<OdometryCovariance> covariances;  ///< of the odometry, where known
+  std::vector<Vlp16Packet> packets;             ///< empty where the recording holds points
   Scan scan;
 };
 
@@ -37,13 +39,14 @@ namespace recording_files {
 inline constexpr std::string_view info = "recording.yaml";
 inline constexpr std::string_view lidar = "lidar.pcap";
 inline constexpr std::string_view odometry = "odometry.tum";
+inline constexpr std::string_view covariance = "odometry_covariance.csv";
 inline constexpr std::string_view imu = "imu.csv";
 }  // namespace recording_files
 
-/// Opens a recording directory (lidar.pcap; recording.yaml, odometry.tum and imu.csv where they are there) or a bare
-/// capture of a VLP-16; `info`, where it is not null, stands for recording.yaml. Messages are cut as drivers do, by the
-/// number of packets; scans before the first odometry record and a message that the end cuts short are left out. Throws
-/// InputError.
+/// Opens a recording directory (lidar.pcap; recording.yaml, odometry.tum with its covariances and imu.csv where they
+/// are there) or a bare capture of a VLP-16; `info`, where it is not null, stands for recording.yaml. Messages are cut
+/// as drivers do, by the number of packets; scans before the first odometry record and a message that the end cuts
+/// short are left out. Throws InputError.
 [[nodiscard]] std::unique_ptr<Recording> open_recording(const std::string& path, const RecordingInfo* info = nullptr);
 
 /// Packets of a full turn, rounded up, at the speed one packet tells (a multiple of 60 rpm): 76 at 600 rpm.

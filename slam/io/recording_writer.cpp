@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <optional>
 
 #include "slam/io/pcap.h"
 #include "slam/io/record_file.h"
@@ -57,10 +58,20 @@ struct RecordingWriter::Impl {
     imu.add(std::string(imu_header) + "\n");
   }
 
+  /// Only where covariances are known.
+  TextFile& covariances() {
+    if (!covariance) {
+      covariance.emplace(path_in(dir, recording_files::covariance));
+      covariance->add(std::string(covariance_header) + "\n");
+    }
+    return *covariance;
+  }
+
   std::string dir;
   RecordingInfo info;
   PcapWriter pcap;
   TextFile odometry;
+  std::optional<TextFile> covariance;
   TextFile imu;
 };
 
@@ -78,9 +89,14 @@ void RecordingWriter::add(std::span<const Vlp16Packet> packets, std::span<const 
   for (const Imu& record : imu) impl_->imu.add(imu_line(record));
 }
 
+void RecordingWriter::add(std::span<const OdometryCovariance> covariances) {
+  for (const OdometryCovariance& record : covariances) impl_->covariances().add(covariance_line(record));
+}
+
 void RecordingWriter::finish() {
   impl_->pcap.finish();
   impl_->odometry.finish();
+  if (impl_->covariance) impl_->covariance->finish();
   impl_->imu.finish();
   TextFile info(path_in(impl_->dir, recording_files::info));
   info.add(write_recording_info(impl_->info));

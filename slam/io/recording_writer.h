@@ -20,6 +20,8 @@ class RecordingWriter {
 
   /// What came since the frame before: the packets of one message, and the records up to its end.
   void add(std::span<const Vlp16Packet> packets, std::span<const Odometry> odometry, std::span<const Imu> imu);
+  /// Of the odometry's records, in their order.
+  void add(std::span<const OdometryCovariance> covariances);
   /// Completes all files.
   void finish();
 

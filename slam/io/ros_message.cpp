@@ -53,6 +53,10 @@ class Writer {
     vector(X.t);
     quaternion(X.q);
   }
+  void matrix(const Matrix6d& m) {
+    for (int i = 0; i < 6; ++i)
+      for (int j = 0; j < 6; ++j) number(m(i, j));
+  }
 
   Bytes bytes;
 };
@@ -109,6 +113,12 @@ class Reader {
     if (std::abs(X.q.norm() - 1.0) > 1e-9) X.q.normalize();
     return X;
   }
+  Matrix6d matrix() {
+    Matrix6d m;
+    for (int i = 0; i < 6; ++i)
+      for (int j = 0; j < 6; ++j) m(i, j) = number<double>();
+    return m;
+  }
 
  private:
   std::span<const std::uint8_t> rest_;
@@ -143,12 +153,14 @@ Bytes write_cloud(const PointCloud& cloud, std::string_view frame) {
   return out.bytes;
 }
 
-Bytes write_odometry(const Transform& X_OR) {
+Bytes write_odometry(const OdometryMessage& message) {
   Writer out;
-  out.header(X_OR.stamp, X_OR.parent);
-  out.text(X_OR.child);
-  out.pose(X_OR.X);
-  out.zeros(36 + 6 + 36);  // covariance, which is not known; twist and its own
+  out.header(message.X_OR.stamp, message.X_OR.parent);
+  out.text(message.X_OR.child);
+  out.pose(message.X_OR.X);
+  out.matrix(message.pose_covariance);
+  for (const double value : message.twist) out.number(value);
+  out.matrix(message.twist_covariance);
   return out.bytes;
 }
 
@@ -199,12 +211,15 @@ FramedCloud read_cloud(std::span<const std::uint8_t> bytes) {
   return out;
 }
 
-Transform read_odometry(std::span<const std::uint8_t> bytes) {
+OdometryMessage read_odometry(std::span<const std::uint8_t> bytes) {
   Reader in(bytes);
-  Transform out;
-  out.stamp = in.header(out.parent);
-  out.child = in.text();
-  out.X = in.pose();
+  OdometryMessage out;
+  out.X_OR.stamp = in.header(out.X_OR.parent);
+  out.X_OR.child = in.text();
+  out.X_OR.X = in.pose();
+  out.pose_covariance = in.matrix();
+  for (double& value : out.twist) value = in.number<double>();
+  out.twist_covariance = in.matrix();
   return out;
 }
 

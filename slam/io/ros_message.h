@@ -23,6 +23,14 @@ struct Transform {
   Pose X;  ///< of child in parent
 };
 
+/// nav_msgs/Odometry. Covariances are of x, y, z and the rotation about them; zero where they are not known.
+struct OdometryMessage {
+  Transform X_OR;
+  Matrix6d pose_covariance = Matrix6d::Zero();   ///< along and about the axes of O
+  Vector6d twist = Vector6d::Zero();             ///< in R: m/s, rad/s
+  Matrix6d twist_covariance = Matrix6d::Zero();  ///< in R
+};
+
 /// A cloud with the frame its points are in.
 struct FramedCloud {
   std::string frame;
@@ -31,12 +39,12 @@ struct FramedCloud {
 
 [[nodiscard]] Bytes write_clock(Nanoseconds stamp);                                ///< rosgraph_msgs/Clock
 [[nodiscard]] Bytes write_cloud(const PointCloud& cloud, std::string_view frame);  ///< sensor_msgs/PointCloud2
-[[nodiscard]] Bytes write_odometry(const Transform& X_OR);                         ///< nav_msgs/Odometry, no twist
+[[nodiscard]] Bytes write_odometry(const OdometryMessage& message);                ///< nav_msgs/Odometry
 [[nodiscard]] Bytes write_imu(const Imu& imu, std::string_view frame);             ///< sensor_msgs/Imu
 [[nodiscard]] Bytes write_transforms(std::span<const Transform> transforms);       ///< tf2_msgs/TFMessage
 
 [[nodiscard]] FramedCloud read_cloud(std::span<const std::uint8_t> bytes);
-[[nodiscard]] Transform read_odometry(std::span<const std::uint8_t> bytes);
+[[nodiscard]] OdometryMessage read_odometry(std::span<const std::uint8_t> bytes);
 [[nodiscard]] Imu read_imu(std::span<const std::uint8_t> bytes);
 [[nodiscard]] std::vector<Transform> read_transforms(std::span<const std::uint8_t> bytes);
 

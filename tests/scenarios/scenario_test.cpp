@@ -68,6 +68,7 @@ TEST(Scenario, GroundAndPushesBecomeConditions) {
   EXPECT_DOUBLE_EQ(hard.pushes.min_n, 30.0);
   EXPECT_EQ(hard.pushes.max_n, 100.0);
   EXPECT_EQ(hard.pushes.every_s, 4.0);
+  EXPECT_FALSE(hard.pushes.on_stairs);
   EXPECT_EQ(write_scenario(read_scenario(write_scenario(scenario), "s.yaml").scenario), write_scenario(scenario));
   const std::vector<std::string> off = off_defaults(scenario);
   for (const char* name : {"ground.friction: 0.4", "ground.uneven_mm: 15", "pushes.max_n: 100", "pushes.every_s: 4"})

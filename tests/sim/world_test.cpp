@@ -130,12 +130,17 @@ TEST(World, RecordsComeInTimeAtTheirRates) {
   WorldFrame frame;
   slam::Nanoseconds imu = -4'000'000;
   slam::Nanoseconds odometry = -10'000'000;
+  slam::Nanoseconds covariance = 0;  // nothing came before the first record
   slam::Nanoseconds truth = -1;
   slam::Nanoseconds stamp = 0;
   int frames = 0;
   while (world.next(frame)) {
     for (const slam::Imu& r : frame.imu) EXPECT_EQ(r.stamp, imu += 4'000'000);
     for (const slam::Odometry& r : frame.odometry) EXPECT_EQ(r.stamp, odometry += 10'000'000);
+    for (const slam::OdometryCovariance& r : frame.covariances) {
+      EXPECT_EQ(r.stamp, covariance += 10'000'000);
+      EXPECT_EQ(Eigen::LLT<Matrix6d>(r.covariance).info(), Eigen::Success) << r.stamp;
+    }
     for (const TruePose& r : frame.truth) {
       EXPECT_GT(r.stamp, truth);
       truth = r.stamp;
@@ -146,6 +151,7 @@ TEST(World, RecordsComeInTimeAtTheirRates) {
     EXPECT_LE(imu, stamp);
     EXPECT_GT(imu + 4'000'000, stamp);
     EXPECT_LE(odometry, stamp);
+    EXPECT_EQ(covariance, odometry);
     EXPECT_GT(odometry + 10'000'000, stamp);
     ++frames;
   }

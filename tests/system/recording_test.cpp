@@ -165,7 +165,7 @@ TEST_F(Recordings, EstimateSaysWhatRunSaid) {
   ASSERT_EQ(plumbline({"run", open, "--out", run, "--record", "--method", methods}).code, 0);
   const std::string walk = folder_ / "walk";
   ASSERT_EQ(plumbline({"simulate", open, "-o", walk}).code, 0);
-  for (const char* name : {"lidar.pcap", "odometry.tum", "imu.csv", "recording.yaml"})
+  for (const char* name : {"lidar.pcap", "odometry.tum", "odometry_covariance.csv", "imu.csv", "recording.yaml"})
     EXPECT_TRUE(read_file(walk + "/" + name) == read_file(run + "/recording/" + name)) << name;
   EXPECT_TRUE(read_file(walk + "/truth.tum") == read_file(run + "/truth.tum"));
 

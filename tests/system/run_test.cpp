@@ -62,7 +62,7 @@ TEST_F(ShortRun, LeavesTheFilesOfTheContract) {
        {"scenario.yaml", "results.json", "timings.json", "digests.csv", "truth.tum", "report.html", "junit.xml",
         "building.plan.yaml", "truth_surface.ply", "vgicp.tum", "vgicp.final.tum", "vgicp.map.ply", "vgicp.map.pcd",
         "s_graph_localization.hypotheses.jsonl", "recording/lidar.pcap", "recording/odometry.tum", "recording/imu.csv",
-        "recording/recording.yaml"})
+        "recording/recording.yaml", "recording/odometry_covariance.csv"})
     EXPECT_GT(read_file(dir() + "/" + name).size(), 0U) << name;
   EXPECT_EQ(outcome_->err, "");  // stderr is no terminal here
   EXPECT_NE(outcome_->out.find("gates: 2 of 2 passed\n"), std::string::npos) << outcome_->out;

@@ -65,6 +65,23 @@ Robot robot_in(const Conditions& conditions, std::uint64_t seed = 1) {
   return {Pose::from_xyz_yaw({0.0, 0.0, 1.0}, 0.0), Ground(), {}, conditions, seed};
 }
 
+TEST(Conditions, PushesAreHeldOffWhileTheRobotWalksCarefully) {
+  for (const bool on_stairs : {false, true}) {
+    Conditions conditions;
+    conditions.pushes = {.min_n = 100.0, .max_n = 100.0, .every_s = 1.0, .on_stairs = on_stairs};
+    const Push push = pushes_of(conditions.pushes, 1, 500).at(0);
+    Command careful;
+    careful.careful = true;
+    Robot robot = robot_in(conditions);
+    Robot undisturbed = robot_in({});
+    for (std::int64_t i = 0; i < push.begin + push.length; ++i) {
+      robot.step(careful);
+      undisturbed.step(careful);
+    }
+    EXPECT_EQ(robot.digest() == undisturbed.digest(), !on_stairs);
+  }
+}
+
 TEST(Conditions, APushMovesARobotThatStands) {
   Conditions conditions;
   conditions.pushes = {.min_n = 100.0, .max_n = 100.0, .every_s = 1.0};

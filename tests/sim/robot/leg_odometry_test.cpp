@@ -152,7 +152,7 @@ TEST(LegOdometry, WithNoiseItDriftsAsRealLeggedRobotsDo) {
 
 TEST(LegOdometry, ClimbsWhatTheRobotClimbs) {
   const Walk stairs = stair_walk();
-  const Walk ramp = ramp_walk(0.05);
+  const Walk ramp = ramp_walk(0.05), steep = ramp_walk(0.15);
   for (std::uint64_t seed = 0; seed <= 5; ++seed) {
     const OdometryPreset preset = seed == 0 ? OdometryPreset::ideal : OdometryPreset::noisy;
     double worst = 0.0;
@@ -160,11 +160,14 @@ TEST(LegOdometry, ClimbsWhatTheRobotClimbs) {
     for (std::size_t i = 0; i < X_OR.size(); ++i)
       worst = std::max(worst, std::abs(X_OR[i].t.z() - stairs.X_WR[i].t.z() + stairs.X_WR[0].t.z()));
     EXPECT_LT(worst, 0.12) << seed;
-    const double rise = ramp.X_WR.back().t.z() - ramp.X_WR.front().t.z();
-    const double said = odometry(ramp, preset, seed).back().t.z();
-    // Feet are taken to roll on level ground, which makes ramps 7 % too low.
-    EXPECT_NEAR(said, 0.93 * rise, 0.10) << seed;
-    EXPECT_GT(rise, 0.3);
+    for (const Walk* w : {&ramp, &steep}) {
+      const double rise = w->X_WR.back().t.z() - w->X_WR.front().t.z();
+      const double said = odometry(*w, preset, seed).back().t.z();
+      // Without noise 0.955 and 0.967 of the rise; feet taken to roll on level ground would make it 0.89. The gyro's
+      // bias leans the attitude by 3.2 mrad, one standard deviation, over 8 m of way.
+      EXPECT_NEAR(said, 0.96 * rise, 0.02 * rise + (seed == 0 ? 0.0 : 3.5 * 3.2e-3 * 8.0)) << seed;
+      EXPECT_GT(rise, 0.3);
+    }
   }
 }
 

@@ -74,7 +74,7 @@ std::vector<SensorFrame> three_frames(Nanoseconds start = 0) {
 
 void write(const std::string& path, const BagProfile& profile, const std::vector<SensorFrame>& frames) {
   BagWriter writer(path, profile, mount());
-  for (const SensorFrame& frame : frames) writer.add(frame.scan, frame.odometry, frame.imu);
+  for (const SensorFrame& frame : frames) writer.add(frame.scan, frame.odometry, frame.imu, frame.covariances);
   writer.finish();
 }
 
@@ -107,6 +107,25 @@ TEST_F(BagTest, EveryProfileIsReadBack) {
     }
     SensorFrame end;
     EXPECT_FALSE(recording->next(end));
+  }
+}
+
+TEST_F(BagTest, HoldsTheCovariancesOfTheOdometry) {
+  std::vector<SensorFrame> frames = three_frames();
+  const Matrix6d covariance = (Vector6d() << 1e-8, 2e-8, 3e-8, 4e-9, 5e-9, 6e-9).finished().asDiagonal();
+  for (SensorFrame& frame : frames)
+    for (const Odometry& record : frame.odometry)
+      if (record.stamp > 0) frame.covariances.push_back({record.stamp, covariance});
+  write(file("c.bag"), bag_profiles[0], frames);
+  const auto recording = open_bag(file("c.bag"), {}, nullptr);
+  for (const SensorFrame& expected : frames) {
+    SensorFrame frame;
+    ASSERT_TRUE(recording->next(frame));
+    ASSERT_EQ(frame.covariances.size(), expected.covariances.size());
+    for (std::size_t i = 0; i < frame.covariances.size(); ++i) {
+      EXPECT_EQ(frame.covariances[i].stamp, expected.covariances[i].stamp);
+      EXPECT_LE((frame.covariances[i].covariance - covariance).norm(), 1e-12 * covariance.norm());
+    }
   }
 }
 

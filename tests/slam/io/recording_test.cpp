@@ -54,6 +54,17 @@ Odometry odometry_at(Nanoseconds stamp) {
   return {stamp, exp_se3((Vector6d() << 0.3 * s, -0.1 * s, -0.0, 1e-3 * s, 1e-17, 0.2 * s).finished())};
 }
 
+/// A covariance with a -0, tiny and huge numbers in it.
+Matrix6d covariance_at(Nanoseconds stamp) {
+  const double s = seconds(stamp);
+  const Matrix6d root = Matrix6d::Identity() + 0.1 * s * Matrix6d::Ones();
+  Matrix6d m = 1e-6 / 3.0 * root * root.transpose();
+  m.triangularView<Eigen::StrictlyLower>() = m.transpose();
+  m(0, 5) = m(5, 0) = -0.0;
+  m(1, 4) = m(4, 1) = 1e-300;
+  return m;
+}
+
 Imu imu_at(Nanoseconds stamp) {
   return {stamp, Eigen::Vector3d(-0.0, 1.0 / 3.0, 1e-300), Eigen::Vector3d(9.81, -2e-7, 0.1 + seconds(stamp))};
 }
@@ -65,7 +76,7 @@ bool same_bits(const Eigen::Ref<const Eigen::VectorXd>& a, const Eigen::Ref<cons
 }
 
 /// A recording of three messages, odometry at 100 Hz and IMU at 250 Hz.
-std::vector<SensorFrame> write_three(const std::string& dir, const RecordingInfo& info) {
+std::vector<SensorFrame> write_three(const std::string& dir, const RecordingInfo& info, bool covariances = false) {
   const std::vector<Vlp16Packet> packets = turning_packets(3 * 76);
   std::vector<SensorFrame> frames(3);
   RecordingWriter writer(dir, info);
@@ -74,10 +85,13 @@ std::vector<SensorFrame> write_three(const std::string& dir, const RecordingInfo
     frames[m].packets.assign(packets.begin() + static_cast<std::ptrdiff_t>(76 * m),
                              packets.begin() + static_cast<std::ptrdiff_t>(76 * (m + 1)));
     frames[m].scan = decode_message(frames[m].packets);
-    for (; odometry <= frames[m].scan.stamp; odometry += 10'000'000)
+    for (; odometry <= frames[m].scan.stamp; odometry += 10'000'000) {
       frames[m].odometry.push_back(odometry_at(odometry));
+      if (covariances && odometry > 0) frames[m].covariances.push_back({odometry, covariance_at(odometry)});
+    }
     for (; imu <= frames[m].scan.stamp; imu += 4'000'000) frames[m].imu.push_back(imu_at(imu));
     writer.add(frames[m].packets, frames[m].odometry, frames[m].imu);
+    writer.add(frames[m].covariances);
   }
   writer.finish();
   return frames;
@@ -118,6 +132,42 @@ TEST_F(RecordingTest, GivesBackEveryBitThatWasWritten) {
   SensorFrame end;
   EXPECT_FALSE(recording->next(end));
   EXPECT_EQ(recording->origin(), 0);
+}
+
+TEST_F(RecordingTest, CovariancesComeBackToTheLastBitWhereTheyAreKnown) {
+  for (const bool known : {false, true}) {
+    const std::vector<SensorFrame> written = write_three(path(), RecordingInfo{}, known);
+    EXPECT_EQ(fs::exists(path("odometry_covariance.csv")), known);
+    const auto recording = open_recording(path());
+    for (const SensorFrame& expected : written) {
+      SensorFrame frame;
+      ASSERT_TRUE(recording->next(frame));
+      ASSERT_EQ(frame.covariances.size(), expected.covariances.size());
+      EXPECT_EQ(frame.covariances.empty(), !known);
+      for (std::size_t i = 0; i < frame.covariances.size(); ++i) {
+        EXPECT_EQ(frame.covariances[i].stamp, expected.covariances[i].stamp);
+        EXPECT_TRUE(
+            same_bits(frame.covariances[i].covariance.reshaped(), expected.covariances[i].covariance.reshaped()));
+      }
+    }
+  }
+}
+
+TEST_F(RecordingTest, NamesWhatIsWrongWithTheCovariances) {
+  static_cast<void>(write_three(path(), RecordingInfo{}, true));
+  const std::string file = path("odometry_covariance.csv");
+  const std::string header = "t,xx,xy,xz,xa,xb,xc,yy,yz,ya,yb,yc,zz,za,zb,zc,aa,ab,ac,bb,bc,cc\n";
+  const std::string zeros = ",0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,";
+  put("odometry_covariance.csv", header + "0.01" + zeros + "0\n");
+  EXPECT_EQ(complaint(path()), "none");
+  put("odometry_covariance.csv", "t,xx\n");
+  expect_complaint(path(), file + ":1:1", "the first line must be");
+  put("odometry_covariance.csv", header + "0.01" + zeros + "\n");
+  expect_complaint(path(), file + ":2:1", "not 22 numbers");
+  put("odometry_covariance.csv", header + "0.01" + zeros + "-1e-9\n");
+  expect_complaint(path(), file + ":2:1", "a variance below 0");
+  put("odometry_covariance.csv", header + "0.02" + zeros + "0\n0.01" + zeros + "0\n");
+  expect_complaint(path(), file + ":3:1", "stamps must increase");
 }
 
 TEST_F(RecordingTest, ABareCaptureIsCutAsDriversDoAndHasNoOdometry) {
