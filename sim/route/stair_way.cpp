@@ -57,8 +57,8 @@ const bim::Landing* landing_between(const bim::Stair& stair, const bim::StairFli
   return found == stair.landings.end() ? nullptr : &*found;
 }
 
-/// Adds where the way turns between two flights: in the middle of the landing as seen from the lower one, and as seen
-/// from the upper one so near to it that the knees clear what is behind.
+/// Adds where the way turns between two flights: in the middle of the landing, and where it turns twice, the second
+/// time so near to the upper flight that the knees clear what is behind.
 std::string turn(const bim::Stair& stair, const bim::StairFlight& lower, const bim::StairFlight& upper,
                  const RouteConfig& route, const StairWayConfig& config, std::vector<Eigen::Vector3d>& points) {
   const bim::Landing* landing = landing_between(stair, lower, upper, config);
@@ -71,13 +71,14 @@ std::string turn(const bim::Stair& stair, const bim::StairFlight& lower, const b
                : "winds; the robot walks straight flights with landings between them";
   const double before = 0.5 * reach(*landing, head(lower), e);
   const double depth = reach(*landing, upper.start, -ascent(upper));
-  const double after = std::min(0.5 * depth, std::max(config.turn_at_least_m, depth - config.behind_m));
   if (std::min(before, 0.5 * depth) < route.radius_m - 0.5 * route.cell_m)
     return "has a landing " + metres(2.0 * std::min(before, 0.5 * depth)) + " deep; the robot needs " +
            metres(2.0 * route.radius_m);
   const Eigen::Vector2d a = head(lower) + before * e;
+  points.emplace_back(a.x(), a.y(), landing->z_m);
+  if ((upper.start - 0.5 * depth * ascent(upper) - a).norm() <= config.offset_m) return "";
+  const double after = std::min(0.5 * depth, std::max(config.turn_at_least_m, depth - config.behind_m));
   const Eigen::Vector2d b = upper.start - after * ascent(upper);
-  if ((b - a).norm() > config.turn_at_least_m) points.emplace_back(a.x(), a.y(), landing->z_m);
   points.emplace_back(b.x(), b.y(), landing->z_m);
   return "";
 }
