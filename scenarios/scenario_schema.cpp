@@ -47,7 +47,7 @@ duration_s: 120
 lidar: {model: vlp16, preset: real}
 odometry: {preset: noisy}
 ground: {friction: 0.6, uneven_mm: 10}
-pushes: {min_n: 40, max_n: 120, every_s: 6}
+pushes: {min_n: 40, max_n: 120, every_s: 6, on_stairs: false}
 people:
   - {rooms: [kitchen, hall], speed_mps: 0.8}
   - {points: [[2, 1], [4, 1]], radius_m: 0.3, height_m: 1.6}
