@@ -62,6 +62,8 @@ struct BenchPart {
 [[nodiscard]] std::vector<BenchRow> bench_lidar(const BenchSetting& setting);
 /// The method on quickstart walks with a seed each, 1 to setting.repetitions, and on one long walk.
 [[nodiscard]] std::vector<BenchRow> bench_slam(const BenchSetting& setting);
+/// Two real clouds of the data folder, ours against PCL's GICP; empty without them. Part of bench_slam.
+[[nodiscard]] std::vector<BenchRow> bench_registration(const BenchSetting& setting);
 /// Each walk has its own seed, 1 to setting.repetitions.
 [[nodiscard]] std::vector<BenchRow> bench_sim(const BenchSetting& setting);
 /// Each walk has its own seed, 1 to setting.repetitions.

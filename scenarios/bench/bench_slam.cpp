@@ -84,6 +84,8 @@ std::vector<BenchRow> bench_slam(const BenchSetting& setting) {
   for (const std::string stage : {"odometry", "association", "room_segmentation", "loop_closure"})
     rows.push_back(make_row("slam." + stage + "_growth", "x", {growth(laps, stage)}));
   rows.push_back(make_row("slam.backend_long_ms", "ms", {mean(times_of(laps, "back_end"))}));
+  const std::vector<BenchRow> clouds = bench_registration(setting);
+  rows.insert(rows.end(), clouds.begin(), clouds.end());
   return rows;
 }
 

@@ -19,12 +19,16 @@ struct Cell {
 class Cells {
  public:
   Cells(std::span<const Eigen::Vector3f> points, double size) : size_(size) {
+    std::size_t slot = 0;
     for (const Eigen::Vector3f& point : points) {
       if (!point.allFinite()) continue;
       const Eigen::Vector3d p = point.cast<double>();
       const VoxelKey key = VoxelKey::of(p, size);
-      const auto slot = static_cast<std::size_t>(index_.insert(key));
-      if (slot == cells_.size()) cells_.push_back({key, {}});
+      // Points come along scan lines: most fall into the last one's cell.
+      if (cells_.empty() || !(key == cells_[slot].key)) {
+        slot = static_cast<std::size_t>(index_.insert(key));
+        if (slot == cells_.size()) cells_.push_back({key, {}});
+      }
       cells_[slot].moments.add(p - centre(key));
     }
   }
@@ -34,22 +38,21 @@ class Cells {
     return size_ * (Eigen::Vector3d(key.x, key.y, key.z) + Eigen::Vector3d::Constant(0.5));
   }
 
-  /// Of a cell and the 26 round it, about its centre.
+  /// Of a cell and the six that share a face with it, about its centre.
   [[nodiscard]] Moments round(const Cell& cell) const {
     Moments sum = cell.moments;
-    for (int z = -1; z <= 1; ++z)
-      for (int y = -1; y <= 1; ++y)
-        for (int x = -1; x <= 1; ++x) {
-          if (x == 0 && y == 0 && z == 0) continue;
-          const int slot = index_.find({cell.key.x + x, cell.key.y + y, cell.key.z + z});
-          if (slot < 0) continue;
-          const Moments& m = cells_[static_cast<std::size_t>(slot)].moments;
-          const Eigen::Vector3d by = size_ * Eigen::Vector3d(x, y, z);
-          const Eigen::Matrix3d mixed = m.sum * by.transpose();
-          sum.outer += m.outer + mixed + mixed.transpose() + m.n * by * by.transpose();
-          sum.sum += m.sum + m.n * by;
-          sum.n += m.n;
-        }
+    for (int axis = 0; axis < 3; ++axis)
+      for (const int side : {-1, 1}) {
+        const Eigen::Vector3i step = side * Eigen::Vector3i::Unit(axis);
+        const int slot = index_.find({cell.key.x + step.x(), cell.key.y + step.y(), cell.key.z + step.z()});
+        if (slot < 0) continue;
+        const Moments& m = cells_[static_cast<std::size_t>(slot)].moments;
+        const Eigen::Vector3d by = size_ * step.cast<double>();
+        const Eigen::Matrix3d mixed = m.sum * by.transpose();
+        sum.outer += m.outer + mixed + mixed.transpose() + m.n * by * by.transpose();
+        sum.sum += m.sum + m.n * by;
+        sum.n += m.n;
+      }
     return sum;
   }
 
@@ -87,14 +90,21 @@ Registration register_clouds(std::span<const Eigen::Vector3f> target_T, std::spa
                              const Pose& start, const CloudRegistrationConfig& config) {
   const std::vector<Surfel> target = cloud_surfels(target_T, config);
   const std::vector<Surfel> source = cloud_surfels(source_S, config);
-  Registration result;
-  result.X_MR = start;
-  for (const double voxel_m : {config.coarse_m, config.fine_m}) {
+  std::vector<Surfel> few;
+  for (std::size_t k = 0; k < source.size(); k += static_cast<std::size_t>(config.coarse_share))
+    few.push_back(source[k]);
+  RegistrationConfig rough = config.registration;
+  // Near enough for the finer voxels.
+  rough.translation_epsilon_m = 0.1 * config.fine_m;
+  rough.rotation_epsilon_rad = 0.01 * config.fine_m;
+  const auto match = [&](const std::vector<Surfel>& surfels, double voxel_m, const Pose& from,
+                         const RegistrationConfig& how) {
     SurfelMap map(voxel_m);
     map.add(target, Pose{});
-    result = align(source, map, result.X_MR, std::nullopt, config.registration);
-  }
-  return result;
+    return align(surfels, map, from, std::nullopt, how);
+  };
+  const Pose near = match(few, config.coarse_m, start, rough).X_MR;
+  return match(source, config.fine_m, near, config.registration);
 }
 
 }  // namespace plumbline::slam

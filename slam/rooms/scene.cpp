@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slam/rooms/scene.h"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -39,7 +40,16 @@ Vector2d meet(const FaceLine& a, const FaceLine& b) {
 Scene make_scene(const FreeGrid& grid, const Cluster& cluster, std::span<const FaceLine> faces,
                  const RoomConfig& config) {
   Scene scene{grid, cluster, config, {}};
+  // A cell of the border that lies on a face is within reach of its stretch.
+  const Vector2d reach = Vector2d::Constant(std::max(config.reach_m, config.slack_m));
+  Eigen::AlignedBox2d box;
+  for (const std::size_t k : cluster.boundary) box.extend(grid.frame.center(k));
+  if (box.isEmpty()) return scene;
+  box = {box.min() - reach, box.max() + reach};
   for (const FaceLine& face : faces) {
+    Eigen::AlignedBox2d stretch(Vector2d(face.s0 * face.along - face.e * face.m));
+    stretch.extend(face.s1 * face.along - face.e * face.m);
+    if (!box.intersects(stretch)) continue;
     const double support = border_on(face, face.s0, face.s1, grid, cluster, config);
     if (support < config.min_support_m) continue;
     scene.walls.push_back(face);
