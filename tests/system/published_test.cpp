@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// A fixed sample of the table that ci/full makes of the S-Graphs+ papers' kinds of scenario: what is published of real
+// sensors stands here too, so that neither is the world too easy nor a baseline spoiled.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/system/program.h"
+
+namespace plumbline::system_tests {
+namespace {
+
+/// results.json of a scenario of the papers' kinds after the gates in its own file have passed.
+nlohmann::json run(const std::string& name, const std::string& methods) {
+  const Folder folder;
+  const std::string dir = folder / name;
+  const Outcome outcome = plumbline({"run", project_file("scenarios/library/s_graphs/" + name + ".yaml"), "--method",
+                                     "truth," + methods, "--out", dir, "--threads", "2"});
+  EXPECT_EQ(outcome.code, 0) << outcome.out << outcome.err;
+  return nlohmann::json::parse(read_file(dir + "/results.json"))["methods"];
+}
+
+double ate(const nlohmann::json& methods, const char* name) { return methods[name]["ate_aligned_rmse_m"]; }
+
+TEST(Published, RoomsAlongACorridorWithALoop) {
+  if (!available()) GTEST_SKIP() << "PLUMBLINE_BINARY and PLUMBLINE_SOURCE are not set; run through ctest";
+  const nlohmann::json methods = run("se2", "vgicp,hdl_slam,s_graphs_plus");
+  EXPECT_LE(ate(methods, "hdl_slam"), ate(methods, "vgicp"));
+  EXPECT_LE(ate(methods, "s_graphs_plus"), 0.65 * ate(methods, "hdl_slam"));  // the paper: 0.68 on its five
+  const auto& rooms = methods["s_graphs_plus"]["rooms"];
+  EXPECT_GE(rooms["precision"], 0.97);
+  EXPECT_GE(methods["s_graphs_plus"]["map_completeness"], 0.9);
+  EXPECT_LE(methods["s_graphs_plus"]["map_rmse_m"], 0.03);
+}
+
+TEST(Published, ASmallRoomAtSpeed) {
+  if (!available()) GTEST_SKIP() << "PLUMBLINE_BINARY and PLUMBLINE_SOURCE are not set; run through ctest";
+  const nlohmann::json methods = run("t8", "vgicp,s_graphs_plus");
+  for (const char* name : {"vgicp", "s_graphs_plus"}) {
+    EXPECT_EQ(methods[name]["verdict"], "ok") << name;
+    EXPECT_LE(ate(methods, name), 0.04) << name;
+  }
+}
+
+}  // namespace
+}  // namespace plumbline::system_tests
