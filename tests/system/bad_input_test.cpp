@@ -138,8 +138,8 @@ TEST_F(BadInput, CommandLine) {
 
 TEST(Help, EveryCommandShowsAnExample) {
   if (!available()) GTEST_SKIP() << "PLUMBLINE_BINARY is not set; run through ctest";
-  for (const char* command :
-       {"run", "simulate", "estimate", "score", "report", "replay", "diff", "methods", "scenarios", "identify", "sweep"}) {
+  for (const char* command : {"run", "simulate", "estimate", "score", "report", "replay", "diff", "methods",
+                              "scenarios", "identify", "sweep"}) {
     const Outcome outcome = plumbline({command, "--help"});
     EXPECT_EQ(outcome.code, 0) << command;
     EXPECT_NE(outcome.out.find("Example: plumbline " + std::string(command)), std::string::npos) << outcome.out;
