@@ -2,7 +2,6 @@
 #include "scenarios/score/failure.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -62,12 +61,6 @@ FailureAt wrong_answer(const Truth& truth, const std::vector<Belief>& beliefs, s
 }
 
 }  // namespace
-
-std::string to_string(Failure failure) {
-  static constexpr std::array<const char*, 6> names = {"never_sampled", "depleted",      "twin_preferred",
-                                                       "wrong_model",   "tracking_lost", "undecided"};
-  return names[static_cast<std::size_t>(failure)];
-}
 
 std::optional<FailureAt> failure_of(const Truth& truth, const std::vector<Belief>& beliefs, LocalizationVerdict verdict,
                                     const std::vector<Pose>& twins_at_start, const LocalizationRules& rules) {

@@ -69,6 +69,12 @@ std::string_view state_name(slam::State state) {
 
 }  // namespace
 
+std::string to_string(Failure failure) {
+  static constexpr std::array<const char*, 6> names = {"never_sampled", "depleted",      "twin_preferred",
+                                                       "wrong_model",   "tracking_lost", "undecided"};
+  return names[static_cast<std::size_t>(failure)];
+}
+
 std::span<const MetricRow> metrics() {
   static const std::vector<MetricRow> rows = make_rows();
   return rows;
