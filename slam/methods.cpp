@@ -4,6 +4,7 @@
 #include <array>
 #include <utility>
 
+#include "slam/baseline/amcl.h"
 #include "slam/baseline/lidar_odometry_method.h"
 #include "slam/localize/s_graph_localization.h"
 #include "slam/sgraphs/s_graphs_plus.h"
@@ -75,6 +76,13 @@ MethodTable methods() {
            .summary = "particle filter on the plan's walls and rooms, then a graph against them",
            .needs_plan = true,
            .make = localize_in_plan,
+           .needs_odometry = true}),
+      with_config<AmclConfig>(
+          {.name = "amcl",
+           .summary = "Monte Carlo localization of planar scans on a slice of the plan, in the style of nav2's AMCL",
+           .needs_plan = true,
+           .make = make_amcl,
+           .standard = false,
            .needs_odometry = true}),
   };
   return rows;

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+
+#include "slam/baseline/amcl_filter.h"
+#include "slam/baseline/plan_baseline.h"
+
+namespace plumbline::slam {
+
+struct AmclConfig {
+  ScanSliceConfig slice;
+  LikelihoodFieldConfig field;
+  AmclFilterConfig filter;
+  PlanBaselineConfig plan;
+  MapCloudConfig map;
+
+  template <class V>
+  void visit(V& v) {
+    v("slice", slice);
+    v("field", field);
+    v("filter", filter);
+    v("plan", plan);
+    v("map", map);
+  }
+};
+
+/// Adaptive Monte Carlo localization as nav2 does it, on the slice of the plan that an occupancy grid would be: planar
+/// scans cut from the LiDAR's, a likelihood field, KLD sampling. It starts uniform over free space. Its answer is the
+/// mean of the heaviest cluster with the covariance of the whole set; CONVERGED as long as
+/// filter.converged_by says so, SEARCHING otherwise, and never LOST, since AMCL knows nothing of the kind. Throws
+/// InputError when there is no plan, no such storey, or no room in it.
+[[nodiscard]] std::unique_ptr<Method> make_amcl(const MethodInput& input);
+
+}  // namespace plumbline::slam
