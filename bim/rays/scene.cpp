@@ -70,6 +70,7 @@ struct Proposal {
 struct RayScene::Impl {
   std::vector<Face> faces;
   std::vector<FacePlane> planes;
+  std::vector<int> face_of_triangle;  ///< -1: without area
   ContactTable contacts;
   EmbreeScene embree;
   Bodies bodies;
@@ -88,8 +89,10 @@ struct RayScene::Impl {
 RayScene::Impl::Impl(const BuildingMesh& mesh, const RaySceneOptions& options)
     : faces(make_faces(mesh)), contacts(faces, tol), embree(faces, tol, options) {
   planes.reserve(faces.size());
+  face_of_triangle.assign(mesh.triangles.size(), -1);
   for (std::size_t i = 0; i < faces.size(); ++i) {
     const Face& face = faces[i];
+    face_of_triangle[static_cast<std::size_t>(face.triangle)] = static_cast<int>(i);
     planes.push_back({face.n, face.v[0], face.element, face.triangle, edge_band_of(face),
                       static_cast<std::uint16_t>(contacts.inside(i).empty() ? 0 : 1)});
   }
@@ -234,6 +237,11 @@ Hit RayScene::cast(const Ray& ray, double range_max_m) const {
   Hit hit = impl_->search(ray, range_max_m, proposals);
   if (!impl_->bodies.empty()) impl_->bodies.cast(std::span(&ray, 1), range_max_m, std::span(&hit, 1));
   return hit;
+}
+
+bool RayScene::meets(int triangle, const Ray& ray) const {
+  const int face = impl_->face_of_triangle.at(static_cast<std::size_t>(triangle));
+  return face >= 0 && impl_->faces[static_cast<std::size_t>(face)].pierced_by(ray.origin_W, ray.direction_W);
 }
 
 void RayScene::set_bodies(std::vector<MovingBody> bodies) { impl_->bodies = Bodies(std::move(bodies)); }

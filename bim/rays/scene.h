@@ -68,6 +68,9 @@ class RayScene {
   void cast(std::span<const Ray> rays, double range_max_m, std::span<Hit> hits) const;
   [[nodiscard]] Hit cast(const Ray& ray, double range_max_m) const;
 
+  /// True when the line of a ray meets this triangle of the mesh, its border included.
+  [[nodiscard]] bool meets(int triangle, const Ray& ray) const;
+
   /// Casts hit these as well, each where it is at the ray's time; Hit::triangle is -1 there.
   void set_bodies(std::vector<MovingBody> bodies);
 

@@ -26,10 +26,8 @@ bim::Ray sub_ray(const bim::Ray& centre, const Tangents& tangents, const SubRay&
   return ray;
 }
 
-bool breaks(const bim::Ray& ray_a, const bim::Hit& a, const bim::Ray& ray_b, const bim::Hit& b, double jump_m) {
+bool leaves_face(const bim::Ray& ray_a, const bim::Hit& a, const bim::Ray& ray_b, const bim::Hit& b, double jump_m) {
   constexpr double same_face = 0.999;  // cosine: 2.6 degrees
-  if (a.element != b.element) return true;
-  if (a.element < 0) return false;
   if (a.normal_W.dot(b.normal_W) < same_face) return true;
   const Eigen::Vector3d apart_W =
       ray_a.origin_W + a.range_m * ray_a.direction_W - ray_b.origin_W - b.range_m * ray_b.direction_W;

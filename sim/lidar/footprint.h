@@ -29,8 +29,16 @@ struct Tangents {
 /// The beam's central ray turned to a sub-ray.
 [[nodiscard]] bim::Ray sub_ray(const bim::Ray& centre, const Tangents& tangents, const SubRay& sub);
 
-/// True when two hits are not on one flat face, or on faces of one element whose distance makes a jump in range, m.
-[[nodiscard]] bool breaks(const bim::Ray& ray_a, const bim::Hit& a, const bim::Ray& ray_b, const bim::Hit& b,
-                          double jump_m);
+/// True when two hits of one element are not on one flat face, or on faces whose distance makes a jump in range, m.
+[[nodiscard]] bool leaves_face(const bim::Ray& ray_a, const bim::Hit& a, const bim::Ray& ray_b, const bim::Hit& b,
+                               double jump_m);
+
+/// The same of hits on any elements, or on none.
+[[nodiscard]] inline bool breaks(const bim::Ray& ray_a, const bim::Hit& a, const bim::Ray& ray_b, const bim::Hit& b,
+                                 double jump_m) {
+  if (a.element != b.element) return true;
+  if (a.element < 0 || (a.triangle >= 0 && a.triangle == b.triangle)) return false;
+  return leaves_face(ray_a, a, ray_b, b, jump_m);
+}
 
 }  // namespace plumbline::sim

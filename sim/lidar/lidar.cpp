@@ -10,8 +10,10 @@
 
 #include "bim/errors.h"
 #include "bim/random/stream.h"
+#include "sim/lidar/beams.h"
 #include "sim/lidar/detector.h"
 #include "sim/lidar/echo.h"
+#include "sim/lidar/edges.h"
 #include "sim/lidar/footprint.h"
 #include "sim/lidar/light.h"
 
@@ -22,18 +24,11 @@ namespace {
 using slam::ReturnMode;
 using slam::ReturnWord;
 
-constexpr std::size_t tile_columns = 8;              // one packet of rays: eight neighbouring columns of one laser
 constexpr std::int64_t full_turn = 360'000'000'000;  // 1e-9 degrees
 constexpr double units_to_rad = std::numbers::pi / 180.0 * 1e-9;
 constexpr std::int64_t units_per_cdeg = 10'000'000;
 constexpr double room_step_m = 0.05;     // a return is in the room where its light came from
 constexpr std::size_t batch_beams = 64;  // beams whose light is followed together
-
-/// An angle by its cosine and sine.
-struct Turn {
-  double c = 1.0;
-  double s = 0.0;
-};
 
 /// One beam that takes more than its central ray.
 struct HardBeam {
@@ -51,22 +46,13 @@ struct Lidar::Impl {
   std::vector<Surface> surfaces;
   const RoomLookup* rooms;
   Detector detector;
-  std::int64_t turn_per_firing;  ///< 1e-9 degrees
-  std::int64_t phase;            ///< azimuth of firing 0, 1e-9 degrees
-  std::vector<Turn> laser_turns;
-  std::vector<std::size_t> rank_of_laser;  ///< place in a tile: neighbouring rings stand next to each other
+  Beams centres;
+  EdgeFinder edges;
   SubRays footprint;
 
   // Memory of one sweep, used again.
   std::int64_t first_firing = 0;
-  std::span<const Pose> X_WL;
-  std::vector<Turn> heads;  ///< azimuths of the firings, from column -1 on
-  std::vector<bim::Ray> rays;
-  std::vector<bim::Hit> hits;
   std::vector<std::uint8_t> bundle;  ///< by beam, as words: cast as sub-rays
-  std::vector<HardBeam> probed;      ///< beams that may meet an edge along their ring
-  std::vector<bim::Ray> probe_rays;  ///< the upper and the lower end of their footprints
-  std::vector<bim::Hit> probe_hits;
   std::vector<HardBeam> hard;
   std::vector<Leg> legs;
   std::vector<bim::Ray> leg_rays;
@@ -80,33 +66,10 @@ struct Lidar::Impl {
   Impl(const LidarConfig& config_in, double rpm, std::uint64_t seed, const bim::RayScene& scene_in,
        std::vector<Surface> surfaces_in, const RoomLookup* rooms_in);
 
-  [[nodiscard]] std::int64_t azimuth(std::int64_t firing) const {
-    return ((phase + firing * turn_per_firing) % full_turn + full_turn) % full_turn;
-  }
-  /// Rays and hits stand in tiles of eight columns, laser by laser; column -1 and one behind the last are the
-  /// neighbours of the message's ends.
-  [[nodiscard]] std::size_t ray_index(std::int64_t column, std::size_t laser) const {
-    const auto c = static_cast<std::size_t>(column + 1);
-    return ((c / tile_columns) * model.lasers.size() + rank_of_laser[laser]) * tile_columns + c % tile_columns;
-  }
   [[nodiscard]] std::size_t slot(std::size_t column, std::size_t laser) const {
     return column * model.lasers.size() + static_cast<std::size_t>(model.lasers[laser].ring);
   }
-  [[nodiscard]] Turn turn_of(std::int64_t column, std::size_t laser) const {
-    const Turn& head = heads[static_cast<std::size_t>(column + 1)];
-    const Turn& turn = laser_turns[laser];
-    return {head.c * turn.c - head.s * turn.s, head.s * turn.c + head.c * turn.s};
-  }
-
   void start(std::int64_t first, std::span<const Pose> poses, Sweep& sweep);
-  void cast_centres();
-  void aim(std::int64_t column);
-  [[nodiscard]] Tangents tangents(std::size_t column, std::size_t laser) const;
-  [[nodiscard]] bool differ(std::size_t a, std::size_t b) const;
-  [[nodiscard]] bool at_edge(std::int64_t column, std::size_t laser) const;
-  [[nodiscard]] bool near_edge(std::size_t ray, std::size_t laser) const;
-  void find_bundles();
-  void probe_heights(std::span<const HardBeam> beams);
   void fire_plain(Sweep& sweep);
   void fire_hard(std::span<const HardBeam> beams, Sweep& sweep);
   void group_by_beam();
@@ -124,21 +87,16 @@ Lidar::Impl::Impl(const LidarConfig& config_in, double rpm, std::uint64_t seed, 
       surfaces(std::move(surfaces_in)),
       rooms(rooms_in),
       detector(config, seed),
+      centres(model, rpm,
+              static_cast<std::int64_t>(Stream(seed, "sim.lidar.phase").uniform(0) * static_cast<double>(full_turn))),
+      edges(config, scene),
       footprint(footprint_of(config)),
       light(scene, surfaces, config) {
   (void)slam::firings_per_message(model, rpm);
-  turn_per_firing = std::llround(6.0 * rpm * static_cast<double>(model.firing_period_ns));
-  phase = static_cast<std::int64_t>(Stream(seed, "sim.lidar.phase").uniform(0) * static_cast<double>(full_turn));
-  for (const slam::Laser& laser : model.lasers) {
-    const double turn = (6.0 * rpm * static_cast<double>(laser.time_ns) + 1e9 * laser.azimuth_deg) * units_to_rad;
-    laser_turns.push_back({std::cos(turn), std::sin(turn)});
-    rank_of_laser.push_back(static_cast<std::size_t>(laser.ring));
-  }
 }
 
 void Lidar::Impl::start(std::int64_t first, std::span<const Pose> poses, Sweep& sweep) {
   first_firing = first;
-  X_WL = poses;
   const std::size_t size = poses.size() * model.lasers.size();
   sweep.words.assign(size, {});
   sweep.last.assign(config.returns == ReturnMode::dual ? size : 0, {});
@@ -150,120 +108,22 @@ void Lidar::Impl::start(std::int64_t first, std::span<const Pose> poses, Sweep& 
   sweep.labels.point_W.assign(size, Eigen::Vector3d::Zero());
   sweep.labels.room.assign(size, -1);
   for (std::size_t c = 0; c < poses.size(); ++c) {
-    const std::int64_t units = azimuth(first + static_cast<std::int64_t>(c));
+    const std::int64_t units = centres.azimuth(first + static_cast<std::int64_t>(c));
     const std::int64_t cdeg = (units + units_per_cdeg / 2) / units_per_cdeg;
     sweep.azimuth_cdeg[c] = static_cast<std::uint16_t>(cdeg % (full_turn / units_per_cdeg));
     sweep.azimuth[c] = static_cast<double>(units) * units_to_rad;
   }
 }
 
-/// Central rays of one firing. A neighbour beyond the message's ends is fired from the pose at that end.
-void Lidar::Impl::aim(std::int64_t column) {
-  const auto last = static_cast<std::int64_t>(X_WL.size()) - 1;
-  const Pose& pose = X_WL[static_cast<std::size_t>(std::clamp(column, std::int64_t{0}, last))];
-  const double angle = static_cast<double>(azimuth(first_firing + column)) * units_to_rad;
-  heads[static_cast<std::size_t>(column + 1)] = {std::cos(angle), std::sin(angle)};
-  const Eigen::Matrix3d R_WL = pose.rotation();
-  for (std::size_t k = 0; k < model.lasers.size(); ++k) {
-    const Turn turn = turn_of(column, k);
-    bim::Ray& ray = rays[ray_index(column, k)];
-    const slam::Laser& laser = model.lasers[k];
-    ray.direction_W = R_WL * Eigen::Vector3d(laser.cosine * turn.c, -laser.cosine * turn.s, laser.sine);
-    ray.origin_W = pose.t + laser.height_m * R_WL.col(2);
-    ray.time_s = 1e-9 * static_cast<double>((first_firing + column) * model.firing_period_ns + laser.time_ns);
-  }
-}
-
-Tangents Lidar::Impl::tangents(std::size_t column, std::size_t laser) const {
-  const Turn turn = turn_of(static_cast<std::int64_t>(column), laser);
-  const slam::Laser& tilt = model.lasers[laser];
-  const Eigen::Matrix3d R_WL = X_WL[column].rotation();
-  return {R_WL * Eigen::Vector3d(-turn.s, -turn.c, 0.0),
-          R_WL * Eigen::Vector3d(-tilt.sine * turn.c, tilt.sine * turn.s, tilt.cosine)};
-}
-
-void Lidar::Impl::cast_centres() {
-  const std::size_t tiles = (X_WL.size() + 2 + tile_columns - 1) / tile_columns;
-  heads.resize(tiles * tile_columns);
-  rays.resize(tiles * tile_columns * model.lasers.size());
-  hits.resize(rays.size());
-  for (std::int64_t column = -1; column + 1 < static_cast<std::int64_t>(tiles * tile_columns); ++column) aim(column);
-  scene.cast(rays, model.range_max_m, hits);
-}
-
-/// True when two neighbouring beams of a ring do not meet one flat face without a jump.
-bool Lidar::Impl::differ(std::size_t a, std::size_t b) const {
-  return breaks(rays[a], hits[a], rays[b], hits[b], config.edge_jump_m) ||
-         (hits[a].element >= 0 && std::abs(hits[a].range_m - hits[b].range_m) > config.edge_jump_m);
-}
-
-bool Lidar::Impl::at_edge(std::int64_t column, std::size_t laser) const {
-  const std::size_t i = ray_index(column, laser);
-  return differ(i, ray_index(column - 1, laser)) || differ(i, ray_index(column + 1, laser));
-}
-
-/// True when the ring above or below meets another face. Rings are far apart, so an edge between them seldom is in the
-/// beam itself; and their ranges on one face differ.
-bool Lidar::Impl::near_edge(std::size_t ray, std::size_t laser) const {
-  const std::size_t rank = rank_of_laser[laser];
-  const auto other = [&](std::size_t neighbour) {
-    return breaks(rays[ray], hits[ray], rays[neighbour], hits[neighbour], config.edge_jump_m);
-  };
-  return (rank > 0 && other(ray - tile_columns)) || (rank + 1 < model.lasers.size() && other(ray + tile_columns));
-}
-
-/// Casts the ends of a footprint where an edge may run along a ring.
-void Lidar::Impl::probe_heights(std::span<const HardBeam> beams) {
-  const double end = 0.5 * config.divergence_vertical_rad;
-  const double unit = 1.0 / std::sqrt(1.0 + end * end);
-  probe_rays.clear();
-  for (const HardBeam& beam : beams) {
-    const bim::Ray& centre = rays[ray_index(beam.column, beam.laser)];
-    const Tangents tangents = this->tangents(beam.column, beam.laser);
-    for (const double up : {-end, end}) probe_rays.push_back(sub_ray(centre, tangents, {0.0, up, unit}));
-  }
-  probe_hits.resize(probe_rays.size());
-  scene.cast(probe_rays, model.range_max_m, probe_hits);
-  for (std::size_t n = 0; n < beams.size(); ++n) {
-    const HardBeam& beam = beams[n];
-    const std::size_t centre = ray_index(beam.column, beam.laser);
-    const auto meets_other = [&](std::size_t probe) {
-      return breaks(rays[centre], hits[centre], probe_rays[probe], probe_hits[probe], config.edge_jump_m);
-    };
-    if (meets_other(2 * n) || meets_other(2 * n + 1)) bundle[beam.column * model.lasers.size() + beam.laser] = 1;
-  }
-}
-
-/// Finds the beams that are cast as sub-rays.
-void Lidar::Impl::find_bundles() {
-  const std::size_t lasers = model.lasers.size();
-  bundle.assign(X_WL.size() * lasers, config.footprint == Footprint::everywhere ? 1 : 0);
-  if (config.footprint != Footprint::edges) return;
-  probed.clear();
-  probed.reserve(bundle.size());
-  for (std::size_t column = 0; column < X_WL.size(); ++column) {
-    const auto c = static_cast<std::int64_t>(column);
-    for (std::size_t k = 0; k < lasers; ++k) {
-      if (at_edge(c, k))
-        bundle[column * lasers + k] = 1;
-      else if (near_edge(ray_index(c, k), k))
-        probed.push_back({static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(k), true});
-    }
-  }
-  const std::span<const HardBeam> all = probed;
-  for (std::size_t i = 0; i < all.size(); i += batch_beams)
-    probe_heights(all.subspan(i, std::min(batch_beams, all.size() - i)));
-}
-
 /// Beams of one surface that only reflects; all others are noted for later.
 void Lidar::Impl::fire_plain(Sweep& sweep) {
   hard.clear();
   const std::size_t lasers = model.lasers.size();
-  for (std::size_t column = 0; column < X_WL.size(); ++column) {
+  for (std::size_t column = 0; column < centres.columns(); ++column) {
     const auto c = static_cast<std::int64_t>(column);
     for (std::size_t k = 0; k < lasers; ++k) {
-      const std::size_t i = ray_index(c, k);
-      const bim::Hit& hit = hits[i];
+      const std::size_t i = centres.index(c, k);
+      const bim::Hit& hit = centres.hit(i);
       const bool wide = bundle[column * lasers + k] != 0;
       if (!wide && hit.element < 0) continue;
       const Surface surface = hit.element < 0 ? Surface{} : light.surface(hit.element);
@@ -271,7 +131,7 @@ void Lidar::Impl::fire_plain(Sweep& sweep) {
         hard.push_back({static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(k), wide});
         continue;
       }
-      const double cosine = std::abs(hit.normal_W.dot(rays[i].direction_W));
+      const double cosine = std::abs(hit.normal_W.dot(centres.ray(i).direction_W));
       const ReturnWord word = detector.measure(first_firing + c, k, 0, hit.range_m, surface.reflectivity, cosine);
       if (word.distance == 0) continue;
       sweep.words[column * lasers + k] = word;
@@ -279,8 +139,8 @@ void Lidar::Impl::fire_plain(Sweep& sweep) {
       Reflection reflection;
       reflection.element = hit.element;
       reflection.triangle = hit.triangle;
-      reflection.direction_W = rays[i].direction_W;
-      reflection.point_W = rays[i].origin_W + hit.range_m * rays[i].direction_W;
+      reflection.direction_W = centres.ray(i).direction_W;
+      reflection.point_W = centres.ray(i).origin_W + hit.range_m * centres.ray(i).direction_W;
       label(slot(column, k), reflection, sweep.labels);
     }
   }
@@ -288,18 +148,18 @@ void Lidar::Impl::fire_plain(Sweep& sweep) {
 
 /// Sub-rays of a beam, or its central ray where it needs no footprint.
 void Lidar::Impl::add_legs(const HardBeam& beam, std::uint32_t number) {
-  const std::size_t i = ray_index(beam.column, beam.laser);
+  const std::size_t i = centres.index(beam.column, beam.laser);
   Leg leg;
   leg.beam = number;
-  leg.ray = rays[i];
+  leg.ray = centres.ray(i);
   if (!beam.bundle) {
     legs.push_back(leg);
     return;
   }
   leg.gain = 1.0 / static_cast<double>(footprint.size());
-  const Tangents tangents = this->tangents(beam.column, beam.laser);
+  const Tangents tangents = centres.tangents(beam.column, beam.laser);
   for (const SubRay& sub : footprint) {
-    leg.ray = sub_ray(rays[i], tangents, sub);
+    leg.ray = sub_ray(centres.ray(i), tangents, sub);
     legs.push_back(leg);
   }
 }
@@ -379,7 +239,7 @@ void Lidar::Impl::pack(Sweep& sweep) const {
   if (model.product == 0) return;
   const auto firings = static_cast<std::size_t>(slam::firings_in_packet(model, config.returns));
   const std::size_t lasers = model.lasers.size();
-  sweep.packets.resize(X_WL.size() / firings);
+  sweep.packets.resize(centres.columns() / firings);
   for (std::size_t p = 0; p < sweep.packets.size(); ++p) {
     const std::size_t f = p * firings;
     const auto words = std::span<const ReturnWord>(sweep.words).subspan(f * lasers, firings * lasers);
@@ -406,8 +266,10 @@ void Lidar::sweep(std::int64_t first_firing, std::span<const Pose> X_WL, Sweep& 
   if (first_firing < 0 || X_WL.empty() || X_WL.size() % per_packet != 0)
     throw InternalError("Lidar::sweep: poses of whole packets are needed");
   impl_->start(first_firing, X_WL, sweep);
-  impl_->cast_centres();
-  impl_->find_bundles();
+  impl_->centres.cast(first_firing, X_WL, impl_->scene);
+  impl_->bundle.assign(X_WL.size() * impl_->model.lasers.size(),
+                       impl_->config.footprint == Footprint::everywhere ? 1 : 0);
+  if (impl_->config.footprint == Footprint::edges) impl_->edges.find(impl_->centres, impl_->bundle);
   impl_->fire_plain(sweep);
   const std::span<const HardBeam> hard = impl_->hard;
   for (std::size_t i = 0; i < hard.size(); i += batch_beams)

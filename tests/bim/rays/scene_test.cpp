@@ -240,6 +240,19 @@ TEST(RayScene, ClosedRoomLetsNoRayOut) {
   }
 }
 
+TEST(RayScene, ARayInABoxMeetsTheTriangleItHitsAndTheOneBehindIt) {
+  BuildingMesh mesh;
+  add_box(mesh, {0, 0, 0}, {5, 4, 3}, 0.3);
+  const RayScene scene(mesh);
+  for (const Ray& ray : RandomRays(17).rays(2000, {1.5, 1.2, 0.1}, {3.5, 2.8, 2.9})) {
+    const Ray back{ray.origin_W, -ray.direction_W};
+    const int hit = scene.cast(ray, range_max_m).triangle;
+    const int behind = scene.cast(back, range_max_m).triangle;
+    for (int i = 0; i < static_cast<int>(mesh.triangles.size()); ++i)
+      EXPECT_EQ(scene.meets(i, ray), i == hit || i == behind);
+  }
+}
+
 TEST(RayScene, DuplicateWallsGoToTheLowestElement) {
   BuildingMesh mesh;
   add_box(mesh, {5, -5, -5}, {6, 5, 5});
