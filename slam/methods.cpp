@@ -6,6 +6,7 @@
 
 #include "slam/baseline/amcl.h"
 #include "slam/baseline/lidar_odometry_method.h"
+#include "slam/baseline/s_graph_localization_paper.h"
 #include "slam/localize/s_graph_localization.h"
 #include "slam/sgraphs/s_graphs_plus.h"
 
@@ -76,6 +77,13 @@ MethodTable methods() {
            .summary = "particle filter on the plan's walls and rooms, then a graph against them",
            .needs_plan = true,
            .make = localize_in_plan,
+           .needs_odometry = true}),
+      with_config<LocalizationPaperConfig>(
+          {.name = "s_graph_localization_paper",
+           .summary = "plan localization as printed: particles matched by walls of their room, then an S-Graph",
+           .needs_plan = true,
+           .make = make_s_graph_localization_paper,
+           .standard = false,
            .needs_odometry = true}),
       with_config<AmclConfig>(
           {.name = "amcl",

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+
+#include "slam/baseline/paper_filter.h"
+#include "slam/baseline/plan_baseline.h"
+#include "slam/localize/tracker.h"
+#include "slam/planes/ransac.h"
+
+namespace plumbline::slam {
+
+struct LocalizationPaperConfig {
+  PaperSwitches switches;
+  PaperFilterConfig filter;
+  RansacConfig ransac;
+  PlaneDetectorConfig noise;
+  ViewConfig view;
+  TrackerConfig tracker;
+  PlanBaselineConfig plan;
+  MapCloudConfig map;
+
+  template <class V>
+  void visit(V& v) {
+    v("switches", switches);
+    v("filter", filter);
+    v("ransac", ransac);
+    v("noise", noise);
+    v("view", view);
+    v("tracker", tracker);
+    v("plan", plan);
+    v("map", map);
+  }
+};
+
+/// The plan localization of [BIM-Loc] as printed: particles on the plan's walls and rooms until the best is where all
+/// are on average, then an S-Graph whose walls and rooms are the plan's [section 3.4]. Nothing is taken back: it never
+/// says LOST. What is not as printed, and why, PaperSwitches says. Throws InputError when there is no plan, no such
+/// storey, or no room in it.
+[[nodiscard]] std::unique_ptr<Method> make_s_graph_localization_paper(const MethodInput& input);
+
+}  // namespace plumbline::slam
