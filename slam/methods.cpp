@@ -7,6 +7,7 @@
 #include "slam/baseline/amcl.h"
 #include "slam/baseline/lidar_odometry_method.h"
 #include "slam/baseline/s_graph_localization_paper.h"
+#include "slam/baseline/ukf.h"
 #include "slam/localize/s_graph_localization.h"
 #include "slam/sgraphs/s_graphs_plus.h"
 
@@ -90,6 +91,13 @@ MethodTable methods() {
            .summary = "Monte Carlo localization of planar scans on a slice of the plan, in the style of nav2's AMCL",
            .needs_plan = true,
            .make = make_amcl,
+           .standard = false,
+           .needs_odometry = true}),
+      with_config<UkfConfig>(
+          {.name = "ukf",
+           .summary = "NDT on the plan, smoothed by an unscented filter, in the style of hdl_localization",
+           .needs_plan = true,
+           .make = make_ukf,
            .standard = false,
            .needs_odometry = true}),
   };

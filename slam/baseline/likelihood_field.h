@@ -46,6 +46,12 @@ class LikelihoodField {
     return distance_[static_cast<std::size_t>(y) * static_cast<std::size_t>(nx_) + static_cast<std::size_t>(x)];
   }
   [[nodiscard]] double cell_m() const { return cell_; }
+  [[nodiscard]] int nx() const { return nx_; }
+  [[nodiscard]] int ny() const { return ny_; }
+  /// Middle of a cell in I.
+  [[nodiscard]] Eigen::Vector2d center(int x, int y) const {
+    return origin_ + cell_ * Eigen::Vector2d(x + 0.5, y + 0.5);
+  }
   /// Middles of the cells inside rooms that no wall passes through: where a robot may be.
   [[nodiscard]] const std::vector<Eigen::Vector2f>& free_cells() const { return free_cells_; }
 

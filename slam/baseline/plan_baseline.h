@@ -22,7 +22,7 @@ struct PlanBaselineConfig {
   int particles_shown = 500;
   double mass_shown = 0.02;
   double yaw_drift = 0.001;  ///< [facts: legged 10]
-  PlanIndexConfig index;
+  PlanIndexConfig index = {};
 
   template <class V>
   void visit(V& v) {

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/baseline/ukf.h"
+
+#include <gtest/gtest.h>
+
+#include "bim/errors.h"
+#include "tests/slam/baseline/plan_walk.h"
+#include "tests/slam/localize/house_plan.h"
+
+namespace plumbline::slam {
+namespace {
+
+TEST(Ukf, StartsBySearchAndTracks) {
+  const synthetic::Recording recording = synthetic::biased_walk(2.5);
+  const bim::Plan plan = synthetic::plan_of(synthetic::corridor_house());
+  for (const std::string motion : {"constant_velocity", "odometry"}) {
+    const auto answers = synthetic::localize("ukf", recording, plan, motion == "odometry", "motion: " + motion);
+    EXPECT_EQ(answers.outputs.front().state, State::converged) << "believes its search at once";
+    EXPECT_EQ(answers.outputs.back().state, State::converged);
+    EXPECT_LT(synthetic::last_error(answers, recording), 0.15) << motion;
+    const Eigen::Matrix3d& P = answers.outputs.back().hypotheses.front().covariance;
+    EXPECT_GT(P.determinant(), 0.0);
+    EXPECT_LT(P.diagonal().maxCoeff(), 0.1);
+  }
+}
+
+TEST(Ukf, IsLostWhereScansDoNotFit) {
+  const synthetic::Recording recording = synthetic::biased_walk(1.2);
+  const bim::Plan plan = synthetic::plan_of(synthetic::one_room(30.0, 25.0));
+  for (const std::string again : {"false", "true"}) {
+    const auto answers = synthetic::localize("ukf", recording, plan, true,
+                                             "lost_scans: 3\nlost_inliers: 0.9\nmotion: odometry\nsearch: {cell_m: "
+                                             "1}\nndt: {max_iterations: 4}\nrelocalize: " +
+                                                 again);
+    const auto lost = [](const Output& output) { return output.state == State::lost; };
+    EXPECT_TRUE(std::any_of(answers.outputs.begin(), answers.outputs.end(), lost));
+    EXPECT_EQ(again == "true", std::any_of(answers.outputs.begin() + 4, answers.outputs.end(),
+                                           [&](const Output& output) { return !lost(output); }));
+  }
+}
+
+TEST(Ukf, SaysWhatIsMissing) { EXPECT_THROW(static_cast<void>(make_ukf({})), InputError); }
+
+}  // namespace
+}  // namespace plumbline::slam
