@@ -2,11 +2,15 @@
 #include "bim/building/plan.h"
 
 #include <algorithm>
+#include <optional>
 
+#include "bim/building/fillings.h"
+#include "bim/building/hull.h"
 #include "bim/building/plan_boxes.h"
 #include "bim/building/rooms.h"
 #include "bim/building/wall_face.h"
 #include "bim/errors.h"
+#include "bim/mesh/solid.h"
 
 namespace plumbline::bim {
 
@@ -96,6 +100,33 @@ void link_rooms(const Building& building, Plan& plan) {
   }
 }
 
+/// The obstacle as the upright prism around it, or nothing where it is mostly air: light passes under a table.
+std::optional<PlanSolid> solid_of(const Obstacle& obstacle) {
+  constexpr double filled_min = 0.9;
+  if (!obstacle.planned || is_filling(obstacle) || obstacle.body.vertices.empty()) return std::nullopt;
+  const auto [low, high] = std::minmax_element(obstacle.body.vertices.begin(), obstacle.body.vertices.end(),
+                                               [](const auto& p, const auto& q) { return p.z() < q.z(); });
+  PlanSolid solid{obstacle.id, obstacle.storey, {}, low->z(), high->z()};
+  for (const Eigen::Vector3d& p : obstacle.body.vertices) solid.outline.emplace_back(p.head<2>());
+  solid.outline = convex_hull(std::move(solid.outline));
+  if (solid.outline.empty()) return std::nullopt;
+  const double hull_volume = signed_area(solid.outline) * (solid.z1 - solid.z0);
+  if (volume(obstacle.body) < filled_min * hull_volume) return std::nullopt;
+  return solid;
+}
+
+std::vector<PlanSolid> solids_of(const Building& building) {
+  std::vector<PlanSolid> solids;
+  for (const Column& column : building.columns) {
+    if (column.footprint.size() < 3) continue;
+    solids.push_back({column.id, column.storey, column.footprint, column.z0_m, column.z1_m});
+    if (signed_area(column.footprint) < 0.0) std::reverse(solids.back().outline.begin(), solids.back().outline.end());
+  }
+  for (const Obstacle& obstacle : building.obstacles)
+    if (std::optional<PlanSolid> solid = solid_of(obstacle)) solids.push_back(std::move(*solid));
+  return solids;
+}
+
 Eigen::Vector2d moved(const Pose& X_VW, const Eigen::Vector2d& p_W) {
   return (X_VW * Eigen::Vector3d(p_W.x(), p_W.y(), 0.0)).head<2>();
 }
@@ -112,6 +143,7 @@ Plan make_plan(const Building& as_planned) {
     plan.rooms.push_back(room_of(as_planned.rooms[room], static_cast<int>(room)));
   link_faces(as_planned, plan);
   link_rooms(as_planned, plan);
+  plan.solids = solids_of(as_planned);
   return plan;
 }
 
@@ -137,6 +169,11 @@ Plan transformed(const Plan& plan_W, const Pose& X_VW) {
     for (Eigen::Vector2d& p : room.polygon) p = moved(X_VW, p);
     room.z0 += rise;
     room.z1 += rise;
+  }
+  for (PlanSolid& solid : plan_V.solids) {
+    for (Eigen::Vector2d& p : solid.outline) p = moved(X_VW, p);
+    solid.z0 += rise;
+    solid.z1 += rise;
   }
   return plan_V;
 }

@@ -46,12 +46,22 @@ struct PlanStorey {
   double height_m = 3.0;
 };
 
+/// What stands on a storey and is no wall, as an upright prism: a column, planned furniture.
+struct PlanSolid {
+  std::string id;
+  int storey = -1;
+  Polygon2 outline;  ///< counter-clockwise
+  double z0 = 0.0;
+  double z1 = 3.0;
+};
+
 /// What an estimator may know of the design, in W. All parts stand in one coordinate frame so that moving the plan by
 /// a rigid motion moves every answer with it.
 struct Plan {
   std::vector<PlanStorey> storeys;
   std::vector<PlanFace> faces;
   std::vector<PlanRoom> rooms;
+  std::vector<PlanSolid> solids;  ///< columns, then obstacles; those that fill their convex hull, unlike tables
 };
 
 /// Plan of an as-planned building.

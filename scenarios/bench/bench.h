@@ -60,6 +60,9 @@ struct BenchPart {
 /// The map of a building, what a run lets be known, and how the map grows.
 [[nodiscard]] std::vector<BenchRow> bench_identify(const BenchSetting& setting);
 [[nodiscard]] std::vector<BenchRow> bench_lidar(const BenchSetting& setting);
+/// An update of the particles, how it grows, and the method on walks of the largest floor of the library with a seed
+/// each, 1 to setting.repetitions.
+[[nodiscard]] std::vector<BenchRow> bench_localize(const BenchSetting& setting);
 /// The method on quickstart walks with a seed each, 1 to setting.repetitions, and on one long walk.
 [[nodiscard]] std::vector<BenchRow> bench_slam(const BenchSetting& setting);
 /// Two real clouds of the data folder, ours against PCL's GICP; empty without them. Part of bench_slam.

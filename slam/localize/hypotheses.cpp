@@ -25,21 +25,19 @@ bool walks_through_wall(const StoreyIndex& storey, const Pose2& from, const Pose
 void HypothesisSet::follow(const PlanIndex& index, const Pose2& u, const View& view) {
   history_.push_back({u, view});
   if (static_cast<int>(history_.size()) > config_.history) history_.pop_front();
-  double top = -1e300;
-  std::vector<double> said;
+  std::vector<Look> looks;
   for (Candidate& candidate : candidates_) {
     const StoreyIndex& storey = index.storeys[static_cast<std::size_t>(candidate.storey)];
-    const Pose2 before = candidate.X_IH;
-    const Refined refined = refine(storey, before * u, view, likelihood_, refine_);
+    const Pose2 moved = candidate.X_IH * u;
+    const double crossing = crossing_cost(index, storey, candidate.X_IH, moved);
+    const Refined refined = refine(storey, moved, view, likelihood_, refine_);
     candidate.X_IH = refined.X_IH;
     candidate.covariance = refined.covariance;
     candidate.agreement = agreement(storey, refined.X_IH, view, likelihood_, refine_);
-    said.push_back(beam_log_likelihood(storey, refined.X_IH, view, 1, likelihood_));
-    if (walks_through_wall(storey, before, before * u, index.config.body_height_m))
-      said.back() -= config_.crossing_cost;
-    top = std::max(top, said.back());
+    looks.push_back({sight(storey, refined.X_IH, view, contest_), crossing});
+    // The first is the best so far, by which the others are judged.
+    candidate.evidence += judge(view, looks.back(), looks.front());
   }
-  for (std::size_t i = 0; i < candidates_.size(); ++i) candidates_[i].evidence += ratio(said[i], top);
 }
 
 void HypothesisSet::adopt(const PlanIndex& index, const Clustering& clustering) {
@@ -61,7 +59,7 @@ void HypothesisSet::adopt(const PlanIndex& index, const Clustering& clustering) 
 void HypothesisSet::adopt(const PlanIndex& index, const std::vector<Place>& places) {
   if (history_.empty()) return;
   const View& view = history_.back().view;
-  std::vector<double> reference;
+  std::vector<Look> reference;
   for (const Place& place : places) {
     if (find(place, config_.match_m, config_.match_rad) >= 0) continue;
     const StoreyIndex& storey = index.storeys[static_cast<std::size_t>(place.storey)];
@@ -69,14 +67,13 @@ void HypothesisSet::adopt(const PlanIndex& index, const std::vector<Place>& plac
     const Place fitted{place.storey, refined.X_IH};
     if (find(fitted, config_.match_m, config_.match_rad) >= 0) continue;
     if (reference.empty() && !candidates_.empty())
-      reference = replay(index, {candidates_.front().storey, candidates_.front().X_IH}, {});
-    const std::vector<double> said = replay(index, fitted, reference);
-    double evidence = candidates_.empty() ? 0.0 : candidates_.front().evidence;
-    for (std::size_t k = 0; k < said.size() && k < reference.size(); ++k) evidence += ratio(said[k], reference[k]);
-    if (!candidates_.empty() && evidence < candidates_.front().evidence - config_.drop_ratio) continue;
+      reference = replay(index, {candidates_.front().storey, candidates_.front().X_IH}, {}).looks;
+    Replay past = replay(index, fitted, reference);
+    if (past.evidence < -config_.drop_ratio) continue;
+    const double evidence = past.evidence + (candidates_.empty() ? 0.0 : candidates_.front().evidence);
     candidates_.push_back({next_id_++, fitted.storey, fitted.X_IH, refined.covariance, evidence, 0.0,
                            agreement(storey, fitted.X_IH, view, likelihood_, refine_)});
-    if (reference.empty()) reference = said;
+    if (reference.empty()) reference = std::move(past.looks);
   }
 }
 
@@ -142,29 +139,34 @@ void HypothesisSet::clear() {
   history_.clear();
 }
 
-double HypothesisSet::ratio(double said, double reference) const {
-  const double difference = said - reference;
-  const double beyond = std::max(0.0, std::abs(difference) - config_.indifference);
-  return std::copysign(std::min(beyond, config_.step_cap), difference);
+double HypothesisSet::crossing_cost(const PlanIndex& index, const StoreyIndex& storey, const Pose2& from,
+                                    const Pose2& to) const {
+  return walks_through_wall(storey, from, to, index.config.body_height_m) ? config_.crossing_cost : 0.0;
 }
 
-std::vector<double> HypothesisSet::replay(const PlanIndex& index, const Place& place,
-                                          const std::vector<double>& reference) const {
+double HypothesisSet::judge(const View& view, const Look& look, const Look& reference) const {
+  const double ratio =
+      contest(view, look.sight, reference.sight, contest_) - look.crossing_cost + reference.crossing_cost;
+  const double beyond = std::max(0.0, std::abs(ratio) - config_.indifference);
+  return std::copysign(std::min(beyond, config_.step_cap), ratio);
+}
+
+HypothesisSet::Replay HypothesisSet::replay(const PlanIndex& index, const Place& place,
+                                            const std::vector<Look>& reference) const {
   const StoreyIndex& storey = index.storeys[static_cast<std::size_t>(place.storey)];
   Pose2 X = place.X_IH;
-  std::vector<double> said;
-  double sum = 0.0;
+  Replay past;
   for (auto step = history_.rbegin(); step != history_.rend(); ++step) {
     X = refine(storey, X, step->view, likelihood_, refine_).X_IH;
-    said.push_back(beam_log_likelihood(storey, X, step->view, 1, likelihood_));
     const Pose2 before = X * step->u.inverse();
-    if (walks_through_wall(storey, before, X, index.config.body_height_m)) said.back() -= config_.crossing_cost;
+    past.looks.push_back({sight(storey, X, step->view, contest_), crossing_cost(index, storey, before, X)});
     X = before;
-    if (said.size() > reference.size()) continue;
-    sum += ratio(said.back(), reference[said.size() - 1]);
-    if (sum < -config_.drop_ratio) break;
+    const std::size_t k = past.looks.size() - 1;
+    if (k >= reference.size()) continue;
+    past.evidence += judge(step->view, past.looks[k], reference[k]);
+    if (past.evidence < -config_.drop_ratio) break;
   }
-  return said;
+  return past;
 }
 
 int HypothesisSet::find(const Place& place, double near_m, double near_rad) const {

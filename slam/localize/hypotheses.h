@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "bim/config/visit.h"
+#include "slam/localize/contest.h"
 #include "slam/localize/pose_clusters.h"
+#include "slam/localize/proposals.h"
 #include "slam/localize/refine.h"
 
 namespace plumbline::slam {
@@ -19,7 +21,7 @@ struct HypothesisConfig {
   double match_rad = 0.35;
   double merge_m = 0.30;  ///< hypotheses this close are one
   double merge_rad = 0.15;
-  double indifference = 1.0;   ///< a view says nothing against a place less than this worse than the best: a plan is a
+  double indifference = 0.1;   ///< a view says nothing against a place less than this worse than the best: a plan is a
                                ///< few centimetres off, and every view says so again
   double step_cap = 6.0;       ///< most that one view says against a hypothesis
   double crossing_cost = 3.0;  ///< against one that walks through a wall: may be a door jamb and noise
@@ -60,17 +62,13 @@ struct Candidate {
   Agreement agreement;    ///< with the last view
 };
 
-struct Place {
-  int storey = 0;
-  Pose2 X_IH;
-};
-
-/// Places followed one by one. The evidence of a place is the log-likelihood of every view at the pose that fits it
-/// best there, not the luck of where its particles fell: places that look exactly alike keep exactly equal shares.
+/// Places followed one by one. The evidence of a place is what every view says for it and against the best place so
+/// far, each at the pose that fits it best, not the luck of where its particles fell: places that look exactly alike
+/// keep exactly equal shares.
 class HypothesisSet {
  public:
-  HypothesisSet(HypothesisConfig config, RefineConfig refine, LikelihoodConfig likelihood)
-      : config_(config), refine_(refine), likelihood_(likelihood) {}
+  HypothesisSet(HypothesisConfig config, RefineConfig refine, LikelihoodConfig likelihood, ContestConfig contest)
+      : config_(config), refine_(refine), likelihood_(likelihood), contest_(contest) {}
 
   /// Moves every candidate by u, fits it to the view and adds what the view says.
   void follow(const PlanIndex& index, const Pose2& u, const View& view);
@@ -84,6 +82,8 @@ class HypothesisSet {
   void impose(ParticleSet& particles, const Clustering& clustering, int quota, std::uint64_t seed,
               std::uint64_t tick) const;
   void clear();
+  /// Keeps the views.
+  void forget_places() { candidates_.clear(); }
 
   [[nodiscard]] const std::vector<Candidate>& candidates() const { return candidates_; }  ///< by mass, then id
 
@@ -92,17 +92,28 @@ class HypothesisSet {
     Pose2 u;  ///< motion that led to this view
     View view;
   };
-  /// What one view says against a place at log-likelihood `said` where the reference has `reference`.
-  [[nodiscard]] double ratio(double said, double reference) const;
-  /// Log-likelihood of each kept view, newest first, along the odometry back from the pose at the last one. Stops once
-  /// the ratio to the reference (when there is one) has fallen below the drop ratio.
-  [[nodiscard]] std::vector<double> replay(const PlanIndex& index, const Place& place,
-                                           const std::vector<double>& reference) const;
+  /// What the plan shows at a place for one view, and what the step that led there costs.
+  struct Look {
+    Sight sight;
+    double crossing_cost = 0.0;
+  };
+  struct Replay {
+    std::vector<Look> looks;  ///< newest first
+    double evidence = 0.0;    ///< against the reference
+  };
+  [[nodiscard]] double crossing_cost(const PlanIndex& index, const StoreyIndex& storey, const Pose2& from,
+                                     const Pose2& to) const;
+  /// What one view says for a place against the reference.
+  [[nodiscard]] double judge(const View& view, const Look& look, const Look& reference) const;
+  /// The kept views along the odometry back from the pose at the last one, held against the reference (when there is
+  /// one). Stops once the evidence has fallen below the drop ratio.
+  [[nodiscard]] Replay replay(const PlanIndex& index, const Place& place, const std::vector<Look>& reference) const;
   [[nodiscard]] int find(const Place& place, double near_m, double near_rad) const;
 
   HypothesisConfig config_;
   RefineConfig refine_;
   LikelihoodConfig likelihood_;
+  ContestConfig contest_;
   std::vector<Candidate> candidates_;
   std::deque<Step> history_;
   int next_id_ = 0;

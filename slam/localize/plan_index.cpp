@@ -50,33 +50,48 @@ std::vector<int> storeys_in_use(const bim::Plan& plan, const std::optional<std::
   return storeys;
 }
 
-PlanSegment segment_in_I(const bim::PlanFace& face, int index, const Pose2& X_IW, double base_z) {
+/// The upright rectangle over p0 to p1 (in W) with free space on its left.
+PlanSegment upright(const Eigen::Vector2d& p0, const Eigen::Vector2d& p1, double z0, double z1, const Pose2& X_IW,
+                    double base_z) {
   PlanSegment segment;
-  segment.plan_face = index;
-  segment.a = snap(X_IW * face.p0);
-  const Eigen::Vector2d b = snap(X_IW * face.p1);
+  segment.a = snap(X_IW * p0);
+  const Eigen::Vector2d b = snap(X_IW * p1);
   segment.length = (b - segment.a).norm();
   segment.e = (b - segment.a) / segment.length;
   segment.n = {-segment.e.y(), segment.e.x()};
-  segment.z0 = snap(face.z0 - base_z);
-  segment.z1 = snap(face.z1 - base_z);
+  segment.z0 = snap(z0 - base_z);
+  segment.z1 = snap(z1 - base_z);
+  return segment;
+}
+
+PlanSegment segment_in_I(const bim::PlanFace& face, int index, const Pose2& X_IW, double base_z) {
+  PlanSegment segment = upright(face.p0, face.p1, face.z0, face.z1, X_IW, base_z);
+  segment.plan_face = index;
   for (const bim::FaceHole& hole : face.holes)
     segment.holes.push_back({snap(hole.s0), snap(hole.s1), snap(hole.z0 - base_z), snap(hole.z1 - base_z)});
   return segment;
 }
 
-/// Faces that stand between floor and ceiling, ordered by geometry, so that the order in the plan does not matter.
+/// Faces and sides of solids that stand between floor and ceiling, ordered by geometry, so that the order in the plan
+/// does not matter.
 std::vector<PlanSegment> storey_segments(const bim::Plan& plan, const Pose& X_WI, double floor_z, double ceiling_z) {
   const Pose2 X_IW = heading(X_WI).inverse();
   std::vector<PlanSegment> segments;
-  for (std::size_t i = 0; i < plan.faces.size(); ++i) {
-    const bim::PlanFace& face = plan.faces[i];
-    if ((face.p1 - face.p0).norm() < 1e-3) continue;
-    PlanSegment segment = segment_in_I(face, static_cast<int>(i), X_IW, X_WI.t.z());
+  const auto add = [&](PlanSegment segment) {
     if (segment.z0 < ceiling_z - sliver_m && segment.z1 > floor_z + sliver_m) segments.push_back(std::move(segment));
-  }
+  };
+  for (std::size_t i = 0; i < plan.faces.size(); ++i)
+    if ((plan.faces[i].p1 - plan.faces[i].p0).norm() >= 1e-3)
+      add(segment_in_I(plan.faces[i], static_cast<int>(i), X_IW, X_WI.t.z()));
+  for (const bim::PlanSolid& solid : plan.solids)
+    for (std::size_t i = 0; i < solid.outline.size(); ++i) {
+      // Free space is on the right of a counter-clockwise outline.
+      const Eigen::Vector2d &p1 = solid.outline[i], &p0 = solid.outline[(i + 1) % solid.outline.size()];
+      if ((p1 - p0).norm() < 1e-3) continue;
+      add(upright(p0, p1, solid.z0, solid.z1, X_IW, X_WI.t.z()));
+    }
   const auto key = [](const PlanSegment& s) {
-    return std::make_tuple(s.a.x(), s.a.y(), s.e.x(), s.e.y(), s.length, s.z0, s.z1);
+    return std::make_tuple(s.a.x(), s.a.y(), s.e.x(), s.e.y(), s.length, s.z0, s.z1, s.plan_face < 0);
   };
   std::stable_sort(segments.begin(), segments.end(),
                    [&](const PlanSegment& a, const PlanSegment& b) { return key(a) < key(b); });

@@ -19,6 +19,7 @@ std::uint64_t digest_of(const View& view) {
   Digest digest;
   digest.add(view.X_OR).add(view.sensor_height);
   for (const Beam& beam : view.beams) digest.add(beam.direction_H).add(beam.range).add(beam.slope);
+  for (const Beam& beam : view.sweep) digest.add(beam.range);
   for (const WallView& wall : view.walls) digest.add(wall.azimuth).add(wall.distance).add(wall.s0).add(wall.s1);
   return digest.value();
 }
@@ -28,6 +29,12 @@ Eigen::Matrix3d turned(const Eigen::Matrix3d& P, const Pose& X_WI) {
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
   R.topLeftCorner<2, 2>() = heading(X_WI).rotation();
   return R * P * R.transpose();
+}
+
+HypothesisSet watch_set(const LocalizationConfig& config) {
+  HypothesisConfig hypotheses = config.search.hypotheses;
+  hypotheses.history = config.watch.views;
+  return {hypotheses, config.search.refine, config.search.likelihood, config.search.contest};
 }
 
 /// Notes the time since the last stage and starts the next one.
@@ -43,6 +50,7 @@ class SGraphLocalization final : public Method {
         input_(input),
         index_(make_plan_index(*input.plan, input.prior.storey, config.index)),
         search_(config.search, input.seed),
+        watch_(watch_set(config)),
         cloud_(config.map) {}
 
   void on_odometry(const Odometry& odometry) override { motion_.add(odometry); }
@@ -54,6 +62,7 @@ class SGraphLocalization final : public Method {
   void track(const View& view, const std::vector<PlaneObservation>& planes, Output& output);
   void start_tracking(const View& view, const std::vector<PlaneObservation>& planes);
   void monitor(const View& view);
+  [[nodiscard]] bool is_overtaken(const View& view);
   [[nodiscard]] bool is_due(const Pose& X_OR) const;
   [[nodiscard]] StartBelief belief(Nanoseconds stamp, const Pose& X_OR) const;
   [[nodiscard]] Pose pose_in_I(const Candidate& candidate, const View& view) const;
@@ -71,6 +80,9 @@ class SGraphLocalization final : public Method {
   State state_ = State::searching;
   double mass_ = 0.0;  ///< of the place tracked, when it was announced
   int failed_updates_ = 0;
+  int storey_ = 0;       ///< of the place tracked, index into PlanIndex::storeys
+  HypothesisSet watch_;  ///< of the last way; places only while it looks
+  double unwatched_m_ = 0.0;
   std::optional<Pose> X_OR_start_;
   std::optional<Pose> X_OR_update_;
   std::optional<Pose> X_IO_last_;  ///< of the last tracking, also after it was lost
@@ -120,6 +132,9 @@ void SGraphLocalization::start_tracking(const View& view, const std::vector<Plan
   const Candidate& best = search_.candidates().front();
   mass_ = best.mass;
   failed_updates_ = 0;
+  storey_ = best.storey;
+  watch_.clear();
+  unwatched_m_ = 0.0;
   tracker_.emplace(config_.tracker, index_.storeys[static_cast<std::size_t>(best.storey)]);
   tracker_->start(view, planes, pose_in_I(best, view));
   X_IO_last_ = tracker_->X_IO();
@@ -134,13 +149,33 @@ void SGraphLocalization::track(const View& view, const std::vector<PlaneObservat
   monitor(view);
 }
 
+/// Some other place has explained the last way better.
+bool SGraphLocalization::is_overtaken(const View& view) {
+  const Pose2 u = heading(X_OR_update_->inverse() * view.X_OR);
+  watch_.follow(index_, u, view);
+  unwatched_m_ += u.t.norm();
+  if (unwatched_m_ < config_.watch.every_m) return false;
+  unwatched_m_ = 0.0;
+  watch_.adopt(index_, std::vector<Place>{{storey_, heading(tracker_->pose(view.X_OR))}});
+  const int tracked = watch_.candidates().front().id;
+  const SearchConfig& search = config_.search;
+  watch_.adopt(index_,
+               propose_places(index_, {}, view, search.filter.beam_stride, search.likelihood, search.proposals));
+  watch_.settle();
+  const std::vector<Candidate>& places = watch_.candidates();
+  const auto own = std::find_if(places.begin(), places.end(), [&](const Candidate& c) { return c.id == tracked; });
+  const bool overtaken = own == places.end() || places.front().evidence - own->evidence >= config_.watch.log_ratio;
+  watch_.forget_places();
+  return overtaken;
+}
+
 /// Takes a convergence back when what is seen no longer fits the plan there.
 void SGraphLocalization::monitor(const View& view) {
   const ConvergenceConfig& c = config_.search.convergence;
   const Agreement fit = agreement(tracker_->storey(), heading(tracker_->pose(view.X_OR)), view,
                                   config_.search.likelihood, config_.search.refine);
   failed_updates_ = fit.inliers < c.lost_inliers || fit.through > c.lost_through ? failed_updates_ + 1 : 0;
-  if (failed_updates_ < c.lost_updates) return;
+  if (!is_overtaken(view) && failed_updates_ < c.lost_updates) return;
   keep({tracker_->window().begin(), tracker_->window().end()});
   tracker_.reset();
   search_.restart();

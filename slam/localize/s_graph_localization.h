@@ -11,6 +11,21 @@
 
 namespace plumbline::slam {
 
+/// Looks for a place that has explained the last way better than the one tracked, which a robot that was carried away,
+/// or that took the wrong one of two places, would not notice by itself.
+struct WatchConfig {
+  double every_m = 2.0;     ///< way walked between two looks
+  int views = 12;           ///< of the last way, by which places are judged
+  double log_ratio = 10.0;  ///< by which the other place must be better
+
+  template <class V>
+  void visit(V& v) {
+    v("every_m", every_m, Field{.doc = "way walked between two looks for a better place", .min = 0});
+    v("views", views, Field{.doc = "of the last way, by which places are judged", .min = 1, .max = 1000});
+    v("log_ratio", log_ratio, Field{.doc = "by which the other place must be better", .min = 0});
+  }
+};
+
 struct LocalizationConfig {
   double update_m = 0.2;      ///< way walked between two updates; scans of one place are not news
   double update_rad = 0.2;    ///< or angle turned
@@ -21,6 +36,7 @@ struct LocalizationConfig {
   PlanIndexConfig index;
   SearchConfig search;
   TrackerConfig tracker;
+  WatchConfig watch;
   MapCloudConfig map;
 
   template <class V>
@@ -34,6 +50,7 @@ struct LocalizationConfig {
     v("index", index);
     v("search", search);
     v("tracker", tracker);
+    v("watch", watch);
     v("map", map);
   }
 };

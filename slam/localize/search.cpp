@@ -47,7 +47,7 @@ std::vector<LocalParticle> best_apart(ParticleSet particles, const ConvergenceCo
 }  // namespace
 
 PlanSearch::PlanSearch(SearchConfig config, std::uint64_t seed)
-    : config_(config), seed_(seed), hypotheses_(config.hypotheses, config.refine, config.likelihood) {}
+    : config_(config), seed_(seed), hypotheses_(config.hypotheses, config.refine, config.likelihood, config.contest) {}
 
 std::vector<StageDigest> PlanSearch::update(const PlanIndex& index, const StartBelief& start, const View& view) {
   const Pose2 X_OH = heading(view.X_OR);
@@ -134,7 +134,8 @@ void PlanSearch::find_rivals(const PlanIndex& index, const StartBelief& start, c
   FilterConfig untempered = config_.filter;
   untempered.ess_floor = 0.0;
   static_cast<void>(reweight(sample, view, index, config_.likelihood, untempered));
-  std::vector<Place> places;
+  std::vector<Place> places =
+      propose_places(index, belief, view, config_.filter.beam_stride, config_.likelihood, config_.proposals);
   for (const LocalParticle& particle : best_apart(std::move(sample), config_.convergence))
     places.push_back({particle.storey, particle.X_IH});
   hypotheses_.adopt(index, places);

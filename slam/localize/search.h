@@ -52,6 +52,8 @@ struct SearchConfig {
   FilterConfig filter;
   PoseClusterConfig clusters;
   RefineConfig refine;
+  ProposalConfig proposals;
+  ContestConfig contest;
   HypothesisConfig hypotheses;
   ConvergenceConfig convergence;
 
@@ -61,6 +63,8 @@ struct SearchConfig {
     v("filter", filter);
     v("clusters", clusters);
     v("refine", refine);
+    v("proposals", proposals);
+    v("contest", contest);
     v("hypotheses", hypotheses);
     v("convergence", convergence);
   }

@@ -20,18 +20,29 @@ bool in_hole(const PlanSegment& segment, double s, double z) {
   });
 }
 
-/// Distance at which the ray hits the face, or infinity.
-double hit_distance(const PlanSegment& segment, const PlanRay& ray) {
+/// Where a ray meets the rectangle of a face.
+struct Meeting {
+  double distance = infinity;  ///< infinity: not at all
+  bool hole = false;
+};
+
+Meeting meet(const PlanSegment& segment, const PlanRay& ray) {
   const double along = ray.direction.dot(segment.n);
-  if (std::abs(along) < 1e-12) return infinity;
+  if (std::abs(along) < 1e-12) return {};
   const Eigen::Vector2d to_a = segment.a - ray.origin;
   const double t = to_a.dot(segment.n) / along;
-  if (t <= min_distance_m) return infinity;
+  if (t <= min_distance_m) return {};
   const double s = (t * ray.direction - to_a).dot(segment.e);
-  if (s < 0.0 || s > segment.length) return infinity;
+  if (s < 0.0 || s > segment.length) return {};
   const double z = ray.z + t * ray.slope;
-  if (z < segment.z0 || z > segment.z1 || in_hole(segment, s, z)) return infinity;
-  return t;
+  if (z < segment.z0 || z > segment.z1) return {};
+  return {t, in_hole(segment, s, z)};
+}
+
+/// Distance at which the ray hits the face, or infinity.
+double hit_distance(const PlanSegment& segment, const PlanRay& ray) {
+  const Meeting meeting = meet(segment, ray);
+  return meeting.hole ? infinity : meeting.distance;
 }
 
 /// Marches a ray through square cells.
@@ -104,8 +115,36 @@ void SegmentGrid::fill(const std::vector<PlanSegment>& segments) {
 
 PlanHit SegmentGrid::cast(const std::vector<PlanSegment>& segments, const PlanRay& ray, double max_distance) const {
   PlanHit best{max_distance, -1};
+  march(
+      ray,
+      [&](int i) {
+        const double t = hit_distance(segments[static_cast<std::size_t>(i)], ray);
+        if (t < best.distance || (t == best.distance && best.segment >= 0 && i < best.segment)) best = {t, i};
+        return best.distance;
+      },
+      max_distance);
+  return best;
+}
+
+bool SegmentGrid::crosses_opening(const std::vector<PlanSegment>& segments, const PlanRay& ray, double from,
+                                  double to) const {
+  const PlanRay rest{ray.origin + from * ray.direction, ray.direction, ray.z + from * ray.slope, ray.slope};
+  bool found = false;
+  march(
+      rest,
+      [&](int i) {
+        const Meeting meeting = meet(segments[static_cast<std::size_t>(i)], rest);
+        found = found || (meeting.hole && meeting.distance <= to - from);
+        return found ? 0.0 : to - from;
+      },
+      to - from);
+  return found;
+}
+
+template <class Visit>
+void SegmentGrid::march(const PlanRay& ray, Visit visit, double reach) const {
   GridWalk walk(ray.origin - origin_, ray.direction, cell_);
-  for (double entry = 0.0; entry < best.distance; walk.advance()) {
+  for (double entry = 0.0; entry < reach; walk.advance()) {
     const double exit = walk.exit();
     const auto [x, y] = walk.cell;
     if (x < 0 || y < 0 || x >= nx_ || y >= ny_) {
@@ -116,14 +155,9 @@ PlanHit SegmentGrid::cast(const std::vector<PlanSegment>& segments, const PlanRa
       continue;
     }
     const auto cell = static_cast<std::size_t>(y * nx_ + x);
-    for (int k = first_[cell]; k < first_[cell + 1]; ++k) {
-      const int i = items_[static_cast<std::size_t>(k)];
-      const double t = hit_distance(segments[static_cast<std::size_t>(i)], ray);
-      if (t < best.distance || (t == best.distance && best.segment >= 0 && i < best.segment)) best = {t, i};
-    }
+    for (int k = first_[cell]; k < first_[cell + 1]; ++k) reach = visit(items_[static_cast<std::size_t>(k)]);
     entry = exit;
   }
-  return best;
 }
 
 int SegmentGrid::cell_at(const Eigen::Vector2d& p) const {

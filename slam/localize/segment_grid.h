@@ -8,9 +8,9 @@
 
 namespace plumbline::slam {
 
-/// A wall face as a vertical rectangle with holes, in the plan-fixed frame I.
+/// A wall face, or a side of a column or the like, as a vertical rectangle with holes, in the plan-fixed frame I.
 struct PlanSegment {
-  int plan_face = -1;  ///< index into Plan::faces
+  int plan_face = -1;  ///< index into Plan::faces, -1: side of a solid, which is no wall
   int line = -1;       ///< WallLine it is part of, -1: none
   Eigen::Vector2d a = Eigen::Vector2d::Zero();
   Eigen::Vector2d e = Eigen::Vector2d::UnitX();  ///< unit, along the face
@@ -43,6 +43,9 @@ class SegmentGrid {
 
   /// First face hit outside its holes; of faces at equal distance the lowest index.
   [[nodiscard]] PlanHit cast(const std::vector<PlanSegment>& segments, const PlanRay& ray, double max_distance) const;
+  /// Whether the ray passes through a hole of a face between two horizontal distances.
+  [[nodiscard]] bool crosses_opening(const std::vector<PlanSegment>& segments, const PlanRay& ray, double from,
+                                     double to) const;
   /// Index of the cell with p, or -1 outside of the grid.
   [[nodiscard]] int cell_at(const Eigen::Vector2d& p) const;
   [[nodiscard]] int cells() const { return nx_ * ny_; }
@@ -50,6 +53,9 @@ class SegmentGrid {
   [[nodiscard]] double cell_size() const { return cell_; }
 
  private:
+  /// Calls visit(index) for the faces listed in the cells along the ray; it returns how far still to go.
+  template <class Visit>
+  void march(const PlanRay& ray, Visit visit, double reach) const;
   void fill(const std::vector<PlanSegment>& segments);
 
   Eigen::Vector2d origin_ = Eigen::Vector2d::Zero();

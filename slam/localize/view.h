@@ -13,6 +13,8 @@ namespace plumbline::slam {
 
 struct ViewConfig {
   int beams = 180;            ///< spread over the turn; the particles use a fixed stride of them
+  int sweep_columns = 900;    ///< of the sweep by which places are held against each other
+  int sweep_rings = 8;        ///< at most
   double min_height_m = 0.3;  ///< above the floor: lower returns are floor or feet
   double max_height_m = 2.5;  ///< above the floor: higher returns are ceiling
   double min_range_m = 0.5;   ///< the robot's own body
@@ -25,6 +27,9 @@ struct ViewConfig {
   void visit(V& v) {
     v("beams", beams,
       Field{.doc = "spread over the turn; the particles use a fixed stride of them", .min = 8, .max = 10000});
+    v("sweep_columns", sweep_columns,
+      Field{.doc = "of the sweep by which places are held against each other", .min = 8, .max = 2000});
+    v("sweep_rings", sweep_rings, Field{.doc = "at most", .min = 1, .max = 128});
     v("min_height_m", min_height_m, Field{.doc = "above the floor: lower returns are floor or feet", .min = 0});
     v("max_height_m", max_height_m, Field{.doc = "above the floor: higher returns are ceiling", .min = 0});
     v("min_range_m", min_range_m, Field{.doc = "the robot's own body", .min = 0});
@@ -65,6 +70,8 @@ struct View {
   Eigen::Vector2d sensor_H = Eigen::Vector2d::Zero();  ///< position of L
   double sensor_height = 0.0;                          ///< of L above the floor, m
   std::vector<Beam> beams;                             ///< by azimuth of the sweep
+  int sweep_columns = 0;
+  std::vector<Beam> sweep;      ///< evenly over turn and rings, ring * sweep_columns + column; range 0: no return
   std::vector<WallView> walls;  ///< in the order of the observations (largest first), at most max_walls
 };
 

@@ -28,7 +28,8 @@ std::vector<Interval> coplanar_intervals(const std::vector<PlanSegment>& segment
   const PlanSegment& base = segments[first];
   std::vector<Interval> intervals;
   for (std::size_t i = first; i < segments.size(); ++i) {
-    if (segments[i].line >= 0 || !at_height(segments[i], band_z) || !coplanar(base, segments[i], config)) continue;
+    if (segments[i].plan_face < 0 || segments[i].line >= 0 || !at_height(segments[i], band_z)) continue;
+    if (!coplanar(base, segments[i], config)) continue;
     const double s0 = (segments[i].a - base.a).dot(base.e);
     intervals.push_back({s0, s0 + segments[i].length, i});
   }
@@ -60,7 +61,7 @@ std::vector<WallLine> merge_wall_lines(std::vector<PlanSegment>& segments, doubl
                                        const PlanIndexConfig& config) {
   std::vector<WallLine> lines;
   for (std::size_t i = 0; i < segments.size(); ++i) {
-    if (segments[i].line >= 0 || !at_height(segments[i], band_z)) continue;
+    if (segments[i].plan_face < 0 || segments[i].line >= 0 || !at_height(segments[i], band_z)) continue;
     const std::vector<Interval> run = run_with(coplanar_intervals(segments, i, band_z, config), i, config.line_gap_m);
     double s0 = 0.0, s1 = segments[i].length;
     for (const Interval& interval : run) {

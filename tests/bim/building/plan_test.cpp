@@ -6,7 +6,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "bim/building/fillings.h"
 #include "bim/building/rooms.h"
+#include "bim/building/sweep.h"
 #include "bim/building/wall_face.h"
 #include "bim/errors.h"
 #include "bim/random/stream.h"
@@ -177,6 +179,47 @@ TEST(Plan, HolesCountFromP0OnBothSides) {
   EXPECT_NEAR(right.s0, 1.6, 1e-12);
   EXPECT_NEAR(right.s1, 2.4, 1e-12);
   EXPECT_EQ(right.z1, 2.1);
+}
+
+/// Box of four legs under a top.
+Solid table() {
+  Solid table = extrude({{{{1, 1}, {2, 1}, {2, 2}, {1, 2}}, {}}}, 0.7, 0.75);
+  for (const double x : {1.0, 1.95}) {
+    const Solid leg = extrude({{{{x, 1}, {x + 0.05, 1}, {x + 0.05, 1.05}, {x, 1.05}}, {}}}, 0.0, 0.7);
+    const Eigen::Vector3i first = Eigen::Vector3i::Constant(static_cast<int>(table.vertices.size()));
+    table.vertices.insert(table.vertices.end(), leg.vertices.begin(), leg.vertices.end());
+    for (const Eigen::Vector3i& t : leg.triangles) table.triangles.emplace_back(t + first);
+  }
+  return table;
+}
+
+TEST(Plan, SolidsAreColumnsAndWhatIsPlannedAndFillsItsOutline) {
+  Building building = two_rooms();
+  Column column;
+  column.id = "c";
+  column.storey = 0;
+  column.footprint = {{1, 1}, {1, 1.4}, {1.4, 1.4}, {1.4, 1}};  // clockwise
+  building.columns.push_back(column);
+  Obstacle box{"box", "box", 0, extrude({{{{2, 2}, {2.5, 2}, {2.5, 2.5}, {2, 2.5}}, {}}}, 0.0, 1.0)};
+  building.obstacles.push_back(box);
+  box.id = "pallet";
+  box.planned = false;
+  building.obstacles.push_back(box);
+  building.obstacles.push_back({"table", "furniture", 0, table()});
+  add_fillings(building);
+  const Plan plan = make_plan(building);
+  ASSERT_EQ(plan.solids.size(), 2U);
+  EXPECT_EQ(plan.solids[0].id, "c");
+  EXPECT_NEAR(signed_area(plan.solids[0].outline), 0.16, 1e-12);
+  EXPECT_EQ(plan.solids[1].id, "box");
+  EXPECT_NEAR(signed_area(plan.solids[1].outline), 0.25, 1e-12);
+  EXPECT_EQ(plan.solids[1].z1, 1.0);
+  EXPECT_EQ(plan.faces.size(), make_plan(two_rooms()).faces.size());
+  const Plan moved = transformed(plan, Pose::from_xyz_yaw({3, -2, 1}, 0.5));
+  EXPECT_EQ(moved.solids[1].z1, 2.0);
+  const Eigen::Vector3d corner(plan.solids[0].outline[0].x(), plan.solids[0].outline[0].y(), 0.0);
+  const Eigen::Vector3d there = Pose::from_xyz_yaw({3, -2, 1}, 0.5) * corner;
+  EXPECT_NEAR((moved.solids[0].outline[0] - there.head<2>()).norm(), 0.0, 1e-12);
 }
 
 TEST(Plan, MovesAsOneBody) {

@@ -65,6 +65,11 @@ bim::Plan moved(const bim::Plan& plan_W, const Pose& X_VW) {
     room.z0 += X_VW.t.z();
     room.z1 += X_VW.t.z();
   }
+  for (bim::PlanSolid& solid : plan.solids) {
+    for (Eigen::Vector2d& p : solid.outline) p = move(p);
+    solid.z0 += X_VW.t.z();
+    solid.z1 += X_VW.t.z();
+  }
   return plan;
 }
 

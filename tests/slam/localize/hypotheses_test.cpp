@@ -37,7 +37,7 @@ TwinScene twin_scene() {
 
 TEST(Hypotheses, TwinsKeepEqualSharesAndOthersDie) {
   const TwinScene scene = twin_scene();
-  HypothesisSet set({}, {}, {});
+  HypothesisSet set({}, {}, {}, {});
   set.follow(scene.index, scene.u[0], scene.views[0]);
   Pose2 elsewhere = scene.here;
   elsewhere.t += Eigen::Vector2d(1.2, 0.9);
@@ -52,7 +52,7 @@ TEST(Hypotheses, TwinsKeepEqualSharesAndOthersDie) {
 
 TEST(Hypotheses, APlaceThatTurnsUpLateIsJudgedByTheWholeHistory) {
   const TwinScene scene = twin_scene();
-  HypothesisSet set({}, {}, {});
+  HypothesisSet set({}, {}, {}, {});
   set.follow(scene.index, scene.u[0], scene.views[0]);
   set.adopt(scene.index, std::vector<Place>{{0, scene.here}});
   for (std::size_t i = 1; i < scene.views.size(); ++i) set.follow(scene.index, scene.u[i], scene.views[i]);
@@ -66,7 +66,7 @@ TEST(Hypotheses, APlaceThatTurnsUpLateIsJudgedByTheWholeHistory) {
 
 TEST(Hypotheses, ImposeGivesEachPlaceItsMassAndBringsBackTheLost) {
   const TwinScene scene = twin_scene();
-  HypothesisSet set({}, {}, {});
+  HypothesisSet set({}, {}, {}, {});
   set.follow(scene.index, scene.u[0], scene.views[0]);
   set.adopt(scene.index, {{0, scene.here}, {0, scene.there}});
   set.settle();

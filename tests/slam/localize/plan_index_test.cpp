@@ -7,6 +7,7 @@
 
 #include "bim/errors.h"
 #include "bim/random/stream.h"
+#include "slam/localize/pose2.h"
 #include "tests/slam/localize/house_plan.h"
 
 namespace plumbline::slam {
@@ -77,6 +78,25 @@ TEST(PlanIndex, RefusesAPlanWithoutTheStoreyOrRooms) {
   EXPECT_THROW(static_cast<void>(make_plan_index(plan, "attic", {})), InputError);
   plan.rooms.clear();
   EXPECT_THROW(static_cast<void>(make_plan_index(plan, std::nullopt, {})), InputError);
+}
+
+TEST(PlanIndex, AColumnStopsLightAndIsNoWall) {
+  bim::Plan plan = synthetic::plan_of(synthetic::one_room(6.0, 4.0));
+  const std::size_t lines = make_plan_index(plan, "ground", {}).storeys.front().lines.size();
+  plan.solids.push_back({"c", 0, {{3.0, 2.0}, {3.4, 2.0}, {3.4, 2.4}, {3.0, 2.4}}, 0.0, 1.0});
+  const PlanIndex index = make_plan_index(plan, "ground", {});
+  const StoreyIndex& storey = index.storeys.front();
+  EXPECT_EQ(storey.lines.size(), lines);
+  const Pose2 X_IW = heading(index.X_WI).inverse();
+  const auto range = [&](double z) {
+    const PlanRay ray{X_IW * Eigen::Vector2d(1.0, 2.2), X_IW.rotation() * Eigen::Vector2d::UnitX(), z, 0.0};
+    return storey.grid.cast(storey.segments, ray, 10.0);
+  };
+  EXPECT_NEAR(range(0.7).distance, 2.0, 1e-5);
+  EXPECT_NEAR(range(1.2).distance, 5.0, 1e-5);
+  // Free space lies on the left of each side.
+  const PlanSegment& side = storey.segments[static_cast<std::size_t>(range(0.7).segment)];
+  EXPECT_LT(side.n.dot(X_IW.rotation() * Eigen::Vector2d::UnitX()), -0.99);
 }
 
 }  // namespace

@@ -70,6 +70,11 @@ TEST(SegmentGrid, CrossesADoorBelowItsHeadOnly) {
   EXPECT_EQ(grid.cast(segments, {{2.0, -1.0}, ahead, 1.0, 0.0}, 5.0).segment, -1);
   EXPECT_EQ(grid.cast(segments, {{2.0, -1.0}, ahead, 2.5, 0.0}, 5.0).segment, 0);
   EXPECT_NEAR(grid.cast(segments, {{1.0, -1.0}, ahead, 1.0, 0.0}, 5.0).distance, 1.0, 1e-12);
+  EXPECT_TRUE(grid.crosses_opening(segments, {{2.0, -1.0}, ahead, 1.0, 0.0}, 0.8, 1.1));
+  EXPECT_FALSE(grid.crosses_opening(segments, {{2.0, -1.0}, ahead, 1.0, 0.0}, 0.5, 0.9));
+  EXPECT_FALSE(grid.crosses_opening(segments, {{2.0, -1.0}, ahead, 1.0, 0.0}, 1.1, 3.0));
+  EXPECT_FALSE(grid.crosses_opening(segments, {{2.0, -1.0}, ahead, 2.5, 0.0}, 0.8, 1.1));
+  EXPECT_FALSE(grid.crosses_opening(segments, {{1.0, -1.0}, ahead, 1.0, 0.0}, 0.8, 1.1));
 }
 
 TEST(SegmentGrid, OfEqualDistancesTheLowestIndexWins) {

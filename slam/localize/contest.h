@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "bim/config/visit.h"
+#include "slam/localize/plan_index.h"
+#include "slam/localize/view.h"
+
+namespace plumbline::slam {
+
+/// How two places are held against each other by everything one scan saw.
+struct ContestConfig {
+  double sigma_m = 0.05;          ///< range noise, registration and plan tolerance, across the face
+  double gate_m = 0.12;           ///< a beam for which both places predict the same within this says nothing
+  double min_incidence = 0.2;     ///< cosine below which a grazing beam's residual no longer shrinks
+  double short_cap = 2.0;         ///< of the negative log-likelihood of a beam cut short: clutter does that
+  double long_cap = 4.5;          ///< of one that goes through what the plan has there
+  double weight = 0.02;           ///< of one beam: neighbours share their errors, and so do views 0.2 m apart
+  double edge_m = 0.05;           ///< an edge of the plan may stand this much to the side,
+  double edge_rad = 0.003;        ///< and this much in direction
+  double opening_depth_m = 0.35;  ///< a beam that ends this little behind a planned opening met its leaf or pane
+
+  template <class V>
+  void visit(V& v) {
+    v("sigma_m", sigma_m, Field{.doc = "range noise, registration and plan tolerance, across the face", .min = 1e-6});
+    v("gate_m", gate_m,
+      Field{.doc = "a beam for which both places predict the same within this says nothing", .min = 0});
+    v("min_incidence", min_incidence,
+      Field{.doc = "cosine below which a grazing beam's residual no longer shrinks", .min = 0, .max = 1});
+    v("short_cap", short_cap, Field{.doc = "of the negative log-likelihood of a beam cut short", .min = 0});
+    v("long_cap", long_cap, Field{.doc = "of one that goes through what the plan has there", .min = 0});
+    v("weight", weight, Field{.doc = "of one beam; neighbours and near views share their errors", .min = 0});
+    v("edge_m", edge_m, Field{.doc = "an edge of the plan may stand this much to the side", .min = 0});
+    v("edge_rad", edge_rad, Field{.doc = "and this much in direction", .min = 0});
+    v("opening_depth_m", opening_depth_m,
+      Field{.doc = "a beam that ends this little behind a planned opening met its leaf or pane", .min = 0});
+  }
+};
+
+/// What the plan has in the way of each beam of View::sweep at one pose.
+struct Sight {
+  const StoreyIndex* storey = nullptr;
+  Pose2 X_IH;
+  std::vector<double> expected;   ///< horizontal range, m; where nothing is hit, how far was looked
+  std::vector<double> incidence;  ///< cosine at the face hit, at least min_incidence; 1 where nothing is hit
+};
+[[nodiscard]] Sight sight(const StoreyIndex& storey, const Pose2& X_IH, const View& view, const ContestConfig& config);
+
+/// Log-likelihood ratio of a scan at place a to that at place b. Only beams for which the two predict something else
+/// speak, so that clutter and a plan that is off say nothing where the places are alike. A beam next to an edge of the
+/// plan may meet either side of it.
+[[nodiscard]] double contest(const View& view, const Sight& a, const Sight& b, const ContestConfig& config);
+
+}  // namespace plumbline::slam
