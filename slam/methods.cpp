@@ -6,6 +6,7 @@
 
 #include "slam/baseline/amcl.h"
 #include "slam/baseline/lidar_odometry_method.h"
+#include "slam/baseline/micp.h"
 #include "slam/baseline/s_graph_localization_paper.h"
 #include "slam/baseline/ukf.h"
 #include "slam/localize/s_graph_localization.h"
@@ -98,6 +99,13 @@ MethodTable methods() {
            .summary = "NDT on the plan, smoothed by an unscented filter, in the style of hdl_localization",
            .needs_plan = true,
            .make = make_ukf,
+           .standard = false,
+           .needs_odometry = true}),
+      with_config<MicpConfig>(
+          {.name = "micp",
+           .summary = "corrections by casting each scan's beams in the plan, in the style of MICP-L",
+           .needs_plan = true,
+           .make = make_micp,
            .standard = false,
            .needs_odometry = true}),
   };
