@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slam/methods.h"
 
-#include <array>
 #include <utility>
+#include <vector>
 
 #include "slam/baseline/amcl.h"
 #include "slam/baseline/lidar_odometry_method.h"
@@ -36,14 +36,54 @@ std::unique_ptr<Method> reckon_dead(const MethodInput& input) {
   return make_lidar_odometry_method(input, config, config_of<DeadReckoningConfig>(input).map);
 }
 
-std::unique_ptr<Method> localize_in_plan(const MethodInput& input) {
-  return make_s_graph_localization(input, config_of<LocalizationConfig>(input));
+/// Completes the row of a method that localizes in a plan; Own is its config with the defaults of this row.
+template <class Own, class Config>
+MethodRow localization(std::unique_ptr<Method> (*make)(const MethodInput&, const Config&), MethodRow row) {
+  row.make = [make](const MethodInput& input) { return make(input, config_of<Own>(input)); };
+  row.needs_plan = row.needs_odometry = true;
+  return with_config<Own>(std::move(row));
 }
 
-}  // namespace
+std::vector<MethodRow> localizations() {
+  return {
+      localization<LocalizationConfig>(
+          make_s_graph_localization,
+          {.name = "s_graph_localization",
+           .summary = "particle filter on the plan's walls and rooms, then a graph against them"}),
+      localization<LocalizationPaperConfig>(
+          make_s_graph_localization_paper,
+          {.name = "s_graph_localization_paper",
+           .summary = "plan localization as printed: particles matched by walls of their room, then an S-Graph",
+           .standard = false}),
+      localization<LocalizationWithoutRoomsConfig>(
+          make_s_graph_localization_paper,
+          {.name = "s_graph_localization_paper_no_rooms",
+           .summary = "s_graph_localization_paper without the topological factor: matched by all walls",
+           .standard = false,
+           .variant = true}),
+      localization<AmclConfig>(
+          make_amcl,
+          {.name = "amcl",
+           .summary = "Monte Carlo localization of planar scans on a slice of the plan, in the style of nav2's AMCL",
+           .standard = false}),
+      localization<AmclTunedConfig>(make_amcl,
+                                    {.name = "amcl_tuned",
+                                     .summary = "amcl with less noise and more particles than nav2's defaults",
+                                     .standard = false,
+                                     .variant = true}),
+      localization<UkfConfig>(
+          make_ukf, {.name = "ukf",
+                     .summary = "NDT on the plan, smoothed by an unscented filter, in the style of hdl_localization",
+                     .standard = false}),
+      localization<MicpConfig>(
+          make_micp, {.name = "micp",
+                      .summary = "corrections by casting each scan's beams in the plan, in the style of MICP-L",
+                      .standard = false}),
+  };
+}
 
-MethodTable methods() {
-  static const std::array rows = {
+std::vector<MethodRow> odometry_and_slam() {
+  return {
       with_config<DeadReckoningConfig>(
           {.name = "odometry", .summary = "dead reckoning of the legs", .make = reckon_dead, .needs_odometry = true}),
       odometry_alone(OdometryKind::vgicp, &LidarOdometryConfig::vgicp,
@@ -74,41 +114,17 @@ MethodTable methods() {
       with_config<SGraphsPlusConfig>({.name = "s_graphs_plus",
                                       .summary = "S-Graphs+: walls, rooms, floors and loops in one four-layered graph",
                                       .make = make_s_graphs_plus_method}),
-      with_config<LocalizationConfig>(
-          {.name = "s_graph_localization",
-           .summary = "particle filter on the plan's walls and rooms, then a graph against them",
-           .needs_plan = true,
-           .make = localize_in_plan,
-           .needs_odometry = true}),
-      with_config<LocalizationPaperConfig>(
-          {.name = "s_graph_localization_paper",
-           .summary = "plan localization as printed: particles matched by walls of their room, then an S-Graph",
-           .needs_plan = true,
-           .make = make_s_graph_localization_paper,
-           .standard = false,
-           .needs_odometry = true}),
-      with_config<AmclConfig>(
-          {.name = "amcl",
-           .summary = "Monte Carlo localization of planar scans on a slice of the plan, in the style of nav2's AMCL",
-           .needs_plan = true,
-           .make = make_amcl,
-           .standard = false,
-           .needs_odometry = true}),
-      with_config<UkfConfig>(
-          {.name = "ukf",
-           .summary = "NDT on the plan, smoothed by an unscented filter, in the style of hdl_localization",
-           .needs_plan = true,
-           .make = make_ukf,
-           .standard = false,
-           .needs_odometry = true}),
-      with_config<MicpConfig>(
-          {.name = "micp",
-           .summary = "corrections by casting each scan's beams in the plan, in the style of MICP-L",
-           .needs_plan = true,
-           .make = make_micp,
-           .standard = false,
-           .needs_odometry = true}),
   };
+}
+
+}  // namespace
+
+MethodTable methods() {
+  static const std::vector<MethodRow> rows = [] {
+    std::vector<MethodRow> all = odometry_and_slam();
+    for (MethodRow& row : localizations()) all.push_back(std::move(row));
+    return all;
+  }();
   return rows;
 }
 

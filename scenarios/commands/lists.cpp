@@ -19,10 +19,14 @@ namespace fs = std::filesystem;
 namespace {
 
 int list_methods(slam::MethodTable table) {
+  std::size_t widest = truth_method.size();
+  for (const slam::MethodRow& row : table) widest = std::max(widest, row.name.size());
+  const int width = static_cast<int>(widest);
   for (const slam::MethodRow& row : table)
-    std::printf("%-22s %s%s\n", std::string(row.name).c_str(), std::string(row.summary).c_str(),
+    std::printf("%-*s %s%s\n", width, std::string(row.name).c_str(), std::string(row.summary).c_str(),
                 row.needs_plan ? " (needs the plan)" : "");
-  std::printf("%-22s %s\n", std::string(truth_method).c_str(), "the true poses; scores 0, which checks the scorer");
+  std::printf("%-*s %s\n", width, std::string(truth_method).c_str(),
+              "the true poses; scores 0, which checks the scorer");
   return 0;
 }
 

@@ -70,8 +70,18 @@ PlanBelief Amcl::belief(const Eigen::Quaterniond& q_HR) {
 
 }  // namespace
 
-std::unique_ptr<Method> make_amcl(const MethodInput& input) {
-  return std::make_unique<Amcl>(input, config_of<AmclConfig>(input));
+AmclTunedConfig::AmclTunedConfig() {
+  filter.alpha1 = 0.05;
+  filter.alpha2 = 0.01;
+  filter.alpha3 = 0.02;
+  filter.alpha4 = 0.02;
+  filter.min_particles = 2000;
+  filter.max_particles = 20000;
+  filter.pf_z = 3.0;
+}
+
+std::unique_ptr<Method> make_amcl(const MethodInput& input, const AmclConfig& config) {
+  return std::make_unique<Amcl>(input, config);
 }
 
 }  // namespace plumbline::slam

@@ -218,8 +218,8 @@ PlanBelief Micp::update(const PlanScan& scan, Output& output) {
 
 }  // namespace
 
-std::unique_ptr<Method> make_micp(const MethodInput& input) {
-  return std::make_unique<Micp>(input, config_of<MicpConfig>(input));
+std::unique_ptr<Method> make_micp(const MethodInput& input, const MicpConfig& config) {
+  return std::make_unique<Micp>(input, config);
 }
 
 }  // namespace plumbline::slam

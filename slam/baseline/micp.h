@@ -72,6 +72,6 @@ struct MicpConfig {
 /// best places are corrected and followed side by side, AMBIGUOUS until the beams have ruled out all but one. LOST
 /// while the beams of scan after scan do not fit; nothing is searched for again. Throws InputError when there is no
 /// plan, no such storey, or no room in it.
-[[nodiscard]] std::unique_ptr<Method> make_micp(const MethodInput& input);
+[[nodiscard]] std::unique_ptr<Method> make_micp(const MethodInput& input, const MicpConfig& config = {});
 
 }  // namespace plumbline::slam

@@ -88,8 +88,9 @@ PlanBelief SGraphLocalizationPaper::searching(const PlanScan& scan) const {
 
 }  // namespace
 
-std::unique_ptr<Method> make_s_graph_localization_paper(const MethodInput& input) {
-  return std::make_unique<SGraphLocalizationPaper>(input, config_of<LocalizationPaperConfig>(input));
+std::unique_ptr<Method> make_s_graph_localization_paper(const MethodInput& input,
+                                                        const LocalizationPaperConfig& config) {
+  return std::make_unique<SGraphLocalizationPaper>(input, config);
 }
 
 }  // namespace plumbline::slam

@@ -219,8 +219,8 @@ PlanBelief Ukf::update(const PlanScan& scan, Output& output) {
 
 }  // namespace
 
-std::unique_ptr<Method> make_ukf(const MethodInput& input) {
-  return std::make_unique<Ukf>(input, config_of<UkfConfig>(input));
+std::unique_ptr<Method> make_ukf(const MethodInput& input, const UkfConfig& config) {
+  return std::make_unique<Ukf>(input, config);
 }
 
 }  // namespace plumbline::slam

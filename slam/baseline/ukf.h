@@ -76,6 +76,6 @@ struct UkfConfig {
 /// first scan, believes that at once (CONVERGED), and is a tracker from then on; no gate stops a correction. LOST is
 /// what the reference publishes as a low share of inliers. Throws InputError when there is no plan, no such storey, or
 /// no room in it.
-[[nodiscard]] std::unique_ptr<Method> make_ukf(const MethodInput& input);
+[[nodiscard]] std::unique_ptr<Method> make_ukf(const MethodInput& input, const UkfConfig& config = {});
 
 }  // namespace plumbline::slam

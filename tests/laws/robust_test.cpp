@@ -128,7 +128,8 @@ TEST_P(Robust, NothingAtAllEndsInAStatedState) {
 
 std::vector<std::string> all_methods() {
   std::vector<std::string> names;
-  for (const auto& row : slam::methods()) names.emplace_back(row.name);
+  for (const auto& row : slam::methods())
+    if (!row.variant) names.emplace_back(row.name);
   return names;
 }
 
