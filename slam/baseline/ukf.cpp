@@ -149,12 +149,12 @@ void Ukf::start(int storey, const Pose& X_IR) {
   misfits_ = 0;
 }
 
-/// The best place of all storeys (ties: the lowest storey); it is always taken.
+/// The best place of all storeys (ties: the lowest storey); it is taken, however badly it fits, unless nothing fits.
 void Ukf::search(const PlanScan& scan) {
   const ScanSlice slice = cut_scan(scan.deskewed, scan.q_HR, input().calibration.sensor_height_m, config_.slice);
   if (slice.ends_H.size() < static_cast<std::size_t>(min_ends)) return;
   const double half = scan.told_yaw_I ? std::min(3.0 * scan.told_yaw_sigma, std::numbers::pi) : std::numbers::pi;
-  int best_score = -1;
+  int best_score = 0;
   for (std::size_t s = 0; s < matchers_.size(); ++s) {
     const std::vector<double> yaws = matchers_[s].yaws(scan.told_yaw_I.value_or(0.0), half);
     const GridMatch match = matchers_[s].best(slice.ends_H, yaws);
