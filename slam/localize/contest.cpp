@@ -47,7 +47,8 @@ bool ends_in_opening(const View& view, const Sight& sight, const Beam& beam, con
 }  // namespace
 
 Sight sight(const StoreyIndex& storey, const Pose2& X_IH, const View& view, const ContestConfig& config) {
-  Sight sight{&storey, X_IH, {}, {}};
+  Sight sight{&storey, X_IH, {}, {}, {}};
+  sight.segment.assign(view.sweep.size(), -1);
   sight.expected.assign(view.sweep.size(), 0.0);
   sight.incidence.assign(view.sweep.size(), 1.0);
   const Eigen::Matrix2d R_IH = X_IH.rotation();
@@ -62,6 +63,7 @@ Sight sight(const StoreyIndex& storey, const Pose2& X_IH, const View& view, cons
     if (beam.slope > 0.0) reach = std::min(reach, (storey.ceiling_z - ray.z) / beam.slope);
     const PlanHit hit = storey.grid.cast(storey.segments, ray, std::max(reach, 0.0));
     sight.expected[i] = hit.distance;
+    sight.segment[i] = hit.segment;
     if (hit.segment < 0) continue;
     const double incidence = std::abs(storey.segments[static_cast<std::size_t>(hit.segment)].n.dot(ray.direction));
     sight.incidence[i] = std::max(incidence, config.min_incidence);
@@ -69,20 +71,39 @@ Sight sight(const StoreyIndex& storey, const Pose2& X_IH, const View& view, cons
   return sight;
 }
 
-double contest(const View& view, const Sight& a, const Sight& b, const ContestConfig& config) {
+void Objections::add(int segment, bool through, double log_likelihood) {
+  const auto i = static_cast<std::size_t>(2 * (segment + 1) + (through ? 1 : 0));
+  if (sums_.size() <= i) sums_.resize(i + 1, 0.0);
+  sums_[i] += log_likelihood;
+}
+
+void Objections::add(const Objections& more, double scale) {
+  if (sums_.size() < more.sums_.size()) sums_.resize(more.sums_.size(), 0.0);
+  for (std::size_t i = 0; i < more.sums_.size(); ++i) sums_[i] += scale * more.sums_[i];
+}
+
+double Objections::total(double cap) const {
   double sum = 0.0;
+  for (const double one : sums_) sum += std::min(one, cap);
+  return sum;
+}
+
+Contest contest(const View& view, const Sight& a, const Sight& b, const ContestConfig& config) {
+  Contest result;
   for (std::size_t i = 0; i < view.sweep.size(); ++i) {
     const Beam& beam = view.sweep[i];
     if (beam.range <= 0.0) continue;
     const double apart = std::abs(a.expected[i] - b.expected[i]) * std::max(a.incidence[i], b.incidence[i]);
     if (apart <= config.gate_m) continue;
-    const double gain = beam_cost(view, b, i, config) - beam_cost(view, a, i, config);
+    const double gain = config.weight * (beam_cost(view, b, i, config) - beam_cost(view, a, i, config));
     if (gain == 0.0) continue;
     const Sight& worse = gain > 0.0 ? b : a;
     if (worse.expected[i] > beam.range && ends_in_opening(view, worse, beam, config)) continue;
-    sum += gain;
+    Objections& against = gain > 0.0 ? result.against_b : result.against_a;
+    against.add(worse.segment[i], worse.expected[i] < beam.range, std::abs(gain));
+    result.ratio += gain;
   }
-  return config.weight * sum;
+  return result;
 }
 
 }  // namespace plumbline::slam

@@ -19,6 +19,8 @@ struct ContestConfig {
   double weight = 0.02;           ///< of one beam: neighbours share their errors, and so do views 0.2 m apart
   double edge_m = 0.05;           ///< an edge of the plan may stand this much to the side,
   double edge_rad = 0.003;        ///< and this much in direction
+  double face_cap = 8.0;          ///< of all that one face says, however often it is seen: it may have been built
+                                  ///< elsewhere or not at all, and something may stand before it
   double opening_depth_m = 0.35;  ///< a beam that ends this little behind a planned opening met its leaf or pane
 
   template <class V>
@@ -33,6 +35,7 @@ struct ContestConfig {
     v("weight", weight, Field{.doc = "of one beam; neighbours and near views share their errors", .min = 0});
     v("edge_m", edge_m, Field{.doc = "an edge of the plan may stand this much to the side", .min = 0});
     v("edge_rad", edge_rad, Field{.doc = "and this much in direction", .min = 0});
+    v("face_cap", face_cap, Field{.doc = "of all that one face says, however often it is seen", .min = 0});
     v("opening_depth_m", opening_depth_m,
       Field{.doc = "a beam that ends this little behind a planned opening met its leaf or pane", .min = 0});
   }
@@ -43,13 +46,32 @@ struct Sight {
   const StoreyIndex* storey = nullptr;
   Pose2 X_IH;
   std::vector<double> expected;   ///< horizontal range, m; where nothing is hit, how far was looked
+  std::vector<int> segment;       ///< hit, -1: none
   std::vector<double> incidence;  ///< cosine at the face hit, at least min_incidence; 1 where nothing is hit
 };
 [[nodiscard]] Sight sight(const StoreyIndex& storey, const Pose2& X_IH, const View& view, const ContestConfig& config);
 
-/// Log-likelihood ratio of a scan at place a to that at place b. Only beams for which the two predict something else
-/// speak, so that clutter and a plan that is off say nothing where the places are alike. A beam next to an edge of the
-/// plan may meet either side of it.
-[[nodiscard]] double contest(const View& view, const Sight& a, const Sight& b, const ContestConfig& config);
+/// What speaks against a place, by the face of the plan that should have been met and by whether light went through it
+/// or was cut short before it.
+class Objections {
+ public:
+  void add(int segment, bool through, double log_likelihood);
+  void add(const Objections& more, double scale);
+  void clear() { sums_.clear(); }
+  /// No face counts for more than the cap.
+  [[nodiscard]] double total(double cap) const;
+
+ private:
+  std::vector<double> sums_;  ///< by 2 (segment + 1) + through
+};
+
+/// What one scan says of two places.
+struct Contest {
+  Objections against_a, against_b;
+  double ratio = 0.0;  ///< log-likelihood ratio of a to b, no face capped
+};
+/// Only beams for which the two predict something else speak, so that clutter and a plan that is off say nothing where
+/// the places are alike. A beam next to an edge of the plan may meet either side of it.
+[[nodiscard]] Contest contest(const View& view, const Sight& a, const Sight& b, const ContestConfig& config);
 
 }  // namespace plumbline::slam

@@ -25,18 +25,21 @@ bool walks_through_wall(const StoreyIndex& storey, const Pose2& from, const Pose
 void HypothesisSet::follow(const PlanIndex& index, const Pose2& u, const View& view) {
   history_.push_back({u, view});
   if (static_cast<int>(history_.size()) > config_.history) history_.pop_front();
+  agree_on_reference();
   std::vector<Look> looks;
   for (Candidate& candidate : candidates_) {
     const StoreyIndex& storey = index.storeys[static_cast<std::size_t>(candidate.storey)];
     const Pose2 moved = candidate.X_IH * u;
     const double crossing = crossing_cost(index, storey, candidate.X_IH, moved);
-    const Refined refined = refine(storey, moved, view, likelihood_, refine_);
+    const Refined refined = refine(storey, moved, view, likelihood_, follow_);
     candidate.X_IH = refined.X_IH;
     candidate.covariance = refined.covariance;
-    candidate.agreement = agreement(storey, refined.X_IH, view, likelihood_, refine_);
+    note(agreement(storey, refined.X_IH, view, likelihood_, refine_), candidate);
     looks.push_back({sight(storey, refined.X_IH, view, contest_), crossing});
     // The first is the best so far, by which the others are judged.
-    candidate.evidence += judge(view, looks.back(), looks.front());
+    if (looks.size() == 1) continue;
+    judge(view, looks.back(), looks.front(), candidate.held);
+    candidate.evidence = candidate.held.evidence(contest_.face_cap);
   }
 }
 
@@ -58,6 +61,7 @@ void HypothesisSet::adopt(const PlanIndex& index, const Clustering& clustering) 
 
 void HypothesisSet::adopt(const PlanIndex& index, const std::vector<Place>& places) {
   if (history_.empty()) return;
+  agree_on_reference();
   const View& view = history_.back().view;
   std::vector<Look> reference;
   for (const Place& place : places) {
@@ -70,9 +74,11 @@ void HypothesisSet::adopt(const PlanIndex& index, const std::vector<Place>& plac
       reference = replay(index, {candidates_.front().storey, candidates_.front().X_IH}, {}).looks;
     Replay past = replay(index, fitted, reference);
     if (past.evidence < -config_.drop_ratio) continue;
-    const double evidence = past.evidence + (candidates_.empty() ? 0.0 : candidates_.front().evidence);
-    candidates_.push_back({next_id_++, fitted.storey, fitted.X_IH, refined.covariance, evidence, 0.0,
-                           agreement(storey, fitted.X_IH, view, likelihood_, refine_)});
+    past.held.base += candidates_.empty() ? 0.0 : candidates_.front().evidence;
+    const double evidence = past.held.evidence(contest_.face_cap);
+    candidates_.push_back({next_id_++, fitted.storey, fitted.X_IH, refined.covariance, std::move(past.held), evidence,
+                           0.0, 0, agreement(storey, fitted.X_IH, view, likelihood_, refine_)});
+    if (candidates_.size() == 1) reference_id_ = candidates_.front().id;
     if (reference.empty()) reference = std::move(past.looks);
   }
 }
@@ -137,6 +143,7 @@ void HypothesisSet::impose(ParticleSet& particles, const Clustering& clustering,
 void HypothesisSet::clear() {
   candidates_.clear();
   history_.clear();
+  reference_id_ = -1;
 }
 
 double HypothesisSet::crossing_cost(const PlanIndex& index, const StoreyIndex& storey, const Pose2& from,
@@ -144,11 +151,28 @@ double HypothesisSet::crossing_cost(const PlanIndex& index, const StoreyIndex& s
   return walks_through_wall(storey, from, to, index.config.body_height_m) ? config_.crossing_cost : 0.0;
 }
 
-double HypothesisSet::judge(const View& view, const Look& look, const Look& reference) const {
-  const double ratio =
-      contest(view, look.sight, reference.sight, contest_) - look.crossing_cost + reference.crossing_cost;
-  const double beyond = std::max(0.0, std::abs(ratio) - config_.indifference);
-  return std::copysign(std::min(beyond, config_.step_cap), ratio);
+void HypothesisSet::note(const Agreement& newest, Candidate& candidate) const {
+  Agreement& mean = candidate.agreement;
+  mean.inliers += config_.newest * (newest.inliers - mean.inliers);
+  mean.through += config_.newest * (newest.through - mean.through);
+  const bool fits = mean.inliers >= config_.cluttered_inliers && mean.through_share() <= config_.cluttered_through;
+  candidate.fits = fits ? candidate.fits + 1 : std::max(0, candidate.fits - 2);
+}
+
+void HypothesisSet::judge(const View& view, const Look& look, const Look& reference, Case& held) const {
+  held.base += reference.crossing_cost - look.crossing_cost;
+  const Contest said = contest(view, look.sight, reference.sight, contest_);
+  const double size = std::abs(said.ratio);
+  if (size <= config_.indifference) return;
+  const double scale = look.views * std::min(size - config_.indifference, config_.step_cap) / size;
+  held.against.add(said.against_a, scale);
+  held.for_it.add(said.against_b, scale);
+}
+
+void HypothesisSet::agree_on_reference() {
+  if (candidates_.empty() || candidates_.front().id == reference_id_) return;
+  reference_id_ = candidates_.front().id;
+  for (Candidate& candidate : candidates_) candidate.held = {candidate.evidence, {}, {}};
 }
 
 HypothesisSet::Replay HypothesisSet::replay(const PlanIndex& index, const Place& place,
@@ -156,14 +180,24 @@ HypothesisSet::Replay HypothesisSet::replay(const PlanIndex& index, const Place&
   const StoreyIndex& storey = index.storeys[static_cast<std::size_t>(place.storey)];
   Pose2 X = place.X_IH;
   Replay past;
-  for (auto step = history_.rbegin(); step != history_.rend(); ++step) {
-    X = refine(storey, X, step->view, likelihood_, refine_).X_IH;
-    const Pose2 before = X * step->u.inverse();
-    past.looks.push_back({sight(storey, X, step->view, contest_), crossing_cost(index, storey, before, X)});
+  double crossing = 0.0;
+  const auto stride = static_cast<std::size_t>(config_.replay_stride);
+  for (std::size_t back = 0; back < history_.size(); ++back) {
+    const Step& step = history_[history_.size() - 1 - back];
+    const bool looks = back % stride == 0;
+    if (looks) X = refine(storey, X, step.view, likelihood_, follow_).X_IH;
+    const Pose2 before = X * step.u.inverse();
+    crossing += crossing_cost(index, storey, before, X);
+    if (looks) {
+      const auto views = static_cast<double>(std::min(stride, history_.size() - back));
+      past.looks.push_back({sight(storey, X, step.view, contest_), crossing, views});
+      crossing = 0.0;
+    }
     X = before;
     const std::size_t k = past.looks.size() - 1;
-    if (k >= reference.size()) continue;
-    past.evidence += judge(step->view, past.looks[k], reference[k]);
+    if (!looks || k >= reference.size()) continue;
+    judge(step.view, past.looks[k], reference[k], past.held);
+    past.evidence = past.held.evidence(contest_.face_cap);
     if (past.evidence < -config_.drop_ratio) break;
   }
   return past;

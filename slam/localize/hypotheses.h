@@ -21,13 +21,16 @@ struct HypothesisConfig {
   double match_rad = 0.35;
   double merge_m = 0.30;  ///< hypotheses this close are one
   double merge_rad = 0.15;
-  double indifference = 0.1;   ///< a view says nothing against a place less than this worse than the best: a plan is a
-                               ///< few centimetres off, and every view says so again
-  double step_cap = 6.0;       ///< most that one view says against a hypothesis
-  double crossing_cost = 3.0;  ///< against one that walks through a wall: may be a door jamb and noise
-  double drop_ratio = 15.0;    ///< log-ratio to the best below which a hypothesis is dropped
-  int history = 60;            ///< views kept to judge a hypothesis that turns up later; 15 m of way
-  double stray_mass = 0.01;    ///< left to particles of no hypothesis
+  double indifference = 0.2;        ///< of what a view says, not counted: a beam or two at an edge of the plan
+  double step_cap = 6.0;            ///< most that one view says against a hypothesis
+  double crossing_cost = 3.0;       ///< against one that walks through a wall: may be a door jamb and noise
+  double drop_ratio = 15.0;         ///< log-ratio to the best below which a hypothesis is dropped
+  int history = 60;                 ///< views kept to judge a hypothesis that turns up later; 15 m of way
+  int replay_stride = 3;            ///< of these views, one in so many is looked at, for all of them
+  double newest = 0.15;             ///< weight of the newest view in the agreement with the last ones
+  double cluttered_inliers = 0.30;  ///< share of beams that meet their face where much stands before the walls,
+  double cluttered_through = 0.10;  ///< and share of those that go through one, of both
+  double stray_mass = 0.01;         ///< left to particles of no hypothesis
 
   template <class V>
   void visit(V& v) {
@@ -40,14 +43,32 @@ struct HypothesisConfig {
     v("merge_m", merge_m, Field{.doc = "hypotheses this close are one", .min = 0});
     v("merge_rad", merge_rad, Field{.min = 0});
     v("indifference", indifference,
-      Field{.doc = "a view says nothing against a place less than this worse than the best", .min = 0});
+      Field{.doc = "of what a view says, not counted: a beam or two at an edge of the plan", .min = 0});
     v("step_cap", step_cap, Field{.doc = "most that one view says against a hypothesis", .min = 0});
     v("crossing_cost", crossing_cost,
       Field{.doc = "against one that walks through a wall: may be a door jamb and noise", .min = 0});
     v("drop_ratio", drop_ratio, Field{.doc = "log-ratio to the best below which a hypothesis is dropped", .min = 0});
     v("history", history,
       Field{.doc = "views kept to judge a hypothesis that turns up later; 15 m of way", .min = 1, .max = 10000});
+    v("replay_stride", replay_stride,
+      Field{.doc = "of these views, one in so many is looked at, for all of them", .min = 1, .max = 1000});
+    v("newest", newest,
+      Field{.doc = "weight of the newest view in the agreement with the last ones", .min = 0, .max = 1});
+    v("cluttered_inliers", cluttered_inliers,
+      Field{.doc = "share of beams that meet their face where much stands before the walls", .min = 0, .max = 1});
+    v("cluttered_through", cluttered_through,
+      Field{.doc = "and share of those that go through one, of both", .min = 0, .max = 1});
     v("stray_mass", stray_mass, Field{.doc = "left to particles of no hypothesis", .min = 0, .max = 1});
+  }
+};
+
+/// What views said of a place and of another one that it was held against.
+struct Case {
+  double base = 0.0;  ///< log-likelihood ratio that no face of the plan answers for
+  Objections against, for_it;
+
+  [[nodiscard]] double evidence(double face_cap) const {
+    return base + for_it.total(face_cap) - against.total(face_cap);
   }
 };
 
@@ -57,9 +78,11 @@ struct Candidate {
   int storey = 0;
   Pose2 X_IH;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();
+  Case held;              ///< what its comparison with the best place brought up
   double evidence = 0.0;  ///< accumulated log-likelihood ratio; only differences between candidates mean something
   double mass = 0.0;      ///< share by evidence
-  Agreement agreement;    ///< with the last view
+  int fits = 0;           ///< views that fit behind clutter, less twice those that do not
+  Agreement agreement;    ///< with the last views, the newest with weight HypothesisConfig::newest
 };
 
 /// Places followed one by one. The evidence of a place is what every view says for it and against the best place so
@@ -68,7 +91,9 @@ struct Candidate {
 class HypothesisSet {
  public:
   HypothesisSet(HypothesisConfig config, RefineConfig refine, LikelihoodConfig likelihood, ContestConfig contest)
-      : config_(config), refine_(refine), likelihood_(likelihood), contest_(contest) {}
+      : config_(config), refine_(refine), follow_(refine), likelihood_(likelihood), contest_(contest) {
+    follow_.first_gate_m = refine.follow_gate_m;
+  }
 
   /// Moves every candidate by u, fits it to the view and adds what the view says.
   void follow(const PlanIndex& index, const Pose2& u, const View& view);
@@ -96,27 +121,35 @@ class HypothesisSet {
   struct Look {
     Sight sight;
     double crossing_cost = 0.0;
+    double views = 1.0;  ///< that it stands for
   };
   struct Replay {
     std::vector<Look> looks;  ///< newest first
-    double evidence = 0.0;    ///< against the reference
+    Case held;                ///< against the reference
+    double evidence = 0.0;    ///< of the case
   };
   [[nodiscard]] double crossing_cost(const PlanIndex& index, const StoreyIndex& storey, const Pose2& from,
                                      const Pose2& to) const;
-  /// What one view says for a place against the reference.
-  [[nodiscard]] double judge(const View& view, const Look& look, const Look& reference) const;
+  /// Takes in how well the newest view agrees with the plan.
+  void note(const Agreement& newest, Candidate& candidate) const;
+  /// Adds what one view says for a place against the reference.
+  void judge(const View& view, const Look& look, const Look& reference, Case& held) const;
+  /// Opens all cases anew once the first candidate is another one.
+  void agree_on_reference();
   /// The kept views along the odometry back from the pose at the last one, held against the reference (when there is
   /// one). Stops once the evidence has fallen below the drop ratio.
   [[nodiscard]] Replay replay(const PlanIndex& index, const Place& place, const std::vector<Look>& reference) const;
   [[nodiscard]] int find(const Place& place, double near_m, double near_rad) const;
 
   HypothesisConfig config_;
-  RefineConfig refine_;
+  RefineConfig refine_;  ///< of a place that turns up
+  RefineConfig follow_;  ///< of one carried along
   LikelihoodConfig likelihood_;
   ContestConfig contest_;
   std::vector<Candidate> candidates_;
   std::deque<Step> history_;
   int next_id_ = 0;
+  int reference_id_ = -1;  ///< candidate that the others were held against
 };
 
 }  // namespace plumbline::slam

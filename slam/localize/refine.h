@@ -12,6 +12,7 @@ struct RefineConfig {
   int iterations = 4;
   double first_gate_m = 0.6;  ///< beams farther from the face they should meet are left out; halves each iteration
   double last_gate_m = 0.15;
+  double follow_gate_m = 0.25;  ///< first gate of a place already fitted, which clutter before a wall must not pull
   double prior_sigma_m = 0.10;  ///< of the pose handed in: holds what the beams do not see, as along a corridor
   double prior_sigma_rad = 0.03;
   double inlier_m = 0.15;  ///< a beam this close to the face it should meet agrees with the plan
@@ -22,6 +23,8 @@ struct RefineConfig {
     v("first_gate_m", first_gate_m,
       Field{.doc = "beams farther from the face they should meet are left out", .min = 0});
     v("last_gate_m", last_gate_m, Field{.min = 0});
+    v("follow_gate_m", follow_gate_m,
+      Field{.doc = "first gate of a place already fitted, which clutter before a wall must not pull", .min = 0});
     v("prior_sigma_m", prior_sigma_m, Field{.doc = "of the pose handed in", .min = 1e-6});
     v("prior_sigma_rad", prior_sigma_rad, Field{.min = 1e-6});
     v("inlier_m", inlier_m,
@@ -43,6 +46,9 @@ struct Refined {
 struct Agreement {
   double inliers = 0.0;  ///< share of beams that end within inlier_m of the face they should meet
   double through = 0.0;  ///< share that goes through a face of the plan; the rest is cut short, by clutter or so
+
+  /// Share of beams that go through, of those that are not cut short.
+  [[nodiscard]] double through_share() const { return through / (inliers + through + 1e-9); }
 };
 [[nodiscard]] Agreement agreement(const StoreyIndex& storey, const Pose2& X_IH, const View& view,
                                   const LikelihoodConfig& likelihood, const RefineConfig& config);

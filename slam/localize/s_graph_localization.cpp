@@ -82,6 +82,7 @@ class SGraphLocalization final : public Method {
   int failed_updates_ = 0;
   int storey_ = 0;       ///< of the place tracked, index into PlanIndex::storeys
   HypothesisSet watch_;  ///< of the last way; places only while it looks
+  int watched_ = -1;     ///< the place tracked, among them
   double unwatched_m_ = 0.0;
   std::optional<Pose> X_OR_start_;
   std::optional<Pose> X_OR_update_;
@@ -149,24 +150,28 @@ void SGraphLocalization::track(const View& view, const std::vector<PlaneObservat
   monitor(view);
 }
 
-/// Some other place has explained the last way better.
+/// Some other place has explained the last way better, and goes on doing so: where a wall of the plan is missing, many
+/// places do for a while.
 bool SGraphLocalization::is_overtaken(const View& view) {
   const Pose2 u = heading(X_OR_update_->inverse() * view.X_OR);
   watch_.follow(index_, u, view);
   unwatched_m_ += u.t.norm();
   if (unwatched_m_ < config_.watch.every_m) return false;
   unwatched_m_ = 0.0;
-  watch_.adopt(index_, std::vector<Place>{{storey_, heading(tracker_->pose(view.X_OR))}});
-  const int tracked = watch_.candidates().front().id;
-  const SearchConfig& search = config_.search;
-  watch_.adopt(index_,
-               propose_places(index_, {}, view, search.filter.beam_stride, search.likelihood, search.proposals));
+  const bool second_look = !watch_.candidates().empty();
+  if (!second_look) {
+    watch_.adopt(index_, std::vector<Place>{{storey_, heading(tracker_->pose(view.X_OR))}});
+    watched_ = watch_.candidates().front().id;
+    const SearchConfig& search = config_.search;
+    watch_.adopt(index_,
+                 propose_places(index_, {}, view, search.filter.beam_stride, search.likelihood, search.proposals));
+  }
   watch_.settle();
   const std::vector<Candidate>& places = watch_.candidates();
-  const auto own = std::find_if(places.begin(), places.end(), [&](const Candidate& c) { return c.id == tracked; });
-  const bool overtaken = own == places.end() || places.front().evidence - own->evidence >= config_.watch.log_ratio;
-  watch_.forget_places();
-  return overtaken;
+  const auto own = std::find_if(places.begin(), places.end(), [&](const Candidate& c) { return c.id == watched_; });
+  const bool worse = own == places.end() || places.front().evidence - own->evidence >= config_.watch.log_ratio;
+  if (!worse || second_look) watch_.forget_places();
+  return worse && second_look;
 }
 
 /// Takes a convergence back when what is seen no longer fits the plan there.
@@ -174,7 +179,7 @@ void SGraphLocalization::monitor(const View& view) {
   const ConvergenceConfig& c = config_.search.convergence;
   const Agreement fit = agreement(tracker_->storey(), heading(tracker_->pose(view.X_OR)), view,
                                   config_.search.likelihood, config_.search.refine);
-  failed_updates_ = fit.inliers < c.lost_inliers || fit.through > c.lost_through ? failed_updates_ + 1 : 0;
+  failed_updates_ = fit.through_share() > c.lost_through ? failed_updates_ + 1 : 0;
   if (!is_overtaken(view) && failed_updates_ < c.lost_updates) return;
   keep({tracker_->window().begin(), tracker_->window().end()});
   tracker_.reset();

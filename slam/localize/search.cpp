@@ -75,7 +75,9 @@ std::vector<StageDigest> PlanSearch::update(const PlanIndex& index, const StartB
   hypotheses_.adopt(index, clustering);
   hypotheses_.settle();
   // Particles may have died out by chance where the plan repeats itself; look there before the first word.
-  if (first && !hypotheses_.candidates().empty()) find_rivals(index, start, view);
+  unlooked_m_ = first ? config_.convergence.rivals_every_m : unlooked_m_ + u.t.norm();
+  if (unlooked_m_ >= config_.convergence.rivals_every_m && !hypotheses_.candidates().empty())
+    find_rivals(index, start, view);
   judge(index, start, view, u.t.norm());
   done("hypotheses", digest_of(hypotheses_.candidates()));
 
@@ -110,9 +112,10 @@ void PlanSearch::judge(const PlanIndex& index, const StartBelief& start, const V
   if (candidates.size() > 1 && !sure_of_best()) state_ = State::ambiguous;
 
   const Agreement& fit = candidates.front().agreement;
-  const bool fits = fit.inliers >= c.inliers_min && fit.through <= c.through_max;
-  failed_updates_ = fit.inliers < c.lost_inliers || fit.through > c.lost_through ? failed_updates_ + 1 : 0;
-  if (failed_updates_ >= c.lost_updates) return restart();
+  const bool fits =
+      (fit.inliers >= c.inliers_min && fit.through <= c.through_max) || candidates.front().fits >= c.cluttered_updates;
+  failed_updates_ = fit.through_share() > c.lost_through ? failed_updates_ + 1 : 0;
+  if (failed_updates_ >= c.restart_updates) return restart();
 
   const bool sure = fits && sure_of_best();
   sure_travel_m_ = sure && sure_updates_ > 0 ? sure_travel_m_ + walked : 0.0;
@@ -128,6 +131,7 @@ void PlanSearch::judge(const PlanIndex& index, const StartBelief& start, const V
 }
 
 void PlanSearch::find_rivals(const PlanIndex& index, const StartBelief& start, const View& view) {
+  unlooked_m_ = 0.0;
   StartBelief belief = start;
   if (belief.yaw_I) belief.yaw_I = hypotheses_.candidates().front().X_IH.yaw;
   ParticleSet sample = draw_start(index, belief, view, config_.filter, seed_, tick_);

@@ -25,8 +25,8 @@ double here_against_there(const synthetic::House& planned, const synthetic::Hous
   const StoreyIndex& storey = index.storeys.front();
   const Sight here = sight(storey, heading(X_IW * X_WR), view, {}),
               there = sight(storey, heading(X_IW * X_there), view, {});
-  const double ratio = contest(view, here, there, {});
-  EXPECT_EQ(contest(view, there, here, {}), -ratio);
+  const double ratio = contest(view, here, there, {}).ratio;
+  EXPECT_EQ(contest(view, there, here, {}).ratio, -ratio);
   return ratio;
 }
 
@@ -60,6 +60,20 @@ TEST_P(ContestAt, AColumnTellsItsRoomFromTheOther) {
   EXPECT_GT(seen, 2.0);
   // Light that passes through the other room's column says more than light cut short, which clutter may do.
   EXPECT_GT(missed, 1.2 * seen);
+}
+
+TEST(Objections, NoFaceCountsForMoreThanTheCap) {
+  Objections objections, more;
+  for (int i = 0; i < 10; ++i) objections.add(3, true, 1.0);
+  objections.add(3, false, 1.0);
+  objections.add(-1, false, 2.0);
+  EXPECT_EQ(objections.total(100.0), 13.0);
+  EXPECT_EQ(objections.total(4.0), 7.0);
+  more.add(8, true, 6.0);
+  objections.add(more, 0.5);
+  EXPECT_EQ(objections.total(4.0), 10.0);
+  objections.clear();
+  EXPECT_EQ(objections.total(4.0), 0.0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Places, ContestAt, testing::Range(0, 6));

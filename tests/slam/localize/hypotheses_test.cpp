@@ -64,6 +64,31 @@ TEST(Hypotheses, APlaceThatTurnsUpLateIsJudgedByTheWholeHistory) {
   EXPECT_NEAR(set.candidates()[0].mass, 0.5, 1e-6);
 }
 
+TEST(Hypotheses, AWallThatWasNotBuiltSpeaksOnlyOnceAgainstAPlace) {
+  // Planned: a partition in the room where the robot stands, which is not there; and a twin room without one.
+  synthetic::House planned = synthetic::twin_rooms();
+  planned.boxes.push_back({{3.4, 0.0, 0.0}, {3.5, 4.0, 2.8}});
+  const TwinScene built = twin_scene();
+  const PlanIndex index = make_plan_index(synthetic::plan_of(planned), "ground", {});
+  const ContestConfig contest;
+  HypothesisConfig config;
+  config.drop_ratio = 1e6;
+  HypothesisSet set(config, {}, {}, contest);
+  set.follow(index, built.u[0], built.views[0]);
+  set.adopt(index, {{0, built.here}, {0, built.there}});
+  for (std::size_t k = 0; k < 4; ++k)
+    for (std::size_t i = 0; i < built.views.size(); ++i) {
+      set.follow(index, {}, built.views[0]);
+      set.settle();
+    }
+  ASSERT_EQ(set.candidates().size(), 2U);
+  const double lead = set.candidates()[0].evidence - set.candidates()[1].evidence;
+  EXPECT_LT((set.candidates()[0].X_IH.t - built.there.t).norm(), 0.2);
+  EXPECT_GE(lead, contest.face_cap);
+  // Its near face, its far face through the first's end, and what is cut short before the wall behind.
+  EXPECT_LE(lead, 4.0 * contest.face_cap);
+}
+
 TEST(Hypotheses, ImposeGivesEachPlaceItsMassAndBringsBackTheLost) {
   const TwinScene scene = twin_scene();
   HypothesisSet set({}, {}, {}, {});

@@ -150,6 +150,61 @@ TEST(SGraphLocalization, AWrongPlanIsNotBelieved) {
   for (const Output& output : result.outputs) EXPECT_NE(output.state, State::converged);
 }
 
+void expect_never_sure(const synthetic::Recording& recording, const bim::Plan& plan) {
+  const Answers result = run(recording, input_for(recording, plan, true));
+  for (const Output& output : result.outputs) {
+    EXPECT_TRUE(output.state == State::searching || output.state == State::lost || output.state == State::ambiguous);
+    EXPECT_FALSE(output.X_FR.has_value());
+  }
+  EXPECT_TRUE(result.estimate.trajectory.empty());
+}
+
+TEST(SGraphLocalization, APlanWithoutWallsIsNotBelieved) {
+  bim::Plan plan = synthetic::plan_of(synthetic::corridor_house());
+  plan.faces.clear();
+  expect_never_sure(short_walk(4.0), plan);
+}
+
+TEST(SGraphLocalization, AStartOutsideThePlanIsNotBelieved) {
+  // The robot walks in the corridor; the plan knows the rooms on one side of it only.
+  bim::Plan plan = synthetic::plan_of(synthetic::corridor_house());
+  std::erase_if(plan.rooms, [](const bim::PlanRoom& room) { return room.name != "r4" && room.name != "r5"; });
+  const synthetic::House house = synthetic::corridor_house();
+  const std::vector<Eigen::Vector2d> corridor = {{1.0, 1.1}, {13.0, 1.1}};
+  synthetic::WalkConfig config;
+  config.duration_s = 8.0;
+  expect_never_sure(synthetic::walk(house, corridor, config), plan);
+}
+
+TEST(SGraphLocalization, AStoreyOfAnotherShapeThanTheOneTheRobotIsOnIsNotBelieved) {
+  bim::Plan plan = synthetic::plan_of(synthetic::corridor_house());
+  const bim::Plan upper = synthetic::plan_of(synthetic::one_room(9.0, 7.0));
+  plan.storeys.push_back({"upper", 3.0, 2.8});
+  for (bim::PlanFace face : upper.faces) {
+    face.storey = 1;
+    face.z0 += 3.0;
+    face.z1 += 3.0;
+    plan.faces.push_back(face);
+  }
+  for (bim::PlanRoom room : upper.rooms) {
+    room.storey = 1;
+    room.name = "u";
+    plan.rooms.push_back(room);
+  }
+  const synthetic::Recording recording = short_walk(5.0);
+  MethodInput input = input_for(recording, plan, true);
+  input.prior.storey = "upper";
+  for (const Output& output : run(recording, input).outputs) EXPECT_NE(output.state, State::converged);
+  input.prior.storey = "ground";
+  EXPECT_EQ(run(recording, input).outputs.back().state, State::converged);
+}
+
+TEST(SGraphLocalization, APlanWithoutRoomsIsRefused) {
+  bim::Plan plan = synthetic::plan_of(synthetic::corridor_house());
+  plan.rooms.clear();
+  EXPECT_THROW(static_cast<void>(make_s_graph_localization(input_for(short_walk(0.3), plan, true))), InputError);
+}
+
 /// The walk with the time from t0 to t1 cut out: odometry goes on as if nothing had happened, the robot is elsewhere.
 synthetic::Recording kidnapped(const synthetic::Recording& recording, Nanoseconds t0, Nanoseconds t1) {
   synthetic::Recording result;
