@@ -116,8 +116,7 @@ TEST(SGraphLocalization, TwinRoomsStayAlive) {
   const synthetic::House house = synthetic::twin_rooms();
   synthetic::WalkConfig config;
   config.seed = 4;
-  const std::vector<Eigen::Vector2d> round = {{1.0, 1.0}, {4.0, 1.0}, {4.0, 3.0}, {1.0, 3.0},
-                                              {1.0, 1.0}, {4.0, 1.0}, {4.0, 3.0}, {1.5, 2.0}};
+  const std::vector<Eigen::Vector2d> round = {{1.0, 1.0}, {4.0, 1.0}, {4.0, 3.0}, {1.0, 3.0}, {1.5, 2.0}};
   const synthetic::Recording recording = synthetic::walk(house, round, config);
   const Answers result = run(recording, input_for(recording, synthetic::plan_of(house), true));
   for (const Output& output : result.outputs) EXPECT_NE(output.state, State::converged);
@@ -136,7 +135,7 @@ TEST(SGraphLocalization, ARoomTurnedByHalfATurnStaysAmbiguousWithoutACompass) {
   synthetic::WalkConfig config;
   config.seed = 6;
   const synthetic::Recording recording =
-      synthetic::walk(house, {{1.0, 1.0}, {4.0, 1.0}, {4.0, 3.0}, {1.0, 3.0}, {1.0, 1.5}, {3.5, 1.5}}, config);
+      synthetic::walk(house, {{1.0, 1.0}, {4.0, 1.0}, {4.0, 3.0}, {1.0, 3.0}}, config);
   const Answers result = run(recording, input_for(recording, synthetic::plan_of(house), false));
   for (const Output& output : result.outputs) EXPECT_NE(output.state, State::converged);
   EXPECT_EQ(result.outputs.back().state, State::ambiguous);
@@ -230,7 +229,7 @@ synthetic::Recording kidnapped(const synthetic::Recording& recording, Nanosecond
 }
 
 TEST(SGraphLocalization, AKidnappedRobotNoticesAndFindsItselfAgain) {
-  const synthetic::Recording recording = kidnapped(short_walk(34.0), 6'000'000'000, 20'000'000'000);
+  const synthetic::Recording recording = kidnapped(short_walk(30.0), 6'000'000'000, 20'000'000'000);
   const Answers result = run(recording, input_for(recording, synthetic::plan_of(synthetic::corridor_house()), false));
   bool lost = false;
   for (const Output& output : result.outputs) lost = lost || output.state == State::lost;
