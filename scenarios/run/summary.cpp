@@ -35,10 +35,10 @@ std::string cell(const score::MethodScore& score, const Column& column) {
   return text;
 }
 
-std::string row(const std::string& name, const std::string& verdict) {
-  char text[96];
-  std::snprintf(text, sizeof(text), "%-22s %-18s", name.c_str(), verdict.c_str());
-  return text;
+std::string row(const std::string& name, std::size_t width, const std::string& verdict) {
+  char text[32];
+  std::snprintf(text, sizeof(text), " %-18s", verdict.c_str());
+  return name + std::string(width - std::min(width, name.size()), ' ') + text;
 }
 
 }  // namespace
@@ -50,7 +50,9 @@ std::string summarise(const RunFiles& files, const score::RunScore& score) {
                 score.digest.c_str());
   std::string text = head;
   if (!files.failure.empty()) text += "the scenario failed: " + files.failure + "\n";
-  text += row("method", "verdict");
+  std::size_t width = 22;
+  for (const score::MethodScore& method : score.methods) width = std::max(width, method.name.size());
+  text += row("method", width, "verdict");
   for (const Column& column : columns) {
     char title[16];
     std::snprintf(title, sizeof(title), "%9s", column.title);
@@ -58,7 +60,7 @@ std::string summarise(const RunFiles& files, const score::RunScore& score) {
   }
   text += "\n";
   for (const score::MethodScore& method : score.methods) {
-    text += row(method.name, method.verdict);
+    text += row(method.name, width, method.verdict);
     for (const Column& column : columns) text += cell(method, column);
     text += method.error.empty() ? "\n" : "  " + method.error + "\n";
   }

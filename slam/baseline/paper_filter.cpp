@@ -172,51 +172,59 @@ bool PaperFilter::on_face(int storey, const PaperWall& wall, const PlaneObservat
          index.segments[static_cast<std::size_t>(hit.segment)].plan_face == wall.plan_face;
 }
 
+std::vector<PaperFilter::Landmark> PaperFilter::landmarks(int storey, int room, const Pose& X_LW) const {
+  const PaperStorey& map = storeys_[static_cast<std::size_t>(storey)];
+  std::vector<Landmark> landmarks;
+  for (const int w : candidates(storey, room)) {
+    const PaperWall& wall = map.walls[static_cast<std::size_t>(w)];
+    const Plane plane = switches_.frame == AsIn::corrected ? X_LW * wall.plane_W : wall.plane_W;
+    landmarks.push_back({paper_form(plane, switches_.form), axis_of(wall.plane_W.n), &wall});
+  }
+  return landmarks;
+}
+
+/// The landmark within the gate that is nearest in minimal form [eq. 7] (ties: the first), or nothing.
+std::optional<PaperFilter::Match> PaperFilter::match(int storey, const std::vector<Landmark>& landmarks,
+                                                     const PlaneObservation& plane, const Pose& X_WR,
+                                                     const Pose& X_LW) const {
+  const Plane plane_W = X_WR * plane.plane_R;  // [eq. 6]
+  const AnglePlane seen = paper_form(switches_.frame == AsIn::corrected ? X_LW * plane_W : plane_W, switches_.form);
+  const PlaneAxis axis = axis_of(plane_W.n);
+  const Eigen::Vector3d sigma = sigmas();
+  std::optional<Match> best;
+  for (const Landmark& landmark : landmarks) {
+    if (switches_.classes == AsIn::printed && landmark.axis != axis) continue;
+    const Eigen::Vector3d e = paper_difference(seen, landmark.form, switches_.wrap);
+    const double distance = e.cwiseQuotient(sigma).squaredNorm();
+    if (distance >= (best ? best->distance : config_.gate)) continue;
+    if (switches_.extent == AsIn::corrected && !on_face(storey, *landmark.wall, plane, X_WR)) continue;
+    best = Match{distance, e};
+  }
+  return best;
+}
+
+/// What one plane adds to the log of the weight.
+double PaperFilter::log_factor(const std::optional<Match>& match) const {
+  const Eigen::Vector3d sigma = sigmas();
+  const double log_det = 2.0 * std::log(sigma.prod()) + 3.0 * std::log(2.0 * pi);
+  const double gauss = match ? -0.5 * match->distance - 0.5 * log_det : 0.0;
+  if (switches_.planes == AsIn::corrected) {
+    const double volume = 8.0 * std::pow(config_.gate, 1.5) * sigma.prod();
+    return std::log((match ? (1.0 - config_.outlier) * std::exp(gauss) : 0.0) + config_.outlier / volume);
+  }
+  if (!match) return 0.0;
+  if (switches_.weight == AsIn::corrected) return gauss;
+  // [eq. 8-9]: mu exp(-tau (phi + theta + d)), tau = 2 sigma^2, mu = (2 pi sigma^2)^-1/2.
+  const double tau = 2.0 * config_.sigma_offset_m * config_.sigma_offset_m;
+  return -tau * match->e.sum() - 0.5 * std::log(pi * tau);
+}
+
 double PaperFilter::log_weight(int storey, int room, const Pose& X_WR,
                                const std::vector<PlaneObservation>& planes) const {
-  const PaperStorey& map = storeys_[static_cast<std::size_t>(storey)];
-  const Eigen::Vector3d sigma(config_.sigma_azimuth, config_.sigma_elevation, config_.sigma_offset_m);
-  const double log_det = 2.0 * std::log(sigma.prod()) + 3.0 * std::log(2.0 * pi);
-  const bool in_sensor = switches_.frame == AsIn::corrected;
-  const Pose X_WL = X_WR * Pose{Eigen::Quaterniond::Identity(), input_.calibration.X_RL.t};
-  const Pose X_LW = X_WL.inverse();
-  const std::vector<int>& walls = candidates(storey, room);
-  std::vector<AnglePlane> mapped;
-  std::vector<PlaneAxis> axes;
-  for (const int w : walls) {
-    const Plane& plane_W = map.walls[static_cast<std::size_t>(w)].plane_W;
-    mapped.push_back(paper_form(in_sensor ? X_LW * plane_W : plane_W, switches_.form));
-    axes.push_back(axis_of(plane_W.n));
-  }
+  const Pose X_LW = (X_WR * Pose{Eigen::Quaterniond::Identity(), input_.calibration.X_RL.t}).inverse();
+  const std::vector<Landmark> walls = landmarks(storey, room, X_LW);
   double sum = 0.0;
-  for (const PlaneObservation& plane : planes) {
-    const Plane plane_W = X_WR * plane.plane_R;  // [eq. 6]
-    const AnglePlane seen = paper_form(in_sensor ? X_LW * plane_W : plane_W, switches_.form);
-    const PlaneAxis axis = axis_of(plane_W.n);
-    double least = config_.gate;
-    Eigen::Vector3d e = Eigen::Vector3d::Zero();
-    for (std::size_t k = 0; k < walls.size(); ++k) {
-      if (switches_.classes == AsIn::printed && axes[k] != axis) continue;
-      const Eigen::Vector3d difference = paper_difference(seen, mapped[k], switches_.wrap);
-      const double distance = difference.cwiseQuotient(sigma).squaredNorm();  // [eq. 7]
-      if (distance >= least) continue;
-      const PaperWall& wall = map.walls[static_cast<std::size_t>(walls[k])];
-      if (switches_.extent == AsIn::corrected && !on_face(storey, wall, plane, X_WR)) continue;
-      least = distance;
-      e = difference;
-    }
-    const bool found = least < config_.gate;
-    const double gauss = found ? -0.5 * least - 0.5 * log_det : 0.0;
-    if (switches_.planes == AsIn::corrected) {
-      const double volume = 8.0 * std::pow(config_.gate, 1.5) * sigma.prod();
-      sum += std::log((found ? (1.0 - config_.outlier) * std::exp(gauss) : 0.0) + config_.outlier / volume);
-    } else if (found && switches_.weight == AsIn::corrected) {
-      sum += gauss;
-    } else if (found) {  // [eq. 8-9]: mu exp(-tau (phi + theta + d)), tau = 2 sigma^2
-      const double tau = 2.0 * config_.sigma_offset_m * config_.sigma_offset_m;
-      sum += -tau * e.sum() - 0.5 * std::log(pi * tau);
-    }
-  }
+  for (const PlaneObservation& plane : planes) sum += log_factor(match(storey, walls, plane, X_WR, X_LW));
   return sum;
 }
 

@@ -80,6 +80,23 @@ class PaperFilter {
     double roll = 0.0, pitch = 0.0;
     int room = -1;  ///< the last it was in
   };
+  /// A wall in the form and frame in which it is compared.
+  struct Landmark {
+    AnglePlane form;
+    PlaneAxis axis = PlaneAxis::x;
+    const PaperWall* wall = nullptr;
+  };
+  struct Match {
+    double distance = 0.0;  ///< squared, Mahalanobis
+    Eigen::Vector3d e = Eigen::Vector3d::Zero();
+  };
+  [[nodiscard]] std::vector<Landmark> landmarks(int storey, int room, const Pose& X_LW) const;
+  [[nodiscard]] std::optional<Match> match(int storey, const std::vector<Landmark>& landmarks,
+                                           const PlaneObservation& plane, const Pose& X_WR, const Pose& X_LW) const;
+  [[nodiscard]] double log_factor(const std::optional<Match>& match) const;
+  [[nodiscard]] Eigen::Vector3d sigmas() const {
+    return {config_.sigma_azimuth, config_.sigma_elevation, config_.sigma_offset_m};
+  }
   void start(const PlanScan& scan, const std::vector<PlaneObservation>& planes);
   void move(const PlanScan& scan, const Pose& X_OR_last);
   void weigh(const PlanScan& scan, const std::vector<PlaneObservation>& planes);
