@@ -28,7 +28,7 @@ double cost(double range, double expected, double incidence, const ContestConfig
 double beam_cost(const View& view, const Sight& sight, std::size_t i, const ContestConfig& config) {
   const int columns = view.sweep_columns;
   const double range = view.sweep[i].range, step = 2.0 * std::numbers::pi / columns;
-  const int aside = static_cast<int>(std::ceil((config.edge_m / range + config.edge_rad) / step));
+  const int aside = std::max(1, static_cast<int>(std::lround((config.edge_m / range + config.edge_rad) / step)));
   const int column = static_cast<int>(i) % columns, row = static_cast<int>(i) - column;
   double best = cost(range, sight.expected[i], sight.incidence[i], config);
   for (int shift = -aside; shift <= aside; ++shift) {

@@ -18,7 +18,7 @@ struct ContestConfig {
   double long_cap = 4.5;          ///< of one that goes through what the plan has there
   double weight = 0.02;           ///< of one beam: neighbours share their errors, and so do views 0.2 m apart
   double edge_m = 0.05;           ///< an edge of the plan may stand this much to the side,
-  double edge_rad = 0.003;        ///< and this much in direction
+  double edge_rad = 0.0015;       ///< and this much in direction
   double face_cap = 8.0;          ///< of all that one face says, however often it is seen: it may have been built
                                   ///< elsewhere or not at all, and something may stand before it
   double opening_depth_m = 0.35;  ///< a beam that ends this little behind a planned opening met its leaf or pane

@@ -21,7 +21,7 @@ struct HypothesisConfig {
   double match_rad = 0.35;
   double merge_m = 0.30;  ///< hypotheses this close are one
   double merge_rad = 0.15;
-  double indifference = 0.2;        ///< of what a view says, not counted: a beam or two at an edge of the plan
+  double indifference = 0.1;        ///< of what a view says, not counted: a beam or two at an edge of the plan
   double step_cap = 6.0;            ///< most that one view says against a hypothesis
   double crossing_cost = 3.0;       ///< against one that walks through a wall: may be a door jamb and noise
   double drop_ratio = 15.0;         ///< log-ratio to the best below which a hypothesis is dropped
