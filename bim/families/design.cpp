@@ -11,7 +11,6 @@ namespace plumbline::bim {
 
 namespace {
 
-constexpr double same_m = 1e-6;
 /// Written coordinates have this many steps to the metre, so that they read well.
 constexpr double steps = 1e6;
 

@@ -11,6 +11,8 @@
 
 namespace plumbline::bim {
 
+inline constexpr double same_m = 1e-6;  ///< points of a design nearer to each other are one
+
 /// Room drawn along the reference lines of its walls, which run in the middle between it and its neighbours.
 struct DesignRoom {
   std::string id;

@@ -121,7 +121,6 @@ std::string storey_name(int i) { return i == 0 ? "ground" : "level_" + std::to_s
 
 /// Rooms that a turn of the group takes onto one another, and those the family calls alike.
 std::vector<std::vector<std::string>> rooms_alike(const Design& design) {
-  constexpr double same_m = 1e-6;
   std::vector<std::vector<std::string>> classes = design.alike;
   std::erase_if(classes, [](const auto& like) { return like.size() < 2; });
   const auto listed = [&](const std::string& id) {

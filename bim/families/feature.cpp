@@ -9,7 +9,6 @@ namespace plumbline::bim {
 
 namespace {
 
-constexpr double same_m = 1e-6;
 constexpr double beside_opening_m = 0.15;  ///< wall between an opening and a corner's inner face
 constexpr double niche_width_m = 1.0;      ///< between the reference lines of its reveals
 constexpr double before_m = 0.03;          ///< how far in front of a surface it is looked at

@@ -30,7 +30,7 @@ namespace plumbline::scenarios {
 
 namespace {
 
-struct Options {
+struct EstimateArguments {
   std::string recording;
   std::string method;
   std::string plan;
@@ -54,7 +54,7 @@ const slam::MethodRow& find_row(const std::string& name, slam::MethodTable table
   return *row;
 }
 
-std::shared_ptr<const bim::Plan> load_plan(const Options& options, const slam::MethodRow& row,
+std::shared_ptr<const bim::Plan> load_plan(const EstimateArguments& options, const slam::MethodRow& row,
                                            const bim::BuildingOptions& taken) {
   if (!row.needs_plan) return nullptr;
   if (options.plan.empty())
@@ -63,7 +63,7 @@ std::shared_ptr<const bim::Plan> load_plan(const Options& options, const slam::M
 }
 
 /// A run directory holds its recording in a folder.
-std::unique_ptr<slam::Recording> open_input(const Options& options) {
+std::unique_ptr<slam::Recording> open_input(const EstimateArguments& options) {
   std::optional<slam::RecordingInfo> info;
   if (!options.description.empty())
     info = slam::read_recording_info(read_text_file(options.description), options.description);
@@ -74,7 +74,7 @@ std::unique_ptr<slam::Recording> open_input(const Options& options) {
 }
 
 /// What the recording tells, and the command line over it.
-slam::Prior make_prior(const Options& options, const slam::RecordingInfo& info, const bim::Plan& plan) {
+slam::Prior make_prior(const EstimateArguments& options, const slam::RecordingInfo& info, const bim::Plan& plan) {
   slam::Prior prior = slam::prior_of(info);
   if (options.yaw_option->given()) prior.yaw_W = wrap_angle(options.yaw_deg * std::numbers::pi / 180.0);
   if (!options.storey.empty()) prior.storey = options.storey;
@@ -88,17 +88,18 @@ slam::Prior make_prior(const Options& options, const slam::RecordingInfo& info, 
 }
 
 /// Every value of the method's config: those of --config over the defaults.
-Tree make_config(const Options& options, const slam::MethodRow& row) {
+Tree make_config(const EstimateArguments& options, const slam::MethodRow& row) {
   if (options.config.empty()) return row.configure ? row.configure({}) : Tree();
   if (!row.configure) throw InputError({"--config", 0, 0}, "method '" + options.method + "' has no values to set");
   return row.configure(read_yaml(read_text_file(options.config), options.config));
 }
 
-std::uint64_t run_seed(const Options& options, const slam::RecordingInfo& info) {
+std::uint64_t run_seed(const EstimateArguments& options, const slam::RecordingInfo& info) {
   return options.seed_option->given() ? options.seed : info.seed.value_or(options.seed);
 }
 
-slam::MethodInput make_input(const Options& options, const slam::MethodRow& row, const slam::Recording& recording) {
+slam::MethodInput make_input(const EstimateArguments& options, const slam::MethodRow& row,
+                             const slam::Recording& recording) {
   const slam::RecordingInfo& info = recording.info();
   slam::MethodInput input;
   input.config = make_config(options, row);
@@ -159,7 +160,7 @@ std::string write_cost(const MethodRecord& method, double start_s) {
   return write_timings(record, {slam::wall_s() - start_s, slam::process_cpu_s(), simulated_s, 1});
 }
 
-int estimate(const Options& options, slam::MethodTable table) {
+int estimate(const EstimateArguments& options, slam::MethodTable table) {
   const double start_s = slam::wall_s();
   const slam::MethodRow& row = find_row(options.method, table);
   const std::unique_ptr<slam::Recording> recording = open_input(options);
@@ -184,7 +185,7 @@ int estimate(const Options& options, slam::MethodTable table) {
 }  // namespace
 
 Command add_estimate(CommandLine& program, slam::MethodTable table) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<EstimateArguments>();
   CommandLine line = program.add_command("estimate", "Runs a method on a recording, simulated or real");
   line.option("RECORDING", options->recording,
               "directory of simulate or of run --record, capture of a VLP-16 (.pcap), or ROS 1 bag")

@@ -17,7 +17,7 @@ namespace plumbline::scenarios {
 
 namespace {
 
-struct Options {
+struct ReplayArguments {
   std::string dir;
   double until_s = 0.0;
   int threads = 0;
@@ -32,7 +32,7 @@ DigestLog cut(DigestLog log, const std::optional<double>& until_s) {
   return log;
 }
 
-int replay(const Options& options, slam::MethodTable table) {
+int replay(const ReplayArguments& options, slam::MethodTable table) {
   const std::string path = options.dir + "/digests.csv";
   const DigestLog recorded = read_digests(read_text_file(path), path);
   const ResolvedScenario resolved = resolve(options.dir + "/scenario.yaml", {}, table);
@@ -61,7 +61,7 @@ int replay(const Options& options, slam::MethodTable table) {
 }  // namespace
 
 Command add_replay(CommandLine& program, slam::MethodTable table) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ReplayArguments>();
   CommandLine line = program.add_command("replay", "Runs a run directory again and compares every digest");
   line.option("DIR", options->dir, "run directory").required();
   options->until_option = line.option("--until", options->until_s, "stop after so many simulated seconds").positive();

@@ -22,7 +22,7 @@ namespace plumbline::scenarios {
 
 namespace {
 
-struct Options {
+struct RunArguments {
   std::string input;
   std::vector<std::string> methods;
   std::uint64_t seed = 0;
@@ -45,14 +45,14 @@ std::string default_out(const Scenario& scenario) {
   return "runs/" + name + "-" + std::to_string(scenario.seed);
 }
 
-Overrides overrides_of(const Options& options) {
+Overrides overrides_of(const RunArguments& options) {
   Overrides overrides;
   if (options.methods_option->given()) overrides.methods = options.methods;
   if (options.seed_option->given()) overrides.seed = options.seed;
   return overrides;
 }
 
-int run(const Options& options, slam::MethodTable table) {
+int run(const RunArguments& options, slam::MethodTable table) {
   const double start = slam::wall_s();
   const ResolvedScenario resolved = resolve(options.input, overrides_of(options), table);
   const std::string out = options.out.empty() ? default_out(resolved.scenario) : options.out;
@@ -93,7 +93,7 @@ int run(const Options& options, slam::MethodTable table) {
 }  // namespace
 
 Command add_run(CommandLine& program, slam::MethodTable table) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<RunArguments>();
   CommandLine line = program.add_command("run", "Simulates a scenario, runs the methods, scores and reports them");
   line.option("INPUT", options->input,
               "scenario, plan or traffic-editor plan (.yaml), .ifc, or mesh (.glb, .obj, .dae, .ply, .stl)")

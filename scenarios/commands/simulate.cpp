@@ -19,7 +19,7 @@ namespace plumbline::scenarios {
 
 namespace {
 
-struct Options {
+struct SimulateArguments {
   std::string input;
   std::string out;
   std::uint64_t seed = 0;
@@ -41,7 +41,7 @@ const slam::BagProfile& find_profile(const std::string& name) {
   return *std::find_if(rows.begin(), rows.end(), [&](const slam::BagProfile& row) { return row.name == name; });
 }
 
-int simulate(const Options& options, slam::MethodTable table) {
+int simulate(const SimulateArguments& options, slam::MethodTable table) {
   Overrides overrides;
   if (options.seed_option->given()) overrides.seed = options.seed;
   const ResolvedScenario resolved = resolve(options.input, overrides, table);
@@ -76,7 +76,7 @@ int simulate(const Options& options, slam::MethodTable table) {
 }  // namespace
 
 Command add_simulate(CommandLine& program, slam::MethodTable table) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<SimulateArguments>();
   CommandLine line =
       program.add_command("simulate", "Records what the sensors see on a walk, with the truth beside it");
   line.option("INPUT", options->input, "scenario, plan or building, as for run").required();

@@ -16,14 +16,14 @@ namespace plumbline::scenarios {
 
 namespace {
 
-struct Options {
+struct SweepArguments {
   std::string file;
   std::string out;
   int jobs = 0;
   bool schema = false;
 };
 
-int sweep(const Options& options) {
+int sweep(const SweepArguments& options) {
   if (options.schema) {
     std::fputs(sweep_page().c_str(), stdout);
     return 0;
@@ -48,7 +48,7 @@ int sweep(const Options& options) {
 }  // namespace
 
 Command add_sweep(CommandLine& program) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<SweepArguments>();
   CommandLine line = program.add_command("sweep", "Runs scenarios with many seeds and variants; makes one table");
   line.option("SWEEP", options->file, "sweep file (.yaml)");
   line.option("-o,--out", options->out, "folder of the sweep, new or to be gone on with [sweeps/<name>]");

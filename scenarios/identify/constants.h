@@ -2,8 +2,11 @@
 #pragma once
 
 #include <array>
+#include <numbers>
 
 namespace plumbline::scenarios {
+
+inline constexpr double rad_per_deg = std::numbers::pi / 180.0;
 
 /// The constants of identifiability. Changing one changes every published table, and the changelog must say so.
 struct IdentifyConstants {

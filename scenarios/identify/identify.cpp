@@ -11,8 +11,6 @@ namespace plumbline::scenarios {
 
 namespace {
 
-constexpr const IdentifyConstants& k = identify_constants;
-
 Place levelled(const Pose& X_WR, double z) { return {{X_WR.t.x(), X_WR.t.y(), z}, X_WR.yaw()}; }
 
 /// Evidence by element: of the planned mesh where missing, else of the one as built.
@@ -28,10 +26,10 @@ struct Followed {
 std::vector<std::pair<double, const TruthSample*>> stations(const std::vector<TruthSample>& truth) {
   std::vector<std::pair<double, const TruthSample*>> out;
   double walked = 0.0;
-  double last = -k.step_m;
+  double last = -identify_constants.step_m;
   for (std::size_t i = 0; i < truth.size(); ++i) {
     if (i > 0) walked += (truth[i].X_WR.t - truth[i - 1].X_WR.t).head<2>().norm();
-    if (walked - last < k.step_m) continue;
+    if (walked - last < identify_constants.step_m) continue;
     last = walked;
     out.emplace_back(walked, &truth[i]);
   }
@@ -61,8 +59,8 @@ void compare(const IdentifyInput& input, const Place& truth, std::vector<Followe
 void drop(std::vector<Followed>& followed, RunIdentifiability& run) {
   std::optional<Followed> last;
   for (const Followed& one : followed)
-    if (one.twin.llr > k.drop_llr && !last) last = one;
-  std::erase_if(followed, [](const Followed& one) { return one.twin.llr > k.drop_llr; });
+    if (one.twin.llr > identify_constants.drop_llr && !last) last = one;
+  std::erase_if(followed, [](const Followed& one) { return one.twin.llr > identify_constants.drop_llr; });
   if (!last || !followed.empty()) return;
   double sum = 0.0;
   DecidingFeature feature;
@@ -101,8 +99,8 @@ std::vector<Pose> RunIdentifiability::ambiguity_set(double t_s, const Pose& X_WR
 std::optional<double> RunIdentifiability::tellable_from_s() const {
   std::optional<double> from;
   for (const auto& step : steps) {
-    const bool strong =
-        std::any_of(step.alive.begin(), step.alive.end(), [](const Twin& t) { return t.llr < k.weak_llr; });
+    const bool strong = std::any_of(step.alive.begin(), step.alive.end(),
+                                    [](const Twin& t) { return t.llr < identify_constants.weak_llr; });
     if (strong)
       from.reset();
     else if (!from)
@@ -113,7 +111,7 @@ std::optional<double> RunIdentifiability::tellable_from_s() const {
 
 RunIdentifiability identify_run(const IdentifyInput& input, const std::vector<TruthSample>& truth) {
   RunIdentifiability run;
-  const PlaceIndex index(*input.as_planned, input.storeys, k.grid_m, input.threads);
+  const PlaceIndex index(*input.as_planned, input.storeys, identify_constants.grid_m, input.threads);
   const TwinFinder finder(index, *input.as_planned, *input.as_built);
   std::vector<Followed> followed;
   for (const auto& [walked, sample] : stations(truth)) {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "bim/errors.h"
 #include "scenarios/identify/twins.h"
@@ -14,7 +13,6 @@ namespace plumbline::scenarios {
 
 namespace {
 
-constexpr const IdentifyConstants& k = identify_constants;
 constexpr std::size_t most_cells = 10000;  ///< a look is 23 kB
 constexpr std::size_t most_ratios = std::size_t{1} << 27U;
 constexpr std::size_t block = 64;  ///< cells between two moments at which isometries are shared
@@ -25,7 +23,7 @@ class Mapper {
  public:
   explicit Mapper(const IdentifyMapInput& input)
       : input_(input),
-        index_(*input.as_planned, input.storeys, std::min(input.step_m, k.grid_m), input.threads),
+        index_(*input.as_planned, input.storeys, std::min(input.step_m, identify_constants.grid_m), input.threads),
         finder_(index_, *input.as_planned, *input.as_built) {
     for (std::size_t f = 0; f < input.floors.size(); ++f)
       for (const Eigen::Vector2d& p : input.floors[f].cells_W) map_.cells.push_back({f, p, {}, {}, {}});
@@ -70,7 +68,9 @@ class Mapper {
     for (std::size_t g = 0; g < map_.isometries.size(); ++g) {
       const Place twin = image(g, look.place);
       const auto alike = [&](const Place& other) { return same_place(twin, other, 0.3, 6.0); };
-      if (same_place(twin, look.place, k.distinct_m, k.distinct_deg) || !on_a_storey_asked_for(cell, twin)) continue;
+      if (same_place(twin, look.place, identify_constants.distinct_m, identify_constants.distinct_deg) ||
+          !on_a_storey_asked_for(cell, twin))
+        continue;
       if (std::any_of(taken.begin(), taken.end(), alike) || finder_.plainly_unlike(look, twin)) continue;
       const double llr = finder_.llr(look, twin);
       if (llr > llr_max) continue;
@@ -87,7 +87,7 @@ class Mapper {
   [[nodiscard]] Found search(std::size_t cell) const {
     Found found;
     // Where an isometry of another cell fits less well, one of this cell's own may fit better.
-    try_isometries(cell, k.weak_llr, found.known);
+    try_isometries(cell, identify_constants.weak_llr, found.known);
     std::vector<Place> known;
     for (const CellTwin& twin : found.known) known.push_back(image(twin.isometry, looks_[cell].place));
     const auto own = static_cast<int>(input_.floors[map_.cells[cell].floor].storey);
@@ -118,8 +118,9 @@ class Mapper {
         for (const FoundTwin& twin : found[i].fresh) twins.push_back({isometry_to(first + i, twin.place), twin.llr});
       }
     }
-    for_each_index(n, input_.threads,
-                   [&](std::size_t cell) { try_isometries(cell, k.drop_llr, map_.cells[cell].twins); });
+    for_each_index(n, input_.threads, [&](std::size_t cell) {
+      try_isometries(cell, identify_constants.drop_llr, map_.cells[cell].twins);
+    });
   }
 
   const IdentifyMapInput& input_;

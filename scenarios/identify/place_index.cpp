@@ -13,7 +13,6 @@ namespace plumbline::scenarios {
 
 namespace {
 
-constexpr const IdentifyConstants& k = identify_constants;
 constexpr std::size_t most_places = std::size_t{1} << 18U;
 constexpr std::size_t level_ring = 4;  ///< the ring at +1 degree
 constexpr double floor_seen_m = 5.0;   ///< a ray of the lowest ring hits the floor nearer than this
@@ -34,7 +33,7 @@ double quantile_difference(const Signature& a, const Signature& b) {
 
 /// Mean difference of the level rings where `candidate` is turned by so many beams, m; more than `limit` when larger.
 double level_difference(const Signature& seen, const Signature& candidate, std::size_t turn, double limit) {
-  constexpr auto cap = static_cast<float>(k.like_level_cap_m);
+  constexpr auto cap = static_cast<float>(identify_constants.like_level_cap_m);
   const std::size_t n = seen.level_m.size();
   const double most = limit * static_cast<double>(n);
   double sum = 0.0;
@@ -49,12 +48,12 @@ double level_difference(const Signature& seen, const Signature& candidate, std::
 void add_headings(const Signature& seen, const Signature& candidate, std::size_t place, bool yaw_known,
                   std::vector<Seed>& seeds) {
   const auto n = static_cast<int>(seen.level_m.size());
-  const int span = yaw_known ? static_cast<int>(k.known_yaw_deg) * n / 360 : n / 2;
+  const int span = yaw_known ? static_cast<int>(identify_constants.known_yaw_deg) * n / 360 : n / 2;
   std::vector<Seed> found;
   for (int turn = -span; turn <= (yaw_known ? span : span - 1); ++turn) {
-    const double cost =
-        level_difference(seen, candidate, static_cast<std::size_t>(turn < 0 ? turn + n : turn), k.like_level_m);
-    if (cost <= k.like_level_m) found.push_back({cost, place, turn});
+    const double cost = level_difference(seen, candidate, static_cast<std::size_t>(turn < 0 ? turn + n : turn),
+                                         identify_constants.like_level_m);
+    if (cost <= identify_constants.like_level_m) found.push_back({cost, place, turn});
   }
   std::stable_sort(found.begin(), found.end(), [](const Seed& a, const Seed& b) { return a.cost < b.cost; });
   int kept = 0;
@@ -67,7 +66,7 @@ void add_headings(const Signature& seen, const Signature& candidate, std::size_t
     if (beside) continue;
     turns.push_back(seed.turn);
     seeds.push_back(seed);
-    if (++kept == k.headings_a_place) return;
+    if (++kept == identify_constants.headings_a_place) return;
   }
 }
 
@@ -97,20 +96,20 @@ Signature signature_of(const Viewer& viewer, const bim::RayScene& scene, const E
                                     [](double r) { return r < floor_seen_m; });
   for (std::size_t a = 0; a < n; ++a) {
     const double r = ranges[level_ring * n + a];
-    if (r < k.min_clearance_m) signature.standable = false;
-    signature.level_m.push_back(static_cast<float>(std::min(r, k.signature_range_m)));
+    if (r < identify_constants.min_clearance_m) signature.standable = false;
+    signature.level_m.push_back(static_cast<float>(std::min(r, identify_constants.signature_range_m)));
   }
   std::vector<double> sorted = ranges;
   std::sort(sorted.begin(), sorted.end());
   const std::size_t count = signature.quantiles_m.size();
   for (std::size_t i = 0; i < count; ++i)
-    signature.quantiles_m[i] =
-        static_cast<float>(std::min(sorted[(2 * i + 1) * sorted.size() / (2 * count)], k.signature_range_m));
+    signature.quantiles_m[i] = static_cast<float>(
+        std::min(sorted[(2 * i + 1) * sorted.size() / (2 * count)], identify_constants.signature_range_m));
   return signature;
 }
 
 PlaceIndex::PlaceIndex(const bim::RayScene& plan, std::vector<IdentifyStorey> storeys, double spacing_m, int threads)
-    : storeys_(std::move(storeys)), viewer_(k.signature_azimuths) {
+    : storeys_(std::move(storeys)), viewer_(identify_constants.signature_azimuths) {
   const auto grid = grid_of(storeys_, spacing_m);
   std::vector<Entry> all(grid.size());
   for_each_index(grid.size(), threads, [&](std::size_t i) {
@@ -124,13 +123,14 @@ std::vector<Place> PlaceIndex::like(const Signature& seen, double yaw, int store
   std::vector<Seed> seeds;
   for (std::size_t i = 0; i < places_.size(); ++i) {
     if (storey >= 0 && places_[i].storey != storey) continue;
-    if (quantile_difference(seen, places_[i].signature) > k.like_quantiles_m) continue;
+    if (quantile_difference(seen, places_[i].signature) > identify_constants.like_quantiles_m) continue;
     add_headings(seen, places_[i].signature, i, yaw_known, seeds);
   }
   std::sort(seeds.begin(), seeds.end(), [](const Seed& a, const Seed& b) {
     return std::tie(a.cost, a.place, a.turn) < std::tie(b.cost, b.place, b.turn);
   });
-  if (seeds.size() > static_cast<std::size_t>(k.max_seeds)) seeds.resize(static_cast<std::size_t>(k.max_seeds));
+  if (seeds.size() > static_cast<std::size_t>(identify_constants.max_seeds))
+    seeds.resize(static_cast<std::size_t>(identify_constants.max_seeds));
   std::vector<Place> places;
   const double beam = 2.0 * std::numbers::pi / viewer_.azimuths();
   for (const Seed& seed : seeds) places.push_back({places_[seed.place].p_W, wrap_angle(yaw + seed.turn * beam)});

@@ -4,14 +4,10 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace plumbline::scenarios {
 
 namespace {
-
-constexpr double rad = std::numbers::pi / 180.0;
-constexpr const IdentifyConstants& k = identify_constants;
 
 /// Gauss-Newton step on (x, y, yaw) of seen points against the planes that the plan's view predicts, and how many
 /// points lie within the gate of them.
@@ -49,7 +45,7 @@ TwinFinder::TwinFinder(const PlaceIndex& index, const bim::RayScene& as_planned,
     : index_(index),
       as_planned_(as_planned),
       as_built_(as_built),
-      coarse_(k.refine_azimuths, k.refine_elevations_deg) {}
+      coarse_(identify_constants.refine_azimuths, identify_constants.refine_elevations_deg) {}
 
 Look TwinFinder::look(const Place& place) const {
   Look look{place, viewer_.look(as_built_, place).range_m, 0.0};
@@ -70,10 +66,10 @@ bool TwinFinder::plainly_unlike(const Look& look, const Place& other) const {
   for (std::size_t a = 0; a < n; a += stride)
     rays.push_back({other.position_W, other.pose().q * viewer_.directions()[4 * n + a]});
   std::vector<bim::Hit> hits(rays.size());
-  as_planned_.cast(rays, k.range_max_m, hits);
+  as_planned_.cast(rays, identify_constants.range_max_m, hits);
   double sum = 0.0;
   for (std::size_t i = 0; i < hits.size(); ++i) sum += beam_cost(look.range_m[4 * n + i * stride], hits[i].range_m);
-  return sum * 8.0 * stride - look.own > sure * k.drop_llr;
+  return sum * 8.0 * stride - look.own > sure * identify_constants.drop_llr;
 }
 
 bool TwinFinder::refine(const View& seen, Place& place) const {
@@ -82,7 +78,7 @@ bool TwinFinder::refine(const View& seen, Place& place) const {
   constexpr int early = 3, late = 6;
   constexpr double early_share = 0.6, late_share = 0.85;
   double gate = 1.0;
-  for (int iteration = 0; iteration < k.refine_iterations; ++iteration) {
+  for (int iteration = 0; iteration < identify_constants.refine_iterations; ++iteration) {
     const View expected = coarse_.look(as_planned_, place);
     const PlaneFit fit = fit_planes(coarse_.directions(), seen, expected, place, gate);
     const double share = iteration < early ? 0.0 : iteration < late ? early_share : late_share;
@@ -111,17 +107,22 @@ std::vector<FoundTwin> TwinFinder::find(const Look& look, const TwinSearch& sear
   };
   int in_vain = 0;
   for (Place place : index_.like(signature, look.place.yaw, search.storey, search.yaw_known)) {
-    if (near_any(taken, place, k.basin_m, k.basin_deg) || near_any(tried, place, 0.5 * k.basin_m, 0.5 * k.basin_deg))
+    if (near_any(taken, place, identify_constants.basin_m, identify_constants.basin_deg) ||
+        near_any(tried, place, 0.5 * identify_constants.basin_m, 0.5 * identify_constants.basin_deg))
       continue;
-    if (++in_vain > k.give_up_after) break;
+    if (++in_vain > identify_constants.give_up_after) break;
     const bool sound = refine(seen, place);
     tried.push_back(place);
     if (!sound) continue;
-    if (search.yaw_known && std::abs(wrap_angle(place.yaw - look.place.yaw)) > k.known_yaw_deg * rad) continue;
-    if (same_place(place, look.place, k.distinct_m, k.distinct_deg) || near_any(taken, place, 0.3, 6.0)) continue;
+    if (search.yaw_known &&
+        std::abs(wrap_angle(place.yaw - look.place.yaw)) > identify_constants.known_yaw_deg * rad_per_deg)
+      continue;
+    if (same_place(place, look.place, identify_constants.distinct_m, identify_constants.distinct_deg) ||
+        near_any(taken, place, 0.3, 6.0))
+      continue;
     if (plainly_unlike(look, place)) continue;
     const double llr = this->llr(look, place);
-    if (llr > k.drop_llr) continue;
+    if (llr > identify_constants.drop_llr) continue;
     taken.push_back(place);
     in_vain = 0;
     twins.push_back({place, llr});

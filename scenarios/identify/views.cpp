@@ -9,21 +9,17 @@
 
 namespace plumbline::scenarios {
 
-namespace {
-constexpr double rad = std::numbers::pi / 180.0;
-constexpr const IdentifyConstants& k = identify_constants;
-}  // namespace
-
 bool same_place(const Place& a, const Place& b, double metres, double degrees) {
-  return (a.position_W - b.position_W).norm() <= metres && std::abs(wrap_angle(a.yaw - b.yaw)) <= degrees * rad;
+  return (a.position_W - b.position_W).norm() <= metres && std::abs(wrap_angle(a.yaw - b.yaw)) <= degrees * rad_per_deg;
 }
 
 Viewer::Viewer(int azimuths, std::span<const double> elevations_deg) : azimuths_(azimuths) {
   for (const double elevation : elevations_deg)
     for (int a = 0; a < azimuths; ++a) {
       const double azimuth = 2.0 * std::numbers::pi * a / azimuths;
-      directions_.emplace_back(std::cos(elevation * rad) * std::cos(azimuth),
-                               std::cos(elevation * rad) * std::sin(azimuth), std::sin(elevation * rad));
+      directions_.emplace_back(std::cos(elevation * rad_per_deg) * std::cos(azimuth),
+                               std::cos(elevation * rad_per_deg) * std::sin(azimuth),
+                               std::sin(elevation * rad_per_deg));
     }
 }
 
@@ -35,7 +31,7 @@ View Viewer::look(const bim::RayScene& scene, const Place& place) const {
   for (const auto& d : directions_)
     rays.push_back({place.position_W, {c * d.x() - s * d.y(), s * d.x() + c * d.y(), d.z()}});
   std::vector<bim::Hit> hits(rays.size());
-  scene.cast(rays, k.range_max_m, hits);
+  scene.cast(rays, identify_constants.range_max_m, hits);
   View view;
   view.range_m.reserve(hits.size());
   view.normal_W.reserve(hits.size());
@@ -49,11 +45,12 @@ View Viewer::look(const bim::RayScene& scene, const Place& place) const {
 }
 
 double beam_cost(double seen_m, double expected_m) {
-  constexpr double variance = k.sensor_sigma_m * k.sensor_sigma_m + k.model_sigma_m * k.model_sigma_m;
-  constexpr double cap = k.residual_cap_sigma * k.residual_cap_sigma;
+  constexpr double variance = identify_constants.sensor_sigma_m * identify_constants.sensor_sigma_m +
+                              identify_constants.model_sigma_m * identify_constants.model_sigma_m;
+  constexpr double cap = identify_constants.residual_cap_sigma * identify_constants.residual_cap_sigma;
   if (seen_m == expected_m) return 0.0;  // also two misses
   const double dr = seen_m - expected_m;
-  return 0.5 * (std::isfinite(dr) ? std::min(dr * dr / variance, cap) : cap) / k.correlation;
+  return 0.5 * (std::isfinite(dr) ? std::min(dr * dr / variance, cap) : cap) / identify_constants.correlation;
 }
 
 double Viewer::cost(const std::vector<double>& seen, const std::vector<double>& expected) const {

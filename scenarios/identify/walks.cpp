@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <numbers>
 #include <queue>
 #include <tuple>
 
@@ -15,9 +14,6 @@
 namespace plumbline::scenarios {
 
 namespace {
-
-constexpr double rad = std::numbers::pi / 180.0;
-constexpr const IdentifyConstants& k = identify_constants;
 
 /// Neighbours in the cells of a map.
 using Graph = std::vector<std::vector<std::pair<std::size_t, double>>>;
@@ -81,7 +77,7 @@ class Walker {
     walk(start, cell.twins, [&](const std::vector<double>& against, double way) {
       bool all = true, all_straight = true;
       for (std::size_t i = 0; i < against.size(); ++i) {
-        if (against[i] > k.drop_llr) continue;
+        if (against[i] > identify_constants.drop_llr) continue;
         all = false;
         all_straight = all_straight && turned[i];
       }
@@ -97,7 +93,7 @@ class Walker {
   [[nodiscard]] std::vector<bool> turns(const MapCell& cell) const {
     std::vector<bool> turned;
     for (const CellTwin& twin : cell.twins)
-      turned.push_back(std::abs(map_.isometries[twin.isometry].yaw()) > k.known_yaw_deg * rad);
+      turned.push_back(std::abs(map_.isometries[twin.isometry].yaw()) > identify_constants.known_yaw_deg * rad_per_deg);
     return turned;
   }
 
@@ -118,7 +114,7 @@ class Walker {
       if (!against[cell].empty()) continue;
       std::vector<double> sum = cell == start ? std::vector<double>(twins.size(), 0.0) : against[before];
       for (std::size_t i = 0; i < twins.size(); ++i)
-        if (sum[i] <= k.drop_llr) sum[i] += ratios_.at(twins[i].isometry, cell);
+        if (sum[i] <= identify_constants.drop_llr) sum[i] += ratios_.at(twins[i].isometry, cell);
       if (done(sum, way)) return;
       against[cell] = std::move(sum);
       for (const auto& [next, length] : graph_[cell])

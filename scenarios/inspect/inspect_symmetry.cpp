@@ -2,8 +2,9 @@
 #include "scenarios/inspect/inspect_symmetry.h"
 
 #include <cmath>
-#include <cstdio>
 #include <numbers>
+
+#include "scenarios/inspect/fixed_point.h"
 
 namespace plumbline::scenarios {
 namespace {
@@ -20,13 +21,7 @@ double rounded(double v) { return std::round(v * steps) / steps; }
 
 Tree point(const Eigen::Vector2d& p) { return Tree(Tree::List{Tree(rounded(p.x())), Tree(rounded(p.y()))}); }
 
-std::string fixed(double value, int digits) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%.*f", digits, std::abs(value) < 0.5 * std::pow(10.0, -digits) ? 0.0 : value);
-  return text;
-}
-
-std::string place(const Eigen::Vector2d& p) { return "(" + fixed(p.x(), 2) + ", " + fixed(p.y(), 2) + ")"; }
+std::string place(const Eigen::Vector2d& p) { return "(" + fixed_point(p.x(), 2) + ", " + fixed_point(p.y(), 2) + ")"; }
 
 Tree isometry_json(const Isometry2& g) {
   Tree tree = Tree::map();
@@ -86,18 +81,19 @@ std::string name_of(const bim::Storey& storey) { return storey.name.empty() ? st
 std::string name_of(const bim::Room& room) { return room.name.empty() ? room.id : room.name; }
 
 std::string motion(const Isometry2& g) {
-  if (const auto centre = g.centre()) return "turn by " + fixed(g.angle * degrees, 2) + " deg about " + place(*centre);
+  if (const auto centre = g.centre())
+    return "turn by " + fixed_point(g.angle * degrees, 2) + " deg about " + place(*centre);
   const bool shifted = g.t.norm() >= 0.005;
-  if (g.mirrored) return "mirror image at " + fixed(0.5 * g.angle * degrees, 2) + " deg";
+  if (g.mirrored) return "mirror image at " + fixed_point(0.5 * g.angle * degrees, 2) + " deg";
   return shifted ? "shift by " + place(g.t) : "the same place";
 }
 
 std::string likeness_text(const Likeness& likeness) {
   std::string text = likeness.grade == Likeliness::exact ? "exact" : "near";
-  text += ", IoU " + fixed(likeness.iou, 3);
+  text += ", IoU " + fixed_point(likeness.iou, 3);
   if (likeness.deviations.empty()) return text;
   const bim::Deviation& first = likeness.deviations.front();
-  text += ", off by " + fixed(first.size_m, 3) + " m in " + first.element + " at " + place(first.at);
+  text += ", off by " + fixed_point(first.size_m, 3) + " m in " + first.element + " at " + place(first.at);
   const std::size_t others = likeness.deviations.size() - 1;
   return others == 0 ? text : text + " and in " + std::to_string(others) + " more";
 }
@@ -107,10 +103,11 @@ std::string rooms_text(const bim::Building& building, const bim::RoomClass& like
   for (const bim::LikeRoom& room : like.rooms) {
     text += (text.empty() ? "" : ", ") + name_of(building.rooms[static_cast<std::size_t>(room.room)]);
     if (room.likeness.grade == Likeliness::near)
-      text +=
-          " (off by " + fixed(room.likeness.deviation_m, 3) + " m in " + room.likeness.deviations.front().element + ")";
+      text += " (off by " + fixed_point(room.likeness.deviation_m, 3) + " m in " +
+              room.likeness.deviations.front().element + ")";
   }
-  for (const Isometry2& turn : like.turns) text += "; each also turned by " + fixed(turn.angle * degrees, 0) + " deg";
+  for (const Isometry2& turn : like.turns)
+    text += "; each also turned by " + fixed_point(turn.angle * degrees, 0) + " deg";
   return text;
 }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <cstdio>
 #include <map>
 #include <string>
 #include <vector>
@@ -8,6 +7,7 @@
 #include "bim/building/adjacency.h"
 #include "bim/building/plan.h"
 #include "bim/digest/digest.h"
+#include "scenarios/inspect/fixed_point.h"
 #include "scenarios/inspect/inspect.h"
 #include "scenarios/inspect/inspect_symmetry.h"
 
@@ -16,12 +16,6 @@ namespace {
 
 using bim::Building;
 using bim::BuildingMesh;
-
-std::string fixed(double value, int digits) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%.*f", digits, value == 0.0 ? 0.0 : value);
-  return text;
-}
 
 /// Characters of UTF-8 text.
 std::size_t width(const std::string& text) {
@@ -80,7 +74,7 @@ std::string storey_table(const Building& building) {
     const bim::Storey& storey = building.storeys[i];
     const int s = static_cast<int>(i);
     const auto openings = [&](bim::OpeningKind kind) { return std::to_string(openings_on(building, s, kind)); };
-    table.add({label(storey.name, storey.id), fixed(storey.elevation_m, 2), fixed(storey.height_m, 2),
+    table.add({label(storey.name, storey.id), fixed_point(storey.elevation_m, 2), fixed_point(storey.height_m, 2),
                std::to_string(on_storey(building.walls, s)), std::to_string(on_storey(building.rooms, s)),
                openings(bim::OpeningKind::door), openings(bim::OpeningKind::window),
                openings(bim::OpeningKind::opening_void), std::to_string(on_storey(building.slabs, s)),
@@ -127,7 +121,7 @@ std::string stair_table(const Building& building) {
     int steps = 0;
     for (const bim::StairFlight& flight : stair.flights) steps += flight.steps;
     const bim::StairFlight first = stair.flights.empty() ? bim::StairFlight{} : stair.flights.front();
-    const auto length = [&](double v) { return stair.flights.empty() ? std::string("-") : fixed(v, 3); };
+    const auto length = [&](double v) { return stair.flights.empty() ? std::string("-") : fixed_point(v, 3); };
     table.add({label(stair.name, stair.id), storey(stair.from), storey(stair.to), std::to_string(steps),
                length(first.rise_m), length(first.run_m), length(first.width_m), std::to_string(stair.landings.size()),
                room(stair.rooms[0]) + " to " + room(stair.rooms[1])});
@@ -143,8 +137,8 @@ std::string room_table(const Building& building) {
     const bim::Room& room = building.rooms[i];
     const std::string neighbours = leads_to(building, pairs, static_cast<int>(i));
     const bim::Storey& storey = building.storeys[static_cast<std::size_t>(room.storey)];
-    table.add({label(room.name, room.id), label(storey.name, storey.id), fixed(signed_area(room.polygon), 1),
-               fixed(room.z1_m - room.z0_m, 2), std::to_string(plan.rooms[i].faces.size()), neighbours});
+    table.add({label(room.name, room.id), label(storey.name, storey.id), fixed_point(signed_area(room.polygon), 1),
+               fixed_point(room.z1_m - room.z0_m, 2), std::to_string(plan.rooms[i].faces.size()), neighbours});
   }
   return table.text();
 }
@@ -170,7 +164,7 @@ std::string solid_table(const Building& building, const BuildingMesh& mesh) {
   }
   Table table({"solid", "number", "closed", "volume m3"});
   for (const auto& [name, kind] : kinds)
-    table.add({name, std::to_string(kind.count), std::to_string(kind.closed), fixed(kind.volume_m3, 2)});
+    table.add({name, std::to_string(kind.count), std::to_string(kind.closed), fixed_point(kind.volume_m3, 2)});
   return table.text();
 }
 
@@ -201,9 +195,9 @@ std::string totals(const Building& building, const BuildingMesh& mesh) {
     if (element.closed) ++closed;
     if (element.kind == bim::ElementKind::wall) volume += element.volume_m3;
   }
-  return "  " + std::to_string(building.walls.size()) + " walls of " + fixed(volume, 1) + " m3, " +
+  return "  " + std::to_string(building.walls.size()) + " walls of " + fixed_point(volume, 1) + " m3, " +
          std::to_string(building.openings.size()) + " openings, " + std::to_string(building.rooms.size()) +
-         " rooms of " + fixed(area, 1) + " m2; " + std::to_string(mesh.elements.size()) + " solids (" +
+         " rooms of " + fixed_point(area, 1) + " m2; " + std::to_string(mesh.elements.size()) + " solids (" +
          std::to_string(closed) + " closed) of " + std::to_string(mesh.triangles.size()) + " triangles\n";
 }
 

@@ -14,6 +14,7 @@
 
 #include "bim/errors.h"
 #include "slam/io/position_packet.h"
+#include "slam/io/second.h"
 #include "slam/io/udp_frame.h"
 
 namespace plumbline::slam {
@@ -29,7 +30,6 @@ constexpr unsigned data_port = 2368;
 constexpr unsigned position_port = 8308;
 constexpr std::int64_t data_packets_per_position = 5;  // about as real units send them [facts: lidar section 2.1]
 constexpr std::int64_t hour_us = 3'600'000'000;
-constexpr std::int64_t second_ns = 1'000'000'000;
 
 using Frame = std::array<std::uint8_t, frame_bytes>;
 

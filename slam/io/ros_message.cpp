@@ -8,14 +8,13 @@
 #include <type_traits>
 
 #include "bim/errors.h"
+#include "slam/io/second.h"
 
 namespace plumbline::slam::ros {
 
 static_assert(std::endian::native == std::endian::little);
 
 namespace {
-
-constexpr std::int64_t second_ns = 1'000'000'000;
 
 class Writer {
  public:

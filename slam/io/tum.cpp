@@ -6,12 +6,11 @@
 #include <cmath>
 
 #include "bim/config/tree.h"
+#include "slam/io/second.h"
 
 namespace plumbline::slam {
 
 namespace {
-
-constexpr std::int64_t second_ns = 1'000'000'000;
 
 std::vector<std::string_view> columns_of(std::string_view line) {
   std::vector<std::string_view> columns;

@@ -11,8 +11,6 @@ namespace plumbline::slam {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
-
 struct Box2 {
   Eigen::Vector2d low, high;
 };
@@ -46,7 +44,7 @@ std::vector<Eigen::Vector2d> stratified_positions(const Polygon2& room, double s
 double aligned_yaw(const StoreyIndex& storey, const Eigen::Vector2d& p, const View& view, double sigma,
                    const Stream& stream, std::uint64_t tick, std::uint32_t lane) {
   const int cell = storey.grid.cell_at(p);
-  const double uniform = 2.0 * pi * stream.uniform(tick, lane, 3);
+  const double uniform = 2.0 * std::numbers::pi * stream.uniform(tick, lane, 3);
   if (cell < 0 || view.walls.empty()) return uniform;
   const std::vector<int>& lines = storey.visible[static_cast<std::size_t>(cell)];
   if (lines.empty()) return uniform;
@@ -63,7 +61,7 @@ double draw_yaw(const StoreyIndex& storey, const Eigen::Vector2d& p, const Start
   if (belief.yaw_I) return *belief.yaw_I + belief.yaw_sigma * stream.gauss(tick, lane, 2);
   if (stream.uniform(tick, lane, 7) < config.aligned_share)
     return aligned_yaw(storey, p, view, config.aligned_sigma, stream, tick, lane);
-  return 2.0 * pi * stream.uniform(tick, lane, 3);
+  return 2.0 * std::numbers::pi * stream.uniform(tick, lane, 3);
 }
 
 bool walks_through_wall(const StoreyIndex& storey, const Eigen::Vector2d& from, const Eigen::Vector2d& to,

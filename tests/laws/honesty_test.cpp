@@ -34,13 +34,6 @@ TEST_P(EveryMethod, AnswersTheSameTwiceAndWithoutTruthAndLabels) {
   EXPECT_EQ(digest_of(answer_of(GetParam(), input, bare)), told);
 }
 
-std::vector<std::string> all_methods() {
-  std::vector<std::string> names;
-  for (const auto& row : slam::methods())
-    if (!row.variant) names.emplace_back(row.name);
-  return names;
-}
-
 INSTANTIATE_TEST_SUITE_P(Laws, EveryMethod, ::testing::ValuesIn(all_methods()),
                          [](const auto& info) { return info.param; });
 

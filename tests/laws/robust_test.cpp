@@ -126,13 +126,6 @@ TEST_P(Robust, NothingAtAllEndsInAStatedState) {
   }
 }
 
-std::vector<std::string> all_methods() {
-  std::vector<std::string> names;
-  for (const auto& row : slam::methods())
-    if (!row.variant) names.emplace_back(row.name);
-  return names;
-}
-
 INSTANTIATE_TEST_SUITE_P(Laws, Robust, ::testing::ValuesIn(all_methods()), [](const auto& info) { return info.param; });
 
 }  // namespace

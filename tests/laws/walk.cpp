@@ -53,6 +53,13 @@ Walk walk_quickstart(std::uint64_t seed, const std::vector<std::string>& rooms, 
   return walk;
 }
 
+std::vector<std::string> all_methods() {
+  std::vector<std::string> names;
+  for (const auto& row : slam::methods())
+    if (!row.variant) names.emplace_back(row.name);
+  return names;
+}
+
 slam::MethodInput method_input(const Walk& walk, const std::string& method, double yaw_error) {
   slam::MethodInput input;
   input.seed = method_seed(1, method);

@@ -20,6 +20,9 @@ struct Walk {
 [[nodiscard]] Walk walk_quickstart(std::uint64_t seed, const std::vector<std::string>& rooms, double duration_s,
                                    slam::LidarModelId lidar = slam::LidarModelId::vlp16);
 
+/// Names of the table of methods, without those that differ in their defaults alone.
+[[nodiscard]] std::vector<std::string> all_methods();
+
 /// What a method needs for this walk, with a compass of the given heading error.
 [[nodiscard]] slam::MethodInput method_input(const Walk& walk, const std::string& method, double yaw_error = 0.02);
 

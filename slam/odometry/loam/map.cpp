@@ -36,8 +36,8 @@ std::optional<Match> match_edge(const Eigen::Vector3d& p_R, const PointMap::Neig
   return Match{p_R, mean, Eigen::Matrix3d::Identity() - along * along.transpose()};
 }
 
-std::optional<Match> match_plane(const Eigen::Vector3d& p_R, const PointMap::Neighbours& points,
-                                 const MapConfig& config) {
+std::optional<Match> match_map_plane(const Eigen::Vector3d& p_R, const PointMap::Neighbours& points,
+                                     const MapConfig& config) {
   const Eigen::Vector3d mean = mean_of(points);
   const auto eigen = scatter_of(points, mean);
   const Eigen::Vector3d normal = eigen.eigenvectors().col(0);
@@ -85,7 +85,7 @@ Registration FeatureMap::align(const ThinFeatures& features, const Pose& start, 
           if (const std::optional<Match> match = match_one(p_R, near, config_)) matches.push_back(*match);
     };
     add(edges_, features.edges_R, match_edge);
-    add(planes_, features.planes_R, match_plane);
+    add(planes_, features.planes_R, match_map_plane);
     for (int i = 0; i < config_.iterations; ++i) {
       ++result.iterations;
       normal = linearize(matches, result.X_MR, config_.huber_m);

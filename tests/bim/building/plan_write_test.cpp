@@ -5,6 +5,7 @@
 
 #include "bim/building/plan_yaml.h"
 #include "bim/errors.h"
+#include "tests/bim/building/plan_error.h"
 #include "tests/bim/families/sweep.h"
 
 namespace plumbline::bim {
@@ -27,15 +28,6 @@ TEST(PlanWrite, QuotesWhatYamlWouldMistake) {
   PlanFile plan = sweep_case(0)->generated.plan;
   plan.name = "a: strange, [name] #1";
   EXPECT_EQ(read_back(write_plan(plan)).name, plan.name);
-}
-
-std::string error_of(const std::string& text) {
-  try {
-    (void)read_plan_text(text, "p.yaml");
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
 }
 
 TEST(PlanSymmetry, NamesOnlyWhatThePlanHolds) {

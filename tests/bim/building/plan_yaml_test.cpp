@@ -8,6 +8,7 @@
 #include "bim/errors.h"
 #include "bim/mesh/mesh.h"
 #include "bim/random/stream.h"
+#include "tests/bim/building/plan_error.h"
 
 namespace plumbline::bim {
 namespace {
@@ -40,15 +41,6 @@ std::string with(const std::string& from, const std::string& to) {
   const std::size_t at = text.find(from);
   EXPECT_NE(at, std::string::npos) << from;
   return text.replace(at, from.size(), to);
-}
-
-std::string error_of(const std::string& text) {
-  try {
-    (void)read_plan_text(text, "p.yaml");
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
 }
 
 void expect_error(const std::string& text, const std::string& place, const std::string& part) {

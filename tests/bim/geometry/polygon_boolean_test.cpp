@@ -9,11 +9,10 @@
 #include <cstdlib>
 
 #include "bim/random/stream.h"
+#include "tests/bim/geometry/rectangle.h"
 
 namespace plumbline {
 namespace {
-
-Polygon2 rectangle(double x0, double y0, double x1, double y1) { return {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}; }
 
 Polygon2 random_rectangle(const Stream& stream, std::uint64_t tick, std::uint32_t lane) {
   const auto draw = [&](std::uint32_t i, double low, double high) {

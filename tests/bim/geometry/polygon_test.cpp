@@ -9,11 +9,10 @@
 
 #include "bim/errors.h"
 #include "bim/random/stream.h"
+#include "tests/bim/geometry/rectangle.h"
 
 namespace plumbline {
 namespace {
-
-Polygon2 rectangle(double x0, double y0, double x1, double y1) { return {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}; }
 
 const Polygon2 l_shape = {{0, 0}, {4, 0}, {4, 1}, {1, 1}, {1, 3}, {0, 3}};
 

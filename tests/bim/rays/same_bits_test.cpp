@@ -23,7 +23,7 @@ namespace plumbline::bim {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180.0;
-constexpr double range_max_m = 100.0;
+constexpr double reach_m = 100.0;
 constexpr std::size_t rays_a_turn = 16 * 1024;
 
 /// Turns cast by each way of tracing; ci/full asks for more.
@@ -66,7 +66,7 @@ std::vector<Ray> turn_rays(std::uint64_t turn, const BuildingMesh& mesh) {
 std::uint64_t digest_of(const RayScene& scene, const BuildingMesh& mesh, std::uint64_t turn) {
   const std::vector<Ray> rays = turn_rays(turn, mesh);
   std::vector<Hit> hits(rays.size());
-  scene.cast(rays, range_max_m, hits);
+  scene.cast(rays, reach_m, hits);
   Digest digest;
   for (const Hit& hit : hits) digest.add(hit.range_m).add(hit.element).add(hit.triangle).add(hit.normal_W);
   return digest.value();

@@ -9,11 +9,11 @@
 
 #include "bim/errors.h"
 #include "sim/robot/robot.h"
+#include "tests/sim/robot/physics_step.h"
 
 namespace plumbline::sim {
 namespace {
 
-constexpr double step_s = 0.002;
 constexpr double gravity = 9.81;
 
 struct Push {

@@ -7,11 +7,11 @@
 #include <algorithm>
 
 #include "sim/robot/kinematics.h"
+#include "tests/sim/robot/physics_step.h"
 
 namespace plumbline::sim {
 namespace {
 
-constexpr double step_s = 0.002;
 constexpr std::array<bool, 4> all = {true, true, true, true};
 const Eigen::Vector3d walking(0.7, 0.0, 0.0);
 

@@ -5,10 +5,11 @@
 
 #include <cmath>
 
+#include "tests/sim/robot/physics_step.h"
+
 namespace plumbline::sim {
 namespace {
 
-constexpr double step_s = 0.002;
 constexpr double base_m = 0.5;
 constexpr std::array<bool, 4> all = {true, true, true, true};
 constexpr std::array<bool, 4> one_pair = {false, true, true, false};

@@ -12,11 +12,11 @@
 #include "sim/robot/kinematics.h"
 #include "sim/robot/solid_boxes.h"
 #include "sim/route/follower.h"
+#include "tests/sim/robot/physics_step.h"
 
 namespace plumbline::sim {
 namespace {
 
-constexpr double step_s = 0.002;
 constexpr int seconds = 50;
 
 /// What the robot felt and where it was, every step of a walk.

@@ -9,12 +9,12 @@
 #include "bim/geometry/pose.h"
 #include "bim/random/stream.h"
 #include "sim/robot/dimensions.h"
+#include "tests/sim/robot/physics_step.h"
 
 namespace plumbline::sim {
 namespace {
 
-constexpr double step_s = 0.002;
-constexpr std::array<bool, 4> all = {true, true, true, true};
+constexpr std::array<bool, 4> all_stand = {true, true, true, true};
 
 /// Feet of a robot at p_O on the plane through the origin with this normal.
 std::array<Eigen::Vector3d, 4> feet_on(const Eigen::Vector3d& normal_O, const Eigen::Vector2d& p_O) {
@@ -33,7 +33,7 @@ TEST(LegSlope, FindsTheNormalOfAnyRamp) {
     const Eigen::Vector3d normal_O =
         exp_so3(tilt * Eigen::Vector3d(std::cos(heading), std::sin(heading), 0.0)) * Eigen::Vector3d::UnitZ();
     LegSlope slope{LegSlopeConfig{}};
-    for (int step = 0; step < 2000; ++step) slope.update(feet_on(normal_O, {0.001 * step, 0.0}), all, step_s);
+    for (int step = 0; step < 2000; ++step) slope.update(feet_on(normal_O, {0.001 * step, 0.0}), all_stand, step_s);
     // The damping of the fit takes 0.1 % of the slope.
     EXPECT_LT((slope.normal_O() - normal_O).norm(), 0.002 * tilt + 1e-6) << tilt;
   }
@@ -47,8 +47,8 @@ TEST(LegSlope, IsLevelUntilAllFeetHaveStoodAndOnStairs) {
     return slope.normal_O();
   };
   EXPECT_EQ(after(0.1, {true, true, true, false}), Eigen::Vector3d::UnitZ());
-  EXPECT_NE(after(0.1, all), Eigen::Vector3d::UnitZ());
-  EXPECT_EQ(after(std::atan(0.15 / 0.30), all), Eigen::Vector3d::UnitZ());
+  EXPECT_NE(after(0.1, all_stand), Eigen::Vector3d::UnitZ());
+  EXPECT_EQ(after(std::atan(0.15 / 0.30), all_stand), Eigen::Vector3d::UnitZ());
 }
 
 }  // namespace

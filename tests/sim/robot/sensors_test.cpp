@@ -6,10 +6,10 @@
 #include <cmath>
 #include <vector>
 
+#include "tests/sim/robot/physics_step.h"
+
 namespace plumbline::sim {
 namespace {
-
-constexpr double step_s = 0.002;
 
 Proprioception standstill() {
   Proprioception truth;
@@ -20,7 +20,7 @@ Proprioception standstill() {
   return truth;
 }
 
-std::vector<SensorReading> stand(OdometryPreset preset, std::uint64_t seed, int ticks) {
+std::vector<SensorReading> standing(OdometryPreset preset, std::uint64_t seed, int ticks) {
   ProprioceptiveSensors sensors(preset, seed);
   std::vector<SensorReading> out;
   for (int i = 0; i < ticks; ++i) out.push_back(sensors.read(standstill(), i));
@@ -47,7 +47,7 @@ Eigen::Vector3d mean_gyro(const std::vector<SensorReading>& readings, std::size_
 
 TEST(ProprioceptiveSensors, IdealIsTheTruth) {
   const Proprioception truth = standstill();
-  for (const SensorReading& reading : stand(OdometryPreset::ideal, 1, 20)) {
+  for (const SensorReading& reading : standing(OdometryPreset::ideal, 1, 20)) {
     EXPECT_EQ(reading.q, truth.q);
     EXPECT_EQ(reading.qd, truth.qd);
     EXPECT_EQ(reading.gyro_R, truth.gyro_R);
@@ -59,7 +59,7 @@ TEST(ProprioceptiveSensors, IdealIsTheTruth) {
 /// N samples of neighbours' differences know a standard deviation to sqrt(1.5 / 2N): 0.35 % of 3 axes, 0.18 % of 12
 /// joints; the tolerances are four of those.
 TEST(ProprioceptiveSensors, WhiteNoiseIsAsConfigured) {
-  const std::vector<SensorReading> readings = stand(OdometryPreset::noisy, 3, 20000);
+  const std::vector<SensorReading> readings = standing(OdometryPreset::noisy, 3, 20000);
   const ProprioceptionNoise noise = noise_of(OdometryPreset::noisy);
   const auto joint = [](const std::array<double, 12>& values, int lane) {
     return values[static_cast<std::size_t>(lane)];
@@ -81,7 +81,7 @@ TEST(ProprioceptiveSensors, TheGyrosBiasIsDrawnOnceARun) {
   const ProprioceptionNoise noise = noise_of(OdometryPreset::noisy);
   double squares = 0.0;
   for (std::uint64_t seed = 1; seed <= 300; ++seed) {
-    const std::vector<SensorReading> readings = stand(OdometryPreset::noisy, seed, ticks);
+    const std::vector<SensorReading> readings = standing(OdometryPreset::noisy, seed, ticks);
     squares += (mean_gyro(readings, 0, ticks) - standstill().gyro_R).squaredNorm();
   }
   const double expected = std::hypot(noise.gyro_bias, noise.gyro / std::sqrt(ticks));
@@ -95,7 +95,7 @@ TEST(ProprioceptiveSensors, TheGyrosBiasWalks) {
   const ProprioceptionNoise noise = noise_of(OdometryPreset::noisy);
   double squares = 0.0;
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {
-    const std::vector<SensorReading> readings = stand(OdometryPreset::noisy, seed, ticks);
+    const std::vector<SensorReading> readings = standing(OdometryPreset::noisy, seed, ticks);
     squares += (mean_gyro(readings, ticks / 2, ticks) - mean_gyro(readings, 0, ticks / 2)).squaredNorm();
   }
   const double white = noise.gyro * noise.gyro / (ticks / 2);
@@ -107,7 +107,7 @@ TEST(ProprioceptiveSensors, TheGyrosBiasWalks) {
 
 /// A count of 160 has a standard deviation of 12.6; four of those.
 TEST(ProprioceptiveSensors, ContactFlagsFlip) {
-  const std::vector<SensorReading> readings = stand(OdometryPreset::noisy, 5, 20000);
+  const std::vector<SensorReading> readings = standing(OdometryPreset::noisy, 5, 20000);
   const std::array<bool, 4> truth = {true, false, true, false};
   int flips = 0;
   for (const SensorReading& reading : readings)

@@ -17,7 +17,7 @@ namespace plumbline::sim {
 namespace {
 
 /// Two storeys of 8 x 6 m, 3 m apart, with the floor above cut over the stair.
-std::string house(const std::string& stair, const std::string& more = "") {
+std::string tower(const std::string& stair, const std::string& more = "") {
   std::string text = "plan: 1\nname: tower\nstoreys:\n";
   text += "  - {id: ground, elevation_m: 0, height_m: 2.7}\n  - {id: upper, elevation_m: 3, height_m: 2.7}\n";
   text += "walls:\n";
@@ -46,7 +46,7 @@ const std::string left =
     "landing_m: 1.0, turn: left}";
 
 bim::Building building(const std::string& stair, const std::string& more = "") {
-  return bim::read_plan_text(house(stair, more), "tower.plan.yaml");
+  return bim::read_plan_text(tower(stair, more), "tower.plan.yaml");
 }
 
 std::vector<Eigen::Vector3d> over_stairs(const std::vector<Waypoint>& path) {

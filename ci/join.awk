@@ -1,0 +1,43 @@
+# SPDX-License-Identifier: Apache-2.0
+# Groups sources to be compiled together, four at most, so that no two of a group name something alike for themselves
+# alone (in an unnamed namespace). Usage: awk -f ci/join.awk FILE...; prints a line FILE GROUP for each.
+function name_of(line) {
+  sub(/^\[\[[a-z_]*\]\] /, "", line)
+  if (line ~ /^(struct|class|enum class|enum) /) {
+    sub(/^(struct|class|enum class|enum) /, "", line)
+    sub(/[^A-Za-z0-9_].*/, "", line)
+    return line
+  }
+  if (line ~ /^using [A-Za-z0-9_]* =/) {
+    sub(/^using /, "", line)
+    sub(/ .*/, "", line)
+    return line
+  }
+  if (line !~ /^[A-Za-z]/ || line ~ /^(using|namespace|template|public|private|TEST|INSTANTIATE)/) return ""
+  while (sub(/<[^<>]*>/, "", line)) continue
+  sub(/[(={;].*/, "", line)
+  sub(/\[.*/, "", line)
+  sub(/ *$/, "", line)
+  sub(/.*[^A-Za-z0-9_]/, "", line)
+  return line
+}
+function fits(file, group, i) {
+  for (i = 1; i <= names[file]; ++i)
+    if ((group, name[file, i]) in taken) return 0
+  return 1
+}
+FNR == 1 { files[++count] = FILENAME; inside = 0; names[FILENAME] = 0 }
+/^namespace \{/ { inside = 1; next }
+/^}  \/\/ namespace$/ { inside = 0 }
+inside && /^[A-Za-z\[]/ { own = name_of($0); if (own != "") name[FILENAME, ++names[FILENAME]] = own }
+END {
+  for (f = 1; f <= count; ++f) {
+    file = files[f]
+    for (group = 1; group <= groups; ++group)
+      if (size[group] < 4 && fits(file, group)) break
+    if (group > groups) groups = group
+    ++size[group]
+    for (i = 1; i <= names[file]; ++i) taken[group, name[file, i]] = 1
+    print file, group
+  }
+}
