@@ -53,7 +53,7 @@ void check_route_and_start(const Scenario& scenario, const Tree& tree) {
 }
 
 void check_bodies(const Scenario& scenario, const Tree& tree) {
-  constexpr std::size_t most = bim::Bodies::most;
+  constexpr std::size_t most = bim::MovingBodies::most;
   const std::size_t people = scenario.people.size();
   if (people + scenario.moving_doors.size() <= most) return;
   const Tree& first_too_many =

@@ -72,7 +72,7 @@ std::vector<Eigen::Vector2d> places_in(const Polygon2& outline, const SightConfi
 std::vector<std::string> rooms_that_see(const Building& building, int storey,
                                         const std::vector<Eigen::Vector2d>& points, const SightConfig& config) {
   std::vector<Polygon2> outlines;
-  for (const Prism& prism : bodies_of(building, storey).prisms)
+  for (const BodyPrism& prism : bodies_of(building, storey).prisms)
     if (prism.z0 < config.eye_m && prism.z1 > config.eye_m) outlines.push_back(prism.outline);
   const View view(std::move(outlines));
   std::vector<std::string> rooms;

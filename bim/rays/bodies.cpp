@@ -163,7 +163,7 @@ BodyHit hit_body(const MovingBody& body, const Ray& ray) {
   return {range, {c * n.x() - s * n.y(), s * n.x() + c * n.y(), n.z()}};
 }
 
-Bodies::Bodies(std::vector<MovingBody> bodies) : bodies_(std::move(bodies)) {
+MovingBodies::MovingBodies(std::vector<MovingBody> bodies) : bodies_(std::move(bodies)) {
   if (bodies_.size() > most) throw InternalError("too many moving bodies");
   std::stable_sort(bodies_.begin(), bodies_.end(),
                    [](const MovingBody& a, const MovingBody& b) { return a.element < b.element; });
@@ -177,7 +177,7 @@ Bodies::Bodies(std::vector<MovingBody> bodies) : bodies_(std::move(bodies)) {
   }
 }
 
-void Bodies::cast(std::span<const Ray> rays, double range_max_m, std::span<Hit> hits) const {
+void MovingBodies::cast(std::span<const Ray> rays, double range_max_m, std::span<Hit> hits) const {
   const RayCone cone(rays, range_max_m, hits);
   std::array<std::size_t, most> near;
   std::size_t count = 0;
@@ -187,7 +187,7 @@ void Bodies::cast(std::span<const Ray> rays, double range_max_m, std::span<Hit> 
   for (std::size_t i = 0; i < rays.size(); ++i) cast_one(rays[i], range_max_m, std::span(near).first(count), hits[i]);
 }
 
-void Bodies::cast_one(const Ray& ray, double range_max_m, std::span<const std::size_t> near, Hit& hit) const {
+void MovingBodies::cast_one(const Ray& ray, double range_max_m, std::span<const std::size_t> near, Hit& hit) const {
   double nearest = hit.range_m;
   for (const std::size_t i : near) {
     const double range = hit_body(bodies_[i], ray).range_m;

@@ -23,13 +23,13 @@ struct BodyHit {
 [[nodiscard]] BodyHit hit_body(const MovingBody& body, const Ray& ray);
 
 /// Bodies with what keeps rays from being tested against them one by one.
-class Bodies {
+class MovingBodies {
  public:
   static constexpr std::size_t most = 256;
 
-  Bodies() = default;
+  MovingBodies() = default;
   /// Throws InternalError on more than `most` bodies or on one without a station or without extent.
-  explicit Bodies(std::vector<MovingBody> bodies);
+  explicit MovingBodies(std::vector<MovingBody> bodies);
 
   [[nodiscard]] bool empty() const { return bodies_.empty(); }
   /// Puts bodies into the hits of rays that stand next to each other: within the tie distance of the nearest the

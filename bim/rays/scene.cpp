@@ -73,7 +73,7 @@ struct RayScene::Impl {
   std::vector<int> face_of_triangle;  ///< -1: without area
   ContactTable contacts;
   EmbreeScene embree;
-  Bodies bodies;
+  MovingBodies bodies;
 
   Impl(const BuildingMesh& mesh, const RaySceneOptions& options);
 
@@ -244,6 +244,6 @@ bool RayScene::meets(int triangle, const Ray& ray) const {
   return face >= 0 && impl_->faces[static_cast<std::size_t>(face)].pierced_by(ray.origin_W, ray.direction_W);
 }
 
-void RayScene::set_bodies(std::vector<MovingBody> bodies) { impl_->bodies = Bodies(std::move(bodies)); }
+void RayScene::set_bodies(std::vector<MovingBody> bodies) { impl_->bodies = MovingBodies(std::move(bodies)); }
 
 }  // namespace plumbline::bim

@@ -195,7 +195,7 @@ class Collector {
       bottom = std::min(bottom, p.z());
       top = std::max(top, p.z());
     }
-    std::vector<Prism> tops;
+    std::vector<BodyPrism> tops;
     double filled = 0.0;
     for (const Eigen::Vector3i& t : solid.triangles) {
       if (upward(solid, t) <= config_.flat) continue;
@@ -209,7 +209,7 @@ class Collector {
     }
     const bool heights = is_closed(solid) && filled <= config_.filled * volume(solid);
     if (heights && static_cast<int>(tops.size()) <= config_.triangles_max) {
-      for (const Prism& prism : tops) add(prism.outline, prism.z0, prism.z1);
+      for (const BodyPrism& prism : tops) add(prism.outline, prism.z0, prism.z1);
       return;
     }
     Polygon2 points;

@@ -9,7 +9,7 @@
 namespace plumbline::bim {
 
 /// Upright body over a convex outline. z above the storey's floor, m.
-struct Prism {
+struct BodyPrism {
   Polygon2 outline;  ///< counter-clockwise, convex
   double z0 = 0.0;
   double z1 = 0.0;
@@ -20,7 +20,7 @@ struct Prism {
 struct Bodies {
   int storey = -1;
   std::vector<std::string> elements;  ///< ids: walls, columns, stairs, obstacles in the order of the building
-  std::vector<Prism> prisms;
+  std::vector<BodyPrism> prisms;
 };
 
 struct BodiesConfig {
@@ -42,7 +42,8 @@ struct BodiesConfig {
 /// Intersection of two convex counter-clockwise polygons.
 [[nodiscard]] Polygon2 convex_intersection(Polygon2 a, const Polygon2& b);
 /// The bodies without their overlaps: no two share an inner point. Where two overlap the earlier keeps its place.
-[[nodiscard]] std::vector<Prism> without_overlaps(const std::vector<Prism>& prisms, const BodiesConfig& config = {});
-[[nodiscard]] double volume(const std::vector<Prism>& disjoint);
+[[nodiscard]] std::vector<BodyPrism> without_overlaps(const std::vector<BodyPrism>& prisms,
+                                                      const BodiesConfig& config = {});
+[[nodiscard]] double volume(const std::vector<BodyPrism>& disjoint);
 
 }  // namespace plumbline::bim

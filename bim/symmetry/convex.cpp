@@ -27,7 +27,8 @@ bool large(const Polygon2& polygon, const BodiesConfig& config) {
 }
 
 /// Appends `body` without `taken` to `left`: the parts beside, below and above it.
-void subtract_one(const Prism& body, const Prism& taken, const BodiesConfig& config, std::vector<Prism>& left) {
+void subtract_one(const BodyPrism& body, const BodyPrism& taken, const BodiesConfig& config,
+                  std::vector<BodyPrism>& left) {
   const double low = std::max(body.z0, taken.z0), high = std::min(body.z1, taken.z1);
   if (high <= low || !large(convex_intersection(body.outline, taken.outline), config)) {
     left.push_back(body);
@@ -65,20 +66,20 @@ Polygon2 convex_intersection(Polygon2 a, const Polygon2& b) {
   return a;
 }
 
-std::vector<Prism> without_overlaps(const std::vector<Prism>& prisms, const BodiesConfig& config) {
+std::vector<BodyPrism> without_overlaps(const std::vector<BodyPrism>& prisms, const BodiesConfig& config) {
   std::vector<Eigen::AlignedBox2d> boxes;
   boxes.reserve(prisms.size());
-  for (const Prism& prism : prisms) boxes.push_back(box_of(prism.outline));
+  for (const BodyPrism& prism : prisms) boxes.push_back(box_of(prism.outline));
   const PlaneGrid grid(boxes);
-  std::vector<Prism> result;
+  std::vector<BodyPrism> result;
   std::vector<int> near;
   for (std::size_t i = 0; i < prisms.size(); ++i) {
-    std::vector<Prism> parts = {prisms[i]};
+    std::vector<BodyPrism> parts = {prisms[i]};
     grid.near(boxes[i], near);
     for (const int j : near) {
       if (j >= static_cast<int>(i) || !boxes[static_cast<std::size_t>(j)].intersects(boxes[i])) continue;
-      std::vector<Prism> left;
-      for (const Prism& part : parts) subtract_one(part, prisms[static_cast<std::size_t>(j)], config, left);
+      std::vector<BodyPrism> left;
+      for (const BodyPrism& part : parts) subtract_one(part, prisms[static_cast<std::size_t>(j)], config, left);
       parts = std::move(left);
     }
     result.insert(result.end(), parts.begin(), parts.end());
@@ -86,9 +87,9 @@ std::vector<Prism> without_overlaps(const std::vector<Prism>& prisms, const Bodi
   return result;
 }
 
-double volume(const std::vector<Prism>& disjoint) {
+double volume(const std::vector<BodyPrism>& disjoint) {
   double sum = 0.0;
-  for (const Prism& prism : disjoint) sum += signed_area(prism.outline) * (prism.z1 - prism.z0);
+  for (const BodyPrism& prism : disjoint) sum += signed_area(prism.outline) * (prism.z1 - prism.z0);
   return sum;
 }
 

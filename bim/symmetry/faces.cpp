@@ -109,15 +109,15 @@ SurfaceRect moved(const Isometry2& g, const SurfaceRect& rect) {
   return image;
 }
 
-std::vector<SurfaceRect> visible_surfaces(const std::vector<Prism>& prisms, double touch_m, double sliver_m) {
+std::vector<SurfaceRect> visible_surfaces(const std::vector<BodyPrism>& prisms, double touch_m, double sliver_m) {
   std::vector<Eigen::AlignedBox2d> boxes;
-  for (const Prism& prism : prisms) boxes.push_back(box_of(prism.outline));
+  for (const BodyPrism& prism : prisms) boxes.push_back(box_of(prism.outline));
   const PlaneGrid grid(boxes);
   constexpr double joint_m = 1e-4;
   std::vector<SurfaceRect> result;
   std::vector<int> near;
   for (std::size_t i = 0; i < prisms.size(); ++i) {
-    const Prism& prism = prisms[i];
+    const BodyPrism& prism = prisms[i];
     for (std::size_t k = 0; k < prism.outline.size(); ++k) {
       const Eigen::Vector2d &p = prism.outline[k], &q = prism.outline[(k + 1) % prism.outline.size()];
       const double length = (q - p).norm();

@@ -26,7 +26,7 @@ struct SurfaceRect {
 
 /// Outer surfaces of all bodies: what another body covers or touches is left out; of two that lie flush the earlier
 /// body keeps its. Bodies closer than touch_m touch; strips narrower than sliver_m are dropped.
-[[nodiscard]] std::vector<SurfaceRect> visible_surfaces(const std::vector<Prism>& prisms, double touch_m,
+[[nodiscard]] std::vector<SurfaceRect> visible_surfaces(const std::vector<BodyPrism>& prisms, double touch_m,
                                                         double sliver_m);
 
 /// Distances to a set of surfaces.

@@ -8,7 +8,7 @@ namespace plumbline::bim {
 
 namespace {
 
-std::vector<Eigen::AlignedBox2d> boxes_of(const std::vector<Prism>& prisms) {
+std::vector<Eigen::AlignedBox2d> boxes_of(const std::vector<BodyPrism>& prisms) {
   std::vector<Eigen::AlignedBox2d> boxes(prisms.size());
   for (std::size_t i = 0; i < prisms.size(); ++i)
     for (const Eigen::Vector2d& p : prisms[i].outline) boxes[i].extend(p);
@@ -157,7 +157,7 @@ StoreyScene::StoreyScene(const Building& building, int storey, const SymmetryCon
       grid_(boxes_of(disjoint_)),
       surfaces_(surfaces_of(building, bodies_, config)),
       volume_(volume(disjoint_)) {
-  for (const Prism& prism : disjoint_)
+  for (const BodyPrism& prism : disjoint_)
     centroid_ += signed_area(prism.outline) * (prism.z1 - prism.z0) * plumbline::centroid(prism.outline);
   if (volume_ > 0.0) centroid_ /= volume_;
 }
@@ -165,13 +165,13 @@ StoreyScene::StoreyScene(const Building& building, int storey, const SymmetryCon
 double StoreyScene::shared_volume(const StoreyScene& other, const Isometry2& g) const {
   double sum = 0.0;
   std::vector<int> near;
-  for (const Prism& prism : other.disjoint_) {
+  for (const BodyPrism& prism : other.disjoint_) {
     const Polygon2 image = g * prism.outline;
     Eigen::AlignedBox2d box;
     for (const Eigen::Vector2d& p : image) box.extend(p);
     grid_.near(box, near);
     for (const int i : near) {
-      const Prism& here = disjoint_[static_cast<std::size_t>(i)];
+      const BodyPrism& here = disjoint_[static_cast<std::size_t>(i)];
       const double height = std::min(here.z1, prism.z1) - std::max(here.z0, prism.z0);
       if (height <= 0.0) continue;
       const Polygon2 common = convex_intersection(image, here.outline);

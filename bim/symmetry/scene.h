@@ -28,7 +28,7 @@ class StoreyScene {
 
  private:
   Bodies bodies_;
-  std::vector<Prism> disjoint_;
+  std::vector<BodyPrism> disjoint_;
   PlaneGrid grid_;
   SurfaceIndex surfaces_;
   double volume_ = 0.0;

@@ -12,7 +12,7 @@ namespace plumbline::slam {
 namespace {
 
 /// Trace of a wall at a fixed height: m.p + e = 0 with |m| = 1, and its change with the plane's increment.
-struct WallLine {
+struct PlaneTrace {
   Eigen::Vector2d m;
   double e = 0.0;
   Matrix23d dm;
@@ -33,12 +33,12 @@ PlaneChange change(const Plane& plane) {
 
 const Eigen::RowVector3d change_of_d(0.0, 0.0, 1.0);
 
-WallLine cut(const Plane& plane, double z) {
+PlaneTrace cut(const Plane& plane, double z) {
   const Eigen::Vector2d xy = plane.n.head<2>();
   const double h = xy.norm();
   const double offset = plane.d + plane.n.z() * z;
   const Eigen::Matrix3d dn = change(plane).dn;
-  WallLine line;
+  PlaneTrace line;
   line.m = xy / h;
   line.e = offset / h;
   const Eigen::RowVector3d dh = line.m.transpose() * dn.topRows<2>();
@@ -47,7 +47,7 @@ WallLine cut(const Plane& plane, double z) {
   return line;
 }
 
-OpposedResidual between(const Eigen::Vector2d& c, const WallLine& a, const WallLine& b) {
+OpposedResidual between(const Eigen::Vector2d& c, const PlaneTrace& a, const PlaneTrace& b) {
   OpposedResidual r;
   r.e = 0.5 * ((a.m - b.m).dot(c) + a.e - b.e);
   r.J_center = 0.5 * (a.m - b.m).transpose();
@@ -133,8 +133,8 @@ FourWallResidual four_wall_residual(const Eigen::Vector2d& center_M, const Plane
 
 TwoWallResidual two_wall_residual(const Eigen::Vector2d& center_M, const Plane& a_M, const Plane& b_M,
                                   const Eigen::Vector2d& cluster_M, double z_M) {
-  const WallLine a = cut(a_M, z_M);
-  const WallLine b = cut(b_M, z_M);
+  const PlaneTrace a = cut(a_M, z_M);
+  const PlaneTrace b = cut(b_M, z_M);
   const OpposedResidual across = between(center_M, a, b);
   const Eigen::Vector2d sum = a.m - b.m;
   const double length = sum.norm();
@@ -157,7 +157,7 @@ PolygonResidual polygon_residual(const Eigen::Vector2d& center_M, std::span<cons
                                  std::span<const RoomCorner> corners, double z_M) {
   constexpr double least_sine = 1e-3;
   if (corners.empty()) throw InternalError("a polygon room without a corner");
-  std::vector<WallLine> lines;
+  std::vector<PlaneTrace> lines;
   for (const Plane& plane : planes_M) lines.push_back(cut(plane, z_M));
   PolygonResidual r;
   r.J_center.setIdentity();

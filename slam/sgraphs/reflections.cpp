@@ -180,11 +180,19 @@ class Judge {
     std::vector<std::size_t> voters;
     for (const std::size_t k : opening)
       if (!near_level(through_[k].p_F) && !on_side_wall(through_[k])) voters.push_back(k);
+    if (voters.size() < static_cast<std::size_t>(config_.min_points)) return goes_on_mirrored(opening);
     std::ptrdiff_t images = 0;
     for (double depth = 0.0; depth <= config_.pane_depth_m; depth += 0.5 * config_.wall_m)
       images = std::max(images, std::count_if(voters.begin(), voters.end(),
                                               [&](std::size_t k) { return is_image(through_[k], depth); }));
     return images > 0 && static_cast<double>(images) >= config_.share * static_cast<double>(voters.size());
+  }
+
+  /// Nothing is seen through it that is not here too: a mirror, or a room that goes on alike behind glass.
+  [[nodiscard]] bool goes_on_mirrored(const std::vector<std::size_t>& opening) const {
+    const auto here = std::count_if(opening.begin(), opening.end(),
+                                    [&](std::size_t k) { return seen_directly(image_of(through_[k], 0.0)); });
+    return static_cast<double>(here) >= config_.whole * static_cast<double>(opening.size());
   }
 
   /// A door, then: what lies behind it is there even if the robot only looked in.
@@ -213,11 +221,16 @@ class Judge {
     return direct_.find(VoxelKey::of(p_F, config_.cell_m)) >= 0;
   }
 
+  [[nodiscard]] Eigen::Vector3d image_of(const Through& t, double depth_m) const {
+    const Plane& plane = faces_[static_cast<std::size_t>(t.crossing.face)].plane;
+    return t.p_F - 2.0 * (plane.distance(t.p_F) + depth_m) * plane.n;
+  }
+
   /// Does the point, mirrored by a pane that deep behind its face, lie on what was seen directly, or on a wall that
   /// faces the pane? Over a mirror the sensor sees such a wall higher up than it does directly.
   [[nodiscard]] bool is_image(const Through& t, double depth_m) const {
     const Plane& plane = faces_[static_cast<std::size_t>(t.crossing.face)].plane;
-    const Eigen::Vector3d image_F = t.p_F - 2.0 * (plane.distance(t.p_F) + depth_m) * plane.n;
+    const Eigen::Vector3d image_F = image_of(t, depth_m);
     if (seen_directly(image_F)) return true;
     return std::any_of(faces_.begin(), faces_.end(), [&](const Face& face) {
       const double s = face.along.dot(image_F.head<2>());

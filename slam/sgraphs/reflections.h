@@ -18,8 +18,9 @@ struct ReflectionConfig {
   double cell_m = 0.2;         ///< of openings in a wall and of what was seen directly
   double level_m = 0.15;  ///< points this near to a floor or ceiling say nothing: a mirror image of a floor is a floor
   double wall_m = 0.06;   ///< from an image to the wall it shows
-  double sill_m = 0.3;    ///< an opening that reaches nearer to a floor is a door
+  double sill_m = 0.15;   ///< an opening that reaches nearer to a floor is a door
   double share = 0.3;     ///< of the points seen through an opening that must be mirror images
+  double whole = 0.8;     ///< of all points, where side walls, floor and ceiling alone are seen
   int min_points = 20;    ///< seen through an opening, else it is left alone
 
   template <class V>
@@ -34,6 +35,7 @@ struct ReflectionConfig {
     v("wall_m", wall_m, Field{.doc = "from an image to the wall it shows", .min = 0.01});
     v("sill_m", sill_m, Field{.doc = "an opening nearer to a floor is a door", .min = 0});
     v("share", share, Field{.doc = "of mirror images that makes an opening a mirror", .min = 0, .max = 1});
+    v("whole", whole, Field{.doc = "the same where only side walls, floor and ceiling are seen", .min = 0, .max = 1});
     v("min_points", min_points, Field{.doc = "seen through an opening that is judged", .min = 1});
   }
 };
@@ -41,9 +43,10 @@ struct ReflectionConfig {
 /// Takes mirror images out of the clouds, by what the sensor saw alone. Points whose ray crossed a mapped wall were
 /// seen through an opening: a door, or a pane that lets light through and mirrors the room before it. An opening above
 /// a sill is a mirror when what was seen through it was mostly never seen directly, and enough of it lies, mirrored at
-/// one and the same depth, on walls that face the opening. All that was seen through a mirror only goes. Openings down
-/// to the floor are taken for doors: a room like this one may lie behind. walls: faces in F, normals into free space;
-/// levels: floors (normal up) and ceilings in F. Returns how many points were removed.
+/// one and the same depth, on walls that face the opening; or, as at the end of a corridor, when only side walls, floor
+/// and ceiling were seen through it, and most of that stands here too, mirrored. All that was seen through a mirror
+/// only goes. Openings down to the floor are taken for doors: a room like this one may lie behind. walls: faces in F,
+/// normals into free space; levels: floors (normal up) and ceilings in F. Returns how many points were removed.
 std::size_t remove_reflections(std::vector<CloudKeyframe>& clouds, std::span<const PlaneNode> walls,
                                std::span<const Plane> levels, const Eigen::Vector3d& sensor_R,
                                const ReflectionConfig& config);

@@ -17,9 +17,9 @@ Polygon2 rectangle(const Eigen::Vector2d& at, double length, double width, doubl
   return g * Polygon2{{0.0, 0.0}, {length, 0.0}, {length, width}, {0.0, width}};
 }
 
-std::vector<Prism> draw(std::uint64_t seed, int count) {
+std::vector<BodyPrism> draw(std::uint64_t seed, int count) {
   const Stream stream(seed, "bim.generate");
-  std::vector<Prism> prisms;
+  std::vector<BodyPrism> prisms;
   for (int i = 0; i < count; ++i) {
     const auto u = [&](std::uint32_t lane) { return stream.uniform(static_cast<std::uint64_t>(i), lane); };
     prisms.push_back({rectangle({4.0 * u(0), 4.0 * u(1)}, 0.5 + 3.0 * u(2), 0.1 + u(3), 2.0 * std::numbers::pi * u(4)),
@@ -30,9 +30,9 @@ std::vector<Prism> draw(std::uint64_t seed, int count) {
 
 TEST(Bodies, WithoutOverlapsFillTheUnion) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
-    const std::vector<Prism> prisms = draw(seed, 8);
+    const std::vector<BodyPrism> prisms = draw(seed, 8);
     std::vector<Polygon2> outlines;
-    for (const Prism& prism : prisms) outlines.push_back(prism.outline);
+    for (const BodyPrism& prism : prisms) outlines.push_back(prism.outline);
     // The exact boolean rounds to its grid: 0.1 mm along at most 40 m of outline.
     EXPECT_NEAR(volume(without_overlaps(prisms)), 2.0 * area(unite(outlines)), 2.0 * 40.0 * boolean_grid_m);
   }
@@ -45,9 +45,9 @@ TEST(Bodies, OverlapsInHeightCountOnce) {
 
 TEST(Bodies, SurfacesGoRoundTheUnionOnce) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
-    const std::vector<Prism> prisms = draw(seed, 8);
+    const std::vector<BodyPrism> prisms = draw(seed, 8);
     std::vector<Polygon2> outlines;
-    for (const Prism& prism : prisms) outlines.push_back(prism.outline);
+    for (const BodyPrism& prism : prisms) outlines.push_back(prism.outline);
     double perimeter = 0.0, surface = 0.0;
     for (const PolygonWithHoles2& piece : unite(outlines)) {
       std::vector<Polygon2> rings = piece.holes;

@@ -84,6 +84,24 @@ TEST_F(Reflections, AreNotLookedForBehindDoors) {
   EXPECT_EQ(remove(), 0U);
 }
 
+TEST_F(Reflections, AboveALowSillGo) {
+  look_through(2.4, 3.6, 0.2, 1.25, 8.3);
+  EXPECT_EQ(remove(), through_);
+}
+
+TEST_F(Reflections, OfSideWallsAloneGoWhereTheyStandHereToo) {
+  std::size_t seen = 0;
+  for (double y = 4.4; y < 7.5; y += 0.05)
+    for (double z = 0.4; z < 1.2; z += 0.05, ++seen) look_at({0, y, z});
+  EXPECT_EQ(remove(), seen);
+}
+
+TEST_F(Reflections, AreNotSideWallsThatGoOnFartherThanHere) {
+  for (double y = 8.5; y < 12.0; y += 0.05)
+    for (double z = 0.4; z < 1.2; z += 0.05) look_at({0, y, z});
+  EXPECT_EQ(remove(), 0U);
+}
+
 TEST_F(Reflections, AreNotWhatWasSeenDirectlyToo) {
   look_through(2.4, 3.6, 0.9, 1.25, 8.3);
   CloudKeyframe entered;
