@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # Groups sources to be compiled together, four at most, so that no two of a group name something alike for themselves
-# alone (in an unnamed namespace). Usage: awk -f ci/join.awk FILE...; prints a line FILE GROUP for each.
+# alone (in an unnamed namespace). A source that names something like a type of a header stays by itself.
+# Usage: awk -f ci/join.awk HEADER... SOURCE...; prints a line SOURCE GROUP for each source.
 function name_of(line) {
   sub(/^\[\[[a-z_]*\]\] /, "", line)
   if (line ~ /^(struct|class|enum class|enum) /) {
@@ -26,6 +27,10 @@ function fits(file, group, i) {
     if ((group, name[file, i]) in taken) return 0
   return 1
 }
+FILENAME ~ /\.h$/ {
+  if ($0 ~ /^(struct|class|enum class) [A-Za-z0-9_]+/) typed[name_of($0)] = 1
+  next
+}
 FNR == 1 { files[++count] = FILENAME; inside = 0; names[FILENAME] = 0 }
 /^namespace \{/ { inside = 1; next }
 /^}  \/\/ namespace$/ { inside = 0 }
@@ -33,10 +38,12 @@ inside && /^[A-Za-z\[]/ { own = name_of($0); if (own != "") name[FILENAME, ++nam
 END {
   for (f = 1; f <= count; ++f) {
     file = files[f]
-    for (group = 1; group <= groups; ++group)
+    alone = 0
+    for (i = 1; i <= names[file]; ++i) if (name[file, i] in typed) alone = 1
+    for (group = alone ? groups + 1 : 1; group <= groups; ++group)
       if (size[group] < 4 && fits(file, group)) break
     if (group > groups) groups = group
-    ++size[group]
+    size[group] += alone ? 4 : 1
     for (i = 1; i <= names[file]; ++i) taken[group, name[file, i]] = 1
     print file, group
   }
