@@ -9,6 +9,7 @@
 
 #include "bim/building/stair_shape.h"
 #include "scenarios/closed_doors.h"
+#include "scenarios/named_places.h"
 #include "scenarios/roam.h"
 #include "sim/route/walk_space.h"
 
@@ -29,41 +30,12 @@ double round_coordinate(double x) { return std::round(x * coordinate_steps) / co
 
 std::string text(const Eigen::Vector2d& p) { return "[" + format_number(p.x()) + ", " + format_number(p.y()) + "]"; }
 
-std::string unknown(const std::string& kind, const std::string& name, const std::vector<std::string>& known) {
-  const std::string close = did_you_mean(name, known);
-  if (!close.empty()) return "unknown " + kind + " '" + name + "'; did you mean '" + close + "'?";
-  std::string message = "unknown " + kind + " '" + name + "'; the building has:";
-  for (const std::string& other : known) message += " " + other;
-  return message;
-}
-
 /// In the plane; openings do not count, since nobody starts in a doorway.
 bool in_body(const bim::Wall& wall, const Eigen::Vector2d& p) {
   const double along = (p - wall.a).dot(wall.direction());
   const double across = (p - wall.a).dot(wall.left());
   return along >= 0.0 && along <= wall.length() && across >= wall.offset_m &&
          across <= wall.offset_m + wall.thickness_m;
-}
-
-int find_storey(const bim::Building& building, const std::string& name, const Mark& mark) {
-  std::vector<std::string> known;
-  for (std::size_t i = 0; i < building.storeys.size(); ++i) {
-    if (building.storeys[i].id == name || building.storeys[i].name == name) return static_cast<int>(i);
-    known.push_back(building.storeys[i].name.empty() ? building.storeys[i].id : building.storeys[i].name);
-  }
-  throw InputError(mark, unknown("storey", name, known));
-}
-
-int find_room(const bim::Building& building, const std::string& name, const Mark& mark) {
-  if (building.rooms.empty())
-    throw InputError(mark, "there is no room '" + name + "': no rooms are known in this building; " +
-                               "give a start by {at: [x, y]} and the route {rooms: all}");
-  std::vector<std::string> known;
-  for (std::size_t i = 0; i < building.rooms.size(); ++i) {
-    if (building.rooms[i].id == name || building.rooms[i].name == name) return static_cast<int>(i);
-    known.push_back(building.rooms[i].id);
-  }
-  throw InputError(mark, unknown("room", name, known));
 }
 
 /// Where in the plane a stair stands.

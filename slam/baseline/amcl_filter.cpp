@@ -7,6 +7,7 @@
 #include <set>
 
 #include "bim/errors.h"
+#include "slam/localize/pose_clusters.h"
 
 namespace plumbline::slam {
 
@@ -30,10 +31,7 @@ Bin bin_of(const LocalParticle& particle, const AmclFilterConfig& config) {
 
 int kld_limit(int occupied_bins, const AmclFilterConfig& config) {
   if (occupied_bins <= 1) return config.max_particles;
-  const double k = occupied_bins - 1.0;
-  const double c = 2.0 / (9.0 * k);
-  const double root = 1.0 - c + std::sqrt(c) * config.pf_z;
-  const double n = std::ceil(k / (2.0 * config.pf_err) * root * root * root);
+  const double n = std::ceil(kld_bound(occupied_bins, config.pf_err, config.pf_z));
   return static_cast<int>(std::clamp(n, static_cast<double>(std::min(config.min_particles, config.max_particles)),
                                      static_cast<double>(config.max_particles)));
 }

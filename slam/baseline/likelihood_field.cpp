@@ -2,27 +2,21 @@
 #include "slam/baseline/likelihood_field.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <utility>
+
+#include "slam/baseline/intervals.h"
 
 namespace plumbline::slam {
 
 namespace {
 
 /// Stretches of [0, length] that no hole at height z takes away, ascending.
-std::vector<std::array<double, 2>> standing_stretches(const PlanSegment& segment, double z) {
-  std::vector<std::array<double, 2>> holes;
+std::vector<Interval> standing_stretches(const PlanSegment& segment, double z) {
+  std::vector<Interval> holes;
   for (const bim::FaceHole& hole : segment.holes)
     if (z > hole.z0 && z < hole.z1) holes.push_back({hole.s0, hole.s1});
-  std::sort(holes.begin(), holes.end());
-  std::vector<std::array<double, 2>> stretches;
-  double from = 0.0;
-  for (const auto& [s0, s1] : holes) {
-    if (s0 > from) stretches.push_back({from, std::min(s0, segment.length)});
-    from = std::max(from, s1);
-  }
-  if (from < segment.length) stretches.push_back({from, segment.length});
-  return stretches;
+  return rest_of(0.0, segment.length, std::move(holes));
 }
 
 }  // namespace

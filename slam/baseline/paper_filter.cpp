@@ -14,31 +14,8 @@ namespace {
 constexpr double pi = std::numbers::pi;
 // A particle outside of every room, where none may be.
 constexpr double outside_cost = 30.0;
-constexpr double no_effect = 1e-3;  // least exponent of tempering
 
 Eigen::Quaterniond tilt(double roll, double pitch) { return exp_so3({0.0, pitch, 0.0}) * exp_so3({roll, 0.0, 0.0}); }
-
-double effective(const ParticleSet& particles, const std::vector<double>& log_weight, double top, double a) {
-  double sum = 0.0, squares = 0.0;
-  for (std::size_t i = 0; i < particles.size(); ++i) {
-    const double w = particles[i].weight * std::exp(a * (log_weight[i] - top));
-    sum += w;
-    squares += w * w;
-  }
-  return squares > 0.0 ? sum * sum / squares : 0.0;
-}
-
-/// Largest exponent that leaves a tenth of the particles effective.
-double tempered(const ParticleSet& particles, const std::vector<double>& log_weight, double top) {
-  const double floor = 0.1 * static_cast<double>(particles.size());
-  if (effective(particles, log_weight, top, 1.0) >= floor) return 1.0;
-  double low = no_effect, high = 1.0;
-  while (high - low > 1e-3) {
-    const double middle = 0.5 * (low + high);
-    (effective(particles, log_weight, top, middle) >= floor ? low : high) = middle;
-  }
-  return low;
-}
 
 }  // namespace
 
@@ -67,7 +44,6 @@ void PaperFilter::update(const PlanScan& scan, const std::vector<PlaneObservatio
 void PaperFilter::start(const PlanScan& scan, const std::vector<PlaneObservation>& planes) {
   const Stream stream(input_.seed, "slam.localize.init");
   FilterConfig even;
-  even.density_per_m2 = even.unknown_yaw_factor = 1.0;
   even.max_particles = config_.particles;
   even.density_per_m2 = 1.2 * config_.particles / index_.free_area();
   particles_ = draw_start(index_, {.yaw_I = 0.0, .yaw_sigma = 0.0}, {}, even, input_.seed, scan.tick);
@@ -236,7 +212,9 @@ void PaperFilter::weigh(const PlanScan& scan, const std::vector<PlaneObservation
     if (switches_.roomless == AsIn::corrected && rest_[i].room < 0) log_weights[i] -= outside_cost;
     top = std::max(top, log_weights[i]);
   }
-  const double a = switches_.tempering == AsIn::corrected ? tempered(particles_, log_weights, top) : 1.0;
+  constexpr double effective_share = 0.1;
+  const double floor = effective_share * static_cast<double>(particles_.size());
+  const double a = switches_.tempering == AsIn::corrected ? temper(particles_, log_weights, top, floor) : 1.0;
   for (std::size_t i = 0; i < particles_.size(); ++i) particles_[i].weight *= std::exp(a * (log_weights[i] - top));
   normalise(particles_);
   best_ = *std::max_element(particles_.begin(), particles_.end(),

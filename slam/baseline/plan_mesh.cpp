@@ -4,25 +4,11 @@
 #include <algorithm>
 #include <array>
 
+#include "slam/baseline/intervals.h"
+
 namespace plumbline::slam {
 
 namespace {
-
-using Interval = std::array<double, 2>;
-
-/// What the intervals leave of [low, high], ascending.
-std::vector<Interval> rest_of(double low, double high, std::vector<Interval> taken) {
-  std::sort(taken.begin(), taken.end());
-  std::vector<Interval> rest;
-  double from = low;
-  for (const auto& [a, b] : taken) {
-    if (a > from) rest.push_back({from, std::min(a, high)});
-    from = std::max(from, b);
-    if (from >= high) break;
-  }
-  if (from < high) rest.push_back({from, high});
-  return rest;
-}
 
 void add_quad(bim::BuildingMesh& mesh, const std::array<Eigen::Vector3d, 4>& corners, int element) {
   const int first = static_cast<int>(mesh.vertices.size());

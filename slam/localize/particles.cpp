@@ -83,17 +83,6 @@ double tempered_size(const ParticleSet& particles, const std::vector<double>& lo
   return squares > 0.0 ? sum * sum / squares : 0.0;
 }
 
-/// Largest exponent that keeps `floor` effective particles; bisection to 1e-3.
-double temper(const ParticleSet& particles, const std::vector<double>& log_likelihood, double top, double floor) {
-  if (tempered_size(particles, log_likelihood, top, 1.0) >= floor) return 1.0;
-  double low = 0.0, high = 1.0;
-  while (high - low > 1e-3) {
-    const double middle = 0.5 * (low + high);
-    (tempered_size(particles, log_likelihood, top, middle) >= floor ? low : high) = middle;
-  }
-  return std::max(low, 1e-3);
-}
-
 }  // namespace
 
 ParticleSet draw_start(const PlanIndex& index, const StartBelief& belief, const View& view, const FilterConfig& config,
@@ -159,6 +148,16 @@ Reweighting reweight(ParticleSet& particles, const View& view, const PlanIndex& 
   normalise(particles);
   result.effective = effective_size(particles);
   return result;
+}
+
+double temper(const ParticleSet& particles, const std::vector<double>& log_likelihood, double top, double floor) {
+  if (tempered_size(particles, log_likelihood, top, 1.0) >= floor) return 1.0;
+  double low = 0.0, high = 1.0;
+  while (high - low > 1e-3) {
+    const double middle = 0.5 * (low + high);
+    (tempered_size(particles, log_likelihood, top, middle) >= floor ? low : high) = middle;
+  }
+  return std::max(low, 1e-3);
 }
 
 double effective_size(const ParticleSet& particles) {

@@ -109,6 +109,11 @@ struct Reweighting {
 [[nodiscard]] Reweighting reweight(ParticleSet& particles, const View& view, const PlanIndex& index,
                                    const LikelihoodConfig& likelihood, const FilterConfig& config);
 
+/// Largest a, from 1e-3 to 1, for which the weights w exp(a (log_likelihood - top)) leave so many effective particles;
+/// by bisection to 1e-3. top: the largest of them.
+[[nodiscard]] double temper(const ParticleSet& particles, const std::vector<double>& log_likelihood, double top,
+                            double floor);
+
 /// 1 / sum w^2.
 [[nodiscard]] double effective_size(const ParticleSet& particles);
 /// Scales weights to sum 1; all equal when they sum to 0.

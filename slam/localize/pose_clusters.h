@@ -47,6 +47,8 @@ struct Clustering {
 
 /// Number of particles for k occupied bins [Fox 2001].
 [[nodiscard]] int kld_size(int occupied_bins, const FilterConfig& config);
+/// The same without bounds, for at least two bins: error is the Kullback-Leibler distance, quantile the normal's.
+[[nodiscard]] double kld_bound(int occupied_bins, double error, double quantile);
 
 /// Draws `count` particles by systematic resampling inside each cluster. A cluster gets its share of the count, but at
 /// least the quota, while its mass stays the same; so places that look alike live until something tells them apart.

@@ -60,12 +60,16 @@ void roughen(ParticleSet& drawn, const Clustering& clustering, const FilterConfi
 
 }  // namespace
 
-int kld_size(int occupied_bins, const FilterConfig& config) {
-  if (occupied_bins < 2) return config.min_particles;
+double kld_bound(int occupied_bins, double error, double quantile) {
   const double k = occupied_bins - 1.0;
   const double c = 2.0 / (9.0 * k);
-  const double root = 1.0 - c + std::sqrt(c) * config.kld_quantile;
-  const double n = k / (2.0 * config.kld_error) * root * root * root;
+  const double root = 1.0 - c + std::sqrt(c) * quantile;
+  return k / (2.0 * error) * root * root * root;
+}
+
+int kld_size(int occupied_bins, const FilterConfig& config) {
+  if (occupied_bins < 2) return config.min_particles;
+  const double n = kld_bound(occupied_bins, config.kld_error, config.kld_quantile);
   return static_cast<int>(
       std::clamp(n, static_cast<double>(config.min_particles), static_cast<double>(config.max_particles)));
 }
