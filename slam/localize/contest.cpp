@@ -53,6 +53,7 @@ Sight sight(const StoreyIndex& storey, const Pose2& X_IH, const View& view, cons
   sight.incidence.assign(view.sweep.size(), 1.0);
   const Eigen::Matrix2d R_IH = X_IH.rotation();
   PlanRay ray{R_IH * view.sensor_H + X_IH.t, {}, storey.floor_z + view.sensor_height, 0.0};
+  const int cell = storey.grid.cell_at(ray.origin);
   for (std::size_t i = 0; i < view.sweep.size(); ++i) {
     const Beam& beam = view.sweep[i];
     if (beam.range <= 0.0) continue;
@@ -61,7 +62,7 @@ Sight sight(const StoreyIndex& storey, const Pose2& X_IH, const View& view, cons
     double reach = beam.range + look_beyond_m;
     if (beam.slope < 0.0) reach = std::min(reach, -view.sensor_height / beam.slope);
     if (beam.slope > 0.0) reach = std::min(reach, (storey.ceiling_z - ray.z) / beam.slope);
-    const PlanHit hit = storey.grid.cast(storey.segments, ray, std::max(reach, 0.0));
+    const PlanHit hit = storey.grid.cast(storey.segments, ray, std::max(reach, 0.0), cell);
     sight.expected[i] = hit.distance;
     sight.segment[i] = hit.segment;
     if (hit.segment < 0) continue;

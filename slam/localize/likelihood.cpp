@@ -38,24 +38,25 @@ double mismatch(const WallView& wall, const ExpectedWall& expected, double inver
   return e_azimuth * e_azimuth * inverse_var_azimuth + e_distance * e_distance * inverse_var_distance;
 }
 
-/// Variances of each observed wall's residual.
-struct WallVariances {
+/// Inverse variances of each observed wall's residual.
+struct WallInformation {
   std::array<double, max_walls> azimuth, distance;
 };
 
-WallVariances variances(const View& view, const LikelihoodConfig& config) {
-  WallVariances v{};
+WallInformation information(const View& view, const LikelihoodConfig& config) {
+  WallInformation v;
   for (std::size_t i = 0; i < view.walls.size(); ++i) {
     const WallView& wall = view.walls[i];
-    v.azimuth[i] = wall.sigma_azimuth * wall.sigma_azimuth + config.azimuth_sigma * config.azimuth_sigma;
-    v.distance[i] = wall.sigma_distance * wall.sigma_distance + config.distance_sigma_m * config.distance_sigma_m;
+    v.azimuth[i] = 1.0 / (wall.sigma_azimuth * wall.sigma_azimuth + config.azimuth_sigma * config.azimuth_sigma);
+    v.distance[i] =
+        1.0 / (wall.sigma_distance * wall.sigma_distance + config.distance_sigma_m * config.distance_sigma_m);
   }
   return v;
 }
 
 /// Smallest mismatch of each observed wall over the lines seen from the sensor's cell.
 std::array<double, max_walls> best_mismatch(const StoreyIndex& storey, const Pose2& X_IH, const View& view,
-                                            const WallVariances& v, const LikelihoodConfig& config) {
+                                            const WallInformation& v, const LikelihoodConfig& config) {
   std::array<double, max_walls> best;
   best.fill(std::numeric_limits<double>::infinity());
   const Eigen::Vector2d sensor_I = X_IH * view.sensor_H;
@@ -67,7 +68,7 @@ std::array<double, max_walls> best_mismatch(const StoreyIndex& storey, const Pos
                                 line.e.dot(sensor_I - line.a), line.length};
     if (expected.distance <= 0.0) continue;
     for (std::size_t k = 0; k < view.walls.size(); ++k)
-      best[k] = std::min(best[k], mismatch(view.walls[k], expected, 1.0 / v.azimuth[k], 1.0 / v.distance[k], config));
+      best[k] = std::min(best[k], mismatch(view.walls[k], expected, v.azimuth[k], v.distance[k], config));
   }
   return best;
 }
@@ -76,25 +77,33 @@ std::array<double, max_walls> best_mismatch(const StoreyIndex& storey, const Pos
 
 double wall_log_likelihood(const StoreyIndex& storey, const Pose2& X_IH, const View& view,
                            const LikelihoodConfig& config) {
-  const WallVariances v = variances(view, config);
+  const WallInformation v = information(view, config);
   const std::array<double, max_walls> best = best_mismatch(storey, X_IH, view, v, config);
   const double outlier = config.plane_outlier / (4.0 * config.azimuth_gate * config.distance_gate_m);
-  double sum = 0.0;
+  // One logarithm of a product, taken before it could leave the range of a double.
+  double sum = 0.0, product = 1.0;
   for (std::size_t k = 0; k < view.walls.size(); ++k) {
-    const double peak = (1.0 - config.plane_outlier) / (2.0 * pi * std::sqrt(v.azimuth[k] * v.distance[k]));
-    sum += std::log(outlier + (best[k] < 100.0 ? peak * std::exp(-0.5 * best[k]) : 0.0));
+    const double peak = (1.0 - config.plane_outlier) / (2.0 * pi) * std::sqrt(v.azimuth[k] * v.distance[k]);
+    product *= outlier + (best[k] < 100.0 ? peak * std::exp(-0.5 * best[k]) : 0.0);
+    if (product > 1e-200 && product < 1e200) continue;
+    sum += std::log(product);
+    product = 1.0;
   }
+  sum += std::log(product);
   return config.plane_weight * sum;
 }
 
-BeamResidual beam_residual(const StoreyIndex& storey, const Eigen::Vector2d& sensor_I, const Eigen::Matrix2d& R_IH,
-                           const Beam& beam, double sensor_height, const LikelihoodConfig& config) {
+BeamResidual beam_residual(const StoreyIndex& storey, const Eigen::Vector2d& sensor_I, int cell,
+                           const Eigen::Matrix2d& R_IH, const Beam& beam, double sensor_height,
+                           const LikelihoodConfig& config) {
   const PlanRay ray{sensor_I, R_IH * beam.direction_H, storey.floor_z + sensor_height, beam.slope};
   // Beyond this the beam has long gone through a wall; farther faces change nothing.
   double reach = beam.range + 1.0;
-  if (beam.slope < 0.0) reach = std::min(reach, -sensor_height / beam.slope);
-  if (beam.slope > 0.0) reach = std::min(reach, (storey.ceiling_z - ray.z) / beam.slope);
-  const PlanHit hit = storey.grid.cast(storey.segments, ray, std::max(reach, 0.0));
+  // Floor and ceiling are divided for only where the beam comes near them.
+  const double end = 1.001 * reach * beam.slope, limit = beam.slope < 0.0 ? -sensor_height : storey.ceiling_z - ray.z;
+  if (beam.slope < 0.0 ? end < limit : beam.slope > 0.0 && end > limit)
+    reach = std::clamp(limit / beam.slope, 0.0, reach);
+  const PlanHit hit = storey.grid.cast(storey.segments, ray, reach, cell);
   BeamResidual residual{beam.range - hit.distance, hit.segment, hit.distance};
   if (hit.segment >= 0) {
     const double incidence = std::abs(storey.segments[static_cast<std::size_t>(hit.segment)].n.dot(ray.direction));
@@ -107,11 +116,12 @@ double beam_log_likelihood(const StoreyIndex& storey, const Pose2& X_IH, const V
                            const LikelihoodConfig& config) {
   const Eigen::Matrix2d R_IH = X_IH.rotation();
   const Eigen::Vector2d sensor_I = R_IH * view.sensor_H + X_IH.t;
+  const int cell = storey.grid.cell_at(sensor_I);
   const double inverse_sigma = 1.0 / config.beam_sigma_m;
   double sum = 0.0;
   for (std::size_t i = 0; i < view.beams.size(); i += static_cast<std::size_t>(stride)) {
     const double e =
-        inverse_sigma * beam_residual(storey, sensor_I, R_IH, view.beams[i], view.sensor_height, config).across;
+        inverse_sigma * beam_residual(storey, sensor_I, cell, R_IH, view.beams[i], view.sensor_height, config).across;
     sum -= std::min(0.5 * e * e, e > 0.0 ? config.beam_long_cap : config.beam_short_cap);
   }
   return config.beam_weight * stride * sum;

@@ -64,7 +64,8 @@ struct BeamResidual {
   int segment = -1;       ///< -1: floor, ceiling or nothing
   double expected = 0.0;  ///< horizontal range
 };
-[[nodiscard]] BeamResidual beam_residual(const StoreyIndex& storey, const Eigen::Vector2d& sensor_I,
+/// cell: of storey.grid, with the sensor.
+[[nodiscard]] BeamResidual beam_residual(const StoreyIndex& storey, const Eigen::Vector2d& sensor_I, int cell,
                                          const Eigen::Matrix2d& R_IH, const Beam& beam, double sensor_height,
                                          const LikelihoodConfig& config);
 

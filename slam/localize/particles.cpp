@@ -74,9 +74,12 @@ bool walks_through_wall(const StoreyIndex& storey, const Eigen::Vector2d& from, 
 
 /// Effective sample size of w exp(a (l - max l)).
 double tempered_size(const ParticleSet& particles, const std::vector<double>& log_likelihood, double top, double a) {
+  constexpr double negligible = -50.0;
   double sum = 0.0, squares = 0.0;
   for (std::size_t i = 0; i < particles.size(); ++i) {
-    const double w = particles[i].weight * std::exp(a * (log_likelihood[i] - top));
+    const double exponent = a * (log_likelihood[i] - top);
+    if (exponent < negligible) continue;
+    const double w = particles[i].weight * std::exp(exponent);
     sum += w;
     squares += w * w;
   }

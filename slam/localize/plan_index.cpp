@@ -101,10 +101,11 @@ std::vector<PlanSegment> storey_segments(const bim::Plan& plan, const Pose& X_WI
 /// Lines of which a ray from p meets the front.
 void add_visible(const StoreyIndex& storey, const PlanIndexConfig& config, const Eigen::Vector2d& p,
                  std::vector<bool>& seen) {
+  const int cell = storey.grid.cell_at(p);
   for (int k = 0; k < config.visibility_rays; ++k) {
     const double angle = 2.0 * std::numbers::pi * k / config.visibility_rays;
     const PlanRay ray{p, {std::cos(angle), std::sin(angle)}, storey.floor_z + config.wall_band_m, 0.0};
-    const PlanHit hit = storey.grid.cast(storey.segments, ray, config.visibility_range_m);
+    const PlanHit hit = storey.grid.cast(storey.segments, ray, config.visibility_range_m, cell);
     if (hit.segment < 0) continue;
     const PlanSegment& segment = storey.segments[static_cast<std::size_t>(hit.segment)];
     if (segment.line >= 0 && segment.n.dot(ray.direction) < 0.0) seen[static_cast<std::size_t>(segment.line)] = true;

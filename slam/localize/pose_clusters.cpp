@@ -2,44 +2,73 @@
 #include "slam/localize/pose_clusters.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
+#include <utility>
 
 namespace plumbline::slam {
 
 namespace {
 
-using Bin = std::array<int, 4>;  ///< storey, x, y, yaw
+/// Storey, x, y, yaw in one number, of the same order.
+using Bin = std::uint64_t;
+constexpr int yaw_bits = 12, side_bits = 20, side_middle = 1 << (side_bits - 1);
+constexpr Bin one_y = Bin{1} << yaw_bits, one_x = one_y << side_bits;
+
+Bin bin_of(const LocalParticle& particle, const PoseClusterConfig& config) {
+  const auto side = [&](double coordinate) {
+    const int i = static_cast<int>(std::floor(coordinate / config.bin_m));
+    return static_cast<Bin>(std::clamp(i + side_middle, 1, 2 * side_middle - 2));
+  };
+  const double turn = particle.X_IH.yaw / (2.0 * std::numbers::pi);
+  const int yaw = static_cast<int>(std::floor((turn - std::floor(turn)) * config.yaw_bins));
+  return (static_cast<Bin>(particle.storey) << (2 * side_bits + yaw_bits)) + one_x * side(particle.X_IH.t.x()) +
+         one_y * side(particle.X_IH.t.y()) + static_cast<Bin>(yaw % config.yaw_bins);
+}
 
 struct FilledBin {
-  Bin bin{};
+  Bin bin = 0;
   double mass = 0.0;
   int cluster = -1;
 };
 
-Bin bin_of(const LocalParticle& particle, const PoseClusterConfig& config) {
-  const double turn = particle.X_IH.yaw / (2.0 * std::numbers::pi);
-  const int yaw = static_cast<int>(std::floor((turn - std::floor(turn)) * config.yaw_bins));
-  return {particle.storey, static_cast<int>(std::floor(particle.X_IH.t.x() / config.bin_m)),
-          static_cast<int>(std::floor(particle.X_IH.t.y() / config.bin_m)), yaw % config.yaw_bins};
+/// Bins in ascending order, and the one of each particle.
+struct Binning {
+  std::vector<FilledBin> bins;
+  std::vector<int> of_particle;
+};
+
+Binning fill_bins(const ParticleSet& particles, const PoseClusterConfig& config) {
+  std::vector<std::pair<Bin, std::size_t>> order;
+  order.reserve(particles.size());
+  for (std::size_t i = 0; i < particles.size(); ++i) order.emplace_back(bin_of(particles[i], config), i);
+  std::sort(order.begin(), order.end());
+  Binning binning;
+  binning.of_particle.resize(particles.size());
+  for (const auto& [bin, i] : order) {
+    if (binning.bins.empty() || binning.bins.back().bin != bin) binning.bins.push_back({bin});
+    binning.bins.back().mass += particles[i].weight;
+    binning.of_particle[i] = static_cast<int>(binning.bins.size()) - 1;
+  }
+  return binning;
 }
 
-int find_bin(const std::vector<FilledBin>& bins, const Bin& bin) {
-  const auto at =
-      std::lower_bound(bins.begin(), bins.end(), bin, [](const FilledBin& a, const Bin& b) { return a.bin < b; });
-  return at != bins.end() && at->bin == bin ? static_cast<int>(at - bins.begin()) : -1;
-}
-
-std::vector<FilledBin> filled_bins(const std::vector<Bin>& of_particle, const ParticleSet& particles) {
-  std::vector<Bin> keys = of_particle;
-  std::sort(keys.begin(), keys.end());
-  keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
-  std::vector<FilledBin> bins(keys.size());
-  for (std::size_t i = 0; i < keys.size(); ++i) bins[i].bin = keys[i];
-  for (std::size_t i = 0; i < particles.size(); ++i)
-    bins[static_cast<std::size_t>(find_bin(bins, of_particle[i]))].mass += particles[i].weight;
-  return bins;
+/// Calls visit(index) for the filled bins that touch a bin, itself among them.
+template <class Visit>
+void visit_neighbours(const std::vector<FilledBin>& bins, Bin center, int yaw_bins, Visit visit) {
+  const auto visit_range = [&](Bin first, Bin last) {
+    auto at =
+        std::lower_bound(bins.begin(), bins.end(), first, [](const FilledBin& b, Bin bin) { return b.bin < bin; });
+    for (; at != bins.end() && at->bin <= last; ++at) visit(static_cast<std::size_t>(at - bins.begin()));
+  };
+  const Bin yaw = center % one_y, top = static_cast<Bin>(yaw_bins) - 1;
+  for (int k = 0; k < 9; ++k) {
+    const Bin column = center - yaw + one_x * static_cast<Bin>(k % 3) + one_y * static_cast<Bin>(k / 3) - one_x - one_y;
+    visit_range(column + (yaw > 0 ? yaw - 1 : 0), column + std::min(yaw + 1, top));
+    if (yaw == 0) visit_range(column + top, column + top);
+    if (yaw == top) visit_range(column, column);
+  }
 }
 
 /// Labels the component of bins around `start`.
@@ -49,15 +78,11 @@ void flood(std::vector<FilledBin>& bins, std::size_t start, int label, double le
   while (!open.empty()) {
     const Bin center = bins[open.back()].bin;
     open.pop_back();
-    for (int k = 0; k < 27; ++k) {
-      const Bin bin{center[0], center[1] + k % 3 - 1, center[2] + k / 3 % 3 - 1,
-                    (center[3] + k / 9 - 1 + yaw_bins) % yaw_bins};
-      const int i = find_bin(bins, bin);
-      if (i < 0 || bins[static_cast<std::size_t>(i)].cluster >= 0 || bins[static_cast<std::size_t>(i)].mass < least)
-        continue;
-      bins[static_cast<std::size_t>(i)].cluster = label;
-      open.push_back(static_cast<std::size_t>(i));
-    }
+    visit_neighbours(bins, center, yaw_bins, [&](std::size_t i) {
+      if (bins[i].cluster >= 0 || bins[i].mass < least) return;
+      bins[i].cluster = label;
+      open.push_back(i);
+    });
   }
 }
 
@@ -121,13 +146,10 @@ void sort_by_mass(std::vector<PoseCluster>& clusters, ParticleSet& particles) {
 }  // namespace
 
 Clustering find_clusters(ParticleSet& particles, const PoseClusterConfig& config) {
-  std::vector<Bin> of_particle;
-  of_particle.reserve(particles.size());
-  for (const LocalParticle& particle : particles) of_particle.push_back(bin_of(particle, config));
-  std::vector<FilledBin> bins = filled_bins(of_particle, particles);
+  auto [bins, of_particle] = fill_bins(particles, config);
   const int count = label_bins(bins, config);
   for (std::size_t i = 0; i < particles.size(); ++i)
-    particles[i].cluster = bins[static_cast<std::size_t>(find_bin(bins, of_particle[i]))].cluster;
+    particles[i].cluster = bins[static_cast<std::size_t>(of_particle[i])].cluster;
   const auto occupied = std::count_if(bins.begin(), bins.end(), [](const FilledBin& bin) { return bin.cluster >= 0; });
   Clustering result{moments(particles, count, config), static_cast<int>(occupied)};
   sort_by_mass(result.clusters, particles);

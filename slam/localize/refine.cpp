@@ -4,6 +4,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace plumbline::slam {
 
@@ -25,10 +26,11 @@ NormalEquations beam_equations(const StoreyIndex& storey, const Pose2& X_IH, con
   NormalEquations equations;
   const Eigen::Matrix2d R_IH = X_IH.rotation();
   const Eigen::Vector2d sensor_I = R_IH * view.sensor_H + X_IH.t;
+  const int cell = storey.grid.cell_at(sensor_I);
   // The share of evidence of a beam keeps its errors from being averaged away as if they were independent.
   const double information = likelihood.beam_weight / (likelihood.beam_sigma_m * likelihood.beam_sigma_m);
   for (const Beam& beam : view.beams) {
-    const BeamResidual residual = beam_residual(storey, sensor_I, R_IH, beam, view.sensor_height, likelihood);
+    const BeamResidual residual = beam_residual(storey, sensor_I, cell, R_IH, beam, view.sensor_height, likelihood);
     if (residual.segment < 0 || std::abs(residual.across) > gate) continue;
     const PlanSegment& segment = storey.segments[static_cast<std::size_t>(residual.segment)];
     if (segment.n.dot(R_IH * beam.direction_H) >= 0.0) continue;  // the back of a face stands for a jamb
@@ -71,14 +73,23 @@ Agreement agreement(const StoreyIndex& storey, const Pose2& X_IH, const View& vi
                     const RefineConfig& config) {
   const Eigen::Matrix2d R_IH = X_IH.rotation();
   const Eigen::Vector2d sensor_I = R_IH * view.sensor_H + X_IH.t;
-  int near = 0, through = 0;
+  const int cell = storey.grid.cell_at(sensor_I);
+  int near = 0, through = 0, through_one = 0;
+  // By line, faces that are part of none by themselves.
+  std::vector<int> through_wall(storey.lines.size() + storey.segments.size(), 0);
   for (const Beam& beam : view.beams) {
-    const BeamResidual residual = beam_residual(storey, sensor_I, R_IH, beam, view.sensor_height, likelihood);
+    const BeamResidual residual = beam_residual(storey, sensor_I, cell, R_IH, beam, view.sensor_height, likelihood);
     if (std::abs(residual.across) <= config.inlier_m) ++near;
-    if (residual.across > config.inlier_m) ++through;
+    if (residual.across <= config.inlier_m) continue;
+    ++through;
+    if (residual.segment < 0) continue;
+    const auto segment = static_cast<std::size_t>(residual.segment);
+    const int line = storey.segments[segment].line;
+    const std::size_t wall = line >= 0 ? static_cast<std::size_t>(line) : storey.lines.size() + segment;
+    through_one = std::max(through_one, ++through_wall[wall]);
   }
   const double count = std::max<double>(1.0, static_cast<double>(view.beams.size()));
-  return {near / count, through / count};
+  return {near / count, through / count, through_one / count};
 }
 
 }  // namespace plumbline::slam

@@ -44,11 +44,17 @@ struct Refined {
 
 /// How well one view agrees with the plan at a pose.
 struct Agreement {
-  double inliers = 0.0;  ///< share of beams that end within inlier_m of the face they should meet
-  double through = 0.0;  ///< share that goes through a face of the plan; the rest is cut short, by clutter or so
+  double inliers = 0.0;      ///< share of beams that end within inlier_m of the face they should meet
+  double through = 0.0;      ///< share that goes through a face of the plan; the rest is cut short, by clutter or so
+  double through_one = 0.0;  ///< of these, through the wall that most go through: it may not have been built
 
   /// Share of beams that go through, of those that are not cut short.
   [[nodiscard]] double through_share() const { return through / (inliers + through + 1e-9); }
+  /// The same without the wall that most go through.
+  [[nodiscard]] double through_others_share() const {
+    const double others = through - through_one;
+    return others / (inliers + others + 1e-9);
+  }
 };
 [[nodiscard]] Agreement agreement(const StoreyIndex& storey, const Pose2& X_IH, const View& view,
                                   const LikelihoodConfig& likelihood, const RefineConfig& config);

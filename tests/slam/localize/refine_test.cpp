@@ -63,9 +63,9 @@ TEST(Refine, BeamResidualIsTheShiftAcrossTheWall) {
   const Eigen::Vector2d sensor_I = place.X_IH * place.view.sensor_H;
   const LikelihoodConfig config;
   const Beam level{{0.0, 1.0}, 1.0, 0.0};
-  const BeamResidual before = beam_residual(storey, sensor_I, R_IH, level, 0.66, config);
+  const BeamResidual before = beam_residual(storey, sensor_I, storey.grid.cell_at(sensor_I), R_IH, level, 0.66, config);
   const Eigen::Vector2d moved = sensor_I + R_IH * Eigen::Vector2d(0.0, 0.1);
-  const BeamResidual after = beam_residual(storey, moved, R_IH, level, 0.66, config);
+  const BeamResidual after = beam_residual(storey, moved, storey.grid.cell_at(moved), R_IH, level, 0.66, config);
   EXPECT_EQ(before.segment, after.segment);
   EXPECT_NEAR(after.across - before.across, 0.1, 1e-9);
 }

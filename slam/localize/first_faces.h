@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "slam/localize/plan_segment.h"
+
+namespace plumbline::slam {
+
+/// Square cells over a plan.
+struct CellFrame {
+  Eigen::Vector2d origin = Eigen::Vector2d::Zero();  ///< low corner of cell 0
+  double cell = 0.5;                                 ///< m
+  int nx = 0, ny = 0;
+
+  [[nodiscard]] int cells() const { return nx * ny; }
+  [[nodiscard]] Eigen::Vector2d center(int i) const {
+    return origin + cell * Eigen::Vector2d(i % nx + 0.5, i / nx + 0.5);
+  }
+  /// Index of the cell with p, or -1 outside.
+  [[nodiscard]] int at(const Eigen::Vector2d& p) const;
+};
+
+/// Grows from 0 to 4 over a turn, by 2 over half of one; 0 along x.
+[[nodiscard]] inline double pseudo_angle(const Eigen::Vector2d& d) {
+  const double p = d.y() / (std::abs(d.x()) + std::abs(d.y()));
+  return d.x() < 0.0 ? 2.0 - p : d.y() < 0.0 ? 4.0 + p : p;
+}
+
+/// For each cell and range of directions: the faces that a ray from there may meet, nearest first, up to a distance by
+/// which it has nearly always met one. A ray then looks at two or three faces, not at all along its way.
+class FirstFaces {
+ public:
+  FirstFaces() = default;
+  FirstFaces(const std::vector<PlanSegment>& segments, const CellFrame& frame);
+
+  /// First hit as SegmentGrid::cast gives it, to the bit; false where the list does not reach far enough, `best` is
+  /// then of no use. best: what is to be beaten.
+  [[nodiscard]] bool cast(const std::vector<PlanSegment>& segments, int cell, const PlanRay& ray, PlanHit& best) const {
+    const double fan = std::min(fans_per_quadrant * pseudo_angle(ray.direction), fans_per_turn - 0.5);
+    auto k = static_cast<std::size_t>(first_[static_cast<std::size_t>(cell * fans_per_turn + static_cast<int>(fan))]);
+    for (; static_cast<double>(entries_[k].from) <= best.distance; ++k) {
+      const int i = entries_[k].segment;
+      if (i < 0) return false;
+      keep_nearest(segments[static_cast<std::size_t>(i)], i, ray, best);
+    }
+    return true;
+  }
+
+ private:
+  /// A face, and a distance that no ray of the list meets it before. The last entry has no face (-1), and the distance
+  /// up to which the list is complete.
+  struct Entry {
+    int segment = -1;
+    float from = 0.0F;
+  };
+  struct Fan;
+  static constexpr int fans_per_quadrant = 12;
+  static constexpr int fans_per_turn = 4 * fans_per_quadrant;
+  void fill_cell(const std::vector<PlanSegment>& segments, const Eigen::Vector2d& center, double cell,
+                 const std::vector<Entry>& by_distance, std::vector<Fan>& fans);
+
+  std::vector<int> first_;  ///< by cell and direction: start of its list
+  std::vector<Entry> entries_;
+};
+
+}  // namespace plumbline::slam
