@@ -155,6 +155,7 @@ void HypothesisSet::note(const Agreement& newest, Candidate& candidate) const {
   Agreement& mean = candidate.agreement;
   mean.inliers += config_.newest * (newest.inliers - mean.inliers);
   mean.through += config_.newest * (newest.through - mean.through);
+  mean.through_one += config_.newest * (newest.through_one - mean.through_one);
   const bool fits = mean.inliers >= config_.cluttered_inliers && mean.through_share() <= config_.cluttered_through;
   candidate.fits = fits ? candidate.fits + 1 : std::max(0, candidate.fits - 2);
 }

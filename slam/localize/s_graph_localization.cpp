@@ -34,6 +34,7 @@ Eigen::Matrix3d turned(const Eigen::Matrix3d& P, const Pose& X_WI) {
 HypothesisSet watch_set(const LocalizationConfig& config) {
   HypothesisConfig hypotheses = config.search.hypotheses;
   hypotheses.history = config.watch.views;
+  hypotheses.drop_ratio = 1.5 * config.watch.log_ratio;
   return {hypotheses, config.search.refine, config.search.likelihood, config.search.contest};
 }
 
@@ -179,7 +180,7 @@ void SGraphLocalization::monitor(const View& view) {
   const ConvergenceConfig& c = config_.search.convergence;
   const Agreement fit = agreement(tracker_->storey(), heading(tracker_->pose(view.X_OR)), view,
                                   config_.search.likelihood, config_.search.refine);
-  failed_updates_ = fit.through_share() > c.lost_through ? failed_updates_ + 1 : 0;
+  failed_updates_ = fit.through_others_share() > c.lost_through ? failed_updates_ + 1 : 0;
   if (!is_overtaken(view) && failed_updates_ < c.lost_updates) return;
   keep({tracker_->window().begin(), tracker_->window().end()});
   tracker_.reset();

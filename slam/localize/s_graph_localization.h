@@ -16,7 +16,7 @@ namespace plumbline::slam {
 struct WatchConfig {
   double every_m = 2.0;     ///< way walked between two looks
   int views = 12;           ///< of the last way, by which places are judged
-  double log_ratio = 10.0;  ///< by which the other place must be better
+  double log_ratio = 20.0;  ///< by which the other place must be better
 
   template <class V>
   void visit(V& v) {

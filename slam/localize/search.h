@@ -21,7 +21,8 @@ struct ConvergenceConfig {
                                ///< 0.79 in plans of other buildings with rooms of the same size
   double through_max = 0.05;   ///< share of beams through walls of the plan; measured up to 0.03
   int cluttered_updates = 35;  ///< or this many of Candidate::fits; in plans of other buildings up to 23 were measured
-  double lost_through = 0.35;  ///< share of beams through walls, of those that do not end before one: the plan is off
+  double lost_through = 0.35;  ///< share of beams through walls, of those that do not end before one: the plan is off;
+                               ///< while tracking without the wall that most go through, which may be missing
   int lost_updates = 10;       ///< so many in a row take a convergence back,
   int restart_updates = 25;    ///< so many let a search begin anew: a missing wall looks like that from its room
   double rivals_every_m = 3.0;  ///< way walked between two looks for places not thought of
