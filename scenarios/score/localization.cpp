@@ -141,7 +141,19 @@ LocalizationVerdict judge_ambiguous(const std::optional<Course>& course, const B
   return last.state == slam::State::lost ? LocalizationVerdict::lost : LocalizationVerdict::late;
 }
 
+Evidence evidence_of(const Identifiability& known, const Truth& truth, const LocalizationRules& rules) {
+  if (!known.identifiable) return known.tellable_from_s ? Evidence::weak : Evidence::ambiguous;
+  const double left_s = slam::seconds(truth.scans.back() - truth.scans.front()) - known.at_s.value_or(0.0);
+  const double left_m = truth.walked().back() - known.at_m.value_or(0.0);
+  return left_s >= rules.hold_s && left_m >= rules.hold_m ? Evidence::unique : Evidence::weak;
+}
+
 }  // namespace
+
+std::string to_string(Evidence evidence) {
+  static constexpr std::array<const char*, 3> names = {"unique", "weak", "ambiguous"};
+  return names[static_cast<std::size_t>(evidence)];
+}
 
 std::string to_string(LocalizationVerdict verdict) {
   static constexpr std::array<const char*, 7> names = {
@@ -173,8 +185,11 @@ LocalizationScore score_localization(const Truth& truth, const std::vector<Belie
     score.identifiable = identifiability->identifiable;
     score.identifiable_at_s = identifiability->at_s;
     score.identifiable_at_m = identifiability->at_m;
+    score.evidence = evidence_of(*identifiability, truth, rules);
   }
-  const bool ambiguous = identifiability && !identifiability->others_W.empty();
+  // Where others are left but weak, a single answer is judged as where none is.
+  const bool answers_weak = course && score.evidence == Evidence::weak;
+  const bool ambiguous = identifiability && !identifiability->others_W.empty() && !answers_weak;
   score.verdict = ambiguous ? judge_ambiguous(course, last, held,
                                               is_honest(last, truth.at(last.stamp), identifiability->others_W, rules))
                             : judge_unique(course, last.state, held);

@@ -60,6 +60,14 @@ struct Identifiability {
 enum class LocalizationVerdict { success, false_convergence, overconfident, honest_ambiguity, late, lost, lucky };
 [[nodiscard]] std::string to_string(LocalizationVerdict verdict);
 
+/// What the plan allows to be known of a run's place [facts: localization 3.4].
+enum class Evidence {
+  unique,    ///< no other place is left, early enough for an answer to be held to the end
+  weak,      ///< the others are nearly out, or went too late: one right answer is right, and so is an honest ambiguity
+  ambiguous  ///< others explain what was seen as well as the true one
+};
+[[nodiscard]] std::string to_string(Evidence evidence);
+
 /// Why a plan localization failed, from what it said after each scan.
 enum class Failure {
   never_sampled,   ///< the true pose was never among the hypotheses or the particles kept
@@ -80,6 +88,7 @@ struct LocalizationScore {
   std::optional<double> yaw_rmse_deg;
   int hypotheses = 0;  ///< at the end
   std::optional<bool> identifiable;
+  std::optional<Evidence> evidence;
   std::optional<double> identifiable_at_s;
   std::optional<double> identifiable_at_m;
   /// As ape_rmse_m, each pose held against the nearest of the true one and its twins at the start: a small value

@@ -100,6 +100,8 @@ Tree to_results(const MethodScore& score) {
     if (score.localization->failure) block_of("localization").set("failure", to_string(*score.localization->failure));
     if (score.localization->identifiable)
       block_of("localization").set("identifiable", *score.localization->identifiable);
+    if (score.localization->evidence)
+      block_of("localization").set("evidence", to_string(*score.localization->evidence));
   }
   for (const MetricRow& row : metrics()) {
     const Value value = row.value(score);

@@ -65,26 +65,28 @@ Value value_of(const std::optional<double>& number) { return number ? Value(*num
 void write_tables(Database& database, const std::vector<SweepRow>& rows, const std::vector<SweepCell>& cells) {
   std::string columns =
       "scenario TEXT, variant TEXT, start TEXT, seed TEXT, method TEXT, verdict TEXT, digest TEXT, identifiable "
-      "INTEGER";
+      "INTEGER, evidence TEXT";
   for (const score::MetricRow& metric : score::metrics()) columns += ", \"" + std::string(metric.name) + "\" REAL";
   database.run("PRAGMA journal_mode=OFF; PRAGMA synchronous=OFF; BEGIN; CREATE TABLE runs (" + columns + ")");
   for (const SweepRow& row : rows) {
     std::vector<Value> values = {
         row.scenario, row.variant, row.start,  row.seed,
-        row.method,   row.verdict, row.digest, row.identifiable ? Value(static_cast<int>(*row.identifiable)) : Value()};
+        row.method,   row.verdict, row.digest, row.identifiable ? Value(static_cast<int>(*row.identifiable)) : Value(),
+        row.evidence};
     for (const auto& value : row.values) values.push_back(value_of(value));
     database.insert("runs", values);
   }
   database.run(
       "CREATE TABLE cells (scenario TEXT, variant TEXT, start TEXT, method TEXT, runs INTEGER, failed INTEGER, "
-      "judged INTEGER, succeeded INTEGER, low REAL, high REAL, ambiguous INTEGER, honest INTEGER, wrong INTEGER, "
+      "judged INTEGER, succeeded INTEGER, low REAL, high REAL, ambiguous INTEGER, honest INTEGER, weak INTEGER, "
+      "weak_right INTEGER, wrong INTEGER, "
       "identifiable_at_s REAL, identifiable_at_m REAL, converged_at_m REAL, error_m REAL)");
   for (const SweepCell& c : cells) {
     const auto [low, high] = wilson95(c.succeeded, c.judged);
-    database.insert(
-        "cells", {c.scenario, c.variant, c.start, c.method, c.runs, c.failed, c.judged, c.succeeded, low, high,
-                  c.ambiguous, c.honest, c.false_convergences, value_of(c.median_identifiable_at_s),
-                  value_of(c.median_identifiable_at_m), value_of(c.median_converged_at_m), value_of(c.median_error_m)});
+    database.insert("cells", {c.scenario, c.variant, c.start, c.method, c.runs, c.failed, c.judged, c.succeeded, low,
+                              high, c.ambiguous, c.honest, c.weak, c.weak_right, c.false_convergences,
+                              value_of(c.median_identifiable_at_s), value_of(c.median_identifiable_at_m),
+                              value_of(c.median_converged_at_m), value_of(c.median_error_m)});
   }
   database.run("COMMIT");
 }

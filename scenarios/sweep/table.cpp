@@ -64,7 +64,10 @@ void count(const SweepRow& row, SweepCell& cell, Samples& samples) {
   const std::optional<double> error = row.values[cell.localizes ? ape : ate];
   if (error) samples.error_m.push_back(*error);
   if (row.verdict == "false_convergence" || row.verdict == "overconfident") ++cell.false_convergences;
-  if (row.identifiable.value_or(true)) {
+  if (row.evidence == "weak") {
+    ++cell.weak;
+    if (row.verdict == "success" || row.verdict == "honest_ambiguity") ++cell.weak_right;
+  } else if (row.identifiable.value_or(true)) {
     ++cell.judged;
     if (row.verdict == "success" || row.verdict == "ok") ++cell.succeeded;
     samples.converged_at_m.push_back(row.values[converged_m].value_or(infinite));
@@ -92,6 +95,9 @@ std::string share_text(int k, int n) {
   return percent(static_cast<double>(k) / n) + " % [" + percent(low) + ", " + percent(high) + "]";
 }
 
+/// "3/4"
+std::string count_text(int k, int n) { return n == 0 ? "-" : std::to_string(k) + "/" + std::to_string(n); }
+
 std::string optional_text(const std::optional<double>& value, int decimals) {
   return value ? svg::number(*value, decimals) : "-";
 }
@@ -106,12 +112,12 @@ using Line = std::vector<std::string>;
 
 std::vector<Line> table_lines(const std::vector<SweepCell>& cells) {
   std::vector<Line> lines = {{"scenario", "variant", "start", "method", "runs", "can be told", "success", "honest",
-                              "wrong", "told at s", "told at m", "found at m", "error m", "verdicts"}};
+                              "weak", "wrong", "told at s", "told at m", "found at m", "error m", "verdicts"}};
   for (const SweepCell& c : cells)
     lines.push_back(
         {c.scenario, c.variant.empty() ? "-" : c.variant, c.start.empty() ? "-" : c.start, c.method,
          std::to_string(c.runs), c.localizes ? std::to_string(c.judged) : "-", share_text(c.succeeded, c.judged),
-         share_text(c.honest, c.ambiguous), std::to_string(c.false_convergences),
+         share_text(c.honest, c.ambiguous), count_text(c.weak_right, c.weak), std::to_string(c.false_convergences),
          optional_text(c.median_identifiable_at_s, 1), optional_text(c.median_identifiable_at_m, 1),
          c.localizes && c.judged > 0 && !c.median_converged_at_m ? "never" : optional_text(c.median_converged_at_m, 1),
          optional_text(c.median_error_m, 3), verdict_list(c)});
@@ -159,6 +165,7 @@ std::vector<SweepRow> rows_of(const Tree& result, const std::string& file) {
     row.method = name;
     row.verdict = text_at(scores, "verdict");
     if (const Tree* told = find_path(scores, "localization.identifiable")) row.identifiable = told->as_bool();
+    if (const Tree* evidence = find_path(scores, "localization.evidence")) row.evidence = evidence->as_string();
     for (std::size_t i = 0; i < row.values.size(); ++i)
       if (const Tree* value = find_path(scores, score::metrics()[i].name)) row.values[i] = value->as_double();
     rows.push_back(std::move(row));
@@ -189,12 +196,13 @@ std::vector<SweepCell> cells_of(const std::vector<SweepRow>& rows) {
 }
 
 std::string runs_csv(const std::vector<SweepRow>& rows) {
-  Line head = {"scenario", "variant", "start", "seed", "method", "verdict", "digest", "identifiable"};
+  Line head = {"scenario", "variant", "start", "seed", "method", "verdict", "digest", "identifiable", "evidence"};
   for (const score::MetricRow& metric : score::metrics()) head.emplace_back(metric.name);
   std::string text = csv_line(head);
   for (const SweepRow& row : rows) {
     Line line = {row.scenario, row.variant, row.start,  row.seed,
-                 row.method,   row.verdict, row.digest, row.identifiable ? (*row.identifiable ? "true" : "false") : ""};
+                 row.method,   row.verdict, row.digest, row.identifiable ? (*row.identifiable ? "true" : "false") : "",
+                 row.evidence};
     for (const auto& value : row.values) line.push_back(value ? format_number(*value) : "");
     text += csv_line(line);
   }

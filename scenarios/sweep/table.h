@@ -20,6 +20,7 @@ struct SweepRow {
   std::string verdict;  ///< of the method; "failed" where the scenario did
   std::string digest;
   std::optional<bool> identifiable;
+  std::string evidence;                       ///< of a localization: unique, weak or ambiguous
   std::vector<std::optional<double>> values;  ///< by score::metrics()
 };
 
@@ -32,10 +33,12 @@ struct SweepCell {
   int runs = 0;
   int failed = 0;  ///< the scenario did
   bool localizes = false;
-  int judged = 0;  ///< runs that success counts over: those that can be told, of a localization
+  int judged = 0;  ///< runs that success counts over: those that can be told in time, of a localization
   int succeeded = 0;
   int ambiguous = 0;
   int honest = 0;
+  int weak = 0;                ///< runs between: others are nearly out, or went too late
+  int weak_right = 0;          ///< of them: success or honest_ambiguity
   int false_convergences = 0;  ///< and overconfident answers
   std::map<std::string, int> verdicts;
   std::optional<double> median_identifiable_at_s;  ///< of those that can be told

@@ -115,5 +115,34 @@ TEST(Localization, ARightAnswerBeforeAnythingCouldTellIsLuck) {
   EXPECT_EQ(judge(converges_at(40, 3.0), known).verdict, LocalizationVerdict::false_convergence);
 }
 
+TEST(Localization, OnWeakEvidenceARightAnswerAndAnHonestAmbiguityAreBothRight) {
+  Identifiability known;
+  known.others_W = {Pose::from_xyz_yaw({20, 9, 0.5}, 0.0)};
+  known.tellable_from_s = 3.0;
+  const LocalizationScore answered = judge(converges_at(40, 0.0), known);
+  EXPECT_EQ(answered.evidence, Evidence::weak);
+  EXPECT_EQ(answered.verdict, LocalizationVerdict::success);
+  EXPECT_EQ(judge(converges_at(20, 0.0), known).verdict, LocalizationVerdict::lucky);  // at 2 s nothing told
+  EXPECT_EQ(judge(converges_at(40, 3.0), known).verdict, LocalizationVerdict::false_convergence);
+  known.tellable_from_s.reset();
+  EXPECT_EQ(judge(converges_at(40, 0.0), known).evidence, Evidence::ambiguous);
+  EXPECT_EQ(judge(converges_at(40, 0.0), known).verdict, LocalizationVerdict::lucky);
+}
+
+TEST(Localization, WhatCanBeToldTooLateToHoldAnAnswerIsWeak) {
+  const Truth truth = straight_walk();
+  const double end_s = slam::seconds(truth.scans.back() - truth.scans.front()), end_m = truth.walked().back();
+  Identifiability known;
+  known.identifiable = true;
+  const auto evidence = [&](double at_s, double at_m) {
+    known.at_s = at_s;
+    known.at_m = at_m;
+    return judge(converges_at(40, 0.0), known).evidence;
+  };
+  EXPECT_EQ(evidence(end_s - 5.1, end_m - 1.1), Evidence::unique);
+  EXPECT_EQ(evidence(end_s - 4.9, end_m - 1.1), Evidence::weak);
+  EXPECT_EQ(evidence(end_s - 5.1, end_m - 0.9), Evidence::weak);
+}
+
 }  // namespace
 }  // namespace plumbline::scenarios::score

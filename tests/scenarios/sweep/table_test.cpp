@@ -53,6 +53,17 @@ std::vector<SweepRow> rows() {
   return all;
 }
 
+TEST(SweepTable, CountsWeakEvidenceApart) {
+  std::vector<SweepRow> weak = rows();
+  std::erase_if(weak, [](const SweepRow& row) { return row.method != "finder"; });
+  for (SweepRow& row : weak) row.evidence = "weak";
+  const SweepCell cell = cells_of(weak).front();
+  EXPECT_EQ(cell.judged + cell.ambiguous, 0);
+  EXPECT_EQ(cell.weak, 6);
+  EXPECT_EQ(cell.weak_right, 3);
+  EXPECT_EQ(cell.false_convergences, 1);
+}
+
 TEST(SweepTable, CountsSuccessOverWhatCanBeTold) {
   const std::vector<SweepCell> cells = cells_of(rows());
   ASSERT_EQ(cells.size(), 2U);
