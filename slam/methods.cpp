@@ -16,10 +16,10 @@ namespace plumbline::slam {
 
 namespace {
 
-/// Completes the row of a front end that stands alone.
-template <class FrontEnd>
+/// Completes the row of a front end that stands alone; Own is its config with the defaults of this row.
+template <class Own, class FrontEnd>
 MethodRow odometry_alone(OdometryKind kind, FrontEnd LidarOdometryConfig::*front_end, MethodRow row) {
-  using Config = LidarOdometryMethodConfig<FrontEnd>;
+  using Config = LidarOdometryMethodConfig<Own>;
   row.make = [kind, front_end](const MethodInput& input) {
     const auto told = config_of<Config>(input);
     LidarOdometryConfig config;
@@ -86,16 +86,25 @@ std::vector<MethodRow> odometry_and_slam() {
   return {
       with_config<DeadReckoningConfig>(
           {.name = "odometry", .summary = "dead reckoning of the legs", .make = reckon_dead, .needs_odometry = true}),
-      odometry_alone(OdometryKind::vgicp, &LidarOdometryConfig::vgicp,
-                     {.name = "vgicp", .summary = "LiDAR odometry: voxelized GICP against a sliding local map"}),
-      odometry_alone(OdometryKind::floam, &LidarOdometryConfig::floam,
-                     {.name = "floam",
-                      .summary = "LiDAR odometry: edges and planes against a feature map, in the style of F-LOAM",
-                      .standard = false}),
-      odometry_alone(OdometryKind::aloam, &LidarOdometryConfig::aloam,
-                     {.name = "aloam",
-                      .summary = "LiDAR odometry: scan to scan, then against a feature map, in the style of A-LOAM",
-                      .standard = false}),
+      odometry_alone<CoarseVgicpConfig>(
+          OdometryKind::vgicp, &LidarOdometryConfig::vgicp,
+          {.name = "vgicp", .summary = "LiDAR odometry: voxelized GICP against a sliding local map"}),
+      odometry_alone<VgicpConfig>(
+          OdometryKind::vgicp, &LidarOdometryConfig::vgicp,
+          {.name = "vgicp_tuned",
+           .summary = "vgicp with the fine voxels that s_graphs_plus and the other graphs walk on",
+           .standard = false,
+           .variant = true}),
+      odometry_alone<loam::FloamConfig>(
+          OdometryKind::floam, &LidarOdometryConfig::floam,
+          {.name = "floam",
+           .summary = "LiDAR odometry: edges and planes against a feature map, in the style of F-LOAM",
+           .standard = false}),
+      odometry_alone<loam::AloamConfig>(
+          OdometryKind::aloam, &LidarOdometryConfig::aloam,
+          {.name = "aloam",
+           .summary = "LiDAR odometry: scan to scan, then against a feature map, in the style of A-LOAM",
+           .standard = false}),
       with_config<HdlSlamConfig>(
           {.name = "hdl_slam",
            .summary = "keyframe pose graph with floor plane and loop closures, in the style of HDL graph SLAM",

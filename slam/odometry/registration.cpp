@@ -37,6 +37,20 @@ void to_right_increment(Normal6& sum, const Eigen::Matrix3d& R_MR) {
   sum.g = b.transpose() * sum.g;
 }
 
+void add_prior(Normal6& normal, const PosePrior& prior, const Pose& X_MR) {
+  normal.h += prior.information;
+  normal.g += prior.information * log_se3(prior.X_MR.inverse() * X_MR);
+  if (!prior.tilt) return;
+  constexpr double kernel = 3.0;  // standard deviations; a robot without an IMU calls every slope level
+  const TiltPrior& tilt = *prior.tilt;
+  const Eigen::Matrix3d R_MR = X_MR.rotation();
+  const Eigen::Vector3d e = (R_MR * tilt.up_R - tilt.up_M) / tilt.sigma_rad;
+  const Eigen::Matrix3d J = -R_MR * hat(tilt.up_R) / tilt.sigma_rad;
+  const double w = 1.0 / (1.0 + e.squaredNorm() / (kernel * kernel));
+  normal.h.bottomRightCorner<3, 3>() += w * J.transpose() * J;
+  normal.g.tail<3>() += w * J.transpose() * e;
+}
+
 std::optional<Vector6d> solve_step(const Normal6& normal) {
   const Eigen::LDLT<Matrix6d> solver(normal.h);
   if (solver.info() != Eigen::Success || !solver.isPositive() || normal.inliers == 0.0) return std::nullopt;
@@ -84,10 +98,7 @@ Registration align(std::span<const Surfel> surfels, const SurfelMap& map, const 
     ++result.iterations;
     normal = linearize(surfels, map, result.X_MR, config);
     result.information = normal.h;
-    if (prior) {
-      normal.h += prior->information;
-      normal.g += prior->information * log_se3(prior->X_MR.inverse() * result.X_MR);
-    }
+    if (prior) add_prior(normal, *prior, result.X_MR);
     const std::optional<Vector6d> step = solve_step(normal);
     if (!step) break;
     result.X_MR = result.X_MR * exp_se3(*step);

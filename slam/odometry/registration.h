@@ -31,10 +31,18 @@ struct RegistrationConfig {
   }
 };
 
+/// Belief about which way is up: R_MR up_R = up_M within sigma_rad, with a Cauchy kernel. Says nothing about heading.
+struct TiltPrior {
+  Eigen::Vector3d up_R = Eigen::Vector3d::UnitZ();
+  Eigen::Vector3d up_M = Eigen::Vector3d::UnitZ();
+  double sigma_rad = 0.01;
+};
+
 /// Belief about the pose before registration: X_MR and the information of its right increment (rho, phi).
 struct PosePrior {
   Pose X_MR;
   Matrix6d information = Matrix6d::Zero();
+  std::optional<TiltPrior> tilt;
 };
 
 struct Registration {
@@ -65,6 +73,8 @@ struct Normal6 {
 /// Adds a point at arm_M from the robot, displaced by e: weighted information W and W e, axes of M.
 void add_point(Normal6& sum, const Eigen::Vector3d& arm_M, const Eigen::Matrix3d& weight,
                const Eigen::Vector3d& weighted);
+/// Adds what the prior says at X_MR, by the right increment.
+void add_prior(Normal6& normal, const PosePrior& prior, const Pose& X_MR);
 /// From increments in axes M about the robot to the right increment.
 void to_right_increment(Normal6& sum, const Eigen::Matrix3d& R_MR);
 /// Gauss-Newton step, nothing when the problem is singular.

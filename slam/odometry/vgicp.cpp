@@ -24,6 +24,7 @@ Registration VgicpOdometry::match(const DeskewedScan& scan, const Pose& X_OR) {
     result = align(scan_, map_, prediction.X_MR, prior, config_.registration);
   }
   X_OR_ = X_OR;
+  if (!q_OM_) q_OM_ = X_OR.q;
   return result;
 }
 
@@ -46,9 +47,13 @@ PosePrior VgicpOdometry::predict(const Pose& X_OR) const {
   const Pose step = X_OR_.inverse() * X_OR;
   const double sigma_m = config_.prior_m + config_.prior_per_m * step.t.norm();
   const double sigma_rad = config_.prior_rad + config_.prior_per_rad * log_so3(step.q).norm();
-  PosePrior prior{X_MR_ * step, Matrix6d::Zero()};
+  PosePrior prior{X_MR_ * step, Matrix6d::Zero(), std::nullopt};
   prior.information.diagonal().head<3>().setConstant(1.0 / (sigma_m * sigma_m));
   prior.information.diagonal().tail<3>().setConstant(1.0 / (sigma_rad * sigma_rad));
+  if (config_.tilt_prior && q_OM_) {
+    const Eigen::Vector3d up_M = Eigen::Vector3d::UnitZ();
+    prior.tilt = TiltPrior{X_OR.q.conjugate() * (*q_OM_ * up_M), up_M, config_.tilt_rad};
+  }
   return prior;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <deque>
+#include <optional>
 #include <vector>
 
 #include "bim/config/visit.h"
@@ -13,8 +14,10 @@ namespace plumbline::slam {
 
 struct VgicpConfig {
   SurfelConfig surfels;
-  RegistrationConfig registration;
-  double map_voxel_m = 0.5;
+  /// The slack along a surface is what a voxel of the map spans. On stairs anything blunter takes soffit, treads and
+  /// landing for one surface: with voxels of 0.5 m and agreement 0.5 the attitude was lost there.
+  RegistrationConfig registration{.in_plane_m = 0.2, .agreement = 0.9, .kernel = 1.5};
+  double map_voxel_m = 0.2;
   double keyframe_distance_m = 0.5;  ///< a scan enters the local map after this way ...
   double keyframe_angle_rad = 0.35;  ///< ... or this turn
   int map_keyframes = 20;            ///< the local map holds the latest so many
@@ -23,6 +26,8 @@ struct VgicpConfig {
   double prior_per_m = 0.05;         ///< ... plus this times its length
   double prior_rad = 0.004;          ///< the same for rotation
   double prior_per_rad = 0.05;
+  bool tilt_prior = true;  ///< the odometry's roll and pitch do not drift: an IMU feels gravity
+  double tilt_rad = 0.01;  ///< standard deviation of either
 
   template <class V>
   void visit(V& v) {
@@ -37,6 +42,16 @@ struct VgicpConfig {
     v("prior_per_m", prior_per_m, Field{.min = 0.0});
     v("prior_rad", prior_rad, Field{.min = 1e-6});
     v("prior_per_rad", prior_per_rad, Field{.min = 0.0});
+    v("tilt_prior", tilt_prior, Field{.doc = "hold roll and pitch to the odometry's"});
+    v("tilt_rad", tilt_rad, Field{.doc = "standard deviation of the odometry's roll and pitch", .min = 1e-5});
+  }
+};
+
+/// As VGICP is usually set: voxels of half a metre, and a kernel that lets a little more in.
+struct CoarseVgicpConfig : VgicpConfig {
+  CoarseVgicpConfig() {
+    map_voxel_m = 0.5;
+    registration = {.in_plane_m = 0.5, .agreement = 0.8, .kernel = 2.0};
   }
 };
 
@@ -72,6 +87,7 @@ class VgicpOdometry {
   std::vector<Surfel> scan_;  ///< surfels of the scan last matched
   Pose X_MR_;
   Pose X_OR_;
+  std::optional<Eigen::Quaterniond> q_OM_;  ///< of the first scan, where M starts; after it only its tilt holds
   bool is_keyframe_ = false;
 };
 

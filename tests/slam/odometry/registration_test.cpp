@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "bim/random/stream.h"
+#include "slam/odometry/vgicp.h"
 #include "tests/slam/synthetic.h"
 
 namespace plumbline::slam {
@@ -95,6 +96,57 @@ TEST(RegistrationTest, GradientIsThatOfTheCost) {
       EXPECT_NEAR(at.g(i), numeric, 1e-4 * std::max(1.0, std::abs(numeric)) + 1e-3) << "axis " << i;
     }
   }
+}
+
+double tilt_cost(const TiltPrior& tilt, const Pose& X_MR) {
+  constexpr double kernel2 = 9.0;
+  const double squared = (X_MR.q * tilt.up_R - tilt.up_M).squaredNorm() / (tilt.sigma_rad * tilt.sigma_rad);
+  return 0.5 * kernel2 * std::log1p(squared / kernel2);
+}
+
+TEST(TiltPriorTest, GradientIsThatOfTheCost) {
+  const Stream random(25, "bim.generate");
+  constexpr double h = 1e-6;
+  for (std::uint64_t k = 0; k < 100; ++k) {
+    const Pose X_MR = exp_se3(random_twist(random, k, 2.0, 3.0));
+    const Pose off = exp_se3(random_twist(random, 1000 + k, 0.0, 0.05));
+    const TiltPrior tilt{off.q * (X_MR.q.conjugate() * Eigen::Vector3d::UnitZ()), Eigen::Vector3d::UnitZ(), 0.01};
+    Normal6 at;
+    add_prior(at, {X_MR, Matrix6d::Zero(), tilt}, X_MR);
+    for (int i = 0; i < 6; ++i) {
+      Vector6d step = Vector6d::Zero();
+      step(i) = h;
+      const double numeric =
+          (tilt_cost(tilt, X_MR * exp_se3(step)) - tilt_cost(tilt, X_MR * exp_se3(-step))) / (2.0 * h);
+      EXPECT_NEAR(at.g(i), numeric, 1e-5 * std::max(1.0, std::abs(numeric)));
+    }
+  }
+}
+
+TEST(TiltPriorTest, SaysNothingAboutHeadingAndPlace) {
+  const Stream random(26, "bim.generate");
+  for (std::uint64_t k = 0; k < 100; ++k) {
+    const Pose X_MR = exp_se3(random_twist(random, k, 2.0, 3.0));
+    const Eigen::Vector3d up_R = X_MR.q.conjugate() * Eigen::Vector3d::UnitZ();
+    Normal6 sum;
+    add_prior(sum, {X_MR, Matrix6d::Zero(), TiltPrior{up_R, Eigen::Vector3d::UnitZ(), 0.01}}, X_MR);
+    EXPECT_LT(sum.g.norm(), 1e-9);
+    EXPECT_LT((sum.h.bottomRightCorner<3, 3>() * up_R).norm(), 1e-9);
+    EXPECT_EQ(sum.h.topRows<3>().norm(), 0.0);
+    const Eigen::Vector3d level_R = up_R.unitOrthogonal();
+    EXPECT_NEAR(level_R.dot(sum.h.bottomRightCorner<3, 3>() * level_R), 1e4, 1e-6);
+  }
+}
+
+// The soffit of a flight of stairs, 32 degrees, meets the level ceiling within one voxel.
+TEST(VgicpTest, TakesNoSoffitForACeiling) {
+  const VgicpConfig config;
+  const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
+  const Eigen::Vector3d soffit(std::sin(0.56), 0.0, std::cos(0.56));
+  SurfelMap map(config.map_voxel_m);
+  map.add(std::vector<Surfel>{{{0.05, 0.05, 0.05}, up}}, Pose{});
+  EXPECT_NE(map.find({0.06, 0.05, 0.05}, up, config.registration.agreement), nullptr);
+  EXPECT_EQ(map.find({0.06, 0.05, 0.05}, soffit, config.registration.agreement), nullptr);
 }
 
 TEST(RegistrationTest, FindsAPlantedMotionBetweenTwoScans) {
