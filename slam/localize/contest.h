@@ -16,7 +16,7 @@ struct ContestConfig {
   double min_incidence = 0.2;     ///< cosine below which a grazing beam's residual no longer shrinks
   double short_cap = 2.0;         ///< of the negative log-likelihood of a beam cut short: clutter does that
   double long_cap = 4.5;          ///< of one that goes through what the plan has there
-  double weight = 0.04;           ///< of one beam: neighbours share their errors, and so do views 0.2 m apart
+  double weight = 0.05;           ///< of one beam: neighbours share their errors, and so do views 0.2 m apart
   double edge_m = 0.05;           ///< an edge of the plan may stand this much to the side,
   double edge_rad = 0.0015;       ///< and this much in direction
   double face_cap = 8.0;          ///< of all that one face says, however often it is seen: it may have been built

@@ -25,7 +25,7 @@ struct HypothesisConfig {
   double step_cap = 6.0;            ///< most that one view says against a hypothesis
   double crossing_cost = 3.0;       ///< against one that walks through a wall: may be a door jamb and noise
   double drop_ratio = 15.0;         ///< log-ratio to the best below which a hypothesis is dropped
-  int history = 60;                 ///< views kept to judge a hypothesis that turns up later; 15 m of way
+  int history = 240;                ///< views kept to judge a hypothesis that turns up later; 50 m of way
   int replay_stride = 3;            ///< of these views, one in so many is looked at, for all of them
   double newest = 0.15;             ///< weight of the newest view in the agreement with the last ones
   double cluttered_inliers = 0.30;  ///< share of beams that meet their face where much stands before the walls,
@@ -49,7 +49,7 @@ struct HypothesisConfig {
       Field{.doc = "against one that walks through a wall: may be a door jamb and noise", .min = 0});
     v("drop_ratio", drop_ratio, Field{.doc = "log-ratio to the best below which a hypothesis is dropped", .min = 0});
     v("history", history,
-      Field{.doc = "views kept to judge a hypothesis that turns up later; 15 m of way", .min = 1, .max = 10000});
+      Field{.doc = "views kept to judge a hypothesis that turns up later; 50 m of way", .min = 1, .max = 10000});
     v("replay_stride", replay_stride,
       Field{.doc = "of these views, one in so many is looked at, for all of them", .min = 1, .max = 1000});
     v("newest", newest,

@@ -14,7 +14,7 @@ namespace plumbline::slam {
 /// Looks for a place that has explained the last way better than the one tracked, which a robot that was carried away,
 /// or that took the wrong one of two places, would not notice by itself.
 struct WatchConfig {
-  double every_m = 2.0;     ///< way walked between two looks
+  double every_m = 1.5;     ///< way walked between two looks
   int views = 12;           ///< of the last way, by which places are judged
   double log_ratio = 20.0;  ///< by which the other place must be better
 

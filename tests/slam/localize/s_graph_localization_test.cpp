@@ -232,8 +232,15 @@ TEST(SGraphLocalization, AKidnappedRobotNoticesAndFindsItselfAgain) {
   const synthetic::Recording recording = kidnapped(short_walk(30.0), 6'000'000'000, 20'000'000'000);
   const Answers result = run(recording, input_for(recording, synthetic::plan_of(synthetic::corridor_house()), false));
   bool lost = false;
-  for (const Output& output : result.outputs) lost = lost || output.state == State::lost;
+  Nanoseconds believed_wrongly = 0;
+  for (std::size_t i = 1; i < result.outputs.size(); ++i) {
+    const Output& output = result.outputs[i];
+    lost = lost || output.state == State::lost;
+    if (output.state == State::converged && (output.X_FR->t - recording.truth[i].X_FR.t).norm() > 0.5)
+      believed_wrongly += output.stamp - result.outputs[i - 1].stamp;
+  }
   EXPECT_TRUE(lost);
+  EXPECT_LT(seconds(believed_wrongly), 10.0);
   EXPECT_EQ(result.outputs.back().state, State::converged);
   ASSERT_TRUE(result.outputs.back().X_FR.has_value());
   EXPECT_LT((result.outputs.back().X_FR->t - recording.truth.back().X_FR.t).norm(), 0.05);
