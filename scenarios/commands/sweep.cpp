@@ -20,6 +20,7 @@ struct SweepArguments {
   std::string file;
   std::string out;
   int jobs = 0;
+  int seeds = 0;
   bool schema = false;
 };
 
@@ -29,7 +30,7 @@ int sweep(const SweepArguments& options) {
     return 0;
   }
   if (options.file.empty()) throw InputError({"SWEEP", 0, 0}, "is missing; name a sweep file");
-  const Sweep sweep = read_sweep(options.file);
+  const Sweep sweep = read_sweep(options.file, options.seeds);
   std::string name = sweep.file.name;
   for (char& c : name)
     if (c == '/' || c == ' ') c = '_';
@@ -53,6 +54,8 @@ Command add_sweep(CommandLine& program) {
   line.option("SWEEP", options->file, "sweep file (.yaml)");
   line.option("-o,--out", options->out, "folder of the sweep, new or to be gone on with [sweeps/<name>]");
   line.option("--jobs", options->jobs, "runs at a time [the CPUs allowed]").range(1, 1024);
+  line.option("--seeds", options->seeds, "how many seeds of each, in place of the file's; what is made stays for more")
+      .range(1, 100000);
   line.flag("--schema", options->schema, "prints instead every key of sweep files, with examples");
   line.footer("Example: plumbline sweep ci/sweeps/look.yaml --jobs 2\nStopped at any moment, it goes on where it was.");
   return {line, [options] { return sweep(*options); }};

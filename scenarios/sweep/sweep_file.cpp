@@ -113,11 +113,12 @@ void check(const SweepFile& file, const Tree& tree) {
 
 }  // namespace
 
-Sweep read_sweep(const std::string& path) {
+Sweep read_sweep(const std::string& path, int seeds) {
   const Tree tree = read_yaml(read_text_file(path), path);
   if (!tree.is_map() || tree.as_map().empty() || tree.as_map().front().first != "sweep")
     throw InputError({path, 1, 1}, "the first key of a sweep must be 'sweep: 1'");
   Sweep sweep{from_tree<SweepFile>(tree), {}};
+  if (seeds > 0) sweep.file.seeds = seeds;
   const SweepFile& file = sweep.file;
   check(file, tree);
   const std::vector<SweepVariant> variants = file.variants.empty() ? std::vector<SweepVariant>(1) : file.variants;

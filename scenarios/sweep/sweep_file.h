@@ -60,8 +60,9 @@ struct Sweep {
   std::vector<SweepRun> runs;
 };
 
-/// Reads a sweep and checks the form of every scenario it makes. Throws InputError at the place that is wrong.
-[[nodiscard]] Sweep read_sweep(const std::string& path);
+/// Reads a sweep and checks the form of every scenario it makes. seeds: so many of each, 0: as the file says. Throws
+/// InputError at the place that is wrong.
+[[nodiscard]] Sweep read_sweep(const std::string& path, int seeds = 0);
 
 [[nodiscard]] const std::vector<std::string>& sweep_examples();
 /// The page that documents sweep files, Markdown; scenarios/SWEEP.md is a copy of it.

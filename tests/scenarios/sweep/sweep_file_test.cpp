@@ -30,9 +30,9 @@ class SweepFiles : public ::testing::Test {
   }
   void TearDown() override { fs::remove_all(folder_); }
 
-  [[nodiscard]] Sweep read(const std::string& text) const {
+  [[nodiscard]] Sweep read(const std::string& text, int seeds = 0) const {
     std::ofstream(folder_ / "sweep.yaml") << text;
-    return read_sweep((folder_ / "sweep.yaml").string());
+    return read_sweep((folder_ / "sweep.yaml").string(), seeds);
   }
   [[nodiscard]] std::string complaint(const std::string& text) const {
     try {
@@ -57,6 +57,18 @@ TEST_F(SweepFiles, ExamplesGiveEveryCombinationOnce) {
   EXPECT_EQ(keys.size(), first.runs.size());
   EXPECT_EQ(digests.size(), first.runs.size());
   EXPECT_EQ(read(sweep_examples()[1]).runs.size(), 3U * 5U);
+}
+
+TEST_F(SweepFiles, FewerSeedsAreTheFirstOfMore) {
+  const Sweep all = read(sweep_examples()[0]);
+  const Sweep some = read(sweep_examples()[0], 7);
+  EXPECT_EQ(some.runs.size(), 2U * 2U * 7U);
+  std::set<std::string> digests;
+  for (const SweepRun& run : all.runs) digests.insert(run.input_digest);
+  for (const SweepRun& run : some.runs) {
+    EXPECT_LE(run.seed, 7U);
+    EXPECT_TRUE(digests.contains(run.input_digest)) << run.key;
+  }
 }
 
 TEST_F(SweepFiles, AVariantReplacesValues) {
