@@ -150,11 +150,6 @@ Evidence evidence_of(const Identifiability& known, const Truth& truth, const Loc
 
 }  // namespace
 
-std::string to_string(Evidence evidence) {
-  static constexpr std::array<const char*, 3> names = {"unique", "weak", "ambiguous"};
-  return names[static_cast<std::size_t>(evidence)];
-}
-
 std::string to_string(LocalizationVerdict verdict) {
   static constexpr std::array<const char*, 7> names = {
       "success", "false_convergence", "overconfident", "honest_ambiguity", "late", "lost", "lucky"};

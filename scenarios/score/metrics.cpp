@@ -69,6 +69,11 @@ std::string_view state_name(slam::State state) {
 
 }  // namespace
 
+std::string to_string(Evidence evidence) {
+  static constexpr std::array<const char*, 3> names = {"unique", "weak", "ambiguous"};
+  return names[static_cast<std::size_t>(evidence)];
+}
+
 std::string to_string(Failure failure) {
   static constexpr std::array<const char*, 6> names = {"never_sampled", "depleted",      "twin_preferred",
                                                        "wrong_model",   "tracking_lost", "undecided"};
