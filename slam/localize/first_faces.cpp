@@ -15,7 +15,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double slack = 1e-6;
 constexpr double far_m = 40.0;  // beyond what a beam of the views looks at
 // A list stops growing here; it is then complete up to the face that came last.
-constexpr std::size_t longest_list = 48;
+constexpr std::size_t longest_list = 20;
 constexpr int block_cells = 8;
 // Lower faces are looked over: they end no list.
 constexpr double high_wall_m = 2.0;
