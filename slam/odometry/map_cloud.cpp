@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slam/odometry/map_cloud.h"
 
+#include <algorithm>
 #include <cstddef>
+#include <limits>
 
 #include "slam/odometry/voxel.h"
 
@@ -13,6 +15,56 @@ std::vector<Eigen::Vector3f> thin(const std::vector<Eigen::Vector3d>& points, do
   std::vector<Eigen::Vector3f> thinned;
   for (const Eigen::Vector3d& p : voxel_downsample(points, voxel_m)) thinned.emplace_back(p.cast<float>());
   return thinned;
+}
+
+/// Voxels that hold a point, among those within two of a cell, which does not count; no more than `enough`.
+int neighbours(const VoxelIndex& occupied, const VoxelKey& key, int enough) {
+  const auto count_within = [&](int reach) {
+    int count = -1;
+    for (int z = -reach; z <= reach; ++z)
+      for (int y = -reach; y <= reach; ++y)
+        for (int x = -reach; x <= reach; ++x) {
+          count += occupied.find({key.x + x, key.y + y, key.z + z}) >= 0 ? 1 : 0;
+          if (count >= enough) return count;
+        }
+    return count;
+  };
+  const int beside = count_within(1);
+  return beside >= enough ? beside : count_within(2);
+}
+
+/// Shortest range from which each of the voxels was seen, m, by slot.
+std::vector<double> ranges_of(const VoxelIndex& voxels, std::span<const CloudKeyframe> keyframes, double voxel_m) {
+  std::vector<double> range_m(static_cast<std::size_t>(voxels.size()), std::numeric_limits<double>::infinity());
+  for (const CloudKeyframe& keyframe : keyframes)
+    for (const Eigen::Vector3f& p_R : keyframe.points_R) {
+      const int slot = voxels.find(VoxelKey::of(keyframe.X_FR * p_R.cast<double>(), voxel_m));
+      if (slot < 0) continue;
+      double& known = range_m[static_cast<std::size_t>(slot)];
+      known = std::min(known, static_cast<double>(p_R.norm()));
+    }
+  return range_m;
+}
+
+/// Beams spread with range, so that less is asked of what was seen from afar only.
+void drop_strays(std::vector<Eigen::Vector3f>& points, std::span<const CloudKeyframe> keyframes,
+                 const MapCloudConfig& config) {
+  if (config.min_neighbours == 0) return;
+  const auto key_of = [&](const Eigen::Vector3f& p) { return VoxelKey::of(p.cast<double>(), config.voxel_m); };
+  VoxelIndex occupied, sparse;
+  for (const Eigen::Vector3f& p : points) static_cast<void>(occupied.insert(key_of(p)));
+  std::vector<int> count;
+  for (const Eigen::Vector3f& p : points) {
+    const int n = neighbours(occupied, key_of(p), config.min_neighbours);
+    if (n >= config.min_neighbours) continue;
+    static_cast<void>(sparse.insert(key_of(p)));
+    count.push_back(n);
+  }
+  const std::vector<double> range_m = ranges_of(sparse, keyframes, config.voxel_m);
+  std::erase_if(points, [&](const Eigen::Vector3f& p) {
+    const auto slot = static_cast<std::size_t>(sparse.find(key_of(p)));
+    return slot < count.size() && count[slot] * range_m[slot] < config.min_neighbours * config.dense_m;
+  });
 }
 
 }  // namespace
@@ -29,7 +81,9 @@ std::vector<Eigen::Vector3f> map_cloud(std::span<const CloudKeyframe> keyframes,
   std::vector<Eigen::Vector3d> points;
   for (const CloudKeyframe& keyframe : keyframes)
     for (const Eigen::Vector3f& p_R : keyframe.points_R) points.emplace_back(keyframe.X_FR * p_R.cast<double>());
-  return thin(points, config.voxel_m);
+  std::vector<Eigen::Vector3f> map = thin(points, config.voxel_m);
+  drop_strays(map, keyframes, config);
+  return map;
 }
 
 bool MapCloudRecorder::add(const DeskewedScan& scan, const Pose& X_FR) {

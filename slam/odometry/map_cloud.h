@@ -15,7 +15,10 @@ struct MapCloudConfig {
   double spacing_m = 0.75;  ///< way between scans that enter the map
   double min_range_m = 0.5;
   double max_range_m = 25.0;
-  double voxel_m = 0.05;  ///< [contracts: Estimate::map_F]
+  double voxel_m = 0.05;   ///< [contracts: Estimate::map_F]
+  int min_neighbours = 0;  ///< occupied voxels among the 124 round a map point's, else it is a stray: light that an
+                           ///< edge shared, or a curved mirror scattered
+  double dense_m = 4.0;  ///< range up to which that many are asked; of what was seen from r alone, dense_m / r of them
 
   template <class V>
   void visit(V& v) {
@@ -23,6 +26,8 @@ struct MapCloudConfig {
     v("min_range_m", min_range_m, Field{.min = 0.0});
     v("max_range_m", max_range_m, Field{.min = 0.0});
     v("voxel_m", voxel_m, Field{.min = 0.005});
+    v("min_neighbours", min_neighbours, Field{.doc = "occupied voxels within two of a map point's", .min = 0});
+    v("dense_m", dense_m, Field{.doc = "range from which fewer neighbours are asked", .min = 0});
   }
 };
 
@@ -35,7 +40,7 @@ struct CloudKeyframe {
 /// Returns in the range gate, one mean point a voxel.
 [[nodiscard]] std::vector<Eigen::Vector3f> thin_scan(const DeskewedScan& scan, const MapCloudConfig& config);
 
-/// All keyframes in F, one mean point a voxel, ordered by voxel.
+/// All keyframes in F, one mean point a voxel, ordered by voxel, without strays.
 [[nodiscard]] std::vector<Eigen::Vector3f> map_cloud(std::span<const CloudKeyframe> keyframes,
                                                      const MapCloudConfig& config);
 

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "slam/graph/graph.h"
+#include "slam/rooms/join.h"
 #include "slam/rooms/outline.h"
 #include "slam/rooms/overlap.h"
 #include "slam/rooms/scene.h"
@@ -218,7 +219,9 @@ std::vector<RoomCandidate> detect_rooms(const FreeGrid& grid, std::span<const Cl
                        [&](const Vector2d& p) { return contains(room.polygon_M, p); });
   };
   std::vector<RoomCandidate> rooms;
-  for (const Cluster& cluster : clusters)
+  const std::vector<Cluster> joined = config.polygons ? join_clusters(grid, clusters, faces, config)
+                                                      : std::vector<Cluster>(clusters.begin(), clusters.end());
+  for (const Cluster& cluster : joined)
     for (RoomCandidate& room : rooms_of(make_scene(grid, cluster, faces, config)))
       if (!config.entered_only || entered(room)) rooms.push_back(std::move(room));
   drop_overlapping(rooms, config.max_overlap);

@@ -25,6 +25,7 @@ struct RoomConfig {
   double rectangle_fill = 0.85;     ///< free share from which a four-wall room is not asked for a better outline
   double polygon_fill = 0.75;       ///< of a polygon that must be seen free
   double polygon_walled = 0.5;      ///< of its outline that must lie on walls that were seen
+  double joined_share = 0.6;        ///< of the width between two walls over which clusters that share them are one
   double min_part_m2 = 2.0;         ///< of a straight part of a corridor in a ring
   double max_overlap = 0.3;         ///< of the smaller of two rooms; else the worse one is dropped
   bool entered_only = true;         ///< rooms that were merely looked into are not claimed
@@ -45,6 +46,8 @@ struct RoomConfig {
     v("rectangle_fill", rectangle_fill, Field{.doc = "of a four-wall room that is one", .min = 0, .max = 1});
     v("polygon_fill", polygon_fill, Field{.doc = "free share of a polygon", .min = 0, .max = 1});
     v("polygon_walled", polygon_walled, Field{.doc = "of a polygon's outline", .min = 0, .max = 1});
+    v("joined_share", joined_share,
+      Field{.doc = "of the width between shared walls that joins clusters; above 1: never", .min = 0, .max = 2});
     v("min_part_m2", min_part_m2, Field{.doc = "of a ring's straight part", .min = 0});
     v("max_overlap", max_overlap, Field{.doc = "of two rooms", .min = 0, .max = 1});
     v("entered_only", entered_only, Field{.doc = "rooms that were merely looked into are not claimed"});

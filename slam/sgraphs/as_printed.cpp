@@ -47,6 +47,7 @@ SGraphsPlusPaperConfig::SGraphsPlusPaperConfig() {
   walls = printed_walls();
   rooms = printed_rooms();
   map.spacing_m = 2.0;
+  map.min_neighbours = 0;
   reflections.remove = false;
   floors.room_sigma_m = sigma(1e-4);
   loop.radius_m = 1.0;

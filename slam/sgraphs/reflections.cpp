@@ -13,11 +13,12 @@ namespace plumbline::slam {
 
 namespace {
 
-/// A wall face with the stretch of it that was seen.
+/// A wall face: where it reaches, to its corners, and the stretch of it that was seen.
 struct Face {
   Plane plane;
   Eigen::Vector2d along = Eigen::Vector2d::UnitX();
   double s0 = 0.0, s1 = 0.0, z0 = 0.0, z1 = 0.0;
+  double seen_s0 = 0.0, seen_s1 = 0.0;
 };
 
 /// Where a ray went through a face.
@@ -54,16 +55,37 @@ bool is_part_of(const PlaneNode& wall, const PlaneNode& other, const ReflectionC
          std::abs(upright(other).distance({middle.x(), middle.y(), 0.0})) < config.pane_depth_m;
 }
 
+/// Walls are seen less far than to the corner they meet in, where they are mostly glass or something stands before
+/// them.
+void reach_corners(std::vector<Face>& faces, const ReflectionConfig& config) {
+  const std::vector<Face> seen = faces;
+  for (std::size_t f = 0; f < seen.size(); ++f) {
+    const Face& face = seen[f];
+    const Eigen::Vector2d n = face.plane.n.head<2>();
+    for (const Face& other : seen) {
+      const Eigen::Vector2d m = other.plane.n.head<2>();
+      const double across = m.dot(face.along);
+      if (std::abs(across) < 0.5) continue;  // sine: they are nearer to parallel than 30 degrees
+      const double s = -(m.dot(-face.plane.d * n) + other.plane.d) / across;
+      const double there = other.along.dot(s * face.along - face.plane.d * n);
+      if (there < other.s0 - config.corner_m || there > other.s1 + config.corner_m) continue;
+      if (s < face.s0 && s > face.s0 - config.corner_m) faces[f].s0 = std::min(faces[f].s0, s);
+      if (s > face.s1 && s < face.s1 + config.corner_m) faces[f].s1 = std::max(faces[f].s1, s);
+    }
+  }
+}
+
 std::vector<Face> faces_of(std::span<const PlaneNode> walls, const ReflectionConfig& config) {
   std::vector<Face> faces;
   for (const PlaneNode& wall : walls) {
     const auto holds = [&](const PlaneNode& other) { return is_part_of(wall, other, config); };
     if (std::any_of(walls.begin(), walls.end(), holds)) continue;
     Face face{upright(wall), (wall.p1 - wall.p0).normalized(), 0.0, 0.0, wall.z0, wall.z1};
-    face.s0 = face.along.dot(wall.p0);
-    face.s1 = face.along.dot(wall.p1);
+    face.s0 = face.seen_s0 = face.along.dot(wall.p0);
+    face.s1 = face.seen_s1 = face.along.dot(wall.p1);
     faces.push_back(face);
   }
+  reach_corners(faces, config);
   return faces;
 }
 
@@ -74,31 +96,77 @@ class Judge {
       : clouds_(clouds), faces_(faces_of(walls, config)), levels_(levels), config_(config) {}
 
   std::size_t run(const Eigen::Vector3d& sensor_R) {
-    for (std::size_t c = 0; c < clouds_.size(); ++c) sort_points(c, sensor_R);
+    for (const CloudKeyframe& cloud : clouds_) mark_solid(cloud);
     std::vector<std::vector<bool>> removed;
-    for (const CloudKeyframe& cloud : clouds_) removed.emplace_back(cloud.points_R.size(), false);
-    std::size_t count = 0;
+    for (std::size_t c = 0; c < clouds_.size(); ++c) {
+      removed.emplace_back(clouds_[c].points_R.size(), false);
+      sort_points(c, sensor_R, removed.back());
+    }
     for (const std::vector<std::size_t>& opening : openings()) {
       if (!mirrors(opening)) continue;
       for (const std::size_t k : opening) {
         const Through& t = through_[k];
         if (seen_directly(t.p_F)) continue;
         removed[t.cloud][t.point] = true;
-        ++count;
       }
     }
-    for (std::size_t c = 0; c < clouds_.size(); ++c) erase(clouds_[c].points_R, removed[c]);
+    std::size_t count = 0;
+    for (std::size_t c = 0; c < clouds_.size(); ++c) count += erase(clouds_[c].points_R, removed[c]);
     return count;
   }
 
  private:
-  /// Files every point as seen directly or through a face.
-  void sort_points(std::size_t c, const Eigen::Vector3d& sensor_R) {
+  /// Counts the points on each cell of each face; not those of floors and ceilings, which lie in doors too.
+  void mark_solid(const CloudKeyframe& cloud) {
+    for (const Eigen::Vector3f& p_R : cloud.points_R) {
+      const Eigen::Vector3d p = cloud.X_FR * p_R.cast<double>();
+      for (std::size_t f = 0; f < faces_.size(); ++f) {
+        const Face& face = faces_[f];
+        if (std::abs(face.plane.distance(p)) > config_.wall_m) continue;
+        const double s = face.along.dot(p.head<2>());
+        if (s < face.s0 || s > face.s1 || near_level(p)) continue;
+        const auto slot = static_cast<std::size_t>(solid_.insert(cell_of(f, p)));
+        if (slot >= hits_.size()) hits_.resize(slot + 1, 0);
+        ++hits_[slot];
+      }
+    }
+  }
+
+  /// A face's cell, as a voxel: along it, up, face.
+  [[nodiscard]] VoxelKey cell_of(std::size_t face, const Eigen::Vector3d& q_F) const {
+    const auto cell = [&](double x) { return static_cast<std::int32_t>(std::floor(x / config_.cell_m)); };
+    return {cell(faces_[face].along.dot(q_F.head<2>())), cell(q_F.z()), static_cast<std::int32_t>(face)};
+  }
+
+  [[nodiscard]] bool has_hits(const VoxelKey& cell) const {
+    const int slot = solid_.find(cell);
+    return slot >= 0 && hits_[static_cast<std::size_t>(slot)] >= config_.solid_hits;
+  }
+
+  /// Nothing is seen through a wall: in its cell, and the two beside it, as next to a door it is one or the other; nor
+  /// through its last bit before a corner, which something hides.
+  [[nodiscard]] bool is_solid(std::size_t face, const Eigen::Vector3d& q_F) const {
+    const double s = faces_[face].along.dot(q_F.head<2>());
+    if (s < faces_[face].seen_s0 || s > faces_[face].seen_s1) return true;
+    VoxelKey cell = cell_of(face, q_F);
+    if (!has_hits(cell)) return false;
+    --cell.x;
+    if (!has_hits(cell)) return false;
+    cell.x += 2;
+    return has_hits(cell);
+  }
+
+  /// Files every point as seen directly or through a face; what is behind a wall's solid part is to be removed, but
+  /// votes on the opening next to it.
+  void sort_points(std::size_t c, const Eigen::Vector3d& sensor_R, std::vector<bool>& removed) {
     const CloudKeyframe& cloud = clouds_[c];
     const Eigen::Vector3d origin = cloud.X_FR * sensor_R;
     for (std::size_t k = 0; k < cloud.points_R.size(); ++k) {
       const Eigen::Vector3d p = cloud.X_FR * cloud.points_R[k].cast<double>();
-      const std::optional<Crossing> crossing = last_crossing(origin, p);
+      bool behind_wall = false;
+      const std::optional<Crossing> crossing = last_crossing(origin, p, behind_wall);
+      removed[k] = behind_wall;
+      if (!behind_wall) static_cast<void>(seen_.insert(VoxelKey::of(p, config_.cell_m)));
       if (crossing)
         through_.push_back({c, k, p, *crossing});
       else
@@ -106,8 +174,10 @@ class Judge {
     }
   }
 
-  /// The last face that the ray crosses from its free side and far enough before its end; ties: lower index.
-  [[nodiscard]] std::optional<Crossing> last_crossing(const Eigen::Vector3d& origin, const Eigen::Vector3d& p) const {
+  /// The last face that the ray crosses from its free side and far enough before its end (ties: lower index), and
+  /// whether it crosses any where that is solid.
+  [[nodiscard]] std::optional<Crossing> last_crossing(const Eigen::Vector3d& origin, const Eigen::Vector3d& p,
+                                                      bool& behind_wall) const {
     std::optional<Crossing> last;
     for (std::size_t f = 0; f < faces_.size(); ++f) {
       const Face& face = faces_[f];
@@ -116,13 +186,14 @@ class Judge {
       const double from = face.plane.distance(origin);
       if (from <= 0.0) continue;
       const double share = from / (from - to);
-      if (last && share <= last->share) continue;
       const Eigen::Vector3d q = origin + share * (p - origin);
       const double s = face.along.dot(q.head<2>());
       if (s < face.s0 || s > face.s1) continue;
       if (q.z() < face.z0 - config_.above_m || q.z() > face.z1 + config_.above_m) continue;
-      last = Crossing{static_cast<int>(f), share, static_cast<int>(std::floor(s / config_.cell_m)),
-                      static_cast<int>(std::floor(q.z() / config_.cell_m)), q};
+      behind_wall |= is_solid(f, q);
+      if (last && share <= last->share) continue;
+      const VoxelKey cell = cell_of(f, q);
+      last = Crossing{static_cast<int>(f), share, cell.x, cell.y, q};
     }
     return last;
   }
@@ -190,8 +261,8 @@ class Judge {
 
   /// Nothing is seen through it that is not here too: a mirror, or a room that goes on alike behind glass.
   [[nodiscard]] bool goes_on_mirrored(const std::vector<std::size_t>& opening) const {
-    const auto here = std::count_if(opening.begin(), opening.end(),
-                                    [&](std::size_t k) { return seen_directly(image_of(through_[k], 0.0)); });
+    const auto here =
+        std::count_if(opening.begin(), opening.end(), [&](std::size_t k) { return seen(image_of(through_[k], 0.0)); });
     return static_cast<double>(here) >= config_.whole * static_cast<double>(opening.size());
   }
 
@@ -221,6 +292,11 @@ class Judge {
     return direct_.find(VoxelKey::of(p_F, config_.cell_m)) >= 0;
   }
 
+  /// Directly or through any face: faces of furniture end nowhere in particular, and much is seen past them.
+  [[nodiscard]] bool seen(const Eigen::Vector3d& p_F) const {
+    return seen_.find(VoxelKey::of(p_F, config_.cell_m)) >= 0;
+  }
+
   [[nodiscard]] Eigen::Vector3d image_of(const Through& t, double depth_m) const {
     const Plane& plane = faces_[static_cast<std::size_t>(t.crossing.face)].plane;
     return t.p_F - 2.0 * (plane.distance(t.p_F) + depth_m) * plane.n;
@@ -231,7 +307,7 @@ class Judge {
   [[nodiscard]] bool is_image(const Through& t, double depth_m) const {
     const Plane& plane = faces_[static_cast<std::size_t>(t.crossing.face)].plane;
     const Eigen::Vector3d image_F = image_of(t, depth_m);
-    if (seen_directly(image_F)) return true;
+    if (seen(image_F)) return true;
     return std::any_of(faces_.begin(), faces_.end(), [&](const Face& face) {
       const double s = face.along.dot(image_F.head<2>());
       return face.plane.n.dot(plane.n) < -0.9 && std::abs(face.plane.distance(image_F)) < config_.wall_m &&
@@ -239,18 +315,22 @@ class Judge {
     });
   }
 
-  static void erase(std::vector<Eigen::Vector3f>& points, const std::vector<bool>& removed) {
+  static std::size_t erase(std::vector<Eigen::Vector3f>& points, const std::vector<bool>& removed) {
     std::size_t kept = 0;
     for (std::size_t k = 0; k < points.size(); ++k)
       if (!removed[k]) points[kept++] = points[k];
+    const std::size_t count = points.size() - kept;
     points.resize(kept);
+    return count;
   }
 
   std::vector<CloudKeyframe>& clouds_;
   const std::vector<Face> faces_;
   const std::span<const Plane> levels_;
   const ReflectionConfig& config_;
-  VoxelIndex direct_;
+  VoxelIndex solid_;       ///< cells of faces that were hit
+  std::vector<int> hits_;  ///< index = slot in solid_
+  VoxelIndex direct_, seen_;
   std::vector<Through> through_;
 };
 

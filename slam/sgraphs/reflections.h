@@ -14,6 +14,7 @@ struct ReflectionConfig {
   bool remove = true;
   double behind_m = 0.3;       ///< a point this far behind a wall was seen through it: panes stand back from the face
   double above_m = 0.5;        ///< a wall goes on this far above and below what was seen of it
+  double corner_m = 0.6;       ///< a wall goes on to a corner that is this near to what was seen of it
   double pane_depth_m = 0.25;  ///< a pane stands at most this far behind the face it is set in
   double cell_m = 0.2;         ///< of openings in a wall and of what was seen directly
   double level_m = 0.15;  ///< points this near to a floor or ceiling say nothing: a mirror image of a floor is a floor
@@ -21,6 +22,7 @@ struct ReflectionConfig {
   double sill_m = 0.15;   ///< an opening that reaches nearer to a floor is a door
   double share = 0.3;     ///< of the points seen through an opening that must be mirror images
   double whole = 0.8;     ///< of all points, where side walls, floor and ceiling alone are seen
+  int solid_hits = 5;     ///< of a wall's cell, from which nothing is seen through it
   int min_points = 20;    ///< seen through an opening, else it is left alone
 
   template <class V>
@@ -28,6 +30,7 @@ struct ReflectionConfig {
     v("remove", remove, Field{.doc = "mirror images behind panes"});
     v("behind_m", behind_m, Field{.doc = "a point this far behind a wall was seen through it", .min = 0});
     v("above_m", above_m, Field{.doc = "a wall goes on above and below what was seen of it", .min = 0});
+    v("corner_m", corner_m, Field{.doc = "a wall goes on to a corner this near to what was seen of it", .min = 0});
     v("pane_depth_m", pane_depth_m,
       Field{.doc = "of a pane behind the face it is set in, at most", .min = 0, .max = 2});
     v("cell_m", cell_m, Field{.doc = "of openings and of what was seen directly", .min = 0.05});
@@ -36,6 +39,7 @@ struct ReflectionConfig {
     v("sill_m", sill_m, Field{.doc = "an opening nearer to a floor is a door", .min = 0});
     v("share", share, Field{.doc = "of mirror images that makes an opening a mirror", .min = 0, .max = 1});
     v("whole", whole, Field{.doc = "the same where only side walls, floor and ceiling are seen", .min = 0, .max = 1});
+    v("solid_hits", solid_hits, Field{.doc = "of a wall's cell, from which nothing is seen through it", .min = 1});
     v("min_points", min_points, Field{.doc = "seen through an opening that is judged", .min = 1});
   }
 };

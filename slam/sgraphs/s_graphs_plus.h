@@ -63,7 +63,7 @@ struct SGraphsPlusConfig {
   LoopConfig loop;
   IncrementalConfig incremental;
   OptimizerConfig optimizer;
-  MapCloudConfig map{.spacing_m = 0.2};
+  MapCloudConfig map{.spacing_m = 0.14, .min_neighbours = 14};
   ReflectionConfig reflections;
 
   template <class V>

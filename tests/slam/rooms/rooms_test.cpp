@@ -313,6 +313,22 @@ TEST(Rooms, ARingIsItsStraightParts) {
   }
 }
 
+/// Rooms of a hall of 12 x 4 m that a wall from its side parts in the middle, over all but `open_m` of its width; the
+/// wall's clearance is below the neck ratio of the free space.
+std::size_t rooms_beside_wall(double open_m, double yaw) {
+  const Pose X_MW = Pose::from_xyz_yaw({13.0, 9.0, 0.0}, yaw);
+  return rooms_in(shape({{0, 0}, {12, 0}, {12, 4}, {0, 4}}, {{5.9, 0}, {5.9, 4 - open_m}, {6.1, 4 - open_m}, {6.1, 0}},
+                        X_MW, {}))
+      .size();
+}
+
+TEST(Rooms, GoOnPastAPilasterAndEndAtAWall) {
+  for (const double yaw : headings) {
+    EXPECT_EQ(rooms_beside_wall(2.7, yaw), 1U) << "yaw " << yaw;
+    EXPECT_EQ(rooms_beside_wall(1.6, yaw), 2U) << "yaw " << yaw;
+  }
+}
+
 TEST(Rooms, AreNotClaimedBeforeTheyAreEntered) {
   const synthetic::House house = synthetic::corridor_house();
   const Seen seen = carve(look(house, 2, 12.0), Pose{});
