@@ -2,6 +2,7 @@
 #include "slam/odometry/map_cloud.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 
@@ -48,17 +49,21 @@ std::vector<double> ranges_of(const VoxelIndex& voxels, std::span<const CloudKey
 
 /// Beams spread with range, so that less is asked of what was seen from afar only.
 void drop_strays(std::vector<Eigen::Vector3f>& points, std::span<const CloudKeyframe> keyframes,
-                 const MapCloudConfig& config) {
+                 const MapCloudConfig& config, std::span<const Plane> levels) {
   if (config.min_neighbours == 0) return;
   const auto key_of = [&](const Eigen::Vector3f& p) { return VoxelKey::of(p.cast<double>(), config.voxel_m); };
+  const auto on_level = [&](const Eigen::Vector3f& p) {
+    return std::any_of(levels.begin(), levels.end(),
+                       [&](const Plane& level) { return std::abs(level.distance(p.cast<double>())) < config.voxel_m; });
+  };
   VoxelIndex occupied, sparse;
   for (const Eigen::Vector3f& p : points) static_cast<void>(occupied.insert(key_of(p)));
   std::vector<int> count;
   for (const Eigen::Vector3f& p : points) {
     const int n = neighbours(occupied, key_of(p), config.min_neighbours);
-    if (n >= config.min_neighbours) continue;
-    static_cast<void>(sparse.insert(key_of(p)));
-    count.push_back(n);
+    if (n >= config.min_neighbours || on_level(p)) continue;
+    const auto slot = static_cast<std::size_t>(sparse.insert(key_of(p)));
+    if (slot == count.size()) count.push_back(n);  // rounding may put two points in one voxel
   }
   const std::vector<double> range_m = ranges_of(sparse, keyframes, config.voxel_m);
   std::erase_if(points, [&](const Eigen::Vector3f& p) {
@@ -77,12 +82,13 @@ std::vector<Eigen::Vector3f> thin_scan(const DeskewedScan& scan, const MapCloudC
   return thin(points, config.voxel_m);
 }
 
-std::vector<Eigen::Vector3f> map_cloud(std::span<const CloudKeyframe> keyframes, const MapCloudConfig& config) {
+std::vector<Eigen::Vector3f> map_cloud(std::span<const CloudKeyframe> keyframes, const MapCloudConfig& config,
+                                       std::span<const Plane> levels) {
   std::vector<Eigen::Vector3d> points;
   for (const CloudKeyframe& keyframe : keyframes)
     for (const Eigen::Vector3f& p_R : keyframe.points_R) points.emplace_back(keyframe.X_FR * p_R.cast<double>());
   std::vector<Eigen::Vector3f> map = thin(points, config.voxel_m);
-  drop_strays(map, keyframes, config);
+  drop_strays(map, keyframes, config, levels);
   return map;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bim/config/visit.h"
+#include "bim/geometry/plane.h"
 #include "bim/geometry/pose.h"
 #include "slam/odometry/motion.h"
 
@@ -40,9 +41,10 @@ struct CloudKeyframe {
 /// Returns in the range gate, one mean point a voxel.
 [[nodiscard]] std::vector<Eigen::Vector3f> thin_scan(const DeskewedScan& scan, const MapCloudConfig& config);
 
-/// All keyframes in F, one mean point a voxel, ordered by voxel, without strays.
+/// All keyframes in F, one mean point a voxel, ordered by voxel, without strays. What lies on a floor or ceiling is
+/// none: these are met at a slant, where rings lie far apart. levels: those planes in F.
 [[nodiscard]] std::vector<Eigen::Vector3f> map_cloud(std::span<const CloudKeyframe> keyframes,
-                                                     const MapCloudConfig& config);
+                                                     const MapCloudConfig& config, std::span<const Plane> levels = {});
 
 /// Keeps a scan each time the robot has gone spacing_m since the last one kept.
 class MapCloudRecorder {

@@ -302,7 +302,7 @@ std::vector<Eigen::Vector3f> SGraphsPlus::point_map(const Estimate& estimate) {
   for (const PlaneVertex& plane : graph_.planes)
     if (plane.kind == PlaneKind::ceiling && plane.merged_into < 0) levels_M.push_back(plane.plane_M);
   remove_reflections(clouds_, estimate.planes, levels_M, calibration_.X_RL.t, config_.reflections);
-  return map_cloud(clouds_, config_.map);
+  return map_cloud(clouds_, config_.map, levels_M);
 }
 
 std::unique_ptr<Method> make_s_graphs_plus_method(const MethodInput& input) {
