@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 
 #include "slam/odometry/voxel.h"
@@ -18,20 +19,21 @@ std::vector<Eigen::Vector3f> thin(const std::vector<Eigen::Vector3d>& points, do
   return thinned;
 }
 
-/// Voxels that hold a point, among those within two of a cell, which does not count; no more than `enough`.
-int neighbours(const VoxelIndex& occupied, const VoxelKey& key, int enough) {
-  const auto count_within = [&](int reach) {
-    int count = -1;
-    for (int z = -reach; z <= reach; ++z)
-      for (int y = -reach; y <= reach; ++y)
-        for (int x = -reach; x <= reach; ++x) {
-          count += occupied.find({key.x + x, key.y + y, key.z + z}) >= 0 ? 1 : 0;
-          if (count >= enough) return count;
-        }
-    return count;
-  };
-  const int beside = count_within(1);
-  return beside >= enough ? beside : count_within(2);
+/// Of each voxel that holds a point, how many of the 124 within two cells of it do too. keys: packed, rising.
+std::vector<int> neighbours(const std::vector<std::uint64_t>& keys) {
+  constexpr std::int64_t reach = 2, row = std::int64_t{1} << 21, layer = std::int64_t{1} << 42;  // of VoxelKey::packed
+  std::vector<int> count(keys.size(), -1);                                                       // itself
+  for (std::int64_t z = -reach; z <= reach; ++z)
+    for (std::int64_t y = -reach; y <= reach; ++y) {
+      std::size_t first = 0;  // in the row beside, which keys pass in the same order
+      for (std::size_t k = 0; k < keys.size(); ++k) {
+        const std::int64_t middle = static_cast<std::int64_t>(keys[k]) + z * layer + y * row;
+        while (first < keys.size() && static_cast<std::int64_t>(keys[first]) < middle - reach) ++first;
+        for (std::size_t n = first; n < keys.size() && static_cast<std::int64_t>(keys[n]) <= middle + reach; ++n)
+          ++count[k];
+      }
+    }
+  return count;
 }
 
 /// Shortest range from which each of the voxels was seen, m, by slot.
@@ -56,11 +58,16 @@ void drop_strays(std::vector<Eigen::Vector3f>& points, std::span<const CloudKeyf
     return std::any_of(levels.begin(), levels.end(),
                        [&](const Plane& level) { return std::abs(level.distance(p.cast<double>())) < config.voxel_m; });
   };
-  VoxelIndex occupied, sparse;
-  for (const Eigen::Vector3f& p : points) static_cast<void>(occupied.insert(key_of(p)));
+  std::vector<std::uint64_t> keys;
+  for (const Eigen::Vector3f& p : points) keys.push_back(key_of(p).packed());
+  std::sort(keys.begin(), keys.end());
+  keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+  const std::vector<int> all = neighbours(keys);
+  VoxelIndex sparse;
   std::vector<int> count;
   for (const Eigen::Vector3f& p : points) {
-    const int n = neighbours(occupied, key_of(p), config.min_neighbours);
+    const auto at = std::lower_bound(keys.begin(), keys.end(), key_of(p).packed()) - keys.begin();
+    const int n = all[static_cast<std::size_t>(at)];
     if (n >= config.min_neighbours || on_level(p)) continue;
     const auto slot = static_cast<std::size_t>(sparse.insert(key_of(p)));
     if (slot == count.size()) count.push_back(n);  // rounding may put two points in one voxel

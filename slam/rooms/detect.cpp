@@ -207,6 +207,50 @@ void drop_overlapping(std::vector<RoomCandidate>& rooms, double max_overlap) {
   rooms = std::move(kept);
 }
 
+/// A two-wall room as far as two of them reach that lie between the same walls.
+RoomCandidate together(const RoomCandidate& a, const RoomCandidate& b) {
+  const Vector2d t = (a.polygon_M[1] - a.polygon_M[0]).normalized();
+  const Vector2d s(-t.y(), t.x());
+  // Sides 1-2 and 3-0, or 0-1 and 2-3, lie on the walls: those along which the rooms are set apart.
+  const Vector2d apart = b.center_M - a.center_M;
+  const Vector2d& along = std::abs(apart.dot(t)) > std::abs(apart.dot(s)) ? t : s;
+  const bool b_first = apart.dot(along) < 0.0;
+  const RoomCandidate& first = b_first ? b : a;
+  const RoomCandidate& last = b_first ? a : b;
+  const auto end = [&along](const Polygon2& polygon, double sign) {
+    std::vector<Vector2d> points(polygon.begin(), polygon.end());
+    std::stable_sort(points.begin(), points.end(),
+                     [&](const Vector2d& p, const Vector2d& q) { return sign * along.dot(p) > sign * along.dot(q); });
+    return std::array<Vector2d, 2>{points[0], points[1]};
+  };
+  const std::array<Vector2d, 2> from = end(first.polygon_M, -1.0), to = end(last.polygon_M, 1.0);
+  const bool crossed = (from[1] - from[0]).dot(to[1] - to[0]) < 0.0;
+  RoomCandidate room = a;
+  room.polygon_M = counter_clockwise({from[0], from[1], crossed ? to[0] : to[1], crossed ? to[1] : to[0]});
+  room.center_M = 0.25 * (from[0] + from[1] + to[0] + to[1]);
+  room.cluster_M = room.center_M;
+  const auto area = [](const RoomCandidate& r) { return std::abs(signed_area(r.polygon_M)); };
+  room.fill = std::min(1.0, (a.fill * area(a) + b.fill * area(b)) / area(room));
+  return room;
+}
+
+/// A hall whose free space a flight of stairs cuts askew falls into clusters that reach past each other between the
+/// same walls; over a door's sill they would not.
+void join_two_walls(std::vector<RoomCandidate>& rooms) {
+  for (std::size_t i = 0; i < rooms.size(); ++i)
+    for (std::size_t j = i + 1; j < rooms.size();) {
+      const bool one = rooms[i].kind == RoomKind::two_wall && rooms[j].kind == RoomKind::two_wall &&
+                       rooms[i].planes == rooms[j].planes && overlap_area(rooms[i].polygon_M, rooms[j].polygon_M) > 0.0;
+      if (!one) {
+        ++j;
+        continue;
+      }
+      rooms[i] = together(rooms[i], rooms[j]);
+      rooms.erase(rooms.begin() + static_cast<std::ptrdiff_t>(j));
+      j = i + 1;
+    }
+}
+
 }  // namespace
 
 std::vector<RoomCandidate> detect_rooms(const FreeGrid& grid, std::span<const Cluster> clusters,
@@ -224,6 +268,7 @@ std::vector<RoomCandidate> detect_rooms(const FreeGrid& grid, std::span<const Cl
   for (const Cluster& cluster : joined)
     for (RoomCandidate& room : rooms_of(make_scene(grid, cluster, faces, config)))
       if (!config.entered_only || entered(room)) rooms.push_back(std::move(room));
+  if (config.polygons) join_two_walls(rooms);
   drop_overlapping(rooms, config.max_overlap);
   return rooms;
 }

@@ -329,6 +329,37 @@ TEST(Rooms, GoOnPastAPilasterAndEndAtAWall) {
   }
 }
 
+/// Two clusters of a hall of 3 x 10 m whose ends are open, parted by a strip 0.6 m wide that climbs by `slope`.
+std::vector<RoomCandidate> hall_parted(double slope, double yaw) {
+  const Pose X_MW = Pose::from_xyz_yaw({13.0, 9.0, 0.0}, yaw);
+  const Shape s = shape({{0, 0}, {3, 0}, {3, 10}, {0, 10}}, {}, X_MW, {0, 2});
+  std::vector<std::size_t> below, above;
+  for (std::size_t k = 0; k < s.grid.free.size(); ++k) {
+    if (s.grid.free[k] == 0) continue;
+    const Eigen::Vector2d p_M = s.grid.frame.center(k);
+    const Eigen::Vector3d p_W = X_MW.inverse() * Eigen::Vector3d(p_M.x(), p_M.y(), 0.0);
+    const double over = p_W.y() - 5.0 - slope * (p_W.x() - 1.5);
+    if (over < -0.3) below.push_back(k);
+    if (over > 0.3) above.push_back(k);
+  }
+  const std::vector<Eigen::Vector2d> visited = {s.grid.frame.center(below[below.size() / 2]),
+                                                s.grid.frame.center(above[above.size() / 2])};
+  return detect_rooms(s.grid, std::vector<Cluster>{cluster_of(s.grid, below), cluster_of(s.grid, above)}, s.walls,
+                      visited, {});
+}
+
+TEST(Rooms, OfOneHallCutAskewAreOneAndThoseBesideASillTwo) {
+  for (const double yaw : headings) {
+    const std::vector<RoomCandidate> askew = hall_parted(0.8, yaw);
+    ASSERT_EQ(askew.size(), 1U) << "yaw " << yaw;
+    EXPECT_EQ(askew[0].kind, RoomKind::two_wall);
+    const Polygon2 whole = moved({{0, 0}, {3, 0}, {3, 10}, {0, 10}}, Pose::from_xyz_yaw({13.0, 9.0, 0.0}, yaw));
+    EXPECT_GT(iou(askew[0].polygon_M, whole), 0.95) << "yaw " << yaw;
+    EXPECT_GT(askew[0].fill, 0.7);
+    EXPECT_EQ(hall_parted(0.0, yaw).size(), 2U) << "yaw " << yaw;
+  }
+}
+
 TEST(Rooms, AreNotClaimedBeforeTheyAreEntered) {
   const synthetic::House house = synthetic::corridor_house();
   const Seen seen = carve(look(house, 2, 12.0), Pose{});
