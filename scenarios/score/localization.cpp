@@ -182,8 +182,8 @@ LocalizationScore score_localization(const Truth& truth, const std::vector<Belie
     score.identifiable_at_m = identifiability->at_m;
     score.evidence = evidence_of(*identifiability, truth, rules);
   }
-  // Where others are left but weak, a single answer is judged as where none is.
-  const bool answers_weak = course && score.evidence == Evidence::weak;
+  // Where others are left but weak, a single answer that stands to the end is judged as where none is.
+  const bool answers_weak = course && score.evidence == Evidence::weak && last.state == slam::State::converged;
   const bool ambiguous = identifiability && !identifiability->others_W.empty() && !answers_weak;
   score.verdict = ambiguous ? judge_ambiguous(course, last, held,
                                               is_honest(last, truth.at(last.stamp), identifiability->others_W, rules))

@@ -63,7 +63,8 @@ enum class LocalizationVerdict { success, false_convergence, overconfident, hone
 /// What the plan allows to be known of a run's place [facts: localization 3.4].
 enum class Evidence {
   unique,    ///< no other place is left, early enough for an answer to be held to the end
-  weak,      ///< the others are nearly out, or went too late: one right answer is right, and so is an honest ambiguity
+  weak,      ///< the others are nearly out: one right answer is right, and so is an honest ambiguity; or they went too
+             ///< late for an answer to be held
   ambiguous  ///< others explain what was seen as well as the true one
 };
 [[nodiscard]] std::string to_string(Evidence evidence);

@@ -179,8 +179,8 @@ them. This page is what `plumbline sweep --schema` prints: it is made from the r
 - `runs.csv` has a row a run and method, `table.txt`, `table.csv` and `table.html` one a scenario, variant, start and method
   over its seeds, `sweep.sqlite` both. None of them depends on `--jobs` or on how often the sweep was stopped.
 - Of a plan localization the table has success over the runs that can be told (with the 95 % interval of Wilson), the
-  share of `honest_ambiguity` over those that cannot, false convergences, and medians over the runs that can be told, in
-  which one that never converged counts as infinite. `weak` are runs between: the last other place is nearly ruled out,
+  share of `honest_ambiguity` over those that cannot, false convergences, medians over the runs that can be told, in
+  which one that never converged counts as infinite, and the median error of all runs. `weak` are runs between: the last other place is nearly ruled out,
   or was too late to hold an answer for 5 s and 1 m; given are those that are right (`success` or `honest_ambiguity`) of
   them all. Of a SLAM method it has the share of `ok` and the median error.
 

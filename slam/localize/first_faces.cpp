@@ -114,7 +114,9 @@ struct FirstFaces::Fan {
 };
 
 FirstFaces::FirstFaces(const std::vector<PlanSegment>& segments, const CellFrame& frame) {
-  first_.resize(static_cast<std::size_t>(frame.cells() * fans_per_turn));
+  const auto cells = static_cast<std::size_t>(frame.nx) * static_cast<std::size_t>(frame.ny);
+  if (cells > most_cells) return;
+  first_.resize(cells * fans_per_turn);
   std::vector<Entry> by_distance(segments.size());
   std::vector<Fan> fans;
   const double block = block_cells * frame.cell;

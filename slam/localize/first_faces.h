@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <vector>
 
 #include "slam/localize/plan_segment.h"
@@ -30,16 +31,20 @@ struct CellFrame {
   return d.x() < 0.0 ? 2.0 - p : d.y() < 0.0 ? 4.0 + p : p;
 }
 
-/// For each cell and range of directions: the faces that a ray from there may meet, nearest first, up to a distance by
-/// which it has nearly always met one. A ray then looks at two or three faces, not at all along its way.
+/// For each cell and range of directions (none for plans of more than most_cells): the faces that a ray from there may
+/// meet, nearest first, up to a distance by which it has nearly always met one. A ray then looks at two or three faces,
+/// not at all along its way.
 class FirstFaces {
  public:
+  static constexpr std::size_t most_cells = 100'000;  ///< 25,000 m^2 of 0.5 m; lists of 2 kB a cell, 8 kB at most
+
   FirstFaces() = default;
   FirstFaces(const std::vector<PlanSegment>& segments, const CellFrame& frame);
 
   /// First hit as SegmentGrid::cast gives it, to the bit; false where the list does not reach far enough, `best` is
   /// then of no use. best: what is to be beaten.
   [[nodiscard]] bool cast(const std::vector<PlanSegment>& segments, int cell, const PlanRay& ray, PlanHit& best) const {
+    if (first_.empty()) return false;
     const double fan = std::min(fans_per_quadrant * pseudo_angle(ray.direction), fans_per_turn - 0.5);
     auto k = static_cast<std::size_t>(first_[static_cast<std::size_t>(cell * fans_per_turn + static_cast<int>(fan))]);
     for (; static_cast<double>(entries_[k].from) <= best.distance; ++k) {

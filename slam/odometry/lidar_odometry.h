@@ -44,7 +44,7 @@ struct LidarOdometryConfig {
 class LidarOdometry {
  public:
   virtual ~LidarOdometry() = default;
-  /// X_OR: leg odometry at scan.stamp; only its increments may be used.
+  /// X_OR: leg odometry at scan.stamp, in a frame whose z is up; only its increments and its tilt may be used.
   [[nodiscard]] virtual Registration update(const DeskewedScan& scan, const Pose& X_OR) = 0;
 };
 

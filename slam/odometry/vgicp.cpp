@@ -51,8 +51,8 @@ PosePrior VgicpOdometry::predict(const Pose& X_OR) const {
   prior.information.diagonal().head<3>().setConstant(1.0 / (sigma_m * sigma_m));
   prior.information.diagonal().tail<3>().setConstant(1.0 / (sigma_rad * sigma_rad));
   if (config_.tilt_prior && q_OM_) {
-    const Eigen::Vector3d up_M = Eigen::Vector3d::UnitZ();
-    prior.tilt = TiltPrior{X_OR.q.conjugate() * (*q_OM_ * up_M), up_M, config_.tilt_rad};
+    const Eigen::Vector3d up_O = Eigen::Vector3d::UnitZ();
+    prior.tilt = TiltPrior{X_OR.q.conjugate() * up_O, q_OM_->conjugate() * up_O, config_.tilt_rad};
   }
   return prior;
 }

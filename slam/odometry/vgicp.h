@@ -60,7 +60,7 @@ class VgicpOdometry {
  public:
   explicit VgicpOdometry(const VgicpConfig& config);
 
-  /// X_OR: leg odometry at scan.stamp; only its increments are used, as start and as prior.
+  /// X_OR: leg odometry at scan.stamp, in a frame whose z is up: its increments are start and prior, its tilt a prior.
   [[nodiscard]] Registration update(const DeskewedScan& scan, const Pose& X_OR);
   /// The two halves of update(): where the scan fits, and taking it in there, into the map only if `mapped`.
   [[nodiscard]] Registration match(const DeskewedScan& scan, const Pose& X_OR);
@@ -87,7 +87,7 @@ class VgicpOdometry {
   std::vector<Surfel> scan_;  ///< surfels of the scan last matched
   Pose X_MR_;
   Pose X_OR_;
-  std::optional<Eigen::Quaterniond> q_OM_;  ///< of the first scan, where M starts; after it only its tilt holds
+  std::optional<Eigen::Quaterniond> q_OM_;  ///< of the first scan, where M starts: says where up is in M
   bool is_keyframe_ = false;
 };
 

@@ -207,40 +207,54 @@ void drop_overlapping(std::vector<RoomCandidate>& rooms, double max_overlap) {
   rooms = std::move(kept);
 }
 
-/// A two-wall room as far as two of them reach that lie between the same walls.
-RoomCandidate together(const RoomCandidate& a, const RoomCandidate& b) {
+/// Direction of a two-wall room's walls: the sides of its polygon that lie on them are those along which both rooms are
+/// set apart.
+Vector2d along_both(const RoomCandidate& a, const RoomCandidate& b) {
   const Vector2d t = (a.polygon_M[1] - a.polygon_M[0]).normalized();
   const Vector2d s(-t.y(), t.x());
-  // Sides 1-2 and 3-0, or 0-1 and 2-3, lie on the walls: those along which the rooms are set apart.
   const Vector2d apart = b.center_M - a.center_M;
-  const Vector2d& along = std::abs(apart.dot(t)) > std::abs(apart.dot(s)) ? t : s;
-  const bool b_first = apart.dot(along) < 0.0;
-  const RoomCandidate& first = b_first ? b : a;
-  const RoomCandidate& last = b_first ? a : b;
-  const auto end = [&along](const Polygon2& polygon, double sign) {
-    std::vector<Vector2d> points(polygon.begin(), polygon.end());
-    std::stable_sort(points.begin(), points.end(),
-                     [&](const Vector2d& p, const Vector2d& q) { return sign * along.dot(p) > sign * along.dot(q); });
-    return std::array<Vector2d, 2>{points[0], points[1]};
-  };
-  const std::array<Vector2d, 2> from = end(first.polygon_M, -1.0), to = end(last.polygon_M, 1.0);
-  const bool crossed = (from[1] - from[0]).dot(to[1] - to[0]) < 0.0;
+  return std::abs(apart.dot(t)) > std::abs(apart.dot(s)) ? t : s;
+}
+
+/// A two-wall room as far as two of them reach that lie between the same walls.
+RoomCandidate together(const RoomCandidate& a, const RoomCandidate& b) {
+  const Vector2d along = along_both(a, b);
+  std::vector<Vector2d> corners(a.polygon_M.begin(), a.polygon_M.end());
+  corners.insert(corners.end(), b.polygon_M.begin(), b.polygon_M.end());
+  std::stable_sort(corners.begin(), corners.end(),
+                   [&](const Vector2d& p, const Vector2d& q) { return along.dot(p) < along.dot(q); });
+  const Vector2d &p0 = corners[0], &p1 = corners[1], &q0 = corners[corners.size() - 2], &q1 = corners.back();
+  const bool crossed = (p1 - p0).dot(q1 - q0) < 0.0;
   RoomCandidate room = a;
-  room.polygon_M = counter_clockwise({from[0], from[1], crossed ? to[0] : to[1], crossed ? to[1] : to[0]});
-  room.center_M = 0.25 * (from[0] + from[1] + to[0] + to[1]);
+  room.polygon_M = counter_clockwise({p0, p1, crossed ? q0 : q1, crossed ? q1 : q0});
+  room.center_M = 0.25 * (p0 + p1 + q0 + q1);
   room.cluster_M = room.center_M;
   const auto area = [](const RoomCandidate& r) { return std::abs(signed_area(r.polygon_M)); };
   room.fill = std::min(1.0, (a.fill * area(a) + b.fill * area(b)) / area(room));
   return room;
 }
 
+/// How far two rooms between the same walls reach past each other, m.
+double reach_past(const RoomCandidate& a, const RoomCandidate& b) {
+  const Vector2d along = along_both(a, b);
+  const auto ends = [&along](const RoomCandidate& room) {
+    std::array<double, 2> low_high = {along.dot(room.polygon_M[0]), along.dot(room.polygon_M[0])};
+    for (const Vector2d& p : room.polygon_M)
+      low_high = {std::min(low_high[0], along.dot(p)), std::max(low_high[1], along.dot(p))};
+    return low_high;
+  };
+  const std::array<double, 2> of_a = ends(a), of_b = ends(b);
+  return std::min(of_a[1], of_b[1]) - std::max(of_a[0], of_b[0]);
+}
+
 /// A hall whose free space a flight of stairs cuts askew falls into clusters that reach past each other between the
-/// same walls; over a door's sill they would not.
-void join_two_walls(std::vector<RoomCandidate>& rooms) {
+/// same walls; those on both sides of a partition do not, but for the cell that either is rounded up by.
+void join_two_walls(std::vector<RoomCandidate>& rooms, double cell_m) {
+  constexpr double least_cells = 3.0;
   for (std::size_t i = 0; i < rooms.size(); ++i)
     for (std::size_t j = i + 1; j < rooms.size();) {
       const bool one = rooms[i].kind == RoomKind::two_wall && rooms[j].kind == RoomKind::two_wall &&
-                       rooms[i].planes == rooms[j].planes && overlap_area(rooms[i].polygon_M, rooms[j].polygon_M) > 0.0;
+                       rooms[i].planes == rooms[j].planes && reach_past(rooms[i], rooms[j]) > least_cells * cell_m;
       if (!one) {
         ++j;
         continue;
@@ -268,7 +282,7 @@ std::vector<RoomCandidate> detect_rooms(const FreeGrid& grid, std::span<const Cl
   for (const Cluster& cluster : joined)
     for (RoomCandidate& room : rooms_of(make_scene(grid, cluster, faces, config)))
       if (!config.entered_only || entered(room)) rooms.push_back(std::move(room));
-  if (config.polygons) join_two_walls(rooms);
+  if (config.polygons) join_two_walls(rooms, grid.frame.cell);
   drop_overlapping(rooms, config.max_overlap);
   return rooms;
 }

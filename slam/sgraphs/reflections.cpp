@@ -102,6 +102,7 @@ class Judge {
       removed.emplace_back(clouds_[c].points_R.size(), false);
       sort_points(c, sensor_R, removed.back());
     }
+    for (std::size_t c = 0; c < clouds_.size(); ++c) keep_seen(clouds_[c], removed[c]);
     for (const std::vector<std::size_t>& opening : openings()) {
       if (!mirrors(opening)) continue;
       for (const std::size_t k : opening) {
@@ -172,6 +173,12 @@ class Judge {
       else
         static_cast<void>(direct_.insert(VoxelKey::of(p, config_.cell_m)));
     }
+  }
+
+  /// What stands behind a door that was shut once was seen directly too.
+  void keep_seen(const CloudKeyframe& cloud, std::vector<bool>& removed) const {
+    for (std::size_t k = 0; k < removed.size(); ++k)
+      if (removed[k] && seen_directly(cloud.X_FR * cloud.points_R[k].cast<double>())) removed[k] = false;
   }
 
   /// The last face that the ray crosses from its free side and far enough before its end (ties: lower index), and

@@ -124,6 +124,15 @@ TEST(Localization, OnWeakEvidenceARightAnswerAndAnHonestAmbiguityAreBothRight) {
   EXPECT_EQ(answered.verdict, LocalizationVerdict::success);
   EXPECT_EQ(judge(converges_at(20, 0.0), known).verdict, LocalizationVerdict::lucky);  // at 2 s nothing told
   EXPECT_EQ(judge(converges_at(40, 3.0), known).verdict, LocalizationVerdict::false_convergence);
+
+  auto withdrawn = converges_at(40, 0.0);
+  for (std::size_t i = 100; i < withdrawn.size(); ++i) withdrawn[i].state = slam::State::lost;
+  EXPECT_NE(judge(withdrawn, known).verdict, LocalizationVerdict::success);
+  auto open = converges_at(scans, 0.0);
+  open.back().hypotheses = {{0.5, straight_walk().at(open.back().stamp), Eigen::Matrix3d::Zero(), ""},
+                            {0.5, known.others_W[0], Eigen::Matrix3d::Zero(), ""}};
+  EXPECT_EQ(judge(open, known).verdict, LocalizationVerdict::honest_ambiguity);
+
   known.tellable_from_s.reset();
   EXPECT_EQ(judge(converges_at(40, 0.0), known).evidence, Evidence::ambiguous);
   EXPECT_EQ(judge(converges_at(40, 0.0), known).verdict, LocalizationVerdict::lucky);

@@ -240,7 +240,7 @@ TEST(SGraphLocalization, AKidnappedRobotNoticesAndFindsItselfAgain) {
       believed_wrongly += output.stamp - result.outputs[i - 1].stamp;
   }
   EXPECT_TRUE(lost);
-  EXPECT_LT(seconds(believed_wrongly), 10.0);
+  EXPECT_LT(seconds(believed_wrongly), 7.0);  // recorded walks joined: 2.5 to 6.3 s
   EXPECT_EQ(result.outputs.back().state, State::converged);
   ASSERT_TRUE(result.outputs.back().X_FR.has_value());
   EXPECT_LT((result.outputs.back().X_FR->t - recording.truth.back().X_FR.t).norm(), 0.05);

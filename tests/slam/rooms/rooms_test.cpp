@@ -329,8 +329,8 @@ TEST(Rooms, GoOnPastAPilasterAndEndAtAWall) {
   }
 }
 
-/// Two clusters of a hall of 3 x 10 m whose ends are open, parted by a strip 0.6 m wide that climbs by `slope`.
-std::vector<RoomCandidate> hall_parted(double slope, double yaw) {
+/// Two clusters of a hall of 3 x 10 m whose ends are open, parted by a strip of this width that climbs by `slope`.
+std::vector<RoomCandidate> hall_parted(double slope, double width_m, double yaw) {
   const Pose X_MW = Pose::from_xyz_yaw({13.0, 9.0, 0.0}, yaw);
   const Shape s = shape({{0, 0}, {3, 0}, {3, 10}, {0, 10}}, {}, X_MW, {0, 2});
   std::vector<std::size_t> below, above;
@@ -339,8 +339,8 @@ std::vector<RoomCandidate> hall_parted(double slope, double yaw) {
     const Eigen::Vector2d p_M = s.grid.frame.center(k);
     const Eigen::Vector3d p_W = X_MW.inverse() * Eigen::Vector3d(p_M.x(), p_M.y(), 0.0);
     const double over = p_W.y() - 5.0 - slope * (p_W.x() - 1.5);
-    if (over < -0.3) below.push_back(k);
-    if (over > 0.3) above.push_back(k);
+    if (over < -0.5 * width_m) below.push_back(k);
+    if (over >= 0.5 * width_m) above.push_back(k);
   }
   const std::vector<Eigen::Vector2d> visited = {s.grid.frame.center(below[below.size() / 2]),
                                                 s.grid.frame.center(above[above.size() / 2])};
@@ -350,13 +350,14 @@ std::vector<RoomCandidate> hall_parted(double slope, double yaw) {
 
 TEST(Rooms, OfOneHallCutAskewAreOneAndThoseBesideASillTwo) {
   for (const double yaw : headings) {
-    const std::vector<RoomCandidate> askew = hall_parted(0.8, yaw);
+    const std::vector<RoomCandidate> askew = hall_parted(0.8, 0.6, yaw);
     ASSERT_EQ(askew.size(), 1U) << "yaw " << yaw;
     EXPECT_EQ(askew[0].kind, RoomKind::two_wall);
     const Polygon2 whole = moved({{0, 0}, {3, 0}, {3, 10}, {0, 10}}, Pose::from_xyz_yaw({13.0, 9.0, 0.0}, yaw));
     EXPECT_GT(iou(askew[0].polygon_M, whole), 0.95) << "yaw " << yaw;
     EXPECT_GT(askew[0].fill, 0.7);
-    EXPECT_EQ(hall_parted(0.0, yaw).size(), 2U) << "yaw " << yaw;
+    EXPECT_EQ(hall_parted(0.0, 0.6, yaw).size(), 2U) << "yaw " << yaw;
+    EXPECT_EQ(hall_parted(0.0, 0.15, yaw).size(), 2U) << "yaw " << yaw;  // a partition: no cell lies between
   }
 }
 
