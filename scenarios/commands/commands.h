@@ -18,7 +18,7 @@ struct Command {
 
 [[nodiscard]] Command add_run(CommandLine& program, slam::MethodTable table);
 [[nodiscard]] Command add_inspect(CommandLine& program);
-[[nodiscard]] Command add_sweep(CommandLine& program);
+[[nodiscard]] Command add_sweep(CommandLine& program, slam::MethodTable table);
 [[nodiscard]] Command add_identify(CommandLine& program);
 [[nodiscard]] Command add_generate(CommandLine& program);
 [[nodiscard]] Command add_score(CommandLine& program);

@@ -66,20 +66,12 @@ int parse_and_run(int argc, char** argv, slam::MethodTable table) {
       "Example: plumbline run scenarios/library/quickstart.yaml --out runs/first\n"
       "Exit codes: 0 gates passed, 1 a gate failed, 2 bad usage or input, 3 environment or internal error, "
       "4 the robot fell or stalled");
-  const std::vector<Command> commands = {add_run(program, table),
-                                         add_inspect(program),
-                                         add_generate(program),
-                                         add_score(program),
-                                         add_report(program),
-                                         add_replay(program, table),
-                                         add_diff(program),
-                                         add_methods(program, table),
-                                         add_scenarios(program),
-                                         add_bench(program),
-                                         add_simulate(program, table),
-                                         add_estimate(program, table),
-                                         add_identify(program),
-                                         add_sweep(program)};
+  const std::vector<Command> commands = {
+      add_run(program, table), add_inspect(program),         add_generate(program),
+      add_score(program),      add_report(program),          add_replay(program, table),
+      add_diff(program),       add_methods(program, table),  add_scenarios(program),
+      add_bench(program),      add_simulate(program, table), add_estimate(program, table),
+      add_identify(program),   add_sweep(program, table)};
   if (!program.parse({argv + std::min(argc, 1), argv + argc})) return 0;
   for (const Command& command : commands)
     if (command.line.asked()) return command.action();

@@ -6,11 +6,13 @@
 #include <cstdio>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "bim/errors.h"
 #include "scenarios/commands/commands.h"
 #include "scenarios/commands/process.h"
 #include "scenarios/run/interrupt.h"
+#include "scenarios/sweep/shared_walk.h"
 
 namespace plumbline::scenarios {
 
@@ -22,9 +24,16 @@ struct SweepArguments {
   int jobs = 0;
   int seeds = 0;
   bool schema = false;
+  std::vector<std::string> runs;  ///< what this program asks its children for: the runs of one walk
+  std::uint64_t seed = 1;
 };
 
-int sweep(const SweepArguments& options) {
+int sweep(const SweepArguments& options, slam::MethodTable table) {
+  if (!options.runs.empty()) {
+    constexpr int scenario_failed = 4;
+    catch_interrupts();
+    return run_shared(options.runs, options.seed, table) ? 0 : scenario_failed;
+  }
   if (options.schema) {
     std::fputs(sweep_page().c_str(), stdout);
     return 0;
@@ -40,15 +49,15 @@ int sweep(const SweepArguments& options) {
   if (::isatty(STDERR_FILENO) == 1)
     run.progress = [](std::size_t done, std::size_t all) { std::fprintf(stderr, "\r%zu of %zu runs", done, all); };
   catch_interrupts();
-  const std::string table = run_sweep(sweep, run);
+  const std::string text = run_sweep(sweep, run);
   if (run.progress) std::fputc('\n', stderr);
-  std::fputs((table + "table: " + run.out + "/table.html\n").c_str(), stdout);
+  std::fputs((text + "table: " + run.out + "/table.html\n").c_str(), stdout);
   return 0;
 }
 
 }  // namespace
 
-Command add_sweep(CommandLine& program) {
+Command add_sweep(CommandLine& program, slam::MethodTable table) {
   const auto options = std::make_shared<SweepArguments>();
   CommandLine line = program.add_command("sweep", "Runs scenarios with many seeds and variants; makes one table");
   line.option("SWEEP", options->file, "sweep file (.yaml)");
@@ -57,8 +66,11 @@ Command add_sweep(CommandLine& program) {
   line.option("--seeds", options->seeds, "how many seeds of each, in place of the file's; what is made stays for more")
       .range(1, 100000);
   line.flag("--schema", options->schema, "prints instead every key of sweep files, with examples");
+  line.option("--runs", options->runs, "scenarios that differ in what methods are told alone, to be run on one walk")
+      .hidden();
+  line.option("--seed", options->seed, "their seed").hidden();
   line.footer("Example: plumbline sweep ci/sweeps/look.yaml --jobs 2\nStopped at any moment, it goes on where it was.");
-  return {line, [options] { return sweep(*options); }};
+  return {line, [options, table] { return sweep(*options, table); }};
 }
 
 }  // namespace plumbline::scenarios

@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <map>
 #include <set>
 
 #include "bim/errors.h"
@@ -110,22 +111,42 @@ void keep(const SweepFolder& folder, const SweepRun& run, const ChildEnd& end) {
   fs::remove_all(folder.work() + "/" + run.key, error);
 }
 
+using Group = std::vector<const SweepRun*>;
+
+/// The runs that are not made yet, those of one walk together, by the first of each.
+std::vector<Group> missing_groups(const Sweep& sweep, const SweepFolder& folder) {
+  constexpr std::size_t most_at_once = 32;  // their methods stand in memory side by side
+  std::vector<Group> groups;
+  std::map<std::string, std::size_t> group_of;
+  for (const SweepRun& run : sweep.runs) {
+    if (is_made(folder.result(run), run)) continue;
+    const auto [it, fresh] = group_of.try_emplace(run.walk_digest, groups.size());
+    if (!fresh && groups[it->second].size() >= most_at_once) it->second = groups.size();
+    if (it->second == groups.size()) groups.emplace_back();
+    groups[it->second].push_back(&run);
+  }
+  return groups;
+}
+
 void make_missing(const Sweep& sweep, const SweepOptions& options, const SweepFolder& folder) {
-  std::vector<const SweepRun*> missing;
-  for (const SweepRun& run : sweep.runs)
-    if (!is_made(folder.result(run), run)) missing.push_back(&run);
-  std::size_t done = sweep.runs.size() - missing.size();
+  const std::vector<Group> groups = missing_groups(sweep, folder);
+  std::size_t done = sweep.runs.size();
+  for (const Group& group : groups) done -= group.size();
   run_children(
-      missing.size(), options.jobs,
-      [&](std::size_t i) -> std::vector<std::string> {
-        const std::string base = folder.work() + "/" + missing[i]->key;
-        write_file(base + ".yaml", missing[i]->scenario_text);
-        return {"run", base + ".yaml", "--seed", std::to_string(missing[i]->seed), "--out", base, "--threads", "1"};
+      groups.size(), options.jobs,
+      [&](std::size_t i) {
+        std::vector<std::string> arguments = {"sweep", "--seed", std::to_string(groups[i].front()->seed), "--runs"};
+        for (const SweepRun* run : groups[i]) {
+          arguments.push_back(folder.work() + "/" + run->key + ".yaml");
+          write_file(arguments.back(), run->scenario_text);
+        }
+        return arguments;
       },
-      [&](std::size_t i) { return folder.work() + "/" + missing[i]->key + ".log"; },
+      [&](std::size_t i) { return folder.work() + "/" + groups[i].front()->key + ".log"; },
       [&](std::size_t i, const ChildEnd& end) {
-        keep(folder, *missing[i], end);
-        if (options.progress) options.progress(++done, sweep.runs.size());
+        for (const SweepRun* run : groups[i]) keep(folder, *run, end);
+        done += groups[i].size();
+        if (options.progress) options.progress(done, sweep.runs.size());
       });
 }
 

@@ -14,9 +14,9 @@ struct SweepOptions {
   std::function<void(std::size_t done, std::size_t all)> progress;  ///< called after each run; may be empty
 };
 
-/// Makes the results that are not there yet, a child process each, then the tables from all of them; gives the table as
-/// text. Throws InputError where a run refuses its input or another sweep stands in `out`, EnvironmentError, and
-/// Interrupted; what is there by then stays.
+/// Makes the results that are not there yet, those of one walk in a child process, then the tables from all of them;
+/// gives the table as text. Throws InputError where a run refuses its input or another sweep stands in `out`,
+/// EnvironmentError, and Interrupted; what is there by then stays.
 [[nodiscard]] std::string run_sweep(const Sweep& sweep, const SweepOptions& options);
 
 }  // namespace plumbline::scenarios

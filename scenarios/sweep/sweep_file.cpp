@@ -8,6 +8,7 @@
 
 #include "bim/digest/digest.h"
 #include "scenarios/resolve.h"
+#include "scenarios/sweep/shared_walk.h"
 
 namespace plumbline::scenarios {
 
@@ -85,6 +86,15 @@ Mark mark_of(const Tree& tree, std::string_view key, std::size_t i) {
   return list->is_list() && i < list->as_list().size() ? list->as_list()[i].mark : list->mark;
 }
 
+/// The scenario without what its methods alone are told.
+Tree walk_of(const Tree& scenario) {
+  const std::vector<std::string>& others = keys_of_methods();
+  Tree walk = Tree::map();
+  for (const auto& [key, value] : scenario.as_map())
+    if (std::find(others.begin(), others.end(), key) == others.end()) walk.set(key, value);
+  return walk;
+}
+
 std::string file_name(const std::string& text) {
   std::string name = text;
   for (char& c : name)
@@ -135,8 +145,11 @@ Sweep read_sweep(const std::string& path, int seeds) {
           const std::uint64_t seed = file.first_seed + static_cast<std::uint64_t>(k);
           const std::string digest = hex64(
               Digest().add(write_yaml(made)).add(scenario.building_bytes()).add(seed).add(PLUMBLINE_VERSION).value());
+          const std::string walk =
+              hex64(Digest().add(scenario.text(walk_of(made))).add(scenario.building_bytes()).add(seed).value());
           sweep.runs.push_back({part + "-" + std::to_string(seed), scenario.name(), variants[v].name,
-                                start == nullptr ? "" : flow_text(to_tree(*start)), seed, scenario.text(made), digest});
+                                start == nullptr ? "" : flow_text(to_tree(*start)), seed, scenario.text(made), digest,
+                                walk});
         }
       }
   }
@@ -173,7 +186,9 @@ Many runs and one table: scenarios x variants x starts x seeds, every run with a
 them. This page is what `plumbline sweep --schema` prints: it is made from the reader itself.
 
 - `scenarios` are files; a variant replaces values in them, `set: [prior.yaw=known]`, and `starts` their start.
-- Runs are processes of their own, `--jobs` at a time. Each leaves one file in `results/`, complete or not at all; what is
+- Runs of one seed that differ in `prior`, `methods` and `gates` alone are simulated once, and each of them estimated and
+  scored from that: to the last bit what `plumbline run` makes of them. Such groups are processes of their own, `--jobs`
+  at a time. Each run leaves one file in `results/`, complete or not at all; what is
   there and was made from the same scenario, building, seed and version is not run again, so that a sweep that was stopped,
   however, goes on where it was.
 - `runs.csv` has a row a run and method, `table.txt`, `table.csv` and `table.html` one a scenario, variant, start and method

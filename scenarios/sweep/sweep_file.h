@@ -52,6 +52,7 @@ struct SweepRun {
   std::uint64_t seed = 0;
   std::string scenario_text;  ///< what it runs, its building by its whole path
   std::string input_digest;   ///< of all that decides about its result, 16 hex digits
+  std::string walk_digest;    ///< of all that decides about what is simulated
 };
 
 /// Every run of a sweep file, by scenario, variant, start, seed, with the methods of all of them.

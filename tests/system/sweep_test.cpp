@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "bim/config/tree.h"
 #include "tests/system/program.h"
 
 namespace plumbline::system_tests {
@@ -31,8 +32,9 @@ TEST(Sweep, KilledAtAnyMomentItGivesTheSameTable) {
     write_file(folder / name, read_file(project_file(std::string("tests/system/") + name)));
   const std::string sweep = folder / "sweep.yaml";
   write_file(sweep,
-             "sweep: 1\nscenarios: [short.yaml]\nseeds: 4\nmethods: [odometry]\n"
-             "variants: [{name: two, set: [duration_s=2]}, {name: three, set: [duration_s=3]}]\n");
+             "sweep: 1\nscenarios: [short.yaml]\nseeds: 3\nmethods: [odometry]\n"
+             "variants: [{name: two, set: [duration_s=2]}, {name: three, set: [duration_s=3]}, "
+             "{name: three untold, set: [duration_s=3, prior.yaw=unknown]}]\n");
   const char* asked = std::getenv("PLUMBLINE_SWEEP_KILLS");
   const int kills = asked == nullptr ? 3 : std::atoi(asked);
   int killed = 0;
@@ -49,7 +51,39 @@ TEST(Sweep, KilledAtAnyMomentItGivesTheSameTable) {
     EXPECT_TRUE(bytes == read_file((folder / "broken") + "/" + table)) << table;
   }
   EXPECT_FALSE(fs::exists((folder / "broken") + "/.work"));
-  EXPECT_EQ(std::distance(fs::directory_iterator((folder / "whole") + "/results"), fs::directory_iterator()), 8);
+  EXPECT_EQ(std::distance(fs::directory_iterator((folder / "whole") + "/results"), fs::directory_iterator()), 9);
+}
+
+TEST(Sweep, ASharedWalkGivesWhatSingleRunsGive) {
+  if (!available()) GTEST_SKIP() << "PLUMBLINE_BINARY and PLUMBLINE_SOURCE are not set; run through ctest";
+  const Folder folder;
+  write_file(folder / "short.plan.yaml", read_file(project_file("tests/system/short.plan.yaml")));
+  const std::string walk = "scenario: 1\nname: s\nbuilding: short.plan.yaml\nstart: {room: left}\nduration_s: 3\n";
+  const std::string methods = "methods: [odometry, s_graph_localization]\n";
+  write_file(folder / "s.yaml", walk + methods);
+  write_file(folder / "s_known.yaml", walk + methods + "prior: {yaw: known}\n");
+  write_file(folder / "s_unknown.yaml", walk + methods + "prior: {yaw: unknown}\n");
+  const std::string sweep = folder / "sweep.yaml";
+  write_file(sweep,
+             "sweep: 1\nscenarios: [s.yaml]\nseeds: 1\nfirst_seed: 5\n"
+             "variants: [{name: known, set: [prior.yaw=known]}, {name: unknown, set: [prior.yaw=unknown]}]\n");
+  ASSERT_EQ(plumbline({"sweep", sweep, "-o", folder / "out"}).code, 0);
+  const auto result = [&](const std::string& name) { return folder / ("out/results/s-" + name + "-5.json"); };
+  for (const std::string name : {"known", "unknown"}) {
+    const Outcome one = plumbline({"run", folder / ("s_" + name + ".yaml"), "--seed", "5", "--out", folder / name});
+    ASSERT_EQ(one.code, 0) << one.err;
+    const Tree alone = read_json(read_file((folder / name) + "/results.json"), name);
+    const Tree shared = read_json(read_file(result(name)), name);
+    for (const char* key : {"digest", "duration_s", "distance_m", "methods"})
+      EXPECT_EQ(write_json(*shared.find(key)), write_json(*alone.find(key))) << name << " " << key;
+  }
+  const std::string before = read_file(result("known"));
+  EXPECT_NE(before, read_file(result("unknown")));
+  const auto untouched = fs::last_write_time(result("unknown"));
+  fs::remove(result("known"));
+  ASSERT_EQ(plumbline({"sweep", sweep, "-o", folder / "out"}).code, 0);
+  EXPECT_EQ(read_file(result("known")), before);
+  EXPECT_EQ(fs::last_write_time(result("unknown")), untouched);
 }
 
 TEST(Sweep, BadInputIsOneLineAndLeavesNothing) {

@@ -71,6 +71,24 @@ TEST_F(SweepFiles, FewerSeedsAreTheFirstOfMore) {
   }
 }
 
+TEST_F(SweepFiles, OnlyWhatMethodsAreToldSharesAWalk) {
+  const Sweep sweep = read(
+      "sweep: 1\nscenarios: [library/quickstart.yaml, library/house.yaml]\nseeds: 2\nvariants:\n"
+      "  - {name: told, set: [prior.yaw=known]}\n"
+      "  - {name: other, set: [prior.yaw=unknown, 'methods=[odometry]', 'gates=[]']}\n"
+      "  - {name: slow, set: [prior.yaw=known, speed_mps=0.5]}\n");
+  ASSERT_EQ(sweep.runs.size(), 12U);
+  std::set<std::string> walks;
+  for (const SweepRun& a : sweep.runs) {
+    walks.insert(a.walk_digest);
+    for (const SweepRun& b : sweep.runs) {
+      const bool alike = a.scenario == b.scenario && a.seed == b.seed && (a.variant == "slow") == (b.variant == "slow");
+      EXPECT_EQ(a.walk_digest == b.walk_digest, alike) << a.key << " " << b.key;
+    }
+  }
+  EXPECT_EQ(walks.size(), 8U);
+}
+
 TEST_F(SweepFiles, AVariantReplacesValues) {
   const Sweep sweep = read(
       "sweep: 1\nscenarios: [library/quickstart.yaml]\nseeds: 1\nvariants: [{name: x, set: [prior.yaw=unknown, "
