@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 
 #include "slam/odometry/voxel.h"
 
@@ -13,11 +12,30 @@ namespace plumbline::slam {
 
 namespace {
 
-std::vector<Eigen::Vector3f> thin(const std::vector<Eigen::Vector3d>& points, double voxel_m) {
-  std::vector<Eigen::Vector3f> thinned;
-  for (const Eigen::Vector3d& p : voxel_downsample(points, voxel_m)) thinned.emplace_back(p.cast<float>());
-  return thinned;
+std::vector<Eigen::Vector3f> to_float(const std::vector<Eigen::Vector3d>& points) {
+  std::vector<Eigen::Vector3f> rounded;
+  rounded.reserve(points.size());
+  for (const Eigen::Vector3d& p : points) rounded.emplace_back(p.cast<float>());
+  return rounded;
 }
+
+/// All points in F by voxel.
+struct Voxels {
+  VoxelMeans means;
+  std::vector<float> range_m;  ///< shortest from which each was seen, by slot
+
+  Voxels(std::span<const CloudKeyframe> keyframes, double voxel_m) : means(voxel_m) {
+    for (const CloudKeyframe& keyframe : keyframes)
+      for (const Eigen::Vector3f& p_R : keyframe.points_R) {
+        const auto slot = static_cast<std::size_t>(means.add(keyframe.X_FR * p_R.cast<double>()));
+        const float range = p_R.norm();
+        if (slot == range_m.size())
+          range_m.push_back(range);
+        else
+          range_m[slot] = std::min(range_m[slot], range);
+      }
+  }
+};
 
 /// Of each voxel that holds a point, how many of the 124 within two cells of it do too. keys: packed, rising.
 std::vector<int> neighbours(const std::vector<std::uint64_t>& keys) {
@@ -36,66 +54,46 @@ std::vector<int> neighbours(const std::vector<std::uint64_t>& keys) {
   return count;
 }
 
-/// Shortest range from which each of the voxels was seen, m, by slot.
-std::vector<double> ranges_of(const VoxelIndex& voxels, std::span<const CloudKeyframe> keyframes, double voxel_m) {
-  std::vector<double> range_m(static_cast<std::size_t>(voxels.size()), std::numeric_limits<double>::infinity());
-  for (const CloudKeyframe& keyframe : keyframes)
-    for (const Eigen::Vector3f& p_R : keyframe.points_R) {
-      const int slot = voxels.find(VoxelKey::of(keyframe.X_FR * p_R.cast<double>(), voxel_m));
-      if (slot < 0) continue;
-      double& known = range_m[static_cast<std::size_t>(slot)];
-      known = std::min(known, static_cast<double>(p_R.norm()));
-    }
-  return range_m;
-}
-
 /// Beams spread with range, so that less is asked of what was seen from afar only.
-void drop_strays(std::vector<Eigen::Vector3f>& points, std::span<const CloudKeyframe> keyframes,
-                 const MapCloudConfig& config, std::span<const Plane> levels) {
+void drop_strays(std::vector<Eigen::Vector3f>& points, const Voxels& voxels, const MapCloudConfig& config,
+                 std::span<const Plane> levels) {
   if (config.min_neighbours == 0) return;
-  const auto key_of = [&](const Eigen::Vector3f& p) { return VoxelKey::of(p.cast<double>(), config.voxel_m); };
+  const auto key_of = [&](const Eigen::Vector3f& p) { return VoxelKey::of(p.cast<double>(), config.voxel_m).packed(); };
   const auto on_level = [&](const Eigen::Vector3f& p) {
     return std::any_of(levels.begin(), levels.end(),
                        [&](const Plane& level) { return std::abs(level.distance(p.cast<double>())) < config.voxel_m; });
   };
   std::vector<std::uint64_t> keys;
-  for (const Eigen::Vector3f& p : points) keys.push_back(key_of(p).packed());
+  keys.reserve(points.size());
+  for (const Eigen::Vector3f& p : points) keys.push_back(key_of(p));
   std::sort(keys.begin(), keys.end());
   keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
   const std::vector<int> all = neighbours(keys);
-  VoxelIndex sparse;
-  std::vector<int> count;
-  for (const Eigen::Vector3f& p : points) {
-    const auto at = std::lower_bound(keys.begin(), keys.end(), key_of(p).packed()) - keys.begin();
-    const int n = all[static_cast<std::size_t>(at)];
-    if (n >= config.min_neighbours || on_level(p)) continue;
-    const auto slot = static_cast<std::size_t>(sparse.insert(key_of(p)));
-    if (slot == count.size()) count.push_back(n);  // rounding may put two points in one voxel
-  }
-  const std::vector<double> range_m = ranges_of(sparse, keyframes, config.voxel_m);
   std::erase_if(points, [&](const Eigen::Vector3f& p) {
-    const auto slot = static_cast<std::size_t>(sparse.find(key_of(p)));
-    return slot < count.size() && count[slot] * range_m[slot] < config.min_neighbours * config.dense_m;
+    const auto at = std::lower_bound(keys.begin(), keys.end(), key_of(p)) - keys.begin();
+    const int count = all[static_cast<std::size_t>(at)];
+    if (count >= config.min_neighbours || on_level(p)) return false;
+    const int slot = voxels.means.find(p.cast<double>());
+    if (slot < 0) return false;  // rounded into a voxel beside its own
+    return count * static_cast<double>(voxels.range_m[static_cast<std::size_t>(slot)]) <
+           config.min_neighbours * config.dense_m;
   });
 }
 
 }  // namespace
 
 std::vector<Eigen::Vector3f> thin_scan(const DeskewedScan& scan, const MapCloudConfig& config) {
-  std::vector<Eigen::Vector3d> points;
+  VoxelMeans voxels(config.voxel_m);
   for (std::size_t i = 0; i < scan.range_m.size(); ++i)
-    if (scan.range_m[i] >= config.min_range_m && scan.range_m[i] <= config.max_range_m)
-      points.push_back(scan.point_R[i]);
-  return thin(points, config.voxel_m);
+    if (scan.range_m[i] >= config.min_range_m && scan.range_m[i] <= config.max_range_m) voxels.add(scan.point_R[i]);
+  return to_float(voxels.means());
 }
 
 std::vector<Eigen::Vector3f> map_cloud(std::span<const CloudKeyframe> keyframes, const MapCloudConfig& config,
                                        std::span<const Plane> levels) {
-  std::vector<Eigen::Vector3d> points;
-  for (const CloudKeyframe& keyframe : keyframes)
-    for (const Eigen::Vector3f& p_R : keyframe.points_R) points.emplace_back(keyframe.X_FR * p_R.cast<double>());
-  std::vector<Eigen::Vector3f> map = thin(points, config.voxel_m);
-  drop_strays(map, keyframes, config, levels);
+  const Voxels voxels(keyframes, config.voxel_m);
+  std::vector<Eigen::Vector3f> map = to_float(voxels.means.means());
+  drop_strays(map, voxels, config, levels);
   return map;
 }
 

@@ -2,7 +2,6 @@
 #include "slam/odometry/voxel.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <utility>
@@ -17,10 +16,11 @@ constexpr std::int32_t axis_offset = 1 << 20;
 constexpr std::uint64_t no_key = std::numeric_limits<std::uint64_t>::max();
 
 std::int32_t cell(double x, double size) {
-  const double c = std::floor(x / size);
-  if (!(std::abs(c) < static_cast<double>(axis_offset)))
+  const double c = x / size;
+  if (!(c >= 1.0 - static_cast<double>(axis_offset) && c < static_cast<double>(axis_offset)))
     throw InternalError("a point is too far away for its voxel grid");
-  return static_cast<std::int32_t>(c);
+  const auto towards_zero = static_cast<std::int32_t>(c);  // without SSE4, floor is a call
+  return towards_zero - (c < static_cast<double>(towards_zero) ? 1 : 0);
 }
 
 /// Spreads neighbouring cells over the table (64-bit finaliser of a multiply-xorshift hash).
@@ -43,20 +43,29 @@ std::uint64_t VoxelKey::packed() const {
 }
 
 std::vector<Eigen::Vector3d> voxel_downsample(const std::vector<Eigen::Vector3d>& points, double size) {
-  std::vector<std::pair<std::uint64_t, std::uint32_t>> order;
-  order.reserve(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i)
-    order.emplace_back(VoxelKey::of(points[i], size).packed(), static_cast<std::uint32_t>(i));
-  std::sort(order.begin(), order.end());
+  VoxelMeans means(size);
+  for (const Eigen::Vector3d& p : points) means.add(p);
+  return means.means();
+}
 
+int VoxelMeans::add(const Eigen::Vector3d& p) {
+  const VoxelKey key = VoxelKey::of(p, size_m_);
+  const int slot = index_.insert(key);
+  const auto k = static_cast<std::size_t>(slot);
+  if (k == sums_.size()) sums_.push_back({key.packed()});
+  sums_[k].sum += p;
+  ++sums_[k].count;
+  return slot;
+}
+
+std::vector<Eigen::Vector3d> VoxelMeans::means() const {
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> order;
+  order.reserve(sums_.size());
+  for (std::size_t k = 0; k < sums_.size(); ++k) order.emplace_back(sums_[k].key, static_cast<std::uint32_t>(k));
+  std::sort(order.begin(), order.end());
   std::vector<Eigen::Vector3d> means;
-  for (std::size_t begin = 0; begin < order.size();) {
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    std::size_t end = begin;
-    for (; end < order.size() && order[end].first == order[begin].first; ++end) sum += points[order[end].second];
-    means.emplace_back(sum / static_cast<double>(end - begin));
-    begin = end;
-  }
+  means.reserve(order.size());
+  for (const auto& [key, k] : order) means.emplace_back(sums_[k].sum / static_cast<double>(sums_[k].count));
   return means;
 }
 

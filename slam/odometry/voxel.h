@@ -41,4 +41,28 @@ class VoxelIndex {
   int size_ = 0;
 };
 
+/// Mean points of voxels, point by point; size in m.
+class VoxelMeans {
+ public:
+  explicit VoxelMeans(double size_m) : size_m_(size_m) {}
+
+  /// Slot of the point's voxel: 0, 1, 2, ... as voxels come.
+  int add(const Eigen::Vector3d& p);
+  /// Slot of the voxel that holds p, -1 when no point was in it.
+  [[nodiscard]] int find(const Eigen::Vector3d& p) const { return index_.find(VoxelKey::of(p, size_m_)); }
+  /// Summed in the order in which points came, ordered by voxel.
+  [[nodiscard]] std::vector<Eigen::Vector3d> means() const;
+
+ private:
+  struct Sum {
+    std::uint64_t key = 0;
+    std::size_t count = 0;
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  };
+
+  double size_m_;
+  VoxelIndex index_;
+  std::vector<Sum> sums_;  ///< index = slot
+};
+
 }  // namespace plumbline::slam

@@ -8,18 +8,11 @@
 #include <tuple>
 
 #include "slam/odometry/voxel.h"
+#include "slam/sgraphs/wall_faces.h"
 
 namespace plumbline::slam {
 
 namespace {
-
-/// A wall face: where it reaches, to its corners, and the stretch of it that was seen.
-struct Face {
-  Plane plane;
-  Eigen::Vector2d along = Eigen::Vector2d::UnitX();
-  double s0 = 0.0, s1 = 0.0, z0 = 0.0, z1 = 0.0;
-  double seen_s0 = 0.0, seen_s1 = 0.0;
-};
 
 /// Where a ray went through a face.
 struct Crossing {
@@ -36,67 +29,15 @@ struct Through {
   Crossing crossing;
 };
 
-/// Walls stand upright: what was seen of one may be too low to tell, and a mirror image is far behind it.
-Plane upright(const PlaneNode& wall) {
-  const Eigen::Vector3d n = Eigen::Vector3d(wall.plane_F.n.x(), wall.plane_F.n.y(), 0.0).normalized();
-  const Eigen::Vector2d middle = 0.5 * (wall.p0 + wall.p1);
-  return {n, -n.head<2>().dot(middle)};
-}
-
-/// True when `other` is the better known face of the wall that `wall` is a part of: a pane or a leaf set back in it, or
-/// the same face found twice.
-bool is_part_of(const PlaneNode& wall, const PlaneNode& other, const ReflectionConfig& config) {
-  constexpr double parallel = 0.99;  // cosine: 8 degrees, as a pane of few points may be off
-  if (std::tie(other.observations, wall.id) <= std::tie(wall.observations, other.id)) return false;
-  const Eigen::Vector2d along = (other.p1 - other.p0).normalized();
-  const Eigen::Vector2d middle = 0.5 * (wall.p0 + wall.p1);
-  const double s = along.dot(middle);
-  return wall.plane_F.n.dot(other.plane_F.n) > parallel && s > along.dot(other.p0) && s < along.dot(other.p1) &&
-         std::abs(upright(other).distance({middle.x(), middle.y(), 0.0})) < config.pane_depth_m;
-}
-
-/// Walls are seen less far than to the corner they meet in, where they are mostly glass or something stands before
-/// them.
-void reach_corners(std::vector<Face>& faces, const ReflectionConfig& config) {
-  const std::vector<Face> seen = faces;
-  for (std::size_t f = 0; f < seen.size(); ++f) {
-    const Face& face = seen[f];
-    const Eigen::Vector2d n = face.plane.n.head<2>();
-    for (const Face& other : seen) {
-      const Eigen::Vector2d m = other.plane.n.head<2>();
-      const double across = m.dot(face.along);
-      if (std::abs(across) < 0.5) continue;  // sine: they are nearer to parallel than 30 degrees
-      const double s = -(m.dot(-face.plane.d * n) + other.plane.d) / across;
-      const double there = other.along.dot(s * face.along - face.plane.d * n);
-      if (there < other.s0 - config.corner_m || there > other.s1 + config.corner_m) continue;
-      if (s < face.s0 && s > face.s0 - config.corner_m) faces[f].s0 = std::min(faces[f].s0, s);
-      if (s > face.s1 && s < face.s1 + config.corner_m) faces[f].s1 = std::max(faces[f].s1, s);
-    }
-  }
-}
-
-std::vector<Face> faces_of(std::span<const PlaneNode> walls, const ReflectionConfig& config) {
-  std::vector<Face> faces;
-  for (const PlaneNode& wall : walls) {
-    const auto holds = [&](const PlaneNode& other) { return is_part_of(wall, other, config); };
-    if (std::any_of(walls.begin(), walls.end(), holds)) continue;
-    Face face{upright(wall), (wall.p1 - wall.p0).normalized(), 0.0, 0.0, wall.z0, wall.z1};
-    face.s0 = face.seen_s0 = face.along.dot(wall.p0);
-    face.s1 = face.seen_s1 = face.along.dot(wall.p1);
-    faces.push_back(face);
-  }
-  reach_corners(faces, config);
-  return faces;
-}
-
 class Judge {
  public:
   Judge(std::vector<CloudKeyframe>& clouds, std::span<const PlaneNode> walls, std::span<const Plane> levels,
         const ReflectionConfig& config)
-      : clouds_(clouds), faces_(faces_of(walls, config)), levels_(levels), config_(config) {}
+      : clouds_(clouds), faces_(wall_faces(walls, config)), levels_(levels), config_(config) {}
 
   std::size_t run(const Eigen::Vector3d& sensor_R) {
-    for (const CloudKeyframe& cloud : clouds_) mark_solid(cloud);
+    const FacesNear near(faces_, config_.wall_m);
+    for (const CloudKeyframe& cloud : clouds_) mark_solid(cloud, near);
     std::vector<std::vector<bool>> removed;
     for (std::size_t c = 0; c < clouds_.size(); ++c) {
       removed.emplace_back(clouds_[c].points_R.size(), false);
@@ -118,11 +59,11 @@ class Judge {
 
  private:
   /// Counts the points on each cell of each face; not those of floors and ceilings, which lie in doors too.
-  void mark_solid(const CloudKeyframe& cloud) {
+  void mark_solid(const CloudKeyframe& cloud, const FacesNear& near) {
     for (const Eigen::Vector3f& p_R : cloud.points_R) {
       const Eigen::Vector3d p = cloud.X_FR * p_R.cast<double>();
-      for (std::size_t f = 0; f < faces_.size(); ++f) {
-        const Face& face = faces_[f];
+      for (const std::uint32_t f : near.of(p)) {
+        const WallFace& face = faces_[f];
         if (std::abs(face.plane.distance(p)) > config_.wall_m) continue;
         const double s = face.along.dot(p.head<2>());
         if (s < face.s0 || s > face.s1 || near_level(p)) continue;
@@ -162,16 +103,17 @@ class Judge {
   void sort_points(std::size_t c, const Eigen::Vector3d& sensor_R, std::vector<bool>& removed) {
     const CloudKeyframe& cloud = clouds_[c];
     const Eigen::Vector3d origin = cloud.X_FR * sensor_R;
+    const FacesInView in_view(faces_, origin);
     for (std::size_t k = 0; k < cloud.points_R.size(); ++k) {
       const Eigen::Vector3d p = cloud.X_FR * cloud.points_R[k].cast<double>();
       bool behind_wall = false;
-      const std::optional<Crossing> crossing = last_crossing(origin, p, behind_wall);
+      const std::optional<Crossing> crossing = last_crossing(in_view, origin, p, behind_wall);
       removed[k] = behind_wall;
-      if (!behind_wall) static_cast<void>(seen_.insert(VoxelKey::of(p, config_.cell_m)));
-      if (crossing)
-        through_.push_back({c, k, p, *crossing});
-      else
-        static_cast<void>(direct_.insert(VoxelKey::of(p, config_.cell_m)));
+      if (crossing) through_.push_back({c, k, p, *crossing});
+      if (behind_wall) continue;
+      const auto slot = static_cast<std::size_t>(seen_.insert(VoxelKey::of(p, config_.cell_m)));
+      if (slot == direct_.size()) direct_.push_back(false);
+      if (!crossing) direct_[slot] = true;
     }
   }
 
@@ -183,15 +125,13 @@ class Judge {
 
   /// The last face that the ray crosses from its free side and far enough before its end (ties: lower index), and
   /// whether it crosses any where that is solid.
-  [[nodiscard]] std::optional<Crossing> last_crossing(const Eigen::Vector3d& origin, const Eigen::Vector3d& p,
-                                                      bool& behind_wall) const {
+  [[nodiscard]] std::optional<Crossing> last_crossing(const FacesInView& in_view, const Eigen::Vector3d& origin,
+                                                      const Eigen::Vector3d& p, bool& behind_wall) const {
     std::optional<Crossing> last;
-    for (std::size_t f = 0; f < faces_.size(); ++f) {
-      const Face& face = faces_[f];
+    for (const auto& [f, from] : in_view.towards(p)) {
+      const WallFace& face = faces_[f];
       const double to = face.plane.distance(p);
       if (to > -config_.behind_m) continue;
-      const double from = face.plane.distance(origin);
-      if (from <= 0.0) continue;
       const double share = from / (from - to);
       const Eigen::Vector3d q = origin + share * (p - origin);
       const double s = face.along.dot(q.head<2>());
@@ -290,13 +230,14 @@ class Judge {
   /// On a wall that runs through the face, whose image is itself.
   [[nodiscard]] bool on_side_wall(const Through& t) const {
     const Eigen::Vector3d& n = faces_[static_cast<std::size_t>(t.crossing.face)].plane.n;
-    return std::any_of(faces_.begin(), faces_.end(), [&](const Face& face) {
+    return std::any_of(faces_.begin(), faces_.end(), [&](const WallFace& face) {
       return std::abs(face.plane.n.dot(n)) < 0.5 && std::abs(face.plane.distance(t.p_F)) < config_.behind_m;
     });
   }
 
   [[nodiscard]] bool seen_directly(const Eigen::Vector3d& p_F) const {
-    return direct_.find(VoxelKey::of(p_F, config_.cell_m)) >= 0;
+    const int slot = seen_.find(VoxelKey::of(p_F, config_.cell_m));
+    return slot >= 0 && direct_[static_cast<std::size_t>(slot)];
   }
 
   /// Directly or through any face: faces of furniture end nowhere in particular, and much is seen past them.
@@ -315,7 +256,7 @@ class Judge {
     const Plane& plane = faces_[static_cast<std::size_t>(t.crossing.face)].plane;
     const Eigen::Vector3d image_F = image_of(t, depth_m);
     if (seen(image_F)) return true;
-    return std::any_of(faces_.begin(), faces_.end(), [&](const Face& face) {
+    return std::any_of(faces_.begin(), faces_.end(), [&](const WallFace& face) {
       const double s = face.along.dot(image_F.head<2>());
       return face.plane.n.dot(plane.n) < -0.9 && std::abs(face.plane.distance(image_F)) < config_.wall_m &&
              s > face.s0 && s < face.s1;
@@ -332,12 +273,13 @@ class Judge {
   }
 
   std::vector<CloudKeyframe>& clouds_;
-  const std::vector<Face> faces_;
+  const std::vector<WallFace> faces_;
   const std::span<const Plane> levels_;
   const ReflectionConfig& config_;
   VoxelIndex solid_;       ///< cells of faces that were hit
   std::vector<int> hits_;  ///< index = slot in solid_
-  VoxelIndex direct_, seen_;
+  VoxelIndex seen_;
+  std::vector<bool> direct_;  ///< index = slot in seen_
   std::vector<Through> through_;
 };
 
