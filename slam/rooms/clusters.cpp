@@ -199,7 +199,11 @@ std::vector<float> clearance(const FreeGrid& grid) {
   const GridFrame& f = grid.frame;
   std::vector<float> d(f.size());
   LineTransform column(f.ny), row(f.nx);
+  std::vector<std::uint8_t> in_column(static_cast<std::size_t>(f.nx), 0);
+  for (std::size_t k = 0, i = 0; k < f.size(); ++k, i = i + 1 == in_column.size() ? 0 : i + 1)
+    in_column[i] |= grid.free[k];
   for (int i = 0; i < f.nx; ++i) {
+    if (in_column[static_cast<std::size_t>(i)] == 0) continue;
     for (int j = 0; j < f.ny; ++j)
       column.input()[static_cast<std::size_t>(j)] = grid.free[f.index(i, j)] != 0 ? LineTransform::infinity : 0.0F;
     const std::vector<float>& out = column.run();
@@ -207,6 +211,8 @@ std::vector<float> clearance(const FreeGrid& grid) {
       d[f.index(i, j)] = std::min(out[static_cast<std::size_t>(j)], LineTransform::infinity);
   }
   for (int j = 0; j < f.ny; ++j) {
+    const auto first = grid.free.begin() + static_cast<std::ptrdiff_t>(f.index(0, j));
+    if (std::find(first, first + f.nx, std::uint8_t{1}) == first + f.nx) continue;
     for (int i = 0; i < f.nx; ++i) row.input()[static_cast<std::size_t>(i)] = d[f.index(i, j)];
     const std::vector<float>& out = row.run();
     for (int i = 0; i < f.nx; ++i)
@@ -224,6 +230,7 @@ std::vector<std::size_t> by_falling_clearance(const GridFrame& frame, const std:
   };
   std::vector<std::size_t> start;
   for (std::size_t k = 0; k < clearance_m.size(); ++k) {
+    if (clearance_m[k] == 0.0F) continue;
     const std::size_t l = level(k);
     if (l >= start.size()) start.resize(l + 1, 0);
     ++start[l];
@@ -235,8 +242,10 @@ std::vector<std::size_t> by_falling_clearance(const GridFrame& frame, const std:
     above += count;
   }
   std::vector<std::size_t> order(above);
-  for (std::size_t k = 0; k < clearance_m.size(); ++k)
+  for (std::size_t k = 0; k < clearance_m.size(); ++k) {
+    if (clearance_m[k] == 0.0F) continue;
     if (const std::size_t l = level(k); l > 0) order[start[l]++] = k;
+  }
   return order;
 }
 

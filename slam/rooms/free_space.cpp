@@ -34,35 +34,64 @@ void walk(const GridFrame& frame, const Eigen::Vector2d& a, const Eigen::Vector2
 }
 
 /// Turns components of non-free cells that touch no border and fit into a square of max_cells into free space.
-void fill_islands(FreeGrid& grid, int max_cells) {
-  const GridFrame& f = grid.frame;
-  std::vector<std::uint8_t> seen(f.size(), 0);
-  std::vector<std::size_t> component;
-  for (std::size_t start = 0; start < f.size(); ++start) {
-    if (grid.free[start] != 0 || seen[start] != 0) continue;
-    component.assign(1, start);
-    seen[start] = 1;
-    bool inside = true;
-    Eigen::Array2i low(f.nx, f.ny), high(0, 0);
-    for (std::size_t k = 0; k < component.size(); ++k) {
-      const int i = static_cast<int>(component[k] % static_cast<std::size_t>(f.nx));
-      const int j = static_cast<int>(component[k] / static_cast<std::size_t>(f.nx));
-      low = low.min(Eigen::Array2i(i, j));
-      high = high.max(Eigen::Array2i(i, j));
-      if (i == 0 || j == 0 || i + 1 == f.nx || j + 1 == f.ny) {
-        inside = false;
-        continue;
+class Islands {
+ public:
+  Islands(FreeGrid& grid, int max_cells) : grid_(grid), max_cells_(max_cells), land_(grid.frame.size(), Land::unseen) {}
+
+  void fill() {
+    const GridFrame& f = grid_.frame;
+    for (int j = 0; j < f.ny; ++j)
+      for (int i = 0; i < f.nx; ++i) {
+        const std::size_t cell = f.index(i, j);
+        if (grid_.free[cell] != 0 || land_[cell] != Land::unseen) continue;
+        // Nearly all that is not free hangs together with what is left of it or above it.
+        const bool beside_main =
+            (i > 0 && land_[cell - 1] == Land::main) || (j > 0 && land_[f.index(i, j - 1)] == Land::main);
+        if (beside_main)
+          land_[cell] = Land::main;
+        else if (explore(i, j))
+          for (const Cell& c : component_) grid_.free[f.index(c.i, c.j)] = 1;
       }
-      for (const std::size_t n : {f.index(i - 1, j), f.index(i + 1, j), f.index(i, j - 1), f.index(i, j + 1)}) {
-        if (grid.free[n] != 0 || seen[n] != 0) continue;
-        seen[n] = 1;
-        component.push_back(n);
+  }
+
+ private:
+  enum class Land : std::uint8_t { unseen, seen, main };
+  struct Cell {
+    int i = 0, j = 0;
+  };
+
+  /// Whether the component is an island. Stops where it proves to be none.
+  bool explore(int i, int j) {
+    const GridFrame& f = grid_.frame;
+    component_.assign(1, {i, j});
+    land_[f.index(i, j)] = Land::seen;
+    Cell low{i, j}, high{i, j};
+    bool island = true;
+    for (std::size_t k = 0; k < component_.size() && island; ++k) {
+      const Cell c = component_[k];
+      low = {std::min(low.i, c.i), std::min(low.j, c.j)};
+      high = {std::max(high.i, c.i), std::max(high.j, c.j)};
+      const bool at_border = c.i == 0 || c.j == 0 || c.i + 1 == f.nx || c.j + 1 == f.ny;
+      island = !at_border && std::max(high.i - low.i, high.j - low.j) < max_cells_;
+      if (!island) break;
+      for (const Cell n : {Cell{c.i - 1, c.j}, Cell{c.i + 1, c.j}, Cell{c.i, c.j - 1}, Cell{c.i, c.j + 1}}) {
+        const std::size_t cell = f.index(n.i, n.j);
+        island &= land_[cell] != Land::main;
+        if (grid_.free[cell] != 0 || land_[cell] != Land::unseen) continue;
+        land_[cell] = Land::seen;
+        component_.push_back(n);
       }
     }
-    if (inside && (high - low).maxCoeff() < max_cells)
-      for (const std::size_t c : component) grid.free[c] = 1;
+    if (!island)
+      for (const Cell& c : component_) land_[f.index(c.i, c.j)] = Land::main;
+    return island;
   }
-}
+
+  FreeGrid& grid_;
+  int max_cells_;
+  std::vector<Land> land_;
+  std::vector<Cell> component_;
+};
 
 }  // namespace
 
@@ -130,12 +159,6 @@ std::vector<Eigen::Vector3d> wall_points(const DeskewedScan& scan, std::span<con
   return result;
 }
 
-Eigen::Vector2d GridFrame::center(std::size_t index) const {
-  const auto i = static_cast<double>(index % static_cast<std::size_t>(nx));
-  const auto j = static_cast<double>(index / static_cast<std::size_t>(nx));
-  return origin_M + cell * Eigen::Vector2d(i + 0.5, j + 0.5);
-}
-
 std::ptrdiff_t GridFrame::find(const Eigen::Vector2d& p_M) const {
   const double x = (p_M.x() - origin_M.x()) / cell;
   const double y = (p_M.y() - origin_M.y()) / cell;
@@ -144,7 +167,7 @@ std::ptrdiff_t GridFrame::find(const Eigen::Vector2d& p_M) const {
 }
 
 FreeGrid without_islands(FreeGrid grid, const FreeSpaceConfig& config) {
-  fill_islands(grid, static_cast<int>(std::lround(config.island_m / grid.frame.cell)));
+  Islands(grid, static_cast<int>(std::lround(config.island_m / grid.frame.cell))).fill();
   return grid;
 }
 

@@ -59,8 +59,7 @@ std::vector<FaceLine> lines_of(const Scene& scene) {
   const Vector2d axis = lines.front().m;
   for (const Vector2d& m : {axis, Vector2d(-axis), Vector2d(-axis.y(), axis.x()), Vector2d(axis.y(), -axis.x())}) {
     Vector2d lowest = scene.cluster.center_M;
-    for (const std::size_t k : scene.cluster.boundary) {
-      const Vector2d p = scene.grid.frame.center(k);
+    for (const Vector2d& p : scene.border_M) {
       if (m.dot(p) < m.dot(lowest)) lowest = p;
     }
     add(cut_line(m, lowest - 0.5 * scene.grid.frame.cell * m), lowest);
@@ -100,7 +99,12 @@ class Arrangement {
   Arrangement(const Scene& scene, std::vector<FaceLine> lines) : scene_(scene), lines_(std::move(lines)) {
     const double cell2 = scene.grid.frame.cell * scene.grid.frame.cell;
     std::map<Sides, std::size_t> cells;
-    for (const std::size_t k : scene.cluster.cells) ++cells[sides_of(scene.grid.frame.center(k))];
+    auto known = cells.end();  // most cells are in the piece of the one before
+    for (const std::size_t k : scene.cluster.cells) {
+      const Sides sides = sides_of(scene.grid.frame.center(k));
+      if (known == cells.end() || known->first != sides) known = cells.try_emplace(sides, 0).first;
+      ++known->second;
+    }
     for (const auto& [sides, count] : cells) {
       const Piece piece = piece_of(sides);
       const double area = area_of(piece);
@@ -239,7 +243,7 @@ OnWall wall_of(const Edge& edge, const FaceLine& line, const Scene& scene) {
     if (!parallel(face, line, scene.config) || std::abs(face.distance(at)) > same_line_m) continue;
     const double a = face.along.dot(edge.from), b = face.along.dot(edge.to);
     const double from = std::max(face.s0, std::min(a, b)), to = std::min(face.s1, std::max(a, b));
-    const double share = border_on(face, from, to, scene.grid, scene.cluster, scene.config) / length;
+    const double share = border_on(face, from, to, scene) / length;
     if (share > best.share) best = {face.id, share};
   }
   return best;

@@ -39,18 +39,19 @@ Vector2d meet(const FaceLine& a, const FaceLine& b) {
 
 Scene make_scene(const FreeGrid& grid, const Cluster& cluster, std::span<const FaceLine> faces,
                  const RoomConfig& config) {
-  Scene scene{grid, cluster, config, {}};
+  Scene scene{grid, cluster, config, {}, {}};
+  for (const std::size_t k : cluster.boundary) scene.border_M.push_back(grid.frame.center(k));
   // A cell of the border that lies on a face is within reach of its stretch.
   const Vector2d reach = Vector2d::Constant(std::max(config.reach_m, config.slack_m));
   Eigen::AlignedBox2d box;
-  for (const std::size_t k : cluster.boundary) box.extend(grid.frame.center(k));
+  for (const Vector2d& p : scene.border_M) box.extend(p);
   if (box.isEmpty()) return scene;
   box = {box.min() - reach, box.max() + reach};
   for (const FaceLine& face : faces) {
     Eigen::AlignedBox2d stretch(Vector2d(face.s0 * face.along - face.e * face.m));
     stretch.extend(face.s1 * face.along - face.e * face.m);
     if (!box.intersects(stretch)) continue;
-    const double support = border_on(face, face.s0, face.s1, grid, cluster, config);
+    const double support = border_on(face, face.s0, face.s1, scene);
     if (support < config.min_support_m) continue;
     scene.walls.push_back(face);
     scene.walls.back().support = support;
@@ -58,15 +59,13 @@ Scene make_scene(const FreeGrid& grid, const Cluster& cluster, std::span<const F
   return scene;
 }
 
-double border_on(const FaceLine& line, double from, double to, const FreeGrid& grid, const Cluster& cluster,
-                 const RoomConfig& config) {
+double border_on(const FaceLine& line, double from, double to, const Scene& scene) {
   if (to <= from) return 0.0;
-  const double cell = grid.frame.cell;
+  const double cell = scene.grid.frame.cell;
   std::vector<bool> covered(static_cast<std::size_t>((to - from) / cell) + 1, false);
-  for (const std::size_t k : cluster.boundary) {
-    const Vector2d p = grid.frame.center(k);
+  for (const Vector2d& p : scene.border_M) {
     const double distance = line.distance(p);
-    if (distance < -config.slack_m || distance > config.reach_m) continue;
+    if (distance < -scene.config.slack_m || distance > scene.config.reach_m) continue;
     const double s = line.along.dot(p) - from;
     if (s < 0.0 || s > to - from) continue;
     covered[static_cast<std::size_t>(s / cell)] = true;

@@ -30,15 +30,15 @@ struct Scene {
   const FreeGrid& grid;
   const Cluster& cluster;
   const RoomConfig& config;
-  std::vector<FaceLine> walls;  ///< that carry at least min_support_m of the cluster's border
+  std::vector<Eigen::Vector2d> border_M;  ///< centres of the cluster's boundary
+  std::vector<FaceLine> walls;            ///< that carry at least min_support_m of the cluster's border
 };
 
 [[nodiscard]] Scene make_scene(const FreeGrid& grid, const Cluster& cluster, std::span<const FaceLine> faces,
                                const RoomConfig& config);
 
-/// Length of the cluster's border that lies on the line between from and to (along it), on its free side, m.
-[[nodiscard]] double border_on(const FaceLine& line, double from, double to, const FreeGrid& grid,
-                               const Cluster& cluster, const RoomConfig& config);
+/// Length of the scene's border that lies on the line between from and to (along it), on its free side, m.
+[[nodiscard]] double border_on(const FaceLine& line, double from, double to, const Scene& scene);
 
 [[nodiscard]] Polygon2 counter_clockwise(Polygon2 polygon);
 

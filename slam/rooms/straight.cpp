@@ -5,9 +5,10 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <iterator>
 #include <limits>
 #include <numbers>
+#include <numeric>
+#include <utility>
 
 namespace plumbline::slam {
 
@@ -17,134 +18,201 @@ using Eigen::Vector2d;
 
 constexpr std::size_t most_parts = 16;
 
-/// What hangs together of the cells by 4-neighbours and is largest (ties: the one with the lowest cell); ascending.
-std::vector<std::size_t> largest_component(const GridFrame& frame, const std::vector<std::size_t>& cells) {
-  constexpr std::uint32_t outside = 0, unseen = 1;
-  std::vector<std::uint32_t> label(frame.size(), outside);
-  for (const std::size_t cell : cells) label[cell] = unseen;
-  const auto width = static_cast<std::size_t>(frame.nx);
-  std::uint32_t last = unseen, largest = unseen;
-  std::size_t most = 0;
-  std::vector<std::size_t> part;
-  for (const std::size_t first : cells) {
-    if (label[first] != unseen) continue;
-    label[first] = ++last;
-    part.assign(1, first);
-    for (std::size_t k = 0; k < part.size(); ++k) {
-      const std::size_t i = part[k] % width, j = part[k] / width;
-      const auto visit = [&](std::size_t n) {
-        if (label[n] != unseen) return;
-        label[n] = last;
-        part.push_back(n);
-      };
-      if (i > 0) visit(part[k] - 1);
-      if (i + 1 < width) visit(part[k] + 1);
-      if (j > 0) visit(part[k] - width);
-      if (j + 1 < static_cast<std::size_t>(frame.ny)) visit(part[k] + width);
-    }
-    if (part.size() <= most) continue;
-    most = part.size();
-    largest = last;
-  }
-  std::vector<std::size_t> found;
-  found.reserve(most);
-  std::copy_if(cells.begin(), cells.end(), std::back_inserter(found),
-               [&](std::size_t cell) { return label[cell] == largest; });
-  return found;
-}
-
-/// One bit a cell.
+/// One bit a cell of the cluster, by its place there.
 using Mask = std::vector<std::uint64_t>;
 
 bool has(const Mask& mask, std::size_t k) { return (mask[k / 64] >> (k % 64) & 1U) != 0; }
+void set(Mask& mask, std::size_t k) { mask[k / 64] |= std::uint64_t{1} << (k % 64); }
+void drop(Mask& mask, std::size_t k) { mask[k / 64] &= ~(std::uint64_t{1} << (k % 64)); }
 
-/// Which of the cluster's cells lie on the free side of a wall.
-Mask free_side(const Scene& scene, const FaceLine& wall) {
-  const std::vector<std::size_t>& cells = scene.cluster.cells;
-  Mask mask((cells.size() + 63) / 64, 0);
-  for (std::size_t k = 0; k < cells.size(); ++k)
-    if (wall.distance(scene.grid.frame.center(cells[k])) > -scene.config.slack_m)
-      mask[k / 64] |= std::uint64_t{1} << (k % 64);
-  return mask;
-}
-
-/// Two opposed walls, by their places in the scene, and how many of the cells left lie between them.
-struct Gap {
-  std::size_t a = 0, b = 0, cells = 0;
+/// Cells side by side in one row of the grid: places [from, to) in the cluster.
+struct Run {
+  std::size_t from = 0, to = 0;
 };
 
-/// By falling count; ties: lower places.
-std::vector<Gap> gaps_of(const Scene& scene, const std::vector<Mask>& sides, const Mask& left) {
-  const double opposed = -std::cos(scene.config.opposed_deg * std::numbers::pi / 180.0);
-  std::vector<Gap> gaps;
-  for (std::size_t i = 0; i < scene.walls.size(); ++i)
-    for (std::size_t j = i + 1; j < scene.walls.size(); ++j) {
-      if (scene.walls[i].m.dot(scene.walls[j].m) > opposed) continue;
-      std::size_t count = 0;
-      for (std::size_t w = 0; w < left.size(); ++w)
-        count += static_cast<std::size_t>(std::popcount(sides[i][w] & sides[j][w] & left[w]));
-      gaps.push_back({i, j, count});
+/// Cells that hang together.
+struct Part {
+  std::vector<Run> runs;  ///< rising
+  std::size_t cells = 0;
+};
+
+/// Two opposed walls, by their places in the scene.
+struct Gap {
+  std::size_t a = 0, b = 0;
+  std::size_t cells = 0;  ///< of those left, how many lie between the walls
+  bool known = false;     ///< whether `stretch` is what so many cells give
+  Part stretch;
+};
+
+/// Stretches between opposed walls, of what is left of a cluster.
+class Stretches {
+ public:
+  explicit Stretches(const Scene& scene) : scene_(scene) {
+    for (const std::size_t cell : scene.cluster.cells) centers_.push_back(scene.grid.frame.center(cell));
+    left_.assign((centers_.size() + 63) / 64, ~std::uint64_t{0});
+    for (const FaceLine& wall : scene.walls) sides_.push_back(free_side(wall));
+    find_row_starts();
+    find_gaps();
+  }
+
+  /// The largest (ties: between the walls with more cells between them, then lower places).
+  [[nodiscard]] Part largest() {
+    for (Gap& gap : gaps_) {
+      const std::size_t before = std::exchange(gap.cells, count(gap));
+      gap.known &= gap.cells == before;  // cells only go
     }
-  std::stable_sort(gaps.begin(), gaps.end(), [](const Gap& a, const Gap& b) { return a.cells > b.cells; });
-  return gaps;
-}
-
-/// The stretch of `between` that hangs together, or nothing where it is not mostly free.
-std::vector<std::size_t> stretch(const Scene& scene, std::vector<std::size_t> between, const FaceLine& a,
-                                 const FaceLine& b) {
-  between = largest_component(scene.grid.frame, between);
-  if (between.empty()) return between;
-  double low = std::numeric_limits<double>::infinity(), high = -low, width = 0.0;
-  for (const std::size_t k : between) {
-    const Vector2d p = scene.grid.frame.center(k);
-    low = std::min(low, a.along.dot(p));
-    high = std::max(high, a.along.dot(p));
-    width += a.distance(p) + b.distance(p);
+    std::vector<Gap*> order;
+    for (Gap& gap : gaps_) order.push_back(&gap);
+    std::stable_sort(order.begin(), order.end(), [](const Gap* p, const Gap* q) { return p->cells > q->cells; });
+    const Gap* best = nullptr;
+    for (Gap* gap : order) {
+      const std::size_t most = best == nullptr ? 0 : best->stretch.cells;
+      if (gap->cells <= most) break;
+      if (!gap->known) gap->stretch = stretch(*gap);
+      gap->known = true;
+      if (gap->stretch.cells > most) best = gap;
+    }
+    return best == nullptr ? Part{} : best->stretch;
   }
-  width /= static_cast<double>(between.size());
-  const double cell = scene.grid.frame.cell;
-  const double free_m2 = cell * cell * static_cast<double>(between.size());
-  const bool mostly_free = free_m2 >= scene.config.polygon_fill * width * (high - low + cell);
-  if (width < scene.config.min_width_m || high - low < width || !mostly_free) between.clear();
-  return between;
-}
 
-/// The largest stretch of what is left between two opposed walls (ties: the walls with more between them, then lower
-/// places).
-std::vector<std::size_t> largest_stretch(const Scene& scene, const std::vector<Mask>& sides, const Mask& left) {
-  std::vector<std::size_t> best;
-  for (const Gap& gap : gaps_of(scene, sides, left)) {
-    if (gap.cells <= best.size()) break;
-    std::vector<std::size_t> between;
-    between.reserve(gap.cells);
-    for (std::size_t k = 0; k < scene.cluster.cells.size(); ++k)
-      if (has(left, k) && has(sides[gap.a], k) && has(sides[gap.b], k)) between.push_back(scene.cluster.cells[k]);
-    std::vector<std::size_t> found = stretch(scene, std::move(between), scene.walls[gap.a], scene.walls[gap.b]);
-    if (found.size() > best.size()) best = std::move(found);
+  void take(const Part& part) {
+    for (const Run& run : part.runs)
+      for (std::size_t k = run.from; k < run.to; ++k) drop(left_, k);
   }
-  return best;
-}
+
+ private:
+  /// Which of the cells lie on the free side of a wall.
+  [[nodiscard]] Mask free_side(const FaceLine& wall) const {
+    Mask mask(left_.size(), 0);
+    for (std::size_t k = 0; k < centers_.size(); ++k)
+      if (wall.distance(centers_[k]) > -scene_.config.slack_m) set(mask, k);
+    return mask;
+  }
+
+  void find_row_starts() {
+    const std::vector<std::size_t>& cells = scene_.cluster.cells;
+    const auto width = static_cast<std::size_t>(scene_.grid.frame.nx);
+    row_starts_.assign(left_.size(), 0);
+    for (std::size_t k = 0; k < cells.size(); ++k)
+      if (k == 0 || cells[k - 1] + 1 != cells[k] || cells[k] % width == 0) set(row_starts_, k);
+  }
+
+  void find_gaps() {
+    const double opposed = -std::cos(scene_.config.opposed_deg * std::numbers::pi / 180.0);
+    for (std::size_t i = 0; i < scene_.walls.size(); ++i)
+      for (std::size_t j = i + 1; j < scene_.walls.size(); ++j)
+        if (scene_.walls[i].m.dot(scene_.walls[j].m) <= opposed) gaps_.push_back({i, j, 0, false, {}});
+  }
+
+  [[nodiscard]] std::size_t count(const Gap& gap) const {
+    std::size_t cells = 0;
+    for (std::size_t w = 0; w < left_.size(); ++w)
+      cells += static_cast<std::size_t>(std::popcount(sides_[gap.a][w] & sides_[gap.b][w] & left_[w]));
+    return cells;
+  }
+
+  /// The largest component of what is between the gap's walls, or nothing where it is not mostly free.
+  [[nodiscard]] Part stretch(const Gap& gap) const {
+    Mask between(left_.size());
+    for (std::size_t w = 0; w < left_.size(); ++w) between[w] = sides_[gap.a][w] & sides_[gap.b][w] & left_[w];
+    Part part = largest_component(between);
+    if (part.cells == 0) return part;
+    const FaceLine &a = scene_.walls[gap.a], &b = scene_.walls[gap.b];
+    double low = std::numeric_limits<double>::infinity(), high = -low, width = 0.0;
+    for (const Run& run : part.runs) {
+      for (const std::size_t end : {run.from, run.to - 1}) {
+        low = std::min(low, a.along.dot(centers_[end]));
+        high = std::max(high, a.along.dot(centers_[end]));
+      }
+      for (std::size_t k = run.from; k < run.to; ++k) width += a.distance(centers_[k]) + b.distance(centers_[k]);
+    }
+    width /= static_cast<double>(part.cells);
+    const double cell = scene_.grid.frame.cell;
+    const double free_m2 = cell * cell * static_cast<double>(part.cells);
+    const bool mostly_free = free_m2 >= scene_.config.polygon_fill * width * (high - low + cell);
+    if (width < scene_.config.min_width_m || high - low < width || !mostly_free) part = {};
+    return part;
+  }
+
+  /// Rising.
+  [[nodiscard]] std::vector<Run> runs_of(const Mask& mask) const {
+    std::vector<Run> runs;
+    std::uint64_t last = 0;  // cell of the word before
+    for (std::size_t w = 0; w < mask.size(); ++w) {
+      std::uint64_t starts = mask[w] & (~(mask[w] << 1U | last) | row_starts_[w]);
+      last = mask[w] >> 63U;
+      for (; starts != 0; starts &= starts - 1)
+        runs.push_back({64 * w + static_cast<std::size_t>(std::countr_zero(starts)), 0});
+    }
+    for (Run& run : runs) {
+      run.to = run.from + 1;
+      while (run.to < centers_.size() && has(mask, run.to) && !has(row_starts_, run.to)) ++run.to;
+    }
+    return runs;
+  }
+
+  /// What hangs together by 4-neighbours and is largest (ties: the one with the lowest cell).
+  [[nodiscard]] Part largest_component(const Mask& mask) const {
+    const std::vector<Run> runs = runs_of(mask);
+    const std::vector<std::size_t> root = join(runs);
+    std::vector<std::size_t> count(runs.size(), 0);
+    for (std::size_t r = 0; r < runs.size(); ++r) count[root[r]] += runs[r].to - runs[r].from;
+    const auto most = std::max_element(count.begin(), count.end());
+    Part part;
+    if (most == count.end()) return part;
+    part.cells = *most;
+    for (std::size_t r = 0; r < runs.size(); ++r)
+      if (root[r] == static_cast<std::size_t>(most - count.begin())) part.runs.push_back(runs[r]);
+    return part;
+  }
+
+  /// Of each run the lowest one that it hangs together with.
+  [[nodiscard]] std::vector<std::size_t> join(const std::vector<Run>& runs) const {
+    const std::vector<std::size_t>& cells = scene_.cluster.cells;
+    const auto width = static_cast<std::size_t>(scene_.grid.frame.nx);
+    std::vector<std::size_t> root(runs.size());
+    std::iota(root.begin(), root.end(), std::size_t{0});
+    const auto find = [&root](std::size_t r) {
+      while (root[r] != r) r = root[r] = root[root[r]];
+      return r;
+    };
+    std::size_t above = 0;  // the first run that does not end before what lies over this one
+    for (std::size_t r = 0; r < runs.size(); ++r) {
+      const std::size_t first = cells[runs[r].from], last = cells[runs[r].to - 1];
+      while (cells[runs[above].to - 1] + width < first) ++above;
+      for (std::size_t n = above; n < r && cells[runs[n].from] + width <= last; ++n) {
+        const std::size_t a = find(n), b = find(r);
+        root[std::max(a, b)] = std::min(a, b);
+      }
+    }
+    for (std::size_t r = 0; r < runs.size(); ++r) root[r] = find(r);
+    return root;
+  }
+
+  const Scene& scene_;
+  std::vector<Vector2d> centers_;  ///< of the cells
+  std::vector<Mask> sides_;        ///< index = wall
+  Mask row_starts_;                ///< cells without one to their left
+  Mask left_;
+  std::vector<Gap> gaps_;  ///< by places
+};
 
 }  // namespace
 
 std::vector<Cluster> straight_parts(const Scene& scene) {
   const double cell = scene.grid.frame.cell;
   const auto least = static_cast<std::size_t>(scene.config.min_part_m2 / (cell * cell));
-  std::vector<Mask> sides;
-  for (const FaceLine& wall : scene.walls) sides.push_back(free_side(scene, wall));
-  const std::vector<std::size_t>& cells = scene.cluster.cells;
-  Mask left((cells.size() + 63) / 64, ~std::uint64_t{0});
+  Stretches stretches(scene);
   std::vector<Cluster> parts;
   while (parts.size() < most_parts) {
-    std::vector<std::size_t> best = largest_stretch(scene, sides, left);
-    if (best.size() < std::max<std::size_t>(least, 1)) break;
-    auto taken = best.begin();
-    for (std::size_t k = 0; k < cells.size() && taken != best.end(); ++k) {
-      if (cells[k] != *taken) continue;
-      left[k / 64] &= ~(std::uint64_t{1} << (k % 64));
-      ++taken;
-    }
-    parts.push_back(cluster_of(scene.grid, std::move(best)));
+    const Part best = stretches.largest();
+    if (best.cells < std::max<std::size_t>(least, 1)) break;
+    stretches.take(best);
+    std::vector<std::size_t> cells;
+    cells.reserve(best.cells);
+    for (const Run& run : best.runs)
+      for (std::size_t k = run.from; k < run.to; ++k) cells.push_back(scene.cluster.cells[k]);
+    parts.push_back(cluster_of(scene.grid, std::move(cells)));
   }
   return parts;
 }
