@@ -89,6 +89,33 @@ std::vector<Eigen::Vector3f> thin_scan(const DeskewedScan& scan, const MapCloudC
   return to_float(voxels.means());
 }
 
+CloudKeyframe thin_rings(const DeskewedScan& scan, const Pose& X_FR, const MapCloudConfig& config) {
+  CloudKeyframe cloud{X_FR, {}, {}};
+  const auto rings = static_cast<std::size_t>(scan.rings);
+  for (std::size_t ring = 0; ring < rings; ++ring) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    int count = 0;
+    VoxelKey voxel;
+    const auto close = [&] {
+      if (count == 0) return;
+      cloud.points_R.emplace_back((sum / count).cast<float>());
+      cloud.lasers.push_back(static_cast<std::uint8_t>(ring));
+      sum.setZero();
+      count = 0;
+    };
+    for (std::size_t i = ring; i < scan.range_m.size(); i += rings) {
+      if (scan.range_m[i] < config.min_range_m || scan.range_m[i] > config.max_range_m) continue;
+      const VoxelKey here = VoxelKey::of(scan.point_R[i], config.voxel_m);
+      if (!(here == voxel)) close();
+      voxel = here;
+      sum += scan.point_R[i];
+      ++count;
+    }
+    close();
+  }
+  return cloud;
+}
+
 std::vector<Eigen::Vector3f> map_cloud(std::span<const CloudKeyframe> keyframes, const MapCloudConfig& config,
                                        std::span<const Plane> levels) {
   const Voxels voxels(keyframes, config.voxel_m);
@@ -99,7 +126,7 @@ std::vector<Eigen::Vector3f> map_cloud(std::span<const CloudKeyframe> keyframes,
 
 bool MapCloudRecorder::add(const DeskewedScan& scan, const Pose& X_FR) {
   if (!keyframes_.empty() && (keyframes_.back().X_FR.t - X_FR.t).norm() < config_.spacing_m) return false;
-  keyframes_.push_back({X_FR, thin_scan(scan, config_)});
+  keyframes_.push_back({X_FR, thin_scan(scan, config_), {}});
   return true;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -36,10 +37,14 @@ struct MapCloudConfig {
 struct CloudKeyframe {
   Pose X_FR;  ///< F is M or W
   std::vector<Eigen::Vector3f> points_R;
+  std::vector<std::uint8_t> lasers;  ///< of each point; empty where they are not kept
 };
 
 /// Returns in the range gate, one mean point a voxel.
 [[nodiscard]] std::vector<Eigen::Vector3f> thin_scan(const DeskewedScan& scan, const MapCloudConfig& config);
+
+/// The same for each laser by itself, in the order of its returns: one mean point for those in a row within a voxel.
+[[nodiscard]] CloudKeyframe thin_rings(const DeskewedScan& scan, const Pose& X_FR, const MapCloudConfig& config);
 
 /// All keyframes in F, one mean point a voxel, ordered by voxel, without strays. What lies on a floor or ceiling is
 /// none: these are met at a slant, where rings lie far apart. levels: those planes in F.

@@ -49,6 +49,7 @@ SGraphsPlusPaperConfig::SGraphsPlusPaperConfig() {
   map.spacing_m = 2.0;
   map.min_neighbours = 0;
   reflections.remove = false;
+  range_offsets.correct = false;
   floors.room_sigma_m = sigma(1e-4);
   loop.radius_m = 1.0;
   loop.min_walked_m = 3.0;

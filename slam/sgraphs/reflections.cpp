@@ -53,7 +53,7 @@ class Judge {
       }
     }
     std::size_t count = 0;
-    for (std::size_t c = 0; c < clouds_.size(); ++c) count += erase(clouds_[c].points_R, removed[c]);
+    for (std::size_t c = 0; c < clouds_.size(); ++c) count += erase(clouds_[c], removed[c]);
     return count;
   }
 
@@ -263,13 +263,17 @@ class Judge {
     });
   }
 
-  static std::size_t erase(std::vector<Eigen::Vector3f>& points, const std::vector<bool>& removed) {
+  static std::size_t erase(CloudKeyframe& cloud, const std::vector<bool>& removed) {
     std::size_t kept = 0;
-    for (std::size_t k = 0; k < points.size(); ++k)
-      if (!removed[k]) points[kept++] = points[k];
-    const std::size_t count = points.size() - kept;
-    points.resize(kept);
-    return count;
+    for (std::size_t k = 0; k < removed.size(); ++k) {
+      if (removed[k]) continue;
+      cloud.points_R[kept] = cloud.points_R[k];
+      if (!cloud.lasers.empty()) cloud.lasers[kept] = cloud.lasers[k];
+      ++kept;
+    }
+    cloud.points_R.resize(kept);
+    if (!cloud.lasers.empty()) cloud.lasers.resize(kept);
+    return removed.size() - kept;
   }
 
   std::vector<CloudKeyframe>& clouds_;

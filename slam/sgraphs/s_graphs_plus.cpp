@@ -157,7 +157,7 @@ void SGraphsPlus::add_keyframe(const DeskewedScan& scan, const Registration& odo
 void SGraphsPlus::keep_cloud(const DeskewedScan& scan) {
   const Pose& X_OR = scans_.back().X_OR;
   if (!clouds_.empty() && (scans_[cloud_scans_.back()].X_OR.t - X_OR.t).norm() < config_.map.spacing_m) return;
-  clouds_.push_back({X_OR, thin_scan(scan, config_.map)});
+  clouds_.push_back(thin_rings(scan, X_OR, config_.map));
   cloud_scans_.push_back(scans_.size() - 1);
 }
 
@@ -301,7 +301,10 @@ std::vector<Eigen::Vector3f> SGraphsPlus::point_map(const Estimate& estimate) {
   for (const FloorNode& floor : estimate.floors) levels_M.push_back(floor.plane_F);
   for (const PlaneVertex& plane : graph_.planes)
     if (plane.kind == PlaneKind::ceiling && plane.merged_into < 0) levels_M.push_back(plane.plane_M);
-  remove_reflections(clouds_, estimate.planes, levels_M, calibration_.X_RL.t, config_.reflections);
+  const Eigen::Vector3d& sensor_R = calibration_.X_RL.t;
+  remove_reflections(clouds_, estimate.planes, levels_M, sensor_R, config_.reflections);
+  if (config_.range_offsets.correct)
+    correct_ranges(clouds_, range_offsets(clouds_, estimate.planes, sensor_R, config_.range_offsets), sensor_R);
   return map_cloud(clouds_, config_.map, levels_M);
 }
 

@@ -17,6 +17,7 @@
 #include "slam/planes/detect.h"
 #include "slam/planes/ransac.h"
 #include "slam/sgraphs/floor_layer.h"
+#include "slam/sgraphs/range_offsets.h"
 #include "slam/sgraphs/reflections.h"
 #include "slam/sgraphs/room_layer.h"
 #include "slam/sgraphs/wall_layer.h"
@@ -65,6 +66,7 @@ struct SGraphsPlusConfig {
   OptimizerConfig optimizer;
   MapCloudConfig map{.spacing_m = 0.14, .min_neighbours = 14};
   ReflectionConfig reflections;
+  RangeOffsetConfig range_offsets;
 
   template <class V>
   void visit(V& v) {
@@ -88,6 +90,7 @@ struct SGraphsPlusConfig {
     v("optimizer", optimizer);
     v("map", map);
     v("reflections", reflections);
+    v("range_offsets", range_offsets);
   }
 };
 

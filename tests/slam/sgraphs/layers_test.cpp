@@ -228,6 +228,32 @@ TEST(FloorLayer, CentreIsMidwayBetweenTheWidestPairsAndRoomsHangOnIt) {
   EXPECT_LT(floor_residual(graph.floors[0].center_M, graph.rooms[0].center_M, f.offset_M).norm(), 1e-9);
 }
 
+// The centre is that of the widest pairs when it was taken; it is taken anew once they have moved by refresh_m (t_f).
+TEST(FloorLayer, CentreIsTakenAnewBeyondTheThreshold) {
+  const FloorLayerConfig config;
+  const Pose X = Pose::from_xyz_yaw({2, 2, 0}, 0);
+  const auto centre_after = [&](double longer_m) {
+    Graph graph = at(X);
+    WallLayerConfig once;
+    once.min_observations = 1;
+    FloorLayer floors(config);
+    for (const double length : {6.0, 6.0 + longer_m}) {
+      WallLayer walls(once);
+      graph.planes.clear();
+      graph.plane_factors.clear();
+      (void)walls.observe(graph,
+                          std::vector{see(X, {0, 0}, {length, 0}), see(X, {length, 0}, {length, 4}),
+                                      see(X, {length, 4}, {0, 4}), see(X, {0, 4}, {0, 0})},
+                          0.0);
+      floors.update(graph, 0, walls.walls(graph, 0));
+    }
+    EXPECT_EQ(graph.floors.size(), 1U);
+    return graph.floors.at(0).center_M.x();
+  };
+  EXPECT_NEAR(centre_after(1.9 * config.refresh_m), 3.0, 1e-9);
+  EXPECT_NEAR(centre_after(2.1 * config.refresh_m), 3.0 + 1.05 * config.refresh_m, 1e-9);
+}
+
 // A leaf 8 cm back in its wall is within the drift of it, but one scan shows both.
 TEST(WallLayer, ALeafIsNeverItsWall) {
   for (std::uint64_t trial = 0; trial < 50; ++trial) {
