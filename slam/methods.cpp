@@ -92,7 +92,7 @@ std::vector<MethodRow> odometry_and_slam() {
       odometry_alone<VgicpConfig>(
           OdometryKind::vgicp, &LidarOdometryConfig::vgicp,
           {.name = "vgicp_tuned",
-           .summary = "vgicp with the fine voxels that s_graphs_plus and the other graphs walk on",
+           .summary = "vgicp with the fine voxels and edges that s_graphs_plus and the other graphs walk on",
            .standard = false,
            .variant = true}),
       odometry_alone<loam::FloamConfig>(

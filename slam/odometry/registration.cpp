@@ -91,12 +91,22 @@ Normal6 linearize(std::span<const Surfel> surfels, const SurfelMap& map, const P
 
 Registration align(std::span<const Surfel> surfels, const SurfelMap& map, const Pose& start,
                    const std::optional<PosePrior>& prior, const RegistrationConfig& config) {
+  return align(surfels, map, start, prior, config, nullptr);
+}
+
+Registration align(std::span<const Surfel> surfels, const SurfelMap& map, const Pose& start,
+                   const std::optional<PosePrior>& prior, const RegistrationConfig& config, const MoreTerms& more) {
   Registration result;
   result.X_MR = start;
   Normal6 normal;
   while (result.iterations < config.max_iterations && !result.converged) {
     ++result.iterations;
     normal = linearize(surfels, map, result.X_MR, config);
+    if (more) {
+      const Normal6 terms = more(result.X_MR);
+      normal.h += terms.h;
+      normal.g += terms.g;
+    }
     result.information = normal.h;
     if (prior) add_prior(normal, *prior, result.X_MR);
     const std::optional<Vector6d> step = solve_step(normal);

@@ -6,7 +6,8 @@
 
 namespace plumbline::slam {
 
-VgicpOdometry::VgicpOdometry(const VgicpConfig& config) : config_(config), map_(config.map_voxel_m) {}
+VgicpOdometry::VgicpOdometry(const VgicpConfig& config)
+    : config_(config), map_(config.map_voxel_m), edge_map_(config.edges) {}
 
 Registration VgicpOdometry::update(const DeskewedScan& scan, const Pose& X_OR) {
   Registration result = match(scan, X_OR);
@@ -16,12 +17,21 @@ Registration VgicpOdometry::update(const DeskewedScan& scan, const Pose& X_OR) {
 
 Registration VgicpOdometry::match(const DeskewedScan& scan, const Pose& X_OR) {
   scan_ = make_surfels(scan, config_.surfels);
+  edges_R_ = edge_points(scan, config_.edges);
   Registration result;
   result.X_MR = X_MR_;
   if (ready()) {
     const PosePrior prediction = predict(X_OR);
     const std::optional<PosePrior> prior = config_.odometry_prior ? std::optional(prediction) : std::nullopt;
-    result = align(scan_, map_, prediction.X_MR, prior, config_.registration);
+    // Lines are sought where odometry says the robot is: that is nearer than columns are to each other.
+    const std::vector<loam::Match> lines = edge_map_.match(edges_R_, prediction.X_MR);
+    const double information = 1.0 / (config_.edges.sigma_m * config_.edges.sigma_m);
+    result = align(scan_, map_, prediction.X_MR, prior, config_.registration, [&](const Pose& X_MR) {
+      Normal6 terms = loam::linearize(lines, X_MR, config_.edges.huber_m);
+      terms.h *= information;
+      terms.g *= information;
+      return terms;
+    });
   }
   X_OR_ = X_OR;
   if (!q_OM_) q_OM_ = X_OR.q;
@@ -35,11 +45,12 @@ void VgicpOdometry::commit(const Pose& X_MR, bool mapped) {
     const Pose X_KR = keyframes_.back().X_MR.inverse() * X_MR;
     is_keyframe_ = X_KR.t.norm() >= config_.keyframe_distance_m || log_so3(X_KR.q).norm() >= config_.keyframe_angle_rad;
   }
-  if (is_keyframe_) insert(std::move(scan_), X_MR_);
+  if (is_keyframe_) insert(X_MR_);
 }
 
 void VgicpOdometry::forget() {
   map_ = SurfelMap(config_.map_voxel_m);
+  edge_map_ = EdgeMap(config_.edges);
   keyframes_.clear();
 }
 
@@ -57,9 +68,10 @@ PosePrior VgicpOdometry::predict(const Pose& X_OR) const {
   return prior;
 }
 
-void VgicpOdometry::insert(std::vector<Surfel> surfels, const Pose& X_MR) {
-  map_.add(surfels, X_MR);
-  keyframes_.push_back({std::move(surfels), X_MR});
+void VgicpOdometry::insert(const Pose& X_MR) {
+  map_.add(scan_, X_MR);
+  edge_map_.add(std::move(edges_R_), X_MR, static_cast<std::size_t>(config_.map_keyframes));
+  keyframes_.push_back({std::move(scan_), X_MR});
   if (keyframes_.size() <= static_cast<std::size_t>(config_.map_keyframes)) return;
   map_.remove(keyframes_.front().surfels, keyframes_.front().X_MR);
   keyframes_.pop_front();

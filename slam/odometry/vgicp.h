@@ -7,6 +7,7 @@
 
 #include "bim/config/visit.h"
 #include "bim/geometry/pose.h"
+#include "slam/odometry/edges.h"
 #include "slam/odometry/registration.h"
 #include "slam/odometry/surfels.h"
 
@@ -17,6 +18,7 @@ struct VgicpConfig {
   /// The slack along a surface is what a voxel of the map spans. On stairs anything blunter takes soffit, treads and
   /// landing for one surface: with voxels of 0.5 m and agreement 0.5 the attitude was lost there.
   RegistrationConfig registration{.in_plane_m = 0.2, .agreement = 0.9, .kernel = 1.5};
+  EdgeConfig edges;
   double map_voxel_m = 0.2;
   double keyframe_distance_m = 0.5;  ///< a scan enters the local map after this way ...
   double keyframe_angle_rad = 0.35;  ///< ... or this turn
@@ -33,6 +35,7 @@ struct VgicpConfig {
   void visit(V& v) {
     v("surfels", surfels);
     v("registration", registration);
+    v("edges", edges);
     v("map_voxel_m", map_voxel_m, Field{.min = 0.05});
     v("keyframe_distance_m", keyframe_distance_m, Field{.min = 0.01});
     v("keyframe_angle_rad", keyframe_angle_rad, Field{.min = 0.01});
@@ -52,6 +55,7 @@ struct CoarseVgicpConfig : VgicpConfig {
   CoarseVgicpConfig() {
     map_voxel_m = 0.5;
     registration = {.in_plane_m = 0.5, .agreement = 0.8, .kernel = 2.0};
+    edges.enabled = false;
   }
 };
 
@@ -79,12 +83,14 @@ class VgicpOdometry {
   };
 
   [[nodiscard]] PosePrior predict(const Pose& X_OR) const;
-  void insert(std::vector<Surfel> surfels, const Pose& X_MR);
+  void insert(const Pose& X_MR);
 
   VgicpConfig config_;
   SurfelMap map_;
+  EdgeMap edge_map_;
   std::deque<Keyframe> keyframes_;
-  std::vector<Surfel> scan_;  ///< surfels of the scan last matched
+  std::vector<Surfel> scan_;              ///< surfels of the scan last matched ...
+  std::vector<Eigen::Vector3d> edges_R_;  ///< ... and its edge points
   Pose X_MR_;
   Pose X_OR_;
   std::optional<Eigen::Quaterniond> q_OM_;  ///< of the first scan, where M starts: says where up is in M

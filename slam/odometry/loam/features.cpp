@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <numeric>
 #include <span>
+#include <utility>
 
 namespace plumbline::slam::loam {
 
@@ -23,13 +23,14 @@ class Ring {
     }
   }
 
-  void pick(Features& features) {
+  /// Edges alone unless `all`.
+  void pick(Features& features, bool all) {
     const auto sectors = static_cast<std::size_t>(config_.sectors);
     if (points_.size() < sectors * (2 * reach + 1)) return;
     measure();
     const std::size_t inner = points_.size() - 2 * reach;
     for (std::size_t s = 0; s < sectors; ++s)
-      pick_sector(reach + inner * s / sectors, reach + inner * (s + 1) / sectors, features);
+      pick_sector(reach + inner * s / sectors, reach + inner * (s + 1) / sectors, features, all);
   }
 
  private:
@@ -43,21 +44,31 @@ class Ring {
     }
   }
 
-  void pick_sector(std::size_t begin, std::size_t end, Features& features) {
-    std::vector<std::size_t> order(end - begin);
-    std::iota(order.begin(), order.end(), begin);
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return curvature_[a] < curvature_[b]; });
+  void pick_sector(std::size_t begin, std::size_t end, Features& features, bool all) {
+    std::vector<std::size_t> sharp;
+    std::vector<std::size_t> flat;
+    for (std::size_t i = begin; i < end; ++i)
+      if (curvature_[i] > config_.edge_curvature_m2)
+        sharp.push_back(i);
+      else if (all && curvature_[i] < config_.edge_curvature_m2)
+        flat.push_back(i);
     std::vector<bool> edge(end - begin);
-    pick_edges(order, begin, edge, features);
-    pick_flat(order, features);
+    pick_edges(by_curvature(std::move(sharp)), begin, edge, features);
+    if (!all) return;
+    pick_flat(by_curvature(std::move(flat)), features);
     for (std::size_t i = begin; i < end; ++i)
       if (!edge[i - begin]) features.less_flat.push_back({points_[i], ring_});
   }
 
+  [[nodiscard]] std::vector<std::size_t> by_curvature(std::vector<std::size_t> order) const {
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return curvature_[a] < curvature_[b]; });
+    return order;
+  }
+
   void pick_edges(std::span<const std::size_t> order, std::size_t begin, std::vector<bool>& edge, Features& features) {
     int picked = 0;
-    for (auto i = order.rbegin(); i != order.rend() && curvature_[*i] > config_.edge_curvature_m2; ++i) {
+    for (auto i = order.rbegin(); i != order.rend(); ++i) {
       if (silent_[*i]) continue;
       if (++picked > config_.less_sharp) break;
       if (picked <= config_.sharp) features.sharp.push_back({points_[*i], ring_});
@@ -70,7 +81,7 @@ class Ring {
   void pick_flat(std::span<const std::size_t> order, Features& features) {
     int picked = 0;
     for (const std::size_t i : order) {
-      if (picked == config_.flat || curvature_[i] >= config_.edge_curvature_m2) break;
+      if (picked == config_.flat) break;
       if (silent_[i]) continue;
       features.flat.push_back({points_[i], ring_});
       ++picked;
@@ -99,8 +110,14 @@ class Ring {
 
 Features find_features(const DeskewedScan& scan, const FeatureConfig& config) {
   Features features;
-  for (int ring = 0; ring < scan.rings; ++ring) Ring(scan, ring, config).pick(features);
+  for (int ring = 0; ring < scan.rings; ++ring) Ring(scan, ring, config).pick(features, true);
   return features;
+}
+
+std::vector<FeaturePoint> find_edges(const DeskewedScan& scan, const FeatureConfig& config) {
+  Features features;
+  for (int ring = 0; ring < scan.rings; ++ring) Ring(scan, ring, config).pick(features, false);
+  return std::move(features.less_sharp);
 }
 
 }  // namespace plumbline::slam::loam

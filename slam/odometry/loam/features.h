@@ -50,4 +50,7 @@ struct Features {
 /// with fewer than sectors * 11 returns gives none.
 [[nodiscard]] Features find_features(const DeskewedScan& scan, const FeatureConfig& config);
 
+/// Edge points alone: the less sharp ones of find_features(), but flat points silence none of them.
+[[nodiscard]] std::vector<FeaturePoint> find_edges(const DeskewedScan& scan, const FeatureConfig& config);
+
 }  // namespace plumbline::slam::loam

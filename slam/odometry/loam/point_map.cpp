@@ -51,7 +51,7 @@ std::int32_t floor_divide(std::int32_t a, std::int32_t b) { return a >= 0 ? a / 
 
 }  // namespace
 
-PointMap::PointMap(double leaf_m)
+PointMap::PointMap(double leaf_m, double reach_m)
     : leaf_m_(leaf_m), leaves_per_cell_(static_cast<std::int32_t>(std::ceil(reach_m / leaf_m))) {}
 
 /// A cell holds whole leaves.

@@ -15,15 +15,15 @@ namespace plumbline::slam::loam {
 class PointMap {
  public:
   static constexpr std::size_t neighbours = 5;
-  static constexpr double reach_m = 1.0;  ///< farthest neighbour that nearest() finds
   using Neighbours = std::array<Eigen::Vector3d, neighbours>;
 
-  explicit PointMap(double leaf_m);
+  /// reach_m: of the farthest neighbour that nearest() finds.
+  explicit PointMap(double leaf_m, double reach_m = 1.0);
 
   void add(const Eigen::Vector3d& p_M);
   [[nodiscard]] bool empty() const { return points_.empty(); }
   /// The five nearest points, nearest first (ties: added earlier); false when fewer lie within sqrt(max_distance2),
-  /// which may not exceed reach_m.
+  /// which may not exceed the reach.
   [[nodiscard]] bool nearest(const Eigen::Vector3d& p_M, double max_distance2, Neighbours& found) const;
 
  private:
@@ -33,7 +33,7 @@ class PointMap {
   std::int32_t leaves_per_cell_;
   VoxelIndex leaf_index_;
   std::vector<Eigen::Vector3d> points_;
-  VoxelIndex cell_index_;                ///< cells of reach_m or a little more
+  VoxelIndex cell_index_;                ///< cells of the reach or a little more
   std::vector<std::vector<int>> cells_;  ///< points by cell
 };
 
