@@ -38,6 +38,16 @@ class FirstFaces {
  public:
   static constexpr std::size_t most_cells = 100'000;  ///< 25,000 m^2 of 0.5 m; lists of 2 kB a cell, 8 kB at most
 
+  static constexpr int fans_per_quadrant = 12;
+  static constexpr int fans_per_turn = 4 * fans_per_quadrant;
+
+  /// A face, and a distance that no ray of the list meets it before. The last entry has no face (-1), and the distance
+  /// up to which the list is complete.
+  struct Entry {
+    int segment = -1;
+    float from = 0.0F;
+  };
+
   FirstFaces() = default;
   FirstFaces(const std::vector<PlanSegment>& segments, const CellFrame& frame);
 
@@ -45,26 +55,26 @@ class FirstFaces {
   /// then of no use. best: what is to be beaten.
   [[nodiscard]] bool cast(const std::vector<PlanSegment>& segments, int cell, const PlanRay& ray, PlanHit& best) const {
     if (first_.empty()) return false;
-    const double fan = std::min(fans_per_quadrant * pseudo_angle(ray.direction), fans_per_turn - 0.5);
-    auto k = static_cast<std::size_t>(first_[static_cast<std::size_t>(cell * fans_per_turn + static_cast<int>(fan))]);
-    for (; static_cast<double>(entries_[k].from) <= best.distance; ++k) {
-      const int i = entries_[k].segment;
+    for (const Entry* entry = list(cell, fan_of(ray.direction)); static_cast<double>(entry->from) <= best.distance;
+         ++entry) {
+      const int i = entry->segment;
       if (i < 0) return false;
       keep_nearest(segments[static_cast<std::size_t>(i)], i, ray, best);
     }
     return true;
   }
 
+  [[nodiscard]] bool empty() const { return first_.empty(); }
+  /// Range of directions of a ray.
+  [[nodiscard]] static int fan_of(const Eigen::Vector2d& direction) {
+    return static_cast<int>(std::min(fans_per_quadrant * pseudo_angle(direction), fans_per_turn - 0.5));
+  }
+  [[nodiscard]] const Entry* list(int cell, int fan) const {
+    return &entries_[static_cast<std::size_t>(first_[static_cast<std::size_t>(cell * fans_per_turn + fan)])];
+  }
+
  private:
-  /// A face, and a distance that no ray of the list meets it before. The last entry has no face (-1), and the distance
-  /// up to which the list is complete.
-  struct Entry {
-    int segment = -1;
-    float from = 0.0F;
-  };
   struct Fan;
-  static constexpr int fans_per_quadrant = 12;
-  static constexpr int fans_per_turn = 4 * fans_per_quadrant;
   void fill_cell(const std::vector<PlanSegment>& segments, const Eigen::Vector2d& center, double cell,
                  const std::vector<Entry>& by_distance, std::vector<Fan>& fans);
 

@@ -58,6 +58,9 @@ struct LikelihoodConfig {
 [[nodiscard]] double beam_log_likelihood(const StoreyIndex& storey, const Pose2& X_IH, const View& view, int stride,
                                          const LikelihoodConfig& config);
 
+/// Horizontal range up to which faces say something about a beam: floor, ceiling, or 1 m behind its return.
+[[nodiscard]] double beam_reach(const StoreyIndex& storey, const Beam& beam, double sensor_height);
+
 /// One beam against the plan.
 struct BeamResidual {
   double across = 0.0;    ///< measured minus expected range, across the face hit, m; positive: through the wall

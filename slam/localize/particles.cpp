@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "bim/errors.h"
+#include "slam/localize/beam_blocks.h"
 
 namespace plumbline::slam {
 
@@ -133,13 +134,15 @@ void propagate(ParticleSet& particles, const Pose2& u, const PlanIndex& index, c
 
 Reweighting reweight(ParticleSet& particles, const View& view, const PlanIndex& index,
                      const LikelihoodConfig& likelihood, const FilterConfig& config) {
+  std::vector<BeamBlocks> beams;
+  for (const StoreyIndex& storey : index.storeys) beams.emplace_back(storey, view, config.beam_stride, likelihood);
   std::vector<double> log_likelihood(particles.size());
   double top = -1e300, mean = 0.0;
   for (std::size_t i = 0; i < particles.size(); ++i) {
     const LocalParticle& particle = particles[i];
     const StoreyIndex& storey = index.storeys[static_cast<std::size_t>(particle.storey)];
     log_likelihood[i] = wall_log_likelihood(storey, particle.X_IH, view, likelihood) +
-                        beam_log_likelihood(storey, particle.X_IH, view, config.beam_stride, likelihood);
+                        beams[static_cast<std::size_t>(particle.storey)].log_likelihood(particle.X_IH);
     if (particle.weight > 0.0) top = std::max(top, log_likelihood[i]);
     mean += particle.weight * log_likelihood[i];
   }

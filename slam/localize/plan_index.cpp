@@ -143,6 +143,7 @@ StoreyIndex make_storey(const bim::Plan& plan_W, int plan_storey, const Pose& X_
     storey.rooms.push_back(std::move(room));
   }
   storey.grid = SegmentGrid(storey.segments, config.cell_m);
+  storey.sectors = FaceSectors(storey.segments, storey.grid.first_faces(), storey.grid.cells());
   storey.visible = visible_lines(storey, config);
   return storey;
 }

@@ -9,6 +9,7 @@
 #include "bim/building/plan.h"
 #include "bim/config/visit.h"
 #include "bim/geometry/polygon.h"
+#include "slam/localize/face_sectors.h"
 #include "slam/localize/segment_grid.h"
 
 namespace plumbline::slam {
@@ -64,6 +65,7 @@ struct StoreyIndex {
   std::vector<WallLine> lines;
   std::vector<IndexRoom> rooms;
   SegmentGrid grid;                       ///< over segments
+  FaceSectors sectors;                    ///< by cell of the grid
   std::vector<std::vector<int>> visible;  ///< per cell of the grid: lines seen from it, ascending
 
   /// Room that holds p, or -1 (ties: lowest).

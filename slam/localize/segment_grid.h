@@ -34,6 +34,7 @@ class SegmentGrid {
   [[nodiscard]] int cell_at(const Eigen::Vector2d& p) const { return frame_.at(p); }
   [[nodiscard]] int cells() const { return frame_.cells(); }
   [[nodiscard]] Eigen::Vector2d cell_center(int cell) const { return frame_.center(cell); }
+  [[nodiscard]] const FirstFaces& first_faces() const { return near_; }
   [[nodiscard]] double cell_size() const { return frame_.cell; }
 
  private:

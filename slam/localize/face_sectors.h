@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "slam/localize/first_faces.h"
+
+namespace plumbline::slam {
+
+/// What FirstFaces knows, for rays that are looked at several at a time: for each cell and each four sectors side by
+/// side, the faces that a ray may meet, nearest first.
+class FaceSectors {
+ public:
+  static constexpr int per_turn = 24;
+  static constexpr int wide = 4;
+
+  /// A hole of a face, or the face itself: along it and in height, m.
+  struct Window {
+    float s0 = 0.0F, s1 = 0.0F, z0 = 0.0F, z1 = 0.0F;
+  };
+  struct Face {
+    float nx = 0.0F, ny = 0.0F, ex = 0.0F, ey = 0.0F, ax = 0.0F, ay = 0.0F;  ///< normal, direction, start
+    Window whole;
+    int first_hole = 0, last_hole = 0;  ///< into holes()
+  };
+  /// As FirstFaces::Entry, but the last of a list has the least distance up to which one of its rays is complete.
+  using Entry = FirstFaces::Entry;
+
+  FaceSectors() = default;
+  /// Empty where first_faces is.
+  FaceSectors(const std::vector<PlanSegment>& segments, const FirstFaces& first_faces, int cells);
+
+  [[nodiscard]] bool empty() const { return first_.empty(); }
+  /// The list for directions from 2 pi sector / per_turn on, over `wide` sectors.
+  [[nodiscard]] const Entry* list(int cell, int sector) const {
+    return &entries_[static_cast<std::size_t>(first_[static_cast<std::size_t>(cell * per_turn + sector)])];
+  }
+  /// Up to which distance the list is complete for rays of this direction.
+  [[nodiscard]] float complete(int cell, const Eigen::Vector2d& direction) const {
+    return complete_[static_cast<std::size_t>(cell * FirstFaces::fans_per_turn + FirstFaces::fan_of(direction))];
+  }
+  [[nodiscard]] const Face& face(int segment) const { return faces_[static_cast<std::size_t>(segment)]; }
+  [[nodiscard]] const std::vector<Window>& holes() const { return holes_; }
+
+ private:
+  std::vector<Face> faces_;
+  std::vector<Window> holes_;
+  std::vector<int> first_;  ///< by cell and sector: start of its list
+  std::vector<Entry> entries_;
+  std::vector<float> complete_;  ///< by cell and fan of FirstFaces
+};
+
+}  // namespace plumbline::slam
