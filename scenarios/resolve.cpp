@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "bim/building/plan.h"
+#include "bim/digest/digest.h"
 #include "bim/import/mesh_file.h"
 #include "bim/random/stream.h"
 #include "scenarios/draw.h"
@@ -143,6 +144,20 @@ bim::Building walked_building(const bim::Site& site) {
   return walked;
 }
 
+/// The walk from where the robot is set down; settles that place. The draw is another than that of the start.
+RoutePlan plan_after_kidnap(const bim::Building& walked, const Tree& tree, Scenario& scenario) {
+  Scenario after = scenario;
+  after.start = scenario.kidnap->to;
+  after.seed = Digest().add(scenario.seed).add("kidnap").value();
+  const RouteMarks marks{mark_at(tree, {"kidnap", "to"}), mark_at(tree, {"route"}),
+                         marks_of(tree, {"route", "rooms"}, after.route.rooms.size())};
+  settle_draws(walked, after, marks);
+  RoutePlan plan = plan_route(walked, after.start, after.route, marks);
+  const std::string& storey = walked.storeys[static_cast<std::size_t>(plan.storey)].id;
+  scenario.kidnap->to = Start{std::nullopt, std::nullopt, storey, plan.start_W, plan.yaw_deg};
+  return plan;
+}
+
 /// What a run directory calls its copy of the building. A mesh is told by its ending, which stays.
 std::string name_of_copy(const fs::path& building, const std::string& bytes) {
   if (bim::is_mesh_path(building.string())) return "building" + building.extension().string();
@@ -204,6 +219,12 @@ ResolvedScenario resolve(const std::string& input_path, const Overrides& overrid
   resolved.world = make_world(scenario, plan);
   resolved.world.people = place_people(walked, scenario, text.tree, plan.storey);
   resolved.world.doors = hang_doors(resolved.site.as_built, scenario, text.tree);
+  if (scenario.kidnap) {
+    resolved.world_after = make_world(scenario, plan_after_kidnap(walked, text.tree, scenario));
+    resolved.world_after->people = resolved.world.people;
+    resolved.world_after->doors = resolved.world.doors;
+    resolved.world.duration_s = scenario.kidnap->after_s;
+  }
   resolved.prior = make_prior(scenario, resolved.site.as_planned, plan);
   resolved.scenario = std::move(scenario);
   return resolved;

@@ -23,7 +23,8 @@ struct ResolvedScenario {
   Scenario scenario;           ///< start, route and methods settled; `building` names the copy in a run directory
   bim::Site site;              ///< as planned for the methods, as built for the world
   std::string building_bytes;  ///< the file as it was read
-  sim::WorldConfig world;
+  sim::WorldConfig world;      ///< until the robot is lifted, where it is
+  std::optional<sim::WorldConfig> world_after;  ///< from where it is set down, until the end of the scenario
   slam::Prior prior;
   int dropped_gates = 0;    ///< gates of methods that Overrides left out
   slam::MethodTable table;  ///< where its methods stand; must outlive this

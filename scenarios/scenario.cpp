@@ -52,6 +52,17 @@ void check_route_and_start(const Scenario& scenario, const Tree& tree) {
     throw InputError(mark_at(tree, {"route", "random"}), "a drawn route takes neither rooms nor shuttle");
 }
 
+void check_kidnap(const Scenario& scenario, const Tree& tree) {
+  if (!scenario.kidnap) return;
+  const Start& to = scenario.kidnap->to;
+  if (to.random.has_value() + to.room.has_value() + to.at.has_value() != 1)
+    throw InputError(mark_at(tree, {"kidnap", "to"}), "needs exactly one of a room, a point `at` and a draw `random`");
+  if (scenario.kidnap->after_s + scenario.kidnap->away_s >= scenario.duration_s)
+    throw InputError(mark_at(tree, {"kidnap"}),
+                     "the robot is not set down before the run ends; duration_s must be more "
+                     "than after_s and away_s together");
+}
+
 void check_bodies(const Scenario& scenario, const Tree& tree) {
   constexpr std::size_t most = bim::MovingBodies::most;
   const std::size_t people = scenario.people.size();
@@ -79,6 +90,7 @@ ScenarioText read_scenario(std::string_view text, const std::string& file) {
   check_route_and_start(result.scenario, tree);
   check_pushes(result.scenario.pushes, tree);
   check_bodies(result.scenario, tree);
+  check_kidnap(result.scenario, tree);
   return result;
 }
 
@@ -151,6 +163,7 @@ std::vector<std::string> off_defaults(const Scenario& scenario) {
     names.push_back("doors: " + to_tree(options).find("doors")->as_string());
   if (options.furniture != defaults.building_options.furniture)
     names.push_back(std::string("furniture: ") + (options.furniture ? "true" : "false"));
+  if (scenario.kidnap) names.emplace_back("kidnap");
   if (!scenario.people.empty()) names.push_back("people: " + std::to_string(scenario.people.size()));
   if (!scenario.moving_doors.empty()) names.push_back("moving_doors: " + std::to_string(scenario.moving_doors.size()));
   return names;

@@ -206,6 +206,20 @@ struct PriorSpec {
   }
 };
 
+/// The robot is lifted, carried off and set down elsewhere, and walks the rooms of its route again from there.
+struct KidnapSpec {
+  double after_s = 30.0;
+  double away_s = 3.0;
+  Start to;
+  template <class V>
+  void visit(V& v) {
+    v("after_s", after_s,
+      Field{.doc = "lifted after this time, s, or at the end of its route", .min = 1.0, .max = 36000.0});
+    v("away_s", away_s, Field{.doc = "in the air, s: no scans, no odometry", .min = 1.0, .max = 60.0});
+    v("to", to, Field{.doc = "where it is set down", .required = true});
+  }
+};
+
 /// A bound on one metric of one method; exactly one of max and min.
 struct GateSpec {
   std::string metric;
@@ -238,6 +252,7 @@ struct Scenario {
   PushesSpec pushes;
   std::vector<PersonSpec> people;
   std::vector<MovingDoorSpec> moving_doors;
+  std::optional<KidnapSpec> kidnap;
   PriorSpec prior;
   std::vector<std::string> methods;  ///< empty: the standard ones of the table
   std::vector<GateSpec> gates;
@@ -258,6 +273,7 @@ struct Scenario {
     v("pushes", pushes, Field{.doc = "pushes of 0.15 s against the robot, horizontal, from any side"});
     v("people", people, Field{.doc = "people who walk about; the LiDAR sees them, no plan knows them"});
     v("moving_doors", moving_doors, Field{.doc = "doors that open and shut; the LiDAR sees their leaves"});
+    v("kidnap", kidnap, Field{.doc = "once on its way the robot is carried off; people and doors then begin anew"});
     v("prior", prior, Field{.doc = "what plan localization is told"});
     v("methods", methods, Field{.doc = "methods to run"});
     v("gates", gates, Field{.doc = "bounds that decide pass or fail"});

@@ -53,6 +53,7 @@ people:
   - {points: [[2, 1], [4, 1]], radius_m: 0.3, height_m: 1.6}
 moving_doors:
   - {door: door_kitchen, hinge: b, swing: right, angle_deg: 100, near_m: 2, travel_s: 1.5, times_s: [20, 35]}
+kidnap: {after_s: 60, away_s: 3, to: {room: kitchen}}
 prior: {yaw: unknown, storey: known}
 methods: [vgicp, s_graphs_plus, s_graph_localization]
 gates:
@@ -65,6 +66,7 @@ building: library/quickstart.plan.yaml
 furniture: false
 start: {storey: ground, at: [4, 6], yaw_deg: 90}
 route: {shuttle: corridor, times: 2}
+kidnap: {after_s: 30, to: {at: [4, 6], yaw_deg: 180}}
 lidar:
   model: hdl32e
   preset: full
@@ -92,6 +94,7 @@ building: library/house.plan.yaml
 start: {random: rooms, storey: ground}
 route: {random: 5}
 duration_s: 90
+kidnap: {after_s: 40, to: {random: rooms, storey: ground}}
 )yaml"};
   return examples;
 }

@@ -53,7 +53,13 @@ class SchemaVisitor {
   template <class T>
   void operator()(std::string_view key, T& value, const Field& field = {}) {
     const std::string path = prefix_ + std::string(key);
-    if constexpr (Visitable<T>) {
+    if constexpr (requires {
+                    requires Visitable<typename T::value_type>;
+                    value.has_value();
+                  }) {
+      typename T::value_type inner;
+      (*this)(key, inner, field);
+    } else if constexpr (Visitable<T>) {
       SchemaVisitor inner(sections_, section_, path + ".");
       value.visit(inner);
     } else {

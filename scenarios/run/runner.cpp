@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenarios/run/runner.h"
 
-#include <memory>
-
 #include "bim/building/plan.h"
 #include "bim/digest/float_mode.h"
 #include "bim/errors.h"
@@ -11,10 +9,9 @@
 #include "scenarios/run/observer.h"
 #include "scenarios/run/participant.h"
 #include "scenarios/run/pipeline.h"
+#include "scenarios/run/walk.h"
 
 namespace plumbline::scenarios {
-
-namespace {
 
 std::vector<std::unique_ptr<Participant>> make_participants(const ResolvedScenario& resolved) {
   const auto plan = std::make_shared<const bim::Plan>(bim::make_plan(resolved.site.as_planned));
@@ -38,19 +35,17 @@ std::vector<std::unique_ptr<Participant>> make_participants(const ResolvedScenar
   return participants;
 }
 
-}  // namespace
-
 RunRecord execute(const ResolvedScenario& resolved, const RunOptions& options) {
   set_float_mode();
   const bim::Building& as_built = resolved.site.as_built;
   const bim::BuildingMesh mesh = bim::build_mesh(as_built);
-  sim::World world(resolved.world, as_built, mesh);
+  Walk walk(resolved, mesh);
   FrameRecorder recorder(mesh);
   RunRecord record;
 
   const FrameSource source = [&](sim::WorldFrame& frame) {
     try {
-      if (!world.next(frame)) return false;
+      if (!walk.next(frame)) return false;
     } catch (const ScenarioFailure& failure) {
       record.failure = failure.what();
       return false;

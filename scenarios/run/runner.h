@@ -2,9 +2,12 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
+#include <vector>
 
 #include "scenarios/resolve.h"
+#include "scenarios/run/participant.h"
 #include "scenarios/run/record.h"
 #include "sim/world.h"
 
@@ -17,6 +20,9 @@ struct RunOptions {
   std::function<void(double simulated_s)> tick;         ///< called after each scan, for the progress line; may be empty
   std::function<void(const sim::WorldFrame&)> sensors;  ///< given each frame, to record it; may be empty
 };
+
+/// The methods that a scenario asks for, in its order, with what each is told.
+[[nodiscard]] std::vector<std::unique_ptr<Participant>> make_participants(const ResolvedScenario& resolved);
 
 /// Simulates the scenario once and feeds every method it asks for. The same scenario gives the same record, apart
 /// from the times, at any number of threads. A fall or stall ends the run early and stands in RunRecord::failure.

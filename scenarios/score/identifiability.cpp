@@ -37,7 +37,7 @@ std::vector<PlacesLeft> places_left(const RunIdentifiability& run) {
 }  // namespace
 
 std::optional<Identifiability> identifiability_of(const RunFiles& files, const Truth& truth) {
-  if (files.scans.empty() || files.truth_W.empty()) return std::nullopt;
+  if (truth.scans.empty() || files.truth_W.empty()) return std::nullopt;
   const bim::Building& as_planned = files.site.as_planned;
   const SeenBuilding planned = seen_building(as_planned);
   std::optional<SeenBuilding> built;
@@ -54,8 +54,8 @@ std::optional<Identifiability> identifiability_of(const RunFiles& files, const T
       input.storeys.push_back(search_area(as_planned, i));
 
   std::vector<TruthSample> samples;
-  for (const slam::Nanoseconds t : files.scans)
-    samples.push_back({slam::seconds(t - files.scans.front()), truth.at(t), sensor_z_W(plan, truth.at(t))});
+  for (const slam::Nanoseconds t : truth.scans)
+    samples.push_back({slam::seconds(t - truth.scans.front()), truth.at(t), sensor_z_W(plan, truth.at(t))});
   const RunIdentifiability run = identify_run(input, samples);
 
   Identifiability result;

@@ -156,9 +156,49 @@ std::string to_string(LocalizationVerdict verdict) {
   return names[static_cast<std::size_t>(verdict)];
 }
 
+namespace {
+
+/// What came of a kidnapping. Time in which the robot stands counts too.
+void score_kidnap(const Truth& truth, const std::vector<Belief>& beliefs, const LocalizationRules& rules,
+                  LocalizationScore& score) {
+  const slam::Nanoseconds set_down = *truth.set_down;
+  bool was_wrong = false, was_right = false;
+  slam::Nanoseconds wrong_from = 0, right_from = 0, longest = 0;
+  std::optional<Pose> X_WR;
+  for (const Belief& belief : beliefs) {
+    if (belief.X_WR) X_WR = belief.X_WR;
+    if (belief.stamp < set_down) continue;
+    const bool answers = belief.state == slam::State::converged && X_WR.has_value();
+    const bool is_right = answers && right(*X_WR, truth.at(belief.stamp), rules), is_wrong = answers && !is_right;
+    if (is_right && !was_right) right_from = belief.stamp;
+    if (is_wrong && !was_wrong) wrong_from = belief.stamp;
+    if (is_wrong) longest = std::max(longest, belief.stamp - wrong_from);
+    was_right = is_right;
+    was_wrong = is_wrong;
+  }
+  score.kidnap_wrong_s = slam::seconds(longest);
+  score.state = beliefs.back().state;
+  score.hypotheses = static_cast<int>(beliefs.back().hypotheses.size());
+  if (!was_right || slam::seconds(beliefs.back().stamp - right_from) < rules.hold_s) return;
+  const double walked_m = walked_at(truth, right_from);
+  if (walked_at(truth, beliefs.back().stamp) - walked_m < rules.hold_m) return;
+  score.kidnap_found_s = slam::seconds(right_from - set_down);
+  score.kidnap_found_m = walked_m - walked_at(truth, set_down);
+}
+
+}  // namespace
+
 LocalizationScore score_localization(const Truth& truth, const std::vector<Belief>& beliefs,
                                      const std::optional<Identifiability>& identifiability,
                                      const LocalizationRules& rules) {
+  if (truth.set_down) {
+    std::vector<Belief> before = beliefs;
+    std::erase_if(before, [&](const Belief& belief) { return belief.stamp >= *truth.set_down; });
+    if (before.empty()) before.push_back({truth.scans.front(), slam::State::searching, {}, {}, {}});
+    LocalizationScore score = score_localization(truth.before(), before, identifiability, rules);
+    score_kidnap(truth, beliefs, rules, score);
+    return score;
+  }
   if (beliefs.empty()) throw InternalError("score: a localization without any belief");
   const Belief& last = beliefs.back();
   LocalizationScore score;

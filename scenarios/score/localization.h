@@ -98,11 +98,15 @@ struct LocalizationScore {
   std::optional<double> true_mass;  ///< share of the last hypotheses that are right
   std::optional<double> nees;       ///< mean of e' P^-1 e of (x, y, yaw) while converged and right; 3 where P is honest
   std::optional<Failure> failure;
-  std::optional<double> failure_at_s;  ///< `replay --until` stops there
+  std::optional<double> failure_at_s;    ///< `replay --until` stops there
+  std::optional<double> kidnap_wrong_s;  ///< longest time a wrong pose stood as CONVERGED after it was set down
+  std::optional<double> kidnap_found_s;  ///< since it was set down, until the pose was CONVERGED and right to the end
+  std::optional<double> kidnap_found_m;  ///< walked until then
 };
 
 /// Scores the beliefs of a run, one a scan in time order; nothing is ever aligned. A scan without a pose after the
-/// first convergence is held against the last pose given.
+/// first convergence is held against the last pose given. A robot that was carried off is judged by what it said
+/// before; then the kidnap_* values say what came of it, and state and hypotheses are those of the end.
 [[nodiscard]] LocalizationScore score_localization(const Truth& truth, const std::vector<Belief>& beliefs,
                                                    const std::optional<Identifiability>& identifiability,
                                                    const LocalizationRules& rules = {});

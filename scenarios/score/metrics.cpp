@@ -59,6 +59,9 @@ std::vector<MetricRow> make_rows() {
       {"localization.true_mass", "", Better::higher, field(&S::localization, &L::true_mass)},
       {"localization.nees", "", Better::neither, field(&S::localization, &L::nees)},
       {"localization.failure_at_s", "s", Better::neither, field(&S::localization, &L::failure_at_s)},
+      {"localization.kidnap_wrong_s", "s", Better::lower, field(&S::localization, &L::kidnap_wrong_s)},
+      {"localization.kidnap_found_s", "s", Better::lower, field(&S::localization, &L::kidnap_found_s)},
+      {"localization.kidnap_found_m", "m", Better::lower, field(&S::localization, &L::kidnap_found_m)},
   };
 }
 

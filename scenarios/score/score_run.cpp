@@ -144,6 +144,20 @@ Tree to_results(const Identifiability& known) {
 
 }  // namespace
 
+namespace {
+
+/// A robot that was in the air is set down where the scans begin anew.
+Truth truth_of(const RunFiles& files) {
+  Truth truth{files.truth_W, files.scans, std::nullopt};
+  if (!files.scenario.kidnap) return truth;
+  const double gap_s = 0.5 * files.scenario.kidnap->away_s;
+  for (std::size_t i = 1; i < files.scans.size() && !truth.set_down; ++i)
+    if (slam::seconds(files.scans[i] - files.scans[i - 1]) > gap_s) truth.set_down = files.scans[i];
+  return truth;
+}
+
+}  // namespace
+
 bool RunScore::passed() const {
   return std::all_of(gates.begin(), gates.end(), [](const GateResult& gate) { return gate.passed; });
 }
@@ -151,7 +165,7 @@ bool RunScore::passed() const {
 RunScore score_run(const RunFiles& files) {
   RunScore score;
   score.as_built = bim::make_plan(files.site.as_built);
-  score.truth = {files.truth_W, files.scans};
+  score.truth = truth_of(files);
   score.digest = hex64(digest_of(files.digests));
   score.duration_s = slam::seconds(files.scans.back());
   score.distance_m = score.truth.walked().back();
@@ -162,7 +176,7 @@ RunScore score_run(const RunFiles& files) {
   const Reference reference{score.as_built, score.truth, surface_W, distance};
   const bool localizes = std::any_of(files.methods.begin(), files.methods.end(),
                                      [](const MethodRecord& m) { return m.localization && !m.crashed; });
-  if (localizes) score.identifiability = identifiability_of(files, score.truth);
+  if (localizes) score.identifiability = identifiability_of(files, score.truth.before());
   for (const MethodRecord& method : files.methods) {
     MethodScore one;
     if (method.crashed)

@@ -35,9 +35,21 @@ Pose Truth::at(slam::Nanoseconds t) const {
 
 std::vector<double> Truth::walked() const {
   std::vector<double> distance(scans.size(), 0.0);
-  for (std::size_t i = 1; i < scans.size(); ++i)
-    distance[i] = distance[i - 1] + (at(scans[i]).t - at(scans[i - 1]).t).head<2>().norm();
+  for (std::size_t i = 1; i < scans.size(); ++i) {
+    const bool carried = set_down == scans[i];
+    distance[i] = distance[i - 1] + (carried ? 0.0 : (at(scans[i]).t - at(scans[i - 1]).t).head<2>().norm());
+  }
   return distance;
+}
+
+Truth Truth::before() const {
+  Truth part = *this;
+  if (!set_down) return part;
+  part.set_down.reset();
+  std::erase_if(part.scans, [&](slam::Nanoseconds t) { return t >= *set_down; });
+  const slam::Nanoseconds last = part.scans.back();
+  std::erase_if(part.poses_W, [&](const slam::StampedPose& pose) { return pose.stamp > last; });
+  return part;
 }
 
 std::vector<PosePair> associate(const Truth& truth, const std::vector<slam::StampedPose>& poses_F,

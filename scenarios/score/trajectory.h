@@ -20,11 +20,14 @@ struct TrajectoryRules {
 struct Truth {
   std::vector<slam::StampedPose> poses_W;
   std::vector<slam::Nanoseconds> scans;
+  std::optional<slam::Nanoseconds> set_down = {};  ///< first scan of a robot that was carried off, where it was
 
+  /// What was before the robot was carried off; all where it was not.
+  [[nodiscard]] Truth before() const;
   /// X_WR at t, interpolated between neighbours; the first or last pose outside.
   [[nodiscard]] Pose at(slam::Nanoseconds t) const;
   /// Horizontal distance walked from the first scan to each scan, m. Sampled at the scans, so that the sway of the
-  /// gait between them does not count.
+  /// gait between them does not count; nor does the way it was carried.
   [[nodiscard]] std::vector<double> walked() const;
 };
 

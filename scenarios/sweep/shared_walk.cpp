@@ -4,12 +4,9 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "bim/building/plan.h"
 #include "bim/errors.h"
-#include "bim/random/stream.h"
 #include "scenarios/run/files.h"
 #include "scenarios/run/interrupt.h"
-#include "scenarios/run/participant.h"
 #include "scenarios/run/run_files.h"
 #include "scenarios/run/runner.h"
 #include "scenarios/score/score_run.h"
@@ -24,10 +21,9 @@ namespace {
 class Listener {
  public:
   Listener(const std::string& file, std::uint64_t seed, slam::MethodTable table)
-      : dir_(fs::path(file).replace_extension().string()), resolved_(resolve(file, {std::nullopt, seed}, table)) {
-    const auto plan = std::make_shared<const bim::Plan>(bim::make_plan(resolved_.site.as_planned));
-    for (const std::string& name : resolved_.scenario.methods) participants_.push_back(make(name, plan));
-  }
+      : dir_(fs::path(file).replace_extension().string()),
+        resolved_(resolve(file, {std::nullopt, seed}, table)),
+        participants_(make_participants(resolved_)) {}
 
   [[nodiscard]] const ResolvedScenario& resolved() const { return resolved_; }
 
@@ -53,22 +49,6 @@ class Listener {
   }
 
  private:
-  /// As execute() makes them.
-  [[nodiscard]] std::unique_ptr<Participant> make(const std::string& name,
-                                                  const std::shared_ptr<const bim::Plan>& plan) const {
-    if (name == truth_method) return make_truth();
-    const slam::MethodRow* row = slam::find_method(name, resolved_.table);
-    if (row == nullptr) throw InternalError("method '" + name + "' is not in the table");
-    slam::MethodInput input;
-    input.seed = method_seed(resolved_.scenario.seed, name);
-    input.calibration = sim::World::calibration();
-    if (row->needs_plan) {
-      input.plan = plan;
-      input.prior = resolved_.prior;
-    }
-    return make_estimator(*row, input);
-  }
-
   std::string dir_;
   ResolvedScenario resolved_;
   std::vector<std::unique_ptr<Participant>> participants_;

@@ -136,6 +136,17 @@ TEST(Scenario, ComplaintsNameThePlaceAndWhatWouldBeRight) {
   EXPECT_NE(complaint(with("building: two.plan.yaml\n", "")).find("'building' is missing"), std::string::npos);
 }
 
+TEST(Scenario, AKidnappedRobotIsSetDownSomewhereBeforeTheEnd) {
+  EXPECT_EQ(complaint(good + "kidnap: {after_s: 20, to: {room: hall}}\n"), "none");
+  EXPECT_NE(complaint(good + "kidnap: {after_s: 20}\n").find("'to' is missing"), std::string::npos);
+  EXPECT_NE(complaint(good + "kidnap: {after_s: 20, to: {}}\n").find("s.yaml:16:"), std::string::npos);
+  EXPECT_NE(complaint(good + "kidnap: {after_s: 20, to: {room: hall, random: rooms}}\n").find("exactly one"),
+            std::string::npos);
+  EXPECT_NE(complaint(good + "kidnap: {after_s: 28, to: {room: hall}}\n").find("duration_s"), std::string::npos);
+  EXPECT_EQ(off_defaults(read_scenario(good + "kidnap: {to: {room: hall}, after_s: 9}\n", "s").scenario).back(),
+            "kidnap");
+}
+
 TEST(Scenario, AShuttleIsReadAgainAsItIsWritten) {
   Scenario scenario;
   scenario.building = "two.plan.yaml";

@@ -153,5 +153,60 @@ TEST(Localization, WhatCanBeToldTooLateToHoldAnAnswerIsWeak) {
   EXPECT_EQ(evidence(end_s - 5.1, end_m - 0.9), Evidence::weak);
 }
 
+/// 100 scans, then 3 s in the air and 100 more from 8 m aside.
+Truth kidnapped_walk() {
+  Truth truth;
+  for (int i = 0; i < scans; ++i) {
+    const bool after = i >= scans / 2;
+    const slam::Nanoseconds stamp = i * scan_ns + (after ? 3'000'000'000 : 0);
+    if (i == scans / 2) truth.set_down = stamp;
+    truth.scans.push_back(stamp);
+    truth.poses_W.push_back({stamp, Pose::from_xyz_yaw({0.05 * i, after ? 8.0 : 0.0, 0.5}, 0.0)});
+  }
+  return truth;
+}
+
+/// Right from scan 20 on; as if nothing had happened for `blind` scans after it was set down, lost for `lost` more,
+/// then right.
+std::vector<Belief> kidnapped_beliefs(int blind, int lost) {
+  const Truth truth = kidnapped_walk();
+  std::vector<Belief> beliefs;
+  for (int i = 0; i < scans; ++i) {
+    const int since = i - scans / 2;
+    Belief belief;
+    belief.stamp = truth.scans[static_cast<std::size_t>(i)];
+    belief.state = i < 20 ? slam::State::searching : slam::State::converged;
+    if (since >= blind && since < blind + lost) belief.state = slam::State::lost;
+    if (i >= 20) belief.X_WR = truth.at(belief.stamp);
+    if (since >= 0 && since < blind + lost) belief.X_WR->t.y() = 0.0;
+    beliefs.push_back(belief);
+  }
+  return beliefs;
+}
+
+TEST(Localization, AKidnappedRobotIsJudgedBeforeAndTimedAfter) {
+  const Truth truth = kidnapped_walk();
+  EXPECT_NEAR(truth.walked().back(), 0.05 * (scans - 2), 1e-9);
+  EXPECT_EQ(truth.before().scans.size(), 100U);
+  const LocalizationScore found = score_localization(truth, kidnapped_beliefs(21, 10), {});
+  EXPECT_EQ(found.verdict, LocalizationVerdict::success);
+  EXPECT_NEAR(*found.ape_rmse_m, 0.0, 1e-9);
+  EXPECT_NEAR(*found.kidnap_wrong_s, 2.0, 1e-9);
+  EXPECT_NEAR(*found.kidnap_found_s, 3.1, 1e-9);
+  EXPECT_NEAR(*found.kidnap_found_m, 3.1 * 0.5, 1e-9);
+  EXPECT_EQ(found.state, slam::State::converged);
+
+  const LocalizationScore never = score_localization(truth, kidnapped_beliefs(100, 0), {});
+  EXPECT_NEAR(*never.kidnap_wrong_s, 9.9, 1e-9);
+  EXPECT_FALSE(never.kidnap_found_s);
+  const LocalizationScore says_lost = score_localization(truth, kidnapped_beliefs(0, 100), {});
+  EXPECT_EQ(*says_lost.kidnap_wrong_s, 0.0);
+  EXPECT_FALSE(says_lost.kidnap_found_s);
+  EXPECT_EQ(says_lost.state, slam::State::lost);
+  // Too late to be held for 5 s.
+  EXPECT_FALSE(score_localization(truth, kidnapped_beliefs(60, 0), {}).kidnap_found_s);
+  EXPECT_FALSE(judge(converges_at(40, 0.1)).kidnap_wrong_s);
+}
+
 }  // namespace
 }  // namespace plumbline::scenarios::score
