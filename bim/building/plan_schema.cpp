@@ -47,6 +47,7 @@ stairs:
      landing_after: 9, landing_m: 1.1, turn: back_left, gap_m: 0.1, material: wood}
 clutter:
   - {id: desk, storey: ground, shape: box, at: [10.5, 1.5], size: [1.6, 0.8], yaw_deg: 90, height_m: 0.75, material: wood}
+  - {id: plant, storey: upper, shape: cylinder, at: [11, 6], size: [0.4, 0.4], height_m: 1.2, material: wood}
 materials:
   - {id: brick, reflectivity: 0.35, transmission: 0, specular: 0, retro: 0}
 deviations:
@@ -60,9 +61,10 @@ deviations:
   - {op: add_clutter, id: pallet, storey: ground, shape: cylinder, at: [3, 2], size: [1.2, 0.8], yaw_deg: 10, height_m: 1, material: wood}
   - {op: add_column, id: prop, storey: ground, at: [5, 6], size: [0.1, 0.1], yaw_deg: 0, height_m: 2.8, material: metal}
 symmetry:
-  exact: true
+  exact: false
   group: [{angle_deg: 0, about: [0, 0], from: [ground], to: [upper]}]
   rooms_alike: [[hall, upper/hall], [office, upper/office]]
+  feature: {kind: clutter, size_m: 0.4, element: plant, storey: upper, room: upper/office, at: [11, 6], visible_from: [upper/office]}
 )yaml";
 
 constexpr std::string_view introduction = R"md(# Plan files
