@@ -201,10 +201,10 @@ bool SGraphLocalization::is_due(const Pose& X_OR) const {
   return u.t.norm() >= config_.update_m || std::abs(u.yaw) >= config_.update_rad;
 }
 
-/// The told yaw carried along by the odometry.
+/// The told yaw carried along by the odometry. A robot that is lost may have been carried off and turned.
 StartBelief SGraphLocalization::belief(Nanoseconds stamp, const Pose& X_OR) const {
   StartBelief belief;
-  if (!input_.prior.yaw_W) return belief;
+  if (!input_.prior.yaw_W || state_ == State::lost) return belief;
   const double yaw_I = std::round((*input_.prior.yaw_W - index_.X_WI.yaw()) * 1e9) * 1e-9;
   belief.yaw_I = wrap_angle(yaw_I + X_OR.yaw() - X_OR_start_->yaw());
   belief.yaw_sigma = input_.prior.yaw_sigma + config_.search.convergence.yaw_drift * seconds(stamp);
