@@ -6,6 +6,7 @@
 
 #include "bim/digest/digest.h"
 #include "bim/errors.h"
+#include "slam/io/stopwatch.h"
 
 namespace plumbline::scenarios {
 
@@ -137,7 +138,9 @@ void Participant::keep_belief(const slam::Output& output) {
 MethodRecord Participant::finish() {
   if (!record_.crashed) {
     try {
+      const slam::Stopwatch watch;
       record_.estimate = estimate();
+      if (!record_.times.empty()) add_time(record_.times, {"finish", watch.cpu_ms()});
       record_.digests.push_back({last_stamp_, record_.name + "/estimate", digest_of(record_.estimate)});
     } catch (const std::exception& error) {
       record_.crashed = true;

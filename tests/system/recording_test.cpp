@@ -183,6 +183,7 @@ TEST_F(Recordings, EstimateSaysWhatRunSaid) {
   EXPECT_TRUE(results["methods"]["again"].contains("rooms"));
   const auto timings = nlohmann::json::parse(read_file(folder_ / "out_s_graphs_plus/timings.json"));
   EXPECT_TRUE(timings["stages"].contains("s_graphs_plus/plane_segmentation"));
+  EXPECT_EQ(timings["stages"]["s_graphs_plus/finish"]["count"], 1);
   const Outcome refused = plumbline({"score", run, "--estimate", "walk=" + walk});
   EXPECT_EQ(refused.code, 2);
   EXPECT_NE(refused.err.find("holds no estimate"), std::string::npos) << refused.err;

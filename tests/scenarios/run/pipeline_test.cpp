@@ -106,6 +106,15 @@ TEST(Pipeline, ThreadsChangeNothing) {
   EXPECT_EQ(alone[1].causal.back().X_FR.t.x(), 0.01 * frames);
 }
 
+TEST(Pipeline, WhatAMethodDoesAfterTheRunIsTimed) {
+  const auto records = run_pipeline(small_source(), [](const auto&) {}, three(), {.threads = 1});
+  ASSERT_EQ(records[0].times.size(), 2U);
+  EXPECT_EQ(records[0].times[0].cpu_ms.size(), static_cast<std::size_t>(frames));
+  EXPECT_EQ(records[0].times[1].stage, "finish");
+  EXPECT_EQ(records[0].times[1].cpu_ms.size(), 1U);
+  EXPECT_TRUE(records[1].times.empty()) << "the truth has no stages";
+}
+
 TEST(Pipeline, AMethodThatThrowsCrashesAlone) {
   for (const int threads : {1, 4}) {
     std::vector<std::unique_ptr<Participant>> participants;
