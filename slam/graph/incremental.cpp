@@ -60,8 +60,8 @@ class WindowSolver {
 
  private:
   double linearize_all() {
-    H_ = Eigen::MatrixXd::Zero(ordering_.size, ordering_.size);
-    g_ = Eigen::VectorXd::Zero(ordering_.size);
+    H_.setZero(ordering_.size, ordering_.size);
+    g_.setZero(ordering_.size);
     terms_cost_ = linearize(terms_, values_, ordering_, &g_, dense_sink(H_));
     return terms_cost_ + add_prior(prior_, values_, ordering_, &g_, &H_);
   }
@@ -70,9 +70,9 @@ class WindowSolver {
   bool step(double& cost) {
     constexpr int trials = 8;
     for (int trial = 0; trial < trials; ++trial) {
-      Eigen::MatrixXd damped = H_;
-      damped.diagonal() *= 1.0 + damping_;
-      const Eigen::LLT<Eigen::MatrixXd> llt(damped);
+      damped_ = H_;
+      damped_.diagonal() *= 1.0 + damping_;
+      const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> llt(damped_);  // in place
       if (llt.info() == Eigen::Success) {
         const Eigen::VectorXd delta = -llt.solve(g_);
         Values moved = values_;
@@ -98,7 +98,7 @@ class WindowSolver {
   const Ordering& ordering_;
   Values& values_;
   const OptimizerConfig& config_;
-  Eigen::MatrixXd H_;
+  Eigen::MatrixXd H_, damped_;
   Eigen::VectorXd g_;
   double terms_cost_ = 0.0;
   double damping_ = 1e-9;

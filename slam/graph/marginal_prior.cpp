@@ -25,7 +25,6 @@ constexpr double least_information = 1e-6;
 constexpr int max_rows = 6;
 constexpr int max_blocks = 1 + max_room_planes;
 
-using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
 /// A term's whitened residual and Jacobians; the tangent part stands in the first columns.
@@ -46,9 +45,48 @@ struct Evaluation {
     }
     term.cost->Evaluate(x.data(), e.data(), with_jacobians ? jacobians.data() : nullptr);
   }
-  [[nodiscard]] Eigen::MatrixXd tangent(std::size_t i, Layer layer) const {
-    return Eigen::Map<const RowMajor>(J[i].data(), rows, columns[i]).leftCols(tangent_size(layer));
+};
+
+/// J^T of one vertex, times a weight, from an evaluation; small enough for the stack, since a window has thousands.
+class WeightedJacobian {
+ public:
+  WeightedJacobian(const Evaluation& evaluation, std::size_t i, int size, double weight)
+      : evaluation_(evaluation), size_(size) {
+    for (int a = 0; a < size; ++a)
+      for (int r = 0; r < evaluation.rows; ++r) at(a, r) = weight * jacobian(i, r, a);
   }
+
+  /// g += J^T w e.
+  void add_gradient(double* g) const {
+    for (int a = 0; a < size_; ++a) {
+      double sum = at(a, 0) * evaluation_.e[0];
+      for (int r = 1; r < evaluation_.rows; ++r) sum += at(a, r) * evaluation_.e[r];
+      g[a] += sum;
+    }
+  }
+
+  /// J^T w J_j, column by column.
+  [[nodiscard]] Eigen::Map<const Eigen::MatrixXd> times(std::size_t j, int size_j) {
+    for (int b = 0; b < size_j; ++b)
+      for (int a = 0; a < size_; ++a) {
+        double sum = at(a, 0) * jacobian(j, 0, b);
+        for (int r = 1; r < evaluation_.rows; ++r) sum += at(a, r) * jacobian(j, r, b);
+        block_[static_cast<std::size_t>(b * size_ + a)] = sum;
+      }
+    return {block_.data(), size_, size_j};
+  }
+
+ private:
+  [[nodiscard]] double jacobian(std::size_t i, int row, int column) const {
+    return evaluation_.J[i][static_cast<std::size_t>(row * evaluation_.columns[i] + column)];
+  }
+  double& at(int a, int row) { return weighted_[static_cast<std::size_t>(a * max_rows + row)]; }
+  [[nodiscard]] double at(int a, int row) const { return weighted_[static_cast<std::size_t>(a * max_rows + row)]; }
+
+  const Evaluation& evaluation_;
+  int size_;
+  std::array<double, max_rows * max_rows> weighted_;
+  std::array<double, max_rows * max_rows> block_;
 };
 
 /// d and its change with the vertex's increment: d(at, moved(value, step)).
@@ -85,6 +123,28 @@ Difference difference(Layer layer, const Block& from, const Block& to) {
   if (layer == Layer::keyframe) return pose_difference(to_pose(from.data()), to_pose(to.data()));
   if (layer == Layer::plane) return plane_difference(to_plane(from.data()), to_plane(to.data()));
   throw InternalError("a marginal prior holds keyframes and planes only");
+}
+
+/// Adds D_i^T B D_j to the block of H at (row_i, row_j). A pose's D moves translation and rotation each for itself, a
+/// plane's its normal and its offset, and the zeros between are left out.
+void add_between(const Difference& i, const Eigen::Ref<const Eigen::MatrixXd>& B, const Difference& j, int row_i,
+                 int row_j, Eigen::MatrixXd& H) {
+  const int n = static_cast<int>(i.d.size()), m = static_cast<int>(j.d.size());
+  std::array<double, max_rows * max_rows> half{};  // D_i^T B, column by column
+  for (int c = 0; c < m; ++c)
+    for (int a = 0; a < n; ++a) {
+      const auto x = [&](int k) { return i.D(k, a) * B(k, c); };
+      half[static_cast<std::size_t>(c * n + a)] = n == 3  ? (a < 2 ? x(0) + x(1) : x(2))
+                                                  : a < 3 ? x(0) + x(2) + x(1)
+                                                          : x(4) + (x(3) + x(5));
+    }
+  for (int b = 0; b < m; ++b)
+    for (int a = 0; a < n; ++a) {
+      const auto y = [&](int c) { return half[static_cast<std::size_t>(c * n + a)] * j.D(c, b); };
+      H(row_i + a, row_j + b) += m == 3  ? (b < 2 ? y(0) + y(1) : y(2))
+                                 : b < 3 ? y(0) + y(1) + y(2)
+                                         : y(3) + y(4) + y(5);
+    }
 }
 
 /// Rows of the vertices that terms and prior touch: first those to eliminate, then those to keep.
@@ -138,6 +198,7 @@ BlockSink dense_sink(Eigen::MatrixXd& H) {
 
 double linearize(const std::vector<Term>& terms, const Values& values, const Ordering& ordering, Eigen::VectorXd* g,
                  const BlockSink& sink) {
+  constexpr int held = -1;
   double cost = 0.0;
   Evaluation evaluation;
   for (const Term& term : terms) {
@@ -148,16 +209,18 @@ double linearize(const std::vector<Term>& terms, const Values& values, const Ord
     const double weight = outlier ? term.huber / norm : 1.0;
     cost += outlier ? term.huber * (norm - 0.5 * term.huber) : 0.5 * norm * norm;
     if (g == nullptr) continue;
+    std::array<int, max_blocks> row{};
     for (std::size_t i = 0; i < term.vertices.size(); ++i) {
-      const auto at_i = ordering.row.find(term.vertices[i]);
-      if (at_i == ordering.row.end()) continue;
-      const Eigen::MatrixXd weighted = weight * evaluation.tangent(i, term.vertices[i].layer).transpose();
-      g->segment(at_i->second, weighted.rows()) += weighted * e;
-      for (std::size_t j = 0; sink && j < term.vertices.size(); ++j) {
-        const auto at_j = ordering.row.find(term.vertices[j]);
-        if (at_j == ordering.row.end() || at_j->second > at_i->second) continue;
-        sink(at_i->second, at_j->second, weighted * evaluation.tangent(j, term.vertices[j].layer));
-      }
+      const auto at = ordering.row.find(term.vertices[i]);
+      row[i] = at == ordering.row.end() ? held : at->second;
+    }
+    for (std::size_t i = 0; i < term.vertices.size(); ++i) {
+      if (row[i] == held) continue;
+      WeightedJacobian weighted(evaluation, i, tangent_size(term.vertices[i].layer), weight);
+      weighted.add_gradient(g->data() + row[i]);
+      for (std::size_t j = 0; sink && j < term.vertices.size(); ++j)
+        if (row[j] != held && row[j] <= row[i])
+          sink(row[i], row[j], weighted.times(j, tangent_size(term.vertices[j].layer)));
     }
   }
   return cost;
@@ -187,8 +250,7 @@ double add_prior(const MarginalPrior& prior, const Values& values, const Orderin
       const Eigen::Index size_j = parts[j].d.size();
       const int to_j = ordering.row.at(prior.vertices[j]);
       if (to_j <= to_i)
-        H->block(to_i, to_j, size_i, size_j) +=
-            parts[i].D.transpose() * prior.information.block(row_i, row_j, size_i, size_j) * parts[j].D;
+        add_between(parts[i], prior.information.block(row_i, row_j, size_i, size_j), parts[j], to_i, to_j, *H);
       row_j += size_j;
     }
     row_i += size_i;

@@ -39,6 +39,10 @@ class WallGrower {
       : scan_(scan), segments_(segments), config_(config), taken_(segments.size(), false) {
     const double tilt = config.max_tilt_prior_deg * std::numbers::pi / 180.0;
     tilt_weight_ = config.segment_rms_m * config.segment_rms_m / (tilt * tilt);
+    ring_starts_.assign(static_cast<std::size_t>(scan.rings) + 1, segments.size());
+    for (std::size_t i = segments.size(); i-- > 0;) ring_starts_[static_cast<std::size_t>(segments[i].ring)] = i;
+    for (std::size_t ring = ring_starts_.size() - 1; ring-- > 0;)
+      ring_starts_[ring] = std::min(ring_starts_[ring], ring_starts_[ring + 1]);
   }
 
   /// Every segment once as seed, most points first (ties: lower index).
@@ -57,24 +61,29 @@ class WallGrower {
  private:
   /// Takes segments of the nearest rings first, so that the tilt is known before far rings are asked.
   [[nodiscard]] Wall grow(std::size_t seed) {
-    std::vector<std::size_t> candidates;
-    for (std::size_t i = 0; i < segments_.size(); ++i)
-      if (!taken_[i] && i != seed) candidates.push_back(i);
-    std::stable_sort(candidates.begin(), candidates.end(), [&](std::size_t a, std::size_t b) {
-      return std::abs(segments_[a].ring - segments_[seed].ring) < std::abs(segments_[b].ring - segments_[seed].ring);
-    });
     Wall wall;
     wall.plane = upright_plane(segments_[seed], scan_.X_RL.t);
     join(wall, seed);
+    const std::size_t rings = ring_starts_.size() - 1, own = static_cast<std::size_t>(segments_[seed].ring);
     for (bool grown = true; grown;) {
       grown = false;
-      for (const std::size_t i : candidates) {
-        if (taken_[i] || !fits(wall, segments_[i])) continue;
-        join(wall, i);
-        grown = true;
+      for (std::size_t away = 0; away < rings; ++away) {
+        if (away <= own) grown |= join_ring(wall, own - away);
+        if (away > 0 && own + away < rings) grown |= join_ring(wall, own + away);
       }
     }
     return wall;
+  }
+
+  /// What of a ring fits; true where something did.
+  bool join_ring(Wall& wall, std::size_t ring) {
+    bool grown = false;
+    for (std::size_t i = ring_starts_[ring]; i < ring_starts_[ring + 1]; ++i) {
+      if (taken_[i] || !fits(wall, segments_[i])) continue;
+      join(wall, i);
+      grown = true;
+    }
+    return grown;
   }
 
   void join(Wall& wall, std::size_t i) {
@@ -116,7 +125,8 @@ class WallGrower {
   const std::vector<RingSegment>& segments_;
   const PlaneDetectorConfig& config_;
   std::vector<bool> taken_;
-  double tilt_weight_ = 0.0;  ///< points times m^2: variance of a point over that of the tilt
+  std::vector<std::size_t> ring_starts_;  ///< first segment of each ring, and the end
+  double tilt_weight_ = 0.0;              ///< points times m^2: variance of a point over that of the tilt
 };
 
 /// Fits the wall to its points without any prior on its tilt; nothing when it is too small for a wall.

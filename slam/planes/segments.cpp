@@ -22,34 +22,49 @@ struct Line2 {
 /// Prefix sums of x, y, xx, xy, yy along a ring, so that any stretch is fitted in constant time.
 class LineSums {
  public:
-  LineSums(const DeskewedScan& scan, const std::vector<std::uint32_t>& points) : sums_(points.size() + 1) {
-    sums_[0].setZero();
+  explicit LineSums(const std::vector<Eigen::Vector3d>& points) : sums_(points.size() + 1) {
     for (std::size_t i = 0; i < points.size(); ++i) {
-      const Eigen::Vector3d& p = scan.point_R[points[i]];
-      Sums s;
-      s << p.x(), p.y(), p.x() * p.x(), p.x() * p.y(), p.y() * p.y();
-      sums_[i + 1] = sums_[i] + s;
+      const Eigen::Vector3d& p = points[i];
+      const Sums& s = sums_[i];
+      sums_[i + 1] = {s.x + p.x(), s.y + p.y(), s.xx + p.x() * p.x(), s.xy + p.x() * p.y(), s.yy + p.y() * p.y()};
     }
   }
 
   /// Of points [begin, end).
   [[nodiscard]] Line2 fit(std::size_t begin, std::size_t end) const {
-    const Sums s = (sums_[end] - sums_[begin]) / static_cast<double>(end - begin);
-    const double xx = s(2) - s(0) * s(0);
-    const double xy = s(3) - s(0) * s(1);
-    const double yy = s(4) - s(1) * s(1);
-    const double half = 0.5 * (xx - yy);
-    const double root = std::sqrt(half * half + xy * xy);
-    const double least = std::max(0.0, 0.5 * (xx + yy) - root);
+    const Spread s = spread(begin, end);
     // Of two equal forms of the long axis the one that does not cancel.
-    Eigen::Vector2d axis = half >= 0.0 ? Eigen::Vector2d(root + half, xy) : Eigen::Vector2d(xy, root - half);
+    Eigen::Vector2d axis =
+        s.half >= 0.0 ? Eigen::Vector2d(s.root + s.half, s.xy) : Eigen::Vector2d(s.xy, s.root - s.half);
     const double norm = axis.norm();
     axis = norm > 0.0 ? Eigen::Vector2d(axis / norm) : Eigen::Vector2d::UnitX();
-    return {{s(0), s(1)}, axis, std::sqrt(least)};
+    return {{s.x, s.y}, axis, s.rms()};
   }
 
+  /// The fit's rms alone.
+  [[nodiscard]] double rms(std::size_t begin, std::size_t end) const { return spread(begin, end).rms(); }
+
  private:
-  using Sums = Eigen::Matrix<double, 5, 1>;
+  struct Sums {
+    double x = 0.0, y = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
+  };
+  /// Mean and second moments about it, in the form of their eigenvalues: mean +- root.
+  struct Spread {
+    double x, y, xy, half, root, mean;
+    [[nodiscard]] double rms() const { return std::sqrt(std::max(0.0, mean - root)); }
+  };
+
+  [[nodiscard]] Spread spread(std::size_t begin, std::size_t end) const {
+    const Sums &a = sums_[begin], &b = sums_[end];
+    const auto n = static_cast<double>(end - begin);
+    const double x = (b.x - a.x) / n, y = (b.y - a.y) / n;
+    const double xx = (b.xx - a.xx) / n - x * x;
+    const double xy = (b.xy - a.xy) / n - x * y;
+    const double yy = (b.yy - a.yy) / n - y * y;
+    const double half = 0.5 * (xx - yy);
+    return {x, y, xy, half, std::sqrt(half * half + xy * xy), 0.5 * (xx + yy)};
+  }
+
   std::vector<Sums> sums_;
 };
 
@@ -57,7 +72,12 @@ class LineSums {
 class RingCutter {
  public:
   RingCutter(const DeskewedScan& scan, int ring, std::vector<std::uint32_t> points, const PlaneDetectorConfig& config)
-      : scan_(scan), ring_(ring), points_(std::move(points)), config_(config), sums_(scan, points_) {}
+      : scan_(scan),
+        ring_(ring),
+        points_(std::move(points)),
+        config_(config),
+        points_R_(side_by_side(scan, points_)),
+        sums_(points_R_) {}
 
   void cut(std::vector<RingSegment>& out) const {
     std::size_t begin = 0;
@@ -69,7 +89,15 @@ class RingCutter {
   }
 
  private:
-  [[nodiscard]] Eigen::Vector2d xy(std::size_t i) const { return scan_.point_R[points_[i]].head<2>(); }
+  /// A scan holds the points of a ring far apart.
+  static std::vector<Eigen::Vector3d> side_by_side(const DeskewedScan& scan, const std::vector<std::uint32_t>& points) {
+    std::vector<Eigen::Vector3d> points_R;
+    points_R.reserve(points.size());
+    for (const std::uint32_t i : points) points_R.push_back(scan.point_R[i]);
+    return points_R;
+  }
+
+  [[nodiscard]] Eigen::Vector2d xy(std::size_t i) const { return points_R_[i].head<2>(); }
 
   [[nodiscard]] bool jumps(std::size_t i) const {
     const double gap = config_.gap_m + config_.gap_per_m * scan_.range_m[points_[i]];
@@ -94,7 +122,7 @@ class RingCutter {
     constexpr std::size_t least = 2;  // what a cut corner left over may be less than a segment
     const std::size_t stride = std::max<std::size_t>(1, (end - begin) / step_candidates);
     const auto square_sum = [&](std::size_t from, std::size_t to) {
-      const double rms = sums_.fit(from, to).rms;
+      const double rms = sums_.rms(from, to);
       return rms * rms * static_cast<double>(to - from);
     };
     std::size_t best = end;
@@ -133,7 +161,7 @@ class RingCutter {
 
   void keep(std::size_t begin, std::size_t end, const Line2& line, std::vector<RingSegment>& out) const {
     const auto on_line = [&](std::size_t i) -> Eigen::Vector3d {
-      const Eigen::Vector3d& p = scan_.point_R[points_[i]];
+      const Eigen::Vector3d& p = points_R_[i];
       const Eigen::Vector2d q = line.centre + line.direction * line.direction.dot(p.head<2>() - line.centre);
       return {q.x(), q.y(), p.z()};
     };
@@ -145,7 +173,7 @@ class RingCutter {
     if ((segment.p1_R - segment.p0_R).head<2>().norm() < config_.segment_length_m) return;
     segment.points.assign(points_.begin() + static_cast<std::ptrdiff_t>(begin),
                           points_.begin() + static_cast<std::ptrdiff_t>(end));
-    for (const std::uint32_t i : segment.points) segment.moments.add(scan_.point_R[i]);
+    for (std::size_t i = begin; i < end; ++i) segment.moments.add(points_R_[i]);
     out.push_back(std::move(segment));
   }
 
@@ -153,6 +181,7 @@ class RingCutter {
   int ring_;
   std::vector<std::uint32_t> points_;
   const PlaneDetectorConfig& config_;
+  std::vector<Eigen::Vector3d> points_R_;
   LineSums sums_;
 };
 
@@ -162,8 +191,7 @@ std::vector<Facing> classify_returns(const DeskewedScan& scan, const PlaneDetect
   const auto rings = static_cast<std::size_t>(scan.rings);
   std::vector<Facing> facing(scan.range_m.size(), Facing::none);
   std::vector<double> reach(rings);  // horizontal distance from the sensor
-  std::vector<bool> flat(rings);
-  std::vector<bool> steep(rings);
+  std::vector<std::uint8_t> flat(rings), steep(rings);
   for (std::size_t first = 0; first + rings <= facing.size(); first += rings) {
     for (std::size_t r = 0; r < rings; ++r) {
       const double range = scan.range_m[first + r];
@@ -172,17 +200,17 @@ std::vector<Facing> classify_returns(const DeskewedScan& scan, const PlaneDetect
       reach[r] = (scan.point_R[first + r] - scan.X_RL.t).head<2>().norm();
     }
     // Links to the ring above; a steep one wins, so that a depth jump over a wall does not take the wall's edge away.
-    std::fill(flat.begin(), flat.end(), false);
-    std::fill(steep.begin(), steep.end(), false);
+    std::fill(flat.begin(), flat.end(), std::uint8_t{0});
+    std::fill(steep.begin(), steep.end(), std::uint8_t{0});
     for (std::size_t r = 0; r + 1 < rings; ++r) {
       if (facing[first + r] == Facing::none || facing[first + r + 1] == Facing::none) continue;
       const double rise = std::abs(scan.point_R[first + r + 1].z() - scan.point_R[first + r].z());
       const double run = std::abs(reach[r + 1] - reach[r]);
-      if (rise <= config.flat_slope * run) flat[r] = flat[r + 1] = true;
-      if (rise >= run) steep[r] = steep[r + 1] = true;
+      if (rise <= config.flat_slope * run) flat[r] = flat[r + 1] = 1;
+      if (rise >= run) steep[r] = steep[r + 1] = 1;
     }
     for (std::size_t r = 0; r < rings; ++r)
-      if (flat[r] && !steep[r]) facing[first + r] = Facing::flat;
+      if (flat[r] != 0 && steep[r] == 0) facing[first + r] = Facing::flat;
   }
   return facing;
 }

@@ -104,16 +104,19 @@ FreeRays free_rays(const DeskewedScan& scan, const Eigen::Vector3d& up_R, const 
   for (std::size_t column = 0; column < static_cast<std::size_t>(scan.columns); ++column) {
     // The returns of one firing share its azimuth.
     std::size_t farthest = 0;
-    double reach = 0.0;
+    double reach = 0.0, squared_reach = 0.0;
     for (std::size_t k = column * rings; k < (column + 1) * rings; ++k) {
       if (scan.range_m[k] <= 0.0) continue;
       const Eigen::Vector3d ray = scan.point_R[k] - rays.origin_R;
       const double rise = up_R.dot(ray);
       const double height = config.sensor_height_m + rise;
       if (height < config.height_low_m || height > config.height_high_m) continue;
-      const double horizontal = (ray - up_R * rise).norm();
-      if (horizontal <= reach) continue;
+      const double squared = (ray - up_R * rise).squaredNorm();
+      if (squared <= squared_reach) continue;
+      const double horizontal = std::sqrt(squared);
+      if (horizontal <= reach) continue;  // two squares may have one root
       reach = horizontal;
+      squared_reach = squared;
       farthest = k;
     }
     if (reach <= 0.0) continue;
@@ -136,26 +139,38 @@ FreeRays free_rays(const DeskewedScan& scan, const Eigen::Vector3d& up_R, const 
 
 std::vector<Eigen::Vector3d> wall_points(const DeskewedScan& scan, std::span<const PlaneObservation> planes,
                                          const FreeSpaceConfig& config) {
+  struct Wall {
+    Plane plane_R;
+    Eigen::Vector3d from_R, along;
+    double length = 0.0;
+    std::vector<std::uint8_t> hit;  ///< by stretches of a half cell
+  };
   const double floor_R = scan.X_RL.t.z() - config.sensor_height_m;
   const double bin_m = 0.5 * config.cell_m;
-  const auto rings = static_cast<std::size_t>(scan.rings), columns = static_cast<std::size_t>(scan.columns);
-  std::vector<Eigen::Vector3d> result;
+  std::vector<Wall> walls;
   for (const PlaneObservation& plane : planes) {
     if (!plane.vertical || plane.z1 - floor_R < config.wall_top_m) continue;
     const Eigen::Vector3d way = plane.p1_R - plane.p0_R;
     const double length = way.norm();
-    const Eigen::Vector3d along = way / std::max(length, 1e-9);
-    std::vector<bool> hit(static_cast<std::size_t>(length / bin_m) + 1, false);
-    for (std::size_t column = 0; column < columns; column += 2) {
-      for (std::size_t k = column * rings; k < (column + 1) * rings; ++k) {
-        if (std::abs(plane.plane_R.distance(scan.point_R[k])) > config.wall_gate_m || scan.range_m[k] <= 0.0) continue;
-        const double s = along.dot(scan.point_R[k] - plane.p0_R);
-        if (s >= 0.0 && s <= length) hit[static_cast<std::size_t>(s / bin_m)] = true;
+    const auto bins = static_cast<std::size_t>(length / bin_m) + 1;
+    walls.push_back({plane.plane_R, plane.p0_R, way / std::max(length, 1e-9), length,
+                     std::vector<std::uint8_t>(bins, std::uint8_t{0})});
+  }
+  const auto rings = static_cast<std::size_t>(scan.rings), columns = static_cast<std::size_t>(scan.columns);
+  for (std::size_t column = 0; column < columns; column += 2)
+    for (std::size_t k = column * rings; k < (column + 1) * rings; ++k) {
+      if (scan.range_m[k] <= 0.0) continue;
+      const Eigen::Vector3d& p = scan.point_R[k];
+      for (Wall& wall : walls) {
+        if (std::abs(wall.plane_R.distance(p)) > config.wall_gate_m) continue;
+        const double s = wall.along.dot(p - wall.from_R);
+        if (s >= 0.0 && s <= wall.length) wall.hit[static_cast<std::size_t>(s / bin_m)] = 1;
       }
     }
-    for (std::size_t b = 0; b < hit.size(); ++b)
-      if (hit[b]) result.push_back(plane.p0_R + along * (bin_m * (static_cast<double>(b) + 0.5)));
-  }
+  std::vector<Eigen::Vector3d> result;
+  for (const Wall& wall : walls)
+    for (std::size_t b = 0; b < wall.hit.size(); ++b)
+      if (wall.hit[b] != 0) result.push_back(wall.from_R + wall.along * (bin_m * (static_cast<double>(b) + 0.5)));
   return result;
 }
 
