@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
+#include <cstdint>
+#include <span>
 #include <utility>
 
 namespace plumbline::slam {
@@ -13,42 +14,43 @@ namespace {
 
 constexpr int none = -1;
 
+/// More cells than a grid has in one column.
+constexpr float far = 1e6F;
+
 /// Lower envelope of parabolas: squared distance transform of one line [Felzenszwalb, Huttenlocher 2012].
 class LineTransform {
  public:
-  explicit LineTransform(int n) : f_(static_cast<std::size_t>(n)), v_(f_.size()), z_(f_.size() + 1), out_(f_.size()) {}
+  explicit LineTransform(int longest) : v_(static_cast<std::size_t>(longest)), z_(v_.size() + 1), out_(v_.size()) {}
 
-  std::vector<float>& input() { return f_; }
-
-  const std::vector<float>& run() {
+  void run(std::span<const float> f) {
     std::size_t k = 0;
     v_[0] = 0;
     z_[0] = -infinity;
     z_[1] = infinity;
-    for (std::size_t q = 1; q < f_.size(); ++q) {
-      float s = cross(q, v_[k]);
-      while (s <= z_[k]) s = cross(q, v_[--k]);
+    for (std::size_t q = 1; q < f.size(); ++q) {
+      float s = cross(f, q, v_[k]);
+      while (s <= z_[k]) s = cross(f, q, v_[--k]);
       v_[++k] = q;
       z_[k] = s;
       z_[k + 1] = infinity;
     }
     k = 0;
-    for (std::size_t q = 0; q < f_.size(); ++q) {
+    for (std::size_t q = 0; q < f.size(); ++q) {
       while (z_[k + 1] < static_cast<float>(q)) ++k;
       const float d = static_cast<float>(q) - static_cast<float>(v_[k]);
-      out_[q] = d * d + f_[v_[k]];
+      out_[q] = d * d + f[v_[k]];
     }
-    return out_;
   }
+  /// Of the line's cells.
+  [[nodiscard]] const std::vector<float>& out() const { return out_; }
 
   static constexpr float infinity = 1e12F;
 
  private:
-  [[nodiscard]] float cross(std::size_t q, std::size_t p) const {
+  static float cross(std::span<const float> f, std::size_t q, std::size_t p) {
     const auto x = static_cast<float>(q), y = static_cast<float>(p);
-    return ((f_[q] + x * x) - (f_[p] + y * y)) / (2.0F * (x - y));
+    return ((f[q] + x * x) - (f[p] + y * y)) / (2.0F * (x - y));
   }
-  std::vector<float> f_;
   std::vector<std::size_t> v_;
   std::vector<float> z_, out_;
 };
@@ -70,19 +72,21 @@ class Basins {
 
  private:
   void add(std::size_t cell) {
-    const auto width = static_cast<std::size_t>(frame_.nx);
-    const int i = static_cast<int>(cell % width), j = static_cast<int>(cell / width);
+    const auto [i, j] = frame_.place(cell);
     std::array<int, 8> met{};
     int count = 0;
     int uphill = none;
     float uphill_height = -1.0F;
-    for (int dj = -1; dj <= 1; ++dj)
-      for (int di = -1; di <= 1; ++di) {
-        const int ni = i + di, nj = j + dj;
-        if ((di == 0 && dj == 0) || ni < 0 || nj < 0 || ni >= frame_.nx || nj >= frame_.ny) continue;
+    int last_label = none, last_root = none;  // neighbours mostly bear one label
+    bool one = true;
+    for (int nj = std::max(j - 1, 0); nj <= std::min(j + 1, frame_.ny - 1); ++nj)
+      for (int ni = std::max(i - 1, 0); ni <= std::min(i + 1, frame_.nx - 1); ++ni) {
         const std::size_t n = frame_.index(ni, nj);
-        if (label_[n] == none) continue;
-        const int root = find(label_[n]);
+        if (n == cell || label_[n] == none) continue;
+        const int root = label_[n] == last_label ? last_root : find(label_[n]);
+        one = one && (last_root == none || root == last_root);
+        last_label = label_[n];
+        last_root = root;
         met[static_cast<std::size_t>(count++)] = root;
         if (height_[n] > uphill_height) {
           uphill_height = height_[n];
@@ -95,6 +99,7 @@ class Basins {
       top_.push_back(height_[cell]);
     }
     label_[cell] = uphill;
+    if (one) return;
     for (int m = 0; m < count; ++m) meet(uphill, met[static_cast<std::size_t>(m)], height_[cell]);
   }
 
@@ -120,23 +125,30 @@ class Basins {
   std::vector<float> top_;
 };
 
-void find_boundary(const GridFrame& frame, const std::vector<int>& owner, int id, Cluster& cluster) {
+void find_boundary(const GridFrame& frame, const std::vector<int>& owner, int id, Cluster& cluster,
+                   const std::vector<CellRun>& runs) {
   const auto width = static_cast<std::size_t>(frame.nx);
-  for (const std::size_t cell : cluster.cells) {
-    const std::size_t i = cell % width, j = cell / width;
-    const bool inside = i > 0 && j > 0 && i + 1 < width && j + 1 < static_cast<std::size_t>(frame.ny) &&
-                        owner[cell - 1] == id && owner[cell + 1] == id && owner[cell - width] == id &&
-                        owner[cell + width] == id;
-    if (!inside) cluster.boundary.push_back(cell);
+  for (const CellRun& run : runs) {
+    const bool edge_row = run.j == 0 || run.j + 1 == frame.ny;
+    int i = run.i;
+    for (std::size_t k = run.from; k < run.to; ++k, ++i) {
+      const std::size_t cell = cluster.cells[k];
+      const bool inside = !edge_row && i > 0 && i + 1 < frame.nx && owner[cell - 1] == id && owner[cell + 1] == id &&
+                          owner[cell - width] == id && owner[cell + width] == id;
+      if (!inside) cluster.boundary.push_back(cell);
+    }
   }
 }
 
 /// From its cells.
 void measure(const GridFrame& frame, const std::vector<int>& owner, int id, Cluster& cluster) {
+  const std::vector<CellRun> runs = runs_of(frame, cluster.cells);
   cluster.area_m2 = static_cast<double>(cluster.cells.size()) * frame.cell * frame.cell;
-  for (const std::size_t cell : cluster.cells) cluster.center_M += frame.center(cell);
+  for (const CellRun& run : runs)
+    for (std::size_t k = run.from; k < run.to; ++k)
+      cluster.center_M += frame.center(run.i + static_cast<int>(k - run.from), run.j);
   cluster.center_M /= static_cast<double>(cluster.cells.size());
-  find_boundary(frame, owner, id, cluster);
+  find_boundary(frame, owner, id, cluster, runs);
 }
 
 /// Clusters from the owner of every cell; those that are too small or too narrow are left out. top[id]: clearance.
@@ -186,6 +198,21 @@ std::vector<Cluster> cut_at_threshold(const FreeGrid& grid, const std::vector<fl
 
 }  // namespace
 
+std::vector<CellRun> runs_of(const GridFrame& frame, const std::vector<std::size_t>& cells) {
+  std::vector<CellRun> runs;
+  std::size_t row_end = 0;
+  for (std::size_t k = 0; k < cells.size(); ++k) {
+    const bool goes_on = k > 0 && cells[k] == cells[k - 1] + 1 && cells[k] < row_end;
+    if (!goes_on) {
+      const auto [i, j] = frame.place(cells[k]);
+      runs.push_back({k, k, i, j});
+      row_end = frame.index(0, j + 1);
+    }
+    runs.back().to = k + 1;
+  }
+  return runs;
+}
+
 Cluster cluster_of(const FreeGrid& grid, std::vector<std::size_t> cells) {
   std::vector<int> owner(grid.frame.size(), none);
   for (const std::size_t cell : cells) owner[cell] = 0;
@@ -197,26 +224,37 @@ Cluster cluster_of(const FreeGrid& grid, std::vector<std::size_t> cells) {
 
 std::vector<float> clearance(const FreeGrid& grid) {
   const GridFrame& f = grid.frame;
-  std::vector<float> d(f.size());
-  LineTransform column(f.ny), row(f.nx);
-  std::vector<std::uint8_t> in_column(static_cast<std::size_t>(f.nx), 0);
-  for (std::size_t k = 0, i = 0; k < f.size(); ++k, i = i + 1 == in_column.size() ? 0 : i + 1)
-    in_column[i] |= grid.free[k];
-  for (int i = 0; i < f.nx; ++i) {
-    if (in_column[static_cast<std::size_t>(i)] == 0) continue;
-    for (int j = 0; j < f.ny; ++j)
-      column.input()[static_cast<std::size_t>(j)] = grid.free[f.index(i, j)] != 0 ? LineTransform::infinity : 0.0F;
-    const std::vector<float>& out = column.run();
-    for (int j = 0; j < f.ny; ++j)
-      d[f.index(i, j)] = std::min(out[static_cast<std::size_t>(j)], LineTransform::infinity);
+  const auto width = static_cast<std::size_t>(f.nx);
+  std::vector<float> d(f.size(), 0.0F);
+  // Along the columns, row by row: cells to the nearest one that is not free, above and then below as well.
+  std::vector<float> away(width, far);
+  for (std::size_t k = 0, i = 0; k < f.size(); ++k, i = i + 1 == width ? 0 : i + 1)
+    d[k] = away[i] = grid.free[k] != 0 ? away[i] + 1.0F : 0.0F;
+  std::fill(away.begin(), away.end(), far);
+  for (std::size_t k = f.size(), i = 0; k-- > 0;) {
+    i = i == 0 ? width - 1 : i - 1;
+    away[i] = grid.free[k] != 0 ? away[i] + 1.0F : 0.0F;
+    const float nearest = std::min(d[k], away[i]);
+    d[k] = nearest < far ? nearest * nearest : LineTransform::infinity;
   }
+  // Along the rows, stretch by stretch: nothing behind the cells that are not free beside a stretch is nearer than
+  // they.
+  LineTransform row(f.nx);
   for (int j = 0; j < f.ny; ++j) {
-    const auto first = grid.free.begin() + static_cast<std::ptrdiff_t>(f.index(0, j));
-    if (std::find(first, first + f.nx, std::uint8_t{1}) == first + f.nx) continue;
-    for (int i = 0; i < f.nx; ++i) row.input()[static_cast<std::size_t>(i)] = d[f.index(i, j)];
-    const std::vector<float>& out = row.run();
-    for (int i = 0; i < f.nx; ++i)
-      d[f.index(i, j)] = static_cast<float>(f.cell) * std::sqrt(out[static_cast<std::size_t>(i)]);
+    const std::size_t first = f.index(0, j), end = first + width;
+    for (std::size_t from = first; from < end;) {
+      if (grid.free[from] == 0) {
+        ++from;
+        continue;
+      }
+      std::size_t to = from;
+      while (to < end && grid.free[to] != 0) ++to;
+      row.run({d.data() + from - (from > first ? 1 : 0), d.data() + to + (to < end ? 1 : 0)});
+      const std::vector<float>& out = row.out();
+      for (std::size_t k = from; k < to; ++k)
+        d[k] = static_cast<float>(f.cell) * std::sqrt(out[k - from + (from > first ? 1 : 0)]);
+      from = to;
+    }
   }
   return d;
 }
@@ -224,16 +262,14 @@ std::vector<float> clearance(const FreeGrid& grid) {
 std::vector<std::size_t> by_falling_clearance(const GridFrame& frame, const std::vector<float>& clearance_m) {
   // Squares of distances between cells are whole numbers of cells, so counting sorts them.
   const double scale = 1.0 / (frame.cell * frame.cell);
-  const auto level = [&](std::size_t k) {
-    const auto h = static_cast<double>(clearance_m[k]);
-    return static_cast<std::size_t>(std::lround(h * h * scale));
-  };
+  std::vector<std::uint32_t> levels(clearance_m.size());
   std::vector<std::size_t> start;
   for (std::size_t k = 0; k < clearance_m.size(); ++k) {
     if (clearance_m[k] == 0.0F) continue;
-    const std::size_t l = level(k);
-    if (l >= start.size()) start.resize(l + 1, 0);
-    ++start[l];
+    const auto h = static_cast<double>(clearance_m[k]);
+    levels[k] = static_cast<std::uint32_t>(h * h * scale + 0.5);
+    if (levels[k] >= start.size()) start.resize(levels[k] + 1, 0);
+    ++start[levels[k]];
   }
   std::size_t above = 0;
   for (std::size_t l = start.size(); l-- > 1;) {
@@ -242,10 +278,8 @@ std::vector<std::size_t> by_falling_clearance(const GridFrame& frame, const std:
     above += count;
   }
   std::vector<std::size_t> order(above);
-  for (std::size_t k = 0; k < clearance_m.size(); ++k) {
-    if (clearance_m[k] == 0.0F) continue;
-    if (const std::size_t l = level(k); l > 0) order[start[l]++] = k;
-  }
+  for (std::size_t k = 0; k < levels.size(); ++k)
+    if (levels[k] > 0) order[start[levels[k]]++] = k;
   return order;
 }
 

@@ -42,6 +42,15 @@ struct Cluster {
   double area_m2 = 0.0;
 };
 
+/// Cells side by side in one row of the grid.
+struct CellRun {
+  std::size_t from = 0, to = 0;  ///< places among the cluster's cells, [from, to)
+  int i = 0, j = 0;              ///< column and row of the first
+};
+
+/// The cells of a cluster, ascending.
+[[nodiscard]] std::vector<CellRun> runs_of(const GridFrame& frame, const std::vector<std::size_t>& cells);
+
 /// Cells of a grid, ascending, as a cluster; its clearance is left at 0.
 [[nodiscard]] Cluster cluster_of(const FreeGrid& grid, std::vector<std::size_t> cells);
 

@@ -31,13 +31,13 @@ struct Pair {
   [[nodiscard]] Vector2d across() const { return (a.m - b.m).normalized(); }
 };
 
-double share_between(const Pair& pair, const FreeGrid& grid, const Cluster& cluster, double slack) {
+double share_between(const Pair& pair, const Scene& scene) {
+  const auto between = [&](double distance) { return distance > -scene.config.slack_m; };
   std::size_t inside = 0;
-  for (const std::size_t k : cluster.cells) {
-    const Vector2d p = grid.frame.center(k);
-    if (pair.a.distance(p) > -slack && pair.b.distance(p) > -slack) ++inside;
-  }
-  return static_cast<double>(inside) / static_cast<double>(cluster.cells.size());
+  for (const CellRun& run : scene.runs)
+    inside +=
+        where(scene.grid.frame, run, pair.a, between).within(where(scene.grid.frame, run, pair.b, between)).cells();
+  return static_cast<double>(inside) / static_cast<double>(scene.cluster.cells.size());
 }
 
 /// Opposed pairs around the cluster, perpendicular to `axis` where one is given; by falling support, ties: lower ids.
@@ -61,18 +61,21 @@ std::vector<Pair> opposed_pairs(const Scene& scene, const std::optional<Vector2d
 /// The best-supported of them that has the cluster between its walls.
 std::optional<Pair> best_pair(const Scene& scene, const std::optional<Vector2d>& axis) {
   for (const Pair& pair : opposed_pairs(scene, axis))
-    if (share_between(pair, scene.grid, scene.cluster, scene.config.slack_m) >= scene.config.inside_share) return pair;
+    if (share_between(pair, scene) >= scene.config.inside_share) return pair;
   return {};
 }
 
 /// Free share of the polygon that four lines cut out, counting the cluster's own cells only.
-double fill_of(const Polygon2& polygon, const std::array<FaceLine, 4>& sides, const FreeGrid& grid,
-               const Cluster& cluster) {
-  const auto inside = std::count_if(cluster.cells.begin(), cluster.cells.end(), [&](std::size_t k) {
-    const Vector2d p = grid.frame.center(k);
-    return std::all_of(sides.begin(), sides.end(), [&](const FaceLine& side) { return side.distance(p) > 0.0; });
-  });
-  return static_cast<double>(inside) * grid.frame.cell * grid.frame.cell / std::abs(signed_area(polygon));
+double fill_of(const Polygon2& polygon, const std::array<FaceLine, 4>& sides, const Scene& scene) {
+  const GridFrame& frame = scene.grid.frame;
+  std::size_t inside = 0;
+  for (const CellRun& run : scene.runs) {
+    Stretch stretch{run.from, run.to};
+    for (const FaceLine& side : sides)
+      stretch = stretch.within(where(frame, run, side, [](double distance) { return distance > 0.0; }));
+    inside += stretch.cells();
+  }
+  return static_cast<double>(inside) * frame.cell * frame.cell / std::abs(signed_area(polygon));
 }
 
 /// [S-Graphs+ eq. 4] and the enclosure test of section IV-C: each side must be seen along part of its length.
@@ -86,7 +89,7 @@ std::optional<RoomCandidate> four_walls(const Scene& scene, const Pair& x, const
   const double wx = x.width_at(room.center_M), wy = y.width_at(room.center_M);
   const double share = scene.config.min_side_share;
   if (std::min(x.a.support, x.b.support) < share * wy || std::min(y.a.support, y.b.support) < share * wx) return {};
-  room.fill = fill_of(room.polygon_M, {x.a, x.b, y.a, y.b}, scene.grid, scene.cluster);
+  room.fill = fill_of(room.polygon_M, {x.a, x.b, y.a, y.b}, scene);
   if (room.fill < scene.config.min_fill) return {};
   return room;
 }
@@ -97,11 +100,16 @@ std::optional<RoomCandidate> two_walls(const Scene& scene, const Pair& pair) {
   const Vector2d n = pair.across();
   const Vector2d t(-n.y(), n.x());
   double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (const std::size_t k : scene.cluster.cells) {
-    const Vector2d p = scene.grid.frame.center(k);
-    if (pair.a.distance(p) < 0.0 || pair.b.distance(p) < 0.0) continue;
-    low = std::min(low, t.dot(p));
-    high = std::max(high, t.dot(p));
+  const GridFrame& frame = scene.grid.frame;
+  const auto inside = [](double distance) { return distance >= 0.0; };
+  for (const CellRun& run : scene.runs) {
+    const Stretch stretch = where(frame, run, pair.a, inside).within(where(frame, run, pair.b, inside));
+    if (stretch.cells() == 0) continue;
+    for (const std::size_t k : {stretch.from, stretch.to - 1}) {
+      const double s = t.dot(frame.center(run.i + static_cast<int>(k - run.from), run.j));
+      low = std::min(low, s);
+      high = std::max(high, s);
+    }
   }
   const double half = 0.5 * scene.grid.frame.cell;
   const FaceLine start = cut_line(t, (low - half) * t), end = cut_line(-t, (high + half) * t);
@@ -111,7 +119,7 @@ std::optional<RoomCandidate> two_walls(const Scene& scene, const Pair& pair) {
   room.polygon_M = counter_clockwise({meet(pair.a, start), meet(pair.b, start), meet(pair.b, end), meet(pair.a, end)});
   room.center_M = 0.25 * (room.polygon_M[0] + room.polygon_M[1] + room.polygon_M[2] + room.polygon_M[3]);
   room.cluster_M = room.center_M;
-  room.fill = fill_of(room.polygon_M, {pair.a, pair.b, start, end}, scene.grid, scene.cluster);
+  room.fill = fill_of(room.polygon_M, {pair.a, pair.b, start, end}, scene);
   if (room.fill < scene.config.min_fill) return {};
   return room;
 }

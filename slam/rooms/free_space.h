@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -66,11 +67,18 @@ struct GridFrame {
     return static_cast<std::size_t>(j) * static_cast<std::size_t>(nx) + static_cast<std::size_t>(i);
   }
   [[nodiscard]] std::size_t size() const { return static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny); }
-  [[nodiscard]] Eigen::Vector2d center(std::size_t index) const {
+  /// Column and row of a cell.
+  [[nodiscard]] std::array<int, 2> place(std::size_t index) const {
     // Grids are far smaller than 2^32 cells, and a division of 32 bits is the faster one.
     const auto cell32 = static_cast<std::uint32_t>(index), width = static_cast<std::uint32_t>(nx);
-    const double i = cell32 % width, j = cell32 / width;
-    return origin_M + cell * Eigen::Vector2d(i + 0.5, j + 0.5);
+    return {static_cast<int>(cell32 % width), static_cast<int>(cell32 / width)};
+  }
+  [[nodiscard]] Eigen::Vector2d center(int i, int j) const {
+    return {origin_M.x() + cell * (i + 0.5), origin_M.y() + cell * (j + 0.5)};
+  }
+  [[nodiscard]] Eigen::Vector2d center(std::size_t index) const {
+    const auto [i, j] = place(index);
+    return center(i, j);
   }
   /// Index of the cell that holds p, or -1 outside.
   [[nodiscard]] std::ptrdiff_t find(const Eigen::Vector2d& p_M) const;

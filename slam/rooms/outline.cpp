@@ -2,6 +2,7 @@
 #include "slam/rooms/outline.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -99,12 +100,7 @@ class Arrangement {
   Arrangement(const Scene& scene, std::vector<FaceLine> lines) : scene_(scene), lines_(std::move(lines)) {
     const double cell2 = scene.grid.frame.cell * scene.grid.frame.cell;
     std::map<Sides, std::size_t> cells;
-    auto known = cells.end();  // most cells are in the piece of the one before
-    for (const std::size_t k : scene.cluster.cells) {
-      const Sides sides = sides_of(scene.grid.frame.center(k));
-      if (known == cells.end() || known->first != sides) known = cells.try_emplace(sides, 0).first;
-      ++known->second;
-    }
+    for (const CellRun& run : scene.runs) count(run, cells);
     for (const auto& [sides, count] : cells) {
       const Piece piece = piece_of(sides);
       const double area = area_of(piece);
@@ -146,11 +142,31 @@ class Arrangement {
   }
 
  private:
-  [[nodiscard]] Sides sides_of(const Vector2d& p) const {
+  /// Adds a run's cells to those of their pieces.
+  void count(const CellRun& run, std::map<Sides, std::size_t>& cells) const {
+    struct Change {
+      std::size_t place = 0;
+      Sides side = 0;
+    };
+    std::array<Change, most_lines> changes;
+    std::size_t n = 0;
     Sides sides = 0;
-    for (std::size_t k = 0; k < lines_.size(); ++k)
-      if (lines_[k].distance(p) >= 0.0) sides |= Sides{1} << k;
-    return sides;
+    for (std::size_t k = 0; k < lines_.size(); ++k) {
+      const Sides side = Sides{1} << k;
+      const Stretch free = where(scene_.grid.frame, run, lines_[k], [](double distance) { return distance >= 0.0; });
+      if (free.cells() == 0) continue;
+      if (free.from == run.from) sides |= side;
+      if (free.cells() < run.to - run.from) changes[n++] = {free.from == run.from ? free.to : free.from, side};
+    }
+    std::sort(changes.begin(), changes.begin() + static_cast<std::ptrdiff_t>(n),
+              [](const Change& a, const Change& b) { return a.place < b.place; });
+    std::size_t from = run.from;
+    for (std::size_t c = 0; c < n; ++c) {
+      if (changes[c].place > from) cells[sides] += changes[c].place - from;
+      from = changes[c].place;
+      sides ^= changes[c].side;
+    }
+    cells[sides] += run.to - from;
   }
 
   [[nodiscard]] Piece piece_of(Sides sides) const {

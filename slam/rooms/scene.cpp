@@ -39,7 +39,7 @@ Vector2d meet(const FaceLine& a, const FaceLine& b) {
 
 Scene make_scene(const FreeGrid& grid, const Cluster& cluster, std::span<const FaceLine> faces,
                  const RoomConfig& config) {
-  Scene scene{grid, cluster, config, {}, {}};
+  Scene scene{grid, cluster, config, runs_of(grid.frame, cluster.cells), {}, {}};
   for (const std::size_t k : cluster.boundary) scene.border_M.push_back(grid.frame.center(k));
   // A cell of the border that lies on a face is within reach of its stretch.
   const Vector2d reach = Vector2d::Constant(std::max(config.reach_m, config.slack_m));

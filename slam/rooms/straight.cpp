@@ -22,7 +22,14 @@ constexpr std::size_t most_parts = 16;
 using Mask = std::vector<std::uint64_t>;
 
 bool has(const Mask& mask, std::size_t k) { return (mask[k / 64] >> (k % 64) & 1U) != 0; }
-void set(Mask& mask, std::size_t k) { mask[k / 64] |= std::uint64_t{1} << (k % 64); }
+/// Places [from, to).
+void set(Mask& mask, std::size_t from, std::size_t to) {
+  while (from < to) {
+    const std::size_t word = from / 64, end = std::min(to, 64 * (word + 1));
+    mask[word] |= ~std::uint64_t{0} >> (64 - (end - from)) << (from % 64);
+    from = end;
+  }
+}
 void drop(Mask& mask, std::size_t k) { mask[k / 64] &= ~(std::uint64_t{1} << (k % 64)); }
 
 /// Cells side by side in one row of the grid: places [from, to) in the cluster.
@@ -48,7 +55,10 @@ struct Gap {
 class Stretches {
  public:
   explicit Stretches(const Scene& scene) : scene_(scene) {
-    for (const std::size_t cell : scene.cluster.cells) centers_.push_back(scene.grid.frame.center(cell));
+    centers_.reserve(scene.cluster.cells.size());
+    for (const CellRun& run : scene.runs)
+      for (std::size_t k = run.from; k < run.to; ++k)
+        centers_.push_back(scene.grid.frame.center(run.i + static_cast<int>(k - run.from), run.j));
     left_.assign((centers_.size() + 63) / 64, ~std::uint64_t{0});
     for (const FaceLine& wall : scene.walls) sides_.push_back(free_side(wall));
     find_row_starts();
@@ -84,17 +94,17 @@ class Stretches {
   /// Which of the cells lie on the free side of a wall.
   [[nodiscard]] Mask free_side(const FaceLine& wall) const {
     Mask mask(left_.size(), 0);
-    for (std::size_t k = 0; k < centers_.size(); ++k)
-      if (wall.distance(centers_[k]) > -scene_.config.slack_m) set(mask, k);
+    const auto free = [&](double distance) { return distance > -scene_.config.slack_m; };
+    for (const CellRun& run : scene_.runs) {
+      const Stretch stretch = where(scene_.grid.frame, run, wall, free);
+      set(mask, stretch.from, stretch.to);
+    }
     return mask;
   }
 
   void find_row_starts() {
-    const std::vector<std::size_t>& cells = scene_.cluster.cells;
-    const auto width = static_cast<std::size_t>(scene_.grid.frame.nx);
     row_starts_.assign(left_.size(), 0);
-    for (std::size_t k = 0; k < cells.size(); ++k)
-      if (k == 0 || cells[k - 1] + 1 != cells[k] || cells[k] % width == 0) set(row_starts_, k);
+    for (const CellRun& run : scene_.runs) set(row_starts_, run.from, run.from + 1);
   }
 
   void find_gaps() {
