@@ -19,20 +19,25 @@ constexpr int robust_steps = 6;          // ... halved every second step towards
 
 /// Plane by reweighted least squares (Cauchy) from a level plane at the median height.
 Plane robust_plane(const DeskewedScan& scan, const std::vector<std::uint32_t>& points) {
+  std::vector<Eigen::Vector3d> points_R;  // side by side
   std::vector<double> heights;
+  points_R.reserve(points.size());
   heights.reserve(points.size());
-  for (const std::uint32_t i : points) heights.push_back(scan.point_R[i].z());
+  for (const std::uint32_t i : points) {
+    points_R.push_back(scan.point_R[i]);
+    heights.push_back(scan.point_R[i].z());
+  }
   const auto middle = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2);
   std::nth_element(heights.begin(), middle, heights.end());
   Plane plane{Eigen::Vector3d::UnitZ(), -*middle};
   for (int step = 0; step < robust_steps; ++step) {
     const double scale = kernel_start_m / (1 << (step / 2));
-    Moments moments;
-    for (const std::uint32_t i : points) {
-      const double r = plane.distance(scan.point_R[i]) / scale;
-      moments.add(scan.point_R[i], 1.0 / (1.0 + r * r));
+    MomentSums sums;
+    for (const Eigen::Vector3d& p : points_R) {
+      const double r = plane.distance(p) / scale;
+      sums.add(p, 1.0 / (1.0 + r * r));
     }
-    plane = refine_plane(moments, plane, 0.0);
+    plane = refine_plane(sums.moments(), plane, 0.0);
   }
   return plane;
 }

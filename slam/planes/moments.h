@@ -26,6 +26,38 @@ struct Moments {
   [[nodiscard]] Eigen::Vector3d mean() const { return sum / n; }
 };
 
+/// Moments while points are added, in scalars that stay in registers; to the last bit what Moments::add gives.
+class MomentSums {
+ public:
+  void add(const Eigen::Vector3d& p, double weight = 1.0) {
+    const double x = weight * p.x(), y = weight * p.y(), z = weight * p.z();
+    n_ += weight;
+    x_ += x;
+    y_ += y;
+    z_ += z;
+    xx_ += x * p.x();
+    xy_ += x * p.y();
+    xz_ += x * p.z();
+    yx_ += y * p.x();
+    yy_ += y * p.y();
+    yz_ += y * p.z();
+    zx_ += z * p.x();
+    zy_ += z * p.y();
+    zz_ += z * p.z();
+  }
+  [[nodiscard]] Moments moments() const {
+    Moments m;
+    m.n = n_;
+    m.sum = {x_, y_, z_};
+    m.outer << xx_, xy_, xz_, yx_, yy_, yz_, zx_, zy_, zz_;
+    return m;
+  }
+
+ private:
+  double n_ = 0.0, x_ = 0.0, y_ = 0.0, z_ = 0.0;
+  double xx_ = 0.0, xy_ = 0.0, xz_ = 0.0, yx_ = 0.0, yy_ = 0.0, yz_ = 0.0, zx_ = 0.0, zy_ = 0.0, zz_ = 0.0;
+};
+
 /// Sum over the points of (J^T J) with J the derivative of n.p + d by (angle towards u, angle towards v, d).
 [[nodiscard]] Eigen::Matrix3d plane_normal_matrix(const Moments& moments, const Plane& plane);
 

@@ -50,9 +50,13 @@ std::optional<PlaneObservation> fit_patch(const DeskewedScan& scan, const std::v
   patch.plane_R = start;
   Moments moments;
   for (int k = 0; k < gated_fits; ++k) {
-    moments = {};
-    for (const std::uint32_t i : points)
-      if (std::abs(patch.plane_R.distance(scan.point_R[i])) <= config.max_distance_m) moments.add(scan.point_R[i]);
+    MomentSums sums;
+    const Plane plane_R = patch.plane_R;
+    for (const std::uint32_t i : points) {
+      const Eigen::Vector3d& p = scan.point_R[i];
+      if (std::abs(plane_R.distance(p)) <= config.max_distance_m) sums.add(p);
+    }
+    moments = sums.moments();
     if (moments.n < config.min_points) return std::nullopt;
     patch.plane_R = refine_plane(moments, patch.plane_R, 0.0);
     if (!patch.plane_R.n.allFinite()) return std::nullopt;  // the returns span no plane

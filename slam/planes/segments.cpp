@@ -173,7 +173,9 @@ class RingCutter {
     if ((segment.p1_R - segment.p0_R).head<2>().norm() < config_.segment_length_m) return;
     segment.points.assign(points_.begin() + static_cast<std::ptrdiff_t>(begin),
                           points_.begin() + static_cast<std::ptrdiff_t>(end));
-    for (std::size_t i = begin; i < end; ++i) segment.moments.add(points_R_[i]);
+    MomentSums sums;
+    for (std::size_t i = begin; i < end; ++i) sums.add(points_R_[i]);
+    segment.moments = sums.moments();
     out.push_back(std::move(segment));
   }
 
@@ -218,14 +220,13 @@ std::vector<Facing> classify_returns(const DeskewedScan& scan, const PlaneDetect
 std::vector<RingSegment> ring_segments(const DeskewedScan& scan, const std::vector<Facing>& facing,
                                        const PlaneDetectorConfig& config) {
   const auto rings = static_cast<std::size_t>(scan.rings);
+  std::vector<std::vector<std::uint32_t>> points(rings);
+  for (std::vector<std::uint32_t>& ring : points) ring.reserve(static_cast<std::size_t>(scan.columns));
+  for (std::size_t i = 0, ring = 0; i < facing.size(); ++i, ring = ring + 1 == rings ? 0 : ring + 1)
+    if (facing[i] == Facing::upright) points[ring].push_back(static_cast<std::uint32_t>(i));
   std::vector<RingSegment> segments;
-  for (std::size_t ring = 0; ring < rings; ++ring) {
-    std::vector<std::uint32_t> points;
-    points.reserve(static_cast<std::size_t>(scan.columns));
-    for (std::size_t i = ring; i < facing.size(); i += rings)
-      if (facing[i] == Facing::upright) points.push_back(static_cast<std::uint32_t>(i));
-    RingCutter(scan, static_cast<int>(ring), std::move(points), config).cut(segments);
-  }
+  for (std::size_t ring = 0; ring < rings; ++ring)
+    RingCutter(scan, static_cast<int>(ring), std::move(points[ring]), config).cut(segments);
   return segments;
 }
 

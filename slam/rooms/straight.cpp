@@ -21,7 +21,6 @@ constexpr std::size_t most_parts = 16;
 /// One bit a cell of the cluster, by its place there.
 using Mask = std::vector<std::uint64_t>;
 
-bool has(const Mask& mask, std::size_t k) { return (mask[k / 64] >> (k % 64) & 1U) != 0; }
 /// Places [from, to).
 void set(Mask& mask, std::size_t from, std::size_t to) {
   while (from < to) {
@@ -134,7 +133,10 @@ class Stretches {
         low = std::min(low, a.along.dot(centers_[end]));
         high = std::max(high, a.along.dot(centers_[end]));
       }
-      for (std::size_t k = run.from; k < run.to; ++k) width += a.distance(centers_[k]) + b.distance(centers_[k]);
+      // Along a row the width changes linearly.
+      const Vector2d &first = centers_[run.from], &last = centers_[run.to - 1];
+      width += 0.5 * static_cast<double>(run.to - run.from) *
+               (a.distance(first) + b.distance(first) + a.distance(last) + b.distance(last));
     }
     width /= static_cast<double>(part.cells);
     const double cell = scene_.grid.frame.cell;
@@ -154,11 +156,17 @@ class Stretches {
       for (; starts != 0; starts &= starts - 1)
         runs.push_back({64 * w + static_cast<std::size_t>(std::countr_zero(starts)), 0});
     }
-    for (Run& run : runs) {
-      run.to = run.from + 1;
-      while (run.to < centers_.size() && has(mask, run.to) && !has(row_starts_, run.to)) ++run.to;
-    }
+    for (Run& run : runs) run.to = end_of(mask, run.from);
     return runs;
+  }
+
+  /// The first place behind `from` that is not in the mask or begins a row.
+  [[nodiscard]] std::size_t end_of(const Mask& mask, std::size_t from) const {
+    std::uint64_t later = ~std::uint64_t{1} << (from % 64);
+    for (std::size_t w = from / 64; w < mask.size(); ++w, later = ~std::uint64_t{0})
+      if (const std::uint64_t ends = (~mask[w] | row_starts_[w]) & later; ends != 0)
+        return std::min(64 * w + static_cast<std::size_t>(std::countr_zero(ends)), centers_.size());
+    return centers_.size();
   }
 
   /// What hangs together by 4-neighbours and is largest (ties: the one with the lowest cell).
