@@ -187,6 +187,45 @@ std::vector<Eigen::Vector2d> corridor_house_walk() {
           {11.5, 5.4}, {12.8, 4.2},  {11.5, 3.0},  {11.5, 1.1},  {1.0, 1.1}};
 }
 
+House two_storeys() {
+  constexpr double storey_m = 3.0, slab_m = 0.2, foot_m = 1.0, head_m = 5.2;
+  constexpr int steps = 16;
+  House house;
+  house.height_m = 2.0 * storey_m - slab_m;
+  for (const auto& [min, max] : {std::pair(Eigen::Vector2d(-0.2, -2.0), Eigen::Vector2d(6.2, -1.8)),
+                                 std::pair(Eigen::Vector2d(-0.2, 4.0), Eigen::Vector2d(6.2, 4.2)),
+                                 std::pair(Eigen::Vector2d(-0.2, -1.8), Eigen::Vector2d(0.0, 4.0)),
+                                 std::pair(Eigen::Vector2d(6.0, -1.8), Eigen::Vector2d(6.2, 4.0))})
+    add_wall(house, min, max, {});
+  // The wall with the doors stands on each storey for itself.
+  House partition{.boxes = {}, .rooms = {}, .height_m = storey_m - slab_m};
+  add_wall(partition, {0.0, -0.2}, {6.0, 0.0}, {0.5, 5.5});
+  for (const double floor : {0.0, storey_m})
+    for (const Box& box : partition.boxes)
+      house.boxes.push_back({box.min + floor * Eigen::Vector3d::UnitZ(), box.max + floor * Eigen::Vector3d::UnitZ()});
+  const auto slab = [&](double x0, double y0, double x1, double y1) {
+    house.boxes.push_back({{x0, y0, storey_m - slab_m}, {x1, y1, storey_m}});
+  };
+  slab(0.0, -0.2, 6.0, 4.0);
+  slab(0.0, -1.8, foot_m, -0.2);
+  slab(head_m, -1.8, 6.0, -0.2);
+  for (int k = 0; k < steps; ++k)
+    house.boxes.push_back(
+        {{foot_m + (head_m - foot_m) * k / steps, -1.8, 0.0}, {head_m, -0.2, storey_m * (k + 1) / steps}});
+  for (int storey = 0; storey < 2; ++storey) house.rooms.push_back(rectangle(0.0, 0.0, 6.0, 4.0));
+  return house;
+}
+
+std::vector<Eigen::Vector2d> two_storeys_walk() {
+  return {{3.0, 2.0}, {1.5, 3.0}, {0.5, 1.2}, {0.5, -1.0}, {5.5, -1.0}, {5.5, 1.2}, {4.5, 3.0}, {2.5, 2.0}};
+}
+
+double two_storeys_climb(double s) {
+  const std::vector<Eigen::Vector2d> way = two_storeys_walk();
+  const double foot = length({way.begin(), way.begin() + 4}) + 0.5;  // the flight begins 0.5 m from the turn
+  return std::clamp((s - foot) / 4.2, 0.0, 1.0) * 3.0;
+}
+
 Pose walk_pose(const std::vector<Eigen::Vector2d>& waypoints, const WalkConfig& config, double t) {
   constexpr int samples = 16;
   const double s = config.speed_mps * t;
@@ -199,7 +238,8 @@ Pose walk_pose(const std::vector<Eigen::Vector2d>& waypoints, const WalkConfig& 
   const double roll = config.vibration * 0.8 * rad * std::sin(0.5 * phase);
   const double pitch = config.vibration * 0.6 * rad * std::sin(phase + 0.7);
   const double bounce = config.vibration * 0.006 * std::sin(phase);
-  Pose X_WR = Pose::from_xyz_yaw({p.x(), p.y(), base_height_m + bounce}, std::atan2(ahead.y(), ahead.x()));
+  const double floor = config.climb != nullptr ? config.climb(s) : 0.0;
+  Pose X_WR = Pose::from_xyz_yaw({p.x(), p.y(), floor + base_height_m + bounce}, std::atan2(ahead.y(), ahead.x()));
   X_WR.q = (X_WR.q * exp_so3({roll, pitch, 0.0})).normalized();
   return X_WR;
 }

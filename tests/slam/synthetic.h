@@ -33,17 +33,26 @@ struct House {
 [[nodiscard]] House corridor_house();
 /// A walk through all rooms of corridor_house(), about 57 m.
 [[nodiscard]] std::vector<Eigen::Vector2d> corridor_house_walk();
+/// Two storeys, 3 m apart, with the same walls: a room (6 x 4 m, y from 0) and beside it a straight flight of stairs
+/// along x, with a door at either end.
+[[nodiscard]] House two_storeys();
+/// From the lower room up the stairs and round the upper one, about 17 m.
+[[nodiscard]] std::vector<Eigen::Vector2d> two_storeys_walk();
+/// Height of the floor after s m of that way.
+[[nodiscard]] double two_storeys_climb(double s);
+
 struct WalkConfig {
   std::uint64_t seed = 1;
   double speed_mps = 0.6;
   double duration_s = 1e9;       ///< ends earlier when the way is done
   double range_sigma_m = 0.012;  ///< [facts: lidar 2.2: 6-20 mm]
   double range_bias_m = 0.0;
-  double dropout = 0.05;             ///< share of returns lost
-  double vibration = 1.0;            ///< scales roll 0.8 deg, pitch 0.6 deg and bounce 6 mm of a 2.1 Hz gait; 0: none
-  double odometry_scale = 1.0;       ///< of translation increments
-  double odometry_sigma = 0.01;      ///< m per square root of a metre walked, x, y and z
-  double odometry_yaw_sigma = 0.01;  ///< rad per square root of a metre walked
+  double dropout = 0.05;              ///< share of returns lost
+  double vibration = 1.0;             ///< scales roll 0.8 deg, pitch 0.6 deg and bounce 6 mm of a 2.1 Hz gait; 0: none
+  double odometry_scale = 1.0;        ///< of translation increments
+  double odometry_sigma = 0.01;       ///< m per square root of a metre walked, x, y and z
+  double odometry_yaw_sigma = 0.01;   ///< rad per square root of a metre walked
+  double (*climb)(double) = nullptr;  ///< height of the floor after so many metres of the way; null: 0
 };
 
 struct Recording {
