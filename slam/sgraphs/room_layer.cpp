@@ -71,6 +71,22 @@ void RoomLayer::add_from_keyframe(Graph& graph, std::span<const PlaneNode> seen_
   }
 }
 
+std::vector<SameWall> RoomLayer::seen_again(const Graph& graph, std::span<const PlaneNode> seen_M,
+                                            const WallMisfit& misfit) const {
+  const KeyframeVertex& keyframe = graph.keyframes.back();
+  for (const RoomCandidate& room : keyframe_rooms(seen_M, keyframe.X_MR.t.head<2>(), config_.rooms))
+    for (std::size_t id = 0; id < candidates_.size(); ++id) {
+      const RoomVertex& known = graph.rooms[id];
+      if (!known.found || known.storey != keyframe.storey || known.kind != room.kind) continue;
+      std::vector<int> planes = candidates_[id].planes;
+      for (int& plane : planes)
+        while (graph.planes[static_cast<std::size_t>(plane)].merged_into >= 0)
+          plane = graph.planes[static_cast<std::size_t>(plane)].merged_into;
+      if (std::optional<std::vector<SameWall>> same = same_walls(planes, room.planes, misfit)) return *same;
+    }
+  return {};
+}
+
 void RoomLayer::redraw(const Graph& graph) {
   partitions_.clear();
   for (auto& [storey, map] : maps_) map.clear();

@@ -8,6 +8,7 @@
 
 #include "slam/graph/graph.h"
 #include "slam/rooms/detect.h"
+#include "slam/sgraphs/same_walls.h"
 
 namespace plumbline::slam {
 
@@ -54,6 +55,10 @@ class RoomLayer {
   void update(Graph& graph, int storey, std::span<const PlaneNode> walls);
   /// The room that the newest keyframe's own planes close round it, for RoomSource::keyframe; known rooms stay.
   void add_from_keyframe(Graph& graph, std::span<const PlaneNode> seen_M);
+  /// The room that the newest keyframe's own planes close round it, held against the known ones of its storey: walls
+  /// that are one, see same_walls(). Rooms of four or two walls only.
+  [[nodiscard]] std::vector<SameWall> seen_again(const Graph& graph, std::span<const PlaneNode> seen_M,
+                                                 const WallMisfit& misfit) const;
   /// Draws all free space again from the keyframes' present poses.
   void redraw(const Graph& graph);
 

@@ -138,9 +138,10 @@ void SGraphsPlus::add_keyframe(const DeskewedScan& scan, const Registration& odo
 
   full_wanted_ |= walls_.find_duplicates(graph_, storey);
   if (config_.parts.rooms) rooms_.look(graph_, scan, seen);
-  if (config_.parts.rooms && config_.rooms.source == RoomSource::keyframe)
-    rooms_.add_from_keyframe(graph_, walls_.seen_now(graph_));
+  const std::vector<PlaneNode> seen_now = walls_.seen_now(graph_);
   const std::vector<PlaneNode> walls = walls_.walls(graph_, storey);
+  if (config_.parts.rooms) full_wanted_ |= find_duplicates_in_rooms(walls, seen_now);
+  if (config_.parts.rooms && config_.rooms.source == RoomSource::keyframe) rooms_.add_from_keyframe(graph_, seen_now);
   if (config_.parts.rooms) rooms_.update(graph_, storey, walls);
   file(output, watch, "rooms", digest_of(rooms_.nodes(graph_)), "room_segmentation");
   if (config_.parts.rooms && config_.parts.floors) floors_.update(graph_, storey, walls);
@@ -180,6 +181,12 @@ void SGraphsPlus::update_rooms(int storey, std::span<const PlaneNode> walls) {
   if (!config_.parts.rooms) return;
   rooms_.update(graph_, storey, walls);
   if (config_.parts.floors) floors_.update(graph_, storey, walls);
+}
+
+// A room seen again shows which walls are one [S-Graphs+ section IV-C].
+bool SGraphsPlus::find_duplicates_in_rooms(std::span<const PlaneNode> walls, std::span<const PlaneNode> seen) {
+  const WallMisfit misfit = [&](int known, int found) { return walls_.room_misfit(walls, known, found); };
+  return walls_.add_duplicates(graph_, walls, rooms_.seen_again(graph_, seen, misfit));
 }
 
 void SGraphsPlus::add_keyframe_vertex(Nanoseconds stamp, const Registration& odometry,

@@ -136,6 +136,7 @@ class SGraphsPlus : public Method {
   /// Of a keyframe's step from the last one over `way_m`.
   [[nodiscard]] Matrix6d step_information(const Registration& odometry, double way_m) const;
   void update_rooms(int storey, std::span<const PlaneNode> walls);
+  [[nodiscard]] bool find_duplicates_in_rooms(std::span<const PlaneNode> walls, std::span<const PlaneNode> seen);
   void close_loop(const DeskewedScan& scan);
   void optimize_graph();
   void weigh_by_fitness(PoseFactor& factor) const;

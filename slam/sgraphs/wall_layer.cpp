@@ -46,18 +46,34 @@ double gap(const Interval& a, const Interval& b) { return std::max(a.low, b.low)
 
 Eigen::Vector2d middle(const PlaneNode& wall) { return 0.5 * (wall.p0 + wall.p1); }
 
-/// Do two vertices overlap so much, on the same side and so near, that one would hide the other?
-bool one_face(const PlaneNode& a, const PlaneNode& b, const WallLayerConfig& config) {
-  if (a.plane_F.n.dot(b.plane_F.n) < std::cos(config.duplicate_angle_rad)) return false;
+/// Do two vertices share so much of the shorter one's length and of the lower one's height?
+bool overlap(const PlaneNode& a, const PlaneNode& b, double share) {
   const Eigen::Vector2d t = along(a.plane_F);
   const Interval ia = interval(t, a.p0, a.p1), ib = interval(t, b.p0, b.p1);
-  if (-gap(ia, ib) < config.duplicate_overlap * std::min(ia.length(), ib.length())) return false;
+  if (-gap(ia, ib) < share * std::min(ia.length(), ib.length())) return false;
   const Interval za{a.z0, a.z1}, zb{b.z0, b.z1};
-  if (-gap(za, zb) < config.duplicate_overlap * std::min(za.length(), zb.length())) return false;
-  const PlaneNode& shorter = ib.length() < ia.length() ? b : a;
-  const PlaneNode& longer = ib.length() < ia.length() ? a : b;
+  return -gap(za, zb) >= share * std::min(za.length(), zb.length());
+}
+
+/// Distance between two vertices of one side, where the shorter one is, m.
+double offset_between(const PlaneNode& a, const PlaneNode& b) {
+  const Eigen::Vector2d t = along(a.plane_F);
+  const bool b_shorter = interval(t, b.p0, b.p1).length() < interval(t, a.p0, a.p1).length();
+  const PlaneNode &shorter = b_shorter ? b : a, &longer = b_shorter ? a : b;
   const Eigen::Vector3d p(middle(shorter).x(), middle(shorter).y(), 0.5 * (shorter.z0 + shorter.z1));
-  return std::abs(longer.plane_F.distance(p) - shorter.plane_F.distance(p)) < config.duplicate_offset_m;
+  return longer.plane_F.distance(p) - shorter.plane_F.distance(p);
+}
+
+/// Do two vertices overlap so much, on the same side and so near, that one would hide the other?
+bool one_face(const PlaneNode& a, const PlaneNode& b, const WallLayerConfig& config) {
+  return a.plane_F.n.dot(b.plane_F.n) >= std::cos(config.duplicate_angle_rad) &&
+         overlap(a, b, config.duplicate_overlap) && std::abs(offset_between(a, b)) < config.duplicate_offset_m;
+}
+
+/// The wall of that id, or null; walls by id.
+const PlaneNode* find(std::span<const PlaneNode> walls, int id) {
+  const auto at = std::partition_point(walls.begin(), walls.end(), [&](const PlaneNode& w) { return w.id < id; });
+  return at != walls.end() && at->id == id ? &*at : nullptr;
 }
 
 /// Variance of a plane's offset at p, m^2.
@@ -88,6 +104,7 @@ std::vector<int> WallLayer::observe(Graph& graph, std::span<const PlaneObservati
     if (ids[k] < 0) {
       ids[k] = static_cast<int>(graph.planes.size());
       graph.planes.push_back({X_MR * observation.plane_R, kind_of(observation), graph.keyframes.back().storey, -1});
+      first_seen_m_.push_back(walked_m);
       last_seen_m_.push_back(walked_m);
     }
     const Eigen::Matrix3d covariance = config_.information > 0.0
@@ -139,8 +156,11 @@ void WallLayer::note_apart(std::span<const PlaneObservation> seen, std::span<con
     for (std::size_t j = i + 1; j < seen.size(); ++j) {
       if (ids[i] == ids[j] || !seen[i].vertical || !seen[j].vertical) continue;
       if (seen[i].plane_R.n.dot(seen[j].plane_R.n) < same_side) continue;
-      if (std::abs(seen[i].plane_R.distance(seen[j].centroid_R)) > 2.0 * config_.duplicate_offset_m) continue;
-      apart_[std::minmax(ids[i], ids[j])] += are_apart(seen[i], seen[j], config_.apart_chi2) ? 1 : -1;
+      const double offset = std::abs(seen[i].plane_R.distance(seen[j].centroid_R));
+      if (offset <= 2.0 * config_.duplicate_offset_m)
+        apart_[std::minmax(ids[i], ids[j])] += are_apart(seen[i], seen[j], config_.apart_chi2) ? 1 : -1;
+      else if (offset <= config_.room_offset_m)
+        far_apart_.insert(std::minmax(ids[i], ids[j]));
     }
 }
 
@@ -295,19 +315,46 @@ bool WallLayer::find_duplicates(Graph& graph, int storey) const {
   const std::vector<PlaneNode> nodes = walls(graph, storey);
   bool found = false;
   for (std::size_t i = 0; i < nodes.size(); ++i)
-    for (std::size_t j = i + 1; j < nodes.size(); ++j) {
-      const int a = nodes[i].id, b = nodes[j].id;
-      if (!one_face(nodes[i], nodes[j], config_) || known_apart(a, b)) continue;
-      const bool known = std::any_of(graph.duplicate_factors.begin(), graph.duplicate_factors.end(),
-                                     [&](const DuplicateFactor& f) { return f.a == a && f.b == b; });
-      if (known) continue;
-      const Eigen::Vector2d p = 0.5 * (middle(nodes[i]) + middle(nodes[j]));
-      const double z = 0.25 * (nodes[i].z0 + nodes[i].z1 + nodes[j].z0 + nodes[j].z1);
-      graph.duplicate_factors.push_back(
-          {a, b, {p.x(), p.y(), z}, config_.duplicate_sigma_rad, config_.duplicate_sigma_m});
-      found = true;
-    }
+    for (std::size_t j = i + 1; j < nodes.size(); ++j)
+      if (one_face(nodes[i], nodes[j], config_) && !known_apart(nodes[i].id, nodes[j].id))
+        found |= add_duplicate(graph, nodes[i], nodes[j]);
   return found;
+}
+
+bool WallLayer::add_duplicate(Graph& graph, const PlaneNode& a, const PlaneNode& b) const {
+  if (b.id < a.id) return add_duplicate(graph, b, a);
+  const bool known = std::any_of(graph.duplicate_factors.begin(), graph.duplicate_factors.end(),
+                                 [&](const DuplicateFactor& f) { return f.a == a.id && f.b == b.id; });
+  if (known) return false;
+  const Eigen::Vector2d p = 0.5 * (middle(a) + middle(b));
+  const double z = 0.25 * (a.z0 + a.z1 + b.z0 + b.z1);
+  graph.duplicate_factors.push_back(
+      {a.id, b.id, {p.x(), p.y(), z}, config_.duplicate_sigma_rad, config_.duplicate_sigma_m});
+  return true;
+}
+
+double WallLayer::room_misfit(std::span<const PlaneNode> walls, int a, int b) const {
+  constexpr double another = 2.0;
+  const PlaneNode *const p = find(walls, a), *const q = find(walls, b);
+  if (p == nullptr || q == nullptr || known_apart(a, b) || far_apart_.contains(std::minmax(a, b))) return another;
+  if (p->plane_F.n.dot(q->plane_F.n) < same_side || !overlap(*p, *q, config_.duplicate_overlap)) return another;
+  const auto way = [](const std::vector<double>& seen_m, int id) { return seen_m[static_cast<std::size_t>(id)]; };
+  const auto [earlier, later] = way(first_seen_m_, a) <= way(first_seen_m_, b) ? std::pair(a, b) : std::pair(b, a);
+  const double walked = way(first_seen_m_, later) - way(last_seen_m_, earlier);
+  if (walked <= 0.0) return another;  // no drift between them: find_duplicates() has them where they are one
+  const double sigma_m = config_.drift_m + config_.room_drift * config_.drift_per_m * walked;
+  const double sigma_rad = config_.drift_rad + config_.room_drift * config_.drift_rad_per_m * walked;
+  const double offset = offset_between(*p, *q);
+  if (std::abs(offset) > config_.room_offset_m) return another;
+  return (offset * offset / (sigma_m * sigma_m) +
+          (p->plane_F.n - q->plane_F.n).squaredNorm() / (sigma_rad * sigma_rad)) /
+         config_.gate_chi2;
+}
+
+bool WallLayer::add_duplicates(Graph& graph, std::span<const PlaneNode> walls, std::span<const SameWall> pairs) const {
+  bool added = false;
+  for (const SameWall& pair : pairs) added |= add_duplicate(graph, *find(walls, pair.known), *find(walls, pair.found));
+  return added;
 }
 
 int WallLayer::merge_duplicates(Graph& graph) {
@@ -323,10 +370,15 @@ int WallLayer::merge_duplicates(Graph& graph) {
       continue;
     }
     gone.merged_into = f.a;
+    first_seen_m_[static_cast<std::size_t>(f.a)] =
+        std::min(first_seen_m_[static_cast<std::size_t>(f.a)], first_seen_m_[static_cast<std::size_t>(f.b)]);
     // What stands apart from the one stands apart from both.
     for (const auto& [pair, scans] : std::map(apart_))
       if (pair.first == f.b || pair.second == f.b)
         apart_[std::minmax(f.a, pair.first == f.b ? pair.second : pair.first)] += scans;
+    for (const auto& pair : std::set(far_apart_))
+      if (pair.first == f.b || pair.second == f.b)
+        far_apart_.insert(std::minmax(f.a, pair.first == f.b ? pair.second : pair.first));
     for (PlaneFactor& factor : graph.plane_factors)
       if (factor.plane == f.b) factor.plane = f.a;
     ++merged;

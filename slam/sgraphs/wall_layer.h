@@ -3,6 +3,7 @@
 
 #include <array>
 #include <map>
+#include <set>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -11,6 +12,7 @@
 #include "bim/config/visit.h"
 #include "slam/graph/graph.h"
 #include "slam/planes/detect.h"
+#include "slam/sgraphs/same_walls.h"
 
 namespace plumbline::slam {
 
@@ -43,6 +45,9 @@ struct WallLayerConfig {
   double merge_angle_rad = 0.025;     ///< ... become one
   double duplicate_sigma_rad = 0.01;  ///< of the factor between duplicates
   double duplicate_sigma_m = 0.02;
+  double room_drift = 3.0;     ///< times the drift per metre between two vertices of one wall of a room seen again: all
+                               ///< its walls agree, where one alone may be mistaken
+  double room_offset_m = 0.5;  ///< between such vertices, at most [facts: slam 2.3]
 
   template <class V>
   void visit(V& v) {
@@ -70,6 +75,8 @@ struct WallLayerConfig {
     v("merge_angle_rad", merge_angle_rad, Field{.doc = "at which duplicates become one", .min = 0});
     v("duplicate_sigma_rad", duplicate_sigma_rad, Field{.doc = "of the factor between duplicates", .min = 1e-5});
     v("duplicate_sigma_m", duplicate_sigma_m, Field{.doc = "of the factor between duplicates", .min = 1e-5});
+    v("room_drift", room_drift, Field{.doc = "times the drift per metre for walls of a room seen again", .min = 0});
+    v("room_offset_m", room_offset_m, Field{.doc = "between two vertices of one wall of a room; 0: none", .min = 0});
   }
 };
 
@@ -99,6 +106,13 @@ class WallLayer {
 
   /// Adds a duplicate factor for each pair of one face that has none yet; true when one was added.
   bool find_duplicates(Graph& graph, int storey) const;
+  /// Squared Mahalanobis distance over the gate's of two vertices that may be one wall of a room seen again; above 1:
+  /// two walls. The covariance is the drift between the last look at the one and the first at the other, which must be
+  /// later; walls that do not stand on one side and stretch, or that one scan showed as two faces, are two. `walls`: of
+  /// a storey, by id.
+  [[nodiscard]] double room_misfit(std::span<const PlaneNode> walls, int a, int b) const;
+  /// Adds a duplicate factor for each pair of `walls` that has none yet; true when one was added.
+  bool add_duplicates(Graph& graph, std::span<const PlaneNode> walls, std::span<const SameWall> pairs) const;
   /// Duplicates that now agree become one vertex, the one with the lower id. Returns how many.
   int merge_duplicates(Graph& graph);
 
@@ -114,6 +128,8 @@ class WallLayer {
                                        double walked_m) const;
   void note_apart(std::span<const PlaneObservation> seen, std::span<const int> ids);
   [[nodiscard]] bool known_apart(int a, int b) const;
+  /// False where there is such a factor already.
+  bool add_duplicate(Graph& graph, const PlaneNode& a, const PlaneNode& b) const;
   /// Squared distance of an observation to a known plane over the gate's; above 1: another plane.
   [[nodiscard]] double misfit(const Graph& graph, const PlaneNode& known, const PlaneObservation& seen,
                               double walked_m) const;
@@ -131,9 +147,11 @@ class WallLayer {
   std::vector<Patch> patches_;
   std::vector<Extent> settled_;               ///< index = plane id; may be shorter than the planes
   std::size_t settled_factors_ = 0;           ///< plane factors summed up in them
-  std::vector<double> last_seen_m_;           ///< way walked when a plane was last seen; index = plane id
+  std::vector<double> first_seen_m_;          ///< way walked when a plane was first seen; index = plane id
+  std::vector<double> last_seen_m_;           ///< the same when it was last seen
   std::map<std::pair<int, int>, int> apart_;  ///< of planes, lower id first: scans that showed them as two faces, less
                                               ///< those that showed them as one
+  std::set<std::pair<int, int>> far_apart_;   ///< the same for planes too far apart to be duplicates by themselves
 };
 
 }  // namespace plumbline::slam

@@ -138,6 +138,29 @@ TEST(WallLayer, PullsDuplicatesTogetherAndMergesThem) {
   EXPECT_TRUE(graph.duplicate_factors.empty());
 }
 
+// 0.3 m apart, first seen 30 m of way after each other: drift, until one scan shows both.
+TEST(WallLayer, WallsOfARoomSeenAgainAreOneUnlessAScanShowsBoth) {
+  const Pose X = Pose::from_xyz_yaw({2, 2, 0}, 0);
+  WallLayerConfig config;
+  config.gate_chi2 = 1.0;
+  config.min_observations = 1;
+  Graph graph = at(X);
+  WallLayer walls(config);
+  PlaneObservation back = see(X, {0, 0}, {4, 0}), front = see(X, {0, 0.3}, {4, 0.3}), beside = see(X, {6, 0}, {9, 0});
+  for (PlaneObservation* o : {&back, &front, &beside}) o->centroid_R = 0.5 * (o->p0_R + o->p1_R);
+  EXPECT_EQ(walls.observe(graph, std::vector{back}, 0.0), std::vector<int>{0});
+  graph.keyframes.push_back({1, X, X, 0});
+  EXPECT_EQ(walls.observe(graph, std::vector{front}, 30.0), std::vector<int>{1});
+  EXPECT_LT(walls.room_misfit(walls.walls(graph, 0), 0, 1), 1.0);
+  EXPECT_EQ(walls.room_misfit(walls.walls(graph, 0), 0, 1), walls.room_misfit(walls.walls(graph, 0), 1, 0));
+  graph.keyframes.push_back({2, X, X, 0});
+  EXPECT_EQ(walls.observe(graph, std::vector{beside}, 60.0), std::vector<int>{2});
+  EXPECT_GT(walls.room_misfit(walls.walls(graph, 0), 0, 2), 1.0) << "in line, but not the same stretch";
+  graph.keyframes.push_back({3, X, X, 0});
+  EXPECT_EQ(walls.observe(graph, std::vector{back, front}, 60.1), (std::vector<int>{0, 1}));
+  EXPECT_GT(walls.room_misfit(walls.walls(graph, 0), 0, 1), 1.0);
+}
+
 TEST(FloorLayer, ANewStoreyBeginsWhereTheFloorIsAnother) {
   const FloorLayerConfig config;
   const Pose ground = Pose::from_xyz_yaw({0, 0, 0.5}, 0), first = Pose::from_xyz_yaw({5, 0, 3.5}, 0);
