@@ -110,13 +110,32 @@ slam::FloorNode read_floor(const Tree& tree) {
 
 double round_to(double value, double steps) { return std::round(value * steps) / steps; }
 
+Tree write(const slam::WallMatch& match) {
+  Tree faces = Tree::list();
+  for (const int face : match.faces) faces.push(face);
+  const auto rounded = [](const Eigen::Vector3d& p) {
+    return numbers({round_to(p.x(), 1e3), round_to(p.y(), 1e3), round_to(p.z(), 1e3)});
+  };
+  return Tree::map().set("faces", faces).set("p0", rounded(match.p0_R)).set("p1", rounded(match.p1_R));
+}
+
+slam::WallMatch read_match(const Tree& tree) {
+  slam::WallMatch match{{}, read_3d(child(tree, "p0")), read_3d(child(tree, "p1"))};
+  for (const Tree& face : child(tree, "faces").as_list()) match.faces.push_back(static_cast<int>(face.as_int()));
+  return match;
+}
+
 Tree write(const slam::Hypothesis& hypothesis) {
   Tree covariance = Tree::list();
   for (int row = 0; row < 3; ++row)
     for (int col = 0; col < 3; ++col) covariance.push(hypothesis.covariance(row, col));
   Tree tree = Tree::map();
   tree.set("mass", hypothesis.mass).set("room", hypothesis.room);
-  return tree.set("pose", numbers(hypothesis.X_WR)).set("covariance", covariance);
+  tree.set("pose", numbers(hypothesis.X_WR)).set("covariance", covariance);
+  if (hypothesis.walls.empty()) return tree;
+  Tree walls = Tree::list();
+  for (const slam::WallMatch& match : hypothesis.walls) walls.push(write(match));
+  return tree.set("walls", walls);
 }
 
 Tree write(const slam::Particle& particle) {
@@ -139,6 +158,8 @@ slam::Hypothesis read_hypothesis(const Tree& tree) {
   const auto c = read_numbers<9>(child(tree, "covariance"));
   for (int row = 0; row < 3; ++row)
     for (int col = 0; col < 3; ++col) hypothesis.covariance(row, col) = c[static_cast<std::size_t>(3 * row + col)];
+  if (const Tree* walls = tree.find("walls"))
+    for (const Tree& match : walls->as_list()) hypothesis.walls.push_back(read_match(match));
   return hypothesis;
 }
 

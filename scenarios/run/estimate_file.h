@@ -14,8 +14,9 @@ namespace plumbline::scenarios {
 /// Sets what write_estimate wrote. Throws InputError.
 void read_estimate(std::string_view text, const std::string& file, MethodRecord& method);
 
-/// <method>.hypotheses.jsonl: a line a scan {stamp_ns, state, hypotheses: [{mass, room, pose, covariance}],
-/// particles: [[x, y, yaw, weight]]}; pose is [x, y, z, qx, qy, qz, qw] of X_WR; particles, where there are any, are
+/// <method>.hypotheses.jsonl: a line a scan {stamp_ns, state, hypotheses: [{mass, room, pose, covariance, walls: [{
+/// faces, p0, p1}]}], particles: [[x, y, yaw, weight]]}; pose is [x, y, z, qx, qy, qz, qw] of X_WR; walls, where there
+/// are any, are patches p0 to p1 in R and the ids of the plan's faces they were taken for; they and particles are
 /// rounded to 1 mm and 1 mrad.
 [[nodiscard]] std::string write_beliefs(const std::vector<BeliefRecord>& beliefs);
 [[nodiscard]] std::vector<BeliefRecord> read_beliefs(std::string_view text, const std::string& file);

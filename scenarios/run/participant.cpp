@@ -12,8 +12,8 @@ namespace plumbline::scenarios {
 
 namespace {
 
-/// Particle sets are large: between changes of the state one is kept every so often.
-constexpr slam::Nanoseconds particle_interval = 1'000'000'000;
+/// Particle sets and matched walls are large: between changes of the state one is kept every so often.
+constexpr slam::Nanoseconds detail_interval = 1'000'000'000;
 
 Digest& add_pose(Digest& digest, const std::optional<Pose>& X) {
   digest.add(X ? 1 : 0);
@@ -128,10 +128,16 @@ void Participant::keep_belief(const slam::Output& output) {
   const bool first = record_.beliefs.empty();
   const bool changed = first || record_.beliefs.back().state != output.state;
   BeliefRecord belief{output.stamp, output.state, output.hypotheses, {}};
-  if (!output.particles.empty() && (changed || output.stamp - particles_stamp_ >= particle_interval)) {
+  if (!output.particles.empty() && (changed || output.stamp - particles_stamp_ >= detail_interval)) {
     belief.particles = output.particles;
     particles_stamp_ = output.stamp;
   }
+  const bool has_walls = std::any_of(output.hypotheses.begin(), output.hypotheses.end(),
+                                     [](const slam::Hypothesis& hypothesis) { return !hypothesis.walls.empty(); });
+  if (has_walls && (changed || output.stamp - walls_stamp_ >= detail_interval))
+    walls_stamp_ = output.stamp;
+  else
+    for (slam::Hypothesis& hypothesis : belief.hypotheses) hypothesis.walls.clear();
   record_.beliefs.push_back(std::move(belief));
 }
 

@@ -38,6 +38,7 @@ class Participant {
   MethodRecord record_;
   slam::Nanoseconds last_stamp_ = 0;
   slam::Nanoseconds particles_stamp_ = 0;
+  slam::Nanoseconds walls_stamp_ = 0;
 };
 
 /// An estimator of the table. It sees odometry, IMU and scans, never the frame's truth.

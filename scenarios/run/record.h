@@ -14,8 +14,8 @@ namespace plumbline::scenarios {
 struct BeliefRecord {
   slam::Nanoseconds stamp = 0;
   slam::State state = slam::State::searching;
-  std::vector<slam::Hypothesis> hypotheses;
-  std::vector<slam::Particle> particles;  ///< of the scans where the state changed, and one a second
+  std::vector<slam::Hypothesis> hypotheses;  ///< their walls as particles are
+  std::vector<slam::Particle> particles;     ///< of the scans where the state changed, and one a second
 };
 
 /// CPU times of the calls of one stage, ms, in call order.

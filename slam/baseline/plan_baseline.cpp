@@ -59,6 +59,7 @@ Output PlanBaseline::on_scan(const Scan& scan) {
     }
   }
   say_where(X_OR, output);
+  for (PlanPlace& place : belief_.places) place.walls.clear();
   trail_.add_scan(scan.stamp, X_OR);
   motion_.forget_before(scan.stamp - 1'000'000'000);
   return output;
@@ -102,7 +103,7 @@ void PlanBaseline::say_where(const Pose& X_OR, Output& output) const {
     const Pose X_IR = place.X_IR * moved;
     const int room = storey.room_at(X_IR.t.head<2>());
     output.hypotheses.push_back({place.mass, index_.X_WI * X_IR, turned(place.covariance, index_.X_WI),
-                                 room < 0 ? "" : storey.rooms[static_cast<std::size_t>(room)].name});
+                                 room < 0 ? "" : storey.rooms[static_cast<std::size_t>(room)].name, place.walls});
   }
   const std::size_t most = static_cast<std::size_t>(config_.particles_shown);
   const std::size_t stride = std::max<std::size_t>(1, (belief_.particles.size() + most - 1) / most);

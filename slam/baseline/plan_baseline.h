@@ -52,6 +52,7 @@ struct PlanPlace {
   int storey = 0;  ///< index into PlanIndex::storeys
   Pose X_IR;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();  ///< of (x, y, yaw) in I
+  std::vector<WallMatch> walls = {};                         ///< shown with the scan they were found in
 };
 
 struct PlanBelief {

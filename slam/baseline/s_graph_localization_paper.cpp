@@ -3,6 +3,7 @@
 
 #include "bim/digest/digest.h"
 #include "slam/localize/pose_clusters.h"
+#include "slam/localize/wall_matches.h"
 
 namespace plumbline::slam {
 
@@ -60,7 +61,8 @@ PlanBelief SGraphLocalizationPaper::update(const PlanScan& scan, Output& output)
   PlanBelief belief;
   belief.state = State::converged;
   belief.X_IR = tracker_->pose(scan.X_OR);
-  belief.places.push_back({1.0, filter_.best().storey, *belief.X_IR, tracker_->covariance()});
+  belief.places.push_back({1.0, filter_.best().storey, *belief.X_IR, tracker_->covariance(),
+                           wall_matches(*input().plan, tracker_->storey(), tracker_->window().back().walls)});
   output.digests.push_back({"tracking", Digest().add(*belief.X_IR).value()});
   return belief;
 }

@@ -24,12 +24,20 @@ struct StampedPose {
   Pose X_FR;  ///< F is M or W, see Estimate::frame
 };
 
+/// A wall patch of the newest view and the wall of the plan that it was taken for.
+struct WallMatch {
+  std::vector<int> faces;                          ///< ids of the plan's faces that make up the wall, ascending
+  Eigen::Vector3d p0_R = Eigen::Vector3d::Zero();  ///< ends of the patch, free space on the left of p0 to p1
+  Eigen::Vector3d p1_R = Eigen::Vector3d::Zero();
+};
+
 /// A place where the robot may be.
 struct Hypothesis {
   double mass = 0.0;  ///< share of the belief, in [0, 1]
   Pose X_WR;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of (x, y, yaw)
   std::string room;                                      ///< PlanRoom name, or empty
+  std::vector<WallMatch> walls = {};  ///< what a robot there takes the walls for; of scans that were looked at
 };
 
 /// One particle as drawn in the report.

@@ -7,8 +7,10 @@
 #include "bim/digest/digest.h"
 #include "bim/errors.h"
 #include "slam/io/stopwatch.h"
+#include "slam/localize/associate.h"
 #include "slam/localize/seen_walls.h"
 #include "slam/localize/trail.h"
+#include "slam/localize/wall_matches.h"
 #include "slam/odometry/map_cloud.h"
 
 namespace plumbline::slam {
@@ -59,6 +61,7 @@ class SGraphLocalization final : public Method {
   [[nodiscard]] Estimate finish() override;
 
  private:
+  void update(const Scan& scan, const Pose& X_OR, Output& output);
   void localize(const View& view, const std::vector<PlaneObservation>& planes, Output& output);
   void track(const View& view, const std::vector<PlaneObservation>& planes, Output& output);
   void start_tracking(const View& view, const std::vector<PlaneObservation>& planes);
@@ -68,6 +71,7 @@ class SGraphLocalization final : public Method {
   [[nodiscard]] StartBelief belief(Nanoseconds stamp, const Pose& X_OR) const;
   [[nodiscard]] Pose pose_in_I(const Candidate& candidate, const View& view) const;
   void say_where(const Pose& X_OR, Output& output) const;
+  void show_walls(const View& view, const std::vector<PlaneObservation>& planes, Output& output) const;
   void show_particles(const Pose2& u, Output& output) const;
   [[nodiscard]] std::vector<Hypothesis> hypotheses(const Pose2& u, const Pose& X_OR) const;
   void keep(const std::vector<TrackedPose>& poses);
@@ -97,27 +101,33 @@ class SGraphLocalization final : public Method {
 Output SGraphLocalization::on_scan(const Scan& scan) {
   Output output;
   output.stamp = scan.stamp;
-  Stopwatch watch;
   const Pose X_OR = motion_.at(scan.stamp);
   if (!X_OR_start_) X_OR_start_ = X_OR;
-  if (is_due(X_OR)) {
-    const DeskewedScan deskewed = deskew(scan, motion_, input_.calibration);
-    if (cloud_.add(deskewed, X_OR)) cloud_stamps_.push_back(scan.stamp);
-    note("deskew", watch, output);
-    const std::vector<PlaneObservation> planes = detect_planes(deskewed, config_.planes);  // [BIM-Loc eq. 3]
-    const View view = make_view(deskewed, planes, X_OR, input_.calibration, config_.view);
-    note("planes", watch, output);
-    output.digests.push_back({"planes", digest_of(view)});
-    if (!tracker_)
-      localize(view, planes, output);  // particles to X_WO [BIM-Loc eq. 4-10]
-    else
-      track(view, planes, output);  // S-Graph on the plan's walls and rooms [BIM-Loc section 3.4]
-    X_OR_update_ = X_OR;
-  }
-  say_where(X_OR, output);
+  if (is_due(X_OR))
+    update(scan, X_OR, output);
+  else
+    say_where(X_OR, output);
   trail_.add_scan(scan.stamp, X_OR);
   motion_.forget_before(scan.stamp - 1'000'000'000);
   return output;
+}
+
+void SGraphLocalization::update(const Scan& scan, const Pose& X_OR, Output& output) {
+  Stopwatch watch;
+  const DeskewedScan deskewed = deskew(scan, motion_, input_.calibration);
+  if (cloud_.add(deskewed, X_OR)) cloud_stamps_.push_back(scan.stamp);
+  note("deskew", watch, output);
+  const std::vector<PlaneObservation> planes = detect_planes(deskewed, config_.planes);  // [BIM-Loc eq. 3]
+  const View view = make_view(deskewed, planes, X_OR, input_.calibration, config_.view);
+  note("planes", watch, output);
+  output.digests.push_back({"planes", digest_of(view)});
+  if (!tracker_)
+    localize(view, planes, output);  // particles to X_WO [BIM-Loc eq. 4-10]
+  else
+    track(view, planes, output);  // S-Graph on the plan's walls and rooms [BIM-Loc section 3.4]
+  X_OR_update_ = X_OR;
+  say_where(X_OR, output);
+  show_walls(view, planes, output);
 }
 
 void SGraphLocalization::localize(const View& view, const std::vector<PlaneObservation>& planes, Output& output) {
@@ -250,6 +260,22 @@ std::vector<Hypothesis> SGraphLocalization::hypotheses(const Pose2& u, const Pos
                      room < 0 ? "" : storey.rooms[static_cast<std::size_t>(room)].name});
   }
   return shown;
+}
+
+/// What a robot at each hypothesis takes the walls of the view for.
+void SGraphLocalization::show_walls(const View& view, const std::vector<PlaneObservation>& planes,
+                                    Output& output) const {
+  if (tracker_) {
+    output.hypotheses.front().walls = wall_matches(*input_.plan, tracker_->storey(), tracker_->window().back().walls);
+    return;
+  }
+  auto shown = output.hypotheses.begin();
+  for (const Candidate& candidate : search_.candidates()) {
+    if (candidate.mass < config_.mass_shown) continue;
+    const StoreyIndex& storey = index_.storeys[static_cast<std::size_t>(candidate.storey)];
+    const Pose X_IR = pose_in_I(candidate, view);
+    (shown++)->walls = wall_matches(*input_.plan, storey, associate_walls(storey, view, planes, X_IR, config_.tracker));
+  }
 }
 
 void SGraphLocalization::show_particles(const Pose2& u, Output& output) const {

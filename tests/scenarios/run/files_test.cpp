@@ -151,6 +151,7 @@ TEST(EstimateFile, BeliefsRoundTrip) {
   belief.stamp = 100'859'000;
   belief.state = slam::State::ambiguous;
   belief.hypotheses = {{0.5, Pose::from_xyz_yaw({1, 2, 3}, 0.5), Eigen::Matrix3d::Identity() * 0.1, "office_a"}};
+  belief.hypotheses[0].walls = {{{3, 8}, {1.0004, -2.0, 0.25}, {1.0, 2.0, 0.25}}};
   belief.particles = {{1.0004, 2.0, 0.1234, 0.002}};
   const std::string text = write_beliefs({belief, belief});
   const auto again = read_beliefs(text, "h.jsonl");
@@ -158,6 +159,9 @@ TEST(EstimateFile, BeliefsRoundTrip) {
   EXPECT_EQ(write_beliefs(again), text);
   EXPECT_EQ(again[1].hypotheses[0].X_WR.q.coeffs(), belief.hypotheses[0].X_WR.q.coeffs());
   EXPECT_EQ(again[0].particles[0].x, 1.0);  // to the millimetre
+  ASSERT_EQ(again[0].hypotheses[0].walls.size(), 1U);
+  EXPECT_EQ(again[0].hypotheses[0].walls[0].faces, (std::vector<int>{3, 8}));
+  EXPECT_EQ(again[0].hypotheses[0].walls[0].p0_R, Eigen::Vector3d(1.0, -2.0, 0.25));
   EXPECT_THROW(static_cast<void>(read_beliefs(text + "{}\n", "h.jsonl")), InputError);
 }
 

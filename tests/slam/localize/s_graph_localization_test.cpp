@@ -77,6 +77,16 @@ TEST(SGraphLocalization, FindsItsPlaceWithoutACompass) {
   const Answers result = run(recording, input_for(recording, synthetic::plan_of(synthetic::corridor_house()), false));
   ASSERT_EQ(result.outputs.back().state, State::converged);
   EXPECT_LT((result.outputs.back().X_FR->t - recording.truth.back().X_FR.t).norm(), 0.05);
+  // Where it took over from the particles, it names the walls, and they are the right ones.
+  const auto taken = std::find_if(result.outputs.begin(), result.outputs.end(),
+                                  [](const Output& output) { return output.state == State::converged; });
+  const Pose X_WR = recording.truth[static_cast<std::size_t>(taken - result.outputs.begin())].X_FR;
+  ASSERT_GE(taken->hypotheses.front().walls.size(), 3U);
+  const bim::Plan plan = synthetic::plan_of(synthetic::corridor_house());
+  for (const WallMatch& match : taken->hypotheses.front().walls) {
+    const bim::PlanFace& face = plan.faces[static_cast<std::size_t>(match.faces.front())];
+    EXPECT_NEAR(face.plane_W.distance(X_WR * (0.5 * (match.p0_R + match.p1_R))), 0.0, 0.05);
+  }
 }
 
 TEST(SGraphLocalization, AMovedPlanMovesTheAnswer) {
@@ -127,6 +137,13 @@ TEST(SGraphLocalization, TwinRoomsStayAlive) {
   // Alike to the last face: the shares stay equal save for rounding and the fit's stop.
   EXPECT_NEAR(last.hypotheses[0].mass, 0.5, 0.02);
   EXPECT_NEAR((last.hypotheses[0].X_WR.t - last.hypotheses[1].X_WR.t).head<2>().norm(), std::hypot(9.0, 1.0), 0.02);
+  // Each takes the walls for those of its own room.
+  const auto looked_at = std::find_if(result.outputs.rbegin(), result.outputs.rend(),
+                                      [](const Output& output) { return !output.hypotheses[0].walls.empty(); });
+  ASSERT_NE(looked_at, result.outputs.rend());
+  ASSERT_EQ(looked_at->hypotheses.size(), 2U);
+  for (const WallMatch& a : looked_at->hypotheses[0].walls)
+    for (const WallMatch& b : looked_at->hypotheses[1].walls) EXPECT_NE(a.faces, b.faces);
   EXPECT_TRUE(result.estimate.trajectory.empty());
 }
 
