@@ -97,6 +97,7 @@ struct LocalizationScore {
   std::optional<double> twin_error_rmse_m;
   std::optional<double> true_mass;  ///< share of the last hypotheses that are right
   std::optional<double> nees;       ///< mean of e' P^-1 e of (x, y, yaw) while converged and right; 3 where P is honest
+  std::optional<double> handover_precision;  ///< see handover.h
   std::optional<Failure> failure;
   std::optional<double> failure_at_s;    ///< `replay --until` stops there
   std::optional<double> kidnap_wrong_s;  ///< longest time a wrong pose stood as CONVERGED after it was set down

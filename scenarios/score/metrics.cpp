@@ -58,6 +58,7 @@ std::vector<MetricRow> make_rows() {
       {"localization.twin_error_rmse_m", "m", Better::lower, field(&S::localization, &L::twin_error_rmse_m)},
       {"localization.true_mass", "", Better::higher, field(&S::localization, &L::true_mass)},
       {"localization.nees", "", Better::neither, field(&S::localization, &L::nees)},
+      {"localization.handover_precision", "", Better::higher, field(&S::localization, &L::handover_precision)},
       {"localization.failure_at_s", "s", Better::neither, field(&S::localization, &L::failure_at_s)},
       {"localization.kidnap_wrong_s", "s", Better::lower, field(&S::localization, &L::kidnap_wrong_s)},
       {"localization.kidnap_found_s", "s", Better::lower, field(&S::localization, &L::kidnap_found_s)},

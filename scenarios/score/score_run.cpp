@@ -7,6 +7,7 @@
 #include "bim/mesh/mesh.h"
 #include "scenarios/run/files.h"
 #include "scenarios/run/participant.h"
+#include "scenarios/score/handover.h"
 #include "scenarios/score/identifiability.h"
 
 namespace plumbline::scenarios::score {
@@ -15,6 +16,7 @@ namespace {
 
 /// What the methods of a run are scored against.
 struct Reference {
+  const bim::Plan& as_planned;
   const bim::Plan& as_built;
   const Truth& truth;
   const std::vector<Eigen::Vector3d>& surface_W;
@@ -34,7 +36,7 @@ std::vector<Belief> beliefs_of(const MethodRecord& method, const Truth& truth) {
     beliefs.push_back({belief.stamp, belief.state, pose_at(belief.stamp), belief.hypotheses, belief.particles});
   if (!beliefs.empty()) return beliefs;
   for (const PosePair& pair : associate(truth, method.causal, {})) {
-    const slam::Hypothesis only{1.0, pair.X_FR, Eigen::Matrix3d::Zero(), ""};
+    const slam::Hypothesis only{1.0, pair.X_FR, Eigen::Matrix3d::Zero(), "", {}};
     beliefs.push_back({truth.scans[pair.scan], slam::State::converged, pair.X_FR, {only}, {}});
   }
   return beliefs;
@@ -66,6 +68,8 @@ MethodScore score_localizer(const MethodRecord& method, const Reference& referen
   score.verdict = to_string(LocalizationVerdict::lost);
   if (beliefs.empty()) return score;
   score.localization = score_localization(reference.truth, beliefs, identifiability);
+  score.localization->handover_precision =
+      handover_precision(reference.truth, beliefs, reference.as_planned, reference.as_built);
   score.verdict = to_string(score.localization->verdict);
   if (score.localization->converged_at_s) score_structure(method, Pose(), reference, score);
   return score;
@@ -173,7 +177,8 @@ RunScore score_run(const RunFiles& files) {
   const std::vector<Eigen::Vector3d> surface_W = to_double(files.surface_W);
   const bim::Building& as_built = files.site.as_built;
   const SurfaceDistance distance(bim::build_mesh(as_built), MapRules().cap_m);
-  const Reference reference{score.as_built, score.truth, surface_W, distance};
+  const bim::Plan as_planned = bim::make_plan(files.site.as_planned);
+  const Reference reference{as_planned, score.as_built, score.truth, surface_W, distance};
   const bool localizes = std::any_of(files.methods.begin(), files.methods.end(),
                                      [](const MethodRecord& m) { return m.localization && !m.crashed; });
   if (localizes) score.identifiability = identifiability_of(files, score.truth.before());
