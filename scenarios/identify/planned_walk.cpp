@@ -19,8 +19,7 @@ constexpr double sample_m = 0.1;
 /// A robot that walks along the waypoints.
 class Walker {
  public:
-  explicit Walker(const ResolvedScenario& resolved)
-      : speed_mps_(resolved.scenario.speed_mps), duration_s_(resolved.scenario.duration_s) {}
+  explicit Walker(const sim::WorldConfig& world) : speed_mps_(world.speed_mps), duration_s_(world.duration_s) {}
 
   void stand(const Eigen::Vector3d& floor_W, double yaw) {
     p_ = floor_W;
@@ -62,14 +61,23 @@ class Walker {
   std::vector<TruthSample> samples_;
 };
 
-IdentifyInput input_of(const ResolvedScenario& resolved, const SeenBuilding& planned,
+std::vector<TruthSample> walk_in(const sim::WorldConfig& world) {
+  Walker walker(world);
+  if (world.waypoints.empty()) return {};
+  walker.stand(world.waypoints.front().p_W, world.start_yaw);
+  for (const sim::Waypoint& waypoint : world.waypoints) walker.walk_to(waypoint.p_W);
+  return walker.samples();
+}
+
+/// storey: the one the walk begins on.
+IdentifyInput input_of(const ResolvedScenario& resolved, int storey, const SeenBuilding& planned,
                        const std::optional<SeenBuilding>& built) {
   IdentifyInput input;
   input.as_planned = &planned.scene;
   input.as_built = built ? &built->scene : &planned.scene;
   const bim::Building& plan = resolved.site.as_planned;
   for (std::size_t i = 0; i < plan.storeys.size(); ++i)
-    if (static_cast<int>(i) == resolved.world.storey || resolved.scenario.prior.storey == Knowledge::unknown)
+    if (static_cast<int>(i) == storey || resolved.scenario.prior.storey == Knowledge::unknown)
       input.storeys.push_back(search_area(plan, i));
   return input;
 }
@@ -82,7 +90,7 @@ WalkAnswers answer(const std::string& scenario, std::uint64_t seed) {
   const SeenBuilding planned = seen_building(resolved.site.as_planned);
   std::optional<SeenBuilding> built;
   if (!resolved.site.changes.empty()) built.emplace(seen_building(resolved.site.as_built));
-  IdentifyInput input = input_of(resolved, planned, built);
+  IdentifyInput input = input_of(resolved, resolved.world.storey, planned, built);
   const std::vector<TruthSample> walk = planned_walk(resolved);
   WalkAnswers answers;
   answers.seed = seed;
@@ -90,7 +98,15 @@ WalkAnswers answer(const std::string& scenario, std::uint64_t seed) {
   input.yaw_known = true;
   answers.compass = identify_run(input, walk);
   answers.length_m = answers.unknown.steps.empty() ? 0.0 : answers.unknown.steps.back().distance_m;
+  const std::vector<TruthSample> after = planned_walk_after(resolved);
+  if (!after.empty())
+    answers.set_down = identify_run(input_of(resolved, resolved.world_after->storey, planned, built), after);
   return answers;
+}
+
+const RunIdentifiability* part_of(const WalkAnswers& walk, WalkPart part) {
+  if (part == WalkPart::set_down) return walk.set_down ? &*walk.set_down : nullptr;
+  return part == WalkPart::compass ? &walk.compass : &walk.unknown;
 }
 
 double median(std::vector<double> values) {
@@ -110,13 +126,14 @@ Tree tree_of(const RunIdentifiability& run) {
 
 }  // namespace
 
-std::vector<TruthSample> planned_walk(const ResolvedScenario& resolved) {
-  Walker walker(resolved);
-  const std::vector<sim::Waypoint>& way = resolved.world.waypoints;
-  if (way.empty()) return {};
-  walker.stand(way.front().p_W, resolved.world.start_yaw);
-  for (const sim::Waypoint& waypoint : way) walker.walk_to(waypoint.p_W);
-  return walker.samples();
+std::vector<TruthSample> planned_walk(const ResolvedScenario& resolved) { return walk_in(resolved.world); }
+
+std::vector<TruthSample> planned_walk_after(const ResolvedScenario& resolved) {
+  if (!resolved.world_after) return {};
+  const std::vector<TruthSample> before = planned_walk(resolved);
+  sim::WorldConfig world = *resolved.world_after;
+  world.duration_s -= (before.empty() ? 0.0 : before.back().t_s) + resolved.scenario.kidnap->away_s;
+  return walk_in(world);
 }
 
 std::vector<WalkAnswers> identify_walks(const std::string& scenario, int seeds, int threads) {
@@ -125,17 +142,18 @@ std::vector<WalkAnswers> identify_walks(const std::string& scenario, int seeds, 
   return walks;
 }
 
-WalkSummary summary_of(const std::vector<WalkAnswers>& walks, bool compass) {
+WalkSummary summary_of(const std::vector<WalkAnswers>& walks, WalkPart part) {
   WalkSummary summary;
   std::vector<double> at_s, at_m;
   for (const WalkAnswers& walk : walks) {
-    const RunIdentifiability& run = compass ? walk.compass : walk.unknown;
+    const RunIdentifiability* run = part_of(walk, part);
+    if (run == nullptr) continue;
     ++summary.walks;
-    if (!run.identifiable) continue;
+    if (!run->identifiable) continue;
     ++summary.identifiable;
-    if (*run.identifiable_at_m == 0.0) ++summary.at_once;
-    at_s.push_back(*run.identifiable_at_s);
-    at_m.push_back(*run.identifiable_at_m);
+    if (*run->identifiable_at_m == 0.0) ++summary.at_once;
+    at_s.push_back(*run->identifiable_at_s);
+    at_m.push_back(*run->identifiable_at_m);
   }
   summary.median_at_s = median(at_s);
   summary.median_at_m = median(at_m);
@@ -144,25 +162,32 @@ WalkSummary summary_of(const std::vector<WalkAnswers>& walks, bool compass) {
 
 std::string walks_text(const std::vector<WalkAnswers>& walks) {
   std::string text = "heading    walks  identifiable   at once   median s   median m\n";
-  for (const bool compass : {false, true}) {
-    const WalkSummary s = summary_of(walks, compass);
+  const auto add = [&](const char* name, const WalkSummary& s) {
     char line[160];
-    std::snprintf(line, sizeof line, "%-8s %7d %12.0f %% %7.0f %% %10.1f %10.1f\n", compass ? "compass" : "unknown",
-                  s.walks, 100.0 * s.identifiable / std::max(s.walks, 1), 100.0 * s.at_once / std::max(s.walks, 1),
+    std::snprintf(line, sizeof line, "%-8s %7d %12.0f %% %7.0f %% %10.1f %10.1f\n", name, s.walks,
+                  100.0 * s.identifiable / std::max(s.walks, 1), 100.0 * s.at_once / std::max(s.walks, 1),
                   s.median_at_s, s.median_at_m);
     text += line;
-  }
-  return text;
+  };
+  add("unknown", summary_of(walks, WalkPart::unknown));
+  add("compass", summary_of(walks, WalkPart::compass));
+  const WalkSummary after = summary_of(walks, WalkPart::set_down);
+  if (after.walks == 0) return text;
+  add("set down", after);
+  return text +
+         "The robot is carried off on its way: unknown and compass are of the walk before, set down is of the walk "
+         "after,\ncounted from where it is set down, with the heading unknown.\n";
 }
 
 Tree walks_json(const std::vector<WalkAnswers>& walks) {
   Tree list = Tree::list();
-  for (const WalkAnswers& walk : walks)
-    list.push(Tree::map()
-                  .set("seed", std::to_string(walk.seed))
-                  .set("length_m", walk.length_m)
-                  .set("unknown", tree_of(walk.unknown))
-                  .set("compass", tree_of(walk.compass)));
+  for (const WalkAnswers& walk : walks) {
+    Tree tree = Tree::map();
+    tree.set("seed", std::to_string(walk.seed)).set("length_m", walk.length_m);
+    tree.set("unknown", tree_of(walk.unknown)).set("compass", tree_of(walk.compass));
+    if (walk.set_down) tree.set("set_down", tree_of(*walk.set_down));
+    list.push(std::move(tree));
+  }
   return Tree::map().set("walks", std::move(list));
 }
 
