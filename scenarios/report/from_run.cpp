@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <set>
 
+#include "scenarios/report/tracks.h"
+#include "scenarios/score/handover.h"
 #include "scenarios/score/storey.h"
 
 namespace plumbline::scenarios {
@@ -77,6 +79,60 @@ void add_beliefs(const bim::Plan& plan, const MethodRecord& method, const score:
   if (kept.size() > 1) shown.beliefs.push_back(belief_at(plan, method, kept.back(), last, truth));
 }
 
+ReportWall wall_of(const Eigen::Vector2d& p0, const Eigen::Vector2d& p1) { return {p0, p1, 0}; }
+
+/// What a hypothesis recognised; `right` as the score judges it.
+ReportPlace place_of(const slam::Hypothesis& hypothesis, const Pose& X_WR_true, const bim::Plan& as_planned,
+                     const bim::Plan& as_built) {
+  ReportPlace place{hypothesis.X_WR.t.head<2>(), hypothesis.X_WR.yaw(), hypothesis.mass, {}};
+  const std::vector<bool> right = score::right_matches(hypothesis.walls, X_WR_true, as_planned, as_built);
+  for (std::size_t i = 0; i < hypothesis.walls.size(); ++i) {
+    const slam::WallMatch& match = hypothesis.walls[i];
+    ReportMatch shown;
+    shown.right = right[i];
+    shown.patch = wall_of((hypothesis.X_WR * match.p0_R).head<2>(), (hypothesis.X_WR * match.p1_R).head<2>());
+    for (const bim::PlanFace& face : as_planned.faces)
+      if (std::find(match.faces.begin(), match.faces.end(), face.id) != match.faces.end())
+        shown.faces.push_back(wall_of(face.p0, face.p1));
+    place.walls.push_back(std::move(shown));
+  }
+  return place;
+}
+
+/// The walls recognised half-way to the first convergence (or the end), there, and at the end, where they were kept.
+void add_recognised(const RunFiles& files, const MethodRecord& method, const score::RunScore& score,
+                    ReportMethod& shown) {
+  std::vector<std::size_t> before;
+  std::optional<std::size_t> settled, last;
+  for (std::size_t i = 0; i < method.beliefs.size(); ++i) {
+    const BeliefRecord& belief = method.beliefs[i];
+    const bool kept = std::any_of(belief.hypotheses.begin(), belief.hypotheses.end(),
+                                  [](const slam::Hypothesis& hypothesis) { return !hypothesis.walls.empty(); });
+    if (!kept) continue;
+    last = i;
+    if (!settled && belief.state == slam::State::converged) settled = i;
+    if (!settled) before.push_back(i);
+  }
+  if (!last) return;
+  const bim::Plan as_planned = bim::make_plan(files.site.as_planned);
+  const auto show = [&](std::size_t i, const std::string& label) {
+    constexpr std::size_t most = 8;  // places, so that walls stay apart
+    const BeliefRecord& belief = method.beliefs[i];
+    const Pose X_WR = score.truth.at(belief.stamp);
+    ReportWalls walls{label,
+                      slam::seconds(belief.stamp),
+                      score::storey_of_base(as_planned.storeys, X_WR.t.z()),
+                      X_WR.t.head<2>(),
+                      {}};
+    for (std::size_t k = 0; k < std::min(most, belief.hypotheses.size()); ++k)
+      walls.places.push_back(place_of(belief.hypotheses[k], X_WR, as_planned, score.as_built));
+    shown.recognised.push_back(std::move(walls));
+  };
+  if (!before.empty()) show(before[before.size() / 2], "while searching");
+  if (settled) show(*settled, "when it settled");
+  if (last != settled && (before.empty() || *last != before[before.size() / 2])) show(*last, "at the end");
+}
+
 /// The storey of the start and those the robot was on, from the lowest up.
 std::vector<ReportStorey> storeys_of(const RunFiles& files, const std::vector<ReportSample>& truth) {
   const std::vector<bim::Storey>& storeys = files.site.as_built.storeys;
@@ -97,6 +153,7 @@ std::vector<ReportStorey> storeys_of(const RunFiles& files, const std::vector<Re
 }  // namespace
 
 ReportInput report_input(const RunFiles& files, const score::RunScore& score) {
+  constexpr std::size_t shown_places = 6;  // curves that stay apart
   ReportInput input;
   input.results = read_json(score::write_results(files, score), "results.json");
   input.plan = score.as_built;
@@ -109,6 +166,10 @@ ReportInput report_input(const RunFiles& files, const score::RunScore& score) {
   for (const slam::Nanoseconds stamp : score.truth.scans)
     input.truth.push_back(sample(input.plan, stamp, score.truth.at(stamp), 0.0));
   input.storeys = storeys_of(files, input.truth);
+  if (score.truth.set_down) {
+    const auto down = std::find(score.truth.scans.begin(), score.truth.scans.end(), *score.truth.set_down);
+    input.kidnap = ReportKidnap{slam::seconds(*(down - 1)), slam::seconds(*down)};
+  }
   for (std::size_t i = 0; i < files.methods.size(); ++i) {
     const MethodRecord& method = files.methods[i];
     ReportMethod shown;
@@ -117,6 +178,8 @@ ReportInput report_input(const RunFiles& files, const score::RunScore& score) {
     shown.samples = samples_of(input.plan, method, score.truth);
     add_structure(input.plan, method, score.methods[i], shown);
     add_beliefs(input.plan, method, score.truth, shown);
+    shown.tracks = hypothesis_tracks(method.beliefs, score.truth, shown_places);
+    add_recognised(files, method, score, shown);
     input.methods.push_back(std::move(shown));
   }
   return input;

@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <utility>
 
+#include "scenarios/report/plot.h"
 #include "scenarios/report/svg.h"
 
 namespace plumbline::scenarios {
@@ -52,19 +55,39 @@ std::string room_names(const ReportInput& input, int storey) {
   return out;
 }
 
-/// A line for each stretch of the path on the storey.
+bool is_jump(const ReportSample& from, const ReportSample& to) {
+  return to.t_s - from.t_s > path_gap_s || std::hypot(to.x - from.x, to.y - from.y) > path_jump_m;
+}
+
+/// A line for each stretch of the path on the storey, broken where it jumps.
 std::string draw_path(const std::vector<ReportSample>& samples, int storey, const std::string& attributes) {
   std::string out;
   std::vector<Eigen::Vector2d> stretch;
-  for (const auto& sample : samples) {
-    if (sample.storey == storey) {
-      stretch.emplace_back(sample.x, sample.y);
-      continue;
-    }
+  const auto draw = [&] {
     if (!stretch.empty()) out += svg::polyline(stretch, attributes);
     stretch.clear();
+  };
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    if (samples[i].storey != storey || (i > 0 && is_jump(samples[i - 1], samples[i]))) draw();
+    if (samples[i].storey == storey) stretch.emplace_back(samples[i].x, samples[i].y);
   }
-  if (!stretch.empty()) out += svg::polyline(stretch, attributes);
+  draw();
+  return out;
+}
+
+/// Where the robot was lifted and set down.
+std::string draw_kidnap(const ReportInput& input, int storey) {
+  if (!input.kidnap) return "";
+  std::string out;
+  const std::array<std::pair<double, const char*>, 2> events = {
+      {{input.kidnap->lifted_s, "carried off"}, {input.kidnap->set_down_s, "set down"}}};
+  for (const auto& [t_s, text] : events) {
+    const auto at = std::find_if(input.truth.begin(), input.truth.end(),
+                                 [t = t_s](const ReportSample& sample) { return sample.t_s >= t; });
+    if (at == input.truth.end() || at->storey != storey) continue;
+    out += svg::circle({at->x, at->y}, 0.16, "fill=\"#fff\" stroke=\"#111\" stroke-width=\".07\"") +
+           svg::text({at->x + 0.28, at->y + 0.1}, text, "class=\"event\"");
+  }
   return out;
 }
 
@@ -101,8 +124,8 @@ std::string draw_map(const ReportInput& input, const ReportStorey& storey, const
       draw_plan(input, storey.index) + draw_deviations(storey.deviations);
   for (std::size_t i = 0; i < input.methods.size(); ++i)
     if (!is_truth(input.methods[i])) out += draw_method(input.methods[i], i, storey.index);
-  out += room_names(input, storey.index) + draw_path(input.truth, storey.index, "class=\"truth\"") +
-         robot_mark("truth", storey.index, "#111");
+  out += draw_path(input.truth, storey.index, "class=\"truth\"") + room_names(input, storey.index) +
+         draw_kidnap(input, storey.index) + robot_mark("truth", storey.index, "#111");
   return out + "</svg>";
 }
 

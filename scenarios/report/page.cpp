@@ -44,7 +44,13 @@ button{font:inherit;border:1px solid var(--line);background:#fff;border-radius:8
 .plot text{font-size:11px;fill:var(--soft)}
 .plot .grid{stroke:var(--line);stroke-width:1}
 .plot .curve{fill:none;stroke-width:1.6}
+.plot .mark{stroke:#5d6b7c;stroke-width:1}
+.plot .marked{fill:#1c2430}
+.plot .inband{fill:#fff;font-weight:600}
 .plot .cursor{stroke:#111;stroke-width:1;stroke-dasharray:3 3}
+.plannedwall{stroke-width:.24;stroke-opacity:.3}
+.seenwall{stroke-width:.13}
+.heldplace{fill:#111;stroke:#fff;stroke-width:.05}
 .beliefs{display:grid;grid-template-columns:repeat(3,minmax(0,1fr));gap:14px}
 @media(max-width:780px){.beliefs{grid-template-columns:1fr}}
 .beliefs p{margin:0 0 6px;color:var(--soft)}
@@ -55,6 +61,7 @@ td.num,th.num{text-align:right}
 details summary{cursor:pointer;color:var(--soft)}
 code{font:12.5px ui-monospace,SFMono-Regular,Menlo,Consolas,monospace}
 .key{display:flex;flex-wrap:wrap;gap:4px 18px;color:var(--soft);margin:8px 0 0;font-size:13px}
+.swatch{display:inline-block;width:14px;height:10px;border-radius:2px;margin-right:6px}
 .key svg{width:34px;height:10px;display:inline-block;vertical-align:middle;margin-right:6px}
 )css";
 }

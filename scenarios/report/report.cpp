@@ -5,30 +5,16 @@
 #include <cmath>
 
 #include "bim/config/tree.h"
+#include "scenarios/report/belief.h"
 #include "scenarios/report/map.h"
 #include "scenarios/report/page.h"
 #include "scenarios/report/plot.h"
+#include "scenarios/report/results.h"
 #include "scenarios/report/svg.h"
 
 namespace plumbline::scenarios {
 
 namespace {
-
-std::string text_of(const Tree& map, std::string_view key) {
-  const Tree* value = map.find(key);
-  return value == nullptr ? "" : value->as_string();
-}
-
-std::optional<double> number_of(const Tree* map, std::string_view key) {
-  const Tree* value = map == nullptr ? nullptr : map->find(key);
-  if (value == nullptr || !value->is_scalar()) return std::nullopt;
-  return value->as_double();
-}
-
-const Tree* results_of(const ReportInput& input, const std::string& method) {
-  const Tree* methods = input.results.find("methods");
-  return methods == nullptr ? nullptr : methods->find(method);
-}
 
 std::string centimetres(double metres) { return svg::number(100.0 * metres, 1) + " cm"; }
 
@@ -51,24 +37,40 @@ std::string why_it_failed(const Tree* where) {
   return ", since " + why + (at ? " (at " + svg::number(*at, 1) + " s)" : "");
 }
 
-/// What happened, in one sentence that needs no glossary.
+/// What came of a kidnapping, as a sentence of its own, or nothing.
+std::string after_kidnap(const Tree* where) {
+  const auto wrong = number_of(where, "kidnap_wrong_s");
+  if (!wrong) return "";
+  const auto found = number_of(where, "kidnap_found_s");
+  const std::string text =
+      " Carried off and set down elsewhere, it gave a wrong answer for " + svg::number(*wrong, 1) + " s at a stretch";
+  return text + (found ? " and knew its place again after " + svg::number(*found, 1) + " s."
+                       : " and did not find its place again for good.");
+}
+
+/// What a plan localization did; `where` is its block of numbers, may be null.
+std::string place_sentence(const std::string& verdict, const Tree* where) {
+  const auto time = number_of(where, "converged_at_s");
+  const auto error = number_of(where, "ape_rmse_m");
+  const auto places = number_of(where, "hypotheses");
+  if (verdict == "honest_ambiguity" && places)
+    return "Kept " + svg::number(*places, 0) + " places in mind, rightly: what was seen does not tell them apart.";
+  if (verdict == "overconfident") return "Settled on one place though what was seen fits several.";
+  if (!time) return "Never settled on one place in the building" + why_it_failed(where) + ".";
+  if (verdict == "lucky") return "Settled on the right place before anything seen could tell it from another.";
+  if (verdict == "false_convergence") return "Settled on a wrong place" + why_it_failed(where) + ".";
+  std::string text = "Knew its place in the building after " + svg::number(*time, 1) + " s";
+  if (error) text += " and was " + centimetres(*error) + " off from then on (rms)";
+  return text + ".";
+}
+
+/// What happened, in a sentence or two that need no glossary.
 std::string sentence(const ReportMethod& method, const Tree* results) {
   const std::string verdict = results == nullptr ? "" : text_of(*results, "verdict");
   if (verdict == "crashed") return "The method stopped with an error.";
   if (method.localization) {
     const Tree* where = results == nullptr ? nullptr : results->find("localization");
-    const auto time = number_of(where, "converged_at_s");
-    const auto error = number_of(where, "ape_rmse_m");
-    const auto places = number_of(where, "hypotheses");
-    if (verdict == "honest_ambiguity" && places)
-      return "Kept " + svg::number(*places, 0) + " places in mind, rightly: what was seen does not tell them apart.";
-    if (verdict == "overconfident") return "Settled on one place though what was seen fits several.";
-    if (!time) return "Never settled on one place in the building" + why_it_failed(where) + ".";
-    if (verdict == "lucky") return "Settled on the right place before anything seen could tell it from another.";
-    if (verdict == "false_convergence") return "Settled on a wrong place" + why_it_failed(where) + ".";
-    std::string text = "Knew its place in the building after " + svg::number(*time, 1) + " s";
-    if (error) text += " and was " + centimetres(*error) + " off from then on (rms)";
-    return text + ".";
+    return place_sentence(verdict, where) + after_kidnap(where);
   }
   const auto error = number_of(results, "ate_aligned_rmse_m");
   if (!error) return "No trajectory that could be scored.";
@@ -180,27 +182,6 @@ std::string numbers_table(const ReportInput& input) {
   return out + "</table></div></section>";
 }
 
-std::string beliefs(const ReportInput& input, const MapBox& box) {
-  std::string out;
-  for (std::size_t i = 0; i < input.methods.size(); ++i) {
-    const ReportMethod& method = input.methods[i];
-    if (method.beliefs.empty()) continue;
-    out += "<section class=\"card\"><h2>Where " + svg::escape(method.name) +
-           " thought the robot could be</h2><div class=\"beliefs\">";
-    for (const auto& belief : method.beliefs) {
-      out += "<div><p>" + svg::escape(belief.label) + ", " + svg::number(belief.t_s, 1) + " s</p>" +
-             open_map(box, "particles at " + belief.label) + draw_plan(input, belief.storey);
-      for (const auto& particle : belief.particles)
-        out += svg::circle({particle.x, particle.y}, 0.09, "fill=\"" + colour(i) + "\" fill-opacity=\".55\"");
-      out += svg::circle(belief.truth, 0.28, "fill=\"none\" stroke=\"#111\" stroke-width=\".08\"") + "</svg></div>";
-    }
-    out +=
-        "</div><p class=\"facts\">Each dot is a place still thought possible; the ring is where the robot truly "
-        "was.</p></section>";
-  }
-  return out;
-}
-
 Tree track(const std::vector<ReportSample>& samples, bool with_error) {
   Tree t = Tree::list();
   Tree x = Tree::list();
@@ -244,7 +225,7 @@ std::string script_data(const ReportInput& input, double end_s) {
 
 /// How many places what was seen leaves at best, over time.
 PlotCurve places_left(const ReportInput& input, double end_s) {
-  PlotCurve curve{"could be told", "#5d6b7c", {}};
+  PlotCurve curve{"left by what was seen", "#5d6b7c", {}, "truth"};
   const Tree* known = input.results.find("identifiability");
   if (known == nullptr) return curve;
   constexpr double step_s = 0.5;  // a curve with larger gaps would be drawn open
@@ -287,10 +268,11 @@ std::string plots(const ReportInput& input, double end_s) {
   if (PlotCurve possible = places_left(input, end_s); !counts.empty() && !possible.points.empty())
     counts.push_back(std::move(possible));
   std::string out = "<section class=\"card\"><h2>Position error over time, cm (click to jump)</h2>" +
-                    draw_plot("errors", curves, end_s) + "</section>";
+                    draw_plot("errors", curves, end_s, {common_marks(input), {}, 0.0, false}) + "</section>";
   if (!counts.empty())
     out += "<section class=\"card\"><h2>Places still thought possible, over time</h2>" +
-           draw_plot("hypotheses", counts, end_s) + what_could_be_known(input) + "</section>";
+           draw_plot("hypotheses", counts, end_s, {common_marks(input), {}, 0.0, true}) + what_could_be_known(input) +
+           "</section>";
   return out;
 }
 
@@ -310,8 +292,8 @@ std::string render_report(const ReportInput& input) {
           "<input id=\"time\" type=\"range\" min=\"0\" max=\"1\" step=\"0.1\" aria-label=\"time\">"
           "<span class=\"clock\" id=\"clock\"></span></div></section><aside class=\"card\">" +
           method_cards(input) + "</aside></div>\n";
-  page += plots(input, end_s) + "\n" + list_deviations(all_deviations(input)) + "\n" + beliefs(input, box) + "\n" +
-          gates_table(input) + "\n" + numbers_table(input);
+  page += plots(input, end_s) + "\n" + list_deviations(all_deviations(input)) + "\n" + draw_beliefs(input, box, end_s) +
+          "\n" + gates_table(input) + "\n" + numbers_table(input);
   page += "<details class=\"card\"><summary>What was simulated</summary><pre><code>" +
           svg::escape(input.results.find("sensors") == nullptr ? "" : write_yaml(*input.results.find("sensors"))) +
           "digest: " + svg::escape(text_of(input.results, "digest")) + "\n</code></pre></details></main>\n";

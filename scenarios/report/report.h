@@ -52,6 +52,37 @@ struct ReportState {
   slam::State state = slam::State::searching;
 };
 
+/// One place that a plan localization believed in, over time.
+struct ReportTrack {
+  bool is_true = false;                 ///< it is where the robot truly was
+  std::string room;                     ///< in which it came up, may be empty
+  std::vector<Eigen::Vector2d> points;  ///< (time in s, share of the belief in [0, 1])
+};
+
+/// A wall of the plan that a robot at a hypothesis recognised, in W.
+struct ReportMatch {
+  std::vector<ReportWall> faces;  ///< of the plan
+  ReportWall patch;               ///< what was seen, as it lies from the hypothesis
+  bool right = false;             ///< it truly was that wall
+};
+
+/// A hypothesis at one time.
+struct ReportPlace {
+  Eigen::Vector2d at = Eigen::Vector2d::Zero();
+  double yaw = 0.0;   ///< rad
+  double mass = 0.0;  ///< share of the belief in [0, 1]
+  std::vector<ReportMatch> walls;
+};
+
+/// The walls recognised at one time.
+struct ReportWalls {
+  std::string label;  ///< "when it settled", "at the end"
+  double t_s = 0.0;
+  int storey = 0;  ///< the one the robot was on
+  Eigen::Vector2d truth = Eigen::Vector2d::Zero();
+  std::vector<ReportPlace> places;
+};
+
 struct ReportMethod {
   std::string name;
   bool localization = false;
@@ -60,6 +91,8 @@ struct ReportMethod {
   std::vector<ReportRoom> rooms;
   std::vector<ReportBelief> beliefs;
   std::vector<ReportState> states;
+  std::vector<ReportTrack> tracks;
+  std::vector<ReportWalls> recognised;
 };
 
 /// A storey with a map of its own.
@@ -69,6 +102,12 @@ struct ReportStorey {
   std::vector<ReportDeviation> deviations;
 };
 
+/// A robot that was carried off: its last scan before and its first one after.
+struct ReportKidnap {
+  double lifted_s = 0.0;
+  double set_down_s = 0.0;
+};
+
 /// Everything the page shows. `results` is results.json; the rest comes from the other files of the run directory.
 struct ReportInput {
   Tree results;
@@ -76,11 +115,13 @@ struct ReportInput {
   std::vector<ReportStorey> storeys;  ///< those the robot was on, from the lowest up; at least one
   std::vector<ReportSample> truth;
   std::vector<ReportMethod> methods;
+  std::optional<ReportKidnap> kidnap;
 };
 
 /// One self-contained HTML page: the plan of every storey the robot was on, true and estimated trajectories, found
-/// walls and rooms, error over time, what was built otherwise than planned, particles at start, middle and convergence,
-/// gates, every number. The same input gives the same bytes.
+/// walls and rooms, error over time, what was built otherwise than planned, what a localization believed over time and
+/// which walls it recognised, particles at start, middle and convergence, gates, every number. The same input gives the
+/// same bytes.
 [[nodiscard]] std::string render_report(const ReportInput& input);
 
 }  // namespace plumbline::scenarios

@@ -79,6 +79,66 @@ TEST(Report, DrawsTheMapOfEveryStoreyWithThePathOnIt) {
   EXPECT_EQ(count(render_report(sample()), "<p class=\"storey\">"), 0U);
 }
 
+/// A localization that had two places in mind, settled at 6 s and named two walls, one of them wrongly.
+ReportInput localized() {
+  ReportInput input = sample();
+  ReportMethod& m = input.methods.front();
+  m.localization = true;
+  for (const ReportSample& s : input.truth)
+    m.states.push_back({s.t_s, s.t_s < 6.0 ? 2 : 1, s.t_s < 6.0 ? slam::State::ambiguous : slam::State::converged});
+  m.tracks = {{true, "hall", {{0.0, 0.5}, {0.9, 0.9}}}, {false, "a<b", {{0.0, 0.5}, {0.9, 0.1}}}};
+  const ReportWall wall{{0, 0}, {4, 0}, 0};
+  m.recognised = {
+      {"when it settled", 6.0, 0, {1.0, 1.0}, {{{1.0, 1.0}, 0.5, 1.0, {{{wall}, wall, true}, {{wall}, wall, false}}}}}};
+  Tree results = Tree::map();
+  results.set("verdict", "success");
+  results.set("localization", Tree::map().set("converged_at_s", 6.0).set("ape_rmse_m", 0.08));
+  input.results.set("methods", Tree(Tree::Map{{"m", results}}));
+  return input;
+}
+
+TEST(Report, ShowsWhatALocalizationBelievedOverTime) {
+  const std::string page = render_report(localized());
+  const std::size_t chart = page.find("id=\"belief-m\"");
+  ASSERT_NE(chart, std::string::npos);
+  const std::string plot = page.substr(chart, page.find("</svg>", chart) - chart);
+  EXPECT_EQ(count(plot, "<rect "), 2U);
+  EXPECT_NE(plot.find("AMBIGUOUS, 0 to 6 s"), std::string::npos);
+  EXPECT_NE(plot.find("CONVERGED, 6 to 10 s"), std::string::npos);
+  EXPECT_NE(plot.find("settled on one place"), std::string::npos);
+  EXPECT_NE(plot.find(">true place<"), std::string::npos);
+  EXPECT_NE(plot.find("other place, a&lt;b"), std::string::npos);
+  EXPECT_EQ(count(plot, "class=\"curve"), 2U);
+  EXPECT_EQ(count(render_report(sample()), "belief-m"), 0U);
+}
+
+TEST(Report, ShowsTheWallsItRecognised) {
+  const std::string page = render_report(localized());
+  EXPECT_EQ(count(page, "class=\"plannedwall\""), 2U);
+  EXPECT_EQ(count(page, "class=\"seenwall\""), 2U);
+  EXPECT_NE(page.find("when it settled, 6 s: 1 of 2 walls right"), std::string::npos);
+}
+
+TEST(Report, DoesNotJoinPathsWhereTheRobotWasCarried) {
+  ReportInput input = sample();
+  const std::size_t lines = count(render_report(input), "<polyline");
+  const auto carry = [](std::vector<ReportSample>& samples) {
+    for (std::size_t i = 50; i < samples.size(); ++i) {
+      samples[i].t_s += 3.0;
+      samples[i].y += 5.0;
+    }
+  };
+  carry(input.truth);
+  carry(input.methods.front().samples);
+  input.kidnap = ReportKidnap{4.9, 8.0};
+  const std::string page = render_report(input);
+  EXPECT_EQ(count(page, "<polyline"), lines + 2);  // the truth's and the method's
+  EXPECT_EQ(count(page, ">carried off<"), 2U);     // on the map and over the errors
+  // A method that changes its mind within a scan does not walk there either.
+  for (std::size_t i = 70; i < input.methods.front().samples.size(); ++i) input.methods.front().samples[i].x += 2.0;
+  EXPECT_EQ(count(render_report(input), "<polyline"), lines + 3);
+}
+
 TEST(Report, SameInputSameBytes) { EXPECT_EQ(render_report(sample()), render_report(sample())); }
 
 TEST(Report, WorksWithoutAnyMethod) {
@@ -92,6 +152,16 @@ TEST(Svg, NumbersAreShort) {
   EXPECT_EQ(svg::number(1.5), "1.5");
   EXPECT_EQ(svg::number(-0.0001), "0");
   EXPECT_EQ(svg::number(100.0), "100");
+}
+
+TEST(Plot, MarksHaveRowsOfTheirOwn) {
+  const std::string plot =
+      draw_plot("p", {{"c", "#111", {{0, 1}, {0.5, 1}}}}, 10.0, {{{2, "one"}, {2.1, "two"}}, {}, 0});
+  const auto row_of = [&](const std::string& text) {
+    const std::size_t at = plot.rfind("y=\"", plot.find(">" + text + "<"));
+    return plot.substr(at, plot.find('"', at + 3) - at);
+  };
+  EXPECT_NE(row_of("one"), row_of("two"));
 }
 
 TEST(Plot, StepsAreRound) {

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "scenarios/report/map.h"
+#include "scenarios/report/plot.h"
+#include "scenarios/report/report.h"
+
+namespace plumbline::scenarios {
+
+/// What happened to the robot, and when what it had seen left a single place: the same for every method.
+[[nodiscard]] std::vector<PlotMark> common_marks(const ReportInput& input);
+
+/// Of each plan localization: the share of its belief that every place had over time, its state, the walls it
+/// recognised and its particles.
+[[nodiscard]] std::string draw_beliefs(const ReportInput& input, const MapBox& box, double end_s);
+
+}  // namespace plumbline::scenarios

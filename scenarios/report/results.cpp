@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenarios/report/results.h"
+
+namespace plumbline::scenarios {
+
+std::string text_of(const Tree& map, std::string_view key) {
+  const Tree* value = map.find(key);
+  return value == nullptr ? "" : value->as_string();
+}
+
+std::optional<double> number_of(const Tree* map, std::string_view key) {
+  const Tree* value = map == nullptr ? nullptr : map->find(key);
+  if (value == nullptr || !value->is_scalar()) return std::nullopt;
+  return value->as_double();
+}
+
+const Tree* results_of(const ReportInput& input, const std::string& method) {
+  const Tree* methods = input.results.find("methods");
+  return methods == nullptr ? nullptr : methods->find(method);
+}
+
+}  // namespace plumbline::scenarios
