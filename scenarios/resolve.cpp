@@ -89,6 +89,28 @@ void choose_methods(ScenarioText& text, const Overrides& overrides, bool has_pla
     if (row.standard && (has_plan || !row.needs_plan)) methods.emplace_back(row.name);
 }
 
+/// Localization in a plan starts from rooms. Where there are none (on the storey told), the default is what needs none,
+/// and asking for it is wrong.
+void check_rooms(ScenarioText& text, const Overrides& overrides, const bim::Building& plan, int storey, bool bare,
+                 slam::MethodTable table) {
+  const bool told = text.scenario.prior.storey == Knowledge::known;
+  const bool has_rooms = std::any_of(plan.rooms.begin(), plan.rooms.end(),
+                                     [&](const bim::Room& room) { return !told || room.storey == storey; });
+  if (has_rooms) return;
+  std::vector<std::string>& methods = text.scenario.methods;
+  if (bare && !overrides.methods) {
+    std::erase_if(methods, [&](const std::string& name) { return needs_plan(name, table); });
+    return;
+  }
+  const std::vector<Mark> marks = overrides.methods ? std::vector<Mark>(methods.size(), Mark{"--method", 0, 0})
+                                                    : marks_of(text.tree, {"methods"}, methods.size());
+  for (std::size_t i = 0; i < methods.size(); ++i)
+    if (needs_plan(methods[i], table))
+      throw InputError(marks[i], "method '" + methods[i] + "' starts from the rooms of its plan, and '" +
+                                     text.scenario.building + "' has none" + (told ? " on this storey" : "") +
+                                     "; add rooms, or ask for SLAM methods only");
+}
+
 void settle_methods(ScenarioText& text, const Overrides& overrides, bool has_plan, ResolvedScenario& resolved) {
   Scenario& scenario = text.scenario;
   choose_methods(text, overrides, has_plan, resolved.table);
@@ -207,6 +229,7 @@ ResolvedScenario resolve(const std::string& input_path, const Overrides& overrid
   const bim::Building walked = walked_building(resolved.site);
   settle_draws(walked, text.scenario, marks);
   const RoutePlan plan = plan_route(walked, text.scenario.start, text.scenario.route, marks);
+  check_rooms(text, overrides, resolved.site.as_planned, plan.storey, bare, table);
   if (bare) text.scenario.duration_s = default_duration(plan, text.scenario.speed_mps);
 
   Scenario& scenario = text.scenario;

@@ -14,6 +14,7 @@
 #include "bim/random/stream.h"
 #include "scenarios/commands/commands.h"
 #include "scenarios/resolve.h"
+#include "scenarios/run/estimate_file.h"
 #include "scenarios/run/files.h"
 #include "scenarios/run/interrupt.h"
 #include "scenarios/run/participant.h"
@@ -60,6 +61,17 @@ std::shared_ptr<const bim::Plan> load_plan(const EstimateArguments& options, con
   if (options.plan.empty())
     throw InputError({"--plan", 0, 0}, "is missing; method '" + options.method + "' localizes in a plan");
   return std::make_shared<const bim::Plan>(bim::make_plan(bim::load_site(options.plan, taken).as_planned));
+}
+
+/// Localization starts from rooms: without one on the storey told, or anywhere, there is nothing to run.
+void check_rooms(const EstimateArguments& options, const bim::Plan& plan, const slam::Prior& prior) {
+  const auto starts_here = [&](const bim::PlanRoom& room) {
+    return !prior.storey || plan.storeys[static_cast<std::size_t>(room.storey)].name == *prior.storey;
+  };
+  if (std::any_of(plan.rooms.begin(), plan.rooms.end(), starts_here)) return;
+  throw InputError({options.plan, 0, 0}, "has no rooms" +
+                                             (prior.storey ? " on storey '" + *prior.storey + "'" : std::string()) +
+                                             ", and method '" + options.method + "' starts from rooms; add rooms");
 }
 
 /// A run directory holds its recording in a folder.
@@ -110,7 +122,10 @@ slam::MethodInput make_input(const EstimateArguments& options, const slam::Metho
   input.seed = method_seed(run_seed(options, info), row.name);
   input.calibration = slam::calibration_of(info);
   input.plan = load_plan(options, row, info.plan);
-  if (input.plan) input.prior = make_prior(options, info, *input.plan);
+  if (input.plan) {
+    input.prior = make_prior(options, info, *input.plan);
+    check_rooms(options, *input.plan, input.prior);
+  }
   return input;
 }
 
@@ -179,6 +194,9 @@ int estimate(const EstimateArguments& options, slam::MethodTable table) {
     return 1;
   }
   std::printf("%s/%s.tum: %zu poses\n", options.out.c_str(), record.name.c_str(), record.causal.size());
+  if (!record.beliefs.empty())
+    std::printf("%s at the end, %zu places in mind\n", std::string(state_name(record.beliefs.back().state)).c_str(),
+                record.beliefs.back().hypotheses.size());
   return 0;
 }
 

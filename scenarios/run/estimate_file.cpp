@@ -204,11 +204,13 @@ void read_estimate(std::string_view text, const std::string& file, MethodRecord&
   for (const Tree& floor : child(tree, "floors").as_list()) method.estimate.floors.push_back(read_floor(floor));
 }
 
+std::string_view state_name(slam::State state) { return state_names[static_cast<std::size_t>(state)]; }
+
 std::string write_beliefs(const std::vector<BeliefRecord>& beliefs) {
   std::string text;
   for (const BeliefRecord& belief : beliefs) {
     Tree tree = Tree::map();
-    tree.set("stamp_ns", belief.stamp).set("state", state_names[static_cast<std::size_t>(belief.state)]);
+    tree.set("stamp_ns", belief.stamp).set("state", state_name(belief.state));
     tree.set("hypotheses", write_list(belief.hypotheses));
     if (!belief.particles.empty()) tree.set("particles", write_list(belief.particles));
     text += write_json(tree, 0) + "\n";

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "scenarios/run/record.h"
@@ -13,6 +14,9 @@ namespace plumbline::scenarios {
 [[nodiscard]] std::string write_estimate(const MethodRecord& method);
 /// Sets what write_estimate wrote. Throws InputError.
 void read_estimate(std::string_view text, const std::string& file, MethodRecord& method);
+
+/// "SEARCHING", "AMBIGUOUS", "CONVERGED", "LOST".
+[[nodiscard]] std::string_view state_name(slam::State state);
 
 /// <method>.hypotheses.jsonl: a line a scan {stamp_ns, state, hypotheses: [{mass, room, pose, covariance, walls: [{
 /// faces, p0, p1}]}], particles: [[x, y, yaw, weight]]}; pose is [x, y, z, qx, qy, qz, qw] of X_WR; walls, where there

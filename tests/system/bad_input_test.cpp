@@ -103,6 +103,19 @@ TEST_F(BadInput, StartAndRoute) {
   refuse(with(scenario_, "[hall, right]", "[hall, cellar]"), plan_, {"short.yaml:8:23", "unknown room 'cellar'"});
 }
 
+TEST_F(BadInput, APlanWithoutRoomsForAMethodThatStartsFromRooms) {
+  const std::size_t rooms = plan_.find("rooms:"), after = plan_.find("materials:");
+  ASSERT_LT(rooms, after);
+  const std::string plan = plan_.substr(0, rooms) + plan_.substr(after);
+  const std::string scenario =
+      with(with(scenario_, "{room: left}", "{at: [2, 2]}"), "{rooms: [hall, right]}", "{rooms: all}");
+  write_file(folder_ / "short.yaml", scenario);
+  write_file(folder_ / "short.plan.yaml", plan);
+  refuse_file("short.yaml", {"--method", "s_graph_localization", "rooms", "short.plan.yaml"},
+              {"--method", "s_graph_localization"});
+  refuse_file("short.plan.yaml", {"--method", "s_graph_localization", "rooms"}, {"--method", "s_graph_localization"});
+}
+
 TEST_F(BadInput, Plan) {
   refuse(scenario_, with(plan_, "b: [9, 0]", "b: [0, 0]"), {"short.plan.yaml:7:", "south"});
   refuse(scenario_, with(plan_, "width_m: 1.0", "width_m: 12"), {"short.plan.yaml:15:", "door_left"});
