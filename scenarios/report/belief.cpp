@@ -54,10 +54,12 @@ std::vector<PlotCurve> curves_of(const ReportMethod& method) {
   for (const ReportTrack& track : method.tracks) {
     PlotCurve curve;
     curve.layer = method.name;
-    curve.name = track.is_true ? "true place" : "other place";
+    curve.name = track.is_true ? "true place" : "other";
     curve.colour = track.is_true ? right_colour : other_colours[others++ % other_colours.size()];
-    if (!track.is_true && !track.room.empty() && track.room.size() <= longest) curve.name += ", " + track.room;
-    for (const Eigen::Vector2d& p : track.points) curve.points.emplace_back(p.x(), 100.0 * p.y());
+    if (!track.is_true && !track.room.empty() && track.room.size() <= longest) curve.name += ": " + track.room;
+    const double apart = static_cast<double>(curves.size());  // % each, or equal shares would hide each other
+    for (const Eigen::Vector2d& p : track.points)
+      curve.points.emplace_back(p.x(), std::max(0.0, 100.0 * p.y() - apart));
     curves.push_back(std::move(curve));
   }
   return curves;
@@ -77,9 +79,10 @@ std::string chart(const ReportInput& input, const ReportMethod& method, double e
   const std::string name = svg::escape(method.name);
   return "<section class=\"card\"><h2>What " + name + " believed, over time: share of each place, %</h2>" +
          draw_plot("belief-" + name, curves_of(method), end_s, extras) + state_key() +
-         "<p class=\"facts\">Each line is one place in the building, carried along as the robot walks; green is where "
+         "<p class=\"facts\">Each line is one place in the building, carried along as the robot walks. Green is where "
          "it "
-         "truly was. A place's share is its part of the evidence, 100 % being certain; places below 2 % are left out. "
+         "truly was, others bear the name of the room they came up in. A place's share is its part of the evidence, "
+         "100 % being certain; places below 2 % are left out, and equal lines drawn 1 % apart. "
          "The bar says what the method itself claims.</p></section>";
 }
 
@@ -104,32 +107,31 @@ std::string counted(std::size_t n, const std::string& what) {
   return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
 }
 
-std::string caption(const ReportWalls& walls) {
-  std::size_t right = 0, all = 0;
-  for (const ReportPlace& place : walls.places)
-    for (const ReportMatch& match : place.walls) {
-      ++all;
-      right += match.right ? 1U : 0U;
-    }
+/// "at the end, 30 s: place 2 of 3, 33 %: 4 of 7 walls right"
+std::string caption(const ReportWalls& walls, std::size_t index) {
+  const ReportPlace& place = walls.places[index];
+  const auto right =
+      std::count_if(place.walls.begin(), place.walls.end(), [](const ReportMatch& match) { return match.right; });
   std::string text = walls.label + ", " + svg::number(walls.t_s, 1) + " s: ";
-  if (walls.places.size() > 1) text += counted(walls.places.size(), "place") + ", ";
-  return text + std::to_string(right) + " of " + counted(all, "wall") + " right";
+  if (walls.places.size() > 1)
+    text += "place " + std::to_string(index + 1) + " of " + std::to_string(walls.places.size()) + ", " +
+            svg::number(100.0 * place.mass, 0) + " %: ";
+  return text + std::to_string(right) + " of " + counted(place.walls.size(), "wall") + " right";
 }
 
 std::string recognised(const ReportInput& input, const ReportMethod& method, const MapBox& box) {
+  constexpr std::size_t most = 3;  // places at one time, a map each
   if (method.recognised.empty()) return "";
   std::string out =
       "<section class=\"card\"><h2>Walls that " + svg::escape(method.name) + " recognised</h2><div class=\"beliefs\">";
-  for (const ReportWalls& walls : method.recognised) {
-    out += "<div><p>" + svg::escape(caption(walls)) + "</p>" + open_map(box, "walls recognised " + walls.label) +
-           draw_plan(input, walls.storey);
-    for (const ReportPlace& place : walls.places) out += draw_place(place);
-    out += ring(walls.truth) + "</svg></div>";
-  }
+  for (const ReportWalls& walls : method.recognised)
+    for (std::size_t i = 0; i < std::min(most, walls.places.size()); ++i)
+      out += "<div><p>" + svg::escape(caption(walls, i)) + "</p>" + open_map(box, "walls recognised " + walls.label) +
+             draw_plan(input, walls.storey) + draw_place(walls.places[i]) + ring(walls.truth) + "</svg></div>";
   return out + "</div><div class=\"key\">" +
          swatch(right_colour, "a wall it saw (dark) and the wall of the plan it took it for (light), rightly") +
          swatch(wrong_colour, "wrongly: what it saw was another wall, or none") +
-         "<span>arrow: where it thought to be, ring: where it truly was</span>" + "</div></section>";
+         "<span>arrow: where it thought to be, ring: where it truly was</span></div></section>";
 }
 
 std::string particles(const ReportInput& input, std::size_t index, const MapBox& box) {

@@ -61,7 +61,7 @@ std::string place_sentence(const std::string& verdict, const Tree* where) {
   if (verdict == "false_convergence") return "Settled on a wrong place" + why_it_failed(where) + ".";
   std::string text = "Knew its place in the building after " + svg::number(*time, 1) + " s";
   if (error) text += " and was " + centimetres(*error) + " off from then on (rms)";
-  return text + ".";
+  return text + (verdict == "late" ? "; too late to count, for an answer has to be held for 5 s and 1 m." : ".");
 }
 
 /// What happened, in a sentence or two that need no glossary.

@@ -84,6 +84,11 @@ TEST_F(Recordings, WhatIsNoRecordingIsRefused) {
   refuse({good, "--method", "s_graph_localization"}, "--plan", "is missing");
   refuse({good, "--method", "s_graph_localization", "--plan", plan(), "--storey", "attic"}, "--storey", "ground");
   refuse({good + "/lidar.pcap", "--method", "odometry"}, good, "holds no odometry");
+  const std::string text = read_file(plan()), roomless = folder_ / "roomless.plan.yaml";
+  const std::size_t rooms = text.find("rooms:"), after = text.find("materials:");
+  ASSERT_LT(rooms, after);
+  write_file(roomless, text.substr(0, rooms) + text.substr(after));
+  refuse({good, "--method", "s_graph_localization", "--plan", roomless}, roomless, "add rooms");
 }
 
 TEST_F(Recordings, DamagedOnesAreRefusedWhole) {

@@ -107,7 +107,7 @@ TEST(Report, ShowsWhatALocalizationBelievedOverTime) {
   EXPECT_NE(plot.find("CONVERGED, 6 to 10 s"), std::string::npos);
   EXPECT_NE(plot.find("settled on one place"), std::string::npos);
   EXPECT_NE(plot.find(">true place<"), std::string::npos);
-  EXPECT_NE(plot.find("other place, a&lt;b"), std::string::npos);
+  EXPECT_NE(plot.find("other: a&lt;b"), std::string::npos);
   EXPECT_EQ(count(plot, "class=\"curve"), 2U);
   EXPECT_EQ(count(render_report(sample()), "belief-m"), 0U);
 }
@@ -117,6 +117,11 @@ TEST(Report, ShowsTheWallsItRecognised) {
   EXPECT_EQ(count(page, "class=\"plannedwall\""), 2U);
   EXPECT_EQ(count(page, "class=\"seenwall\""), 2U);
   EXPECT_NE(page.find("when it settled, 6 s: 1 of 2 walls right"), std::string::npos);
+  ReportInput twins = localized();
+  ReportWalls& walls = twins.methods.front().recognised.front();
+  walls.places.resize(5, walls.places.front());  // a map each, of three at most
+  EXPECT_EQ(count(render_report(twins), "class=\"heldplace\""), 3U);
+  EXPECT_NE(render_report(twins).find("6 s: place 2 of 5, 100 %: 1 of 2 walls right"), std::string::npos);
 }
 
 TEST(Report, DoesNotJoinPathsWhereTheRobotWasCarried) {
