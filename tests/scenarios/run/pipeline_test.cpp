@@ -115,6 +115,36 @@ TEST(Pipeline, WhatAMethodDoesAfterTheRunIsTimed) {
   EXPECT_TRUE(records[1].times.empty()) << "the truth has no stages";
 }
 
+/// A plan localization that names a wall with every other scan and settles at scan 26, which is one of them.
+struct WallNamer : slam::Method {
+  int count = 0;
+  slam::Output on_scan(const slam::Scan& scan) override {
+    ++count;
+    slam::Output output;
+    output.stamp = scan.stamp;
+    output.state = count < 26 ? slam::State::ambiguous : slam::State::converged;
+    output.hypotheses.resize(1);
+    if (count % 2 == 0) output.hypotheses.front().walls.emplace_back().faces = {count};
+    return output;
+  }
+  slam::Estimate finish() override { return {}; }
+};
+
+TEST(Pipeline, MatchedWallsAreKeptOnceASecondAndWhereTheStateChanges) {
+  slam::MethodRow row;
+  row.name = "namer";
+  row.needs_plan = true;
+  row.make = [](const slam::MethodInput&) { return std::make_unique<WallNamer>(); };
+  std::vector<std::unique_ptr<Participant>> participants;
+  participants.push_back(make_estimator(row, {}));
+  const auto records = run_pipeline(small_source(), [](const auto&) {}, std::move(participants), {.threads = 1});
+  ASSERT_FALSE(records[0].crashed) << records[0].error;
+  std::vector<int> kept;  // scans, of 0.1 s each
+  for (const BeliefRecord& belief : records[0].beliefs)
+    for (const slam::WallMatch& match : belief.hypotheses.front().walls) kept.push_back(match.faces.front());
+  EXPECT_EQ(kept, (std::vector<int>{10, 20, 26, 36, 46, 56}));
+}
+
 TEST(Pipeline, AMethodThatThrowsCrashesAlone) {
   for (const int threads : {1, 4}) {
     std::vector<std::unique_ptr<Participant>> participants;
