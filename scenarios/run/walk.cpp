@@ -5,19 +5,6 @@
 
 namespace plumbline::scenarios {
 
-namespace {
-
-/// Moves a packet in time; the sensor writes the microseconds of the hour into it.
-void shift(slam::Vlp16Packet& packet, slam::Nanoseconds by) {
-  constexpr std::size_t time_at = 1200;
-  constexpr slam::Nanoseconds hour_us = 3'600'000'000;
-  packet.stamp += by;
-  auto us = static_cast<std::uint32_t>(packet.stamp / 1000 % hour_us);
-  for (std::size_t i = 0; i < 4; ++i, us >>= 8U) packet.payload[time_at + i] = static_cast<std::uint8_t>(us);
-}
-
-}  // namespace
-
 Walk::Walk(const ResolvedScenario& resolved, const bim::BuildingMesh& mesh) : resolved_(resolved), mesh_(mesh) {
   world_.emplace(resolved.world, resolved.site.as_built, mesh);
 }
@@ -51,7 +38,7 @@ void Walk::carry_on(sim::WorldFrame& frame) const {
     odometry.X_OR = X_OO_ * odometry.X_OR;
   }
   for (slam::OdometryCovariance& covariance : frame.covariances) covariance.stamp += *begin_;
-  for (slam::Vlp16Packet& packet : frame.packets) shift(packet, *begin_);
+  for (slam::Vlp16Packet& packet : frame.packets) set_time(packet, packet.stamp + *begin_);
   for (sim::TruePose& truth : frame.truth) truth.stamp += *begin_;
   frame.scan.stamp += *begin_;
 }

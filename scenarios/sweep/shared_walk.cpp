@@ -56,11 +56,6 @@ class Listener {
 
 }  // namespace
 
-const std::vector<std::string>& keys_of_methods() {
-  static const std::vector<std::string> keys = {"prior", "methods", "gates"};
-  return keys;
-}
-
 bool run_shared(const std::vector<std::string>& files, std::uint64_t seed, slam::MethodTable table) {
   if (files.empty()) throw InternalError("no runs to share a walk");
   std::vector<Listener> listeners;

@@ -88,10 +88,9 @@ Mark mark_of(const Tree& tree, std::string_view key, std::size_t i) {
 
 /// The scenario without what its methods alone are told.
 Tree walk_of(const Tree& scenario) {
-  const std::vector<std::string>& others = keys_of_methods();
   Tree walk = Tree::map();
   for (const auto& [key, value] : scenario.as_map())
-    if (std::find(others.begin(), others.end(), key) == others.end()) walk.set(key, value);
+    if (std::find(keys_of_methods.begin(), keys_of_methods.end(), key) == keys_of_methods.end()) walk.set(key, value);
   return walk;
 }
 

@@ -29,7 +29,6 @@ constexpr std::size_t frame_bytes = header_bytes + vlp16::payload_bytes;
 constexpr unsigned data_port = 2368;
 constexpr unsigned position_port = 8308;
 constexpr std::int64_t data_packets_per_position = 5;  // about as real units send them [facts: lidar section 2.1]
-constexpr std::int64_t hour_us = 3'600'000'000;
 
 using Frame = std::array<std::uint8_t, frame_bytes>;
 
@@ -42,12 +41,6 @@ struct CloseDump {
 using Pcap = std::unique_ptr<pcap_t, ClosePcap>;
 
 unsigned big16(const std::uint8_t* p) { return (static_cast<unsigned>(p[0]) << 8U) | p[1]; }
-
-std::int64_t payload_us(const Vlp16Packet& packet) {
-  std::int64_t us = 0;
-  for (std::size_t i = 4; i-- > 0;) us = (us << 8) | packet.payload[1200 + i];
-  return us;
-}
 
 std::optional<Link> link_of(int type) {
   switch (type) {
@@ -132,7 +125,7 @@ struct PcapReader::Impl {
 
   /// Stamp of a data packet captured at `captured`, in time order.
   Nanoseconds stamp_of(const Vlp16Packet& packet, Nanoseconds captured) {
-    const std::int64_t us = payload_us(packet);
+    const std::int64_t us = time_in_payload_us(packet);
     if (us >= hour_us) fail("its time, " + std::to_string(us) + " us, is beyond the hour");
     if (!any) {
       ours = captured / 1000 % hour_us == us;

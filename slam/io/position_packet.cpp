@@ -15,7 +15,6 @@ constexpr std::size_t time_at = 198;
 constexpr std::size_t pps_at = 202;
 constexpr std::size_t sentence_at = 206;
 constexpr std::uint8_t pps_locked = 2;
-constexpr std::int64_t hour_us = 3'600'000'000;
 
 }  // namespace
 

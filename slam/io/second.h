@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+
 #include "slam/io/records.h"
 
 namespace plumbline::slam {
 
 inline constexpr Nanoseconds second_ns = 1'000'000'000;
+/// Velodyne packets count the time within an hour.
+inline constexpr std::int64_t hour_us = 3'600'000'000;
 
 }  // namespace plumbline::slam

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "bim/errors.h"
+#include "slam/io/second.h"
 
 namespace plumbline::slam {
 
@@ -20,7 +21,6 @@ constexpr std::size_t return_mode_at = 1204;
 constexpr std::size_t product_at = 1205;
 constexpr std::array<std::uint8_t, 3> mode_bytes = {0x37, 0x38, 0x39};  // in the order of ReturnMode
 constexpr int full_turn_cdeg = 36000;
-constexpr std::int64_t hour_us = 3'600'000'000;
 constexpr double cdeg = std::numbers::pi / 18000.0;
 
 using Payload = std::array<std::uint8_t, vlp16::payload_bytes>;
@@ -173,6 +173,17 @@ Eigen::Vector3d direction_L(int laser, double azimuth) {
 
 }  // namespace vlp16
 
+std::int64_t time_in_payload_us(const Vlp16Packet& packet) {
+  return get16(packet.payload, time_at) + (std::int64_t{get16(packet.payload, time_at + 2)} << 16);
+}
+
+void set_time(Vlp16Packet& packet, Nanoseconds stamp) {
+  packet.stamp = stamp;
+  const auto time_us = static_cast<std::uint32_t>(stamp / 1000 % hour_us);
+  put16(packet.payload, time_at, time_us & 0xffffU);
+  put16(packet.payload, time_at + 2, time_us >> 16U);
+}
+
 int firings_in_packet(const LidarModel& model, ReturnMode mode) {
   return mode == ReturnMode::dual ? model.firings_per_packet / 2 : model.firings_per_packet;
 }
@@ -186,16 +197,13 @@ void encode_packet(const LidarModel& model, ReturnMode mode, Nanoseconds stamp,
   if (model.product == 0) throw InternalError(std::string(model.name) + " sends no Velodyne packets");
   if (azimuth_cdeg.size() != firings || words.size() != firings * lasers || (dual && last.size() != words.size()))
     throw InternalError("encode_packet: the firings of one packet are needed");
-  packet.stamp = stamp;
   const std::size_t step = block_words / lasers;
   for (std::size_t f = 0, block = 0; f < firings; f += step) {
     if (azimuth_cdeg[f] >= full_turn_cdeg) throw InternalError("azimuth of a firing beyond 360 degrees");
     if (dual) put_words(packet.payload, block++, azimuth_cdeg[f], last.subspan(f * lasers, block_words));
     put_words(packet.payload, block++, azimuth_cdeg[f], words.subspan(f * lasers, block_words));
   }
-  const auto time_us = static_cast<std::uint32_t>(stamp / 1000 % hour_us);
-  put16(packet.payload, time_at, time_us & 0xffffU);
-  put16(packet.payload, time_at + 2, time_us >> 16U);
+  set_time(packet, stamp);
   packet.payload[return_mode_at] = mode_bytes[static_cast<std::size_t>(mode)];
   packet.payload[product_at] = model.product;
 }

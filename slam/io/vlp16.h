@@ -38,6 +38,11 @@ struct Vlp16Packet {
   std::array<std::uint8_t, vlp16::payload_bytes> payload{};
 };
 
+/// Microseconds of the hour at which a packet's payload says it began.
+[[nodiscard]] std::int64_t time_in_payload_us(const Vlp16Packet& packet);
+/// Moves a packet to another time, in its payload too.
+void set_time(Vlp16Packet& packet, Nanoseconds stamp);
+
 /// One return as it stands in a packet.
 struct ReturnWord {
   std::uint32_t distance = 0;  ///< units of the model; 0: no return

@@ -36,7 +36,7 @@ Eigen::Matrix3d turned(const Eigen::Matrix3d& P, const Pose& X_WI) {
 HypothesisSet watch_set(const LocalizationConfig& config) {
   HypothesisConfig hypotheses = config.search.hypotheses;
   hypotheses.history = config.watch.views;
-  hypotheses.drop_ratio = 1.5 * config.watch.log_ratio;
+  hypotheses.drop_ratio = config.watch.drop_ratio;
   return {hypotheses, config.search.refine, config.search.likelihood, config.search.contest};
 }
 

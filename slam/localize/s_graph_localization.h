@@ -14,15 +14,17 @@ namespace plumbline::slam {
 /// Looks for a place that has explained the last way better than the one tracked, which a robot that was carried away,
 /// or that took the wrong one of two places, would not notice by itself.
 struct WatchConfig {
-  double every_m = 1.5;     ///< way walked between two looks
-  int views = 12;           ///< of the last way, by which places are judged
-  double log_ratio = 20.0;  ///< by which the other place must be better
+  double every_m = 1.5;      ///< way walked between two looks
+  int views = 12;            ///< of the last way, by which places are judged
+  double log_ratio = 20.0;   ///< by which the other place must be better
+  double drop_ratio = 30.0;  ///< behind the best, from which a place is looked at no longer
 
   template <class V>
   void visit(V& v) {
     v("every_m", every_m, Field{.doc = "way walked between two looks for a better place", .min = 0});
     v("views", views, Field{.doc = "of the last way, by which places are judged", .min = 1, .max = 1000});
     v("log_ratio", log_ratio, Field{.doc = "by which the other place must be better", .min = 0});
+    v("drop_ratio", drop_ratio, Field{.doc = "behind the best, from which a place is looked at no longer", .min = 0});
   }
 };
 

@@ -39,13 +39,14 @@ struct Voxels {
 
 /// Of each voxel that holds a point, how many of the 124 within two cells of it do too. keys: packed, rising.
 std::vector<int> neighbours(const std::vector<std::uint64_t>& keys) {
-  constexpr std::int64_t reach = 2, row = std::int64_t{1} << 21, layer = std::int64_t{1} << 42;  // of VoxelKey::packed
-  std::vector<int> count(keys.size(), -1);                                                       // itself
+  constexpr std::int64_t reach = 2;
+  std::vector<int> count(keys.size(), -1);  // itself
   for (std::int64_t z = -reach; z <= reach; ++z)
     for (std::int64_t y = -reach; y <= reach; ++y) {
       std::size_t first = 0;  // in the row beside, which keys pass in the same order
       for (std::size_t k = 0; k < keys.size(); ++k) {
-        const std::int64_t middle = static_cast<std::int64_t>(keys[k]) + z * layer + y * row;
+        const std::int64_t middle =
+            static_cast<std::int64_t>(keys[k]) + z * VoxelKey::packed_layer + y * VoxelKey::packed_row;
         while (first < keys.size() && static_cast<std::int64_t>(keys[first]) < middle - reach) ++first;
         for (std::size_t n = first; n < keys.size() && static_cast<std::int64_t>(keys[n]) <= middle + reach; ++n)
           ++count[k];

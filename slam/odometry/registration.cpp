@@ -90,11 +90,6 @@ Normal6 linearize(std::span<const Surfel> surfels, const SurfelMap& map, const P
 }
 
 Registration align(std::span<const Surfel> surfels, const SurfelMap& map, const Pose& start,
-                   const std::optional<PosePrior>& prior, const RegistrationConfig& config) {
-  return align(surfels, map, start, prior, config, nullptr);
-}
-
-Registration align(std::span<const Surfel> surfels, const SurfelMap& map, const Pose& start,
                    const std::optional<PosePrior>& prior, const RegistrationConfig& config, const MoreTerms& more) {
   Registration result;
   result.X_MR = start;

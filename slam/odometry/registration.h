@@ -67,16 +67,14 @@ struct Normal6 {
   double squared = 0.0;  ///< sum over the inliers of the squared Mahalanobis distance
 };
 
-/// Voxelized GICP: minimises sum rho(e^T (C_voxel + R C_surfel R^T)^-1 e) with e the way from the moved surfel to the
-/// mean of the voxel it falls in, plus the prior if any, by Gauss-Newton on SE(3) from `start`.
-[[nodiscard]] Registration align(std::span<const Surfel> surfels, const SurfelMap& map, const Pose& start,
-                                 const std::optional<PosePrior>& prior, const RegistrationConfig& config);
-
 /// What else a pose is held by: normal equations of the right increment at X_MR, in units of standard deviations.
 using MoreTerms = std::function<Normal6(const Pose& X_MR)>;
+
+/// Voxelized GICP: minimises sum rho(e^T (C_voxel + R C_surfel R^T)^-1 e) with e the way from the moved surfel to the
+/// mean of the voxel it falls in, plus the prior and `more` if any, by Gauss-Newton on SE(3) from `start`.
 [[nodiscard]] Registration align(std::span<const Surfel> surfels, const SurfelMap& map, const Pose& start,
                                  const std::optional<PosePrior>& prior, const RegistrationConfig& config,
-                                 const MoreTerms& more);
+                                 const MoreTerms& more = {});
 
 /// Adds a point at arm_M from the robot, displaced by e: weighted information W and W e, axes of M.
 void add_point(Normal6& sum, const Eigen::Vector3d& arm_M, const Eigen::Matrix3d& weight,

@@ -39,7 +39,7 @@ VoxelKey VoxelKey::of(const Eigen::Vector3d& p, double size) {
 
 std::uint64_t VoxelKey::packed() const {
   const auto bits = [](std::int32_t c) { return static_cast<std::uint64_t>(c + axis_offset); };
-  return (bits(z) << 42U) | (bits(y) << 21U) | bits(x);
+  return (bits(z) << 2 * bits_per_axis) | (bits(y) << bits_per_axis) | bits(x);
 }
 
 std::vector<Eigen::Vector3d> voxel_downsample(const std::vector<Eigen::Vector3d>& points, double size) {

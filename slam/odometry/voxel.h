@@ -13,8 +13,12 @@ struct VoxelKey {
 
   /// InternalError beyond a million cells from the origin.
   [[nodiscard]] static VoxelKey of(const Eigen::Vector3d& p, double size);
-  /// 21 bits an axis, order-preserving.
+  /// bits_per_axis bits an axis, z first: order-preserving, and the voxel beside along x, y, z is 1, packed_row,
+  /// packed_layer away.
   [[nodiscard]] std::uint64_t packed() const;
+  static constexpr unsigned bits_per_axis = 21;
+  static constexpr std::int64_t packed_row = std::int64_t{1} << bits_per_axis;
+  static constexpr std::int64_t packed_layer = packed_row << bits_per_axis;
   friend bool operator==(const VoxelKey&, const VoxelKey&) = default;
 };
 

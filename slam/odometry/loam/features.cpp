@@ -6,6 +6,8 @@
 #include <span>
 #include <utility>
 
+#include "slam/odometry/voxel.h"
+
 namespace plumbline::slam::loam {
 
 namespace {
@@ -118,6 +120,17 @@ std::vector<FeaturePoint> find_edges(const DeskewedScan& scan, const FeatureConf
   Features features;
   for (int ring = 0; ring < scan.rings; ++ring) Ring(scan, ring, config).pick(features, false);
   return std::move(features.less_sharp);
+}
+
+std::vector<Eigen::Vector3d> first_of_each_leaf(const std::vector<FeaturePoint>& features, double leaf_m) {
+  std::vector<Eigen::Vector3d> out;
+  out.reserve(features.size());
+  VoxelIndex seen;
+  for (const FeaturePoint& feature : features) {
+    const int before = seen.size();
+    if (seen.insert(VoxelKey::of(feature.p_R, leaf_m)) == before) out.push_back(feature.p_R);
+  }
+  return out;
 }
 
 }  // namespace plumbline::slam::loam

@@ -53,4 +53,7 @@ struct Features {
 /// Edge points alone: the less sharp ones of find_features(), but flat points silence none of them.
 [[nodiscard]] std::vector<FeaturePoint> find_edges(const DeskewedScan& scan, const FeatureConfig& config);
 
+/// The first one in each voxel of leaf_m, in their order, in R.
+[[nodiscard]] std::vector<Eigen::Vector3d> first_of_each_leaf(const std::vector<FeaturePoint>& features, double leaf_m);
+
 }  // namespace plumbline::slam::loam

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 
+#include "slam/odometry/loam/point_map.h"
 #include "slam/odometry/registration.h"
 
 namespace plumbline::slam::loam {
@@ -21,6 +22,15 @@ struct Match {
                                               const Eigen::Vector3d& b_F);
 [[nodiscard]] std::optional<Match> plane_match(const Eigen::Vector3d& p_R, const Eigen::Vector3d& a_F,
                                                const Eigen::Vector3d& b_F, const Eigen::Vector3d& c_F);
+
+/// To the line through map points when the largest eigenvalue of their scatter is more than line_ratio times the second
+/// [facts: slam 5].
+[[nodiscard]] std::optional<Match> line_match(const Eigen::Vector3d& p_R, const PointMap::Neighbours& points_F,
+                                              double line_ratio);
+/// To their plane when none is farther from it than tolerance_m and the second eigenvalue is more than plane_ratio
+/// times the smallest.
+[[nodiscard]] std::optional<Match> plane_match(const Eigen::Vector3d& p_R, const PointMap::Neighbours& points_F,
+                                               double plane_ratio, double tolerance_m);
 
 /// Normal equations of all residuals under a Huber kernel, by the right increment of X_FR.
 [[nodiscard]] Normal6 linearize(std::span<const Match> matches, const Pose& X_FR, double huber_m);
