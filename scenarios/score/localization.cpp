@@ -148,16 +148,6 @@ Evidence evidence_of(const Identifiability& known, const Truth& truth, const Loc
   return left_s >= rules.hold_s && left_m >= rules.hold_m ? Evidence::unique : Evidence::weak;
 }
 
-}  // namespace
-
-std::string to_string(LocalizationVerdict verdict) {
-  static constexpr std::array<const char*, 7> names = {
-      "success", "false_convergence", "overconfident", "honest_ambiguity", "late", "lost", "lucky"};
-  return names[static_cast<std::size_t>(verdict)];
-}
-
-namespace {
-
 /// What came of a kidnapping. Time in which the robot stands counts too.
 void score_kidnap(const Truth& truth, const std::vector<Belief>& beliefs, const LocalizationRules& rules,
                   LocalizationScore& score) {
@@ -187,6 +177,12 @@ void score_kidnap(const Truth& truth, const std::vector<Belief>& beliefs, const 
 }
 
 }  // namespace
+
+std::string to_string(LocalizationVerdict verdict) {
+  static constexpr std::array<const char*, 7> names = {
+      "success", "false_convergence", "overconfident", "honest_ambiguity", "late", "lost", "lucky"};
+  return names[static_cast<std::size_t>(verdict)];
+}
 
 LocalizationScore score_localization(const Truth& truth, const std::vector<Belief>& beliefs,
                                      const std::optional<Identifiability>& identifiability,

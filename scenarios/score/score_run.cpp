@@ -146,10 +146,6 @@ Tree to_results(const Identifiability& known) {
   return tree.set("places", std::move(places));
 }
 
-}  // namespace
-
-namespace {
-
 /// A robot that was in the air is set down where the scans begin anew.
 Truth truth_of(const RunFiles& files) {
   Truth truth{files.truth_W, files.scans, std::nullopt};
