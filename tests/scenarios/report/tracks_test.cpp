@@ -20,24 +20,36 @@ score::Truth walk(int scans) {
   return truth;
 }
 
+/// What was believed at each scan of a walk: hypotheses(i, X_WR), without what does not matter to tracks.
+template <class Hypotheses>
+std::vector<BeliefRecord> believed(const score::Truth& truth, const Hypotheses& hypotheses) {
+  std::vector<BeliefRecord> beliefs;
+  for (std::size_t i = 0; i < truth.scans.size(); ++i) {
+    BeliefRecord belief;
+    belief.stamp = truth.scans[i];
+    belief.hypotheses = hypotheses(i, truth.at(belief.stamp));
+    beliefs.push_back(belief);
+  }
+  return beliefs;
+}
+
+slam::Hypothesis hypothesis(double mass, const Pose& X_WR, const std::string& room = "") {
+  return {mass, X_WR, Eigen::Matrix3d::Zero(), room};
+}
+
 /// A twin of every pose, turned half a turn: it walks the other way.
 const Pose twin = Pose::from_xyz_yaw({20.0, 4.0, 0.0}, std::numbers::pi);
 
 TEST(Tracks, FollowEachPlaceAlongTheWalk) {
   const score::Truth truth = walk(100);
-  std::vector<BeliefRecord> beliefs;
-  for (int i = 0; i < 100; ++i) {
-    BeliefRecord belief;
-    belief.stamp = i * scan_ns;
-    const Pose X_WR = truth.at(belief.stamp);
-    const double mass = 0.5 + 0.004 * i;
-    const slam::Hypothesis here{mass, X_WR, Eigen::Matrix3d::Zero(), "kitchen"};
-    const slam::Hypothesis there{1.0 - mass, twin * X_WR, Eigen::Matrix3d::Zero(), "hall"};
-    // Whichever comes first, as methods list them by mass; the twin is not seen for a while.
-    belief.hypotheses = i % 2 == 0 ? std::vector{here, there} : std::vector{there, here};
-    if (i > 40 && i < 60) belief.hypotheses = {here};
-    beliefs.push_back(belief);
-  }
+  const std::vector<BeliefRecord> beliefs = believed(truth, [](std::size_t i, const Pose& X_WR) {
+    const double mass = 0.5 + 0.004 * static_cast<double>(i);
+    const slam::Hypothesis here = hypothesis(mass, X_WR, "kitchen");
+    const slam::Hypothesis there = hypothesis(1.0 - mass, twin * X_WR, "hall");
+    if (i > 40 && i < 60) return std::vector{here};  // the twin is not seen for a while
+    // Whichever comes first, as methods list them by mass.
+    return i % 2 == 0 ? std::vector{here, there} : std::vector{there, here};
+  });
   const std::vector<ReportTrack> tracks = hypothesis_tracks(beliefs, truth, 6);
   ASSERT_EQ(tracks.size(), 2U);
   EXPECT_TRUE(tracks[0].is_true);
@@ -50,17 +62,13 @@ TEST(Tracks, FollowEachPlaceAlongTheWalk) {
 
 TEST(Tracks, KeepTheTruePlaceAndThoseThatWereBelievedMost) {
   const score::Truth truth = walk(10);
-  std::vector<BeliefRecord> beliefs;
-  for (int i = 0; i < 10; ++i) {
-    BeliefRecord belief;
-    belief.stamp = i * scan_ns;
-    const Pose X_WR = truth.at(belief.stamp);
+  const std::vector<BeliefRecord> beliefs = believed(truth, [](std::size_t, const Pose& X_WR) {
+    std::vector<slam::Hypothesis> hypotheses;
     for (const double mass : {0.4, 0.3, 0.2})
-      belief.hypotheses.push_back(
-          {mass, Pose::from_xyz_yaw({0, 10.0 * mass, 0}, 0.0) * X_WR, Eigen::Matrix3d::Zero(), ""});
-    belief.hypotheses.push_back({0.1, X_WR, Eigen::Matrix3d::Zero(), ""});
-    beliefs.push_back(belief);
-  }
+      hypotheses.push_back(hypothesis(mass, Pose::from_xyz_yaw({0, 10.0 * mass, 0}, 0.0) * X_WR));
+    hypotheses.push_back(hypothesis(0.1, X_WR));
+    return hypotheses;
+  });
   const std::vector<ReportTrack> tracks = hypothesis_tracks(beliefs, truth, 2);
   ASSERT_EQ(tracks.size(), 2U);
   EXPECT_TRUE(tracks[0].is_true);
