@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string_view>
@@ -23,6 +24,8 @@ class Stream {
   [[nodiscard]] double uniform(std::uint64_t tick, std::uint32_t lane = 0, std::uint32_t draw = 0) const;
   /// Standard normal (Box-Muller).
   [[nodiscard]] double gauss(std::uint64_t tick, std::uint32_t lane = 0, std::uint32_t draw = 0) const;
+  /// Four independent standard normals at the cost of one block (Box-Muller on 32 bits each, up to 6.8 sigma).
+  [[nodiscard]] std::array<double, 4> gauss4(std::uint64_t tick, std::uint32_t lane = 0, std::uint32_t draw = 0) const;
 
  private:
   std::uint64_t key_;

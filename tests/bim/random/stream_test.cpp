@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <numbers>
 #include <set>
 
 #include "bim/errors.h"
@@ -47,6 +49,43 @@ TEST(Stream, GaussHasUnitMoments) {
   EXPECT_NEAR(sum / n, 0.0, 5.0 / root);
   EXPECT_NEAR(sum2 / n, 1.0, 5.0 * std::sqrt(2.0) / root);
   EXPECT_NEAR(sum4 / n, 3.0, 5.0 * std::sqrt(96.0) / root);
+}
+
+TEST(Stream, FourGaussOfABlockAreBoxMullersOfItsBits) {
+  const Stream stream(3, "slam.localize.motion");
+  for (std::uint64_t tick = 0; tick < 2000; ++tick) {
+    const std::uint64_t bits = stream.bits(tick, 1, 2);
+    const double u1 = (static_cast<double>(bits >> 32U) + 0.5) * 0x1.0p-32;
+    const double angle = 2.0 * std::numbers::pi * static_cast<double>(bits & 0xFFFFFFFFU) * 0x1.0p-32;
+    const double far = std::sqrt(-2.0 * std::log(u1));
+    const std::array<double, 4> four = stream.gauss4(tick, 1, 2);
+    // The series are exact to 1e-13; the root of a logarithm near 0 loses a few digits.
+    EXPECT_NEAR(four[0], far * std::cos(angle), 1e-11);
+    EXPECT_NEAR(four[1], far * std::sin(angle), 1e-11);
+  }
+}
+
+TEST(Stream, FourGaussHaveUnitMomentsAndAreIndependent) {
+  const Stream stream(3, "slam.localize.motion");
+  constexpr int n = 200000;
+  std::array<double, 4> sum{}, sum4{};
+  std::array<std::array<double, 4>, 4> products{};
+  for (int i = 0; i < n; ++i) {
+    const std::array<double, 4> x = stream.gauss4(5, static_cast<std::uint32_t>(i));
+    for (std::size_t a = 0; a < 4; ++a) {
+      sum[a] += x[a];
+      sum4[a] += x[a] * x[a] * x[a] * x[a];
+      for (std::size_t b = 0; b < 4; ++b) products[a][b] += x[a] * x[b];
+    }
+  }
+  // Five standard errors of each: 1, sqrt(96), and of products sqrt(2) with itself and 1 with another.
+  const double root = std::sqrt(static_cast<double>(n));
+  for (std::size_t a = 0; a < 4; ++a) {
+    EXPECT_NEAR(sum[a] / n, 0.0, 5.0 / root);
+    EXPECT_NEAR(sum4[a] / n, 3.0, 5.0 * std::sqrt(96.0) / root);
+    for (std::size_t b = 0; b < 4; ++b)
+      EXPECT_NEAR(products[a][b] / n, a == b ? 1.0 : 0.0, 5.0 * (a == b ? std::sqrt(2.0) : 1.0) / root);
+  }
 }
 
 TEST(Stream, MethodSeedsDiffer) {
