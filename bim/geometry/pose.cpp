@@ -70,6 +70,8 @@ Pose interpolate(const Pose& X_WA, const Pose& X_WB, double s) {
 
 double wrap_angle(double angle) {
   constexpr double pi = std::numbers::pi;
+  // What the remainder gives too, sooner.
+  if (angle > -pi && angle <= pi) return angle;
   const double wrapped = std::remainder(angle, 2.0 * pi);
   return wrapped <= -pi ? pi : wrapped;
 }

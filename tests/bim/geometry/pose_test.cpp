@@ -92,6 +92,8 @@ TEST_F(PoseLaws, YawOfAPlanarPose) {
   }
   EXPECT_EQ(wrap_angle(std::numbers::pi), std::numbers::pi);
   EXPECT_EQ(wrap_angle(-std::numbers::pi), std::numbers::pi);
+  for (double angle = -20.0; angle < 20.0; angle += 0.0113)
+    EXPECT_EQ(wrap_angle(angle), std::remainder(angle, 2.0 * std::numbers::pi));
 }
 
 }  // namespace
