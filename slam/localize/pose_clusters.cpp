@@ -2,9 +2,12 @@
 #include "slam/localize/pose_clusters.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <numbers>
+#include <numeric>
 #include <utility>
 
 namespace plumbline::slam {
@@ -16,13 +19,19 @@ using Bin = std::uint64_t;
 constexpr int yaw_bits = 12, side_bits = 20, side_middle = 1 << (side_bits - 1);
 constexpr Bin one_y = Bin{1} << yaw_bits, one_x = one_y << side_bits;
 
+/// As std::floor, for what an int holds.
+int floor_of(double value) {
+  const int whole = static_cast<int>(value);
+  return value < whole ? whole - 1 : whole;
+}
+
 Bin bin_of(const LocalParticle& particle, const PoseClusterConfig& config) {
   const auto side = [&](double coordinate) {
-    const int i = static_cast<int>(std::floor(coordinate / config.bin_m));
+    const int i = floor_of(coordinate / config.bin_m);
     return static_cast<Bin>(std::clamp(i + side_middle, 1, 2 * side_middle - 2));
   };
   const double turn = particle.X_IH.yaw / (2.0 * std::numbers::pi);
-  const int yaw = static_cast<int>(std::floor((turn - std::floor(turn)) * config.yaw_bins));
+  const int yaw = floor_of((turn - floor_of(turn)) * config.yaw_bins);
   return (static_cast<Bin>(particle.storey) << (2 * side_bits + yaw_bits)) + one_x * side(particle.X_IH.t.x()) +
          one_y * side(particle.X_IH.t.y()) + static_cast<Bin>(yaw % config.yaw_bins);
 }
@@ -39,11 +48,29 @@ struct Binning {
   std::vector<int> of_particle;
 };
 
+using Keyed = std::pair<Bin, std::uint32_t>;
+
+/// Sorts by bin, keeping the order within each: byte by byte, from the lowest, leaving out those that all share.
+void sort_stably(std::vector<Keyed>& keyed) {
+  Bin differing = 0;
+  for (const Keyed& key : keyed) differing |= key.first ^ keyed.front().first;
+  std::vector<Keyed> sorted(keyed.size());
+  for (int shift = 0; shift < 64; shift += 8) {
+    if (((differing >> shift) & 0xFFU) == 0) continue;
+    std::array<std::uint32_t, 257> start{};
+    for (const Keyed& key : keyed) ++start[((key.first >> shift) & 0xFFU) + 1];
+    for (std::size_t i = 1; i < start.size(); ++i) start[i] += start[i - 1];
+    for (const Keyed& key : keyed) sorted[start[(key.first >> shift) & 0xFFU]++] = key;
+    std::swap(keyed, sorted);
+  }
+}
+
 Binning fill_bins(const ParticleSet& particles, const PoseClusterConfig& config) {
-  std::vector<std::pair<Bin, std::size_t>> order;
+  std::vector<Keyed> order;
   order.reserve(particles.size());
-  for (std::size_t i = 0; i < particles.size(); ++i) order.emplace_back(bin_of(particles[i], config), i);
-  std::sort(order.begin(), order.end());
+  for (const LocalParticle& particle : particles)
+    order.emplace_back(bin_of(particle, config), static_cast<std::uint32_t>(order.size()));
+  sort_stably(order);
   Binning binning;
   binning.of_particle.resize(particles.size());
   for (const auto& [bin, i] : order) {
@@ -54,47 +81,88 @@ Binning fill_bins(const ParticleSet& particles, const PoseClusterConfig& config)
   return binning;
 }
 
-/// Calls visit(index) for the filled bins that touch a bin, itself among them.
-template <class Visit>
-void visit_neighbours(const std::vector<FilledBin>& bins, Bin center, int yaw_bins, Visit visit) {
-  const auto visit_range = [&](Bin first, Bin last) {
-    auto at =
-        std::lower_bound(bins.begin(), bins.end(), first, [](const FilledBin& b, Bin bin) { return b.bin < bin; });
-    for (; at != bins.end() && at->bin <= last; ++at) visit(static_cast<std::size_t>(at - bins.begin()));
-  };
-  const Bin yaw = center % one_y, top = static_cast<Bin>(yaw_bins) - 1;
-  for (int k = 0; k < 9; ++k) {
-    const Bin column = center - yaw + one_x * static_cast<Bin>(k % 3) + one_y * static_cast<Bin>(k / 3) - one_x - one_y;
-    visit_range(column + (yaw > 0 ? yaw - 1 : 0), column + std::min(yaw + 1, top));
-    if (yaw == 0) visit_range(column + top, column + top);
-    if (yaw == top) visit_range(column, column);
+/// Sets of bins, each known by its first.
+class Components {
+ public:
+  explicit Components(std::size_t bins) : parent_(bins) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
+  [[nodiscard]] std::size_t first(std::size_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
   }
+  void join(std::size_t a, std::size_t b) {
+    a = first(a);
+    b = first(b);
+    parent_[std::max(a, b)] = std::min(a, b);
+  }
+
+ private:
+  std::vector<std::size_t> parent_;
+};
+
+/// Bins of one storey, x and y, next to each other in a list of bins.
+struct Column {
+  Bin place = 0;
+  std::size_t first = 0, last = 0;  ///< last: behind the end
+};
+
+std::vector<Column> columns_of(const std::vector<FilledBin>& bins) {
+  std::vector<Column> columns;
+  for (std::size_t i = 0; i < bins.size(); ++i) {
+    const Bin place = bins[i].bin / one_y;
+    if (columns.empty() || columns.back().place != place) columns.push_back({place, i, i});
+    columns.back().last = i + 1;
+  }
+  return columns;
 }
 
-/// Labels the component of bins around `start`.
-void flood(std::vector<FilledBin>& bins, std::size_t start, int label, double least, int yaw_bins) {
-  std::vector<std::size_t> open{start};
-  bins[start].cluster = label;
-  while (!open.empty()) {
-    const Bin center = bins[open.back()].bin;
-    open.pop_back();
-    visit_neighbours(bins, center, yaw_bins, [&](std::size_t i) {
-      if (bins[i].cluster >= 0 || bins[i].mass < least) return;
-      bins[i].cluster = label;
-      open.push_back(i);
-    });
+/// Joins the bins of two columns whose yaws touch, around the turn.
+void join_touching(const std::vector<FilledBin>& bins, const Column& a, const Column& b, int yaw_bins,
+                   Components& components) {
+  const auto yaw = [&](std::size_t i) { return bins[i].bin % one_y; };
+  std::size_t from = b.first;
+  for (std::size_t i = a.first; i < a.last; ++i) {
+    while (from < b.last && yaw(from) + 1 < yaw(i)) ++from;
+    for (std::size_t k = from; k < b.last && yaw(k) <= yaw(i) + 1; ++k) components.join(i, k);
   }
+  const Bin top = static_cast<Bin>(yaw_bins) - 1;
+  if (yaw(a.first) == 0 && yaw(b.last - 1) == top) components.join(a.first, b.last - 1);
+  if (yaw(b.first) == 0 && yaw(a.last - 1) == top) components.join(b.first, a.last - 1);
 }
 
-/// Labels all components heavy enough; returns their number.
+/// Labels the components of these bins in the order of their first; returns their number.
+int label_components(std::vector<FilledBin>& bins, int yaw_bins) {
+  const std::vector<Column> columns = columns_of(bins);
+  Components components(bins.size());
+  constexpr Bin one_column = one_x / one_y;
+  // Every pair of columns that touch once: each with itself and with the four behind it.
+  for (const Bin ahead : {Bin{0}, Bin{1}, one_column - 1, one_column, one_column + 1}) {
+    auto other = columns.begin();
+    for (const Column& column : columns) {
+      while (other != columns.end() && other->place < column.place + ahead) ++other;
+      if (other == columns.end()) break;
+      if (other->place == column.place + ahead) join_touching(bins, column, *other, yaw_bins, components);
+    }
+  }
+  int count = 0;
+  for (std::size_t i = 0; i < bins.size(); ++i) {
+    const std::size_t first = components.first(i);
+    bins[i].cluster = first == i ? count++ : bins[first].cluster;
+  }
+  return count;
+}
+
+/// Labels all components of bins heavy enough; returns their number.
 int label_bins(std::vector<FilledBin>& bins, const PoseClusterConfig& config) {
   double top = 0.0;
   for (const FilledBin& bin : bins) top = std::max(top, bin.mass);
   const double least = config.bin_share * top;
-  int count = 0;
-  for (std::size_t i = 0; i < bins.size(); ++i)
-    if (bins[i].cluster < 0 && bins[i].mass >= least && bins[i].mass > 0.0)
-      flood(bins, i, count++, least, config.yaw_bins);
+  const auto heavy = [&](const FilledBin& bin) { return bin.mass >= least && bin.mass > 0.0; };
+  std::vector<FilledBin> kept;
+  std::copy_if(bins.begin(), bins.end(), std::back_inserter(kept), heavy);
+  const int count = label_components(kept, config.yaw_bins);
+  auto next = kept.begin();
+  for (FilledBin& bin : bins)
+    if (heavy(bin)) bin.cluster = (next++)->cluster;
   return count;
 }
 
