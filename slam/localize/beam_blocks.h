@@ -4,12 +4,10 @@
 #include <array>
 #include <vector>
 
+#include "slam/localize/float4.h"
 #include "slam/localize/likelihood.h"
 
 namespace plumbline::slam {
-
-/// Four numbers side by side; every operation is rounded by itself, so the bits are the same on every CPU.
-using Float4 = float __attribute__((vector_size(16)));
 
 /// Every stride-th beam of a view, four of neighbouring direction side by side, for many poses on one storey. In single
 /// precision: 0.01 mm in a plan of 100 m.
@@ -19,13 +17,14 @@ class BeamBlocks {
   BeamBlocks(const StoreyIndex& storey, const View& view, int stride, const LikelihoodConfig& config);
 
   /// As beam_log_likelihood, but for rounding; a beam that grazes an edge may go to its other side.
-  [[nodiscard]] double log_likelihood(const Pose2& X_IH) const;
+  [[nodiscard]] double log_likelihood(const Stand& stand) const;
 
  private:
   struct Block {
     Float4 x, y;                         ///< unit directions in H
     Float4 range;                        ///< horizontal, m
     Float4 reach;                        ///< farther faces change nothing; less than 0 where there is no beam
+    Float4 enough;                       ///< a face met here or sooner: nearer ones change nothing
     Float4 slope;                        ///< rise per horizontal metre
     double from = 0.0, span = 0.0;       ///< azimuths, in sectors of FaceSectors
     std::array<std::size_t, 4> beams{};  ///< of the view
@@ -41,6 +40,7 @@ class BeamBlocks {
   const View& view_;
   int stride_;
   const LikelihoodConfig& config_;
+  Float4 least_incidence_, inverse_sigma_, long_cap_, short_cap_;  ///< of config
   std::vector<Block> blocks_;
 };
 

@@ -72,7 +72,7 @@ class Union {
 
 FaceSectors::FaceSectors(const std::vector<PlanSegment>& segments, const FirstFaces& first_faces, int cells) {
   if (first_faces.empty()) return;
-  const auto f = [](double value) { return static_cast<float>(value); };
+  const auto f = [](double value) { return all(static_cast<float>(value)); };
   for (const PlanSegment& s : segments) {
     const int first_hole = static_cast<int>(holes_.size());
     for (const bim::FaceHole& hole : s.holes) holes_.push_back({f(hole.s0), f(hole.s1), f(hole.z0), f(hole.z1)});
@@ -82,7 +82,7 @@ FaceSectors::FaceSectors(const std::vector<PlanSegment>& segments, const FirstFa
                       f(s.e.y()),
                       f(s.a.x()),
                       f(s.a.y()),
-                      {0.0F, f(s.length), f(s.z0), f(s.z1)},
+                      {f(0.0), f(s.length), f(s.z0), f(s.z1)},
                       first_hole,
                       static_cast<int>(holes_.size())});
   }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "slam/localize/first_faces.h"
+#include "slam/localize/float4.h"
 
 namespace plumbline::slam {
 
@@ -15,12 +16,13 @@ class FaceSectors {
   static constexpr int per_turn = 24;
   static constexpr int wide = 4;
 
+  // Every number four times, ready to be met by four rays.
   /// A hole of a face, or the face itself: along it and in height, m.
   struct Window {
-    float s0 = 0.0F, s1 = 0.0F, z0 = 0.0F, z1 = 0.0F;
+    Float4 s0, s1, z0, z1;
   };
   struct Face {
-    float nx = 0.0F, ny = 0.0F, ex = 0.0F, ey = 0.0F, ax = 0.0F, ay = 0.0F;  ///< normal, direction, start
+    Float4 nx, ny, ex, ey, ax, ay;  ///< normal, direction, start
     Window whole;
     int first_hole = 0, last_hole = 0;  ///< into holes()
   };

@@ -102,9 +102,8 @@ Reach reach_of(const PlanSegment& segment, const Corners& corners, const Eigen::
 }  // namespace
 
 int CellFrame::at(const Eigen::Vector2d& p) const {
-  const int x = static_cast<int>(std::floor((p.x() - origin.x()) / cell));
-  const int y = static_cast<int>(std::floor((p.y() - origin.y()) / cell));
-  return x < 0 || y < 0 || x >= nx || y >= ny ? -1 : y * nx + x;
+  const double x = (p.x() - origin.x()) / cell, y = (p.y() - origin.y()) / cell;
+  return x >= 0.0 && y >= 0.0 && x < nx && y < ny ? static_cast<int>(y) * nx + static_cast<int>(x) : -1;
 }
 
 /// The list of one cell and range of directions in the making.
@@ -140,6 +139,13 @@ FirstFaces::FirstFaces(const std::vector<PlanSegment>& segments, const CellFrame
           }
         }
     }
+}
+
+double FirstFaces::clearance(int cell) const {
+  if (first_.empty()) return 0.0;
+  float least = std::numeric_limits<float>::infinity();
+  for (int fan = 0; fan < fans_per_turn; ++fan) least = std::min(least, list(cell, fan)->from);
+  return static_cast<double>(least);
 }
 
 void FirstFaces::fill_cell(const std::vector<PlanSegment>& segments, const Eigen::Vector2d& center, double cell,

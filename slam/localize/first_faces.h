@@ -64,6 +64,8 @@ class FirstFaces {
     return true;
   }
 
+  /// No ray from the cell meets a face before.
+  [[nodiscard]] double clearance(int cell) const;
   [[nodiscard]] bool empty() const { return first_.empty(); }
   /// Range of directions of a ray.
   [[nodiscard]] static int fan_of(const Eigen::Vector2d& direction) {

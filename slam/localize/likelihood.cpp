@@ -25,8 +25,8 @@ struct ExpectedWall {
 };
 
 /// Squared Mahalanobis distance of an observed wall to an expected one, infinity where it does not fit.
-double mismatch(const WallView& wall, const ExpectedWall& expected, double inverse_var_azimuth,
-                double inverse_var_distance, const LikelihoodConfig& config) {
+double mismatch(const WallView& wall, const ExpectedWall& expected, const WallInformation& v,
+                const LikelihoodConfig& config) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const double e_azimuth = difference(wall.azimuth, expected.azimuth_H);
   if (std::abs(e_azimuth) > config.azimuth_gate) return infinity;
@@ -35,28 +35,12 @@ double mismatch(const WallView& wall, const ExpectedWall& expected, double inver
       std::min(expected.foot + wall.s1, expected.length + margin) - std::max(expected.foot + wall.s0, -margin);
   if (overlap < config.overlap_min * (wall.s1 - wall.s0)) return infinity;
   const double e_distance = wall.distance - expected.distance;
-  return e_azimuth * e_azimuth * inverse_var_azimuth + e_distance * e_distance * inverse_var_distance;
-}
-
-/// Inverse variances of each observed wall's residual.
-struct WallInformation {
-  std::array<double, max_walls> azimuth, distance;
-};
-
-WallInformation information(const View& view, const LikelihoodConfig& config) {
-  WallInformation v;
-  for (std::size_t i = 0; i < view.walls.size(); ++i) {
-    const WallView& wall = view.walls[i];
-    v.azimuth[i] = 1.0 / (wall.sigma_azimuth * wall.sigma_azimuth + config.azimuth_sigma * config.azimuth_sigma);
-    v.distance[i] =
-        1.0 / (wall.sigma_distance * wall.sigma_distance + config.distance_sigma_m * config.distance_sigma_m);
-  }
-  return v;
+  return e_azimuth * e_azimuth * v.azimuth + e_distance * e_distance * v.distance;
 }
 
 /// Smallest mismatch of each observed wall over the lines seen from the sensor's cell.
 std::array<double, max_walls> best_mismatch(const StoreyIndex& storey, const Pose2& X_IH, const View& view,
-                                            const WallInformation& v, const LikelihoodConfig& config) {
+                                            const LikelihoodConfig& config) {
   std::array<double, max_walls> best;
   best.fill(std::numeric_limits<double>::infinity());
   const Eigen::Vector2d sensor_I = X_IH * view.sensor_H;
@@ -68,22 +52,30 @@ std::array<double, max_walls> best_mismatch(const StoreyIndex& storey, const Pos
                                 line.e.dot(sensor_I - line.a), line.length};
     if (expected.distance <= 0.0) continue;
     for (std::size_t k = 0; k < view.walls.size(); ++k)
-      best[k] = std::min(best[k], mismatch(view.walls[k], expected, v.azimuth[k], v.distance[k], config));
+      best[k] = std::min(best[k], mismatch(view.walls[k], expected, information(view.walls[k], config), config));
   }
   return best;
 }
 
 }  // namespace
 
+WallInformation information(const WallView& wall, const LikelihoodConfig& config) {
+  return {1.0 / (wall.sigma_azimuth * wall.sigma_azimuth + config.azimuth_sigma * config.azimuth_sigma),
+          1.0 / (wall.sigma_distance * wall.sigma_distance + config.distance_sigma_m * config.distance_sigma_m)};
+}
+
+double peak_density(const WallInformation& v, const LikelihoodConfig& config) {
+  return (1.0 - config.plane_outlier) / (2.0 * pi) * std::sqrt(v.azimuth * v.distance);
+}
+
 double wall_log_likelihood(const StoreyIndex& storey, const Pose2& X_IH, const View& view,
                            const LikelihoodConfig& config) {
-  const WallInformation v = information(view, config);
-  const std::array<double, max_walls> best = best_mismatch(storey, X_IH, view, v, config);
+  const std::array<double, max_walls> best = best_mismatch(storey, X_IH, view, config);
   const double outlier = config.plane_outlier / (4.0 * config.azimuth_gate * config.distance_gate_m);
   // One logarithm of a product, taken before it could leave the range of a double.
   double sum = 0.0, product = 1.0;
   for (std::size_t k = 0; k < view.walls.size(); ++k) {
-    const double peak = (1.0 - config.plane_outlier) / (2.0 * pi) * std::sqrt(v.azimuth[k] * v.distance[k]);
+    const double peak = peak_density(information(view.walls[k], config), config);
     product *= outlier + (best[k] < 100.0 ? peak * std::exp(-0.5 * best[k]) : 0.0);
     if (product > 1e-200 && product < 1e200) continue;
     sum += std::log(product);

@@ -49,6 +49,25 @@ struct LikelihoodConfig {
   }
 };
 
+/// Where the sensor stands when the robot is at a pose; frame I.
+struct Stand {
+  Pose2 X_IH;
+  Eigen::Matrix2d R_IH;
+  Eigen::Vector2d sensor_I;
+  int cell = -1;  ///< of StoreyIndex::grid, with the sensor
+
+  Stand(const StoreyIndex& storey, const Pose2& X, const View& view)
+      : X_IH(X), R_IH(X.rotation()), sensor_I(R_IH * view.sensor_H + X.t), cell(storey.grid.cell_at(sensor_I)) {}
+};
+
+/// Inverse variances of an observed wall's residual.
+struct WallInformation {
+  double azimuth = 0.0, distance = 0.0;
+};
+[[nodiscard]] WallInformation information(const WallView& wall, const LikelihoodConfig& config);
+/// Density of a residual of zero, of a wall of the plan.
+[[nodiscard]] double peak_density(const WallInformation& v, const LikelihoodConfig& config);
+
 /// log p(walls | pose): each observed wall is a mixture of the best face of the plan and an outlier, so that every
 /// observation counts [BIM-Loc eq. 6-9, corrected]. Frame I; pose is that of H.
 [[nodiscard]] double wall_log_likelihood(const StoreyIndex& storey, const Pose2& X_IH, const View& view,

@@ -2,11 +2,13 @@
 #include "slam/localize/particles.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
 #include "bim/errors.h"
 #include "slam/localize/beam_blocks.h"
+#include "slam/localize/wall_blocks.h"
 
 namespace plumbline::slam {
 
@@ -68,24 +70,47 @@ double draw_yaw(const StoreyIndex& storey, const Eigen::Vector2d& p, const Start
 bool walks_through_wall(const StoreyIndex& storey, const Eigen::Vector2d& from, const Eigen::Vector2d& to,
                         double body_height) {
   const double length = (to - from).norm();
-  if (length < 1e-6) return false;
+  const int cell = storey.grid.cell_at(from);
+  if (length < 1e-6 || (cell >= 0 && length < storey.grid.clearance(cell))) return false;
   const PlanRay ray{from, (to - from) / length, storey.floor_z + body_height, 0.0};
-  return storey.grid.cast(storey.segments, ray, length).segment >= 0;
+  return storey.grid.cast(storey.segments, ray, length, cell).segment >= 0;
 }
 
-/// Effective sample size of w exp(a (l - max l)).
-double tempered_size(const ParticleSet& particles, const std::vector<double>& log_likelihood, double top, double a) {
-  constexpr double negligible = -50.0;
-  double sum = 0.0, squares = 0.0;
-  for (std::size_t i = 0; i < particles.size(); ++i) {
-    const double exponent = a * (log_likelihood[i] - top);
-    if (exponent < negligible) continue;
-    const double w = particles[i].weight * std::exp(exponent);
-    sum += w;
-    squares += w * w;
+/// Weights and log-likelihoods of particles, four side by side.
+class TemperedSize {
+ public:
+  TemperedSize(const ParticleSet& particles, const std::vector<double>& log_likelihood, double top)
+      : weights_((particles.size() + 3) / 4, all(0.0F)), logs_(weights_) {
+    for (std::size_t i = 0; i < particles.size(); ++i) {
+      weights_[i / 4][i % 4] = static_cast<float>(particles[i].weight * static_cast<double>(particles.size()));
+      logs_[i / 4][i % 4] = static_cast<float>(std::max(log_likelihood[i] - top, -1e30));
+    }
   }
-  return squares > 0.0 ? sum * sum / squares : 0.0;
-}
+  /// Effective sample size of w exp(a (l - max l)).
+  [[nodiscard]] double at(double a) const {
+    constexpr float negligible = -50.0F;
+    const Float4 power = all(static_cast<float>(a));
+    double sum = 0.0, squares = 0.0;
+    for (std::size_t first = 0; first < logs_.size(); first += chunk) {
+      Float4 part = all(0.0F), part_squares = all(0.0F);
+      for (std::size_t i = first; i < std::min(first + chunk, logs_.size()); ++i) {
+        const Float4 exponent = power * logs_[i];
+        const Float4 w = choose(exponent < negligible, all(0.0F), weights_[i] * exp_of(exponent));
+        part += w;
+        part_squares += w * w;
+      }
+      for (std::size_t k = 0; k < 4; ++k) {
+        sum += static_cast<double>(part[k]);
+        squares += static_cast<double>(part_squares[k]);
+      }
+    }
+    return squares > 0.0 ? sum * sum / squares : 0.0;
+  }
+
+ private:
+  static constexpr std::size_t chunk = 64;  // so few summed up in single precision
+  std::vector<Float4> weights_, logs_;
+};
 
 }  // namespace
 
@@ -122,8 +147,8 @@ void propagate(ParticleSet& particles, const Pose2& u, const PlanIndex& index, c
   for (std::size_t i = 0; i < particles.size(); ++i) {
     LocalParticle& particle = particles[i];
     const auto lane = static_cast<std::uint32_t>(i);
-    const Eigen::Vector2d noise(stream.gauss(tick, lane, 0), stream.gauss(tick, lane, 1));
-    const Pose2 u_noisy{u.t + sigma_trans * noise, u.yaw + sigma_rot * stream.gauss(tick, lane, 2)};
+    const std::array<double, 4> noise = stream.gauss4(tick, lane);
+    const Pose2 u_noisy{u.t + sigma_trans * Eigen::Vector2d(noise[0], noise[1]), u.yaw + sigma_rot * noise[2]};
     const Pose2 moved = particle.X_IH * u_noisy;
     const StoreyIndex& storey = index.storeys[static_cast<std::size_t>(particle.storey)];
     if (walks_through_wall(storey, particle.X_IH.t, moved.t, index.config.body_height_m)) particle.weight = 0.0;
@@ -136,14 +161,18 @@ Reweighting reweight(ParticleSet& particles, const View& view, const PlanIndex& 
                      const LikelihoodConfig& likelihood, const FilterConfig& config) {
   std::vector<BeamBlocks> beams;
   for (const StoreyIndex& storey : index.storeys) beams.emplace_back(storey, view, config.beam_stride, likelihood);
-  std::vector<double> log_likelihood(particles.size());
-  double top = -1e300, mean = 0.0;
+  const WallBlocks walls(view, likelihood);
+  constexpr double never = -1e300;
+  std::vector<double> log_likelihood(particles.size(), never);
+  double top = never, mean = 0.0;
   for (std::size_t i = 0; i < particles.size(); ++i) {
     const LocalParticle& particle = particles[i];
+    if (particle.weight <= 0.0) continue;
     const StoreyIndex& storey = index.storeys[static_cast<std::size_t>(particle.storey)];
-    log_likelihood[i] = wall_log_likelihood(storey, particle.X_IH, view, likelihood) +
-                        beams[static_cast<std::size_t>(particle.storey)].log_likelihood(particle.X_IH);
-    if (particle.weight > 0.0) top = std::max(top, log_likelihood[i]);
+    const Stand stand(storey, particle.X_IH, view);
+    log_likelihood[i] =
+        walls.log_likelihood(storey, stand) + beams[static_cast<std::size_t>(particle.storey)].log_likelihood(stand);
+    top = std::max(top, log_likelihood[i]);
     mean += particle.weight * log_likelihood[i];
   }
   Reweighting result;
@@ -157,11 +186,12 @@ Reweighting reweight(ParticleSet& particles, const View& view, const PlanIndex& 
 }
 
 double temper(const ParticleSet& particles, const std::vector<double>& log_likelihood, double top, double floor) {
-  if (tempered_size(particles, log_likelihood, top, 1.0) >= floor) return 1.0;
+  const TemperedSize size(particles, log_likelihood, top);
+  if (size.at(1.0) >= floor) return 1.0;
   double low = 0.0, high = 1.0;
   while (high - low > 1e-3) {
     const double middle = 0.5 * (low + high);
-    (tempered_size(particles, log_likelihood, top, middle) >= floor ? low : high) = middle;
+    (size.at(middle) >= floor ? low : high) = middle;
   }
   return std::max(low, 1e-3);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "slam/localize/pose_clusters.h"
@@ -41,20 +42,36 @@ void draw_group(const ParticleSet& particles, const Group& group, int count, dou
   }
 }
 
+/// Standard deviations by which particles are moved.
+struct Roughness {
+  double way = 0.0, turn = 0.0;
+};
+
+/// By cluster; the last is of particles without one.
+std::vector<Roughness> roughness_of(const Clustering& clustering, const FilterConfig& config) {
+  std::vector<Roughness> roughness;
+  for (const PoseCluster& cluster : clustering.clusters) {
+    const Eigen::Matrix3d& P = cluster.covariance;
+    const double scale = config.rough_scale;
+    roughness.push_back(
+        {std::clamp(scale * std::sqrt(0.5 * (P(0, 0) + P(1, 1))), config.rough_min_m, config.rough_max_m),
+         std::clamp(scale * std::sqrt(P(2, 2)), config.rough_min_rad, config.rough_max_rad)});
+  }
+  roughness.push_back({config.rough_max_m, config.rough_max_rad});
+  return roughness;
+}
+
 void roughen(ParticleSet& drawn, const Clustering& clustering, const FilterConfig& config, const Stream& stream,
              std::uint64_t tick) {
+  const std::vector<Roughness> roughness = roughness_of(clustering, config);
   for (std::size_t i = 0; i < drawn.size(); ++i) {
     LocalParticle& particle = drawn[i];
-    double spread = config.rough_max_m, turn = config.rough_max_rad;
-    if (particle.cluster >= 0) {
-      const Eigen::Matrix3d& P = clustering.clusters[static_cast<std::size_t>(particle.cluster)].covariance;
-      const double scale = config.rough_scale;
-      spread = std::clamp(scale * std::sqrt(0.5 * (P(0, 0) + P(1, 1))), config.rough_min_m, config.rough_max_m);
-      turn = std::clamp(scale * std::sqrt(P(2, 2)), config.rough_min_rad, config.rough_max_rad);
-    }
+    const Roughness& by =
+        particle.cluster < 0 ? roughness.back() : roughness[static_cast<std::size_t>(particle.cluster)];
     const auto lane = static_cast<std::uint32_t>(i);
-    particle.X_IH.t += spread * Eigen::Vector2d(stream.gauss(tick, lane, 1), stream.gauss(tick, lane, 2));
-    particle.X_IH.yaw = wrap_angle(particle.X_IH.yaw + turn * stream.gauss(tick, lane, 3));
+    const std::array<double, 4> noise = stream.gauss4(tick, lane, 1);
+    particle.X_IH.t += by.way * Eigen::Vector2d(noise[0], noise[1]);
+    particle.X_IH.yaw = wrap_angle(particle.X_IH.yaw + by.turn * noise[2]);
   }
 }
 
@@ -79,6 +96,7 @@ ParticleSet resample(const ParticleSet& particles, const Clustering& clustering,
   const Stream stream(seed, "slam.localize.resample");
   const std::vector<Group> groups = groups_of(particles, clustering.clusters.size());
   ParticleSet drawn;
+  drawn.reserve(static_cast<std::size_t>(count) + clustering.clusters.size() * static_cast<std::size_t>(quota + 1));
   double total = 0.0;
   for (const Group& group : groups) total += group.mass;
   for (std::size_t g = 0; g < groups.size(); ++g) {

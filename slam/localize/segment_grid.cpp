@@ -54,6 +54,7 @@ SegmentGrid::SegmentGrid(const std::vector<PlanSegment>& segments, double cell_m
             static_cast<int>(std::ceil((high.y() - low.y()) / cell_m)) + 2};
   fill(segments);
   near_ = FirstFaces(segments, frame_);
+  for (int cell = 0; cell < cells(); ++cell) clearance_.push_back(near_.clearance(cell));
 }
 
 void SegmentGrid::fill(const std::vector<PlanSegment>& segments) {

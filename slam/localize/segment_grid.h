@@ -32,6 +32,8 @@ class SegmentGrid {
                                      double to) const;
   /// Index of the cell with p, or -1 outside of the grid.
   [[nodiscard]] int cell_at(const Eigen::Vector2d& p) const { return frame_.at(p); }
+  /// Distance that no ray from a cell meets a face before.
+  [[nodiscard]] double clearance(int cell) const { return clearance_[static_cast<std::size_t>(cell)]; }
   [[nodiscard]] int cells() const { return frame_.cells(); }
   [[nodiscard]] Eigen::Vector2d cell_center(int cell) const { return frame_.center(cell); }
   [[nodiscard]] const FirstFaces& first_faces() const { return near_; }
@@ -49,6 +51,7 @@ class SegmentGrid {
   std::vector<int> first_;  ///< per cell: start of its list in items_
   std::vector<int> items_;
   FirstFaces near_;
+  std::vector<double> clearance_;  ///< per cell
 };
 
 }  // namespace plumbline::slam

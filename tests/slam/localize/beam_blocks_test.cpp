@@ -53,8 +53,8 @@ TEST(BeamBlocks, SayWhatEveryBeamByItselfSays) {
     const View view = view_from(storey, {center, 0.3}, stream, beams);
     const int stride = beams > 100 ? 6 : 1;
     const BeamBlocks blocks(storey, view, stride, config);
-    EXPECT_NEAR(blocks.log_likelihood({center, 0.3}), beam_log_likelihood(storey, {center, 0.3}, view, stride, config),
-                1e-3);
+    EXPECT_NEAR(blocks.log_likelihood(Stand(storey, {center, 0.3}, view)),
+                beam_log_likelihood(storey, {center, 0.3}, view, stride, config), 1e-3);
     for (std::uint32_t i = 0; i < 2000; ++i) {
       // Also outside of the building, and of the grid.
       const Pose2 X_IH{center + 30.0 * Eigen::Vector2d(stream.uniform(2, i, 0) - 0.5, stream.uniform(2, i, 1) - 0.5),
@@ -63,11 +63,35 @@ TEST(BeamBlocks, SayWhatEveryBeamByItselfSays) {
       ++poses;
       spread = std::max(spread, std::abs(alone));
       // 1e-5 m of 0.06 m, at 3 sigma, for 30 beams of weight 0.9; more only where a beam grazes an edge.
-      if (std::abs(blocks.log_likelihood(X_IH) - alone) < 0.02) ++alike;
+      if (std::abs(blocks.log_likelihood(Stand(storey, X_IH, view)) - alone) < 0.02) ++alike;
     }
   }
   EXPECT_GT(spread, 20.0);
   EXPECT_GE(alike, poses - poses / 200);
+}
+
+TEST(BeamBlocks, SayTheSameWithCapsOfAnySize) {
+  const PlanIndex index = pierced_corridor();
+  const StoreyIndex& storey = index.storeys.front();
+  const Stream stream(6, "slam.localize.init");
+  const Eigen::Vector2d center = centroid(storey.rooms.front().polygon);
+  const View view = view_from(storey, {center, 0.3}, stream, 30);
+  LikelihoodConfig none, grazing, wide;
+  none.beam_short_cap = none.beam_long_cap = 0.0;
+  grazing.beam_min_incidence = 0.0;
+  wide.beam_long_cap = 50.0;
+  wide.beam_short_cap = 20.0;
+  for (const LikelihoodConfig& config : {none, grazing, wide}) {
+    const BeamBlocks blocks(storey, view, 1, config);
+    int alike = 0;
+    for (std::uint32_t i = 0; i < 1000; ++i) {
+      const Pose2 X_IH{center + 10.0 * Eigen::Vector2d(stream.uniform(2, i, 0) - 0.5, stream.uniform(2, i, 1) - 0.5),
+                       2.0 * std::numbers::pi * (stream.uniform(2, i, 2) - 0.5)};
+      const double alone = beam_log_likelihood(storey, X_IH, view, 1, config);
+      if (std::abs(blocks.log_likelihood(Stand(storey, X_IH, view)) - alone) < 0.02) ++alike;
+    }
+    EXPECT_GE(alike, 990);
+  }
 }
 
 TEST(BeamBlocks, WithoutBeamsNothingIsSaid) {
@@ -75,7 +99,8 @@ TEST(BeamBlocks, WithoutBeamsNothingIsSaid) {
   const StoreyIndex& storey = index.storeys.front();
   const View view;
   const LikelihoodConfig config;
-  EXPECT_EQ(BeamBlocks(storey, view, 6, config).log_likelihood({centroid(storey.rooms.front().polygon), 0.0}), 0.0);
+  const Stand stand(storey, {centroid(storey.rooms.front().polygon), 0.0}, view);
+  EXPECT_EQ(BeamBlocks(storey, view, 6, config).log_likelihood(stand), 0.0);
 }
 
 }  // namespace

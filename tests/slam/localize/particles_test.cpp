@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/slam/localize/house_plan.h"
@@ -82,6 +83,53 @@ TEST(Particles, TemperingKeepsAShareEffective) {
   const Reweighting weighting = reweight(particles, view, index, {}, {});
   EXPECT_LT(weighting.temper, 1.0);
   EXPECT_NEAR(weighting.effective, 0.1 * n, 0.01 * n);
+}
+
+TEST(Particles, TemperingTakesTheLargestExponentThatLeavesSoMany) {
+  const Stream stream(5, "slam.localize.init");
+  for (const std::uint32_t n : {1U, 6U, 4001U}) {
+    ParticleSet particles(n);
+    std::vector<double> logs;
+    for (std::uint32_t i = 0; i < n; ++i) {
+      // A third without weight: they walked through a wall, and nothing was looked up for them.
+      particles[i].weight = i % 3 == 2 ? 0.0 : 0.5 + stream.uniform(0, i, 0);
+      logs.push_back(i % 3 == 2 ? -1e300 : -300.0 * stream.uniform(0, i, 1));
+    }
+    normalise(particles);
+    const double top = *std::max_element(logs.begin(), logs.end());
+    const auto size = [&](double a) {
+      double sum = 0.0, squares = 0.0;
+      for (std::uint32_t i = 0; i < n; ++i) {
+        const double w = particles[i].weight * std::exp(a * (logs[i] - top));
+        sum += w;
+        squares += w * w;
+      }
+      return sum * sum / squares;
+    };
+    const double floor = 0.1 * n, a = temper(particles, logs, top, floor);
+    // Single precision: 1e-6 of an exponent of 50, in each weight.
+    EXPECT_GE(size(a), floor * (1.0 - 1e-4));
+    EXPECT_TRUE(a == 1.0 || size(a + 1e-3) <= floor * (1.0 + 1e-4));
+  }
+}
+
+TEST(Particles, WhoDiedStaysDead) {
+  const synthetic::House house = synthetic::corridor_house();
+  const PlanIndex index = corridor_index();
+  const View view = view_at(house, Pose::from_xyz_yaw({7.0, 1.1, 0.46}, 0.3));
+  ParticleSet particles = draw_start(index, {0.3, 0.05}, view, {}, 7, 1), without;
+  for (std::size_t i = 0; i < particles.size(); ++i)
+    if (i % 3 == 0)
+      particles[i].weight = 0.0;
+    else
+      without.push_back(particles[i]);
+  FilterConfig config;
+  config.ess_floor = 0.0;
+  static_cast<void>(reweight(particles, view, index, {}, config));
+  static_cast<void>(reweight(without, view, index, {}, config));
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < particles.size(); ++i)
+    EXPECT_NEAR(particles[i].weight, i % 3 == 0 ? 0.0 : without[next++].weight, 1e-12);
 }
 
 TEST(Particles, TheTruePlaceIsTheMostLikely) {

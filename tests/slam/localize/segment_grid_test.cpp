@@ -60,6 +60,26 @@ TEST(SegmentGrid, FindsTheFirstHitOfRandomRays) {
   EXPECT_GT(hits, 1000);
 }
 
+TEST(SegmentGrid, NothingStandsWithinTheClearance) {
+  const Stream stream(3, "slam.localize.init");
+  std::vector<PlanSegment> segments;
+  for (std::uint32_t i = 0; i < 40; ++i) segments.push_back(random_segment(stream, i));
+  const SegmentGrid grid(segments, 0.5);
+  int wide = 0;
+  for (std::uint32_t i = 0; i < 3000; ++i) {
+    const Eigen::Vector2d p(20.0 * stream.uniform(1, i, 0), 12.0 * stream.uniform(1, i, 1));
+    const int cell = grid.cell_at(p);
+    ASSERT_GE(cell, 0);
+    const double clearance = grid.clearance(cell);
+    wide += clearance > 0.2 ? 1 : 0;
+    for (const PlanSegment& segment : segments) {
+      const double s = std::clamp(segment.e.dot(p - segment.a), 0.0, segment.length);
+      EXPECT_GE((segment.a + s * segment.e - p).norm(), clearance);
+    }
+  }
+  EXPECT_GT(wide, 100);
+}
+
 TEST(SegmentGrid, CrossesADoorBelowItsHeadOnly) {
   PlanSegment wall;
   wall.length = 4.0;

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/localize/search.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/slam/localize/house_plan.h"
+#include "tests/slam/localize/house_view.h"
+
+namespace plumbline::slam {
+namespace {
+
+/// Share of particles with a twin at the same pose in the other set.
+double shared(const ParticleSet& a, const ParticleSet& b) {
+  double count = 0.0;
+  for (const LocalParticle& p : a)
+    for (const LocalParticle& q : b)
+      if (p.X_IH.t == q.X_IH.t) {
+        count += 1.0;
+        break;
+      }
+  return count / static_cast<double>(a.size());
+}
+
+TEST(PlanSearch, DrawsOtherNumbersAfterARestart) {
+  const synthetic::House house = synthetic::corridor_house();
+  const PlanIndex index = make_plan_index(synthetic::plan_of(house), "ground", {});
+  const View view = synthetic::standing_view(house, Pose::from_xyz_yaw({7.0, 1.1, 0.46}, 0.3), Pose{}).view;
+  PlanSearch search({}, 7), again({}, 7);
+  search.update(index, {}, view);
+  again.update(index, {}, view);
+  const ParticleSet first = search.particles();
+  ASSERT_FALSE(first.empty());
+  EXPECT_EQ(shared(first, again.particles()), 1.0);
+  search.restart();
+  search.update(index, {}, view);
+  EXPECT_EQ(shared(first, search.particles()), 0.0);
+}
+
+}  // namespace
+}  // namespace plumbline::slam
