@@ -125,26 +125,32 @@ Difference difference(Layer layer, const Block& from, const Block& to) {
   throw InternalError("a marginal prior holds keyframes and planes only");
 }
 
-/// Adds D_i^T B D_j to the block of H at (row_i, row_j). A pose's D moves translation and rotation each for itself, a
-/// plane's its normal and its offset, and the zeros between are left out.
+/// Rows of D in which its column `a` is not zero: a pose's D moves translation and rotation each for itself, a plane's
+/// its normal and its offset.
+struct Rows {
+  int first, end;
+};
+Rows moved_by(int a, int size) {
+  const int part = size == 3 ? 2 : 3;
+  return a < part ? Rows{0, part} : Rows{part, size};
+}
+
+/// Adds D_i^T B D_j to the block of H at (row_i, row_j).
 void add_between(const Difference& i, const Eigen::Ref<const Eigen::MatrixXd>& B, const Difference& j, int row_i,
                  int row_j, Eigen::MatrixXd& H) {
   const int n = static_cast<int>(i.d.size()), m = static_cast<int>(j.d.size());
   std::array<double, max_rows * max_rows> half{};  // D_i^T B, column by column
   for (int c = 0; c < m; ++c)
     for (int a = 0; a < n; ++a) {
-      const auto x = [&](int k) { return i.D(k, a) * B(k, c); };
-      half[static_cast<std::size_t>(c * n + a)] = n == 3  ? (a < 2 ? x(0) + x(1) : x(2))
-                                                  : a < 3 ? x(0) + x(2) + x(1)
-                                                          : x(4) + (x(3) + x(5));
+      const Rows rows = moved_by(a, n);
+      double& sum = half[static_cast<std::size_t>(c * n + a)];
+      for (int k = rows.first; k < rows.end; ++k) sum += i.D(k, a) * B(k, c);
     }
-  for (int b = 0; b < m; ++b)
-    for (int a = 0; a < n; ++a) {
-      const auto y = [&](int c) { return half[static_cast<std::size_t>(c * n + a)] * j.D(c, b); };
-      H(row_i + a, row_j + b) += m == 3  ? (b < 2 ? y(0) + y(1) : y(2))
-                                 : b < 3 ? y(0) + y(1) + y(2)
-                                         : y(3) + y(4) + y(5);
-    }
+  for (int b = 0; b < m; ++b) {
+    const Rows rows = moved_by(b, m);
+    for (int c = rows.first; c < rows.end; ++c)
+      for (int a = 0; a < n; ++a) H(row_i + a, row_j + b) += half[static_cast<std::size_t>(c * n + a)] * j.D(c, b);
+  }
 }
 
 /// Rows of the vertices that terms and prior touch: first those to eliminate, then those to keep.

@@ -42,6 +42,38 @@ void set_extent(const DeskewedScan& scan, const std::vector<std::uint32_t>& poin
   patch.p1_R = patch.centroid_R + s1 * axis;
 }
 
+/// What the lasers' own range offsets do to a wall, which all points of a laser share: standard deviations of its tilt,
+/// rad, and of its place at the centroid, m.
+struct LaserBias {
+  double tilt_rad = 0.0, offset_m = 0.0;
+};
+
+/// Least squares through points whose laser r is off by b_r turn a wall by sum_r b_r n_r h_r / sum_r n_r h_r^2, with
+/// n_r points at the mean height h_r above the centroid, and move it by sum_r b_r n_r / n.
+LaserBias laser_bias(const DeskewedScan& scan, const std::vector<std::uint32_t>& points, double gate,
+                     const PlaneObservation& patch, double laser_sigma_m) {
+  const Eigen::Vector3d up = plane_tangents(patch.plane_R.n).v;
+  std::vector<double> count(static_cast<std::size_t>(scan.rings), 0.0), height(count);
+  double spread = 0.0;
+  for (const std::uint32_t i : points) {
+    const Eigen::Vector3d& p = scan.point_R[i];
+    if (std::abs(patch.plane_R.distance(p)) > gate) continue;
+    const double h = up.dot(p - patch.centroid_R);
+    const std::size_t ring = i % count.size();
+    count[ring] += 1.0;
+    height[ring] += h;
+    spread += h * h;
+  }
+  double turn = 0.0, move = 0.0, n = 0.0;
+  for (std::size_t r = 0; r < count.size(); ++r) {
+    turn += height[r] * height[r];
+    move += count[r] * count[r];
+    n += count[r];
+  }
+  if (n == 0.0 || spread == 0.0) return {};
+  return {laser_sigma_m * std::sqrt(turn) / spread, laser_sigma_m * std::sqrt(move) / n};
+}
+
 }  // namespace
 
 std::optional<PlaneObservation> fit_patch(const DeskewedScan& scan, const std::vector<std::uint32_t>& points,
@@ -68,8 +100,12 @@ std::optional<PlaneObservation> fit_patch(const DeskewedScan& scan, const std::v
   set_extent(scan, points, config.max_distance_m, long_axis(patch.plane_R, moments), patch);
   const double length = std::max((patch.p1_R - patch.p0_R).norm(), config.min_length_m);
   const double turn = std::hypot(config.bias_floor_rad, config.bias_end_m / length);
+  const LaserBias lasers = config.laser_sigma_m > 0.0 && std::abs(patch.plane_R.n.z()) < 0.5
+                               ? laser_bias(scan, points, config.max_distance_m, patch, config.laser_sigma_m)
+                               : LaserBias{};
   patch.covariance = plane_covariance(moments, patch.plane_R, std::max(patch.rms_m, config.sigma_min_m),
-                                      {turn, config.bias_floor_tilt_rad, config.bias_floor_m});
+                                      {turn, std::hypot(config.bias_floor_tilt_rad, lasers.tilt_rad),
+                                       std::hypot(config.bias_floor_m, lasers.offset_m)});
   return patch;
 }
 

@@ -50,6 +50,7 @@ SGraphsPlusPaperConfig::SGraphsPlusPaperConfig() {
   map.min_neighbours = 0;
   reflections.remove = false;
   range_offsets.correct = false;
+  planes.laser_sigma_m = 0.0;
   floors.room_sigma_m = sigma(1e-4);
   loop.radius_m = 1.0;
   loop.min_walked_m = 3.0;

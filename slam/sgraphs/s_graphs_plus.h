@@ -55,7 +55,8 @@ struct SGraphsPlusConfig {
   double odometry_sigma_m = 0.006;  ///< of a step between keyframes, added
   double odometry_sigma_rad = 0.002;
   LidarOdometryConfig odometry;
-  PlaneDetectorConfig planes;
+  /// Twice the lasers' 11 mm: looks that share lasers err alike, and the graph takes each for itself.
+  PlaneDetectorConfig planes{.laser_sigma_m = 0.022};
   RansacConfig ransac;
   FitnessConfig fitness;
   WallLayerConfig walls;
