@@ -26,6 +26,7 @@ double cost(double range, double expected, double incidence, const ContestConfig
 
 /// Cost of beam i of the sweep, by the best of what it and its neighbours on the ring should meet.
 double beam_cost(const View& view, const Sight& sight, std::size_t i, const ContestConfig& config) {
+  if (sight.cost[i] >= 0.0) return sight.cost[i];
   const int columns = view.sweep_columns;
   const double range = view.sweep[i].range, step = 2.0 * std::numbers::pi / columns;
   const int aside = std::max(1, static_cast<int>(std::lround((config.edge_m / range + config.edge_rad) / step)));
@@ -35,7 +36,7 @@ double beam_cost(const View& view, const Sight& sight, std::size_t i, const Cont
     const auto k = static_cast<std::size_t>(row + (column + shift + columns) % columns);
     if (view.sweep[k].range > 0.0) best = std::min(best, cost(range, sight.expected[k], sight.incidence[k], config));
   }
-  return best;
+  return sight.cost[i] = best;
 }
 
 /// The beam ends at a leaf or pane in an opening of the plan, which says nothing of the place.
@@ -44,10 +45,22 @@ bool ends_in_opening(const View& view, const Sight& sight, const Beam& beam, con
                                             beam.range - config.opening_depth_m, beam.range + config.sigma_m);
 }
 
+Cause cause_of(const Sight& sight, std::size_t i, const View& view, const ContestConfig& config) {
+  const Beam& beam = view.sweep[i];
+  const int segment = sight.segment[i];
+  if (segment < 0) {
+    const PlanRay ray = ray_of(sight, view, beam);
+    const Eigen::Vector2d cell = ((ray.origin + beam.range * ray.direction) / config.thing_m).array().floor();
+    return {Cause::Kind::unplanned, static_cast<int>(cell.x()), static_cast<int>(cell.y())};
+  }
+  if (sight.expected[i] >= beam.range) return {Cause::Kind::before_face, segment};
+  return {Cause::Kind::not_built, sight.storey->segments[static_cast<std::size_t>(segment)].element};
+}
+
 }  // namespace
 
 Sight sight(const StoreyIndex& storey, const Pose2& X_IH, const View& view, const ContestConfig& config) {
-  Sight sight{&storey, X_IH, {}, {}, {}};
+  Sight sight{&storey, X_IH, {}, {}, {}, std::vector<double>(view.sweep.size(), -1.0)};
   sight.segment.assign(view.sweep.size(), -1);
   sight.expected.assign(view.sweep.size(), 0.0);
   sight.incidence.assign(view.sweep.size(), 1.0);
@@ -72,20 +85,13 @@ Sight sight(const StoreyIndex& storey, const Pose2& X_IH, const View& view, cons
   return sight;
 }
 
-void Objections::add(int segment, bool through, double log_likelihood) {
-  const auto i = static_cast<std::size_t>(2 * (segment + 1) + (through ? 1 : 0));
-  if (sums_.size() <= i) sums_.resize(i + 1, 0.0);
-  sums_[i] += log_likelihood;
-}
-
 void Objections::add(const Objections& more, double scale) {
-  if (sums_.size() < more.sums_.size()) sums_.resize(more.sums_.size(), 0.0);
-  for (std::size_t i = 0; i < more.sums_.size(); ++i) sums_[i] += scale * more.sums_[i];
+  for (const auto& [cause, sum] : more.sums_) sums_[cause] += scale * sum;
 }
 
 double Objections::total(double cap) const {
   double sum = 0.0;
-  for (const double one : sums_) sum += std::min(one, cap);
+  for (const auto& [cause, one] : sums_) sum += std::min(one, cap);
   return sum;
 }
 
@@ -101,7 +107,7 @@ Contest contest(const View& view, const Sight& a, const Sight& b, const ContestC
     const Sight& worse = gain > 0.0 ? b : a;
     if (worse.expected[i] > beam.range && ends_in_opening(view, worse, beam, config)) continue;
     Objections& against = gain > 0.0 ? result.against_b : result.against_a;
-    against.add(worse.segment[i], worse.expected[i] < beam.range, std::abs(gain));
+    against.add(cause_of(worse, i, view, config), std::abs(gain));
     result.ratio += gain;
   }
   return result;

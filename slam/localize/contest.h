@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <map>
 #include <vector>
 
 #include "bim/config/visit.h"
@@ -19,8 +20,9 @@ struct ContestConfig {
   double weight = 0.05;           ///< of one beam: neighbours share their errors, and so do views 0.2 m apart
   double edge_m = 0.05;           ///< an edge of the plan may stand this much to the side,
   double edge_rad = 0.0015;       ///< and this much in direction
-  double face_cap = 8.0;          ///< of all that one face says, however often it is seen: it may have been built
-                                  ///< elsewhere or not at all, and something may stand before it
+  double cause_cap = 8.0;         ///< of all that one cause explains, however often it is seen: a wall that was not
+                                  ///< built, something that stands before a face or where the plan has nothing
+  double thing_m = 1.0;           ///< size of such a thing where the plan has nothing
   double opening_depth_m = 0.35;  ///< a beam that ends this little behind a planned opening met its leaf or pane
 
   template <class V>
@@ -35,7 +37,10 @@ struct ContestConfig {
     v("weight", weight, Field{.doc = "of one beam; neighbours and near views share their errors", .min = 0});
     v("edge_m", edge_m, Field{.doc = "an edge of the plan may stand this much to the side", .min = 0});
     v("edge_rad", edge_rad, Field{.doc = "and this much in direction", .min = 0});
-    v("face_cap", face_cap, Field{.doc = "of all that one face says, however often it is seen", .min = 0});
+    v("cause_cap", cause_cap,
+      Field{.doc = "of all that one wall not built or one thing not planned explains, however often it is seen",
+            .min = 0});
+    v("thing_m", thing_m, Field{.doc = "size of a thing that stands where the plan has nothing", .min = 0.01});
     v("opening_depth_m", opening_depth_m,
       Field{.doc = "a beam that ends this little behind a planned opening met its leaf or pane", .min = 0});
   }
@@ -45,30 +50,40 @@ struct ContestConfig {
 struct Sight {
   const StoreyIndex* storey = nullptr;
   Pose2 X_IH;
-  std::vector<double> expected;   ///< horizontal range, m; where nothing is hit, how far was looked
-  std::vector<int> segment;       ///< hit, -1: none
-  std::vector<double> incidence;  ///< cosine at the face hit, at least min_incidence; 1 where nothing is hit
+  std::vector<double> expected;      ///< horizontal range, m; where nothing is hit, how far was looked
+  std::vector<int> segment;          ///< hit, -1: none
+  std::vector<double> incidence;     ///< cosine at the face hit, at least min_incidence; 1 where nothing is hit
+  mutable std::vector<double> cost;  ///< of what each beam met instead, once asked for; negative: not yet
 };
 [[nodiscard]] Sight sight(const StoreyIndex& storey, const Pose2& X_IH, const View& view, const ContestConfig& config);
 
-/// What speaks against a place, by the face of the plan that should have been met and by whether light went through it
-/// or was cut short before it.
+/// What a place would have to be wrong about for what was seen there, the least that it could be: a wall or solid that
+/// was not built, something before a face, something where the plan has nothing.
+struct Cause {
+  enum class Kind { not_built, before_face, unplanned };
+  Kind kind = Kind::unplanned;
+  int x = 0, y = 0;  ///< PlanSegment::element; segment; cell of ContestConfig::thing_m in I
+
+  friend auto operator<=>(const Cause&, const Cause&) = default;
+};
+
+/// What speaks against a place, by what would explain it.
 class Objections {
  public:
-  void add(int segment, bool through, double log_likelihood);
+  void add(const Cause& cause, double log_likelihood) { sums_[cause] += log_likelihood; }
   void add(const Objections& more, double scale);
   void clear() { sums_.clear(); }
-  /// No face counts for more than the cap.
+  /// No cause counts for more than the cap.
   [[nodiscard]] double total(double cap) const;
 
  private:
-  std::vector<double> sums_;  ///< by 2 (segment + 1) + through
+  std::map<Cause, double> sums_;
 };
 
 /// What one scan says of two places.
 struct Contest {
   Objections against_a, against_b;
-  double ratio = 0.0;  ///< log-likelihood ratio of a to b, no face capped
+  double ratio = 0.0;  ///< log-likelihood ratio of a to b, no cause capped
 };
 /// Only beams for which the two predict something else speak, so that clutter and a plan that is off say nothing where
 /// the places are alike. A beam next to an edge of the plan may meet either side of it.

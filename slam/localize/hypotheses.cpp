@@ -4,6 +4,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace plumbline::slam {
 
@@ -13,11 +14,14 @@ bool near(const Pose2& a, const Pose2& b, double near_m, double near_rad) {
   return (a.t - b.t).norm() <= near_m && std::abs(wrap_angle(a.yaw - b.yaw)) <= near_rad;
 }
 
-bool walks_through_wall(const StoreyIndex& storey, const Pose2& from, const Pose2& to, double body_height) {
+/// Adds the element of the plan that a step goes through, if any.
+void add_crossed(const StoreyIndex& storey, const Pose2& from, const Pose2& to, double body_height,
+                 std::vector<int>& elements) {
   const Eigen::Vector2d way = to.t - from.t;
-  if (way.norm() < 1e-6) return false;
+  if (way.norm() < 1e-6) return;
   const PlanRay ray{from.t, way.normalized(), storey.floor_z + body_height, 0.0};
-  return storey.grid.cast(storey.segments, ray, way.norm()).segment >= 0;
+  const int segment = storey.grid.cast(storey.segments, ray, way.norm()).segment;
+  if (segment >= 0) elements.push_back(storey.segments[static_cast<std::size_t>(segment)].element);
 }
 
 }  // namespace
@@ -25,22 +29,25 @@ bool walks_through_wall(const StoreyIndex& storey, const Pose2& from, const Pose
 void HypothesisSet::follow(const PlanIndex& index, const Pose2& u, const View& view) {
   history_.push_back({u, view});
   if (static_cast<int>(history_.size()) > config_.history) history_.pop_front();
-  agree_on_reference();
   std::vector<Look> looks;
   for (Candidate& candidate : candidates_) {
     const StoreyIndex& storey = index.storeys[static_cast<std::size_t>(candidate.storey)];
     const Pose2 moved = candidate.X_IH * u;
-    const double crossing = crossing_cost(index, storey, candidate.X_IH, moved);
+    Look look;
+    add_crossed(storey, candidate.X_IH, moved, index.config.body_height_m, look.crossed);
     const Refined refined = refine(storey, moved, view, likelihood_, follow_);
     candidate.X_IH = refined.X_IH;
     candidate.covariance = refined.covariance;
     note(agreement(storey, refined.X_IH, view, likelihood_, refine_), candidate);
-    looks.push_back({sight(storey, refined.X_IH, view, contest_), crossing});
-    // The first is the best so far, by which the others are judged.
-    if (looks.size() == 1) continue;
-    judge(view, looks.back(), looks.front(), candidate.held);
-    candidate.evidence = candidate.held.evidence(contest_.face_cap);
+    look.sight = sight(storey, refined.X_IH, view, contest_);
+    looks.push_back(std::move(look));
   }
+  for (std::size_t i = 0; i < candidates_.size(); ++i) {
+    if (i == reference_) continue;
+    judge(view, looks[i], looks[reference_], candidates_[i].held);
+    candidates_[i].evidence = candidates_[i].held.evidence(contest_.cause_cap);
+  }
+  agree_on_reference(index);
 }
 
 void HypothesisSet::adopt(const PlanIndex& index, const Clustering& clustering) {
@@ -55,35 +62,36 @@ void HypothesisSet::adopt(const PlanIndex& index, const Clustering& clustering) 
   if (covered < config_.covered_mass || count > config_.max_count) return;
   std::vector<Place> places;
   for (const PoseCluster& cluster : clustering.clusters)
-    if (cluster.mass >= config_.min_mass && cluster.compact) places.push_back({cluster.storey, cluster.mean});
+    if (cluster.mass >= config_.min_mass && cluster.compact &&
+        find({cluster.storey, cluster.mean}, config_.match_m, config_.match_rad) < 0)
+      places.push_back({cluster.storey, cluster.mean});
   adopt(index, places);
 }
 
 void HypothesisSet::adopt(const PlanIndex& index, const std::vector<Place>& places) {
   if (history_.empty()) return;
-  agree_on_reference();
   const View& view = history_.back().view;
   std::vector<Look> reference;
   for (const Place& place : places) {
-    if (find(place, config_.match_m, config_.match_rad) >= 0) continue;
+    if (find(place, config_.merge_m, config_.merge_rad) >= 0) continue;
     const StoreyIndex& storey = index.storeys[static_cast<std::size_t>(place.storey)];
-    const Refined refined = refine(storey, place.X_IH, view, likelihood_, refine_);
+    const Refined refined = refine(storey, place.X_IH, view, likelihood_, place.exact ? follow_ : refine_);
     const Place fitted{place.storey, refined.X_IH};
-    if (find(fitted, config_.match_m, config_.match_rad) >= 0) continue;
-    if (reference.empty() && !candidates_.empty())
-      reference = replay(index, {candidates_.front().storey, candidates_.front().X_IH}, {}).looks;
+    if (find(fitted, config_.merge_m, config_.merge_rad) >= 0) continue;
+    if (reference.empty() && !candidates_.empty()) reference = replay(index, candidates_[reference_].place(), {}).looks;
     Replay past = replay(index, fitted, reference);
     if (past.evidence < -config_.drop_ratio) continue;
-    past.held.base += candidates_.empty() ? 0.0 : candidates_.front().evidence;
-    const double evidence = past.held.evidence(contest_.face_cap);
-    candidates_.push_back({next_id_++, fitted.storey, fitted.X_IH, refined.covariance, std::move(past.held), evidence,
-                           0.0, 0, agreement(storey, fitted.X_IH, view, likelihood_, refine_)});
-    if (candidates_.size() == 1) reference_id_ = candidates_.front().id;
+    candidates_.push_back(
+        {next_id_++, fitted.storey, fitted.X_IH, refined.covariance, std::move(past.held), past.evidence, 0.0, 0, {}});
+    note_past(past.looks, candidates_.back());
     if (reference.empty()) reference = std::move(past.looks);
   }
+  agree_on_reference(index);
 }
 
 void HypothesisSet::settle() {
+  if (candidates_.empty()) return;
+  const Place reference = candidates_[reference_].place();
   std::stable_sort(candidates_.begin(), candidates_.end(),
                    [](const Candidate& a, const Candidate& b) { return a.evidence > b.evidence; });
   std::vector<Candidate> kept;
@@ -98,6 +106,8 @@ void HypothesisSet::settle() {
   for (Candidate& candidate : kept) sum += candidate.mass = std::exp(candidate.evidence - kept.front().evidence);
   for (Candidate& candidate : kept) candidate.mass /= sum;
   candidates_ = std::move(kept);
+  // The best, should it have been one with a place that was not kept.
+  reference_ = static_cast<std::size_t>(std::max(0, find(reference, config_.merge_m, config_.merge_rad)));
 }
 
 void HypothesisSet::impose(ParticleSet& particles, const Clustering& clustering, int quota, std::uint64_t seed,
@@ -143,12 +153,7 @@ void HypothesisSet::impose(ParticleSet& particles, const Clustering& clustering,
 void HypothesisSet::clear() {
   candidates_.clear();
   history_.clear();
-  reference_id_ = -1;
-}
-
-double HypothesisSet::crossing_cost(const PlanIndex& index, const StoreyIndex& storey, const Pose2& from,
-                                    const Pose2& to) const {
-  return walks_through_wall(storey, from, to, index.config.body_height_m) ? config_.crossing_cost : 0.0;
+  reference_ = 0;
 }
 
 void HypothesisSet::note(const Agreement& newest, Candidate& candidate) const {
@@ -156,12 +161,29 @@ void HypothesisSet::note(const Agreement& newest, Candidate& candidate) const {
   mean.inliers += config_.newest * (newest.inliers - mean.inliers);
   mean.through += config_.newest * (newest.through - mean.through);
   mean.through_one += config_.newest * (newest.through_one - mean.through_one);
-  const bool fits = mean.inliers >= config_.cluttered_inliers && mean.through_share() <= config_.cluttered_through;
-  candidate.fits = fits ? candidate.fits + 1 : std::max(0, candidate.fits - 2);
+  const bool fits =
+      mean.inliers >= config_.cluttered_inliers && mean.through_others_share() <= config_.cluttered_through;
+  candidate.fits = fits ? candidate.fits + 1 : std::max(config_.least_fits, candidate.fits - 2);
+}
+
+void HypothesisSet::note_past(const std::vector<Look>& looks, Candidate& candidate) const {
+  const auto stride = static_cast<std::size_t>(config_.replay_stride);
+  for (std::size_t k = looks.size(); k-- > 0;) {
+    const View& view = history_[history_.size() - 1 - k * stride].view;
+    const Sight& sight = looks[k].sight;
+    const Agreement seen = agreement(*sight.storey, sight.X_IH, view, likelihood_, refine_);
+    if (k + 1 == looks.size()) candidate.agreement = seen;
+    for (int i = 0; i < looks[k].views; ++i) note(seen, candidate);
+  }
 }
 
 void HypothesisSet::judge(const View& view, const Look& look, const Look& reference, Case& held) const {
-  held.base += reference.crossing_cost - look.crossing_cost;
+  const auto add_crossings = [&](const std::vector<int>& more, const std::vector<int>& than, Objections& objections) {
+    for (std::size_t i = than.size(); i < more.size(); ++i)
+      objections.add({Cause::Kind::not_built, more[i]}, config_.crossing_cost);
+  };
+  add_crossings(look.crossed, reference.crossed, held.against);
+  add_crossings(reference.crossed, look.crossed, held.for_it);
   const Contest said = contest(view, look.sight, reference.sight, contest_);
   const double size = std::abs(said.ratio);
   if (size <= config_.indifference) return;
@@ -170,10 +192,18 @@ void HypothesisSet::judge(const View& view, const Look& look, const Look& refere
   held.for_it.add(said.against_b, scale);
 }
 
-void HypothesisSet::agree_on_reference() {
-  if (candidates_.empty() || candidates_.front().id == reference_id_) return;
-  reference_id_ = candidates_.front().id;
-  for (Candidate& candidate : candidates_) candidate.held = {candidate.evidence, {}, {}};
+void HypothesisSet::agree_on_reference(const PlanIndex& index) {
+  const auto best = std::max_element(candidates_.begin(), candidates_.end(),
+                                     [](const Candidate& a, const Candidate& b) { return a.evidence < b.evidence; });
+  if (best == candidates_.end() || best->evidence <= candidates_[reference_].evidence + config_.overtaking) return;
+  reference_ = static_cast<std::size_t>(best - candidates_.begin());
+  const std::vector<Look> looks = replay(index, best->place(), {}).looks;
+  for (Candidate& candidate : candidates_) {
+    Replay past;
+    if (&candidate != &*best) past = replay(index, candidate.place(), looks);
+    candidate.held = std::move(past.held);
+    candidate.evidence = past.evidence;
+  }
 }
 
 HypothesisSet::Replay HypothesisSet::replay(const PlanIndex& index, const Place& place,
@@ -181,24 +211,24 @@ HypothesisSet::Replay HypothesisSet::replay(const PlanIndex& index, const Place&
   const StoreyIndex& storey = index.storeys[static_cast<std::size_t>(place.storey)];
   Pose2 X = place.X_IH;
   Replay past;
-  double crossing = 0.0;
+  std::vector<int> crossed;
   const auto stride = static_cast<std::size_t>(config_.replay_stride);
   for (std::size_t back = 0; back < history_.size(); ++back) {
     const Step& step = history_[history_.size() - 1 - back];
     const bool looks = back % stride == 0;
     if (looks) X = refine(storey, X, step.view, likelihood_, follow_).X_IH;
     const Pose2 before = X * step.u.inverse();
-    crossing += crossing_cost(index, storey, before, X);
+    add_crossed(storey, before, X, index.config.body_height_m, crossed);
     if (looks) {
-      const auto views = static_cast<double>(std::min(stride, history_.size() - back));
-      past.looks.push_back({sight(storey, X, step.view, contest_), crossing, views});
-      crossing = 0.0;
+      const int views = static_cast<int>(std::min(stride, history_.size() - back));
+      past.looks.push_back({sight(storey, X, step.view, contest_), std::move(crossed), views});
+      crossed.clear();
     }
     X = before;
     const std::size_t k = past.looks.size() - 1;
     if (!looks || k >= reference.size()) continue;
     judge(step.view, past.looks[k], reference[k], past.held);
-    past.evidence = past.held.evidence(contest_.face_cap);
+    past.evidence = past.held.evidence(contest_.cause_cap);
     if (past.evidence < -config_.drop_ratio) break;
   }
   return past;

@@ -24,12 +24,14 @@ struct HypothesisConfig {
   double indifference = 0.1;        ///< of what a view says, not counted: a beam or two at an edge of the plan
   double step_cap = 6.0;            ///< most that one view says against a hypothesis
   double crossing_cost = 3.0;       ///< against one that walks through a wall: may be a door jamb and noise
-  double drop_ratio = 15.0;         ///< log-ratio to the best below which a hypothesis is dropped
+  double overtaking = 1.0;          ///< log-ratio by which a place must lead the one that all are held against
+  double drop_ratio = 25.0;         ///< log-ratio to the best below which a hypothesis is dropped: three causes
   int history = 240;                ///< views kept to judge a hypothesis that turns up later; 50 m of way
   int replay_stride = 3;            ///< of these views, one in so many is looked at, for all of them
   double newest = 0.15;             ///< weight of the newest view in the agreement with the last ones
   double cluttered_inliers = 0.30;  ///< share of beams that meet their face where much stands before the walls,
   double cluttered_through = 0.10;  ///< and share of those that go through one, of both
+  int least_fits = -18;             ///< of a candidate: so long is it held against it that views did not fit
   double stray_mass = 0.01;         ///< left to particles of no hypothesis
 
   template <class V>
@@ -47,6 +49,8 @@ struct HypothesisConfig {
     v("step_cap", step_cap, Field{.doc = "most that one view says against a hypothesis", .min = 0});
     v("crossing_cost", crossing_cost,
       Field{.doc = "against one that walks through a wall: may be a door jamb and noise", .min = 0});
+    v("overtaking", overtaking,
+      Field{.doc = "log-ratio by which a place must lead the one that all are held against", .min = 0});
     v("drop_ratio", drop_ratio, Field{.doc = "log-ratio to the best below which a hypothesis is dropped", .min = 0});
     v("history", history,
       Field{.doc = "views kept to judge a hypothesis that turns up later; 50 m of way", .min = 1, .max = 10000});
@@ -58,18 +62,17 @@ struct HypothesisConfig {
       Field{.doc = "share of beams that meet their face where much stands before the walls", .min = 0, .max = 1});
     v("cluttered_through", cluttered_through,
       Field{.doc = "and share of those that go through one, of both", .min = 0, .max = 1});
+    v("least_fits", least_fits,
+      Field{.doc = "of a candidate: so long is it held against it that views did not fit", .max = 0});
     v("stray_mass", stray_mass, Field{.doc = "left to particles of no hypothesis", .min = 0, .max = 1});
   }
 };
 
 /// What views said of a place and of another one that it was held against.
 struct Case {
-  double base = 0.0;  ///< log-likelihood ratio that no face of the plan answers for
   Objections against, for_it;
 
-  [[nodiscard]] double evidence(double face_cap) const {
-    return base + for_it.total(face_cap) - against.total(face_cap);
-  }
+  [[nodiscard]] double evidence(double cause_cap) const { return for_it.total(cause_cap) - against.total(cause_cap); }
 };
 
 /// A place the robot may be in, followed by itself.
@@ -78,11 +81,13 @@ struct Candidate {
   int storey = 0;
   Pose2 X_IH;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();
-  Case held;              ///< what its comparison with the best place brought up
-  double evidence = 0.0;  ///< accumulated log-likelihood ratio; only differences between candidates mean something
+  Case held;              ///< what its comparison with the reference brought up
+  double evidence = 0.0;  ///< log-likelihood ratio to the reference, whose own is 0
   double mass = 0.0;      ///< share by evidence
   int fits = 0;           ///< views that fit behind clutter, less twice those that do not
   Agreement agreement;    ///< with the last views, the newest with weight HypothesisConfig::newest
+
+  [[nodiscard]] Place place() const { return {storey, X_IH}; }
 };
 
 /// Places followed one by one. The evidence of a place is what every view says for it and against the best place so
@@ -108,7 +113,10 @@ class HypothesisSet {
               std::uint64_t tick) const;
   void clear();
   /// Keeps the views.
-  void forget_places() { candidates_.clear(); }
+  void forget_places() {
+    candidates_.clear();
+    reference_ = 0;
+  }
 
   [[nodiscard]] const std::vector<Candidate>& candidates() const { return candidates_; }  ///< by mass, then id
 
@@ -117,25 +125,26 @@ class HypothesisSet {
     Pose2 u;  ///< motion that led to this view
     View view;
   };
-  /// What the plan shows at a place for one view, and what the step that led there costs.
+  /// What the plan shows at a place for one view.
   struct Look {
     Sight sight;
-    double crossing_cost = 0.0;
-    double views = 1.0;  ///< that it stands for
+    std::vector<int> crossed;  ///< elements of the plan that the way here goes through
+    int views = 1;             ///< that it stands for
   };
   struct Replay {
     std::vector<Look> looks;  ///< newest first
     Case held;                ///< against the reference
     double evidence = 0.0;    ///< of the case
   };
-  [[nodiscard]] double crossing_cost(const PlanIndex& index, const StoreyIndex& storey, const Pose2& from,
-                                     const Pose2& to) const;
   /// Takes in how well the newest view agrees with the plan.
   void note(const Agreement& newest, Candidate& candidate) const;
+  /// The same for all views kept.
+  void note_past(const std::vector<Look>& looks, Candidate& candidate) const;
   /// Adds what one view says for a place against the reference.
   void judge(const View& view, const Look& look, const Look& reference, Case& held) const;
-  /// Opens all cases anew once the first candidate is another one.
-  void agree_on_reference();
+  /// Holds all candidates against the best by all views kept, once that is another one: what speaks for one place
+  /// against another cannot be told from what speaks for each against a third.
+  void agree_on_reference(const PlanIndex& index);
   /// The kept views along the odometry back from the pose at the last one, held against the reference (when there is
   /// one). Stops once the evidence has fallen below the drop ratio.
   [[nodiscard]] Replay replay(const PlanIndex& index, const Place& place, const std::vector<Look>& reference) const;
@@ -149,7 +158,7 @@ class HypothesisSet {
   std::vector<Candidate> candidates_;
   std::deque<Step> history_;
   int next_id_ = 0;
-  int reference_id_ = -1;  ///< candidate that the others were held against
+  std::size_t reference_ = 0;  ///< candidate that the others are held against
 };
 
 }  // namespace plumbline::slam

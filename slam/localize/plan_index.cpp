@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <string>
 #include <tuple>
 
 #include "bim/errors.h"
@@ -72,29 +74,55 @@ PlanSegment segment_in_I(const bim::PlanFace& face, int index, const Pose2& X_IW
   return segment;
 }
 
+/// Numbers of the walls and solids of a plan, in the order asked for.
+class Elements {
+ public:
+  [[nodiscard]] int of_wall(const bim::PlanFace& face) {
+    if (face.wall_id.empty()) return next();
+    return of_wall_.try_emplace(face.wall_id, count_).second ? next() : of_wall_.at(face.wall_id);
+  }
+  [[nodiscard]] int next() { return count_++; }
+
+ private:
+  std::map<std::string, int> of_wall_;
+  int count_ = 0;
+};
+
+/// Calls each element by its first segment.
+void number_elements(std::vector<PlanSegment>& segments) {
+  std::map<int, int> first;
+  for (std::size_t i = 0; i < segments.size(); ++i)
+    segments[i].element = first.try_emplace(segments[i].element, static_cast<int>(i)).first->second;
+}
+
 /// Faces and sides of solids that stand between floor and ceiling, ordered by geometry, so that the order in the plan
 /// does not matter.
 std::vector<PlanSegment> storey_segments(const bim::Plan& plan, const Pose& X_WI, double floor_z, double ceiling_z) {
   const Pose2 X_IW = heading(X_WI).inverse();
   std::vector<PlanSegment> segments;
-  const auto add = [&](PlanSegment segment) {
+  Elements elements;
+  const auto add = [&](PlanSegment segment, int element) {
+    segment.element = element;
     if (segment.z0 < ceiling_z - sliver_m && segment.z1 > floor_z + sliver_m) segments.push_back(std::move(segment));
   };
   for (std::size_t i = 0; i < plan.faces.size(); ++i)
     if ((plan.faces[i].p1 - plan.faces[i].p0).norm() >= 1e-3)
-      add(segment_in_I(plan.faces[i], static_cast<int>(i), X_IW, X_WI.t.z()));
-  for (const bim::PlanSolid& solid : plan.solids)
+      add(segment_in_I(plan.faces[i], static_cast<int>(i), X_IW, X_WI.t.z()), elements.of_wall(plan.faces[i]));
+  for (const bim::PlanSolid& solid : plan.solids) {
+    const int element = elements.next();
     for (std::size_t i = 0; i < solid.outline.size(); ++i) {
       // Free space is on the right of a counter-clockwise outline.
       const Eigen::Vector2d &p1 = solid.outline[i], &p0 = solid.outline[(i + 1) % solid.outline.size()];
       if ((p1 - p0).norm() < 1e-3) continue;
-      add(upright(p0, p1, solid.z0, solid.z1, X_IW, X_WI.t.z()));
+      add(upright(p0, p1, solid.z0, solid.z1, X_IW, X_WI.t.z()), element);
     }
+  }
   const auto key = [](const PlanSegment& s) {
     return std::make_tuple(s.a.x(), s.a.y(), s.e.x(), s.e.y(), s.length, s.z0, s.z1, s.plan_face < 0);
   };
   std::stable_sort(segments.begin(), segments.end(),
                    [&](const PlanSegment& a, const PlanSegment& b) { return key(a) < key(b); });
+  number_elements(segments);
   return segments;
 }
 

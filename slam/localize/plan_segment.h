@@ -13,6 +13,7 @@ namespace plumbline::slam {
 /// A wall face, or a side of a column or the like, as a vertical rectangle with holes, in the plan-fixed frame I.
 struct PlanSegment {
   int plan_face = -1;  ///< index into Plan::faces, -1: side of a solid, which is no wall
+  int element = -1;    ///< lowest index of a segment of the same wall or solid
   int line = -1;       ///< WallLine it is part of, -1: none
   Eigen::Vector2d a = Eigen::Vector2d::Zero();
   Eigen::Vector2d e = Eigen::Vector2d::UnitX();  ///< unit, along the face

@@ -82,8 +82,8 @@ std::vector<Place> propose_places(const PlanIndex& index, const StartBelief& bel
             const double turn = storey.lines[static_cast<std::size_t>(b)].azimuth - azimuth;
             if (std::abs(wrap_angle(turn - corner)) > config.angle_tolerance) continue;
             if (const auto X_IH = pose_at(storey, view, u, a, v, b, likelihood))
-              scored.push_back(
-                  {{static_cast<int>(s), *X_IH}, beam_log_likelihood(storey, *X_IH, view, beam_stride, likelihood)});
+              scored.push_back({{static_cast<int>(s), *X_IH, true},
+                                beam_log_likelihood(storey, *X_IH, view, beam_stride, likelihood)});
           }
         }
       }

@@ -14,8 +14,8 @@ struct ProposalConfig {
   double corner_min_sin = 0.5;    ///< of the angle between the two
   double angle_tolerance = 0.06;  ///< rad, between what is seen and planned
   double yaw_tolerance = 0.3;     ///< rad, from the told yaw
-  int count = 64;                 ///< most places
-  double gap_m = 0.5;             ///< between them
+  int count = 96;                 ///< most places
+  double gap_m = 0.3;             ///< between them
   double gap_rad = 0.35;
 
   template <class V>
@@ -33,6 +33,7 @@ struct ProposalConfig {
 struct Place {
   int storey = 0;
   Pose2 X_IH;
+  bool exact = false;  ///< but for noise and the plan's tolerance; else as near as particles lie
 };
 
 /// Every place from which two of the walls seen are two walls of the plan, best first by the beams. Two walls that are

@@ -20,6 +20,25 @@ struct NormalEquations {
   }
 };
 
+/// What the beams found at each wall or solid of the plan.
+class Met {
+ public:
+  explicit Met(const StoreyIndex& storey) : storey_(storey), ends_(storey.segments.size(), 0) {}
+
+  void add(const BeamResidual& residual, double gate) {
+    if (residual.segment >= 0 && residual.across > -gate) ends_[element(residual)] += residual.across <= gate ? 1 : -1;
+  }
+  /// Not where more light goes through it than ends at it: what ends there then is something else.
+  [[nodiscard]] bool stands(const BeamResidual& residual) const { return ends_[element(residual)] > 0; }
+
+ private:
+  [[nodiscard]] std::size_t element(const BeamResidual& residual) const {
+    return static_cast<std::size_t>(storey_.segments[static_cast<std::size_t>(residual.segment)].element);
+  }
+  const StoreyIndex& storey_;
+  std::vector<int> ends_;
+};
+
 /// Distances of the beams' ends to the faces they should meet, linearised in (x, y, yaw).
 NormalEquations beam_equations(const StoreyIndex& storey, const Pose2& X_IH, const View& view, double gate,
                                const LikelihoodConfig& likelihood) {
@@ -29,9 +48,16 @@ NormalEquations beam_equations(const StoreyIndex& storey, const Pose2& X_IH, con
   const int cell = storey.grid.cell_at(sensor_I);
   // The share of evidence of a beam keeps its errors from being averaged away as if they were independent.
   const double information = likelihood.beam_weight / (likelihood.beam_sigma_m * likelihood.beam_sigma_m);
+  std::vector<BeamResidual> residuals;
+  Met met(storey);
   for (const Beam& beam : view.beams) {
-    const BeamResidual residual = beam_residual(storey, sensor_I, cell, R_IH, beam, view.sensor_height, likelihood);
-    if (residual.segment < 0 || std::abs(residual.across) > gate) continue;
+    residuals.push_back(beam_residual(storey, sensor_I, cell, R_IH, beam, view.sensor_height, likelihood));
+    met.add(residuals.back(), gate);
+  }
+  for (std::size_t i = 0; i < view.beams.size(); ++i) {
+    const Beam& beam = view.beams[i];
+    const BeamResidual& residual = residuals[i];
+    if (residual.segment < 0 || std::abs(residual.across) > gate || !met.stands(residual)) continue;
     const PlanSegment& segment = storey.segments[static_cast<std::size_t>(residual.segment)];
     if (segment.n.dot(R_IH * beam.direction_H) >= 0.0) continue;  // the back of a face stands for a jamb
     const Eigen::Vector2d arm = R_IH * (view.sensor_H + beam.range * beam.direction_H);

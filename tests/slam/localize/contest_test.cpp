@@ -62,18 +62,58 @@ TEST_P(ContestAt, AColumnTellsItsRoomFromTheOther) {
   EXPECT_GT(missed, 1.2 * seen);
 }
 
-TEST(Objections, NoFaceCountsForMoreThanTheCap) {
+TEST(Objections, NoCauseCountsForMoreThanTheCap) {
+  const Cause wall{Cause::Kind::not_built, 3}, before{Cause::Kind::before_face, 3}, thing{Cause::Kind::unplanned, 3, 1};
   Objections objections, more;
-  for (int i = 0; i < 10; ++i) objections.add(3, true, 1.0);
-  objections.add(3, false, 1.0);
-  objections.add(-1, false, 2.0);
+  for (int i = 0; i < 10; ++i) objections.add(wall, 1.0);
+  objections.add(before, 1.0);
+  objections.add(thing, 2.0);
   EXPECT_EQ(objections.total(100.0), 13.0);
   EXPECT_EQ(objections.total(4.0), 7.0);
-  more.add(8, true, 6.0);
+  more.add({Cause::Kind::unplanned, 3, 2}, 6.0);
   objections.add(more, 0.5);
   EXPECT_EQ(objections.total(4.0), 10.0);
   objections.clear();
   EXPECT_EQ(objections.total(4.0), 0.0);
+}
+
+// Nothing of the plan is in the way out there, so everything seen is something else that it does not show.
+TEST(Contest, OutsideOfThePlanEachThingSeenNeedsACauseOfItsOwn) {
+  const synthetic::House house = synthetic::one_room();
+  const PlanIndex index = make_plan_index(synthetic::plan_of(house), "ground", {});
+  const StoreyIndex& storey = index.storeys.front();
+  const Pose X_WR = Pose::from_xyz_yaw({2.0, 1.5, 0.46}, 0.4);
+  const View view = synthetic::standing_view(house, X_WR, Pose{}).view;
+  const Pose2 X_IH = heading(index.X_WI.inverse() * X_WR);
+  Pose2 outside = X_IH;
+  outside.t += Eigen::Vector2d(60.0, 40.0);
+  const ContestConfig config;
+  const Contest said = contest(view, sight(storey, X_IH, view, config), sight(storey, outside, view, config), config);
+  EXPECT_EQ(said.against_a.total(config.cause_cap), 0.0);
+  // The four walls, 20 m long, pass through 20 cells of 1 m or more; a cell that few beams end in says less.
+  EXPECT_GT(said.against_b.total(config.cause_cap), 10.0 * config.cause_cap);
+}
+
+// Both faces of it have been looked through, from either side.
+TEST(Contest, AWallThatWasNotBuiltIsOneCauseFromBothSides) {
+  const synthetic::House built = synthetic::one_room(8.0, 4.0);
+  synthetic::House planned = built;
+  planned.boxes.push_back({{3.9, 0.0, 0.0}, {4.1, 4.0, 2.8}});
+  const PlanIndex with = make_plan_index(synthetic::plan_of(planned), "ground", {}),
+                  without = make_plan_index(synthetic::plan_of(built), "ground", {});
+  const ContestConfig config;
+  Objections against;
+  for (const double x : {2.0, 6.0}) {
+    const Pose X_WR = Pose::from_xyz_yaw({x, 1.7, 0.46}, 0.1);
+    const View view = synthetic::standing_view(built, X_WR, Pose{}).view;
+    const Sight sees_it = sight(with.storeys.front(), heading(with.X_WI.inverse() * X_WR), view, config),
+                sees_none = sight(without.storeys.front(), heading(without.X_WI.inverse() * X_WR), view, config);
+    const Contest said = contest(view, sees_it, sees_none, config);
+    EXPECT_EQ(said.against_b.total(config.cause_cap), 0.0);
+    EXPECT_GT(said.against_a.total(1e9), config.cause_cap);
+    against.add(said.against_a, 1.0);
+  }
+  EXPECT_NEAR(against.total(config.cause_cap), config.cause_cap, 0.5);
 }
 
 INSTANTIATE_TEST_SUITE_P(Places, ContestAt, testing::Range(0, 6));

@@ -23,6 +23,7 @@ void expect_equal_tables(const PlanIndex& a, const PlanIndex& b) {
       EXPECT_EQ(x.segments[i].a, y.segments[i].a);
       EXPECT_EQ(x.segments[i].e, y.segments[i].e);
       EXPECT_EQ(x.segments[i].line, y.segments[i].line);
+      EXPECT_EQ(x.segments[i].element, y.segments[i].element);
     }
     EXPECT_EQ(x.visible, y.visible);
     EXPECT_EQ(x.floor_z, y.floor_z);
@@ -48,6 +49,20 @@ TEST(PlanIndex, DoesNotDependOnTheOrderOfFaces) {
   const PlanIndex index = make_plan_index(plan, "ground", {});
   std::reverse(plan.faces.begin(), plan.faces.end());
   expect_equal_tables(index, make_plan_index(plan, "ground", {}));
+}
+
+TEST(PlanIndex, FacesOfAWallAreOneElement) {
+  const bim::Plan plan = synthetic::plan_of(synthetic::corridor_house());
+  const StoreyIndex storey = make_plan_index(plan, "ground", {}).storeys.front();
+  const auto wall_of = [&](const PlanSegment& s) { return plan.faces[static_cast<std::size_t>(s.plan_face)].wall_id; };
+  for (std::size_t i = 0; i < storey.segments.size(); ++i) {
+    const PlanSegment &segment = storey.segments[i],
+                      &first = storey.segments.at(static_cast<std::size_t>(segment.element));
+    EXPECT_LE(segment.element, static_cast<int>(i));
+    EXPECT_EQ(wall_of(segment), wall_of(first));
+    for (std::size_t k = 0; k < i; ++k)
+      EXPECT_EQ(wall_of(storey.segments[k]) == wall_of(segment), storey.segments[k].element == segment.element);
+  }
 }
 
 TEST(PlanIndex, JoinsAWallAcrossItsDoorIntoOneLine) {

@@ -45,6 +45,20 @@ TEST(Refine, FindsBackFromRandomOffsets) {
   }
 }
 
+// A planned wall that is not there, and crates a hand behind where it should be, which few beams end at.
+TEST(Refine, AWallThatMostLightGoesThroughHoldsNothing) {
+  const synthetic::House room = synthetic::one_room(8.0, 4.0);
+  synthetic::House planned = room, built = room;
+  planned.boxes.push_back({{3.0, 0.0, 0.0}, {3.1, 4.0, 2.8}});
+  for (const double y : {0.3, 1.9, 3.3}) built.boxes.push_back({{3.12, y, 0.0}, {3.5, y + 0.35, 1.0}});
+  const PlanIndex index = make_plan_index(synthetic::plan_of(planned), "ground", {});
+  const Pose X_WR = Pose::from_xyz_yaw({1.2, 2.1, 0.46}, 0.3);
+  const View view = synthetic::standing_view(built, X_WR, Pose{}).view;
+  const Pose2 X_IH = heading(index.X_WI.inverse() * X_WR);
+  const Refined refined = refine(index.storeys.front(), X_IH, view, {}, {});
+  EXPECT_LT((refined.X_IH.t - X_IH.t).norm(), 0.01);
+}
+
 TEST(Refine, AgreementTellsTheTruePlaceFromAWrongOne) {
   const Place place = place_at(Pose::from_xyz_yaw({3.1, 0.9, 0.46}, 0.3));
   const StoreyIndex& storey = place.index.storeys.front();
