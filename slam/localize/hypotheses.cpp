@@ -91,12 +91,14 @@ void HypothesisSet::adopt(const PlanIndex& index, const std::vector<Place>& plac
 
 void HypothesisSet::settle() {
   if (candidates_.empty()) return;
-  const Place reference = candidates_[reference_].place();
+  const Candidate reference = candidates_[reference_];
   std::stable_sort(candidates_.begin(), candidates_.end(),
                    [](const Candidate& a, const Candidate& b) { return a.evidence > b.evidence; });
   std::vector<Candidate> kept;
   for (const Candidate& candidate : candidates_) {
-    if (candidate.evidence < candidates_.front().evidence - config_.drop_ratio) break;
+    // The one that all are held against stays until they are held against another.
+    const bool hopeless = candidate.evidence < candidates_.front().evidence - config_.drop_ratio;
+    if (hopeless && candidate.id != reference.id) continue;
     const bool known = std::any_of(kept.begin(), kept.end(), [&](const Candidate& other) {
       return other.storey == candidate.storey && near(other.X_IH, candidate.X_IH, config_.merge_m, config_.merge_rad);
     });
@@ -106,8 +108,11 @@ void HypothesisSet::settle() {
   for (Candidate& candidate : kept) sum += candidate.mass = std::exp(candidate.evidence - kept.front().evidence);
   for (Candidate& candidate : kept) candidate.mass /= sum;
   candidates_ = std::move(kept);
-  // The best, should it have been one with a place that was not kept.
-  reference_ = static_cast<std::size_t>(std::max(0, find(reference, config_.merge_m, config_.merge_rad)));
+  const auto kept_as =
+      std::find_if(candidates_.begin(), candidates_.end(), [&](const Candidate& c) { return c.id == reference.id; });
+  reference_ = static_cast<std::size_t>(kept_as != candidates_.end()
+                                            ? kept_as - candidates_.begin()
+                                            : find(reference.place(), config_.merge_m, config_.merge_rad));
 }
 
 void HypothesisSet::impose(ParticleSet& particles, const Clustering& clustering, int quota, std::uint64_t seed,

@@ -152,6 +152,26 @@ TEST(Hypotheses, OnlyTheDirectComparisonCounts) {
   EXPECT_LT(set.candidates()[2].evidence, -5.0);
 }
 
+// The first is far behind the second, against which nothing has been held yet.
+TEST(Hypotheses, ThePlaceThatAllAreHeldAgainstIsKeptUntilTheyAreHeldAgainstAnother) {
+  const TwinScene scene = twin_scene();
+  HypothesisConfig config;
+  config.overtaking = 1e6;
+  config.drop_ratio = 5.0;
+  HypothesisSet set(config, {}, {}, {});
+  set.follow(scene.index, scene.u[0], scene.views[0]);
+  Pose2 off = scene.here;
+  off.t += off.rotation() * Eigen::Vector2d(0.9, 0.6);
+  set.adopt(scene.index, std::vector<Place>{{0, off, true}});
+  set.adopt(scene.index, std::vector<Place>{{0, scene.here, true}});
+  set.settle();
+  ASSERT_EQ(set.candidates().size(), 2U);
+  EXPECT_GT(set.candidates()[0].evidence, config.drop_ratio);
+  EXPECT_EQ(set.candidates()[1].evidence, 0.0);
+  set.follow(scene.index, scene.u[1], scene.views[1]);
+  EXPECT_EQ(set.candidates()[1].evidence, 0.0);
+}
+
 TEST(Hypotheses, ImposeGivesEachPlaceItsMassAndBringsBackTheLost) {
   const TwinScene scene = twin_scene();
   HypothesisSet set({}, {}, {}, {});
