@@ -35,6 +35,27 @@ TwinScene twin_scene() {
   return scene;
 }
 
+/// Follows the true place through all views, then adopts its twin.
+void follow_and_adopt_twin(const TwinScene& scene, HypothesisSet& set) {
+  set.follow(scene.index, scene.u[0], scene.views[0]);
+  set.adopt(scene.index, std::vector<Place>{{0, scene.here}});
+  for (std::size_t i = 1; i < scene.views.size(); ++i) set.follow(scene.index, scene.u[i], scene.views[i]);
+  Pose2 twin = scene.there;
+  for (std::size_t i = 1; i < scene.views.size(); ++i) twin = twin * scene.u[i];
+  set.adopt(scene.index, std::vector<Place>{{0, twin}});
+}
+
+/// Adopts a place near the true one first and then others, at the first view.
+void adopt_after_a_wrong_one(const TwinScene& scene, const Eigen::Vector2d& off_H, const std::vector<Place>& others,
+                             HypothesisSet& set) {
+  set.follow(scene.index, scene.u[0], scene.views[0]);
+  Pose2 off = scene.here;
+  off.t += off.rotation() * off_H;
+  set.adopt(scene.index, std::vector<Place>{{0, off, true}});
+  set.adopt(scene.index, others);
+  set.settle();
+}
+
 TEST(Hypotheses, TwinsKeepEqualSharesAndOthersDie) {
   const TwinScene scene = twin_scene();
   HypothesisSet set({}, {}, {}, {});
@@ -53,12 +74,7 @@ TEST(Hypotheses, TwinsKeepEqualSharesAndOthersDie) {
 TEST(Hypotheses, APlaceThatTurnsUpLateIsJudgedByTheWholeHistory) {
   const TwinScene scene = twin_scene();
   HypothesisSet set({}, {}, {}, {});
-  set.follow(scene.index, scene.u[0], scene.views[0]);
-  set.adopt(scene.index, std::vector<Place>{{0, scene.here}});
-  for (std::size_t i = 1; i < scene.views.size(); ++i) set.follow(scene.index, scene.u[i], scene.views[i]);
-  Pose2 twin = scene.there;
-  for (std::size_t i = 1; i < scene.views.size(); ++i) twin = twin * scene.u[i];
-  set.adopt(scene.index, std::vector<Place>{{0, twin}});
+  follow_and_adopt_twin(scene, set);
   set.settle();
   ASSERT_EQ(set.candidates().size(), 2U);
   EXPECT_NEAR(set.candidates()[0].mass, 0.5, 1e-6);
@@ -94,12 +110,7 @@ TEST(Hypotheses, APlaceThatTurnsUpLateFitsAsOftenAsOneFollowedAllTheWay) {
   HypothesisConfig config;
   config.replay_stride = 1;
   HypothesisSet set(config, {}, {}, {});
-  set.follow(scene.index, scene.u[0], scene.views[0]);
-  set.adopt(scene.index, std::vector<Place>{{0, scene.here}});
-  for (std::size_t i = 1; i < scene.views.size(); ++i) set.follow(scene.index, scene.u[i], scene.views[i]);
-  Pose2 twin = scene.there;
-  for (std::size_t i = 1; i < scene.views.size(); ++i) twin = twin * scene.u[i];
-  set.adopt(scene.index, std::vector<Place>{{0, twin}});
+  follow_and_adopt_twin(scene, set);
   ASSERT_EQ(set.candidates().size(), 2U);
   EXPECT_EQ(set.candidates()[0].fits, static_cast<int>(scene.views.size()));
   EXPECT_EQ(set.candidates()[1].fits, static_cast<int>(scene.views.size()));
@@ -125,12 +136,7 @@ TEST(Hypotheses, APlaceHalfAMetreFromAKnownOneIsTriedToo) {
   HypothesisConfig config;
   config.drop_ratio = 1e6;
   HypothesisSet set(config, {}, {}, {});
-  set.follow(scene.index, scene.u[0], scene.views[0]);
-  Pose2 off = scene.here;
-  off.t += off.rotation() * Eigen::Vector2d(0.4, 0.4);
-  set.adopt(scene.index, std::vector<Place>{{0, off, true}});
-  set.adopt(scene.index, std::vector<Place>{{0, scene.here, true}});
-  set.settle();
+  adopt_after_a_wrong_one(scene, {0.4, 0.4}, {{0, scene.here, true}}, set);
   ASSERT_EQ(set.candidates().size(), 2U);
   EXPECT_LT((set.candidates()[0].X_IH.t - scene.here.t).norm(), 0.1);
 }
@@ -141,12 +147,7 @@ TEST(Hypotheses, OnlyTheDirectComparisonCounts) {
   HypothesisConfig config;
   config.drop_ratio = 1e6;
   HypothesisSet set(config, {}, {}, {});
-  set.follow(scene.index, scene.u[0], scene.views[0]);
-  Pose2 off = scene.here;
-  off.t += off.rotation() * Eigen::Vector2d(0.9, 0.6);
-  set.adopt(scene.index, std::vector<Place>{{0, off, true}});
-  set.adopt(scene.index, std::vector<Place>{{0, scene.here, true}, {0, scene.there, true}});
-  set.settle();
+  adopt_after_a_wrong_one(scene, {0.9, 0.6}, {{0, scene.here, true}, {0, scene.there, true}}, set);
   ASSERT_EQ(set.candidates().size(), 3U);
   EXPECT_EQ(set.candidates()[0].evidence, set.candidates()[1].evidence);
   EXPECT_LT(set.candidates()[2].evidence, -5.0);
@@ -159,12 +160,7 @@ TEST(Hypotheses, ThePlaceThatAllAreHeldAgainstIsKeptUntilTheyAreHeldAgainstAnoth
   config.overtaking = 1e6;
   config.drop_ratio = 5.0;
   HypothesisSet set(config, {}, {}, {});
-  set.follow(scene.index, scene.u[0], scene.views[0]);
-  Pose2 off = scene.here;
-  off.t += off.rotation() * Eigen::Vector2d(0.9, 0.6);
-  set.adopt(scene.index, std::vector<Place>{{0, off, true}});
-  set.adopt(scene.index, std::vector<Place>{{0, scene.here, true}});
-  set.settle();
+  adopt_after_a_wrong_one(scene, {0.9, 0.6}, {{0, scene.here, true}}, set);
   ASSERT_EQ(set.candidates().size(), 2U);
   EXPECT_GT(set.candidates()[0].evidence, config.drop_ratio);
   EXPECT_EQ(set.candidates()[1].evidence, 0.0);
