@@ -89,21 +89,10 @@ BeamBlocks::Hits BeamBlocks::meet(const Block& block, const Sensor& sensor) cons
   for (int sector = first; sector <= last; sector += FaceSectors::wide) {
     const FaceSectors::Entry* entry = storey_.sectors.list(sensor.cell, sector % FaceSectors::per_turn);
     for (; open(entry->from) != 0 && entry->segment >= 0; ++entry) {
-      const FaceSectors::Face& face = storey_.sectors.face(entry->segment);
-      const Float4 ax = face.ax - px, ay = face.ay - py;
-      const Float4 across = face.nx * x + face.ny * y;
-      const Float4 t = (face.nx * ax + face.ny * ay) / across;
-      const Float4 s = t * (face.ex * x + face.ey * y) - (face.ex * ax + face.ey * ay);
-      const Float4 z = sensor.z + t * block.slope;
-      Mask4 hit = (t > 1e-9F) & (t < distance) & (s >= 0.0F) & (s <= face.whole.s1) & (z >= face.whole.z0) &
-                  (z <= face.whole.z1);
-      if (lanes(hit) == 0) continue;
-      for (int i = face.first_hole; i < face.last_hole; ++i) {
-        const FaceSectors::Window& hole = storey_.sectors.holes()[static_cast<std::size_t>(i)];
-        hit &= ~((s > hole.s0) & (s < hole.s1) & (z > hole.z0) & (z < hole.z1));
-      }
-      distance = choose(hit, t, distance);
-      incidence = choose(hit, across, incidence);
+      const FaceSectors::Meeting met =
+          storey_.sectors.meet(storey_.sectors.face(entry->segment), px, py, sensor.z, x, y, block.slope, distance);
+      distance = choose(met.hit, met.t, distance);
+      incidence = choose(met.hit, met.across, incidence);
     }
     if (entry->segment < 0) far |= open(entry->from);
   }

@@ -46,14 +46,22 @@ struct ContestConfig {
   }
 };
 
-/// What the plan has in the way of each beam of View::sweep at one pose.
+/// What the plan has in the way of four beams.
+struct SightBlock {
+  Float4 expected = all(0.0F);    ///< horizontal range, m; where nothing is hit, how far was looked
+  Float4 incidence = all(1.0F);   ///< cosine at the face hit, at least min_incidence; 1 where nothing is hit
+  Mask4 segment{-1, -1, -1, -1};  ///< hit, -1: none
+};
+
+/// What the plan has in the way of each beam of View::sweep at one pose. In single precision: 0.01 mm in a plan of
+/// 100 m.
 struct Sight {
   const StoreyIndex* storey = nullptr;
-  Pose2 X_IH;
-  std::vector<double> expected;      ///< horizontal range, m; where nothing is hit, how far was looked
-  std::vector<int> segment;          ///< hit, -1: none
-  std::vector<double> incidence;     ///< cosine at the face hit, at least min_incidence; 1 where nothing is hit
-  mutable std::vector<double> cost;  ///< of what each beam met instead, once asked for; negative: not yet
+  Eigen::Matrix2d R_IH = Eigen::Matrix2d::Identity();
+  Eigen::Vector2d sensor_I = Eigen::Vector2d::Zero();
+  int cell = -1;                     ///< of the storey's grid, with the sensor
+  std::vector<SightBlock> blocks;    ///< as those of the sweep
+  mutable std::vector<Float4> cost;  ///< of what the beams met instead, once asked for; negative: not yet
 };
 [[nodiscard]] Sight sight(const StoreyIndex& storey, const Pose2& X_IH, const View& view, const ContestConfig& config);
 

@@ -29,6 +29,13 @@ class FaceSectors {
   /// As FirstFaces::Entry, but the last of a list has the least distance up to which one of its rays is complete.
   using Entry = FirstFaces::Entry;
 
+  /// Where four rays meet a face.
+  struct Meeting {
+    Mask4 hit;      ///< outside of its holes, nearer than what is to be beaten
+    Float4 t;       ///< distance of its plane, m
+    Float4 across;  ///< cosine between ray and normal
+  };
+
   FaceSectors() = default;
   /// Empty where first_faces is.
   FaceSectors(const std::vector<PlanSegment>& segments, const FirstFaces& first_faces, int cells);
@@ -43,7 +50,22 @@ class FaceSectors {
     return complete_[static_cast<std::size_t>(cell * FirstFaces::fans_per_turn + FirstFaces::fan_of(direction))];
   }
   [[nodiscard]] const Face& face(int segment) const { return faces_[static_cast<std::size_t>(segment)]; }
-  [[nodiscard]] const std::vector<Window>& holes() const { return holes_; }
+  /// (x, y): unit directions; all start at (px, py), height z.
+  [[nodiscard]] Meeting meet(const Face& face, Float4 px, Float4 py, float z, Float4 x, Float4 y, Float4 slope,
+                             Float4 nearest) const {
+    const Float4 ax = face.ax - px, ay = face.ay - py;
+    const Float4 across = face.nx * x + face.ny * y;
+    const Float4 t = (face.nx * ax + face.ny * ay) / across;
+    const Float4 s = t * (face.ex * x + face.ey * y) - (face.ex * ax + face.ey * ay);
+    const Float4 height = z + t * slope;
+    Mask4 hit = (t > 1e-9F) & (t < nearest) & (s >= 0.0F) & (s <= face.whole.s1) & (height >= face.whole.z0) &
+                (height <= face.whole.z1);
+    for (int i = face.first_hole; i < face.last_hole && lanes(hit) != 0; ++i) {
+      const Window& hole = holes_[static_cast<std::size_t>(i)];
+      hit &= ~((s > hole.s0) & (s < hole.s1) & (height > hole.z0) & (height < hole.z1));
+    }
+    return {hit, t, across};
+  }
 
  private:
   std::vector<Face> faces_;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "slam/localize/plan_segment.h"
@@ -62,6 +63,21 @@ class FirstFaces {
       keep_nearest(segments[static_cast<std::size_t>(i)], i, ray, best);
     }
     return true;
+  }
+
+  /// Whether the ray passes through a hole of a face between two horizontal distances; none where the list does not
+  /// reach far enough.
+  [[nodiscard]] std::optional<bool> crosses_opening(const std::vector<PlanSegment>& segments, int cell,
+                                                    const PlanRay& ray, double from, double to) const {
+    if (first_.empty()) return std::nullopt;
+    for (const Entry* entry = list(cell, fan_of(ray.direction)); static_cast<double>(entry->from) <= to; ++entry) {
+      if (entry->segment < 0) return std::nullopt;
+      const PlanSegment& segment = segments[static_cast<std::size_t>(entry->segment)];
+      if (segment.holes.empty()) continue;
+      const double t = plane_distance(segment, ray);
+      if (t > from && t <= to && part_at(segment, ray, t) == FacePart::hole) return true;
+    }
+    return false;
   }
 
   /// No ray from the cell meets a face before.

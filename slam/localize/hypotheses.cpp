@@ -29,22 +29,23 @@ void add_crossed(const StoreyIndex& storey, const Pose2& from, const Pose2& to, 
 void HypothesisSet::follow(const PlanIndex& index, const Pose2& u, const View& view) {
   history_.push_back({u, view});
   if (static_cast<int>(history_.size()) > config_.history) history_.pop_front();
-  std::vector<Look> looks;
-  for (Candidate& candidate : candidates_) {
+  const auto carry = [&](Candidate& candidate) {
     const StoreyIndex& storey = index.storeys[static_cast<std::size_t>(candidate.storey)];
     const Pose2 moved = candidate.X_IH * u;
     Look look;
     add_crossed(storey, candidate.X_IH, moved, index.config.body_height_m, look.crossed);
     const Refined refined = refine(storey, moved, view, likelihood_, follow_);
-    candidate.X_IH = refined.X_IH;
+    candidate.X_IH = look.X_IH = refined.X_IH;
     candidate.covariance = refined.covariance;
     note(agreement(storey, refined.X_IH, view, likelihood_, refine_), candidate);
     look.sight = sight(storey, refined.X_IH, view, contest_);
-    looks.push_back(std::move(look));
-  }
+    return look;
+  };
+  if (candidates_.empty()) return;
+  const Look reference = carry(candidates_[reference_]);
   for (std::size_t i = 0; i < candidates_.size(); ++i) {
     if (i == reference_) continue;
-    judge(view, looks[i], looks[reference_], candidates_[i].held);
+    judge(view, carry(candidates_[i]), reference, candidates_[i].held);
     candidates_[i].evidence = candidates_[i].held.evidence(contest_.cause_cap);
   }
   agree_on_reference(index);
@@ -83,7 +84,7 @@ void HypothesisSet::adopt(const PlanIndex& index, const std::vector<Place>& plac
     if (past.evidence < -config_.drop_ratio) continue;
     candidates_.push_back(
         {next_id_++, fitted.storey, fitted.X_IH, refined.covariance, std::move(past.held), past.evidence, 0.0, 0, {}});
-    note_past(past.looks, candidates_.back());
+    note_past(storey, past.looks, candidates_.back());
     if (reference.empty()) reference = std::move(past.looks);
   }
   agree_on_reference(index);
@@ -171,12 +172,11 @@ void HypothesisSet::note(const Agreement& newest, Candidate& candidate) const {
   candidate.fits = fits ? candidate.fits + 1 : std::max(config_.least_fits, candidate.fits - 2);
 }
 
-void HypothesisSet::note_past(const std::vector<Look>& looks, Candidate& candidate) const {
+void HypothesisSet::note_past(const StoreyIndex& storey, const std::vector<Look>& looks, Candidate& candidate) const {
   const auto stride = static_cast<std::size_t>(config_.replay_stride);
   for (std::size_t k = looks.size(); k-- > 0;) {
     const View& view = history_[history_.size() - 1 - k * stride].view;
-    const Sight& sight = looks[k].sight;
-    const Agreement seen = agreement(*sight.storey, sight.X_IH, view, likelihood_, refine_);
+    const Agreement seen = agreement(storey, looks[k].X_IH, view, likelihood_, refine_);
     if (k + 1 == looks.size()) candidate.agreement = seen;
     for (int i = 0; i < looks[k].views; ++i) note(seen, candidate);
   }
@@ -226,13 +226,14 @@ HypothesisSet::Replay HypothesisSet::replay(const PlanIndex& index, const Place&
     add_crossed(storey, before, X, index.config.body_height_m, crossed);
     if (looks) {
       const int views = static_cast<int>(std::min(stride, history_.size() - back));
-      past.looks.push_back({sight(storey, X, step.view, contest_), std::move(crossed), views});
+      past.looks.push_back({X, sight(storey, X, step.view, contest_), std::move(crossed), views});
       crossed.clear();
     }
     X = before;
     const std::size_t k = past.looks.size() - 1;
     if (!looks || k >= reference.size()) continue;
     judge(step.view, past.looks[k], reference[k], past.held);
+    past.looks[k].sight = {};
     past.evidence = past.held.evidence(contest_.cause_cap);
     if (past.evidence < -config_.drop_ratio) break;
   }

@@ -127,7 +127,8 @@ class HypothesisSet {
   };
   /// What the plan shows at a place for one view.
   struct Look {
-    Sight sight;
+    Pose2 X_IH;
+    Sight sight;               ///< of the reference; of others none, once held against it
     std::vector<int> crossed;  ///< elements of the plan that the way here goes through
     int views = 1;             ///< that it stands for
   };
@@ -139,7 +140,7 @@ class HypothesisSet {
   /// Takes in how well the newest view agrees with the plan.
   void note(const Agreement& newest, Candidate& candidate) const;
   /// The same for all views kept.
-  void note_past(const std::vector<Look>& looks, Candidate& candidate) const;
+  void note_past(const StoreyIndex& storey, const std::vector<Look>& looks, Candidate& candidate) const;
   /// Adds what one view says for a place against the reference.
   void judge(const View& view, const Look& look, const Look& reference, Case& held) const;
   /// Holds all candidates against the best by all views kept, once that is another one: what speaks for one place

@@ -21,7 +21,8 @@ std::uint64_t digest_of(const View& view) {
   Digest digest;
   digest.add(view.X_OR).add(view.sensor_height);
   for (const Beam& beam : view.beams) digest.add(beam.direction_H).add(beam.range).add(beam.slope);
-  for (const Beam& beam : view.sweep) digest.add(beam.range);
+  for (const SweepBlock& block : view.sweep.blocks)
+    for (std::size_t k = 0; k < 4; ++k) digest.add(static_cast<double>(block.range[k]));
   for (const WallView& wall : view.walls) digest.add(wall.azimuth).add(wall.distance).add(wall.s0).add(wall.s1);
   return digest.value();
 }

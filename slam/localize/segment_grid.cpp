@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace plumbline::slam {
 
@@ -92,8 +93,10 @@ PlanHit SegmentGrid::search(const std::vector<PlanSegment>& segments, const Plan
   return best;
 }
 
-bool SegmentGrid::crosses_opening(const std::vector<PlanSegment>& segments, const PlanRay& ray, double from,
-                                  double to) const {
+bool SegmentGrid::crosses_opening(const std::vector<PlanSegment>& segments, const PlanRay& ray, double from, double to,
+                                  int cell) const {
+  if (cell >= 0)
+    if (const std::optional<bool> crosses = near_.crosses_opening(segments, cell, ray, from, to)) return *crosses;
   const PlanRay rest{ray.origin + from * ray.direction, ray.direction, ray.z + from * ray.slope, ray.slope};
   bool found = false;
   march(

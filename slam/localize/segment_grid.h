@@ -29,7 +29,11 @@ class SegmentGrid {
   }
   /// Whether the ray passes through a hole of a face between two horizontal distances.
   [[nodiscard]] bool crosses_opening(const std::vector<PlanSegment>& segments, const PlanRay& ray, double from,
-                                     double to) const;
+                                     double to) const {
+    return crosses_opening(segments, ray, from, to, cell_at(ray.origin));
+  }
+  [[nodiscard]] bool crosses_opening(const std::vector<PlanSegment>& segments, const PlanRay& ray, double from,
+                                     double to, int cell) const;
   /// Index of the cell with p, or -1 outside of the grid.
   [[nodiscard]] int cell_at(const Eigen::Vector2d& p) const { return frame_.at(p); }
   /// Distance that no ray from a cell meets a face before.

@@ -54,16 +54,25 @@ std::vector<Beam> pick_beams(const DeskewedScan& scan, const View& view, const V
   return beams;
 }
 
-std::vector<Beam> sweep_of(const DeskewedScan& scan, const View& view, int columns, const ViewConfig& config) {
+Sweep sweep_of(const DeskewedScan& scan, const View& view, const ViewConfig& config) {
+  constexpr int wide = 4;
+  Sweep sweep{std::min(config.sweep_columns, scan.columns), {}};
   const int rings = std::min(config.sweep_rings, scan.rings);
-  std::vector<Beam> sweep(static_cast<std::size_t>(rings) * static_cast<std::size_t>(columns));
-  for (int r = 0; r < rings; ++r)
-    for (int c = 0; c < columns; ++c) {
-      const int column = static_cast<int>(static_cast<long>(c) * scan.columns / columns);
-      const auto i = static_cast<std::size_t>(column * scan.rings + r * scan.rings / rings);
-      if (scan.range_m[i] <= 0.0) continue;
-      if (const std::optional<Beam> beam = beam_to(scan.point_R[i], view, scan.X_RL.t, config))
-        sweep[static_cast<std::size_t>(r * columns + c)] = *beam;
+  for (int first = 0; first < rings; first += wide)
+    for (int c = 0; c < sweep.columns; ++c) {
+      const int column = static_cast<int>(static_cast<long>(c) * scan.columns / sweep.columns);
+      SweepBlock& block = sweep.blocks.emplace_back();
+      for (int r = first; r < std::min(first + wide, rings); ++r) {
+        const auto i = static_cast<std::size_t>(column * scan.rings + r * scan.rings / rings);
+        if (scan.range_m[i] <= 0.0) continue;
+        const std::optional<Beam> beam = beam_to(scan.point_R[i], view, scan.X_RL.t, config);
+        if (!beam) continue;
+        const auto k = static_cast<std::size_t>(r - first);
+        block.x[k] = static_cast<float>(beam->direction_H.x());
+        block.y[k] = static_cast<float>(beam->direction_H.y());
+        block.range[k] = static_cast<float>(beam->range);
+        block.slope[k] = static_cast<float>(beam->slope);
+      }
     }
   return sweep;
 }
@@ -103,8 +112,7 @@ View make_view(const DeskewedScan& scan, const std::vector<PlaneObservation>& pl
   const std::optional<double> height_R = height_over_floor(planes, view.q_HR, config.floor_max_tilt_rad);
   view.sensor_height = height_R ? *height_R + sensor_H.z() : calibration.sensor_height_m;
   view.beams = pick_beams(scan, view, config);
-  view.sweep_columns = std::min(config.sweep_columns, scan.columns);
-  view.sweep = sweep_of(scan, view, view.sweep_columns, config);
+  view.sweep = sweep_of(scan, view, config);
   for (std::size_t i = 0; i < planes.size() && view.walls.size() < max_walls; ++i) {
     std::optional<WallView> wall = wall_view(planes[i], view, scan.X_RL.t, config);
     if (!wall) continue;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bim/config/visit.h"
+#include "slam/localize/float4.h"
 #include "slam/localize/pose2.h"
 #include "slam/odometry/motion.h"
 #include "slam/planes/detect.h"
@@ -48,6 +49,19 @@ struct Beam {
   double slope = 0.0;                                      ///< rise per horizontal metre
 };
 
+/// Returns of four rings at one step of the turn; seen like a Beam.
+struct SweepBlock {
+  Float4 x = all(1.0F), y = all(0.0F);  ///< unit directions in H
+  Float4 range = all(0.0F);             ///< horizontal, m; 0: no return
+  Float4 slope = all(0.0F);             ///< rise per horizontal metre
+};
+
+/// Returns spread evenly over turn and rings.
+struct Sweep {
+  int columns = 0;
+  std::vector<SweepBlock> blocks;  ///< four rings after four rings, in each by the turn
+};
+
 /// A wall patch seen from the sensor, in H [BIM-Loc eq. 3, as (n, d) with n towards the sensor].
 struct WallView {
   double azimuth = 0.0;         ///< of the normal, rad
@@ -70,8 +84,7 @@ struct View {
   Eigen::Vector2d sensor_H = Eigen::Vector2d::Zero();  ///< position of L
   double sensor_height = 0.0;                          ///< of L above the floor, m
   std::vector<Beam> beams;                             ///< by azimuth of the sweep
-  int sweep_columns = 0;
-  std::vector<Beam> sweep;      ///< evenly over turn and rings, ring * sweep_columns + column; range 0: no return
+  Sweep sweep;
   std::vector<WallView> walls;  ///< in the order of the observations (largest first), at most max_walls
 };
 
