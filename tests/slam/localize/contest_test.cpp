@@ -62,6 +62,38 @@ TEST_P(ContestAt, AColumnTellsItsRoomFromTheOther) {
   EXPECT_GT(missed, 1.2 * seen);
 }
 
+TEST_P(ContestAt, ASightIsWhatTheGridGivesBeamByBeam) {
+  const synthetic::House house = synthetic::corridor_house();
+  const PlanIndex index = make_plan_index(synthetic::plan_of(house), "ground", {});
+  const StoreyIndex& storey = index.storeys.front();
+  Pose X_WR = somewhere();
+  X_WR.t.y() *= 0.6;  // in the corridor
+  const View view = synthetic::standing_view(house, X_WR, Pose{}).view;
+  const Pose2 X_IH = heading(index.X_WI.inverse() * X_WR);
+  const ContestConfig config;
+  const Sight seen = sight(storey, X_IH, view, config);
+  const double z = storey.floor_z + view.sensor_height;
+  int beams = 0, others = 0;
+  for (std::size_t i = 0; i < view.sweep.blocks.size(); ++i)
+    for (std::size_t k = 0; k < 4; ++k) {
+      const SweepBlock& block = view.sweep.blocks[i];
+      if (block.range[k] <= 0.0F) continue;
+      const PlanRay ray{X_IH * view.sensor_H, X_IH.rotation() * Eigen::Vector2d(block.x[k], block.y[k]), z,
+                        block.slope[k]};
+      double reach = block.range[k] + 2.0;
+      if (ray.slope < 0.0) reach = std::min(reach, -view.sensor_height / ray.slope);
+      if (ray.slope > 0.0) reach = std::min(reach, (storey.ceiling_z - z) / ray.slope);
+      const PlanHit hit = storey.grid.cast(storey.segments, ray, reach);
+      ++beams;
+      // Single precision within 20 m of the origin, and a beam that grazes an edge may go to either side of it.
+      const bool same = seen.blocks[i].segment[k] == hit.segment &&
+                        std::abs(static_cast<double>(seen.blocks[i].expected[k]) - hit.distance) < 1e-4;
+      others += same ? 0 : 1;
+    }
+  EXPECT_GT(beams, 4000);
+  EXPECT_LE(others, beams / 1000);
+}
+
 TEST(Objections, NoCauseCountsForMoreThanTheCap) {
   const Cause wall{Cause::Kind::not_built, 3}, before{Cause::Kind::before_face, 3}, thing{Cause::Kind::unplanned, 3, 1};
   Objections objections, more;

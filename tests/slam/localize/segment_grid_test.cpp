@@ -9,6 +9,8 @@
 #include <numbers>
 
 #include "bim/random/stream.h"
+#include "slam/localize/plan_index.h"
+#include "tests/slam/localize/house_plan.h"
 
 namespace plumbline::slam {
 namespace {
@@ -95,6 +97,26 @@ TEST(SegmentGrid, CrossesADoorBelowItsHeadOnly) {
   EXPECT_FALSE(grid.crosses_opening(segments, {{2.0, -1.0}, ahead, 1.0, 0.0}, 1.1, 3.0));
   EXPECT_FALSE(grid.crosses_opening(segments, {{2.0, -1.0}, ahead, 2.5, 0.0}, 0.8, 1.1));
   EXPECT_FALSE(grid.crosses_opening(segments, {{1.0, -1.0}, ahead, 1.0, 0.0}, 0.8, 1.1));
+}
+
+TEST(SegmentGrid, ListsOfFirstFacesFindTheOpeningsThatTheMarchFinds) {
+  const PlanIndex index = make_plan_index(synthetic::plan_of(synthetic::corridor_house()), "ground", {});
+  std::vector<PlanSegment> segments = index.storeys.front().segments;
+  for (PlanSegment& segment : segments)
+    if (segment.length > 2.0) segment.holes.push_back({0.5, 1.4, 0.0, 2.0});
+  const SegmentGrid grid(segments, 0.5);
+  const Stream stream(4, "slam.localize.init");
+  int crossing = 0;
+  for (std::uint32_t i = 0; i < 3000; ++i) {
+    const int cell = static_cast<int>(stream.uniform(0, i, 0) * grid.cells());
+    const double angle = 6.28 * stream.uniform(0, i, 1), from = 6.0 * stream.uniform(0, i, 2);
+    const Eigen::Vector2d off(stream.uniform(0, i, 3) - 0.5, stream.uniform(0, i, 4) - 0.5);
+    const PlanRay ray{grid.cell_center(cell) + 0.49 * off, {std::cos(angle), std::sin(angle)}, 0.7, 0.02};
+    const bool marched = grid.crosses_opening(segments, ray, from, from + 0.4, -1);
+    EXPECT_EQ(grid.crosses_opening(segments, ray, from, from + 0.4), marched) << i;
+    crossing += marched ? 1 : 0;
+  }
+  EXPECT_GT(crossing, 50);
 }
 
 TEST(SegmentGrid, OfEqualDistancesTheLowestIndexWins) {
