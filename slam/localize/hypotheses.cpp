@@ -10,10 +10,6 @@ namespace plumbline::slam {
 
 namespace {
 
-bool near(const Pose2& a, const Pose2& b, double near_m, double near_rad) {
-  return (a.t - b.t).norm() <= near_m && std::abs(wrap_angle(a.yaw - b.yaw)) <= near_rad;
-}
-
 /// Adds the element of the plan that a step goes through, if any.
 void add_crossed(const StoreyIndex& storey, const Pose2& from, const Pose2& to, double body_height,
                  std::vector<int>& elements) {
@@ -101,7 +97,8 @@ void HypothesisSet::settle() {
     const bool hopeless = candidate.evidence < candidates_.front().evidence - config_.drop_ratio;
     if (hopeless && candidate.id != reference.id) continue;
     const bool known = std::any_of(kept.begin(), kept.end(), [&](const Candidate& other) {
-      return other.storey == candidate.storey && near(other.X_IH, candidate.X_IH, config_.merge_m, config_.merge_rad);
+      return other.storey == candidate.storey &&
+             is_near(other.X_IH, candidate.X_IH, config_.merge_m, config_.merge_rad);
     });
     if (!known) kept.push_back(candidate);
   }
@@ -164,9 +161,7 @@ void HypothesisSet::clear() {
 
 void HypothesisSet::note(const Agreement& newest, Candidate& candidate) const {
   Agreement& mean = candidate.agreement;
-  mean.inliers += config_.newest * (newest.inliers - mean.inliers);
-  mean.through += config_.newest * (newest.through - mean.through);
-  mean.through_one += config_.newest * (newest.through_one - mean.through_one);
+  mean.take_in(newest, config_.newest);
   const bool fits =
       mean.inliers >= config_.cluttered_inliers && mean.through_others_share() <= config_.cluttered_through;
   candidate.fits = fits ? candidate.fits + 1 : std::max(config_.least_fits, candidate.fits - 2);
@@ -242,7 +237,7 @@ HypothesisSet::Replay HypothesisSet::replay(const PlanIndex& index, const Place&
 
 int HypothesisSet::find(const Place& place, double near_m, double near_rad) const {
   for (std::size_t i = 0; i < candidates_.size(); ++i)
-    if (candidates_[i].storey == place.storey && near(candidates_[i].X_IH, place.X_IH, near_m, near_rad))
+    if (candidates_[i].storey == place.storey && is_near(candidates_[i].X_IH, place.X_IH, near_m, near_rad))
       return static_cast<int>(i);
   return -1;
 }

@@ -24,6 +24,10 @@ struct Pose2 {
   [[nodiscard]] Pose2 inverse() const { return {-(rotation().transpose() * t), wrap_angle(-yaw)}; }
 };
 
+[[nodiscard]] inline bool is_near(const Pose2& a, const Pose2& b, double near_m, double near_rad) {
+  return (a.t - b.t).norm() <= near_m && std::abs(wrap_angle(a.yaw - b.yaw)) <= near_rad;
+}
+
 /// Heading frame of a 3D pose: its position in the horizontal plane and its yaw.
 [[nodiscard]] inline Pose2 heading(const Pose& X_AB) { return {X_AB.t.head<2>(), X_AB.yaw()}; }
 

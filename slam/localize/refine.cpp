@@ -101,18 +101,15 @@ Agreement agreement(const StoreyIndex& storey, const Pose2& X_IH, const View& vi
   const Eigen::Vector2d sensor_I = R_IH * view.sensor_H + X_IH.t;
   const int cell = storey.grid.cell_at(sensor_I);
   int near = 0, through = 0, through_one = 0;
-  // By line, faces that are part of none by themselves.
-  std::vector<int> through_wall(storey.lines.size() + storey.segments.size(), 0);
+  std::vector<int> through_element(storey.segments.size(), 0);
   for (const Beam& beam : view.beams) {
     const BeamResidual residual = beam_residual(storey, sensor_I, cell, R_IH, beam, view.sensor_height, likelihood);
     if (std::abs(residual.across) <= config.inlier_m) ++near;
     if (residual.across <= config.inlier_m) continue;
     ++through;
     if (residual.segment < 0) continue;
-    const auto segment = static_cast<std::size_t>(residual.segment);
-    const int line = storey.segments[segment].line;
-    const std::size_t wall = line >= 0 ? static_cast<std::size_t>(line) : storey.lines.size() + segment;
-    through_one = std::max(through_one, ++through_wall[wall]);
+    const int element = storey.segments[static_cast<std::size_t>(residual.segment)].element;
+    through_one = std::max(through_one, ++through_element[static_cast<std::size_t>(element)]);
   }
   const double count = std::max<double>(1.0, static_cast<double>(view.beams.size()));
   return {near / count, through / count, through_one / count};

@@ -46,7 +46,7 @@ struct Refined {
 struct Agreement {
   double inliers = 0.0;      ///< share of beams that end within inlier_m of the face they should meet
   double through = 0.0;      ///< share that goes through a face of the plan; the rest is cut short, by clutter or so
-  double through_one = 0.0;  ///< of these, through the wall that most go through: it may not have been built
+  double through_one = 0.0;  ///< of these, through either side of the wall that most go through: it may not be built
 
   /// Share of beams that go through, of those that are not cut short.
   [[nodiscard]] double through_share() const { return through / (inliers + through + 1e-9); }
@@ -54,6 +54,12 @@ struct Agreement {
   [[nodiscard]] double through_others_share() const {
     const double others = through - through_one;
     return others / (inliers + others + 1e-9);
+  }
+  /// Becomes a mean in which the newest has this weight.
+  void take_in(const Agreement& newest, double weight) {
+    inliers += weight * (newest.inliers - inliers);
+    through += weight * (newest.through - through);
+    through_one += weight * (newest.through_one - through_one);
   }
 };
 [[nodiscard]] Agreement agreement(const StoreyIndex& storey, const Pose2& X_IH, const View& view,

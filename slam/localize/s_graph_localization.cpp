@@ -68,6 +68,7 @@ class SGraphLocalization final : public Method {
   void start_tracking(const View& view, const std::vector<PlaneObservation>& planes);
   void monitor(const View& view);
   [[nodiscard]] bool is_overtaken(const View& view);
+  [[nodiscard]] bool is_tracked(const Candidate& place, const View& view) const;
   [[nodiscard]] bool is_due(const Pose& X_OR) const;
   [[nodiscard]] StartBelief belief(Nanoseconds stamp, const Pose& X_OR) const;
   [[nodiscard]] Pose pose_in_I(const Candidate& candidate, const View& view) const;
@@ -88,8 +89,8 @@ class SGraphLocalization final : public Method {
   int failed_updates_ = 0;
   int storey_ = 0;       ///< of the place tracked, index into PlanIndex::storeys
   HypothesisSet watch_;  ///< of the last way; places only while it looks
-  int watched_ = -1;     ///< the place tracked, among them
   double unwatched_m_ = 0.0;
+  Agreement agreement_;  ///< of the place tracked with the last views
   std::optional<Pose> X_OR_start_;
   std::optional<Pose> X_OR_update_;
   std::optional<Pose> X_IO_last_;  ///< of the last tracking, also after it was lost
@@ -150,6 +151,7 @@ void SGraphLocalization::start_tracking(const View& view, const std::vector<Plan
   unwatched_m_ = 0.0;
   tracker_.emplace(config_.tracker, index_.storeys[static_cast<std::size_t>(best.storey)]);
   tracker_->start(view, planes, pose_in_I(best, view));
+  agreement_ = best.agreement;
   X_IO_last_ = tracker_->X_IO();
 }
 
@@ -173,26 +175,37 @@ bool SGraphLocalization::is_overtaken(const View& view) {
   const bool second_look = !watch_.candidates().empty();
   if (!second_look) {
     watch_.adopt(index_, std::vector<Place>{{storey_, heading(tracker_->pose(view.X_OR))}});
-    watched_ = watch_.candidates().front().id;
     const SearchConfig& search = config_.search;
     watch_.adopt(index_,
                  propose_places(index_, {}, view, search.filter.beam_stride, search.likelihood, search.proposals));
   }
   watch_.settle();
   const std::vector<Candidate>& places = watch_.candidates();
-  const auto own = std::find_if(places.begin(), places.end(), [&](const Candidate& c) { return c.id == watched_; });
-  const bool worse = own == places.end() || places.front().evidence - own->evidence >= config_.watch.log_ratio;
+  const auto own = std::find_if(places.begin(), places.end(), [&](const Candidate& c) { return is_tracked(c, view); });
+  // The ratio alone is no proof: among clutter, places where walls stand in front of much else beat the right one.
+  const double through = agreement_.through_others_share() + config_.watch.through_margin;
+  const bool worse = std::any_of(places.begin(), places.end(), [&](const Candidate& c) {
+    const bool likelier = own == places.end() || c.evidence - own->evidence >= config_.watch.log_ratio;
+    return !is_tracked(c, view) && likelier && c.agreement.inliers >= agreement_.inliers &&
+           c.agreement.through_others_share() <= through;
+  });
   if (!worse || second_look) watch_.forget_places();
   return worse && second_look;
 }
 
+bool SGraphLocalization::is_tracked(const Candidate& place, const View& view) const {
+  const Pose2 X_IH = heading(tracker_->pose(view.X_OR));
+  return place.storey == storey_ &&
+         is_near(place.X_IH, X_IH, config_.search.hypotheses.merge_m, config_.search.hypotheses.merge_rad);
+}
+
 /// Takes a convergence back when what is seen no longer fits the plan there.
 void SGraphLocalization::monitor(const View& view) {
-  const ConvergenceConfig& c = config_.search.convergence;
   const Agreement fit = agreement(tracker_->storey(), heading(tracker_->pose(view.X_OR)), view,
                                   config_.search.likelihood, config_.search.refine);
-  failed_updates_ = fit.through_others_share() > c.lost_through ? failed_updates_ + 1 : 0;
-  if (!is_overtaken(view) && failed_updates_ < c.lost_updates) return;
+  agreement_.take_in(fit, config_.search.hypotheses.newest);
+  failed_updates_ = fit.through_others_share() > config_.watch.lost_through ? failed_updates_ + 1 : 0;
+  if (!is_overtaken(view) && failed_updates_ < config_.watch.lost_updates) return;
   keep({tracker_->window().begin(), tracker_->window().end()});
   tracker_.reset();
   search_.restart();

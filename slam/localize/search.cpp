@@ -114,7 +114,7 @@ void PlanSearch::judge(const PlanIndex& index, const StartBelief& start, const V
   const Agreement& fit = candidates.front().agreement;
   const bool fits =
       (fit.inliers >= c.inliers_min && fit.through <= c.through_max) || candidates.front().fits >= c.cluttered_updates;
-  failed_updates_ = fit.through_others_share() > c.lost_through ? failed_updates_ + 1 : 0;
+  failed_updates_ = fit.through_others_share() > c.restart_through ? failed_updates_ + 1 : 0;
   if (failed_updates_ >= c.restart_updates) return restart();
 
   const bool sure = fits && sure_of_best();

@@ -21,13 +21,12 @@ struct ConvergenceConfig {
                                ///< 0.79 in plans of other buildings with rooms of the same size
   double through_max = 0.05;   ///< share of beams through walls of the plan; measured up to 0.03
   int cluttered_updates = 35;  ///< or this many of Candidate::fits; in plans of other buildings up to 23 were measured
-  double lost_through = 0.35;  ///< share of beams through walls, of those that do not end before one: the plan is off;
-                               ///< while tracking without the wall that most go through, which may be missing
-  int lost_updates = 10;       ///< so many in a row take a convergence back,
-  int restart_updates = 25;    ///< so many let a search begin anew: a missing wall looks like that from its room
-  double rivals_every_m = 3.0;  ///< way walked between two looks for places not thought of
-  int rivals = 12;              ///< places looked at before an announcement
-  double rival_gap_m = 0.75;    ///< between them
+  double restart_through = 0.35;  ///< share of beams through walls but the one that most go through, which may be
+                                  ///< missing, of those that do not end before one,
+  int restart_updates = 25;       ///< that lets a search begin anew after so many updates
+  double rivals_every_m = 3.0;    ///< way walked between two looks for places not thought of
+  int rivals = 12;                ///< places looked at before an announcement
+  double rival_gap_m = 0.75;      ///< between them
   double rival_gap_rad = 0.35;
   double yaw_drift = 0.001;  ///< rad/s by which the told yaw grows stale [facts: legged 10]
 
@@ -41,10 +40,9 @@ struct ConvergenceConfig {
     v("through_max", through_max,
       Field{.doc = "share of beams through walls of the plan; measured up to 0.03", .min = 0, .max = 1});
     v("cluttered_updates", cluttered_updates, Field{.doc = "or this many that fit behind clutter", .min = 1});
-    v("lost_through", lost_through,
-      Field{.doc = "share of beams through walls, of those that do not end before one", .min = 0, .max = 1});
-    v("lost_updates", lost_updates, Field{.doc = "so many in a row take a convergence back", .min = 1});
-    v("restart_updates", restart_updates, Field{.doc = "so many let a search begin anew", .min = 1});
+    v("restart_through", restart_through,
+      Field{.doc = "share of beams through walls but one, of those that do not end before one", .min = 0, .max = 1});
+    v("restart_updates", restart_updates, Field{.doc = "that lets a search begin anew after so many", .min = 1});
     v("rivals_every_m", rivals_every_m,
       Field{.doc = "way walked between two looks for places not thought of", .min = 0});
     v("rivals", rivals, Field{.doc = "places looked at before an announcement", .min = 1});

@@ -70,6 +70,20 @@ TEST(Refine, AgreementTellsTheTruePlaceFromAWrongOne) {
   EXPECT_LT(agreement(storey, wrong, place.view, {}, {}).inliers, 0.5);
 }
 
+// The robot walks through a planned wall that is not there: light leaves it by both of its faces.
+TEST(Refine, AWallThatWasNotBuiltIsOneWallFromItsInsideToo) {
+  const synthetic::House built = synthetic::one_room(8.0, 4.0);
+  synthetic::House planned = built;
+  planned.boxes.push_back({{3.7, 0.0, 0.0}, {4.1, 4.0, 2.8}});
+  const PlanIndex index = make_plan_index(synthetic::plan_of(planned), "ground", {});
+  const StoreyIndex& storey = index.storeys.front();
+  const Pose X_WR = Pose::from_xyz_yaw({3.9, 1.7, 0.46}, 1.57);
+  const View view = synthetic::standing_view(built, X_WR, Pose{}).view;
+  const Agreement inside = agreement(storey, heading(index.X_WI.inverse() * X_WR), view, {}, {});
+  EXPECT_GT(inside.through, 0.8);
+  EXPECT_LT(inside.through_others_share(), 0.1);
+}
+
 TEST(Refine, BeamResidualIsTheShiftAcrossTheWall) {
   const Place place = place_at(Pose::from_xyz_yaw({3.1, 0.9, 0.46}, 0.0));
   const StoreyIndex& storey = place.index.storeys.front();
