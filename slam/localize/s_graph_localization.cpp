@@ -162,6 +162,7 @@ void SGraphLocalization::track(const View& view, const std::vector<PlaneObservat
   output.digests.push_back({"tracking", Digest().add(tracker_->pose(view.X_OR)).value()});
   note("tracking", watch, output);
   monitor(view);
+  note("watch", watch, output);
 }
 
 /// Some other place has explained the last way better, and goes on doing so: where a wall of the plan is missing, many
