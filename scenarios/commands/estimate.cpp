@@ -133,9 +133,15 @@ void shift(std::vector<slam::StampedPose>& poses, slam::Nanoseconds by) {
   for (slam::StampedPose& pose : poses) pose.stamp += by;
 }
 
-/// The method's answer, on the recording's own clock.
-MethodRecord run_method(slam::Recording& recording, const slam::MethodRow& row, const slam::MethodInput& input) {
+struct Answer {
+  MethodRecord record;      ///< on the recording's own clock
+  double recorded_s = 0.0;  ///< from the first scan to the last
+};
+
+Answer run_method(slam::Recording& recording, const slam::MethodRow& row, const slam::MethodInput& input) {
   Progress progress(std::string(row.name), 0.0);
+  std::optional<slam::Nanoseconds> first;
+  slam::Nanoseconds last = 0;
   const FrameSource source = [&](sim::WorldFrame& frame) {
     slam::SensorFrame sensors;
     if (!recording.next(sensors)) return false;
@@ -143,7 +149,9 @@ MethodRecord run_method(slam::Recording& recording, const slam::MethodRow& row, 
     frame.imu = std::move(sensors.imu);
     frame.odometry = std::move(sensors.odometry);
     frame.scan = std::move(sensors.scan);
-    progress.at(slam::seconds(frame.scan.stamp));
+    last = frame.scan.stamp;
+    if (!first) first = last;
+    progress.at(slam::seconds(last));
     return true;
   };
   std::vector<std::unique_ptr<Participant>> participants;
@@ -153,7 +161,7 @@ MethodRecord run_method(slam::Recording& recording, const slam::MethodRow& row, 
   shift(record.causal, recording.origin());
   shift(record.estimate.trajectory, recording.origin());
   for (BeliefRecord& belief : record.beliefs) belief.stamp += recording.origin();
-  return record;
+  return {std::move(record), slam::seconds(last - first.value_or(last))};
 }
 
 /// estimate.yaml: what the answer depends on besides recording and plan.
@@ -165,14 +173,12 @@ std::string describe(const slam::MethodRow& row, std::uint64_t seed, const slam:
 }
 
 /// timings.json, as that of a run.
-std::string write_cost(const MethodRecord& method, double start_s) {
-  const double simulated_s =
-      method.causal.empty() ? 0.0 : slam::seconds(method.causal.back().stamp - method.causal.front().stamp);
+std::string write_cost(const Answer& answer, double start_s) {
   RunRecord record;
   MethodRecord& timed = record.methods.emplace_back();
-  timed.name = method.name;
-  timed.times = method.times;
-  return write_timings(record, {slam::wall_s() - start_s, slam::process_cpu_s(), simulated_s, 1});
+  timed.name = answer.record.name;
+  timed.times = answer.record.times;
+  return write_timings(record, {slam::wall_s() - start_s, slam::process_cpu_s(), answer.recorded_s, 1});
 }
 
 int estimate(const EstimateArguments& options, slam::MethodTable table) {
@@ -183,11 +189,12 @@ int estimate(const EstimateArguments& options, slam::MethodTable table) {
 
   catch_interrupts();
   RunDirectory directory(options.out, options.force);
-  const MethodRecord record = run_method(*recording, row, input);
+  const Answer answer = run_method(*recording, row, input);
+  const MethodRecord& record = answer.record;
   write_method(directory.staging(), record);
   write_file(directory.staging() + "/digests.csv", write_digests(record.digests));
   write_file(directory.staging() + "/estimate.yaml", describe(row, run_seed(options, recording->info()), input));
-  write_file(directory.staging() + "/timings.json", write_cost(record, start_s));
+  write_file(directory.staging() + "/timings.json", write_cost(answer, start_s));
   directory.commit();
   if (record.crashed) {
     std::fprintf(stderr, "plumbline: method '%s' crashed: %s\n", record.name.c_str(), record.error.c_str());

@@ -189,6 +189,10 @@ TEST_F(Recordings, EstimateSaysWhatRunSaid) {
   const auto timings = nlohmann::json::parse(read_file(folder_ / "out_s_graphs_plus/timings.json"));
   EXPECT_TRUE(timings["stages"].contains("s_graphs_plus/plane_segmentation"));
   EXPECT_EQ(timings["stages"]["s_graphs_plus/finish"]["count"], 1);
+  // The time of the recording, whether or not the method knew where it was.
+  const auto localized = nlohmann::json::parse(read_file(folder_ / "out_s_graph_localization/timings.json"));
+  EXPECT_EQ(localized["simulated_s"], timings["simulated_s"]);
+  EXPECT_GT(timings["simulated_s"], 4.0);
   const Outcome refused = plumbline({"score", run, "--estimate", "walk=" + walk});
   EXPECT_EQ(refused.code, 2);
   EXPECT_NE(refused.err.find("holds no estimate"), std::string::npos) << refused.err;
