@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "bim/errors.h"
+#include "bim/geometry/polygon.h"
 #include "bim/random/stream.h"
 #include "tests/slam/localize/house_plan.h"
 
@@ -271,12 +272,8 @@ TEST_P(KidnappedRobot, NoticesAndFindsItselfAgain) {
 INSTANTIATE_TEST_SUITE_P(HeadingTold, KidnappedRobot, testing::Bool());
 
 double distance_to_way(const Eigen::Vector2d& p, const std::vector<Eigen::Vector2d>& way) {
-  double least = 1e9;
-  for (std::size_t i = 1; i < way.size(); ++i) {
-    const Eigen::Vector2d along = way[i] - way[i - 1];
-    const double s = std::clamp((p - way[i - 1]).dot(along) / along.squaredNorm(), 0.0, 1.0);
-    least = std::min(least, (way[i - 1] + s * along - p).norm());
-  }
+  double least = segment_distance(way[0], way[1], p);
+  for (std::size_t i = 2; i < way.size(); ++i) least = std::min(least, segment_distance(way[i - 1], way[i], p));
   return least;
 }
 
