@@ -83,7 +83,7 @@ std::vector<float> Micp::profile(const PlanScan& scan) const {
   return middle;
 }
 
-/// Adds the yaws at a place, as many as are worth a look: the best one of every few steps.
+/// Adds every yaw at a place, with how badly the scan fits there.
 void Micp::try_place(int storey, const Eigen::Vector2d& p_I, const PlanScan& scan, const std::vector<float>& seen,
                      std::vector<Start>& starts) const {
   const double height = index().storeys[static_cast<std::size_t>(storey)].floor_z + input().calibration.sensor_height_m;

@@ -163,11 +163,11 @@ double NdtMap::inliers(std::span<const Eigen::Vector3d> points_R, const Pose& X_
 }
 
 NdtMatch NdtMap::align(std::span<const Eigen::Vector3d> points_R, const Pose& start) const {
-  NdtMatch match{start, 0.0, 0};
+  NdtMatch match{start, 0.0};
   if (points_R.empty()) return match;
   NdtScore now = score(points_R, match.X_IR);
   double damping = 1e-3;
-  while (match.iterations++ < config_.max_iterations) {
+  for (int i = 0; i < config_.max_iterations; ++i) {
     Matrix6d H = now.hessian;
     H.diagonal() *= 1.0 + damping;
     H.diagonal().array() += 1e-6;

@@ -50,7 +50,6 @@ struct NdtScore {
 struct NdtMatch {
   Pose X_IR;
   double inliers = 0.0;  ///< share of the points, 0 to 1
-  int iterations = 0;
 };
 
 /// Normal distributions of points drawn on a storey of the plan: its faces without their holes, floors and ceilings of

@@ -45,7 +45,7 @@ void PaperFilter::start(const PlanScan& scan, const std::vector<PlaneObservation
   const Stream stream(input_.seed, "slam.localize.init");
   FilterConfig even;
   even.max_particles = config_.particles;
-  even.density_per_m2 = 1.2 * config_.particles / index_.free_area();
+  even.density_per_m2 = 1.2 * config_.particles / index_.free_area();  // so that the number above decides
   particles_ = draw_start(index_, {.yaw_I = 0.0, .yaw_sigma = 0.0}, {}, even, input_.seed, scan.tick);
   rest_.assign(particles_.size(), {});
   for (std::size_t i = 0; i < particles_.size(); ++i) {
@@ -114,7 +114,8 @@ Pose PaperFilter::pose_W(std::size_t i, const PlanScan& scan) const {
   const LocalParticle& particle = particles_[i];
   const bool free = switches_.state == AsIn::printed;
   const double floor = index_.storeys[static_cast<std::size_t>(particle.storey)].floor_z;
-  const double z = floor + (free ? rest_[i].z : input_.calibration.sensor_height_m);
+  const double standing = input_.calibration.sensor_height_m - (scan.q_HR * input_.calibration.X_RL.t).z();
+  const double z = floor + (free ? rest_[i].z : standing);
   const Eigen::Quaterniond q = free ? tilt(rest_[i].roll, rest_[i].pitch) : scan.q_HR;
   return index_.X_WI * (Pose::from_xyz_yaw({particle.X_IH.t.x(), particle.X_IH.t.y(), z}, particle.X_IH.yaw) *
                         Pose{q, Eigen::Vector3d::Zero()});

@@ -34,7 +34,10 @@ struct PaperFilterConfig {
 
   template <class V>
   void visit(V& v) {
-    v("particles", particles, Field{.min = 10, .max = 200000});
+    v("particles", particles,
+      Field{.doc = "laid out evenly over the rooms at the start; those close to a wall are left out",
+            .min = 10,
+            .max = 200000});
     v("sigma_azimuth", sigma_azimuth, Field{.doc = "rad", .min = 1e-4});
     v("sigma_elevation", sigma_elevation, Field{.doc = "rad", .min = 1e-4});
     v("sigma_offset_m", sigma_offset_m, Field{.doc = "as far as particles lie apart", .min = 1e-4});

@@ -54,6 +54,7 @@ class Ukf final : public PlanBaseline {
   [[nodiscard]] PlanBelief update(const PlanScan& scan, Output& output) override;
   void search(const PlanScan& scan);
   void start(int storey, const Pose& X_IR);
+  void advance(Nanoseconds stamp, const Imu& imu);
   void predict(const Imu& imu, double dt);
   void drift(double dt);
   void follow(const PlanScan& scan);
@@ -89,13 +90,20 @@ void Ukf::on_imu(const Imu& imu) {
   const bool sane = imu.angular_velocity_R.norm() < 100.0 && imu.linear_acceleration_R.norm() < 1000.0;  // false: NaN
   if (!sane || config_.motion != UkfMotion::imu) return;
   if (filter_ && imu.stamp > stamp_) {
-    if (imu.stamp - stamp_ <= longest_step)
-      predict(imu, seconds(imu.stamp - stamp_));
-    else
-      drift(seconds(imu.stamp - stamp_));
+    advance(imu.stamp, imu);
     stamp_ = imu.stamp;
   }
   imu_ = imu;
+}
+
+/// On to a time by an IMU record, or without it where it is no guide to that time.
+void Ukf::advance(Nanoseconds stamp, const Imu& imu) {
+  const Nanoseconds step = stamp - stamp_;
+  if (step <= 0) return;
+  if (step <= longest_step && stamp - imu.stamp <= longest_step)
+    predict(imu, seconds(step));
+  else
+    drift(seconds(step));
 }
 
 void Ukf::predict(const Imu& imu, double dt) {
@@ -188,8 +196,10 @@ PlanBelief Ukf::update(const PlanScan& scan, Output& output) {
     note_stage("search", watch, output);
   } else if (config_.motion == UkfMotion::odometry) {
     follow(scan);
-  } else if (config_.motion == UkfMotion::constant_velocity || !imu_) {
-    if (scan.deskewed.stamp > stamp_) drift(seconds(scan.deskewed.stamp - stamp_));
+  } else if (config_.motion == UkfMotion::imu && imu_) {
+    advance(scan.deskewed.stamp, *imu_);
+  } else if (scan.deskewed.stamp > stamp_) {
+    drift(seconds(scan.deskewed.stamp - stamp_));
   }
   X_OR_last_ = scan.X_OR;
   stamp_ = scan.deskewed.stamp;

@@ -139,8 +139,8 @@ struct PcapReader::Impl {
     if (any && stamp <= last_stamp)
       fail("its time lies " + std::to_string((last_stamp - stamp) / 1000) + " us before that of the packet before it");
     if (any && stamp - last_stamp > max_gap)
-      fail("the clock leaps by " + std::to_string((stamp - last_stamp) / 1'000'000) +
-           " ms; at most 1000 would be right, cut the capture there");
+      fail("the clock leaps by " + std::to_string((stamp - last_stamp) / 1'000'000) + " ms; at most " +
+           std::to_string(max_gap / 1'000'000) + " would be right, cut the capture there");
     return stamp;
   }
 };

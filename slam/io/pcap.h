@@ -29,7 +29,8 @@ class PcapReader {
   /// Time of the first packet on the clock of the computer that captured it; 0 for a capture of PcapWriter.
   [[nodiscard]] Nanoseconds origin() const;
 
-  static constexpr Nanoseconds max_gap = 1'000'000'000;
+  /// A robot may be carried off for a minute; the sensor's own clock tells gaps of up to half an hour.
+  static constexpr Nanoseconds max_gap = 120'000'000'000;
 
  private:
   struct Impl;

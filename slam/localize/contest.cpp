@@ -102,7 +102,8 @@ Float4 aside(Float4 range, int columns, const ContestConfig& config) {
   const auto per_rad = static_cast<float>(columns / (2.0 * std::numbers::pi));
   const Float4 beams =
       whole_of((static_cast<float>(config.edge_m) / range + static_cast<float>(config.edge_rad)) * per_rad);
-  const auto most = static_cast<float>(columns / 2);
+  const int half_turn = columns / 2;
+  const auto most = static_cast<float>(half_turn);
   return choose(beams > 1.0F, choose(beams < most, beams, all(most)), all(1.0F));
 }
 
@@ -148,7 +149,9 @@ class Tally {
   explicit Tally(Objections& objections) : objections_(objections) {}
   ~Tally() { flush(); }
   Tally(const Tally&) = delete;
+  Tally(Tally&&) = delete;
   Tally& operator=(const Tally&) = delete;
+  Tally& operator=(Tally&&) = delete;
 
   void add(const Cause& cause, double log_likelihood) {
     if (cause != cause_) flush();

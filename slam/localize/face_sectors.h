@@ -24,7 +24,7 @@ class FaceSectors {
   struct Face {
     Float4 nx, ny, ex, ey, ax, ay;  ///< normal, direction, start
     Window whole;
-    int first_hole = 0, last_hole = 0;  ///< into holes()
+    int first_hole = 0, last_hole = 0;  ///< of all faces' holes
   };
   /// As FirstFaces::Entry, but the last of a list has the least distance up to which one of its rays is complete.
   using Entry = FirstFaces::Entry;

@@ -30,9 +30,9 @@ struct LikelihoodConfig {
     v("distance_sigma_m", distance_sigma_m,
       Field{.doc = "plan tolerance and the spacing of particles; added to the fit's", .min = 1e-6});
     v("azimuth_gate", azimuth_gate,
-      Field{.doc = "rad: an observed wall is compared with faces this close in direction", .min = 0});
+      Field{.doc = "rad: an observed wall is compared with faces this close in direction", .min = 1e-6});
     v("distance_gate_m", distance_gate_m,
-      Field{.doc = "half width of the residual volume over which an outlier is spread", .min = 0});
+      Field{.doc = "half width of the residual volume over which an outlier is spread", .min = 1e-6});
     v("overlap_min", overlap_min, Field{.doc = "share of the patch that must lie on the face", .min = 0, .max = 1});
     v("overlap_margin_m", overlap_margin_m, Field{.doc = "by which a face is lengthened for that", .min = 0});
     v("plane_outlier", plane_outlier,

@@ -164,7 +164,7 @@ Reweighting reweight(ParticleSet& particles, const View& view, const PlanIndex& 
   const WallBlocks walls(view, likelihood);
   constexpr double never = -1e300;
   std::vector<double> log_likelihood(particles.size(), never);
-  double top = never, mean = 0.0;
+  double top = never;
   for (std::size_t i = 0; i < particles.size(); ++i) {
     const LocalParticle& particle = particles[i];
     if (particle.weight <= 0.0) continue;
@@ -173,10 +173,8 @@ Reweighting reweight(ParticleSet& particles, const View& view, const PlanIndex& 
     log_likelihood[i] =
         walls.log_likelihood(storey, stand) + beams[static_cast<std::size_t>(particle.storey)].log_likelihood(stand);
     top = std::max(top, log_likelihood[i]);
-    mean += particle.weight * log_likelihood[i];
   }
   Reweighting result;
-  result.mean_log_likelihood = mean;
   result.temper = temper(particles, log_likelihood, top, config.ess_floor * static_cast<double>(particles.size()));
   for (std::size_t i = 0; i < particles.size(); ++i)
     particles[i].weight *= std::exp(result.temper * (log_likelihood[i] - top));

@@ -101,9 +101,8 @@ void propagate(ParticleSet& particles, const Pose2& u, const PlanIndex& index, c
 
 /// What one reweighting did.
 struct Reweighting {
-  double temper = 1.0;               ///< exponent the likelihood was raised to
-  double effective = 0.0;            ///< sample size after it
-  double mean_log_likelihood = 0.0;  ///< before normalisation
+  double temper = 1.0;     ///< exponent the likelihood was raised to
+  double effective = 0.0;  ///< sample size after it
 };
 /// w <- w p(view | x)^a, a in (0, 1] the largest that leaves ess_floor N effective particles.
 [[nodiscard]] Reweighting reweight(ParticleSet& particles, const View& view, const PlanIndex& index,

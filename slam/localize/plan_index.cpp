@@ -155,14 +155,25 @@ std::vector<std::vector<int>> visible_lines(const StoreyIndex& storey, const Pla
   return visible;
 }
 
+/// Leaves out what no robot in any room sees; a stray element would make the grids as large as its way off.
+void drop_out_of_sight(std::vector<PlanSegment>& segments, const std::vector<IndexRoom>& rooms) {
+  constexpr double sight_m = 100.0;  // range of a VLP-16
+  Eigen::AlignedBox2d box;
+  for (const IndexRoom& room : rooms)
+    for (const Eigen::Vector2d& p : room.polygon) box.extend(p);
+  if (box.isEmpty()) return;
+  std::erase_if(segments, [&](const PlanSegment& s) {
+    return Eigen::AlignedBox2d(s.a).extend(s.a + s.length * s.e).exteriorDistance(box) > sight_m;
+  });
+  number_elements(segments);
+}
+
 StoreyIndex make_storey(const bim::Plan& plan_W, int plan_storey, const Pose& X_WI, const PlanIndexConfig& config) {
   const bim::PlanStorey& source = plan_W.storeys[static_cast<std::size_t>(plan_storey)];
   StoreyIndex storey;
   storey.plan_storey = plan_storey;
   storey.floor_z = snap(source.elevation_m - X_WI.t.z());
   storey.ceiling_z = snap(storey.floor_z + source.height_m);
-  storey.segments = storey_segments(plan_W, X_WI, storey.floor_z, storey.ceiling_z);
-  storey.lines = merge_wall_lines(storey.segments, storey.floor_z + config.wall_band_m, config);
   const Pose2 X_IW = heading(X_WI).inverse();
   for (std::size_t i = 0; i < plan_W.rooms.size(); ++i) {
     if (plan_W.rooms[i].storey != plan_storey) continue;
@@ -170,6 +181,9 @@ StoreyIndex make_storey(const bim::Plan& plan_W, int plan_storey, const Pose& X_
     for (const Eigen::Vector2d& p_W : plan_W.rooms[i].polygon) room.polygon.push_back(snap(X_IW * p_W));
     storey.rooms.push_back(std::move(room));
   }
+  storey.segments = storey_segments(plan_W, X_WI, storey.floor_z, storey.ceiling_z);
+  drop_out_of_sight(storey.segments, storey.rooms);
+  storey.lines = merge_wall_lines(storey.segments, storey.floor_z + config.wall_band_m, config);
   storey.grid = SegmentGrid(storey.segments, config.cell_m);
   storey.sectors = FaceSectors(storey.segments, storey.grid.first_faces(), storey.grid.cells());
   storey.visible = visible_lines(storey, config);

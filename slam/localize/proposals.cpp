@@ -52,8 +52,7 @@ std::vector<Place> best_apart(std::vector<Scored> scored, const ProposalConfig& 
     if (static_cast<int>(best.size()) >= config.count) break;
     const Place& place = one.place;
     const bool apart = std::none_of(best.begin(), best.end(), [&](const Place& other) {
-      return other.storey == place.storey && (other.X_IH.t - place.X_IH.t).norm() < config.gap_m &&
-             std::abs(wrap_angle(other.X_IH.yaw - place.X_IH.yaw)) < config.gap_rad;
+      return other.storey == place.storey && is_near(other.X_IH, place.X_IH, config.gap_m, config.gap_rad);
     });
     if (apart) best.push_back(place);
   }

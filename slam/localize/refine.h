@@ -48,9 +48,7 @@ struct Agreement {
   double through = 0.0;      ///< share that goes through a face of the plan; the rest is cut short, by clutter or so
   double through_one = 0.0;  ///< of these, through either side of the wall that most go through: it may not be built
 
-  /// Share of beams that go through, of those that are not cut short.
-  [[nodiscard]] double through_share() const { return through / (inliers + through + 1e-9); }
-  /// The same without the wall that most go through.
+  /// Share of beams that go through, of those that are not cut short, without the wall that most go through.
   [[nodiscard]] double through_others_share() const {
     const double others = through - through_one;
     return others / (inliers + others + 1e-9);

@@ -207,8 +207,7 @@ void SGraphLocalization::monitor(const View& view) {
   agreement_.take_in(fit, config_.search.hypotheses.newest);
   failed_updates_ = fit.through_others_share() > config_.watch.lost_through ? failed_updates_ + 1 : 0;
   if (!is_overtaken(view) && failed_updates_ < config_.watch.lost_updates) return;
-  keep({tracker_->window().begin(), tracker_->window().end()});
-  tracker_.reset();
+  tracker_.reset();  // with its window, which is what was refuted
   search_.restart();
   state_ = State::lost;
 }

@@ -36,8 +36,8 @@ std::vector<LocalParticle> best_apart(ParticleSet particles, const ConvergenceCo
   for (const LocalParticle& particle : particles) {
     if (static_cast<int>(best.size()) >= config.rivals) break;
     const bool apart = std::none_of(best.begin(), best.end(), [&](const LocalParticle& other) {
-      return other.storey == particle.storey && (other.X_IH.t - particle.X_IH.t).norm() < config.rival_gap_m &&
-             std::abs(wrap_angle(other.X_IH.yaw - particle.X_IH.yaw)) < config.rival_gap_rad;
+      return other.storey == particle.storey &&
+             is_near(other.X_IH, particle.X_IH, config.rival_gap_m, config.rival_gap_rad);
     });
     if (apart) best.push_back(particle);
   }
@@ -95,6 +95,7 @@ std::vector<StageDigest> PlanSearch::update(const PlanIndex& index, const StartB
 void PlanSearch::restart() {
   particles_.clear();
   hypotheses_.clear();
+  last_X_OH_.reset();  // what is walked until the next update is no one step
   state_ = State::searching;
   sure_updates_ = failed_updates_ = 0;
   sure_travel_m_ = 0.0;

@@ -51,8 +51,9 @@ SegmentGrid::SegmentGrid(const std::vector<PlanSegment>& segments, double cell_m
     high = high.cwiseMax(segment.a).cwiseMax(b);
   }
   if (segments.empty()) low = high = Eigen::Vector2d::Zero();
-  frame_ = {low.array() - cell_m, cell_m, static_cast<int>(std::ceil((high.x() - low.x()) / cell_m)) + 2,
-            static_cast<int>(std::ceil((high.y() - low.y()) / cell_m)) + 2};
+  const auto across = [&](int axis) { return std::ceil((high[axis] - low[axis]) / cell_m) + 2.0; };
+  while (across(0) * across(1) > static_cast<double>(FirstFaces::most_cells)) cell_m *= 2.0;
+  frame_ = {low.array() - cell_m, cell_m, static_cast<int>(across(0)), static_cast<int>(across(1))};
   fill(segments);
   near_ = FirstFaces(segments, frame_);
   for (int cell = 0; cell < cells(); ++cell) clearance_.push_back(near_.clearance(cell));

@@ -14,7 +14,7 @@ namespace plumbline::slam {
 class SegmentGrid {
  public:
   SegmentGrid() = default;
-  /// Covers all segments with a margin of one cell.
+  /// Covers all segments with a margin of one cell. Cells are doubled until they are no more than FirstFaces takes.
   SegmentGrid(const std::vector<PlanSegment>& segments, double cell_m);
 
   /// First face hit outside its holes; of faces at equal distance the lowest index.

@@ -170,8 +170,9 @@ void PlanTracker::optimise() {
     if (k + 1 < config_.iterations) continue;
     const Eigen::Matrix3d R = window_.back().X_IR.rotation();
     const Matrix6d P = problem.last_covariance();
-    covariance_.setZero();
     covariance_.topLeftCorner<2, 2>() = (R * P.topLeftCorner<3, 3>() * R.transpose()).topLeftCorner<2, 2>();
+    covariance_.topRightCorner<2, 1>() = (R * P.block<3, 1>(0, 5)).head<2>();
+    covariance_.bottomLeftCorner<1, 2>() = covariance_.topRightCorner<2, 1>().transpose();
     covariance_(2, 2) = P(5, 5);
   }
 }

@@ -57,8 +57,8 @@ struct TrackerConfig {
     v("odometry_min_rad", odometry_min_rad, Field{.min = 0});
     v("odometry_height_per_m", odometry_height_per_m,
       Field{.doc = "leg odometry's height is its worst axis", .min = 0});
-    v("hold_m", hold_m, Field{.doc = "sigma with which the oldest pose stays where it was", .min = 0});
-    v("hold_rad", hold_rad, Field{.min = 0});
+    v("hold_m", hold_m, Field{.doc = "sigma with which the oldest pose stays where it was", .min = 1e-6});
+    v("hold_rad", hold_rad, Field{.min = 1e-6});
     v("huber", huber, Field{.doc = "sigmas", .min = 1e-6});
   }
 };

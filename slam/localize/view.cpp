@@ -37,6 +37,7 @@ std::optional<Beam> beam_to(const Eigen::Vector3d& p_R, const View& view, const 
 /// are all met. The nearest ring with a usable return is taken.
 std::vector<Beam> pick_beams(const DeskewedScan& scan, const View& view, const ViewConfig& config) {
   std::vector<Beam> beams;
+  if (scan.columns == 0) return beams;
   for (int k = 0; k < config.beams; ++k) {
     const int column = static_cast<int>(static_cast<long>(k) * scan.columns / config.beams);
     const int wanted = scan.rings / 2 - 1 + 2 * (k % 4);

@@ -58,6 +58,7 @@ struct WalkConfig {
 struct Recording {
   Calibration calibration;
   std::vector<Odometry> odometry;  ///< 100 Hz
+  std::vector<Imu> imu;            ///< none unless put there
   std::vector<Scan> scans;
   std::vector<StampedPose> truth;  ///< X_WR at each scan's stamp
 };

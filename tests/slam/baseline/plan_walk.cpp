@@ -18,8 +18,10 @@ PlanWalkAnswers localize(const std::string& method, const Recording& recording, 
   if (!config.empty()) input.config = row->configure(read_yaml(config, "config.yaml"));
   const std::unique_ptr<Method> estimator = row->make(input);
   PlanWalkAnswers answers;
-  std::size_t next = 0;
+  std::size_t next = 0, next_imu = 0;
   for (const Scan& scan : recording.scans) {
+    while (next_imu < recording.imu.size() && recording.imu[next_imu].stamp <= scan.stamp)
+      estimator->on_imu(recording.imu[next_imu++]);
     while (next < recording.odometry.size() && recording.odometry[next].stamp <= scan.stamp)
       estimator->on_odometry(recording.odometry[next++]);
     answers.outputs.push_back(estimator->on_scan(scan));

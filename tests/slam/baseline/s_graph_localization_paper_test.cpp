@@ -169,7 +169,7 @@ TEST(PaperFilter, TheRoomFactorLeavesOutWallsOfOtherRooms) {
   EXPECT_LT(stand.weight(with, stand.X_WR, 1), stand.weight(without, stand.X_WR, 1)) << "told the other room";
 }
 
-TEST(SGraphLocalizationPaper, FindsAnAsymmetricPlaceAndEverySwitchRuns) {
+TEST(SGraphLocalizationPaper, EverySwitchRunsAndNamesPlaces) {
   const synthetic::Recording recording = synthetic::biased_walk(2.5);
   const std::string corrected =
       "switches: {rooms: false, planes: corrected, form: corrected, frame: corrected, wrap: corrected, extent: "
@@ -186,6 +186,7 @@ TEST(SGraphLocalizationPaper, FindsAnAsymmetricPlaceAndEverySwitchRuns) {
         ASSERT_TRUE(hypothesis.X_WR.t.allFinite());
         ASSERT_TRUE(hypothesis.covariance.allFinite());
       }
+    EXPECT_FALSE(answers.outputs.back().hypotheses.empty()) << config;
   }
 }
 

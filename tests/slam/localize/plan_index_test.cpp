@@ -114,5 +114,16 @@ TEST(PlanIndex, AColumnStopsLightAndIsNoWall) {
   EXPECT_LT(side.n.dot(X_IW.rotation() * Eigen::Vector2d::UnitX()), -0.99);
 }
 
+TEST(PlanIndex, LeavesOutWhatNoRoomSees) {
+  bim::Plan plan = synthetic::plan_of(synthetic::corridor_house());
+  const PlanIndex index = make_plan_index(plan, "ground", {});
+  bim::PlanFace stray = plan.faces.front();
+  stray.wall_id = "stray";
+  stray.p0 += Eigen::Vector2d(4000.0, 3000.0);
+  stray.p1 += Eigen::Vector2d(4000.0, 3000.0);
+  plan.faces.push_back(stray);
+  expect_equal_tables(index, make_plan_index(plan, "ground", {}));
+}
+
 }  // namespace
 }  // namespace plumbline::slam

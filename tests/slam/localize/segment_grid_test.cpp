@@ -127,5 +127,16 @@ TEST(SegmentGrid, OfEqualDistancesTheLowestIndexWins) {
   EXPECT_EQ(grid.cast(segments, {{2.0, -1.0}, {0.0, 1.0}, 1.0, 0.0}, 5.0).segment, 0);
 }
 
+TEST(SegmentGrid, OfAWideSiteHasCoarserCells) {
+  std::vector<PlanSegment> segments(2);
+  segments[1].a = {8000.0, 9000.0};
+  const SegmentGrid grid(segments, 0.5);
+  EXPECT_LE(static_cast<std::size_t>(grid.cells()), FirstFaces::most_cells);
+  for (const PlanSegment& segment : segments) {
+    const PlanRay ray{segment.a + 0.5 * segment.length * segment.e - 2.0 * segment.n, segment.n, 1.0, 0.0};
+    EXPECT_NEAR(grid.cast(segments, ray, 15.0).distance, 2.0, 1e-9);
+  }
+}
+
 }  // namespace
 }  // namespace plumbline::slam

@@ -59,6 +59,20 @@ TEST(Tracker, CorrectsAnOdometryScaleError) {
   EXPECT_LT(error, 0.04);
 }
 
+TEST(Tracker, PositionAndHeadingAreUncertainTogether) {
+  const Walked walked = walk_straight(1.0);
+  PlanTracker tracker({}, walked.index.storeys.front());
+  tracker.start(walked.seen[0].view, walked.seen[0].planes, walked.X_IR.front());
+  for (std::size_t i = 1; i < walked.seen.size(); ++i)
+    static_cast<void>(tracker.update(walked.seen[i].view, walked.seen[i].planes));
+  const Eigen::Matrix3d& P = tracker.covariance();
+  EXPECT_EQ(P, P.transpose());
+  EXPECT_GT(P.determinant(), 0.0);
+  EXPECT_GT(P.topLeftCorner(2, 2).determinant(), 0.0);
+  // Walls seen ahead and behind, not evenly: a turn about the robot moves them all to one side.
+  EXPECT_GT(P.topRightCorner(2, 1).norm(), 0.01 * std::sqrt(P(0, 0) * P(2, 2)));
+}
+
 TEST(Tracker, DropsTheOldestPoseBeyondItsWindow) {
   const Walked walked = walk_straight(1.0);
   TrackerConfig config;
