@@ -17,6 +17,34 @@ namespace {
 
 constexpr std::size_t max_depth = 64;
 
+/// Bytes of the UTF-8 character at the start of `text` [RFC 3629], 0 where there is none.
+std::size_t utf8_length(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const auto first = byte(0);
+  if (first < 0x80) return 1;
+  const std::size_t length = first >= 0xf0 ? 4 : first >= 0xe0 ? 3 : 2;
+  if (first < 0xc2 || first > 0xf4 || text.size() < length) return 0;
+  for (std::size_t i = 1; i < length; ++i)
+    if ((byte(i) & 0xc0) != 0x80) return 0;
+  const auto second = byte(1);
+  const bool overlong = (first == 0xe0 && second < 0xa0) || (first == 0xf0 && second < 0x90);
+  const bool no_character = (first == 0xed && second > 0x9f) || (first == 0xf4 && second > 0x8f);
+  return overlong || no_character ? 0 : length;
+}
+
+/// UTF-16 and UTF-32, which the parser reads too, hold zeros or begin with a mark that UTF-8 cannot.
+void check_utf8(std::string_view text, const std::string& file) {
+  if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff") || text.find('\0') != std::string_view::npos) return;
+  Mark mark{file, 1, 1};
+  while (!text.empty()) {
+    const std::size_t length = utf8_length(text);
+    if (length == 0) throw InputError(mark, "no UTF-8 text; save the file in that encoding");
+    mark.line += text[0] == '\n' ? 1 : 0;
+    mark.col = text[0] == '\n' ? 1 : mark.col + 1;
+    text.remove_prefix(length);
+  }
+}
+
 /// Builds the tree from the parser's events, so that every value keeps its place and no key is lost silently.
 class TreeBuilder : public YAML::EventHandler {
  public:
@@ -158,6 +186,7 @@ void write_block(const Tree& tree, const std::string& indent, bool after_dash, s
 }  // namespace
 
 Tree read_yaml(std::string_view text, const std::string& file) {
+  check_utf8(text, file);
   std::istringstream stream{std::string(text)};
   TreeBuilder builder(file);
   try {

@@ -115,6 +115,8 @@ void check_feature(const FamilyOptions& options, const Tree& tree) {
                                                      format_number(epsilon_min_m) + " m");
   if (options.epsilon_m > 0.0 && options.feature == FeatureKind::none)
     throw InputError(mark_of(tree, "epsilon_m"), "a size needs a feature; name one, for example door_shift");
+  if (options.epsilon_m <= 0.0 && options.feature != FeatureKind::none && tree.find("epsilon_m") == nullptr)
+    throw InputError(mark_of(tree, "feature"), "a feature needs a size, in m; add --epsilon, for example 0.3");
 }
 
 std::string storey_name(int i) { return i == 0 ? "ground" : "level_" + std::to_string(i); }

@@ -21,7 +21,7 @@ class Argument {
   Argument& required();
   Argument& range(int least, int most);
   Argument& range(double least, double most);
-  Argument& positive();
+  Argument& positive();  ///< and no more than 1e6
   Argument& one_of(const std::vector<std::string>& words);
   Argument& delimiter(char between);
   Argument& environment(const std::string& variable);  ///< stands in where the argument is not given
@@ -48,8 +48,9 @@ class CommandLine {
   Argument option(const std::string& name, std::string& value, const std::string& doc = "");
   Argument option(const std::string& name, std::vector<std::string>& value, const std::string& doc);
   Argument option(const std::string& name, int& value, const std::string& doc);
-  Argument option(const std::string& name, std::uint64_t& value, const std::string& doc);
   Argument option(const std::string& name, double& value, const std::string& doc);
+  /// A whole number that a scenario's seed may be.
+  Argument seed(const std::string& name, std::uint64_t& value, const std::string& doc);
   Argument flag(const std::string& name, bool& value, const std::string& doc);
 
   void version(const std::string& text);
@@ -68,6 +69,7 @@ class CommandLine {
 
  private:
   explicit CommandLine(std::shared_ptr<CLI::App> app) : app_(std::move(app)) {}
+  [[nodiscard]] std::string complaint(const std::vector<std::string>& arguments, const std::string& what) const;
   template <class T>
   Argument add(const std::string& name, T& value, const std::string& doc);
 

@@ -188,7 +188,7 @@ int estimate(const EstimateArguments& options, slam::MethodTable table) {
   const slam::MethodInput input = make_input(options, row, *recording);
 
   catch_interrupts();
-  RunDirectory directory(options.out, options.force);
+  RunDirectory directory(options.out, DirectoryKind::estimate, options.force);
   const Answer answer = run_method(*recording, row, input);
   const MethodRecord& record = answer.record;
   write_method(directory.staging(), record);
@@ -223,7 +223,7 @@ Command add_estimate(CommandLine& program, slam::MethodTable table) {
   line.option("--plan", options->plan, "building, for methods that localize in a plan");
   line.option("--config", options->config, "values of the method (YAML); plumbline methods --config NAME prints all");
   line.option("-o,--out", options->out, "directory to write").required();
-  options->seed_option = line.option("--seed", options->seed, "seed of the run [the recording's, else 1]");
+  options->seed_option = line.seed("--seed", options->seed, "seed of the run [the recording's, else 1]");
   options->yaw_option = line.option("--yaw-deg", options->yaw_deg,
                                     "compass: heading in the plan at the start [the recording's, else unknown]")
                             .range(-360.0, 360.0);

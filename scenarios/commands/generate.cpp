@@ -61,7 +61,11 @@ Asked asked_for(const GenerateOptions& options, const std::string& family) {
 }
 
 void refuse_to_replace(const std::string& path, bool force) {
+  if (fs::is_directory(path)) throw InputError({path, 0, 0}, "is a directory; name a file");
   if (!force && fs::exists(path)) throw InputError({path, 0, 0}, "exists already; --force replaces it");
+  const fs::path folder = fs::path(path).parent_path();
+  if (!folder.empty() && !fs::is_directory(folder))
+    throw InputError({path, 0, 0}, "its folder is not there; make it, or name another");
 }
 
 /// A walk through all rooms of the start's storey and back, with time to spare.
@@ -96,7 +100,11 @@ int generate(const GenerateOptions& options) {
     return 0;
   }
   refuse_to_replace(options.out, options.force);
-  if (!options.scenario.empty()) refuse_to_replace(options.scenario, options.force);
+  if (!options.scenario.empty()) {
+    refuse_to_replace(options.scenario, options.force);
+    if (fs::weakly_canonical(fs::absolute(options.scenario)) == fs::weakly_canonical(fs::absolute(options.out)))
+      throw InputError({"--scenario", 0, 0}, "is the plan's own file; name another");
+  }
   const std::string scenario = options.scenario.empty() ? "" : scenario_for(generated, text, options);
   write_file(options.out, text);
   if (!options.scenario.empty()) write_file(options.scenario, scenario);

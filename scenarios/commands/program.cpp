@@ -36,7 +36,7 @@ int report_failure() {
   } catch (const ScenarioFailure& error) {
     return complain(error.what(), scenario_failed);
   } catch (const Interrupted& error) {
-    return complain("plumbline: interrupted; nothing was written", 128 + error.signal());
+    return complain(std::string("plumbline: ") + error.what(), 128 + error.signal());
   } catch (const EnvironmentError& error) {
     return complain(error.what(), environment_or_internal);
   } catch (const std::exception& error) {

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "bim/errors.h"
 #include "scenarios/commands/commands.h"
 #include "scenarios/commands/process.h"
 #include "scenarios/run/interrupt.h"
@@ -35,10 +36,17 @@ DigestLog cut(DigestLog log, const std::optional<double>& until_s) {
 int replay(const ReplayArguments& options, slam::MethodTable table) {
   const std::string path = options.dir + "/digests.csv";
   const DigestLog recorded = read_digests(read_text_file(path), path);
+  const std::optional<double> until_s = options.until_option->given() ? std::optional(options.until_s) : std::nullopt;
+  const DigestLog expected = cut(recorded, until_s);
+  if (expected.empty())
+    throw InputError({path, 0, 0}, "holds no digest" + (until_s && !recorded.empty()
+                                                            ? " up to then; the first is at " +
+                                                                  slam::format_stamp(recorded.front().tick) + " s"
+                                                            : std::string()));
   const ResolvedScenario resolved = resolve(options.dir + "/scenario.yaml", {}, table);
   RunOptions run_options;
   run_options.threads = options.threads > 0 ? options.threads : allowed_cpus();
-  if (options.until_option->given()) run_options.until_s = options.until_s;
+  run_options.until_s = until_s;
 
   catch_interrupts();
   RunRecord record;
@@ -47,8 +55,8 @@ int replay(const ReplayArguments& options, slam::MethodTable table) {
     run_options.tick = [&](double t) { progress.at(t); };
     record = execute(resolved, run_options);
   }
-  const DigestLog again = cut(record.digests, run_options.until_s);
-  const auto difference = first_difference(cut(recorded, run_options.until_s), again);
+  const DigestLog again = cut(record.digests, until_s);
+  const auto difference = first_difference(expected, again);
   if (!difference) {
     std::printf("equal: %zu digests\n", again.size());
     return 0;

@@ -60,7 +60,7 @@ int run(const RunArguments& options, slam::MethodTable table) {
     std::fprintf(stderr, "plumbline: %d gates of methods left out by --method are not asked\n", resolved.dropped_gates);
 
   catch_interrupts();
-  RunDirectory directory(out, options.force);
+  RunDirectory directory(out, DirectoryKind::run, options.force);
   Progress progress(resolved.scenario.name, resolved.scenario.duration_s);
   const int threads = options.threads > 0 ? options.threads : allowed_cpus();
   RunOptions run_options;
@@ -100,8 +100,8 @@ Command add_run(CommandLine& program, slam::MethodTable table) {
       .required();
   options->methods_option =
       line.option("--method", options->methods, "methods to run, comma-separated [the scenario's]").delimiter(',');
-  options->seed_option = line.option("--seed", options->seed, "seed [the scenario's]");
-  line.option("--out", options->out, "run directory [runs/<scenario>-<seed>]");
+  options->seed_option = line.seed("--seed", options->seed, "seed [the scenario's]");
+  line.option("-o,--out", options->out, "run directory [runs/<scenario>-<seed>]");
   line.option("--threads", options->threads, "threads [the CPUs allowed]").range(1, 1024);
   line.flag("--record", options->record, "also write the recording, as simulate does, into the folder recording");
   line.flag("--force", options->force, "replace the run that stands in --out");

@@ -11,6 +11,7 @@
 #include "scenarios/commands/commands.h"
 #include "scenarios/run/run_files.h"
 #include "scenarios/run/summary.h"
+#include "scenarios/score/trajectory.h"
 #include "slam/io/tum.h"
 
 namespace plumbline::scenarios {
@@ -35,6 +36,15 @@ MethodRecord read_estimate_directory(const std::string& dir, const std::string& 
   return method;
 }
 
+/// Squares of what lies farther off overflow where errors are summed.
+void check_positions(const std::string& path, const std::vector<slam::StampedPose>& poses) {
+  constexpr double far_m = 1e9;
+  for (const slam::StampedPose& pose : poses)
+    if (!(pose.X_FR.t.cwiseAbs().maxCoeff() <= far_m))
+      throw InputError({path, 0, 0}, "its pose at " + slam::format_stamp(pose.stamp) +
+                                         " s lies more than 1e9 m off; leave out what diverged");
+}
+
 /// NAME=DIR or NAME=FILE[,frame=W|M]
 MethodRecord read_outside(const std::string& text) {
   const Mark mark{"--estimate", 0, 0};
@@ -50,22 +60,45 @@ MethodRecord read_outside(const std::string& text) {
     method.localization = world;
     break;
   }
+  if (const std::size_t frame = path.rfind(",frame="); frame != std::string::npos)
+    throw InputError(mark, "'" + path.substr(frame + 1) + "' must be frame=W, the plan's, or frame=M, its own");
   if (!is_plain_name(method.name) || path.empty())
     throw InputError(
         mark, "'" + text + "' must be NAME=trajectory.tum, NAME=trajectory.tum,frame=W or NAME=directory of estimate");
   method.estimate.frame = method.localization ? slam::Frame::world : slam::Frame::map;
   method.causal = slam::read_tum(read_text_file(path), path);
   if (method.causal.empty()) throw InputError({path, 0, 0}, "holds no pose");
+  check_positions(path, method.causal);
   return method;
+}
+
+/// A trajectory on another clock, the commonest mistake, would only look lost.
+void check_stamps(const std::string& text, const MethodRecord& method, const RunFiles& files) {
+  score::Truth truth;
+  truth.scans = files.scans;
+  truth.poses_W = files.truth_W;
+  if (method.causal.empty() || !score::associate(truth, method.causal, {}).empty()) return;
+  const auto span = [](slam::Nanoseconds first, slam::Nanoseconds last) {
+    return slam::format_stamp(first) + " to " + slam::format_stamp(last) + " s";
+  };
+  throw InputError({"--estimate", 0, 0}, "'" + text +
+                                             "' has a pose within 0.01 s of none of the run's scans; it is of " +
+                                             span(method.causal.front().stamp, method.causal.back().stamp) +
+                                             ", the scans are of " + span(files.scans.front(), files.scans.back()));
 }
 
 int score_again(const std::string& dir, const std::vector<std::string>& estimates) {
   RunFiles files = read_run_files(dir);
   std::vector<MethodRecord> outside;
   for (const std::string& text : estimates) {
-    outside.push_back(read_outside(text));
+    MethodRecord read = read_outside(text);
+    check_stamps(text, read, files);
+    if (std::any_of(outside.begin(), outside.end(), [&](const MethodRecord& m) { return m.name == read.name; }))
+      throw InputError({"--estimate", 0, 0}, "'" + read.name + "' is given twice");
+    outside.push_back(std::move(read));
     const auto& names = files.scenario.methods;
-    if (std::find(names.begin(), names.end(), outside.back().name) != names.end())
+    if (outside.back().name == truth_method ||
+        std::find(names.begin(), names.end(), outside.back().name) != names.end())
       throw InputError({"--estimate", 0, 0},
                        "'" + outside.back().name + "' is a method of this run; give another name");
   }

@@ -47,7 +47,7 @@ int simulate(const SimulateArguments& options, slam::MethodTable table) {
   const ResolvedScenario resolved = resolve(options.input, overrides, table);
 
   catch_interrupts();
-  RunDirectory directory(options.out, options.force);
+  RunDirectory directory(options.out, DirectoryKind::recording, options.force);
   const std::string& dir = directory.staging();
   Recorder recorder(dir, resolved);
   if (options.bag) recorder.add_bag(find_profile(options.profile), options.bag_truth);
@@ -81,7 +81,7 @@ Command add_simulate(CommandLine& program, slam::MethodTable table) {
       program.add_command("simulate", "Records what the sensors see on a walk, with the truth beside it");
   line.option("INPUT", options->input, "scenario, plan or building, as for run").required();
   line.option("-o,--out", options->out, "directory to write").required();
-  options->seed_option = line.option("--seed", options->seed, "seed [the scenario's]");
+  options->seed_option = line.seed("--seed", options->seed, "seed [the scenario's]");
   const Argument bag = line.flag("--bag", options->bag, "also write recording.bag (ROS 1, LZ4)");
   line.option("--ros-profile", options->profile, "topics, frames and cloud layout of the bag")
       .one_of(profile_names())

@@ -39,13 +39,18 @@ int sweep(const SweepArguments& options, slam::MethodTable table) {
     return 0;
   }
   if (options.file.empty()) throw InputError({"SWEEP", 0, 0}, "is missing; name a sweep file");
-  const Sweep sweep = read_sweep(options.file, options.seeds);
+  const Sweep sweep = read_sweep(options.file, options.seeds, table);
   std::string name = sweep.file.name;
   for (char& c : name)
     if (c == '/' || c == ' ') c = '_';
   SweepOptions run;
   run.out = options.out.empty() ? "sweeps/" + name : options.out;
   run.jobs = options.jobs > 0 ? options.jobs : allowed_cpus();
+  run.resumed = [&](std::size_t done, std::size_t all) {
+    std::fprintf(stderr,
+                 "plumbline: %zu of %zu runs are there already; %s/results holds them, remove those to be made anew\n",
+                 done, all, run.out.c_str());
+  };
   if (::isatty(STDERR_FILENO) == 1)
     run.progress = [](std::size_t done, std::size_t all) { std::fprintf(stderr, "\r%zu of %zu runs", done, all); };
   catch_interrupts();
@@ -68,7 +73,7 @@ Command add_sweep(CommandLine& program, slam::MethodTable table) {
   line.flag("--schema", options->schema, "prints instead every key of sweep files, with examples");
   line.option("--runs", options->runs, "scenarios that differ in what methods are told alone, to be run on one walk")
       .hidden();
-  line.option("--seed", options->seed, "their seed").hidden();
+  line.seed("--seed", options->seed, "their seed").hidden();
   line.footer("Example: plumbline sweep ci/sweeps/look.yaml --jobs 2\nStopped at any moment, it goes on where it was.");
   return {line, [options, table] { return sweep(*options, table); }};
 }

@@ -85,31 +85,62 @@ void write_file(const std::string& path, std::string_view bytes) {
   }
 }
 
-bool is_run_file(std::string_view name) {
-  static constexpr std::array<std::string_view, 20> names = {
-      "scenario.yaml",  "building.plan.yaml", "building.ifc",  "results.json", "timings.json",
-      "digests.csv",    "truth.tum",          "report.html",   "junit.xml",    "truth_surface.ply",
-      "lidar.pcap",     "odometry.tum",       "imu.csv",       "failure.txt",  "recording.yaml",
-      recording_folder, "recording.bag",      "estimate.yaml", staging_name,   "odometry_covariance.csv"};
-  static constexpr std::array<std::string_view, 6> ends = {".tum",     ".hypotheses.jsonl", ".estimate.json",
+namespace {
+
+struct DirectoryNames {
+  std::string_view what;
+  std::vector<std::string_view> whole;
+  std::vector<std::string_view> ends;
+  std::string_view start = {};  ///< of the building's copy, which ends as the building does
+
+  [[nodiscard]] bool names(std::string_view name) const {
+    return std::find(whole.begin(), whole.end(), name) != whole.end();
+  }
+  [[nodiscard]] bool may_hold(std::string_view name) const {
+    return name == staging_name || names(name) || (!start.empty() && name.starts_with(start)) ||
+           std::any_of(ends.begin(), ends.end(), [&](std::string_view end) { return ends_with(name, end); });
+  }
+};
+
+const DirectoryNames& names_of(DirectoryKind kind) {
+  static const std::vector<std::string_view> of_methods = {".tum",     ".hypotheses.jsonl", ".estimate.json",
                                                            ".map.ply", ".map.pcd",          ".graph.json"};
-  return std::find(names.begin(), names.end(), name) != names.end() ||
-         std::any_of(ends.begin(), ends.end(), [&](std::string_view end) { return ends_with(name, end); });
+  static const std::array<DirectoryNames, 3> names = {{
+      {"run",
+       {"scenario.yaml", "results.json", "timings.json", "digests.csv", "report.html", "junit.xml", "truth_surface.ply",
+        "failure.txt", recording_folder},
+       of_methods,
+       "building."},
+      {"recording",
+       {"scenario.yaml", "truth.tum", "lidar.pcap", "odometry.tum", "odometry_covariance.csv", "imu.csv",
+        "recording.yaml", "recording.bag"},
+       {},
+       "building."},
+      {"estimate", {"estimate.yaml", "digests.csv", "timings.json"}, of_methods},
+  }};
+  return names[static_cast<std::size_t>(kind)];
 }
 
-RunDirectory::RunDirectory(const std::string& path, bool force)
+}  // namespace
+
+RunDirectory::RunDirectory(const std::string& path, DirectoryKind kind, bool force)
     : path_(path), staging_((fs::path(path) / staging_name).string()) {
   std::error_code error;
   const fs::file_status status = fs::status(path_, error);
   const Mark mark{path_, 0, 0};
   if (fs::exists(status)) {
     if (!fs::is_directory(status)) throw InputError(mark, "is a file; --out must name a directory");
+    const DirectoryNames& known = names_of(kind);
+    const std::string what(known.what);
+    bool occupied = false, ours = false;
     for (const std::string& name : names_in(path_)) {
-      if (name == staging_name) continue;
-      if (!force) throw InputError(mark, "exists and is not empty; name another --out or add --force");
-      if (!is_run_file(name))
-        throw InputError(mark, "holds '" + name + "', which no run wrote; --force replaces runs only");
+      if (!known.may_hold(name))
+        throw InputError(mark, "holds '" + name + "', which no " + what + " writes; name another --out");
+      occupied = occupied || name != staging_name;
+      ours = ours || known.names(name);
     }
+    if (occupied && !ours) throw InputError(mark, "is not empty and holds no " + what + "; name another --out");
+    if (occupied && !force) throw InputError(mark, "exists and is not empty; name another --out or add --force");
   }
   try {
     create();

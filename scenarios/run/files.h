@@ -14,13 +14,16 @@ inline constexpr std::string_view recording_folder = "recording";
 /// Throws EnvironmentError.
 void write_file(const std::string& path, std::string_view bytes);
 
-/// The run directory while it is being made. Files are written into a hidden folder inside it and moved into place
-/// together, results.json last, so that an interrupted run leaves nothing that looks complete.
+/// What a directory is to hold: one of them never replaces another.
+enum class DirectoryKind { run, recording, estimate };
+
+/// The directory of a run, recording or estimate while it is being made. Files are written into a hidden folder inside
+/// it and moved into place together, results.json last, so that an interrupted run leaves nothing that looks complete.
 class RunDirectory {
  public:
-  /// Creates `path` where needed. Throws InputError when it holds anything (unless `force` and it is a run directory)
-  /// or another run is writing it; EnvironmentError when it cannot be written.
-  RunDirectory(const std::string& path, bool force);
+  /// Creates `path` where needed. Throws InputError when it holds anything (unless `force` and nothing but files of
+  /// this kind) or another run is writing it; EnvironmentError when it cannot be written.
+  RunDirectory(const std::string& path, DirectoryKind kind, bool force);
   /// Removes everything it made, unless committed.
   ~RunDirectory();
   RunDirectory(const RunDirectory&) = delete;
@@ -41,8 +44,5 @@ class RunDirectory {
   int lock_ = -1;
   bool committed_ = false;
 };
-
-/// True for the names a run writes into its directory.
-[[nodiscard]] bool is_run_file(std::string_view name);
 
 }  // namespace plumbline::scenarios

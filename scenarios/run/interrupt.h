@@ -2,20 +2,23 @@
 #pragma once
 
 #include <stdexcept>
+#include <string>
 
 namespace plumbline::scenarios {
 
 /// The user asked the program to stop: exit code 128 + signal.
 class Interrupted : public std::runtime_error {
  public:
-  explicit Interrupted(int signal) : std::runtime_error("interrupted"), signal_(signal) {}
+  explicit Interrupted(int signal, const std::string& left = "nothing was written")
+      : std::runtime_error("interrupted; " + left), signal_(signal) {}
   [[nodiscard]] int signal() const { return signal_; }
 
  private:
   int signal_;
 };
 
-/// From here on SIGINT and SIGTERM only leave a note, which check_interrupt() finds; a second one ends the process.
+/// From here on SIGINT, SIGTERM and SIGHUP only leave a note, which check_interrupt() finds; one that comes 2 s or more
+/// after it ends the process.
 void catch_interrupts();
 /// Throws Interrupted when a signal came.
 void check_interrupt();

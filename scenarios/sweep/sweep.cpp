@@ -14,6 +14,7 @@
 
 #include "bim/errors.h"
 #include "scenarios/run/files.h"
+#include "scenarios/run/interrupt.h"
 #include "scenarios/sweep/children.h"
 #include "scenarios/sweep/table.h"
 
@@ -36,6 +37,7 @@ class SweepFolder {
         if (!known.contains(name) && it->path().extension() != ".tmp")
           throw InputError({path, 0, 0}, "holds '" + name + "', which no sweep wrote; name another --out");
       }
+    made_ = !fs::exists(path);
     fs::create_directories(results(), error);
     lock_ = ::open((path + "/.lock").c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
     if (lock_ < 0) throw EnvironmentError(path + ": cannot be written: " + std::strerror(errno));
@@ -49,6 +51,11 @@ class SweepFolder {
   ~SweepFolder() {
     std::error_code error;
     fs::remove_all(work(), error);
+    if (made_ && fs::is_empty(results(), error)) {  // the first run was refused
+      fs::remove(results(), error);
+      fs::remove(path_ + "/.lock", error);
+      fs::remove(path_, error);
+    }
     ::close(lock_);
   }
   SweepFolder(const SweepFolder&) = delete;
@@ -61,7 +68,15 @@ class SweepFolder {
  private:
   std::string path_;
   int lock_ = -1;
+  bool made_ = false;  ///< the folder was not there
 };
+
+/// A child's complaint without the place in a file that the sweep made.
+std::string without_place(const std::string& complaint, const std::string& folder) {
+  if (!complaint.starts_with(folder)) return complaint;
+  const std::size_t end = complaint.find(": ");
+  return end == std::string::npos ? complaint : complaint.substr(end + 2);
+}
 
 bool is_made(const std::string& path, const SweepRun& run) {
   if (!fs::exists(path)) return false;
@@ -91,22 +106,25 @@ Tree result_of(const SweepRun& run, const std::optional<Tree>& results, const st
   return tree.set("failure", failure).set("methods", failed);
 }
 
-std::vector<std::string> methods_of(const SweepRun& run) {
-  std::vector<std::string> methods = read_scenario(run.scenario_text, run.scenario).scenario.methods;
+std::vector<std::string> methods_of(const Sweep& sweep, const SweepRun& run) {
+  std::vector<std::string> methods = read_scenario(sweep.scenario_texts[run.text], run.scenario).scenario.methods;
   if (methods.empty()) methods.emplace_back("all");
   return methods;
 }
 
-void keep(const SweepFolder& folder, const SweepRun& run, const ChildEnd& end) {
+void keep(const Sweep& sweep, const SweepFolder& folder, const SweepRun& run, const ChildEnd& end) {
   constexpr int bad_input = 2, scenario_failed = 4;
   if (end.code == bad_input)
-    throw InputError({run.scenario, 0, 0}, "seed " + std::to_string(run.seed) + ": " + end.complaint);
+    throw InputError({run.scenario, 0, 0}, (run.variant.empty() ? "" : "'" + run.variant + "', ") +
+                                               (run.start.empty() ? "" : "start " + run.start + ", ") + "seed " +
+                                               std::to_string(run.seed) + ": " +
+                                               without_place(end.complaint, folder.work()));
   if (end.code != 0 && end.code != 1 && end.code != scenario_failed)
     throw EnvironmentError("sweep: run " + run.key + " ended with " + std::to_string(end.code) + ": " + end.complaint);
   const std::string file = folder.work() + "/" + run.key + "/results.json";
   std::optional<Tree> results;
   if (fs::exists(file)) results = read_json(read_text_file(file), file);
-  write_file(folder.result(run), write_json(result_of(run, results, methods_of(run), end.complaint)) + "\n");
+  write_file(folder.result(run), write_json(result_of(run, results, methods_of(sweep, run), end.complaint)) + "\n");
   std::error_code error;
   fs::remove_all(folder.work() + "/" + run.key, error);
 }
@@ -132,19 +150,20 @@ void make_missing(const Sweep& sweep, const SweepOptions& options, const SweepFo
   const std::vector<Group> groups = missing_groups(sweep, folder);
   std::size_t done = sweep.runs.size();
   for (const Group& group : groups) done -= group.size();
+  if (done > 0 && options.resumed) options.resumed(done, sweep.runs.size());
   run_children(
       groups.size(), options.jobs,
       [&](std::size_t i) {
         std::vector<std::string> arguments = {"sweep", "--seed", std::to_string(groups[i].front()->seed), "--runs"};
         for (const SweepRun* run : groups[i]) {
           arguments.push_back(folder.work() + "/" + run->key + ".yaml");
-          write_file(arguments.back(), run->scenario_text);
+          write_file(arguments.back(), sweep.scenario_texts[run->text]);
         }
         return arguments;
       },
       [&](std::size_t i) { return folder.work() + "/" + groups[i].front()->key + ".log"; },
       [&](std::size_t i, const ChildEnd& end) {
-        for (const SweepRun* run : groups[i]) keep(folder, *run, end);
+        for (const SweepRun* run : groups[i]) keep(sweep, folder, *run, end);
         done += groups[i].size();
         if (options.progress) options.progress(done, sweep.runs.size());
       });
@@ -154,7 +173,14 @@ void make_missing(const Sweep& sweep, const SweepOptions& options, const SweepFo
 
 std::string run_sweep(const Sweep& sweep, const SweepOptions& options) {
   const SweepFolder folder(options.out);
-  make_missing(sweep, options, folder);
+  try {
+    make_missing(sweep, options, folder);
+  } catch (const Interrupted& interrupted) {
+    const auto done = std::count_if(sweep.runs.begin(), sweep.runs.end(),
+                                    [&](const SweepRun& run) { return is_made(folder.result(run), run); });
+    throw Interrupted(interrupted.signal(), std::to_string(done) + " of " + std::to_string(sweep.runs.size()) +
+                                                " runs are done; the same command goes on");
+  }
   std::vector<SweepRow> rows;
   for (const SweepRun& run : sweep.runs) {
     const std::string file = folder.result(run);

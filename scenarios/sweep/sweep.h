@@ -11,6 +11,7 @@ namespace plumbline::scenarios {
 struct SweepOptions {
   std::string out;
   int jobs = 1;
+  std::function<void(std::size_t done, std::size_t all)> resumed;   ///< called where runs are there already
   std::function<void(std::size_t done, std::size_t all)> progress;  ///< called after each run; may be empty
 };
 

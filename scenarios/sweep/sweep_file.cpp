@@ -17,15 +17,19 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t most_runs = 1000000;
+constexpr std::size_t most_text_bytes = std::size_t{256} << 20U;
+constexpr int deepest_key = 16;
 
 /// A scenario's text with some of its values replaced.
 class Template {
  public:
   Template(const std::string& path, const Mark& mark) : path_(path) {
     if (!fs::exists(path)) throw InputError(mark, "the scenario '" + path + "' does not exist");
-    tree_ = read_yaml(read_text_file(path), path);
+    const std::string text = read_text_file(path);
+    tree_ = read_yaml(text, path);
     if (!tree_.is_map() || tree_.find("scenario") == nullptr)
       throw InputError(mark, "'" + path + "' is no scenario; its first key must be 'scenario: 1'");
+    (void)read_scenario(text, path);
     const Tree* building = tree_.find("building");
     if (building == nullptr) throw InputError(tree_.mark, "a scenario needs a building");
     building_ = fs::absolute(fs::path(path).parent_path() / building->as_string()).lexically_normal().string();
@@ -46,19 +50,35 @@ class Template {
       for (const std::string& method : methods) list.push(method);
       tree.set("methods", list).set("gates", Tree::list());
     }
-    (void)read_scenario(write_yaml(tree), path_ + (variant.name.empty() ? "" : " as " + variant.name));
+    check(tree, variant, mark);
     return tree;
   }
 
   [[nodiscard]] std::string text(Tree tree) const { return write_yaml(tree.set("building", building_)); }
 
  private:
+  /// A place in the text made here would be none that the user wrote.
+  void check(const Tree& tree, const SweepVariant& variant, const Mark& mark) const {
+    try {
+      (void)read_scenario(write_yaml(tree), "made");
+    } catch (const InputError& error) {
+      const std::string what = error.what();
+      const std::size_t start = what.find(": ");
+      throw InputError(mark, "'" + path_ + "'" + (variant.name.empty() ? "" : " as '" + variant.name + "'") +
+                                 (start == std::string::npos ? ": " + what : what.substr(start)));
+    }
+  }
+
   static void set(Tree& tree, const std::string& text, const Mark& mark) {
     const std::size_t equals = text.find('=');
     if (equals == 0 || equals == std::string::npos || equals + 1 == text.size())
       throw InputError(mark, "'" + text + "' must be key.key=value");
     const Tree value = read_yaml("value: " + text.substr(equals + 1), mark.file);
-    set_at(tree, text.substr(0, equals), *value.find("value"));
+    const std::string key = text.substr(0, equals);
+    if (key == "seed") throw InputError(mark, "a sweep gives every run its seed; set seeds and first_seed");
+    if (std::count(key.begin(), key.end(), '.') >= deepest_key)
+      throw InputError(mark, "a key of more than " + std::to_string(deepest_key) + " parts; no scenario has one");
+    set_at(tree, key, *value.find("value"));
   }
 
   static void set_at(Tree& tree, const std::string& path, const Tree& value) {
@@ -101,7 +121,7 @@ std::string file_name(const std::string& text) {
   return name;
 }
 
-void check(const SweepFile& file, const Tree& tree) {
+void check(const SweepFile& file, const Tree& tree, slam::MethodTable table) {
   if (file.scenarios.empty()) throw InputError(tree.find("scenarios")->mark, "names no scenario; it must name one");
   const std::size_t each =
       std::max<std::size_t>(file.variants.size(), 1) * std::max<std::size_t>(file.starts.size(), 1);
@@ -117,19 +137,22 @@ void check(const SweepFile& file, const Tree& tree) {
       throw InputError(mark_of(tree, "scenarios", i), "a scenario of this name stands there already");
   std::vector<Mark> marks;
   for (std::size_t i = 0; i < file.methods.size(); ++i) marks.push_back(mark_of(tree, "methods", i));
-  check_methods(file.methods, marks);
+  check_methods(file.methods, marks, table);
 }
 
 }  // namespace
 
-Sweep read_sweep(const std::string& path, int seeds) {
+Sweep read_sweep(const std::string& path, int seeds, slam::MethodTable table) {
   const Tree tree = read_yaml(read_text_file(path), path);
   if (!tree.is_map() || tree.as_map().empty() || tree.as_map().front().first != "sweep")
     throw InputError({path, 1, 1}, "the first key of a sweep must be 'sweep: 1'");
-  Sweep sweep{from_tree<SweepFile>(tree), {}};
+  Sweep sweep;
+  sweep.file = from_tree<SweepFile>(tree);
   if (seeds > 0) sweep.file.seeds = seeds;
   const SweepFile& file = sweep.file;
-  check(file, tree);
+  check(file, tree, table);
+  std::size_t text_bytes = 0;
+  std::set<std::string> parts;
   const std::vector<SweepVariant> variants = file.variants.empty() ? std::vector<SweepVariant>(1) : file.variants;
   for (std::size_t i = 0; i < file.scenarios.size(); ++i) {
     const Template scenario((fs::path(path).parent_path() / file.scenarios[i]).string(), mark_of(tree, "scenarios", i));
@@ -140,15 +163,21 @@ Sweep read_sweep(const std::string& path, int seeds) {
         const std::string part = file_name(scenario.name()) +
                                  (file.variants.empty() ? "" : "-" + file_name(variants[v].name)) +
                                  (start == nullptr ? "" : "-start" + std::to_string(s + 1));
+        if (!parts.insert(part).second)
+          throw InputError(mark_of(tree, file.variants.empty() ? "scenarios" : "variants", v),
+                           "two kinds of run are both called '" + part + "'; name one of them otherwise");
+        const Digest input = Digest().add(write_yaml(made)).add(scenario.building_bytes());
+        const Digest walk = Digest().add(scenario.text(walk_of(made))).add(scenario.building_bytes());
+        sweep.scenario_texts.push_back(scenario.text(made));
+        text_bytes += sweep.scenario_texts.back().size();
+        if (text_bytes > most_text_bytes)
+          throw InputError(tree.mark, "its scenarios are more than " + std::to_string(most_text_bytes) + " bytes");
         for (int k = 0; k < file.seeds; ++k) {
           const std::uint64_t seed = file.first_seed + static_cast<std::uint64_t>(k);
-          const std::string digest = hex64(
-              Digest().add(write_yaml(made)).add(scenario.building_bytes()).add(seed).add(PLUMBLINE_VERSION).value());
-          const std::string walk =
-              hex64(Digest().add(scenario.text(walk_of(made))).add(scenario.building_bytes()).add(seed).value());
-          sweep.runs.push_back({part + "-" + std::to_string(seed), scenario.name(), variants[v].name,
-                                start == nullptr ? "" : flow_text(to_tree(*start)), seed, scenario.text(made), digest,
-                                walk});
+          sweep.runs.push_back(
+              {part + "-" + std::to_string(seed), scenario.name(), variants[v].name,
+               start == nullptr ? "" : flow_text(to_tree(*start)), seed, sweep.scenario_texts.size() - 1,
+               hex64(Digest(input).add(seed).add(PLUMBLINE_VERSION).value()), hex64(Digest(walk).add(seed).value())});
         }
       }
   }
@@ -190,7 +219,7 @@ them. This page is what `plumbline sweep --schema` prints: it is made from the r
   at a time. Each run leaves one file in `results/`, complete or not at all; what is
   there and was made from the same scenario, building, seed and version is not run again, so that a sweep that was stopped,
   however, goes on where it was.
-- `runs.csv` has a row a run and method, `table.txt`, `table.csv` and `table.html` one a scenario, variant, start and method
+- `runs.csv` has a row a run and method, with why it failed, `table.txt`, `table.csv` and `table.html` one a scenario, variant, start and method
   over its seeds, `sweep.sqlite` both. None of them depends on `--jobs` or on how often the sweep was stopped.
 - Of a plan localization the table has success over the runs that can be told (with the 95 % interval of Wilson), the
   share of `honest_ambiguity` over those that cannot, false convergences, medians over the runs that can be told, in

@@ -6,6 +6,7 @@
 
 #include "bim/config/schema.h"
 #include "scenarios/scenario.h"
+#include "slam/methods.h"
 
 namespace plumbline::scenarios {
 
@@ -50,20 +51,21 @@ struct SweepRun {
   std::string variant;   ///< empty when the sweep has none
   std::string start;     ///< in one line of YAML, empty when the sweep has none
   std::uint64_t seed = 0;
-  std::string scenario_text;  ///< what it runs, its building by its whole path
-  std::string input_digest;   ///< of all that decides about its result, 16 hex digits
-  std::string walk_digest;    ///< of all that decides about what is simulated
+  std::size_t text = 0;      ///< of Sweep::scenario_texts, what it runs
+  std::string input_digest;  ///< of all that decides about its result, 16 hex digits
+  std::string walk_digest;   ///< of all that decides about what is simulated
 };
 
 /// Every run of a sweep file, by scenario, variant, start, seed, with the methods of all of them.
 struct Sweep {
   SweepFile file;
+  std::vector<std::string> scenario_texts;  ///< for all seeds, the building by its whole path
   std::vector<SweepRun> runs;
 };
 
 /// Reads a sweep and checks the form of every scenario it makes. seeds: so many of each, 0: as the file says. Throws
 /// InputError at the place that is wrong.
-[[nodiscard]] Sweep read_sweep(const std::string& path, int seeds = 0);
+[[nodiscard]] Sweep read_sweep(const std::string& path, int seeds = 0, slam::MethodTable table = slam::methods());
 
 [[nodiscard]] const std::vector<std::string>& sweep_examples();
 /// The page that documents sweep files, Markdown; scenarios/SWEEP.md is a copy of it.

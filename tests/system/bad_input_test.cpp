@@ -92,6 +92,7 @@ TEST_F(BadInput, ScenarioKeysAndValues) {
          {"short.yaml:12:", "unknown method 'vgcip'", "'vgicp'"});
   refuse(with(scenario_, "short.plan.yaml", "none.plan.yaml"), plan_, {"short.yaml:5:", "none.plan.yaml"});
   refuse(with(scenario_, "method: truth", "method: nobody"), plan_, {"short.yaml:14:", "nobody"});
+  refuse(with(scenario_, "name: short", "name: caf\xe9"), plan_, {"short.yaml:4:10", "no UTF-8"});
 }
 
 TEST_F(BadInput, StartAndRoute) {
@@ -126,16 +127,26 @@ TEST_F(BadInput, Plan) {
 }
 
 TEST_F(BadInput, CommandLine) {
-  const auto refuse_line = [](const std::vector<std::string>& arguments) {
+  const auto refuse_line = [](const std::vector<std::string>& arguments, const std::string& words = "") {
     const Outcome outcome = plumbline(arguments);
     EXPECT_EQ(outcome.code, 2) << outcome.err;
     EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
   };
-  refuse_line({});
-  refuse_line({"walk"});
+  const std::string input = project_file("tests/system/short.yaml");
+  refuse_line({}, "name a command");
+  refuse_line({"walk"}, "unknown command 'walk'");
+  refuse_line({"rnu", input}, "did you mean 'run'?");
+  refuse_line({"--versoin"}, "did you mean '--version'?");
   refuse_line({"run"});
-  refuse_line({"run", project_file("tests/system/short.yaml"), "--threads", "0"});
-  refuse_line({"run", project_file("tests/system/short.yaml"), "--sed", "1"});
+  refuse_line({"run", input, "--threads", "0"});
+  refuse_line({"run", input, "--sed", "1"}, "unknown option '--sed'; did you mean '--seed'?");
+  refuse_line({"generate", "corridor", "--rooms", "4", "--widths", "3", "-o", "-"}, "unknown option '--widths'");
+  for (const char* seed : {"-1", "", "1.5", "1e3", "9200000000000000001", "99999999999999999999"})
+    refuse_line({"run", input, "--seed", seed, "--out", folder_ / "out"}, "is no seed; a whole number from 0 to");
+  refuse_line({"identify", project_file("tests/system/short.plan.yaml"), "--step", "nan"}, "from 0.1 to 5");
+  for (const char* until : {"-5", "0", "nan", "inf", "1e300"})
+    refuse_line({"replay", folder_ / "nothing", "--until", until}, "a number above 0");
   refuse_line({"score", folder_ / "nothing"});
   refuse_line({"report", folder_ / "nothing"});
   refuse_line({"replay", folder_ / "nothing"});

@@ -162,6 +162,33 @@ TEST_F(Recordings, ACaptureOfARealSensorNeedsNothingElse) {
   }
 }
 
+TEST_F(Recordings, NoEstimateReplacesTheRecordingItIsOf) {
+  const std::string recording = walk("kept");
+  const std::string packets = read_file(recording + "/lidar.pcap");
+  const Outcome refused = plumbline({"estimate", recording, "--method", "odometry", "-o", recording, "--force"});
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.err.find("which no estimate writes; name another --out"), std::string::npos) << refused.err;
+  EXPECT_TRUE(read_file(recording + "/lidar.pcap") == packets);
+  const std::string out = folder_ / "estimate";
+  ASSERT_EQ(plumbline({"estimate", recording, "--method", "odometry", "-o", out}).code, 0);
+  EXPECT_EQ(plumbline({"estimate", recording, "--method", "odometry", "-o", out}).code, 2);
+  EXPECT_EQ(plumbline({"estimate", recording, "--method", "odometry", "-o", out, "--force"}).code, 0);
+}
+
+// Carried off, the sensors say nothing for a while; the recording is one all the same.
+TEST_F(Recordings, AKidnappingIsEstimatedAsItRan) {
+  std::string scenario = read_file(input());
+  scenario.replace(scenario.find("duration_s: 5"), 13, "duration_s: 8");
+  write_file(folder_ / "away.yaml", scenario + "kidnap: {after_s: 2, to: {room: right}, away_s: 3}\n");
+  write_file(folder_ / "short.plan.yaml", read_file(plan()));
+  const std::string run = folder_ / "run";
+  ASSERT_EQ(
+      plumbline({"run", folder_ / "away.yaml", "--out", run, "--record", "--method", "vgicp,s_graph_localization"})
+          .code,
+      0);
+  for (const char* method : {"vgicp", "s_graph_localization"}) expect_same(run, run, method);
+}
+
 TEST_F(Recordings, EstimateSaysWhatRunSaid) {
   write_file(folder_ / "open.yaml", read_file(input()) + "doors: open\n");  // that of the closet too
   write_file(folder_ / "short.plan.yaml", read_file(plan()));

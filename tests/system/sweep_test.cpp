@@ -95,6 +95,22 @@ TEST(Sweep, BadInputIsOneLineAndLeavesNothing) {
   EXPECT_NE(outcome.err.find("sweep.yaml:2:13"), std::string::npos) << outcome.err;
   EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1);
   EXPECT_FALSE(fs::exists(folder / "out"));
+
+  write_file(folder / "short.yaml", read_file(project_file("tests/system/short.yaml")));
+  write_file(folder / "short.plan.yaml", read_file(project_file("tests/system/short.plan.yaml")));
+  const std::vector<std::pair<std::string, std::string>> mistakes = {
+      {"starts: [{room: attic}]\n", "short: start {room: attic}, seed 1: "},
+      {"variants: [{name: a, set: [prior.yw=known]}]\n", "sweep.yaml:3:12: "},
+      {"variants: [{name: a, set: [seed=4]}]\n", "sweep.yaml:3:12: a sweep gives every run its seed"}};
+  for (const auto& [mistake, words] : mistakes) {
+    write_file(folder / "sweep.yaml", "sweep: 1\nscenarios: [short.yaml]\n" + mistake);
+    const Outcome refused = plumbline({"sweep", folder / "sweep.yaml", "--seeds", "1", "-o", folder / "out"});
+    EXPECT_EQ(refused.code, 2) << refused.err;
+    EXPECT_NE(refused.err.find(words), std::string::npos) << refused.err;
+    EXPECT_EQ(std::count(refused.err.begin(), refused.err.end(), '\n'), 1) << refused.err;
+    EXPECT_EQ(refused.err.find("/.work/"), std::string::npos) << refused.err;
+    EXPECT_FALSE(fs::exists(folder / "out")) << mistake;
+  }
 }
 
 }  // namespace

@@ -86,5 +86,19 @@ TEST(Tree, SuggestsTheClosestName) {
   EXPECT_EQ(did_you_mean("zzzzzz", {"seed", "start"}), "");
 }
 
+TEST(Yaml, TextThatIsNotUtf8IsRefusedWhereItStands) {
+  for (const std::string bad : {"\xe9", "\xc0\xaf", "\xe0\x80\x80", "\xed\xa0\x80", "\xf4\x90\x80\x80",
+                                "\xf5\x80\x80\x80", "\xe2\x82", "\x80"}) {
+    try {
+      static_cast<void>(read_yaml("a: 1\nb: caf" + bad + "\n", "x.yaml"));
+      ADD_FAILURE() << "taken";
+    } catch (const InputError& error) {
+      EXPECT_EQ(std::string(error.what()).rfind("x.yaml:2:7: no UTF-8", 0), 0U) << error.what();
+    }
+  }
+  for (const std::string good : {"caf\xc3\xa9", "\xe2\x82\xac", "\xf0\x9f\x98\x80", "\xed\x9f\xbf", "\xf4\x8f\xbf\xbd"})
+    EXPECT_EQ(read_yaml("a: " + good, "x.yaml").find("a")->as_string(), good);
+}
+
 }  // namespace
 }  // namespace plumbline

@@ -70,6 +70,14 @@ TEST_F(GenerateCommand, SaysWhatIsWrong) {
   EXPECT_EQ(run(""), 2);
   EXPECT_EQ(run("grid --epsilon 0.3 -o -"), 2);
   EXPECT_NE(said_.find("needs a feature"), std::string::npos) << said_;
+  EXPECT_EQ(run("grid --feature column -o -"), 2);
+  EXPECT_NE(said_.find("needs a size"), std::string::npos) << said_;
+  EXPECT_EQ(run("grid -o same.yaml --scenario ./same.yaml"), 2);
+  EXPECT_NE(said_.find("is the plan's own file"), std::string::npos) << said_;
+  EXPECT_EQ(run("grid -o . --force"), 2);
+  EXPECT_NE(said_.find("is a directory"), std::string::npos) << said_;
+  EXPECT_EQ(run("grid -o same.yaml --scenario none/x.yaml"), 2);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "same.yaml"));
 }
 
 }  // namespace

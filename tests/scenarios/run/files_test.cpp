@@ -41,7 +41,7 @@ TEST_F(Files, WholeOrNotAtAll) {
 
 TEST_F(Files, ARunDirectoryAppearsAtTheEnd) {
   {
-    RunDirectory run(path("runs/one"), false);
+    RunDirectory run(path("runs/one"), DirectoryKind::run, false);
     write_file(run.staging() + "/results.json", "{}");
     write_file(run.staging() + "/truth.tum", "");
     EXPECT_FALSE(fs::exists(path("runs/one/results.json")));
@@ -53,32 +53,54 @@ TEST_F(Files, ARunDirectoryAppearsAtTheEnd) {
 }
 
 TEST_F(Files, AnAbandonedRunLeavesNothing) {
-  { const RunDirectory run(path("runs/one"), false); }
+  { const RunDirectory run(path("runs/one"), DirectoryKind::run, false); }
   EXPECT_FALSE(fs::exists(path("runs")));
 }
 
 TEST_F(Files, OccupiedDirectoriesAreRefused) {
   fs::create_directories(path("full"));
   write_file(path("full/results.json"), "{}");
-  EXPECT_THROW(RunDirectory(path("full"), false), InputError);
+  EXPECT_THROW(RunDirectory(path("full"), DirectoryKind::run, false), InputError);
   EXPECT_EQ(read_text_file(path("full/results.json")), "{}");
   {
-    RunDirectory run(path("full"), true);
-    EXPECT_THROW(RunDirectory(path("full"), true), InputError);  // another one is writing
+    RunDirectory run(path("full"), DirectoryKind::run, true);
+    EXPECT_THROW(RunDirectory(path("full"), DirectoryKind::run, true), InputError);  // another one is writing
     write_file(run.staging() + "/truth.tum", "new");
     run.commit();
   }
   EXPECT_FALSE(fs::exists(path("full/results.json")));
   EXPECT_EQ(read_text_file(path("full/truth.tum")), "new");
   write_file(path("full/thesis.tex"), "mine");
-  EXPECT_THROW(RunDirectory(path("full"), true), InputError);
-  EXPECT_THROW(RunDirectory(path("full/truth.tum"), false), InputError);
+  EXPECT_THROW(RunDirectory(path("full"), DirectoryKind::run, true), InputError);
+  EXPECT_THROW(RunDirectory(path("full/truth.tum"), DirectoryKind::run, false), InputError);
+}
+
+TEST_F(Files, OneKindOfDirectoryNeverReplacesAnother) {
+  const std::vector<std::pair<DirectoryKind, std::vector<std::string>>> kinds = {
+      {DirectoryKind::run, {"scenario.yaml", "results.json", "truth.tum", "vgicp.tum", "building.glb"}},
+      {DirectoryKind::recording, {"lidar.pcap", "odometry.tum", "imu.csv", "recording.yaml"}},
+      {DirectoryKind::estimate, {"vgicp.tum", "vgicp.estimate.json", "estimate.yaml", "digests.csv"}}};
+  for (const auto& [kind, names] : kinds) {
+    fs::remove_all(path("there"));
+    fs::create_directories(path("there"));
+    for (const std::string& name : names) write_file(path("there/" + name), "x");
+    for (const auto& [other, unused] : kinds) {
+      if (other == kind)
+        EXPECT_NO_THROW(RunDirectory(path("there"), other, true));
+      else
+        EXPECT_THROW(RunDirectory(path("there"), other, true), InputError);
+    }
+    for (const std::string& name : names) EXPECT_EQ(read_text_file(path("there/" + name)), "x");
+  }
+  fs::create_directories(path("mine"));
+  write_file(path("mine/walk.tum"), "x");
+  for (const auto& [kind, unused] : kinds) EXPECT_THROW(RunDirectory(path("mine"), kind, true), InputError);
 }
 
 TEST_F(Files, WhatAKilledRunLeftIsNoObstacle) {
   fs::create_directories(path("killed/.partial"));
   write_file(path("killed/.partial/results.json"), "half");
-  RunDirectory run(path("killed"), false);
+  RunDirectory run(path("killed"), DirectoryKind::run, false);
   write_file(run.staging() + "/truth.tum", "");
   run.commit();
   EXPECT_FALSE(fs::exists(path("killed/results.json")));

@@ -93,12 +93,21 @@ TEST_F(SweepFiles, AVariantReplacesValues) {
   const Sweep sweep = read(
       "sweep: 1\nscenarios: [library/quickstart.yaml]\nseeds: 1\nvariants: [{name: x, set: [prior.yaw=unknown, "
       "speed_mps=0.5]}]\nstarts: [{random: rooms}]\n");
-  const Scenario scenario = read_scenario(sweep.runs.at(0).scenario_text, "made").scenario;
+  const Scenario scenario = read_scenario(sweep.scenario_texts.at(sweep.runs.at(0).text), "made").scenario;
   EXPECT_EQ(scenario.prior.yaw, Knowledge::unknown);
   EXPECT_EQ(scenario.prior.storey, Knowledge::known);
   EXPECT_EQ(scenario.speed_mps, 0.5);
   EXPECT_EQ(scenario.start.random, StartDraw::rooms);
   EXPECT_FALSE(scenario.start.room.has_value());
+}
+
+TEST_F(SweepFiles, NoTwoRunsHaveOneName) {
+  namespace fs = std::filesystem;
+  fs::copy_file(folder_ / "library/house.yaml", folder_ / "library/a.yaml");
+  fs::copy_file(folder_ / "library/house.yaml", folder_ / "library/a-b.yaml");
+  const std::string files = "sweep: 1\nscenarios: [library/a.yaml, library/a-b.yaml]\nseeds: 1\n";
+  EXPECT_EQ(complaint(files + "variants: [{name: c}, {name: d}]\n"), "");
+  EXPECT_NE(complaint(files + "variants: [{name: c}, {name: b-c}]\n").find("both called 'a-b-c'"), std::string::npos);
 }
 
 TEST_F(SweepFiles, FaultsAreNamedWhereTheyStand) {
@@ -111,6 +120,10 @@ TEST_F(SweepFiles, FaultsAreNamedWhereTheyStand) {
   EXPECT_NE(complaint(head + "seeds: 0\n").find("sweep.yaml:3:8"), std::string::npos);
   EXPECT_NE(complaint(head + "variants: [{name: a, set: [speed_mps]}]\n").find("key.key=value"), std::string::npos);
   EXPECT_NE(complaint(head + "variants: [{name: a, set: [sped_mps=1]}]\n").find("did you mean"), std::string::npos);
+  std::string deep;
+  for (int i = 0; i < 200000; ++i) deep += "a.";
+  EXPECT_NE(complaint(head + "variants: [{name: a, set: [" + deep + "a=1]}]\n").find("of more than 16 parts"),
+            std::string::npos);
   EXPECT_NE(complaint(head + "variants: [{name: a}, {name: a}]\n").find("there already"), std::string::npos);
 }
 
