@@ -126,7 +126,7 @@ Floor floor_of(const bim::Building& as_built, std::size_t storey, double step_m)
   Floor floor;
   floor.storey = storey;
   const IdentifyStorey area = search_area(as_built, storey);
-  if (area.min.x() > area.max.x()) return floor;
+  if (area.empty()) return floor;
   const sim::FreeSpace space(as_built, static_cast<int>(storey));
   const Rooms rooms(as_built, storey);
   for (double x = area.min.x() + 0.5 * step_m; x < area.max.x(); x += step_m)

@@ -14,6 +14,9 @@ struct IdentifyStorey {
   Eigen::Vector2d min = Eigen::Vector2d::Zero();
   Eigen::Vector2d max = Eigen::Vector2d::Zero();
   double sensor_z_W = 0.66;  ///< height of the sensor on this storey
+
+  /// Nothing stands there to look between.
+  [[nodiscard]] bool empty() const { return min.x() > max.x(); }
 };
 
 /// By what places are told to be alike at a glance.

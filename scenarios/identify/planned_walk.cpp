@@ -78,7 +78,10 @@ IdentifyInput input_of(const ResolvedScenario& resolved, int storey, const SeenB
   const bim::Building& plan = resolved.site.as_planned;
   for (std::size_t i = 0; i < plan.storeys.size(); ++i)
     if (static_cast<int>(i) == storey || resolved.scenario.prior.storey == Knowledge::unknown)
-      input.storeys.push_back(search_area(plan, i));
+      if (const IdentifyStorey area = search_area(plan, i); !area.empty()) input.storeys.push_back(area);
+  if (input.storeys.empty())
+    throw InputError({resolved.scenario.building, 0, 0},
+                     "has no walls to look for places between; a plan or an .ifc would be right");
   return input;
 }
 

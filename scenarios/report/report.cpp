@@ -2,6 +2,8 @@
 #include "scenarios/report/report.h"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 
 #include "bim/config/tree.h"
@@ -59,6 +61,11 @@ std::string place_sentence(const std::string& verdict, const Tree* where) {
   if (!time) return "Never settled on one place in the building" + why_it_failed(where) + ".";
   if (verdict == "lucky") return "Settled on the right place before anything seen could tell it from another.";
   if (verdict == "false_convergence") return "Settled on a wrong place" + why_it_failed(where) + ".";
+  const std::string failure = text_of(*where, "failure");
+  if (verdict == "lost")
+    return "Settled on a place after " + svg::number(*time, 1) + " s and did not keep it" + why_it_failed(where) + ".";
+  if (verdict == "late" && failure != "undecided")
+    return "Settled on a place after " + svg::number(*time, 1) + " s and gave it up again" + why_it_failed(where) + ".";
   std::string text = "Knew its place in the building after " + svg::number(*time, 1) + " s";
   if (error) text += " and was " + centimetres(*error) + " off from then on (rms)";
   return text + (verdict == "late" ? "; too late to count, for an answer has to be held for 5 s and 1 m." : ".");
@@ -77,9 +84,10 @@ std::string sentence(const ReportMethod& method, const Tree* results) {
   std::string text = "Its path is " + centimetres(*error) + " off the true one (rms, after alignment)";
   const Tree* rooms = results->find("rooms");
   const auto visited = number_of(rooms, "visited");
-  const auto matched = number_of(rooms, "matched");
-  if (visited && matched)
-    text += "; recognised " + svg::number(*matched, 0) + " of " + svg::number(*visited, 0) + " rooms";
+  const auto recall = number_of(rooms, "recall");
+  if (visited && recall)
+    text += "; recognised " + svg::number(*recall * *visited, 0) + " of the " + svg::number(*visited, 0) +
+            " rooms it was in";
   return text + ".";
 }
 
@@ -121,11 +129,21 @@ std::string header(const ReportInput& input) {
     badge = "<span class=\"badge bad\">FAIL</span> <span>" + std::to_string(failed) + " of " + std::to_string(count) +
             " gates failed</span>";
   const Tree* results = &input.results;
+  if (const Tree* failure = input.results.find("failure"))
+    badge +=
+        " <span class=\"badge bad\">the scenario failed</span> <span>" + svg::escape(failure->as_string()) + "</span>";
   std::string facts = "seed " + svg::escape(text_of(input.results, "seed"));
   if (const auto d = number_of(results, "duration_s")) facts += " · " + svg::number(*d, 1) + " s";
   if (const auto d = number_of(results, "distance_m")) facts += " · " + svg::number(*d, 1) + " m walked";
   return "<header><h1>" + svg::escape(text_of(input.results, "scenario")) + "</h1>" + badge + "<span class=\"facts\">" +
          facts + "</span></header>";
+}
+
+/// Four digits, however small the value is.
+std::string few_digits(double value) {
+  std::array<char, 32> text{};
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 4).ptr;
+  return {text.data(), end};
 }
 
 std::string gates_table(const ReportInput& input) {
@@ -138,7 +156,7 @@ std::string gates_table(const ReportInput& input) {
     const bool passed = gate.find("passed")->as_bool();
     const auto value = number_of(&gate, "value");
     out += "<tr><td>" + svg::escape(text_of(gate, "metric")) + "</td><td>" + svg::escape(text_of(gate, "method")) +
-           "</td><td class=\"num\">" + (value ? svg::number(*value, 4) : "absent") + "</td><td class=\"num\">" +
+           "</td><td class=\"num\">" + (value ? few_digits(*value) : "absent") + "</td><td class=\"num\">" +
            svg::escape(text_of(gate, "op")) + " " + format_number(number_of(&gate, "limit").value_or(0.0)) +
            "</td><td class=\"verdict " + (passed ? "good\">passed" : "bad\">failed") + "</td></tr>";
   }
@@ -230,6 +248,7 @@ PlotCurve places_left(const ReportInput& input, double end_s) {
   if (known == nullptr) return curve;
   constexpr double step_s = 0.5;  // a curve with larger gaps would be drawn open
   const Tree::List& places = known->find("places")->as_list();
+  if (input.kidnap) end_s = std::min(end_s, input.kidnap->lifted_s);  // it is known of the walk before
   for (std::size_t i = 0; i < places.size(); ++i) {
     const double until = i + 1 < places.size() ? places[i + 1].find("t_s")->as_double() : end_s;
     for (double t = places[i].find("t_s")->as_double(); t <= until; t += step_s)

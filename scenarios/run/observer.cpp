@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenarios/run/observer.h"
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <span>
 
+#include "bim/config/tree.h"
 #include "bim/digest/digest.h"
 #include "bim/errors.h"
 #include "sim/lidar/light.h"
@@ -33,9 +35,22 @@ std::uint64_t digest_of_lidar(const sim::WorldFrame& frame) {
 
 }  // namespace
 
+void check_extent(const bim::BuildingMesh& mesh) {
+  constexpr double most_m3 = 8e6;  // at a bit for 0.1 m
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& v : mesh.vertices) box.extend(v);
+  if (box.isEmpty()) return;
+  const Eigen::Vector3d size = box.sizes().cwiseMax(1.0);
+  if (size.prod() <= most_m3) return;
+  throw InputError({}, "the building reaches over " + format_number(std::round(size.x())) + " x " +
+                           format_number(std::round(size.y())) + " x " + format_number(std::round(size.z())) +
+                           " m, which is more than 8 million m3; leave out what stands far off");
+}
+
 SurfaceRecorder::SurfaceRecorder(const bim::BuildingMesh& mesh, double voxel_m)
     : voxel_m_(voxel_m), element_count_(static_cast<int>(mesh.elements.size())) {
   if (mesh.vertices.empty()) throw InternalError("the as-built mesh is empty");
+  check_extent(mesh);
   Eigen::Vector3d high = mesh.vertices.front();
   origin_ = high;
   for (const Eigen::Vector3d& v : mesh.vertices) {

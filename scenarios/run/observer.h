@@ -10,6 +10,9 @@
 
 namespace plumbline::scenarios {
 
+/// Throws InputError where a building reaches so far that grids over all of it would take more than 1 GB.
+void check_extent(const bim::BuildingMesh& mesh);
+
 /// Keeps one truly hit point of each voxel of the building's box, in the order of time.
 class SurfaceRecorder {
  public:

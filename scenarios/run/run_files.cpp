@@ -35,6 +35,8 @@ void write_method(const std::string& dir, const MethodRecord& method) {
   if (method.name == truth_method) return;  // truth.tum and truth_surface.ply hold what it knows
   write_file(stem + ".tum", slam::write_tum(method.causal));
   write_file(stem + ".final.tum", slam::write_tum(method.estimate.trajectory));
+  for (const char* end : {".map.ply", ".map.pcd", ".graph.json", ".hypotheses.jsonl"})
+    fs::remove(stem + end);  // of an estimate that had this name before
   if (!method.estimate.map_F.empty()) {
     write_file(stem + ".map.ply", write_ply(method.estimate.map_F));
     write_file(stem + ".map.pcd", write_pcd(method.estimate.map_F));

@@ -37,14 +37,18 @@ std::vector<GateResult> judge_gates(const std::vector<GateSpec>& gates, const st
                                     bool run_completed) {
   std::vector<GateResult> results;
   for (const GateSpec& gate : gates) {
-    GateResult result{gate.metric, gate.method, gate.max ? "<=" : ">=", gate.max ? *gate.max : *gate.min, {}, false};
+    GateResult result{gate.metric, gate.method, gate.max ? "<=" : ">=", gate.max ? *gate.max : *gate.min, {},
+                      {},          false};
     const auto score =
         std::find_if(scores.begin(), scores.end(), [&](const MethodScore& s) { return s.name == gate.method; });
     if (score != scores.end()) {
       result.value = find_metric(gate.metric)->value(*score);
-      const bool whole = run_completed && score->verdict != "crashed" && score->verdict != "lost";
+      result.but = !run_completed                ? "the run ended early"
+                   : score->verdict == "crashed" ? "the method crashed"
+                   : score->verdict == "lost"    ? "the method was lost"
+                                                 : "";
       const bool within = result.value && (gate.max ? *result.value <= *gate.max : *result.value >= *gate.min);
-      result.passed = whole && within;
+      result.passed = result.but.empty() && within;
     }
     results.push_back(std::move(result));
   }
@@ -61,11 +65,12 @@ Tree to_results(const GateResult& gate) {
 std::string describe(const GateResult& gate) {
   const std::string what = gate.metric + " of " + gate.method;
   const std::string must = ", must be " + gate.op + " " + format_number(gate.limit);
-  return what + (gate.value ? " is " + format_number(*gate.value) : " is absent") + must;
+  return what + (gate.value ? " is " + format_number(*gate.value) : " is absent") + must +
+         (gate.but.empty() ? "" : ", but " + gate.but);
 }
 
 std::string write_junit(const std::string& suite, const std::vector<GateResult>& gates,
-                        const std::vector<MethodScore>& scores) {
+                        const std::vector<MethodScore>& scores, const std::string& failure) {
   std::string cases;
   std::size_t count = 0;
   std::size_t failures = 0;
@@ -74,6 +79,7 @@ std::string write_junit(const std::string& suite, const std::vector<GateResult>&
     ++count;
     if (!failure.empty()) ++failures;
   };
+  add(suite, "the walk is done", failure);
   for (const GateResult& gate : gates)
     add(suite + "." + gate.method, gate.metric + " " + gate.op + " " + format_number(gate.limit),
         gate.passed ? "" : describe(gate));

@@ -51,7 +51,8 @@ std::optional<Identifiability> identifiability_of(const RunFiles& files, const T
   input.yaw_known = files.scenario.prior.yaw == Knowledge::known;
   for (std::size_t i = 0; i < as_planned.storeys.size(); ++i)
     if (i == start || files.scenario.prior.storey == Knowledge::unknown)
-      input.storeys.push_back(search_area(as_planned, i));
+      if (const IdentifyStorey area = search_area(as_planned, i); !area.empty()) input.storeys.push_back(area);
+  if (input.storeys.empty()) return std::nullopt;  // a mesh
 
   std::vector<TruthSample> samples;
   for (const slam::Nanoseconds t : truth.scans)

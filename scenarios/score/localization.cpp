@@ -137,6 +137,7 @@ LocalizationVerdict judge_unique(const std::optional<Course>& course, slam::Stat
 LocalizationVerdict judge_ambiguous(const std::optional<Course>& course, const Belief& last, bool held, bool honest) {
   if (last.state == slam::State::converged)
     return held && course->right_to_the_end ? LocalizationVerdict::lucky : LocalizationVerdict::overconfident;
+  if (course && course->wrong_while_converged) return LocalizationVerdict::overconfident;
   if (honest) return LocalizationVerdict::honest_ambiguity;
   return last.state == slam::State::lost ? LocalizationVerdict::lost : LocalizationVerdict::late;
 }
@@ -233,7 +234,7 @@ LocalizationScore score_localization(const Truth& truth, const std::vector<Belie
   score.nees = mean_nees(truth, beliefs, rules);
   if (const auto why = failure_of(truth, beliefs, score.verdict, twins, rules)) {
     score.failure = why->failure;
-    score.failure_at_s = slam::seconds(why->stamp - truth.scans.front());
+    score.failure_at_s = slam::seconds(why->stamp);
   }
   return score;
 }

@@ -99,7 +99,7 @@ struct LocalizationScore {
   std::optional<double> nees;       ///< mean of e' P^-1 e of (x, y, yaw) while converged and right; 3 where P is honest
   std::optional<double> handover_precision;  ///< see handover.h
   std::optional<Failure> failure;
-  std::optional<double> failure_at_s;    ///< `replay --until` stops there
+  std::optional<double> failure_at_s;    ///< on the run's clock: `replay --until` stops there
   std::optional<double> kidnap_wrong_s;  ///< longest time a wrong pose stood as CONVERGED after it was set down
   std::optional<double> kidnap_found_s;  ///< since it was set down, until the pose was CONVERGED and right to the end
   std::optional<double> kidnap_found_m;  ///< walked until then

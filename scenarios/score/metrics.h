@@ -56,6 +56,7 @@ struct GateResult {
   std::string op;  ///< "<=" or ">="
   double limit = 0.0;
   std::optional<double> value;  ///< absent when the metric is
+  std::string but;              ///< why it fails whatever the value is; empty where nothing is amiss
   bool passed = false;
 };
 
@@ -67,8 +68,9 @@ struct GateResult {
 /// "ate_aligned_rmse_m of vgicp is 0.3, must be <= 0.25"
 [[nodiscard]] std::string describe(const GateResult& gate);
 
-/// JUnit XML: one suite a run, one case a gate, and one a method that it did not crash.
+/// JUnit XML: one suite a run, a case that the walk was done (`failure`: why it was not), one a gate, and one a method
+/// that it did not crash.
 [[nodiscard]] std::string write_junit(const std::string& suite, const std::vector<GateResult>& gates,
-                                      const std::vector<MethodScore>& scores);
+                                      const std::vector<MethodScore>& scores, const std::string& failure);
 
 }  // namespace plumbline::scenarios::score

@@ -34,10 +34,13 @@ bool bounds(const bim::PlanRoom& room, int face) {
   return std::find(room.faces.begin(), room.faces.end(), face) != room.faces.end();
 }
 
-/// The face a found room's plane was matched with, or -1.
-int face_of(const slam::Estimate& estimate, const WallScore& walls, int plane_id) {
-  for (std::size_t i = 0; i < estimate.planes.size(); ++i)
-    if (estimate.planes[i].id == plane_id) return walls.face_of_plane[i];
+/// The face of the room that a found room's plane was matched with, or -1.
+int face_of(const slam::Estimate& estimate, const WallScore& walls, int plane_id, const bim::PlanRoom& room) {
+  for (std::size_t i = 0; i < estimate.planes.size(); ++i) {
+    if (estimate.planes[i].id != plane_id) continue;
+    for (const int face : walls.faces_of_plane[i])
+      if (bounds(room, face)) return face;
+  }
   return -1;
 }
 
@@ -55,9 +58,9 @@ bool corridor_matches(const slam::Estimate& estimate, const slam::RoomNode& node
                       const bim::Plan& plan, const bim::PlanRoom& room, const WallScore& walls,
                       const StructureRules& rules) {
   if (node.planes.size() != 2) return false;
-  const int first = face_of(estimate, walls, node.planes[0]);
-  const int second = face_of(estimate, walls, node.planes[1]);
-  if (first < 0 || second < 0 || !bounds(room, first) || !bounds(room, second)) return false;
+  const int first = face_of(estimate, walls, node.planes[0], room);
+  const int second = face_of(estimate, walls, node.planes[1], room);
+  if (first < 0 || second < 0) return false;
   const Eigen::Vector3d center_W = X_WF * Eigen::Vector3d(node.center_F.x(), node.center_F.y(), 0.0);
   const double d0 = plan.faces[static_cast<std::size_t>(first)].plane_W.distance(center_W);
   const double d1 = plan.faces[static_cast<std::size_t>(second)].plane_W.distance(center_W);

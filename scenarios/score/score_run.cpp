@@ -23,7 +23,8 @@ struct Reference {
   const SurfaceDistance& distance;
 };
 
-/// Beliefs with the poses given for them. An outside trajectory in W claims to know where it is from its first pose.
+/// Beliefs with the poses given for them. An outside trajectory in W claims to know where it is from its first pose to
+/// the end of the run, also where it has none.
 std::vector<Belief> beliefs_of(const MethodRecord& method, const Truth& truth) {
   std::vector<Belief> beliefs;
   const auto pose_at = [&](slam::Nanoseconds stamp) -> std::optional<Pose> {
@@ -35,9 +36,14 @@ std::vector<Belief> beliefs_of(const MethodRecord& method, const Truth& truth) {
   for (const BeliefRecord& belief : method.beliefs)
     beliefs.push_back({belief.stamp, belief.state, pose_at(belief.stamp), belief.hypotheses, belief.particles});
   if (!beliefs.empty()) return beliefs;
-  for (const PosePair& pair : associate(truth, method.causal, {})) {
-    const slam::Hypothesis only{1.0, pair.X_FR, Eigen::Matrix3d::Zero(), "", {}};
-    beliefs.push_back({truth.scans[pair.scan], slam::State::converged, pair.X_FR, {only}, {}});
+  const std::vector<PosePair> pairs = associate(truth, method.causal, {});
+  if (pairs.empty()) return beliefs;
+  for (std::size_t i = pairs.front().scan; i < truth.scans.size(); ++i)
+    beliefs.push_back({truth.scans[i], slam::State::converged, {}, {}, {}});
+  for (const PosePair& pair : pairs) {
+    Belief& belief = beliefs[pair.scan - pairs.front().scan];
+    belief.X_WR = pair.X_FR;
+    belief.hypotheses = {{1.0, pair.X_FR, Eigen::Matrix3d::Zero(), "", {}}};
   }
   return beliefs;
 }
@@ -75,18 +81,28 @@ MethodScore score_localizer(const MethodRecord& method, const Reference& referen
   return score;
 }
 
+/// Whether an estimate of this kind has a metric when all goes well.
+bool is_asked_for(std::string_view metric, const MethodRecord& method) {
+  const slam::Estimate& estimate = method.estimate;
+  if (metric.starts_with("map_")) return !estimate.map_F.empty();
+  if (metric.starts_with("walls.")) return !estimate.planes.empty();
+  if (metric.starts_with("rooms.")) return !estimate.planes.empty() && !(method.localization && estimate.rooms.empty());
+  if (metric == "localization.nees" || metric == "localization.handover_precision") return !method.beliefs.empty();
+  return metric.starts_with("localization.") == method.localization;
+}
+
 /// The strictest bound in the good direction of each metric, asked of an outside estimate. Bounds on the truth check
 /// the scorer and are nobody else's.
-std::vector<GateSpec> gates_for_outside(const std::vector<GateSpec>& gates, const MethodScore& score) {
+std::vector<GateSpec> gates_for_outside(const std::vector<GateSpec>& gates, const MethodRecord& method) {
   std::vector<GateSpec> strictest;
   for (const GateSpec& gate : gates) {
     const MetricRow& row = *find_metric(gate.metric);
     const bool good_direction = (row.better == Better::lower && gate.max) || (row.better == Better::higher && gate.min);
-    if (!good_direction || gate.method == truth_method || !row.value(score)) continue;
+    if (!good_direction || gate.method == truth_method || !is_asked_for(gate.metric, method)) continue;
     const auto same = std::find_if(strictest.begin(), strictest.end(),
                                    [&](const GateSpec& other) { return other.metric == gate.metric; });
     if (same == strictest.end())
-      strictest.push_back({gate.metric, score.name, gate.max, gate.min});
+      strictest.push_back({gate.metric, method.name, gate.max, gate.min});
     else if (gate.max)
       same->max = std::min(*same->max, *gate.max);
     else
@@ -95,10 +111,10 @@ std::vector<GateSpec> gates_for_outside(const std::vector<GateSpec>& gates, cons
   return strictest;
 }
 
-std::vector<GateSpec> all_gates(const RunFiles& files, const std::vector<MethodScore>& scores) {
+std::vector<GateSpec> all_gates(const RunFiles& files) {
   std::vector<GateSpec> gates = files.scenario.gates;
-  for (std::size_t i = files.scenario.methods.size(); i < scores.size(); ++i) {
-    const std::vector<GateSpec> more = gates_for_outside(files.scenario.gates, scores[i]);
+  for (std::size_t i = files.scenario.methods.size(); i < files.methods.size(); ++i) {
+    const std::vector<GateSpec> more = gates_for_outside(files.scenario.gates, files.methods[i]);
     gates.insert(gates.end(), more.begin(), more.end());
   }
   return gates;
@@ -189,7 +205,7 @@ RunScore score_run(const RunFiles& files) {
     one.error = method.error;
     score.methods.push_back(std::move(one));
   }
-  score.gates = judge_gates(all_gates(files, score.methods), score.methods, files.failure.empty());
+  score.gates = judge_gates(all_gates(files), score.methods, files.failure.empty());
   return score;
 }
 
@@ -211,7 +227,7 @@ std::string write_results(const RunFiles& files, const RunScore& score) {
 }
 
 void write_scores(const RunFiles& files, const RunScore& score) {
-  write_file(files.dir + "/junit.xml", write_junit(files.scenario.name, score.gates, score.methods));
+  write_file(files.dir + "/junit.xml", write_junit(files.scenario.name, score.gates, score.methods, files.failure));
   write_file(files.dir + "/results.json", write_results(files, score));
 }
 

@@ -26,7 +26,8 @@ struct RunScore {
 };
 
 /// Scores every method of a run directory [contract: Metrics]. Outside estimates (those the scenario did not run) are
-/// held to the strictest bound that the scenario asks of any estimator on each metric they have.
+/// held to the strictest bound that the scenario asks of any estimator on each metric that an estimate of their kind
+/// has.
 [[nodiscard]] RunScore score_run(const RunFiles& files);
 
 /// results.json

@@ -14,7 +14,7 @@ namespace plumbline::scenarios::score {
 struct StructureRules {
   double wall_angle_deg = 3.0;
   double wall_offset_m = 0.10;  ///< distance of the middle of the found wall to the true face
-  double wall_overlap = 0.5;    ///< share of the found wall's length that lies on the true face
+  double wall_overlap = 0.5;    ///< share of the found wall's length that lies on true faces
   double seen_within_m = 0.02;  ///< a hit point belongs to a face this near (ours)
   double seen_length_m = 0.5;   ///< a face counts as seen when hits span this much of it (ours)
   int seen_points = 10;         ///< and are at least so many, on the 0.1 m grid of the hits (ours)
@@ -25,9 +25,10 @@ struct StructureRules {
 };
 
 struct WallScore {
-  double precision = 0.0;          ///< absent walls cannot be scored: see score_walls
-  std::optional<double> recall;    ///< absent when no face was seen
-  std::vector<int> face_of_plane;  ///< PlanFace id matched by each plane, -1 none; index as in Estimate::planes
+  double precision = 0.0;        ///< absent walls cannot be scored: see score_walls
+  std::optional<double> recall;  ///< absent when no face was seen
+  /// PlanFace ids matched by each plane, the longest stretch first; index as in Estimate::planes.
+  std::vector<std::vector<int>> faces_of_plane;
 };
 
 struct RoomScore {
@@ -39,10 +40,10 @@ struct RoomScore {
   std::vector<int> room_of_node;    ///< PlanRoom id matched by each found room, -1 none
 };
 
-/// Matches found walls with stretches of the faces of the as-built plan one to one: candidates in order of (offset,
-/// plane, face). Two found walls may lie on one face where they are different stretches of it, as the rooms along a
-/// facade see it; a second one on the same stretch is not matched. The estimate's planes are placed in W by X_WF; there
-/// must be at least one.
+/// Matches found walls with stretches of the faces of the as-built plan, those nearest to a face first (ties: plane).
+/// How a plan cuts its walls makes no difference: a found wall may lie along several faces of one plane, and two found
+/// walls on one face where they are different stretches of it, as the rooms along a facade see it; a second one on the
+/// same stretch is not matched. The estimate's planes are placed in W by X_WF; there must be at least one.
 [[nodiscard]] WallScore score_walls(const slam::Estimate& estimate, const Pose& X_WF, const bim::Plan& as_built,
                                     const std::vector<Eigen::Vector3d>& surface_W, const StructureRules& rules = {});
 

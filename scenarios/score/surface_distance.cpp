@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "bim/errors.h"
+#include "scenarios/run/observer.h"
 #include "scenarios/score/map.h"
 
 namespace plumbline::scenarios::score {
@@ -100,6 +101,7 @@ struct SurfaceDistance::Grid {
 
 SurfaceDistance::SurfaceDistance(const bim::BuildingMesh& mesh, double cap_m) {
   if (mesh.triangles.empty()) throw InternalError("score: the as-built mesh is empty");
+  check_extent(mesh);
   Grid grid;
   grid.size = cap_m;
   const auto vertex = [&](int i) { return mesh.vertices[static_cast<std::size_t>(i)]; };

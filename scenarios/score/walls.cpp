@@ -2,9 +2,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <optional>
-#include <tuple>
 #include <utility>
+#include <vector>
 
 #include "scenarios/score/structure.h"
 
@@ -19,11 +20,19 @@ struct Stretch {
   [[nodiscard]] double length() const { return high - low; }
 };
 
-struct Candidate {
+/// A face that a found wall may be, or be part of.
+struct Part {
   double offset = 0.0;
+  int face = 0;     ///< index into Plan::faces
+  Stretch on_face;  ///< where they are beside each other, along the face
+  Stretch on_wall;  ///< the same, along the found wall
+};
+
+/// A found wall with its parts, the nearest first.
+struct Candidate {
   int plane = 0;  ///< index into Estimate::planes
-  int face = 0;   ///< index into Plan::faces
-  Stretch stretch;
+  double length = 0.0;
+  std::vector<Part> parts;
 };
 
 /// Position of p along a face from p0, m.
@@ -45,26 +54,58 @@ PlacedWall place(const slam::PlaneNode& node, const Pose& X_WF) {
           X_WF * Eigen::Vector3d(node.p1.x(), node.p1.y(), z)};
 }
 
-/// The stretch of the face that is this wall, and how far off it is; nothing when they do not match.
-std::optional<std::pair<double, Stretch>> match(const PlacedWall& wall, const bim::PlanFace& face,
-                                                const StructureRules& rules) {
+/// The stretch of the face that lies beside this wall; nothing where they are not in one plane.
+std::optional<Part> beside(const PlacedWall& wall, const bim::PlanFace& face, const StructureRules& rules) {
   const double cos_limit = std::cos(rules.wall_angle_deg * std::numbers::pi / 180.0);
   if (wall.n_W.dot(face.plane_W.n) < cos_limit) return std::nullopt;
   const Eigen::Vector3d middle = 0.5 * (wall.p0_W + wall.p1_W);
   const double offset = std::abs(face.plane_W.distance(middle));
   if (offset > rules.wall_offset_m || middle.z() < face.z0 || middle.z() > face.z1) return std::nullopt;
-  const auto [low, high] = std::minmax({along(face, wall.p0_W.head<2>()), along(face, wall.p1_W.head<2>())});
-  const Stretch shared{std::max(low, 0.0), std::min(high, length(face))};
-  if (shared.length() <= 0.0 || shared.length() < rules.wall_overlap * (high - low)) return std::nullopt;
-  return std::pair{offset, shared};
+  const double s0 = along(face, wall.p0_W.head<2>()), s1 = along(face, wall.p1_W.head<2>());
+  const Stretch shared{std::max(std::min(s0, s1), 0.0), std::min(std::max(s0, s1), length(face))};
+  if (shared.length() <= 0.0) return std::nullopt;
+  const double low = s0 <= s1 ? shared.low - s0 : s0 - shared.high;
+  return Part{offset, 0, shared, {low, low + shared.length()}};
 }
 
-/// True when the stretch is, by more than half of the shorter one, a stretch that was matched before.
-bool is_taken(const std::vector<Stretch>& taken, const Stretch& stretch) {
-  return std::any_of(taken.begin(), taken.end(), [&](const Stretch& other) {
-    const double shared = std::min(other.high, stretch.high) - std::max(other.low, stretch.low);
-    return shared > 0.5 * std::min(other.length(), stretch.length());
+bool overlap(const Stretch& a, const Stretch& b) {
+  return std::min(a.high, b.high) - std::max(a.low, b.low) > 0.5 * std::min(a.length(), b.length());
+}
+
+/// What of a found wall's parts is not some other wall's, and of those one over the other the nearest only.
+std::vector<Part> free_parts(const Candidate& wall, const std::vector<std::vector<Stretch>>& taken) {
+  std::vector<Part> free;
+  for (const Part& part : wall.parts) {
+    const auto over = [&](const Part& other) { return overlap(other.on_wall, part.on_wall); };
+    const auto is_it = [&](const Stretch& other) { return overlap(other, part.on_face); };
+    const std::vector<Stretch>& others = taken[static_cast<std::size_t>(part.face)];
+    if (std::none_of(free.begin(), free.end(), over) && std::none_of(others.begin(), others.end(), is_it))
+      free.push_back(part);
+  }
+  return free;
+}
+
+std::vector<Candidate> candidates_of(const slam::Estimate& estimate, const Pose& X_WF, const bim::Plan& as_built,
+                                     const StructureRules& rules) {
+  std::vector<Candidate> candidates;
+  for (std::size_t i = 0; i < estimate.planes.size(); ++i) {
+    const PlacedWall wall = place(estimate.planes[i], X_WF);
+    Candidate candidate{static_cast<int>(i), (wall.p1_W - wall.p0_W).head<2>().norm(), {}};
+    for (std::size_t j = 0; j < as_built.faces.size(); ++j)
+      if (std::optional<Part> part = beside(wall, as_built.faces[j], rules)) {
+        part->face = static_cast<int>(j);
+        // A wall that ends a little beyond its corner is no part of what follows there.
+        const double least = std::min(rules.seen_length_m, rules.wall_overlap * candidate.length);
+        if (part->on_face.length() >= std::min(least, length(as_built.faces[j]))) candidate.parts.push_back(*part);
+      }
+    std::stable_sort(candidate.parts.begin(), candidate.parts.end(),
+                     [](const Part& a, const Part& b) { return a.offset < b.offset; });
+    if (!candidate.parts.empty()) candidates.push_back(std::move(candidate));
+  }
+  std::stable_sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
+    return a.parts.front().offset < b.parts.front().offset;
   });
+  return candidates;
 }
 
 /// A face is seen when enough of the truly hit points lie on it, far enough apart.
@@ -87,28 +128,22 @@ bool is_seen(const bim::PlanFace& face, const std::vector<Eigen::Vector3d>& surf
 
 WallScore score_walls(const slam::Estimate& estimate, const Pose& X_WF, const bim::Plan& as_built,
                       const std::vector<Eigen::Vector3d>& surface_W, const StructureRules& rules) {
-  std::vector<Candidate> candidates;
-  for (std::size_t i = 0; i < estimate.planes.size(); ++i) {
-    const PlacedWall wall = place(estimate.planes[i], X_WF);
-    for (std::size_t j = 0; j < as_built.faces.size(); ++j) {
-      if (const auto found = match(wall, as_built.faces[j], rules))
-        candidates.push_back({found->first, static_cast<int>(i), static_cast<int>(j), found->second});
-    }
-  }
-  std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
-    return std::tie(a.offset, a.plane, a.face) < std::tie(b.offset, b.plane, b.face);
-  });
-
   WallScore score;
-  score.face_of_plane.assign(estimate.planes.size(), -1);
+  score.faces_of_plane.resize(estimate.planes.size());
   std::vector<std::vector<Stretch>> taken(as_built.faces.size());
   int matched = 0;
-  for (const Candidate& c : candidates) {
-    int& face_id = score.face_of_plane[static_cast<std::size_t>(c.plane)];
-    const auto face = static_cast<std::size_t>(c.face);
-    if (face_id >= 0 || is_taken(taken[face], c.stretch)) continue;
-    face_id = as_built.faces[face].id;
-    taken[face].push_back(c.stretch);
+  for (const Candidate& wall : candidates_of(estimate, X_WF, as_built, rules)) {
+    std::vector<Part> parts = free_parts(wall, taken);
+    const double shared = std::accumulate(parts.begin(), parts.end(), 0.0,
+                                          [](double sum, const Part& part) { return sum + part.on_face.length(); });
+    if (parts.empty() || shared < rules.wall_overlap * wall.length) continue;
+    std::stable_sort(parts.begin(), parts.end(),
+                     [](const Part& a, const Part& b) { return a.on_face.length() > b.on_face.length(); });
+    for (const Part& part : parts) {
+      const auto face = static_cast<std::size_t>(part.face);
+      score.faces_of_plane[static_cast<std::size_t>(wall.plane)].push_back(as_built.faces[face].id);
+      taken[face].push_back(part.on_face);
+    }
     ++matched;
   }
   int seen = 0;

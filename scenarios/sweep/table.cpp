@@ -70,7 +70,8 @@ void count(const SweepRow& row, SweepCell& cell, Samples& samples) {
   } else if (row.identifiable.value_or(true)) {
     ++cell.judged;
     if (row.verdict == "success" || row.verdict == "ok") ++cell.succeeded;
-    samples.converged_at_m.push_back(row.values[converged_m].value_or(infinite));
+    const bool found = row.verdict == "success";
+    samples.converged_at_m.push_back(found ? row.values[converged_m].value_or(infinite) : infinite);
     if (row.values[at_s]) samples.identifiable_at_s.push_back(*row.values[at_s]);
     if (row.values[at_m]) samples.identifiable_at_m.push_back(*row.values[at_m]);
   } else {
@@ -156,6 +157,7 @@ std::vector<SweepRow> rows_of(const Tree& result, const std::string& file) {
   common.start = text_at(result, "start");
   common.seed = text_at(result, "seed");
   common.digest = text_at(result, "digest");
+  common.failure = text_at(result, "failure");
   common.values.resize(score::metrics().size());
   const Tree* methods = result.find("methods");
   if (methods == nullptr) throw InputError({file, 0, 0}, "has no methods; remove it, so that it is made again");
@@ -166,6 +168,7 @@ std::vector<SweepRow> rows_of(const Tree& result, const std::string& file) {
     row.verdict = text_at(scores, "verdict");
     if (const Tree* told = find_path(scores, "localization.identifiable")) row.identifiable = told->as_bool();
     if (const Tree* evidence = find_path(scores, "localization.evidence")) row.evidence = evidence->as_string();
+    if (const Tree* failure = find_path(scores, "localization.failure")) row.failure = failure->as_string();
     for (std::size_t i = 0; i < row.values.size(); ++i)
       if (const Tree* value = find_path(scores, score::metrics()[i].name)) row.values[i] = value->as_double();
     rows.push_back(std::move(row));
@@ -196,13 +199,14 @@ std::vector<SweepCell> cells_of(const std::vector<SweepRow>& rows) {
 }
 
 std::string runs_csv(const std::vector<SweepRow>& rows) {
-  Line head = {"scenario", "variant", "start", "seed", "method", "verdict", "digest", "identifiable", "evidence"};
+  Line head = {"scenario", "variant", "start",        "seed",     "method",
+               "verdict",  "digest",  "identifiable", "evidence", "failure"};
   for (const score::MetricRow& metric : score::metrics()) head.emplace_back(metric.name);
   std::string text = csv_line(head);
   for (const SweepRow& row : rows) {
     Line line = {row.scenario, row.variant, row.start,  row.seed,
                  row.method,   row.verdict, row.digest, row.identifiable ? (*row.identifiable ? "true" : "false") : "",
-                 row.evidence};
+                 row.evidence, row.failure};
     for (const auto& value : row.values) line.push_back(value ? format_number(*value) : "");
     text += csv_line(line);
   }

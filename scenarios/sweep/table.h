@@ -21,6 +21,7 @@ struct SweepRow {
   std::string digest;
   std::optional<bool> identifiable;
   std::string evidence;                       ///< of a localization: unique, weak or ambiguous
+  std::string failure;                        ///< why the scenario failed, or else a localization
   std::vector<std::optional<double>> values;  ///< by score::metrics()
 };
 
@@ -42,7 +43,7 @@ struct SweepCell {
   int false_convergences = 0;  ///< and overconfident answers
   std::map<std::string, int> verdicts;
   std::optional<double> median_identifiable_at_s;  ///< of those that can be told
-  std::optional<double> median_converged_at_m;     ///< absent when it is infinite
+  std::optional<double> median_converged_at_m;     ///< infinite where it is no success; absent when that is the median
   std::optional<double> median_identifiable_at_m;
   std::optional<double> median_error_m;  ///< APE of a localization, aligned ATE of SLAM, where there is one
 };

@@ -39,6 +39,16 @@ TEST_F(MeshWorldRun, IsWalkedInBySlamAlone) {
   EXPECT_GT(json["distance_m"].get<double>(), 8.0);
   // Measured 0.01 to 0.06 m over whole rounds.
   EXPECT_LT(json["methods"]["vgicp"]["ate_aligned_rmse_m"].get<double>(), 0.1);
+
+  // Nobody knows what else looks like it in a world without walls.
+  ASSERT_EQ(plumbline({"score", folder_ / "out", "--estimate", "given=" + (folder_ / "out/truth.tum,frame=W")}).code,
+            0);
+  const auto scored = nlohmann::json::parse(read_file(folder_ / "out/results.json"));
+  EXPECT_TRUE(scored["methods"]["given"]["localization"].contains("converged_at_s"));
+  EXPECT_FALSE(scored["methods"]["given"]["localization"].contains("identifiable"));
+  const Outcome refused = plumbline({"identify", folder_ / "walk.yaml"});
+  EXPECT_EQ(refused.code, 2) << refused.out;
+  EXPECT_NE(refused.err.find("has no walls"), std::string::npos) << refused.err;
 }
 
 TEST_F(MeshWorldRun, RefusesPlanLocalization) {

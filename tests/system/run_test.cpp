@@ -167,6 +167,60 @@ TEST_F(ShortRun, OutsideTrajectoriesAreScoredLikeOurs) {
   EXPECT_EQ(plumbline({"score", copy, "--estimate", "x=" + dir() + "/missing.tum"}).code, 2);
 }
 
+TEST_F(ShortRun, TrajectoriesThatCannotBeScoredAreRefusedAndNotKept) {
+  const std::string copy = *folder_ / "refusing";
+  fs::copy(dir(), copy, fs::copy_options::recursive);
+  const auto refuse = [&](const std::vector<std::string>& estimates, const std::string& words) {
+    std::vector<std::string> arguments = {"score", copy};
+    for (const std::string& estimate : estimates) arguments.insert(arguments.end(), {"--estimate", estimate});
+    const Outcome outcome = plumbline(arguments);
+    EXPECT_EQ(outcome.code, 2) << outcome.out;
+    EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
+    EXPECT_FALSE(fs::exists(copy + "/e.estimate.json"));
+  };
+  write_file(*folder_ / "late.tum", "1700000000.1 0 0 0 0 0 0 1\n1700000000.2 1 0 0 0 0 0 1\n");
+  refuse({"e=" + *folder_ / "late.tum"}, "1700000000.100000000 to 1700000000.200000000 s, the scans are of 0.1");
+  write_file(*folder_ / "far.tum", "0.1 0 0 0 0 0 0 1\n0.2 1e160 0 0 0 0 0 1\n");
+  refuse({"e=" + *folder_ / "far.tum"}, "far.tum: its pose at 0.200000000 s lies more than 1e9 m off");
+  refuse({"e=" + dir() + "/vgicp.tum", "e=" + dir() + "/truth.tum"}, "'e' is given twice");
+  refuse({"e=" + dir() + "/vgicp.tum,frame=X"}, "'frame=X' must be frame=W");
+  EXPECT_EQ(plumbline({"score", copy}).code, 0);
+}
+
+TEST_F(ShortRun, AnEstimateThatCrashedOrStoppedFails) {
+  const std::string copy = *folder_ / "stopped", crashed = *folder_ / "crashed";
+  fs::copy(dir(), copy, fs::copy_options::recursive);
+  fs::create_directory(crashed);
+  auto estimate = nlohmann::json::parse(read_file(dir() + "/vgicp.estimate.json"));
+  estimate["crashed"] = "out of memory";
+  write_file(crashed + "/vgicp.estimate.json", estimate.dump());
+  write_file(crashed + "/vgicp.tum", "");
+  const Outcome outcome = plumbline({"score", copy, "--estimate", "e=" + crashed});
+  EXPECT_EQ(outcome.code, 1) << outcome.out << outcome.err;
+  EXPECT_NE(outcome.out.find("of e is absent, must be <= 0.25, but the method crashed"), std::string::npos)
+      << outcome.out;
+
+  const std::string truth = read_file(dir() + "/truth.tum");
+  write_file(*folder_ / "short.tum", truth.substr(0, truth.find('\n', truth.size() / 2) + 1));
+  EXPECT_EQ(plumbline({"score", copy, "--estimate", "half=" + *folder_ / "short.tum,frame=W"}).code, 1);
+  const auto results = nlohmann::json::parse(read_file(copy + "/results.json"));
+  EXPECT_EQ(results["methods"]["half"]["verdict"], "false_convergence");
+  EXPECT_EQ(plumbline({"score", copy, "--estimate", "truth=" + dir() + "/vgicp.tum"}).code, 2);
+}
+
+// What a name stood for before leaves nothing behind.
+TEST_F(ShortRun, AnEstimateGivenAgainReplacesTheOneOfItsName) {
+  const std::string copy = *folder_ / "given_again", one = *folder_ / "one";
+  fs::copy(dir(), copy, fs::copy_options::recursive);
+  fs::create_directory(one);
+  for (const char* end : {".estimate.json", ".tum", ".final.tum", ".map.ply", ".map.pcd"})
+    fs::copy_file(dir() + "/vgicp" + end, one + "/vgicp" + end);
+  ASSERT_EQ(plumbline({"score", copy, "--estimate", "e=" + one}).code, 0);
+  EXPECT_TRUE(nlohmann::json::parse(read_file(copy + "/results.json"))["methods"]["e"].contains("map_rmse_m"));
+  ASSERT_EQ(plumbline({"score", copy, "--estimate", "e=" + one + "/vgicp.tum"}).code, 0);
+  EXPECT_FALSE(nlohmann::json::parse(read_file(copy + "/results.json"))["methods"]["e"].contains("map_rmse_m"));
+}
+
 TEST_F(ShortRun, AnotherSeedGivesAnotherRun) {
   const std::string other = *folder_ / "seed";
   ASSERT_EQ(plumbline({"run", input(), "--out", other, "--seed", "4", "--method", "truth"}).code, 0);
@@ -183,6 +237,12 @@ TEST_F(ShortRun, OccupiedOutputIsRefusedUnlessForced) {
   fs::copy(dir(), other, fs::copy_options::recursive);
   EXPECT_EQ(plumbline({"run", input(), "--out", other, "--method", "truth", "--force"}).code, 0);
   EXPECT_FALSE(fs::exists(other + "/vgicp.tum"));
+}
+
+TEST_F(ShortRun, ReplayComparesSomething) {
+  const Outcome outcome = plumbline({"replay", dir(), "--until", "0.001"});
+  EXPECT_EQ(outcome.code, 2) << outcome.out;
+  EXPECT_NE(outcome.err.find("holds no digest up to then; the first is at 0."), std::string::npos) << outcome.err;
 }
 
 }  // namespace

@@ -57,6 +57,14 @@ TEST_F(Trouble, InterruptsLeaveNothing) {
   EXPECT_FALSE(fs::exists(folder_ / "out"));
 }
 
+// timeout signals the process, and then its group.
+TEST_F(Trouble, ASignalThatComesTwiceLeavesNothing) {
+  Setting setting;
+  setting.wrapper = {"timeout", "-s", "TERM", "1.5"};
+  EXPECT_EQ(plumbline({"run", input(), "--out", folder_ / "out"}, setting).code, 124);
+  EXPECT_FALSE(fs::exists(folder_ / "out"));
+}
+
 TEST_F(Trouble, AKillLeavesNothingThatLooksComplete) {
   EXPECT_EQ(interrupt(SIGKILL).code, 128 + SIGKILL);
   for (const auto& entry : fs::directory_iterator(folder_ / "out"))
@@ -81,6 +89,9 @@ TEST_F(Trouble, AFallIsTheScenariosFailureNotAMethods) {
   EXPECT_EQ(results["sensors"]["off_default"],
             nlohmann::json({"ground.friction: 0.05", "pushes.min_n: 400", "pushes.max_n: 500", "pushes.every_s: 1"}));
   for (const auto& [name, method] : results["methods"].items()) EXPECT_EQ(method["verdict"], "ok") << name;
+  EXPECT_NE(read_file(folder_ / "out/report.html").find("the scenario failed</span> <span>the robot fell at "),
+            std::string::npos);
+  EXPECT_NE(read_file(folder_ / "out/junit.xml").find("failure message=\"the robot fell at "), std::string::npos);
 }
 
 TEST_F(Trouble, ReadOnlyFolderAndNoStdin) {

@@ -105,6 +105,21 @@ TEST(Localization, WhereThePlanHasTwoAnswers) {
   EXPECT_EQ(judge(both, twin).verdict, LocalizationVerdict::late);  // one that is no twin
 }
 
+TEST(Localization, AWrongAnswerThatStoodIsNotMadeGoodByDoubtAtTheEnd) {
+  Identifiability twin;
+  twin.others_W = {Pose::from_xyz_yaw({50.0, 0.0, 0.5}, std::numbers::pi)};
+  for (const double offset_m : {0.0, 3.0}) {
+    auto beliefs = converges_at(40, offset_m);
+    for (std::size_t i = 190; i < beliefs.size(); ++i) {
+      beliefs[i].state = slam::State::ambiguous;
+      beliefs[i].hypotheses = {{0.5, straight_walk().at(beliefs[i].stamp), Eigen::Matrix3d::Zero(), ""},
+                               {0.5, twin.others_W[0], Eigen::Matrix3d::Zero(), ""}};
+    }
+    EXPECT_EQ(judge(beliefs, twin).verdict,
+              offset_m > 0.0 ? LocalizationVerdict::overconfident : LocalizationVerdict::honest_ambiguity);
+  }
+}
+
 TEST(Localization, ARightAnswerBeforeAnythingCouldTellIsLuck) {
   Identifiability known;
   known.identifiable = true;

@@ -99,5 +99,12 @@ TEST(ScoreMap, OfAFloorWithAnOutlier) {
   EXPECT_NEAR(score_map(map_F, X_WF, distance, {{1, 1, 0}}).rmse_m, score.rmse_m, 1e-6);
 }
 
+TEST(SurfaceDistance, RefusesABuildingThatReachesTooFar) {
+  bim::BuildingMesh mesh;
+  mesh.vertices = {{0, 0, 0}, {9000, 0, 0}, {0, 9000, 3}};
+  mesh.triangles = {{0, 1, 2}};
+  EXPECT_THROW(SurfaceDistance(mesh, 0.5), InputError);
+}
+
 }  // namespace
 }  // namespace plumbline::scenarios::score

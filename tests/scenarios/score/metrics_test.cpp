@@ -57,8 +57,12 @@ TEST(Gates, PassOnlyOnAPresentMetricOfAWholeRun) {
   for (const char* verdict : {"crashed", "lost"}) {
     MethodScore score = good_slam();
     score.verdict = verdict;
-    EXPECT_FALSE(judge_gates({below}, {score}, true)[0].passed);
+    const GateResult result = judge_gates({below}, {score}, true)[0];
+    EXPECT_FALSE(result.passed);
+    EXPECT_NE(describe(result).find(std::string(", but the method ")), std::string::npos) << describe(result);
   }
+  EXPECT_EQ(describe(judge_gates({below}, {good_slam()}, false)[0]),
+            "ate_aligned_rmse_m of vgicp is 0.1, must be <= 0.25, but the run ended early");
   EXPECT_EQ(describe(results[0]), "ate_aligned_rmse_m of vgicp is 0.1, must be <= 0.25");
   EXPECT_EQ(describe(results[2]), "rooms.recall of vgicp is absent, must be >= 0");
 }
@@ -70,8 +74,11 @@ TEST(Junit, CountsFailuresAndEscapes) {
   crashed.verdict = "crashed";
   crashed.error = "a < b & \"c\"";
   const std::vector<MethodScore> scores = {good_slam(), crashed};
-  const std::string xml = write_junit("quick", judge_gates({failing}, scores, true), scores);
-  EXPECT_NE(xml.find("tests=\"3\" failures=\"2\""), std::string::npos) << xml;
+  const std::string xml = write_junit("quick", judge_gates({failing}, scores, true), scores, "");
+  EXPECT_NE(xml.find("tests=\"4\" failures=\"2\""), std::string::npos) << xml;
+  const std::string fallen = write_junit("quick", {}, {good_slam()}, "fell at 3 s");
+  EXPECT_NE(fallen.find("tests=\"2\" failures=\"1\""), std::string::npos) << fallen;
+  EXPECT_NE(fallen.find("fell at 3 s"), std::string::npos) << fallen;
   EXPECT_NE(xml.find("a &lt; b &amp; &quot;c&quot;"), std::string::npos) << xml;
 }
 

@@ -101,10 +101,9 @@ TEST(Storey, RoomsAndWallsMatchOnTheirOwnOnly) {
   for (const std::vector<int>& storeys : {std::vector<int>{0, 1}, {1, 0}, {1, 1}, {0}}) {
     const slam::Estimate estimate = found(plan, storeys);
     const WallScore walls = score_walls(estimate, Pose(), plan, {});
-    for (std::size_t i = 0; i < walls.face_of_plane.size(); ++i) {
-      if (walls.face_of_plane[i] < 0) continue;
-      EXPECT_EQ(plan.faces[static_cast<std::size_t>(walls.face_of_plane[i])].storey, storeys[i / 4]);
-    }
+    for (std::size_t i = 0; i < walls.faces_of_plane.size(); ++i)
+      for (const int face : walls.faces_of_plane[i])
+        EXPECT_EQ(plan.faces[static_cast<std::size_t>(face)].storey, storeys[i / 4]);
     const RoomScore rooms = score_rooms(estimate, Pose(), plan, walls, standing(0.5));
     EXPECT_EQ(rooms.room_of_node[0], storeys[0]);
     if (storeys == std::vector<int>{1, 1}) {

@@ -160,7 +160,7 @@ TEST(Walls, EachFaceMatchesOnce) {
   estimate.planes[0].p1.y() += 0.02;
   const WallScore score = score_walls(estimate, Pose(), plan, hits_on(plan.faces[0]));
   EXPECT_EQ(score.precision, 0.5);
-  EXPECT_EQ(score.face_of_plane, (std::vector<int>{-1, 0}));  // the nearer one
+  EXPECT_EQ(score.faces_of_plane, (std::vector<std::vector<int>>{{}, {0}}));  // the nearer one
   EXPECT_EQ(*score.recall, 1.0);
   EXPECT_FALSE(score_walls(estimate, Pose(), plan, {}).recall);
   EXPECT_EQ(*score_walls(estimate, Pose(), plan, hits_on(plan.faces[5])).recall, 0.0);
@@ -175,6 +175,42 @@ TEST(Walls, StretchesOfOneFaceAreWallsOfTheirOwn) {
   EXPECT_EQ(score_walls(estimate, Pose(), plan, {}).precision, 1.0);
   estimate.planes[1].p0.x() = 0.2;
   EXPECT_EQ(score_walls(estimate, Pose(), plan, {}).precision, 0.5);
+}
+
+/// The plan with every face cut into three.
+bim::Plan cut(const bim::Plan& plan) {
+  bim::Plan pieces = plan;
+  pieces.faces.clear();
+  for (bim::PlanRoom& room : pieces.rooms) room.faces.clear();
+  for (const bim::PlanFace& face : plan.faces)
+    for (int k = 0; k < 3; ++k) {
+      bim::PlanFace piece = face;
+      piece.id = static_cast<int>(pieces.faces.size());
+      piece.p0 = face.p0 + (face.p1 - face.p0) * (k / 3.0);
+      piece.p1 = face.p0 + (face.p1 - face.p0) * ((k + 1) / 3.0);
+      for (const int room : face.rooms) pieces.rooms[static_cast<std::size_t>(room)].faces.push_back(piece.id);
+      pieces.faces.push_back(piece);
+    }
+  return pieces;
+}
+
+TEST(Walls, HowThePlanCutsThemMakesNoDifference) {
+  const bim::Plan plan = small_plan(), pieces = cut(plan);
+  const slam::Estimate whole = perfect(plan);
+  for (const auto& [estimate, other] : {std::pair{whole, pieces}, std::pair{perfect(pieces), plan}}) {
+    const WallScore walls = score_walls(estimate, Pose(), other, hits_on_all(other));
+    EXPECT_EQ(walls.precision, 1.0);
+    EXPECT_EQ(*walls.recall, 1.0);
+  }
+  const WallScore walls = score_walls(whole, Pose(), pieces, {});
+  EXPECT_EQ(walls.faces_of_plane[0].size(), 3U);
+  slam::Estimate corridor = whole;
+  corridor.rooms = {corridor.rooms[2]};
+  corridor.rooms[0].kind = slam::RoomKind::two_wall;
+  corridor.rooms[0].polygon_F.clear();
+  corridor.rooms[0].center_F = {4.0, 6.0};
+  corridor.rooms[0].planes = {plan.rooms[2].faces[0], plan.rooms[2].faces[2]};
+  EXPECT_EQ(score_rooms(corridor, Pose(), pieces, walls, stays({{{4, 6}, 3}})).matched, 1);
 }
 
 TEST(Rooms, InventedAndMissedRoomsCount) {

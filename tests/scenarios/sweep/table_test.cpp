@@ -74,7 +74,7 @@ TEST(SweepTable, CountsSuccessOverWhatCanBeTold) {
   EXPECT_EQ(finder.ambiguous, 2);
   EXPECT_EQ(finder.honest, 1);
   EXPECT_EQ(finder.false_convergences, 1);
-  EXPECT_EQ(finder.median_converged_at_m, 4.5);  // 3, 4, 5 and one that never did
+  EXPECT_FALSE(finder.median_converged_at_m);  // 3, 5, one that never did and one in a wrong place
   EXPECT_EQ(finder.median_identifiable_at_s, 4.0);
   EXPECT_EQ(cells[1].method, "mapper");
   EXPECT_EQ(cells[1].succeeded, 6);
@@ -90,10 +90,29 @@ TEST(SweepTable, AMedianOfMostlyNeverIsNever) {
   EXPECT_NE(table_text(cells_of(all)).find("never"), std::string::npos);
 }
 
+TEST(SweepTable, FoundAtIsTheMedianWithWrongAnswersAsNever) {
+  std::vector<SweepRow> all;
+  for (const Tree& tree : {result("1", "success", true, 3.0), result("2", "success", true, 5.0),
+                           result("3", "false_convergence", true, 0.5)})
+    for (const SweepRow& row : rows_of(tree, "x")) all.push_back(row);
+  EXPECT_EQ(cells_of(all)[0].median_converged_at_m, 5.0);
+}
+
 TEST(SweepTable, CsvQuotesWhatNeedsIt) {
   std::vector<SweepRow> all = rows();
   all[0].start = "{at: [1, 2], storey: \"x\"}";
   EXPECT_NE(runs_csv(all).find("a,,\"{at: [1, 2], storey: \"\"x\"\"}\",1,finder,success"), std::string::npos);
+}
+
+TEST(SweepTable, SaysWhyARunFailed) {
+  const Tree depleted = Tree::map().set("identifiable", true).set("failure", "depleted");
+  const Tree methods = Tree::map().set("finder", Tree::map().set("verdict", "late").set("localization", depleted));
+  const Tree lost = Tree::map().set("scenario", "a").set("seed", "1").set("methods", methods);
+  EXPECT_EQ(rows_of(lost, "x").at(0).failure, "depleted");
+  const Tree failed = Tree::map().set("finder", Tree::map().set("verdict", "failed"));
+  const Tree fallen = Tree::map().set("scenario", "a").set("seed", "2").set("failure", "fell").set("methods", failed);
+  EXPECT_EQ(rows_of(fallen, "x").at(0).failure, "fell");
+  EXPECT_NE(runs_csv({rows_of(lost, "x").at(0)}).find(",late,,true,,depleted,"), std::string::npos);
 }
 
 TEST(SweepTable, AResultWithoutMethodsIsRefused) {
