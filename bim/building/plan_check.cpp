@@ -282,6 +282,8 @@ void check_material_id(const Building& building, const std::string& material, co
   for (const Material& own : building.materials) known.push_back(own.id);
   for (const Material& preset : preset_materials()) known.push_back(preset.id);
   const std::string close = did_you_mean(material, known);
+  std::sort(known.begin(), known.end());
+  known.erase(std::unique(known.begin(), known.end()), known.end());
   std::string list;
   for (const std::string& name : known) list += (list.empty() ? "" : ", ") + name;
   throw InputError(mark, "there is no material " + quoted(material) +

@@ -116,6 +116,17 @@ std::string draw_method(const ReportMethod& method, std::size_t index, int store
   return out + robot_mark(method.name, storey, c) + "</g>";
 }
 
+/// A length to measure by, in the margin below the plan.
+std::string draw_scale(const MapBox& box) {
+  constexpr std::array<int, 7> lengths_m = {1, 2, 5, 10, 20, 50, 100};
+  int length_m = lengths_m.front();
+  for (const int m : lengths_m)
+    if (m <= 0.25 * (box.max.x() - box.min.x())) length_m = m;
+  const Eigen::Vector2d a = box.min + Eigen::Vector2d(0.5, 0.2), b = a + Eigen::Vector2d(length_m, 0.0);
+  return svg::line(a, b, "class=\"scale\"") +
+         svg::text(b + Eigen::Vector2d(0.15, -0.1), std::to_string(length_m) + " m", "");
+}
+
 std::string draw_map(const ReportInput& input, const ReportStorey& storey, const MapBox& box) {
   const bool several = input.storeys.size() > 1;
   std::string out = several ? "<p class=\"storey\">" + svg::escape(storey.name) + "</p>" : "";
@@ -125,7 +136,7 @@ std::string draw_map(const ReportInput& input, const ReportStorey& storey, const
   for (std::size_t i = 0; i < input.methods.size(); ++i)
     if (!is_truth(input.methods[i])) out += draw_method(input.methods[i], i, storey.index);
   out += draw_path(input.truth, storey.index, "class=\"truth\"") + room_names(input, storey.index) +
-         draw_kidnap(input, storey.index) + robot_mark("truth", storey.index, "#111");
+         draw_kidnap(input, storey.index) + robot_mark("truth", storey.index, "#111") + draw_scale(box);
   return out + "</svg>";
 }
 

@@ -23,6 +23,7 @@ svg{display:block;width:100%;height:auto}
 .maps{display:grid;grid-template-columns:repeat(auto-fit,minmax(380px,1fr));gap:12px}
 .storey{margin:0 0 4px;font-weight:600}
 .map text{font-size:.36px;fill:#6b7889;paint-order:stroke;stroke:#f8fafc;stroke-width:.12px}
+.scale{stroke:#6b7889;stroke-width:.08}
 .room{fill:#f8fafc;stroke:none}
 .asbuilt{fill:#e8871e;fill-opacity:.55;stroke:#e8871e;stroke-width:.05}
 .planned{fill:none;stroke:#7a4a9e;stroke-width:.05;stroke-dasharray:.14 .1}

@@ -247,12 +247,14 @@ std::string table_html(const std::string& name, const std::vector<SweepCell>& ce
     page += "</tr>\n";
     head = false;
   }
-  return page +
-         "</table></div><p class=\"facts\">Success of a plan localization is over the runs that can be told; in "
-         "brackets the "
-         "95 % interval of Wilson. Told at: when what was seen left one place, median. Found at: after how many metres "
-         "the "
-         "method was right for good, median over the runs that can be told.</p></section></main></body></html>\n";
+  return page + R"html(</table></div><p class="facts">Success of a plan localization is over the runs that can be told,
+of SLAM the share of ok; in brackets the 95 % interval of Wilson. Honest: of the runs in which what was seen fits several
+places to the end, those that said so. Weak: right ones of the runs between, where the others are nearly ruled out or
+went too late to hold an answer for 5 s and 1 m. Wrong: single answers in a wrong place, or where there are several.
+Told at: when what was seen left one place, median. Found at: after how many metres a success had its answer, median over
+the runs that can be told, the others counted as never. Error: of the position, rms, median of all runs that have
+one.</p></section></main></body></html>
+)html";
 }
 
 }  // namespace plumbline::scenarios
