@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slam/planes/ransac.h"
 
+#include <emmintrin.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <optional>
 #include <tuple>
 
@@ -36,38 +41,59 @@ std::optional<Plane> plane_through(const Eigen::Vector3d& a, const Eigen::Vector
   return Plane{n, -n.dot(a)};
 }
 
-/// Points as columns, so that a plane is held against all of them in one pass.
+/// Points two by two, so that a plane is held against both at once; the second of an odd last pair is no number.
 class Sampler {
  public:
   Sampler(const DeskewedScan& scan, const std::vector<std::uint32_t>& points, const RansacConfig& config)
-      : config_(config), xyz_(3, static_cast<Eigen::Index>(points.size())) {
-    for (std::size_t k = 0; k < points.size(); ++k) xyz_.col(static_cast<Eigen::Index>(k)) = scan.point_R[points[k]];
+      : config_(config) {
+    points_.reserve(points.size());
+    for (const std::uint32_t i : points) points_.push_back(scan.point_R[i]);
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    for (std::size_t k = 0; k < points_.size(); k += 2) {
+      const Eigen::Vector3d& a = points_[k];
+      const Eigen::Vector3d b = k + 1 < points_.size() ? points_[k + 1] : Eigen::Vector3d::Constant(none);
+      pairs_.push_back({_mm_setr_pd(a.x(), b.x()), _mm_setr_pd(a.y(), b.y()), _mm_setr_pd(a.z(), b.z())});
+    }
   }
 
   /// The plane with most inliers (ties: the earlier sample); nothing when no three points span one.
   [[nodiscard]] std::optional<Plane> best(const Stream& stream, std::uint64_t tick, std::uint32_t round) const {
     std::optional<Plane> best;
-    Eigen::Index most = 0;
+    std::int64_t most = 0;
     double needed = config_.iterations;
     for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(needed); ++i) {
       const auto point = [&](std::uint32_t draw) -> Eigen::Vector3d {
         const double u = stream.uniform(tick, round, 3 * i + draw);
-        return xyz_.col(static_cast<Eigen::Index>(u * static_cast<double>(xyz_.cols())));
+        return points_[static_cast<std::size_t>(u * static_cast<double>(points_.size()))];
       };
       const std::optional<Plane> plane = plane_through(point(0), point(1), point(2));
       if (!plane) continue;
-      const Eigen::Index inliers = count(*plane);
+      const std::int64_t inliers = count(*plane);
       if (inliers <= most) continue;
       most = inliers;
       best = plane;
-      needed = std::min(needed, samples(static_cast<double>(most) / static_cast<double>(xyz_.cols())));
+      needed = std::min(needed, samples(static_cast<double>(most) / static_cast<double>(points_.size())));
     }
     return best;
   }
 
  private:
-  [[nodiscard]] Eigen::Index count(const Plane& plane) const {
-    return (((plane.n.transpose() * xyz_).array() + plane.d).abs() <= config_.distance_m).count();
+  struct Pair {
+    __m128d x, y, z;
+  };
+
+  [[nodiscard]] std::int64_t count(const Plane& plane) const {
+    const __m128d nx = _mm_set1_pd(plane.n.x()), ny = _mm_set1_pd(plane.n.y()), nz = _mm_set1_pd(plane.n.z());
+    const __m128d d = _mm_set1_pd(plane.d), reach = _mm_set1_pd(config_.distance_m), sign = _mm_set1_pd(-0.0);
+    __m128i within = _mm_setzero_si128();
+    for (const Pair& p : pairs_) {
+      const __m128d sum = _mm_add_pd(_mm_add_pd(_mm_mul_pd(nx, p.x), _mm_mul_pd(ny, p.y)), _mm_mul_pd(nz, p.z));
+      const __m128d near = _mm_cmple_pd(_mm_andnot_pd(sign, _mm_add_pd(sum, d)), reach);  // all bits: -1
+      within = _mm_sub_epi64(within, _mm_castpd_si128(near));
+    }
+    alignas(16) std::array<std::int64_t, 2> counts{};
+    _mm_store_si128(reinterpret_cast<__m128i*>(counts.data()), within);
+    return counts[0] + counts[1];
   }
 
   /// Samples until one of three inliers has come up with the wanted confidence.
@@ -78,7 +104,8 @@ class Sampler {
   }
 
   const RansacConfig& config_;
-  Eigen::Matrix3Xd xyz_;
+  std::vector<Eigen::Vector3d> points_;
+  std::vector<Pair> pairs_;
 };
 
 /// Moves the points within the distance of the plane out of `points`.
