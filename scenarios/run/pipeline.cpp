@@ -2,7 +2,8 @@
 #include "scenarios/run/pipeline.h"
 
 #include <atomic>
-#include <semaphore>
+#include <condition_variable>
+#include <mutex>
 #include <thread>
 
 #include "bim/digest/float_mode.h"
@@ -14,7 +15,30 @@ namespace plumbline::scenarios {
 namespace {
 
 using Frame = std::shared_ptr<const sim::WorldFrame>;
-using Permits = std::counting_semaphore<1024>;
+
+/// So many threads may work at a time. std::counting_semaphore of GCC 12 can sleep for ever (its PR 104928).
+class Permits {
+ public:
+  explicit Permits(int count) : free_(count) {}
+
+  void acquire() {
+    std::unique_lock lock(mutex_);
+    freed_.wait(lock, [&] { return free_ > 0; });
+    --free_;
+  }
+  void release() {
+    {
+      const std::lock_guard lock(mutex_);
+      ++free_;
+    }
+    freed_.notify_one();
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable freed_;
+  int free_;
+};
 
 /// Holds one of the permits to work.
 class Working {

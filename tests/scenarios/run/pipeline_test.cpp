@@ -183,6 +183,32 @@ TEST(Pipeline, WhatTheSourceThrowsArrives) {
   }
 }
 
+/// With the standard library's semaphore a run once stood still for ever, every thread waiting though permits were free.
+TEST(Pipeline, ManyShortFramesComeThrough) {
+  constexpr int many = 20000;
+  std::vector<std::unique_ptr<Participant>> participants;
+  std::atomic<int> seen = 0;
+  for (int i = 0; i < 5; ++i) {
+    struct Counter : Participant {
+      explicit Counter(std::atomic<int>& count) : Participant("counter", false), seen(count) {}
+      slam::Output process(const sim::WorldFrame& frame) override {
+        ++seen;
+        slam::Output output;
+        output.stamp = frame.scan.stamp;
+        return output;
+      }
+      slam::Estimate estimate() override { return {}; }
+      std::atomic<int>& seen;
+    };
+    participants.push_back(std::make_unique<Counter>(seen));
+  }
+  PipelineConfig config;
+  config.threads = 2;
+  (void)run_pipeline(
+      small_source(many), [](const sim::WorldFrame&) {}, std::move(participants), config);
+  EXPECT_EQ(seen, 5 * many);
+}
+
 TEST(Pipeline, NoMoreWorkAtOneTimeThanAllowed) {
   std::atomic<int> working = 0;
   std::atomic<int> most = 0;
