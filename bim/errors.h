@@ -27,7 +27,7 @@ class EnvironmentError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A promise of the program itself is broken (not-a-number, pool overflow): exit code 3.
+/// A promise of the program itself is broken (not-a-number): exit code 3.
 class InternalError : public std::logic_error {
   using std::logic_error::logic_error;
 };

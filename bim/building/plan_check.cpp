@@ -13,7 +13,6 @@ namespace plumbline::bim {
 
 namespace {
 
-constexpr double max_steps = 1000;   ///< of a stair
 constexpr double touching_m = 1e-6;  ///< openings may touch each other and the ends of their wall
 
 using Ids = std::map<std::string_view, std::size_t>;
@@ -96,6 +95,12 @@ void check_sizes(const PlanFile& plan, const Places& places) {
   check("clutter", plan.clutter.size(), plan_entries_max);
   check("materials", plan.materials.size(), plan_entries_max);
   check("deviations", plan.deviations.size(), plan_storeys_max);
+  for (std::size_t i = 0; i < plan.rooms.size(); ++i)
+    if (plan.rooms[i].polygon.size() > plan_corners_max)
+      throw InputError(places.value("rooms", i, "polygon"), "the polygon of room " + quoted(plan.rooms[i].id) +
+                                                                " has " + std::to_string(plan.rooms[i].polygon.size()) +
+                                                                " corners; at most " +
+                                                                std::to_string(plan_corners_max) + " can be read");
 }
 
 void check_all_ids(const PlanFile& plan, const Places& places) {
@@ -219,13 +224,8 @@ void check_stair(const PlanFile& plan, std::size_t i, const Places& places) {
   if (head <= foot + touching_m)
     throw InputError(at("to"),
                      who + " must lead up: storey " + quoted(stair.to) + " is not above " + quoted(stair.from));
-  const double steps = step_count(head - foot, stair.rise_m);
-  if (steps > max_steps)
-    throw InputError(at("to"), who + " would have " + format_number(steps) + " steps; at most " +
-                                   format_number(max_steps) + " can be built");
-  if (stair.landing_after && *stair.landing_after >= steps)
-    throw InputError(at("landing_after"),
-                     who + " has only " + format_number(steps) + " steps; its landing must come before the last");
+  if (const auto fault = step_fault(stair, head - foot))
+    throw InputError(at(stair.landing_after ? "landing_after" : "to"), who + " " + *fault);
   if (stair.turn != Turn::none && !stair.landing_after)
     throw InputError(at("turn"), who + " can turn only at a landing; give landing_after");
   const bool quarter = stair.turn == Turn::left || stair.turn == Turn::right;

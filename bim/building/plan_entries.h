@@ -45,6 +45,7 @@ namespace plumbline::bim {
 inline constexpr double plan_reach_m = 1e4;
 inline constexpr double plan_size_max_m = 1e3;
 inline constexpr std::size_t plan_entries_max = 20000;  ///< of a list
+inline constexpr std::size_t plan_corners_max = 2000;   ///< of a room
 inline constexpr std::size_t plan_storeys_max = 1000;   ///< storeys, stairs and deviations
 inline constexpr double plan_length_min_m = 0.01;       ///< of a wall
 

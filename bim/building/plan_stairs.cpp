@@ -39,13 +39,18 @@ std::vector<std::pair<int, int>> spans(const PlanFile& plan, const PlanStairEntr
   return found;
 }
 
-Stair built(const PlanFile& plan, const PlanStairEntry& entry, int from, int to, const Building& building) {
+Stair built(const PlanFile& plan, const PlanStairEntry& entry, int from, int to, const Building& building,
+            const Mark& mark) {
   const Storey &lower = building.storeys[static_cast<std::size_t>(from)],
                &upper = building.storeys[static_cast<std::size_t>(to)];
-  Stair stair = stair_of(entry, lower.elevation_m, upper.elevation_m - lower.elevation_m);
-  if (!plan.storeys[static_cast<std::size_t>(from)].copy_of.empty() && lower.id != entry.from)
-    stair.id = lower.id + "/" + entry.id;
-  stair.name = stair.id;
+  const bool copied = !plan.storeys[static_cast<std::size_t>(from)].copy_of.empty() && lower.id != entry.from;
+  const std::string id = copied ? lower.id + "/" + entry.id : entry.id;
+  const double height_m = upper.elevation_m - lower.elevation_m;
+  if (const auto fault = step_fault(entry, height_m))
+    throw InputError(mark, "stair '" + id + "' from '" + lower.id + "' to '" + upper.id + "' " + *fault);
+  Stair stair = stair_of(entry, lower.elevation_m, height_m);
+  stair.id = id;
+  stair.name = id;
   stair.from = from;
   stair.to = to;
   return stair;
@@ -57,8 +62,9 @@ void add_stairs(const PlanFile& plan, const Tree& tree, Building& building) {
   std::vector<std::size_t> entries;  // of each stair
   for (std::size_t i = 0; i < plan.stairs.size(); ++i) {
     use_material(building, plan.stairs[i].material);
+    const Mark& mark = tree.find("stairs")->as_list().at(i).mark;
     for (const auto& [from, to] : spans(plan, plan.stairs[i], building)) {
-      building.stairs.push_back(built(plan, plan.stairs[i], from, to, building));
+      building.stairs.push_back(built(plan, plan.stairs[i], from, to, building, mark));
       entries.push_back(i);
       cut_stairwell(building.stairs.back(), building);
     }

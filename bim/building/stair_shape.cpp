@@ -5,12 +5,14 @@
 #include <numbers>
 
 #include "bim/building/sweep.h"
+#include "bim/config/tree.h"
 #include "bim/geometry/polygon_boolean.h"
 
 namespace plumbline::bim {
 
 namespace {
 
+constexpr double max_steps = 1000;
 constexpr double steps_slack = 1e-9;  ///< a height that is a multiple of rise_m needs no further step
 
 Eigen::Vector2d ascent(const StairFlight& flight) { return {std::cos(flight.yaw), std::sin(flight.yaw)}; }
@@ -95,6 +97,16 @@ void turn_at_landing(const PlanStairEntry& entry, int steps_left, Stair& stair) 
 }  // namespace
 
 double step_count(double height_m, double rise_m) { return std::ceil(height_m / rise_m - steps_slack); }
+
+std::optional<std::string> step_fault(const PlanStairEntry& entry, double height_m) {
+  const double steps = step_count(height_m, entry.rise_m);
+  if (!(steps >= 1.0)) return "does not lead up";
+  if (steps > max_steps)
+    return "would have " + format_number(steps) + " steps; at most " + format_number(max_steps) + " can be built";
+  if (entry.landing_after && *entry.landing_after >= steps)
+    return "has only " + format_number(steps) + " steps; its landing must come before the last";
+  return std::nullopt;
+}
 
 Polygon2 steps_outline(const StairFlight& flight, int first, int last) {
   return rectangle(flight.start, ascent(flight), first * flight.run_m, (last + 1) * flight.run_m, -0.5 * flight.width_m,

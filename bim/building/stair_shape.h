@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+#include <string>
+
 #include "bim/building/building.h"
 #include "bim/building/plan_stair.h"
 
@@ -18,6 +21,10 @@ struct StairConfig {
 /// Equal steps that a height needs so that none is higher than rise_m. As a number, since a careless height needs
 /// more than an int holds.
 [[nodiscard]] double step_count(double height_m, double rise_m);
+
+/// What is wrong with the steps that the entry needs for such a height, to follow the stair's name; nothing where they
+/// can be built.
+[[nodiscard]] std::optional<std::string> step_fault(const PlanStairEntry& entry, double height_m);
 
 /// Rectangle of steps first to last of a flight, seen from above, counter-clockwise.
 [[nodiscard]] Polygon2 steps_outline(const StairFlight& flight, int first, int last);

@@ -10,27 +10,13 @@
 #include <sstream>
 
 #include "bim/config/tree.h"
+#include "bim/config/utf8.h"
 
 namespace plumbline {
 
 namespace {
 
 constexpr std::size_t max_depth = 64;
-
-/// Bytes of the UTF-8 character at the start of `text` [RFC 3629], 0 where there is none.
-std::size_t utf8_length(std::string_view text) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  const auto first = byte(0);
-  if (first < 0x80) return 1;
-  const std::size_t length = first >= 0xf0 ? 4 : first >= 0xe0 ? 3 : 2;
-  if (first < 0xc2 || first > 0xf4 || text.size() < length) return 0;
-  for (std::size_t i = 1; i < length; ++i)
-    if ((byte(i) & 0xc0) != 0x80) return 0;
-  const auto second = byte(1);
-  const bool overlong = (first == 0xe0 && second < 0xa0) || (first == 0xf0 && second < 0x90);
-  const bool no_character = (first == 0xed && second > 0x9f) || (first == 0xf4 && second > 0x8f);
-  return overlong || no_character ? 0 : length;
-}
 
 /// UTF-16 and UTF-32, which the parser reads too, hold zeros or begin with a mark that UTF-8 cannot.
 void check_utf8(std::string_view text, const std::string& file) {

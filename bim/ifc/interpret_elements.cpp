@@ -65,6 +65,7 @@ void Interpreter::add_slabs() {
     }
     Slab slab = element_of<Slab>(product);
     slab.material = product.material;
+    if (outline.size() > 1) warn(product, "slab_pieces", "has several pieces; the robot walks on the largest only");
     slab.polygon = largest(outline);
     slab.z0_m = snapped(box.low.z());
     slab.z1_m = snapped(box.high.z());

@@ -143,10 +143,25 @@ class Reader {
     for (std::size_t i = 1; i < result.products.size(); ++i)
       if (result.products[i].id == result.products[i - 1].id)
         fail(result.products[i].step_id, "GlobalId " + result.products[i].id + " is used twice");
+    check_wholes(result.products);
     return result;
   }
 
  private:
+  /// A part of itself, by relations that each make sense, would keep everything that follows wholes busy for ever.
+  void check_wholes(const std::vector<StepProduct>& products) const {
+    constexpr int most_deep = 100;
+    std::map<std::int64_t, std::int64_t> whole;
+    for (const StepProduct& product : products) whole[product.step_id] = product.whole;
+    for (const StepProduct& product : products) {
+      int depth = 0;
+      for (auto at = whole.find(product.whole); at != whole.end(); at = whole.find(at->second))
+        if (++depth > most_deep)
+          fail(product.step_id, product.type + " is a part of itself, or of more than " + std::to_string(most_deep) +
+                                    " wholes in each other");
+    }
+  }
+
   /// Nullopt, with a warning, for a product that stands where cannot be told.
   std::optional<StepProduct> read_product(const std::shared_ptr<IfcProduct>& source, StepClass kind, StepModel& model) {
     StepProduct product;

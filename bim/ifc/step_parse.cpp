@@ -11,6 +11,7 @@
 
 #include <cstdint>
 
+#include "bim/config/utf8.h"
 #include "bim/errors.h"
 
 namespace plumbline::bim {
@@ -39,25 +40,21 @@ std::shared_ptr<BuildingModel> parse_step(const std::string& text, const std::st
 }
 
 std::string utf8(const std::wstring& text) {
-  std::string result;
-  const auto put = [&](std::uint32_t byte) { result += static_cast<char>(static_cast<unsigned char>(byte)); };
-  for (const wchar_t wide : text) {
-    const auto c = static_cast<std::uint32_t>(wide);
-    if (c < 0x80) {
-      put(c);
-    } else if (c < 0x800) {
-      put(0xC0 | (c >> 6U));
-      put(0x80 | (c & 0x3FU));
-    } else if (c < 0x10000) {
-      put(0xE0 | (c >> 12U));
-      put(0x80 | ((c >> 6U) & 0x3FU));
-      put(0x80 | (c & 0x3FU));
-    } else {
-      put(0xF0 | ((c >> 18U) & 0x07U));
-      put(0x80 | ((c >> 12U) & 0x3FU));
-      put(0x80 | ((c >> 6U) & 0x3FU));
-      put(0x80 | (c & 0x3FU));
+  // IFC++ widens bytes of unescaped text as signed numbers, and leaves pairs of surrogates as they are.
+  const auto code = [&](std::size_t i) { return i < text.size() ? static_cast<std::uint32_t>(text[i]) : 0U; };
+  constexpr std::uint32_t least_byte = 0xFFFFFF80;
+  std::string result, bytes;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const std::uint32_t c = code(i), next = code(i + 1);
+    if (c >= least_byte) bytes += static_cast<char>(static_cast<unsigned char>(c));
+    if (next < least_byte) {
+      result += utf8_of_bytes(bytes);
+      bytes.clear();
     }
+    if (c >= least_byte) continue;
+    const bool pair = c >= 0xD800 && c < 0xDC00 && next >= 0xDC00 && next < 0xE000;
+    append_utf8(result, pair ? 0x10000U + ((c - 0xD800U) << 10U) + (next - 0xDC00U) : c);
+    i += pair ? 1 : 0;
   }
   return result;
 }

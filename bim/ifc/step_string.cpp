@@ -8,48 +8,23 @@
 #include <vector>
 
 #include "bim/config/tree.h"
+#include "bim/config/utf8.h"
 
 namespace plumbline::bim {
 namespace {
 
-constexpr char32_t replacement = 0xFFFD;
-constexpr char32_t largest = 0x10FFFF;
-
-bool is_surrogate(char32_t c) { return c >= 0xD800 && c <= 0xDFFF; }
-
 /// The code point that begins at `at`, which moves past it.
 char32_t next_code_point(std::string_view text, std::size_t& at) {
-  const auto lead = static_cast<unsigned char>(text[at++]);
-  if (lead < 0x80) return lead;
-  const int more = lead >= 0xF0 ? 3 : lead >= 0xE0 ? 2 : 1;
-  constexpr std::array<char32_t, 4> least{0, 0x80, 0x800, 0x10000};
-  if (lead < 0xC2 || lead > 0xF4 || at + static_cast<std::size_t>(more) > text.size()) return replacement;
-  char32_t c = lead & (0x3FU >> static_cast<unsigned>(more));
-  for (int i = 0; i < more; ++i) {
-    const auto byte = static_cast<unsigned char>(text[at + static_cast<std::size_t>(i)]);
-    if ((byte & 0xC0U) != 0x80U) return replacement;
-    c = (c << 6U) | (byte & 0x3FU);
+  const std::size_t length = utf8_length(text.substr(at));
+  const auto lead = static_cast<unsigned char>(text[at]);
+  if (length <= 1) {
+    ++at;
+    return length == 1 ? lead : 0xFFFD;
   }
-  if (c < least[static_cast<std::size_t>(more)] || c > largest || is_surrogate(c)) return replacement;
-  at += static_cast<std::size_t>(more);
+  char32_t c = lead & (0xFFU >> (length + 1));
+  for (std::size_t i = 1; i < length; ++i) c = (c << 6U) | (static_cast<unsigned char>(text[at + i]) & 0x3FU);
+  at += length;
   return c;
-}
-
-void put_utf8(std::string& text, char32_t c) {
-  if (c > largest || is_surrogate(c)) c = replacement;
-  const auto put = [&](char32_t byte) { text += static_cast<char>(static_cast<unsigned char>(byte)); };
-  if (c < 0x80) return put(c);
-  if (c < 0x800) {
-    put(0xC0U | (c >> 6U));
-  } else if (c < 0x10000) {
-    put(0xE0U | (c >> 12U));
-    put(0x80U | ((c >> 6U) & 0x3FU));
-  } else {
-    put(0xF0U | (c >> 18U));
-    put(0x80U | ((c >> 12U) & 0x3FU));
-    put(0x80U | ((c >> 6U) & 0x3FU));
-  }
-  put(0x80U | (c & 0x3FU));
 }
 
 void put_hex(std::string& text, char32_t c, unsigned digits) {
@@ -85,7 +60,7 @@ bool take_group(std::string_view text, std::size_t& at, std::string& result) {
         i += 4;
       }
     }
-    put_utf8(decoded, *c);
+    append_utf8(decoded, *c);
   }
   result += decoded;
   at = end + closing.size();
@@ -104,12 +79,12 @@ bool take_escape(std::string_view text, std::size_t& at, std::string& result) {
   if (rest.starts_with("\\X\\") && rest.size() >= 5) {
     const std::optional<char32_t> c = hex(rest.substr(3, 2));
     if (!c) return false;
-    put_utf8(result, *c);
+    append_utf8(result, *c);
     at += 5;
     return true;
   }
   if (rest.starts_with("\\S\\") && rest.size() >= 4) {
-    put_utf8(result, static_cast<unsigned char>(rest[3]) + 0x80U);
+    append_utf8(result, static_cast<unsigned char>(rest[3]) + 0x80U);
     at += 4;
     return true;
   }
@@ -148,7 +123,7 @@ std::string text_of_step(std::string_view quoted) {
     result += quoted[at];
     at += quoted.substr(at).starts_with("''") ? 2 : 1;
   }
-  return result;
+  return utf8_of_bytes(result);
 }
 
 std::string step_real(double value) {

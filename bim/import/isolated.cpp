@@ -96,6 +96,14 @@ std::optional<std::string> read_all(int pipe, std::size_t longest) {
 
 }  // namespace
 
+IsolationConfig isolation_for(std::size_t bytes, const IsolationConfig& least) {
+  constexpr std::size_t bytes_a_second = std::size_t{2} << 20U, memory_a_byte = 32;
+  IsolationConfig bounds = least;
+  bounds.cpu_s += static_cast<unsigned>(bytes / bytes_a_second);
+  bounds.memory += memory_a_byte * bytes;
+  return bounds;
+}
+
 std::optional<std::string> run_isolated(const std::function<std::string()>& task, const IsolationConfig& config) {
   std::array<int, 2> ends{};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0)

@@ -15,6 +15,9 @@ struct IsolationConfig {
   std::size_t answer = std::size_t{256} << 20U;      ///< longest answer, bytes
 };
 
+/// Bounds for reading so many bytes: what a sound file needs grows with its size.
+[[nodiscard]] IsolationConfig isolation_for(std::size_t bytes, const IsolationConfig& least = {});
+
 /// Runs `task` in a child process and returns what it returned: none when it crashed, hung, ran out of memory or
 /// threw. For libraries that do not survive bad input. Throws EnvironmentError when no process can be made.
 [[nodiscard]] std::optional<std::string> run_isolated(const std::function<std::string()>& task,

@@ -228,8 +228,12 @@ std::vector<MeshPart> read_mesh_parts(std::string_view bytes, const std::string&
   const Mark mark{path, 0, 0};
   if (bytes.size() > config.most_bytes)
     throw InputError(mark, "larger than " + std::to_string(config.most_bytes >> 20U) + " MB; make it coarser");
-  const auto answer = run_isolated([&] { return import(bytes, *format, config); }, config.isolation);
-  if (!answer) throw InputError(mark, "this is no sound " + std::string(format->ending) + " file: reading it failed");
+  const IsolationConfig isolation = isolation_for(bytes.size(), config.isolation);
+  const auto answer = run_isolated([&] { return import(bytes, *format, config); }, isolation);
+  if (!answer)
+    throw InputError(mark, "this is no sound " + std::string(format->ending) + " file: reading it failed, or takes " +
+                               "more than " + std::to_string(isolation.cpu_s) + " s and " +
+                               std::to_string(isolation.memory >> 20U) + " MB");
   Unpacker unpacker(*answer);
   const auto kind = static_cast<Answer>(unpacker.get());
   if (kind == Answer::refused)

@@ -11,11 +11,16 @@
 #include <optional>
 #include <utility>
 
+#include "bim/errors.h"
+
 namespace plumbline::bim {
 
 namespace {
 
 constexpr std::size_t cells_per_contact = 8;
+/// Bounds of what is kept: 640 MB of contacts where everything touches everything, far more faces where they do not.
+constexpr std::size_t most_pairs = 5'000'000;
+constexpr std::size_t most_pairs_per_face = 50;
 
 /// A triangle clipped by at most eight half spaces.
 class ConvexPolygon {
@@ -141,7 +146,12 @@ class Neighbours {
       boxes.emplace_back(Eigen::AlignedBox3d(box.min() - margin, box.max() + margin), boxes.size());
     }
     std::vector<std::pair<int, int>> pairs;
+    const std::size_t most = most_pairs + most_pairs_per_face * faces.size();
     CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const FaceBox& a, const FaceBox& b) {
+      if (pairs.size() >= most)
+        throw InputError({},
+                         "thousands of triangles lie in one place, such as copies of one thing that were never "
+                         "moved apart; remove all but one of them");
       pairs.emplace_back(static_cast<int>(a.id()), static_cast<int>(b.id()));
     });
     sort_out(pairs);
@@ -189,7 +199,7 @@ ContactGrid::ContactGrid(std::span<const Contact> contacts, const Eigen::Vector3
   divide(side);
   const auto entries = [&] {
     std::size_t count = 0;
-    for (const Contact& contact : contacts) for_each_cell(contact, [&](std::size_t) { ++count; });
+    for (const Contact& contact : contacts) count += cells_of(contact);
     return count;
   };
   while (cells_[0] * cells_[1] > 1 && entries() > 4 * cells_per_contact * contacts.size()) divide(side *= 2.0);
@@ -208,6 +218,16 @@ void ContactGrid::divide(double side) {
     cells_[k] = 1 + static_cast<int>(std::min(size_[k] / side, 4e3));
     per_m_[k] = cells_[k] / size_[k];
   }
+}
+
+std::size_t ContactGrid::cells_of(const Contact& contact) const {
+  std::size_t count = 1;
+  for (int k = 0; k < 2; ++k) {
+    const int axis = axis_[k];
+    count *=
+        static_cast<std::size_t>(cell(k, contact.region_W.max()[axis]) - cell(k, contact.region_W.min()[axis]) + 1);
+  }
+  return count;
 }
 
 template <class Visit>

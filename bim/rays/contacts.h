@@ -34,6 +34,7 @@ class ContactGrid {
     const double c = (x - low_[k]) * per_m_[k];
     return c > 0.0 ? (c < cells_[k] ? static_cast<int>(c) : cells_[k] - 1) : 0;
   }
+  [[nodiscard]] std::size_t cells_of(const Contact& contact) const;
   template <class Visit>
   void for_each_cell(const Contact& contact, Visit&& visit) const;
 

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <limits>
 
 #include "bim/errors.h"
 
@@ -24,6 +25,18 @@ bool Face::pierced_by(const Eigen::Vector3d& origin, const Eigen::Vector3d& dire
   const bool left = ab >= 0.0 && bc >= 0.0 && ca >= 0.0;
   const bool right = ab <= 0.0 && bc <= 0.0 && ca <= 0.0;
   return left != right;
+}
+
+RayTolerances tolerances_at(double half_extent_m) {
+  constexpr double float_spacings = 2.0;  // vertex and origin may each be off by half of one along three axes: 1.73
+  RayTolerances tolerances;
+  const auto extent = static_cast<float>(half_extent_m);
+  const auto spacing = static_cast<double>(std::nextafter(extent, std::numeric_limits<float>::infinity()) - extent);
+  if (half_extent_m < 256.0) return tolerances;
+  tolerances.inflation = float_spacings * spacing;
+  tolerances.contact = 2.0 * tolerances.tie + 2.5 * tolerances.inflation;
+  tolerances.edge_band = 2.0 * tolerances.contact;
+  return tolerances;
 }
 
 std::vector<Face> make_faces(const BuildingMesh& mesh) {

@@ -20,7 +20,6 @@ namespace plumbline::bim {
 
 namespace {
 
-constexpr RayTolerances tol;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Upper half of a float, rounded up: a positive width in two bytes that is never less than asked.
@@ -44,7 +43,7 @@ struct alignas(64) FacePlane {
 };
 static_assert(sizeof(FacePlane) == 64);
 
-std::array<std::uint16_t, 3> edge_band_of(const Face& face) {
+std::array<std::uint16_t, 3> edge_band_of(const Face& face, const RayTolerances& tol) {
   const InflatedTriangle t = inflate(face, tol);
   const std::uint16_t everywhere = half_up(2.0);
   if (!t.exact) return {everywhere, everywhere, everywhere};
@@ -53,6 +52,13 @@ std::array<std::uint16_t, 3> edge_band_of(const Face& face) {
     return half_up((tol.inflation + tol.edge_band) * (t.v[b] - t.v[a]).norm() / area2);
   };
   return {band(2, 0), band(0, 1), band(1, 2)};
+}
+
+RayTolerances tolerances_of(std::span<const Face> faces) {
+  Eigen::AlignedBox3d box;
+  for (const Face& face : faces)
+    for (const Eigen::Vector3d& v : face.v) box.extend(v);
+  return faces.empty() ? RayTolerances{} : tolerances_at(0.5 * box.sizes().maxCoeff());
 }
 
 /// A face that Embree proposes for a ray.
@@ -69,6 +75,7 @@ struct Proposal {
 
 struct RayScene::Impl {
   std::vector<Face> faces;
+  RayTolerances tol;
   std::vector<FacePlane> planes;
   std::vector<int> face_of_triangle;  ///< -1: without area
   ContactTable contacts;
@@ -87,13 +94,13 @@ struct RayScene::Impl {
 };
 
 RayScene::Impl::Impl(const BuildingMesh& mesh, const RaySceneOptions& options)
-    : faces(make_faces(mesh)), contacts(faces, tol), embree(faces, tol, options) {
+    : faces(make_faces(mesh)), tol(tolerances_of(faces)), contacts(faces, tol), embree(faces, tol, options) {
   planes.reserve(faces.size());
   face_of_triangle.assign(mesh.triangles.size(), -1);
   for (std::size_t i = 0; i < faces.size(); ++i) {
     const Face& face = faces[i];
     face_of_triangle[static_cast<std::size_t>(face.triangle)] = static_cast<int>(i);
-    planes.push_back({face.n, face.v[0], face.element, face.triangle, edge_band_of(face),
+    planes.push_back({face.n, face.v[0], face.element, face.triangle, edge_band_of(face, tol),
                       static_cast<std::uint16_t>(contacts.inside(i).empty() ? 0 : 1)});
   }
 }
@@ -130,6 +137,8 @@ void RayScene::Impl::decide(std::span<const Ray> rays, double range_max_m, const
 
 Hit RayScene::Impl::search(const Ray& ray, double range_max_m, Proposals& proposals) const {
   double tnear = 0.0;
+  // In a wide scene Embree may see what lies beyond that distance as nearer.
+  const double slack = 4.0 * (tol.inflation - RayTolerances{}.inflation);
   while (proposals.face[0] != Proposals::none) {
     Proposal proposal;
     proposal.face = proposals.face[0];
@@ -142,7 +151,7 @@ Hit RayScene::Impl::search(const Ray& ray, double range_max_m, Proposals& propos
               from_behind ? Eigen::Vector3d(-face->n) : face->n};
     }
     // Nothing is really hit there: look on behind it. Faces within the tie distance have been looked at already.
-    tnear = std::max(tnear, proposal.reach() + EmbreeScene::back_off) + tol.tie;
+    tnear = std::max(tnear, proposal.reach() + EmbreeScene::back_off - slack) + tol.tie;
     embree.propose_after(ray, range_max_m, static_cast<float>(tnear), proposals);
   }
   return {};

@@ -18,7 +18,7 @@ namespace plumbline::sim {
 /// of the one that seems the stronger.
 struct ReturnLabels {
   std::vector<std::int32_t> element;     ///< element id, -1 no return
-  std::vector<std::int32_t> triangle;    ///< of the mesh: the face, -1 no return
+  std::vector<std::int32_t> triangle;    ///< of the mesh that is seen (without optics: less panes), -1 no return
   std::vector<std::int32_t> room;        ///< index into Building::rooms, -1 in none
   std::vector<std::uint8_t> path;        ///< what happened to the light, see light_path
   std::vector<Eigen::Vector3d> point_W;  ///< where it was given back, without noise; zero without a return

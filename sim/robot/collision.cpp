@@ -98,6 +98,24 @@ void add_wall(const bim::Building& building, int index, const std::vector<Height
   }
 }
 
+/// Where a robot may come: around rooms and walls of the storeys, or around their floors where there are neither.
+Eigen::AlignedBox2d area_of(const bim::Building& building, const std::vector<int>& storeys) {
+  constexpr double margin_m = 2.0;
+  const auto among = [&](int storey) { return std::find(storeys.begin(), storeys.end(), storey) != storeys.end(); };
+  Eigen::AlignedBox2d area;
+  for (const bim::Room& room : building.rooms)
+    if (among(room.storey))
+      for (const Eigen::Vector2d& p : room.polygon) area.extend(p);
+  for (const bim::Wall& wall : building.walls)
+    if (among(wall.storey)) area.extend(wall.a).extend(wall.b);
+  if (area.isEmpty())
+    for (const bim::Slab& slab : building.slabs)
+      for (const Eigen::Vector2d& p : slab.polygon.outer)
+        if (among(slab.storey)) area.extend(p);
+  const Eigen::Vector2d margin = Eigen::Vector2d::Constant(margin_m);
+  return area.isEmpty() ? area : Eigen::AlignedBox2d(area.min() - margin, area.max() + margin);
+}
+
 }  // namespace
 
 double distance(const CollisionBox& box, const Eigen::Vector3d& p_W) {
@@ -116,10 +134,11 @@ std::vector<CollisionBox> collision_boxes(const bim::Building& as_built, const s
   const auto reached = [&](const HeightRange& z) {
     return std::any_of(reaches.begin(), reaches.end(), [&](const HeightRange& reach) { return overlap(z, reach); });
   };
+  const Eigen::AlignedBox2d area = area_of(as_built, storeys);
   std::vector<CollisionBox> boxes;
   const auto add_solid = [&](const bim::Solid& solid) {
     for (const HeightRange& reach : reaches)
-      for (const CollisionBox& box : solid_boxes(solid, reach, config)) boxes.push_back(box);
+      for (const CollisionBox& box : solid_boxes(solid, reach, area, config)) boxes.push_back(box);
   };
   for (std::size_t i = 0; i < as_built.walls.size(); ++i)
     add_wall(as_built, static_cast<int>(i), reaches, config, boxes);

@@ -21,7 +21,8 @@ struct Command {
   bool careful = false;            ///< longer on all four feet, as stairs ask for
 };
 
-/// What the joints, the IMU and the feet truly did at one physics step; sensors add their noise to it.
+/// What the joints, the IMU and the feet truly did at one physics step; sensors add their noise to it. Forces (touch,
+/// accelerometer) are those that led to the state, so they are of its step's beginning, 2 ms earlier.
 struct Proprioception {
   std::array<double, 12> q{};                                 ///< joint angles, rad: per leg FL, FR, HL, HR: hx, hy, kn
   std::array<double, 12> qd{};                                ///< rad/s
@@ -46,8 +47,8 @@ class Robot {
   Robot(Robot&&) = delete;
   Robot& operator=(Robot&&) = delete;
 
-  /// Advances by one physics step. Throws ScenarioFailure, with time and place, when the robot has fallen, and
-  /// InternalError when more boxes than the pool holds are near or the physics breaks down.
+  /// Advances by one physics step. Throws ScenarioFailure, with time and place, when the robot has fallen, or when more
+  /// boxes than the pool holds are within its reach, and InternalError when the physics breaks down.
   void step(const Command& command);
 
   [[nodiscard]] std::int64_t steps() const;   ///< since the start

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "bim/errors.h"
 #include "bim/mesh/solid.h"
 
 namespace plumbline::sim {
@@ -187,7 +188,7 @@ CollisionBox bounding_box(const std::vector<Eigen::Vector2d>& points, const Heig
 }
 
 std::vector<CollisionBox> solid_boxes(const bim::Solid& solid, const HeightRange& reach,
-                                      const CollisionConfig& config) {
+                                      const Eigen::AlignedBox2d& area, const CollisionConfig& config) {
   const std::vector<Polygon3> surface = surface_between(solid, reach);
   if (surface.empty()) return {};
   std::vector<Eigen::Vector2d> points;
@@ -209,6 +210,16 @@ std::vector<CollisionBox> solid_boxes(const bim::Solid& solid, const HeightRange
     low = low.cwiseMin(p);
     high = high.cwiseMax(p);
   }
+  const auto too_large = [&] { return ((high - low) / config.cell_m).prod() > config.cells_max; };
+  if (too_large() && !area.isEmpty()) {
+    low = low.cwiseMax(area.min());
+    high = high.cwiseMin(area.max());
+    if ((high - low).minCoeff() <= 0.0) return {};
+  }
+  if (too_large())
+    throw InputError({},
+                     "a thing that the robot may touch is larger than 200 m by 200 m, as is the floor around it; "
+                     "leave it out or cut it");
   CellGrid grid(low, high, config.cell_m);
   for (const Polygon3& polygon : surface) grid.add(polygon);
   std::vector<CollisionBox> boxes;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <Eigen/Geometry>
 #include <vector>
 
 #include "bim/building/building.h"
@@ -25,8 +26,9 @@ struct HeightRange {
 
 /// Boxes that cover what of a closed solid lies between the heights: its bounding box where it is closed and
 /// fills at least `box_fill` of that (`full_fill` when it is large enough for a way through it), else its surface in
-/// cells of cell_m, joined to rectangles. No boxes when nothing lies there.
+/// cells of cell_m, joined to rectangles; where those would be more than cells_max, of what lies within `area` only. No
+/// boxes when nothing lies there. Throws InputError where that is too large still.
 [[nodiscard]] std::vector<CollisionBox> solid_boxes(const bim::Solid& solid, const HeightRange& reach,
-                                                    const CollisionConfig& config);
+                                                    const Eigen::AlignedBox2d& area, const CollisionConfig& config);
 
 }  // namespace plumbline::sim

@@ -154,5 +154,19 @@ TEST(BadInput, IfcCycles) {
   }
 }
 
+TEST(BadInput, IfcPartsOfThemselves) {
+  const Reader ifc = readers()[0];
+  const auto with_wholes = [&](const std::string& relations) {
+    return replaced(ifc.sound, "ENDSEC;\nEND-ISO", relations + "ENDSEC;\nEND-ISO");
+  };
+  const std::string again = "#901=IFCWALL('0000000000000000000091',$,'again',$,$,#41,#50,$,$);\n";
+  const auto part_of = [](const std::string& id, const std::string& whole, const std::string& part) {
+    return "#9" + id + "=IFCRELAGGREGATES('00000000000000000000" + id + "',$,$,$," + whole + ",(" + part + "));\n";
+  };
+  EXPECT_FALSE(refused(ifc, with_wholes(again + part_of("92", "#40", "#901"))));
+  EXPECT_TRUE(refused(ifc, with_wholes(part_of("92", "#40", "#40"))));
+  EXPECT_TRUE(refused(ifc, with_wholes(again + part_of("92", "#40", "#901") + part_of("93", "#901", "#40"))));
+}
+
 }  // namespace
 }  // namespace plumbline::bim

@@ -206,6 +206,12 @@ TEST(PlanYamlErrors, Storeys) {
                "copy itself");
 }
 
+TEST(PlanYamlErrors, TooManyCorners) {
+  std::string corners = "polygon: [";
+  for (int i = 0; i <= 2000; ++i) corners += "[" + std::to_string(i) + ", 0], ";
+  expect_error(with("polygon: [", corners), "15", "at most 2000 can be read");
+}
+
 TEST(PlanYamlErrors, WallsAndOpenings) {
   expect_error(with("b: [8, 0]", "b: [0, 0]"), "6", "zero length");
   expect_error(with("b: [8, 0], thickness_m: 0.2", "b: [8, 0], height_m: 4"), "6", "higher than its storey");

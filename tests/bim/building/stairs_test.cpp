@@ -144,6 +144,13 @@ TEST(Stairs, CopiedStoreysRepeatThemWhereThereIsAStoreyAbove) {
   EXPECT_NEAR(building.stairs[1].flights[0].rise_m, 0.175, 1e-12);
 }
 
+TEST(Stairs, ACopyTooLowForTheLandingIsRefused) {
+  std::string text = base + "  - {id: st, from: lower, to: upper, start: [1, 3], landing_after: 12}\n";
+  text.replace(text.find("copy_of: lower}]"), 16,
+               "height_m: 1.2, copy_of: lower}, {id: top, elevation_m: 4.4, height_m: 2.8, copy_of: lower}]");
+  expect_error(text, "10", "stair 'upper/st' from 'upper' to 'top' has only 8 steps; its landing must come before");
+}
+
 TEST(Stairs, WhatCannotBeWalkedIsRefusedAtItsLine) {
   const auto refuse = [&](const std::string& stair, const std::string& part) {
     expect_error(base + "  - {id: st, " + stair + "}\n", "10", part);

@@ -31,5 +31,17 @@ TEST(SchemaForReader, OtherSchemasAreReadWithAWarning) {
   for (const Warning& warning : plain.warnings) EXPECT_NE(warning.kind, "other_schema");
 }
 
+TEST(Names, AreReadInEveryEncodingThatProgramsWrite) {
+  const auto storey_named = [](const std::string& written) {
+    std::string text = small_ifc({});
+    text.replace(text.find("'ground'"), 8, "'" + written + "'");
+    return read_ifc_text(text, "small.ifc").storeys.at(0).name;
+  };
+  EXPECT_EQ(storey_named("Erdgeschoß"), "Erdgeschoß");
+  EXPECT_EQ(storey_named("Erdgescho\xDF"), "Erdgeschoß");
+  EXPECT_EQ(storey_named("Erdgescho\\X2\\00DF\\X0\\"), "Erdgeschoß");
+  EXPECT_EQ(storey_named("\\X2\\D83CDFE0\\X0\\"), "🏠");
+}
+
 }  // namespace
 }  // namespace plumbline::bim

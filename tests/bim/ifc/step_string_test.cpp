@@ -48,6 +48,13 @@ TEST(StepString, ReadsWhatOtherProgramsWrite) {
   EXPECT_EQ(text_of_step("\\X2\\D83CDFE0\\X0\\"), "🏠");
 }
 
+TEST(StepString, BytesThatNobodyEscapedAreUtf8OrLatin1) {
+  EXPECT_EQ(text_of_step("Küche"), "Küche");
+  EXPECT_EQ(text_of_step("K\xFC"
+                         "che"),
+            "Küche");
+}
+
 TEST(StepString, BadBytesAndEscapesDoNoHarm) {
   EXPECT_EQ(back("a\xFFz"), "a\xEF\xBF\xBDz");
   EXPECT_EQ(back("\xC3"), "\xEF\xBF\xBD");

@@ -44,5 +44,14 @@ TEST(Isolated, BoundsTimeMemoryAndAnswer) {
   EXPECT_FALSE(run_isolated([] { return std::string(1000, 'x'); }, config));
 }
 
+TEST(Isolated, BoundsGrowWithTheFile) {
+  const IsolationConfig least;
+  EXPECT_EQ(isolation_for(0).cpu_s, least.cpu_s);
+  EXPECT_EQ(isolation_for(0).memory, least.memory);
+  const std::size_t largest = std::size_t{256} << 20U;
+  EXPECT_EQ(isolation_for(largest).cpu_s, least.cpu_s + 128);
+  EXPECT_EQ(isolation_for(largest).memory, least.memory + 32 * largest);
+}
+
 }  // namespace
 }  // namespace plumbline::bim

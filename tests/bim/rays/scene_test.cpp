@@ -240,6 +240,38 @@ TEST(RayScene, ClosedRoomLetsNoRayOut) {
   }
 }
 
+/// Whose floats are coarse where the room is.
+TEST(RayScene, SomethingFarAwayChangesNoHit) {
+  const BuildingMesh room = box_room({5, 4, 3});
+  std::vector<Ray> rays = RandomRays(23).rays(100000, {0.1, 0.1, 0.1}, {4.9, 3.9, 2.9});
+  for (std::size_t i = 0; i < 20000; ++i) {
+    const Eigen::Vector3d corner(i % 2 == 0 ? 0.0 : 5.0, i % 4 < 2 ? 0.0 : 4.0,
+                                 i % 3 == 0 ? 3.0 : 0.003 * static_cast<double>(i % 1000));
+    rays[i].direction_W = (corner - rays[i].origin_W).normalized();
+  }
+  const std::vector<Hit> alone = cast_all(RayScene(room), rays);
+  for (const double far_m : {600.0, 2000.0, 9900.0}) {
+    BuildingMesh mesh = room;
+    add_box(mesh, {far_m, 5, 0}, {far_m + 1, 6, 3});
+    const std::vector<Hit> hits = cast_all(RayScene(mesh), rays);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      ASSERT_EQ(hits[i].range_m, alone[i].range_m) << far_m;
+      ASSERT_EQ(hits[i].triangle, alone[i].triangle) << far_m;
+    }
+  }
+}
+
+TEST(RayScene, ThousandsOfTrianglesInOnePlaceAreRefused) {
+  const std::vector<Eigen::Vector3d> corners = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  const auto stacked = [&](std::size_t count) {
+    BuildingMesh mesh;
+    add_element(mesh, corners, std::vector<Eigen::Vector3i>(count, Eigen::Vector3i(0, 1, 2)));
+    return mesh;
+  };
+  EXPECT_EQ(RayScene(stacked(300)).cast({{0.2, 0.2, 1}, {0, 0, -1}}, range_max_m).triangle, 0);
+  EXPECT_THROW(RayScene{stacked(4000)}, InputError);
+}
+
 TEST(RayScene, ARayInABoxMeetsTheTriangleItHitsAndTheOneBehindIt) {
   BuildingMesh mesh;
   add_box(mesh, {0, 0, 0}, {5, 4, 3}, 0.3);

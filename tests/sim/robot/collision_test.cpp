@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "bim/errors.h"
 #include "bim/random/stream.h"
 
 namespace plumbline::sim {
@@ -159,6 +160,21 @@ TEST(Collision, OnlyThePartInReachOfAnObstacleBlocks) {
   EXPECT_TRUE(inside_any(boxes, {0.5, 0.05, 0.6}));
   EXPECT_FALSE(inside_any(boxes, {1.5, 0.05, 0.6}));
   for (const CollisionBox& box : boxes) EXPECT_LT(box.X_WB.t.x() + box.half.x(), 1.2 + 0.11);
+}
+
+TEST(Collision, OfAThingTooLargeForCellsOnlyWhatIsNearTheRoomsIsKept) {
+  const bim::Solid fence =
+      joined(box_solid({-600.0, 1.0, 0.0}, {600.0, 1.05, 1.0}), box_solid({-600.0, 1.05, 0.0}, {-599.95, 600.0, 1.0}));
+  bim::Building building = only(fence);
+  EXPECT_THROW((void)collision_boxes(building, {0}), InputError);  // nothing says where the robot may be
+  building.walls = one_wall({0.0, 0.0}, {10.0, 0.0}).walls;
+  building.walls[0].storey = 0;
+  const std::vector<CollisionBox> boxes = collision_boxes(building, {0});
+  EXPECT_LT(boxes.size(), 10U);
+  EXPECT_TRUE(inside_any(boxes, {-1.9, 1.02, 0.5}));
+  EXPECT_TRUE(inside_any(boxes, {11.9, 1.02, 0.5}));
+  EXPECT_FALSE(inside_any(boxes, {5.0, 1.5, 0.5}));
+  EXPECT_FALSE(inside_any(boxes, {20.0, 1.02, 0.5}));
 }
 
 TEST(Collision, AnObstacleRoundACornerLeavesTheCornerFree) {
