@@ -8,6 +8,9 @@ namespace plumbline::slam {
 
 namespace {
 
+/// Farther ahead a step's noise outgrows what it tells: scans after a gap are sought near where they ended.
+constexpr double most_steps = 3.0;
+
 class ConstantVelocity final : public Method {
  public:
   explicit ConstantVelocity(std::unique_ptr<Method> method) : method_(std::move(method)) {}
@@ -34,8 +37,9 @@ class ConstantVelocity final : public Method {
 
   void predict(Nanoseconds stamp) {
     if (last_ && before_ && last_->stamp > before_->stamp) {
-      const double share =
+      const double steps =
           static_cast<double>(stamp - last_->stamp) / static_cast<double>(last_->stamp - before_->stamp);
+      const double share = std::min(steps, most_steps);
       X_OR_ = X_OR_ * interpolate(Pose{}, before_->X_FR.inverse() * last_->X_FR, share);
       X_OR_.q.normalize();
     }

@@ -8,7 +8,7 @@
 namespace plumbline::slam {
 
 /// Stands in for missing odometry: before each scan the method is told that the motion between its last two answers
-/// went on. Its own odometry prior must be off, for this is no measurement.
+/// went on, for three such steps at most. Its own odometry priors must be off, for this is no measurement.
 [[nodiscard]] std::unique_ptr<Method> with_constant_velocity(std::unique_ptr<Method> method);
 
 }  // namespace plumbline::slam

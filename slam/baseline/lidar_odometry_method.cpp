@@ -71,6 +71,7 @@ class LidarOdometryMethod final : public Method {
 std::unique_ptr<Method> make_lidar_odometry_method(const MethodInput& input, LidarOdometryConfig config,
                                                    const MapCloudConfig& map) {
   config.vgicp.odometry_prior &= input.has_odometry;
+  config.vgicp.tilt_prior &= input.has_odometry;
   auto method = std::make_unique<LidarOdometryMethod>(input, config, map);
   if (input.has_odometry) return method;
   return with_constant_velocity(std::move(method));

@@ -60,9 +60,10 @@ struct BagTopics {
 /// True when the file starts as a ROS 1 bag.
 [[nodiscard]] bool is_bag(const std::string& path);
 
-/// Opens a bag. Records are put in order by their own stamps; the mount comes from /tf_static where `info` is null. O
-/// is moved to the robot's first place and heading. Throws InputError when it is no bag, was not closed, or holds no
-/// cloud.
+/// Opens a bag. Records are put in order by their own stamps; the mount comes from /tf_static where `info` is null, and
+/// so does the IMU's attitude where it is there. O is moved to the robot's first place and heading. Throws InputError
+/// when it is no bag, was not closed, holds no cloud, has an IMU whose attitude nothing tells or odometry that no scan
+/// meets.
 [[nodiscard]] std::unique_ptr<Recording> open_bag(const std::string& path, const BagTopics& topics,
                                                   const RecordingInfo* info);
 

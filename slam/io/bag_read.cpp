@@ -8,16 +8,17 @@
 #include <sensor_msgs/PointCloud2.h>
 #include <tf2_msgs/TFMessage.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <deque>
 #include <fstream>
-#include <map>
 #include <optional>
 #include <vector>
 
 #include "bim/errors.h"
 #include "slam/io/bag.h"
+#include "slam/io/frame_tree.h"
 #include "slam/io/odometry_motion.h"
 #include "slam/io/ros_message.h"
 
@@ -27,9 +28,6 @@ namespace {
 
 constexpr std::string_view magic = "#ROSBAG V2.0";
 constexpr std::size_t most_waiting = 20;  ///< scans that wait for slower topics
-constexpr int longest_chain = 16;         ///< of frames between base and LiDAR
-
-std::string plain(std::string frame) { return !frame.empty() && frame.front() == '/' ? frame.substr(1) : frame; }
 
 template <class M>
 std::string type_of() {
@@ -76,11 +74,6 @@ class Waiting {
   std::optional<Nanoseconds> last_;
 };
 
-struct Mount {
-  std::string parent;
-  Pose X;
-};
-
 class BagRecording final : public Recording {
  public:
   BagRecording(const std::string& path, const BagTopics& topics, const RecordingInfo* info) : mark_{path, 0, 0} {
@@ -90,10 +83,12 @@ class BagRecording final : public Recording {
       std::vector<std::string> names = {topics_.points};
       if (!topics_.odometry.empty()) names.push_back(topics_.odometry);
       if (!topics_.imu.empty()) names.push_back(topics_.imu);
+      const std::string lidar = find_frames(names);
+      described_ = info != nullptr;
       if (info != nullptr)
         info_ = *info;
-      else
-        find_mount(names);
+      else if (const std::optional<Pose> X_RL = frames_.find(lidar, base_))
+        info_.mount = recording_info(0, {*X_RL, info_.mount.height_m}, {}).mount;
       view_.addQuery(bag_, rosbag::TopicQuery(names));
       at_ = view_.begin();
     });
@@ -157,38 +152,32 @@ class BagRecording final : public Recording {
         throw InputError(mark_, topic + " is of type " + connection->datatype + ", not " + type);
   }
 
-  /// The LiDAR in the robot's frame, over /tf_static from the clouds' frame to that of the odometry.
-  void find_mount(const std::vector<std::string>& names) {
-    std::map<std::string, Mount> mounts;
+  /// Reads /tf_static and the frame of the odometry, which is R's; returns that of the clouds.
+  [[nodiscard]] std::string find_frames(const std::vector<std::string>& names) {
     for (const rosbag::MessageInstance& message : rosbag::View(bag_, rosbag::TopicQuery("/tf_static")))
       if (is<tf2_msgs::TFMessage>(message))
-        for (const ros::Transform& t : ros::read_transforms(bytes_of(message)))
-          mounts[plain(t.child)] = {plain(t.parent), t.X};
-    std::string base, frame;
+        for (const ros::Transform& t : ros::read_transforms(bytes_of(message))) frames_.add(t);
+    std::string lidar;
     for (const rosbag::MessageInstance& message : rosbag::View(bag_, rosbag::TopicQuery(names))) {
-      if (is<nav_msgs::Odometry>(message)) base = plain(ros::read_odometry(bytes_of(message)).X_OR.child);
-      if (is<sensor_msgs::PointCloud2>(message)) frame = plain(ros::read_cloud(bytes_of(message)).frame);
-      if (!frame.empty() && (!base.empty() || topics_.odometry.empty())) break;
+      if (is<nav_msgs::Odometry>(message)) base_ = plain_frame(ros::read_odometry(bytes_of(message)).X_OR.child);
+      if (is<sensor_msgs::PointCloud2>(message)) lidar = plain_frame(ros::read_cloud(bytes_of(message)).frame);
+      if (!lidar.empty() && (!base_.empty() || topics_.odometry.empty())) break;
     }
-    Pose X_RL;
-    for (int i = 0; frame != base && i < longest_chain; ++i) {
-      const auto mount = mounts.find(frame);
-      if (mount == mounts.end()) return;
-      X_RL = mount->second.X * X_RL;
-      frame = mount->second.parent;
-    }
-    info_.mount = recording_info(0, {X_RL, info_.mount.height_m}, {}).mount;
+    return lidar;
+  }
+
+  [[nodiscard]] Imu imu_of(const ros::FramedImu& said) const {
+    if (const std::optional<Imu> imu = in_robot(said, frames_, base_)) return *imu;
+    if (described_) return said.imu;
+    throw InputError({}, topics_.imu + " is in frame '" + said.frame + "', which /tf_static does not join to '" +
+                             base_ + "'; name another topic, or describe the recording: then the two are one");
   }
 
   bool next_scan(SensorFrame& frame) {
-    while (!ready() && at_ != view_.end()) {
-      ++messages_;
-      read(*at_);
-      ++at_;
-    }
-    while (!scans_.records().empty()) {
+    for (fill(); !scans_.records().empty(); fill()) {
       SensorFrame out;
       out.scan = scans_.take();
+      if (!first_scan_) first_scan_ = out.scan.stamp + least_offset(out.scan);
       imu_.take_until(out.scan.stamp, out.imu);
       odometry_.take_until(out.scan.stamp, out.odometry);
       covariances_.take_until(out.scan.stamp, out.covariances);
@@ -197,7 +186,30 @@ class BagRecording final : public Recording {
       frame = std::move(out);
       return true;
     }
+    check_clocks();
     return false;
+  }
+
+  /// Reads on until a scan is ready.
+  void fill() {
+    while (!ready() && at_ != view_.end()) {
+      ++messages_;
+      read(*at_);
+      ++at_;
+    }
+  }
+
+  static Nanoseconds least_offset(const Scan& scan) {
+    const auto least = std::min_element(scan.offset_ns.begin(), scan.offset_ns.end());
+    return least == scan.offset_ns.end() ? 0 : *least;
+  }
+
+  /// At the end of the bag.
+  void check_clocks() const {
+    if (!has_odometry()) return;
+    if (!started_) throw InputError(mark_, topics_.odometry + ": " + std::string(no_odometry));
+    if (odometry_stamp_ && first_scan_ && *odometry_stamp_ < *first_scan_)
+      throw InputError(mark_, topics_.odometry + ": " + std::string(odometry_over));
   }
 
   /// True when nothing that belongs before the first waiting scan can still come.
@@ -230,7 +242,7 @@ class BagRecording final : public Recording {
         covariances_.add({stamp, *covariance}, topics_.odometry);
       odometry_stamp_ = stamp;
     } else if (is<sensor_msgs::Imu>(message)) {
-      Imu record = ros::read_imu(bytes_of(message));
+      Imu record = imu_of(ros::read_imu(bytes_of(message)));
       record.stamp = shifted(record.stamp);
       imu_.add(record, topics_.imu);
     }
@@ -249,12 +261,16 @@ class BagRecording final : public Recording {
   rosbag::View::iterator at_;
   BagTopics topics_;
   RecordingInfo info_;
+  bool described_ = false;  ///< by its owner
+  FrameTree frames_;
+  std::string base_;  ///< R; empty without odometry
   Waiting<Scan> scans_;
   Waiting<Odometry> odometry_;
   Waiting<OdometryCovariance> covariances_;
   Waiting<Imu> imu_;
   std::optional<Nanoseconds> origin_;
   std::optional<Nanoseconds> odometry_stamp_;  ///< of the last message
+  std::optional<Nanoseconds> first_scan_;      ///< when it began
   std::optional<Pose> X_OB_;
   std::int64_t messages_ = 0;
   bool started_ = false;

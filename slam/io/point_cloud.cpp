@@ -83,7 +83,7 @@ const PointField& need_field(const PointCloud& cloud, std::string_view name) {
 
 void check(const PointCloud& cloud) {
   const std::uint64_t points = std::uint64_t{cloud.width} * cloud.height;
-  if (points == 0) throw InputError({}, "point cloud without points");
+  if (points == 0 && !cloud.data.empty()) throw InputError({}, "point cloud with bytes and without points");
   if (points > most_points)
     throw InputError({}, "point cloud of " + std::to_string(points) + " points; at most 4 million");
   if (cloud.row_step < std::uint64_t{cloud.point_step} * cloud.width ||
@@ -274,12 +274,14 @@ PointCloud cloud_of(const Scan& scan, CloudLayout layout) {
 
 Scan scan_of(const PointCloud& cloud) {
   check(cloud);
+  Scan scan;
+  scan.stamp = cloud.stamp;
+  if (cloud.width == 0 || cloud.height == 0) return scan;
   std::vector<Point> points = read_points(cloud);
   const bool timed = find_field(cloud, {"t", "time", "timestamp", "time_stamp"}) != nullptr;
   const bool named_rings = find_field(cloud, {"ring"}) != nullptr;
   if (!named_rings && cloud.height != vlp16::rings) find_rings(points);
   const int rings = ring_count(points);
-  Scan scan;
   scan.rings = rings;
   scan.columns = find_columns(cloud, points, rings, timed);
   if (!timed) spread_times(points, scan.columns);

@@ -44,9 +44,9 @@ enum class CloudLayout {
 /// The scan of a cloud whose fields are found by name and type: x, y, z (f32 or f64); intensity or reflectivity; ring
 /// (else by elevation, for a VLP-16); time (f32, s), timestamp (f64, s, from the stamp or absolute) or t (u32, ns),
 /// else spread over 0.1 s. Columns are the rows or columns of an organised cloud, else found by time or azimuth. Points
-/// that are not finite, at the origin or beyond 1 km are no returns. Scan::stamp is the time of the last point. Throws
-/// InputError without a mark on a cloud without points or fields, of wrong size, with rings above 127 or times over
-/// more than 1 s.
+/// that are not finite, at the origin or beyond 1 km are no returns. Scan::stamp is the time of the last point; a cloud
+/// without points is a scan without columns at the cloud's. Throws InputError without a mark on a cloud without fields,
+/// of wrong size, with rings above 127 or times over more than 1 s.
 [[nodiscard]] Scan scan_of(const PointCloud& cloud);
 
 }  // namespace plumbline::slam

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <filesystem>
 #include <optional>
 
@@ -17,6 +18,17 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr Nanoseconds longest_message = 2'000'000'000;  ///< offsets within a scan are 32-bit nanoseconds
+constexpr Nanoseconds least_leap = 1'000'000'000;       ///< between two packets of two sweeps
+constexpr std::size_t looked_at = 20;                   ///< packets that tell a capture's speed
+
+/// What most of a capture's first packets say: its motor may have been starting.
+int usual_packets_per_turn(const std::deque<Vlp16Packet>& first) {
+  std::vector<int> said;
+  for (const Vlp16Packet& packet : first) said.push_back(packets_per_turn(packet));
+  const auto middle = said.begin() + static_cast<std::ptrdiff_t>(said.size() / 2);
+  std::nth_element(said.begin(), middle, said.end());
+  return *middle;
+}
 
 /// Records of one kind, the next of them looked at ahead.
 template <class Reader, class Record>
@@ -48,7 +60,10 @@ class PacketRecording final : public Recording {
  public:
   PacketRecording(const std::string& pcap, RecordingInfo info)
       : mark_{pcap, 0, 0}, info_(std::move(info)), pcap_(pcap) {}
-  void add_odometry(const std::string& path) { odometry_.emplace(path); }
+  void add_odometry(const std::string& path) {
+    odometry_mark_ = {path, 0, 0};
+    odometry_.emplace(path);
+  }
   void add_covariances(const std::string& path) { covariances_.emplace(path); }
   void add_imu(const std::string& path) { imu_.emplace(path); }
 
@@ -59,37 +74,69 @@ class PacketRecording final : public Recording {
   [[nodiscard]] bool next(SensorFrame& frame) override {
     SensorFrame out;
     do {
-      if (!read_message(out.packets)) return false;
+      if (!read_message(out.packets)) {
+        if (odometry_ && !started_) throw InputError(odometry_mark_, std::string(no_odometry));
+        return false;
+      }
       out.scan = decode(out.packets);
     } while (odometry_ && !odometry_started(out.scan.stamp));
     if (imu_) imu_->take_until(out.scan.stamp, origin(), out.imu);
-    if (odometry_) odometry_->take_until(out.scan.stamp, origin(), out.odometry);
+    if (odometry_) take_odometry(out);
     if (covariances_) covariances_->take_until(out.scan.stamp, origin(), out.covariances);
     frame = std::move(out);
     return true;
   }
 
  private:
+  /// A message that a leap of the clock cuts short is left out, as one that the end does.
   bool read_message(std::vector<Vlp16Packet>& packets) {
+    if (!info_.lidar.packets_per_message) find_turn();
+    const auto needed = static_cast<std::size_t>(std::max(1, info_.lidar.packets_per_message.value_or(1)));
     packets.clear();
     Vlp16Packet packet;
-    while (packets.size() < static_cast<std::size_t>(info_.lidar.packets_per_message.value_or(1)) || packets.empty()) {
-      if (!pcap_.next(packet)) {
-        if (messages_ == 0) fail_short(packets.size());
+    while (packets.size() < needed) {
+      if (!next_packet(packet)) {
+        if (messages_ == 0) fail_short(needed);
         return false;
       }
-      if (!info_.lidar.packets_per_message) named([&] { info_.lidar.packets_per_message = packets_per_turn(packet); });
+      const bool too_long = !packets.empty() && packet.stamp - packets.front().stamp > longest_message;
+      if (too_long && packet.stamp - packets.back().stamp < least_leap)
+        throw InputError(mark_, "message " + std::to_string(messages_) + " lasts more than 2 s; packets are missing");
+      if (too_long) packets.clear();
       packets.push_back(packet);
     }
-    if (packets.back().stamp - packets.front().stamp > longest_message)
-      throw InputError(mark_, "message " + std::to_string(messages_) + " lasts more than 2 s; packets are missing");
     ++messages_;
     return true;
   }
 
-  [[noreturn]] void fail_short(std::size_t packets) const {
-    throw InputError(mark_, "holds " + std::to_string(packets) + " data packets; one scan needs " +
-                                std::to_string(info_.lidar.packets_per_message.value_or(1)));
+  void find_turn() {
+    Vlp16Packet packet;
+    while (ahead_.size() < looked_at && pcap_.next(packet)) ahead_.push_back(packet);
+    named([&] { info_.lidar.packets_per_message = usual_packets_per_turn(ahead_); });
+  }
+
+  bool next_packet(Vlp16Packet& packet) {
+    if (ahead_.empty() && !pcap_.next(packet)) return false;
+    if (!ahead_.empty()) {
+      packet = ahead_.front();
+      ahead_.pop_front();
+    }
+    ++packets_;
+    return true;
+  }
+
+  [[noreturn]] void fail_short(std::size_t needed) const {
+    throw InputError(mark_, "holds " + std::to_string(packets_) + " data packets; one scan needs " +
+                                std::to_string(needed) + " without a gap");
+  }
+
+  /// Throws where the odometry ends before the first scan begins.
+  void take_odometry(SensorFrame& frame) {
+    odometry_->take_until(frame.scan.stamp, origin(), frame.odometry);
+    const bool first = !taken_;
+    taken_ = true;
+    if (first && !odometry_->front() && frame.odometry.back().stamp < frame.packets.front().stamp)
+      throw InputError(odometry_mark_, std::string(odometry_over));
   }
 
   /// Adds the place to what is wrong with a packet.
@@ -113,14 +160,16 @@ class PacketRecording final : public Recording {
     return started_;
   }
 
-  Mark mark_;
+  Mark mark_, odometry_mark_;
   RecordingInfo info_;
   PcapReader pcap_;
+  std::deque<Vlp16Packet> ahead_;  ///< read, but not yet of a message
   std::optional<Stream<OdometryReader, Odometry>> odometry_;
   std::optional<Stream<CovarianceReader, OdometryCovariance>> covariances_;
   std::optional<Stream<ImuReader, Imu>> imu_;
-  std::int64_t messages_ = 0;
-  bool started_ = false;
+  std::int64_t packets_ = 0, messages_ = 0;
+  bool started_ = false;  ///< odometry has, for the first scan given
+  bool taken_ = false;    ///< and that scan has its records
 };
 
 std::unique_ptr<Recording> open_directory(const std::string& dir, const RecordingInfo* given) {

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "slam/io/odometry_covariance.h"
@@ -34,6 +35,10 @@ class Recording {
   [[nodiscard]] virtual Nanoseconds origin() const = 0;
 };
 
+/// What is wrong with odometry that no scan meets.
+inline constexpr std::string_view no_odometry = "no odometry at or before any scan; are both on one clock?";
+inline constexpr std::string_view odometry_over = "the odometry ends before the first scan; are both on one clock?";
+
 /// Files of a recording directory.
 namespace recording_files {
 inline constexpr std::string_view info = "recording.yaml";
@@ -45,8 +50,8 @@ inline constexpr std::string_view imu = "imu.csv";
 
 /// Opens a recording directory (lidar.pcap; recording.yaml, odometry.tum with its covariances and imu.csv where they
 /// are there) or a bare capture of a VLP-16; `info`, where it is not null, stands for recording.yaml. Messages are cut
-/// as drivers do, by the number of packets; scans before the first odometry record and a message that the end cuts
-/// short are left out. Throws InputError.
+/// as drivers do, by the number of packets; scans before the first odometry record and a message that the end or a gap
+/// of seconds cuts short are left out. Throws InputError, also where no scan meets the odometry.
 [[nodiscard]] std::unique_ptr<Recording> open_recording(const std::string& path, const RecordingInfo* info = nullptr);
 
 /// Packets of a full turn, rounded up, at the speed one packet tells (a multiple of 60 rpm): 76 at 600 rpm.

@@ -222,15 +222,14 @@ OdometryMessage read_odometry(std::span<const std::uint8_t> bytes) {
   return out;
 }
 
-Imu read_imu(std::span<const std::uint8_t> bytes) {
+FramedImu read_imu(std::span<const std::uint8_t> bytes) {
   Reader in(bytes);
-  Imu out;
-  std::string frame;
-  out.stamp = in.header(frame);
+  FramedImu out;
+  out.imu.stamp = in.header(out.frame);
   in.skip_numbers(4 + 9);
-  out.angular_velocity_R = in.vector();
+  out.imu.angular_velocity_R = in.vector();
   in.skip_numbers(9);
-  out.linear_acceleration_R = in.vector();
+  out.imu.linear_acceleration_R = in.vector();
   return out;
 }
 

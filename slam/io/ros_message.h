@@ -37,6 +37,12 @@ struct FramedCloud {
   PointCloud cloud;
 };
 
+/// An Imu whose vectors are along the axes of `frame`, not R.
+struct FramedImu {
+  std::string frame;
+  Imu imu;
+};
+
 [[nodiscard]] Bytes write_clock(Nanoseconds stamp);                                ///< rosgraph_msgs/Clock
 [[nodiscard]] Bytes write_cloud(const PointCloud& cloud, std::string_view frame);  ///< sensor_msgs/PointCloud2
 [[nodiscard]] Bytes write_odometry(const OdometryMessage& message);                ///< nav_msgs/Odometry
@@ -45,7 +51,7 @@ struct FramedCloud {
 
 [[nodiscard]] FramedCloud read_cloud(std::span<const std::uint8_t> bytes);
 [[nodiscard]] OdometryMessage read_odometry(std::span<const std::uint8_t> bytes);
-[[nodiscard]] Imu read_imu(std::span<const std::uint8_t> bytes);
+[[nodiscard]] FramedImu read_imu(std::span<const std::uint8_t> bytes);
 [[nodiscard]] std::vector<Transform> read_transforms(std::span<const std::uint8_t> bytes);
 
 }  // namespace plumbline::slam::ros

@@ -61,6 +61,7 @@ DeskewedScan deskew(const Scan& scan, const MotionBuffer& motion, const Calibrat
   out.range_m.assign(scan.size(), 0.0);
   out.point_R.assign(scan.size(), Eigen::Vector3d::Zero());
   out.X_RL = calibration.X_RL;
+  out.odometry_silent = motion.silent_at(scan.stamp);
 
   const Pose X_RO = motion.at(scan.stamp).inverse();
   const auto rings = static_cast<std::size_t>(scan.rings);

@@ -14,16 +14,19 @@ constexpr double least_dt_s = 1e-3;
 }  // namespace
 
 bool OdometryHealth::judge(const Registration& registration, const Pose& step, Nanoseconds dt) {
-  const double dt_s = std::max(seconds(dt), least_dt_s);
   const bool sound = step.t.allFinite() && step.q.coeffs().allFinite();
-  const bool good = sound && registration.matched >= config_.min_matched &&
-                    step.t.norm() <= config_.max_speed_mps * dt_s + shake_m &&
-                    log_so3(step.q).norm() <= config_.max_turn_radps * dt_s + shake_rad;
+  const bool good = sound && registration.matched >= config_.min_matched && possible(step, dt);
   good_ = good ? good_ + 1 : 0;
   bad_ = good ? 0 : bad_ + 1;
   if (bad_ >= config_.bad_scans) lost_ = true;
   if (good_ >= config_.good_scans) lost_ = false;
   return good;
+}
+
+bool OdometryHealth::possible(const Pose& step, Nanoseconds dt) const {
+  const double dt_s = std::max(seconds(dt), least_dt_s);
+  return step.t.norm() <= config_.max_speed_mps * dt_s + shake_m &&
+         log_so3(step.q).norm() <= config_.max_turn_radps * dt_s + shake_rad;
 }
 
 }  // namespace plumbline::slam

@@ -33,6 +33,8 @@ class OdometryHealth {
 
   /// Judges one registration: step, the robot's motion since the scan dt before. True: believe it.
   [[nodiscard]] bool judge(const Registration& registration, const Pose& step, Nanoseconds dt);
+  /// Whether a robot can have made this step in the time dt.
+  [[nodiscard]] bool possible(const Pose& step, Nanoseconds dt) const;
   [[nodiscard]] bool lost() const { return lost_; }
   /// True once after so many bad scans that the map is of no use.
   [[nodiscard]] bool wants_restart() const { return bad_ > 0 && bad_ % config_.restart_scans == 0; }

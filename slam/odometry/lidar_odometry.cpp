@@ -2,6 +2,7 @@
 #include "slam/odometry/lidar_odometry.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "bim/errors.h"
@@ -25,6 +26,42 @@ class Steps {
   Pose X_OR_;
 };
 
+/// The same for those who see more than the legs. Odometry that comes back after a silence, or says more than a robot
+/// can do, holds a way that scans have told of: its frame is moved so that the robot is where it was.
+class JoinedSteps {
+ public:
+  struct Step {
+    LegsAt legs;
+    Pose X;  ///< from the scan before
+  };
+
+  [[nodiscard]] Step to(const Pose& X_BR, const DeskewedScan& scan, const OdometryHealth& health) {
+    Step step{{X_OB_ ? *X_OB_ * X_BR : X_BR, true}, Pose{}};
+    if (last_) {
+      step.X = last_->X_OR.inverse() * step.legs.X_OR;
+      const bool apart = last_->silent || !health.possible(step.X, scan.stamp - last_->stamp);
+      if (apart) {
+        X_OB_ = join_frames(last_->X_OR, X_BR);
+        step.legs.X_OR = *X_OB_ * X_BR;
+        step.X = last_->X_OR.inverse() * step.legs.X_OR;
+      }
+      step.legs.followed = !apart && !scan.odometry_silent;
+    }
+    last_ = Last{scan.stamp, step.legs.X_OR, scan.odometry_silent};
+    return step;
+  }
+
+ private:
+  struct Last {
+    Nanoseconds stamp = 0;
+    Pose X_OR;
+    bool silent = false;
+  };
+
+  std::optional<Last> last_;
+  std::optional<Pose> X_OB_;  ///< of the odometry's own frame, once it was moved
+};
+
 /// Any of the scan matchers behind the common face. A scan that does not fit is dead reckoned and not mapped; after
 /// many of them the map is begun anew.
 template <class Matcher>
@@ -35,14 +72,17 @@ class Wrapped final : public LidarOdometry {
       : config_(config), matcher_(matcher), health_(config.health) {}
 
   [[nodiscard]] Registration update(const DeskewedScan& scan, const Pose& X_OR) override {
-    const Pose step = steps_.to(X_OR);
+    const auto [legs, step] = steps_.to(X_OR, scan, health_);
+    const Nanoseconds dt = scan.stamp - stamp_;
     const bool ready = matcher_.ready();
-    Registration result = matcher_.match(scan, X_OR);
+    Registration result = matcher_.match(scan, legs);
+    result.followed = legs.followed;
     // The first scan of a map lies where dead reckoning says.
-    result.believed = ready && health_.judge(result, X_MR_.inverse() * result.X_MR, scan.stamp - stamp_);
+    result.believed = ready && health_.judge(result, X_MR_.inverse() * result.X_MR, dt);
     if (!result.believed) {
       result.X_MR = X_MR_ * step;
-      result.information = reckoned_information(config_, step.t.norm());
+      result.information =
+          legs.followed ? reckoned_information(config_, step.t.norm()) : unknown_information(config_.health, dt);
     }
     X_MR_ = result.X_MR;
     stamp_ = scan.stamp;
@@ -57,7 +97,7 @@ class Wrapped final : public LidarOdometry {
   const LidarOdometryConfig config_;
   Matcher matcher_;
   OdometryHealth health_;
-  Steps steps_;
+  JoinedSteps steps_;
   Pose X_MR_;
   Nanoseconds stamp_ = 0;
 };
@@ -91,6 +131,16 @@ Matrix6d reckoned_information(const LidarOdometryConfig& config, double way_m) {
   Matrix6d information = Matrix6d::Zero();
   information.diagonal().head<3>().setConstant(1.0 / (config.legs_m * config.legs_m * way));
   information.diagonal().tail<3>().setConstant(1.0 / (config.legs_rad * config.legs_rad * way));
+  return information;
+}
+
+Matrix6d unknown_information(const HealthConfig& limits, Nanoseconds dt) {
+  constexpr double least_dt_s = 0.01;
+  const double dt_s = std::max(seconds(dt), least_dt_s);
+  const double way_m = limits.max_speed_mps * dt_s, turn_rad = limits.max_turn_radps * dt_s;
+  Matrix6d information = Matrix6d::Zero();
+  information.diagonal().head<3>().setConstant(1.0 / (way_m * way_m));
+  information.diagonal().tail<3>().setConstant(1.0 / (turn_rad * turn_rad));
   return information;
 }
 

@@ -40,7 +40,8 @@ struct LidarOdometryConfig {
 };
 
 /// Scan by scan pose in M, which starts at the first pose: X_MR = identity. A scan that does not fit leaves the pose to
-/// dead reckoning, see Registration::believed.
+/// dead reckoning, see Registration::believed. What odometry says of a time over which it was silent, or of a jump, is
+/// no step of the robot's: scans alone tell of it.
 class LidarOdometry {
  public:
   virtual ~LidarOdometry() = default;
@@ -50,6 +51,8 @@ class LidarOdometry {
 
 /// Information of a step by dead reckoning over `way_m` walked, of the right increment: errors grow with its root.
 [[nodiscard]] Matrix6d reckoned_information(const LidarOdometryConfig& config, double way_m);
+/// Information of a step of which only the time is known: all that a robot can do in it.
+[[nodiscard]] Matrix6d unknown_information(const HealthConfig& limits, Nanoseconds dt);
 
 [[nodiscard]] std::unique_ptr<LidarOdometry> make_lidar_odometry(const LidarOdometryConfig& config);
 

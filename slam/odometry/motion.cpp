@@ -23,8 +23,8 @@ void MotionBuffer::add(const Odometry& odometry) {
   Odometry record = odometry;
   if (moved_) record.X_OR = *moved_ * record.X_OR;
   if (!records_.empty() && jumps(records_.back(), record)) {
-    moved_ = records_.back().X_OR * odometry.X_OR.inverse();
-    record.X_OR = records_.back().X_OR;
+    moved_ = join_frames(records_.back().X_OR, odometry.X_OR);
+    record.X_OR = *moved_ * odometry.X_OR;
   }
   if (!records_.empty() && record.stamp == records_.back().stamp) records_.pop_back();
   records_.push_back(record);
@@ -49,6 +49,11 @@ Pose MotionBuffer::at(Nanoseconds t) const {
 
 void MotionBuffer::forget_before(Nanoseconds t) {
   while (records_.size() > 2 && records_[1].stamp <= t) records_.pop_front();
+}
+
+Pose join_frames(const Pose& X_OR, const Pose& X_BR) {
+  const auto level = [](const Pose& X) { return Pose::from_xyz_yaw(X.t, X.yaw()); };
+  return level(X_OR) * level(X_BR).inverse();
 }
 
 }  // namespace plumbline::slam

@@ -16,9 +16,11 @@ class MotionBuffer {
   /// Farthest that at() extrapolates past the newest record: two periods of a 100 Hz odometry.
   static constexpr Nanoseconds max_extrapolation = 20'000'000;
   /// Farther than a robot goes between two records: the odometry has jumped. Its frame is then moved along, so that the
-  /// robot stands still over the jump; only increments mean anything.
+  /// robot keeps place and heading over the jump; only increments and tilt mean anything.
   static constexpr double max_speed_mps = 10.0;
   static constexpr double max_turn_radps = 20.0;
+  /// Age of the newest record from which the odometry counts as silent: one and a half periods of one of 10 Hz.
+  static constexpr Nanoseconds max_silence = 150'000'000;
 
   /// Records come in time order, else InternalError; one with the newest stamp replaces it, one that is not finite is
   /// left out.
@@ -28,6 +30,10 @@ class MotionBuffer {
   /// least one record, else InternalError.
   [[nodiscard]] Pose at(Nanoseconds t) const;
   [[nodiscard]] bool empty() const { return records_.empty(); }
+  /// True when the newest record is older than max_silence at time t, so that at(t) does not tell of the motion since.
+  [[nodiscard]] bool silent_at(Nanoseconds t) const {
+    return records_.empty() || t - records_.back().stamp > max_silence;
+  }
   /// Drops what is not needed for times from t on.
   void forget_before(Nanoseconds t);
 
@@ -36,6 +42,16 @@ class MotionBuffer {
 
   std::deque<Odometry> records_;
   std::optional<Pose> moved_;  ///< of the odometry's frame, since a jump
+};
+
+/// Frame B of an odometry in its frame O from where it is X_BR in the one and X_OR in the other: by place and heading,
+/// since z is up in both and the robot's tilt is its own.
+[[nodiscard]] Pose join_frames(const Pose& X_OR, const Pose& X_BR);
+
+/// What odometry says at a scan's stamp.
+struct LegsAt {
+  Pose X_OR;             ///< z of O is up
+  bool followed = true;  ///< false: how the robot came here from the scan before is not known
 };
 
 /// A scan with every return moved to R at scan.stamp. Index of a return: column * rings + ring; rings are in line, that
@@ -47,6 +63,7 @@ struct DeskewedScan {
   std::vector<double> range_m;           ///< as measured; 0: no return, or one that is no finite point in its range
   std::vector<Eigen::Vector3d> point_R;  ///< at stamp; zero where there is no return
   Pose X_RL;                             ///< sensor in R
+  bool odometry_silent = false;          ///< at stamp: what came since its last record is taken as if R stood still
 };
 
 /// Undoes the robot's motion during the sweep by the odometry's relative poses. One pose a column: its lasers fire

@@ -56,6 +56,7 @@ struct Registration {
   bool converged = false;
   bool believed = true;  ///< false: X_MR is dead reckoning, the scan did not fit
   bool lost = false;     ///< scans have not fitted for a while
+  bool followed = true;  ///< false: odometry does not know how the robot came here from the scan before
 };
 
 /// Normal equations of a registration: cost, gradient and Gauss-Newton Hessian by an increment (rho, phi).

@@ -10,19 +10,20 @@ VgicpOdometry::VgicpOdometry(const VgicpConfig& config)
     : config_(config), map_(config.map_voxel_m), edge_map_(config.edges) {}
 
 Registration VgicpOdometry::update(const DeskewedScan& scan, const Pose& X_OR) {
-  Registration result = match(scan, X_OR);
+  Registration result = match(scan, {X_OR});
   commit(result.X_MR, true);
   return result;
 }
 
-Registration VgicpOdometry::match(const DeskewedScan& scan, const Pose& X_OR) {
+Registration VgicpOdometry::match(const DeskewedScan& scan, const LegsAt& legs) {
   scan_ = make_surfels(scan, config_.surfels);
   edges_R_ = edge_points(scan, config_.edges);
   Registration result;
   result.X_MR = X_MR_;
   if (ready()) {
-    const PosePrior prediction = predict(X_OR);
-    const std::optional<PosePrior> prior = config_.odometry_prior ? std::optional(prediction) : std::nullopt;
+    const PosePrior prediction = predict(scan, legs);
+    const bool any = config_.odometry_prior || config_.tilt_prior;
+    const std::optional<PosePrior> prior = any ? std::optional(prediction) : std::nullopt;
     // Lines are sought where odometry says the robot is: that is nearer than columns are to each other.
     const std::vector<loam::Match> lines = edge_map_.match(edges_R_, prediction.X_MR);
     const double information = 1.0 / (config_.edges.sigma_m * config_.edges.sigma_m);
@@ -33,8 +34,8 @@ Registration VgicpOdometry::match(const DeskewedScan& scan, const Pose& X_OR) {
       return terms;
     });
   }
-  X_OR_ = X_OR;
-  if (!q_OM_) q_OM_ = X_OR.q;
+  X_OR_ = legs.X_OR;
+  if (!q_OM_) q_OM_ = legs.X_OR.q;
   return result;
 }
 
@@ -54,16 +55,18 @@ void VgicpOdometry::forget() {
   keyframes_.clear();
 }
 
-PosePrior VgicpOdometry::predict(const Pose& X_OR) const {
-  const Pose step = X_OR_.inverse() * X_OR;
-  const double sigma_m = config_.prior_m + config_.prior_per_m * step.t.norm();
-  const double sigma_rad = config_.prior_rad + config_.prior_per_rad * log_so3(step.q).norm();
+PosePrior VgicpOdometry::predict(const DeskewedScan& scan, const LegsAt& legs) const {
+  const Pose step = X_OR_.inverse() * legs.X_OR;
   PosePrior prior{X_MR_ * step, Matrix6d::Zero(), std::nullopt};
-  prior.information.diagonal().head<3>().setConstant(1.0 / (sigma_m * sigma_m));
-  prior.information.diagonal().tail<3>().setConstant(1.0 / (sigma_rad * sigma_rad));
-  if (config_.tilt_prior && q_OM_) {
+  if (config_.odometry_prior && legs.followed) {
+    const double sigma_m = config_.prior_m + config_.prior_per_m * step.t.norm();
+    const double sigma_rad = config_.prior_rad + config_.prior_per_rad * log_so3(step.q).norm();
+    prior.information.diagonal().head<3>().setConstant(1.0 / (sigma_m * sigma_m));
+    prior.information.diagonal().tail<3>().setConstant(1.0 / (sigma_rad * sigma_rad));
+  }
+  if (config_.tilt_prior && !scan.odometry_silent && q_OM_) {
     const Eigen::Vector3d up_O = Eigen::Vector3d::UnitZ();
-    prior.tilt = TiltPrior{X_OR.q.conjugate() * up_O, q_OM_->conjugate() * up_O, config_.tilt_rad};
+    prior.tilt = TiltPrior{legs.X_OR.q.conjugate() * up_O, q_OM_->conjugate() * up_O, config_.tilt_rad};
   }
   return prior;
 }

@@ -23,7 +23,8 @@ struct VgicpConfig {
   double keyframe_distance_m = 0.5;  ///< a scan enters the local map after this way ...
   double keyframe_angle_rad = 0.35;  ///< ... or this turn
   int map_keyframes = 20;            ///< the local map holds the latest so many
-  bool odometry_prior = true;        ///< leg odometry as a weak factor; it holds the way along bare corridors
+  bool odometry_prior = true;        ///< leg odometry's increments as a weak factor; it holds the way along bare
+                                     ///< corridors
   double prior_m = 0.004;            ///< standard deviation of an increment ...
   double prior_per_m = 0.05;         ///< ... plus this times its length
   double prior_rad = 0.004;          ///< the same for rotation
@@ -40,7 +41,7 @@ struct VgicpConfig {
     v("keyframe_distance_m", keyframe_distance_m, Field{.min = 0.01});
     v("keyframe_angle_rad", keyframe_angle_rad, Field{.min = 0.01});
     v("map_keyframes", map_keyframes, Field{.min = 1});
-    v("odometry_prior", odometry_prior);
+    v("odometry_prior", odometry_prior, Field{.doc = "hold the way to the odometry's increments"});
     v("prior_m", prior_m, Field{.min = 1e-5});
     v("prior_per_m", prior_per_m, Field{.min = 0.0});
     v("prior_rad", prior_rad, Field{.min = 1e-6});
@@ -64,10 +65,11 @@ class VgicpOdometry {
  public:
   explicit VgicpOdometry(const VgicpConfig& config);
 
-  /// X_OR: leg odometry at scan.stamp, in a frame whose z is up: its increments are start and prior, its tilt a prior.
+  /// X_OR: leg odometry at scan.stamp, in a frame whose z is up: its increments are start and prior, its tilt a prior;
+  /// neither is one where odometry does not know it.
   [[nodiscard]] Registration update(const DeskewedScan& scan, const Pose& X_OR);
   /// The two halves of update(): where the scan fits, and taking it in there, into the map only if `mapped`.
-  [[nodiscard]] Registration match(const DeskewedScan& scan, const Pose& X_OR);
+  [[nodiscard]] Registration match(const DeskewedScan& scan, const LegsAt& legs);
   void commit(const Pose& X_MR, bool mapped);
   /// Whether there is a map to match against.
   [[nodiscard]] bool ready() const { return !keyframes_.empty(); }
@@ -82,7 +84,7 @@ class VgicpOdometry {
     Pose X_MR;
   };
 
-  [[nodiscard]] PosePrior predict(const Pose& X_OR) const;
+  [[nodiscard]] PosePrior predict(const DeskewedScan& scan, const LegsAt& legs) const;
   void insert(const Pose& X_MR);
 
   VgicpConfig config_;

@@ -132,25 +132,6 @@ std::optional<RoomCandidate> rectangle(const Scene& scene) {
   return two_walls(scene, *x);
 }
 
-/// Planes of the outline's walls in order, the corners where two of them meet, and those corners' mean.
-void chain(const Outline& outline, RoomCandidate& room) {
-  const std::size_t n = outline.sides.size();
-  const auto place = [&](int wall) {
-    const auto known = std::find(room.planes.begin(), room.planes.end(), wall);
-    if (known == room.planes.end()) room.planes.push_back(wall);
-    return static_cast<int>(std::find(room.planes.begin(), room.planes.end(), wall) - room.planes.begin());
-  };
-  for (std::size_t k = 0; k < n; ++k) {
-    const int wall = outline.sides[k].wall, next = outline.sides[(k + 1) % n].wall;
-    if (wall < 0) continue;
-    const int here = place(wall);
-    if (next < 0) continue;
-    room.corners.push_back({here, place(next)});
-    room.center_M += outline.sides[(k + 1) % n].from_M;
-  }
-  if (!room.corners.empty()) room.center_M /= static_cast<double>(room.corners.size());
-}
-
 /// A room of more than four sides.
 std::optional<RoomCandidate> polygon(const Scene& scene, const Outline& outline) {
   constexpr std::size_t least_sides = 5, least_corners = 2;
@@ -163,7 +144,7 @@ std::optional<RoomCandidate> polygon(const Scene& scene, const Outline& outline)
   room.polygon_M = polygon_of(outline);
   room.fill = outline.fill;
   room.cluster_M = scene.cluster.center_M;
-  chain(outline, room);
+  chain(outline, scene.walls, room);
   if (room.corners.size() < least_corners || room.planes.size() > max_room_planes ||
       room.corners.size() > max_room_planes || !is_simple(room.polygon_M))
     return {};

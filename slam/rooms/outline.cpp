@@ -273,6 +273,28 @@ Polygon2 polygon_of(const Outline& outline) {
   return polygon;
 }
 
+void chain(const Outline& outline, std::span<const FaceLine> walls, RoomCandidate& room) {
+  constexpr double least_sine = 0.1;
+  const std::size_t n = outline.sides.size();
+  const auto place = [&](int wall) {
+    const auto known = std::find(room.planes.begin(), room.planes.end(), wall);
+    if (known == room.planes.end()) room.planes.push_back(wall);
+    return static_cast<int>(std::find(room.planes.begin(), room.planes.end(), wall) - room.planes.begin());
+  };
+  const auto normal = [&](int wall) {
+    return std::find_if(walls.begin(), walls.end(), [&](const FaceLine& face) { return face.id == wall; })->m;
+  };
+  for (std::size_t k = 0; k < n; ++k) {
+    const int wall = outline.sides[k].wall, next = outline.sides[(k + 1) % n].wall;
+    if (wall < 0) continue;
+    const int here = place(wall);
+    if (next < 0 || next == wall || std::abs(cross(normal(wall), normal(next))) < least_sine) continue;
+    room.corners.push_back({here, place(next)});
+    room.center_M += outline.sides[(k + 1) % n].from_M;
+  }
+  if (!room.corners.empty()) room.center_M /= static_cast<double>(room.corners.size());
+}
+
 std::optional<Outline> outline_of(const Scene& scene) {
   const Arrangement arrangement(scene, lines_of(scene));
   if (arrangement.inside() == 0) return {};

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "slam/rooms/scene.h"
@@ -24,6 +25,11 @@ struct Outline {
 };
 
 [[nodiscard]] Polygon2 polygon_of(const Outline& outline);
+
+/// Gives a room the planes of the outline's walls in order, the corners where two of them meet, and those corners' mean
+/// as its centre. Where a wall goes on in itself, or in one that is nearly parallel, there is no corner: nothing would
+/// tell where along them it stands. `walls`: at least all that the outline names.
+void chain(const Outline& outline, std::span<const FaceLine> walls, RoomCandidate& room);
 
 /// The lines of the walls, and four cuts where free space ends, part the plane into convex pieces; those mostly free
 /// make the room, their border is its outline. Nothing where no piece is mostly free, or where walls are too many.

@@ -109,8 +109,9 @@ class Fit {
 }  // namespace
 
 std::vector<double> range_offsets(std::span<const CloudKeyframe> clouds, std::span<const PlaneNode> walls,
-                                  const Eigen::Vector3d& sensor_R, const RangeOffsetConfig& config) {
-  const std::vector<WallFace> faces = wall_faces(walls, {});
+                                  const Eigen::Vector3d& sensor_R, const RangeOffsetConfig& config,
+                                  const ReflectionConfig& walls_config) {
+  const std::vector<WallFace> faces = wall_faces(walls, walls_config);
   const std::vector<Hit> hits = hits_of(clouds, faces, sensor_R, config);
   if (hits.empty()) return {};
   const auto last =

@@ -8,6 +8,7 @@
 #include "bim/config/visit.h"
 #include "slam/io/estimate.h"
 #include "slam/odometry/map_cloud.h"
+#include "slam/sgraphs/reflections.h"
 
 namespace plumbline::slam {
 
@@ -36,9 +37,11 @@ struct RangeOffsetConfig {
 /// back behind its wall by b times the cosine of the angle at which the ray meets it: by b head on, by less askew. What
 /// a wall's returns have in common is where it stands; how they change with that cosine is the offset. Walls stand
 /// upright, so that lasers that meet them higher up and lower down can be compared. Offsets that walls say little about
-/// are held to zero. walls: faces in F, normals into free space. Empty where the clouds' lasers are not known.
+/// are held to zero. walls: faces in F, normals into free space; walls_config: which of them are one, as for
+/// remove_reflections(). Empty where the clouds' lasers are not known.
 [[nodiscard]] std::vector<double> range_offsets(std::span<const CloudKeyframe> clouds, std::span<const PlaneNode> walls,
-                                                const Eigen::Vector3d& sensor_R, const RangeOffsetConfig& config);
+                                                const Eigen::Vector3d& sensor_R, const RangeOffsetConfig& config,
+                                                const ReflectionConfig& walls_config);
 
 /// Shortens each range by its laser's offset.
 void correct_ranges(std::vector<CloudKeyframe>& clouds, std::span<const double> offset_m,

@@ -7,6 +7,17 @@
 
 namespace plumbline::slam {
 
+namespace {
+
+/// The plane that a plane has become part of, or itself.
+int alive(const Graph& graph, int plane) {
+  while (graph.planes[static_cast<std::size_t>(plane)].merged_into >= 0)
+    plane = graph.planes[static_cast<std::size_t>(plane)].merged_into;
+  return plane;
+}
+
+}  // namespace
+
 void RoomLayer::look(const Graph& graph, const DeskewedScan& scan, std::span<const PlaneObservation> seen) {
   if (config_.source != RoomSource::free_space) return;
   const KeyframeVertex& keyframe = graph.keyframes.back();
@@ -79,12 +90,18 @@ std::vector<SameWall> RoomLayer::seen_again(const Graph& graph, std::span<const 
       const RoomVertex& known = graph.rooms[id];
       if (!known.found || known.storey != keyframe.storey || known.kind != room.kind) continue;
       std::vector<int> planes = candidates_[id].planes;
-      for (int& plane : planes)
-        while (graph.planes[static_cast<std::size_t>(plane)].merged_into >= 0)
-          plane = graph.planes[static_cast<std::size_t>(plane)].merged_into;
+      for (int& plane : planes) plane = alive(graph, plane);
       if (std::optional<std::vector<SameWall>> same = same_walls(planes, room.planes, misfit)) return *same;
     }
   return {};
+}
+
+void RoomLayer::follow_merged(Graph& graph) {
+  if (config_.source != RoomSource::keyframe) return;
+  for (RoomCandidate& room : candidates_)
+    for (int& plane : room.planes) plane = alive(graph, plane);
+  for (RoomFactor& factor : graph.room_factors)
+    for (int& plane : factor.planes) plane = alive(graph, plane);
 }
 
 void RoomLayer::redraw(const Graph& graph) {
@@ -101,7 +118,11 @@ std::vector<RoomNode> RoomLayer::nodes(const Graph& graph) const {
   for (std::size_t id = 0; id < candidates_.size(); ++id) {
     if (!graph.rooms[id].found) continue;
     const RoomCandidate& room = candidates_[id];
-    nodes.push_back({static_cast<int>(id), room.kind, graph.rooms[id].center_M, room.polygon_M, room.planes});
+    const Eigen::Vector2d& center_M = graph.rooms[id].center_M;
+    nodes.push_back({static_cast<int>(id), room.kind, center_M, room.polygon_M, room.planes});
+    if (config_.source != RoomSource::keyframe) continue;
+    // Its keyframe drew it where the graph then had it.
+    for (Eigen::Vector2d& p : nodes.back().polygon_F) p += center_M - room.center_M;
   }
   return nodes;
 }

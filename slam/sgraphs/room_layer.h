@@ -59,10 +59,13 @@ class RoomLayer {
   /// that are one, see same_walls(). Rooms of four or two walls only.
   [[nodiscard]] std::vector<SameWall> seen_again(const Graph& graph, std::span<const PlaneNode> seen_M,
                                                  const WallMisfit& misfit) const;
+  /// Names the planes that others have been merged into in those others' place, for RoomSource::keyframe; rooms from
+  /// free space are derived anew at each update().
+  void follow_merged(Graph& graph);
   /// Draws all free space again from the keyframes' present poses.
   void redraw(const Graph& graph);
 
-  /// The rooms that the map shows, by id.
+  /// The rooms that the map shows, by id; each polygon about the graph's centre.
   [[nodiscard]] std::vector<RoomNode> nodes(const Graph& graph) const;
 
  private:

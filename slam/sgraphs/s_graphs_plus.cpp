@@ -68,6 +68,7 @@ std::uint64_t digest_of(const std::vector<FloorVertex>& floors) {
 
 std::unique_ptr<Method> make(const MethodInput& input, SGraphsPlusConfig config) {
   config.odometry.vgicp.odometry_prior &= input.has_odometry;
+  config.odometry.vgicp.tilt_prior &= input.has_odometry;
   auto method = std::make_unique<SGraphsPlus>(input, config);
   if (input.has_odometry) return method;
   return with_constant_velocity(std::move(method));
@@ -102,6 +103,7 @@ Output SGraphsPlus::on_scan(const Scan& scan) {
 
   const Pose& X_OR = odometry.X_MR;
   if (odometry.lost) output.state = State::lost;
+  followed_ &= odometry.followed;
   // Where a scan does not fit, what it shows would be put in the wrong place.
   if (!odometry.believed && !graph_.keyframes.empty())
     reckoned_ = reckoned_.value_or(Vector6d(Vector6d::Zero())) + odometry.information.diagonal().cwiseInverse();
@@ -204,6 +206,7 @@ void SGraphsPlus::add_keyframe_vertex(Nanoseconds stamp, const Registration& odo
   walked_m_ += step.t.norm();
   graph_.pose_factors.push_back({from, from + 1, step, step_information(odometry, step.t.norm()), false});
   reckoned_.reset();
+  followed_ = true;
   graph_.keyframes.push_back({stamp, X_MR, X_OR, storey_of(graph_, X_MR, seen, config_.floors)});
 }
 
@@ -215,7 +218,7 @@ Matrix6d SGraphsPlus::step_information(const Registration& odometry, double way_
   const Matrix6d seen = reckoned_ ? Matrix6d(reckoned_->cwiseInverse().asDiagonal()) : odometry.information;
   const Matrix6d information =
       trusted_information(seen, config_.odometry_inflation, config_.odometry_sigma_m, config_.odometry_sigma_rad);
-  const bool with_legs = config.kind == OdometryKind::vgicp && config.vgicp.odometry_prior && !reckoned_;
+  const bool with_legs = config.kind == OdometryKind::vgicp && config.vgicp.odometry_prior && followed_ && !reckoned_;
   return with_legs ? Matrix6d(information + legs) : information;
 }
 
@@ -236,7 +239,7 @@ void SGraphsPlus::optimize_graph() {
   if (graph_.keyframes.size() < 2) return;
   if (config_.incremental.everything) {
     optimize(graph_, 1, config_.optimizer);
-    walls_.merge_duplicates(graph_);
+    (void)merge_duplicates();
     return;
   }
   back_end_.update(graph_);
@@ -249,9 +252,15 @@ void SGraphsPlus::optimize_graph() {
                                   [&](const KeyframeVertex& k) { return k.storey == storey; });
   back_end_.solve(graph_, static_cast<int>(first - graph_.keyframes.begin()));
   walls_.unsettle();
-  full_wanted_ = walls_.merge_duplicates(graph_) > 0;
+  full_wanted_ = merge_duplicates() > 0;
   full_urgent_ = false;
   back_end_.relinearize(graph_);
+}
+
+int SGraphsPlus::merge_duplicates() {
+  const int merged = walls_.merge_duplicates(graph_);
+  if (merged > 0) rooms_.follow_merged(graph_);
+  return merged;
 }
 
 Pose SGraphsPlus::X_MO(std::size_t keyframe) const {
@@ -263,7 +272,7 @@ Estimate SGraphsPlus::finish() {
   if (graph_.keyframes.empty()) return estimate;
   if (graph_.keyframes.size() > 1) optimize(graph_, 1, config_.optimizer);
   walls_.unsettle();
-  walls_.merge_duplicates(graph_);
+  (void)merge_duplicates();
   if (config_.parts.rooms) rooms_.redraw(graph_);
   const int storeys = 1 + std::max_element(graph_.keyframes.begin(), graph_.keyframes.end(), [](auto& a, auto& b) {
                             return a.storey < b.storey;
@@ -311,7 +320,9 @@ std::vector<Eigen::Vector3f> SGraphsPlus::point_map(const Estimate& estimate) {
   const Eigen::Vector3d& sensor_R = calibration_.X_RL.t;
   remove_reflections(clouds_, estimate.planes, levels_M, sensor_R, config_.reflections);
   if (config_.range_offsets.correct)
-    correct_ranges(clouds_, range_offsets(clouds_, estimate.planes, sensor_R, config_.range_offsets), sensor_R);
+    correct_ranges(clouds_,
+                   range_offsets(clouds_, estimate.planes, sensor_R, config_.range_offsets, config_.reflections),
+                   sensor_R);
   return map_cloud(clouds_, config_.map, levels_M);
 }
 

@@ -140,6 +140,8 @@ class SGraphsPlus : public Method {
   [[nodiscard]] bool find_duplicates_in_rooms(std::span<const PlaneNode> walls, std::span<const PlaneNode> seen);
   void close_loop(const DeskewedScan& scan);
   void optimize_graph();
+  /// Of walls and of the rooms between them; returns how many.
+  int merge_duplicates();
   void weigh_by_fitness(PoseFactor& factor) const;
   [[nodiscard]] Pose X_MO(std::size_t keyframe) const;
   [[nodiscard]] std::vector<StampedPose> trajectory() const;
@@ -162,6 +164,7 @@ class SGraphsPlus : public Method {
   std::vector<std::size_t> cloud_scans_;                      ///< index into scans_ of each cloud
   std::vector<std::vector<Eigen::Vector3d>> fitness_clouds_;  ///< index = keyframe, for PoseWeights::fitness
   std::optional<Vector6d> reckoned_;  ///< variances of the dead reckoning since the last keyframe, if there was any
+  bool followed_ = true;              ///< odometry knows the way since the last keyframe
   double walked_m_ = 0.0;
   bool full_wanted_ = false;  ///< a loop, a duplicate or a wall from before the prior came in
   bool full_urgent_ = false;  ///< a loop that contradicts the estimate

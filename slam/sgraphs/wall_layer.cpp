@@ -372,6 +372,8 @@ int WallLayer::merge_duplicates(Graph& graph) {
     gone.merged_into = f.a;
     first_seen_m_[static_cast<std::size_t>(f.a)] =
         std::min(first_seen_m_[static_cast<std::size_t>(f.a)], first_seen_m_[static_cast<std::size_t>(f.b)]);
+    last_seen_m_[static_cast<std::size_t>(f.a)] =
+        std::max(last_seen_m_[static_cast<std::size_t>(f.a)], last_seen_m_[static_cast<std::size_t>(f.b)]);
     // What stands apart from the one stands apart from both.
     for (const auto& [pair, scans] : std::map(apart_))
       if (pair.first == f.b || pair.second == f.b)

@@ -5,7 +5,7 @@
 
 namespace plumbline::slam::loam {
 
-Registration AloamOdometry::match(const DeskewedScan& scan, const Pose& /*X_OR*/) {
+Registration AloamOdometry::match(const DeskewedScan& scan, const LegsAt& /*legs*/) {
   scan_ = find_features(scan, config_.features);
   thinned_ = thin(scan_, config_.map);
   Registration result;

@@ -5,7 +5,7 @@
 
 namespace plumbline::slam::loam {
 
-Registration FloamOdometry::match(const DeskewedScan& scan, const Pose& /*X_OR*/) {
+Registration FloamOdometry::match(const DeskewedScan& scan, const LegsAt& /*legs*/) {
   scan_ = thin(find_features(scan, config_.features), config_.map);
   Registration result;
   result.X_MR = X_MR_;

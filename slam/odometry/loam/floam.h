@@ -27,8 +27,8 @@ class FloamOdometry {
  public:
   explicit FloamOdometry(const FloamConfig& config) : config_(config), map_(config.map), rounds_(config.first_rounds) {}
 
-  /// Where the scan fits. X_OR is not asked.
-  [[nodiscard]] Registration match(const DeskewedScan& scan, const Pose& X_OR);
+  /// Where the scan fits. The legs are not asked.
+  [[nodiscard]] Registration match(const DeskewedScan& scan, const LegsAt& legs);
   /// Takes it in at X_MR, into the map only if `mapped`.
   void commit(const Pose& X_MR, bool mapped);
   /// Whether there is a map to match against.

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -142,6 +143,51 @@ TEST_F(BagTest, TimesOfTheDayStartAtZeroAndOdometryAtTheRobot) {
   EXPECT_EQ(recording->origin(), start);
   EXPECT_EQ(frame.odometry[1].stamp, 10'000'000);
   EXPECT_LT((frame.odometry[1].X_OR.t - odometry_at(10'000'000).X_OR.t).norm(), 1e-12);
+}
+
+TEST_F(BagTest, AScanWithoutReturnsIsReadBack) {
+  std::vector<SensorFrame> frames = three_frames();
+  std::fill(frames[1].scan.range_m.begin(), frames[1].scan.range_m.end(), 0.0);
+  write(file("blind.bag"), bag_profiles[2], frames);
+  const auto recording = open_bag(file("blind.bag"), {}, nullptr);
+  SensorFrame frame;
+  Nanoseconds last = -1;
+  for (const int columns : {1824, 0, 1824}) {
+    ASSERT_TRUE(recording->next(frame));
+    EXPECT_EQ(frame.scan.columns, columns);
+    EXPECT_GT(frame.scan.stamp, last);
+    last = frame.scan.stamp;
+  }
+  EXPECT_FALSE(recording->next(frame));
+}
+
+TEST_F(BagTest, ScansBeforeTheFirstOdometryAreLeftOut) {
+  std::vector<SensorFrame> frames = three_frames();
+  frames[0].odometry.clear();
+  write(file("late.bag"), bag_profiles[0], frames);
+  const auto recording = open_bag(file("late.bag"), {}, nullptr);
+  SensorFrame frame;
+  for (const std::size_t k : {1U, 2U}) {
+    ASSERT_TRUE(recording->next(frame));
+    EXPECT_NEAR(static_cast<double>(frame.scan.stamp), static_cast<double>(frames[k].scan.stamp), 16.0);
+    EXPECT_EQ(frame.odometry.size(), frames[k].odometry.size());
+  }
+  EXPECT_FALSE(recording->next(frame));
+}
+
+TEST_F(BagTest, OdometryThatNoScanMeetsIsRefused) {
+  const std::vector<std::pair<Nanoseconds, std::string>> shifts = {
+      {1'000'000'000'000, "/odom: no odometry at or before any scan"},
+      {-1'000'000'000'000, "/odom: the odometry ends before the first scan"}};
+  for (const auto& [shift, what] : shifts) {
+    std::vector<SensorFrame> frames = three_frames(2'000'000'000'000);
+    for (SensorFrame& frame : frames)
+      for (Odometry& record : frame.odometry) record.stamp += shift;
+    write(file("apart.bag"), bag_profiles[0], frames);
+    const std::string text = complaint(file("apart.bag"));
+    EXPECT_EQ(text.rfind(file("apart.bag"), 0), 0U) << text;
+    EXPECT_NE(text.find(what), std::string::npos) << text;
+  }
 }
 
 TEST_F(BagTest, TheSameRecordsGiveTheSameBytes) {

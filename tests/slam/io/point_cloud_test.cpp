@@ -135,6 +135,21 @@ TEST(PointCloud, AbsoluteAndRelativeTimesOfOtherTypes) {
   EXPECT_THROW(static_cast<void>(scan_of(cloud)), InputError);
 }
 
+TEST(PointCloud, WithoutPointsIsAScanWithoutColumns) {
+  Scan blind = some_scan(), none;
+  std::fill(blind.range_m.begin(), blind.range_m.end(), 0.0);
+  none.stamp = 7;
+  for (const PointCloud& cloud : {cloud_of(blind, CloudLayout::dense), cloud_of(none, CloudLayout::dense),
+                                  cloud_of(none, CloudLayout::organised)}) {
+    const Scan scan = scan_of(cloud);
+    EXPECT_EQ(scan.stamp, cloud.stamp);
+    EXPECT_EQ(scan.columns, 0);
+    EXPECT_EQ(scan.rings, 16);
+    EXPECT_EQ(scan.size(), 0U);
+    EXPECT_TRUE(scan.point_L.empty() && scan.offset_ns.empty() && scan.reflectivity.empty());
+  }
+}
+
 TEST(PointCloud, RefusesWhatDoesNotFit) {
   const PointCloud good = cloud_of(some_scan(), CloudLayout::organised);
   const auto refuse = [&](const auto& change) {
@@ -142,7 +157,7 @@ TEST(PointCloud, RefusesWhatDoesNotFit) {
     change(cloud);
     EXPECT_THROW(static_cast<void>(scan_of(cloud)), InputError);
   };
-  refuse([](PointCloud& c) { c.width = 0; });
+  refuse([](PointCloud& c) { c.width = 0; });  // but bytes
   refuse([](PointCloud& c) { c.height = 0xffffffff; });
   refuse([](PointCloud& c) { c.width = c.height = 0xffffffff; });
   refuse([](PointCloud& c) { c.row_step = 1; });

@@ -193,6 +193,60 @@ TEST_F(RecordingTest, PacketsOfATurnFollowTheSpeed) {
   }
 }
 
+// Five packets of a motor at half its speed would make messages of two turns.
+TEST_F(RecordingTest, AStartingMotorDoesNotTellTheTurn) {
+  std::vector<Vlp16Packet> packets = turning_packets(3 * 76);
+  for (std::size_t p = 0; p < 5; ++p) {
+    std::array<Vlp16Firing, 24> firings;
+    for (std::size_t f = 0; f < 24; ++f)
+      firings[f].azimuth_cdeg = static_cast<std::uint16_t>(10 * (24 * p + f));  // 1.8 degrees a ms: 300 rpm
+    packets[p] = encode_packet(packets[p].stamp, firings);
+  }
+  write_pcap(path("starting.pcap"), packets);
+  const auto recording = open_recording(path("starting.pcap"));
+  SensorFrame frame;
+  ASSERT_TRUE(recording->next(frame));
+  EXPECT_EQ(recording->info().lidar.packets_per_message, 76);
+  EXPECT_EQ(frame.scan.columns, 1824);
+}
+
+TEST_F(RecordingTest, AMessageBeginsAnewAfterALeapOfTheClock) {
+  std::vector<Vlp16Packet> packets = turning_packets(76 + 40);
+  const Nanoseconds after = 5'000'000'000;
+  for (const Vlp16Packet& packet : turning_packets(2 * 76, after)) packets.push_back(packet);
+  write_pcap(path("gap.pcap"), packets);
+  const auto recording = open_recording(path("gap.pcap"));
+  SensorFrame frame;
+  ASSERT_TRUE(recording->next(frame));
+  EXPECT_LT(frame.scan.stamp, 200'000'000);
+  for (int message = 0; message < 2; ++message) {
+    ASSERT_TRUE(recording->next(frame));
+    EXPECT_EQ(frame.packets.size(), 76U);
+    EXPECT_EQ(frame.packets.front().stamp, packets[static_cast<std::size_t>(116 + 76 * message)].stamp);
+  }
+  EXPECT_FALSE(recording->next(frame));
+
+  packets = turning_packets(76);
+  for (std::size_t p = 0; p < packets.size(); ++p) set_time(packets[p], 40'000'000 * static_cast<Nanoseconds>(p));
+  write_pcap(path("gap.pcap"), packets);
+  expect_complaint(path("gap.pcap"), path("gap.pcap"), "message 0 lasts more than 2 s");
+}
+
+TEST_F(RecordingTest, OdometryThatNoScanMeetsIsRefused) {
+  static_cast<void>(write_three(path(), RecordingInfo{}));
+  const std::string odometry = path("odometry.tum");
+  put("odometry.tum", "");
+  expect_complaint(path(), odometry, "no odometry at or before any scan");
+  put("odometry.tum", "1000 0 0 0 0 0 0 1\n1000.1 1 0 0 0 0 0 1\n");
+  expect_complaint(path(), odometry, "no odometry at or before any scan");
+  write_pcap(path("lidar.pcap"), turning_packets(2 * 76, 100'000'000'000));
+  fs::remove(path("imu.csv"));
+  put("odometry.tum", "0 0 0 0 0 0 0 1\n0.1 1 0 0 0 0 0 1\n");
+  expect_complaint(path(), odometry, "the odometry ends before the first scan");
+  put("odometry.tum", "0 0 0 0 0 0 0 1\n100.01 1 0 0 0 0 0 1\n");
+  EXPECT_EQ(complaint(path()), "none");
+}
+
 TEST_F(RecordingTest, AForeignCaptureMovesOdometryToItsOwnClock) {
   std::vector<Vlp16Packet> packets = turning_packets(2 * 76, 5'000'000'000);
   const Nanoseconds captured = 1'600'000'000'000'000'123;

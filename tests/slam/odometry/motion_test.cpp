@@ -59,6 +59,36 @@ TEST(MotionBufferTest, JumpsAndNonsenseAreNoMotion) {
                    1e-9);
 }
 
+// Gravity does not jump: what an IMU says of the tilt before and after holds in one frame.
+TEST(MotionBufferTest, JumpsLeaveTheTiltAsItIsTold) {
+  const Pose jump = Pose::from_xyz_yaw({20.0, -5.0, 1.0}, 0.65);
+  const auto swaying = [](double t) {
+    return straight(t) * Pose{exp_so3({0.05 * std::sin(40.0 * t), 0.03, 0.0}), Eigen::Vector3d::Zero()};
+  };
+  MotionBuffer motion;
+  for (Nanoseconds t = 0; t <= 50'000'000; t += 10'000'000) motion.add({t, swaying(seconds(t))});
+  for (Nanoseconds t = 60'000'000; t <= 100'000'000; t += 10'000'000) motion.add({t, jump * swaying(seconds(t))});
+  for (Nanoseconds t = 60'000'000; t <= 100'000'000; t += 10'000'000) {
+    const Eigen::Vector3d up_R = motion.at(t).q.conjugate() * Eigen::Vector3d::UnitZ();
+    EXPECT_LT((up_R - swaying(seconds(t)).q.conjugate() * Eigen::Vector3d::UnitZ()).norm(), 1e-9);
+  }
+  EXPECT_LT((motion.at(60'000'000).t - motion.at(50'000'000).t).norm(), 1e-9);
+  EXPECT_NEAR(motion.at(60'000'000).yaw(), motion.at(50'000'000).yaw(), 1e-9);
+}
+
+TEST(MotionBufferTest, IsSilentOnceItsNewestRecordIsOld) {
+  EXPECT_TRUE(MotionBuffer().silent_at(0));
+  const MotionBuffer motion = buffer(100'000'000);
+  EXPECT_FALSE(motion.silent_at(100'000'000 + MotionBuffer::max_silence));
+  EXPECT_TRUE(motion.silent_at(100'000'001 + MotionBuffer::max_silence));
+  synthetic::WalkConfig walk;
+  walk.duration_s = 0.45;
+  const synthetic::Recording recording = synthetic::walk(synthetic::one_room(), {{1.0, 1.0}, {3.0, 1.0}}, walk);
+  ASSERT_EQ(recording.scans.size(), 4U);
+  EXPECT_FALSE(deskew(recording.scans[1], motion, recording.calibration).odometry_silent);
+  EXPECT_TRUE(deskew(recording.scans[3], motion, recording.calibration).odometry_silent);
+}
+
 TEST(MotionBufferTest, RefusesToGuess) {
   MotionBuffer motion;
   EXPECT_THROW((void)motion.at(0), InternalError);

@@ -8,6 +8,7 @@
 
 #include "bim/random/stream.h"
 #include "slam/rooms/detect.h"
+#include "slam/rooms/outline.h"
 #include "tests/slam/synthetic.h"
 
 namespace plumbline::slam {
@@ -280,6 +281,24 @@ TEST(Rooms, OfAnyShapeAreTheirChainOfWalls) {
       for (const Eigen::Vector2d& p : moved(outline, X_MW)) mean += p / static_cast<double>(outline.size());
       EXPECT_LT((rooms[0].center_M - mean).norm(), 1e-6);
     }
+}
+
+// A side may lie on the wall of the one before it, or on one that is nearly parallel: no corner is there.
+TEST(Rooms, HaveCornersWhereTwoWallsMeetAtAnAngle) {
+  Outline outline;
+  outline.sides = {{7, {0, 0}}, {7, {3, 0.1}}, {2, {6, 0}}, {5, {6, 4}}, {6, {3, 4}}, {-1, {0, 4}}};
+  std::vector<FaceLine> walls(4);
+  const std::array<std::pair<int, Eigen::Vector2d>, 4> normals = {
+      {{7, {0, 1}}, {2, {-1, 0}}, {5, {0, -1}}, {6, {0.05, -1}}}};
+  for (std::size_t k = 0; k < walls.size(); ++k) {
+    walls[k].id = normals[k].first;
+    walls[k].m = normals[k].second.normalized();
+  }
+  RoomCandidate room;
+  chain(outline, walls, room);
+  EXPECT_EQ(room.planes, (std::vector<int>{7, 2, 5, 6}));
+  EXPECT_EQ(room.corners, (std::vector<std::array<int, 2>>{{0, 1}, {1, 2}}));
+  EXPECT_LT((room.center_M - Eigen::Vector2d(6, 2)).norm(), 1e-12);
 }
 
 TEST(Rooms, OfAnyShapeMayHaveOpenSides) {

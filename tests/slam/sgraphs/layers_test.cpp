@@ -2,9 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 
 #include "slam/graph/factors.h"
 #include "slam/sgraphs/floor_layer.h"
+#include "slam/sgraphs/room_layer.h"
 #include "slam/sgraphs/wall_layer.h"
 #include "tests/slam/graph/random_values.h"
 
@@ -136,6 +138,52 @@ TEST(WallLayer, PullsDuplicatesTogetherAndMergesThem) {
   for (const PlaneFactor& f : graph.plane_factors) EXPECT_EQ(f.plane, 0);
   EXPECT_EQ(walls.walls(graph, 0).size(), 1U);
   EXPECT_TRUE(graph.duplicate_factors.empty());
+}
+
+// Two stretches of one wall, of which the second is seen again 20 m on: the wall has been seen just now, and what
+// stands 0.2 m before it is no drift.
+TEST(WallLayer, AMergedWallWasSeenWhenEitherWas) {
+  const Pose X = Pose::from_xyz_yaw({2, 2, 0}, 0);
+  const PlaneObservation left = see(X, {0, 0}, {1, 0}), right = see(X, {3, 0}, {4, 0});
+  const PlaneObservation before = see(X, {1, 0.2}, {3, 0.2});
+  Graph graph = at(X);
+  WallLayer walls({});
+  EXPECT_EQ(walls.observe(graph, std::vector{left, right}, 0.0), (std::vector<int>{0, 1}));
+  graph.keyframes.push_back({1, X, X, 0});
+  EXPECT_EQ(walls.observe(graph, std::vector{right}, 20.0), std::vector<int>{1});
+  graph.duplicate_factors.push_back({0, 1, {2, 0, 0}, 0.01, 0.02});
+  EXPECT_EQ(walls.merge_duplicates(graph), 1);
+  graph.keyframes.push_back({2, X, X, 0});
+  EXPECT_EQ(walls.observe(graph, std::vector{before}, 20.0), std::vector<int>{2});
+  graph.keyframes.push_back({3, X, X, 0});
+  EXPECT_EQ(walls.observe(graph, std::vector{left}, 20.0), std::vector<int>{0}) << "the wall itself is known";
+}
+
+TEST(RoomLayer, OfOneKeyframeFollowsItsWallsAndTheGraph) {
+  Graph graph = at(Pose::from_xyz_yaw({2, 1.5, 0}, 0));
+  const std::array<PlaneNode, 4> seen = {{{0, Plane{{1, 0, 0}, 0}, {0, 0}, {0, 3}, 0.0, 2.4, 1},
+                                          {4, Plane{{-1, 0, 0}, 4}, {4, 0}, {4, 3}, 0.0, 2.4, 1},
+                                          {2, Plane{{0, 1, 0}, 0}, {0, 0}, {4, 0}, 0.0, 2.4, 1},
+                                          {3, Plane{{0, -1, 0}, 3}, {0, 3}, {4, 3}, 0.0, 2.4, 1}}};
+  for (const std::size_t k : {0U, 1U, 2U, 3U, 1U}) graph.planes.push_back({seen[k].plane_F, PlaneKind::wall, 0, -1});
+  RoomLayerConfig config;
+  config.source = RoomSource::keyframe;
+  RoomLayer rooms(config);
+  rooms.add_from_keyframe(graph, seen);
+  ASSERT_EQ(graph.room_factors.size(), 1U);
+  ASSERT_EQ(graph.room_factors[0].planes, (std::vector<int>{0, 4, 2, 3}));
+  graph.planes[4].merged_into = 1;
+  rooms.follow_merged(graph);
+  EXPECT_EQ(graph.room_factors[0].planes, (std::vector<int>{0, 1, 2, 3}));
+  graph.rooms[0].center_M += Eigen::Vector2d(0.3, -0.2);
+  const std::vector<RoomNode> nodes = rooms.nodes(graph);
+  ASSERT_EQ(nodes.size(), 1U);
+  EXPECT_EQ(nodes[0].planes, (std::vector<int>{0, 1, 2, 3}));
+  ASSERT_EQ(nodes[0].polygon_F.size(), 4U);
+  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+  for (const Eigen::Vector2d& p : nodes[0].polygon_F) mean += 0.25 * p;
+  EXPECT_LT((mean - Eigen::Vector2d(2.3, 1.3)).norm(), 1e-12);
+  EXPECT_NEAR(std::abs(signed_area(nodes[0].polygon_F)), 12.0, 1e-9);
 }
 
 // 0.3 m apart, first seen 30 m of way after each other: drift, until one scan shows both.

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <string>
+#include <vector>
 
 #include "bim/digest/digest.h"
 #include "tests/slam/synthetic.h"
@@ -13,6 +15,7 @@ namespace {
 
 struct Walked {
   std::vector<Eigen::Vector3d> truth, legs, causal, last;
+  std::vector<std::vector<std::string>> stages, timed;  ///< of each scan, their names
   Estimate estimate;
   Graph graph;
   std::uint64_t digest = 0;
@@ -32,7 +35,13 @@ Walked run(const synthetic::Recording& recording, const SGraphsPlusConfig& confi
       legs.add(recording.odometry[next]);
     }
     const Output output = method.on_scan(recording.scans[k]);
-    for (const StageDigest& d : output.digests) digest.add(d.stage).add(d.digest);
+    run.stages.emplace_back();
+    run.timed.emplace_back();
+    for (const StageDigest& d : output.digests) {
+      digest.add(d.stage).add(d.digest);
+      run.stages.back().push_back(d.stage);
+    }
+    for (const StageTime& t : output.times) run.timed.back().push_back(t.stage);
     run.causal.push_back(output.X_FR->t);
     run.truth.push_back(recording.truth[k].X_FR.t);
     run.legs.push_back(legs.at(recording.scans[k].stamp).t);
@@ -81,6 +90,22 @@ TEST(SGraphsPlus, AnswersForEveryScanAndNamesItsStages) {
   EXPECT_EQ(r.estimate.frame, Frame::map);
   EXPECT_EQ(r.estimate.floors.size(), 1U);
   EXPECT_FALSE(r.estimate.map_F.empty());
+  using Names = std::vector<std::string>;
+  const Names each = {"deskew", "odometry"};
+  const Names keyframe = {"deskew", "odometry", "planes", "association", "rooms", "floors", "loop", "graph"};
+  std::size_t keyframes = 0;
+  ASSERT_EQ(r.stages.size(), r.truth.size());
+  for (std::size_t k = 0; k < r.stages.size(); ++k) {
+    const bool whole = r.stages[k] == keyframe;
+    keyframes += whole ? 1 : 0;
+    EXPECT_TRUE(whole || r.stages[k] == each) << "scan " << k;
+    EXPECT_EQ(r.timed[k], whole ? Names({"deskew", "odometry", "plane_segmentation", "association", "room_segmentation",
+                                         "floor_segmentation", "loop_closure", "back_end", "map"})
+                                : Names({"deskew", "odometry", "map"}));
+  }
+  EXPECT_EQ(r.stages.front(), keyframe);
+  EXPECT_EQ(keyframes, r.graph.keyframes.size());
+  EXPECT_GE(r.estimate.planes.size(), 4U) << "a room's";
   for (const PlaneNode& plane : r.estimate.planes) {
     EXPECT_GE(plane.observations, WallLayerConfig{}.min_observations);
     EXPECT_LT(std::abs(plane.plane_F.n.z()), 0.05);
