@@ -132,6 +132,7 @@ class Planner {
     return found->p_W;
   }
 
+  /// Where no rooms are known, or none but the one of the start is in reach.
   void walk_round(int laps, RoutePlan& plan) const {
     const Eigen::AlignedBox2d box = floor_box();
     const Path round = box.isEmpty()
@@ -230,7 +231,7 @@ class Planner {
   }
 
   /// Nearest room first, each storey before the next, and back to the room of the start; rooms out of reach are left
-  /// out.
+  /// out, and where that leaves none the robot walks round where it is.
   void walk_all(const Route& route, Place at, RoutePlan& plan) const {
     const Place start = at;
     std::vector<int> left = rooms_of_all(route, at);
@@ -241,8 +242,11 @@ class Planner {
       at = target(left[*next], marks_.route);
       left.erase(left.begin() + static_cast<std::ptrdiff_t>(*next));
     }
-    if (plan.rooms.empty()) refuse_when_shut_in(left, start);
-    if (!plan.rooms.empty()) return_home(start, at, plan);
+    if (plan.rooms.empty()) {
+      refuse_when_shut_in(left, start);
+      return walk_round(route.loop, plan);
+    }
+    return_home(start, at, plan);
     for (int lap = 1; lap < route.loop; ++lap)
       for (const std::string& name : std::vector<std::string>(plan.rooms)) walk_to(name, marks_.route, at, plan);
   }

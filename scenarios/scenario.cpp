@@ -43,6 +43,8 @@ void check_gates(const Scenario& scenario, const Tree& tree) {
 void check_route_and_start(const Scenario& scenario, const Tree& tree) {
   if (scenario.start.room && scenario.start.at)
     throw InputError(mark_at(tree, {"start"}), "start takes either a room or a point `at`, not both");
+  if (scenario.start.room && scenario.start.storey)
+    throw InputError(mark_at(tree, {"start", "storey"}), "a start in a room takes no storey, which the room tells");
   if (scenario.start.random && (scenario.start.room || scenario.start.at))
     throw InputError(mark_at(tree, {"start", "random"}), "a drawn start takes neither a room nor a point `at`");
   const bool names_rooms = tree.find("route") != nullptr && tree.find("route")->find("rooms") != nullptr;
@@ -50,6 +52,8 @@ void check_route_and_start(const Scenario& scenario, const Tree& tree) {
     throw InputError(mark_at(tree, {"route"}), "route takes either rooms or shuttle, not both");
   if (scenario.route.random && (scenario.route.shuttle || names_rooms))
     throw InputError(mark_at(tree, {"route", "random"}), "a drawn route takes neither rooms nor shuttle");
+  if (names_rooms && scenario.route.rooms.empty() && !scenario.route.shuttle)
+    throw InputError(mark_at(tree, {"route", "rooms"}), "names no room; name rooms to walk to, or all");
 }
 
 void check_kidnap(const Scenario& scenario, const Tree& tree) {

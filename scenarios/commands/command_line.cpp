@@ -111,6 +111,8 @@ Argument& Argument::hidden() {
   return *this;
 }
 
+std::string Argument::name() const { return "--" + option_->get_lnames().front(); }
+
 bool Argument::given() const { return option_->count() > 0; }
 
 CommandLine::CommandLine(const std::string& summary, const std::string& name)

@@ -29,6 +29,8 @@ class Argument {
   Argument& shows_default();
   Argument& hidden();
 
+  /// The long one, with its dashes.
+  [[nodiscard]] std::string name() const;
   /// Whether the command line that was read has it.
   [[nodiscard]] bool given() const;
 

@@ -63,6 +63,17 @@ std::shared_ptr<const bim::Plan> load_plan(const EstimateArguments& options, con
   return std::make_shared<const bim::Plan>(bim::make_plan(bim::load_site(options.plan, taken).as_planned));
 }
 
+/// What only localization takes is refused elsewhere: who gives it expects poses in the plan.
+void check_plan_options(const EstimateArguments& options, const slam::MethodRow& row) {
+  if (row.needs_plan) return;
+  const auto refuse = [&](const char* name) {
+    throw InputError({name, 0, 0}, "is of methods that localize in a plan; '" + options.method + "' does not");
+  };
+  if (!options.plan.empty()) refuse("--plan");
+  if (!options.storey.empty()) refuse("--storey");
+  if (options.yaw_option->given()) refuse("--yaw-deg");
+}
+
 /// Localization starts from rooms: without one on the storey told, or anywhere, there is nothing to run.
 void check_rooms(const EstimateArguments& options, const bim::Plan& plan, const slam::Prior& prior) {
   const auto starts_here = [&](const bim::PlanRoom& room) {
@@ -184,6 +195,7 @@ std::string write_cost(const Answer& answer, double start_s) {
 int estimate(const EstimateArguments& options, slam::MethodTable table) {
   const double start_s = slam::wall_s();
   const slam::MethodRow& row = find_row(options.method, table);
+  check_plan_options(options, row);
   const std::unique_ptr<slam::Recording> recording = open_input(options);
   const slam::MethodInput input = make_input(options, row, *recording);
 

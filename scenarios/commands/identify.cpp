@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "bim/errors.h"
 #include "bim/import/mesh_file.h"
@@ -26,6 +27,8 @@ struct IdentifyOptions {
   int seeds = 20;
   bool json = false;
   bool force = false;
+  std::vector<Argument> of_buildings;
+  std::vector<Argument> of_scenarios;
 };
 
 /// The page to write: FILE.html, or identify.html in a directory, which is made. Empty: none.
@@ -43,6 +46,11 @@ bool is_scenario(const std::string& path) {
   return read_yaml(read_text_file(path), path).find("scenario") != nullptr;
 }
 
+void refuse_given(const std::vector<Argument>& others, const std::string& why) {
+  for (const Argument& option : others)
+    if (option.given()) throw InputError({option.name(), 0, 0}, why);
+}
+
 int identify_scenario(const IdentifyOptions& options, int threads) {
   const std::vector<WalkAnswers> walks = identify_walks(options.building, options.seeds, threads);
   const std::string text = options.json ? write_json(walks_json(walks)) + "\n" : walks_text(walks);
@@ -55,9 +63,12 @@ int identify(const IdentifyOptions& options) {
   if (bim::is_mesh_path(options.building))
     throw InputError({options.building, 0, 0}, "is a mesh, which has no plan; name a plan or an .ifc");
   if (is_scenario(options.building)) {
+    refuse_given(options.of_buildings,
+                 "is of a building; of a scenario's walks only --seeds, --json and --threads are");
     catch_interrupts();
     return identify_scenario(options, threads);
   }
+  refuse_given(options.of_scenarios, "is of a scenario's walks; this is a building");
   const std::string page = page_path(options);
   const bim::Site site = bim::load_site(options.building);
   BuildingMapOptions map_options = options.map;
@@ -85,19 +96,20 @@ Command add_identify(CommandLine& program) {
   line.option("BUILDING", options->building,
               "plan or traffic-editor plan (.yaml) or .ifc; or a scenario, to be told of the walks it plans")
       .required();
-  line.option("--storey", options->storey, "of this storey alone, by its id or name");
-  line.option("--step", options->map.step_m, "distance between the places asked about, m")
-      .range(0.1, 5.0)
-      .shows_default();
-  line.flag("--across", options->map.across, "the storey is not told: places on other storeys count");
-  line.flag("--compass", options->map.compass_only, "with a compass only, which is quicker");
-  line.option("-o,--out", options->out, "page to write (.html), or a directory for identify.html");
-  line.flag("--force", options->force, "replaces the page that is there");
+  options->of_buildings = {
+      line.option("--storey", options->storey, "of this storey alone, by its id or name"),
+      line.option("--step", options->map.step_m, "distance between the places asked about, m")
+          .range(0.1, 5.0)
+          .shows_default(),
+      line.flag("--across", options->map.across, "the storey is not told: places on other storeys count"),
+      line.flag("--compass", options->map.compass_only, "with a compass only, which is quicker"),
+      line.option("-o,--out", options->out, "page to write (.html), or a directory for identify.html"),
+      line.flag("--force", options->force, "replaces the page that is there")};
   line.flag("--json", options->json, "for programs, every place");
   line.option("--threads", options->threads, "threads [2, or the CPUs allowed]").range(1, 1024);
-  line.option("--seeds", options->seeds, "of a scenario: walks with the seeds from 1 on")
-      .range(1, 100000)
-      .shows_default();
+  options->of_scenarios = {line.option("--seeds", options->seeds, "of a scenario: walks with the seeds from 1 on")
+                               .range(1, 100000)
+                               .shows_default()};
   line.footer(
       "Example: plumbline identify house.plan.yaml -o house.html\n"
       "         plumbline identify scenario.yaml --seeds 100");

@@ -26,13 +26,16 @@ struct InspectOptions {
   bool json = false;
   bool as_built = false;
   bool schema = false;
+  bool force = false;
 };
 
-/// Throws InputError where a file to write is the one that is read.
-void check_output(const std::string& path, const std::string& building) {
+/// Throws InputError where a file to write is the one that is read, or is there and may not be replaced.
+void check_output(const std::string& path, const InspectOptions& options) {
   std::error_code unknown;  // a file that is not there is no building either
-  if (std::filesystem::equivalent(path, building, unknown))
+  if (std::filesystem::equivalent(path, options.building, unknown))
     throw InputError({path, 0, 0}, "this would overwrite the building that is read; give another name");
+  if (std::filesystem::exists(path, unknown) && !options.force)
+    throw InputError({path, 0, 0}, "exists already; --force replaces it");
 }
 
 int inspect(const InspectOptions& options) {
@@ -44,7 +47,9 @@ int inspect(const InspectOptions& options) {
   std::optional<bim::MeshFormat> format;
   if (!options.mesh.empty()) format = bim::mesh_format(options.mesh);
   for (const std::string& output : {options.mesh, options.ifc})
-    if (!output.empty()) check_output(output, options.building);
+    if (!output.empty()) check_output(output, options);
+  if (!options.ifc.empty() && options.ifc == options.mesh)
+    throw InputError({"--ifc", 0, 0}, "names the file that --mesh does");
   const bim::Site site = options.as_built ? bim::load_site(options.building) : bim::Site{};
   const bim::Building building = options.as_built ? site.as_built : bim::load_building(options.building);
   const bim::BuildingMesh mesh = bim::build_mesh(building);
@@ -68,6 +73,7 @@ Command add_inspect(CommandLine& program) {
   line.option("--mesh", options->mesh, "writes the cut building as .glb, .obj or .ply");
   line.flag("--schema", options->schema, "prints instead every key of plan files, with examples");
   line.option("--ifc", options->ifc, "writes the building as IFC4");
+  line.flag("--force", options->force, "replaces the files that are there");
   line.footer(
       "Examples: plumbline inspect house.ifc --mesh house.glb\n"
       "          plumbline inspect site.plan.yaml --as-built --ifc built.ifc");

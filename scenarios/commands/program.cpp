@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenarios/commands/program.h"
 
+#include <poll.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <string>
@@ -25,6 +29,12 @@ int complain(const std::string& text, int code) {
     if (c == '\n') c = ' ';
   std::fprintf(stderr, "%s\n", line.c_str());
   return code;
+}
+
+/// Of stdout: as `head` goes once it has seen enough.
+bool reader_gone() {
+  pollfd out{STDOUT_FILENO, POLLOUT, 0};
+  return ::poll(&out, 1, 0) > 0 && (out.revents & POLLERR) != 0;
 }
 
 /// One line on stderr and the exit code for whatever is being thrown.
@@ -86,8 +96,10 @@ int run_program(int argc, char** argv, std::vector<slam::MethodRow> own_methods)
   try {
     const std::vector<slam::MethodRow> table = with_ours(std::move(own_methods));
     const int code = parse_and_run(argc, argv, table);
-    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+      if (reader_gone()) return 128 + SIGPIPE;
       throw EnvironmentError("plumbline: stdout cannot be written");
+    }
     return code;
   } catch (...) {
     return report_failure();

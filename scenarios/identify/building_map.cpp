@@ -134,11 +134,11 @@ std::string identify_text(const bim::Site& site, const BuildingMap& map) {
       if (!compass && map.options.compass_only) continue;
       const MapShare s = share_of(map, compass, [&](const MapCell& cell) { return cell.floor == f; });
       const double all = std::max(s.cells, 1);
-      char line[200];
-      std::snprintf(line, sizeof line, "%-22.22s %-8s %7d   %5.1f %%   %5.1f %% (%5.1f m, %5.1f m)  %5.1f %%\n",
+      char line[200], walk[40] = "      -        -  ";
+      if (s.walk > 0) std::snprintf(walk, sizeof walk, "(%5.1f m, %5.1f m)", s.walk_median_m, s.walk_max_m);
+      std::snprintf(line, sizeof line, "%-22.22s %-8s %7d   %5.1f %%   %5.1f %% %-18s  %5.1f %%\n",
                     name_of(site.as_planned.storeys[map.floors[f].storey]).c_str(), compass ? "compass" : "unknown",
-                    s.cells, 100.0 * s.one_look / all, 100.0 * s.walk / all, s.walk_median_m, s.walk_max_m,
-                    100.0 * s.never / all);
+                    s.cells, 100.0 * s.one_look / all, 100.0 * s.walk / all, walk, 100.0 * s.never / all);
       text += line;
     }
   return text;

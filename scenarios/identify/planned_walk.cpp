@@ -167,10 +167,11 @@ std::string walks_text(const std::vector<WalkAnswers>& walks) {
   std::string text = "heading    walks  identifiable   at once   median s   median m\n";
   const auto add = [&](const char* name, const WalkSummary& s) {
     char line[160];
-    std::snprintf(line, sizeof line, "%-8s %7d %12.0f %% %7.0f %% %10.1f %10.1f\n", name, s.walks,
-                  100.0 * s.identifiable / std::max(s.walks, 1), 100.0 * s.at_once / std::max(s.walks, 1),
-                  s.median_at_s, s.median_at_m);
+    std::snprintf(line, sizeof line, "%-8s %7d %12.0f %% %7.0f %% ", name, s.walks,
+                  100.0 * s.identifiable / std::max(s.walks, 1), 100.0 * s.at_once / std::max(s.walks, 1));
     text += line;
+    std::snprintf(line, sizeof line, "%10.1f %10.1f\n", s.median_at_s, s.median_at_m);
+    text += s.identifiable > 0 ? line : "         -          -\n";
   };
   add("unknown", summary_of(walks, WalkPart::unknown));
   add("compass", summary_of(walks, WalkPart::compass));

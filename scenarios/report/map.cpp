@@ -13,8 +13,10 @@ namespace plumbline::scenarios {
 
 namespace {
 
-// Colours that stay apart for colour-blind readers (Okabe and Ito), in the order of the methods.
-constexpr std::array<std::string_view, 6> colours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#b58900", "#56b4e9"};
+// Colours that stay apart for colour-blind readers (Okabe and Ito), in the order of the methods; then as many that are
+// darker or lighter than those.
+constexpr std::array<std::string_view, 12> colours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#b58900", "#56b4e9",
+                                                      "#6a3d9a", "#8c3d00", "#00d4a0", "#ff5fa2", "#6b6b00", "#7f7f7f"};
 
 /// Wall segments of a face without its openings, as strokes.
 std::string face_strokes(const bim::PlanFace& face) {

@@ -71,6 +71,10 @@ std::vector<std::string> names_in(const std::string& path) {
 }  // namespace
 
 void write_file(const std::string& path, std::string_view bytes) {
+  std::error_code unknown;
+  const fs::file_status there = fs::symlink_status(path, unknown);
+  if (fs::exists(there) && !fs::is_regular_file(there) && !fs::is_symlink(there))
+    throw InputError({path, 0, 0}, "is no file that could be replaced; give another name");
   const std::string temporary = path + ".tmp";
   try {
     Descriptor file(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));

@@ -43,7 +43,13 @@ class Template {
   [[nodiscard]] Tree with(const SweepVariant& variant, const Start* start, const std::vector<std::string>& methods,
                           const Mark& mark) const {
     Tree tree = tree_;
-    for (const std::string& text : variant.set) set(tree, text, mark);
+    for (const std::string& text : variant.set) {
+      set(tree, text, mark);
+      const std::string key = text.substr(0, text.find_first_of(".="));
+      if ((key == "start" && start != nullptr) || (key == "methods" && !methods.empty()))
+        throw InputError(mark, "the sweep sets '" + key + (key == "start" ? "' by its starts" : "' itself") +
+                                   "; set it in one place");
+    }
     if (start != nullptr) tree.set("start", to_tree(*start));
     if (!methods.empty()) {
       Tree list = Tree::list();
@@ -76,6 +82,7 @@ class Template {
     const Tree value = read_yaml("value: " + text.substr(equals + 1), mark.file);
     const std::string key = text.substr(0, equals);
     if (key == "seed") throw InputError(mark, "a sweep gives every run its seed; set seeds and first_seed");
+    if (key == "building") throw InputError(mark, "a sweep's runs are in their scenario's building; add a scenario");
     if (std::count(key.begin(), key.end(), '.') >= deepest_key)
       throw InputError(mark, "a key of more than " + std::to_string(deepest_key) + " parts; no scenario has one");
     set_at(tree, key, *value.find("value"));

@@ -10,6 +10,7 @@
 #include "slam/io/stopwatch.h"
 #include "slam/localize/particles.h"
 #include "slam/localize/plan_index.h"
+#include "slam/localize/told_yaw.h"
 #include "slam/localize/trail.h"
 #include "slam/odometry/map_cloud.h"
 
@@ -21,7 +22,7 @@ struct PlanBaselineConfig {
   double update_rad = 0.2;
   int particles_shown = 500;
   double mass_shown = 0.02;
-  double yaw_drift = 0.001;  ///< [facts: legged 10]
+  double yaw_drift = told_yaw_drift;
   PlanIndexConfig index = {};
 
   template <class V>

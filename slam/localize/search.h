@@ -8,6 +8,7 @@
 #include "bim/config/visit.h"
 #include "slam/io/estimate.h"
 #include "slam/localize/hypotheses.h"
+#include "slam/localize/told_yaw.h"
 
 namespace plumbline::slam {
 
@@ -28,7 +29,7 @@ struct ConvergenceConfig {
   int rivals = 12;                ///< places looked at before an announcement
   double rival_gap_m = 0.75;      ///< between them
   double rival_gap_rad = 0.35;
-  double yaw_drift = 0.001;  ///< rad/s by which the told yaw grows stale [facts: legged 10]
+  double yaw_drift = told_yaw_drift;
 
   template <class V>
   void visit(V& v) {

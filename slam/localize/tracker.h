@@ -24,7 +24,7 @@ struct TrackerConfig {
   double pair_min_cos = 0.999;          ///< opposed walls of a room are this parallel
   double floor_offset_sigma_m = 0.02;
   double floor_angle_sigma = 0.01;  ///< rad
-  double floor_max_tilt = 0.1;      ///< rad
+  double floor_max_tilt = ViewConfig{}.floor_max_tilt_rad;
   double odometry_trans_per_m = 0.03;
   double odometry_rot_per_rad = 0.02;
   double odometry_min_m = 0.004;

@@ -7,6 +7,7 @@
 #include <cstdlib>
 
 #include "bim/building/load.h"
+#include "scenarios/named_places.h"
 
 namespace plumbline::scenarios {
 namespace {
@@ -94,6 +95,18 @@ TEST(RoutePlan, ARouteOfAllIsTheRouteOfItsNames) {
   route.loop = 2;
   const RoutePlan plan = plan_route(house(), in("living"), route, {});
   const RoutePlan again = plan_route(house(), in("living"), through(plan.rooms, 2), {});
+  ASSERT_EQ(plan.waypoints.size(), again.waypoints.size());
+  for (std::size_t i = 0; i < plan.waypoints.size(); ++i) EXPECT_EQ(plan.waypoints[i].p_W, again.waypoints[i].p_W);
+}
+
+TEST(RoutePlan, TheOnlyRoomInReachIsWalkedRound) {
+  bim::Building alone = house();
+  alone.rooms = {alone.rooms[static_cast<std::size_t>(find_room(alone, "living", {}))]};
+  const RoutePlan plan = plan_route(alone, in("living"), Route{}, {});
+  EXPECT_EQ(plan.rooms, Names{"all"});
+  EXPECT_GT(plan.length_m, 10.0);
+  EXPECT_EQ(plan.waypoints.back().p_W, plan.waypoints.front().p_W);
+  const RoutePlan again = plan_route(alone, at("ground", plan.start_W.x(), plan.start_W.y()), through(plan.rooms), {});
   ASSERT_EQ(plan.waypoints.size(), again.waypoints.size());
   for (std::size_t i = 0; i < plan.waypoints.size(); ++i) EXPECT_EQ(plan.waypoints[i].p_W, again.waypoints[i].p_W);
 }

@@ -101,6 +101,7 @@ TEST_F(BadInput, StartAndRoute) {
   refuse(with(scenario_, "{room: left}", "{room: lift}"), plan_, {"short.yaml:7:", "'left'"});
   refuse(with(scenario_, "{room: left}", "{storey: first, at: [2, 2]}"), plan_, {"short.yaml:7:", "storey 'first'"});
   refuse(with(scenario_, "[hall, right]", "[hall, closet]"), plan_, {"short.yaml:8:23", "closet", "cannot be reached"});
+  refuse(with(scenario_, "[hall, right]", "[]"), plan_, {"short.yaml:8:16", "names no room"});
   refuse(with(scenario_, "[hall, right]", "[hall, cellar]"), plan_, {"short.yaml:8:23", "unknown room 'cellar'"});
 }
 
@@ -154,6 +155,14 @@ TEST_F(BadInput, CommandLine) {
   refuse_line({"identify", folder_ / "nothing"});
   refuse_line({"identify", project_file("tests/system/short.plan.yaml"), "--storey", "attic"});
   refuse_line({"identify", project_file("tests/system/short.plan.yaml"), "--step", "0"});
+  refuse_line({"identify", project_file("tests/system/short.plan.yaml"), "--seeds", "3"}, "--seeds: is of a scenario");
+  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+           {"--storey", "attic"}, {"--step", "1"}, {"--across"}, {"--compass"}, {"--force"}}) {
+    std::vector<std::string> line = {"identify", input};
+    line.insert(line.end(), words.begin(), words.end());
+    refuse_line(line, words.front() + ": is of a building");
+  }
+  refuse_line({"identify", input, "-o", folder_ / "page.html"}, "--out: is of a building");
   write_file(folder_ / "short.yaml", scenario_);
   write_file(folder_ / "short.plan.yaml", plan_);
   refuse_file("short.yaml", {"unknown method 'vgcip'", "'vgicp'"}, {"--method", "truth,vgcip"});
