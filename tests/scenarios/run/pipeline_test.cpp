@@ -183,7 +183,7 @@ TEST(Pipeline, WhatTheSourceThrowsArrives) {
   }
 }
 
-/// With the standard library's semaphore a run once stood still for ever, every thread waiting though permits were free.
+/// With the standard library's semaphore a run once stood still for ever: all threads waited though permits were free.
 TEST(Pipeline, ManyShortFramesComeThrough) {
   constexpr int many = 20000;
   std::vector<std::unique_ptr<Participant>> participants;
