@@ -99,6 +99,7 @@ TEST_F(BadInput, StartAndRoute) {
   refuse(with(scenario_, "{room: left}", "{at: [5, 2]}"), plan_, {"short.yaml:7:", "inside a wall"});
   refuse(with(scenario_, "{room: left}", "{at: [30, 2]}"), plan_, {"short.yaml:7:", "outside every room"});
   refuse(with(scenario_, "{room: left}", "{room: lift}"), plan_, {"short.yaml:7:", "'left'"});
+  refuse(with(scenario_, "{room: left}", "{room: left, storey: ground}"), plan_, {"short.yaml:7:", "takes no storey"});
   refuse(with(scenario_, "{room: left}", "{storey: first, at: [2, 2]}"), plan_, {"short.yaml:7:", "storey 'first'"});
   refuse(with(scenario_, "[hall, right]", "[hall, closet]"), plan_, {"short.yaml:8:23", "closet", "cannot be reached"});
   refuse(with(scenario_, "[hall, right]", "[]"), plan_, {"short.yaml:8:16", "names no room"});
@@ -167,6 +168,15 @@ TEST_F(BadInput, CommandLine) {
   write_file(folder_ / "short.plan.yaml", plan_);
   refuse_file("short.yaml", {"unknown method 'vgcip'", "'vgicp'"}, {"--method", "truth,vgcip"});
   refuse_file("short.yaml", {"twice"}, {"--method", "truth,truth"});
+}
+
+TEST(Stdout, AReaderThatHasSeenEnoughIsNoError) {
+  if (!available()) GTEST_SKIP() << "PLUMBLINE_BINARY is not set; run through ctest";
+  Setting through_head;
+  through_head.wrapper = {"bash", "-c", R"("$@" | head -c 1 >/dev/null; echo "${PIPESTATUS[0]}")", "-"};
+  const Outcome outcome = plumbline({"scenarios", "--schema"}, through_head);
+  EXPECT_EQ(outcome.err, "");
+  EXPECT_TRUE(outcome.out == "141\n" || outcome.out == "0\n") << outcome.out;  // 0: all had gone into the pipe before
 }
 
 TEST(Help, EveryCommandShowsAnExample) {

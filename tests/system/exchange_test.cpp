@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Files out of `inspect`: IFC that reads back, meshes, and what is refused.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 
@@ -82,11 +83,22 @@ TEST_F(Exchange, WhatCannotBeWrittenIsRefused) {
   refuse({"inspect", plan_, "--mesh", folder_ / "out.stl"}, 2, ".glb, .obj or .ply");
   refuse({"inspect", plan_, "--mesh", folder_ / "none/out.glb"}, 3, "cannot be written");
   refuse({"inspect", plan_, "--ifc", folder_ / "none/out.ifc"}, 3, "cannot be written");
-  refuse({"inspect", plan_, "--ifc", folder_.path()}, 3, "cannot be written");
+  refuse({"inspect", plan_, "--ifc", folder_.path()}, 2, "exists already; --force replaces it");
+  refuse({"inspect", plan_, "--ifc", folder_.path(), "--force"}, 2, "is no file that could be replaced");
+  const std::string fifo = folder_ / "fifo";
+  ASSERT_EQ(::mkfifo(fifo.c_str(), 0600), 0);
+  refuse({"inspect", plan_, "--ifc", fifo, "--force"}, 2, "is no file that could be replaced");
+  EXPECT_TRUE(std::filesystem::is_fifo(fifo));
   const std::string text = read_file(plan_);
   write_file(folder_ / "own.plan.yaml", text);
   refuse({"inspect", folder_ / "own.plan.yaml", "--ifc", folder_ / "own.plan.yaml"}, 2, "overwrite");
   EXPECT_EQ(read_file(folder_ / "own.plan.yaml"), text);
+  write_file(folder_ / "kept.glb", "kept");
+  refuse({"inspect", plan_, "--mesh", folder_ / "kept.glb"}, 2, "exists already; --force replaces it");
+  EXPECT_EQ(read_file(folder_ / "kept.glb"), "kept");
+  refuse({"inspect", plan_, "--mesh", folder_ / "one.glb", "--ifc", folder_ / "one.glb"}, 2, "names the file");
+  EXPECT_EQ(plumbline({"inspect", plan_, "--mesh", folder_ / "kept.glb", "--force"}).code, 0);
+  EXPECT_EQ(read_file(folder_ / "kept.glb").substr(0, 4), "glTF");
 }
 
 }  // namespace

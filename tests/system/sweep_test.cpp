@@ -101,7 +101,11 @@ TEST(Sweep, BadInputIsOneLineAndLeavesNothing) {
   const std::vector<std::pair<std::string, std::string>> mistakes = {
       {"starts: [{room: attic}]\n", "short: start {room: attic}, seed 1: "},
       {"variants: [{name: a, set: [prior.yw=known]}]\n", "sweep.yaml:3:12: "},
-      {"variants: [{name: a, set: [seed=4]}]\n", "sweep.yaml:3:12: a sweep gives every run its seed"}};
+      {"variants: [{name: a, set: [seed=4]}]\n", "sweep.yaml:3:12: a sweep gives every run its seed"},
+      {"variants: [{name: a, set: [building=b.yaml]}]\n", "sweep.yaml:3:12: a sweep's runs are in their scenario's"},
+      {"starts: [{room: left}]\nvariants: [{name: a, set: [start.room=hall]}]\n",
+       "the sweep sets 'start' by its starts"},
+      {"methods: [odometry]\nvariants: [{name: a, set: ['methods=[vgicp]']}]\n", "the sweep sets 'methods' itself"}};
   for (const auto& [mistake, words] : mistakes) {
     write_file(folder / "sweep.yaml", "sweep: 1\nscenarios: [short.yaml]\n" + mistake);
     const Outcome refused = plumbline({"sweep", folder / "sweep.yaml", "--seeds", "1", "-o", folder / "out"});
