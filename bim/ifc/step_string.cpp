@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bim/ifc/step_string.h"
 
-#include <algorithm>
-#include <array>
-#include <cstdint>
 #include <optional>
-#include <vector>
 
 #include "bim/config/tree.h"
 #include "bim/config/utf8.h"

@@ -16,7 +16,7 @@ namespace {
 
 using Frame = std::shared_ptr<const sim::WorldFrame>;
 
-/// So many threads may work at a time. std::counting_semaphore of GCC 12 can sleep for ever (its PR 104928).
+/// So many threads may work at a time. With std::counting_semaphore (GCC 12) a run slept for ever.
 class Permits {
  public:
   explicit Permits(int count) : free_(count) {}
