@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slam/io/recording_info.h"
 
+#include <algorithm>
 #include <cmath>
+
+#include "slam/io/pose_check.h"
 
 namespace plumbline::slam {
 
@@ -18,11 +21,12 @@ RecordingInfo read_recording_info(std::string_view text, const std::string& file
   auto info = from_tree<RecordingInfo>(tree);
   const Tree* mount = tree.find("mount");
   const Mark mark = mount != nullptr ? mount->mark : tree.mark;
-  if (info.mount.position_m.size() != 3) throw InputError(mark, "position_m must be 3 numbers: [x, y, z]");
+  const auto& position = info.mount.position_m;
+  const bool on_robot = std::ranges::all_of(position, [](double v) { return std::abs(v) <= 100.0; });
+  if (position.size() != 3 || !on_robot)
+    throw InputError(mark, "position_m must be 3 numbers, at most 100 m each: [x, y, z]");
   if (info.mount.quaternion_xyzw.size() != 4) throw InputError(mark, "quaternion_xyzw must be 4 numbers: [x, y, z, w]");
-  const double norm = quaternion(info.mount.quaternion_xyzw).norm();
-  if (!(std::abs(norm - 1.0) <= 0.01))
-    throw InputError(mark, "the quaternion's norm is " + format_number(norm) + ", not 1");
+  static_cast<void>(checked_pose(Eigen::Vector3d(position.data()), quaternion(info.mount.quaternion_xyzw), mark));
   return info;
 }
 
@@ -30,10 +34,8 @@ std::string write_recording_info(const RecordingInfo& info) { return write_yaml(
 
 Calibration calibration_of(const RecordingInfo& info) {
   Calibration calibration;
-  calibration.X_RL.t = Eigen::Vector3d(info.mount.position_m.data());
-  calibration.X_RL.q = quaternion(info.mount.quaternion_xyzw);
-  // Only where it is needed, so that what the simulator wrote comes back to the bit.
-  if (std::abs(calibration.X_RL.q.norm() - 1.0) > 1e-9) calibration.X_RL.q.normalize();
+  calibration.X_RL =
+      checked_pose(Eigen::Vector3d(info.mount.position_m.data()), quaternion(info.mount.quaternion_xyzw), {});
   calibration.sensor_height_m = info.mount.height_m;
   return calibration;
 }

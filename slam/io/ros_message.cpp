@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <cstring>
 #include <type_traits>
 
 #include "bim/errors.h"
+#include "slam/io/pose_check.h"
 #include "slam/io/second.h"
 
 namespace plumbline::slam::ros {
@@ -105,12 +105,10 @@ class Reader {
     return v;
   }
   Pose pose() {
-    Pose X;
-    X.t = vector();
-    for (double& value : X.q.coeffs()) value = number<double>();
-    if (!(std::abs(X.q.norm() - 1.0) <= 0.01)) throw InputError({}, "a quaternion that is no rotation");
-    if (std::abs(X.q.norm() - 1.0) > 1e-9) X.q.normalize();
-    return X;
+    const Eigen::Vector3d t = vector();
+    Eigen::Quaterniond q;
+    for (double& value : q.coeffs()) value = number<double>();
+    return checked_pose(t, q, {});
   }
   Matrix6d matrix() {
     Matrix6d m;

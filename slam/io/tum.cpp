@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "bim/config/tree.h"
+#include "slam/io/pose_check.h"
 #include "slam/io/second.h"
 
 namespace plumbline::slam {
@@ -57,12 +58,7 @@ StampedPose parse_tum_line(std::string_view line, const Mark& mark) {
   bool good = parse_stamp(columns[0], pose.stamp);
   for (std::size_t i = 0; i < v.size(); ++i) good = parse_number(columns[i + 1], v[i]) && good;
   if (!good) throw InputError(mark, "not a number; a TUM line has 8 numbers: t tx ty tz qx qy qz qw");
-  pose.X_FR.t = Eigen::Vector3d(v[0], v[1], v[2]);
-  pose.X_FR.q = Eigen::Quaterniond(v[6], v[3], v[4], v[5]);
-  const double norm = pose.X_FR.q.norm();
-  if (std::abs(norm - 1.0) > 0.01)
-    throw InputError(mark, "the quaternion's norm is " + format_number(norm) + ", not 1");
-  if (std::abs(norm - 1.0) > 1e-9) pose.X_FR.q.normalize();
+  pose.X_FR = checked_pose({v[0], v[1], v[2]}, {v[6], v[3], v[4], v[5]}, mark);
   return pose;
 }
 

@@ -349,6 +349,10 @@ TEST_F(RecordingTest, NamesWhatIsWrongWithTheFilesBesides) {
   expect_complaint(path(), info + ":2:", "3 numbers");
   put("recording.yaml", "recording: 1\nmount: {quaternion_xyzw: [1, 1, 0, 0]}\n");
   expect_complaint(path(), info + ":2:", "norm");
+  put("recording.yaml", "recording: 1\nmount: {quaternion_xyzw: [1e200, 1, 0, 0]}\n");
+  expect_complaint(path(), info + ":2:", "norm");
+  put("recording.yaml", "recording: 1\nmount: {position_m: [1e200, 0, 0]}\n");
+  expect_complaint(path(), info + ":2:", "at most 100 m");
   put("recording.yaml", "recording: 1\nmont: {}\n");
   expect_complaint(path(), info + ":2:", "'mount'");
   fs::remove(path("lidar.pcap"));
