@@ -18,16 +18,19 @@ struct Place {
   double been_m = std::numeric_limits<double>::infinity();  ///< distance to the walk so far
 };
 
-std::vector<Place> free_places(const sim::FreeSpace& space, const Eigen::AlignedBox2d& bounds,
-                               const RoamConfig& config) {
+/// Those of a grid over the box that can be walked to.
+std::vector<Place> places_in_reach(const sim::FreeSpace& space, const Eigen::AlignedBox2d& bounds,
+                                   const Eigen::Vector2d& start, const RoamConfig& config) {
   const double step = std::max(config.step_m, std::sqrt(bounds.volume() / config.most_places));
   const Eigen::Vector2d size = bounds.sizes();
-  std::vector<Place> places;
+  Path grid;
   for (int iy = 0; (iy + 0.5) * step < size.y(); ++iy)
     for (int ix = 0; (ix + 0.5) * step < size.x(); ++ix) {
       const Eigen::Vector2d p = bounds.min() + step * Eigen::Vector2d(ix + 0.5, iy + 0.5);
-      if (space.free(p)) places.push_back({p});
+      if (space.free(p)) grid.push_back(p);
     }
+  std::vector<Place> places;
+  for (const Eigen::Vector2d& p : space.reachable(start, grid)) places.push_back({p});
   return places;
 }
 
@@ -47,22 +50,16 @@ double length(const Path& path) {
 
 std::vector<Eigen::Vector2d> roam(const sim::FreeSpace& space, const Eigen::AlignedBox2d& bounds,
                                   const Eigen::Vector2d& start, const RoamConfig& config) {
-  std::vector<Place> places = free_places(space, bounds, config);
+  std::vector<Place> places = places_in_reach(space, bounds, start, config);
   Path walk = {start};
   note(walk, places);
-  int goals = 0;
-  for (int i = 0; i < config.tries && goals < config.goals && length(walk) < config.longest_m; ++i) {
+  for (int goals = 0; goals < config.goals && length(walk) < config.longest_m; ++goals) {
     const auto goal = std::max_element(places.begin(), places.end(),
                                        [](const Place& a, const Place& b) { return a.been_m < b.been_m; });
     if (goal == places.end() || goal->been_m < config.nearest_m) break;
     const Path leg = space.path(walk.back(), goal->p);
-    if (leg.empty()) {
-      goal->been_m = 0.0;
-      continue;
-    }
     walk.insert(walk.end(), leg.begin() + 1, leg.end());
     note(leg, places);
-    ++goals;
   }
   const Path home = space.path(walk.back(), start);
   if (walk.size() > 1 && home.size() > 1) walk.insert(walk.end(), home.begin() + 1, home.end());

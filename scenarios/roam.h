@@ -13,7 +13,6 @@ struct RoamConfig {
   double step_m = 1.0;       ///< least distance of the places looked at
   double most_places = 900;  ///< looked at; a larger world gets a larger step
   int goals = 6;             ///< places walked to before the way home
-  int tries = 24;            ///< ways looked for; places out of reach cost one each
   double longest_m = 80.0;   ///< no further goal once the walk is this long
   double nearest_m = 2.0;    ///< a goal lies at least this far from where the walk has been
 };

@@ -28,6 +28,8 @@ constexpr double shuttle_min_m = 0.5;  ///< of a way worth walking to and fro
 
 double round_coordinate(double x) { return std::round(x * coordinate_steps) / coordinate_steps; }
 
+Eigen::Vector2d rounded(const Eigen::Vector2d& p) { return {round_coordinate(p.x()), round_coordinate(p.y())}; }
+
 std::string text(const Eigen::Vector2d& p) { return "[" + format_number(p.x()) + ", " + format_number(p.y()) + "]"; }
 
 /// In the plane; openings do not count, since nobody starts in a doorway.
@@ -117,19 +119,14 @@ class Planner {
   [[nodiscard]] std::optional<Place> place_in(int storey, const Polygon2& polygon) const {
     const std::vector<Eigen::Vector2d> found = space_.storey(storey).room_target(polygon);
     if (found.empty()) return std::nullopt;
-    return Place{storey, {round_coordinate(found.front().x()), round_coordinate(found.front().y())}};
+    return Place{storey, rounded(found.front())};
   }
 
   /// Where no rooms are known.
   [[nodiscard]] Eigen::Vector2d freest_place() const {
-    const Eigen::AlignedBox2d box = floor_box();
-    std::optional<Place> found;
-    if (!box.isEmpty()) {
-      const Eigen::Vector2d low = box.min(), high = box.max();
-      found = place_in(storey_, {low, {high.x(), low.y()}, high, {low.x(), high.y()}});
-    }
-    if (!found) throw InputError(marks_.start, "there is no place on the floor where the robot fits");
-    return found->p_W;
+    const std::vector<Eigen::Vector2d> found = space_.storey(storey_).open_target();
+    if (found.empty()) throw InputError(marks_.start, "there is no place on the floor where the robot fits");
+    return rounded(found.front());
   }
 
   /// Where no rooms are known, or none but the one of the start is in reach.

@@ -41,6 +41,22 @@ std::int64_t open_ground_cost(const Grid& grid, std::size_t from, std::size_t to
 
 }  // namespace
 
+std::vector<std::size_t> FreeSpace::region(std::size_t from, std::vector<char>& seen) const {
+  std::vector<std::size_t> cells = {from};
+  seen[from] = 1;
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    for (const Step& step : steps) {
+      const int x = grid_.ix(cells[i]) + step.dx;
+      const int y = grid_.iy(cells[i]) + step.dy;
+      if (!grid_.holds(x, y)) continue;
+      const std::size_t next = grid_.index(x, y);
+      if (seen[next] != 0 || !passable(next)) continue;
+      seen[next] = 1;
+      cells.push_back(next);
+    }
+  return cells;
+}
+
 std::int64_t FreeSpace::step_cost(std::size_t cell) const {
   const double crowded = (config_.comfort_m - clearance_[cell]) / (config_.comfort_m - config_.radius_m);
   return unit_cost +
@@ -118,6 +134,18 @@ std::vector<Eigen::Vector2d> FreeSpace::path(const Eigen::Vector2d& a, const Eig
   for (std::size_t i = 1; i + 1 < cells.size(); ++i) points.push_back(grid_.center(cells[i]));
   points.push_back(b);
   return shortened(points);
+}
+
+std::vector<Eigen::Vector2d> FreeSpace::reachable(const Eigen::Vector2d& from,
+                                                  const std::vector<Eigen::Vector2d>& places) const {
+  const auto start = grid_.cell_at(from);
+  if (!start || !passable(*start)) return {};
+  std::vector<char> seen(grid_.size(), 0);
+  static_cast<void>(region(*start, seen));
+  std::vector<Eigen::Vector2d> found;
+  for (const Eigen::Vector2d& place : places)
+    if (const auto cell = grid_.cell_at(place); cell && seen[*cell] != 0) found.push_back(place);
+  return found;
 }
 
 }  // namespace plumbline::sim

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "bim/errors.h"
 #include "sim/route/blockage.h"
@@ -70,12 +71,26 @@ bool FreeSpace::free(const Eigen::Vector2d& p) const { return clearance(p) >= cl
 std::vector<Eigen::Vector2d> FreeSpace::room_target(const Polygon2& room) const {
   std::optional<std::size_t> best;
   for (std::size_t cell = 0; cell < clearance_.size(); ++cell) {
-    if (clearance_[cell] < config_.turn_m - 0.5 * config_.cell_m) continue;
+    if (!turnable(cell)) continue;
     if (best && clearance_[cell] <= clearance_[*best]) continue;
     if (contains(room, grid_.center(cell))) best = cell;
   }
   if (!best) return {};
   return {grid_.center(*best)};
+}
+
+std::vector<Eigen::Vector2d> FreeSpace::open_target() const {
+  std::vector<char> seen(grid_.size(), 0);
+  std::vector<std::size_t> largest;
+  for (std::size_t cell = 0; cell < clearance_.size(); ++cell) {
+    if (seen[cell] != 0 || !turnable(cell)) continue;
+    std::vector<std::size_t> cells = region(cell, seen);
+    if (cells.size() > largest.size()) largest = std::move(cells);
+  }
+  if (largest.empty()) return {};
+  return {grid_.center(*std::min_element(largest.begin(), largest.end(), [&](std::size_t a, std::size_t b) {
+    return std::pair(-clearance_[a], a) < std::pair(-clearance_[b], b);
+  }))};
 }
 
 }  // namespace plumbline::sim

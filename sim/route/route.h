@@ -41,15 +41,25 @@ class FreeSpace {
   /// Short path from a to b that keeps the radius clear and to the middle of narrow places, as few waypoints as that
   /// allows, a and b included; empty when b cannot be reached from a.
   [[nodiscard]] std::vector<Eigen::Vector2d> path(const Eigen::Vector2d& a, const Eigen::Vector2d& b) const;
+  /// Those of some places to which there is a path.
+  [[nodiscard]] std::vector<Eigen::Vector2d> reachable(const Eigen::Vector2d& from,
+                                                       const std::vector<Eigen::Vector2d>& places) const;
   /// The point of a room with the most clearance (ties: lowest cell), or none where the robot cannot turn round: what
   /// walks into such a room does not come out again.
   [[nodiscard]] std::vector<Eigen::Vector2d> room_target(const Polygon2& room) const;
+  /// The same of the largest piece of floor that can be walked in one, where rooms are not known.
+  [[nodiscard]] std::vector<Eigen::Vector2d> open_target() const;
 
  private:
   [[nodiscard]] double clearance_min() const { return config_.radius_m - 0.5 * config_.cell_m; }
   [[nodiscard]] bool passable(std::size_t cell) const { return clearance_[cell] >= clearance_min(); }
+  [[nodiscard]] bool turnable(std::size_t cell) const {
+    return clearance_[cell] >= config_.turn_m - 0.5 * config_.cell_m;
+  }
   /// Cost of a tenth of a cell walked in a cell.
   [[nodiscard]] std::int64_t step_cost(std::size_t cell) const;
+  /// Cells that can be walked to from this one, in the order found; marks them.
+  [[nodiscard]] std::vector<std::size_t> region(std::size_t from, std::vector<char>& seen) const;
   [[nodiscard]] std::vector<std::size_t> search(std::size_t from, std::size_t to) const;
   [[nodiscard]] bool clear_line(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double clearance_m) const;
   [[nodiscard]] std::vector<Eigen::Vector2d> shortened(const std::vector<Eigen::Vector2d>& points) const;

@@ -152,6 +152,28 @@ TEST(RoutePlan, AShuttleNeedsRoom) {
       << complaint(cell, in("cell"), route);
 }
 
+TEST(RoutePlan, WithoutRoomsItWalksTheLargestPieceOfFloorOrWhereItIsTold) {
+  bim::Building decks;
+  decks.storeys.push_back({"ground", "ground", 0.0, 3.0, 0});
+  const auto deck = [&](double x0, double x1, double y1) {
+    bim::Slab slab;
+    slab.id = "deck" + std::to_string(decks.slabs.size());
+    slab.storey = 0;
+    slab.polygon.outer = {{x0, 0.0}, {x1, 0.0}, {x1, y1}, {x0, y1}};
+    decks.slabs.push_back(slab);
+  };
+  deck(0.0, 4.0, 4.0);    // has the place furthest from any edge
+  deck(10.0, 30.0, 2.4);  // has more floor
+  const Route all = through({"all"});
+  const RoutePlan free = plan_route(decks, {}, all, {});
+  EXPECT_GT(free.start_W.x(), 10.0);
+  EXPECT_GT(free.length_m, 20.0);
+  // From the small one every further place of the large one is out of reach.
+  const RoutePlan told = plan_route(decks, at("ground", 2.0, 2.0), all, {});
+  EXPECT_GT(told.length_m, 2.0);
+  for (const sim::Waypoint& waypoint : told.waypoints) EXPECT_LT(waypoint.p_W.x(), 4.0);
+}
+
 TEST(RoutePlan, ARoomWithoutAWayUpIsRefused) {
   bim::Building flat = house();
   flat.stairs.clear();

@@ -203,6 +203,21 @@ TEST(FreeSpace, ARoomInWhichTheRobotCannotTurnIsNoTarget) {
   }
 }
 
+TEST(FreeSpace, OpenTargetIsTheFreestPointOfTheLargestPieceOfFloor) {
+  bim::Building building = two_rooms();
+  // The west room has the freest place, the east one, with a pillar in it, more floor.
+  add_obstacle(building, rectangle({0.0, 0.0}, {4.0, 1.2}), 0.0, 1.0);
+  add_obstacle(building, rectangle({5.8, 2.3}, {6.2, 2.7}), 0.0, 1.0);
+  const FreeSpace space(building, 0);
+  const auto in_west = space.room_target(building.rooms[0].polygon);
+  const auto target = space.open_target();
+  ASSERT_EQ(in_west.size(), 1U);
+  ASSERT_EQ(target, space.room_target(building.rooms[1].polygon));
+  EXPECT_GT(space.clearance(in_west[0]), space.clearance(target[0]));
+  add_obstacle(building, rectangle({0.0, 0.0}, {8.0, 5.0}), 0.0, 1.0);
+  EXPECT_TRUE(FreeSpace(building, 0).open_target().empty());
+}
+
 TEST(FreeSpace, UnreachableOrOccupiedEndsGiveNoPath) {
   const FreeSpace space(two_rooms(), 0);
   EXPECT_TRUE(space.path(west, east).empty());
@@ -210,6 +225,10 @@ TEST(FreeSpace, UnreachableOrOccupiedEndsGiveNoPath) {
   EXPECT_TRUE(space.path({0.2, 2.5}, west).empty());
   EXPECT_TRUE(space.path(west, {1000.0, 0.0}).empty());
   EXPECT_TRUE(space.path(west, {std::nan(""), 0.0}).empty());
+  const Eigen::Vector2d beside(1.0, 1.0);
+  EXPECT_EQ(space.reachable(west, {east, beside, {4.0, 2.5}, {1000.0, 0.0}, west}),
+            (std::vector<Eigen::Vector2d>{beside, west}));
+  EXPECT_TRUE(space.reachable({0.2, 2.5}, {west}).empty());
 }
 
 }  // namespace
