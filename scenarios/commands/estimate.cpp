@@ -175,10 +175,12 @@ Answer run_method(slam::Recording& recording, const slam::MethodRow& row, const 
   return {std::move(record), slam::seconds(last - first.value_or(last))};
 }
 
-/// estimate.yaml: what the answer depends on besides recording and plan.
-std::string describe(const slam::MethodRow& row, std::uint64_t seed, const slam::MethodInput& input) {
+/// estimate.yaml: which walk the answer is of, and what it depends on besides recording and plan.
+std::string describe(const slam::MethodRow& row, std::uint64_t seed, const slam::RecordingInfo& info,
+                     const slam::MethodInput& input) {
   Tree tree = Tree::map();
   tree.set("estimate", 1).set("method", row.name).set("seed", static_cast<std::int64_t>(seed));
+  if (info.walk) tree.set("walk", *info.walk);
   if (!input.config.is_null()) tree.set("config", input.config);
   return write_yaml(tree);
 }
@@ -205,7 +207,8 @@ int estimate(const EstimateArguments& options, slam::MethodTable table) {
   const MethodRecord& record = answer.record;
   write_method(directory.staging(), record);
   write_file(directory.staging() + "/digests.csv", write_digests(record.digests));
-  write_file(directory.staging() + "/estimate.yaml", describe(row, run_seed(options, recording->info()), input));
+  write_file(directory.staging() + "/estimate.yaml",
+             describe(row, run_seed(options, recording->info()), recording->info(), input));
   write_file(directory.staging() + "/timings.json", write_cost(answer, start_s));
   directory.commit();
   if (record.crashed) {

@@ -8,7 +8,9 @@
 #include <utility>
 #include <vector>
 
+#include "bim/config/tree.h"
 #include "scenarios/commands/commands.h"
+#include "scenarios/run/observer.h"
 #include "scenarios/run/run_files.h"
 #include "scenarios/run/summary.h"
 #include "scenarios/score/trajectory.h"
@@ -25,12 +27,22 @@ bool is_plain_name(const std::string& name) {
   return !name.empty() && std::all_of(name.begin(), name.end(), plain);
 }
 
+/// The answer to another walk of the same length would only look bad.
+void check_walk(const std::string& dir, const RunFiles& files) {
+  const std::string path = dir + "/estimate.yaml";
+  const Tree tree = read_yaml(read_text_file(path), path);
+  const Tree* walk = tree.find("walk");
+  if (walk != nullptr && walk->as_string() != walk_of(files.digests))
+    throw InputError(walk->mark, "the estimate is of another run's recording; give one of " + files.dir);
+}
+
 /// What `plumbline estimate` left: planes, rooms and map beside the trajectories.
-MethodRecord read_estimate_directory(const std::string& dir, const std::string& name) {
+MethodRecord read_estimate_directory(const std::string& dir, const std::string& name, const RunFiles& files) {
   const std::vector<std::string> methods = estimates_in(dir);
   if (methods.size() != 1)
     throw InputError({dir, 0, 0}, methods.empty() ? "holds no estimate; give what plumbline estimate wrote"
                                                   : "holds several estimates; give a directory of plumbline estimate");
+  if (std::filesystem::exists(dir + "/estimate.yaml")) check_walk(dir, files);
   MethodRecord method = read_method(dir, methods.front());
   method.name = name;
   return method;
@@ -46,14 +58,14 @@ void check_positions(const std::string& path, const std::vector<slam::StampedPos
 }
 
 /// NAME=DIR or NAME=FILE[,frame=W|M]
-MethodRecord read_outside(const std::string& text) {
+MethodRecord read_outside(const std::string& text, const RunFiles& files) {
   const Mark mark{"--estimate", 0, 0};
   const std::size_t equals = text.find('=');
   std::string path = equals == std::string::npos ? "" : text.substr(equals + 1);
   MethodRecord method;
   method.name = text.substr(0, equals);
   if (is_plain_name(method.name) && std::filesystem::is_directory(path))
-    return read_estimate_directory(path, method.name);
+    return read_estimate_directory(path, method.name, files);
   for (const auto& [end, world] : {std::pair{",frame=W", true}, std::pair{",frame=M", false}}) {
     if (!path.ends_with(end)) continue;
     path.resize(path.size() - std::string_view(end).size());
@@ -91,7 +103,7 @@ int score_again(const std::string& dir, const std::vector<std::string>& estimate
   RunFiles files = read_run_files(dir);
   std::vector<MethodRecord> outside;
   for (const std::string& text : estimates) {
-    MethodRecord read = read_outside(text);
+    MethodRecord read = read_outside(text, files);
     check_stamps(text, read, files);
     if (std::any_of(outside.begin(), outside.end(), [&](const MethodRecord& m) { return m.name == read.name; }))
       throw InputError({"--estimate", 0, 0}, "'" + read.name + "' is given twice");

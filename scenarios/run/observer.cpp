@@ -35,6 +35,18 @@ std::uint64_t digest_of_lidar(const sim::WorldFrame& frame) {
 
 }  // namespace
 
+void add_sensors(const sim::WorldFrame& frame, DigestLog& log) {
+  log.push_back({frame.scan.stamp, "sim.odometry", digest_of_odometry(frame)});
+  log.push_back({frame.scan.stamp, "sim.lidar", digest_of_lidar(frame)});
+}
+
+std::string walk_of(const DigestLog& log) {
+  DigestLog sensors;
+  for (const DigestEntry& entry : log)
+    if (entry.stage == "sim.odometry" || entry.stage == "sim.lidar") sensors.push_back(entry);
+  return hex64(digest_of(sensors));
+}
+
 void check_extent(const bim::BuildingMesh& mesh) {
   constexpr double most_m3 = 8e6;  // at a bit for 0.1 m
   Eigen::AlignedBox3d box;
@@ -85,8 +97,7 @@ FrameRecorder::FrameRecorder(const bim::BuildingMesh& mesh) : surface_(mesh) {}
 void FrameRecorder::observe(const sim::WorldFrame& frame) {
   const slam::Nanoseconds tick = frame.scan.stamp;
   digests_.push_back({tick, "sim.robot", frame.robot_digest});
-  digests_.push_back({tick, "sim.odometry", digest_of_odometry(frame)});
-  digests_.push_back({tick, "sim.lidar", digest_of_lidar(frame)});
+  add_sensors(frame, digests_);
   for (const sim::TruePose& truth : frame.truth)
     if (truth_.empty() || truth.stamp > truth_.back().stamp) truth_.push_back({truth.stamp, truth.X_WR});
   surface_.add(frame.labels);

@@ -29,6 +29,11 @@ class SurfaceRecorder {
   std::vector<Eigen::Vector3f> points_;
 };
 
+/// Adds the digests of what the sensors recorded up to this scan: sim.odometry (with IMU), sim.lidar.
+void add_sensors(const sim::WorldFrame& frame, DigestLog& log);
+/// One digest of all the sensors recorded on a walk, out of a log that holds it; RecordingInfo::walk.
+[[nodiscard]] std::string walk_of(const DigestLog& log);
+
 /// Keeps what scoring and replay need of every frame.
 class FrameRecorder {
  public:

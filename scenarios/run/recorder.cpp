@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "bim/errors.h"
+#include "scenarios/run/observer.h"
 
 namespace plumbline::scenarios {
 
@@ -40,6 +41,7 @@ void Recorder::add_bag(const slam::BagProfile& profile, bool with_truth) {
 void Recorder::add(const sim::WorldFrame& frame) {
   writer_.add(frame.packets, frame.odometry, frame.imu);
   writer_.add(frame.covariances);
+  add_sensors(frame, digests_);
   if (!bag_) return;
   bag_->add(frame.scan, frame.odometry, frame.imu, frame.covariances);
   if (!truth_in_bag_) return;
@@ -49,7 +51,7 @@ void Recorder::add(const sim::WorldFrame& frame) {
 }
 
 void Recorder::finish() {
-  writer_.finish();
+  writer_.finish(walk_of(digests_));
   if (bag_) bag_->finish();
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "scenarios/resolve.h"
+#include "scenarios/run/digest_log.h"
 #include "sim/world.h"
 #include "slam/io/bag.h"
 #include "slam/io/recording_writer.h"
@@ -27,6 +28,7 @@ class Recorder {
   slam::RecordingWriter writer_;
   std::unique_ptr<slam::BagWriter> bag_;
   bool truth_in_bag_ = false;
+  DigestLog digests_;
 };
 
 }  // namespace plumbline::scenarios

@@ -56,6 +56,7 @@ struct ToldSpec {
 struct RecordingInfo {
   int version = 1;
   std::optional<std::uint64_t> seed;
+  std::optional<std::string> walk;
   MessageSpec lidar;
   MountSpec mount;
   ToldSpec told;
@@ -64,6 +65,7 @@ struct RecordingInfo {
   void visit(V& v) {
     v("recording", version, Field{.doc = "version of this format", .min = 1, .max = 1, .required = true});
     v("seed", seed, Field{.doc = "of the run, from which those of the methods derive", .min = 0, .max = 9.2e18});
+    v("walk", walk, Field{.doc = "digest of the simulated sensors' records, by which runs know their estimates"});
     v("lidar", lidar, Field{.doc = "how packets become scans"});
     v("mount", mount, Field{.doc = "where the LiDAR sits"});
     v("told", told, Field{.doc = "what plan localization is told"});

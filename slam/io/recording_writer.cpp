@@ -93,11 +93,12 @@ void RecordingWriter::add(std::span<const OdometryCovariance> covariances) {
   for (const OdometryCovariance& record : covariances) impl_->covariances().add(covariance_line(record));
 }
 
-void RecordingWriter::finish() {
+void RecordingWriter::finish(const std::optional<std::string>& walk) {
   impl_->pcap.finish();
   impl_->odometry.finish();
   if (impl_->covariance) impl_->covariance->finish();
   impl_->imu.finish();
+  impl_->info.walk = walk;
   TextFile info(path_in(impl_->dir, recording_files::info));
   info.add(write_recording_info(impl_->info));
   info.finish();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -22,8 +23,8 @@ class RecordingWriter {
   void add(std::span<const Vlp16Packet> packets, std::span<const Odometry> odometry, std::span<const Imu> imu);
   /// Of the odometry's records, in their order.
   void add(std::span<const OdometryCovariance> covariances);
-  /// Completes all files.
-  void finish();
+  /// Completes all files. RecordingInfo::walk is the one given here.
+  void finish(const std::optional<std::string>& walk = std::nullopt);
 
  private:
   struct Impl;

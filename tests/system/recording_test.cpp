@@ -230,5 +230,19 @@ TEST_F(Recordings, EstimateSaysWhatRunSaid) {
   EXPECT_NE(refused.err.find("holds no estimate"), std::string::npos) << refused.err;
 }
 
+TEST_F(Recordings, AnEstimateOfAnotherRunsRecordingIsNotScored) {
+  write_file(folder_ / "short.plan.yaml", read_file(plan()));
+  write_file(folder_ / "short.yaml", read_file(input()));
+  const std::string run = folder_ / "run", other = folder_ / "other", out = folder_ / "out";
+  ASSERT_EQ(plumbline({"run", folder_ / "short.yaml", "--out", run, "--method", "odometry"}).code, 0);
+  ASSERT_EQ(plumbline({"simulate", folder_ / "short.yaml", "-o", other, "--seed", "2"}).code, 0);
+  ASSERT_EQ(plumbline({"estimate", other, "--method", "odometry", "-o", out}).code, 0);
+  const std::string results = read_file(run + "/results.json");
+  const Outcome refused = plumbline({"score", run, "--estimate", "legs=" + out});
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.err.find("of another run's recording"), std::string::npos) << refused.err;
+  EXPECT_TRUE(read_file(run + "/results.json") == results);
+}
+
 }  // namespace
 }  // namespace plumbline::system_tests
