@@ -45,7 +45,7 @@ ScenarioText default_scenario(const std::string& path) {
   text.tree.mark = {path, 0, 0};
   text.scenario.building = fs::path(path).filename().string();
   std::string name = text.scenario.building.substr(0, text.scenario.building.find('.'));
-  text.scenario.name = name.empty() ? "unnamed" : name;
+  text.scenario.name = name.empty() || name.size() > longest_name ? "unnamed" : name;
   return text;
 }
 
@@ -119,7 +119,9 @@ void settle_methods(ScenarioText& text, const Overrides& overrides, bool has_pla
   };
   const std::vector<Mark> marks = marks_of(text.tree, {"gates"}, scenario.gates.size());
   for (std::size_t i = 0; i < scenario.gates.size(); ++i) {
-    if (asked(scenario.gates[i]) || overrides.methods) continue;
+    if (asked(scenario.gates[i])) continue;
+    check_methods({scenario.gates[i].method}, {marks[i]}, resolved.table);
+    if (overrides.methods) continue;
     throw InputError(marks[i],
                      "the gate's method '" + scenario.gates[i].method + "' is not one of the scenario's methods");
   }

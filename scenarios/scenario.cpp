@@ -40,6 +40,17 @@ void check_gates(const Scenario& scenario, const Tree& tree) {
   }
 }
 
+/// Values that this kind of route has no use for.
+void check_route_counts(const Route& route, const Tree& tree) {
+  const Route unset;
+  if (!route.shuttle && route.times != unset.times)
+    throw InputError(mark_at(tree, {"route", "times"}), "times is of a shuttle; rooms take loop");
+  if (route.shuttle && route.loop != unset.loop)
+    throw InputError(mark_at(tree, {"route", "loop"}), "loop is of rooms; a shuttle takes times");
+  if (route.storeys != unset.storeys && (route.shuttle || route.random || route.rooms != unset.rooms))
+    throw InputError(mark_at(tree, {"route", "storeys"}), "storeys is of `rooms: all`; this route names its rooms");
+}
+
 void check_route_and_start(const Scenario& scenario, const Tree& tree) {
   if (scenario.start.room && scenario.start.at)
     throw InputError(mark_at(tree, {"start"}), "start takes either a room or a point `at`, not both");
@@ -54,6 +65,7 @@ void check_route_and_start(const Scenario& scenario, const Tree& tree) {
     throw InputError(mark_at(tree, {"route", "random"}), "a drawn route takes neither rooms nor shuttle");
   if (names_rooms && scenario.route.rooms.empty() && !scenario.route.shuttle)
     throw InputError(mark_at(tree, {"route", "rooms"}), "names no room; name rooms to walk to, or all");
+  check_route_counts(scenario.route, tree);
 }
 
 void check_kidnap(const Scenario& scenario, const Tree& tree) {
@@ -84,12 +96,19 @@ void check_pushes(const PushesSpec& pushes, const Tree& tree) {
 
 }  // namespace
 
+void check_name(const std::string& name, const Mark& mark) {
+  if (name.size() > longest_name)
+    throw InputError(mark, "a name of " + std::to_string(name.size()) + " letters; it may have at most " +
+                               std::to_string(longest_name));
+}
+
 ScenarioText read_scenario(std::string_view text, const std::string& file) {
   Tree tree = read_yaml(text, file);
   if (!tree.is_map() || tree.as_map().empty() || tree.as_map().front().first != "scenario")
     throw InputError({file, 1, 1}, "the first key of a scenario must be 'scenario: 1'");
   tree = with_room_list(std::move(tree));
   ScenarioText result{from_tree<Scenario>(tree), tree};
+  check_name(result.scenario.name, mark_at(tree, {"name"}));
   check_gates(result.scenario, tree);
   check_route_and_start(result.scenario, tree);
   check_pushes(result.scenario.pushes, tree);

@@ -289,6 +289,10 @@ struct ScenarioText {
 /// Reads and checks the form of a scenario (keys, types, ranges, gates); what needs the building is checked by
 /// resolve(). Throws InputError.
 [[nodiscard]] ScenarioText read_scenario(std::string_view text, const std::string& file);
+/// Names of scenarios and sweeps become folders, which the system lets have 255 letters.
+inline constexpr std::size_t longest_name = 100;
+/// Throws InputError at the mark.
+void check_name(const std::string& name, const Mark& mark);
 [[nodiscard]] std::string write_scenario(const Scenario& scenario);
 /// Mark of a nested value ("route", "rooms"); of the innermost that exists where some are missing.
 [[nodiscard]] Mark mark_at(const Tree& tree, std::initializer_list<std::string_view> path);

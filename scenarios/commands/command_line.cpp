@@ -115,6 +115,22 @@ std::string Argument::name() const { return "--" + option_->get_lnames().front()
 
 bool Argument::given() const { return option_->count() > 0; }
 
+namespace {
+
+/// Help of a command that is followed by one of its own.
+class OneOf : public CLI::Formatter {
+ public:
+  explicit OneOf(std::string what) : what_(std::move(what)) {}
+  std::string make_usage(const CLI::App* /*app*/, std::string name) const override {
+    return "Usage: " + name + " " + what_ + " [OPTIONS]\n";
+  }
+
+ private:
+  std::string what_;
+};
+
+}  // namespace
+
 CommandLine::CommandLine(const std::string& summary, const std::string& name)
     : app_(std::make_shared<CLI::App>(summary, name)) {}
 
@@ -159,8 +175,9 @@ void CommandLine::footer(const std::string& text) { app_->footer(text); }
 
 void CommandLine::needs_command() { app_->require_subcommand(1); }
 
-void CommandLine::takes_command_or_any() {
+void CommandLine::takes_command_or_any(const std::string& what) {
   app_->require_subcommand(0, 1);
+  app_->formatter(std::make_shared<OneOf>(what));
   app_->allow_extras();
 }
 

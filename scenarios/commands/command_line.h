@@ -58,8 +58,8 @@ class CommandLine {
   void version(const std::string& text);
   void footer(const std::string& text);
   void needs_command();
-  /// At most one subcommand; what is none of them is left to the action to refuse.
-  void takes_command_or_any();
+  /// At most one subcommand, which the help calls so; what is none of them is left to the action to refuse.
+  void takes_command_or_any(const std::string& what);
 
   /// Reads the arguments after the program's name. False where help or version was asked for, which is then printed.
   /// Throws InputError.

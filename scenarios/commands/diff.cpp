@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <string>
 
@@ -14,6 +15,8 @@ namespace {
 
 DigestLog load(const std::string& dir) {
   const std::string path = dir + "/digests.csv";
+  if (!std::filesystem::exists(path))
+    throw InputError({dir, 0, 0}, "holds no digests.csv; name a directory that plumbline run or estimate wrote");
   return read_digests(read_text_file(path), path);
 }
 

@@ -136,7 +136,7 @@ Command add_generate(CommandLine& program) {
   for (const bim::FamilyRow& row : bim::families()) options->families.push_back(add_family(line, row, options));
   // An unknown name is told apart from the known ones by what the families say of it.
   line.option("FAMILY", options->unknown_family).hidden();
-  line.takes_command_or_any();
+  line.takes_command_or_any("FAMILY");
   line.footer(
       "Example: plumbline generate corridor --rooms 6 --feature door_shift --epsilon 0.1 -o corridor.plan.yaml\n"
       "plumbline generate FAMILY --help lists the sizes and features of a family.");

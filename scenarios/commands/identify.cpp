@@ -36,6 +36,8 @@ std::string page_path(const IdentifyOptions& options) {
   namespace fs = std::filesystem;
   if (options.out.empty()) return "";
   const bool page = fs::path(options.out).extension() == ".html";
+  if (!page && fs::path(options.out).has_extension() && !fs::is_directory(options.out))
+    throw InputError({options.out, 0, 0}, "must be a page (.html) or a directory");
   const std::string path = page ? options.out : options.out + "/identify.html";
   if (fs::exists(path) && !options.force) throw InputError({path, 0, 0}, "exists already; --force replaces it");
   return path;

@@ -11,6 +11,7 @@
 #include "scenarios/commands/process.h"
 #include "scenarios/run/interrupt.h"
 #include "scenarios/run/progress.h"
+#include "scenarios/run/run_files.h"
 #include "scenarios/run/runner.h"
 #include "slam/io/tum.h"
 
@@ -34,6 +35,7 @@ DigestLog cut(DigestLog log, const std::optional<double>& until_s) {
 }
 
 int replay(const ReplayArguments& options, slam::MethodTable table) {
+  check_run_directory(options.dir);
   const std::string path = options.dir + "/digests.csv";
   const DigestLog recorded = read_digests(read_text_file(path), path);
   const std::optional<double> until_s = options.until_option->given() ? std::optional(options.until_s) : std::nullopt;

@@ -156,11 +156,11 @@ RunDirectory::RunDirectory(const std::string& path, DirectoryKind kind, bool for
 
 void RunDirectory::create() {
   std::vector<std::string> missing;
-  for (fs::path p = fs::path(staging_); !p.empty() && !fs::exists(p); p = p.parent_path())
+  std::error_code error;
+  for (fs::path p = fs::path(staging_); !p.empty() && !fs::exists(p, error); p = p.parent_path())
     missing.push_back(p.string());
   std::reverse(missing.begin(), missing.end());
   for (const std::string& folder : missing) {
-    std::error_code error;
     if (!fs::create_directory(folder, error) && error) fail(path_, "cannot be created", error.value());
     created_.push_back(folder);
   }

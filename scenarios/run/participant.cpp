@@ -6,6 +6,7 @@
 
 #include "bim/digest/digest.h"
 #include "bim/errors.h"
+#include "slam/io/pose_check.h"
 #include "slam/io/stopwatch.h"
 
 namespace plumbline::scenarios {
@@ -45,6 +46,12 @@ std::uint64_t digest_of(const slam::Estimate& estimate) {
   for (const slam::FloorNode& floor : estimate.floors) digest.add(floor.id).add(floor.center_F).add(floor.plane_F);
   for (const Eigen::Vector3f& p : estimate.map_F) digest.add(Eigen::Vector3d(p.cast<double>()));
   return digest.value();
+}
+
+/// What could not be read back from the run's files is no answer.
+void check(const Pose& X_FR) {
+  if (!slam::plausible(X_FR))
+    throw InternalError("said a pose that is none: more than 100,000 km off, or its quaternion is not of norm 1");
 }
 
 class Estimator : public Participant {
@@ -114,6 +121,8 @@ void Participant::on_frame(const sim::WorldFrame& frame) {
 }
 
 void Participant::keep(const slam::Output& output) {
+  if (output.X_FR) check(*output.X_FR);
+  for (const slam::Hypothesis& hypothesis : output.hypotheses) check(hypothesis.X_WR);
   const auto log = [&](const std::string& stage, std::uint64_t digest) {
     record_.digests.push_back({last_stamp_, record_.name + "/" + stage, digest});
   };
@@ -145,7 +154,9 @@ MethodRecord Participant::finish() {
   if (!record_.crashed) {
     try {
       const slam::Stopwatch watch;
-      record_.estimate = estimate();
+      slam::Estimate answer = estimate();
+      for (const slam::StampedPose& pose : answer.trajectory) check(pose.X_FR);
+      record_.estimate = std::move(answer);
       if (!record_.times.empty()) add_time(record_.times, {"finish", watch.cpu_ms()});
       record_.digests.push_back({last_stamp_, record_.name + "/estimate", digest_of(record_.estimate)});
     } catch (const std::exception& error) {

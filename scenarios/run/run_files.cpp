@@ -84,8 +84,16 @@ void write_run_files(const std::string& dir, const ResolvedScenario& resolved, c
   if (!record.failure.empty()) write_file(dir + "/failure.txt", record.failure + "\n");
 }
 
-RunFiles read_run_files(const std::string& dir) {
+void check_run_directory(const std::string& dir) {
   if (!fs::is_directory(dir)) throw InputError({dir, 0, 0}, "no such directory; a run directory is expected");
+  for (const char* name : {"scenario.yaml", "digests.csv", "truth.tum", "truth_surface.ply"})
+    if (!fs::exists(dir + "/" + name))
+      throw InputError({dir, 0, 0}, "is no run directory, since it has no " + std::string(name) +
+                                        "; name one that plumbline run wrote");
+}
+
+RunFiles read_run_files(const std::string& dir) {
+  check_run_directory(dir);
   const auto path = [&](std::string_view name) { return dir + "/" + std::string(name); };
   RunFiles files;
   files.dir = dir;

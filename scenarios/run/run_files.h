@@ -29,6 +29,8 @@ struct RunFiles {
 /// EnvironmentError.
 void write_run_files(const std::string& dir, const ResolvedScenario& resolved, const RunRecord& record);
 
+/// Throws InputError on what is no run directory.
+void check_run_directory(const std::string& dir);
 /// Reads a run directory. Throws InputError at the file and line that is missing or damaged.
 [[nodiscard]] RunFiles read_run_files(const std::string& dir);
 

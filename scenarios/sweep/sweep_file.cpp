@@ -129,15 +129,18 @@ std::string file_name(const std::string& text) {
 }
 
 void check(const SweepFile& file, const Tree& tree, slam::MethodTable table) {
+  check_name(file.name, tree.find("name") != nullptr ? tree.find("name")->mark : tree.mark);
   if (file.scenarios.empty()) throw InputError(tree.find("scenarios")->mark, "names no scenario; it must name one");
   const std::size_t each =
       std::max<std::size_t>(file.variants.size(), 1) * std::max<std::size_t>(file.starts.size(), 1);
   if (file.scenarios.size() * each * static_cast<std::size_t>(file.seeds) > most_runs)
     throw InputError(tree.mark, "this would be more than " + std::to_string(most_runs) + " runs");
   std::set<std::string> names;
-  for (std::size_t i = 0; i < file.variants.size(); ++i)
+  for (std::size_t i = 0; i < file.variants.size(); ++i) {
+    check_name(file.variants[i].name, mark_of(tree, "variants", i));
     if (!names.insert(file_name(file.variants[i].name)).second)
       throw InputError(mark_of(tree, "variants", i), "a variant of this name stands there already");
+  }
   std::set<std::string> scenarios;
   for (std::size_t i = 0; i < file.scenarios.size(); ++i)
     if (!scenarios.insert(file_name(fs::path(file.scenarios[i]).stem().string())).second)
@@ -233,6 +236,7 @@ them. This page is what `plumbline sweep --schema` prints: it is made from the r
   which one that never converged counts as infinite, and the median error of all runs. `weak` are runs between: the last other place is nearly ruled out,
   or was too late to hold an answer for 5 s and 1 m; given are those that are right (`success` or `honest_ambiguity`) of
   them all. Of a SLAM method it has the share of `ok` and the median error.
+- Gates are for `run`: a sweep asks none, and its exit code is 0 whatever its table says.
 
 )md";
   std::vector<Tree> examples;

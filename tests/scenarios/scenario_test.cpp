@@ -147,6 +147,29 @@ TEST(Scenario, AKidnappedRobotIsSetDownSomewhereBeforeTheEnd) {
             "kidnap");
 }
 
+TEST(Scenario, CountsThatTheRouteHasNoUseForAreRefused) {
+  const auto route = [](const std::string& text) {
+    const std::string before(good);
+    const std::size_t at = before.find("route:");
+    return complaint(before.substr(0, at) + "route: " + text + before.substr(before.find('\n', at)));
+  };
+  EXPECT_EQ(route("{rooms: [hall], loop: 3}"), "none");
+  EXPECT_EQ(route("{shuttle: hall, times: 3}"), "none");
+  EXPECT_EQ(route("{rooms: all, storeys: all}"), "none");
+  EXPECT_NE(route("{rooms: [hall], times: 3}").find("s.yaml:6:31: times is of a shuttle"), std::string::npos);
+  EXPECT_NE(route("{shuttle: hall, loop: 3}").find("s.yaml:6:30: loop is of rooms"), std::string::npos);
+  for (const char* other : {"rooms: [hall]", "shuttle: hall", "random: 3"})
+    EXPECT_NE(route("{" + std::string(other) + ", storeys: all}").find("storeys is of `rooms: all`"), std::string::npos)
+        << other;
+}
+
+TEST(Scenario, NamesThatNoFolderCanHaveAreRefused) {
+  const std::string text = "scenario: 1\nname: ";
+  EXPECT_EQ(complaint(text + std::string(100, 'n') + "\nbuilding: b.ifc\n"), "none");
+  EXPECT_NE(complaint(text + std::string(500, 'n') + "\nbuilding: b.ifc\n").find("s.yaml:2:7: a name of 500 letters"),
+            std::string::npos);
+}
+
 TEST(Scenario, AShuttleIsReadAgainAsItIsWritten) {
   Scenario scenario;
   scenario.building = "two.plan.yaml";

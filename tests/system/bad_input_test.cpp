@@ -92,6 +92,8 @@ TEST_F(BadInput, ScenarioKeysAndValues) {
          {"short.yaml:12:", "unknown method 'vgcip'", "'vgicp'"});
   refuse(with(scenario_, "short.plan.yaml", "none.plan.yaml"), plan_, {"short.yaml:5:", "none.plan.yaml"});
   refuse(with(scenario_, "method: truth", "method: nobody"), plan_, {"short.yaml:14:", "nobody"});
+  write_file(folder_ / "short.yaml", with(scenario_, "method: vgicp", "method: vgipc"));
+  refuse_file("short.yaml", {"short.yaml:15:", "unknown method 'vgipc'", "'vgicp'"}, {"--method", "truth"});
   refuse(with(scenario_, "name: short", "name: caf\xe9"), plan_, {"short.yaml:4:10", "no UTF-8"});
 }
 
@@ -149,6 +151,14 @@ TEST_F(BadInput, CommandLine) {
   refuse_line({"identify", project_file("tests/system/short.plan.yaml"), "--step", "nan"}, "from 0.1 to 5");
   for (const char* until : {"-5", "0", "nan", "inf", "1e300"})
     refuse_line({"replay", folder_ / "nothing", "--until", until}, "a number above 0");
+  fs::create_directory(folder_ / "bare");
+  for (const char* command : {"score", "report", "replay"})
+    refuse_line({command, folder_ / "bare"}, "is no run directory, since it has no scenario.yaml");
+  refuse_line({"diff", folder_ / "bare", folder_ / "bare"}, "holds no digests.csv");
+  refuse_line({"identify", project_file("tests/system/short.plan.yaml"), "-o", folder_ / "h.txt"}, "must be a page");
+  const Outcome too_long = plumbline({"run", input, "--out", folder_ / std::string(300, 'n')});
+  EXPECT_EQ(too_long.code, 3);
+  EXPECT_TRUE(too_long.err.ends_with("n: cannot be created: File name too long\n")) << too_long.err;
   refuse_line({"score", folder_ / "nothing"});
   refuse_line({"report", folder_ / "nothing"});
   refuse_line({"replay", folder_ / "nothing"});
@@ -187,6 +197,8 @@ TEST(Help, EveryCommandShowsAnExample) {
     EXPECT_EQ(outcome.code, 0) << command;
     EXPECT_NE(outcome.out.find("Example: plumbline " + std::string(command)), std::string::npos) << outcome.out;
   }
+  EXPECT_NE(plumbline({"generate", "--help"}).out.find("Usage: plumbline generate FAMILY [OPTIONS]\n"),
+            std::string::npos);
   EXPECT_EQ(plumbline({"--version"}).out.rfind("plumbline ", 0), 0U);
 }
 

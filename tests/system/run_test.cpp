@@ -181,7 +181,7 @@ TEST_F(ShortRun, TrajectoriesThatCannotBeScoredAreRefusedAndNotKept) {
   write_file(*folder_ / "late.tum", "1700000000.1 0 0 0 0 0 0 1\n1700000000.2 1 0 0 0 0 0 1\n");
   refuse({"e=" + *folder_ / "late.tum"}, "1700000000.100000000 to 1700000000.200000000 s, the scans are of 0.1");
   write_file(*folder_ / "far.tum", "0.1 0 0 0 0 0 0 1\n0.2 1e160 0 0 0 0 0 1\n");
-  refuse({"e=" + *folder_ / "far.tum"}, "far.tum: its pose at 0.200000000 s lies more than 1e9 m off");
+  refuse({"e=" + *folder_ / "far.tum"}, "far.tum:2:1: a position's coordinates");
   refuse({"e=" + dir() + "/vgicp.tum", "e=" + dir() + "/truth.tum"}, "'e' is given twice");
   refuse({"e=" + dir() + "/vgicp.tum,frame=X"}, "'frame=X' must be frame=W");
   EXPECT_EQ(plumbline({"score", copy}).code, 0);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <stdexcept>
 #include <thread>
 
@@ -158,6 +159,45 @@ TEST(Pipeline, AMethodThatThrowsCrashesAlone) {
     EXPECT_FALSE(records[1].crashed);
     EXPECT_EQ(records[1].causal.size(), static_cast<std::size_t>(frames));
   }
+}
+
+TEST(Pipeline, AMethodWhosePosesCannotBeReadBackCrashes) {
+  struct Wild : Probe {
+    Pose X;
+    bool at_the_end = false;
+    slam::Output on_scan(const slam::Scan& scan) override {
+      slam::Output output = Probe::on_scan(scan);
+      if (count == 7 && !at_the_end) output.X_FR = X;
+      return output;
+    }
+    slam::Estimate finish() override {
+      slam::Estimate estimate;
+      if (at_the_end) estimate.trajectory = {{0, X}};
+      return estimate;
+    }
+  };
+  const Pose far = Pose::from_xyz_yaw({2e8, 0, 0}, 0);
+  Pose stretched, unknown;
+  stretched.q.coeffs() *= 1.1;
+  unknown.t.y() = std::nan("");
+  for (const Pose& X : {far, stretched, unknown})
+    for (const bool at_the_end : {false, true}) {
+      slam::MethodRow row;
+      row.name = "wild";
+      row.make = [&](const slam::MethodInput&) {
+        auto method = std::make_unique<Wild>();
+        method->X = X;
+        method->at_the_end = at_the_end;
+        return method;
+      };
+      std::vector<std::unique_ptr<Participant>> participants;
+      participants.push_back(make_estimator(row, {}));
+      const auto records = run_pipeline(small_source(), [](const auto&) {}, std::move(participants), {.threads = 1});
+      EXPECT_TRUE(records[0].crashed);
+      EXPECT_NE(records[0].error.find("a pose that is none"), std::string::npos) << records[0].error;
+      EXPECT_EQ(records[0].causal.size(), at_the_end ? static_cast<std::size_t>(frames) : 6U);
+      EXPECT_TRUE(records[0].estimate.trajectory.empty());
+    }
 }
 
 TEST(Pipeline, AMethodThatCannotStartCrashes) {
