@@ -47,7 +47,7 @@ std::string legend() {
   };
   return "<div class=\"key\">" + item(green, "one look suffices") + item(ambers[0], "a walk of up to 2 m does") +
          item(ambers[1], "up to 5 m") + item(ambers[2], "up to 10 m") + item(ambers[3], "further") +
-         item(red, "no walk on the storey does") + "</div>";
+         item(red, "no walk on the storey does") + item("#c3cbd6", "what stands there") + "</div>";
 }
 
 std::string percent(int part, int whole) { return whole == 0 ? "–" : svg::number(100.0 * part / whole, 1) + " %"; }

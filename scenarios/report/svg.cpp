@@ -59,8 +59,9 @@ std::string polyline(const std::vector<Eigen::Vector2d>& p, const std::string& a
   return "<polyline points=\"" + points(p) + "\" " + attributes + "/>";
 }
 
-std::string polygon(const Polygon2& p, const std::string& attributes) {
-  return "<polygon points=\"" + points(p) + "\" " + attributes + "/>";
+std::string polygon(const Polygon2& p, const std::string& attributes, const std::string& title) {
+  const std::string open = "<polygon points=\"" + points(p) + "\" " + attributes;
+  return title.empty() ? open + "/>" : open + "><title>" + escape(title) + "</title></polygon>";
 }
 
 std::string line(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const std::string& attributes) {

@@ -17,7 +17,7 @@ namespace plumbline::scenarios::svg {
 /// "x,y x,y ..." with y pointing up on the page.
 [[nodiscard]] std::string points(const std::vector<Eigen::Vector2d>& p, int decimals = 3);
 [[nodiscard]] std::string polyline(const std::vector<Eigen::Vector2d>& p, const std::string& attributes);
-[[nodiscard]] std::string polygon(const Polygon2& p, const std::string& attributes);
+[[nodiscard]] std::string polygon(const Polygon2& p, const std::string& attributes, const std::string& title = "");
 [[nodiscard]] std::string line(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const std::string& attributes);
 [[nodiscard]] std::string circle(const Eigen::Vector2d& center, double radius, const std::string& attributes);
 [[nodiscard]] std::string text(const Eigen::Vector2d& at, std::string_view content, const std::string& attributes);

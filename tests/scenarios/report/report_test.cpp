@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <tuple>
+
 #include "scenarios/report/plot.h"
 #include "scenarios/report/svg.h"
 
@@ -63,6 +65,21 @@ TEST(Report, LeavesDoorsOpenInWalls) {
   const std::string map =
       page.substr(page.find("<svg class=\"map\""), page.find("</svg>") - page.find("<svg class=\"map\""));
   EXPECT_EQ(count(map, "class=\"wall\""), 2U);
+}
+
+TEST(Report, DrawsWhatStandsOnTheFloor) {
+  ReportInput input = sample();
+  input.plan.storeys = {{"ground", 2.0, 3.0}};
+  const Polygon2 square = {{1.0, 1.0}, {2.0, 1.0}, {2.0, 2.0}, {1.0, 2.0}};
+  for (const auto& [id, z0, z1] : {std::tuple{"desk <1>", 2.0, 2.8}, {"rug", 2.0, 2.02}, {"lamp", 4.0, 4.5}})
+    input.plan.solids.push_back({id, 0, square, z0, z1});
+  input.plan.solids.push_back({"upstairs", 1, square, 2.0, 2.8});
+  input.plan.storeys.push_back({"upper", 5.0, 3.0});
+  const std::string page = render_report(input);
+  const std::string outline = "<polygon points=\"1,-1 2,-1 2,-2 1,-2\"";
+  const std::size_t maps = count(page, "<svg class=\"map\"");
+  EXPECT_EQ(count(page, outline + " class=\"thing\"><title>desk &lt;1&gt;</title>"), maps);
+  EXPECT_EQ(count(page, outline), maps);
 }
 
 TEST(Report, DrawsTheMapOfEveryStoreyWithThePathOnIt) {
