@@ -89,8 +89,27 @@ void check_stamps(const std::string& text, const MethodRecord& method, const Run
                                              ", the scans are of " + span(files.scans.front(), files.scans.back()));
 }
 
-int score_again(const std::string& dir, const std::vector<std::string>& estimates) {
+/// Only outside estimates can be dropped: the run's own cannot be had again without a run.
+void check_dropped(const std::vector<std::string>& dropped, const RunFiles& files) {
+  const Mark mark{"--drop", 0, 0};
+  const auto& own = files.scenario.methods;
+  std::vector<std::string> outside;
+  for (const MethodRecord& method : files.methods)
+    if (std::find(own.begin(), own.end(), method.name) == own.end()) outside.push_back(method.name);
+  for (const std::string& name : dropped) {
+    if (std::find(own.begin(), own.end(), name) != own.end())
+      throw InputError(mark, "'" + name + "' is a method of this run; only outside estimates can be dropped");
+    if (std::find(outside.begin(), outside.end(), name) != outside.end()) continue;
+    const std::string close = did_you_mean(name, outside);
+    throw InputError(
+        mark, "there is no outside estimate '" + name + "'" + (close.empty() ? "" : "; did you mean '" + close + "'?"));
+  }
+}
+
+int score_again(const std::string& dir, const std::vector<std::string>& estimates,
+                const std::vector<std::string>& dropped) {
   RunFiles files = read_run_files(dir);
+  check_dropped(dropped, files);
   std::vector<MethodRecord> outside;
   for (const std::string& text : estimates) {
     MethodRecord read = read_outside(text, files);
@@ -104,8 +123,9 @@ int score_again(const std::string& dir, const std::vector<std::string>& estimate
       throw InputError({"--estimate", 0, 0},
                        "'" + outside.back().name + "' is a method of this run; give another name");
   }
+  for (const std::string& name : dropped) remove_method(dir, name);
   for (const MethodRecord& method : outside) write_method(dir, method);
-  if (!outside.empty()) files = read_run_files(dir);
+  if (!outside.empty() || !dropped.empty()) files = read_run_files(dir);
   const score::RunScore score = score_and_report(files);
   std::fputs(("report: " + dir + "/report.html\n" + summarise(files, score)).c_str(), stdout);
   return exit_code(files, score);
@@ -117,6 +137,7 @@ Command add_score(CommandLine& program) {
   struct Options {
     std::string dir;
     std::vector<std::string> estimates;
+    std::vector<std::string> dropped;
   };
   const auto options = std::make_shared<Options>();
   CommandLine line = program.add_command("score", "Scores a run again from what is on disk, with outside estimates");
@@ -124,10 +145,11 @@ Command add_score(CommandLine& program) {
   line.option("--estimate", options->estimates,
               "NAME=trajectory.tum[,frame=W|M]: poses of the robot in the plan's frame W or its own M [M]; or "
               "NAME=directory that plumbline estimate wrote, of the run's recording");
+  line.option("--drop", options->dropped, "outside estimates of this name, which were given before");
   line.footer(
       "Example: plumbline score runs/quickstart-1 --estimate kiss=kiss.tum --estimate amcl=amcl.tum,frame=W\n"
       "         plumbline score runs/quickstart-1 --estimate paper=estimates/paper");
-  return {line, [options] { return score_again(options->dir, options->estimates); }};
+  return {line, [options] { return score_again(options->dir, options->estimates, options->dropped); }};
 }
 
 }  // namespace plumbline::scenarios

@@ -2,6 +2,7 @@
 #include "scenarios/run/run_files.h"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 
 #include "scenarios/run/cloud_file.h"
@@ -17,6 +18,8 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::string_view estimate_end = ".estimate.json";
+/// Of what a method may leave besides estimate and trajectories.
+constexpr std::array<const char*, 4> other_ends = {".map.ply", ".map.pcd", ".graph.json", ".hypotheses.jsonl"};
 
 /// The scenario's methods in its order, then every other method with an estimate here, by name.
 std::vector<std::string> method_names_in(const std::string& dir, const Scenario& scenario) {
@@ -35,14 +38,20 @@ void write_method(const std::string& dir, const MethodRecord& method) {
   if (method.name == truth_method) return;  // truth.tum and truth_surface.ply hold what it knows
   write_file(stem + ".tum", slam::write_tum(method.causal));
   write_file(stem + ".final.tum", slam::write_tum(method.estimate.trajectory));
-  for (const char* end : {".map.ply", ".map.pcd", ".graph.json", ".hypotheses.jsonl"})
-    fs::remove(stem + end);  // of an estimate that had this name before
+  for (const char* end : other_ends) fs::remove(stem + end);  // of an estimate that had this name before
   if (!method.estimate.map_F.empty()) {
     write_file(stem + ".map.ply", write_ply(method.estimate.map_F));
     write_file(stem + ".map.pcd", write_pcd(method.estimate.map_F));
   }
   if (!method.estimate.graph.is_null()) write_file(stem + ".graph.json", write_json(method.estimate.graph, 0) + "\n");
   if (method.localization) write_file(stem + ".hypotheses.jsonl", write_beliefs(method.beliefs));
+}
+
+void remove_method(const std::string& dir, const std::string& name) {
+  const std::string stem = dir + "/" + name;
+  fs::remove(stem + std::string(estimate_end));  // first: without it the others are nobody's
+  for (const char* end : {".tum", ".final.tum"}) fs::remove(stem + end);
+  for (const char* end : other_ends) fs::remove(stem + end);
 }
 
 MethodRecord read_method(const std::string& dir, const std::string& name) {

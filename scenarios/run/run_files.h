@@ -36,6 +36,8 @@ void check_run_directory(const std::string& dir);
 
 /// Writes the files of one method.
 void write_method(const std::string& dir, const MethodRecord& method);
+/// Removes them.
+void remove_method(const std::string& dir, const std::string& name);
 /// Reads them. Throws InputError.
 [[nodiscard]] MethodRecord read_method(const std::string& dir, const std::string& name);
 /// Methods with an estimate in `dir`, by name.

@@ -221,6 +221,25 @@ TEST_F(ShortRun, AnEstimateGivenAgainReplacesTheOneOfItsName) {
   EXPECT_FALSE(nlohmann::json::parse(read_file(copy + "/results.json"))["methods"]["e"].contains("map_rmse_m"));
 }
 
+TEST_F(ShortRun, AnOutsideEstimateIsDroppedWithAllItsFiles) {
+  const std::string copy = *folder_ / "dropping";
+  fs::copy(dir(), copy, fs::copy_options::recursive);
+  const std::string results = read_file(copy + "/results.json"), page = read_file(copy + "/report.html");
+  ASSERT_EQ(plumbline({"score", copy, "--estimate", "e=" + dir() + "/vgicp.tum"}).code, 0);
+  ASSERT_FALSE(read_file(copy + "/results.json") == results);
+  for (const auto& [name, words] : {std::pair{"vgicp", "only outside estimates can be dropped"},
+                                    std::pair{"f", "there is no outside estimate 'f'"}}) {
+    const Outcome refused = plumbline({"score", copy, "--drop", name});
+    EXPECT_EQ(refused.code, 2);
+    EXPECT_NE(refused.err.find(words), std::string::npos) << refused.err;
+  }
+  ASSERT_EQ(plumbline({"score", copy, "--drop", "e"}).code, 0);
+  EXPECT_TRUE(read_file(copy + "/results.json") == results);
+  EXPECT_TRUE(read_file(copy + "/report.html") == page);
+  for (const fs::directory_entry& entry : fs::directory_iterator(copy))
+    EXPECT_NE(entry.path().filename().string().rfind("e.", 0), 0U) << entry.path();
+}
+
 TEST_F(ShortRun, AnotherSeedGivesAnotherRun) {
   const std::string other = *folder_ / "seed";
   ASSERT_EQ(plumbline({"run", input(), "--out", other, "--seed", "4", "--method", "truth"}).code, 0);
