@@ -66,6 +66,7 @@ class ConditionPage {
   ConditionPage(const bim::Site& site, const BuildingMap& map, bool compass)
       : site_(site), map_(map), compass_(compass) {
     input_.plan = bim::make_plan(site.as_planned);
+    input_.things = things_of(site.as_planned);
     for (const Floor& floor : map.floors) input_.storeys.push_back({static_cast<int>(floor.storey), "", {}});
   }
 

@@ -2,7 +2,9 @@
 #include "scenarios/report/deviations.h"
 
 #include <algorithm>
+#include <utility>
 
+#include "bim/building/hull.h"
 #include "bim/building/wall_face.h"
 #include "scenarios/report/svg.h"
 
@@ -32,28 +34,11 @@ Polygon2 outline_of(const bim::Opening& opening, const bim::Wall& wall) {
   return {p + near, q + near, q + far, p + far};
 }
 
-/// Convex hull of a solid's corners on the ground, counter-clockwise.
+/// Convex hull of a solid's corners on the ground.
 Polygon2 hull_of(const bim::Solid& solid) {
   Polygon2 points;
   for (const Eigen::Vector3d& p : solid.vertices) points.emplace_back(p.head<2>());
-  std::sort(points.begin(), points.end(), [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-    return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();
-  });
-  Polygon2 hull;
-  const auto extend = [&](const Eigen::Vector2d& p, std::size_t from) {
-    const auto bends_right = [&] {
-      const Eigen::Vector2d u = hull.back() - hull[hull.size() - 2], v = p - hull.back();
-      return u.x() * v.y() - u.y() * v.x() <= 0.0;
-    };
-    while (hull.size() > from && bends_right()) hull.pop_back();
-    hull.push_back(p);
-  };
-  for (const Eigen::Vector2d& p : points) extend(p, 1);
-  const std::size_t lower = hull.size();
-  for (auto p = points.rbegin(); p != points.rend(); ++p)
-    if (p != points.rbegin()) extend(*p, lower);
-  if (hull.size() > 1) hull.pop_back();
-  return hull;
+  return bim::convex_hull(std::move(points));
 }
 
 Outline outline_in(const bim::Building& building, const std::string& id) {

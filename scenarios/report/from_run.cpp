@@ -157,6 +157,7 @@ ReportInput report_input(const RunFiles& files, const score::RunScore& score) {
   ReportInput input;
   input.results = read_json(score::write_results(files, score), "results.json");
   input.plan = score.as_built;
+  input.things = things_of(files.site.as_built);
   const std::vector<bim::Room>& rooms = files.site.as_built.rooms;
   for (bim::PlanRoom& room : input.plan.rooms) {
     const auto named =

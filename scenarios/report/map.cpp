@@ -40,13 +40,6 @@ std::string face_strokes(const bim::PlanFace& face) {
   return out;
 }
 
-/// Of what lies on the floor or hangs above the robot nothing is drawn.
-bool stands_in_the_way(const bim::Plan& plan, const bim::PlanSolid& solid) {
-  constexpr double stepped_over_m = 0.05, walked_under_m = 1.0;
-  const double floor = plan.storeys[static_cast<std::size_t>(solid.storey)].elevation_m;
-  return solid.z1 > floor + stepped_over_m && solid.z0 < floor + walked_under_m;
-}
-
 bool is_shown(const ReportInput& input, int storey) {
   return std::any_of(input.storeys.begin(), input.storeys.end(),
                      [&](const ReportStorey& shown) { return shown.index == storey; });
@@ -162,9 +155,9 @@ MapBox bounds(const ReportInput& input) {
     box.add(face.p0);
     box.add(face.p1);
   }
-  for (const auto& solid : input.plan.solids)  // of a mesh there are no faces
-    if (input.plan.faces.empty() && is_shown(input, solid.storey) && stands_in_the_way(input.plan, solid))
-      for (const auto& p : solid.outline) box.add(p);
+  for (const ReportThing& thing : input.things)  // of a mesh there are no faces
+    if (input.plan.faces.empty() && is_shown(input, thing.storey))
+      for (const auto& p : thing.outline_W) box.add(p);
   for (const auto& sample : input.truth) box.add({sample.x, sample.y});
   const Eigen::Vector2d margin = Eigen::Vector2d::Constant(0.5);
   return {box.min - margin, box.max + margin};
@@ -183,9 +176,9 @@ std::string draw_plan(const ReportInput& input, int storey) {
     if (room.storey == storey) out += svg::polygon(room.polygon, "class=\"room\"");
   for (const auto& face : input.plan.faces)
     if (face.storey == storey) out += face_strokes(face);
-  for (const auto& solid : input.plan.solids)
-    if (solid.storey == storey && stands_in_the_way(input.plan, solid))
-      out += svg::polygon(solid.outline, "class=\"thing\"", solid.id);
+  for (const ReportThing& thing : input.things)
+    if (thing.storey == storey)
+      out += svg::polygon(thing.outline_W, thing.filled ? "class=\"thing\"" : "class=\"thing hull\"", thing.id);
   return out;
 }
 
@@ -202,7 +195,7 @@ std::string map_key() {
   };
   return "<div class=\"key\">" + item("stroke=\"#39424e\" stroke-width=\"3\"", "wall of the building") +
          "<span><svg viewBox=\"0 0 34 10\"><rect class=\"thing\" x=\"9\" y=\"1\" width=\"16\" height=\"8\"/></svg>"
-         "what else stands there, as columns and furniture</span>" +
+         "what else stands there: columns, furniture (dashed: with gaps)</span>" +
          item("stroke=\"#111\" stroke-width=\"2\" stroke-dasharray=\"5 4\"", "where the robot truly walked") +
          item("stroke=\"#0072b2\" stroke-width=\"2\"", "where a method says it walked (its colour)") +
          item("stroke=\"#0072b2\" stroke-width=\"4\" stroke-opacity=\".8\"", "wall a method found") +

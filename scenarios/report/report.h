@@ -9,6 +9,7 @@
 #include "bim/building/plan.h"
 #include "bim/config/tree.h"
 #include "scenarios/report/deviations.h"
+#include "scenarios/report/things.h"
 #include "slam/io/estimate.h"
 
 namespace plumbline::scenarios {
@@ -112,6 +113,7 @@ struct ReportKidnap {
 struct ReportInput {
   Tree results;
   bim::Plan plan;
+  std::vector<ReportThing> things;
   std::vector<ReportStorey> storeys;  ///< those the robot was on, from the lowest up; at least one
   std::vector<ReportSample> truth;
   std::vector<ReportMethod> methods;

@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <tuple>
-
 #include "scenarios/report/plot.h"
 #include "scenarios/report/svg.h"
 
@@ -69,17 +67,14 @@ TEST(Report, LeavesDoorsOpenInWalls) {
 
 TEST(Report, DrawsWhatStandsOnTheFloor) {
   ReportInput input = sample();
-  input.plan.storeys = {{"ground", 2.0, 3.0}};
   const Polygon2 square = {{1.0, 1.0}, {2.0, 1.0}, {2.0, 2.0}, {1.0, 2.0}};
-  for (const auto& [id, z0, z1] : {std::tuple{"desk <1>", 2.0, 2.8}, {"rug", 2.0, 2.02}, {"lamp", 4.0, 4.5}})
-    input.plan.solids.push_back({id, 0, square, z0, z1});
-  input.plan.solids.push_back({"upstairs", 1, square, 2.0, 2.8});
-  input.plan.storeys.push_back({"upper", 5.0, 3.0});
+  input.things = {{"desk <1>", 0, square, true}, {"table", 0, square, false}, {"upstairs", 1, square, true}};
   const std::string page = render_report(input);
-  const std::string outline = "<polygon points=\"1,-1 2,-1 2,-2 1,-2\"";
+  const std::string outline = "<polygon points=\"1,-1 2,-1 2,-2 1,-2\" class=\"";
   const std::size_t maps = count(page, "<svg class=\"map\"");
-  EXPECT_EQ(count(page, outline + " class=\"thing\"><title>desk &lt;1&gt;</title>"), maps);
-  EXPECT_EQ(count(page, outline), maps);
+  EXPECT_EQ(count(page, outline + "thing\"><title>desk &lt;1&gt;</title>"), maps);
+  EXPECT_EQ(count(page, outline + "thing hull\"><title>table</title>"), maps);
+  EXPECT_EQ(count(page, outline), 2 * maps);
 }
 
 TEST(Report, DrawsTheMapOfEveryStoreyWithThePathOnIt) {
