@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <utility>
 
+#include "bim/building/hull.h"
 #include "bim/mesh/solid.h"
 
 namespace plumbline::sim {
@@ -160,6 +162,25 @@ Blockage wall_blockage(const bim::Building& building, int index, double floor_z,
 }
 
 }  // namespace
+
+std::vector<Polygon2> hollow_things(const bim::Building& building, double floor_z, const RouteConfig& config) {
+  const Band band{floor_z + config.band_low_m, floor_z + config.band_high_m};
+  std::vector<Polygon2> hulls;
+  for (const bim::Obstacle& obstacle : building.obstacles) {
+    Polygon2 corners;
+    double z0 = band.high, z1 = band.low;
+    for (const Eigen::Vector3d& p : obstacle.body.vertices) {
+      corners.emplace_back(p.head<2>());
+      z0 = std::min(z0, p.z());
+      z1 = std::max(z1, p.z());
+    }
+    if (!band.meets(z0, z1)) continue;
+    Polygon2 hull = bim::convex_hull(std::move(corners));
+    if (hull.empty() || signed_area(hull) > config.thing_max_m2 || has_inside(obstacle.body, config.weld_m)) continue;
+    hulls.push_back(std::move(hull));
+  }
+  return hulls;
+}
 
 std::vector<Blockage> find_blockages(const bim::Building& building, double floor_z, const RouteConfig& config) {
   const Band band{floor_z + config.band_low_m, floor_z + config.band_high_m};

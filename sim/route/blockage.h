@@ -38,4 +38,8 @@ struct Blockage {
 [[nodiscard]] std::vector<Blockage> find_blockages(const bim::Building& building, double floor_z,
                                                    const RouteConfig& config);
 
+/// Convex outlines of furniture that stands in the way with its surface alone, up to RouteConfig::thing_max_m2.
+[[nodiscard]] std::vector<Polygon2> hollow_things(const bim::Building& building, double floor_z,
+                                                  const RouteConfig& config);
+
 }  // namespace plumbline::sim

@@ -49,6 +49,23 @@ FreeSpace::FreeSpace(const bim::Building& as_built, int storey, const RouteConfi
   grid_ = make_grid(as_built, storey, config.cell_m);
   clearance_ =
       clearances(grid_, find_blockages(as_built, floor_z, config), floor_cells(as_built, storey, grid_, config));
+  close_pockets(hollow_things(as_built, floor_z, config));
+}
+
+void FreeSpace::close_pockets(const std::vector<Polygon2>& hollow_things) {
+  if (hollow_things.empty()) return;
+  const double cells_max = config_.thing_max_m2 / (config_.cell_m * config_.cell_m);
+  std::vector<char> seen(grid_.size(), 0);
+  for (std::size_t cell = 0; cell < clearance_.size(); ++cell) {
+    if (seen[cell] != 0 || !passable(cell)) continue;
+    const std::vector<std::size_t> cells = region(cell, seen);
+    if (static_cast<double>(cells.size()) > cells_max) continue;
+    const bool shut_in = std::any_of(hollow_things.begin(), hollow_things.end(), [&](const Polygon2& hull) {
+      return std::all_of(cells.begin(), cells.end(), [&](std::size_t c) { return contains(hull, grid_.center(c)); });
+    });
+    if (!shut_in) continue;
+    for (const std::size_t c : cells) clearance_[c] = 0.0;
+  }
 }
 
 double FreeSpace::clearance(const Eigen::Vector2d& p) const {

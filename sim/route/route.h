@@ -23,6 +23,7 @@ struct RouteConfig {
   double shortcut_m = 0.6;      ///< straight lines pass walls nearer than this only where the way around did too
   double crowding = 3.0;        ///< a metre at `radius` clearance counts as 1 + this many at `comfort`
   double floor_below_m = 0.35;  ///< a slab's top this far below the storey (floor covering) still carries it
+  double thing_max_m2 = 10.0;   ///< no piece of furniture is larger, seen from above
   double weld_m = 1e-5;         ///< vertices this close are one where it is asked whether a solid is closed
   double floor_gap_m = 0.3;     ///< gaps in the floor up to twice this (between slabs, under walls) are stepped over
 };
@@ -58,6 +59,8 @@ class FreeSpace {
   }
   /// Cost of a tenth of a cell walked in a cell.
   [[nodiscard]] std::int64_t step_cost(std::size_t cell) const;
+  /// Nobody stands inside furniture: takes away floor that hollow things shut in.
+  void close_pockets(const std::vector<Polygon2>& hollow_things);
   /// Cells that can be walked to from this one, in the order found; marks them.
   [[nodiscard]] std::vector<std::size_t> region(std::size_t from, std::vector<char>& seen) const;
   [[nodiscard]] std::vector<std::size_t> search(std::size_t from, std::size_t to) const;

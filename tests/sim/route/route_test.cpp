@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "bim/random/stream.h"
 #include "tests/sim/route/floor_plan.h"
@@ -136,6 +138,33 @@ TEST(FreeSpace, BigSolidsAreNotFreeInside) {
   const FreeSpace space(building, 0);
   EXPECT_EQ(space.clearance(west), 0.0);
   EXPECT_TRUE(space.path(west, {0.5, 2.5}).empty());
+}
+
+TEST(FreeSpace, NobodyStandsInsideHollowFurniture) {
+  for (const bool open : {false, true}) {
+    bim::Building building = two_rooms();
+    add_obstacle(building, rectangle({1.0, 1.5}, {3.0, 3.5}), 0.0, 2.0);
+    bim::Solid& cupboard = building.obstacles.back().body;
+    // Without its underside it has no inside; without a door's side one walks in.
+    std::erase_if(cupboard.triangles, [&](const Eigen::Vector3i& t) {
+      Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+      for (const int k : t) middle += cupboard.vertices[static_cast<std::size_t>(k)] / 3.0;
+      return middle.z() == 0.0 || (open && middle.x() == 3.0);
+    });
+    const FreeSpace space(building, 0);
+    EXPECT_EQ(space.clearance(west) > 0.5, open);
+    EXPECT_EQ(space.path({3.45, 2.5}, west).empty(), !open);
+    EXPECT_TRUE(space.free(east));
+  }
+  // A shell as large as a room is one, with or without a way in.
+  bim::Building building = two_rooms();
+  add_obstacle(building, rectangle({4.2, 0.2}, {7.8, 4.8}), 0.0, 2.0);
+  std::erase_if(building.obstacles.back().body.triangles, [&](const Eigen::Vector3i& t) {
+    const auto& v = building.obstacles.back().body.vertices;
+    return std::ranges::all_of(std::vector<int>{t[0], t[1], t[2]},
+                               [&](int k) { return v[static_cast<std::size_t>(k)].z() == 0.0; });
+  });
+  EXPECT_TRUE(FreeSpace(building, 0).free(east));
 }
 
 TEST(FreeSpace, HolesInTheFloorAreWalkedAround) {
