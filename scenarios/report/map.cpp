@@ -19,7 +19,9 @@ constexpr std::array<std::string_view, 12> colours = {"#0072b2", "#d55e00", "#00
                                                       "#6a3d9a", "#8c3d00", "#00d4a0", "#ff5fa2", "#6b6b00", "#7f7f7f"};
 
 /// Wall segments of a face without its openings, as strokes.
-std::string face_strokes(const bim::PlanFace& face) {
+std::string face_strokes(const bim::PlanFace& face, double floor_z) {
+  constexpr double walked_under_m = 1.8;
+  const bool high = face.z0 > floor_z + walked_under_m;
   const double length = (face.p1 - face.p0).norm();
   if (length <= 0.0) return "";
   const Eigen::Vector2d e = (face.p1 - face.p0) / length;
@@ -30,7 +32,7 @@ std::string face_strokes(const bim::PlanFace& face) {
   std::string out;
   double s = 0.0;
   const auto stroke = [&](double s0, double s1) {
-    if (s1 > s0) out += svg::line(face.p0 + s0 * e, face.p0 + s1 * e, "class=\"wall\"");
+    if (s1 > s0) out += svg::line(face.p0 + s0 * e, face.p0 + s1 * e, high ? "class=\"wall high\"" : "class=\"wall\"");
   };
   for (const auto& [s0, s1] : gaps) {
     stroke(s, s0);
@@ -171,11 +173,12 @@ std::string open_map(const MapBox& box, const std::string& label) {
 }
 
 std::string draw_plan(const ReportInput& input, int storey) {
+  const double floor_z = input.plan.storeys.at(static_cast<std::size_t>(storey)).elevation_m;
   std::string out;
   for (const auto& room : input.plan.rooms)
     if (room.storey == storey) out += svg::polygon(room.polygon, "class=\"room\"");
   for (const auto& face : input.plan.faces)
-    if (face.storey == storey) out += face_strokes(face);
+    if (face.storey == storey) out += face_strokes(face, floor_z);
   for (const ReportThing& thing : input.things)
     if (thing.storey == storey)
       out += svg::polygon(thing.outline_W, thing.filled ? "class=\"thing\"" : "class=\"thing hull\"", thing.id);
@@ -193,7 +196,8 @@ std::string map_key() {
     return "<span><svg viewBox=\"0 0 34 10\"><line x1=\"1\" y1=\"5\" x2=\"33\" y2=\"5\" " + stroke + "/></svg>" +
            label + "</span>";
   };
-  return "<div class=\"key\">" + item("stroke=\"#39424e\" stroke-width=\"3\"", "wall of the building") +
+  return "<div class=\"key\">" +
+         item("stroke=\"#39424e\" stroke-width=\"3\"", "wall of the building (faint: overhead)") +
          "<span><svg viewBox=\"0 0 34 10\"><rect class=\"thing\" x=\"9\" y=\"1\" width=\"16\" height=\"8\"/></svg>"
          "what else stands there: columns, furniture (dashed: with gaps)</span>" +
          item("stroke=\"#111\" stroke-width=\"2\" stroke-dasharray=\"5 4\"", "where the robot truly walked") +

@@ -30,6 +30,7 @@ svg{display:block;width:100%;height:auto}
 .wall{stroke:var(--wall);stroke-width:.07;stroke-linecap:square}
 .thing{fill:#c3cbd6;fill-opacity:.7;stroke:var(--wall);stroke-width:.03}
 .thing.hull{fill-opacity:.25;stroke-dasharray:.1 .08}
+.wall.high{stroke-opacity:.2}
 .truth{fill:none;stroke:#111;stroke-width:.05;stroke-dasharray:.16 .12}
 .path{fill:none;stroke-width:.06;stroke-linejoin:round;stroke-opacity:.9}
 .found{stroke-width:.09;stroke-linecap:round;stroke-opacity:.85}

@@ -24,6 +24,7 @@ ReportInput sample() {
   face.p1 = {4.0, 0.0};
   face.holes = {{1.0, 2.0, 0.0, 2.1}};
   input.plan.faces = {face};
+  input.plan.storeys = {{"ground", 0.0, 3.0}, {"upper", 3.0, 3.0}};
   input.storeys = {{0, "ground", {}}};
   for (int i = 0; i <= 100; ++i) input.truth.push_back({0.1 * i, 0.04 * i, 1.0, 0.0, 0.0, 0});
   ReportMethod m;
@@ -63,6 +64,16 @@ TEST(Report, LeavesDoorsOpenInWalls) {
   const std::string map =
       page.substr(page.find("<svg class=\"map\""), page.find("</svg>") - page.find("<svg class=\"map\""));
   EXPECT_EQ(count(map, "class=\"wall\""), 2U);
+  EXPECT_EQ(count(map, "class=\"wall high\""), 0U);
+}
+
+TEST(Report, ShowsWhatHangsAboveTheRobotFaintly) {
+  ReportInput input = sample();
+  input.plan.faces.front().z0 = 2.5;
+  input.plan.faces.front().holes.clear();
+  const std::string page = render_report(input);
+  EXPECT_EQ(count(page, "class=\"wall\""), 0U);
+  EXPECT_EQ(count(page, "class=\"wall high\""), count(page, "<svg class=\"map\""));
 }
 
 TEST(Report, DrawsWhatStandsOnTheFloor) {
