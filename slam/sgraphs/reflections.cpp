@@ -213,13 +213,14 @@ class Judge {
     return static_cast<double>(here) >= config_.whole * static_cast<double>(opening.size());
   }
 
-  /// A door, then: what lies behind it is there even if the robot only looked in.
+  /// A door, then: what lies behind it is there even if the robot only looked in. Strays pass low beside windows, too.
   [[nodiscard]] bool reaches_floor(const std::vector<std::size_t>& opening) const {
-    return std::any_of(opening.begin(), opening.end(), [&](std::size_t k) {
+    const auto low = std::count_if(opening.begin(), opening.end(), [&](std::size_t k) {
       return std::any_of(levels_.begin(), levels_.end(), [&](const Plane& level) {
         return level.n.z() > 0.0 && std::abs(level.distance(through_[k].crossing.q_F)) < config_.sill_m;
       });
     });
+    return low > 0 && static_cast<double>(low) >= config_.door_share * static_cast<double>(opening.size());
   }
 
   [[nodiscard]] bool near_level(const Eigen::Vector3d& p_F) const {

@@ -89,6 +89,17 @@ TEST_F(Reflections, AboveALowSillGo) {
   EXPECT_EQ(remove(), through_);
 }
 
+// Some points lie low behind the wall under a window; that makes it no door.
+TEST_F(Reflections, GoThoughStraysPassUnderTheWindow) {
+  look_through(2.4, 3.6, 0.9, 1.25, 8.3);
+  const Eigen::Vector3d eye(3, 2, 0.7);
+  for (double z = 0.1; z < 0.9; z += 0.15, ++through_) look_at(eye + 1.25 * (Eigen::Vector3d(2.5, 4, z) - eye));
+  EXPECT_EQ(remove(), through_);
+  ReflectionConfig config;
+  config.door_share = 0.0;
+  EXPECT_EQ(remove(config), 0U);
+}
+
 TEST_F(Reflections, OfSideWallsAloneGoWhereTheyStandHereToo) {
   std::size_t seen = 0;
   for (double y = 4.4; y < 7.5; y += 0.05)
