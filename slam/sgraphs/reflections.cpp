@@ -213,14 +213,37 @@ class Judge {
     return static_cast<double>(here) >= config_.whole * static_cast<double>(opening.size());
   }
 
-  /// A door, then: what lies behind it is there even if the robot only looked in. Strays pass low beside windows, too.
+  /// A door, then: what lies behind it is there even if the robot only looked in.
   [[nodiscard]] bool reaches_floor(const std::vector<std::size_t>& opening) const {
-    const auto low = std::count_if(opening.begin(), opening.end(), [&](std::size_t k) {
-      return std::any_of(levels_.begin(), levels_.end(), [&](const Plane& level) {
-        return level.n.z() > 0.0 && std::abs(level.distance(through_[k].crossing.q_F)) < config_.sill_m;
-      });
-    });
-    return low > 0 && static_cast<double>(low) >= config_.door_share * static_cast<double>(opening.size());
+    std::vector<double> heights;
+    for (const std::size_t k : opening)
+      if (const std::optional<double> height = above_floor(through_[k].crossing.q_F)) heights.push_back(*height);
+    const bool low = std::any_of(heights.begin(), heights.end(), [&](double h) { return h < config_.sill_m; });
+    return low && !has_sill(heights);
+  }
+
+  /// Strays pass under windows, too, but far fewer than through them; of a door's points ever fewer pass lower down.
+  [[nodiscard]] bool has_sill(const std::vector<double>& heights) const {
+    constexpr double highest_m = 1.3, step_m = 0.1, row_m = 0.2;
+    const auto between = [&](double from, double to) {
+      return static_cast<double>(
+          std::count_if(heights.begin(), heights.end(), [&](double h) { return h >= from && h < to; }));
+    };
+    for (double sill = config_.least_sill_m; sill < highest_m; sill += step_m)
+      if (between(sill - row_m, sill) < config_.under_sill * between(sill, sill + row_m) &&
+          between(0.0, sill) < config_.under_sill * static_cast<double>(heights.size()))
+        return true;
+    return false;
+  }
+
+  /// Over the highest floor that is not above it; a little below counts as on it.
+  [[nodiscard]] std::optional<double> above_floor(const Eigen::Vector3d& q_F) const {
+    std::optional<double> height;
+    for (const Plane& level : levels_) {
+      const double h = level.distance(q_F);
+      if (level.n.z() > 0.0 && h > -config_.sill_m && (!height || h < *height)) height = h;
+    }
+    return height ? std::optional(std::max(*height, 0.0)) : std::nullopt;
   }
 
   [[nodiscard]] bool near_level(const Eigen::Vector3d& p_F) const {

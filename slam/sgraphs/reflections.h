@@ -20,11 +20,12 @@ struct ReflectionConfig {
   double level_m = 0.15;  ///< points this near to a floor or ceiling say nothing: a mirror image of a floor is a floor
   double wall_m = 0.06;   ///< from an image to the wall it shows
   double sill_m = 0.15;   ///< an opening that reaches nearer to a floor is a door
-  double door_share = 0.01;  ///< of the points seen through it that pass so low; of a door's, 5 % and more
-  double share = 0.3;        ///< of the points seen through an opening that must be mirror images
-  double whole = 0.8;        ///< of all points, where side walls, floor and ceiling alone are seen
-  int solid_hits = 5;        ///< of a wall's cell, from which nothing is seen through it
-  int min_points = 20;       ///< seen through an opening, else it is left alone
+  double least_sill_m = 0.5;  ///< of windows under which strays pass
+  double under_sill = 0.1;    ///< of the points just above a sill pass just below it, at most, and of all below it
+  double share = 0.3;         ///< of the points seen through an opening that must be mirror images
+  double whole = 0.8;         ///< of all points, where side walls, floor and ceiling alone are seen
+  int solid_hits = 5;         ///< of a wall's cell, from which nothing is seen through it
+  int min_points = 20;        ///< seen through an opening, else it is left alone
 
   template <class V>
   void visit(V& v) {
@@ -38,7 +39,8 @@ struct ReflectionConfig {
     v("level_m", level_m, Field{.doc = "points this near to a floor or ceiling do not vote", .min = 0});
     v("wall_m", wall_m, Field{.doc = "from an image to the wall it shows", .min = 0.01});
     v("sill_m", sill_m, Field{.doc = "an opening nearer to a floor is a door", .min = 0});
-    v("door_share", door_share, Field{.doc = "of the points seen through a door that pass so low", .min = 0, .max = 1});
+    v("least_sill_m", least_sill_m, Field{.doc = "of windows under which strays pass", .min = 0.2, .max = 1.2});
+    v("under_sill", under_sill, Field{.doc = "of a window's points, that may pass under its sill", .min = 0, .max = 1});
     v("share", share, Field{.doc = "of mirror images that makes an opening a mirror", .min = 0, .max = 1});
     v("whole", whole, Field{.doc = "the same where only side walls, floor and ceiling are seen", .min = 0, .max = 1});
     v("solid_hits", solid_hits, Field{.doc = "of a wall's cell, from which nothing is seen through it", .min = 1});

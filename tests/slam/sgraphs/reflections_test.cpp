@@ -84,6 +84,14 @@ TEST_F(Reflections, AreNotLookedForBehindDoors) {
   EXPECT_EQ(remove(), 0U);
 }
 
+// From afar the floor behind a door is seen by few rays only.
+TEST_F(Reflections, AreNotLookedForBehindDoorsWhoseFloorIsHardlySeen) {
+  look_through(2.4, 3.4, 0.5, 1.25, 8.3);
+  look_through(2.4, 2.8, 0.3, 0.5, 8.3);
+  look_through(2.4, 2.5, 0.03, 0.3, 8.3);
+  EXPECT_EQ(remove(), 0U);
+}
+
 TEST_F(Reflections, AboveALowSillGo) {
   look_through(2.4, 3.6, 0.2, 1.25, 8.3);
   EXPECT_EQ(remove(), through_);
@@ -96,7 +104,7 @@ TEST_F(Reflections, GoThoughStraysPassUnderTheWindow) {
   for (double z = 0.1; z < 0.9; z += 0.15, ++through_) look_at(eye + 1.25 * (Eigen::Vector3d(2.5, 4, z) - eye));
   EXPECT_EQ(remove(), through_);
   ReflectionConfig config;
-  config.door_share = 0.0;
+  config.under_sill = 0.0;
   EXPECT_EQ(remove(config), 0U);
 }
 
