@@ -8,16 +8,17 @@
 #include "bim/building/fillings.h"
 #include "bim/building/hull.h"
 #include "bim/building/plan.h"
+#include "sim/route/route.h"
 
 namespace plumbline::scenarios {
 
 namespace {
 
 bool stands_in_the_way(const bim::Building& building, int storey, double z0, double z1) {
-  constexpr double stepped_over_m = 0.05, walked_under_m = 1.0;
+  const sim::RouteConfig route;
   if (storey < 0) return false;
   const double floor = building.storeys[static_cast<std::size_t>(storey)].elevation_m;
-  return z1 > floor + stepped_over_m && z0 < floor + walked_under_m;
+  return z1 > floor + route.band_low_m && z0 < floor + route.band_high_m;
 }
 
 }  // namespace

@@ -5,9 +5,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "bim/random/stream.h"
+#include "slam/rooms/detect.h"
+#include "tests/slam/synthetic.h"
 
 namespace plumbline::slam {
 namespace {
@@ -39,6 +42,47 @@ TEST(FreeSpace, IslandsAreWhatAFloodFillSaysOnRandomGrids) {
       }
     EXPECT_EQ(without_islands(grid, {.island_m = 0.1 * most}).free, expected.free) << trial;
   }
+}
+
+// A window over a sill: light passes, and comes back from a mirror image far behind; the wall below is hit.
+TEST(FreeSpace, EndsAtAWallThatLightPassesOver) {
+  FreeSpaceMap with_wall{FreeSpaceConfig{}}, without{FreeSpaceConfig{}};
+  FreeRays rays;
+  for (int k = -30; k <= 30; ++k) {
+    rays.end_R.emplace_back(8.0, 0.1 * k, 0.0);
+    rays.hit.push_back(true);
+  }
+  for (int look = 0; look < 3; ++look) without.carve(rays, Pose{});
+  for (double y = -2.0; y < 2.0; y += 0.05) rays.wall_R.emplace_back(4.0, y, 0.0);
+  for (int look = 0; look < 3; ++look) with_wall.carve(rays, Pose{});
+  const auto parts = [](const FreeSpaceMap& map) {
+    const FreeGrid grid = map.grid();
+    const auto at = [&](double x, double y) {
+      return grid.free[static_cast<std::size_t>(grid.frame.find({x, y}))] != 0;
+    };
+    return std::array{at(2.0, 0.05), at(4.05, 0.05), at(6.0, 0.05)};
+  };
+  EXPECT_EQ(parts(without), (std::array{true, true, true}));
+  EXPECT_EQ(parts(with_wall), (std::array{true, false, true}));
+}
+
+TEST(FreeSpace, WallsAreHitWhereAScanSawThemHighEnough) {
+  const synthetic::House room = synthetic::one_room();
+  MotionBuffer still;
+  still.add(Odometry{});
+  const Scan message = synthetic::standing_scan(room, Pose::from_xyz_yaw({3.0, 2.0, 0.46}, 0.0), {});
+  const DeskewedScan scan = deskew(message, still, synthetic::calibration());
+  const std::vector<PlaneObservation> planes = detect_planes(scan, {});
+  FreeSpaceConfig config;
+  config.wall_top_m = 0.9;
+  const std::vector<Eigen::Vector3d> points = wall_points(scan, planes, config);
+  EXPECT_GT(points.size(), 300U);  // 20 m of wall, one point a 5 cm
+  for (const Eigen::Vector3d& p : points) {
+    const double to_wall = std::min(3.0 - std::abs(p.x()), 2.0 - std::abs(p.y()));
+    EXPECT_NEAR(to_wall, 0.0, 0.05);
+  }
+  config.wall_top_m = 3.0;
+  EXPECT_TRUE(wall_points(scan, planes, config).empty());
 }
 
 }  // namespace
