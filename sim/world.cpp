@@ -11,7 +11,7 @@
 #include "bim/digest/digest.h"
 #include "bim/errors.h"
 #include "bim/mesh/visible.h"
-#include "bim/rays/scene.h"
+#include "bim/rays/ray_scene.h"
 #include "sim/pose_track.h"
 #include "sim/robot/collision.h"
 #include "sim/robot/leg_odometry.h"

@@ -4,13 +4,13 @@
 #include <memory>
 #include <vector>
 
-#include "bim/building/building.h"
 #include "bim/mesh/mesh.h"
+#include "bim/model/building.h"
 #include "sim/lidar/lidar.h"
-#include "sim/moving/moving_things.h"
+#include "sim/moving/dynamic_obstacles.h"
 #include "sim/robot/conditions.h"
 #include "sim/robot/sensors.h"
-#include "sim/route/follower.h"
+#include "sim/route/pure_pursuit.h"
 #include "slam/io/estimate.h"
 #include "slam/io/odometry_covariance.h"
 #include "slam/io/records.h"

@@ -4,13 +4,13 @@
 #include <utility>
 #include <vector>
 
-#include "slam/baseline/amcl.h"
-#include "slam/baseline/lidar_odometry_method.h"
-#include "slam/baseline/micp.h"
-#include "slam/baseline/s_graph_localization_paper.h"
-#include "slam/baseline/ukf.h"
-#include "slam/localize/s_graph_localization.h"
-#include "slam/sgraphs/s_graphs_plus.h"
+#include "slam/baselines/amcl/amcl.h"
+#include "slam/baselines/lidar_odometry/lidar_odometry_method.h"
+#include "slam/baselines/micp/micp.h"
+#include "slam/baselines/ukf/ukf.h"
+#include "slam/localization/as_printed/s_graph_localization_paper.h"
+#include "slam/localization/pipeline.h"
+#include "slam/mapping/s_graphs_plus.h"
 
 namespace plumbline::slam {
 

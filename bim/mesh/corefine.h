@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "bim/building/building.h"
 #include "bim/mesh/wall_cut.h"
+#include "bim/model/building.h"
 
 namespace plumbline::bim {
 

@@ -11,7 +11,7 @@
 #include <string_view>
 
 #include "bim/errors.h"
-#include "bim/mesh/paint.h"
+#include "bim/mesh/palette.h"
 
 namespace plumbline::bim {
 namespace {

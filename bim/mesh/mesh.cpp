@@ -3,8 +3,8 @@
 
 #include <utility>
 
-#include "bim/building/sweep.h"
 #include "bim/mesh/solid.h"
+#include "bim/model/extrude.h"
 
 namespace plumbline::bim {
 

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "bim/building/building.h"
 #include "bim/mesh/solid.h"
 #include "bim/mesh/wall_cut.h"
+#include "bim/model/building.h"
 
 namespace plumbline::bim {
 

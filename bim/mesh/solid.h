@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "bim/building/building.h"
+#include "bim/model/building.h"
 
 namespace plumbline::bim {
 

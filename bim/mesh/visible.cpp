@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bim/mesh/visible.h"
 
-#include "bim/building/materials.h"
+#include "bim/model/materials.h"
 
 namespace plumbline::bim {
 

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <utility>
 
-#include "bim/building/sweep.h"
-#include "bim/building/wall_frame.h"
 #include "bim/geometry/polygon_boolean.h"
 #include "bim/mesh/corefine.h"
 #include "bim/mesh/solid.h"
+#include "bim/model/extrude.h"
+#include "bim/model/wall_frame.h"
 
 namespace plumbline::bim {
 

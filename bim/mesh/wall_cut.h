@@ -5,7 +5,7 @@
 #include <variant>
 #include <vector>
 
-#include "bim/building/building.h"
+#include "bim/model/building.h"
 
 namespace plumbline::bim {
 

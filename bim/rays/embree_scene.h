@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "bim/rays/face.h"
-#include "bim/rays/scene.h"
+#include "bim/rays/ray_scene.h"
 
 struct RTCDeviceTy;
 struct RTCSceneTy;

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "bim/geometry/pose.h"
-#include "bim/symmetry/scene.h"
+#include "bim/symmetry/symmetry_scene.h"
 
 namespace plumbline::bim {
 

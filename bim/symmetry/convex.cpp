@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
-#include "bim/building/plan_boxes.h"
-#include "bim/symmetry/bodies.h"
-#include "bim/symmetry/grid.h"
+#include "bim/model/boxes.h"
+#include "bim/symmetry/body_grid.h"
+#include "bim/symmetry/symmetry_bodies.h"
 
 namespace plumbline::bim {
 

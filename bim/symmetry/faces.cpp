@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bim/building/plan_boxes.h"
+#include "bim/model/boxes.h"
 
 namespace plumbline::bim {
 

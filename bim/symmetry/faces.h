@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
-#include "bim/symmetry/bodies.h"
-#include "bim/symmetry/grid.h"
+#include "bim/symmetry/body_grid.h"
 #include "bim/symmetry/isometry.h"
+#include "bim/symmetry/symmetry_bodies.h"
 
 namespace plumbline::bim {
 

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "bim/geometry/pose.h"
-#include "bim/symmetry/scene.h"
+#include "bim/symmetry/symmetry_scene.h"
 
 namespace plumbline::bim {
 

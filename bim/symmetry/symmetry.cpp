@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "bim/symmetry/scene.h"
+#include "bim/symmetry/symmetry_scene.h"
 
 namespace plumbline::bim {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "bim/building/building.h"
+#include "bim/model/building.h"
 #include "bim/symmetry/isometry.h"
 
 namespace plumbline::bim {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "scenarios/report/map.h"
+#include "scenarios/report/map_drawing.h"
 #include "scenarios/report/plot.h"
 #include "scenarios/report/report.h"
 

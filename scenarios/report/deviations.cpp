@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "bim/building/hull.h"
-#include "bim/building/wall_face.h"
+#include "bim/model/hull.h"
+#include "bim/model/wall_face.h"
 #include "scenarios/report/svg.h"
 
 namespace plumbline::scenarios {

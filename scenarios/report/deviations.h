@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "bim/building/load.h"
+#include "bim/load/load.h"
 
 namespace plumbline::scenarios {
 

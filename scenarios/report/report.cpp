@@ -8,7 +8,7 @@
 
 #include "bim/config/tree.h"
 #include "scenarios/report/belief.h"
-#include "scenarios/report/map.h"
+#include "scenarios/report/map_drawing.h"
 #include "scenarios/report/page.h"
 #include "scenarios/report/plot.h"
 #include "scenarios/report/results.h"

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "bim/building/plan.h"
 #include "bim/config/tree.h"
+#include "bim/plan/plan.h"
 #include "scenarios/report/deviations.h"
-#include "scenarios/report/things.h"
+#include "scenarios/report/obstacles.h"
 #include "slam/io/estimate.h"
 
 namespace plumbline::scenarios {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "scenarios/run/digest_log.h"
-#include "scenarios/scenario.h"
+#include "scenarios/spec/scenario.h"
 #include "slam/io/estimate.h"
 
 namespace plumbline::scenarios {

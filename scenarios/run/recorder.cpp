@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "bim/errors.h"
-#include "scenarios/run/observer.h"
+#include "scenarios/run/ground_truth_recorder.h"
 
 namespace plumbline::scenarios {
 

@@ -4,11 +4,11 @@
 #include <memory>
 #include <string>
 
-#include "scenarios/resolve.h"
 #include "scenarios/run/digest_log.h"
+#include "scenarios/spec/resolve.h"
 #include "sim/world.h"
-#include "slam/io/bag.h"
-#include "slam/io/recording_writer.h"
+#include "slam/io/bags/bag.h"
+#include "slam/io/recordings/recording_writer.h"
 
 namespace plumbline::scenarios {
 

@@ -5,11 +5,12 @@
 #include <array>
 #include <filesystem>
 
+#include "scenarios/host/files.h"
 #include "scenarios/run/cloud_file.h"
 #include "scenarios/run/estimate_file.h"
-#include "scenarios/run/files.h"
-#include "scenarios/run/participant.h"
-#include "slam/io/tum.h"
+#include "scenarios/run/method_runner.h"
+#include "scenarios/spec/method_names.h"
+#include "slam/io/recordings/tum.h"
 
 namespace plumbline::scenarios {
 

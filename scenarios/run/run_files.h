@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "bim/building/load.h"
-#include "scenarios/resolve.h"
+#include "bim/load/load.h"
 #include "scenarios/run/record.h"
+#include "scenarios/spec/resolve.h"
 
 namespace plumbline::scenarios {
 

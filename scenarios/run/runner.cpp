@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenarios/run/runner.h"
 
-#include "bim/building/plan.h"
 #include "bim/digest/float_mode.h"
 #include "bim/errors.h"
 #include "bim/mesh/mesh.h"
+#include "bim/plan/plan.h"
 #include "bim/random/stream.h"
-#include "scenarios/run/observer.h"
-#include "scenarios/run/participant.h"
-#include "scenarios/run/pipeline.h"
-#include "scenarios/run/walk.h"
+#include "scenarios/run/ground_truth_recorder.h"
+#include "scenarios/run/method_runner.h"
+#include "scenarios/run/run_pipeline.h"
+#include "scenarios/run/simulated_run.h"
+#include "scenarios/spec/method_names.h"
 
 namespace plumbline::scenarios {
 

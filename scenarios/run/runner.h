@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
-#include "scenarios/resolve.h"
-#include "scenarios/run/participant.h"
+#include "scenarios/run/method_runner.h"
 #include "scenarios/run/record.h"
+#include "scenarios/spec/resolve.h"
 #include "sim/world.h"
 
 namespace plumbline::scenarios {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
-#include "scenarios/scenario.h"
-#include "scenarios/score/metrics.h"
+#include "scenarios/metrics/metrics.h"
+#include "scenarios/spec/scenario.h"
 
 namespace plumbline::scenarios::score {
 

@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
-#include "bim/building/plan.h"
-#include "scenarios/score/localization.h"
-#include "scenarios/score/structure.h"
+#include "bim/plan/plan.h"
+#include "scenarios/metrics/localization_score.h"
+#include "scenarios/metrics/structure.h"
 
 namespace plumbline::scenarios::score {
 

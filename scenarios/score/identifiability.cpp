@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bim/building/plan.h"
-#include "scenarios/identify/floor.h"
-#include "scenarios/identify/identify.h"
-#include "scenarios/score/storey.h"
+#include "bim/plan/plan.h"
+#include "scenarios/localizability/floor.h"
+#include "scenarios/localizability/localizability.h"
+#include "scenarios/metrics/storey.h"
 #include "sim/world.h"
 
 namespace plumbline::scenarios::score {

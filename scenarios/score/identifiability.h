@@ -3,8 +3,8 @@
 
 #include <optional>
 
+#include "scenarios/metrics/localization_score.h"
 #include "scenarios/run/run_files.h"
-#include "scenarios/score/localization.h"
 
 namespace plumbline::scenarios::score {
 

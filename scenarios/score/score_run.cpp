@@ -5,10 +5,11 @@
 
 #include "bim/digest/digest.h"
 #include "bim/mesh/mesh.h"
-#include "scenarios/run/files.h"
-#include "scenarios/run/participant.h"
+#include "scenarios/host/files.h"
+#include "scenarios/run/method_runner.h"
 #include "scenarios/score/handover.h"
 #include "scenarios/score/identifiability.h"
+#include "scenarios/spec/method_names.h"
 
 namespace plumbline::scenarios::score {
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "bim/building/plan.h"
+#include "bim/plan/plan.h"
+#include "scenarios/metrics/metrics.h"
 #include "scenarios/run/run_files.h"
-#include "scenarios/score/metrics.h"
 
 namespace plumbline::scenarios::score {
 

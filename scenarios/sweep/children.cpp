@@ -13,7 +13,7 @@
 
 #include "bim/config/tree.h"
 #include "bim/errors.h"
-#include "scenarios/run/interrupt.h"
+#include "scenarios/host/interrupt.h"
 
 namespace plumbline::scenarios {
 

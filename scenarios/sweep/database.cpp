@@ -7,7 +7,7 @@
 #include <variant>
 
 #include "bim/errors.h"
-#include "scenarios/score/metrics.h"
+#include "scenarios/metrics/metrics.h"
 #include "scenarios/sweep/table.h"
 
 namespace plumbline::scenarios {

@@ -5,8 +5,8 @@
 #include <filesystem>
 
 #include "bim/errors.h"
-#include "scenarios/run/files.h"
-#include "scenarios/run/interrupt.h"
+#include "scenarios/host/files.h"
+#include "scenarios/host/interrupt.h"
 #include "scenarios/run/run_files.h"
 #include "scenarios/run/runner.h"
 #include "scenarios/score/score_run.h"

@@ -13,8 +13,8 @@
 #include <set>
 
 #include "bim/errors.h"
-#include "scenarios/run/files.h"
-#include "scenarios/run/interrupt.h"
+#include "scenarios/host/files.h"
+#include "scenarios/host/interrupt.h"
 #include "scenarios/sweep/children.h"
 #include "scenarios/sweep/table.h"
 

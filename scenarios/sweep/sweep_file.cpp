@@ -7,7 +7,7 @@
 #include <set>
 
 #include "bim/digest/digest.h"
-#include "scenarios/resolve.h"
+#include "scenarios/spec/resolve.h"
 #include "scenarios/sweep/shared_walk.h"
 
 namespace plumbline::scenarios {

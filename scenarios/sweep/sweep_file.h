@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "bim/config/schema.h"
-#include "scenarios/scenario.h"
+#include "scenarios/spec/scenario.h"
 #include "slam/methods.h"
 
 namespace plumbline::scenarios {

@@ -7,9 +7,9 @@
 #include <limits>
 #include <set>
 
+#include "scenarios/metrics/metrics.h"
 #include "scenarios/report/page.h"
 #include "scenarios/report/svg.h"
-#include "scenarios/score/metrics.h"
 
 namespace plumbline::scenarios {
 

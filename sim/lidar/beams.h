@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "bim/rays/scene.h"
+#include "bim/rays/ray_scene.h"
 #include "sim/lidar/footprint.h"
 #include "slam/io/lidar_model.h"
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "bim/random/stream.h"
-#include "sim/lidar/config.h"
-#include "slam/io/vlp16.h"
+#include "sim/lidar/lidar_config.h"
+#include "slam/io/packets/vlp16.h"
 
 namespace plumbline::sim {
 

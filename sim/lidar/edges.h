@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "bim/rays/scene.h"
+#include "bim/rays/ray_scene.h"
 #include "sim/lidar/beams.h"
-#include "sim/lidar/config.h"
+#include "sim/lidar/lidar_config.h"
 
 namespace plumbline::sim {
 

@@ -4,8 +4,8 @@
 #include <Eigen/Core>
 #include <array>
 
-#include "bim/rays/scene.h"
-#include "sim/lidar/config.h"
+#include "bim/rays/ray_scene.h"
+#include "sim/lidar/lidar_config.h"
 
 namespace plumbline::sim {
 

@@ -6,11 +6,11 @@
 #include <span>
 #include <vector>
 
-#include "bim/rays/scene.h"
-#include "sim/lidar/config.h"
+#include "bim/rays/ray_scene.h"
+#include "sim/lidar/lidar_config.h"
 #include "sim/lidar/room_lookup.h"
 #include "sim/lidar/surface.h"
-#include "slam/io/vlp16.h"
+#include "slam/io/packets/vlp16.h"
 
 namespace plumbline::sim {
 

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "bim/rays/scene.h"
-#include "sim/lidar/config.h"
+#include "bim/rays/ray_scene.h"
+#include "sim/lidar/lidar_config.h"
 #include "sim/lidar/surface.h"
 
 namespace plumbline::sim {

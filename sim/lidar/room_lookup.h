@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "bim/building/building.h"
+#include "bim/model/building.h"
 
 namespace plumbline::sim {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/lidar/surface.h"
 
-#include "bim/building/materials.h"
 #include "bim/mesh/visible.h"
+#include "bim/model/materials.h"
 
 namespace plumbline::sim {
 

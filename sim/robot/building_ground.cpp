@@ -4,8 +4,8 @@
 #include <cmath>
 #include <string>
 
-#include "bim/building/stair_shape.h"
 #include "bim/errors.h"
+#include "bim/formats/plan_yaml/stair_builder.h"
 #include "sim/robot/ground.h"
 #include "sim/robot/solid_boxes.h"
 

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "bim/building/building.h"
 #include "bim/geometry/pose.h"
+#include "bim/model/building.h"
 
 namespace plumbline::sim {
 

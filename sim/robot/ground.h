@@ -2,15 +2,11 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <functional>
 #include <vector>
 
 #include "sim/robot/collision.h"
 
 namespace plumbline::sim {
-
-/// Height of the floor a foot would find under (x, y) at or below `z_max`, m in W.
-using Terrain = std::function<double(double x, double y, double z_max)>;
 
 /// The floor of a storey: endless, but for its wells, where one looks (and walks) down to the storey below.
 struct GroundLevel {

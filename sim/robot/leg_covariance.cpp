@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/robot/leg_covariance.h"
 
-#include "sim/robot/kinematics.h"
+#include "sim/robot/types/kinematics.h"
 
 namespace plumbline::sim {
 

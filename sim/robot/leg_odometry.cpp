@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "sim/robot/kinematics.h"
+#include "sim/robot/types/kinematics.h"
 
 namespace plumbline::sim {
 

@@ -3,8 +3,8 @@
 #include <locale>
 #include <sstream>
 
-#include "sim/robot/dimensions.h"
 #include "sim/robot/model.h"
+#include "sim/robot/types/dimensions.h"
 
 namespace plumbline::sim {
 

@@ -12,10 +12,11 @@
 #include "bim/digest/digest.h"
 #include "bim/errors.h"
 #include "sim/robot/box_pool.h"
-#include "sim/robot/failure.h"
 #include "sim/robot/model.h"
+#include "sim/robot/scenario_failure.h"
+#include "sim/robot/terrain_noise.h"
 #include "sim/robot/trot/trot.h"
-#include "sim/robot/uneven.h"
+#include "sim/robot/types/terrain.h"
 
 namespace plumbline::sim {
 

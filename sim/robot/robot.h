@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -9,27 +8,10 @@
 #include "bim/geometry/pose.h"
 #include "sim/robot/conditions.h"
 #include "sim/robot/ground.h"
+#include "sim/robot/types/command.h"
+#include "sim/robot/types/proprioception.h"
 
 namespace plumbline::sim {
-
-/// Velocity asked of the robot in its heading frame.
-struct Command {
-  double vx = 0.0;                 ///< m/s
-  double vy = 0.0;                 ///< m/s
-  double yaw_rate = 0.0;           ///< rad/s
-  double gait_period_scale = 1.0;  ///< of the nominal period; varied so that the gait does not lock to the sensor
-  bool careful = false;            ///< longer on all four feet, as stairs ask for
-};
-
-/// What the joints, the IMU and the feet truly did at one physics step; sensors add their noise to it. Forces (touch,
-/// accelerometer) are those that led to the state, so they are of its step's beginning, 2 ms earlier.
-struct Proprioception {
-  std::array<double, 12> q{};                                 ///< joint angles, rad: per leg FL, FR, HL, HR: hx, hy, kn
-  std::array<double, 12> qd{};                                ///< rad/s
-  std::array<double, 4> touch{};                              ///< foot normal force, N
-  Eigen::Vector3d gyro_R = Eigen::Vector3d::Zero();           ///< rad/s
-  Eigen::Vector3d accelerometer_R = Eigen::Vector3d::Zero();  ///< m/s^2, includes -g
-};
 
 /// Quadruped in MuJoCo with a trot controller; deterministic. One step is 2 ms.
 class Robot {

@@ -4,7 +4,7 @@
 #include <Eigen/Geometry>
 #include <vector>
 
-#include "bim/building/building.h"
+#include "bim/model/building.h"
 #include "sim/robot/collision.h"
 
 namespace plumbline::sim {

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "bim/errors.h"
-#include "sim/route/blockage.h"
-#include "sim/route/clearance.h"
+#include "sim/route/clearance_map.h"
+#include "sim/route/obstacle_footprint.h"
 
 namespace plumbline::sim {
 

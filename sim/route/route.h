@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "bim/building/building.h"
+#include "bim/model/building.h"
 #include "sim/route/grid.h"
 
 namespace plumbline::sim {

@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "bim/config/tree.h"
-#include "sim/route/blockage.h"
+#include "sim/route/obstacle_footprint.h"
 
 namespace plumbline::sim {
 

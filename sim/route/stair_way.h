@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "bim/building/building.h"
+#include "bim/model/building.h"
 #include "sim/route/route.h"
 
 namespace plumbline::sim {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "bim/errors.h"
-#include "slam/planes/detect.h"
+#include "slam/scan/plane_observation.h"
 
 namespace plumbline::slam {
 

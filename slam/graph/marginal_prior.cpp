@@ -12,7 +12,7 @@
 #include "bim/errors.h"
 #include "slam/graph/cost_functions.h"
 #include "slam/graph/factors.h"
-#include "slam/planes/detect.h"
+#include "slam/scan/plane_observation.h"
 
 namespace plumbline::slam {
 

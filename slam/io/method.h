@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "bim/building/plan.h"
 #include "bim/config/visit.h"
+#include "bim/plan/plan.h"
 #include "slam/io/estimate.h"
 #include "slam/io/records.h"
 

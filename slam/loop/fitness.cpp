@@ -4,7 +4,7 @@
 #include <cmath>
 #include <nanoflann.hpp>
 
-#include "slam/odometry/voxel.h"
+#include "slam/scan/voxel.h"
 
 namespace plumbline::slam {
 

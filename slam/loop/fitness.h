@@ -6,7 +6,7 @@
 
 #include "bim/config/visit.h"
 #include "bim/geometry/pose.h"
-#include "slam/odometry/motion.h"
+#include "slam/scan/motion.h"
 
 namespace plumbline::slam {
 

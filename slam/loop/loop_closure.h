@@ -5,7 +5,7 @@
 
 #include "bim/config/visit.h"
 #include "slam/graph/graph.h"
-#include "slam/odometry/vgicp.h"
+#include "slam/registration/vgicp.h"
 
 namespace plumbline::slam {
 

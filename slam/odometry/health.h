@@ -3,7 +3,7 @@
 
 #include "bim/config/visit.h"
 #include "slam/io/records.h"
-#include "slam/odometry/registration.h"
+#include "slam/registration/registration.h"
 
 namespace plumbline::slam {
 

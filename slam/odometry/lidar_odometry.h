@@ -6,12 +6,12 @@
 #include <string_view>
 
 #include "bim/config/visit.h"
+#include "slam/loam/aloam.h"
+#include "slam/loam/floam.h"
 #include "slam/odometry/health.h"
-#include "slam/odometry/loam/aloam.h"
-#include "slam/odometry/loam/floam.h"
-#include "slam/odometry/motion.h"
-#include "slam/odometry/registration.h"
-#include "slam/odometry/vgicp.h"
+#include "slam/registration/registration.h"
+#include "slam/registration/vgicp.h"
+#include "slam/scan/motion.h"
 
 namespace plumbline::slam {
 

@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <optional>
 
-#include "slam/planes/moments.h"
 #include "slam/planes/patch.h"
+#include "slam/scan/moments.h"
 
 namespace plumbline::slam {
 

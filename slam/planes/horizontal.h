@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "slam/planes/detect.h"
+#include "slam/planes/plane_detector.h"
 #include "slam/planes/segments.h"
 
 namespace plumbline::slam {

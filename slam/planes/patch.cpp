@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "slam/planes/moments.h"
+#include "slam/scan/moments.h"
 
 namespace plumbline::slam {
 

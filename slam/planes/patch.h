@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "slam/planes/detect.h"
+#include "slam/planes/plane_detector.h"
 
 namespace plumbline::slam {
 

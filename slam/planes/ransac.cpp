@@ -13,9 +13,9 @@
 #include <tuple>
 
 #include "bim/random/stream.h"
-#include "slam/odometry/voxel.h"
 #include "slam/planes/forms.h"
 #include "slam/planes/patch.h"
+#include "slam/scan/voxel.h"
 
 namespace plumbline::slam {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "bim/config/visit.h"
-#include "slam/planes/detect.h"
+#include "slam/planes/plane_detector.h"
 
 namespace plumbline::slam {
 

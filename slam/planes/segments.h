@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "slam/planes/detect.h"
-#include "slam/planes/moments.h"
+#include "slam/planes/plane_detector.h"
+#include "slam/scan/moments.h"
 
 namespace plumbline::slam {
 

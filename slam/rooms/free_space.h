@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "bim/config/visit.h"
-#include "slam/odometry/motion.h"
-#include "slam/planes/detect.h"
+#include "slam/planes/plane_detector.h"
+#include "slam/scan/motion.h"
 
 namespace plumbline::slam {
 

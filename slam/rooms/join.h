@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "slam/rooms/scene.h"
+#include "slam/rooms/cluster_walls.h"
 
 namespace plumbline::slam {
 

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "slam/rooms/detect.h"
+#include "slam/rooms/room_detector.h"
 
 namespace plumbline::slam {
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "slam/rooms/scene.h"
+#include "slam/rooms/cluster_walls.h"
 
 namespace plumbline::slam {
 

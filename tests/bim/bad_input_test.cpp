@@ -6,13 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "bim/building/plan_yaml.h"
-#include "bim/building/traffic_editor.h"
 #include "bim/errors.h"
-#include "bim/ifc/ifc.h"
-#include "bim/import/mesh_world.h"
+#include "bim/formats/ifc/read/ifc.h"
+#include "bim/formats/mesh/mesh_world.h"
+#include "bim/formats/plan_yaml/plan_yaml.h"
+#include "bim/formats/traffic_editor/traffic_editor.h"
 #include "bim/mesh/mesh.h"
-#include "tests/bim/ifc/fixture.h"
+#include "tests/bim/formats/ifc/fixture.h"
 
 namespace plumbline::bim {
 namespace {

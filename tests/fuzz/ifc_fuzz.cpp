@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "bim/errors.h"
-#include "bim/ifc/ifc.h"
+#include "bim/formats/ifc/read/ifc.h"
 #include "bim/mesh/mesh.h"
 
 /// Any bytes are a building, which can be meshed, or an InputError.

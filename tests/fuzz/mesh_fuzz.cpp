@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "bim/errors.h"
-#include "bim/import/mesh_world.h"
+#include "bim/formats/mesh/mesh_world.h"
 #include "bim/mesh/mesh.h"
 
 /// The first byte chooses the format; the rest is a world, which can be meshed, or an InputError. assimp itself runs in

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <string_view>
 
-#include "bim/building/plan_yaml.h"
 #include "bim/errors.h"
+#include "bim/formats/plan_yaml/plan_yaml.h"
 #include "bim/mesh/mesh.h"
 
 /// Any bytes are a building, which can be meshed, or an InputError.

@@ -11,10 +11,10 @@
 #include <string_view>
 
 #include "bim/errors.h"
-#include "slam/io/point_cloud.h"
-#include "slam/io/record_file.h"
-#include "slam/io/recording.h"
-#include "slam/io/ros_message.h"
+#include "slam/io/bags/ros_message.h"
+#include "slam/io/packets/point_cloud.h"
+#include "slam/io/recordings/record_file.h"
+#include "slam/io/recordings/recording.h"
 
 namespace {
 

@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "bim/errors.h"
-#include "scenarios/scenario.h"
+#include "scenarios/spec/scenario.h"
 
 /// Any bytes are a scenario, which can be written, or an InputError.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "bim/errors.h"
-#include "scenarios/resolve.h"
+#include "scenarios/spec/resolve.h"
 #include "scenarios/sweep/sweep_file.h"
 
 // The methods are not built here.

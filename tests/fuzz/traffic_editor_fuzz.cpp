@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <string_view>
 
-#include "bim/building/traffic_editor.h"
 #include "bim/errors.h"
+#include "bim/formats/traffic_editor/traffic_editor.h"
 #include "bim/mesh/mesh.h"
 
 /// Any bytes are a building, which can be meshed, or an InputError.

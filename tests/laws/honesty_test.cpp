@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "bim/random/stream.h"
-#include "slam/io/vlp16.h"
+#include "slam/io/packets/vlp16.h"
 #include "slam/methods.h"
 #include "tests/laws/walk.h"
 

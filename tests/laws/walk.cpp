@@ -6,9 +6,9 @@
 #include <cstdlib>
 #include <stdexcept>
 
-#include "bim/building/load.h"
 #include "bim/digest/digest.h"
 #include "bim/digest/float_mode.h"
+#include "bim/load/load.h"
 #include "bim/mesh/mesh.h"
 #include "bim/random/stream.h"
 #include "sim/route/route.h"

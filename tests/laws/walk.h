@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "bim/building/plan.h"
+#include "bim/plan/plan.h"
 #include "sim/world.h"
 #include "slam/io/method.h"
 

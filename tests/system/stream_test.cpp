@@ -10,7 +10,7 @@
 #include <fstream>
 
 #include "sim/lidar/lidar.h"
-#include "slam/io/pcap.h"
+#include "slam/io/packets/pcap.h"
 #include "tests/bim/rays/box_mesh.h"
 #include "tests/system/program.h"
 

@@ -3,8 +3,8 @@
 
 #include <Eigen/Core>
 
-#include "sim/robot/trot/config.h"
 #include "sim/robot/trot/state.h"
+#include "sim/robot/trot/trot_config.h"
 #include "sim/robot/trot/wrench.h"
 
 namespace plumbline::sim {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "sim/robot/trot/config.h"
 #include "sim/robot/trot/state.h"
+#include "sim/robot/trot/trot_config.h"
 
 namespace plumbline::sim {
 

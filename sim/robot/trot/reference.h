@@ -2,8 +2,8 @@
 #pragma once
 
 #include "bim/geometry/pose.h"
-#include "sim/robot/robot.h"
-#include "sim/robot/trot/config.h"
+#include "sim/robot/trot/trot_config.h"
+#include "sim/robot/types/command.h"
 
 namespace plumbline::sim {
 

@@ -4,7 +4,7 @@
 #include <array>
 
 #include "bim/geometry/pose.h"
-#include "sim/robot/kinematics.h"
+#include "sim/robot/types/kinematics.h"
 
 namespace plumbline::sim {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "sim/robot/robot.h"
-#include "sim/robot/trot/config.h"
 #include "sim/robot/trot/gait.h"
 #include "sim/robot/trot/reference.h"
+#include "sim/robot/trot/trot_config.h"
+#include "sim/robot/types/terrain.h"
 
 namespace plumbline::sim {
 

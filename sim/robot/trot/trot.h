@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "sim/robot/robot.h"
-#include "sim/robot/trot/config.h"
 #include "sim/robot/trot/contact.h"
 #include "sim/robot/trot/force_distribution.h"
 #include "sim/robot/trot/reference.h"
 #include "sim/robot/trot/swing.h"
+#include "sim/robot/trot/trot_config.h"
 #include "sim/robot/trot/wrench.h"
+#include "sim/robot/types/command.h"
+#include "sim/robot/types/terrain.h"
 
 namespace plumbline::sim {
 

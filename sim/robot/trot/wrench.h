@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "sim/robot/trot/config.h"
 #include "sim/robot/trot/contact.h"
 #include "sim/robot/trot/reference.h"
+#include "sim/robot/trot/trot_config.h"
 
 namespace plumbline::sim {
 

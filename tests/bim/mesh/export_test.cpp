@@ -6,8 +6,8 @@
 
 #include <assimp/Importer.hpp>
 
-#include "bim/building/plan_yaml.h"
 #include "bim/errors.h"
+#include "bim/formats/plan_yaml/plan_yaml.h"
 
 namespace plumbline::bim {
 namespace {

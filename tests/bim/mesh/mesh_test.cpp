@@ -7,8 +7,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "bim/building/sweep.h"
-#include "bim/building/wall_face.h"
+#include "bim/model/extrude.h"
+#include "bim/model/wall_face.h"
 #include "bim/random/stream.h"
 
 namespace plumbline::bim {

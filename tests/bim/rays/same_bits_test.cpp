@@ -16,7 +16,7 @@
 #include "bim/digest/float_mode.h"
 #include "bim/errors.h"
 #include "bim/random/stream.h"
-#include "bim/rays/scene.h"
+#include "bim/rays/ray_scene.h"
 #include "tests/bim/rays/awkward_building.h"
 
 namespace plumbline::bim {

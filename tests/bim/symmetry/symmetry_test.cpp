@@ -7,11 +7,11 @@
 #include <filesystem>
 #include <numbers>
 
-#include "bim/building/load.h"
-#include "bim/building/plan_yaml.h"
 #include "bim/config/tree.h"
+#include "bim/formats/plan_yaml/plan_yaml.h"
+#include "bim/load/load.h"
 #include "bim/random/stream.h"
-#include "tests/bim/ifc/data.h"
+#include "tests/bim/formats/ifc/data.h"
 #include "tests/bim/symmetry/moved.h"
 
 namespace plumbline::bim {

@@ -3,7 +3,7 @@
 //   my_testbench run short.yaml --method gyro_legs,odometry
 #include <memory>
 
-#include "scenarios/commands/program.h"
+#include "scenarios/app/program.h"
 #include "slam/io/method.h"
 
 namespace {

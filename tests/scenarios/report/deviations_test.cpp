@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "bim/building/plan_yaml.h"
+#include "bim/formats/plan_yaml/plan_yaml.h"
 
 namespace plumbline::scenarios {
 namespace {

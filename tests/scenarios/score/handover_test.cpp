@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "scenarios/score/metrics.h"
+#include "scenarios/metrics/metrics.h"
 
 namespace plumbline::scenarios::score {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "bim/building/load.h"
+#include "bim/load/load.h"
 #include "bim/mesh/mesh.h"
 #include "sim/lidar/lidar.h"
 #include "tests/sim/lidar/heap_requests.h"

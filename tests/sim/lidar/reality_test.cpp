@@ -12,12 +12,12 @@
 #include <numbers>
 #include <optional>
 
-#include "bim/building/load.h"
 #include "bim/geometry/polygon.h"
+#include "bim/load/load.h"
 #include "bim/mesh/mesh.h"
 #include "sim/lidar/lidar.h"
 #include "sim/lidar/light.h"
-#include "slam/io/pcap.h"
+#include "slam/io/packets/pcap.h"
 
 namespace plumbline::sim {
 namespace {

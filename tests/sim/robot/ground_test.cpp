@@ -9,12 +9,12 @@
 #include <stdexcept>
 #include <string>
 
-#include "bim/building/load.h"
-#include "bim/building/stair_shape.h"
 #include "bim/errors.h"
+#include "bim/formats/plan_yaml/stair_builder.h"
+#include "bim/load/load.h"
 #include "sim/robot/robot.h"
 #include "sim/robot/solid_boxes.h"
-#include "sim/route/follower.h"
+#include "sim/route/pure_pursuit.h"
 
 namespace plumbline::sim {
 namespace {

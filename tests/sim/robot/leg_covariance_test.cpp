@@ -6,7 +6,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 
-#include "sim/robot/kinematics.h"
+#include "sim/robot/types/kinematics.h"
 #include "tests/sim/robot/physics_step.h"
 
 namespace plumbline::sim {

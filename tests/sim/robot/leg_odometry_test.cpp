@@ -9,9 +9,9 @@
 #include <numbers>
 #include <vector>
 
-#include "sim/robot/kinematics.h"
 #include "sim/robot/solid_boxes.h"
-#include "sim/route/follower.h"
+#include "sim/robot/types/kinematics.h"
+#include "sim/route/pure_pursuit.h"
 #include "tests/sim/robot/physics_step.h"
 
 namespace plumbline::sim {

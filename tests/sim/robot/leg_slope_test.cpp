@@ -8,7 +8,7 @@
 
 #include "bim/geometry/pose.h"
 #include "bim/random/stream.h"
-#include "sim/robot/dimensions.h"
+#include "sim/robot/types/dimensions.h"
 #include "tests/sim/robot/physics_step.h"
 
 namespace plumbline::sim {

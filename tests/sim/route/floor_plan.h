@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "bim/building/building.h"
+#include "bim/model/building.h"
 
 namespace plumbline::sim {
 

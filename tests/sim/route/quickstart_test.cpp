@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "bim/building/plan_yaml.h"
+#include "bim/formats/plan_yaml/plan_yaml.h"
 #include "sim/route/route.h"
 
 namespace plumbline::sim {

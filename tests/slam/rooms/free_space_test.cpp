@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "bim/random/stream.h"
-#include "slam/rooms/detect.h"
+#include "slam/rooms/room_detector.h"
 #include "tests/slam/synthetic.h"
 
 namespace plumbline::slam {

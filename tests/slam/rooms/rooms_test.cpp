@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "bim/random/stream.h"
-#include "slam/rooms/detect.h"
 #include "slam/rooms/outline.h"
+#include "slam/rooms/room_detector.h"
 #include "tests/slam/synthetic.h"
 
 namespace plumbline::slam {

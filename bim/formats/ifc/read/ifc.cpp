@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bim/formats/ifc/read/ifc.h"
+
+#include <cmath>
+
+#include "bim/config/tree.h"
+#include "bim/errors.h"
+#include "bim/formats/ifc/read/interpret.h"
+#include "bim/formats/ifc/roundtrip/roundtrip_reader.h"
+#include "bim/formats/ifc/roundtrip/roundtrip_signature.h"
+#include "bim/formats/ifc/step/step_parse.h"
+#include "bim/formats/ifc/step/step_text.h"
+#include "bim/model/rooms.h"
+#include "bim/model/virtual_edges.h"
+
+namespace plumbline::bim {
+namespace {
+
+std::string unit_name(double unit_m) {
+  const auto is = [&](double v) { return std::abs(unit_m - v) < 1e-9 * v; };
+  if (is(1.0)) return "m";
+  if (is(0.1)) return "dm";
+  if (is(0.01)) return "cm";
+  if (is(0.001)) return "mm";
+  if (is(0.3048)) return "ft";
+  if (is(0.0254)) return "in";
+  return format_number(unit_m) + " m";
+}
+
+std::string moved_text(const Eigen::Vector3d& move) {
+  const auto number = [](double v) { return format_number(v + 0.0); };
+  return "the file's coordinates are those of a map; moved by (" + number(move.x()) + ", " + number(move.y()) + ", " +
+         number(move.z()) + ") m";
+}
+
+/// A door that joins nothing that is known: no room on either side, or the same on both.
+void warn_of_unresolved_doors(Building& building) {
+  for (const Opening& opening : building.openings) {
+    if (opening.kind != OpeningKind::door || (opening.rooms[0] != opening.rooms[1])) continue;
+    const int room = opening.rooms[0];
+    const std::string where =
+        room < 0 ? "in no room" : "in the same room, " + building.rooms[static_cast<std::size_t>(room)].id;
+    building.warnings.push_back({opening.filling_id.empty() ? opening.id : opening.filling_id, "door_unresolved",
+                                 "both of its sides are " + where + "; where it leads is not known"});
+  }
+}
+
+}  // namespace
+
+Building read_ifc_text(std::string_view text, const std::string& file, const IfcConfig& config) {
+  const std::string clean = without_comments(text);
+  const StepText checked = check_step_text(clean, file);
+  if (has_written_mark(text)) return read_written(clean, file);
+  const StepModel model = read_step_model(clean, checked, file);
+
+  Interpreter interpreter(model, config);
+  interpreter.add_storeys();
+  interpreter.add_walls();
+  interpreter.add_openings();
+  interpreter.add_unlinked_fillings();
+  interpreter.add_rooms();
+  interpreter.add_slabs();
+  interpreter.add_columns();
+  interpreter.add_stairs();
+  interpreter.add_obstacles();
+  Building building = interpreter.finish();
+
+  building.name = model.name;
+  building.schema = checked.schema;
+  building.unit = unit_name(model.unit_m);
+  if (building.storeys.empty()) throw InputError({file, 0, 0}, "no storey in it; a building has IfcBuildingStorey");
+  if (building.walls.empty()) throw InputError({file, 0, 0}, "no wall in it; a building has IfcWall with a Body");
+  if (!model.has_unit) building.warnings.push_back({"", "assumed_unit", "the file gives no unit; metres assumed"});
+  if (model.move) building.warnings.push_back({"", "recentred", moved_text(*model.move)});
+  const std::string read_as = schema_for_reader(checked.schema);
+  if (read_as != checked.schema)
+    building.warnings.push_back({"", "other_schema", checked.schema + " read as " + read_as});
+  find_room_walls(building);
+  find_opening_rooms(building);
+  warn_of_unresolved_doors(building);
+  find_virtual_edges(building);
+  find_stair_rooms(building);
+  return building;
+}
+
+Building read_ifc(const std::string& path, const IfcConfig& config) {
+  return read_ifc_text(read_text_file(path), path, config);
+}
+
+}  // namespace plumbline::bim

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bim/formats/ifc/read/interpret.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <tuple>
+
+#include "bim/formats/ifc/read/material_names.h"
+#include "bim/formats/ifc/read/storey_kinds.h"
+#include "bim/geometry/polygon_boolean.h"
+#include "bim/mesh/solid.h"
+#include "bim/model/infer_rooms.h"
+
+namespace plumbline::bim {
+namespace {
+
+/// Sorts by (storey, id); returns the new place of each old index.
+template <class Element>
+std::vector<int> sort_elements(std::vector<Element>& elements) {
+  std::vector<std::size_t> order(elements.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return std::tie(elements[a].storey, elements[a].id) < std::tie(elements[b].storey, elements[b].id);
+  });
+  std::vector<int> place(elements.size());
+  std::vector<Element> sorted;
+  for (const std::size_t old : order) {
+    place[old] = static_cast<int>(sorted.size());
+    sorted.push_back(std::move(elements[old]));
+  }
+  elements = std::move(sorted);
+  return place;
+}
+
+}  // namespace
+
+Extent extent(const Solid& solid) {
+  Extent box{solid.vertices.front(), solid.vertices.front()};
+  for (const Eigen::Vector3d& p : solid.vertices) {
+    box.low = box.low.cwiseMin(p);
+    box.high = box.high.cwiseMax(p);
+  }
+  return box;
+}
+
+std::vector<PolygonWithHoles2> footprint(const Solid& solid) {
+  std::vector<Polygon2> triangles;
+  for (const Eigen::Vector3i& t : solid.triangles) {
+    Polygon2& triangle = triangles.emplace_back();
+    for (const int corner : t) triangle.push_back(solid.vertices[static_cast<std::size_t>(corner)].head<2>());
+  }
+  return unite(triangles);
+}
+
+Interpreter::Interpreter(const StepModel& model, const IfcConfig& config) : model_(model), config_(config) {
+  building_.warnings = model.skipped;
+  for (const StepProduct& product : model.products) products_[product.step_id] = &product;
+  for (const StepProduct& product : model.products)
+    if (product.whole != 0 && product.whole != product.step_id) parts_[product.whole].push_back(&product);
+}
+
+double Interpreter::snapped(double v) const { return snap(v, config_.grid_m); }
+
+void Interpreter::warn(const StepProduct& product, const std::string& kind, const std::string& text) {
+  building_.warnings.push_back({product.id, kind, product.type + " #" + std::to_string(product.step_id) + ": " + text});
+}
+
+int Interpreter::storey_index(const StepProduct& product, double z0_m) const {
+  const auto named = storeys_.find(product.storey);
+  if (named != storeys_.end()) return named->second;
+  int index = 0;
+  for (std::size_t i = 0; i < building_.storeys.size(); ++i)
+    if (building_.storeys[i].elevation_m <= z0_m + config_.storey_below_m) index = static_cast<int>(i);
+  return index;
+}
+
+std::vector<Solid> Interpreter::solids_of(const StepProduct& product) {
+  std::vector<Solid> solids;
+  for (const Shape& shape : product.body) {
+    std::vector<std::string> problems;
+    Solid solid = solid_of(shape, problems);
+    for (const std::string& problem : problems) warn(product, "not_clipped", problem);
+    if (!solid.triangles.empty()) solids.push_back(placed(product.X_WP, std::move(solid)));
+  }
+  for (const std::string& complaint : product.complaints) warn(product, "geometry", complaint);
+  return solids;
+}
+
+const StepProduct* Interpreter::find(std::int64_t step_id) const {
+  const auto found = products_.find(step_id);
+  return found == products_.end() ? nullptr : found->second;
+}
+
+bool Interpreter::within(const StepProduct& product, StepClass kind) const {
+  for (const StepProduct* at = &product; at != nullptr; at = find(at->whole))
+    if (at->kind == kind) return true;
+  return false;
+}
+
+std::vector<Solid> Interpreter::uncut_solids(const StepProduct& product) {
+  std::vector<Solid> solids = solids_of(product);
+  const auto parts = parts_.find(product.step_id);
+  if (parts == parts_.end()) return solids;
+  const bool whole = !solids.empty();
+  for (const StepProduct* part : parts->second) {
+    if (part->kind != StepClass::part && part->kind != StepClass::obstacle) continue;
+    taken_.insert(part->step_id);
+    if (whole) continue;
+    for (Solid& solid : uncut_solids(*part)) solids.push_back(std::move(solid));
+  }
+  if (!whole && !solids.empty())
+    warn(product, "body_of_parts", "has no body of its own; those of its parts stand for it");
+  return solids;
+}
+
+Solid Interpreter::body_of(const StepProduct& product) {
+  std::vector<Solid> solids = uncut_solids(product);
+  if (solids.empty()) {
+    const bool group = !product.has_body && parts_.contains(product.step_id);
+    if (!group) warn(product, "no_body", "has no body that can be read, and is left out");
+    return {};
+  }
+  std::vector<Solid> cuts;
+  for (const StepProduct* at = &product; at != nullptr; at = find(at->whole)) {
+    const auto cutters = cutters_.find(at->step_id);
+    if (cutters == cutters_.end()) continue;
+    cutters_used_.insert(at->step_id);
+    for (const StepProduct* cutter : cutters->second)
+      for (Solid& cut : solids_of(*cutter)) cuts.push_back(std::move(cut));
+  }
+  if (cuts.empty()) return joined(solids);
+  std::vector<std::string> problems;
+  for (Solid& solid : solids) solid = without(std::move(solid), cuts, problems);
+  for (const std::string& problem : problems) warn(product, "not_cut", problem);
+  return joined(solids);
+}
+
+void Interpreter::add_storeys() {
+  for (const StepProduct& product : model_.products) {
+    if (product.kind != StepClass::storey) continue;
+    Storey storey;
+    storey.id = product.id;
+    storey.name = product.name;
+    // The attribute Elevation may be null or stale; the placement is what the elements hang on.
+    storey.elevation_m = snapped(product.X_WP.translation().z());
+    storey.step_id = product.step_id;
+    building_.storeys.push_back(std::move(storey));
+  }
+  std::sort(building_.storeys.begin(), building_.storeys.end(), [](const Storey& a, const Storey& b) {
+    return std::tie(a.elevation_m, a.id) < std::tie(b.elevation_m, b.id);
+  });
+  for (std::size_t i = 0; i < building_.storeys.size(); ++i)
+    storeys_[building_.storeys[i].step_id] = static_cast<int>(i);
+}
+
+void Interpreter::set_heights() {
+  for (std::size_t i = 0; i < building_.storeys.size(); ++i) {
+    Storey& storey = building_.storeys[i];
+    const auto next = std::find_if(building_.storeys.begin(), building_.storeys.end(),
+                                   [&](const Storey& other) { return other.elevation_m > storey.elevation_m; });
+    double top = storey.elevation_m;
+    if (next != building_.storeys.end()) {
+      top = next->elevation_m;
+    } else {
+      for (const Room& room : building_.rooms)
+        if (room.storey == static_cast<int>(i)) top = std::max(top, room.z1_m);
+      for (const Wall& wall : building_.walls)
+        if (wall.storey == static_cast<int>(i)) top = std::max(top, wall.z1_m);
+    }
+    storey.height_m = snapped(top - storey.elevation_m);
+    if (storey.height_m > 0.0) continue;
+    storey.height_m = config_.assumed_height_m;
+    building_.warnings.push_back({storey.id, "assumed_height", "nothing says how high the storey is; 3 m assumed"});
+  }
+}
+
+void Interpreter::sort_all() {
+  const std::vector<int> wall_place = sort_elements(building_.walls);
+  for (Opening& opening : building_.openings) opening.wall = wall_place[static_cast<std::size_t>(opening.wall)];
+  std::sort(building_.openings.begin(), building_.openings.end(),
+            [](const Opening& a, const Opening& b) { return std::tie(a.wall, a.id) < std::tie(b.wall, b.id); });
+  sort_elements(building_.rooms);
+  sort_elements(building_.slabs);
+  sort_elements(building_.columns);
+  sort_elements(building_.obstacles);
+  std::sort(building_.stairs.begin(), building_.stairs.end(),
+            [](const Stair& a, const Stair& b) { return std::tie(a.from, a.id) < std::tie(b.from, b.id); });
+  std::sort(building_.warnings.begin(), building_.warnings.end(), [](const Warning& a, const Warning& b) {
+    return std::tie(a.element, a.kind, a.text) < std::tie(b.element, b.kind, b.text);
+  });
+}
+
+void Interpreter::add_missing_rooms() {
+  if (!building_.rooms.empty()) return;
+  for (std::size_t i = 0; i < building_.storeys.size(); ++i) {
+    const std::vector<Room> rooms = infer_rooms(building_, static_cast<int>(i));
+    for (const Room& room : rooms)
+      building_.warnings.push_back({room.id, "inferred_room", "the file has no spaces; walls enclose this"});
+    building_.rooms.insert(building_.rooms.end(), rooms.begin(), rooms.end());
+  }
+}
+
+/// Every material that an element names, by name. A name says what is glass; of all else it is not known how it
+/// reflects.
+void Interpreter::add_materials() {
+  std::set<std::string> names;
+  for (const Wall& wall : building_.walls) names.insert(wall.material);
+  for (const Opening& opening : building_.openings) names.insert(opening.material);
+  for (const Slab& slab : building_.slabs) names.insert(slab.material);
+  for (const Column& column : building_.columns) names.insert(column.material);
+  for (const Stair& stair : building_.stairs) names.insert(stair.material);
+  for (const Obstacle& obstacle : building_.obstacles) names.insert(obstacle.material);
+  names.erase("");
+  for (const std::string& name : names) {
+    const auto said = model_.optics.find(name);
+    building_.materials.push_back(said == model_.optics.end() ? material_named(name) : said->second);
+  }
+}
+
+Building Interpreter::finish() {
+  set_heights();
+  set_storey_kinds(building_);
+  add_missing_rooms();
+  add_materials();
+  for (const auto& [host, cutters] : cutters_) {
+    if (cutters_used_.contains(host)) continue;
+    for (const StepProduct* cutter : cutters) warn(*cutter, "opening_unused", "what it should cut has no body");
+  }
+  sort_all();
+  return std::move(building_);
+}
+
+}  // namespace plumbline::bim

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <set>
+#include <vector>
+
+#include "bim/formats/ifc/read/ifc.h"
+#include "bim/formats/ifc/step/step_model.h"
+
+namespace plumbline::bim {
+
+/// Turns the products of a file into parts of a building, kind by kind. Storeys come first, then walls, then openings,
+/// since these are in walls or cut what comes after.
+class Interpreter {
+ public:
+  Interpreter(const StepModel& model, const IfcConfig& config);
+
+  void add_storeys();
+  void add_walls();
+  /// Openings of walls; those of all else are remembered as cuts.
+  void add_openings();
+  /// Doors and windows that fill no opening of a wall: matched to one by where they stand, made one, or kept as
+  /// obstacles.
+  void add_unlinked_fillings();
+  void add_rooms();
+  void add_slabs();
+  void add_columns();
+  void add_stairs();
+  void add_obstacles();
+  /// Storey heights and kinds from what stands on them; rooms from walls in a file without spaces; materials; canonical
+  /// order of all lists.
+  [[nodiscard]] Building finish();
+
+ private:
+  [[nodiscard]] int storey_index(const StepProduct& product, double z0_m) const;
+  [[nodiscard]] const StepProduct* find(std::int64_t step_id) const;
+  /// True for the product itself and all it is a part of.
+  [[nodiscard]] bool within(const StepProduct& product, StepClass kind) const;
+
+  /// Items of its own body; without one, those of its parts, which then do not stand for themselves.
+  [[nodiscard]] std::vector<Solid> uncut_solids(const StepProduct& product);
+  /// The same as one mesh, cut by the openings of the product and of what it is a part of. Empty where there is
+  /// nothing, with a warning unless the product is a mere group.
+  [[nodiscard]] Solid body_of(const StepProduct& product);
+  [[nodiscard]] std::vector<Solid> solids_of(const StepProduct& product);
+
+  void read_reference_line(const StepProduct& product, const Solid& body, Wall& wall);
+  void read_faces(const StepProduct& product, const Solid& body, Wall& wall);
+  [[nodiscard]] std::vector<int> host_walls(const StepProduct& opening, const std::vector<Solid>& solids) const;
+  void add_opening(const StepProduct& product, int wall, const std::vector<Solid>& solids, const StepProduct* filling);
+  void fill(Opening& opening, const StepProduct& filling) const;
+  [[nodiscard]] bool fill_empty_opening(const StepProduct& filling, const Solid& body);
+  [[nodiscard]] bool open_wall_for(const StepProduct& filling, const Solid& body);
+  void add_stair_bodies(const StepProduct& product, Stair& stair);
+  void place_stair(const StepProduct& product, Stair& stair);
+  void add_obstacle(const StepProduct& product, const std::string& kind, const std::string& material, Solid body);
+
+  void set_heights();
+  void add_missing_rooms();
+  void add_materials();
+  void sort_all();
+  void warn(const StepProduct& product, const std::string& kind, const std::string& text);
+  [[nodiscard]] double snapped(double v) const;
+
+  const StepModel& model_;
+  IfcConfig config_;
+  Building building_;
+  std::map<std::int64_t, const StepProduct*> products_;              ///< by STEP number
+  std::map<std::int64_t, std::vector<const StepProduct*>> parts_;    ///< by STEP number of the whole
+  std::map<std::int64_t, int> storeys_;                              ///< index by STEP number
+  std::map<std::int64_t, int> walls_;                                ///< index by STEP number
+  std::map<std::int64_t, std::vector<const StepProduct*>> cutters_;  ///< openings by STEP number of what they cut
+  std::set<std::int64_t> cutters_used_;                              ///< STEP numbers of what was cut
+  std::set<std::int64_t> taken_;  ///< STEP numbers of parts that went into their whole
+};
+
+/// Lowest and highest corner of a solid that has vertices.
+struct Extent {
+  Eigen::Vector3d low, high;
+};
+[[nodiscard]] Extent extent(const Solid& solid);
+
+/// The outline of a solid seen from above.
+[[nodiscard]] std::vector<PolygonWithHoles2> footprint(const Solid& solid);
+
+}  // namespace plumbline::bim

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include "bim/formats/ifc/read/interpret.h"
+#include "bim/formats/ifc/read/material_names.h"
+#include "bim/geometry/polygon_boolean.h"
+
+namespace plumbline::bim {
+namespace {
+
+/// The largest piece of an outline; of equal ones the first in canonical order.
+const PolygonWithHoles2& largest(const std::vector<PolygonWithHoles2>& pieces) {
+  return *std::max_element(pieces.begin(), pieces.end(), [](const PolygonWithHoles2& a, const PolygonWithHoles2& b) {
+    return signed_area(a.outer) < signed_area(b.outer);
+  });
+}
+
+template <class Element>
+Element element_of(const StepProduct& product) {
+  Element element;
+  element.id = product.id;
+  element.step_id = product.step_id;
+  return element;
+}
+
+}  // namespace
+
+void Interpreter::add_rooms() {
+  for (const StepProduct& product : model_.products) {
+    if (product.kind != StepClass::space) continue;
+    const Solid body = body_of(product);
+    if (body.triangles.empty()) continue;
+    const std::vector<PolygonWithHoles2> outline = footprint(body);
+    if (outline.empty()) {
+      warn(product, "no_body", "has no area on the plan, and is left out");
+      continue;
+    }
+    if (outline.size() > 1) warn(product, "room_pieces", "its outline has several pieces; the largest is the room");
+    const PolygonWithHoles2& piece = largest(outline);
+    if (!piece.holes.empty()) warn(product, "room_hole", "holes of its outline are filled");
+    Room room = element_of<Room>(product);
+    room.name = product.name;
+    room.polygon = piece.outer;
+    const Extent box = extent(body);
+    room.z0_m = snapped(box.low.z());
+    room.z1_m = snapped(box.high.z());
+    room.storey = storey_index(product, room.z0_m);
+    building_.rooms.push_back(std::move(room));
+  }
+}
+
+void Interpreter::add_slabs() {
+  for (const StepProduct& product : model_.products) {
+    const bool roof = product.kind == StepClass::roof;
+    if ((product.kind != StepClass::slab && !roof) || within(product, StepClass::stair)) continue;
+    if (roof && !product.has_body && parts_.contains(product.step_id)) continue;  // its slabs stand for themselves
+    Solid body = body_of(product);
+    if (body.triangles.empty()) continue;
+    const std::vector<PolygonWithHoles2> outline = footprint(body);
+    const Extent box = extent(body);
+    if (outline.empty()) {
+      warn(product, "no_area", "has no area on the plan; kept as an obstacle");
+      add_obstacle(product, "slab", product.material, std::move(body));
+      continue;
+    }
+    Slab slab = element_of<Slab>(product);
+    slab.material = product.material;
+    if (outline.size() > 1) warn(product, "slab_pieces", "has several pieces; the robot walks on the largest only");
+    slab.polygon = largest(outline);
+    slab.z0_m = snapped(box.low.z());
+    slab.z1_m = snapped(box.high.z());
+    slab.storey = storey_index(product, slab.z0_m);
+    slab.body = std::move(body);
+    building_.slabs.push_back(std::move(slab));
+  }
+}
+
+void Interpreter::add_columns() {
+  for (const StepProduct& product : model_.products) {
+    if (product.kind != StepClass::column) continue;
+    Solid body = body_of(product);
+    if (body.triangles.empty()) continue;
+    Column column = element_of<Column>(product);
+    column.material = product.material;
+    const std::vector<PolygonWithHoles2> outline = footprint(body);
+    if (!outline.empty()) column.footprint = largest(outline).outer;
+    const Extent box = extent(body);
+    column.z0_m = snapped(box.low.z());
+    column.z1_m = snapped(box.high.z());
+    column.storey = storey_index(product, column.z0_m);
+    column.body = std::move(body);
+    building_.columns.push_back(std::move(column));
+  }
+}
+
+void Interpreter::add_obstacle(const StepProduct& product, const std::string& kind, const std::string& material,
+                               Solid body) {
+  Obstacle obstacle = element_of<Obstacle>(product);
+  obstacle.kind = kind;
+  obstacle.material = material;
+  obstacle.storey = storey_index(product, extent(body).low.z());
+  obstacle.body = std::move(body);
+  building_.obstacles.push_back(std::move(obstacle));
+}
+
+void Interpreter::add_obstacles() {
+  for (const StepProduct& product : model_.products) {
+    if (product.kind == StepClass::hidden) {
+      if (product.has_body) warn(product, "left_out", "lies within other elements or around the building");
+      continue;
+    }
+    const bool obstacle = product.kind == StepClass::obstacle || product.kind == StepClass::part ||
+                          product.kind == StepClass::curtain_wall;
+    if (!obstacle || taken_.contains(product.step_id)) continue;
+    const bool in_curtain = within(product, StepClass::curtain_wall);
+    const bool group = !product.has_body && (parts_.contains(product.step_id) || in_curtain);
+    if (group) continue;  // its parts stand for themselves
+    Solid body = body_of(product);
+    if (body.triangles.empty()) continue;
+    std::string kind = obstacle_kind(product.type);
+    if (in_curtain) kind = kind == "plate" ? "curtain_panel" : kind == "member" ? "mullion" : kind;
+    const bool pane = kind == "curtain_panel" && (says_glass(product.material) || says_glass(product.name));
+    add_obstacle(product, kind, pane ? "glass" : product.material, std::move(body));
+  }
+}
+
+}  // namespace plumbline::bim

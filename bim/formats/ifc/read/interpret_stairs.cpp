@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include "bim/formats/ifc/read/interpret.h"
+#include "bim/formats/ifc/read/stair_recognition.h"
+
+namespace plumbline::bim {
+namespace {
+
+/// Storey whose floor lies within `below` under and `above` over a height; the nearest, of equal ones the lower; -1
+/// none.
+int storey_near(const Building& building, double z_m, double below_m, double above_m) {
+  int best = -1;
+  double nearest = 0.0;
+  for (std::size_t i = 0; i < building.storeys.size(); ++i) {
+    const double away = building.storeys[i].elevation_m - z_m;
+    if (away < -below_m || away > above_m) continue;
+    if (best >= 0 && std::abs(away) >= nearest) continue;
+    best = static_cast<int>(i);
+    nearest = std::abs(away);
+  }
+  return best;
+}
+
+/// Lowest and highest level of flights and landings.
+struct Levels {
+  double foot_m, head_m, rise_m;
+};
+
+Levels levels_of(const Stair& stair) {
+  const StairFlight& first = stair.flights.front();
+  const StairFlight& last = stair.flights.back();
+  Levels levels{first.z0_m, last.z0_m + last.steps * last.rise_m, last.rise_m};
+  for (const Landing& landing : stair.landings) {
+    levels.foot_m = std::min(levels.foot_m, landing.z_m);
+    levels.head_m = std::max(levels.head_m, landing.z_m);
+  }
+  return levels;
+}
+
+}  // namespace
+
+/// Stairs with all their flights and landings; a flight that belongs to no stair is one. Railings stand for themselves.
+void Interpreter::add_stairs() {
+  for (const StepProduct& product : model_.products) {
+    const bool lone_flight = product.kind == StepClass::stair_flight && !within(product, StepClass::stair);
+    if (product.kind != StepClass::stair && !lone_flight) continue;
+    const StepProduct* const whole = find(product.whole);
+    if (whole != nullptr && within(*whole, StepClass::stair)) continue;
+    Stair stair;
+    stair.id = product.id;
+    stair.name = product.name;
+    stair.step_id = product.step_id;
+    stair.material = product.material;
+    add_stair_bodies(product, stair);
+    if (stair.bodies.empty()) {
+      warn(product, "no_body", "has no body that can be read, and is left out");
+      continue;
+    }
+    StairShape shape = stair_shape(stair.bodies);
+    stair.flights = std::move(shape.flights);
+    stair.landings = std::move(shape.landings);
+    place_stair(product, stair);
+    building_.stairs.push_back(std::move(stair));
+  }
+}
+
+void Interpreter::add_stair_bodies(const StepProduct& product, Stair& stair) {
+  for (Solid& solid : solids_of(product)) stair.bodies.push_back(std::move(solid));
+  if (stair.material.empty()) stair.material = product.material;
+  const auto parts = parts_.find(product.step_id);
+  if (parts == parts_.end()) return;
+  for (const StepProduct* part : parts->second) {
+    if (part->kind == StepClass::obstacle && obstacle_kind(part->type) == "railing") continue;
+    taken_.insert(part->step_id);
+    add_stair_bodies(*part, stair);
+  }
+}
+
+void Interpreter::place_stair(const StepProduct& product, Stair& stair) {
+  double foot_m = extent(joined(stair.bodies)).low.z();
+  stair.from = storey_index(product, foot_m);
+  if (stair.flights.empty()) {
+    warn(product, "no_flights", "no steps were found in its body; it is solid, not walkable");
+    return;
+  }
+  const Levels levels = levels_of(stair);
+  const int from = storey_near(building_, levels.foot_m, config_.stair_reach_m, config_.stair_reach_m);
+  // The last riser may lead from the last tread to the floor.
+  const int to = storey_near(building_, levels.head_m, config_.stair_reach_m, levels.rise_m + config_.stair_reach_m);
+  if (from >= 0) stair.from = from;
+  if (to < 0) {
+    warn(product, "stair_ends", "its head reaches the floor of no storey");
+  } else if (from >= 0 && to == from) {
+    warn(product, "stair_within", "leads from and to the same storey");
+  }
+  stair.to = to;
+}
+
+}  // namespace plumbline::bim

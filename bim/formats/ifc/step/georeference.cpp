@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bim/formats/ifc/step/georeference.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace plumbline::bim {
+namespace {
+
+/// Box around points; nullopt when one of them is not a number.
+bool extend(Eigen::AlignedBox3d& box, const std::vector<Eigen::Vector3d>& points) {
+  for (const Eigen::Vector3d& p : points) {
+    if (!p.allFinite()) return false;
+    box.extend(p);
+  }
+  return true;
+}
+
+bool within(const Eigen::AlignedBox3d& box, double furthest_m) {
+  return box.isEmpty() ||
+         (box.min().cwiseAbs().maxCoeff() <= furthest_m && box.max().cwiseAbs().maxCoeff() <= furthest_m);
+}
+
+double median(std::vector<double> values) {
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
+  return values[values.size() / 2];
+}
+
+}  // namespace
+
+bool within_reach(const StepProduct& product, const ReachConfig& config) {
+  Eigen::AlignedBox3d in_world, body;
+  if (!extend(in_world, product.axis_W) || !extend(in_world, {product.X_WP.translation()})) return false;
+  for (const Shape& shape : product.body) {
+    Eigen::AlignedBox3d cut;  // half spaces reach far
+    if (!extend(body, shape.base.points)) return false;
+    for (const std::vector<Facets>* others : {&shape.minus, &shape.within})
+      for (const Facets& facets : *others)
+        if (!extend(cut, facets.points)) return false;
+    if (!within(cut, config.furthest_m)) return false;
+  }
+  return within(in_world, config.furthest_m) && within(body, config.furthest_m) &&
+         (body.isEmpty() || body.sizes().maxCoeff() <= config.largest_m);
+}
+
+std::optional<Eigen::Vector3d> recentre(StepModel& model, const ReachConfig& config) {
+  std::array<std::vector<double>, 3> coordinates;
+  for (const StepProduct& product : model.products) {
+    if (product.kind != StepClass::wall || product.body.empty() || product.body.front().base.points.empty()) continue;
+    const Eigen::Vector3d p_W = product.X_WP * product.body.front().base.points.front();
+    for (std::size_t axis = 0; axis < 3; ++axis) coordinates[axis].push_back(p_W[static_cast<Eigen::Index>(axis)]);
+  }
+  if (coordinates.front().empty()) return std::nullopt;
+  Eigen::Vector3d middle;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    middle[static_cast<Eigen::Index>(axis)] = std::round(median(coordinates[axis]));
+  Eigen::Vector3d move = Eigen::Vector3d::Zero();
+  if (middle.head<2>().norm() > config.local_m) move.head<2>() = -middle.head<2>();
+  if (std::abs(middle.z()) > config.local_m) move.z() = -middle.z();
+  if (move.isZero(0.0)) return std::nullopt;
+  for (StepProduct& product : model.products) {
+    product.X_WP.translation() += move;
+    for (Eigen::Vector3d& p : product.axis_W) p += move;
+  }
+  return move;
+}
+
+}  // namespace plumbline::bim

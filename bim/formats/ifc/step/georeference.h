@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "bim/formats/ifc/step/step_model.h"
+
+namespace plumbline::bim {
+
+/// How far coordinates may be from the origin.
+struct ReachConfig {
+  double furthest_m = 1e7;  ///< further out than any map grid
+  double largest_m = 1e4;   ///< a body of this size is no building's
+  double local_m = 5e3;     ///< a model whose middle is further out is moved: map coordinates
+};
+
+/// False where a coordinate is not a number or out of reach, or a body is too large.
+[[nodiscard]] bool within_reach(const StepProduct& product, const ReachConfig& config = {});
+
+/// Moves a model that stands far from the origin (in map coordinates) so that the median of its walls comes near it, by
+/// whole metres. The move, or nullopt where none was needed.
+[[nodiscard]] std::optional<Eigen::Vector3d> recentre(StepModel& model, const ReachConfig& config = {});
+
+}  // namespace plumbline::bim

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bim/formats/ifc/step/step_body.h"
+
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wall"
+#pragma GCC diagnostic ignored "-Wextra"
+#pragma GCC diagnostic ignored "-Wconversion"
+#include <ifcpp/IFC4/include/IfcLabel.h>
+#include <ifcpp/IFC4/include/IfcProduct.h>
+#include <ifcpp/IFC4/include/IfcProductRepresentation.h>
+#include <ifcpp/IFC4/include/IfcShapeRepresentation.h>
+#pragma GCC diagnostic pop
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <string_view>
+
+#include "bim/formats/ifc/step/step_parse.h"
+
+namespace plumbline::bim {
+namespace {
+
+using Representations = std::vector<std::shared_ptr<IfcRepresentation>>;
+
+/// How well a representation serves as a body: 0 best, nullopt not at all. Old files leave its name out; then its type
+/// tells.
+std::optional<int> body_rank(const IfcRepresentation& representation, StepClass kind) {
+  constexpr std::array<std::string_view, 11> solid_types{
+      "AdvancedBrep", "AdvancedSweptSolid", "Brep",       "CSG",          "Clipping",           "MappedRepresentation",
+      "SolidModel",   "SurfaceModel",       "SweptSolid", "Tessellation", "SurfaceOrSolidModel"};
+  constexpr std::array<std::string_view, 10> others{"Annotation", "Annotation2D", "Axis",    "Box",      "Clearance",
+                                                    "CoG",        "FootPrint",    "Profile", "Lighting", "Plan"};
+  const auto text = [](const auto& label) { return label ? utf8(label->m_value) : std::string(); };
+  const std::string name = text(representation.m_RepresentationIdentifier);
+  if (name == "Body") return 0;
+  if (name == "Reference") return kind == StepClass::opening ? std::optional(1) : std::nullopt;
+  if (std::find(others.begin(), others.end(), name) != others.end()) return std::nullopt;
+  const std::string type = text(representation.m_RepresentationType);
+  return std::find(solid_types.begin(), solid_types.end(), type) != solid_types.end() ? std::optional(2) : std::nullopt;
+}
+
+/// Representations that may serve as a body, the best first.
+Representations bodies_of(const IfcProduct& source, StepClass kind) {
+  std::vector<std::pair<int, std::shared_ptr<IfcRepresentation>>> ranked;
+  for (const auto& representation : source.m_Representation->m_Representations) {
+    const std::optional<int> rank = representation ? body_rank(*representation, kind) : std::nullopt;
+    if (rank) ranked.emplace_back(*rank, representation);
+  }
+  std::stable_sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  Representations bodies;
+  for (const auto& [rank, representation] : ranked) bodies.push_back(representation);
+  return bodies;
+}
+
+}  // namespace
+
+bool has_body(const IfcProduct& source, StepClass kind) {
+  return source.m_Representation && !bodies_of(source, kind).empty();
+}
+
+void read_axis(const IfcProduct& source, StepSoundness& soundness, StepGeometry& geometry, StepProduct& product) {
+  if (!source.m_Representation) return;
+  for (const auto& representation : source.m_Representation->m_Representations) {
+    const bool named = representation && representation->m_RepresentationIdentifier;
+    if (!named || utf8(representation->m_RepresentationIdentifier->m_value) != "Axis") continue;
+    soundness.check(*representation);
+    product.axis_W = geometry.curve(representation, product.complaints);
+    for (Eigen::Vector3d& p : product.axis_W) p = product.X_WP * p;
+  }
+}
+
+void read_body(const IfcProduct& source, StepSoundness& soundness, StepGeometry& geometry, StepProduct& product) {
+  if (!source.m_Representation) return;
+  for (const auto& representation : bodies_of(source, product.kind)) {
+    soundness.check(*representation);
+    product.body = geometry.shapes(representation, product.complaints);
+    if (!product.body.empty()) return;
+  }
+}
+
+}  // namespace plumbline::bim

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bim/formats/ifc/step/step_geometry.h"
+
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wall"
+#pragma GCC diagnostic ignored "-Wextra"
+#pragma GCC diagnostic ignored "-Wconversion"
+#pragma GCC diagnostic ignored "-Wunknown-pragmas"
+#include <ifcpp/IFC4/include/IfcBooleanResult.h>
+#include <ifcpp/IFC4/include/IfcBoxedHalfSpace.h>
+#include <ifcpp/IFC4/include/IfcCsgPrimitive3D.h>
+#include <ifcpp/IFC4/include/IfcCsgSolid.h>
+#include <ifcpp/IFC4/include/IfcHalfSpaceSolid.h>
+#include <ifcpp/IFC4/include/IfcMappedItem.h>
+#include <ifcpp/IFC4/include/IfcShapeRepresentation.h>
+#include <ifcpp/geometry/Carve/RepresentationConverter.h>
+#include <ifcpp/model/BuildingModel.h>
+#pragma GCC diagnostic pop
+
+#include <map>
+
+namespace plumbline::bim {
+namespace {
+
+using MeshSet = carve::mesh::MeshSet<3>;
+
+Facets facets_of(const MeshSet& meshset) {
+  Facets facets;
+  for (const auto& vertex : meshset.vertex_storage) facets.points.emplace_back(vertex.v.x, vertex.v.y, vertex.v.z);
+  for (const carve::mesh::Mesh<3>* mesh : meshset.meshes) {
+    for (const carve::mesh::Face<3>* face : mesh->faces) {
+      std::vector<int>& loop = facets.loops.emplace_back();
+      const carve::mesh::Edge<3>* edge = face->edge;
+      for (std::size_t i = 0; i < face->n_edges; ++i, edge = edge->next)
+        loop.push_back(static_cast<int>(edge->vert - meshset.vertex_storage.data()));
+    }
+  }
+  return facets;
+}
+
+std::vector<Facets> facets_of(const ItemShapeData& item) {
+  std::vector<Facets> result;
+  for (const auto& meshset : item.m_meshsets)
+    if (meshset) result.push_back(facets_of(*meshset));
+  for (const auto& meshset : item.m_meshsets_open)
+    if (meshset) result.push_back(facets_of(*meshset));
+  return result;
+}
+
+Eigen::Affine3d to_eigen(const carve::math::Matrix& matrix) {
+  Eigen::Affine3d X = Eigen::Affine3d::Identity();
+  for (int column = 0; column < 4; ++column)  // carve stores columns
+    for (int row = 0; row < 3; ++row) X.matrix()(row, column) = matrix.m[column][row];
+  return X;
+}
+
+/// IFC++ reports by callback only.
+void collect_complaint(void* complaints, std::shared_ptr<StatusCallback::Message> message) {
+  if (!message) return;
+  if (message->m_message_type != StatusCallback::MESSAGE_TYPE_ERROR &&
+      message->m_message_type != StatusCallback::MESSAGE_TYPE_WARNING) {
+    return;
+  }
+  std::string text;
+  for (const wchar_t c : message->m_message_text) text += c >= 32 && c < 127 ? static_cast<char>(c) : '?';
+  static_cast<std::vector<std::string>*>(complaints)->push_back(text);
+}
+
+}  // namespace
+
+struct StepGeometry::Impl {
+  explicit Impl(const std::shared_ptr<BuildingModel>& model)
+      : converter(std::make_shared<GeometrySettings>(), model->getUnitConverter()) {
+    converter.getGeomSettings()->setHandleStyledItems(false);  // colours
+  }
+
+  void convert(const std::shared_ptr<IfcRepresentation>& representation, const Eigen::Affine3d& X,
+               std::vector<Shape>& shapes) {
+    for (const auto& item : representation->m_Items) {
+      if (const auto mapped = std::dynamic_pointer_cast<IfcMappedItem>(item)) {
+        convert_mapped(*mapped, X, shapes);
+      } else if (const auto geometric = std::dynamic_pointer_cast<IfcGeometricRepresentationItem>(item)) {
+        convert_item(geometric, X, shapes);
+      } else if (item) {
+        complain("item of a kind that is not read: " + std::string(item->className()));
+      }
+    }
+  }
+
+  void convert_mapped(const IfcMappedItem& mapped, const Eigen::Affine3d& X, std::vector<Shape>& shapes) {
+    if (!mapped.m_MappingSource || !mapped.m_MappingSource->m_MappedRepresentation) return;
+    std::shared_ptr<TransformData> target, origin;
+    const auto& placements = converter.getPlacementConverter();
+    if (mapped.m_MappingTarget) placements->convertTransformationOperator(mapped.m_MappingTarget, target);
+    const auto place = std::dynamic_pointer_cast<IfcPlacement>(mapped.m_MappingSource->m_MappingOrigin);
+    if (place) placements->convertIfcPlacement(place, origin);
+    const Eigen::Affine3d X_target = target ? to_eigen(target->m_matrix) : Eigen::Affine3d::Identity();
+    const Eigen::Affine3d X_origin = origin ? to_eigen(origin->m_matrix) : Eigen::Affine3d::Identity();
+    for (const Shape& shape : once(mapped.m_MappingSource->m_MappedRepresentation))
+      shapes.push_back(transformed(X * X_target * X_origin, shape));
+  }
+
+  /// A representation that many items map is converted for the first of them.
+  const std::vector<Shape>& once(const std::shared_ptr<IfcRepresentation>& representation) {
+    const auto [found, is_new] = converted.try_emplace(representation->m_entity_id);
+    if (is_new) {
+      std::vector<Shape> shapes;
+      convert(representation, Eigen::Affine3d::Identity(), shapes);
+      found->second = std::move(shapes);
+    }
+    return found->second;
+  }
+
+  /// Booleans are taken apart into their operands, whose solids are then joined elsewhere: the converter's own lose
+  /// parts, and not always the same ones.
+  void convert_item(const std::shared_ptr<IfcGeometricRepresentationItem>& item, const Eigen::Affine3d& X,
+                    std::vector<Shape>& shapes) {
+    if (const auto boolean = std::dynamic_pointer_cast<IfcBooleanResult>(item)) {
+      return convert_boolean(*boolean, X, shapes);
+    }
+    if (const auto solid = std::dynamic_pointer_cast<IfcCsgSolid>(item)) {
+      const auto root = std::dynamic_pointer_cast<IfcGeometricRepresentationItem>(solid->m_TreeRootExpression);
+      return root ? convert_item(root, X, shapes) : complain("a CSG solid lacks its tree");
+    }
+    const auto data = std::make_shared<ItemShapeData>();
+    const auto& solids = converter.getSolidConverter();
+    if (const auto half_space = std::dynamic_pointer_cast<IfcHalfSpaceSolid>(item)) {
+      solids->convertIfcHalfSpaceSolid(unboxed(half_space), data, nullptr);
+    } else if (const auto primitive = std::dynamic_pointer_cast<IfcCsgPrimitive3D>(item)) {
+      solids->convertIfcCsgPrimitive3D(primitive, data);
+    } else {
+      converter.convertIfcGeometricRepresentationItem(item, data);
+    }
+    for (Facets& facets : facets_of(*data)) shapes.push_back({transformed(X, std::move(facets)), {}, {}});
+  }
+
+  /// The box of a boxed half space is a hint for readers; it bounds nothing [IFC4, IfcBoxedHalfSpace].
+  static std::shared_ptr<IfcHalfSpaceSolid> unboxed(const std::shared_ptr<IfcHalfSpaceSolid>& half_space) {
+    if (!std::dynamic_pointer_cast<IfcBoxedHalfSpace>(half_space)) return half_space;
+    auto plain = std::make_shared<IfcHalfSpaceSolid>(half_space->m_entity_id);
+    plain->m_BaseSurface = half_space->m_BaseSurface;
+    plain->m_AgreementFlag = half_space->m_AgreementFlag;
+    return plain;
+  }
+
+  void convert_boolean(const IfcBooleanResult& boolean, const Eigen::Affine3d& X, std::vector<Shape>& shapes) {
+    if (!boolean.m_Operator || !boolean.m_FirstOperand || !boolean.m_SecondOperand) {
+      return complain("a boolean result lacks an operand");
+    }
+    std::vector<Shape> first, second;
+    convert_operand(boolean.m_FirstOperand, X, first);
+    convert_operand(boolean.m_SecondOperand, X, second);
+    switch (boolean.m_Operator->m_enum) {
+      case IfcBooleanOperator::ENUM_UNION:
+        shapes.insert(shapes.end(), first.begin(), first.end());
+        shapes.insert(shapes.end(), second.begin(), second.end());
+        return;
+      case IfcBooleanOperator::ENUM_DIFFERENCE:
+        for (Shape& shape : first)
+          for (const Shape& cut : second) shape.minus.push_back(whole_of(cut));
+        shapes.insert(shapes.end(), first.begin(), first.end());
+        return;
+      case IfcBooleanOperator::ENUM_INTERSECTION:
+        for (const Shape& shape : first) {
+          for (const Shape& other : second) {
+            shapes.push_back(shape);
+            shapes.back().within.push_back(whole_of(other));
+          }
+        }
+        return;
+    }
+  }
+
+  /// An operand that is itself the result of booleans as the one solid it makes.
+  Facets whole_of(const Shape& shape) {
+    if (shape.minus.empty() && shape.within.empty()) return shape.base;
+    const Solid solid = solid_of(shape, *complaints);
+    Facets facets{solid.vertices, {}};
+    for (const Eigen::Vector3i& t : solid.triangles) facets.loops.push_back({t[0], t[1], t[2]});
+    return facets;
+  }
+
+  void convert_operand(const std::shared_ptr<IfcBooleanOperand>& operand, const Eigen::Affine3d& X,
+                       std::vector<Shape>& shapes) {
+    if (const auto item = std::dynamic_pointer_cast<IfcGeometricRepresentationItem>(operand)) {
+      convert_item(item, X, shapes);
+    } else {
+      complain("operand of a kind that is not read");
+    }
+  }
+
+  void complain(const std::string& text) { complaints->push_back(text); }
+
+  RepresentationConverter converter;
+  std::map<int, std::vector<Shape>> converted;  ///< mapped representations by STEP number
+  std::vector<std::string>* complaints = nullptr;
+};
+
+StepGeometry::StepGeometry(const std::shared_ptr<BuildingModel>& model) : impl_(std::make_unique<Impl>(model)) {}
+StepGeometry::~StepGeometry() = default;
+
+std::vector<Shape> StepGeometry::shapes(const std::shared_ptr<IfcRepresentation>& representation,
+                                        std::vector<std::string>& complaints) {
+  impl_->complaints = &complaints;
+  impl_->converter.setMessageCallBack(&complaints, collect_complaint);
+  std::vector<Shape> result;
+  try {
+    impl_->convert(representation, Eigen::Affine3d::Identity(), result);
+  } catch (const std::exception& error) {  // IFC++ throws on entities it cannot make sense of
+    complaints.emplace_back(error.what());
+  }
+  impl_->converter.unsetMessageCallBack();
+  return result;
+}
+
+std::vector<Eigen::Vector3d> StepGeometry::curve(const std::shared_ptr<IfcRepresentation>& representation,
+                                                 std::vector<std::string>& complaints) {
+  impl_->complaints = &complaints;
+  impl_->converter.setMessageCallBack(&complaints, collect_complaint);
+  std::vector<Eigen::Vector3d> points;
+  try {
+    auto data = std::make_shared<RepresentationData>();
+    impl_->converter.convertIfcRepresentation(representation, data);
+    for (const auto& item : data->m_vec_item_data)
+      for (const auto& line : item->m_polylines)
+        for (const auto& p : line->points) points.emplace_back(p.x, p.y, p.z);
+  } catch (const std::exception& error) {
+    complaints.emplace_back(error.what());
+  }
+  impl_->converter.unsetMessageCallBack();
+  return points;
+}
+
+}  // namespace plumbline::bim

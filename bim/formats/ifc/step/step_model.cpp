@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bim/formats/ifc/step/step_model.h"
+
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wall"
+#pragma GCC diagnostic ignored "-Wextra"
+#pragma GCC diagnostic ignored "-Wconversion"
+#include <ifcpp/IFC4/include/IfcBuildingStorey.h>
+#include <ifcpp/IFC4/include/IfcGloballyUniqueId.h>
+#include <ifcpp/IFC4/include/IfcLabel.h>
+#include <ifcpp/IFC4/include/IfcNamedUnit.h>
+#include <ifcpp/IFC4/include/IfcOpeningElement.h>
+#include <ifcpp/IFC4/include/IfcProductRepresentation.h>
+#include <ifcpp/IFC4/include/IfcProject.h>
+#include <ifcpp/IFC4/include/IfcRelAggregates.h>
+#include <ifcpp/IFC4/include/IfcRelContainedInSpatialStructure.h>
+#include <ifcpp/IFC4/include/IfcRelFillsElement.h>
+#include <ifcpp/IFC4/include/IfcRelVoidsElement.h>
+#include <ifcpp/IFC4/include/IfcShapeRepresentation.h>
+#include <ifcpp/IFC4/include/IfcSpace.h>
+#include <ifcpp/IFC4/include/IfcSpatialElement.h>
+#include <ifcpp/IFC4/include/IfcUnitAssignment.h>
+#include <ifcpp/IFC4/include/IfcUnitEnum.h>
+#include <ifcpp/IFC4/include/IfcWall.h>
+#include <ifcpp/model/BuildingModel.h>
+#include <ifcpp/model/UnitConverter.h>
+#pragma GCC diagnostic pop
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "bim/errors.h"
+#include "bim/formats/ifc/step/georeference.h"
+#include "bim/formats/ifc/step/scoped_silence.h"
+#include "bim/formats/ifc/step/step_body.h"
+#include "bim/formats/ifc/step/step_geometry.h"
+#include "bim/formats/ifc/step/step_known_placements.h"
+#include "bim/formats/ifc/step/step_material.h"
+#include "bim/formats/ifc/step/step_optics.h"
+#include "bim/formats/ifc/step/step_parse.h"
+#include "bim/formats/ifc/step/step_placement.h"
+#include "bim/formats/ifc/step/step_validator.h"
+
+namespace plumbline::bim {
+namespace {
+
+/// Class of a product; an element of a type that has no own is in the way.
+std::optional<StepClass> class_of_product(const IfcProduct& product) {
+  if (const std::optional<StepClass> known = class_of(product.className())) return known;
+  if (dynamic_cast<const IfcElement*>(&product) == nullptr) return std::nullopt;
+  return dynamic_cast<const IfcFeatureElementSubtraction*>(&product) != nullptr ? StepClass::opening
+                                                                                : StepClass::obstacle;
+}
+
+/// What an element hangs on, one step up: container, then filled opening, then voided element, then whole.
+std::shared_ptr<IfcProduct> parent_of(const std::shared_ptr<IfcProduct>& product) {
+  if (const auto element = std::dynamic_pointer_cast<IfcElement>(product)) {
+    for (const auto& link : element->m_ContainedInStructure_inverse)
+      if (const auto relation = link.lock()) return relation->m_RelatingStructure;
+    for (const auto& link : element->m_FillsVoids_inverse)
+      if (const auto relation = link.lock()) return relation->m_RelatingOpeningElement;
+  }
+  if (const auto opening = std::dynamic_pointer_cast<IfcFeatureElementSubtraction>(product))
+    if (const auto relation = opening->m_VoidsElements_inverse.lock()) return relation->m_RelatingBuildingElement;
+  for (const auto& link : product->m_Decomposes_inverse)
+    if (const auto relation = link.lock()) return std::dynamic_pointer_cast<IfcProduct>(relation->m_RelatingObject);
+  return nullptr;
+}
+
+std::int64_t storey_of(std::shared_ptr<IfcProduct> product) {
+  constexpr int most_steps = 12;  // window, opening, wall, ... storey; more is a loop of relations
+  for (int step = 0; product && step < most_steps; ++step) {
+    if (std::dynamic_pointer_cast<IfcBuildingStorey>(product)) return product->m_entity_id;
+    product = parent_of(product);
+  }
+  return 0;
+}
+
+std::int64_t host_of(const std::shared_ptr<IfcProduct>& product, StepClass kind) {
+  if (const auto opening = std::dynamic_pointer_cast<IfcFeatureElementSubtraction>(product)) {
+    const auto relation = opening->m_VoidsElements_inverse.lock();
+    return relation && relation->m_RelatingBuildingElement ? relation->m_RelatingBuildingElement->m_entity_id : 0;
+  }
+  const auto element = std::dynamic_pointer_cast<IfcElement>(product);
+  if (!element || (kind != StepClass::door && kind != StepClass::window)) return 0;
+  for (const auto& link : element->m_FillsVoids_inverse) {
+    const auto relation = link.lock();
+    if (relation && relation->m_RelatingOpeningElement) return relation->m_RelatingOpeningElement->m_entity_id;
+  }
+  return 0;
+}
+
+std::int64_t whole_of(const IfcProduct& product) {
+  for (const auto& link : product.m_Decomposes_inverse) {
+    const auto relation = link.lock();
+    const auto whole = relation ? std::dynamic_pointer_cast<IfcProduct>(relation->m_RelatingObject) : nullptr;
+    if (whole) return whole->m_entity_id;
+  }
+  return 0;
+}
+
+/// Doors and windows are known by their openings in walls; others have nothing but their body to tell where they are.
+bool needs_geometry(const std::shared_ptr<IfcProduct>& source, StepClass kind) {
+  if (kind == StepClass::storey || kind == StepClass::hidden) return false;
+  if (kind != StepClass::door && kind != StepClass::window) return true;
+  const auto opening = std::dynamic_pointer_cast<IfcFeatureElementSubtraction>(parent_of(source));
+  return !opening || !std::dynamic_pointer_cast<IfcWall>(parent_of(opening));
+}
+
+bool has_length_unit(const IfcProject& project) {
+  if (!project.m_UnitsInContext) return false;
+  const auto& units = project.m_UnitsInContext->m_Units;
+  return std::any_of(units.begin(), units.end(), [](const auto& select) {
+    const auto unit = std::dynamic_pointer_cast<IfcNamedUnit>(select);
+    return unit && unit->m_UnitType && unit->m_UnitType->m_enum == IfcUnitEnum::ENUM_LENGTHUNIT;
+  });
+}
+
+class Reader {
+ public:
+  Reader(const std::shared_ptr<BuildingModel>& model, const StepText& checked, const std::string& file)
+      : model_(model), soundness_(checked, file), geometry_(model), checked_(checked), file_(file) {}
+
+  StepModel read() {
+    StepModel result;
+    const std::shared_ptr<IfcProject> project = model_->getIfcProject();
+    if (!project) throw InputError({file_, 0, 0}, "the file has no IfcProject, so nothing says its unit");
+    result.name = project->m_Name ? utf8(project->m_Name->m_value) : std::string();
+    result.has_unit = has_length_unit(*project);
+    result.unit_m = model_->getUnitConverter()->getLengthInMeterFactor();
+    result.optics = read_optics(*model_);
+    for (const auto& [step_id, entity] : model_->getMapIfcEntities()) {
+      const auto product = std::dynamic_pointer_cast<IfcProduct>(entity);
+      const std::optional<StepClass> kind = product ? class_of_product(*product) : std::nullopt;
+      if (!kind) continue;
+      if (std::optional<StepProduct> read = read_product(product, *kind, result)) {
+        result.products.push_back(std::move(*read));
+      }
+    }
+    std::sort(result.products.begin(), result.products.end(),
+              [](const StepProduct& a, const StepProduct& b) { return a.id < b.id; });
+    for (std::size_t i = 1; i < result.products.size(); ++i)
+      if (result.products[i].id == result.products[i - 1].id)
+        fail(result.products[i].step_id, "GlobalId " + result.products[i].id + " is used twice");
+    check_wholes(result.products);
+    return result;
+  }
+
+ private:
+  /// A part of itself, by relations that each make sense, would keep everything that follows wholes busy for ever.
+  void check_wholes(const std::vector<StepProduct>& products) const {
+    constexpr int most_deep = 100;
+    std::map<std::int64_t, std::int64_t> whole;
+    for (const StepProduct& product : products) whole[product.step_id] = product.whole;
+    for (const StepProduct& product : products) {
+      int depth = 0;
+      for (auto at = whole.find(product.whole); at != whole.end(); at = whole.find(at->second))
+        if (++depth > most_deep)
+          fail(product.step_id, product.type + " is a part of itself, or of more than " + std::to_string(most_deep) +
+                                    " wholes in each other");
+    }
+  }
+
+  /// Nullopt, with a warning, for a product that stands where cannot be told.
+  std::optional<StepProduct> read_product(const std::shared_ptr<IfcProduct>& source, StepClass kind, StepModel& model) {
+    StepProduct product;
+    product.step_id = source->m_entity_id;
+    product.kind = kind;
+    product.type = source->className();
+    product.id = source->m_GlobalId ? utf8(source->m_GlobalId->m_value) : std::string();
+    if (product.id.empty()) fail(product.step_id, product.type + " has no GlobalId");
+    product.name = name_of(*source);
+    const ProductPose pose = placement(source->m_ObjectPlacement, model.unit_m);
+    if (pose.malformed) fail(product.step_id, product.type + " has a placement that makes no sense");
+    if (!pose.X_WP) {
+      model.skipped.push_back({product.id, "skipped_placement",
+                               product.type + " #" + std::to_string(product.step_id) +
+                                   ": stands on a grid or an alignment that cannot be evaluated, and is left out"});
+      return std::nullopt;
+    }
+    product.X_WP = *pose.X_WP;
+    product.storey = kind == StepClass::storey ? product.step_id : storey_of(source);
+    product.host = host_of(source, kind);
+    product.whole = whole_of(*source);
+    read_material(*source, model.unit_m, product);
+    if (source->m_Representation) read_geometry(source, product);
+    if (!within_reach(product)) fail(product.step_id, product.type + " is larger than 10 km or further than 10000 km");
+    return product;
+  }
+
+  void read_geometry(const std::shared_ptr<IfcProduct>& source, StepProduct& product) {
+    product.has_body = has_body(*source, product.kind);
+    if (product.kind == StepClass::wall) read_axis(*source, soundness_, geometry_, product);
+    if (needs_geometry(source, product.kind)) read_body(*source, soundness_, geometry_, product);
+  }
+
+  /// Rooms have a number for a name and say what they are in the long name: "Kitchen A102".
+  static std::string name_of(const IfcProduct& source) {
+    const std::string name = source.m_Name ? utf8(source.m_Name->m_value) : std::string();
+    const auto* space = dynamic_cast<const IfcSpace*>(&source);
+    if (space == nullptr || !space->m_LongName) return name;
+    const std::string long_name = utf8(space->m_LongName->m_value);
+    return name.empty() || name == long_name ? long_name : long_name + " " + name;
+  }
+
+  [[noreturn]] void fail(std::int64_t step_id, const std::string& what) const {
+    throw InputError({file_, checked_.line(step_id), 0}, "#" + std::to_string(step_id) + ": " + what);
+  }
+
+  std::shared_ptr<BuildingModel> model_;
+  StepSoundness soundness_;
+  StepGeometry geometry_;
+  const StepText& checked_;
+  const std::string& file_;
+};
+
+}  // namespace
+
+StepModel read_step_model(const std::string& text, const StepText& checked, const std::string& file) {
+  const Quiet quiet;
+  const std::shared_ptr<BuildingModel> model = parse_step(with_known_placements(text, file), checked.schema, file);
+  StepModel result = Reader(model, checked, file).read();
+  result.move = recentre(result);
+  return result;
+}
+
+}  // namespace plumbline::bim

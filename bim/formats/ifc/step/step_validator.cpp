@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bim/formats/ifc/step/step_validator.h"
+
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wall"
+#pragma GCC diagnostic ignored "-Wextra"
+#pragma GCC diagnostic ignored "-Wconversion"
+#include <ifcpp/IFC4/include/IfcMappedItem.h>
+#include <ifcpp/IFC4/include/IfcRepresentation.h>
+#include <ifcpp/IFC4/include/IfcRepresentationItem.h>
+#include <ifcpp/IFC4/include/IfcRepresentationMap.h>
+#include <ifcpp/model/AttributeObject.h>
+#include <ifcpp/model/BuildingObject.h>
+#pragma GCC diagnostic pop
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "bim/errors.h"
+
+namespace plumbline::bim {
+namespace {
+
+/// Attributes of geometry that a file may leave open [IFC4 schema, geometry, profile and topology resources]; EdgeStart
+/// and EdgeEnd of an oriented edge are derived.
+constexpr std::array<std::string_view, 36> optional_attributes{{"Axis",
+                                                                "Axis1",
+                                                                "Axis2",
+                                                                "Axis3",
+                                                                "CentreOfGravityInX",
+                                                                "CentreOfGravityInY",
+                                                                "Closed",
+                                                                "EdgeEnd",
+                                                                "EdgeRadius",
+                                                                "EdgeStart",
+                                                                "EndParam",
+                                                                "FilletRadius",
+                                                                "FlangeEdgeRadius",
+                                                                "FlangeSlope",
+                                                                "InnerFilletRadius",
+                                                                "InnerRadius",
+                                                                "InternalFilletRadius",
+                                                                "Label",
+                                                                "LegSlope",
+                                                                "Normals",
+                                                                "OuterFilletRadius",
+                                                                "PnIndex",
+                                                                "Position",
+                                                                "ProfileName",
+                                                                "RefDirection",
+                                                                "Scale",
+                                                                "Scale2",
+                                                                "Scale3",
+                                                                "Segments",
+                                                                "SelfIntersect",
+                                                                "StartParam",
+                                                                "TagList",
+                                                                "WebEdgeRadius",
+                                                                "WebSlope",
+                                                                "Width",
+                                                                "WeightsData"}};
+
+bool is_optional(std::string_view name) {
+  return std::find(optional_attributes.begin(), optional_attributes.end(), name) != optional_attributes.end();
+}
+
+}  // namespace
+
+void StepSoundness::fail(const BuildingEntity& entity, const std::string& attribute) const {
+  const std::string number = "#" + std::to_string(entity.m_entity_id);
+  throw InputError({file_, text_.line(entity.m_entity_id), 0},
+                   number + ": " + entity.className() + " needs a " + attribute + " of its proper kind");
+}
+
+void StepSoundness::check(const BuildingEntity& entity) {
+  if (!sound_.insert(entity.m_entity_id).second) return;
+  if (const auto* map = dynamic_cast<const IfcRepresentationMap*>(&entity)) {
+    if (!map->m_MappedRepresentation) fail(entity, "MappedRepresentation");
+    check(*map->m_MappedRepresentation);
+  }
+  if (dynamic_cast<const IfcRepresentation*>(&entity) != nullptr) return;
+  std::vector<std::pair<std::string, std::shared_ptr<BuildingObject>>> attributes;
+  entity.getAttributes(attributes);
+  for (const auto& [name, value] : attributes) {
+    if (!value) {
+      if (!is_optional(name)) fail(entity, name);
+      continue;
+    }
+    if (const auto child = std::dynamic_pointer_cast<BuildingEntity>(value)) check(*child);
+    const auto list = std::dynamic_pointer_cast<AttributeObjectVector>(value);
+    if (!list) continue;
+    for (const auto& item : list->m_vec) {
+      if (!item) fail(entity, name);
+      if (const auto child = std::dynamic_pointer_cast<BuildingEntity>(item)) check(*child);
+    }
+  }
+}
+
+void StepSoundness::check(const IfcRepresentation& representation) {
+  for (const auto& item : representation.m_Items) {
+    if (!item) fail(representation, "Items");
+    check(*item);
+  }
+}
+
+}  // namespace plumbline::bim

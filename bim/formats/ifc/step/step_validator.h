@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <set>
+#include <string>
+
+#include "bim/formats/ifc/step/step_text.h"
+
+class BuildingEntity;
+class IfcRepresentation;
+
+namespace plumbline::bim {
+
+/// Looks through geometry before it is converted, since IFC++ follows attributes that are not there.
+class StepSoundness {
+ public:
+  StepSoundness(const StepText& text, const std::string& file) : text_(text), file_(file) {}
+
+  /// Throws InputError with the line of an entity under the representation that lacks an attribute which IFC demands,
+  /// or has an entity of the wrong kind in its place.
+  void check(const IfcRepresentation& representation);
+
+ private:
+  void check(const BuildingEntity& entity);
+  [[noreturn]] void fail(const BuildingEntity& entity, const std::string& attribute) const;
+
+  const StepText& text_;
+  const std::string& file_;
+  std::set<int> sound_;  ///< STEP numbers that have been looked at
+};
+
+}  // namespace plumbline::bim

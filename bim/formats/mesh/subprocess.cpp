@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bim/formats/mesh/subprocess.h"
+
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+
+#include "bim/errors.h"
+
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define PLUMBLINE_SHADOW_MEMORY
+#endif
+#elif defined(__SANITIZE_ADDRESS__)
+#define PLUMBLINE_SHADOW_MEMORY
+#endif
+
+namespace plumbline::bim {
+
+namespace {
+
+constexpr char done = '\1';  ///< last byte of a whole answer
+
+void limit(int resource, rlim_t value) {
+  const rlimit both{value, value};
+  (void)::setrlimit(static_cast<__rlimit_resource>(resource), &both);
+}
+
+/// Address space in use, bytes.
+std::uint64_t address_space() {
+  unsigned long long pages = 0;
+  if (std::FILE* file = std::fopen("/proc/self/statm", "re")) {
+    if (std::fscanf(file, "%llu", &pages) != 1) pages = 0;
+    std::fclose(file);
+  }
+  return pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+}
+
+void bound(const IsolationConfig& config) {
+  limit(RLIMIT_CORE, 0);
+  limit(RLIMIT_CPU, config.cpu_s);
+#ifndef PLUMBLINE_SHADOW_MEMORY  // which alone takes terabytes of addresses
+  limit(RLIMIT_AS, address_space() + config.memory);
+#endif
+}
+
+bool write_all(int pipe, const char* at, std::size_t size) {
+  while (size > 0) {
+    const ssize_t written = ::write(pipe, at, size);
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) return false;
+    at += written;
+    size -= static_cast<std::size_t>(written);
+  }
+  return true;
+}
+
+[[noreturn]] void child(int pipe, const std::function<std::string()>& task, const IsolationConfig& config) {
+  for (const int signal : {SIGSEGV, SIGABRT, SIGFPE, SIGILL, SIGBUS, SIGINT, SIGTERM, SIGPIPE, SIGXCPU})
+    (void)std::signal(signal, SIG_DFL);
+  // What a dying library says is told by the caller in its own words.
+  const int silence = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
+  if (silence >= 0) {
+    (void)::dup2(silence, STDOUT_FILENO);
+    (void)::dup2(silence, STDERR_FILENO);
+  }
+  bound(config);
+  bool ok = false;
+  try {
+    const std::string answer = task();
+    ok = write_all(pipe, answer.data(), answer.size()) && write_all(pipe, &done, 1);
+  } catch (...) {
+  }
+  ::_exit(ok ? 0 : 1);
+}
+
+/// All that comes through the pipe, or none when it is longer than allowed.
+std::optional<std::string> read_all(int pipe, std::size_t longest) {
+  std::string text;
+  std::array<char, 1U << 16U> buffer{};
+  while (true) {
+    const ssize_t count = ::read(pipe, buffer.data(), buffer.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) return text;
+    if (text.size() + static_cast<std::size_t>(count) > longest) return std::nullopt;
+    text.append(buffer.data(), static_cast<std::size_t>(count));
+  }
+}
+
+}  // namespace
+
+IsolationConfig isolation_for(std::size_t bytes, const IsolationConfig& least) {
+  constexpr std::size_t bytes_a_second = std::size_t{2} << 20U, memory_a_byte = 32;
+  IsolationConfig bounds = least;
+  bounds.cpu_s += static_cast<unsigned>(bytes / bytes_a_second);
+  bounds.memory += memory_a_byte * bytes;
+  return bounds;
+}
+
+std::optional<std::string> run_isolated(const std::function<std::string()>& task, const IsolationConfig& config) {
+  std::array<int, 2> ends{};
+  if (::pipe2(ends.data(), O_CLOEXEC) != 0)
+    throw EnvironmentError(std::string("cannot make a pipe: ") + std::strerror(errno));
+  const pid_t pid = ::fork();
+  if (pid < 0) {
+    const std::string reason = std::strerror(errno);
+    ::close(ends[0]);
+    ::close(ends[1]);
+    throw EnvironmentError("cannot make a process: " + reason);
+  }
+  if (pid == 0) child(ends[1], task, config);
+  ::close(ends[1]);
+  std::optional<std::string> answer = read_all(ends[0], config.answer);
+  ::close(ends[0]);
+  int status = 0;
+  while (::waitpid(pid, &status, 0) < 0 && errno == EINTR) {
+  }
+  const bool whole = answer && !answer->empty() && answer->back() == done;
+  if (!whole || !WIFEXITED(status) || WEXITSTATUS(status) != 0) return std::nullopt;
+  answer->pop_back();
+  return answer;
+}
+
+}  // namespace plumbline::bim

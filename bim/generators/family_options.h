@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "bim/config/visit.h"
+#include "bim/formats/plan_yaml/plan_symmetry.h"
+
+namespace plumbline::bim {
+
+/// Which sides of a corridor have rooms.
+enum class Sides { one, both };
+enum class RoomShape { l, trapezoid, chamfer };
+
+}  // namespace plumbline::bim
+
+namespace plumbline {
+
+template <>
+struct EnumNames<bim::Sides> {
+  static constexpr std::array<std::string_view, 2> names = {"one", "both"};
+};
+template <>
+struct EnumNames<bim::RoomShape> {
+  static constexpr std::array<std::string_view, 3> names = {"l", "trapezoid", "chamfer"};
+};
+
+}  // namespace plumbline
+
+namespace plumbline::bim {
+
+/// What every family has.
+struct FamilyOptions {
+  std::optional<std::uint64_t> seed;  ///< sizes that are not given are drawn
+  double epsilon_m = 0.0;             ///< 0, or epsilon_min_m and more
+  FeatureKind feature = FeatureKind::none;
+  bool feature_visible = true;
+  bool glass = false;
+  double height_m = 3.0;
+  double facade_m = 0.24;
+  double partition_m = 0.12;
+  double door_m = 1.0;
+
+  template <class V>
+  void visit(V& v) {
+    v("seed", seed, Field{.doc = "draws every size that is not given", .min = 0, .max = 9.2e18});
+    v("epsilon_m", epsilon_m,
+      Field{.doc = "size of the distinguishing feature, m; 0 for none", .min = 0.0, .max = 0.5});
+    v("feature", feature, Field{.doc = "the distinguishing feature"});
+    v("feature_visible", feature_visible, Field{.doc = "whether the feature can be seen from the start room"});
+    v("glass", glass, Field{.doc = "partitions of glass, which the LiDAR looks through"});
+    v("height_m", height_m, Field{.doc = "floor to ceiling, m", .min = 2.3, .max = 10.0});
+    v("facade_m", facade_m, Field{.doc = "thickness of outer walls, m", .min = 0.1, .max = 0.6});
+    v("partition_m", partition_m, Field{.doc = "thickness of inner walls, m", .min = 0.05, .max = 0.4});
+    v("door_m", door_m, Field{.doc = "clear width of doors, m", .min = 0.9, .max = 1.5});
+  }
+};
+
+}  // namespace plumbline::bim

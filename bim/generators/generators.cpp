@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bim/generators/generators.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <type_traits>
+
+#include "bim/errors.h"
+#include "bim/formats/plan_yaml/plan_write.h"
+#include "bim/formats/plan_yaml/plan_yaml.h"
+#include "bim/generators/build.h"
+#include "bim/generators/feature.h"
+#include "bim/generators/visibility.h"
+#include "bim/random/stream.h"
+
+namespace plumbline::bim {
+
+namespace {
+
+constexpr double epsilon_min_m = 0.02;  ///< smaller than this a beam sees no feature
+constexpr double slab_m = 0.2;          ///< between a ceiling and the floor above it [PlanSolids]
+
+constexpr std::array<FamilyRow, 10> rows = {{
+    {"corridor", "equal rooms along a corridor, on one side or both (half turn)"},
+    {"rot180", "two flats, one the other turned by 180 degrees"},
+    {"rot90", "rooms around a square core, four times the same by quarter turns"},
+    {"mirrored", "two flats, one the mirror image of the other: no proper symmetry"},
+    {"storeys", "the same flat on every storey"},
+    {"grid", "rows and columns of equal rooms, a door between neighbours"},
+    {"ring", "a corridor around a closed core, equal rooms on all four sides"},
+    {"hall", "a hall with rows of pillars between two equal rooms"},
+    {"shapes", "two rooms of L shape, trapezoids or with a cut corner, half a turn apart"},
+    {"long", "a long corridor without features between two equal rooms"},
+}};
+
+/// Lists key, default and what may stand there.
+class OptionLister {
+ public:
+  template <class T>
+  void operator()(std::string_view key, const T& value, const Field& field = {}) {
+    OptionRow row{std::string(key), "", std::string(field.doc), ""};
+    if constexpr (std::is_enum_v<T>) {
+      row.value = EnumNames<T>::names[static_cast<std::size_t>(value)];
+      for (const std::string_view name : EnumNames<T>::names)
+        row.choices += (row.choices.empty() ? "" : " | ") + std::string(name);
+    } else if constexpr (std::is_same_v<T, bool>) {
+      row.value = value ? "true" : "false";
+      row.choices = "true | false";
+    } else if constexpr (std::is_arithmetic_v<T>) {
+      row.value = format_number(static_cast<double>(value));
+    }
+    rows.push_back(std::move(row));
+  }
+  std::vector<OptionRow> rows;
+};
+
+/// A family: what it is called, how its floor is made from its options.
+template <class Options>
+struct Family {
+  using Build = Design (*)(const Options&, const Mark&);
+  Build build;
+  Options defaults;
+};
+
+/// Calls `use` with the family of this name.
+template <class Use>
+auto with_family(std::string_view name, const Use& use) {
+  UnitOptions tower;
+  tower.storeys = 3;
+  if (name == "corridor") return use(Family<CorridorOptions>{corridor, {}});
+  if (name == "rot180") return use(Family<UnitOptions>{rot180, {}});
+  if (name == "rot90") return use(Family<Rot90Options>{rot90, {}});
+  if (name == "mirrored") return use(Family<UnitOptions>{mirrored, {}});
+  if (name == "storeys") return use(Family<UnitOptions>{storeys, tower});
+  if (name == "grid") return use(Family<GridOptions>{grid, {}});
+  if (name == "ring") return use(Family<RingOptions>{ring, {}});
+  if (name == "hall") return use(Family<HallOptions>{hall, {}});
+  if (name == "shapes") return use(Family<ShapeOptions>{shapes, {}});
+  if (name == "long") return use(Family<LongOptions>{long_corridor, {}});
+  std::vector<std::string> known;
+  std::string list;
+  for (const FamilyRow& row : rows) {
+    known.emplace_back(row.name);
+    list += " " + known.back();
+  }
+  const std::string guess = did_you_mean(name, known);
+  throw InputError({}, "there is no family '" + std::string(name) +
+                           (guess.empty() ? "'; there are:" + list : "'; did you mean '" + guess + "'?"));
+}
+
+template <class Options>
+Options read_options(const Options& defaults, const Tree& tree) {
+  const auto read = [&](Options options) {
+    FieldReader::read(tree, "", {}, options);
+    return options;
+  };
+  Options options = read(defaults);
+  if (!options.seed) return options;
+  Options drawn = defaults;
+  draw_sizes(drawn, Stream(*options.seed, "bim.generate"));
+  return read(drawn);
+}
+
+Mark mark_of(const Tree& options, std::string_view key) {
+  const Tree* tree = options.find(key);
+  return tree != nullptr ? tree->mark : options.mark;
+}
+
+void check_feature(const FamilyOptions& options, const Tree& tree) {
+  if (options.epsilon_m > 0.0 && options.epsilon_m < epsilon_min_m)
+    throw InputError(mark_of(tree, "epsilon_m"), format_number(options.epsilon_m) +
+                                                     " m is too small a feature; it must be 0 or at least " +
+                                                     format_number(epsilon_min_m) + " m");
+  if (options.epsilon_m > 0.0 && options.feature == FeatureKind::none)
+    throw InputError(mark_of(tree, "epsilon_m"), "a size needs a feature; name one, for example door_shift");
+  if (options.epsilon_m <= 0.0 && options.feature != FeatureKind::none && tree.find("epsilon_m") == nullptr)
+    throw InputError(mark_of(tree, "feature"), "a feature needs a size, in m; add --epsilon, for example 0.3");
+}
+
+std::string storey_name(int i) { return i == 0 ? "ground" : "level_" + std::to_string(i); }
+
+/// Rooms that a turn of the group takes onto one another, and those the family calls alike.
+std::vector<std::vector<std::string>> rooms_alike(const Design& design) {
+  std::vector<std::vector<std::string>> classes = design.alike;
+  std::erase_if(classes, [](const auto& like) { return like.size() < 2; });
+  const auto listed = [&](const std::string& id) {
+    return std::any_of(classes.begin(), classes.end(),
+                       [&](const auto& like) { return std::find(like.begin(), like.end(), id) != like.end(); });
+  };
+  for (const DesignRoom& room : design.rooms) {
+    if (listed(room.id)) continue;
+    std::vector<std::string> like = {room.id};
+    for (const DesignRoom& other : design.rooms) {
+      const bool swapped = std::any_of(design.group.begin(), design.group.end(), [&](const DesignTurn& turn) {
+        const Isometry2 g = Isometry2::turn(turn.angle_deg * std::numbers::pi / 180.0, turn.about);
+        return (g * centroid(room.outline) - centroid(other.outline)).norm() < same_m;
+      });
+      if (other.id != room.id && swapped) like.push_back(other.id);
+    }
+    if (like.size() > 1) classes.push_back(std::move(like));
+  }
+  return classes;
+}
+
+/// Writes floors above each other. The one with the feature, if any, stands in full; of the others the lowest does,
+/// and the rest copy it.
+class Tower {
+ public:
+  Tower(const Design& design, const FamilyOptions& options, const FeaturedDesign* featured, int featured_storey)
+      : design_(design), options_(options), featured_(featured), featured_storey_(featured_storey) {}
+
+  PlanFile build() {
+    plan_.name = design_.name;
+    for (int i = 0; i < design_.storeys; ++i) add_storey(i);
+    add_symmetry();
+    return std::move(plan_);
+  }
+
+  /// Id of a room of the design on a storey.
+  [[nodiscard]] std::string room_id(const std::string& room, int storey) const {
+    return prefixes_[static_cast<std::size_t>(storey)] + room;
+  }
+
+ private:
+  void add_storey(int i) {
+    PlanStoreyEntry entry;
+    entry.id = storey_name(i);
+    entry.elevation_m = i * (options_.height_m + slab_m);
+    entry.elevation_m = std::round(entry.elevation_m * 1e6) / 1e6;
+    const bool special = featured_ != nullptr && i == featured_storey_;
+    if (special || plain_.empty()) {
+      entry.height_m = options_.height_m;
+      prefixes_.push_back(i == 0 ? "" : entry.id + "_");
+      add_storey_entries(special ? featured_->design : design_, options_, entry.id, prefixes_.back(), plan_);
+      if (!special) plain_ = entry.id;
+      if (!special) plain_prefix_ = prefixes_.back();
+    } else {
+      entry.copy_of = plain_;
+      prefixes_.push_back(entry.id + "/" + plain_prefix_);
+    }
+    plan_.storeys.push_back(std::move(entry));
+  }
+
+  void add_symmetry() {
+    PlanSymmetryEntry symmetry;
+    symmetry.exact = featured_ == nullptr;
+    std::vector<std::string> storeys;
+    for (const PlanStoreyEntry& storey : plan_.storeys) storeys.push_back(storey.id);
+    for (const DesignTurn& turn : design_.group)
+      symmetry.group.push_back({turn.angle_deg, turn.about, storeys, storeys});
+    for (std::size_t i = 1; i < storeys.size(); ++i)
+      symmetry.group.push_back({0.0, Eigen::Vector2d::Zero(), {storeys.front()}, {storeys[i]}});
+    symmetry.rooms_alike = rooms_alike(design_);
+    if (design_.storeys > 1) {
+      std::vector<std::vector<std::string>> all;
+      std::vector<std::vector<std::string>> floor = symmetry.rooms_alike;
+      for (const DesignRoom& room : design_.rooms) {
+        const bool listed = std::any_of(floor.begin(), floor.end(), [&](const auto& like) {
+          return std::find(like.begin(), like.end(), room.id) != like.end();
+        });
+        if (!listed) floor.push_back({room.id});
+      }
+      for (const std::vector<std::string>& like : floor) {
+        all.emplace_back();
+        for (int i = 0; i < design_.storeys; ++i)
+          for (const std::string& room : like) all.back().push_back(room_id(room, i));
+      }
+      symmetry.rooms_alike = std::move(all);
+    }
+    plan_.symmetry = std::move(symmetry);
+  }
+
+  const Design& design_;
+  const FamilyOptions& options_;
+  const FeaturedDesign* featured_;
+  int featured_storey_;
+  PlanFile plan_;
+  std::string plain_, plain_prefix_;
+  std::vector<std::string> prefixes_;
+};
+
+/// Rooms to try the feature in: the start's own where it is to be seen, otherwise the farthest first.
+std::vector<std::string> rooms_to_try(const Design& design, bool visible) {
+  if (visible) return {design.start};
+  const Eigen::Vector2d start =
+      centroid(design.rooms[static_cast<std::size_t>(design.find_room(design.start))].outline);
+  std::vector<std::pair<double, std::string>> rooms;
+  for (const DesignRoom& room : design.rooms)
+    if (room.id != design.start) rooms.emplace_back(-(centroid(room.outline) - start).norm(), room.id);
+  std::stable_sort(rooms.begin(), rooms.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<std::string> ids;
+  for (const auto& [distance, id] : rooms) ids.push_back(id);
+  return ids;
+}
+
+/// The plan with its feature in the first place that is seen, or not seen, as asked for.
+PlanFile with_feature(const Design& design, const FamilyOptions& options, const Mark& mark) {
+  const int storey = !options.feature_visible && design.storeys > 1 ? design.storeys - 1 : 0;
+  const bool same_storey = storey == 0;
+  for (const std::string& room : rooms_to_try(design, options.feature_visible)) {
+    for (const FeaturedDesign& featured : place_feature(design, options, room)) {
+      Tower tower(design, options, &featured, storey);
+      PlanFile plan = tower.build();
+      const Building building = read_plan_text(write_plan(plan), "generated");
+      std::vector<std::string> seen = rooms_that_see(building, storey, featured.seen_at);
+      const bool from_start = same_storey && std::find(seen.begin(), seen.end(), design.start) != seen.end();
+      if (from_start != options.feature_visible) continue;
+      const std::string prefix = storey == 0 ? "" : storey_name(storey) + "_";
+      plan.symmetry->feature =
+          PlanFeatureEntry{options.feature,     options.epsilon_m,           prefix + featured.element,
+                           storey_name(storey), tower.room_id(room, storey), featured.at,
+                           std::move(seen)};
+      return plan;
+    }
+  }
+  const std::string name(EnumNames<FeatureKind>::names[static_cast<std::size_t>(options.feature)]);
+  throw InputError(mark, "no place for a " + name + " of " + format_number(options.epsilon_m) +
+                             " m that the start room " + (options.feature_visible ? "sees" : "does not see") +
+                             "; another feature, a smaller size, other sizes of rooms" +
+                             (options.glass ? " or no glass" : ""));
+}
+
+}  // namespace
+
+std::span<const FamilyRow> families() { return rows; }
+
+std::vector<OptionRow> family_options(std::string_view family) {
+  return with_family(family, [](const auto& entry) {
+    OptionLister lister;
+    auto options = entry.defaults;
+    options.visit(lister);
+    return lister.rows;
+  });
+}
+
+GeneratedPlan generate(std::string_view family, const Tree& options_tree) {
+  return with_family(family, [&](const auto& entry) {
+    const auto options = read_options(entry.defaults, options_tree);
+    check_feature(options, options_tree);
+    Design design = entry.build(options, options_tree.mark);
+    design.name = std::string(family);
+    GeneratedPlan generated;
+    generated.plan = options.epsilon_m > 0.0 ? with_feature(design, options, mark_of(options_tree, "feature"))
+                                             : Tower(design, options, nullptr, 0).build();
+    generated.start = design.start;
+    for (const DesignRoom& room : design.rooms)
+      if (room.id != design.start) generated.rooms.push_back(room.id);
+    generated.rooms.push_back(design.start);
+    return generated;
+  });
+}
+
+}  // namespace plumbline::bim

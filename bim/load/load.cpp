@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bim/load/load.h"
+
+#include <string_view>
+#include <utility>
+
+#include "bim/config/tree.h"
+#include "bim/errors.h"
+#include "bim/formats/ifc/read/ifc.h"
+#include "bim/formats/mesh/mesh_file.h"
+#include "bim/formats/mesh/mesh_world.h"
+#include "bim/formats/plan_yaml/plan_yaml.h"
+#include "bim/formats/traffic_editor/traffic_editor.h"
+#include "bim/model/fillings.h"
+
+namespace plumbline::bim {
+
+namespace {
+
+bool starts_with(std::string_view text, std::string_view head) { return text.substr(0, head.size()) == head; }
+
+bool ends_with(std::string_view text, std::string_view tail) {
+  return text.size() >= tail.size() && text.substr(text.size() - tail.size()) == tail;
+}
+
+/// The text from its first line that is neither blank nor a YAML comment.
+std::string_view first_content(std::string_view text) {
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+  if (starts_with(text, byte_order_mark)) text.remove_prefix(byte_order_mark.size());
+  while (!text.empty()) {
+    const std::size_t begin = text.find_first_not_of(" \t\r\n");
+    if (begin == std::string_view::npos) return {};
+    text.remove_prefix(begin);
+    if (text.front() != '#') return text;
+    const std::size_t end = text.find('\n');
+    text.remove_prefix(end == std::string_view::npos ? text.size() : end);
+  }
+  return {};
+}
+
+/// True when a line begins with the key, which then is a key of the file's outermost map.
+bool has_top_key(std::string_view text, const std::string& key) {
+  return starts_with(text, key) || text.find("\n" + key) != std::string_view::npos;
+}
+
+/// A building of any kind, from its text.
+Site read_site(const std::string& text, const std::string& path) {
+  const std::string_view content = first_content(text);
+  const bool yaml = ends_with(path, ".yaml") || ends_with(path, ".yml");
+  Site site;
+  if (is_mesh_path(path)) {
+    site.as_planned = read_mesh_world(text, path);
+    site.as_built = site.as_planned;
+    site.has_plan = false;
+  } else if (ends_with(path, ".ifc") || starts_with(content, "ISO-10303-21")) {
+    site.as_planned = read_ifc_text(text, path);
+    site.as_built = site.as_planned;
+  } else if (!starts_with(content, "plan:") && has_top_key(text, "levels:")) {
+    site.as_planned = read_traffic_editor_text(text, path);
+    site.as_built = site.as_planned;
+  } else if (yaml || starts_with(content, "plan:")) {
+    PlanSite plan = read_plan_site(text, path);
+    site.as_planned = std::move(plan.as_planned);
+    site.as_built = std::move(plan.as_built.building);
+    site.changes = std::move(plan.as_built.changes);
+  } else {
+    throw InputError({path, 0, 0},
+                     "this is no building; a plan begins with 'plan: 1', an IFC file with 'ISO-10303-21;', a "
+                     "traffic-editor plan has 'levels:', a mesh ends in .obj, .dae, .glb, .ply or .stl");
+  }
+  return site;
+}
+
+}  // namespace
+
+Site load_site(const std::string& path, const BuildingOptions& options) {
+  Site site = read_site(read_text_file(path), path);
+  for (Building* building : {&site.as_planned, &site.as_built}) {
+    apply_options(*building, options);
+    add_fillings(*building);
+  }
+  return site;
+}
+
+Building load_building(const std::string& path) { return read_site(read_text_file(path), path).as_planned; }
+
+}  // namespace plumbline::bim

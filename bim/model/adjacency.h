@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bim/model/building.h"
+
+namespace plumbline::bim {
+
+/// What one passes or looks through from a room to its neighbour.
+enum class Passage { door, window, opening_void, open_edge, stair };
+
+/// Two rooms that meet. a is a room; b another, or -1 for outside (or unknown).
+struct Adjacent {
+  int a = -1;
+  int b = -1;
+  Passage by = Passage::door;
+  std::string element;   ///< id of the opening or stair; empty for an open edge
+  double width_m = 0.0;  ///< of the opening, the open edge or the stair's first flight
+};
+
+/// Which rooms meet, and how: through the openings of walls (Opening::rooms), where no wall stands between them
+/// (Room::virtual_edges) and over stairs (Stair::rooms). One entry an opening, stair or pair of rooms with an open
+/// edge; rooms that meet in two ways stand twice. Sorted by a, b, kind, element.
+[[nodiscard]] std::vector<Adjacent> adjacency(const Building& building);
+
+}  // namespace plumbline::bim

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bim/model/boxes.h"
+
+#include "bim/model/wall_face.h"
+
+namespace plumbline::bim {
+
+Eigen::AlignedBox2d box_of(const Polygon2& outline) {
+  Eigen::AlignedBox2d box;
+  for (const Eigen::Vector2d& p : outline) box.extend(p);
+  return box;
+}
+
+void PlanBoxes::add(const Polygon2& outline) { boxes_.push_back(box_of(outline)); }
+
+std::vector<int> PlanBoxes::near(const Polygon2& outline, double margin_m) const {
+  Eigen::AlignedBox2d reach = box_of(outline);
+  reach.min().array() -= margin_m;
+  reach.max().array() += margin_m;
+  std::vector<int> indices;
+  for (std::size_t i = 0; i < boxes_.size(); ++i)
+    if (boxes_[i].intersects(reach)) indices.push_back(static_cast<int>(i));
+  return indices;
+}
+
+PlanBoxes boxes_of(const std::vector<Room>& rooms) {
+  PlanBoxes boxes;
+  for (const Room& room : rooms) boxes.add(room.polygon);
+  return boxes;
+}
+
+PlanBoxes boxes_of(const std::vector<Wall>& walls, std::size_t first) {
+  PlanBoxes boxes;
+  for (std::size_t i = first; i < walls.size(); ++i) boxes.add(footprint(walls[i]));
+  return boxes;
+}
+
+}  // namespace plumbline::bim

@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bim/model/virtual_edges.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string_view>
+
+#include "bim/model/boxes.h"
+#include "bim/model/hull.h"
+#include "bim/model/wall_face.h"
+
+namespace plumbline::bim {
+namespace {
+
+/// Stretch of an edge, m from its start.
+struct Stretch {
+  double from = 0.0, to = 0.0;
+};
+
+struct Edge {
+  Eigen::Vector2d a, b;
+
+  [[nodiscard]] double length() const { return (b - a).norm(); }
+  [[nodiscard]] Eigen::Vector2d along() const { return (b - a).normalized(); }
+  [[nodiscard]] Eigen::Vector2d at(double s) const { return a + s * along(); }
+};
+
+/// Something that stands on the plan, between two heights.
+struct Blocker {
+  Polygon2 hull;  ///< convex, counter-clockwise
+  double z0_m, z1_m;
+};
+
+double cross(const Eigen::Vector2d& u, const Eigen::Vector2d& v) { return u.x() * v.y() - u.y() * v.x(); }
+
+Polygon2 on_plan(const Solid& solid) {
+  Polygon2 points;
+  for (const Eigen::Vector3d& p : solid.vertices) points.emplace_back(p.head<2>());
+  return points;
+}
+
+Blocker blocker_of(const Solid& solid) {
+  Blocker blocker{convex_hull(on_plan(solid)), 0.0, 0.0};
+  if (solid.vertices.empty()) return blocker;
+  const auto [low, high] = std::minmax_element(solid.vertices.begin(), solid.vertices.end(),
+                                               [](const auto& p, const auto& q) { return p.z() < q.z(); });
+  blocker.z0_m = low->z();
+  blocker.z1_m = high->z();
+  return blocker;
+}
+
+std::vector<Blocker> blockers_of(const Building& building) {
+  constexpr std::array<std::string_view, 5> closing{"curtain_panel", "curtain_wall", "mullion", "plate", "window"};
+  std::vector<Blocker> blockers;
+  for (const Wall& wall : building.walls) blockers.push_back({convex_hull(footprint(wall)), wall.z0_m, wall.z1_m});
+  for (const Column& column : building.columns)
+    blockers.push_back({convex_hull(column.footprint), column.z0_m, column.z1_m});
+  for (const Obstacle& obstacle : building.obstacles)
+    if (std::find(closing.begin(), closing.end(), obstacle.kind) != closing.end())
+      blockers.push_back(blocker_of(obstacle.body));
+  return blockers;
+}
+
+/// Stretch of the edge within `margin` of a convex hull's inside.
+std::optional<Stretch> inside(const Edge& edge, const Polygon2& hull, double margin) {
+  Stretch stretch{0.0, edge.length()};
+  const Eigen::Vector2d u = edge.along();
+  for (std::size_t i = 0; i < hull.size(); ++i) {
+    const Eigen::Vector2d side = (hull[(i + 1) % hull.size()] - hull[i]).normalized();
+    // Inside is left of every side: cross(side, p - hull[i]) >= -margin.
+    const double at_start = cross(side, edge.a - hull[i]) + margin, slope = cross(side, u);
+    constexpr double level = 1e-12;
+    if (std::abs(slope) < level) {
+      if (at_start < 0.0) return std::nullopt;
+      continue;
+    }
+    if (slope > 0.0) {
+      stretch.from = std::max(stretch.from, -at_start / slope);
+    } else {
+      stretch.to = std::min(stretch.to, -at_start / slope);
+    }
+  }
+  return hull.size() >= 3 && stretch.from < stretch.to ? std::optional(stretch) : std::nullopt;
+}
+
+/// What is left of stretches once another is taken away.
+std::vector<Stretch> without(const std::vector<Stretch>& stretches, const Stretch& taken) {
+  std::vector<Stretch> rest;
+  for (const Stretch& s : stretches) {
+    if (taken.to <= s.from || taken.from >= s.to) {
+      rest.push_back(s);
+      continue;
+    }
+    if (taken.from > s.from) rest.push_back({s.from, taken.from});
+    if (taken.to < s.to) rest.push_back({taken.to, s.to});
+  }
+  return rest;
+}
+
+/// Height over which something stands before the walking height of a room, m.
+double common_height(const Room& room, double low_m, double high_m, const AdjacencyConfig& config) {
+  return std::min({room.z1_m, room.z0_m + config.walking_m, high_m}) - std::max(room.z0_m, low_m);
+}
+
+/// What may bound rooms.
+struct Surroundings {
+  std::vector<Blocker> blockers;
+  PlanBoxes blocker_boxes, room_boxes;
+};
+
+Surroundings surroundings_of(const Building& building) {
+  Surroundings around{blockers_of(building), {}, boxes_of(building.rooms)};
+  for (const Blocker& blocker : around.blockers) around.blocker_boxes.add(blocker.hull);
+  return around;
+}
+
+/// Finds the virtual edges of one room.
+class EdgeFinder {
+ public:
+  EdgeFinder(const Building& building, const Surroundings& around, int room, const AdjacencyConfig& config)
+      : building_(building),
+        blockers_(around.blockers),
+        index_(room),
+        room_(building.rooms[static_cast<std::size_t>(room)]),
+        near_blockers_(around.blocker_boxes.near(room_.polygon, config.gap_m)),
+        near_rooms_(around.room_boxes.near(room_.polygon, config.virtual_gap_m)),
+        config_(config) {}
+
+  [[nodiscard]] std::vector<VirtualEdge> find() const {
+    std::vector<VirtualEdge> edges;
+    for (std::size_t i = 0; i < room_.polygon.size(); ++i) {
+      const Edge edge{room_.polygon[i], room_.polygon[(i + 1) % room_.polygon.size()]};
+      for (const Stretch& stretch : open_stretches(edge)) add(edge, stretch, edges);
+    }
+    return edges;
+  }
+
+ private:
+  [[nodiscard]] std::vector<Stretch> open_stretches(const Edge& edge) const {
+    std::vector<Stretch> open{{0.0, edge.length()}};
+    for (const int index : near_blockers_) {
+      const Blocker& blocker = blockers_[static_cast<std::size_t>(index)];
+      if (common_height(room_, blocker.z0_m, blocker.z1_m, config_) <= config_.z_overlap_m) continue;
+      if (const auto covered = inside(edge, blocker.hull, config_.gap_m)) open = without(open, *covered);
+    }
+    return open;
+  }
+
+  /// A stretch is divided among the rooms whose outlines run along it; what is left belongs to whoever lies beyond.
+  void add(const Edge& edge, const Stretch& stretch, std::vector<VirtualEdge>& edges) const {
+    std::vector<Stretch> rest{stretch};
+    for (const int i : near_rooms_) {
+      const Room& other = building_.rooms[static_cast<std::size_t>(i)];
+      const bool meet = i != index_ && common_height(room_, other.z0_m, other.z1_m, config_) > config_.z_overlap_m;
+      for (std::size_t k = 0; meet && k < other.polygon.size(); ++k) {
+        const auto shared = along(edge, {other.polygon[k], other.polygon[(k + 1) % other.polygon.size()]});
+        if (!shared) continue;
+        for (const Stretch& part : rest)
+          emit(edge, {std::max(part.from, shared->from), std::min(part.to, shared->to)}, i, edges);
+        rest = without(rest, *shared);
+      }
+    }
+    for (const Stretch& part : rest) emit(edge, part, beyond(edge, part), edges);
+  }
+
+  /// Stretch of an edge along which another runs the other way.
+  [[nodiscard]] std::optional<Stretch> along(const Edge& edge, const Edge& other) const {
+    const Eigen::Vector2d u = edge.along();
+    if (other.length() == 0.0 || u.dot(other.along()) >= 0.0 || std::abs(cross(u, other.along())) > config_.tilt)
+      return std::nullopt;
+    const double gap_m = config_.virtual_gap_m;
+    if (std::abs(cross(u, other.a - edge.a)) > gap_m || std::abs(cross(u, other.b - edge.a)) > gap_m)
+      return std::nullopt;
+    const Stretch stretch{std::max(0.0, u.dot(other.b - edge.a)), std::min(edge.length(), u.dot(other.a - edge.a))};
+    return stretch.from < stretch.to ? std::optional(stretch) : std::nullopt;
+  }
+
+  [[nodiscard]] int beyond(const Edge& edge, const Stretch& stretch) const {
+    const Eigen::Vector2d u = edge.along();
+    const Eigen::Vector2d p =
+        edge.at((stretch.from + stretch.to) / 2.0) + config_.step_m * Eigen::Vector2d(u.y(), -u.x());
+    const int room = room_at(building_, p, room_.z0_m, config_);
+    return room == index_ ? -1 : room;
+  }
+
+  void emit(const Edge& edge, const Stretch& stretch, int room, std::vector<VirtualEdge>& edges) const {
+    if (stretch.to - stretch.from > config_.overlap_m)
+      edges.push_back({edge.at(stretch.from), edge.at(stretch.to), room});
+  }
+
+  const Building& building_;
+  const std::vector<Blocker>& blockers_;
+  int index_;
+  const Room& room_;
+  std::vector<int> near_blockers_, near_rooms_;
+  AdjacencyConfig config_;
+};
+
+/// Room of a storey that holds a point, before any other that does.
+int room_on(const Building& building, int storey, const Eigen::Vector2d& p, double floor_m,
+            const AdjacencyConfig& config) {
+  for (std::size_t i = 0; i < building.rooms.size(); ++i) {
+    const Room& room = building.rooms[i];
+    const double z = floor_m + config.above_sill_m;
+    const bool at_height = z >= room.z0_m - config.below_floor_m && z <= room.z1_m;
+    if (room.storey == storey && at_height && contains(room.polygon, p)) return static_cast<int>(i);
+  }
+  return room_at(building, p, floor_m, config);
+}
+
+/// The first of the points that lies in a room.
+int room_at_one_of(const Building& building, int storey, const std::array<Eigen::Vector2d, 2>& points, double floor_m,
+                   const AdjacencyConfig& config) {
+  for (const Eigen::Vector2d& p : points)
+    if (const int room = room_on(building, storey, p, floor_m, config); room >= 0) return room;
+  return -1;
+}
+
+}  // namespace
+
+void find_virtual_edges(Building& building, const AdjacencyConfig& config) {
+  const Surroundings around = surroundings_of(building);
+  for (std::size_t i = 0; i < building.rooms.size(); ++i)
+    building.rooms[i].virtual_edges = EdgeFinder(building, around, static_cast<int>(i), config).find();
+}
+
+void find_stair_rooms(Building& building, const AdjacencyConfig& config) {
+  for (Stair& stair : building.stairs) {
+    if (stair.flights.empty() || stair.rooms[0] >= 0 || stair.rooms[1] >= 0) continue;
+    const StairFlight& first = stair.flights.front();
+    const StairFlight& last = stair.flights.back();
+    const Eigen::Vector2d up_first(std::cos(first.yaw), std::sin(first.yaw));
+    const Eigen::Vector2d up_last(std::cos(last.yaw), std::sin(last.yaw));
+    const Eigen::Vector2d top_edge = last.start + last.steps * last.run_m * up_last;
+    stair.rooms[0] = room_at_one_of(
+        building, stair.from, {first.start - config.step_m * up_first, first.start + 0.5 * first.run_m * up_first},
+        first.z0_m, config);
+    stair.rooms[1] =
+        room_at_one_of(building, stair.to, {top_edge + config.step_m * up_last, top_edge - 0.5 * last.run_m * up_last},
+                       last.z0_m + last.steps * last.rise_m, config);
+  }
+}
+
+}  // namespace plumbline::bim

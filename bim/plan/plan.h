@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bim/model/building.h"
+
+namespace plumbline::bim {
+
+/// Rectangle cut out of a face, in the face's own (s, z).
+struct FaceHole {
+  double s0 = 0.0, s1 = 0.0, z0 = 0.0, z1 = 0.0;
+};
+
+/// One of the two faces of a wall [BIM-Loc eq. 1-2, with the sign of d corrected]: plane with outward normal n_W and
+/// the finite rectangle it occupies, s running from p0 (s = 0) to p1 with free space on the left of p0 to p1.
+struct PlanFace {
+  int id = -1;
+  std::string wall_id;
+  int side = 0;  ///< 0: at offset + thickness (left of a to b), 1: at offset
+  int storey = -1;
+  Plane plane_W;
+  Eigen::Vector2d p0 = Eigen::Vector2d::Zero();
+  Eigen::Vector2d p1 = Eigen::Vector2d::Zero();
+  double z0 = 0.0;
+  double z1 = 3.0;
+  std::vector<FaceHole> holes;  ///< openings, s from p0
+  std::vector<int> rooms;       ///< rooms this face bounds (a long wall bounds several), ascending
+};
+
+struct PlanRoom {
+  int id = -1;
+  std::string name;  ///< the room's id in the building
+  int storey = -1;
+  Polygon2 polygon;
+  double z0 = 0.0;
+  double z1 = 3.0;
+  std::vector<int> faces;       ///< bounding faces, ascending
+  std::vector<int> neighbours;  ///< rooms reached through a door or void, ascending
+};
+
+struct PlanStorey {
+  std::string name;
+  double elevation_m = 0.0;
+  double height_m = 3.0;
+};
+
+/// What stands on a storey and is no wall, as an upright prism: a column, planned furniture.
+struct PlanSolid {
+  std::string id;
+  int storey = -1;
+  Polygon2 outline;  ///< counter-clockwise
+  double z0 = 0.0;
+  double z1 = 3.0;
+};
+
+/// What an estimator may know of the design, in W. All parts stand in one coordinate frame so that moving the plan by
+/// a rigid motion moves every answer with it.
+struct Plan {
+  std::vector<PlanStorey> storeys;
+  std::vector<PlanFace> faces;
+  std::vector<PlanRoom> rooms;
+  std::vector<PlanSolid> solids;  ///< columns, then obstacles; those that fill their convex hull, unlike tables
+};
+
+/// Plan of an as-planned building.
+[[nodiscard]] Plan make_plan(const Building& as_planned);
+/// The plan moved by a rotation about z and a translation: p_V = X_VW p_W.
+[[nodiscard]] Plan transformed(const Plan& plan_W, const Pose& X_VW);
+
+}  // namespace plumbline::bim

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bim/model/building.h"
+
+namespace plumbline::bim {
+
+/// Upright body over a convex outline. z above the storey's floor, m.
+struct BodyPrism {
+  Polygon2 outline;  ///< counter-clockwise, convex
+  double z0 = 0.0;
+  double z1 = 0.0;
+  int element = -1;  ///< into Bodies::elements
+};
+
+/// What stands on a storey for a LiDAR to see, as upright bodies that may overlap.
+struct Bodies {
+  int storey = -1;
+  std::vector<std::string> elements;  ///< ids: walls, columns, stairs, obstacles in the order of the building
+  std::vector<BodyPrism> prisms;
+};
+
+struct BodiesConfig {
+  double height_min_m = 0.02;  ///< what reaches less into a storey belongs to the one above or below
+  double flat = 0.3;           ///< a triangle with this upward share of its normal is a top
+  double filled = 1.1;         ///< a body that fills less of the room under its tops is taken as its convex outline
+  int triangles_max = 200;     ///< a body with more tops is taken as its convex outline
+  double area_min_m2 = 1e-9;   ///< smaller pieces are rounding
+};
+
+/// Walls with their openings cut out over their heights, columns, stairs and planned obstacles that reach into the
+/// storey, without what light goes through, between its floor and the ceiling of most of its rooms. Sloped tops are
+/// taken as level over each triangle, and bodies with free space under them (railings) as their convex outline over
+/// their whole height.
+[[nodiscard]] Bodies bodies_of(const Building& building, int storey, const BodiesConfig& config = {});
+
+/// The part of a convex polygon where n.p <= d.
+[[nodiscard]] Polygon2 clipped(const Polygon2& polygon, const Eigen::Vector2d& n, double d);
+/// Intersection of two convex counter-clockwise polygons.
+[[nodiscard]] Polygon2 convex_intersection(Polygon2 a, const Polygon2& b);
+/// The bodies without their overlaps: no two share an inner point. Where two overlap the earlier keeps its place.
+[[nodiscard]] std::vector<BodyPrism> without_overlaps(const std::vector<BodyPrism>& prisms,
+                                                      const BodiesConfig& config = {});
+[[nodiscard]] double volume(const std::vector<BodyPrism>& disjoint);
+
+}  // namespace plumbline::bim

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenarios/app/bench/bench.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bim/errors.h"
+#include "scenarios/app/commands.h"
+
+namespace plumbline::scenarios {
+
+namespace {
+
+struct BenchOptions {
+  std::string part;
+  BenchSetting setting;
+  bool json = false;
+};
+
+const BenchPart& part_of(const std::string& name) {
+  std::vector<std::string> known;
+  for (const BenchPart& part : bench_parts()) {
+    if (part.name == name) return part;
+    known.emplace_back(part.name);
+  }
+  std::string list;
+  for (const std::string& one : known) list += (list.empty() ? "" : ", ") + one;
+  throw InputError({"bench", 0, 0}, "unknown part '" + name + "'; known: " + list);
+}
+
+int bench(const BenchOptions& options) {
+  const std::vector<BenchRow> rows = part_of(options.part).measure(options.setting);
+  const std::string text = options.json ? write_json(bench_json(rows)) + "\n" : bench_text(rows);
+  std::fwrite(text.data(), 1, text.size(), stdout);
+  const bool passed = std::all_of(rows.begin(), rows.end(),
+                                  [](const BenchRow& row) { return !row.limit || !row.limit->gates || row.passed(); });
+  return passed ? 0 : 1;
+}
+
+}  // namespace
+
+Command add_bench(CommandLine& program) {
+  const auto options = std::make_shared<BenchOptions>();
+  CommandLine line = program.add_command("bench", "Measures what a part of the program costs, in CPU time");
+  std::string parts;
+  for (const BenchPart& part : bench_parts())
+    parts += "\n  " + std::string(part.name) + ": " + std::string(part.summary);
+  line.option("PART", options->part, "one of:" + parts).required();
+  line.flag("--json", options->json, "for programs");
+  line.option("--repetitions", options->setting.repetitions, "of each figure; the median counts")
+      .range(1, 1000)
+      .shows_default();
+  line.option("--library", options->setting.library, "folder with quickstart.yaml and s_graphs/long.yaml")
+      .shows_default();
+  line.option("--data", options->setting.data_dir, "folder with ifc/duplex.ifc").environment("PLUMBLINE_DATA");
+  line.footer("Example: plumbline bench bim --json\nExit code 1 when a ratio misses its gate; times are targets.");
+  return {line, [options] { return bench(*options); }};
+}
+
+}  // namespace plumbline::scenarios

@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bim/errors.h"
+#include "bim/load/load.h"
+#include "bim/plan/plan.h"
+#include "bim/random/stream.h"
+#include "scenarios/app/commands.h"
+#include "scenarios/host/files.h"
+#include "scenarios/host/interrupt.h"
+#include "scenarios/host/progress.h"
+#include "scenarios/run/estimate_file.h"
+#include "scenarios/run/method_runner.h"
+#include "scenarios/run/run_files.h"
+#include "scenarios/run/run_pipeline.h"
+#include "scenarios/run/timings.h"
+#include "scenarios/spec/resolve.h"
+#include "slam/io/bags/bag.h"
+#include "slam/io/recordings/recording.h"
+#include "slam/io/stopwatch.h"
+#include "slam/methods.h"
+
+namespace plumbline::scenarios {
+
+namespace {
+
+struct EstimateArguments {
+  std::string recording;
+  std::string method;
+  std::string plan;
+  std::string config;
+  std::string description;
+  slam::BagTopics topics;
+  std::string out;
+  std::uint64_t seed = 1;
+  double yaw_deg = 0.0;
+  std::string storey;
+  bool force = false;
+  std::optional<Argument> seed_option;
+  std::optional<Argument> yaw_option;
+};
+
+const slam::MethodRow& find_row(const std::string& name, slam::MethodTable table) {
+  check_methods({name}, {Mark{"--method", 0, 0}}, table);
+  const slam::MethodRow* row = slam::find_method(name, table);
+  if (row == nullptr)
+    throw InputError({"--method", 0, 0}, "'" + name + "' is no estimator; a recording holds no truth");
+  return *row;
+}
+
+std::shared_ptr<const bim::Plan> load_plan(const EstimateArguments& options, const slam::MethodRow& row,
+                                           const bim::BuildingOptions& taken) {
+  if (!row.needs_plan) return nullptr;
+  if (options.plan.empty())
+    throw InputError({"--plan", 0, 0}, "is missing; method '" + options.method + "' localizes in a plan");
+  return std::make_shared<const bim::Plan>(bim::make_plan(bim::load_site(options.plan, taken).as_planned));
+}
+
+/// What only localization takes is refused elsewhere: who gives it expects poses in the plan.
+void check_plan_options(const EstimateArguments& options, const slam::MethodRow& row) {
+  if (row.needs_plan) return;
+  const auto refuse = [&](const char* name) {
+    throw InputError({name, 0, 0}, "is of methods that localize in a plan; '" + options.method + "' does not");
+  };
+  if (!options.plan.empty()) refuse("--plan");
+  if (!options.storey.empty()) refuse("--storey");
+  if (options.yaw_option->given()) refuse("--yaw-deg");
+}
+
+/// Localization starts from rooms: without one on the storey told, or anywhere, there is nothing to run.
+void check_rooms(const EstimateArguments& options, const bim::Plan& plan, const slam::Prior& prior) {
+  const auto starts_here = [&](const bim::PlanRoom& room) {
+    return !prior.storey || plan.storeys[static_cast<std::size_t>(room.storey)].name == *prior.storey;
+  };
+  if (std::any_of(plan.rooms.begin(), plan.rooms.end(), starts_here)) return;
+  throw InputError({options.plan, 0, 0}, "has no rooms" +
+                                             (prior.storey ? " on storey '" + *prior.storey + "'" : std::string()) +
+                                             ", and method '" + options.method + "' starts from rooms; add rooms");
+}
+
+/// A run directory holds its recording in a folder.
+std::unique_ptr<slam::Recording> open_input(const EstimateArguments& options) {
+  std::optional<slam::RecordingInfo> info;
+  if (!options.description.empty())
+    info = slam::read_recording_info(read_text_file(options.description), options.description);
+  const slam::RecordingInfo* given = info ? &*info : nullptr;
+  if (slam::is_bag(options.recording)) return slam::open_bag(options.recording, options.topics, given);
+  const std::string inner = options.recording + "/" + std::string(recording_folder);
+  return slam::open_recording(std::filesystem::is_directory(inner) ? inner : options.recording, given);
+}
+
+/// What the recording tells, and the command line over it.
+slam::Prior make_prior(const EstimateArguments& options, const slam::RecordingInfo& info, const bim::Plan& plan) {
+  slam::Prior prior = slam::prior_of(info);
+  if (options.yaw_option->given()) prior.yaw_W = wrap_angle(options.yaw_deg * std::numbers::pi / 180.0);
+  if (!options.storey.empty()) prior.storey = options.storey;
+  if (!prior.storey) return prior;
+  std::vector<std::string> names;
+  for (const bim::PlanStorey& storey : plan.storeys) names.push_back(storey.name);
+  if (std::find(names.begin(), names.end(), *prior.storey) != names.end()) return prior;
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+  throw InputError({"--storey", 0, 0}, "the plan has no storey '" + *prior.storey + "'; it has " + list);
+}
+
+/// Every value of the method's config: those of --config over the defaults.
+Tree make_config(const EstimateArguments& options, const slam::MethodRow& row) {
+  if (options.config.empty()) return row.configure ? row.configure({}) : Tree();
+  if (!row.configure) throw InputError({"--config", 0, 0}, "method '" + options.method + "' has no values to set");
+  return row.configure(read_yaml(read_text_file(options.config), options.config));
+}
+
+std::uint64_t run_seed(const EstimateArguments& options, const slam::RecordingInfo& info) {
+  return options.seed_option->given() ? options.seed : info.seed.value_or(options.seed);
+}
+
+slam::MethodInput make_input(const EstimateArguments& options, const slam::MethodRow& row,
+                             const slam::Recording& recording) {
+  const slam::RecordingInfo& info = recording.info();
+  slam::MethodInput input;
+  input.config = make_config(options, row);
+  input.has_odometry = recording.has_odometry();
+  if (row.needs_odometry && !input.has_odometry)
+    throw InputError({options.recording, 0, 0}, "holds no odometry, which method '" + options.method +
+                                                    "' needs; vgicp and s_graphs_plus do without");
+  input.seed = method_seed(run_seed(options, info), row.name);
+  input.calibration = slam::calibration_of(info);
+  input.plan = load_plan(options, row, info.plan);
+  if (input.plan) {
+    input.prior = make_prior(options, info, *input.plan);
+    check_rooms(options, *input.plan, input.prior);
+  }
+  return input;
+}
+
+void shift(std::vector<slam::StampedPose>& poses, slam::Nanoseconds by) {
+  for (slam::StampedPose& pose : poses) pose.stamp += by;
+}
+
+struct Answer {
+  MethodRecord record;      ///< on the recording's own clock
+  double recorded_s = 0.0;  ///< from the first scan to the last
+};
+
+Answer run_method(slam::Recording& recording, const slam::MethodRow& row, const slam::MethodInput& input) {
+  Progress progress(std::string(row.name), 0.0);
+  std::optional<slam::Nanoseconds> first;
+  slam::Nanoseconds last = 0;
+  const FrameSource source = [&](sim::WorldFrame& frame) {
+    slam::SensorFrame sensors;
+    if (!recording.next(sensors)) return false;
+    frame = {};
+    frame.imu = std::move(sensors.imu);
+    frame.odometry = std::move(sensors.odometry);
+    frame.scan = std::move(sensors.scan);
+    last = frame.scan.stamp;
+    if (!first) first = last;
+    progress.at(slam::seconds(last));
+    return true;
+  };
+  std::vector<std::unique_ptr<Participant>> participants;
+  participants.push_back(make_estimator(row, input));
+  MethodRecord record =
+      std::move(run_pipeline(source, [](const sim::WorldFrame&) {}, std::move(participants), {}).front());
+  shift(record.causal, recording.origin());
+  shift(record.estimate.trajectory, recording.origin());
+  for (BeliefRecord& belief : record.beliefs) belief.stamp += recording.origin();
+  return {std::move(record), slam::seconds(last - first.value_or(last))};
+}
+
+/// estimate.yaml: which walk the answer is of, and what it depends on besides recording and plan.
+std::string describe(const slam::MethodRow& row, std::uint64_t seed, const slam::RecordingInfo& info,
+                     const slam::MethodInput& input) {
+  Tree tree = Tree::map();
+  tree.set("estimate", 1).set("method", row.name).set("seed", static_cast<std::int64_t>(seed));
+  if (info.walk) tree.set("walk", *info.walk);
+  if (!input.config.is_null()) tree.set("config", input.config);
+  return write_yaml(tree);
+}
+
+/// timings.json, as that of a run.
+std::string write_cost(const Answer& answer, double start_s) {
+  RunRecord record;
+  MethodRecord& timed = record.methods.emplace_back();
+  timed.name = answer.record.name;
+  timed.times = answer.record.times;
+  return write_timings(record, {slam::wall_s() - start_s, slam::process_cpu_s(), answer.recorded_s, 1});
+}
+
+int estimate(const EstimateArguments& options, slam::MethodTable table) {
+  const double start_s = slam::wall_s();
+  const slam::MethodRow& row = find_row(options.method, table);
+  check_plan_options(options, row);
+  const std::unique_ptr<slam::Recording> recording = open_input(options);
+  const slam::MethodInput input = make_input(options, row, *recording);
+
+  catch_interrupts();
+  RunDirectory directory(options.out, DirectoryKind::estimate, options.force);
+  const Answer answer = run_method(*recording, row, input);
+  const MethodRecord& record = answer.record;
+  write_method(directory.staging(), record);
+  write_file(directory.staging() + "/digests.csv", write_digests(record.digests));
+  write_file(directory.staging() + "/estimate.yaml",
+             describe(row, run_seed(options, recording->info()), recording->info(), input));
+  write_file(directory.staging() + "/timings.json", write_cost(answer, start_s));
+  directory.commit();
+  if (record.crashed) {
+    std::fprintf(stderr, "plumbline: method '%s' crashed: %s\n", record.name.c_str(), record.error.c_str());
+    return 1;
+  }
+  std::printf("%s/%s.tum: %zu poses\n", options.out.c_str(), record.name.c_str(), record.causal.size());
+  if (!record.beliefs.empty())
+    std::printf("%s at the end, %zu places in mind\n", std::string(state_name(record.beliefs.back().state)).c_str(),
+                record.beliefs.back().hypotheses.size());
+  return 0;
+}
+
+}  // namespace
+
+Command add_estimate(CommandLine& program, slam::MethodTable table) {
+  const auto options = std::make_shared<EstimateArguments>();
+  CommandLine line = program.add_command("estimate", "Runs a method on a recording, simulated or real");
+  line.option("RECORDING", options->recording,
+              "directory of simulate or of run --record, capture of a VLP-16 (.pcap), or ROS 1 bag")
+      .required();
+  line.option("--description", options->description, "a recording.yaml, for what has none: where the LiDAR sits");
+  line.option("--points-topic", options->topics.points, "of a bag [the first PointCloud2]");
+  line.option("--odometry-topic", options->topics.odometry, "of a bag [the first Odometry]");
+  line.option("--imu-topic", options->topics.imu, "of a bag [the first Imu]");
+  line.option("--method", options->method, "one of plumbline methods").required();
+  line.option("--plan", options->plan, "building, for methods that localize in a plan");
+  line.option("--config", options->config, "values of the method (YAML); plumbline methods --config NAME prints all");
+  line.option("-o,--out", options->out, "directory to write").required();
+  options->seed_option = line.seed("--seed", options->seed, "seed of the run [the recording's, else 1]");
+  options->yaw_option = line.option("--yaw-deg", options->yaw_deg,
+                                    "compass: heading in the plan at the start [the recording's, else unknown]")
+                            .range(-360.0, 360.0);
+  line.option("--storey", options->storey, "storey of the start [the recording's, else unknown]");
+  line.flag("--force", options->force, "replace the estimate that stands in --out");
+  line.footer(
+      "Example: plumbline estimate walk --method s_graphs_plus -o out\n"
+      "         plumbline estimate walk --method s_graph_localization --plan house.plan.yaml -o out\n"
+      "         plumbline estimate vlp16.pcap --method vgicp -o out");
+  return {line, [options, table] { return estimate(*options, table); }};
+}
+
+}  // namespace plumbline::scenarios

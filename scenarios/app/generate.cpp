@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bim/errors.h"
+#include "bim/formats/plan_yaml/plan_write.h"
+#include "bim/formats/plan_yaml/plan_yaml.h"
+#include "bim/generators/generators.h"
+#include "scenarios/app/commands.h"
+#include "scenarios/host/files.h"
+#include "scenarios/spec/route_plan.h"
+#include "scenarios/spec/scenario.h"
+
+namespace plumbline::scenarios {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct GenerateOptions {
+  std::string out;
+  std::string scenario;
+  bool force = false;
+  std::string unknown_family;
+  std::vector<CommandLine> families;
+  std::map<std::string, std::string> values;  ///< by "family key", as written
+};
+
+/// epsilon_m is given as --epsilon.
+std::string flag_of(const std::string& key) {
+  std::string name = key.size() > 2 && key.substr(key.size() - 2) == "_m" ? key.substr(0, key.size() - 2) : key;
+  for (char& c : name)
+    if (c == '_') c = '-';
+  return "--" + name;
+}
+
+/// What was asked for, as a map of the family's options, and as the command that asks for it.
+struct Asked {
+  Tree options = Tree::map();
+  std::string command;
+};
+
+Asked asked_for(const GenerateOptions& options, const std::string& family) {
+  Asked asked;
+  asked.options.mark = {"plumbline generate " + family, 0, 0};
+  asked.command = "plumbline generate " + family;
+  for (const bim::OptionRow& row : bim::family_options(family)) {
+    const auto given = options.values.find(family + " " + row.key);
+    if (given == options.values.end() || given->second.empty()) continue;
+    Tree value = given->second == "yes" ? Tree("true") : given->second == "no" ? Tree("false") : Tree(given->second);
+    value.mark = {flag_of(row.key), 0, 0};
+    asked.options.set(row.key, std::move(value));
+    asked.command += " " + flag_of(row.key) + " " + given->second;
+  }
+  return asked;
+}
+
+void refuse_to_replace(const std::string& path, bool force) {
+  if (fs::is_directory(path)) throw InputError({path, 0, 0}, "is a directory; name a file");
+  if (!force && fs::exists(path)) throw InputError({path, 0, 0}, "exists already; --force replaces it");
+  const fs::path folder = fs::path(path).parent_path();
+  if (!folder.empty() && !fs::is_directory(folder))
+    throw InputError({path, 0, 0}, "its folder is not there; make it, or name another");
+}
+
+/// A walk through all rooms of the start's storey and back, with time to spare.
+std::string scenario_for(const bim::GeneratedPlan& generated, const std::string& plan_text,
+                         const GenerateOptions& options) {
+  constexpr double slower_than_planned = 1.5;
+  constexpr double at_rest_s = 30.0;
+  Scenario scenario;
+  scenario.name = generated.plan.name;
+  scenario.building = fs::path(options.out).lexically_proximate(fs::path(options.scenario).parent_path()).string();
+  scenario.start.room = generated.start;
+  scenario.route.rooms = generated.rooms;
+  scenario.methods = {"truth", "odometry", "vgicp", "s_graphs_plus", "s_graph_localization"};
+  const Mark mark{options.scenario, 0, 0};
+  const RoutePlan route =
+      plan_route(bim::read_plan_text(plan_text, options.out), scenario.start, scenario.route, {mark, mark, {}});
+  scenario.duration_s = std::ceil(slower_than_planned * route.length_m / scenario.speed_mps + at_rest_s);
+  return write_scenario(scenario);
+}
+
+int generate(const GenerateOptions& options) {
+  std::string family = options.unknown_family;
+  for (const CommandLine& line : options.families)
+    if (line.asked()) family = line.name();
+  if (family.empty()) throw InputError({"plumbline generate", 0, 0}, "name a family; see plumbline generate --help");
+  const Asked asked = asked_for(options, family);
+  const bim::GeneratedPlan generated = bim::generate(family, asked.options);
+  const std::string text = bim::write_plan(generated.plan, "Made by: " + asked.command);
+  if (options.out == "-") {
+    if (!options.scenario.empty()) throw InputError({"--scenario", 0, 0}, "needs a plan in a file; give -o a path");
+    std::fwrite(text.data(), 1, text.size(), stdout);
+    return 0;
+  }
+  refuse_to_replace(options.out, options.force);
+  if (!options.scenario.empty()) {
+    refuse_to_replace(options.scenario, options.force);
+    if (fs::weakly_canonical(fs::absolute(options.scenario)) == fs::weakly_canonical(fs::absolute(options.out)))
+      throw InputError({"--scenario", 0, 0}, "is the plan's own file; name another");
+  }
+  const std::string scenario = options.scenario.empty() ? "" : scenario_for(generated, text, options);
+  write_file(options.out, text);
+  if (!options.scenario.empty()) write_file(options.scenario, scenario);
+  return 0;
+}
+
+CommandLine add_family(CommandLine& program, const bim::FamilyRow& row,
+                       const std::shared_ptr<GenerateOptions>& options) {
+  const std::string name(row.name);
+  CommandLine line = program.add_command(name, std::string(row.summary));
+  line.option("-o,--out", options->out, "plan to write; - for stdout").required();
+  line.option("--scenario", options->scenario, "also writes a scenario that walks through all rooms");
+  line.flag("--force", options->force, "replace files that are there");
+  for (const bim::OptionRow& option : bim::family_options(name)) {
+    const std::string choices = option.choices.empty() ? "" : ": " + option.choices;
+    const std::string value = option.value.empty() ? "" : " [" + option.value + "]";
+    line.option(flag_of(option.key), options->values[name + " " + option.key], option.doc + choices + value);
+  }
+  line.footer("Example: plumbline generate " + name + " --seed 7 --feature column --epsilon 0.3 -o " + name +
+              ".plan.yaml");
+  return line;
+}
+
+}  // namespace
+
+Command add_generate(CommandLine& program) {
+  const auto options = std::make_shared<GenerateOptions>();
+  CommandLine line = program.add_command("generate", "Makes a building that is hard to tell one's place in");
+  for (const bim::FamilyRow& row : bim::families()) options->families.push_back(add_family(line, row, options));
+  // An unknown name is told apart from the known ones by what the families say of it.
+  line.option("FAMILY", options->unknown_family).hidden();
+  line.takes_command_or_any("FAMILY");
+  line.footer(
+      "Example: plumbline generate corridor --rooms 6 --feature door_shift --epsilon 0.1 -o corridor.plan.yaml\n"
+      "plumbline generate FAMILY --help lists the sizes and features of a family.");
+  return {line, [options] { return generate(*options); }};
+}
+
+}  // namespace plumbline::scenarios

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bim/errors.h"
+#include "bim/formats/mesh/mesh_file.h"
+#include "scenarios/app/commands.h"
+#include "scenarios/app/process.h"
+#include "scenarios/host/files.h"
+#include "scenarios/host/interrupt.h"
+#include "scenarios/localizability/building_map.h"
+#include "scenarios/localizability/planned_walk.h"
+
+namespace plumbline::scenarios {
+
+namespace {
+
+struct IdentifyOptions {
+  std::string building;
+  std::string storey;
+  std::string out;
+  BuildingMapOptions map;
+  int threads = 0;
+  int seeds = 20;
+  bool json = false;
+  bool force = false;
+  std::vector<Argument> of_buildings;
+  std::vector<Argument> of_scenarios;
+};
+
+/// The page to write: FILE.html, or identify.html in a directory, which is made. Empty: none.
+std::string page_path(const IdentifyOptions& options) {
+  namespace fs = std::filesystem;
+  if (options.out.empty()) return "";
+  const bool page = fs::path(options.out).extension() == ".html";
+  if (!page && fs::path(options.out).has_extension() && !fs::is_directory(options.out))
+    throw InputError({options.out, 0, 0}, "must be a page (.html) or a directory");
+  const std::string path = page ? options.out : options.out + "/identify.html";
+  if (fs::exists(path) && !options.force) throw InputError({path, 0, 0}, "exists already; --force replaces it");
+  return path;
+}
+
+bool is_scenario(const std::string& path) {
+  if (std::filesystem::path(path).extension() != ".yaml") return false;
+  return read_yaml(read_text_file(path), path).find("scenario") != nullptr;
+}
+
+void refuse_given(const std::vector<Argument>& others, const std::string& why) {
+  for (const Argument& option : others)
+    if (option.given()) throw InputError({option.name(), 0, 0}, why);
+}
+
+int identify_scenario(const IdentifyOptions& options, int threads) {
+  const std::vector<WalkAnswers> walks = identify_walks(options.building, options.seeds, threads);
+  const std::string text = options.json ? write_json(walks_json(walks)) + "\n" : walks_text(walks);
+  std::fwrite(text.data(), 1, text.size(), stdout);
+  return 0;
+}
+
+int identify(const IdentifyOptions& options) {
+  const int threads = options.threads > 0 ? options.threads : std::min(allowed_cpus(), 2);
+  if (bim::is_mesh_path(options.building))
+    throw InputError({options.building, 0, 0}, "is a mesh, which has no plan; name a plan or an .ifc");
+  if (is_scenario(options.building)) {
+    refuse_given(options.of_buildings,
+                 "is of a building; of a scenario's walks only --seeds, --json and --threads are");
+    catch_interrupts();
+    return identify_scenario(options, threads);
+  }
+  refuse_given(options.of_scenarios, "is of a scenario's walks; this is a building");
+  const std::string page = page_path(options);
+  const bim::Site site = bim::load_site(options.building);
+  BuildingMapOptions map_options = options.map;
+  if (!options.storey.empty()) map_options.storey = options.storey;
+  map_options.threads = threads;
+  catch_interrupts();
+  const BuildingMap map = map_of(site, map_options);
+  if (!page.empty()) {
+    const std::filesystem::path folder = std::filesystem::path(page).parent_path();
+    std::error_code error;
+    if (!folder.empty()) std::filesystem::create_directories(folder, error);
+    write_file(page, identify_page(site, std::filesystem::path(options.building).filename().string(), map));
+  }
+  const std::string text = options.json ? write_json(identify_json(site, map)) + "\n" : identify_text(site, map);
+  std::fwrite(text.data(), 1, text.size(), stdout);
+  return 0;
+}
+
+}  // namespace
+
+Command add_identify(CommandLine& program) {
+  const auto options = std::make_shared<IdentifyOptions>();
+  CommandLine line =
+      program.add_command("identify", "Says where in a building a VLP-16 can tell where it is, and after what walk");
+  line.option("BUILDING", options->building,
+              "plan or traffic-editor plan (.yaml) or .ifc; or a scenario, to be told of the walks it plans")
+      .required();
+  options->of_buildings = {
+      line.option("--storey", options->storey, "of this storey alone, by its id or name"),
+      line.option("--step", options->map.step_m, "distance between the places asked about, m")
+          .range(0.1, 5.0)
+          .shows_default(),
+      line.flag("--across", options->map.across, "the storey is not told: places on other storeys count"),
+      line.flag("--compass", options->map.compass_only, "with a compass only, which is quicker"),
+      line.option("-o,--out", options->out, "page to write (.html), or a directory for identify.html"),
+      line.flag("--force", options->force, "replaces the page that is there")};
+  line.flag("--json", options->json, "for programs, every place");
+  line.option("--threads", options->threads, "threads [2, or the CPUs allowed]").range(1, 1024);
+  options->of_scenarios = {line.option("--seeds", options->seeds, "of a scenario: walks with the seeds from 1 on")
+                               .range(1, 100000)
+                               .shows_default()};
+  line.footer(
+      "Example: plumbline identify house.plan.yaml -o house.html\n"
+      "         plumbline identify scenario.yaml --seeds 100");
+  return {line, [options] { return identify(*options); }};
+}
+
+}  // namespace plumbline::scenarios

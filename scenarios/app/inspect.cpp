@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenarios/app/inspect/inspect.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "bim/errors.h"
+#include "bim/formats/ifc/write/write_ifc.h"
+#include "bim/formats/plan_yaml/plan_schema.h"
+#include "bim/load/load.h"
+#include "bim/mesh/export.h"
+#include "scenarios/app/commands.h"
+#include "scenarios/host/files.h"
+
+namespace plumbline::scenarios {
+
+namespace {
+
+struct InspectOptions {
+  std::string building;
+  std::string mesh;
+  std::string ifc;
+  bool json = false;
+  bool as_built = false;
+  bool schema = false;
+  bool force = false;
+};
+
+/// Throws InputError where a file to write is the one that is read, or is there and may not be replaced.
+void check_output(const std::string& path, const InspectOptions& options) {
+  std::error_code unknown;  // a file that is not there is no building either
+  if (std::filesystem::equivalent(path, options.building, unknown))
+    throw InputError({path, 0, 0}, "this would overwrite the building that is read; give another name");
+  if (std::filesystem::exists(path, unknown) && !options.force)
+    throw InputError({path, 0, 0}, "exists already; --force replaces it");
+}
+
+int inspect(const InspectOptions& options) {
+  if (options.schema) {
+    std::fputs(bim::plan_page().c_str(), stdout);
+    return 0;
+  }
+  if (options.building.empty()) throw InputError({"BUILDING", 0, 0}, "is missing; name a plan or an .ifc");
+  std::optional<bim::MeshFormat> format;
+  if (!options.mesh.empty()) format = bim::mesh_format(options.mesh);
+  for (const std::string& output : {options.mesh, options.ifc})
+    if (!output.empty()) check_output(output, options);
+  if (!options.ifc.empty() && options.ifc == options.mesh)
+    throw InputError({"--ifc", 0, 0}, "names the file that --mesh does");
+  const bim::Site site = options.as_built ? bim::load_site(options.building) : bim::Site{};
+  const bim::Building building = options.as_built ? site.as_built : bim::load_building(options.building);
+  const bim::BuildingMesh mesh = bim::build_mesh(building);
+  if (format) write_file(options.mesh, bim::write_mesh(building, mesh, *format));
+  if (!options.ifc.empty()) write_file(options.ifc, bim::write_ifc(building));
+  const std::string text =
+      options.json ? write_json(inspect_json(building, mesh)) + "\n" : inspect_text(building, mesh, site.changes);
+  std::fwrite(text.data(), 1, text.size(), stdout);
+  return 0;
+}
+
+}  // namespace
+
+Command add_inspect(CommandLine& program) {
+  const auto options = std::make_shared<InspectOptions>();
+  CommandLine line = program.add_command("inspect", "Says what is in a building: storeys, rooms, walls, warnings");
+  line.option("BUILDING", options->building,
+              "plan or traffic-editor plan (.yaml), .ifc, or mesh (.glb, .obj, .dae, .ply, .stl)");
+  line.flag("--json", options->json, "for programs, every element");
+  line.flag("--as-built", options->as_built, "with its deviations, closed doors and window panes");
+  line.option("--mesh", options->mesh, "writes the cut building as .glb, .obj or .ply");
+  line.flag("--schema", options->schema, "prints instead every key of plan files, with examples");
+  line.option("--ifc", options->ifc, "writes the building as IFC4");
+  line.flag("--force", options->force, "replaces the files that are there");
+  line.footer(
+      "Examples: plumbline inspect house.ifc --mesh house.glb\n"
+      "          plumbline inspect site.plan.yaml --as-built --ifc built.ifc");
+  return {line, [options] { return inspect(*options); }};
+}
+
+}  // namespace plumbline::scenarios

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "scenarios/app/commands.h"
+#include "scenarios/run/method_runner.h"
+#include "scenarios/spec/method_names.h"
+#include "scenarios/spec/resolve.h"
+#include "scenarios/spec/scenario_schema.h"
+
+namespace plumbline::scenarios {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+int list_methods(slam::MethodTable table) {
+  std::size_t widest = truth_method.size();
+  for (const slam::MethodRow& row : table) widest = std::max(widest, row.name.size());
+  const int width = static_cast<int>(widest);
+  for (const slam::MethodRow& row : table)
+    std::printf("%-*s %s%s\n", width, std::string(row.name).c_str(), std::string(row.summary).c_str(),
+                row.needs_plan ? " (needs the plan)" : "");
+  std::printf("%-*s %s\n", width, std::string(truth_method).c_str(),
+              "the true poses; scores 0, which checks the scorer");
+  return 0;
+}
+
+int print_config(const std::string& name, slam::MethodTable table) {
+  check_methods({name}, {Mark{"--config", 0, 0}}, table);
+  const slam::MethodRow* row = slam::find_method(name, table);
+  if (row == nullptr || !row->config_schema)
+    throw InputError({"--config", 0, 0}, "method '" + name + "' has no values to set");
+  std::fputs(schema_yaml(row->config_schema().front().fields).c_str(), stdout);
+  return 0;
+}
+
+int list_scenarios(const std::string& folder) {
+  if (!fs::is_directory(folder)) throw InputError({folder, 0, 0}, "no such directory; name one with scenarios in it");
+  std::vector<std::string> paths;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder))
+    if (entry.path().extension() == ".yaml") paths.push_back(entry.path().string());
+  std::sort(paths.begin(), paths.end());
+  for (const std::string& path : paths) {
+    const Tree tree = read_yaml(read_text_file(path), path);
+    if (tree.find("scenario") == nullptr) continue;
+    const Scenario scenario = read_scenario(read_text_file(path), path).scenario;
+    std::string methods;
+    for (const std::string& name : scenario.methods) methods += " " + name;
+    std::printf("%-40s %-20s%s\n", path.c_str(), scenario.name.c_str(), methods.c_str());
+  }
+  return 0;
+}
+
+int print_schema() {
+  std::fputs(scenario_page().c_str(), stdout);
+  return 0;
+}
+
+}  // namespace
+
+Command add_methods(CommandLine& program, slam::MethodTable table) {
+  const auto config = std::make_shared<std::string>();
+  CommandLine line = program.add_command("methods", "Lists the methods a scenario may ask for");
+  line.option("--config", *config, "prints instead every value of this method's --config file, at its default");
+  line.footer("Example: plumbline methods\n         plumbline methods --config vgicp > vgicp.yaml");
+  return {line, [config, table] { return config->empty() ? list_methods(table) : print_config(*config, table); }};
+}
+
+Command add_scenarios(CommandLine& program) {
+  struct Options {
+    std::string folder = "scenarios/library";
+    bool schema = false;
+  };
+  const auto options = std::make_shared<Options>();
+  CommandLine line = program.add_command("scenarios", "Lists the scenarios of a folder and the folders in it");
+  line.option("FOLDER", options->folder, "folder with scenarios").shows_default();
+  line.flag("--schema", options->schema, "prints instead every key of scenario files, with examples");
+  line.footer("Example: plumbline scenarios scenarios/library");
+  return {line, [options] { return options->schema ? print_schema() : list_scenarios(options->folder); }};
+}
+
+}  // namespace plumbline::scenarios

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include "scenarios/app/commands.h"
+#include "scenarios/host/files.h"
+#include "scenarios/report/report_builder.h"
+#include "scenarios/run/run_files.h"
+
+namespace plumbline::scenarios {
+
+Command add_report(CommandLine& program) {
+  const auto dir = std::make_shared<std::string>();
+  CommandLine line = program.add_command("report", "Writes the page of a run again");
+  line.option("DIR", *dir, "run directory").required();
+  line.footer("Example: plumbline report runs/quickstart-1");
+  return {line, [dir] {
+            const RunFiles files = read_run_files(*dir);
+            write_file(*dir + "/report.html", render_report(report_input(files, score::score_run(files))));
+            std::printf("report: %s/report.html\n", dir->c_str());
+            return 0;
+          }};
+}
+
+}  // namespace plumbline::scenarios

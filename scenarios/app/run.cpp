@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bim/errors.h"
+#include "scenarios/app/commands.h"
+#include "scenarios/app/process.h"
+#include "scenarios/app/summary.h"
+#include "scenarios/host/files.h"
+#include "scenarios/host/interrupt.h"
+#include "scenarios/host/progress.h"
+#include "scenarios/run/recorder.h"
+#include "scenarios/run/run_files.h"
+#include "scenarios/run/runner.h"
+#include "scenarios/run/timings.h"
+#include "slam/io/stopwatch.h"
+
+namespace plumbline::scenarios {
+
+namespace {
+
+struct RunArguments {
+  std::string input;
+  std::vector<std::string> methods;
+  std::uint64_t seed = 0;
+  std::string out;
+  int threads = 0;
+  bool record = false;
+  bool force = false;
+  std::optional<Argument> methods_option;
+  std::optional<Argument> seed_option;
+};
+
+/// runs/<scenario>-<seed>, with what does not belong into a file name replaced.
+std::string default_out(const Scenario& scenario) {
+  std::string name = scenario.name;
+  for (char& c : name) {
+    const bool plain =
+        (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
+    if (!plain) c = '_';
+  }
+  return "runs/" + name + "-" + std::to_string(scenario.seed);
+}
+
+Overrides overrides_of(const RunArguments& options) {
+  Overrides overrides;
+  if (options.methods_option->given()) overrides.methods = options.methods;
+  if (options.seed_option->given()) overrides.seed = options.seed;
+  return overrides;
+}
+
+int run(const RunArguments& options, slam::MethodTable table) {
+  const double start = slam::wall_s();
+  const ResolvedScenario resolved = resolve(options.input, overrides_of(options), table);
+  const std::string out = options.out.empty() ? default_out(resolved.scenario) : options.out;
+  if (resolved.dropped_gates > 0)
+    std::fprintf(stderr, "plumbline: %d gates of methods left out by --method are not asked\n", resolved.dropped_gates);
+
+  catch_interrupts();
+  RunDirectory directory(out, DirectoryKind::run, options.force);
+  Progress progress(resolved.scenario.name, resolved.scenario.duration_s);
+  const int threads = options.threads > 0 ? options.threads : allowed_cpus();
+  RunOptions run_options;
+  run_options.threads = threads;
+  run_options.tick = [&](double t) { progress.at(t); };
+  std::optional<Recorder> recorder;
+  if (options.record) {
+    recorder.emplace(directory.staging() + "/" + std::string(recording_folder), resolved);
+    run_options.sensors = [&](const sim::WorldFrame& frame) { recorder->add(frame); };
+  }
+  const RunRecord record = execute(resolved, run_options);
+  if (record.truth_W.empty())
+    throw ScenarioFailure(record.failure.empty() ? "the run ended before its first scan" : record.failure);
+
+  progress.phase("scoring");
+  write_run_files(directory.staging(), resolved, record);
+  if (recorder) recorder->finish();
+  const RunFiles files = read_run_files(directory.staging());
+  const score::RunScore score = score_and_report(files);
+  check_interrupt();
+  const RunCost cost{slam::wall_s() - start, slam::process_cpu_s(), score.duration_s, threads};
+  write_file(directory.staging() + "/timings.json", write_timings(record, cost));
+  directory.commit();
+
+  if (!record.failure.empty()) std::fprintf(stderr, "%s\n", record.failure.c_str());
+  std::fputs(("report: " + out + "/report.html\n" + summarise(files, score)).c_str(), stdout);
+  return exit_code(files, score);
+}
+
+}  // namespace
+
+Command add_run(CommandLine& program, slam::MethodTable table) {
+  const auto options = std::make_shared<RunArguments>();
+  CommandLine line = program.add_command("run", "Simulates a scenario, runs the methods, scores and reports them");
+  line.option("INPUT", options->input,
+              "scenario, plan or traffic-editor plan (.yaml), .ifc, or mesh (.glb, .obj, .dae, .ply, .stl)")
+      .required();
+  options->methods_option =
+      line.option("--method", options->methods, "methods to run, comma-separated [the scenario's]").delimiter(',');
+  options->seed_option = line.seed("--seed", options->seed, "seed [the scenario's]");
+  line.option("-o,--out", options->out, "run directory [runs/<scenario>-<seed>]");
+  line.option("--threads", options->threads, "threads [the CPUs allowed]").range(1, 1024);
+  line.flag("--record", options->record, "also write the recording, as simulate does, into the folder recording");
+  line.flag("--force", options->force, "replace the run that stands in --out");
+  line.footer(
+      "Example: plumbline run scenarios/library/quickstart.yaml --method vgicp,truth --seed 7 --out runs/seven");
+  return {line, [options, table] { return run(*options, table); }};
+}
+
+}  // namespace plumbline::scenarios

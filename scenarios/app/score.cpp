@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "bim/config/tree.h"
+#include "scenarios/app/commands.h"
+#include "scenarios/app/summary.h"
+#include "scenarios/metrics/trajectory.h"
+#include "scenarios/run/ground_truth_recorder.h"
+#include "scenarios/run/run_files.h"
+#include "scenarios/spec/method_names.h"
+#include "slam/io/recordings/tum.h"
+
+namespace plumbline::scenarios {
+
+namespace {
+
+bool is_plain_name(const std::string& name) {
+  const auto plain = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+  };
+  return !name.empty() && std::all_of(name.begin(), name.end(), plain);
+}
+
+/// The answer to another walk of the same length would only look bad.
+void check_walk(const std::string& dir, const RunFiles& files) {
+  const std::string path = dir + "/estimate.yaml";
+  const Tree tree = read_yaml(read_text_file(path), path);
+  const Tree* walk = tree.find("walk");
+  if (walk != nullptr && walk->as_string() != walk_of(files.digests))
+    throw InputError(walk->mark, "the estimate is of another run's recording; give one of " + files.dir);
+}
+
+/// What `plumbline estimate` left: planes, rooms and map beside the trajectories.
+MethodRecord read_estimate_directory(const std::string& dir, const std::string& name, const RunFiles& files) {
+  const std::vector<std::string> methods = estimates_in(dir);
+  if (methods.size() != 1)
+    throw InputError({dir, 0, 0}, methods.empty() ? "holds no estimate; give what plumbline estimate wrote"
+                                                  : "holds several estimates; give a directory of plumbline estimate");
+  if (std::filesystem::exists(dir + "/estimate.yaml")) check_walk(dir, files);
+  MethodRecord method = read_method(dir, methods.front());
+  method.name = name;
+  return method;
+}
+
+/// NAME=DIR or NAME=FILE[,frame=W|M]
+MethodRecord read_outside(const std::string& text, const RunFiles& files) {
+  const Mark mark{"--estimate", 0, 0};
+  const std::size_t equals = text.find('=');
+  std::string path = equals == std::string::npos ? "" : text.substr(equals + 1);
+  MethodRecord method;
+  method.name = text.substr(0, equals);
+  if (is_plain_name(method.name) && std::filesystem::is_directory(path))
+    return read_estimate_directory(path, method.name, files);
+  for (const auto& [end, world] : {std::pair{",frame=W", true}, std::pair{",frame=M", false}}) {
+    if (!path.ends_with(end)) continue;
+    path.resize(path.size() - std::string_view(end).size());
+    method.localization = world;
+    break;
+  }
+  if (const std::size_t frame = path.rfind(",frame="); frame != std::string::npos)
+    throw InputError(mark, "'" + path.substr(frame + 1) + "' must be frame=W, the plan's, or frame=M, its own");
+  if (!is_plain_name(method.name) || path.empty())
+    throw InputError(
+        mark, "'" + text + "' must be NAME=trajectory.tum, NAME=trajectory.tum,frame=W or NAME=directory of estimate");
+  method.estimate.frame = method.localization ? slam::Frame::world : slam::Frame::map;
+  method.causal = slam::read_tum(read_text_file(path), path);
+  if (method.causal.empty()) throw InputError({path, 0, 0}, "holds no pose");
+  return method;
+}
+
+/// A trajectory on another clock, the commonest mistake, would only look lost.
+void check_stamps(const std::string& text, const MethodRecord& method, const RunFiles& files) {
+  score::Truth truth;
+  truth.scans = files.scans;
+  truth.poses_W = files.truth_W;
+  if (method.causal.empty() || !score::associate(truth, method.causal, {}).empty()) return;
+  const auto span = [](slam::Nanoseconds first, slam::Nanoseconds last) {
+    return slam::format_stamp(first) + " to " + slam::format_stamp(last) + " s";
+  };
+  throw InputError({"--estimate", 0, 0}, "'" + text +
+                                             "' has a pose within 0.01 s of none of the run's scans; it is of " +
+                                             span(method.causal.front().stamp, method.causal.back().stamp) +
+                                             ", the scans are of " + span(files.scans.front(), files.scans.back()));
+}
+
+/// Only outside estimates can be dropped: the run's own cannot be had again without a run.
+void check_dropped(const std::vector<std::string>& dropped, const RunFiles& files) {
+  const Mark mark{"--drop", 0, 0};
+  const auto& own = files.scenario.methods;
+  std::vector<std::string> outside;
+  for (const MethodRecord& method : files.methods)
+    if (std::find(own.begin(), own.end(), method.name) == own.end()) outside.push_back(method.name);
+  for (const std::string& name : dropped) {
+    if (std::find(own.begin(), own.end(), name) != own.end())
+      throw InputError(mark, "'" + name + "' is a method of this run; only outside estimates can be dropped");
+    if (std::find(outside.begin(), outside.end(), name) != outside.end()) continue;
+    const std::string close = did_you_mean(name, outside);
+    throw InputError(
+        mark, "there is no outside estimate '" + name + "'" + (close.empty() ? "" : "; did you mean '" + close + "'?"));
+  }
+}
+
+int score_again(const std::string& dir, const std::vector<std::string>& estimates,
+                const std::vector<std::string>& dropped) {
+  RunFiles files = read_run_files(dir);
+  check_dropped(dropped, files);
+  std::vector<MethodRecord> outside;
+  for (const std::string& text : estimates) {
+    MethodRecord read = read_outside(text, files);
+    check_stamps(text, read, files);
+    if (std::any_of(outside.begin(), outside.end(), [&](const MethodRecord& m) { return m.name == read.name; }))
+      throw InputError({"--estimate", 0, 0}, "'" + read.name + "' is given twice");
+    outside.push_back(std::move(read));
+    const auto& names = files.scenario.methods;
+    if (outside.back().name == truth_method ||
+        std::find(names.begin(), names.end(), outside.back().name) != names.end())
+      throw InputError({"--estimate", 0, 0},
+                       "'" + outside.back().name + "' is a method of this run; give another name");
+  }
+  for (const std::string& name : dropped) remove_method(dir, name);
+  for (const MethodRecord& method : outside) write_method(dir, method);
+  if (!outside.empty() || !dropped.empty()) files = read_run_files(dir);
+  const score::RunScore score = score_and_report(files);
+  std::fputs(("report: " + dir + "/report.html\n" + summarise(files, score)).c_str(), stdout);
+  return exit_code(files, score);
+}
+
+}  // namespace
+
+Command add_score(CommandLine& program) {
+  struct Options {
+    std::string dir;
+    std::vector<std::string> estimates;
+    std::vector<std::string> dropped;
+  };
+  const auto options = std::make_shared<Options>();
+  CommandLine line = program.add_command("score", "Scores a run again from what is on disk, with outside estimates");
+  line.option("DIR", options->dir, "run directory").required();
+  line.option("--estimate", options->estimates,
+              "NAME=trajectory.tum[,frame=W|M]: poses of the robot in the plan's frame W or its own M [M]; or "
+              "NAME=directory that plumbline estimate wrote, of the run's recording");
+  line.option("--drop", options->dropped, "outside estimates of this name, which were given before");
+  line.footer(
+      "Example: plumbline score runs/quickstart-1 --estimate kiss=kiss.tum --estimate amcl=amcl.tum,frame=W\n"
+      "         plumbline score runs/quickstart-1 --estimate paper=estimates/paper");
+  return {line, [options] { return score_again(options->dir, options->estimates, options->dropped); }};
+}
+
+}  // namespace plumbline::scenarios

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenarios/app/summary.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+
+#include "scenarios/host/files.h"
+#include "scenarios/report/report_builder.h"
+
+namespace plumbline::scenarios {
+
+namespace {
+
+struct Column {
+  const char* title;
+  std::string_view metric;
+  int decimals;
+};
+constexpr std::array<Column, 7> columns = {{{"ATE m", "ate_aligned_rmse_m", 3},
+                                            {"RPE/m", "rpe_1m_rmse_m", 3},
+                                            {"map m", "map_rmse_m", 3},
+                                            {"mapped", "map_completeness", 2},
+                                            {"rooms", "rooms.recall", 2},
+                                            {"APE m", "localization.ape_rmse_m", 3},
+                                            {"found s", "localization.converged_at_s", 1}}};
+
+std::string cell(const score::MethodScore& score, const Column& column) {
+  const std::optional<double> value = score::find_metric(column.metric)->value(score);
+  char text[32];
+  if (value)
+    std::snprintf(text, sizeof(text), "%9.*f", column.decimals, *value);
+  else
+    std::snprintf(text, sizeof(text), "%9s", "-");
+  return text;
+}
+
+std::string row(const std::string& name, std::size_t width, const std::string& verdict) {
+  char text[32];
+  std::snprintf(text, sizeof(text), " %-18s", verdict.c_str());
+  return name + std::string(width - std::min(width, name.size()), ' ') + text;
+}
+
+}  // namespace
+
+std::string summarise(const RunFiles& files, const score::RunScore& score) {
+  char head[160];
+  std::snprintf(head, sizeof(head), "%s, seed %llu: %.1f m in %.1f s, digest %s\n", files.scenario.name.c_str(),
+                static_cast<unsigned long long>(files.scenario.seed), score.distance_m, score.duration_s,
+                score.digest.c_str());
+  std::string text = head;
+  if (!files.failure.empty()) text += "the scenario failed: " + files.failure + "\n";
+  std::size_t width = 22;
+  for (const score::MethodScore& method : score.methods) width = std::max(width, method.name.size());
+  text += row("method", width, "verdict");
+  for (const Column& column : columns) {
+    char title[16];
+    std::snprintf(title, sizeof(title), "%9s", column.title);
+    text += title;
+  }
+  text += "\n";
+  for (const score::MethodScore& method : score.methods) {
+    text += row(method.name, width, method.verdict);
+    for (const Column& column : columns) text += cell(method, column);
+    text += method.error.empty() ? "\n" : "  " + method.error + "\n";
+  }
+  for (const score::GateResult& gate : score.gates)
+    text += (gate.passed ? "passed: " : "FAILED: ") + score::describe(gate) + "\n";
+  if (score.gates.empty()) return text + "no gates\n";
+  const auto passed = std::count_if(score.gates.begin(), score.gates.end(), [](const auto& g) { return g.passed; });
+  return text + "gates: " + std::to_string(passed) + " of " + std::to_string(score.gates.size()) + " passed\n";
+}
+
+int exit_code(const RunFiles& files, const score::RunScore& score) {
+  if (!files.failure.empty()) return 4;
+  return score.passed() ? 0 : 1;
+}
+
+score::RunScore score_and_report(const RunFiles& files) {
+  score::RunScore score = score::score_run(files);
+  write_file(files.dir + "/report.html", render_report(report_input(files, score)));
+  score::write_scores(files, score);
+  return score;
+}
+
+}  // namespace plumbline::scenarios

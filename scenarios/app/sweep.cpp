@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenarios/sweep/sweep.h"
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bim/errors.h"
+#include "scenarios/app/commands.h"
+#include "scenarios/app/process.h"
+#include "scenarios/host/interrupt.h"
+#include "scenarios/sweep/shared_walk.h"
+
+namespace plumbline::scenarios {
+
+namespace {
+
+struct SweepArguments {
+  std::string file;
+  std::string out;
+  int jobs = 0;
+  int seeds = 0;
+  bool schema = false;
+  std::vector<std::string> runs;  ///< what this program asks its children for: the runs of one walk
+  std::uint64_t seed = 1;
+};
+
+int sweep(const SweepArguments& options, slam::MethodTable table) {
+  if (!options.runs.empty()) {
+    constexpr int scenario_failed = 4;
+    catch_interrupts();
+    return run_shared(options.runs, options.seed, table) ? 0 : scenario_failed;
+  }
+  if (options.schema) {
+    std::fputs(sweep_page().c_str(), stdout);
+    return 0;
+  }
+  if (options.file.empty()) throw InputError({"SWEEP", 0, 0}, "is missing; name a sweep file");
+  const Sweep sweep = read_sweep(options.file, options.seeds, table);
+  std::string name = sweep.file.name;
+  for (char& c : name)
+    if (c == '/' || c == ' ') c = '_';
+  SweepOptions run;
+  run.out = options.out.empty() ? "sweeps/" + name : options.out;
+  run.jobs = options.jobs > 0 ? options.jobs : allowed_cpus();
+  run.resumed = [&](std::size_t done, std::size_t all) {
+    std::fprintf(stderr,
+                 "plumbline: %zu of %zu runs are there already; %s/results holds them, remove those to be made anew\n",
+                 done, all, run.out.c_str());
+  };
+  if (::isatty(STDERR_FILENO) == 1)
+    run.progress = [](std::size_t done, std::size_t all) { std::fprintf(stderr, "\r%zu of %zu runs", done, all); };
+  catch_interrupts();
+  const std::string text = run_sweep(sweep, run);
+  if (run.progress) std::fputc('\n', stderr);
+  std::fputs((text + "table: " + run.out + "/table.html\n").c_str(), stdout);
+  return 0;
+}
+
+}  // namespace
+
+Command add_sweep(CommandLine& program, slam::MethodTable table) {
+  const auto options = std::make_shared<SweepArguments>();
+  CommandLine line = program.add_command("sweep", "Runs scenarios with many seeds and variants; makes one table");
+  line.option("SWEEP", options->file, "sweep file (.yaml)");
+  line.option("-o,--out", options->out, "folder of the sweep, new or to be gone on with [sweeps/<name>]");
+  line.option("--jobs", options->jobs, "runs at a time [the CPUs allowed]").range(1, 1024);
+  line.option("--seeds", options->seeds, "how many seeds of each, in place of the file's; what is made stays for more")
+      .range(1, 100000);
+  line.flag("--schema", options->schema, "prints instead every key of sweep files, with examples");
+  line.option("--runs", options->runs, "scenarios that differ in what methods are told alone, to be run on one walk")
+      .hidden();
+  line.seed("--seed", options->seed, "their seed").hidden();
+  line.footer("Example: plumbline sweep ci/sweeps/look.yaml --jobs 2\nStopped at any moment, it goes on where it was.");
+  return {line, [options, table] { return sweep(*options, table); }};
+}
+
+}  // namespace plumbline::scenarios

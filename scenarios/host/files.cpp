@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenarios/host/files.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <utility>
+
+#include "bim/errors.h"
+
+namespace plumbline::scenarios {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::string_view staging_name = ".partial";
+
+[[noreturn]] void fail(const std::string& path, const std::string& what, int error) {
+  throw EnvironmentError(path + ": " + what + ": " + std::strerror(error));
+}
+
+/// Closes on every way out.
+class Descriptor {
+ public:
+  explicit Descriptor(int fd) : fd_(fd) {}
+  ~Descriptor() { close_now(); }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  [[nodiscard]] int get() const { return fd_; }
+  int close_now() { return fd_ >= 0 ? ::close(std::exchange(fd_, -1)) : 0; }
+
+ private:
+  int fd_;
+};
+
+void write_all(int fd, std::string_view bytes, const std::string& path) {
+  while (!bytes.empty()) {
+    const ssize_t n = ::write(fd, bytes.data(), bytes.size());
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) fail(path, "cannot be written", errno);
+    bytes.remove_prefix(static_cast<std::size_t>(n));
+  }
+}
+
+void sync_directory(const std::string& path) {
+  const Descriptor dir(::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (dir.get() >= 0) static_cast<void>(::fsync(dir.get()));
+}
+
+bool ends_with(std::string_view text, std::string_view end) {
+  return text.size() > end.size() && text.substr(text.size() - end.size()) == end;
+}
+
+std::vector<std::string> names_in(const std::string& path) {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (fs::directory_iterator it(path, error), end; !error && it != end; it.increment(error))
+    names.push_back(it->path().filename().string());
+  if (error) fail(path, "cannot be listed", error.value());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+}  // namespace
+
+void write_file(const std::string& path, std::string_view bytes) {
+  std::error_code unknown;
+  const fs::file_status there = fs::symlink_status(path, unknown);
+  if (fs::exists(there) && !fs::is_regular_file(there) && !fs::is_symlink(there))
+    throw InputError({path, 0, 0}, "is no file that could be replaced; give another name");
+  const std::string temporary = path + ".tmp";
+  try {
+    Descriptor file(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
+    if (file.get() < 0) fail(path, "cannot be written", errno);
+    write_all(file.get(), bytes, path);
+    if (::fsync(file.get()) != 0 && errno != EINVAL) fail(path, "cannot be written", errno);
+    if (file.close_now() != 0) fail(path, "cannot be written", errno);
+    if (::rename(temporary.c_str(), path.c_str()) != 0) fail(path, "cannot be written", errno);
+  } catch (...) {
+    ::unlink(temporary.c_str());
+    throw;
+  }
+}
+
+namespace {
+
+struct DirectoryNames {
+  std::string_view what;
+  std::vector<std::string_view> whole;
+  std::vector<std::string_view> ends;
+  std::string_view start = {};  ///< of the building's copy, which ends as the building does
+
+  [[nodiscard]] bool names(std::string_view name) const {
+    return std::find(whole.begin(), whole.end(), name) != whole.end();
+  }
+  [[nodiscard]] bool may_hold(std::string_view name) const {
+    return name == staging_name || names(name) || (!start.empty() && name.starts_with(start)) ||
+           std::any_of(ends.begin(), ends.end(), [&](std::string_view end) { return ends_with(name, end); });
+  }
+};
+
+const DirectoryNames& names_of(DirectoryKind kind) {
+  static const std::vector<std::string_view> of_methods = {".tum",     ".hypotheses.jsonl", ".estimate.json",
+                                                           ".map.ply", ".map.pcd",          ".graph.json"};
+  static const std::array<DirectoryNames, 3> names = {{
+      {"run",
+       {"scenario.yaml", "results.json", "timings.json", "digests.csv", "report.html", "junit.xml", "truth_surface.ply",
+        "failure.txt", recording_folder},
+       of_methods,
+       "building."},
+      {"recording",
+       {"scenario.yaml", "truth.tum", "lidar.pcap", "odometry.tum", "odometry_covariance.csv", "imu.csv",
+        "recording.yaml", "recording.bag"},
+       {},
+       "building."},
+      {"estimate", {"estimate.yaml", "digests.csv", "timings.json"}, of_methods},
+  }};
+  return names[static_cast<std::size_t>(kind)];
+}
+
+}  // namespace
+
+RunDirectory::RunDirectory(const std::string& path, DirectoryKind kind, bool force)
+    : path_(path), staging_((fs::path(path) / staging_name).string()) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path_, error);
+  const Mark mark{path_, 0, 0};
+  if (fs::exists(status)) {
+    if (!fs::is_directory(status)) throw InputError(mark, "is a file; --out must name a directory");
+    const DirectoryNames& known = names_of(kind);
+    const std::string what(known.what);
+    bool occupied = false, ours = false;
+    for (const std::string& name : names_in(path_)) {
+      if (!known.may_hold(name))
+        throw InputError(mark, "holds '" + name + "', which no " + what + " writes; name another --out");
+      occupied = occupied || name != staging_name;
+      ours = ours || known.names(name);
+    }
+    if (occupied && !ours) throw InputError(mark, "is not empty and holds no " + what + "; name another --out");
+    if (occupied && !force) throw InputError(mark, "exists and is not empty; name another --out or add --force");
+  }
+  try {
+    create();
+  } catch (...) {
+    discard();
+    throw;
+  }
+}
+
+void RunDirectory::create() {
+  std::vector<std::string> missing;
+  std::error_code error;
+  for (fs::path p = fs::path(staging_); !p.empty() && !fs::exists(p, error); p = p.parent_path())
+    missing.push_back(p.string());
+  std::reverse(missing.begin(), missing.end());
+  for (const std::string& folder : missing) {
+    if (!fs::create_directory(folder, error) && error) fail(path_, "cannot be created", error.value());
+    created_.push_back(folder);
+  }
+  const std::string lock_path = staging_ + "/lock";
+  lock_ = ::open(lock_path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
+  if (lock_ < 0) fail(path_, "cannot be written", errno);
+  if (::flock(lock_, LOCK_EX | LOCK_NB) != 0) {
+    ::close(std::exchange(lock_, -1));
+    throw InputError({path_, 0, 0}, "another run is writing here; name another --out");
+  }
+  for (const std::string& name : names_in(staging_))  // what an interrupted run left
+    if (name != "lock") fs::remove_all(fs::path(staging_) / name);
+}
+
+void RunDirectory::commit() {
+  const fs::path target(path_);
+  std::error_code error;
+  fs::remove(target / "results.json", error);
+  for (const std::string& name : names_in(path_))
+    if (name != staging_name) fs::remove_all(target / name, error);
+  std::vector<std::string> names = names_in(staging_);
+  std::stable_partition(names.begin(), names.end(), [](const std::string& name) { return name != "results.json"; });
+  for (const std::string& name : names) {
+    if (name == "lock") continue;
+    fs::rename(fs::path(staging_) / name, target / name, error);
+    if (error) fail((target / name).string(), "cannot be moved into place", error.value());
+  }
+  fs::remove_all(staging_, error);
+  sync_directory(path_);
+  committed_ = true;
+}
+
+void RunDirectory::discard() noexcept {
+  std::error_code error;
+  if (lock_ >= 0) {
+    fs::remove_all(staging_, error);
+    ::close(std::exchange(lock_, -1));
+  }
+  for (auto it = created_.rbegin(); it != created_.rend(); ++it) fs::remove(*it, error);  // empty ones only
+}
+
+RunDirectory::~RunDirectory() {
+  if (!committed_) discard();
+  if (lock_ >= 0) ::close(lock_);
+}
+
+}  // namespace plumbline::scenarios

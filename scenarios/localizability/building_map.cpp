@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenarios/localizability/building_map.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "bim/errors.h"
+
+namespace plumbline::scenarios {
+
+namespace {
+
+std::vector<std::size_t> storeys_asked_for(const bim::Building& building, const BuildingMapOptions& options) {
+  std::vector<std::size_t> found;
+  std::vector<std::string> known;
+  for (std::size_t i = 0; i < building.storeys.size(); ++i) {
+    const bim::Storey& storey = building.storeys[i];
+    known.push_back(storey.id);
+    const auto on = [&](const auto& thing) { return thing.storey == static_cast<int>(i); };
+    const bool rooms = std::any_of(building.rooms.begin(), building.rooms.end(), on);
+    const bool walls = std::any_of(building.walls.begin(), building.walls.end(), on);
+    const bool habitable = building.rooms.empty() ? walls : rooms;
+    if (options.storey ? *options.storey == storey.id || *options.storey == storey.name : habitable) found.push_back(i);
+  }
+  if (!found.empty()) return found;
+  std::string list;
+  for (const std::string& id : known) list += (list.empty() ? "" : ", ") + id;
+  if (options.storey)
+    throw InputError({"--storey", 0, 0}, "there is no storey '" + *options.storey + "'; there are: " + list);
+  throw InputError({"BUILDING", 0, 0}, "has no storey with walls; it must have one");
+}
+
+Tree tree_of(const MapShare& share) {
+  Tree tree = Tree::map();
+  tree.set("cells", share.cells).set("one_look", share.one_look).set("walk", share.walk).set("never", share.never);
+  if (share.walk > 0) tree.set("walk_median_m", share.walk_median_m).set("walk_max_m", share.walk_max_m);
+  return tree.set("twins_max", share.twins_max);
+}
+
+Tree tree_of(const CellAnswer& answer) {
+  Tree tree = Tree::map();
+  tree.set("twins", answer.twins);
+  if (answer.walk_m) tree.set("walk_m", *answer.walk_m);
+  return tree;
+}
+
+Tree conditions(const BuildingMap& map, const std::function<bool(const MapCell&)>& of) {
+  Tree tree = Tree::map();
+  if (!map.options.compass_only) tree.set("unknown", tree_of(share_of(map, false, of)));
+  return tree.set("compass", tree_of(share_of(map, true, of)));
+}
+
+}  // namespace
+
+std::string name_of(const bim::Storey& storey) { return storey.name.empty() ? storey.id : storey.name; }
+
+BuildingMap map_of(const bim::Site& site, const BuildingMapOptions& options) {
+  BuildingMap result;
+  result.options = options;
+  const SeenBuilding planned = seen_building(site.as_planned);
+  std::optional<SeenBuilding> built;
+  if (!site.changes.empty()) built.emplace(seen_building(site.as_built));
+  IdentifyMapInput input;
+  input.as_planned = &planned.scene;
+  input.as_built = built ? &built->scene : &planned.scene;
+  input.step_m = options.step_m;
+  input.across = options.across;
+  input.compass_only = options.compass_only;
+  input.threads = options.threads;
+  for (std::size_t i = 0; i < site.as_planned.storeys.size(); ++i)
+    input.storeys.push_back(search_area(site.as_planned, i));
+  for (const std::size_t storey : storeys_asked_for(site.as_planned, options))
+    result.floors.push_back(floor_of(site.as_built, storey, options.step_m));
+  std::erase_if(result.floors, [](const Floor& floor) { return floor.cells_W.empty(); });
+  input.floors = result.floors;
+  result.map = identify_map(input);
+  return result;
+}
+
+MapShare share_of(const BuildingMap& map, bool compass, const std::function<bool(const MapCell&)>& of) {
+  MapShare share;
+  std::vector<double> walks;
+  for (const MapCell& cell : map.map.cells) {
+    if (!of(cell)) continue;
+    const CellAnswer& answer = compass ? cell.compass : cell.unknown.value();
+    ++share.cells;
+    share.twins_max = std::max(share.twins_max, answer.twins);
+    if (!answer.walk_m)
+      ++share.never;
+    else if (*answer.walk_m == 0.0)
+      ++share.one_look;
+    else
+      walks.push_back(*answer.walk_m);
+  }
+  std::sort(walks.begin(), walks.end());
+  share.walk = static_cast<int>(walks.size());
+  if (walks.empty()) return share;
+  share.walk_median_m = walks[walks.size() / 2];
+  share.walk_max_m = walks.back();
+  return share;
+}
+
+Tree identify_json(const bim::Site& site, const BuildingMap& map) {
+  const bim::Building& plan = site.as_planned;
+  Tree tree = Tree::map();
+  tree.set("step_m", map.options.step_m).set("across", map.options.across);
+  Tree storeys = Tree::list(), rooms = Tree::list(), cells = Tree::list();
+  for (std::size_t f = 0; f < map.floors.size(); ++f)
+    storeys.push(Tree::map()
+                     .set("id", plan.storeys[map.floors[f].storey].id)
+                     .set("answers", conditions(map, [&](const MapCell& cell) { return cell.floor == f; })));
+  for (const bim::Room& room : plan.rooms) {
+    const auto in_room = [&](const MapCell& cell) {
+      return static_cast<int>(map.floors[cell.floor].storey) == room.storey && contains(room.polygon, cell.p_W);
+    };
+    if (share_of(map, true, in_room).cells == 0) continue;
+    rooms.push(Tree::map().set("id", room.id).set("answers", conditions(map, in_room)));
+  }
+  for (const MapCell& cell : map.map.cells) {
+    Tree one = Tree::map();
+    one.set("storey", plan.storeys[map.floors[cell.floor].storey].id);
+    one.set("x", cell.p_W.x()).set("y", cell.p_W.y());
+    if (cell.unknown) one.set("unknown", tree_of(*cell.unknown));
+    one.set("compass", tree_of(cell.compass));
+    cells.push(std::move(one));
+  }
+  return tree.set("storeys", storeys).set("rooms", rooms).set("cells", cells);
+}
+
+std::string identify_text(const bim::Site& site, const BuildingMap& map) {
+  std::string text = "storey                 heading   places  one look      walk (median, longest)   never\n";
+  for (std::size_t f = 0; f < map.floors.size(); ++f)
+    for (const bool compass : {false, true}) {
+      if (!compass && map.options.compass_only) continue;
+      const MapShare s = share_of(map, compass, [&](const MapCell& cell) { return cell.floor == f; });
+      const double all = std::max(s.cells, 1);
+      char line[200], walk[40] = "      -        -  ";
+      if (s.walk > 0) std::snprintf(walk, sizeof walk, "(%5.1f m, %5.1f m)", s.walk_median_m, s.walk_max_m);
+      std::snprintf(line, sizeof line, "%-22.22s %-8s %7d   %5.1f %%   %5.1f %% %-18s  %5.1f %%\n",
+                    name_of(site.as_planned.storeys[map.floors[f].storey]).c_str(), compass ? "compass" : "unknown",
+                    s.cells, 100.0 * s.one_look / all, 100.0 * s.walk / all, walk, 100.0 * s.never / all);
+      text += line;
+    }
+  return text;
+}
+
+}  // namespace plumbline::scenarios

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenarios/localizability/floor.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <queue>
+#include <string>
+
+#include "bim/errors.h"
+#include "bim/mesh/mesh.h"
+#include "bim/mesh/visible.h"
+#include "sim/route/route.h"
+#include "sim/world.h"
+
+namespace plumbline::scenarios {
+
+namespace {
+
+constexpr double fine_m = 0.1;
+constexpr double most_fine = 1 << 24;
+constexpr double threshold_m = 0.3;  ///< a doorway belongs to the rooms this near
+
+/// Which places count as floor to be asked about.
+class Rooms {
+ public:
+  Rooms(const bim::Building& building, std::size_t storey) {
+    for (const bim::Room& room : building.rooms)
+      if (room.storey == static_cast<int>(storey)) polygons_.push_back(room.polygon);
+  }
+  [[nodiscard]] bool hold(const Eigen::Vector2d& p) const {
+    return polygons_.empty() || std::any_of(polygons_.begin(), polygons_.end(), [&](const Polygon2& polygon) {
+             return contains(polygon, p) || boundary_distance(polygon, p) <= threshold_m;
+           });
+  }
+
+ private:
+  std::vector<Polygon2> polygons_;
+};
+
+constexpr std::size_t nobody = static_cast<std::size_t>(-1);
+
+/// Fine grid over the free space; every node belongs to the cell from which the way to it is shortest.
+struct Surroundings {
+  sim::Grid grid;
+  std::vector<std::size_t> owner;
+  std::vector<double> distance_m;
+};
+
+Surroundings surroundings(const Floor& floor, const IdentifyStorey& area, const sim::FreeSpace& space) {
+  Surroundings s;
+  s.grid.cell = fine_m;
+  s.grid.origin = area.min;
+  const Eigen::Vector2d size = (area.max - area.min).cwiseMax(0.0) / fine_m;
+  if (size.x() * size.y() > most_fine)
+    throw InputError({"identify", 0, 0}, "a storey is too large; it must be smaller");
+  s.grid.nx = static_cast<int>(std::ceil(size.x()));
+  s.grid.ny = static_cast<int>(std::ceil(size.y()));
+  s.owner.assign(s.grid.size(), nobody);
+  s.distance_m.assign(s.grid.size(), 1e9);
+  using Node = std::tuple<double, std::size_t, std::size_t>;  // way, owner, node
+  std::priority_queue<Node, std::vector<Node>, std::greater<>> open;
+  for (std::size_t i = 0; i < floor.cells_W.size(); ++i)
+    if (const auto node = s.grid.cell_at(floor.cells_W[i])) open.emplace(0.0, i, *node);
+  while (!open.empty()) {
+    const auto [way, owner, node] = open.top();
+    open.pop();
+    if (s.owner[node] != nobody) continue;
+    s.owner[node] = owner;
+    s.distance_m[node] = way;
+    for (int dy = -1; dy <= 1; ++dy)
+      for (int dx = -1; dx <= 1; ++dx) {
+        const int x = s.grid.ix(node) + dx, y = s.grid.iy(node) + dy;
+        if ((dx == 0 && dy == 0) || !s.grid.holds(x, y)) continue;
+        const std::size_t next = s.grid.index(x, y);
+        if (s.owner[next] == nobody && space.free(s.grid.center(next)))
+          open.emplace(way + fine_m * std::hypot(dx, dy), owner, next);
+      }
+  }
+  return s;
+}
+
+std::vector<FloorLink> links_of(const Floor& floor, const Surroundings& s) {
+  std::map<std::pair<std::size_t, std::size_t>, double> shortest;
+  for (int y = 0; y < s.grid.ny; ++y)
+    for (int x = 0; x < s.grid.nx; ++x)
+      for (const auto& [dx, dy] : {std::pair{1, 0}, {0, 1}, {1, 1}, {-1, 1}}) {
+        if (!s.grid.holds(x + dx, y + dy)) continue;
+        const std::size_t i = s.grid.index(x, y), j = s.grid.index(x + dx, y + dy);
+        const std::size_t a = std::min(s.owner[i], s.owner[j]), b = std::max(s.owner[i], s.owner[j]);
+        if (b == nobody || a == b) continue;
+        // The way through the grid turns by 45 degrees at a time; the straight line is what a robot walks at best.
+        const double way = std::max((floor.cells_W[a] - floor.cells_W[b]).norm(),
+                                    (s.distance_m[i] + s.distance_m[j] + fine_m * std::hypot(dx, dy)) / 1.05);
+        const auto [it, fresh] = shortest.emplace(std::pair{a, b}, way);
+        if (!fresh) it->second = std::min(it->second, way);
+      }
+  std::vector<FloorLink> links;
+  for (const auto& [pair, way] : shortest) links.push_back({pair.first, pair.second, way});
+  return links;
+}
+
+}  // namespace
+
+SeenBuilding seen_building(const bim::Building& building) {
+  const bim::BuildingMesh mesh = bim::build_mesh(building);
+  std::vector<std::string> elements;
+  for (const bim::MeshElement& element : mesh.elements) elements.push_back(element.id);
+  return {bim::RayScene(bim::visible_mesh(building, mesh)), std::move(elements)};
+}
+
+IdentifyStorey search_area(const bim::Building& building, std::size_t storey) {
+  IdentifyStorey area;
+  area.sensor_z_W = building.storeys[storey].elevation_m + sim::World::calibration().sensor_height_m;
+  area.min = Eigen::Vector2d::Constant(1e9);
+  area.max = Eigen::Vector2d::Constant(-1e9);
+  for (const bim::Wall& wall : building.walls) {
+    if (wall.storey != static_cast<int>(storey)) continue;
+    area.min = area.min.cwiseMin(wall.a).cwiseMin(wall.b);
+    area.max = area.max.cwiseMax(wall.a).cwiseMax(wall.b);
+  }
+  return area;
+}
+
+Floor floor_of(const bim::Building& as_built, std::size_t storey, double step_m) {
+  Floor floor;
+  floor.storey = storey;
+  const IdentifyStorey area = search_area(as_built, storey);
+  if (area.empty()) return floor;
+  const sim::FreeSpace space(as_built, static_cast<int>(storey));
+  const Rooms rooms(as_built, storey);
+  for (double x = area.min.x() + 0.5 * step_m; x < area.max.x(); x += step_m)
+    for (double y = area.min.y() + 0.5 * step_m; y < area.max.y(); y += step_m)
+      if (space.free({x, y}) && rooms.hold({x, y})) floor.cells_W.emplace_back(x, y);
+  floor.links = links_of(floor, surroundings(floor, area, space));
+  return floor;
+}
+
+}  // namespace plumbline::scenarios

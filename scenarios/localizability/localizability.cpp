@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenarios/localizability/localizability.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "scenarios/localizability/aliased_poses.h"
+
+namespace plumbline::scenarios {
+
+namespace {
+
+Place levelled(const Pose& X_WR, double z) { return {{X_WR.t.x(), X_WR.t.y(), z}, X_WR.yaw()}; }
+
+/// Evidence by element: of the planned mesh where missing, else of the one as built.
+using Evidence = std::map<std::pair<bool, int>, double>;
+
+/// A twin with what speaks against it.
+struct Followed {
+  Twin twin;
+  Evidence evidence;
+};
+
+/// Poses at which a scan is compared: the first, then one per step_m walked.
+std::vector<std::pair<double, const TruthSample*>> stations(const std::vector<TruthSample>& truth) {
+  std::vector<std::pair<double, const TruthSample*>> out;
+  double walked = 0.0;
+  double last = -identify_constants.step_m;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    if (i > 0) walked += (truth[i].X_WR.t - truth[i - 1].X_WR.t).head<2>().norm();
+    if (walked - last < identify_constants.step_m) continue;
+    last = walked;
+    out.emplace_back(walked, &truth[i]);
+  }
+  return out;
+}
+
+/// Adds what a look from the true place says against each twin.
+void compare(const IdentifyInput& input, const Place& truth, std::vector<Followed>& followed) {
+  const Viewer viewer;
+  const View seen = viewer.look(*input.as_built, truth);
+  const View own = input.as_built == input.as_planned ? seen : viewer.look(*input.as_planned, truth);
+  for (Followed& one : followed) {
+    const Pose X = one.twin.twin * truth.pose();
+    const View expected = viewer.look(*input.as_planned, {X.t, X.yaw()});
+    for (std::size_t i = 0; i < seen.range_m.size(); ++i) {
+      const double gain = beam_cost(seen.range_m[i], expected.range_m[i]) - beam_cost(seen.range_m[i], own.range_m[i]);
+      if (gain == 0.0) continue;
+      one.twin.llr += gain;
+      // Of two surfaces the nearer one is the feature: it stands before the other, or would.
+      const bool missing = expected.range_m[i] < seen.range_m[i];
+      one.evidence[{missing, missing ? expected.element[i] : seen.element[i]}] += gain;
+    }
+  }
+}
+
+/// Drops twins that are out. The first of those that are dropped last says what decided.
+void drop(std::vector<Followed>& followed, RunIdentifiability& run) {
+  std::optional<Followed> last;
+  for (const Followed& one : followed)
+    if (one.twin.llr > identify_constants.drop_llr && !last) last = one;
+  std::erase_if(followed, [](const Followed& one) { return one.twin.llr > identify_constants.drop_llr; });
+  if (!last || !followed.empty()) return;
+  double sum = 0.0;
+  DecidingFeature feature;
+  double most = 0.0;
+  for (const auto& [key, gain] : last->evidence) {
+    sum += std::max(gain, 0.0);
+    if (gain <= most) continue;
+    most = gain;
+    feature = {key.first, key.second, 0.0};
+  }
+  feature.share = sum > 0.0 ? most / sum : 0.0;
+  if (feature.element >= 0) run.decided_by = feature;
+}
+
+void conclude(RunIdentifiability& run) {
+  run.identifiable = !run.steps.empty() && run.steps.back().alive.empty();
+  if (!run.identifiable) return;
+  std::size_t first = run.steps.size() - 1;
+  while (first > 0 && run.steps[first - 1].alive.empty()) --first;
+  run.identifiable_at_s = run.steps[first].t_s;
+  run.identifiable_at_m = run.steps[first].distance_m;
+}
+
+}  // namespace
+
+std::vector<Pose> RunIdentifiability::ambiguity_set(double t_s, const Pose& X_WR) const {
+  const IdentifyStep* now = nullptr;
+  for (const auto& step : steps)
+    if (step.t_s <= t_s) now = &step;
+  std::vector<Pose> poses;
+  if (now != nullptr)
+    for (const Twin& twin : now->alive) poses.push_back(twin.twin * X_WR);
+  return poses;
+}
+
+std::optional<double> RunIdentifiability::tellable_from_s() const {
+  std::optional<double> from;
+  for (const auto& step : steps) {
+    const bool strong = std::any_of(step.alive.begin(), step.alive.end(),
+                                    [](const Twin& t) { return t.llr < identify_constants.weak_llr; });
+    if (strong)
+      from.reset();
+    else if (!from)
+      from = step.t_s;
+  }
+  return from;
+}
+
+RunIdentifiability identify_run(const IdentifyInput& input, const std::vector<TruthSample>& truth) {
+  RunIdentifiability run;
+  const PlaceIndex index(*input.as_planned, input.storeys, identify_constants.grid_m, input.threads);
+  const TwinFinder finder(index, *input.as_planned, *input.as_built);
+  std::vector<Followed> followed;
+  for (const auto& [walked, sample] : stations(truth)) {
+    const Place place = levelled(sample->X_WR, sample->sensor_z_W);
+    if (run.steps.empty())
+      for (const FoundTwin& found : finder.find(finder.look(place), {-1, input.yaw_known}))
+        followed.push_back({{found.place.pose() * place.pose().inverse(), 0.0}, {}});
+    if (!followed.empty()) {
+      compare(input, place, followed);
+      drop(followed, run);
+    }
+    IdentifyStep& step = run.steps.emplace_back(IdentifyStep{sample->t_s, walked, {}});
+    for (const Followed& one : followed) step.alive.push_back(one.twin);
+  }
+  conclude(run);
+  return run;
+}
+
+}  // namespace plumbline::scenarios

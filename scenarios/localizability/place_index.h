@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "scenarios/localizability/views.h"
+
+namespace plumbline::scenarios {
+
+/// Where candidates are looked for: the floor of one storey.
+struct IdentifyStorey {
+  Eigen::Vector2d min = Eigen::Vector2d::Zero();
+  Eigen::Vector2d max = Eigen::Vector2d::Zero();
+  double sensor_z_W = 0.66;  ///< height of the sensor on this storey
+
+  /// Nothing stands there to look between.
+  [[nodiscard]] bool empty() const { return min.x() > max.x(); }
+};
+
+/// By what places are told to be alike at a glance.
+struct Signature {
+  std::array<float, 12> quantiles_m{};  ///< of all ranges: the same whatever the heading
+  std::vector<float> level_m;           ///< of the level ring, by azimuth in W
+  bool standable = false;               ///< nothing nearer than a robot's body all round, and a floor below
+};
+
+/// Of the view from a place, whatever its heading.
+[[nodiscard]] Signature signature_of(const Viewer& viewer, const bim::RayScene& scene, const Eigen::Vector3d& p_W);
+
+/// Grid of all places of a plan where a robot may stand, with their signatures.
+class PlaceIndex {
+ public:
+  /// Throws InputError when the storeys have more than 2^18 places at this spacing.
+  PlaceIndex(const bim::RayScene& plan, std::vector<IdentifyStorey> storeys, double spacing_m, int threads);
+
+  /// Places of a storey (-1: of all) whose view, turned, is like `seen`, best first (ties: grid order, then turn): at
+  /// most max_seeds. `yaw` is the heading of the robot that sees, the result holds the headings it would have there.
+  [[nodiscard]] std::vector<Place> like(const Signature& seen, double yaw, int storey, bool yaw_known) const;
+
+  [[nodiscard]] const Viewer& viewer() const { return viewer_; }
+  [[nodiscard]] const std::vector<IdentifyStorey>& storeys() const { return storeys_; }
+  [[nodiscard]] std::size_t size() const { return places_.size(); }
+
+ private:
+  struct Entry {
+    int storey = 0;
+    Eigen::Vector3d p_W = Eigen::Vector3d::Zero();
+    Signature signature;
+  };
+  std::vector<IdentifyStorey> storeys_;
+  Viewer viewer_;
+  std::vector<Entry> places_;
+};
+
+}  // namespace plumbline::scenarios

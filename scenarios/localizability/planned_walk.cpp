@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenarios/localizability/planned_walk.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "scenarios/host/parallel.h"
+#include "scenarios/localizability/floor.h"
+#include "sim/route/pure_pursuit.h"
+#include "sim/world.h"
+
+namespace plumbline::scenarios {
+
+namespace {
+
+constexpr double sample_m = 0.1;
+
+/// A robot that walks along the waypoints.
+class Walker {
+ public:
+  explicit Walker(const sim::WorldConfig& world) : speed_mps_(world.speed_mps), duration_s_(world.duration_s) {}
+
+  void stand(const Eigen::Vector3d& floor_W, double yaw) {
+    p_ = floor_W;
+    yaw_ = yaw;
+    add();
+  }
+
+  void walk_to(const Eigen::Vector3d& goal_W) {
+    const sim::FollowerConfig rule;
+    const Eigen::Vector3d way = goal_W - p_;
+    const double length = way.head<2>().norm();
+    if (length < 1e-6) return;
+    const double heading = std::atan2(way.y(), way.x());
+    const double turn = std::abs(wrap_angle(heading - yaw_));
+    if (turn > rule.turn_start) t_ += turn / rule.yaw_rate_max;
+    yaw_ = heading;
+    const Eigen::Vector3d start = p_;
+    const int steps = std::max(1, static_cast<int>(std::ceil(length / sample_m)));
+    for (int i = 1; i <= steps && t_ < duration_s_; ++i) {
+      p_ = start + way * i / steps;
+      t_ += length / steps / speed_mps_;
+      add();
+    }
+  }
+
+  [[nodiscard]] std::vector<TruthSample> samples() const { return samples_; }
+
+ private:
+  void add() {
+    const double z = p_.z() + sim::World::calibration().sensor_height_m;
+    samples_.push_back({t_, Pose::from_xyz_yaw(p_, yaw_), z});
+  }
+
+  double speed_mps_;
+  double duration_s_;
+  double t_ = 0.0;
+  double yaw_ = 0.0;
+  Eigen::Vector3d p_ = Eigen::Vector3d::Zero();
+  std::vector<TruthSample> samples_;
+};
+
+std::vector<TruthSample> walk_in(const sim::WorldConfig& world) {
+  Walker walker(world);
+  if (world.waypoints.empty()) return {};
+  walker.stand(world.waypoints.front().p_W, world.start_yaw);
+  for (const sim::Waypoint& waypoint : world.waypoints) walker.walk_to(waypoint.p_W);
+  return walker.samples();
+}
+
+/// storey: the one the walk begins on.
+IdentifyInput input_of(const ResolvedScenario& resolved, int storey, const SeenBuilding& planned,
+                       const std::optional<SeenBuilding>& built) {
+  IdentifyInput input;
+  input.as_planned = &planned.scene;
+  input.as_built = built ? &built->scene : &planned.scene;
+  const bim::Building& plan = resolved.site.as_planned;
+  for (std::size_t i = 0; i < plan.storeys.size(); ++i)
+    if (static_cast<int>(i) == storey || resolved.scenario.prior.storey == Knowledge::unknown)
+      if (const IdentifyStorey area = search_area(plan, i); !area.empty()) input.storeys.push_back(area);
+  if (input.storeys.empty())
+    throw InputError({resolved.scenario.building, 0, 0},
+                     "has no walls to look for places between; a plan or an .ifc would be right");
+  return input;
+}
+
+WalkAnswers answer(const std::string& scenario, std::uint64_t seed) {
+  Overrides overrides;
+  overrides.seed = seed;
+  overrides.methods = std::vector<std::string>{"truth"};
+  const ResolvedScenario resolved = resolve(scenario, overrides);
+  const SeenBuilding planned = seen_building(resolved.site.as_planned);
+  std::optional<SeenBuilding> built;
+  if (!resolved.site.changes.empty()) built.emplace(seen_building(resolved.site.as_built));
+  IdentifyInput input = input_of(resolved, resolved.world.storey, planned, built);
+  const std::vector<TruthSample> walk = planned_walk(resolved);
+  WalkAnswers answers;
+  answers.seed = seed;
+  answers.unknown = identify_run(input, walk);
+  input.yaw_known = true;
+  answers.compass = identify_run(input, walk);
+  answers.length_m = answers.unknown.steps.empty() ? 0.0 : answers.unknown.steps.back().distance_m;
+  const std::vector<TruthSample> after = planned_walk_after(resolved);
+  if (!after.empty())
+    answers.set_down = identify_run(input_of(resolved, resolved.world_after->storey, planned, built), after);
+  return answers;
+}
+
+const RunIdentifiability* part_of(const WalkAnswers& walk, WalkPart part) {
+  if (part == WalkPart::set_down) return walk.set_down ? &*walk.set_down : nullptr;
+  return part == WalkPart::compass ? &walk.compass : &walk.unknown;
+}
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  std::sort(values.begin(), values.end());
+  const std::size_t n = values.size();
+  return n % 2 == 1 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
+}
+
+Tree tree_of(const RunIdentifiability& run) {
+  Tree tree = Tree::map();
+  tree.set("identifiable", run.identifiable);
+  if (run.identifiable_at_s) tree.set("at_s", *run.identifiable_at_s).set("at_m", *run.identifiable_at_m);
+  if (!run.steps.empty()) tree.set("twins", static_cast<int>(run.steps.front().alive.size()));
+  return tree;
+}
+
+}  // namespace
+
+std::vector<TruthSample> planned_walk(const ResolvedScenario& resolved) { return walk_in(resolved.world); }
+
+std::vector<TruthSample> planned_walk_after(const ResolvedScenario& resolved) {
+  if (!resolved.world_after) return {};
+  const std::vector<TruthSample> before = planned_walk(resolved);
+  sim::WorldConfig world = *resolved.world_after;
+  world.duration_s -= (before.empty() ? 0.0 : before.back().t_s) + resolved.scenario.kidnap->away_s;
+  return walk_in(world);
+}
+
+std::vector<WalkAnswers> identify_walks(const std::string& scenario, int seeds, int threads) {
+  std::vector<WalkAnswers> walks(static_cast<std::size_t>(std::max(seeds, 0)));
+  for_each_index(walks.size(), threads, [&](std::size_t i) { walks[i] = answer(scenario, i + 1); });
+  return walks;
+}
+
+WalkSummary summary_of(const std::vector<WalkAnswers>& walks, WalkPart part) {
+  WalkSummary summary;
+  std::vector<double> at_s, at_m;
+  for (const WalkAnswers& walk : walks) {
+    const RunIdentifiability* run = part_of(walk, part);
+    if (run == nullptr) continue;
+    ++summary.walks;
+    if (!run->identifiable) continue;
+    ++summary.identifiable;
+    if (*run->identifiable_at_m == 0.0) ++summary.at_once;
+    at_s.push_back(*run->identifiable_at_s);
+    at_m.push_back(*run->identifiable_at_m);
+  }
+  summary.median_at_s = median(at_s);
+  summary.median_at_m = median(at_m);
+  return summary;
+}
+
+std::string walks_text(const std::vector<WalkAnswers>& walks) {
+  std::string text = "heading    walks  identifiable   at once   median s   median m\n";
+  const auto add = [&](const char* name, const WalkSummary& s) {
+    char line[160];
+    std::snprintf(line, sizeof line, "%-8s %7d %12.0f %% %7.0f %% ", name, s.walks,
+                  100.0 * s.identifiable / std::max(s.walks, 1), 100.0 * s.at_once / std::max(s.walks, 1));
+    text += line;
+    std::snprintf(line, sizeof line, "%10.1f %10.1f\n", s.median_at_s, s.median_at_m);
+    text += s.identifiable > 0 ? line : "         -          -\n";
+  };
+  add("unknown", summary_of(walks, WalkPart::unknown));
+  add("compass", summary_of(walks, WalkPart::compass));
+  const WalkSummary after = summary_of(walks, WalkPart::set_down);
+  if (after.walks == 0) return text;
+  add("set down", after);
+  return text +
+         "The robot is carried off on its way: unknown and compass are of the walk before, set down is of the walk "
+         "after,\ncounted from where it is set down, with the heading unknown.\n";
+}
+
+Tree walks_json(const std::vector<WalkAnswers>& walks) {
+  Tree list = Tree::list();
+  for (const WalkAnswers& walk : walks) {
+    Tree tree = Tree::map();
+    tree.set("seed", std::to_string(walk.seed)).set("length_m", walk.length_m);
+    tree.set("unknown", tree_of(walk.unknown)).set("compass", tree_of(walk.compass));
+    if (walk.set_down) tree.set("set_down", tree_of(*walk.set_down));
+    list.push(std::move(tree));
+  }
+  return Tree::map().set("walks", std::move(list));
+}
+
+}  // namespace plumbline::scenarios

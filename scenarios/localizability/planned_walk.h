@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scenarios/localizability/localizability.h"
+#include "scenarios/spec/resolve.h"
+
+namespace plumbline::scenarios {
+
+/// The walk a scenario plans, as its robot would make it at best: at its speed along the waypoints, turning in place at
+/// sharp corners, until its duration is over or it is carried off. Nothing is simulated.
+[[nodiscard]] std::vector<TruthSample> planned_walk(const ResolvedScenario& resolved);
+/// The walk from where it is set down, its time counted from there; empty where it is not carried off.
+[[nodiscard]] std::vector<TruthSample> planned_walk_after(const ResolvedScenario& resolved);
+
+/// What one seed's walk lets be known, with the heading unknown and with a compass.
+struct WalkAnswers {
+  std::uint64_t seed = 0;
+  double length_m = 0.0;  ///< until it is carried off, where it is
+  RunIdentifiability unknown;
+  RunIdentifiability compass;
+  /// From where it is set down; the heading told at the start is of no use there. Absent where it is not carried off.
+  std::optional<RunIdentifiability> set_down;
+};
+
+/// The answers of the seeds 1 to `seeds` of a scenario file.
+[[nodiscard]] std::vector<WalkAnswers> identify_walks(const std::string& scenario, int seeds, int threads);
+
+/// How many walks end with one place left, at once or later, and when.
+struct WalkSummary {
+  int walks = 0;
+  int identifiable = 0;
+  int at_once = 0;
+  double median_at_s = 0.0;  ///< of the identifiable ones, those at once included
+  double median_at_m = 0.0;
+};
+enum class WalkPart { unknown, compass, set_down };
+[[nodiscard]] WalkSummary summary_of(const std::vector<WalkAnswers>& walks, WalkPart part);
+
+[[nodiscard]] std::string walks_text(const std::vector<WalkAnswers>& walks);
+[[nodiscard]] Tree walks_json(const std::vector<WalkAnswers>& walks);
+
+}  // namespace plumbline::scenarios

@@ -1,4 +1,0 @@
-// SPDX-License-Identifier: Apache-2.0
-#include "scenarios/commands/program.h"
-
-int main(int argc, char** argv) { return plumbline::scenarios::run_program(argc, argv); }

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scenarios/metrics/trajectory.h"
+#include "slam/io/estimate.h"
+
+namespace plumbline::scenarios::score {
+
+/// Rules of plan localization [contract: Metrics].
+struct LocalizationRules {
+  double position_m = 0.5;  ///< a pose is right within this
+  double yaw_deg = 10.0;    ///< and this
+  double hold_s = 5.0;      ///< how long it must stay right, to the end
+  double hold_m = 1.0;      ///< and over how much walking
+};
+
+/// What a plan localization said after one scan.
+struct Belief {
+  slam::Nanoseconds stamp = 0;
+  slam::State state = slam::State::searching;
+  std::optional<Pose> X_WR;
+  std::vector<slam::Hypothesis> hypotheses;
+  std::vector<slam::Particle> particles;  ///< a sample, of some scans
+};
+
+/// How many places were left at a moment of the run, the true one left out.
+struct PlacesLeft {
+  double t_s = 0.0;
+  double distance_m = 0.0;
+  int twins = 0;
+  int weak = 0;  ///< of them, those that are nearly out
+};
+
+/// What told the last other place from the true one.
+struct DecidingElement {
+  std::string id;
+  bool missing = false;  ///< it would be seen from the other place, and is not; else it is seen, and would not be
+  double share = 0.0;    ///< of the evidence
+};
+
+/// What the plan allows to be known on this route, from scenarios/identify. A run is scored without it where it has
+/// not been computed.
+struct Identifiability {
+  bool identifiable = false;
+  std::optional<double> at_s;
+  std::optional<double> at_m;
+  /// First time from which on no other pose explains what was seen as well as the true one does (all are at least
+  /// weak); a single answer given before is luck.
+  std::optional<double> tellable_from_s;
+  std::vector<Pose> others_W;  ///< poses at the end that the plan cannot tell from the true one; empty when unique
+  std::vector<Pose> twins_at_start;  ///< X_twin = twin * X_WR, of what the first look could not tell
+  std::vector<PlacesLeft> places;    ///< at the start and wherever their numbers change
+  std::optional<DecidingElement> decided_by;
+};
+
+enum class LocalizationVerdict { success, false_convergence, overconfident, honest_ambiguity, late, lost, lucky };
+[[nodiscard]] std::string to_string(LocalizationVerdict verdict);
+
+/// What the plan allows to be known of a run's place [facts: localization 3.4].
+enum class Evidence {
+  unique,    ///< no other place is left, early enough for an answer to be held to the end
+  weak,      ///< the others are nearly out: one right answer is right, and so is an honest ambiguity; or they went too
+             ///< late for an answer to be held
+  ambiguous  ///< others explain what was seen as well as the true one
+};
+[[nodiscard]] std::string to_string(Evidence evidence);
+
+/// Why a plan localization failed, from what it said after each scan.
+enum class Failure {
+  never_sampled,   ///< the true pose was never among the hypotheses or the particles kept
+  depleted,        ///< it was, and went, before the answer was given or the run ended
+  twin_preferred,  ///< a place that looked the same at the start was chosen over it
+  wrong_model,     ///< a place that looks different was
+  tracking_lost,   ///< the right answer was given, and lost
+  undecided        ///< it was there to the end, and never chosen
+};
+[[nodiscard]] std::string to_string(Failure failure);
+
+struct LocalizationScore {
+  LocalizationVerdict verdict = LocalizationVerdict::late;
+  slam::State state = slam::State::searching;  ///< at the end
+  std::optional<double> converged_at_s;        ///< first convergence, since the first scan
+  std::optional<double> converged_at_m;        ///< distance walked until then
+  std::optional<double> ape_rmse_m;            ///< in W, over every scan from the first convergence on
+  std::optional<double> yaw_rmse_deg;
+  int hypotheses = 0;  ///< at the end
+  std::optional<bool> identifiable;
+  std::optional<Evidence> evidence;
+  std::optional<double> identifiable_at_s;
+  std::optional<double> identifiable_at_m;
+  /// As ape_rmse_m, each pose held against the nearest of the true one and its twins at the start: a small value
+  /// beside a large ape_rmse_m says "right shape, wrong twin".
+  std::optional<double> twin_error_rmse_m;
+  std::optional<double> true_mass;  ///< share of the last hypotheses that are right
+  std::optional<double> nees;       ///< mean of e' P^-1 e of (x, y, yaw) while converged and right; 3 where P is honest
+  std::optional<double> handover_precision;  ///< see handover.h
+  std::optional<Failure> failure;
+  std::optional<double> failure_at_s;    ///< on the run's clock: `replay --until` stops there
+  std::optional<double> kidnap_wrong_s;  ///< longest time a wrong pose stood as CONVERGED after it was set down
+  std::optional<double> kidnap_found_s;  ///< since it was set down, until the pose was CONVERGED and right to the end
+  std::optional<double> kidnap_found_m;  ///< walked until then
+};
+
+/// Scores the beliefs of a run, one a scan in time order; nothing is ever aligned. A scan without a pose after the
+/// first convergence is held against the last pose given. A robot that was carried off is judged by what it said
+/// before; then the kidnap_* values say what came of it, and state and hypotheses are those of the end.
+[[nodiscard]] LocalizationScore score_localization(const Truth& truth, const std::vector<Belief>& beliefs,
+                                                   const std::optional<Identifiability>& identifiability,
+                                                   const LocalizationRules& rules = {});
+
+}  // namespace plumbline::scenarios::score

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenarios/metrics/trajectory.h"
+
+#include <Eigen/LU>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "bim/errors.h"
+
+namespace plumbline::scenarios::score {
+
+namespace {
+
+bool earlier(const slam::StampedPose& pose, slam::Nanoseconds t) { return pose.stamp < t; }
+
+Eigen::Vector3d mean(const std::vector<PosePair>& pairs, Pose PosePair::*pose) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const PosePair& pair : pairs) sum += (pair.*pose).t;
+  return sum / static_cast<double>(pairs.size());
+}
+
+}  // namespace
+
+Pose Truth::at(slam::Nanoseconds t) const {
+  if (poses_W.empty()) throw InternalError("score: the truth holds no pose");
+  const auto next = std::lower_bound(poses_W.begin(), poses_W.end(), t, earlier);
+  if (next == poses_W.end()) return poses_W.back().X_FR;
+  if (next->stamp == t || next == poses_W.begin()) return next->X_FR;
+  const slam::StampedPose& last = *std::prev(next);
+  const double s = static_cast<double>(t - last.stamp) / static_cast<double>(next->stamp - last.stamp);
+  return interpolate(last.X_FR, next->X_FR, s);
+}
+
+std::vector<double> Truth::walked() const {
+  std::vector<double> distance(scans.size(), 0.0);
+  for (std::size_t i = 1; i < scans.size(); ++i) {
+    const bool carried = set_down == scans[i];
+    distance[i] = distance[i - 1] + (carried ? 0.0 : (at(scans[i]).t - at(scans[i - 1]).t).head<2>().norm());
+  }
+  return distance;
+}
+
+Truth Truth::before() const {
+  Truth part = *this;
+  if (!set_down) return part;
+  part.set_down.reset();
+  std::erase_if(part.scans, [&](slam::Nanoseconds t) { return t >= *set_down; });
+  const slam::Nanoseconds last = part.scans.back();
+  std::erase_if(part.poses_W, [&](const slam::StampedPose& pose) { return pose.stamp > last; });
+  return part;
+}
+
+std::vector<PosePair> associate(const Truth& truth, const std::vector<slam::StampedPose>& poses_F,
+                                const TrajectoryRules& rules) {
+  const auto limit = static_cast<slam::Nanoseconds>(std::llround(rules.max_stamp_difference_s * 1e9));
+  std::vector<PosePair> pairs;
+  for (std::size_t i = 0; i < truth.scans.size(); ++i) {
+    const slam::Nanoseconds t = truth.scans[i];
+    auto best = std::lower_bound(poses_F.begin(), poses_F.end(), t, earlier);
+    if (best != poses_F.begin()) {
+      const auto before = std::prev(best);
+      if (best == poses_F.end() || t - before->stamp <= best->stamp - t) best = before;
+    }
+    if (best == poses_F.end() || std::abs(best->stamp - t) > limit) continue;
+    pairs.push_back({i, best->X_FR, truth.at(best->stamp)});
+  }
+  return pairs;
+}
+
+Pose umeyama(const std::vector<PosePair>& pairs) {
+  if (pairs.empty()) throw InternalError("score: nothing to align");
+  const Eigen::Vector3d mean_F = mean(pairs, &PosePair::X_FR);
+  const Eigen::Vector3d mean_W = mean(pairs, &PosePair::X_WR);
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  for (const PosePair& pair : pairs) covariance += (pair.X_WR.t - mean_W) * (pair.X_FR.t - mean_F).transpose();
+
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Eigen::Vector3d signs = Eigen::Vector3d::Ones();
+  if ((svd.matrixU() * svd.matrixV().transpose()).determinant() < 0.0) signs.z() = -1.0;
+  const Eigen::Matrix3d R_WF = svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
+  const Eigen::Quaterniond q_WF = Eigen::Quaterniond(R_WF).normalized();
+  return {q_WF, mean_W - q_WF * mean_F};
+}
+
+Pose place_by_first(const std::vector<PosePair>& pairs) {
+  if (pairs.empty()) throw InternalError("score: nothing to place by");
+  return pairs.front().X_WR * pairs.front().X_FR.inverse();
+}
+
+double position_rmse(const std::vector<PosePair>& pairs, const Pose& X_WF) {
+  if (pairs.empty()) throw InternalError("score: an error over no poses");
+  double sum = 0.0;
+  for (const PosePair& pair : pairs) sum += (X_WF * pair.X_FR.t - pair.X_WR.t).squaredNorm();
+  return std::sqrt(sum / static_cast<double>(pairs.size()));
+}
+
+std::optional<RelativeErrors> relative_errors(const std::vector<PosePair>& pairs, const Truth& truth,
+                                              double distance_m) {
+  const std::vector<double> walked = truth.walked();
+  RelativeErrors errors;
+  int count = 0;
+  std::size_t j = 0;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const double goal = walked[pairs[i].scan] + distance_m;
+    while (j < pairs.size() && walked[pairs[j].scan] < goal) ++j;
+    if (j == pairs.size()) break;
+    const Pose step_F = pairs[i].X_FR.inverse() * pairs[j].X_FR;
+    const Pose step_W = pairs[i].X_WR.inverse() * pairs[j].X_WR;
+    const Pose error = step_W.inverse() * step_F;
+    errors.translation_rmse_m += error.t.squaredNorm();
+    errors.translation_mean_m += error.t.norm();
+    errors.rotation_mean_rad += log_so3(error.q).norm();
+    ++count;
+  }
+  if (count == 0) return std::nullopt;
+  errors.translation_rmse_m = std::sqrt(errors.translation_rmse_m / count);
+  errors.translation_mean_m /= count;
+  errors.rotation_mean_rad /= count;
+  return errors;
+}
+
+std::optional<TrajectoryScore> score_trajectory(const Truth& truth, const std::vector<slam::StampedPose>& causal_F,
+                                                const std::vector<slam::StampedPose>& final_F,
+                                                const TrajectoryRules& rules) {
+  const std::vector<PosePair> causal = associate(truth, causal_F, rules);
+  if (causal.empty()) return std::nullopt;
+  TrajectoryScore score;
+  score.coverage = static_cast<double>(causal.size()) / static_cast<double>(truth.scans.size());
+  score.ate_rmse_m = position_rmse(causal, place_by_first(causal));
+  score.ate_aligned_rmse_m = position_rmse(causal, umeyama(causal));
+  if (const auto errors = relative_errors(causal, truth, rules.rpe_distance_m))
+    score.rpe_1m_rmse_m = errors->translation_rmse_m;
+  if (const auto drift = relative_errors(causal, truth, rules.drift_distance_m)) {
+    score.drift_10m_percent = 100.0 * drift->translation_mean_m / rules.drift_distance_m;
+    score.drift_10m_deg_per_m = drift->rotation_mean_rad / rules.drift_distance_m * 180.0 / std::numbers::pi;
+  }
+  const std::vector<PosePair> last = associate(truth, final_F, rules);
+  score.X_WF_final = umeyama(last.empty() ? causal : last);
+  if (!last.empty()) score.ate_final_rmse_m = position_rmse(last, score.X_WF_final);
+  return score;
+}
+
+}  // namespace plumbline::scenarios::score

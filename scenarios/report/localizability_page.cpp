@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "bim/plan/plan.h"
+#include "scenarios/localizability/building_map.h"
+#include "scenarios/report/map_drawing.h"
+#include "scenarios/report/page.h"
+#include "scenarios/report/svg.h"
+
+namespace plumbline::scenarios {
+
+namespace {
+
+constexpr std::string_view green = "#3f9d6b", red = "#c9402d";
+/// Amber, by the length of the walk: up to these metres each, then beyond.
+constexpr std::array<double, 3> amber_up_to_m = {2.0, 5.0, 10.0};
+constexpr std::array<std::string_view, 4> ambers = {"#f6dd9a", "#f1c04f", "#e39a1e", "#b56d09"};
+
+std::string_view colour_of(const CellAnswer& answer) {
+  if (!answer.walk_m) return red;
+  if (*answer.walk_m == 0.0) return green;
+  const auto at = std::lower_bound(amber_up_to_m.begin(), amber_up_to_m.end(), *answer.walk_m);
+  return ambers[static_cast<std::size_t>(at - amber_up_to_m.begin())];
+}
+
+std::string title_of(const CellAnswer& answer) {
+  const std::string twins = std::to_string(answer.twins) + (answer.twins == 1 ? " other place" : " other places");
+  if (!answer.walk_m) return "looks like " + twins + "; no walk on this storey tells them apart";
+  if (*answer.walk_m == 0.0) return "one look suffices";
+  return "looks like " + twins + "; a walk of " + svg::number(*answer.walk_m, 1) + " m tells";
+}
+
+std::string cell_square(const MapCell& cell, const CellAnswer& answer, double step_m) {
+  const double s = step_m;
+  return "<rect x=\"" + svg::number(cell.p_W.x() - 0.5 * s) + "\" y=\"" + svg::number(-cell.p_W.y() - 0.5 * s) +
+         "\" width=\"" + svg::number(s) + "\" height=\"" + svg::number(s) + "\" fill=\"" +
+         std::string(colour_of(answer)) + "\"><title>" + title_of(answer) + "</title></rect>";
+}
+
+std::string legend() {
+  const auto item = [](std::string_view colour, const std::string& text) {
+    return "<span><svg viewBox=\"0 0 34 10\"><rect width=\"34\" height=\"10\" fill=\"" + std::string(colour) +
+           "\"/></svg>" + text + "</span>";
+  };
+  return "<div class=\"key\">" + item(green, "one look suffices") + item(ambers[0], "a walk of up to 2 m does") +
+         item(ambers[1], "up to 5 m") + item(ambers[2], "up to 10 m") + item(ambers[3], "further") +
+         item(red, "no walk on the storey does") + item("#c3cbd6", "what stands there") + "</div>";
+}
+
+std::string percent(int part, int whole) { return whole == 0 ? "–" : svg::number(100.0 * part / whole, 1) + " %"; }
+
+std::string share_row(const std::string& name, const MapShare& s) {
+  const auto cell = [](const std::string& text) { return "<td class=\"num\">" + text + "</td>"; };
+  return "<tr><td>" + svg::escape(name) + "</td>" + cell(std::to_string(s.cells)) + cell(percent(s.one_look, s.cells)) +
+         cell(percent(s.walk, s.cells)) + cell(s.walk > 0 ? svg::number(s.walk_median_m, 1) : "–") +
+         cell(s.walk > 0 ? svg::number(s.walk_max_m, 1) : "–") + cell(percent(s.never, s.cells)) +
+         cell(std::to_string(s.twins_max)) + "</tr>";
+}
+
+/// What pages show of one condition.
+class ConditionPage {
+ public:
+  ConditionPage(const bim::Site& site, const BuildingMap& map, bool compass)
+      : site_(site), map_(map), compass_(compass) {
+    input_.plan = bim::make_plan(site.as_planned);
+    input_.things = things_of(site.as_planned);
+    for (const Floor& floor : map.floors) input_.storeys.push_back({static_cast<int>(floor.storey), "", {}});
+  }
+
+  [[nodiscard]] std::string card() const {
+    std::string out = "<section class=\"card\"><h2>" + std::string(compass_ ? "With a compass" : "Heading not known") +
+                      "</h2><div class=\"maps\">";
+    for (std::size_t f = 0; f < map_.floors.size(); ++f) out += "<div>" + draw(f) + "</div>";
+    return out + "</div>" + legend() + table() + "</section>\n";
+  }
+
+ private:
+  [[nodiscard]] const CellAnswer& answer(const MapCell& cell) const {
+    return compass_ ? cell.compass : cell.unknown.value();
+  }
+
+  [[nodiscard]] std::string draw(std::size_t f) const {
+    const auto storey = static_cast<int>(map_.floors[f].storey);
+    const std::string name = svg::escape(name_of(site_.as_planned.storeys[map_.floors[f].storey]));
+    std::string out = "<p class=\"storey\">" + name + "</p>" + open_map(bounds(input_), "where on " + name);
+    std::string cells, plan = draw_plan(input_, storey);
+    for (const MapCell& cell : map_.map.cells)
+      if (cell.floor == f) cells += cell_square(cell, answer(cell), map_.options.step_m);
+    // Rooms are filled: cells lie over them, walls over cells.
+    const std::size_t walls = plan.find("<line");
+    if (walls == std::string::npos) return out + plan + cells + "</svg>";
+    return out + plan.substr(0, walls) + cells + plan.substr(walls) + "</svg>";
+  }
+
+  [[nodiscard]] std::string table() const {
+    std::string out =
+        "<div class=\"scroll\"><table><tr><th></th><th class=\"num\">places</th><th class=\"num\">one look</th>"
+        "<th class=\"num\">a walk</th><th class=\"num\">median m</th><th class=\"num\">longest m</th>"
+        "<th class=\"num\">never</th><th class=\"num\">twins, most</th></tr>";
+    for (std::size_t f = 0; f < map_.floors.size(); ++f) {
+      const bim::Storey& storey = site_.as_planned.storeys[map_.floors[f].storey];
+      out += share_row(name_of(storey), share_of(map_, compass_, [&](const MapCell& cell) { return cell.floor == f; }));
+    }
+    for (const bim::Room& room : site_.as_planned.rooms) {
+      const MapShare share = share_of(map_, compass_, [&](const MapCell& cell) {
+        return static_cast<int>(map_.floors[cell.floor].storey) == room.storey && contains(room.polygon, cell.p_W);
+      });
+      if (share.cells > 0) out += share_row("room " + (room.name.empty() ? room.id : room.name), share);
+    }
+    return out + "</table></div>";
+  }
+
+  const bim::Site& site_;
+  const BuildingMap& map_;
+  bool compass_;
+  ReportInput input_;
+};
+
+}  // namespace
+
+std::string identify_page(const bim::Site& site, const std::string& name, const BuildingMap& map) {
+  std::string page =
+      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
+      "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\"><title>" +
+      svg::escape(name) + " · Plumbline</title><style>";
+  page += page_style();
+  page += "</style></head>\n<body><main><header><h1>Where one can know one's place: " + svg::escape(name) +
+          "</h1><span class=\"facts\">a place every " + svg::number(map.options.step_m) + " m, twins on " +
+          (map.options.across ? "all storeys" : "the same storey") + "</span></header>\n";
+  if (!map.options.compass_only) page += ConditionPage(site, map, false).card();
+  page += ConditionPage(site, map, true).card();
+  return page +
+         "<p class=\"facts\">A place has a twin where a levelled LiDAR of 8 x 360 beams sees the same there, within "
+         "noise. A "
+         "walk tells when it leaves no twin that could have made it too and seen the same at each "
+         "step.</p></main></body></html>\n";
+}
+
+}  // namespace plumbline::scenarios

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenarios/report/map_drawing.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "scenarios/report/plot.h"
+#include "scenarios/report/svg.h"
+
+namespace plumbline::scenarios {
+
+namespace {
+
+// Colours that stay apart for colour-blind readers (Okabe and Ito), in the order of the methods; then as many that are
+// darker or lighter than those.
+constexpr std::array<std::string_view, 12> colours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#b58900", "#56b4e9",
+                                                      "#6a3d9a", "#8c3d00", "#00d4a0", "#ff5fa2", "#6b6b00", "#7f7f7f"};
+
+/// Wall segments of a face without its openings, as strokes.
+std::string face_strokes(const bim::PlanFace& face, double floor_z) {
+  constexpr double walked_under_m = 1.8;
+  const bool high = face.z0 > floor_z + walked_under_m;
+  const double length = (face.p1 - face.p0).norm();
+  if (length <= 0.0) return "";
+  const Eigen::Vector2d e = (face.p1 - face.p0) / length;
+  std::vector<std::pair<double, double>> gaps;
+  for (const auto& hole : face.holes)
+    if (hole.z0 < face.z0 + 0.3) gaps.emplace_back(hole.s0, hole.s1);
+  std::sort(gaps.begin(), gaps.end());
+  std::string out;
+  double s = 0.0;
+  const auto stroke = [&](double s0, double s1) {
+    if (s1 > s0) out += svg::line(face.p0 + s0 * e, face.p0 + s1 * e, high ? "class=\"wall high\"" : "class=\"wall\"");
+  };
+  for (const auto& [s0, s1] : gaps) {
+    stroke(s, s0);
+    s = std::max(s, s1);
+  }
+  stroke(s, length);
+  return out;
+}
+
+bool is_shown(const ReportInput& input, int storey) {
+  return std::any_of(input.storeys.begin(), input.storeys.end(),
+                     [&](const ReportStorey& shown) { return shown.index == storey; });
+}
+
+/// Names stand in the upper left corner of their rooms, away from most paths.
+std::string room_names(const ReportInput& input, int storey) {
+  std::string out;
+  for (const auto& room : input.plan.rooms) {
+    if (room.storey != storey || room.name.size() > 18) continue;
+    Eigen::Vector2d corner(1e9, -1e9);
+    for (const auto& p : room.polygon) corner = {std::min(corner.x(), p.x()), std::max(corner.y(), p.y())};
+    out += svg::text(corner + Eigen::Vector2d(0.3, -0.6), room.name, "");
+  }
+  return out;
+}
+
+bool is_jump(const ReportSample& from, const ReportSample& to) {
+  return to.t_s - from.t_s > path_gap_s || std::hypot(to.x - from.x, to.y - from.y) > path_jump_m;
+}
+
+/// A line for each stretch of the path on the storey, broken where it jumps.
+std::string draw_path(const std::vector<ReportSample>& samples, int storey, const std::string& attributes) {
+  std::string out;
+  std::vector<Eigen::Vector2d> stretch;
+  const auto draw = [&] {
+    if (!stretch.empty()) out += svg::polyline(stretch, attributes);
+    stretch.clear();
+  };
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    if (samples[i].storey != storey || (i > 0 && is_jump(samples[i - 1], samples[i]))) draw();
+    if (samples[i].storey == storey) stretch.emplace_back(samples[i].x, samples[i].y);
+  }
+  draw();
+  return out;
+}
+
+/// Where the robot was lifted and set down.
+std::string draw_kidnap(const ReportInput& input, int storey) {
+  if (!input.kidnap) return "";
+  std::string out;
+  const std::array<std::pair<double, const char*>, 2> events = {
+      {{input.kidnap->lifted_s, "carried off"}, {input.kidnap->set_down_s, "set down"}}};
+  for (const auto& [t_s, text] : events) {
+    const auto at = std::find_if(input.truth.begin(), input.truth.end(),
+                                 [t = t_s](const ReportSample& sample) { return sample.t_s >= t; });
+    if (at == input.truth.end() || at->storey != storey) continue;
+    out += svg::circle({at->x, at->y}, 0.16, "fill=\"#fff\" stroke=\"#111\" stroke-width=\".07\"") +
+           svg::text({at->x + 0.28, at->y + 0.1}, text, "class=\"event\"");
+  }
+  return out;
+}
+
+std::string robot_mark(const std::string& name, int storey, const std::string& fill) {
+  return "<path class=\"robot\" data-robot=\"" + svg::escape(name) + "\" data-storey=\"" + std::to_string(storey) +
+         "\" d=\"M.36 0L-.22 -.2L-.12 0L-.22 .2Z\" fill=\"" + fill + "\" stroke=\"#fff\" stroke-width=\".04\"/>";
+}
+
+std::string draw_structure(const ReportMethod& method, int storey, const std::string& c) {
+  std::string out;
+  for (const auto& room : method.rooms)
+    if (room.storey == storey)
+      out += svg::polygon(room.polygon_W, room.matched ? "class=\"foundroom\" fill=\"" + c + "\" stroke=\"" + c + "\""
+                                                       : std::string("class=\"foundroom invented\""));
+  for (const auto& wall : method.walls)
+    if (wall.storey == storey) out += svg::line(wall.p0, wall.p1, "class=\"found\" stroke=\"" + c + "\"");
+  return out;
+}
+
+std::string draw_method(const ReportMethod& method, std::size_t index, int storey) {
+  const std::string c = colour(index);
+  std::string out = "<g class=\"layer-" + svg::escape(method.name) + "\">";
+  // What a localization finds are the plan's own walls and rooms, which are drawn already.
+  if (!method.localization) out += draw_structure(method, storey, c);
+  out += draw_path(method.samples, storey, "class=\"path\" stroke=\"" + c + "\"");
+  return out + robot_mark(method.name, storey, c) + "</g>";
+}
+
+/// A length to measure by, in the margin below the plan.
+std::string draw_scale(const MapBox& box) {
+  constexpr std::array<int, 7> lengths_m = {1, 2, 5, 10, 20, 50, 100};
+  int length_m = lengths_m.front();
+  for (const int m : lengths_m)
+    if (m <= 0.25 * (box.max.x() - box.min.x())) length_m = m;
+  const Eigen::Vector2d a = box.min + Eigen::Vector2d(0.5, 0.2), b = a + Eigen::Vector2d(length_m, 0.0);
+  return svg::line(a, b, "class=\"scale\"") +
+         svg::text(b + Eigen::Vector2d(0.15, -0.1), std::to_string(length_m) + " m", "");
+}
+
+std::string draw_map(const ReportInput& input, const ReportStorey& storey, const MapBox& box) {
+  const bool several = input.storeys.size() > 1;
+  std::string out = several ? "<p class=\"storey\">" + svg::escape(storey.name) + "</p>" : "";
+  out +=
+      open_map(box, "floor plan" + (several ? " of " + storey.name : "") + " with the true and the estimated paths") +
+      draw_plan(input, storey.index) + draw_deviations(storey.deviations);
+  for (std::size_t i = 0; i < input.methods.size(); ++i)
+    if (!is_truth(input.methods[i])) out += draw_method(input.methods[i], i, storey.index);
+  out += draw_path(input.truth, storey.index, "class=\"truth\"") + room_names(input, storey.index) +
+         draw_kidnap(input, storey.index) + robot_mark("truth", storey.index, "#111") + draw_scale(box);
+  return out + "</svg>";
+}
+
+}  // namespace
+
+std::string colour(std::size_t method) { return std::string(colours[method % colours.size()]); }
+
+bool is_truth(const ReportMethod& method) { return method.name == "truth"; }
+
+MapBox bounds(const ReportInput& input) {
+  MapBox box;
+  for (const auto& face : input.plan.faces) {
+    if (!is_shown(input, face.storey)) continue;
+    box.add(face.p0);
+    box.add(face.p1);
+  }
+  for (const ReportThing& thing : input.things)  // of a mesh there are no faces
+    if (input.plan.faces.empty() && is_shown(input, thing.storey))
+      for (const auto& p : thing.outline_W) box.add(p);
+  for (const auto& sample : input.truth) box.add({sample.x, sample.y});
+  const Eigen::Vector2d margin = Eigen::Vector2d::Constant(0.5);
+  return {box.min - margin, box.max + margin};
+}
+
+std::string open_map(const MapBox& box, const std::string& label) {
+  const Eigen::Vector2d size = box.max - box.min;
+  return "<svg class=\"map\" role=\"img\" aria-label=\"" + svg::escape(label) + "\" viewBox=\"" +
+         svg::number(box.min.x()) + " " + svg::number(-box.max.y()) + " " + svg::number(size.x()) + " " +
+         svg::number(size.y()) + "\">";
+}
+
+std::string draw_plan(const ReportInput& input, int storey) {
+  const double floor_z = input.plan.storeys.at(static_cast<std::size_t>(storey)).elevation_m;
+  std::string out;
+  for (const auto& room : input.plan.rooms)
+    if (room.storey == storey) out += svg::polygon(room.polygon, "class=\"room\"");
+  for (const auto& face : input.plan.faces)
+    if (face.storey == storey) out += face_strokes(face, floor_z);
+  for (const ReportThing& thing : input.things)
+    if (thing.storey == storey)
+      out += svg::polygon(thing.outline_W, thing.filled ? "class=\"thing\"" : "class=\"thing hull\"", thing.id);
+  return out;
+}
+
+std::string draw_maps(const ReportInput& input, const MapBox& box) {
+  std::string out;
+  for (const ReportStorey& storey : input.storeys) out += "<div>" + draw_map(input, storey, box) + "</div>";
+  return "<div class=\"maps\">" + out + "</div>";
+}
+
+std::string map_key() {
+  const auto item = [](const std::string& stroke, const std::string& label) {
+    return "<span><svg viewBox=\"0 0 34 10\"><line x1=\"1\" y1=\"5\" x2=\"33\" y2=\"5\" " + stroke + "/></svg>" +
+           label + "</span>";
+  };
+  return "<div class=\"key\">" +
+         item("stroke=\"#39424e\" stroke-width=\"3\"", "wall of the building (faint: overhead)") +
+         "<span><svg viewBox=\"0 0 34 10\"><rect class=\"thing\" x=\"9\" y=\"1\" width=\"16\" height=\"8\"/></svg>"
+         "what else stands there: columns, furniture (dashed: with gaps)</span>" +
+         item("stroke=\"#111\" stroke-width=\"2\" stroke-dasharray=\"5 4\"", "where the robot truly walked") +
+         item("stroke=\"#0072b2\" stroke-width=\"2\"", "where a method says it walked (its colour)") +
+         item("stroke=\"#0072b2\" stroke-width=\"4\" stroke-opacity=\".8\"", "wall a method found") +
+         "<span>tinted area: room a method found (red: there is none)</span></div>";
+}
+
+}  // namespace plumbline::scenarios

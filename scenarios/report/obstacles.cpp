@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenarios/report/obstacles.h"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "bim/model/fillings.h"
+#include "bim/model/hull.h"
+#include "bim/plan/plan.h"
+#include "sim/route/route.h"
+
+namespace plumbline::scenarios {
+
+namespace {
+
+bool stands_in_the_way(const bim::Building& building, int storey, double z0, double z1) {
+  const sim::RouteConfig route;
+  if (storey < 0) return false;
+  const double floor = building.storeys[static_cast<std::size_t>(storey)].elevation_m;
+  return z1 > floor + route.band_low_m && z0 < floor + route.band_high_m;
+}
+
+}  // namespace
+
+std::vector<ReportThing> things_of(const bim::Building& building) {
+  std::vector<ReportThing> things;
+  std::set<std::string> solid;
+  for (const bim::PlanSolid& prism : bim::make_plan(building).solids) {
+    solid.insert(prism.id);
+    if (stands_in_the_way(building, prism.storey, prism.z0, prism.z1))
+      things.push_back({prism.id, prism.storey, prism.outline, true});
+  }
+  for (const bim::Obstacle& obstacle : building.obstacles) {
+    const std::vector<Eigen::Vector3d>& corners = obstacle.body.vertices;
+    if (solid.contains(obstacle.id) || bim::is_filling(obstacle) || corners.empty()) continue;
+    const auto [low, high] =
+        std::minmax_element(corners.begin(), corners.end(), [](const auto& p, const auto& q) { return p.z() < q.z(); });
+    if (!stands_in_the_way(building, obstacle.storey, low->z(), high->z())) continue;
+    Polygon2 below;
+    for (const Eigen::Vector3d& p : corners) below.emplace_back(p.head<2>());
+    Polygon2 hull = bim::convex_hull(std::move(below));
+    if (!hull.empty()) things.push_back({obstacle.id, obstacle.storey, std::move(hull), false});
+  }
+  return things;
+}
+
+}  // namespace plumbline::scenarios

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenarios/report/report_builder.h"
+
+#include <algorithm>
+#include <set>
+
+#include "scenarios/metrics/storey.h"
+#include "scenarios/report/hypothesis_history.h"
+#include "scenarios/score/handover.h"
+
+namespace plumbline::scenarios {
+
+namespace {
+
+ReportSample sample(const bim::Plan& plan, slam::Nanoseconds stamp, const Pose& X_WR, double error_m) {
+  const int storey = score::storey_of_base(plan.storeys, X_WR.t.z());
+  return {slam::seconds(stamp), X_WR.t.x(), X_WR.t.y(), X_WR.yaw(), error_m, storey};
+}
+
+/// The causal trajectory as scored: SLAM aligned once over the whole run, localization as it stands.
+std::vector<ReportSample> samples_of(const bim::Plan& plan, const MethodRecord& method, const score::Truth& truth) {
+  const std::vector<score::PosePair> pairs = score::associate(truth, method.causal, {});
+  std::vector<ReportSample> samples;
+  if (pairs.empty()) return samples;
+  const Pose X_WF = method.localization ? Pose() : score::umeyama(pairs);
+  for (const score::PosePair& pair : pairs) {
+    const Pose X_WR = X_WF * pair.X_FR;
+    samples.push_back(sample(plan, truth.scans[pair.scan], X_WR, (X_WR.t - pair.X_WR.t).norm()));
+  }
+  return samples;
+}
+
+Eigen::Vector3d place(const Pose& X_WF, const Eigen::Vector2d& p_F, double z_F = 0.0) {
+  return X_WF * Eigen::Vector3d(p_F.x(), p_F.y(), z_F);
+}
+
+void add_structure(const bim::Plan& plan, const MethodRecord& method, const score::MethodScore& score,
+                   ReportMethod& shown) {
+  const Pose X_WF = method.localization || !score.trajectory ? Pose() : score.trajectory->X_WF_final;
+  for (const slam::PlaneNode& plane : method.estimate.planes) {
+    const Eigen::Vector3d p0_W = place(X_WF, plane.p0, 0.5 * (plane.z0 + plane.z1));
+    const int storey = score::storey_of_height(plan.storeys, p0_W.z());
+    shown.walls.push_back({p0_W.head<2>(), place(X_WF, plane.p1).head<2>(), storey});
+  }
+  for (std::size_t i = 0; i < method.estimate.rooms.size(); ++i) {
+    const slam::RoomNode& node = method.estimate.rooms[i];
+    ReportRoom room;
+    for (const Eigen::Vector2d& p : node.polygon_F) room.polygon_W.push_back(place(X_WF, p).head<2>());
+    room.matched = score.rooms && score.rooms->room_of_node[i] >= 0;
+    const double z_F = score::height_of_room(method.estimate, node).value_or(0.0);
+    room.storey = score::storey_of_height(plan.storeys, place(X_WF, node.center_F, z_F).z());
+    shown.rooms.push_back(std::move(room));
+  }
+}
+
+ReportBelief belief_at(const bim::Plan& plan, const MethodRecord& method, std::size_t i, const std::string& label,
+                       const score::Truth& truth) {
+  const BeliefRecord& belief = method.beliefs[i];
+  const Eigen::Vector3d p_W = truth.at(belief.stamp).t;
+  return {label, slam::seconds(belief.stamp), belief.particles, p_W.head<2>(),
+          score::storey_of_base(plan.storeys, p_W.z())};
+}
+
+/// Particles at the start, half-way to the convergence (or the end) and there.
+void add_beliefs(const bim::Plan& plan, const MethodRecord& method, const score::Truth& truth, ReportMethod& shown) {
+  std::vector<std::size_t> kept;
+  std::size_t converged = method.beliefs.size();
+  for (std::size_t i = 0; i < method.beliefs.size(); ++i) {
+    const BeliefRecord& belief = method.beliefs[i];
+    shown.states.push_back({slam::seconds(belief.stamp), static_cast<int>(belief.hypotheses.size()), belief.state});
+    if (converged == method.beliefs.size() && belief.state == slam::State::converged) converged = i;
+    if (!belief.particles.empty() && i <= converged) kept.push_back(i);
+  }
+  if (kept.empty()) return;
+  const bool has_converged = converged < method.beliefs.size();
+  const std::string last = kept.back() == converged ? "convergence" : has_converged ? "before convergence" : "end";
+  shown.beliefs.push_back(belief_at(plan, method, kept.front(), "start", truth));
+  if (kept.size() > 2) shown.beliefs.push_back(belief_at(plan, method, kept[kept.size() / 2], "middle", truth));
+  if (kept.size() > 1) shown.beliefs.push_back(belief_at(plan, method, kept.back(), last, truth));
+}
+
+ReportWall wall_of(const Eigen::Vector2d& p0, const Eigen::Vector2d& p1) { return {p0, p1, 0}; }
+
+/// What a hypothesis recognised; `right` as the score judges it.
+ReportPlace place_of(const slam::Hypothesis& hypothesis, const Pose& X_WR_true, const bim::Plan& as_planned,
+                     const bim::Plan& as_built) {
+  ReportPlace place{hypothesis.X_WR.t.head<2>(), hypothesis.X_WR.yaw(), hypothesis.mass, {}};
+  const std::vector<bool> right = score::right_matches(hypothesis.walls, X_WR_true, as_planned, as_built);
+  for (std::size_t i = 0; i < hypothesis.walls.size(); ++i) {
+    const slam::WallMatch& match = hypothesis.walls[i];
+    ReportMatch shown;
+    shown.right = right[i];
+    shown.patch = wall_of((hypothesis.X_WR * match.p0_R).head<2>(), (hypothesis.X_WR * match.p1_R).head<2>());
+    for (const bim::PlanFace& face : as_planned.faces)
+      if (std::find(match.faces.begin(), match.faces.end(), face.id) != match.faces.end())
+        shown.faces.push_back(wall_of(face.p0, face.p1));
+    place.walls.push_back(std::move(shown));
+  }
+  return place;
+}
+
+/// The walls recognised half-way to the first convergence (or the end), there, and at the end, where they were kept.
+void add_recognised(const RunFiles& files, const MethodRecord& method, const score::RunScore& score,
+                    ReportMethod& shown) {
+  std::vector<std::size_t> before;
+  std::optional<std::size_t> settled, last;
+  for (std::size_t i = 0; i < method.beliefs.size(); ++i) {
+    const BeliefRecord& belief = method.beliefs[i];
+    const bool kept = std::any_of(belief.hypotheses.begin(), belief.hypotheses.end(),
+                                  [](const slam::Hypothesis& hypothesis) { return !hypothesis.walls.empty(); });
+    if (!kept) continue;
+    last = i;
+    if (!settled && belief.state == slam::State::converged) settled = i;
+    if (!settled) before.push_back(i);
+  }
+  if (!last) return;
+  const bim::Plan as_planned = bim::make_plan(files.site.as_planned);
+  const auto show = [&](std::size_t i, const std::string& label) {
+    constexpr std::size_t most = 8;  // places, so that walls stay apart
+    const BeliefRecord& belief = method.beliefs[i];
+    const Pose X_WR = score.truth.at(belief.stamp);
+    ReportWalls walls{label,
+                      slam::seconds(belief.stamp),
+                      score::storey_of_base(as_planned.storeys, X_WR.t.z()),
+                      X_WR.t.head<2>(),
+                      {}};
+    for (std::size_t k = 0; k < std::min(most, belief.hypotheses.size()); ++k)
+      walls.places.push_back(place_of(belief.hypotheses[k], X_WR, as_planned, score.as_built));
+    shown.recognised.push_back(std::move(walls));
+  };
+  if (!before.empty()) show(before[before.size() / 2], "while searching");
+  if (settled) show(*settled, "when it settled");
+  if (last != settled && (before.empty() || *last != before[before.size() / 2])) show(*last, "at the end");
+}
+
+/// The storey of the start and those the robot was on, from the lowest up.
+std::vector<ReportStorey> storeys_of(const RunFiles& files, const std::vector<ReportSample>& truth) {
+  const std::vector<bim::Storey>& storeys = files.site.as_built.storeys;
+  std::set<std::pair<double, int>> shown;
+  const auto show = [&](int index) { shown.emplace(storeys.at(static_cast<std::size_t>(index)).elevation_m, index); };
+  for (const ReportSample& at : truth) show(at.storey);
+  for (std::size_t i = 0; i < storeys.size(); ++i)
+    if (storeys[i].id == files.scenario.start.storey) show(static_cast<int>(i));
+  if (shown.empty()) show(0);
+  std::vector<ReportStorey> out;
+  for (const auto& [elevation, index] : shown) {
+    const bim::Storey& storey = storeys[static_cast<std::size_t>(index)];
+    out.push_back({index, storey.name.empty() ? storey.id : storey.name, report_deviations(files.site, index)});
+  }
+  return out;
+}
+
+}  // namespace
+
+ReportInput report_input(const RunFiles& files, const score::RunScore& score) {
+  constexpr std::size_t shown_places = 6;  // curves that stay apart
+  ReportInput input;
+  input.results = read_json(score::write_results(files, score), "results.json");
+  input.plan = score.as_built;
+  input.things = things_of(files.site.as_built);
+  const std::vector<bim::Room>& rooms = files.site.as_built.rooms;
+  for (bim::PlanRoom& room : input.plan.rooms) {
+    const auto named =
+        std::find_if(rooms.begin(), rooms.end(), [&](const bim::Room& candidate) { return candidate.id == room.name; });
+    if (named != rooms.end() && !named->name.empty()) room.name = named->name;
+  }
+  for (const slam::Nanoseconds stamp : score.truth.scans)
+    input.truth.push_back(sample(input.plan, stamp, score.truth.at(stamp), 0.0));
+  input.storeys = storeys_of(files, input.truth);
+  if (score.truth.set_down) {
+    const auto down = std::find(score.truth.scans.begin(), score.truth.scans.end(), *score.truth.set_down);
+    input.kidnap = ReportKidnap{slam::seconds(*(down - 1)), slam::seconds(*down)};
+  }
+  for (std::size_t i = 0; i < files.methods.size(); ++i) {
+    const MethodRecord& method = files.methods[i];
+    ReportMethod shown;
+    shown.name = method.name;
+    shown.localization = method.localization;
+    shown.samples = samples_of(input.plan, method, score.truth);
+    add_structure(input.plan, method, score.methods[i], shown);
+    add_beliefs(input.plan, method, score.truth, shown);
+    shown.tracks = hypothesis_tracks(method.beliefs, score.truth, shown_places);
+    add_recognised(files, method, score, shown);
+    input.methods.push_back(std::move(shown));
+  }
+  return input;
+}
+
+}  // namespace plumbline::scenarios

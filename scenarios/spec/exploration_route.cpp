@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenarios/spec/exploration_route.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "bim/geometry/polygon.h"
+
+namespace plumbline::scenarios {
+
+namespace {
+
+using Path = std::vector<Eigen::Vector2d>;
+
+struct Place {
+  Eigen::Vector2d p = Eigen::Vector2d::Zero();
+  double been_m = std::numeric_limits<double>::infinity();  ///< distance to the walk so far
+};
+
+/// Those of a grid over the box that can be walked to.
+std::vector<Place> places_in_reach(const sim::FreeSpace& space, const Eigen::AlignedBox2d& bounds,
+                                   const Eigen::Vector2d& start, const RoamConfig& config) {
+  const double step = std::max(config.step_m, std::sqrt(bounds.volume() / config.most_places));
+  const Eigen::Vector2d size = bounds.sizes();
+  Path grid;
+  for (int iy = 0; (iy + 0.5) * step < size.y(); ++iy)
+    for (int ix = 0; (ix + 0.5) * step < size.x(); ++ix) {
+      const Eigen::Vector2d p = bounds.min() + step * Eigen::Vector2d(ix + 0.5, iy + 0.5);
+      if (space.free(p)) grid.push_back(p);
+    }
+  std::vector<Place> places;
+  for (const Eigen::Vector2d& p : space.reachable(start, grid)) places.push_back({p});
+  return places;
+}
+
+void note(const Path& path, std::vector<Place>& places) {
+  for (Place& place : places)
+    for (std::size_t i = 0; i < path.size(); ++i)
+      place.been_m = std::min(place.been_m, segment_distance(path[i > 0 ? i - 1 : 0], path[i], place.p));
+}
+
+double length(const Path& path) {
+  double sum = 0.0;
+  for (std::size_t i = 1; i < path.size(); ++i) sum += (path[i] - path[i - 1]).norm();
+  return sum;
+}
+
+}  // namespace
+
+std::vector<Eigen::Vector2d> roam(const sim::FreeSpace& space, const Eigen::AlignedBox2d& bounds,
+                                  const Eigen::Vector2d& start, const RoamConfig& config) {
+  std::vector<Place> places = places_in_reach(space, bounds, start, config);
+  Path walk = {start};
+  note(walk, places);
+  for (int goals = 0; goals < config.goals && length(walk) < config.longest_m; ++goals) {
+    const auto goal = std::max_element(places.begin(), places.end(),
+                                       [](const Place& a, const Place& b) { return a.been_m < b.been_m; });
+    if (goal == places.end() || goal->been_m < config.nearest_m) break;
+    const Path leg = space.path(walk.back(), goal->p);
+    walk.insert(walk.end(), leg.begin() + 1, leg.end());
+    note(leg, places);
+  }
+  const Path home = space.path(walk.back(), start);
+  if (walk.size() > 1 && home.size() > 1) walk.insert(walk.end(), home.begin() + 1, home.end());
+  return walk;
+}
+
+}  // namespace plumbline::scenarios

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenarios/spec/random_start.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "bim/random/stream.h"
+#include "sim/route/multi_storey_planner.h"
+
+namespace plumbline::scenarios {
+
+namespace {
+
+constexpr double cell_m = 0.1;            ///< spacing of the places drawn from
+constexpr double coordinate_steps = 1e4;  ///< written with four decimals
+constexpr std::uint32_t start_lane = 0;   ///< of Stream "scenario.start"
+constexpr std::uint32_t heading_lane = 1;
+constexpr std::uint32_t route_lane = 2;
+
+double rounded(double x) { return std::round(x * coordinate_steps) / coordinate_steps; }
+
+/// A room the robot can stand in, with its places.
+struct OpenRoom {
+  std::string id;
+  Eigen::Vector2d middle_W = Eigen::Vector2d::Zero();
+  std::vector<Eigen::Vector2d> places_W;
+};
+
+std::vector<Eigen::Vector2d> places_in(const bim::Building& building, const bim::Room& room,
+                                       const sim::FreeSpace& space) {
+  const Polygon2& polygon = room.polygon;
+  const double turn_m = sim::RouteConfig().turn_m;  // a drawn heading is seldom that of the first leg
+  Eigen::AlignedBox2d box;
+  for (const Eigen::Vector2d& p : polygon) box.extend(p);
+  std::vector<Eigen::Vector2d> places;
+  for (double x = box.min().x() + 0.5 * cell_m; x < box.max().x(); x += cell_m)
+    for (double y = box.min().y() + 0.5 * cell_m; y < box.max().y(); y += cell_m) {
+      const Eigen::Vector2d p(rounded(x), rounded(y));
+      if (contains(polygon, p) && space.clearance(p) >= turn_m && !on_a_stair(building, room.storey, p))
+        places.push_back(p);
+    }
+  return places;
+}
+
+/// Draws from the rooms of one storey.
+class Draw {
+ public:
+  Draw(const bim::Building& building, int storey, std::uint64_t seed)
+      : storey_(storey), stream_(seed, "scenario.start"), space_(building) {
+    for (const bim::Room& room : building.rooms) {
+      if (room.storey != storey) continue;
+      const std::vector<Eigen::Vector2d> target = space_.storey(storey).room_target(room.polygon);
+      if (!target.empty())
+        rooms_.push_back({room.id, target.front(), places_in(building, room, space_.storey(storey))});
+    }
+  }
+
+  /// Tries places until one has a way to another room.
+  [[nodiscard]] Eigen::Vector2d start(StartDraw how, const Mark& mark) const {
+    constexpr std::uint64_t most_tries = 200;
+    for (std::uint64_t i = 0; i < most_tries && rooms_.size() > 1; ++i) {
+      const std::size_t room = how == StartDraw::rooms ? one_of(rooms_.size(), i, start_lane) : room_by_area(i);
+      const std::vector<Eigen::Vector2d>& places = rooms_[room].places_W;
+      if (places.empty()) continue;
+      const Eigen::Vector2d& p = places[one_of(places.size(), i, start_lane, 1)];
+      for (std::size_t other = 0; other < rooms_.size(); ++other)
+        if (other != room && reaches(p, rooms_[other])) return p;
+    }
+    throw InputError(mark, "no place to draw on this storey from which another room can be reached");
+  }
+
+  [[nodiscard]] double heading_deg() const { return rounded(360.0 * stream_.uniform(0, heading_lane) - 180.0); }
+
+  [[nodiscard]] std::vector<std::string> route(const Eigen::Vector2d& start, int count, const Mark& mark) const {
+    std::vector<std::string> ids;
+    if (rooms_.empty()) throw InputError(mark, "no room to draw on this storey");
+    std::size_t at = nearest(start);
+    Eigen::Vector2d from = start;
+    const std::uint64_t most_tries = 200 + static_cast<std::uint64_t>(count);
+    for (std::uint64_t i = 0; i < most_tries && ids.size() < static_cast<std::size_t>(count); ++i) {
+      const std::size_t next = one_of(rooms_.size(), i, route_lane);
+      if (next == at || !reaches(from, rooms_[next])) continue;
+      at = next;
+      from = rooms_[at].middle_W;
+      ids.push_back(rooms_[at].id);
+    }
+    if (ids.empty()) throw InputError(mark, "no room to draw can be reached from the start");
+    return ids;
+  }
+
+ private:
+  [[nodiscard]] std::size_t one_of(std::size_t count, std::uint64_t tick, std::uint32_t lane,
+                                   std::uint32_t draw = 0) const {
+    const double u = stream_.uniform(tick, lane, draw);
+    return std::min(count - 1, static_cast<std::size_t>(u * static_cast<double>(count)));
+  }
+
+  [[nodiscard]] std::size_t room_by_area(std::uint64_t tick) const {
+    std::size_t all = 0;
+    for (const OpenRoom& room : rooms_) all += room.places_W.size();
+    std::size_t left = one_of(std::max<std::size_t>(all, 1), tick, start_lane);
+    for (std::size_t i = 0; i < rooms_.size(); ++i) {
+      if (left < rooms_[i].places_W.size()) return i;
+      left -= rooms_[i].places_W.size();
+    }
+    return 0;
+  }
+
+  [[nodiscard]] bool reaches(const Eigen::Vector2d& from, const OpenRoom& room) const {
+    return !space_.storey(storey_).path(from, room.middle_W).empty();
+  }
+
+  /// The room the start stands in: where its places come nearest (ties: the first).
+  [[nodiscard]] std::size_t nearest(const Eigen::Vector2d& p) const {
+    std::size_t best = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < rooms_.size(); ++i)
+      for (const Eigen::Vector2d& place : rooms_[i].places_W)
+        if ((place - p).squaredNorm() < least) {
+          least = (place - p).squaredNorm();
+          best = i;
+        }
+    return best;
+  }
+
+  int storey_;
+  Stream stream_;
+  sim::WalkSpace space_;
+  std::vector<OpenRoom> rooms_;
+};
+
+}  // namespace
+
+void settle_draws(const bim::Building& building, Scenario& scenario, const RouteMarks& marks) {
+  Start& start = scenario.start;
+  if (start.random) {
+    const int storey = storey_of(building, start.storey, marks.start);
+    const Draw draw(building, storey, scenario.seed);
+    start.at = draw.start(*start.random, marks.start);
+    if (!start.yaw_deg) start.yaw_deg = draw.heading_deg();
+    start.storey = building.storeys[static_cast<std::size_t>(storey)].id;
+    start.random.reset();
+  }
+  if (!scenario.route.random) return;
+  Route stay;
+  stay.rooms = {};
+  const RoutePlan at = plan_route(building, start, stay, marks);
+  scenario.route.rooms =
+      Draw(building, at.storey, scenario.seed).route(at.start_W, *scenario.route.random, marks.route);
+}
+
+}  // namespace plumbline::scenarios

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "bim/model/building.h"
+#include "scenarios/spec/route_plan.h"
+#include "scenarios/spec/scenario.h"
+
+namespace plumbline::scenarios {
+
+/// Replaces a start and a route that are to be drawn by what the scenario's seed draws: a start from which other rooms
+/// can be reached, with any heading unless one is given, and rooms of its storey, none twice in a row. Throws
+/// InputError where there is nothing to draw from.
+void settle_draws(const bim::Building& building, Scenario& scenario, const RouteMarks& marks);
+
+}  // namespace plumbline::scenarios

@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenarios/spec/resolve.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+
+#include "bim/digest/digest.h"
+#include "bim/formats/mesh/mesh_file.h"
+#include "bim/plan/plan.h"
+#include "bim/random/stream.h"
+#include "scenarios/spec/method_names.h"
+#include "scenarios/spec/moving.h"
+#include "scenarios/spec/random_start.h"
+#include "scenarios/spec/route_plan.h"
+
+namespace plumbline::scenarios {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Of the default scenario: time to walk the route with its turns, and to stand at the end.
+struct DefaultDuration {
+  double factor = 1.8;  ///< over distance / speed; a walk through rooms turns on the spot at each goal
+  double extra_s = 20.0;
+  double longest_s = 900.0;
+};
+
+bool is_ifc(const std::string& text) { return text.substr(0, 256).find("ISO-10303-21") != std::string::npos; }
+
+/// The first key of a YAML file, which names its kind.
+std::string kind_of(const std::string& text, const std::string& path) {
+  const Tree tree = read_yaml(text, path);
+  if (!tree.is_map() || tree.as_map().empty())
+    throw InputError({path, 1, 1}, "a scenario or plan is expected: the first key must be 'scenario: 1' or 'plan: 1'");
+  return tree.find("levels") != nullptr ? "plan" : tree.as_map().front().first;
+}
+
+/// The default scenario of a bare building.
+ScenarioText default_scenario(const std::string& path) {
+  ScenarioText text;
+  text.tree = Tree::map();
+  text.tree.mark = {path, 0, 0};
+  text.scenario.building = fs::path(path).filename().string();
+  std::string name = text.scenario.building.substr(0, text.scenario.building.find('.'));
+  text.scenario.name = name.empty() || name.size() > longest_name ? "unnamed" : name;
+  return text;
+}
+
+ScenarioText read_input(const std::string& path) {
+  if (bim::is_mesh_path(path)) return default_scenario(path);
+  const std::string text = read_text_file(path);
+  if (is_ifc(text) || fs::path(path).extension() == ".ifc") return default_scenario(path);
+  const std::string kind = kind_of(text, path);
+  if (kind == "plan") return default_scenario(path);
+  if (kind == "scenario") return read_scenario(text, path);
+  throw InputError({path, 1, 1}, "the first key is '" + kind + "'; it must be 'scenario: 1' or 'plan: 1'");
+}
+
+std::vector<Mark> marks_of(const Tree& tree, std::initializer_list<std::string_view> path, std::size_t count) {
+  const Tree* node = &tree;
+  for (const std::string_view key : path) node = node != nullptr && node->is_map() ? node->find(key) : nullptr;
+  std::vector<Mark> marks(count, mark_at(tree, path));
+  if (node != nullptr && node->is_list())
+    for (std::size_t i = 0; i < std::min(count, node->as_list().size()); ++i) marks[i] = node->as_list()[i].mark;
+  return marks;
+}
+
+bool needs_plan(const std::string& method, slam::MethodTable table) {
+  const slam::MethodRow* row = slam::find_method(method, table);
+  return row != nullptr && row->needs_plan;
+}
+
+/// Without a plan the default is every method that needs none, and asking for another is wrong.
+void choose_methods(ScenarioText& text, const Overrides& overrides, bool has_plan, slam::MethodTable table) {
+  std::vector<std::string>& methods = text.scenario.methods;
+  if (overrides.methods) methods = *overrides.methods;
+  const std::vector<Mark> marks = overrides.methods ? std::vector<Mark>(methods.size(), Mark{"--method", 0, 0})
+                                                    : marks_of(text.tree, {"methods"}, methods.size());
+  check_methods(methods, marks, table);
+  for (std::size_t i = 0; i < methods.size(); ++i)
+    if (!has_plan && needs_plan(methods[i], table))
+      throw InputError(marks[i], "method '" + methods[i] + "' localizes in a plan, which the mesh '" +
+                                     text.scenario.building + "' does not have; ask for SLAM methods only");
+  if (!methods.empty()) return;
+  for (const slam::MethodRow& row : table)
+    if (row.standard && (has_plan || !row.needs_plan)) methods.emplace_back(row.name);
+}
+
+/// Localization in a plan starts from rooms. Where there are none (on the storey told), the default is what needs none,
+/// and asking for it is wrong.
+void check_rooms(ScenarioText& text, const Overrides& overrides, const bim::Building& plan, int storey, bool bare,
+                 slam::MethodTable table) {
+  const bool told = text.scenario.prior.storey == Knowledge::known;
+  const bool has_rooms = std::any_of(plan.rooms.begin(), plan.rooms.end(),
+                                     [&](const bim::Room& room) { return !told || room.storey == storey; });
+  if (has_rooms) return;
+  std::vector<std::string>& methods = text.scenario.methods;
+  if (bare && !overrides.methods) {
+    std::erase_if(methods, [&](const std::string& name) { return needs_plan(name, table); });
+    return;
+  }
+  const std::vector<Mark> marks = overrides.methods ? std::vector<Mark>(methods.size(), Mark{"--method", 0, 0})
+                                                    : marks_of(text.tree, {"methods"}, methods.size());
+  for (std::size_t i = 0; i < methods.size(); ++i)
+    if (needs_plan(methods[i], table))
+      throw InputError(marks[i], "method '" + methods[i] + "' starts from the rooms of its plan, and '" +
+                                     text.scenario.building + "' has none" + (told ? " on this storey" : "") +
+                                     "; add rooms, or ask for SLAM methods only");
+}
+
+void settle_methods(ScenarioText& text, const Overrides& overrides, bool has_plan, ResolvedScenario& resolved) {
+  Scenario& scenario = text.scenario;
+  choose_methods(text, overrides, has_plan, resolved.table);
+  const auto asked = [&](const GateSpec& gate) {
+    return std::find(scenario.methods.begin(), scenario.methods.end(), gate.method) != scenario.methods.end();
+  };
+  const std::vector<Mark> marks = marks_of(text.tree, {"gates"}, scenario.gates.size());
+  for (std::size_t i = 0; i < scenario.gates.size(); ++i) {
+    if (asked(scenario.gates[i])) continue;
+    check_methods({scenario.gates[i].method}, {marks[i]}, resolved.table);
+    if (overrides.methods) continue;
+    throw InputError(marks[i],
+                     "the gate's method '" + scenario.gates[i].method + "' is not one of the scenario's methods");
+  }
+  const auto kept = std::stable_partition(scenario.gates.begin(), scenario.gates.end(), asked);
+  resolved.dropped_gates = static_cast<int>(scenario.gates.end() - kept);
+  scenario.gates.erase(kept, scenario.gates.end());
+}
+
+/// A compass with slam::Prior's error, drawn once a run.
+slam::Prior make_prior(const Scenario& scenario, const bim::Building& building, const RoutePlan& plan) {
+  slam::Prior prior;
+  const double yaw = plan.yaw_deg * std::numbers::pi / 180.0;
+  if (scenario.prior.yaw == Knowledge::known)
+    prior.yaw_W = wrap_angle(yaw + prior.yaw_sigma * Stream(scenario.seed, "scenario.prior").gauss(0));
+  if (scenario.prior.storey == Knowledge::known)
+    prior.storey = bim::make_plan(building).storeys[static_cast<std::size_t>(plan.storey)].name;
+  return prior;
+}
+
+sim::WorldConfig make_world(const Scenario& scenario, const RoutePlan& plan) {
+  sim::WorldConfig world;
+  world.seed = scenario.seed;
+  world.lidar = lidar_config(scenario.lidar);
+  world.rpm = scenario.lidar.rpm;
+  world.vertical_offsets = scenario.lidar.vertical_offsets;
+  world.odometry = scenario.odometry.preset;
+  world.conditions = conditions(scenario.ground, scenario.pushes);
+  world.storey = plan.storey;
+  world.start_W = plan.start_W;
+  world.start_yaw = plan.yaw_deg * std::numbers::pi / 180.0;
+  world.waypoints = plan.waypoints;
+  world.speed_mps = scenario.speed_mps;
+  world.duration_s = scenario.duration_s;
+  return world;
+}
+
+/// What the robot walks through: as built, with the rooms of the plan, so that a route may name any of them.
+bim::Building walked_building(const bim::Site& site) {
+  bim::Building walked = site.as_built;
+  for (const bim::Room& planned : site.as_planned.rooms) {
+    const auto same = [&](const bim::Room& room) { return room.id == planned.id; };
+    if (std::none_of(walked.rooms.begin(), walked.rooms.end(), same)) walked.rooms.push_back(planned);
+  }
+  return walked;
+}
+
+/// The walk from where the robot is set down; settles that place. The draw is another than that of the start.
+RoutePlan plan_after_kidnap(const bim::Building& walked, const Tree& tree, Scenario& scenario) {
+  Scenario after = scenario;
+  after.start = scenario.kidnap->to;
+  after.seed = Digest().add(scenario.seed).add("kidnap").value();
+  const RouteMarks marks{mark_at(tree, {"kidnap", "to"}), mark_at(tree, {"route"}),
+                         marks_of(tree, {"route", "rooms"}, after.route.rooms.size())};
+  settle_draws(walked, after, marks);
+  RoutePlan plan = plan_route(walked, after.start, after.route, marks);
+  const std::string& storey = walked.storeys[static_cast<std::size_t>(plan.storey)].id;
+  scenario.kidnap->to = Start{std::nullopt, std::nullopt, storey, plan.start_W, plan.yaw_deg};
+  return plan;
+}
+
+/// What a run directory calls its copy of the building. A mesh is told by its ending, which stays.
+std::string name_of_copy(const fs::path& building, const std::string& bytes) {
+  if (bim::is_mesh_path(building.string())) return "building" + building.extension().string();
+  return is_ifc(bytes) ? "building.ifc" : "building.plan.yaml";
+}
+
+double default_duration(const RoutePlan& plan, double speed) {
+  const DefaultDuration rule;
+  const double walk_s = (plan.length_m - plan.stairs_m) / speed;
+  const double climb_s = plan.stairs_m / std::min(speed, sim::SpeedConfig().stairs_mps);
+  return std::min(rule.longest_s, std::ceil(rule.factor * (walk_s + climb_s) + rule.extra_s));
+}
+
+}  // namespace
+
+void check_methods(const std::vector<std::string>& names, const std::vector<Mark>& marks, slam::MethodTable table) {
+  const std::vector<std::string> known = method_names(table);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (std::find(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(i), names[i]) !=
+        names.begin() + static_cast<std::ptrdiff_t>(i))
+      throw InputError(marks[i], "method '" + names[i] + "' is asked for twice");
+    if (std::find(known.begin(), known.end(), names[i]) != known.end()) continue;
+    const std::string close = did_you_mean(names[i], known);
+    std::string list;
+    for (const std::string& name : known) list += (list.empty() ? "" : ", ") + name;
+    throw InputError(marks[i], "unknown method '" + names[i] + "'; " +
+                                   (close.empty() ? "known: " + list : "did you mean '" + close + "'?"));
+  }
+}
+
+ResolvedScenario resolve(const std::string& input_path, const Overrides& overrides, slam::MethodTable table) {
+  ResolvedScenario resolved;
+  resolved.table = table;
+  ScenarioText text = read_input(input_path);
+  settle_methods(text, overrides, !bim::is_mesh_path(text.scenario.building), resolved);
+  if (overrides.seed) text.scenario.seed = *overrides.seed;
+  const bool bare = text.tree.as_map().empty();
+
+  const fs::path building = fs::path(input_path).parent_path() / text.scenario.building;
+  if (!bare && !fs::exists(building))
+    throw InputError(mark_at(text.tree, {"building"}), "the building '" + building.string() + "' does not exist");
+  resolved.building_bytes = read_text_file(building.string());
+  resolved.site = bim::load_site(building.string(), text.scenario.building_options);
+
+  const RouteMarks marks{mark_at(text.tree, {"start"}), mark_at(text.tree, {"route"}),
+                         marks_of(text.tree, {"route", "rooms"}, text.scenario.route.rooms.size())};
+  const bim::Building walked = walked_building(resolved.site);
+  settle_draws(walked, text.scenario, marks);
+  const RoutePlan plan = plan_route(walked, text.scenario.start, text.scenario.route, marks);
+  check_rooms(text, overrides, resolved.site.as_planned, plan.storey, bare, table);
+  if (bare) text.scenario.duration_s = default_duration(plan, text.scenario.speed_mps);
+
+  Scenario& scenario = text.scenario;
+  const std::string& storey = resolved.site.as_planned.storeys[static_cast<std::size_t>(plan.storey)].id;
+  scenario.start = Start{std::nullopt, std::nullopt, storey, plan.start_W, plan.yaw_deg};
+  scenario.route.rooms = scenario.route.shuttle ? std::vector<std::string>{} : plan.rooms;
+  scenario.route.storeys = RouteStoreys::start;
+  scenario.route.random.reset();
+  scenario.building = name_of_copy(building, resolved.building_bytes);
+  resolved.world = make_world(scenario, plan);
+  resolved.world.people = place_people(walked, scenario, text.tree, plan.storey);
+  resolved.world.doors = hang_doors(resolved.site.as_built, scenario, text.tree);
+  if (scenario.kidnap) {
+    resolved.world_after = make_world(scenario, plan_after_kidnap(walked, text.tree, scenario));
+    resolved.world_after->people = resolved.world.people;
+    resolved.world_after->doors = resolved.world.doors;
+    resolved.world.duration_s = scenario.kidnap->after_s;
+  }
+  resolved.prior = make_prior(scenario, resolved.site.as_planned, plan);
+  resolved.scenario = std::move(scenario);
+  return resolved;
+}
+
+}  // namespace plumbline::scenarios

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bim/load/load.h"
+#include "scenarios/spec/scenario.h"
+#include "sim/world.h"
+#include "slam/methods.h"
+
+namespace plumbline::scenarios {
+
+/// What the command line says over the scenario.
+struct Overrides {
+  std::optional<std::vector<std::string>> methods;  ///< gates of methods left out are dropped
+  std::optional<std::uint64_t> seed;
+};
+
+/// A scenario with its building, every choice made.
+struct ResolvedScenario {
+  Scenario scenario;           ///< start, route and methods settled; `building` names the copy in a run directory
+  bim::Site site;              ///< as planned for the methods, as built for the world
+  std::string building_bytes;  ///< the file as it was read
+  sim::WorldConfig world;      ///< until the robot is lifted, where it is
+  std::optional<sim::WorldConfig> world_after;  ///< from where it is set down, until the end of the scenario
+  slam::Prior prior;
+  int dropped_gates = 0;    ///< gates of methods that Overrides left out
+  slam::MethodTable table;  ///< where its methods stand; must outlive this
+};
+
+/// Reads INPUT (a scenario, a plan, an .ifc or a mesh; all but the first get the default scenario: start in the largest
+/// room of the lowest habitable storey, route through all rooms reachable on it, every method; in a mesh, which has
+/// no rooms, the freest place, a round through what can be reached, and the methods that need no plan) and checks
+/// everything that can be known before the first step. Throws InputError at the place in the file that is wrong.
+[[nodiscard]] ResolvedScenario resolve(const std::string& input_path, const Overrides& overrides,
+                                       slam::MethodTable table = slam::methods());
+
+/// Checks that methods are known and asked for once; `mark(i)` says where name i stands.
+void check_methods(const std::vector<std::string>& names, const std::vector<Mark>& marks,
+                   slam::MethodTable table = slam::methods());
+
+}  // namespace plumbline::scenarios

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenarios/spec/scenario.h"
+
+#include <algorithm>
+
+#include "bim/rays/ray_bodies.h"
+#include "scenarios/metrics/metrics.h"
+
+namespace plumbline::scenarios {
+
+namespace {
+
+/// `rooms: all` is a scalar in the file; lists are read everywhere else.
+Tree with_room_list(Tree tree) {
+  for (auto& [key, child] : std::get<Tree::Map>(tree.value)) {
+    if (key != "route" || !child.is_map()) continue;
+    for (auto& [route_key, rooms] : std::get<Tree::Map>(child.value)) {
+      if (route_key != "rooms" || !rooms.is_scalar() || rooms.is_null()) continue;
+      Tree list = Tree::list();
+      list.mark = rooms.mark;
+      list.push(rooms);
+      rooms = std::move(list);
+    }
+  }
+  return tree;
+}
+
+void check_gates(const Scenario& scenario, const Tree& tree) {
+  const Tree* gates = tree.find("gates");
+  for (std::size_t i = 0; i < scenario.gates.size(); ++i) {
+    const GateSpec& gate = scenario.gates[i];
+    const Tree& written = gates->as_list()[i];
+    if (gate.max.has_value() == gate.min.has_value()) throw InputError(written.mark, "a gate needs either max or min");
+    if (score::find_metric(gate.metric) != nullptr) continue;
+    std::vector<std::string> known;
+    for (const score::MetricRow& row : score::metrics()) known.emplace_back(row.name);
+    const std::string close = did_you_mean(gate.metric, known);
+    throw InputError(written.find("metric")->mark,
+                     "unknown metric '" + gate.metric + "'" + (close.empty() ? "" : "; did you mean '" + close + "'?"));
+  }
+}
+
+/// Values that this kind of route has no use for.
+void check_route_counts(const Route& route, const Tree& tree) {
+  const Route unset;
+  if (!route.shuttle && route.times != unset.times)
+    throw InputError(mark_at(tree, {"route", "times"}), "times is of a shuttle; rooms take loop");
+  if (route.shuttle && route.loop != unset.loop)
+    throw InputError(mark_at(tree, {"route", "loop"}), "loop is of rooms; a shuttle takes times");
+  if (route.storeys != unset.storeys && (route.shuttle || route.random || route.rooms != unset.rooms))
+    throw InputError(mark_at(tree, {"route", "storeys"}), "storeys is of `rooms: all`; this route names its rooms");
+}
+
+void check_route_and_start(const Scenario& scenario, const Tree& tree) {
+  if (scenario.start.room && scenario.start.at)
+    throw InputError(mark_at(tree, {"start"}), "start takes either a room or a point `at`, not both");
+  if (scenario.start.room && scenario.start.storey)
+    throw InputError(mark_at(tree, {"start", "storey"}), "a start in a room takes no storey, which the room tells");
+  if (scenario.start.random && (scenario.start.room || scenario.start.at))
+    throw InputError(mark_at(tree, {"start", "random"}), "a drawn start takes neither a room nor a point `at`");
+  const bool names_rooms = tree.find("route") != nullptr && tree.find("route")->find("rooms") != nullptr;
+  if (scenario.route.shuttle && names_rooms && !scenario.route.rooms.empty())
+    throw InputError(mark_at(tree, {"route"}), "route takes either rooms or shuttle, not both");
+  if (scenario.route.random && (scenario.route.shuttle || names_rooms))
+    throw InputError(mark_at(tree, {"route", "random"}), "a drawn route takes neither rooms nor shuttle");
+  if (names_rooms && scenario.route.rooms.empty() && !scenario.route.shuttle)
+    throw InputError(mark_at(tree, {"route", "rooms"}), "names no room; name rooms to walk to, or all");
+  check_route_counts(scenario.route, tree);
+}
+
+void check_kidnap(const Scenario& scenario, const Tree& tree) {
+  if (!scenario.kidnap) return;
+  const Start& to = scenario.kidnap->to;
+  if (to.random.has_value() + to.room.has_value() + to.at.has_value() != 1)
+    throw InputError(mark_at(tree, {"kidnap", "to"}), "needs exactly one of a room, a point `at` and a draw `random`");
+  if (scenario.kidnap->after_s + scenario.kidnap->away_s >= scenario.duration_s)
+    throw InputError(mark_at(tree, {"kidnap"}),
+                     "the robot is not set down before the run ends; duration_s must be more "
+                     "than after_s and away_s together");
+}
+
+void check_bodies(const Scenario& scenario, const Tree& tree) {
+  constexpr std::size_t most = bim::MovingBodies::most;
+  const std::size_t people = scenario.people.size();
+  if (people + scenario.moving_doors.size() <= most) return;
+  const Tree& first_too_many =
+      people > most ? tree.find("people")->as_list()[most] : tree.find("moving_doors")->as_list()[most - people];
+  throw InputError(first_too_many.mark, "people and moving doors together must be at most " + std::to_string(most) +
+                                            ", not " + std::to_string(people + scenario.moving_doors.size()));
+}
+
+void check_pushes(const PushesSpec& pushes, const Tree& tree) {
+  if (pushes.min_n && *pushes.min_n > pushes.max_n)
+    throw InputError(mark_at(tree, {"pushes", "min_n"}), "min_n must not be greater than max_n");
+}
+
+}  // namespace
+
+void check_name(const std::string& name, const Mark& mark) {
+  if (name.size() > longest_name)
+    throw InputError(mark, "a name of " + std::to_string(name.size()) + " letters; it may have at most " +
+                               std::to_string(longest_name));
+}
+
+ScenarioText read_scenario(std::string_view text, const std::string& file) {
+  Tree tree = read_yaml(text, file);
+  if (!tree.is_map() || tree.as_map().empty() || tree.as_map().front().first != "scenario")
+    throw InputError({file, 1, 1}, "the first key of a scenario must be 'scenario: 1'");
+  tree = with_room_list(std::move(tree));
+  ScenarioText result{from_tree<Scenario>(tree), tree};
+  check_name(result.scenario.name, mark_at(tree, {"name"}));
+  check_gates(result.scenario, tree);
+  check_route_and_start(result.scenario, tree);
+  check_pushes(result.scenario.pushes, tree);
+  check_bodies(result.scenario, tree);
+  check_kidnap(result.scenario, tree);
+  return result;
+}
+
+std::string write_scenario(const Scenario& scenario) { return write_yaml(to_tree(scenario)); }
+
+Mark mark_at(const Tree& tree, std::initializer_list<std::string_view> path) {
+  const Tree* node = &tree;
+  for (const std::string_view key : path) {
+    const Tree* child = node->is_map() ? node->find(key) : nullptr;
+    if (child == nullptr) break;
+    node = child;
+  }
+  return node->mark;
+}
+
+sim::LidarConfig lidar_config(const LidarSpec& spec) {
+  sim::LidarConfig config = sim::lidar_config(spec.preset);
+  config.model = spec.model;
+  config.returns = spec.returns;
+  config.range_noise = spec.range_noise.value_or(config.range_noise);
+  config.unit_bias = spec.unit_bias.value_or(config.unit_bias);
+  config.laser_bias = spec.laser_bias.value_or(config.laser_bias);
+  config.reflectivity_noise = spec.reflectivity_noise.value_or(config.reflectivity_noise);
+  config.dropout = spec.dropout.value_or(config.dropout);
+  config.optics = spec.optics.value_or(config.optics);
+  config.footprint = spec.footprint.value_or(config.footprint);
+  return config;
+}
+
+sim::Conditions conditions(const GroundSpec& ground, const PushesSpec& pushes) {
+  constexpr double least_share = 0.3;  // [facts: legged section 7.3]
+  sim::Conditions out;
+  out.friction = ground.friction;
+  out.uneven_m = 1e-3 * ground.uneven_mm;
+  out.pushes.max_n = pushes.max_n;
+  out.pushes.min_n = pushes.min_n.value_or(least_share * pushes.max_n);
+  out.pushes.every_s = pushes.every_s;
+  out.pushes.on_stairs = pushes.on_stairs;
+  return out;
+}
+
+namespace {
+
+std::string text_of(const Tree& scalar) {
+  const auto* text = std::get_if<std::string>(&scalar.value);
+  return text != nullptr ? *text : write_json(scalar, 0);
+}
+
+/// Fields of one part of the scenario that are not as usual.
+void add_differences(const std::string& part, const Tree& usual, const Tree& written, std::vector<std::string>& names) {
+  for (const auto& [key, value] : written.as_map()) {
+    const Tree* other = usual.find(key);
+    const std::string text = text_of(value);
+    if (other == nullptr || text != text_of(*other)) names.push_back(part + "." + key + ": " + text);
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> off_defaults(const Scenario& scenario) {
+  std::vector<std::string> names;
+  const Scenario defaults;
+  add_differences("lidar", to_tree(defaults.lidar), to_tree(scenario.lidar), names);
+  if (scenario.odometry.preset != defaults.odometry.preset)
+    names.push_back("odometry.preset: " + to_tree(scenario.odometry).find("preset")->as_string());
+  add_differences("ground", to_tree(defaults.ground), to_tree(scenario.ground), names);
+  if (scenario.pushes.max_n > 0.0) add_differences("pushes", to_tree(defaults.pushes), to_tree(scenario.pushes), names);
+  const bim::BuildingOptions& options = scenario.building_options;
+  if (options.doors != defaults.building_options.doors)
+    names.push_back("doors: " + to_tree(options).find("doors")->as_string());
+  if (options.furniture != defaults.building_options.furniture)
+    names.push_back(std::string("furniture: ") + (options.furniture ? "true" : "false"));
+  if (scenario.kidnap) names.emplace_back("kidnap");
+  if (!scenario.people.empty()) names.push_back("people: " + std::to_string(scenario.people.size()));
+  if (!scenario.moving_doors.empty()) names.push_back("moving_doors: " + std::to_string(scenario.moving_doors.size()));
+  return names;
+}
+
+}  // namespace plumbline::scenarios

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/moving/dynamic_obstacles.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "bim/errors.h"
+
+namespace plumbline::sim {
+
+namespace {
+
+double seconds(slam::Nanoseconds stamp) { return 1e-9 * static_cast<double>(stamp); }
+
+double leg_length(const PersonConfig& config, std::size_t leg) {
+  return (config.points_W[leg + 1] - config.points_W[leg]).norm();
+}
+
+bool wanted_open(const SwingDoorConfig& door, double time_s, const Eigen::Vector3d& robot_W) {
+  const Eigen::Vector2d along(std::cos(door.yaw_shut), std::sin(door.yaw_shut));
+  const Eigen::Vector2d middle = door.hinge_W.head<2>() + 0.5 * door.width_m * along;
+  const bool same_floor = std::abs(robot_W.z() - door.hinge_W.z()) < door.height_m;
+  if (same_floor && (robot_W.head<2>() - middle).norm() < door.near_m) return true;
+  const auto passed = std::upper_bound(door.times_s.begin(), door.times_s.end(), time_s) - door.times_s.begin();
+  return passed % 2 == 1;
+}
+
+void forget(std::vector<bim::BodyStation>& stations, double time_s) {
+  const auto after = std::upper_bound(stations.begin(), stations.end(), time_s,
+                                      [](double t, const bim::BodyStation& s) { return t < s.time_s; });
+  if (after - stations.begin() > 1) stations.erase(stations.begin(), after - 1);
+}
+
+}  // namespace
+
+MovingThings::MovingThings(std::vector<PersonConfig> people, std::vector<SwingDoorConfig> doors, int first_element) {
+  int element = first_element;
+  for (PersonConfig& config : people) {
+    if (config.points_W.empty()) throw InternalError("a person needs a place");
+    Person person;
+    const double r = config.radius_m;
+    person.body = {bim::BodyShape::capsule, {-r, -r, 0.0}, {r, r, config.height_m}, element++, {}};
+    person.config = std::move(config);
+    people_.push_back(std::move(person));
+  }
+  for (SwingDoorConfig& config : doors) {
+    Door door;
+    const double half = 0.5 * config.thickness_m;
+    door.body = {bim::BodyShape::box, {0.0, -half, 0.0}, {config.width_m, half, config.height_m}, element++, {}};
+    door.config = std::move(config);
+    doors_.push_back(std::move(door));
+  }
+}
+
+Eigen::Vector3d MovingThings::position(const Person& person) {
+  const std::vector<Eigen::Vector3d>& points = person.config.points_W;
+  if (points.size() == 1) return points[0];
+  const double length = leg_length(person.config, person.leg);
+  const double share = length > 0.0 ? person.walked_m / length : 0.0;
+  return points[person.leg] + share * (points[person.leg + 1] - points[person.leg]);
+}
+
+void MovingThings::walk(Person& person, double distance_m) {
+  const std::size_t legs = person.config.points_W.size() - 1;
+  // One turn-round at most for each step, so that a line of no length ends.
+  for (std::size_t k = 0; k <= legs && legs > 0; ++k) {
+    const double left = person.back ? person.walked_m : leg_length(person.config, person.leg) - person.walked_m;
+    if (distance_m <= left) {
+      person.walked_m += person.back ? -distance_m : distance_m;
+      return;
+    }
+    distance_m -= left;
+    const bool at_end = person.back ? person.leg == 0 : person.leg + 1 == legs;
+    person.walked_m = person.back ? 0.0 : leg_length(person.config, person.leg);
+    if (at_end) {
+      person.back = !person.back;
+    } else if (person.back) {
+      --person.leg;
+      person.walked_m = leg_length(person.config, person.leg);
+    } else {
+      ++person.leg;
+      person.walked_m = 0.0;
+    }
+  }
+}
+
+void MovingThings::step(slam::Nanoseconds stamp, const Eigen::Vector3d& robot_W) {
+  const double elapsed_s = seconds(stamp - stamp_);
+  stamp_ = stamp;
+  for (Person& person : people_) {
+    const bool stands = (position(person) - robot_W).head<2>().norm() < keep_away_m;
+    if (!stands) walk(person, person.config.speed_mps * elapsed_s);
+    person.body.stations.push_back({seconds(stamp), position(person), 0.0});
+  }
+  for (Door& door : doors_) {
+    const double move = elapsed_s / door.config.travel_s;
+    door.open = std::clamp(door.open + (wanted_open(door.config, seconds(stamp), robot_W) ? move : -move), 0.0, 1.0);
+    door.body.stations.push_back(
+        {seconds(stamp), door.config.hinge_W, door.config.yaw_shut + door.open * door.config.swing});
+  }
+}
+
+std::vector<bim::MovingBody> MovingThings::bodies() const {
+  std::vector<bim::MovingBody> bodies;
+  for (const Person& person : people_) bodies.push_back(person.body);
+  for (const Door& door : doors_) bodies.push_back(door.body);
+  return bodies;
+}
+
+void MovingThings::forget_before(slam::Nanoseconds t) {
+  for (Person& person : people_) forget(person.body.stations, seconds(t));
+  for (Door& door : doors_) forget(door.body.stations, seconds(t));
+}
+
+}  // namespace plumbline::sim

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/route/clearance_map.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace plumbline::sim {
+
+namespace {
+
+/// Calls visit(cell) for every cell whose centre is inside a closed outline (even-odd, row by row).
+template <class Visit>
+void fill(const Grid& grid, const std::vector<Segment2>& outline, Visit&& visit) {
+  if (outline.empty()) return;
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  for (const Segment2& s : outline) {
+    low = std::min({low, s.a.y(), s.b.y()});
+    high = std::max({high, s.a.y(), s.b.y()});
+  }
+  std::vector<double> crossings;
+  const int last = std::min(grid.ny - 1, grid.row(high));
+  for (int iy = std::max(0, grid.row(low)); iy <= last; ++iy) {
+    const double y = grid.center(0, iy).y();
+    crossings.clear();
+    for (const Segment2& s : outline)
+      if ((s.a.y() > y) != (s.b.y() > y))
+        crossings.push_back(s.a.x() + (s.b.x() - s.a.x()) * ((y - s.a.y()) / (s.b.y() - s.a.y())));
+    std::sort(crossings.begin(), crossings.end());
+    for (std::size_t k = 0; k + 1 < crossings.size(); k += 2) {
+      // A centre is inside when crossings[k] <= x < crossings[k + 1].
+      const int from = std::max(0, grid.column(crossings[k] + 0.5 * grid.cell));
+      const int to = std::min(grid.nx, grid.column(crossings[k + 1] + 0.5 * grid.cell));
+      for (int ix = from; ix < to; ++ix) visit(grid.index(ix, iy));
+    }
+  }
+}
+
+std::vector<Segment2> outline_of(const PolygonWithHoles2& polygon) {
+  std::vector<Segment2> outline;
+  const auto add = [&](const Polygon2& ring) {
+    for (std::size_t i = 0; i < ring.size(); ++i) outline.push_back({ring[i], ring[(i + 1) % ring.size()]});
+  };
+  add(polygon.outer);
+  for (const Polygon2& hole : polygon.holes) add(hole);
+  return outline;
+}
+
+/// Sets every cell within `reach` cells of a cell of the wanted value, first along x, then along y.
+std::vector<char> spread(const Grid& grid, std::vector<char> cells, char value, int reach) {
+  for (const bool along_x : {true, false}) {
+    const std::vector<char> before = cells;
+    for (int iy = 0; iy < grid.ny; ++iy) {
+      for (int ix = 0; ix < grid.nx; ++ix) {
+        if (before[grid.index(ix, iy)] != value) continue;
+        for (int k = -reach; k <= reach; ++k) {
+          const int jx = along_x ? ix + k : ix;
+          const int jy = along_x ? iy : iy + k;
+          if (grid.holds(jx, jy)) cells[grid.index(jx, jy)] = value;
+        }
+      }
+    }
+  }
+  return cells;
+}
+
+/// Nearest edge so far of every cell.
+class Nearest {
+ public:
+  Nearest(const Grid& grid, const std::vector<Segment2>& edges)
+      : grid_(grid), edges_(edges), edge_(grid.size(), -1), distance_(grid.size(), std::numeric_limits<double>::max()) {
+    for (std::size_t i = 0; i < edges.size(); ++i) seed(static_cast<int>(i));
+  }
+
+  /// Hands nearest edges on to neighbours until nothing changes.
+  void sweep() {
+    bool changed = true;
+    while (changed) {
+      changed = false;
+      for (int iy = 0; iy < grid_.ny; ++iy) changed = sweep_row(iy, -1) || changed;
+      for (int iy = grid_.ny - 1; iy >= 0; --iy) changed = sweep_row(iy, 1) || changed;
+    }
+  }
+
+  [[nodiscard]] const std::vector<double>& distance() const { return distance_; }
+
+ private:
+  bool offer(std::size_t cell, const Eigen::Vector2d& center, int edge) {
+    if (edge < 0 || edge == edge_[cell]) return false;
+    const Segment2& s = edges_[static_cast<std::size_t>(edge)];
+    const double d = segment_distance(s.a, s.b, center);
+    if (d > distance_[cell] || (d == distance_[cell] && edge > edge_[cell])) return false;
+    distance_[cell] = d;
+    edge_[cell] = edge;
+    return true;
+  }
+
+  /// Offers an edge to all cells along it.
+  void seed(int edge) {
+    const Segment2& s = edges_[static_cast<std::size_t>(edge)];
+    const int steps = 1 + static_cast<int>(2.0 * (s.b - s.a).norm() / grid_.cell);
+    for (int i = 0; i <= steps; ++i) {
+      const Eigen::Vector2d p = s.a + (s.b - s.a) * (static_cast<double>(i) / steps);
+      for (int dy = -1; dy <= 1; ++dy) {
+        for (int dx = -1; dx <= 1; ++dx) {
+          const int ix = grid_.column(p.x()) + dx;
+          const int iy = grid_.row(p.y()) + dy;
+          if (grid_.holds(ix, iy)) offer(grid_.index(ix, iy), grid_.center(ix, iy), edge);
+        }
+      }
+    }
+  }
+
+  /// Takes over from the row at iy + side and, in both directions, along the row.
+  bool sweep_row(int iy, int side) {
+    bool changed = false;
+    const auto take = [&](int ix, int dx, int dy) {
+      if (!grid_.holds(ix + dx, iy + dy)) return;
+      changed = offer(grid_.index(ix, iy), grid_.center(ix, iy), edge_[grid_.index(ix + dx, iy + dy)]) || changed;
+    };
+    for (int ix = 0; ix < grid_.nx; ++ix) {
+      for (int dx = -1; dx <= 1; ++dx) take(ix, dx, side);
+      take(ix, -1, 0);
+    }
+    for (int ix = grid_.nx - 1; ix >= 0; --ix) take(ix, 1, 0);
+    return changed;
+  }
+
+  const Grid& grid_;
+  const std::vector<Segment2>& edges_;
+  std::vector<int> edge_;
+  std::vector<double> distance_;
+};
+
+/// Cells off the floor next to cells on it, as edges without length.
+void add_floor_border(const Grid& grid, const std::vector<char>& floor, std::vector<Segment2>& edges) {
+  for (int iy = 0; iy < grid.ny; ++iy) {
+    for (int ix = 0; ix < grid.nx; ++ix) {
+      if (floor[grid.index(ix, iy)] != 0) continue;
+      const auto carries = [&](int jx, int jy) { return grid.holds(jx, jy) && floor[grid.index(jx, jy)] != 0; };
+      if (carries(ix - 1, iy) || carries(ix + 1, iy) || carries(ix, iy - 1) || carries(ix, iy + 1))
+        edges.push_back({grid.center(ix, iy), grid.center(ix, iy)});
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<char> floor_cells(const bim::Building& building, int storey, const Grid& grid, const RouteConfig& config) {
+  const double floor_z = building.storeys.at(static_cast<std::size_t>(storey)).elevation_m;
+  std::vector<char> cells(grid.size(), 0);
+  const auto set = [&](std::size_t cell) { cells[cell] = 1; };
+  bool any = false;
+  for (const bim::Slab& slab : building.slabs) {
+    if (slab.z1_m > floor_z + config.band_low_m || slab.z1_m < floor_z - config.floor_below_m) continue;
+    fill(grid, outline_of(slab.polygon), set);
+    any = true;
+  }
+  if (!any)
+    for (const bim::Room& room : building.rooms)
+      if (room.storey == storey) fill(grid, outline_of({room.polygon, {}}), set);
+  const int reach = static_cast<int>(config.floor_gap_m / grid.cell + 0.5);
+  return spread(grid, spread(grid, std::move(cells), 1, reach), 0, reach);
+}
+
+std::vector<double> clearances(const Grid& grid, const std::vector<Blockage>& blockages,
+                               const std::vector<char>& floor) {
+  std::vector<Segment2> edges;
+  for (const Blockage& b : blockages) edges.insert(edges.end(), b.edges.begin(), b.edges.end());
+  add_floor_border(grid, floor, edges);
+  Nearest nearest(grid, edges);
+  nearest.sweep();
+  std::vector<double> result = nearest.distance();
+  for (const Blockage& b : blockages) {
+    for (const std::vector<Segment2>& section : b.sections) {
+      fill(grid, section, [&](std::size_t cell) {
+        const Eigen::Vector2d p = grid.center(cell);
+        if (std::none_of(b.gaps.begin(), b.gaps.end(), [&](const Gap& gap) { return gap.holds(p); }))
+          result[cell] = 0.0;
+      });
+    }
+  }
+  for (std::size_t i = 0; i < result.size(); ++i)
+    if (floor[i] == 0) result[i] = 0.0;
+  return result;
+}
+
+}  // namespace plumbline::sim

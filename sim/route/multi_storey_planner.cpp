@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/route/multi_storey_planner.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace plumbline::sim {
+
+namespace {
+
+constexpr double same_place_m = 1e-9;
+
+void append(const std::vector<Waypoint>& leg, std::vector<Waypoint>& path) {
+  const bool joined = !path.empty() && !leg.empty();
+  path.insert(path.end(), leg.begin() + (joined ? 1 : 0), leg.end());
+}
+
+}  // namespace
+
+/// Shortest ways from one place to all portals (two a stair: foot, head) and to the goal, which is the last node.
+struct WalkSpace::Search {
+  std::vector<double> cost;
+  std::vector<std::size_t> before;  ///< node, itself at the start
+  std::vector<Path> leg;            ///< from `before`
+
+  [[nodiscard]] Path path_to(std::size_t node) const {
+    std::vector<std::size_t> nodes = {node};
+    while (before[nodes.back()] != nodes.back()) nodes.push_back(before[nodes.back()]);
+    Path path;
+    for (auto it = nodes.rbegin() + 1; it != nodes.rend(); ++it) append(leg[*it], path);
+    return path;
+  }
+};
+
+WalkSpace::WalkSpace(const bim::Building& as_built, const WalkSpaceConfig& config)
+    : building_(as_built), config_(config) {}
+
+const FreeSpace& WalkSpace::storey(int index) const {
+  std::unique_ptr<FreeSpace>& space = storeys_[index];
+  if (!space) space = std::make_unique<FreeSpace>(building_, index, config_.route);
+  return *space;
+}
+
+bool WalkSpace::add_approach(int storey_index, const Eigen::Vector3d& edge, const Eigen::Vector2d& away,
+                             Eigen::Vector3d& point) const {
+  const FreeSpace& space = storey(storey_index);
+  const int steps = static_cast<int>((config_.approach_m - config_.approach_min_m) / config_.approach_step_m + 0.5);
+  for (int i = 0; i <= steps; ++i) {
+    const Eigen::Vector2d p = edge.head<2>() + (config_.approach_m - i * config_.approach_step_m) * away;
+    if (!space.free(p)) continue;
+    point = {p.x(), p.y(), edge.z()};
+    return true;
+  }
+  return false;
+}
+
+void WalkSpace::add_approaches(StairWay& way) const {
+  Eigen::Vector3d first, last;
+  if (!add_approach(way.from, way.points.front(), -way.into, first))
+    way.fault = "has no room before its first step";
+  else if (!add_approach(way.to, way.points.back(), way.out_of, last))
+    way.fault = "has no room beyond its last step";
+  else {
+    way.points.front() = first;
+    way.points.back() = last;
+  }
+}
+
+const std::vector<StairWay>& WalkSpace::stairs() const {
+  if (stairs_) return *stairs_;
+  auto ways = std::make_unique<std::vector<StairWay>>(stair_ways(building_, config_.route, config_.stair));
+  for (StairWay& way : *ways)
+    if (way.fault.empty()) add_approaches(way);
+  stairs_ = std::move(ways);
+  return *stairs_;
+}
+
+WalkSpace::Path WalkSpace::on_storey(const Place& a, const Place& b) const {
+  const double z = building_.storeys.at(static_cast<std::size_t>(a.storey)).elevation_m;
+  if ((b.p_W - a.p_W).norm() < same_place_m) return {{{a.p_W.x(), a.p_W.y(), z}, false}};
+  return with_clearance(storey(a.storey), storey(a.storey).path(a.p_W, b.p_W), z, config_.narrow);
+}
+
+WalkSpace::Path WalkSpace::over_stair(const StairWay& way, bool up) const {
+  Path path;
+  for (const Eigen::Vector3d& p : way.points) path.push_back({p, true});
+  if (!up) std::reverse(path.begin(), path.end());
+  path.front().stairs = false;
+  return path;
+}
+
+std::vector<Place> WalkSpace::portals() const {
+  std::vector<Place> places;
+  for (const StairWay& way : stairs()) {
+    const bool usable = way.fault.empty();
+    places.push_back(usable ? Place{way.from, way.points.front().head<2>()} : Place{});
+    places.push_back(usable ? Place{way.to, way.points.back().head<2>()} : Place{});
+  }
+  return places;
+}
+
+/// Dijkstra over the portals; of equal costs the node with the lower index goes first.
+WalkSpace::Search WalkSpace::search(const Place& a, const Place* goal) const {
+  std::vector<Place> nodes = portals();
+  const std::size_t portal_count = nodes.size(), start = nodes.size();
+  nodes.push_back(a);
+  if (goal != nullptr) nodes.push_back(*goal);
+  constexpr double unknown = std::numeric_limits<double>::infinity();
+  Search search{std::vector<double>(nodes.size(), unknown), std::vector<std::size_t>(nodes.size(), start),
+                std::vector<Path>(nodes.size())};
+  std::vector<char> done(nodes.size(), 0);
+  search.cost[start] = 0.0;
+  const auto offer = [&](std::size_t from, std::size_t to, const Path& leg, double weight) {
+    const double cost = search.cost[from] + weight * length(leg);
+    if (leg.empty() || done[to] != 0 || cost >= search.cost[to]) return;
+    search.cost[to] = cost;
+    search.before[to] = from;
+    search.leg[to] = leg;
+  };
+  const auto walk = [&](std::size_t from, std::size_t to) -> Path {
+    if (from >= portal_count || to >= portal_count) return on_storey(nodes[from], nodes[to]);
+    const auto [cached, is_new] = between_portals_.try_emplace({from, to});
+    if (is_new) cached->second = on_storey(nodes[from], nodes[to]);
+    return cached->second;
+  };
+  while (true) {
+    std::size_t node = nodes.size();
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      if (done[i] == 0 && search.cost[i] < unknown && (node == nodes.size() || search.cost[i] < search.cost[node]))
+        node = i;
+    if (node == nodes.size() || (goal != nullptr && node + 1 == nodes.size())) return search;
+    done[node] = 1;
+    if (node < portal_count) offer(node, node ^ 1U, over_stair(stairs()[node / 2], node % 2 == 0), config_.stairs_cost);
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      if (done[i] == 0 && nodes[i].storey == nodes[node].storey && nodes[i].storey >= 0)
+        offer(node, i, walk(node, i), 1.0);
+  }
+}
+
+std::vector<Waypoint> WalkSpace::path(const Place& a, const Place& b) const {
+  if (a.storey == b.storey) {
+    Path direct = on_storey(a, b);
+    if (!direct.empty()) return direct;
+  }
+  if (building_.stairs.empty()) return {};
+  const Search found = search(a, &b);
+  const std::size_t goal = found.cost.size() - 1;
+  return found.cost[goal] < std::numeric_limits<double>::infinity() ? found.path_to(goal) : Path{};
+}
+
+std::vector<int> WalkSpace::reachable_storeys(const Place& a) const {
+  std::vector<int> storeys = {a.storey};
+  if (!building_.stairs.empty()) {
+    const Search found = search(a, nullptr);
+    const std::vector<Place> places = portals();
+    for (std::size_t i = 0; i < places.size(); ++i)
+      if (found.cost[i] < std::numeric_limits<double>::infinity()) storeys.push_back(places[i].storey);
+  }
+  std::sort(storeys.begin(), storeys.end());
+  storeys.erase(std::unique(storeys.begin(), storeys.end()), storeys.end());
+  return storeys;
+}
+
+}  // namespace plumbline::sim

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "bim/model/building.h"
+#include "sim/route/route.h"
+
+namespace plumbline::sim {
+
+struct Segment2 {
+  Eigen::Vector2d a = Eigen::Vector2d::Zero();
+  Eigen::Vector2d b = Eigen::Vector2d::Zero();
+};
+
+/// Stretch of a wall that can be walked through: 0 < e.(p - a) - s0 < width.
+struct Gap {
+  Eigen::Vector2d a = Eigen::Vector2d::Zero();
+  Eigen::Vector2d e = Eigen::Vector2d::UnitX();  ///< unit
+  double s0 = 0.0;
+  double s1 = 0.0;
+
+  [[nodiscard]] bool holds(const Eigen::Vector2d& p) const {
+    const double s = e.dot(p - a);
+    return s > s0 && s < s1;
+  }
+};
+
+/// One element as seen from above at the robot's height.
+struct Blockage {
+  std::vector<Segment2> edges;                  ///< of everything between the band's heights
+  std::vector<std::vector<Segment2>> sections;  ///< closed outlines at some heights; inside (even-odd) is solid
+  std::vector<Gap> gaps;                        ///< no section is solid here; the edges are cut already
+};
+
+/// All that stands in a robot's way on a floor at z = floor_z, in canonical order.
+[[nodiscard]] std::vector<Blockage> find_blockages(const bim::Building& building, double floor_z,
+                                                   const RouteConfig& config);
+
+/// Convex outlines of furniture that stands in the way with its surface alone, up to RouteConfig::thing_max_m2.
+[[nodiscard]] std::vector<Polygon2> hollow_things(const bim::Building& building, double floor_z,
+                                                  const RouteConfig& config);
+
+}  // namespace plumbline::sim

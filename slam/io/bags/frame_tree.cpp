@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/io/bags/frame_tree.h"
+
+namespace plumbline::slam {
+
+std::string plain_frame(const std::string& frame) { return frame.starts_with('/') ? frame.substr(1) : frame; }
+
+void FrameTree::add(const ros::Transform& transform) {
+  mounts_[plain_frame(transform.child)] = {plain_frame(transform.parent), transform.X};
+}
+
+std::optional<Pose> FrameTree::find(const std::string& frame, const std::string& base) const {
+  constexpr int longest_chain = 16;
+  std::string here = plain_frame(frame);
+  const std::string there = plain_frame(base);
+  Pose X;  // of `frame` in `here`
+  for (int i = 0; here != there; ++i) {
+    const auto mount = mounts_.find(here);
+    if (mount == mounts_.end() || i == longest_chain) return std::nullopt;
+    X = mount->second.X * X;
+    here = mount->second.parent;
+  }
+  return X;
+}
+
+std::optional<Imu> in_robot(const ros::FramedImu& said, const FrameTree& frames, const std::string& base) {
+  const std::string frame = plain_frame(said.frame), robot = plain_frame(base);
+  if (frame.empty() || robot.empty() || frame == robot) return said.imu;
+  const std::optional<Pose> X_RS = frames.find(frame, robot);
+  if (!X_RS) return std::nullopt;
+  return Imu{said.imu.stamp, X_RS->q * said.imu.angular_velocity_R, X_RS->q * said.imu.linear_acceleration_R};
+}
+
+}  // namespace plumbline::slam

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/io/bags/odometry_motion.h"
+
+namespace plumbline::slam {
+
+namespace {
+
+/// Takes an increment (rho, phi) in B to the same one in A.
+Matrix6d adjoint(const Pose& X_AB) {
+  const Eigen::Matrix3d R = X_AB.rotation();
+  Matrix6d A = Matrix6d::Zero();
+  A.topLeftCorner<3, 3>() = A.bottomRightCorner<3, 3>() = R;
+  A.topRightCorner<3, 3>() = hat(X_AB.t) * R;
+  return A;
+}
+
+}  // namespace
+
+ros::OdometryMessage OdometryMotion::message(const Odometry& record, const std::optional<Matrix6d>& covariance) {
+  ros::OdometryMessage message;
+  message.X_OR = {record.stamp, "", "", record.X_OR};
+  if (before_ && covariance && record.stamp > before_->stamp) {
+    const double dt = seconds(record.stamp - before_->stamp);
+    const Pose X_AB = before_->X_OR.inverse() * record.X_OR;
+    message.twist = log_se3(X_AB) / dt;
+    message.twist_covariance = *covariance / (dt * dt);
+    const Matrix6d A = adjoint(X_AB.inverse());
+    covariance_R_ = A * covariance_R_ * A.transpose() + *covariance;
+    Matrix6d R = Matrix6d::Zero();
+    R.topLeftCorner<3, 3>() = R.bottomRightCorner<3, 3>() = record.X_OR.rotation();
+    message.pose_covariance = R * covariance_R_ * R.transpose();
+  }
+  before_ = record;
+  return message;
+}
+
+std::optional<Matrix6d> increment_covariance(const ros::OdometryMessage& message, Nanoseconds dt) {
+  const Matrix6d& twist = message.twist_covariance;
+  if (dt <= 0 || !twist.allFinite() || twist.diagonal().minCoeff() <= 0.0) return std::nullopt;
+  return twist * (seconds(dt) * seconds(dt));
+}
+
+}  // namespace plumbline::slam

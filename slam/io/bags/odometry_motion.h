@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "slam/io/bags/ros_message.h"
+
+namespace plumbline::slam {
+
+/// What nav_msgs/Odometry says of records besides their poses: the mean twist since the record before with its
+/// covariance, and the covariance of the pose, to which the motions' since the first record add up.
+class OdometryMotion {
+ public:
+  /// Of the next record, without names of frames; all zero but the pose where no covariance is known.
+  [[nodiscard]] ros::OdometryMessage message(const Odometry& record, const std::optional<Matrix6d>& covariance);
+
+ private:
+  std::optional<Odometry> before_;
+  Matrix6d covariance_R_ = Matrix6d::Zero();  ///< of the last pose, as a right increment
+};
+
+/// Covariance of the motion in dt from that of the twist; none where the message says nothing of use.
+[[nodiscard]] std::optional<Matrix6d> increment_covariance(const ros::OdometryMessage& message, Nanoseconds dt);
+
+}  // namespace plumbline::slam

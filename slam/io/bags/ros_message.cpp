@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/io/bags/ros_message.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <type_traits>
+
+#include "bim/errors.h"
+#include "slam/io/pose_check.h"
+#include "slam/io/second.h"
+
+namespace plumbline::slam::ros {
+
+static_assert(std::endian::native == std::endian::little);
+
+namespace {
+
+class Writer {
+ public:
+  template <class T>
+  void number(T value) {
+    static_assert(std::is_arithmetic_v<T>);
+    const std::size_t at = bytes.size();
+    bytes.resize(at + sizeof(T));
+    std::memcpy(&bytes[at], &value, sizeof(T));
+  }
+  void zeros(int count) {
+    for (int i = 0; i < count; ++i) number(0.0);
+  }
+  void text(std::string_view value) {
+    number(static_cast<std::uint32_t>(value.size()));
+    bytes.insert(bytes.end(), value.begin(), value.end());
+  }
+  void time(Nanoseconds stamp) {
+    const Nanoseconds t = std::max<Nanoseconds>(stamp, 0);
+    number(static_cast<std::uint32_t>(t / second_ns));
+    number(static_cast<std::uint32_t>(t % second_ns));
+  }
+  void header(Nanoseconds stamp, std::string_view frame) {
+    number(std::uint32_t{0});  // sequence, which nobody reads
+    time(stamp);
+    text(frame);
+  }
+  void vector(const Eigen::Vector3d& v) {
+    for (const double value : v) number(value);
+  }
+  void quaternion(const Eigen::Quaterniond& q) {
+    for (const double value : {q.x(), q.y(), q.z(), q.w()}) number(value);
+  }
+  void pose(const Pose& X) {
+    vector(X.t);
+    quaternion(X.q);
+  }
+  void matrix(const Matrix6d& m) {
+    for (int i = 0; i < 6; ++i)
+      for (int j = 0; j < 6; ++j) number(m(i, j));
+  }
+
+  Bytes bytes;
+};
+
+class Reader {
+ public:
+  explicit Reader(std::span<const std::uint8_t> bytes) : rest_(bytes) {}
+
+  std::span<const std::uint8_t> take(std::size_t count) {
+    if (count > rest_.size()) throw InputError({}, "a message that ends too early");
+    const auto taken = rest_.first(count);
+    rest_ = rest_.subspan(count);
+    return taken;
+  }
+  template <class T>
+  T number() {
+    static_assert(std::is_arithmetic_v<T>);
+    T value;
+    std::memcpy(&value, take(sizeof(T)).data(), sizeof(T));
+    return value;
+  }
+  void skip_numbers(std::size_t count) { static_cast<void>(take(count * sizeof(double))); }
+  /// How many entries of at least so many bytes follow.
+  std::size_t length(std::size_t least_bytes) {
+    const std::size_t count = number<std::uint32_t>();
+    if (count * least_bytes > rest_.size()) throw InputError({}, "a message that ends too early");
+    return count;
+  }
+  std::string text() {
+    const auto bytes = take(length(1));
+    return {bytes.begin(), bytes.end()};
+  }
+  Nanoseconds time() {
+    const std::int64_t s = number<std::uint32_t>();
+    return s * second_ns + number<std::uint32_t>();
+  }
+  Nanoseconds header(std::string& frame) {
+    static_cast<void>(number<std::uint32_t>());
+    const Nanoseconds stamp = time();
+    frame = text();
+    return stamp;
+  }
+  Eigen::Vector3d vector() {
+    Eigen::Vector3d v;
+    for (double& value : v) value = number<double>();
+    if (!v.allFinite()) throw InputError({}, "a vector that is not finite");
+    return v;
+  }
+  Pose pose() {
+    const Eigen::Vector3d t = vector();
+    Eigen::Quaterniond q;
+    for (double& value : q.coeffs()) value = number<double>();
+    return checked_pose(t, q, {});
+  }
+  Matrix6d matrix() {
+    Matrix6d m;
+    for (int i = 0; i < 6; ++i)
+      for (int j = 0; j < 6; ++j) m(i, j) = number<double>();
+    return m;
+  }
+
+ private:
+  std::span<const std::uint8_t> rest_;
+};
+
+}  // namespace
+
+Bytes write_clock(Nanoseconds stamp) {
+  Writer out;
+  out.time(stamp);
+  return out.bytes;
+}
+
+Bytes write_cloud(const PointCloud& cloud, std::string_view frame) {
+  Writer out;
+  out.header(cloud.stamp, frame);
+  out.number(cloud.height);
+  out.number(cloud.width);
+  out.number(static_cast<std::uint32_t>(cloud.fields.size()));
+  for (const PointField& field : cloud.fields) {
+    out.text(field.name);
+    out.number(field.offset);
+    out.number(static_cast<std::uint8_t>(field.type));
+    out.number(std::uint32_t{1});
+  }
+  out.number(std::uint8_t{0});  // little endian
+  out.number(cloud.point_step);
+  out.number(cloud.row_step);
+  out.number(static_cast<std::uint32_t>(cloud.data.size()));
+  out.bytes.insert(out.bytes.end(), cloud.data.begin(), cloud.data.end());
+  out.number(static_cast<std::uint8_t>(cloud.dense ? 1 : 0));
+  return out.bytes;
+}
+
+Bytes write_odometry(const OdometryMessage& message) {
+  Writer out;
+  out.header(message.X_OR.stamp, message.X_OR.parent);
+  out.text(message.X_OR.child);
+  out.pose(message.X_OR.X);
+  out.matrix(message.pose_covariance);
+  for (const double value : message.twist) out.number(value);
+  out.matrix(message.twist_covariance);
+  return out.bytes;
+}
+
+Bytes write_imu(const Imu& imu, std::string_view frame) {
+  Writer out;
+  out.header(imu.stamp, frame);
+  out.quaternion(Eigen::Quaterniond::Identity());
+  out.number(-1.0);  // there is no orientation
+  out.zeros(8);
+  out.vector(imu.angular_velocity_R);
+  out.zeros(9);
+  out.vector(imu.linear_acceleration_R);
+  out.zeros(9);
+  return out.bytes;
+}
+
+Bytes write_transforms(std::span<const Transform> transforms) {
+  Writer out;
+  out.number(static_cast<std::uint32_t>(transforms.size()));
+  for (const Transform& transform : transforms) {
+    out.header(transform.stamp, transform.parent);
+    out.text(transform.child);
+    out.pose(transform.X);
+  }
+  return out.bytes;
+}
+
+FramedCloud read_cloud(std::span<const std::uint8_t> bytes) {
+  Reader in(bytes);
+  FramedCloud out;
+  PointCloud& cloud = out.cloud;
+  cloud.stamp = in.header(out.frame);
+  cloud.height = in.number<std::uint32_t>();
+  cloud.width = in.number<std::uint32_t>();
+  for (std::size_t left = in.length(13); left > 0; --left) {
+    PointField& field = cloud.fields.emplace_back();
+    field.name = in.text();
+    field.offset = in.number<std::uint32_t>();
+    field.type = static_cast<PointType>(in.number<std::uint8_t>());
+    static_cast<void>(in.number<std::uint32_t>());
+  }
+  if (in.number<std::uint8_t>() != 0) throw InputError({}, "a point cloud in big-endian order");
+  cloud.point_step = in.number<std::uint32_t>();
+  cloud.row_step = in.number<std::uint32_t>();
+  const auto data = in.take(in.length(1));
+  cloud.data.assign(data.begin(), data.end());
+  cloud.dense = in.number<std::uint8_t>() != 0;
+  return out;
+}
+
+OdometryMessage read_odometry(std::span<const std::uint8_t> bytes) {
+  Reader in(bytes);
+  OdometryMessage out;
+  out.X_OR.stamp = in.header(out.X_OR.parent);
+  out.X_OR.child = in.text();
+  out.X_OR.X = in.pose();
+  out.pose_covariance = in.matrix();
+  for (double& value : out.twist) value = in.number<double>();
+  out.twist_covariance = in.matrix();
+  return out;
+}
+
+FramedImu read_imu(std::span<const std::uint8_t> bytes) {
+  Reader in(bytes);
+  FramedImu out;
+  out.imu.stamp = in.header(out.frame);
+  in.skip_numbers(4 + 9);
+  out.imu.angular_velocity_R = in.vector();
+  in.skip_numbers(9);
+  out.imu.linear_acceleration_R = in.vector();
+  return out;
+}
+
+std::vector<Transform> read_transforms(std::span<const std::uint8_t> bytes) {
+  Reader in(bytes);
+  std::vector<Transform> out;
+  for (std::size_t left = in.length(76); left > 0; --left) {
+    Transform& transform = out.emplace_back();
+    transform.stamp = in.header(transform.parent);
+    transform.child = in.text();
+    transform.X = in.pose();
+  }
+  return out;
+}
+
+}  // namespace plumbline::slam::ros

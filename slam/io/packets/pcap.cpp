@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/io/packets/pcap.h"
+
+#include <pcap/pcap.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <optional>
+#include <set>
+
+#include "bim/errors.h"
+#include "slam/io/packets/position_packet.h"
+#include "slam/io/packets/udp_frame.h"
+#include "slam/io/second.h"
+
+namespace plumbline::slam {
+
+namespace {
+
+constexpr std::size_t ethernet_bytes = 14;
+constexpr std::size_t ip_bytes = 20;
+constexpr std::size_t udp_bytes = 8;
+constexpr std::size_t header_bytes = ethernet_bytes + ip_bytes + udp_bytes;
+constexpr std::size_t frame_bytes = header_bytes + vlp16::payload_bytes;
+constexpr unsigned data_port = 2368;
+constexpr unsigned position_port = 8308;
+constexpr std::int64_t data_packets_per_position = 5;  // about as real units send them [facts: lidar section 2.1]
+
+using Frame = std::array<std::uint8_t, frame_bytes>;
+
+struct ClosePcap {
+  void operator()(pcap_t* p) const { pcap_close(p); }
+};
+struct CloseDump {
+  void operator()(pcap_dumper_t* p) const { pcap_dump_close(p); }
+};
+using Pcap = std::unique_ptr<pcap_t, ClosePcap>;
+
+unsigned big16(const std::uint8_t* p) { return (static_cast<unsigned>(p[0]) << 8U) | p[1]; }
+
+std::optional<Link> link_of(int type) {
+  switch (type) {
+    case DLT_EN10MB:
+      return Link::ethernet;
+    case DLT_LINUX_SLL:
+      return Link::linux_cooked;
+    case DLT_LINUX_SLL2:
+      return Link::linux_cooked_2;
+    case DLT_RAW:
+    case DLT_IPV4:
+      return Link::raw_ip;
+    default:
+      return std::nullopt;
+  }
+}
+
+std::uint16_t ip_checksum(const Frame& frame) {
+  std::uint32_t sum = 0;
+  for (std::size_t i = 0; i < ip_bytes; i += 2) sum += big16(&frame[ethernet_bytes + i]);
+  while (sum > 0xffffU) sum = (sum & 0xffffU) + (sum >> 16U);
+  return static_cast<std::uint16_t>(~sum);
+}
+
+void put_big16(Frame& frame, std::size_t i, std::size_t value) {
+  frame[i] = static_cast<std::uint8_t>(value >> 8U);
+  frame[i + 1] = static_cast<std::uint8_t>(value & 0xffU);
+}
+
+/// The frame in which a VLP-16 in its factory setting (192.168.1.201) broadcasts a payload; its first bytes count.
+Frame make_frame(unsigned port, std::span<const std::uint8_t> payload) {
+  constexpr std::array<std::uint8_t, header_bytes> header = {
+      0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0x60, 0x76, 0x88, 0x00, 0x00, 0x00, 0x08, 0x00,          // Ethernet
+      0x45, 0x00, 0x00, 0x00, 0x00, 0x00, 0x40, 0x00, 0xff, 0x11, 0x00, 0x00, 192,  168,  1, 201,  // IPv4
+      0xff, 0xff, 0xff, 0xff, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00};                     // UDP
+  Frame frame{};
+  std::copy(header.begin(), header.end(), frame.begin());
+  put_big16(frame, 16, header_bytes - ethernet_bytes + payload.size());
+  put_big16(frame, 34, port);
+  put_big16(frame, 36, port);
+  put_big16(frame, 38, udp_bytes + payload.size());
+  put_big16(frame, 24, ip_checksum(frame));
+  std::copy(payload.begin(), payload.end(), frame.begin() + header_bytes);
+  return frame;
+}
+
+}  // namespace
+
+struct PcapReader::Impl {
+  Mark mark;
+  Pcap capture;
+  Link link = Link::ethernet;
+  std::int64_t frames = 0;         ///< read so far, of any kind
+  std::set<unsigned> other_ports;  ///< destinations of other datagrams, the first few
+  bool any = false;                ///< a data packet has come
+  bool ours = false;               ///< stamps are the capture's own
+  std::int64_t first_us = 0;       ///< clock of the first packet, of the last one
+  std::int64_t last_us = 0;
+  std::int64_t hours = 0;
+  Nanoseconds last_stamp = 0;
+  Nanoseconds origin = 0;
+
+  [[noreturn]] void fail(const std::string& what) const {
+    throw InputError(mark, "frame " + std::to_string(frames) + ": " + what);
+  }
+
+  [[noreturn]] void fail_empty() const {
+    std::string ports;
+    for (const unsigned port : other_ports) ports += (ports.empty() ? "" : ", ") + std::to_string(port);
+    throw InputError(mark, "no VLP-16 data packets (UDP port 2368) in the capture" +
+                               (ports.empty() ? "" : "; there is traffic to port " + ports));
+  }
+
+  /// Data payload of a frame, or nothing where the frame is something else.
+  std::optional<std::span<const std::uint8_t>> data_payload(std::span<const std::uint8_t> frame) {
+    const std::optional<UdpDatagram> datagram = find_udp(frame, link);
+    if (!datagram) return std::nullopt;
+    if (datagram->port == data_port) return datagram->payload;
+    if (datagram->port != position_port && other_ports.size() < 4) other_ports.insert(datagram->port);
+    return std::nullopt;
+  }
+
+  /// Stamp of a data packet captured at `captured`, in time order.
+  Nanoseconds stamp_of(const Vlp16Packet& packet, Nanoseconds captured) {
+    const std::int64_t us = time_in_payload_us(packet);
+    if (us >= hour_us) fail("its time, " + std::to_string(us) + " us, is beyond the hour");
+    if (!any) {
+      ours = captured / 1000 % hour_us == us;
+      origin = ours ? 0 : captured;
+      first_us = last_us = us;
+    }
+    if (us + hour_us / 2 < last_us) ++hours;
+    last_us = us;
+    if (ours && captured / 1000 % hour_us != us) fail("its time of capture and its own time do not agree");
+    const Nanoseconds stamp = ours ? captured : (us + hours * hour_us - first_us) * 1000;
+    if (any && stamp <= last_stamp)
+      fail("its time lies " + std::to_string((last_stamp - stamp) / 1000) + " us before that of the packet before it");
+    if (any && stamp - last_stamp > max_gap)
+      fail("the clock leaps by " + std::to_string((stamp - last_stamp) / 1'000'000) + " ms; at most " +
+           std::to_string(max_gap / 1'000'000) + " would be right, cut the capture there");
+    return stamp;
+  }
+};
+
+PcapReader::PcapReader(const std::string& path) : impl_(std::make_unique<Impl>()) {
+  impl_->mark = {path, 0, 0};
+  if (!std::filesystem::is_regular_file(path))
+    throw InputError(impl_->mark, "no such file; a pcap capture would be right");
+  std::array<char, PCAP_ERRBUF_SIZE> error{};
+  impl_->capture.reset(pcap_open_offline_with_tstamp_precision(path.c_str(), PCAP_TSTAMP_PRECISION_NANO, error.data()));
+  if (impl_->capture == nullptr) throw InputError(impl_->mark, std::string("no pcap capture: ") + error.data());
+  const std::optional<Link> link = link_of(pcap_datalink(impl_->capture.get()));
+  if (!link) throw InputError(impl_->mark, "frames of a link type that is not known; Ethernet would be right");
+  impl_->link = *link;
+}
+
+PcapReader::~PcapReader() = default;
+
+Nanoseconds PcapReader::origin() const { return impl_->origin; }
+
+bool PcapReader::next(Vlp16Packet& packet) {
+  pcap_pkthdr* header = nullptr;
+  const std::uint8_t* bytes = nullptr;
+  int status = 0;
+  while ((status = pcap_next_ex(impl_->capture.get(), &header, &bytes)) == 1) {
+    ++impl_->frames;
+    const auto payload = impl_->data_payload({bytes, header->caplen});
+    if (!payload) continue;
+    if (payload->size() != vlp16::payload_bytes)
+      impl_->fail("a data packet of " + std::to_string(payload->size()) + " bytes; 1206 would be right");
+    std::copy_n(payload->begin(), packet.payload.size(), packet.payload.begin());
+    if (header->ts.tv_sec < 0 || header->ts.tv_sec > 4'500'000'000) impl_->fail("its time of capture is no time");
+    packet.stamp = impl_->stamp_of(packet, std::int64_t{header->ts.tv_sec} * second_ns + header->ts.tv_usec);
+    impl_->last_stamp = packet.stamp;
+    impl_->any = true;
+    return true;
+  }
+  if (status == PCAP_ERROR)
+    throw InputError(impl_->mark, std::string("damaged capture: ") + pcap_geterr(impl_->capture.get()));
+  if (!impl_->any) impl_->fail_empty();
+  return false;
+}
+
+struct PcapWriter::Impl {
+  std::string path;
+  std::string temporary;
+  Pcap link;
+  std::FILE* file = nullptr;  ///< owned by dump
+  std::unique_ptr<pcap_dumper_t, CloseDump> dump;
+
+  std::int64_t packets = 0;
+
+  [[noreturn]] void fail() const { throw EnvironmentError(path + ": cannot be written: " + std::strerror(errno)); }
+
+  void write(Nanoseconds stamp, unsigned port, std::span<const std::uint8_t> payload) {
+    pcap_pkthdr header{};
+    header.ts.tv_sec = stamp / second_ns;
+    header.ts.tv_usec = stamp % second_ns;
+    header.caplen = header.len = static_cast<bpf_u_int32>(header_bytes + payload.size());
+    const Frame frame = make_frame(port, payload);
+    pcap_dump(reinterpret_cast<u_char*>(dump.get()), &header, frame.data());
+    if (std::ferror(file) != 0) fail();
+  }
+};
+
+PcapWriter::PcapWriter(const std::string& path) : impl_(std::make_unique<Impl>()) {
+  impl_->path = path;
+  impl_->temporary = path + ".part";
+  impl_->link.reset(pcap_open_dead_with_tstamp_precision(DLT_EN10MB, 65535, PCAP_TSTAMP_PRECISION_NANO));
+  if (impl_->link == nullptr) throw EnvironmentError("libpcap cannot open a capture for writing");
+  impl_->file = std::fopen(impl_->temporary.c_str(), "wb");
+  if (impl_->file == nullptr) impl_->fail();
+  impl_->dump.reset(pcap_dump_fopen(impl_->link.get(), impl_->file));
+  if (impl_->dump != nullptr) return;
+  std::fclose(impl_->file);
+  impl_->fail();
+}
+
+PcapWriter::~PcapWriter() {
+  if (impl_->dump == nullptr) return;
+  impl_->dump.reset();
+  std::remove(impl_->temporary.c_str());
+}
+
+void PcapWriter::add(const Vlp16Packet& packet) {
+  if (impl_->packets++ % data_packets_per_position == 0)
+    impl_->write(packet.stamp, position_port, position_payload(packet.stamp));
+  impl_->write(packet.stamp, data_port, packet.payload);
+}
+
+void PcapWriter::finish() {
+  if (pcap_dump_flush(impl_->dump.get()) != 0 || std::ferror(impl_->file) != 0 || ::fsync(::fileno(impl_->file)) != 0)
+    impl_->fail();
+  impl_->dump.reset();
+  if (std::rename(impl_->temporary.c_str(), impl_->path.c_str()) == 0) return;
+  const int error = errno;
+  std::remove(impl_->temporary.c_str());
+  errno = error;
+  impl_->fail();
+}
+
+std::vector<Vlp16Packet> read_pcap(const std::string& path) {
+  PcapReader reader(path);
+  std::vector<Vlp16Packet> packets;
+  for (Vlp16Packet packet; reader.next(packet);) packets.push_back(packet);
+  return packets;
+}
+
+void write_pcap(const std::string& path, std::span<const Vlp16Packet> packets) {
+  PcapWriter writer(path);
+  for (const Vlp16Packet& packet : packets) writer.add(packet);
+  writer.finish();
+}
+
+}  // namespace plumbline::slam

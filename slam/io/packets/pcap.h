@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "slam/io/packets/vlp16.h"
+
+namespace plumbline::slam {
+
+/// Reads the VLP-16 data packets (UDP port 2368 over IPv4) of a capture one by one, in bounded memory. Position packets
+/// and other traffic are left out. pcap and pcapng; Ethernet with or without VLAN tags, Linux cooked and raw IP frames.
+/// Stamps: a capture of PcapWriter gives back its own, to the nanosecond; any other starts at 0 and counts the packets'
+/// own microseconds, across full hours.
+class PcapReader {
+ public:
+  /// Throws InputError when the file is missing, no capture or of another link type.
+  explicit PcapReader(const std::string& path);
+  ~PcapReader();
+  PcapReader(const PcapReader&) = delete;
+  PcapReader& operator=(const PcapReader&) = delete;
+
+  /// The next data packet; false at the end. Throws InputError, with the packet's number in the file, where the capture
+  /// is cut off or damaged, a data packet is short or its flags or product are not those of a VLP-16, its time goes
+  /// back or leaps by more than `max_gap`, or the end comes without any data packet.
+  [[nodiscard]] bool next(Vlp16Packet& packet);
+  /// Time of the first packet on the clock of the computer that captured it; 0 for a capture of PcapWriter.
+  [[nodiscard]] Nanoseconds origin() const;
+
+  /// A robot may be carried off for a minute; the sensor's own clock tells gaps of up to half an hour.
+  static constexpr Nanoseconds max_gap = 120'000'000'000;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Writes packets as the sensor sends them (1,248 bytes each), a position packet (554 bytes) before every fifth, with
+/// nanosecond stamps. The file appears complete on
+/// finish() or not at all. Throws EnvironmentError when it cannot be written.
+class PcapWriter {
+ public:
+  explicit PcapWriter(const std::string& path);
+  ~PcapWriter();
+  PcapWriter(const PcapWriter&) = delete;
+  PcapWriter& operator=(const PcapWriter&) = delete;
+
+  void add(const Vlp16Packet& packet);
+  void finish();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// All packets of a capture. Errors as PcapReader.
+[[nodiscard]] std::vector<Vlp16Packet> read_pcap(const std::string& path);
+/// A capture of these packets. Errors as PcapWriter.
+void write_pcap(const std::string& path, std::span<const Vlp16Packet> packets);
+
+}  // namespace plumbline::slam

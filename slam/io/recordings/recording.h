@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "slam/io/odometry_covariance.h"
+#include "slam/io/packets/vlp16.h"
+#include "slam/io/recordings/recording_info.h"
+#include "slam/io/records.h"
+
+namespace plumbline::slam {
+
+/// What the sensors said up to and including one scan, since the one before it.
+struct SensorFrame {
+  std::vector<Imu> imu;
+  std::vector<Odometry> odometry;
+  std::vector<OdometryCovariance> covariances;  ///< of the odometry, where known
+  std::vector<Vlp16Packet> packets;             ///< empty where the recording holds points
+  Scan scan;
+};
+
+/// Records of a simulated or a real robot, read as a stream: never more than one message of them is in memory.
+class Recording {
+ public:
+  virtual ~Recording() = default;
+  /// The next scan with what came before it; false at the end. Times count from the start of the recording. Throws
+  /// InputError, naming the place, on anything that is not as it should be.
+  [[nodiscard]] virtual bool next(SensorFrame& frame) = 0;
+  [[nodiscard]] virtual const RecordingInfo& info() const = 0;
+  [[nodiscard]] virtual bool has_odometry() const = 0;
+  /// Time 0 on the recording's own clock, known after the first scan; 0 where the two are one.
+  [[nodiscard]] virtual Nanoseconds origin() const = 0;
+};
+
+/// What is wrong with odometry that no scan meets.
+inline constexpr std::string_view no_odometry = "no odometry at or before any scan; are both on one clock?";
+inline constexpr std::string_view odometry_over = "the odometry ends before the first scan; are both on one clock?";
+
+/// Files of a recording directory.
+namespace recording_files {
+inline constexpr std::string_view info = "recording.yaml";
+inline constexpr std::string_view lidar = "lidar.pcap";
+inline constexpr std::string_view odometry = "odometry.tum";
+inline constexpr std::string_view covariance = "odometry_covariance.csv";
+inline constexpr std::string_view imu = "imu.csv";
+}  // namespace recording_files
+
+/// Opens a recording directory (lidar.pcap; recording.yaml, odometry.tum with its covariances and imu.csv where they
+/// are there) or a bare capture of a VLP-16; `info`, where it is not null, stands for recording.yaml. Messages are cut
+/// as drivers do, by the number of packets; scans before the first odometry record and a message that the end or a gap
+/// of seconds cuts short are left out. Throws InputError, also where no scan meets the odometry.
+[[nodiscard]] std::unique_ptr<Recording> open_recording(const std::string& path, const RecordingInfo* info = nullptr);
+
+/// Packets of a full turn, rounded up, at the speed one packet tells (a multiple of 60 rpm): 76 at 600 rpm.
+[[nodiscard]] int packets_per_turn(const Vlp16Packet& packet);
+
+}  // namespace plumbline::slam

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/loam/aloam.h"
+
+#include <utility>
+
+namespace plumbline::slam::loam {
+
+Registration AloamOdometry::match(const DeskewedScan& scan, const LegsAt& /*legs*/) {
+  scan_ = find_features(scan, config_.features);
+  thinned_ = thin(scan_, config_.map);
+  Registration result;
+  result.X_MR = X_MR_;
+  if (!ready()) return result;
+  X_LR_ = align_scans(scan_, last_, X_LR_, config_.scan_to_scan);
+  return map_.align(thinned_, X_MR_ * X_LR_, config_.rounds);
+}
+
+void AloamOdometry::commit(const Pose& X_MR, bool mapped) {
+  if (!mapped) X_LR_ = X_MR_.inverse() * X_MR;
+  X_MR_ = X_MR;
+  if (mapped) map_.add(thinned_, X_MR_);
+  last_ = std::move(scan_);
+}
+
+void AloamOdometry::forget() { map_ = FeatureMap(config_.map); }
+
+}  // namespace plumbline::slam::loam

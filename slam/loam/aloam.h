@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "bim/config/visit.h"
+#include "slam/loam/feature_map.h"
+#include "slam/loam/scan_to_scan.h"
+
+namespace plumbline::slam::loam {
+
+struct AloamConfig {
+  FeatureConfig features;
+  ScanToScanConfig scan_to_scan;
+  MapConfig map;
+  int rounds = 2;  ///< of matching against the map
+
+  template <class V>
+  void visit(V& v) {
+    v("features", features);
+    v("scan_to_scan", scan_to_scan);
+    v("map", map);
+    v("rounds", rounds, Field{.doc = "rounds of matching against the map", .min = 1});
+  }
+};
+
+/// A-LOAM [LOAM; facts: slam 6]: scan to scan first, then that motion refined against the feature map. Every scan is
+/// mapped. Legs are not asked.
+class AloamOdometry {
+ public:
+  explicit AloamOdometry(const AloamConfig& config) : config_(config), map_(config.map) {}
+
+  /// Where the scan fits. The legs are not asked.
+  [[nodiscard]] Registration match(const DeskewedScan& scan, const LegsAt& legs);
+  /// Takes it in at X_MR, into the map only if `mapped`.
+  void commit(const Pose& X_MR, bool mapped);
+  /// Whether there is a map to match against.
+  [[nodiscard]] bool ready() const { return !map_.empty(); }
+  /// Drops the map.
+  void forget();
+
+ private:
+  AloamConfig config_;
+  Features last_;
+  Features scan_;  ///< of the scan last matched
+  ThinFeatures thinned_;
+  FeatureMap map_;
+  Pose X_MR_;
+  Pose X_LR_;  ///< latest step, scan to scan: this scan's pose in the one before
+};
+
+}  // namespace plumbline::slam::loam

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "bim/config/visit.h"
+#include "slam/loam/feature_map.h"
+
+namespace plumbline::slam::loam {
+
+struct FloamConfig {
+  FeatureConfig features;
+  MapConfig map;
+  int first_rounds = 12;  ///< of matching for the second scan; one fewer a scan, ...
+  int rounds = 2;         ///< ... down to this
+
+  template <class V>
+  void visit(V& v) {
+    v("features", features);
+    v("map", map);
+    v("first_rounds", first_rounds, Field{.doc = "rounds of matching at the start", .min = 1});
+    v("rounds", rounds, Field{.doc = "rounds of matching later", .min = 1});
+  }
+};
+
+/// F-LOAM [facts: slam 5]: each scan's features straight against the feature map, from where constant velocity would
+/// take the robot. Legs are not asked.
+class FloamOdometry {
+ public:
+  explicit FloamOdometry(const FloamConfig& config) : config_(config), map_(config.map), rounds_(config.first_rounds) {}
+
+  /// Where the scan fits. The legs are not asked.
+  [[nodiscard]] Registration match(const DeskewedScan& scan, const LegsAt& legs);
+  /// Takes it in at X_MR, into the map only if `mapped`.
+  void commit(const Pose& X_MR, bool mapped);
+  /// Whether there is a map to match against.
+  [[nodiscard]] bool ready() const { return !map_.empty(); }
+  /// Drops the map.
+  void forget();
+
+ private:
+  FloamConfig config_;
+  FeatureMap map_;
+  ThinFeatures scan_;  ///< of the scan last matched
+  int rounds_;
+  Pose X_MR_;
+  Pose X_LR_;  ///< latest step: this scan's pose in the one before
+};
+
+}  // namespace plumbline::slam::loam

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "slam/localization/tracker.h"
+
+namespace plumbline::slam {
+
+/// The plan's wall as a vertical plane in I.
+[[nodiscard]] Plane plane_of(const WallLine& line);
+
+/// Observed walls with the faces of the plan they are, at a predicted pose: visible from there, Mahalanobis distance
+/// within the gate [BIM-Loc eq. 7, in the sensor's frame], patch on the face. Ties: lowest line.
+[[nodiscard]] std::vector<WallLink> associate_walls(const StoreyIndex& storey, const View& view,
+                                                    const std::vector<PlaneObservation>& planes, const Pose& X_IR,
+                                                    const TrackerConfig& config);
+
+/// The largest upward plane under the robot, or nothing.
+[[nodiscard]] std::vector<PlaneObservation> find_floor(const View& view, const std::vector<PlaneObservation>& planes,
+                                                       const TrackerConfig& config);
+
+/// Two opposed walls of the room the robot is in, as indices into TrackedPose::walls.
+struct WallPair {
+  int a = -1, b = -1;
+};
+/// Pairs whose middle fixes the robot in its room, each wall used once, widest patches first as listed.
+[[nodiscard]] std::vector<WallPair> opposed_pairs(const StoreyIndex& storey, const TrackedPose& pose,
+                                                  const TrackerConfig& config);
+
+}  // namespace plumbline::slam

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/mapping/room_layer.h"
+
+#include <algorithm>
+
+#include "slam/rooms/keyframe_rooms.h"
+
+namespace plumbline::slam {
+
+namespace {
+
+/// The plane that a plane has become part of, or itself.
+int alive(const Graph& graph, int plane) {
+  while (graph.planes[static_cast<std::size_t>(plane)].merged_into >= 0)
+    plane = graph.planes[static_cast<std::size_t>(plane)].merged_into;
+  return plane;
+}
+
+}  // namespace
+
+void RoomLayer::look(const Graph& graph, const DeskewedScan& scan, std::span<const PlaneObservation> seen) {
+  if (config_.source != RoomSource::free_space) return;
+  const KeyframeVertex& keyframe = graph.keyframes.back();
+  const Eigen::Vector3d up_R = keyframe.X_MR.q.conjugate() * Eigen::Vector3d::UnitZ();
+  looks_.push_back({free_rays(scan, up_R, config_.free_space), keyframe.X_MR, keyframe.storey});
+  looks_.back().rays.wall_R = wall_points(scan, seen, config_.free_space);
+  map_of(keyframe.storey).carve(looks_.back().rays, keyframe.X_MR);
+}
+
+void RoomLayer::update(Graph& graph, int storey, std::span<const PlaneNode> walls) {
+  if (config_.source != RoomSource::free_space) return;
+  redraw_if_moved(graph);
+  const Partition& partition = partition_of(storey);
+  std::vector<Eigen::Vector2d> visited_M;
+  for (const KeyframeVertex& keyframe : graph.keyframes)
+    if (keyframe.storey == storey) visited_M.emplace_back(keyframe.X_MR.t.head<2>());
+  const std::vector<RoomCandidate> found =
+      detect_rooms(partition.grid, partition.clusters, walls, visited_M, config_.rooms);
+  const std::vector<int> ids = tie(graph, storey, found);
+  std::erase_if(graph.room_factors,
+                [&](const RoomFactor& f) { return graph.rooms[static_cast<std::size_t>(f.room)].storey == storey; });
+  for (std::size_t k = 0; k < found.size(); ++k) graph.room_factors.push_back(factor_of(graph, ids[k], found[k]));
+}
+
+RoomFactor RoomLayer::factor_of(const Graph& graph, int id, const RoomCandidate& room) const {
+  const double sigma_m = room.kind == RoomKind::two_wall ? config_.two_wall_sigma_m : config_.sigma_m;
+  return {.room = id,
+          .planes = room.planes,
+          .cluster_M = room.cluster_M,
+          .height_M = graph.keyframes.back().X_MR.t.z(),
+          .information = Eigen::Matrix2d::Identity() / (sigma_m * sigma_m),
+          .corners = room.corners};
+}
+
+// A room is known again by its kind and centre [S-Graphs+ section IV-C]; the walls of the latest look replace the
+// former ones. A two-wall room inside a four-wall one gives way to it [facts: slam 3.3].
+void RoomLayer::add_from_keyframe(Graph& graph, std::span<const PlaneNode> seen_M) {
+  const KeyframeVertex& keyframe = graph.keyframes.back();
+  for (const RoomCandidate& room : keyframe_rooms(seen_M, keyframe.X_MR.t.head<2>(), config_.rooms)) {
+    int id = -1;
+    double nearest = config_.same_center_m;
+    for (std::size_t k = 0; k < candidates_.size(); ++k) {
+      if (!graph.rooms[k].found || graph.rooms[k].storey != keyframe.storey) continue;
+      const double distance = (graph.rooms[k].center_M - room.center_M).norm();
+      if (distance >= nearest) continue;
+      nearest = distance;
+      id = static_cast<int>(k);
+    }
+    const bool known = id >= 0;
+    if (known && candidates_[static_cast<std::size_t>(id)].kind == RoomKind::four_wall &&
+        room.kind == RoomKind::two_wall)
+      continue;
+    if (!known) {
+      id = static_cast<int>(graph.rooms.size());
+      graph.rooms.push_back({.storey = keyframe.storey});
+      candidates_.emplace_back();
+    }
+    graph.rooms[static_cast<std::size_t>(id)] = {room.kind, room.center_M, keyframe.storey, true};
+    candidates_[static_cast<std::size_t>(id)] = room;
+    std::erase_if(graph.room_factors, [&](const RoomFactor& f) { return f.room == id; });
+    graph.room_factors.push_back(factor_of(graph, id, room));
+  }
+}
+
+std::vector<SameWall> RoomLayer::seen_again(const Graph& graph, std::span<const PlaneNode> seen_M,
+                                            const WallMisfit& misfit) const {
+  const KeyframeVertex& keyframe = graph.keyframes.back();
+  for (const RoomCandidate& room : keyframe_rooms(seen_M, keyframe.X_MR.t.head<2>(), config_.rooms))
+    for (std::size_t id = 0; id < candidates_.size(); ++id) {
+      const RoomVertex& known = graph.rooms[id];
+      if (!known.found || known.storey != keyframe.storey || known.kind != room.kind) continue;
+      std::vector<int> planes = candidates_[id].planes;
+      for (int& plane : planes) plane = alive(graph, plane);
+      if (std::optional<std::vector<SameWall>> same = same_walls(planes, room.planes, misfit)) return *same;
+    }
+  return {};
+}
+
+void RoomLayer::follow_merged(Graph& graph) {
+  if (config_.source != RoomSource::keyframe) return;
+  for (RoomCandidate& room : candidates_)
+    for (int& plane : room.planes) plane = alive(graph, plane);
+  for (RoomFactor& factor : graph.room_factors)
+    for (int& plane : factor.planes) plane = alive(graph, plane);
+}
+
+void RoomLayer::redraw(const Graph& graph) {
+  partitions_.clear();
+  for (auto& [storey, map] : maps_) map.clear();
+  for (std::size_t k = 0; k < looks_.size(); ++k) {
+    looks_[k].X_MR = graph.keyframes[k].X_MR;
+    map_of(looks_[k].storey).carve(looks_[k].rays, looks_[k].X_MR);
+  }
+}
+
+std::vector<RoomNode> RoomLayer::nodes(const Graph& graph) const {
+  std::vector<RoomNode> nodes;
+  for (std::size_t id = 0; id < candidates_.size(); ++id) {
+    if (!graph.rooms[id].found) continue;
+    const RoomCandidate& room = candidates_[id];
+    const Eigen::Vector2d& center_M = graph.rooms[id].center_M;
+    nodes.push_back({static_cast<int>(id), room.kind, center_M, room.polygon_M, room.planes});
+    if (config_.source != RoomSource::keyframe) continue;
+    // Its keyframe drew it where the graph then had it.
+    for (Eigen::Vector2d& p : nodes.back().polygon_F) p += center_M - room.center_M;
+  }
+  return nodes;
+}
+
+void RoomLayer::redraw_if_moved(const Graph& graph) {
+  for (std::size_t k = 0; k < looks_.size(); ++k) {
+    if ((graph.keyframes[k].X_MR.t - looks_[k].X_MR.t).norm() <= config_.redraw_m) continue;
+    redraw(graph);
+    return;
+  }
+}
+
+std::vector<int> RoomLayer::tie(Graph& graph, int storey, const std::vector<RoomCandidate>& found) {
+  std::vector<Polygon2> known_M;
+  std::vector<int> known_ids;
+  for (std::size_t id = 0; id < candidates_.size(); ++id) {
+    if (graph.rooms[id].storey != storey) continue;
+    known_M.push_back(candidates_[id].polygon_M);
+    known_ids.push_back(static_cast<int>(id));
+    graph.rooms[id].found = false;
+  }
+  std::vector<int> ids = associate_rooms(known_M, found, config_.same_overlap);
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    if (ids[k] >= 0) {
+      ids[k] = known_ids[static_cast<std::size_t>(ids[k])];
+    } else {
+      ids[k] = static_cast<int>(graph.rooms.size());
+      graph.rooms.push_back({.storey = storey});
+      candidates_.emplace_back();
+    }
+    const auto id = static_cast<std::size_t>(ids[k]);
+    graph.rooms[id] = {found[k].kind, found[k].center_M, storey, true};
+    candidates_[id] = found[k];
+  }
+  return ids;
+}
+
+const RoomLayer::Partition& RoomLayer::partition_of(int storey) {
+  Partition& known = partitions_[storey];
+  FreeGrid seen = map_of(storey).seen_free();
+  const double cell_m2 = seen.frame.cell * seen.frame.cell;
+  if (static_cast<double>(changed_cells(known.seen, seen)) * cell_m2 < config_.refresh_m2) return known;
+  known.seen = std::move(seen);
+  known.grid = without_islands(known.seen, config_.free_space);
+  known.clusters = clusters(known.grid, config_.clusters);
+  return known;
+}
+
+FreeSpaceMap& RoomLayer::map_of(int storey) { return maps_.try_emplace(storey, config_.free_space).first->second; }
+
+}  // namespace plumbline::slam

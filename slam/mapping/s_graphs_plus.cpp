@@ -1,0 +1,345 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/mapping/s_graphs_plus.h"
+
+#include <algorithm>
+
+#include "bim/digest/digest.h"
+#include "slam/graph/factors.h"
+#include "slam/graph/graph_json.h"
+#include "slam/io/stopwatch.h"
+#include "slam/odometry/constant_velocity.h"
+
+namespace plumbline::slam {
+
+namespace {
+
+RoomLayerConfig with_mount(RoomLayerConfig config, const Calibration& calibration) {
+  config.free_space.sensor_height_m = calibration.sensor_height_m;
+  return config;
+}
+
+bool is_floor(const PlaneObservation& o) { return !o.vertical && o.plane_R.n.z() > 0.0; }
+
+/// M's z axis stands on the first floor seen, so that walls are upright in M whatever the gait's phase at the start.
+Pose levelled_start(std::span<const PlaneObservation> seen) {
+  const auto floor = std::find_if(seen.begin(), seen.end(), is_floor);
+  if (floor == seen.end()) return {};
+  return {Eigen::Quaterniond::FromTwoVectors(floor->plane_R.n, Eigen::Vector3d::UnitZ()), Eigen::Vector3d::Zero()};
+}
+
+std::uint64_t digest_of(std::span<const PlaneObservation> planes) {
+  Digest digest;
+  for (const PlaneObservation& p : planes) digest.add(p.plane_R).add(p.points).add(p.p0_R).add(p.p1_R);
+  return digest.value();
+}
+
+std::uint64_t digest_of(std::span<const RoomNode> rooms) {
+  Digest digest;
+  for (const RoomNode& room : rooms) {
+    digest.add(room.id).add(room.center_F);
+    for (const int plane : room.planes) digest.add(plane);
+    for (const Eigen::Vector2d& p : room.polygon_F) digest.add(p);
+  }
+  return digest.value();
+}
+
+std::uint64_t digest_of(std::span<const int> ids) {
+  Digest digest;
+  for (const int id : ids) digest.add(id);
+  return digest.value();
+}
+
+/// Files a stage's digest, and its CPU time since the last one under the name that the papers' tables give it.
+void file(Output& output, Stopwatch& watch, const std::string& stage, std::uint64_t digest,
+          const std::string& timed_as) {
+  output.times.push_back({timed_as, watch.cpu_ms()});
+  output.digests.push_back({stage, digest});
+  watch.restart();
+}
+void file(Output& output, Stopwatch& watch, const std::string& stage, std::uint64_t digest) {
+  file(output, watch, stage, digest, stage);
+}
+
+std::uint64_t digest_of(const std::vector<FloorVertex>& floors) {
+  Digest digest;
+  for (const FloorVertex& floor : floors) digest.add(floor.center_M).add(floor.plane);
+  return digest.value();
+}
+
+std::unique_ptr<Method> make(const MethodInput& input, SGraphsPlusConfig config) {
+  config.odometry.vgicp.odometry_prior &= input.has_odometry;
+  config.odometry.vgicp.tilt_prior &= input.has_odometry;
+  auto method = std::make_unique<SGraphsPlus>(input, config);
+  if (input.has_odometry) return method;
+  return with_constant_velocity(std::move(method));
+}
+
+}  // namespace
+
+SGraphsPlus::SGraphsPlus(const MethodInput& input, const SGraphsPlusConfig& config)
+    : config_(config),
+      seed_(input.seed),
+      calibration_(input.calibration),
+      odometry_(make_lidar_odometry(config.odometry)),
+      walls_(config.walls),
+      rooms_(with_mount(config.rooms, input.calibration)),
+      floors_(config.floors),
+      loop_(config.loop),
+      back_end_(config.incremental, config.optimizer) {
+  config_.floors.stand_m = input.calibration.sensor_height_m - input.calibration.X_RL.t.z();
+}
+
+Output SGraphsPlus::on_scan(const Scan& scan) {
+  Output output;
+  output.stamp = scan.stamp;
+  Stopwatch watch;
+  const DeskewedScan deskewed = deskew(scan, motion_, calibration_);
+  const Pose legs_OR = motion_.at(scan.stamp);
+  motion_.forget_before(scan.stamp);
+  file(output, watch, "deskew", digest(deskewed));
+
+  const Registration odometry = odometry_->update(deskewed, legs_OR);
+  file(output, watch, "odometry", Digest().add(odometry.X_MR).value());
+
+  const Pose& X_OR = odometry.X_MR;
+  if (odometry.lost) output.state = State::lost;
+  followed_ &= odometry.followed;
+  // Where a scan does not fit, what it shows would be put in the wrong place.
+  if (!odometry.believed && !graph_.keyframes.empty())
+    reckoned_ = reckoned_.value_or(Vector6d(Vector6d::Zero())) + odometry.information.diagonal().cwiseInverse();
+  if (graph_.keyframes.empty() || (odometry.believed && !odometry.lost && is_keyframe(X_OR)))
+    add_keyframe(deskewed, odometry, output);
+  const auto keyframe = graph_.keyframes.size() - 1;
+  scans_.push_back({scan.stamp, static_cast<int>(keyframe), X_OR});
+  watch.restart();
+  if (odometry.believed || scans_.size() == 1) keep_cloud(deskewed);
+  output.times.push_back({"map", watch.cpu_ms()});
+  output.X_FR = X_MO(keyframe) * X_OR;
+  return output;
+}
+
+bool SGraphsPlus::is_keyframe(const Pose& X_OR) const {
+  if (graph_.keyframes.empty()) return true;
+  const Pose step = graph_.keyframes.back().X_OR.inverse() * X_OR;
+  return step.t.norm() > config_.keyframe_distance_m || log_so3(step.q).norm() > config_.keyframe_angle_rad;
+}
+
+// [S-Graphs+ Fig. 2]: walls, rooms, floors and loops of one keyframe, then the back end.
+void SGraphsPlus::add_keyframe(const DeskewedScan& scan, const Registration& odometry, Output& output) {
+  Stopwatch watch;
+  std::vector<PlaneObservation> seen = planes_of(scan);
+  file(output, watch, "planes", digest_of(seen), "plane_segmentation");
+
+  add_keyframe_vertex(scan.stamp, odometry, seen);
+  if (config_.pose_weights == PoseWeights::fitness) {
+    fitness_clouds_.push_back(fitness_cloud(scan, config_.fitness));
+    if (graph_.keyframes.size() > 1) weigh_by_fitness(graph_.pose_factors.back());
+  }
+  const int storey = graph_.keyframes.back().storey;
+  file(output, watch, "association", digest_of(walls_.observe(graph_, seen, walked_m_)));
+
+  full_wanted_ |= walls_.find_duplicates(graph_, storey);
+  if (config_.parts.rooms) rooms_.look(graph_, scan, seen);
+  const std::vector<PlaneNode> seen_now = walls_.seen_now(graph_);
+  const std::vector<PlaneNode> walls = walls_.walls(graph_, storey);
+  if (config_.parts.rooms) full_wanted_ |= find_duplicates_in_rooms(walls, seen_now);
+  if (config_.parts.rooms && config_.rooms.source == RoomSource::keyframe) rooms_.add_from_keyframe(graph_, seen_now);
+  if (config_.parts.rooms) rooms_.update(graph_, storey, walls);
+  file(output, watch, "rooms", digest_of(rooms_.nodes(graph_)), "room_segmentation");
+  if (config_.parts.rooms && config_.parts.floors) floors_.update(graph_, storey, walls);
+  file(output, watch, "floors", digest_of(graph_.floors), "floor_segmentation");
+
+  if (config_.parts.loops) close_loop(scan);
+  file(output, watch, "loop", Digest().add(static_cast<std::int64_t>(graph_.pose_factors.size())).value(),
+       "loop_closure");
+
+  optimize_graph();
+  file(output, watch, "graph", slam::digest_of(graph_), "back_end");
+}
+
+void SGraphsPlus::keep_cloud(const DeskewedScan& scan) {
+  const Pose& X_OR = scans_.back().X_OR;
+  if (!clouds_.empty() && (scans_[cloud_scans_.back()].X_OR.t - X_OR.t).norm() < config_.map.spacing_m) return;
+  clouds_.push_back(thin_rings(scan, X_OR, config_.map));
+  cloud_scans_.push_back(scans_.size() - 1);
+}
+
+std::vector<PlaneObservation> SGraphsPlus::planes_of(const DeskewedScan& scan) const {
+  std::vector<PlaneObservation> seen = config_.plane_source == PlaneSource::rings
+                                           ? detect_planes(scan, config_.planes)
+                                           : ransac_planes(scan, config_.ransac, config_.planes, seed_);
+  if (!config_.parts.walls) std::erase_if(seen, [](const PlaneObservation& o) { return !is_floor(o); });
+  return seen;
+}
+
+void SGraphsPlus::weigh_by_fitness(PoseFactor& factor) const {
+  const auto& from = fitness_clouds_[static_cast<std::size_t>(factor.from)];
+  const auto& to = fitness_clouds_[static_cast<std::size_t>(factor.to)];
+  if (from.empty() || to.empty()) return;
+  factor.information = fitness_information(fitness(from, to, factor.X_FT), config_.fitness);
+}
+
+void SGraphsPlus::update_rooms(int storey, std::span<const PlaneNode> walls) {
+  if (!config_.parts.rooms) return;
+  rooms_.update(graph_, storey, walls);
+  if (config_.parts.floors) floors_.update(graph_, storey, walls);
+}
+
+// A room seen again shows which walls are one [S-Graphs+ section IV-C].
+bool SGraphsPlus::find_duplicates_in_rooms(std::span<const PlaneNode> walls, std::span<const PlaneNode> seen) {
+  const WallMisfit misfit = [&](int known, int found) { return walls_.room_misfit(walls, known, found); };
+  return walls_.add_duplicates(graph_, walls, rooms_.seen_again(graph_, seen, misfit));
+}
+
+void SGraphsPlus::add_keyframe_vertex(Nanoseconds stamp, const Registration& odometry,
+                                      std::vector<PlaneObservation>& seen) {
+  const Pose& X_OR = odometry.X_MR;
+  if (graph_.keyframes.empty()) {
+    graph_.keyframes.push_back({stamp, levelled_start(seen), X_OR, 0});
+    return;
+  }
+  const KeyframeVertex& last = graph_.keyframes.back();
+  const Pose step = last.X_OR.inverse() * X_OR;
+  const Pose X_MR = last.X_MR * step;
+  keep_level(seen, X_MR, config_.floors);
+  const int from = static_cast<int>(graph_.keyframes.size()) - 1;
+  walked_m_ += step.t.norm();
+  graph_.pose_factors.push_back({from, from + 1, step, step_information(odometry, step.t.norm()), false});
+  reckoned_.reset();
+  followed_ = true;
+  graph_.keyframes.push_back({stamp, X_MR, X_OR, storey_of(graph_, X_MR, seen, config_.floors)});
+}
+
+// Where surfels say nothing, as along a corridor, VGICP's step is that of the legs, and as certain as theirs.
+Matrix6d SGraphsPlus::step_information(const Registration& odometry, double way_m) const {
+  const LidarOdometryConfig& config = config_.odometry;
+  const Matrix6d legs = reckoned_information(config, way_m);
+  if (config.kind == OdometryKind::legs) return legs;
+  const Matrix6d seen = reckoned_ ? Matrix6d(reckoned_->cwiseInverse().asDiagonal()) : odometry.information;
+  const Matrix6d information =
+      trusted_information(seen, config_.odometry_inflation, config_.odometry_sigma_m, config_.odometry_sigma_rad);
+  const bool with_legs = config.kind == OdometryKind::vgicp && config.vgicp.odometry_prior && followed_ && !reckoned_;
+  return with_legs ? Matrix6d(information + legs) : information;
+}
+
+void SGraphsPlus::close_loop(const DeskewedScan& scan) {
+  const std::optional<PoseFactor> loop = loop_.update(graph_, scan, walked_m_);
+  if (!loop) return;
+  graph_.pose_factors.push_back(*loop);
+  if (config_.pose_weights == PoseWeights::fitness) weigh_by_fitness(graph_.pose_factors.back());
+  const PoseFactor& factor = graph_.pose_factors.back();
+  const auto X_M = [&](int k) { return graph_.keyframes[static_cast<std::size_t>(k)].X_MR; };
+  const Vector6d e = pose_residual(X_M(factor.from), X_M(factor.to), factor.X_FT).e;
+  full_wanted_ = true;
+  full_urgent_ |= e.dot(factor.information * e) > config_.incremental.urgent_chi2;
+}
+
+// The window at each keyframe; the storey when something leads back to before it.
+void SGraphsPlus::optimize_graph() {
+  if (graph_.keyframes.size() < 2) return;
+  if (config_.incremental.everything) {
+    optimize(graph_, 1, config_.optimizer);
+    (void)merge_duplicates();
+    return;
+  }
+  back_end_.update(graph_);
+  walls_.settle(graph_, back_end_.first_keyframe());
+  full_wanted_ |= back_end_.returned();
+  if (!full_urgent_ && !(full_wanted_ && back_end_.solve_is_due(graph_))) return;
+  // Storeys share no planes, so that what leads back within one leaves those before it as they are.
+  const int storey = graph_.keyframes.back().storey;
+  const auto first = std::find_if(graph_.keyframes.begin(), graph_.keyframes.end(),
+                                  [&](const KeyframeVertex& k) { return k.storey == storey; });
+  back_end_.solve(graph_, static_cast<int>(first - graph_.keyframes.begin()));
+  walls_.unsettle();
+  full_wanted_ = merge_duplicates() > 0;
+  full_urgent_ = false;
+  back_end_.relinearize(graph_);
+}
+
+int SGraphsPlus::merge_duplicates() {
+  const int merged = walls_.merge_duplicates(graph_);
+  if (merged > 0) rooms_.follow_merged(graph_);
+  return merged;
+}
+
+Pose SGraphsPlus::X_MO(std::size_t keyframe) const {
+  return graph_.keyframes[keyframe].X_MR * graph_.keyframes[keyframe].X_OR.inverse();
+}
+
+Estimate SGraphsPlus::finish() {
+  Estimate estimate;
+  if (graph_.keyframes.empty()) return estimate;
+  if (graph_.keyframes.size() > 1) optimize(graph_, 1, config_.optimizer);
+  walls_.unsettle();
+  (void)merge_duplicates();
+  if (config_.parts.rooms) rooms_.redraw(graph_);
+  const int storeys = 1 + std::max_element(graph_.keyframes.begin(), graph_.keyframes.end(), [](auto& a, auto& b) {
+                            return a.storey < b.storey;
+                          })->storey;
+  for (int storey = 0; storey < storeys; ++storey) {
+    const std::vector<PlaneNode> walls = walls_.walls(graph_, storey);
+    update_rooms(storey, walls);
+    estimate.planes.insert(estimate.planes.end(), walls.begin(), walls.end());
+  }
+  estimate.trajectory = trajectory();
+  estimate.rooms = rooms_.nodes(graph_);
+  for (const FloorVertex& floor : graph_.floors) {
+    if (floor.plane < 0) continue;
+    const Plane& plane = graph_.planes[static_cast<std::size_t>(floor.plane)].plane_M;
+    const double z = -(plane.d + plane.n.head<2>().dot(floor.center_M)) / plane.n.z();
+    estimate.floors.push_back({floor.storey, {floor.center_M.x(), floor.center_M.y(), z}, plane});
+  }
+  estimate.map_F = point_map(estimate);
+  estimate.graph = graph_tree(graph_);
+  return estimate;
+}
+
+// Between two keyframes the correction changes linearly from the one's to the other's.
+std::vector<StampedPose> SGraphsPlus::trajectory() const {
+  std::vector<StampedPose> poses;
+  for (const TrackedScan& scan : scans_) {
+    const auto k = static_cast<std::size_t>(scan.keyframe);
+    Pose X_MR = X_MO(k) * scan.X_OR;
+    if (k + 1 < graph_.keyframes.size()) {
+      const Nanoseconds from = graph_.keyframes[k].stamp, to = graph_.keyframes[k + 1].stamp;
+      const double s = to > from ? seconds(scan.stamp - from) / seconds(to - from) : 0.0;
+      X_MR = interpolate(X_MR, X_MO(k + 1) * scan.X_OR, s);
+    }
+    poses.push_back({scan.stamp, X_MR});
+  }
+  return poses;
+}
+
+std::vector<Eigen::Vector3f> SGraphsPlus::point_map(const Estimate& estimate) {
+  for (std::size_t k = 0; k < clouds_.size(); ++k) clouds_[k].X_FR = estimate.trajectory[cloud_scans_[k]].X_FR;
+  std::vector<Plane> levels_M;
+  for (const FloorNode& floor : estimate.floors) levels_M.push_back(floor.plane_F);
+  for (const PlaneVertex& plane : graph_.planes)
+    if (plane.kind == PlaneKind::ceiling && plane.merged_into < 0) levels_M.push_back(plane.plane_M);
+  const Eigen::Vector3d& sensor_R = calibration_.X_RL.t;
+  remove_reflections(clouds_, estimate.planes, levels_M, sensor_R, config_.reflections);
+  if (config_.range_offsets.correct)
+    correct_ranges(clouds_,
+                   range_offsets(clouds_, estimate.planes, sensor_R, config_.range_offsets, config_.reflections),
+                   sensor_R);
+  return map_cloud(clouds_, config_.map, levels_M);
+}
+
+std::unique_ptr<Method> make_s_graphs_plus_method(const MethodInput& input) {
+  return make(input, config_of<SGraphsPlusConfig>(input));
+}
+
+std::unique_ptr<Method> make_s_graphs_plus_paper_method(const MethodInput& input) {
+  return make(input, config_of<SGraphsPlusPaperConfig>(input));
+}
+
+std::unique_ptr<Method> make_s_graphs_method(const MethodInput& input) {
+  return make(input, config_of<SGraphsConfig>(input));
+}
+
+std::unique_ptr<Method> make_hdl_slam_method(const MethodInput& input) {
+  return make(input, config_of<HdlSlamConfig>(input));
+}
+
+}  // namespace plumbline::slam

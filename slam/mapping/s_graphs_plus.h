@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string_view>
+
+#include "bim/config/visit.h"
+#include "slam/graph/incremental.h"
+#include "slam/io/method.h"
+#include "slam/loop/fitness.h"
+#include "slam/loop/loop_closure.h"
+#include "slam/mapping/floor_layer.h"
+#include "slam/mapping/laser_range_calibration.h"
+#include "slam/mapping/mirror_ghosts.h"
+#include "slam/mapping/room_layer.h"
+#include "slam/mapping/wall_layer.h"
+#include "slam/odometry/lidar_odometry.h"
+#include "slam/planes/plane_detector.h"
+#include "slam/planes/ransac.h"
+#include "slam/scan/map_cloud.h"
+#include "slam/scan/motion.h"
+
+namespace plumbline::slam {
+
+/// Parts of the graph that a baseline or an ablation does without.
+struct GraphParts {
+  bool walls = true;   ///< without: of the planes only floors are kept
+  bool rooms = true;   ///< needs walls
+  bool floors = true;  ///< floor centres and the rooms tied to them; needs rooms
+  bool loops = true;   ///< hard loop closures
+
+  template <class V>
+  void visit(V& v) {
+    v("walls", walls, Field{.doc = "wall planes"});
+    v("rooms", rooms, Field{.doc = "rooms between walls"});
+    v("floors", floors, Field{.doc = "floor centres, rooms tied to them"});
+    v("loops", loops, Field{.doc = "loop closures by scan matching"});
+  }
+};
+
+/// Which planes a keyframe sees: by straight stretches of rings, or by sequential RANSAC as in the papers.
+enum class PlaneSource { rings, ransac };
+/// What odometry and loops weigh: by the registration's covariance, or by the clouds' fitness as in the papers' code.
+enum class PoseWeights { registration, fitness };
+
+struct SGraphsPlusConfig {
+  GraphParts parts;
+  PlaneSource plane_source = PlaneSource::rings;
+  PoseWeights pose_weights = PoseWeights::registration;
+  double keyframe_distance_m = 0.6;
+  double keyframe_angle_rad = 0.35;
+  double odometry_inflation = 8.0;  ///< of the registration's covariance: surfels are not independent
+  double odometry_sigma_m = 0.006;  ///< of a step between keyframes, added
+  double odometry_sigma_rad = 0.002;
+  LidarOdometryConfig odometry;
+  /// Twice the lasers' 11 mm: looks that share lasers err alike, and the graph takes each for itself.
+  PlaneDetectorConfig planes{.laser_sigma_m = 0.022};
+  RansacConfig ransac;
+  FitnessConfig fitness;
+  WallLayerConfig walls;
+  RoomLayerConfig rooms;
+  FloorLayerConfig floors;
+  LoopConfig loop;
+  IncrementalConfig incremental;
+  OptimizerConfig optimizer;
+  MapCloudConfig map{.spacing_m = 0.14, .min_neighbours = 14};
+  ReflectionConfig reflections;
+  RangeOffsetConfig range_offsets;
+
+  template <class V>
+  void visit(V& v) {
+    v("parts", parts);
+    v("plane_source", plane_source, Field{.doc = "rings or ransac"});
+    v("pose_weights", pose_weights, Field{.doc = "registration or fitness"});
+    v("keyframe_distance_m", keyframe_distance_m, Field{.doc = "way to the next keyframe", .min = 0.05});
+    v("keyframe_angle_rad", keyframe_angle_rad, Field{.doc = "turn to the next keyframe", .min = 0.02});
+    v("odometry_inflation", odometry_inflation, Field{.doc = "of the registration's covariance", .min = 1});
+    v("odometry_sigma_m", odometry_sigma_m, Field{.doc = "of a step between keyframes", .min = 1e-4});
+    v("odometry_sigma_rad", odometry_sigma_rad, Field{.doc = "of a step between keyframes", .min = 1e-5});
+    v("odometry", odometry);
+    v("planes", planes);
+    v("ransac", ransac);
+    v("fitness", fitness);
+    v("walls", walls);
+    v("rooms", rooms);
+    v("floors", floors);
+    v("loop", loop);
+    v("incremental", incremental);
+    v("optimizer", optimizer);
+    v("map", map);
+    v("reflections", reflections);
+    v("range_offsets", range_offsets);
+  }
+};
+
+/// S-Graphs+ as printed, with the parameters of the papers' code [facts: slam 2.2-2.4, 4.1].
+struct SGraphsPlusPaperConfig : SGraphsPlusConfig {
+  SGraphsPlusPaperConfig();
+};
+
+/// S-Graphs of 2022: its rooms come from the planes of one keyframe, and there is no floor layer.
+struct SGraphsConfig : SGraphsPlusPaperConfig {
+  SGraphsConfig();
+};
+
+/// HDL graph SLAM [facts: slam 6]: keyframes, odometry, floor plane and loop closures; no walls, no rooms.
+struct HdlSlamConfig : SGraphsPlusConfig {
+  HdlSlamConfig() { parts = {.walls = false, .rooms = false, .floors = false, .loops = true}; }
+};
+
+/// S-Graphs+ [S-Graphs+ Fig. 2]: odometry, walls, free-space rooms, floors and loops in one four-layered graph.
+class SGraphsPlus : public Method {
+ public:
+  SGraphsPlus(const MethodInput& input, const SGraphsPlusConfig& config);
+
+  void on_odometry(const Odometry& odometry) override { motion_.add(odometry); }
+  [[nodiscard]] Output on_scan(const Scan& scan) override;
+  [[nodiscard]] Estimate finish() override;
+
+  [[nodiscard]] const Graph& graph() const { return graph_; }
+
+ private:
+  /// One scan's odometry, and the last keyframe before it.
+  struct TrackedScan {
+    Nanoseconds stamp = 0;
+    int keyframe = 0;
+    Pose X_OR;
+  };
+
+  [[nodiscard]] bool is_keyframe(const Pose& X_OR) const;
+  void add_keyframe(const DeskewedScan& scan, const Registration& odometry, Output& output);
+  [[nodiscard]] std::vector<PlaneObservation> planes_of(const DeskewedScan& scan) const;
+  /// Drops from what was seen the planes that are neither walls nor level.
+  void add_keyframe_vertex(Nanoseconds stamp, const Registration& odometry, std::vector<PlaneObservation>& seen);
+  /// Of a keyframe's step from the last one over `way_m`.
+  [[nodiscard]] Matrix6d step_information(const Registration& odometry, double way_m) const;
+  void update_rooms(int storey, std::span<const PlaneNode> walls);
+  [[nodiscard]] bool find_duplicates_in_rooms(std::span<const PlaneNode> walls, std::span<const PlaneNode> seen);
+  void close_loop(const DeskewedScan& scan);
+  void optimize_graph();
+  /// Of walls and of the rooms between them; returns how many.
+  int merge_duplicates();
+  void weigh_by_fitness(PoseFactor& factor) const;
+  [[nodiscard]] Pose X_MO(std::size_t keyframe) const;
+  [[nodiscard]] std::vector<StampedPose> trajectory() const;
+  void keep_cloud(const DeskewedScan& scan);
+  [[nodiscard]] std::vector<Eigen::Vector3f> point_map(const Estimate& estimate);
+
+  SGraphsPlusConfig config_;
+  std::uint64_t seed_;
+  Calibration calibration_;
+  MotionBuffer motion_;
+  std::unique_ptr<LidarOdometry> odometry_;
+  WallLayer walls_;
+  RoomLayer rooms_;
+  FloorLayer floors_;
+  LoopClosure loop_;
+  Graph graph_;
+  IncrementalOptimizer back_end_;
+  std::vector<TrackedScan> scans_;
+  std::vector<CloudKeyframe> clouds_;                         ///< of scans at least map.spacing_m apart along the way
+  std::vector<std::size_t> cloud_scans_;                      ///< index into scans_ of each cloud
+  std::vector<std::vector<Eigen::Vector3d>> fitness_clouds_;  ///< index = keyframe, for PoseWeights::fitness
+  std::optional<Vector6d> reckoned_;  ///< variances of the dead reckoning since the last keyframe, if there was any
+  bool followed_ = true;              ///< odometry knows the way since the last keyframe
+  double walked_m_ = 0.0;
+  bool full_wanted_ = false;  ///< a loop, a duplicate or a wall from before the prior came in
+  bool full_urgent_ = false;  ///< a loop that contradicts the estimate
+};
+
+/// All assume constant velocity where there is no odometry.
+[[nodiscard]] std::unique_ptr<Method> make_s_graphs_plus_method(const MethodInput& input);
+[[nodiscard]] std::unique_ptr<Method> make_s_graphs_plus_paper_method(const MethodInput& input);
+[[nodiscard]] std::unique_ptr<Method> make_s_graphs_method(const MethodInput& input);
+[[nodiscard]] std::unique_ptr<Method> make_hdl_slam_method(const MethodInput& input);
+
+}  // namespace plumbline::slam
+
+namespace plumbline {
+
+template <>
+struct EnumNames<slam::PlaneSource> {
+  static constexpr std::array<std::string_view, 2> names = {"rings", "ransac"};
+};
+template <>
+struct EnumNames<slam::PoseWeights> {
+  static constexpr std::array<std::string_view, 2> names = {"registration", "fitness"};
+};
+
+}  // namespace plumbline

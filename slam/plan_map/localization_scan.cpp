@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/plan_map/localization_scan.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+namespace plumbline::slam {
+
+namespace {
+
+/// Height of R above the floor by the largest upward plane below the robot.
+std::optional<double> height_over_floor(const std::vector<PlaneObservation>& planes, const Eigen::Quaterniond& q_HR,
+                                        double tilt) {
+  std::optional<double> height;
+  int most = 0;
+  for (const PlaneObservation& plane : planes) {
+    if ((q_HR * plane.plane_R.n).z() < std::cos(tilt) || plane.plane_R.d < 0.1 || plane.points <= most) continue;
+    most = plane.points;
+    height = plane.plane_R.d;
+  }
+  return height;
+}
+
+std::optional<Beam> beam_to(const Eigen::Vector3d& p_R, const View& view, const Eigen::Vector3d& sensor_R,
+                            const ViewConfig& config) {
+  const Eigen::Vector3d ray_H = view.q_HR * (p_R - sensor_R);
+  const double range = ray_H.head<2>().norm();
+  const double height = view.sensor_height + ray_H.z();
+  if (range < config.min_range_m || range > config.max_range_m) return std::nullopt;
+  if (height < config.min_height_m || height > config.max_height_m) return std::nullopt;
+  return Beam{ray_H.head<2>() / range, range, ray_H.z() / range};
+}
+
+/// One beam per step of the turn; the ring changes from step to step so that sills, heads of doors and low furniture
+/// are all met. The nearest ring with a usable return is taken.
+std::vector<Beam> pick_beams(const DeskewedScan& scan, const View& view, const ViewConfig& config) {
+  std::vector<Beam> beams;
+  if (scan.columns == 0) return beams;
+  for (int k = 0; k < config.beams; ++k) {
+    const int column = static_cast<int>(static_cast<long>(k) * scan.columns / config.beams);
+    const int wanted = scan.rings / 2 - 1 + 2 * (k % 4);
+    for (int step = 0; step < scan.rings; ++step) {
+      const int ring = wanted + (step % 2 == 0 ? step / 2 : -(step + 1) / 2);
+      if (ring < 0 || ring >= scan.rings) continue;
+      const auto i = static_cast<std::size_t>(column * scan.rings + ring);
+      if (scan.range_m[i] <= 0.0) continue;
+      const std::optional<Beam> beam = beam_to(scan.point_R[i], view, scan.X_RL.t, config);
+      if (!beam) continue;
+      beams.push_back(*beam);
+      break;
+    }
+  }
+  return beams;
+}
+
+Sweep sweep_of(const DeskewedScan& scan, const View& view, const ViewConfig& config) {
+  constexpr int wide = 4;
+  Sweep sweep{std::min(config.sweep_columns, scan.columns), {}};
+  const int rings = std::min(config.sweep_rings, scan.rings);
+  for (int first = 0; first < rings; first += wide)
+    for (int c = 0; c < sweep.columns; ++c) {
+      const int column = static_cast<int>(static_cast<long>(c) * scan.columns / sweep.columns);
+      SweepBlock& block = sweep.blocks.emplace_back();
+      for (int r = first; r < std::min(first + wide, rings); ++r) {
+        const auto i = static_cast<std::size_t>(column * scan.rings + r * scan.rings / rings);
+        if (scan.range_m[i] <= 0.0) continue;
+        const std::optional<Beam> beam = beam_to(scan.point_R[i], view, scan.X_RL.t, config);
+        if (!beam) continue;
+        const auto k = static_cast<std::size_t>(r - first);
+        block.x[k] = static_cast<float>(beam->direction_H.x());
+        block.y[k] = static_cast<float>(beam->direction_H.y());
+        block.range[k] = static_cast<float>(beam->range);
+        block.slope[k] = static_cast<float>(beam->slope);
+      }
+    }
+  return sweep;
+}
+
+std::optional<WallView> wall_view(const PlaneObservation& plane, const View& view, const Eigen::Vector3d& sensor_R,
+                                  const ViewConfig& config) {
+  if (!plane.vertical) return std::nullopt;
+  const Eigen::Vector3d n_H = view.q_HR * plane.plane_R.n;
+  const double level = n_H.head<2>().norm();
+  const Eigen::Vector2d along(n_H.y() / level, -n_H.x() / level);
+  const auto coordinate = [&](const Eigen::Vector3d& p_R) {
+    return along.dot((view.q_HR * (p_R - sensor_R)).head<2>());
+  };
+  const double top = view.sensor_height + plane.z1 - sensor_R.z();
+  const double a = coordinate(plane.p0_R), b = coordinate(plane.p1_R);
+  if (std::abs(a - b) < config.min_wall_length_m || top < config.min_wall_top_m) return std::nullopt;
+  WallView wall;
+  wall.azimuth = std::atan2(n_H.y(), n_H.x());
+  wall.distance = plane.plane_R.distance(sensor_R) / level;
+  wall.s0 = std::min(a, b);
+  wall.s1 = std::max(a, b);
+  wall.sigma_azimuth = std::sqrt(plane.covariance(0, 0));
+  wall.sigma_distance = std::sqrt(plane.covariance(2, 2));
+  return wall;
+}
+
+}  // namespace
+
+View make_view(const DeskewedScan& scan, const std::vector<PlaneObservation>& planes, const Pose& X_OR,
+               const Calibration& calibration, const ViewConfig& config) {
+  View view;
+  view.stamp = scan.stamp;
+  view.X_OR = X_OR;
+  view.q_HR = exp_so3({0.0, 0.0, -X_OR.yaw()}) * X_OR.q;
+  const Eigen::Vector3d sensor_H = view.q_HR * scan.X_RL.t;
+  view.sensor_H = sensor_H.head<2>();
+  const std::optional<double> height_R = height_over_floor(planes, view.q_HR, config.floor_max_tilt_rad);
+  view.sensor_height = height_R ? *height_R + sensor_H.z() : calibration.sensor_height_m;
+  view.beams = pick_beams(scan, view, config);
+  view.sweep = sweep_of(scan, view, config);
+  for (std::size_t i = 0; i < planes.size() && view.walls.size() < max_walls; ++i) {
+    std::optional<WallView> wall = wall_view(planes[i], view, scan.X_RL.t, config);
+    if (!wall) continue;
+    wall->observation = static_cast<int>(i);
+    view.walls.push_back(*wall);
+  }
+  return view;
+}
+
+}  // namespace plumbline::slam

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bim/config/visit.h"
+#include "bim/geometry/polygon.h"
+#include "bim/plan/plan.h"
+#include "slam/plan_map/face_sectors.h"
+#include "slam/plan_map/segment_grid.h"
+
+namespace plumbline::slam {
+
+struct PlanIndexConfig {
+  double cell_m = 0.5;               ///< of the look-up grid
+  double line_gap_m = 1.5;           ///< coplanar faces closer than this make one line; a door is about 1 m wide
+  double line_offset_m = 0.02;       ///< faces of one line lie this close to one plane
+  double line_angle_rad = 0.01;      ///< and this close in direction
+  double wall_band_m = 1.0;          ///< height above the floor at which a face counts as wall
+  int visibility_rays = 72;          ///< rays per sample point of a cell when listing the lines seen from it
+  double visibility_range_m = 25.0;  ///< 100 m in theory, but a VLP-16 wall patch beyond this has too few rings
+  double body_height_m = 0.4;        ///< of the robot's trunk: what it must pass through a door with
+
+  template <class V>
+  void visit(V& v) {
+    v("cell_m", cell_m, Field{.doc = "of the look-up grid", .min = 0.05});
+    v("line_gap_m", line_gap_m, Field{.doc = "coplanar faces closer than this make one line", .min = 0});
+    v("line_offset_m", line_offset_m, Field{.doc = "faces of one line lie this close to one plane", .min = 0});
+    v("line_angle_rad", line_angle_rad, Field{.doc = "and this close in direction", .min = 0});
+    v("wall_band_m", wall_band_m, Field{.doc = "height above the floor at which a face counts as wall", .min = 0});
+    v("visibility_rays", visibility_rays,
+      Field{.doc = "rays per sample point of a cell when listing the lines seen from it", .min = 8, .max = 10000});
+    v("visibility_range_m", visibility_range_m,
+      Field{.doc = "100 m in theory, but a VLP-16 wall patch beyond this has too few rings", .min = 0});
+    v("body_height_m", body_height_m,
+      Field{.doc = "of the robot's trunk: what it must pass through a door with", .min = 0});
+  }
+};
+
+/// Coplanar faces of one storey seen as one plane [BIM-Loc eq. 1-2]; frame I.
+struct WallLine {
+  Eigen::Vector2d a = Eigen::Vector2d::Zero();  ///< start; the line runs along e, free space on its left
+  Eigen::Vector2d e = Eigen::Vector2d::UnitX();
+  Eigen::Vector2d n = Eigen::Vector2d::UnitY();  ///< into free space
+  double length = 0.0;
+  double d = 0.0;        ///< n.p + d = 0
+  double azimuth = 0.0;  ///< of n, rad
+};
+
+struct IndexRoom {
+  int plan_room = -1;  ///< index into Plan::rooms
+  std::string name;
+  Polygon2 polygon;
+};
+
+/// One storey in I with its look-up tables.
+struct StoreyIndex {
+  int plan_storey = -1;
+  double floor_z = 0.0;  ///< in I
+  double ceiling_z = 3.0;
+  std::vector<PlanSegment> segments;  ///< wall faces, in an order that depends on geometry alone
+  std::vector<WallLine> lines;
+  std::vector<IndexRoom> rooms;
+  SegmentGrid grid;                       ///< over segments
+  FaceSectors sectors;                    ///< by cell of the grid
+  std::vector<std::vector<int>> visible;  ///< per cell of the grid: lines seen from it, ascending
+
+  /// Room that holds p, or -1 (ties: lowest).
+  [[nodiscard]] int room_at(const Eigen::Vector2d& p) const;
+};
+
+/// The plan as the localization uses it. Everything stands in a frame I that the plan itself fixes: origin and x axis
+/// along the first edge of the room whose name is the smallest, z from the floor of that room's storey. Coordinates in
+/// I are rounded to 1e-6 m, so a plan moved as a whole gives the same numbers and the same decisions.
+struct PlanIndex {
+  PlanIndexConfig config;
+  Pose X_WI;
+  std::vector<StoreyIndex> storeys;  ///< those where the robot may be
+
+  /// Height band and polygon area from which particles are drawn, m^2.
+  [[nodiscard]] double free_area() const;
+};
+
+/// Tables of the told storey, or of all storeys that have rooms. Throws InputError when the storey is not in the plan
+/// or no room is.
+[[nodiscard]] PlanIndex make_plan_index(const bim::Plan& plan_W, const std::optional<std::string>& storey,
+                                        const PlanIndexConfig& config);
+
+}  // namespace plumbline::slam

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/registration/registration.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <cmath>
+
+namespace plumbline::slam {
+
+namespace {
+
+/// Right increment of axes R from sums in axes M about the robot: rho_M = R rho, phi_M = R phi.
+Matrix6d block_rotation(const Eigen::Matrix3d& R_MR) {
+  Matrix6d b = Matrix6d::Zero();
+  b.topLeftCorner<3, 3>() = R_MR;
+  b.bottomRightCorner<3, 3>() = R_MR;
+  return b;
+}
+
+}  // namespace
+
+void add_point(Normal6& sum, const Eigen::Vector3d& arm_M, const Eigen::Matrix3d& weight,
+               const Eigen::Vector3d& weighted) {
+  const Eigen::Matrix3d arm = hat(arm_M);  // J = [I, -arm]
+  const Eigen::Matrix3d side = weight * arm;
+  sum.h.topLeftCorner<3, 3>() += weight;
+  sum.h.topRightCorner<3, 3>() -= side;
+  sum.h.bottomRightCorner<3, 3>() -= arm * side;
+  sum.g.head<3>() += weighted;
+  sum.g.tail<3>() += arm_M.cross(weighted);
+}
+
+void to_right_increment(Normal6& sum, const Eigen::Matrix3d& R_MR) {
+  sum.h.bottomLeftCorner<3, 3>() = sum.h.topRightCorner<3, 3>().transpose();
+  const Matrix6d b = block_rotation(R_MR);
+  sum.h = b.transpose() * sum.h * b;
+  sum.g = b.transpose() * sum.g;
+}
+
+void add_prior(Normal6& normal, const PosePrior& prior, const Pose& X_MR) {
+  normal.h += prior.information;
+  normal.g += prior.information * log_se3(prior.X_MR.inverse() * X_MR);
+  if (!prior.tilt) return;
+  constexpr double kernel = 3.0;  // standard deviations; a robot without an IMU calls every slope level
+  const TiltPrior& tilt = *prior.tilt;
+  const Eigen::Matrix3d R_MR = X_MR.rotation();
+  const Eigen::Vector3d e = (R_MR * tilt.up_R - tilt.up_M) / tilt.sigma_rad;
+  const Eigen::Matrix3d J = -R_MR * hat(tilt.up_R) / tilt.sigma_rad;
+  const double w = 1.0 / (1.0 + e.squaredNorm() / (kernel * kernel));
+  normal.h.bottomRightCorner<3, 3>() += w * J.transpose() * J;
+  normal.g.tail<3>() += w * J.transpose() * e;
+}
+
+std::optional<Vector6d> solve_step(const Normal6& normal) {
+  const Eigen::LDLT<Matrix6d> solver(normal.h);
+  if (solver.info() != Eigen::Success || !solver.isPositive() || normal.inliers == 0.0) return std::nullopt;
+  const Vector6d step = -solver.solve(normal.g);
+  if (!step.allFinite()) return std::nullopt;
+  return step;
+}
+
+Normal6 linearize(std::span<const Surfel> surfels, const SurfelMap& map, const Pose& X_MR,
+                  const RegistrationConfig& config) {
+  const Eigen::Matrix3d R_MR = X_MR.rotation();
+  const double slack = config.in_plane_m * config.in_plane_m;
+  const double stiff = slack - config.across_m * config.across_m;
+  const double kernel2 = config.kernel * config.kernel;
+  Normal6 sum;
+  for (const Surfel& surfel : surfels) {
+    const Eigen::Vector3d arm_M = R_MR * surfel.mean_R;  // from the robot to the surfel
+    const Eigen::Vector3d normal_M = R_MR * surfel.normal_R;
+    const SurfelMap::Voxel* voxel = map.find(arm_M + X_MR.t, normal_M, config.agreement);
+    if (voxel == nullptr) continue;
+    // Both covariances are slack I - stiff n n^T, the voxel's averaged over its surfels.
+    const Eigen::Matrix3d covariance = 2.0 * slack * Eigen::Matrix3d::Identity() -
+                                       stiff * (voxel->normals / voxel->n + normal_M * normal_M.transpose());
+    const Eigen::Matrix3d information = covariance.inverse();
+    const Eigen::Vector3d e = arm_M + X_MR.t - voxel->sum / voxel->n;
+    const Eigen::Vector3d weighted = information * e;
+    const double squared = e.dot(weighted);
+    const double w = 1.0 / (1.0 + squared / kernel2);
+    add_point(sum, arm_M, w * information, w * weighted);
+    sum.cost += 0.5 * kernel2 * std::log1p(squared / kernel2);
+    if (squared > 2.0 * kernel2) continue;
+    sum.inliers += 1.0;
+    sum.squared += squared;
+  }
+  to_right_increment(sum, R_MR);
+  return sum;
+}
+
+Registration align(std::span<const Surfel> surfels, const SurfelMap& map, const Pose& start,
+                   const std::optional<PosePrior>& prior, const RegistrationConfig& config, const MoreTerms& more) {
+  Registration result;
+  result.X_MR = start;
+  Normal6 normal;
+  while (result.iterations < config.max_iterations && !result.converged) {
+    ++result.iterations;
+    normal = linearize(surfels, map, result.X_MR, config);
+    if (more) {
+      const Normal6 terms = more(result.X_MR);
+      normal.h += terms.h;
+      normal.g += terms.g;
+    }
+    result.information = normal.h;
+    if (prior) add_prior(normal, *prior, result.X_MR);
+    const std::optional<Vector6d> step = solve_step(normal);
+    if (!step) break;
+    result.X_MR = result.X_MR * exp_se3(*step);
+    result.converged =
+        step->head<3>().norm() < config.translation_epsilon_m && step->tail<3>().norm() < config.rotation_epsilon_rad;
+  }
+  if (!surfels.empty()) result.matched = normal.inliers / static_cast<double>(surfels.size());
+  if (normal.inliers > 0.0) result.rms = std::sqrt(normal.squared / normal.inliers);
+  return result;
+}
+
+}  // namespace plumbline::slam

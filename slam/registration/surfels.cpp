@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/registration/surfels.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+
+namespace plumbline::slam {
+
+namespace {
+
+constexpr int reach_columns = 3;       // columns asked on each side of a return, spread over the radius
+constexpr int reach_rings = 1;         // rings asked above and below
+constexpr double scan_rad = 6.336576;  // a scan's columns: one turn, rounded up to whole packets [facts: lidar 2.4]
+
+/// Scatter of a return's neighbours in the ring image.
+class Neighbourhood {
+ public:
+  Neighbourhood(const DeskewedScan& scan, const SurfelConfig& config)
+      : scan_(scan), config_(config), azimuth_step_rad_(scan_rad / scan.columns) {}
+
+  [[nodiscard]] std::optional<Surfel> surfel(int column, int ring) const {
+    const std::size_t centre = index(column, ring);
+    const Eigen::Vector3d& p = scan_.point_R[centre];
+    const double range = scan_.range_m[centre];
+    const double gap = std::max(config_.radius_m, config_.ring_gap_per_m * range);
+    const double step_m = config_.radius_m / reach_columns;
+    const int step = std::max(1, static_cast<int>(step_m / (range * azimuth_step_rad_)));
+
+    int n = 0;
+    bool other_ring = false;
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    Eigen::Matrix3d outer = Eigen::Matrix3d::Zero();
+    for (int r = std::max(0, ring - reach_rings); r <= std::min(scan_.rings - 1, ring + reach_rings); ++r)
+      for (int k = -reach_columns; k <= reach_columns; ++k) {
+        const int c = column + k * step;
+        if (c < 0 || c >= scan_.columns) continue;
+        const std::size_t i = index(c, r);
+        const Eigen::Vector3d offset = scan_.point_R[i] - p;
+        if (scan_.range_m[i] <= 0.0 || offset.squaredNorm() > gap * gap) continue;
+        ++n;
+        other_ring |= r != ring;
+        sum += offset;
+        outer += offset * offset.transpose();
+      }
+    if (n < config_.min_neighbours || !other_ring) return std::nullopt;
+    const Eigen::Vector3d mean = sum / n;
+    return flat(p + mean, outer / n - mean * mean.transpose());
+  }
+
+ private:
+  [[nodiscard]] std::size_t index(int column, int ring) const {
+    return static_cast<std::size_t>(column * scan_.rings + ring);
+  }
+
+  [[nodiscard]] std::optional<Surfel> flat(const Eigen::Vector3d& mean, const Eigen::Matrix3d& scatter) const {
+    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
+    eigen.computeDirect(scatter);
+    const Eigen::Vector3d& l = eigen.eigenvalues();
+    const double thickest = config_.max_thickness_m * config_.max_thickness_m;
+    // A line of returns has no normal: the second direction must stand out of the first.
+    if (l(0) > thickest || l(1) < 2.0 * l(0)) return std::nullopt;
+    return Surfel{mean, eigen.eigenvectors().col(0)};
+  }
+
+  const DeskewedScan& scan_;
+  const SurfelConfig& config_;
+  const double azimuth_step_rad_;  ///< between columns
+};
+
+}  // namespace
+
+std::vector<Surfel> make_surfels(const DeskewedScan& scan, const SurfelConfig& config) {
+  const Neighbourhood neighbourhood(scan, config);
+  VoxelIndex seen;
+  std::vector<Surfel> surfels;
+  for (int column = 0; column < scan.columns; ++column)
+    for (int ring = 0; ring < scan.rings; ++ring) {
+      const auto i = static_cast<std::size_t>(column * scan.rings + ring);
+      if (scan.range_m[i] < config.min_range_m || scan.range_m[i] > config.max_range_m) continue;
+      const int before = seen.size();
+      if (seen.insert(VoxelKey::of(scan.point_R[i], config.voxel_m)) < before) continue;
+      if (const std::optional<Surfel> surfel = neighbourhood.surfel(column, ring)) surfels.push_back(*surfel);
+    }
+  return surfels;
+}
+
+const SurfelMap::Voxel* SurfelMap::at(const VoxelKey& key) const {
+  const int slot = index_.find(key);
+  if (slot < 0) return nullptr;
+  const Voxel& voxel = voxels_[static_cast<std::size_t>(slot)];
+  return voxel.n > 0.5 ? &voxel : nullptr;
+}
+
+const SurfelMap::Voxel* SurfelMap::find(const Eigen::Vector3d& p_M, const Eigen::Vector3d& normal_M,
+                                        double agreement) const {
+  const auto agrees = [&](const Voxel* voxel) {
+    return voxel != nullptr && normal_M.dot(voxel->normals * normal_M) >= agreement * voxel->n;
+  };
+  const VoxelKey key = VoxelKey::of(p_M, voxel_m_);
+  if (const Voxel* voxel = at(key); agrees(voxel)) return voxel;
+
+  struct Face {
+    double distance;
+    VoxelKey beyond;
+  };
+  const Eigen::Vector3d inside = p_M / voxel_m_ - Eigen::Vector3d(key.x, key.y, key.z);
+  const auto side = [](double s) { return s < 0.5 ? -1 : 1; };
+  const auto distance = [](double s) { return std::min(s, 1.0 - s); };
+  std::array<Face, 3> faces = {Face{distance(inside.x()), {key.x + side(inside.x()), key.y, key.z}},
+                               Face{distance(inside.y()), {key.x, key.y + side(inside.y()), key.z}},
+                               Face{distance(inside.z()), {key.x, key.y, key.z + side(inside.z())}}};
+  std::stable_sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) { return a.distance < b.distance; });
+  for (const Face& face : faces)
+    if (const Voxel* voxel = at(face.beyond); agrees(voxel)) return voxel;
+  return nullptr;
+}
+
+void SurfelMap::pool(std::span<const Surfel> surfels, const Pose& X_MR, double sign) {
+  const Eigen::Matrix3d R_MR = X_MR.rotation();
+  for (const Surfel& surfel : surfels) {
+    const Eigen::Vector3d mean_M = R_MR * surfel.mean_R + X_MR.t;
+    const Eigen::Vector3d normal_M = R_MR * surfel.normal_R;
+    const auto slot = static_cast<std::size_t>(index_.insert(VoxelKey::of(mean_M, voxel_m_)));
+    if (slot == voxels_.size()) voxels_.emplace_back();
+    Voxel& voxel = voxels_[slot];
+    voxel.n += sign;
+    voxel.sum += sign * mean_M;
+    voxel.normals += sign * normal_M * normal_M.transpose();
+    if (voxel.n < 0.5) voxel = {};
+  }
+}
+
+}  // namespace plumbline::slam

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "bim/config/visit.h"
+#include "bim/geometry/pose.h"
+#include "slam/scan/motion.h"
+#include "slam/scan/voxel.h"
+
+namespace plumbline::slam {
+
+struct SurfelConfig {
+  double min_range_m = 0.5;
+  double max_range_m = 30.0;
+  double voxel_m = 0.2;           ///< one surfel a voxel at most
+  double radius_m = 0.3;          ///< neighbours on the same ring are taken this near, ...
+  double ring_gap_per_m = 0.3;    ///< ... on the rings above and below this near times the range: on the floor they
+                                  ///< are 1.2 m apart at 4 m
+  double max_thickness_m = 0.05;  ///< standard deviation across beyond which a neighbourhood is no surface
+  int min_neighbours = 8;
+
+  template <class V>
+  void visit(V& v) {
+    v("min_range_m", min_range_m, Field{.min = 0.0});
+    v("max_range_m", max_range_m, Field{.min = 1.0});
+    v("voxel_m", voxel_m, Field{.min = 0.01});
+    v("radius_m", radius_m, Field{.min = 0.01});
+    v("ring_gap_per_m", ring_gap_per_m, Field{.min = 0.0});
+    v("max_thickness_m", max_thickness_m, Field{.min = 0.001});
+    v("min_neighbours", min_neighbours, Field{.min = 4});
+  }
+};
+
+/// A Gaussian of the scan's surface, regularised to a plane: its covariance is in_plane^2 (I - n n^T) + across^2 n n^T.
+struct Surfel {
+  Eigen::Vector3d mean_R;
+  Eigen::Vector3d normal_R;  ///< unit, sign free
+};
+
+/// Surfels of a scan: one raw return a voxel, its neighbours in the ring image, their scatter. In firing order.
+[[nodiscard]] std::vector<Surfel> make_surfels(const DeskewedScan& scan, const SurfelConfig& config);
+
+/// Gaussian voxel map in M: each voxel pools the surfels that fell into it.
+class SurfelMap {
+ public:
+  struct Voxel {
+    double n = 0.0;
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();      ///< of means, M
+    Eigen::Matrix3d normals = Eigen::Matrix3d::Zero();  ///< of n n^T
+  };
+
+  explicit SurfelMap(double voxel_m) : voxel_m_(voxel_m) {}
+
+  void add(std::span<const Surfel> surfels, const Pose& X_MR) { pool(surfels, X_MR, 1.0); }
+  /// Takes back what add() gave with the same arguments.
+  void remove(std::span<const Surfel> surfels, const Pose& X_MR) { pool(surfels, X_MR, -1.0); }
+  /// Voxel for a surfel at p_M: the one that holds it or else the neighbours behind the three nearer faces, nearest
+  /// face first (ties: x, y, z), the first whose surfels agree with the normal: mean of (n . n_i)^2 >= agreement.
+  /// nullptr when none does. Without the neighbours a floor that lies on a voxel face would come and go.
+  [[nodiscard]] const Voxel* find(const Eigen::Vector3d& p_M, const Eigen::Vector3d& normal_M, double agreement) const;
+  [[nodiscard]] double voxel_m() const { return voxel_m_; }
+
+ private:
+  [[nodiscard]] const Voxel* at(const VoxelKey& key) const;
+  void pool(std::span<const Surfel> surfels, const Pose& X_MR, double sign);
+
+  double voxel_m_;
+  VoxelIndex index_;
+  std::vector<Voxel> voxels_;
+};
+
+}  // namespace plumbline::slam

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "bim/config/visit.h"
+#include "bim/geometry/pose.h"
+#include "slam/registration/registration.h"
+#include "slam/registration/surfels.h"
+#include "slam/registration/upright_edges.h"
+
+namespace plumbline::slam {
+
+struct VgicpConfig {
+  SurfelConfig surfels;
+  /// The slack along a surface is what a voxel of the map spans. On stairs anything blunter takes soffit, treads and
+  /// landing for one surface: with voxels of 0.5 m and agreement 0.5 the attitude was lost there.
+  RegistrationConfig registration{.in_plane_m = 0.2, .agreement = 0.9, .kernel = 1.5};
+  EdgeConfig edges;
+  double map_voxel_m = 0.2;
+  double keyframe_distance_m = 0.5;  ///< a scan enters the local map after this way ...
+  double keyframe_angle_rad = 0.35;  ///< ... or this turn
+  int map_keyframes = 20;            ///< the local map holds the latest so many
+  bool odometry_prior = true;        ///< leg odometry's increments as a weak factor; it holds the way along bare
+                                     ///< corridors
+  double prior_m = 0.004;            ///< standard deviation of an increment ...
+  double prior_per_m = 0.05;         ///< ... plus this times its length
+  double prior_rad = 0.004;          ///< the same for rotation
+  double prior_per_rad = 0.05;
+  bool tilt_prior = true;  ///< the odometry's roll and pitch do not drift: an IMU feels gravity
+  double tilt_rad = 0.01;  ///< standard deviation of either
+
+  template <class V>
+  void visit(V& v) {
+    v("surfels", surfels);
+    v("registration", registration);
+    v("edges", edges);
+    v("map_voxel_m", map_voxel_m, Field{.min = 0.05});
+    v("keyframe_distance_m", keyframe_distance_m, Field{.min = 0.01});
+    v("keyframe_angle_rad", keyframe_angle_rad, Field{.min = 0.01});
+    v("map_keyframes", map_keyframes, Field{.min = 1});
+    v("odometry_prior", odometry_prior, Field{.doc = "hold the way to the odometry's increments"});
+    v("prior_m", prior_m, Field{.min = 1e-5});
+    v("prior_per_m", prior_per_m, Field{.min = 0.0});
+    v("prior_rad", prior_rad, Field{.min = 1e-6});
+    v("prior_per_rad", prior_per_rad, Field{.min = 0.0});
+    v("tilt_prior", tilt_prior, Field{.doc = "hold roll and pitch to the odometry's"});
+    v("tilt_rad", tilt_rad, Field{.doc = "standard deviation of the odometry's roll and pitch", .min = 1e-5});
+  }
+};
+
+/// As VGICP is usually set: voxels of half a metre, and a kernel that lets a little more in.
+struct CoarseVgicpConfig : VgicpConfig {
+  CoarseVgicpConfig() {
+    map_voxel_m = 0.5;
+    registration = {.in_plane_m = 0.5, .agreement = 0.8, .kernel = 2.0};
+    edges.enabled = false;
+  }
+};
+
+/// LiDAR odometry: each scan against a local map of the latest keyframes. M starts at the first pose: X_MR = identity.
+class VgicpOdometry {
+ public:
+  explicit VgicpOdometry(const VgicpConfig& config);
+
+  /// X_OR: leg odometry at scan.stamp, in a frame whose z is up: its increments are start and prior, its tilt a prior;
+  /// neither is one where odometry does not know it.
+  [[nodiscard]] Registration update(const DeskewedScan& scan, const Pose& X_OR);
+  /// The two halves of update(): where the scan fits, and taking it in there, into the map only if `mapped`.
+  [[nodiscard]] Registration match(const DeskewedScan& scan, const LegsAt& legs);
+  void commit(const Pose& X_MR, bool mapped);
+  /// Whether there is a map to match against.
+  [[nodiscard]] bool ready() const { return !keyframes_.empty(); }
+  /// Drops the map.
+  void forget();
+  /// True when the last scan entered the local map.
+  [[nodiscard]] bool is_keyframe() const { return is_keyframe_; }
+
+ private:
+  struct Keyframe {
+    std::vector<Surfel> surfels;
+    Pose X_MR;
+  };
+
+  [[nodiscard]] PosePrior predict(const DeskewedScan& scan, const LegsAt& legs) const;
+  void insert(const Pose& X_MR);
+
+  VgicpConfig config_;
+  SurfelMap map_;
+  EdgeMap edge_map_;
+  std::deque<Keyframe> keyframes_;
+  std::vector<Surfel> scan_;              ///< surfels of the scan last matched ...
+  std::vector<Eigen::Vector3d> edges_R_;  ///< ... and its edge points
+  Pose X_MR_;
+  Pose X_OR_;
+  std::optional<Eigen::Quaterniond> q_OM_;  ///< of the first scan, where M starts: says where up is in M
+  bool is_keyframe_ = false;
+};
+
+}  // namespace plumbline::slam

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <vector>
+
+#include "bim/digest/digest.h"
+#include "slam/scan/motion.h"
+
+namespace plumbline::slam {
+
+namespace {
+
+constexpr std::size_t digest_stride = 8;
+constexpr double max_range_m = 1e3;  ///< beyond what any of the LiDARs can measure
+
+/// Time of a column relative to the scan's stamp: that of its first return slot.
+Nanoseconds column_offset(const Scan& scan, std::size_t first) { return scan.offset_ns[first]; }
+
+/// A finite point no farther than its range says; NaN compares false.
+bool is_return(const Scan& scan, std::size_t i) {
+  const double range = scan.range_m[i];
+  const double farthest = 1.01 * range + 1.0;
+  return range > 0.0 && range < max_range_m && scan.point_L[i].squaredNorm() < farthest * farthest;
+}
+
+/// By how many columns each ring stands behind the lowest at the same azimuth. Rings of one firing less than two
+/// columns apart, as those of a VLP-16, count as in line.
+std::vector<int> column_shifts(const Scan& scan) {
+  constexpr int every = 16;  // columns: enough for a median
+  std::vector<int> shifts(static_cast<std::size_t>(scan.rings), 0);
+  std::vector<double> apart;
+  for (int ring = 1; ring < scan.rings; ++ring) {
+    apart.clear();
+    for (int column = 0; column < scan.columns; column += every) {
+      const auto i = static_cast<std::size_t>(column * scan.rings + ring);
+      if (!is_return(scan, i) || !is_return(scan, i - 1)) continue;
+      const Eigen::Vector3d &p = scan.point_L[i], &below = scan.point_L[i - 1];
+      apart.push_back(std::atan2(below.x() * p.y() - below.y() * p.x(), below.x() * p.x() + below.y() * p.y()));
+    }
+    int shift = 0;
+    if (!apart.empty()) {
+      const auto middle = apart.begin() + static_cast<std::ptrdiff_t>(apart.size() / 2);
+      std::nth_element(apart.begin(), middle, apart.end());
+      shift = static_cast<int>(std::lround(*middle * scan.columns / (2.0 * std::numbers::pi)));  // turns clockwise
+    }
+    const auto r = static_cast<std::size_t>(ring);
+    shifts[r] = shifts[r - 1] + (std::abs(shift) < 2 ? 0 : shift);
+  }
+  return shifts;
+}
+
+}  // namespace
+
+DeskewedScan deskew(const Scan& scan, const MotionBuffer& motion, const Calibration& calibration) {
+  DeskewedScan out;
+  out.stamp = scan.stamp;
+  out.rings = scan.rings;
+  out.columns = scan.columns;
+  out.range_m.assign(scan.size(), 0.0);
+  out.point_R.assign(scan.size(), Eigen::Vector3d::Zero());
+  out.X_RL = calibration.X_RL;
+  out.odometry_silent = motion.silent_at(scan.stamp);
+
+  const Pose X_RO = motion.at(scan.stamp).inverse();
+  const auto rings = static_cast<std::size_t>(scan.rings);
+  const std::vector<int> shifts = column_shifts(scan);
+  for (int column = 0; column < scan.columns; ++column) {
+    const auto first = static_cast<std::size_t>(column) * rings;
+    // X_RC: the robot at the column's time, seen from the robot at the stamp.
+    const Pose X_RC = X_RO * motion.at(scan.stamp + column_offset(scan, first));
+    const Pose X_RL = X_RC * calibration.X_RL;
+    const Eigen::Matrix3d R_RL = X_RL.rotation();
+    for (std::size_t ring = 0; ring < rings; ++ring) {
+      const int aligned = column - shifts[ring];
+      if (!is_return(scan, first + ring) || aligned < 0 || aligned >= scan.columns) continue;
+      const std::size_t i = static_cast<std::size_t>(aligned) * rings + ring;
+      out.range_m[i] = scan.range_m[first + ring];
+      out.point_R[i] = R_RL * scan.point_L[first + ring] + X_RL.t;
+    }
+  }
+  return out;
+}
+
+std::uint64_t digest(const DeskewedScan& scan) {
+  Digest sum;
+  sum.add(scan.stamp);
+  const auto rings = static_cast<std::size_t>(scan.rings);
+  for (std::size_t first = 0; first + rings <= scan.point_R.size(); first += digest_stride * rings)
+    for (std::size_t i = first; i < first + rings; ++i) sum.add(scan.point_R[i]);
+  return sum.value();
+}
+
+}  // namespace plumbline::slam

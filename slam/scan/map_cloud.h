@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "bim/config/visit.h"
+#include "bim/geometry/plane.h"
+#include "bim/geometry/pose.h"
+#include "slam/scan/motion.h"
+
+namespace plumbline::slam {
+
+struct MapCloudConfig {
+  double spacing_m = 0.75;  ///< way between scans that enter the map
+  double min_range_m = 0.5;
+  double max_range_m = 25.0;
+  double voxel_m = 0.05;   ///< [contracts: Estimate::map_F]
+  int min_neighbours = 0;  ///< occupied voxels among the 124 round a map point's, else it is a stray: light that an
+                           ///< edge shared, or a curved mirror scattered
+  double dense_m = 4.0;  ///< range up to which that many are asked; of what was seen from r alone, dense_m / r of them
+
+  template <class V>
+  void visit(V& v) {
+    v("spacing_m", spacing_m, Field{.min = 0.0});
+    v("min_range_m", min_range_m, Field{.min = 0.0});
+    v("max_range_m", max_range_m, Field{.min = 0.0});
+    v("voxel_m", voxel_m, Field{.min = 0.005});
+    v("min_neighbours", min_neighbours, Field{.doc = "occupied voxels within two of a map point's", .min = 0});
+    v("dense_m", dense_m, Field{.doc = "range from which fewer neighbours are asked", .min = 0});
+  }
+};
+
+/// One scan of a map: thinned points in R, so that the map can be drawn from corrected poses at the end.
+struct CloudKeyframe {
+  Pose X_FR;  ///< F is M or W
+  std::vector<Eigen::Vector3f> points_R;
+  std::vector<std::uint8_t> lasers;  ///< of each point; empty where they are not kept
+};
+
+/// Returns in the range gate, one mean point a voxel.
+[[nodiscard]] std::vector<Eigen::Vector3f> thin_scan(const DeskewedScan& scan, const MapCloudConfig& config);
+
+/// The same for each laser by itself, in the order of its returns: one mean point for those in a row within a voxel.
+[[nodiscard]] CloudKeyframe thin_rings(const DeskewedScan& scan, const Pose& X_FR, const MapCloudConfig& config);
+
+/// All keyframes in F, one mean point a voxel, ordered by voxel, without strays. What lies on a floor or ceiling is
+/// none: these are met at a slant, where rings lie far apart. levels: those planes in F.
+[[nodiscard]] std::vector<Eigen::Vector3f> map_cloud(std::span<const CloudKeyframe> keyframes,
+                                                     const MapCloudConfig& config, std::span<const Plane> levels = {});
+
+/// Keeps a scan each time the robot has gone spacing_m since the last one kept.
+class MapCloudRecorder {
+ public:
+  explicit MapCloudRecorder(const MapCloudConfig& config) : config_(config) {}
+
+  /// True when the scan was kept.
+  bool add(const DeskewedScan& scan, const Pose& X_FR);
+  [[nodiscard]] std::span<const CloudKeyframe> keyframes() const { return keyframes_; }
+  [[nodiscard]] std::vector<Eigen::Vector3f> cloud() const { return map_cloud(keyframes_, config_); }
+
+ private:
+  MapCloudConfig config_;
+  std::vector<CloudKeyframe> keyframes_;
+};
+
+}  // namespace plumbline::slam

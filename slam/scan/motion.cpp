@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/scan/motion.h"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "bim/errors.h"
+
+namespace plumbline::slam {
+
+namespace {
+
+double fraction(Nanoseconds from, Nanoseconds to, Nanoseconds t) {
+  return static_cast<double>(t - from) / static_cast<double>(to - from);
+}
+
+}  // namespace
+
+void MotionBuffer::add(const Odometry& odometry) {
+  if (!records_.empty() && odometry.stamp < records_.back().stamp)
+    throw InternalError("odometry records are not in time order");
+  if (!odometry.X_OR.t.allFinite() || !odometry.X_OR.q.coeffs().allFinite()) return;
+  Odometry record = odometry;
+  if (moved_) record.X_OR = *moved_ * record.X_OR;
+  if (!records_.empty() && jumps(records_.back(), record)) {
+    moved_ = join_frames(records_.back().X_OR, odometry.X_OR);
+    record.X_OR = *moved_ * odometry.X_OR;
+  }
+  if (!records_.empty() && record.stamp == records_.back().stamp) records_.pop_back();
+  records_.push_back(record);
+}
+
+bool MotionBuffer::jumps(const Odometry& from, const Odometry& to) const {
+  constexpr double shake_m = 0.05, shake_rad = 0.05;  // of an odometry's own noise
+  const double dt = seconds(to.stamp - from.stamp);
+  const Pose step = from.X_OR.inverse() * to.X_OR;
+  return step.t.norm() > max_speed_mps * dt + shake_m || log_so3(step.q).norm() > max_turn_radps * dt + shake_rad;
+}
+
+Pose MotionBuffer::at(Nanoseconds t) const {
+  if (records_.empty()) throw InternalError("motion asked before the first odometry record");
+  if (records_.size() == 1 || t <= records_.front().stamp) return records_.front().X_OR;
+  const auto after = std::lower_bound(records_.begin() + 1, records_.end() - 1, t,
+                                      [](const Odometry& record, Nanoseconds time) { return record.stamp < time; });
+  const Odometry& b = *after;
+  const Odometry& a = *(after - 1);
+  return interpolate(a.X_OR, b.X_OR, fraction(a.stamp, b.stamp, std::min(t, b.stamp + max_extrapolation)));
+}
+
+void MotionBuffer::forget_before(Nanoseconds t) {
+  while (records_.size() > 2 && records_[1].stamp <= t) records_.pop_front();
+}
+
+Pose join_frames(const Pose& X_OR, const Pose& X_BR) {
+  const auto level = [](const Pose& X) { return Pose::from_xyz_yaw(X.t, X.yaw()); };
+  return level(X_OR) * level(X_BR).inverse();
+}
+
+}  // namespace plumbline::slam

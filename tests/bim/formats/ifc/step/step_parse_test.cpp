@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bim/formats/ifc/step/step_parse.h"
+
+#include <gtest/gtest.h>
+
+#include "bim/formats/ifc/read/ifc.h"
+#include "tests/bim/formats/ifc/fixture.h"
+
+namespace plumbline::bim {
+namespace {
+
+TEST(SchemaForReader, IsTheNearestThatIsRead) {
+  for (const char* schema : {"IFC2X3", "IFC2X2_FINAL", "IFC2X"}) EXPECT_EQ(schema_for_reader(schema), "IFC2X3");
+  for (const char* schema : {"IFC4", "IFC4X1", "IFC4X3", "IFC4X3_ADD2"}) EXPECT_EQ(schema_for_reader(schema), "IFC4");
+}
+
+TEST(SchemaForReader, OtherSchemasAreReadWithAWarning) {
+  const std::string text = small_ifc({});
+  const Building plain = read_ifc_text(text, "small.ifc");
+  for (const char* schema : {"IFC4X1", "IFC4X3", "IFC4X3_ADD2"}) {
+    std::string other = text;
+    other.replace(other.find("'IFC4'"), 6, std::string("'") + schema + "'");
+    const Building building = read_ifc_text(other, "small.ifc");
+    EXPECT_EQ(building.hash(), plain.hash()) << schema;
+    EXPECT_EQ(building.schema, schema);
+    int said = 0;
+    for (const Warning& warning : building.warnings)
+      said += warning.kind == "other_schema" && warning.text == std::string(schema) + " read as IFC4" ? 1 : 0;
+    EXPECT_EQ(said, 1) << schema;
+  }
+  for (const Warning& warning : plain.warnings) EXPECT_NE(warning.kind, "other_schema");
+}
+
+TEST(Names, AreReadInEveryEncodingThatProgramsWrite) {
+  const auto storey_named = [](const std::string& written) {
+    std::string text = small_ifc({});
+    text.replace(text.find("'ground'"), 8, "'" + written + "'");
+    return read_ifc_text(text, "small.ifc").storeys.at(0).name;
+  };
+  EXPECT_EQ(storey_named("Erdgeschoß"), "Erdgeschoß");
+  EXPECT_EQ(storey_named("Erdgescho\xDF"), "Erdgeschoß");
+  EXPECT_EQ(storey_named("Erdgescho\\X2\\00DF\\X0\\"), "Erdgeschoß");
+  EXPECT_EQ(storey_named("\\X2\\D83CDFE0\\X0\\"), "🏠");
+}
+
+}  // namespace
+}  // namespace plumbline::bim

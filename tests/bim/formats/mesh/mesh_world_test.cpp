@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bim/formats/mesh/mesh_world.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "bim/errors.h"
+#include "bim/formats/plan_yaml/plan_yaml.h"
+#include "bim/mesh/export.h"
+#include "bim/mesh/mesh.h"
+
+namespace plumbline::bim {
+namespace {
+
+Building room() {
+  return read_plan_text(
+      "plan: 1\nstoreys: [{id: g, elevation_m: 1, height_m: 3}]\n"
+      "walls:\n"
+      "  - {id: south, storey: g, a: [0, 0], b: [6, 0], thickness_m: 0.2}\n"
+      "  - {id: east, storey: g, a: [6, 0], b: [6, 4], thickness_m: 0.2}\n"
+      "  - {id: north, storey: g, a: [6, 4], b: [0, 4], thickness_m: 0.2}\n"
+      "  - {id: west, storey: g, a: [0, 4], b: [0, 0], thickness_m: 0.2}\n"
+      "openings: [{id: d, wall: south, kind: door, s_m: 3, width_m: 1, height_m: 2}]\n",
+      "room.plan.yaml");
+}
+
+std::string written(const std::string& name) {
+  const Building building = room();
+  return write_mesh(building, build_mesh(building), mesh_format(name));
+}
+
+class MeshWorld : public testing::TestWithParam<const char*> {};
+
+/// What is written comes back: same solids, the floor where it was, a slab under it that a robot stands on.
+TEST_P(MeshWorld, ComesBackFromWhatWasWritten) {
+  const std::string name = std::string("room.") + GetParam();
+  const Building world = read_mesh_world(written(name), name);
+  const Building source = room();
+  EXPECT_EQ(world.schema, "mesh");
+  ASSERT_EQ(world.storeys.size(), 1u);
+  EXPECT_NEAR(world.storeys[0].elevation_m, 1.0, 1e-5);
+  EXPECT_TRUE(world.rooms.empty());
+  const auto volume = [](const BuildingMesh& mesh, ElementKind kind) {
+    double sum = 0.0;
+    for (const MeshElement& e : mesh.elements)
+      if (kind == ElementKind::obstacle ? e.kind == kind : e.kind != ElementKind::obstacle) sum += e.volume_m3;
+    return sum;
+  };
+  ASSERT_EQ(world.slabs.size(), 1u);
+  // 6.2 m x 4.2 m of floor, in cells of 0.1 m.
+  EXPECT_NEAR(signed_area(world.slabs[0].polygon.outer), 6.2 * 4.2, 0.1 * 2 * (6.2 + 4.2));
+  EXPECT_LT(world.slabs[0].z1_m, world.storeys[0].elevation_m);
+  if (name.ends_with("ply")) return;  // holds no nodes
+  const BuildingMesh mine = build_mesh(world), theirs = build_mesh(source);
+  EXPECT_EQ(world.obstacles.size(), theirs.elements.size());
+  EXPECT_EQ(world.obstacles[0].id, "south");
+  // Single precision in the file.
+  EXPECT_NEAR(volume(mine, ElementKind::obstacle), volume(theirs, ElementKind::wall), 1e-4);
+  for (const MeshElement& e : mine.elements) EXPECT_TRUE(e.closed) << e.id;
+}
+
+TEST_P(MeshWorld, CutAnywhereIsReadOrRefused) {
+  const std::string name = std::string("room.") + GetParam();
+  const std::string whole = written(name);
+  const std::size_t points = name.ends_with("glb") ? 200 : 20;  // a process each
+  for (std::size_t i = 0; i < points; ++i) {
+    try {
+      (void)build_mesh(read_mesh_world(whole.substr(0, i * whole.size() / points), name));
+    } catch (const InputError&) {
+    }
+  }
+}
+
+TEST_P(MeshWorld, FlippedBytesAreReadOrRefused) {
+  const std::string name = std::string("room.") + GetParam();
+  const std::string whole = written(name);
+  for (std::size_t i = 0; i < 40; ++i) {
+    std::string bytes = whole;
+    char& c = bytes[i * whole.size() / 40];
+    c = static_cast<char>(c ^ (1 << (i % 8)));
+    try {
+      (void)build_mesh(read_mesh_world(bytes, name));
+    } catch (const InputError&) {
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Formats, MeshWorld, testing::Values("glb", "obj", "ply"),
+                         [](const auto& test) { return std::string(test.param); });
+
+TEST(MeshFile, DeclaredCountsBeyondMemoryAreRefused) {
+  std::string stl(84, '\0');
+  for (std::size_t i = 80; i < 84; ++i) stl[i] = '\xff';
+  EXPECT_THROW((void)read_mesh_parts(stl, "huge.stl"), InputError);
+  const std::string ply =
+      "ply\nformat binary_little_endian 1.0\nelement vertex 4294967295\nproperty float x\nproperty float y\n"
+      "property float z\nelement face 4294967295\nproperty list uchar int vertex_indices\nend_header\n";
+  EXPECT_THROW((void)read_mesh_parts(ply + std::string(100, '\1'), "huge.ply"), InputError);
+  const std::string glb = std::string("glTF\x02\0\0\0\xff\xff\xff\xff\xff\xff\xff\xffJSON{}", 22);
+  EXPECT_THROW((void)read_mesh_parts(glb, "huge.glb"), InputError);
+}
+
+TEST(MeshFile, AbsurdCoordinatesAreRefused) {
+  for (const char* bad : {"1e30", "nan", "-inf", "1e7"})
+    EXPECT_THROW((void)read_mesh_world(std::string("v 0 0 0\nv 1 0 0\nv 1 1 ") + bad + "\nf 1 2 3\n", "a.obj"),
+                 InputError)
+        << bad;
+  EXPECT_THROW((void)read_mesh_world("v 0 0 0\nv 1000 0 0\nv 1000 1000 0\nf 1 2 3\n", "a.obj"), InputError);
+}
+
+TEST(MeshFile, NoTrianglesOrNoFloorIsSaid) {
+  EXPECT_THROW((void)read_mesh_world("", "a.obj"), InputError);
+  EXPECT_THROW((void)read_mesh_world("v 0 0 0\nv 1 0 0\nl 1 2\n", "a.obj"), InputError);
+  EXPECT_THROW((void)read_mesh_world("v 0 0 0\nv 1 0 0\nv 1 1 0\nf 3 2 1\n", "a.obj"), InputError);
+}
+
+TEST(MeshFile, EqualNamesAreToldApart) {
+  const std::string node =
+      R"(<node name="a"><matrix>1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1</matrix><instance_geometry url="#g"/></node>)";
+  const std::string two =
+      R"(<?xml version="1.0"?><COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1"><asset>)"
+      R"(<unit meter="1"/><up_axis>Z_UP</up_axis></asset><library_geometries><geometry id="g"><mesh><source id="p">)"
+      R"(<float_array id="f" count="9">0 0 0 4 0 0 4 4 0</float_array><technique_common>)"
+      R"(<accessor source="#f" count="3" stride="3"><param name="X" type="float"/><param name="Y" type="float"/>)"
+      R"(<param name="Z" type="float"/></accessor></technique_common></source><vertices id="v">)"
+      R"(<input semantic="POSITION" source="#p"/></vertices><triangles count="1">)"
+      R"(<input semantic="VERTEX" source="#v" offset="0"/><p>0 1 2</p></triangles></mesh></geometry>)"
+      R"(</library_geometries><library_visual_scenes><visual_scene id="s">)" +
+      node + node +
+      R"(</visual_scene></library_visual_scenes><scene><instance_visual_scene url="#s"/></scene></COLLADA>)";
+  const std::vector<MeshPart> parts = read_mesh_parts(two, "a.dae");
+  ASSERT_EQ(parts.size(), 2u);
+  EXPECT_NE(parts[0].name, parts[1].name);
+  // Z_UP in the file is up in W.
+  for (const Eigen::Vector3d& p : parts[0].solid.vertices) EXPECT_NEAR(p.z(), 0.0, 1e-9);
+}
+
+}  // namespace
+}  // namespace plumbline::bim

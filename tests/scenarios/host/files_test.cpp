@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenarios/host/files.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <limits>
+
+#include "bim/config/tree.h"
+#include "scenarios/run/cloud_file.h"
+#include "scenarios/run/digest_log.h"
+#include "scenarios/run/estimate_file.h"
+
+namespace plumbline::scenarios {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Files : public ::testing::Test {
+ protected:
+  Files() : dir_(fs::temp_directory_path() / ("plumbline_files_" + std::to_string(getpid()))) {
+    fs::remove_all(dir_);
+    fs::create_directories(dir_);
+  }
+  ~Files() override { fs::remove_all(dir_); }
+  [[nodiscard]] std::string path(const std::string& name) const { return (dir_ / name).string(); }
+
+  fs::path dir_;
+};
+
+TEST_F(Files, WholeOrNotAtAll) {
+  write_file(path("a"), "one");
+  write_file(path("a"), "two");
+  EXPECT_EQ(read_text_file(path("a")), "two");
+  EXPECT_FALSE(fs::exists(path("a.tmp")));
+  EXPECT_THROW(write_file(path("none/b"), "x"), EnvironmentError);
+  EXPECT_THROW(write_file("/proc/plumbline", "x"), EnvironmentError);  // not even root may write there
+}
+
+TEST_F(Files, ARunDirectoryAppearsAtTheEnd) {
+  {
+    RunDirectory run(path("runs/one"), DirectoryKind::run, false);
+    write_file(run.staging() + "/results.json", "{}");
+    write_file(run.staging() + "/truth.tum", "");
+    EXPECT_FALSE(fs::exists(path("runs/one/results.json")));
+    run.commit();
+  }
+  EXPECT_TRUE(fs::exists(path("runs/one/results.json")));
+  EXPECT_TRUE(fs::exists(path("runs/one/truth.tum")));
+  EXPECT_FALSE(fs::exists(path("runs/one/.partial")));
+}
+
+TEST_F(Files, AnAbandonedRunLeavesNothing) {
+  { const RunDirectory run(path("runs/one"), DirectoryKind::run, false); }
+  EXPECT_FALSE(fs::exists(path("runs")));
+}
+
+TEST_F(Files, OccupiedDirectoriesAreRefused) {
+  fs::create_directories(path("full"));
+  write_file(path("full/results.json"), "{}");
+  EXPECT_THROW(RunDirectory(path("full"), DirectoryKind::run, false), InputError);
+  EXPECT_EQ(read_text_file(path("full/results.json")), "{}");
+  {
+    RunDirectory run(path("full"), DirectoryKind::run, true);
+    EXPECT_THROW(RunDirectory(path("full"), DirectoryKind::run, true), InputError);  // another one is writing
+    write_file(run.staging() + "/truth.tum", "new");
+    run.commit();
+  }
+  EXPECT_FALSE(fs::exists(path("full/results.json")));
+  EXPECT_EQ(read_text_file(path("full/truth.tum")), "new");
+  write_file(path("full/thesis.tex"), "mine");
+  EXPECT_THROW(RunDirectory(path("full"), DirectoryKind::run, true), InputError);
+  EXPECT_THROW(RunDirectory(path("full/truth.tum"), DirectoryKind::run, false), InputError);
+}
+
+TEST_F(Files, OneKindOfDirectoryNeverReplacesAnother) {
+  const std::vector<std::pair<DirectoryKind, std::vector<std::string>>> kinds = {
+      {DirectoryKind::run, {"scenario.yaml", "results.json", "truth.tum", "vgicp.tum", "building.glb"}},
+      {DirectoryKind::recording, {"lidar.pcap", "odometry.tum", "imu.csv", "recording.yaml"}},
+      {DirectoryKind::estimate, {"vgicp.tum", "vgicp.estimate.json", "estimate.yaml", "digests.csv"}}};
+  for (const auto& [kind, names] : kinds) {
+    fs::remove_all(path("there"));
+    fs::create_directories(path("there"));
+    for (const std::string& name : names) write_file(path("there/" + name), "x");
+    for (const auto& [other, unused] : kinds) {
+      if (other == kind)
+        EXPECT_NO_THROW(RunDirectory(path("there"), other, true));
+      else
+        EXPECT_THROW(RunDirectory(path("there"), other, true), InputError);
+    }
+    for (const std::string& name : names) EXPECT_EQ(read_text_file(path("there/" + name)), "x");
+  }
+  fs::create_directories(path("mine"));
+  write_file(path("mine/walk.tum"), "x");
+  for (const auto& [kind, unused] : kinds) EXPECT_THROW(RunDirectory(path("mine"), kind, true), InputError);
+}
+
+TEST_F(Files, WhatAKilledRunLeftIsNoObstacle) {
+  fs::create_directories(path("killed/.partial"));
+  write_file(path("killed/.partial/results.json"), "half");
+  RunDirectory run(path("killed"), DirectoryKind::run, false);
+  write_file(run.staging() + "/truth.tum", "");
+  run.commit();
+  EXPECT_FALSE(fs::exists(path("killed/results.json")));
+}
+
+TEST(DigestLog, RoundTripAndFirstDifference) {
+  const DigestLog log =
+      merge_logs({{{10, "sim.lidar", 1}, {20, "sim.lidar", 2}}, {{10, "m/a", 3}, {20, "m/a", ~0ULL}}});
+  EXPECT_EQ(write_digests(log),
+            "tick_ns,stage,digest\n10,sim.lidar,0000000000000001\n10,m/a,0000000000000003\n"
+            "20,sim.lidar,0000000000000002\n20,m/a,ffffffffffffffff\n");
+  const DigestLog again = read_digests(write_digests(log), "d.csv");
+  EXPECT_FALSE(first_difference(log, again));
+  EXPECT_EQ(digest_of(log), digest_of(again));
+
+  DigestLog changed = log;
+  changed[3].digest = 7;
+  EXPECT_NE(digest_of(changed), digest_of(log));
+  EXPECT_EQ(first_difference(log, changed)->stage, "m/a");
+  EXPECT_EQ(first_difference(log, changed)->tick, 20);
+  changed.pop_back();
+  EXPECT_EQ(first_difference(log, changed)->what, "only in the first");
+  EXPECT_EQ(first_difference(changed, log)->what, "only in the second");
+  changed[2].tick = 15;
+  EXPECT_EQ(first_difference(log, changed)->tick, 15);
+  EXPECT_THROW(static_cast<void>(read_digests("tick_ns,stage,digest\n10,sim", "d.csv")), InputError);
+  EXPECT_THROW(static_cast<void>(read_digests("tick_ns,stage,digest\n10,sim,xyz\n", "d.csv")), InputError);
+  EXPECT_THROW(static_cast<void>(read_digests("stage\n", "d.csv")), InputError);
+}
+
+TEST(CloudFile, RoundTripAndDamage) {
+  const std::vector<Eigen::Vector3f> points = {{1.5F, -2.0F, 1e-9F}, {0.0F, 3.25F, 1e9F}};
+  const std::string bytes = write_ply(points);
+  EXPECT_EQ(read_ply(bytes, "p.ply"), points);
+  EXPECT_TRUE(read_ply(write_ply({}), "p.ply").empty());
+  for (std::size_t n = 0; n < bytes.size(); ++n)
+    EXPECT_THROW(static_cast<void>(read_ply(std::string_view(bytes).substr(0, n), "p.ply")), InputError) << n;
+  EXPECT_THROW(static_cast<void>(write_ply({{std::numeric_limits<float>::quiet_NaN(), 0, 0}})), InternalError);
+}
+
+TEST(CloudFile, APcdHoldsThePlysPoints) {
+  const std::vector<Eigen::Vector3f> points = {{1.5F, -2.0F, 1e-9F}, {0.0F, 3.25F, 1e9F}};
+  const std::string pcd = write_pcd(points), ply = write_ply(points);
+  EXPECT_EQ(pcd.rfind("# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS x y z\n", 0), 0U);
+  EXPECT_NE(pcd.find("\nWIDTH 2\nHEIGHT 1\n"), std::string::npos);
+  const std::string_view data = "\nDATA binary\n";
+  EXPECT_EQ(pcd.substr(pcd.find(data) + data.size()), ply.substr(ply.size() - 24));
+}
+
+TEST(EstimateFile, RoundTrip) {
+  MethodRecord method;
+  method.name = "s_graphs_plus";
+  method.estimate.frame = slam::Frame::world;
+  method.localization = true;
+  method.crashed = true;
+  method.error = "a \"quoted\" reason";
+  method.estimate.planes.push_back({7, {{0.6, 0.8, 0.0}, -1.25}, {1, 2}, {3, 4}, 0.1, 2.9, 12});
+  method.estimate.rooms.push_back({2, slam::RoomKind::two_wall, {1, 2}, {{0, 0}, {1, 0}, {1, 1}}, {7, 8}});
+  method.estimate.floors.push_back({1, {1, 2, 3}, {{0, 0, 1}, 0.0}});
+  MethodRecord again;
+  read_estimate(write_estimate(method), "e.json", again);
+  EXPECT_EQ(write_estimate(again), write_estimate(method));
+  EXPECT_EQ(again.estimate.rooms[0].kind, slam::RoomKind::two_wall);
+  EXPECT_EQ(again.error, method.error);
+  EXPECT_THROW(read_estimate("{}", "e.json", again), InputError);
+}
+
+TEST(EstimateFile, BeliefsRoundTrip) {
+  BeliefRecord belief;
+  belief.stamp = 100'859'000;
+  belief.state = slam::State::ambiguous;
+  belief.hypotheses = {{0.5, Pose::from_xyz_yaw({1, 2, 3}, 0.5), Eigen::Matrix3d::Identity() * 0.1, "office_a"}};
+  belief.hypotheses[0].walls = {{{3, 8}, {1.0004, -2.0, 0.25}, {1.0, 2.0, 0.25}}};
+  belief.particles = {{1.0004, 2.0, 0.1234, 0.002}};
+  const std::string text = write_beliefs({belief, belief});
+  const auto again = read_beliefs(text, "h.jsonl");
+  ASSERT_EQ(again.size(), 2U);
+  EXPECT_EQ(write_beliefs(again), text);
+  EXPECT_EQ(again[1].hypotheses[0].X_WR.q.coeffs(), belief.hypotheses[0].X_WR.q.coeffs());
+  EXPECT_EQ(again[0].particles[0].x, 1.0);  // to the millimetre
+  ASSERT_EQ(again[0].hypotheses[0].walls.size(), 1U);
+  EXPECT_EQ(again[0].hypotheses[0].walls[0].faces, (std::vector<int>{3, 8}));
+  EXPECT_EQ(again[0].hypotheses[0].walls[0].p0_R, Eigen::Vector3d(1.0, -2.0, 0.25));
+  EXPECT_THROW(static_cast<void>(read_beliefs(text + "{}\n", "h.jsonl")), InputError);
+}
+
+}  // namespace
+}  // namespace plumbline::scenarios

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenarios/localizability/planned_walk.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+namespace plumbline::scenarios {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A scenario file in the plan of the short run.
+class Written {
+ public:
+  Written(const std::string& name, const std::string& more)
+      : path_(fs::path(testing::TempDir()) / ("plumbline_" + name + std::to_string(::getpid()) + ".yaml")) {
+    const char* source = std::getenv("PLUMBLINE_SOURCE");
+    const fs::path plan = fs::path(source == nullptr ? "." : source) / "tests/system/short.plan.yaml";
+    std::ofstream(path_) << "scenario: 1\nbuilding: " << fs::absolute(plan).string()
+                         << "\nstart: {room: left}\nroute: {rooms: [hall]}\nspeed_mps: 0.5\nduration_s: 10\n"
+                         << more;
+  }
+  ~Written() { fs::remove(path_); }
+  Written(const Written&) = delete;
+  Written& operator=(const Written&) = delete;
+  [[nodiscard]] std::string path() const { return path_.string(); }
+
+ private:
+  fs::path path_;
+};
+
+TEST(PlannedWalk, EndsWhereTheRobotIsCarriedOffAndGoesOnElsewhere) {
+  const Written free("free", ""), taken("taken", "kidnap: {after_s: 2, away_s: 2, to: {room: right, yaw_deg: 90}}\n");
+  const ResolvedScenario alone = resolve(free.path(), {});
+  const std::vector<TruthSample> whole = planned_walk(alone);
+  EXPECT_TRUE(planned_walk_after(alone).empty());
+  const ResolvedScenario resolved = resolve(taken.path(), {});
+  const std::vector<TruthSample> before = planned_walk(resolved), after = planned_walk_after(resolved);
+  ASSERT_FALSE(before.empty());
+  ASSERT_FALSE(after.empty());
+  const double step_s = 0.1 / 0.5;  // samples stand 0.1 m apart
+  EXPECT_LE(before.back().t_s, 2.0 + step_s);
+  ASSERT_LT(before.size(), whole.size());
+  EXPECT_EQ(before.back().X_WR.t, whole[before.size() - 1].X_WR.t);
+  EXPECT_EQ(after.front().t_s, 0.0);
+  EXPECT_EQ(after.front().X_WR.t.head<2>(), resolved.world_after->start_W);
+  EXPECT_LE(after.back().t_s, 10.0 - before.back().t_s - 2.0 + step_s);
+}
+
+TEST(PlannedWalk, AnswersSayWhatIsKnownBeforeAndAfter) {
+  const Written free("free", ""), taken("taken", "kidnap: {after_s: 2, away_s: 2, to: {room: right, yaw_deg: 90}}\n");
+  const std::vector<WalkAnswers> alone = identify_walks(free.path(), 1, 1), both = identify_walks(taken.path(), 1, 1);
+  ASSERT_EQ(both.size(), 1U);
+  EXPECT_FALSE(alone.front().set_down);
+  ASSERT_TRUE(both.front().set_down);
+  EXPECT_EQ(walks_text(alone).find("set down"), std::string::npos);
+  EXPECT_NE(walks_text(both).find("set down"), std::string::npos);
+  EXPECT_NE(walks_json(both).find("walks")->as_list().front().find("set_down"), nullptr);
+  EXPECT_EQ(summary_of(both, WalkPart::set_down).walks, 1);
+  EXPECT_EQ(summary_of(alone, WalkPart::set_down).walks, 0);
+}
+
+}  // namespace
+}  // namespace plumbline::scenarios

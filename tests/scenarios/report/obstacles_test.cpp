@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenarios/report/obstacles.h"
+
+#include <gtest/gtest.h>
+
+#include "bim/formats/plan_yaml/plan_yaml.h"
+
+namespace plumbline::scenarios {
+namespace {
+
+TEST(ReportThings, AreWhatTheRobotWouldWalkInto) {
+  bim::Building building = bim::read_plan_text(
+      "plan: 1\n"
+      "storeys: [{id: g, height_m: 3}, {id: up, elevation_m: 3.2, height_m: 3}]\n"
+      "walls: [{id: s, storey: g, a: [0, 0], b: [8, 0]}]\n"
+      "columns: [{id: pillar, storey: g, at: [5, 3], size: [0.4, 0.4]}]\n"
+      "clutter:\n"
+      "  - {id: desk, storey: g, shape: box, at: [2, 2], size: [1, 2], height_m: 0.8}\n"
+      "  - {id: rug, storey: g, shape: box, at: [2, 5], size: [1, 2], height_m: 0.03}\n"
+      "  - {id: bed, storey: up, shape: box, at: [2, 2], size: [1, 2], height_m: 0.5}\n",
+      "p.yaml");
+  bim::Obstacle tent;
+  tent.id = "tent";
+  tent.kind = "furniture";
+  tent.storey = 0;
+  tent.body.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  tent.body.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+  building.obstacles.push_back(tent);
+  tent.id = "lamp";
+  for (Eigen::Vector3d& p : tent.body.vertices) p.z() += 1.5;
+  building.obstacles.push_back(tent);
+  tent.id = "leaf";
+  tent.kind = "door_leaf";
+  for (Eigen::Vector3d& p : tent.body.vertices) p.z() -= 1.5;
+  building.obstacles.push_back(tent);
+
+  const std::vector<ReportThing> things = things_of(building);
+  ASSERT_EQ(things.size(), 4U);
+  const auto expect = [&](std::size_t i, const std::string& id, int storey, bool filled, double area) {
+    EXPECT_EQ(things[i].id, id);
+    EXPECT_EQ(things[i].storey, storey) << id;
+    EXPECT_EQ(things[i].filled, filled) << id;
+    EXPECT_NEAR(signed_area(things[i].outline_W), area, 1e-12) << id;
+  };
+  expect(0, "pillar", 0, true, 0.16);
+  expect(1, "desk", 0, true, 2.0);
+  expect(2, "bed", 1, true, 2.0);
+  expect(3, "tent", 0, false, 0.5);
+}
+
+}  // namespace
+}  // namespace plumbline::scenarios

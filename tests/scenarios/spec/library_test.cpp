@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+// What ships with the program: every plan is sound and closed, every scenario resolves.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+
+#include "bim/formats/ifc/write/write_ifc.h"
+#include "bim/load/load.h"
+#include "bim/mesh/mesh.h"
+#include "scenarios/spec/resolve.h"
+
+namespace plumbline::scenarios {
+namespace {
+
+std::string library() {
+  const char* source = std::getenv("PLUMBLINE_SOURCE");
+  return (source == nullptr ? std::string(".") : std::string(source)) + "/scenarios/library";
+}
+
+std::vector<std::string> files_of_kind(const std::string& kind) {
+  std::vector<std::string> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(library())) {
+    const std::string path = entry.path().string();
+    if (entry.path().extension() == ".yaml" && read_yaml(read_text_file(path), path).find(kind) != nullptr)
+      files.push_back(path);
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+TEST(Library, PlansAreSoundAndTheirMeshesClosed) {
+  const std::vector<std::string> plans = files_of_kind("plan");
+  EXPECT_GE(plans.size(), 13U);
+  for (const std::string& path : plans) {
+    const bim::Site site = bim::load_site(path);
+    for (const bim::Building* building : {&site.as_planned, &site.as_built}) {
+      const bim::BuildingMesh mesh = bim::build_mesh(*building);
+      EXPECT_TRUE(mesh.warnings.empty()) << path;
+      for (const bim::MeshElement& element : mesh.elements) EXPECT_TRUE(element.closed) << path << " " << element.id;
+    }
+  }
+}
+
+TEST(Library, ScenariosResolve) {
+  const std::vector<std::string> scenarios = files_of_kind("scenario");
+  EXPECT_GE(scenarios.size(), 19U);
+  for (const std::string& path : scenarios) {
+    Overrides overrides;  // the seed says where some start
+    overrides.seed = 3;
+    const ResolvedScenario resolved = resolve(path, overrides);
+    EXPECT_GE(resolved.world.waypoints.size(), 2U) << path;
+  }
+}
+
+TEST(Library, TheHouseOfTheFirstSiteIsWhatOurWriterMakesOfItsPlan) {
+  const std::string house = library() + "/s_graphs/c1";
+  EXPECT_TRUE(read_text_file(house + ".ifc") == bim::write_ifc(bim::load_building(house + ".plan.yaml")))
+      << "write it again: plumbline inspect c1.plan.yaml --ifc c1.ifc";
+}
+
+TEST(Library, MethodsOfTheSiteAreGivenThePlanAndTheWorldWhatWasBuilt) {
+  const ResolvedScenario resolved = resolve(library() + "/construction_site.yaml", {});
+  const auto wall = [](const bim::Building& building, const std::string& id) {
+    return std::any_of(building.walls.begin(), building.walls.end(), [&](const bim::Wall& w) { return w.id == id; });
+  };
+  EXPECT_TRUE(wall(resolved.site.as_planned, "office_archive"));
+  EXPECT_FALSE(wall(resolved.site.as_built, "office_archive"));
+  EXPECT_FALSE(wall(resolved.site.as_planned, "site_office"));
+  EXPECT_TRUE(wall(resolved.site.as_built, "site_office"));
+}
+
+TEST(Library, AClosedDoorOnTheOnlyWayIsNamed) {
+  const std::string folder = testing::TempDir() + "plumbline_closed_doors";
+  std::filesystem::create_directories(folder);
+  std::filesystem::copy_file(library() + "/house.plan.yaml", folder + "/house.plan.yaml",
+                             std::filesystem::copy_options::overwrite_existing);
+  const auto complaint = [&](const std::string& route) {
+    const std::string path = folder + "/shut.yaml";
+    FILE* file = std::fopen(path.c_str(), "w");
+    std::fputs(("scenario: 1\nbuilding: house.plan.yaml\ndoors: closed\nstart: {room: living}\n" + route).c_str(),
+               file);
+    std::fclose(file);
+    try {
+      (void)resolve(path, {});
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("no error");
+  };
+  const std::string named = complaint("route: {rooms: [kitchen]}\n");
+  EXPECT_NE(named.find("shut.yaml:5:"), std::string::npos) << named;
+  EXPECT_NE(named.find("doors 'door_hall', 'door_kitchen' on the way are closed"), std::string::npos) << named;
+  const std::string all = complaint("route: {rooms: all}\n");
+  EXPECT_NE(all.find("'door_hall'"), std::string::npos) << all;
+  const std::string shuttle = complaint("route: {shuttle: bath}\n");
+  EXPECT_NE(shuttle.find("'door_bath'"), std::string::npos) << shuttle;
+  std::filesystem::remove_all(folder);
+}
+
+}  // namespace
+}  // namespace plumbline::scenarios

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenarios/spec/route_plan.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "bim/load/load.h"
+#include "scenarios/spec/named_places.h"
+
+namespace plumbline::scenarios {
+namespace {
+
+using Names = std::vector<std::string>;
+
+bim::Building house() {
+  const char* source = std::getenv("PLUMBLINE_SOURCE");
+  return bim::load_building((source == nullptr ? std::string(".") : source) + "/scenarios/library/house.plan.yaml");
+}
+
+Start in(const std::string& room) {
+  Start start;
+  start.room = room;
+  return start;
+}
+
+Start at(const std::string& storey, double x, double y) {
+  Start start;
+  start.storey = storey;
+  start.at = Eigen::Vector2d(x, y);
+  return start;
+}
+
+Route through(const Names& rooms, int loop = 1) {
+  Route route;
+  route.rooms = rooms;
+  route.loop = loop;
+  return route;
+}
+
+std::string complaint(const bim::Building& building, const Start& start, const Route& route) {
+  try {
+    (void)plan_route(building, start, route, {});
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+int climbs(const RoutePlan& plan, double sign) {
+  int count = 0;
+  for (std::size_t i = 1; i < plan.waypoints.size(); ++i) {
+    const bool begins = plan.waypoints[i].stairs && !plan.waypoints[i - 1].stairs;
+    if (begins && sign * (plan.waypoints[i].p_W.z() - plan.waypoints[i - 1].p_W.z()) > 0.0) ++count;
+  }
+  return count;
+}
+
+TEST(RoutePlan, NamedRoomsMayLieOnOtherStoreys) {
+  const RoutePlan plan = plan_route(house(), in("living"), through({"study", "kitchen"}), {});
+  EXPECT_EQ(plan.storey, 0);
+  EXPECT_EQ(climbs(plan, 1.0), 1);
+  EXPECT_EQ(climbs(plan, -1.0), 1);
+  EXPECT_EQ(plan.waypoints.back().p_W.z(), 0.0);
+  EXPECT_GT(plan.stairs_m, 10.0);
+  EXPECT_LT(plan.stairs_m, plan.length_m);
+}
+
+TEST(RoutePlan, StartsOnAnyStorey) {
+  const RoutePlan plan = plan_route(house(), in("study"), through({"gallery", "hall"}), {});
+  EXPECT_EQ(plan.storey, 1);
+  EXPECT_EQ(plan.waypoints.front().p_W.z(), 2.9);
+  EXPECT_EQ(plan.waypoints.back().p_W.z(), 0.0);
+  EXPECT_EQ(climbs(plan, -1.0), 1);
+}
+
+TEST(RoutePlan, AllRoomsAreThoseOfTheStoreyUnlessAsked) {
+  Route route;
+  EXPECT_EQ(climbs(plan_route(house(), in("living"), route, {}), 1.0), 0);
+  route.storeys = RouteStoreys::all;
+  const RoutePlan plan = plan_route(house(), in("living"), route, {});
+  Names rooms = plan.rooms;
+  EXPECT_EQ(rooms.back(), "living");
+  std::sort(rooms.begin(), rooms.end());
+  EXPECT_EQ(rooms, (Names{"bath", "gallery", "hall", "kitchen", "living", "north_bedroom", "south_bedroom", "study",
+                          "upper_bath"}));
+  EXPECT_EQ(climbs(plan, 1.0), 1);
+  EXPECT_EQ(climbs(plan, -1.0), 1);
+}
+
+TEST(RoutePlan, ARouteOfAllIsTheRouteOfItsNames) {
+  Route route;
+  route.storeys = RouteStoreys::all;
+  route.loop = 2;
+  const RoutePlan plan = plan_route(house(), in("living"), route, {});
+  const RoutePlan again = plan_route(house(), in("living"), through(plan.rooms, 2), {});
+  ASSERT_EQ(plan.waypoints.size(), again.waypoints.size());
+  for (std::size_t i = 0; i < plan.waypoints.size(); ++i) EXPECT_EQ(plan.waypoints[i].p_W, again.waypoints[i].p_W);
+}
+
+TEST(RoutePlan, TheOnlyRoomInReachIsWalkedRound) {
+  bim::Building alone = house();
+  alone.rooms = {alone.rooms[static_cast<std::size_t>(find_room(alone, "living", {}))]};
+  const RoutePlan plan = plan_route(alone, in("living"), Route{}, {});
+  EXPECT_EQ(plan.rooms, Names{"all"});
+  EXPECT_GT(plan.length_m, 10.0);
+  EXPECT_EQ(plan.waypoints.back().p_W, plan.waypoints.front().p_W);
+  const RoutePlan again = plan_route(alone, at("ground", plan.start_W.x(), plan.start_W.y()), through(plan.rooms), {});
+  ASSERT_EQ(plan.waypoints.size(), again.waypoints.size());
+  for (std::size_t i = 0; i < plan.waypoints.size(); ++i) EXPECT_EQ(plan.waypoints[i].p_W, again.waypoints[i].p_W);
+}
+
+TEST(RoutePlan, LoopsGoOverStairsAgain) {
+  const RoutePlan plan = plan_route(house(), in("hall"), through({"gallery", "hall"}, 3), {});
+  EXPECT_EQ(climbs(plan, 1.0), 3);
+  EXPECT_EQ(climbs(plan, -1.0), 3);
+}
+
+TEST(RoutePlan, AShuttleMayLieOnAnotherStorey) {
+  Route route;
+  route.shuttle = "north_bedroom";
+  route.times = 3;
+  const RoutePlan plan = plan_route(house(), in("living"), route, {});
+  EXPECT_EQ(climbs(plan, 1.0), 1);
+  EXPECT_EQ(climbs(plan, -1.0), 0);
+  EXPECT_EQ(plan.waypoints.back().p_W.z(), 2.9);
+}
+
+TEST(RoutePlan, AShuttleNeedsRoom) {
+  bim::Building cell;
+  cell.storeys.push_back({"ground", "ground", 0.0, 3.0, 0});
+  bim::Room room;
+  room.id = room.name = "cell";
+  room.storey = 0;
+  room.polygon = {{0.0, 0.0}, {1.1, 0.0}, {1.1, 1.1}, {0.0, 1.1}};
+  cell.rooms.push_back(room);
+  const Polygon2& outline = cell.rooms.front().polygon;
+  for (std::size_t i = 0; i < 4; ++i) {
+    bim::Wall wall;
+    wall.id = std::to_string(i);
+    wall.storey = 0;
+    wall.a = outline[i];
+    wall.b = outline[(i + 1) % 4];
+    wall.offset_m = -0.2;
+    cell.walls.push_back(wall);
+  }
+  Route route;
+  route.shuttle = "cell";
+  EXPECT_NE(complaint(cell, in("cell"), route).find("room 'cell' is too small to walk to and fro in"),
+            std::string::npos)
+      << complaint(cell, in("cell"), route);
+}
+
+TEST(RoutePlan, WithoutRoomsItWalksTheLargestPieceOfFloorOrWhereItIsTold) {
+  bim::Building decks;
+  decks.storeys.push_back({"ground", "ground", 0.0, 3.0, 0});
+  const auto deck = [&](double x0, double x1, double y1) {
+    bim::Slab slab;
+    slab.id = "deck" + std::to_string(decks.slabs.size());
+    slab.storey = 0;
+    slab.polygon.outer = {{x0, 0.0}, {x1, 0.0}, {x1, y1}, {x0, y1}};
+    decks.slabs.push_back(slab);
+  };
+  deck(0.0, 4.0, 4.0);    // has the place furthest from any edge
+  deck(10.0, 30.0, 2.4);  // has more floor
+  const Route all = through({"all"});
+  const RoutePlan free = plan_route(decks, {}, all, {});
+  EXPECT_GT(free.start_W.x(), 10.0);
+  EXPECT_GT(free.length_m, 20.0);
+  // From the small one every further place of the large one is out of reach.
+  const RoutePlan told = plan_route(decks, at("ground", 2.0, 2.0), all, {});
+  EXPECT_GT(told.length_m, 2.0);
+  for (const sim::Waypoint& waypoint : told.waypoints) EXPECT_LT(waypoint.p_W.x(), 4.0);
+}
+
+TEST(RoutePlan, ARoomWithoutAWayUpIsRefused) {
+  bim::Building flat = house();
+  flat.stairs.clear();
+  EXPECT_EQ(complaint(flat, in("living"), through({"study"})).rfind("room 'study' cannot be reached from [", 0), 0U);
+  EXPECT_NE(complaint(flat, in("living"), through({"study"})).find("storey 'upper': the building has no stairs"),
+            std::string::npos);
+  bim::Building mesh = house();
+  mesh.stairs.front().flights.clear();
+  const std::string text = complaint(mesh, in("living"), through({"study"}));
+  EXPECT_NE(text.find("storey 'upper': stair 'stair' is a body without steps"), std::string::npos) << text;
+  Route all;
+  all.storeys = RouteStoreys::all;
+  EXPECT_EQ(climbs(plan_route(mesh, in("living"), all, {}), 1.0), 0);
+}
+
+TEST(RoutePlan, AClosedDoorBeyondTheStairIsNamed) {
+  bim::Building shut = house();
+  for (bim::Opening& opening : shut.openings)
+    if (opening.id == "door_study") opening.leaf = bim::Leaf::closed;
+  const std::string text = complaint(shut, in("living"), through({"study"}));
+  EXPECT_NE(text.find("door 'door_study' on the way is closed"), std::string::npos) << text;
+}
+
+TEST(RoutePlan, StartsThatCannotBeAreRefused) {
+  const auto refused = [&](const Start& start) { return complaint(house(), start, through({"hall"})); };
+  EXPECT_NE(refused(at("ground", 5.2, 1.0)).find("is inside a wall ('spine')"), std::string::npos);
+  EXPECT_NE(refused(at("ground", 7.5, 4.4)).find("is on stair 'stair'; it must be on the floor"), std::string::npos);
+  EXPECT_NE(refused(at("upper", 9.2, 5.0)).find("is on stair 'stair'"), std::string::npos);
+  EXPECT_NE(refused(at("ground", 2.4, 2.4)).find("too near to a wall or another thing"), std::string::npos);
+  EXPECT_NE(refused(at("attic", 2.0, 2.0)).find("unknown storey 'attic'"), std::string::npos);
+  EXPECT_NE(complaint(house(), in("living"), through({"studdy"})).find("did you mean 'study'"), std::string::npos);
+  EXPECT_NE(complaint(house(), in("cellar"), through({"study"})).find("unknown room 'cellar'"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace plumbline::scenarios

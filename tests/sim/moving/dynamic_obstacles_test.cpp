@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/moving/dynamic_obstacles.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "bim/errors.h"
+
+namespace plumbline::sim {
+namespace {
+
+constexpr slam::Nanoseconds tick_ns = 2'000'000;
+const Eigen::Vector3d far_away(100.0, 0.0, 0.0);
+
+PersonConfig person(std::vector<Eigen::Vector3d> points) {
+  PersonConfig config;
+  config.points_W = std::move(points);
+  config.speed_mps = 1.0;
+  return config;
+}
+
+SwingDoorConfig door(std::vector<double> times) {
+  SwingDoorConfig config;
+  config.hinge_W = {1.0, 0.0, 0.0};
+  config.swing = -1.5;
+  config.times_s = std::move(times);
+  return config;
+}
+
+/// Steps to a time with the robot at one place.
+void step_to(MovingThings& things, slam::Nanoseconds& t, double time_s, const Eigen::Vector3d& robot_W) {
+  for (; 1e-9 * static_cast<double>(t) <= time_s + 1e-9; t += tick_ns) things.step(t, robot_W);
+}
+
+Eigen::Vector3d place(const MovingThings& things) { return things.bodies()[0].stations.back().position_W; }
+
+TEST(MovingThings, PeopleWalkToTheEndAndBackAtTheirSpeed) {
+  MovingThings things({person({{0, 0, 0}, {2, 0, 0}, {2, 1, 0}})}, {}, 50);
+  slam::Nanoseconds t = 0;
+  const std::vector<std::pair<double, Eigen::Vector3d>> expected = {
+      {0.0, {0, 0, 0}}, {1.0, {1, 0, 0}}, {2.5, {2, 0.5, 0}}, {3.5, {2, 0.5, 0}},
+      {5.0, {1, 0, 0}}, {7.0, {1, 0, 0}}, {12.0, {0, 0, 0}}};
+  for (const auto& [time_s, p] : expected) {
+    step_to(things, t, time_s, far_away);
+    EXPECT_NEAR((place(things) - p).norm(), 0.0, 1e-6) << time_s;
+  }
+  EXPECT_EQ(things.bodies()[0].element, 50);
+}
+
+TEST(MovingThings, PeopleStandStillWhileTheRobotIsNear) {
+  MovingThings things({person({{0, 0, 0}, {10, 0, 0}})}, {}, 0);
+  slam::Nanoseconds t = 0;
+  step_to(things, t, 5.0, {3.0, 0.5, 0.4});
+  EXPECT_NEAR((place(things).head<2>() - Eigen::Vector2d(3.0, 0.5)).norm(), MovingThings::keep_away_m, 0.01);
+  step_to(things, t, 6.0, far_away);
+  EXPECT_NEAR(place(things).x(), 3.0 - std::sqrt(0.75) + 1.0, 0.01);
+}
+
+TEST(MovingThings, PeopleOfOnePlaceOrOfNoWayStand) {
+  MovingThings things({person({{1, 2, 0}}), person({{1, 2, 0}, {1, 2, 0}})}, {}, 0);
+  slam::Nanoseconds t = 0;
+  step_to(things, t, 1.0, far_away);
+  for (const bim::MovingBody& body : things.bodies())
+    EXPECT_EQ(body.stations.back().position_W, Eigen::Vector3d(1, 2, 0));
+  EXPECT_THROW(MovingThings({person({})}, {}, 0), InternalError);
+}
+
+TEST(MovingThings, DoorsKeepTheirTimesAndOpenForTheRobot) {
+  MovingThings things({}, {door({2.0, 5.0})}, 7);
+  slam::Nanoseconds t = 0;
+  const auto yaw = [&] { return things.bodies()[0].stations.back().yaw; };
+  step_to(things, t, 2.0, far_away);
+  EXPECT_NEAR(yaw(), 0.0, 0.01);
+  step_to(things, t, 2.5, far_away);
+  EXPECT_NEAR(yaw(), -0.75, 0.01);
+  step_to(things, t, 4.0, far_away);
+  EXPECT_NEAR(yaw(), -1.5, 1e-9);
+  step_to(things, t, 6.5, far_away);
+  EXPECT_NEAR(yaw(), 0.0, 1e-9);
+  step_to(things, t, 7.2, {1.5, 1.0, 0.4});
+  EXPECT_LT(yaw(), -0.9);
+  step_to(things, t, 9.0, {1.5, 1.0, 3.4});  // on the storey above
+  EXPECT_NEAR(yaw(), 0.0, 1e-9);
+}
+
+TEST(MovingThings, ForgetsWhatIsPast) {
+  MovingThings things({person({{0, 0, 0}, {10, 0, 0}})}, {door({})}, 0);
+  slam::Nanoseconds t = 0;
+  step_to(things, t, 1.0, far_away);
+  things.forget_before(901'000'000);
+  for (const bim::MovingBody& body : things.bodies()) {
+    EXPECT_LE(body.stations.size(), 52U);
+    EXPECT_LE(body.stations.front().time_s, 0.901);
+    EXPECT_GT(body.stations[1].time_s, 0.901);
+  }
+}
+
+}  // namespace
+}  // namespace plumbline::sim

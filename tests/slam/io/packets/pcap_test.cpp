@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/io/packets/pcap.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "bim/errors.h"
+
+namespace plumbline::slam {
+namespace {
+
+namespace fs = std::filesystem;
+
+class PcapTest : public ::testing::Test {
+ protected:
+  void SetUp() override { fs::create_directories(folder_); }
+  void TearDown() override { fs::remove_all(folder_); }
+  [[nodiscard]] std::string file(const std::string& name) const { return (folder_ / name).string(); }
+
+  [[nodiscard]] static std::string sample() {
+    const char* data = std::getenv("PLUMBLINE_DATA");
+    const char* source = std::getenv("PLUMBLINE_SOURCE");
+    const fs::path folder = data != nullptr ? data : fs::path(source != nullptr ? source : ".") / "../shared/data";
+    return (folder / "vlp16/sample_velodyne_vlp16_gps.pcap").string();
+  }
+
+ private:
+  fs::path folder_ = fs::temp_directory_path() / ("plumbline_pcap_test_" + std::to_string(::getpid()));
+};
+
+std::vector<Vlp16Packet> some_packets() {
+  std::vector<Vlp16Packet> packets;
+  for (int p = 0; p < 10; ++p) {
+    std::array<Vlp16Firing, 24> firings;
+    for (std::size_t f = 0; f < 24; ++f) {
+      firings[f].azimuth_cdeg = static_cast<std::uint16_t>(40 * (12 * static_cast<std::size_t>(p) + f / 2));
+      firings[f].distance.fill(static_cast<std::uint16_t>(100 + p));
+    }
+    // Across a full hour, with nanoseconds that a capture in microseconds would lose.
+    packets.push_back(encode_packet(3'599'999'000'123 + p * 24 * vlp16::firing_period_ns, firings));
+  }
+  return packets;
+}
+
+TEST_F(PcapTest, GivesBackWhatWasWritten) {
+  const std::vector<Vlp16Packet> packets = some_packets();
+  write_pcap(file("a.pcap"), packets);
+  const std::vector<Vlp16Packet> again = read_pcap(file("a.pcap"));
+  ASSERT_EQ(again.size(), packets.size());
+  for (std::size_t i = 0; i < packets.size(); ++i) {
+    EXPECT_EQ(again[i].stamp, packets[i].stamp);
+    EXPECT_EQ(again[i].payload, packets[i].payload);
+  }
+  EXPECT_EQ(fs::file_size(file("a.pcap")), 24 + 10 * (16 + 1248) + 2 * (16 + 554));  // two position packets
+  EXPECT_FALSE(fs::exists(file("a.pcap.part")));
+}
+
+TEST_F(PcapTest, ForeignStampsComeFromThePacketsOwnClockAcrossTheHour) {
+  std::vector<Vlp16Packet> packets = some_packets();
+  for (Vlp16Packet& packet : packets) packet.stamp += 77'123'456'789;  // arrival times of another clock
+  write_pcap(file("foreign.pcap"), packets);
+  const std::vector<Vlp16Packet> again = read_pcap(file("foreign.pcap"));
+  ASSERT_EQ(again.size(), packets.size());
+  for (std::size_t i = 0; i < again.size(); ++i)
+    EXPECT_NEAR(static_cast<double>(again[i].stamp), static_cast<double>(i) * 24 * 55296, 1'000.0);
+}
+
+TEST_F(PcapTest, ReadsTheCaptureOfARealSensor) {
+  if (!fs::exists(sample())) GTEST_SKIP() << "no capture at " << sample();
+  const std::vector<Vlp16Packet> packets = read_pcap(sample());
+  ASSERT_EQ(packets.size(), 293U);
+  EXPECT_EQ(packets.front().stamp, 0);
+  for (std::size_t i = 1; i < packets.size(); ++i)
+    EXPECT_NEAR(static_cast<double>(packets[i].stamp - packets[i - 1].stamp), 1'327'500.0, 1'000.0);
+  const Scan scan = decode_message(packets);
+  std::size_t returns = 0;
+  std::size_t odd = 0;
+  for (std::size_t slot = 0; slot < scan.size(); ++slot) {
+    if (scan.range_m[slot] == 0.0) continue;
+    ++returns;
+    odd += static_cast<std::size_t>(std::lround(scan.range_m[slot] / 0.002)) % 2;
+    EXPECT_GE(scan.range_m[slot], 0.49);
+    EXPECT_LE(scan.range_m[slot], 2.85);
+  }
+  // Measured once on this capture: 34.7 % zero ranges, half of the others odd multiples of 2 mm.
+  EXPECT_NEAR(static_cast<double>(returns) / static_cast<double>(scan.size()), 0.653, 0.001);
+  EXPECT_NEAR(static_cast<double>(odd) / static_cast<double>(returns), 0.5, 0.05);
+}
+
+TEST_F(PcapTest, RefusesWhatIsNoCapture) {
+  EXPECT_THROW((void)read_pcap(file("missing.pcap")), InputError);
+  EXPECT_THROW((void)read_pcap(fs::temp_directory_path().string()), InputError);
+  std::ofstream(file("empty.pcap")).close();
+  EXPECT_THROW((void)read_pcap(file("empty.pcap")), InputError);
+  std::ofstream(file("text.pcap")) << "this is a text, not a capture of packets";
+  EXPECT_THROW((void)read_pcap(file("text.pcap")), InputError);
+  write_pcap(file("none.pcap"), {});
+  EXPECT_THROW((void)read_pcap(file("none.pcap")), InputError);
+}
+
+TEST_F(PcapTest, RefusesACaptureCutOffAnywhere) {
+  write_pcap(file("whole.pcap"), some_packets());
+  for (const std::uintmax_t size :
+       {std::uintmax_t{10}, std::uintmax_t{30}, std::uintmax_t{700}, std::uintmax_t{5000}}) {
+    fs::copy_file(file("whole.pcap"), file("cut.pcap"), fs::copy_options::overwrite_existing);
+    fs::resize_file(file("cut.pcap"), size);
+    EXPECT_THROW((void)read_pcap(file("cut.pcap")), InputError) << size;
+  }
+}
+
+TEST_F(PcapTest, UnwritablePlaceIsAnEnvironmentError) {
+  EXPECT_THROW(write_pcap(file("no/such/folder.pcap"), some_packets()), EnvironmentError);
+}
+
+}  // namespace
+}  // namespace plumbline::slam

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/io/packets/point_cloud.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "bim/errors.h"
+#include "tests/slam/io/packets/packets.h"
+
+namespace plumbline::slam {
+namespace {
+
+Scan some_scan() { return decode_message(turning_packets(76)); }
+
+/// A cloud of f32 fields with these names, one value a field and point.
+PointCloud cloud_with(const std::vector<std::string>& names, const std::vector<std::vector<float>>& points) {
+  PointCloud cloud;
+  for (const std::string& name : names)
+    cloud.fields.push_back({name, static_cast<std::uint32_t>(4 * cloud.fields.size()), PointType::f32});
+  cloud.point_step = static_cast<std::uint32_t>(4 * names.size());
+  cloud.width = static_cast<std::uint32_t>(points.size());
+  cloud.height = 1;
+  cloud.row_step = cloud.width * cloud.point_step;
+  for (const std::vector<float>& point : points)
+    for (const float value : point) {
+      cloud.data.resize(cloud.data.size() + 4);
+      std::memcpy(&cloud.data[cloud.data.size() - 4], &value, 4);
+    }
+  return cloud;
+}
+
+void expect_near(const Scan& a, const Scan& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    ASSERT_EQ(a.range_m[i] > 0.0, b.range_m[i] > 0.0) << i;
+    // A float keeps 24 bits of up to 20 m: 1 um.
+    ASSERT_LT((a.point_L[i] - b.point_L[i]).norm(), 3e-6) << i;
+    ASSERT_EQ(a.reflectivity[i], b.reflectivity[i]) << i;
+  }
+}
+
+TEST(PointCloud, AnOrganisedCloudGivesBackTheScan) {
+  const Scan scan = some_scan();
+  const PointCloud cloud = cloud_of(scan, CloudLayout::organised);
+  EXPECT_EQ(cloud.height, 1824U);
+  EXPECT_EQ(cloud.width, 16U);
+  EXPECT_FALSE(cloud.dense);
+  const Scan again = scan_of(cloud);
+  expect_near(again, scan);
+  // A float keeps 24 bits of 0.1 s: 7.5 ns.
+  EXPECT_NEAR(static_cast<double>(again.stamp), static_cast<double>(scan.stamp), 8.0);
+  for (std::size_t i = 0; i < scan.size(); ++i) EXPECT_NEAR(again.offset_ns[i], scan.offset_ns[i], 16);
+}
+
+TEST(PointCloud, ADenseCloudGivesBackTheScanWhereThereAreReturns) {
+  const Scan scan = some_scan();
+  const PointCloud cloud = cloud_of(scan, CloudLayout::dense);
+  EXPECT_EQ(cloud.height, 1U);
+  EXPECT_TRUE(cloud.dense);
+  const Scan again = scan_of(cloud);
+  expect_near(again, scan);
+  for (std::size_t i = 0; i < scan.size(); ++i)
+    if (scan.range_m[i] > 0.0) {
+      EXPECT_EQ(again.stamp + again.offset_ns[i], scan.stamp + scan.offset_ns[i]);
+    }
+}
+
+TEST(PointCloud, WithoutTimesColumnsAreFoundByRingAndAzimuth) {
+  const Scan scan = some_scan();
+  PointCloud cloud = cloud_of(scan, CloudLayout::dense);
+  cloud.fields.pop_back();
+  const Scan again = scan_of(cloud);
+  ASSERT_EQ(again.columns, scan.columns);  // 85 % of 16 lasers: no firing is without a return
+  expect_near(again, scan);
+  EXPECT_LE(again.stamp - cloud.stamp, 100'000'000);
+  for (std::size_t i = 16; i < again.size(); ++i) ASSERT_LE(again.offset_ns[i - 16], again.offset_ns[i]);
+}
+
+TEST(PointCloud, PointsMayComeAsTheLasersFire) {
+  std::vector<std::vector<float>> points;
+  for (int column = 0; column < 5; ++column)
+    for (int k = 1; k < 15; ++k)  // never the first and the last laser
+      points.push_back({5, -0.02F * static_cast<float>(column), static_cast<float>(vlp16::sin_elevation(k)),
+                        static_cast<float>(vlp16::ring_of_laser(k))});
+  const Scan scan = scan_of(cloud_with({"x", "y", "z", "ring"}, points));
+  EXPECT_EQ(scan.columns, 5);
+  EXPECT_EQ(std::count(scan.range_m.begin(), scan.range_m.end(), 0.0), 5 * 2);
+}
+
+TEST(PointCloud, WithoutRingsTheyAreFoundByElevation) {
+  std::vector<std::vector<float>> points;
+  for (int ring = 0; ring < 16; ++ring) {
+    const double elevation = (2 * ring - 15) * M_PI / 180.0;
+    points.push_back({static_cast<float>(5 * std::cos(elevation)), 0, static_cast<float>(5 * std::sin(elevation))});
+  }
+  const Scan scan = scan_of(cloud_with({"x", "y", "z"}, points));
+  ASSERT_EQ(scan.rings, 16);
+  ASSERT_EQ(scan.columns, 1);
+  for (int ring = 0; ring < 16; ++ring)
+    EXPECT_NEAR(scan.point_L[static_cast<std::size_t>(ring)].z(), 5 * std::sin((2 * ring - 15) * M_PI / 180.0), 1e-6);
+}
+
+TEST(PointCloud, WhatIsNoPlaceIsNoReturn) {
+  constexpr float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
+  const Scan scan =
+      scan_of(cloud_with({"x", "y", "z", "ring"},
+                         {{1, 0, 0, 0}, {nan, 0, 0, 1}, {0, inf, 0, 2}, {0, 0, 0, 3}, {1e30F, 0, 0, 4}, {2, 0, 0, 5}}));
+  int returns = 0;
+  for (const double range : scan.range_m) returns += range > 0.0 ? 1 : 0;
+  EXPECT_EQ(returns, 2);
+}
+
+TEST(PointCloud, AbsoluteAndRelativeTimesOfOtherTypes) {
+  PointCloud cloud = cloud_with({"x", "y", "z", "ring", "low", "high"}, {{1, 0, 0, 0, 0, 0}, {1, 0, 0, 1, 0, 0}});
+  cloud.stamp = 1'600'000'000'000'000'000;
+  const auto set = [&](std::size_t point, const void* value, std::size_t size) {
+    std::memcpy(&cloud.data[24 * point + 16], value, size);
+  };
+  cloud.fields.resize(4);
+  cloud.fields.push_back({"timestamp", 16, PointType::f64});
+  const double absolute[2] = {1.6e9 + 0.025, 1.6e9 + 0.05};
+  for (std::size_t i = 0; i < 2; ++i) set(i, &absolute[i], 8);
+  EXPECT_NEAR(static_cast<double>(scan_of(cloud).stamp - cloud.stamp), 0.05e9, 300.0);  // a double of that size: 240 ns
+  cloud.fields.back() = {"t", 16, PointType::u32};
+  const std::uint32_t ns[2] = {25'000'000, 50'000'001};
+  for (std::size_t i = 0; i < 2; ++i) set(i, &ns[i], 4);
+  EXPECT_EQ(scan_of(cloud).stamp - cloud.stamp, 50'000'001);
+  cloud.fields.back() = {"time", 16, PointType::f32};
+  const float us[2] = {25'000.0F, 50'000.0F};  // microseconds, which some drivers write
+  for (std::size_t i = 0; i < 2; ++i) set(i, &us[i], 4);
+  EXPECT_THROW(static_cast<void>(scan_of(cloud)), InputError);
+}
+
+TEST(PointCloud, WithoutPointsIsAScanWithoutColumns) {
+  Scan blind = some_scan(), none;
+  std::fill(blind.range_m.begin(), blind.range_m.end(), 0.0);
+  none.stamp = 7;
+  for (const PointCloud& cloud : {cloud_of(blind, CloudLayout::dense), cloud_of(none, CloudLayout::dense),
+                                  cloud_of(none, CloudLayout::organised)}) {
+    const Scan scan = scan_of(cloud);
+    EXPECT_EQ(scan.stamp, cloud.stamp);
+    EXPECT_EQ(scan.columns, 0);
+    EXPECT_EQ(scan.rings, 16);
+    EXPECT_EQ(scan.size(), 0U);
+    EXPECT_TRUE(scan.point_L.empty() && scan.offset_ns.empty() && scan.reflectivity.empty());
+  }
+}
+
+TEST(PointCloud, RefusesWhatDoesNotFit) {
+  const PointCloud good = cloud_of(some_scan(), CloudLayout::organised);
+  const auto refuse = [&](const auto& change) {
+    PointCloud cloud = good;
+    change(cloud);
+    EXPECT_THROW(static_cast<void>(scan_of(cloud)), InputError);
+  };
+  refuse([](PointCloud& c) { c.width = 0; });  // but bytes
+  refuse([](PointCloud& c) { c.height = 0xffffffff; });
+  refuse([](PointCloud& c) { c.width = c.height = 0xffffffff; });
+  refuse([](PointCloud& c) { c.row_step = 1; });
+  refuse([](PointCloud& c) { c.data.pop_back(); });
+  refuse([](PointCloud& c) { c.fields[0].name = "X"; });
+  refuse([](PointCloud& c) { c.fields[0].offset = 19; });
+  refuse([](PointCloud& c) { c.fields[0].offset = 0xfffffff0; });
+  refuse([](PointCloud& c) { c.fields[0].type = static_cast<PointType>(9); });
+  refuse([](PointCloud& c) {
+    c.fields[4].offset = 12;
+    c.fields[4].type = PointType::u32;
+  });  // rings of 1e9
+}
+
+}  // namespace
+}  // namespace plumbline::slam

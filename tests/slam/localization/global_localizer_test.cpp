@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/localization/global_localizer.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/slam/localization/house_plan.h"
+#include "tests/slam/localization/house_scan.h"
+
+namespace plumbline::slam {
+namespace {
+
+/// Share of particles with a twin at the same pose in the other set.
+double shared(const ParticleSet& a, const ParticleSet& b) {
+  double count = 0.0;
+  for (const LocalParticle& p : a)
+    for (const LocalParticle& q : b)
+      if (p.X_IH.t == q.X_IH.t) {
+        count += 1.0;
+        break;
+      }
+  return count / static_cast<double>(a.size());
+}
+
+TEST(PlanSearch, DrawsOtherNumbersAfterARestart) {
+  const synthetic::House house = synthetic::corridor_house();
+  const PlanIndex index = make_plan_index(synthetic::plan_of(house), "ground", {});
+  const View view = synthetic::standing_view(house, Pose::from_xyz_yaw({7.0, 1.1, 0.46}, 0.3), Pose{}).view;
+  PlanSearch search({}, 7), again({}, 7);
+  search.update(index, {}, view);
+  again.update(index, {}, view);
+  const ParticleSet first = search.particles();
+  ASSERT_FALSE(first.empty());
+  EXPECT_EQ(shared(first, again.particles()), 1.0);
+  search.restart();
+  search.update(index, {}, view);
+  EXPECT_EQ(shared(first, search.particles()), 0.0);
+}
+
+// The way walked while nothing was searched would count as one straight step, through walls.
+TEST(PlanSearch, KnowsNothingOfTheWayBeforeARestart) {
+  const synthetic::House house = synthetic::corridor_house();
+  const PlanIndex index = make_plan_index(synthetic::plan_of(house), "ground", {});
+  const Pose X_OW = Pose::from_xyz_yaw({9.0, 4.0, 0.0}, 0.5);
+  const auto seen = [&](double x, const Pose& X_OR) {
+    return synthetic::standing_view(house, Pose::from_xyz_yaw({x, 1.1, 0.46}, 0.3), X_OR).view;
+  };
+  PlanSearch walked({}, 7), stood({}, 7);
+  walked.update(index, {}, seen(3.0, Pose{}));
+  stood.update(index, {}, seen(3.0, X_OW * Pose::from_xyz_yaw({3.0, 1.1, 0.46}, 0.3)));
+  walked.restart();
+  stood.restart();
+  for (int i = 0; i < 16; ++i) {
+    const double x = 3.0 + 0.25 * i;
+    const View view = seen(x, X_OW * Pose::from_xyz_yaw({x, 1.1, 0.46}, 0.3));
+    const std::vector<StageDigest> a = walked.update(index, {}, view), b = stood.update(index, {}, view);
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t k = 0; k < a.size(); ++k) EXPECT_EQ(a[k].digest, b[k].digest) << a[k].stage << " " << i;
+  }
+  EXPECT_FALSE(stood.candidates().empty());
+}
+
+}  // namespace
+}  // namespace plumbline::slam

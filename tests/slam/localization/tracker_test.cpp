@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/localization/tracker.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "slam/localization/associate.h"
+#include "tests/slam/localization/house_plan.h"
+#include "tests/slam/localization/house_scan.h"
+
+namespace plumbline::slam {
+namespace {
+
+using synthetic::Standing;
+
+/// A straight walk in the corridor seen every 0.25 m, with odometry that reads `scale` of the way.
+struct Walked {
+  PlanIndex index;
+  std::vector<Pose> X_IR;
+  std::vector<Standing> seen;
+};
+
+Walked walk_straight(double scale) {
+  const synthetic::House house = synthetic::corridor_house();
+  Walked walked{make_plan_index(synthetic::plan_of(house), "ground", {}), {}, {}};
+  for (int i = 0; i < 8; ++i) {
+    const Pose X_WR = Pose::from_xyz_yaw({3.0 + 0.25 * i, 1.0, 0.46}, 0.1);
+    const Pose X_OR{Eigen::Quaterniond::Identity(),
+                    scale * (Pose::from_xyz_yaw(Eigen::Vector3d::Zero(), -0.1) * Eigen::Vector3d(0.25 * i, 0, 0))};
+    walked.X_IR.push_back(walked.index.X_WI.inverse() * X_WR);
+    walked.seen.push_back(synthetic::standing_view(house, X_WR, X_OR, static_cast<std::uint64_t>(i + 1)));
+  }
+  return walked;
+}
+
+TEST(Tracker, PullsAWrongStartOntoThePlan) {
+  const Walked walked = walk_straight(1.0);
+  PlanTracker tracker({}, walked.index.storeys.front());
+  Pose start = walked.X_IR.front();
+  start.t += Eigen::Vector3d(0.04, -0.05, 0.03);
+  tracker.start(walked.seen[0].view, walked.seen[0].planes, start);
+  for (std::size_t i = 1; i < walked.seen.size(); ++i)
+    static_cast<void>(tracker.update(walked.seen[i].view, walked.seen[i].planes));
+  const Pose X_IR = tracker.pose(walked.seen.back().view.X_OR);
+  // Walls across the corridor, its ends and the floor are all seen: measured 1 mm, 0.3 mrad.
+  EXPECT_LT((X_IR.t - walked.X_IR.back().t).norm(), 0.005);
+  EXPECT_LT(std::abs(wrap_angle(X_IR.yaw() - walked.X_IR.back().yaw())), 0.001);
+}
+
+TEST(Tracker, CorrectsAnOdometryScaleError) {
+  const Walked walked = walk_straight(0.9);
+  PlanTracker tracker({}, walked.index.storeys.front());
+  tracker.start(walked.seen[0].view, walked.seen[0].planes, walked.X_IR.front());
+  for (std::size_t i = 1; i < walked.seen.size(); ++i)
+    static_cast<void>(tracker.update(walked.seen[i].view, walked.seen[i].planes));
+  const double error = (tracker.pose(walked.seen.back().view.X_OR).t - walked.X_IR.back().t).norm();
+  // 10 % of 1.75 m is 0.175 m; measured 14 mm.
+  EXPECT_LT(error, 0.04);
+}
+
+TEST(Tracker, PositionAndHeadingAreUncertainTogether) {
+  const Walked walked = walk_straight(1.0);
+  PlanTracker tracker({}, walked.index.storeys.front());
+  tracker.start(walked.seen[0].view, walked.seen[0].planes, walked.X_IR.front());
+  for (std::size_t i = 1; i < walked.seen.size(); ++i)
+    static_cast<void>(tracker.update(walked.seen[i].view, walked.seen[i].planes));
+  const Eigen::Matrix3d& P = tracker.covariance();
+  EXPECT_EQ(P, P.transpose());
+  EXPECT_GT(P.determinant(), 0.0);
+  EXPECT_GT(P.topLeftCorner(2, 2).determinant(), 0.0);
+  // Walls seen ahead and behind, not evenly: a turn about the robot moves them all to one side.
+  EXPECT_GT(P.topRightCorner(2, 1).norm(), 0.01 * std::sqrt(P(0, 0) * P(2, 2)));
+}
+
+TEST(Tracker, DropsTheOldestPoseBeyondItsWindow) {
+  const Walked walked = walk_straight(1.0);
+  TrackerConfig config;
+  config.window = 4;
+  PlanTracker tracker(config, walked.index.storeys.front());
+  tracker.start(walked.seen[0].view, walked.seen[0].planes, walked.X_IR.front());
+  std::size_t left = 0;
+  for (std::size_t i = 1; i < walked.seen.size(); ++i)
+    left += tracker.update(walked.seen[i].view, walked.seen[i].planes).size();
+  EXPECT_EQ(left, walked.seen.size() - 4);
+  EXPECT_EQ(tracker.window().size(), 4U);
+}
+
+TEST(Tracker, PairsOpposedWallsOfTheRoom) {
+  const Walked walked = walk_straight(1.0);
+  const StoreyIndex& storey = walked.index.storeys.front();
+  TrackedPose pose;
+  pose.X_IR = walked.X_IR.front();
+  pose.room = storey.room_at(pose.X_IR.t.head<2>());
+  ASSERT_GE(pose.room, 0);
+  pose.walls = associate_walls(storey, walked.seen[0].view, walked.seen[0].planes, pose.X_IR, {});
+  const std::vector<WallPair> pairs = opposed_pairs(storey, pose, {});
+  ASSERT_FALSE(pairs.empty());
+  for (const WallPair& pair : pairs) {
+    const WallLine& a = storey.lines[static_cast<std::size_t>(pose.walls[static_cast<std::size_t>(pair.a)].line)];
+    const WallLine& b = storey.lines[static_cast<std::size_t>(pose.walls[static_cast<std::size_t>(pair.b)].line)];
+    EXPECT_LT(a.n.dot(b.n), -0.999);
+  }
+}
+
+}  // namespace
+}  // namespace plumbline::slam

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/registration/upright_edges.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "slam/registration/vgicp.h"
+#include "tests/slam/synthetic.h"
+
+namespace plumbline::slam {
+namespace {
+
+std::vector<Eigen::Vector3d> room_edges(const Pose& X_WR, double range_sigma_m) {
+  synthetic::WalkConfig config;
+  config.range_sigma_m = range_sigma_m;
+  config.dropout = 0.0;
+  MotionBuffer still;
+  still.add({0, Pose{}});
+  return edge_points(
+      deskew(synthetic::standing_scan(synthetic::one_room(), X_WR, config), still, synthetic::calibration()), {});
+}
+
+/// Distance on the plan to the nearest corner of one_room().
+double corner_distance(const Eigen::Vector3d& p_W) {
+  return std::hypot(std::min(std::abs(p_W.x()), std::abs(p_W.x() - 6.0)),
+                    std::min(std::abs(p_W.y()), std::abs(p_W.y() - 4.0)));
+}
+
+const std::array<Eigen::Vector2d, 4> stands = {Eigen::Vector2d{2.0, 1.5}, {2.6, 1.7}, {3.1, 2.1}, {3.6, 2.4}};
+
+EdgeMap room_map(std::size_t keep) {
+  EdgeMap map{EdgeConfig{}};
+  for (const Eigen::Vector2d& at : stands) {
+    const Pose X_WR = Pose::from_xyz_yaw({at.x(), at.y(), 0.5}, 0.3);
+    map.add(room_edges(X_WR, 0.012), X_WR, keep);
+  }
+  return map;
+}
+
+// The lines are where the room's walls meet; those of walls with floor and ceiling are not upright and left out. Ten
+// neighbours see a corner from a few steps of the ring away.
+TEST(EdgeMapTest, TiesPointsToTheUprightEdgesOfARoom) {
+  const EdgeMap map = room_map(stands.size());
+  const Pose X_WR = Pose::from_xyz_yaw({2.9, 1.9, 0.5}, -0.4);
+  const std::vector<loam::Match> lines = map.match(room_edges(X_WR, 0.012), X_WR);
+  ASSERT_GE(lines.size(), 10U);
+  std::size_t at_corners = 0;
+  for (const loam::Match& line : lines) {
+    if (corner_distance(line.anchor_F) < 0.15) ++at_corners;
+    // The projection keeps nothing of the line's own direction.
+    EXPECT_LT((line.across * Eigen::Vector3d::UnitZ()).norm(), 0.45);  // sin(acos(0.9))
+    EXPECT_LT((line.across * (X_WR * line.p_R - line.anchor_F)).norm(), 0.2);
+  }
+  EXPECT_GE(at_corners, lines.size() * 9 / 10) << at_corners << " of " << lines.size();  // noise makes up one of 37
+}
+
+TEST(EdgeMapTest, ForgetsAllButTheLatestKeyframes) {
+  EdgeMap map = room_map(stands.size());
+  const Pose X_WR = Pose::from_xyz_yaw({2.9, 1.9, 0.5}, -0.4);
+  const std::vector<Eigen::Vector3d> points_R = room_edges(X_WR, 0.012);
+  ASSERT_FALSE(map.match(points_R, X_WR).empty());
+  const Pose X_WF = Pose::from_xyz_yaw({102.9, 1.9, 0.5}, -0.4);  // far away
+  for (std::size_t k = 0; k < stands.size(); ++k) map.add(points_R, X_WF, stands.size());
+  EXPECT_TRUE(map.match(points_R, X_WR).empty());
+  EXPECT_FALSE(map.match(points_R, X_WF).empty());
+}
+
+/// Error along a corridor whose ends are out of reach, after a walk of 6 m. Legs say 3 % too much.
+double error_along_m(bool edges) {
+  synthetic::House house = synthetic::one_room(80.0, 2.4);
+  for (const double x : {32.1, 36.9, 43.2, 47.4}) house.boxes.push_back({{x, 0.0, 0.0}, {x + 0.3, 0.15, 2.8}});
+  for (const double x : {34.6, 39.3, 41.0, 46.2}) house.boxes.push_back({{x, 2.25, 0.0}, {x + 0.3, 2.4, 2.8}});
+  synthetic::WalkConfig walk;
+  walk.speed_mps = 0.9;
+  walk.odometry_scale = 1.03;
+  walk.odometry_sigma = 0.0;
+  const synthetic::Recording recording = synthetic::walk(house, {{37.0, 1.2}, {43.0, 1.2}}, walk);
+  VgicpConfig config;
+  config.edges.enabled = edges;
+  VgicpOdometry odometry(config);
+  MotionBuffer motion;
+  for (const Odometry& record : recording.odometry) motion.add(record);
+  Pose X_MR;
+  for (const Scan& scan : recording.scans)
+    X_MR = odometry.update(deskew(scan, motion, recording.calibration), motion.at(scan.stamp)).X_MR;
+  const Pose way = recording.truth.front().X_FR.inverse() * recording.truth.back().X_FR;
+  return std::abs((X_MR.t - way.t).x());
+}
+
+TEST(EdgesInVgicpTest, HoldTheWayAlongABareCorridor) {
+  const double with = error_along_m(true);
+  const double without = error_along_m(false);
+  RecordProperty("with_m", std::to_string(with));
+  RecordProperty("without_m", std::to_string(without));
+  EXPECT_LT(with, 0.02);
+  EXPECT_LT(with, 0.5 * without);
+}
+
+}  // namespace
+}  // namespace plumbline::slam
