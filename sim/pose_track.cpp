@@ -14,7 +14,7 @@ void PoseTrack::add(slam::Nanoseconds stamp, const Pose& X_WR) {
 
 Pose PoseTrack::at(slam::Nanoseconds t) const {
   if (poses_.empty() || t < poses_.front().stamp || t > poses_.back().stamp)
-    throw InternalError("a pose outside the known track was asked for");
+    throw InternalError("the requested pose lies outside the track");
   const auto after = std::lower_bound(poses_.begin(), poses_.end(), t,
                                       [](const Stamped& p, slam::Nanoseconds time) { return p.stamp < time; });
   if (after->stamp == t) return after->X_WR;

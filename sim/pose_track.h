@@ -8,7 +8,7 @@
 
 namespace plumbline::sim {
 
-/// True poses at physics steps, to be asked for the times between them.
+/// True poses at physics steps, interpolated for the times between them.
 class PoseTrack {
  public:
   /// Times must ascend.

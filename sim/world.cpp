@@ -27,7 +27,7 @@ using slam::Nanoseconds;
 constexpr int imu_every = 2;               ///< physics steps: 250 Hz
 constexpr int pose_every = 5;              ///< physics steps: 100 Hz, odometry and truth
 constexpr double same_floor_m = 0.3;       ///< a waypoint this close to a storey's floor lies on it
-constexpr double start_clearance_m = 1.0;  ///< the floor is looked for below this height above the storey
+constexpr double start_clearance_m = 1.0;  ///< the floor is searched below this height above the storey
 
 /// The storey of the start and those on whose floor a waypoint lies, ascending.
 std::vector<int> walked_storeys(const WorldConfig& config, const bim::Building& building) {
@@ -51,8 +51,8 @@ Pose start_pose(const WorldConfig& config, double floor) {
   return Pose::from_xyz_yaw({config.start_W.x(), config.start_W.y(), floor + start_clearance_m}, config.start_yaw);
 }
 
-FollowerConfig follower_config(const WorldConfig& config) {
-  FollowerConfig out;
+PurePursuitConfig pursuit_config(const WorldConfig& config) {
+  PurePursuitConfig out;
   out.speed.speed_mps = config.speed_mps;
   return out;
 }
@@ -64,7 +64,7 @@ Nanoseconds end_of_firings(const slam::LidarModel& model, std::int64_t firing) {
   return (firing - 1) * model.firing_period_ns + slam::last_laser_ns(model);
 }
 
-/// The faces light can meet: without optics panes are not there.
+/// The faces that rays can hit: without optics there are no panes.
 bim::RayScene make_scene(const LidarConfig& lidar, const bim::Building& as_built, const bim::BuildingMesh& mesh) {
   return lidar.optics ? bim::RayScene(mesh) : bim::RayScene(bim::visible_mesh(as_built, mesh));
 }
@@ -85,16 +85,16 @@ struct World::Impl {
       : config(config_in),
         floor(elevation(as_built, config.storey)),
         scene(make_scene(config.lidar, as_built, mesh)),
-        moving(config.people, config.doors, static_cast<int>(mesh.elements.size())),
+        dynamic_obstacles(config.people, config.doors, static_cast<int>(mesh.elements.size())),
         rooms(as_built),
         lidar(config.lidar, config.rpm, config.seed, scene, surfaces_of(as_built, mesh, config.lidar.reflectivity),
               &rooms),
         X_WL(static_cast<std::size_t>(slam::firings_per_message(lidar.model(), config.rpm))),
         robot(start_pose(config, floor), building_ground(as_built, walked_storeys(config, as_built)),
               collision_boxes(as_built, walked_storeys(config, as_built)), config.conditions, config.seed),
-        follower(follower_config(config), config.waypoints, config.seed),
+        pursuit(pursuit_config(config), config.waypoints, config.seed),
         sensors(config.odometry, config.seed),
-        legs(leg_odometry_config(config.odometry, config.seed)) {
+        leg_odometry(leg_odometry_config(config.odometry, config.seed)) {
     record(0);
   }
 
@@ -102,24 +102,25 @@ struct World::Impl {
     const std::int64_t end_firing = next_firing + static_cast<std::int64_t>(X_WL.size());
     const Nanoseconds stamp = end_of_firings(lidar.model(), end_firing);
     if (finished(stamp)) return false;
-    slam::Stopwatch watch;
+    slam::Stopwatch stopwatch;
     while (track.last_stamp() < stamp) step();
 
     WorldFrame out;
-    out.times.push_back({"sim.physics", watch.cpu_ms()});
-    take_until(stamp, imu, out.imu);
-    take_until(stamp, odometry, out.odometry);
-    take_until(stamp, covariances, out.covariances);
-    take_until(stamp, truth, out.truth);
-    if (out.truth.empty() || out.truth.back().stamp < stamp) out.truth.push_back({stamp, track.at(stamp)});
-    watch.restart();
+    out.times.push_back({"sim.physics", stopwatch.cpu_ms()});
+    take_until(stamp, imu, out.sensors.imu);
+    take_until(stamp, odometry, out.sensors.odometry);
+    take_until(stamp, covariances, out.sensors.covariances);
+    take_until(stamp, true_poses, out.truth.poses);
+    std::vector<TruePose>& poses = out.truth.poses;
+    if (poses.empty() || poses.back().stamp < stamp) poses.push_back({stamp, track.at(stamp)});
+    stopwatch.restart();
     scan(out);
-    out.times.push_back({"sim.lidar", watch.cpu_ms()});
-    if (out.scan.stamp != stamp) throw InternalError("the decoded scan does not end when its last laser fired");
-    out.robot_digest = Digest().add(robot.digest()).add(legs.X_OR()).value();
+    out.times.push_back({"sim.lidar", stopwatch.cpu_ms()});
+    if (out.sensors.scan.stamp != stamp) throw InternalError("the decoded scan does not end when its last laser fired");
+    out.truth.robot_digest = Digest().add(robot.digest()).add(leg_odometry.X_OR()).value();
     next_firing = end_firing;
     track.forget_before(next_firing * lidar.model().firing_period_ns);
-    moving.forget_before(next_firing * lidar.model().firing_period_ns);
+    dynamic_obstacles.forget_before(next_firing * lidar.model().firing_period_ns);
     frame = std::move(out);
     return true;
   }
@@ -131,57 +132,57 @@ struct World::Impl {
 
   void step() {
     const std::int64_t tick = robot.steps();
-    robot.step(follower.update(robot.X_WR(), tick));
-    if (config.waypoints.size() > 1 && follower.done() && !route_done_at) route_done_at = tick * Robot::step_ns;
+    robot.step(pursuit.update(robot.X_WR(), tick));
+    if (config.waypoints.size() > 1 && pursuit.done() && !route_done_at) route_done_at = tick * Robot::step_ns;
     record(tick + 1);
   }
 
-  /// What the sensors and the scorer note at a physics step.
+  /// What the sensors and the scorer record at a physics step.
   void record(std::int64_t tick) {
     const Nanoseconds stamp = tick * Robot::step_ns;
     const Pose X_WR = robot.X_WR();
     const SensorReading reading = sensors.read(robot.proprioception(), tick);
-    if (tick > 0) legs.update(reading, 1e-9 * static_cast<double>(Robot::step_ns));
+    if (tick > 0) leg_odometry.update(reading, 1e-9 * static_cast<double>(Robot::step_ns));
     track.add(stamp, X_WR);
-    moving.step(stamp, X_WR.t);
+    dynamic_obstacles.step(stamp, X_WR.t);
     if (tick % imu_every == 0) imu.push_back({stamp, reading.gyro_R, reading.accelerometer_R});
     if (tick % pose_every == 0) {
-      odometry.push_back({stamp, legs.X_OR()});
-      if (tick > 0) covariances.push_back({stamp, legs.take_covariance()});
-      truth.push_back({stamp, X_WR});
+      odometry.push_back({stamp, leg_odometry.X_OR()});
+      if (tick > 0) covariances.push_back({stamp, leg_odometry.take_covariance()});
+      true_poses.push_back({stamp, X_WR});
     }
   }
 
   void scan(WorldFrame& out) {
-    if (!moving.empty()) scene.set_bodies(moving.bodies());
+    if (!dynamic_obstacles.empty()) scene.set_bodies(dynamic_obstacles.bodies());
     for (std::size_t i = 0; i < X_WL.size(); ++i) {
       const std::int64_t firing = next_firing + static_cast<std::int64_t>(i);
       X_WL[i] = track.at(firing * lidar.model().firing_period_ns) * Robot::X_RL();
     }
     lidar.sweep(next_firing, X_WL, sweep);
-    out.packets = sweep.packets;
-    out.labels = sweep.labels;
-    out.scan = lidar.decode(next_firing, sweep, config.vertical_offsets);
+    out.sensors.packets = sweep.packets;
+    out.truth.labels = sweep.labels;
+    out.sensors.scan = lidar.decode(next_firing, sweep, config.vertical_offsets);
   }
 
   WorldConfig config;
   double floor;
   bim::RayScene scene;
-  MovingThings moving;
+  DynamicObstacles dynamic_obstacles;
   RoomLookup rooms;
   Lidar lidar;
   std::vector<Pose> X_WL;  ///< of the firings of one message
   Sweep sweep;
   Robot robot;
-  Follower follower;
+  PurePursuit pursuit;
   ProprioceptiveSensors sensors;
-  LegOdometry legs;
+  LegOdometry leg_odometry;
 
   PoseTrack track;
   std::vector<slam::Imu> imu;
   std::vector<slam::Odometry> odometry;
   std::vector<slam::OdometryCovariance> covariances;
-  std::vector<TruePose> truth;
+  std::vector<TruePose> true_poses;
   std::int64_t next_firing = 0;
   std::optional<Nanoseconds> route_done_at;
 };

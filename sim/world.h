@@ -12,8 +12,7 @@
 #include "sim/robot/sensors.h"
 #include "sim/route/pure_pursuit.h"
 #include "slam/io/estimate.h"
-#include "slam/io/odometry_covariance.h"
-#include "slam/io/records.h"
+#include "slam/io/recordings/sensor_frame.h"
 
 namespace plumbline::sim {
 
@@ -23,7 +22,7 @@ struct WorldConfig {
   double rpm = 600.0;
   bool vertical_offsets = true;  ///< of the lasers, in the driver's calibration
   OdometryPreset odometry = OdometryPreset::noisy;
-  Conditions conditions;  ///< friction, uneven floor, pushes
+  Conditions conditions;  ///< friction, terrain noise, pushes
   int storey = 0;
   Eigen::Vector2d start_W = Eigen::Vector2d::Zero();
   double start_yaw = 0.0;           ///< rad
@@ -40,16 +39,18 @@ struct TruePose {
   Pose X_WR;
 };
 
-/// Everything that happened up to and including one scan, since the previous one.
-struct WorldFrame {
-  std::vector<slam::Imu> imu;                         ///< 250 Hz
-  std::vector<slam::Odometry> odometry;               ///< 100 Hz; O is the robot's pose at time 0
-  std::vector<slam::OdometryCovariance> covariances;  ///< of the odometry
-  std::vector<slam::Vlp16Packet> packets;             ///< of this message
-  slam::Scan scan;                                    ///< decoded from the packets
-  std::vector<TruePose> truth;                        ///< 100 Hz and, last, at scan.stamp
-  ReturnLabels labels;
+/// What only the simulator knows. It goes to scoring and never to an estimator.
+struct GroundTruth {
+  std::vector<TruePose> poses;  ///< 100 Hz and, last, at the stamp of the scan
+  ReturnLabels labels;          ///< of the scan's returns
   std::uint64_t robot_digest = 0;
+};
+
+/// Everything that happened up to and including one scan, since the previous one. Sensor rates: IMU 250 Hz, odometry
+/// 100 Hz, whose frame O is the robot's pose at time 0; the scan is decoded from the packets.
+struct WorldFrame {
+  slam::SensorFrame sensors;
+  GroundTruth truth;
   std::vector<slam::StageTime> times;  ///< CPU time of sim.physics and sim.lidar
 };
 

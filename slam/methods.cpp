@@ -21,16 +21,16 @@ template <class Own, class FrontEnd>
 MethodRow odometry_alone(OdometryKind kind, FrontEnd LidarOdometryConfig::*front_end, MethodRow row) {
   using Config = LidarOdometryMethodConfig<Own>;
   row.make = [kind, front_end](const MethodInput& input) {
-    const auto told = config_of<Config>(input);
+    const auto given = config_of<Config>(input);
     LidarOdometryConfig config;
     config.kind = kind;
-    config.*front_end = told.odometry;
-    return make_lidar_odometry_method(input, config, told.map);
+    config.*front_end = given.odometry;
+    return make_lidar_odometry_method(input, config, given.map);
   };
   return with_config<Config>(std::move(row));
 }
 
-std::unique_ptr<Method> reckon_dead(const MethodInput& input) {
+std::unique_ptr<Method> make_dead_reckoning(const MethodInput& input) {
   LidarOdometryConfig config;
   config.kind = OdometryKind::legs;
   return make_lidar_odometry_method(input, config, config_of<DeadReckoningConfig>(input).map);
@@ -84,8 +84,10 @@ std::vector<MethodRow> localizations() {
 
 std::vector<MethodRow> odometry_and_slam() {
   return {
-      with_config<DeadReckoningConfig>(
-          {.name = "odometry", .summary = "dead reckoning of the legs", .make = reckon_dead, .needs_odometry = true}),
+      with_config<DeadReckoningConfig>({.name = "odometry",
+                                        .summary = "dead reckoning by leg odometry",
+                                        .make = make_dead_reckoning,
+                                        .needs_odometry = true}),
       odometry_alone<CoarseVgicpConfig>(
           OdometryKind::vgicp, &LidarOdometryConfig::vgicp,
           {.name = "vgicp", .summary = "LiDAR odometry: voxelized GICP against a sliding local map"}),

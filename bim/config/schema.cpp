@@ -1,28 +1,49 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bim/config/schema.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
+
+#include "bim/config/markdown.h"
 
 namespace plumbline {
 
 namespace {
 
-constexpr std::array<std::pair<std::string_view, std::string_view>, 6> units = {
-    {{"_mm", "mm"}, {"_m", "m"}, {"_deg", "°"}, {"_mps", "m/s"}, {"_s", "s"}, {"_n", "N"}}};
+constexpr std::array<std::pair<std::string_view, std::string_view>, 9> units = {{{"_mm", "mm"},
+                                                                                 {"_m", "m"},
+                                                                                 {"_m2", "m²"},
+                                                                                 {"_deg", "°"},
+                                                                                 {"_rad", "rad"},
+                                                                                 {"_mps", "m/s"},
+                                                                                 {"_radps", "rad/s"},
+                                                                                 {"_s", "s"},
+                                                                                 {"_n", "N"}}};
 
+constexpr std::string_view plain_number = "-";
+
+/// Of the key's ending; the unit of a rate (..._per_m) stands in its field.
 std::string unit_of(std::string_view key) {
   for (const auto& [ending, unit] : units)
-    if (key.size() > ending.size() && key.substr(key.size() - ending.size()) == ending) return std::string(unit);
+    if (key.ends_with(ending) && !key.ends_with("_per" + std::string(ending))) return std::string(unit);
   return key == "deg" ? "°" : "";
+}
+
+/// 100000 rather than 1e+05.
+std::string limit_text(double limit) {
+  constexpr double longest = 1e9;
+  if (limit == std::trunc(limit) && std::abs(limit) < longest) return std::to_string(std::lround(limit));
+  return format_number(limit);
 }
 
 std::string range_of(const Field& field) {
   const bool low = std::isfinite(field.min), high = std::isfinite(field.max);
-  if (low && high && field.min == field.max) return format_number(field.min);
-  if (low && high) return format_number(field.min) + " to " + format_number(field.max);
-  if (low) return "at least " + format_number(field.min);
-  return high ? "at most " + format_number(field.max) : "";
+  if (low && high && field.min == field.max) return limit_text(field.min);
+  if (low && high) return limit_text(field.min) + " to " + limit_text(field.max);
+  if (low) return "at least " + limit_text(field.min);
+  return high ? "at most " + limit_text(field.max) : "";
 }
 
 /// The value at a dotted key of a map, or nullptr.
@@ -44,8 +65,6 @@ bool is_of_variant(const Tree& entry, std::string_view variant) {
   return value != nullptr && value->as_string() == variant.substr(colon + 2);
 }
 
-std::string code(const std::string& text) { return text.empty() ? "" : "`" + text + "`"; }
-
 }  // namespace
 
 std::string flow_text(const Tree& tree) {
@@ -64,12 +83,14 @@ std::string flow_text(const Tree& tree) {
 
 SchemaField schema_field(std::string key, std::string type, const Field& field) {
   SchemaField row;
-  row.unit = unit_of(key);
+  row.unit = field.unit.empty() ? unit_of(key) : std::string(field.unit);
+  if (row.unit.empty() && type == "integer") row.unit = plain_number;
   row.key = std::move(key);
   row.type = std::move(type);
   row.range = range_of(field);
   row.meaning = field.doc;
   row.required = field.required;
+  row.basic = field.basic;
   return row;
 }
 
@@ -96,6 +117,12 @@ std::string example_of(const std::vector<Tree>& examples, const SchemaSection& s
   return "";
 }
 
+std::vector<SchemaField> basic_fields(const std::vector<SchemaField>& fields) {
+  std::vector<SchemaField> basic;
+  std::copy_if(fields.begin(), fields.end(), std::back_inserter(basic), [](const auto& field) { return field.basic; });
+  return basic.empty() ? fields : basic;
+}
+
 std::string schema_yaml(const std::vector<SchemaField>& fields) {
   std::string text, last;
   for (const SchemaField& field : fields) {
@@ -107,28 +134,32 @@ std::string schema_yaml(const std::vector<SchemaField>& fields) {
       from = dot + 1;
     }
     last = field.key;
-    std::string said = field.meaning;
-    if (!field.range.empty()) said += (said.empty() ? "" : " ") + ("(" + field.range + ")");
+    std::string limits = field.unit == plain_number ? "" : field.unit;
+    if (!field.range.empty()) limits += (limits.empty() ? "" : ", ") + field.range;
+    std::string comment = field.meaning;
+    if (!limits.empty()) comment += (comment.empty() ? "(" : " (") + limits + ")";
     text += indent + field.key.substr(field.key.rfind('.') + 1) + ": " + field.standard;
-    text += said.empty() ? "\n" : "  # " + said + "\n";
+    text += comment.empty() ? "\n" : "  # " + comment + "\n";
   }
   return text;
 }
 
-std::string schema_tables(const std::vector<SchemaSection>& sections, const std::vector<Tree>& examples) {
+std::string schema_table(const std::vector<SchemaField>& fields) {
+  MarkdownTable table({"key", "value", "unit", "range", "default", "meaning"});
+  for (const SchemaField& field : fields)
+    table.add({markdown_code(field.key), field.type == "list of entry" ? "list, below" : field.type, field.unit,
+               field.range, field.required ? "required" : markdown_code(field.standard), field.meaning});
+  return table.text();
+}
+
+std::string schema_tables(const std::vector<SchemaSection>& sections) {
   std::string page, last;
   for (const SchemaSection& section : sections) {
-    if (section.name != last) page += "## `" + section.name + "`: a list, of each entry\n\n";
+    if (!page.empty()) page += "\n";
+    if (section.name != last) page += "## Entries of `" + section.name + "`\n\n";
     last = section.name;
     if (!section.variant.empty()) page += "### `" + section.variant + "`\n\n";
-    page += "| key | value | unit | range | default | example | |\n|---|---|---|---|---|---|---|\n";
-    for (const SchemaField& field : section.fields) {
-      const bool list = field.type == "list of entry";
-      page += "| `" + field.key + "` | " + (list ? "list, below" : field.type) + " | " + field.unit + " | " +
-              field.range + " | " + (field.required ? "**required**" : code(field.standard)) + " | " +
-              (list ? "" : code(example_of(examples, section, field))) + " | " + field.meaning + " |\n";
-    }
-    page += "\n";
+    page += schema_table(section.fields);
   }
   return page;
 }

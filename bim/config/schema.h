@@ -9,15 +9,16 @@
 
 namespace plumbline {
 
-/// One key of a file, as its visit tells.
+/// One key of a file, as its visit describes it.
 struct SchemaField {
   std::string key;  ///< dotted below a nested map
   std::string type;
-  std::string unit;      ///< from the key's ending
-  std::string range;     ///< empty when every value goes
-  std::string standard;  ///< what it is when not given, empty when that is nothing in particular
+  std::string unit;      ///< the field's own, else that of the key's ending; "-" for plain numbers
+  std::string range;     ///< empty where every value is allowed
+  std::string standard;  ///< the default, empty where there is none
   std::string meaning;
   bool required = false;
+  bool basic = false;  ///< one of the keys that users turn
 };
 
 /// The keys of the file itself (no name) or of the entries of one of its lists.
@@ -60,8 +61,10 @@ class SchemaVisitor {
       typename T::value_type inner;
       (*this)(key, inner, field);
     } else if constexpr (Visitable<T>) {
+      const std::size_t first = sections_[section_].fields.size();
       SchemaVisitor inner(sections_, section_, path + ".");
       value.visit(inner);
+      if (field.advanced) clear_basic(sections_[section_].fields, first);
     } else {
       SchemaField row = schema_field(path, type_of(value), field);
       if constexpr (!requires { value.has_value(); })
@@ -75,6 +78,9 @@ class SchemaVisitor {
   SchemaVisitor(std::vector<SchemaSection>& sections, std::size_t section, std::string prefix)
       : sections_(sections), section_(section), prefix_(std::move(prefix)) {}
 
+  static void clear_basic(std::vector<SchemaField>& fields, std::size_t first) {
+    for (std::size_t i = first; i < fields.size(); ++i) fields[i].basic = false;
+  }
   template <class T>
   static void add_sections(std::vector<SchemaSection>& sections, const std::string& name) {
     for (std::size_t i = 0; i < SchemaVariants<T>::count; ++i) {
@@ -128,9 +134,13 @@ class SchemaVisitor {
 /// The first value of this key in examples of the file, as text; empty when they have none.
 [[nodiscard]] std::string example_of(const std::vector<Tree>& examples, const SchemaSection& section,
                                      const SchemaField& field);
-/// YAML with every key of a file without lists of entries at its default, each with what is said of it as a comment.
+/// The basic fields; all of them where none is basic.
+[[nodiscard]] std::vector<SchemaField> basic_fields(const std::vector<SchemaField>& fields);
+/// YAML with every key of a file without lists of entries at its default, each with its description as a comment.
 [[nodiscard]] std::string schema_yaml(const std::vector<SchemaField>& fields);
-/// Markdown: for each section a table of its keys, with values of the examples.
-[[nodiscard]] std::string schema_tables(const std::vector<SchemaSection>& sections, const std::vector<Tree>& examples);
+/// A Markdown table of these keys.
+[[nodiscard]] std::string schema_table(const std::vector<SchemaField>& fields);
+/// Markdown: for each section its heading and the table of its keys.
+[[nodiscard]] std::string schema_tables(const std::vector<SchemaSection>& sections);
 
 }  // namespace plumbline

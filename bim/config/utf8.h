@@ -7,13 +7,13 @@
 
 namespace plumbline {
 
-/// Bytes of the UTF-8 character at the start of `text` [RFC 3629], which is not empty; 0 where there is none.
+/// Bytes of the UTF-8 character at the start of `text` [yergeau2003], which is not empty; 0 where there is none.
 [[nodiscard]] std::size_t utf8_length(std::string_view text);
 
 /// Adds a character; U+FFFD for what is none (surrogates, above U+10FFFF).
 void append_utf8(std::string& text, char32_t c);
 
-/// Text whose encoding nobody told: UTF-8 stays, every other byte above 0x7F is the Latin-1 character it stands for.
+/// Text of unknown encoding as UTF-8: UTF-8 stays, every other byte above 0x7F is the Latin-1 character it stands for.
 [[nodiscard]] std::string utf8_of_bytes(std::string_view bytes);
 
 }  // namespace plumbline

@@ -80,6 +80,10 @@ FieldReader::FieldReader(const Tree& map) : map_(map) { static_cast<void>(map.as
 void FieldReader::finish() const {
   for (const auto& [key, child] : map_.as_map()) {
     if (std::find(known_.begin(), known_.end(), key) != known_.end()) continue;
+    const auto renamed =
+        std::find_if(former_.begin(), former_.end(), [&](const auto& name) { return name.first == key; });
+    if (renamed != former_.end())
+      throw InputError(child.mark, "the key '" + key + "' is now called '" + renamed->second + "'");
     const std::string guess = did_you_mean(key, known_);
     std::string message = "unknown key '" + key + "'";
     if (!guess.empty()) {

@@ -16,18 +16,39 @@
 
 namespace plumbline {
 
-/// What a visit says of one field besides its key and value.
+/// What a visit says of one field besides its key and value. This is the field's one description: the member it belongs
+/// to has none of its own.
 struct Field {
-  std::string_view doc = {};
+  std::string_view doc = {};   ///< one sentence without its full stop
+  std::string_view unit = {};  ///< where the key's ending does not say it; "-" for plain numbers; integers need none
   double min = -std::numeric_limits<double>::infinity();
   double max = std::numeric_limits<double>::infinity();
   bool required = false;
+  bool basic = false;            ///< shown without --all: what users turn
+  bool advanced = false;         ///< of a nested struct: none of its keys is basic here
+  std::string_view former = {};  ///< the key's name in the version before; refused with the new one
 };
 
-/// Names of an enumeration, in the order of its values: specialise with
-/// `static constexpr std::array<std::string_view, N> names`.
+/// Field of a plain number, which needs no unit.
+[[nodiscard]] constexpr Field plain_field(std::string_view doc, Field more = {}) {
+  more.doc = doc;
+  more.unit = "-";
+  return more;
+}
+
+/// Field of a share: a plain number from 0 to 1.
+[[nodiscard]] constexpr Field share_field(std::string_view doc, Field more = {}) {
+  more.min = 0.0;
+  more.max = 1.0;
+  return plain_field(doc, more);
+}
+
+/// Names of an enumeration, in the order of its values, by a function that stands beside it:
+///   constexpr std::array<std::string_view, 2> names_of(Side) { return {"one", "both"}; }
 template <class E>
-struct EnumNames;
+struct EnumNames {
+  static constexpr auto names = names_of(E{});
+};
 
 class FieldReader;
 class FieldWriter;
@@ -59,6 +80,7 @@ class FieldReader {
   template <class T>
   void operator()(std::string_view key, T& value, const Field& field = {}) {
     known_.emplace_back(key);
+    if (!field.former.empty()) former_.emplace_back(field.former, key);
     const Tree* child = map_.find(key);
     if (child == nullptr) {
       if (field.required) fail_missing(key);
@@ -103,6 +125,7 @@ class FieldReader {
 
   const Tree& map_;
   std::vector<std::string> known_;
+  std::vector<std::pair<std::string, std::string>> former_;  ///< old name, new name
 };
 
 /// Writes a struct as a map, every field, in the order of its visit. Empty optionals are left out.

@@ -11,23 +11,23 @@ namespace {
 
 constexpr double beside_opening_m = 0.15;  ///< wall between an opening and a corner's inner face
 constexpr double niche_width_m = 1.0;      ///< between the reference lines of its reveals
-constexpr double before_m = 0.03;          ///< how far in front of a surface it is looked at
-constexpr double way_m = 1.0;              ///< kept free between a feature on the floor and the middle of a door
+constexpr double before_m = 0.03;  ///< distance of the points in front of a surface that are tested for visibility
+constexpr double way_m = 1.0;      ///< kept free between a feature on the floor and the middle of a door
 
 Eigen::Vector2d left_of(const Eigen::Vector2d& e) { return {-e.y(), e.x()}; }
 
 /// Every opening has a wall of its own stretch around it.
-bool openings_fit(const Design& design, const FamilyOptions& options) {
-  const std::vector<DesignWall> walls = walls_of(design);
+bool openings_fit(const FloorTemplate& floor, const GeneratorOptions& options) {
+  const std::vector<TemplateWall> walls = walls_of(floor);
   std::vector<int> hosts;
-  for (const DesignOpening& opening : design.openings) {
+  for (const TemplateOpening& opening : floor.openings) {
     const int host = wall_at(walls, opening.at);
     if (host < 0) return false;
-    const DesignWall& wall = walls[static_cast<std::size_t>(host)];
+    const TemplateWall& wall = walls[static_cast<std::size_t>(host)];
     const double needed = 0.5 * opening.width_m + beside_opening_m + 0.5 * options.facade_m;
     if (std::min((opening.at - wall.a).norm(), (opening.at - wall.b).norm()) < needed) return false;
     for (std::size_t i = 0; i < hosts.size(); ++i) {
-      const DesignOpening& other = design.openings[i];
+      const TemplateOpening& other = floor.openings[i];
       const double apart = (other.at - opening.at).norm() - 0.5 * (other.width_m + opening.width_m);
       if (hosts[i] == host && apart < beside_opening_m) return false;
     }
@@ -39,10 +39,10 @@ bool openings_fit(const Design& design, const FamilyOptions& options) {
 /// Makes one kind of feature of a room.
 class Placer {
  public:
-  Placer(const Design& design, const FamilyOptions& options, const std::string& room)
-      : design_(design), options_(options), walls_(walls_of(design)), room_(design.find_room(room)) {}
+  Placer(const FloorTemplate& floor, const GeneratorOptions& options, const std::string& room)
+      : floor_(floor), options_(options), walls_(walls_of(floor)), room_(floor.find_room(room)) {}
 
-  std::vector<FeaturedDesign> place() {
+  std::vector<FeaturedTemplate> place() {
     switch (options_.feature) {
       case FeatureKind::none:
         break;
@@ -65,18 +65,20 @@ class Placer {
   }
 
  private:
-  [[nodiscard]] const Polygon2& outline() const { return design_.rooms[static_cast<std::size_t>(room_)].outline; }
-  [[nodiscard]] bool of_room(const DesignWall& wall) const { return wall.rooms[0] == room_ || wall.rooms[1] == room_; }
-  [[nodiscard]] bool is_seen(const DesignWall& wall) const { return wall.rooms[1] < 0 || !options_.glass; }
+  [[nodiscard]] const Polygon2& outline() const { return floor_.rooms[static_cast<std::size_t>(room_)].outline; }
+  [[nodiscard]] bool of_room(const TemplateWall& wall) const {
+    return wall.rooms[0] == room_ || wall.rooms[1] == room_;
+  }
+  [[nodiscard]] bool is_seen(const TemplateWall& wall) const { return wall.rooms[1] < 0 || !options_.glass; }
 
-  /// Keeps the design when everything has its place. The element of a wall is found by where it stands.
-  void keep(FeaturedDesign featured) {
-    if (!openings_fit(featured.design, options_)) return;
+  /// Keeps the template when every opening fits. The element of a wall is found by its position.
+  void keep(FeaturedTemplate featured) {
+    if (!openings_fit(featured.floor, options_)) return;
     if (featured.element.empty()) {
-      FamilyOptions plain = options_;
+      GeneratorOptions plain = options_;
       PlanFile plan;
-      add_storey_entries(featured.design, plain, "", "", plan);
-      const int wall = wall_at(walls_of(featured.design), featured.at);
+      add_storey_entries(featured.floor, plain, "", "", plan);
+      const int wall = wall_at(walls_of(featured.floor), featured.at);
       if (wall < 0) return;
       featured.element = plan.walls[static_cast<std::size_t>(wall)].id;
     }
@@ -86,16 +88,16 @@ class Placer {
   }
 
   void shift_doors() {
-    for (std::size_t i = 0; i < design_.openings.size(); ++i) {
-      const DesignOpening& door = design_.openings[i];
+    for (std::size_t i = 0; i < floor_.openings.size(); ++i) {
+      const TemplateOpening& door = floor_.openings[i];
       const int host = wall_at(walls_, door.at);
       if (door.kind != OpeningKind::door || host < 0) continue;
-      const DesignWall& wall = walls_[static_cast<std::size_t>(host)];
+      const TemplateWall& wall = walls_[static_cast<std::size_t>(host)];
       if (!of_room(wall) || !is_seen(wall)) continue;
       const Eigen::Vector2d e = (wall.b - wall.a).normalized();
       for (const double sign : {1.0, -1.0}) {
-        FeaturedDesign featured{design_, door.id, door.at + sign * options_.epsilon_m * e, {}};
-        featured.design.openings[i].at = featured.at;
+        FeaturedTemplate featured{floor_, door.id, door.at + sign * options_.epsilon_m * e, {}};
+        featured.floor.openings[i].at = featured.at;
         for (const double end : {-0.5, 0.5})
           featured.seen_at.emplace_back(featured.at + end * (door.width_m - 2.0 * before_m) * e);
         keep(std::move(featured));
@@ -112,11 +114,11 @@ class Placer {
       const Eigen::Vector2d e = (q - p).normalized(), n = left_of(e);
       for (const double sign : {-1.0, 1.0}) {
         const Eigen::Vector2d by = sign * options_.epsilon_m * n;
-        FeaturedDesign featured{design_, "", 0.5 * (p + q) + by, {}};
-        for (DesignRoom& room : featured.design.rooms)
+        FeaturedTemplate featured{floor_, "", 0.5 * (p + q) + by, {}};
+        for (TemplateRoom& room : featured.floor.rooms)
           for (Eigen::Vector2d& corner : room.outline)
             if ((corner - p).norm() < same_m || (corner - q).norm() < same_m) corner += by;
-        for (DesignOpening& opening : featured.design.openings)
+        for (TemplateOpening& opening : featured.floor.openings)
           if (segment_distance(p, q, opening.at) < same_m) opening.at += by;
         for (const double along : {-0.35, 0.0, 0.35})
           for (const double side : {-1.0, 1.0})
@@ -129,7 +131,7 @@ class Placer {
 
   /// Both ends stand at a right angle to the edge in every room that has them as a corner, and no other room does.
   [[nodiscard]] bool moves_freely(const Eigen::Vector2d& p, const Eigen::Vector2d& q) const {
-    for (const DesignRoom& room : design_.rooms) {
+    for (const TemplateRoom& room : floor_.rooms) {
       const std::size_t n = room.outline.size();
       int ends = 0;
       for (std::size_t k = 0; k < n; ++k) {
@@ -153,20 +155,20 @@ class Placer {
     constexpr double step_m = 0.5;
     const bool niche = options_.feature == FeatureKind::niche;
     const double width = niche ? niche_width_m : options_.epsilon_m;
-    for (const DesignWall& wall : walls_) {
+    for (const TemplateWall& wall : walls_) {
       if (wall.rooms[0] != room_ || wall.rooms[1] >= 0) continue;
       const Eigen::Vector2d e = (wall.b - wall.a).normalized(), out = -left_of(e);
       const double length = (wall.b - wall.a).norm();
       const double end = 0.5 * width + options_.facade_m + beside_opening_m;
       for (double s = end; s <= length - end; s += step_m) {
         const Eigen::Vector2d at = wall.a + s * e;
-        FeaturedDesign featured{design_, "", at, {at - (0.5 * options_.partition_m + before_m) * out}};
+        FeaturedTemplate featured{floor_, "", at, {at - (0.5 * options_.partition_m + before_m) * out}};
         if (niche) {
           featured.at += options_.epsilon_m * out;
-          if (!add_niche(featured.design, at, e, out)) continue;
+          if (!add_niche(featured.floor, at, e, out)) continue;
         } else {
           featured.element = "feature_window";
-          featured.design.openings.push_back({"feature_window", OpeningKind::window, at, width, 1.5, 0.3});
+          featured.floor.openings.push_back({"feature_window", OpeningKind::window, at, width, 1.5, 0.3});
         }
         keep(std::move(featured));
       }
@@ -174,9 +176,9 @@ class Placer {
   }
 
   /// The room's outline goes out by epsilon between p - and p +; openings keep their distance from its reveals.
-  bool add_niche(Design& design, const Eigen::Vector2d& at, const Eigen::Vector2d& e,
+  bool add_niche(FloorTemplate& floor, const Eigen::Vector2d& at, const Eigen::Vector2d& e,
                  const Eigen::Vector2d& out) const {
-    Polygon2& polygon = design.rooms[static_cast<std::size_t>(room_)].outline;
+    Polygon2& polygon = floor.rooms[static_cast<std::size_t>(room_)].outline;
     for (std::size_t k = 0; k < polygon.size(); ++k) {
       if (segment_distance(polygon[k], polygon[(k + 1) % polygon.size()], at) > same_m) continue;
       const Eigen::Vector2d a = at - 0.5 * niche_width_m * e, b = at + 0.5 * niche_width_m * e;
@@ -198,34 +200,35 @@ class Placer {
       const Eigen::Vector2d onward = (polygon[(k + 1) % n] - polygon[k]).normalized();
       if (std::abs(in.dot(onward)) > same_m || left_of(in).dot(onward) < 0.0) continue;
       const Eigen::Vector2d at = polygon[k] + off * (onward - in);
-      const bool in_the_way = std::any_of(design_.openings.begin(), design_.openings.end(), [&](const auto& opening) {
+      const bool in_the_way = std::any_of(floor_.openings.begin(), floor_.openings.end(), [&](const auto& opening) {
         return opening.kind == OpeningKind::door && (opening.at - at).norm() < way_m + half;
       });
       if (in_the_way) continue;
-      FeaturedDesign featured{design_, column ? "feature_column" : "feature_box", at, {}};
+      FeaturedTemplate featured{floor_, column ? "feature_column" : "feature_box", at, {}};
       const double yaw_deg = std::remainder(std::atan2(onward.y(), onward.x()) * 180.0 / std::numbers::pi, 90.0);
       const double turned = std::abs(yaw_deg) < same_m ? 0.0 : yaw_deg;
       if (column)
-        featured.design.add_column(featured.element, at, options_.epsilon_m, turned);
+        featured.floor.add_column(featured.element, at, options_.epsilon_m, turned);
       else
-        featured.design.add_box(featured.element, at, options_.epsilon_m, turned);
+        featured.floor.add_box(featured.element, at, options_.epsilon_m, turned);
       for (const Eigen::Vector2d& way : {Eigen::Vector2d(onward - in), Eigen::Vector2d(onward), Eigen::Vector2d(-in)})
         featured.seen_at.emplace_back(at + (half + before_m) * way);
       keep(std::move(featured));
     }
   }
 
-  const Design& design_;
-  const FamilyOptions& options_;
-  std::vector<DesignWall> walls_;
+  const FloorTemplate& floor_;
+  const GeneratorOptions& options_;
+  std::vector<TemplateWall> walls_;
   int room_ = -1;
-  std::vector<FeaturedDesign> placed_;
+  std::vector<FeaturedTemplate> placed_;
 };
 
 }  // namespace
 
-std::vector<FeaturedDesign> place_feature(const Design& design, const FamilyOptions& options, const std::string& room) {
-  return Placer(design, options, room).place();
+std::vector<FeaturedTemplate> place_feature(const FloorTemplate& floor, const GeneratorOptions& options,
+                                            const std::string& room) {
+  return Placer(floor, options, room).place();
 }
 
 }  // namespace plumbline::bim

@@ -7,9 +7,9 @@
 
 namespace plumbline::bim {
 
-/// A design with its one distinguishing feature.
-struct FeaturedDesign {
-  Design design;
+/// A floor template with its one distinguishing feature.
+struct FeaturedTemplate {
+  FloorTemplate floor;
   std::string element;  ///< id of the wall, opening, column or clutter, without prefix
   Eigen::Vector2d at = Eigen::Vector2d::Zero();
   std::vector<Eigen::Vector2d> seen_at;  ///< points just before its surface
@@ -17,7 +17,7 @@ struct FeaturedDesign {
 
 /// Ways to put the feature that the options ask for into a room, in a fixed order; only such that leave doors and
 /// windows their place and a robot its way.
-[[nodiscard]] std::vector<FeaturedDesign> place_feature(const Design& design, const FamilyOptions& options,
-                                                        const std::string& room);
+[[nodiscard]] std::vector<FeaturedTemplate> place_feature(const FloorTemplate& floor, const GeneratorOptions& options,
+                                                          const std::string& room);
 
 }  // namespace plumbline::bim

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <type_traits>
 
+#include "bim/config/schema.h"
 #include "bim/errors.h"
 #include "bim/formats/plan_yaml/plan_write.h"
 #include "bim/formats/plan_yaml/plan_yaml.h"
@@ -22,7 +23,7 @@ namespace {
 constexpr double epsilon_min_m = 0.02;  ///< smaller than this a beam sees no feature
 constexpr double slab_m = 0.2;          ///< between a ceiling and the floor above it [PlanSolids]
 
-constexpr std::array<FamilyRow, 10> rows = {{
+constexpr std::array<GeneratorRow, 10> rows = {{
     {"corridor", "equal rooms along a corridor, on one side or both (half turn)"},
     {"rot180", "two flats, one the other turned by 180 degrees"},
     {"rot90", "rooms around a square core, four times the same by quarter turns"},
@@ -40,7 +41,9 @@ class OptionLister {
  public:
   template <class T>
   void operator()(std::string_view key, const T& value, const Field& field = {}) {
-    OptionRow row{std::string(key), "", std::string(field.doc), ""};
+    const SchemaField schema = schema_field(std::string(key), "", field);
+    OptionRow row{schema.key, "", schema.meaning, ""};
+    if (!schema.unit.empty() && schema.unit != "-") row.doc += ", " + schema.unit;
     if constexpr (std::is_enum_v<T>) {
       row.value = EnumNames<T>::names[static_cast<std::size_t>(value)];
       for (const std::string_view name : EnumNames<T>::names)
@@ -56,32 +59,32 @@ class OptionLister {
   std::vector<OptionRow> rows;
 };
 
-/// A family: what it is called, how its floor is made from its options.
+/// A generator: how the floor of a family is made from its options.
 template <class Options>
-struct Family {
-  using Build = Design (*)(const Options&, const Mark&);
+struct Generator {
+  using Build = FloorTemplate (*)(const Options&, const Mark&);
   Build build;
   Options defaults;
 };
 
-/// Calls `use` with the family of this name.
+/// Calls `use` with the generator of this name.
 template <class Use>
-auto with_family(std::string_view name, const Use& use) {
+auto with_generator(std::string_view name, const Use& use) {
   UnitOptions tower;
   tower.storeys = 3;
-  if (name == "corridor") return use(Family<CorridorOptions>{corridor, {}});
-  if (name == "rot180") return use(Family<UnitOptions>{rot180, {}});
-  if (name == "rot90") return use(Family<Rot90Options>{rot90, {}});
-  if (name == "mirrored") return use(Family<UnitOptions>{mirrored, {}});
-  if (name == "storeys") return use(Family<UnitOptions>{storeys, tower});
-  if (name == "grid") return use(Family<GridOptions>{grid, {}});
-  if (name == "ring") return use(Family<RingOptions>{ring, {}});
-  if (name == "hall") return use(Family<HallOptions>{hall, {}});
-  if (name == "shapes") return use(Family<ShapeOptions>{shapes, {}});
-  if (name == "long") return use(Family<LongOptions>{long_corridor, {}});
+  if (name == "corridor") return use(Generator<CorridorOptions>{corridor, {}});
+  if (name == "rot180") return use(Generator<UnitOptions>{rot180, {}});
+  if (name == "rot90") return use(Generator<Rot90Options>{rot90, {}});
+  if (name == "mirrored") return use(Generator<UnitOptions>{mirrored, {}});
+  if (name == "storeys") return use(Generator<UnitOptions>{storeys, tower});
+  if (name == "grid") return use(Generator<GridOptions>{grid, {}});
+  if (name == "ring") return use(Generator<RingOptions>{ring, {}});
+  if (name == "hall") return use(Generator<HallOptions>{hall, {}});
+  if (name == "shapes") return use(Generator<ShapeOptions>{shapes, {}});
+  if (name == "long") return use(Generator<LongOptions>{long_corridor, {}});
   std::vector<std::string> known;
   std::string list;
-  for (const FamilyRow& row : rows) {
+  for (const GeneratorRow& row : rows) {
     known.emplace_back(row.name);
     list += " " + known.back();
   }
@@ -99,7 +102,7 @@ Options read_options(const Options& defaults, const Tree& tree) {
   Options options = read(defaults);
   if (!options.seed) return options;
   Options drawn = defaults;
-  draw_sizes(drawn, Stream(*options.seed, "bim.generate"));
+  sample_parameters(drawn, Stream(*options.seed, "bim.generate"));
   return read(drawn);
 }
 
@@ -108,7 +111,7 @@ Mark mark_of(const Tree& options, std::string_view key) {
   return tree != nullptr ? tree->mark : options.mark;
 }
 
-void check_feature(const FamilyOptions& options, const Tree& tree) {
+void check_feature(const GeneratorOptions& options, const Tree& tree) {
   if (options.epsilon_m > 0.0 && options.epsilon_m < epsilon_min_m)
     throw InputError(mark_of(tree, "epsilon_m"), format_number(options.epsilon_m) +
                                                      " m is too small a feature; it must be 0 or at least " +
@@ -121,19 +124,19 @@ void check_feature(const FamilyOptions& options, const Tree& tree) {
 
 std::string storey_name(int i) { return i == 0 ? "ground" : "level_" + std::to_string(i); }
 
-/// Rooms that a turn of the group takes onto one another, and those the family calls alike.
-std::vector<std::vector<std::string>> rooms_alike(const Design& design) {
-  std::vector<std::vector<std::string>> classes = design.alike;
+/// Rooms that a rotation of the group maps onto one another, and those that the template declares alike.
+std::vector<std::vector<std::string>> rooms_alike(const FloorTemplate& floor) {
+  std::vector<std::vector<std::string>> classes = floor.alike;
   std::erase_if(classes, [](const auto& like) { return like.size() < 2; });
   const auto listed = [&](const std::string& id) {
     return std::any_of(classes.begin(), classes.end(),
                        [&](const auto& like) { return std::find(like.begin(), like.end(), id) != like.end(); });
   };
-  for (const DesignRoom& room : design.rooms) {
+  for (const TemplateRoom& room : floor.rooms) {
     if (listed(room.id)) continue;
     std::vector<std::string> like = {room.id};
-    for (const DesignRoom& other : design.rooms) {
-      const bool swapped = std::any_of(design.group.begin(), design.group.end(), [&](const DesignTurn& turn) {
+    for (const TemplateRoom& other : floor.rooms) {
+      const bool swapped = std::any_of(floor.group.begin(), floor.group.end(), [&](const TemplateRotation& turn) {
         const Isometry2 g = Isometry2::turn(turn.angle_deg * std::numbers::pi / 180.0, turn.about);
         return (g * centroid(room.outline) - centroid(other.outline)).norm() < same_m;
       });
@@ -148,17 +151,18 @@ std::vector<std::vector<std::string>> rooms_alike(const Design& design) {
 /// and the rest copy it.
 class Tower {
  public:
-  Tower(const Design& design, const FamilyOptions& options, const FeaturedDesign* featured, int featured_storey)
-      : design_(design), options_(options), featured_(featured), featured_storey_(featured_storey) {}
+  Tower(const FloorTemplate& floor, const GeneratorOptions& options, const FeaturedTemplate* featured,
+        int featured_storey)
+      : floor_(floor), options_(options), featured_(featured), featured_storey_(featured_storey) {}
 
   PlanFile build() {
-    plan_.name = design_.name;
-    for (int i = 0; i < design_.storeys; ++i) add_storey(i);
+    plan_.name = floor_.name;
+    for (int i = 0; i < floor_.storeys; ++i) add_storey(i);
     add_symmetry();
     return std::move(plan_);
   }
 
-  /// Id of a room of the design on a storey.
+  /// Id of a room of the template on a storey.
   [[nodiscard]] std::string room_id(const std::string& room, int storey) const {
     return prefixes_[static_cast<std::size_t>(storey)] + room;
   }
@@ -173,7 +177,7 @@ class Tower {
     if (special || plain_.empty()) {
       entry.height_m = options_.height_m;
       prefixes_.push_back(i == 0 ? "" : entry.id + "_");
-      add_storey_entries(special ? featured_->design : design_, options_, entry.id, prefixes_.back(), plan_);
+      add_storey_entries(special ? featured_->floor : floor_, options_, entry.id, prefixes_.back(), plan_);
       if (!special) plain_ = entry.id;
       if (!special) plain_prefix_ = prefixes_.back();
     } else {
@@ -188,15 +192,15 @@ class Tower {
     symmetry.exact = featured_ == nullptr;
     std::vector<std::string> storeys;
     for (const PlanStoreyEntry& storey : plan_.storeys) storeys.push_back(storey.id);
-    for (const DesignTurn& turn : design_.group)
+    for (const TemplateRotation& turn : floor_.group)
       symmetry.group.push_back({turn.angle_deg, turn.about, storeys, storeys});
     for (std::size_t i = 1; i < storeys.size(); ++i)
       symmetry.group.push_back({0.0, Eigen::Vector2d::Zero(), {storeys.front()}, {storeys[i]}});
-    symmetry.rooms_alike = rooms_alike(design_);
-    if (design_.storeys > 1) {
+    symmetry.rooms_alike = rooms_alike(floor_);
+    if (floor_.storeys > 1) {
       std::vector<std::vector<std::string>> all;
       std::vector<std::vector<std::string>> floor = symmetry.rooms_alike;
-      for (const DesignRoom& room : design_.rooms) {
+      for (const TemplateRoom& room : floor_.rooms) {
         const bool listed = std::any_of(floor.begin(), floor.end(), [&](const auto& like) {
           return std::find(like.begin(), like.end(), room.id) != like.end();
         });
@@ -204,7 +208,7 @@ class Tower {
       }
       for (const std::vector<std::string>& like : floor) {
         all.emplace_back();
-        for (int i = 0; i < design_.storeys; ++i)
+        for (int i = 0; i < floor_.storeys; ++i)
           for (const std::string& room : like) all.back().push_back(room_id(room, i));
       }
       symmetry.rooms_alike = std::move(all);
@@ -212,9 +216,9 @@ class Tower {
     plan_.symmetry = std::move(symmetry);
   }
 
-  const Design& design_;
-  const FamilyOptions& options_;
-  const FeaturedDesign* featured_;
+  const FloorTemplate& floor_;
+  const GeneratorOptions& options_;
+  const FeaturedTemplate* featured_;
   int featured_storey_;
   PlanFile plan_;
   std::string plain_, plain_prefix_;
@@ -222,30 +226,29 @@ class Tower {
 };
 
 /// Rooms to try the feature in: the start's own where it is to be seen, otherwise the farthest first.
-std::vector<std::string> rooms_to_try(const Design& design, bool visible) {
-  if (visible) return {design.start};
-  const Eigen::Vector2d start =
-      centroid(design.rooms[static_cast<std::size_t>(design.find_room(design.start))].outline);
+std::vector<std::string> rooms_to_try(const FloorTemplate& floor, bool visible) {
+  if (visible) return {floor.start};
+  const Eigen::Vector2d start = centroid(floor.rooms[static_cast<std::size_t>(floor.find_room(floor.start))].outline);
   std::vector<std::pair<double, std::string>> rooms;
-  for (const DesignRoom& room : design.rooms)
-    if (room.id != design.start) rooms.emplace_back(-(centroid(room.outline) - start).norm(), room.id);
+  for (const TemplateRoom& room : floor.rooms)
+    if (room.id != floor.start) rooms.emplace_back(-(centroid(room.outline) - start).norm(), room.id);
   std::stable_sort(rooms.begin(), rooms.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<std::string> ids;
   for (const auto& [distance, id] : rooms) ids.push_back(id);
   return ids;
 }
 
-/// The plan with its feature in the first place that is seen, or not seen, as asked for.
-PlanFile with_feature(const Design& design, const FamilyOptions& options, const Mark& mark) {
-  const int storey = !options.feature_visible && design.storeys > 1 ? design.storeys - 1 : 0;
+/// The plan with its feature at the first position that has the required visibility.
+PlanFile with_feature(const FloorTemplate& floor, const GeneratorOptions& options, const Mark& mark) {
+  const int storey = !options.feature_visible && floor.storeys > 1 ? floor.storeys - 1 : 0;
   const bool same_storey = storey == 0;
-  for (const std::string& room : rooms_to_try(design, options.feature_visible)) {
-    for (const FeaturedDesign& featured : place_feature(design, options, room)) {
-      Tower tower(design, options, &featured, storey);
+  for (const std::string& room : rooms_to_try(floor, options.feature_visible)) {
+    for (const FeaturedTemplate& featured : place_feature(floor, options, room)) {
+      Tower tower(floor, options, &featured, storey);
       PlanFile plan = tower.build();
       const Building building = read_plan_text(write_plan(plan), "generated");
       std::vector<std::string> seen = rooms_that_see(building, storey, featured.seen_at);
-      const bool from_start = same_storey && std::find(seen.begin(), seen.end(), design.start) != seen.end();
+      const bool from_start = same_storey && std::find(seen.begin(), seen.end(), floor.start) != seen.end();
       if (from_start != options.feature_visible) continue;
       const std::string prefix = storey == 0 ? "" : storey_name(storey) + "_";
       plan.symmetry->feature =
@@ -256,7 +259,7 @@ PlanFile with_feature(const Design& design, const FamilyOptions& options, const 
     }
   }
   const std::string name(EnumNames<FeatureKind>::names[static_cast<std::size_t>(options.feature)]);
-  throw InputError(mark, "no place for a " + name + " of " + format_number(options.epsilon_m) +
+  throw InputError(mark, "no position for a " + name + " of " + format_number(options.epsilon_m) +
                              " m that the start room " + (options.feature_visible ? "sees" : "does not see") +
                              "; another feature, a smaller size, other sizes of rooms" +
                              (options.glass ? " or no glass" : ""));
@@ -264,10 +267,10 @@ PlanFile with_feature(const Design& design, const FamilyOptions& options, const 
 
 }  // namespace
 
-std::span<const FamilyRow> families() { return rows; }
+std::span<const GeneratorRow> generators() { return rows; }
 
-std::vector<OptionRow> family_options(std::string_view family) {
-  return with_family(family, [](const auto& entry) {
+std::vector<OptionRow> generator_options(std::string_view family) {
+  return with_generator(family, [](const auto& entry) {
     OptionLister lister;
     auto options = entry.defaults;
     options.visit(lister);
@@ -276,18 +279,18 @@ std::vector<OptionRow> family_options(std::string_view family) {
 }
 
 GeneratedPlan generate(std::string_view family, const Tree& options_tree) {
-  return with_family(family, [&](const auto& entry) {
+  return with_generator(family, [&](const auto& entry) {
     const auto options = read_options(entry.defaults, options_tree);
     check_feature(options, options_tree);
-    Design design = entry.build(options, options_tree.mark);
-    design.name = std::string(family);
+    FloorTemplate floor = entry.build(options, options_tree.mark);
+    floor.name = std::string(family);
     GeneratedPlan generated;
-    generated.plan = options.epsilon_m > 0.0 ? with_feature(design, options, mark_of(options_tree, "feature"))
-                                             : Tower(design, options, nullptr, 0).build();
-    generated.start = design.start;
-    for (const DesignRoom& room : design.rooms)
-      if (room.id != design.start) generated.rooms.push_back(room.id);
-    generated.rooms.push_back(design.start);
+    generated.plan = options.epsilon_m > 0.0 ? with_feature(floor, options, mark_of(options_tree, "feature"))
+                                             : Tower(floor, options, nullptr, 0).build();
+    generated.start = floor.start;
+    for (const TemplateRoom& room : floor.rooms)
+      if (room.id != floor.start) generated.rooms.push_back(room.id);
+    generated.rooms.push_back(floor.start);
     return generated;
   });
 }

@@ -11,13 +11,13 @@
 
 namespace plumbline::bim {
 
-struct FamilyRow {
+struct GeneratorRow {
   std::string_view name;
   std::string_view summary;
 };
 
-/// The families of stress buildings, in the order they are listed.
-[[nodiscard]] std::span<const FamilyRow> families();
+/// The generators of families of stress buildings, in the order they are listed.
+[[nodiscard]] std::span<const GeneratorRow> generators();
 
 struct OptionRow {
   std::string key;    ///< as in the options' visit
@@ -27,9 +27,9 @@ struct OptionRow {
 };
 
 /// Options of a family with their defaults. InputError for a name that is no family.
-[[nodiscard]] std::vector<OptionRow> family_options(std::string_view family);
+[[nodiscard]] std::vector<OptionRow> generator_options(std::string_view family);
 
-/// A stress building as a plan, with where to walk in it.
+/// A stress building as a plan, with its start and rooms.
 struct GeneratedPlan {
   PlanFile plan;
   std::string start;               ///< room to start in

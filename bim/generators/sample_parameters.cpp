@@ -9,7 +9,7 @@ namespace plumbline::bim {
 
 namespace {
 
-/// Numbers in the order they are asked for; sizes in whole centimetres.
+/// Random numbers in the order of the calls; sizes in whole centimetres.
 class Dice {
  public:
   explicit Dice(const Stream& stream) : stream_(stream) {}
@@ -23,7 +23,7 @@ class Dice {
   std::uint64_t draw_ = 0;
 };
 
-void draw_walls(FamilyOptions& options, Dice& dice) {
+void draw_walls(GeneratorOptions& options, Dice& dice) {
   options.height_m = dice.size(2.5, 3.6);
   options.facade_m = dice.size(0.2, 0.4);
   options.partition_m = dice.size(0.08, 0.2);
@@ -32,7 +32,7 @@ void draw_walls(FamilyOptions& options, Dice& dice) {
 
 }  // namespace
 
-void draw_sizes(CorridorOptions& options, const Stream& stream) {
+void sample_parameters(CorridorOptions& options, const Stream& stream) {
   Dice dice(stream);
   draw_walls(options, dice);
   options.rooms = dice.count(3, 7);
@@ -43,7 +43,7 @@ void draw_sizes(CorridorOptions& options, const Stream& stream) {
   options.door_offset_m = dice.size(0.2, 0.6);
 }
 
-void draw_sizes(UnitOptions& options, const Stream& stream) {
+void sample_parameters(UnitOptions& options, const Stream& stream) {
   Dice dice(stream);
   draw_walls(options, dice);
   options.unit_width_m = dice.size(7.5, 11.0);
@@ -51,14 +51,14 @@ void draw_sizes(UnitOptions& options, const Stream& stream) {
   options.hall_width_m = dice.size(1.7, 2.3);
 }
 
-void draw_sizes(Rot90Options& options, const Stream& stream) {
+void sample_parameters(Rot90Options& options, const Stream& stream) {
   Dice dice(stream);
   draw_walls(options, dice);
   options.core_m = dice.size(5.5, 9.0);
   options.arm_m = dice.size(3.0, 5.0);
 }
 
-void draw_sizes(GridOptions& options, const Stream& stream) {
+void sample_parameters(GridOptions& options, const Stream& stream) {
   Dice dice(stream);
   draw_walls(options, dice);
   options.rows = dice.count(2, 4);
@@ -67,7 +67,7 @@ void draw_sizes(GridOptions& options, const Stream& stream) {
   options.room_depth_m = dice.size(3.2, 5.5);
 }
 
-void draw_sizes(RingOptions& options, const Stream& stream) {
+void sample_parameters(RingOptions& options, const Stream& stream) {
   Dice dice(stream);
   draw_walls(options, dice);
   options.rooms = dice.count(2, 3);
@@ -77,7 +77,7 @@ void draw_sizes(RingOptions& options, const Stream& stream) {
   options.door_offset_m = dice.size(0.1, 0.5);
 }
 
-void draw_sizes(HallOptions& options, const Stream& stream) {
+void sample_parameters(HallOptions& options, const Stream& stream) {
   Dice dice(stream);
   draw_walls(options, dice);
   options.width_m = dice.size(14.0, 24.0);
@@ -88,7 +88,7 @@ void draw_sizes(HallOptions& options, const Stream& stream) {
   options.pillars_y = dice.count(1, 3);
 }
 
-void draw_sizes(ShapeOptions& options, const Stream& stream) {
+void sample_parameters(ShapeOptions& options, const Stream& stream) {
   Dice dice(stream);
   draw_walls(options, dice);
   options.shape = static_cast<RoomShape>(dice.count(0, 2));
@@ -97,7 +97,7 @@ void draw_sizes(ShapeOptions& options, const Stream& stream) {
   options.step_m = dice.size(1.3, 2.5);
 }
 
-void draw_sizes(LongOptions& options, const Stream& stream) {
+void sample_parameters(LongOptions& options, const Stream& stream) {
   Dice dice(stream);
   draw_walls(options, dice);
   options.length_m = dice.size(20.0, 60.0);

@@ -49,11 +49,11 @@ class View {
   }
 
   std::vector<Polygon2> outlines_;
-  PlaneGrid grid_;
+  BodyGrid grid_;
 };
 
 /// Places of a room where a robot can stand, furniture aside.
-std::vector<Eigen::Vector2d> places_in(const Polygon2& outline, const SightConfig& config) {
+std::vector<Eigen::Vector2d> places_in(const Polygon2& outline, const VisibilityConfig& config) {
   std::vector<Eigen::Vector2d> places = {interior_point(outline)};
   const Eigen::AlignedBox2d box = box_of(outline);
   const int nx = static_cast<int>(box.sizes().x() / config.grid_m),
@@ -70,10 +70,10 @@ std::vector<Eigen::Vector2d> places_in(const Polygon2& outline, const SightConfi
 }  // namespace
 
 std::vector<std::string> rooms_that_see(const Building& building, int storey,
-                                        const std::vector<Eigen::Vector2d>& points, const SightConfig& config) {
+                                        const std::vector<Eigen::Vector2d>& points, const VisibilityConfig& config) {
   std::vector<Polygon2> outlines;
-  for (const BodyPrism& prism : bodies_of(building, storey).prisms)
-    if (prism.z0 < config.eye_m && prism.z1 > config.eye_m) outlines.push_back(prism.outline);
+  for (const BodyPrism& prism : symmetry_bodies(building, storey).prisms)
+    if (prism.z0 < config.sensor_height_m && prism.z1 > config.sensor_height_m) outlines.push_back(prism.outline);
   const View view(std::move(outlines));
   std::vector<std::string> rooms;
   for (const Room& room : building.rooms) {

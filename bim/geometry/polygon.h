@@ -24,7 +24,7 @@ struct PolygonWithHoles2 {
 [[nodiscard]] double boundary_distance(const Polygon2& polygon, const Eigen::Vector2d& p);
 /// Distance of p to the segment a-b, m.
 [[nodiscard]] double segment_distance(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& p);
-/// True when no two edges touch save neighbours in their common vertex, and the area is not 0.
+/// True when no two edges touch except neighbours in their common vertex, and the area is not 0.
 [[nodiscard]] bool is_simple(const Polygon2& polygon);
 /// A point well inside (the inner point farthest from the boundary on a coarse grid, then refined).
 [[nodiscard]] Eigen::Vector2d interior_point(const Polygon2& polygon);

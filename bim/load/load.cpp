@@ -44,44 +44,46 @@ bool has_top_key(std::string_view text, const std::string& key) {
 }
 
 /// A building of any kind, from its text.
-Site read_site(const std::string& text, const std::string& path) {
+PlannedAndBuilt read_planned_and_built(const std::string& text, const std::string& path) {
   const std::string_view content = first_content(text);
   const bool yaml = ends_with(path, ".yaml") || ends_with(path, ".yml");
-  Site site;
+  PlannedAndBuilt both;
   if (is_mesh_path(path)) {
-    site.as_planned = read_mesh_world(text, path);
-    site.as_built = site.as_planned;
-    site.has_plan = false;
+    both.as_planned = read_mesh_world(text, path);
+    both.as_built = both.as_planned;
+    both.has_plan = false;
   } else if (ends_with(path, ".ifc") || starts_with(content, "ISO-10303-21")) {
-    site.as_planned = read_ifc_text(text, path);
-    site.as_built = site.as_planned;
+    both.as_planned = read_ifc_text(text, path);
+    both.as_built = both.as_planned;
   } else if (!starts_with(content, "plan:") && has_top_key(text, "levels:")) {
-    site.as_planned = read_traffic_editor_text(text, path);
-    site.as_built = site.as_planned;
+    both.as_planned = read_traffic_editor_text(text, path);
+    both.as_built = both.as_planned;
   } else if (yaml || starts_with(content, "plan:")) {
-    PlanSite plan = read_plan_site(text, path);
-    site.as_planned = std::move(plan.as_planned);
-    site.as_built = std::move(plan.as_built.building);
-    site.changes = std::move(plan.as_built.changes);
+    PlanWithDeviations plan = read_plan_with_deviations(text, path);
+    both.as_planned = std::move(plan.as_planned);
+    both.as_built = std::move(plan.as_built.building);
+    both.changes = std::move(plan.as_built.changes);
   } else {
     throw InputError({path, 0, 0},
                      "this is no building; a plan begins with 'plan: 1', an IFC file with 'ISO-10303-21;', a "
                      "traffic-editor plan has 'levels:', a mesh ends in .obj, .dae, .glb, .ply or .stl");
   }
-  return site;
+  return both;
 }
 
 }  // namespace
 
-Site load_site(const std::string& path, const BuildingOptions& options) {
-  Site site = read_site(read_text_file(path), path);
-  for (Building* building : {&site.as_planned, &site.as_built}) {
+PlannedAndBuilt load_planned_and_built(const std::string& path, const BuildingOptions& options) {
+  PlannedAndBuilt both = read_planned_and_built(read_text_file(path), path);
+  for (Building* building : {&both.as_planned, &both.as_built}) {
     apply_options(*building, options);
     add_fillings(*building);
   }
-  return site;
+  return both;
 }
 
-Building load_building(const std::string& path) { return read_site(read_text_file(path), path).as_planned; }
+Building load_building(const std::string& path) {
+  return read_planned_and_built(read_text_file(path), path).as_planned;
+}
 
 }  // namespace plumbline::bim

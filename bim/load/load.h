@@ -10,20 +10,20 @@
 
 namespace plumbline::bim {
 
-/// A building twice: as designed, for estimators, and as it stands, for the sensors. What is in both has one id.
-struct Site {
+/// A building as planned, for estimators, and as built, for the sensors. Elements that are in both have one id.
+struct PlannedAndBuilt {
   Building as_planned;
   Building as_built;
   std::vector<Change> changes;  ///< what differs, as built
-  bool has_plan = true;         ///< false: a mere mesh, in which nothing can be localized
+  bool has_plan = true;         ///< false: a mesh without a plan, in which no method can localize
 };
 
-/// Reads a building with its as-built deviations, as a scenario wants it, and fills its closed doors and its windows
-/// (bim/building/fillings.h). Errors as load_building.
-[[nodiscard]] Site load_site(const std::string& path, const BuildingOptions& options = {});
+/// Reads a building with its as-built deviations, with a scenario's options, and fills its closed doors and its windows
+/// (bim/model/fillings.h). Errors as load_building.
+[[nodiscard]] PlannedAndBuilt load_planned_and_built(const std::string& path, const BuildingOptions& options = {});
 
-/// Reads a building, as planned and without fillings, of any kind this version knows, told by its content: a plan (YAML
-/// whose first key is `plan: 1`), a traffic-editor plan (`levels:`) or an IFC file; and a mesh, told by its ending.
+/// Reads a building, as planned and without fillings, of any supported kind. The content decides: a plan (YAML whose
+/// first key is `plan: 1`), a traffic-editor plan (`levels:`) or an IFC file; a mesh is known by its file ending.
 /// Throws InputError when the file is missing, a directory, empty or of another kind.
 [[nodiscard]] Building load_building(const std::string& path);
 

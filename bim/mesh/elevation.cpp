@@ -175,8 +175,8 @@ std::variant<Solid, Refusal> cut_in_elevation(const Wall& wall, const std::vecto
   if (bends_in_a_mitre(elevation, config.face_m)) return not_prismatic("an opening reaches into a slanted end");
 
   // Along the wall, then up, is counter-clockwise seen from the right of the wall: the face at y.low is the high cap.
-  return sweep(elevation.region, on_face(frame, elevation, elevation.y.high, elevation.x_high, config.face_m),
-               on_face(frame, elevation, elevation.y.low, elevation.x_low, config.face_m));
+  return extrude_between(elevation.region, on_face(frame, elevation, elevation.y.high, elevation.x_high, config.face_m),
+                         on_face(frame, elevation, elevation.y.low, elevation.x_low, config.face_m));
 }
 
 }  // namespace plumbline::bim

@@ -56,27 +56,27 @@ aiMesh* mesh_of(const BuildingMesh& mesh, const MeshElement& element) {
   return result.release();
 }
 
-aiMaterial* material_of(const Paint& paint) {
+aiMaterial* material_of(const Colour& entry) {
   auto result = std::make_unique<aiMaterial>();
-  const aiString name{std::string(paint.name)};
-  const aiColor4D colour(paint.red, paint.green, paint.blue, 1.0F);  // assimp multiplies it by the opacity
+  const aiString name{std::string(entry.name)};
+  const aiColor4D colour(entry.red, entry.green, entry.blue, 1.0F);  // assimp multiplies it by the opacity
   const float metal = 0.0F, rough = 0.9F;
   result->AddProperty(&name, AI_MATKEY_NAME);
   result->AddProperty(&colour, 1, AI_MATKEY_BASE_COLOR);
   result->AddProperty(&metal, 1, AI_MATKEY_METALLIC_FACTOR);
   result->AddProperty(&rough, 1, AI_MATKEY_ROUGHNESS_FACTOR);
-  if (paint.opacity < 1.0F) result->AddProperty(&paint.opacity, 1, AI_MATKEY_OPACITY);
+  if (entry.opacity < 1.0F) result->AddProperty(&entry.opacity, 1, AI_MATKEY_OPACITY);
   return result.release();
 }
 
-void colour_vertices(aiMesh& mesh, const Paint& paint) {
+void colour_vertices(aiMesh& mesh, const Colour& entry) {
   mesh.mColors[0] = new aiColor4D[mesh.mNumVertices];
-  std::fill_n(mesh.mColors[0], mesh.mNumVertices, aiColor4D(paint.red, paint.green, paint.blue, paint.opacity));
+  std::fill_n(mesh.mColors[0], mesh.mNumVertices, aiColor4D(entry.red, entry.green, entry.blue, entry.opacity));
 }
 
 void add_materials(aiScene& scene) {
-  scene.mMaterials = new aiMaterial*[paints().size()];
-  for (const Paint& paint : paints()) scene.mMaterials[scene.mNumMaterials++] = material_of(paint);
+  scene.mMaterials = new aiMaterial*[palette().size()];
+  for (const Colour& entry : palette()) scene.mMaterials[scene.mNumMaterials++] = material_of(entry);
 }
 
 std::unique_ptr<aiScene> scene_of(const Building& building, const BuildingMesh& mesh, MeshFormat format) {
@@ -96,9 +96,9 @@ std::unique_ptr<aiScene> scene_of(const Building& building, const BuildingMesh& 
     node->mNumMeshes = 1;
     node->mMeshes = new unsigned[1]{scene->mNumMeshes};
     aiMesh* part = mesh_of(mesh, *element);
-    const std::size_t paint = paint_of(building, *element);
-    part->mMaterialIndex = static_cast<unsigned>(paint);
-    if (format == MeshFormat::ply) colour_vertices(*part, paints()[paint]);
+    const std::size_t entry = colour_of(building, *element);
+    part->mMaterialIndex = static_cast<unsigned>(entry);
+    if (format == MeshFormat::ply) colour_vertices(*part, palette()[entry]);
     scene->mMeshes[scene->mNumMeshes++] = part;
     nodes.push_back(node);
   }

@@ -9,20 +9,20 @@
 
 namespace plumbline::bim {
 
-/// What an element looks like in a viewer: linear colour and opacity, 0 to 1.
-struct Paint {
+/// Colour of an element in a viewer: linear RGB and opacity, 0 to 1.
+struct Colour {
   std::string_view name;
   float red = 0.0F, green = 0.0F, blue = 0.0F;
   float opacity = 1.0F;
 };
 
-/// All paints, the one of walls first.
-[[nodiscard]] std::span<const Paint> paints();
+/// All colours, that of walls first.
+[[nodiscard]] std::span<const Colour> palette();
 
-/// Name of its paint by kind and material.
-[[nodiscard]] std::string_view paint_of(const Obstacle& obstacle);
+/// Name of the colour by kind and material.
+[[nodiscard]] std::string_view colour_of(const Obstacle& obstacle);
 
-/// Index into paints() by the kind of the element and the material of an obstacle.
-[[nodiscard]] std::size_t paint_of(const Building& building, const MeshElement& element);
+/// Index into palette() by the kind of the element and the material of an obstacle.
+[[nodiscard]] std::size_t colour_of(const Building& building, const MeshElement& element);
 
 }  // namespace plumbline::bim

@@ -15,7 +15,7 @@ namespace plumbline::bim {
 [[nodiscard]] Solid canonical(const Solid& solid, double grid_m);
 /// Joins vertices that share a grid point and drops triangles that collapse.
 [[nodiscard]] Solid welded(const Solid& solid, double grid_m);
-/// Triangles of no height, to within the grid, given up by turning over the diagonal they share with the neighbour at
+/// Removes triangles of no height, to within the grid, by flipping the diagonal they share with the neighbour at
 /// their longest side. Others keep their place.
 [[nodiscard]] Solid without_slivers(Solid solid, double grid_m);
 /// The same solid with all triangles turned over when its volume is negative.

@@ -22,7 +22,7 @@ Interval thickness_of(const Wall& wall, const WallFrame& frame) {
 
 /// Cutter through the whole wall with the given outline in its elevation.
 Solid through_cutter(const Region2& outline, const WallFrame& frame, const Interval& y, const MeshConfig& config) {
-  return sweep(
+  return extrude_between(
       outline,
       [&](const Eigen::Vector2d& p) {
         return frame.to_world({p.x(), y.high + config.margin_m, p.y()});

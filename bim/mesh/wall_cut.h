@@ -20,17 +20,17 @@ struct MeshConfig {
 
 /// A wall that the 2D method does not take, and why.
 struct Refusal {
-  std::string kind;  ///< not_prismatic | niche
+  WarningKind kind;  ///< not_prismatic | niche
   std::string text;
 };
 
-/// Cuts a wall in its elevation: silhouettes of the openings are subtracted from the wall's, and the rest is swept
+/// Cuts a wall in its elevation: silhouettes of the openings are subtracted from the wall's, and the rest is extruded
 /// through the thickness, between the two faces (a prismatic wall, whose ends may be mitred). An empty solid when
 /// nothing is left of the wall.
 [[nodiscard]] std::variant<Solid, Refusal> cut_in_elevation(const Wall& wall, const std::vector<Opening>& openings,
                                                             const MeshConfig& config);
 
-/// A cut wall and what had to be given up for it.
+/// A cut wall and the compromises made for it.
 struct CutWall {
   Solid solid;  ///< canonical
   bool closed = true;

@@ -8,7 +8,7 @@
 
 namespace plumbline::bim {
 
-/// What one passes or looks through from a room to its neighbour.
+/// The connection from a room to its neighbour.
 enum class Passage { door, window, opening_void, open_edge, stair };
 
 /// Two rooms that meet. a is a room; b another, or -1 for outside (or unknown).

@@ -11,9 +11,9 @@ Eigen::AlignedBox2d box_of(const Polygon2& outline) {
   return box;
 }
 
-void PlanBoxes::add(const Polygon2& outline) { boxes_.push_back(box_of(outline)); }
+void BoxIndex::add(const Polygon2& outline) { boxes_.push_back(box_of(outline)); }
 
-std::vector<int> PlanBoxes::near(const Polygon2& outline, double margin_m) const {
+std::vector<int> BoxIndex::near(const Polygon2& outline, double margin_m) const {
   Eigen::AlignedBox2d reach = box_of(outline);
   reach.min().array() -= margin_m;
   reach.max().array() += margin_m;
@@ -23,14 +23,14 @@ std::vector<int> PlanBoxes::near(const Polygon2& outline, double margin_m) const
   return indices;
 }
 
-PlanBoxes boxes_of(const std::vector<Room>& rooms) {
-  PlanBoxes boxes;
+BoxIndex boxes_of(const std::vector<Room>& rooms) {
+  BoxIndex boxes;
   for (const Room& room : rooms) boxes.add(room.polygon);
   return boxes;
 }
 
-PlanBoxes boxes_of(const std::vector<Wall>& walls, std::size_t first) {
-  PlanBoxes boxes;
+BoxIndex boxes_of(const std::vector<Wall>& walls, std::size_t first) {
+  BoxIndex boxes;
   for (std::size_t i = first; i < walls.size(); ++i) boxes.add(footprint(walls[i]));
   return boxes;
 }

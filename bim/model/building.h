@@ -9,6 +9,7 @@
 
 #include "bim/geometry/plane.h"
 #include "bim/geometry/polygon.h"
+#include "bim/model/warning.h"
 
 namespace plumbline::bim {
 
@@ -16,13 +17,6 @@ namespace plumbline::bim {
 struct Solid {
   std::vector<Eigen::Vector3d> vertices;
   std::vector<Eigen::Vector3i> triangles;
-};
-
-/// A compromise made while reading an element; listed by `inspect`.
-struct Warning {
-  std::string element;  ///< id of the element, empty for the whole file
-  std::string kind;     ///< not_closed | not_prismatic | no_layers | assumed_height | skipped_representation | ...
-  std::string text;
 };
 
 /// What a storey is by its content: foundations and roofs hold no rooms to walk in.
@@ -156,7 +150,7 @@ struct Stair {
   std::int64_t step_id = 0;
 };
 
-/// Any other solid a robot meets: clutter of a plan; door leaves and window panes; of IFC, railings, furniture, ...
+/// Any other solid in the building: clutter of a plan; door leaves and window panes; of IFC, railings, furniture, ...
 struct Obstacle {
   std::string id;
   std::string kind;  ///< box | cylinder | door_leaf | window_pane | railing | furniture | ...
@@ -167,7 +161,7 @@ struct Obstacle {
   std::string material = {};
 };
 
-/// What a surface does to light. Named by Wall::material and others.
+/// Optical properties of a surface. Named by Wall::material and others.
 struct Material {
   std::string id;
   double reflectivity = 0.5;  ///< share of light given back diffusely, 0 to 1

@@ -44,7 +44,7 @@ class Wedges {
 
 }  // namespace
 
-Solid sweep(const Region2& region, const Placement& low, const Placement& high) {
+Solid extrude_between(const Region2& region, const Placement& low, const Placement& high) {
   const FlatMesh mesh = triangulate(region);
   const Wedges wedges(mesh);
   Solid solid;
@@ -75,7 +75,7 @@ Solid sweep(const Region2& region, const Placement& low, const Placement& high) 
 }
 
 Solid extrude(const Region2& region, double z0_m, double z1_m) {
-  return sweep(
+  return extrude_between(
       region, [&](const Eigen::Vector2d& p) { return Eigen::Vector3d(p.x(), p.y(), z0_m); },
       [&](const Eigen::Vector2d& p) { return Eigen::Vector3d(p.x(), p.y(), z1_m); });
 }

@@ -36,7 +36,7 @@ Solid plate(const Opening& opening, const Wall& wall, double thickness_m) {
   const auto at = [&](double y) {
     return [&frame, y](const Eigen::Vector2d& p) { return frame.to_world({p.x(), y, p.y()}); };
   };
-  return sweep({{outline, {}}}, at(middle + half), at(middle - half));
+  return extrude_between({{outline, {}}}, at(middle + half), at(middle - half));
 }
 
 void fill(Building& building, const Opening& opening, std::string_view kind, double thickness_m,

@@ -18,7 +18,7 @@ struct FillingConfig {
 /// Derived obstacles that add_fillings makes; they are no part of a building's content.
 [[nodiscard]] bool is_filling(const Obstacle& obstacle);
 
-/// Sets the door leaves and leaves out the furniture, as a scenario asks. What stands there unplanned stays.
+/// Sets the door leaves and removes the planned furniture, by the scenario's options. Unplanned obstacles stay.
 void apply_options(Building& building, const BuildingOptions& options);
 /// Adds a thin solid for each closed door leaf ("<opening>/leaf") and each window pane ("<opening>/pane").
 void add_fillings(Building& building, const FillingConfig& config = {});

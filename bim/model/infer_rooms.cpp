@@ -55,7 +55,7 @@ std::vector<Wall> walls_near(const Polygon2& outline, const std::vector<Wall>& w
 
 }  // namespace
 
-std::vector<Room> infer_rooms(const Building& building, int storey, const InferConfig& config) {
+std::vector<Room> infer_rooms(const Building& building, int storey, const RoomInferenceConfig& config) {
   const Storey& level = building.storeys[static_cast<std::size_t>(storey)];
   if (level.height_m < config.least_height_m) return {};
   const double slice_m = level.elevation_m + config.slice_m;

@@ -7,9 +7,9 @@
 
 namespace plumbline::bim {
 
-/// Thresholds of finding rooms in a model without spaces [facts: rooms, without IfcSpace].
-struct InferConfig {
-  double slice_m = 1.2;         ///< height above the storey's floor at which walls are looked at
+/// Thresholds of finding rooms in a model without spaces, docs/design.md.
+struct RoomInferenceConfig {
+  double slice_m = 1.2;         ///< height above the storey's floor at which walls are cut
   double closing_m = 0.10;      ///< walls this close to each other are taken as joined
   double least_area_m2 = 0.5;   ///< smaller gaps between walls are no rooms
   double least_height_m = 2.0;  ///< lower storeys (foundations) have no rooms
@@ -17,6 +17,7 @@ struct InferConfig {
 
 /// The regions that the walls of a storey enclose, as rooms with walls and doors left closed: clear outlines, ids made
 /// of the storey's id and a count in canonical order. Open-plan divisions cannot be found.
-[[nodiscard]] std::vector<Room> infer_rooms(const Building& building, int storey, const InferConfig& config = {});
+[[nodiscard]] std::vector<Room> infer_rooms(const Building& building, int storey,
+                                            const RoomInferenceConfig& config = {});
 
 }  // namespace plumbline::bim

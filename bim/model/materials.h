@@ -9,8 +9,8 @@
 
 namespace plumbline::bim {
 
-/// What lets this share of the light through is as good as not there for a LiDAR, save from straight ahead: views
-/// from the plan and symmetries leave it out.
+/// A LiDAR hardly detects a material that transmits this share of the light, except at normal incidence: predicted
+/// scans and symmetries leave it out.
 inline constexpr double see_through_share = 0.5;
 
 /// Materials that a plan may name without declaring them; its own of the same id goes before.
@@ -19,7 +19,7 @@ inline constexpr double see_through_share = 0.5;
 [[nodiscard]] const Material* find_material(const Building& building, std::string_view id);
 /// Adds the preset of this id to a building that has no material of that id; nothing for the empty id.
 void use_material(Building& building, const std::string& id);
-/// True when the LiDAR looks through this material; an unknown one is opaque.
+/// True when the material is transparent to a LiDAR; an unknown one is opaque.
 [[nodiscard]] bool is_see_through(const Building& building, std::string_view material);
 
 }  // namespace plumbline::bim

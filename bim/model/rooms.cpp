@@ -79,10 +79,6 @@ std::vector<int> bounding_sides(const Room& room, const Wall& wall, const Adjace
   return sides;
 }
 
-std::vector<int> walls_along(const Building& building, const Room& room, const AdjacencyConfig& config) {
-  return walls_among(building, room, boxes_of(building.walls).near(room.polygon, config.gap_m), config);
-}
-
 double open_length(const Room& a, const Room& b, const AdjacencyConfig& config) {
   if (std::min(a.z1_m, b.z1_m) - std::max(a.z0_m, b.z0_m) <= config.z_overlap_m) return 0.0;
   double length = 0.0;
@@ -114,13 +110,13 @@ int room_at(const Building& building, const Eigen::Vector2d& p, double sill_m, c
 }
 
 void find_room_walls(Building& building, const AdjacencyConfig& config) {
-  const PlanBoxes boxes = boxes_of(building.walls);
+  const BoxIndex boxes = boxes_of(building.walls);
   for (Room& room : building.rooms)
     if (room.walls.empty()) room.walls = walls_among(building, room, boxes.near(room.polygon, config.gap_m), config);
 }
 
 void find_opening_rooms(Building& building, const AdjacencyConfig& config) {
-  const PlanBoxes boxes = boxes_of(building.rooms);
+  const BoxIndex boxes = boxes_of(building.rooms);
   for (Opening& opening : building.openings) {
     if (opening.wall < 0) continue;
     const Wall& wall = building.walls[static_cast<std::size_t>(opening.wall)];

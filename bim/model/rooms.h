@@ -7,14 +7,14 @@
 
 namespace plumbline::bim {
 
-/// Thresholds of finding out which rooms, walls and openings belong together, m.
+/// Thresholds of the relations between rooms, walls and openings, m.
 struct AdjacencyConfig {
   double gap_m = 0.05;        ///< a room edge this close to a wall face lies on it
   double overlap_m = 0.20;    ///< the two run along each other for more than this
   double tilt = 0.02;         ///< sine of the angle between them, at most
   double z_overlap_m = 0.2;   ///< common height of wall and room
   double walking_m = 2.0;     ///< ... counted up to this above the room's floor: walls of the next storey bound nothing
-  double step_m = 0.25;       ///< how far out of a wall face the room of an opening is looked up
+  double step_m = 0.25;       ///< distance from a wall face at which the room of an opening is looked up
   double above_sill_m = 0.5;  ///< ... and how far above the opening's lower edge
   double below_floor_m = 0.3;    ///< ... allowed below the room's floor
   double virtual_gap_m = 0.005;  ///< edges of two rooms this close have no wall between them
@@ -23,11 +23,8 @@ struct AdjacencyConfig {
 /// Length over which a room's outline runs along one side of a wall, with the room in front of that side, m.
 [[nodiscard]] double shared_length(const Room& room, const Wall& wall, int side, const AdjacencyConfig& config = {});
 /// Sides (0, 1) of the wall that bound the room: those its outline runs along; for a wall the room names although its
-/// outline keeps away from it, the side that looks at the room.
+/// outline keeps away from it, the side that faces the room.
 [[nodiscard]] std::vector<int> bounding_sides(const Room& room, const Wall& wall, const AdjacencyConfig& config = {});
-/// Indices of the walls whose sides a room's outline runs along, ascending.
-[[nodiscard]] std::vector<int> walls_along(const Building& building, const Room& room,
-                                           const AdjacencyConfig& config = {});
 /// Length over which the outlines of two rooms coincide without a wall between them, m.
 [[nodiscard]] double open_length(const Room& a, const Room& b, const AdjacencyConfig& config = {});
 

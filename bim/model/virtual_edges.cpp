@@ -107,7 +107,7 @@ double common_height(const Room& room, double low_m, double high_m, const Adjace
 /// What may bound rooms.
 struct Surroundings {
   std::vector<Blocker> blockers;
-  PlanBoxes blocker_boxes, room_boxes;
+  BoxIndex blocker_boxes, room_boxes;
 };
 
 Surroundings surroundings_of(const Building& building) {

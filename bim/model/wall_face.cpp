@@ -27,15 +27,15 @@ Plane face_plane(const Wall& wall, int side) {
   constexpr int body_behind = -1;
   if (wall.slope == 0.0) {
     const Plane right{Eigen::Vector3d(-left.x(), -left.y(), 0.0), left.dot(on_right)};
-    return side == 0 ? twin_plane(right, wall.thickness_m, body_behind) : right;
+    return side == 0 ? opposite_face(right, wall.thickness_m, body_behind) : right;
   }
   const double cosine = 1.0 / std::sqrt(1.0 + wall.slope * wall.slope);
   const Eigen::Vector3d n = cosine * Eigen::Vector3d(-left.x(), -left.y(), wall.slope);
   const Plane right{n, -n.dot(Eigen::Vector3d(on_right.x(), on_right.y(), wall.z0_m))};
-  return side == 0 ? twin_plane(right, wall.thickness_m * cosine, body_behind) : right;
+  return side == 0 ? opposite_face(right, wall.thickness_m * cosine, body_behind) : right;
 }
 
-Plane twin_plane(const Plane& plane, double thickness_m, int body_side) {
+Plane opposite_face(const Plane& plane, double thickness_m, int body_side) {
   if (body_side != 1 && body_side != -1) throw InternalError("a wall lies on one side of its plane: +1 or -1");
   return {-plane.n, -plane.d + body_side * thickness_m};
 }

@@ -2,10 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <algorithm>
-#include <limits>
 #include <vector>
 
+#include "bim/geometry/interval.h"
 #include "bim/model/building.h"
 
 namespace plumbline::bim {
@@ -34,16 +33,6 @@ class WallFrame {
  private:
   Eigen::Vector2d origin_, along_, left_;
   double z0_, slope_;
-};
-
-struct Interval {
-  double low = std::numeric_limits<double>::infinity();
-  double high = -std::numeric_limits<double>::infinity();
-
-  void add(double v) {
-    low = std::min(low, v);
-    high = std::max(high, v);
-  }
 };
 
 /// All solids of an opening that came from a model; empty for a plain rectangle.

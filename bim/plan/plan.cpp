@@ -61,7 +61,7 @@ PlanRoom room_of(const Room& room, int index) {
   return result;
 }
 
-/// Joins each room with the sides of its walls that look into it.
+/// Joins each room with the sides of its walls that face it.
 void link_faces(const Building& building, Plan& plan) {
   for (PlanRoom& room : plan.rooms) {
     const Room& source = building.rooms[static_cast<std::size_t>(room.id)];
@@ -86,7 +86,7 @@ void link_rooms(const Building& building, Plan& plan) {
   for (const Opening& opening : building.openings)
     if (opening.kind != OpeningKind::window) join(plan, opening.rooms[0], opening.rooms[1]);
   const AdjacencyConfig config;
-  const PlanBoxes boxes = boxes_of(building.rooms);
+  const BoxIndex boxes = boxes_of(building.rooms);
   for (std::size_t i = 0; i < building.rooms.size(); ++i)
     for (const int j : boxes.near(building.rooms[i].polygon, config.virtual_gap_m))
       if (j > static_cast<int>(i) &&

@@ -13,8 +13,8 @@ struct FaceHole {
   double s0 = 0.0, s1 = 0.0, z0 = 0.0, z1 = 0.0;
 };
 
-/// One of the two faces of a wall [BIM-Loc eq. 1-2, with the sign of d corrected]: plane with outward normal n_W and
-/// the finite rectangle it occupies, s running from p0 (s = 0) to p1 with free space on the left of p0 to p1.
+/// One of the two faces of a wall [shaheer2023, eq. 1-2, with the sign of d corrected]: plane with outward normal n_W
+/// and the finite rectangle it occupies, s running from p0 (s = 0) to p1 with free space on the left of p0 to p1.
 struct PlanFace {
   int id = -1;
   std::string wall_id;
@@ -46,7 +46,7 @@ struct PlanStorey {
   double height_m = 3.0;
 };
 
-/// What stands on a storey and is no wall, as an upright prism: a column, planned furniture.
+/// An element other than a wall as an upright prism: a column, planned furniture.
 struct PlanSolid {
   std::string id;
   int storey = -1;
@@ -55,7 +55,7 @@ struct PlanSolid {
   double z1 = 3.0;
 };
 
-/// What an estimator may know of the design, in W. All parts stand in one coordinate frame so that moving the plan by
+/// The plan that an estimator may use, in W. All parts stand in one coordinate frame so that moving the plan by
 /// a rigid motion moves every answer with it.
 struct Plan {
   std::vector<PlanStorey> storeys;

@@ -11,8 +11,8 @@ namespace plumbline {
 /// Every random stream of the program, by name. Estimators may use "slam.*" only (ci/check_layers).
 [[nodiscard]] std::span<const std::string_view> stream_names();
 
-/// Counter-based random numbers (Philox4x32-10). A draw is addressed by (tick, lane, draw) and depends on nothing
-/// else, so neither order nor threads nor another consumer can change it.
+/// Counter-based random numbers (Philox4x32-10 [salmon2011]). A draw is addressed by (tick, lane, draw) and depends on
+/// nothing else, so neither order nor threads nor another consumer can change it.
 class Stream {
  public:
   /// name must stand in stream_names(), else InternalError.

@@ -17,8 +17,8 @@ namespace plumbline::bim {
 
 namespace {
 
-constexpr std::size_t cells_per_contact = 8;
-/// Bounds of what is kept: 640 MB of contacts where everything touches everything, far more faces where they do not.
+constexpr std::size_t cells_per_face = 8;
+/// Bounds of what is kept: 640 MB where everything touches everything, far more faces where they do not.
 constexpr std::size_t most_pairs = 5'000'000;
 constexpr std::size_t most_pairs_per_face = 50;
 
@@ -101,27 +101,27 @@ bool beyond_a_side(const Face& face, const std::array<Eigen::Vector3d, 3>& outwa
   return false;
 }
 
-/// What `other` means to `face`: a contact inside, one at the border (with an empty region), or nothing.
-std::optional<Contact> contact_of(const Face& face, const std::array<Eigen::Vector3d, 3>& outward, const Face& other,
-                                  int other_index, const RayTolerances& tol) {
-  const double clear = 1.01 * tol.contact;  // spares most pairs the clipping
+/// Relation of `other` to `face`: inside, at the border (with an empty region), or none.
+std::optional<CoplanarFace> coplanar_face_of(const Face& face, const std::array<Eigen::Vector3d, 3>& outward,
+                                             const Face& other, int other_index, const RayTolerances& tol) {
+  const double clear = 1.01 * tol.coplanar;  // spares most pairs the clipping
   if (beside(face, other, clear) || beyond_a_side(face, outward, other, clear)) return std::nullopt;
   const double offset = face.n.dot(face.v[0]);
   ConvexPolygon near(other.v);
-  near.clip(face.n, offset + tol.contact);
+  near.clip(face.n, offset + tol.coplanar);
   if (near.empty()) return std::nullopt;
-  near.clip(-face.n, tol.contact - offset);
+  near.clip(-face.n, tol.coplanar - offset);
   if (near.empty()) return std::nullopt;
   near.flatten(face.n, face.v[0]);
-  clip_to_sides(near, face, outward, tol.contact);
+  clip_to_sides(near, face, outward, tol.coplanar);
   if (near.empty()) return std::nullopt;
   ConvexPolygon inner = near;
-  clip_to_sides(inner, face, outward, tol.contact - tol.edge_band);
-  if (inner.empty()) return Contact{{}, other_index};
-  return Contact{near.box(tol.contact), other_index};
+  clip_to_sides(inner, face, outward, tol.coplanar - tol.edge_band);
+  if (inner.empty()) return CoplanarFace{{}, other_index};
+  return CoplanarFace{near.box(tol.coplanar), other_index};
 }
 
-/// Box of a face as Embree will see it, grown by the contact distance, with the face's index.
+/// Box of a face as Embree will see it, grown by the coplanar distance, with the face's index.
 class FaceBox : public CGAL::Box_intersection_d::Box_d<double, 3, CGAL::Box_intersection_d::ID_NONE> {
  public:
   FaceBox(const Eigen::AlignedBox3d& box, std::size_t face)
@@ -137,7 +137,7 @@ class FaceBox : public CGAL::Box_intersection_d::Box_d<double, 3, CGAL::Box_inte
 class Neighbours {
  public:
   Neighbours(std::span<const Face> faces, const RayTolerances& tolerances) : begin_(faces.size() + 1, 0) {
-    const Eigen::Vector3d margin = Eigen::Vector3d::Constant(tolerances.contact);
+    const Eigen::Vector3d margin = Eigen::Vector3d::Constant(tolerances.coplanar);
     std::vector<FaceBox> boxes;
     boxes.reserve(faces.size());
     for (const Face& face : faces) {
@@ -150,7 +150,7 @@ class Neighbours {
     CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const FaceBox& a, const FaceBox& b) {
       if (pairs.size() >= most)
         throw InputError({},
-                         "thousands of triangles lie in one place, such as copies of one thing that were never "
+                         "thousands of triangles lie in one place, such as copies of one element that were never "
                          "moved apart; remove all but one of them");
       pairs.emplace_back(static_cast<int>(a.id()), static_cast<int>(b.id()));
     });
@@ -184,62 +184,63 @@ class Neighbours {
 
 }  // namespace
 
-ContactGrid::ContactGrid(std::span<const Contact> contacts, const Eigen::Vector3d& normal) {
+CoplanarGrid::CoplanarGrid(std::span<const CoplanarFace> coplanar_faces, const Eigen::Vector3d& normal) {
   int steepest = 0;
   normal.cwiseAbs().maxCoeff(&steepest);
   axis_[0] = steepest == 0 ? 1 : 0;
   axis_[1] = steepest == 2 ? 1 : 2;
   Eigen::AlignedBox3d box;
-  for (const Contact& contact : contacts) box.extend(contact.region_W);
+  for (const CoplanarFace& neighbour : coplanar_faces) box.extend(neighbour.region_W);
   for (int k = 0; k < 2; ++k) {
     low_[k] = box.min()[axis_[k]];
     size_[k] = box.max()[axis_[k]] - low_[k];
   }
-  double side = std::sqrt(size_[0] * size_[1] / static_cast<double>(cells_per_contact * contacts.size()));
+  double side = std::sqrt(size_[0] * size_[1] / static_cast<double>(cells_per_face * coplanar_faces.size()));
   divide(side);
   const auto entries = [&] {
     std::size_t count = 0;
-    for (const Contact& contact : contacts) count += cells_of(contact);
+    for (const CoplanarFace& neighbour : coplanar_faces) count += cells_of(neighbour);
     return count;
   };
-  while (cells_[0] * cells_[1] > 1 && entries() > 4 * cells_per_contact * contacts.size()) divide(side *= 2.0);
+  while (cells_[0] * cells_[1] > 1 && entries() > 4 * cells_per_face * coplanar_faces.size()) divide(side *= 2.0);
 
   begin_.assign(static_cast<std::size_t>(cells_[0] * cells_[1]) + 1, 0);
-  for (const Contact& contact : contacts) for_each_cell(contact, [&](std::size_t c) { ++begin_[c + 1]; });
+  for (const CoplanarFace& neighbour : coplanar_faces)
+    for_each_cell(neighbour, [&](std::size_t c) { ++begin_[c + 1]; });
   for (std::size_t c = 1; c < begin_.size(); ++c) begin_[c] += begin_[c - 1];
-  contacts_.resize(begin_.back());
+  indices_.resize(begin_.back());
   std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
-  for (std::uint32_t i = 0; i < contacts.size(); ++i)
-    for_each_cell(contacts[i], [&](std::size_t c) { contacts_[next[c]++] = i; });
+  for (std::uint32_t i = 0; i < coplanar_faces.size(); ++i)
+    for_each_cell(coplanar_faces[i], [&](std::size_t c) { indices_[next[c]++] = i; });
 }
 
-void ContactGrid::divide(double side) {
+void CoplanarGrid::divide(double side) {
   for (int k = 0; k < 2; ++k) {
     cells_[k] = 1 + static_cast<int>(std::min(size_[k] / side, 4e3));
     per_m_[k] = cells_[k] / size_[k];
   }
 }
 
-std::size_t ContactGrid::cells_of(const Contact& contact) const {
+std::size_t CoplanarGrid::cells_of(const CoplanarFace& neighbour) const {
   std::size_t count = 1;
   for (int k = 0; k < 2; ++k) {
     const int axis = axis_[k];
     count *=
-        static_cast<std::size_t>(cell(k, contact.region_W.max()[axis]) - cell(k, contact.region_W.min()[axis]) + 1);
+        static_cast<std::size_t>(cell(k, neighbour.region_W.max()[axis]) - cell(k, neighbour.region_W.min()[axis]) + 1);
   }
   return count;
 }
 
 template <class Visit>
-void ContactGrid::for_each_cell(const Contact& contact, Visit&& visit) const {
-  const Eigen::Vector3d& low = contact.region_W.min();
-  const Eigen::Vector3d& high = contact.region_W.max();
+void CoplanarGrid::for_each_cell(const CoplanarFace& neighbour, Visit&& visit) const {
+  const Eigen::Vector3d& low = neighbour.region_W.min();
+  const Eigen::Vector3d& high = neighbour.region_W.max();
   for (int v = cell(1, low[axis_[1]]); v <= cell(1, high[axis_[1]]); ++v)
     for (int u = cell(0, low[axis_[0]]); u <= cell(0, high[axis_[0]]); ++u)
       visit(static_cast<std::size_t>(v * cells_[0] + u));
 }
 
-ContactTable::ContactTable(std::span<const Face> faces, const RayTolerances& tolerances) {
+CoplanarTable::CoplanarTable(std::span<const Face> faces, const RayTolerances& tolerances) {
   inside_begin_.reserve(faces.size() + 1);
   border_begin_.reserve(faces.size() + 1);
   const Neighbours neighbours(faces, tolerances);
@@ -248,12 +249,13 @@ ContactTable::ContactTable(std::span<const Face> faces, const RayTolerances& tol
     border_begin_.push_back(border_.size());
     const std::array<Eigen::Vector3d, 3> outward = side_normals(faces[i]);
     for (const int other : neighbours.of(i)) {
-      const auto contact = contact_of(faces[i], outward, faces[static_cast<std::size_t>(other)], other, tolerances);
-      if (!contact) continue;
-      if (contact->region_W.isEmpty()) {
+      const auto neighbour =
+          coplanar_face_of(faces[i], outward, faces[static_cast<std::size_t>(other)], other, tolerances);
+      if (!neighbour) continue;
+      if (neighbour->region_W.isEmpty()) {
         border_.push_back(other);
       } else {
-        inside_.push_back(*contact);
+        inside_.push_back(*neighbour);
       }
     }
   }

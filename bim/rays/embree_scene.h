@@ -25,13 +25,13 @@ struct Proposals {
   alignas(64) std::array<float, capacity> range;  ///< from the shifted origin
 };
 
-/// The one place that talks to Embree. What it gives may differ in the last bits, and between faces that coincide, by
+/// The only user of Embree. Its results may differ in the last bits, and between faces that coincide, by
 /// CPU and packet width; RayScene decides.
 class EmbreeScene {
  public:
   /// Embree starts this far behind the origin, so that no face just before it is lost to float rounding, m.
   static constexpr double back_off = 1e-4;
-  /// Embree looks this much beyond the maximum range, m.
+  /// Embree searches this much beyond the maximum range, m.
   static constexpr double overreach = 1e-3;
 
   /// faces as RayScene numbers them. Throws EnvironmentError when Embree fails.

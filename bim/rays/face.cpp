@@ -34,8 +34,8 @@ RayTolerances tolerances_at(double half_extent_m) {
   const auto spacing = static_cast<double>(std::nextafter(extent, std::numeric_limits<float>::infinity()) - extent);
   if (half_extent_m < 256.0) return tolerances;
   tolerances.inflation = float_spacings * spacing;
-  tolerances.contact = 2.0 * tolerances.tie + 2.5 * tolerances.inflation;
-  tolerances.edge_band = 2.0 * tolerances.contact;
+  tolerances.coplanar = 2.0 * tolerances.tie + 2.5 * tolerances.inflation;
+  tolerances.edge_band = 2.0 * tolerances.coplanar;
   return tolerances;
 }
 

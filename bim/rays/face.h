@@ -36,13 +36,13 @@ struct Face {
   }
 };
 
-/// Distances within which faces and edges are looked at more closely, m.
+/// Distances within which hits on faces and edges are decided in double, m.
 struct RayTolerances {
-  double tie = 1e-4;        ///< faces this close along a ray are one: the lowest id wins
-  double contact = 2.5e-4;  ///< faces this close to each other may tie: twice `tie` and 2.5 times the inflation
-  double edge_band = 5e-4;  ///< hits nearer to an edge than this are settled in double: twice `contact`
-  double inflation = 2e-5;  ///< Embree's triangles are this much larger, so that it proposes every near miss too
-  double mitre_max = 2e-2;  ///< farthest a vertex moves when its triangle is inflated
+  double tie = 1e-4;         ///< faces this close along a ray are one: the lowest id wins
+  double coplanar = 2.5e-4;  ///< faces this close to each other may tie: twice `tie` and 2.5 times the inflation
+  double edge_band = 5e-4;   ///< hits nearer to an edge than this are settled in double: twice `coplanar`
+  double inflation = 2e-5;   ///< Embree's triangles are this much larger, so that it proposes every near miss too
+  double mitre_max = 2e-2;   ///< farthest a vertex moves when its triangle is inflated
 };
 
 /// Those of a scene whose faces lie up to half_extent_m from its centre along an axis: Embree's error grows with the

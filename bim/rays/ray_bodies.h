@@ -44,7 +44,7 @@ class MovingBodies {
   void cast_one(const Ray& ray, double range_max_m, std::span<const std::size_t> near, Hit& hit) const;
 
   std::vector<MovingBody> bodies_;
-  std::vector<Sphere> spheres_;  ///< around all that a body sweeps
+  std::vector<Sphere> spheres_;  ///< bounds each body over its motion
 };
 
 }  // namespace plumbline::bim

@@ -22,7 +22,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Upper half of a float, rounded up: a positive width in two bytes that is never less than asked.
+/// Upper half of a float, rounded up: a positive width in two bytes that is never less than the value.
 std::uint16_t half_up(double width) {
   const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(width) * 1.000001F);
   return static_cast<std::uint16_t>((bits + 0xffffU) >> 16U);
@@ -35,7 +35,7 @@ struct alignas(64) FacePlane {
   int element = -1;
   int triangle = -1;
   std::array<std::uint16_t, 3> edge_band{};  ///< barycentric, opposite v1, v2, v0 (Embree's u, v, 1-u-v), half floats
-  std::uint16_t has_inside = 0;              ///< 1 when it has contacts inside
+  std::uint16_t has_inside = 0;              ///< 1 when it has coplanar neighbours inside
 
   [[nodiscard]] bool in_edge_band(float u, float v) const {
     return u <= from_half(edge_band[0]) || v <= from_half(edge_band[1]) || 1.0F - u - v <= from_half(edge_band[2]);
@@ -78,7 +78,7 @@ struct RayScene::Impl {
   RayTolerances tol;
   std::vector<FacePlane> planes;
   std::vector<int> face_of_triangle;  ///< -1: without area
-  ContactTable contacts;
+  CoplanarTable coplanar_faces;
   EmbreeScene embree;
   MovingBodies bodies;
 
@@ -94,14 +94,14 @@ struct RayScene::Impl {
 };
 
 RayScene::Impl::Impl(const BuildingMesh& mesh, const RaySceneOptions& options)
-    : faces(make_faces(mesh)), tol(tolerances_of(faces)), contacts(faces, tol), embree(faces, tol, options) {
+    : faces(make_faces(mesh)), tol(tolerances_of(faces)), coplanar_faces(faces, tol), embree(faces, tol, options) {
   planes.reserve(faces.size());
   face_of_triangle.assign(mesh.triangles.size(), -1);
   for (std::size_t i = 0; i < faces.size(); ++i) {
     const Face& face = faces[i];
     face_of_triangle[static_cast<std::size_t>(face.triangle)] = static_cast<int>(i);
     planes.push_back({face.n, face.v[0], face.element, face.triangle, edge_band_of(face, tol),
-                      static_cast<std::uint16_t>(contacts.inside(i).empty() ? 0 : 1)});
+                      static_cast<std::uint16_t>(coplanar_faces.inside(i).empty() ? 0 : 1)});
   }
 }
 
@@ -150,7 +150,7 @@ Hit RayScene::Impl::search(const Ray& ray, double range_max_m, Proposals& propos
       return {*face->plane_range(ray.origin_W, ray.direction_W), face->element, face->triangle,
               from_behind ? Eigen::Vector3d(-face->n) : face->n};
     }
-    // Nothing is really hit there: look on behind it. Faces within the tie distance have been looked at already.
+    // No face is hit there: search behind it. Faces within the tie distance are tested already.
     tnear = std::max(tnear, proposal.reach() + EmbreeScene::back_off - slack) + tol.tie;
     embree.propose_after(ray, range_max_m, static_cast<float>(tnear), proposals);
   }
@@ -160,9 +160,9 @@ Hit RayScene::Impl::search(const Ray& ray, double range_max_m, Proposals& propos
 /// True when another face is near enough to a point of a face to tie with it. Regions are boxes; the plane of the other
 /// face tells more of those that stand askew.
 bool RayScene::Impl::touched_at(std::size_t face, const Eigen::Vector3d& p_W) const {
-  return contacts.any_at(face, p_W, [&](int other) {
+  return coplanar_faces.any_at(face, p_W, [&](int other) {
     const FacePlane& plane = planes[static_cast<std::size_t>(other)];
-    return std::abs(plane.n.dot(p_W - plane.v0)) <= 2.0 * tol.contact;
+    return std::abs(plane.n.dot(p_W - plane.v0)) <= 2.0 * tol.coplanar;
   });
 }
 
@@ -175,18 +175,19 @@ const Face* RayScene::Impl::settle(const Ray& ray, double range_max_m, const Pro
   return *proposal.exact > 0.0 && *proposal.exact <= range_max_m ? &faces[proposal.face] : nullptr;
 }
 
-/// Nearest exact hit on a face and its contacts; within the tie distance of it the lowest element, then triangle.
+/// Nearest exact hit on a face and its coplanar neighbours; within the tie distance of it the lowest element, then
+/// triangle.
 const Face* RayScene::Impl::settle_ties(const Ray& ray, double range_max_m, const Proposal& proposal) const {
   const auto for_each = [&](auto&& visit) {
-    for (const int border : contacts.border(proposal.face)) visit(static_cast<std::size_t>(border));
+    for (const int border : coplanar_faces.border(proposal.face)) visit(static_cast<std::size_t>(border));
     const auto visit_inside = [&](int other) {
       visit(static_cast<std::size_t>(other));
       return false;
     };
     if (proposal.exact) {
-      (void)contacts.any_at(proposal.face, ray.origin_W + *proposal.exact * ray.direction_W, visit_inside);
+      (void)coplanar_faces.any_at(proposal.face, ray.origin_W + *proposal.exact * ray.direction_W, visit_inside);
     } else {
-      for (const Contact& contact : contacts.inside(proposal.face)) (void)visit_inside(contact.face);
+      for (const CoplanarFace& neighbour : coplanar_faces.inside(proposal.face)) (void)visit_inside(neighbour.face);
     }
   };
   // Ranges first: few faces are near enough to be worth the test of their borders.
@@ -200,7 +201,7 @@ const Face* RayScene::Impl::settle_ties(const Ray& ray, double range_max_m, cons
       winner = other;
     }
   });
-  // A contact hit farther away may have other faces before it.
+  // A coplanar neighbour hit farther away may have other faces before it.
   const bool certain = nearest <= proposal.reach() + tol.tie || nearest == proposed;
   if (std::isinf(nearest) || !certain) return nullptr;
   const auto challenge = [&](std::size_t other) {

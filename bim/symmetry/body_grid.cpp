@@ -6,7 +6,7 @@
 
 namespace plumbline::bim {
 
-PlaneGrid::PlaneGrid(const std::vector<Eigen::AlignedBox2d>& boxes) {
+BodyGrid::BodyGrid(const std::vector<Eigen::AlignedBox2d>& boxes) {
   constexpr double smallest_cell_m = 0.5;
   Eigen::AlignedBox2d all;
   for (const Eigen::AlignedBox2d& box : boxes) all.extend(box);
@@ -26,13 +26,13 @@ PlaneGrid::PlaneGrid(const std::vector<Eigen::AlignedBox2d>& boxes) {
   }
 }
 
-Eigen::Vector2i PlaneGrid::cell(const Eigen::Vector2d& p) const {
+Eigen::Vector2i BodyGrid::cell(const Eigen::Vector2d& p) const {
   const Eigen::Vector2d place = ((p - origin_) / cell_m_).array().floor();
   return {static_cast<int>(std::clamp(place.x(), 0.0, size_.x() - 1.0)),
           static_cast<int>(std::clamp(place.y(), 0.0, size_.y() - 1.0))};
 }
 
-void PlaneGrid::near(const Eigen::AlignedBox2d& box, std::vector<int>& found) const {
+void BodyGrid::near(const Eigen::AlignedBox2d& box, std::vector<int>& found) const {
   found.clear();
   if (cells_.empty()) return;
   const Eigen::Vector2i low = cell(box.min()), high = cell(box.max());

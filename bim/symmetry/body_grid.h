@@ -7,11 +7,11 @@
 
 namespace plumbline::bim {
 
-/// Boxes of the plane, looked up by place. Cells are as many as boxes at most.
-class PlaneGrid {
+/// Boxes of the plane, looked up by position. Cells are as many as boxes at most.
+class BodyGrid {
  public:
   /// Boxes keep their position in the list as their number.
-  explicit PlaneGrid(const std::vector<Eigen::AlignedBox2d>& boxes);
+  explicit BodyGrid(const std::vector<Eigen::AlignedBox2d>& boxes);
 
   /// Numbers of the boxes in the cells that `box` touches, ascending, each once, written over `found`.
   void near(const Eigen::AlignedBox2d& box, std::vector<int>& found) const;

@@ -24,7 +24,7 @@ double heading_of(const SurfaceRect& rect, bool mirrored) {
   return mirrored ? std::atan2(e.y(), -e.x()) : std::atan2(e.y(), e.x());
 }
 
-std::vector<Heading> headings_of(const StoreyScene& scene, bool mirrored, const SymmetryConfig& config) {
+std::vector<Heading> headings_of(const SymmetryScene& scene, bool mirrored, const SymmetryConfig& config) {
   std::vector<Heading> all;
   for (const SurfaceRect& rect : scene.surfaces().rects()) all.push_back({heading_of(rect, mirrored), rect.area()});
   std::stable_sort(all.begin(), all.end(), [](const Heading& a, const Heading& b) { return a.angle < b.angle; });
@@ -72,7 +72,7 @@ double common_area(const std::vector<Heading>& from, const std::vector<Heading>&
 }
 
 /// Turns that put the most frequent heading onto one like it and most others too.
-std::vector<double> turns_between(const StoreyScene& from, const StoreyScene& to, bool mirrored,
+std::vector<double> turns_between(const SymmetryScene& from, const SymmetryScene& to, bool mirrored,
                                   const SymmetryConfig& config) {
   const std::vector<Heading> a = headings_of(from, mirrored, config), b = headings_of(to, false, config);
   std::vector<double> turns;
@@ -97,7 +97,7 @@ struct Vote {
   [[nodiscard]] Eigen::Vector2d shift() const { return target - image; }
 };
 
-std::vector<Vote> votes_for(const StoreyScene& from, const StoreyScene& to, const Isometry2& g,
+std::vector<Vote> votes_for(const SymmetryScene& from, const SymmetryScene& to, const Isometry2& g,
                             const SymmetryConfig& config) {
   std::vector<Vote> votes;
   std::vector<int> near;
@@ -112,9 +112,9 @@ std::vector<Vote> votes_for(const StoreyScene& from, const StoreyScene& to, cons
       const Eigen::Vector2d target = 0.5 * (other.p + other.q);
       const bool like = (target - middle).lpNorm<Eigen::Infinity>() <= config.shift_max_m &&
                         (other.direction() - image.direction()).norm() <= config.direction &&
-                        std::abs(other.length() - image.length()) <= config.like_m &&
-                        std::abs(other.z0 - image.z0) <= config.like_m &&
-                        std::abs(other.z1 - image.z1) <= config.like_m;
+                        std::abs(other.length() - image.length()) <= config.match_m &&
+                        std::abs(other.z0 - image.z0) <= config.match_m &&
+                        std::abs(other.z1 - image.z1) <= config.match_m;
       if (!like) continue;
       votes.push_back({image.p, other.p, 0.5 * image.area()});
       votes.push_back({image.q, other.q, 0.5 * image.area()});
@@ -169,7 +169,7 @@ Isometry2 fitted(const std::vector<Vote>& votes, const Isometry2& g) {
 }
 
 /// Settles the shift of g by narrowing the votes it agrees with.
-std::optional<Isometry2> settled(const StoreyScene& from, const StoreyScene& to, Isometry2 g,
+std::optional<Isometry2> settled(const SymmetryScene& from, const SymmetryScene& to, Isometry2 g,
                                  const SymmetryConfig& config) {
   constexpr double bin_m = 0.05;
   std::vector<Vote> votes = votes_for(from, to, g, config);
@@ -191,7 +191,7 @@ std::optional<Isometry2> settled(const StoreyScene& from, const StoreyScene& to,
 
 }  // namespace
 
-std::vector<Isometry2> candidates(const StoreyScene& from, const StoreyScene& to, bool mirrored,
+std::vector<Isometry2> candidates(const SymmetryScene& from, const SymmetryScene& to, bool mirrored,
                                   const SymmetryConfig& config) {
   std::vector<Isometry2> result;
   for (const double turn : turns_between(from, to, mirrored, config)) {

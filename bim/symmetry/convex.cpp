@@ -22,12 +22,12 @@ Side side_of(const Polygon2& polygon, std::size_t k) {
   return {n, n.dot(p)};
 }
 
-bool large(const Polygon2& polygon, const BodiesConfig& config) {
+bool large(const Polygon2& polygon, const SymmetryBodiesConfig& config) {
   return polygon.size() >= 3 && signed_area(polygon) > config.area_min_m2;
 }
 
 /// Appends `body` without `taken` to `left`: the parts beside, below and above it.
-void subtract_one(const BodyPrism& body, const BodyPrism& taken, const BodiesConfig& config,
+void subtract_one(const BodyPrism& body, const BodyPrism& taken, const SymmetryBodiesConfig& config,
                   std::vector<BodyPrism>& left) {
   const double low = std::max(body.z0, taken.z0), high = std::min(body.z1, taken.z1);
   if (high <= low || !large(convex_intersection(body.outline, taken.outline), config)) {
@@ -66,11 +66,11 @@ Polygon2 convex_intersection(Polygon2 a, const Polygon2& b) {
   return a;
 }
 
-std::vector<BodyPrism> without_overlaps(const std::vector<BodyPrism>& prisms, const BodiesConfig& config) {
+std::vector<BodyPrism> without_overlaps(const std::vector<BodyPrism>& prisms, const SymmetryBodiesConfig& config) {
   std::vector<Eigen::AlignedBox2d> boxes;
   boxes.reserve(prisms.size());
   for (const BodyPrism& prism : prisms) boxes.push_back(box_of(prism.outline));
-  const PlaneGrid grid(boxes);
+  const BodyGrid grid(boxes);
   std::vector<BodyPrism> result;
   std::vector<int> near;
   for (std::size_t i = 0; i < prisms.size(); ++i) {

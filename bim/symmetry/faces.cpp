@@ -45,7 +45,7 @@ Eigen::Vector2d outward(const Polygon2& outline, std::size_t k) {
 }
 
 /// The stretch of p + s e, 0 <= s <= length, inside a convex outline grown by touch_m all round. A surface that lies
-/// flush on the outline and looks the same way is covered only where `yields`.
+/// flush on the outline and has the same normal is covered only where `yields`.
 std::optional<Stretch> covered(const Eigen::Vector2d& p, const Eigen::Vector2d& e, double length,
                                const Polygon2& outline, double touch_m, bool yields) {
   constexpr double same_way = 1.0 - 1e-6;
@@ -112,7 +112,7 @@ SurfaceRect moved(const Isometry2& g, const SurfaceRect& rect) {
 std::vector<SurfaceRect> visible_surfaces(const std::vector<BodyPrism>& prisms, double touch_m, double sliver_m) {
   std::vector<Eigen::AlignedBox2d> boxes;
   for (const BodyPrism& prism : prisms) boxes.push_back(box_of(prism.outline));
-  const PlaneGrid grid(boxes);
+  const BodyGrid grid(boxes);
   constexpr double joint_m = 1e-4;
   std::vector<SurfaceRect> result;
   std::vector<int> near;

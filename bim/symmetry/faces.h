@@ -15,7 +15,7 @@ struct SurfaceRect {
   Eigen::Vector2d p = Eigen::Vector2d::Zero();
   Eigen::Vector2d q = Eigen::Vector2d::Zero();
   double z0 = 0.0, z1 = 0.0;  ///< above the storey's floor
-  int element = -1;           ///< into Bodies::elements
+  int element = -1;           ///< into SymmetryBodies::elements
 
   [[nodiscard]] Eigen::Vector2d direction() const { return (q - p).normalized(); }
   [[nodiscard]] double length() const { return (q - p).norm(); }
@@ -38,7 +38,7 @@ class SurfaceIndex {
     int rect = -1;
     double distance_m = 0.0;
   };
-  /// The nearest surface that does not look the other way than a surface along `direction`; of equal ones the first;
+  /// The nearest surface whose normal does not oppose that of a surface along `direction`; of equal ones the first;
   /// absent when none lies within `reach_m`.
   [[nodiscard]] std::optional<Nearest> nearest(const Eigen::Vector3d& p, const Eigen::Vector2d& direction,
                                                double reach_m) const;
@@ -48,7 +48,7 @@ class SurfaceIndex {
 
  private:
   std::vector<SurfaceRect> rects_;
-  PlaneGrid grid_;
+  BodyGrid grid_;
 };
 
 }  // namespace plumbline::bim

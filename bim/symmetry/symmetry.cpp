@@ -14,32 +14,32 @@ namespace {
 /// A turn below this about a shift below this is the identity: what a storey's own rounding amounts to.
 constexpr double identity_angle = 1e-3;
 
-bool is_identity(const Isometry2& g, const StoreyScene& scene, const SymmetryConfig& config) {
+bool is_identity(const Isometry2& g, const SymmetryScene& scene, const SymmetryConfig& config) {
   return !g.mirrored && std::abs(g.angle) < identity_angle &&
          (g * scene.centroid() - scene.centroid()).norm() < config.near_m;
 }
 
 /// Storeys that a robot may walk on and see something.
-std::vector<StoreyScene> scenes_of(const Building& building, const SymmetryConfig& config) {
-  std::vector<StoreyScene> scenes;
+std::vector<SymmetryScene> scenes_of(const Building& building, const SymmetryConfig& config) {
+  std::vector<SymmetryScene> scenes;
   for (std::size_t i = 0; i < building.storeys.size(); ++i) {
     const int storey = static_cast<int>(i);
     const bool rooms = std::any_of(building.rooms.begin(), building.rooms.end(),
                                    [&](const Room& room) { return room.storey == storey; });
     if (building.storeys[i].kind != StoreyKind::habitable || (!building.rooms.empty() && !rooms)) continue;
-    StoreyScene scene(building, storey, config);
+    SymmetryScene scene(building, storey, config);
     if (scene.volume_m3() > 0.0) scenes.push_back(std::move(scene));
   }
   return scenes;
 }
 
-std::vector<StoreySymmetry> found_between(const StoreyScene& from, const StoreyScene& to, bool mirrored,
+std::vector<StoreySymmetry> found_between(const SymmetryScene& from, const SymmetryScene& to, bool mirrored,
                                           const SymmetryConfig& config) {
   std::vector<StoreySymmetry> found;
   for (const Isometry2& g : candidates(from, to, mirrored, config)) {
     if (&from == &to && is_identity(g, from, config)) continue;
-    const Likeness likeness = compare(from, to, g, config);
-    if (likeness.grade != Likeliness::different) found.push_back({from.storey(), to.storey(), g, likeness});
+    const Similarity similarity = compare(from, to, g, config);
+    if (similarity.grade != SimilarityGrade::different) found.push_back({from.storey(), to.storey(), g, similarity});
   }
   // A half turn is one of +pi, whichever way it was rounded.
   for (StoreySymmetry& symmetry : found)
@@ -55,12 +55,12 @@ void append(const std::vector<StoreySymmetry>& found, std::vector<StoreySymmetry
 }
 
 /// Each storey is compared with the first of every kind seen so far.
-std::vector<StoreySymmetry> find_copies(const std::vector<StoreyScene>& scenes, const SymmetryConfig& config) {
+std::vector<StoreySymmetry> find_copies(const std::vector<SymmetryScene>& scenes, const SymmetryConfig& config) {
   std::vector<StoreySymmetry> copies;
-  std::vector<const StoreyScene*> kinds;
-  for (const StoreyScene& scene : scenes) {
+  std::vector<const SymmetryScene*> kinds;
+  for (const SymmetryScene& scene : scenes) {
     std::vector<StoreySymmetry> found;
-    for (const StoreyScene* kind : kinds) {
+    for (const SymmetryScene* kind : kinds) {
       const double ratio = scene.volume_m3() / kind->volume_m3();
       if (ratio < config.iou_min || ratio > 1.0 / config.iou_min) continue;
       found = found_between(*kind, scene, false, config);
@@ -73,30 +73,30 @@ std::vector<StoreySymmetry> find_copies(const std::vector<StoreyScene>& scenes, 
 }
 
 /// What holds on every storey at once; the residuals are those of the worst, the share in common that of all together.
-std::vector<BuildingSymmetry> find_common(const std::vector<StoreyScene>& scenes,
+std::vector<BuildingSymmetry> find_common(const std::vector<SymmetryScene>& scenes,
                                           const std::vector<StoreySymmetry>& own, const SymmetryConfig& config) {
   std::vector<BuildingSymmetry> common;
   for (const StoreySymmetry& symmetry : own) {
     if (symmetry.from != scenes.front().storey()) continue;
-    BuildingSymmetry whole{symmetry.isometry, symmetry.likeness};
+    BuildingSymmetry whole{symmetry.isometry, symmetry.similarity};
     double shared = 0.0, both = 0.0;
-    for (const StoreyScene& scene : scenes) {
-      const Likeness here = compare(scene, scene, symmetry.isometry, config);
-      whole.likeness.grade = std::max(whole.likeness.grade, here.grade);
-      whole.likeness.deviation_m = std::max(whole.likeness.deviation_m, here.deviation_m);
+    for (const SymmetryScene& scene : scenes) {
+      const Similarity here = compare(scene, scene, symmetry.isometry, config);
+      whole.similarity.grade = std::max(whole.similarity.grade, here.grade);
+      whole.similarity.deviation_m = std::max(whole.similarity.deviation_m, here.deviation_m);
       if (scene.storey() != symmetry.from)
-        whole.likeness.deviations.insert(whole.likeness.deviations.end(), here.deviations.begin(),
-                                         here.deviations.end());
+        whole.similarity.deviations.insert(whole.similarity.deviations.end(), here.deviations.begin(),
+                                           here.deviations.end());
       const double inner = 2.0 * scene.volume_m3() * here.iou / (1.0 + here.iou);
       shared += inner;
       both += 2.0 * scene.volume_m3() - inner;
     }
-    if (whole.likeness.grade == Likeliness::different) continue;
-    whole.likeness.iou = shared / both;
-    std::stable_sort(whole.likeness.deviations.begin(), whole.likeness.deviations.end(),
+    if (whole.similarity.grade == SimilarityGrade::different) continue;
+    whole.similarity.iou = shared / both;
+    std::stable_sort(whole.similarity.deviations.begin(), whole.similarity.deviations.end(),
                      [](const Deviation& a, const Deviation& b) { return a.size_m > b.size_m; });
-    if (static_cast<int>(whole.likeness.deviations.size()) > config.deviations_max)
-      whole.likeness.deviations.resize(static_cast<std::size_t>(config.deviations_max));
+    if (static_cast<int>(whole.similarity.deviations.size()) > config.deviations_max)
+      whole.similarity.deviations.resize(static_cast<std::size_t>(config.deviations_max));
     common.push_back(std::move(whole));
   }
   return common;
@@ -106,13 +106,13 @@ std::vector<BuildingSymmetry> find_common(const std::vector<StoreyScene>& scenes
 
 SymmetryReport analyse_symmetry(const Building& as_planned, const SymmetryConfig& config) {
   SymmetryReport report;
-  const std::vector<StoreyScene> scenes = scenes_of(as_planned, config);
+  const std::vector<SymmetryScene> scenes = scenes_of(as_planned, config);
   if (scenes.empty()) return report;
-  for (const StoreyScene& scene : scenes) append(found_between(scene, scene, false, config), report.storeys);
-  for (const StoreyScene& scene : scenes) append(found_between(scene, scene, true, config), report.reflections);
+  for (const SymmetryScene& scene : scenes) append(found_between(scene, scene, false, config), report.storeys);
+  for (const SymmetryScene& scene : scenes) append(found_between(scene, scene, true, config), report.reflections);
   report.copies = find_copies(scenes, config);
   report.building = find_common(scenes, report.storeys, config);
-  find_like_rooms(as_planned, scenes, config, report.rooms);
+  find_similar_rooms(as_planned, scenes, config, report.rooms);
   return report;
 }
 

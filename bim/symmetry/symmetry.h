@@ -21,25 +21,25 @@ struct SymmetryConfig {
   double reach_m = 2.0;          ///< larger deviations count as this
   double shift_max_m = 1.0;      ///< how far a small difference moves the centre of a storey
   double direction = 2e-3;       ///< rad, surfaces this close run the same way
-  double like_m = 0.02;          ///< lengths and heights of two like surfaces differ by this at most
+  double match_m = 0.02;         ///< lengths and heights of two matching surfaces differ by this at most
   double direction_share = 0.8;  ///< share of the surface whose directions a turn must map onto each other
-  double room_share = 0.95;      ///< of two like rooms: smaller area over larger
-  double through_m = 0.06;       ///< how far in front of a surface the room that sees it is looked up
+  double room_share = 0.95;      ///< of two similar rooms: smaller area over larger
+  double through_m = 0.06;       ///< distance in front of a surface at which its room is looked up
   int deviations_max = 8;        ///< elements listed for one isometry
 };
 
-/// Where two views of a building differ: an element that has no counterpart within `size_m`.
+/// A difference between two images of a building: an element that has no counterpart within `size_m`.
 struct Deviation {
   std::string element;
   Eigen::Vector2d at = Eigen::Vector2d::Zero();  ///< place of the largest difference, in W
   double size_m = 0.0;  ///< distance to the nearest counterpart, no more than the element's own size in plan
 };
 
-enum class Likeliness { exact, near, different };
+enum class SimilarityGrade { exact, near, different };
 
 /// How well an image covers its counterpart.
-struct Likeness {
-  Likeliness grade = Likeliness::different;
+struct Similarity {
+  SimilarityGrade grade = SimilarityGrade::different;
   double iou = 0.0;                   ///< volume in common over volume of both
   double deviation_m = 0.0;           ///< largest of the deviations, which is how far the two surfaces are apart
   std::vector<Deviation> deviations;  ///< above exact_m, the largest first
@@ -50,28 +50,28 @@ struct StoreySymmetry {
   int from = -1;
   int to = -1;
   Isometry2 isometry;
-  Likeness likeness;
+  Similarity similarity;
 };
 
 /// An isometry of the plane under which every habitable storey maps onto itself.
 struct BuildingSymmetry {
   Isometry2 isometry;
-  Likeness likeness;
+  Similarity similarity;
 };
 
-struct LikeRoom {
-  int room = -1;       ///< into Building::rooms
-  Isometry2 isometry;  ///< takes the first room of the class to this one
-  Likeness likeness;   ///< of the surfaces around and in the room; iou is that of the outlines
+struct SimilarRoom {
+  int room = -1;          ///< into Building::rooms
+  Isometry2 isometry;     ///< takes the first room of the class to this one
+  Similarity similarity;  ///< of the surfaces around and in the room; iou is that of the outlines
 };
 
-/// Rooms that look alike from inside under proper isometries, the first under the identity.
+/// Rooms of equal appearance from inside under proper isometries, the first under the identity.
 struct RoomClass {
-  std::vector<LikeRoom> rooms;   ///< two or more, ascending
-  std::vector<Isometry2> turns;  ///< exact proper isometries of the first room onto itself, save the identity
+  std::vector<SimilarRoom> rooms;  ///< two or more, ascending
+  std::vector<Isometry2> turns;    ///< exact proper isometries of the first room onto itself, without the identity
 };
 
-/// What in a building looks like what else. A robot is a rigid body, so only proper isometries (turns and shifts)
+/// Symmetries of a building. A robot is a rigid body, so only proper isometries (turns and shifts)
 /// confuse it; mirror images are listed apart.
 struct SymmetryReport {
   std::vector<StoreySymmetry> storeys;      ///< proper, from == to, without the identity; by storey, then angle

@@ -80,7 +80,7 @@ bool is_loose(const Obstacle& obstacle) {
 /// Collects the bodies of one storey.
 class Collector {
  public:
-  Collector(const Building& building, int storey, const BodiesConfig& config)
+  Collector(const Building& building, int storey, const SymmetryBodiesConfig& config)
       : building_(building),
         config_(config),
         floor_z_(building.storeys[static_cast<std::size_t>(storey)].elevation_m),
@@ -88,7 +88,7 @@ class Collector {
     bodies_.storey = storey;
   }
 
-  Bodies collect() {
+  SymmetryBodies collect() {
     std::vector<std::vector<const Opening*>> openings(building_.walls.size());
     for (const Opening& opening : building_.openings)
       if (opening.wall >= 0) openings[static_cast<std::size_t>(opening.wall)].push_back(&opening);
@@ -129,7 +129,7 @@ class Collector {
   }
 
   /// Seen from above: the rectangle of reference line and thickness; of a body from a model its underside, which
-  /// knows mitres and edited ends.
+  /// has mitres and edited ends.
   [[nodiscard]] std::vector<Polygon2> outlines_of(const Wall& wall) const {
     constexpr double complete = 0.5;
     std::vector<Polygon2> outlines;
@@ -218,14 +218,14 @@ class Collector {
   }
 
   const Building& building_;
-  const BodiesConfig& config_;
+  const SymmetryBodiesConfig& config_;
   double floor_z_ = 0.0, height_m_ = 0.0;
-  Bodies bodies_;
+  SymmetryBodies bodies_;
 };
 
 }  // namespace
 
-Bodies bodies_of(const Building& building, int storey, const BodiesConfig& config) {
+SymmetryBodies symmetry_bodies(const Building& building, int storey, const SymmetryBodiesConfig& config) {
   return Collector(building, storey, config).collect();
 }
 

@@ -13,17 +13,17 @@ struct BodyPrism {
   Polygon2 outline;  ///< counter-clockwise, convex
   double z0 = 0.0;
   double z1 = 0.0;
-  int element = -1;  ///< into Bodies::elements
+  int element = -1;  ///< into SymmetryBodies::elements
 };
 
-/// What stands on a storey for a LiDAR to see, as upright bodies that may overlap.
-struct Bodies {
+/// The elements of a storey that a LiDAR detects, as upright bodies that may overlap.
+struct SymmetryBodies {
   int storey = -1;
   std::vector<std::string> elements;  ///< ids: walls, columns, stairs, obstacles in the order of the building
   std::vector<BodyPrism> prisms;
 };
 
-struct BodiesConfig {
+struct SymmetryBodiesConfig {
   double height_min_m = 0.02;  ///< what reaches less into a storey belongs to the one above or below
   double flat = 0.3;           ///< a triangle with this upward share of its normal is a top
   double filled = 1.1;         ///< a body that fills less of the room under its tops is taken as its convex outline
@@ -35,7 +35,8 @@ struct BodiesConfig {
 /// storey, without what light goes through, between its floor and the ceiling of most of its rooms. Sloped tops are
 /// taken as level over each triangle, and bodies with free space under them (railings) as their convex outline over
 /// their whole height.
-[[nodiscard]] Bodies bodies_of(const Building& building, int storey, const BodiesConfig& config = {});
+[[nodiscard]] SymmetryBodies symmetry_bodies(const Building& building, int storey,
+                                             const SymmetryBodiesConfig& config = {});
 
 /// The part of a convex polygon where n.p <= d.
 [[nodiscard]] Polygon2 clipped(const Polygon2& polygon, const Eigen::Vector2d& n, double d);
@@ -43,7 +44,7 @@ struct BodiesConfig {
 [[nodiscard]] Polygon2 convex_intersection(Polygon2 a, const Polygon2& b);
 /// The bodies without their overlaps: no two share an inner point. Where two overlap the earlier keeps its place.
 [[nodiscard]] std::vector<BodyPrism> without_overlaps(const std::vector<BodyPrism>& prisms,
-                                                      const BodiesConfig& config = {});
+                                                      const SymmetryBodiesConfig& config = {});
 [[nodiscard]] double volume(const std::vector<BodyPrism>& disjoint);
 
 }  // namespace plumbline::bim

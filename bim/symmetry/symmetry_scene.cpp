@@ -28,7 +28,7 @@ struct Extent {
 /// Distance of each sample of one set of surfaces to another set, kept as the largest of each element.
 class Measure {
  public:
-  Measure(const StoreyScene& scene, const SymmetryConfig& config) : scene_(scene), config_(config) {
+  Measure(const SymmetryScene& scene, const SymmetryConfig& config) : scene_(scene), config_(config) {
     for (const SurfaceRect& rect : scene.surfaces().rects()) {
       extents_.resize(std::max(extents_.size(), static_cast<std::size_t>(rect.element) + 1));
       Extent& extent = extents_[static_cast<std::size_t>(rect.element)];
@@ -94,19 +94,19 @@ class Measure {
     }
   }
 
-  const StoreyScene& scene_;
+  const SymmetryScene& scene_;
   const SymmetryConfig& config_;
   std::vector<Extent> extents_;
   std::vector<Deviation> largest_;
 };
 
-Likeliness grade_of(double iou, double deviation_m, const SymmetryConfig& config) {
-  if (iou < config.iou_min || deviation_m > config.near_m + config.sliver_m) return Likeliness::different;
-  return deviation_m <= config.exact_m ? Likeliness::exact : Likeliness::near;
+SimilarityGrade grade_of(double iou, double deviation_m, const SymmetryConfig& config) {
+  if (iou < config.iou_min || deviation_m > config.near_m + config.sliver_m) return SimilarityGrade::different;
+  return deviation_m <= config.exact_m ? SimilarityGrade::exact : SimilarityGrade::near;
 }
 
 /// A few surfaces spread over the storey are enough to see that most have no counterpart.
-bool hopeless(const StoreyScene& from, const StoreyScene& to, const Isometry2& g, const SymmetryConfig& config) {
+bool hopeless(const SymmetryScene& from, const SymmetryScene& to, const Isometry2& g, const SymmetryConfig& config) {
   constexpr std::size_t looks = 97;
   constexpr double share_of_misses = 0.3;
   const std::vector<SurfaceRect>& rects = from.surfaces().rects();
@@ -123,7 +123,7 @@ bool hopeless(const StoreyScene& from, const StoreyScene& to, const Isometry2& g
 }
 
 /// Edges of openings in the storey's floors, where they lie in a room. They follow the bodies' elements.
-void add_floor_edges(const Building& building, Bodies& bodies, std::vector<SurfaceRect>& rects) {
+void add_floor_edges(const Building& building, SymmetryBodies& bodies, std::vector<SurfaceRect>& rects) {
   constexpr double inside_m = 0.01;
   const double floor = building.storeys[static_cast<std::size_t>(bodies.storey)].elevation_m;
   const auto in_room = [&](const Eigen::Vector2d& p) {
@@ -143,7 +143,7 @@ void add_floor_edges(const Building& building, Bodies& bodies, std::vector<Surfa
   }
 }
 
-std::vector<SurfaceRect> surfaces_of(const Building& building, Bodies& bodies, const SymmetryConfig& config) {
+std::vector<SurfaceRect> surfaces_of(const Building& building, SymmetryBodies& bodies, const SymmetryConfig& config) {
   std::vector<SurfaceRect> rects = visible_surfaces(bodies.prisms, config.touch_m, config.sliver_m);
   add_floor_edges(building, bodies, rects);
   return rects;
@@ -151,8 +151,8 @@ std::vector<SurfaceRect> surfaces_of(const Building& building, Bodies& bodies, c
 
 }  // namespace
 
-StoreyScene::StoreyScene(const Building& building, int storey, const SymmetryConfig& config)
-    : bodies_(bodies_of(building, storey)),
+SymmetryScene::SymmetryScene(const Building& building, int storey, const SymmetryConfig& config)
+    : bodies_(symmetry_bodies(building, storey)),
       disjoint_(without_overlaps(bodies_.prisms)),
       grid_(boxes_of(disjoint_)),
       surfaces_(surfaces_of(building, bodies_, config)),
@@ -162,7 +162,7 @@ StoreyScene::StoreyScene(const Building& building, int storey, const SymmetryCon
   if (volume_ > 0.0) centroid_ /= volume_;
 }
 
-double StoreyScene::shared_volume(const StoreyScene& other, const Isometry2& g) const {
+double SymmetryScene::shared_volume(const SymmetryScene& other, const Isometry2& g) const {
   double sum = 0.0;
   std::vector<int> near;
   for (const BodyPrism& prism : other.disjoint_) {
@@ -181,25 +181,26 @@ double StoreyScene::shared_volume(const StoreyScene& other, const Isometry2& g) 
   return sum;
 }
 
-Likeness compare(const StoreyScene& from, const StoreyScene& to, const Isometry2& g, const SymmetryConfig& config) {
-  Likeness likeness;
-  if (hopeless(from, to, g, config)) return likeness;
+Similarity compare(const SymmetryScene& from, const SymmetryScene& to, const Isometry2& g,
+                   const SymmetryConfig& config) {
+  Similarity similarity;
+  if (hopeless(from, to, g, config)) return similarity;
   const double shared = to.shared_volume(from, g);
   const double both = from.volume_m3() + to.volume_m3() - shared;
-  likeness.iou = both > 0.0 ? std::min(1.0, shared / both) : 0.0;
-  if (likeness.iou < config.iou_min) return likeness;
+  similarity.iou = both > 0.0 ? std::min(1.0, shared / both) : 0.0;
+  if (similarity.iou < config.iou_min) return similarity;
   Measure there(from, config), back(to, config);
   there.against(to.surfaces(), g);
   back.against(from.surfaces(), g.inverse());
-  likeness.deviation_m = std::max(there.largest(), back.largest());
-  there.report(likeness.deviations);
-  if (from.storey() != to.storey() || likeness.deviations.empty()) back.report(likeness.deviations);
-  std::stable_sort(likeness.deviations.begin(), likeness.deviations.end(),
+  similarity.deviation_m = std::max(there.largest(), back.largest());
+  there.report(similarity.deviations);
+  if (from.storey() != to.storey() || similarity.deviations.empty()) back.report(similarity.deviations);
+  std::stable_sort(similarity.deviations.begin(), similarity.deviations.end(),
                    [](const Deviation& a, const Deviation& b) { return a.size_m > b.size_m; });
-  if (static_cast<int>(likeness.deviations.size()) > config.deviations_max)
-    likeness.deviations.resize(static_cast<std::size_t>(config.deviations_max));
-  likeness.grade = grade_of(likeness.iou, likeness.deviation_m, config);
-  return likeness;
+  if (static_cast<int>(similarity.deviations.size()) > config.deviations_max)
+    similarity.deviations.resize(static_cast<std::size_t>(config.deviations_max));
+  similarity.grade = grade_of(similarity.iou, similarity.deviation_m, config);
+  return similarity;
 }
 
 }  // namespace plumbline::bim

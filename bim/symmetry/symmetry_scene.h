@@ -10,10 +10,10 @@
 namespace plumbline::bim {
 
 /// One storey prepared for comparison.
-class StoreyScene {
+class SymmetryScene {
  public:
   /// Everything that stands on a storey, with the edges of slab openings inside rooms.
-  StoreyScene(const Building& building, int storey, const SymmetryConfig& config);
+  SymmetryScene(const Building& building, int storey, const SymmetryConfig& config);
 
   [[nodiscard]] int storey() const { return bodies_.storey; }
   [[nodiscard]] const std::string& element_id(int element) const {
@@ -24,28 +24,28 @@ class StoreyScene {
   [[nodiscard]] const Eigen::Vector2d& centroid() const { return centroid_; }
 
   /// Volume that the image of `other` under g shares with this one, m^3.
-  [[nodiscard]] double shared_volume(const StoreyScene& other, const Isometry2& g) const;
+  [[nodiscard]] double shared_volume(const SymmetryScene& other, const Isometry2& g) const;
 
  private:
-  Bodies bodies_;
+  SymmetryBodies bodies_;
   std::vector<BodyPrism> disjoint_;
-  PlaneGrid grid_;
+  BodyGrid grid_;
   SurfaceIndex surfaces_;
   double volume_ = 0.0;
   Eigen::Vector2d centroid_ = Eigen::Vector2d::Zero();
 };
 
 /// How well the image of `from` under g covers `to`.
-[[nodiscard]] Likeness compare(const StoreyScene& from, const StoreyScene& to, const Isometry2& g,
-                               const SymmetryConfig& config);
+[[nodiscard]] Similarity compare(const SymmetryScene& from, const SymmetryScene& to, const Isometry2& g,
+                                 const SymmetryConfig& config);
 
 /// Isometries that may take one storey to another, by matching directions, then places, of like surfaces; sorted by
 /// angle. Proper ones, or with `mirrored` the others.
-[[nodiscard]] std::vector<Isometry2> candidates(const StoreyScene& from, const StoreyScene& to, bool mirrored,
+[[nodiscard]] std::vector<Isometry2> candidates(const SymmetryScene& from, const SymmetryScene& to, bool mirrored,
                                                 const SymmetryConfig& config);
 
-/// Rooms of one storey by how their inside looks. Appends to `classes`.
-void find_like_rooms(const Building& building, const std::vector<StoreyScene>& scenes, const SymmetryConfig& config,
-                     std::vector<RoomClass>& classes);
+/// Classes of similar rooms of one storey. Appends to `classes`.
+void find_similar_rooms(const Building& building, const std::vector<SymmetryScene>& scenes,
+                        const SymmetryConfig& config, std::vector<RoomClass>& classes);
 
 }  // namespace plumbline::bim

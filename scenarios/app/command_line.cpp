@@ -186,12 +186,12 @@ bool CommandLine::parse(const std::vector<std::string>& arguments) {
     app_->parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));  // the last stands first there
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app_->exit(error) != 0;  // --help, --version
-    throw InputError({name(), 0, 0}, complaint(arguments, error.what()));
+    throw InputError({name(), 0, 0}, error_text(arguments, error.what()));
   }
   return true;
 }
 
-std::string CommandLine::complaint(const std::vector<std::string>& arguments, const std::string& what) const {
+std::string CommandLine::error_text(const std::vector<std::string>& arguments, const std::string& what) const {
   std::vector<const CLI::App*> lines = {app_.get()};
   std::string command = name();
   while (!lines.back()->get_subcommands().empty()) {
@@ -209,6 +209,23 @@ std::string CommandLine::complaint(const std::vector<std::string>& arguments, co
 }
 
 bool CommandLine::asked() const { return app_->parsed(); }
+
+namespace {
+
+void add_help(const CLI::App& line, const std::string& above, std::vector<CommandHelp>& help) {
+  help.push_back({above.empty() ? line.get_name() : above + " " + line.get_name(), line.help(above)});
+  const std::string name = help.back().command;
+  for (const CLI::App* command : line.get_subcommands([](const CLI::App*) { return true; }))
+    add_help(*command, name, help);
+}
+
+}  // namespace
+
+std::vector<CommandHelp> CommandLine::help() const {
+  std::vector<CommandHelp> help;
+  add_help(*app_, "", help);
+  return help;
+}
 
 std::string CommandLine::name() const { return app_->get_name(); }
 

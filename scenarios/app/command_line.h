@@ -13,6 +13,12 @@ class Option;
 
 namespace plumbline::scenarios {
 
+/// What a command prints for --help.
+struct CommandHelp {
+  std::string command;  ///< as typed: "plumbline run"
+  std::string text;
+};
+
 /// What an argument may be, given one after the other: line.option(...).required().
 class Argument {
  public:
@@ -68,10 +74,12 @@ class CommandLine {
   /// Whether the line that was read names this subcommand.
   [[nodiscard]] bool asked() const;
   [[nodiscard]] std::string name() const;
+  /// Of this line and of every command below it, each before its own.
+  [[nodiscard]] std::vector<CommandHelp> help() const;
 
  private:
   explicit CommandLine(std::shared_ptr<CLI::App> app) : app_(std::move(app)) {}
-  [[nodiscard]] std::string complaint(const std::vector<std::string>& arguments, const std::string& what) const;
+  [[nodiscard]] std::string error_text(const std::vector<std::string>& arguments, const std::string& what) const;
   template <class T>
   Argument add(const std::string& name, T& value, const std::string& doc);
 

@@ -16,7 +16,7 @@
 #include "scenarios/host/files.h"
 #include "scenarios/host/interrupt.h"
 #include "scenarios/host/progress.h"
-#include "scenarios/run/estimate_file.h"
+#include "scenarios/metrics/state_names.h"
 #include "scenarios/run/method_runner.h"
 #include "scenarios/run/run_files.h"
 #include "scenarios/run/run_pipeline.h"
@@ -60,7 +60,7 @@ std::shared_ptr<const bim::Plan> load_plan(const EstimateArguments& options, con
   if (!row.needs_plan) return nullptr;
   if (options.plan.empty())
     throw InputError({"--plan", 0, 0}, "is missing; method '" + options.method + "' localizes in a plan");
-  return std::make_shared<const bim::Plan>(bim::make_plan(bim::load_site(options.plan, taken).as_planned));
+  return std::make_shared<const bim::Plan>(bim::make_plan(bim::load_planned_and_built(options.plan, taken).as_planned));
 }
 
 /// What only localization takes is refused elsewhere: who gives it expects poses in the plan.
@@ -74,7 +74,7 @@ void check_plan_options(const EstimateArguments& options, const slam::MethodRow&
   if (options.yaw_option->given()) refuse("--yaw-deg");
 }
 
-/// Localization starts from rooms: without one on the storey told, or anywhere, there is nothing to run.
+/// Localization starts from rooms: without one on the storey of the prior, or anywhere, there is nothing to run.
 void check_rooms(const EstimateArguments& options, const bim::Plan& plan, const slam::Prior& prior) {
   const auto starts_here = [&](const bim::PlanRoom& room) {
     return !prior.storey || plan.storeys[static_cast<std::size_t>(room.storey)].name == *prior.storey;
@@ -96,7 +96,7 @@ std::unique_ptr<slam::Recording> open_input(const EstimateArguments& options) {
   return slam::open_recording(std::filesystem::is_directory(inner) ? inner : options.recording, given);
 }
 
-/// What the recording tells, and the command line over it.
+/// The prior of the recording, with that of the command line over it.
 slam::Prior make_prior(const EstimateArguments& options, const slam::RecordingInfo& info, const bim::Plan& plan) {
   slam::Prior prior = slam::prior_of(info);
   if (options.yaw_option->given()) prior.yaw_W = wrap_angle(options.yaw_deg * std::numbers::pi / 180.0);
@@ -153,22 +153,16 @@ Answer run_method(slam::Recording& recording, const slam::MethodRow& row, const 
   Progress progress(std::string(row.name), 0.0);
   std::optional<slam::Nanoseconds> first;
   slam::Nanoseconds last = 0;
-  const FrameSource source = [&](sim::WorldFrame& frame) {
-    slam::SensorFrame sensors;
-    if (!recording.next(sensors)) return false;
-    frame = {};
-    frame.imu = std::move(sensors.imu);
-    frame.odometry = std::move(sensors.odometry);
-    frame.scan = std::move(sensors.scan);
+  const SensorSource source = [&](slam::SensorFrame& frame) {
+    if (!recording.next(frame)) return false;
     last = frame.scan.stamp;
     if (!first) first = last;
     progress.at(slam::seconds(last));
     return true;
   };
-  std::vector<std::unique_ptr<Participant>> participants;
-  participants.push_back(make_estimator(row, input));
-  MethodRecord record =
-      std::move(run_pipeline(source, [](const sim::WorldFrame&) {}, std::move(participants), {}).front());
+  std::vector<std::unique_ptr<MethodRunner>> methods;
+  methods.push_back(std::make_unique<MethodRunner>(row, input));
+  MethodRecord record = std::move(run_pipeline(source, std::move(methods), {}).front());
   shift(record.causal, recording.origin());
   shift(record.estimate.trajectory, recording.origin());
   for (BeliefRecord& belief : record.beliefs) belief.stamp += recording.origin();
@@ -187,11 +181,7 @@ std::string describe(const slam::MethodRow& row, std::uint64_t seed, const slam:
 
 /// timings.json, as that of a run.
 std::string write_cost(const Answer& answer, double start_s) {
-  RunRecord record;
-  MethodRecord& timed = record.methods.emplace_back();
-  timed.name = answer.record.name;
-  timed.times = answer.record.times;
-  return write_timings(record, {slam::wall_s() - start_s, slam::process_cpu_s(), answer.recorded_s, 1});
+  return write_timings({}, {answer.record}, {slam::wall_s() - start_s, slam::process_cpu_s(), answer.recorded_s, 1});
 }
 
 int estimate(const EstimateArguments& options, slam::MethodTable table) {
@@ -217,7 +207,7 @@ int estimate(const EstimateArguments& options, slam::MethodTable table) {
   }
   std::printf("%s/%s.tum: %zu poses\n", options.out.c_str(), record.name.c_str(), record.causal.size());
   if (!record.beliefs.empty())
-    std::printf("%s at the end, %zu places in mind\n", std::string(state_name(record.beliefs.back().state)).c_str(),
+    std::printf("%s at the end, %zu hypotheses\n", std::string(state_name(record.beliefs.back().state)).c_str(),
                 record.beliefs.back().hypotheses.size());
   return 0;
 }

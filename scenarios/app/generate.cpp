@@ -49,7 +49,7 @@ Asked asked_for(const GenerateOptions& options, const std::string& family) {
   Asked asked;
   asked.options.mark = {"plumbline generate " + family, 0, 0};
   asked.command = "plumbline generate " + family;
-  for (const bim::OptionRow& row : bim::family_options(family)) {
+  for (const bim::OptionRow& row : bim::generator_options(family)) {
     const auto given = options.values.find(family + " " + row.key);
     if (given == options.values.end() || given->second.empty()) continue;
     Tree value = given->second == "yes" ? Tree("true") : given->second == "no" ? Tree("false") : Tree(given->second);
@@ -111,14 +111,14 @@ int generate(const GenerateOptions& options) {
   return 0;
 }
 
-CommandLine add_family(CommandLine& program, const bim::FamilyRow& row,
+CommandLine add_family(CommandLine& program, const bim::GeneratorRow& row,
                        const std::shared_ptr<GenerateOptions>& options) {
   const std::string name(row.name);
   CommandLine line = program.add_command(name, std::string(row.summary));
   line.option("-o,--out", options->out, "plan to write; - for stdout").required();
   line.option("--scenario", options->scenario, "also writes a scenario that walks through all rooms");
   line.flag("--force", options->force, "replace files that are there");
-  for (const bim::OptionRow& option : bim::family_options(name)) {
+  for (const bim::OptionRow& option : bim::generator_options(name)) {
     const std::string choices = option.choices.empty() ? "" : ": " + option.choices;
     const std::string value = option.value.empty() ? "" : " [" + option.value + "]";
     line.option(flag_of(option.key), options->values[name + " " + option.key], option.doc + choices + value);
@@ -132,9 +132,9 @@ CommandLine add_family(CommandLine& program, const bim::FamilyRow& row,
 
 Command add_generate(CommandLine& program) {
   const auto options = std::make_shared<GenerateOptions>();
-  CommandLine line = program.add_command("generate", "Makes a building that is hard to tell one's place in");
-  for (const bim::FamilyRow& row : bim::families()) options->families.push_back(add_family(line, row, options));
-  // An unknown name is told apart from the known ones by what the families say of it.
+  CommandLine line = program.add_command("generate", "Makes a building that is hard to localize in");
+  for (const bim::GeneratorRow& row : bim::generators()) options->families.push_back(add_family(line, row, options));
+  // A name that is no family is refused by the action, which lists the families.
   line.option("FAMILY", options->unknown_family).hidden();
   line.takes_command_or_any("FAMILY");
   line.footer(

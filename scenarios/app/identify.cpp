@@ -54,7 +54,7 @@ void refuse_given(const std::vector<Argument>& others, const std::string& why) {
 }
 
 int identify_scenario(const IdentifyOptions& options, int threads) {
-  const std::vector<WalkAnswers> walks = identify_walks(options.building, options.seeds, threads);
+  const std::vector<WalkAnswers> walks = localizability_of_walks(options.building, options.seeds, threads);
   const std::string text = options.json ? write_json(walks_json(walks)) + "\n" : walks_text(walks);
   std::fwrite(text.data(), 1, text.size(), stdout);
   return 0;
@@ -72,19 +72,20 @@ int identify(const IdentifyOptions& options) {
   }
   refuse_given(options.of_scenarios, "is of a scenario's walks; this is a building");
   const std::string page = page_path(options);
-  const bim::Site site = bim::load_site(options.building);
+  const RunBuilding building(bim::load_planned_and_built(options.building));
   BuildingMapOptions map_options = options.map;
   if (!options.storey.empty()) map_options.storey = options.storey;
   map_options.threads = threads;
   catch_interrupts();
-  const BuildingMap map = map_of(site, map_options);
+  const BuildingMap map = map_of(building, map_options);
   if (!page.empty()) {
     const std::filesystem::path folder = std::filesystem::path(page).parent_path();
     std::error_code error;
     if (!folder.empty()) std::filesystem::create_directories(folder, error);
-    write_file(page, identify_page(site, std::filesystem::path(options.building).filename().string(), map));
+    write_file(page, localizability_page(building, std::filesystem::path(options.building).filename().string(), map));
   }
-  const std::string text = options.json ? write_json(identify_json(site, map)) + "\n" : identify_text(site, map);
+  const std::string text =
+      options.json ? write_json(localizability_json(building, map)) + "\n" : localizability_text(building, map);
   std::fwrite(text.data(), 1, text.size(), stdout);
   return 0;
 }
@@ -94,17 +95,17 @@ int identify(const IdentifyOptions& options) {
 Command add_identify(CommandLine& program) {
   const auto options = std::make_shared<IdentifyOptions>();
   CommandLine line =
-      program.add_command("identify", "Says where in a building a VLP-16 can tell where it is, and after what walk");
+      program.add_command("identify", "Maps where in a building a VLP-16 can be localized, and after what walk");
   line.option("BUILDING", options->building,
-              "plan or traffic-editor plan (.yaml) or .ifc; or a scenario, to be told of the walks it plans")
+              "plan or traffic-editor plan (.yaml) or .ifc; or a scenario, for the walks it plans")
       .required();
   options->of_buildings = {
       line.option("--storey", options->storey, "of this storey alone, by its id or name"),
-      line.option("--step", options->map.step_m, "distance between the places asked about, m")
+      line.option("--step", options->map.step_m, "distance between the places on the map, m")
           .range(0.1, 5.0)
           .shows_default(),
-      line.flag("--across", options->map.across, "the storey is not told: places on other storeys count"),
-      line.flag("--compass", options->map.compass_only, "with a compass only, which is quicker"),
+      line.flag("--across", options->map.across, "storey unknown: places on other storeys count"),
+      line.flag("--compass", options->map.compass_only, "with a known heading only, which is quicker"),
       line.option("-o,--out", options->out, "page to write (.html), or a directory for identify.html"),
       line.flag("--force", options->force, "replaces the page that is there")};
   line.flag("--json", options->json, "for programs, every place");

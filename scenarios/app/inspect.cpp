@@ -50,7 +50,8 @@ int inspect(const InspectOptions& options) {
     if (!output.empty()) check_output(output, options);
   if (!options.ifc.empty() && options.ifc == options.mesh)
     throw InputError({"--ifc", 0, 0}, "names the file that --mesh does");
-  const bim::Site site = options.as_built ? bim::load_site(options.building) : bim::Site{};
+  const bim::PlannedAndBuilt site =
+      options.as_built ? bim::load_planned_and_built(options.building) : bim::PlannedAndBuilt{};
   const bim::Building building = options.as_built ? site.as_built : bim::load_building(options.building);
   const bim::BuildingMesh mesh = bim::build_mesh(building);
   if (format) write_file(options.mesh, bim::write_mesh(building, mesh, *format));

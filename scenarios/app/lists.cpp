@@ -31,12 +31,16 @@ int list_methods(slam::MethodTable table) {
   return 0;
 }
 
-int print_config(const std::string& name, slam::MethodTable table) {
+int print_config(const std::string& name, bool all, slam::MethodTable table) {
   check_methods({name}, {Mark{"--config", 0, 0}}, table);
   const slam::MethodRow* row = slam::find_method(name, table);
   if (row == nullptr || !row->config_schema)
     throw InputError({"--config", 0, 0}, "method '" + name + "' has no values to set");
-  std::fputs(schema_yaml(row->config_schema().front().fields).c_str(), stdout);
+  const std::vector<SchemaField> fields = row->config_schema().front().fields;
+  const std::vector<SchemaField> shown = all ? fields : basic_fields(fields);
+  std::fputs(schema_yaml(shown).c_str(), stdout);
+  if (shown.size() < fields.size())
+    std::printf("# %zu more: plumbline methods --config %s --all\n", fields.size() - shown.size(), name.c_str());
   return 0;
 }
 
@@ -65,11 +69,19 @@ int print_schema() {
 }  // namespace
 
 Command add_methods(CommandLine& program, slam::MethodTable table) {
-  const auto config = std::make_shared<std::string>();
+  struct Options {
+    std::string config;
+    bool all = false;
+  };
+  const auto options = std::make_shared<Options>();
   CommandLine line = program.add_command("methods", "Lists the methods a scenario may ask for");
-  line.option("--config", *config, "prints instead every value of this method's --config file, at its default");
+  const Argument config = line.option("--config", options->config,
+                                      "prints instead the basic keys of this method's config, at their defaults");
+  line.flag("--all", options->all, "every key of the config").needs(config);
   line.footer("Example: plumbline methods\n         plumbline methods --config vgicp > vgicp.yaml");
-  return {line, [config, table] { return config->empty() ? list_methods(table) : print_config(*config, table); }};
+  return {line, [options, table] {
+            return options->config.empty() ? list_methods(table) : print_config(options->config, options->all, table);
+          }};
 }
 
 Command add_scenarios(CommandLine& program) {

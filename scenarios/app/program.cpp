@@ -24,7 +24,7 @@ namespace {
 
 enum ExitCode { bad_input = 2, environment_or_internal = 3, scenario_failed = 4 };
 
-int complain(const std::string& text, int code) {
+int print_error(const std::string& text, int code) {
   std::string line = text;
   for (char& c : line)
     if (c == '\n') c = ' ';
@@ -43,15 +43,15 @@ int report_failure() {
   try {
     throw;
   } catch (const InputError& error) {
-    return complain(error.what(), bad_input);
+    return print_error(error.what(), bad_input);
   } catch (const ScenarioFailure& error) {
-    return complain(error.what(), scenario_failed);
+    return print_error(error.what(), scenario_failed);
   } catch (const Interrupted& error) {
-    return complain(std::string("plumbline: ") + error.what(), 128 + error.signal());
+    return print_error(std::string("plumbline: ") + error.what(), 128 + error.signal());
   } catch (const EnvironmentError& error) {
-    return complain(error.what(), environment_or_internal);
+    return print_error(error.what(), environment_or_internal);
   } catch (const std::exception& error) {
-    return complain(std::string("plumbline: internal error: ") + error.what(), environment_or_internal);
+    return print_error(std::string("plumbline: internal error: ") + error.what(), environment_or_internal);
   }
 }
 
@@ -66,7 +66,7 @@ std::vector<slam::MethodRow> with_ours(std::vector<slam::MethodRow> own_methods)
   return table;
 }
 
-int parse_and_run(int argc, char** argv, slam::MethodTable table) {
+CommandLine program_line() {
   CommandLine program(
       "Walks a legged robot with an emulated VLP-16 through a building model and scores SLAM and "
       "localization methods against ground truth.",
@@ -77,12 +77,21 @@ int parse_and_run(int argc, char** argv, slam::MethodTable table) {
       "Example: plumbline run scenarios/library/quickstart.yaml --out runs/first\n"
       "Exit codes: 0 gates passed, 1 a gate failed, 2 bad usage or input, 3 environment or internal error, "
       "4 the robot fell or stalled");
-  const std::vector<Command> commands = {
-      add_run(program, table), add_inspect(program),         add_generate(program),
-      add_score(program),      add_report(program),          add_replay(program, table),
-      add_diff(program),       add_methods(program, table),  add_scenarios(program),
-      add_bench(program),      add_simulate(program, table), add_estimate(program, table),
-      add_identify(program),   add_sweep(program, table)};
+  return program;
+}
+
+/// Adds every command, in the order of the help.
+std::vector<Command> add_commands(CommandLine& program, slam::MethodTable table) {
+  return {add_run(program, table), add_inspect(program),         add_generate(program),
+          add_score(program),      add_report(program),          add_replay(program, table),
+          add_diff(program),       add_methods(program, table),  add_scenarios(program),
+          add_bench(program),      add_simulate(program, table), add_estimate(program, table),
+          add_identify(program),   add_sweep(program, table)};
+}
+
+int parse_and_run(int argc, char** argv, slam::MethodTable table) {
+  CommandLine program = program_line();
+  const std::vector<Command> commands = add_commands(program, table);
   if (!program.parse({argv + std::min(argc, 1), argv + argc})) return 0;
   for (const Command& command : commands)
     if (command.line.asked()) return command.action();
@@ -90,6 +99,12 @@ int parse_and_run(int argc, char** argv, slam::MethodTable table) {
 }
 
 }  // namespace
+
+std::vector<CommandHelp> program_help() {
+  CommandLine program = program_line();
+  const std::vector<Command> commands = add_commands(program, slam::methods());  // they hold what the options write to
+  return program.help();
+}
 
 int run_program(int argc, char** argv, std::vector<slam::MethodRow> own_methods) {
   settle_process();

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "scenarios/app/command_line.h"
 #include "slam/methods.h"
 
 namespace plumbline::scenarios {
@@ -11,5 +12,8 @@ namespace plumbline::scenarios {
 /// exceptions into one line on stderr. Returns the exit code of the contract. `own_methods` stand beside ours in every
 /// command: a main of one line that brings a method of its own is a whole testbench for it.
 int run_program(int argc, char** argv, std::vector<slam::MethodRow> own_methods = {});
+
+/// What `plumbline --help` prints, and every command's --help.
+[[nodiscard]] std::vector<CommandHelp> program_help();
 
 }  // namespace plumbline::scenarios

@@ -16,8 +16,8 @@ Command add_report(CommandLine& program) {
   line.option("DIR", *dir, "run directory").required();
   line.footer("Example: plumbline report runs/quickstart-1");
   return {line, [dir] {
-            const RunFiles files = read_run_files(*dir);
-            write_file(*dir + "/report.html", render_report(report_input(files, score::score_run(files))));
+            const FinishedRun run = read_run(*dir);
+            write_file(*dir + "/report.html", render_report(report_input(run, score::score_run(run))));
             std::printf("report: %s/report.html\n", dir->c_str());
             return 0;
           }};

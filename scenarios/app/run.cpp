@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bim/errors.h"
@@ -69,25 +70,26 @@ int run(const RunArguments& options, slam::MethodTable table) {
   std::optional<Recorder> recorder;
   if (options.record) {
     recorder.emplace(directory.staging() + "/" + std::string(recording_folder), resolved);
-    run_options.sensors = [&](const sim::WorldFrame& frame) { recorder->add(frame); };
+    run_options.observe = [&](const sim::WorldFrame& frame) { recorder->add(frame); };
   }
-  const RunRecord record = execute(resolved, run_options);
+  RunRecord record = execute(resolved, run_options);
   if (record.truth_W.empty())
     throw ScenarioFailure(record.failure.empty() ? "the run ended before its first scan" : record.failure);
 
   progress.phase("scoring");
   write_run_files(directory.staging(), resolved, record);
   if (recorder) recorder->finish();
-  const RunFiles files = read_run_files(directory.staging());
-  const score::RunScore score = score_and_report(files);
+  const FinishedRun finished = finished_run(resolved, std::move(record));
+  const score::RunScore score = score_and_report(directory.staging(), finished);
   check_interrupt();
   const RunCost cost{slam::wall_s() - start, slam::process_cpu_s(), score.duration_s, threads};
-  write_file(directory.staging() + "/timings.json", write_timings(record, cost));
+  write_file(directory.staging() + "/timings.json",
+             write_timings(finished.record.sim_times, finished.record.methods, cost));
   directory.commit();
 
-  if (!record.failure.empty()) std::fprintf(stderr, "%s\n", record.failure.c_str());
-  std::fputs(("report: " + out + "/report.html\n" + summarise(files, score)).c_str(), stdout);
-  return exit_code(files, score);
+  if (!finished.record.failure.empty()) std::fprintf(stderr, "%s\n", finished.record.failure.c_str());
+  std::fputs(("report: " + out + "/report.html\n" + summarise(finished, score)).c_str(), stdout);
+  return exit_code(finished, score);
 }
 
 }  // namespace

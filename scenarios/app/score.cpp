@@ -28,36 +28,37 @@ bool is_plain_name(const std::string& name) {
   return !name.empty() && std::all_of(name.begin(), name.end(), plain);
 }
 
-/// The answer to another walk of the same length would only look bad.
-void check_walk(const std::string& dir, const RunFiles& files) {
+/// An estimate of another run of the same length would pass for a bad one.
+void check_walk(const std::string& dir, const std::string& run_dir, const FinishedRun& run) {
   const std::string path = dir + "/estimate.yaml";
   const Tree tree = read_yaml(read_text_file(path), path);
   const Tree* walk = tree.find("walk");
-  if (walk != nullptr && walk->as_string() != walk_of(files.digests))
-    throw InputError(walk->mark, "the estimate is of another run's recording; give one of " + files.dir);
+  if (walk != nullptr && walk->as_string() != sensor_digest_of(run.record.digests))
+    throw InputError(walk->mark, "the estimate is of another run's recording; give one of " + run_dir);
 }
 
 /// What `plumbline estimate` left: planes, rooms and map beside the trajectories.
-MethodRecord read_estimate_directory(const std::string& dir, const std::string& name, const RunFiles& files) {
+MethodRecord read_estimate_directory(const std::string& dir, const std::string& name, const std::string& run_dir,
+                                     const FinishedRun& run) {
   const std::vector<std::string> methods = estimates_in(dir);
   if (methods.size() != 1)
     throw InputError({dir, 0, 0}, methods.empty() ? "holds no estimate; give what plumbline estimate wrote"
                                                   : "holds several estimates; give a directory of plumbline estimate");
-  if (std::filesystem::exists(dir + "/estimate.yaml")) check_walk(dir, files);
+  if (std::filesystem::exists(dir + "/estimate.yaml")) check_walk(dir, run_dir, run);
   MethodRecord method = read_method(dir, methods.front());
   method.name = name;
   return method;
 }
 
 /// NAME=DIR or NAME=FILE[,frame=W|M]
-MethodRecord read_outside(const std::string& text, const RunFiles& files) {
+MethodRecord read_outside(const std::string& text, const std::string& run_dir, const FinishedRun& run) {
   const Mark mark{"--estimate", 0, 0};
   const std::size_t equals = text.find('=');
   std::string path = equals == std::string::npos ? "" : text.substr(equals + 1);
   MethodRecord method;
   method.name = text.substr(0, equals);
   if (is_plain_name(method.name) && std::filesystem::is_directory(path))
-    return read_estimate_directory(path, method.name, files);
+    return read_estimate_directory(path, method.name, run_dir, run);
   for (const auto& [end, world] : {std::pair{",frame=W", true}, std::pair{",frame=M", false}}) {
     if (!path.ends_with(end)) continue;
     path.resize(path.size() - std::string_view(end).size());
@@ -75,11 +76,11 @@ MethodRecord read_outside(const std::string& text, const RunFiles& files) {
   return method;
 }
 
-/// A trajectory on another clock, the commonest mistake, would only look lost.
-void check_stamps(const std::string& text, const MethodRecord& method, const RunFiles& files) {
+/// A trajectory on another clock, the commonest mistake, would pass for a lost one.
+void check_stamps(const std::string& text, const MethodRecord& method, const FinishedRun& run) {
   score::Truth truth;
-  truth.scans = files.scans;
-  truth.poses_W = files.truth_W;
+  truth.scans = run.scans;
+  truth.poses_W = run.record.truth_W;
   if (method.causal.empty() || !score::associate(truth, method.causal, {}).empty()) return;
   const auto span = [](slam::Nanoseconds first, slam::Nanoseconds last) {
     return slam::format_stamp(first) + " to " + slam::format_stamp(last) + " s";
@@ -87,15 +88,15 @@ void check_stamps(const std::string& text, const MethodRecord& method, const Run
   throw InputError({"--estimate", 0, 0}, "'" + text +
                                              "' has a pose within 0.01 s of none of the run's scans; it is of " +
                                              span(method.causal.front().stamp, method.causal.back().stamp) +
-                                             ", the scans are of " + span(files.scans.front(), files.scans.back()));
+                                             ", the scans are of " + span(run.scans.front(), run.scans.back()));
 }
 
 /// Only outside estimates can be dropped: the run's own cannot be had again without a run.
-void check_dropped(const std::vector<std::string>& dropped, const RunFiles& files) {
+void check_dropped(const std::vector<std::string>& dropped, const FinishedRun& run) {
   const Mark mark{"--drop", 0, 0};
-  const auto& own = files.scenario.methods;
+  const auto& own = run.scenario.methods;
   std::vector<std::string> outside;
-  for (const MethodRecord& method : files.methods)
+  for (const MethodRecord& method : run.record.methods)
     if (std::find(own.begin(), own.end(), method.name) == own.end()) outside.push_back(method.name);
   for (const std::string& name : dropped) {
     if (std::find(own.begin(), own.end(), name) != own.end())
@@ -109,16 +110,16 @@ void check_dropped(const std::vector<std::string>& dropped, const RunFiles& file
 
 int score_again(const std::string& dir, const std::vector<std::string>& estimates,
                 const std::vector<std::string>& dropped) {
-  RunFiles files = read_run_files(dir);
-  check_dropped(dropped, files);
+  FinishedRun run = read_run(dir);
+  check_dropped(dropped, run);
   std::vector<MethodRecord> outside;
   for (const std::string& text : estimates) {
-    MethodRecord read = read_outside(text, files);
-    check_stamps(text, read, files);
+    MethodRecord read = read_outside(text, dir, run);
+    check_stamps(text, read, run);
     if (std::any_of(outside.begin(), outside.end(), [&](const MethodRecord& m) { return m.name == read.name; }))
       throw InputError({"--estimate", 0, 0}, "'" + read.name + "' is given twice");
     outside.push_back(std::move(read));
-    const auto& names = files.scenario.methods;
+    const auto& names = run.scenario.methods;
     if (outside.back().name == truth_method ||
         std::find(names.begin(), names.end(), outside.back().name) != names.end())
       throw InputError({"--estimate", 0, 0},
@@ -126,10 +127,10 @@ int score_again(const std::string& dir, const std::vector<std::string>& estimate
   }
   for (const std::string& name : dropped) remove_method(dir, name);
   for (const MethodRecord& method : outside) write_method(dir, method);
-  if (!outside.empty() || !dropped.empty()) files = read_run_files(dir);
-  const score::RunScore score = score_and_report(files);
-  std::fputs(("report: " + dir + "/report.html\n" + summarise(files, score)).c_str(), stdout);
-  return exit_code(files, score);
+  if (!outside.empty() || !dropped.empty()) run = read_run(dir);
+  const score::RunScore score = score_and_report(dir, run);
+  std::fputs(("report: " + dir + "/report.html\n" + summarise(run, score)).c_str(), stdout);
+  return exit_code(run, score);
 }
 
 }  // namespace

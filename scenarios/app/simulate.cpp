@@ -53,7 +53,7 @@ int simulate(const SimulateArguments& options, slam::MethodTable table) {
   if (options.bag) recorder.add_bag(find_profile(options.profile), options.bag_truth);
   RunOptions run_options;
   run_options.methods = false;
-  run_options.sensors = [&](const sim::WorldFrame& frame) { recorder.add(frame); };
+  run_options.observe = [&](const sim::WorldFrame& frame) { recorder.add(frame); };
   RunRecord record;
   {
     Progress progress(resolved.scenario.name, resolved.scenario.duration_s);

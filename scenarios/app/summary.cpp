@@ -43,13 +43,13 @@ std::string row(const std::string& name, std::size_t width, const std::string& v
 
 }  // namespace
 
-std::string summarise(const RunFiles& files, const score::RunScore& score) {
+std::string summarise(const FinishedRun& run, const score::RunScore& score) {
   char head[160];
-  std::snprintf(head, sizeof(head), "%s, seed %llu: %.1f m in %.1f s, digest %s\n", files.scenario.name.c_str(),
-                static_cast<unsigned long long>(files.scenario.seed), score.distance_m, score.duration_s,
+  std::snprintf(head, sizeof(head), "%s, seed %llu: %.1f m in %.1f s, digest %s\n", run.scenario.name.c_str(),
+                static_cast<unsigned long long>(run.scenario.seed), score.distance_m, score.duration_s,
                 score.digest.c_str());
   std::string text = head;
-  if (!files.failure.empty()) text += "the scenario failed: " + files.failure + "\n";
+  if (!run.record.failure.empty()) text += "the scenario failed: " + run.record.failure + "\n";
   std::size_t width = 22;
   for (const score::MethodScore& method : score.methods) width = std::max(width, method.name.size());
   text += row("method", width, "verdict");
@@ -71,15 +71,15 @@ std::string summarise(const RunFiles& files, const score::RunScore& score) {
   return text + "gates: " + std::to_string(passed) + " of " + std::to_string(score.gates.size()) + " passed\n";
 }
 
-int exit_code(const RunFiles& files, const score::RunScore& score) {
-  if (!files.failure.empty()) return 4;
+int exit_code(const FinishedRun& run, const score::RunScore& score) {
+  if (!run.record.failure.empty()) return 4;
   return score.passed() ? 0 : 1;
 }
 
-score::RunScore score_and_report(const RunFiles& files) {
-  score::RunScore score = score::score_run(files);
-  write_file(files.dir + "/report.html", render_report(report_input(files, score)));
-  score::write_scores(files, score);
+score::RunScore score_and_report(const std::string& dir, const FinishedRun& run) {
+  score::RunScore score = score::score_run(run);
+  write_file(dir + "/report.html", render_report(report_input(run, score)));
+  score::write_scores(dir, run, score);
   return score;
 }
 

@@ -9,12 +9,12 @@ namespace plumbline::scenarios {
 
 /// A table of the methods with their verdicts and main metrics, a line a gate, and what came of it: the last line
 /// says "gates: 3 of 4 passed" or "no gates".
-[[nodiscard]] std::string summarise(const RunFiles& files, const score::RunScore& score);
+[[nodiscard]] std::string summarise(const FinishedRun& run, const score::RunScore& score);
 
 /// 0 all gates passed or none asked for, 1 a gate failed, 4 the scenario failed.
-[[nodiscard]] int exit_code(const RunFiles& files, const score::RunScore& score);
+[[nodiscard]] int exit_code(const FinishedRun& run, const score::RunScore& score);
 
-/// Scores what is in `dir` and writes results.json, junit.xml and report.html there.
-[[nodiscard]] score::RunScore score_and_report(const RunFiles& files);
+/// Scores a run and writes results.json, junit.xml and report.html into `dir`.
+[[nodiscard]] score::RunScore score_and_report(const std::string& dir, const FinishedRun& run);
 
 }  // namespace plumbline::scenarios

@@ -12,7 +12,8 @@
 #include "scenarios/app/commands.h"
 #include "scenarios/app/process.h"
 #include "scenarios/host/interrupt.h"
-#include "scenarios/sweep/shared_walk.h"
+#include "scenarios/sweep/shared_simulation.h"
+#include "scenarios/sweep/sweep_schema.h"
 
 namespace plumbline::scenarios {
 
@@ -24,7 +25,7 @@ struct SweepArguments {
   int jobs = 0;
   int seeds = 0;
   bool schema = false;
-  std::vector<std::string> runs;  ///< what this program asks its children for: the runs of one walk
+  std::vector<std::string> runs;  ///< what this program asks its children for: the runs of one simulation
   std::uint64_t seed = 1;
 };
 
@@ -71,7 +72,8 @@ Command add_sweep(CommandLine& program, slam::MethodTable table) {
   line.option("--seeds", options->seeds, "how many seeds of each, in place of the file's; what is made stays for more")
       .range(1, 100000);
   line.flag("--schema", options->schema, "prints instead every key of sweep files, with examples");
-  line.option("--runs", options->runs, "scenarios that differ in what methods are told alone, to be run on one walk")
+  line.option("--runs", options->runs,
+              "scenarios that differ in prior, methods and gates alone, to be run on one simulation")
       .hidden();
   line.seed("--seed", options->seed, "their seed").hidden();
   line.footer("Example: plumbline sweep ci/sweeps/look.yaml --jobs 2\nStopped at any moment, it goes on where it was.");

@@ -91,41 +91,96 @@ void write_file(const std::string& path, std::string_view bytes) {
 
 namespace {
 
+constexpr std::string_view method_name = "<method>", building_start = "building.";
+
+constexpr std::array<FileRow, 18> run_files = {{
+    {"report.html", "the report: maps, errors over time, verdicts, gates; it loads nothing from elsewhere"},
+    {"results.json", "scores and gates; it appears last, so that its directory is complete"},
+    {"junit.xml", "gates and methods as JUnit test cases"},
+    {"<method>.tum", "the causal trajectory: each pose as first given, one a scan; SLAM scores use it", false},
+    {"<method>.final.tum", "the trajectory after the last optimisation", false},
+    {"<method>.map.ply", "the map, in the method's frame; of a localization, in the plan's", false},
+    {"<method>.map.pcd", "the same map in PCD format", false},
+    {"<method>.estimate.json", "planes, rooms and floors, in the map's frame", false},
+    {"<method>.hypotheses.jsonl",
+     "of a localization, a line for each scan: pose hypotheses with shares and covariances, state, particles", false},
+    {"<method>.graph.json", "of a graph method: keyframes, planes, rooms, floors and factors", false},
+    {"truth.tum", "true poses, at 100 Hz and at every scan", false},
+    {"truth_surface.ply", "points of the building that true returns hit"},
+    {"scenario.yaml", "the resolved scenario; `run` of this file, or `replay`, repeats the run"},
+    {"building.*", "the building that the scenario names", false},
+    {"digests.csv", "a digest for each stage and scan; `diff` and `replay` compare them"},
+    {"timings.json", "CPU time of each stage; the only file that differs between repetitions"},
+    {"failure.txt", "why the scenario ended early, where it did"},
+    {recording_folder, "with `--record`: the sensor data of the run, as `simulate` writes it"},
+}};
+
+constexpr std::array<FileRow, 9> recording_files = {{
+    {"lidar.pcap", "the LiDAR's packets as the sensor sends them, with nanosecond stamps"},
+    {"odometry.tum", "odometry poses"},
+    {"odometry_covariance.csv",
+     "time and the upper triangle of the covariance of each odometry increment, along and about the robot's axes"},
+    {"imu.csv", "t,wx,wy,wz,ax,ay,az in SI units, in the robot's frame"},
+    {"recording.yaml",
+     "the LiDAR's mount, packets per scan, seed, digest of the sensor data, and the prior of localization"},
+    {"recording.bag", "the same data as a ROS 1 bag (LZ4), with `--bag`"},
+    {"truth.tum", "true poses; `estimate` does not read them"},
+    {"scenario.yaml", "the resolved scenario"},
+    {"building.*", "the building that the scenario names", false},
+}};
+
+constexpr std::array<FileRow, 10> estimate_files = {{
+    {"estimate.yaml", "the recording, method and seed of the estimate; `score` compares them with the run"},
+    {"<method>.tum", "the causal trajectory", false},
+    {"<method>.final.tum", "the trajectory after the last optimisation", false},
+    {"<method>.map.ply", "the map", false},
+    {"<method>.map.pcd", "the same map in PCD format", false},
+    {"<method>.estimate.json", "planes, rooms and floors", false},
+    {"<method>.hypotheses.jsonl", "of a localization: pose hypotheses after each scan", false},
+    {"<method>.graph.json", "of a graph method: keyframes, planes, rooms, floors and factors", false},
+    {"digests.csv", "a digest for each stage and scan"},
+    {"timings.json", "CPU time of each stage"},
+}};
+
+constexpr std::array<FileRow, 6> sweep_files = {{
+    {"runs.csv", "a row for each run and method"},
+    {"table.txt", "a row for each scenario, variant, start and method, over all seeds"},
+    {"table.csv", "the same rows for programs"},
+    {"table.html", "the same rows as a page"},
+    {"sweep.sqlite", "runs and rows as tables of a database"},
+    {"results", "a file for each run; a sweep that continues keeps them"},
+}};
+
+/// Which names a directory may hold.
 struct DirectoryNames {
   std::string_view what;
-  std::vector<std::string_view> whole;
-  std::vector<std::string_view> ends;
-  std::string_view start = {};  ///< of the building's copy, which ends as the building does
+  std::span<const FileRow> rows;
 
+  /// True for a name that makes the directory one of this kind.
   [[nodiscard]] bool names(std::string_view name) const {
-    return std::find(whole.begin(), whole.end(), name) != whole.end();
+    return std::any_of(rows.begin(), rows.end(), [&](const FileRow& row) { return row.mark && row.name == name; });
   }
   [[nodiscard]] bool may_hold(std::string_view name) const {
-    return name == staging_name || names(name) || (!start.empty() && name.starts_with(start)) ||
-           std::any_of(ends.begin(), ends.end(), [&](std::string_view end) { return ends_with(name, end); });
+    const auto fits = [&](const FileRow& row) {
+      if (row.name.starts_with(method_name)) return ends_with(name, row.name.substr(method_name.size()));
+      return row.name == name || (row.name.starts_with(building_start) && name.starts_with(building_start));
+    };
+    return name == staging_name || names(name) || std::any_of(rows.begin(), rows.end(), fits);
   }
 };
 
-const DirectoryNames& names_of(DirectoryKind kind) {
-  static const std::vector<std::string_view> of_methods = {".tum",     ".hypotheses.jsonl", ".estimate.json",
-                                                           ".map.ply", ".map.pcd",          ".graph.json"};
-  static const std::array<DirectoryNames, 3> names = {{
-      {"run",
-       {"scenario.yaml", "results.json", "timings.json", "digests.csv", "report.html", "junit.xml", "truth_surface.ply",
-        "failure.txt", recording_folder},
-       of_methods,
-       "building."},
-      {"recording",
-       {"scenario.yaml", "truth.tum", "lidar.pcap", "odometry.tum", "odometry_covariance.csv", "imu.csv",
-        "recording.yaml", "recording.bag"},
-       {},
-       "building."},
-      {"estimate", {"estimate.yaml", "digests.csv", "timings.json"}, of_methods},
-  }};
-  return names[static_cast<std::size_t>(kind)];
+DirectoryNames names_of(DirectoryKind kind) {
+  static constexpr std::array<std::string_view, 4> whats = {"run", "recording", "estimate", "sweep"};
+  return {whats[static_cast<std::size_t>(kind)], files_of(kind)};
 }
 
 }  // namespace
+
+std::span<const FileRow> files_of(DirectoryKind kind) {
+  static constexpr std::array<std::span<const FileRow>, 4> rows = {run_files, recording_files, estimate_files,
+                                                                   sweep_files};
+  return rows[static_cast<std::size_t>(kind)];
+}
 
 RunDirectory::RunDirectory(const std::string& path, DirectoryKind kind, bool force)
     : path_(path), staging_((fs::path(path) / staging_name).string()) {
@@ -134,7 +189,7 @@ RunDirectory::RunDirectory(const std::string& path, DirectoryKind kind, bool for
   const Mark mark{path_, 0, 0};
   if (fs::exists(status)) {
     if (!fs::is_directory(status)) throw InputError(mark, "is a file; --out must name a directory");
-    const DirectoryNames& known = names_of(kind);
+    const DirectoryNames known = names_of(kind);
     const std::string what(known.what);
     bool occupied = false, ours = false;
     for (const std::string& name : names_in(path_)) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,8 +15,17 @@ inline constexpr std::string_view recording_folder = "recording";
 /// Throws EnvironmentError.
 void write_file(const std::string& path, std::string_view bytes);
 
-/// What a directory is to hold: one of them never replaces another.
-enum class DirectoryKind { run, recording, estimate };
+/// What a directory holds: one kind never replaces another.
+enum class DirectoryKind { run, recording, estimate, sweep };
+
+/// A file of a directory.
+struct FileRow {
+  std::string_view name;  ///< "<method>" stands for a method's name, "building.*" for the copy of a building
+  std::string_view doc;   ///< one sentence without its full stop
+  bool mark = true;       ///< a directory that holds it is of this kind; false where others may hold it, too
+};
+/// Every file of such a directory.
+[[nodiscard]] std::span<const FileRow> files_of(DirectoryKind kind);
 
 /// The directory of a run, recording or estimate while it is being made. Files are written into a hidden folder inside
 /// it and moved into place together, results.json last, so that an interrupted run leaves nothing that looks complete.

@@ -18,8 +18,8 @@ struct PlaneFit {
   int seen = 0;
 };
 
-PlaneFit fit_planes(const std::vector<Eigen::Vector3d>& directions, const View& seen, const View& expected,
-                    const Place& place, double gate) {
+PlaneFit fit_planes(const std::vector<Eigen::Vector3d>& directions, const RangeImage& seen, const RangeImage& expected,
+                    const SensorPose& place, double gate) {
   PlaneFit fit;
   const Pose X_WS = place.pose();
   for (std::size_t i = 0; i < seen.range_m.size(); ++i) {
@@ -41,45 +41,45 @@ PlaneFit fit_planes(const std::vector<Eigen::Vector3d>& directions, const View& 
 
 }  // namespace
 
-TwinFinder::TwinFinder(const PlaceIndex& index, const bim::RayScene& as_planned, const bim::RayScene& as_built)
+AliasFinder::AliasFinder(const PlaceIndex& index, const bim::RayScene& as_planned, const bim::RayScene& as_built)
     : index_(index),
       as_planned_(as_planned),
       as_built_(as_built),
-      coarse_(identify_constants.refine_azimuths, identify_constants.refine_elevations_deg) {}
+      coarse_(localizability_constants.refine_azimuths, localizability_constants.refine_elevations_deg) {}
 
-Look TwinFinder::look(const Place& place) const {
-  Look look{place, viewer_.look(as_built_, place).range_m, 0.0};
-  if (&as_built_ != &as_planned_) look.own = viewer_.cost(look.range_m, viewer_.look(as_planned_, place).range_m);
-  return look;
+ReferenceScan AliasFinder::scan_at(const SensorPose& place) const {
+  ReferenceScan scan{place, imager_.cast(as_built_, place).range_m, 0.0};
+  if (&as_built_ != &as_planned_) scan.own = imager_.cost(scan.range_m, imager_.cast(as_planned_, place).range_m);
+  return scan;
 }
 
-double TwinFinder::llr(const Look& look, const Place& other) const {
-  return viewer_.cost(look.range_m, viewer_.look(as_planned_, other).range_m) - look.own;
+double AliasFinder::llr(const ReferenceScan& scan, const SensorPose& other) const {
+  return imager_.cost(scan.range_m, imager_.cast(as_planned_, other).range_m) - scan.own;
 }
 
-bool TwinFinder::plainly_unlike(const Look& look, const Place& other) const {
+bool AliasFinder::clearly_different(const ReferenceScan& scan, const SensorPose& other) const {
   // The fifth ring alone, every fifth beam of it: llr there is a fortieth of that of all beams.
   constexpr double sure = 4.0;
   constexpr int stride = 5;
-  const auto n = static_cast<std::size_t>(viewer_.azimuths());
+  const auto n = static_cast<std::size_t>(imager_.azimuths());
   std::vector<bim::Ray> rays;
   for (std::size_t a = 0; a < n; a += stride)
-    rays.push_back({other.position_W, other.pose().q * viewer_.directions()[4 * n + a]});
+    rays.push_back({other.position_W, other.pose().q * imager_.directions()[4 * n + a]});
   std::vector<bim::Hit> hits(rays.size());
-  as_planned_.cast(rays, identify_constants.range_max_m, hits);
+  as_planned_.cast(rays, localizability_constants.range_max_m, hits);
   double sum = 0.0;
-  for (std::size_t i = 0; i < hits.size(); ++i) sum += beam_cost(look.range_m[4 * n + i * stride], hits[i].range_m);
-  return sum * 8.0 * stride - look.own > sure * identify_constants.drop_llr;
+  for (std::size_t i = 0; i < hits.size(); ++i) sum += beam_cost(scan.range_m[4 * n + i * stride], hits[i].range_m);
+  return sum * 8.0 * stride - scan.own > sure * localizability_constants.drop_llr;
 }
 
-bool TwinFinder::refine(const View& seen, Place& place) const {
+bool AliasFinder::refine(const RangeImage& seen, SensorPose& place) const {
   constexpr double gate_min_m = 0.1, gate_factor = 0.7;
-  // A twin may differ in about one beam of a hundred. On the way there more do, within a narrowing gate.
+  // An alias may differ in about one beam of a hundred. On the way there more do, within a narrowing gate.
   constexpr int early = 3, late = 6;
   constexpr double early_share = 0.6, late_share = 0.85;
   double gate = 1.0;
-  for (int iteration = 0; iteration < identify_constants.refine_iterations; ++iteration) {
-    const View expected = coarse_.look(as_planned_, place);
+  for (int iteration = 0; iteration < localizability_constants.refine_iterations; ++iteration) {
+    const RangeImage expected = coarse_.cast(as_planned_, place);
     const PlaneFit fit = fit_planes(coarse_.directions(), seen, expected, place, gate);
     const double share = iteration < early ? 0.0 : iteration < late ? early_share : late_share;
     if (fit.near < share * fit.seen) return false;
@@ -93,41 +93,42 @@ bool TwinFinder::refine(const View& seen, Place& place) const {
   return true;
 }
 
-std::vector<FoundTwin> TwinFinder::find(const Look& look, const TwinSearch& search,
-                                        std::span<const Place> known) const {
-  const View seen = coarse_.look(as_built_, look.place);
-  const Signature signature = signature_of(index_.viewer(), as_built_, look.place.position_W);
-  std::vector<Place> taken(known.begin(), known.end());
-  taken.push_back(look.place);
-  std::vector<Place> tried;
-  std::vector<FoundTwin> twins;
-  const auto near_any = [](const std::vector<Place>& places, const Place& place, double metres, double degrees) {
+std::vector<FoundAlias> AliasFinder::find(const ReferenceScan& scan, const AliasSearch& search,
+                                          std::span<const SensorPose> known) const {
+  const RangeImage seen = coarse_.cast(as_built_, scan.place);
+  const Signature signature = signature_of(index_.imager(), as_built_, scan.place.position_W);
+  std::vector<SensorPose> taken(known.begin(), known.end());
+  taken.push_back(scan.place);
+  std::vector<SensorPose> tried;
+  std::vector<FoundAlias> aliases;
+  const auto near_any = [](const std::vector<SensorPose>& places, const SensorPose& place, double metres,
+                           double degrees) {
     return std::any_of(places.begin(), places.end(),
-                       [&](const Place& other) { return same_place(place, other, metres, degrees); });
+                       [&](const SensorPose& other) { return same_pose(place, other, metres, degrees); });
   };
   int in_vain = 0;
-  for (Place place : index_.like(signature, look.place.yaw, search.storey, search.yaw_known)) {
-    if (near_any(taken, place, identify_constants.basin_m, identify_constants.basin_deg) ||
-        near_any(tried, place, 0.5 * identify_constants.basin_m, 0.5 * identify_constants.basin_deg))
+  for (SensorPose place : index_.like(signature, scan.place.yaw, search.storey, search.yaw_known)) {
+    if (near_any(taken, place, localizability_constants.basin_m, localizability_constants.basin_deg) ||
+        near_any(tried, place, 0.5 * localizability_constants.basin_m, 0.5 * localizability_constants.basin_deg))
       continue;
-    if (++in_vain > identify_constants.give_up_after) break;
+    if (++in_vain > localizability_constants.give_up_after) break;
     const bool sound = refine(seen, place);
     tried.push_back(place);
     if (!sound) continue;
     if (search.yaw_known &&
-        std::abs(wrap_angle(place.yaw - look.place.yaw)) > identify_constants.known_yaw_deg * rad_per_deg)
+        std::abs(wrap_angle(place.yaw - scan.place.yaw)) > localizability_constants.known_yaw_deg * rad_per_deg)
       continue;
-    if (same_place(place, look.place, identify_constants.distinct_m, identify_constants.distinct_deg) ||
+    if (same_pose(place, scan.place, localizability_constants.distinct_m, localizability_constants.distinct_deg) ||
         near_any(taken, place, 0.3, 6.0))
       continue;
-    if (plainly_unlike(look, place)) continue;
-    const double llr = this->llr(look, place);
-    if (llr > identify_constants.drop_llr) continue;
+    if (clearly_different(scan, place)) continue;
+    const double llr = this->llr(scan, place);
+    if (llr > localizability_constants.drop_llr) continue;
     taken.push_back(place);
     in_vain = 0;
-    twins.push_back({place, llr});
+    aliases.push_back({place, llr});
   }
-  return twins;
+  return aliases;
 }
 
 }  // namespace plumbline::scenarios

@@ -8,48 +8,48 @@
 
 namespace plumbline::scenarios {
 
-/// What is seen from a place, as built, and how well the plan explains it there.
-struct Look {
-  Place place;
-  std::vector<double> range_m;  ///< of Viewer's default beams
-  double own = 0.0;             ///< cost of the plan's view from the place itself
+/// The scan at a pose in the building as built, and how well the plan explains it there.
+struct ReferenceScan {
+  SensorPose place;
+  std::vector<double> range_m;  ///< of RangeImager's default beams
+  double own = 0.0;             ///< cost of the plan's range image at the pose itself
 };
 
-/// A place from which the plan explains a look nearly as well as from its own.
-struct FoundTwin {
-  Place place;
-  double llr = 0.0;  ///< of the look: cost there less the look's own; at most drop_llr
+/// A pose at which the plan explains a scan nearly as well as at its own.
+struct FoundAlias {
+  SensorPose place;
+  double llr = 0.0;  ///< of the scan: cost there less the scan's own; at most drop_llr
 };
 
-/// Which storeys and headings a twin may have.
-struct TwinSearch {
+/// Which storeys and headings an alias may have.
+struct AliasSearch {
   int storey = -1;  ///< of the index; -1: all
   bool yaw_known = false;
 };
 
-/// Looks for places that a look cannot tell from its own [facts: localization 3.2]: candidates by signature, refined
-/// on planes, judged by the log-likelihood ratio. Everything must outlive it. May be used by several threads.
-class TwinFinder {
+/// Looks for places that a scan cannot tell from its own, docs/methods/localizability.md: candidates by signature,
+/// refined on planes, judged by the log-likelihood ratio. Everything must outlive it. May be used by several threads.
+class AliasFinder {
  public:
-  TwinFinder(const PlaceIndex& index, const bim::RayScene& as_planned, const bim::RayScene& as_built);
+  AliasFinder(const PlaceIndex& index, const bim::RayScene& as_planned, const bim::RayScene& as_built);
 
-  [[nodiscard]] Look look(const Place& place) const;
-  /// Log-likelihood ratio of a look against another place, which speaks for the look's own where it is positive.
-  [[nodiscard]] double llr(const Look& look, const Place& other) const;
-  /// Nearly surely llr > drop_llr, told by a tenth of the beams.
-  [[nodiscard]] bool plainly_unlike(const Look& look, const Place& other) const;
-  /// Twins of a look, apart from itself and from `known` ones, in the order they were found.
-  [[nodiscard]] std::vector<FoundTwin> find(const Look& look, const TwinSearch& search,
-                                            std::span<const Place> known = {}) const;
+  [[nodiscard]] ReferenceScan scan_at(const SensorPose& place) const;
+  /// Log-likelihood ratio of the pose of a scan over another pose.
+  [[nodiscard]] double llr(const ReferenceScan& scan, const SensorPose& other) const;
+  /// Nearly surely llr > drop_llr, by a fortieth of the beams.
+  [[nodiscard]] bool clearly_different(const ReferenceScan& scan, const SensorPose& other) const;
+  /// Aliases of a scan, apart from itself and from `known` ones, in the order they were found.
+  [[nodiscard]] std::vector<FoundAlias> find(const ReferenceScan& scan, const AliasSearch& search,
+                                             std::span<const SensorPose> known = {}) const;
 
  private:
-  [[nodiscard]] bool refine(const View& seen, Place& place) const;
+  [[nodiscard]] bool refine(const RangeImage& seen, SensorPose& place) const;
 
   const PlaceIndex& index_;
   const bim::RayScene& as_planned_;
   const bim::RayScene& as_built_;
-  Viewer viewer_;
-  Viewer coarse_;
+  RangeImager imager_;
+  RangeImager coarse_;
 };
 
 }  // namespace plumbline::scenarios

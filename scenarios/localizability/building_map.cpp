@@ -32,14 +32,14 @@ std::vector<std::size_t> storeys_asked_for(const bim::Building& building, const 
 
 Tree tree_of(const MapShare& share) {
   Tree tree = Tree::map();
-  tree.set("cells", share.cells).set("one_look", share.one_look).set("walk", share.walk).set("never", share.never);
+  tree.set("cells", share.cells).set("one_look", share.one_scan).set("walk", share.walk).set("never", share.never);
   if (share.walk > 0) tree.set("walk_median_m", share.walk_median_m).set("walk_max_m", share.walk_max_m);
-  return tree.set("twins_max", share.twins_max);
+  return tree.set("twins_max", share.aliases_max);
 }
 
 Tree tree_of(const CellAnswer& answer) {
   Tree tree = Tree::map();
-  tree.set("twins", answer.twins);
+  tree.set("twins", answer.aliases);
   if (answer.walk_m) tree.set("walk_m", *answer.walk_m);
   return tree;
 }
@@ -54,26 +54,24 @@ Tree conditions(const BuildingMap& map, const std::function<bool(const MapCell&)
 
 std::string name_of(const bim::Storey& storey) { return storey.name.empty() ? storey.id : storey.name; }
 
-BuildingMap map_of(const bim::Site& site, const BuildingMapOptions& options) {
+BuildingMap map_of(const RunBuilding& building, const BuildingMapOptions& options) {
   BuildingMap result;
   result.options = options;
-  const SeenBuilding planned = seen_building(site.as_planned);
-  std::optional<SeenBuilding> built;
-  if (!site.changes.empty()) built.emplace(seen_building(site.as_built));
-  IdentifyMapInput input;
-  input.as_planned = &planned.scene;
-  input.as_built = built ? &built->scene : &planned.scene;
+  const VisibleBuilding visible = visible_building(building);
+  LocalizabilityMapInput input;
+  input.as_planned = &visible.planned.scene;
+  input.as_built = &visible.as_built().scene;
   input.step_m = options.step_m;
   input.across = options.across;
   input.compass_only = options.compass_only;
   input.threads = options.threads;
-  for (std::size_t i = 0; i < site.as_planned.storeys.size(); ++i)
-    input.storeys.push_back(search_area(site.as_planned, i));
-  for (const std::size_t storey : storeys_asked_for(site.as_planned, options))
-    result.floors.push_back(floor_of(site.as_built, storey, options.step_m));
+  for (std::size_t i = 0; i < building.as_planned().storeys.size(); ++i)
+    input.storeys.push_back(search_area(building.as_planned(), i));
+  for (const std::size_t storey : storeys_asked_for(building.as_planned(), options))
+    result.floors.push_back(floor_of(building.as_built(), storey, options.step_m));
   std::erase_if(result.floors, [](const Floor& floor) { return floor.cells_W.empty(); });
   input.floors = result.floors;
-  result.map = identify_map(input);
+  result.map = compute_localizability_map(input);
   return result;
 }
 
@@ -84,11 +82,11 @@ MapShare share_of(const BuildingMap& map, bool compass, const std::function<bool
     if (!of(cell)) continue;
     const CellAnswer& answer = compass ? cell.compass : cell.unknown.value();
     ++share.cells;
-    share.twins_max = std::max(share.twins_max, answer.twins);
+    share.aliases_max = std::max(share.aliases_max, answer.aliases);
     if (!answer.walk_m)
       ++share.never;
     else if (*answer.walk_m == 0.0)
-      ++share.one_look;
+      ++share.one_scan;
     else
       walks.push_back(*answer.walk_m);
   }
@@ -100,8 +98,8 @@ MapShare share_of(const BuildingMap& map, bool compass, const std::function<bool
   return share;
 }
 
-Tree identify_json(const bim::Site& site, const BuildingMap& map) {
-  const bim::Building& plan = site.as_planned;
+Tree localizability_json(const RunBuilding& building, const BuildingMap& map) {
+  const bim::Building& plan = building.as_planned();
   Tree tree = Tree::map();
   tree.set("step_m", map.options.step_m).set("across", map.options.across);
   Tree storeys = Tree::list(), rooms = Tree::list(), cells = Tree::list();
@@ -127,7 +125,7 @@ Tree identify_json(const bim::Site& site, const BuildingMap& map) {
   return tree.set("storeys", storeys).set("rooms", rooms).set("cells", cells);
 }
 
-std::string identify_text(const bim::Site& site, const BuildingMap& map) {
+std::string localizability_text(const RunBuilding& building, const BuildingMap& map) {
   std::string text = "storey                 heading   places  one look      walk (median, longest)   never\n";
   for (std::size_t f = 0; f < map.floors.size(); ++f)
     for (const bool compass : {false, true}) {
@@ -137,8 +135,9 @@ std::string identify_text(const bim::Site& site, const BuildingMap& map) {
       char line[200], walk[40] = "      -        -  ";
       if (s.walk > 0) std::snprintf(walk, sizeof walk, "(%5.1f m, %5.1f m)", s.walk_median_m, s.walk_max_m);
       std::snprintf(line, sizeof line, "%-22.22s %-8s %7d   %5.1f %%   %5.1f %% %-18s  %5.1f %%\n",
-                    name_of(site.as_planned.storeys[map.floors[f].storey]).c_str(), compass ? "compass" : "unknown",
-                    s.cells, 100.0 * s.one_look / all, 100.0 * s.walk / all, walk, 100.0 * s.never / all);
+                    name_of(building.as_planned().storeys[map.floors[f].storey]).c_str(),
+                    compass ? "compass" : "unknown", s.cells, 100.0 * s.one_scan / all, 100.0 * s.walk / all, walk,
+                    100.0 * s.never / all);
       text += line;
     }
   return text;

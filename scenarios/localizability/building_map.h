@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "bim/config/tree.h"
-#include "bim/load/load.h"
 #include "scenarios/localizability/localizability_map.h"
 
 namespace plumbline::scenarios {
@@ -24,21 +23,21 @@ struct BuildingMapOptions {
 struct BuildingMap {
   BuildingMapOptions options;
   std::vector<Floor> floors;
-  IdentifyMap map;
+  LocalizabilityMap map;
 };
 
-/// What the planned building lets be known to a LiDAR that walks through the one as built. Throws InputError.
-[[nodiscard]] BuildingMap map_of(const bim::Site& site, const BuildingMapOptions& options);
+/// Where the pose can be known from LiDAR scans of the building as built and its plan. Throws InputError.
+[[nodiscard]] BuildingMap map_of(const RunBuilding& building, const BuildingMapOptions& options);
 
-/// How much of a floor, or of a room, lets what be known.
+/// Shares of the cells of a floor or a room by how the pose can be known there.
 struct MapShare {
   int cells = 0;
-  int one_look = 0;
+  int one_scan = 0;
   int walk = 0;
   int never = 0;
   double walk_median_m = 0.0;  ///< of those that need a walk
   double walk_max_m = 0.0;
-  int twins_max = 0;
+  int aliases_max = 0;
 };
 /// Of the cells that `of(cell)` counts. `compass`: with the heading known.
 [[nodiscard]] MapShare share_of(const BuildingMap& map, bool compass, const std::function<bool(const MapCell&)>& of);
@@ -48,10 +47,11 @@ struct MapShare {
 
 /// identify --json: {step_m, across, storeys: [{id, unknown: {cells, one_look, walk, never, ...}, compass: {...}}],
 /// rooms: [...], cells: [...]}
-[[nodiscard]] Tree identify_json(const bim::Site& site, const BuildingMap& map);
+[[nodiscard]] Tree localizability_json(const RunBuilding& building, const BuildingMap& map);
 /// A line a storey and condition.
-[[nodiscard]] std::string identify_text(const bim::Site& site, const BuildingMap& map);
+[[nodiscard]] std::string localizability_text(const RunBuilding& building, const BuildingMap& map);
 /// One self-contained page with a map a storey and condition.
-[[nodiscard]] std::string identify_page(const bim::Site& site, const std::string& name, const BuildingMap& map);
+[[nodiscard]] std::string localizability_page(const RunBuilding& building, const std::string& name,
+                                              const BuildingMap& map);
 
 }  // namespace plumbline::scenarios

@@ -9,16 +9,16 @@ namespace plumbline::scenarios {
 inline constexpr double rad_per_deg = std::numbers::pi / 180.0;
 
 /// The constants of identifiability. Changing one changes every published table, and the changelog must say so.
-struct IdentifyConstants {
+struct LocalizabilityConstants {
   double step_m = 0.5;  ///< one scan per this distance of the run
   int azimuths = 360;   ///< beams a ring
   std::array<double, 8> elevations_deg = {-15.0, -11.0, -7.0, -3.0, 1.0, 5.0, 9.0, 13.0};  ///< every second VLP-16 ring
-  double sensor_sigma_m = 0.012;    ///< range noise of a VLP-16 at room distances (facts: 6-18 mm)
+  double sensor_sigma_m = 0.012;    ///< range noise of a VLP-16 at room distances (6-18 mm)
   double model_sigma_m = 0.02;      ///< what a plan leaves open
   double residual_cap_sigma = 3.0;  ///< residuals count no further
-  double correlation = 8.0;  ///< the log-likelihood ratio is divided by this: neighbouring beams are not independent
-  double drop_llr = 20.0;    ///< a hypothesis above this is dropped
-  double weak_llr = 5.0;     ///< between this and drop_llr it is weak
+  double correlation = 8.0;   ///< the log-likelihood ratio is divided by this: neighbouring beams are not independent
+  double drop_llr = 20.0;     ///< a hypothesis above this is dropped
+  double marginal_llr = 5.0;  ///< between this and drop_llr it is marginal
   double range_max_m = 100.0;
   double grid_m = 0.5;           ///< spacing of candidate places; half the basin of the refinement
   double known_yaw_deg = 10.0;   ///< with a compass, headings further off than this are no candidates
@@ -32,13 +32,13 @@ struct IdentifyConstants {
   double like_level_cap_m = 1.0;    ///< each counted up to this
   int headings_a_place = 4;         ///< kept, best first
   int max_seeds = 400;              ///< refined candidates, best first
-  int give_up_after = 50;           ///< candidates in a row that lead to no twin; measured: at most 12 before one does
+  int give_up_after = 50;           ///< candidates in a row that lead to no alias; measured: at most 12 before one does
   double basin_m = 0.3;             ///< a candidate this near to one refined before would end where that did
   double basin_deg = 10.0;
   int refine_azimuths = 72;  ///< beams a ring while refining
   std::array<double, 3> refine_elevations_deg = {-7.0, 1.0, 9.0};
   int refine_iterations = 14;
 };
-inline constexpr IdentifyConstants identify_constants;
+inline constexpr LocalizabilityConstants localizability_constants;
 
 }  // namespace plumbline::scenarios

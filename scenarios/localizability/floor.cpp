@@ -8,7 +8,7 @@
 #include <string>
 
 #include "bim/errors.h"
-#include "bim/mesh/mesh.h"
+#include "bim/geometry/grid_frame.h"
 #include "bim/mesh/visible.h"
 #include "sim/route/route.h"
 #include "sim/world.h"
@@ -38,16 +38,16 @@ class Rooms {
   std::vector<Polygon2> polygons_;
 };
 
-constexpr std::size_t nobody = static_cast<std::size_t>(-1);
+constexpr std::size_t no_owner = static_cast<std::size_t>(-1);
 
 /// Fine grid over the free space; every node belongs to the cell from which the way to it is shortest.
 struct Surroundings {
-  sim::Grid grid;
+  GridFrame grid;
   std::vector<std::size_t> owner;
   std::vector<double> distance_m;
 };
 
-Surroundings surroundings(const Floor& floor, const IdentifyStorey& area, const sim::FreeSpace& space) {
+Surroundings surroundings(const Floor& floor, const SearchArea& area, const sim::ClearanceMap& space) {
   Surroundings s;
   s.grid.cell = fine_m;
   s.grid.origin = area.min;
@@ -56,24 +56,25 @@ Surroundings surroundings(const Floor& floor, const IdentifyStorey& area, const 
     throw InputError({"identify", 0, 0}, "a storey is too large; it must be smaller");
   s.grid.nx = static_cast<int>(std::ceil(size.x()));
   s.grid.ny = static_cast<int>(std::ceil(size.y()));
-  s.owner.assign(s.grid.size(), nobody);
+  s.owner.assign(s.grid.size(), no_owner);
   s.distance_m.assign(s.grid.size(), 1e9);
   using Node = std::tuple<double, std::size_t, std::size_t>;  // way, owner, node
   std::priority_queue<Node, std::vector<Node>, std::greater<>> open;
   for (std::size_t i = 0; i < floor.cells_W.size(); ++i)
-    if (const auto node = s.grid.cell_at(floor.cells_W[i])) open.emplace(0.0, i, *node);
+    if (const auto node = s.grid.find(floor.cells_W[i])) open.emplace(0.0, i, *node);
   while (!open.empty()) {
     const auto [way, owner, node] = open.top();
     open.pop();
-    if (s.owner[node] != nobody) continue;
+    if (s.owner[node] != no_owner) continue;
     s.owner[node] = owner;
     s.distance_m[node] = way;
+    const auto [column, row] = s.grid.column_and_row(node);
     for (int dy = -1; dy <= 1; ++dy)
       for (int dx = -1; dx <= 1; ++dx) {
-        const int x = s.grid.ix(node) + dx, y = s.grid.iy(node) + dy;
+        const int x = column + dx, y = row + dy;
         if ((dx == 0 && dy == 0) || !s.grid.holds(x, y)) continue;
         const std::size_t next = s.grid.index(x, y);
-        if (s.owner[next] == nobody && space.free(s.grid.center(next)))
+        if (s.owner[next] == no_owner && space.free(s.grid.center(next)))
           open.emplace(way + fine_m * std::hypot(dx, dy), owner, next);
       }
   }
@@ -88,7 +89,7 @@ std::vector<FloorLink> links_of(const Floor& floor, const Surroundings& s) {
         if (!s.grid.holds(x + dx, y + dy)) continue;
         const std::size_t i = s.grid.index(x, y), j = s.grid.index(x + dx, y + dy);
         const std::size_t a = std::min(s.owner[i], s.owner[j]), b = std::max(s.owner[i], s.owner[j]);
-        if (b == nobody || a == b) continue;
+        if (b == no_owner || a == b) continue;
         // The way through the grid turns by 45 degrees at a time; the straight line is what a robot walks at best.
         const double way = std::max((floor.cells_W[a] - floor.cells_W[b]).norm(),
                                     (s.distance_m[i] + s.distance_m[j] + fine_m * std::hypot(dx, dy)) / 1.05);
@@ -100,17 +101,22 @@ std::vector<FloorLink> links_of(const Floor& floor, const Surroundings& s) {
   return links;
 }
 
-}  // namespace
-
-SeenBuilding seen_building(const bim::Building& building) {
-  const bim::BuildingMesh mesh = bim::build_mesh(building);
+VisibleScene visible_scene(const bim::Building& building, const bim::BuildingMesh& mesh) {
   std::vector<std::string> elements;
   for (const bim::MeshElement& element : mesh.elements) elements.push_back(element.id);
   return {bim::RayScene(bim::visible_mesh(building, mesh)), std::move(elements)};
 }
 
-IdentifyStorey search_area(const bim::Building& building, std::size_t storey) {
-  IdentifyStorey area;
+}  // namespace
+
+VisibleBuilding visible_building(const RunBuilding& building) {
+  VisibleBuilding visible{visible_scene(building.as_planned(), building.mesh_as_planned()), std::nullopt};
+  if (building.deviates()) visible.built.emplace(visible_scene(building.as_built(), building.mesh_as_built()));
+  return visible;
+}
+
+SearchArea search_area(const bim::Building& building, std::size_t storey) {
+  SearchArea area;
   area.sensor_z_W = building.storeys[storey].elevation_m + sim::World::calibration().sensor_height_m;
   area.min = Eigen::Vector2d::Constant(1e9);
   area.max = Eigen::Vector2d::Constant(-1e9);
@@ -125,9 +131,9 @@ IdentifyStorey search_area(const bim::Building& building, std::size_t storey) {
 Floor floor_of(const bim::Building& as_built, std::size_t storey, double step_m) {
   Floor floor;
   floor.storey = storey;
-  const IdentifyStorey area = search_area(as_built, storey);
+  const SearchArea area = search_area(as_built, storey);
   if (area.empty()) return floor;
-  const sim::FreeSpace space(as_built, static_cast<int>(storey));
+  const sim::ClearanceMap space(as_built, static_cast<int>(storey));
   const Rooms rooms(as_built, storey);
   for (double x = area.min.x() + 0.5 * step_m; x < area.max.x(); x += step_m)
     for (double y = area.min.y() + 0.5 * step_m; y < area.max.y(); y += step_m)

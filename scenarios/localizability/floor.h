@@ -1,23 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "bim/model/building.h"
 #include "bim/rays/ray_scene.h"
 #include "scenarios/localizability/place_index.h"
+#include "scenarios/spec/run_building.h"
 
 namespace plumbline::scenarios {
 
-/// A building as a LiDAR sees it, without what light goes through.
-struct SeenBuilding {
+/// What a LiDAR sees of a building: all but what light goes through.
+struct VisibleScene {
   bim::RayScene scene;
   std::vector<std::string> elements;  ///< ids, by the element of a hit
 };
-[[nodiscard]] SeenBuilding seen_building(const bim::Building& building);
+
+/// The building as planned and as built.
+struct VisibleBuilding {
+  VisibleScene planned;
+  std::optional<VisibleScene> built;  ///< absent where nothing deviates from the plan
+
+  [[nodiscard]] const VisibleScene& as_built() const { return built ? *built : planned; }
+};
+[[nodiscard]] VisibleBuilding visible_building(const RunBuilding& building);
 
 /// Box around the walls of a storey, with the sensor's height over its floor.
-[[nodiscard]] IdentifyStorey search_area(const bim::Building& building, std::size_t storey);
+[[nodiscard]] SearchArea search_area(const bim::Building& building, std::size_t storey);
 
 /// Two neighbouring cells of a floor and the way between them.
 struct FloorLink {

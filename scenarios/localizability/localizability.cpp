@@ -11,14 +11,14 @@ namespace plumbline::scenarios {
 
 namespace {
 
-Place levelled(const Pose& X_WR, double z) { return {{X_WR.t.x(), X_WR.t.y(), z}, X_WR.yaw()}; }
+SensorPose levelled(const Pose& X_WR, double z) { return {{X_WR.t.x(), X_WR.t.y(), z}, X_WR.yaw()}; }
 
 /// Evidence by element: of the planned mesh where missing, else of the one as built.
 using Evidence = std::map<std::pair<bool, int>, double>;
 
-/// A twin with what speaks against it.
+/// An aliased pose with the evidence against it.
 struct Followed {
-  Twin twin;
+  AliasedPose alias;
   Evidence evidence;
 };
 
@@ -26,28 +26,28 @@ struct Followed {
 std::vector<std::pair<double, const TruthSample*>> stations(const std::vector<TruthSample>& truth) {
   std::vector<std::pair<double, const TruthSample*>> out;
   double walked = 0.0;
-  double last = -identify_constants.step_m;
+  double last = -localizability_constants.step_m;
   for (std::size_t i = 0; i < truth.size(); ++i) {
     if (i > 0) walked += (truth[i].X_WR.t - truth[i - 1].X_WR.t).head<2>().norm();
-    if (walked - last < identify_constants.step_m) continue;
+    if (walked - last < localizability_constants.step_m) continue;
     last = walked;
     out.emplace_back(walked, &truth[i]);
   }
   return out;
 }
 
-/// Adds what a look from the true place says against each twin.
-void compare(const IdentifyInput& input, const Place& truth, std::vector<Followed>& followed) {
-  const Viewer viewer;
-  const View seen = viewer.look(*input.as_built, truth);
-  const View own = input.as_built == input.as_planned ? seen : viewer.look(*input.as_planned, truth);
+/// Adds the evidence of a scan at the true pose against each alias.
+void compare(const LocalizabilityInput& input, const SensorPose& truth, std::vector<Followed>& followed) {
+  const RangeImager imager;
+  const RangeImage seen = imager.cast(*input.as_built, truth);
+  const RangeImage own = input.as_built == input.as_planned ? seen : imager.cast(*input.as_planned, truth);
   for (Followed& one : followed) {
-    const Pose X = one.twin.twin * truth.pose();
-    const View expected = viewer.look(*input.as_planned, {X.t, X.yaw()});
+    const Pose X = one.alias.transform * truth.pose();
+    const RangeImage expected = imager.cast(*input.as_planned, {X.t, X.yaw()});
     for (std::size_t i = 0; i < seen.range_m.size(); ++i) {
       const double gain = beam_cost(seen.range_m[i], expected.range_m[i]) - beam_cost(seen.range_m[i], own.range_m[i]);
       if (gain == 0.0) continue;
-      one.twin.llr += gain;
+      one.alias.llr += gain;
       // Of two surfaces the nearer one is the feature: it stands before the other, or would.
       const bool missing = expected.range_m[i] < seen.range_m[i];
       one.evidence[{missing, missing ? expected.element[i] : seen.element[i]}] += gain;
@@ -55,12 +55,12 @@ void compare(const IdentifyInput& input, const Place& truth, std::vector<Followe
   }
 }
 
-/// Drops twins that are out. The first of those that are dropped last says what decided.
+/// Drops aliases that are ruled out. The first of those that are dropped last says what decided.
 void drop(std::vector<Followed>& followed, RunIdentifiability& run) {
   std::optional<Followed> last;
   for (const Followed& one : followed)
-    if (one.twin.llr > identify_constants.drop_llr && !last) last = one;
-  std::erase_if(followed, [](const Followed& one) { return one.twin.llr > identify_constants.drop_llr; });
+    if (one.alias.llr > localizability_constants.drop_llr && !last) last = one;
+  std::erase_if(followed, [](const Followed& one) { return one.alias.llr > localizability_constants.drop_llr; });
   if (!last || !followed.empty()) return;
   double sum = 0.0;
   DecidingFeature feature;
@@ -87,20 +87,20 @@ void conclude(RunIdentifiability& run) {
 }  // namespace
 
 std::vector<Pose> RunIdentifiability::ambiguity_set(double t_s, const Pose& X_WR) const {
-  const IdentifyStep* now = nullptr;
+  const LocalizabilityStep* now = nullptr;
   for (const auto& step : steps)
     if (step.t_s <= t_s) now = &step;
   std::vector<Pose> poses;
   if (now != nullptr)
-    for (const Twin& twin : now->alive) poses.push_back(twin.twin * X_WR);
+    for (const AliasedPose& alias : now->alive) poses.push_back(alias.transform * X_WR);
   return poses;
 }
 
-std::optional<double> RunIdentifiability::tellable_from_s() const {
+std::optional<double> RunIdentifiability::marginal_from_s() const {
   std::optional<double> from;
   for (const auto& step : steps) {
     const bool strong = std::any_of(step.alive.begin(), step.alive.end(),
-                                    [](const Twin& t) { return t.llr < identify_constants.weak_llr; });
+                                    [](const AliasedPose& t) { return t.llr < localizability_constants.marginal_llr; });
     if (strong)
       from.reset();
     else if (!from)
@@ -109,22 +109,22 @@ std::optional<double> RunIdentifiability::tellable_from_s() const {
   return from;
 }
 
-RunIdentifiability identify_run(const IdentifyInput& input, const std::vector<TruthSample>& truth) {
+RunIdentifiability compute_localizability(const LocalizabilityInput& input, const std::vector<TruthSample>& truth) {
   RunIdentifiability run;
-  const PlaceIndex index(*input.as_planned, input.storeys, identify_constants.grid_m, input.threads);
-  const TwinFinder finder(index, *input.as_planned, *input.as_built);
+  const PlaceIndex index(*input.as_planned, input.storeys, localizability_constants.grid_m, input.threads);
+  const AliasFinder finder(index, *input.as_planned, *input.as_built);
   std::vector<Followed> followed;
   for (const auto& [walked, sample] : stations(truth)) {
-    const Place place = levelled(sample->X_WR, sample->sensor_z_W);
+    const SensorPose place = levelled(sample->X_WR, sample->sensor_z_W);
     if (run.steps.empty())
-      for (const FoundTwin& found : finder.find(finder.look(place), {-1, input.yaw_known}))
+      for (const FoundAlias& found : finder.find(finder.scan_at(place), {-1, input.yaw_known}))
         followed.push_back({{found.place.pose() * place.pose().inverse(), 0.0}, {}});
     if (!followed.empty()) {
       compare(input, place, followed);
       drop(followed, run);
     }
-    IdentifyStep& step = run.steps.emplace_back(IdentifyStep{sample->t_s, walked, {}});
-    for (const Followed& one : followed) step.alive.push_back(one.twin);
+    LocalizabilityStep& step = run.steps.emplace_back(LocalizabilityStep{sample->t_s, walked, {}});
+    for (const Followed& one : followed) step.alive.push_back(one.alias);
   }
   conclude(run);
   return run;

@@ -13,17 +13,18 @@ namespace plumbline::scenarios {
 
 namespace {
 
-constexpr std::size_t most_cells = 10000;  ///< a look is 23 kB
+constexpr std::size_t most_cells = 10000;  ///< a scan is 23 kB
 constexpr std::size_t most_ratios = std::size_t{1} << 27U;
 constexpr std::size_t block = 64;  ///< cells between two moments at which isometries are shared
 constexpr double height_m = 1e-3;  ///< heights of sensors on one storey differ by less
 
-/// Cells of a map, their looks and the isometries found so far.
+/// Cells of a map, their scans and the isometries found so far.
 class Mapper {
  public:
-  explicit Mapper(const IdentifyMapInput& input)
+  explicit Mapper(const LocalizabilityMapInput& input)
       : input_(input),
-        index_(*input.as_planned, input.storeys, std::min(input.step_m, identify_constants.grid_m), input.threads),
+        index_(*input.as_planned, input.storeys, std::min(input.step_m, localizability_constants.grid_m),
+               input.threads),
         finder_(index_, *input.as_planned, *input.as_built) {
     for (std::size_t f = 0; f < input.floors.size(); ++f)
       for (const Eigen::Vector2d& p : input.floors[f].cells_W) map_.cells.push_back({f, p, {}, {}, {}});
@@ -33,53 +34,53 @@ class Mapper {
                                              std::to_string(most_cells));
   }
 
-  IdentifyMap make() {
-    looks_.resize(map_.cells.size());
-    for_each_index(looks_.size(), input_.threads, [&](std::size_t i) { looks_[i] = finder_.look(place(i)); });
-    find_twins();
-    answer_by_walks({input_, finder_, looks_}, map_);
+  LocalizabilityMap make() {
+    scans_.resize(map_.cells.size());
+    for_each_index(scans_.size(), input_.threads, [&](std::size_t i) { scans_[i] = finder_.scan_at(place(i)); });
+    find_aliases();
+    answer_by_walks({input_, finder_, scans_}, map_);
     return std::move(map_);
   }
 
  private:
   struct Found {
-    std::vector<CellTwin> known;
-    std::vector<FoundTwin> fresh;
+    std::vector<CellAlias> known;
+    std::vector<FoundAlias> fresh;
   };
 
-  [[nodiscard]] Place place(std::size_t cell) const {
+  [[nodiscard]] SensorPose place(std::size_t cell) const {
     const MapCell& c = map_.cells[cell];
     const double z = input_.storeys[input_.floors[c.floor].storey].sensor_z_W;
     return {{c.p_W.x(), c.p_W.y(), z}, 0.0};
   }
 
-  [[nodiscard]] bool on_a_storey_asked_for(std::size_t cell, const Place& twin) const {
+  [[nodiscard]] bool on_a_storey_asked_for(std::size_t cell, const SensorPose& alias) const {
     const std::size_t own = input_.floors[map_.cells[cell].floor].storey;
     for (std::size_t s = 0; s < input_.storeys.size(); ++s)
-      if (std::abs(input_.storeys[s].sensor_z_W - twin.position_W.z()) < height_m) return input_.across || s == own;
+      if (std::abs(input_.storeys[s].sensor_z_W - alias.position_W.z()) < height_m) return input_.across || s == own;
     return false;
   }
 
-  /// Adds twins of a cell under known isometries, as far as their llr allows.
-  void try_isometries(std::size_t cell, double llr_max, std::vector<CellTwin>& twins) const {
-    const Look& look = looks_[cell];
-    std::vector<Place> taken = {look.place};
-    for (const CellTwin& twin : twins) taken.push_back(image(twin.isometry, look.place));
+  /// Adds aliases of a cell under known isometries, as far as their llr allows.
+  void try_isometries(std::size_t cell, double llr_max, std::vector<CellAlias>& aliases) const {
+    const ReferenceScan& scan = scans_[cell];
+    std::vector<SensorPose> taken = {scan.place};
+    for (const CellAlias& alias : aliases) taken.push_back(image(alias.isometry, scan.place));
     for (std::size_t g = 0; g < map_.isometries.size(); ++g) {
-      const Place twin = image(g, look.place);
-      const auto alike = [&](const Place& other) { return same_place(twin, other, 0.3, 6.0); };
-      if (same_place(twin, look.place, identify_constants.distinct_m, identify_constants.distinct_deg) ||
-          !on_a_storey_asked_for(cell, twin))
+      const SensorPose alias = image(g, scan.place);
+      const auto alike = [&](const SensorPose& other) { return same_pose(alias, other, 0.3, 6.0); };
+      if (same_pose(alias, scan.place, localizability_constants.distinct_m, localizability_constants.distinct_deg) ||
+          !on_a_storey_asked_for(cell, alias))
         continue;
-      if (std::any_of(taken.begin(), taken.end(), alike) || finder_.plainly_unlike(look, twin)) continue;
-      const double llr = finder_.llr(look, twin);
+      if (std::any_of(taken.begin(), taken.end(), alike) || finder_.clearly_different(scan, alias)) continue;
+      const double llr = finder_.llr(scan, alias);
       if (llr > llr_max) continue;
-      taken.push_back(twin);
-      twins.push_back({g, llr});
+      taken.push_back(alias);
+      aliases.push_back({g, llr});
     }
   }
 
-  [[nodiscard]] Place image(std::size_t isometry, const Place& place) const {
+  [[nodiscard]] SensorPose image(std::size_t isometry, const SensorPose& place) const {
     const Pose X = map_.isometries[isometry] * place.pose();
     return {X.t, X.yaw()};
   }
@@ -87,51 +88,52 @@ class Mapper {
   [[nodiscard]] Found search(std::size_t cell) const {
     Found found;
     // Where an isometry of another cell fits less well, one of this cell's own may fit better.
-    try_isometries(cell, identify_constants.weak_llr, found.known);
-    std::vector<Place> known;
-    for (const CellTwin& twin : found.known) known.push_back(image(twin.isometry, looks_[cell].place));
+    try_isometries(cell, localizability_constants.marginal_llr, found.known);
+    std::vector<SensorPose> known;
+    for (const CellAlias& alias : found.known) known.push_back(image(alias.isometry, scans_[cell].place));
     const auto own = static_cast<int>(input_.floors[map_.cells[cell].floor].storey);
-    found.fresh = finder_.find(looks_[cell], {input_.across ? -1 : own, input_.compass_only}, known);
+    found.fresh = finder_.find(scans_[cell], {input_.across ? -1 : own, input_.compass_only}, known);
     return found;
   }
 
-  /// The isometry by which a cell has a twin; one found before where it does the same there.
-  std::size_t isometry_to(std::size_t cell, const Place& twin) {
+  /// The isometry by which a cell has an alias; one found before where it does the same there.
+  std::size_t isometry_to(std::size_t cell, const SensorPose& alias) {
     constexpr double same_m = 1e-3, same_deg = 0.02;
     for (std::size_t g = 0; g < map_.isometries.size(); ++g)
-      if (same_place(image(g, looks_[cell].place), twin, same_m, same_deg)) return g;
+      if (same_pose(image(g, scans_[cell].place), alias, same_m, same_deg)) return g;
     if (map_.isometries.size() * map_.cells.size() >= most_ratios)
-      throw InputError({"--step", 0, 0}, "gives too many places that look alike; it must be larger");
-    map_.isometries.push_back(twin.pose() * looks_[cell].place.pose().inverse());
+      throw InputError({"--step", 0, 0}, "gives too many aliased places; it must be larger");
+    map_.isometries.push_back(alias.pose() * scans_[cell].place.pose().inverse());
     return map_.isometries.size() - 1;
   }
 
   /// Block by block, each with the isometries of those before it; then every cell with all of them.
-  void find_twins() {
+  void find_aliases() {
     const std::size_t n = map_.cells.size();
     for (std::size_t first = 0; first < n; first += block) {
       std::vector<Found> found(std::min(block, n - first));
       for_each_index(found.size(), input_.threads, [&](std::size_t i) { found[i] = search(first + i); });
       for (std::size_t i = 0; i < found.size(); ++i) {
-        std::vector<CellTwin>& twins = map_.cells[first + i].twins;
-        twins = std::move(found[i].known);
-        for (const FoundTwin& twin : found[i].fresh) twins.push_back({isometry_to(first + i, twin.place), twin.llr});
+        std::vector<CellAlias>& aliases = map_.cells[first + i].aliases;
+        aliases = std::move(found[i].known);
+        for (const FoundAlias& alias : found[i].fresh)
+          aliases.push_back({isometry_to(first + i, alias.place), alias.llr});
       }
     }
     for_each_index(n, input_.threads, [&](std::size_t cell) {
-      try_isometries(cell, identify_constants.drop_llr, map_.cells[cell].twins);
+      try_isometries(cell, localizability_constants.drop_llr, map_.cells[cell].aliases);
     });
   }
 
-  const IdentifyMapInput& input_;
+  const LocalizabilityMapInput& input_;
   PlaceIndex index_;
-  TwinFinder finder_;
-  std::vector<Look> looks_;
-  IdentifyMap map_;
+  AliasFinder finder_;
+  std::vector<ReferenceScan> scans_;
+  LocalizabilityMap map_;
 };
 
 }  // namespace
 
-IdentifyMap identify_map(const IdentifyMapInput& input) { return Mapper(input).make(); }
+LocalizabilityMap compute_localizability_map(const LocalizabilityMapInput& input) { return Mapper(input).make(); }
 
 }  // namespace plumbline::scenarios

@@ -33,7 +33,7 @@ double quantile_difference(const Signature& a, const Signature& b) {
 
 /// Mean difference of the level rings where `candidate` is turned by so many beams, m; more than `limit` when larger.
 double level_difference(const Signature& seen, const Signature& candidate, std::size_t turn, double limit) {
-  constexpr auto cap = static_cast<float>(identify_constants.like_level_cap_m);
+  constexpr auto cap = static_cast<float>(localizability_constants.like_level_cap_m);
   const std::size_t n = seen.level_m.size();
   const double most = limit * static_cast<double>(n);
   double sum = 0.0;
@@ -48,12 +48,12 @@ double level_difference(const Signature& seen, const Signature& candidate, std::
 void add_headings(const Signature& seen, const Signature& candidate, std::size_t place, bool yaw_known,
                   std::vector<Seed>& seeds) {
   const auto n = static_cast<int>(seen.level_m.size());
-  const int span = yaw_known ? static_cast<int>(identify_constants.known_yaw_deg) * n / 360 : n / 2;
+  const int span = yaw_known ? static_cast<int>(localizability_constants.known_yaw_deg) * n / 360 : n / 2;
   std::vector<Seed> found;
   for (int turn = -span; turn <= (yaw_known ? span : span - 1); ++turn) {
     const double cost = level_difference(seen, candidate, static_cast<std::size_t>(turn < 0 ? turn + n : turn),
-                                         identify_constants.like_level_m);
-    if (cost <= identify_constants.like_level_m) found.push_back({cost, place, turn});
+                                         localizability_constants.like_level_m);
+    if (cost <= localizability_constants.like_level_m) found.push_back({cost, place, turn});
   }
   std::stable_sort(found.begin(), found.end(), [](const Seed& a, const Seed& b) { return a.cost < b.cost; });
   int kept = 0;
@@ -66,14 +66,14 @@ void add_headings(const Signature& seen, const Signature& candidate, std::size_t
     if (beside) continue;
     turns.push_back(seed.turn);
     seeds.push_back(seed);
-    if (++kept == identify_constants.headings_a_place) return;
+    if (++kept == localizability_constants.headings_a_place) return;
   }
 }
 
-std::vector<std::pair<int, Eigen::Vector3d>> grid_of(const std::vector<IdentifyStorey>& storeys, double spacing_m) {
+std::vector<std::pair<int, Eigen::Vector3d>> grid_of(const std::vector<SearchArea>& storeys, double spacing_m) {
   std::vector<std::pair<int, Eigen::Vector3d>> grid;
   for (std::size_t i = 0; i < storeys.size(); ++i) {
-    const IdentifyStorey& s = storeys[i];
+    const SearchArea& s = storeys[i];
     const Eigen::Vector2d size = (s.max - s.min).cwiseMax(0.0) / spacing_m;
     if (size.x() * size.y() + static_cast<double>(grid.size()) > static_cast<double>(most_places))
       throw InputError({"identify", 0, 0}, "a storey of " + std::to_string(std::lround(s.max.x() - s.min.x())) + " x " +
@@ -88,51 +88,51 @@ std::vector<std::pair<int, Eigen::Vector3d>> grid_of(const std::vector<IdentifyS
 
 }  // namespace
 
-Signature signature_of(const Viewer& viewer, const bim::RayScene& scene, const Eigen::Vector3d& p_W) {
-  const std::vector<double> ranges = viewer.look(scene, {p_W, 0.0}).range_m;
-  const auto n = static_cast<std::size_t>(viewer.azimuths());
+Signature signature_of(const RangeImager& imager, const bim::RayScene& scene, const Eigen::Vector3d& p_W) {
+  const std::vector<double> ranges = imager.cast(scene, {p_W, 0.0}).range_m;
+  const auto n = static_cast<std::size_t>(imager.azimuths());
   Signature signature;
   signature.standable = std::any_of(ranges.begin(), ranges.begin() + static_cast<std::ptrdiff_t>(n),
                                     [](double r) { return r < floor_seen_m; });
   for (std::size_t a = 0; a < n; ++a) {
     const double r = ranges[level_ring * n + a];
-    if (r < identify_constants.min_clearance_m) signature.standable = false;
-    signature.level_m.push_back(static_cast<float>(std::min(r, identify_constants.signature_range_m)));
+    if (r < localizability_constants.min_clearance_m) signature.standable = false;
+    signature.level_m.push_back(static_cast<float>(std::min(r, localizability_constants.signature_range_m)));
   }
   std::vector<double> sorted = ranges;
   std::sort(sorted.begin(), sorted.end());
   const std::size_t count = signature.quantiles_m.size();
   for (std::size_t i = 0; i < count; ++i)
     signature.quantiles_m[i] = static_cast<float>(
-        std::min(sorted[(2 * i + 1) * sorted.size() / (2 * count)], identify_constants.signature_range_m));
+        std::min(sorted[(2 * i + 1) * sorted.size() / (2 * count)], localizability_constants.signature_range_m));
   return signature;
 }
 
-PlaceIndex::PlaceIndex(const bim::RayScene& plan, std::vector<IdentifyStorey> storeys, double spacing_m, int threads)
-    : storeys_(std::move(storeys)), viewer_(identify_constants.signature_azimuths) {
+PlaceIndex::PlaceIndex(const bim::RayScene& plan, std::vector<SearchArea> storeys, double spacing_m, int threads)
+    : storeys_(std::move(storeys)), imager_(localizability_constants.signature_azimuths) {
   const auto grid = grid_of(storeys_, spacing_m);
   std::vector<Entry> all(grid.size());
   for_each_index(grid.size(), threads, [&](std::size_t i) {
-    all[i] = {grid[i].first, grid[i].second, signature_of(viewer_, plan, grid[i].second)};
+    all[i] = {grid[i].first, grid[i].second, signature_of(imager_, plan, grid[i].second)};
   });
   for (Entry& entry : all)
     if (entry.signature.standable) places_.push_back(std::move(entry));
 }
 
-std::vector<Place> PlaceIndex::like(const Signature& seen, double yaw, int storey, bool yaw_known) const {
+std::vector<SensorPose> PlaceIndex::like(const Signature& seen, double yaw, int storey, bool yaw_known) const {
   std::vector<Seed> seeds;
   for (std::size_t i = 0; i < places_.size(); ++i) {
     if (storey >= 0 && places_[i].storey != storey) continue;
-    if (quantile_difference(seen, places_[i].signature) > identify_constants.like_quantiles_m) continue;
+    if (quantile_difference(seen, places_[i].signature) > localizability_constants.like_quantiles_m) continue;
     add_headings(seen, places_[i].signature, i, yaw_known, seeds);
   }
   std::sort(seeds.begin(), seeds.end(), [](const Seed& a, const Seed& b) {
     return std::tie(a.cost, a.place, a.turn) < std::tie(b.cost, b.place, b.turn);
   });
-  if (seeds.size() > static_cast<std::size_t>(identify_constants.max_seeds))
-    seeds.resize(static_cast<std::size_t>(identify_constants.max_seeds));
-  std::vector<Place> places;
-  const double beam = 2.0 * std::numbers::pi / viewer_.azimuths();
+  if (seeds.size() > static_cast<std::size_t>(localizability_constants.max_seeds))
+    seeds.resize(static_cast<std::size_t>(localizability_constants.max_seeds));
+  std::vector<SensorPose> places;
+  const double beam = 2.0 * std::numbers::pi / imager_.azimuths();
   for (const Seed& seed : seeds) places.push_back({places_[seed.place].p_W, wrap_angle(yaw + seed.turn * beam)});
   return places;
 }

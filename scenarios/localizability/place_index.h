@@ -5,21 +5,21 @@
 #include <cstddef>
 #include <vector>
 
-#include "scenarios/localizability/views.h"
+#include "scenarios/localizability/range_image.h"
 
 namespace plumbline::scenarios {
 
-/// Where candidates are looked for: the floor of one storey.
-struct IdentifyStorey {
+/// Where candidates are searched for: the floor of one storey.
+struct SearchArea {
   Eigen::Vector2d min = Eigen::Vector2d::Zero();
   Eigen::Vector2d max = Eigen::Vector2d::Zero();
   double sensor_z_W = 0.66;  ///< height of the sensor on this storey
 
-  /// Nothing stands there to look between.
+  /// There is no wall on the storey.
   [[nodiscard]] bool empty() const { return min.x() > max.x(); }
 };
 
-/// By what places are told to be alike at a glance.
+/// What candidate places are compared by.
 struct Signature {
   std::array<float, 12> quantiles_m{};  ///< of all ranges: the same whatever the heading
   std::vector<float> level_m;           ///< of the level ring, by azimuth in W
@@ -27,20 +27,20 @@ struct Signature {
 };
 
 /// Of the view from a place, whatever its heading.
-[[nodiscard]] Signature signature_of(const Viewer& viewer, const bim::RayScene& scene, const Eigen::Vector3d& p_W);
+[[nodiscard]] Signature signature_of(const RangeImager& imager, const bim::RayScene& scene, const Eigen::Vector3d& p_W);
 
 /// Grid of all places of a plan where a robot may stand, with their signatures.
 class PlaceIndex {
  public:
   /// Throws InputError when the storeys have more than 2^18 places at this spacing.
-  PlaceIndex(const bim::RayScene& plan, std::vector<IdentifyStorey> storeys, double spacing_m, int threads);
+  PlaceIndex(const bim::RayScene& plan, std::vector<SearchArea> storeys, double spacing_m, int threads);
 
   /// Places of a storey (-1: of all) whose view, turned, is like `seen`, best first (ties: grid order, then turn): at
-  /// most max_seeds. `yaw` is the heading of the robot that sees, the result holds the headings it would have there.
-  [[nodiscard]] std::vector<Place> like(const Signature& seen, double yaw, int storey, bool yaw_known) const;
+  /// most max_seeds. `yaw` is the heading at which `seen` was taken, the result holds the headings it would have there.
+  [[nodiscard]] std::vector<SensorPose> like(const Signature& seen, double yaw, int storey, bool yaw_known) const;
 
-  [[nodiscard]] const Viewer& viewer() const { return viewer_; }
-  [[nodiscard]] const std::vector<IdentifyStorey>& storeys() const { return storeys_; }
+  [[nodiscard]] const RangeImager& imager() const { return imager_; }
+  [[nodiscard]] const std::vector<SearchArea>& storeys() const { return storeys_; }
   [[nodiscard]] std::size_t size() const { return places_.size(); }
 
  private:
@@ -49,8 +49,8 @@ class PlaceIndex {
     Eigen::Vector3d p_W = Eigen::Vector3d::Zero();
     Signature signature;
   };
-  std::vector<IdentifyStorey> storeys_;
-  Viewer viewer_;
+  std::vector<SearchArea> storeys_;
+  RangeImager imager_;
   std::vector<Entry> places_;
 };
 

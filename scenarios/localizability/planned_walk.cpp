@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "bim/median.h"
 #include "scenarios/host/parallel.h"
 #include "scenarios/localizability/floor.h"
 #include "sim/route/pure_pursuit.h"
@@ -28,7 +29,7 @@ class Walker {
   }
 
   void walk_to(const Eigen::Vector3d& goal_W) {
-    const sim::FollowerConfig rule;
+    const sim::PurePursuitConfig rule;
     const Eigen::Vector3d way = goal_W - p_;
     const double length = way.head<2>().norm();
     if (length < 1e-6) return;
@@ -70,18 +71,17 @@ std::vector<TruthSample> walk_in(const sim::WorldConfig& world) {
 }
 
 /// storey: the one the walk begins on.
-IdentifyInput input_of(const ResolvedScenario& resolved, int storey, const SeenBuilding& planned,
-                       const std::optional<SeenBuilding>& built) {
-  IdentifyInput input;
-  input.as_planned = &planned.scene;
-  input.as_built = built ? &built->scene : &planned.scene;
-  const bim::Building& plan = resolved.site.as_planned;
+LocalizabilityInput input_of(const ResolvedScenario& resolved, int storey, const VisibleBuilding& visible) {
+  LocalizabilityInput input;
+  input.as_planned = &visible.planned.scene;
+  input.as_built = &visible.as_built().scene;
+  const bim::Building& plan = resolved.building->as_planned();
   for (std::size_t i = 0; i < plan.storeys.size(); ++i)
     if (static_cast<int>(i) == storey || resolved.scenario.prior.storey == Knowledge::unknown)
-      if (const IdentifyStorey area = search_area(plan, i); !area.empty()) input.storeys.push_back(area);
+      if (const SearchArea area = search_area(plan, i); !area.empty()) input.storeys.push_back(area);
   if (input.storeys.empty())
     throw InputError({resolved.scenario.building, 0, 0},
-                     "has no walls to look for places between; a plan or an .ifc would be right");
+                     "has no walls between which a pose could be searched for; a plan or an .ifc would be right");
   return input;
 }
 
@@ -90,33 +90,24 @@ WalkAnswers answer(const std::string& scenario, std::uint64_t seed) {
   overrides.seed = seed;
   overrides.methods = std::vector<std::string>{"truth"};
   const ResolvedScenario resolved = resolve(scenario, overrides);
-  const SeenBuilding planned = seen_building(resolved.site.as_planned);
-  std::optional<SeenBuilding> built;
-  if (!resolved.site.changes.empty()) built.emplace(seen_building(resolved.site.as_built));
-  IdentifyInput input = input_of(resolved, resolved.world.storey, planned, built);
+  const VisibleBuilding visible = visible_building(*resolved.building);
+  LocalizabilityInput input = input_of(resolved, resolved.world.storey, visible);
   const std::vector<TruthSample> walk = planned_walk(resolved);
   WalkAnswers answers;
   answers.seed = seed;
-  answers.unknown = identify_run(input, walk);
+  answers.unknown = compute_localizability(input, walk);
   input.yaw_known = true;
-  answers.compass = identify_run(input, walk);
+  answers.compass = compute_localizability(input, walk);
   answers.length_m = answers.unknown.steps.empty() ? 0.0 : answers.unknown.steps.back().distance_m;
   const std::vector<TruthSample> after = planned_walk_after(resolved);
   if (!after.empty())
-    answers.set_down = identify_run(input_of(resolved, resolved.world_after->storey, planned, built), after);
+    answers.set_down = compute_localizability(input_of(resolved, resolved.world_after->storey, visible), after);
   return answers;
 }
 
 const RunIdentifiability* part_of(const WalkAnswers& walk, WalkPart part) {
   if (part == WalkPart::set_down) return walk.set_down ? &*walk.set_down : nullptr;
   return part == WalkPart::compass ? &walk.compass : &walk.unknown;
-}
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  std::sort(values.begin(), values.end());
-  const std::size_t n = values.size();
-  return n % 2 == 1 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
 }
 
 Tree tree_of(const RunIdentifiability& run) {
@@ -139,7 +130,7 @@ std::vector<TruthSample> planned_walk_after(const ResolvedScenario& resolved) {
   return walk_in(world);
 }
 
-std::vector<WalkAnswers> identify_walks(const std::string& scenario, int seeds, int threads) {
+std::vector<WalkAnswers> localizability_of_walks(const std::string& scenario, int seeds, int threads) {
   std::vector<WalkAnswers> walks(static_cast<std::size_t>(std::max(seeds, 0)));
   for_each_index(walks.size(), threads, [&](std::size_t i) { walks[i] = answer(scenario, i + 1); });
   return walks;
@@ -158,8 +149,8 @@ WalkSummary summary_of(const std::vector<WalkAnswers>& walks, WalkPart part) {
     at_s.push_back(*run->identifiable_at_s);
     at_m.push_back(*run->identifiable_at_m);
   }
-  summary.median_at_s = median(at_s);
-  summary.median_at_m = median(at_m);
+  summary.median_at_s = at_s.empty() ? 0.0 : median(at_s);
+  summary.median_at_m = at_m.empty() ? 0.0 : median(at_m);
   return summary;
 }
 

@@ -16,18 +16,18 @@ namespace plumbline::scenarios {
 /// The walk from where it is set down, its time counted from there; empty where it is not carried off.
 [[nodiscard]] std::vector<TruthSample> planned_walk_after(const ResolvedScenario& resolved);
 
-/// What one seed's walk lets be known, with the heading unknown and with a compass.
+/// Localizability along one seed's walk, with the heading unknown and with a compass.
 struct WalkAnswers {
   std::uint64_t seed = 0;
   double length_m = 0.0;  ///< until it is carried off, where it is
   RunIdentifiability unknown;
   RunIdentifiability compass;
-  /// From where it is set down; the heading told at the start is of no use there. Absent where it is not carried off.
+  /// From where it is set down; the heading known at the start is of no use there. Absent where it is not carried off.
   std::optional<RunIdentifiability> set_down;
 };
 
 /// The answers of the seeds 1 to `seeds` of a scenario file.
-[[nodiscard]] std::vector<WalkAnswers> identify_walks(const std::string& scenario, int seeds, int threads);
+[[nodiscard]] std::vector<WalkAnswers> localizability_of_walks(const std::string& scenario, int seeds, int threads);
 
 /// How many walks end with one place left, at once or later, and when.
 struct WalkSummary {

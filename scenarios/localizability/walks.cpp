@@ -18,7 +18,7 @@ namespace {
 /// Neighbours in the cells of a map.
 using Graph = std::vector<std::vector<std::pair<std::size_t, double>>>;
 
-Graph graph_of(const IdentifyMapInput& input) {
+Graph graph_of(const LocalizabilityMapInput& input) {
   Graph graph;
   for (const Floor& floor : input.floors) {
     const std::size_t first = graph.size();
@@ -32,11 +32,11 @@ Graph graph_of(const IdentifyMapInput& input) {
   return graph;
 }
 
-/// Log-likelihood ratios of every look against its image under every isometry, made where asked for. Whichever thread
+/// Log-likelihood ratios of every scan against its image under every isometry, made where asked for. Whichever thread
 /// makes one, it is the same.
 class Ratios {
  public:
-  Ratios(const WalkInput& walks, const IdentifyMap& map) : walks_(walks), map_(map) {
+  Ratios(const WalkInput& walks, const LocalizabilityMap& map) : walks_(walks), map_(map) {
     for (std::size_t g = 0; g < map.isometries.size(); ++g) {
       auto& row = rows_.emplace_back(std::make_unique<std::atomic<float>[]>(map.cells.size()));
       for (std::size_t i = 0; i < map.cells.size(); ++i) row[i] = unknown;
@@ -47,10 +47,10 @@ class Ratios {
     std::atomic<float>& kept = rows_[isometry][cell];
     float value = kept;
     if (value != unknown) return static_cast<double>(value);
-    const Look& look = walks_.looks[cell];
-    const Pose X = map_.isometries[isometry] * look.place.pose();
-    const Place twin{X.t, X.yaw()};
-    value = walks_.finder.plainly_unlike(look, twin) ? out : static_cast<float>(walks_.finder.llr(look, twin));
+    const ReferenceScan& scan = walks_.scans[cell];
+    const Pose X = map_.isometries[isometry] * scan.place.pose();
+    const SensorPose alias{X.t, X.yaw()};
+    value = walks_.finder.clearly_different(scan, alias) ? out : static_cast<float>(walks_.finder.llr(scan, alias));
     kept = value;
     return static_cast<double>(value);
   }
@@ -59,25 +59,25 @@ class Ratios {
   static constexpr float unknown = std::numeric_limits<float>::max();
   static constexpr float out = 1e6F;  ///< surely more than drop_llr
   const WalkInput& walks_;
-  const IdentifyMap& map_;
+  const LocalizabilityMap& map_;
   std::vector<std::unique_ptr<std::atomic<float>[]>> rows_;
 };
 
-/// Shortest ways from one cell, with what the looks on them say against its twins.
+/// Shortest paths from one cell, with the evidence of the scans on them against its aliases.
 class Walker {
  public:
-  Walker(const Graph& graph, const Ratios& ratios, const IdentifyMap& map)
+  Walker(const Graph& graph, const Ratios& ratios, const LocalizabilityMap& map)
       : graph_(graph), ratios_(ratios), map_(map) {}
 
   void answer(std::size_t start, MapCell& cell, bool compass_only) const {
     const std::vector<bool> turned = turns(cell);
     const auto straight = static_cast<int>(std::count(turned.begin(), turned.end(), false));
-    cell.compass.twins = straight;
+    cell.compass.aliases = straight;
     CellAnswer unknown{static_cast<int>(turned.size()), {}};
-    walk(start, cell.twins, [&](const std::vector<double>& against, double way) {
+    walk(start, cell.aliases, [&](const std::vector<double>& against, double way) {
       bool all = true, all_straight = true;
       for (std::size_t i = 0; i < against.size(); ++i) {
-        if (against[i] > identify_constants.drop_llr) continue;
+        if (against[i] > localizability_constants.drop_llr) continue;
         all = false;
         all_straight = all_straight && turned[i];
       }
@@ -89,18 +89,19 @@ class Walker {
   }
 
  private:
-  /// Which twins a compass tells apart.
+  /// Which aliases a compass rules out.
   [[nodiscard]] std::vector<bool> turns(const MapCell& cell) const {
     std::vector<bool> turned;
-    for (const CellTwin& twin : cell.twins)
-      turned.push_back(std::abs(map_.isometries[twin.isometry].yaw()) > identify_constants.known_yaw_deg * rad_per_deg);
+    for (const CellAlias& alias : cell.aliases)
+      turned.push_back(std::abs(map_.isometries[alias.isometry].yaw()) >
+                       localizability_constants.known_yaw_deg * rad_per_deg);
     return turned;
   }
 
   /// Visits cells by their way from the start (ties: lower index) until `done(against, way)`.
   template <class Done>
-  void walk(std::size_t start, const std::vector<CellTwin>& twins, const Done& done) const {
-    if (twins.empty()) {
+  void walk(std::size_t start, const std::vector<CellAlias>& aliases, const Done& done) const {
+    if (aliases.empty()) {
       (void)done({}, 0.0);
       return;
     }
@@ -112,9 +113,9 @@ class Walker {
       const auto [way, cell, before] = open.top();
       open.pop();
       if (!against[cell].empty()) continue;
-      std::vector<double> sum = cell == start ? std::vector<double>(twins.size(), 0.0) : against[before];
-      for (std::size_t i = 0; i < twins.size(); ++i)
-        if (sum[i] <= identify_constants.drop_llr) sum[i] += ratios_.at(twins[i].isometry, cell);
+      std::vector<double> sum = cell == start ? std::vector<double>(aliases.size(), 0.0) : against[before];
+      for (std::size_t i = 0; i < aliases.size(); ++i)
+        if (sum[i] <= localizability_constants.drop_llr) sum[i] += ratios_.at(aliases[i].isometry, cell);
       if (done(sum, way)) return;
       against[cell] = std::move(sum);
       for (const auto& [next, length] : graph_[cell])
@@ -124,12 +125,12 @@ class Walker {
 
   const Graph& graph_;
   const Ratios& ratios_;
-  const IdentifyMap& map_;
+  const LocalizabilityMap& map_;
 };
 
 }  // namespace
 
-void answer_by_walks(const WalkInput& walks, IdentifyMap& map) {
+void answer_by_walks(const WalkInput& walks, LocalizabilityMap& map) {
   const Graph graph = graph_of(walks.input);
   const Ratios ratios(walks, map);
   const Walker walker(graph, ratios, map);

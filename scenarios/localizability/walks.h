@@ -8,14 +8,14 @@
 
 namespace plumbline::scenarios {
 
-/// What walks are judged by: the look of every cell of the map, in its order.
+/// Input of answer_by_walks: the scan of every cell of the map, in its order.
 struct WalkInput {
-  const IdentifyMapInput& input;
-  const TwinFinder& finder;
-  const std::vector<Look>& looks;
+  const LocalizabilityMapInput& input;
+  const AliasFinder& finder;
+  const std::vector<ReferenceScan>& scans;
 };
 
-/// Fills the answers of a map whose twins are known.
-void answer_by_walks(const WalkInput& walks, IdentifyMap& map);
+/// Fills the answers of a map whose aliases are known.
+void answer_by_walks(const WalkInput& walks, LocalizabilityMap& map);
 
 }  // namespace plumbline::scenarios

@@ -52,18 +52,18 @@ std::optional<FailureAt> missing_until(const Truth& truth, const std::vector<Bel
 
 /// Why the answer of scan `at` is wrong.
 FailureAt wrong_answer(const Truth& truth, const std::vector<Belief>& beliefs, std::size_t at,
-                       const std::vector<Pose>& twins, const LocalizationRules& rules) {
+                       const std::vector<Pose>& aliases, const LocalizationRules& rules) {
   if (const auto missing = missing_until(truth, beliefs, at)) return *missing;
   const Pose X_WR_true = truth.at(beliefs[at].stamp);
-  const bool twin = std::any_of(twins.begin(), twins.end(),
-                                [&](const Pose& g) { return is_right(*beliefs[at].X_WR, g * X_WR_true, rules); });
-  return {twin ? Failure::twin_preferred : Failure::wrong_model, beliefs[at].stamp};
+  const bool alias = std::any_of(aliases.begin(), aliases.end(),
+                                 [&](const Pose& g) { return is_right(*beliefs[at].X_WR, g * X_WR_true, rules); });
+  return {alias ? Failure::alias_preferred : Failure::wrong_model, beliefs[at].stamp};
 }
 
 }  // namespace
 
 std::optional<FailureAt> failure_of(const Truth& truth, const std::vector<Belief>& beliefs, LocalizationVerdict verdict,
-                                    const std::vector<Pose>& twins_at_start, const LocalizationRules& rules) {
+                                    const std::vector<Pose>& aliases_at_start, const LocalizationRules& rules) {
   using V = LocalizationVerdict;
   if (verdict == V::success || verdict == V::honest_ambiguity || verdict == V::lucky || beliefs.empty())
     return std::nullopt;
@@ -71,7 +71,7 @@ std::optional<FailureAt> failure_of(const Truth& truth, const std::vector<Belief
   for (std::size_t i = 0; i < beliefs.size(); ++i) {
     if (!beliefs[i].X_WR || (!was_right && beliefs[i].state != slam::State::converged)) continue;
     const bool right = is_right(*beliefs[i].X_WR, truth.at(beliefs[i].stamp), rules);
-    if (!right && !was_right) return wrong_answer(truth, beliefs, i, twins_at_start, rules);
+    if (!right && !was_right) return wrong_answer(truth, beliefs, i, aliases_at_start, rules);
     if (!right) return FailureAt{Failure::tracking_lost, beliefs[i].stamp};
     was_right = true;
   }

@@ -18,7 +18,8 @@ struct FailureAt {
 /// while a hypothesis or a kept particle lies within 0.5 m and 15 degrees of it; particles are a sample of at most 500,
 /// one scan a second, so that a depletion may be reported up to a second late.
 [[nodiscard]] std::optional<FailureAt> failure_of(const Truth& truth, const std::vector<Belief>& beliefs,
-                                                  LocalizationVerdict verdict, const std::vector<Pose>& twins_at_start,
+                                                  LocalizationVerdict verdict,
+                                                  const std::vector<Pose>& aliases_at_start,
                                                   const LocalizationRules& rules);
 
 }  // namespace plumbline::scenarios::score

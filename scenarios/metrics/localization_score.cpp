@@ -67,7 +67,7 @@ double walked_at(const Truth& truth, slam::Nanoseconds t) {
   return passed == 0 ? 0.0 : walked[passed - 1];
 }
 
-/// [contract: honest_ambiguity] Every hypothesis is the true pose or one the plan cannot tell from it, they are few,
+/// Honest ambiguity: every hypothesis is the true pose or one the plan cannot tell from it, they are few,
 /// and the true one keeps its share.
 bool is_honest(const Belief& last, const Pose& X_WR_true, const std::vector<Pose>& others_W,
                const LocalizationRules& rules) {
@@ -75,9 +75,9 @@ bool is_honest(const Belief& last, const Pose& X_WR_true, const std::vector<Pose
   double true_mass = 0.0;
   for (const slam::Hypothesis& hypothesis : last.hypotheses) {
     const bool is_true = right(hypothesis.X_WR, X_WR_true, rules);
-    const bool is_twin = std::any_of(others_W.begin(), others_W.end(),
-                                     [&](const Pose& X_WT) { return right(hypothesis.X_WR, X_WT, rules); });
-    if (!is_true && !is_twin) return false;
+    const bool is_alias = std::any_of(others_W.begin(), others_W.end(),
+                                      [&](const Pose& X_WA) { return right(hypothesis.X_WR, X_WA, rules); });
+    if (!is_true && !is_alias) return false;
     if (is_true) true_mass += hypothesis.mass;
   }
   return true_mass >= 0.5 / (static_cast<double>(others_W.size()) + 1.0);
@@ -112,15 +112,15 @@ double true_mass_of(const Belief& belief, const Pose& X_WR_true, const Localizat
   return mass;
 }
 
-std::optional<double> twin_error(const Truth& truth, const std::vector<Belief>& beliefs, std::size_t first,
-                                 const std::vector<Pose>& twins) {
+std::optional<double> aliased_error(const Truth& truth, const std::vector<Belief>& beliefs, std::size_t first,
+                                    const std::vector<Pose>& aliases) {
   double sum = 0.0;
   Pose X_WR;
   for (std::size_t i = first; i < beliefs.size(); ++i) {
     if (beliefs[i].X_WR) X_WR = *beliefs[i].X_WR;
     const Pose X_WR_true = truth.at(beliefs[i].stamp);
     double least = position_error(X_WR, X_WR_true);
-    for (const Pose& twin : twins) least = std::min(least, position_error(X_WR, twin * X_WR_true));
+    for (const Pose& alias : aliases) least = std::min(least, position_error(X_WR, alias * X_WR_true));
     sum += least * least;
   }
   return std::sqrt(sum / static_cast<double>(beliefs.size() - first));
@@ -143,10 +143,10 @@ LocalizationVerdict judge_ambiguous(const std::optional<Course>& course, const B
 }
 
 Evidence evidence_of(const Identifiability& known, const Truth& truth, const LocalizationRules& rules) {
-  if (!known.identifiable) return known.tellable_from_s ? Evidence::weak : Evidence::ambiguous;
+  if (!known.identifiable) return known.marginal_from_s ? Evidence::marginal : Evidence::ambiguous;
   const double left_s = slam::seconds(truth.scans.back() - truth.scans.front()) - known.at_s.value_or(0.0);
   const double left_m = truth.walked().back() - known.at_m.value_or(0.0);
-  return left_s >= rules.hold_s && left_m >= rules.hold_m ? Evidence::unique : Evidence::weak;
+  return left_s >= rules.hold_s && left_m >= rules.hold_m ? Evidence::unique : Evidence::marginal;
 }
 
 /// What came of a kidnapping. Time in which the robot stands counts too.
@@ -219,20 +219,20 @@ LocalizationScore score_localization(const Truth& truth, const std::vector<Belie
     score.identifiable_at_m = identifiability->at_m;
     score.evidence = evidence_of(*identifiability, truth, rules);
   }
-  // Where others are left but weak, a single answer that stands to the end is judged as where none is.
-  const bool answers_weak = course && score.evidence == Evidence::weak && last.state == slam::State::converged;
-  const bool ambiguous = identifiability && !identifiability->others_W.empty() && !answers_weak;
+  // Where others are left but marginal, a single answer that stands to the end is judged as where none is.
+  const bool answers_marginal = course && score.evidence == Evidence::marginal && last.state == slam::State::converged;
+  const bool ambiguous = identifiability && !identifiability->others_W.empty() && !answers_marginal;
   score.verdict = ambiguous ? judge_ambiguous(course, last, held,
                                               is_honest(last, truth.at(last.stamp), identifiability->others_W, rules))
                             : judge_unique(course, last.state, held);
-  const bool early = identifiability && score.converged_at_s && identifiability->tellable_from_s &&
-                     *score.converged_at_s < *identifiability->tellable_from_s;
+  const bool early = identifiability && score.converged_at_s && identifiability->marginal_from_s &&
+                     *score.converged_at_s < *identifiability->marginal_from_s;
   if (early && score.verdict == LocalizationVerdict::success) score.verdict = LocalizationVerdict::lucky;
-  const std::vector<Pose> twins = identifiability ? identifiability->twins_at_start : std::vector<Pose>();
-  if (course) score.twin_error_rmse_m = twin_error(truth, beliefs, course->first, twins);
+  const std::vector<Pose> aliases = identifiability ? identifiability->aliases_at_start : std::vector<Pose>();
+  if (course) score.aliased_error_rmse_m = aliased_error(truth, beliefs, course->first, aliases);
   if (!last.hypotheses.empty()) score.true_mass = true_mass_of(last, truth.at(last.stamp), rules);
   score.nees = mean_nees(truth, beliefs, rules);
-  if (const auto why = failure_of(truth, beliefs, score.verdict, twins, rules)) {
+  if (const auto why = failure_of(truth, beliefs, score.verdict, aliases, rules)) {
     score.failure = why->failure;
     score.failure_at_s = slam::seconds(why->stamp);
   }

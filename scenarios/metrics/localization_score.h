@@ -10,7 +10,7 @@
 
 namespace plumbline::scenarios::score {
 
-/// Rules of plan localization [contract: Metrics].
+/// Rules of plan localization, docs/reference/metrics.md.
 struct LocalizationRules {
   double position_m = 0.5;  ///< a pose is right within this
   double yaw_deg = 10.0;    ///< and this
@@ -27,43 +27,43 @@ struct Belief {
   std::vector<slam::Particle> particles;  ///< a sample, of some scans
 };
 
-/// How many places were left at a moment of the run, the true one left out.
-struct PlacesLeft {
+/// How many aliased poses were left at a time of the run, the true one left out.
+struct AliasesLeft {
   double t_s = 0.0;
   double distance_m = 0.0;
-  int twins = 0;
-  int weak = 0;  ///< of them, those that are nearly out
+  int aliases = 0;
+  int marginal = 0;  ///< of them, those that are nearly out
 };
 
-/// What told the last other place from the true one.
+/// What ruled out the last other pose.
 struct DecidingElement {
   std::string id;
-  bool missing = false;  ///< it would be seen from the other place, and is not; else it is seen, and would not be
+  bool missing = false;  ///< it would be visible from the other pose, and is not; else it is visible, and would not be
   double share = 0.0;    ///< of the evidence
 };
 
-/// What the plan allows to be known on this route, from scenarios/identify. A run is scored without it where it has
+/// What can be known of the pose on this route, from scenarios/localizability. A run is scored without it where it has
 /// not been computed.
 struct Identifiability {
   bool identifiable = false;
   std::optional<double> at_s;
   std::optional<double> at_m;
   /// First time from which on no other pose explains what was seen as well as the true one does (all are at least
-  /// weak); a single answer given before is luck.
-  std::optional<double> tellable_from_s;
-  std::vector<Pose> others_W;  ///< poses at the end that the plan cannot tell from the true one; empty when unique
-  std::vector<Pose> twins_at_start;  ///< X_twin = twin * X_WR, of what the first look could not tell
-  std::vector<PlacesLeft> places;    ///< at the start and wherever their numbers change
+  /// marginal); a single answer given before is luck.
+  std::optional<double> marginal_from_s;
+  std::vector<Pose> others_W;  ///< poses at the end that explain the scans as the true one does; empty when unique
+  std::vector<Pose> aliases_at_start;  ///< X_alias = alias * X_WR, left by the first scan
+  std::vector<AliasesLeft> places;     ///< at the start and wherever their numbers change
   std::optional<DecidingElement> decided_by;
 };
 
 enum class LocalizationVerdict { success, false_convergence, overconfident, honest_ambiguity, late, lost, lucky };
 [[nodiscard]] std::string to_string(LocalizationVerdict verdict);
 
-/// What the plan allows to be known of a run's place [facts: localization 3.4].
+/// What the plan allows to be known of a run's place, docs/methods/localizability.md.
 enum class Evidence {
   unique,    ///< no other place is left, early enough for an answer to be held to the end
-  weak,      ///< the others are nearly out: one right answer is right, and so is an honest ambiguity; or they went too
+  marginal,  ///< the others are nearly out: one right answer is right, and so is an honest ambiguity; or they went too
              ///< late for an answer to be held
   ambiguous  ///< others explain what was seen as well as the true one
 };
@@ -71,12 +71,12 @@ enum class Evidence {
 
 /// Why a plan localization failed, from what it said after each scan.
 enum class Failure {
-  never_sampled,   ///< the true pose was never among the hypotheses or the particles kept
-  depleted,        ///< it was, and went, before the answer was given or the run ended
-  twin_preferred,  ///< a place that looked the same at the start was chosen over it
-  wrong_model,     ///< a place that looks different was
-  tracking_lost,   ///< the right answer was given, and lost
-  undecided        ///< it was there to the end, and never chosen
+  never_sampled,    ///< the true pose was never among the hypotheses or the particles kept
+  depleted,         ///< it was, and went, before the answer was given or the run ended
+  alias_preferred,  ///< a pose aliased with it at the start was chosen over it
+  wrong_model,      ///< a pose not aliased with it was
+  tracking_lost,    ///< the right answer was given, and lost
+  undecided         ///< it was there to the end, and never chosen
 };
 [[nodiscard]] std::string to_string(Failure failure);
 
@@ -92,9 +92,9 @@ struct LocalizationScore {
   std::optional<Evidence> evidence;
   std::optional<double> identifiable_at_s;
   std::optional<double> identifiable_at_m;
-  /// As ape_rmse_m, each pose held against the nearest of the true one and its twins at the start: a small value
-  /// beside a large ape_rmse_m says "right shape, wrong twin".
-  std::optional<double> twin_error_rmse_m;
+  /// As ape_rmse_m, each pose held against the nearest of the true one and its aliases at the start: a small value
+  /// beside a large ape_rmse_m says "right shape, wrong alias".
+  std::optional<double> aliased_error_rmse_m;
   std::optional<double> true_mass;  ///< share of the last hypotheses that are right
   std::optional<double> nees;       ///< mean of e' P^-1 e of (x, y, yaw) while converged and right; 3 where P is honest
   std::optional<double> handover_precision;  ///< see handover.h

@@ -10,7 +10,7 @@
 
 namespace plumbline::scenarios::score {
 
-/// Rules of the map metrics [contract: Metrics].
+/// Rules of the map metrics, docs/reference/metrics.md.
 struct MapRules {
   double cap_m = 0.5;               ///< larger distances count as this
   double complete_within_m = 0.05;  ///< a surface point is mapped when a map point lies this near

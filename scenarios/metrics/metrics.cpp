@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 
+#include "scenarios/metrics/state_names.h"
+
 namespace plumbline::scenarios::score {
 
 namespace {
@@ -31,44 +33,91 @@ std::vector<MetricRow> make_rows() {
   using T = TrajectoryScore;
   using L = LocalizationScore;
   return {
-      {"ate_rmse_m", "m", Better::lower, field(&S::trajectory, &T::ate_rmse_m)},
-      {"ate_aligned_rmse_m", "m", Better::lower, field(&S::trajectory, &T::ate_aligned_rmse_m)},
-      {"ate_final_rmse_m", "m", Better::lower, field(&S::trajectory, &T::ate_final_rmse_m)},
-      {"rpe_1m_rmse_m", "m", Better::lower, field(&S::trajectory, &T::rpe_1m_rmse_m)},
-      {"drift_10m_percent", "%", Better::lower, field(&S::trajectory, &T::drift_10m_percent)},
-      {"drift_10m_deg_per_m", "deg/m", Better::lower, field(&S::trajectory, &T::drift_10m_deg_per_m)},
-      {"coverage", "", Better::higher, field(&S::trajectory, &T::coverage)},
-      {"map_rmse_m", "m", Better::lower, field(&S::map, &MapScore::rmse_m)},
-      {"map_capped_share", "", Better::lower, field(&S::map, &MapScore::capped_share)},
-      {"map_completeness", "", Better::higher, field(&S::map, &MapScore::completeness)},
-      {"rooms.visited", "", Better::neither, field(&S::rooms, &RoomScore::visited)},
-      {"rooms.found", "", Better::neither, field(&S::rooms, &RoomScore::found)},
-      {"rooms.matched", "", Better::higher, field(&S::rooms, &RoomScore::matched)},
-      {"rooms.precision", "", Better::higher, field(&S::rooms, &RoomScore::precision)},
-      {"rooms.recall", "", Better::higher, field(&S::rooms, &RoomScore::recall)},
-      {"walls.precision", "", Better::higher, field(&S::walls, &WallScore::precision)},
-      {"walls.recall", "", Better::higher, field(&S::walls, &WallScore::recall)},
-      {"localization.converged_at_s", "s", Better::lower, field(&S::localization, &L::converged_at_s)},
-      {"localization.converged_at_m", "m", Better::lower, field(&S::localization, &L::converged_at_m)},
-      {"localization.ape_rmse_m", "m", Better::lower, field(&S::localization, &L::ape_rmse_m)},
-      {"localization.yaw_rmse_deg", "deg", Better::lower, field(&S::localization, &L::yaw_rmse_deg)},
-      {"localization.hypotheses", "", Better::neither, field(&S::localization, &L::hypotheses)},
-      {"localization.identifiable_at_s", "s", Better::neither, field(&S::localization, &L::identifiable_at_s)},
-      {"localization.identifiable_at_m", "m", Better::neither, field(&S::localization, &L::identifiable_at_m)},
-      {"localization.twin_error_rmse_m", "m", Better::lower, field(&S::localization, &L::twin_error_rmse_m)},
-      {"localization.true_mass", "", Better::higher, field(&S::localization, &L::true_mass)},
-      {"localization.nees", "", Better::neither, field(&S::localization, &L::nees)},
-      {"localization.handover_precision", "", Better::higher, field(&S::localization, &L::handover_precision)},
-      {"localization.failure_at_s", "s", Better::neither, field(&S::localization, &L::failure_at_s)},
-      {"localization.kidnap_wrong_s", "s", Better::lower, field(&S::localization, &L::kidnap_wrong_s)},
-      {"localization.kidnap_found_s", "s", Better::lower, field(&S::localization, &L::kidnap_found_s)},
-      {"localization.kidnap_found_m", "m", Better::lower, field(&S::localization, &L::kidnap_found_m)},
+      {"ate_rmse_m", "m", Better::lower,
+       "RMS position error of the causal poses (each as first given); the first pose alone places the method's frame",
+       field(&S::trajectory, &T::ate_rmse_m)},
+      {"ate_aligned_rmse_m", "m", Better::lower,
+       "the same after the best rigid alignment (Umeyama, without scale); the metric of SLAM gates",
+       field(&S::trajectory, &T::ate_aligned_rmse_m)},
+      {"ate_final_rmse_m", "m", Better::lower,
+       "RMS position error of the trajectory after the last optimisation, aligned",
+       field(&S::trajectory, &T::ate_final_rmse_m)},
+      {"rpe_1m_rmse_m", "m", Better::lower, "RMS translation error of the relative pose over each metre walked",
+       field(&S::trajectory, &T::rpe_1m_rmse_m)},
+      {"drift_10m_percent", "%", Better::lower, "mean translation error over each 10 m walked, as a share of the way",
+       field(&S::trajectory, &T::drift_10m_percent)},
+      {"drift_10m_deg_per_m", "deg/m", Better::lower, "mean rotation error over each 10 m walked",
+       field(&S::trajectory, &T::drift_10m_deg_per_m)},
+      {"coverage", "", Better::higher, "share of the scans with a pose within 10 ms",
+       field(&S::trajectory, &T::coverage)},
+      {"map_rmse_m", "m", Better::lower,
+       "RMS distance of the map's points to the building as built, each capped at 0.5 m; the final trajectory's "
+       "alignment places the map",
+       field(&S::map, &MapScore::rmse_m)},
+      {"map_capped_share", "", Better::lower, "share of the map's points at the cap of 0.5 m",
+       field(&S::map, &MapScore::capped_share)},
+      {"map_completeness", "", Better::higher,
+       "share of the as-built surface hit by true returns that has a map point within 5 cm",
+       field(&S::map, &MapScore::completeness)},
+      {"rooms.visited", "", Better::neither, "rooms in which the robot was at least 0.5 m deep for 2 s",
+       field(&S::rooms, &RoomScore::visited)},
+      {"rooms.found", "", Better::neither, "rooms that the method claims", field(&S::rooms, &RoomScore::found)},
+      {"rooms.matched", "", Better::higher,
+       "found rooms that match a room of the building one to one: outline or four walls with an IoU of at least 0.5, "
+       "or both faces of a corridor and a centre within 0.5 m across",
+       field(&S::rooms, &RoomScore::matched)},
+      {"rooms.precision", "", Better::higher, "matched rooms per found room; absent where none was found",
+       field(&S::rooms, &RoomScore::precision)},
+      {"rooms.recall", "", Better::higher, "share of the visited rooms that were found",
+       field(&S::rooms, &RoomScore::recall)},
+      {"walls.precision", "", Better::higher,
+       "share of the found walls that match faces of the building: within 3°, 0.10 m and over half of their length",
+       field(&S::walls, &WallScore::precision)},
+      {"walls.recall", "", Better::higher, "share of the faces seen by the LiDAR that a found wall matches",
+       field(&S::walls, &WallScore::recall)},
+      {"localization.converged_at_s", "s", Better::lower,
+       "time from the first scan to the first single answer (CONVERGED), right or wrong",
+       field(&S::localization, &L::converged_at_s)},
+      {"localization.converged_at_m", "m", Better::lower, "distance walked until the first single answer",
+       field(&S::localization, &L::converged_at_m)},
+      {"localization.ape_rmse_m", "m", Better::lower,
+       "RMS position error of every pose from the first convergence on, in the plan's frame without alignment, also "
+       "while lost",
+       field(&S::localization, &L::ape_rmse_m)},
+      {"localization.yaw_rmse_deg", "deg", Better::lower, "RMS heading error of the same poses",
+       field(&S::localization, &L::yaw_rmse_deg)},
+      {"localization.hypotheses", "", Better::neither, "pose hypotheses after the last scan",
+       field(&S::localization, &L::hypotheses)},
+      {"localization.identifiable_at_s", "s", Better::neither, "time from which on scans and plan determine the pose",
+       field(&S::localization, &L::identifiable_at_s)},
+      {"localization.identifiable_at_m", "m", Better::neither, "distance walked until then",
+       field(&S::localization, &L::identifiable_at_m)},
+      {"localization.twin_error_rmse_m", "m", Better::lower,
+       "as `ape_rmse_m`, to the nearest of the true pose and its aliased poses at the start; small beside a large "
+       "`ape_rmse_m` means an aliased pose was tracked",
+       field(&S::localization, &L::aliased_error_rmse_m)},
+      {"localization.true_mass", "", Better::higher,
+       "share of the last hypotheses' mass within 0.5 m and 10° of the true pose",
+       field(&S::localization, &L::true_mass)},
+      {"localization.nees", "", Better::neither,
+       "mean normalised estimation error squared of (x, y, yaw) while converged and right; 3 where the covariance is "
+       "consistent",
+       field(&S::localization, &L::nees)},
+      {"localization.handover_precision", "", Better::higher,
+       "share of the wall patches, matched at the first convergence, whose wall is the right one; absent for methods "
+       "that match no walls",
+       field(&S::localization, &L::handover_precision)},
+      {"localization.failure_at_s", "s", Better::neither,
+       "time of the failure on the run's clock; `replay --until` stops there",
+       field(&S::localization, &L::failure_at_s)},
+      {"localization.kidnap_wrong_s", "s", Better::lower,
+       "longest time that a wrong pose was CONVERGED after a kidnapping", field(&S::localization, &L::kidnap_wrong_s)},
+      {"localization.kidnap_found_s", "s", Better::lower,
+       "time from the kidnapping to the pose that is CONVERGED and right to the end",
+       field(&S::localization, &L::kidnap_found_s)},
+      {"localization.kidnap_found_m", "m", Better::lower, "distance walked from the kidnapping to that pose",
+       field(&S::localization, &L::kidnap_found_m)},
   };
-}
-
-std::string_view state_name(slam::State state) {
-  static constexpr std::array<std::string_view, 4> names = {"SEARCHING", "AMBIGUOUS", "CONVERGED", "LOST"};
-  return names[static_cast<std::size_t>(state)];
 }
 
 }  // namespace

@@ -34,11 +34,12 @@ struct MethodScore {
 
 enum class Better { lower, higher, neither };
 
-/// One metric: its name in results.json (a dot for a block), unit, direction and value.
+/// One metric: its name in results.json (a dot for a block), unit, direction, description and value.
 struct MetricRow {
   std::string_view name;
   std::string_view unit;
   Better better = Better::neither;
+  std::string_view doc;  ///< one sentence without its full stop
   std::function<std::optional<double>(const MethodScore&)> value;
 };
 

@@ -10,14 +10,14 @@
 
 namespace plumbline::scenarios::score {
 
-/// Rules of the wall and room metrics [contract: Metrics]; those marked (ours) the contract leaves open.
+/// Rules of the wall and room metrics, docs/reference/metrics.md.
 struct StructureRules {
   double wall_angle_deg = 3.0;
   double wall_offset_m = 0.10;  ///< distance of the middle of the found wall to the true face
   double wall_overlap = 0.5;    ///< share of the found wall's length that lies on true faces
-  double seen_within_m = 0.02;  ///< a hit point belongs to a face this near (ours)
-  double seen_length_m = 0.5;   ///< a face counts as seen when hits span this much of it (ours)
-  int seen_points = 10;         ///< and are at least so many, on the 0.1 m grid of the hits (ours)
+  double seen_within_m = 0.02;  ///< a hit point belongs to a face this near
+  double seen_length_m = 0.5;   ///< a face counts as seen when hits span this much of it
+  int seen_points = 10;         ///< and are at least so many, on the 0.1 m grid of the hits
   double room_iou = 0.5;
   double room_across_m = 0.5;   ///< two-wall: distance of the centres across the corridor
   double visit_inside_m = 0.5;  ///< depth inside a room that counts

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenarios/metrics/trajectory.h"
 
-#include <Eigen/LU>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "bim/errors.h"
+#include "bim/geometry/best_rotation.h"
 
 namespace plumbline::scenarios::score {
 
@@ -75,12 +74,7 @@ Pose umeyama(const std::vector<PosePair>& pairs) {
   const Eigen::Vector3d mean_W = mean(pairs, &PosePair::X_WR);
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   for (const PosePair& pair : pairs) covariance += (pair.X_WR.t - mean_W) * (pair.X_FR.t - mean_F).transpose();
-
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Eigen::Vector3d signs = Eigen::Vector3d::Ones();
-  if ((svd.matrixU() * svd.matrixV().transpose()).determinant() < 0.0) signs.z() = -1.0;
-  const Eigen::Matrix3d R_WF = svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
-  const Eigen::Quaterniond q_WF = Eigen::Quaterniond(R_WF).normalized();
+  const Eigen::Quaterniond q_WF = Eigen::Quaterniond(best_rotation(covariance)).normalized();
   return {q_WF, mean_W - q_WF * mean_F};
 }
 

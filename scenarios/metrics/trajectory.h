@@ -8,7 +8,7 @@
 
 namespace plumbline::scenarios::score {
 
-/// Rules of the trajectory metrics [contract: Metrics].
+/// Rules of the trajectory metrics, docs/reference/metrics.md.
 struct TrajectoryRules {
   double max_stamp_difference_s = 0.01;  ///< of a scan and the pose given for it
   double min_coverage = 0.95;            ///< share of scans with a pose; below, a method is lost
@@ -43,7 +43,7 @@ struct PosePair {
                                               const TrajectoryRules& rules);
 
 /// X_WF of the rigid motion (no scale) that brings the positions in F closest to those in W in the least-squares
-/// sense [Umeyama 1991, with the reflection fix]. At least one pair; where positions leave rotations free (a single
+/// sense [umeyama1991]. At least one pair; where positions leave rotations free (a single
 /// point, a straight line), some minimiser.
 [[nodiscard]] Pose umeyama(const std::vector<PosePair>& pairs);
 /// X_WF by the first pair alone.

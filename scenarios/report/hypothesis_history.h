@@ -9,10 +9,10 @@
 
 namespace plumbline::scenarios {
 
-/// The hypotheses of all scans joined into places, each carried along by the true motion: hypotheses name none. Those
-/// that ever held most of the belief come first (ties: found first), at most `most` of them, the true place among them.
-/// A place is the true one where it was right (0.5 m, 10 degrees) in most of its scans.
-[[nodiscard]] std::vector<ReportTrack> hypothesis_tracks(const std::vector<BeliefRecord>& beliefs,
-                                                         const score::Truth& truth, std::size_t most);
+/// The hypotheses of all scans joined into histories, each moved along by the true motion, since they carry no id.
+/// Those with the largest mass come first (ties: found first), at most `most` of them, the true one before all others.
+/// A history is the true one where it was right (0.5 m, 10 degrees) in most of its scans.
+[[nodiscard]] std::vector<HypothesisHistory> hypothesis_histories(const std::vector<BeliefRecord>& beliefs,
+                                                                  const score::Truth& truth, std::size_t most);
 
 }  // namespace plumbline::scenarios

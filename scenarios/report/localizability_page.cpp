@@ -26,10 +26,10 @@ std::string_view colour_of(const CellAnswer& answer) {
 }
 
 std::string title_of(const CellAnswer& answer) {
-  const std::string twins = std::to_string(answer.twins) + (answer.twins == 1 ? " other place" : " other places");
-  if (!answer.walk_m) return "looks like " + twins + "; no walk on this storey tells them apart";
-  if (*answer.walk_m == 0.0) return "one look suffices";
-  return "looks like " + twins + "; a walk of " + svg::number(*answer.walk_m, 1) + " m tells";
+  const std::string aliases = std::to_string(answer.aliases) + (answer.aliases == 1 ? " other place" : " other places");
+  if (!answer.walk_m) return "aliased with " + aliases + "; no walk on this storey resolves it";
+  if (*answer.walk_m == 0.0) return "one scan suffices";
+  return "aliased with " + aliases + "; resolved after a walk of " + svg::number(*answer.walk_m, 1) + " m";
 }
 
 std::string cell_square(const MapCell& cell, const CellAnswer& answer, double step_m) {
@@ -44,33 +44,34 @@ std::string legend() {
     return "<span><svg viewBox=\"0 0 34 10\"><rect width=\"34\" height=\"10\" fill=\"" + std::string(colour) +
            "\"/></svg>" + text + "</span>";
   };
-  return "<div class=\"key\">" + item(green, "one look suffices") + item(ambers[0], "a walk of up to 2 m does") +
+  return "<div class=\"key\">" + item(green, "one scan suffices") + item(ambers[0], "a walk of up to 2 m suffices") +
          item(ambers[1], "up to 5 m") + item(ambers[2], "up to 10 m") + item(ambers[3], "further") +
-         item(red, "no walk on the storey does") + item("#c3cbd6", "what stands there") + "</div>";
+         item(red, "no walk on the storey suffices") + item("#c3cbd6", "column, furniture") + "</div>";
 }
 
 std::string percent(int part, int whole) { return whole == 0 ? "–" : svg::number(100.0 * part / whole, 1) + " %"; }
 
 std::string share_row(const std::string& name, const MapShare& s) {
   const auto cell = [](const std::string& text) { return "<td class=\"num\">" + text + "</td>"; };
-  return "<tr><td>" + svg::escape(name) + "</td>" + cell(std::to_string(s.cells)) + cell(percent(s.one_look, s.cells)) +
+  return "<tr><td>" + svg::escape(name) + "</td>" + cell(std::to_string(s.cells)) + cell(percent(s.one_scan, s.cells)) +
          cell(percent(s.walk, s.cells)) + cell(s.walk > 0 ? svg::number(s.walk_median_m, 1) : "–") +
          cell(s.walk > 0 ? svg::number(s.walk_max_m, 1) : "–") + cell(percent(s.never, s.cells)) +
-         cell(std::to_string(s.twins_max)) + "</tr>";
+         cell(std::to_string(s.aliases_max)) + "</tr>";
 }
 
 /// What pages show of one condition.
 class ConditionPage {
  public:
-  ConditionPage(const bim::Site& site, const BuildingMap& map, bool compass)
-      : site_(site), map_(map), compass_(compass) {
-    input_.plan = bim::make_plan(site.as_planned);
-    input_.things = things_of(site.as_planned);
+  ConditionPage(const RunBuilding& building, const BuildingMap& map, bool compass)
+      : building_(building), map_(map), compass_(compass) {
+    input_.plan = *building.plan_as_planned();
+    input_.obstacles = obstacles_of(building.as_planned(), input_.plan);
     for (const Floor& floor : map.floors) input_.storeys.push_back({static_cast<int>(floor.storey), "", {}});
   }
 
   [[nodiscard]] std::string card() const {
-    std::string out = "<section class=\"card\"><h2>" + std::string(compass_ ? "With a compass" : "Heading not known") +
+    std::string out = "<section class=\"card\"><h2>" +
+                      std::string(compass_ ? "Heading known from a compass" : "Heading unknown") +
                       "</h2><div class=\"maps\">";
     for (std::size_t f = 0; f < map_.floors.size(); ++f) out += "<div>" + draw(f) + "</div>";
     return out + "</div>" + legend() + table() + "</section>\n";
@@ -83,7 +84,7 @@ class ConditionPage {
 
   [[nodiscard]] std::string draw(std::size_t f) const {
     const auto storey = static_cast<int>(map_.floors[f].storey);
-    const std::string name = svg::escape(name_of(site_.as_planned.storeys[map_.floors[f].storey]));
+    const std::string name = svg::escape(name_of(building_.as_planned().storeys[map_.floors[f].storey]));
     std::string out = "<p class=\"storey\">" + name + "</p>" + open_map(bounds(input_), "where on " + name);
     std::string cells, plan = draw_plan(input_, storey);
     for (const MapCell& cell : map_.map.cells)
@@ -96,14 +97,14 @@ class ConditionPage {
 
   [[nodiscard]] std::string table() const {
     std::string out =
-        "<div class=\"scroll\"><table><tr><th></th><th class=\"num\">places</th><th class=\"num\">one look</th>"
+        "<div class=\"scroll\"><table><tr><th></th><th class=\"num\">places</th><th class=\"num\">one scan</th>"
         "<th class=\"num\">a walk</th><th class=\"num\">median m</th><th class=\"num\">longest m</th>"
-        "<th class=\"num\">never</th><th class=\"num\">twins, most</th></tr>";
+        "<th class=\"num\">never</th><th class=\"num\">aliases, most</th></tr>";
     for (std::size_t f = 0; f < map_.floors.size(); ++f) {
-      const bim::Storey& storey = site_.as_planned.storeys[map_.floors[f].storey];
+      const bim::Storey& storey = building_.as_planned().storeys[map_.floors[f].storey];
       out += share_row(name_of(storey), share_of(map_, compass_, [&](const MapCell& cell) { return cell.floor == f; }));
     }
-    for (const bim::Room& room : site_.as_planned.rooms) {
+    for (const bim::Room& room : building_.as_planned().rooms) {
       const MapShare share = share_of(map_, compass_, [&](const MapCell& cell) {
         return static_cast<int>(map_.floors[cell.floor].storey) == room.storey && contains(room.polygon, cell.p_W);
       });
@@ -112,7 +113,7 @@ class ConditionPage {
     return out + "</table></div>";
   }
 
-  const bim::Site& site_;
+  const RunBuilding& building_;
   const BuildingMap& map_;
   bool compass_;
   ReportInput input_;
@@ -120,22 +121,21 @@ class ConditionPage {
 
 }  // namespace
 
-std::string identify_page(const bim::Site& site, const std::string& name, const BuildingMap& map) {
+std::string localizability_page(const RunBuilding& building, const std::string& name, const BuildingMap& map) {
   std::string page =
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
       "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\"><title>" +
       svg::escape(name) + " · Plumbline</title><style>";
   page += page_style();
-  page += "</style></head>\n<body><main><header><h1>Where one can know one's place: " + svg::escape(name) +
-          "</h1><span class=\"facts\">a place every " + svg::number(map.options.step_m) + " m, twins on " +
+  page += "</style></head>\n<body><main><header><h1>Localizability: " + svg::escape(name) +
+          "</h1><span class=\"facts\">a place every " + svg::number(map.options.step_m) + " m, aliased poses on " +
           (map.options.across ? "all storeys" : "the same storey") + "</span></header>\n";
-  if (!map.options.compass_only) page += ConditionPage(site, map, false).card();
-  page += ConditionPage(site, map, true).card();
+  if (!map.options.compass_only) page += ConditionPage(building, map, false).card();
+  page += ConditionPage(building, map, true).card();
   return page +
-         "<p class=\"facts\">A place has a twin where a levelled LiDAR of 8 x 360 beams sees the same there, within "
-         "noise. A "
-         "walk tells when it leaves no twin that could have made it too and seen the same at each "
-         "step.</p></main></body></html>\n";
+         "<p class=\"facts\">Two places are aliased where a levelled LiDAR of 8 x 360 beams measures the same at both, "
+         "within noise. A walk resolves a place when no aliased pose explains the scans at all its "
+         "steps.</p></main></body></html>\n";
 }
 
 }  // namespace plumbline::scenarios

@@ -157,9 +157,9 @@ MapBox bounds(const ReportInput& input) {
     box.add(face.p0);
     box.add(face.p1);
   }
-  for (const ReportThing& thing : input.things)  // of a mesh there are no faces
-    if (input.plan.faces.empty() && is_shown(input, thing.storey))
-      for (const auto& p : thing.outline_W) box.add(p);
+  for (const ReportObstacle& obstacle : input.obstacles)  // of a mesh there are no faces
+    if (input.plan.faces.empty() && is_shown(input, obstacle.storey))
+      for (const auto& p : obstacle.outline_W) box.add(p);
   for (const auto& sample : input.truth) box.add({sample.x, sample.y});
   const Eigen::Vector2d margin = Eigen::Vector2d::Constant(0.5);
   return {box.min - margin, box.max + margin};
@@ -179,9 +179,10 @@ std::string draw_plan(const ReportInput& input, int storey) {
     if (room.storey == storey) out += svg::polygon(room.polygon, "class=\"room\"");
   for (const auto& face : input.plan.faces)
     if (face.storey == storey) out += face_strokes(face, floor_z);
-  for (const ReportThing& thing : input.things)
-    if (thing.storey == storey)
-      out += svg::polygon(thing.outline_W, thing.filled ? "class=\"thing\"" : "class=\"thing hull\"", thing.id);
+  for (const ReportObstacle& obstacle : input.obstacles)
+    if (obstacle.storey == storey)
+      out +=
+          svg::polygon(obstacle.outline_W, obstacle.filled ? "class=\"thing\"" : "class=\"thing hull\"", obstacle.id);
   return out;
 }
 

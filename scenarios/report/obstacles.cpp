@@ -7,7 +7,6 @@
 
 #include "bim/model/fillings.h"
 #include "bim/model/hull.h"
-#include "bim/plan/plan.h"
 #include "sim/route/route.h"
 
 namespace plumbline::scenarios {
@@ -23,13 +22,13 @@ bool stands_in_the_way(const bim::Building& building, int storey, double z0, dou
 
 }  // namespace
 
-std::vector<ReportThing> things_of(const bim::Building& building) {
-  std::vector<ReportThing> things;
+std::vector<ReportObstacle> obstacles_of(const bim::Building& building, const bim::Plan& plan) {
+  std::vector<ReportObstacle> obstacles;
   std::set<std::string> solid;
-  for (const bim::PlanSolid& prism : bim::make_plan(building).solids) {
+  for (const bim::PlanSolid& prism : plan.solids) {
     solid.insert(prism.id);
     if (stands_in_the_way(building, prism.storey, prism.z0, prism.z1))
-      things.push_back({prism.id, prism.storey, prism.outline, true});
+      obstacles.push_back({prism.id, prism.storey, prism.outline, true});
   }
   for (const bim::Obstacle& obstacle : building.obstacles) {
     const std::vector<Eigen::Vector3d>& corners = obstacle.body.vertices;
@@ -40,9 +39,9 @@ std::vector<ReportThing> things_of(const bim::Building& building) {
     Polygon2 below;
     for (const Eigen::Vector3d& p : corners) below.emplace_back(p.head<2>());
     Polygon2 hull = bim::convex_hull(std::move(below));
-    if (!hull.empty()) things.push_back({obstacle.id, obstacle.storey, std::move(hull), false});
+    if (!hull.empty()) obstacles.push_back({obstacle.id, obstacle.storey, std::move(hull), false});
   }
-  return things;
+  return obstacles;
 }
 
 }  // namespace plumbline::scenarios

@@ -49,7 +49,7 @@ struct PlotExtras {
 };
 
 /// Two points of a path further apart than this in time, or further in space, are not joined: the robot was carried, or
-/// the method changed its mind.
+/// the method changed its answer.
 inline constexpr double path_gap_s = 1.0;
 inline constexpr double path_jump_m = 1.0;
 

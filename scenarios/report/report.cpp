@@ -28,12 +28,12 @@ bool is_good(const std::string& verdict) {
 std::string why_it_failed(const Tree* where) {
   const std::string failure = where == nullptr ? "" : text_of(*where, "failure");
   std::string why;
-  if (failure == "never_sampled") why = "the true place never came into question";
-  if (failure == "depleted") why = "the true place dropped out of question";
-  if (failure == "twin_preferred") why = "a place that looked the same at the start was preferred";
-  if (failure == "wrong_model") why = "a place that looks different was preferred";
-  if (failure == "tracking_lost") why = "the right place was lost again";
-  if (failure == "undecided") why = "the true place was one of several to the end";
+  if (failure == "never_sampled") why = "the true pose was never among the hypotheses";
+  if (failure == "depleted") why = "the true pose dropped out of the hypotheses";
+  if (failure == "twin_preferred") why = "a pose aliased with the true one at the start was preferred";
+  if (failure == "wrong_model") why = "a pose not aliased with the true one was preferred";
+  if (failure == "tracking_lost") why = "the right pose was lost again";
+  if (failure == "undecided") why = "the true pose remained one of several to the end";
   if (why.empty()) return "";
   const auto at = number_of(where, "failure_at_s");
   return ", since " + why + (at ? " (at " + svg::number(*at, 1) + " s)" : "");
@@ -46,8 +46,8 @@ std::string after_kidnap(const Tree* where) {
   const auto found = number_of(where, "kidnap_found_s");
   const std::string text =
       " Carried off and set down elsewhere, it gave a wrong answer for " + svg::number(*wrong, 1) + " s at a stretch";
-  return text + (found ? " and knew its place again after " + svg::number(*found, 1) + " s."
-                       : " and did not find its place again for good.");
+  return text + (found ? " and was localized again after " + svg::number(*found, 1) + " s."
+                       : " and was not localized again for good.");
 }
 
 /// What a plan localization did; `where` is its block of numbers, may be null.
@@ -56,22 +56,22 @@ std::string place_sentence(const std::string& verdict, const Tree* where) {
   const auto error = number_of(where, "ape_rmse_m");
   const auto places = number_of(where, "hypotheses");
   if (verdict == "honest_ambiguity" && places)
-    return "Kept " + svg::number(*places, 0) + " places in mind, rightly: what was seen does not tell them apart.";
-  if (verdict == "overconfident") return "Settled on one place though what was seen fits several.";
-  if (!time) return "Never settled on one place in the building" + why_it_failed(where) + ".";
-  if (verdict == "lucky") return "Settled on the right place before anything seen could tell it from another.";
-  if (verdict == "false_convergence") return "Settled on a wrong place" + why_it_failed(where) + ".";
+    return "Kept " + svg::number(*places, 0) + " hypotheses, rightly: the scans do not distinguish them.";
+  if (verdict == "overconfident") return "Converged on one pose though several explain the scans.";
+  if (!time) return "Never converged on one pose in the building" + why_it_failed(where) + ".";
+  if (verdict == "lucky") return "Converged on the right pose before the scans distinguished it from others.";
+  if (verdict == "false_convergence") return "Converged on a wrong pose" + why_it_failed(where) + ".";
   const std::string failure = text_of(*where, "failure");
   if (verdict == "lost")
-    return "Settled on a place after " + svg::number(*time, 1) + " s and did not keep it" + why_it_failed(where) + ".";
+    return "Converged after " + svg::number(*time, 1) + " s and lost the pose later" + why_it_failed(where) + ".";
   if (verdict == "late" && failure != "undecided")
-    return "Settled on a place after " + svg::number(*time, 1) + " s and gave it up again" + why_it_failed(where) + ".";
-  std::string text = "Knew its place in the building after " + svg::number(*time, 1) + " s";
-  if (error) text += " and was " + centimetres(*error) + " off from then on (rms)";
-  return text + (verdict == "late" ? "; too late to count, for an answer has to be held for 5 s and 1 m." : ".");
+    return "Converged after " + svg::number(*time, 1) + " s and withdrew its answer" + why_it_failed(where) + ".";
+  std::string text = "Converged on the right pose after " + svg::number(*time, 1) + " s";
+  if (error) text += ", with an error of " + centimetres(*error) + " from then on (rms)";
+  return text + (verdict == "late" ? "; too late to count: an answer must hold for 5 s and 1 m." : ".");
 }
 
-/// What happened, in a sentence or two that need no glossary.
+/// What happened, in a sentence or two.
 std::string sentence(const ReportMethod& method, const Tree* results) {
   const std::string verdict = results == nullptr ? "" : text_of(*results, "verdict");
   if (verdict == "crashed") return "The method stopped with an error.";
@@ -241,14 +241,14 @@ std::string script_data(const ReportInput& input, double end_s) {
   return json;
 }
 
-/// How many places what was seen leaves at best, over time.
-PlotCurve places_left(const ReportInput& input, double end_s) {
-  PlotCurve curve{"left by what was seen", "#5d6b7c", {}, "truth"};
+/// How many poses are consistent with the scans, over time.
+PlotCurve consistent_poses(const ReportInput& input, double end_s) {
+  PlotCurve curve{"consistent with the scans", "#5d6b7c", {}, "truth"};
   const Tree* known = input.results.find("identifiability");
   if (known == nullptr) return curve;
   constexpr double step_s = 0.5;  // a curve with larger gaps would be drawn open
   const Tree::List& places = known->find("places")->as_list();
-  if (input.kidnap) end_s = std::min(end_s, input.kidnap->lifted_s);  // it is known of the walk before
+  if (input.kidnap) end_s = std::min(end_s, input.kidnap->lifted_s);  // it is computed up to there
   for (std::size_t i = 0; i < places.size(); ++i) {
     const double until = i + 1 < places.size() ? places[i + 1].find("t_s")->as_double() : end_s;
     for (double t = places[i].find("t_s")->as_double(); t <= until; t += step_s)
@@ -257,18 +257,18 @@ PlotCurve places_left(const ReportInput& input, double end_s) {
   return curve;
 }
 
-std::string what_could_be_known(const ReportInput& input) {
+std::string identifiability_text(const ReportInput& input) {
   const Tree* known = input.results.find("identifiability");
   if (known == nullptr) return "";
-  std::string text = "What was seen never left a single place.";
+  std::string text = "The scans never distinguished the true pose from all others.";
   if (const auto at = number_of(known, "at_s"))
-    text = *at <= 0.0 ? "The first look left a single place."
-                      : "What was seen left a single place after " + svg::number(*at, 1) + " s and " +
+    text = *at <= 0.0 ? "Identifiable from the first scan on."
+                      : "Identifiable after " + svg::number(*at, 1) + " s and " +
                             svg::number(number_of(known, "at_m").value_or(0.0), 1) + " m.";
   if (const Tree* element = known->find("decided_by"))
-    text += " What told: " + text_of(*element, "element") +
-            (element->find("missing")->as_bool() ? ", which would be seen from the other place and was not."
-                                                 : ", which was seen and would not be from the other place.");
+    text += " Decided by " + text_of(*element, "element") +
+            (element->find("missing")->as_bool() ? ", which would be visible from the last aliased pose and was not."
+                                                 : ", which was visible and would not be from the last aliased pose.");
   return "<p class=\"facts\">" + svg::escape(text) + "</p>";
 }
 
@@ -284,13 +284,13 @@ std::string plots(const ReportInput& input, double end_s) {
     for (const auto& state : input.methods[i].states) count.points.emplace_back(state.t_s, state.hypotheses);
     if (!count.points.empty()) counts.push_back(std::move(count));
   }
-  if (PlotCurve possible = places_left(input, end_s); !counts.empty() && !possible.points.empty())
+  if (PlotCurve possible = consistent_poses(input, end_s); !counts.empty() && !possible.points.empty())
     counts.push_back(std::move(possible));
   std::string out = "<section class=\"card\"><h2>Position error over time, cm (click to jump)</h2>" +
                     draw_plot("errors", curves, end_s, {common_marks(input), {}, 0.0, false}) + "</section>";
   if (!counts.empty())
-    out += "<section class=\"card\"><h2>Places still thought possible, over time</h2>" +
-           draw_plot("hypotheses", counts, end_s, {common_marks(input), {}, 0.0, true}) + what_could_be_known(input) +
+    out += "<section class=\"card\"><h2>Hypotheses over time</h2>" +
+           draw_plot("hypotheses", counts, end_s, {common_marks(input), {}, 0.0, true}) + identifiability_text(input) +
            "</section>";
   return out;
 }

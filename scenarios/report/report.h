@@ -8,7 +8,7 @@
 
 #include "bim/config/tree.h"
 #include "bim/plan/plan.h"
-#include "scenarios/report/deviations.h"
+#include "scenarios/report/deviation_list.h"
 #include "scenarios/report/obstacles.h"
 #include "slam/io/estimate.h"
 
@@ -24,7 +24,7 @@ struct ReportSample {
   int storey = 0;        ///< index into Plan::storeys, by its height
 };
 
-/// A believed wall face, as a segment in W.
+/// A wall face of an estimate or of the plan, as a segment in W.
 struct ReportWall {
   Eigen::Vector2d p0 = Eigen::Vector2d::Zero();
   Eigen::Vector2d p1 = Eigen::Vector2d::Zero();
@@ -53,35 +53,35 @@ struct ReportState {
   slam::State state = slam::State::searching;
 };
 
-/// One place that a plan localization believed in, over time.
-struct ReportTrack {
-  bool is_true = false;                 ///< it is where the robot truly was
-  std::string room;                     ///< in which it came up, may be empty
-  std::vector<Eigen::Vector2d> points;  ///< (time in s, share of the belief in [0, 1])
+/// One hypothesis of a plan localization over time.
+struct HypothesisHistory {
+  bool is_true = false;                 ///< it is the true pose
+  std::string room;                     ///< in which it came up first, may be empty
+  std::vector<Eigen::Vector2d> points;  ///< (time in s, mass in [0, 1])
 };
 
-/// A wall of the plan that a robot at a hypothesis recognised, in W.
+/// A wall of the plan that was matched at a hypothesis, in W.
 struct ReportMatch {
   std::vector<ReportWall> faces;  ///< of the plan
-  ReportWall patch;               ///< what was seen, as it lies from the hypothesis
-  bool right = false;             ///< it truly was that wall
+  ReportWall patch;               ///< the observed wall, seen from the hypothesis
+  bool right = false;             ///< it was that wall
 };
 
 /// A hypothesis at one time.
-struct ReportPlace {
+struct ReportHypothesis {
   Eigen::Vector2d at = Eigen::Vector2d::Zero();
   double yaw = 0.0;   ///< rad
-  double mass = 0.0;  ///< share of the belief in [0, 1]
+  double mass = 0.0;  ///< in [0, 1]
   std::vector<ReportMatch> walls;
 };
 
-/// The walls recognised at one time.
+/// The walls matched at one time.
 struct ReportWalls {
-  std::string label;  ///< "when it settled", "at the end"
+  std::string label;  ///< "at convergence", "at the end"
   double t_s = 0.0;
   int storey = 0;  ///< the one the robot was on
   Eigen::Vector2d truth = Eigen::Vector2d::Zero();
-  std::vector<ReportPlace> places;
+  std::vector<ReportHypothesis> hypotheses;
 };
 
 struct ReportMethod {
@@ -92,7 +92,7 @@ struct ReportMethod {
   std::vector<ReportRoom> rooms;
   std::vector<ReportBelief> beliefs;
   std::vector<ReportState> states;
-  std::vector<ReportTrack> tracks;
+  std::vector<HypothesisHistory> histories;
   std::vector<ReportWalls> recognised;
 };
 
@@ -113,7 +113,7 @@ struct ReportKidnap {
 struct ReportInput {
   Tree results;
   bim::Plan plan;
-  std::vector<ReportThing> things;
+  std::vector<ReportObstacle> obstacles;
   std::vector<ReportStorey> storeys;  ///< those the robot was on, from the lowest up; at least one
   std::vector<ReportSample> truth;
   std::vector<ReportMethod> methods;
@@ -121,9 +121,9 @@ struct ReportInput {
 };
 
 /// One self-contained HTML page: the plan of every storey the robot was on, true and estimated trajectories, found
-/// walls and rooms, error over time, what was built otherwise than planned, what a localization believed over time and
-/// which walls it recognised, particles at start, middle and convergence, gates, every number. The same input gives the
-/// same bytes.
+/// walls and rooms, error over time, what was built otherwise than planned, the hypotheses of a localization over time
+/// and which walls it matched, particles at start, middle and convergence, gates, every number. The same input gives
+/// the same bytes.
 [[nodiscard]] std::string render_report(const ReportInput& input);
 
 }  // namespace plumbline::scenarios

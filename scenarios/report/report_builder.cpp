@@ -81,42 +81,42 @@ void add_beliefs(const bim::Plan& plan, const MethodRecord& method, const score:
 
 ReportWall wall_of(const Eigen::Vector2d& p0, const Eigen::Vector2d& p1) { return {p0, p1, 0}; }
 
-/// What a hypothesis recognised; `right` as the score judges it.
-ReportPlace place_of(const slam::Hypothesis& hypothesis, const Pose& X_WR_true, const bim::Plan& as_planned,
-                     const bim::Plan& as_built) {
-  ReportPlace place{hypothesis.X_WR.t.head<2>(), hypothesis.X_WR.yaw(), hypothesis.mass, {}};
+/// The walls that a hypothesis matched; `right` as the score judges it.
+ReportHypothesis hypothesis_of(const slam::Hypothesis& hypothesis, const Pose& X_WR_true, const bim::Plan& as_planned,
+                               const bim::Plan& as_built) {
+  ReportHypothesis shown{hypothesis.X_WR.t.head<2>(), hypothesis.X_WR.yaw(), hypothesis.mass, {}};
   const std::vector<bool> right = score::right_matches(hypothesis.walls, X_WR_true, as_planned, as_built);
   for (std::size_t i = 0; i < hypothesis.walls.size(); ++i) {
     const slam::WallMatch& match = hypothesis.walls[i];
-    ReportMatch shown;
-    shown.right = right[i];
-    shown.patch = wall_of((hypothesis.X_WR * match.p0_R).head<2>(), (hypothesis.X_WR * match.p1_R).head<2>());
+    ReportMatch matched;
+    matched.right = right[i];
+    matched.patch = wall_of((hypothesis.X_WR * match.p0_R).head<2>(), (hypothesis.X_WR * match.p1_R).head<2>());
     for (const bim::PlanFace& face : as_planned.faces)
       if (std::find(match.faces.begin(), match.faces.end(), face.id) != match.faces.end())
-        shown.faces.push_back(wall_of(face.p0, face.p1));
-    place.walls.push_back(std::move(shown));
+        matched.faces.push_back(wall_of(face.p0, face.p1));
+    shown.walls.push_back(std::move(matched));
   }
-  return place;
+  return shown;
 }
 
-/// The walls recognised half-way to the first convergence (or the end), there, and at the end, where they were kept.
-void add_recognised(const RunFiles& files, const MethodRecord& method, const score::RunScore& score,
+/// The walls matched half-way to the first convergence (or the end), there, and at the end, where they were kept.
+void add_recognised(const FinishedRun& run, const MethodRecord& method, const score::RunScore& score,
                     ReportMethod& shown) {
   std::vector<std::size_t> before;
-  std::optional<std::size_t> settled, last;
+  std::optional<std::size_t> converged, last;
   for (std::size_t i = 0; i < method.beliefs.size(); ++i) {
     const BeliefRecord& belief = method.beliefs[i];
     const bool kept = std::any_of(belief.hypotheses.begin(), belief.hypotheses.end(),
                                   [](const slam::Hypothesis& hypothesis) { return !hypothesis.walls.empty(); });
     if (!kept) continue;
     last = i;
-    if (!settled && belief.state == slam::State::converged) settled = i;
-    if (!settled) before.push_back(i);
+    if (!converged && belief.state == slam::State::converged) converged = i;
+    if (!converged) before.push_back(i);
   }
   if (!last) return;
-  const bim::Plan as_planned = bim::make_plan(files.site.as_planned);
+  const bim::Plan& as_planned = *run.building->plan_as_planned();
   const auto show = [&](std::size_t i, const std::string& label) {
-    constexpr std::size_t most = 8;  // places, so that walls stay apart
+    constexpr std::size_t most = 8;  // hypotheses, so that walls stay apart
     const BeliefRecord& belief = method.beliefs[i];
     const Pose X_WR = score.truth.at(belief.stamp);
     ReportWalls walls{label,
@@ -125,40 +125,41 @@ void add_recognised(const RunFiles& files, const MethodRecord& method, const sco
                       X_WR.t.head<2>(),
                       {}};
     for (std::size_t k = 0; k < std::min(most, belief.hypotheses.size()); ++k)
-      walls.places.push_back(place_of(belief.hypotheses[k], X_WR, as_planned, score.as_built));
+      walls.hypotheses.push_back(hypothesis_of(belief.hypotheses[k], X_WR, as_planned, run.building->plan_as_built()));
     shown.recognised.push_back(std::move(walls));
   };
   if (!before.empty()) show(before[before.size() / 2], "while searching");
-  if (settled) show(*settled, "when it settled");
-  if (last != settled && (before.empty() || *last != before[before.size() / 2])) show(*last, "at the end");
+  if (converged) show(*converged, "at convergence");
+  if (last != converged && (before.empty() || *last != before[before.size() / 2])) show(*last, "at the end");
 }
 
 /// The storey of the start and those the robot was on, from the lowest up.
-std::vector<ReportStorey> storeys_of(const RunFiles& files, const std::vector<ReportSample>& truth) {
-  const std::vector<bim::Storey>& storeys = files.site.as_built.storeys;
+std::vector<ReportStorey> storeys_of(const FinishedRun& run, const std::vector<ReportSample>& truth) {
+  const std::vector<bim::Storey>& storeys = run.building->as_built().storeys;
   std::set<std::pair<double, int>> shown;
   const auto show = [&](int index) { shown.emplace(storeys.at(static_cast<std::size_t>(index)).elevation_m, index); };
   for (const ReportSample& at : truth) show(at.storey);
   for (std::size_t i = 0; i < storeys.size(); ++i)
-    if (storeys[i].id == files.scenario.start.storey) show(static_cast<int>(i));
+    if (storeys[i].id == run.scenario.start.storey) show(static_cast<int>(i));
   if (shown.empty()) show(0);
   std::vector<ReportStorey> out;
   for (const auto& [elevation, index] : shown) {
     const bim::Storey& storey = storeys[static_cast<std::size_t>(index)];
-    out.push_back({index, storey.name.empty() ? storey.id : storey.name, report_deviations(files.site, index)});
+    out.push_back(
+        {index, storey.name.empty() ? storey.id : storey.name, report_deviations(run.building->variants(), index)});
   }
   return out;
 }
 
 }  // namespace
 
-ReportInput report_input(const RunFiles& files, const score::RunScore& score) {
+ReportInput report_input(const FinishedRun& run, const score::RunScore& score) {
   constexpr std::size_t shown_places = 6;  // curves that stay apart
   ReportInput input;
-  input.results = read_json(score::write_results(files, score), "results.json");
-  input.plan = score.as_built;
-  input.things = things_of(files.site.as_built);
-  const std::vector<bim::Room>& rooms = files.site.as_built.rooms;
+  input.results = read_json(score::write_results(run, score), "results.json");
+  input.plan = run.building->plan_as_built();
+  input.obstacles = obstacles_of(run.building->as_built(), run.building->plan_as_built());
+  const std::vector<bim::Room>& rooms = run.building->as_built().rooms;
   for (bim::PlanRoom& room : input.plan.rooms) {
     const auto named =
         std::find_if(rooms.begin(), rooms.end(), [&](const bim::Room& candidate) { return candidate.id == room.name; });
@@ -166,21 +167,21 @@ ReportInput report_input(const RunFiles& files, const score::RunScore& score) {
   }
   for (const slam::Nanoseconds stamp : score.truth.scans)
     input.truth.push_back(sample(input.plan, stamp, score.truth.at(stamp), 0.0));
-  input.storeys = storeys_of(files, input.truth);
+  input.storeys = storeys_of(run, input.truth);
   if (score.truth.set_down) {
     const auto down = std::find(score.truth.scans.begin(), score.truth.scans.end(), *score.truth.set_down);
     input.kidnap = ReportKidnap{slam::seconds(*(down - 1)), slam::seconds(*down)};
   }
-  for (std::size_t i = 0; i < files.methods.size(); ++i) {
-    const MethodRecord& method = files.methods[i];
+  for (std::size_t i = 0; i < run.record.methods.size(); ++i) {
+    const MethodRecord& method = run.record.methods[i];
     ReportMethod shown;
     shown.name = method.name;
     shown.localization = method.localization;
     shown.samples = samples_of(input.plan, method, score.truth);
     add_structure(input.plan, method, score.methods[i], shown);
     add_beliefs(input.plan, method, score.truth, shown);
-    shown.tracks = hypothesis_tracks(method.beliefs, score.truth, shown_places);
-    add_recognised(files, method, score, shown);
+    shown.histories = hypothesis_histories(method.beliefs, score.truth, shown_places);
+    add_recognised(run, method, score, shown);
     input.methods.push_back(std::move(shown));
   }
   return input;

@@ -4,23 +4,15 @@
 #include <array>
 #include <cmath>
 
-#include "bim/config/tree.h"
+#include "bim/config/number_list.h"
+#include "scenarios/metrics/state_names.h"
+#include "slam/io/pose_check.h"
 
 namespace plumbline::scenarios {
 
 namespace {
 
-constexpr std::array<std::string_view, 4> state_names = {"SEARCHING", "AMBIGUOUS", "CONVERGED", "LOST"};
-constexpr std::array<std::string_view, 3> room_names = {"four_wall", "two_wall", "polygon"};
-
-Tree numbers(std::initializer_list<double> values) {
-  Tree list = Tree::list();
-  for (const double v : values) list.push(v);
-  return list;
-}
-Tree numbers(const Eigen::Vector2d& v) { return numbers({v.x(), v.y()}); }
-Tree numbers(const Eigen::Vector3d& v) { return numbers({v.x(), v.y(), v.z()}); }
-Tree numbers(const Pose& X) { return numbers({X.t.x(), X.t.y(), X.t.z(), X.q.x(), X.q.y(), X.q.z(), X.q.w()}); }
+constexpr auto room_names = names_of(slam::RoomKind{});
 
 const Tree& child(const Tree& tree, std::string_view key) {
   const Tree* found = tree.find(key);
@@ -59,8 +51,8 @@ int index_of(const Tree& tree, const std::array<std::string_view, N>& names) {
 
 Tree write(const slam::PlaneNode& plane) {
   Tree tree = Tree::map();
-  tree.set("id", plane.id).set("n", numbers(plane.plane_F.n)).set("d", plane.plane_F.d);
-  tree.set("p0", numbers(plane.p0)).set("p1", numbers(plane.p1)).set("z0", plane.z0).set("z1", plane.z1);
+  tree.set("id", plane.id).set("n", number_list(plane.plane_F.n)).set("d", plane.plane_F.d);
+  tree.set("p0", number_list(plane.p0)).set("p1", number_list(plane.p1)).set("z0", plane.z0).set("z1", plane.z1);
   return tree.set("observations", plane.observations);
 }
 
@@ -78,12 +70,12 @@ slam::PlaneNode read_plane(const Tree& tree) {
 
 Tree write(const slam::RoomNode& room) {
   Tree polygon = Tree::list();
-  for (const Eigen::Vector2d& p : room.polygon_F) polygon.push(numbers(p));
+  for (const Eigen::Vector2d& p : room.polygon_F) polygon.push(number_list(p));
   Tree planes = Tree::list();
   for (const int id : room.planes) planes.push(id);
   Tree tree = Tree::map();
   tree.set("id", room.id).set("kind", room_names[static_cast<std::size_t>(room.kind)]);
-  return tree.set("center", numbers(room.center_F)).set("polygon", polygon).set("planes", planes);
+  return tree.set("center", number_list(room.center_F)).set("polygon", polygon).set("planes", planes);
 }
 
 slam::RoomNode read_room(const Tree& tree) {
@@ -98,8 +90,8 @@ slam::RoomNode read_room(const Tree& tree) {
 
 Tree write(const slam::FloorNode& floor) {
   Tree tree = Tree::map();
-  tree.set("id", floor.id).set("center", numbers(floor.center_F));
-  return tree.set("n", numbers(floor.plane_F.n)).set("d", floor.plane_F.d);
+  tree.set("id", floor.id).set("center", number_list(floor.center_F));
+  return tree.set("n", number_list(floor.plane_F.n)).set("d", floor.plane_F.d);
 }
 
 slam::FloorNode read_floor(const Tree& tree) {
@@ -108,15 +100,25 @@ slam::FloorNode read_floor(const Tree& tree) {
           {read_3d(child(tree, "n")), child(tree, "d").as_double()}};
 }
 
-double round_to(double value, double steps) { return std::round(value * steps) / steps; }
+/// Files hold no negative zero.
+double positive_zero(double value) { return value == 0.0 ? 0.0 : value; }
+double round_to(double value, double steps) { return positive_zero(std::round(value * steps) / steps); }
+
+Eigen::Vector3d rounded(const Eigen::Vector3d& p) {
+  return {round_to(p.x(), 1e3), round_to(p.y(), 1e3), round_to(p.z(), 1e3)};
+}
+slam::Particle rounded(const slam::Particle& particle) {
+  return {round_to(particle.x, 1e3), round_to(particle.y, 1e3), round_to(particle.yaw, 1e3),
+          round_to(particle.weight, 1e6)};
+}
 
 Tree write(const slam::WallMatch& match) {
   Tree faces = Tree::list();
   for (const int face : match.faces) faces.push(face);
-  const auto rounded = [](const Eigen::Vector3d& p) {
-    return numbers({round_to(p.x(), 1e3), round_to(p.y(), 1e3), round_to(p.z(), 1e3)});
-  };
-  return Tree::map().set("faces", faces).set("p0", rounded(match.p0_R)).set("p1", rounded(match.p1_R));
+  return Tree::map()
+      .set("faces", faces)
+      .set("p0", number_list(rounded(match.p0_R)))
+      .set("p1", number_list(rounded(match.p1_R)));
 }
 
 slam::WallMatch read_match(const Tree& tree) {
@@ -131,7 +133,7 @@ Tree write(const slam::Hypothesis& hypothesis) {
     for (int col = 0; col < 3; ++col) covariance.push(hypothesis.covariance(row, col));
   Tree tree = Tree::map();
   tree.set("mass", hypothesis.mass).set("room", hypothesis.room);
-  tree.set("pose", numbers(hypothesis.X_WR)).set("covariance", covariance);
+  tree.set("pose", number_list(hypothesis.X_WR)).set("covariance", covariance);
   if (hypothesis.walls.empty()) return tree;
   Tree walls = Tree::list();
   for (const slam::WallMatch& match : hypothesis.walls) walls.push(write(match));
@@ -139,8 +141,8 @@ Tree write(const slam::Hypothesis& hypothesis) {
 }
 
 Tree write(const slam::Particle& particle) {
-  return numbers({round_to(particle.x, 1e3), round_to(particle.y, 1e3), round_to(particle.yaw, 1e3),
-                  round_to(particle.weight, 1e6)});
+  const slam::Particle p = rounded(particle);
+  return number_list({p.x, p.y, p.yaw, p.weight});
 }
 
 template <class T>
@@ -176,6 +178,43 @@ BeliefRecord read_belief(const Tree& tree) {
   return belief;
 }
 
+template <class Derived>
+void drop_negative_zeros(Eigen::PlainObjectBase<Derived>& m) {
+  m = m.unaryExpr([](double value) { return positive_zero(value); }).eval();
+}
+void drop_negative_zeros(Pose& X) {
+  drop_negative_zeros(X.t);
+  drop_negative_zeros(X.q.coeffs());
+}
+void drop_negative_zeros(double& value) { value = positive_zero(value); }
+
+void round_as_written(slam::Hypothesis& hypothesis) {
+  drop_negative_zeros(hypothesis.mass);
+  drop_negative_zeros(hypothesis.X_WR);
+  drop_negative_zeros(hypothesis.covariance);
+  for (slam::WallMatch& match : hypothesis.walls) {
+    match.p0_R = rounded(match.p0_R);
+    match.p1_R = rounded(match.p1_R);
+  }
+}
+
+void round_as_written(slam::Estimate& estimate) {
+  for (slam::PlaneNode& plane : estimate.planes) {
+    for (double* value : {&plane.plane_F.d, &plane.z0, &plane.z1}) drop_negative_zeros(*value);
+    for (Eigen::Vector2d* p : {&plane.p0, &plane.p1}) drop_negative_zeros(*p);
+    drop_negative_zeros(plane.plane_F.n);
+  }
+  for (slam::RoomNode& room : estimate.rooms) {
+    drop_negative_zeros(room.center_F);
+    for (Eigen::Vector2d& p : room.polygon_F) drop_negative_zeros(p);
+  }
+  for (slam::FloorNode& floor : estimate.floors) {
+    for (Eigen::Vector3d* v : {&floor.center_F, &floor.plane_F.n}) drop_negative_zeros(*v);
+    drop_negative_zeros(floor.plane_F.d);
+  }
+  estimate.graph = Tree();
+}
+
 }  // namespace
 
 std::string write_estimate(const MethodRecord& method) {
@@ -203,8 +242,6 @@ void read_estimate(std::string_view text, const std::string& file, MethodRecord&
   for (const Tree& room : child(tree, "rooms").as_list()) method.estimate.rooms.push_back(read_room(room));
   for (const Tree& floor : child(tree, "floors").as_list()) method.estimate.floors.push_back(read_floor(floor));
 }
-
-std::string_view state_name(slam::State state) { return state_names[static_cast<std::size_t>(state)]; }
 
 std::string write_beliefs(const std::vector<BeliefRecord>& beliefs) {
   std::string text;
@@ -234,6 +271,23 @@ std::vector<BeliefRecord> read_beliefs(std::string_view text, const std::string&
     text.remove_prefix(std::min(end + 1, text.size()));
   }
   return beliefs;
+}
+
+void round_as_written(std::vector<slam::StampedPose>& poses) {
+  for (slam::StampedPose& pose : poses) {
+    drop_negative_zeros(pose.X_FR);
+    pose.X_FR = slam::checked_pose(pose.X_FR.t, pose.X_FR.q, {});
+  }
+}
+
+void round_as_written(MethodRecord& method) {
+  round_as_written(method.causal);
+  round_as_written(method.estimate.trajectory);
+  round_as_written(method.estimate);
+  for (BeliefRecord& belief : method.beliefs) {
+    for (slam::Hypothesis& hypothesis : belief.hypotheses) round_as_written(hypothesis);
+    for (slam::Particle& particle : belief.particles) particle = rounded(particle);
+  }
 }
 
 }  // namespace plumbline::scenarios

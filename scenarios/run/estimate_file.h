@@ -15,14 +15,16 @@ namespace plumbline::scenarios {
 /// Sets what write_estimate wrote. Throws InputError.
 void read_estimate(std::string_view text, const std::string& file, MethodRecord& method);
 
-/// "SEARCHING", "AMBIGUOUS", "CONVERGED", "LOST".
-[[nodiscard]] std::string_view state_name(slam::State state);
-
 /// <method>.hypotheses.jsonl: a line a scan {stamp_ns, state, hypotheses: [{mass, room, pose, covariance, walls: [{
 /// faces, p0, p1}]}], particles: [[x, y, yaw, weight]]}; pose is [x, y, z, qx, qy, qz, qw] of X_WR; walls, where there
 /// are any, are patches p0 to p1 in R and the ids of the plan's faces they were taken for; they and particles are
 /// rounded to 1 mm and 1 mrad.
 [[nodiscard]] std::string write_beliefs(const std::vector<BeliefRecord>& beliefs);
 [[nodiscard]] std::vector<BeliefRecord> read_beliefs(std::string_view text, const std::string& file);
+
+/// Poses as read back from a trajectory file: quaternions of norm 1, no negative zeros.
+void round_as_written(std::vector<slam::StampedPose>& poses);
+/// A record as read back from the files of its method: walls and particles rounded, without the graph.
+void round_as_written(MethodRecord& method);
 
 }  // namespace plumbline::scenarios

@@ -15,7 +15,7 @@ namespace plumbline::scenarios {
 
 namespace {
 
-std::uint64_t digest_of_odometry(const sim::WorldFrame& frame) {
+std::uint64_t digest_of_odometry(const slam::SensorFrame& frame) {
   Digest digest;
   for (const slam::Imu& imu : frame.imu)
     digest.add(imu.stamp).add(imu.angular_velocity_R).add(imu.linear_acceleration_R);
@@ -25,7 +25,7 @@ std::uint64_t digest_of_odometry(const sim::WorldFrame& frame) {
   return digest.value();
 }
 
-std::uint64_t digest_of_lidar(const sim::WorldFrame& frame) {
+std::uint64_t digest_of_lidar(const slam::SensorFrame& frame) {
   Digest digest;
   for (const slam::Vlp16Packet& packet : frame.packets) digest.add(packet.stamp).add_bytes(packet.payload);
   digest.add(frame.scan.stamp).add(frame.scan.columns);
@@ -36,12 +36,12 @@ std::uint64_t digest_of_lidar(const sim::WorldFrame& frame) {
 
 }  // namespace
 
-void add_sensors(const sim::WorldFrame& frame, DigestLog& log) {
+void add_sensor_digests(const slam::SensorFrame& frame, DigestLog& log) {
   log.push_back({frame.scan.stamp, "sim.odometry", digest_of_odometry(frame)});
   log.push_back({frame.scan.stamp, "sim.lidar", digest_of_lidar(frame)});
 }
 
-std::string walk_of(const DigestLog& log) {
+std::string sensor_digest_of(const DigestLog& log) {
   DigestLog sensors;
   for (const DigestEntry& entry : log)
     if (entry.stage == "sim.odometry" || entry.stage == "sim.lidar") sensors.push_back(entry);
@@ -66,7 +66,7 @@ SurfaceRecorder::SurfaceRecorder(const bim::BuildingMesh& mesh, double voxel_m)
 void SurfaceRecorder::add(const sim::ReturnLabels& labels) {
   const Eigen::Vector3i last = count_ - Eigen::Vector3i::Ones();
   for (std::size_t i = 0; i < labels.element.size(); ++i) {
-    // People and doors are no part of the building, and a mirror shows a place where it is not.
+    // People and doors are no part of the building; a return by a mirror lies where nothing is.
     if (labels.element[i] < 0 || labels.element[i] >= element_count_) continue;
     if ((labels.path[i] & sim::light_path::mirrored) != 0) continue;
     const Eigen::Vector3d& p = labels.point_W[i];
@@ -81,18 +81,17 @@ void SurfaceRecorder::add(const sim::ReturnLabels& labels) {
   }
 }
 
-FrameRecorder::FrameRecorder(const bim::BuildingMesh& mesh) : surface_(mesh) {}
+GroundTruthRecorder::GroundTruthRecorder(const bim::BuildingMesh& mesh) : surface_(mesh) {}
 
-void FrameRecorder::observe(const sim::WorldFrame& frame) {
-  const slam::Nanoseconds tick = frame.scan.stamp;
-  digests_.push_back({tick, "sim.robot", frame.robot_digest});
-  add_sensors(frame, digests_);
-  for (const sim::TruePose& truth : frame.truth)
+void GroundTruthRecorder::observe(const sim::WorldFrame& frame) {
+  digests_.push_back({frame.sensors.scan.stamp, "sim.robot", frame.truth.robot_digest});
+  add_sensor_digests(frame.sensors, digests_);
+  for (const sim::TruePose& truth : frame.truth.poses)
     if (truth_.empty() || truth.stamp > truth_.back().stamp) truth_.push_back({truth.stamp, truth.X_WR});
-  surface_.add(frame.labels);
+  surface_.add(frame.truth.labels);
 }
 
-void FrameRecorder::move_into(RunRecord& record) {
+void GroundTruthRecorder::move_into(RunRecord& record) {
   record.truth_W = std::move(truth_);
   record.surface_W = surface_.points_W();
 }

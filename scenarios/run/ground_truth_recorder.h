@@ -20,21 +20,21 @@ class SurfaceRecorder {
  private:
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
   double voxel_m_;
-  int element_count_;  ///< beyond are things that move, which are no surface of the building
+  int element_count_;  ///< from here on ids are of dynamic obstacles, which are no surface of the building
   Eigen::Vector3i count_ = Eigen::Vector3i::Zero();
   std::vector<bool> taken_;
   std::vector<Eigen::Vector3f> points_;
 };
 
 /// Adds the digests of what the sensors recorded up to this scan: sim.odometry (with IMU), sim.lidar.
-void add_sensors(const sim::WorldFrame& frame, DigestLog& log);
-/// One digest of all the sensors recorded on a walk, out of a log that holds it; RecordingInfo::walk.
-[[nodiscard]] std::string walk_of(const DigestLog& log);
+void add_sensor_digests(const slam::SensorFrame& frame, DigestLog& log);
+/// One digest of all that the sensors recorded in a run, from a log that holds their digests: RecordingInfo::walk.
+[[nodiscard]] std::string sensor_digest_of(const DigestLog& log);
 
 /// Keeps what scoring and replay need of every frame.
-class FrameRecorder {
+class GroundTruthRecorder {
  public:
-  explicit FrameRecorder(const bim::BuildingMesh& mesh);
+  explicit GroundTruthRecorder(const bim::BuildingMesh& mesh);
   void observe(const sim::WorldFrame& frame);
   /// Hands over truth and surface. Call once.
   void move_into(RunRecord& record);

@@ -1,170 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenarios/run/method_runner.h"
 
-#include <algorithm>
-#include <exception>
-
-#include "bim/digest/digest.h"
-#include "bim/errors.h"
-#include "scenarios/spec/method_names.h"
-#include "slam/io/pose_check.h"
-#include "slam/io/stopwatch.h"
+#include <utility>
 
 namespace plumbline::scenarios {
 
-namespace {
+MethodRunner::MethodRunner(slam::MethodRow row, slam::MethodInput input)
+    : row_(std::move(row)), input_(std::move(input)), recorder_(std::string(row_.name), row_.needs_plan) {}
 
-/// Particle sets and matched walls are large: between changes of the state one is kept every so often.
-constexpr slam::Nanoseconds detail_interval = 1'000'000'000;
-
-Digest& add_pose(Digest& digest, const std::optional<Pose>& X) {
-  digest.add(X ? 1 : 0);
-  return X ? digest.add(*X) : digest;
+void MethodRunner::on_frame(const slam::SensorFrame& frame) {
+  recorder_.on_scan(frame.scan.stamp, [&] { return process(frame); });
 }
 
-std::uint64_t digest_of(const slam::Output& output) {
-  Digest digest;
-  digest.add(output.stamp).add(static_cast<int>(output.state));
-  add_pose(digest, output.X_FR);
-  for (const slam::Hypothesis& hypothesis : output.hypotheses) {
-    digest.add(hypothesis.mass).add(hypothesis.X_WR).add(std::string_view(hypothesis.room));
-    digest.add(std::span<const double>(hypothesis.covariance.data(), 9));
+/// Records by time; at equal times IMU, then odometry, then the scan.
+slam::Output MethodRunner::process(const slam::SensorFrame& frame) {
+  if (!method_) method_ = row_.make(input_);  // here, so that a method that cannot even start has crashed
+  auto imu = frame.imu.begin();
+  for (const slam::Odometry& odometry : frame.odometry) {
+    for (; imu != frame.imu.end() && imu->stamp <= odometry.stamp; ++imu) method_->on_imu(*imu);
+    method_->on_odometry(odometry);
   }
-  return digest.value();
+  for (; imu != frame.imu.end(); ++imu) method_->on_imu(*imu);
+  return method_->on_scan(frame.scan);
 }
 
-std::uint64_t digest_of(const slam::Estimate& estimate) {
-  Digest digest;
-  digest.add(static_cast<int>(estimate.frame));
-  for (const slam::StampedPose& pose : estimate.trajectory) digest.add(pose.stamp).add(pose.X_FR);
-  for (const slam::PlaneNode& plane : estimate.planes)
-    digest.add(plane.id).add(plane.plane_F).add(plane.p0).add(plane.p1).add(plane.z0).add(plane.z1);
-  for (const slam::RoomNode& room : estimate.rooms) {
-    digest.add(room.id).add(static_cast<int>(room.kind)).add(room.center_F);
-    for (const Eigen::Vector2d& p : room.polygon_F) digest.add(p);
-    for (const int plane : room.planes) digest.add(plane);
-  }
-  for (const slam::FloorNode& floor : estimate.floors) digest.add(floor.id).add(floor.center_F).add(floor.plane_F);
-  for (const Eigen::Vector3f& p : estimate.map_F) digest.add(Eigen::Vector3d(p.cast<double>()));
-  return digest.value();
+MethodRecord MethodRunner::finish() {
+  return recorder_.finish([&] { return method_ ? method_->finish() : slam::Estimate{}; });
 }
-
-/// What could not be read back from the run's files is no answer.
-void check(const Pose& X_FR) {
-  if (!slam::plausible(X_FR))
-    throw InternalError("said a pose that is none: more than 100,000 km off, or its quaternion is not of norm 1");
-}
-
-class Estimator : public Participant {
- public:
-  Estimator(const slam::MethodRow& row, const slam::MethodInput& input)
-      : Participant(std::string(row.name), row.needs_plan), row_(row), input_(input) {}
-
- protected:
-  /// Records by time; at equal times IMU, then odometry, then the scan.
-  slam::Output process(const sim::WorldFrame& frame) override {
-    if (!method_) method_ = row_.make(input_);  // here, so that a method that cannot even start has crashed
-    auto imu = frame.imu.begin();
-    for (const slam::Odometry& odometry : frame.odometry) {
-      for (; imu != frame.imu.end() && imu->stamp <= odometry.stamp; ++imu) method_->on_imu(*imu);
-      method_->on_odometry(odometry);
-    }
-    for (; imu != frame.imu.end(); ++imu) method_->on_imu(*imu);
-    return method_->on_scan(frame.scan);
-  }
-  slam::Estimate estimate() override { return method_ ? method_->finish() : slam::Estimate{}; }
-
- private:
-  slam::MethodRow row_;
-  slam::MethodInput input_;
-  std::unique_ptr<slam::Method> method_;
-};
-
-/// M = W: what a perfect SLAM would say.
-class TruthTeller : public Participant {
- public:
-  TruthTeller() : Participant(std::string(truth_method), false) {}
-
- protected:
-  slam::Output process(const sim::WorldFrame& frame) override {
-    if (frame.truth.empty()) throw InternalError("a frame without truth");
-    slam::Output output;
-    output.stamp = frame.scan.stamp;
-    output.X_FR = frame.truth.back().X_WR;
-    return output;
-  }
-  slam::Estimate estimate() override { return {}; }
-};
-
-}  // namespace
-
-Participant::Participant(std::string name, bool localization) {
-  record_.name = std::move(name);
-  record_.localization = localization;
-}
-
-void Participant::on_frame(const sim::WorldFrame& frame) {
-  if (record_.crashed) return;
-  last_stamp_ = frame.scan.stamp;
-  try {
-    keep(process(frame));
-  } catch (const std::exception& error) {
-    record_.crashed = true;
-    record_.error = error.what();
-  }
-}
-
-void Participant::keep(const slam::Output& output) {
-  if (output.X_FR) check(*output.X_FR);
-  for (const slam::Hypothesis& hypothesis : output.hypotheses) check(hypothesis.X_WR);
-  const auto log = [&](const std::string& stage, std::uint64_t digest) {
-    record_.digests.push_back({last_stamp_, record_.name + "/" + stage, digest});
-  };
-  for (const slam::StageDigest& stage : output.digests) log(stage.stage, stage.digest);
-  log("output", digest_of(output));
-  if (output.X_FR) record_.causal.push_back({output.stamp, *output.X_FR});
-  if (record_.localization) keep_belief(output);
-  for (const slam::StageTime& time : output.times) add_time(record_.times, time);
-}
-
-void Participant::keep_belief(const slam::Output& output) {
-  const bool first = record_.beliefs.empty();
-  const bool changed = first || record_.beliefs.back().state != output.state;
-  BeliefRecord belief{output.stamp, output.state, output.hypotheses, {}};
-  if (!output.particles.empty() && (changed || output.stamp - particles_stamp_ >= detail_interval)) {
-    belief.particles = output.particles;
-    particles_stamp_ = output.stamp;
-  }
-  const bool has_walls = std::any_of(output.hypotheses.begin(), output.hypotheses.end(),
-                                     [](const slam::Hypothesis& hypothesis) { return !hypothesis.walls.empty(); });
-  if (has_walls && (changed || output.stamp - walls_stamp_ >= detail_interval))
-    walls_stamp_ = output.stamp;
-  else
-    for (slam::Hypothesis& hypothesis : belief.hypotheses) hypothesis.walls.clear();
-  record_.beliefs.push_back(std::move(belief));
-}
-
-MethodRecord Participant::finish() {
-  if (!record_.crashed) {
-    try {
-      const slam::Stopwatch watch;
-      slam::Estimate answer = estimate();
-      for (const slam::StampedPose& pose : answer.trajectory) check(pose.X_FR);
-      record_.estimate = std::move(answer);
-      if (!record_.times.empty()) add_time(record_.times, {"finish", watch.cpu_ms()});
-      record_.digests.push_back({last_stamp_, record_.name + "/estimate", digest_of(record_.estimate)});
-    } catch (const std::exception& error) {
-      record_.crashed = true;
-      record_.error = error.what();
-    }
-  }
-  return std::move(record_);
-}
-
-std::unique_ptr<Participant> make_estimator(const slam::MethodRow& row, const slam::MethodInput& input) {
-  return std::make_unique<Estimator>(row, input);
-}
-
-std::unique_ptr<Participant> make_truth() { return std::make_unique<TruthTeller>(); }
 
 }  // namespace plumbline::scenarios

@@ -2,42 +2,30 @@
 #pragma once
 
 #include <memory>
-#include <string>
-#include <vector>
 
-#include "scenarios/run/record.h"
-#include "sim/world.h"
+#include "scenarios/run/method_recorder.h"
+#include "slam/io/recordings/sensor_frame.h"
 #include "slam/methods.h"
 
 namespace plumbline::scenarios {
 
-/// One method of a run: feeds it the frames in time order and keeps what it says. A method that throws has crashed;
-/// it gets no further frame and does not disturb the others.
-class Participant {
+/// One estimator of a run: feeds it the sensor frames in time order and records its answers. Sensor frames are all it
+/// is given, so that no estimator can see the truth. A method that crashes does not disturb the others.
+class MethodRunner {
  public:
-  virtual ~Participant() = default;
-  void on_frame(const sim::WorldFrame& frame);
+  MethodRunner(slam::MethodRow row, slam::MethodInput input);
+
+  void on_frame(const slam::SensorFrame& frame);
   /// Call once, after the last frame.
   [[nodiscard]] MethodRecord finish();
 
- protected:
-  Participant(std::string name, bool localization);
-  virtual slam::Output process(const sim::WorldFrame& frame) = 0;
-  virtual slam::Estimate estimate() = 0;
-
  private:
-  void keep(const slam::Output& output);
-  void keep_belief(const slam::Output& output);
+  [[nodiscard]] slam::Output process(const slam::SensorFrame& frame);
 
-  MethodRecord record_;
-  slam::Nanoseconds last_stamp_ = 0;
-  slam::Nanoseconds particles_stamp_ = 0;
-  slam::Nanoseconds walls_stamp_ = 0;
+  slam::MethodRow row_;
+  slam::MethodInput input_;
+  std::unique_ptr<slam::Method> method_;
+  MethodRecorder recorder_;
 };
-
-/// An estimator of the table. It sees odometry, IMU and scans, never the frame's truth.
-[[nodiscard]] std::unique_ptr<Participant> make_estimator(const slam::MethodRow& row, const slam::MethodInput& input);
-/// The method that knows the truth: scores 0, which checks the scorer.
-[[nodiscard]] std::unique_ptr<Participant> make_truth();
 
 }  // namespace plumbline::scenarios

@@ -40,7 +40,7 @@ struct MethodRecord {
   std::vector<StageTimes> times;
 };
 
-/// Everything one simulated run left behind. Truth is for scoring only.
+/// Everything one run left behind, the ground truth with it, which is for scoring alone.
 struct RunRecord {
   std::vector<slam::StampedPose> truth_W;  ///< X_WR, 100 Hz and at every scan
   std::vector<Eigen::Vector3f> surface_W;  ///< as-built points hit by true returns, one a 0.1 m voxel

@@ -39,19 +39,20 @@ void Recorder::add_bag(const slam::BagProfile& profile, bool with_truth) {
 }
 
 void Recorder::add(const sim::WorldFrame& frame) {
-  writer_.add(frame.packets, frame.odometry, frame.imu);
-  writer_.add(frame.covariances);
-  add_sensors(frame, digests_);
+  const slam::SensorFrame& sensors = frame.sensors;
+  writer_.add(sensors.packets, sensors.odometry, sensors.imu);
+  writer_.add(sensors.covariances);
+  add_sensor_digests(sensors, digests_);
   if (!bag_) return;
-  bag_->add(frame.scan, frame.odometry, frame.imu, frame.covariances);
+  bag_->add(sensors.scan, sensors.odometry, sensors.imu, sensors.covariances);
   if (!truth_in_bag_) return;
   std::vector<slam::StampedPose> truth;
-  for (const sim::TruePose& pose : frame.truth) truth.push_back({pose.stamp, pose.X_WR});
+  for (const sim::TruePose& pose : frame.truth.poses) truth.push_back({pose.stamp, pose.X_WR});
   bag_->add_truth(truth);
 }
 
 void Recorder::finish() {
-  writer_.finish(walk_of(digests_));
+  writer_.finish(sensor_digest_of(digests_));
   if (bag_) bag_->finish();
 }
 

@@ -8,7 +8,6 @@
 #include "scenarios/host/files.h"
 #include "scenarios/run/cloud_file.h"
 #include "scenarios/run/estimate_file.h"
-#include "scenarios/run/method_runner.h"
 #include "scenarios/spec/method_names.h"
 #include "slam/io/recordings/tum.h"
 
@@ -33,10 +32,18 @@ std::vector<std::string> method_names_in(const std::string& dir, const Scenario&
 
 }  // namespace
 
+bool is_oracle(const MethodRecord& method) { return method.name == truth_method; }
+
+void give_truth(const RunRecord& run, MethodRecord& oracle) {
+  oracle.causal = run.truth_W;
+  oracle.estimate.trajectory = run.truth_W;
+  oracle.estimate.map_F = run.surface_W;
+}
+
 void write_method(const std::string& dir, const MethodRecord& method) {
   const std::string stem = dir + "/" + method.name;
   write_file(stem + std::string(estimate_end), write_estimate(method));
-  if (method.name == truth_method) return;  // truth.tum and truth_surface.ply hold what it knows
+  if (is_oracle(method)) return;
   write_file(stem + ".tum", slam::write_tum(method.causal));
   write_file(stem + ".final.tum", slam::write_tum(method.estimate.trajectory));
   for (const char* end : other_ends) fs::remove(stem + end);  // of an estimate that had this name before
@@ -50,7 +57,7 @@ void write_method(const std::string& dir, const MethodRecord& method) {
 
 void remove_method(const std::string& dir, const std::string& name) {
   const std::string stem = dir + "/" + name;
-  fs::remove(stem + std::string(estimate_end));  // first: without it the others are nobody's
+  fs::remove(stem + std::string(estimate_end));  // first: without it the others belong to no method
   for (const char* end : {".tum", ".final.tum"}) fs::remove(stem + end);
   for (const char* end : other_ends) fs::remove(stem + end);
 }
@@ -102,31 +109,28 @@ void check_run_directory(const std::string& dir) {
                                         "; name one that plumbline run wrote");
 }
 
-RunFiles read_run_files(const std::string& dir) {
+FinishedRun read_run(const std::string& dir) {
   check_run_directory(dir);
   const auto path = [&](std::string_view name) { return dir + "/" + std::string(name); };
-  RunFiles files;
-  files.dir = dir;
-  files.scenario = read_scenario(read_text_file(path("scenario.yaml")), path("scenario.yaml")).scenario;
-  files.site = bim::load_site(path(files.scenario.building), files.scenario.building_options);
-  files.digests = read_digests(read_text_file(path("digests.csv")), path("digests.csv"));
-  for (const DigestEntry& entry : files.digests)
-    if (entry.stage == "sim.lidar") files.scans.push_back(entry.tick);
-  if (files.scans.empty())
-    throw InputError({path("digests.csv"), 0, 0}, "holds no scan; the run ended before its first");
-  files.truth_W = slam::read_tum(read_text_file(path("truth.tum")), path("truth.tum"));
-  files.surface_W = read_ply(read_text_file(path("truth_surface.ply")), path("truth_surface.ply"));
-  for (const std::string& name : method_names_in(dir, files.scenario)) {
-    MethodRecord& method = files.methods.emplace_back(read_method(dir, name));
-    if (name != truth_method) continue;
-    method.estimate.trajectory = files.truth_W;
-    method.estimate.map_F = files.surface_W;
+  FinishedRun run;
+  run.scenario = read_scenario(read_text_file(path("scenario.yaml")), path("scenario.yaml")).scenario;
+  run.building = std::make_shared<const RunBuilding>(
+      bim::load_planned_and_built(path(run.scenario.building), run.scenario.building_options));
+  RunRecord& record = run.record;
+  record.digests = read_digests(read_text_file(path("digests.csv")), path("digests.csv"));
+  run.scans = scans_of(record.digests);
+  if (run.scans.empty()) throw InputError({path("digests.csv"), 0, 0}, "holds no scan; the run ended before its first");
+  record.truth_W = slam::read_tum(read_text_file(path("truth.tum")), path("truth.tum"));
+  record.surface_W = read_ply(read_text_file(path("truth_surface.ply")), path("truth_surface.ply"));
+  for (const std::string& name : method_names_in(dir, run.scenario)) {
+    MethodRecord& method = record.methods.emplace_back(read_method(dir, name));
+    if (is_oracle(method)) give_truth(record, method);
   }
   if (fs::exists(path("failure.txt"))) {
-    files.failure = read_text_file(path("failure.txt"));
-    while (!files.failure.empty() && files.failure.back() == '\n') files.failure.pop_back();
+    record.failure = read_text_file(path("failure.txt"));
+    while (!record.failure.empty() && record.failure.back() == '\n') record.failure.pop_back();
   }
-  return files;
+  return run;
 }
 
 }  // namespace plumbline::scenarios

@@ -4,24 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "bim/load/load.h"
-#include "scenarios/run/record.h"
-#include "scenarios/spec/resolve.h"
+#include "scenarios/run/finished_run.h"
 
 namespace plumbline::scenarios {
-
-/// What a run directory holds, as far as scoring and the report need it.
-struct RunFiles {
-  std::string dir;
-  Scenario scenario;
-  bim::Site site;
-  DigestLog digests;
-  std::vector<slam::Nanoseconds> scans;  ///< stamps of all scans
-  std::vector<slam::StampedPose> truth_W;
-  std::vector<Eigen::Vector3f> surface_W;
-  std::vector<MethodRecord> methods;  ///< the scenario's in its order, then outside trajectories by name
-  std::string failure;                ///< why the scenario ended early, or empty
-};
 
 /// Writes everything but scores and report into `dir`: building, scenario.yaml, digests.csv, truth.tum,
 /// truth_surface.ply, and of each method <method>.tum, .final.tum, .estimate.json, .map.ply, .map.pcd, .graph.json,
@@ -32,7 +17,12 @@ void write_run_files(const std::string& dir, const ResolvedScenario& resolved, c
 /// Throws InputError on what is no run directory.
 void check_run_directory(const std::string& dir);
 /// Reads a run directory. Throws InputError at the file and line that is missing or damaged.
-[[nodiscard]] RunFiles read_run_files(const std::string& dir);
+[[nodiscard]] FinishedRun read_run(const std::string& dir);
+
+/// The oracle leaves no files but its estimate: what it knows stands in truth.tum and truth_surface.ply.
+[[nodiscard]] bool is_oracle(const MethodRecord& method);
+/// Sets what the oracle answers from the truth of its run.
+void give_truth(const RunRecord& run, MethodRecord& oracle);
 
 /// Writes the files of one method.
 void write_method(const std::string& dir, const MethodRecord& method);

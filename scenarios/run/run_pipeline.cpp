@@ -14,12 +14,12 @@ namespace plumbline::scenarios {
 
 namespace {
 
-using Frame = std::shared_ptr<const sim::WorldFrame>;
+using Frame = std::shared_ptr<const slam::SensorFrame>;
 
-/// So many threads may work at a time. With std::counting_semaphore (GCC 12) a run slept for ever.
-class Permits {
+/// How many threads may work at one time. std::counting_semaphore of GCC 12 loses wake-ups: a run slept for ever.
+class Semaphore {
  public:
-  explicit Permits(int count) : free_(count) {}
+  explicit Semaphore(int count) : free_(count) {}
 
   void acquire() {
     std::unique_lock lock(mutex_);
@@ -40,23 +40,23 @@ class Permits {
   int free_;
 };
 
-/// Holds one of the permits to work.
-class Working {
+/// Holds one permit of a semaphore.
+class ScopedPermit {
  public:
-  explicit Working(Permits& permits) : permits_(permits) { permits_.acquire(); }
-  ~Working() { permits_.release(); }
-  Working(const Working&) = delete;
-  Working& operator=(const Working&) = delete;
+  explicit ScopedPermit(Semaphore& permits) : permits_(permits) { permits_.acquire(); }
+  ~ScopedPermit() { permits_.release(); }
+  ScopedPermit(const ScopedPermit&) = delete;
+  ScopedPermit& operator=(const ScopedPermit&) = delete;
 
  private:
-  Permits& permits_;
+  Semaphore& permits_;
 };
 
-/// One participant on a thread of its own.
+/// One method on a thread of its own.
 class MethodThread {
  public:
-  MethodThread(std::unique_ptr<Participant> participant, Permits& permits, std::size_t capacity)
-      : participant_(std::move(participant)), permits_(permits), queue_(capacity), thread_([this] { work(); }) {}
+  MethodThread(std::unique_ptr<MethodRunner> method, Semaphore& permits, std::size_t capacity)
+      : method_(std::move(method)), permits_(permits), queue_(capacity), thread_([this] { work(); }) {}
   ~MethodThread() {
     abandoned_ = true;
     queue_.close();
@@ -77,52 +77,50 @@ class MethodThread {
     set_float_mode();
     while (const std::optional<Frame> frame = queue_.pop()) {
       if (abandoned_) return;
-      const Working working(permits_);
-      participant_->on_frame(**frame);
+      const ScopedPermit permit(permits_);
+      method_->on_frame(**frame);
     }
     if (abandoned_) return;
-    const Working working(permits_);
-    record_ = participant_->finish();
+    const ScopedPermit permit(permits_);
+    record_ = method_->finish();
   }
 
-  std::unique_ptr<Participant> participant_;
-  Permits& permits_;
+  std::unique_ptr<MethodRunner> method_;
+  Semaphore& permits_;
   BoundedQueue<Frame> queue_;
   std::atomic<bool> abandoned_ = false;
   MethodRecord record_;
   std::jthread thread_;  ///< last: it uses everything above
 };
 
-std::vector<MethodRecord> run_in_turn(const FrameSource& source, const FrameObserver& observe,
-                                      const std::vector<std::unique_ptr<Participant>>& participants) {
-  sim::WorldFrame frame;
+std::vector<MethodRecord> run_in_turn(const SensorSource& source,
+                                      const std::vector<std::unique_ptr<MethodRunner>>& methods) {
+  slam::SensorFrame frame;
   while (source(frame)) {
     check_interrupt();
-    observe(frame);
-    for (const auto& participant : participants) participant->on_frame(frame);
+    for (const auto& method : methods) method->on_frame(frame);
   }
   std::vector<MethodRecord> records;
-  for (const auto& participant : participants) {
+  for (const auto& method : methods) {
     check_interrupt();
-    records.push_back(participant->finish());
+    records.push_back(method->finish());
   }
   return records;
 }
 
-std::vector<MethodRecord> run_side_by_side(const FrameSource& source, const FrameObserver& observe,
-                                           std::vector<std::unique_ptr<Participant>> participants,
+std::vector<MethodRecord> run_side_by_side(const SensorSource& source,
+                                           std::vector<std::unique_ptr<MethodRunner>> methods,
                                            const PipelineConfig& config) {
-  Permits permits(config.threads);
+  Semaphore permits(config.threads);
   std::vector<std::unique_ptr<MethodThread>> threads;
-  for (auto& participant : participants)
-    threads.push_back(std::make_unique<MethodThread>(std::move(participant), permits, config.frames_ahead));
+  for (auto& method : methods)
+    threads.push_back(std::make_unique<MethodThread>(std::move(method), permits, config.frames_ahead));
   while (true) {
     check_interrupt();
-    auto frame = std::make_shared<sim::WorldFrame>();
+    auto frame = std::make_shared<slam::SensorFrame>();
     {
-      const Working working(permits);
+      const ScopedPermit permit(permits);
       if (!source(*frame)) break;
-      observe(*frame);
     }
     for (const auto& thread : threads) thread->push(frame);
   }
@@ -134,12 +132,11 @@ std::vector<MethodRecord> run_side_by_side(const FrameSource& source, const Fram
 
 }  // namespace
 
-std::vector<MethodRecord> run_pipeline(const FrameSource& source, const FrameObserver& observe,
-                                       std::vector<std::unique_ptr<Participant>> participants,
+std::vector<MethodRecord> run_pipeline(const SensorSource& source, std::vector<std::unique_ptr<MethodRunner>> methods,
                                        const PipelineConfig& config) {
   set_float_mode();
-  if (config.threads <= 1) return run_in_turn(source, observe, participants);
-  return run_side_by_side(source, observe, std::move(participants), config);
+  if (config.threads <= 1) return run_in_turn(source, methods);
+  return run_side_by_side(source, std::move(methods), config);
 }
 
 }  // namespace plumbline::scenarios

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenarios/run/runner.h"
 
+#include <algorithm>
+#include <utility>
+
 #include "bim/digest/float_mode.h"
 #include "bim/errors.h"
-#include "bim/mesh/mesh.h"
-#include "bim/plan/plan.h"
 #include "bim/random/stream.h"
 #include "scenarios/run/ground_truth_recorder.h"
 #include "scenarios/run/method_runner.h"
@@ -14,12 +15,11 @@
 
 namespace plumbline::scenarios {
 
-std::vector<std::unique_ptr<Participant>> make_participants(const ResolvedScenario& resolved) {
-  const auto plan = std::make_shared<const bim::Plan>(bim::make_plan(resolved.site.as_planned));
-  std::vector<std::unique_ptr<Participant>> participants;
+RunMethods make_methods(const ResolvedScenario& resolved) {
+  RunMethods methods;
   for (const std::string& name : resolved.scenario.methods) {
     if (name == truth_method) {
-      participants.push_back(make_truth());
+      methods.oracle.emplace();
       continue;
     }
     const slam::MethodRow* row = slam::find_method(name, resolved.table);
@@ -28,40 +28,49 @@ std::vector<std::unique_ptr<Participant>> make_participants(const ResolvedScenar
     input.seed = method_seed(resolved.scenario.seed, name);
     input.calibration = sim::World::calibration();
     if (row->needs_plan) {
-      input.plan = plan;
+      input.plan = resolved.building->plan_as_planned();
       input.prior = resolved.prior;
     }
-    participants.push_back(make_estimator(*row, input));
+    methods.estimators.push_back(std::make_unique<MethodRunner>(*row, std::move(input)));
   }
-  return participants;
+  return methods;
+}
+
+std::vector<MethodRecord> RunMethods::finish(const Scenario& scenario, std::vector<MethodRecord> estimated) {
+  if (!oracle) return estimated;
+  const auto at = std::find(scenario.methods.begin(), scenario.methods.end(), truth_method) - scenario.methods.begin();
+  estimated.insert(estimated.begin() + at, oracle->finish());
+  return estimated;
 }
 
 RunRecord execute(const ResolvedScenario& resolved, const RunOptions& options) {
   set_float_mode();
-  const bim::Building& as_built = resolved.site.as_built;
-  const bim::BuildingMesh mesh = bim::build_mesh(as_built);
-  Walk walk(resolved, mesh);
-  FrameRecorder recorder(mesh);
+  SimulatedRun simulation(resolved);
+  GroundTruthRecorder recorder(resolved.building->mesh_as_built());
+  RunMethods methods;
+  if (options.methods) methods = make_methods(resolved);
   RunRecord record;
 
-  const FrameSource source = [&](sim::WorldFrame& frame) {
+  const SensorSource source = [&](slam::SensorFrame& sensors) {
+    sim::WorldFrame frame;
     try {
-      if (!walk.next(frame)) return false;
+      if (!simulation.next(frame)) return false;
     } catch (const ScenarioFailure& failure) {
       record.failure = failure.what();
       return false;
     }
     for (const slam::StageTime& time : frame.times) add_time(record.sim_times, time);
-    return !options.until_s || slam::seconds(frame.scan.stamp) <= *options.until_s;
-  };
-  const FrameObserver observe = [&](const sim::WorldFrame& frame) {
+    const double t_s = slam::seconds(frame.sensors.scan.stamp);
+    if (options.until_s && t_s > *options.until_s) return false;
     recorder.observe(frame);
-    if (options.sensors) options.sensors(frame);
-    if (options.tick) options.tick(slam::seconds(frame.scan.stamp));
+    if (methods.oracle) methods.oracle->on_truth(frame.truth);
+    if (options.observe) options.observe(frame);
+    if (options.tick) options.tick(t_s);
+    sensors = std::move(frame.sensors);
+    return true;
   };
-  std::vector<std::unique_ptr<Participant>> participants;
-  if (options.methods) participants = make_participants(resolved);
-  record.methods = run_pipeline(source, observe, std::move(participants), {.threads = options.threads});
+  record.methods = methods.finish(resolved.scenario,
+                                  run_pipeline(source, std::move(methods.estimators), {.threads = options.threads}));
 
   recorder.move_into(record);
   std::vector<DigestLog> logs = {recorder.digests()};

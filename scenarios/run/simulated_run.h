@@ -8,13 +8,13 @@
 
 namespace plumbline::scenarios {
 
-/// The simulated walk of a scenario. A robot that is kidnapped walks in a second world from where it is set down: time
-/// goes on, odometry goes on from the heading and place it had, since legs in the air say nothing; the sensors keep
+/// The simulation of a scenario. A robot that is kidnapped walks in a second world from where it is set down: time goes
+/// on, odometry goes on from its last position and heading, since legs in the air measure nothing; the sensors keep
 /// their errors. In between there is neither scan nor odometry.
-class Walk {
+class SimulatedRun {
  public:
-  /// All must outlive the walk. Throws as sim::World.
-  Walk(const ResolvedScenario& resolved, const bim::BuildingMesh& mesh);
+  /// `resolved` must outlive it. Throws as sim::World.
+  explicit SimulatedRun(const ResolvedScenario& resolved);
 
   /// As sim::World::next.
   [[nodiscard]] bool next(sim::WorldFrame& frame);
@@ -24,7 +24,6 @@ class Walk {
   void carry_on(sim::WorldFrame& frame) const;
 
   const ResolvedScenario& resolved_;
-  const bim::BuildingMesh& mesh_;
   std::optional<sim::World> world_;
   slam::Nanoseconds last_stamp_ = 0;
   Pose last_X_OR_;

@@ -48,11 +48,12 @@ Tree stage(const StageTimes& times) {
 
 }  // namespace
 
-std::string write_timings(const RunRecord& record, const RunCost& cost) {
+std::string write_timings(const std::vector<StageTimes>& simulation, const std::vector<MethodRecord>& methods,
+                          const RunCost& cost) {
   Tree stages = Tree::map();
-  for (const StageTimes& times : record.sim_times)
+  for (const StageTimes& times : simulation)
     if (!times.cpu_ms.empty()) stages.set(times.stage, stage(times));
-  for (const MethodRecord& method : record.methods)
+  for (const MethodRecord& method : methods)
     for (const StageTimes& times : method.times) stages.set(method.name + "/" + times.stage, stage(times));
   Tree tree = Tree::map();
   tree.set("total_s", round_ms(cost.total_s)).set("cpu_s", round_ms(cost.cpu_s));

@@ -17,6 +17,7 @@ struct RunCost {
 };
 
 /// timings.json: the only file of a run that is not the same every time.
-[[nodiscard]] std::string write_timings(const RunRecord& record, const RunCost& cost);
+[[nodiscard]] std::string write_timings(const std::vector<StageTimes>& simulation,
+                                        const std::vector<MethodRecord>& methods, const RunCost& cost);
 
 }  // namespace plumbline::scenarios

@@ -4,12 +4,12 @@
 #include <optional>
 
 #include "scenarios/metrics/localization_score.h"
-#include "scenarios/run/run_files.h"
+#include "scenarios/run/finished_run.h"
 
 namespace plumbline::scenarios::score {
 
-/// What the plan allows to be known on this run: start, route and prior as in its scenario. Knows no seed of an
-/// estimator and no method. Absent when the run has no pose.
-[[nodiscard]] std::optional<Identifiability> identifiability_of(const RunFiles& files, const Truth& truth);
+/// What can be known of the pose in this run: start, route and prior as in its scenario. It depends on no estimator and
+/// on no seed of one. Absent when the run has no pose.
+[[nodiscard]] std::optional<Identifiability> identifiability_of(const FinishedRun& run, const Truth& truth);
 
 }  // namespace plumbline::scenarios::score

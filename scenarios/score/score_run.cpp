@@ -4,9 +4,7 @@
 #include <algorithm>
 
 #include "bim/digest/digest.h"
-#include "bim/mesh/mesh.h"
 #include "scenarios/host/files.h"
-#include "scenarios/run/method_runner.h"
 #include "scenarios/score/handover.h"
 #include "scenarios/score/identifiability.h"
 #include "scenarios/spec/method_names.h"
@@ -93,7 +91,7 @@ bool is_asked_for(std::string_view metric, const MethodRecord& method) {
 }
 
 /// The strictest bound in the good direction of each metric, asked of an outside estimate. Bounds on the truth check
-/// the scorer and are nobody else's.
+/// the scorer and apply to no other method.
 std::vector<GateSpec> gates_for_outside(const std::vector<GateSpec>& gates, const MethodRecord& method) {
   std::vector<GateSpec> strictest;
   for (const GateSpec& gate : gates) {
@@ -112,10 +110,10 @@ std::vector<GateSpec> gates_for_outside(const std::vector<GateSpec>& gates, cons
   return strictest;
 }
 
-std::vector<GateSpec> all_gates(const RunFiles& files) {
-  std::vector<GateSpec> gates = files.scenario.gates;
-  for (std::size_t i = files.scenario.methods.size(); i < files.methods.size(); ++i) {
-    const std::vector<GateSpec> more = gates_for_outside(files.scenario.gates, files.methods[i]);
+std::vector<GateSpec> all_gates(const FinishedRun& run) {
+  std::vector<GateSpec> gates = run.scenario.gates;
+  for (std::size_t i = run.scenario.methods.size(); i < run.record.methods.size(); ++i) {
+    const std::vector<GateSpec> more = gates_for_outside(run.scenario.gates, run.record.methods[i]);
     gates.insert(gates.end(), more.begin(), more.end());
   }
   return gates;
@@ -137,7 +135,7 @@ Tree sensors_of(const Scenario& scenario) {
 }
 
 /// What was built otherwise than planned.
-Tree changes_of(const bim::Site& site) {
+Tree changes_of(const bim::PlannedAndBuilt& site) {
   Tree list = Tree::list();
   for (const bim::Change& change : site.changes)
     list.push(Tree::map().set("op", change.op).set("element", change.element));
@@ -154,22 +152,22 @@ Tree to_results(const Identifiability& known) {
                                .set("missing", known.decided_by->missing)
                                .set("share", known.decided_by->share));
   Tree places = Tree::list();
-  for (const PlacesLeft& left : known.places)
+  for (const AliasesLeft& left : known.places)
     places.push(Tree::map()
                     .set("t_s", left.t_s)
                     .set("distance_m", left.distance_m)
-                    .set("twins", left.twins)
-                    .set("weak", left.weak));
+                    .set("twins", left.aliases)
+                    .set("weak", left.marginal));
   return tree.set("places", std::move(places));
 }
 
 /// A robot that was in the air is set down where the scans begin anew.
-Truth truth_of(const RunFiles& files) {
-  Truth truth{files.truth_W, files.scans, std::nullopt};
-  if (!files.scenario.kidnap) return truth;
-  const double gap_s = 0.5 * files.scenario.kidnap->away_s;
-  for (std::size_t i = 1; i < files.scans.size() && !truth.set_down; ++i)
-    if (slam::seconds(files.scans[i] - files.scans[i - 1]) > gap_s) truth.set_down = files.scans[i];
+Truth truth_of(const FinishedRun& run) {
+  Truth truth{run.record.truth_W, run.scans, std::nullopt};
+  if (!run.scenario.kidnap) return truth;
+  const double gap_s = 0.5 * run.scenario.kidnap->away_s;
+  for (std::size_t i = 1; i < run.scans.size() && !truth.set_down; ++i)
+    if (slam::seconds(run.scans[i] - run.scans[i - 1]) > gap_s) truth.set_down = run.scans[i];
   return truth;
 }
 
@@ -179,23 +177,21 @@ bool RunScore::passed() const {
   return std::all_of(gates.begin(), gates.end(), [](const GateResult& gate) { return gate.passed; });
 }
 
-RunScore score_run(const RunFiles& files) {
+RunScore score_run(const FinishedRun& run) {
   RunScore score;
-  score.as_built = bim::make_plan(files.site.as_built);
-  score.truth = truth_of(files);
-  score.digest = hex64(digest_of(files.digests));
-  score.duration_s = slam::seconds(files.scans.back());
+  score.truth = truth_of(run);
+  score.digest = hex64(digest_of(run.record.digests));
+  score.duration_s = slam::seconds(run.scans.back());
   score.distance_m = score.truth.walked().back();
 
-  const std::vector<Eigen::Vector3d> surface_W = to_double(files.surface_W);
-  const bim::Building& as_built = files.site.as_built;
-  const SurfaceDistance distance(bim::build_mesh(as_built), MapRules().cap_m);
-  const bim::Plan as_planned = bim::make_plan(files.site.as_planned);
-  const Reference reference{as_planned, score.as_built, score.truth, surface_W, distance};
-  const bool localizes = std::any_of(files.methods.begin(), files.methods.end(),
+  const std::vector<Eigen::Vector3d> surface_W = to_double(run.record.surface_W);
+  const RunBuilding& building = *run.building;
+  const SurfaceDistance distance(building.mesh_as_built(), MapRules().cap_m);
+  const Reference reference{*building.plan_as_planned(), building.plan_as_built(), score.truth, surface_W, distance};
+  const bool localizes = std::any_of(run.record.methods.begin(), run.record.methods.end(),
                                      [](const MethodRecord& m) { return m.localization && !m.crashed; });
-  if (localizes) score.identifiability = identifiability_of(files, score.truth.before());
-  for (const MethodRecord& method : files.methods) {
+  if (localizes) score.identifiability = identifiability_of(run, score.truth.before());
+  for (const MethodRecord& method : run.record.methods) {
     MethodScore one;
     if (method.crashed)
       one.verdict = "crashed";
@@ -206,18 +202,18 @@ RunScore score_run(const RunFiles& files) {
     one.error = method.error;
     score.methods.push_back(std::move(one));
   }
-  score.gates = judge_gates(all_gates(files), score.methods, files.failure.empty());
+  score.gates = judge_gates(all_gates(run), score.methods, run.record.failure.empty());
   return score;
 }
 
-std::string write_results(const RunFiles& files, const RunScore& score) {
+std::string write_results(const FinishedRun& run, const RunScore& score) {
   Tree tree = Tree::map();
-  tree.set("plumbline", PLUMBLINE_VERSION).set("scenario", files.scenario.name);
-  tree.set("seed", std::to_string(files.scenario.seed)).set("digest", score.digest);
+  tree.set("plumbline", PLUMBLINE_VERSION).set("scenario", run.scenario.name);
+  tree.set("seed", std::to_string(run.scenario.seed)).set("digest", score.digest);
   tree.set("duration_s", score.duration_s).set("distance_m", score.distance_m);
-  if (!files.failure.empty()) tree.set("failure", files.failure);
-  tree.set("sensors", sensors_of(files.scenario));
-  if (!files.site.changes.empty()) tree.set("as_built", changes_of(files.site));
+  if (!run.record.failure.empty()) tree.set("failure", run.record.failure);
+  tree.set("sensors", sensors_of(run.scenario));
+  if (run.building->deviates()) tree.set("as_built", changes_of(run.building->variants()));
   if (score.identifiability) tree.set("identifiability", to_results(*score.identifiability));
   Tree gates = Tree::list();
   for (const GateResult& gate : score.gates) gates.push(to_results(gate));
@@ -227,9 +223,9 @@ std::string write_results(const RunFiles& files, const RunScore& score) {
   return write_json(tree.set("methods", methods)) + "\n";
 }
 
-void write_scores(const RunFiles& files, const RunScore& score) {
-  write_file(files.dir + "/junit.xml", write_junit(files.scenario.name, score.gates, score.methods, files.failure));
-  write_file(files.dir + "/results.json", write_results(files, score));
+void write_scores(const std::string& dir, const FinishedRun& run, const RunScore& score) {
+  write_file(dir + "/junit.xml", write_junit(run.scenario.name, score.gates, score.methods, run.record.failure));
+  write_file(dir + "/results.json", write_results(run, score));
 }
 
 }  // namespace plumbline::scenarios::score

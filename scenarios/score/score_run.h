@@ -5,17 +5,15 @@
 #include <string>
 #include <vector>
 
-#include "bim/plan/plan.h"
 #include "scenarios/metrics/metrics.h"
-#include "scenarios/run/run_files.h"
+#include "scenarios/run/finished_run.h"
 
 namespace plumbline::scenarios::score {
 
-/// Everything scored of one run, from what is on disk.
+/// Everything scored of one run.
 struct RunScore {
-  bim::Plan as_built;
   Truth truth;
-  std::vector<MethodScore> methods;  ///< index as in RunFiles::methods
+  std::vector<MethodScore> methods;  ///< index as in RunRecord::methods
   std::vector<GateResult> gates;
   std::optional<Identifiability> identifiability;  ///< where a method localizes
   double duration_s = 0.0;
@@ -25,14 +23,14 @@ struct RunScore {
   [[nodiscard]] bool passed() const;
 };
 
-/// Scores every method of a run directory [contract: Metrics]. Outside estimates (those the scenario did not run) are
-/// held to the strictest bound that the scenario asks of any estimator on each metric that an estimate of their kind
-/// has.
-[[nodiscard]] RunScore score_run(const RunFiles& files);
+/// Scores every method of a run directory, docs/reference/metrics.md. Outside estimates (those the scenario did not
+/// run) are held to the strictest bound that the scenario asks of any estimator on each metric that an estimate of
+/// their kind has.
+[[nodiscard]] RunScore score_run(const FinishedRun& run);
 
 /// results.json
-[[nodiscard]] std::string write_results(const RunFiles& files, const RunScore& score);
-/// Writes results.json and junit.xml into files.dir.
-void write_scores(const RunFiles& files, const RunScore& score);
+[[nodiscard]] std::string write_results(const FinishedRun& run, const RunScore& score);
+/// Writes results.json and junit.xml into `dir`.
+void write_scores(const std::string& dir, const FinishedRun& run, const RunScore& score);
 
 }  // namespace plumbline::scenarios::score

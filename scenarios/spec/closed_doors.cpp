@@ -28,11 +28,12 @@ bool passes(const Eigen::Vector2d& p, const Eigen::Vector2d& q, const bim::Openi
 
 }  // namespace
 
-std::vector<std::string> closed_doors_between(const bim::Building& building, const sim::Place& a, const sim::Place& b) {
+std::vector<std::string> closed_doors_between(const bim::Building& building, const sim::FloorPoint& a,
+                                              const sim::FloorPoint& b) {
   bim::Building open = building;
   std::erase_if(open.obstacles, bim::is_filling);
   bim::apply_options(open, {bim::Doors::open, true});
-  const std::vector<sim::Waypoint> path = sim::WalkSpace(open).path(a, b);
+  const std::vector<sim::Waypoint> path = sim::MultiStoreyPlanner(open).path(a, b);
   std::vector<std::string> doors;
   for (const bim::Opening& opening : building.openings) {
     if (!is_shut(opening)) continue;

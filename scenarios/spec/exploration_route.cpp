@@ -13,14 +13,14 @@ namespace {
 
 using Path = std::vector<Eigen::Vector2d>;
 
-struct Place {
+struct Candidate {
   Eigen::Vector2d p = Eigen::Vector2d::Zero();
-  double been_m = std::numeric_limits<double>::infinity();  ///< distance to the walk so far
+  double distance_m = std::numeric_limits<double>::infinity();  ///< distance to the walk so far
 };
 
 /// Those of a grid over the box that can be walked to.
-std::vector<Place> places_in_reach(const sim::FreeSpace& space, const Eigen::AlignedBox2d& bounds,
-                                   const Eigen::Vector2d& start, const RoamConfig& config) {
+std::vector<Candidate> places_in_reach(const sim::ClearanceMap& space, const Eigen::AlignedBox2d& bounds,
+                                       const Eigen::Vector2d& start, const ExplorationConfig& config) {
   const double step = std::max(config.step_m, std::sqrt(bounds.volume() / config.most_places));
   const Eigen::Vector2d size = bounds.sizes();
   Path grid;
@@ -29,15 +29,15 @@ std::vector<Place> places_in_reach(const sim::FreeSpace& space, const Eigen::Ali
       const Eigen::Vector2d p = bounds.min() + step * Eigen::Vector2d(ix + 0.5, iy + 0.5);
       if (space.free(p)) grid.push_back(p);
     }
-  std::vector<Place> places;
+  std::vector<Candidate> places;
   for (const Eigen::Vector2d& p : space.reachable(start, grid)) places.push_back({p});
   return places;
 }
 
-void note(const Path& path, std::vector<Place>& places) {
-  for (Place& place : places)
+void update_distances(const Path& path, std::vector<Candidate>& places) {
+  for (Candidate& place : places)
     for (std::size_t i = 0; i < path.size(); ++i)
-      place.been_m = std::min(place.been_m, segment_distance(path[i > 0 ? i - 1 : 0], path[i], place.p));
+      place.distance_m = std::min(place.distance_m, segment_distance(path[i > 0 ? i - 1 : 0], path[i], place.p));
 }
 
 double length(const Path& path) {
@@ -48,18 +48,19 @@ double length(const Path& path) {
 
 }  // namespace
 
-std::vector<Eigen::Vector2d> roam(const sim::FreeSpace& space, const Eigen::AlignedBox2d& bounds,
-                                  const Eigen::Vector2d& start, const RoamConfig& config) {
-  std::vector<Place> places = places_in_reach(space, bounds, start, config);
+std::vector<Eigen::Vector2d> exploration_route(const sim::ClearanceMap& space, const Eigen::AlignedBox2d& bounds,
+                                               const Eigen::Vector2d& start, const ExplorationConfig& config) {
+  std::vector<Candidate> places = places_in_reach(space, bounds, start, config);
   Path walk = {start};
-  note(walk, places);
+  update_distances(walk, places);
   for (int goals = 0; goals < config.goals && length(walk) < config.longest_m; ++goals) {
-    const auto goal = std::max_element(places.begin(), places.end(),
-                                       [](const Place& a, const Place& b) { return a.been_m < b.been_m; });
-    if (goal == places.end() || goal->been_m < config.nearest_m) break;
+    const auto goal = std::max_element(places.begin(), places.end(), [](const Candidate& a, const Candidate& b) {
+      return a.distance_m < b.distance_m;
+    });
+    if (goal == places.end() || goal->distance_m < config.nearest_m) break;
     const Path leg = space.path(walk.back(), goal->p);
     walk.insert(walk.end(), leg.begin() + 1, leg.end());
-    note(leg, places);
+    update_distances(leg, places);
   }
   const Path home = space.path(walk.back(), start);
   if (walk.size() > 1 && home.size() > 1) walk.insert(walk.end(), home.begin() + 1, home.end());

@@ -9,7 +9,7 @@
 namespace plumbline::scenarios {
 
 /// How a round is found where no rooms say where to go.
-struct RoamConfig {
+struct ExplorationConfig {
   double step_m = 1.0;       ///< least distance of the places looked at
   double most_places = 900;  ///< looked at; a larger world gets a larger step
   int goals = 6;             ///< places walked to before the way home
@@ -19,7 +19,9 @@ struct RoamConfig {
 
 /// Waypoints of a round from `start` and back through places within `bounds` (a box), each the one furthest from where
 /// the walk has been by then (ties: lowest, then leftmost); `start` alone where none can be reached.
-[[nodiscard]] std::vector<Eigen::Vector2d> roam(const sim::FreeSpace& space, const Eigen::AlignedBox2d& bounds,
-                                                const Eigen::Vector2d& start, const RoamConfig& config = {});
+[[nodiscard]] std::vector<Eigen::Vector2d> exploration_route(const sim::ClearanceMap& space,
+                                                             const Eigen::AlignedBox2d& bounds,
+                                                             const Eigen::Vector2d& start,
+                                                             const ExplorationConfig& config = {});
 
 }  // namespace plumbline::scenarios

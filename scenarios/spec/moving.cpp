@@ -35,7 +35,7 @@ const bim::Room& room_named(const bim::Building& building, const std::string& na
 
 /// The way from room to room through the free space, in the order of the list.
 std::vector<Eigen::Vector2d> walk_through(const bim::Building& building, const PersonSpec& person, int storey,
-                                          const sim::FreeSpace& free_space, const Mark& mark) {
+                                          const sim::ClearanceMap& free_space, const Mark& mark) {
   std::vector<Eigen::Vector2d> points;
   for (const std::string& name : person.rooms) {
     const auto target = free_space.room_target(room_named(building, name, storey, mark).polygon);
@@ -45,7 +45,7 @@ std::vector<Eigen::Vector2d> walk_through(const bim::Building& building, const P
       continue;
     }
     const auto way = free_space.path(points.back(), target[0]);
-    if (way.empty()) throw InputError(mark, "nobody can walk from the room before to '" + name + "'");
+    if (way.empty()) throw InputError(mark, "no person can walk from the room before to '" + name + "'");
     points.insert(points.end(), way.begin() + 1, way.end());
   }
   return points;
@@ -67,7 +67,7 @@ const bim::Opening& door_named(const bim::Building& building, const std::string&
 std::vector<sim::PersonConfig> place_people(const bim::Building& as_built, const Scenario& scenario, const Tree& tree,
                                             int storey) {
   std::vector<sim::PersonConfig> people;
-  std::optional<sim::FreeSpace> free_space;
+  std::optional<sim::ClearanceMap> free_space;
   const double floor = as_built.storeys.at(static_cast<std::size_t>(storey)).elevation_m;
   for (std::size_t i = 0; i < scenario.people.size(); ++i) {
     const PersonSpec& spec = scenario.people[i];
@@ -88,8 +88,8 @@ std::vector<sim::PersonConfig> place_people(const bim::Building& as_built, const
   return people;
 }
 
-std::vector<sim::SwingDoorConfig> hang_doors(const bim::Building& as_built, const Scenario& scenario,
-                                             const Tree& tree) {
+std::vector<sim::SwingDoorConfig> place_doors(const bim::Building& as_built, const Scenario& scenario,
+                                              const Tree& tree) {
   std::vector<sim::SwingDoorConfig> doors;
   for (std::size_t i = 0; i < scenario.moving_doors.size(); ++i) {
     const MovingDoorSpec& spec = scenario.moving_doors[i];
@@ -110,7 +110,7 @@ std::vector<sim::SwingDoorConfig> hang_doors(const bim::Building& as_built, cons
                                   (wall.offset_m + 0.5 * wall.thickness_m) * wall.left();
     door.hinge_W = {hinge.x(), hinge.y(), opening.z0_m};
     const Eigen::Vector2d along = -side * wall.direction();
-    door.yaw_shut = std::atan2(along.y(), along.x());
+    door.yaw_closed = std::atan2(along.y(), along.x());
     const double turn = spec.angle_deg * std::numbers::pi / 180.0;
     door.swing = (spec.hinge == Hinge::a) == (spec.swing == Swing::left) ? turn : -turn;
     door.near_m = spec.near_m;

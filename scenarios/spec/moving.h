@@ -16,7 +16,7 @@ namespace plumbline::scenarios {
 
 /// Leaves of the moving doors, shut in the middle of their walls. Throws InputError at the entry of `moving_doors` that
 /// names no door, or one that is shut in the building.
-[[nodiscard]] std::vector<sim::SwingDoorConfig> hang_doors(const bim::Building& as_built, const Scenario& scenario,
-                                                           const Tree& tree);
+[[nodiscard]] std::vector<sim::SwingDoorConfig> place_doors(const bim::Building& as_built, const Scenario& scenario,
+                                                            const Tree& tree);
 
 }  // namespace plumbline::scenarios

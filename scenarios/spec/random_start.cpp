@@ -28,7 +28,7 @@ struct OpenRoom {
 };
 
 std::vector<Eigen::Vector2d> places_in(const bim::Building& building, const bim::Room& room,
-                                       const sim::FreeSpace& space) {
+                                       const sim::ClearanceMap& space) {
   const Polygon2& polygon = room.polygon;
   const double turn_m = sim::RouteConfig().turn_m;  // a drawn heading is seldom that of the first leg
   Eigen::AlignedBox2d box;
@@ -44,9 +44,9 @@ std::vector<Eigen::Vector2d> places_in(const bim::Building& building, const bim:
 }
 
 /// Draws from the rooms of one storey.
-class Draw {
+class StartSampler {
  public:
-  Draw(const bim::Building& building, int storey, std::uint64_t seed)
+  StartSampler(const bim::Building& building, int storey, std::uint64_t seed)
       : storey_(storey), stream_(seed, "scenario.start"), space_(building) {
     for (const bim::Room& room : building.rooms) {
       if (room.storey != storey) continue;
@@ -57,10 +57,10 @@ class Draw {
   }
 
   /// Tries places until one has a way to another room.
-  [[nodiscard]] Eigen::Vector2d start(StartDraw how, const Mark& mark) const {
+  [[nodiscard]] Eigen::Vector2d start(RandomStart how, const Mark& mark) const {
     constexpr std::uint64_t most_tries = 200;
     for (std::uint64_t i = 0; i < most_tries && rooms_.size() > 1; ++i) {
-      const std::size_t room = how == StartDraw::rooms ? one_of(rooms_.size(), i, start_lane) : room_by_area(i);
+      const std::size_t room = how == RandomStart::rooms ? one_of(rooms_.size(), i, start_lane) : room_by_area(i);
       const std::vector<Eigen::Vector2d>& places = rooms_[room].places_W;
       if (places.empty()) continue;
       const Eigen::Vector2d& p = places[one_of(places.size(), i, start_lane, 1)];
@@ -126,19 +126,19 @@ class Draw {
 
   int storey_;
   Stream stream_;
-  sim::WalkSpace space_;
+  sim::MultiStoreyPlanner space_;
   std::vector<OpenRoom> rooms_;
 };
 
 }  // namespace
 
-void settle_draws(const bim::Building& building, Scenario& scenario, const RouteMarks& marks) {
+void sample_start(const bim::Building& building, Scenario& scenario, const RouteMarks& marks) {
   Start& start = scenario.start;
   if (start.random) {
     const int storey = storey_of(building, start.storey, marks.start);
-    const Draw draw(building, storey, scenario.seed);
-    start.at = draw.start(*start.random, marks.start);
-    if (!start.yaw_deg) start.yaw_deg = draw.heading_deg();
+    const StartSampler sampler(building, storey, scenario.seed);
+    start.at = sampler.start(*start.random, marks.start);
+    if (!start.yaw_deg) start.yaw_deg = sampler.heading_deg();
     start.storey = building.storeys[static_cast<std::size_t>(storey)].id;
     start.random.reset();
   }
@@ -147,7 +147,7 @@ void settle_draws(const bim::Building& building, Scenario& scenario, const Route
   stay.rooms = {};
   const RoutePlan at = plan_route(building, start, stay, marks);
   scenario.route.rooms =
-      Draw(building, at.storey, scenario.seed).route(at.start_W, *scenario.route.random, marks.route);
+      StartSampler(building, at.storey, scenario.seed).route(at.start_W, *scenario.route.random, marks.route);
 }
 
 }  // namespace plumbline::scenarios

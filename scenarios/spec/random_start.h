@@ -10,6 +10,6 @@ namespace plumbline::scenarios {
 /// Replaces a start and a route that are to be drawn by what the scenario's seed draws: a start from which other rooms
 /// can be reached, with any heading unless one is given, and rooms of its storey, none twice in a row. Throws
 /// InputError where there is nothing to draw from.
-void settle_draws(const bim::Building& building, Scenario& scenario, const RouteMarks& marks);
+void sample_start(const bim::Building& building, Scenario& scenario, const RouteMarks& marks);
 
 }  // namespace plumbline::scenarios

@@ -8,7 +8,6 @@
 
 #include "bim/digest/digest.h"
 #include "bim/formats/mesh/mesh_file.h"
-#include "bim/plan/plan.h"
 #include "bim/random/stream.h"
 #include "scenarios/spec/method_names.h"
 #include "scenarios/spec/moving.h"
@@ -38,7 +37,7 @@ std::string kind_of(const std::string& text, const std::string& path) {
   return tree.find("levels") != nullptr ? "plan" : tree.as_map().front().first;
 }
 
-/// The default scenario of a bare building.
+/// The default scenario of a is_implicit building.
 ScenarioText default_scenario(const std::string& path) {
   ScenarioText text;
   text.tree = Tree::map();
@@ -89,16 +88,16 @@ void choose_methods(ScenarioText& text, const Overrides& overrides, bool has_pla
     if (row.standard && (has_plan || !row.needs_plan)) methods.emplace_back(row.name);
 }
 
-/// Localization in a plan starts from rooms. Where there are none (on the storey told), the default is what needs none,
-/// and asking for it is wrong.
-void check_rooms(ScenarioText& text, const Overrides& overrides, const bim::Building& plan, int storey, bool bare,
-                 slam::MethodTable table) {
-  const bool told = text.scenario.prior.storey == Knowledge::known;
+/// Localization in a plan starts from rooms. Where there are none (on the storey of the prior), the default is what
+/// needs none, and asking for it is wrong.
+void check_rooms(ScenarioText& text, const Overrides& overrides, const bim::Building& plan, int storey,
+                 bool is_implicit, slam::MethodTable table) {
+  const bool storey_known = text.scenario.prior.storey == Knowledge::known;
   const bool has_rooms = std::any_of(plan.rooms.begin(), plan.rooms.end(),
-                                     [&](const bim::Room& room) { return !told || room.storey == storey; });
+                                     [&](const bim::Room& room) { return !storey_known || room.storey == storey; });
   if (has_rooms) return;
   std::vector<std::string>& methods = text.scenario.methods;
-  if (bare && !overrides.methods) {
+  if (is_implicit && !overrides.methods) {
     std::erase_if(methods, [&](const std::string& name) { return needs_plan(name, table); });
     return;
   }
@@ -107,11 +106,11 @@ void check_rooms(ScenarioText& text, const Overrides& overrides, const bim::Buil
   for (std::size_t i = 0; i < methods.size(); ++i)
     if (needs_plan(methods[i], table))
       throw InputError(marks[i], "method '" + methods[i] + "' starts from the rooms of its plan, and '" +
-                                     text.scenario.building + "' has none" + (told ? " on this storey" : "") +
+                                     text.scenario.building + "' has none" + (storey_known ? " on this storey" : "") +
                                      "; add rooms, or ask for SLAM methods only");
 }
 
-void settle_methods(ScenarioText& text, const Overrides& overrides, bool has_plan, ResolvedScenario& resolved) {
+void resolve_methods(ScenarioText& text, const Overrides& overrides, bool has_plan, ResolvedScenario& resolved) {
   Scenario& scenario = text.scenario;
   choose_methods(text, overrides, has_plan, resolved.table);
   const auto asked = [&](const GateSpec& gate) {
@@ -131,13 +130,13 @@ void settle_methods(ScenarioText& text, const Overrides& overrides, bool has_pla
 }
 
 /// A compass with slam::Prior's error, drawn once a run.
-slam::Prior make_prior(const Scenario& scenario, const bim::Building& building, const RoutePlan& plan) {
+slam::Prior make_prior(const Scenario& scenario, const bim::Plan& as_planned, const RoutePlan& plan) {
   slam::Prior prior;
   const double yaw = plan.yaw_deg * std::numbers::pi / 180.0;
   if (scenario.prior.yaw == Knowledge::known)
     prior.yaw_W = wrap_angle(yaw + prior.yaw_sigma * Stream(scenario.seed, "scenario.prior").gauss(0));
   if (scenario.prior.storey == Knowledge::known)
-    prior.storey = bim::make_plan(building).storeys[static_cast<std::size_t>(plan.storey)].name;
+    prior.storey = as_planned.storeys[static_cast<std::size_t>(plan.storey)].name;
   return prior;
 }
 
@@ -159,7 +158,7 @@ sim::WorldConfig make_world(const Scenario& scenario, const RoutePlan& plan) {
 }
 
 /// What the robot walks through: as built, with the rooms of the plan, so that a route may name any of them.
-bim::Building walked_building(const bim::Site& site) {
+bim::Building walked_building(const bim::PlannedAndBuilt& site) {
   bim::Building walked = site.as_built;
   for (const bim::Room& planned : site.as_planned.rooms) {
     const auto same = [&](const bim::Room& room) { return room.id == planned.id; };
@@ -168,21 +167,21 @@ bim::Building walked_building(const bim::Site& site) {
   return walked;
 }
 
-/// The walk from where the robot is set down; settles that place. The draw is another than that of the start.
+/// The walk from where the robot is set down, whose place it resolves. The random draw differs from that of the start.
 RoutePlan plan_after_kidnap(const bim::Building& walked, const Tree& tree, Scenario& scenario) {
   Scenario after = scenario;
   after.start = scenario.kidnap->to;
   after.seed = Digest().add(scenario.seed).add("kidnap").value();
   const RouteMarks marks{mark_at(tree, {"kidnap", "to"}), mark_at(tree, {"route"}),
                          marks_of(tree, {"route", "rooms"}, after.route.rooms.size())};
-  settle_draws(walked, after, marks);
+  sample_start(walked, after, marks);
   RoutePlan plan = plan_route(walked, after.start, after.route, marks);
   const std::string& storey = walked.storeys[static_cast<std::size_t>(plan.storey)].id;
   scenario.kidnap->to = Start{std::nullopt, std::nullopt, storey, plan.start_W, plan.yaw_deg};
   return plan;
 }
 
-/// What a run directory calls its copy of the building. A mesh is told by its ending, which stays.
+/// What a run directory calls its copy of the building. A mesh is recognised by its ending, which stays.
 std::string name_of_copy(const fs::path& building, const std::string& bytes) {
   if (bim::is_mesh_path(building.string())) return "building" + building.extension().string();
   return is_ifc(bytes) ? "building.ifc" : "building.plan.yaml";
@@ -216,26 +215,26 @@ ResolvedScenario resolve(const std::string& input_path, const Overrides& overrid
   ResolvedScenario resolved;
   resolved.table = table;
   ScenarioText text = read_input(input_path);
-  settle_methods(text, overrides, !bim::is_mesh_path(text.scenario.building), resolved);
+  resolve_methods(text, overrides, !bim::is_mesh_path(text.scenario.building), resolved);
   if (overrides.seed) text.scenario.seed = *overrides.seed;
-  const bool bare = text.tree.as_map().empty();
+  const bool is_implicit = text.tree.as_map().empty();
 
   const fs::path building = fs::path(input_path).parent_path() / text.scenario.building;
-  if (!bare && !fs::exists(building))
+  if (!is_implicit && !fs::exists(building))
     throw InputError(mark_at(text.tree, {"building"}), "the building '" + building.string() + "' does not exist");
   resolved.building_bytes = read_text_file(building.string());
-  resolved.site = bim::load_site(building.string(), text.scenario.building_options);
+  bim::PlannedAndBuilt site = bim::load_planned_and_built(building.string(), text.scenario.building_options);
 
   const RouteMarks marks{mark_at(text.tree, {"start"}), mark_at(text.tree, {"route"}),
                          marks_of(text.tree, {"route", "rooms"}, text.scenario.route.rooms.size())};
-  const bim::Building walked = walked_building(resolved.site);
-  settle_draws(walked, text.scenario, marks);
+  const bim::Building walked = walked_building(site);
+  sample_start(walked, text.scenario, marks);
   const RoutePlan plan = plan_route(walked, text.scenario.start, text.scenario.route, marks);
-  check_rooms(text, overrides, resolved.site.as_planned, plan.storey, bare, table);
-  if (bare) text.scenario.duration_s = default_duration(plan, text.scenario.speed_mps);
+  check_rooms(text, overrides, site.as_planned, plan.storey, is_implicit, table);
+  if (is_implicit) text.scenario.duration_s = default_duration(plan, text.scenario.speed_mps);
 
   Scenario& scenario = text.scenario;
-  const std::string& storey = resolved.site.as_planned.storeys[static_cast<std::size_t>(plan.storey)].id;
+  const std::string& storey = site.as_planned.storeys[static_cast<std::size_t>(plan.storey)].id;
   scenario.start = Start{std::nullopt, std::nullopt, storey, plan.start_W, plan.yaw_deg};
   scenario.route.rooms = scenario.route.shuttle ? std::vector<std::string>{} : plan.rooms;
   scenario.route.storeys = RouteStoreys::start;
@@ -243,14 +242,15 @@ ResolvedScenario resolve(const std::string& input_path, const Overrides& overrid
   scenario.building = name_of_copy(building, resolved.building_bytes);
   resolved.world = make_world(scenario, plan);
   resolved.world.people = place_people(walked, scenario, text.tree, plan.storey);
-  resolved.world.doors = hang_doors(resolved.site.as_built, scenario, text.tree);
+  resolved.world.doors = place_doors(site.as_built, scenario, text.tree);
   if (scenario.kidnap) {
     resolved.world_after = make_world(scenario, plan_after_kidnap(walked, text.tree, scenario));
     resolved.world_after->people = resolved.world.people;
     resolved.world_after->doors = resolved.world.doors;
     resolved.world.duration_s = scenario.kidnap->after_s;
   }
-  resolved.prior = make_prior(scenario, resolved.site.as_planned, plan);
+  resolved.building = std::make_shared<const RunBuilding>(std::move(site));
+  resolved.prior = make_prior(scenario, *resolved.building->plan_as_planned(), plan);
   resolved.scenario = std::move(scenario);
   return resolved;
 }

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "bim/load/load.h"
+#include "scenarios/spec/run_building.h"
 #include "scenarios/spec/scenario.h"
 #include "sim/world.h"
 #include "slam/methods.h"
@@ -20,10 +21,10 @@ struct Overrides {
 
 /// A scenario with its building, every choice made.
 struct ResolvedScenario {
-  Scenario scenario;           ///< start, route and methods settled; `building` names the copy in a run directory
-  bim::Site site;              ///< as planned for the methods, as built for the world
-  std::string building_bytes;  ///< the file as it was read
-  sim::WorldConfig world;      ///< until the robot is lifted, where it is
+  Scenario scenario;  ///< start, route and methods resolved; `building` names the copy in a run directory
+  std::shared_ptr<const RunBuilding> building;  ///< as planned for the methods, as built for the world
+  std::string building_bytes;                   ///< the file as it was read
+  sim::WorldConfig world;                       ///< until the robot is lifted, where it is
   std::optional<sim::WorldConfig> world_after;  ///< from where it is set down, until the end of the scenario
   slam::Prior prior;
   int dropped_gates = 0;    ///< gates of methods that Overrides left out

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <optional>
 
-#include "bim/formats/plan_yaml/stair_builder.h"
+#include "bim/model/stair_flight.h"
 #include "scenarios/spec/closed_doors.h"
 #include "scenarios/spec/exploration_route.h"
 #include "scenarios/spec/named_places.h"
@@ -17,7 +17,7 @@ namespace plumbline::scenarios {
 
 namespace {
 
-using sim::Place;
+using sim::FloorPoint;
 using Path = std::vector<sim::Waypoint>;
 
 constexpr std::string_view all_rooms = "all";
@@ -32,7 +32,7 @@ Eigen::Vector2d rounded(const Eigen::Vector2d& p) { return {round_coordinate(p.x
 
 std::string text(const Eigen::Vector2d& p) { return "[" + format_number(p.x()) + ", " + format_number(p.y()) + "]"; }
 
-/// In the plane; openings do not count, since nobody starts in a doorway.
+/// In the plane; openings do not count, since no run starts in a doorway.
 bool in_body(const bim::Wall& wall, const Eigen::Vector2d& p) {
   const double along = (p - wall.a).dot(wall.direction());
   const double across = (p - wall.a).dot(wall.left());
@@ -65,7 +65,7 @@ class Planner {
   /// Room indices in the order of the walk and the waypoints through them.
   void walk(const Route& route, RoutePlan& plan) const {
     plan.waypoints = sim::on_floor({plan.start_W}, elevation(storey_));
-    Place at{storey_, plan.start_W};
+    FloorPoint at{storey_, plan.start_W};
     if (route.shuttle) return shuttle(route, at, plan);
     const bool all = route.rooms.size() == 1 && route.rooms.front() == all_rooms;
     if (all && building_.rooms.empty()) return walk_round(route.loop, plan);
@@ -116,10 +116,10 @@ class Planner {
   }
 
   /// The freest place of a room, if the robot fits in it.
-  [[nodiscard]] std::optional<Place> place_in(int storey, const Polygon2& polygon) const {
+  [[nodiscard]] std::optional<FloorPoint> place_in(int storey, const Polygon2& polygon) const {
     const std::vector<Eigen::Vector2d> found = space_.storey(storey).room_target(polygon);
     if (found.empty()) return std::nullopt;
-    return Place{storey, rounded(found.front())};
+    return FloorPoint{storey, rounded(found.front())};
   }
 
   /// Where no rooms are known.
@@ -132,10 +132,10 @@ class Planner {
   /// Where no rooms are known, or none but the one of the start is in reach.
   void walk_round(int laps, RoutePlan& plan) const {
     const Eigen::AlignedBox2d box = floor_box();
-    const Path round = box.isEmpty()
-                           ? Path{}
-                           : sim::with_clearance(space_.storey(storey_),
-                                                 roam(space_.storey(storey_), box, plan.start_W), elevation(storey_));
+    const Path round = box.isEmpty() ? Path{}
+                                     : sim::with_clearance(space_.storey(storey_),
+                                                           exploration_route(space_.storey(storey_), box, plan.start_W),
+                                                           elevation(storey_));
     for (int lap = 0; lap < laps; ++lap) append(round, plan);
     plan.rooms = {std::string(all_rooms)};
   }
@@ -155,8 +155,8 @@ class Planner {
     return best;
   }
 
-  [[nodiscard]] Place target(int index, const Mark& mark) const {
-    const std::optional<Place> found = place_in(room(index).storey, room(index).polygon);
+  [[nodiscard]] FloorPoint target(int index, const Mark& mark) const {
+    const std::optional<FloorPoint> found = place_in(room(index).storey, room(index).polygon);
     if (!found)
       throw InputError(mark, "room '" + room(index).id + "' has no place where the robot can turn round; it needs " +
                                  format_number(2.0 * sim::RouteConfig().turn_m) + " m");
@@ -167,15 +167,16 @@ class Planner {
     plan.waypoints.insert(plan.waypoints.end(), path.begin() + (path.empty() ? 0 : 1), path.end());
   }
 
-  void walk_to(const std::string& name, const Mark& mark, Place& at, RoutePlan& plan) const {
-    const Place goal = target(find_room(building_, name, mark), mark);
+  void walk_to(const std::string& name, const Mark& mark, FloorPoint& at, RoutePlan& plan) const {
+    const FloorPoint goal = target(find_room(building_, name, mark), mark);
     const Path leg = space_.path(at, goal);
     if (leg.empty()) refuse(name, at, goal, mark);
     append(leg, plan);
     at = goal;
   }
 
-  [[noreturn]] void refuse(const std::string& name, const Place& from, const Place& goal, const Mark& mark) const {
+  [[noreturn]] void refuse(const std::string& name, const FloorPoint& from, const FloorPoint& goal,
+                           const Mark& mark) const {
     const std::vector<std::string> doors = closed_doors_between(building_, from, goal);
     std::string why = "; is every door on the way at least 0.9 m wide, and nothing in it?";
     if (!doors.empty())
@@ -196,7 +197,7 @@ class Planner {
   }
 
   /// Indices of the rooms that `all` means, without the one of the start.
-  [[nodiscard]] std::vector<int> rooms_of_all(const Route& route, const Place& at) const {
+  [[nodiscard]] std::vector<int> rooms_of_all(const Route& route, const FloorPoint& at) const {
     const std::vector<int> storeys =
         route.storeys == RouteStoreys::all ? space_.reachable_storeys(at) : std::vector<int>{at.storey};
     std::vector<int> found;
@@ -211,7 +212,7 @@ class Planner {
 
   /// Index into `left` of the room nearest by the way to walk (ties: lower index): of the storey the robot is on, and
   /// of others when none of those can be reached.
-  [[nodiscard]] std::optional<std::size_t> nearest_room(const std::vector<int>& left, const Place& at,
+  [[nodiscard]] std::optional<std::size_t> nearest_room(const std::vector<int>& left, const FloorPoint& at,
                                                         Path& way) const {
     for (const bool here : {true, false}) {
       std::optional<std::size_t> best;
@@ -229,8 +230,8 @@ class Planner {
 
   /// Nearest room first, each storey before the next, and back to the room of the start; rooms out of reach are left
   /// out, and where that leaves none the robot walks round where it is.
-  void walk_all(const Route& route, Place at, RoutePlan& plan) const {
-    const Place start = at;
+  void walk_all(const Route& route, FloorPoint at, RoutePlan& plan) const {
+    const FloorPoint start = at;
     std::vector<int> left = rooms_of_all(route, at);
     Path way;
     while (const std::optional<std::size_t> next = nearest_room(left, at, way)) {
@@ -249,14 +250,14 @@ class Planner {
   }
 
   /// A walk of no steps is refused where closed doors are the reason.
-  void refuse_when_shut_in(const std::vector<int>& others, const Place& start) const {
+  void refuse_when_shut_in(const std::vector<int>& others, const FloorPoint& start) const {
     for (const int other : others) {
-      const Place goal = target(other, marks_.route);
+      const FloorPoint goal = target(other, marks_.route);
       if (!closed_doors_between(building_, start, goal).empty()) refuse(room(other).id, start, goal, marks_.route);
     }
   }
 
-  void return_home(const Place& start, Place& at, RoutePlan& plan) const {
+  void return_home(const FloorPoint& start, FloorPoint& at, RoutePlan& plan) const {
     for (const bim::Room& home : building_.rooms) {
       if (home.storey != start.storey || !contains(home.polygon, start.p_W)) continue;
       if (!place_in(home.storey, home.polygon)) return;
@@ -267,17 +268,17 @@ class Planner {
   }
 
   /// Both ends of the room along its longer side, and between them.
-  void shuttle(const Route& route, Place at, RoutePlan& plan) const {
+  void shuttle(const Route& route, FloorPoint at, RoutePlan& plan) const {
     const int index = find_room(building_, *route.shuttle, marks_.route);
-    const Place middle = target(index, marks_.route);
+    const FloorPoint middle = target(index, marks_.route);
     const Eigen::Vector2d axis = long_axis(room(index).polygon);
-    const std::array<Place, 2> ends = {last_free(middle, axis), last_free(middle, -axis)};
+    const std::array<FloorPoint, 2> ends = {last_free(middle, axis), last_free(middle, -axis)};
     if ((ends[0].p_W - ends[1].p_W).norm() < shuttle_min_m)
       throw InputError(marks_.route, "room '" + room(index).id + "' is too small to walk to and fro in: " +
                                          format_number(round_coordinate((ends[0].p_W - ends[1].p_W).norm())) +
                                          " m; it must be at least " + format_number(shuttle_min_m) + " m");
     for (int i = 0; i < 2 * route.times; ++i) {
-      const Place& end = ends[static_cast<std::size_t>(i % 2)];
+      const FloorPoint& end = ends[static_cast<std::size_t>(i % 2)];
       const Path leg = space_.path(at, end);
       if (leg.empty()) refuse(*route.shuttle, at, middle, marks_.route);
       append(leg, plan);
@@ -297,9 +298,9 @@ class Planner {
     return axis;
   }
 
-  [[nodiscard]] Place last_free(const Place& from, const Eigen::Vector2d& direction) const {
+  [[nodiscard]] FloorPoint last_free(const FloorPoint& from, const Eigen::Vector2d& direction) const {
     constexpr double step = 0.05;
-    const sim::FreeSpace& space = space_.storey(from.storey);
+    const sim::ClearanceMap& space = space_.storey(from.storey);
     int i = 0;
     while (space.free(from.p_W + (i + 1) * step * direction)) ++i;
     return {from.storey, from.p_W + i * step * direction};
@@ -308,7 +309,7 @@ class Planner {
   const bim::Building& building_;
   int storey_;
   const RouteMarks& marks_;
-  sim::WalkSpace space_;
+  sim::MultiStoreyPlanner space_;
 };
 
 int start_storey(const bim::Building& building, const Start& start, const RouteMarks& marks) {
@@ -340,7 +341,7 @@ int lowest_habitable_storey(const bim::Building& building) {
            building.storeys[static_cast<std::size_t>(b)].elevation_m;
   });
   for (const int storey : order) {
-    std::optional<sim::FreeSpace> space;
+    std::optional<sim::ClearanceMap> space;
     for (const bim::Room& room : building.rooms) {
       if (room.storey != storey) continue;
       if (!space) space.emplace(building, storey);

@@ -10,7 +10,7 @@
 
 namespace plumbline::scenarios {
 
-/// Where things of a scenario stand in its file, for complaints.
+/// Where parts of a scenario stand in its file, for error messages.
 struct RouteMarks {
   Mark start;
   Mark route;
@@ -22,7 +22,7 @@ struct RoutePlan {
   int storey = -1;  ///< of the start
   Eigen::Vector2d start_W = Eigen::Vector2d::Zero();
   double yaw_deg = 0.0;
-  std::vector<std::string> rooms;        ///< ids in the order of the walk; "all" settled
+  std::vector<std::string> rooms;        ///< ids in the order of the walk; "all" resolved
   std::vector<sim::Waypoint> waypoints;  ///< from the start on
   double length_m = 0.0;
   double stairs_m = 0.0;  ///< of the length, how much leads over stairs

@@ -55,7 +55,8 @@ void check_route_and_start(const Scenario& scenario, const Tree& tree) {
   if (scenario.start.room && scenario.start.at)
     throw InputError(mark_at(tree, {"start"}), "start takes either a room or a point `at`, not both");
   if (scenario.start.room && scenario.start.storey)
-    throw InputError(mark_at(tree, {"start", "storey"}), "a start in a room takes no storey, which the room tells");
+    throw InputError(mark_at(tree, {"start", "storey"}),
+                     "a start in a room takes no storey, which follows from the room");
   if (scenario.start.random && (scenario.start.room || scenario.start.at))
     throw InputError(mark_at(tree, {"start", "random"}), "a drawn start takes neither a room nor a point `at`");
   const bool names_rooms = tree.find("route") != nullptr && tree.find("route")->find("rooms") != nullptr;
@@ -144,10 +145,10 @@ sim::LidarConfig lidar_config(const LidarSpec& spec) {
 }
 
 sim::Conditions conditions(const GroundSpec& ground, const PushesSpec& pushes) {
-  constexpr double least_share = 0.3;  // [facts: legged section 7.3]
+  constexpr double least_share = 0.3;  // docs/methods/robot.md
   sim::Conditions out;
   out.friction = ground.friction;
-  out.uneven_m = 1e-3 * ground.uneven_mm;
+  out.terrain_noise_m = 1e-3 * ground.uneven_mm;
   out.pushes.max_n = pushes.max_n;
   out.pushes.min_n = pushes.min_n.value_or(least_share * pushes.max_n);
   out.pushes.every_s = pushes.every_s;

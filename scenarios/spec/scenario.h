@@ -11,77 +11,64 @@
 #include "sim/robot/conditions.h"
 #include "sim/robot/leg_odometry.h"
 
-namespace plumbline {
-
-template <>
-struct EnumNames<sim::LidarPreset> {
-  static constexpr std::array<std::string_view, 4> names = {"ideal", "datasheet", "real", "full"};
-};
-template <>
-struct EnumNames<sim::Footprint> {
-  static constexpr std::array<std::string_view, 3> names = {"none", "edges", "everywhere"};
-};
-template <>
-struct EnumNames<slam::LidarModelId> {
-  static constexpr std::array<std::string_view, 4> names = {"vlp16", "vlp32c", "hdl32e", "os1_64"};
-};
-template <>
-struct EnumNames<slam::ReturnMode> {
-  static constexpr std::array<std::string_view, 3> names = {"strongest", "last", "dual"};
-};
-template <>
-struct EnumNames<sim::OdometryPreset> {
-  static constexpr std::array<std::string_view, 3> names = {"ideal", "noisy", "uncorrected"};
-};
-
-}  // namespace plumbline
-
 namespace plumbline::scenarios {
 
 enum class Knowledge { unknown, known };
+[[nodiscard]] constexpr std::array<std::string_view, 2> names_of(Knowledge) { return {"unknown", "known"}; }
 /// Which storeys `rooms: all` means.
 enum class RouteStoreys { start, all };
+[[nodiscard]] constexpr std::array<std::string_view, 2> names_of(RouteStoreys) { return {"start", "all"}; }
 /// Of a start that is drawn: a room with even chances and a place in it, or a place on all of the rooms' floor.
-enum class StartDraw { rooms, anywhere };
+enum class RandomStart { rooms, anywhere };
+[[nodiscard]] constexpr std::array<std::string_view, 2> names_of(RandomStart) { return {"rooms", "anywhere"}; }
 enum class Hinge { a, b };
+[[nodiscard]] constexpr std::array<std::string_view, 2> names_of(Hinge) { return {"a", "b"}; }
 enum class Swing { left, right };
+[[nodiscard]] constexpr std::array<std::string_view, 2> names_of(Swing) { return {"left", "right"}; }
 
 /// Where the robot stands at the start: a room (its freest point), a point of a storey, in W, or a place that the seed
 /// draws.
 struct Start {
-  std::optional<StartDraw> random;
+  std::optional<RandomStart> random;
   std::optional<std::string> room;
   std::optional<std::string> storey;
-  std::optional<Eigen::Vector2d> at;  ///< m, W
-  std::optional<double> yaw_deg;      ///< absent: along the first leg of the route
+  std::optional<Eigen::Vector2d> at;
+  std::optional<double> yaw_deg;
   template <class V>
   void visit(V& v) {
-    v("random", random, Field{.doc = "start where the seed says: in a room drawn first, or anywhere in the rooms"});
-    v("room", room, Field{.doc = "start at the freest point of this room"});
-    v("storey", storey, Field{.doc = "storey of `at` and `random`; the lowest with rooms when not given"});
-    v("at", at, Field{.doc = "start here: [x, y] in the plan, m"});
+    v("random", random,
+      Field{.doc = "start drawn from the seed: a place in a room drawn first, or anywhere in the rooms"});
+    v("room", room, Field{.doc = "id of the room in which to start, at the point of greatest clearance"});
+    v("storey", storey, Field{.doc = "id of the storey of `at` and `random`; the lowest with rooms when not given"});
+    v("at", at, Field{.doc = "start position [x, y] in the plan", .unit = "m", .min = -1e4, .max = 1e4});
     v("yaw_deg", yaw_deg,
-      Field{.doc = "heading, degrees counter-clockwise from x; of a drawn start any", .min = -360.0, .max = 360.0});
+      Field{
+          .doc =
+              "heading, counter-clockwise from x; along the first leg of the route when not given, random for `random`",
+          .min = -360.0,
+          .max = 360.0});
   }
 };
 
 /// Rooms to walk through, in order; `shuttle` instead walks one room from end to end.
 struct Route {
-  std::vector<std::string> rooms = {"all"};  ///< "all": every room in reach, nearest first, and back
+  std::vector<std::string> rooms = {"all"};
   RouteStoreys storeys = RouteStoreys::start;
-  int loop = 1;  ///< how many times the list is walked
+  int loop = 1;
   std::optional<std::string> shuttle;
   int times = 1;
-  std::optional<int> random;  ///< so many rooms, drawn by the seed
+  std::optional<int> random;
   template <class V>
   void visit(V& v) {
-    v("rooms", rooms, Field{.doc = "rooms to visit in order, also over stairs; or all in reach"});
-    v("storeys", storeys, Field{.doc = "of `rooms: all`: the start's storey alone, or all that stairs lead to"});
-    v("loop", loop, Field{.doc = "walk the list so many times", .min = 1, .max = 1000});
-    v("shuttle", shuttle, Field{.doc = "walk this room from end to end instead"});
-    v("times", times, Field{.doc = "how many times there and back", .min = 1, .max = 1000});
+    v("rooms", rooms,
+      Field{.doc = "ids of the rooms to visit in order, also over stairs; all: every room in reach, nearest first, and "
+                   "back"});
+    v("storeys", storeys, Field{.doc = "storeys of `rooms: all`: only that of the start, or all that stairs lead to"});
+    v("loop", loop, plain_field("number of times the list of rooms is walked", {.min = 1, .max = 1000}));
+    v("shuttle", shuttle, Field{.doc = "id of a room to walk from end to end instead"});
+    v("times", times, plain_field("number of walks there and back in the room of `shuttle`", {.min = 1, .max = 1000}));
     v("random", random,
-      Field{.doc = "walk to so many rooms of the start's storey that the seed draws", .min = 1, .max = 1000});
+      plain_field("number of rooms to visit on the start's storey, drawn from the seed", {.min = 1, .max = 1000}));
   }
 };
 
@@ -102,17 +89,21 @@ struct LidarSpec {
   template <class V>
   void visit(V& v) {
     v("model", model, Field{.doc = "sensor model"});
-    v("preset", preset, Field{.doc = "noise: as measured on real units (real) unless said otherwise"});
-    v("returns", returns, Field{.doc = "echo of a beam that is sent: the strongest, the last, or both (dual)"});
-    v("rpm", rpm, Field{.doc = "turns a minute", .min = 300.0, .max = 1200.0});
-    v("vertical_offsets", vertical_offsets, Field{.doc = "the driver knows that lasers do not leave from one point"});
+    v("preset", preset, Field{.doc = "preset of the noise; real: as measured on real units"});
+    v("returns", returns, Field{.doc = "return mode: the strongest echo of a beam, the last, or both (dual)"});
+    v("rpm", rpm, Field{.doc = "rotation rate", .unit = "rev/min", .min = 300.0, .max = 1200.0});
+    v("vertical_offsets", vertical_offsets,
+      Field{.doc = "whether the driver corrects for the different origins of the lasers"});
     v("range_noise", range_noise, Field{.doc = "noise of each range; the preset's when not given"});
     v("unit_bias", unit_bias, Field{.doc = "one range bias of the unit; the preset's when not given"});
-    v("laser_bias", laser_bias, Field{.doc = "one range bias a laser; the preset's when not given"});
+    v("laser_bias", laser_bias, Field{.doc = "one range bias of each laser; the preset's when not given"});
     v("reflectivity_noise", reflectivity_noise,
       Field{.doc = "noise of each reflectivity; the preset's when not given"});
-    v("dropout", dropout, Field{.doc = "lost returns; the preset's when not given"});
-    v("optics", optics, Field{.doc = "glass and mirrors; off: glass is not there; the preset's when not given"});
+    v("dropout", dropout, Field{.doc = "random loss of returns; the preset's when not given"});
+    v("optics", optics,
+      Field{
+          .doc =
+              "transmission and mirror reflection; false: the LiDAR does not see glass; the preset's when not given"});
     v("footprint", footprint, Field{.doc = "where a beam has a width; the preset's when not given"});
   }
 };
@@ -123,35 +114,36 @@ struct OdometrySpec {
   sim::OdometryPreset preset = sim::OdometryPreset::noisy;
   template <class V>
   void visit(V& v) {
-    v("preset", preset, Field{.doc = "noise of encoders, gyro and contacts"});
+    v("preset", preset, Field{.doc = "preset of the noise of encoders, gyro and contacts"});
   }
 };
 
 /// What the robot walks on. The LiDAR does not see it, the gait does not know it.
 struct GroundSpec {
   double friction = sim::Conditions().friction;
-  double uneven_mm = 1e3 * sim::Conditions().uneven_m;
+  double uneven_mm = 1e3 * sim::Conditions().terrain_noise_m;
   template <class V>
   void visit(V& v) {
     v("friction", friction,
-      Field{.doc = "sliding friction of the feet on the floor and of the robot on all else", .min = 0.05, .max = 1.5});
+      plain_field("sliding friction coefficient of the robot on all surfaces", {.min = 0.05, .max = 1.5}));
     v("uneven_mm", uneven_mm,
-      Field{.doc = "tilted plates lie on the floor, at most so high, mm; 0: even", .min = 0.0, .max = 40.0});
+      Field{.doc = "greatest height of tilted plates on the floor; 0: an even floor", .min = 0.0, .max = 40.0});
   }
 };
 
 /// Pushes of 0.15 s against the robot, horizontal, of any direction.
 struct PushesSpec {
-  std::optional<double> min_n;  ///< absent: 0.3 of max_n
+  std::optional<double> min_n;
   double max_n = sim::PushConfig().max_n;
   double every_s = sim::PushConfig().every_s;
   bool on_stairs = sim::PushConfig().on_stairs;
   template <class V>
   void visit(V& v) {
-    v("min_n", min_n, Field{.doc = "least force, N; 0.3 of max_n when not given", .min = 0.0, .max = 1000.0});
-    v("max_n", max_n, Field{.doc = "largest force, N; 0: no pushes", .min = 0.0, .max = 1000.0});
-    v("every_s", every_s, Field{.doc = "one push in each span of so long, s", .min = 1.0, .max = 3600.0});
-    v("on_stairs", on_stairs, Field{.doc = "also on stairs and their landings, where a strong push can end in a fall"});
+    v("min_n", min_n, Field{.doc = "least force; 0.3 of max_n when not given", .min = 0.0, .max = 1000.0});
+    v("max_n", max_n, Field{.doc = "greatest force; 0: no pushes", .min = 0.0, .max = 1000.0});
+    v("every_s", every_s, Field{.doc = "length of the time spans, with one push in each", .min = 1.0, .max = 3600.0});
+    v("on_stairs", on_stairs,
+      Field{.doc = "whether pushes also come on stairs and their landings, where a strong one can end in a fall"});
   }
 };
 [[nodiscard]] sim::Conditions conditions(const GroundSpec& ground, const PushesSpec& pushes);
@@ -159,18 +151,22 @@ struct PushesSpec {
 /// Someone who walks to and fro; exactly one of rooms and points.
 struct PersonSpec {
   std::vector<std::string> rooms;
-  std::vector<Eigen::Vector2d> points;  ///< m, W
+  std::vector<Eigen::Vector2d> points;
   double speed_mps = 0.8;
   double radius_m = 0.25;
   double height_m = 1.75;
   template <class V>
   void visit(V& v) {
-    v("rooms", rooms, Field{.doc = "rooms to walk through on the storey of the start, in order, and back"});
-    v("points", points, Field{.doc = "or points [x, y], m, straight from one to the next, and back"});
+    v("rooms", rooms, Field{.doc = "ids of the rooms to walk through on the start's storey, in order, and back"});
+    v("points", points,
+      Field{.doc = "points [x, y] in the plan to walk through in straight lines, and back, instead of `rooms`",
+            .unit = "m",
+            .min = -1e4,
+            .max = 1e4});
     v("speed_mps", speed_mps,
-      Field{.doc = "walking speed, m/s; stands while the robot is within 1 m", .min = 0.0, .max = 3.0});
-    v("radius_m", radius_m, Field{.doc = "radius of the upright capsule, m", .min = 0.05, .max = 0.5});
-    v("height_m", height_m, Field{.doc = "height, m", .min = 1.05, .max = 2.5});
+      Field{.doc = "walking speed; a person stands while the robot is within 1 m", .min = 0.0, .max = 3.0});
+    v("radius_m", radius_m, Field{.doc = "radius of the upright capsule", .min = 0.05, .max = 0.5});
+    v("height_m", height_m, Field{.doc = "height of the upright capsule", .min = 1.05, .max = 2.5});
   }
 };
 
@@ -187,22 +183,27 @@ struct MovingDoorSpec {
   void visit(V& v) {
     v("door", door, Field{.doc = "id of a door that is open in the building", .required = true});
     v("hinge", hinge, Field{.doc = "end of the opening with the hinge, along the wall's line from a to b"});
-    v("swing", swing, Field{.doc = "side it opens to, seen from a to b"});
-    v("angle_deg", angle_deg, Field{.doc = "how far it opens, degrees", .min = 10.0, .max = 175.0});
-    v("near_m", near_m, Field{.doc = "opens while the robot is this near to its middle, m", .min = 1.0, .max = 20.0});
-    v("travel_s", travel_s, Field{.doc = "time to open or to shut, s", .min = 0.2, .max = 10.0});
-    v("times_s", times_s, Field{.doc = "opens, shuts, opens, ... at these times as well, s", .min = 0.0});
+    v("swing", swing, Field{.doc = "side to which the leaf opens, seen from a to b"});
+    v("angle_deg", angle_deg, Field{.doc = "opening angle", .min = 10.0, .max = 175.0});
+    v("near_m", near_m,
+      Field{.doc = "distance of the robot from the door's middle below which the door opens", .min = 1.0, .max = 20.0});
+    v("travel_s", travel_s, Field{.doc = "time the leaf takes to open or to close", .min = 0.2, .max = 10.0});
+    v("times_s", times_s,
+      Field{.doc = "times in ascending order at which the door also opens, closes, opens and so on",
+            .min = 0.0,
+            .max = 36000.0});
   }
 };
 
-/// What plan localization is told besides the plan.
+/// What plan localization knows besides the plan.
 struct PriorSpec {
   Knowledge yaw = Knowledge::unknown;
   Knowledge storey = Knowledge::known;
   template <class V>
   void visit(V& v) {
-    v("yaw", yaw, Field{.doc = "heading at the start: a compass with slam::Prior's sigma, or nothing"});
-    v("storey", storey, Field{.doc = "storey of the start"});
+    v("yaw", yaw,
+      Field{.doc = "heading at the start; known: measured by a compass, with the prior's standard deviation"});
+    v("storey", storey, Field{.doc = "storey at the start"});
   }
 };
 
@@ -214,9 +215,12 @@ struct KidnapSpec {
   template <class V>
   void visit(V& v) {
     v("after_s", after_s,
-      Field{.doc = "lifted after this time, s, or at the end of its route", .min = 1.0, .max = 36000.0});
-    v("away_s", away_s, Field{.doc = "in the air, s: no scans, no odometry", .min = 1.0, .max = 60.0});
-    v("to", to, Field{.doc = "where it is set down", .required = true});
+      Field{.doc = "time at which the robot is lifted, or at the end of its route if that is earlier",
+            .min = 1.0,
+            .max = 36000.0});
+    v("away_s", away_s, Field{.doc = "time in the air, without scans and odometry", .min = 1.0, .max = 60.0});
+    v("to", to,
+      Field{.doc = "where the robot is set down; it then walks the rooms of its route again", .required = true});
   }
 };
 
@@ -229,9 +233,17 @@ struct GateSpec {
   template <class V>
   void visit(V& v) {
     v("metric", metric, Field{.doc = "name of the metric, as in results.json", .required = true});
-    v("method", method, Field{.doc = "method it is asked of", .required = true});
-    v("max", max, Field{.doc = "passes when value <= max"});
-    v("min", min, Field{.doc = "passes when value >= min"});
+    v("method", method, Field{.doc = "name of the method", .required = true});
+    v("max", max,
+      Field{.doc = "upper bound of the metric; exactly one of max and min",
+            .unit = "of the metric",
+            .min = -1e9,
+            .max = 1e9});
+    v("min", min,
+      Field{.doc = "lower bound of the metric; exactly one of max and min",
+            .unit = "of the metric",
+            .min = -1e9,
+            .max = 1e9});
   }
 };
 
@@ -239,8 +251,8 @@ struct GateSpec {
 struct Scenario {
   int version = 1;
   std::string name = "unnamed";
-  std::string building;                   ///< path of the plan or IFC file, relative to the scenario's folder
-  bim::BuildingOptions building_options;  ///< its keys stand beside `building`
+  std::string building;
+  bim::BuildingOptions building_options;
   std::uint64_t seed = 1;
   Start start;
   Route route;
@@ -254,29 +266,32 @@ struct Scenario {
   std::vector<MovingDoorSpec> moving_doors;
   std::optional<KidnapSpec> kidnap;
   PriorSpec prior;
-  std::vector<std::string> methods;  ///< empty: the standard ones of the table
+  std::vector<std::string> methods;
   std::vector<GateSpec> gates;
   template <class V>
   void visit(V& v) {
-    v("scenario", version, Field{.doc = "version of this format", .min = 1, .max = 1, .required = true});
+    v("scenario", version, plain_field("version of the format", {.min = 1, .max = 1, .required = true}));
     v("name", name, Field{.doc = "name of the run"});
-    v("building", building, Field{.doc = "plan or IFC file, relative to this file", .required = true});
+    v("building", building,
+      Field{.doc = "path of the plan, IFC file or other building, relative to the scenario's folder",
+            .required = true});
     building_options.visit(v);
-    v("seed", seed, Field{.doc = "seed of everything random", .min = 0, .max = 9.2e18});
+    v("seed", seed, plain_field("seed of all random numbers", {.min = 0, .max = 9.2e18}));
     v("start", start, Field{.doc = "where the robot starts"});
-    v("route", route, Field{.doc = "where it walks"});
-    v("speed_mps", speed_mps, Field{.doc = "walking speed, m/s", .min = 0.1, .max = 1.2});
-    v("duration_s", duration_s, Field{.doc = "longest duration, s", .min = 1.0, .max = 36000.0});
+    v("route", route, Field{.doc = "where the robot walks"});
+    v("speed_mps", speed_mps, Field{.doc = "walking speed", .min = 0.1, .max = 1.2});
+    v("duration_s", duration_s, Field{.doc = "greatest duration of the run", .min = 1.0, .max = 36000.0});
     v("lidar", lidar, Field{.doc = "LiDAR"});
     v("odometry", odometry, Field{.doc = "leg odometry"});
-    v("ground", ground, Field{.doc = "what the robot walks on; unseen by the LiDAR, unknown to the gait"});
-    v("pushes", pushes, Field{.doc = "pushes of 0.15 s against the robot, horizontal, from any side"});
-    v("people", people, Field{.doc = "people who walk about; the LiDAR sees them, no plan knows them"});
-    v("moving_doors", moving_doors, Field{.doc = "doors that open and shut; the LiDAR sees their leaves"});
-    v("kidnap", kidnap, Field{.doc = "once on its way the robot is carried off; people and doors then begin anew"});
-    v("prior", prior, Field{.doc = "what plan localization is told"});
-    v("methods", methods, Field{.doc = "methods to run"});
-    v("gates", gates, Field{.doc = "bounds that decide pass or fail"});
+    v("ground", ground, Field{.doc = "ground the robot walks on; neither the LiDAR nor the gait controller knows it"});
+    v("pushes", pushes, Field{.doc = "horizontal pushes of 0.15 s against the robot, from any direction"});
+    v("people", people, Field{.doc = "people who walk about; the LiDAR sees them, no plan has them"});
+    v("moving_doors", moving_doors, Field{.doc = "doors that open and close; the LiDAR sees their leaves"});
+    v("kidnap", kidnap,
+      Field{.doc = "once on its way the robot is lifted and set down elsewhere; people and doors then start again"});
+    v("prior", prior, Field{.doc = "what plan localization knows at the start beside the plan"});
+    v("methods", methods, Field{.doc = "names of the methods to run; the default ones when none is named"});
+    v("gates", gates, Field{.doc = "bounds on metrics that decide whether the run passes"});
   }
 };
 
@@ -301,28 +316,3 @@ void check_name(const std::string& name, const Mark& mark);
 [[nodiscard]] std::vector<std::string> off_defaults(const Scenario& scenario);
 
 }  // namespace plumbline::scenarios
-
-namespace plumbline {
-
-template <>
-struct EnumNames<scenarios::RouteStoreys> {
-  static constexpr std::array<std::string_view, 2> names = {"start", "all"};
-};
-template <>
-struct EnumNames<scenarios::StartDraw> {
-  static constexpr std::array<std::string_view, 2> names = {"rooms", "anywhere"};
-};
-template <>
-struct EnumNames<scenarios::Hinge> {
-  static constexpr std::array<std::string_view, 2> names = {"a", "b"};
-};
-template <>
-struct EnumNames<scenarios::Swing> {
-  static constexpr std::array<std::string_view, 2> names = {"left", "right"};
-};
-template <>
-struct EnumNames<scenarios::Knowledge> {
-  static constexpr std::array<std::string_view, 2> names = {"unknown", "known"};
-};
-
-}  // namespace plumbline

@@ -9,11 +9,11 @@
 
 namespace plumbline::scenarios {
 
-/// Sound scenarios that together have a value for every key there is.
+/// Valid scenarios that together have a value for every key.
 [[nodiscard]] const std::vector<std::string>& scenario_examples();
 /// Every key of a scenario file.
 [[nodiscard]] std::vector<SchemaSection> scenario_schema();
-/// The page that documents scenario files, Markdown; scenarios/SCENARIO.md is a copy of it.
+/// The page that documents scenario files, in Markdown: docs/reference/scenario.md.
 [[nodiscard]] std::string scenario_page();
 
 }  // namespace plumbline::scenarios

@@ -10,7 +10,7 @@ namespace plumbline::scenarios {
 /// How a child ended: its exit code, or 128 + the signal, and the last line it wrote to stderr.
 struct ChildEnd {
   int code = 0;
-  std::string complaint;
+  std::string last_line;
 };
 
 /// Runs this program `count` times, at most `jobs` at a time: `arguments(i)` are those of child i, `log(i)` is the file

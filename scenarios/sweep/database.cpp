@@ -84,7 +84,7 @@ void write_tables(Database& database, const std::vector<SweepRow>& rows, const s
   for (const SweepCell& c : cells) {
     const auto [low, high] = wilson95(c.succeeded, c.judged);
     database.insert("cells", {c.scenario, c.variant, c.start, c.method, c.runs, c.failed, c.judged, c.succeeded, low,
-                              high, c.ambiguous, c.honest, c.weak, c.weak_right, c.false_convergences,
+                              high, c.ambiguous, c.honest, c.marginal, c.marginal_right, c.false_convergences,
                               value_of(c.median_identifiable_at_s), value_of(c.median_identifiable_at_m),
                               value_of(c.median_converged_at_m), value_of(c.median_error_m)});
   }

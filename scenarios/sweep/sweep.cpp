@@ -10,7 +10,6 @@
 #include <cstring>
 #include <filesystem>
 #include <map>
-#include <set>
 
 #include "bim/errors.h"
 #include "scenarios/host/files.h"
@@ -28,13 +27,16 @@ namespace {
 class SweepFolder {
  public:
   explicit SweepFolder(const std::string& path) : path_(path) {
-    static const std::set<std::string> known = {"results",   ".work",      "runs.csv",     "table.txt",
-                                                "table.csv", "table.html", "sweep.sqlite", ".lock"};
+    const auto known = [](const std::string& name) {
+      const auto rows = files_of(DirectoryKind::sweep);
+      return name == ".work" || name == ".lock" ||
+             std::any_of(rows.begin(), rows.end(), [&](const FileRow& row) { return row.name == name; });
+    };
     std::error_code error;
     if (fs::exists(path))
       for (fs::directory_iterator it(path, error), end; !error && it != end; it.increment(error)) {
         const std::string name = it->path().filename().string();
-        if (!known.contains(name) && it->path().extension() != ".tmp")
+        if (!known(name) && it->path().extension() != ".tmp")
           throw InputError({path, 0, 0}, "holds '" + name + "', which no sweep wrote; name another --out");
       }
     made_ = !fs::exists(path);
@@ -71,11 +73,11 @@ class SweepFolder {
   bool made_ = false;  ///< the folder was not there
 };
 
-/// A child's complaint without the place in a file that the sweep made.
-std::string without_place(const std::string& complaint, const std::string& folder) {
-  if (!complaint.starts_with(folder)) return complaint;
-  const std::size_t end = complaint.find(": ");
-  return end == std::string::npos ? complaint : complaint.substr(end + 2);
+/// A child's last_line without the place in a file that the sweep made.
+std::string without_place(const std::string& last_line, const std::string& folder) {
+  if (!last_line.starts_with(folder)) return last_line;
+  const std::size_t end = last_line.find(": ");
+  return end == std::string::npos ? last_line : last_line.substr(end + 2);
 }
 
 bool is_made(const std::string& path, const SweepRun& run) {
@@ -118,13 +120,13 @@ void keep(const Sweep& sweep, const SweepFolder& folder, const SweepRun& run, co
     throw InputError({run.scenario, 0, 0}, (run.variant.empty() ? "" : "'" + run.variant + "', ") +
                                                (run.start.empty() ? "" : "start " + run.start + ", ") + "seed " +
                                                std::to_string(run.seed) + ": " +
-                                               without_place(end.complaint, folder.work()));
+                                               without_place(end.last_line, folder.work()));
   if (end.code != 0 && end.code != 1 && end.code != scenario_failed)
-    throw EnvironmentError("sweep: run " + run.key + " ended with " + std::to_string(end.code) + ": " + end.complaint);
+    throw EnvironmentError("sweep: run " + run.key + " ended with " + std::to_string(end.code) + ": " + end.last_line);
   const std::string file = folder.work() + "/" + run.key + "/results.json";
   std::optional<Tree> results;
   if (fs::exists(file)) results = read_json(read_text_file(file), file);
-  write_file(folder.result(run), write_json(result_of(run, results, methods_of(sweep, run), end.complaint)) + "\n");
+  write_file(folder.result(run), write_json(result_of(run, results, methods_of(sweep, run), end.last_line)) + "\n");
   std::error_code error;
   fs::remove_all(folder.work() + "/" + run.key, error);
 }
@@ -138,7 +140,7 @@ std::vector<Group> missing_groups(const Sweep& sweep, const SweepFolder& folder)
   std::map<std::string, std::size_t> group_of;
   for (const SweepRun& run : sweep.runs) {
     if (is_made(folder.result(run), run)) continue;
-    const auto [it, fresh] = group_of.try_emplace(run.walk_digest, groups.size());
+    const auto [it, fresh] = group_of.try_emplace(run.simulation_digest, groups.size());
     if (!fresh && groups[it->second].size() >= most_at_once) it->second = groups.size();
     if (it->second == groups.size()) groups.emplace_back();
     groups[it->second].push_back(&run);

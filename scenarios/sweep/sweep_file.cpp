@@ -8,7 +8,7 @@
 
 #include "bim/digest/digest.h"
 #include "scenarios/spec/resolve.h"
-#include "scenarios/sweep/shared_walk.h"
+#include "scenarios/sweep/shared_simulation.h"
 
 namespace plumbline::scenarios {
 
@@ -113,12 +113,12 @@ Mark mark_of(const Tree& tree, std::string_view key, std::size_t i) {
   return list->is_list() && i < list->as_list().size() ? list->as_list()[i].mark : list->mark;
 }
 
-/// The scenario without what its methods alone are told.
-Tree walk_of(const Tree& scenario) {
-  Tree walk = Tree::map();
+/// The part of a scenario that decides about its simulation.
+Tree simulation_part(const Tree& scenario) {
+  Tree part = Tree::map();
   for (const auto& [key, value] : scenario.as_map())
-    if (std::find(keys_of_methods.begin(), keys_of_methods.end(), key) == keys_of_methods.end()) walk.set(key, value);
-  return walk;
+    if (std::find(method_keys.begin(), method_keys.end(), key) == method_keys.end()) part.set(key, value);
+  return part;
 }
 
 std::string file_name(const std::string& text) {
@@ -177,74 +177,22 @@ Sweep read_sweep(const std::string& path, int seeds, slam::MethodTable table) {
           throw InputError(mark_of(tree, file.variants.empty() ? "scenarios" : "variants", v),
                            "two kinds of run are both called '" + part + "'; name one of them otherwise");
         const Digest input = Digest().add(write_yaml(made)).add(scenario.building_bytes());
-        const Digest walk = Digest().add(scenario.text(walk_of(made))).add(scenario.building_bytes());
+        const Digest simulation = Digest().add(scenario.text(simulation_part(made))).add(scenario.building_bytes());
         sweep.scenario_texts.push_back(scenario.text(made));
         text_bytes += sweep.scenario_texts.back().size();
         if (text_bytes > most_text_bytes)
           throw InputError(tree.mark, "its scenarios are more than " + std::to_string(most_text_bytes) + " bytes");
         for (int k = 0; k < file.seeds; ++k) {
           const std::uint64_t seed = file.first_seed + static_cast<std::uint64_t>(k);
-          sweep.runs.push_back(
-              {part + "-" + std::to_string(seed), scenario.name(), variants[v].name,
-               start == nullptr ? "" : flow_text(to_tree(*start)), seed, sweep.scenario_texts.size() - 1,
-               hex64(Digest(input).add(seed).add(PLUMBLINE_VERSION).value()), hex64(Digest(walk).add(seed).value())});
+          sweep.runs.push_back({part + "-" + std::to_string(seed), scenario.name(), variants[v].name,
+                                start == nullptr ? "" : flow_text(to_tree(*start)), seed,
+                                sweep.scenario_texts.size() - 1,
+                                hex64(Digest(input).add(seed).add(PLUMBLINE_VERSION).value()),
+                                hex64(Digest(simulation).add(seed).value())});
         }
       }
   }
   return sweep;
-}
-
-const std::vector<std::string>& sweep_examples() {
-  static const std::vector<std::string> examples = {R"yaml(sweep: 1
-name: with and without a compass
-scenarios: [library/quickstart.yaml, library/house.yaml]
-seeds: 20
-first_seed: 1
-methods: [vgicp, s_graph_localization]
-variants:
-  - {name: compass, set: [prior.yaw=known]}
-  - {name: no compass, set: [prior.yaw=unknown, duration_s=90]}
-)yaml",
-                                                    R"yaml(sweep: 1
-name: where it starts
-scenarios: [library/house.yaml]
-seeds: 5
-starts:
-  - {room: living}
-  - {storey: ground, at: [1.5, 2.5], yaw_deg: 90}
-  - {random: anywhere}
-)yaml"};
-  return examples;
-}
-
-std::string sweep_page() {
-  std::string page = R"md(# Sweep files
-
-Many runs and one table: scenarios x variants x starts x seeds, every run with all methods. `plumbline sweep SWEEP.yaml` runs
-them. This page is what `plumbline sweep --schema` prints: it is made from the reader itself.
-
-- `scenarios` are files; a variant replaces values in them, `set: [prior.yaw=known]`, and `starts` their start.
-- Runs of one seed that differ in `prior`, `methods` and `gates` alone are simulated once, and each of them estimated and
-  scored from that: to the last bit what `plumbline run` makes of them. Such groups are processes of their own, `--jobs`
-  at a time. Each run leaves one file in `results/`, complete or not at all; what is
-  there and was made from the same scenario, building, seed and version is not run again, so that a sweep that was stopped,
-  however, goes on where it was.
-- `runs.csv` has a row a run and method, with why it failed, `table.txt`, `table.csv` and `table.html` one a scenario, variant, start and method
-  over its seeds, `sweep.sqlite` both. None of them depends on `--jobs` or on how often the sweep was stopped.
-- Of a plan localization the table has success over the runs that can be told (with the 95 % interval of Wilson), the
-  share of `honest_ambiguity` over those that cannot, false convergences, medians over the runs that can be told, in
-  which one that never converged counts as infinite, and the median error of all runs. `weak` are runs between: the last other place is nearly ruled out,
-  or was too late to hold an answer for 5 s and 1 m; given are those that are right (`success` or `honest_ambiguity`) of
-  them all. Of a SLAM method it has the share of `ok` and the median error.
-- Gates are for `run`: a sweep asks none, and its exit code is 0 whatever its table says.
-
-)md";
-  std::vector<Tree> examples;
-  for (const std::string& text : sweep_examples()) {
-    page += "```yaml\n" + text + "```\n\n";
-    examples.push_back(read_yaml(text, "example"));
-  }
-  return page + "## The file\n\n" + schema_tables(SchemaVisitor::sections_of<SweepFile>(), examples);
 }
 
 }  // namespace plumbline::scenarios

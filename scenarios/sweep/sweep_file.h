@@ -13,11 +13,12 @@ namespace plumbline::scenarios {
 /// A set of values of a scenario that are other than its file says.
 struct SweepVariant {
   std::string name;
-  std::vector<std::string> set;  ///< "prior.yaw=known"
+  std::vector<std::string> set;
   template <class V>
   void visit(V& v) {
-    v("name", name, Field{.doc = "how the table calls it", .required = true});
-    v("set", set, Field{.doc = "values of the scenario, as key.key=value, each over what its file says"});
+    v("name", name, Field{.doc = "name of the variant in tables", .required = true});
+    v("set", set,
+      Field{.doc = "values that replace those of the scenario, as key.key=value, for example prior.yaw=known"});
   }
 };
 
@@ -33,14 +34,14 @@ struct SweepFile {
   std::vector<SweepVariant> variants;
   template <class V>
   void visit(V& v) {
-    v("sweep", version, Field{.doc = "version of this format", .min = 1, .max = 1, .required = true});
+    v("sweep", version, plain_field("version of the format", {.min = 1, .max = 1, .required = true}));
     v("name", name, Field{.doc = "name of the sweep"});
-    v("scenarios", scenarios, Field{.doc = "scenario files, relative to this file", .required = true});
-    v("seeds", seeds, Field{.doc = "how many seeds of each", .min = 1, .max = 100000});
-    v("first_seed", first_seed, Field{.doc = "the first of them; the others follow it", .min = 0, .max = 9e18});
-    v("methods", methods, Field{.doc = "methods of every run; each scenario's own when none is named"});
-    v("starts", starts, Field{.doc = "starts in place of the scenarios'"});
-    v("variants", variants, Field{.doc = "conditions; the scenarios as they are when none is named"});
+    v("scenarios", scenarios, Field{.doc = "paths of the scenarios, relative to the sweep's folder", .required = true});
+    v("seeds", seeds, plain_field("number of seeds of each scenario", {.min = 1, .max = 100000}));
+    v("first_seed", first_seed, plain_field("first seed; the others follow it", {.min = 0, .max = 9e18}));
+    v("methods", methods, Field{.doc = "names of the methods of every run; each scenario's own when none is named"});
+    v("starts", starts, Field{.doc = "starts that replace those of the scenarios"});
+    v("variants", variants, Field{.doc = "variants of the scenarios; the scenarios unchanged when none is given"});
   }
 };
 
@@ -51,9 +52,9 @@ struct SweepRun {
   std::string variant;   ///< empty when the sweep has none
   std::string start;     ///< in one line of YAML, empty when the sweep has none
   std::uint64_t seed = 0;
-  std::size_t text = 0;      ///< of Sweep::scenario_texts, what it runs
-  std::string input_digest;  ///< of all that decides about its result, 16 hex digits
-  std::string walk_digest;   ///< of all that decides about what is simulated
+  std::size_t text = 0;           ///< of Sweep::scenario_texts, what it runs
+  std::string input_digest;       ///< of all that decides about its result, 16 hex digits
+  std::string simulation_digest;  ///< of all that decides about its simulation
 };
 
 /// Every run of a sweep file, by scenario, variant, start, seed, with the methods of all of them.
@@ -66,9 +67,5 @@ struct Sweep {
 /// Reads a sweep and checks the form of every scenario it makes. seeds: so many of each, 0: as the file says. Throws
 /// InputError at the place that is wrong.
 [[nodiscard]] Sweep read_sweep(const std::string& path, int seeds = 0, slam::MethodTable table = slam::methods());
-
-[[nodiscard]] const std::vector<std::string>& sweep_examples();
-/// The page that documents sweep files, Markdown; scenarios/SWEEP.md is a copy of it.
-[[nodiscard]] std::string sweep_page();
 
 }  // namespace plumbline::scenarios

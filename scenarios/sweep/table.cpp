@@ -7,6 +7,7 @@
 #include <limits>
 #include <set>
 
+#include "bim/median.h"
 #include "scenarios/metrics/metrics.h"
 #include "scenarios/report/page.h"
 #include "scenarios/report/svg.h"
@@ -35,11 +36,9 @@ std::size_t metric_index(std::string_view name) {
 }
 
 /// Median where absent values count as infinite; absent when it is.
-std::optional<double> median(std::vector<double> values) {
+std::optional<double> finite_median(const std::vector<double>& values) {
   if (values.empty()) return std::nullopt;
-  std::sort(values.begin(), values.end());
-  const std::size_t n = values.size();
-  const double middle = n % 2 == 1 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
+  const double middle = median(values);
   return std::isfinite(middle) ? std::optional(middle) : std::nullopt;
 }
 
@@ -65,8 +64,8 @@ void count(const SweepRow& row, SweepCell& cell, Samples& samples) {
   if (error) samples.error_m.push_back(*error);
   if (row.verdict == "false_convergence" || row.verdict == "overconfident") ++cell.false_convergences;
   if (row.evidence == "weak") {
-    ++cell.weak;
-    if (row.verdict == "success" || row.verdict == "honest_ambiguity") ++cell.weak_right;
+    ++cell.marginal;
+    if (row.verdict == "success" || row.verdict == "honest_ambiguity") ++cell.marginal_right;
   } else if (row.identifiable.value_or(true)) {
     ++cell.judged;
     if (row.verdict == "success" || row.verdict == "ok") ++cell.succeeded;
@@ -81,10 +80,10 @@ void count(const SweepRow& row, SweepCell& cell, Samples& samples) {
 }
 
 void conclude(const Samples& samples, SweepCell& cell) {
-  if (cell.localizes) cell.median_converged_at_m = median(samples.converged_at_m);
-  cell.median_identifiable_at_s = median(samples.identifiable_at_s);
-  cell.median_identifiable_at_m = median(samples.identifiable_at_m);
-  cell.median_error_m = median(samples.error_m);
+  if (cell.localizes) cell.median_converged_at_m = finite_median(samples.converged_at_m);
+  cell.median_identifiable_at_s = finite_median(samples.identifiable_at_s);
+  cell.median_identifiable_at_m = finite_median(samples.identifiable_at_m);
+  cell.median_error_m = finite_median(samples.error_m);
 }
 
 std::string percent(double share) { return svg::number(100.0 * share, 0); }
@@ -112,14 +111,16 @@ std::string verdict_list(const SweepCell& cell) {
 using Line = std::vector<std::string>;
 
 std::vector<Line> table_lines(const std::vector<SweepCell>& cells) {
-  std::vector<Line> lines = {{"scenario", "variant", "start", "method", "runs", "can be told", "success", "honest",
-                              "weak", "wrong", "told at s", "told at m", "found at m", "error m", "verdicts"}};
+  std::vector<Line> lines = {{"scenario", "variant", "start", "method", "runs", "identifiable", "success", "honest",
+                              "marginal", "wrong", "identifiable at s", "identifiable at m", "converged at m",
+                              "error m", "verdicts"}};
   for (const SweepCell& c : cells)
     lines.push_back(
         {c.scenario, c.variant.empty() ? "-" : c.variant, c.start.empty() ? "-" : c.start, c.method,
          std::to_string(c.runs), c.localizes ? std::to_string(c.judged) : "-", share_text(c.succeeded, c.judged),
-         share_text(c.honest, c.ambiguous), count_text(c.weak_right, c.weak), std::to_string(c.false_convergences),
-         optional_text(c.median_identifiable_at_s, 1), optional_text(c.median_identifiable_at_m, 1),
+         share_text(c.honest, c.ambiguous), count_text(c.marginal_right, c.marginal),
+         std::to_string(c.false_convergences), optional_text(c.median_identifiable_at_s, 1),
+         optional_text(c.median_identifiable_at_m, 1),
          c.localizes && c.judged > 0 && !c.median_converged_at_m ? "never" : optional_text(c.median_converged_at_m, 1),
          optional_text(c.median_error_m, 3), verdict_list(c)});
   return lines;
@@ -166,7 +167,7 @@ std::vector<SweepRow> rows_of(const Tree& result, const std::string& file) {
     SweepRow row = common;
     row.method = name;
     row.verdict = text_at(scores, "verdict");
-    if (const Tree* told = find_path(scores, "localization.identifiable")) row.identifiable = told->as_bool();
+    if (const Tree* known = find_path(scores, "localization.identifiable")) row.identifiable = known->as_bool();
     if (const Tree* evidence = find_path(scores, "localization.evidence")) row.evidence = evidence->as_string();
     if (const Tree* failure = find_path(scores, "localization.failure")) row.failure = failure->as_string();
     for (std::size_t i = 0; i < row.values.size(); ++i)
@@ -247,13 +248,13 @@ std::string table_html(const std::string& name, const std::vector<SweepCell>& ce
     page += "</tr>\n";
     head = false;
   }
-  return page + R"html(</table></div><p class="facts">Success of a plan localization is over the runs that can be told,
-of SLAM the share of ok; in brackets the 95 % interval of Wilson. Honest: of the runs in which what was seen fits several
-places to the end, those that said so. Weak: right ones of the runs between, where the others are nearly ruled out or
-went too late to hold an answer for 5 s and 1 m. Wrong: single answers in a wrong place, or where there are several.
-Told at: when what was seen left one place, median. Found at: after how many metres a success had its answer, median over
-the runs that can be told, the others counted as never. Error: of the position, rms, median of all runs that have
-one.</p></section></main></body></html>
+  return page +
+         R"html(</table></div><p class="facts">Success of a plan localization is over the identifiable runs, of SLAM
+the share of ok; in brackets the 95 % interval of Wilson. Honest: of the runs whose scans fit several poses to the end,
+those that reported so. Marginal: right ones of the runs between, where the other poses are nearly ruled out, or were too
+late to hold an answer for 5 s and 1 m. Wrong: single answers at a wrong pose, or where several fit. Identifiable at:
+when the scans left one pose, median. Converged at: metres until the answer of a success, median over the identifiable
+runs, the others counted as never. Error: of the position, rms, median of all runs that have one.</p></section></main></body></html>
 )html";
 }
 

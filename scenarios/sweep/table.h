@@ -11,7 +11,7 @@
 
 namespace plumbline::scenarios {
 
-/// Interval of Wilson that holds a share with 95 %: of k in n. (0, 1) when n is 0.
+/// Interval [wilson1927] that holds a share with 95 %: of k in n. (0, 1) when n is 0.
 [[nodiscard]] std::pair<double, double> wilson95(int k, int n);
 
 /// One method of one run.
@@ -20,7 +20,7 @@ struct SweepRow {
   std::string verdict;  ///< of the method; "failed" where the scenario did
   std::string digest;
   std::optional<bool> identifiable;
-  std::string evidence;                       ///< of a localization: unique, weak or ambiguous
+  std::string evidence;                       ///< of a localization: unique, marginal or ambiguous
   std::string failure;                        ///< why the scenario failed, or else a localization
   std::vector<std::optional<double>> values;  ///< by score::metrics()
 };
@@ -34,15 +34,15 @@ struct SweepCell {
   int runs = 0;
   int failed = 0;  ///< the scenario did
   bool localizes = false;
-  int judged = 0;  ///< runs that success counts over: those that can be told in time, of a localization
+  int judged = 0;  ///< runs that success counts over: of a localization those identifiable in time
   int succeeded = 0;
   int ambiguous = 0;
   int honest = 0;
-  int weak = 0;                ///< runs between: others are nearly out, or went too late
-  int weak_right = 0;          ///< of them: success or honest_ambiguity
+  int marginal = 0;            ///< runs between: others are nearly out, or went too late
+  int marginal_right = 0;      ///< of them: success or honest_ambiguity
   int false_convergences = 0;  ///< and overconfident answers
   std::map<std::string, int> verdicts;
-  std::optional<double> median_identifiable_at_s;  ///< of those that can be told
+  std::optional<double> median_identifiable_at_s;  ///< of the identifiable ones
   std::optional<double> median_converged_at_m;     ///< infinite where it is no success; absent when that is the median
   std::optional<double> median_identifiable_at_m;
   std::optional<double> median_error_m;  ///< APE of a localization, aligned ATE of SLAM, where there is one

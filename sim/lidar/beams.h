@@ -12,7 +12,7 @@
 
 namespace plumbline::sim {
 
-/// Central rays of one message and what they meet. They stand in tiles of eight columns (firings), laser by laser from
+/// Central rays of one message and their hits. They stand in tiles of eight columns (firings), laser by laser from
 /// the lowest ring on, as the ray scene casts them best; column -1 and one behind the last are the neighbours of the
 /// message's ends.
 class Beams {
@@ -32,7 +32,7 @@ class Beams {
   [[nodiscard]] std::size_t lasers() const { return model_.lasers.size(); }
   /// The laser of a ring.
   [[nodiscard]] std::size_t laser_of(std::size_t ring) const { return laser_of_ring_[ring]; }
-  /// Place of a beam; that of the ring above is tile_columns farther.
+  /// Index of a beam; the beam of the ring above is tile_columns farther.
   [[nodiscard]] std::size_t index(std::int64_t column, std::size_t laser) const {
     const auto c = static_cast<std::size_t>(column + 1);
     const auto ring = static_cast<std::size_t>(model_.lasers[laser].ring);

@@ -10,7 +10,7 @@
 
 namespace plumbline::sim {
 
-/// What one unit's electronics make of echoes: lost ones, range noise and biases. Every draw is addressed by firing,
+/// Detector model of one unit: dropouts, range noise and biases. Every draw is addressed by firing,
 /// laser and the echo's rank alone, so that none moves another.
 class Detector {
  public:

@@ -8,7 +8,7 @@
 
 namespace plumbline::sim {
 
-/// What a beam's detector sees as one: surfaces too close to each other to be told apart.
+/// One echo of a beam: the returns of surfaces that lie closer together than the detector resolves.
 struct Echo {
   double range_m = 0.0;   ///< mean of its reflections, weighted by energy
   double strength = 0.0;  ///< sum over them

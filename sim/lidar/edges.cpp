@@ -32,7 +32,7 @@ bool EdgeFinder::differ(const Beams& beams, std::size_t a, std::size_t b) const 
 }
 
 /// True when the end of a footprint surely meets the face of the beam's middle: it lies in the same triangle, and the
-/// face that the next ring meets, were it endless, would still be behind it there.
+/// plane of the face that the next ring hits lies behind it there.
 bool EdgeFinder::settled(const Beams& beams, std::size_t beam, std::size_t other, const bim::Ray& end) const {
   const bim::Hit& here = beams.hit(beam);
   if (here.triangle < 0 || !scene_.meets(here.triangle, end)) return false;
@@ -61,15 +61,15 @@ void EdgeFinder::find_in_tile(const Beams& beams, std::size_t first, std::span<s
         at_edge[out] = 1;
         continue;
       }
-      const auto look = [&](std::size_t other, double up) {
+      const auto probe = [&](std::size_t other, double up) {
         if (!breaks_at(beams, beam, other)) return;
         const bim::Ray ray = sub_ray(beams.ray(beam), beams.tangents(c - 1, laser), {0.0, up, unit});
         if (settled(beams, beam, other, ray)) return;
         probes_.push_back({beam, out});
         rays_.push_back(ray);
       };
-      if (ring > 0) look(beam - tile, -end);
-      if (ring + 1 < beams.lasers()) look(beam + tile, end);
+      if (ring > 0) probe(beam - tile, -end);
+      if (ring + 1 < beams.lasers()) probe(beam + tile, end);
     }
   }
 }

@@ -13,7 +13,7 @@ namespace plumbline::sim {
 
 /// Finds the beams whose footprint an edge may cross. Edges across a ring lie between a beam and its neighbours in it,
 /// which are a footprint apart. Rings are many footprints apart, so an edge between two seldom lies in a beam: the
-/// upper or lower end of its footprint is cast where the faces met do not settle it.
+/// upper or lower end of the footprint is cast where the faces that were hit do not decide it.
 class EdgeFinder {
  public:
   EdgeFinder(const LidarConfig& config, const bim::RayScene& scene);
@@ -24,8 +24,8 @@ class EdgeFinder {
  private:
   /// An end of a beam's footprint.
   struct Probe {
-    std::size_t beam = 0;  ///< place in Beams
-    std::size_t out = 0;   ///< place in at_edge
+    std::size_t beam = 0;  ///< index into Beams
+    std::size_t out = 0;   ///< index into at_edge
   };
 
   [[nodiscard]] bool differ(const Beams& beams, std::size_t a, std::size_t b) const;

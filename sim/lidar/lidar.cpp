@@ -28,10 +28,10 @@ constexpr std::int64_t full_turn = 360'000'000'000;  // 1e-9 degrees
 constexpr double units_to_rad = std::numbers::pi / 180.0 * 1e-9;
 constexpr std::int64_t units_per_cdeg = 10'000'000;
 constexpr double room_step_m = 0.05;     // a return is in the room where its light came from
-constexpr std::size_t batch_beams = 64;  // beams whose light is followed together
+constexpr std::size_t batch_beams = 64;  // beams that are traced together
 
-/// One beam that takes more than its central ray.
-struct HardBeam {
+/// A beam that can give several echoes: it is traced after the beams of one diffuse surface.
+struct MultiEchoBeam {
   std::uint32_t column = 0;
   std::uint32_t laser = 0;
   bool bundle = false;  ///< cast as sub-rays
@@ -53,10 +53,10 @@ struct Lidar::Impl {
   // Memory of one sweep, used again.
   std::int64_t first_firing = 0;
   std::vector<std::uint8_t> bundle;  ///< by beam, as words: cast as sub-rays
-  std::vector<HardBeam> hard;
-  std::vector<Leg> legs;
-  std::vector<bim::Ray> leg_rays;
-  std::vector<bim::Hit> leg_hits;
+  std::vector<MultiEchoBeam> multi_echo;
+  std::vector<RaySegment> segments;
+  std::vector<bim::Ray> segment_rays;
+  std::vector<bim::Hit> segment_hits;
   std::vector<Reflection> reflections;
   std::vector<Reflection> grouped;
   std::vector<std::pair<std::uint32_t, std::size_t>> order;
@@ -70,11 +70,11 @@ struct Lidar::Impl {
     return column * model.lasers.size() + static_cast<std::size_t>(model.lasers[laser].ring);
   }
   void start(std::int64_t first, std::span<const Pose> poses, Sweep& sweep);
-  void fire_plain(Sweep& sweep);
-  void fire_hard(std::span<const HardBeam> beams, Sweep& sweep);
+  void fire_single_echo(Sweep& sweep);
+  void fire_multi_echo(std::span<const MultiEchoBeam> beams, Sweep& sweep);
   void group_by_beam();
-  void add_legs(const HardBeam& beam, std::uint32_t number);
-  void receive(const HardBeam& beam, Sweep& sweep);
+  void add_segments(const MultiEchoBeam& beam, std::uint32_t number);
+  void receive(const MultiEchoBeam& beam, Sweep& sweep);
   void label(std::size_t slot, const Reflection& reflection, ReturnLabels& labels) const;
   void pack(Sweep& sweep) const;
 };
@@ -115,9 +115,9 @@ void Lidar::Impl::start(std::int64_t first, std::span<const Pose> poses, Sweep& 
   }
 }
 
-/// Beams of one surface that only reflects; all others are noted for later.
-void Lidar::Impl::fire_plain(Sweep& sweep) {
-  hard.clear();
+/// Measures the beams that hit one diffuse surface; collects the others in multi_echo.
+void Lidar::Impl::fire_single_echo(Sweep& sweep) {
+  multi_echo.clear();
   const std::size_t lasers = model.lasers.size();
   for (std::size_t column = 0; column < centres.columns(); ++column) {
     const auto c = static_cast<std::int64_t>(column);
@@ -127,8 +127,8 @@ void Lidar::Impl::fire_plain(Sweep& sweep) {
       const bool wide = bundle[column * lasers + k] != 0;
       if (!wide && hit.element < 0) continue;
       const Surface surface = hit.element < 0 ? Surface{} : light.surface(hit.element);
-      if (wide || (config.optics && !surface.plain())) {
-        hard.push_back({static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(k), wide});
+      if (wide || (config.optics && !surface.is_diffuse())) {
+        multi_echo.push_back({static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(k), wide});
         continue;
       }
       const double cosine = std::abs(hit.normal_W.dot(centres.ray(i).direction_W));
@@ -147,20 +147,20 @@ void Lidar::Impl::fire_plain(Sweep& sweep) {
 }
 
 /// Sub-rays of a beam, or its central ray where it needs no footprint.
-void Lidar::Impl::add_legs(const HardBeam& beam, std::uint32_t number) {
+void Lidar::Impl::add_segments(const MultiEchoBeam& beam, std::uint32_t number) {
   const std::size_t i = centres.index(beam.column, beam.laser);
-  Leg leg;
-  leg.beam = number;
-  leg.ray = centres.ray(i);
+  RaySegment segment;
+  segment.beam = number;
+  segment.ray = centres.ray(i);
   if (!beam.bundle) {
-    legs.push_back(leg);
+    segments.push_back(segment);
     return;
   }
-  leg.gain = 1.0 / static_cast<double>(footprint.size());
+  segment.gain = 1.0 / static_cast<double>(footprint.size());
   const Tangents tangents = centres.tangents(beam.column, beam.laser);
   for (const SubRay& sub : footprint) {
-    leg.ray = sub_ray(centres.ray(i), tangents, sub);
-    legs.push_back(leg);
+    segment.ray = sub_ray(centres.ray(i), tangents, sub);
+    segments.push_back(segment);
   }
 }
 
@@ -176,15 +176,15 @@ void Lidar::Impl::group_by_beam() {
   reflections.swap(grouped);
 }
 
-void Lidar::Impl::fire_hard(std::span<const HardBeam> beams, Sweep& sweep) {
-  legs.clear();
+void Lidar::Impl::fire_multi_echo(std::span<const MultiEchoBeam> beams, Sweep& sweep) {
+  segments.clear();
   reflections.clear();
-  for (std::size_t i = 0; i < beams.size(); ++i) add_legs(beams[i], static_cast<std::uint32_t>(i));
-  leg_rays.clear();
-  for (const Leg& leg : legs) leg_rays.push_back(leg.ray);
-  leg_hits.resize(legs.size());
-  scene.cast(leg_rays, model.range_max_m, leg_hits);
-  light.follow(legs, leg_hits, reflections);
+  for (std::size_t i = 0; i < beams.size(); ++i) add_segments(beams[i], static_cast<std::uint32_t>(i));
+  segment_rays.clear();
+  for (const RaySegment& segment : segments) segment_rays.push_back(segment.ray);
+  segment_hits.resize(segments.size());
+  scene.cast(segment_rays, model.range_max_m, segment_hits);
+  light.trace(segments, segment_hits, reflections);
   group_by_beam();
   for (std::size_t begin = 0; begin < reflections.size();) {
     std::size_t end = begin + 1;
@@ -195,8 +195,8 @@ void Lidar::Impl::fire_hard(std::span<const HardBeam> beams, Sweep& sweep) {
   }
 }
 
-/// Detects the echoes of one beam and keeps those its mode asks for.
-void Lidar::Impl::receive(const HardBeam& beam, Sweep& sweep) {
+/// Detects the echoes of one beam and keeps those of the return mode.
+void Lidar::Impl::receive(const MultiEchoBeam& beam, Sweep& sweep) {
   struct Detected {
     ReturnWord word;
     const Echo* echo = nullptr;
@@ -270,10 +270,10 @@ void Lidar::sweep(std::int64_t first_firing, std::span<const Pose> X_WL, Sweep& 
   impl_->bundle.assign(X_WL.size() * impl_->model.lasers.size(),
                        impl_->config.footprint == Footprint::everywhere ? 1 : 0);
   if (impl_->config.footprint == Footprint::edges) impl_->edges.find(impl_->centres, impl_->bundle);
-  impl_->fire_plain(sweep);
-  const std::span<const HardBeam> hard = impl_->hard;
-  for (std::size_t i = 0; i < hard.size(); i += batch_beams)
-    impl_->fire_hard(hard.subspan(i, std::min(batch_beams, hard.size() - i)), sweep);
+  impl_->fire_single_echo(sweep);
+  const std::span<const MultiEchoBeam> multi_echo = impl_->multi_echo;
+  for (std::size_t i = 0; i < multi_echo.size(); i += batch_beams)
+    impl_->fire_multi_echo(multi_echo.subspan(i, std::min(batch_beams, multi_echo.size() - i)), sweep);
   impl_->pack(sweep);
 }
 

@@ -14,8 +14,8 @@
 
 namespace plumbline::sim {
 
-/// Ground truth of one message's returns, for scoring only; index as in slam::Scan. Of two returns a beam it tells
-/// of the one that seems the stronger.
+/// Ground truth of one message's returns, for scoring only; index as in slam::Scan. With two returns a beam the
+/// labels belong to the stronger one.
 struct ReturnLabels {
   std::vector<std::int32_t> element;     ///< element id, -1 no return
   std::vector<std::int32_t> triangle;    ///< of the mesh that is seen (without optics: less panes), -1 no return

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <string_view>
 
 #include "slam/io/lidar_model.h"
 
@@ -10,10 +11,14 @@ namespace plumbline::sim {
 /// ideal: packets and timing only. datasheet: the data sheet's accuracy taken as noise. real: as measured on two real
 /// units, with the beam's footprint where it meets an edge. full: real with the footprint of every beam.
 enum class LidarPreset { ideal, datasheet, real, full };
+[[nodiscard]] constexpr std::array<std::string_view, 4> names_of(LidarPreset) {
+  return {"ideal", "datasheet", "real", "full"};
+}
 
 /// Where a beam is a bundle of sub-rays: nowhere, where it or a neighbour of its ring meets another face or a jump in
 /// range, or everywhere.
 enum class Footprint { none, edges, everywhere };
+[[nodiscard]] constexpr std::array<std::string_view, 3> names_of(Footprint) { return {"none", "edges", "everywhere"}; }
 
 /// Standard deviation of a range at one distance; linear in between, constant beyond the ends.
 struct RangeSigma {
@@ -21,7 +26,7 @@ struct RangeSigma {
   double sigma_m = 0.0;
 };
 
-/// What one unit measures. Defaults: preset real [facts: lidar section 2].
+/// What one unit measures. Defaults: preset real, docs/methods/lidar_model.md.
 struct LidarConfig {
   slam::LidarModelId model = slam::LidarModelId::vlp16;
   slam::ReturnMode returns = slam::ReturnMode::strongest;
@@ -34,13 +39,13 @@ struct LidarConfig {
   bool optics = true;  ///< panes let light through, polished surfaces mirror it; off: panes are not there
   Footprint footprint = Footprint::edges;
 
-  /// Repeatability on a static target [facts: lidar section 2.2, between the two units].
+  /// Repeatability on a static target, between the two units of docs/methods/lidar_model.md.
   std::array<RangeSigma, 4> sigma = {{{3.0, 0.006}, {5.0, 0.010}, {8.0, 0.015}, {40.0, 0.018}}};
-  double unit_bias_sigma_m = 0.015;    ///< one draw a run, for all lasers [section 2.2: a unit was off by 30 mm]
-  double laser_bias_sigma_m = 0.0135;  ///< one draw a run and laser; makes walls 12-17 mm thick [section 2.5]
+  double unit_bias_sigma_m = 0.015;    ///< one draw a run, for all lasers (a real unit was off by 30 mm)
+  double laser_bias_sigma_m = 0.0135;  ///< one draw a run and laser; makes walls 12-17 mm thick
 
-  /// Standard deviation of a reflectivity byte: a constant and a share of it [measured on neighbouring returns of the
-  /// VLP-16 capture: 0.6 at 5, 1.2 at 25, 1.8 at 55, 3.6 at 90].
+  /// Standard deviation of a reflectivity byte: a constant and a share of it, measured on neighbouring returns of a
+  /// VLP-16 capture (0.6 at 5, 1.2 at 25, 1.8 at 55, 3.6 at 90).
   double reflectivity_sigma = 0.5;
   double reflectivity_sigma_share = 0.03;
 
@@ -48,14 +53,14 @@ struct LidarConfig {
   /// Half of the returns are lost where the cosine of the incidence is this (share c^2 / (c^2 + half^2) returns) ...
   double dropout_cosine_half = 0.07;
   /// ... and at this range on a surface of reflectivity 0.5 (1 / (1 + (r / half)^4) returns); 80-95 % of the beams
-  /// that hit a building's surface return [section 2.3].
+  /// that hit a building's surface return.
   double dropout_range_half_m = 60.0;
   double reflectivity = 0.5;  ///< of surfaces whose material is not known, diffuse, 0-1
 
-  double divergence_horizontal_rad = 0.003;  ///< full angle [VLS-128 manual; none published for the VLP-16]
+  double divergence_horizontal_rad = 0.003;  ///< full angle [velodyne2018c, page 115]; none published for the VLP-16
   double divergence_vertical_rad = 0.0015;
   double edge_jump_m = 0.1;        ///< between neighbours of a ring: an edge
-  double echo_separation_m = 1.0;  ///< nearer surfaces in one beam give one echo between them [VLS-128 manual]
+  double echo_separation_m = 1.0;  ///< nearer surfaces in one beam give one echo between them [velodyne2018c]
   double glint_rad = 0.01;         ///< a polished surface this close to square shines back as a retro-reflector
 };
 

@@ -10,7 +10,7 @@ namespace {
 
 constexpr int surfaces_max = 8;
 constexpr int bounces_max = 2;
-/// Less than this of the light cannot be seen: half of it would be lost at 0.3 m.
+/// Less than this share of the light is not detected: half of it would be lost at 0.3 m.
 constexpr double gain_min = 1e-5;
 /// A ray goes on this far behind a surface; more than the distance within which faces are one.
 constexpr double step_m = 2e-4;
@@ -25,61 +25,61 @@ Light::Light(const bim::RayScene& scene, std::span<const Surface> surfaces, cons
       glint_cosine_(std::cos(config.glint_rad)),
       optics_(config.optics) {}
 
-void Light::follow(std::vector<Leg>& legs, std::vector<bim::Hit>& hits, std::vector<Reflection>& out) {
-  for (int met = 1; !legs.empty(); ++met) {
+void Light::trace(std::vector<RaySegment>& segments, std::vector<bim::Hit>& hits, std::vector<Reflection>& out) {
+  for (int met = 1; !segments.empty(); ++met) {
     next_.clear();
-    for (std::size_t i = 0; i < legs.size(); ++i)
-      if (hits[i].element >= 0) arrive(legs[i], hits[i], out);
-    legs.swap(next_);
-    if (met == surfaces_max) legs.clear();
+    for (std::size_t i = 0; i < segments.size(); ++i)
+      if (hits[i].element >= 0) process_hit(segments[i], hits[i], out);
+    segments.swap(next_);
+    if (met == surfaces_max) segments.clear();
     rays_.clear();
-    for (const Leg& leg : legs) rays_.push_back(leg.ray);
-    hits.resize(legs.size());
+    for (const RaySegment& segment : segments) rays_.push_back(segment.ray);
+    hits.resize(segments.size());
     scene_.cast(rays_, range_max_m_, hits);
   }
 }
 
-void Light::arrive(const Leg& leg, const bim::Hit& hit, std::vector<Reflection>& out) {
-  const double path_m = leg.before_m + hit.range_m;
+void Light::process_hit(const RaySegment& segment, const bim::Hit& hit, std::vector<Reflection>& out) {
+  const double path_m = segment.before_m + hit.range_m;
   if (path_m > range_max_m_) return;
-  if (leg.inside == hit.element) {  // the far side of a pane
-    Leg& beyond = next_.emplace_back(leg);
-    beyond.ray.origin_W += (hit.range_m + step_m) * leg.ray.direction_W;
+  if (segment.inside == hit.element) {  // the far side of a pane
+    RaySegment& beyond = next_.emplace_back(segment);
+    beyond.ray.origin_W += (hit.range_m + step_m) * segment.ray.direction_W;
     beyond.before_m = path_m + step_m;
     beyond.inside = -1;
     return;
   }
   const Surface surface = this->surface(hit.element);
-  const double cosine = std::abs(hit.normal_W.dot(leg.ray.direction_W));
-  const Eigen::Vector3d point_W = leg.ray.origin_W + hit.range_m * leg.ray.direction_W;
+  const double cosine = std::abs(hit.normal_W.dot(segment.ray.direction_W));
+  const Eigen::Vector3d point_W = segment.ray.origin_W + hit.range_m * segment.ray.direction_W;
   const auto add = [&](double strength, std::uint8_t flags) {
     if (strength >= gain_min)
       out.push_back(
-          {leg.beam, path_m, strength, cosine, flags, hit.element, hit.triangle, point_W, leg.ray.direction_W});
+          {segment.beam, path_m, strength, cosine, flags, hit.element, hit.triangle, point_W, segment.ray.direction_W});
   };
-  add(leg.gain * surface.reflectivity, leg.flags);
-  if (!optics_ || surface.plain()) return;
-  if (surface.specular > 0.0 && leg.bounces == 0 && cosine >= glint_cosine_)
-    add(leg.gain * surface.specular * retro_gain, leg.flags | light_path::glint);
-  go_on(leg, hit, surface);
+  add(segment.gain * surface.reflectivity, segment.flags);
+  if (!optics_ || surface.is_diffuse()) return;
+  if (surface.specular > 0.0 && segment.bounces == 0 && cosine >= glint_cosine_)
+    add(segment.gain * surface.specular * retro_gain, segment.flags | light_path::glint);
+  spawn_segments(segment, hit, surface);
 }
 
-/// Sends on what a surface lets through and what it mirrors.
-void Light::go_on(const Leg& leg, const bim::Hit& hit, const Surface& surface) {
-  const double through = leg.gain * surface.transmission * surface.transmission;
-  const double mirrored = leg.gain * surface.specular * surface.specular;
-  const double path_m = leg.before_m + hit.range_m + step_m;
+/// Adds the transmitted and the mirrored segment.
+void Light::spawn_segments(const RaySegment& segment, const bim::Hit& hit, const Surface& surface) {
+  const double through = segment.gain * surface.transmission * surface.transmission;
+  const double mirrored = segment.gain * surface.specular * surface.specular;
+  const double path_m = segment.before_m + hit.range_m + step_m;
   if (through >= gain_min) {
-    Leg& beyond = next_.emplace_back(leg);
-    beyond.ray.origin_W += (hit.range_m + step_m) * leg.ray.direction_W;
+    RaySegment& beyond = next_.emplace_back(segment);
+    beyond.ray.origin_W += (hit.range_m + step_m) * segment.ray.direction_W;
     beyond.before_m = path_m;
     beyond.gain = through;
     beyond.inside = hit.element;
     beyond.flags |= light_path::through;
   }
-  if (mirrored >= gain_min && leg.bounces < bounces_max) {
-    Leg& back = next_.emplace_back(leg);
-    const Eigen::Vector3d& d = leg.ray.direction_W;
+  if (mirrored >= gain_min && segment.bounces < bounces_max) {
+    RaySegment& back = next_.emplace_back(segment);
+    const Eigen::Vector3d& d = segment.ray.direction_W;
     back.ray.direction_W = (d - 2.0 * d.dot(hit.normal_W) * hit.normal_W).normalized();
     back.ray.origin_W += hit.range_m * d + step_m * back.ray.direction_W;
     back.before_m = path_m;

@@ -16,11 +16,11 @@ namespace plumbline::sim {
 namespace light_path {
 inline constexpr std::uint8_t mixed = 1;     ///< from surfaces apart: the range lies between them
 inline constexpr std::uint8_t through = 2;   ///< came through a pane
-inline constexpr std::uint8_t mirrored = 4;  ///< came over a polished surface: seen where nothing is
+inline constexpr std::uint8_t mirrored = 4;  ///< came over a mirror: the return lies where there is no surface
 inline constexpr std::uint8_t glint = 8;     ///< mirrored straight back
 }  // namespace light_path
 
-/// A place that gives some of a ray's light back to the sensor.
+/// A point that reflects part of a ray's light back to the sensor.
 struct Reflection {
   std::uint32_t beam = 0;  ///< whose ray it was
   double path_m = 0.0;     ///< length of the light's way there
@@ -39,19 +39,19 @@ struct Reflection {
   }
 };
 
-/// A ray on its way.
-struct Leg {
+/// One straight segment of a light path.
+struct RaySegment {
   std::uint32_t beam = 0;
   bim::Ray ray;
-  double before_m = 0.0;  ///< way behind it
+  double before_m = 0.0;  ///< path length before this segment
   double gain = 1.0;      ///< what is left of its light, both ways
   int inside = -1;        ///< element whose body it passes through
   int bounces = 0;
   std::uint8_t flags = 0;
 };
 
-/// Follows light through panes and over polished surfaces, all rays of a batch step by step, so that they are cast in
-/// packets. At most two mirrors and eight surfaces a ray.
+/// Traces light through panes and over mirrors. All rays of a batch advance one surface at a time, so that they are
+/// cast in packets. At most two mirrors and eight surfaces a ray.
 class Light {
  public:
   /// Elements beyond `surfaces` reflect config.reflectivity. Scene and surfaces must outlive it.
@@ -62,12 +62,12 @@ class Light {
     return i < surfaces_.size() ? surfaces_[i] : Surface{reflectivity_, 0.0, 0.0};
   }
 
-  /// Appends the reflections of every leg, which is given with what it hits. Both are used up.
-  void follow(std::vector<Leg>& legs, std::vector<bim::Hit>& hits, std::vector<Reflection>& out);
+  /// Appends the reflections of every segment; hits[i] belongs to segments[i]. Consumes both.
+  void trace(std::vector<RaySegment>& segments, std::vector<bim::Hit>& hits, std::vector<Reflection>& out);
 
  private:
-  void arrive(const Leg& leg, const bim::Hit& hit, std::vector<Reflection>& out);
-  void go_on(const Leg& leg, const bim::Hit& hit, const Surface& surface);
+  void process_hit(const RaySegment& segment, const bim::Hit& hit, std::vector<Reflection>& out);
+  void spawn_segments(const RaySegment& segment, const bim::Hit& hit, const Surface& surface);
 
   const bim::RayScene& scene_;
   std::span<const Surface> surfaces_;
@@ -75,7 +75,7 @@ class Light {
   double range_max_m_;
   double glint_cosine_;
   bool optics_;
-  std::vector<Leg> next_;
+  std::vector<RaySegment> next_;
   std::vector<bim::Ray> rays_;
 };
 

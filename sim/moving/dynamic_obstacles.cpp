@@ -13,12 +13,12 @@ namespace {
 
 double seconds(slam::Nanoseconds stamp) { return 1e-9 * static_cast<double>(stamp); }
 
-double leg_length(const PersonConfig& config, std::size_t leg) {
-  return (config.points_W[leg + 1] - config.points_W[leg]).norm();
+double segment_length(const PersonConfig& config, std::size_t segment) {
+  return (config.points_W[segment + 1] - config.points_W[segment]).norm();
 }
 
 bool wanted_open(const SwingDoorConfig& door, double time_s, const Eigen::Vector3d& robot_W) {
-  const Eigen::Vector2d along(std::cos(door.yaw_shut), std::sin(door.yaw_shut));
+  const Eigen::Vector2d along(std::cos(door.yaw_closed), std::sin(door.yaw_closed));
   const Eigen::Vector2d middle = door.hinge_W.head<2>() + 0.5 * door.width_m * along;
   const bool same_floor = std::abs(robot_W.z() - door.hinge_W.z()) < door.height_m;
   if (same_floor && (robot_W.head<2>() - middle).norm() < door.near_m) return true;
@@ -34,10 +34,11 @@ void forget(std::vector<bim::BodyStation>& stations, double time_s) {
 
 }  // namespace
 
-MovingThings::MovingThings(std::vector<PersonConfig> people, std::vector<SwingDoorConfig> doors, int first_element) {
+DynamicObstacles::DynamicObstacles(std::vector<PersonConfig> people, std::vector<SwingDoorConfig> doors,
+                                   int first_element) {
   int element = first_element;
   for (PersonConfig& config : people) {
-    if (config.points_W.empty()) throw InternalError("a person needs a place");
+    if (config.points_W.empty()) throw InternalError("a person needs at least one point");
     Person person;
     const double r = config.radius_m;
     person.body = {bim::BodyShape::capsule, {-r, -r, 0.0}, {r, r, config.height_m}, element++, {}};
@@ -53,39 +54,39 @@ MovingThings::MovingThings(std::vector<PersonConfig> people, std::vector<SwingDo
   }
 }
 
-Eigen::Vector3d MovingThings::position(const Person& person) {
+Eigen::Vector3d DynamicObstacles::position(const Person& person) {
   const std::vector<Eigen::Vector3d>& points = person.config.points_W;
   if (points.size() == 1) return points[0];
-  const double length = leg_length(person.config, person.leg);
+  const double length = segment_length(person.config, person.segment);
   const double share = length > 0.0 ? person.walked_m / length : 0.0;
-  return points[person.leg] + share * (points[person.leg + 1] - points[person.leg]);
+  return points[person.segment] + share * (points[person.segment + 1] - points[person.segment]);
 }
 
-void MovingThings::walk(Person& person, double distance_m) {
-  const std::size_t legs = person.config.points_W.size() - 1;
+void DynamicObstacles::walk(Person& person, double distance_m) {
+  const std::size_t segments = person.config.points_W.size() - 1;
   // One turn-round at most for each step, so that a line of no length ends.
-  for (std::size_t k = 0; k <= legs && legs > 0; ++k) {
-    const double left = person.back ? person.walked_m : leg_length(person.config, person.leg) - person.walked_m;
+  for (std::size_t k = 0; k <= segments && segments > 0; ++k) {
+    const double left = person.back ? person.walked_m : segment_length(person.config, person.segment) - person.walked_m;
     if (distance_m <= left) {
       person.walked_m += person.back ? -distance_m : distance_m;
       return;
     }
     distance_m -= left;
-    const bool at_end = person.back ? person.leg == 0 : person.leg + 1 == legs;
-    person.walked_m = person.back ? 0.0 : leg_length(person.config, person.leg);
+    const bool at_end = person.back ? person.segment == 0 : person.segment + 1 == segments;
+    person.walked_m = person.back ? 0.0 : segment_length(person.config, person.segment);
     if (at_end) {
       person.back = !person.back;
     } else if (person.back) {
-      --person.leg;
-      person.walked_m = leg_length(person.config, person.leg);
+      --person.segment;
+      person.walked_m = segment_length(person.config, person.segment);
     } else {
-      ++person.leg;
+      ++person.segment;
       person.walked_m = 0.0;
     }
   }
 }
 
-void MovingThings::step(slam::Nanoseconds stamp, const Eigen::Vector3d& robot_W) {
+void DynamicObstacles::step(slam::Nanoseconds stamp, const Eigen::Vector3d& robot_W) {
   const double elapsed_s = seconds(stamp - stamp_);
   stamp_ = stamp;
   for (Person& person : people_) {
@@ -97,18 +98,18 @@ void MovingThings::step(slam::Nanoseconds stamp, const Eigen::Vector3d& robot_W)
     const double move = elapsed_s / door.config.travel_s;
     door.open = std::clamp(door.open + (wanted_open(door.config, seconds(stamp), robot_W) ? move : -move), 0.0, 1.0);
     door.body.stations.push_back(
-        {seconds(stamp), door.config.hinge_W, door.config.yaw_shut + door.open * door.config.swing});
+        {seconds(stamp), door.config.hinge_W, door.config.yaw_closed + door.open * door.config.swing});
   }
 }
 
-std::vector<bim::MovingBody> MovingThings::bodies() const {
+std::vector<bim::MovingBody> DynamicObstacles::bodies() const {
   std::vector<bim::MovingBody> bodies;
   for (const Person& person : people_) bodies.push_back(person.body);
   for (const Door& door : doors_) bodies.push_back(door.body);
   return bodies;
 }
 
-void MovingThings::forget_before(slam::Nanoseconds t) {
+void DynamicObstacles::forget_before(slam::Nanoseconds t) {
   for (Person& person : people_) forget(person.body.stations, seconds(t));
   for (Door& door : doors_) forget(door.body.stations, seconds(t));
 }

@@ -10,7 +10,7 @@
 
 namespace plumbline::sim {
 
-/// Someone who walks a line of points to its end and back, over and over, and stands still while the robot is near.
+/// A person who walks a polyline to its end and back, again and again, and stands still while the robot is near.
 struct PersonConfig {
   std::vector<Eigen::Vector3d> points_W;  ///< on the floor, at least one
   double speed_mps = 0.8;
@@ -21,25 +21,25 @@ struct PersonConfig {
 /// A leaf that turns about an upright hinge. It is opened while the robot is near, and otherwise at the times given.
 struct SwingDoorConfig {
   Eigen::Vector3d hinge_W = Eigen::Vector3d::Zero();  ///< on the floor
-  double yaw_shut = 0.0;                              ///< direction from the hinge along the shut leaf, rad
-  double swing = 0.0;                                 ///< from shut to open, positive counter-clockwise, rad
+  double yaw_closed = 0.0;                            ///< direction from the hinge along the closed leaf, rad
+  double swing = 0.0;                                 ///< from closed to open, positive counter-clockwise, rad
   double width_m = 0.9;
   double height_m = 2.1;
   double thickness_m = 0.04;
-  double near_m = 1.5;          ///< from the middle of the shut leaf; far enough that the robot finds it open
-  double travel_s = 1.0;        ///< to open or to shut
-  std::vector<double> times_s;  ///< opens, shuts, opens, ...; shut before the first
+  double near_m = 1.5;          ///< from the middle of the closed leaf; far enough that the robot finds it open
+  double travel_s = 1.0;        ///< to open or to close
+  std::vector<double> times_s;  ///< opens, closes, opens, ...; closed before the first
 };
 
-/// People and doors that move through a run, on their own clock and by where the robot is. The LiDAR sees them; the
-/// robot does not feel them. They are no part of the building: their elements are numbered from first_element on,
-/// people first.
-class MovingThings {
+/// People and doors that move during a run, by the time and the robot's position. They are visible to the LiDAR; the
+/// robot does not collide with them. They are no part of the building: their elements are numbered from first_element
+/// on, people first.
+class DynamicObstacles {
  public:
   static constexpr double keep_away_m = 1.0;  ///< people this near to the robot (in the plane) stand still
 
   /// Throws InternalError on a person without points.
-  MovingThings(std::vector<PersonConfig> people, std::vector<SwingDoorConfig> doors, int first_element);
+  DynamicObstacles(std::vector<PersonConfig> people, std::vector<SwingDoorConfig> doors, int first_element);
 
   [[nodiscard]] bool empty() const { return people_.empty() && doors_.empty(); }
   /// Times must ascend, from 0 on. robot_W is where the robot is then.
@@ -52,14 +52,14 @@ class MovingThings {
  private:
   struct Person {
     PersonConfig config;
-    std::size_t leg = 0;    ///< walks from points[leg] to points[leg + 1], or back
-    double walked_m = 0.0;  ///< of that leg, seen from points[leg]
+    std::size_t segment = 0;  ///< walks from points[segment] to points[segment + 1], or back
+    double walked_m = 0.0;    ///< along that segment, from points[segment]
     bool back = false;
     bim::MovingBody body;
   };
   struct Door {
     SwingDoorConfig config;
-    double open = 0.0;  ///< 0 shut, 1 open
+    double open = 0.0;  ///< 0 closed, 1 open
     bim::MovingBody body;
   };
   static void walk(Person& person, double distance_m);

@@ -9,7 +9,7 @@
 namespace plumbline::sim {
 
 /// Keeps the boxes near the robot in the physics model. MuJoCo tests the world's geoms one by one, so a building's
-/// boxes at once would cost more than everything else [facts: legged section 9].
+/// boxes at once would cost more than everything else, docs/methods/robot.md.
 class BoxPool {
  public:
   /// boxes in any order; geoms: the model's pool.

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "bim/errors.h"
-#include "bim/formats/plan_yaml/stair_builder.h"
+#include "bim/model/stair_flight.h"
 #include "sim/robot/ground.h"
 #include "sim/robot/solid_boxes.h"
 
@@ -72,7 +72,7 @@ class Well {
     return box;
   }
 
-  /// Beside the well everything is floor; in it, where no slab is known, all that is not stair.
+  /// Outside the well everything is floor; inside it, in a building without slabs, all that is not stair.
   [[nodiscard]] bool floor_at(const Eigen::Vector2d& p_W) const {
     if (!bounds_F_.contains(to_frame(p_W))) return true;
     const auto covers = [&](const bim::Slab* slab) {

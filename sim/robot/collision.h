@@ -24,11 +24,11 @@ struct CollisionConfig {
   double length_max_m = 4.0;  ///< longer walls are split, so that distant parts stay out of the pool
   double box_fill = 0.5;      ///< an obstacle that fills less of its bounding box is taken apart
   double full_fill = 0.95;    ///< one larger than passage_m that fills less than this may have a way through it
-  double passage_m = 1.2;     ///< least length of a thing that a robot can walk through: 0.8 m and its two sides
+  double passage_m = 1.2;     ///< least length of an obstacle that a robot can walk through: 0.8 m and its two sides
   double cell_m = 0.10;       ///< into cells of this size,
   double cells_max = 5e6;     ///< of which 200 m by 200 m and a margin are fewer
   double sill_max_m = 0.2;    ///< the wall under a door that ends so low is floor (see building_ground)
-  double weld_m = 1e-5;       ///< vertices this close are one where it is asked whether an obstacle is closed
+  double weld_m = 1e-5;       ///< vertices this close are joined for the test whether an obstacle is closed
 };
 
 /// True when the stair has steps and joins two of the storeys: it is floor there (see building_ground), no obstacle.

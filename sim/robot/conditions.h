@@ -9,19 +9,19 @@
 
 namespace plumbline::sim {
 
-/// Pushes against the base: horizontal, of any direction, constant while they last [facts: legged section 7.3].
+/// Pushes against the base: horizontal, of any direction, constant while they last; docs/methods/robot.md.
 struct PushConfig {
   double min_n = 0.0;    ///< N, uniform from here
-  double max_n = 0.0;    ///< to here; 0: nobody pushes
+  double max_n = 0.0;    ///< to here; 0: no pushes
   double every_s = 6.0;  ///< one in each such span; two follow each other after 2/3 to 4/3 of it
   double duration_s = 0.15;
-  bool on_stairs = false;  ///< also while the robot walks carefully, as stairs ask for
+  bool on_stairs = false;  ///< also in the slow gait of stairs
 };
 
-/// What makes walking harder; the gait knows nothing of it.
+/// Disturbances of walking, unknown to the gait controller.
 struct Conditions {
   double friction = ModelConfig().friction;  ///< sliding, of the robot on everything
-  double uneven_m = 0.0;                     ///< highest point of the plates that lie about on the floor; 0: none
+  double terrain_noise_m = 0.0;              ///< height of the highest plate on the floor; 0: none
   PushConfig pushes;
 };
 

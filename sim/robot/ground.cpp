@@ -36,14 +36,14 @@ Ground::Ground(std::vector<GroundLevel> levels, std::vector<CollisionBox> surfac
   for (const CollisionBox& box : surfaces_) extents_W_.push_back(extent(box));
 }
 
-bool Ground::endless_at(const GroundLevel& level, const Eigen::Vector2d& p_W) const {
+bool Ground::has_plane_at(const GroundLevel& level, const Eigen::Vector2d& p_W) const {
   return std::all_of(level.wells_W.begin(), level.wells_W.end(),
                      [&](const auto& well) { return well.exteriorDistance(p_W) > config_.plane_from_m; });
 }
 
 double Ground::plane_height(const Eigen::Vector3d& p_W) const {
   for (auto level = levels_.rbegin(); level != levels_.rend(); ++level)
-    if (level->z_m <= p_W.z() && endless_at(*level, p_W.head<2>())) return level->z_m;
+    if (level->z_m <= p_W.z() && has_plane_at(*level, p_W.head<2>())) return level->z_m;
   return levels_.front().z_m;
 }
 

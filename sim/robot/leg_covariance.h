@@ -8,7 +8,7 @@
 
 namespace plumbline::sim {
 
-/// What leg odometry knows of its own errors: its sensors' data sheet, and what is left without noise, measured on
+/// Error model of the leg odometry: the noise of its sensors, and the errors that remain without noise, measured on
 /// walks over flat floor.
 struct LegCovarianceConfig {
   ProprioceptionNoise noise;
@@ -23,8 +23,8 @@ struct LegCovarianceConfig {
 
 /// Covariance of the right increment (rho, phi) in R, m and rad, of one reading dt seconds after the one before, with
 /// the base at v_R. Increments compounded as if independent are consistent over about horizon_s: over less, jitter of
-/// the gait (0.1 mm, 0.3 mrad) is missing, over more, scale and bias add up faster than it says. Does not know that
-/// an uncorrected odometry is short.
+/// the gait (0.1 mm, 0.3 mrad) is missing, over more, scale and bias add up faster than modelled. The short
+/// distances of an uncorrected odometry are not modelled.
 [[nodiscard]] Matrix6d leg_increment_covariance(const LegCovarianceConfig& config, const SensorReading& reading,
                                                 const std::array<bool, 4>& stands, const Eigen::Vector3d& v_R,
                                                 double dt);

@@ -54,9 +54,9 @@ Matrix6d LegOdometry::take_covariance() {
   return out;
 }
 
-/// Gyro, pulled towards gravity in roll and pitch; yaw must not follow the accelerometer. What the legs know of the
-/// robot's own acceleration is taken out first: starts and curves would look like a lean of degrees. The difference
-/// of the last two velocities is noisy, but its sum over time is not.
+/// Gyro, pulled towards gravity in roll and pitch; yaw must not follow the accelerometer. The
+/// acceleration measured by the legs is removed first: starts and curves would be taken for a tilt of degrees. The
+/// difference of the last two velocities is noisy, but its sum over time is not.
 void LegOdometry::update_attitude(const SensorReading& reading, double dt) {
   const Eigen::Vector3d up_R = X_OR_.q.conjugate() * Eigen::Vector3d::UnitZ();
   const Eigen::Vector3d own_R = (v_R_ - v_R_before_) / dt + reading.gyro_R.cross(v_R_);

@@ -12,7 +12,7 @@
 
 namespace plumbline::sim {
 
-/// [facts: legged section 10], but for the height (LegHeight) and the gyro's bias.
+/// Settings of the leg odometry, docs/methods/robot.md.
 struct LegOdometryConfig {
   double tilt_time_constant_s = 4.0;   ///< accelerometer into roll and pitch
   double bias_time_constant_s = 16.0;  ///< roll and pitch into the gyro's bias; 4 tilt constants damp critically
@@ -28,9 +28,9 @@ struct LegOdometryConfig {
 /// The preset's odometry; the seed draws the calibration error of the legs.
 [[nodiscard]] LegOdometryConfig leg_odometry_config(OdometryPreset preset, std::uint64_t seed);
 
-/// Dead reckoning from readings alone: X_OR, starting at identity. Roll and pitch lean on gravity, and what they lean
-/// tells the gyro's bias about the level axes; yaw is the integrated gyro. Height comes from the feet that stand. Feet
-/// are spheres that roll on the ground's slope.
+/// Dead reckoning from readings alone: X_OR, starting at identity. Gravity corrects roll and pitch, and the
+/// corrections estimate the gyro's bias about the level axes; yaw is the integrated gyro. Height comes from the feet
+/// that stand. Feet are spheres that roll on the ground's slope.
 class LegOdometry {
  public:
   explicit LegOdometry(const LegOdometryConfig& config)

@@ -12,8 +12,8 @@ struct LegSlopeConfig {
   double damping = 1e-4;   ///< on the diagonal of the plane fit
 };
 
-/// Normal of the ground as the feet know it: of the plane through where each of them stood last, level until all have
-/// stood and on stairs.
+/// Ground normal estimated from the feet: of the plane through the last footholds. Vertical until every foot has
+/// stood, and on stairs.
 class LegSlope {
  public:
   explicit LegSlope(const LegSlopeConfig& config) : config_(config) {}

@@ -15,7 +15,7 @@ namespace {
 
 /// MuJoCo's own handlers exit the process and write a log with the wall clock into the working directory.
 void throw_error(const char* message) { throw EnvironmentError(std::string("MuJoCo: ") + message); }
-/// Warnings are counted in mjData::warning, where the robot looks after each step.
+/// Warnings are counted in mjData::warning, which the robot checks after each step.
 void ignore_warning(const char*) {}
 
 void install_handlers() {

@@ -11,12 +11,12 @@ struct mjData_;
 
 namespace plumbline::sim {
 
-/// What the physics model is built with, besides the robot's dimensions [facts: legged sections 2 and 9].
+/// What the physics model is built with, besides the robot's dimensions; docs/methods/robot.md.
 struct ModelConfig {
   double step_s = 0.002;          ///< s
   double friction = 0.8;          ///< sliding, of feet, floor and boxes
   int box_pool = 64;              ///< boxes near the robot that can exist at once
-  int plates = 0;                 ///< of an uneven floor that can exist at once
+  int plates = 0;                 ///< of the terrain noise that can exist at once
   int constraint_rows_max = 500;  ///< njmax; MuJoCo preallocates its square
   int contacts_max = 120;         ///< nconmax
 };

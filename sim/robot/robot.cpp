@@ -22,7 +22,7 @@ namespace plumbline::sim {
 
 namespace {
 
-/// Robot in its world, besides the gait [facts: legged sections 2, 7.3 and 9].
+/// Settings of the robot's physics, besides the gait; docs/methods/robot.md.
 struct RobotConfig {
   double start_height_m = 0.51;      ///< base above the ground, feet 5 mm in the air
   double start_foot_depth_m = 0.47;  ///< foot centres below the hips
@@ -58,14 +58,16 @@ struct Robot::Impl {
        std::uint64_t seed)
       : ground(std::move(ground_in)),
         terrain([this](double x, double y, double z_max) { return ground.height(x, y, z_max); }),
-        model_cfg{.friction = conditions.friction, .plates = conditions.uneven_m > 0.0 ? UnevenConfig().plates() : 0},
+        model_cfg{.friction = conditions.friction,
+                  .plates = conditions.terrain_noise_m > 0.0 ? TerrainNoiseConfig().plates() : 0},
         model(load_model(model_xml(model_cfg))),
         data(make_data(*model)),
         pool(joined(std::move(boxes), ground), pool_geoms(*model, model_cfg.box_pool), config.pool_radius_m),
         pushes(conditions.pushes, model_cfg.step_s, seed),
         push_on_stairs(conditions.pushes.on_stairs) {
-    if (conditions.uneven_m > 0.0)
-      uneven.emplace(conditions.uneven_m, X_WR_start.t.head<2>(), plate_geoms(*model, model_cfg.plates), seed);
+    if (conditions.terrain_noise_m > 0.0)
+      terrain_noise.emplace(conditions.terrain_noise_m, X_WR_start.t.head<2>(), plate_geoms(*model, model_cfg.plates),
+                            seed);
     place(X_WR_start);
     trot = std::make_unique<Trot>(TrotConfig{}, state(), mj_getTotalmass(model.get()), model_cfg.step_s);
     steps = -config.settle_steps;
@@ -85,7 +87,7 @@ struct Robot::Impl {
       const LegAngles angles = leg_angles(leg, hip_R(leg) + below);
       std::copy_n(angles.data(), 3, data->qpos + joint_qpos + 3 * leg);
     }
-    look_around(X_WR.t);
+    refresh_surroundings(X_WR.t);
     mj_forward(model.get(), data.get());
   }
 
@@ -109,18 +111,18 @@ struct Robot::Impl {
     return s;
   }
 
-  /// Puts what is near into the physics.
-  void look_around(const Eigen::Vector3d& p_W) {
+  /// Puts the nearby boxes and the floor into the physics.
+  void refresh_surroundings(const Eigen::Vector3d& p_W) {
     pool.refresh(*model, p_W);
     place_floor(*model, ground.plane_height(p_W));
   }
 
   void step(const Command& command) {
-    if (steps % config.pool_refresh_steps == 0) look_around(vector3(data->qpos));
+    if (steps % config.pool_refresh_steps == 0) refresh_surroundings(vector3(data->qpos));
     lay_plates();
     const Torques torques = trot->update(state(), command, terrain);
     std::copy(torques.begin(), torques.end(), data->ctrl);
-    const bool held_off = command.careful && !push_on_stairs;
+    const bool held_off = command.slow_gait && !push_on_stairs;
     const Eigen::Vector2d push_W = held_off ? Eigen::Vector2d::Zero() : pushes.force_W(steps);
     std::copy_n(push_W.data(), 2, data->xfrc_applied + wrench_size * base_body);
     mj_step(model.get(), data.get());
@@ -131,7 +133,7 @@ struct Robot::Impl {
 
   void lay_plates() {
     const Eigen::Vector3d p_W = vector3(data->qpos);
-    if (uneven) uneven->refresh(*model, p_W.head<2>(), ground.plane_height(p_W));
+    if (terrain_noise) terrain_noise->refresh(*model, p_W.head<2>(), ground.plane_height(p_W));
   }
 
   /// MuJoCo goes on after a warning, from a reset state if a number was bad.
@@ -159,7 +161,7 @@ struct Robot::Impl {
   BoxPool pool;
   Pushes pushes;
   bool push_on_stairs;
-  std::optional<Uneven> uneven;
+  std::optional<TerrainNoise> terrain_noise;
   std::unique_ptr<Trot> trot;
   std::int64_t steps = 0;
 };

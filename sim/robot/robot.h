@@ -19,7 +19,7 @@ class Robot {
   static constexpr std::int64_t step_ns = 2'000'000;
 
   /// Stands the robot at the position and heading of X_WR_start on the ground at or below it (the height of
-  /// X_WR_start is only that bound) and lets it settle for 0.5 s; time starts after that. boxes: what is in its way.
+  /// X_WR_start is only that bound) and lets it settle for 0.5 s; time starts after that. boxes: the obstacles.
   /// seed: of what is random in the conditions.
   Robot(const Pose& X_WR_start, Ground ground, std::vector<CollisionBox> boxes, const Conditions& conditions = {},
         std::uint64_t seed = 0);

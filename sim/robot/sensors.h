@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string_view>
 
 #include "bim/random/stream.h"
 #include "sim/robot/robot.h"
@@ -11,10 +12,13 @@ namespace plumbline::sim {
 
 /// ideal: no noise. noisy: all of it. uncorrected: noisy, and the odometry forgets that its feet roll.
 enum class OdometryPreset { ideal, noisy, uncorrected };
+[[nodiscard]] constexpr std::array<std::string_view, 3> names_of(OdometryPreset) {
+  return {"ideal", "noisy", "uncorrected"};
+}
 
-/// Errors of the robot's own sensors, standard deviations per 2 ms sample unless said [facts: legged section 10], but
-/// for the two that govern drift: they are set so that a draw typically drifts by 0.3-1.5 % of the way and 0.5-5
-/// deg/min, as real legged robots do.
+/// Errors of the robot's own sensors, standard deviations per 2 ms sample unless said, docs/methods/robot.md.
+/// The two that govern drift (gyro bias, leg scale) are set so that a draw typically drifts by 0.3-1.5 % of the way and
+/// 0.5-5 deg/min, as real legged robots do.
 struct ProprioceptionNoise {
   double encoder = 0.5e-3;        ///< rad
   double joint_velocity = 0.02;   ///< rad/s

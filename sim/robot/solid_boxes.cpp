@@ -218,7 +218,7 @@ std::vector<CollisionBox> solid_boxes(const bim::Solid& solid, const HeightRange
   }
   if (too_large())
     throw InputError({},
-                     "a thing that the robot may touch is larger than 200 m by 200 m, as is the floor around it; "
+                     "an obstacle within the robot's reach is larger than 200 m by 200 m, as is the floor around it; "
                      "leave it out or cut it");
   CellGrid grid(low, high, config.cell_m);
   for (const Polygon3& polygon : surface) grid.add(polygon);

@@ -27,10 +27,10 @@ CollisionBox no_plate() {
 
 }  // namespace
 
-Uneven::Uneven(double height_m, const Eigen::Vector2d& start_W, std::vector<int> geoms, std::uint64_t seed)
+TerrainNoise::TerrainNoise(double height_m, const Eigen::Vector2d& start_W, std::vector<int> geoms, std::uint64_t seed)
     : height_m_(height_m), start_W_(start_W), geoms_(std::move(geoms)), stream_(seed, "sim.ground.uneven") {}
 
-std::optional<CollisionBox> Uneven::plate(const Eigen::Vector2i& cell) const {
+std::optional<CollisionBox> TerrainNoise::plate(const Eigen::Vector2i& cell) const {
   const std::uint64_t tick = address(cell);
   const auto uniform = [&](Draw draw, double low, double high) {
     return low + (high - low) * stream_.uniform(tick, 0, draw);
@@ -38,7 +38,7 @@ std::optional<CollisionBox> Uneven::plate(const Eigen::Vector2i& cell) const {
   const double off = config_.off_center_m;
   const Eigen::Vector2d p_W = config_.cell_m * (cell.cast<double>().array() + 0.5).matrix() +
                               Eigen::Vector2d(uniform(off_x, -off, off), uniform(off_y, -off, off));
-  if ((p_W - start_W_).norm() < config_.even_m) return std::nullopt;
+  if ((p_W - start_W_).norm() < config_.start_clear_m) return std::nullopt;
 
   CollisionBox box;
   box.half = {uniform(half_x, config_.half_min_m, config_.half_max_m),
@@ -52,10 +52,10 @@ std::optional<CollisionBox> Uneven::plate(const Eigen::Vector2i& cell) const {
   return box;
 }
 
-void Uneven::refresh(mjModel_& model, const Eigen::Vector2d& p_W, double floor_z) {
-  const Place here{(p_W / config_.cell_m).array().floor().cast<int>(), floor_z};
-  if (place_ == here) return;
-  place_ = here;
+void TerrainNoise::refresh(mjModel_& model, const Eigen::Vector2d& p_W, double floor_z) {
+  const Window here{(p_W / config_.cell_m).array().floor().cast<int>(), floor_z};
+  if (window_ == here) return;
+  window_ = here;
   // Each plate keeps its geom while it stays in the window.
   const int n = config_.window;
   const auto wrapped = [n](int i) { return static_cast<std::size_t>(((i % n) + n) % n); };

@@ -10,7 +10,7 @@ namespace {
 
 /// Calls visit(cell) for every cell whose centre is inside a closed outline (even-odd, row by row).
 template <class Visit>
-void fill(const Grid& grid, const std::vector<Segment2>& outline, Visit&& visit) {
+void fill(const GridFrame& grid, const std::vector<Segment2>& outline, Visit&& visit) {
   if (outline.empty()) return;
   double low = std::numeric_limits<double>::infinity();
   double high = -low;
@@ -47,7 +47,7 @@ std::vector<Segment2> outline_of(const PolygonWithHoles2& polygon) {
 }
 
 /// Sets every cell within `reach` cells of a cell of the wanted value, first along x, then along y.
-std::vector<char> spread(const Grid& grid, std::vector<char> cells, char value, int reach) {
+std::vector<char> spread(const GridFrame& grid, std::vector<char> cells, char value, int reach) {
   for (const bool along_x : {true, false}) {
     const std::vector<char> before = cells;
     for (int iy = 0; iy < grid.ny; ++iy) {
@@ -67,7 +67,7 @@ std::vector<char> spread(const Grid& grid, std::vector<char> cells, char value, 
 /// Nearest edge so far of every cell.
 class Nearest {
  public:
-  Nearest(const Grid& grid, const std::vector<Segment2>& edges)
+  Nearest(const GridFrame& grid, const std::vector<Segment2>& edges)
       : grid_(grid), edges_(edges), edge_(grid.size(), -1), distance_(grid.size(), std::numeric_limits<double>::max()) {
     for (std::size_t i = 0; i < edges.size(); ++i) seed(static_cast<int>(i));
   }
@@ -126,14 +126,14 @@ class Nearest {
     return changed;
   }
 
-  const Grid& grid_;
+  const GridFrame& grid_;
   const std::vector<Segment2>& edges_;
   std::vector<int> edge_;
   std::vector<double> distance_;
 };
 
 /// Cells off the floor next to cells on it, as edges without length.
-void add_floor_border(const Grid& grid, const std::vector<char>& floor, std::vector<Segment2>& edges) {
+void add_floor_border(const GridFrame& grid, const std::vector<char>& floor, std::vector<Segment2>& edges) {
   for (int iy = 0; iy < grid.ny; ++iy) {
     for (int ix = 0; ix < grid.nx; ++ix) {
       if (floor[grid.index(ix, iy)] != 0) continue;
@@ -146,7 +146,8 @@ void add_floor_border(const Grid& grid, const std::vector<char>& floor, std::vec
 
 }  // namespace
 
-std::vector<char> floor_cells(const bim::Building& building, int storey, const Grid& grid, const RouteConfig& config) {
+std::vector<char> floor_cells(const bim::Building& building, int storey, const GridFrame& grid,
+                              const RouteConfig& config) {
   const double floor_z = building.storeys.at(static_cast<std::size_t>(storey)).elevation_m;
   std::vector<char> cells(grid.size(), 0);
   const auto set = [&](std::size_t cell) { cells[cell] = 1; };
@@ -163,15 +164,15 @@ std::vector<char> floor_cells(const bim::Building& building, int storey, const G
   return spread(grid, spread(grid, std::move(cells), 1, reach), 0, reach);
 }
 
-std::vector<double> clearances(const Grid& grid, const std::vector<Blockage>& blockages,
+std::vector<double> clearances(const GridFrame& grid, const std::vector<ObstacleFootprint>& footprints,
                                const std::vector<char>& floor) {
   std::vector<Segment2> edges;
-  for (const Blockage& b : blockages) edges.insert(edges.end(), b.edges.begin(), b.edges.end());
+  for (const ObstacleFootprint& b : footprints) edges.insert(edges.end(), b.edges.begin(), b.edges.end());
   add_floor_border(grid, floor, edges);
   Nearest nearest(grid, edges);
   nearest.sweep();
   std::vector<double> result = nearest.distance();
-  for (const Blockage& b : blockages) {
+  for (const ObstacleFootprint& b : footprints) {
     for (const std::vector<Segment2>& section : b.sections) {
       fill(grid, section, [&](std::size_t cell) {
         const Eigen::Vector2d p = grid.center(cell);

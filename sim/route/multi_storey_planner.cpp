@@ -10,40 +10,40 @@ namespace {
 
 constexpr double same_place_m = 1e-9;
 
-void append(const std::vector<Waypoint>& leg, std::vector<Waypoint>& path) {
-  const bool joined = !path.empty() && !leg.empty();
-  path.insert(path.end(), leg.begin() + (joined ? 1 : 0), leg.end());
+void append(const std::vector<Waypoint>& segment, std::vector<Waypoint>& path) {
+  const bool joined = !path.empty() && !segment.empty();
+  path.insert(path.end(), segment.begin() + (joined ? 1 : 0), segment.end());
 }
 
 }  // namespace
 
-/// Shortest ways from one place to all portals (two a stair: foot, head) and to the goal, which is the last node.
-struct WalkSpace::Search {
+/// Shortest paths from one point to all portals (two a stair: foot, head) and to the goal, which is the last node.
+struct MultiStoreyPlanner::Search {
   std::vector<double> cost;
   std::vector<std::size_t> before;  ///< node, itself at the start
-  std::vector<Path> leg;            ///< from `before`
+  std::vector<Path> segment;        ///< from `before`
 
   [[nodiscard]] Path path_to(std::size_t node) const {
     std::vector<std::size_t> nodes = {node};
     while (before[nodes.back()] != nodes.back()) nodes.push_back(before[nodes.back()]);
     Path path;
-    for (auto it = nodes.rbegin() + 1; it != nodes.rend(); ++it) append(leg[*it], path);
+    for (auto it = nodes.rbegin() + 1; it != nodes.rend(); ++it) append(segment[*it], path);
     return path;
   }
 };
 
-WalkSpace::WalkSpace(const bim::Building& as_built, const WalkSpaceConfig& config)
+MultiStoreyPlanner::MultiStoreyPlanner(const bim::Building& as_built, const MultiStoreyPlannerConfig& config)
     : building_(as_built), config_(config) {}
 
-const FreeSpace& WalkSpace::storey(int index) const {
-  std::unique_ptr<FreeSpace>& space = storeys_[index];
-  if (!space) space = std::make_unique<FreeSpace>(building_, index, config_.route);
+const ClearanceMap& MultiStoreyPlanner::storey(int index) const {
+  std::unique_ptr<ClearanceMap>& space = storeys_[index];
+  if (!space) space = std::make_unique<ClearanceMap>(building_, index, config_.route);
   return *space;
 }
 
-bool WalkSpace::add_approach(int storey_index, const Eigen::Vector3d& edge, const Eigen::Vector2d& away,
-                             Eigen::Vector3d& point) const {
-  const FreeSpace& space = storey(storey_index);
+bool MultiStoreyPlanner::add_approach(int storey_index, const Eigen::Vector3d& edge, const Eigen::Vector2d& away,
+                                      Eigen::Vector3d& point) const {
+  const ClearanceMap& space = storey(storey_index);
   const int steps = static_cast<int>((config_.approach_m - config_.approach_min_m) / config_.approach_step_m + 0.5);
   for (int i = 0; i <= steps; ++i) {
     const Eigen::Vector2d p = edge.head<2>() + (config_.approach_m - i * config_.approach_step_m) * away;
@@ -54,7 +54,7 @@ bool WalkSpace::add_approach(int storey_index, const Eigen::Vector3d& edge, cons
   return false;
 }
 
-void WalkSpace::add_approaches(StairWay& way) const {
+void MultiStoreyPlanner::add_approaches(StairWay& way) const {
   Eigen::Vector3d first, last;
   if (!add_approach(way.from, way.points.front(), -way.into, first))
     way.fault = "has no room before its first step";
@@ -66,7 +66,7 @@ void WalkSpace::add_approaches(StairWay& way) const {
   }
 }
 
-const std::vector<StairWay>& WalkSpace::stairs() const {
+const std::vector<StairWay>& MultiStoreyPlanner::stairs() const {
   if (stairs_) return *stairs_;
   auto ways = std::make_unique<std::vector<StairWay>>(stair_ways(building_, config_.route, config_.stair));
   for (StairWay& way : *ways)
@@ -75,13 +75,13 @@ const std::vector<StairWay>& WalkSpace::stairs() const {
   return *stairs_;
 }
 
-WalkSpace::Path WalkSpace::on_storey(const Place& a, const Place& b) const {
+MultiStoreyPlanner::Path MultiStoreyPlanner::on_storey(const FloorPoint& a, const FloorPoint& b) const {
   const double z = building_.storeys.at(static_cast<std::size_t>(a.storey)).elevation_m;
   if ((b.p_W - a.p_W).norm() < same_place_m) return {{{a.p_W.x(), a.p_W.y(), z}, false}};
   return with_clearance(storey(a.storey), storey(a.storey).path(a.p_W, b.p_W), z, config_.narrow);
 }
 
-WalkSpace::Path WalkSpace::over_stair(const StairWay& way, bool up) const {
+MultiStoreyPlanner::Path MultiStoreyPlanner::over_stair(const StairWay& way, bool up) const {
   Path path;
   for (const Eigen::Vector3d& p : way.points) path.push_back({p, true});
   if (!up) std::reverse(path.begin(), path.end());
@@ -89,19 +89,19 @@ WalkSpace::Path WalkSpace::over_stair(const StairWay& way, bool up) const {
   return path;
 }
 
-std::vector<Place> WalkSpace::portals() const {
-  std::vector<Place> places;
+std::vector<FloorPoint> MultiStoreyPlanner::portals() const {
+  std::vector<FloorPoint> places;
   for (const StairWay& way : stairs()) {
     const bool usable = way.fault.empty();
-    places.push_back(usable ? Place{way.from, way.points.front().head<2>()} : Place{});
-    places.push_back(usable ? Place{way.to, way.points.back().head<2>()} : Place{});
+    places.push_back(usable ? FloorPoint{way.from, way.points.front().head<2>()} : FloorPoint{});
+    places.push_back(usable ? FloorPoint{way.to, way.points.back().head<2>()} : FloorPoint{});
   }
   return places;
 }
 
 /// Dijkstra over the portals; of equal costs the node with the lower index goes first.
-WalkSpace::Search WalkSpace::search(const Place& a, const Place* goal) const {
-  std::vector<Place> nodes = portals();
+MultiStoreyPlanner::Search MultiStoreyPlanner::search(const FloorPoint& a, const FloorPoint* goal) const {
+  std::vector<FloorPoint> nodes = portals();
   const std::size_t portal_count = nodes.size(), start = nodes.size();
   nodes.push_back(a);
   if (goal != nullptr) nodes.push_back(*goal);
@@ -110,12 +110,12 @@ WalkSpace::Search WalkSpace::search(const Place& a, const Place* goal) const {
                 std::vector<Path>(nodes.size())};
   std::vector<char> done(nodes.size(), 0);
   search.cost[start] = 0.0;
-  const auto offer = [&](std::size_t from, std::size_t to, const Path& leg, double weight) {
-    const double cost = search.cost[from] + weight * length(leg);
-    if (leg.empty() || done[to] != 0 || cost >= search.cost[to]) return;
+  const auto offer = [&](std::size_t from, std::size_t to, const Path& segment, double weight) {
+    const double cost = search.cost[from] + weight * length(segment);
+    if (segment.empty() || done[to] != 0 || cost >= search.cost[to]) return;
     search.cost[to] = cost;
     search.before[to] = from;
-    search.leg[to] = leg;
+    search.segment[to] = segment;
   };
   const auto walk = [&](std::size_t from, std::size_t to) -> Path {
     if (from >= portal_count || to >= portal_count) return on_storey(nodes[from], nodes[to]);
@@ -137,7 +137,7 @@ WalkSpace::Search WalkSpace::search(const Place& a, const Place* goal) const {
   }
 }
 
-std::vector<Waypoint> WalkSpace::path(const Place& a, const Place& b) const {
+std::vector<Waypoint> MultiStoreyPlanner::path(const FloorPoint& a, const FloorPoint& b) const {
   if (a.storey == b.storey) {
     Path direct = on_storey(a, b);
     if (!direct.empty()) return direct;
@@ -148,11 +148,11 @@ std::vector<Waypoint> WalkSpace::path(const Place& a, const Place& b) const {
   return found.cost[goal] < std::numeric_limits<double>::infinity() ? found.path_to(goal) : Path{};
 }
 
-std::vector<int> WalkSpace::reachable_storeys(const Place& a) const {
+std::vector<int> MultiStoreyPlanner::reachable_storeys(const FloorPoint& a) const {
   std::vector<int> storeys = {a.storey};
   if (!building_.stairs.empty()) {
     const Search found = search(a, nullptr);
-    const std::vector<Place> places = portals();
+    const std::vector<FloorPoint> places = portals();
     for (std::size_t i = 0; i < places.size(); ++i)
       if (found.cost[i] < std::numeric_limits<double>::infinity()) storeys.push_back(places[i].storey);
   }

@@ -7,14 +7,14 @@ namespace plumbline::sim {
 
 namespace {
 
-/// Part of a leg from s0 to s1, m from its start.
+/// Part of a segment from s0 to s1, m from its start.
 struct Stretch {
   double s0 = 0.0;
   double s1 = 0.0;
   double clearance_m = 0.0;  ///< least
 };
 
-std::vector<Stretch> narrow_stretches(const FreeSpace& space, const Eigen::Vector2d& a, const Eigen::Vector2d& b,
+std::vector<Stretch> narrow_stretches(const ClearanceMap& space, const Eigen::Vector2d& a, const Eigen::Vector2d& b,
                                       const NarrowConfig& config) {
   const double length = (b - a).norm();
   const int count = 1 + static_cast<int>(length / config.sample_m);
@@ -37,8 +37,8 @@ std::vector<Stretch> narrow_stretches(const FreeSpace& space, const Eigen::Vecto
 
 }  // namespace
 
-std::vector<Waypoint> with_clearance(const FreeSpace& space, const std::vector<Eigen::Vector2d>& path, double floor_z_W,
-                                     const NarrowConfig& config) {
+std::vector<Waypoint> with_clearance(const ClearanceMap& space, const std::vector<Eigen::Vector2d>& path,
+                                     double floor_z_W, const NarrowConfig& config) {
   std::vector<Waypoint> way;
   const auto add = [&](const Eigen::Vector2d& p) -> Waypoint& {
     return way.emplace_back(Waypoint{{p.x(), p.y(), floor_z_W}});

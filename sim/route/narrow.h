@@ -16,9 +16,9 @@ struct NarrowConfig {
   double sample_m = 0.025;
 };
 
-/// The path on a floor at floor_z_W as waypoints that know the clearance on the way to them, where that is narrow. A
-/// leg with a narrow stretch is divided at its ends.
-[[nodiscard]] std::vector<Waypoint> with_clearance(const FreeSpace& space, const std::vector<Eigen::Vector2d>& path,
+/// The path on a floor at floor_z_W as waypoints with the clearance of the segment to them, where that is narrow. A
+/// segment with a narrow stretch is divided at its ends.
+[[nodiscard]] std::vector<Waypoint> with_clearance(const ClearanceMap& space, const std::vector<Eigen::Vector2d>& path,
                                                    double floor_z_W, const NarrowConfig& config = {});
 
 }  // namespace plumbline::sim

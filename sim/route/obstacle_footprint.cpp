@@ -13,7 +13,7 @@ namespace plumbline::sim {
 
 namespace {
 
-/// Heights between which things are in the way, W.
+/// Heights between which elements are obstacles, W.
 struct Band {
   double low = 0.0;
   double high = 0.0;
@@ -44,12 +44,12 @@ void add_ring(const Polygon2& ring, std::vector<Segment2>& segments) {
   for (std::size_t i = 0; i < ring.size(); ++i) segments.push_back({ring[i], ring[(i + 1) % ring.size()]});
 }
 
-Blockage from_polygon(const PolygonWithHoles2& polygon) {
-  Blockage blockage;
-  add_ring(polygon.outer, blockage.edges);
-  for (const Polygon2& hole : polygon.holes) add_ring(hole, blockage.edges);
-  blockage.sections.push_back(blockage.edges);
-  return blockage;
+ObstacleFootprint from_polygon(const PolygonWithHoles2& polygon) {
+  ObstacleFootprint footprint;
+  add_ring(polygon.outer, footprint.edges);
+  for (const Polygon2& hole : polygon.holes) add_ring(hole, footprint.edges);
+  footprint.sections.push_back(footprint.edges);
+  return footprint;
 }
 
 /// Where a triangle meets the height z, if it crosses it.
@@ -65,16 +65,16 @@ std::optional<Segment2> cut_triangle(const std::array<Eigen::Vector3d, 3>& t, do
   return Segment2{ends[0], ends[1]};
 }
 
-/// Inside is solid in a closed surface that looks outwards only; others (a room as a shell, a wall without thickness)
-/// stand in the way with their surface alone.
+/// A closed surface with outward normals has a solid inside; of others (a room as a shell, a wall without thickness)
+/// only the surface is an obstacle.
 bool has_inside(const bim::Solid& solid, double weld_m) {
   const bim::Solid joined = bim::welded(solid, weld_m);
   return bim::is_closed(joined) && bim::volume(joined) > 0.0;
 }
 
-Blockage from_solid(const bim::Solid& solid, const Band& band, double weld_m) {
-  Blockage blockage;
-  if (has_inside(solid, weld_m)) blockage.sections.resize(section_shares.size());
+ObstacleFootprint from_solid(const bim::Solid& solid, const Band& band, double weld_m) {
+  ObstacleFootprint footprint;
+  if (has_inside(solid, weld_m)) footprint.sections.resize(section_shares.size());
   for (const Eigen::Vector3i& triangle : solid.triangles) {
     std::array<Eigen::Vector3d, 3> t;
     for (int k = 0; k < 3; ++k)
@@ -82,12 +82,12 @@ Blockage from_solid(const bim::Solid& solid, const Band& band, double weld_m) {
     Polygon2 seen;
     for (const Eigen::Vector3d& p : clip_z(clip_z({t.begin(), t.end()}, -1.0, band.low), 1.0, band.high))
       seen.emplace_back(p.head<2>());
-    add_ring(seen, blockage.edges);
-    for (std::size_t i = 0; i < blockage.sections.size(); ++i)
+    add_ring(seen, footprint.edges);
+    for (std::size_t i = 0; i < footprint.sections.size(); ++i)
       if (const auto cut = cut_triangle(t, band.low + section_shares[i] * (band.high - band.low)))
-        blockage.sections[i].push_back(*cut);
+        footprint.sections[i].push_back(*cut);
   }
-  return blockage;
+  return footprint;
 }
 
 std::vector<Gap> passable_gaps(const bim::Building& building, int wall_index, double floor_z,
@@ -124,12 +124,12 @@ void cut_segment(const Segment2& segment, const Gap& gap, std::vector<Segment2>&
 }
 
 /// Cuts a gap out of a wall's edges and adds its two reveals.
-void cut_gap(const Gap& gap, Blockage& blockage) {
+void cut_gap(const Gap& gap, ObstacleFootprint& footprint) {
   const Eigen::Vector2d left(-gap.e.y(), gap.e.x());
   std::optional<double> low;
   std::optional<double> high;
   std::vector<Segment2> parts;
-  for (const Segment2& edge : blockage.edges) {
+  for (const Segment2& edge : footprint.edges) {
     const std::size_t before = parts.size();
     cut_segment(edge, gap, parts);
     if (parts.size() == before + 1 && parts.back().a == edge.a && parts.back().b == edge.b) continue;
@@ -139,31 +139,31 @@ void cut_gap(const Gap& gap, Blockage& blockage) {
       high = high ? std::max(*high, across) : across;
     }
   }
-  blockage.edges = std::move(parts);
-  blockage.gaps.push_back(gap);
+  footprint.edges = std::move(parts);
+  footprint.gaps.push_back(gap);
   if (!low) return;
   for (const double s : {gap.s0, gap.s1})
-    blockage.edges.push_back({gap.a + s * gap.e + *low * left, gap.a + s * gap.e + *high * left});
+    footprint.edges.push_back({gap.a + s * gap.e + *low * left, gap.a + s * gap.e + *high * left});
 }
 
-Blockage wall_blockage(const bim::Building& building, int index, double floor_z, const Band& band,
-                       const RouteConfig& config) {
+ObstacleFootprint wall_footprint(const bim::Building& building, int index, double floor_z, const Band& band,
+                                 const RouteConfig& config) {
   const bim::Wall& wall = building.walls[static_cast<std::size_t>(index)];
-  Blockage blockage;
+  ObstacleFootprint footprint;
   if (wall.body) {
-    blockage = from_solid(*wall.body, band, config.weld_m);
+    footprint = from_solid(*wall.body, band, config.weld_m);
   } else {
     const Eigen::Vector2d near = wall.offset_m * wall.left();
     const Eigen::Vector2d far = (wall.offset_m + wall.thickness_m) * wall.left();
-    blockage = from_polygon({{wall.a + near, wall.b + near, wall.b + far, wall.a + far}, {}});
+    footprint = from_polygon({{wall.a + near, wall.b + near, wall.b + far, wall.a + far}, {}});
   }
-  for (const Gap& gap : passable_gaps(building, index, floor_z, config)) cut_gap(gap, blockage);
-  return blockage;
+  for (const Gap& gap : passable_gaps(building, index, floor_z, config)) cut_gap(gap, footprint);
+  return footprint;
 }
 
 }  // namespace
 
-std::vector<Polygon2> hollow_things(const bim::Building& building, double floor_z, const RouteConfig& config) {
+std::vector<Polygon2> hollow_obstacles(const bim::Building& building, double floor_z, const RouteConfig& config) {
   const Band band{floor_z + config.band_low_m, floor_z + config.band_high_m};
   std::vector<Polygon2> hulls;
   for (const bim::Obstacle& obstacle : building.obstacles) {
@@ -176,18 +176,20 @@ std::vector<Polygon2> hollow_things(const bim::Building& building, double floor_
     }
     if (!band.meets(z0, z1)) continue;
     Polygon2 hull = bim::convex_hull(std::move(corners));
-    if (hull.empty() || signed_area(hull) > config.thing_max_m2 || has_inside(obstacle.body, config.weld_m)) continue;
+    if (hull.empty() || signed_area(hull) > config.furniture_max_m2 || has_inside(obstacle.body, config.weld_m))
+      continue;
     hulls.push_back(std::move(hull));
   }
   return hulls;
 }
 
-std::vector<Blockage> find_blockages(const bim::Building& building, double floor_z, const RouteConfig& config) {
+std::vector<ObstacleFootprint> find_obstacle_footprints(const bim::Building& building, double floor_z,
+                                                        const RouteConfig& config) {
   const Band band{floor_z + config.band_low_m, floor_z + config.band_high_m};
-  std::vector<Blockage> result;
+  std::vector<ObstacleFootprint> result;
   for (std::size_t i = 0; i < building.walls.size(); ++i)
     if (band.meets(building.walls[i].z0_m, building.walls[i].z1_m))
-      result.push_back(wall_blockage(building, static_cast<int>(i), floor_z, band, config));
+      result.push_back(wall_footprint(building, static_cast<int>(i), floor_z, band, config));
   for (const bim::Slab& slab : building.slabs)
     if (band.meets(slab.z0_m, slab.z1_m))
       result.push_back(slab.body ? from_solid(*slab.body, band, config.weld_m) : from_polygon(slab.polygon));
@@ -197,11 +199,11 @@ std::vector<Blockage> find_blockages(const bim::Building& building, double floor
                                    : from_polygon({column.footprint, {}}));
   for (const bim::Stair& stair : building.stairs)
     for (const bim::Solid& body : stair.bodies)
-      if (Blockage blockage = from_solid(body, band, config.weld_m); !blockage.edges.empty())
-        result.push_back(std::move(blockage));
+      if (ObstacleFootprint footprint = from_solid(body, band, config.weld_m); !footprint.edges.empty())
+        result.push_back(std::move(footprint));
   for (const bim::Obstacle& obstacle : building.obstacles) {
-    Blockage blockage = from_solid(obstacle.body, band, config.weld_m);
-    if (!blockage.edges.empty()) result.push_back(std::move(blockage));
+    ObstacleFootprint footprint = from_solid(obstacle.body, band, config.weld_m);
+    if (!footprint.edges.empty()) result.push_back(std::move(footprint));
   }
   return result;
 }

@@ -28,18 +28,18 @@ struct Gap {
 };
 
 /// One element as seen from above at the robot's height.
-struct Blockage {
+struct ObstacleFootprint {
   std::vector<Segment2> edges;                  ///< of everything between the band's heights
   std::vector<std::vector<Segment2>> sections;  ///< closed outlines at some heights; inside (even-odd) is solid
   std::vector<Gap> gaps;                        ///< no section is solid here; the edges are cut already
 };
 
-/// All that stands in a robot's way on a floor at z = floor_z, in canonical order.
-[[nodiscard]] std::vector<Blockage> find_blockages(const bim::Building& building, double floor_z,
-                                                   const RouteConfig& config);
+/// Footprints of all obstacles on a floor at z = floor_z, in canonical order.
+[[nodiscard]] std::vector<ObstacleFootprint> find_obstacle_footprints(const bim::Building& building, double floor_z,
+                                                                      const RouteConfig& config);
 
-/// Convex outlines of furniture that stands in the way with its surface alone, up to RouteConfig::thing_max_m2.
-[[nodiscard]] std::vector<Polygon2> hollow_things(const bim::Building& building, double floor_z,
-                                                  const RouteConfig& config);
+/// Convex outlines of furniture of which only the surface is an obstacle, up to RouteConfig::furniture_max_m2.
+[[nodiscard]] std::vector<Polygon2> hollow_obstacles(const bim::Building& building, double floor_z,
+                                                     const RouteConfig& config);
 
 }  // namespace plumbline::sim

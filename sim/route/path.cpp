@@ -32,39 +32,41 @@ constexpr std::array<Step, 8> steps = {{{1, 0, straight_steps},
                                         {-1, -1, diagonal_steps},
                                         {1, -1, diagonal_steps}}};
 
-/// Cost of the way over open ground, never above the true one.
-std::int64_t open_ground_cost(const Grid& grid, std::size_t from, std::size_t to) {
-  const std::int64_t dx = std::abs(grid.ix(from) - grid.ix(to));
-  const std::int64_t dy = std::abs(grid.iy(from) - grid.iy(to));
+/// Admissible A* heuristic: the cost of the path over open ground.
+std::int64_t open_ground_cost(const GridFrame& grid, std::size_t from, std::size_t to) {
+  const auto [from_x, from_y] = grid.column_and_row(from);
+  const auto [to_x, to_y] = grid.column_and_row(to);
+  const std::int64_t dx = std::abs(from_x - to_x), dy = std::abs(from_y - to_y);
   return unit_cost * (straight_steps * (std::max(dx, dy) - std::min(dx, dy)) + diagonal_steps * std::min(dx, dy));
 }
 
 }  // namespace
 
-std::vector<std::size_t> FreeSpace::region(std::size_t from, std::vector<char>& seen) const {
+std::vector<std::size_t> ClearanceMap::region(std::size_t from, std::vector<char>& seen) const {
   std::vector<std::size_t> cells = {from};
   seen[from] = 1;
-  for (std::size_t i = 0; i < cells.size(); ++i)
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const auto [column, row] = grid_.column_and_row(cells[i]);
     for (const Step& step : steps) {
-      const int x = grid_.ix(cells[i]) + step.dx;
-      const int y = grid_.iy(cells[i]) + step.dy;
+      const int x = column + step.dx, y = row + step.dy;
       if (!grid_.holds(x, y)) continue;
       const std::size_t next = grid_.index(x, y);
       if (seen[next] != 0 || !passable(next)) continue;
       seen[next] = 1;
       cells.push_back(next);
     }
+  }
   return cells;
 }
 
-std::int64_t FreeSpace::step_cost(std::size_t cell) const {
+std::int64_t ClearanceMap::step_cost(std::size_t cell) const {
   const double crowded = (config_.comfort_m - clearance_[cell]) / (config_.comfort_m - config_.radius_m);
   return unit_cost +
          static_cast<std::int64_t>(static_cast<double>(unit_cost) * config_.crowding * std::max(0.0, crowded));
 }
 
-/// A*: integer costs; of equal costs the cell with the lowest index goes first, and the first way found stays.
-std::vector<std::size_t> FreeSpace::search(std::size_t from, std::size_t to) const {
+/// A*: integer costs; of equal costs the cell with the lowest index goes first, and the first path found stays.
+std::vector<std::size_t> ClearanceMap::search(std::size_t from, std::size_t to) const {
   constexpr std::int64_t unknown = std::numeric_limits<std::int64_t>::max();
   using Entry = std::pair<std::int64_t, std::size_t>;
   std::vector<std::int64_t> cost(grid_.size(), unknown);
@@ -78,9 +80,9 @@ std::vector<std::size_t> FreeSpace::search(std::size_t from, std::size_t to) con
     open.pop();
     if (done[cell] != 0) continue;
     done[cell] = 1;
+    const auto [column, row] = grid_.column_and_row(cell);
     for (const Step& step : steps) {
-      const int x = grid_.ix(cell) + step.dx;
-      const int y = grid_.iy(cell) + step.dy;
+      const int x = column + step.dx, y = row + step.dy;
       if (!grid_.holds(x, y) || !passable(grid_.index(x, y))) continue;
       const std::size_t next = grid_.index(x, y);
       const std::int64_t reached = cost[cell] + step.length * step_cost(next);
@@ -97,15 +99,15 @@ std::vector<std::size_t> FreeSpace::search(std::size_t from, std::size_t to) con
   return cells;
 }
 
-bool FreeSpace::clear_line(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double clearance_m) const {
+bool ClearanceMap::clear_line(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double clearance_m) const {
   const int count = 1 + static_cast<int>(2.0 * (b - a).norm() / grid_.cell);
   for (int i = 0; i <= count; ++i)
     if (clearance(a + (b - a) * (static_cast<double>(i) / count)) < clearance_m) return false;
   return true;
 }
 
-/// Leaves out points as long as the straight line keeps the clearance that the way around them had, or enough.
-std::vector<Eigen::Vector2d> FreeSpace::shortened(const std::vector<Eigen::Vector2d>& points) const {
+/// Leaves out points as long as the straight line keeps the clearance that the path around them had, or enough.
+std::vector<Eigen::Vector2d> ClearanceMap::shortened(const std::vector<Eigen::Vector2d>& points) const {
   const double slack = 0.25 * config_.cell_m;  // a line off the cells' centres is a little nearer to a wall
   std::vector<Eigen::Vector2d> kept = {points.front()};
   std::size_t from = 0;
@@ -124,9 +126,9 @@ std::vector<Eigen::Vector2d> FreeSpace::shortened(const std::vector<Eigen::Vecto
   return kept;
 }
 
-std::vector<Eigen::Vector2d> FreeSpace::path(const Eigen::Vector2d& a, const Eigen::Vector2d& b) const {
-  const auto from = grid_.cell_at(a);
-  const auto to = grid_.cell_at(b);
+std::vector<Eigen::Vector2d> ClearanceMap::path(const Eigen::Vector2d& a, const Eigen::Vector2d& b) const {
+  const auto from = grid_.find(a);
+  const auto to = grid_.find(b);
   if (!from || !to || !passable(*from) || !passable(*to)) return {};
   const std::vector<std::size_t> cells = search(*from, *to);
   if (cells.empty()) return {};
@@ -136,15 +138,15 @@ std::vector<Eigen::Vector2d> FreeSpace::path(const Eigen::Vector2d& a, const Eig
   return shortened(points);
 }
 
-std::vector<Eigen::Vector2d> FreeSpace::reachable(const Eigen::Vector2d& from,
-                                                  const std::vector<Eigen::Vector2d>& places) const {
-  const auto start = grid_.cell_at(from);
+std::vector<Eigen::Vector2d> ClearanceMap::reachable(const Eigen::Vector2d& from,
+                                                     const std::vector<Eigen::Vector2d>& points) const {
+  const auto start = grid_.find(from);
   if (!start || !passable(*start)) return {};
   std::vector<char> seen(grid_.size(), 0);
   static_cast<void>(region(*start, seen));
   std::vector<Eigen::Vector2d> found;
-  for (const Eigen::Vector2d& place : places)
-    if (const auto cell = grid_.cell_at(place); cell && seen[*cell] != 0) found.push_back(place);
+  for (const Eigen::Vector2d& point : points)
+    if (const auto cell = grid_.find(point); cell && seen[*cell] != 0) found.push_back(point);
   return found;
 }
 

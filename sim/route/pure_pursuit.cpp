@@ -16,14 +16,14 @@ constexpr double step_s = 1e-9 * static_cast<double>(Robot::step_ns);
 
 }  // namespace
 
-Follower::Follower(const FollowerConfig& config, std::vector<Waypoint> waypoints, std::uint64_t seed)
+PurePursuit::PurePursuit(const PurePursuitConfig& config, std::vector<Waypoint> waypoints, std::uint64_t seed)
     : config_(config),
       waypoints_(std::move(waypoints)),
       jitter_(seed, "sim.gait.command"),
       speeds_(config.speed, waypoints_),
       progress_(config.progress) {}
 
-Command Follower::update(const Pose& X_WR, std::int64_t tick) {
+Command PurePursuit::update(const Pose& X_WR, std::int64_t tick) {
   skip_reached(X_WR.t);
   if (done()) return {};
   check_progress(X_WR, tick);
@@ -31,7 +31,7 @@ Command Follower::update(const Pose& X_WR, std::int64_t tick) {
   return jittered(waypoints_[next_].stairs ? on_stairs(X_WR) : on_level(X_WR), tick);
 }
 
-Command Follower::on_level(const Pose& X_WR) {
+Command PurePursuit::on_level(const Pose& X_WR) {
   const double error = heading_error(X_WR);
   turning_ = std::abs(error) > (turning_ ? config_.turn_end : config_.turn_start);
 
@@ -43,7 +43,7 @@ Command Follower::on_level(const Pose& X_WR) {
 }
 
 /// Facing up the flight all the time, sideways to its line: a flight is too narrow for curves. First on the spot.
-Command Follower::on_stairs(const Pose& X_WR) {
+Command PurePursuit::on_stairs(const Pose& X_WR) {
   const Eigen::Vector2d from = waypoints_[next_ - 1].p_W.head<2>();
   const Eigen::Vector2d e = (waypoints_[next_].p_W.head<2>() - from).normalized();
   const Eigen::Vector2d off = X_WR.t.head<2>() - from;
@@ -61,11 +61,11 @@ Command Follower::on_stairs(const Pose& X_WR) {
   command.yaw_rate = std::clamp(config_.turn_gain * error, -config_.yaw_rate_max, config_.yaw_rate_max);
   command.vx = v_R.x();
   command.vy = v_R.y();
-  command.careful = true;
+  command.slow_gait = true;
   return command;
 }
 
-void Follower::skip_reached(const Eigen::Vector3d& p_W) {
+void PurePursuit::skip_reached(const Eigen::Vector3d& p_W) {
   const Eigen::Vector3d sole_W = p_W - Eigen::Vector3d(0.0, 0.0, config_.standing_height_m);
   while (!done() && reached(sole_W)) {
     ++next_;
@@ -73,37 +73,37 @@ void Follower::skip_reached(const Eigen::Vector3d& p_W) {
   }
 }
 
-bool Follower::reached(const Eigen::Vector3d& sole_W) const {
+bool PurePursuit::reached(const Eigen::Vector3d& sole_W) const {
   const Eigen::Vector3d off = waypoints_[next_].p_W - sole_W;
   if (std::abs(off.z()) >= config_.reached_height_m) return false;
   return off.head<2>().norm() < config_.reached_m || passed(sole_W.head<2>());
 }
 
-/// Only on the way through: the end of a route and where a stair begins are walked up to.
-bool Follower::passed(const Eigen::Vector2d& p_W) const {
+/// Only for intermediate waypoints: the robot walks up to the end of a route and to the foot of a stair.
+bool PurePursuit::passed(const Eigen::Vector2d& p_W) const {
   if (waypoints_[next_].stairs || next_ + 1 >= waypoints_.size() || waypoints_[next_ + 1].stairs) return false;
-  const Eigen::Vector2d leg = (waypoints_[next_].p_W - waypoints_[next_ - 1].p_W).head<2>();
+  const Eigen::Vector2d segment = (waypoints_[next_].p_W - waypoints_[next_ - 1].p_W).head<2>();
   const Eigen::Vector2d beyond = p_W - waypoints_[next_].p_W.head<2>();
-  return leg.dot(beyond) > 0.0 && beyond.norm() < config_.passed_m;
+  return segment.dot(beyond) > 0.0 && beyond.norm() < config_.passed_m;
 }
 
-double Follower::heading_error(const Pose& X_WR) const {
+double PurePursuit::heading_error(const Pose& X_WR) const {
   const Eigen::Vector2d p_W = X_WR.t.head<2>();
-  const Eigen::Vector3d leg = waypoints_[next_].p_W - waypoints_[next_ - 1].p_W;
+  const Eigen::Vector3d segment = waypoints_[next_].p_W - waypoints_[next_ - 1].p_W;
   // Down a flight backwards: the knees point back, and facing down the shanks would meet the edges of the treads.
-  const double sign = leg.z() < -config_.landing_m ? -1.0 : 1.0;
-  const Eigen::Vector2d ahead = waypoints_[next_].stairs ? Eigen::Vector2d(sign * leg.head<2>()) : goal(p_W) - p_W;
+  const double sign = segment.z() < -config_.landing_m ? -1.0 : 1.0;
+  const Eigen::Vector2d ahead = waypoints_[next_].stairs ? Eigen::Vector2d(sign * segment.head<2>()) : goal(p_W) - p_W;
   return wrap_angle(std::atan2(ahead.y(), ahead.x()) - X_WR.yaw());
 }
 
-void Follower::check_progress(const Pose& X_WR, std::int64_t tick) {
+void PurePursuit::check_progress(const Pose& X_WR, std::int64_t tick) {
   const double t_s = static_cast<double>(tick) * step_s;
   const double left_m = (waypoints_[next_].p_W - X_WR.t).head<2>().norm();
   if (progress_.stalled(next_, waypoints_[next_].stairs, left_m, heading_error(X_WR), t_s))
     throw scenario_failure("the robot stalled", t_s, X_WR.t);
 }
 
-Eigen::Vector2d Follower::goal(const Eigen::Vector2d& p_W) const {
+Eigen::Vector2d PurePursuit::goal(const Eigen::Vector2d& p_W) const {
   const Eigen::Vector2d from = waypoints_[next_ - 1].p_W.head<2>();
   const Eigen::Vector2d to = waypoints_[next_].p_W.head<2>();
   const double length = (to - from).norm();
@@ -115,7 +115,7 @@ Eigen::Vector2d Follower::goal(const Eigen::Vector2d& p_W) const {
   return (ahead - p_W).norm() < config_.goal_min_m ? to : ahead;
 }
 
-double Follower::walking_speed(double heading_error, const Eigen::Vector2d& p_W) const {
+double PurePursuit::walking_speed(double heading_error, const Eigen::Vector2d& p_W) const {
   const double left_m = (waypoints_[next_].p_W.head<2>() - p_W).norm();
   const double speed = speeds_.limit(next_, left_m - config_.reached_m);
   const double v = speed * std::max(config_.slow_min, std::cos(config_.slow_angle_gain * heading_error));
@@ -123,7 +123,7 @@ double Follower::walking_speed(double heading_error, const Eigen::Vector2d& p_W)
   return std::min(v, std::max(config_.approach_min_mps, config_.approach_gain * left_m));
 }
 
-Command Follower::jittered(Command command, std::int64_t tick) const {
+Command PurePursuit::jittered(Command command, std::int64_t tick) const {
   const auto block = static_cast<std::uint64_t>(static_cast<double>(tick) * step_s / config_.jitter_s);
   command.vx *= 1.0 + config_.speed_jitter * (2.0 * jitter_.uniform(block, 0) - 1.0);
   command.gait_period_scale *= 1.0 + config_.period_jitter * (2.0 * jitter_.uniform(block, 1) - 1.0);

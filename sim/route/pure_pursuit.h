@@ -13,9 +13,9 @@
 
 namespace plumbline::sim {
 
-/// Pure pursuit [facts: legged section 5], the stuck check, and the jitter that keeps the gait (2.27 Hz) from meeting
+/// Pure pursuit [coulter1992], the stuck check, and the jitter that keeps the gait (2.27 Hz) from meeting
 /// the LiDAR's 10 Hz sweep at the same phase every time.
-struct FollowerConfig {
+struct PurePursuitConfig {
   SpeedConfig speed;
   ProgressConfig progress;
   double reached_m = 0.25;       ///< a waypoint counts as reached
@@ -30,11 +30,11 @@ struct FollowerConfig {
   double steer_gain = 2.0;       ///< 1/s, while walking
   double slow_min = 0.25;        ///< share of the speed kept in the sharpest curve
   double slow_angle_gain = 1.5;  ///< speed falls with the cosine of this times the heading error
-  double approach_gain = 0.8;    ///< 1/s, speed by distance on the last leg
+  double approach_gain = 0.8;    ///< 1/s, speed by distance on the last segment
   double approach_min_mps = 0.15;
   double stairs_aligned = 0.1;     ///< rad, heading error with which a flight is entered,
   double stairs_centred_m = 0.05;  ///< and distance from its line
-  double landing_m = 0.05;         ///< a leg over stairs that falls by no more is a landing
+  double landing_m = 0.05;         ///< a segment over stairs that falls by no more is a landing
   double side_gain = 1.5;          ///< 1/s, sideways back to that line
   double side_mps = 0.2;           ///< highest speed of that
   double reached_height_m = 0.6;   ///< a waypoint of another level is not reached, however near in the plane
@@ -44,13 +44,13 @@ struct FollowerConfig {
   double period_jitter = 0.04;     ///< share of the gait period, uniform to both sides
 };
 
-/// Walks the robot along waypoints, the first of which is the start.
-class Follower {
+/// Path tracker: walks the robot along waypoints, the first of which is the start.
+class PurePursuit {
  public:
-  Follower(const FollowerConfig& config, std::vector<Waypoint> waypoints, std::uint64_t seed);
+  PurePursuit(const PurePursuitConfig& config, std::vector<Waypoint> waypoints, std::uint64_t seed);
 
   /// Command for the robot at X_WR; tick counts physics steps of step_s. A zero command when done. Throws
-  /// ScenarioFailure "the robot stalled ..." when it was asked to move and did not.
+  /// ScenarioFailure "the robot stalled ..." when it does not follow its command.
   [[nodiscard]] Command update(const Pose& X_WR, std::int64_t tick);
   [[nodiscard]] bool done() const { return next_ >= waypoints_.size(); }
 
@@ -59,7 +59,7 @@ class Follower {
   [[nodiscard]] bool reached(const Eigen::Vector3d& sole_W) const;
   [[nodiscard]] bool passed(const Eigen::Vector2d& p_W) const;
   void check_progress(const Pose& X_WR, std::int64_t tick);
-  /// From the heading of the robot to the one asked for, rad.
+  /// From the heading of the robot to the commanded one, rad.
   [[nodiscard]] double heading_error(const Pose& X_WR) const;
   [[nodiscard]] Command on_stairs(const Pose& X_WR);
   [[nodiscard]] Command on_level(const Pose& X_WR);
@@ -67,7 +67,7 @@ class Follower {
   [[nodiscard]] double walking_speed(double heading_error, const Eigen::Vector2d& p_W) const;
   [[nodiscard]] Command jittered(Command command, std::int64_t tick) const;
 
-  FollowerConfig config_;
+  PurePursuitConfig config_;
   std::vector<Waypoint> waypoints_;
   Stream jitter_;
   std::size_t next_ = 1;

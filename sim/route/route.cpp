@@ -19,7 +19,7 @@ constexpr double margin_m = 1.0;            // around the rooms: their walls, an
 constexpr double cells_max = 16'777'216.0;  // 2^24, 200 m x 200 m of 5 cm cells
 
 /// Grid over the rooms of a storey, or over its walls where there are no rooms, or over its floor without either.
-Grid make_grid(const bim::Building& building, int storey, double cell) {
+GridFrame make_grid(const bim::Building& building, int storey, double cell) {
   Eigen::AlignedBox2d box;
   for (const bim::Room& room : building.rooms)
     if (room.storey == storey)
@@ -44,23 +44,23 @@ Grid make_grid(const bim::Building& building, int storey, double cell) {
 
 }  // namespace
 
-FreeSpace::FreeSpace(const bim::Building& as_built, int storey, const RouteConfig& config) : config_(config) {
+ClearanceMap::ClearanceMap(const bim::Building& as_built, int storey, const RouteConfig& config) : config_(config) {
   const double floor_z = as_built.storeys.at(static_cast<std::size_t>(storey)).elevation_m;
   grid_ = make_grid(as_built, storey, config.cell_m);
-  clearance_ =
-      clearances(grid_, find_blockages(as_built, floor_z, config), floor_cells(as_built, storey, grid_, config));
-  close_pockets(hollow_things(as_built, floor_z, config));
+  clearance_ = clearances(grid_, find_obstacle_footprints(as_built, floor_z, config),
+                          floor_cells(as_built, storey, grid_, config));
+  close_pockets(hollow_obstacles(as_built, floor_z, config));
 }
 
-void FreeSpace::close_pockets(const std::vector<Polygon2>& hollow_things) {
-  if (hollow_things.empty()) return;
-  const double cells_max = config_.thing_max_m2 / (config_.cell_m * config_.cell_m);
+void ClearanceMap::close_pockets(const std::vector<Polygon2>& hollow_obstacles) {
+  if (hollow_obstacles.empty()) return;
+  const double cells_max = config_.furniture_max_m2 / (config_.cell_m * config_.cell_m);
   std::vector<char> seen(grid_.size(), 0);
   for (std::size_t cell = 0; cell < clearance_.size(); ++cell) {
     if (seen[cell] != 0 || !passable(cell)) continue;
     const std::vector<std::size_t> cells = region(cell, seen);
     if (static_cast<double>(cells.size()) > cells_max) continue;
-    const bool shut_in = std::any_of(hollow_things.begin(), hollow_things.end(), [&](const Polygon2& hull) {
+    const bool shut_in = std::any_of(hollow_obstacles.begin(), hollow_obstacles.end(), [&](const Polygon2& hull) {
       return std::all_of(cells.begin(), cells.end(), [&](std::size_t c) { return contains(hull, grid_.center(c)); });
     });
     if (!shut_in) continue;
@@ -68,8 +68,8 @@ void FreeSpace::close_pockets(const std::vector<Polygon2>& hollow_things) {
   }
 }
 
-double FreeSpace::clearance(const Eigen::Vector2d& p) const {
-  if (!grid_.cell_at(p)) return 0.0;
+double ClearanceMap::clearance(const Eigen::Vector2d& p) const {
+  if (!grid_.find(p)) return 0.0;
   // Between the centres of the four cells around p.
   const Eigen::Vector2d g = (p - grid_.origin) / grid_.cell - Eigen::Vector2d::Constant(0.5);
   const int ix = std::clamp(static_cast<int>(std::floor(g.x())), 0, std::max(0, grid_.nx - 2));
@@ -83,9 +83,9 @@ double FreeSpace::clearance(const Eigen::Vector2d& p) const {
          v * ((1.0 - u) * at(ix, iy + 1) + u * at(ix + 1, iy + 1));
 }
 
-bool FreeSpace::free(const Eigen::Vector2d& p) const { return clearance(p) >= clearance_min(); }
+bool ClearanceMap::free(const Eigen::Vector2d& p) const { return clearance(p) >= clearance_min(); }
 
-std::vector<Eigen::Vector2d> FreeSpace::room_target(const Polygon2& room) const {
+std::vector<Eigen::Vector2d> ClearanceMap::room_target(const Polygon2& room) const {
   std::optional<std::size_t> best;
   for (std::size_t cell = 0; cell < clearance_.size(); ++cell) {
     if (!turnable(cell)) continue;
@@ -96,7 +96,7 @@ std::vector<Eigen::Vector2d> FreeSpace::room_target(const Polygon2& room) const 
   return {grid_.center(*best)};
 }
 
-std::vector<Eigen::Vector2d> FreeSpace::open_target() const {
+std::vector<Eigen::Vector2d> ClearanceMap::open_target() const {
   std::vector<char> seen(grid_.size(), 0);
   std::vector<std::size_t> largest;
   for (std::size_t cell = 0; cell < clearance_.size(); ++cell) {

@@ -5,11 +5,11 @@
 
 namespace plumbline::sim {
 
-bool Progress::stalled(std::size_t leg, bool stairs, double left_m, double error, double t_s) {
+bool Progress::stalled(std::size_t segment, bool stairs, double left_m, double error, double t_s) {
   const bool nearer = left_m < least_left_m_ - config_.distance_m;
-  if (!started_ || leg != leg_ || nearer) {
+  if (!started_ || segment != segment_ || nearer) {
     started_ = true;
-    leg_ = leg;
+    segment_ = segment;
     least_left_m_ = left_m;
     least_error_ = std::abs(error);
     since_s_ = t_s;

@@ -6,27 +6,27 @@
 
 namespace plumbline::sim {
 
-/// When a robot that is asked to walk counts as stalled.
+/// When a robot that is commanded to walk counts as stalled.
 struct ProgressConfig {
   double stuck_s = 6.0;             ///< without progress on the floor,
   double stuck_on_stairs_s = 10.0;  ///< or on a stair, where it slips back more
-  double distance_m = 0.15;         ///< nearer by this to the end of a leg than ever on it is progress,
-  double angle = 0.15;              ///< or by this (rad) to the heading asked for
+  double distance_m = 0.15;         ///< nearer by this to the end of a segment than ever on it is progress,
+  double angle = 0.15;              ///< or by this (rad) to the commanded heading
 };
 
-/// Watches for steps towards the goal. Coming and going on the spot is no progress: only what beats the best so far is.
+/// Detects a stall. Only a new best distance or heading error counts as progress; stepping on the spot does not.
 class Progress {
  public:
   explicit Progress(const ProgressConfig& config) : config_(config) {}
 
-  /// True when the robot is stalled at time t_s, with left_m to the end of leg `leg` and `error` (rad) off the heading
-  /// asked for.
-  [[nodiscard]] bool stalled(std::size_t leg, bool stairs, double left_m, double error, double t_s);
+  /// True when the robot is stalled at time t_s, with left_m to the end of `segment` and `error` (rad) off the
+  /// commanded heading.
+  [[nodiscard]] bool stalled(std::size_t segment, bool stairs, double left_m, double error, double t_s);
 
  private:
   ProgressConfig config_;
   bool started_ = false;
-  std::size_t leg_ = 0;
+  std::size_t segment_ = 0;
   double least_left_m_ = 0.0;
   double least_error_ = 0.0;
   double since_s_ = 0.0;

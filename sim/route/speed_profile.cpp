@@ -10,13 +10,13 @@ namespace plumbline::sim {
 
 namespace {
 
-double leg_speed(const SpeedConfig& config, const Waypoint& end) {
+double segment_speed(const SpeedConfig& config, const Waypoint& end) {
   const double free = end.clearance_m - config.half_width_m;
   const double speed = std::min(config.speed_mps, std::max(config.narrow_min_mps, free / config.narrow_s));
   return end.stairs ? std::min(speed, config.stairs_mps) : speed;
 }
 
-/// On the arc that touches both legs of the bend corner_m away from it.
+/// On the arc that touches both segments of the bend corner_m away from it.
 double corner_speed(const SpeedConfig& config, const Eigen::Vector2d& before, const Eigen::Vector2d& after) {
   if (before.norm() <= 0.0 || after.norm() <= 0.0) return config.speed_mps;
   const double bend = std::abs(wrap_angle(std::atan2(after.y(), after.x()) - std::atan2(before.y(), before.x())));
@@ -28,17 +28,19 @@ double corner_speed(const SpeedConfig& config, const Eigen::Vector2d& before, co
 }  // namespace
 
 SpeedProfile::SpeedProfile(const SpeedConfig& config, const std::vector<Waypoint>& way) : braking_(config.braking) {
-  const auto leg = [&](std::size_t i) -> Eigen::Vector2d { return (way[i].p_W - way[i - 1].p_W).head<2>(); };
-  for (const Waypoint& end : way) leg_.push_back(leg_speed(config, end));
-  at_.assign(way.size(), config.speed_mps);
+  const auto segment = [&](std::size_t i) -> Eigen::Vector2d { return (way[i].p_W - way[i - 1].p_W).head<2>(); };
+  for (const Waypoint& end : way) segment_limits_.push_back(segment_speed(config, end));
+  waypoint_limits_.assign(way.size(), config.speed_mps);
   for (std::size_t i = way.size() - std::min<std::size_t>(way.size(), 2); i > 0; --i) {
-    const double next = std::sqrt(at_[i + 1] * at_[i + 1] + 2.0 * braking_ * leg(i + 1).norm());
-    at_[i] = std::min({leg_[i + 1], next, corner_speed(config, leg(i), leg(i + 1))});
+    const double next =
+        std::sqrt(waypoint_limits_[i + 1] * waypoint_limits_[i + 1] + 2.0 * braking_ * segment(i + 1).norm());
+    waypoint_limits_[i] = std::min({segment_limits_[i + 1], next, corner_speed(config, segment(i), segment(i + 1))});
   }
 }
 
 double SpeedProfile::limit(std::size_t next, double left_m) const {
-  return std::min(leg_[next], std::sqrt(at_[next] * at_[next] + 2.0 * braking_ * std::max(0.0, left_m)));
+  return std::min(segment_limits_[next],
+                  std::sqrt(waypoint_limits_[next] * waypoint_limits_[next] + 2.0 * braking_ * std::max(0.0, left_m)));
 }
 
 }  // namespace plumbline::sim

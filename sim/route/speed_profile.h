@@ -8,9 +8,9 @@
 
 namespace plumbline::sim {
 
-/// How fast a way may be walked where it bends, is narrow or leads over stairs.
+/// Speed limits of a path at bends, in narrow passages and over stairs.
 struct SpeedConfig {
-  double speed_mps = 0.6;        ///< where nothing is in the way
+  double speed_mps = 0.6;        ///< without obstacles nearby
   double stairs_mps = 0.25;      ///< highest on stairs
   double braking = 0.7;          ///< m/s^2, before whatever asks for less
   double corner_m = 0.25;        ///< a bend begins this far before its waypoint,
@@ -18,21 +18,21 @@ struct SpeedConfig {
   double corner_min_mps = 0.25;  ///< and never slower than this
   double half_width_m = 0.25;    ///< of the robot; what is clear beyond it
   double narrow_s = 0.25;        ///< must last for this time
-  double narrow_min_mps = 0.3;   ///< but no narrow place is walked slower than this
+  double narrow_min_mps = 0.3;   ///< but no narrow passage is walked slower than this
 };
 
-/// Speed limits along a way.
+/// Speed limits along a path.
 class SpeedProfile {
  public:
   SpeedProfile(const SpeedConfig& config, const std::vector<Waypoint>& way);
 
-  /// Highest speed on the leg to waypoint `next` with so much of it left, m/s.
+  /// Highest speed on the segment to waypoint `next` with so much of it left, m/s.
   [[nodiscard]] double limit(std::size_t next, double left_m) const;
 
  private:
   double braking_;
-  std::vector<double> leg_;  ///< on the leg to each waypoint
-  std::vector<double> at_;   ///< at each waypoint
+  std::vector<double> segment_limits_;   ///< on the segment to each waypoint
+  std::vector<double> waypoint_limits_;  ///< at each waypoint
 };
 
 }  // namespace plumbline::sim

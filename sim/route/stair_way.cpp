@@ -8,17 +8,12 @@
 #include <optional>
 
 #include "bim/config/tree.h"
+#include "bim/model/stair_flight.h"
 #include "sim/route/obstacle_footprint.h"
 
 namespace plumbline::sim {
 
 namespace {
-
-Eigen::Vector2d ascent(const bim::StairFlight& flight) { return {std::cos(flight.yaw), std::sin(flight.yaw)}; }
-
-Eigen::Vector2d head(const bim::StairFlight& flight) {
-  return flight.start + flight.steps * flight.run_m * ascent(flight);
-}
 
 double head_z(const bim::StairFlight& flight) { return flight.z0_m + flight.steps * flight.rise_m; }
 
@@ -48,8 +43,8 @@ const bim::Landing* landing_between(const bim::Stair& stair, const bim::StairFli
   const auto joins = [&](const bim::Landing& landing) {
     return std::abs(landing.z_m - head_z(lower)) < lower.rise_m + config.level_m &&
            std::abs(landing.z_m - upper.z0_m) < config.level_m &&
-           (contains(landing.polygon, head(lower)) ||
-            boundary_distance(landing.polygon, head(lower)) < config.offset_m) &&
+           (contains(landing.polygon, bim::head_of(lower, 0.0)) ||
+            boundary_distance(landing.polygon, bim::head_of(lower, 0.0)) < config.offset_m) &&
            (contains(landing.polygon, upper.start) ||
             boundary_distance(landing.polygon, upper.start) < config.offset_m);
   };
@@ -57,33 +52,33 @@ const bim::Landing* landing_between(const bim::Stair& stair, const bim::StairFli
   return found == stair.landings.end() ? nullptr : &*found;
 }
 
-/// Adds where the way turns between two flights: in the middle of the landing, and where it turns twice, the second
+/// Adds where the path turns between two flights: in the middle of the landing, and where it turns twice, the second
 /// time so near to the upper flight that the knees clear what is behind.
 std::string turn(const bim::Stair& stair, const bim::StairFlight& lower, const bim::StairFlight& upper,
                  const RouteConfig& route, const StairWayConfig& config, std::vector<Eigen::Vector3d>& points) {
   const bim::Landing* landing = landing_between(stair, lower, upper, config);
-  const Eigen::Vector2d on = upper.start - head(lower), e = ascent(lower);
-  const bool straight = e.dot(ascent(upper)) > 0.99 && std::abs(e.x() * on.y() - e.y() * on.x()) < config.offset_m;
+  const Eigen::Vector2d on = upper.start - bim::head_of(lower, 0.0), e = bim::ascent(lower);
+  const bool straight = e.dot(bim::ascent(upper)) > 0.99 && std::abs(e.x() * on.y() - e.y() * on.x()) < config.offset_m;
   if (landing != nullptr && straight) return "";
   if (landing == nullptr)
     return straight && on.norm() < config.offset_m
                ? ""
                : "winds; the robot walks straight flights with landings between them";
-  const double before = 0.5 * reach(*landing, head(lower), e);
-  const double depth = reach(*landing, upper.start, -ascent(upper));
+  const double before = 0.5 * reach(*landing, bim::head_of(lower, 0.0), e);
+  const double depth = reach(*landing, upper.start, -bim::ascent(upper));
   if (std::min(before, 0.5 * depth) < route.radius_m - 0.5 * route.cell_m)
     return "has a landing " + metres(2.0 * std::min(before, 0.5 * depth)) + " deep; the robot needs " +
            metres(2.0 * route.radius_m);
-  const Eigen::Vector2d a = head(lower) + before * e;
+  const Eigen::Vector2d a = bim::head_of(lower, 0.0) + before * e;
   points.emplace_back(a.x(), a.y(), landing->z_m);
-  if ((upper.start - 0.5 * depth * ascent(upper) - a).norm() <= config.offset_m) return "";
+  if ((upper.start - 0.5 * depth * bim::ascent(upper) - a).norm() <= config.offset_m) return "";
   const double after = std::min(0.5 * depth, std::max(config.turn_at_least_m, depth - config.behind_m));
-  const Eigen::Vector2d b = upper.start - after * ascent(upper);
+  const Eigen::Vector2d b = upper.start - after * bim::ascent(upper);
   points.emplace_back(b.x(), b.y(), landing->z_m);
   return "";
 }
 
-/// What could stand in the way of a stair: walls, columns and obstacles near it. Floors are cut for it already.
+/// Possible obstacles of a stair: walls, columns and obstacles near it. Floors are cut for it already.
 bim::Building surroundings(const bim::Building& building, const Eigen::AlignedBox2d& box) {
   bim::Building near;
   const auto meets = [&](const std::vector<Eigen::Vector2d>& points) {
@@ -113,7 +108,7 @@ bim::Building surroundings(const bim::Building& building, const Eigen::AlignedBo
   return near;
 }
 
-/// A stretch of the way at one height.
+/// A stretch of the path at one height.
 struct Level {
   double z = 0.0;
   Eigen::Vector2d a = Eigen::Vector2d::Zero();
@@ -130,9 +125,9 @@ std::vector<Level> levels_of(const bim::Stair& stair, const std::vector<Eigen::V
     const double top = i + 1 < stair.flights.size() ? stair.flights[i + 1].z0_m : points.back().z();
     const double ahead = std::ceil(route.radius_m / flight.run_m) * flight.rise_m;
     for (int k = 0; k < flight.steps; ++k) {
-      const Eigen::Vector2d a = flight.start + k * flight.run_m * ascent(flight);
+      const Eigen::Vector2d a = flight.start + k * flight.run_m * bim::ascent(flight);
       const double z = flight.z0_m + (k + 1) * flight.rise_m;
-      levels.push_back({std::min(top, z + ahead), a, a + flight.run_m * ascent(flight)});
+      levels.push_back({std::min(top, z + ahead), a, a + flight.run_m * bim::ascent(flight)});
     }
   }
   for (std::size_t i = 1; i + 1 < points.size(); ++i) {
@@ -146,18 +141,18 @@ std::vector<Level> levels_of(const bim::Stair& stair, const std::vector<Eigen::V
 bool blocked(const bim::Building& near, const Level& level, const RouteConfig& route, const StairWayConfig& config) {
   const double wanted = route.radius_m - 0.5 * route.cell_m;
   const int count = 1 + static_cast<int>((level.b - level.a).norm() / config.sample_m);
-  for (const Blockage& blockage : find_blockages(near, level.z, route)) {
+  for (const ObstacleFootprint& footprint : find_obstacle_footprints(near, level.z, route)) {
     for (int i = 0; i <= count; ++i) {
       const Eigen::Vector2d p = level.a + (level.b - level.a) * (static_cast<double>(i) / count);
-      for (const Segment2& edge : blockage.edges)
+      for (const Segment2& edge : footprint.edges)
         if (segment_distance(edge.a, edge.b, p) < wanted) return true;
     }
   }
   return false;
 }
 
-std::string things_fault(const bim::Building& building, const bim::Stair& stair, const StairWay& way,
-                         const RouteConfig& route, const StairWayConfig& config) {
+std::string obstacle_fault(const bim::Building& building, const bim::Stair& stair, const StairWay& way,
+                           const RouteConfig& route, const StairWayConfig& config) {
   Eigen::AlignedBox2d box;
   for (const Eigen::Vector3d& p : way.points) box.extend(Eigen::Vector2d(p.head<2>()));
   const Eigen::Vector2d margin = Eigen::Vector2d::Constant(2.0 * route.radius_m);
@@ -177,16 +172,16 @@ StairWay way_of(const bim::Building& building, const bim::Stair& stair, const Ro
   way.from = stair.from;
   way.to = stair.to;
   if (stair.flights.empty()) {
-    way.fault = "is a body without steps that could be told apart";
+    way.fault = "is a body without recognizable steps";
     return way;
   }
   if (stair.from < 0 || stair.to < 0 || stair.from == stair.to) {
     way.fault = "does not lead from one storey to another";
     return way;
   }
-  way.into = ascent(stair.flights.front());
-  way.out_of = ascent(stair.flights.back());
-  const Eigen::Vector2d foot = stair.flights.front().start, edge = head(stair.flights.back());
+  way.into = bim::ascent(stair.flights.front());
+  way.out_of = bim::ascent(stair.flights.back());
+  const Eigen::Vector2d foot = stair.flights.front().start, edge = bim::head_of(stair.flights.back(), 0.0);
   way.points.emplace_back(foot.x(), foot.y(), building.storeys[static_cast<std::size_t>(stair.from)].elevation_m);
   for (std::size_t i = 0; i < stair.flights.size() && way.fault.empty(); ++i) {
     way.fault = flight_fault(stair.flights[i], route, config);
@@ -194,7 +189,7 @@ StairWay way_of(const bim::Building& building, const bim::Stair& stair, const Ro
       way.fault = turn(stair, stair.flights[i], stair.flights[i + 1], route, config, way.points);
   }
   way.points.emplace_back(edge.x(), edge.y(), building.storeys[static_cast<std::size_t>(stair.to)].elevation_m);
-  if (way.fault.empty()) way.fault = things_fault(building, stair, way, route, config);
+  if (way.fault.empty()) way.fault = obstacle_fault(building, stair, way, route, config);
   return way;
 }
 

@@ -10,7 +10,7 @@
 
 namespace plumbline::sim {
 
-/// What a stair must be like for the robot to climb it [facts: legged 7.4, tried up to a rise of 19 cm on 26 cm].
+/// What a stair must be like for the robot to climb it; tried up to a rise of 19 cm on a run of 26 cm.
 struct StairWayConfig {
   double rise_max_m = 0.20;
   double run_min_m = 0.24;
@@ -18,10 +18,10 @@ struct StairWayConfig {
   double offset_m = 0.05;        ///< flights without a landing between them run straight on, to within this
   double behind_m = 0.6;         ///< where the robot turns to face a flight it needs so much of the landing behind it,
   double turn_at_least_m = 0.3;  ///< but no nearer to the flight than this
-  double sample_m = 0.1;         ///< spacing at which the way is checked for things in it
+  double sample_m = 0.1;         ///< spacing at which the path is checked for obstacles
 };
 
-/// The way up one stair: along the middle of each flight, over each landing.
+/// The path up one stair: along the middle of each flight, over each landing.
 struct StairWay {
   std::string id;
   int from = -1;                        ///< storey at the foot

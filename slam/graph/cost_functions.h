@@ -8,7 +8,7 @@
 
 #include "slam/graph/graph.h"
 
-/// The residuals of factors.h as Ceres cost functions; included by optimize.cpp only.
+/// The residuals of factors.h as Ceres cost functions; included by sources of slam/graph only, since it includes Ceres.
 namespace plumbline::slam {
 
 using PoseBlock = std::array<double, 7>;   ///< quaternion (x, y, z, w), translation
@@ -20,8 +20,8 @@ using CenterBlock = std::array<double, 2>;
 [[nodiscard]] Pose to_pose(const double* block);
 [[nodiscard]] Plane to_plane(const double* block);
 
-/// Manifold whose cost functions give Jacobians in the tangent space already: a cost writes them into the first
-/// columns of the ambient Jacobian, and PlusJacobian is (I, 0)^T.
+/// Manifold whose cost functions give Jacobians in the tangent space already: a cost writes them into the first columns
+/// of the ambient Jacobian, and PlusJacobian is (I, 0)^T.
 class TangentManifold : public ceres::Manifold {
  public:
   TangentManifold(int ambient, int tangent) : ambient_(ambient), tangent_(tangent) {}

@@ -43,9 +43,8 @@ struct OpposedResidual {
   Eigen::RowVector2d J_center;
   Eigen::RowVector3d J_a, J_b;
 };
-/// One axis of a room: its centre stands midway between two opposed walls, cut at height z_M. Equals
-/// n.c - (o1 + o2) / 2 of [S-Graphs+ eq. 4] for parallel walls, but for any walls it is free of the map's origin and
-/// nowhere singular.
+/// One axis of a room: its centre stands midway between two opposed walls, cut at height z_M. Equals n.c - (o1 + o2) /
+/// 2 of [bavle2023, eq. 4] for parallel walls, but for any walls it is free of the map's origin and nowhere singular.
 [[nodiscard]] OpposedResidual opposed_residual(const Eigen::Vector2d& center_M, const Plane& a_M, const Plane& b_M,
                                                double z_M);
 
@@ -54,7 +53,7 @@ struct FourWallResidual {
   Eigen::Matrix2d J_center;
   Matrix23d J_plane[4];
 };
-/// [S-Graphs+ eq. 7]: planes x_a, x_b, y_a, y_b.
+/// [bavle2023, eq. 7]: planes x_a, x_b, y_a, y_b.
 [[nodiscard]] FourWallResidual four_wall_residual(const Eigen::Vector2d& center_M, const Plane* const planes_M[4],
                                                   double z_M);
 
@@ -63,7 +62,7 @@ struct TwoWallResidual {
   Eigen::Matrix2d J_center;
   Matrix23d J_plane[2];
 };
-/// [S-Graphs+ eq. 5, 8], cluster_M constant. Throws InternalError when the walls are not opposed at all (equal
+/// [bavle2023, eq. 5, 8], cluster_M constant. Throws InternalError when the walls are not opposed at all (equal
 /// normals).
 [[nodiscard]] TwoWallResidual two_wall_residual(const Eigen::Vector2d& center_M, const Plane& a_M, const Plane& b_M,
                                                 const Eigen::Vector2d& cluster_M, double z_M);
@@ -86,7 +85,7 @@ struct DuplicateResidual {
 /// Two vertices of one wall face, compared at a point on them.
 [[nodiscard]] DuplicateResidual duplicate_residual(const Plane& a_M, const Plane& b_M, const Eigen::Vector3d& anchor_M);
 
-/// [S-Graphs+ eq. 9]: deviation of a room from its place on the floor; Jacobians are I and -I.
+/// [bavle2023, eq. 9]: deviation of a room from its place on the floor; Jacobians are I and -I.
 [[nodiscard]] Eigen::Vector2d floor_residual(const Eigen::Vector2d& floor_M, const Eigen::Vector2d& room_M,
                                              const Eigen::Vector2d& offset_M);
 

@@ -10,7 +10,7 @@
 
 namespace plumbline::slam {
 
-/// Layer 1 [S-Graphs+ section V, Keyframes].
+/// Layer 1 [bavle2023, section V, Keyframes].
 struct KeyframeVertex {
   Nanoseconds stamp = 0;
   Pose X_MR;  ///< estimate
@@ -58,14 +58,14 @@ struct PlaneFactor {
   Eigen::Matrix3d information = Eigen::Matrix3d::Identity();
 };
 
-/// A room that takes more is too ragged to be one.
+/// A room with more planes is rejected as too ragged.
 inline constexpr int max_room_planes = 16;
 
-/// Where two walls of a room meet, by their places among its planes.
+/// Where two walls of a room meet, by their indices among its planes.
 using RoomCorner = std::array<int, 2>;
 
-/// A room and its walls. Two or four: first and second are opposed, third and fourth too. A polygon's: its corners
-/// are where two of its walls meet, each by its place in `planes`; corners at openings are left out.
+/// A room and its walls. Two or four: first and second are opposed, third and fourth too. A polygon's: its corners are
+/// where two of its walls meet, each by its index in `planes`; corners at openings are left out.
 struct RoomFactor {
   int room = 0;
   std::vector<int> planes;

@@ -108,13 +108,13 @@ class WindowSolver {
 
 bool IncrementalOptimizer::solve_is_due(const Graph& graph) const {
   const auto keyframes = static_cast<int>(graph.keyframes.size());
-  const int share = static_cast<int>(std::floor(config_.full_share * keyframes));
-  return keyframes - solved_at_ >= std::max(config_.full_spacing, share);
+  const int share = static_cast<int>(std::floor(config_.global_solve_share * keyframes));
+  return keyframes - solved_at_ >= std::max(config_.global_solve_spacing, share);
 }
 
 OptimizeReport IncrementalOptimizer::update(Graph& graph) {
-  note_planes(graph);
-  leave(graph, std::max(0, static_cast<int>(graph.keyframes.size()) - config_.window));
+  update_last_seen(graph);
+  marginalize_before(graph, std::max(0, static_cast<int>(graph.keyframes.size()) - config_.window));
   const std::vector<Term> terms = make_terms(graph, window_factors(graph), optimizer_);
   Values values;
   add_values(graph, terms, values);
@@ -157,15 +157,15 @@ void IncrementalOptimizer::relinearize(const Graph& graph) {
 }
 
 /// Keeps track of when planes were seen last.
-void IncrementalOptimizer::note_planes(const Graph& graph) {
+void IncrementalOptimizer::update_last_seen(const Graph& graph) {
   const int newest = static_cast<int>(graph.keyframes.size()) - 1;
   const std::size_t known = last_seen_.size();
   last_seen_.resize(graph.planes.size(), newest);
-  returned_ = false;
+  revisited_marginalized_plane_ = false;
   for (std::size_t i = first_plane_factor(graph, newest); i < graph.plane_factors.size(); ++i) {
     const int plane = graph.plane_factors[i].plane;
     const auto id = static_cast<std::size_t>(plane);
-    returned_ |= id < known && last_seen_[id] < first_ && !prior_.holds({Layer::plane, plane});
+    revisited_marginalized_plane_ |= id < known && last_seen_[id] < first_ && !prior_.holds({Layer::plane, plane});
     last_seen_[id] = newest;
   }
 }
@@ -195,7 +195,7 @@ std::vector<VertexId> IncrementalOptimizer::kept(const Graph& graph, int first) 
 }
 
 /// Marginalises the keyframes before `first`, and planes that are out of sight for longest.
-void IncrementalOptimizer::leave(const Graph& graph, int first) {
+void IncrementalOptimizer::marginalize_before(const Graph& graph, int first) {
   if (first <= first_) return;
   FactorSelection leaving;
   // A factor that leads back before the window is in the prior already, or waits for the next solve.

@@ -24,14 +24,15 @@ struct Ordering {
 using BlockSink = std::function<void(int row, int column, const Eigen::Ref<const Eigen::MatrixXd>& block)>;
 
 /// Gauss-Newton normal equations of the terms at `values`, robust weights included: g += J^T w e and the blocks of J^T
-/// w J to the sink, which may be empty. Vertices not in the ordering are held. Returns the cost, 0.5 sum rho(|e|^2).
+/// w J to the sink, which may be empty. Vertices not in the ordering are constants. Returns the cost, 0.5 sum
+/// rho(|e|^2).
 double linearize(const std::vector<Term>& terms, const Values& values, const Ordering& ordering, Eigen::VectorXd* g,
                  const BlockSink& sink);
 /// Sink into a dense lower triangle.
 [[nodiscard]] BlockSink dense_sink(Eigen::MatrixXd& H);
 
-/// What everything that was eliminated says about the vertices that are left: the cost 0.5 d^T H d + g^T d, where d are
-/// their increments from fixed estimates.
+/// Information of everything that was eliminated about the vertices that are left: the cost 0.5 d^T H d + g^T d, where
+/// d are their increments from fixed estimates.
 struct MarginalPrior {
   std::vector<VertexId> vertices;  ///< in the order of their rows
   std::vector<Block> at;           ///< the fixed estimates

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -24,20 +26,20 @@ struct StampedPose {
   Pose X_FR;  ///< F is M or W, see Estimate::frame
 };
 
-/// A wall patch of the newest view and the wall of the plan that it was taken for.
+/// A wall patch of the newest scan and the wall of the plan that it was taken for.
 struct WallMatch {
   std::vector<int> faces;                          ///< ids of the plan's faces that make up the wall, ascending
   Eigen::Vector3d p0_R = Eigen::Vector3d::Zero();  ///< ends of the patch, free space on the left of p0 to p1
   Eigen::Vector3d p1_R = Eigen::Vector3d::Zero();
 };
 
-/// A place where the robot may be.
+/// A pose that the robot may have.
 struct Hypothesis {
   double mass = 0.0;  ///< share of the belief, in [0, 1]
   Pose X_WR;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of (x, y, yaw)
   std::string room;                                      ///< PlanRoom name, or empty
-  std::vector<WallMatch> walls = {};  ///< what a robot there takes the walls for; of scans that were looked at
+  std::vector<WallMatch> walls = {};  ///< walls as associated at this pose; only with scans that made an update
 };
 
 /// One particle as drawn in the report.
@@ -56,7 +58,7 @@ struct StageTime {
   double cpu_ms = 0.0;
 };
 
-/// What a method says right after one scan (causal).
+/// A method's answer right after one scan (causal).
 struct Output {
   Nanoseconds stamp = 0;
   std::optional<Pose> X_FR;  ///< absent while a plan localization has no single answer
@@ -67,7 +69,7 @@ struct Output {
   std::vector<StageTime> times;
 };
 
-/// A believed wall face. Points satisfy n.x + d = 0, n towards the free space from which it was seen.
+/// An estimated wall face. Points satisfy n.x + d = 0, n towards the free space from which it was seen.
 struct PlaneNode {
   int id = -1;
   Plane plane_F;
@@ -80,8 +82,11 @@ struct PlaneNode {
 
 /// polygon: any closed chain of walls, of at least three sides, with openings between them or none.
 enum class RoomKind { four_wall, two_wall, polygon };
+[[nodiscard]] constexpr std::array<std::string_view, 3> names_of(RoomKind) {
+  return {"four_wall", "two_wall", "polygon"};
+}
 
-/// A believed room.
+/// An estimated room.
 struct RoomNode {
   int id = -1;
   RoomKind kind = RoomKind::four_wall;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string_view>
@@ -10,9 +11,13 @@
 namespace plumbline::slam {
 
 enum class LidarModelId { vlp16, vlp32c, hdl32e, os1_64 };
+[[nodiscard]] constexpr std::array<std::string_view, 4> names_of(LidarModelId) {
+  return {"vlp16", "vlp32c", "hdl32e", "os1_64"};
+}
 
 /// Which echoes of a beam a sensor reports.
 enum class ReturnMode { strongest, last, dual };
+[[nodiscard]] constexpr std::array<std::string_view, 3> names_of(ReturnMode) { return {"strongest", "last", "dual"}; }
 
 /// One laser of a spinning LiDAR.
 struct Laser {
@@ -25,7 +30,7 @@ struct Laser {
   int ring = 0;              ///< rank by elevation, 0 the lowest
 };
 
-/// A spinning LiDAR: all that tells one from another.
+/// A spinning LiDAR: all that distinguishes one model from another.
 struct LidarModel {
   std::string_view name;
   std::uint8_t product = 0;  ///< factory byte of Velodyne's packets, 0: sends none

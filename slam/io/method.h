@@ -16,7 +16,7 @@
 
 namespace plumbline::slam {
 
-/// What plan localization is told besides the plan.
+/// The prior of plan localization besides the plan.
 struct Prior {
   std::optional<double> yaw_W;        ///< heading of R in W at the start, rad (a compass); absent: unknown
   double yaw_sigma = 0.05;            ///< rad
@@ -33,7 +33,7 @@ struct MethodInput {
   Tree config;               ///< values over the defaults of the method's config struct, or null
 };
 
-/// The config struct of a method: what the input says over its defaults. Throws InputError at the value that is wrong.
+/// The config struct of a method: the input's values over its defaults. Throws InputError at the value that is wrong.
 template <class Config>
 [[nodiscard]] Config config_of(const MethodInput& input) {
   return input.config.is_null() ? Config{} : from_tree<Config>(input.config);

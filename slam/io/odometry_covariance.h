@@ -5,7 +5,7 @@
 
 namespace plumbline::slam {
 
-/// What odometry knows of its own error: of the motion up to its record of this stamp since the record before, a right
+/// Covariance that odometry reports: of the motion up to its record of this stamp since the record before, a right
 /// increment (rho, phi) in R, m and rad, symmetric to the last bit. The first record has none.
 struct OdometryCovariance {
   Nanoseconds stamp = 0;

@@ -10,8 +10,8 @@ namespace plumbline::slam {
 /// within 1 %.
 [[nodiscard]] bool plausible(const Pose& X);
 
-/// Takes a pose as a file gives it. Throws InputError at the mark where it is not plausible; makes
-/// the quaternion's norm 1 where it is off by more than 1e-9, so that what the simulator wrote comes back to the bit.
+/// Takes a pose as a file gives it. Throws InputError at the mark where it is not plausible; makes the quaternion's
+/// norm 1 where it is off by more than 1e-9, so that what the simulator wrote comes back to the bit.
 [[nodiscard]] Pose checked_pose(const Eigen::Vector3d& t, const Eigen::Quaterniond& q, const Mark& mark);
 
 }  // namespace plumbline::slam

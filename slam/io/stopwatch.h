@@ -3,7 +3,7 @@
 
 namespace plumbline::slam {
 
-/// The only clocks of the program. What they say goes to timings.json and the terminal, never into a result.
+/// The only clocks of the program. Their readings go to timings.json and the terminal, never into a result.
 [[nodiscard]] double thread_cpu_s();   ///< CPU time of this thread, s
 [[nodiscard]] double process_cpu_s();  ///< CPU time of all threads, s
 [[nodiscard]] double wall_s();         ///< since some fixed moment, s

@@ -5,7 +5,7 @@
 
 namespace plumbline::slam::loam {
 
-Registration AloamOdometry::match(const DeskewedScan& scan, const LegsAt& /*legs*/) {
+Registration AloamOdometry::match(const DeskewedScan& scan, const OdometrySample& /*odometry*/) {
   scan_ = find_features(scan, config_.features);
   thinned_ = thin(scan_, config_.map);
   Registration result;
@@ -22,6 +22,6 @@ void AloamOdometry::commit(const Pose& X_MR, bool mapped) {
   last_ = std::move(scan_);
 }
 
-void AloamOdometry::forget() { map_ = FeatureMap(config_.map); }
+void AloamOdometry::reset_map() { map_ = FeatureMap(config_.map); }
 
 }  // namespace plumbline::slam::loam

@@ -11,31 +11,31 @@ struct AloamConfig {
   FeatureConfig features;
   ScanToScanConfig scan_to_scan;
   MapConfig map;
-  int rounds = 2;  ///< of matching against the map
+  int rounds = 2;
 
   template <class V>
   void visit(V& v) {
     v("features", features);
     v("scan_to_scan", scan_to_scan);
     v("map", map);
-    v("rounds", rounds, Field{.doc = "rounds of matching against the map", .min = 1});
+    v("rounds", rounds, Field{.doc = "rounds of matching against the map", .min = 1, .basic = true});
   }
 };
 
-/// A-LOAM [LOAM; facts: slam 6]: scan to scan first, then that motion refined against the feature map. Every scan is
-/// mapped. Legs are not asked.
+/// A-LOAM [qin2018]: scan to scan first, then that motion refined against the feature map. Every scan is mapped.
+/// Odometry is not used.
 class AloamOdometry {
  public:
   explicit AloamOdometry(const AloamConfig& config) : config_(config), map_(config.map) {}
 
-  /// Where the scan fits. The legs are not asked.
-  [[nodiscard]] Registration match(const DeskewedScan& scan, const LegsAt& legs);
+  /// Registers the scan. Odometry is not used.
+  [[nodiscard]] Registration match(const DeskewedScan& scan, const OdometrySample& odometry);
   /// Takes it in at X_MR, into the map only if `mapped`.
   void commit(const Pose& X_MR, bool mapped);
   /// Whether there is a map to match against.
   [[nodiscard]] bool ready() const { return !map_.empty(); }
   /// Drops the map.
-  void forget();
+  void reset_map();
 
  private:
   AloamConfig config_;

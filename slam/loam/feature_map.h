@@ -12,29 +12,35 @@
 
 namespace plumbline::slam::loam {
 
-/// [LOAM section VI; facts: slam 5, 6]. Leaves are half of A-LOAM's and F-LOAM's VLP-16 settings, which indoors hold
-/// two surfaces at once (drift of a 7 m walk: 0.23 m with theirs, 0.03 m with these and plane_ratio).
+/// [zhang2014, section VI]. Leaves are half of A-LOAM's and F-LOAM's VLP-16 settings, which indoors hold two surfaces
+/// at once (drift of a 7 m walk: 0.23 m with theirs, 0.03 m with these and plane_ratio).
 struct MapConfig {
   double edge_leaf_m = 0.1;
   double plane_leaf_m = 0.2;
-  double max_distance2_m2 = 1.0;   ///< squared distance to the farthest of the five neighbours
-  double line_ratio = 3.0;         ///< least ratio of the largest to the second eigenvalue of neighbours on a line
-  double plane_ratio = 10.0;       ///< least ratio of the second to the smallest eigenvalue: five points of one ring
-                                   ///< span no plane
-  double plane_tolerance_m = 0.2;  ///< farthest of the neighbours from their plane
+  double max_distance2_m2 = 1.0;
+  double line_ratio = 3.0;
+  double plane_ratio = 10.0;
+  double plane_tolerance_m = 0.2;
   double huber_m = 0.1;
-  int iterations = 4;  ///< of one round of matches
+  int iterations = 4;
 
   template <class V>
   void visit(V& v) {
-    v("edge_leaf_m", edge_leaf_m, Field{.doc = "voxel that holds one edge point", .min = 0.02});
-    v("plane_leaf_m", plane_leaf_m, Field{.doc = "voxel that holds one planar point", .min = 0.02});
-    v("max_distance2_m2", max_distance2_m2, Field{.doc = "squared distance to a neighbour", .min = 1e-4, .max = 1.0});
-    v("line_ratio", line_ratio, Field{.doc = "of the eigenvalues of neighbours on a line", .min = 1.0});
-    v("plane_ratio", plane_ratio, Field{.doc = "of the eigenvalues of neighbours on a plane", .min = 1.0});
-    v("plane_tolerance_m", plane_tolerance_m, Field{.doc = "of neighbours on a plane", .min = 1e-3});
-    v("huber_m", huber_m, Field{.doc = "residual from which a feature counts linearly", .min = 1e-4});
-    v("iterations", iterations, Field{.doc = "of one round of matches", .min = 1});
+    v("edge_leaf_m", edge_leaf_m,
+      Field{.doc = "voxel size of the map that holds one edge point each", .min = 0.02, .basic = true});
+    v("plane_leaf_m", plane_leaf_m,
+      Field{.doc = "voxel size of the map that holds one planar point each", .min = 0.02, .basic = true});
+    v("max_distance2_m2", max_distance2_m2,
+      Field{.doc = "largest squared distance to the farthest of the five neighbours", .min = 1e-4, .max = 1.0});
+    v("line_ratio", line_ratio,
+      plain_field("least ratio of the largest to the second eigenvalue of neighbours on a line", {.min = 1.0}));
+    // Five points of one ring span no plane.
+    v("plane_ratio", plane_ratio,
+      plain_field("least ratio of the second to the smallest eigenvalue of neighbours on a plane", {.min = 1.0}));
+    v("plane_tolerance_m", plane_tolerance_m,
+      Field{.doc = "largest distance of a neighbour from the fitted plane", .min = 1e-3});
+    v("huber_m", huber_m, Field{.doc = "residual above which a feature counts linearly (Huber)", .min = 1e-4});
+    v("iterations", iterations, Field{.doc = "solver iterations of one round of matching", .min = 1});
   }
 };
 

@@ -5,7 +5,7 @@
 
 namespace plumbline::slam::loam {
 
-Registration FloamOdometry::match(const DeskewedScan& scan, const LegsAt& /*legs*/) {
+Registration FloamOdometry::match(const DeskewedScan& scan, const OdometrySample& /*odometry*/) {
   scan_ = thin(find_features(scan, config_.features), config_.map);
   Registration result;
   result.X_MR = X_MR_;
@@ -21,7 +21,7 @@ void FloamOdometry::commit(const Pose& X_MR, bool mapped) {
   if (mapped) map_.add(scan_, X_MR_);
 }
 
-void FloamOdometry::forget() {
+void FloamOdometry::reset_map() {
   map_ = FeatureMap(config_.map);
   rounds_ = config_.first_rounds;
 }

@@ -9,32 +9,33 @@ namespace plumbline::slam::loam {
 struct FloamConfig {
   FeatureConfig features;
   MapConfig map;
-  int first_rounds = 12;  ///< of matching for the second scan; one fewer a scan, ...
-  int rounds = 2;         ///< ... down to this
+  int first_rounds = 12;
+  int rounds = 2;
 
   template <class V>
   void visit(V& v) {
     v("features", features);
     v("map", map);
-    v("first_rounds", first_rounds, Field{.doc = "rounds of matching at the start", .min = 1});
-    v("rounds", rounds, Field{.doc = "rounds of matching later", .min = 1});
+    v("first_rounds", first_rounds,
+      Field{.doc = "rounds of matching for the second scan; each later scan has one fewer, down to rounds", .min = 1});
+    v("rounds", rounds, Field{.doc = "rounds of matching later", .min = 1, .basic = true});
   }
 };
 
-/// F-LOAM [facts: slam 5]: each scan's features straight against the feature map, from where constant velocity would
-/// take the robot. Legs are not asked.
+/// F-LOAM [wang2021]: each scan's features straight against the feature map, from where constant velocity would take
+/// the robot. Odometry is not used.
 class FloamOdometry {
  public:
   explicit FloamOdometry(const FloamConfig& config) : config_(config), map_(config.map), rounds_(config.first_rounds) {}
 
-  /// Where the scan fits. The legs are not asked.
-  [[nodiscard]] Registration match(const DeskewedScan& scan, const LegsAt& legs);
+  /// Registers the scan. Odometry is not used.
+  [[nodiscard]] Registration match(const DeskewedScan& scan, const OdometrySample& odometry);
   /// Takes it in at X_MR, into the map only if `mapped`.
   void commit(const Pose& X_MR, bool mapped);
   /// Whether there is a map to match against.
   [[nodiscard]] bool ready() const { return !map_.empty(); }
   /// Drops the map.
-  void forget();
+  void reset_map();
 
  private:
   FloamConfig config_;

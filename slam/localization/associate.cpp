@@ -13,11 +13,11 @@ namespace plumbline::slam {
 namespace {
 
 /// Squared Mahalanobis distance of (yaw of the normal, offset), or infinity where the patch is not on the line.
-double squared_distance(const WallLine& line, const WallView& wall, const PlaneObservation& observed, const View& view,
-                        const Pose& X_IR, const TrackerConfig& config) {
+double squared_distance(const WallLine& line, const WallObservation& wall, const PlaneObservation& observed,
+                        const LocalizationScan& scan, const Pose& X_IR, const TrackerConfig& config) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const Pose2 X_IH = heading(X_IR);
-  const Eigen::Vector2d sensor_I = X_IH * view.sensor_H;
+  const Eigen::Vector2d sensor_I = X_IH * scan.sensor_H;
   const double foot = line.e.dot(sensor_I - line.a);
   const double overlap = std::min(foot + wall.s1, line.length + config.overlap_margin_m) -
                          std::max(foot + wall.s0, -config.overlap_margin_m);
@@ -27,9 +27,9 @@ double squared_distance(const WallLine& line, const WallView& wall, const PlaneO
   const double e_offset = wall.distance - distance;
   // The prediction may be off by what the odometry or the convergence left.
   const double var_angle = observed.covariance(0, 0) + config.plane_angle_sigma * config.plane_angle_sigma +
-                           config.hold_rad * config.hold_rad;
+                           config.anchor_sigma_rad * config.anchor_sigma_rad;
   const double var_offset = observed.covariance(2, 2) + config.plane_offset_sigma_m * config.plane_offset_sigma_m +
-                            config.hold_m * config.hold_m;
+                            config.anchor_sigma_m * config.anchor_sigma_m;
   return e_angle * e_angle / var_angle + e_offset * e_offset / var_offset;
 }
 
@@ -52,18 +52,18 @@ bool bounds_room(const StoreyIndex& storey, int room, const WallLine& line) {
 
 Plane plane_of(const WallLine& line) { return {{line.n.x(), line.n.y(), 0.0}, line.d}; }
 
-std::vector<WallLink> associate_walls(const StoreyIndex& storey, const View& view,
+std::vector<WallLink> associate_walls(const StoreyIndex& storey, const LocalizationScan& scan,
                                       const std::vector<PlaneObservation>& planes, const Pose& X_IR,
                                       const TrackerConfig& config) {
   std::vector<WallLink> links;
-  const int cell = storey.grid.cell_at(heading(X_IR) * view.sensor_H);
+  const int cell = storey.grid.cell_at(heading(X_IR) * scan.sensor_H);
   if (cell < 0) return links;
-  for (const WallView& wall : view.walls) {
+  for (const WallObservation& wall : scan.walls) {
     const PlaneObservation& observed = planes[static_cast<std::size_t>(wall.observation)];
     int best = -1;
     double best_distance = config.gate * config.gate;
     for (const int i : storey.visible[static_cast<std::size_t>(cell)]) {
-      const double d2 = squared_distance(storey.lines[static_cast<std::size_t>(i)], wall, observed, view, X_IR, config);
+      const double d2 = squared_distance(storey.lines[static_cast<std::size_t>(i)], wall, observed, scan, X_IR, config);
       if (d2 >= best_distance) continue;
       best_distance = d2;
       best = i;
@@ -73,11 +73,11 @@ std::vector<WallLink> associate_walls(const StoreyIndex& storey, const View& vie
   return links;
 }
 
-std::vector<PlaneObservation> find_floor(const View& view, const std::vector<PlaneObservation>& planes,
+std::vector<PlaneObservation> find_floor(const LocalizationScan& scan, const std::vector<PlaneObservation>& planes,
                                          const TrackerConfig& config) {
   std::vector<PlaneObservation> floor;
   for (const PlaneObservation& plane : planes) {
-    const bool below = plane.plane_R.d > 0.1 && (view.q_HR * plane.plane_R.n).z() > std::cos(config.floor_max_tilt);
+    const bool below = plane.plane_R.d > 0.1 && (scan.q_HR * plane.plane_R.n).z() > std::cos(config.floor_max_tilt);
     if (below && (floor.empty() || plane.points > floor.front().points)) floor.assign(1, plane);
   }
   return floor;

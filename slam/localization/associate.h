@@ -11,13 +11,14 @@ namespace plumbline::slam {
 [[nodiscard]] Plane plane_of(const WallLine& line);
 
 /// Observed walls with the faces of the plan they are, at a predicted pose: visible from there, Mahalanobis distance
-/// within the gate [BIM-Loc eq. 7, in the sensor's frame], patch on the face. Ties: lowest line.
-[[nodiscard]] std::vector<WallLink> associate_walls(const StoreyIndex& storey, const View& view,
+/// within the gate [shaheer2023, eq. 7, in the sensor's frame], patch on the face. Ties: lowest line.
+[[nodiscard]] std::vector<WallLink> associate_walls(const StoreyIndex& storey, const LocalizationScan& scan,
                                                     const std::vector<PlaneObservation>& planes, const Pose& X_IR,
                                                     const TrackerConfig& config);
 
 /// The largest upward plane under the robot, or nothing.
-[[nodiscard]] std::vector<PlaneObservation> find_floor(const View& view, const std::vector<PlaneObservation>& planes,
+[[nodiscard]] std::vector<PlaneObservation> find_floor(const LocalizationScan& scan,
+                                                       const std::vector<PlaneObservation>& planes,
                                                        const TrackerConfig& config);
 
 /// Two opposed walls of the room the robot is in, as indices into TrackedPose::walls.

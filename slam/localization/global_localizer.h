@@ -12,54 +12,65 @@
 
 namespace plumbline::slam {
 
-/// When a single answer may be announced, and when it is taken back.
+/// When a single answer is announced, and when it is withdrawn.
 struct ConvergenceConfig {
   double top_mass = 0.95;
-  double log_ratio = 5.0;      ///< to the next place [facts: 1.3]
-  int updates = 5;             ///< for which this must have held
-  double travel_m = 1.0;       ///< and the way walked meanwhile
-  double inliers_min = 0.80;   ///< residual test, share of beams on their face; measured 0.78-0.99 in quickstart, up to
-                               ///< 0.79 in plans of other buildings with rooms of the same size
-  double through_max = 0.05;   ///< share of beams through walls of the plan; measured up to 0.03
-  int cluttered_updates = 35;  ///< or this many of Candidate::fits; in plans of other buildings up to 23 were measured
-  double restart_through = 0.35;  ///< share of beams through walls but the one that most go through, which may be
-                                  ///< missing, of those that do not end before one,
-  int restart_updates = 25;       ///< that lets a search begin anew after so many updates
-  double rivals_every_m = 3.0;    ///< way walked between two looks for places not thought of
-  int rivals = 12;                ///< places looked at before an announcement
-  double rival_gap_m = 0.75;      ///< between them
-  double rival_gap_rad = 0.35;
-  double yaw_drift = told_yaw_drift;
+  double log_ratio = 5.0;
+  int updates = 5;
+  double travel_m = 1.0;
+  double inliers_min = 0.80;
+  double max_penetration_ratio = 0.05;
+  int cluttered_updates = 35;
+  double restart_penetration_ratio = 0.35;
+  int restart_updates = 25;
+  double alternatives_every_m = 3.0;
+  int alternatives = 12;
+  double alternative_gap_m = 0.75;
+  double alternative_gap_rad = 0.35;
+  double yaw_drift = prior_yaw_drift;
 
   template <class V>
   void visit(V& v) {
-    v("top_mass", top_mass, Field{.min = 0, .max = 1});
-    v("log_ratio", log_ratio, Field{.doc = "to the next place", .min = 0});
-    v("updates", updates, Field{.doc = "for which this must have held", .min = 1});
-    v("travel_m", travel_m, Field{.doc = "and the way walked meanwhile", .min = 0});
-    v("inliers_min", inliers_min, Field{.doc = "residual test, share of beams on their face", .min = 0, .max = 1});
-    v("through_max", through_max,
-      Field{.doc = "share of beams through walls of the plan; measured up to 0.03", .min = 0, .max = 1});
-    v("cluttered_updates", cluttered_updates, Field{.doc = "or this many that fit behind clutter", .min = 1});
-    v("restart_through", restart_through,
-      Field{.doc = "share of beams through walls but one, of those that do not end before one", .min = 0, .max = 1});
-    v("restart_updates", restart_updates, Field{.doc = "that lets a search begin anew after so many", .min = 1});
-    v("rivals_every_m", rivals_every_m,
-      Field{.doc = "way walked between two looks for places not thought of", .min = 0});
-    v("rivals", rivals, Field{.doc = "places looked at before an announcement", .min = 1});
-    v("rival_gap_m", rival_gap_m, Field{.doc = "between them", .min = 0});
-    v("rival_gap_rad", rival_gap_rad, Field{.min = 0});
-    v("yaw_drift", yaw_drift, Field{.doc = "rad/s by which the told yaw grows stale", .min = 0});
+    v("top_mass", top_mass, share_field("share of the mass that the best hypothesis must hold", {.basic = true}));
+    v("log_ratio", log_ratio,
+      plain_field("log-likelihood ratio to the next hypothesis that is required", {.min = 0, .basic = true}));
+    v("updates", updates, Field{.doc = "updates in a row for which this must hold", .min = 1, .basic = true});
+    v("travel_m", travel_m, Field{.doc = "distance walked for which this must hold", .min = 0, .basic = true});
+    // Measured: 0.78 to 0.99 in quickstart, up to 0.79 in plans of other buildings with rooms of the same size.
+    v("inliers_min", inliers_min, share_field("least share of beams on their predicted face", {.basic = true}));
+    // Measured: up to 0.03.
+    v("max_penetration_ratio", max_penetration_ratio,
+      share_field("largest share of beams that penetrate walls of the plan", {.former = "through_max"}));
+    // Plans of other buildings reach 29.
+    v("cluttered_updates", cluttered_updates,
+      Field{.doc = "updates that fit behind clutter and suffice instead of inliers_min", .min = 1});
+    // Among the beams that are not cut short; the wall that most beams penetrate may be missing.
+    v("restart_penetration_ratio", restart_penetration_ratio,
+      share_field("share of penetrating beams, without those of the worst wall, that counts towards a restart",
+                  {.former = "restart_through"}));
+    v("restart_updates", restart_updates,
+      Field{.doc = "updates above this ratio after which the search restarts", .min = 1});
+    v("alternatives_every_m", alternatives_every_m,
+      Field{
+          .doc = "distance walked between two searches for further hypotheses", .min = 0, .former = "rivals_every_m"});
+    v("alternatives", alternatives,
+      Field{.doc = "further hypotheses tried before a convergence is announced", .min = 1, .former = "rivals"});
+    v("alternative_gap_m", alternative_gap_m,
+      Field{.doc = "least distance between two of them", .min = 0, .former = "rival_gap_m"});
+    v("alternative_gap_rad", alternative_gap_rad,
+      Field{.doc = "or least angle between two of them", .min = 0, .former = "rival_gap_rad"});
+    v("yaw_drift", yaw_drift,
+      Field{.doc = "rate at which the standard deviation of the prior yaw grows", .unit = "rad/s", .min = 0});
   }
 };
 
-struct SearchConfig {
+struct GlobalLocalizerConfig {
   LikelihoodConfig likelihood;
   FilterConfig filter;
   PoseClusterConfig clusters;
   RefineConfig refine;
   ProposalConfig proposals;
-  ContestConfig contest;
+  HypothesisComparisonConfig comparison;
   HypothesisConfig hypotheses;
   ConvergenceConfig convergence;
 
@@ -70,42 +81,42 @@ struct SearchConfig {
     v("clusters", clusters);
     v("refine", refine);
     v("proposals", proposals);
-    v("contest", contest);
+    v("comparison", comparison, Field{.former = "contest"});
     v("hypotheses", hypotheses);
     v("convergence", convergence);
   }
 };
 
-/// Global localization in the plan until one place is left [BIM-Loc section 3.3].
-class PlanSearch {
+/// Global localization in the plan until one hypothesis is left [shaheer2023, section 3.3].
+class GlobalLocalizer {
  public:
-  PlanSearch(SearchConfig config, std::uint64_t seed);
+  GlobalLocalizer(GlobalLocalizerConfig config, std::uint64_t seed);
 
-  /// Takes in one view. start is what is told of the pose now; it matters when the set is drawn anew. Returns the
-  /// digest of each stage.
-  std::vector<StageDigest> update(const PlanIndex& index, const StartBelief& start, const View& view);
+  /// Processes one scan. start: the prior of the present pose, used when the set is drawn anew. Returns the digest of
+  /// each stage.
+  std::vector<StageDigest> update(const PlanIndex& index, const StartPrior& start, const LocalizationScan& scan);
   /// Forgets everything; the next update draws the set anew.
   void restart();
 
   [[nodiscard]] State state() const { return state_; }
-  [[nodiscard]] const std::vector<Candidate>& candidates() const { return hypotheses_.candidates(); }
+  [[nodiscard]] const std::vector<PoseHypothesis>& hypotheses() const { return hypotheses_.all(); }
   [[nodiscard]] const ParticleSet& particles() const { return particles_; }
 
  private:
-  void judge(const PlanIndex& index, const StartBelief& start, const View& view, double walked);
-  /// Looks over the whole storey for places that would have seen the same.
-  void find_rivals(const PlanIndex& index, const StartBelief& start, const View& view);
+  void update_state(const PlanIndex& index, const StartPrior& start, const LocalizationScan& scan, double walked);
+  /// Searches the whole storey for poses that would see the same.
+  void find_alternatives(const PlanIndex& index, const StartPrior& start, const LocalizationScan& scan);
 
-  SearchConfig config_;
+  GlobalLocalizerConfig config_;
   std::uint64_t seed_;
   std::uint64_t tick_ = 0;
   State state_ = State::searching;
   ParticleSet particles_;
   HypothesisSet hypotheses_;
   std::optional<Pose2> last_X_OH_;
-  int sure_updates_ = 0;
-  double sure_travel_m_ = 0.0;
-  double unlooked_m_ = 0.0;  ///< way since the last look for rivals
+  int converged_updates_ = 0;
+  double converged_travel_m_ = 0.0;
+  double since_alternatives_m_ = 0.0;  ///< distance since the last search for alternatives
   int failed_updates_ = 0;
 };
 

@@ -14,152 +14,169 @@
 namespace plumbline::slam {
 
 struct HypothesisConfig {
-  int max_count = 24;          ///< clusters up to which places are followed one by one
-  double covered_mass = 0.99;  ///< of the particles that these clusters must hold
-  double min_mass = 0.005;     ///< of a cluster that becomes a hypothesis
-  double match_m = 0.75;       ///< a cluster this close to a hypothesis is the same place
+  int max_count = 24;
+  double covered_mass = 0.99;
+  double min_mass = 0.005;
+  double match_m = 0.75;
   double match_rad = 0.35;
-  double merge_m = 0.30;  ///< hypotheses this close are one
+  double merge_m = 0.30;
   double merge_rad = 0.15;
-  double indifference = 0.1;        ///< of what a view says, not counted: a beam or two at an edge of the plan
-  double step_cap = 6.0;            ///< most that one view says against a hypothesis
-  double crossing_cost = 3.0;       ///< against one that walks through a wall: may be a door jamb and noise
-  double overtaking = 1.0;          ///< log-ratio by which a place must lead the one that all are held against
-  double drop_ratio = 25.0;         ///< log-ratio to the best below which a hypothesis is dropped: three causes
-  int history = 240;                ///< views kept to judge a hypothesis that turns up later; 50 m of way
-  int replay_stride = 3;            ///< of these views, one in so many is looked at, for all of them
-  double newest = 0.15;             ///< weight of the newest view in the agreement with the last ones
-  double cluttered_inliers = 0.30;  ///< share of beams that meet their face where much stands before the walls,
-  double cluttered_through = 0.10;  ///< and share of those that go through one, of both
-  int least_fits = -18;             ///< of a candidate: so long is it held against it that views did not fit
-  double stray_mass = 0.01;         ///< left to particles of no hypothesis
+  double deadband = 0.1;
+  double step_cap = 6.0;
+  double crossing_cost = 3.0;
+  double reference_switch_margin = 1.0;
+  double drop_ratio = 25.0;
+  int history = 240;
+  int replay_stride = 3;
+  double ema_alpha = 0.15;
+  double cluttered_inliers = 0.30;
+  double cluttered_penetration_ratio = 0.10;
+  int min_fit_count = -18;
+  double unassigned_mass = 0.01;
 
   template <class V>
   void visit(V& v) {
     v("max_count", max_count,
-      Field{.doc = "clusters up to which places are followed one by one", .min = 1, .max = 1000});
-    v("covered_mass", covered_mass, Field{.doc = "of the particles that these clusters must hold", .min = 0, .max = 1});
-    v("min_mass", min_mass, Field{.doc = "of a cluster that becomes a hypothesis", .min = 0, .max = 1});
-    v("match_m", match_m, Field{.doc = "a cluster this close to a hypothesis is the same place", .min = 0});
-    v("match_rad", match_rad, Field{.min = 0});
-    v("merge_m", merge_m, Field{.doc = "hypotheses this close are one", .min = 0});
-    v("merge_rad", merge_rad, Field{.min = 0});
-    v("indifference", indifference,
-      Field{.doc = "of what a view says, not counted: a beam or two at an edge of the plan", .min = 0});
-    v("step_cap", step_cap, Field{.doc = "most that one view says against a hypothesis", .min = 0});
+      Field{.doc = "most clusters for which hypotheses are tracked one by one", .min = 1, .max = 1000});
+    v("covered_mass", covered_mass, share_field("share of the particles' mass that these clusters must hold"));
+    v("min_mass", min_mass, share_field("least mass of a cluster that becomes a hypothesis"));
+    v("match_m", match_m, Field{.doc = "distance up to which a cluster belongs to a hypothesis", .min = 0});
+    v("match_rad", match_rad, Field{.doc = "and angle up to which it does", .min = 0});
+    v("merge_m", merge_m, Field{.doc = "distance below which two hypotheses merge", .min = 0});
+    v("merge_rad", merge_rad, Field{.doc = "and angle below which they do", .min = 0});
+    v("deadband", deadband,
+      plain_field("evidence of a scan below which it does not count: a beam or two at an edge of the plan",
+                  {.min = 0, .former = "indifference"}));
+    v("step_cap", step_cap, plain_field("most evidence of one scan against a hypothesis", {.min = 0}));
     v("crossing_cost", crossing_cost,
-      Field{.doc = "against one that walks through a wall: may be a door jamb and noise", .min = 0});
-    v("overtaking", overtaking,
-      Field{.doc = "log-ratio by which a place must lead the one that all are held against", .min = 0});
-    v("drop_ratio", drop_ratio, Field{.doc = "log-ratio to the best below which a hypothesis is dropped", .min = 0});
+      plain_field("evidence against a hypothesis that walks through a wall, which may be a door jamb and noise",
+                  {.min = 0}));
+    v("reference_switch_margin", reference_switch_margin,
+      plain_field("log-likelihood ratio by which a hypothesis must lead the reference to replace it",
+                  {.min = 0, .former = "overtaking"}));
+    // About three causes.
+    v("drop_ratio", drop_ratio,
+      plain_field("log-likelihood ratio to the best below which a hypothesis is dropped", {.min = 0}));
+    // 50 m walked.
     v("history", history,
-      Field{.doc = "views kept to judge a hypothesis that turns up later; 50 m of way", .min = 1, .max = 10000});
+      Field{.doc = "scans kept to replay for a hypothesis that is added later", .min = 1, .max = 10000});
     v("replay_stride", replay_stride,
-      Field{.doc = "of these views, one in so many is looked at, for all of them", .min = 1, .max = 1000});
-    v("newest", newest,
-      Field{.doc = "weight of the newest view in the agreement with the last ones", .min = 0, .max = 1});
+      Field{
+          .doc = "every how many of these scans one is replayed, which stands for all of them", .min = 1, .max = 1000});
+    v("ema_alpha", ema_alpha,
+      share_field("weight of the newest scan in the moving average of the agreement", {.former = "newest"}));
     v("cluttered_inliers", cluttered_inliers,
-      Field{.doc = "share of beams that meet their face where much stands before the walls", .min = 0, .max = 1});
-    v("cluttered_through", cluttered_through,
-      Field{.doc = "and share of those that go through one, of both", .min = 0, .max = 1});
-    v("least_fits", least_fits,
-      Field{.doc = "of a candidate: so long is it held against it that views did not fit", .max = 0});
-    v("stray_mass", stray_mass, Field{.doc = "left to particles of no hypothesis", .min = 0, .max = 1});
+      share_field("least share of beams on their face for a scan to fit where clutter hides walls"));
+    v("cluttered_penetration_ratio", cluttered_penetration_ratio,
+      share_field("largest penetration ratio for such a scan to fit", {.former = "cluttered_through"}));
+    v("min_fit_count", min_fit_count,
+      Field{.doc = "lower limit of the count of fitting scans less twice those that do not fit",
+            .max = 0,
+            .former = "least_fits"});
+    v("unassigned_mass", unassigned_mass,
+      share_field("mass left to particles of no hypothesis", {.former = "stray_mass"}));
   }
 };
 
-/// What views said of a place and of another one that it was held against.
-struct Case {
-  Objections against, for_it;
+/// Evidence of the scans against and for a hypothesis, from its comparison with the reference.
+struct EvidenceBalance {
+  EvidenceByCause against, supporting;
 
-  [[nodiscard]] double evidence(double cause_cap) const { return for_it.total(cause_cap) - against.total(cause_cap); }
+  [[nodiscard]] double evidence(double cause_cap) const {
+    return supporting.total(cause_cap) - against.total(cause_cap);
+  }
 };
 
-/// A place the robot may be in, followed by itself.
-struct Candidate {
+/// A pose that the robot may have, tracked by itself.
+struct PoseHypothesis {
   int id = -1;
   int storey = 0;
   Pose2 X_IH;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();
-  Case held;              ///< what its comparison with the reference brought up
-  double evidence = 0.0;  ///< log-likelihood ratio to the reference, whose own is 0
-  double mass = 0.0;      ///< share by evidence
-  int fits = 0;           ///< views that fit behind clutter, less twice those that do not
-  Agreement agreement;    ///< with the last views, the newest with weight HypothesisConfig::newest
+  EvidenceBalance balance;  ///< from its comparison with the reference
+  double evidence = 0.0;    ///< log-likelihood ratio to the reference, whose own is 0
+  double mass = 0.0;        ///< share by evidence
+  int fit_count = 0;        ///< scans that fit behind clutter, less twice those that do not
+  Agreement agreement;      ///< moving average over the last scans, see HypothesisConfig::ema_alpha
 
-  [[nodiscard]] Place place() const { return {storey, X_IH}; }
+  [[nodiscard]] StoreyPose pose() const { return {storey, X_IH}; }
 };
 
-/// Places followed one by one. The evidence of a place is what every view says for it and against the best place so
-/// far, each at the pose that fits it best, not the luck of where its particles fell: places that look exactly alike
-/// keep exactly equal shares.
+/// Hypotheses tracked one by one. The evidence of a hypothesis compares it with the best one so far by every scan, each
+/// at its best fitting pose and not where its particles happened to fall: poses that look exactly alike keep exactly
+/// equal shares.
 class HypothesisSet {
  public:
-  HypothesisSet(HypothesisConfig config, RefineConfig refine, LikelihoodConfig likelihood, ContestConfig contest)
-      : config_(config), refine_(refine), follow_(refine), likelihood_(likelihood), contest_(contest) {
-    follow_.first_gate_m = refine.follow_gate_m;
+  HypothesisSet(HypothesisConfig config, RefineConfig refine, LikelihoodConfig likelihood,
+                HypothesisComparisonConfig comparison)
+      : config_(config), refine_(refine), tracking_refine_(refine), likelihood_(likelihood), comparison_(comparison) {
+    tracking_refine_.first_gate_m = refine.tracking_gate_m;
   }
 
-  /// Moves every candidate by u, fits it to the view and adds what the view says.
-  void follow(const PlanIndex& index, const Pose2& u, const View& view);
-  /// Adds clusters that are no candidate yet, once few compact ones hold nearly all of the mass.
-  void adopt(const PlanIndex& index, const Clustering& clustering);
-  /// Adds the places that are not known yet and that the kept history does not rule out.
-  void adopt(const PlanIndex& index, const std::vector<Place>& places);
-  /// Merges, drops the hopeless, shares out the mass.
-  void settle();
-  /// Scales the particles so that each candidate's cluster has its mass, and brings back candidates without particles.
-  void impose(ParticleSet& particles, const Clustering& clustering, int quota, std::uint64_t seed,
-              std::uint64_t tick) const;
+  /// Moves every hypothesis by u, fits it to the scan and adds the scan's evidence.
+  void predict_and_update(const PlanIndex& index, const Pose2& u, const LocalizationScan& scan);
+  /// Adds clusters that are no hypothesis yet, once few compact ones hold nearly all of the mass.
+  void add(const PlanIndex& index, const Clustering& clustering);
+  /// Adds the poses that are not known yet and that the kept history does not rule out.
+  void add(const PlanIndex& index, const std::vector<StoreyPose>& poses);
+  /// Merges near ones, drops unlikely ones, normalises the mass.
+  void prune_and_normalize();
+  /// Scales the particles so that each hypothesis's cluster has its mass, and adds particles where a hypothesis has
+  /// none.
+  void reweight_particles(ParticleSet& particles, const Clustering& clustering, int quota, std::uint64_t seed,
+                          std::uint64_t tick) const;
   void clear();
-  /// Keeps the views.
-  void forget_places() {
-    candidates_.clear();
+  /// Keeps the scans.
+  void clear_hypotheses() {
+    hypotheses_.clear();
     reference_ = 0;
   }
 
-  [[nodiscard]] const std::vector<Candidate>& candidates() const { return candidates_; }  ///< by mass, then id
+  [[nodiscard]] const std::vector<PoseHypothesis>& all() const { return hypotheses_; }  ///< by mass, then id
 
  private:
-  struct Step {
-    Pose2 u;  ///< motion that led to this view
-    View view;
+  struct HistoryStep {
+    Pose2 u;  ///< motion that led to this scan
+    LocalizationScan scan;
   };
-  /// What the plan shows at a place for one view.
-  struct Look {
+  /// One scan as the plan predicts it at a pose.
+  struct ScanAtPose {
     Pose2 X_IH;
-    Sight sight;               ///< of the reference; of others none, once held against it
-    std::vector<int> crossed;  ///< elements of the plan that the way here goes through
-    int views = 1;             ///< that it stands for
+    PredictedScan predicted;    ///< of the reference; empty for others once they are compared
+    std::vector<int> crossed;   ///< elements of the plan that the step to here crosses
+    int represented_scans = 1;  ///< that it stands for
   };
   struct Replay {
-    std::vector<Look> looks;  ///< newest first
-    Case held;                ///< against the reference
-    double evidence = 0.0;    ///< of the case
+    std::vector<ScanAtPose> scans;  ///< newest first
+    EvidenceBalance balance;        ///< against the reference
+    double evidence = 0.0;          ///< from the balance
   };
-  /// Takes in how well the newest view agrees with the plan.
-  void note(const Agreement& newest, Candidate& candidate) const;
-  /// The same for all views kept.
-  void note_past(const StoreyIndex& storey, const std::vector<Look>& looks, Candidate& candidate) const;
-  /// Adds what one view says for a place against the reference.
-  void judge(const View& view, const Look& look, const Look& reference, Case& held) const;
-  /// Holds all candidates against the best by all views kept, once that is another one: what speaks for one place
-  /// against another cannot be told from what speaks for each against a third.
-  void agree_on_reference(const PlanIndex& index);
-  /// The kept views along the odometry back from the pose at the last one, held against the reference (when there is
+  /// Adds the newest scan's agreement with the plan.
+  void update_agreement(const Agreement& latest, PoseHypothesis& hypothesis) const;
+  /// The same for all scans kept.
+  void replay_agreement(const StoreyIndex& storey, const std::vector<ScanAtPose>& scans,
+                        PoseHypothesis& hypothesis) const;
+  /// Adds one scan's evidence for a hypothesis against the reference.
+  void accumulate_evidence(const LocalizationScan& scan, const ScanAtPose& own, const ScanAtPose& reference,
+                           EvidenceBalance& balance) const;
+  /// Compares all hypotheses with the best by all scans kept, once that is a new one: the evidence between two does not
+  /// follow from the evidence of each against a third.
+  void rebase_reference(const PlanIndex& index);
+  /// The kept scans along the odometry back from the pose at the last one, compared with the reference (when there is
   /// one). Stops once the evidence has fallen below the drop ratio.
-  [[nodiscard]] Replay replay(const PlanIndex& index, const Place& place, const std::vector<Look>& reference) const;
-  [[nodiscard]] int find(const Place& place, double near_m, double near_rad) const;
+  [[nodiscard]] Replay replay(const PlanIndex& index, const StoreyPose& pose,
+                              const std::vector<ScanAtPose>& reference) const;
+  [[nodiscard]] int find(const StoreyPose& pose, double near_m, double near_rad) const;
 
   HypothesisConfig config_;
-  RefineConfig refine_;  ///< of a place that turns up
-  RefineConfig follow_;  ///< of one carried along
+  RefineConfig refine_;           ///< of a new hypothesis
+  RefineConfig tracking_refine_;  ///< of a tracked one
   LikelihoodConfig likelihood_;
-  ContestConfig contest_;
-  std::vector<Candidate> candidates_;
-  std::deque<Step> history_;
+  HypothesisComparisonConfig comparison_;
+  std::vector<PoseHypothesis> hypotheses_;
+  std::deque<HistoryStep> history_;
   int next_id_ = 0;
-  std::size_t reference_ = 0;  ///< candidate that the others are held against
+  std::size_t reference_ = 0;  ///< hypothesis that the others are compared with
 };
 
 }  // namespace plumbline::slam

@@ -14,12 +14,12 @@ constexpr int visits_min = 3;
 
 }  // namespace
 
-void SeenWalls::add(const StoreyIndex& storey, const TrackedPose& pose) {
+void ObservedWalls::add(const StoreyIndex& storey, const TrackedPose& pose) {
   if (pose.room >= 0) add_room(storey.rooms[static_cast<std::size_t>(pose.room)]);
   for (const WallLink& link : pose.walls) add_wall(storey, pose, link);
 }
 
-void SeenWalls::add_room(const IndexRoom& room) {
+void ObservedWalls::add_room(const LocalRoom& room) {
   const auto known =
       std::find_if(rooms_.begin(), rooms_.end(), [&](const Room& r) { return r.plan_room == room.plan_room; });
   if (known == rooms_.end())
@@ -28,7 +28,7 @@ void SeenWalls::add_room(const IndexRoom& room) {
     ++known->visits;
 }
 
-void SeenWalls::add_wall(const StoreyIndex& storey, const TrackedPose& pose, const WallLink& link) {
+void ObservedWalls::add_wall(const StoreyIndex& storey, const TrackedPose& pose, const WallLink& link) {
   const WallLine& planned = storey.lines[static_cast<std::size_t>(link.line)];
   const Eigen::Vector3d p0_I = pose.X_IR * link.observed.p0_R, p1_I = pose.X_IR * link.observed.p1_R;
   const double a = planned.e.dot(p0_I.head<2>() - planned.a), b = planned.e.dot(p1_I.head<2>() - planned.a);
@@ -47,7 +47,7 @@ void SeenWalls::add_wall(const StoreyIndex& storey, const TrackedPose& pose, con
   ++wall->observations;
 }
 
-std::vector<PlaneNode> SeenWalls::planes(const Pose& X_WI) const {
+std::vector<PlaneNode> ObservedWalls::planes(const Pose& X_WI) const {
   std::vector<PlaneNode> nodes;
   for (const Wall& wall : walls_) {
     const double offset = wall.offset_sum / wall.observations;
@@ -70,7 +70,7 @@ std::vector<PlaneNode> SeenWalls::planes(const Pose& X_WI) const {
   return nodes;
 }
 
-std::vector<RoomNode> SeenWalls::rooms(const Pose& X_WI) const {
+std::vector<RoomNode> ObservedWalls::rooms(const Pose& X_WI) const {
   std::vector<RoomNode> nodes;
   for (const Room& room : rooms_) {
     if (room.visits < visits_min) continue;

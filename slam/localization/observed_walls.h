@@ -8,11 +8,11 @@
 
 namespace plumbline::slam {
 
-/// Walls and rooms of the plan that were really seen, as they were seen: where the as-built wall stands off its plan,
+/// Walls and rooms of the plan that were observed, as they were observed: where the as-built wall stands off its plan,
 /// the wall reported here does too.
-class SeenWalls {
+class ObservedWalls {
  public:
-  /// Takes in a pose after its last optimisation.
+  /// Adds a pose after its last optimisation.
   void add(const StoreyIndex& storey, const TrackedPose& pose);
 
   /// Faces in W, by first sighting.
@@ -35,7 +35,7 @@ class SeenWalls {
     int visits = 0;
   };
   void add_wall(const StoreyIndex& storey, const TrackedPose& pose, const WallLink& link);
-  void add_room(const IndexRoom& room);
+  void add_room(const LocalRoom& room);
 
   std::vector<Wall> walls_;
   std::vector<Room> rooms_;

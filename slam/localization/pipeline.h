@@ -7,73 +7,72 @@
 #include "slam/io/method.h"
 #include "slam/localization/global_localizer.h"
 #include "slam/localization/tracker.h"
+#include "slam/plan_method/plan_localization.h"
 #include "slam/scan/map_cloud.h"
 
 namespace plumbline::slam {
 
-/// Takes a convergence back: when light goes through more of the plan than one wall that may be missing, and when
-/// another place has explained the last way better, which a robot that was carried away, or that took the wrong one of
-/// two places, would not notice by itself.
-struct WatchConfig {
-  double lost_through = 0.15;  ///< share of beams through walls but the one that most go through, of those that do not
-                               ///< end before one; measured up to 0.09 on construction sites, 0.11 to 0.9 when wrong
-  int lost_updates = 8;        ///< so many in a row
-  double every_m = 1.5;        ///< way walked between two looks
-  int views = 12;              ///< of the last way, by which places are judged
-  double log_ratio = 20.0;     ///< by which the other place must be better
-  double drop_ratio = 30.0;    ///< behind the best, from which a place is looked at no longer
-  double through_margin = 0.03;  ///< by which more light may go through the plan there: the noise of that share
+/// Withdraws a convergence when beams penetrate more of the plan than one wall that may be missing, and when another
+/// hypothesis explains the last scans better. It detects a robot that was carried away, or that converged to the wrong
+/// one of two poses.
+struct KidnapMonitorConfig {
+  double lost_penetration_ratio = 0.15;
+  int lost_updates = 8;
+  double every_m = 1.5;
+  int scans = 12;
+  double log_ratio = 20.0;
+  double drop_ratio = 30.0;
+  double penetration_ratio_margin = 0.03;
 
   template <class V>
   void visit(V& v) {
-    v("lost_through", lost_through,
-      Field{.doc =
-                "share of beams through walls but one, of those that do not end before one, that takes a convergence "
-                "back",
-            .min = 0,
-            .max = 1});
-    v("lost_updates", lost_updates, Field{.doc = "so many in a row", .min = 1});
-    v("every_m", every_m, Field{.doc = "way walked between two looks for a better place", .min = 0});
-    v("views", views, Field{.doc = "of the last way, by which places are judged", .min = 1, .max = 1000});
-    v("log_ratio", log_ratio, Field{.doc = "by which the other place must be better", .min = 0});
-    v("drop_ratio", drop_ratio, Field{.doc = "behind the best, from which a place is looked at no longer", .min = 0});
-    v("through_margin", through_margin,
-      Field{.doc = "by which more light may go through the plan there", .min = 0, .max = 1});
+    // Measured: up to 0.09 on construction sites, 0.11 to 0.9 at wrong poses.
+    v("lost_penetration_ratio", lost_penetration_ratio,
+      share_field("share of penetrating beams, without those of the worst wall, above which a scan contradicts",
+                  {.basic = true, .former = "lost_through"}));
+    v("lost_updates", lost_updates,
+      Field{.doc = "contradicting updates in a row that withdraw a convergence", .min = 1, .basic = true});
+    v("every_m", every_m,
+      Field{.doc = "distance walked between two searches for a better hypothesis", .min = 0, .basic = true});
+    v("scans", scans,
+      Field{.doc = "latest scans by which hypotheses are compared", .min = 1, .max = 1000, .former = "views"});
+    v("log_ratio", log_ratio,
+      plain_field("log-likelihood ratio by which another hypothesis must be better", {.min = 0, .basic = true}));
+    v("drop_ratio", drop_ratio,
+      plain_field("log-likelihood ratio to the best above which a hypothesis is dropped", {.min = 0}));
+    v("penetration_ratio_margin", penetration_ratio_margin,
+      share_field("margin by which the other's penetration ratio may be larger: its noise",
+                  {.former = "through_margin"}));
   }
 };
 
-struct LocalizationConfig {
-  double update_m = 0.2;      ///< way walked between two updates; scans of one place are not news
-  double update_rad = 0.2;    ///< or angle turned
-  int particles_shown = 500;  ///< most that an Output carries
-  double mass_shown = 0.02;   ///< least of a hypothesis in an Output
+struct LocalizationConfig : PlanUpdateConfig {
+  LocalizationConfig() { update_m = 0.2; }  // scans from one position are not independent
+
   PlaneDetectorConfig planes;
-  ViewConfig view;
+  LocalizationScanConfig scan;
   PlanIndexConfig index;
-  SearchConfig search;
+  GlobalLocalizerConfig search;
   TrackerConfig tracker;
-  WatchConfig watch;
+  KidnapMonitorConfig monitor;
   MapCloudConfig map;
 
   template <class V>
   void visit(V& v) {
-    v("update_m", update_m, Field{.doc = "way walked between two updates; scans of one place are not news", .min = 0});
-    v("update_rad", update_rad, Field{.doc = "or angle turned", .min = 0});
-    v("particles_shown", particles_shown, Field{.doc = "most that an Output carries", .min = 1, .max = 500});
-    v("mass_shown", mass_shown, Field{.doc = "least of a hypothesis in an Output", .min = 0, .max = 1});
+    PlanUpdateConfig::visit(v);
     v("planes", planes);
-    v("view", view);
+    v("scan", scan, Field{.former = "view"});
     v("index", index);
     v("search", search);
     v("tracker", tracker);
-    v("watch", watch);
+    v("monitor", monitor, Field{.former = "watch"});
     v("map", map);
   }
 };
 
 /// Localization in an architectural plan from an unknown position: a particle filter on the plan's walls and rooms
-/// until one place is left, then a graph whose walls and rooms are the plan's own [BIM-Loc Fig. 1]. Throws InputError
-/// when there is no plan, no such storey, or no room in it.
+/// until one hypothesis is left, then a graph whose walls and rooms are the plan's own [shaheer2023, Fig. 1]. Throws
+/// InputError when there is no plan, no such storey, or no room in it.
 [[nodiscard]] std::unique_ptr<Method> make_s_graph_localization(const MethodInput& input,
                                                                 const LocalizationConfig& config = {});
 

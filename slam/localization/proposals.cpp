@@ -5,26 +5,22 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 namespace plumbline::slam {
 
 namespace {
 
-struct Scored {
-  Place place;
-  double log_likelihood = 0.0;
-};
-
-bool lies_on(const WallView& wall, const WallLine& line, const Eigen::Vector2d& sensor_I,
+bool lies_on(const WallObservation& wall, const WallLine& line, const Eigen::Vector2d& sensor_I,
              const LikelihoodConfig& config) {
   const double foot = line.e.dot(sensor_I - line.a), margin = config.overlap_margin_m;
   const double overlap = std::min(foot + wall.s1, line.length + margin) - std::max(foot + wall.s0, -margin);
   return overlap >= config.overlap_min * (wall.s1 - wall.s0);
 }
 
-/// The pose from which wall u is line a and wall v is line b, where it stands in a room and both are in sight.
-std::optional<Pose2> pose_at(const StoreyIndex& storey, const View& view, const WallView& u, int a, const WallView& v,
-                             int b, const LikelihoodConfig& likelihood) {
+/// The pose from which wall u is line a and wall v is line b, where it lies in a room and both walls are visible.
+std::optional<Pose2> pose_at(const StoreyIndex& storey, const LocalizationScan& scan, const WallObservation& u, int a,
+                             const WallObservation& v, int b, const LikelihoodConfig& likelihood) {
   const WallLine &line_a = storey.lines[static_cast<std::size_t>(a)],
                  &line_b = storey.lines[static_cast<std::size_t>(b)];
   Eigen::Matrix2d N;
@@ -34,60 +30,59 @@ std::optional<Pose2> pose_at(const StoreyIndex& storey, const View& view, const 
   if (cell < 0 || !lies_on(u, line_a, sensor_I, likelihood) || !lies_on(v, line_b, sensor_I, likelihood))
     return std::nullopt;
   const std::vector<int>& visible = storey.visible[static_cast<std::size_t>(cell)];
-  const auto in_sight = [&](int i) { return std::binary_search(visible.begin(), visible.end(), i); };
-  if (!in_sight(a) || !in_sight(b)) return std::nullopt;
+  const auto is_visible = [&](int i) { return std::binary_search(visible.begin(), visible.end(), i); };
+  if (!is_visible(a) || !is_visible(b)) return std::nullopt;
   const double yaw_a = line_a.azimuth - u.azimuth, yaw_b = line_b.azimuth - v.azimuth;
   Pose2 X_IH{{}, wrap_angle(yaw_a + 0.5 * wrap_angle(yaw_b - yaw_a))};
-  X_IH.t = sensor_I - X_IH.rotation() * view.sensor_H;
+  X_IH.t = sensor_I - X_IH.rotation() * scan.sensor_H;
   if (storey.room_at(X_IH.t) < 0) return std::nullopt;
   return X_IH;
 }
 
-/// Keeps the likeliest, no two of them near each other; ties: first found.
-std::vector<Place> best_apart(std::vector<Scored> scored, const ProposalConfig& config) {
-  std::stable_sort(scored.begin(), scored.end(),
-                   [](const Scored& a, const Scored& b) { return a.log_likelihood > b.log_likelihood; });
-  std::vector<Place> best;
-  for (const Scored& one : scored) {
-    if (static_cast<int>(best.size()) >= config.count) break;
-    const Place& place = one.place;
-    const bool apart = std::none_of(best.begin(), best.end(), [&](const Place& other) {
-      return other.storey == place.storey && is_near(other.X_IH, place.X_IH, config.gap_m, config.gap_rad);
+}  // namespace
+
+std::vector<StoreyPose> non_max_suppression(std::vector<ScoredPose> poses, int count, double gap_m, double gap_rad) {
+  std::stable_sort(poses.begin(), poses.end(),
+                   [](const ScoredPose& a, const ScoredPose& b) { return a.score > b.score; });
+  std::vector<StoreyPose> best;
+  for (const ScoredPose& scored : poses) {
+    if (static_cast<int>(best.size()) >= count) break;
+    const StoreyPose& pose = scored.pose;
+    const bool apart = std::none_of(best.begin(), best.end(), [&](const StoreyPose& other) {
+      return other.storey == pose.storey && is_near(other.X_IH, pose.X_IH, gap_m, gap_rad);
     });
-    if (apart) best.push_back(place);
+    if (apart) best.push_back(pose);
   }
   return best;
 }
 
-}  // namespace
-
-std::vector<Place> propose_places(const PlanIndex& index, const StartBelief& belief, const View& view, int beam_stride,
-                                  const LikelihoodConfig& likelihood, const ProposalConfig& config) {
-  std::vector<Scored> scored;
-  const std::size_t walls = std::min(view.walls.size(), static_cast<std::size_t>(config.walls));
+std::vector<StoreyPose> propose_poses(const PlanIndex& index, const StartPrior& prior, const LocalizationScan& scan,
+                                      int beam_stride, const LikelihoodConfig& likelihood,
+                                      const ProposalConfig& config) {
+  std::vector<ScoredPose> scored;
+  const std::size_t walls = std::min(scan.walls.size(), static_cast<std::size_t>(config.walls));
   for (std::size_t s = 0; s < index.storeys.size(); ++s) {
     const StoreyIndex& storey = index.storeys[s];
     const int lines = static_cast<int>(storey.lines.size());
     for (std::size_t i = 0; i < walls; ++i)
       for (std::size_t j = i + 1; j < walls; ++j) {
-        const WallView &u = view.walls[i], &v = view.walls[j];
+        const WallObservation &u = scan.walls[i], &v = scan.walls[j];
         const double corner = wrap_angle(v.azimuth - u.azimuth);
         if (std::abs(std::sin(corner)) < config.corner_min_sin) continue;
         for (int a = 0; a < lines; ++a) {
           const double azimuth = storey.lines[static_cast<std::size_t>(a)].azimuth;
-          if (belief.yaw_I && std::abs(wrap_angle(azimuth - u.azimuth - *belief.yaw_I)) > config.yaw_tolerance)
-            continue;
+          if (prior.yaw_I && std::abs(wrap_angle(azimuth - u.azimuth - *prior.yaw_I)) > config.yaw_tolerance) continue;
           for (int b = 0; b < lines; ++b) {
             const double turn = storey.lines[static_cast<std::size_t>(b)].azimuth - azimuth;
             if (std::abs(wrap_angle(turn - corner)) > config.angle_tolerance) continue;
-            if (const auto X_IH = pose_at(storey, view, u, a, v, b, likelihood))
+            if (const auto X_IH = pose_at(storey, scan, u, a, v, b, likelihood))
               scored.push_back({{static_cast<int>(s), *X_IH, true},
-                                beam_log_likelihood(storey, *X_IH, view, beam_stride, likelihood)});
+                                beam_log_likelihood(storey, *X_IH, scan, beam_stride, likelihood)});
           }
         }
       }
   }
-  return best_apart(std::move(scored), config);
+  return non_max_suppression(std::move(scored), config.count, config.gap_m, config.gap_rad);
 }
 
 }  // namespace plumbline::slam

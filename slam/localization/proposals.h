@@ -10,36 +10,47 @@
 namespace plumbline::slam {
 
 struct ProposalConfig {
-  int walls = 5;                  ///< of a view, the largest, of which every two are tried
-  double corner_min_sin = 0.5;    ///< of the angle between the two
-  double angle_tolerance = 0.06;  ///< rad, between what is seen and planned
-  double yaw_tolerance = 0.3;     ///< rad, from the told yaw
-  int count = 96;                 ///< most places
-  double gap_m = 0.3;             ///< between them
+  int walls = 5;
+  double corner_min_sin = 0.5;
+  double angle_tolerance = 0.06;
+  double yaw_tolerance = 0.3;
+  int count = 96;
+  double gap_m = 0.3;
   double gap_rad = 0.35;
 
   template <class V>
   void visit(V& v) {
-    v("walls", walls, Field{.doc = "of a view, the largest, of which every two are tried", .min = 0, .max = 32});
-    v("corner_min_sin", corner_min_sin, Field{.doc = "of the angle between the two", .min = 0.01, .max = 1});
-    v("angle_tolerance", angle_tolerance, Field{.doc = "rad, between what is seen and planned", .min = 0});
-    v("yaw_tolerance", yaw_tolerance, Field{.doc = "rad, from the told yaw", .min = 0});
-    v("count", count, Field{.doc = "most places", .min = 1, .max = 10000});
-    v("gap_m", gap_m, Field{.doc = "between them", .min = 0});
-    v("gap_rad", gap_rad, Field{.min = 0});
+    v("walls", walls, Field{.doc = "largest walls of a scan of which every pair is tried", .min = 0, .max = 32});
+    v("corner_min_sin", corner_min_sin,
+      plain_field("least sine of the angle between the two walls", {.min = 0.01, .max = 1}));
+    v("angle_tolerance", angle_tolerance,
+      Field{.doc = "largest difference between the observed and the planned corner angle", .unit = "rad", .min = 0});
+    v("yaw_tolerance", yaw_tolerance, Field{.doc = "largest difference from the prior yaw", .unit = "rad", .min = 0});
+    v("count", count, Field{.doc = "most poses that are proposed", .min = 1, .max = 10000});
+    v("gap_m", gap_m, Field{.doc = "least distance between two proposed poses", .min = 0});
+    v("gap_rad", gap_rad, Field{.doc = "or least angle between two proposed poses", .min = 0});
   }
 };
 
-struct Place {
+struct StoreyPose {
   int storey = 0;
   Pose2 X_IH;
-  bool exact = false;  ///< but for noise and the plan's tolerance; else as near as particles lie
+  bool exact = false;  ///< exact up to noise and the plan's tolerance; else as near as particles are spaced
 };
 
-/// Every place from which two of the walls seen are two walls of the plan, best first by the beams. Two walls that are
-/// not parallel fix a pose, so none that looks the same is missed, as a sample of poses may miss it.
-[[nodiscard]] std::vector<Place> propose_places(const PlanIndex& index, const StartBelief& belief, const View& view,
-                                                int beam_stride, const LikelihoodConfig& likelihood,
-                                                const ProposalConfig& config);
+struct ScoredPose {
+  StoreyPose pose;
+  double score = 0.0;
+};
+
+/// At most `count` poses of the highest scores, no two of them near each other; ties: the first in `poses`.
+[[nodiscard]] std::vector<StoreyPose> non_max_suppression(std::vector<ScoredPose> poses, int count, double gap_m,
+                                                          double gap_rad);
+
+/// Every pose from which two of the observed walls are two walls of the plan, best first by the beams. Two walls that
+/// are not parallel fix a pose, so no pose that looks the same is missed, as a random sample may.
+[[nodiscard]] std::vector<StoreyPose> propose_poses(const PlanIndex& index, const StartPrior& prior,
+                                                    const LocalizationScan& scan, int beam_stride,
+                                                    const LikelihoodConfig& likelihood, const ProposalConfig& config);
 
 }  // namespace plumbline::slam

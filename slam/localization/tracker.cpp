@@ -86,7 +86,7 @@ void add_planes(WindowProblem& problem, std::size_t i, const TrackedPose& pose, 
   }
 }
 
-/// Room factors [S-Graphs+ eq. 7-8] with the room held by the plan: the robot's offset from the middle of two opposed
+/// Room factors [bavle2023, eq. 7-8] with the room held by the plan: the robot's offset from the middle of two opposed
 /// walls, as seen and as planned. A range bias shifts both walls alike and cancels.
 void add_rooms(WindowProblem& problem, std::size_t i, const TrackedPose& pose, const StoreyIndex& storey,
                const TrackerConfig& config) {
@@ -120,42 +120,44 @@ Vector6d odometry_sigmas(const Pose& X_ij, const TrackerConfig& config) {
 
 Pose PlanTracker::X_IO() const { return window_.back().X_IR * window_.back().X_OR.inverse(); }
 
-void PlanTracker::start(const View& view, const std::vector<PlaneObservation>& planes, const Pose& X_IR) {
-  window_.assign(1, associate(view, planes, X_IR));
-  held_X_IR_ = X_IR;
+void PlanTracker::start(const LocalizationScan& scan, const std::vector<PlaneObservation>& planes, const Pose& X_IR) {
+  window_.assign(1, associate(scan, planes, X_IR));
+  anchor_X_IR_ = X_IR;
   optimise();
 }
 
-std::vector<TrackedPose> PlanTracker::update(const View& view, const std::vector<PlaneObservation>& planes) {
-  window_.push_back(associate(view, planes, pose(view.X_OR)));
+std::vector<TrackedPose> PlanTracker::update(const LocalizationScan& scan,
+                                             const std::vector<PlaneObservation>& planes) {
+  window_.push_back(associate(scan, planes, pose(scan.X_OR)));
   std::vector<TrackedPose> left;
   if (static_cast<int>(window_.size()) > config_.window) {
     left.push_back(window_.front());
     window_.pop_front();
-    held_X_IR_ = window_.front().X_IR;
+    anchor_X_IR_ = window_.front().X_IR;
   }
   optimise();
   return left;
 }
 
-TrackedPose PlanTracker::associate(const View& view, const std::vector<PlaneObservation>& planes,
+TrackedPose PlanTracker::associate(const LocalizationScan& scan, const std::vector<PlaneObservation>& planes,
                                    const Pose& X_IR) const {
   TrackedPose pose;
-  pose.stamp = view.stamp;
-  pose.X_OR = view.X_OR;
+  pose.stamp = scan.stamp;
+  pose.X_OR = scan.X_OR;
   pose.X_IR = X_IR;
   pose.room = storey_.room_at(X_IR.t.head<2>());
-  pose.walls = associate_walls(storey_, view, planes, X_IR, config_);
-  pose.floor = find_floor(view, planes, config_);
+  pose.walls = associate_walls(storey_, scan, planes, X_IR, config_);
+  pose.floor = find_floor(scan, planes, config_);
   return pose;
 }
 
 void PlanTracker::optimise() {
   Vector6d hold;
-  hold << config_.hold_m, config_.hold_m, config_.hold_m, config_.hold_rad, config_.hold_rad, config_.hold_rad;
+  hold << config_.anchor_sigma_m, config_.anchor_sigma_m, config_.anchor_sigma_m, config_.anchor_sigma_rad,
+      config_.anchor_sigma_rad, config_.anchor_sigma_rad;
   for (int k = 0; k < config_.iterations; ++k) {
     WindowProblem problem(window_.size());
-    const PoseResidual held = pose_residual(held_X_IR_, window_.front().X_IR, Pose{});
+    const PoseResidual held = pose_residual(anchor_X_IR_, window_.front().X_IR, Pose{});
     problem.add(0, held.J_j, held.e, hold, 0.0);
     for (std::size_t i = 0; i < window_.size(); ++i) {
       add_planes(problem, i, window_[i], storey_, config_);

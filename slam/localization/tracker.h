@@ -13,53 +13,73 @@
 namespace plumbline::slam {
 
 struct TrackerConfig {
-  int window = 12;           ///< poses optimised together, 0.2 m apart: 2.5 m of way
-  int iterations = 4;        ///< Gauss-Newton steps
-  double gate = 3.5;         ///< sigmas of an observed wall to a face of the plan
-  double overlap_min = 0.5;  ///< share of the patch on the face
+  int window = 12;
+  int iterations = 4;
+  double gate = 3.5;
+  double overlap_min = 0.5;
   double overlap_margin_m = 0.3;
-  double plane_angle_sigma = 0.012;     ///< rad, plan tolerance and body sway, added to the fit's
-  double plane_offset_sigma_m = 0.025;  ///< plan tolerance and the unit's range bias (15 mm), added to the fit's
-  double pair_sigma_m = 0.012;          ///< of the middle between two opposed walls, where the range bias cancels
-  double pair_min_cos = 0.999;          ///< opposed walls of a room are this parallel
+  double plane_angle_sigma = 0.012;
+  double plane_offset_sigma_m = 0.025;
+  double pair_sigma_m = 0.012;
+  double pair_min_cos = 0.999;
   double floor_offset_sigma_m = 0.02;
-  double floor_angle_sigma = 0.01;  ///< rad
-  double floor_max_tilt = ViewConfig{}.floor_max_tilt_rad;
+  double floor_angle_sigma = 0.01;
+  double floor_max_tilt = LocalizationScanConfig{}.floor_max_tilt_rad;
   double odometry_trans_per_m = 0.03;
   double odometry_rot_per_rad = 0.02;
   double odometry_min_m = 0.004;
   double odometry_min_rad = 0.002;
-  double odometry_height_per_m = 0.05;  ///< leg odometry's height is its worst axis [facts: legged 10]
-  double hold_m = 0.03;                 ///< sigma with which the oldest pose stays where it was
-  double hold_rad = 0.01;
-  double huber = 2.0;  ///< sigmas
+  double odometry_height_per_m = 0.05;
+  double anchor_sigma_m = 0.03;
+  double anchor_sigma_rad = 0.01;
+  double huber = 2.0;
 
   template <class V>
   void visit(V& v) {
-    v("window", window, Field{.doc = "poses optimised together, 0.2 m apart: 2.5 m of way", .min = 2, .max = 1000});
-    v("iterations", iterations, Field{.doc = "Gauss-Newton steps", .min = 1});
-    v("gate", gate, Field{.doc = "sigmas of an observed wall to a face of the plan", .min = 0});
-    v("overlap_min", overlap_min, Field{.doc = "share of the patch on the face", .min = 0, .max = 1});
-    v("overlap_margin_m", overlap_margin_m, Field{.min = 0});
+    // 0.2 m apart: 2.5 m of way.
+    v("window", window, Field{.doc = "latest poses that are optimised together", .min = 2, .max = 1000});
+    v("iterations", iterations, Field{.doc = "Gauss-Newton iterations", .min = 1});
+    v("gate", gate,
+      plain_field("standard deviations up to which an observed wall matches a face of the plan", {.min = 0}));
+    v("overlap_min", overlap_min, share_field("least share of the observed patch that lies on the face"));
+    v("overlap_margin_m", overlap_margin_m,
+      Field{.doc = "length by which a face is extended for this overlap", .min = 0});
     v("plane_angle_sigma", plane_angle_sigma,
-      Field{.doc = "rad, plan tolerance and body sway, added to the fit's", .min = 1e-6});
+      Field{.doc = "standard deviation of a plane's direction, added: plan tolerance and body sway",
+            .unit = "rad",
+            .min = 1e-6});
     v("plane_offset_sigma_m", plane_offset_sigma_m,
-      Field{.doc = "plan tolerance and the unit's range bias (15 mm), added to the fit's", .min = 1e-6});
+      Field{.doc = "standard deviation of a plane's distance, added: plan tolerance and range bias", .min = 1e-6});
     v("pair_sigma_m", pair_sigma_m,
-      Field{.doc = "of the middle between two opposed walls, where the range bias cancels", .min = 1e-6});
-    v("pair_min_cos", pair_min_cos, Field{.doc = "opposed walls of a room are this parallel", .min = 0, .max = 1});
-    v("floor_offset_sigma_m", floor_offset_sigma_m, Field{.min = 1e-6});
-    v("floor_angle_sigma", floor_angle_sigma, Field{.doc = "rad", .min = 1e-6});
-    v("floor_max_tilt", floor_max_tilt, Field{.doc = "rad", .min = 0});
-    v("odometry_trans_per_m", odometry_trans_per_m, Field{.min = 0});
-    v("odometry_rot_per_rad", odometry_rot_per_rad, Field{.min = 0});
-    v("odometry_min_m", odometry_min_m, Field{.min = 0});
-    v("odometry_min_rad", odometry_min_rad, Field{.min = 0});
+      Field{.doc = "standard deviation of the middle between opposed walls, where the range bias cancels",
+            .min = 1e-6});
+    v("pair_min_cos", pair_min_cos, share_field("cosine of the angle up to which opposed walls are parallel"));
+    v("floor_offset_sigma_m", floor_offset_sigma_m,
+      Field{.doc = "standard deviation of the height above the floor", .min = 1e-6});
+    v("floor_angle_sigma", floor_angle_sigma,
+      Field{.doc = "standard deviation of the floor's tilt", .unit = "rad", .min = 1e-6});
+    v("floor_max_tilt", floor_max_tilt,
+      Field{.doc = "largest tilt of a plane that is taken for the floor", .unit = "rad", .min = 0});
+    v("odometry_trans_per_m", odometry_trans_per_m,
+      Field{.doc = "standard deviation of the odometry's translation per metre walked", .unit = "m/m", .min = 0});
+    v("odometry_rot_per_rad", odometry_rot_per_rad,
+      Field{.doc = "standard deviation of the odometry's rotation per radian turned", .unit = "rad/rad", .min = 0});
+    v("odometry_min_m", odometry_min_m, Field{.doc = "least standard deviation of a step's translation", .min = 1e-6});
+    v("odometry_min_rad", odometry_min_rad, Field{.doc = "least standard deviation of a step's rotation", .min = 1e-6});
+    // docs/methods/robot.md
     v("odometry_height_per_m", odometry_height_per_m,
-      Field{.doc = "leg odometry's height is its worst axis", .min = 0});
-    v("hold_m", hold_m, Field{.doc = "sigma with which the oldest pose stays where it was", .min = 1e-6});
-    v("hold_rad", hold_rad, Field{.min = 1e-6});
-    v("huber", huber, Field{.doc = "sigmas", .min = 1e-6});
+      Field{.doc = "standard deviation of the odometry's height per metre walked, its worst axis",
+            .unit = "m/m",
+            .min = 0});
+    v("anchor_sigma_m", anchor_sigma_m,
+      Field{.doc = "standard deviation of the prior position that anchors the oldest pose",
+            .min = 1e-6,
+            .former = "hold_m"});
+    v("anchor_sigma_rad", anchor_sigma_rad,
+      Field{.doc = "standard deviation of the prior attitude that anchors the oldest pose",
+            .min = 1e-6,
+            .former = "hold_rad"});
+    v("huber", huber, plain_field("whitened residual above which a factor counts linearly (Huber)", {.min = 1e-6}));
   }
 };
 
@@ -79,19 +99,19 @@ struct TrackedPose {
   std::vector<PlaneObservation> floor;  ///< at most one
 };
 
-/// Localization on the plan's own graph [BIM-Loc section 3.4]: the metric-semantic layer (walls) and the topological
-/// layer (rooms) come from the plan and stand still; the robot-tracking layer is a window of poses tied to them. An
-/// error of the plan or of the sensor ends up in the residuals, never in the plan.
+/// Localization on the plan's own graph [shaheer2023, section 3.4]: the metric-semantic layer (walls) and the
+/// topological layer (rooms) come from the plan and stand still; the robot-tracking layer is a window of poses tied to
+/// them. An error of the plan or of the sensor ends up in the residuals, never in the plan.
 class PlanTracker {
  public:
   PlanTracker(TrackerConfig config, StoreyIndex storey) : config_(config), storey_(std::move(storey)) {}
 
   /// Starts at a pose in I.
-  void start(const View& view, const std::vector<PlaneObservation>& planes, const Pose& X_IR);
+  void start(const LocalizationScan& scan, const std::vector<PlaneObservation>& planes, const Pose& X_IR);
   /// Adds a pose by odometry, associates, optimises. Returns the pose that left the window, if one did.
-  std::vector<TrackedPose> update(const View& view, const std::vector<PlaneObservation>& planes);
+  std::vector<TrackedPose> update(const LocalizationScan& scan, const std::vector<PlaneObservation>& planes);
 
-  /// Pose at odometry X_OR by the last correction [BIM-Loc eq. 10].
+  /// Pose at odometry X_OR by the last correction [shaheer2023, eq. 10].
   [[nodiscard]] Pose pose(const Pose& X_OR) const { return X_IO() * X_OR; }
   [[nodiscard]] Pose X_IO() const;
   [[nodiscard]] const std::deque<TrackedPose>& window() const { return window_; }
@@ -100,14 +120,14 @@ class PlanTracker {
   [[nodiscard]] const Eigen::Matrix3d& covariance() const { return covariance_; }
 
  private:
-  [[nodiscard]] TrackedPose associate(const View& view, const std::vector<PlaneObservation>& planes,
+  [[nodiscard]] TrackedPose associate(const LocalizationScan& scan, const std::vector<PlaneObservation>& planes,
                                       const Pose& X_IR) const;
   void optimise();
 
   TrackerConfig config_;
   StoreyIndex storey_;
   std::deque<TrackedPose> window_;
-  Pose held_X_IR_;
+  Pose anchor_X_IR_;
   Eigen::Matrix3d covariance_ = Eigen::Matrix3d::Identity();
 };
 

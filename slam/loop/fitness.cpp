@@ -10,7 +10,7 @@ namespace plumbline::slam {
 
 namespace {
 
-/// What nanoflann asks of a cloud.
+/// Adaptor of a cloud to nanoflann.
 struct Cloud {
   const std::vector<Eigen::Vector3d>& points;
   [[nodiscard]] std::size_t kdtree_get_point_count() const { return points.size(); }

@@ -10,48 +10,55 @@
 namespace plumbline::slam {
 
 struct LoopConfig {
-  double radius_m = 3.0;          ///< between the keyframes of a candidate
-  double min_walked_m = 10.0;     ///< between them along the way
-  double min_since_last_m = 2.0;  ///< walked since the last attempt
-  int map_keyframes = 2;          ///< neighbours on each side of the old keyframe that make its map
+  double radius_m = 3.0;
+  double min_walked_m = 10.0;
+  double min_since_last_m = 2.0;
+  int map_keyframes = 2;
   double voxel_m = 0.5;
-  double min_matched = 0.7;       ///< share of surfels that fit
-  double max_rms = 1.5;           ///< of their Mahalanobis distances
-  double max_shift_m = 0.3;       ///< correction that is believed ...
-  double max_shift_per_m = 0.01;  ///< ... plus this per metre walked in between
+  double min_matched = 0.7;
+  double max_rms = 1.5;
+  double max_shift_m = 0.3;
+  double max_shift_per_m = 0.01;
   double max_turn_rad = 0.1;
-  double inflation = 50.0;  ///< of the registration's covariance: neighbouring surfels are not independent
-  double sigma_m = 0.015;   ///< added: what averaging cannot remove
+  double inflation = 50.0;
+  double sigma_m = 0.015;
   double sigma_rad = 0.004;
   SurfelConfig surfels;
   RegistrationConfig registration;
 
   template <class V>
   void visit(V& v) {
-    v("radius_m", radius_m, Field{.doc = "between the keyframes of a candidate", .min = 0});
-    v("min_walked_m", min_walked_m, Field{.doc = "between them along the way", .min = 0});
-    v("min_since_last_m", min_since_last_m, Field{.doc = "walked since the last attempt", .min = 0});
-    v("map_keyframes", map_keyframes, Field{.doc = "neighbours of the old keyframe in its map", .min = 0});
-    v("voxel_m", voxel_m, Field{.min = 0.05});
-    v("min_matched", min_matched, Field{.doc = "share of surfels that fit", .min = 0, .max = 1});
-    v("max_rms", max_rms, Field{.doc = "of the fitting surfels", .min = 0});
-    v("max_shift_m", max_shift_m, Field{.doc = "correction that is believed", .min = 0});
-    v("max_shift_per_m", max_shift_per_m, Field{.doc = "more of it per metre walked", .min = 0});
-    v("max_turn_rad", max_turn_rad, Field{.doc = "correction that is believed", .min = 0});
-    v("inflation", inflation, Field{.doc = "of the registration's covariance", .min = 1});
-    v("sigma_m", sigma_m, Field{.doc = "added to the registration's covariance", .min = 1e-4});
-    v("sigma_rad", sigma_rad, Field{.doc = "added to the registration's covariance", .min = 1e-5});
-    v("surfels", surfels);
+    v("radius_m", radius_m,
+      Field{.doc = "largest distance between the two keyframes of a loop candidate", .min = 0, .basic = true});
+    v("min_walked_m", min_walked_m, Field{.doc = "least way walked between the two keyframes", .min = 0});
+    v("min_since_last_m", min_since_last_m, Field{.doc = "least way walked since the last attempt", .min = 0});
+    v("map_keyframes", map_keyframes,
+      Field{.doc = "neighbours on each side of the old keyframe that enter its map", .min = 0});
+    v("voxel_m", voxel_m, Field{.doc = "voxel size of that map", .min = 0.05});
+    v("min_matched", min_matched, share_field("least share of surfels that match"));
+    v("max_rms", max_rms, plain_field("largest RMS of the matches' Mahalanobis distances", {.min = 0}));
+    v("max_shift_m", max_shift_m, Field{.doc = "largest correction of the position that is accepted", .min = 0});
+    v("max_shift_per_m", max_shift_per_m,
+      Field{.doc = "correction that is accepted besides, per metre walked between the keyframes",
+            .unit = "m/m",
+            .min = 0});
+    v("max_turn_rad", max_turn_rad, Field{.doc = "largest correction of the attitude that is accepted", .min = 0});
+    v("inflation", inflation,
+      plain_field("factor on the registration's covariance: neighbouring surfels are not independent", {.min = 1}));
+    v("sigma_m", sigma_m,
+      Field{.doc = "standard deviation of the position, added: what averaging cannot remove", .min = 1e-4});
+    v("sigma_rad", sigma_rad, Field{.doc = "standard deviation of the attitude, added", .min = 1e-5});
+    v("surfels", surfels, Field{.advanced = true});
     v("registration", registration);
   }
 };
 
-/// Hard loop closure [S-Graphs+ section IV-E]: the newest keyframe is matched against an old one nearby.
+/// Hard loop closure [bavle2023, section IV-E]: the newest keyframe is matched against an old one nearby.
 class LoopClosure {
  public:
   explicit LoopClosure(const LoopConfig& config) : config_(config) {}
 
-  /// Takes in the newest keyframe's scan; walked_m: length of the way so far. A factor when a loop was verified.
+  /// Adds the newest keyframe's scan; walked_m: length of the way so far. A factor when a loop was verified.
   [[nodiscard]] std::optional<PoseFactor> update(const Graph& graph, const DeskewedScan& scan, double walked_m);
 
  private:

@@ -65,7 +65,7 @@ int storey_of(const Graph& graph, const Pose& X_MR, std::span<const PlaneObserva
   if (floor == seen.end()) return former;
   const Eigen::Vector2d here = X_MR.t.head<2>();
   const double height = height_at(X_MR * floor->plane_R, here);
-  if (std::abs(X_MR.t.z() - height - config.stand_m) > config.underfoot_m) return former;
+  if (std::abs(X_MR.t.z() - height - config.robot_height_m) > config.underfoot_m) return former;
   int last = -1;
   for (const PlaneVertex& plane : graph.planes) last = std::max(last, plane.storey);
   // Stairs and their landings belong to the storey below, or, where none is known, to the one above.
@@ -90,7 +90,7 @@ int storey_of(const Graph& graph, const Pose& X_MR, std::span<const PlaneObserva
   return above >= 0 ? above : last + 1;
 }
 
-void keep_level(std::vector<PlaneObservation>& seen, const Pose& X_MR, const FloorLayerConfig& config) {
+void drop_tilted_planes(std::vector<PlaneObservation>& seen, const Pose& X_MR, const FloorLayerConfig& config) {
   const double least = std::cos(config.level_rad);
   std::erase_if(seen,
                 [&](const PlaneObservation& o) { return !o.vertical && std::abs((X_MR.q * o.plane_R.n).z()) < least; });
@@ -110,17 +110,19 @@ void FloorLayer::update(Graph& graph, int storey, std::span<const PlaneNode> wal
   const auto on_this_floor = [&](int room) { return graph.rooms[static_cast<std::size_t>(room)].storey == storey; };
   if ((center - floor.center_M).norm() > config_.refresh_m) {
     floor.center_M = center;
-    std::erase_if(places_, [&](const Place& place) { return on_this_floor(place.room); });
+    std::erase_if(room_offsets_, [&](const RoomOffset& room_offset) { return on_this_floor(room_offset.room); });
   }
   std::erase_if(graph.floor_factors, [&](const FloorFactor& f) { return f.floor == id; });
   const double weight = 1.0 / (config_.room_sigma_m * config_.room_sigma_m);
   for (std::size_t room = 0; room < graph.rooms.size(); ++room) {
     if (!graph.rooms[room].found || !on_this_floor(static_cast<int>(room))) continue;
-    auto place =
-        std::find_if(places_.begin(), places_.end(), [&](const Place& p) { return p.room == static_cast<int>(room); });
-    if (place == places_.end())
-      place = places_.insert(places_.end(), {static_cast<int>(room), floor.center_M - graph.rooms[room].center_M});
-    graph.floor_factors.push_back({id, static_cast<int>(room), place->offset_M, weight * Eigen::Matrix2d::Identity()});
+    auto room_offset = std::find_if(room_offsets_.begin(), room_offsets_.end(),
+                                    [&](const RoomOffset& p) { return p.room == static_cast<int>(room); });
+    if (room_offset == room_offsets_.end())
+      room_offset = room_offsets_.insert(room_offsets_.end(),
+                                         {static_cast<int>(room), floor.center_M - graph.rooms[room].center_M});
+    graph.floor_factors.push_back(
+        {id, static_cast<int>(room), room_offset->offset_M, weight * Eigen::Matrix2d::Identity()});
   }
 }
 

@@ -22,8 +22,8 @@ struct Hit {
 };
 
 std::vector<Hit> hits_of(std::span<const CloudKeyframe> clouds, std::span<const WallFace> faces,
-                         const Eigen::Vector3d& sensor_R, const RangeOffsetConfig& config) {
-  constexpr double edge_m = 0.15;  // at a wall's end a return may be of what it meets
+                         const Eigen::Vector3d& sensor_R, const LaserRangeCalibrationConfig& config) {
+  constexpr double edge_m = 0.15;  // at a wall's end a return may come from the adjoining surface
   const FacesNear near(faces, config.gate_m);
   std::vector<Hit> hits;
   Eigen::Vector3d last = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
@@ -49,7 +49,7 @@ std::vector<Hit> hits_of(std::span<const CloudKeyframe> clouds, std::span<const 
 /// Least squares over e = o + b c, o of each face and b of each laser; the faces are eliminated.
 class Fit {
  public:
-  Fit(std::size_t faces, std::size_t lasers, const RangeOffsetConfig& config)
+  Fit(std::size_t faces, std::size_t lasers, const LaserRangeCalibrationConfig& config)
       : config_(config), faces_(faces), offset_m_(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(lasers))) {}
 
   /// By the hits within the gate of what was found so far.
@@ -101,16 +101,16 @@ class Fit {
     double at_m = 0.0;  ///< where it stands, from where it was taken to stand
   };
 
-  RangeOffsetConfig config_;
+  LaserRangeCalibrationConfig config_;
   std::vector<Face> faces_;
   Eigen::VectorXd offset_m_;
 };
 
 }  // namespace
 
-std::vector<double> range_offsets(std::span<const CloudKeyframe> clouds, std::span<const PlaneNode> walls,
-                                  const Eigen::Vector3d& sensor_R, const RangeOffsetConfig& config,
-                                  const ReflectionConfig& walls_config) {
+std::vector<double> calibrate_laser_ranges(std::span<const CloudKeyframe> clouds, std::span<const PlaneNode> walls,
+                                           const Eigen::Vector3d& sensor_R, const LaserRangeCalibrationConfig& config,
+                                           const MirrorGhostConfig& walls_config) {
   const std::vector<WallFace> faces = wall_faces(walls, walls_config);
   const std::vector<Hit> hits = hits_of(clouds, faces, sensor_R, config);
   if (hits.empty()) return {};

@@ -23,16 +23,16 @@ struct Crossing {
 };
 
 /// A point that was seen through a face.
-struct Through {
+struct PenetratingPoint {
   std::size_t cloud = 0, point = 0;
   Eigen::Vector3d p_F;
   Crossing crossing;
 };
 
-class Judge {
+class MirrorGhostFilter {
  public:
-  Judge(std::vector<CloudKeyframe>& clouds, std::span<const PlaneNode> walls, std::span<const Plane> levels,
-        const ReflectionConfig& config)
+  MirrorGhostFilter(std::vector<CloudKeyframe>& clouds, std::span<const PlaneNode> walls, std::span<const Plane> levels,
+                    const MirrorGhostConfig& config)
       : clouds_(clouds), faces_(wall_faces(walls, config)), levels_(levels), config_(config) {}
 
   std::size_t run(const Eigen::Vector3d& sensor_R) {
@@ -41,13 +41,13 @@ class Judge {
     std::vector<std::vector<bool>> removed;
     for (std::size_t c = 0; c < clouds_.size(); ++c) {
       removed.emplace_back(clouds_[c].points_R.size(), false);
-      sort_points(c, sensor_R, removed.back());
+      classify_points(c, sensor_R, removed.back());
     }
-    for (std::size_t c = 0; c < clouds_.size(); ++c) keep_seen(clouds_[c], removed[c]);
+    for (std::size_t c = 0; c < clouds_.size(); ++c) restore_seen(clouds_[c], removed[c]);
     for (const std::vector<std::size_t>& opening : openings()) {
-      if (!mirrors(opening)) continue;
+      if (!is_mirror(opening)) continue;
       for (const std::size_t k : opening) {
-        const Through& t = through_[k];
+        const PenetratingPoint& t = penetrating_[k];
         if (seen_directly(t.p_F)) continue;
         removed[t.cloud][t.point] = true;
       }
@@ -98,9 +98,9 @@ class Judge {
     return has_hits(cell);
   }
 
-  /// Files every point as seen directly or through a face; what is behind a wall's solid part is to be removed, but
-  /// votes on the opening next to it.
-  void sort_points(std::size_t c, const Eigen::Vector3d& sensor_R, std::vector<bool>& removed) {
+  /// Classifies every point as seen directly or through a face; what is behind a wall's solid part is to be removed,
+  /// but votes on the opening next to it.
+  void classify_points(std::size_t c, const Eigen::Vector3d& sensor_R, std::vector<bool>& removed) {
     const CloudKeyframe& cloud = clouds_[c];
     const Eigen::Vector3d origin = cloud.X_FR * sensor_R;
     const FacesInView in_view(faces_, origin);
@@ -109,7 +109,7 @@ class Judge {
       bool behind_wall = false;
       const std::optional<Crossing> crossing = last_crossing(in_view, origin, p, behind_wall);
       removed[k] = behind_wall;
-      if (crossing) through_.push_back({c, k, p, *crossing});
+      if (crossing) penetrating_.push_back({c, k, p, *crossing});
       if (behind_wall) continue;
       const auto slot = static_cast<std::size_t>(seen_.insert(VoxelKey::of(p, config_.cell_m)));
       if (slot == direct_.size()) direct_.push_back(false);
@@ -118,7 +118,7 @@ class Judge {
   }
 
   /// What stands behind a door that was shut once was seen directly too.
-  void keep_seen(const CloudKeyframe& cloud, std::vector<bool>& removed) const {
+  void restore_seen(const CloudKeyframe& cloud, std::vector<bool>& removed) const {
     for (std::size_t k = 0; k < removed.size(); ++k)
       if (removed[k] && seen_directly(cloud.X_FR * cloud.points_R[k].cast<double>())) removed[k] = false;
   }
@@ -152,8 +152,8 @@ class Judge {
   /// are left out.
   [[nodiscard]] std::vector<std::vector<std::size_t>> openings() const {
     Cells cells;
-    for (std::size_t k = 0; k < through_.size(); ++k) {
-      const Crossing& x = through_[k].crossing;
+    for (std::size_t k = 0; k < penetrating_.size(); ++k) {
+      const Crossing& x = penetrating_[k].crossing;
       cells[{x.face, x.s_cell, x.z_cell}].push_back(k);
     }
     drop_passages(cells);
@@ -176,15 +176,15 @@ class Judge {
     return result;
   }
 
-  /// Takes out the columns of a face through which mostly things were seen that were seen directly too: doors, and
+  /// Takes out the columns of a face through which mostly points were seen that were seen directly too: doors, and
   /// panes between rooms that the robot has entered both.
   void drop_passages(Cells& cells) const {
     std::map<std::pair<int, int>, std::pair<std::size_t, std::size_t>> columns;  // of points: known, all
     for (const auto& [key, points] : cells) {
       auto& [known, all] = columns[{std::get<0>(key), std::get<1>(key)}];
       all += points.size();
-      known += static_cast<std::size_t>(
-          std::count_if(points.begin(), points.end(), [&](std::size_t k) { return seen_directly(through_[k].p_F); }));
+      known += static_cast<std::size_t>(std::count_if(
+          points.begin(), points.end(), [&](std::size_t k) { return seen_directly(penetrating_[k].p_F); }));
     }
     std::erase_if(cells, [&](const auto& cell) {
       const auto& [known, all] = columns[{std::get<0>(cell.first), std::get<1>(cell.first)}];
@@ -193,31 +193,31 @@ class Judge {
   }
 
   /// All images of a mirror come from one depth of its pane.
-  [[nodiscard]] bool mirrors(const std::vector<std::size_t>& opening) const {
+  [[nodiscard]] bool is_mirror(const std::vector<std::size_t>& opening) const {
     if (opening.size() < static_cast<std::size_t>(config_.min_points) || reaches_floor(opening)) return false;
     std::vector<std::size_t> voters;
     for (const std::size_t k : opening)
-      if (!near_level(through_[k].p_F) && !on_side_wall(through_[k])) voters.push_back(k);
-    if (voters.size() < static_cast<std::size_t>(config_.min_points)) return goes_on_mirrored(opening);
+      if (!near_level(penetrating_[k].p_F) && !on_side_wall(penetrating_[k])) voters.push_back(k);
+    if (voters.size() < static_cast<std::size_t>(config_.min_points)) return is_fully_mirrored(opening);
     std::ptrdiff_t images = 0;
     for (double depth = 0.0; depth <= config_.pane_depth_m; depth += 0.5 * config_.wall_m)
       images = std::max(images, std::count_if(voters.begin(), voters.end(),
-                                              [&](std::size_t k) { return is_image(through_[k], depth); }));
+                                              [&](std::size_t k) { return is_image(penetrating_[k], depth); }));
     return images > 0 && static_cast<double>(images) >= config_.share * static_cast<double>(voters.size());
   }
 
-  /// Nothing is seen through it that is not here too: a mirror, or a room that goes on alike behind glass.
-  [[nodiscard]] bool goes_on_mirrored(const std::vector<std::size_t>& opening) const {
-    const auto here =
-        std::count_if(opening.begin(), opening.end(), [&](std::size_t k) { return seen(image_of(through_[k], 0.0)); });
+  /// Everything seen through it has its mirror image here: a mirror, or a room that continues alike behind glass.
+  [[nodiscard]] bool is_fully_mirrored(const std::vector<std::size_t>& opening) const {
+    const auto here = std::count_if(opening.begin(), opening.end(),
+                                    [&](std::size_t k) { return seen(image_of(penetrating_[k], 0.0)); });
     return static_cast<double>(here) >= config_.whole * static_cast<double>(opening.size());
   }
 
-  /// A door, then: what lies behind it is there even if the robot only looked in.
+  /// It is then a door: what lies behind it exists even if the robot never entered.
   [[nodiscard]] bool reaches_floor(const std::vector<std::size_t>& opening) const {
     std::vector<double> heights;
     for (const std::size_t k : opening)
-      if (const std::optional<double> height = above_floor(through_[k].crossing.q_F)) heights.push_back(*height);
+      if (const std::optional<double> height = above_floor(penetrating_[k].crossing.q_F)) heights.push_back(*height);
     const bool low = std::any_of(heights.begin(), heights.end(), [&](double h) { return h < config_.sill_m; });
     return low && !has_sill(heights);
   }
@@ -252,7 +252,7 @@ class Judge {
   }
 
   /// On a wall that runs through the face, whose image is itself.
-  [[nodiscard]] bool on_side_wall(const Through& t) const {
+  [[nodiscard]] bool on_side_wall(const PenetratingPoint& t) const {
     const Eigen::Vector3d& n = faces_[static_cast<std::size_t>(t.crossing.face)].plane.n;
     return std::any_of(faces_.begin(), faces_.end(), [&](const WallFace& face) {
       return std::abs(face.plane.n.dot(n)) < 0.5 && std::abs(face.plane.distance(t.p_F)) < config_.behind_m;
@@ -269,14 +269,14 @@ class Judge {
     return seen_.find(VoxelKey::of(p_F, config_.cell_m)) >= 0;
   }
 
-  [[nodiscard]] Eigen::Vector3d image_of(const Through& t, double depth_m) const {
+  [[nodiscard]] Eigen::Vector3d image_of(const PenetratingPoint& t, double depth_m) const {
     const Plane& plane = faces_[static_cast<std::size_t>(t.crossing.face)].plane;
     return t.p_F - 2.0 * (plane.distance(t.p_F) + depth_m) * plane.n;
   }
 
   /// Does the point, mirrored by a pane that deep behind its face, lie on what was seen directly, or on a wall that
   /// faces the pane? Over a mirror the sensor sees such a wall higher up than it does directly.
-  [[nodiscard]] bool is_image(const Through& t, double depth_m) const {
+  [[nodiscard]] bool is_image(const PenetratingPoint& t, double depth_m) const {
     const Plane& plane = faces_[static_cast<std::size_t>(t.crossing.face)].plane;
     const Eigen::Vector3d image_F = image_of(t, depth_m);
     if (seen(image_F)) return true;
@@ -303,21 +303,21 @@ class Judge {
   std::vector<CloudKeyframe>& clouds_;
   const std::vector<WallFace> faces_;
   const std::span<const Plane> levels_;
-  const ReflectionConfig& config_;
+  const MirrorGhostConfig& config_;
   VoxelIndex solid_;       ///< cells of faces that were hit
   std::vector<int> hits_;  ///< index = slot in solid_
   VoxelIndex seen_;
   std::vector<bool> direct_;  ///< index = slot in seen_
-  std::vector<Through> through_;
+  std::vector<PenetratingPoint> penetrating_;
 };
 
 }  // namespace
 
-std::size_t remove_reflections(std::vector<CloudKeyframe>& clouds, std::span<const PlaneNode> walls,
-                               std::span<const Plane> levels, const Eigen::Vector3d& sensor_R,
-                               const ReflectionConfig& config) {
+std::size_t remove_mirror_ghosts(std::vector<CloudKeyframe>& clouds, std::span<const PlaneNode> walls,
+                                 std::span<const Plane> levels, const Eigen::Vector3d& sensor_R,
+                                 const MirrorGhostConfig& config) {
   if (!config.remove || walls.empty()) return 0;
-  return Judge(clouds, walls, levels, config).run(sensor_R);
+  return MirrorGhostFilter(clouds, walls, levels, config).run(sensor_R);
 }
 
 }  // namespace plumbline::slam

@@ -26,7 +26,7 @@ RoomLayerConfig printed_rooms() {
   RoomLayerConfig rooms;
   rooms.free_space.cell_m = 0.2;
   rooms.free_space.max_range_m = 5.0;
-  rooms.free_space.wall_hits = 1'000'000;  // free space knows nothing of planes
+  rooms.free_space.wall_hits = 1'000'000;  // free space does not use planes
   rooms.clusters.cut = Cut::fixed;
   rooms.rooms.reach_m = 1.0;
   rooms.rooms.entered_only = false;
@@ -43,13 +43,13 @@ SGraphsPlusPaperConfig::SGraphsPlusPaperConfig() {
   pose_weights = PoseWeights::fitness;
   keyframe_distance_m = 2.0;
   keyframe_angle_rad = 2.0;
-  incremental.everything = true;
+  incremental.batch = true;
   walls = printed_walls();
   rooms = printed_rooms();
   map.spacing_m = 2.0;
   map.min_neighbours = 0;
-  reflections.remove = false;
-  range_offsets.correct = false;
+  mirror_ghosts.remove = false;
+  laser_range_calibration.correct = false;
   planes.laser_sigma_m = 0.0;
   floors.room_sigma_m = sigma(1e-4);
   loop.radius_m = 1.0;

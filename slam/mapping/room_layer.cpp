@@ -10,7 +10,7 @@ namespace plumbline::slam {
 namespace {
 
 /// The plane that a plane has become part of, or itself.
-int alive(const Graph& graph, int plane) {
+int merge_root(const Graph& graph, int plane) {
   while (graph.planes[static_cast<std::size_t>(plane)].merged_into >= 0)
     plane = graph.planes[static_cast<std::size_t>(plane)].merged_into;
   return plane;
@@ -18,25 +18,25 @@ int alive(const Graph& graph, int plane) {
 
 }  // namespace
 
-void RoomLayer::look(const Graph& graph, const DeskewedScan& scan, std::span<const PlaneObservation> seen) {
+void RoomLayer::add_scan(const Graph& graph, const DeskewedScan& scan, std::span<const PlaneObservation> seen) {
   if (config_.source != RoomSource::free_space) return;
   const KeyframeVertex& keyframe = graph.keyframes.back();
   const Eigen::Vector3d up_R = keyframe.X_MR.q.conjugate() * Eigen::Vector3d::UnitZ();
-  looks_.push_back({free_rays(scan, up_R, config_.free_space), keyframe.X_MR, keyframe.storey});
-  looks_.back().rays.wall_R = wall_points(scan, seen, config_.free_space);
-  map_of(keyframe.storey).carve(looks_.back().rays, keyframe.X_MR);
+  free_space_scans_.push_back({free_rays(scan, up_R, config_.free_space), keyframe.X_MR, keyframe.storey});
+  free_space_scans_.back().rays.wall_R = wall_points(scan, seen, config_.free_space);
+  map_of(keyframe.storey).carve(free_space_scans_.back().rays, keyframe.X_MR);
 }
 
 void RoomLayer::update(Graph& graph, int storey, std::span<const PlaneNode> walls) {
   if (config_.source != RoomSource::free_space) return;
-  redraw_if_moved(graph);
+  rebuild_if_moved(graph);
   const Partition& partition = partition_of(storey);
   std::vector<Eigen::Vector2d> visited_M;
   for (const KeyframeVertex& keyframe : graph.keyframes)
     if (keyframe.storey == storey) visited_M.emplace_back(keyframe.X_MR.t.head<2>());
   const std::vector<RoomCandidate> found =
       detect_rooms(partition.grid, partition.clusters, walls, visited_M, config_.rooms);
-  const std::vector<int> ids = tie(graph, storey, found);
+  const std::vector<int> ids = associate(graph, storey, found);
   std::erase_if(graph.room_factors,
                 [&](const RoomFactor& f) { return graph.rooms[static_cast<std::size_t>(f.room)].storey == storey; });
   for (std::size_t k = 0; k < found.size(); ++k) graph.room_factors.push_back(factor_of(graph, ids[k], found[k]));
@@ -52,8 +52,8 @@ RoomFactor RoomLayer::factor_of(const Graph& graph, int id, const RoomCandidate&
           .corners = room.corners};
 }
 
-// A room is known again by its kind and centre [S-Graphs+ section IV-C]; the walls of the latest look replace the
-// former ones. A two-wall room inside a four-wall one gives way to it [facts: slam 3.3].
+// A room is known again by its kind and centre [bavle2023, section IV-C]; the walls of the latest detection replace the
+// former ones. A two-wall room inside a four-wall one gives way to it [lsg2022].
 void RoomLayer::add_from_keyframe(Graph& graph, std::span<const PlaneNode> seen_M) {
   const KeyframeVertex& keyframe = graph.keyframes.back();
   for (const RoomCandidate& room : keyframe_rooms(seen_M, keyframe.X_MR.t.head<2>(), config_.rooms)) {
@@ -82,34 +82,34 @@ void RoomLayer::add_from_keyframe(Graph& graph, std::span<const PlaneNode> seen_
   }
 }
 
-std::vector<SameWall> RoomLayer::seen_again(const Graph& graph, std::span<const PlaneNode> seen_M,
-                                            const WallMisfit& misfit) const {
+std::vector<SameWall> RoomLayer::find_revisited_walls(const Graph& graph, std::span<const PlaneNode> seen_M,
+                                                      const WallDistance& distance) const {
   const KeyframeVertex& keyframe = graph.keyframes.back();
   for (const RoomCandidate& room : keyframe_rooms(seen_M, keyframe.X_MR.t.head<2>(), config_.rooms))
     for (std::size_t id = 0; id < candidates_.size(); ++id) {
       const RoomVertex& known = graph.rooms[id];
       if (!known.found || known.storey != keyframe.storey || known.kind != room.kind) continue;
       std::vector<int> planes = candidates_[id].planes;
-      for (int& plane : planes) plane = alive(graph, plane);
-      if (std::optional<std::vector<SameWall>> same = same_walls(planes, room.planes, misfit)) return *same;
+      for (int& plane : planes) plane = merge_root(graph, plane);
+      if (std::optional<std::vector<SameWall>> same = same_walls(planes, room.planes, distance)) return *same;
     }
   return {};
 }
 
-void RoomLayer::follow_merged(Graph& graph) {
+void RoomLayer::redirect_merged_planes(Graph& graph) {
   if (config_.source != RoomSource::keyframe) return;
   for (RoomCandidate& room : candidates_)
-    for (int& plane : room.planes) plane = alive(graph, plane);
+    for (int& plane : room.planes) plane = merge_root(graph, plane);
   for (RoomFactor& factor : graph.room_factors)
-    for (int& plane : factor.planes) plane = alive(graph, plane);
+    for (int& plane : factor.planes) plane = merge_root(graph, plane);
 }
 
-void RoomLayer::redraw(const Graph& graph) {
+void RoomLayer::rebuild_free_space(const Graph& graph) {
   partitions_.clear();
   for (auto& [storey, map] : maps_) map.clear();
-  for (std::size_t k = 0; k < looks_.size(); ++k) {
-    looks_[k].X_MR = graph.keyframes[k].X_MR;
-    map_of(looks_[k].storey).carve(looks_[k].rays, looks_[k].X_MR);
+  for (std::size_t k = 0; k < free_space_scans_.size(); ++k) {
+    free_space_scans_[k].X_MR = graph.keyframes[k].X_MR;
+    map_of(free_space_scans_[k].storey).carve(free_space_scans_[k].rays, free_space_scans_[k].X_MR);
   }
 }
 
@@ -127,15 +127,15 @@ std::vector<RoomNode> RoomLayer::nodes(const Graph& graph) const {
   return nodes;
 }
 
-void RoomLayer::redraw_if_moved(const Graph& graph) {
-  for (std::size_t k = 0; k < looks_.size(); ++k) {
-    if ((graph.keyframes[k].X_MR.t - looks_[k].X_MR.t).norm() <= config_.redraw_m) continue;
-    redraw(graph);
+void RoomLayer::rebuild_if_moved(const Graph& graph) {
+  for (std::size_t k = 0; k < free_space_scans_.size(); ++k) {
+    if ((graph.keyframes[k].X_MR.t - free_space_scans_[k].X_MR.t).norm() <= config_.rebuild_distance_m) continue;
+    rebuild_free_space(graph);
     return;
   }
 }
 
-std::vector<int> RoomLayer::tie(Graph& graph, int storey, const std::vector<RoomCandidate>& found) {
+std::vector<int> RoomLayer::associate(Graph& graph, int storey, const std::vector<RoomCandidate>& found) {
   std::vector<Polygon2> known_M;
   std::vector<int> known_ids;
   for (std::size_t id = 0; id < candidates_.size(); ++id) {

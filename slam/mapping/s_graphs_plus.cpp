@@ -49,15 +49,15 @@ std::uint64_t digest_of(std::span<const int> ids) {
   return digest.value();
 }
 
-/// Files a stage's digest, and its CPU time since the last one under the name that the papers' tables give it.
-void file(Output& output, Stopwatch& watch, const std::string& stage, std::uint64_t digest,
-          const std::string& timed_as) {
-  output.times.push_back({timed_as, watch.cpu_ms()});
+/// Records a stage's digest, and its CPU time since the last one under the name that the papers' tables give it.
+void record_stage(Output& output, Stopwatch& stopwatch, const std::string& stage, std::uint64_t digest,
+                  const std::string& timed_as) {
+  output.times.push_back({timed_as, stopwatch.cpu_ms()});
   output.digests.push_back({stage, digest});
-  watch.restart();
+  stopwatch.restart();
 }
-void file(Output& output, Stopwatch& watch, const std::string& stage, std::uint64_t digest) {
-  file(output, watch, stage, digest, stage);
+void record_stage(Output& output, Stopwatch& stopwatch, const std::string& stage, std::uint64_t digest) {
+  record_stage(output, stopwatch, stage, digest, stage);
 }
 
 std::uint64_t digest_of(const std::vector<FloorVertex>& floors) {
@@ -86,34 +86,35 @@ SGraphsPlus::SGraphsPlus(const MethodInput& input, const SGraphsPlusConfig& conf
       floors_(config.floors),
       loop_(config.loop),
       back_end_(config.incremental, config.optimizer) {
-  config_.floors.stand_m = input.calibration.sensor_height_m - input.calibration.X_RL.t.z();
+  config_.floors.robot_height_m = input.calibration.sensor_height_m - input.calibration.X_RL.t.z();
 }
 
 Output SGraphsPlus::on_scan(const Scan& scan) {
   Output output;
   output.stamp = scan.stamp;
-  Stopwatch watch;
+  Stopwatch stopwatch;
   const DeskewedScan deskewed = deskew(scan, motion_, calibration_);
-  const Pose legs_OR = motion_.at(scan.stamp);
+  const Pose odometry_OR = motion_.at(scan.stamp);
   motion_.forget_before(scan.stamp);
-  file(output, watch, "deskew", digest(deskewed));
+  record_stage(output, stopwatch, "deskew", digest(deskewed));
 
-  const Registration odometry = odometry_->update(deskewed, legs_OR);
-  file(output, watch, "odometry", Digest().add(odometry.X_MR).value());
+  const Registration odometry = odometry_->update(deskewed, odometry_OR);
+  record_stage(output, stopwatch, "odometry", Digest().add(odometry.X_MR).value());
 
   const Pose& X_OR = odometry.X_MR;
   if (odometry.lost) output.state = State::lost;
-  followed_ &= odometry.followed;
-  // Where a scan does not fit, what it shows would be put in the wrong place.
-  if (!odometry.believed && !graph_.keyframes.empty())
-    reckoned_ = reckoned_.value_or(Vector6d(Vector6d::Zero())) + odometry.information.diagonal().cwiseInverse();
-  if (graph_.keyframes.empty() || (odometry.believed && !odometry.lost && is_keyframe(X_OR)))
+  odometry_valid_ &= odometry.odometry_valid;
+  // A scan that does not fit would be mapped at a wrong pose.
+  if (!odometry.accepted && !graph_.keyframes.empty())
+    dead_reckoning_variance_ =
+        dead_reckoning_variance_.value_or(Vector6d(Vector6d::Zero())) + odometry.information.diagonal().cwiseInverse();
+  if (graph_.keyframes.empty() || (odometry.accepted && !odometry.lost && is_keyframe(X_OR)))
     add_keyframe(deskewed, odometry, output);
   const auto keyframe = graph_.keyframes.size() - 1;
   scans_.push_back({scan.stamp, static_cast<int>(keyframe), X_OR});
-  watch.restart();
-  if (odometry.believed || scans_.size() == 1) keep_cloud(deskewed);
-  output.times.push_back({"map", watch.cpu_ms()});
+  stopwatch.restart();
+  if (odometry.accepted || scans_.size() == 1) keep_cloud(deskewed);
+  output.times.push_back({"map", stopwatch.cpu_ms()});
   output.X_FR = X_MO(keyframe) * X_OR;
   return output;
 }
@@ -124,11 +125,11 @@ bool SGraphsPlus::is_keyframe(const Pose& X_OR) const {
   return step.t.norm() > config_.keyframe_distance_m || log_so3(step.q).norm() > config_.keyframe_angle_rad;
 }
 
-// [S-Graphs+ Fig. 2]: walls, rooms, floors and loops of one keyframe, then the back end.
+// [bavle2023, Fig. 2]: walls, rooms, floors and loops of one keyframe, then the back end.
 void SGraphsPlus::add_keyframe(const DeskewedScan& scan, const Registration& odometry, Output& output) {
-  Stopwatch watch;
+  Stopwatch stopwatch;
   std::vector<PlaneObservation> seen = planes_of(scan);
-  file(output, watch, "planes", digest_of(seen), "plane_segmentation");
+  record_stage(output, stopwatch, "planes", digest_of(seen), "plane_segmentation");
 
   add_keyframe_vertex(scan.stamp, odometry, seen);
   if (config_.pose_weights == PoseWeights::fitness) {
@@ -136,25 +137,25 @@ void SGraphsPlus::add_keyframe(const DeskewedScan& scan, const Registration& odo
     if (graph_.keyframes.size() > 1) weigh_by_fitness(graph_.pose_factors.back());
   }
   const int storey = graph_.keyframes.back().storey;
-  file(output, watch, "association", digest_of(walls_.observe(graph_, seen, walked_m_)));
+  record_stage(output, stopwatch, "association", digest_of(walls_.observe(graph_, seen, walked_m_)));
 
-  full_wanted_ |= walls_.find_duplicates(graph_, storey);
-  if (config_.parts.rooms) rooms_.look(graph_, scan, seen);
+  global_solve_requested_ |= walls_.find_duplicates(graph_, storey);
+  if (config_.parts.rooms) rooms_.add_scan(graph_, scan, seen);
   const std::vector<PlaneNode> seen_now = walls_.seen_now(graph_);
   const std::vector<PlaneNode> walls = walls_.walls(graph_, storey);
-  if (config_.parts.rooms) full_wanted_ |= find_duplicates_in_rooms(walls, seen_now);
+  if (config_.parts.rooms) global_solve_requested_ |= find_duplicates_in_rooms(walls, seen_now);
   if (config_.parts.rooms && config_.rooms.source == RoomSource::keyframe) rooms_.add_from_keyframe(graph_, seen_now);
   if (config_.parts.rooms) rooms_.update(graph_, storey, walls);
-  file(output, watch, "rooms", digest_of(rooms_.nodes(graph_)), "room_segmentation");
+  record_stage(output, stopwatch, "rooms", digest_of(rooms_.nodes(graph_)), "room_segmentation");
   if (config_.parts.rooms && config_.parts.floors) floors_.update(graph_, storey, walls);
-  file(output, watch, "floors", digest_of(graph_.floors), "floor_segmentation");
+  record_stage(output, stopwatch, "floors", digest_of(graph_.floors), "floor_segmentation");
 
   if (config_.parts.loops) close_loop(scan);
-  file(output, watch, "loop", Digest().add(static_cast<std::int64_t>(graph_.pose_factors.size())).value(),
-       "loop_closure");
+  record_stage(output, stopwatch, "loop", Digest().add(static_cast<std::int64_t>(graph_.pose_factors.size())).value(),
+               "loop_closure");
 
   optimize_graph();
-  file(output, watch, "graph", slam::digest_of(graph_), "back_end");
+  record_stage(output, stopwatch, "graph", slam::digest_of(graph_), "back_end");
 }
 
 void SGraphsPlus::keep_cloud(const DeskewedScan& scan) {
@@ -185,10 +186,12 @@ void SGraphsPlus::update_rooms(int storey, std::span<const PlaneNode> walls) {
   if (config_.parts.floors) floors_.update(graph_, storey, walls);
 }
 
-// A room seen again shows which walls are one [S-Graphs+ section IV-C].
+// A room seen again shows which walls are one [bavle2023, section IV-C].
 bool SGraphsPlus::find_duplicates_in_rooms(std::span<const PlaneNode> walls, std::span<const PlaneNode> seen) {
-  const WallMisfit misfit = [&](int known, int found) { return walls_.room_misfit(walls, known, found); };
-  return walls_.add_duplicates(graph_, walls, rooms_.seen_again(graph_, seen, misfit));
+  const WallDistance distance = [&](int known, int found) {
+    return walls_.room_normalized_mahalanobis2(walls, known, found);
+  };
+  return walls_.add_duplicates(graph_, walls, rooms_.find_revisited_walls(graph_, seen, distance));
 }
 
 void SGraphsPlus::add_keyframe_vertex(Nanoseconds stamp, const Registration& odometry,
@@ -201,25 +204,28 @@ void SGraphsPlus::add_keyframe_vertex(Nanoseconds stamp, const Registration& odo
   const KeyframeVertex& last = graph_.keyframes.back();
   const Pose step = last.X_OR.inverse() * X_OR;
   const Pose X_MR = last.X_MR * step;
-  keep_level(seen, X_MR, config_.floors);
+  drop_tilted_planes(seen, X_MR, config_.floors);
   const int from = static_cast<int>(graph_.keyframes.size()) - 1;
   walked_m_ += step.t.norm();
   graph_.pose_factors.push_back({from, from + 1, step, step_information(odometry, step.t.norm()), false});
-  reckoned_.reset();
-  followed_ = true;
+  dead_reckoning_variance_.reset();
+  odometry_valid_ = true;
   graph_.keyframes.push_back({stamp, X_MR, X_OR, storey_of(graph_, X_MR, seen, config_.floors)});
 }
 
-// Where surfels say nothing, as along a corridor, VGICP's step is that of the legs, and as certain as theirs.
+// Where surfels do not constrain the motion, as along a corridor, VGICP's step is that of the odometry, with its
+// information.
 Matrix6d SGraphsPlus::step_information(const Registration& odometry, double way_m) const {
   const LidarOdometryConfig& config = config_.odometry;
-  const Matrix6d legs = reckoned_information(config, way_m);
-  if (config.kind == OdometryKind::legs) return legs;
-  const Matrix6d seen = reckoned_ ? Matrix6d(reckoned_->cwiseInverse().asDiagonal()) : odometry.information;
+  const Matrix6d dead_reckoning = dead_reckoning_information(config, way_m);
+  if (config.kind == OdometryKind::legs) return dead_reckoning;
+  const Matrix6d seen =
+      dead_reckoning_variance_ ? Matrix6d(dead_reckoning_variance_->cwiseInverse().asDiagonal()) : odometry.information;
   const Matrix6d information =
       trusted_information(seen, config_.odometry_inflation, config_.odometry_sigma_m, config_.odometry_sigma_rad);
-  const bool with_legs = config.kind == OdometryKind::vgicp && config.vgicp.odometry_prior && followed_ && !reckoned_;
-  return with_legs ? Matrix6d(information + legs) : information;
+  const bool with_dead_reckoning =
+      config.kind == OdometryKind::vgicp && config.vgicp.odometry_prior && odometry_valid_ && !dead_reckoning_variance_;
+  return with_dead_reckoning ? Matrix6d(information + dead_reckoning) : information;
 }
 
 void SGraphsPlus::close_loop(const DeskewedScan& scan) {
@@ -230,36 +236,36 @@ void SGraphsPlus::close_loop(const DeskewedScan& scan) {
   const PoseFactor& factor = graph_.pose_factors.back();
   const auto X_M = [&](int k) { return graph_.keyframes[static_cast<std::size_t>(k)].X_MR; };
   const Vector6d e = pose_residual(X_M(factor.from), X_M(factor.to), factor.X_FT).e;
-  full_wanted_ = true;
-  full_urgent_ |= e.dot(factor.information * e) > config_.incremental.urgent_chi2;
+  global_solve_requested_ = true;
+  global_solve_urgent_ |= e.dot(factor.information * e) > config_.incremental.urgent_chi2;
 }
 
 // The window at each keyframe; the storey when something leads back to before it.
 void SGraphsPlus::optimize_graph() {
   if (graph_.keyframes.size() < 2) return;
-  if (config_.incremental.everything) {
+  if (config_.incremental.batch) {
     optimize(graph_, 1, config_.optimizer);
     (void)merge_duplicates();
     return;
   }
   back_end_.update(graph_);
-  walls_.settle(graph_, back_end_.first_keyframe());
-  full_wanted_ |= back_end_.returned();
-  if (!full_urgent_ && !(full_wanted_ && back_end_.solve_is_due(graph_))) return;
+  walls_.freeze_extents(graph_, back_end_.first_keyframe());
+  global_solve_requested_ |= back_end_.revisited_marginalized_plane();
+  if (!global_solve_urgent_ && !(global_solve_requested_ && back_end_.solve_is_due(graph_))) return;
   // Storeys share no planes, so that what leads back within one leaves those before it as they are.
   const int storey = graph_.keyframes.back().storey;
   const auto first = std::find_if(graph_.keyframes.begin(), graph_.keyframes.end(),
                                   [&](const KeyframeVertex& k) { return k.storey == storey; });
   back_end_.solve(graph_, static_cast<int>(first - graph_.keyframes.begin()));
-  walls_.unsettle();
-  full_wanted_ = merge_duplicates() > 0;
-  full_urgent_ = false;
+  walls_.unfreeze_extents();
+  global_solve_requested_ = merge_duplicates() > 0;
+  global_solve_urgent_ = false;
   back_end_.relinearize(graph_);
 }
 
 int SGraphsPlus::merge_duplicates() {
   const int merged = walls_.merge_duplicates(graph_);
-  if (merged > 0) rooms_.follow_merged(graph_);
+  if (merged > 0) rooms_.redirect_merged_planes(graph_);
   return merged;
 }
 
@@ -271,9 +277,9 @@ Estimate SGraphsPlus::finish() {
   Estimate estimate;
   if (graph_.keyframes.empty()) return estimate;
   if (graph_.keyframes.size() > 1) optimize(graph_, 1, config_.optimizer);
-  walls_.unsettle();
+  walls_.unfreeze_extents();
   (void)merge_duplicates();
-  if (config_.parts.rooms) rooms_.redraw(graph_);
+  if (config_.parts.rooms) rooms_.rebuild_free_space(graph_);
   const int storeys = 1 + std::max_element(graph_.keyframes.begin(), graph_.keyframes.end(), [](auto& a, auto& b) {
                             return a.storey < b.storey;
                           })->storey;
@@ -318,10 +324,11 @@ std::vector<Eigen::Vector3f> SGraphsPlus::point_map(const Estimate& estimate) {
   for (const PlaneVertex& plane : graph_.planes)
     if (plane.kind == PlaneKind::ceiling && plane.merged_into < 0) levels_M.push_back(plane.plane_M);
   const Eigen::Vector3d& sensor_R = calibration_.X_RL.t;
-  remove_reflections(clouds_, estimate.planes, levels_M, sensor_R, config_.reflections);
-  if (config_.range_offsets.correct)
+  remove_mirror_ghosts(clouds_, estimate.planes, levels_M, sensor_R, config_.mirror_ghosts);
+  if (config_.laser_range_calibration.correct)
     correct_ranges(clouds_,
-                   range_offsets(clouds_, estimate.planes, sensor_R, config_.range_offsets, config_.reflections),
+                   calibrate_laser_ranges(clouds_, estimate.planes, sensor_R, config_.laser_range_calibration,
+                                          config_.mirror_ghosts),
                    sensor_R);
   return map_cloud(clouds_, config_.map, levels_M);
 }

@@ -26,24 +26,26 @@ namespace plumbline::slam {
 
 /// Parts of the graph that a baseline or an ablation does without.
 struct GraphParts {
-  bool walls = true;   ///< without: of the planes only floors are kept
-  bool rooms = true;   ///< needs walls
-  bool floors = true;  ///< floor centres and the rooms tied to them; needs rooms
-  bool loops = true;   ///< hard loop closures
+  bool walls = true;
+  bool rooms = true;
+  bool floors = true;
+  bool loops = true;
 
   template <class V>
   void visit(V& v) {
-    v("walls", walls, Field{.doc = "wall planes"});
-    v("rooms", rooms, Field{.doc = "rooms between walls"});
-    v("floors", floors, Field{.doc = "floor centres, rooms tied to them"});
-    v("loops", loops, Field{.doc = "loop closures by scan matching"});
+    v("walls", walls, Field{.doc = "wall planes; without them, only floor planes are kept", .basic = true});
+    v("rooms", rooms, Field{.doc = "rooms between walls; needs walls", .basic = true});
+    v("floors", floors, Field{.doc = "floor centres and the rooms tied to them; needs rooms", .basic = true});
+    v("loops", loops, Field{.doc = "loop closures by scan matching", .basic = true});
   }
 };
 
 /// Which planes a keyframe sees: by straight stretches of rings, or by sequential RANSAC as in the papers.
 enum class PlaneSource { rings, ransac };
+[[nodiscard]] constexpr std::array<std::string_view, 2> names_of(PlaneSource) { return {"rings", "ransac"}; }
 /// What odometry and loops weigh: by the registration's covariance, or by the clouds' fitness as in the papers' code.
 enum class PoseWeights { registration, fitness };
+[[nodiscard]] constexpr std::array<std::string_view, 2> names_of(PoseWeights) { return {"registration", "fitness"}; }
 
 struct SGraphsPlusConfig {
   GraphParts parts;
@@ -51,11 +53,12 @@ struct SGraphsPlusConfig {
   PoseWeights pose_weights = PoseWeights::registration;
   double keyframe_distance_m = 0.6;
   double keyframe_angle_rad = 0.35;
-  double odometry_inflation = 8.0;  ///< of the registration's covariance: surfels are not independent
-  double odometry_sigma_m = 0.006;  ///< of a step between keyframes, added
+  double odometry_inflation = 8.0;
+  double odometry_sigma_m = 0.006;
   double odometry_sigma_rad = 0.002;
   LidarOdometryConfig odometry;
-  /// Twice the lasers' 11 mm: looks that share lasers err alike, and the graph takes each for itself.
+  /// Twice the lasers' 11 mm: range errors of observations that share a laser are correlated, and the graph treats them
+  /// as independent.
   PlaneDetectorConfig planes{.laser_sigma_m = 0.022};
   RansacConfig ransac;
   FitnessConfig fitness;
@@ -66,19 +69,25 @@ struct SGraphsPlusConfig {
   IncrementalConfig incremental;
   OptimizerConfig optimizer;
   MapCloudConfig map{.spacing_m = 0.14, .min_neighbours = 14};
-  ReflectionConfig reflections;
-  RangeOffsetConfig range_offsets;
+  MirrorGhostConfig mirror_ghosts;
+  LaserRangeCalibrationConfig laser_range_calibration;
 
   template <class V>
   void visit(V& v) {
     v("parts", parts);
-    v("plane_source", plane_source, Field{.doc = "rings or ransac"});
-    v("pose_weights", pose_weights, Field{.doc = "registration or fitness"});
-    v("keyframe_distance_m", keyframe_distance_m, Field{.doc = "way to the next keyframe", .min = 0.05});
-    v("keyframe_angle_rad", keyframe_angle_rad, Field{.doc = "turn to the next keyframe", .min = 0.02});
-    v("odometry_inflation", odometry_inflation, Field{.doc = "of the registration's covariance", .min = 1});
-    v("odometry_sigma_m", odometry_sigma_m, Field{.doc = "of a step between keyframes", .min = 1e-4});
-    v("odometry_sigma_rad", odometry_sigma_rad, Field{.doc = "of a step between keyframes", .min = 1e-5});
+    v("plane_source", plane_source, Field{.doc = "plane segmentation: along the rings, or RANSAC as in the papers"});
+    v("pose_weights", pose_weights,
+      Field{.doc = "information of pose factors: from the registration, or from its fitness as in the papers"});
+    v("keyframe_distance_m", keyframe_distance_m,
+      Field{.doc = "distance walked after which a keyframe is made", .min = 0.05, .basic = true});
+    v("keyframe_angle_rad", keyframe_angle_rad,
+      Field{.doc = "or angle turned after which a keyframe is made", .min = 0.02, .basic = true});
+    v("odometry_inflation", odometry_inflation,
+      plain_field("factor on the registration's covariance: surfels are not independent", {.min = 1}));
+    v("odometry_sigma_m", odometry_sigma_m,
+      Field{.doc = "standard deviation of the position, added to a step between keyframes", .min = 1e-4});
+    v("odometry_sigma_rad", odometry_sigma_rad,
+      Field{.doc = "standard deviation of the attitude, added to a step between keyframes", .min = 1e-5});
     v("odometry", odometry);
     v("planes", planes);
     v("ransac", ransac);
@@ -90,12 +99,12 @@ struct SGraphsPlusConfig {
     v("incremental", incremental);
     v("optimizer", optimizer);
     v("map", map);
-    v("reflections", reflections);
-    v("range_offsets", range_offsets);
+    v("mirror_ghosts", mirror_ghosts, Field{.former = "reflections"});
+    v("laser_range_calibration", laser_range_calibration, Field{.former = "range_offsets"});
   }
 };
 
-/// S-Graphs+ as printed, with the parameters of the papers' code [facts: slam 2.2-2.4, 4.1].
+/// S-Graphs+ as printed, with the parameters of the papers' code [lsg2022].
 struct SGraphsPlusPaperConfig : SGraphsPlusConfig {
   SGraphsPlusPaperConfig();
 };
@@ -105,12 +114,12 @@ struct SGraphsConfig : SGraphsPlusPaperConfig {
   SGraphsConfig();
 };
 
-/// HDL graph SLAM [facts: slam 6]: keyframes, odometry, floor plane and loop closures; no walls, no rooms.
+/// HDL graph SLAM [koide2019]: keyframes, odometry, floor plane and loop closures; no walls, no rooms.
 struct HdlSlamConfig : SGraphsPlusConfig {
   HdlSlamConfig() { parts = {.walls = false, .rooms = false, .floors = false, .loops = true}; }
 };
 
-/// S-Graphs+ [S-Graphs+ Fig. 2]: odometry, walls, free-space rooms, floors and loops in one four-layered graph.
+/// S-Graphs+ [bavle2023, Fig. 2]: odometry, walls, free-space rooms, floors and loops in one four-layered graph.
 class SGraphsPlus : public Method {
  public:
   SGraphsPlus(const MethodInput& input, const SGraphsPlusConfig& config);
@@ -163,11 +172,12 @@ class SGraphsPlus : public Method {
   std::vector<CloudKeyframe> clouds_;                         ///< of scans at least map.spacing_m apart along the way
   std::vector<std::size_t> cloud_scans_;                      ///< index into scans_ of each cloud
   std::vector<std::vector<Eigen::Vector3d>> fitness_clouds_;  ///< index = keyframe, for PoseWeights::fitness
-  std::optional<Vector6d> reckoned_;  ///< variances of the dead reckoning since the last keyframe, if there was any
-  bool followed_ = true;              ///< odometry knows the way since the last keyframe
+  std::optional<Vector6d>
+      dead_reckoning_variance_;  ///< variances of the dead reckoning since the last keyframe, if there was any
+  bool odometry_valid_ = true;   ///< odometry is continuous since the last keyframe
   double walked_m_ = 0.0;
-  bool full_wanted_ = false;  ///< a loop, a duplicate or a wall from before the prior came in
-  bool full_urgent_ = false;  ///< a loop that contradicts the estimate
+  bool global_solve_requested_ = false;  ///< a loop, a duplicate or a wall from before the prior came in
+  bool global_solve_urgent_ = false;     ///< a loop that contradicts the estimate
 };
 
 /// All assume constant velocity where there is no odometry.
@@ -177,16 +187,3 @@ class SGraphsPlus : public Method {
 [[nodiscard]] std::unique_ptr<Method> make_hdl_slam_method(const MethodInput& input);
 
 }  // namespace plumbline::slam
-
-namespace plumbline {
-
-template <>
-struct EnumNames<slam::PlaneSource> {
-  static constexpr std::array<std::string_view, 2> names = {"rings", "ransac"};
-};
-template <>
-struct EnumNames<slam::PoseWeights> {
-  static constexpr std::array<std::string_view, 2> names = {"registration", "fitness"};
-};
-
-}  // namespace plumbline

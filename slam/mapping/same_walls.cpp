@@ -19,18 +19,19 @@ std::vector<int> left_over(std::span<const int> ids, std::span<const int> other)
 }  // namespace
 
 std::optional<std::vector<SameWall>> same_walls(std::span<const int> known, std::span<const int> found,
-                                                const WallMisfit& misfit) {
+                                                const WallDistance& distance) {
   const std::vector<int> gone = left_over(known, found), come = left_over(found, known);
   if (gone.size() != come.size()) return {};
   struct Match {
-    double misfit = 0.0;
+    double distance = 0.0;
     SameWall pair;
   };
   std::vector<Match> matches;
   for (const int a : gone)
     for (const int b : come)
-      if (const double m = misfit(a, b); m < 1.0) matches.push_back({m, {a, b}});
-  std::stable_sort(matches.begin(), matches.end(), [](const Match& p, const Match& q) { return p.misfit < q.misfit; });
+      if (const double m = distance(a, b); m < 1.0) matches.push_back({m, {a, b}});
+  std::stable_sort(matches.begin(), matches.end(),
+                   [](const Match& p, const Match& q) { return p.distance < q.distance; });
   std::vector<SameWall> pairs;
   for (const Match& match : matches) {
     const auto taken = [&](const SameWall& p) { return p.known == match.pair.known || p.found == match.pair.found; };

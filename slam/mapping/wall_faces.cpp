@@ -18,7 +18,7 @@ Plane upright(const PlaneNode& wall) {
 
 /// True when `other` is the better known face of the wall that `wall` is a part of: a pane or a leaf set back in it, or
 /// the same face found twice.
-bool is_part_of(const PlaneNode& wall, const PlaneNode& other, const ReflectionConfig& config) {
+bool is_part_of(const PlaneNode& wall, const PlaneNode& other, const MirrorGhostConfig& config) {
   constexpr double parallel = 0.99;  // cosine: 8 degrees, as a pane of few points may be off
   if (std::tie(other.observations, wall.id) <= std::tie(wall.observations, other.id)) return false;
   const Eigen::Vector2d along = (other.p1 - other.p0).normalized();
@@ -28,9 +28,8 @@ bool is_part_of(const PlaneNode& wall, const PlaneNode& other, const ReflectionC
          std::abs(upright(other).distance({middle.x(), middle.y(), 0.0})) < config.pane_depth_m;
 }
 
-/// Walls are seen less far than to the corner they meet in, where they are mostly glass or something stands before
-/// them.
-void reach_corners(std::vector<WallFace>& faces, const ReflectionConfig& config) {
+/// Walls are not seen up to the corner where they join, where they are mostly glass or partly hidden.
+void reach_corners(std::vector<WallFace>& faces, const MirrorGhostConfig& config) {
   const std::vector<WallFace> seen = faces;
   for (std::size_t f = 0; f < seen.size(); ++f) {
     const WallFace& face = seen[f];
@@ -59,7 +58,7 @@ double diamond_angle(const Eigen::Vector2d& v) {
 
 }  // namespace
 
-std::vector<WallFace> wall_faces(std::span<const PlaneNode> walls, const ReflectionConfig& config) {
+std::vector<WallFace> wall_faces(std::span<const PlaneNode> walls, const MirrorGhostConfig& config) {
   std::vector<WallFace> faces;
   for (const PlaneNode& wall : walls) {
     const auto holds = [&](const PlaneNode& other) { return is_part_of(wall, other, config); };

@@ -13,7 +13,7 @@
 #include "slam/mapping/mirror_ghosts.h"
 #include "slam/scan/voxel.h"
 
-/// The faces of mapped walls, and which of them a point or a ray may meet.
+/// The faces of mapped walls, and which of them a point may lie on or a ray may hit.
 namespace plumbline::slam {
 
 /// A wall face: where it reaches, to its corners, and the stretch of it that was seen. It stands upright; the frame is
@@ -29,9 +29,9 @@ struct WallFace {
 };
 
 /// One face for each wall; walls that are part of a better known one are left out.
-[[nodiscard]] std::vector<WallFace> wall_faces(std::span<const PlaneNode> walls, const ReflectionConfig& config);
+[[nodiscard]] std::vector<WallFace> wall_faces(std::span<const PlaneNode> walls, const MirrorGhostConfig& config);
 
-/// Faces by the squares of a grid that they go through, so that a point asks those beside it only.
+/// Faces by the squares of a grid that they go through, so that a point is compared with those beside it only.
 class FacesNear {
  public:
   FacesNear(std::span<const WallFace> faces, double reach_m);
@@ -58,7 +58,7 @@ class FacesInView {
 
   FacesInView(std::span<const WallFace> faces, const Eigen::Vector3d& from_F);
 
-  /// By rising index, all faces that a ray to p meets between their ends, and some others.
+  /// By rising index, all faces that a ray to p hits between their ends, and some others.
   [[nodiscard]] std::span<const Face> towards(const Eigen::Vector3d& p_F) const;
 
  private:

@@ -4,8 +4,8 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "bim/geometry/interval.h"
 #include "slam/graph/factors.h"
 #include "slam/mapping/floor_layer.h"
 #include "slam/planes/forms.h"
@@ -24,25 +24,12 @@ PlaneKind kind_of(const PlaneObservation& seen) {
 /// Direction of a wall in plan: its horizontal tangent.
 Eigen::Vector2d along(const Plane& plane) { return Eigen::Vector2d(-plane.n.y(), plane.n.x()).normalized(); }
 
-struct Interval {
-  double low = std::numeric_limits<double>::infinity();
-  double high = -std::numeric_limits<double>::infinity();
-  void add(double v) {
-    low = std::min(low, v);
-    high = std::max(high, v);
-  }
-  [[nodiscard]] double length() const { return high - low; }
-};
-
 Interval interval(const Eigen::Vector2d& direction, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   Interval i;
   i.add(direction.dot(a));
   i.add(direction.dot(b));
   return i;
 }
-
-/// Positive: the gap between two intervals; negative: their overlap.
-double gap(const Interval& a, const Interval& b) { return std::max(a.low, b.low) - std::min(a.high, b.high); }
 
 Eigen::Vector2d middle(const PlaneNode& wall) { return 0.5 * (wall.p0 + wall.p1); }
 
@@ -65,7 +52,7 @@ double offset_between(const PlaneNode& a, const PlaneNode& b) {
 }
 
 /// Do two vertices overlap so much, on the same side and so near, that one would hide the other?
-bool one_face(const PlaneNode& a, const PlaneNode& b, const WallLayerConfig& config) {
+bool is_same_face(const PlaneNode& a, const PlaneNode& b, const WallLayerConfig& config) {
   return a.plane_F.n.dot(b.plane_F.n) >= std::cos(config.duplicate_angle_rad) &&
          overlap(a, b, config.duplicate_overlap) && std::abs(offset_between(a, b)) < config.duplicate_offset_m;
 }
@@ -84,7 +71,7 @@ double offset_variance(const PlaneObservation& seen, const Eigen::Vector3d& p_R)
 }
 
 /// Are two wall patches of one scan two faces? Compared where the shorter one is.
-bool are_apart(const PlaneObservation& a, const PlaneObservation& b, double chi2) {
+bool are_separate_faces(const PlaneObservation& a, const PlaneObservation& b, double chi2) {
   if (!a.vertical || !b.vertical) return false;
   const bool a_longer = (a.p1_R - a.p0_R).squaredNorm() >= (b.p1_R - b.p0_R).squaredNorm();
   const PlaneObservation &longer = a_longer ? a : b, &shorter = a_longer ? b : a;
@@ -116,13 +103,13 @@ std::vector<int> WallLayer::observe(Graph& graph, std::span<const PlaneObservati
     patches_.push_back({observation.p0_R, observation.p1_R, observation.z0, observation.z1});
   }
   for (const int id : ids) last_seen_m_[static_cast<std::size_t>(id)] = walked_m;
-  if (config_.association == Association::mahalanobis) note_apart(seen, ids);
+  if (config_.association == Association::mahalanobis) record_separations(seen, ids);
   return ids;
 }
 
 std::vector<int> WallLayer::match(const Graph& graph, std::span<const PlaneObservation> seen, double walked_m) const {
   struct Candidate {
-    double misfit = 0.0;
+    double normalized_mahalanobis2 = 0.0;
     std::size_t seen = 0;
     int plane = 0;
   };
@@ -134,55 +121,57 @@ std::vector<int> WallLayer::match(const Graph& graph, std::span<const PlaneObser
     for (const PlaneNode& node : known) {
       const PlaneVertex& plane = graph.planes[static_cast<std::size_t>(node.id)];
       if (plane.merged_into >= 0 || plane.kind != kind_of(seen[k]) || plane.storey != storey) continue;
-      const double misfit =
-          as_printed ? misfit_as_printed(graph, node, seen[k]) : this->misfit(graph, node, seen[k], walked_m);
-      if (misfit < 1.0) candidates.push_back({misfit, k, node.id});
+      const double normalized_mahalanobis2 = as_printed ? paper_normalized_distance2(graph, node, seen[k])
+                                                        : this->normalized_mahalanobis2(graph, node, seen[k], walked_m);
+      if (normalized_mahalanobis2 < 1.0) candidates.push_back({normalized_mahalanobis2, k, node.id});
     }
-  std::stable_sort(candidates.begin(), candidates.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.misfit < b.misfit; });
+  std::stable_sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
+    return a.normalized_mahalanobis2 < b.normalized_mahalanobis2;
+  });
   std::vector<int> ids(seen.size(), -1);
   for (const Candidate& c : candidates) {
     if (ids[c.seen] >= 0) continue;
     bool fits = true;
     for (std::size_t k = 0; k < seen.size() && fits && !as_printed; ++k)
-      fits = ids[k] != c.plane || !are_apart(seen[k], seen[c.seen], config_.apart_chi2);
+      fits = ids[k] != c.plane || !are_separate_faces(seen[k], seen[c.seen], config_.separate_faces_chi2);
     if (fits) ids[c.seen] = c.plane;
   }
   return ids;
 }
 
-void WallLayer::note_apart(std::span<const PlaneObservation> seen, std::span<const int> ids) {
+void WallLayer::record_separations(std::span<const PlaneObservation> seen, std::span<const int> ids) {
   for (std::size_t i = 0; i < seen.size(); ++i)
     for (std::size_t j = i + 1; j < seen.size(); ++j) {
       if (ids[i] == ids[j] || !seen[i].vertical || !seen[j].vertical) continue;
       if (seen[i].plane_R.n.dot(seen[j].plane_R.n) < same_side) continue;
       const double offset = std::abs(seen[i].plane_R.distance(seen[j].centroid_R));
       if (offset <= 2.0 * config_.duplicate_offset_m)
-        apart_[std::minmax(ids[i], ids[j])] += are_apart(seen[i], seen[j], config_.apart_chi2) ? 1 : -1;
+        separation_votes_[std::minmax(ids[i], ids[j])] +=
+            are_separate_faces(seen[i], seen[j], config_.separate_faces_chi2) ? 1 : -1;
       else if (offset <= config_.room_offset_m)
-        far_apart_.insert(std::minmax(ids[i], ids[j]));
+        far_separations_.insert(std::minmax(ids[i], ids[j]));
     }
 }
 
-bool WallLayer::known_apart(int a, int b) const {
-  const auto found = apart_.find(std::minmax(a, b));
-  return found != apart_.end() && found->second > 0;
+bool WallLayer::known_separate(int a, int b) const {
+  const auto found = separation_votes_.find(std::minmax(a, b));
+  return found != separation_votes_.end() && found->second > 0;
 }
 
-double WallLayer::misfit(const Graph& graph, const PlaneNode& known, const PlaneObservation& seen,
-                         double walked_m) const {
-  constexpr double another = 2.0;
+double WallLayer::normalized_mahalanobis2(const Graph& graph, const PlaneNode& known, const PlaneObservation& seen,
+                                          double walked_m) const {
+  constexpr double no_match = 2.0;
   const KeyframeVertex& keyframe = graph.keyframes.back();
   const PlaneVertex& plane = graph.planes[static_cast<std::size_t>(known.id)];
   const PlaneResidual r = plane_residual(keyframe.X_MR, plane.plane_M, seen.plane_R);
-  if ((keyframe.X_MR.q * seen.plane_R.n).dot(plane.plane_M.n) < same_side) return another;
+  if ((keyframe.X_MR.q * seen.plane_R.n).dot(plane.plane_M.n) < same_side) return no_match;
   if (plane.kind != PlaneKind::wall) {
     const bool near = std::abs(r.e.z()) < config_.floor_offset_m && r.e.head<2>().norm() < config_.floor_angle_rad;
-    return near ? 0.0 : another;
+    return near ? 0.0 : no_match;
   }
   const Eigen::Vector2d t = along(plane.plane_M);
   const Interval here = interval(t, (keyframe.X_MR * seen.p0_R).head<2>(), (keyframe.X_MR * seen.p1_R).head<2>());
-  if (gap(here, interval(t, known.p0, known.p1)) > config_.max_gap_m) return another;
+  if (gap(here, interval(t, known.p0, known.p1)) > config_.max_gap_m) return no_match;
   const double walked = walked_m - last_seen_m_[static_cast<std::size_t>(known.id)];
   const double sigma_m = config_.drift_m + config_.drift_per_m * walked;
   const double sigma_rad = config_.drift_rad + config_.drift_rad_per_m * walked;
@@ -192,30 +181,31 @@ double WallLayer::misfit(const Graph& graph, const PlaneNode& known, const Plane
   return r.e.dot(S.llt().solve(r.e)) / config_.gate_chi2;
 }
 
-// The papers call it a Mahalanobis distance; their code's covariance is the identity [facts: slam 2.3].
-double WallLayer::misfit_as_printed(const Graph& graph, const PlaneNode& known, const PlaneObservation& seen) const {
-  constexpr double another = 2.0;
+// The papers call it a Mahalanobis distance; their code's covariance is the identity [lsg2022].
+double WallLayer::paper_normalized_distance2(const Graph& graph, const PlaneNode& known,
+                                             const PlaneObservation& seen) const {
+  constexpr double no_match = 2.0;
   const KeyframeVertex& keyframe = graph.keyframes.back();
   const Plane& plane_M = graph.planes[static_cast<std::size_t>(known.id)].plane_M;
-  if (axis_of(keyframe.X_MR.q * seen.plane_R.n) != axis_of(plane_M.n)) return another;
+  if (axis_of(keyframe.X_MR.q * seen.plane_R.n) != axis_of(plane_M.n)) return no_match;
   const double gate = seen.points <= config_.angles_few ? config_.angles_gate_few : config_.angles_gate;
   const double e = angle_difference(keyframe.X_MR.inverse() * plane_M, seen.plane_R).norm();
   if (seen.vertical) {
     const Eigen::Vector2d t = along(plane_M);
     const Interval here = interval(t, (keyframe.X_MR * seen.p0_R).head<2>(), (keyframe.X_MR * seen.p1_R).head<2>());
-    if (gap(here, interval(t, known.p0, known.p1)) > config_.max_gap_m) return another;
+    if (gap(here, interval(t, known.p0, known.p1)) > config_.max_gap_m) return no_match;
   }
   return e * e / (gate * gate);
 }
 
-void WallLayer::settle(const Graph& graph, int first) {
-  settled_.resize(graph.planes.size());
-  for (; settled_factors_ < graph.plane_factors.size(); ++settled_factors_) {
-    const PlaneFactor& factor = graph.plane_factors[settled_factors_];
+void WallLayer::freeze_extents(const Graph& graph, int first) {
+  frozen_extents_.resize(graph.planes.size());
+  for (; frozen_factors_ < graph.plane_factors.size(); ++frozen_factors_) {
+    const PlaneFactor& factor = graph.plane_factors[frozen_factors_];
     if (factor.keyframe >= first) return;
     const Pose& X_MR = graph.keyframes[static_cast<std::size_t>(factor.keyframe)].X_MR;
-    const Patch& patch = patches_[settled_factors_];
-    Extent& known = settled_[static_cast<std::size_t>(factor.plane)];
+    const Patch& patch = patches_[frozen_factors_];
+    Extent& known = frozen_extents_[static_cast<std::size_t>(factor.plane)];
     const int seen = known.observations;
     const Eigen::Vector2d t = along(graph.planes[static_cast<std::size_t>(factor.plane)].plane_M);
     for (const Eigen::Vector3d& p_R : {patch.p0_R, patch.p1_R}) {
@@ -231,23 +221,23 @@ void WallLayer::settle(const Graph& graph, int first) {
   }
 }
 
-void WallLayer::unsettle() {
-  settled_.clear();
-  settled_factors_ = 0;
+void WallLayer::unfreeze_extents() {
+  frozen_extents_.clear();
+  frozen_factors_ = 0;
 }
 
 std::vector<PlaneNode> WallLayer::extents(const Graph& graph) const {
   std::vector<Interval> s(graph.planes.size()), z(graph.planes.size());
   std::vector<int> count(graph.planes.size(), 0);
-  for (std::size_t id = 0; id < settled_.size(); ++id) {
-    const Extent& known = settled_[id];
+  for (std::size_t id = 0; id < frozen_extents_.size(); ++id) {
+    const Extent& known = frozen_extents_[id];
     count[id] = known.observations;
     if (known.observations == 0) continue;
     const Eigen::Vector2d t = along(graph.planes[id].plane_M);
     s[id] = interval(t, known.low_M, known.high_M);
     z[id] = {known.z0, known.z1};
   }
-  for (std::size_t f = settled_factors_; f < graph.plane_factors.size(); ++f) {
+  for (std::size_t f = frozen_factors_; f < graph.plane_factors.size(); ++f) {
     const PlaneFactor& factor = graph.plane_factors[f];
     const auto id = static_cast<std::size_t>(factor.plane);
     const Pose& X_MR = graph.keyframes[static_cast<std::size_t>(factor.keyframe)].X_MR;
@@ -316,7 +306,7 @@ bool WallLayer::find_duplicates(Graph& graph, int storey) const {
   bool found = false;
   for (std::size_t i = 0; i < nodes.size(); ++i)
     for (std::size_t j = i + 1; j < nodes.size(); ++j)
-      if (one_face(nodes[i], nodes[j], config_) && !known_apart(nodes[i].id, nodes[j].id))
+      if (is_same_face(nodes[i], nodes[j], config_) && !known_separate(nodes[i].id, nodes[j].id))
         found |= add_duplicate(graph, nodes[i], nodes[j]);
   return found;
 }
@@ -333,19 +323,20 @@ bool WallLayer::add_duplicate(Graph& graph, const PlaneNode& a, const PlaneNode&
   return true;
 }
 
-double WallLayer::room_misfit(std::span<const PlaneNode> walls, int a, int b) const {
-  constexpr double another = 2.0;
+double WallLayer::room_normalized_mahalanobis2(std::span<const PlaneNode> walls, int a, int b) const {
+  constexpr double no_match = 2.0;
   const PlaneNode *const p = find(walls, a), *const q = find(walls, b);
-  if (p == nullptr || q == nullptr || known_apart(a, b) || far_apart_.contains(std::minmax(a, b))) return another;
-  if (p->plane_F.n.dot(q->plane_F.n) < same_side || !overlap(*p, *q, config_.duplicate_overlap)) return another;
+  if (p == nullptr || q == nullptr || known_separate(a, b) || far_separations_.contains(std::minmax(a, b)))
+    return no_match;
+  if (p->plane_F.n.dot(q->plane_F.n) < same_side || !overlap(*p, *q, config_.duplicate_overlap)) return no_match;
   const auto way = [](const std::vector<double>& seen_m, int id) { return seen_m[static_cast<std::size_t>(id)]; };
   const auto [earlier, later] = way(first_seen_m_, a) <= way(first_seen_m_, b) ? std::pair(a, b) : std::pair(b, a);
   const double walked = way(first_seen_m_, later) - way(last_seen_m_, earlier);
-  if (walked <= 0.0) return another;  // no drift between them: find_duplicates() has them where they are one
+  if (walked <= 0.0) return no_match;  // no drift between them: find_duplicates() has them where they are one
   const double sigma_m = config_.drift_m + config_.room_drift * config_.drift_per_m * walked;
   const double sigma_rad = config_.drift_rad + config_.room_drift * config_.drift_rad_per_m * walked;
   const double offset = offset_between(*p, *q);
-  if (std::abs(offset) > config_.room_offset_m) return another;
+  if (std::abs(offset) > config_.room_offset_m) return no_match;
   return (offset * offset / (sigma_m * sigma_m) +
           (p->plane_F.n - q->plane_F.n).squaredNorm() / (sigma_rad * sigma_rad)) /
          config_.gate_chi2;
@@ -375,18 +366,18 @@ int WallLayer::merge_duplicates(Graph& graph) {
     last_seen_m_[static_cast<std::size_t>(f.a)] =
         std::max(last_seen_m_[static_cast<std::size_t>(f.a)], last_seen_m_[static_cast<std::size_t>(f.b)]);
     // What stands apart from the one stands apart from both.
-    for (const auto& [pair, scans] : std::map(apart_))
+    for (const auto& [pair, scans] : std::map(separation_votes_))
       if (pair.first == f.b || pair.second == f.b)
-        apart_[std::minmax(f.a, pair.first == f.b ? pair.second : pair.first)] += scans;
-    for (const auto& pair : std::set(far_apart_))
+        separation_votes_[std::minmax(f.a, pair.first == f.b ? pair.second : pair.first)] += scans;
+    for (const auto& pair : std::set(far_separations_))
       if (pair.first == f.b || pair.second == f.b)
-        far_apart_.insert(std::minmax(f.a, pair.first == f.b ? pair.second : pair.first));
+        far_separations_.insert(std::minmax(f.a, pair.first == f.b ? pair.second : pair.first));
     for (PlaneFactor& factor : graph.plane_factors)
       if (factor.plane == f.b) factor.plane = f.a;
     ++merged;
   }
   graph.duplicate_factors = std::move(open);
-  if (merged > 0) unsettle();
+  if (merged > 0) unfreeze_extents();
   return merged;
 }
 

@@ -8,7 +8,7 @@ namespace plumbline::slam {
 
 namespace {
 
-/// Farther ahead a step's noise outgrows what it tells: scans after a gap are sought near where they ended.
+/// Farther ahead a step's noise dominates: after a gap the search starts near the last pose.
 constexpr double most_steps = 3.0;
 
 class ConstantVelocity final : public Method {

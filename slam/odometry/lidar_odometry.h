@@ -15,8 +15,11 @@
 
 namespace plumbline::slam {
 
-/// Which front end a method walks on. legs: dead reckoning alone.
+/// Which front end a method uses. legs: dead reckoning alone.
 enum class OdometryKind { vgicp, floam, aloam, legs };
+[[nodiscard]] constexpr std::array<std::string_view, 4> names_of(OdometryKind) {
+  return {"vgicp", "floam", "aloam", "legs"};
+}
 
 struct LidarOdometryConfig {
   OdometryKind kind = OdometryKind::vgicp;
@@ -24,24 +27,32 @@ struct LidarOdometryConfig {
   loam::FloamConfig floam;
   loam::AloamConfig aloam;
   HealthConfig health;
-  double legs_m = 0.02;    ///< standard deviation of a metre of dead reckoning, per root metre
-  double legs_rad = 0.01;  ///< and of its heading
+  double dead_reckoning_sigma_m = 0.02;
+  double dead_reckoning_sigma_rad = 0.01;
 
   template <class V>
   void visit(V& v) {
-    v("kind", kind, Field{.doc = "vgicp, floam, aloam or legs"});
+    v("kind", kind, Field{.doc = "front end; legs: dead reckoning by leg odometry", .basic = true});
     v("vgicp", vgicp);
-    v("floam", floam);
-    v("aloam", aloam);
+    v("floam", floam, Field{.advanced = true});
+    v("aloam", aloam, Field{.advanced = true});
     v("health", health);
-    v("legs_m", legs_m, Field{.doc = "of a metre of dead reckoning, m", .min = 1e-4});
-    v("legs_rad", legs_rad, Field{.doc = "of a metre of dead reckoning, rad", .min = 1e-5});
+    v("dead_reckoning_sigma_m", dead_reckoning_sigma_m,
+      Field{.doc = "standard deviation of dead reckoning's position, per root metre walked",
+            .unit = "m/√m",
+            .min = 1e-4,
+            .former = "legs_m"});
+    v("dead_reckoning_sigma_rad", dead_reckoning_sigma_rad,
+      Field{.doc = "standard deviation of dead reckoning's heading, per root metre walked",
+            .unit = "rad/√m",
+            .min = 1e-5,
+            .former = "legs_rad"});
   }
 };
 
 /// Scan by scan pose in M, which starts at the first pose: X_MR = identity. A scan that does not fit leaves the pose to
-/// dead reckoning, see Registration::believed. What odometry says of a time over which it was silent, or of a jump, is
-/// no step of the robot's: scans alone tell of it.
+/// dead reckoning, see Registration::accepted. Odometry's motion over a gap in its records, or over a jump, is
+/// discarded: scans alone measure it.
 class LidarOdometry {
  public:
   virtual ~LidarOdometry() = default;
@@ -50,19 +61,10 @@ class LidarOdometry {
 };
 
 /// Information of a step by dead reckoning over `way_m` walked, of the right increment: errors grow with its root.
-[[nodiscard]] Matrix6d reckoned_information(const LidarOdometryConfig& config, double way_m);
+[[nodiscard]] Matrix6d dead_reckoning_information(const LidarOdometryConfig& config, double way_m);
 /// Information of a step of which only the time is known: all that a robot can do in it.
 [[nodiscard]] Matrix6d unknown_information(const HealthConfig& limits, Nanoseconds dt);
 
 [[nodiscard]] std::unique_ptr<LidarOdometry> make_lidar_odometry(const LidarOdometryConfig& config);
 
 }  // namespace plumbline::slam
-
-namespace plumbline {
-
-template <>
-struct EnumNames<slam::OdometryKind> {
-  static constexpr std::array<std::string_view, 4> names = {"vgicp", "floam", "aloam", "legs"};
-};
-
-}  // namespace plumbline

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "bim/digest/digest.h"
 #include "bim/errors.h"
 #include "slam/plan_map/beam_blocks.h"
 #include "slam/plan_map/wall_blocks.h"
@@ -44,26 +45,27 @@ std::vector<Eigen::Vector2d> stratified_positions(const Polygon2& room, double s
 }
 
 /// Yaw at which an observed wall, drawn at random, is parallel to a line of the plan seen from there.
-double aligned_yaw(const StoreyIndex& storey, const Eigen::Vector2d& p, const View& view, double sigma,
+double aligned_yaw(const StoreyIndex& storey, const Eigen::Vector2d& p, const LocalizationScan& scan, double sigma,
                    const Stream& stream, std::uint64_t tick, std::uint32_t lane) {
   const int cell = storey.grid.cell_at(p);
   const double uniform = 2.0 * std::numbers::pi * stream.uniform(tick, lane, 3);
-  if (cell < 0 || view.walls.empty()) return uniform;
+  if (cell < 0 || scan.walls.empty()) return uniform;
   const std::vector<int>& lines = storey.visible[static_cast<std::size_t>(cell)];
   if (lines.empty()) return uniform;
   const auto pick = [&](std::size_t n, std::uint32_t draw) {
     return static_cast<std::size_t>(stream.uniform(tick, lane, draw) * static_cast<double>(n));
   };
-  const WallView& wall = view.walls[pick(view.walls.size(), 4)];
+  const WallObservation& wall = scan.walls[pick(scan.walls.size(), 4)];
   const WallLine& line = storey.lines[static_cast<std::size_t>(lines[pick(lines.size(), 5)])];
   return line.azimuth - wall.azimuth + sigma * stream.gauss(tick, lane, 6);
 }
 
-double draw_yaw(const StoreyIndex& storey, const Eigen::Vector2d& p, const StartBelief& belief, const View& view,
-                const FilterConfig& config, const Stream& stream, std::uint64_t tick, std::uint32_t lane) {
-  if (belief.yaw_I) return *belief.yaw_I + belief.yaw_sigma * stream.gauss(tick, lane, 2);
+double draw_yaw(const StoreyIndex& storey, const Eigen::Vector2d& p, const StartPrior& prior,
+                const LocalizationScan& scan, const FilterConfig& config, const Stream& stream, std::uint64_t tick,
+                std::uint32_t lane) {
+  if (prior.yaw_I) return *prior.yaw_I + prior.yaw_sigma * stream.gauss(tick, lane, 2);
   if (stream.uniform(tick, lane, 7) < config.aligned_share)
-    return aligned_yaw(storey, p, view, config.aligned_sigma, stream, tick, lane);
+    return aligned_yaw(storey, p, scan, config.aligned_sigma, stream, tick, lane);
   return 2.0 * std::numbers::pi * stream.uniform(tick, lane, 3);
 }
 
@@ -114,21 +116,21 @@ class TemperedSize {
 
 }  // namespace
 
-ParticleSet draw_start(const PlanIndex& index, const StartBelief& belief, const View& view, const FilterConfig& config,
-                       std::uint64_t seed, std::uint64_t tick) {
+ParticleSet sample_initial_particles(const PlanIndex& index, const StartPrior& prior, const LocalizationScan& scan,
+                                     const FilterConfig& config, std::uint64_t seed, std::uint64_t tick) {
   const Stream stream(seed, "slam.localize.init");
-  const double density = config.density_per_m2 * (belief.yaw_I ? 1.0 : config.unknown_yaw_factor);
+  const double density = config.density_per_m2 * (prior.yaw_I ? 1.0 : config.unknown_yaw_factor);
   const double wanted = std::min(density * index.free_area(), static_cast<double>(config.max_particles));
   const double spacing = std::sqrt(index.free_area() / wanted);
   ParticleSet particles;
   std::uint32_t lane = 0;
   for (std::size_t s = 0; s < index.storeys.size(); ++s) {
     const StoreyIndex& storey = index.storeys[s];
-    for (const IndexRoom& room : storey.rooms) {
+    for (const LocalRoom& room : storey.rooms) {
       std::uint32_t yaw_lane = lane;
       for (const Eigen::Vector2d& p :
            stratified_positions(room.polygon, spacing, config.wall_clearance_m, stream, tick, lane)) {
-        const double yaw = draw_yaw(storey, p, belief, view, config, stream, tick, yaw_lane++);
+        const double yaw = draw_yaw(storey, p, prior, scan, config, stream, tick, yaw_lane++);
         particles.push_back({{p, wrap_angle(yaw)}, static_cast<int>(s), 1.0, -1});
       }
     }
@@ -157,11 +159,11 @@ void propagate(ParticleSet& particles, const Pose2& u, const PlanIndex& index, c
   normalise(particles);
 }
 
-Reweighting reweight(ParticleSet& particles, const View& view, const PlanIndex& index,
+Reweighting reweight(ParticleSet& particles, const LocalizationScan& scan, const PlanIndex& index,
                      const LikelihoodConfig& likelihood, const FilterConfig& config) {
   std::vector<BeamBlocks> beams;
-  for (const StoreyIndex& storey : index.storeys) beams.emplace_back(storey, view, config.beam_stride, likelihood);
-  const WallBlocks walls(view, likelihood);
+  for (const StoreyIndex& storey : index.storeys) beams.emplace_back(storey, scan, config.beam_stride, likelihood);
+  const WallBlocks walls(scan, likelihood);
   constexpr double never = -1e300;
   std::vector<double> log_likelihood(particles.size(), never);
   double top = never;
@@ -169,9 +171,9 @@ Reweighting reweight(ParticleSet& particles, const View& view, const PlanIndex& 
     const LocalParticle& particle = particles[i];
     if (particle.weight <= 0.0) continue;
     const StoreyIndex& storey = index.storeys[static_cast<std::size_t>(particle.storey)];
-    const Stand stand(storey, particle.X_IH, view);
+    const SensorPose2 pose(storey, particle.X_IH, scan);
     log_likelihood[i] =
-        walls.log_likelihood(storey, stand) + beams[static_cast<std::size_t>(particle.storey)].log_likelihood(stand);
+        walls.log_likelihood(storey, pose) + beams[static_cast<std::size_t>(particle.storey)].log_likelihood(pose);
     top = std::max(top, log_likelihood[i]);
   }
   Reweighting result;
@@ -205,6 +207,12 @@ void normalise(ParticleSet& particles) {
   for (const LocalParticle& particle : particles) sum += particle.weight;
   const double equal = 1.0 / static_cast<double>(particles.size());
   for (LocalParticle& particle : particles) particle.weight = sum > 0.0 ? particle.weight / sum : equal;
+}
+
+std::uint64_t digest_of(const ParticleSet& particles) {
+  Digest digest;
+  for (const LocalParticle& p : particles) digest.add(p.X_IH.t).add(p.X_IH.yaw).add(p.weight).add(p.storey);
+  return digest.value();
 }
 
 }  // namespace plumbline::slam

@@ -10,20 +10,23 @@
 namespace plumbline::slam {
 
 struct PoseClusterConfig {
-  double bin_m = 0.5;       ///< [facts: 1.3]
-  int yaw_bins = 36;        ///< 10 degrees
-  double bin_share = 0.01;  ///< bins below this share of the heaviest one join nothing
-  double compact_m = 0.40;  ///< standard deviation per axis below which a cluster is one place
+  double bin_m = 0.5;
+  int yaw_bins = 36;
+  double bin_share = 0.01;
+  double compact_m = 0.40;
   double compact_rad = 0.20;
 
   template <class V>
   void visit(V& v) {
-    v("bin_m", bin_m, Field{.min = 0.05});
-    v("yaw_bins", yaw_bins, Field{.doc = "of a turn", .min = 4, .max = 3600});
+    // [amcl2026]
+    v("bin_m", bin_m, Field{.doc = "bin size of the histogram of positions", .min = 0.05});
+    v("yaw_bins", yaw_bins, Field{.doc = "yaw bins of a full turn", .min = 4, .max = 3600});
     v("bin_share", bin_share,
-      Field{.doc = "bins below this share of the heaviest one join nothing", .min = 0, .max = 1});
-    v("compact_m", compact_m, Field{.doc = "standard deviation per axis below which a cluster is one place", .min = 0});
-    v("compact_rad", compact_rad, Field{.min = 0});
+      share_field("mass, as a share of the heaviest bin's, below which a bin joins no cluster"));
+    v("compact_m", compact_m,
+      Field{.doc = "standard deviation of the position per axis below which a cluster is one pose", .min = 0});
+    v("compact_rad", compact_rad,
+      Field{.doc = "standard deviation of the yaw below which a cluster is one pose", .min = 0});
   }
 };
 
@@ -45,14 +48,14 @@ struct Clustering {
 /// Groups particles and writes each one's label (-1: in no group).
 [[nodiscard]] Clustering find_clusters(ParticleSet& particles, const PoseClusterConfig& config);
 
-/// Number of particles for k occupied bins [Fox 2001].
+/// Number of particles for k occupied bins [fox2001].
 [[nodiscard]] int kld_size(int occupied_bins, const FilterConfig& config);
 /// The same without bounds, for at least two bins: error is the Kullback-Leibler distance, quantile the normal's.
 [[nodiscard]] double kld_bound(int occupied_bins, double error, double quantile);
 
 /// Draws `count` particles by systematic resampling inside each cluster. A cluster gets its share of the count, but at
-/// least the quota, while its mass stays the same; so places that look alike live until something tells them apart.
-/// Then roughens by the cluster's own spread.
+/// least the quota, while its mass stays the same; so poses that look alike survive until an observation separates
+/// them. Then roughens by the cluster's own spread.
 [[nodiscard]] ParticleSet resample(const ParticleSet& particles, const Clustering& clustering, int count, int quota,
                                    const FilterConfig& config, std::uint64_t seed, std::uint64_t tick);
 

@@ -41,20 +41,21 @@ struct BeamBlocks::Hits {
   Float4 incidence;  ///< cosine, 1 where there is none
 };
 
-BeamBlocks::BeamBlocks(const StoreyIndex& storey, const View& view, int stride, const LikelihoodConfig& config)
+BeamBlocks::BeamBlocks(const StoreyIndex& storey, const LocalizationScan& scan, int stride,
+                       const LikelihoodConfig& config)
     : storey_(storey),
-      view_(view),
+      scan_(scan),
       stride_(stride),
       config_(config),
       least_incidence_(all(static_cast<float>(config.beam_min_incidence))),
       inverse_sigma_(all(static_cast<float>(1.0 / config.beam_sigma_m))),
-      long_cap_(all(static_cast<float>(config.beam_long_cap))),
-      short_cap_(all(static_cast<float>(config.beam_short_cap))) {
-  const double certain_long = certain(config.beam_long_cap, config),
-               certain_short = certain(config.beam_short_cap, config);
+      long_cap_(all(static_cast<float>(config.beam_max_nll_long))),
+      short_cap_(all(static_cast<float>(config.beam_max_nll_short))) {
+  const double certain_long = certain(config.beam_max_nll_long, config),
+               certain_short = certain(config.beam_max_nll_short, config);
   std::vector<std::pair<double, std::size_t>> order;
-  for (std::size_t i = 0; i < view.beams.size(); i += static_cast<std::size_t>(stride)) {
-    const Eigen::Vector2d& direction = view.beams[i].direction_H;
+  for (std::size_t i = 0; i < scan.beams.size(); i += static_cast<std::size_t>(stride)) {
+    const Eigen::Vector2d& direction = scan.beams[i].direction_H;
     order.emplace_back(in_sectors(std::atan2(direction.y(), direction.x())), i);
   }
   std::sort(order.begin(), order.end());
@@ -63,12 +64,12 @@ BeamBlocks::BeamBlocks(const StoreyIndex& storey, const View& view, int stride, 
     block.from = order[first].first;
     for (std::size_t k = 0; k < 4 && first + k < order.size(); ++k) {
       const auto [azimuth, i] = order[first + k];
-      const Beam& beam = view.beams[i];
+      const Beam& beam = scan.beams[i];
       block.x[k] = static_cast<float>(beam.direction_H.x());
       block.y[k] = static_cast<float>(beam.direction_H.y());
       block.range[k] = static_cast<float>(beam.range);
       block.reach[k] =
-          static_cast<float>(std::min(beam_reach(storey, beam, view.sensor_height), beam.range + certain_short));
+          static_cast<float>(std::min(beam_reach(storey, beam, scan.sensor_height), beam.range + certain_short));
       block.enough[k] = static_cast<float>(beam.range - certain_long);
       block.slope[k] = static_cast<float>(beam.slope);
       block.span = azimuth - block.from;
@@ -78,7 +79,7 @@ BeamBlocks::BeamBlocks(const StoreyIndex& storey, const View& view, int stride, 
   }
 }
 
-BeamBlocks::Hits BeamBlocks::meet(const Block& block, const Sensor& sensor) const {
+BeamBlocks::Hits BeamBlocks::cast(const Block& block, const Sensor& sensor) const {
   const Float4 x = sensor.c * block.x - sensor.s * block.y, y = sensor.s * block.x + sensor.c * block.y;
   Float4 distance = block.reach, incidence = all(1.0F);
   const auto first = static_cast<int>(sensor.yaw_sectors + block.from);
@@ -89,23 +90,23 @@ BeamBlocks::Hits BeamBlocks::meet(const Block& block, const Sensor& sensor) cons
   for (int sector = first; sector <= last; sector += FaceSectors::wide) {
     const FaceSectors::Entry* entry = storey_.sectors.list(sensor.cell, sector % FaceSectors::per_turn);
     for (; open(entry->from) != 0 && entry->segment >= 0; ++entry) {
-      const FaceSectors::Meeting met =
-          storey_.sectors.meet(storey_.sectors.face(entry->segment), px, py, sensor.z, x, y, block.slope, distance);
-      distance = choose(met.hit, met.t, distance);
-      incidence = choose(met.hit, met.across, incidence);
+      const FaceSectors::Intersection meeting = storey_.sectors.intersect(storey_.sectors.face(entry->segment), px, py,
+                                                                          sensor.z, x, y, block.slope, distance);
+      distance = choose(meeting.hit, meeting.t, distance);
+      incidence = choose(meeting.hit, meeting.across, incidence);
     }
     if (entry->segment < 0) far |= open(entry->from);
   }
   Hits hits{distance, incidence < 0.0F ? -incidence : incidence};
   for (std::size_t k = 0; far != 0 && k < 4; ++k)
     if ((far & (1 << k)) != 0 && distance[k] >= storey_.sectors.complete(sensor.cell, {x[k], y[k]}))
-      settle(block, sensor, k, hits);
+      cast_one(block, sensor, k, hits);
   return hits;
 }
 
-void BeamBlocks::settle(const Block& block, const Sensor& sensor, std::size_t k, Hits& hits) const {
+void BeamBlocks::cast_one(const Block& block, const Sensor& sensor, std::size_t k, Hits& hits) const {
   const Eigen::Matrix2d R_IH = (Eigen::Matrix2d() << sensor.c, -sensor.s, sensor.s, sensor.c).finished();
-  const PlanRay ray{sensor.p_I.cast<double>(), R_IH * view_.beams[block.beams[k]].direction_H, sensor.z,
+  const PlanRay ray{sensor.p_I.cast<double>(), R_IH * scan_.beams[block.beams[k]].direction_H, sensor.z,
                     block.slope[k]};
   const PlanHit hit = storey_.grid.cast(storey_.segments, ray, block.reach[k], sensor.cell);
   hits.distance[k] = static_cast<float>(hit.distance);
@@ -123,17 +124,16 @@ Float4 BeamBlocks::penalty(const Block& block, const Hits& hits) const {
   return choose(block.reach < 0.0F, all(0.0F), choose(squares < cap, squares, cap));
 }
 
-double BeamBlocks::log_likelihood(const Stand& stand) const {
-  if (stand.cell < 0 || storey_.sectors.empty())
-    return beam_log_likelihood(storey_, stand.X_IH, view_, stride_, config_);
-  const Sensor sensor{stand.sensor_I.cast<float>(),
-                      static_cast<float>(storey_.floor_z + view_.sensor_height),
-                      static_cast<float>(stand.R_IH(0, 0)),
-                      static_cast<float>(stand.R_IH(1, 0)),
-                      stand.cell,
-                      in_sectors(stand.X_IH.yaw)};
+double BeamBlocks::log_likelihood(const SensorPose2& pose) const {
+  if (pose.cell < 0 || storey_.sectors.empty()) return beam_log_likelihood(storey_, pose.X_IH, scan_, stride_, config_);
+  const Sensor sensor{pose.sensor_I.cast<float>(),
+                      static_cast<float>(storey_.floor_z + scan_.sensor_height),
+                      static_cast<float>(pose.R_IH(0, 0)),
+                      static_cast<float>(pose.R_IH(1, 0)),
+                      pose.cell,
+                      in_sectors(pose.X_IH.yaw)};
   Float4 sum = all(0.0F);
-  for (const Block& block : blocks_) sum += penalty(block, meet(block, sensor));
+  for (const Block& block : blocks_) sum += penalty(block, cast(block, sensor));
   const double total = static_cast<double>(sum[0]) + static_cast<double>(sum[1]) + static_cast<double>(sum[2]) +
                        static_cast<double>(sum[3]);
   return -config_.beam_weight * stride_ * total;

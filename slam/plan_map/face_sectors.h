@@ -9,14 +9,14 @@
 
 namespace plumbline::slam {
 
-/// What FirstFaces knows, for rays that are looked at several at a time: for each cell and each four sectors side by
-/// side, the faces that a ray may meet, nearest first.
+/// RayCandidateTable for packets of rays: for each cell and each four sectors side by side, the faces that a ray may
+/// hit, nearest first.
 class FaceSectors {
  public:
   static constexpr int per_turn = 24;
   static constexpr int wide = 4;
 
-  // Every number four times, ready to be met by four rays.
+  // Every number four times, for the intersection with four rays.
   /// A hole of a face, or the face itself: along it and in height, m.
   struct Window {
     Float4 s0, s1, z0, z1;
@@ -26,19 +26,20 @@ class FaceSectors {
     Window whole;
     int first_hole = 0, last_hole = 0;  ///< of all faces' holes
   };
-  /// As FirstFaces::Entry, but the last of a list has the least distance up to which one of its rays is complete.
-  using Entry = FirstFaces::Entry;
+  /// As RayCandidateTable::Entry, but the last of a list has the least distance up to which one of its rays is
+  /// complete.
+  using Entry = RayCandidateTable::Entry;
 
-  /// Where four rays meet a face.
-  struct Meeting {
+  /// Where four rays hit a face.
+  struct Intersection {
     Mask4 hit;      ///< outside of its holes, nearer than what is to be beaten
     Float4 t;       ///< distance of its plane, m
     Float4 across;  ///< cosine between ray and normal
   };
 
   FaceSectors() = default;
-  /// Empty where first_faces is.
-  FaceSectors(const std::vector<PlanSegment>& segments, const FirstFaces& first_faces, int cells);
+  /// Empty where ray_candidates is.
+  FaceSectors(const std::vector<PlanSegment>& segments, const RayCandidateTable& ray_candidates, int cells);
 
   [[nodiscard]] bool empty() const { return first_.empty(); }
   /// The list for directions from 2 pi sector / per_turn on, over `wide` sectors.
@@ -47,12 +48,13 @@ class FaceSectors {
   }
   /// Up to which distance the list is complete for rays of this direction.
   [[nodiscard]] float complete(int cell, const Eigen::Vector2d& direction) const {
-    return complete_[static_cast<std::size_t>(cell * FirstFaces::fans_per_turn + FirstFaces::fan_of(direction))];
+    return complete_[static_cast<std::size_t>(cell * RayCandidateTable::azimuth_bins_per_turn +
+                                              RayCandidateTable::azimuth_bin_of(direction))];
   }
   [[nodiscard]] const Face& face(int segment) const { return faces_[static_cast<std::size_t>(segment)]; }
   /// (x, y): unit directions; all start at (px, py), height z.
-  [[nodiscard]] Meeting meet(const Face& face, Float4 px, Float4 py, float z, Float4 x, Float4 y, Float4 slope,
-                             Float4 nearest) const {
+  [[nodiscard]] Intersection intersect(const Face& face, Float4 px, Float4 py, float z, Float4 x, Float4 y,
+                                       Float4 slope, Float4 nearest) const {
     const Float4 ax = face.ax - px, ay = face.ay - py;
     const Float4 across = face.nx * x + face.ny * y;
     const Float4 t = (face.nx * ax + face.ny * ay) / across;
@@ -72,7 +74,7 @@ class FaceSectors {
   std::vector<Window> holes_;
   std::vector<int> first_;  ///< by cell and sector: start of its list
   std::vector<Entry> entries_;
-  std::vector<float> complete_;  ///< by cell and fan of FirstFaces
+  std::vector<float> complete_;  ///< by cell and azimuth bin of RayCandidateTable
 };
 
 }  // namespace plumbline::slam

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <vector>
 
-namespace plumbline::slam {
+#include "bim/geometry/interval.h"
 
-using Interval = std::array<double, 2>;  ///< from, to
+namespace plumbline::slam {
 
 /// What the intervals leave of [low, high], ascending.
 [[nodiscard]] std::vector<Interval> rest_of(double low, double high, std::vector<Interval> taken);

@@ -40,10 +40,10 @@ double distance_to(const SlicePiece& piece, const Eigen::Vector2d& p) {
 }
 
 LikelihoodField::LikelihoodField(const StoreyIndex& storey, const LikelihoodFieldConfig& config)
-    : cell_(config.cell_m), max_distance_(config.max_distance_m) {
+    : max_distance_(config.max_distance_m) {
   const std::vector<SlicePiece> pieces = cut_plan(storey, config.slice_height_m);
   std::vector<Eigen::Vector2d> points;
-  for (const IndexRoom& room : storey.rooms) points.insert(points.end(), room.polygon.begin(), room.polygon.end());
+  for (const LocalRoom& room : storey.rooms) points.insert(points.end(), room.polygon.begin(), room.polygon.end());
   for (const SlicePiece& piece : pieces) points.insert(points.end(), {piece.a, piece.b});
   Eigen::Vector2d low = points.empty() ? Eigen::Vector2d::Zero() : points.front(), high = low;
   for (const Eigen::Vector2d& p : points) {
@@ -51,11 +51,11 @@ LikelihoodField::LikelihoodField(const StoreyIndex& storey, const LikelihoodFiel
     high = high.cwiseMax(p);
   }
   const Eigen::Vector2d size = (high - low).array() + 2.0 * max_distance_;
-  while (std::ceil(size.x() / cell_) * std::ceil(size.y() / cell_) > config.max_cells) cell_ *= 2.0;
-  origin_ = low.array() - max_distance_;
-  nx_ = static_cast<int>(std::ceil(size.x() / cell_));
-  ny_ = static_cast<int>(std::ceil(size.y() / cell_));
-  distance_.assign(static_cast<std::size_t>(nx_) * static_cast<std::size_t>(ny_), static_cast<float>(max_distance_));
+  double cell = config.cell_m;
+  while (std::ceil(size.x() / cell) * std::ceil(size.y() / cell) > config.max_cells) cell *= 2.0;
+  frame_ = {low.array() - max_distance_, cell, static_cast<int>(std::ceil(size.x() / cell)),
+            static_cast<int>(std::ceil(size.y() / cell))};
+  distance_.assign(frame_.size(), static_cast<float>(max_distance_));
   for (const SlicePiece& piece : pieces) add(piece);
   find_free_cells(storey);
 }
@@ -63,26 +63,21 @@ LikelihoodField::LikelihoodField(const StoreyIndex& storey, const LikelihoodFiel
 void LikelihoodField::add(const SlicePiece& piece) {
   const Eigen::Vector2d low = piece.a.cwiseMin(piece.b).array() - max_distance_;
   const Eigen::Vector2d high = piece.a.cwiseMax(piece.b).array() + max_distance_;
-  const auto cell_of = [&](double value, double origin, int count) {
-    return std::clamp(static_cast<int>(std::floor((value - origin) / cell_)), 0, count - 1);
-  };
-  const int x0 = cell_of(low.x(), origin_.x(), nx_), x1 = cell_of(high.x(), origin_.x(), nx_);
-  const int y0 = cell_of(low.y(), origin_.y(), ny_), y1 = cell_of(high.y(), origin_.y(), ny_);
-  for (int y = y0; y <= y1; ++y) {
-    float* row = distance_.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(nx_);
+  const auto inside = [](int cell, int count) { return std::clamp(cell, 0, count - 1); };
+  const int x0 = inside(frame_.column(low.x()), frame_.nx), x1 = inside(frame_.column(high.x()), frame_.nx);
+  const int y0 = inside(frame_.row(low.y()), frame_.ny), y1 = inside(frame_.row(high.y()), frame_.ny);
+  for (int y = y0; y <= y1; ++y)
     for (int x = x0; x <= x1; ++x) {
-      const Eigen::Vector2d p = origin_ + cell_ * Eigen::Vector2d(x + 0.5, y + 0.5);
-      row[x] = std::min(row[x], static_cast<float>(distance_to(piece, p)));
+      float& nearest = distance_[frame_.index(x, y)];
+      nearest = std::min(nearest, static_cast<float>(distance_to(piece, frame_.center(x, y))));
     }
-  }
 }
 
 void LikelihoodField::find_free_cells(const StoreyIndex& storey) {
-  for (int y = 0; y < ny_; ++y)
-    for (int x = 0; x < nx_; ++x) {
-      const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(nx_) + static_cast<std::size_t>(x);
-      if (distance_[i] < 0.75 * cell_) continue;  // half of a cell's diagonal, and a little
-      const Eigen::Vector2d p = origin_ + cell_ * Eigen::Vector2d(x + 0.5, y + 0.5);
+  for (int y = 0; y < frame_.ny; ++y)
+    for (int x = 0; x < frame_.nx; ++x) {
+      if (distance_[frame_.index(x, y)] < 0.75 * frame_.cell) continue;  // half of a cell's diagonal, and a little
+      const Eigen::Vector2d p = frame_.center(x, y);
       if (storey.room_at(p) >= 0) free_cells_.push_back(p.cast<float>());
     }
 }

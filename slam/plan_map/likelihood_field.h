@@ -2,9 +2,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "bim/config/visit.h"
+#include "bim/geometry/grid_frame.h"
 #include "slam/plan_map/plan_index.h"
 
 namespace plumbline::slam {
@@ -12,15 +14,19 @@ namespace plumbline::slam {
 struct LikelihoodFieldConfig {
   double cell_m = 0.05;
   double max_distance_m = 2.0;
-  double slice_height_m = 0.7;  ///< above the floor: below sills, or a pane would be no wall
-  int max_cells = 16'000'000;   ///< 64 MB
+  double slice_height_m = 0.7;
+  int max_cells = 16'000'000;
 
   template <class V>
   void visit(V& v) {
-    v("cell_m", cell_m, Field{.doc = "of the grid; doubled until it fits max_cells", .min = 0.01, .max = 1});
-    v("max_distance_m", max_distance_m, Field{.doc = "to the nearest wall; greater ones count as this", .min = 0.05});
-    v("slice_height_m", slice_height_m, Field{.doc = "above the floor, at which the plan is cut"});
-    v("max_cells", max_cells, Field{.doc = "of a storey", .min = 1000, .max = 1e9});
+    v("cell_m", cell_m,
+      Field{.doc = "cell size of the grid; it doubles until max_cells suffices", .min = 0.01, .max = 1});
+    v("max_distance_m", max_distance_m,
+      Field{.doc = "largest distance to the nearest wall; greater ones count as this", .min = 0.05});
+    // Below sills, or a pane would be no wall.
+    v("slice_height_m", slice_height_m,
+      Field{.doc = "height above the floor at which the plan is cut", .min = -10, .max = 100});
+    v("max_cells", max_cells, Field{.doc = "most cells of a storey", .min = 1000, .max = 1e9});
   }
 };
 
@@ -41,17 +47,11 @@ class LikelihoodField {
 
   /// Distance at the middle of the cell that holds p, m, at most the maximum; the maximum off the map.
   [[nodiscard]] double at(const Eigen::Vector2d& p) const {
-    const double x = (p.x() - origin_.x()) / cell_, y = (p.y() - origin_.y()) / cell_;
-    if (!(x >= 0.0 && y >= 0.0 && x < nx_ && y < ny_)) return max_distance_;
-    return distance_[static_cast<std::size_t>(y) * static_cast<std::size_t>(nx_) + static_cast<std::size_t>(x)];
+    const std::optional<std::size_t> cell = frame_.find(p);
+    return cell ? distance_[*cell] : max_distance_;
   }
-  [[nodiscard]] double cell_m() const { return cell_; }
-  [[nodiscard]] int nx() const { return nx_; }
-  [[nodiscard]] int ny() const { return ny_; }
-  /// Middle of a cell in I.
-  [[nodiscard]] Eigen::Vector2d center(int x, int y) const {
-    return origin_ + cell_ * Eigen::Vector2d(x + 0.5, y + 0.5);
-  }
+  /// The grid in I.
+  [[nodiscard]] const GridFrame& frame() const { return frame_; }
   /// Middles of the cells inside rooms that no wall passes through: where a robot may be.
   [[nodiscard]] const std::vector<Eigen::Vector2f>& free_cells() const { return free_cells_; }
 
@@ -59,9 +59,8 @@ class LikelihoodField {
   void add(const SlicePiece& piece);
   void find_free_cells(const StoreyIndex& storey);
 
-  double cell_ = 0.05, max_distance_ = 2.0;
-  Eigen::Vector2d origin_ = Eigen::Vector2d::Zero();
-  int nx_ = 0, ny_ = 0;
+  GridFrame frame_;
+  double max_distance_ = 2.0;
   std::vector<float> distance_;
   std::vector<Eigen::Vector2f> free_cells_;
 };

@@ -23,19 +23,20 @@ std::optional<double> height_over_floor(const std::vector<PlaneObservation>& pla
   return height;
 }
 
-std::optional<Beam> beam_to(const Eigen::Vector3d& p_R, const View& view, const Eigen::Vector3d& sensor_R,
-                            const ViewConfig& config) {
-  const Eigen::Vector3d ray_H = view.q_HR * (p_R - sensor_R);
+std::optional<Beam> beam_to(const Eigen::Vector3d& p_R, const LocalizationScan& out, const Eigen::Vector3d& sensor_R,
+                            const LocalizationScanConfig& config) {
+  const Eigen::Vector3d ray_H = out.q_HR * (p_R - sensor_R);
   const double range = ray_H.head<2>().norm();
-  const double height = view.sensor_height + ray_H.z();
+  const double height = out.sensor_height + ray_H.z();
   if (range < config.min_range_m || range > config.max_range_m) return std::nullopt;
   if (height < config.min_height_m || height > config.max_height_m) return std::nullopt;
   return Beam{ray_H.head<2>() / range, range, ray_H.z() / range};
 }
 
 /// One beam per step of the turn; the ring changes from step to step so that sills, heads of doors and low furniture
-/// are all met. The nearest ring with a usable return is taken.
-std::vector<Beam> pick_beams(const DeskewedScan& scan, const View& view, const ViewConfig& config) {
+/// are all hit. The nearest ring with a usable return is taken.
+std::vector<Beam> pick_beams(const DeskewedScan& scan, const LocalizationScan& out,
+                             const LocalizationScanConfig& config) {
   std::vector<Beam> beams;
   if (scan.columns == 0) return beams;
   for (int k = 0; k < config.beams; ++k) {
@@ -46,7 +47,7 @@ std::vector<Beam> pick_beams(const DeskewedScan& scan, const View& view, const V
       if (ring < 0 || ring >= scan.rings) continue;
       const auto i = static_cast<std::size_t>(column * scan.rings + ring);
       if (scan.range_m[i] <= 0.0) continue;
-      const std::optional<Beam> beam = beam_to(scan.point_R[i], view, scan.X_RL.t, config);
+      const std::optional<Beam> beam = beam_to(scan.point_R[i], out, scan.X_RL.t, config);
       if (!beam) continue;
       beams.push_back(*beam);
       break;
@@ -55,18 +56,18 @@ std::vector<Beam> pick_beams(const DeskewedScan& scan, const View& view, const V
   return beams;
 }
 
-Sweep sweep_of(const DeskewedScan& scan, const View& view, const ViewConfig& config) {
+BeamGrid make_beam_grid(const DeskewedScan& scan, const LocalizationScan& out, const LocalizationScanConfig& config) {
   constexpr int wide = 4;
-  Sweep sweep{std::min(config.sweep_columns, scan.columns), {}};
-  const int rings = std::min(config.sweep_rings, scan.rings);
+  BeamGrid grid{std::min(config.grid_columns, scan.columns), {}};
+  const int rings = std::min(config.grid_rings, scan.rings);
   for (int first = 0; first < rings; first += wide)
-    for (int c = 0; c < sweep.columns; ++c) {
-      const int column = static_cast<int>(static_cast<long>(c) * scan.columns / sweep.columns);
-      SweepBlock& block = sweep.blocks.emplace_back();
+    for (int c = 0; c < grid.columns; ++c) {
+      const int column = static_cast<int>(static_cast<long>(c) * scan.columns / grid.columns);
+      BeamGridBlock& block = grid.blocks.emplace_back();
       for (int r = first; r < std::min(first + wide, rings); ++r) {
         const auto i = static_cast<std::size_t>(column * scan.rings + r * scan.rings / rings);
         if (scan.range_m[i] <= 0.0) continue;
-        const std::optional<Beam> beam = beam_to(scan.point_R[i], view, scan.X_RL.t, config);
+        const std::optional<Beam> beam = beam_to(scan.point_R[i], out, scan.X_RL.t, config);
         if (!beam) continue;
         const auto k = static_cast<std::size_t>(r - first);
         block.x[k] = static_cast<float>(beam->direction_H.x());
@@ -75,22 +76,22 @@ Sweep sweep_of(const DeskewedScan& scan, const View& view, const ViewConfig& con
         block.slope[k] = static_cast<float>(beam->slope);
       }
     }
-  return sweep;
+  return grid;
 }
 
-std::optional<WallView> wall_view(const PlaneObservation& plane, const View& view, const Eigen::Vector3d& sensor_R,
-                                  const ViewConfig& config) {
+std::optional<WallObservation> wall_observation(const PlaneObservation& plane, const LocalizationScan& out,
+                                                const Eigen::Vector3d& sensor_R, const LocalizationScanConfig& config) {
   if (!plane.vertical) return std::nullopt;
-  const Eigen::Vector3d n_H = view.q_HR * plane.plane_R.n;
+  const Eigen::Vector3d n_H = out.q_HR * plane.plane_R.n;
   const double level = n_H.head<2>().norm();
   const Eigen::Vector2d along(n_H.y() / level, -n_H.x() / level);
   const auto coordinate = [&](const Eigen::Vector3d& p_R) {
-    return along.dot((view.q_HR * (p_R - sensor_R)).head<2>());
+    return along.dot((out.q_HR * (p_R - sensor_R)).head<2>());
   };
-  const double top = view.sensor_height + plane.z1 - sensor_R.z();
+  const double top = out.sensor_height + plane.z1 - sensor_R.z();
   const double a = coordinate(plane.p0_R), b = coordinate(plane.p1_R);
   if (std::abs(a - b) < config.min_wall_length_m || top < config.min_wall_top_m) return std::nullopt;
-  WallView wall;
+  WallObservation wall;
   wall.azimuth = std::atan2(n_H.y(), n_H.x());
   wall.distance = plane.plane_R.distance(sensor_R) / level;
   wall.s0 = std::min(a, b);
@@ -102,25 +103,26 @@ std::optional<WallView> wall_view(const PlaneObservation& plane, const View& vie
 
 }  // namespace
 
-View make_view(const DeskewedScan& scan, const std::vector<PlaneObservation>& planes, const Pose& X_OR,
-               const Calibration& calibration, const ViewConfig& config) {
-  View view;
-  view.stamp = scan.stamp;
-  view.X_OR = X_OR;
-  view.q_HR = exp_so3({0.0, 0.0, -X_OR.yaw()}) * X_OR.q;
-  const Eigen::Vector3d sensor_H = view.q_HR * scan.X_RL.t;
-  view.sensor_H = sensor_H.head<2>();
-  const std::optional<double> height_R = height_over_floor(planes, view.q_HR, config.floor_max_tilt_rad);
-  view.sensor_height = height_R ? *height_R + sensor_H.z() : calibration.sensor_height_m;
-  view.beams = pick_beams(scan, view, config);
-  view.sweep = sweep_of(scan, view, config);
-  for (std::size_t i = 0; i < planes.size() && view.walls.size() < max_walls; ++i) {
-    std::optional<WallView> wall = wall_view(planes[i], view, scan.X_RL.t, config);
+LocalizationScan make_localization_scan(const DeskewedScan& scan, const std::vector<PlaneObservation>& planes,
+                                        const Pose& X_OR, const Calibration& calibration,
+                                        const LocalizationScanConfig& config) {
+  LocalizationScan out;
+  out.stamp = scan.stamp;
+  out.X_OR = X_OR;
+  out.q_HR = exp_so3({0.0, 0.0, -X_OR.yaw()}) * X_OR.q;
+  const Eigen::Vector3d sensor_H = out.q_HR * scan.X_RL.t;
+  out.sensor_H = sensor_H.head<2>();
+  const std::optional<double> height_R = height_over_floor(planes, out.q_HR, config.floor_max_tilt_rad);
+  out.sensor_height = height_R ? *height_R + sensor_H.z() : calibration.sensor_height_m;
+  out.beams = pick_beams(scan, out, config);
+  out.beam_grid = make_beam_grid(scan, out, config);
+  for (std::size_t i = 0; i < planes.size() && out.walls.size() < max_walls; ++i) {
+    std::optional<WallObservation> wall = wall_observation(planes[i], out, scan.X_RL.t, config);
     if (!wall) continue;
     wall->observation = static_cast<int>(i);
-    view.walls.push_back(*wall);
+    out.walls.push_back(*wall);
   }
-  return view;
+  return out;
 }
 
 }  // namespace plumbline::slam

@@ -12,33 +12,42 @@
 
 namespace plumbline::slam {
 
-struct ViewConfig {
-  int beams = 180;            ///< spread over the turn; the particles use a fixed stride of them
-  int sweep_columns = 900;    ///< of the sweep by which places are held against each other
-  int sweep_rings = 8;        ///< at most
-  double min_height_m = 0.3;  ///< above the floor: lower returns are floor or feet
-  double max_height_m = 2.5;  ///< above the floor: higher returns are ceiling
-  double min_range_m = 0.5;   ///< the robot's own body
+struct LocalizationScanConfig {
+  int beams = 180;
+  int grid_columns = 900;
+  int grid_rings = 8;
+  double min_height_m = 0.3;
+  double max_height_m = 2.5;
+  double min_range_m = 0.5;
   double max_range_m = 25.0;
-  double min_wall_length_m = 0.6;  ///< shorter patches are furniture as often as walls
-  double min_wall_top_m = 0.8;     ///< patches that end below this height are furniture
+  double min_wall_length_m = 0.6;
+  double min_wall_top_m = 0.8;
   double floor_max_tilt_rad = 0.1;
 
   template <class V>
   void visit(V& v) {
     v("beams", beams,
-      Field{.doc = "spread over the turn; the particles use a fixed stride of them", .min = 8, .max = 10000});
-    v("sweep_columns", sweep_columns,
-      Field{.doc = "of the sweep by which places are held against each other", .min = 8, .max = 2000});
-    v("sweep_rings", sweep_rings, Field{.doc = "at most", .min = 1, .max = 128});
-    v("min_height_m", min_height_m, Field{.doc = "above the floor: lower returns are floor or feet", .min = 0});
-    v("max_height_m", max_height_m, Field{.doc = "above the floor: higher returns are ceiling", .min = 0});
-    v("min_range_m", min_range_m, Field{.doc = "the robot's own body", .min = 0});
-    v("max_range_m", max_range_m, Field{.min = 0});
+      Field{.doc = "beams spread over a full turn; particles use every beam_stride-th", .min = 8, .max = 10000});
+    v("grid_columns", grid_columns,
+      Field{.doc = "columns of the beam grid by which hypotheses are compared",
+            .min = 8,
+            .max = 2000,
+            .former = "sweep_columns"});
+    v("grid_rings", grid_rings,
+      Field{.doc = "most rings of the beam grid", .min = 1, .max = 128, .former = "sweep_rings"});
+    v("min_height_m", min_height_m,
+      Field{.doc = "least height of a return above the floor; lower ones are floor or feet", .min = 0});
+    v("max_height_m", max_height_m,
+      Field{.doc = "largest height of a return above the floor; higher ones are ceiling", .min = 0});
+    v("min_range_m", min_range_m,
+      Field{.doc = "least range of a return that is used; nearer is the robot's own body", .min = 0});
+    v("max_range_m", max_range_m, Field{.doc = "largest range of a return that is used", .min = 0});
     v("min_wall_length_m", min_wall_length_m,
-      Field{.doc = "shorter patches are furniture as often as walls", .min = 0});
-    v("min_wall_top_m", min_wall_top_m, Field{.doc = "patches that end below this height are furniture", .min = 0});
-    v("floor_max_tilt_rad", floor_max_tilt_rad, Field{.min = 0});
+      Field{.doc = "least length of a wall patch; shorter ones are often furniture", .min = 0});
+    v("min_wall_top_m", min_wall_top_m,
+      Field{.doc = "least height of a wall patch's top above the floor; lower ones are furniture", .min = 0});
+    v("floor_max_tilt_rad", floor_max_tilt_rad,
+      Field{.doc = "largest tilt of a plane that is taken for the floor", .min = 0});
   }
 };
 
@@ -50,20 +59,20 @@ struct Beam {
 };
 
 /// Returns of four rings at one step of the turn; seen like a Beam.
-struct SweepBlock {
+struct BeamGridBlock {
   Float4 x = all(1.0F), y = all(0.0F);  ///< unit directions in H
   Float4 range = all(0.0F);             ///< horizontal, m; 0: no return
   Float4 slope = all(0.0F);             ///< rise per horizontal metre
 };
 
 /// Returns spread evenly over turn and rings.
-struct Sweep {
+struct BeamGrid {
   int columns = 0;
-  std::vector<SweepBlock> blocks;  ///< four rings after four rings, in each by the turn
+  std::vector<BeamGridBlock> blocks;  ///< four rings after four rings, in each by the turn
 };
 
-/// A wall patch seen from the sensor, in H [BIM-Loc eq. 3, as (n, d) with n towards the sensor].
-struct WallView {
+/// A wall patch seen from the sensor, in H [shaheer2023, eq. 3, as (n, d) with n towards the sensor].
+struct WallObservation {
   double azimuth = 0.0;         ///< of the normal, rad
   double distance = 0.0;        ///< of the sensor from the plane, m
   double s0 = 0.0, s1 = 0.0;    ///< ends along the wall from the sensor's foot point, free space on the left
@@ -72,25 +81,27 @@ struct WallView {
   int observation = -1;         ///< index into the observations it was made of
 };
 
-/// Most walls a view holds, so that the inner loops need no memory of their own.
+/// Most walls of a scan, so that the inner loops need no memory of their own.
 inline constexpr std::size_t max_walls = 32;
 
-/// What one scan says to the localization. The plan is met in the sensor's heading frame, not in W: a residual in W
-/// would grow with the distance from W's origin.
-struct View {
+/// One scan as the localization uses it. It is compared with the plan in the sensor's heading frame, not in W: a
+/// residual in W would grow with the distance from W's origin.
+struct LocalizationScan {
   Nanoseconds stamp = 0;
   Pose X_OR;
   Eigen::Quaterniond q_HR;                             ///< roll and pitch, from gravity
   Eigen::Vector2d sensor_H = Eigen::Vector2d::Zero();  ///< position of L
   double sensor_height = 0.0;                          ///< of L above the floor, m
-  std::vector<Beam> beams;                             ///< by azimuth of the sweep
-  Sweep sweep;
-  std::vector<WallView> walls;  ///< in the order of the observations (largest first), at most max_walls
+  std::vector<Beam> beams;                             ///< by azimuth of the scan
+  BeamGrid beam_grid;
+  std::vector<WallObservation> walls;  ///< in the order of the observations (largest first), at most max_walls
 };
 
 /// Gravity comes from the odometry's attitude, the height from the floor plane where one is seen, else from the
 /// calibration.
-[[nodiscard]] View make_view(const DeskewedScan& scan, const std::vector<PlaneObservation>& planes, const Pose& X_OR,
-                             const Calibration& calibration, const ViewConfig& config);
+[[nodiscard]] LocalizationScan make_localization_scan(const DeskewedScan& scan,
+                                                      const std::vector<PlaneObservation>& planes, const Pose& X_OR,
+                                                      const Calibration& calibration,
+                                                      const LocalizationScanConfig& config);
 
 }  // namespace plumbline::slam

@@ -41,10 +41,10 @@ Pose plan_fixed_frame(const bim::Plan& plan_W) {
 std::vector<int> storeys_in_use(const bim::Plan& plan, const std::optional<std::string>& name) {
   std::vector<int> storeys;
   for (int i = 0; i < static_cast<int>(plan.storeys.size()); ++i) {
-    const bool told = !name || plan.storeys[static_cast<std::size_t>(i)].name == *name;
+    const bool in_use = !name || plan.storeys[static_cast<std::size_t>(i)].name == *name;
     const bool has_room =
         std::any_of(plan.rooms.begin(), plan.rooms.end(), [&](const bim::PlanRoom& room) { return room.storey == i; });
-    if (told && has_room) storeys.push_back(i);
+    if (in_use && has_room) storeys.push_back(i);
   }
   if (storeys.empty())
     throw InputError({}, name ? "storey '" + *name + "' is not in the plan or has no rooms to start in"
@@ -74,7 +74,7 @@ PlanSegment segment_in_I(const bim::PlanFace& face, int index, const Pose2& X_IW
   return segment;
 }
 
-/// Numbers of the walls and solids of a plan, in the order asked for.
+/// Numbers of the walls and solids of a plan, in the order of the calls.
 class Elements {
  public:
   [[nodiscard]] int of_wall(const bim::PlanFace& face) {
@@ -126,7 +126,7 @@ std::vector<PlanSegment> storey_segments(const bim::Plan& plan, const Pose& X_WI
   return segments;
 }
 
-/// Lines of which a ray from p meets the front.
+/// Lines whose front a ray from p hits.
 void add_visible(const StoreyIndex& storey, const PlanIndexConfig& config, const Eigen::Vector2d& p,
                  std::vector<bool>& seen) {
   const int cell = storey.grid.cell_at(p);
@@ -155,11 +155,11 @@ std::vector<std::vector<int>> visible_lines(const StoreyIndex& storey, const Pla
   return visible;
 }
 
-/// Leaves out what no robot in any room sees; a stray element would make the grids as large as its way off.
-void drop_out_of_sight(std::vector<PlanSegment>& segments, const std::vector<IndexRoom>& rooms) {
+/// Leaves out what no robot in any room sees; a stray element would make the grids as large as its distance.
+void drop_out_of_sight(std::vector<PlanSegment>& segments, const std::vector<LocalRoom>& rooms) {
   constexpr double sight_m = 100.0;  // range of a VLP-16
   Eigen::AlignedBox2d box;
-  for (const IndexRoom& room : rooms)
+  for (const LocalRoom& room : rooms)
     for (const Eigen::Vector2d& p : room.polygon) box.extend(p);
   if (box.isEmpty()) return;
   std::erase_if(segments, [&](const PlanSegment& s) {
@@ -177,7 +177,7 @@ StoreyIndex make_storey(const bim::Plan& plan_W, int plan_storey, const Pose& X_
   const Pose2 X_IW = heading(X_WI).inverse();
   for (std::size_t i = 0; i < plan_W.rooms.size(); ++i) {
     if (plan_W.rooms[i].storey != plan_storey) continue;
-    IndexRoom room{static_cast<int>(i), plan_W.rooms[i].name, {}};
+    LocalRoom room{static_cast<int>(i), plan_W.rooms[i].name, {}};
     for (const Eigen::Vector2d& p_W : plan_W.rooms[i].polygon) room.polygon.push_back(snap(X_IW * p_W));
     storey.rooms.push_back(std::move(room));
   }
@@ -185,7 +185,7 @@ StoreyIndex make_storey(const bim::Plan& plan_W, int plan_storey, const Pose& X_
   drop_out_of_sight(storey.segments, storey.rooms);
   storey.lines = merge_wall_lines(storey.segments, storey.floor_z + config.wall_band_m, config);
   storey.grid = SegmentGrid(storey.segments, config.cell_m);
-  storey.sectors = FaceSectors(storey.segments, storey.grid.first_faces(), storey.grid.cells());
+  storey.sectors = FaceSectors(storey.segments, storey.grid.ray_candidates(), storey.grid.cells());
   storey.visible = visible_lines(storey, config);
   return storey;
 }
@@ -201,7 +201,7 @@ int StoreyIndex::room_at(const Eigen::Vector2d& p) const {
 double PlanIndex::free_area() const {
   double area = 0.0;
   for (const StoreyIndex& storey : storeys)
-    for (const IndexRoom& room : storey.rooms) area += std::abs(signed_area(room.polygon));
+    for (const LocalRoom& room : storey.rooms) area += std::abs(signed_area(room.polygon));
   return area;
 }
 

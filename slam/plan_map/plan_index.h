@@ -15,32 +15,33 @@
 namespace plumbline::slam {
 
 struct PlanIndexConfig {
-  double cell_m = 0.5;               ///< of the look-up grid
-  double line_gap_m = 1.5;           ///< coplanar faces closer than this make one line; a door is about 1 m wide
-  double line_offset_m = 0.02;       ///< faces of one line lie this close to one plane
-  double line_angle_rad = 0.01;      ///< and this close in direction
-  double wall_band_m = 1.0;          ///< height above the floor at which a face counts as wall
-  int visibility_rays = 72;          ///< rays per sample point of a cell when listing the lines seen from it
-  double visibility_range_m = 25.0;  ///< 100 m in theory, but a VLP-16 wall patch beyond this has too few rings
-  double body_height_m = 0.4;        ///< of the robot's trunk: what it must pass through a door with
+  double cell_m = 0.5;
+  double line_gap_m = 1.5;
+  double line_offset_m = 0.02;
+  double line_angle_rad = 0.01;
+  double wall_band_m = 1.0;
+  int visibility_rays = 72;
+  double visibility_range_m = 25.0;
+  double body_height_m = 0.4;
 
   template <class V>
   void visit(V& v) {
-    v("cell_m", cell_m, Field{.doc = "of the look-up grid", .min = 0.05});
-    v("line_gap_m", line_gap_m, Field{.doc = "coplanar faces closer than this make one line", .min = 0});
-    v("line_offset_m", line_offset_m, Field{.doc = "faces of one line lie this close to one plane", .min = 0});
-    v("line_angle_rad", line_angle_rad, Field{.doc = "and this close in direction", .min = 0});
+    v("cell_m", cell_m, Field{.doc = "cell size of the look-up grid", .min = 0.05});
+    v("line_gap_m", line_gap_m,
+      Field{.doc = "largest gap between coplanar faces of one line; a door is about 1 m wide", .min = 0});
+    v("line_offset_m", line_offset_m, Field{.doc = "largest offset between faces of one line", .min = 0});
+    v("line_angle_rad", line_angle_rad, Field{.doc = "largest angle between faces of one line", .min = 0});
     v("wall_band_m", wall_band_m, Field{.doc = "height above the floor at which a face counts as wall", .min = 0});
     v("visibility_rays", visibility_rays,
-      Field{.doc = "rays per sample point of a cell when listing the lines seen from it", .min = 8, .max = 10000});
-    v("visibility_range_m", visibility_range_m,
-      Field{.doc = "100 m in theory, but a VLP-16 wall patch beyond this has too few rings", .min = 0});
+      Field{.doc = "rays from each sample point of a cell that list the lines seen from it", .min = 8, .max = 10000});
+    // A wall patch of a VLP-16 farther away has too few rings.
+    v("visibility_range_m", visibility_range_m, Field{.doc = "largest range of these rays", .min = 0});
     v("body_height_m", body_height_m,
-      Field{.doc = "of the robot's trunk: what it must pass through a door with", .min = 0});
+      Field{.doc = "height of the robot's trunk, which must fit through doors", .min = 0});
   }
 };
 
-/// Coplanar faces of one storey seen as one plane [BIM-Loc eq. 1-2]; frame I.
+/// Coplanar faces of one storey seen as one plane [shaheer2023, eq. 1-2]; frame I.
 struct WallLine {
   Eigen::Vector2d a = Eigen::Vector2d::Zero();  ///< start; the line runs along e, free space on its left
   Eigen::Vector2d e = Eigen::Vector2d::UnitX();
@@ -50,7 +51,7 @@ struct WallLine {
   double azimuth = 0.0;  ///< of n, rad
 };
 
-struct IndexRoom {
+struct LocalRoom {
   int plan_room = -1;  ///< index into Plan::rooms
   std::string name;
   Polygon2 polygon;
@@ -63,7 +64,7 @@ struct StoreyIndex {
   double ceiling_z = 3.0;
   std::vector<PlanSegment> segments;  ///< wall faces, in an order that depends on geometry alone
   std::vector<WallLine> lines;
-  std::vector<IndexRoom> rooms;
+  std::vector<LocalRoom> rooms;
   SegmentGrid grid;                       ///< over segments
   FaceSectors sectors;                    ///< by cell of the grid
   std::vector<std::vector<int>> visible;  ///< per cell of the grid: lines seen from it, ascending
@@ -84,7 +85,7 @@ struct PlanIndex {
   [[nodiscard]] double free_area() const;
 };
 
-/// Tables of the told storey, or of all storeys that have rooms. Throws InputError when the storey is not in the plan
+/// Tables of the given storey, or of all storeys that have rooms. Throws InputError when the storey is not in the plan
 /// or no room is.
 [[nodiscard]] PlanIndex make_plan_index(const bim::Plan& plan_W, const std::optional<std::string>& storey,
                                         const PlanIndexConfig& config);

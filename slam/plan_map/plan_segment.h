@@ -36,7 +36,7 @@ struct PlanHit {
   int segment = -1;       ///< -1: nothing
 };
 
-/// Horizontal distance at which a ray meets the plane of a face, infinity where it does not.
+/// Horizontal distance at which a ray hits the plane of a face, infinity where it does not.
 [[nodiscard]] inline double plane_distance(const PlanSegment& segment, const PlanRay& ray) {
   // Rays starting on a face (a robot never does, a reflection of rounding may) do not hit that face.
   constexpr double min_distance_m = 1e-9, infinity = std::numeric_limits<double>::infinity();

@@ -6,18 +6,20 @@
 #include <cmath>
 #include <limits>
 
+#include "bim/geometry/interval.h"
+
 namespace plumbline::slam {
 
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-// Bounds give way by this, so that no rounding loses a face.
+// Bounds are relaxed by this, so that no rounding loses a face.
 constexpr double slack = 1e-6;
-constexpr double far_m = 40.0;  // beyond what a beam of the views looks at
+constexpr double far_m = 40.0;  // beyond the range of a beam of a scan
 // A list stops growing here; it is then complete up to the face that came last.
 constexpr std::size_t longest_list = 20;
 constexpr int block_cells = 8;
-// Lower faces are looked over: they end no list.
+// Rays may pass over lower faces: they end no list.
 constexpr double high_wall_m = 2.0;
 
 Eigen::Vector2d direction_at(double pseudo) {
@@ -41,10 +43,6 @@ Corners corners_of(const Eigen::Vector2d& center, double size) {
 }
 
 /// Pseudo-angles of the rays from a cell to a face; low is at least -4, high less than low + 2.
-struct Interval {
-  double low = 0.0, high = 0.0;
-};
-
 Interval directions_to(const PlanSegment& segment, const Corners& corners) {
   const Eigen::Vector2d b = segment.a + segment.length * segment.e;
   const double reference = pseudo_angle(segment.a - corners[0]);
@@ -59,10 +57,10 @@ Interval directions_to(const PlanSegment& segment, const Corners& corners) {
   return {reference + low - slack, reference + high + slack};
 }
 
-/// What rays of one fan from one cell find of a face.
+/// What rays of one azimuth bin from one cell hit of a face.
 struct Reach {
-  double from = 0.0;     ///< none meets its plane before
-  double by = infinity;  ///< all have met it by then, where it is high and closed there
+  double from = 0.0;     ///< none hits its plane before
+  double by = infinity;  ///< all have hit it by then, where it is high and closed there
 };
 
 Reach reach_of(const PlanSegment& segment, const Corners& corners, const Eigen::Vector2d& left,
@@ -101,23 +99,17 @@ Reach reach_of(const PlanSegment& segment, const Corners& corners, const Eigen::
 
 }  // namespace
 
-int CellFrame::at(const Eigen::Vector2d& p) const {
-  const double x = (p.x() - origin.x()) / cell, y = (p.y() - origin.y()) / cell;
-  return x >= 0.0 && y >= 0.0 && x < nx && y < ny ? static_cast<int>(y) * nx + static_cast<int>(x) : -1;
-}
-
 /// The list of one cell and range of directions in the making.
-struct FirstFaces::Fan {
+struct RayCandidateTable::Bin {
   std::vector<Entry> entries;
   double complete = far_m;
 };
 
-FirstFaces::FirstFaces(const std::vector<PlanSegment>& segments, const CellFrame& frame) {
-  const auto cells = static_cast<std::size_t>(frame.nx) * static_cast<std::size_t>(frame.ny);
-  if (cells > most_cells) return;
-  first_.resize(cells * fans_per_turn);
+RayCandidateTable::RayCandidateTable(const std::vector<PlanSegment>& segments, const GridFrame& frame) {
+  if (frame.size() > most_cells) return;
+  first_.resize(frame.size() * azimuth_bins_per_turn);
   std::vector<Entry> by_distance(segments.size());
-  std::vector<Fan> fans;
+  std::vector<Bin> bins;
   const double block = block_cells * frame.cell;
   for (int y = 0; y < frame.ny; y += block_cells)
     for (int x = 0; x < frame.nx; x += block_cells) {
@@ -131,26 +123,26 @@ FirstFaces::FirstFaces(const std::vector<PlanSegment>& segments, const CellFrame
       for (int v = y; v < std::min(y + block_cells, frame.ny); ++v)
         for (int u = x; u < std::min(x + block_cells, frame.nx); ++u) {
           const int cell = v * frame.nx + u;
-          fill_cell(segments, frame.center(cell), frame.cell, by_distance, fans);
-          for (int k = 0; k < fans_per_turn; ++k) {
-            const std::vector<Entry>& list = fans[static_cast<std::size_t>(k)].entries;
-            first_[static_cast<std::size_t>(cell * fans_per_turn + k)] = static_cast<int>(entries_.size());
+          fill_cell(segments, frame.center(u, v), frame.cell, by_distance, bins);
+          for (int k = 0; k < azimuth_bins_per_turn; ++k) {
+            const std::vector<Entry>& list = bins[static_cast<std::size_t>(k)].entries;
+            first_[static_cast<std::size_t>(cell * azimuth_bins_per_turn + k)] = static_cast<int>(entries_.size());
             entries_.insert(entries_.end(), list.begin(), list.end());
           }
         }
     }
 }
 
-double FirstFaces::clearance(int cell) const {
+double RayCandidateTable::clearance(int cell) const {
   if (first_.empty()) return 0.0;
   float least = std::numeric_limits<float>::infinity();
-  for (int fan = 0; fan < fans_per_turn; ++fan) least = std::min(least, list(cell, fan)->from);
+  for (int bin = 0; bin < azimuth_bins_per_turn; ++bin) least = std::min(least, list(cell, bin)->from);
   return static_cast<double>(least);
 }
 
-void FirstFaces::fill_cell(const std::vector<PlanSegment>& segments, const Eigen::Vector2d& center, double cell,
-                           const std::vector<Entry>& by_distance, std::vector<Fan>& fans) {
-  fans.assign(fans_per_turn, {});
+void RayCandidateTable::fill_cell(const std::vector<PlanSegment>& segments, const Eigen::Vector2d& center, double cell,
+                                  const std::vector<Entry>& by_distance, std::vector<Bin>& bins) {
+  bins.assign(azimuth_bins_per_turn, {});
   const Corners corners = corners_of(center, cell);
   double open_to = far_m;
   for (const Entry& next : by_distance) {
@@ -158,27 +150,27 @@ void FirstFaces::fill_cell(const std::vector<PlanSegment>& segments, const Eigen
     const PlanSegment& segment = segments[static_cast<std::size_t>(next.segment)];
     const double least = distance_to(segment, center) - 0.71 * cell - 10.0 * slack;
     const Interval range = least <= 0.0 ? Interval{0.0, 4.0 - slack} : directions_to(segment, corners);
-    const int last = static_cast<int>(std::floor(range.high * fans_per_quadrant));
-    for (int i = static_cast<int>(std::floor(range.low * fans_per_quadrant)); i <= last; ++i) {
-      const int k = (i + fans_per_turn) % fans_per_turn;
-      Fan& fan = fans[static_cast<std::size_t>(k)];
-      if (least > fan.complete || next.from > fan.complete) continue;
-      const Reach reach = reach_of(segment, corners, direction_at((k - slack) / fans_per_quadrant),
-                                   direction_at((k + 1 + slack) / fans_per_quadrant));
+    const int last = static_cast<int>(std::floor(range.high * azimuth_bins_per_quadrant));
+    for (int i = static_cast<int>(std::floor(range.low * azimuth_bins_per_quadrant)); i <= last; ++i) {
+      const int k = (i + azimuth_bins_per_turn) % azimuth_bins_per_turn;
+      Bin& bin = bins[static_cast<std::size_t>(k)];
+      if (least > bin.complete || next.from > bin.complete) continue;
+      const Reach reach = reach_of(segment, corners, direction_at((k - slack) / azimuth_bins_per_quadrant),
+                                   direction_at((k + 1 + slack) / azimuth_bins_per_quadrant));
       const double from = std::max({0.0, least, reach.from * (1.0 - slack) - slack});
-      if (from > fan.complete) continue;
-      fan.entries.push_back({next.segment, static_cast<float>(from - 10.0 * slack)});
-      fan.complete = std::min(fan.complete, reach.by);
-      if (fan.entries.size() >= longest_list) fan.complete = std::min(fan.complete, static_cast<double>(next.from));
+      if (from > bin.complete) continue;
+      bin.entries.push_back({next.segment, static_cast<float>(from - 10.0 * slack)});
+      bin.complete = std::min(bin.complete, reach.by);
+      if (bin.entries.size() >= longest_list) bin.complete = std::min(bin.complete, static_cast<double>(next.from));
     }
     open_to = 0.0;
-    for (const Fan& fan : fans) open_to = std::max(open_to, fan.complete);
+    for (const Bin& bin : bins) open_to = std::max(open_to, bin.complete);
   }
-  for (Fan& fan : fans) {
-    std::erase_if(fan.entries, [&](const Entry& entry) { return entry.from > fan.complete; });
-    std::stable_sort(fan.entries.begin(), fan.entries.end(),
+  for (Bin& bin : bins) {
+    std::erase_if(bin.entries, [&](const Entry& entry) { return entry.from > bin.complete; });
+    std::stable_sort(bin.entries.begin(), bin.entries.end(),
                      [](const Entry& a, const Entry& b) { return a.from < b.from; });
-    fan.entries.push_back({-1, static_cast<float>(fan.complete - 10.0 * slack)});
+    bin.entries.push_back({-1, static_cast<float>(bin.complete - 10.0 * slack)});
   }
 }
 

@@ -52,11 +52,11 @@ SegmentGrid::SegmentGrid(const std::vector<PlanSegment>& segments, double cell_m
   }
   if (segments.empty()) low = high = Eigen::Vector2d::Zero();
   const auto across = [&](int axis) { return std::ceil((high[axis] - low[axis]) / cell_m) + 2.0; };
-  while (across(0) * across(1) > static_cast<double>(FirstFaces::most_cells)) cell_m *= 2.0;
+  while (across(0) * across(1) > static_cast<double>(RayCandidateTable::most_cells)) cell_m *= 2.0;
   frame_ = {low.array() - cell_m, cell_m, static_cast<int>(across(0)), static_cast<int>(across(1))};
   fill(segments);
-  near_ = FirstFaces(segments, frame_);
-  for (int cell = 0; cell < cells(); ++cell) clearance_.push_back(near_.clearance(cell));
+  ray_candidates_ = RayCandidateTable(segments, frame_);
+  for (int cell = 0; cell < cells(); ++cell) clearance_.push_back(ray_candidates_.clearance(cell));
 }
 
 void SegmentGrid::fill(const std::vector<PlanSegment>& segments) {
@@ -97,7 +97,8 @@ PlanHit SegmentGrid::search(const std::vector<PlanSegment>& segments, const Plan
 bool SegmentGrid::crosses_opening(const std::vector<PlanSegment>& segments, const PlanRay& ray, double from, double to,
                                   int cell) const {
   if (cell >= 0)
-    if (const std::optional<bool> crosses = near_.crosses_opening(segments, cell, ray, from, to)) return *crosses;
+    if (const std::optional<bool> crosses = ray_candidates_.crosses_opening(segments, cell, ray, from, to))
+      return *crosses;
   const PlanRay rest{ray.origin + from * ray.direction, ray.direction, ray.z + from * ray.slope, ray.slope};
   bool found = false;
   march(

@@ -14,7 +14,8 @@ namespace plumbline::slam {
 class SegmentGrid {
  public:
   SegmentGrid() = default;
-  /// Covers all segments with a margin of one cell. Cells are doubled until they are no more than FirstFaces takes.
+  /// Covers all segments with a margin of one cell. Cells are doubled until they are no more than RayCandidateTable
+  /// takes.
   SegmentGrid(const std::vector<PlanSegment>& segments, double cell_m);
 
   /// First face hit outside its holes; of faces at equal distance the lowest index.
@@ -25,7 +26,7 @@ class SegmentGrid {
   [[nodiscard]] PlanHit cast(const std::vector<PlanSegment>& segments, const PlanRay& ray, double max_distance,
                              int cell) const {
     PlanHit best{max_distance, -1};
-    return cell >= 0 && near_.cast(segments, cell, ray, best) ? best : search(segments, ray, max_distance);
+    return cell >= 0 && ray_candidates_.cast(segments, cell, ray, best) ? best : search(segments, ray, max_distance);
   }
   /// Whether the ray passes through a hole of a face between two horizontal distances.
   [[nodiscard]] bool crosses_opening(const std::vector<PlanSegment>& segments, const PlanRay& ray, double from,
@@ -35,12 +36,15 @@ class SegmentGrid {
   [[nodiscard]] bool crosses_opening(const std::vector<PlanSegment>& segments, const PlanRay& ray, double from,
                                      double to, int cell) const;
   /// Index of the cell with p, or -1 outside of the grid.
-  [[nodiscard]] int cell_at(const Eigen::Vector2d& p) const { return frame_.at(p); }
-  /// Distance that no ray from a cell meets a face before.
+  [[nodiscard]] int cell_at(const Eigen::Vector2d& p) const {
+    const std::optional<std::size_t> cell = frame_.find(p);
+    return cell ? static_cast<int>(*cell) : -1;
+  }
+  /// Distance before which no ray from a cell hits a face.
   [[nodiscard]] double clearance(int cell) const { return clearance_[static_cast<std::size_t>(cell)]; }
-  [[nodiscard]] int cells() const { return frame_.cells(); }
-  [[nodiscard]] Eigen::Vector2d cell_center(int cell) const { return frame_.center(cell); }
-  [[nodiscard]] const FirstFaces& first_faces() const { return near_; }
+  [[nodiscard]] int cells() const { return static_cast<int>(frame_.size()); }
+  [[nodiscard]] Eigen::Vector2d cell_center(int cell) const { return frame_.center(static_cast<std::size_t>(cell)); }
+  [[nodiscard]] const RayCandidateTable& ray_candidates() const { return ray_candidates_; }
   [[nodiscard]] double cell_size() const { return frame_.cell; }
 
  private:
@@ -51,10 +55,10 @@ class SegmentGrid {
   [[nodiscard]] PlanHit search(const std::vector<PlanSegment>& segments, const PlanRay& ray, double max_distance) const;
   void fill(const std::vector<PlanSegment>& segments);
 
-  CellFrame frame_;
+  GridFrame frame_;
   std::vector<int> first_;  ///< per cell: start of its list in items_
   std::vector<int> items_;
-  FirstFaces near_;
+  RayCandidateTable ray_candidates_;
   std::vector<double> clearance_;  ///< per cell
 };
 

@@ -17,15 +17,15 @@ struct Line4 {
 
 }  // namespace
 
-WallBlocks::WallBlocks(const View& view, const LikelihoodConfig& config) : config_(config) {
+WallBlocks::WallBlocks(const LocalizationScan& scan, const LikelihoodConfig& config) : config_(config) {
   const double outlier = config.plane_outlier / (4.0 * config.azimuth_gate * config.distance_gate_m);
   const Block nothing{all(0.0F), all(0.0F), all(0.0F), all(0.0F), all(0.0F),
                       all(0.0F), all(0.0F), all(0.0F), all(1.0F)};
-  for (std::size_t i = 0; i < view.walls.size(); ++i) {
+  for (std::size_t i = 0; i < scan.walls.size(); ++i) {
     const std::size_t k = i % 4;
     if (k == 0) blocks_.push_back(nothing);
     Block& block = blocks_.back();
-    const WallView& wall = view.walls[i];
+    const WallObservation& wall = scan.walls[i];
     const WallInformation v = information(wall, config);
     const auto set = [k](Float4& lane, double value) { lane[k] = static_cast<float>(value); };
     set(block.azimuth, wall.azimuth);
@@ -40,19 +40,19 @@ WallBlocks::WallBlocks(const View& view, const LikelihoodConfig& config) : confi
   }
 }
 
-double WallBlocks::log_likelihood(const StoreyIndex& storey, const Stand& stand) const {
+double WallBlocks::log_likelihood(const StoreyIndex& storey, const SensorPose2& pose) const {
   constexpr float infinity = std::numeric_limits<float>::infinity(), turn = static_cast<float>(2.0 * std::numbers::pi);
   std::array<Float4, max_walls / 4> best;
   best.fill(all(infinity));
   const Float4 gate = all(static_cast<float>(config_.azimuth_gate)),
                margin = all(static_cast<float>(config_.overlap_margin_m));
-  if (stand.cell >= 0)
-    for (const int i : storey.visible[static_cast<std::size_t>(stand.cell)]) {
+  if (pose.cell >= 0)
+    for (const int i : storey.visible[static_cast<std::size_t>(pose.cell)]) {
       const WallLine& line = storey.lines[static_cast<std::size_t>(i)];
-      const double distance = line.n.dot(stand.sensor_I) + line.d;
+      const double distance = line.n.dot(pose.sensor_I) + line.d;
       if (distance <= 0.0) continue;
       const auto f = [](double value) { return all(static_cast<float>(value)); };
-      const Line4 expected{f(line.azimuth - stand.X_IH.yaw), f(distance), f(line.e.dot(stand.sensor_I - line.a)),
+      const Line4 expected{f(line.azimuth - pose.X_IH.yaw), f(distance), f(line.e.dot(pose.sensor_I - line.a)),
                            f(line.length + config_.overlap_margin_m)};
       for (std::size_t k = 0; k < blocks_.size(); ++k) {
         const Block& block = blocks_[k];

@@ -17,40 +17,40 @@ bool coplanar(const PlanSegment& a, const PlanSegment& b, const PlanIndexConfig&
 
 bool at_height(const PlanSegment& segment, double z) { return segment.z0 < z && segment.z1 > z; }
 
-struct Interval {
+/// Where a face stands along a line.
+struct FaceSpan {
   double s0, s1;
   std::size_t segment;
 };
 
-/// Unassigned faces coplanar with `first`, as intervals along it, by start.
-std::vector<Interval> coplanar_intervals(const std::vector<PlanSegment>& segments, std::size_t first, double band_z,
-                                         const PlanIndexConfig& config) {
+/// Unassigned faces coplanar with `first`, as spans along it, by start.
+std::vector<FaceSpan> coplanar_spans(const std::vector<PlanSegment>& segments, std::size_t first, double band_z,
+                                     const PlanIndexConfig& config) {
   const PlanSegment& base = segments[first];
-  std::vector<Interval> intervals;
+  std::vector<FaceSpan> spans;
   for (std::size_t i = first; i < segments.size(); ++i) {
     if (segments[i].plan_face < 0 || segments[i].line >= 0 || !at_height(segments[i], band_z)) continue;
     if (!coplanar(base, segments[i], config)) continue;
     const double s0 = (segments[i].a - base.a).dot(base.e);
-    intervals.push_back({s0, s0 + segments[i].length, i});
+    spans.push_back({s0, s0 + segments[i].length, i});
   }
-  std::stable_sort(intervals.begin(), intervals.end(),
-                   [](const Interval& a, const Interval& b) { return a.s0 < b.s0; });
-  return intervals;
+  std::stable_sort(spans.begin(), spans.end(), [](const FaceSpan& a, const FaceSpan& b) { return a.s0 < b.s0; });
+  return spans;
 }
 
-/// The run of intervals without a wide gap that holds segment `first`.
-std::vector<Interval> run_with(const std::vector<Interval>& intervals, std::size_t first, double gap) {
-  std::vector<Interval> run;
+/// The run of spans without a wide gap that holds segment `first`.
+std::vector<FaceSpan> run_with(const std::vector<FaceSpan>& spans, std::size_t first, double gap) {
+  std::vector<FaceSpan> run;
   double end = 0.0;
   bool found = false;
-  for (const Interval& interval : intervals) {
-    if (!run.empty() && interval.s0 > end + gap) {
+  for (const FaceSpan& span : spans) {
+    if (!run.empty() && span.s0 > end + gap) {
       if (found) break;
       run.clear();
     }
-    end = run.empty() ? interval.s1 : std::max(end, interval.s1);
-    run.push_back(interval);
-    found = found || interval.segment == first;
+    end = run.empty() ? span.s1 : std::max(end, span.s1);
+    run.push_back(span);
+    found = found || span.segment == first;
   }
   return run;
 }
@@ -62,12 +62,12 @@ std::vector<WallLine> merge_wall_lines(std::vector<PlanSegment>& segments, doubl
   std::vector<WallLine> lines;
   for (std::size_t i = 0; i < segments.size(); ++i) {
     if (segments[i].plan_face < 0 || segments[i].line >= 0 || !at_height(segments[i], band_z)) continue;
-    const std::vector<Interval> run = run_with(coplanar_intervals(segments, i, band_z, config), i, config.line_gap_m);
+    const std::vector<FaceSpan> run = run_with(coplanar_spans(segments, i, band_z, config), i, config.line_gap_m);
     double s0 = 0.0, s1 = segments[i].length;
-    for (const Interval& interval : run) {
-      s0 = std::min(s0, interval.s0);
-      s1 = std::max(s1, interval.s1);
-      segments[interval.segment].line = static_cast<int>(lines.size());
+    for (const FaceSpan& span : run) {
+      s0 = std::min(s0, span.s0);
+      s1 = std::max(s1, span.s1);
+      segments[span.segment].line = static_cast<int>(lines.size());
     }
     WallLine line;
     line.e = segments[i].e;

@@ -5,7 +5,7 @@
 
 namespace plumbline::slam {
 
-Pose Trail::correction_at(Nanoseconds stamp, const Pose& X_OR) const {
+Pose CorrectedTrajectory::correction_at(Nanoseconds stamp, const Pose& X_OR) const {
   const auto after = std::lower_bound(corrections_.begin(), corrections_.end(), stamp,
                                       [](const StampedPose& c, Nanoseconds t) { return c.stamp < t; });
   if (after == corrections_.end()) return corrections_.back().X_FR;
@@ -18,7 +18,7 @@ Pose Trail::correction_at(Nanoseconds stamp, const Pose& X_OR) const {
   return interpolate(X_FO_before * X_OR, X_FO_after * X_OR, s) * X_OR.inverse();
 }
 
-std::vector<StampedPose> Trail::poses(const Pose& X_WI) const {
+std::vector<StampedPose> CorrectedTrajectory::poses(const Pose& X_WI) const {
   std::vector<StampedPose> poses;
   if (corrections_.empty()) return poses;
   for (const StampedPose& scan : scans_)

@@ -3,7 +3,7 @@
 
 namespace plumbline::slam {
 
-/// rad/s by which the yaw told at the start, carried along by odometry, grows stale [facts: legged 10].
-inline constexpr double told_yaw_drift = 0.001;
+/// rad/s by which the uncertainty of the prior yaw, propagated by odometry, grows, docs/methods/robot.md.
+inline constexpr double prior_yaw_drift = 0.001;
 
 }  // namespace plumbline::slam

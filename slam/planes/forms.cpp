@@ -3,8 +3,6 @@
 
 #include <cmath>
 
-#include "bim/errors.h"
-
 namespace plumbline::slam {
 
 namespace {
@@ -15,20 +13,7 @@ double azimuth_of(const Eigen::Vector3d& n) { return n.head<2>().isZero(0.0) ? 0
 
 }  // namespace
 
-Eigen::Vector3d closest_point(const Plane& plane) { return -plane.d * plane.n; }
-
-Plane from_closest_point(const Eigen::Vector3d& foot) {
-  const double distance = foot.norm();
-  if (distance == 0.0) throw InternalError("the closest point of a plane through the origin does not give its normal");
-  return {-foot / distance, distance};
-}
-
 AnglePlane to_angles(const Plane& plane) { return {azimuth_of(plane.n), elevation_of(plane.n), plane.d}; }
-
-Plane from_angles(const AnglePlane& plane) {
-  const double level = std::cos(plane.elevation);
-  return {{level * std::cos(plane.azimuth), level * std::sin(plane.azimuth), std::sin(plane.elevation)}, plane.d};
-}
 
 Eigen::Vector3d angle_difference(const Plane& a, const Plane& b) {
   const double azimuth = azimuth_of(a.n), elevation = elevation_of(a.n);

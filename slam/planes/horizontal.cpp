@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <optional>
 
+#include "bim/median.h"
 #include "slam/planes/patch.h"
 #include "slam/scan/moments.h"
 
@@ -27,9 +28,7 @@ Plane robust_plane(const DeskewedScan& scan, const std::vector<std::uint32_t>& p
     points_R.push_back(scan.point_R[i]);
     heights.push_back(scan.point_R[i].z());
   }
-  const auto middle = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2);
-  std::nth_element(heights.begin(), middle, heights.end());
-  Plane plane{Eigen::Vector3d::UnitZ(), -*middle};
+  Plane plane{Eigen::Vector3d::UnitZ(), -upper_median(std::move(heights))};
   for (int step = 0; step < robust_steps; ++step) {
     const double scale = kernel_start_m / (1 << (step / 2));
     MomentSums sums;

@@ -43,7 +43,7 @@ void set_extent(const DeskewedScan& scan, const std::vector<std::uint32_t>& poin
 }
 
 /// What the lasers' own range offsets do to a wall, which all points of a laser share: standard deviations of its tilt,
-/// rad, and of its place at the centroid, m.
+/// rad, and of its offset at the centroid, m.
 struct LaserBias {
   double tilt_rad = 0.0, offset_m = 0.0;
 };

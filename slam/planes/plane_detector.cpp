@@ -59,7 +59,7 @@ class WallGrower {
   }
 
  private:
-  /// Takes segments of the nearest rings first, so that the tilt is known before far rings are asked.
+  /// Takes segments of the nearest rings first, so that the tilt is known before far rings are added.
   [[nodiscard]] Wall grow(std::size_t seed) {
     Wall wall;
     wall.plane = upright_plane(segments_[seed], scan_.X_RL.t);

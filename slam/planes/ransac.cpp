@@ -41,7 +41,7 @@ std::optional<Plane> plane_through(const Eigen::Vector3d& a, const Eigen::Vector
   return Plane{n, -n.dot(a)};
 }
 
-/// Points two by two, so that a plane is held against both at once; the second of an odd last pair is no number.
+/// Points two by two, so that a plane is tested against both at once; the second of an odd last pair is no number.
 class Sampler {
  public:
   Sampler(const DeskewedScan& scan, const std::vector<std::uint32_t>& points, const RansacConfig& config)

@@ -10,7 +10,7 @@ namespace plumbline::slam {
 
 namespace {
 
-constexpr std::size_t step_candidates = 16;  ///< places of a stretch where a step is looked for
+constexpr std::size_t step_candidates = 16;  ///< positions in a stretch where a step is searched for
 
 /// Line in the plane by least squares: centre, unit direction and rms across.
 struct Line2 {
@@ -89,7 +89,7 @@ class RingCutter {
   }
 
  private:
-  /// A scan holds the points of a ring far apart.
+  /// A scan stores the points of a ring far apart.
   static std::vector<Eigen::Vector3d> side_by_side(const DeskewedScan& scan, const std::vector<std::uint32_t>& points) {
     std::vector<Eigen::Vector3d> points_R;
     points_R.reserve(points.size());
@@ -116,8 +116,8 @@ class RingCutter {
     split(middle, end, out);
   }
 
-  /// Where two lines explain the stretch so much better than one that noise cannot be the cause; `end` where nowhere.
-  /// A leaf set back in its wall, or a pillar before it, gives a line that runs along neither.
+  /// Where two lines explain the stretch so much better than one that noise cannot be the cause; `end` where nowhere. A
+  /// leaf set back in its wall, or a pillar before it, gives a line that runs along neither.
   [[nodiscard]] std::size_t step(std::size_t begin, std::size_t end, const Line2& line) const {
     constexpr std::size_t least = 2;  // what a cut corner left over may be less than a segment
     const std::size_t stride = std::max<std::size_t>(1, (end - begin) / step_candidates);

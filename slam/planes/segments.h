@@ -9,7 +9,7 @@
 
 namespace plumbline::slam {
 
-/// What a return looks like from its neighbours in the column.
+/// Orientation of the surface at a return, from its neighbours in the column.
 enum class Facing : std::uint8_t { none, upright, flat };
 
 /// Straight stretch of one ring, seen from above.

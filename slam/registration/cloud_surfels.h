@@ -11,23 +11,25 @@ namespace plumbline::slam {
 
 /// Registration of two clouds without rings or order, as files and other sensors give them.
 struct CloudRegistrationConfig {
-  double surfel_m = 0.3;        ///< one surfel a voxel of this size
-  int min_points = 8;           ///< in it and the six voxels round it
-  double max_thickness = 0.35;  ///< of a surfel, as a share of surfel_m, beyond which it is no surface
-  double coarse_m = 1.0;        ///< voxels of the map in which the clouds are brought together ...
-  int coarse_share = 4;         ///< one surfel in so many is matched there
-  double fine_m = 0.4;          ///< ... and that in which they are matched
+  double surfel_m = 0.3;
+  int min_points = 8;
+  double max_thickness = 0.35;
+  double coarse_m = 1.0;
+  int coarse_share = 4;
+  double fine_m = 0.4;
   RegistrationConfig registration{
-      .in_plane_m = 0.1, .across_m = 0.05, .translation_epsilon_m = 5e-4, .rotation_epsilon_rad = 5e-5};
+      .sigma_tangent_m = 0.1, .sigma_normal_m = 0.05, .translation_epsilon_m = 5e-4, .rotation_epsilon_rad = 5e-5};
 
   template <class V>
   void visit(V& v) {
-    v("surfel_m", surfel_m, Field{.doc = "one surfel a voxel of this size", .min = 0.01});
-    v("min_points", min_points, Field{.doc = "of a surfel and the voxels round it", .min = 4});
-    v("max_thickness", max_thickness, Field{.doc = "of a surfel, as a share of its size", .min = 0.01, .max = 1.0});
-    v("coarse_m", coarse_m, Field{.doc = "voxels in which clouds are brought together", .min = 0.02});
-    v("coarse_share", coarse_share, Field{.doc = "one surfel in so many is matched there", .min = 1});
-    v("fine_m", fine_m, Field{.doc = "voxels in which clouds are matched", .min = 0.02});
+    v("surfel_m", surfel_m, Field{.doc = "voxel size at which a cloud is thinned to one surfel each", .min = 0.01});
+    v("min_points", min_points,
+      Field{.doc = "least number of points in a surfel's voxel and the six around it", .min = 4});
+    v("max_thickness", max_thickness,
+      plain_field("largest thickness of a surfel, as a share of surfel_m", {.min = 0.01, .max = 1.0}));
+    v("coarse_m", coarse_m, Field{.doc = "voxel size of the map in which clouds are first aligned", .min = 0.02});
+    v("coarse_share", coarse_share, Field{.doc = "every how many surfels one is matched there", .min = 1});
+    v("fine_m", fine_m, Field{.doc = "voxel size of the map in which clouds are finally matched", .min = 0.02});
     v("registration", registration);
   }
 };

@@ -38,7 +38,7 @@ class Ring {
  private:
   void measure() {
     curvature_.assign(points_.size(), 0.0);
-    silent_.assign(points_.size(), false);
+    suppressed_.assign(points_.size(), false);
     for (std::size_t i = reach; i + reach < points_.size(); ++i) {
       Eigen::Vector3d sum = Eigen::Vector3d::Zero();
       for (std::size_t k = 1; k <= reach; ++k) sum += points_[i - k] + points_[i + k] - 2.0 * points_[i];
@@ -71,12 +71,12 @@ class Ring {
   void pick_edges(std::span<const std::size_t> order, std::size_t begin, std::vector<bool>& edge, Features& features) {
     int picked = 0;
     for (auto i = order.rbegin(); i != order.rend(); ++i) {
-      if (silent_[*i]) continue;
+      if (suppressed_[*i]) continue;
       if (++picked > config_.less_sharp) break;
       if (picked <= config_.sharp) features.sharp.push_back({points_[*i], ring_});
       features.less_sharp.push_back({points_[*i], ring_});
       edge[*i - begin] = true;
-      silence_around(*i);
+      suppress_around(*i);
     }
   }
 
@@ -84,28 +84,28 @@ class Ring {
     int picked = 0;
     for (const std::size_t i : order) {
       if (picked == config_.flat) break;
-      if (silent_[i]) continue;
+      if (suppressed_[i]) continue;
       features.flat.push_back({points_[i], ring_});
       ++picked;
-      silence_around(i);
+      suppress_around(i);
     }
   }
 
   /// No two features from one neighbourhood; a jump in depth ends it.
-  void silence_around(std::size_t i) {
-    silent_[i] = true;
+  void suppress_around(std::size_t i) {
+    suppressed_[i] = true;
     const auto joined = [&](std::size_t a, std::size_t b) {
       return (points_[a] - points_[b]).norm() < config_.neighbour_gap_m;
     };
-    for (std::size_t k = 1; k <= reach && joined(i + k, i + k - 1); ++k) silent_[i + k] = true;
-    for (std::size_t k = 1; k <= reach && joined(i - k, i - k + 1); ++k) silent_[i - k] = true;
+    for (std::size_t k = 1; k <= reach && joined(i + k, i + k - 1); ++k) suppressed_[i + k] = true;
+    for (std::size_t k = 1; k <= reach && joined(i - k, i - k + 1); ++k) suppressed_[i - k] = true;
   }
 
   int ring_;
   const FeatureConfig& config_;
   std::vector<Eigen::Vector3d> points_;
   std::vector<double> curvature_;
-  std::vector<bool> silent_;
+  std::vector<bool> suppressed_;
 };
 
 }  // namespace

@@ -9,27 +9,33 @@
 
 namespace plumbline::slam::loam {
 
-/// [LOAM section V-A; limits of A-LOAM and F-LOAM: facts slam 5, 6]
+/// [zhang2014, section V-A], with the limits of [qin2018] and [wang2021].
 struct FeatureConfig {
   double min_range_m = 0.5;
   double max_range_m = 60.0;
-  int sectors = 6;                 ///< a ring is cut into so many, so that features spread over the scan
-  int sharp = 2;                   ///< sharpest points of a sector
-  int less_sharp = 20;             ///< sharpest points of a sector, the sharp ones included
-  int flat = 4;                    ///< flattest points of a sector
-  double edge_curvature_m2 = 0.1;  ///< |sum of the ways to the ten neighbours|^2 above which a point may be an edge
-  double neighbour_gap_m = 0.22;   ///< picked points silence neighbours in a chain of steps shorter than this
+  int sectors = 6;
+  int sharp = 2;
+  int less_sharp = 20;
+  int flat = 4;
+  double edge_curvature_m2 = 0.1;
+  double neighbour_gap_m = 0.22;
 
   template <class V>
   void visit(V& v) {
-    v("min_range_m", min_range_m, Field{.doc = "nearer returns are left out", .min = 0.0});
-    v("max_range_m", max_range_m, Field{.doc = "farther returns are left out", .min = 1.0});
-    v("sectors", sectors, Field{.doc = "parts of a ring that give features of their own", .min = 1, .max = 64});
-    v("sharp", sharp, Field{.doc = "sharpest points of a sector", .min = 1});
-    v("less_sharp", less_sharp, Field{.doc = "edge points of a sector", .min = 1});
+    v("min_range_m", min_range_m, Field{.doc = "least range of a return that is used", .min = 0.0});
+    v("max_range_m", max_range_m, Field{.doc = "largest range of a return that is used", .min = 1.0, .basic = true});
+    v("sectors", sectors,
+      Field{.doc = "sectors of a ring, each with its own features, so that they spread over the scan",
+            .min = 1,
+            .max = 64});
+    v("sharp", sharp, Field{.doc = "sharpest points of a sector that are matched from scan to scan", .min = 1});
+    v("less_sharp", less_sharp, Field{.doc = "sharpest points of a sector that enter the map", .min = 1});
     v("flat", flat, Field{.doc = "flattest points of a sector", .min = 1});
-    v("edge_curvature_m2", edge_curvature_m2, Field{.doc = "least curvature of an edge", .min = 0.0});
-    v("neighbour_gap_m", neighbour_gap_m, Field{.doc = "step that ends a neighbourhood", .min = 0.0});
+    v("edge_curvature_m2", edge_curvature_m2,
+      Field{.doc = "least curvature of an edge point: squared norm of the sum of vectors to ten neighbours",
+            .min = 0.0});
+    v("neighbour_gap_m", neighbour_gap_m,
+      Field{.doc = "step between returns that ends the neighbourhood a picked point suppresses", .min = 0.0});
   }
 };
 

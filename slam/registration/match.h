@@ -24,7 +24,7 @@ struct Match {
                                                const Eigen::Vector3d& b_F, const Eigen::Vector3d& c_F);
 
 /// To the line through map points when the largest eigenvalue of their scatter is more than line_ratio times the second
-/// [facts: slam 5].
+/// [wang2021].
 [[nodiscard]] std::optional<Match> line_match(const Eigen::Vector3d& p_R, const PointMap::Neighbours& points_F,
                                               double line_ratio);
 /// To their plane when none is farther from it than tolerance_m and the second eigenvalue is more than plane_ratio

@@ -41,12 +41,12 @@ void add_prior(Normal6& normal, const PosePrior& prior, const Pose& X_MR) {
   normal.h += prior.information;
   normal.g += prior.information * log_se3(prior.X_MR.inverse() * X_MR);
   if (!prior.tilt) return;
-  constexpr double kernel = 3.0;  // standard deviations; a robot without an IMU calls every slope level
+  constexpr double tilt_cauchy_scale = 3.0;  // standard deviations; a robot without an IMU calls every slope level
   const TiltPrior& tilt = *prior.tilt;
   const Eigen::Matrix3d R_MR = X_MR.rotation();
   const Eigen::Vector3d e = (R_MR * tilt.up_R - tilt.up_M) / tilt.sigma_rad;
   const Eigen::Matrix3d J = -R_MR * hat(tilt.up_R) / tilt.sigma_rad;
-  const double w = 1.0 / (1.0 + e.squaredNorm() / (kernel * kernel));
+  const double w = 1.0 / (1.0 + e.squaredNorm() / (tilt_cauchy_scale * tilt_cauchy_scale));
   normal.h.bottomRightCorner<3, 3>() += w * J.transpose() * J;
   normal.g.tail<3>() += w * J.transpose() * e;
 }
@@ -62,14 +62,14 @@ std::optional<Vector6d> solve_step(const Normal6& normal) {
 Normal6 linearize(std::span<const Surfel> surfels, const SurfelMap& map, const Pose& X_MR,
                   const RegistrationConfig& config) {
   const Eigen::Matrix3d R_MR = X_MR.rotation();
-  const double slack = config.in_plane_m * config.in_plane_m;
-  const double stiff = slack - config.across_m * config.across_m;
-  const double kernel2 = config.kernel * config.kernel;
+  const double slack = config.sigma_tangent_m * config.sigma_tangent_m;
+  const double stiff = slack - config.sigma_normal_m * config.sigma_normal_m;
+  const double scale2 = config.cauchy_scale * config.cauchy_scale;
   Normal6 sum;
   for (const Surfel& surfel : surfels) {
     const Eigen::Vector3d arm_M = R_MR * surfel.mean_R;  // from the robot to the surfel
     const Eigen::Vector3d normal_M = R_MR * surfel.normal_R;
-    const SurfelMap::Voxel* voxel = map.find(arm_M + X_MR.t, normal_M, config.agreement);
+    const SurfelMap::Voxel* voxel = map.find(arm_M + X_MR.t, normal_M, config.min_normal_agreement);
     if (voxel == nullptr) continue;
     // Both covariances are slack I - stiff n n^T, the voxel's averaged over its surfels.
     const Eigen::Matrix3d covariance = 2.0 * slack * Eigen::Matrix3d::Identity() -
@@ -78,10 +78,10 @@ Normal6 linearize(std::span<const Surfel> surfels, const SurfelMap& map, const P
     const Eigen::Vector3d e = arm_M + X_MR.t - voxel->sum / voxel->n;
     const Eigen::Vector3d weighted = information * e;
     const double squared = e.dot(weighted);
-    const double w = 1.0 / (1.0 + squared / kernel2);
+    const double w = 1.0 / (1.0 + squared / scale2);
     add_point(sum, arm_M, w * information, w * weighted);
-    sum.cost += 0.5 * kernel2 * std::log1p(squared / kernel2);
-    if (squared > 2.0 * kernel2) continue;
+    sum.cost += 0.5 * scale2 * std::log1p(squared / scale2);
+    if (squared > 2.0 * scale2) continue;
     sum.inliers += 1.0;
     sum.squared += squared;
   }
@@ -90,15 +90,16 @@ Normal6 linearize(std::span<const Surfel> surfels, const SurfelMap& map, const P
 }
 
 Registration align(std::span<const Surfel> surfels, const SurfelMap& map, const Pose& start,
-                   const std::optional<PosePrior>& prior, const RegistrationConfig& config, const MoreTerms& more) {
+                   const std::optional<PosePrior>& prior, const RegistrationConfig& config,
+                   const AdditionalFactors& additional) {
   Registration result;
   result.X_MR = start;
   Normal6 normal;
   while (result.iterations < config.max_iterations && !result.converged) {
     ++result.iterations;
     normal = linearize(surfels, map, result.X_MR, config);
-    if (more) {
-      const Normal6 terms = more(result.X_MR);
+    if (additional) {
+      const Normal6 terms = additional(result.X_MR);
       normal.h += terms.h;
       normal.g += terms.g;
     }

@@ -12,34 +12,44 @@
 namespace plumbline::slam {
 
 struct RegistrationConfig {
-  double in_plane_m = 0.5;  ///< standard deviation of a surfel along its surface (PLANE regularisation)
-  double across_m = 0.02;   ///< and across: range noise [facts: lidar 2.2]
-  double agreement = 0.5;   ///< least mean (n . n_i)^2 of a surfel's normal with those of its voxel
-  double kernel = 2.0;      ///< Cauchy, in standard deviations
+  double sigma_tangent_m = 0.5;
+  double sigma_normal_m = 0.02;
+  double min_normal_agreement = 0.5;
+  double cauchy_scale = 2.0;
   int max_iterations = 15;
   double translation_epsilon_m = 2e-4;
   double rotation_epsilon_rad = 2e-5;
 
   template <class V>
   void visit(V& v) {
-    v("in_plane_m", in_plane_m, Field{.min = 1e-3});
-    v("across_m", across_m, Field{.min = 1e-4});
-    v("agreement", agreement, Field{.min = 0.0, .max = 1.0});
-    v("kernel", kernel, Field{.min = 0.1});
-    v("max_iterations", max_iterations, Field{.min = 1});
-    v("translation_epsilon_m", translation_epsilon_m, Field{.min = 0.0});
-    v("rotation_epsilon_rad", rotation_epsilon_rad, Field{.min = 0.0});
+    v("sigma_tangent_m", sigma_tangent_m,
+      Field{.doc = "standard deviation of a surfel along its surface (plane regularisation)",
+            .min = 1e-3,
+            .former = "in_plane_m"});
+    // docs/methods/lidar_model.md
+    v("sigma_normal_m", sigma_normal_m,
+      Field{
+          .doc = "standard deviation of a surfel across its surface: range noise", .min = 1e-4, .former = "across_m"});
+    v("min_normal_agreement", min_normal_agreement,
+      share_field("least mean (n · n_i)² of a surfel's normal with those of its voxel", {.former = "agreement"}));
+    v("cauchy_scale", cauchy_scale,
+      plain_field("scale of the Cauchy kernel, in standard deviations", {.min = 0.1, .former = "kernel"}));
+    v("max_iterations", max_iterations, Field{.doc = "most iterations of a registration", .min = 1});
+    v("translation_epsilon_m", translation_epsilon_m,
+      Field{.doc = "translation of a step below which the iteration stops", .min = 0.0});
+    v("rotation_epsilon_rad", rotation_epsilon_rad,
+      Field{.doc = "rotation of a step below which the iteration stops", .min = 0.0});
   }
 };
 
-/// Belief about which way is up: R_MR up_R = up_M within sigma_rad, with a Cauchy kernel. Says nothing about heading.
+/// Prior of the vertical: R_MR up_R = up_M within sigma_rad, with a Cauchy kernel. It does not constrain the heading.
 struct TiltPrior {
   Eigen::Vector3d up_R = Eigen::Vector3d::UnitZ();
   Eigen::Vector3d up_M = Eigen::Vector3d::UnitZ();
   double sigma_rad = 0.01;
 };
 
-/// Belief about the pose before registration: X_MR and the information of its right increment (rho, phi).
+/// Prior of the pose before registration: X_MR and the information of its right increment (rho, phi).
 struct PosePrior {
   Pose X_MR;
   Matrix6d information = Matrix6d::Zero();
@@ -50,13 +60,13 @@ struct Registration {
   Pose X_MR;
   Matrix6d information = Matrix6d::Zero();  ///< Gauss-Newton Hessian of the surfels alone, of the right increment
                                             ///< (rho in m, phi in rad); counts every surfel as independent
-  double matched = 0.0;                     ///< share of the surfels that met a voxel and are not outliers, 0 to 1
-  double rms = 0.0;                         ///< of the inliers' Mahalanobis distances; 0.3 to 0.8 for a good match
+  double matched = 0.0;  ///< share of the surfels that fall into a voxel and are not outliers, 0 to 1
+  double rms = 0.0;      ///< of the inliers' Mahalanobis distances; 0.3 to 0.8 for a good match
   int iterations = 0;
   bool converged = false;
-  bool believed = true;  ///< false: X_MR is dead reckoning, the scan did not fit
-  bool lost = false;     ///< scans have not fitted for a while
-  bool followed = true;  ///< false: odometry does not know how the robot came here from the scan before
+  bool accepted = true;        ///< false: X_MR is dead reckoning, the scan did not fit
+  bool lost = false;           ///< scans have not fitted for a while
+  bool odometry_valid = true;  ///< false: odometry has no valid motion from the scan before
 };
 
 /// Normal equations of a registration: cost, gradient and Gauss-Newton Hessian by an increment (rho, phi).
@@ -68,19 +78,19 @@ struct Normal6 {
   double squared = 0.0;  ///< sum over the inliers of the squared Mahalanobis distance
 };
 
-/// What else a pose is held by: normal equations of the right increment at X_MR, in units of standard deviations.
-using MoreTerms = std::function<Normal6(const Pose& X_MR)>;
+/// Additional factors of a pose: normal equations of the right increment at X_MR, in units of standard deviations.
+using AdditionalFactors = std::function<Normal6(const Pose& X_MR)>;
 
-/// Voxelized GICP: minimises sum rho(e^T (C_voxel + R C_surfel R^T)^-1 e) with e the way from the moved surfel to the
-/// mean of the voxel it falls in, plus the prior and `more` if any, by Gauss-Newton on SE(3) from `start`.
+/// Voxelized GICP: minimises sum rho(e^T (C_voxel + R C_surfel R^T)^-1 e) with e the vector from the moved surfel to
+/// the mean of the voxel it falls in, plus the prior and `additional` if any, by Gauss-Newton on SE(3) from `start`.
 [[nodiscard]] Registration align(std::span<const Surfel> surfels, const SurfelMap& map, const Pose& start,
                                  const std::optional<PosePrior>& prior, const RegistrationConfig& config,
-                                 const MoreTerms& more = {});
+                                 const AdditionalFactors& additional = {});
 
 /// Adds a point at arm_M from the robot, displaced by e: weighted information W and W e, axes of M.
 void add_point(Normal6& sum, const Eigen::Vector3d& arm_M, const Eigen::Matrix3d& weight,
                const Eigen::Vector3d& weighted);
-/// Adds what the prior says at X_MR, by the right increment.
+/// Adds the prior at X_MR, by the right increment.
 void add_prior(Normal6& normal, const PosePrior& prior, const Pose& X_MR);
 /// From increments in axes M about the robot to the right increment.
 void to_right_increment(Normal6& sum, const Eigen::Matrix3d& R_MR);

@@ -12,9 +12,9 @@ namespace plumbline::slam {
 
 namespace {
 
-constexpr int reach_columns = 3;       // columns asked on each side of a return, spread over the radius
-constexpr int reach_rings = 1;         // rings asked above and below
-constexpr double scan_rad = 6.336576;  // a scan's columns: one turn, rounded up to whole packets [facts: lidar 2.4]
+constexpr int reach_columns = 3;       // columns used on each side of a return, spread over the radius
+constexpr int reach_rings = 1;         // rings used above and below
+constexpr double scan_rad = 6.336576;  // a scan's columns: one turn, rounded up to whole packets
 
 /// Scatter of a return's neighbours in the ring image.
 class Neighbourhood {
@@ -96,9 +96,9 @@ const SurfelMap::Voxel* SurfelMap::at(const VoxelKey& key) const {
 }
 
 const SurfelMap::Voxel* SurfelMap::find(const Eigen::Vector3d& p_M, const Eigen::Vector3d& normal_M,
-                                        double agreement) const {
+                                        double min_normal_agreement) const {
   const auto agrees = [&](const Voxel* voxel) {
-    return voxel != nullptr && normal_M.dot(voxel->normals * normal_M) >= agreement * voxel->n;
+    return voxel != nullptr && normal_M.dot(voxel->normals * normal_M) >= min_normal_agreement * voxel->n;
   };
   const VoxelKey key = VoxelKey::of(p_M, voxel_m_);
   if (const Voxel* voxel = at(key); agrees(voxel)) return voxel;

@@ -15,22 +15,25 @@ namespace plumbline::slam {
 struct SurfelConfig {
   double min_range_m = 0.5;
   double max_range_m = 30.0;
-  double voxel_m = 0.2;           ///< one surfel a voxel at most
-  double radius_m = 0.3;          ///< neighbours on the same ring are taken this near, ...
-  double ring_gap_per_m = 0.3;    ///< ... on the rings above and below this near times the range: on the floor they
-                                  ///< are 1.2 m apart at 4 m
-  double max_thickness_m = 0.05;  ///< standard deviation across beyond which a neighbourhood is no surface
+  double voxel_m = 0.2;
+  double radius_m = 0.3;
+  double ring_gap_per_m = 0.3;
+  double max_thickness_m = 0.05;
   int min_neighbours = 8;
 
   template <class V>
   void visit(V& v) {
-    v("min_range_m", min_range_m, Field{.min = 0.0});
-    v("max_range_m", max_range_m, Field{.min = 1.0});
-    v("voxel_m", voxel_m, Field{.min = 0.01});
-    v("radius_m", radius_m, Field{.min = 0.01});
-    v("ring_gap_per_m", ring_gap_per_m, Field{.min = 0.0});
-    v("max_thickness_m", max_thickness_m, Field{.min = 0.001});
-    v("min_neighbours", min_neighbours, Field{.min = 4});
+    v("min_range_m", min_range_m, Field{.doc = "least range of a return that is used", .min = 0.0});
+    v("max_range_m", max_range_m, Field{.doc = "largest range of a return that is used", .min = 1.0});
+    v("voxel_m", voxel_m,
+      Field{.doc = "voxel size at which a scan is thinned to one surfel each", .min = 0.01, .basic = true});
+    v("radius_m", radius_m, Field{.doc = "largest distance of neighbours on the same ring", .min = 0.01});
+    // On the floor, rings are 1.2 m apart at 4 m.
+    v("ring_gap_per_m", ring_gap_per_m,
+      Field{.doc = "largest distance of neighbours on the next rings, per metre of range", .unit = "m/m", .min = 0.0});
+    v("max_thickness_m", max_thickness_m,
+      Field{.doc = "standard deviation across a neighbourhood above which it is no surface", .min = 0.001});
+    v("min_neighbours", min_neighbours, Field{.doc = "least number of neighbours of a surfel", .min = 4});
   }
 };
 
@@ -58,9 +61,11 @@ class SurfelMap {
   /// Takes back what add() gave with the same arguments.
   void remove(std::span<const Surfel> surfels, const Pose& X_MR) { pool(surfels, X_MR, -1.0); }
   /// Voxel for a surfel at p_M: the one that holds it or else the neighbours behind the three nearer faces, nearest
-  /// face first (ties: x, y, z), the first whose surfels agree with the normal: mean of (n . n_i)^2 >= agreement.
-  /// nullptr when none does. Without the neighbours a floor that lies on a voxel face would come and go.
-  [[nodiscard]] const Voxel* find(const Eigen::Vector3d& p_M, const Eigen::Vector3d& normal_M, double agreement) const;
+  /// face first (ties: x, y, z), the first whose surfels agree with the normal: mean of (n . n_i)^2 >=
+  /// min_normal_agreement. nullptr when none does. Without the neighbours a floor that lies on a voxel face would come
+  /// and go.
+  [[nodiscard]] const Voxel* find(const Eigen::Vector3d& p_M, const Eigen::Vector3d& normal_M,
+                                  double min_normal_agreement) const;
   [[nodiscard]] double voxel_m() const { return voxel_m_; }
 
  private:

@@ -15,16 +15,16 @@ Registration VgicpOdometry::update(const DeskewedScan& scan, const Pose& X_OR) {
   return result;
 }
 
-Registration VgicpOdometry::match(const DeskewedScan& scan, const LegsAt& legs) {
+Registration VgicpOdometry::match(const DeskewedScan& scan, const OdometrySample& odometry) {
   scan_ = make_surfels(scan, config_.surfels);
   edges_R_ = edge_points(scan, config_.edges);
   Registration result;
   result.X_MR = X_MR_;
   if (ready()) {
-    const PosePrior prediction = predict(scan, legs);
+    const PosePrior prediction = predict(scan, odometry);
     const bool any = config_.odometry_prior || config_.tilt_prior;
     const std::optional<PosePrior> prior = any ? std::optional(prediction) : std::nullopt;
-    // Lines are sought where odometry says the robot is: that is nearer than columns are to each other.
+    // Lines are searched at the pose predicted by odometry: its error is below the spacing of columns.
     const std::vector<loam::Match> lines = edge_map_.match(edges_R_, prediction.X_MR);
     const double information = 1.0 / (config_.edges.sigma_m * config_.edges.sigma_m);
     result = align(scan_, map_, prediction.X_MR, prior, config_.registration, [&](const Pose& X_MR) {
@@ -34,8 +34,8 @@ Registration VgicpOdometry::match(const DeskewedScan& scan, const LegsAt& legs) 
       return terms;
     });
   }
-  X_OR_ = legs.X_OR;
-  if (!q_OM_) q_OM_ = legs.X_OR.q;
+  X_OR_ = odometry.X_OR;
+  if (!q_OM_) q_OM_ = odometry.X_OR.q;
   return result;
 }
 
@@ -49,24 +49,24 @@ void VgicpOdometry::commit(const Pose& X_MR, bool mapped) {
   if (is_keyframe_) insert(X_MR_);
 }
 
-void VgicpOdometry::forget() {
+void VgicpOdometry::reset_map() {
   map_ = SurfelMap(config_.map_voxel_m);
   edge_map_ = EdgeMap(config_.edges);
   keyframes_.clear();
 }
 
-PosePrior VgicpOdometry::predict(const DeskewedScan& scan, const LegsAt& legs) const {
-  const Pose step = X_OR_.inverse() * legs.X_OR;
+PosePrior VgicpOdometry::predict(const DeskewedScan& scan, const OdometrySample& odometry) const {
+  const Pose step = X_OR_.inverse() * odometry.X_OR;
   PosePrior prior{X_MR_ * step, Matrix6d::Zero(), std::nullopt};
-  if (config_.odometry_prior && legs.followed) {
+  if (config_.odometry_prior && odometry.valid) {
     const double sigma_m = config_.prior_m + config_.prior_per_m * step.t.norm();
     const double sigma_rad = config_.prior_rad + config_.prior_per_rad * log_so3(step.q).norm();
     prior.information.diagonal().head<3>().setConstant(1.0 / (sigma_m * sigma_m));
     prior.information.diagonal().tail<3>().setConstant(1.0 / (sigma_rad * sigma_rad));
   }
-  if (config_.tilt_prior && !scan.odometry_silent && q_OM_) {
+  if (config_.tilt_prior && !scan.odometry_stale && q_OM_) {
     const Eigen::Vector3d up_O = Eigen::Vector3d::UnitZ();
-    prior.tilt = TiltPrior{legs.X_OR.q.conjugate() * up_O, q_OM_->conjugate() * up_O, config_.tilt_rad};
+    prior.tilt = TiltPrior{odometry.X_OR.q.conjugate() * up_O, q_OM_->conjugate() * up_O, config_.tilt_rad};
   }
   return prior;
 }

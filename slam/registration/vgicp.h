@@ -17,45 +17,51 @@ struct VgicpConfig {
   SurfelConfig surfels;
   /// The slack along a surface is what a voxel of the map spans. On stairs anything blunter takes soffit, treads and
   /// landing for one surface: with voxels of 0.5 m and agreement 0.5 the attitude was lost there.
-  RegistrationConfig registration{.in_plane_m = 0.2, .agreement = 0.9, .kernel = 1.5};
+  RegistrationConfig registration{.sigma_tangent_m = 0.2, .min_normal_agreement = 0.9, .cauchy_scale = 1.5};
   EdgeConfig edges;
   double map_voxel_m = 0.2;
-  double keyframe_distance_m = 0.5;  ///< a scan enters the local map after this way ...
-  double keyframe_angle_rad = 0.35;  ///< ... or this turn
-  int map_keyframes = 20;            ///< the local map holds the latest so many
-  bool odometry_prior = true;        ///< leg odometry's increments as a weak factor; it holds the way along bare
-                                     ///< corridors
-  double prior_m = 0.004;            ///< standard deviation of an increment ...
-  double prior_per_m = 0.05;         ///< ... plus this times its length
-  double prior_rad = 0.004;          ///< the same for rotation
+  double keyframe_distance_m = 0.5;
+  double keyframe_angle_rad = 0.35;
+  int map_keyframes = 20;
+  bool odometry_prior = true;
+  double prior_m = 0.004;
+  double prior_per_m = 0.05;
+  double prior_rad = 0.004;
   double prior_per_rad = 0.05;
-  bool tilt_prior = true;  ///< the odometry's roll and pitch do not drift: an IMU feels gravity
-  double tilt_rad = 0.01;  ///< standard deviation of either
+  bool tilt_prior = true;
+  double tilt_rad = 0.01;
 
   template <class V>
   void visit(V& v) {
     v("surfels", surfels);
     v("registration", registration);
     v("edges", edges);
-    v("map_voxel_m", map_voxel_m, Field{.min = 0.05});
-    v("keyframe_distance_m", keyframe_distance_m, Field{.min = 0.01});
-    v("keyframe_angle_rad", keyframe_angle_rad, Field{.min = 0.01});
-    v("map_keyframes", map_keyframes, Field{.min = 1});
-    v("odometry_prior", odometry_prior, Field{.doc = "hold the way to the odometry's increments"});
-    v("prior_m", prior_m, Field{.min = 1e-5});
-    v("prior_per_m", prior_per_m, Field{.min = 0.0});
-    v("prior_rad", prior_rad, Field{.min = 1e-6});
-    v("prior_per_rad", prior_per_rad, Field{.min = 0.0});
-    v("tilt_prior", tilt_prior, Field{.doc = "hold roll and pitch to the odometry's"});
+    v("map_voxel_m", map_voxel_m, Field{.doc = "voxel size of the local map", .min = 0.05, .basic = true});
+    v("keyframe_distance_m", keyframe_distance_m,
+      Field{.doc = "distance after which a scan enters the local map", .min = 0.01, .basic = true});
+    v("keyframe_angle_rad", keyframe_angle_rad,
+      Field{.doc = "or turn after which a scan enters the local map", .min = 0.01});
+    v("map_keyframes", map_keyframes, Field{.doc = "latest keyframes that make up the local map", .min = 1});
+    // A weak factor, which helps along bare corridors.
+    v("odometry_prior", odometry_prior,
+      Field{.doc = "constrain the motion by leg odometry's increments", .basic = true});
+    v("prior_m", prior_m, Field{.doc = "least standard deviation of an increment's translation", .min = 1e-5});
+    v("prior_per_m", prior_per_m,
+      Field{.doc = "standard deviation of an increment's translation per metre", .unit = "m/m", .min = 0.0});
+    v("prior_rad", prior_rad, Field{.doc = "least standard deviation of an increment's rotation", .min = 1e-6});
+    v("prior_per_rad", prior_per_rad,
+      Field{.doc = "standard deviation of an increment's rotation per radian", .unit = "rad/rad", .min = 0.0});
+    v("tilt_prior", tilt_prior,
+      Field{.doc = "hold roll and pitch to the odometry's, which do not drift: an IMU senses gravity"});
     v("tilt_rad", tilt_rad, Field{.doc = "standard deviation of the odometry's roll and pitch", .min = 1e-5});
   }
 };
 
-/// As VGICP is usually set: voxels of half a metre, and a kernel that lets a little more in.
+/// As VGICP is usually set: voxels of half a metre, and a wider Cauchy kernel.
 struct CoarseVgicpConfig : VgicpConfig {
   CoarseVgicpConfig() {
     map_voxel_m = 0.5;
-    registration = {.in_plane_m = 0.5, .agreement = 0.8, .kernel = 2.0};
+    registration = {.sigma_tangent_m = 0.5, .min_normal_agreement = 0.8, .cauchy_scale = 2.0};
     edges.enabled = false;
   }
 };
@@ -66,15 +72,15 @@ class VgicpOdometry {
   explicit VgicpOdometry(const VgicpConfig& config);
 
   /// X_OR: leg odometry at scan.stamp, in a frame whose z is up: its increments are start and prior, its tilt a prior;
-  /// neither is one where odometry does not know it.
+  /// neither is used where odometry is not valid.
   [[nodiscard]] Registration update(const DeskewedScan& scan, const Pose& X_OR);
   /// The two halves of update(): where the scan fits, and taking it in there, into the map only if `mapped`.
-  [[nodiscard]] Registration match(const DeskewedScan& scan, const LegsAt& legs);
+  [[nodiscard]] Registration match(const DeskewedScan& scan, const OdometrySample& odometry);
   void commit(const Pose& X_MR, bool mapped);
   /// Whether there is a map to match against.
   [[nodiscard]] bool ready() const { return !keyframes_.empty(); }
   /// Drops the map.
-  void forget();
+  void reset_map();
   /// True when the last scan entered the local map.
   [[nodiscard]] bool is_keyframe() const { return is_keyframe_; }
 
@@ -84,7 +90,7 @@ class VgicpOdometry {
     Pose X_MR;
   };
 
-  [[nodiscard]] PosePrior predict(const DeskewedScan& scan, const LegsAt& legs) const;
+  [[nodiscard]] PosePrior predict(const DeskewedScan& scan, const OdometrySample& odometry) const;
   void insert(const Pose& X_MR);
 
   VgicpConfig config_;
@@ -95,7 +101,7 @@ class VgicpOdometry {
   std::vector<Eigen::Vector3d> edges_R_;  ///< ... and its edge points
   Pose X_MR_;
   Pose X_OR_;
-  std::optional<Eigen::Quaterniond> q_OM_;  ///< of the first scan, where M starts: says where up is in M
+  std::optional<Eigen::Quaterniond> q_OM_;  ///< of the first scan, where M starts: gives the vertical in M
   bool is_keyframe_ = false;
 };
 

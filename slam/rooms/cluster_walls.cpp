@@ -31,41 +31,41 @@ FaceLine cut_line(const Vector2d& m, const Vector2d& at) {
   return line;
 }
 
-Vector2d meet(const FaceLine& a, const FaceLine& b) {
+Vector2d intersection(const FaceLine& a, const FaceLine& b) {
   Eigen::Matrix2d A;
   A << a.m.transpose(), b.m.transpose();
   return -(A.inverse() * Vector2d(a.e, b.e));
 }
 
-Scene make_scene(const FreeGrid& grid, const Cluster& cluster, std::span<const FaceLine> faces,
-                 const RoomConfig& config) {
-  Scene scene{grid, cluster, config, runs_of(grid.frame, cluster.cells), {}, {}};
-  for (const std::size_t k : cluster.boundary) scene.border_M.push_back(grid.frame.center(k));
+ClusterWalls make_cluster_walls(const FreeGrid& grid, const Cluster& cluster, std::span<const FaceLine> faces,
+                                const RoomConfig& config) {
+  ClusterWalls cluster_walls{grid, cluster, config, runs_of(grid.frame, cluster.cells), {}, {}};
+  for (const std::size_t k : cluster.boundary) cluster_walls.border_M.push_back(grid.frame.center(k));
   // A cell of the border that lies on a face is within reach of its stretch.
   const Vector2d reach = Vector2d::Constant(std::max(config.reach_m, config.slack_m));
   Eigen::AlignedBox2d box;
-  for (const Vector2d& p : scene.border_M) box.extend(p);
-  if (box.isEmpty()) return scene;
+  for (const Vector2d& p : cluster_walls.border_M) box.extend(p);
+  if (box.isEmpty()) return cluster_walls;
   box = {box.min() - reach, box.max() + reach};
   for (const FaceLine& face : faces) {
     Eigen::AlignedBox2d stretch(Vector2d(face.s0 * face.along - face.e * face.m));
     stretch.extend(face.s1 * face.along - face.e * face.m);
     if (!box.intersects(stretch)) continue;
-    const double support = border_on(face, face.s0, face.s1, scene);
+    const double support = border_on(face, face.s0, face.s1, cluster_walls);
     if (support < config.min_support_m) continue;
-    scene.walls.push_back(face);
-    scene.walls.back().support = support;
+    cluster_walls.walls.push_back(face);
+    cluster_walls.walls.back().support = support;
   }
-  return scene;
+  return cluster_walls;
 }
 
-double border_on(const FaceLine& line, double from, double to, const Scene& scene) {
+double border_on(const FaceLine& line, double from, double to, const ClusterWalls& cluster_walls) {
   if (to <= from) return 0.0;
-  const double cell = scene.grid.frame.cell;
+  const double cell = cluster_walls.grid.frame.cell;
   std::vector<bool> covered(static_cast<std::size_t>((to - from) / cell) + 1, false);
-  for (const Vector2d& p : scene.border_M) {
+  for (const Vector2d& p : cluster_walls.border_M) {
     const double distance = line.distance(p);
-    if (distance < -scene.config.slack_m || distance > scene.config.reach_m) continue;
+    if (distance < -cluster_walls.config.slack_m || distance > cluster_walls.config.reach_m) continue;
     const double s = line.along.dot(p) - from;
     if (s < 0.0 || s > to - from) continue;
     covered[static_cast<std::size_t>(s / cell)] = true;

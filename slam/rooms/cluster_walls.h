@@ -25,9 +25,9 @@ struct FaceLine {
 /// A line without a wall: the half plane m.p >= m.at is inside.
 [[nodiscard]] FaceLine cut_line(const Eigen::Vector2d& m, const Eigen::Vector2d& at);
 /// Where two lines cross; they must not be parallel.
-[[nodiscard]] Eigen::Vector2d meet(const FaceLine& a, const FaceLine& b);
+[[nodiscard]] Eigen::Vector2d intersection(const FaceLine& a, const FaceLine& b);
 
-struct Scene {
+struct ClusterWalls {
   const FreeGrid& grid;
   const Cluster& cluster;
   const RoomConfig& config;
@@ -36,10 +36,10 @@ struct Scene {
   std::vector<FaceLine> walls;            ///< that carry at least min_support_m of the cluster's border
 };
 
-[[nodiscard]] Scene make_scene(const FreeGrid& grid, const Cluster& cluster, std::span<const FaceLine> faces,
-                               const RoomConfig& config);
+[[nodiscard]] ClusterWalls make_cluster_walls(const FreeGrid& grid, const Cluster& cluster,
+                                              std::span<const FaceLine> faces, const RoomConfig& config);
 
-/// Places in a cluster, [from, to).
+/// Indices in a cluster, [from, to).
 struct Stretch {
   std::size_t from = 0, to = 0;
   [[nodiscard]] std::size_t cells() const { return to > from ? to - from : 0; }
@@ -51,7 +51,8 @@ struct Stretch {
 /// Those cells of a run whose centres `holds` for, by their distance to the line: a distance only grows or only falls
 /// along a row, in floating point too, so that a threshold cuts the run in two.
 template <class Holds>
-[[nodiscard]] Stretch where(const GridFrame& frame, const CellRun& run, const FaceLine& line, const Holds& holds) {
+[[nodiscard]] Stretch partition_run(const GridFrame& frame, const CellRun& run, const FaceLine& line,
+                                    const Holds& holds) {
   const auto at = [&](std::size_t k) {
     return holds(line.distance(frame.center(run.i + static_cast<int>(k - run.from), run.j)));
   };
@@ -65,8 +66,8 @@ template <class Holds>
   return first ? Stretch{run.from, high} : Stretch{high, run.to};
 }
 
-/// Length of the scene's border that lies on the line between from and to (along it), on its free side, m.
-[[nodiscard]] double border_on(const FaceLine& line, double from, double to, const Scene& scene);
+/// Length of the cluster's border that lies on the line between from and to (along it), on its free side, m.
+[[nodiscard]] double border_on(const FaceLine& line, double from, double to, const ClusterWalls& cluster_walls);
 
 [[nodiscard]] Polygon2 counter_clockwise(Polygon2 polygon);
 

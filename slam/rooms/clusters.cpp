@@ -17,7 +17,7 @@ constexpr int none = -1;
 /// More cells than a grid has in one column.
 constexpr float far = 1e6F;
 
-/// Lower envelope of parabolas: squared distance transform of one line [Felzenszwalb, Huttenlocher 2012].
+/// Lower envelope of parabolas: squared distance transform of one line [felzenszwalb2012].
 class LineTransform {
  public:
   explicit LineTransform(int longest) : v_(static_cast<std::size_t>(longest)), z_(v_.size() + 1), out_(v_.size()) {}
@@ -58,12 +58,12 @@ class LineTransform {
 /// Basins of the clearance landscape as a union-find over hilltops.
 class Basins {
  public:
-  Basins(const GridFrame& frame, const std::vector<float>& height, double neck_ratio)
-      : frame_(frame), height_(height), neck_ratio_(static_cast<float>(neck_ratio)), label_(frame.size(), none) {}
+  Basins(const GridFrame& frame, const std::vector<float>& height, double saddle_ratio)
+      : frame_(frame), height_(height), saddle_ratio_(static_cast<float>(saddle_ratio)), label_(frame.size(), none) {}
 
   /// Cells by falling height, ties by index.
   void flood() {
-    for (const std::size_t cell : by_falling_clearance(frame_, height_)) add(cell);
+    for (const std::size_t cell : by_decreasing_clearance(frame_, height_)) add(cell);
   }
 
   [[nodiscard]] int root_of(std::size_t cell) { return label_[cell] == none ? none : find(label_[cell]); }
@@ -72,7 +72,7 @@ class Basins {
 
  private:
   void add(std::size_t cell) {
-    const auto [i, j] = frame_.place(cell);
+    const auto [i, j] = frame_.column_and_row(cell);
     std::array<int, 8> met{};
     int count = 0;
     int uphill = none;
@@ -100,16 +100,16 @@ class Basins {
     }
     label_[cell] = uphill;
     if (one) return;
-    for (int m = 0; m < count; ++m) meet(uphill, met[static_cast<std::size_t>(m)], height_[cell]);
+    for (int m = 0; m < count; ++m) merge_basins(uphill, met[static_cast<std::size_t>(m)], height_[cell]);
   }
 
-  void meet(int a, int b, float pass) {
+  void merge_basins(int a, int b, float pass) {
     a = find(a);
     b = find(b);
     if (a == b) return;
     // The older hilltop is the higher one, since cells come by falling height.
     const int high = std::min(a, b), low = std::max(a, b);
-    if (pass >= neck_ratio_ * top(low)) parent_[static_cast<std::size_t>(low)] = high;
+    if (pass >= saddle_ratio_ * top(low)) parent_[static_cast<std::size_t>(low)] = high;
   }
 
   int find(int a) {
@@ -119,7 +119,7 @@ class Basins {
 
   const GridFrame& frame_;
   const std::vector<float>& height_;
-  float neck_ratio_;
+  float saddle_ratio_;
   std::vector<int> label_;
   std::vector<int> parent_;
   std::vector<float> top_;
@@ -169,8 +169,9 @@ std::vector<Cluster> collect(const FreeGrid& grid, const std::vector<int>& owner
   return kept;
 }
 
-std::vector<Cluster> cut_at_necks(const FreeGrid& grid, const std::vector<float>& height, const ClusterConfig& config) {
-  Basins basins(grid.frame, height, config.neck_ratio);
+std::vector<Cluster> cut_by_watershed(const FreeGrid& grid, const std::vector<float>& height,
+                                      const ClusterConfig& config) {
+  Basins basins(grid.frame, height, config.saddle_ratio);
   basins.flood();
   std::vector<int> owner(grid.frame.size(), none);
   for (std::size_t cell = 0; cell < owner.size(); ++cell) owner[cell] = basins.root_of(cell);
@@ -204,7 +205,7 @@ std::vector<CellRun> runs_of(const GridFrame& frame, const std::vector<std::size
   for (std::size_t k = 0; k < cells.size(); ++k) {
     const bool goes_on = k > 0 && cells[k] == cells[k - 1] + 1 && cells[k] < row_end;
     if (!goes_on) {
-      const auto [i, j] = frame.place(cells[k]);
+      const auto [i, j] = frame.column_and_row(cells[k]);
       runs.push_back({k, k, i, j});
       row_end = frame.index(0, j + 1);
     }
@@ -222,7 +223,7 @@ Cluster cluster_of(const FreeGrid& grid, std::vector<std::size_t> cells) {
   return cluster;
 }
 
-std::vector<float> clearance(const FreeGrid& grid) {
+std::vector<float> distance_transform(const FreeGrid& grid) {
   const GridFrame& f = grid.frame;
   const auto width = static_cast<std::size_t>(f.nx);
   std::vector<float> d(f.size(), 0.0F);
@@ -259,7 +260,7 @@ std::vector<float> clearance(const FreeGrid& grid) {
   return d;
 }
 
-std::vector<std::size_t> by_falling_clearance(const GridFrame& frame, const std::vector<float>& clearance_m) {
+std::vector<std::size_t> by_decreasing_clearance(const GridFrame& frame, const std::vector<float>& clearance_m) {
   // Squares of distances between cells are whole numbers of cells, so counting sorts them.
   const double scale = 1.0 / (frame.cell * frame.cell);
   std::vector<std::uint32_t> levels(clearance_m.size());
@@ -285,8 +286,8 @@ std::vector<std::size_t> by_falling_clearance(const GridFrame& frame, const std:
 
 std::vector<Cluster> clusters(const FreeGrid& grid, const ClusterConfig& config) {
   if (grid.frame.size() == 0) return {};
-  const std::vector<float> height = clearance(grid);
-  return config.cut == Cut::necks ? cut_at_necks(grid, height, config) : cut_at_threshold(grid, height, config);
+  const std::vector<float> height = distance_transform(grid);
+  return config.cut == Cut::watershed ? cut_by_watershed(grid, height, config) : cut_at_threshold(grid, height, config);
 }
 
 }  // namespace plumbline::slam

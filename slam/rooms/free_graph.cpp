@@ -19,7 +19,7 @@ class Builder {
   }
 
   FreeGraph build() {
-    for (const std::size_t cell : by_falling_clearance(frame_, distance_m_)) own(cell);
+    for (const std::size_t cell : by_decreasing_clearance(frame_, distance_m_)) own(cell);
     connect();
     return std::move(graph_);
   }

@@ -15,7 +15,7 @@ namespace {
 template <class Visit>
 void walk(const GridFrame& frame, const Eigen::Vector2d& a, const Eigen::Vector2d& b, Visit visit) {
   constexpr double never = std::numeric_limits<double>::infinity();
-  const Eigen::Vector2d from = (a - frame.origin_M) / frame.cell, to = (b - frame.origin_M) / frame.cell;
+  const Eigen::Vector2d from = (a - frame.origin) / frame.cell, to = (b - frame.origin) / frame.cell;
   const Eigen::Vector2d way = to - from;
   const Eigen::Vector2i cell = from.cast<int>(), last = to.cast<int>();
   Eigen::Vector2d next, step;  // shares of the way to the next column and row, and between two of them
@@ -191,13 +191,6 @@ std::vector<Eigen::Vector3d> wall_points(const DeskewedScan& scan, std::span<con
   return result;
 }
 
-std::ptrdiff_t GridFrame::find(const Eigen::Vector2d& p_M) const {
-  const double x = (p_M.x() - origin_M.x()) / cell;
-  const double y = (p_M.y() - origin_M.y()) / cell;
-  if (x < 0.0 || y < 0.0 || x >= nx || y >= ny) return -1;
-  return static_cast<std::ptrdiff_t>(index(static_cast<int>(x), static_cast<int>(y)));
-}
-
 FreeGrid without_islands(FreeGrid grid, const FreeSpaceConfig& config) {
   Islands(grid, static_cast<int>(std::lround(config.island_m / grid.frame.cell))).fill();
   return grid;
@@ -207,8 +200,8 @@ std::size_t changed_cells(const FreeGrid& before, const FreeGrid& after) {
   const auto count = [](const FreeGrid& grid) { return free_cells(grid.free.data(), nullptr, grid.free.size()); };
   const GridFrame &f = before.frame, &g = after.frame;
   if (f.size() == 0 || g.size() == 0) return count(before) + count(after);
-  const auto di = static_cast<int>(std::lround((f.origin_M.x() - g.origin_M.x()) / g.cell));
-  const auto dj = static_cast<int>(std::lround((f.origin_M.y() - g.origin_M.y()) / g.cell));
+  const auto di = static_cast<int>(std::lround((f.origin.x() - g.origin.x()) / g.cell));
+  const auto dj = static_cast<int>(std::lround((f.origin.y() - g.origin.y()) / g.cell));
   const int first = std::max(0, -di), last = std::min(f.nx, g.nx - di);
   std::size_t both = 0;
   for (int j = std::max(0, -dj); j < std::min(f.ny, g.ny - dj) && first < last; ++j)
@@ -235,10 +228,10 @@ void FreeSpaceMap::carve(const FreeRays& rays, const Pose& X_MR) {
     high = high.cwiseMax(walls.back());
   }
   grow(low, high);
-  for (const Eigen::Vector2d& p : walls) ++walled_[static_cast<std::size_t>(frame_.find(p))];
+  for (const Eigen::Vector2d& p : walls) ++walled_[*frame_.find(p)];
   for (std::size_t k = 0; k < ends.size(); ++k) {
     walk(frame_, origin, ends[k], [&](std::size_t cell) { ++passed_[cell]; });
-    if (rays.hit[k]) ++ended_[static_cast<std::size_t>(frame_.find(ends[k]))];
+    if (rays.hit[k]) ++ended_[*frame_.find(ends[k])];
   }
 }
 
@@ -265,17 +258,17 @@ void FreeSpaceMap::grow(const Eigen::Vector2d& low, const Eigen::Vector2d& high)
   const auto up = [&](double v) { return block * std::ceil((v + frame_.cell) / block); };
   Eigen::Vector2d new_low(down(low.x()), down(low.y())), new_high(up(high.x()), up(high.y()));
   if (frame_.nx > 0) {
-    new_low = new_low.cwiseMin(frame_.origin_M);
-    new_high = new_high.cwiseMax(frame_.origin_M + frame_.cell * Eigen::Vector2d(frame_.nx, frame_.ny));
+    new_low = new_low.cwiseMin(frame_.origin);
+    new_high = new_high.cwiseMax(frame_.origin + frame_.cell * Eigen::Vector2d(frame_.nx, frame_.ny));
   }
   GridFrame grown = frame_;
-  grown.origin_M = new_low;
+  grown.origin = new_low;
   grown.nx = static_cast<int>(std::lround((new_high.x() - new_low.x()) / frame_.cell));
   grown.ny = static_cast<int>(std::lround((new_high.y() - new_low.y()) / frame_.cell));
   if (grown.nx == frame_.nx && grown.ny == frame_.ny) return;
   std::vector<std::uint32_t> passed(grown.size(), 0), ended(grown.size(), 0), walled(grown.size(), 0);
-  const int di = static_cast<int>(std::lround((frame_.origin_M.x() - new_low.x()) / frame_.cell));
-  const int dj = static_cast<int>(std::lround((frame_.origin_M.y() - new_low.y()) / frame_.cell));
+  const int di = static_cast<int>(std::lround((frame_.origin.x() - new_low.x()) / frame_.cell));
+  const int dj = static_cast<int>(std::lround((frame_.origin.y() - new_low.y()) / frame_.cell));
   for (int j = 0; j < frame_.ny; ++j)
     for (int i = 0; i < frame_.nx; ++i) {
       passed[grown.index(i + di, j + dj)] = passed_[frame_.index(i, j)];

@@ -59,7 +59,7 @@ std::optional<Opposed> longest_pair(const std::vector<Face>& faces, const Vector
 
 bool between(const Opposed& pair, const Vector2d& p) { return pair.a.distance(p) > 0.0 && pair.b.distance(p) > 0.0; }
 
-Vector2d meet(const Vector2d& m, double e, const Vector2d& n, double f) {
+Vector2d intersection(const Vector2d& m, double e, const Vector2d& n, double f) {
   Eigen::Matrix2d A;
   A << m.transpose(), n.transpose();
   return -(A.inverse() * Vector2d(e, f));
@@ -74,7 +74,7 @@ RoomCandidate four_walls(const Opposed& x, const Opposed& y) {
   RoomCandidate room;
   room.kind = RoomKind::four_wall;
   room.planes = {x.a.id, x.b.id, y.a.id, y.b.id};
-  const auto corner = [](const Face& f, const Face& g) { return meet(f.m, f.e, g.m, g.e); };
+  const auto corner = [](const Face& f, const Face& g) { return intersection(f.m, f.e, g.m, g.e); };
   room.polygon_M = counter_clockwise({corner(x.a, y.a), corner(x.b, y.a), corner(x.b, y.b), corner(x.a, y.b)});
   room.center_M = 0.25 * (room.polygon_M[0] + room.polygon_M[1] + room.polygon_M[2] + room.polygon_M[3]);
   room.cluster_M = room.center_M;
@@ -91,7 +91,7 @@ std::optional<RoomCandidate> two_walls(const Opposed& pair, const RoomConfig& co
   RoomCandidate room;
   room.kind = RoomKind::two_wall;
   room.planes = {pair.a.id, pair.b.id};
-  const auto corner = [&](const Face& f, double s) { return meet(f.m, f.e, t, -s); };
+  const auto corner = [&](const Face& f, double s) { return intersection(f.m, f.e, t, -s); };
   room.polygon_M =
       counter_clockwise({corner(pair.a, from), corner(pair.b, from), corner(pair.b, to), corner(pair.a, to)});
   room.center_M = 0.25 * (room.polygon_M[0] + room.polygon_M[1] + room.polygon_M[2] + room.polygon_M[3]);

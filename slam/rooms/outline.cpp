@@ -43,14 +43,14 @@ bool parallel(const FaceLine& a, const FaceLine& b, const RoomConfig& config) {
 Vector2d middle(const FaceLine& line) { return -line.e * line.m + 0.5 * (line.s0 + line.s1) * line.along; }
 
 /// The faces that carry most of the border, without those that run beside a better one, and the cuts.
-std::vector<FaceLine> lines_of(const Scene& scene) {
-  std::vector<FaceLine> walls = scene.walls;
+std::vector<FaceLine> lines_of(const ClusterWalls& cluster_walls) {
+  std::vector<FaceLine> walls = cluster_walls.walls;
   std::stable_sort(walls.begin(), walls.end(),
                    [](const FaceLine& a, const FaceLine& b) { return a.support > b.support; });
   std::vector<FaceLine> lines;
   const auto add = [&](const FaceLine& line, const Vector2d& at) {
     const bool known = std::any_of(lines.begin(), lines.end(), [&](const FaceLine& l) {
-      return parallel(l, line, scene.config) && std::abs(l.distance(at)) < same_line_m;
+      return parallel(l, line, cluster_walls.config) && std::abs(l.distance(at)) < same_line_m;
     });
     if (!known) lines.push_back(line);
   };
@@ -59,11 +59,11 @@ std::vector<FaceLine> lines_of(const Scene& scene) {
   if (lines.empty()) return lines;
   const Vector2d axis = lines.front().m;
   for (const Vector2d& m : {axis, Vector2d(-axis), Vector2d(-axis.y(), axis.x()), Vector2d(axis.y(), -axis.x())}) {
-    Vector2d lowest = scene.cluster.center_M;
-    for (const Vector2d& p : scene.border_M) {
+    Vector2d lowest = cluster_walls.cluster.center_M;
+    for (const Vector2d& p : cluster_walls.border_M) {
       if (m.dot(p) < m.dot(lowest)) lowest = p;
     }
-    add(cut_line(m, lowest - 0.5 * scene.grid.frame.cell * m), lowest);
+    add(cut_line(m, lowest - 0.5 * cluster_walls.grid.frame.cell * m), lowest);
   }
   return lines;
 }
@@ -97,10 +97,11 @@ double area_of(const Piece& piece) {
 /// The lines' arrangement over one cluster.
 class Arrangement {
  public:
-  Arrangement(const Scene& scene, std::vector<FaceLine> lines) : scene_(scene), lines_(std::move(lines)) {
-    const double cell2 = scene.grid.frame.cell * scene.grid.frame.cell;
+  Arrangement(const ClusterWalls& cluster_walls, std::vector<FaceLine> lines)
+      : cluster_walls_(cluster_walls), lines_(std::move(lines)) {
+    const double cell2 = cluster_walls.grid.frame.cell * cluster_walls.grid.frame.cell;
     std::map<Sides, std::size_t> cells;
-    for (const CellRun& run : scene.runs) count(run, cells);
+    for (const CellRun& run : cluster_walls.runs) count(run, cells);
     for (const auto& [sides, count] : cells) {
       const Piece piece = piece_of(sides);
       const double area = area_of(piece);
@@ -153,7 +154,8 @@ class Arrangement {
     Sides sides = 0;
     for (std::size_t k = 0; k < lines_.size(); ++k) {
       const Sides side = Sides{1} << k;
-      const Stretch free = where(scene_.grid.frame, run, lines_[k], [](double distance) { return distance >= 0.0; });
+      const Stretch free =
+          partition_run(cluster_walls_.grid.frame, run, lines_[k], [](double distance) { return distance >= 0.0; });
       if (free.cells() == 0) continue;
       if (free.from == run.from) sides |= side;
       if (free.cells() < run.to - run.from) changes[n++] = {free.from == run.from ? free.to : free.from, side};
@@ -172,7 +174,7 @@ class Arrangement {
   [[nodiscard]] Piece piece_of(Sides sides) const {
     constexpr double far_m = 1e4;
     constexpr std::size_t nowhere = most_lines;
-    const Vector2d c = scene_.cluster.center_M;
+    const Vector2d c = cluster_walls_.cluster.center_M;
     const Vector2d corner[4] = {c + Vector2d(-far_m, -far_m), c + Vector2d(far_m, -far_m), c + Vector2d(far_m, far_m),
                                 c + Vector2d(-far_m, far_m)};
     Piece piece;
@@ -222,7 +224,7 @@ class Arrangement {
     return best;
   }
 
-  const Scene& scene_;
+  const ClusterWalls& cluster_walls_;
   std::vector<FaceLine> lines_;
   std::map<Sides, Piece> pieces_;
   std::size_t inside_ = 0;
@@ -251,15 +253,15 @@ struct OnWall {
   double share = 0.0;
 };
 
-OnWall wall_of(const Edge& edge, const FaceLine& line, const Scene& scene) {
+OnWall wall_of(const Edge& edge, const FaceLine& line, const ClusterWalls& cluster_walls) {
   const double length = (edge.to - edge.from).norm();
   const Vector2d at = 0.5 * (edge.from + edge.to);
   OnWall best;
-  for (const FaceLine& face : scene.walls) {
-    if (!parallel(face, line, scene.config) || std::abs(face.distance(at)) > same_line_m) continue;
+  for (const FaceLine& face : cluster_walls.walls) {
+    if (!parallel(face, line, cluster_walls.config) || std::abs(face.distance(at)) > same_line_m) continue;
     const double a = face.along.dot(edge.from), b = face.along.dot(edge.to);
     const double from = std::max(face.s0, std::min(a, b)), to = std::min(face.s1, std::max(a, b));
-    const double share = border_on(face, from, to, scene) / length;
+    const double share = border_on(face, from, to, cluster_walls) / length;
     if (share > best.share) best = {face.id, share};
   }
   return best;
@@ -273,7 +275,7 @@ Polygon2 polygon_of(const Outline& outline) {
   return polygon;
 }
 
-void chain(const Outline& outline, std::span<const FaceLine> walls, RoomCandidate& room) {
+void set_polygon_planes(const Outline& outline, std::span<const FaceLine> walls, RoomCandidate& room) {
   constexpr double least_sine = 0.1;
   const std::size_t n = outline.sides.size();
   const auto place = [&](int wall) {
@@ -295,11 +297,11 @@ void chain(const Outline& outline, std::span<const FaceLine> walls, RoomCandidat
   if (!room.corners.empty()) room.center_M /= static_cast<double>(room.corners.size());
 }
 
-std::optional<Outline> outline_of(const Scene& scene) {
-  const Arrangement arrangement(scene, lines_of(scene));
+std::optional<Outline> outline_of(const ClusterWalls& cluster_walls) {
+  const Arrangement arrangement(cluster_walls, lines_of(cluster_walls));
   if (arrangement.inside() == 0) return {};
   Outline outline;
-  double length = 0.0, walled = 0.0, outer_area = 0.0;
+  double length = 0.0, wall_share = 0.0, outer_area = 0.0;
   for (const Piece& border : arrangement.borders()) {
     const double area = area_of(border);
     if (area < 0.0) {
@@ -309,21 +311,21 @@ std::optional<Outline> outline_of(const Scene& scene) {
     if (area <= outer_area) continue;
     outer_area = area;
     outline.sides.clear();
-    length = walled = 0.0;
+    length = wall_share = 0.0;
     for (const Edge& edge : without_joints(border)) {
-      const OnWall wall = wall_of(edge, arrangement.lines()[edge.line], scene);
+      const OnWall wall = wall_of(edge, arrangement.lines()[edge.line], cluster_walls);
       const double edge_m = (edge.to - edge.from).norm();
-      outline.sides.push_back({wall.share >= scene.config.min_side_share ? wall.id : -1, edge.from});
+      outline.sides.push_back({wall.share >= cluster_walls.config.min_side_share ? wall.id : -1, edge.from});
       length += edge_m;
-      walled += std::min(wall.share, 1.0) * edge_m;
+      wall_share += std::min(wall.share, 1.0) * edge_m;
     }
   }
   if (outline.sides.size() < 3) return {};
-  const double cell2 = scene.grid.frame.cell * scene.grid.frame.cell;
+  const double cell2 = cluster_walls.grid.frame.cell * cluster_walls.grid.frame.cell;
   const auto inside = static_cast<double>(arrangement.inside());
   outline.fill = inside * cell2 / arrangement.area();
-  outline.inside = inside / static_cast<double>(scene.cluster.cells.size());
-  outline.walled = walled / length;
+  outline.inside = inside / static_cast<double>(cluster_walls.cluster.cells.size());
+  outline.wall_share = wall_share / length;
   return outline;
 }
 

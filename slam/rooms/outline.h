@@ -19,7 +19,7 @@ struct OutlineSide {
 struct Outline {
   std::vector<OutlineSide> sides;  ///< counter-clockwise, no two neighbours on one line
   double fill = 0.0;               ///< free share of what it encloses
-  double walled = 0.0;             ///< share of its length that lies on walls that were seen
+  double wall_share = 0.0;         ///< share of its length that lies on walls that were seen
   double inside = 0.0;             ///< share of the cluster's cells that it encloses
   bool ring = false;               ///< it encloses something that is no part of the room and larger than a column
 };
@@ -28,11 +28,11 @@ struct Outline {
 
 /// Gives a room the planes of the outline's walls in order, the corners where two of them meet, and those corners' mean
 /// as its centre. Where a wall goes on in itself, or in one that is nearly parallel, there is no corner: nothing would
-/// tell where along them it stands. `walls`: at least all that the outline names.
-void chain(const Outline& outline, std::span<const FaceLine> walls, RoomCandidate& room);
+/// fix where along them it lies. `walls`: at least all that the outline names.
+void set_polygon_planes(const Outline& outline, std::span<const FaceLine> walls, RoomCandidate& room);
 
 /// The lines of the walls, and four cuts where free space ends, part the plane into convex pieces; those mostly free
 /// make the room, their border is its outline. Nothing where no piece is mostly free, or where walls are too many.
-[[nodiscard]] std::optional<Outline> outline_of(const Scene& scene);
+[[nodiscard]] std::optional<Outline> outline_of(const ClusterWalls& cluster_walls);
 
 }  // namespace plumbline::slam

@@ -10,10 +10,10 @@
 
 #include "slam/graph/graph.h"
 #include "slam/rooms/cluster_walls.h"
-#include "slam/rooms/join.h"
+#include "slam/rooms/corridor_segments.h"
+#include "slam/rooms/merge_clusters.h"
 #include "slam/rooms/outline.h"
 #include "slam/rooms/overlap.h"
-#include "slam/rooms/straight.h"
 
 namespace plumbline::slam {
 
@@ -31,23 +31,24 @@ struct Pair {
   [[nodiscard]] Vector2d across() const { return (a.m - b.m).normalized(); }
 };
 
-double share_between(const Pair& pair, const Scene& scene) {
-  const auto between = [&](double distance) { return distance > -scene.config.slack_m; };
+double share_between(const Pair& pair, const ClusterWalls& cluster_walls) {
+  const auto between = [&](double distance) { return distance > -cluster_walls.config.slack_m; };
   std::size_t inside = 0;
-  for (const CellRun& run : scene.runs)
-    inside +=
-        where(scene.grid.frame, run, pair.a, between).within(where(scene.grid.frame, run, pair.b, between)).cells();
-  return static_cast<double>(inside) / static_cast<double>(scene.cluster.cells.size());
+  for (const CellRun& run : cluster_walls.runs)
+    inside += partition_run(cluster_walls.grid.frame, run, pair.a, between)
+                  .within(partition_run(cluster_walls.grid.frame, run, pair.b, between))
+                  .cells();
+  return static_cast<double>(inside) / static_cast<double>(cluster_walls.cluster.cells.size());
 }
 
 /// Opposed pairs around the cluster, perpendicular to `axis` where one is given; by falling support, ties: lower ids.
-std::vector<Pair> opposed_pairs(const Scene& scene, const std::optional<Vector2d>& axis) {
-  const RoomConfig& config = scene.config;
-  const Vector2d& center = scene.cluster.center_M;
+std::vector<Pair> opposed_pairs(const ClusterWalls& cluster_walls, const std::optional<Vector2d>& axis) {
+  const RoomConfig& config = cluster_walls.config;
+  const Vector2d& center = cluster_walls.cluster.center_M;
   std::vector<Pair> pairs;
-  for (std::size_t i = 0; i < scene.walls.size(); ++i)
-    for (std::size_t j = i + 1; j < scene.walls.size(); ++j) {
-      const Pair pair{scene.walls[i], scene.walls[j]};
+  for (std::size_t i = 0; i < cluster_walls.walls.size(); ++i)
+    for (std::size_t j = i + 1; j < cluster_walls.walls.size(); ++j) {
+      const Pair pair{cluster_walls.walls[i], cluster_walls.walls[j]};
       if (pair.a.m.dot(pair.b.m) > -std::cos(config.opposed_deg * rad)) continue;
       if (axis && std::abs(axis->dot(pair.across())) > std::sin(config.perpendicular_deg * rad)) continue;
       if (pair.a.distance(center) <= 0.0 || pair.b.distance(center) <= 0.0) continue;
@@ -59,51 +60,52 @@ std::vector<Pair> opposed_pairs(const Scene& scene, const std::optional<Vector2d
 }
 
 /// The best-supported of them that has the cluster between its walls.
-std::optional<Pair> best_pair(const Scene& scene, const std::optional<Vector2d>& axis) {
-  for (const Pair& pair : opposed_pairs(scene, axis))
-    if (share_between(pair, scene) >= scene.config.inside_share) return pair;
+std::optional<Pair> best_pair(const ClusterWalls& cluster_walls, const std::optional<Vector2d>& axis) {
+  for (const Pair& pair : opposed_pairs(cluster_walls, axis))
+    if (share_between(pair, cluster_walls) >= cluster_walls.config.inside_share) return pair;
   return {};
 }
 
 /// Free share of the polygon that four lines cut out, counting the cluster's own cells only.
-double fill_of(const Polygon2& polygon, const std::array<FaceLine, 4>& sides, const Scene& scene) {
-  const GridFrame& frame = scene.grid.frame;
+double fill_of(const Polygon2& polygon, const std::array<FaceLine, 4>& sides, const ClusterWalls& cluster_walls) {
+  const GridFrame& frame = cluster_walls.grid.frame;
   std::size_t inside = 0;
-  for (const CellRun& run : scene.runs) {
+  for (const CellRun& run : cluster_walls.runs) {
     Stretch stretch{run.from, run.to};
     for (const FaceLine& side : sides)
-      stretch = stretch.within(where(frame, run, side, [](double distance) { return distance > 0.0; }));
+      stretch = stretch.within(partition_run(frame, run, side, [](double distance) { return distance > 0.0; }));
     inside += stretch.cells();
   }
   return static_cast<double>(inside) * frame.cell * frame.cell / std::abs(signed_area(polygon));
 }
 
-/// [S-Graphs+ eq. 4] and the enclosure test of section IV-C: each side must be seen along part of its length.
-std::optional<RoomCandidate> four_walls(const Scene& scene, const Pair& x, const Pair& y) {
+/// [bavle2023, eq. 4] and the enclosure test of section IV-C: each side must be seen along part of its length.
+std::optional<RoomCandidate> four_walls(const ClusterWalls& cluster_walls, const Pair& x, const Pair& y) {
   RoomCandidate room;
   room.kind = RoomKind::four_wall;
   room.planes = {x.a.id, x.b.id, y.a.id, y.b.id};
-  room.polygon_M = counter_clockwise({meet(x.a, y.a), meet(x.b, y.a), meet(x.b, y.b), meet(x.a, y.b)});
+  room.polygon_M = counter_clockwise(
+      {intersection(x.a, y.a), intersection(x.b, y.a), intersection(x.b, y.b), intersection(x.a, y.b)});
   room.center_M = 0.25 * (room.polygon_M[0] + room.polygon_M[1] + room.polygon_M[2] + room.polygon_M[3]);
-  room.cluster_M = scene.cluster.center_M;
+  room.cluster_M = cluster_walls.cluster.center_M;
   const double wx = x.width_at(room.center_M), wy = y.width_at(room.center_M);
-  const double share = scene.config.min_side_share;
+  const double share = cluster_walls.config.min_side_share;
   if (std::min(x.a.support, x.b.support) < share * wy || std::min(y.a.support, y.b.support) < share * wx) return {};
-  room.fill = fill_of(room.polygon_M, {x.a, x.b, y.a, y.b}, scene);
-  if (room.fill < scene.config.min_fill) return {};
+  room.fill = fill_of(room.polygon_M, {x.a, x.b, y.a, y.b}, cluster_walls);
+  if (room.fill < cluster_walls.config.min_fill) return {};
   return room;
 }
 
-/// [S-Graphs+ eq. 5, 6]: between the walls, along them as far as the cluster reaches.
-std::optional<RoomCandidate> two_walls(const Scene& scene, const Pair& pair) {
-  if (std::min(pair.a.support, pair.b.support) < scene.config.min_two_wall_m) return {};
+/// [bavle2023, eq. 5, 6]: between the walls, along them as far as the cluster reaches.
+std::optional<RoomCandidate> two_walls(const ClusterWalls& cluster_walls, const Pair& pair) {
+  if (std::min(pair.a.support, pair.b.support) < cluster_walls.config.min_two_wall_m) return {};
   const Vector2d n = pair.across();
   const Vector2d t(-n.y(), n.x());
   double low = std::numeric_limits<double>::infinity(), high = -low;
-  const GridFrame& frame = scene.grid.frame;
+  const GridFrame& frame = cluster_walls.grid.frame;
   const auto inside = [](double distance) { return distance >= 0.0; };
-  for (const CellRun& run : scene.runs) {
-    const Stretch stretch = where(frame, run, pair.a, inside).within(where(frame, run, pair.b, inside));
+  for (const CellRun& run : cluster_walls.runs) {
+    const Stretch stretch = partition_run(frame, run, pair.a, inside).within(partition_run(frame, run, pair.b, inside));
     if (stretch.cells() == 0) continue;
     for (const std::size_t k : {stretch.from, stretch.to - 1}) {
       const double s = t.dot(frame.center(run.i + static_cast<int>(k - run.from), run.j));
@@ -111,40 +113,41 @@ std::optional<RoomCandidate> two_walls(const Scene& scene, const Pair& pair) {
       high = std::max(high, s);
     }
   }
-  const double half = 0.5 * scene.grid.frame.cell;
+  const double half = 0.5 * cluster_walls.grid.frame.cell;
   const FaceLine start = cut_line(t, (low - half) * t), end = cut_line(-t, (high + half) * t);
   RoomCandidate room;
   room.kind = RoomKind::two_wall;
   room.planes = {pair.a.id, pair.b.id};
-  room.polygon_M = counter_clockwise({meet(pair.a, start), meet(pair.b, start), meet(pair.b, end), meet(pair.a, end)});
+  room.polygon_M = counter_clockwise(
+      {intersection(pair.a, start), intersection(pair.b, start), intersection(pair.b, end), intersection(pair.a, end)});
   room.center_M = 0.25 * (room.polygon_M[0] + room.polygon_M[1] + room.polygon_M[2] + room.polygon_M[3]);
   room.cluster_M = room.center_M;
-  room.fill = fill_of(room.polygon_M, {pair.a, pair.b, start, end}, scene);
-  if (room.fill < scene.config.min_fill) return {};
+  room.fill = fill_of(room.polygon_M, {pair.a, pair.b, start, end}, cluster_walls);
+  if (room.fill < cluster_walls.config.min_fill) return {};
   return room;
 }
 
-std::optional<RoomCandidate> rectangle(const Scene& scene) {
-  const std::optional<Pair> x = best_pair(scene, std::nullopt);
+std::optional<RoomCandidate> rectangle(const ClusterWalls& cluster_walls) {
+  const std::optional<Pair> x = best_pair(cluster_walls, std::nullopt);
   if (!x) return {};
-  if (const std::optional<Pair> y = best_pair(scene, x->across()))
-    if (std::optional<RoomCandidate> room = four_walls(scene, *x, *y)) return room;
-  return two_walls(scene, *x);
+  if (const std::optional<Pair> y = best_pair(cluster_walls, x->across()))
+    if (std::optional<RoomCandidate> room = four_walls(cluster_walls, *x, *y)) return room;
+  return two_walls(cluster_walls, *x);
 }
 
 /// A room of more than four sides.
-std::optional<RoomCandidate> polygon(const Scene& scene, const Outline& outline) {
+std::optional<RoomCandidate> polygon(const ClusterWalls& cluster_walls, const Outline& outline) {
   constexpr std::size_t least_sides = 5, least_corners = 2;
-  const RoomConfig& config = scene.config;
+  const RoomConfig& config = cluster_walls.config;
   if (outline.ring || outline.sides.size() < least_sides || outline.inside < config.inside_share ||
-      outline.fill < config.polygon_fill || outline.walled < config.polygon_walled)
+      outline.fill < config.polygon_fill || outline.wall_share < config.polygon_wall_share)
     return {};
   RoomCandidate room;
   room.kind = RoomKind::polygon;
   room.polygon_M = polygon_of(outline);
   room.fill = outline.fill;
-  room.cluster_M = scene.cluster.center_M;
-  chain(outline, scene.walls, room);
+  room.cluster_M = cluster_walls.cluster.center_M;
+  set_polygon_planes(outline, cluster_walls.walls, room);
   if (room.corners.size() < least_corners || room.planes.size() > max_room_planes ||
       room.corners.size() > max_room_planes || !is_simple(room.polygon_M))
     return {};
@@ -152,21 +155,22 @@ std::optional<RoomCandidate> polygon(const Scene& scene, const Outline& outline)
 }
 
 /// Rooms in the straight parts of a ring.
-std::vector<RoomCandidate> parts_of(const Scene& scene) {
+std::vector<RoomCandidate> parts_of(const ClusterWalls& cluster_walls) {
   std::vector<RoomCandidate> rooms;
-  for (const Cluster& part : straight_parts(scene))
-    if (std::optional<RoomCandidate> room = rectangle(make_scene(scene.grid, part, scene.walls, scene.config)))
+  for (const Cluster& part : corridor_segments(cluster_walls))
+    if (std::optional<RoomCandidate> room =
+            rectangle(make_cluster_walls(cluster_walls.grid, part, cluster_walls.walls, cluster_walls.config)))
       rooms.push_back(std::move(*room));
   return rooms;
 }
 
-std::vector<RoomCandidate> rooms_of(const Scene& scene) {
-  std::optional<RoomCandidate> room = rectangle(scene);
-  if (scene.config.polygons && (!room || room->fill < scene.config.rectangle_fill)) {
-    const std::optional<Outline> outline = outline_of(scene);
+std::vector<RoomCandidate> rooms_of(const ClusterWalls& cluster_walls) {
+  std::optional<RoomCandidate> room = rectangle(cluster_walls);
+  if (cluster_walls.config.polygons && (!room || room->fill < cluster_walls.config.rectangle_fill)) {
+    const std::optional<Outline> outline = outline_of(cluster_walls);
     if (outline && outline->ring)
-      if (std::vector<RoomCandidate> parts = parts_of(scene); parts.size() > 1) return parts;
-    std::optional<RoomCandidate> any = outline ? polygon(scene, *outline) : std::nullopt;
+      if (std::vector<RoomCandidate> parts = parts_of(cluster_walls); parts.size() > 1) return parts;
+    std::optional<RoomCandidate> any = outline ? polygon(cluster_walls, *outline) : std::nullopt;
     if (any && (!room || any->fill > room->fill + fuller)) room = std::move(any);
   }
   if (!room) return {};
@@ -183,7 +187,7 @@ bool better(const RoomCandidate& a, const RoomCandidate& b) {
   return a.fill > b.fill;
 }
 
-/// Of two rooms in one place keeps the better one (ties: the earlier).
+/// Of two overlapping rooms keeps the better one (ties: the earlier).
 void drop_overlapping(std::vector<RoomCandidate>& rooms, double max_overlap) {
   std::vector<bool> dropped(rooms.size(), false);
   for (std::size_t i = 0; i < rooms.size(); ++i)
@@ -238,7 +242,7 @@ double reach_past(const RoomCandidate& a, const RoomCandidate& b) {
 
 /// A hall whose free space a flight of stairs cuts askew falls into clusters that reach past each other between the
 /// same walls; those on both sides of a partition do not, but for the cell that either is rounded up by.
-void join_two_walls(std::vector<RoomCandidate>& rooms, double cell_m) {
+void merge_two_wall_rooms(std::vector<RoomCandidate>& rooms, double cell_m) {
   constexpr double least_cells = 3.0;
   for (std::size_t i = 0; i < rooms.size(); ++i)
     for (std::size_t j = i + 1; j < rooms.size();) {
@@ -266,12 +270,12 @@ std::vector<RoomCandidate> detect_rooms(const FreeGrid& grid, std::span<const Cl
                        [&](const Vector2d& p) { return contains(room.polygon_M, p); });
   };
   std::vector<RoomCandidate> rooms;
-  const std::vector<Cluster> joined = config.polygons ? join_clusters(grid, clusters, faces, config)
+  const std::vector<Cluster> joined = config.polygons ? merge_clusters(grid, clusters, faces, config)
                                                       : std::vector<Cluster>(clusters.begin(), clusters.end());
   for (const Cluster& cluster : joined)
-    for (RoomCandidate& room : rooms_of(make_scene(grid, cluster, faces, config)))
+    for (RoomCandidate& room : rooms_of(make_cluster_walls(grid, cluster, faces, config)))
       if (!config.entered_only || entered(room)) rooms.push_back(std::move(room));
-  if (config.polygons) join_two_walls(rooms, grid.frame.cell);
+  if (config.polygons) merge_two_wall_rooms(rooms, grid.frame.cell);
   drop_overlapping(rooms, config.max_overlap);
   return rooms;
 }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
 #include <vector>
 
 #include "bim/digest/digest.h"
+#include "bim/median.h"
 #include "slam/scan/motion.h"
 
 namespace plumbline::slam {
@@ -40,11 +40,8 @@ std::vector<int> column_shifts(const Scan& scan) {
       apart.push_back(std::atan2(below.x() * p.y() - below.y() * p.x(), below.x() * p.x() + below.y() * p.y()));
     }
     int shift = 0;
-    if (!apart.empty()) {
-      const auto middle = apart.begin() + static_cast<std::ptrdiff_t>(apart.size() / 2);
-      std::nth_element(apart.begin(), middle, apart.end());
-      shift = static_cast<int>(std::lround(*middle * scan.columns / (2.0 * std::numbers::pi)));  // turns clockwise
-    }
+    if (!apart.empty())  // turns clockwise
+      shift = static_cast<int>(std::lround(upper_median(apart) * scan.columns / (2.0 * std::numbers::pi)));
     const auto r = static_cast<std::size_t>(ring);
     shifts[r] = shifts[r - 1] + (std::abs(shift) < 2 ? 0 : shift);
   }
@@ -61,7 +58,7 @@ DeskewedScan deskew(const Scan& scan, const MotionBuffer& motion, const Calibrat
   out.range_m.assign(scan.size(), 0.0);
   out.point_R.assign(scan.size(), Eigen::Vector3d::Zero());
   out.X_RL = calibration.X_RL;
-  out.odometry_silent = motion.silent_at(scan.stamp);
+  out.odometry_stale = motion.is_stale_at(scan.stamp);
 
   const Pose X_RO = motion.at(scan.stamp).inverse();
   const auto rings = static_cast<std::size_t>(scan.rings);

@@ -55,7 +55,7 @@ std::vector<int> neighbours(const std::vector<std::uint64_t>& keys) {
   return count;
 }
 
-/// Beams spread with range, so that less is asked of what was seen from afar only.
+/// Beams spread with range, so that fewer neighbours are required of what was seen from afar only.
 void drop_strays(std::vector<Eigen::Vector3f>& points, const Voxels& voxels, const MapCloudConfig& config,
                  std::span<const Plane> levels) {
   if (config.min_neighbours == 0) return;

@@ -14,22 +14,23 @@
 namespace plumbline::slam {
 
 struct MapCloudConfig {
-  double spacing_m = 0.75;  ///< way between scans that enter the map
+  double spacing_m = 0.75;
   double min_range_m = 0.5;
   double max_range_m = 25.0;
-  double voxel_m = 0.05;   ///< [contracts: Estimate::map_F]
-  int min_neighbours = 0;  ///< occupied voxels among the 124 round a map point's, else it is a stray: light that an
-                           ///< edge shared, or a curved mirror scattered
-  double dense_m = 4.0;  ///< range up to which that many are asked; of what was seen from r alone, dense_m / r of them
+  double voxel_m = 0.05;
+  int min_neighbours = 0;
+  double dense_m = 4.0;
 
   template <class V>
   void visit(V& v) {
-    v("spacing_m", spacing_m, Field{.min = 0.0});
-    v("min_range_m", min_range_m, Field{.min = 0.0});
-    v("max_range_m", max_range_m, Field{.min = 0.0});
-    v("voxel_m", voxel_m, Field{.min = 0.005});
-    v("min_neighbours", min_neighbours, Field{.doc = "occupied voxels within two of a map point's", .min = 0});
-    v("dense_m", dense_m, Field{.doc = "range from which fewer neighbours are asked", .min = 0});
+    v("spacing_m", spacing_m, Field{.doc = "distance walked between scans that enter the map", .min = 0.0});
+    v("min_range_m", min_range_m, Field{.doc = "least range of a return that enters the map", .min = 0.0});
+    v("max_range_m", max_range_m, Field{.doc = "largest range of a return that enters the map", .min = 0.0});
+    v("voxel_m", voxel_m, Field{.doc = "voxel size of the map that is scored", .min = 0.005, .basic = true});
+    // Beams split by an edge or scattered by a curved mirror.
+    v("min_neighbours", min_neighbours,
+      Field{.doc = "least number of occupied voxels around a map point, of 124; else it is a stray", .min = 0});
+    v("dense_m", dense_m, Field{.doc = "range beyond which proportionally fewer neighbours are required", .min = 0});
   }
 };
 
@@ -47,7 +48,7 @@ struct CloudKeyframe {
 [[nodiscard]] CloudKeyframe thin_rings(const DeskewedScan& scan, const Pose& X_FR, const MapCloudConfig& config);
 
 /// All keyframes in F, one mean point a voxel, ordered by voxel, without strays. What lies on a floor or ceiling is
-/// none: these are met at a slant, where rings lie far apart. levels: those planes in F.
+/// none: these are hit at a slant, where rings lie far apart. levels: those planes in F.
 [[nodiscard]] std::vector<Eigen::Vector3f> map_cloud(std::span<const CloudKeyframe> keyframes,
                                                      const MapCloudConfig& config, std::span<const Plane> levels = {});
 

@@ -21,24 +21,24 @@ void MotionBuffer::add(const Odometry& odometry) {
     throw InternalError("odometry records are not in time order");
   if (!odometry.X_OR.t.allFinite() || !odometry.X_OR.q.coeffs().allFinite()) return;
   Odometry record = odometry;
-  if (moved_) record.X_OR = *moved_ * record.X_OR;
-  if (!records_.empty() && jumps(records_.back(), record)) {
-    moved_ = join_frames(records_.back().X_OR, odometry.X_OR);
-    record.X_OR = *moved_ * odometry.X_OR;
+  if (frame_shift_) record.X_OR = *frame_shift_ * record.X_OR;
+  if (!records_.empty() && is_jump(records_.back(), record)) {
+    frame_shift_ = join_frames(records_.back().X_OR, odometry.X_OR);
+    record.X_OR = *frame_shift_ * odometry.X_OR;
   }
   if (!records_.empty() && record.stamp == records_.back().stamp) records_.pop_back();
   records_.push_back(record);
 }
 
-bool MotionBuffer::jumps(const Odometry& from, const Odometry& to) const {
-  constexpr double shake_m = 0.05, shake_rad = 0.05;  // of an odometry's own noise
+bool MotionBuffer::is_jump(const Odometry& from, const Odometry& to) const {
+  constexpr double noise_m = 0.05, noise_rad = 0.05;  // of an odometry's own noise
   const double dt = seconds(to.stamp - from.stamp);
   const Pose step = from.X_OR.inverse() * to.X_OR;
-  return step.t.norm() > max_speed_mps * dt + shake_m || log_so3(step.q).norm() > max_turn_radps * dt + shake_rad;
+  return step.t.norm() > max_speed_mps * dt + noise_m || log_so3(step.q).norm() > max_turn_radps * dt + noise_rad;
 }
 
 Pose MotionBuffer::at(Nanoseconds t) const {
-  if (records_.empty()) throw InternalError("motion asked before the first odometry record");
+  if (records_.empty()) throw InternalError("motion requested before the first odometry record");
   if (records_.size() == 1 || t <= records_.front().stamp) return records_.front().X_OR;
   const auto after = std::lower_bound(records_.begin() + 1, records_.end() - 1, t,
                                       [](const Odometry& record, Nanoseconds time) { return record.stamp < time; });

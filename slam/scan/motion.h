@@ -10,17 +10,17 @@
 
 namespace plumbline::slam {
 
-/// Recent odometry, to be asked for the robot's motion between scan times.
+/// Recent odometry, interpolated for the robot's motion between scan times.
 class MotionBuffer {
  public:
   /// Farthest that at() extrapolates past the newest record: two periods of a 100 Hz odometry.
   static constexpr Nanoseconds max_extrapolation = 20'000'000;
   /// Farther than a robot goes between two records: the odometry has jumped. Its frame is then moved along, so that the
-  /// robot keeps place and heading over the jump; only increments and tilt mean anything.
+  /// robot keeps position and heading over the jump; only increments and tilt mean anything.
   static constexpr double max_speed_mps = 10.0;
   static constexpr double max_turn_radps = 20.0;
-  /// Age of the newest record from which the odometry counts as silent: one and a half periods of one of 10 Hz.
-  static constexpr Nanoseconds max_silence = 150'000'000;
+  /// Age of the newest record from which the odometry counts as stale: one and a half periods of one of 10 Hz.
+  static constexpr Nanoseconds max_age = 150'000'000;
 
   /// Records come in time order, else InternalError; one with the newest stamp replaces it, one that is not finite is
   /// left out.
@@ -30,32 +30,32 @@ class MotionBuffer {
   /// least one record, else InternalError.
   [[nodiscard]] Pose at(Nanoseconds t) const;
   [[nodiscard]] bool empty() const { return records_.empty(); }
-  /// True when the newest record is older than max_silence at time t, so that at(t) does not tell of the motion since.
-  [[nodiscard]] bool silent_at(Nanoseconds t) const {
-    return records_.empty() || t - records_.back().stamp > max_silence;
+  /// True when the newest record is older than max_age at time t, so that at(t) does not give the motion since.
+  [[nodiscard]] bool is_stale_at(Nanoseconds t) const {
+    return records_.empty() || t - records_.back().stamp > max_age;
   }
   /// Drops what is not needed for times from t on.
   void forget_before(Nanoseconds t);
 
  private:
-  [[nodiscard]] bool jumps(const Odometry& from, const Odometry& to) const;
+  [[nodiscard]] bool is_jump(const Odometry& from, const Odometry& to) const;
 
   std::deque<Odometry> records_;
-  std::optional<Pose> moved_;  ///< of the odometry's frame, since a jump
+  std::optional<Pose> frame_shift_;  ///< of the odometry's frame, since a jump
 };
 
-/// Frame B of an odometry in its frame O from where it is X_BR in the one and X_OR in the other: by place and heading,
-/// since z is up in both and the robot's tilt is its own.
+/// Frame B of an odometry in its frame O from where it is X_BR in the one and X_OR in the other: by position and
+/// heading, since z is up in both and the robot's tilt is its own.
 [[nodiscard]] Pose join_frames(const Pose& X_OR, const Pose& X_BR);
 
-/// What odometry says at a scan's stamp.
-struct LegsAt {
-  Pose X_OR;             ///< z of O is up
-  bool followed = true;  ///< false: how the robot came here from the scan before is not known
+/// Odometry at a scan's stamp.
+struct OdometrySample {
+  Pose X_OR;          ///< z of O is up
+  bool valid = true;  ///< false: the motion from the scan before is not known
 };
 
 /// A scan with every return moved to R at scan.stamp. Index of a return: column * rings + ring; rings are in line, that
-/// is, returns of a column have one azimuth also where lasers of one firing look to different sides (VLP-32C).
+/// is, returns of a column have one azimuth also where lasers of one firing point to different sides (VLP-32C).
 struct DeskewedScan {
   Nanoseconds stamp = 0;
   int rings = 16;
@@ -63,10 +63,10 @@ struct DeskewedScan {
   std::vector<double> range_m;           ///< as measured; 0: no return, or one that is no finite point in its range
   std::vector<Eigen::Vector3d> point_R;  ///< at stamp; zero where there is no return
   Pose X_RL;                             ///< sensor in R
-  bool odometry_silent = false;          ///< at stamp: what came since its last record is taken as if R stood still
+  bool odometry_stale = false;           ///< at stamp: what came since its last record is taken as if R stood still
 };
 
-/// Undoes the robot's motion during the sweep by the odometry's relative poses. One pose a column: its lasers fire
+/// Undoes the robot's motion during the scan by the odometry's relative poses. One pose a column: its lasers fire
 /// within 35 us, in which a walking robot moves 0.02 mm. Putting rings in line drops at either end of the scan the few
 /// columns that some rings do not have; a message's overlap is as wide.
 [[nodiscard]] DeskewedScan deskew(const Scan& scan, const MotionBuffer& motion, const Calibration& calibration);

@@ -13,22 +13,12 @@ namespace plumbline::slam {
 /// Which return of a bin stands for it. The smallest range is what a planar scanner's driver gives and meets furniture
 /// first; the largest looks past it, and through openings.
 enum class SlicePick { minimum, maximum };
-
-}  // namespace plumbline::slam
-
-namespace plumbline {
-template <>
-struct EnumNames<slam::SlicePick> {
-  static constexpr std::array<std::string_view, 2> names = {"minimum", "maximum"};
-};
-}  // namespace plumbline
-
-namespace plumbline::slam {
+[[nodiscard]] constexpr std::array<std::string_view, 2> names_of(SlicePick) { return {"minimum", "maximum"}; }
 
 struct ScanSliceConfig {
   SlicePick pick = SlicePick::minimum;
-  double min_height_m = 0.4;  ///< above the floor: a trotting body makes the floor appear below
-  double max_height_m = 1.8;  ///< below the heads of doors
+  double min_height_m = 0.4;
+  double max_height_m = 1.8;
   double bin_deg = 1.0;
   double min_range_m = 0.5;
   double max_range_m = 100.0;
@@ -36,11 +26,14 @@ struct ScanSliceConfig {
   template <class V>
   void visit(V& v) {
     v("pick", pick, Field{.doc = "return that stands for a bin: minimum or maximum range"});
-    v("min_height_m", min_height_m, Field{.doc = "above the floor"});
-    v("max_height_m", max_height_m, Field{.doc = "above the floor"});
-    v("bin_deg", bin_deg, Field{.doc = "of azimuth", .min = 0.05, .max = 30});
-    v("min_range_m", min_range_m, Field{.doc = "the robot's own body", .min = 0});
-    v("max_range_m", max_range_m, Field{.min = 0});
+    // A trotting body makes the floor appear below.
+    v("min_height_m", min_height_m, Field{.doc = "least height of a return above the floor", .min = -10, .max = 100});
+    // Below the heads of doors.
+    v("max_height_m", max_height_m, Field{.doc = "largest height of a return above the floor", .min = -10, .max = 100});
+    v("bin_deg", bin_deg, Field{.doc = "bin width in azimuth", .min = 0.05, .max = 30});
+    v("min_range_m", min_range_m,
+      Field{.doc = "least range of a return that is used; nearer is the robot's own body", .min = 0});
+    v("max_range_m", max_range_m, Field{.doc = "largest range of a return that is used", .min = 0});
   }
 };
 

@@ -25,8 +25,8 @@ struct VoxelKey {
 /// One point per occupied voxel (the mean of its points, summed in their order), ordered by voxel; size in m.
 [[nodiscard]] std::vector<Eigen::Vector3d> voxel_downsample(const std::vector<Eigen::Vector3d>& points, double size);
 
-/// Voxels by key, for lookups only: its order of iteration is the order of insertion, so it is deterministic.
-/// Open addressing; never shrinks.
+/// Voxels by key, for lookups only: its order of iteration is the order of insertion, so it is deterministic. Open
+/// addressing; never shrinks.
 class VoxelIndex {
  public:
   /// Slot of a voxel: existing, or the next free one (0, 1, 2, ...).

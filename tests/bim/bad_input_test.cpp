@@ -42,7 +42,7 @@ struct Reader {
 std::vector<Reader> readers() {
   return {{"ifc", small_ifc({}), [](const std::string& t) { (void)build_mesh(read_ifc_text(t, "bad.ifc")); }},
           {"plan", small_plan,
-           [](const std::string& t) { (void)build_mesh(read_plan_site(t, "bad.yaml").as_built.building); }},
+           [](const std::string& t) { (void)build_mesh(read_plan_with_deviations(t, "bad.yaml").as_built.building); }},
           {"traffic", small_traffic,
            [](const std::string& t) { (void)build_mesh(read_traffic_editor_text(t, "bad.building.yaml")); }}};
 }

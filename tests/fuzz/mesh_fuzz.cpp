@@ -16,7 +16,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (size == 0) return 0;
   const std::string path = std::string("fuzz.") + endings[data[0] % endings.size()];
   plumbline::bim::MeshWorldConfig config;
-  config.file.isolation.cpu_s = 2;  // below the 10 s of a hang, however loaded the machine
+  config.file.subprocess.cpu_s = 2;  // below the 10 s of a hang, however loaded the machine
   try {
     (void)plumbline::bim::build_mesh(plumbline::bim::read_mesh_world(
         std::string_view(reinterpret_cast<const char*>(data + 1), size - 1), path, config));

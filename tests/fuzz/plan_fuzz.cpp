@@ -11,7 +11,7 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);
   try {
-    (void)plumbline::bim::build_mesh(plumbline::bim::read_plan_site(text, "fuzz.yaml").as_built.building);
+    (void)plumbline::bim::build_mesh(plumbline::bim::read_plan_with_deviations(text, "fuzz.yaml").as_built.building);
   } catch (const plumbline::InputError&) {
   }
   return 0;

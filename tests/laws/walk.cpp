@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <stdexcept>
+#include <utility>
 
 #include "bim/digest/digest.h"
 #include "bim/digest/float_mode.h"
@@ -13,17 +13,16 @@
 #include "bim/random/stream.h"
 #include "sim/route/route.h"
 #include "slam/methods.h"
+#include "tests/data.h"
 
 namespace plumbline {
 
-Walk walk_quickstart(std::uint64_t seed, const std::vector<std::string>& rooms, double duration_s,
-                     slam::LidarModelId lidar) {
+SimulatedWalk walk_quickstart(std::uint64_t seed, const std::vector<std::string>& rooms, double duration_s,
+                              slam::LidarModelId lidar) {
   set_float_mode();
-  const char* source = std::getenv("PLUMBLINE_SOURCE");
-  if (source == nullptr) throw std::runtime_error("PLUMBLINE_SOURCE is not set; run through ctest");
-  const bim::Building building = bim::load_building(std::string(source) + "/scenarios/library/quickstart.plan.yaml");
+  const bim::Building building = bim::load_building(project_file("scenarios/library/quickstart.plan.yaml"));
   const bim::BuildingMesh mesh = bim::build_mesh(building);
-  const sim::FreeSpace space(building, 0);
+  const sim::ClearanceMap space(building, 0);
 
   std::vector<Eigen::Vector2d> targets;
   for (const std::string& name : rooms) {
@@ -45,11 +44,15 @@ Walk walk_quickstart(std::uint64_t seed, const std::vector<std::string>& rooms, 
   config.waypoints = sim::on_floor(way, building.storeys.at(0).elevation_m);
   config.start_yaw = std::atan2(ahead.y(), ahead.x());
 
-  Walk walk;
+  SimulatedWalk walk;
   walk.plan = std::make_shared<const bim::Plan>(bim::make_plan(building));
   sim::World world(config, building, mesh);
   sim::WorldFrame frame;
-  while (world.next(frame)) walk.frames.push_back(frame);
+  while (world.next(frame)) {
+    if (walk.frames.empty()) walk.X_WR_start = frame.truth.poses.front().X_WR;
+    walk.X_WR.push_back(frame.truth.poses.back().X_WR);
+    walk.frames.push_back(std::move(frame.sensors));
+  }
   return walk;
 }
 
@@ -60,18 +63,18 @@ std::vector<std::string> all_methods() {
   return names;
 }
 
-slam::MethodInput method_input(const Walk& walk, const std::string& method, double yaw_error) {
+slam::MethodInput method_input(const SimulatedWalk& walk, const std::string& method, double yaw_error) {
   slam::MethodInput input;
   input.seed = method_seed(1, method);
   input.calibration = sim::World::calibration();
   input.plan = walk.plan;
-  input.prior.yaw_W = wrap_angle(walk.frames.front().truth.front().X_WR.yaw() + yaw_error);
+  input.prior.yaw_W = wrap_angle(walk.X_WR_start.yaw() + yaw_error);
   input.prior.storey = walk.plan->storeys.front().name;
   return input;
 }
 
 Answer answer_of(const std::string& method, const slam::MethodInput& input,
-                 const std::vector<sim::WorldFrame>& frames) {
+                 const std::vector<slam::SensorFrame>& frames) {
   const auto estimator = slam::find_method(method)->make(input);
   Answer answer;
   for (const auto& frame : frames) {
@@ -98,12 +101,12 @@ std::uint64_t digest_of(const Answer& answer) {
   return digest.value();
 }
 
-double rmse_from_first_pose(const Answer& answer, const std::vector<sim::WorldFrame>& frames) {
-  const Pose X_WM = frames.front().truth.back().X_WR * answer.outputs.front().X_FR->inverse();
+double rmse_from_first_pose(const Answer& answer, const SimulatedWalk& walk) {
+  const Pose X_WM = walk.X_WR.front() * answer.outputs.front().X_FR->inverse();
   double sum = 0.0;
-  for (std::size_t i = 0; i < frames.size(); ++i)
-    sum += (X_WM * answer.outputs[i].X_FR->t - frames[i].truth.back().X_WR.t).squaredNorm();
-  return std::sqrt(sum / static_cast<double>(frames.size()));
+  for (std::size_t i = 0; i < walk.X_WR.size(); ++i)
+    sum += (X_WM * answer.outputs[i].X_FR->t - walk.X_WR[i].t).squaredNorm();
+  return std::sqrt(sum / static_cast<double>(walk.X_WR.size()));
 }
 
 }  // namespace plumbline

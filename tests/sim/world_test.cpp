@@ -69,11 +69,11 @@ World make_world(const WorldConfig& c) { return {c, house().building, house().me
 
 std::uint64_t digest(const WorldFrame& frame) {
   Digest d;
-  for (const slam::Imu& r : frame.imu) d.add(r.stamp).add(r.angular_velocity_R).add(r.linear_acceleration_R);
-  for (const slam::Odometry& r : frame.odometry) d.add(r.stamp).add(r.X_OR);
-  for (const TruePose& r : frame.truth) d.add(r.stamp).add(r.X_WR);
-  for (const slam::Vlp16Packet& p : frame.packets) d.add(p.stamp).add_bytes(p.payload);
-  return d.add(frame.robot_digest).value();
+  for (const slam::Imu& r : frame.sensors.imu) d.add(r.stamp).add(r.angular_velocity_R).add(r.linear_acceleration_R);
+  for (const slam::Odometry& r : frame.sensors.odometry) d.add(r.stamp).add(r.X_OR);
+  for (const TruePose& r : frame.truth.poses) d.add(r.stamp).add(r.X_WR);
+  for (const slam::Vlp16Packet& p : frame.sensors.packets) d.add(p.stamp).add_bytes(p.payload);
+  return d.add(frame.truth.robot_digest).value();
 }
 
 /// Returns of a run by what gave them: the building, the person, the leaf.
@@ -89,7 +89,7 @@ Seen run_with_moving_things() {
   person.points_W = {{3.2, 1.0, 0.0}, {3.2, 4.0, 0.0}};
   SwingDoorConfig door;
   door.hinge_W = {4.0, 2.06, 0.0};
-  door.yaw_shut = 0.5 * std::numbers::pi;
+  door.yaw_closed = 0.5 * std::numbers::pi;
   door.swing = 0.5 * std::numbers::pi;  // towards the robot
   door.width_m = 0.88;
   door.times_s = {0.5};
@@ -100,12 +100,12 @@ Seen run_with_moving_things() {
   Seen seen;
   for (WorldFrame frame; world.next(frame);) {
     seen.digests.push_back(digest(frame));
-    for (std::size_t i = 0; i < frame.labels.element.size(); ++i) {
-      const int element = frame.labels.element[i];
+    for (std::size_t i = 0; i < frame.truth.labels.element.size(); ++i) {
+      const int element = frame.truth.labels.element[i];
       if (element < 0) continue;
       const int kind = element < first ? 0 : element - first + 1;
       ++seen.returns.at(static_cast<std::size_t>(kind));
-      if (kind > 0) seen.last_W.at(static_cast<std::size_t>(kind - 1)) = frame.labels.point_W[i];
+      if (kind > 0) seen.last_W.at(static_cast<std::size_t>(kind - 1)) = frame.truth.labels.point_W[i];
     }
   }
   return seen;
@@ -135,18 +135,18 @@ TEST(World, RecordsComeInTimeAtTheirRates) {
   slam::Nanoseconds stamp = 0;
   int frames = 0;
   while (world.next(frame)) {
-    for (const slam::Imu& r : frame.imu) EXPECT_EQ(r.stamp, imu += 4'000'000);
-    for (const slam::Odometry& r : frame.odometry) EXPECT_EQ(r.stamp, odometry += 10'000'000);
-    for (const slam::OdometryCovariance& r : frame.covariances) {
+    for (const slam::Imu& r : frame.sensors.imu) EXPECT_EQ(r.stamp, imu += 4'000'000);
+    for (const slam::Odometry& r : frame.sensors.odometry) EXPECT_EQ(r.stamp, odometry += 10'000'000);
+    for (const slam::OdometryCovariance& r : frame.sensors.covariances) {
       EXPECT_EQ(r.stamp, covariance += 10'000'000);
       EXPECT_EQ(Eigen::LLT<Matrix6d>(r.covariance).info(), Eigen::Success) << r.stamp;
     }
-    for (const TruePose& r : frame.truth) {
+    for (const TruePose& r : frame.truth.poses) {
       EXPECT_GT(r.stamp, truth);
       truth = r.stamp;
     }
-    EXPECT_GT(frame.scan.stamp, stamp);
-    stamp = frame.scan.stamp;
+    EXPECT_GT(frame.sensors.scan.stamp, stamp);
+    stamp = frame.sensors.scan.stamp;
     EXPECT_EQ(truth, stamp);
     EXPECT_LE(imu, stamp);
     EXPECT_GT(imu + 4'000'000, stamp);
@@ -165,12 +165,12 @@ TEST(World, OdometryStartsAtIdentityAndFollowsTheTruth) {
   World world = make_world(c);
   WorldFrame frame;
   ASSERT_TRUE(world.next(frame));
-  EXPECT_EQ(frame.odometry[0].X_OR.t, Eigen::Vector3d::Zero());
-  const Pose X_WO = frame.truth[0].X_WR;
+  EXPECT_EQ(frame.sensors.odometry[0].X_OR.t, Eigen::Vector3d::Zero());
+  const Pose X_WO = frame.truth.poses[0].X_WR;
   EXPECT_NEAR((X_WO.t - Eigen::Vector3d(1.5, 2.5, 0.5)).norm(), 0.0, 0.02);
   while (world.next(frame)) {
     // truth and odometry share their 100 Hz; the ideal legs slip by a few mm when walking off.
-    const Pose error = frame.truth[0].X_WR.inverse() * (X_WO * frame.odometry[0].X_OR);
+    const Pose error = frame.truth.poses[0].X_WR.inverse() * (X_WO * frame.sensors.odometry[0].X_OR);
     EXPECT_LT(error.t.norm(), 0.03);
     EXPECT_LT(log_so3(error.q).norm(), 0.01);
   }
@@ -183,22 +183,22 @@ TEST(World, EveryReturnLiesWhereItsBeamWasFiredFrom) {
   std::vector<TruePose> poses;
   WorldFrame frame;
   while (world.next(frame)) {
-    poses.insert(poses.end(), frame.truth.begin(), frame.truth.end());
+    poses.insert(poses.end(), frame.truth.poses.begin(), frame.truth.poses.end());
     std::size_t k = 0;
     double worst = 0.0;
     int returns = 0;
-    const int cells = frame.scan.columns * frame.scan.rings;
+    const int cells = frame.sensors.scan.columns * frame.sensors.scan.rings;
     for (int cell = 0; cell < cells; ++cell) {
       const auto i = static_cast<std::size_t>(cell);
-      if (frame.scan.range_m[i] <= 0.0) continue;
-      const slam::Nanoseconds t = frame.scan.stamp + frame.scan.offset_ns[i];
+      if (frame.sensors.scan.range_m[i] <= 0.0) continue;
+      const slam::Nanoseconds t = frame.sensors.scan.stamp + frame.sensors.scan.offset_ns[i];
       if (t < poses.front().stamp) continue;
       while (k > 0 && poses[k].stamp > t) --k;
       while (k + 2 < poses.size() && poses[k + 1].stamp <= t) ++k;
       const double s =
           static_cast<double>(t - poses[k].stamp) / static_cast<double>(poses[k + 1].stamp - poses[k].stamp);
       const Pose X_WL = interpolate(poses[k].X_WR, poses[k + 1].X_WR, s) * Robot::X_RL();
-      worst = std::max(worst, (X_WL * frame.scan.point_L[i] - frame.labels.point_W[i]).norm());
+      worst = std::max(worst, (X_WL * frame.sensors.scan.point_L[i] - frame.truth.labels.point_W[i]).norm());
       ++returns;
     }
     EXPECT_GT(returns, cells / 2);
@@ -230,8 +230,8 @@ TEST(World, WalksThroughADoorAndStops) {
   Pose X_WR;
   slam::Nanoseconds stamp = 0;
   while (world.next(frame)) {
-    X_WR = frame.truth.back().X_WR;
-    stamp = frame.scan.stamp;
+    X_WR = frame.truth.poses.back().X_WR;
+    stamp = frame.sensors.scan.stamp;
   }
   EXPECT_LT((X_WR.t.head<2>() - Eigen::Vector2d(6.5, 4.0)).norm(), 0.3);
   // 6.5 m at 0.6 m/s, slow starts and a turn, one second of standing: far from the 60 s allowed.
@@ -251,7 +251,7 @@ TEST(World, WithoutARouteItStands) {
   int frames = 0;
   while (world.next(frame)) ++frames;
   EXPECT_EQ(frames, 29);
-  EXPECT_NEAR((frame.truth.back().X_WR.t.head<2>() - Eigen::Vector2d(1.5, 2.5)).norm(), 0.0, 0.02);
+  EXPECT_NEAR((frame.truth.poses.back().X_WR.t.head<2>() - Eigen::Vector2d(1.5, 2.5)).norm(), 0.0, 0.02);
 }
 
 TEST(World, AMissingStoreyIsBadInput) {

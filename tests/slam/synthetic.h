@@ -45,7 +45,7 @@ struct WalkConfig {
   std::uint64_t seed = 1;
   double speed_mps = 0.6;
   double duration_s = 1e9;       ///< ends earlier when the way is done
-  double range_sigma_m = 0.012;  ///< [facts: lidar 2.2: 6-20 mm]
+  double range_sigma_m = 0.012;  ///< 6-20 mm, docs/methods/lidar_model.md
   double range_bias_m = 0.0;
   double dropout = 0.05;              ///< share of returns lost
   double vibration = 1.0;             ///< scales roll 0.8 deg, pitch 0.6 deg and bounce 6 mm of a 2.1 Hz gait; 0: none

@@ -10,15 +10,12 @@
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
 #include <thread>
 
 namespace plumbline::system_tests {
-
-namespace fs = std::filesystem;
 
 namespace {
 
@@ -80,8 +77,6 @@ int wait_for(pid_t child, const Setting& setting) {
 
 bool available() { return !environment("PLUMBLINE_BINARY").empty() && !environment("PLUMBLINE_SOURCE").empty(); }
 
-std::string project_file(const std::string& name) { return environment("PLUMBLINE_SOURCE") + "/" + name; }
-
 Outcome plumbline(const std::vector<std::string>& arguments, const Setting& setting) {
   std::vector<std::string> command = setting.wrapper;
   command.push_back(environment("PLUMBLINE_BINARY"));
@@ -105,16 +100,5 @@ std::string read_file(const std::string& path) {
 }
 
 void write_file(const std::string& path, const std::string& text) { std::ofstream(path, std::ios::binary) << text; }
-
-Folder::Folder() {
-  std::string pattern = (fs::temp_directory_path() / "plumbline_XXXXXX").string();
-  if (::mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no temporary folder");
-  path_ = pattern;
-}
-
-Folder::~Folder() {
-  std::error_code error;
-  fs::remove_all(path_, error);
-}
 
 }  // namespace plumbline::system_tests

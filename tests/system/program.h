@@ -7,6 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "tests/data.h"
+#include "tests/folder.h"
+
 namespace plumbline::system_tests {
 
 /// How the program is started.
@@ -32,23 +35,7 @@ struct Outcome {
 
 /// True when the program and the project's files are known to this test.
 [[nodiscard]] bool available();
-/// Absolute path of a file of the project.
-[[nodiscard]] std::string project_file(const std::string& name);
 [[nodiscard]] std::string read_file(const std::string& path);
 void write_file(const std::string& path, const std::string& text);
-
-/// A new folder that goes away with this.
-class Folder {
- public:
-  Folder();
-  ~Folder();
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  [[nodiscard]] std::string operator/(const std::string& name) const { return path_ + "/" + name; }
-  [[nodiscard]] const std::string& path() const { return path_; }
-
- private:
-  std::string path_;
-};
 
 }  // namespace plumbline::system_tests

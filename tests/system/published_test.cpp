@@ -3,7 +3,11 @@
 // sensors stands here too, so that neither is the world too easy nor a baseline spoiled.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
 
 #include "tests/system/program.h"
 
@@ -22,6 +26,37 @@ nlohmann::json run_file(const std::string& file, const std::string& methods) {
 const std::string library = "scenarios/library/s_graphs/";
 
 double ate(const nlohmann::json& methods, const char* name) { return methods[name]["ate_aligned_rmse_m"]; }
+
+/// The largest aligned ATE of a scenario and method over the seeds of ci/results/slam.tsv, m.
+double worst_committed_ate(const std::string& scenario, const std::string& method) {
+  const auto cells_of = [](const std::string& line) {
+    std::vector<std::string> cells;
+    std::istringstream text(line);
+    for (std::string cell; std::getline(text, cell, '\t');) cells.push_back(cell);
+    return cells;
+  };
+  std::istringstream table(read_file(project_file("ci/results/slam.tsv")));
+  std::string line;
+  std::getline(table, line);
+  const std::vector<std::string> columns = cells_of(line);
+  const auto column = [&](const char* name) {
+    const auto at = std::find(columns.begin(), columns.end(), name);
+    EXPECT_NE(at, columns.end()) << name;
+    return static_cast<std::size_t>(at - columns.begin());
+  };
+  const std::size_t of_scenario = column("scenario"), of_method = column("method"),
+                    of_ate = column("ate_aligned_rmse_m");
+  double worst = 0.0;
+  int rows = 0;
+  while (std::getline(table, line)) {
+    const std::vector<std::string> cells = cells_of(line);
+    if (cells.at(of_scenario) != scenario || cells.at(of_method) != method) continue;
+    worst = std::max(worst, std::stod(cells.at(of_ate)));
+    ++rows;
+  }
+  EXPECT_GE(rows, 3) << scenario << " " << method;
+  return worst;
+}
 
 TEST(Published, RoomsAlongACorridorWithALoop) {
   if (!available()) GTEST_SKIP() << "PLUMBLINE_BINARY and PLUMBLINE_SOURCE are not set; run through ctest";
@@ -47,9 +82,10 @@ TEST(Published, ASmallRoomAtSpeed) {
   replace("small_room.plan.yaml", project_file(library + "small_room.plan.yaml"));
   write_file(folder / "t8.yaml", text);
   const nlohmann::json methods = run_file(folder / "t8.yaml", "vgicp,s_graphs_plus");
+  // Two rounds drift less than six; half as much again as the worst committed seed of six is allowed.
   for (const char* name : {"vgicp", "s_graphs_plus"}) {
     EXPECT_EQ(methods[name]["verdict"], "ok") << name;
-    EXPECT_LE(ate(methods, name), 0.04) << name;
+    EXPECT_LE(ate(methods, name), 1.5 * worst_committed_ate("t8", name)) << name;
   }
 }
 

@@ -2,10 +2,9 @@
 // What is read from a file is the same in every process, wherever its memory lies.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <filesystem>
 #include <iostream>
 
+#include "tests/data.h"
 #include "tests/system/program.h"
 
 namespace plumbline::system_tests {
@@ -43,10 +42,8 @@ class SameHash : public ::testing::Test {
   }
 
   static void expect_same_of_data(const std::string& name) {
-    const char* data = std::getenv("PLUMBLINE_DATA");
-    const std::string path = std::string(data == nullptr ? "" : data) + "/ifc/" + name;
-    if (data == nullptr || !std::filesystem::exists(path)) GTEST_SKIP() << "no test data at " << path;
-    expect_same(path, 6);
+    if (const std::string why = data_missing(name); !why.empty()) GTEST_SKIP() << why;
+    expect_same(data_path(name), 6);
   }
 };
 
@@ -65,8 +62,10 @@ TEST_F(SameHash, OfWrittenIfc) {
   expect_same(path, 20);
 }
 
-TEST_F(SameHash, OfDuplex) { expect_same_of_data("duplex.ifc"); }
-TEST_F(SameHash, OfFzkHaus) { expect_same_of_data("AC20-FZK-Haus.ifc"); }
+TEST_F(SameHash, OfTwinFlats) { expect_same_of_data("ifc/twin_flats.ifc"); }
+TEST_F(SameHash, OfGableHouse) { expect_same_of_data("ifc/gable_house.ifc"); }
+TEST_F(SameHash, OfDuplex) { expect_same_of_data("ifc/duplex.ifc"); }
+TEST_F(SameHash, OfFzkHaus) { expect_same_of_data("ifc/AC20-FZK-Haus.ifc"); }
 
 }  // namespace
 }  // namespace plumbline::system_tests

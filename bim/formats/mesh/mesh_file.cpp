@@ -61,7 +61,7 @@ class Unpacker {
     get(&value, 1);
     return value;
   }
-  /// A count of things of so many bytes each, which must be there.
+  /// A count of items of so many bytes each, which the file must hold.
   std::size_t count(std::size_t bytes) {
     const std::uint64_t value = get();
     if (value > text_.size() / bytes) throw InternalError("a mesh was cut on its way");
@@ -228,12 +228,12 @@ std::vector<MeshPart> read_mesh_parts(std::string_view bytes, const std::string&
   const Mark mark{path, 0, 0};
   if (bytes.size() > config.most_bytes)
     throw InputError(mark, "larger than " + std::to_string(config.most_bytes >> 20U) + " MB; make it coarser");
-  const IsolationConfig isolation = isolation_for(bytes.size(), config.isolation);
-  const auto answer = run_isolated([&] { return import(bytes, *format, config); }, isolation);
+  const SubprocessLimits subprocess = subprocess_limits(bytes.size(), config.subprocess);
+  const auto answer = run_in_subprocess([&] { return import(bytes, *format, config); }, subprocess);
   if (!answer)
     throw InputError(mark, "this is no sound " + std::string(format->ending) + " file: reading it failed, or takes " +
-                               "more than " + std::to_string(isolation.cpu_s) + " s and " +
-                               std::to_string(isolation.memory >> 20U) + " MB");
+                               "more than " + std::to_string(subprocess.cpu_s) + " s and " +
+                               std::to_string(subprocess.memory >> 20U) + " MB");
   Unpacker unpacker(*answer);
   const auto kind = static_cast<Answer>(unpacker.get());
   if (kind == Answer::refused)

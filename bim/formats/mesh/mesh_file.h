@@ -16,7 +16,7 @@ struct MeshFileConfig {
   std::size_t most_bytes = std::size_t{1} << 28U;
   std::size_t most_triangles = 3'000'000;
   std::size_t most_vertices = 6'000'000;
-  IsolationConfig isolation;
+  SubprocessLimits subprocess;
   double furthest_m = 1e5;  ///< coordinates beyond this are refused
 };
 
@@ -29,8 +29,8 @@ struct MeshPart {
 /// True for the endings .obj, .dae, .glb, .ply and .stl.
 [[nodiscard]] bool is_mesh_path(std::string_view path);
 
-/// Reads a mesh by assimp, in a process apart, since it does not survive every bad file. `bytes` is the file's content,
-/// `path` tells its kind and names it in errors. One part a node that has triangles, in the order of the file's tree;
+/// Reads a mesh by assimp, in a subprocess, since it does not survive every bad file. `bytes` is the file's content,
+/// `path` gives its kind and names it in errors. One part a node that has triangles, in the order of the file's tree;
 /// points and lines are left out. glTF and Collada are turned from their y up; the others say nothing of their axes
 /// and are taken as z up. Unit: metres. Throws InputError when it is none, has no triangle or passes a bound.
 [[nodiscard]] std::vector<MeshPart> read_mesh_parts(std::string_view bytes, const std::string& path,

@@ -190,7 +190,7 @@ Building read_mesh_world(std::string_view bytes, const std::string& path, const 
   for (MeshPart& part : parts)
     if (!part.solid.triangles.empty())
       building.obstacles.push_back({std::move(part.name), "mesh", 0, std::move(part.solid)});
-  building.warnings.push_back({"", "no_plan", "a mere mesh: no rooms and walls are known, so nothing is localized"});
+  building.warnings.push_back({"", "no_plan", "a mesh without rooms and walls; localization is not possible in it"});
   return building;
 }
 

@@ -9,7 +9,7 @@
 
 namespace plumbline::bim {
 
-/// How a storey is found in a mere mesh.
+/// How a storey is found in a mesh.
 struct MeshWorldConfig {
   MeshFileConfig file;
   double weld_m = 1e-5;          ///< vertices this close are one, so that closed parts are seen to be closed
@@ -18,7 +18,7 @@ struct MeshWorldConfig {
   double ground_share = 0.5;     ///< the lowest layer with this share of the largest one's area is the ground
   double cell_m = 0.1;           ///< of the grid on which the floor's outline is found
   double largest_m = 400.0;      ///< extent beyond this is refused
-  std::size_t most_runs = 4000;  ///< a floor more ragged than this many rectangles is looked at in coarser cells
+  std::size_t most_runs = 4000;  ///< a floor of more rectangles than this is traced in coarser cells
   double under_m = 0.01;         ///< the slab lies this much under the mesh's own floor, so that no ray meets it
   double slab_m = 0.01;          ///< thickness of that slab
   double height_m = 3.0;         ///< of a storey without anything above it

@@ -43,7 +43,7 @@ std::uint64_t address_space() {
   return pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
 }
 
-void bound(const IsolationConfig& config) {
+void bound(const SubprocessLimits& config) {
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_CPU, config.cpu_s);
 #ifndef PLUMBLINE_SHADOW_MEMORY  // which alone takes terabytes of addresses
@@ -62,10 +62,10 @@ bool write_all(int pipe, const char* at, std::size_t size) {
   return true;
 }
 
-[[noreturn]] void child(int pipe, const std::function<std::string()>& task, const IsolationConfig& config) {
+[[noreturn]] void child(int pipe, const std::function<std::string()>& task, const SubprocessLimits& config) {
   for (const int signal : {SIGSEGV, SIGABRT, SIGFPE, SIGILL, SIGBUS, SIGINT, SIGTERM, SIGPIPE, SIGXCPU})
     (void)std::signal(signal, SIG_DFL);
-  // What a dying library says is told by the caller in its own words.
+  // The caller reports the failure; messages of the crashing library are dropped.
   const int silence = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
   if (silence >= 0) {
     (void)::dup2(silence, STDOUT_FILENO);
@@ -96,15 +96,15 @@ std::optional<std::string> read_all(int pipe, std::size_t longest) {
 
 }  // namespace
 
-IsolationConfig isolation_for(std::size_t bytes, const IsolationConfig& least) {
+SubprocessLimits subprocess_limits(std::size_t bytes, const SubprocessLimits& least) {
   constexpr std::size_t bytes_a_second = std::size_t{2} << 20U, memory_a_byte = 32;
-  IsolationConfig bounds = least;
+  SubprocessLimits bounds = least;
   bounds.cpu_s += static_cast<unsigned>(bytes / bytes_a_second);
   bounds.memory += memory_a_byte * bytes;
   return bounds;
 }
 
-std::optional<std::string> run_isolated(const std::function<std::string()>& task, const IsolationConfig& config) {
+std::optional<std::string> run_in_subprocess(const std::function<std::string()>& task, const SubprocessLimits& config) {
   std::array<int, 2> ends{};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0)
     throw EnvironmentError(std::string("cannot make a pipe: ") + std::strerror(errno));

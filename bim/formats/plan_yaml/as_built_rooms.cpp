@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bim/formats/plan_yaml/unused_id.h"
 #include "bim/geometry/polygon_boolean.h"
 #include "bim/model/rooms.h"
 #include "bim/model/wall_face.h"
@@ -118,23 +119,13 @@ class StoreyRooms {
       const double shared = closed_[i] ? intersection_area(cells_[c], source.polygon) : 0.0;
       if (shared < config_.remnant_m2 || shared < 0.5 * area_of(cells_[c])) continue;
       Room room = source;
-      room.id = new_id(source.id, as_built, cut_off);
+      room.id = unused_id(source.id, as_built.rooms, cut_off);
       room.name = room.id;
       room.polygon = cells_[c];
       room.walls.clear();
       room.virtual_edges.clear();
       cut_off.push_back(std::move(room));
       return;
-    }
-  }
-
-  static std::string new_id(const std::string& source, const Building& as_built, const std::vector<Room>& cut_off) {
-    for (int number = 2;; ++number) {
-      std::string id = source + "-" + std::to_string(number);
-      const auto same = [&](const Room& room) { return room.id == id; };
-      if (std::none_of(as_built.rooms.begin(), as_built.rooms.end(), same) &&
-          std::none_of(cut_off.begin(), cut_off.end(), same))
-        return id;
     }
   }
 

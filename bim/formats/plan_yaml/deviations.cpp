@@ -8,6 +8,7 @@
 
 #include "bim/errors.h"
 #include "bim/formats/plan_yaml/as_built_rooms.h"
+#include "bim/formats/plan_yaml/message_text.h"
 #include "bim/formats/plan_yaml/plan_elements.h"
 #include "bim/formats/plan_yaml/plan_file.h"
 #include "bim/formats/plan_yaml/plan_yaml.h"
@@ -18,9 +19,6 @@ namespace plumbline::bim {
 namespace {
 
 constexpr double touching_m = 1e-6;  ///< openings may touch each other and the edges of their wall
-
-std::string quoted(const std::string& text) { return "'" + text + "'"; }
-std::string metres(double v) { return format_number(std::round(v * 1e6) / 1e6) + " m"; }
 
 void shift(std::optional<Solid>& solid, const Eigen::Vector3d& by) {
   if (!solid) return;
@@ -96,8 +94,9 @@ class Rework {
       known.push_back(elements[i].id);
     }
     const std::string close = did_you_mean(id, known);
-    throw InputError(at(key), "there is no " + kind + " " + quoted(id) + " at this point" +
-                                  (close.empty() ? "; name one that stands" : "; did you mean " + quoted(close) + "?"));
+    throw InputError(at(key),
+                     "there is no " + kind + " " + in_quotes(id) + " at this point" +
+                         (close.empty() ? "; name one that stands" : "; did you mean " + in_quotes(close) + "?"));
   }
 
   void check_new_id(const std::string& id) const {
@@ -108,7 +107,7 @@ class Rework {
     for (const Building* building : {&as_planned_, &result_.building})
       if (taken(building->walls) || taken(building->openings) || taken(building->columns) ||
           taken(building->obstacles) || taken(building->stairs))
-        throw InputError(at("id"), "the id " + quoted(id) + " is taken; ids must be unique");
+        throw InputError(at("id"), "the id " + in_quotes(id) + " is taken; ids must be unique");
   }
 
   void check_material(const std::string& material) {
@@ -139,7 +138,7 @@ class Rework {
     moved.a += entry.by;
     moved.b += entry.by;
     if (std::max(moved.a.cwiseAbs().maxCoeff(), moved.b.cwiseAbs().maxCoeff()) > plan_reach_m)
-      throw InputError(at("by"), "wall " + quoted(moved.id) + " would stand more than " + metres(plan_reach_m) +
+      throw InputError(at("by"), "wall " + in_quotes(moved.id) + " would stand more than " + metres(plan_reach_m) +
                                      " from the origin; move it less");
     const Eigen::Vector3d by(entry.by.x(), entry.by.y(), 0.0);
     shift(moved.body, by);
@@ -186,11 +185,11 @@ class Rework {
     const PlanLevel level = level_of(entry.storey);
     check_material(entry.material);
     if ((entry.b - entry.a).norm() < plan_length_min_m)
-      throw InputError(at("b"), "wall " + quoted(entry.id) + " has zero length; a and b must lie at least " +
+      throw InputError(at("b"), "wall " + in_quotes(entry.id) + " has zero length; a and b must lie at least " +
                                     metres(plan_length_min_m) + " apart");
     const double height = level.top_z_m - level.floor_z_m;
     if (entry.height_m.value_or(height) > height + touching_m)
-      throw InputError(at("height_m"), "wall " + quoted(entry.id) + " is higher than its storey, " + metres(height) +
+      throw InputError(at("height_m"), "wall " + in_quotes(entry.id) + " is higher than its storey, " + metres(height) +
                                            "; it must fit below the ceiling");
     result_.building.walls.push_back(wall_of(entry, level));
     storeys_.insert(level.index);
@@ -200,26 +199,26 @@ class Rework {
   void check_opening(const Opening& opening, std::string_view along, std::string_view up) const {
     const Wall& host = result_.building.walls[static_cast<std::size_t>(opening.wall)];
     const double half = 0.5 * opening.width_m;
-    const std::string who = "opening " + quoted(opening.id);
+    const std::string who = "opening " + in_quotes(opening.id);
     if (opening.width_m > host.length() + touching_m)
-      throw InputError(at("width_m"), who + " is " + metres(opening.width_m) + " wide, its wall " + quoted(host.id) +
+      throw InputError(at("width_m"), who + " is " + metres(opening.width_m) + " wide, its wall " + in_quotes(host.id) +
                                           " only " + metres(host.length()) + " long");
     if (opening.s_m < half - touching_m || opening.s_m > host.length() - half + touching_m)
-      throw InputError(at(along), who + " would reach beyond its wall " + quoted(host.id) +
+      throw InputError(at(along), who + " would reach beyond its wall " + in_quotes(host.id) +
                                       "; its centre must stay between " + metres(half) + " and " +
                                       metres(host.length() - half) + " from a, it would be at " + metres(opening.s_m));
     if (opening.z1_m > host.z1_m + touching_m)
       throw InputError(at(up), who + " ends " + metres(opening.z1_m - host.z0_m) + " above the foot of its wall " +
-                                   quoted(host.id) + ", which is only " + metres(host.z1_m - host.z0_m) + " high");
+                                   in_quotes(host.id) + ", which is only " + metres(host.z1_m - host.z0_m) + " high");
     for (const Opening& other : result_.building.openings)
       if (other.id != opening.id && overlap(opening, other))
-        throw InputError(at(along), who + " would overlap " + quoted(other.id) + " in wall " + quoted(host.id));
+        throw InputError(at(along), who + " would overlap " + in_quotes(other.id) + " in wall " + in_quotes(host.id));
   }
 
   void move_opening(const PlanDeviationEntry& entry) {
     std::vector<Opening>& openings = result_.building.openings;
     Opening& opening = openings[find(openings, entry.target, "opening", "opening")];
-    if (opening.wall < 0) throw InputError(at("opening"), "opening " + quoted(opening.id) + " is in no wall");
+    if (opening.wall < 0) throw InputError(at("opening"), "opening " + in_quotes(opening.id) + " is in no wall");
     const Wall& host = result_.building.walls[static_cast<std::size_t>(opening.wall)];
     opening.s_m += entry.by_m;
     const Eigen::Vector2d by = entry.by_m * host.direction();
@@ -241,7 +240,7 @@ class Rework {
     check_material(entry.material);
     const Opening opening = opening_of(entry, "", static_cast<int>(host), result_.building.walls[host]);
     if (opening.kind != OpeningKind::door && opening.leaf != Leaf::none)
-      throw InputError(at("leaf"), "opening " + quoted(entry.id) + " is not a door; only a door has a leaf");
+      throw InputError(at("leaf"), "opening " + in_quotes(entry.id) + " is not a door; only a door has a leaf");
     check_opening(opening, "s_m", "height_m");
     result_.building.openings.push_back(opening);
     storeys_.insert(result_.building.walls[host].storey);

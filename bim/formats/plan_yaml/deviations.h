@@ -22,7 +22,7 @@ struct AsBuilt {
   std::vector<Change> changes;  ///< in the order of the deviations, rooms last
 };
 
-/// Builds otherwise than planned, one deviation after the other; elements that are in both keep their ids.
+/// Applies the deviations to the plan, one after the other; elements that are in both keep their ids.
 /// - A moved wall takes its openings along; walls that met it stay where they are. A removed one takes them away.
 /// - A tilted wall turns about its foot line with its openings; its lower edge stays.
 /// - Rooms follow the walls of their storey: a room that walls enclosed as planned gets the outline that walls enclose

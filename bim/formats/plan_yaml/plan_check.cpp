@@ -5,6 +5,7 @@
 #include <set>
 
 #include "bim/errors.h"
+#include "bim/formats/plan_yaml/message_text.h"
 #include "bim/formats/plan_yaml/plan_file.h"
 #include "bim/formats/plan_yaml/stair_builder.h"
 #include "bim/model/materials.h"
@@ -53,9 +54,6 @@ class Places {
   const Tree& root_;
 };
 
-std::string quoted(const std::string& text) { return "'" + text + "'"; }
-std::string metres(double v) { return format_number(std::round(v * 1e6) / 1e6) + " m"; }
-
 template <class Entry>
 void check_ids(const std::vector<Entry>& entries, std::string_view section, const Places& places,
                std::set<std::string>& taken) {
@@ -63,7 +61,7 @@ void check_ids(const std::vector<Entry>& entries, std::string_view section, cons
     const std::string& id = entries[i].id;
     const Mark mark = places.value(section, i, "id");
     check_plan_id(id, mark);
-    if (!taken.insert(id).second) throw InputError(mark, "the id " + quoted(id) + " is taken; ids must be unique");
+    if (!taken.insert(id).second) throw InputError(mark, "the id " + in_quotes(id) + " is taken; ids must be unique");
   }
 }
 
@@ -75,8 +73,8 @@ std::size_t refer(const Ids& ids, const std::string& id, const std::string& kind
   for (const auto& [name, index] : ids) known.emplace_back(name);
   const std::string guess = did_you_mean(id, known);
   throw InputError(mark,
-                   "there is no " + kind + " " + quoted(id) +
-                       (guess.empty() ? "; name one that the plan lists" : "; did you mean " + quoted(guess) + "?"));
+                   "there is no " + kind + " " + in_quotes(id) +
+                       (guess.empty() ? "; name one that the plan lists" : "; did you mean " + in_quotes(guess) + "?"));
 }
 
 /// Lists that would keep the reader busy for minutes are no plan of a building.
@@ -97,7 +95,7 @@ void check_sizes(const PlanFile& plan, const Places& places) {
   check("deviations", plan.deviations.size(), plan_storeys_max);
   for (std::size_t i = 0; i < plan.rooms.size(); ++i)
     if (plan.rooms[i].polygon.size() > plan_corners_max)
-      throw InputError(places.value("rooms", i, "polygon"), "the polygon of room " + quoted(plan.rooms[i].id) +
+      throw InputError(places.value("rooms", i, "polygon"), "the polygon of room " + in_quotes(plan.rooms[i].id) +
                                                                 " has " + std::to_string(plan.rooms[i].polygon.size()) +
                                                                 " corners; at most " +
                                                                 std::to_string(plan_corners_max) + " can be read");
@@ -121,10 +119,10 @@ void check_copies(const PlanFile& plan, const Places& places) {
     if (storey.copy_of.empty()) continue;
     const Mark mark = places.value("storeys", i, "copy_of");
     const std::size_t source = refer(places.storeys, storey.copy_of, "storey", mark);
-    if (source == i) throw InputError(mark, "storey " + quoted(storey.id) + " copies itself; name another storey");
+    if (source == i) throw InputError(mark, "storey " + in_quotes(storey.id) + " copies itself; name another storey");
     if (!plan.storeys[source].copy_of.empty())
-      throw InputError(mark, quoted(storey.copy_of) + " is a copy itself; name the storey it copies, " +
-                                 quoted(plan.storeys[source].copy_of));
+      throw InputError(mark, in_quotes(storey.copy_of) + " is a copy itself; name the storey it copies, " +
+                                 in_quotes(plan.storeys[source].copy_of));
   }
 }
 
@@ -137,8 +135,8 @@ void check_heights(const PlanFile& plan, const Places& places) {
       const double top = lower.elevation_m + storey_height(plan, lower);
       if (i == j || !above || upper.elevation_m >= top - touching_m) continue;
       throw InputError(places.value("storeys", i, "elevation_m"),
-                       "storey " + quoted(upper.id) + " begins at " + metres(upper.elevation_m) +
-                           ", below the top of " + quoted(lower.id) + "; it must be at least " + metres(top));
+                       "storey " + in_quotes(upper.id) + " begins at " + metres(upper.elevation_m) +
+                           ", below the top of " + in_quotes(lower.id) + "; it must be at least " + metres(top));
     }
   }
 }
@@ -147,13 +145,14 @@ void check_wall(const PlanFile& plan, std::size_t i, const Places& places) {
   const PlanWallEntry& wall = plan.walls[i];
   const std::size_t storey = refer(places.storeys, wall.storey, "storey", places.value("walls", i, "storey"));
   if ((wall.b - wall.a).norm() < plan_length_min_m)
-    throw InputError(places.value("walls", i, "b"), "wall " + quoted(wall.id) +
+    throw InputError(places.value("walls", i, "b"), "wall " + in_quotes(wall.id) +
                                                         " has zero length; a and b must lie at least " +
                                                         metres(plan_length_min_m) + " apart");
   const double height = storey_height(plan, plan.storeys[storey]);
   if (wall.height_m.value_or(height) > height + touching_m)
-    throw InputError(places.value("walls", i, "height_m"), "wall " + quoted(wall.id) + " is higher than its storey, " +
-                                                               metres(height) + "; it must fit below the ceiling");
+    throw InputError(places.value("walls", i, "height_m"), "wall " + in_quotes(wall.id) +
+                                                               " is higher than its storey, " + metres(height) +
+                                                               "; it must fit below the ceiling");
 }
 
 void check_opening(const PlanFile& plan, std::size_t i, const Places& places) {
@@ -161,19 +160,19 @@ void check_opening(const PlanFile& plan, std::size_t i, const Places& places) {
   const auto at = [&](std::string_view key) { return places.value("openings", i, key); };
   const PlanWallEntry& wall = plan.walls[refer(places.walls, opening.wall, "wall", at("wall"))];
   const double length = (wall.b - wall.a).norm();
-  const std::string who = "opening " + quoted(opening.id);
+  const std::string who = "opening " + in_quotes(opening.id);
   if (opening.width_m > length + touching_m)
-    throw InputError(at("width_m"), who + " is " + metres(opening.width_m) + " wide, its wall " + quoted(wall.id) +
+    throw InputError(at("width_m"), who + " is " + metres(opening.width_m) + " wide, its wall " + in_quotes(wall.id) +
                                         " only " + metres(length) + " long");
   const double half = 0.5 * opening.width_m;
   if (opening.s_m < half - touching_m || opening.s_m > length - half + touching_m)
-    throw InputError(at("s_m"), who + " reaches beyond its wall " + quoted(wall.id) + "; s_m must lie between " +
+    throw InputError(at("s_m"), who + " reaches beyond its wall " + in_quotes(wall.id) + "; s_m must lie between " +
                                     metres(half) + " and " + metres(length - half));
   const int storey = find_entry(plan.storeys, wall.storey);
   const double height = wall.height_m.value_or(storey_height(plan, plan.storeys[static_cast<std::size_t>(storey)]));
   if (opening.sill_m + opening.height_m > height + touching_m)
     throw InputError(at("height_m"), who + " ends at " + metres(opening.sill_m + opening.height_m) + ", its wall " +
-                                         quoted(wall.id) + " is only " + metres(height) + " high");
+                                         in_quotes(wall.id) + " is only " + metres(height) + " high");
   if (opening.kind != OpeningKind::door && opening.leaf.value_or(Leaf::none) != Leaf::none)
     throw InputError(at("leaf"), who + " is not a door; only a door has a leaf");
 }
@@ -191,8 +190,8 @@ void check_overlaps(const PlanFile& plan, const Places& places) {
     for (const std::size_t j : others)
       if (overlap(plan.openings[i], plan.openings[j]))
         throw InputError(places.value("openings", i, "s_m"),
-                         "opening " + quoted(plan.openings[i].id) + " overlaps " + quoted(plan.openings[j].id) +
-                             " in wall " + quoted(plan.openings[i].wall) + "; move or narrow one of them");
+                         "opening " + in_quotes(plan.openings[i].id) + " overlaps " + in_quotes(plan.openings[j].id) +
+                             " in wall " + in_quotes(plan.openings[i].wall) + "; move or narrow one of them");
     others.push_back(i);
   }
 }
@@ -202,28 +201,28 @@ void check_room(const PlanFile& plan, std::size_t i, const Places& places) {
   (void)refer(places.storeys, room.storey, "storey", places.value("rooms", i, "storey"));
   const Mark outline = places.value("rooms", i, "polygon");
   if (room.polygon.size() < 3)
-    throw InputError(outline, "the polygon of room " + quoted(room.id) + " needs at least 3 corners");
+    throw InputError(outline, "the polygon of room " + in_quotes(room.id) + " needs at least 3 corners");
   if (!is_simple(room.polygon))
-    throw InputError(outline, "the polygon of room " + quoted(room.id) +
+    throw InputError(outline, "the polygon of room " + in_quotes(room.id) +
                                   " touches or crosses itself; list its corners once, in order around the room");
   for (std::size_t k = 0; k < room.walls.size(); ++k) {
     const Mark mark = places.value("rooms", i, "walls", k);
     const PlanWallEntry& wall = plan.walls[refer(places.walls, room.walls[k], "wall", mark)];
     if (wall.storey != room.storey)
-      throw InputError(mark, "wall " + quoted(wall.id) + " stands on storey " + quoted(wall.storey) + ", room " +
-                                 quoted(room.id) + " on " + quoted(room.storey));
+      throw InputError(mark, "wall " + in_quotes(wall.id) + " stands on storey " + in_quotes(wall.storey) + ", room " +
+                                 in_quotes(room.id) + " on " + in_quotes(room.storey));
   }
 }
 
 void check_stair(const PlanFile& plan, std::size_t i, const Places& places) {
   const PlanStairEntry& stair = plan.stairs[i];
   const auto at = [&](std::string_view key) { return places.value("stairs", i, key); };
-  const std::string who = "stair " + quoted(stair.id);
+  const std::string who = "stair " + in_quotes(stair.id);
   const double foot = plan.storeys[refer(places.storeys, stair.from, "storey", at("from"))].elevation_m;
   const double head = plan.storeys[refer(places.storeys, stair.to, "storey", at("to"))].elevation_m;
   if (head <= foot + touching_m)
     throw InputError(at("to"),
-                     who + " must lead up: storey " + quoted(stair.to) + " is not above " + quoted(stair.from));
+                     who + " must lead up: storey " + in_quotes(stair.to) + " is not above " + in_quotes(stair.from));
   if (const auto fault = step_fault(stair, head - foot))
     throw InputError(at(stair.landing_after ? "landing_after" : "to"), who + " " + *fault);
   if (stair.turn != Turn::none && !stair.landing_after)
@@ -273,7 +272,7 @@ double storey_height(const PlanFile& plan, const PlanStoreyEntry& storey) {
 void check_plan_id(const std::string& id, const Mark& mark) {
   if (id.empty()) throw InputError(mark, "an id must not be empty");
   if (id.find('/') != std::string::npos)
-    throw InputError(mark, "the id " + quoted(id) + " contains '/', which is kept for copies of storeys");
+    throw InputError(mark, "the id " + in_quotes(id) + " contains '/', which is kept for copies of storeys");
 }
 
 void check_material_id(const Building& building, const std::string& material, const Mark& mark) {
@@ -286,8 +285,8 @@ void check_material_id(const Building& building, const std::string& material, co
   known.erase(std::unique(known.begin(), known.end()), known.end());
   std::string list;
   for (const std::string& name : known) list += (list.empty() ? "" : ", ") + name;
-  throw InputError(mark, "there is no material " + quoted(material) +
-                             (close.empty() ? "; known: " + list : "; did you mean " + quoted(close) + "?"));
+  throw InputError(mark, "there is no material " + in_quotes(material) +
+                             (close.empty() ? "; known: " + list : "; did you mean " + in_quotes(close) + "?"));
 }
 
 void check_plan(const PlanFile& plan, const Tree& tree) {

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <string_view>
+
 #include "bim/formats/plan_yaml/plan_entries.h"
 
 namespace plumbline::bim {
@@ -16,26 +19,15 @@ enum class DeviationOp {
   add_clutter,
   add_column
 };
+[[nodiscard]] constexpr std::array<std::string_view, 9> names_of(DeviationOp) {
+  return {"move_wall",      "remove_wall", "add_wall",    "tilt_wall", "move_opening",
+          "remove_opening", "add_opening", "add_clutter", "add_column"};
+}
 
-}  // namespace plumbline::bim
-
-namespace plumbline {
-
-template <>
-struct EnumNames<bim::DeviationOp> {
-  static constexpr std::array<std::string_view, 9> names = {"move_wall",   "remove_wall",  "add_wall",
-                                                            "tilt_wall",   "move_opening", "remove_opening",
-                                                            "add_opening", "add_clutter",  "add_column"};
-};
-
-}  // namespace plumbline
-
-namespace plumbline::bim {
-
-/// One thing that was built otherwise than planned: the op decides which keys there are.
+/// One deviation of the building from its plan: the op decides which keys there are.
 struct PlanDeviationEntry {
   DeviationOp op = DeviationOp::move_wall;
-  std::string target;  ///< wall or opening it is done to
+  std::string target;
   Eigen::Vector2d by = Eigen::Vector2d::Zero();
   double by_m = 0.0;
   double deg = 0.0;
@@ -46,25 +38,38 @@ struct PlanDeviationEntry {
 
   template <class V>
   void visit(V& v) {
-    v("op", op, Field{.doc = "what was done", .required = true});
+    v("op", op, Field{.doc = "kind of deviation", .required = true});
     switch (op) {
       case DeviationOp::move_wall:
-        v("wall", target, plan_reference);
-        v("by", by, Field{.doc = "[dx, dy], m", .min = -plan_size_max_m, .max = plan_size_max_m, .required = true});
+        v("wall", target, Field{.doc = "id of the wall", .required = true});
+        v("by", by,
+          Field{.doc = "displacement [dx, dy] of the wall",
+                .unit = "m",
+                .min = -plan_size_max_m,
+                .max = plan_size_max_m,
+                .required = true});
         break;
       case DeviationOp::remove_wall:
-        v("wall", target, plan_reference);
+        v("wall", target, Field{.doc = "id of the wall", .required = true});
         break;
       case DeviationOp::tilt_wall:
-        v("wall", target, plan_reference);
-        v("deg", deg, Field{.doc = "upper edge to the left of a to b", .min = -10.0, .max = 10.0, .required = true});
+        v("wall", target, Field{.doc = "id of the wall", .required = true});
+        v("deg", deg,
+          Field{.doc = "tilt of the wall; positive: its upper edge moves to the left of a to b",
+                .min = -10.0,
+                .max = 10.0,
+                .required = true});
         break;
       case DeviationOp::move_opening:
-        v("opening", target, plan_reference);
-        v("by_m", by_m, Field{.doc = "towards b", .min = -plan_reach_m, .max = plan_reach_m, .required = true});
+        v("opening", target, Field{.doc = "id of the opening", .required = true});
+        v("by_m", by_m,
+          Field{.doc = "displacement of the opening along its wall, towards b",
+                .min = -plan_reach_m,
+                .max = plan_reach_m,
+                .required = true});
         break;
       case DeviationOp::remove_opening:
-        v("opening", target, plan_reference);
+        v("opening", target, Field{.doc = "id of the opening", .required = true});
         break;
       case DeviationOp::add_wall:
         return wall.visit(v);

@@ -30,18 +30,19 @@ struct PlanFile {
 
   template <class V>
   void visit(V& v) {
-    v("plan", plan, Field{.doc = "version of the format", .min = 1, .max = 1, .required = true});
-    v("name", name, Field{.doc = "of the building"});
-    v("storeys", storeys, Field{.doc = "at least one", .required = true});
-    v("walls", walls, Field{.doc = "at least one", .required = true});
+    v("plan", plan, plain_field("version of the format", {.min = 1, .max = 1, .required = true}));
+    v("name", name, Field{.doc = "name of the building"});
+    v("storeys", storeys, Field{.doc = "storeys, at least one", .required = true});
+    v("walls", walls, Field{.doc = "walls, at least one", .required = true});
     v("openings", openings, Field{.doc = "doors, windows and voids in walls"});
-    v("rooms", rooms, Field{.doc = "what methods may know as rooms"});
-    v("columns", columns, Field{.doc = "upright blocks"});
-    v("stairs", stairs, Field{.doc = "from one storey to another"});
-    v("clutter", clutter, Field{.doc = "planned furniture and the like"});
-    v("materials", materials, Field{.doc = "beyond the presets"});
-    v("deviations", deviations, Field{.doc = "what was built otherwise"});
-    v("symmetry", symmetry, Field{.doc = "what the plan says of its own symmetry, as `generate` writes it"});
+    v("rooms", rooms, Field{.doc = "rooms of the plan, known to methods"});
+    v("columns", columns, Field{.doc = "upright blocks, part of the structure"});
+    v("stairs", stairs, Field{.doc = "stairs, each from one storey to another"});
+    v("clutter", clutter, Field{.doc = "planned furniture and other objects"});
+    v("materials", materials, Field{.doc = "materials beside the presets"});
+    v("deviations", deviations,
+      Field{.doc = "differences of the building as built from the plan, applied in their order"});
+    v("symmetry", symmetry, Field{.doc = "declared symmetry of the plan, as `generate` writes it"});
   }
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bim/formats/plan_yaml/plan_schema.h"
 
+#include "bim/config/markdown.h"
 #include "bim/formats/plan_yaml/plan_file.h"
 #include "bim/model/materials.h"
 
@@ -27,7 +28,7 @@ constexpr std::string_view example = R"yaml(plan: 1
 name: example
 storeys:
   - {id: ground, elevation_m: 0, height_m: 2.8, floor_material: concrete}
-  - {id: upper, elevation_m: 3, copy_of: ground}          # walls, openings, rooms, ... once more, as upper/ID
+  - {id: upper, elevation_m: 3, copy_of: ground}          # its walls, openings, rooms, ... again, as upper/ID
 walls:
   - {id: south, storey: ground, a: [0, 0], b: [12, 0], thickness_m: 0.2, just: center, material: brick, height_m: 2.8}
   - {id: east, storey: ground, a: [12, 0], b: [12, 8]}
@@ -69,33 +70,33 @@ symmetry:
 
 constexpr std::string_view introduction = R"md(# Plan files
 
-A building by hand, in YAML. `plumbline inspect PLAN` says what a plan holds, `plumbline run PLAN` walks through it. This
-page is what `plumbline inspect --schema` prints: it is made from the reader itself.
+A plan describes a building in YAML. `plumbline inspect PLAN` lists what it holds; `plumbline run PLAN` walks a robot
+through it. `plumbline inspect --schema` prints this page, which is made from the reader itself.
 
-- Lengths are in metres, angles in degrees, counter-clockwise; x and y are those of the plan, z is up.
-- Unknown and doubled keys, values out of range, unknown ids, openings that leave their wall or overlap, and rooms cut by
-  walls are refused with file, line and column.
-- Ids are unique: walls, columns, clutter and stairs together; storeys, openings, rooms and materials each.
-- A room's polygon may run along the reference lines of its walls; what walls cover is taken off.
-- Every storey gets a floor and a ceiling 0.2 m thick over its walls and rooms. Stairs cut them where less than 2.1 m of
-  head room would be left.
-- A closed door has a leaf, a window a pane, glass unless it names another material. The LiDAR looks through what lets half
-  of the light or more through, save from straight ahead; it stands in the robot's way.
-- `deviations` are done one after the other to what was built. Methods are given the plan without them, the robot walks
-  through and sees what was built, and scores hold the building as built. Walls that met a moved wall stay where they are.
-  A room that its walls no longer enclose is no room as built; rooms that became one are one; a room cut in two is two.
+- Lengths are in metres, angles in degrees, counter-clockwise. x and y are those of the plan; z points up.
+- The reader refuses, with file, line and column: unknown and repeated keys, values out of range, unknown ids, openings
+  that overlap or leave their wall, and rooms that a wall cuts.
+- Ids are unique among walls, columns, clutter and stairs together, and among storeys, openings, rooms and materials each.
+- A room's polygon may follow the reference lines of its walls; the area under the walls is subtracted.
+- Every storey gets a floor and a ceiling 0.2 m thick over its walls and rooms. A stair cuts the slabs that leave less
+  than 2.1 m of head room.
+- A closed door has a leaf. A window has a pane, of glass unless it names another material. The LiDAR sees through a
+  material that transmits at least half of the light, except at normal incidence; for the robot it is an obstacle.
+- `deviations` make the building as built differ from the plan; they apply in their order. Methods get the plan without
+  them. The robot walks through the building as built, the LiDAR sees it, and scores compare with it.
+- A wall that met a moved wall stays where it is. As built, a room without closed walls is no room, joined rooms are one
+  room, and a divided room is two.
 
 )md";
 
 std::string preset_table() {
-  std::string table =
-      "## Materials that need no entry\n\n| id | reflectivity | transmission | specular | retro "
-      "|\n|---|---|---|---|---|\n";
+  MarkdownTable table({"id", "reflectivity", "transmission", "specular", "retro"});
   for (const Material& material : preset_materials())
-    table += "| `" + material.id + "` | " + format_number(material.reflectivity) + " | " +
-             format_number(material.transmission) + " | " + format_number(material.specular) + " | " +
-             format_number(material.retro) + " |\n";
-  return table + "\nRound figures of ours for the light of a LiDAR (905 nm). An entry of the same id goes before.\n";
+    table.add({markdown_code(material.id), format_number(material.reflectivity), format_number(material.transmission),
+               format_number(material.specular), format_number(material.retro)});
+  return "## Materials without an entry\n\nRounded values for the light of a LiDAR (905 nm). An entry of the same id "
+         "replaces one of them.\n\n" +
+         table.text();
 }
 
 }  // namespace
@@ -105,9 +106,8 @@ std::string_view plan_example() { return example; }
 std::vector<SchemaSection> plan_schema() { return SchemaVisitor::sections_of<PlanFile>(); }
 
 std::string plan_page() {
-  const Tree tree = read_yaml(example, "example");
   return std::string(introduction) + "```yaml\n" + std::string(example) + "```\n\n## The file\n\n" +
-         schema_tables(plan_schema(), {tree}) + preset_table();
+         schema_tables(plan_schema()) + "\n" + preset_table();
 }
 
 }  // namespace plumbline::bim

@@ -9,11 +9,11 @@
 
 namespace plumbline::bim {
 
-/// A sound plan with a value for every key there is.
+/// A valid plan with a value for every key.
 [[nodiscard]] std::string_view plan_example();
 /// Every key of a plan file.
 [[nodiscard]] std::vector<SchemaSection> plan_schema();
-/// The page that documents plan files, Markdown; bim/PLAN.md is a copy of it.
+/// The page that documents plan files, in Markdown: docs/reference/plan.md.
 [[nodiscard]] std::string plan_page();
 
 }  // namespace plumbline::bim

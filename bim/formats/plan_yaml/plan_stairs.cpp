@@ -48,7 +48,7 @@ Stair built(const PlanFile& plan, const PlanStairEntry& entry, int from, int to,
   const double height_m = upper.elevation_m - lower.elevation_m;
   if (const auto fault = step_fault(entry, height_m))
     throw InputError(mark, "stair '" + id + "' from '" + lower.id + "' to '" + upper.id + "' " + *fault);
-  Stair stair = stair_of(entry, lower.elevation_m, height_m);
+  Stair stair = build_stair(entry, lower.elevation_m, height_m);
   stair.id = id;
   stair.name = id;
   stair.from = from;

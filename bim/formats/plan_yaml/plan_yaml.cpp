@@ -55,7 +55,7 @@ class PlanBuilder {
     building_.materials.push_back(material);
     if (material.transmission >= see_through_share)
       building_.warnings.push_back(
-          {material.id, "see_through", "the LiDAR looks through it, save from straight ahead"});
+          {material.id, "see_through", "transparent to the LiDAR, except at normal incidence"});
   }
 
   Level level_of(int index) const {
@@ -127,7 +127,7 @@ class PlanBuilder {
   }
 
   void add_rooms(const Level& level) {
-    const PlanBoxes walls = boxes_of(building_.walls, level.first_wall);
+    const BoxIndex walls = boxes_of(building_.walls, level.first_wall);
     for (std::size_t i = 0; i < plan_.rooms.size(); ++i) {
       const std::string& storey = plan_.rooms[i].storey;
       if (storey == level.source) add_room(i, level.prefix, level, walls);
@@ -135,7 +135,7 @@ class PlanBuilder {
     }
   }
 
-  void add_room(std::size_t entry_index, const std::string& prefix, const Level& level, const PlanBoxes& boxes) {
+  void add_room(std::size_t entry_index, const std::string& prefix, const Level& level, const BoxIndex& boxes) {
     const PlanRoomEntry& entry = plan_.rooms[entry_index];
     std::vector<Wall> walls;
     for (const int i : boxes.near(entry.polygon, 0.0))
@@ -231,23 +231,21 @@ class PlanBuilder {
 
 }  // namespace
 
-Building read_plan(const std::string& path) { return read_plan_text(read_text_file(path), path); }
-
 Building read_plan_text(std::string_view text, const std::string& file, const PlanSolids& solids) {
-  return read_plan_site(text, file, solids).as_planned;
+  return read_plan_with_deviations(text, file, solids).as_planned;
 }
 
-PlanSite read_plan_site(std::string_view text, const std::string& file, const PlanSolids& solids) {
+PlanWithDeviations read_plan_with_deviations(std::string_view text, const std::string& file, const PlanSolids& solids) {
   const Tree tree = read_yaml(text, file);
   if (!tree.is_map() || tree.as_map().empty() || tree.as_map().front().first != "plan")
     throw InputError(tree.mark, "this is no plan; its first key must be 'plan: 1'");
   const PlanFile plan = from_tree<PlanFile>(tree);
   check_plan(plan, tree);
-  PlanSite site;
-  site.as_planned = PlanBuilder(plan, tree, solids).build();
+  PlanWithDeviations both;
+  both.as_planned = PlanBuilder(plan, tree, solids).build();
   const Tree* deviations = tree.find("deviations");
-  site.as_built = apply_deviations(site.as_planned, plan.deviations, deviations != nullptr ? *deviations : tree);
-  return site;
+  both.as_built = apply_deviations(both.as_planned, plan.deviations, deviations != nullptr ? *deviations : tree);
+  return both;
 }
 
 }  // namespace plumbline::bim

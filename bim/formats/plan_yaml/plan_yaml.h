@@ -9,7 +9,7 @@
 
 namespace plumbline::bim {
 
-/// What a plan leaves open about the solids it stands for, m.
+/// Dimensions of solids that a plan does not give, m.
 struct PlanSolids {
   double slab_m = 0.2;            ///< thickness of floor and ceiling
   int cylinder_sides = 32;        ///< of round clutter
@@ -17,18 +17,18 @@ struct PlanSolids {
   double room_remnant_m2 = 0.5;   ///< a piece this large that walls cut off a room is no corner of it
 };
 
-/// A plan and what was built of it.
-struct PlanSite {
+/// A building as planned and as built.
+struct PlanWithDeviations {
   Building as_planned;
   AsBuilt as_built;
 };
 
-/// Reads a building, as planned, from a file of kind `plan: 1`. Rooms become the clear outline within their walls;
-/// every storey gets a floor and a ceiling over its walls and rooms. Throws InputError at the offending line.
-[[nodiscard]] Building read_plan(const std::string& path);
-/// The same from text; `file` names it in errors. Deviations are checked.
+/// Reads a building, as planned, from the text of a file of kind `plan: 1`; `file` names it in errors. Rooms become the
+/// clear outline within their walls; every storey gets a floor and a ceiling over its walls and rooms. Deviations are
+/// checked. Throws InputError at the offending line.
 [[nodiscard]] Building read_plan_text(std::string_view text, const std::string& file, const PlanSolids& solids = {});
-/// The same with its deviations built.
-[[nodiscard]] PlanSite read_plan_site(std::string_view text, const std::string& file, const PlanSolids& solids = {});
+/// The same with the deviations applied.
+[[nodiscard]] PlanWithDeviations read_plan_with_deviations(std::string_view text, const std::string& file,
+                                                           const PlanSolids& solids = {});
 
 }  // namespace plumbline::bim

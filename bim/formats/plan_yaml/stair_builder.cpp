@@ -7,6 +7,7 @@
 #include "bim/config/tree.h"
 #include "bim/geometry/polygon_boolean.h"
 #include "bim/model/extrude.h"
+#include "bim/model/stair_flight.h"
 
 namespace plumbline::bim {
 
@@ -15,7 +16,6 @@ namespace {
 constexpr double max_steps = 1000;
 constexpr double steps_slack = 1e-9;  ///< a height that is a multiple of rise_m needs no further step
 
-Eigen::Vector2d ascent(const StairFlight& flight) { return {std::cos(flight.yaw), std::sin(flight.yaw)}; }
 Eigen::Vector2d left_of(const Eigen::Vector2d& e) { return {-e.y(), e.x()}; }
 
 /// Rectangle from s0 to s1 along e and from t0 to t1 to its left.
@@ -27,7 +27,7 @@ Polygon2 rectangle(const Eigen::Vector2d& origin, const Eigen::Vector2d& e, doub
 }
 
 /// Side view of a flight in (s, z): steps above, a sloping soffit below, cut off at `base`.
-Polygon2 profile(const StairFlight& flight, double base, const StairConfig& config) {
+Polygon2 profile(const StairFlight& flight, double base, const StairBuilderConfig& config) {
   const double pitch = flight.rise_m / flight.run_m;
   const double below = config.waist_m * std::sqrt(1.0 + pitch * pitch);
   const double length = flight.steps * flight.run_m;
@@ -48,7 +48,7 @@ Polygon2 profile(const StairFlight& flight, double base, const StairConfig& conf
   return outline;
 }
 
-Solid flight_body(const StairFlight& flight, double base, const StairConfig& config) {
+Solid flight_body(const StairFlight& flight, double base, const StairBuilderConfig& config) {
   const Eigen::Vector2d e = ascent(flight);
   const auto at = [&](double t) {
     return [&flight, e, t](const Eigen::Vector2d& p) {
@@ -57,7 +57,7 @@ Solid flight_body(const StairFlight& flight, double base, const StairConfig& con
     };
   };
   // Along the ascent, then up, is counter-clockwise seen from the right.
-  return sweep({{profile(flight, base, config), {}}}, at(0.5 * flight.width_m), at(-0.5 * flight.width_m));
+  return extrude_between({{profile(flight, base, config), {}}}, at(0.5 * flight.width_m), at(-0.5 * flight.width_m));
 }
 
 /// The landing at the head of the first flight, and the flight that goes on from it.
@@ -108,16 +108,7 @@ std::optional<std::string> step_fault(const PlanStairEntry& entry, double height
   return std::nullopt;
 }
 
-Polygon2 steps_outline(const StairFlight& flight, int first, int last) {
-  return rectangle(flight.start, ascent(flight), first * flight.run_m, (last + 1) * flight.run_m, -0.5 * flight.width_m,
-                   0.5 * flight.width_m);
-}
-
-Eigen::Vector2d head_of(const StairFlight& flight, double beyond_m) {
-  return flight.start + (flight.steps * flight.run_m + beyond_m) * ascent(flight);
-}
-
-Stair stair_of(const PlanStairEntry& entry, double z0_m, double height_m, const StairConfig& config) {
+Stair build_stair(const PlanStairEntry& entry, double z0_m, double height_m, const StairBuilderConfig& config) {
   Stair stair;
   stair.id = entry.id;
   stair.name = entry.id;

@@ -5,7 +5,9 @@
 #include <cmath>
 
 #include "bim/config/tree.h"
+#include "bim/formats/plan_yaml/unused_id.h"
 #include "bim/geometry/polygon_boolean.h"
+#include "bim/model/stair_flight.h"
 #include "bim/model/wall_face.h"
 
 namespace plumbline::bim {
@@ -29,7 +31,7 @@ std::vector<Step> steps_of(const Stair& stair) {
   return steps;
 }
 
-bool in_head_room(const Step& step, double z0, double z1, const StairConfig& config) {
+bool in_head_room(const Step& step, double z0, double z1, const StairBuilderConfig& config) {
   return z0 < step.z_m + config.head_room_m && z1 > step.z_m + level_m;
 }
 
@@ -41,7 +43,7 @@ bool boxes_meet(const Polygon2& a, const Polygon2& b) {
 }
 
 /// The ground over which a slab must be open. Steps of a flight that follow each other are one rectangle.
-std::vector<Polygon2> well_through(const Stair& stair, const Slab& slab, const StairConfig& config) {
+std::vector<Polygon2> well_through(const Stair& stair, const Slab& slab, const StairBuilderConfig& config) {
   std::vector<Polygon2> well;
   for (const StairFlight& flight : stair.flights) {
     int first = -1, last = -1;
@@ -56,16 +58,6 @@ std::vector<Polygon2> well_through(const Stair& stair, const Slab& slab, const S
   for (const Landing& landing : stair.landings)
     if (in_head_room({{}, landing.z_m}, slab.z0_m, slab.z1_m, config)) well.push_back(landing.polygon);
   return well;
-}
-
-std::string unused_id(const Building& building, const std::vector<Slab>& more, const std::string& id) {
-  for (int number = 2;; ++number) {
-    std::string candidate = id + "-" + std::to_string(number);
-    const auto same = [&](const Slab& slab) { return slab.id == candidate; };
-    if (std::none_of(building.slabs.begin(), building.slabs.end(), same) &&
-        std::none_of(more.begin(), more.end(), same))
-      return candidate;
-  }
 }
 
 /// Floor of the storey at p, not its ceiling.
@@ -88,7 +80,7 @@ std::string point(const Eigen::Vector2d& p) {
 }
 
 /// The wall or column that stands in the way of a step, by name.
-std::optional<std::string> in_the_way(const Building& building, const Step& step, const StairConfig& config) {
+std::optional<std::string> in_the_way(const Building& building, const Step& step, const StairBuilderConfig& config) {
   const auto meets = [&](const Polygon2& ground, double z0, double z1) {
     return in_head_room(step, z0, z1, config) && boxes_meet(step.outline, ground) &&
            intersection_area(step.outline, ground) > config.wall_m2;
@@ -102,7 +94,7 @@ std::optional<std::string> in_the_way(const Building& building, const Step& step
 
 }  // namespace
 
-void cut_stairwell(const Stair& stair, Building& building, const StairConfig& config) {
+void cut_stairwell(const Stair& stair, Building& building, const StairBuilderConfig& config) {
   std::vector<Slab> more;
   for (Slab& slab : building.slabs) {
     const std::vector<Polygon2> well = well_through(stair, slab, config);
@@ -113,7 +105,7 @@ void cut_stairwell(const Stair& stair, Building& building, const StairConfig& co
     const Region2 rest = subtract(whole, well);
     for (std::size_t i = 1; i < rest.size(); ++i) {
       Slab piece = slab;
-      piece.id = unused_id(building, more, slab.id);
+      piece.id = unused_id(slab.id, building.slabs, more);
       piece.polygon = rest[i];
       more.push_back(std::move(piece));
     }
@@ -123,14 +115,14 @@ void cut_stairwell(const Stair& stair, Building& building, const StairConfig& co
   building.slabs.insert(building.slabs.end(), more.begin(), more.end());
 }
 
-void find_stair_rooms(const Building& building, Stair& stair, const StairConfig& config) {
+void find_stair_rooms(const Building& building, Stair& stair, const StairBuilderConfig& config) {
   StairFlight before = stair.flights.front();
   before.steps = 0;
   stair.rooms[0] = room_at(building, stair.from, head_of(before, -config.step_off_m));
   stair.rooms[1] = room_at(building, stair.to, head_of(stair.flights.back(), config.step_off_m));
 }
 
-std::optional<std::string> stair_fault(const Building& building, const Stair& stair, const StairConfig& config) {
+std::optional<std::string> stair_fault(const Building& building, const Stair& stair, const StairBuilderConfig& config) {
   StairFlight before = stair.flights.front();
   before.steps = 0;
   const Eigen::Vector2d foot = head_of(before, -config.step_off_m);
@@ -141,8 +133,8 @@ std::optional<std::string> stair_fault(const Building& building, const Stair& st
   if (!floor_at(building, stair.to, head))
     return "it ends in the void: there is no floor of " + storey(stair.to) + " beyond its last step, at " + point(head);
   for (const Step& step : steps_of(stair))
-    if (const auto thing = in_the_way(building, step, config))
-      return *thing + " stands on or less than " + format_number(config.head_room_m) + " m above it, near " +
+    if (const auto obstacle = in_the_way(building, step, config))
+      return *obstacle + " stands on or less than " + format_number(config.head_room_m) + " m above it, near " +
              point(centroid(step.outline));
   for (const auto& [where, p] : {std::pair{stair.from, foot}, std::pair{stair.to, head}}) {
     const double level = building.storeys[static_cast<std::size_t>(where)].elevation_m;

@@ -50,7 +50,7 @@ class TrafficBuilder {
     return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
   }
 
-  void warn(const std::string& element, const std::string& kind, const std::string& text) {
+  void warn(const std::string& element, WarningKind kind, const std::string& text) {
     building_.warnings.push_back({element, kind, text});
   }
 

@@ -8,7 +8,7 @@
 
 namespace plumbline::bim {
 
-/// What a traffic-editor plan leaves open, and how its drawing is made a building.
+/// Dimensions that a traffic-editor plan does not give, and how its drawing becomes a building.
 struct TrafficEditorConfig {
   double wall_height_m = 2.5;      ///< as rmf_building_map_tools builds walls
   double wall_thickness_m = 0.1;   ///< as rmf_building_map_tools builds walls
@@ -16,8 +16,8 @@ struct TrafficEditorConfig {
   double slab_m = 0.2;             ///< thickness of floor and ceiling; a plan's default
   double doorway_max_m = 2.0;      ///< two wall ends in line this close leave a doorway between them
   double side_gap_max_m = 1.5;     ///< so do a wall's end and the wall straight ahead of it
-  double touching_m = 0.15;        ///< a smaller gap is a slip of the pen
-  double in_line = 0.18;           ///< sine of the angle between things in line (10 degrees)
+  double touching_m = 0.15;        ///< a smaller gap is a drawing error
+  double in_line = 0.18;           ///< sine of the angle between collinear walls and doors (10 degrees)
   double on_wall_m = 0.15;         ///< a door this near to a wall's line is in that wall
   double lowest_room_m = 2.0;      ///< the least height between two levels
   double scale_spread = 0.02;      ///< measurements of a level may differ by this share before a warning

@@ -14,7 +14,7 @@ double cross(const Eigen::Vector2d& u, const Eigen::Vector2d& v) { return u.x() 
 
 Eigen::Vector2d unit(const Segment& s) { return (s.b - s.a).normalized(); }
 
-/// An end of a wall that nothing touches, looking away from its wall.
+/// A free end of a wall, with its direction away from the wall.
 struct FreeEnd {
   std::size_t wall = 0;
   Eigen::Vector2d p = Eigen::Vector2d::Zero();
@@ -38,7 +38,7 @@ std::vector<FreeEnd> free_ends(const std::vector<Segment>& walls, const TrafficE
   return ends;
 }
 
-/// The end that looks at `from` and is looked at by it, nearest first.
+/// The nearest end that faces `from` and that `from` faces.
 FreeEnd* facing(std::vector<FreeEnd>& ends, const FreeEnd& from, const TrafficEditorConfig& config) {
   FreeEnd* best = nullptr;
   double nearest = config.doorway_max_m;

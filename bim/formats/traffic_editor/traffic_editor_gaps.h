@@ -31,7 +31,7 @@ struct WallSpan {
 [[nodiscard]] bool is_corner(const std::vector<Segment>& walls, std::size_t self, const Eigen::Vector2d& p,
                              const TrafficEditorConfig& config);
 
-/// Gaps a wall's end leaves: to another wall's end that looks back at it, else to the wall straight ahead. Each from
+/// Gaps a wall's end leaves: to another wall's end that faces it, else to the wall straight ahead. Each from
 /// the end with the lower wall index, ascending (of two ends equally near the lower index is taken).
 [[nodiscard]] std::vector<Segment> find_doorways(const std::vector<Segment>& walls, const TrafficEditorConfig& config);
 

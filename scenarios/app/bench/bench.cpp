@@ -6,16 +6,11 @@
 #include <cstdio>
 
 #include "bim/errors.h"
+#include "bim/median.h"
 
 namespace plumbline::scenarios {
 
 namespace {
-
-/// Median of a sorted list: the mean of the middle two where their number is even.
-double median(const std::vector<double>& sorted) {
-  const std::size_t n = sorted.size();
-  return n % 2 == 1 ? sorted[n / 2] : 0.5 * (sorted[n / 2 - 1] + sorted[n / 2]);
-}
 
 std::string limit_text(const BenchRow& row) {
   if (!row.limit) return "";

@@ -25,7 +25,7 @@ struct IdentifyLimits {
 /// Both conditions of quickstart's planned walk.
 double walk_cost(const BenchSetting& setting) {
   const slam::Stopwatch watch;
-  const auto walks = identify_walks(setting.library + "/quickstart.yaml", 1, 1);
+  const auto walks = localizability_of_walks(setting.library + "/quickstart.yaml", 1, 1);
   return 0.5e-3 * watch.cpu_ms();
 }
 
@@ -36,7 +36,8 @@ std::pair<double, double> map_cost(int rooms) {
   BuildingMapOptions map_options;
   map_options.step_m = 1.0;
   const slam::Stopwatch watch;
-  const BuildingMap map = map_of({plan, plan, {}, true}, map_options);
+  const RunBuilding building(bim::PlannedAndBuilt{plan, plan, {}, true});
+  const BuildingMap map = map_of(building, map_options);
   return {static_cast<double>(map.map.cells.size()), 1e-3 * watch.cpu_ms()};
 }
 

@@ -31,28 +31,28 @@ const std::string method = "s_graph_localization";
 constexpr std::size_t planes_seen = 8;
 
 /// What a robot would see at a pose of the plan: the walls around it and beams to them, without noise.
-slam::View planned_view(const slam::StoreyIndex& storey, const slam::Pose2& X_IH) {
-  slam::View view;
-  view.sensor_height = 0.66;
+slam::LocalizationScan planned_scan(const slam::StoreyIndex& storey, const slam::Pose2& X_IH) {
+  slam::LocalizationScan scan;
+  scan.sensor_height = 0.66;
   const int cell = storey.grid.cell_at(X_IH.t);
   if (cell < 0) throw InternalError("bench: a view from outside of the plan");
   for (const int i : storey.visible[static_cast<std::size_t>(cell)]) {
     const slam::WallLine& line = storey.lines[static_cast<std::size_t>(i)];
     const double foot = line.e.dot(X_IH.t - line.a), distance = line.n.dot(X_IH.t) + line.d;
-    if (distance <= 0.0 || view.walls.size() >= planes_seen) continue;
-    view.walls.push_back(
+    if (distance <= 0.0 || scan.walls.size() >= planes_seen) continue;
+    scan.walls.push_back(
         {wrap_angle(line.azimuth - X_IH.yaw), distance, -foot, line.length - foot, 0.002, 0.004, static_cast<int>(i)});
   }
-  constexpr int beams = slam::ViewConfig{}.beams;
+  constexpr int beams = slam::LocalizationScanConfig{}.beams;
   for (int k = 0; k < beams; ++k) {
     const double angle = 2.0 * std::numbers::pi * k / beams;
     slam::Beam beam{{std::cos(angle), std::sin(angle)}, 0.0, 0.05 * (k % 4)};
-    const slam::PlanRay ray{X_IH.t, X_IH.rotation() * beam.direction_H, storey.floor_z + view.sensor_height,
+    const slam::PlanRay ray{X_IH.t, X_IH.rotation() * beam.direction_H, storey.floor_z + scan.sensor_height,
                             beam.slope};
     beam.range = storey.grid.cast(storey.segments, ray, 25.0).distance;
-    view.beams.push_back(beam);
+    scan.beams.push_back(beam);
   }
-  return view;
+  return scan;
 }
 
 slam::PlanIndex index_of(const bim::Building& building) {
@@ -61,19 +61,19 @@ slam::PlanIndex index_of(const bim::Building& building) {
 
 /// CPU time of one update of so many particles: motion, likelihood, clusters, resampling.
 double update_ms(const slam::PlanIndex& index, int count, std::uint64_t seed) {
-  const slam::SearchConfig config;
+  const slam::GlobalLocalizerConfig config;
   const slam::StoreyIndex& storey = index.storeys.front();
-  const slam::View view = planned_view(storey, {centroid(storey.rooms.front().polygon), 0.3});
+  const slam::LocalizationScan scan = planned_scan(storey, {centroid(storey.rooms.front().polygon), 0.3});
   slam::FilterConfig filter = config.filter;
   filter.max_particles = count;
   filter.density_per_m2 = 1e6;
-  slam::ParticleSet drawn = slam::draw_start(index, {}, view, filter, seed, 1);
+  slam::ParticleSet drawn = slam::sample_initial_particles(index, {}, scan, filter, seed, 1);
   slam::ParticleSet particles;
   for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) particles.push_back(drawn[i % drawn.size()]);
   slam::normalise(particles);
   const slam::Stopwatch watch;
   slam::propagate(particles, {{0.2, 0.0}, 0.02}, index, filter, seed, 2);
-  static_cast<void>(slam::reweight(particles, view, index, config.likelihood, filter));
+  static_cast<void>(slam::reweight(particles, scan, index, config.likelihood, filter));
   const slam::Clustering clustering = slam::find_clusters(particles, config.clusters);
   particles = slam::resample(particles, clustering, count, 0, filter, seed, 2);
   return watch.cpu_ms();

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "scenarios/app/bench/bench.h"
-#include "scenarios/app/bench/registration.h"
+#include "scenarios/app/bench/registration_timing.h"
 
 namespace plumbline::scenarios {
 

@@ -79,12 +79,12 @@ Factors realtime_factors(const std::string& scenario, std::uint64_t seed) {
   RunOptions options;
   options.methods = false;
   double physics_ms = 0.0, all_ms = 0.0, simulated_s = 0.0;
-  options.sensors = [&](const sim::WorldFrame& frame) {
+  options.observe = [&](const sim::WorldFrame& frame) {
     for (const slam::StageTime& time : frame.times) {
       all_ms += time.cpu_ms;
       if (time.stage == "sim.physics") physics_ms += time.cpu_ms;
     }
-    simulated_s = slam::seconds(frame.scan.stamp);
+    simulated_s = slam::seconds(frame.sensors.scan.stamp);
   };
   const RunRecord record = execute(resolved, options);
   if (!record.failure.empty()) throw ScenarioFailure("bench: " + record.failure);

@@ -68,10 +68,10 @@ std::optional<double> walk(const bim::Building& building, const std::vector<sim:
   try {
     sim::Robot robot(Pose::from_xyz_yaw(start_W, draw(2, config.start_turned)), sim::building_ground(building, storeys),
                      sim::collision_boxes(building, storeys), conditions, seed);
-    sim::Follower follower(sim::FollowerConfig{}, way, seed);
-    while (!follower.done()) {
+    sim::PurePursuit pursuit(sim::PurePursuitConfig{}, way, seed);
+    while (!pursuit.done()) {
       if (static_cast<double>(robot.steps()) * step_s > config.seconds) return std::nullopt;
-      robot.step(follower.update(robot.X_WR(), robot.steps()));
+      robot.step(pursuit.update(robot.X_WR(), robot.steps()));
     }
     return static_cast<double>(robot.steps()) * step_s;
   } catch (const ScenarioFailure&) {
@@ -80,9 +80,9 @@ std::optional<double> walk(const bim::Building& building, const std::vector<sim:
 }
 
 std::vector<sim::Waypoint> up_and_down(const bim::Building& building, const Case& c, const WalkConfig& config) {
-  const sim::WalkSpace space(building);
-  const sim::Place bottom{0, config.start_W};
-  const sim::Place top{1, c.top};
+  const sim::MultiStoreyPlanner space(building);
+  const sim::FloorPoint bottom{0, config.start_W};
+  const sim::FloorPoint top{1, c.top};
   std::vector<sim::Waypoint> way = space.path(bottom, top);
   const std::vector<sim::Waypoint> back = space.path(top, bottom);
   if (way.empty() || back.empty()) throw InternalError(std::string("bench: no way over the stair '") + c.name + "'");

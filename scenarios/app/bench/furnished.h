@@ -10,7 +10,7 @@
 namespace plumbline::scenarios {
 
 /// Size of the furnished storey that rays are timed in: strips of rooms on both sides of a corridor, each room 4 m wide
-/// and 9 m deep with a door and a window, full of boxes and 32-sided cylinders [facts: lidar section 3.1].
+/// and 9 m deep with a door and a window, full of boxes and 32-sided cylinders.
 struct FurnishedConfig {
   int columns = 10;              ///< rooms along a corridor, on each side
   int strips = 1;                ///< corridors

@@ -2,6 +2,7 @@
 #include <Eigen/Geometry>
 #include <string_view>
 
+#include "bim/config/number_list.h"
 #include "bim/digest/digest.h"
 #include "bim/mesh/solid.h"
 #include "bim/model/adjacency.h"
@@ -18,21 +19,14 @@ using bim::BuildingMesh;
 using bim::ElementKind;
 using bim::MeshElement;
 
-template <class Vector>
-Tree vector_tree(const Vector& v) {
-  Tree list = Tree::list();
-  for (Eigen::Index i = 0; i < v.size(); ++i) list.push(v[i]);
-  return list;
-}
-
 Tree box_tree(const Eigen::AlignedBox3d& box) {
   if (box.isEmpty()) return {};
-  return Tree(Tree::List{vector_tree(Eigen::Vector3d(box.min())), vector_tree(Eigen::Vector3d(box.max()))});
+  return Tree(Tree::List{number_list(box.min()), number_list(box.max())});
 }
 
 Tree polygon_tree(const Polygon2& polygon) {
   Tree list = Tree::list();
-  for (const Eigen::Vector2d& p : polygon) list.push(vector_tree(p));
+  for (const Eigen::Vector2d& p : polygon) list.push(number_list(p));
   return list;
 }
 
@@ -128,13 +122,13 @@ class Inspector {
   }
 
   void add_wall(const bim::Wall& wall, Tree& tree) const {
-    tree.set("name", wall.name).set("a", vector_tree(wall.a)).set("b", vector_tree(wall.b));
+    tree.set("name", wall.name).set("a", number_list(wall.a)).set("b", number_list(wall.b));
     tree.set("thickness_m", wall.thickness_m).set("material", wall.material);
     Tree faces = Tree::list();
     for (const bim::PlanFace& face : plan_.faces) {
       if (face.wall_id != wall.id) continue;
       Tree face_tree = Tree::map();
-      face_tree.set("n", vector_tree(face.plane_W.n)).set("d", face.plane_W.d);
+      face_tree.set("n", number_list(face.plane_W.n)).set("d", face.plane_W.d);
       faces.push(std::move(face_tree));
     }
     tree.set("faces", std::move(faces));
@@ -149,7 +143,7 @@ class Inspector {
     Tree flights = Tree::list();
     for (const bim::StairFlight& flight : stair.flights) {
       Tree flight_tree = Tree::map();
-      flight_tree.set("start", vector_tree(flight.start)).set("yaw_rad", flight.yaw).set("width_m", flight.width_m);
+      flight_tree.set("start", number_list(flight.start)).set("yaw_rad", flight.yaw).set("width_m", flight.width_m);
       flight_tree.set("z0_m", flight.z0_m).set("steps", flight.steps).set("rise_m", flight.rise_m);
       flights.push(std::move(flight_tree.set("run_m", flight.run_m)));
     }
@@ -198,7 +192,7 @@ class Inspector {
     Tree list = Tree::list();
     for (const bim::VirtualEdge& edge : room.virtual_edges) {
       Tree tree = Tree::map();
-      tree.set("a", vector_tree(edge.a)).set("b", vector_tree(edge.b)).set("room", room_id(edge.room));
+      tree.set("a", number_list(edge.a)).set("b", number_list(edge.b)).set("room", room_id(edge.room));
       list.push(std::move(tree));
     }
     return list;

@@ -10,8 +10,8 @@ namespace plumbline::scenarios {
 namespace {
 
 using bim::Isometry2;
-using bim::Likeliness;
-using bim::Likeness;
+using bim::Similarity;
+using bim::SimilarityGrade;
 
 constexpr double degrees = 180.0 / std::numbers::pi;
 /// Fitted places and angles carry rounding below this (0.1 micrometre, 1e-7 degrees).
@@ -31,11 +31,11 @@ Tree isometry_json(const Isometry2& g) {
   return tree;
 }
 
-void add_likeness(const Likeness& likeness, Tree& tree) {
-  tree.set("grade", likeness.grade == Likeliness::exact ? "exact" : "near");
-  tree.set("iou", rounded(likeness.iou)).set("deviation_m", rounded(likeness.deviation_m));
+void add_similarity(const Similarity& similarity, Tree& tree) {
+  tree.set("grade", similarity.grade == SimilarityGrade::exact ? "exact" : "near");
+  tree.set("iou", rounded(similarity.iou)).set("deviation_m", rounded(similarity.deviation_m));
   Tree deviations = Tree::list();
-  for (const bim::Deviation& deviation : likeness.deviations) {
+  for (const bim::Deviation& deviation : similarity.deviations) {
     Tree entry = Tree::map();
     entry.set("element", deviation.element).set("at", point(deviation.at)).set("size_m", rounded(deviation.size_m));
     deviations.push(std::move(entry));
@@ -53,7 +53,7 @@ Tree storeys_json(const bim::Building& building, const std::vector<bim::StoreySy
     Tree tree = Tree::map();
     tree.set("from", storey_id(building, symmetry.from)).set("to", storey_id(building, symmetry.to));
     tree.set("isometry", isometry_json(symmetry.isometry));
-    add_likeness(symmetry.likeness, tree);
+    add_similarity(symmetry.similarity, tree);
     list.push(std::move(tree));
   }
   return list;
@@ -63,11 +63,11 @@ Tree rooms_json(const bim::Building& building, const std::vector<bim::RoomClass>
   Tree list = Tree::list();
   for (const bim::RoomClass& like : classes) {
     Tree rooms = Tree::list(), turns = Tree::list();
-    for (const bim::LikeRoom& room : like.rooms) {
+    for (const bim::SimilarRoom& room : like.rooms) {
       Tree tree = Tree::map();
       tree.set("room", building.rooms[static_cast<std::size_t>(room.room)].id);
       tree.set("isometry", isometry_json(room.isometry));
-      add_likeness(room.likeness, tree);
+      add_similarity(room.similarity, tree);
       rooms.push(std::move(tree));
     }
     for (const Isometry2& turn : like.turns) turns.push(isometry_json(turn));
@@ -88,23 +88,23 @@ std::string motion(const Isometry2& g) {
   return shifted ? "shift by " + place(g.t) : "the same place";
 }
 
-std::string likeness_text(const Likeness& likeness) {
-  std::string text = likeness.grade == Likeliness::exact ? "exact" : "near";
-  text += ", IoU " + fixed_point(likeness.iou, 3);
-  if (likeness.deviations.empty()) return text;
-  const bim::Deviation& first = likeness.deviations.front();
+std::string similarity_text(const Similarity& similarity) {
+  std::string text = similarity.grade == SimilarityGrade::exact ? "exact" : "near";
+  text += ", IoU " + fixed_point(similarity.iou, 3);
+  if (similarity.deviations.empty()) return text;
+  const bim::Deviation& first = similarity.deviations.front();
   text += ", off by " + fixed_point(first.size_m, 3) + " m in " + first.element + " at " + place(first.at);
-  const std::size_t others = likeness.deviations.size() - 1;
+  const std::size_t others = similarity.deviations.size() - 1;
   return others == 0 ? text : text + " and in " + std::to_string(others) + " more";
 }
 
 std::string rooms_text(const bim::Building& building, const bim::RoomClass& like) {
   std::string text;
-  for (const bim::LikeRoom& room : like.rooms) {
+  for (const bim::SimilarRoom& room : like.rooms) {
     text += (text.empty() ? "" : ", ") + name_of(building.rooms[static_cast<std::size_t>(room.room)]);
-    if (room.likeness.grade == Likeliness::near)
-      text += " (off by " + fixed_point(room.likeness.deviation_m, 3) + " m in " +
-              room.likeness.deviations.front().element + ")";
+    if (room.similarity.grade == SimilarityGrade::near)
+      text += " (off by " + fixed_point(room.similarity.deviation_m, 3) + " m in " +
+              room.similarity.deviations.front().element + ")";
   }
   for (const Isometry2& turn : like.turns)
     text += "; each also turned by " + fixed_point(turn.angle * degrees, 0) + " deg";
@@ -118,7 +118,7 @@ Tree symmetry_json(const bim::Building& building, const bim::SymmetryReport& rep
   for (const bim::BuildingSymmetry& symmetry : report.building) {
     Tree tree = Tree::map();
     tree.set("isometry", isometry_json(symmetry.isometry));
-    add_likeness(symmetry.likeness, tree);
+    add_similarity(symmetry.similarity, tree);
     whole.push(std::move(tree));
   }
   Tree tree = Tree::map();
@@ -132,20 +132,20 @@ std::string symmetry_text(const bim::Building& building, const bim::SymmetryRepo
   const auto storey = [&](int i) { return name_of(building.storeys[static_cast<std::size_t>(i)]); };
   std::string text;
   for (const bim::BuildingSymmetry& symmetry : report.building)
-    text += "  whole building: " + motion(symmetry.isometry) + ", " + likeness_text(symmetry.likeness) + "\n";
+    text += "  whole building: " + motion(symmetry.isometry) + ", " + similarity_text(symmetry.similarity) + "\n";
   for (const bim::StoreySymmetry& symmetry : report.storeys)
-    text += "  " + storey(symmetry.from) + ": " + motion(symmetry.isometry) + ", " + likeness_text(symmetry.likeness) +
-            "\n";
+    text += "  " + storey(symmetry.from) + ": " + motion(symmetry.isometry) + ", " +
+            similarity_text(symmetry.similarity) + "\n";
   for (const bim::StoreySymmetry& symmetry : report.copies)
     text += "  " + storey(symmetry.to) + " like " + storey(symmetry.from) + ": " + motion(symmetry.isometry) + ", " +
-            likeness_text(symmetry.likeness) + "\n";
+            similarity_text(symmetry.similarity) + "\n";
   for (const bim::RoomClass& like : report.rooms)
-    text += std::string(like.rooms.back().likeness.grade == Likeliness::exact ? "  rooms alike: "
-                                                                              : "  rooms nearly alike: ") +
+    text += std::string(like.rooms.back().similarity.grade == SimilarityGrade::exact ? "  rooms alike: "
+                                                                                     : "  rooms nearly alike: ") +
             rooms_text(building, like) + "\n";
   for (const bim::StoreySymmetry& symmetry : report.reflections)
     text += "  no confusion for a robot: " + storey(symmetry.from) + ", " + motion(symmetry.isometry) + ", " +
-            likeness_text(symmetry.likeness) + "\n";
+            similarity_text(symmetry.similarity) + "\n";
   return "symmetry\n" +
          (text.empty() ? "  none: no turn or shift maps the building, a storey or a room onto another\n" : text);
 }

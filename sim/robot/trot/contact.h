@@ -5,7 +5,7 @@
 
 namespace plumbline::sim {
 
-/// One leg between the gait's schedule and the ground [facts: legged section 4.4].
+/// One leg between the gait's schedule and the ground, docs/methods/robot.md.
 struct LegContact {
   bool contact = true;      ///< touch force with hysteresis
   bool early = false;       ///< touched down before the end of its swing

@@ -9,7 +9,7 @@
 
 namespace plumbline::sim {
 
-/// Splits a wrench into foot forces inside friction pyramids [facts: legged section 4.10], by a fixed number of ADMM
+/// Splits a wrench into foot forces inside friction pyramids, docs/methods/robot.md, by a fixed number of ADMM
 /// iterations warm-started from the step before.
 class ForceDistribution {
  public:

@@ -32,11 +32,11 @@ bool Gait::all_in_stance(double duty) const {
 
 void Gait::update(const GaitDemand& demand, double dt) {
   const bool calm = demand.still && !demand.disturbed;
-  if (demand.careful != careful_ && all_in_stance(std::min(config_.duty, config_.careful_duty))) {
-    careful_ = demand.careful;
-    duty_ = careful_ ? config_.careful_duty : config_.duty;
+  if (demand.slow_gait != slow_gait_ && all_in_stance(std::min(config_.duty, config_.slow_duty))) {
+    slow_gait_ = demand.slow_gait;
+    duty_ = slow_gait_ ? config_.slow_duty : config_.duty;
   }
-  period_s_ = (careful_ ? config_.careful_period_s : config_.period_s) * demand.period_scale;
+  period_s_ = (slow_gait_ ? config_.slow_period_s : config_.period_s) * demand.period_scale;
   if (standing_) {
     if (calm) return;
     standing_ = false;

@@ -6,15 +6,15 @@
 
 namespace plumbline::sim {
 
-/// What decides between standing and trotting.
+/// Inputs of the choice between standing and trotting.
 struct GaitDemand {
-  bool still = true;          ///< asked to stand, and nearly standing
+  bool still = true;          ///< commanded to stand, and nearly standing
   bool disturbed = false;     ///< must step to stay upright
   double period_scale = 1.0;  ///< of this stride
-  bool careful = false;       ///< begins and ends when all four feet are due on the ground
+  bool slow_gait = false;     ///< begins and ends when all four feet are due on the ground
 };
 
-/// The trot's clock [facts: legged section 4.3]: diagonal pairs half a period apart.
+/// The trot's clock, docs/methods/robot.md: diagonal pairs half a period apart.
 class Gait {
  public:
   explicit Gait(const GaitConfig& config) : config_(config) {}
@@ -22,7 +22,7 @@ class Gait {
   void update(const GaitDemand& demand, double dt);
 
   [[nodiscard]] bool standing() const { return standing_; }
-  [[nodiscard]] bool careful() const { return careful_; }
+  [[nodiscard]] bool slow_gait() const { return slow_gait_; }
   [[nodiscard]] bool scheduled_stance(std::size_t leg) const;
   /// Part of the swing that is over, in [0, 1); only in swing.
   [[nodiscard]] double swing_progress(std::size_t leg) const;
@@ -38,7 +38,7 @@ class Gait {
   GaitConfig config_;
   bool standing_ = true;
   double phase_ = 0.0;
-  bool careful_ = false;
+  bool slow_gait_ = false;
   double duty_ = config_.duty;
   double period_s_ = config_.period_s;
   double still_s_ = 0.0;

@@ -26,11 +26,11 @@ void Reference::update(const Command& command, const Pose& X_WR, double dt) {
   v_W_ = {c * velocity_.x() - s * velocity_.y(), s * velocity_.x() + c * velocity_.y(), 0.0};
 
   const double ahead = wrap_angle(yaw_ + yaw_rate_ * dt - yaw_R);
-  yaw_ = wrap_angle(yaw_R + std::clamp(ahead, -config_.yaw_leash, config_.yaw_leash));
+  yaw_ = wrap_angle(yaw_R + std::clamp(ahead, -config_.yaw_lag_max, config_.yaw_lag_max));
 
   const Eigen::Vector2d lead = position_W_ + v_W_.head<2>() * dt - X_WR.t.head<2>();
   const double distance = lead.norm();
-  const double keep = distance > config_.position_leash_m ? config_.position_leash_m / distance : 1.0;
+  const double keep = distance > config_.position_lag_max_m ? config_.position_lag_max_m / distance : 1.0;
   position_W_ = X_WR.t.head<2>() + keep * lead;
 }
 

@@ -7,7 +7,7 @@
 
 namespace plumbline::sim {
 
-/// Smooth references from a raw command [facts: legged section 4.2]: slewed velocities and leashed pose references.
+/// Smooth references from a raw command: slewed velocities and pose references with a bounded lag.
 class Reference {
  public:
   Reference(const CommandConfig& config, const Pose& X_WR);

@@ -28,8 +28,8 @@ struct SwingPath {
   double across_to = 1.0;    ///< and at which it ends
 };
 
-/// Where a swinging foot should land, as foot centre [facts: legged section 4.5]; near edges, the nearest place with
-/// even ground around it [facts: legged section 6] (ties: the one farthest back, then to the right).
+/// Where a swinging foot should land, as foot centre, after [dicarlo2018]; near edges, the nearest place with
+/// even ground around it (ties: the one farthest back, then to the right).
 [[nodiscard]] Eigen::Vector3d foothold(const FootholdConfig& config, const Gait& gait, const BodyState& state,
                                        const Reference& reference, const Terrain& terrain, std::size_t leg);
 
@@ -45,10 +45,10 @@ struct SwingPath {
 void wait_for_height(const SwingConfig& config, const Terrain& terrain, double z_max, const Eigen::Vector3d& foot_W,
                      double progress_step, SwingPath& path);
 
-/// Point on the path at progress in [0, 1) [facts: legged sections 4.6 and 6].
+/// Point on the path at progress in [0, 1), docs/methods/robot.md.
 [[nodiscard]] FootTarget swing_point(const SwingConfig& config, const SwingPath& path, double progress, double swing_s);
 
-/// Torques that follow a foot target [facts: legged section 4.7], N m.
+/// Torques that follow a foot target, N m.
 [[nodiscard]] Eigen::Vector3d swing_torque(const SwingConfig& config, const BodyState& state, const Posture& posture,
                                            const FootTarget& target, std::size_t leg);
 

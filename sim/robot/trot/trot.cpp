@@ -55,21 +55,21 @@ Torques Trot::update(const BodyState& state, const Command& command, const Terra
 void Trot::change_height() {
   const PostureConfig& c = config_.posture;
   const double step = c.height_rate * step_s_;
-  const double asked = gait_.careful() ? c.careful_height_m : c.height_m;
-  posture_.height_m += std::clamp(asked - posture_.height_m, -step, step);
+  const double target = gait_.slow_gait() ? c.slow_height_m : c.height_m;
+  posture_.height_m += std::clamp(target - posture_.height_m, -step, step);
 }
 
 GaitDemand Trot::gait_demand(const BodyState& state, const Command& command) const {
   const GaitConfig& c = config_.gait;
-  const double asked = std::abs(command.vx) + std::abs(command.vy) + std::abs(command.yaw_rate);
+  const double commanded = std::abs(command.vx) + std::abs(command.vy) + std::abs(command.yaw_rate);
   const Eigen::Vector2d off_W = (state.v_W - reference_.v_W()).head<2>();
   const Eigen::Vector2d lean_W = (state.com_W - stance_center(legs_)).head<2>();
   GaitDemand demand;
-  demand.still =
-      asked < c.still_command && reference_.speed() < c.still_speed && std::abs(reference_.yaw_rate()) < c.still_speed;
+  demand.still = commanded < c.still_command && reference_.speed() < c.still_speed &&
+                 std::abs(reference_.yaw_rate()) < c.still_speed;
   demand.disturbed = off_W.norm() > c.disturbed_speed || lean_W.norm() > c.disturbed_com_offset_m;
   demand.period_scale = command.gait_period_scale;
-  demand.careful = command.careful;
+  demand.slow_gait = command.slow_gait;
   return demand;
 }
 
@@ -106,7 +106,7 @@ double Trot::force_limit(std::size_t leg) const {
 FootTarget Trot::foot_target(const Posture& posture, std::size_t leg) const {
   if (legs_[leg].swinging) return swing_point(config_.swing, swing_[leg], gait_.swing_progress(leg), gait_.swing_s());
   const ContactConfig& c = config_.contact;
-  const double rate = gait_.careful() ? c.careful_push_rate : c.late_push_rate;
+  const double rate = gait_.slow_gait() ? c.slow_push_rate : c.late_push_rate;
   return {posture.foot_W[leg] - Eigen::Vector3d(0.0, 0.0, c.late_push_m),
           Eigen::Vector3d(0.0, 0.0, -c.late_push_m * rate)};
 }

@@ -15,7 +15,7 @@ namespace plumbline::sim {
 /// Joint torques, N m, in the order of the actuators.
 using Torques = std::array<double, 12>;
 
-/// Trot controller [facts: legged section 4]. It sees the true state: it stands for the robot maker's own controller
+/// Trot controller, docs/methods/robot.md. It sees the true state: it stands for the robot maker's own controller
 /// and belongs to the world, not to an estimator.
 class Trot {
  public:

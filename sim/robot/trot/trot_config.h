@@ -3,35 +3,35 @@
 
 namespace plumbline::sim {
 
-/// Gait, command shaping and contact logic [facts: legged section 4].
+/// Gait, command shaping and contact logic, docs/methods/robot.md.
 struct GaitConfig {
   double period_s = 0.44;
-  double duty = 0.56;              ///< share of the period in stance
-  double careful_period_s = 0.70;  ///< the same where each step must be right
-  double careful_duty = 0.70;
-  double still_command = 1e-3;           ///< |vx| + |vy| + |yaw rate| below: asked to stand
+  double duty = 0.56;           ///< share of the period in stance
+  double slow_period_s = 0.70;  ///< of the slow gait, for stairs
+  double slow_duty = 0.70;
+  double still_command = 1e-3;           ///< |vx| + |vy| + |yaw rate| below: commanded to stand
   double still_speed = 0.02;             ///< m/s and rad/s of the slewed command
-  double disturbed_speed = 0.25;         ///< m/s off the desired velocity: step even when asked to stand
+  double disturbed_speed = 0.25;         ///< m/s off the desired velocity: step even when commanded to stand
   double disturbed_com_offset_m = 0.10;  ///< centre of mass from the middle of the feet
   double settle_time_s = 1.0;            ///< still for so long before the trot stops
 };
 
 struct CommandConfig {
-  double acceleration = 1.2;       ///< m/s^2
-  double yaw_acceleration = 2.5;   ///< rad/s^2
-  double yaw_leash = 0.25;         ///< rad, yaw reference from the robot's yaw
-  double position_leash_m = 0.08;  ///< position reference from the robot
+  double acceleration = 1.2;         ///< m/s^2
+  double yaw_acceleration = 2.5;     ///< rad/s^2
+  double yaw_lag_max = 0.25;         ///< rad, yaw reference from the robot's yaw
+  double position_lag_max_m = 0.08;  ///< position reference from the robot
 };
 
 struct ContactConfig {
-  double on_n = 8.0;                ///< N, touch force
-  double off_n = 2.0;               ///< N
-  double early_after = 0.5;         ///< part of the swing after which a contact ends it,
-  double early_off_m = 0.03;        ///< if the sole is so close to the level of the ground
-  double early_near_m = 0.05;       ///< under it or so far beside it: else it is the face of a step
-  double late_push_m = 0.01;        ///< a foot without expected contact aims so far below itself
-  double late_push_rate = 10.0;     ///< 1/s: downward speed is late_push_m times this,
-  double careful_push_rate = 60.0;  ///< and this where the tread may be far below
+  double on_n = 8.0;             ///< N, touch force
+  double off_n = 2.0;            ///< N
+  double early_after = 0.5;      ///< part of the swing after which a contact ends it,
+  double early_off_m = 0.03;     ///< if the sole is so close to the level of the ground
+  double early_near_m = 0.05;    ///< under it or so far beside it: else it is the face of a step
+  double late_push_m = 0.01;     ///< a foot without expected contact aims so far below itself
+  double late_push_rate = 10.0;  ///< 1/s: downward speed is late_push_m times this,
+  double slow_push_rate = 60.0;  ///< and this where the tread may be far below
 };
 
 struct FootholdConfig {
@@ -53,7 +53,7 @@ struct FootholdConfig {
 struct SwingConfig {
   double clearance_m = 0.07;
   double apex_at = 0.5;           ///< part of the swing
-  int way_points = 5;             ///< of the ground between lift-off and target that are looked at
+  int way_points = 5;             ///< ground samples between lift-off and target
   double over_ground_m = 0.05;    ///< sole above them at the apex
   double steps_m = 0.03;          ///< ground that differs by more along the way is stepped over as stairs are:
   double step_m = 0.05;           ///< a target higher or lower by more
@@ -74,8 +74,8 @@ struct SwingConfig {
 
 struct PostureConfig {
   double height_m = 0.50;
-  double careful_height_m = 0.45;  ///< with the careful gait: legs that are bent more reach down farther
-  double height_rate = 0.1;        ///< m/s, from one to the other
+  double slow_height_m = 0.45;  ///< with the slow gait: legs that are bent more reach down farther
+  double height_rate = 0.1;     ///< m/s, from one to the other
   double normal_time_constant_s = 0.15;
   double plane_damping = 1e-4;       ///< on the diagonal of the plane fit
   double kp_xy = 20.0, kd_xy = 8.0;  ///< 1/s^2, 1/s
@@ -88,7 +88,7 @@ struct PostureConfig {
 };
 
 struct ForceConfig {
-  double friction = 0.6;  ///< the controller's belief
+  double friction = 0.6;  ///< assumed by the controller
   double alpha = 1e-5;    ///< weight of |f|^2
   double beta = 3e-5;     ///< weight of |f - f_previous|^2
   double rho = 1e-3;      ///< ADMM penalty

@@ -7,7 +7,7 @@
 
 namespace plumbline::sim {
 
-/// The plane the feet stand on, low-passed [facts: legged section 4.8].
+/// The plane the feet stand on, low-passed; docs/methods/robot.md.
 class SupportPlane {
  public:
   explicit SupportPlane(const PostureConfig& config) : config_(config) {}
@@ -29,7 +29,7 @@ class SupportPlane {
 /// Force (N) and torque (N m) the ground should exert on the robot, about its centre of mass, in W.
 using Wrench = Vector6d;
 
-/// Posture control [facts: legged section 4.9]; mass in kg.
+/// Posture control, docs/methods/robot.md; mass in kg.
 [[nodiscard]] Wrench desired_wrench(const PostureConfig& config, const BodyState& state, const Reference& reference,
                                     const SupportPlane& plane, double mass);
 

@@ -3,13 +3,13 @@
 
 namespace plumbline::sim {
 
-/// Velocity asked of the robot in its heading frame.
+/// Velocity command in the robot's heading frame.
 struct Command {
   double vx = 0.0;                 ///< m/s
   double vy = 0.0;                 ///< m/s
   double yaw_rate = 0.0;           ///< rad/s
   double gait_period_scale = 1.0;  ///< of the nominal period; varied so that the gait does not lock to the sensor
-  bool careful = false;            ///< longer on all four feet, as stairs ask for
+  bool slow_gait = false;          ///< longer with all four feet on the ground, for stairs
 };
 
 }  // namespace plumbline::sim

@@ -13,7 +13,7 @@ inline constexpr std::size_t leg_count = 4;
 /// +1 for a front leg, -1 for a hind one.
 [[nodiscard]] constexpr double front_sign(std::size_t leg) { return leg < 2 ? 1.0 : -1.0; }
 
-/// Lengths that the physics model, the leg kinematics and the controller share, m [facts: legged sections 2 and 3].
+/// Lengths that the physics model, the leg kinematics and the controller share, m; after the Spot of [zakka2022].
 struct RobotDimensions {
   double hip_x = 0.298;       ///< base origin to hip, forward
   double hip_y = 0.055;       ///< base origin to hip, sideways

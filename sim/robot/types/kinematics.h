@@ -13,7 +13,7 @@ using LegAngles = Eigen::Vector3d;
 /// Hip of a leg in R, m.
 [[nodiscard]] Eigen::Vector3d hip_R(std::size_t leg);
 
-/// Centre of the foot sphere in R, m [facts: legged section 3].
+/// Centre of the foot sphere in R, m; equations in docs/methods/robot.md.
 [[nodiscard]] Eigen::Vector3d foot_R(std::size_t leg, const LegAngles& q);
 
 /// Derivative of foot_R by the angles: rows x, y, z; columns hx, hy, kn.

@@ -1,23 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slam/baselines/amcl/amcl.h"
 
-#include "bim/digest/digest.h"
 #include "slam/particles/pose_clusters.h"
 
 namespace plumbline::slam {
 
 namespace {
 
-std::uint64_t digest_of(const ParticleSet& particles) {
-  Digest digest;
-  for (const LocalParticle& p : particles) digest.add(p.X_IH.t).add(p.X_IH.yaw).add(p.weight).add(p.storey);
-  return digest.value();
-}
-
-class Amcl final : public PlanBaseline {
+class Amcl final : public PlanMethod {
  public:
   Amcl(const MethodInput& input, const AmclConfig& config)
-      : PlanBaseline("amcl", input, config.plan, config.map),
+      : PlanMethod("amcl", input, config.plan, config.map),
         config_(config),
         filter_(config.filter, config.field, index(), input.seed) {
     clusters_.bin_m = config.filter.bin_m;
@@ -36,21 +29,21 @@ class Amcl final : public PlanBaseline {
 };
 
 PlanBelief Amcl::update(const PlanScan& scan, Output& output) {
-  Stopwatch watch;
+  Stopwatch stopwatch;
   const ScanSlice slice = cut_scan(scan.deskewed, scan.q_HR, input().calibration.sensor_height_m, config_.slice);
-  note_stage("slice", watch, output);
+  record_stage("slice", stopwatch, output);
   if (!filter_.started())
-    filter_.start(scan.told_yaw_I, scan.told_yaw_sigma, scan.tick);
+    filter_.start(scan.prior_yaw_I, scan.prior_yaw_sigma, scan.tick);
   else
-    filter_.move(scan.u, scan.tick);
-  filter_.weigh(slice);
+    filter_.predict(scan.u, scan.tick);
+  filter_.update_weights(slice);
   has_seen_ = has_seen_ || !slice.ends_H.empty();
   output.digests.push_back({"likelihood", digest_of(filter_.particles())});
-  note_stage("likelihood", watch, output);
+  record_stage("likelihood", stopwatch, output);
   if (scan.tick % static_cast<std::uint64_t>(config_.filter.resample_interval) == 0) filter_.resample(scan.tick);
   PlanBelief belief_now = belief(scan.q_HR);
   output.digests.push_back({"resample", digest_of(belief_now.particles)});
-  note_stage("resample", watch, output);
+  record_stage("resample", stopwatch, output);
   return belief_now;
 }
 
@@ -59,12 +52,12 @@ PlanBelief Amcl::belief(const Eigen::Quaterniond& q_HR) {
   belief.particles = filter_.particles();
   const Clustering clustering = find_clusters(belief.particles, clusters_);
   for (const PoseCluster& cluster : clustering.clusters)
-    belief.places.push_back(
-        {cluster.mass, cluster.storey, standing(cluster.storey, cluster.mean, q_HR), cluster.covariance});
+    belief.hypotheses.push_back(
+        {cluster.mass, cluster.storey, pose_on_floor(cluster.storey, cluster.mean, q_HR), cluster.covariance});
   if (!has_seen_ || !filter_.converged()) return belief;
   belief.state = State::converged;
-  belief.places.front().covariance = moments_of(belief.particles).covariance;
-  belief.X_IR = belief.places.front().X_IR;
+  belief.hypotheses.front().covariance = moments_of(belief.particles).covariance;
+  belief.X_IR = belief.hypotheses.front().X_IR;
   return belief;
 }
 

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "slam/baselines/amcl/amcl_filter.h"
-#include "slam/plan_method/plan_baseline.h"
+#include "slam/plan_method/plan_method.h"
 
 namespace plumbline::slam {
 
@@ -12,7 +12,7 @@ struct AmclConfig {
   ScanSliceConfig slice;
   LikelihoodFieldConfig field;
   AmclFilterConfig filter;
-  PlanBaselineConfig plan;
+  PlanMethodConfig plan;
   MapCloudConfig map;
 
   template <class V>
@@ -27,16 +27,16 @@ struct AmclConfig {
 
 /// The best found on the floors of scenarios/library/localization, seed 1: nav2's noise is that of wheels, 0.45 m a
 /// metre, and 2,000 particles are 0.3 per cubic cell of 0.5 m, 0.5 m, 10 degrees on a floor of 300 m^2. The product of
-/// beams (likelihood_field_prob) was worse: it believes the first scan at once.
+/// beams (likelihood_field_prob) was worse: it commits to the first scan at once.
 struct AmclTunedConfig : AmclConfig {
   AmclTunedConfig();
 };
 
 /// Adaptive Monte Carlo localization as nav2 does it, on the slice of the plan that an occupancy grid would be: planar
 /// scans cut from the LiDAR's, a likelihood field, KLD sampling. It starts uniform over free space. Its answer is the
-/// mean of the heaviest cluster with the covariance of the whole set; CONVERGED as long as
-/// filter.converged_by says so, SEARCHING otherwise, and never LOST, since AMCL knows nothing of the kind. Throws
-/// InputError when there is no plan, no such storey, or no room in it.
+/// mean of the heaviest cluster with the covariance of the whole set; CONVERGED as long as filter.converged_by says so,
+/// SEARCHING otherwise, and never LOST, since AMCL has no such state. Throws InputError when there is no plan, no such
+/// storey, or no room in it.
 [[nodiscard]] std::unique_ptr<Method> make_amcl(const MethodInput& input, const AmclConfig& config = {});
 
 }  // namespace plumbline::slam

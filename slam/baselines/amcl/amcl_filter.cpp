@@ -47,7 +47,7 @@ AmclFilter::AmclFilter(const AmclFilterConfig& config, const LikelihoodFieldConf
   if (free == 0) throw InputError({}, "no room of the plan is large enough for the robot to stand in");
 }
 
-LocalParticle AmclFilter::draw_anywhere(const Stream& stream, std::uint64_t tick, std::uint32_t lane) const {
+LocalParticle AmclFilter::sample_uniform(const Stream& stream, std::uint64_t tick, std::uint32_t lane) const {
   std::size_t total = 0;
   for (const LikelihoodField& field : fields_) total += field.free_cells().size();
   auto cell = static_cast<std::size_t>(stream.uniform(tick, lane, 0) * static_cast<double>(total));
@@ -56,7 +56,7 @@ LocalParticle AmclFilter::draw_anywhere(const Stream& stream, std::uint64_t tick
     cell -= fields_[static_cast<std::size_t>(particle.storey++)].free_cells().size();
   const LikelihoodField& field = fields_[static_cast<std::size_t>(particle.storey)];
   const Eigen::Vector2d jitter(stream.uniform(tick, lane, 1) - 0.5, stream.uniform(tick, lane, 2) - 0.5);
-  particle.X_IH.t = field.free_cells()[cell].cast<double>() + field.cell_m() * jitter;
+  particle.X_IH.t = field.free_cells()[cell].cast<double>() + field.frame().cell * jitter;
   particle.X_IH.yaw = yaw_I_ ? wrap_angle(*yaw_I_ + yaw_sigma_ * stream.gauss(tick, lane, 3))
                              : wrap_angle(2.0 * pi * stream.uniform(tick, lane, 3));
   return particle;
@@ -68,11 +68,11 @@ void AmclFilter::start(std::optional<double> yaw_I, double yaw_sigma, std::uint6
   const Stream stream(seed_, "slam.localize.init");
   particles_.clear();
   for (int i = 0; i < config_.max_particles; ++i)
-    particles_.push_back(draw_anywhere(stream, tick, static_cast<std::uint32_t>(i)));
+    particles_.push_back(sample_uniform(stream, tick, static_cast<std::uint32_t>(i)));
   normalise(particles_);
 }
 
-void AmclFilter::move(const Pose2& u, std::uint64_t tick) {
+void AmclFilter::predict(const Pose2& u, std::uint64_t tick) {
   const Stream stream(seed_, "slam.localize.motion");
   const double walked = u.t.norm();
   const double turn1 = walked < 0.01 ? 0.0 : std::atan2(u.t.y(), u.t.x());
@@ -111,7 +111,7 @@ double AmclFilter::likelihood(int storey, const Pose2& X_IH, const ScanSlice& sl
   return config_.model == BeamModel::likelihood_field ? sum : std::exp(log_product);
 }
 
-void AmclFilter::weigh(const ScanSlice& slice) {
+void AmclFilter::update_weights(const ScanSlice& slice) {
   if (slice.ends_H.empty()) return;
   double mean = 0.0;
   for (LocalParticle& particle : particles_) {
@@ -136,7 +136,7 @@ void AmclFilter::resample(std::uint64_t tick) {
   std::set<Bin> bins;
   for (std::uint32_t lane = 0; static_cast<int>(drawn.size()) < config_.max_particles; ++lane) {
     if (random > 0.0 && recover.uniform(tick, lane, 7) < random) {
-      drawn.push_back(draw_anywhere(recover, tick, lane));
+      drawn.push_back(sample_uniform(recover, tick, lane));
     } else {
       const double target = stream.uniform(tick, lane) * sum;
       const auto it = std::upper_bound(reached.begin(), reached.end() - 1, target);

@@ -32,22 +32,22 @@ class LidarOdometryMethod final : public Method {
   [[nodiscard]] Output on_scan(const Scan& scan) override {
     Output output;
     output.stamp = scan.stamp;
-    Stopwatch watch;
+    Stopwatch stopwatch;
     const DeskewedScan deskewed = deskew(scan, motion_, calibration_);
-    output.times.push_back({"deskew", watch.cpu_ms()});
+    output.times.push_back({"deskew", stopwatch.cpu_ms()});
     output.digests.push_back({"deskew", digest(deskewed)});
 
-    watch.restart();
+    stopwatch.restart();
     const Pose X_OR = motion_.at(scan.stamp);
     const Registration registration = odometry_ ? odometry_->update(deskewed, X_OR) : dead_reckoning(X_OR);
-    output.times.push_back({"odometry", watch.cpu_ms()});
+    output.times.push_back({"odometry", stopwatch.cpu_ms()});
     output.digests.push_back({"odometry", Digest().add(registration.X_MR).add(registration.matched).value()});
 
     motion_.forget_before(scan.stamp);
     output.X_FR = registration.X_MR;
     if (registration.lost) output.state = State::lost;
     trajectory_.push_back({scan.stamp, registration.X_MR});
-    if (registration.believed || trajectory_.size() == 1) map_.add(deskewed, registration.X_MR);
+    if (registration.accepted || trajectory_.size() == 1) map_.add(deskewed, registration.X_MR);
     return output;
   }
 
@@ -61,7 +61,7 @@ class LidarOdometryMethod final : public Method {
  private:
   Calibration calibration_;
   MotionBuffer motion_;
-  std::unique_ptr<LidarOdometry> odometry_;  ///< none: the legs alone
+  std::unique_ptr<LidarOdometry> odometry_;  ///< null: leg odometry alone
   MapCloudRecorder map_;
   std::vector<StampedPose> trajectory_;
 };

@@ -9,7 +9,7 @@
 
 namespace plumbline::slam {
 
-/// What one front end by itself can be told.
+/// Config of one front end by itself.
 template <class FrontEnd>
 struct LidarOdometryMethodConfig {
   FrontEnd odometry;
@@ -21,7 +21,7 @@ struct LidarOdometryMethodConfig {
   }
 };
 
-/// And what dead reckoning can be told.
+/// Config of dead reckoning.
 struct DeadReckoningConfig {
   MapCloudConfig map;
   template <class V>

@@ -2,19 +2,18 @@
 #include "slam/baselines/micp/mesh_correct.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/LU>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "bim/geometry/best_rotation.h"
 #include "slam/baselines/micp/plan_mesh.h"
 
 namespace plumbline::slam {
 
 namespace {
 
-// A beam this much longer than the range cast has met nothing of the plan anyhow.
+// A beam this much longer than the range cast has no face of the plan to match anyway.
 constexpr double reach_beyond_m = 5.0;
 constexpr int least_pairs = 12;  // that fix a pose
 
@@ -22,7 +21,7 @@ struct Pairs {
   std::vector<Eigen::Vector3d> p, q, n;  ///< points, their feet on the faces, normals
 };
 
-/// Motion that brings p to q in least squares, rotation and translation [Umeyama 1991, without scale].
+/// Motion that brings p to q in least squares, rotation and translation [umeyama1991].
 Pose umeyama(const Pairs& pairs) {
   const double count = static_cast<double>(pairs.p.size());
   Eigen::Vector3d mean_p = Eigen::Vector3d::Zero(), mean_q = mean_p;
@@ -32,10 +31,7 @@ Pose umeyama(const Pairs& pairs) {
   }
   Eigen::Matrix3d C = Eigen::Matrix3d::Zero();
   for (std::size_t i = 0; i < pairs.p.size(); ++i) C += (pairs.q[i] - mean_q) * (pairs.p[i] - mean_p).transpose();
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(C, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Eigen::Vector3d signs = Eigen::Vector3d::Ones();
-  if ((svd.matrixU() * svd.matrixV().transpose()).determinant() < 0.0) signs.z() = -1.0;
-  const Eigen::Matrix3d R = svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
+  const Eigen::Matrix3d R = best_rotation(C);
   return {Eigen::Quaterniond(R).normalized(), mean_q - R * mean_p};
 }
 
@@ -76,37 +72,37 @@ MeshBeams pick_beams(const DeskewedScan& scan, const MeshCorrectConfig& config) 
 MeshCorrector::MeshCorrector(const StoreyIndex& storey, const MeshCorrectConfig& config)
     : config_(config), scene_(plan_mesh(storey)) {}
 
-void MeshCorrector::cast(const MeshBeams& beams, const Pose& X_IR, std::vector<Meeting>& meetings) const {
+void MeshCorrector::cast(const MeshBeams& beams, const Pose& X_IR, std::vector<Correspondence>& correspondences) const {
   const Eigen::Vector3d origin = X_IR * beams.sensor_R;
   std::vector<bim::Ray> rays;
   rays.reserve(beams.ends_R.size());
-  meetings.resize(beams.ends_R.size());
+  correspondences.resize(beams.ends_R.size());
   for (std::size_t i = 0; i < beams.ends_R.size(); ++i) {
-    meetings[i].p_I = X_IR * beams.ends_R[i];
-    rays.push_back({origin, (meetings[i].p_I - origin).normalized()});
+    correspondences[i].p_I = X_IR * beams.ends_R[i];
+    rays.push_back({origin, (correspondences[i].p_I - origin).normalized()});
   }
   std::vector<bim::Hit> hits(rays.size());
   scene_.cast(rays, config_.max_range_m + reach_beyond_m, hits);
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    meetings[i].hit = hits[i].element >= 0;
-    if (!meetings[i].hit) continue;
-    meetings[i].m_I = origin + hits[i].range_m * rays[i].direction_W;
-    meetings[i].n_I = hits[i].normal_W;
+    correspondences[i].hit = hits[i].element >= 0;
+    if (!correspondences[i].hit) continue;
+    correspondences[i].m_I = origin + hits[i].range_m * rays[i].direction_W;
+    correspondences[i].n_I = hits[i].normal_W;
   }
 }
 
-Pose MeshCorrector::fit(const MeshBeams& beams, const std::vector<Meeting>& meetings, Pose X_IR,
+Pose MeshCorrector::fit(const MeshBeams& beams, const std::vector<Correspondence>& correspondences, Pose X_IR,
                         double distance) const {
   for (int step = 0; step < config_.inner_steps; ++step) {
     Pairs pairs;
-    for (std::size_t i = 0; i < meetings.size(); ++i) {
-      if (!meetings[i].hit) continue;
+    for (std::size_t i = 0; i < correspondences.size(); ++i) {
+      if (!correspondences[i].hit) continue;
       const Eigen::Vector3d p = X_IR * beams.ends_R[i];
-      const double across = meetings[i].n_I.dot(p - meetings[i].m_I);
+      const double across = correspondences[i].n_I.dot(p - correspondences[i].m_I);
       if (std::abs(across) > distance) continue;
       pairs.p.push_back(p);
-      pairs.q.push_back(p - across * meetings[i].n_I);
-      pairs.n.push_back(meetings[i].n_I);
+      pairs.q.push_back(p - across * correspondences[i].n_I);
+      pairs.n.push_back(correspondences[i].n_I);
     }
     if (static_cast<int>(pairs.p.size()) < least_pairs) return X_IR;
     const Pose motion = config_.solver == MeshSolver::umeyama ? umeyama(pairs) : gauss_newton(pairs, X_IR.t);
@@ -117,34 +113,35 @@ Pose MeshCorrector::fit(const MeshBeams& beams, const std::vector<Meeting>& meet
   return X_IR;
 }
 
-void MeshCorrector::judge(const std::vector<Meeting>& meetings, MeshCorrection& correction) const {
-  if (meetings.empty()) return;
+void MeshCorrector::evaluate(const std::vector<Correspondence>& correspondences, MeshCorrection& correction) const {
+  if (correspondences.empty()) return;
   double near = 0.0, cost = 0.0;
-  for (const Meeting& meeting : meetings) {
-    const double across = meeting.hit ? std::abs(meeting.n_I.dot(meeting.p_I - meeting.m_I)) : 1e9;
+  for (const Correspondence& correspondence : correspondences) {
+    const double across =
+        correspondence.hit ? std::abs(correspondence.n_I.dot(correspondence.p_I - correspondence.m_I)) : 1e9;
     const double e = std::min(across / config_.sigma_m, config_.cap);
     near += across <= config_.inlier_m ? 1.0 : 0.0;
     cost += 0.5 * e * e;
   }
-  correction.inliers = near / static_cast<double>(meetings.size());
-  correction.cost = cost / static_cast<double>(meetings.size());
+  correction.inliers = near / static_cast<double>(correspondences.size());
+  correction.cost = cost / static_cast<double>(correspondences.size());
 }
 
 MeshCorrection MeshCorrector::correct(const MeshBeams& beams, const Pose& start, int casts, double distance_m) const {
   MeshCorrection correction{start, 0.0, 0.5 * config_.cap * config_.cap};
-  std::vector<Meeting> meetings;
+  std::vector<Correspondence> correspondences;
   double distance = distance_m;
   for (int k = 0; k < casts; ++k) {
-    cast(beams, correction.X_IR, meetings);
-    correction.X_IR = fit(beams, meetings, correction.X_IR, distance);
+    cast(beams, correction.X_IR, correspondences);
+    correction.X_IR = fit(beams, correspondences, correction.X_IR, distance);
     distance = std::max(config_.shrink * distance, config_.min_distance_m);
   }
-  cast(beams, correction.X_IR, meetings);
-  judge(meetings, correction);
+  cast(beams, correction.X_IR, correspondences);
+  evaluate(correspondences, correction);
   return correction;
 }
 
-std::vector<float> MeshCorrector::look_round(const Eigen::Vector3d& p_I, int count) const {
+std::vector<float> MeshCorrector::range_profile(const Eigen::Vector3d& p_I, int count) const {
   std::vector<bim::Ray> rays;
   for (int k = 0; k < count; ++k) {
     const double angle = 2.0 * std::numbers::pi * k / count;

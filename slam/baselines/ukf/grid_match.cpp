@@ -18,14 +18,11 @@ GridMatcher::GridMatcher(const StoreyIndex& storey, double slice_height_m, const
                                        .max_distance_m = 4.0 * config.sigma_m,
                                        .slice_height_m = slice_height_m,
                                        .max_cells = config.max_cells});
-  cell_ = field.cell_m();
-  nx_ = field.nx();
-  ny_ = field.ny();
-  first_center_ = field.center(0, 0);
-  Level fine{0, nx_, ny_, {}};
-  for (int y = 0; y < ny_; ++y)
-    for (int x = 0; x < nx_; ++x) {
-      const double z = field.at(field.center(x, y)) / config.sigma_m;
+  frame_ = field.frame();
+  Level fine{0, frame_.nx, frame_.ny, {}};
+  for (int y = 0; y < frame_.ny; ++y)
+    for (int x = 0; x < frame_.nx; ++x) {
+      const double z = field.at(frame_.center(x, y)) / config.sigma_m;
       fine.values.push_back(static_cast<std::uint8_t>(std::lround(255.0 * std::exp(-0.5 * z * z))));
     }
   levels_.push_back(std::move(fine));
@@ -33,9 +30,9 @@ GridMatcher::GridMatcher(const StoreyIndex& storey, double slice_height_m, const
     // A window is four of the level below, half its side apart.
     const Level& below = levels_.back();
     const int half = 1 << (l - 1);
-    Level level{2 * half - 1, nx_ + 2 * half - 1, ny_ + 2 * half - 1, {}};
-    for (int y = -level.pad; y < ny_; ++y)
-      for (int x = -level.pad; x < nx_; ++x)
+    Level level{2 * half - 1, frame_.nx + 2 * half - 1, frame_.ny + 2 * half - 1, {}};
+    for (int y = -level.pad; y < frame_.ny; ++y)
+      for (int x = -level.pad; x < frame_.nx; ++x)
         level.values.push_back(static_cast<std::uint8_t>(
             std::max({below.at(x, y), below.at(x + half, y), below.at(x, y + half), below.at(x + half, y + half)})));
     levels_.push_back(std::move(level));
@@ -43,7 +40,7 @@ GridMatcher::GridMatcher(const StoreyIndex& storey, double slice_height_m, const
 }
 
 std::vector<double> GridMatcher::yaws(double middle, double half_width) const {
-  const double ratio = cell_ / config_.max_range_m;
+  const double ratio = frame_.cell / config_.max_range_m;
   const double step = std::acos(1.0 - 0.5 * ratio * ratio);
   const int count = std::max(1, static_cast<int>(std::ceil(2.0 * half_width / step)));
   std::vector<double> yaws;
@@ -57,7 +54,7 @@ GridMatcher::Cells GridMatcher::cells_of(std::span<const Eigen::Vector2d> points
   Cells cells;
   for (const Eigen::Vector2d& p : points) {
     if (!(p.norm() <= config_.max_range_m)) continue;
-    const Eigen::Vector2d q = R * p / cell_;
+    const Eigen::Vector2d q = R * p / frame_.cell;
     cells.emplace_back(static_cast<int>(std::lround(q.x())), static_cast<int>(std::lround(q.y())));
   }
   return cells;
@@ -86,7 +83,7 @@ void GridMatcher::descend(const Node& node, const std::vector<Cells>& cells, Gri
   std::vector<Node> children;
   for (int k = 0; k < 4; ++k) {
     const int x = node.bound.x + (k % 2) * half, y = node.bound.y + (k / 2) * half;
-    if (x >= nx_ || y >= ny_) continue;
+    if (x >= frame_.nx || y >= frame_.ny) continue;
     const int turn = node.bound.turn;
     children.push_back({bound_of(cells[static_cast<std::size_t>(turn)], turn, node.level - 1, x, y), node.level - 1});
     ++nodes;
@@ -101,8 +98,9 @@ GridMatch GridMatcher::best(std::span<const Eigen::Vector2d> points, std::span<c
   const int top = static_cast<int>(levels_.size()) - 1, block = 1 << top;
   std::vector<Node> roots;
   for (std::size_t t = 0; t < cells.size(); ++t)
-    for (int y = 0; y < ny_; y += block)
-      for (int x = 0; x < nx_; x += block) roots.push_back({bound_of(cells[t], static_cast<int>(t), top, x, y), top});
+    for (int y = 0; y < frame_.ny; y += block)
+      for (int x = 0; x < frame_.nx; x += block)
+        roots.push_back({bound_of(cells[t], static_cast<int>(t), top, x, y), top});
   std::sort(roots.begin(), roots.end(), [](const Node& a, const Node& b) { return a.bound.before(b.bound); });
   GridMatch best;
   int nodes = 0;
@@ -112,7 +110,8 @@ GridMatch GridMatcher::best(std::span<const Eigen::Vector2d> points, std::span<c
 }
 
 Pose2 GridMatcher::pose(const GridMatch& match, std::span<const double> yaws) const {
-  return {first_center_ + cell_ * Eigen::Vector2d(match.x, match.y), yaws[static_cast<std::size_t>(match.turn)]};
+  return {frame_.center(0, 0) + frame_.cell * Eigen::Vector2d(match.x, match.y),
+          yaws[static_cast<std::size_t>(match.turn)]};
 }
 
 }  // namespace plumbline::slam

@@ -14,20 +14,22 @@ namespace plumbline::slam {
 
 struct GridMatchConfig {
   double cell_m = 0.25;
-  double sigma_m = 0.25;  ///< of a point from a wall
+  double sigma_m = 0.25;
   int levels = 6;
   double max_range_m = 15.0;
-  int max_cells = 1'000'000;   ///< of a storey; cells double until they fit
-  int max_nodes = 20'000'000;  ///< looked at before the search gives up
+  int max_cells = 1'000'000;
+  int max_nodes = 20'000'000;
 
   template <class V>
   void visit(V& v) {
-    v("cell_m", cell_m, Field{.doc = "of the grid; also fixes the step of yaw", .min = 0.02, .max = 5});
-    v("sigma_m", sigma_m, Field{.doc = "of a point from a wall", .min = 0.01});
-    v("levels", levels, Field{.doc = "of the pyramid", .min = 1, .max = 10});
-    v("max_range_m", max_range_m, Field{.doc = "of the points used", .min = 1});
-    v("max_cells", max_cells, Field{.doc = "of a storey", .min = 1000, .max = 1e8});
-    v("max_nodes", max_nodes, Field{.doc = "looked at before the search gives up", .min = 1000, .max = 2e9});
+    v("cell_m", cell_m,
+      Field{.doc = "cell size of the grid; it also sets the step of yaw", .min = 0.02, .max = 5, .basic = true});
+    v("sigma_m", sigma_m, Field{.doc = "standard deviation of a point's distance from a wall", .min = 0.01});
+    v("levels", levels, Field{.doc = "levels of the grid pyramid", .min = 1, .max = 10});
+    v("max_range_m", max_range_m, Field{.doc = "largest range of a point that is used", .min = 1});
+    v("max_cells", max_cells,
+      Field{.doc = "most cells of a storey; the cell size doubles until they fit", .min = 1000, .max = 1e8});
+    v("max_nodes", max_nodes, Field{.doc = "nodes expanded before the search gives up", .min = 1000, .max = 2e9});
   }
 };
 
@@ -43,8 +45,8 @@ struct GridMatch {
 };
 
 /// Best placement of a planar scan on a slice of a plan, by branch and bound. The bound of a block of cells is a
-/// sliding maximum over just these cells [Cartographer, section V-B], so it is never too low and the answer is that
-/// of an exhaustive search of the grid.
+/// sliding maximum over just these cells [hess2016, section V-B], so it is never too low and the answer is that of an
+/// exhaustive search of the grid.
 class GridMatcher {
  public:
   GridMatcher(const StoreyIndex& storey, double slice_height_m, const GridMatchConfig& config);
@@ -55,8 +57,8 @@ class GridMatcher {
   [[nodiscard]] Pose2 pose(const GridMatch& match, std::span<const double> yaws) const;
   /// Steps at which a point at the largest range moves by one cell, over half a turn to either side of a yaw.
   [[nodiscard]] std::vector<double> yaws(double middle, double half_width) const;
-  [[nodiscard]] int nx() const { return nx_; }
-  [[nodiscard]] int ny() const { return ny_; }
+  [[nodiscard]] int nx() const { return frame_.nx; }
+  [[nodiscard]] int ny() const { return frame_.ny; }
 
  private:
   /// Values where each covers 2^level x 2^level cells from (x, y) on; x and y from -(2^level - 1).
@@ -79,9 +81,7 @@ class GridMatcher {
   void descend(const Node& node, const std::vector<Cells>& cells, GridMatch& best, int& nodes) const;
 
   GridMatchConfig config_;
-  double cell_ = 0.25;
-  int nx_ = 0, ny_ = 0;
-  Eigen::Vector2d first_center_ = Eigen::Vector2d::Zero();
+  GridFrame frame_;
   std::vector<Level> levels_;
 };
 

@@ -59,7 +59,7 @@ void NdtMap::lay_out(const StoreyIndex& storey) {
     take(segment.a);
     take(segment.a + segment.length * segment.e);
   }
-  for (const IndexRoom& room : storey.rooms)
+  for (const LocalRoom& room : storey.rooms)
     for (const Eigen::Vector2d& p : room.polygon) take(p);
   const Eigen::Vector3d extent(high.x() - low.x(), high.y() - low.y(), storey.ceiling_z - storey.floor_z);
   const auto cells = [&] { return (extent / size_).array().ceil() + 2.0; };
@@ -101,7 +101,7 @@ void NdtMap::add_faces(const StoreyIndex& storey, std::vector<Sums>& sums) const
 
 void NdtMap::add_rooms(const StoreyIndex& storey, std::vector<Sums>& sums) const {
   const double step = 2.0 * config_.sample_m;
-  for (const IndexRoom& room : storey.rooms) {
+  for (const LocalRoom& room : storey.rooms) {
     Eigen::Vector2d low = room.polygon.front(), high = low;
     for (const Eigen::Vector2d& p : room.polygon) {
       low = low.cwiseMin(p);

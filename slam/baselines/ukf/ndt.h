@@ -12,31 +12,36 @@
 
 namespace plumbline::slam {
 
-/// Defaults of resolution, neighbours and epsilon: those of hdl_localization [facts: localization 2.2].
+/// Defaults of resolution, neighbours and epsilon: those of hdl_localization [koide2019].
 struct NdtConfig {
   double resolution_m = 1.0;
-  double sample_m = 0.1;      ///< between points drawn on the plan's faces
-  double scan_voxel_m = 0.3;  ///< one point a voxel of a scan
+  double sample_m = 0.1;
+  double scan_voxel_m = 0.3;
   double min_range_m = 0.5;
   double max_range_m = 25.0;
-  double outlier_ratio = 0.55;  ///< [Magnusson 2009, eq. 6.8]
+  double outlier_ratio = 0.55;
   int max_iterations = 30;
-  double epsilon = 0.01;       ///< m and rad; a step below it ends the search
-  double inlier_sigmas = 3.0;  ///< of a point from the nearest Gaussian
+  double epsilon = 0.01;
+  double inlier_sigmas = 3.0;
   int max_voxels = 4'000'000;
 
   template <class V>
   void visit(V& v) {
-    v("resolution_m", resolution_m, Field{.doc = "of the map's voxels", .min = 0.1});
-    v("sample_m", sample_m, Field{.doc = "between points drawn on the plan's faces", .min = 0.01});
-    v("scan_voxel_m", scan_voxel_m, Field{.doc = "one point a voxel of a scan", .min = 0.02});
-    v("min_range_m", min_range_m, Field{.min = 0});
-    v("max_range_m", max_range_m, Field{.min = 1});
-    v("outlier_ratio", outlier_ratio, Field{.doc = "of points, in the shape of the score", .min = 0.01, .max = 0.99});
-    v("max_iterations", max_iterations, Field{.min = 1});
-    v("epsilon", epsilon, Field{.doc = "m and rad; a step below it ends the search", .min = 1e-6});
-    v("inlier_sigmas", inlier_sigmas, Field{.doc = "of a point from the nearest Gaussian", .min = 0.1});
-    v("max_voxels", max_voxels, Field{.doc = "of a storey; voxels double until they fit", .min = 1000, .max = 1e8});
+    v("resolution_m", resolution_m, Field{.doc = "voxel size of the map's Gaussians", .min = 0.1, .basic = true});
+    v("sample_m", sample_m, Field{.doc = "spacing of the points drawn on the plan's faces", .min = 0.01});
+    v("scan_voxel_m", scan_voxel_m,
+      Field{.doc = "voxel size at which a scan is thinned to one point each", .min = 0.02, .basic = true});
+    v("min_range_m", min_range_m, Field{.doc = "least range of a point that is used", .min = 0});
+    v("max_range_m", max_range_m, Field{.doc = "largest range of a point that is used", .min = 1});
+    // [magnusson2009, eq. 6.8]
+    v("outlier_ratio", outlier_ratio,
+      plain_field("share of outliers that shapes the score", {.min = 0.01, .max = 0.99}));
+    v("max_iterations", max_iterations, Field{.doc = "most iterations of a registration", .min = 1});
+    v("epsilon", epsilon, Field{.doc = "step below which the iteration stops", .unit = "m, rad", .min = 1e-6});
+    v("inlier_sigmas", inlier_sigmas,
+      plain_field("standard deviations from the nearest Gaussian up to which a point is an inlier", {.min = 0.1}));
+    v("max_voxels", max_voxels,
+      Field{.doc = "most voxels of a storey; the voxel size doubles until they fit", .min = 1000, .max = 1e8});
   }
 };
 

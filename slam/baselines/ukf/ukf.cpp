@@ -16,7 +16,7 @@ using Eigen::VectorXd;
 // Position, velocity, quaternion (w, x, y, z), accelerometer and gyroscope bias.
 constexpr Eigen::Index p_at = 0, v_at = 3, q_at = 6, a_at = 10, g_at = 13, states = 16;
 constexpr double gravity = 9.80665;
-constexpr int min_points = 50;                     // of a scan that says anything
+constexpr int min_points = 50;                     // of a scan that is used
 constexpr int min_ends = 30;                       // of a slice that is searched for
 constexpr Nanoseconds longest_step = 200'000'000;  // without IMU records the last are no guide
 
@@ -38,10 +38,10 @@ Eigen::Matrix3d planar(const UnscentedFilter& filter) {
   return J * filter.covariance() * J.transpose();
 }
 
-class Ukf final : public PlanBaseline {
+class Ukf final : public PlanMethod {
  public:
   Ukf(const MethodInput& input, const UkfConfig& config)
-      : PlanBaseline("ukf", input, config.plan, config.map), config_(config) {
+      : PlanMethod("ukf", input, config.plan, config.map), config_(config) {
     for (const StoreyIndex& storey : index().storeys) {
       matchers_.emplace_back(storey, config.slice_height_m, config.search);
       maps_.emplace_back(storey, config.ndt);
@@ -57,7 +57,7 @@ class Ukf final : public PlanBaseline {
   void advance(Nanoseconds stamp, const Imu& imu);
   void predict(const Imu& imu, double dt);
   void drift(double dt);
-  void follow(const PlanScan& scan);
+  void predict_by_odometry(const PlanScan& scan);
   void correct(const Pose& X_IR);
   void normalise();
   [[nodiscard]] Eigen::MatrixXd process_noise(double dt) const;
@@ -70,7 +70,7 @@ class Ukf final : public PlanBaseline {
   Pose X_OR_last_;
   Nanoseconds stamp_ = 0;   ///< the filter's time
   std::optional<Imu> imu_;  ///< the last one
-  int misfits_ = 0;
+  int bad_scans_ = 0;
 };
 
 Eigen::MatrixXd Ukf::process_noise(double dt) const {
@@ -132,8 +132,8 @@ void Ukf::drift(double dt) {
   normalise();
 }
 
-/// Motion since the last scan by the legs.
-void Ukf::follow(const PlanScan& scan) {
+/// Motion since the last scan by odometry.
+void Ukf::predict_by_odometry(const PlanScan& scan) {
   const Pose u = X_OR_last_.inverse() * scan.X_OR;
   const double dt = std::max(seconds(scan.deskewed.stamp - stamp_), 1e-3);
   filter_->predict(
@@ -154,21 +154,21 @@ void Ukf::start(int storey, const Pose& X_IR) {
   set_attitude(x, X_IR.q);
   filter_.emplace(x, config_.p0 * Eigen::MatrixXd::Identity(states, states), config_.lambda);
   storey_ = storey;
-  misfits_ = 0;
+  bad_scans_ = 0;
 }
 
-/// The best place of all storeys (ties: the lowest storey); it is taken, however badly it fits, unless nothing fits.
+/// The best pose of all storeys (ties: the lowest storey); it is taken, however badly it fits, unless nothing fits.
 void Ukf::search(const PlanScan& scan) {
   const ScanSlice slice = cut_scan(scan.deskewed, scan.q_HR, input().calibration.sensor_height_m, config_.slice);
   if (slice.ends_H.size() < static_cast<std::size_t>(min_ends)) return;
-  const double half = scan.told_yaw_I ? std::min(3.0 * scan.told_yaw_sigma, std::numbers::pi) : std::numbers::pi;
+  const double half = scan.prior_yaw_I ? std::min(3.0 * scan.prior_yaw_sigma, std::numbers::pi) : std::numbers::pi;
   int best_score = 0;
   for (std::size_t s = 0; s < matchers_.size(); ++s) {
-    const std::vector<double> yaws = matchers_[s].yaws(scan.told_yaw_I.value_or(0.0), half);
+    const std::vector<double> yaws = matchers_[s].yaws(scan.prior_yaw_I.value_or(0.0), half);
     const GridMatch match = matchers_[s].best(slice.ends_H, yaws);
     if (match.score <= best_score) continue;
     best_score = match.score;
-    start(static_cast<int>(s), standing(static_cast<int>(s), matchers_[s].pose(match, yaws), scan.q_HR));
+    start(static_cast<int>(s), pose_on_floor(static_cast<int>(s), matchers_[s].pose(match, yaws), scan.q_HR));
   }
 }
 
@@ -190,12 +190,12 @@ void Ukf::correct(const Pose& X_IR) {
 }
 
 PlanBelief Ukf::update(const PlanScan& scan, Output& output) {
-  Stopwatch watch;
+  Stopwatch stopwatch;
   if (!filter_) {
     search(scan);
-    note_stage("search", watch, output);
+    record_stage("search", stopwatch, output);
   } else if (config_.motion == UkfMotion::odometry) {
-    follow(scan);
+    predict_by_odometry(scan);
   } else if (config_.motion == UkfMotion::imu && imu_) {
     advance(scan.deskewed.stamp, *imu_);
   } else if (scan.deskewed.stamp > stamp_) {
@@ -212,17 +212,17 @@ PlanBelief Ukf::update(const PlanScan& scan, Output& output) {
     correct(match.X_IR);
     fits = match.inliers >= config_.lost_inliers;
   }
-  misfits_ = fits ? 0 : misfits_ + 1;
-  note_stage("ndt", watch, output);
-  output.digests.push_back({"filter", Digest().add(pose_of(filter_->mean())).add(misfits_).value()});
-  belief.state = misfits_ >= config_.lost_scans ? State::lost : State::converged;
+  bad_scans_ = fits ? 0 : bad_scans_ + 1;
+  record_stage("ndt", stopwatch, output);
+  output.digests.push_back({"filter", Digest().add(pose_of(filter_->mean())).add(bad_scans_).value()});
+  belief.state = bad_scans_ >= config_.lost_scans ? State::lost : State::converged;
   if (!filter_->mean().allFinite() || !filter_->covariance().allFinite()) {
     filter_.reset();
     belief.state = State::lost;
     return belief;
   }
   belief.X_IR = pose_of(filter_->mean());
-  belief.places.push_back({1.0, storey_, *belief.X_IR, planar(*filter_)});
+  belief.hypotheses.push_back({1.0, storey_, *belief.X_IR, planar(*filter_)});
   if (belief.state == State::lost && config_.relocalize) filter_.reset();
   return belief;
 }

@@ -248,7 +248,7 @@ class BagRecording final : public Recording {
     }
   }
 
-  /// The bag's odometry frame B in O, which starts at the robot's first place and heading.
+  /// The bag's odometry frame B in O, which starts at the robot's first position and heading.
   static Pose start_of(const Pose& X_BR) {
     const double yaw = X_BR.yaw();
     const bool at_start = X_BR.t.norm() < 1e-9 && std::abs(yaw) < 1e-9;

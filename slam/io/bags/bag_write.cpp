@@ -20,7 +20,7 @@ namespace plumbline::slam {
 
 namespace {
 
-/// A message that is bytes already, with what a bag says of its type.
+/// A message that is bytes already, with its type as a bag describes it.
 struct RawMessage {
   const char* type = nullptr;
   const char* md5 = nullptr;
@@ -44,7 +44,7 @@ RawMessage raw(ros::Bytes bytes) {
 }  // namespace
 }  // namespace plumbline::slam
 
-// What rosbag asks of a message.
+// Traits that rosbag needs of a message.
 namespace ros {
 namespace message_traits {
 template <>
@@ -102,7 +102,7 @@ struct BagWriter::Impl {
     (*header)["type"] = message.type;
     (*header)["md5sum"] = message.md5;
     (*header)["message_definition"] = message.definition;
-    // A bag knows no time before 1 ns.
+    // A bag has no time before 1 ns.
     guarded([&] { bag.write(std::string(topic), ros_time(std::max<Nanoseconds>(stamp, 1)), message, header); });
   }
 

@@ -28,9 +28,9 @@ class FrameTree {
   std::map<std::string, Mount> mounts_;  ///< by child
 };
 
-/// What an IMU says along the axes of R, whose frame is `base`; what its place adds to the acceleration is left in. A
-/// frame without a name is R, and where R has none, none can be told from it. Nothing where the tree does not join
-/// them.
+/// An IMU's measurements along the axes of R, whose frame is `base`; what its lever arm adds to the acceleration is
+/// left in. A frame without a name is R, and where R has none, no other frame can be resolved. Nothing where the tree
+/// does not join them.
 [[nodiscard]] std::optional<Imu> in_robot(const ros::FramedImu& said, const FrameTree& frames, const std::string& base);
 
 }  // namespace plumbline::slam

@@ -7,7 +7,7 @@
 
 namespace plumbline::slam {
 
-/// What nav_msgs/Odometry says of records besides their poses: the mean twist since the record before with its
+/// What nav_msgs/Odometry holds of records besides their poses: the mean twist since the record before with its
 /// covariance, and the covariance of the pose, to which the motions' since the first record add up.
 class OdometryMotion {
  public:
@@ -19,7 +19,7 @@ class OdometryMotion {
   Matrix6d covariance_R_ = Matrix6d::Zero();  ///< of the last pose, as a right increment
 };
 
-/// Covariance of the motion in dt from that of the twist; none where the message says nothing of use.
+/// Covariance of the motion in dt from that of the twist; none where the message holds no usable one.
 [[nodiscard]] std::optional<Matrix6d> increment_covariance(const ros::OdometryMessage& message, Nanoseconds dt);
 
 }  // namespace plumbline::slam

@@ -28,7 +28,7 @@ constexpr std::size_t header_bytes = ethernet_bytes + ip_bytes + udp_bytes;
 constexpr std::size_t frame_bytes = header_bytes + vlp16::payload_bytes;
 constexpr unsigned data_port = 2368;
 constexpr unsigned position_port = 8308;
-constexpr std::int64_t data_packets_per_position = 5;  // about as real units send them [facts: lidar section 2.1]
+constexpr std::int64_t data_packets_per_position = 5;  // about as real units send them, docs/methods/lidar_model.md
 
 using Frame = std::array<std::uint8_t, frame_bytes>;
 
@@ -240,19 +240,6 @@ void PcapWriter::finish() {
   std::remove(impl_->temporary.c_str());
   errno = error;
   impl_->fail();
-}
-
-std::vector<Vlp16Packet> read_pcap(const std::string& path) {
-  PcapReader reader(path);
-  std::vector<Vlp16Packet> packets;
-  for (Vlp16Packet packet; reader.next(packet);) packets.push_back(packet);
-  return packets;
-}
-
-void write_pcap(const std::string& path, std::span<const Vlp16Packet> packets) {
-  PcapWriter writer(path);
-  for (const Vlp16Packet& packet : packets) writer.add(packet);
-  writer.finish();
 }
 
 }  // namespace plumbline::slam

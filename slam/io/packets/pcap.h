@@ -29,7 +29,7 @@ class PcapReader {
   /// Time of the first packet on the clock of the computer that captured it; 0 for a capture of PcapWriter.
   [[nodiscard]] Nanoseconds origin() const;
 
-  /// A robot may be carried off for a minute; the sensor's own clock tells gaps of up to half an hour.
+  /// A robot may be carried off for a minute; the sensor's own clock resolves gaps of up to half an hour.
   static constexpr Nanoseconds max_gap = 120'000'000'000;
 
  private:
@@ -38,8 +38,8 @@ class PcapReader {
 };
 
 /// Writes packets as the sensor sends them (1,248 bytes each), a position packet (554 bytes) before every fifth, with
-/// nanosecond stamps. The file appears complete on
-/// finish() or not at all. Throws EnvironmentError when it cannot be written.
+/// nanosecond stamps. The file appears complete on finish() or not at all. Throws EnvironmentError when it cannot be
+/// written.
 class PcapWriter {
  public:
   explicit PcapWriter(const std::string& path);
@@ -54,10 +54,5 @@ class PcapWriter {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
-
-/// All packets of a capture. Errors as PcapReader.
-[[nodiscard]] std::vector<Vlp16Packet> read_pcap(const std::string& path);
-/// A capture of these packets. Errors as PcapWriter.
-void write_pcap(const std::string& path, std::span<const Vlp16Packet> packets);
 
 }  // namespace plumbline::slam

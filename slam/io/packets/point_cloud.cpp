@@ -212,7 +212,7 @@ void columns_by_azimuth(std::vector<Point>& points, int rings) {
   for (int r = 0; r < most_rings; ++r) by_ring[static_cast<std::size_t>(r)] = by_laser[static_cast<std::size_t>(r)] = r;
   for (int k = 0; k < vlp16::rings && rings == vlp16::rings; ++k)
     by_laser[static_cast<std::size_t>(vlp16::ring_of_laser(k))] = k;
-  // Other sensors' lasers may look degrees apart.
+  // Other sensors' lasers may point degrees apart.
   const double azimuth_max = rings == vlp16::rings ? column_azimuth : std::numbers::pi;
   if (columns_in_order(points, by_laser, azimuth_max) >= columns_in_order(points, by_ring, azimuth_max)) return;
   static_cast<void>(columns_in_order(points, by_laser, azimuth_max));

@@ -15,8 +15,8 @@ inline constexpr std::size_t position_payload_bytes = 512;
 /// UTC, so that it depends on the recording alone.
 [[nodiscard]] std::string gprmc_sentence(Nanoseconds stamp);
 
-/// Payload of the packet a VLP-16 sends to UDP port 8308 (user manual 63-9243, pages 60-61): microseconds of the hour,
-/// PPS locked, and the sentence.
+/// Payload of the packet a VLP-16 sends to UDP port 8308 [velodyne2018, pages 60-61]: microseconds of the hour, PPS
+/// locked, and the sentence.
 [[nodiscard]] std::array<std::uint8_t, position_payload_bytes> position_payload(Nanoseconds stamp);
 
 }  // namespace plumbline::slam

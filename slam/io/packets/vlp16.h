@@ -11,7 +11,7 @@
 
 namespace plumbline::slam {
 
-/// Constants of the Velodyne VLP-16 (user manual 63-9243, pages 49-62).
+/// Constants of the Velodyne VLP-16 [velodyne2018, pages 49-62].
 namespace vlp16 {
 inline constexpr int rings = 16;
 inline constexpr int firings_per_packet = 24;
@@ -38,7 +38,7 @@ struct Vlp16Packet {
   std::array<std::uint8_t, vlp16::payload_bytes> payload{};
 };
 
-/// Microseconds of the hour at which a packet's payload says it began.
+/// Microseconds of the hour at which a packet began, from its payload.
 [[nodiscard]] std::int64_t time_in_payload_us(const Vlp16Packet& packet);
 /// Moves a packet to another time, in its payload too.
 void set_time(Vlp16Packet& packet, Nanoseconds stamp);
@@ -70,19 +70,19 @@ void encode_packet(const LidarModel& model, ReturnMode mode, Nanoseconds stamp,
 /// 24 firings of a VLP-16, strongest returns.
 [[nodiscard]] Vlp16Packet encode_packet(Nanoseconds stamp, std::span<const Vlp16Firing, 24> firings);
 
-/// Which of two returns of a beam came with more light, by reflectivity and distance: packets of mode dual do not tell,
+/// Which of two returns of a beam was the stronger, by reflectivity and distance: packets of mode dual do not state it,
 /// since the strongest may be the last one. Equal ones: true. A return goes before none.
 [[nodiscard]] bool seems_stronger(const ReturnWord& a, const ReturnWord& b);
 
-/// What a packet says of its sensor. Throws InputError on wrong flags, an azimuth of 360 degrees or more, or a product
-/// or return mode that is not known.
+/// A packet's sensor model and return mode. Throws InputError on wrong flags, an azimuth of 360 degrees or more, or a
+/// product or return mode that is not known.
 struct PacketKind {
   const LidarModel* model = nullptr;
   ReturnMode mode = ReturnMode::strongest;
 };
 [[nodiscard]] PacketKind packet_kind(const Vlp16Packet& packet);
 
-/// Packets of one message to a scan. Azimuths between blocks are interpolated as the manual says (pages 55-59), over
+/// Packets of one message to a scan. Azimuths between blocks are interpolated as in [velodyne2018, pages 55-59], over
 /// the last block with the step before it. Scan::stamp is the time of the last return slot (the last laser of the last
 /// firing); points lie in L at the return's own time. vertical_offsets false gives the calibration of drivers before
 /// 2023 (all 0). Of two returns a beam the scan holds of_dual: the one that seems_stronger(), or the last. Throws

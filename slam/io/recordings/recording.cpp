@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "bim/config/tree.h"
+#include "bim/median.h"
 #include "slam/io/packets/pcap.h"
 #include "slam/io/recordings/record_file.h"
 
@@ -19,18 +20,16 @@ namespace {
 
 constexpr Nanoseconds longest_message = 2'000'000'000;  ///< offsets within a scan are 32-bit nanoseconds
 constexpr Nanoseconds least_leap = 1'000'000'000;       ///< between two packets of two sweeps
-constexpr std::size_t looked_at = 20;                   ///< packets that tell a capture's speed
+constexpr std::size_t looked_at = 20;                   ///< packets from which a capture's speed is read
 
-/// What most of a capture's first packets say: its motor may have been starting.
+/// What most of a capture's first packets agree on: its motor may have been starting.
 int usual_packets_per_turn(const std::deque<Vlp16Packet>& first) {
   std::vector<int> said;
   for (const Vlp16Packet& packet : first) said.push_back(packets_per_turn(packet));
-  const auto middle = said.begin() + static_cast<std::ptrdiff_t>(said.size() / 2);
-  std::nth_element(said.begin(), middle, said.end());
-  return *middle;
+  return upper_median(std::move(said));
 }
 
-/// Records of one kind, the next of them looked at ahead.
+/// Records of one kind, the next of them read ahead.
 template <class Reader, class Record>
 class Stream {
  public:
@@ -139,7 +138,7 @@ class PacketRecording final : public Recording {
       throw InputError(odometry_mark_, std::string(odometry_over));
   }
 
-  /// Adds the place to what is wrong with a packet.
+  /// Adds the position in the file to what is wrong with a packet.
   template <class F>
   void named(const F& function) const {
     try {

@@ -6,21 +6,11 @@
 #include <string_view>
 #include <vector>
 
-#include "slam/io/odometry_covariance.h"
 #include "slam/io/packets/vlp16.h"
 #include "slam/io/recordings/recording_info.h"
-#include "slam/io/records.h"
+#include "slam/io/recordings/sensor_frame.h"
 
 namespace plumbline::slam {
-
-/// What the sensors said up to and including one scan, since the one before it.
-struct SensorFrame {
-  std::vector<Imu> imu;
-  std::vector<Odometry> odometry;
-  std::vector<OdometryCovariance> covariances;  ///< of the odometry, where known
-  std::vector<Vlp16Packet> packets;             ///< empty where the recording holds points
-  Scan scan;
-};
 
 /// Records of a simulated or a real robot, read as a stream: never more than one message of them is in memory.
 class Recording {
@@ -35,7 +25,7 @@ class Recording {
   [[nodiscard]] virtual Nanoseconds origin() const = 0;
 };
 
-/// What is wrong with odometry that no scan meets.
+/// Error message for odometry that overlaps no scan.
 inline constexpr std::string_view no_odometry = "no odometry at or before any scan; are both on one clock?";
 inline constexpr std::string_view odometry_over = "the odometry ends before the first scan; are both on one clock?";
 
@@ -51,10 +41,10 @@ inline constexpr std::string_view imu = "imu.csv";
 /// Opens a recording directory (lidar.pcap; recording.yaml, odometry.tum with its covariances and imu.csv where they
 /// are there) or a bare capture of a VLP-16; `info`, where it is not null, stands for recording.yaml. Messages are cut
 /// as drivers do, by the number of packets; scans before the first odometry record and a message that the end or a gap
-/// of seconds cuts short are left out. Throws InputError, also where no scan meets the odometry.
+/// of seconds cuts short are left out. Throws InputError, also where no scan overlaps the odometry.
 [[nodiscard]] std::unique_ptr<Recording> open_recording(const std::string& path, const RecordingInfo* info = nullptr);
 
-/// Packets of a full turn, rounded up, at the speed one packet tells (a multiple of 60 rpm): 76 at 600 rpm.
+/// Packets of a full turn, rounded up, at the speed that one packet gives (a multiple of 60 rpm): 76 at 600 rpm.
 [[nodiscard]] int packets_per_turn(const Vlp16Packet& packet);
 
 }  // namespace plumbline::slam

@@ -42,9 +42,9 @@ Calibration calibration_of(const RecordingInfo& info) {
 
 Prior prior_of(const RecordingInfo& info) {
   Prior prior;
-  prior.yaw_W = info.told.yaw_rad;
-  prior.yaw_sigma = info.told.yaw_sigma_rad;
-  prior.storey = info.told.storey;
+  prior.yaw_W = info.prior.yaw_rad;
+  prior.yaw_sigma = info.prior.yaw_sigma_rad;
+  prior.storey = info.prior.storey;
   return prior;
 }
 
@@ -56,9 +56,9 @@ RecordingInfo recording_info(std::uint64_t seed, const Calibration& calibration,
   info.mount.position_m = {t.x(), t.y(), t.z()};
   info.mount.quaternion_xyzw = {q.x(), q.y(), q.z(), q.w()};
   info.mount.height_m = calibration.sensor_height_m;
-  info.told.yaw_rad = prior.yaw_W;
-  info.told.yaw_sigma_rad = prior.yaw_sigma;
-  info.told.storey = prior.storey;
+  info.prior.yaw_rad = prior.yaw_W;
+  info.prior.yaw_sigma_rad = prior.yaw_sigma;
+  info.prior.storey = prior.storey;
   return info;
 }
 

@@ -21,8 +21,10 @@ struct MountSpec {
   template <class V>
   void visit(V& v) {
     v("position_m", position_m, Field{.doc = "origin of the LiDAR in the robot's frame: [x, y, z]"});
-    v("quaternion_xyzw", quaternion_xyzw, Field{.doc = "its attitude: [x, y, z, w], x forward, z up"});
-    v("height_m", height_m, Field{.doc = "of the LiDAR above the floor when standing", .min = 0.0, .max = 100.0});
+    v("quaternion_xyzw", quaternion_xyzw,
+      Field{.doc = "attitude of the LiDAR in the robot's frame: [x, y, z, w], x forward, z up"});
+    v("height_m", height_m,
+      Field{.doc = "height of the LiDAR above the floor when the robot stands", .min = 0.0, .max = 100.0});
   }
 };
 
@@ -39,8 +41,8 @@ struct MessageSpec {
   }
 };
 
-/// What the robot is told at the start.
-struct ToldSpec {
+/// The robot's prior at the start.
+struct RecordingPrior {
   std::optional<double> yaw_rad;
   double yaw_sigma_rad = 0.05;
   std::optional<std::string> storey;
@@ -59,17 +61,17 @@ struct RecordingInfo {
   std::optional<std::string> walk;
   MessageSpec lidar;
   MountSpec mount;
-  ToldSpec told;
-  bim::BuildingOptions plan;  ///< as the run had it
+  RecordingPrior prior;
+  bim::BuildingOptions plan;
   template <class V>
   void visit(V& v) {
     v("recording", version, Field{.doc = "version of this format", .min = 1, .max = 1, .required = true});
     v("seed", seed, Field{.doc = "of the run, from which those of the methods derive", .min = 0, .max = 9.2e18});
-    v("walk", walk, Field{.doc = "digest of the simulated sensors' records, by which runs know their estimates"});
+    v("walk", walk, Field{.doc = "digest of the simulated sensors' records, by which runs recognise their estimates"});
     v("lidar", lidar, Field{.doc = "how packets become scans"});
     v("mount", mount, Field{.doc = "where the LiDAR sits"});
-    v("told", told, Field{.doc = "what plan localization is told"});
-    v("plan", plan, Field{.doc = "how the plan is taken"});
+    v("prior", prior, Field{.doc = "the prior of plan localization", .former = "told"});
+    v("plan", plan, Field{.doc = "how the plan is taken, as the run had it"});
   }
 };
 

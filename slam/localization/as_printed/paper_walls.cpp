@@ -8,8 +8,8 @@ namespace plumbline::slam {
 
 namespace {
 
-/// The second face of a wall as printed: (-n, d + T) of its first, n.x + d = 0 [BIM-Loc eq. 2]. A face without a first
-/// one stays where it is.
+/// The second face of a wall as printed: (-n, d + T) of its first, n.x + d = 0 [shaheer2023, eq. 2]. A face without a
+/// first one stays where it is.
 Plane second_face(const bim::Plan& plan, const bim::PlanFace& face) {
   for (const bim::PlanFace& first : plan.faces) {
     if (first.side != 0 || first.wall_id != face.wall_id || first.plane_W.n.dot(face.plane_W.n) > -0.999) continue;
@@ -48,16 +48,16 @@ PaperRoom make_room(const bim::Plan& plan, const bim::PlanRoom& source, const st
 
 }  // namespace
 
-int PaperStorey::room_at(const Eigen::Vector2d& p_W, AsIn outline) const {
+int PaperStorey::room_at(const Eigen::Vector2d& p_W, PaperVariant outline) const {
   for (std::size_t i = 0; i < rooms.size(); ++i) {
     const PaperRoom& room = rooms[i];
     const bool in_box = (p_W.array() >= room.low_W.array()).all() && (p_W.array() <= room.high_W.array()).all();
-    if (in_box && (outline == AsIn::printed || contains(room.polygon_W, p_W))) return static_cast<int>(i);
+    if (in_box && (outline == PaperVariant::printed || contains(room.polygon_W, p_W))) return static_cast<int>(i);
   }
   return -1;
 }
 
-PaperStorey make_paper_storey(const bim::Plan& plan_W, const StoreyIndex& storey, double band_m, AsIn faces) {
+PaperStorey make_paper_storey(const bim::Plan& plan_W, const StoreyIndex& storey, double band_m, PaperVariant faces) {
   PaperStorey out;
   const double z = plan_W.storeys[static_cast<std::size_t>(storey.plan_storey)].elevation_m + band_m;
   std::vector<int> wall_of_face(plan_W.faces.size(), -1);
@@ -66,25 +66,25 @@ PaperStorey make_paper_storey(const bim::Plan& plan_W, const StoreyIndex& storey
     if (face.storey != storey.plan_storey || z < face.z0 || z > face.z1) continue;
     wall_of_face[i] = static_cast<int>(out.walls.size());
     out.all.push_back(wall_of_face[i]);
-    const bool moved = faces == AsIn::printed && face.side == 1;
+    const bool moved = faces == PaperVariant::printed && face.side == 1;
     out.walls.push_back({static_cast<int>(i), moved ? second_face(plan_W, face) : face.plane_W, face.p0, face.p1});
   }
-  for (const IndexRoom& room : storey.rooms)
+  for (const LocalRoom& room : storey.rooms)
     out.rooms.push_back(make_room(plan_W, plan_W.rooms[static_cast<std::size_t>(room.plan_room)], wall_of_face));
   return out;
 }
 
-AnglePlane paper_form(const Plane& plane, AsIn form) {
-  if (form == AsIn::corrected) return to_angles(plane);
+AnglePlane paper_form(const Plane& plane, PaperVariant form) {
+  if (form == PaperVariant::corrected) return to_angles(plane);
   // n.x = d with d >= 0: the normal leads from the origin to the plane, whichever side it is seen from.
   AnglePlane away = to_angles(plane.d < 0.0 ? plane : plane.flipped());
   away.d = std::abs(away.d);
   return away;
 }
 
-Eigen::Vector3d paper_difference(const AnglePlane& observed, const AnglePlane& mapped, AsIn wrap) {
+Eigen::Vector3d paper_difference(const AnglePlane& observed, const AnglePlane& mapped, PaperVariant wrap) {
   const double azimuth = observed.azimuth - mapped.azimuth;
-  return {wrap == AsIn::corrected ? wrap_angle(azimuth) : azimuth, observed.elevation - mapped.elevation,
+  return {wrap == PaperVariant::corrected ? wrap_angle(azimuth) : azimuth, observed.elevation - mapped.elevation,
           observed.d - mapped.d};
 }
 

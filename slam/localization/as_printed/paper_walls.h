@@ -28,23 +28,23 @@ struct PaperRoom {
   std::vector<int> with_neighbours;  ///< also those of rooms reached through its doors, ascending
 };
 
-/// The two upper layers of an S-Graph of one storey, from the plan [BIM-Loc eq. 1-2].
+/// The two upper layers of an S-Graph of one storey, from the plan [shaheer2023, eq. 1-2].
 struct PaperStorey {
   std::vector<PaperWall> walls;
   std::vector<PaperRoom> rooms;  ///< as StoreyIndex::rooms
   std::vector<int> all;          ///< every wall
 
   /// Room that holds p_W by box (printed) or polygon, or -1 (ties: lowest).
-  [[nodiscard]] int room_at(const Eigen::Vector2d& p_W, AsIn outline) const;
+  [[nodiscard]] int room_at(const Eigen::Vector2d& p_W, PaperVariant outline) const;
 };
 
 /// faces: where the second face of a wall is taken to be.
 [[nodiscard]] PaperStorey make_paper_storey(const bim::Plan& plan_W, const StoreyIndex& storey, double band_m,
-                                            AsIn faces);
+                                            PaperVariant faces);
 
 /// Minimal form of a plane for comparing. printed: closest point, whose normal points away from the origin.
-[[nodiscard]] AnglePlane paper_form(const Plane& plane, AsIn form);
-/// Of (azimuth, elevation, offset), observed less mapped [BIM-Loc eq. 7, 9].
-[[nodiscard]] Eigen::Vector3d paper_difference(const AnglePlane& observed, const AnglePlane& mapped, AsIn wrap);
+[[nodiscard]] AnglePlane paper_form(const Plane& plane, PaperVariant form);
+/// Of (azimuth, elevation, offset), observed less mapped [shaheer2023, eq. 7, 9].
+[[nodiscard]] Eigen::Vector3d paper_difference(const AnglePlane& observed, const AnglePlane& mapped, PaperVariant wrap);
 
 }  // namespace plumbline::slam

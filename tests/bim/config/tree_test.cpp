@@ -4,21 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 
 #include "bim/random/stream.h"
+#include "tests/input_error.h"
 
 namespace plumbline {
 namespace {
-
-std::string error_of(const std::function<void()>& f) {
-  try {
-    f();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
-}
 
 TEST(Tree, YamlKeepsPlaces) {
   const Tree tree = read_yaml("a: 1\nb:\n  - x\n  - {c: 2.5}\n", "f.yaml");
@@ -30,25 +21,25 @@ TEST(Tree, YamlKeepsPlaces) {
 }
 
 TEST(Tree, YamlRefusesDuplicateKeys) {
-  EXPECT_EQ(error_of([] { (void)read_yaml("a: 1\na: 2\n", "f.yaml"); }),
+  EXPECT_EQ(input_error([] { (void)read_yaml("a: 1\na: 2\n", "f.yaml"); }),
             "f.yaml:2:1: duplicate key 'a'; each key may stand once");
 }
 
 TEST(Tree, YamlRefusesWhatItCannotKeep) {
-  EXPECT_NE(error_of([] { (void)read_yaml("a: &x 1\nb: *x\n", "f"); }).find("aliases"), std::string::npos);
-  EXPECT_NE(error_of([] { (void)read_yaml("a: [1, 2\n", "f"); }).find("f:"), std::string::npos);
-  EXPECT_NE(error_of([] { (void)read_yaml(std::string(100, '[') + std::string(100, ']'), "f"); }).find("64"),
+  EXPECT_NE(input_error([] { (void)read_yaml("a: &x 1\nb: *x\n", "f"); }).find("aliases"), std::string::npos);
+  EXPECT_NE(input_error([] { (void)read_yaml("a: [1, 2\n", "f"); }).find("f:"), std::string::npos);
+  EXPECT_NE(input_error([] { (void)read_yaml(std::string(100, '[') + std::string(100, ']'), "f"); }).find("64"),
             std::string::npos);
-  EXPECT_FALSE(error_of([] { (void)read_yaml(std::string(100000, '['), "f"); }).empty());
-  EXPECT_NE(error_of([] { (void)read_yaml("a: 1\n---\nb: 2\n", "f"); }).find("more than one"), std::string::npos);
+  EXPECT_FALSE(input_error([] { (void)read_yaml(std::string(100000, '['), "f"); }).empty());
+  EXPECT_NE(input_error([] { (void)read_yaml("a: 1\n---\nb: 2\n", "f"); }).find("more than one"), std::string::npos);
 }
 
 TEST(Tree, ConversionsNameTheirPlace) {
   const Tree tree = read_yaml("a: five\n", "f.yaml");
-  EXPECT_EQ(error_of([&] { (void)tree.find("a")->as_double(); }),
+  EXPECT_EQ(input_error([&] { (void)tree.find("a")->as_double(); }),
             "f.yaml:1:4: found 'five' where a number is expected");
-  EXPECT_FALSE(error_of([] { (void)read_yaml("nan", "f").as_double(); }).empty());
-  EXPECT_FALSE(error_of([] { (void)read_yaml("1e400", "f").as_double(); }).empty());
+  EXPECT_FALSE(input_error([] { (void)read_yaml("nan", "f").as_double(); }).empty());
+  EXPECT_FALSE(input_error([] { (void)read_yaml("1e400", "f").as_double(); }).empty());
 }
 
 Tree sample() {

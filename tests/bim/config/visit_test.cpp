@@ -3,15 +3,12 @@
 
 #include <gtest/gtest.h>
 
-#include <functional>
+#include "tests/input_error.h"
 
 namespace plumbline {
 
 enum class Colour { red, green };
-template <>
-struct EnumNames<Colour> {
-  static constexpr std::array<std::string_view, 2> names = {"red", "green"};
-};
+[[nodiscard]] constexpr std::array<std::string_view, 2> names_of(Colour) { return {"red", "green"}; }
 
 namespace {
 
@@ -44,12 +41,7 @@ struct Whole {
 };
 
 std::string error_of(const std::string& yaml) {
-  try {
-    (void)from_tree<Whole>(read_yaml(yaml, "f.yaml"));
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return input_error([&] { (void)from_tree<Whole>(read_yaml(yaml, "f.yaml")); });
 }
 
 TEST(Visit, ReadsEveryKindOfField) {

@@ -9,11 +9,12 @@
 #include "bim/mesh/mesh.h"
 #include "bim/symmetry/symmetry.h"
 #include "tests/bim/generators/option_sweep.h"
+#include "tests/input_error.h"
 
 namespace plumbline::bim {
 namespace {
 
-constexpr std::uint64_t sweep = 240;  ///< of which at least 200 must be possible
+constexpr std::uint64_t extrude_between = 240;  ///< of which at least 200 must be possible
 
 Isometry2 turn_of(const PlanIsometryEntry& entry) {
   return Isometry2::turn(entry.angle_deg * std::numbers::pi / 180.0, entry.about);
@@ -44,9 +45,9 @@ void expect_group(const SweepCase& c, const SymmetryReport& report) {
     ++turns;
     const BuildingSymmetry* found = find(report, turn_of(entry), false);
     ASSERT_NE(found, nullptr) << c.what << " " << entry.angle_deg;
-    EXPECT_EQ(found->likeness.grade, Likeliness::exact) << c.what;
+    EXPECT_EQ(found->similarity.grade, SimilarityGrade::exact) << c.what;
   }
-  const auto exact = [](const auto& s) { return s.likeness.grade == Likeliness::exact; };
+  const auto exact = [](const auto& s) { return s.similarity.grade == SimilarityGrade::exact; };
   EXPECT_EQ(static_cast<std::size_t>(std::count_if(report.building.begin(), report.building.end(), exact)), turns)
       << c.what;
   const auto shifted = std::count_if(report.copies.begin(), report.copies.end(), [&](const StoreySymmetry& s) {
@@ -60,9 +61,9 @@ void expect_rooms(const SweepCase& c, const SymmetryReport& report) {
   for (const std::vector<std::string>& like : c.generated.plan.symmetry->rooms_alike) {
     const bool found = std::any_of(report.rooms.begin(), report.rooms.end(), [&](const RoomClass& room_class) {
       return std::all_of(like.begin(), like.end(), [&](const std::string& id) {
-        return std::any_of(room_class.rooms.begin(), room_class.rooms.end(), [&](const LikeRoom& room) {
+        return std::any_of(room_class.rooms.begin(), room_class.rooms.end(), [&](const SimilarRoom& room) {
           return c.building.rooms[static_cast<std::size_t>(room.room)].id == id &&
-                 room.likeness.grade == Likeliness::exact;
+                 room.similarity.grade == SimilarityGrade::exact;
         });
       });
     });
@@ -71,23 +72,23 @@ void expect_rooms(const SweepCase& c, const SymmetryReport& report) {
 }
 
 /// The largest deviation stands at the feature, or where the isometry puts it or takes it from.
-void expect_residual_at_feature(const SweepCase& c, const Isometry2& g, const Likeness& likeness) {
+void expect_residual_at_feature(const SweepCase& c, const Isometry2& g, const Similarity& similarity) {
   const PlanFeatureEntry& feature = *c.generated.plan.symmetry->feature;
-  ASSERT_FALSE(likeness.deviations.empty()) << c.what;
-  const Eigen::Vector2d at = likeness.deviations.front().at;
+  ASSERT_FALSE(similarity.deviations.empty()) << c.what;
+  const Eigen::Vector2d at = similarity.deviations.front().at;
   double nearest = 1e9;
   for (const Eigen::Vector2d& place :
        {feature.at, Eigen::Vector2d(g * feature.at), Eigen::Vector2d(g.inverse() * feature.at)})
     nearest = std::min(nearest, (at - place).norm());
   // A shifted wall deviates anywhere along it; everything else is smaller than a metre.
   EXPECT_LT(nearest, feature.kind == FeatureKind::wall_shift ? 8.0 : 1.2) << c.what << " " << at.transpose();
-  EXPECT_GT(likeness.deviation_m, 0.3 * feature.size_m) << c.what;
+  EXPECT_GT(similarity.deviation_m, 0.3 * feature.size_m) << c.what;
 }
 
 /// The feature breaks the whole group: nothing is exact any more; a look at the nearly alike finds it.
 void expect_broken(const SweepCase& c, const SymmetryReport& report) {
   for (const BuildingSymmetry& symmetry : report.building)
-    EXPECT_NE(symmetry.likeness.grade, Likeliness::exact) << c.what << " " << symmetry.isometry.angle;
+    EXPECT_NE(symmetry.similarity.grade, SimilarityGrade::exact) << c.what << " " << symmetry.isometry.angle;
   SymmetryConfig loose;
   loose.near_m = loose.reach_m;
   loose.iou_min = 0.6;
@@ -96,13 +97,13 @@ void expect_broken(const SweepCase& c, const SymmetryReport& report) {
     if (entry.angle_deg == 0.0) continue;
     const BuildingSymmetry* found = find(nearly, turn_of(entry), true);
     ASSERT_NE(found, nullptr) << c.what << " " << entry.angle_deg;
-    expect_residual_at_feature(c, turn_of(entry), found->likeness);
+    expect_residual_at_feature(c, turn_of(entry), found->similarity);
   }
 }
 
 TEST(Families, TwoHundredBuildingsAreSoundAndAsSymmetricAsConstructed) {
   std::size_t count = 0, exact = 0;
-  for (std::uint64_t k = 0; k < sweep; ++k) {
+  for (std::uint64_t k = 0; k < extrude_between; ++k) {
     const std::optional<SweepCase> c = sweep_case(k);
     if (!c) continue;
     ++count;
@@ -129,16 +130,11 @@ std::string plan_of(const std::string& family, const std::vector<std::pair<std::
 }
 
 std::string error_of(const std::string& family, const std::vector<std::pair<std::string, std::string>>& options) {
-  try {
-    (void)plan_of(family, options);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
+  return input_error([&] { (void)plan_of(family, options); });
 }
 
 TEST(Families, SizeZeroIsTheSameBuildingAsNoFeature) {
-  for (const FamilyRow& family : families()) {
+  for (const GeneratorRow& family : generators()) {
     const std::string name(family.name);
     for (const char* feature : {"door_shift", "wall_shift", "niche", "window", "column", "clutter"})
       EXPECT_EQ(plan_of(name, {{"seed", "3"}, {"feature", feature}, {"epsilon_m", "0"}}),
@@ -147,7 +143,7 @@ TEST(Families, SizeZeroIsTheSameBuildingAsNoFeature) {
 }
 
 TEST(Families, SeedsDifferAndWhatIsGivenStands) {
-  for (const FamilyRow& family : families()) {
+  for (const GeneratorRow& family : generators()) {
     const std::string name(family.name);
     EXPECT_EQ(plan_of(name, {{"seed", "3"}}), plan_of(name, {{"seed", "3"}}));
     EXPECT_NE(plan_of(name, {{"seed", "3"}}), plan_of(name, {{"seed", "4"}}));
@@ -181,7 +177,8 @@ TEST(Families, FeatureIsSeenOrNotAsAskedFor) {
 
 bool exactly_symmetric(const Building& building) {
   const std::vector<BuildingSymmetry> found = analyse_symmetry(building).building;
-  return std::any_of(found.begin(), found.end(), [](const auto& s) { return s.likeness.grade == Likeliness::exact; });
+  return std::any_of(found.begin(), found.end(),
+                     [](const auto& s) { return s.similarity.grade == SimilarityGrade::exact; });
 }
 
 /// The plan with one door built elsewhere along its wall.
@@ -205,10 +202,10 @@ TEST(Families, DeviationsBreakAndCreateSymmetry) {
   };
   const double shift = place(uneven) - place(even);
   ASSERT_NEAR(std::abs(shift), 0.3, 1e-6);
-  const PlanSite broken = read_plan_site(with_moved_door(even, door, shift), "broken");
+  const PlanWithDeviations broken = read_plan_with_deviations(with_moved_door(even, door, shift), "broken");
   EXPECT_TRUE(exactly_symmetric(broken.as_planned));
   EXPECT_FALSE(exactly_symmetric(broken.as_built.building));
-  const PlanSite created = read_plan_site(with_moved_door(uneven, door, -shift), "created");
+  const PlanWithDeviations created = read_plan_with_deviations(with_moved_door(uneven, door, -shift), "created");
   EXPECT_FALSE(exactly_symmetric(created.as_planned));
   EXPECT_TRUE(exactly_symmetric(created.as_built.building));
 }

@@ -26,8 +26,8 @@ struct SweepCase {
 inline std::optional<SweepCase> sweep_case(std::uint64_t k) {
   constexpr std::array<const char*, 6> features = {"door_shift", "wall_shift", "niche", "window", "column", "clutter"};
   constexpr std::array<double, 7> epsilons = {0.0, 0.02, 0.05, 0.1, 0.2, 0.35, 0.5};
-  const std::string family(families()[k % families().size()].name);
-  const std::uint64_t round = k / families().size();
+  const std::string family(generators()[k % generators().size()].name);
+  const std::uint64_t round = k / generators().size();
   const double epsilon = epsilons[round % epsilons.size()];
   Tree options = Tree::map();
   options.set("seed", std::to_string(k));
@@ -41,7 +41,7 @@ inline std::optional<SweepCase> sweep_case(std::uint64_t k) {
     result.building = read_plan_text(write_plan(result.generated.plan), "generated");
     return result;
   } catch (const InputError& error) {
-    if (std::string(error.what()).find("no place") == std::string::npos) throw;
+    if (std::string(error.what()).find("no position") == std::string::npos) throw;
     return std::nullopt;
   }
 }

@@ -3,21 +3,18 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
 #include "bim/errors.h"
 #include "bim/mesh/mesh.h"
 #include "bim/plan/plan.h"
+#include "tests/data.h"
 
 namespace plumbline::bim {
 namespace {
 
-std::string quickstart() {
-  const char* source = std::getenv("PLUMBLINE_SOURCE");
-  return (source == nullptr ? std::string(".") : std::string(source)) + "/scenarios/library/quickstart.plan.yaml";
-}
+std::string quickstart() { return project_file("scenarios/library/quickstart.plan.yaml"); }
 
 /// A file that goes away with the test.
 class TemporaryFile {

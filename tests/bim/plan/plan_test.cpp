@@ -32,7 +32,7 @@ double gap(const Plane& a, const Plane& b) { return (a.n - b.n).norm() + std::ab
 
 TEST(TwinPlane, ExampleOfThePaperWithTheSignCorrected) {
   const Plane plane{{1.0, 0.0, 0.0}, -5.0};  // x = 5, body at x > 5
-  const Plane twin = twin_plane(plane, 0.2, 1);
+  const Plane twin = opposite_face(plane, 0.2, 1);
   EXPECT_NEAR(twin.distance({5.2, 7.0, 1.0}), 0.0, 1e-15);
   EXPECT_NEAR(twin.distance({5.1, 0.0, 0.0}), plane.distance({5.1, 0.0, 0.0}), 1e-15);  // the middle of the wall
   // As printed (d + T) the twin would be x = 4.8.
@@ -43,12 +43,12 @@ TEST(TwinPlane, BothSignsOnBothSidesOfTheOriginAndThroughIt) {
   for (const double x : {-5.0, -0.1, 0.0, 0.1, 5.0}) {
     for (const int side : {-1, 1}) {
       const Plane plane{{1.0, 0.0, 0.0}, -x};
-      const Plane twin = twin_plane(plane, 0.2, side);
+      const Plane twin = opposite_face(plane, 0.2, side);
       EXPECT_NEAR(twin.distance({x + side * 0.2, 3.0, 0.0}), 0.0, 1e-15) << x << " " << side;
-      EXPECT_NEAR(gap(twin_plane(twin, 0.2, side), plane), 0.0, 1e-15);
+      EXPECT_NEAR(gap(opposite_face(twin, 0.2, side), plane), 0.0, 1e-15);
     }
   }
-  EXPECT_THROW((void)twin_plane({}, 0.2, 0), InternalError);
+  EXPECT_THROW((void)opposite_face({}, 0.2, 0), InternalError);
 }
 
 TEST(FacePlane, LawsAtRandomWalls) {
@@ -248,7 +248,7 @@ TEST(Building, HashFollowsTheContentOnly) {
   Building building = two_rooms();
   const std::uint64_t hash = building.hash();
   building.name = "another name";
-  building.warnings.push_back({"x", "kind", "text"});
+  building.warnings.push_back({"x", "empty", "text"});
   building.walls[0].step_id = 77;
   EXPECT_EQ(building.hash(), hash);
   building.walls[0].thickness_m += 1e-9;

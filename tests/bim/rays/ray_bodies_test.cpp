@@ -49,7 +49,7 @@ double outside(const MovingBody& body, const Eigen::Vector3d& p) {
   return (p - Eigen::Vector3d(0.0, 0.0, z)).norm() - r;
 }
 
-TEST(Bodies, RaysEndOnTheSurfaceOfACapsule) {
+TEST(SymmetryBodies, RaysEndOnTheSurfaceOfACapsule) {
   Random random(1);
   int hits = 0;
   for (int i = 0; i < 20000; ++i) {
@@ -74,7 +74,7 @@ TEST(Bodies, RaysEndOnTheSurfaceOfACapsule) {
   EXPECT_GT(hits, 1000);
 }
 
-TEST(Bodies, ATurnedBoxIsHitLikeItsMesh) {
+TEST(SymmetryBodies, ATurnedBoxIsHitLikeItsMesh) {
   Random random(2);
   for (int k = 0; k < 20; ++k) {
     const Eigen::Vector3d at = random.point(0.5);
@@ -100,7 +100,7 @@ TEST(Bodies, ATurnedBoxIsHitLikeItsMesh) {
   }
 }
 
-TEST(Bodies, MoveEvenlyBetweenStationsAndRestBeyond) {
+TEST(SymmetryBodies, MoveEvenlyBetweenStationsAndRestBeyond) {
   const MovingBody body = leaf({{1.0, {0, 0, 0}, 0.0}, {2.0, {2, 0, 0}, 1.0}, {4.0, {2, 4, 0}, 0.0}});
   EXPECT_EQ(station_at(body, 0.5).position_W, Eigen::Vector3d(0, 0, 0));
   EXPECT_NEAR((station_at(body, 1.25).position_W - Eigen::Vector3d(0.5, 0, 0)).norm(), 0.0, 1e-12);
@@ -119,7 +119,7 @@ RayScene crowded_room(const RaySceneOptions& options) {
   return scene;
 }
 
-TEST(Bodies, EveryRayGetsTheNearestOfAllWhateverTravelsWithIt) {
+TEST(SymmetryBodies, EveryRayGetsTheNearestOfAllWhateverTravelsWithIt) {
   const RayScene narrow = crowded_room({.width = 1}), wide = crowded_room({.width = 16});
   RayScene empty(box_room({8, 8, 3}));
   Random random(3);
@@ -151,7 +151,7 @@ TEST(Bodies, EveryRayGetsTheNearestOfAllWhateverTravelsWithIt) {
   for (const int count : seen) EXPECT_GT(count, 100);
 }
 
-TEST(Bodies, WhatStandsWinsTies) {
+TEST(SymmetryBodies, WhatStandsWinsTies) {
   BuildingMesh mesh;
   add_box(mesh, {2, -1, 0}, {3, 1, 2});
   RayScene scene(mesh);
@@ -164,7 +164,7 @@ TEST(Bodies, WhatStandsWinsTies) {
   EXPECT_EQ(scene.cast({{0, 0, 1}, {1, 0, 0}}, 1.5).element, -1);
 }
 
-TEST(Bodies, ABodyNeedsAPlaceAndExtent) {
+TEST(SymmetryBodies, ABodyNeedsAPlaceAndExtent) {
   RayScene scene{BuildingMesh{}};
   EXPECT_THROW(scene.set_bodies({person(0.2, 1.7, {})}), InternalError);
   EXPECT_THROW(scene.set_bodies({person(0.0, 1.7, {{}})}), InternalError);

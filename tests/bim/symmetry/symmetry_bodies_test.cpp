@@ -28,7 +28,7 @@ std::vector<BodyPrism> draw(std::uint64_t seed, int count) {
   return prisms;
 }
 
-TEST(Bodies, WithoutOverlapsFillTheUnion) {
+TEST(SymmetryBodies, WithoutOverlapsFillTheUnion) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     const std::vector<BodyPrism> prisms = draw(seed, 8);
     std::vector<Polygon2> outlines;
@@ -38,12 +38,12 @@ TEST(Bodies, WithoutOverlapsFillTheUnion) {
   }
 }
 
-TEST(Bodies, OverlapsInHeightCountOnce) {
+TEST(SymmetryBodies, OverlapsInHeightCountOnce) {
   const Polygon2 square = {{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}};
   EXPECT_NEAR(volume(without_overlaps({{square, 0.0, 2.0, 0}, {square, 1.0, 3.0, 1}})), 3.0, 1e-12);
 }
 
-TEST(Bodies, SurfacesGoRoundTheUnionOnce) {
+TEST(SymmetryBodies, SurfacesGoRoundTheUnionOnce) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     const std::vector<BodyPrism> prisms = draw(seed, 8);
     std::vector<Polygon2> outlines;
@@ -61,7 +61,7 @@ TEST(Bodies, SurfacesGoRoundTheUnionOnce) {
   }
 }
 
-TEST(Bodies, TouchingBodiesHaveNoSurfaceBetweenThem) {
+TEST(SymmetryBodies, TouchingBodiesHaveNoSurfaceBetweenThem) {
   const Polygon2 left = {{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}};
   const Polygon2 right = {{1.0, 0.0}, {2.0, 0.0}, {2.0, 1.0}, {1.0, 1.0}};
   double surface = 0.0;

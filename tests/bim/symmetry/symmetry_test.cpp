@@ -4,15 +4,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <numbers>
+#include <set>
 
 #include "bim/config/tree.h"
 #include "bim/formats/plan_yaml/plan_yaml.h"
 #include "bim/load/load.h"
 #include "bim/random/stream.h"
-#include "tests/bim/formats/ifc/data.h"
 #include "tests/bim/symmetry/moved.h"
+#include "tests/data.h"
 
 namespace plumbline::bim {
 namespace {
@@ -79,8 +79,8 @@ TEST(Symmetry, SquareHasThreeTurnsAndItsMirrorImagesApart) {
   for (int k = 1; k < 4; ++k)
     EXPECT_TRUE(has(report.building, Isometry2::turn(k * half_turn / 2, {3, 3}), 1e-9, 1e-9)) << k;
   for (const BuildingSymmetry& symmetry : report.building) {
-    EXPECT_EQ(symmetry.likeness.grade, Likeliness::exact);
-    EXPECT_NEAR(symmetry.likeness.iou, 1.0, 1e-9);
+    EXPECT_EQ(symmetry.similarity.grade, SimilarityGrade::exact);
+    EXPECT_NEAR(symmetry.similarity.iou, 1.0, 1e-9);
     EXPECT_FALSE(symmetry.isometry.mirrored);
   }
   EXPECT_EQ(report.reflections.size(), 4U);
@@ -91,9 +91,10 @@ TEST(Symmetry, OneDoorLeavesOneMirrorImageAndNoTurn) {
   const SymmetryReport report =
       analyse_symmetry(box(6, 6, "openings: [{id: d, wall: s, kind: door, s_m: 3, width_m: 1}]\n" + room(6, 6)));
   for (const BuildingSymmetry& symmetry : report.building)
-    EXPECT_NE(symmetry.likeness.grade, Likeliness::exact) << symmetry.isometry.angle;
-  const auto exact = std::count_if(report.reflections.begin(), report.reflections.end(),
-                                   [](const StoreySymmetry& s) { return s.likeness.grade == Likeliness::exact; });
+    EXPECT_NE(symmetry.similarity.grade, SimilarityGrade::exact) << symmetry.isometry.angle;
+  const auto exact = std::count_if(report.reflections.begin(), report.reflections.end(), [](const StoreySymmetry& s) {
+    return s.similarity.grade == SimilarityGrade::exact;
+  });
   EXPECT_EQ(exact, 1);
 }
 
@@ -101,7 +102,7 @@ TEST(Symmetry, HalfTurnSwapsTheTwinRooms) {
   const SymmetryReport report = analyse_symmetry(twins(0.0));
   ASSERT_EQ(report.building.size(), 1U);
   EXPECT_TRUE(has(report.building, Isometry2::turn(half_turn, {5, 3}), 1e-9, 1e-9));
-  EXPECT_EQ(report.building.front().likeness.grade, Likeliness::exact);
+  EXPECT_EQ(report.building.front().similarity.grade, SimilarityGrade::exact);
   ASSERT_EQ(report.rooms.size(), 1U);
   EXPECT_EQ(report.rooms.front().rooms.size(), 2U);
   EXPECT_NEAR(std::abs(report.rooms.front().rooms[1].isometry.angle), half_turn, 1e-9);
@@ -111,13 +112,13 @@ TEST(Symmetry, ShiftedDoorIsTheDeviation) {
   for (const double shift : {0.02, 0.1, 0.3, 0.5}) {
     const SymmetryReport report = analyse_symmetry(twins(shift));
     ASSERT_EQ(report.building.size(), 1U) << shift;
-    const Likeness& likeness = report.building.front().likeness;
-    EXPECT_EQ(likeness.grade, Likeliness::near);
+    const Similarity& similarity = report.building.front().similarity;
+    EXPECT_EQ(similarity.grade, SimilarityGrade::near);
     // The jamb stands where the wall was or the other way round.
-    EXPECT_NEAR(likeness.deviation_m, shift, 1e-6);
-    ASSERT_FALSE(likeness.deviations.empty());
-    EXPECT_TRUE(likeness.deviations.front().element == "s" || likeness.deviations.front().element == "n");
-    EXPECT_LT(likeness.iou, 1.0);
+    EXPECT_NEAR(similarity.deviation_m, shift, 1e-6);
+    ASSERT_FALSE(similarity.deviations.empty());
+    EXPECT_TRUE(similarity.deviations.front().element == "s" || similarity.deviations.front().element == "n");
+    EXPECT_LT(similarity.iou, 1.0);
   }
 }
 
@@ -178,16 +179,26 @@ TEST(Symmetry, CopiedStoreysAreAlike) {
     EXPECT_EQ(report.copies[i].to, static_cast<int>(i) + 1);
     EXPECT_NEAR(report.copies[i].isometry.angle, 0.0, 1e-9);
     EXPECT_LT(report.copies[i].isometry.t.norm(), 1e-9);
-    EXPECT_EQ(report.copies[i].likeness.grade, Likeliness::exact);
+    EXPECT_EQ(report.copies[i].similarity.grade, SimilarityGrade::exact);
   }
   ASSERT_EQ(report.rooms.size(), 1U);
   EXPECT_EQ(report.rooms.front().rooms.size(), 3U);
 }
 
-TEST(Symmetry, DuplexIsTwoUnitsHalfATurnApart) {
-  const std::string path = data_path("ifc/duplex.ifc");
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is absent";
-  const Building building = load_building(path);
+/// Two flats a half turn apart, all of whose rooms pair up.
+struct TwinFlats {
+  const char* file;
+  std::size_t rooms;
+};
+
+void PrintTo(const TwinFlats& c, std::ostream* out) { *out << c.file; }
+
+class SymmetryOfFlats : public testing::TestWithParam<TwinFlats> {};
+
+TEST_P(SymmetryOfFlats, IsHalfATurn) {
+  const std::string name = std::string("ifc/") + GetParam().file + ".ifc";
+  if (const std::string why = data_missing(name); !why.empty()) GTEST_SKIP() << why;
+  const Building building = load_building(data_path(name));
   const SymmetryReport report = analyse_symmetry(building);
   const auto on = [&](const char* name) {
     return std::find_if(report.storeys.begin(), report.storeys.end(), [&](const StoreySymmetry& s) {
@@ -198,15 +209,28 @@ TEST(Symmetry, DuplexIsTwoUnitsHalfATurnApart) {
   ASSERT_NE(first, report.storeys.end());
   ASSERT_NE(second, report.storeys.end());
   EXPECT_NEAR(std::abs(first->isometry.angle), half_turn, 1e-4);
-  EXPECT_EQ(first->likeness.grade, Likeliness::exact);
-  EXPECT_GT(first->likeness.iou, 0.9995);
-  EXPECT_EQ(second->likeness.grade, Likeliness::near);
-  EXPECT_GT(second->likeness.iou, 0.99);
+  EXPECT_EQ(first->similarity.grade, SimilarityGrade::exact);
+  EXPECT_GT(first->similarity.iou, 0.9995);
+  EXPECT_EQ(second->similarity.grade, SimilarityGrade::near);
+  EXPECT_GT(second->similarity.iou, 0.99);
   EXPECT_EQ(report.building.size(), 1U);
-  // All ten rooms of either level pair up.
-  std::size_t paired = 0;
-  for (const RoomClass& like : report.rooms) paired += like.rooms.size();
-  EXPECT_EQ(paired, 20U);
+  std::set<int> paired;
+  for (const RoomClass& like : report.rooms)
+    for (const auto& room : like.rooms) paired.insert(room.room);
+  EXPECT_EQ(paired.size(), GetParam().rooms);
+}
+
+INSTANTIATE_TEST_SUITE_P(Own, SymmetryOfFlats, testing::Values(TwinFlats{"twin_flats", 8}),
+                         [](const auto& info) { return std::string(info.param.file); });
+INSTANTIATE_TEST_SUITE_P(Foreign, SymmetryOfFlats, testing::Values(TwinFlats{"duplex", 20}),
+                         [](const auto& info) { return std::string(info.param.file); });
+
+/// The file moves one door of the upper storey by 0.1 m.
+TEST(Symmetry, AMovedDoorOfAFileIsTheDeviation) {
+  const SymmetryReport report = analyse_symmetry(load_building(data_path("ifc/twin_flats.ifc")));
+  ASSERT_EQ(report.building.size(), 1U);
+  EXPECT_TRUE(has(report.building, Isometry2::turn(half_turn, {6, 4}), 1e-6, 1e-4));
+  EXPECT_NEAR(report.building.front().similarity.deviation_m, 0.1, 1e-4);
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -9,6 +8,7 @@
 #include "bim/config/tree.h"
 #include "bim/formats/plan_yaml/plan_yaml.h"
 #include "scenarios/spec/scenario.h"
+#include "tests/folder.h"
 
 namespace plumbline::scenarios {
 namespace {
@@ -21,39 +21,34 @@ class GenerateCommand : public testing::Test {
     const char* binary = std::getenv("PLUMBLINE_BINARY");
     if (binary == nullptr) GTEST_SKIP() << "PLUMBLINE_BINARY is not set; run through ctest";
     binary_ = binary;
-    // Tests of one fixture run at the same time, each in a process of its own.
-    folder_ = fs::path(testing::TempDir()) / ("plumbline_generate_" + std::to_string(getpid()));
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
   }
-  void TearDown() override { fs::remove_all(folder_); }
 
   /// Exit code; what the program says stands in `said_`.
   int run(const std::string& arguments) {
-    const std::string log = (folder_ / "said").string();
+    const std::string log = folder_ / "said";
     const int status = std::system(
-        ("cd '" + folder_.string() + "' && '" + binary_ + "' generate " + arguments + " > '" + log + "' 2>&1").c_str());
+        ("cd '" + folder_.path() + "' && '" + binary_ + "' generate " + arguments + " > '" + log + "' 2>&1").c_str());
     said_ = fs::file_size(log) > 0 ? read_text_file(log) : "";
     return status / 256;
   }
 
   std::string binary_, said_;
-  fs::path folder_;
+  Folder folder_;
 };
 
 TEST_F(GenerateCommand, WritesAPlanAndAScenarioAndReplacesNothing) {
   ASSERT_EQ(run("corridor --rooms 3 -o c.plan.yaml --scenario c.yaml"), 0) << said_;
-  const std::string plan = read_text_file((folder_ / "c.plan.yaml").string());
+  const std::string plan = read_text_file(folder_ / "c.plan.yaml");
   EXPECT_EQ(plan.rfind("# Made by: plumbline generate corridor --rooms 3\nplan: 1\n", 0), 0U);
   EXPECT_EQ(bim::read_plan_text(plan, "c").rooms.size(), 4U);
-  const std::string text = read_text_file((folder_ / "c.yaml").string());
+  const std::string text = read_text_file(folder_ / "c.yaml");
   const Scenario scenario = read_scenario(text, "c.yaml").scenario;
   EXPECT_EQ(scenario.building, "c.plan.yaml");
   EXPECT_EQ(scenario.start.room, "room_2");
   EXPECT_EQ(scenario.route.rooms.size(), 4U);
   EXPECT_EQ(run("corridor --rooms 4 -o c.plan.yaml"), 2);
   EXPECT_NE(said_.find("--force"), std::string::npos) << said_;
-  EXPECT_EQ(read_text_file((folder_ / "c.plan.yaml").string()), plan);
+  EXPECT_EQ(read_text_file(folder_ / "c.plan.yaml"), plan);
   EXPECT_EQ(run("corridor --rooms 4 --force -o c.plan.yaml"), 0) << said_;
   ASSERT_EQ(run("corridor --rooms 3 -o -"), 0);
   EXPECT_EQ(said_, plan);

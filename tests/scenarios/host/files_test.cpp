@@ -2,16 +2,15 @@
 #include "scenarios/host/files.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
-#include <fstream>
 #include <limits>
 
 #include "bim/config/tree.h"
 #include "scenarios/run/cloud_file.h"
 #include "scenarios/run/digest_log.h"
 #include "scenarios/run/estimate_file.h"
+#include "tests/folder.h"
 
 namespace plumbline::scenarios {
 namespace {
@@ -20,14 +19,9 @@ namespace fs = std::filesystem;
 
 class Files : public ::testing::Test {
  protected:
-  Files() : dir_(fs::temp_directory_path() / ("plumbline_files_" + std::to_string(getpid()))) {
-    fs::remove_all(dir_);
-    fs::create_directories(dir_);
-  }
-  ~Files() override { fs::remove_all(dir_); }
-  [[nodiscard]] std::string path(const std::string& name) const { return (dir_ / name).string(); }
+  [[nodiscard]] std::string path(const std::string& name) const { return folder_ / name; }
 
-  fs::path dir_;
+  Folder folder_;
 };
 
 TEST_F(Files, WholeOrNotAtAll) {

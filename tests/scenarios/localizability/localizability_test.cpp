@@ -16,7 +16,7 @@ using bim::add_box;
 RunIdentifiability identify(const bim::BuildingMesh& mesh, const Eigen::Vector2d& size, bool yaw_known,
                             const std::vector<Eigen::Vector2d>& path) {
   const bim::RayScene scene(mesh);
-  IdentifyInput input;
+  LocalizabilityInput input;
   input.as_planned = &scene;
   input.as_built = &scene;
   input.storeys = {{Eigen::Vector2d::Zero(), size, 0.66}};
@@ -24,7 +24,7 @@ RunIdentifiability identify(const bim::BuildingMesh& mesh, const Eigen::Vector2d
   std::vector<TruthSample> truth;
   double t = 0.0;
   for (const auto& p : path) truth.push_back({t += 1.0, Pose::from_xyz_yaw({p.x(), p.y(), 0.5}, 0.3)});
-  return identify_run(input, truth);
+  return compute_localizability(input, truth);
 }
 
 std::vector<Eigen::Vector2d> walk(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
@@ -33,7 +33,7 @@ std::vector<Eigen::Vector2d> walk(const Eigen::Vector2d& a, const Eigen::Vector2
   return path;
 }
 
-TEST(Identify, RectangleHasOneTwinAndNoneWithACompass) {
+TEST(Localizability, RectangleHasOneAliasAndNoneWithACompass) {
   const auto mesh = bim::box_room({6.0, 4.0, 3.0});
   const auto path = walk({1.5, 1.2}, {4.0, 2.5});
   const auto unknown = identify(mesh, {6.0, 4.0}, false, path);
@@ -44,7 +44,7 @@ TEST(Identify, RectangleHasOneTwinAndNoneWithACompass) {
   EXPECT_EQ(known.identifiable_at_m, 0.0);
 }
 
-TEST(Identify, TwinOfARectangleIsTheHalfTurn) {
+TEST(Localizability, AliasOfARectangleIsTheHalfTurn) {
   const auto run = identify(bim::box_room({6.0, 4.0, 3.0}), {6.0, 4.0}, false, walk({1.5, 1.2}, {4.0, 2.5}));
   const Pose X_WR = Pose::from_xyz_yaw({1.5, 1.2, 0.5}, 0.3);
   const auto set = run.ambiguity_set(1.0, X_WR);
@@ -55,23 +55,23 @@ TEST(Identify, TwinOfARectangleIsTheHalfTurn) {
   EXPECT_NEAR(wrap_angle(set[0].yaw() - 0.3 - std::numbers::pi), 0.0, 1e-4);
 }
 
-TEST(Identify, SquareHasThreeTwins) {
+TEST(Localizability, SquareHasThreeAliases) {
   const auto run = identify(bim::box_room({5.0, 5.0, 3.0}), {5.0, 5.0}, false, walk({1.5, 1.2}, {2.0, 3.5}));
   EXPECT_EQ(run.steps.front().alive.size(), 3U);
   EXPECT_EQ(run.steps.back().alive.size(), 3U);
 }
 
-TEST(Identify, OnePillarBreaksTheSymmetry) {
+TEST(Localizability, OnePillarBreaksTheSymmetry) {
   auto mesh = bim::box_room({6.0, 4.0, 3.0});
   add_box(mesh, {4.6, 0.4, 0.0}, {5.0, 0.8, 3.0});
   const auto run = identify(mesh, {6.0, 4.0}, false, walk({1.5, 1.2}, {2.0, 2.5}));
   EXPECT_TRUE(run.identifiable);
   EXPECT_EQ(run.identifiable_at_m, 0.0);
-  EXPECT_FALSE(run.decided_by.has_value());  // the first look sufficed
+  EXPECT_FALSE(run.decided_by.has_value());  // the first scan sufficed
 }
 
-TEST(Identify, WhatTellsIsNamedWhetherItIsSeenOrMissing) {
-  // A low box of which one look shows too little to tell; a wall hides nothing, so both places see it or miss it.
+TEST(Localizability, TheDecidingElementIsNamedWhetherItIsVisibleOrMissing) {
+  // A low box of which one scan shows too little to tell; a wall hides nothing, so both places see it or miss it.
   for (const bool beside : {true, false}) {
     auto mesh = bim::box_room({12.0, 4.0, 3.0});
     const int room_elements = mesh.element.back() + 1;
@@ -88,7 +88,7 @@ TEST(Identify, WhatTellsIsNamedWhetherItIsSeenOrMissing) {
 }
 
 /// Two identical 4 x 4 m rooms with doors onto a corridor of 8 x 2 m, whose ends differ in distance.
-bim::BuildingMesh twin_rooms() {
+bim::BuildingMesh equal_rooms() {
   auto mesh = bim::box_room({8.0, 6.2, 3.0});
   add_box(mesh, {3.9, 2.2, 0.0}, {4.1, 6.2, 3.0});
   for (const double x : {0.0, 4.0}) {
@@ -102,13 +102,13 @@ bim::BuildingMesh twin_rooms() {
   return mesh;
 }
 
-TEST(Identify, TwinRoomsAreToldApartInTheCorridor) {
+TEST(Localizability, EqualRoomsAreResolvedInTheCorridor) {
   // With a compass, the view through the door shows only the corridor's far wall, which is the same from both rooms.
   std::vector<Eigen::Vector2d> path = walk({2.0, 5.5}, {2.0, 3.5});
-  const auto inside = identify(twin_rooms(), {8.0, 6.2}, true, path);
+  const auto inside = identify(equal_rooms(), {8.0, 6.2}, true, path);
   EXPECT_EQ(inside.steps.front().alive.size(), 1U);
   for (const auto& p : walk({2.0, 3.4}, {2.0, 1.0})) path.push_back(p);
-  const auto out = identify(twin_rooms(), {8.0, 6.2}, true, path);
+  const auto out = identify(equal_rooms(), {8.0, 6.2}, true, path);
   EXPECT_TRUE(out.identifiable);
   ASSERT_TRUE(out.identifiable_at_m.has_value());
   EXPECT_GT(*out.identifiable_at_m, 0.4);

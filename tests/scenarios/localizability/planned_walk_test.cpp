@@ -4,9 +4,10 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
+
+#include "tests/data.h"
 
 namespace plumbline::scenarios {
 namespace {
@@ -18,9 +19,8 @@ class Written {
  public:
   Written(const std::string& name, const std::string& more)
       : path_(fs::path(testing::TempDir()) / ("plumbline_" + name + std::to_string(::getpid()) + ".yaml")) {
-    const char* source = std::getenv("PLUMBLINE_SOURCE");
-    const fs::path plan = fs::path(source == nullptr ? "." : source) / "tests/system/short.plan.yaml";
-    std::ofstream(path_) << "scenario: 1\nbuilding: " << fs::absolute(plan).string()
+    std::ofstream(path_) << "scenario: 1\nbuilding: "
+                         << fs::absolute(project_file("tests/system/short.plan.yaml")).string()
                          << "\nstart: {room: left}\nroute: {rooms: [hall]}\nspeed_mps: 0.5\nduration_s: 10\n"
                          << more;
   }
@@ -53,7 +53,8 @@ TEST(PlannedWalk, EndsWhereTheRobotIsCarriedOffAndGoesOnElsewhere) {
 
 TEST(PlannedWalk, AnswersSayWhatIsKnownBeforeAndAfter) {
   const Written free("free", ""), taken("taken", "kidnap: {after_s: 2, away_s: 2, to: {room: right, yaw_deg: 90}}\n");
-  const std::vector<WalkAnswers> alone = identify_walks(free.path(), 1, 1), both = identify_walks(taken.path(), 1, 1);
+  const std::vector<WalkAnswers> alone = localizability_of_walks(free.path(), 1, 1),
+                                 both = localizability_of_walks(taken.path(), 1, 1);
   ASSERT_EQ(both.size(), 1U);
   EXPECT_FALSE(alone.front().set_down);
   ASSERT_TRUE(both.front().set_down);

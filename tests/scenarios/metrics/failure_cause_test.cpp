@@ -5,20 +5,14 @@
 
 #include <numbers>
 
+#include "tests/scenarios/metrics/straight_walk.h"
+
 namespace plumbline::scenarios::score {
 namespace {
 
-constexpr slam::Nanoseconds scan_ns = 100'000'000;
 constexpr int scans = 100;
 
-Truth walk() {
-  Truth truth;
-  for (int i = 0; i < scans; ++i) {
-    truth.scans.push_back(i * scan_ns);
-    truth.poses_W.push_back({i * scan_ns, Pose::from_xyz_yaw({0.1 * i, 1.0, 0.5}, 0.0)});
-  }
-  return truth;
-}
+Truth walk() { return straight_walk(scans, {0.0, 1.0, 0.5}, 0.1); }
 
 /// A half turn about (5, 3).
 Pose half_turn() { return Pose::from_xyz_yaw({10.0, 6.0, 0.0}, std::numbers::pi); }
@@ -61,7 +55,7 @@ TEST(Failure, NoneWhereNothingFailed) {
 TEST(Failure, TheTwinWasPreferredWhileTheTruthWasStillThere) {
   const auto found = why(course({here, half_turn()}, 40, {half_turn(), here}, slam::State::converged));
   ASSERT_TRUE(found.has_value());
-  EXPECT_EQ(found->failure, Failure::twin_preferred);
+  EXPECT_EQ(found->failure, Failure::alias_preferred);
   EXPECT_EQ(found->stamp, 40 * scan_ns);
 }
 
@@ -114,13 +108,13 @@ TEST(Failure, UndecidedToTheEnd) {
 
 TEST(TwinError, IsSmallOnTheWrongTwinAndNotElsewhere) {
   Identifiability known;
-  known.twins_at_start = {half_turn()};
-  const auto twin = score_localization(walk(), course({here}, 0, {half_turn()}, slam::State::converged), known);
-  EXPECT_GT(*twin.ape_rmse_m, 2.0);
-  EXPECT_LT(*twin.twin_error_rmse_m, 1e-9);
-  EXPECT_EQ(twin.true_mass, 0.0);
+  known.aliases_at_start = {half_turn()};
+  const auto alias = score_localization(walk(), course({here}, 0, {half_turn()}, slam::State::converged), known);
+  EXPECT_GT(*alias.ape_rmse_m, 2.0);
+  EXPECT_LT(*alias.aliased_error_rmse_m, 1e-9);
+  EXPECT_EQ(alias.true_mass, 0.0);
   const auto wrong = score_localization(walk(), course({here}, 0, {elsewhere}, slam::State::converged), known);
-  EXPECT_GT(*wrong.twin_error_rmse_m, 0.5);
+  EXPECT_GT(*wrong.aliased_error_rmse_m, 0.5);
 }
 
 TEST(Nees, IsTheNormalisedErrorSquared) {

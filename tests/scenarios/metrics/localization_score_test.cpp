@@ -5,24 +5,18 @@
 
 #include <numbers>
 
+#include "tests/scenarios/metrics/straight_walk.h"
+
 namespace plumbline::scenarios::score {
 namespace {
 
-constexpr slam::Nanoseconds scan_ns = 100'000'000;
 constexpr int scans = 200;  // 20 s at 0.5 m/s
 
-Truth straight_walk() {
-  Truth truth;
-  for (int i = 0; i < scans; ++i) {
-    truth.scans.push_back(i * scan_ns);
-    truth.poses_W.push_back({i * scan_ns, Pose::from_xyz_yaw({0.05 * i, 0.0, 0.5}, 0.0)});
-  }
-  return truth;
-}
+Truth walk() { return straight_walk(scans, {0.0, 0.0, 0.5}, 0.05); }
 
 /// Converged from scan `from` on, with poses off by `offset_m`.
 std::vector<Belief> converges_at(int from, double offset_m) {
-  const Truth truth = straight_walk();
+  const Truth truth = walk();
   std::vector<Belief> beliefs;
   for (int i = 0; i < scans; ++i) {
     Belief belief;
@@ -38,7 +32,7 @@ std::vector<Belief> converges_at(int from, double offset_m) {
 }
 
 LocalizationScore judge(const std::vector<Belief>& beliefs, const std::optional<Identifiability>& known = {}) {
-  return score_localization(straight_walk(), beliefs, known);
+  return score_localization(walk(), beliefs, known);
 }
 
 TEST(Localization, SuccessWithItsNumbers) {
@@ -84,17 +78,17 @@ TEST(Localization, WrongAgainAfterConvergenceIsNoSuccess) {
 }
 
 TEST(Localization, WhereThePlanHasTwoAnswers) {
-  Identifiability twin;
-  twin.others_W = {Pose::from_xyz_yaw({50.0, 0.0, 0.5}, std::numbers::pi)};
-  EXPECT_EQ(judge(converges_at(40, 0.0), twin).verdict, LocalizationVerdict::lucky);
-  EXPECT_EQ(judge(converges_at(40, 3.0), twin).verdict, LocalizationVerdict::overconfident);
+  Identifiability alias;
+  alias.others_W = {Pose::from_xyz_yaw({50.0, 0.0, 0.5}, std::numbers::pi)};
+  EXPECT_EQ(judge(converges_at(40, 0.0), alias).verdict, LocalizationVerdict::lucky);
+  EXPECT_EQ(judge(converges_at(40, 3.0), alias).verdict, LocalizationVerdict::overconfident);
 
   auto both = converges_at(scans, 0.0);
-  const Pose X_WR = straight_walk().at(both.back().stamp);
+  const Pose X_WR = walk().at(both.back().stamp);
   const auto answer = [&](double true_mass, std::size_t copies) {
     both.back().hypotheses.assign(copies, {true_mass, X_WR, Eigen::Matrix3d::Zero(), ""});
-    both.back().hypotheses.push_back({1.0 - true_mass, twin.others_W[0], Eigen::Matrix3d::Zero(), ""});
-    return judge(both, twin).verdict;
+    both.back().hypotheses.push_back({1.0 - true_mass, alias.others_W[0], Eigen::Matrix3d::Zero(), ""});
+    return judge(both, alias).verdict;
   };
   EXPECT_EQ(answer(0.5, 1), LocalizationVerdict::honest_ambiguity);
   EXPECT_EQ(answer(0.25, 1), LocalizationVerdict::honest_ambiguity);  // the least share: 0.5 / 2
@@ -102,20 +96,20 @@ TEST(Localization, WhereThePlanHasTwoAnswers) {
   EXPECT_EQ(answer(0.3, 3), LocalizationVerdict::late);  // more than 2 |A| + 1 hypotheses
   both.back().hypotheses = {{0.6, X_WR, Eigen::Matrix3d::Zero(), ""},
                             {0.4, Pose::from_xyz_yaw({20, 9, 0.5}, 0.0), Eigen::Matrix3d::Zero(), ""}};
-  EXPECT_EQ(judge(both, twin).verdict, LocalizationVerdict::late);  // one that is no twin
+  EXPECT_EQ(judge(both, alias).verdict, LocalizationVerdict::late);  // one that is no alias
 }
 
 TEST(Localization, AWrongAnswerThatStoodIsNotMadeGoodByDoubtAtTheEnd) {
-  Identifiability twin;
-  twin.others_W = {Pose::from_xyz_yaw({50.0, 0.0, 0.5}, std::numbers::pi)};
+  Identifiability alias;
+  alias.others_W = {Pose::from_xyz_yaw({50.0, 0.0, 0.5}, std::numbers::pi)};
   for (const double offset_m : {0.0, 3.0}) {
     auto beliefs = converges_at(40, offset_m);
     for (std::size_t i = 190; i < beliefs.size(); ++i) {
       beliefs[i].state = slam::State::ambiguous;
-      beliefs[i].hypotheses = {{0.5, straight_walk().at(beliefs[i].stamp), Eigen::Matrix3d::Zero(), ""},
-                               {0.5, twin.others_W[0], Eigen::Matrix3d::Zero(), ""}};
+      beliefs[i].hypotheses = {{0.5, walk().at(beliefs[i].stamp), Eigen::Matrix3d::Zero(), ""},
+                               {0.5, alias.others_W[0], Eigen::Matrix3d::Zero(), ""}};
     }
-    EXPECT_EQ(judge(beliefs, twin).verdict,
+    EXPECT_EQ(judge(beliefs, alias).verdict,
               offset_m > 0.0 ? LocalizationVerdict::overconfident : LocalizationVerdict::honest_ambiguity);
   }
 }
@@ -124,18 +118,18 @@ TEST(Localization, ARightAnswerBeforeAnythingCouldTellIsLuck) {
   Identifiability known;
   known.identifiable = true;
   known.at_s = 8.0;
-  known.tellable_from_s = 6.0;
+  known.marginal_from_s = 6.0;
   EXPECT_EQ(judge(converges_at(40, 0.0), known).verdict, LocalizationVerdict::lucky);    // at 4 s
-  EXPECT_EQ(judge(converges_at(60, 0.0), known).verdict, LocalizationVerdict::success);  // at 6 s, on weak evidence
+  EXPECT_EQ(judge(converges_at(60, 0.0), known).verdict, LocalizationVerdict::success);  // at 6 s, on marginal evidence
   EXPECT_EQ(judge(converges_at(40, 3.0), known).verdict, LocalizationVerdict::false_convergence);
 }
 
 TEST(Localization, OnWeakEvidenceARightAnswerAndAnHonestAmbiguityAreBothRight) {
   Identifiability known;
   known.others_W = {Pose::from_xyz_yaw({20, 9, 0.5}, 0.0)};
-  known.tellable_from_s = 3.0;
+  known.marginal_from_s = 3.0;
   const LocalizationScore answered = judge(converges_at(40, 0.0), known);
-  EXPECT_EQ(answered.evidence, Evidence::weak);
+  EXPECT_EQ(answered.evidence, Evidence::marginal);
   EXPECT_EQ(answered.verdict, LocalizationVerdict::success);
   EXPECT_EQ(judge(converges_at(20, 0.0), known).verdict, LocalizationVerdict::lucky);  // at 2 s nothing told
   EXPECT_EQ(judge(converges_at(40, 3.0), known).verdict, LocalizationVerdict::false_convergence);
@@ -144,17 +138,17 @@ TEST(Localization, OnWeakEvidenceARightAnswerAndAnHonestAmbiguityAreBothRight) {
   for (std::size_t i = 100; i < withdrawn.size(); ++i) withdrawn[i].state = slam::State::lost;
   EXPECT_NE(judge(withdrawn, known).verdict, LocalizationVerdict::success);
   auto open = converges_at(scans, 0.0);
-  open.back().hypotheses = {{0.5, straight_walk().at(open.back().stamp), Eigen::Matrix3d::Zero(), ""},
+  open.back().hypotheses = {{0.5, walk().at(open.back().stamp), Eigen::Matrix3d::Zero(), ""},
                             {0.5, known.others_W[0], Eigen::Matrix3d::Zero(), ""}};
   EXPECT_EQ(judge(open, known).verdict, LocalizationVerdict::honest_ambiguity);
 
-  known.tellable_from_s.reset();
+  known.marginal_from_s.reset();
   EXPECT_EQ(judge(converges_at(40, 0.0), known).evidence, Evidence::ambiguous);
   EXPECT_EQ(judge(converges_at(40, 0.0), known).verdict, LocalizationVerdict::lucky);
 }
 
 TEST(Localization, WhatCanBeToldTooLateToHoldAnAnswerIsWeak) {
-  const Truth truth = straight_walk();
+  const Truth truth = walk();
   const double end_s = slam::seconds(truth.scans.back() - truth.scans.front()), end_m = truth.walked().back();
   Identifiability known;
   known.identifiable = true;
@@ -164,8 +158,8 @@ TEST(Localization, WhatCanBeToldTooLateToHoldAnAnswerIsWeak) {
     return judge(converges_at(40, 0.0), known).evidence;
   };
   EXPECT_EQ(evidence(end_s - 5.1, end_m - 1.1), Evidence::unique);
-  EXPECT_EQ(evidence(end_s - 4.9, end_m - 1.1), Evidence::weak);
-  EXPECT_EQ(evidence(end_s - 5.1, end_m - 0.9), Evidence::weak);
+  EXPECT_EQ(evidence(end_s - 4.9, end_m - 1.1), Evidence::marginal);
+  EXPECT_EQ(evidence(end_s - 5.1, end_m - 0.9), Evidence::marginal);
 }
 
 /// 100 scans, then 3 s in the air and 100 more from 8 m aside.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "bim/errors.h"
 #include "bim/random/stream.h"
 
 namespace plumbline::scenarios::score {

@@ -7,11 +7,10 @@
 
 #include "bim/errors.h"
 #include "bim/random/stream.h"
+#include "tests/scenarios/metrics/straight_walk.h"
 
 namespace plumbline::scenarios::score {
 namespace {
-
-constexpr slam::Nanoseconds scan_ns = 100'000'000;
 
 Vector6d random_twist(const Stream& stream, std::uint64_t tick, double meters, double radians) {
   Vector6d xi;

@@ -20,7 +20,7 @@ score::Truth walk(int scans) {
   return truth;
 }
 
-/// What was believed at each scan of a walk: hypotheses(i, X_WR), without what does not matter to tracks.
+/// What was believed at each scan of a walk: hypotheses(i, X_WR), without what does not matter to histories.
 template <class Hypotheses>
 std::vector<BeliefRecord> believed(const score::Truth& truth, const Hypotheses& hypotheses) {
   std::vector<BeliefRecord> beliefs;
@@ -37,27 +37,27 @@ slam::Hypothesis hypothesis(double mass, const Pose& X_WR, const std::string& ro
   return {mass, X_WR, Eigen::Matrix3d::Zero(), room};
 }
 
-/// A twin of every pose, turned half a turn: it walks the other way.
-const Pose twin = Pose::from_xyz_yaw({20.0, 4.0, 0.0}, std::numbers::pi);
+/// A alias of every pose, turned half a turn: it walks the other way.
+const Pose alias = Pose::from_xyz_yaw({20.0, 4.0, 0.0}, std::numbers::pi);
 
 TEST(Tracks, FollowEachPlaceAlongTheWalk) {
   const score::Truth truth = walk(100);
   const std::vector<BeliefRecord> beliefs = believed(truth, [](std::size_t i, const Pose& X_WR) {
     const double mass = 0.5 + 0.004 * static_cast<double>(i);
     const slam::Hypothesis here = hypothesis(mass, X_WR, "kitchen");
-    const slam::Hypothesis there = hypothesis(1.0 - mass, twin * X_WR, "hall");
-    if (i > 40 && i < 60) return std::vector{here};  // the twin is not seen for a while
+    const slam::Hypothesis there = hypothesis(1.0 - mass, alias * X_WR, "hall");
+    if (i > 40 && i < 60) return std::vector{here};  // the alias is not seen for a while
     // Whichever comes first, as methods list them by mass.
     return i % 2 == 0 ? std::vector{here, there} : std::vector{there, here};
   });
-  const std::vector<ReportTrack> tracks = hypothesis_tracks(beliefs, truth, 6);
-  ASSERT_EQ(tracks.size(), 2U);
-  EXPECT_TRUE(tracks[0].is_true);
-  EXPECT_FALSE(tracks[1].is_true);
-  EXPECT_EQ(tracks[1].room, "hall");
-  ASSERT_EQ(tracks[0].points.size(), 100U);  // the mass changes with every scan
-  EXPECT_EQ(tracks[0].points[30], Eigen::Vector2d(3.0, 0.62));
-  EXPECT_EQ(tracks[1].points.size(), 81U);
+  const std::vector<HypothesisHistory> histories = hypothesis_histories(beliefs, truth, 6);
+  ASSERT_EQ(histories.size(), 2U);
+  EXPECT_TRUE(histories[0].is_true);
+  EXPECT_FALSE(histories[1].is_true);
+  EXPECT_EQ(histories[1].room, "hall");
+  ASSERT_EQ(histories[0].points.size(), 100U);  // the mass changes with every scan
+  EXPECT_EQ(histories[0].points[30], Eigen::Vector2d(3.0, 0.62));
+  EXPECT_EQ(histories[1].points.size(), 81U);
 }
 
 TEST(Tracks, KeepTheTruePlaceAndThoseThatWereBelievedMost) {
@@ -69,10 +69,10 @@ TEST(Tracks, KeepTheTruePlaceAndThoseThatWereBelievedMost) {
     hypotheses.push_back(hypothesis(0.1, X_WR));
     return hypotheses;
   });
-  const std::vector<ReportTrack> tracks = hypothesis_tracks(beliefs, truth, 2);
-  ASSERT_EQ(tracks.size(), 2U);
-  EXPECT_TRUE(tracks[0].is_true);
-  EXPECT_EQ(tracks[1].points.front().y(), 0.4);
+  const std::vector<HypothesisHistory> histories = hypothesis_histories(beliefs, truth, 2);
+  ASSERT_EQ(histories.size(), 2U);
+  EXPECT_TRUE(histories[0].is_true);
+  EXPECT_EQ(histories[1].points.front().y(), 0.4);
 }
 
 TEST(Tracks, ALevelLineNeedsFewPointsAndLeavesNoGap) {
@@ -81,7 +81,7 @@ TEST(Tracks, ALevelLineNeedsFewPointsAndLeavesNoGap) {
   for (int i = 0; i < 100; ++i)
     beliefs.push_back(
         {i * scan_ns, slam::State::converged, {{1.0, truth.at(i * scan_ns), Eigen::Matrix3d::Zero(), ""}}, {}});
-  const std::vector<Eigen::Vector2d> points = hypothesis_tracks(beliefs, truth, 1).front().points;
+  const std::vector<Eigen::Vector2d> points = hypothesis_histories(beliefs, truth, 1).front().points;
   EXPECT_LT(points.size(), 30U);
   EXPECT_EQ(points.back().x(), 9.9);
   for (std::size_t i = 1; i < points.size(); ++i) EXPECT_LT(points[i].x() - points[i - 1].x(), 1.0);

@@ -8,7 +8,7 @@
 namespace plumbline::scenarios {
 namespace {
 
-TEST(ReportThings, AreWhatTheRobotWouldWalkInto) {
+TEST(ReportObstacles, AreWhatTheRobotWouldWalkInto) {
   bim::Building building = bim::read_plan_text(
       "plan: 1\n"
       "storeys: [{id: g, height_m: 3}, {id: up, elevation_m: 3.2, height_m: 3}]\n"
@@ -34,13 +34,13 @@ TEST(ReportThings, AreWhatTheRobotWouldWalkInto) {
   for (Eigen::Vector3d& p : tent.body.vertices) p.z() -= 1.5;
   building.obstacles.push_back(tent);
 
-  const std::vector<ReportThing> things = things_of(building);
-  ASSERT_EQ(things.size(), 4U);
+  const std::vector<ReportObstacle> obstacles = obstacles_of(building, bim::make_plan(building));
+  ASSERT_EQ(obstacles.size(), 4U);
   const auto expect = [&](std::size_t i, const std::string& id, int storey, bool filled, double area) {
-    EXPECT_EQ(things[i].id, id);
-    EXPECT_EQ(things[i].storey, storey) << id;
-    EXPECT_EQ(things[i].filled, filled) << id;
-    EXPECT_NEAR(signed_area(things[i].outline_W), area, 1e-12) << id;
+    EXPECT_EQ(obstacles[i].id, id);
+    EXPECT_EQ(obstacles[i].storey, storey) << id;
+    EXPECT_EQ(obstacles[i].filled, filled) << id;
+    EXPECT_NEAR(signed_area(obstacles[i].outline_W), area, 1e-12) << id;
   };
   expect(0, "pillar", 0, true, 0.16);
   expect(1, "desk", 0, true, 2.0);

@@ -79,7 +79,7 @@ TEST(Report, ShowsWhatHangsAboveTheRobotFaintly) {
 TEST(Report, DrawsWhatStandsOnTheFloor) {
   ReportInput input = sample();
   const Polygon2 square = {{1.0, 1.0}, {2.0, 1.0}, {2.0, 2.0}, {1.0, 2.0}};
-  input.things = {{"desk <1>", 0, square, true}, {"table", 0, square, false}, {"upstairs", 1, square, true}};
+  input.obstacles = {{"desk <1>", 0, square, true}, {"table", 0, square, false}, {"upstairs", 1, square, true}};
   const std::string page = render_report(input);
   const std::string outline = "<polygon points=\"1,-1 2,-1 2,-2 1,-2\" class=\"";
   const std::size_t maps = count(page, "<svg class=\"map\"");
@@ -102,17 +102,17 @@ TEST(Report, DrawsTheMapOfEveryStoreyWithThePathOnIt) {
   EXPECT_EQ(count(render_report(sample()), "<p class=\"storey\">"), 0U);
 }
 
-/// A localization that had two places in mind, settled at 6 s and named two walls, one of them wrongly.
+/// A localization that had two hypotheses, converged at 6 s and matched two walls, one of them wrongly.
 ReportInput localized() {
   ReportInput input = sample();
   ReportMethod& m = input.methods.front();
   m.localization = true;
   for (const ReportSample& s : input.truth)
     m.states.push_back({s.t_s, s.t_s < 6.0 ? 2 : 1, s.t_s < 6.0 ? slam::State::ambiguous : slam::State::converged});
-  m.tracks = {{true, "hall", {{0.0, 0.5}, {0.9, 0.9}}}, {false, "a<b", {{0.0, 0.5}, {0.9, 0.1}}}};
+  m.histories = {{true, "hall", {{0.0, 0.5}, {0.9, 0.9}}}, {false, "a<b", {{0.0, 0.5}, {0.9, 0.1}}}};
   const ReportWall wall{{0, 0}, {4, 0}, 0};
   m.recognised = {
-      {"when it settled", 6.0, 0, {1.0, 1.0}, {{{1.0, 1.0}, 0.5, 1.0, {{{wall}, wall, true}, {{wall}, wall, false}}}}}};
+      {"at convergence", 6.0, 0, {1.0, 1.0}, {{{1.0, 1.0}, 0.5, 1.0, {{{wall}, wall, true}, {{wall}, wall, false}}}}}};
   Tree results = Tree::map();
   results.set("verdict", "success");
   results.set("localization", Tree::map().set("converged_at_s", 6.0).set("ape_rmse_m", 0.08));
@@ -128,8 +128,8 @@ TEST(Report, ShowsWhatALocalizationBelievedOverTime) {
   EXPECT_EQ(count(plot, "<rect "), 2U);
   EXPECT_NE(plot.find("AMBIGUOUS, 0 to 6 s"), std::string::npos);
   EXPECT_NE(plot.find("CONVERGED, 6 to 10 s"), std::string::npos);
-  EXPECT_NE(plot.find("settled on one place"), std::string::npos);
-  EXPECT_NE(plot.find(">true place<"), std::string::npos);
+  EXPECT_NE(plot.find(">converged<"), std::string::npos);
+  EXPECT_NE(plot.find(">true pose<"), std::string::npos);
   EXPECT_NE(plot.find("other: a&lt;b"), std::string::npos);
   EXPECT_EQ(count(plot, "class=\"curve"), 2U);
   EXPECT_EQ(count(render_report(sample()), "belief-m"), 0U);
@@ -139,12 +139,12 @@ TEST(Report, ShowsTheWallsItRecognised) {
   const std::string page = render_report(localized());
   EXPECT_EQ(count(page, "class=\"plannedwall\""), 2U);
   EXPECT_EQ(count(page, "class=\"seenwall\""), 2U);
-  EXPECT_NE(page.find("when it settled, 6 s: 1 of 2 walls right"), std::string::npos);
-  ReportInput twins = localized();
-  ReportWalls& walls = twins.methods.front().recognised.front();
-  walls.places.resize(5, walls.places.front());  // a map each, of three at most
-  EXPECT_EQ(count(render_report(twins), "class=\"heldplace\""), 3U);
-  EXPECT_NE(render_report(twins).find("6 s: place 2 of 5, 100 %: 1 of 2 walls right"), std::string::npos);
+  EXPECT_NE(page.find("at convergence, 6 s: 1 of 2 walls right"), std::string::npos);
+  ReportInput ambiguous = localized();
+  ReportWalls& walls = ambiguous.methods.front().recognised.front();
+  walls.hypotheses.resize(5, walls.hypotheses.front());  // a map each, of three at most
+  EXPECT_EQ(count(render_report(ambiguous), "class=\"heldplace\""), 3U);
+  EXPECT_NE(render_report(ambiguous).find("6 s: hypothesis 2 of 5, 100 %: 1 of 2 walls right"), std::string::npos);
 }
 
 TEST(Report, DoesNotJoinPathsWhereTheRobotWasCarried) {

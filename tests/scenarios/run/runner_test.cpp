@@ -3,17 +3,16 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <string>
+
+#include "tests/data.h"
 
 namespace plumbline::scenarios {
 namespace {
 
 /// A wall that the way leads through stops the robot: the run ends there and says so, as it does after a fall.
 TEST(Runner, AStallEndsTheRunAndStandsInItsRecord) {
-  const char* source = std::getenv("PLUMBLINE_SOURCE");
-  ASSERT_NE(source, nullptr) << "run through ctest";
-  ResolvedScenario resolved = resolve(std::string(source) + "/tests/system/short.yaml", {});
+  ResolvedScenario resolved = resolve(project_file("tests/system/short.yaml"), {});
   const Eigen::Vector2d start_W = resolved.world.start_W;
   resolved.world.waypoints = sim::on_floor({start_W, {8.0, start_W.y()}}, 0.0);
   resolved.world.start_yaw = 0.0;

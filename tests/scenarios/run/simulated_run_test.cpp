@@ -4,21 +4,17 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
-#include "bim/mesh/mesh.h"
+#include "tests/data.h"
 
 namespace plumbline::scenarios {
 namespace {
 
 namespace fs = std::filesystem;
 
-std::string plan() {
-  const char* source = std::getenv("PLUMBLINE_SOURCE");
-  return (source == nullptr ? std::string(".") : std::string(source)) + "/tests/system/short.plan.yaml";
-}
+std::string plan() { return project_file("tests/system/short.plan.yaml"); }
 
 ResolvedScenario resolved_with(const std::string& kidnap) {
   const fs::path file = fs::path(testing::TempDir()) / ("plumbline_walk_" + std::to_string(::getpid()) + ".yaml");
@@ -31,15 +27,14 @@ ResolvedScenario resolved_with(const std::string& kidnap) {
 }
 
 std::vector<sim::WorldFrame> frames_of(const ResolvedScenario& resolved) {
-  const bim::BuildingMesh mesh = bim::build_mesh(resolved.site.as_built);
-  Walk walk(resolved, mesh);
+  SimulatedRun run(resolved);
   std::vector<sim::WorldFrame> frames(1);
-  while (walk.next(frames.back())) frames.emplace_back();
+  while (run.next(frames.back())) frames.emplace_back();
   frames.pop_back();
   return frames;
 }
 
-TEST(Walk, AKidnappedRobotWalksOnFromElsewhereAndItsSensorsNoticeNoMore) {
+TEST(SimulatedRun, AKidnappedRobotWalksOnFromElsewhereAndItsSensorsNoticeNoMore) {
   const ResolvedScenario free = resolved_with(""),
                          taken = resolved_with("kidnap: {after_s: 1.5, away_s: 1, to: {room: right, yaw_deg: 90}}\n");
   ASSERT_FALSE(free.world_after);
@@ -50,31 +45,32 @@ TEST(Walk, AKidnappedRobotWalksOnFromElsewhereAndItsSensorsNoticeNoMore) {
 
   const std::vector<sim::WorldFrame> alone = frames_of(free), frames = frames_of(taken);
   std::size_t down = 1;
-  while (down < frames.size() && frames[down].scan.stamp - frames[down - 1].scan.stamp < 500'000'000) ++down;
+  while (down < frames.size() && frames[down].sensors.scan.stamp - frames[down - 1].sensors.scan.stamp < 500'000'000)
+    ++down;
   ASSERT_LT(down, frames.size() - 5);
   ASSERT_GT(down, 10U);
   for (std::size_t i = 0; i < down; ++i) {
-    EXPECT_EQ(frames[i].robot_digest, alone[i].robot_digest);
-    EXPECT_EQ(frames[i].scan.range_m, alone[i].scan.range_m);
+    EXPECT_EQ(frames[i].truth.robot_digest, alone[i].truth.robot_digest);
+    EXPECT_EQ(frames[i].sensors.scan.range_m, alone[i].sensors.scan.range_m);
   }
   const sim::WorldFrame &last = frames[down - 1], &first = frames[down];
-  EXPECT_LE(slam::seconds(last.scan.stamp), 1.5);
-  EXPECT_GE(slam::seconds(first.odometry.front().stamp - last.scan.stamp), 1.0);
-  EXPECT_LT(slam::seconds(first.odometry.front().stamp - last.scan.stamp), 1.01);
-  EXPECT_LE(slam::seconds(frames.back().scan.stamp), 4.0);
-  EXPECT_LT((first.truth.front().X_WR.t.head<2>() - place_W).norm(), 0.05);
+  EXPECT_LE(slam::seconds(last.sensors.scan.stamp), 1.5);
+  EXPECT_GE(slam::seconds(first.sensors.odometry.front().stamp - last.sensors.scan.stamp), 1.0);
+  EXPECT_LT(slam::seconds(first.sensors.odometry.front().stamp - last.sensors.scan.stamp), 1.01);
+  EXPECT_LE(slam::seconds(frames.back().sensors.scan.stamp), 4.0);
+  EXPECT_LT((first.truth.poses.front().X_WR.t.head<2>() - place_W).norm(), 0.05);
   // Odometry knows nothing of it.
-  EXPECT_LT((first.odometry.front().X_OR.t - last.odometry.back().X_OR.t).norm(), 1e-9);
-  EXPECT_NEAR(first.odometry.front().X_OR.yaw(), last.odometry.back().X_OR.yaw(), 1e-9);
+  EXPECT_LT((first.sensors.odometry.front().X_OR.t - last.sensors.odometry.back().X_OR.t).norm(), 1e-9);
+  EXPECT_NEAR(first.sensors.odometry.front().X_OR.yaw(), last.sensors.odometry.back().X_OR.yaw(), 1e-9);
   slam::Nanoseconds stamp = -1;
   for (const sim::WorldFrame& frame : frames) {
-    for (const slam::Odometry& odometry : frame.odometry) {
+    for (const slam::Odometry& odometry : frame.sensors.odometry) {
       EXPECT_GT(odometry.stamp, stamp);
       stamp = odometry.stamp;
     }
-    EXPECT_LE(frame.imu.back().stamp, frame.scan.stamp);
-    EXPECT_EQ(frame.truth.back().stamp, frame.scan.stamp);
-    for (const slam::Vlp16Packet& packet : frame.packets) {
+    EXPECT_LE(frame.sensors.imu.back().stamp, frame.sensors.scan.stamp);
+    EXPECT_EQ(frame.truth.poses.back().stamp, frame.sensors.scan.stamp);
+    for (const slam::Vlp16Packet& packet : frame.sensors.packets) {
       std::int64_t us = 0;
       for (std::size_t i = 4; i-- > 0;) us = us << 8 | packet.payload[1200 + i];
       EXPECT_EQ(us, packet.stamp / 1000);
@@ -82,7 +78,7 @@ TEST(Walk, AKidnappedRobotWalksOnFromElsewhereAndItsSensorsNoticeNoMore) {
   }
 }
 
-TEST(Walk, TheDrawOfThePlaceIsKeptInTheScenario) {
+TEST(SimulatedRun, TheDrawOfThePlaceIsKeptInTheScenario) {
   const ResolvedScenario drawn = resolved_with("kidnap: {after_s: 1, away_s: 1, to: {random: rooms}}\n");
   const Start& to = drawn.scenario.kidnap->to;
   ASSERT_TRUE(to.at && to.yaw_deg && to.storey);

@@ -3,21 +3,20 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 
 #include "bim/formats/ifc/write/write_ifc.h"
 #include "bim/load/load.h"
 #include "bim/mesh/mesh.h"
 #include "scenarios/spec/resolve.h"
+#include "tests/data.h"
+#include "tests/folder.h"
+#include "tests/input_error.h"
 
 namespace plumbline::scenarios {
 namespace {
 
-std::string library() {
-  const char* source = std::getenv("PLUMBLINE_SOURCE");
-  return (source == nullptr ? std::string(".") : std::string(source)) + "/scenarios/library";
-}
+std::string library() { return project_file("scenarios/library"); }
 
 std::vector<std::string> files_of_kind(const std::string& kind) {
   std::vector<std::string> files;
@@ -34,7 +33,7 @@ TEST(Library, PlansAreSoundAndTheirMeshesClosed) {
   const std::vector<std::string> plans = files_of_kind("plan");
   EXPECT_GE(plans.size(), 13U);
   for (const std::string& path : plans) {
-    const bim::Site site = bim::load_site(path);
+    const bim::PlannedAndBuilt site = bim::load_planned_and_built(path);
     for (const bim::Building* building : {&site.as_planned, &site.as_built}) {
       const bim::BuildingMesh mesh = bim::build_mesh(*building);
       EXPECT_TRUE(mesh.warnings.empty()) << path;
@@ -65,38 +64,30 @@ TEST(Library, MethodsOfTheSiteAreGivenThePlanAndTheWorldWhatWasBuilt) {
   const auto wall = [](const bim::Building& building, const std::string& id) {
     return std::any_of(building.walls.begin(), building.walls.end(), [&](const bim::Wall& w) { return w.id == id; });
   };
-  EXPECT_TRUE(wall(resolved.site.as_planned, "office_archive"));
-  EXPECT_FALSE(wall(resolved.site.as_built, "office_archive"));
-  EXPECT_FALSE(wall(resolved.site.as_planned, "site_office"));
-  EXPECT_TRUE(wall(resolved.site.as_built, "site_office"));
+  EXPECT_TRUE(wall(resolved.building->as_planned(), "office_archive"));
+  EXPECT_FALSE(wall(resolved.building->as_built(), "office_archive"));
+  EXPECT_FALSE(wall(resolved.building->as_planned(), "site_office"));
+  EXPECT_TRUE(wall(resolved.building->as_built(), "site_office"));
 }
 
 TEST(Library, AClosedDoorOnTheOnlyWayIsNamed) {
-  const std::string folder = testing::TempDir() + "plumbline_closed_doors";
-  std::filesystem::create_directories(folder);
-  std::filesystem::copy_file(library() + "/house.plan.yaml", folder + "/house.plan.yaml",
-                             std::filesystem::copy_options::overwrite_existing);
-  const auto complaint = [&](const std::string& route) {
-    const std::string path = folder + "/shut.yaml";
+  const Folder folder;
+  std::filesystem::copy_file(library() + "/house.plan.yaml", folder / "house.plan.yaml");
+  const auto error_of = [&](const std::string& route) {
+    const std::string path = folder / "shut.yaml";
     FILE* file = std::fopen(path.c_str(), "w");
     std::fputs(("scenario: 1\nbuilding: house.plan.yaml\ndoors: closed\nstart: {room: living}\n" + route).c_str(),
                file);
     std::fclose(file);
-    try {
-      (void)resolve(path, {});
-    } catch (const InputError& error) {
-      return std::string(error.what());
-    }
-    return std::string("no error");
+    return input_error([&] { (void)resolve(path, {}); });
   };
-  const std::string named = complaint("route: {rooms: [kitchen]}\n");
+  const std::string named = error_of("route: {rooms: [kitchen]}\n");
   EXPECT_NE(named.find("shut.yaml:5:"), std::string::npos) << named;
   EXPECT_NE(named.find("doors 'door_hall', 'door_kitchen' on the way are closed"), std::string::npos) << named;
-  const std::string all = complaint("route: {rooms: all}\n");
+  const std::string all = error_of("route: {rooms: all}\n");
   EXPECT_NE(all.find("'door_hall'"), std::string::npos) << all;
-  const std::string shuttle = complaint("route: {shuttle: bath}\n");
+  const std::string shuttle = error_of("route: {shuttle: bath}\n");
   EXPECT_NE(shuttle.find("'door_bath'"), std::string::npos) << shuttle;
-  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

@@ -3,27 +3,24 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <set>
 
 #include "bim/load/load.h"
+#include "tests/data.h"
 
 namespace plumbline::scenarios {
 namespace {
 
-bim::Building house() {
-  const char* source = std::getenv("PLUMBLINE_SOURCE");
-  return bim::load_building(std::string(source == nullptr ? "." : source) + "/scenarios/library/house.plan.yaml");
-}
+bim::Building house() { return bim::load_building(project_file("scenarios/library/house.plan.yaml")); }
 
-Scenario drawn(const bim::Building& building, std::uint64_t seed, StartDraw how) {
+Scenario drawn(const bim::Building& building, std::uint64_t seed, RandomStart how) {
   Scenario scenario;
   scenario.seed = seed;
   scenario.start.random = how;
   scenario.start.storey = "upper";
   scenario.route.rooms = {"all"};
   scenario.route.random = 4;
-  settle_draws(building, scenario, {});
+  sample_start(building, scenario, {});
   return scenario;
 }
 
@@ -34,12 +31,12 @@ const bim::Room* room_at(const bim::Building& building, const Eigen::Vector2d& p
   return nullptr;
 }
 
-TEST(Draw, EveryRoomOfTheStoreyAndEveryQuadrantComesUp) {
+TEST(StartSampler, EveryRoomOfTheStoreyAndEveryQuadrantComesUp) {
   const bim::Building building = house();
   std::set<std::string> starts, goals;
   std::set<int> quadrants;
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {
-    const Scenario scenario = drawn(building, seed, StartDraw::rooms);
+    const Scenario scenario = drawn(building, seed, RandomStart::rooms);
     const bim::Room* room = room_at(building, *scenario.start.at);
     ASSERT_NE(room, nullptr) << seed;
     starts.insert(room->id);
@@ -58,12 +55,12 @@ TEST(Draw, EveryRoomOfTheStoreyAndEveryQuadrantComesUp) {
   EXPECT_EQ(quadrants, (std::set<int>{-2, -1, 0, 1}));
 }
 
-TEST(Draw, AnywhereFollowsTheFloorSpace) {
+TEST(StartSampler, AnywhereFollowsTheFloorSpace) {
   const bim::Building building = house();
   int bedrooms = 0;
   constexpr int seeds = 30;
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
-    const Scenario scenario = drawn(building, seed, StartDraw::anywhere);
+    const Scenario scenario = drawn(building, seed, RandomStart::anywhere);
     const bim::Room* room = room_at(building, *scenario.start.at);
     ASSERT_NE(room, nullptr) << seed;
     if (room->id.ends_with("bedroom")) ++bedrooms;
@@ -72,17 +69,17 @@ TEST(Draw, AnywhereFollowsTheFloorSpace) {
   EXPECT_GT(bedrooms, 14);
 }
 
-TEST(Draw, TheSeedAloneDecides) {
+TEST(StartSampler, TheSeedAloneDecides) {
   const bim::Building building = house();
-  const Scenario a = drawn(building, 5, StartDraw::rooms), b = drawn(building, 5, StartDraw::rooms);
+  const Scenario a = drawn(building, 5, RandomStart::rooms), b = drawn(building, 5, RandomStart::rooms);
   EXPECT_EQ(write_scenario(a), write_scenario(b));
-  EXPECT_NE(*a.start.at, *drawn(building, 6, StartDraw::rooms).start.at);
+  EXPECT_NE(*a.start.at, *drawn(building, 6, RandomStart::rooms).start.at);
 }
 
-TEST(Draw, ABuildingWithOneRoomIsRefused) {
+TEST(StartSampler, ABuildingWithOneRoomIsRefused) {
   bim::Building building = house();
   std::erase_if(building.rooms, [](const bim::Room& room) { return room.id != "gallery"; });
-  EXPECT_THROW(drawn(building, 1, StartDraw::rooms), InputError);
+  EXPECT_THROW(drawn(building, 1, RandomStart::rooms), InputError);
 }
 
 }  // namespace

@@ -4,20 +4,18 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 
 #include "bim/load/load.h"
 #include "scenarios/spec/named_places.h"
+#include "tests/data.h"
+#include "tests/input_error.h"
 
 namespace plumbline::scenarios {
 namespace {
 
 using Names = std::vector<std::string>;
 
-bim::Building house() {
-  const char* source = std::getenv("PLUMBLINE_SOURCE");
-  return bim::load_building((source == nullptr ? std::string(".") : source) + "/scenarios/library/house.plan.yaml");
-}
+bim::Building house() { return bim::load_building(project_file("scenarios/library/house.plan.yaml")); }
 
 Start in(const std::string& room) {
   Start start;
@@ -39,13 +37,8 @@ Route through(const Names& rooms, int loop = 1) {
   return route;
 }
 
-std::string complaint(const bim::Building& building, const Start& start, const Route& route) {
-  try {
-    (void)plan_route(building, start, route, {});
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
+std::string error_of(const bim::Building& building, const Start& start, const Route& route) {
+  return input_error([&] { (void)plan_route(building, start, route, {}); });
 }
 
 int climbs(const RoutePlan& plan, double sign) {
@@ -147,9 +140,8 @@ TEST(RoutePlan, AShuttleNeedsRoom) {
   }
   Route route;
   route.shuttle = "cell";
-  EXPECT_NE(complaint(cell, in("cell"), route).find("room 'cell' is too small to walk to and fro in"),
-            std::string::npos)
-      << complaint(cell, in("cell"), route);
+  EXPECT_NE(error_of(cell, in("cell"), route).find("room 'cell' is too small to walk to and fro in"), std::string::npos)
+      << error_of(cell, in("cell"), route);
 }
 
 TEST(RoutePlan, WithoutRoomsItWalksTheLargestPieceOfFloorOrWhereItIsTold) {
@@ -177,13 +169,13 @@ TEST(RoutePlan, WithoutRoomsItWalksTheLargestPieceOfFloorOrWhereItIsTold) {
 TEST(RoutePlan, ARoomWithoutAWayUpIsRefused) {
   bim::Building flat = house();
   flat.stairs.clear();
-  EXPECT_EQ(complaint(flat, in("living"), through({"study"})).rfind("room 'study' cannot be reached from [", 0), 0U);
-  EXPECT_NE(complaint(flat, in("living"), through({"study"})).find("storey 'upper': the building has no stairs"),
+  EXPECT_EQ(error_of(flat, in("living"), through({"study"})).rfind("room 'study' cannot be reached from [", 0), 0U);
+  EXPECT_NE(error_of(flat, in("living"), through({"study"})).find("storey 'upper': the building has no stairs"),
             std::string::npos);
   bim::Building mesh = house();
   mesh.stairs.front().flights.clear();
-  const std::string text = complaint(mesh, in("living"), through({"study"}));
-  EXPECT_NE(text.find("storey 'upper': stair 'stair' is a body without steps"), std::string::npos) << text;
+  const std::string text = error_of(mesh, in("living"), through({"study"}));
+  EXPECT_NE(text.find("storey 'upper': stair 'stair' is a body without recognizable steps"), std::string::npos) << text;
   Route all;
   all.storeys = RouteStoreys::all;
   EXPECT_EQ(climbs(plan_route(mesh, in("living"), all, {}), 1.0), 0);
@@ -193,19 +185,19 @@ TEST(RoutePlan, AClosedDoorBeyondTheStairIsNamed) {
   bim::Building shut = house();
   for (bim::Opening& opening : shut.openings)
     if (opening.id == "door_study") opening.leaf = bim::Leaf::closed;
-  const std::string text = complaint(shut, in("living"), through({"study"}));
+  const std::string text = error_of(shut, in("living"), through({"study"}));
   EXPECT_NE(text.find("door 'door_study' on the way is closed"), std::string::npos) << text;
 }
 
 TEST(RoutePlan, StartsThatCannotBeAreRefused) {
-  const auto refused = [&](const Start& start) { return complaint(house(), start, through({"hall"})); };
+  const auto refused = [&](const Start& start) { return error_of(house(), start, through({"hall"})); };
   EXPECT_NE(refused(at("ground", 5.2, 1.0)).find("is inside a wall ('spine')"), std::string::npos);
   EXPECT_NE(refused(at("ground", 7.5, 4.4)).find("is on stair 'stair'; it must be on the floor"), std::string::npos);
   EXPECT_NE(refused(at("upper", 9.2, 5.0)).find("is on stair 'stair'"), std::string::npos);
   EXPECT_NE(refused(at("ground", 2.4, 2.4)).find("too near to a wall or another thing"), std::string::npos);
   EXPECT_NE(refused(at("attic", 2.0, 2.0)).find("unknown storey 'attic'"), std::string::npos);
-  EXPECT_NE(complaint(house(), in("living"), through({"studdy"})).find("did you mean 'study'"), std::string::npos);
-  EXPECT_NE(complaint(house(), in("cellar"), through({"study"})).find("unknown room 'cellar'"), std::string::npos);
+  EXPECT_NE(error_of(house(), in("living"), through({"studdy"})).find("did you mean 'study'"), std::string::npos);
+  EXPECT_NE(error_of(house(), in("cellar"), through({"study"})).find("unknown room 'cellar'"), std::string::npos);
 }
 
 }  // namespace

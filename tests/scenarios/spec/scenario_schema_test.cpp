@@ -3,30 +3,24 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
 #include "scenarios/spec/resolve.h"
+#include "tests/data.h"
+#include "tests/folder.h"
 
 namespace plumbline::scenarios {
 namespace {
 
-std::string source() {
-  const char* folder = std::getenv("PLUMBLINE_SOURCE");
-  return folder == nullptr ? "." : folder;
-}
-
 TEST(ScenarioSchema, TheExamplesResolveBesideTheLibrary) {
-  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "plumbline_schema";
-  std::filesystem::create_directories(folder);
-  std::filesystem::copy(source() + "/scenarios/library", folder / "library",
-                        std::filesystem::copy_options::recursive | std::filesystem::copy_options::overwrite_existing);
+  const Folder folder;
+  std::filesystem::copy(project_file("scenarios/library"), folder / "library",
+                        std::filesystem::copy_options::recursive);
   for (const std::string& example : scenario_examples()) {
     std::ofstream(folder / "example.yaml") << example;
-    EXPECT_GE(resolve((folder / "example.yaml").string(), {}).world.waypoints.size(), 2U) << example;
+    EXPECT_GE(resolve(folder / "example.yaml", {}).world.waypoints.size(), 2U) << example;
   }
-  std::filesystem::remove_all(folder);
 }
 
 TEST(ScenarioSchema, EveryKeyHasAMeaningAndAnExample) {
@@ -38,11 +32,6 @@ TEST(ScenarioSchema, EveryKeyHasAMeaningAndAnExample) {
       if (field.type == "list of entry") continue;
       EXPECT_FALSE(example_of(examples, section, field).empty()) << section.name << " " << field.key;
     }
-}
-
-TEST(ScenarioSchema, ThePageIsTheOneThatIsKept) {
-  EXPECT_EQ(read_text_file(source() + "/scenarios/SCENARIO.md"), scenario_page())
-      << "write it with: plumbline scenarios --schema > scenarios/SCENARIO.md";
 }
 
 }  // namespace

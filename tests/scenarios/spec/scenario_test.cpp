@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "tests/input_error.h"
+
 namespace plumbline::scenarios {
 namespace {
 
@@ -25,13 +27,8 @@ gates:
   - {metric: rooms.recall, method: vgicp, min: 0.8}
 )";
 
-std::string complaint(const std::string& text) {
-  try {
-    static_cast<void>(read_scenario(text, "s.yaml"));
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "none";
+std::string error_of(const std::string& text) {
+  return input_error([&] { static_cast<void>(read_scenario(text, "s.yaml")); });
 }
 
 std::string with(const std::string& from, const std::string& to) {
@@ -57,14 +54,14 @@ TEST(Scenario, ReadsEveryField) {
 TEST(Scenario, GroundAndPushesBecomeConditions) {
   const sim::Conditions usual = conditions({}, {});
   EXPECT_EQ(usual.friction, 0.8);
-  EXPECT_EQ(usual.uneven_m, 0.0);
+  EXPECT_EQ(usual.terrain_noise_m, 0.0);
   EXPECT_EQ(usual.pushes.max_n, 0.0);
   const std::string text =
       std::string(good) + "ground: {friction: 0.4, uneven_mm: 15}\npushes: {max_n: 100, every_s: 4}\n";
   const Scenario scenario = read_scenario(text, "s.yaml").scenario;
   const sim::Conditions hard = conditions(scenario.ground, scenario.pushes);
   EXPECT_EQ(hard.friction, 0.4);
-  EXPECT_DOUBLE_EQ(hard.uneven_m, 0.015);
+  EXPECT_DOUBLE_EQ(hard.terrain_noise_m, 0.015);
   EXPECT_DOUBLE_EQ(hard.pushes.min_n, 30.0);
   EXPECT_EQ(hard.pushes.max_n, 100.0);
   EXPECT_EQ(hard.pushes.every_s, 4.0);
@@ -87,20 +84,20 @@ TEST(Scenario, PeopleAndMovingDoorsAreOffTheDefaults) {
 TEST(Scenario, MoreBodiesThanTheLidarTakesAreRefusedWhereTheyStand) {
   std::string text = std::string(good) + "moving_doors: [{door: d}]\npeople:\n";
   for (int i = 0; i < 255; ++i) text += "  - {rooms: [hall]}\n";
-  EXPECT_EQ(complaint(text), "none");
-  EXPECT_NE(complaint(text + "  - {rooms: [hall]}\n").find("s.yaml:16:16: people and moving doors"), std::string::npos);
+  EXPECT_EQ(error_of(text), "no error");
+  EXPECT_NE(error_of(text + "  - {rooms: [hall]}\n").find("s.yaml:16:16: people and moving doors"), std::string::npos);
   for (int i = 0; i < 3; ++i) text += "  - {rooms: [hall]}\n";
-  EXPECT_NE(complaint(text).find("at most 256, not 259"), std::string::npos);
-  EXPECT_NE(complaint(text).find("s.yaml:274:5"), std::string::npos);
+  EXPECT_NE(error_of(text).find("at most 256, not 259"), std::string::npos);
+  EXPECT_NE(error_of(text).find("s.yaml:274:5"), std::string::npos);
 }
 
 TEST(Scenario, PushesAndGroundOutOfRangeAreRefused) {
   const std::string text(good);
-  EXPECT_NE(complaint(text + "pushes: {min_n: 90, max_n: 80}\n").find("min_n must not be greater"), std::string::npos);
-  EXPECT_NE(complaint(text + "pushes: {max_n: -1}\n"), "none");
-  EXPECT_NE(complaint(text + "pushes: {every_s: 0}\n"), "none");
-  EXPECT_NE(complaint(text + "ground: {friction: 0}\n"), "none");
-  EXPECT_NE(complaint(text + "ground: {uneven_mm: 400}\n"), "none");
+  EXPECT_NE(error_of(text + "pushes: {min_n: 90, max_n: 80}\n").find("min_n must not be greater"), std::string::npos);
+  EXPECT_NE(error_of(text + "pushes: {max_n: -1}\n"), "no error");
+  EXPECT_NE(error_of(text + "pushes: {every_s: 0}\n"), "no error");
+  EXPECT_NE(error_of(text + "ground: {friction: 0}\n"), "no error");
+  EXPECT_NE(error_of(text + "ground: {uneven_mm: 400}\n"), "no error");
 }
 
 TEST(Scenario, WritingAndReadingIsAFixedPoint) {
@@ -116,33 +113,33 @@ TEST(Scenario, MarksPointIntoTheFile) {
 }
 
 TEST(Scenario, ComplaintsNameThePlaceAndWhatWouldBeRight) {
-  EXPECT_EQ(complaint(good), "none");
-  EXPECT_EQ(complaint("name: x\nscenario: 1\n").rfind("s.yaml:1:1: the first key", 0), 0U);
-  EXPECT_EQ(complaint(with("scenario: 1", "scenario: 2")).rfind("s.yaml:1:", 0), 0U);
-  EXPECT_NE(complaint(with("speed_mps", "speed_msp")).find("s.yaml:7:"), std::string::npos);
-  EXPECT_NE(complaint(with("speed_mps", "speed_msp")).find("did you mean 'speed_mps'"), std::string::npos);
-  EXPECT_NE(complaint(with("seed: 7", "seed: many")).find("s.yaml:4:7"), std::string::npos);
-  EXPECT_NE(complaint(with("seed: 7", "seed: -1")).find("s.yaml:4:7"), std::string::npos);
-  EXPECT_NE(complaint(with("speed_mps: 0.5", "speed_mps: 5")).find("between"), std::string::npos);
-  EXPECT_NE(complaint(good + "seed: 8\n").find("s.yaml:16:1: duplicate key"), std::string::npos);
-  EXPECT_NE(complaint(with("preset: ideal", "preset: idael")).find("did you mean 'ideal'"), std::string::npos);
-  EXPECT_NE(complaint(with("metric: rooms.recall", "metric: rooms.recal")).find("s.yaml:15:"), std::string::npos);
-  EXPECT_NE(complaint(with("metric: rooms.recall", "metric: rooms.recal")).find("'rooms.recall'"), std::string::npos);
-  EXPECT_NE(complaint(with("min: 0.8", "min: 0.8, max: 1")).find("either max or min"), std::string::npos);
-  EXPECT_NE(complaint(with("{storey: ground", "{room: hall, storey: ground")).find("not both"), std::string::npos);
-  EXPECT_NE(complaint(with("loop: 2", "shuttle: hall")).find("not both"), std::string::npos);
-  EXPECT_NE(complaint(with("loop: 2", "loop: 0")).find("between"), std::string::npos);
-  EXPECT_NE(complaint(with("loop: 2", "storeys: every")).find("storeys"), std::string::npos);
-  EXPECT_NE(complaint(with("building: two.plan.yaml\n", "")).find("'building' is missing"), std::string::npos);
+  EXPECT_EQ(error_of(good), "no error");
+  EXPECT_EQ(error_of("name: x\nscenario: 1\n").rfind("s.yaml:1:1: the first key", 0), 0U);
+  EXPECT_EQ(error_of(with("scenario: 1", "scenario: 2")).rfind("s.yaml:1:", 0), 0U);
+  EXPECT_NE(error_of(with("speed_mps", "speed_msp")).find("s.yaml:7:"), std::string::npos);
+  EXPECT_NE(error_of(with("speed_mps", "speed_msp")).find("did you mean 'speed_mps'"), std::string::npos);
+  EXPECT_NE(error_of(with("seed: 7", "seed: many")).find("s.yaml:4:7"), std::string::npos);
+  EXPECT_NE(error_of(with("seed: 7", "seed: -1")).find("s.yaml:4:7"), std::string::npos);
+  EXPECT_NE(error_of(with("speed_mps: 0.5", "speed_mps: 5")).find("between"), std::string::npos);
+  EXPECT_NE(error_of(good + "seed: 8\n").find("s.yaml:16:1: duplicate key"), std::string::npos);
+  EXPECT_NE(error_of(with("preset: ideal", "preset: idael")).find("did you mean 'ideal'"), std::string::npos);
+  EXPECT_NE(error_of(with("metric: rooms.recall", "metric: rooms.recal")).find("s.yaml:15:"), std::string::npos);
+  EXPECT_NE(error_of(with("metric: rooms.recall", "metric: rooms.recal")).find("'rooms.recall'"), std::string::npos);
+  EXPECT_NE(error_of(with("min: 0.8", "min: 0.8, max: 1")).find("either max or min"), std::string::npos);
+  EXPECT_NE(error_of(with("{storey: ground", "{room: hall, storey: ground")).find("not both"), std::string::npos);
+  EXPECT_NE(error_of(with("loop: 2", "shuttle: hall")).find("not both"), std::string::npos);
+  EXPECT_NE(error_of(with("loop: 2", "loop: 0")).find("between"), std::string::npos);
+  EXPECT_NE(error_of(with("loop: 2", "storeys: every")).find("storeys"), std::string::npos);
+  EXPECT_NE(error_of(with("building: two.plan.yaml\n", "")).find("'building' is missing"), std::string::npos);
 }
 
 TEST(Scenario, AKidnappedRobotIsSetDownSomewhereBeforeTheEnd) {
-  EXPECT_EQ(complaint(good + "kidnap: {after_s: 20, to: {room: hall}}\n"), "none");
-  EXPECT_NE(complaint(good + "kidnap: {after_s: 20}\n").find("'to' is missing"), std::string::npos);
-  EXPECT_NE(complaint(good + "kidnap: {after_s: 20, to: {}}\n").find("s.yaml:16:"), std::string::npos);
-  EXPECT_NE(complaint(good + "kidnap: {after_s: 20, to: {room: hall, random: rooms}}\n").find("exactly one"),
+  EXPECT_EQ(error_of(good + "kidnap: {after_s: 20, to: {room: hall}}\n"), "no error");
+  EXPECT_NE(error_of(good + "kidnap: {after_s: 20}\n").find("'to' is missing"), std::string::npos);
+  EXPECT_NE(error_of(good + "kidnap: {after_s: 20, to: {}}\n").find("s.yaml:16:"), std::string::npos);
+  EXPECT_NE(error_of(good + "kidnap: {after_s: 20, to: {room: hall, random: rooms}}\n").find("exactly one"),
             std::string::npos);
-  EXPECT_NE(complaint(good + "kidnap: {after_s: 28, to: {room: hall}}\n").find("duration_s"), std::string::npos);
+  EXPECT_NE(error_of(good + "kidnap: {after_s: 28, to: {room: hall}}\n").find("duration_s"), std::string::npos);
   EXPECT_EQ(off_defaults(read_scenario(good + "kidnap: {to: {room: hall}, after_s: 9}\n", "s").scenario).back(),
             "kidnap");
 }
@@ -151,11 +148,11 @@ TEST(Scenario, CountsThatTheRouteHasNoUseForAreRefused) {
   const auto route = [](const std::string& text) {
     const std::string before(good);
     const std::size_t at = before.find("route:");
-    return complaint(before.substr(0, at) + "route: " + text + before.substr(before.find('\n', at)));
+    return error_of(before.substr(0, at) + "route: " + text + before.substr(before.find('\n', at)));
   };
-  EXPECT_EQ(route("{rooms: [hall], loop: 3}"), "none");
-  EXPECT_EQ(route("{shuttle: hall, times: 3}"), "none");
-  EXPECT_EQ(route("{rooms: all, storeys: all}"), "none");
+  EXPECT_EQ(route("{rooms: [hall], loop: 3}"), "no error");
+  EXPECT_EQ(route("{shuttle: hall, times: 3}"), "no error");
+  EXPECT_EQ(route("{rooms: all, storeys: all}"), "no error");
   EXPECT_NE(route("{rooms: [hall], times: 3}").find("s.yaml:6:31: times is of a shuttle"), std::string::npos);
   EXPECT_NE(route("{shuttle: hall, loop: 3}").find("s.yaml:6:30: loop is of rooms"), std::string::npos);
   for (const char* other : {"rooms: [hall]", "shuttle: hall", "random: 3"})
@@ -165,8 +162,8 @@ TEST(Scenario, CountsThatTheRouteHasNoUseForAreRefused) {
 
 TEST(Scenario, NamesThatNoFolderCanHaveAreRefused) {
   const std::string text = "scenario: 1\nname: ";
-  EXPECT_EQ(complaint(text + std::string(100, 'n') + "\nbuilding: b.ifc\n"), "none");
-  EXPECT_NE(complaint(text + std::string(500, 'n') + "\nbuilding: b.ifc\n").find("s.yaml:2:7: a name of 500 letters"),
+  EXPECT_EQ(error_of(text + std::string(100, 'n') + "\nbuilding: b.ifc\n"), "no error");
+  EXPECT_NE(error_of(text + std::string(500, 'n') + "\nbuilding: b.ifc\n").find("s.yaml:2:7: a name of 500 letters"),
             std::string::npos);
 }
 

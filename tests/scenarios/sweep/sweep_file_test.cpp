@@ -2,48 +2,39 @@
 #include "scenarios/sweep/sweep_file.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <set>
+
+#include "scenarios/sweep/sweep_schema.h"
+#include "tests/data.h"
+#include "tests/folder.h"
+#include "tests/input_error.h"
 
 namespace plumbline::scenarios {
 namespace {
 
 namespace fs = std::filesystem;
 
-std::string source() {
-  const char* folder = std::getenv("PLUMBLINE_SOURCE");
-  return folder == nullptr ? "." : folder;
-}
-
 /// Sweep files beside a copy of the library.
 class SweepFiles : public ::testing::Test {
  protected:
   void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) / ("plumbline_sweep_" + std::to_string(::getpid()));
-    fs::create_directories(folder_ / "library");
+    fs::create_directory(folder_ / "library");
     for (const char* name : {"quickstart.yaml", "quickstart.plan.yaml", "house.yaml", "house.plan.yaml"})
-      fs::copy_file(source() + "/scenarios/library/" + name, folder_ / "library" / name);
+      fs::copy_file(project_file("scenarios/library/") + name, folder_ / "library/" + name);
   }
-  void TearDown() override { fs::remove_all(folder_); }
 
   [[nodiscard]] Sweep read(const std::string& text, int seeds = 0) const {
     std::ofstream(folder_ / "sweep.yaml") << text;
-    return read_sweep((folder_ / "sweep.yaml").string(), seeds);
+    return read_sweep(folder_ / "sweep.yaml", seeds);
   }
-  [[nodiscard]] std::string complaint(const std::string& text) const {
-    try {
-      (void)read(text);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
+  [[nodiscard]] std::string error_of(const std::string& text) const {
+    return input_error([&] { (void)read(text); });
   }
 
-  fs::path folder_;
+  Folder folder_;
 };
 
 TEST_F(SweepFiles, ExamplesGiveEveryCombinationOnce) {
@@ -80,10 +71,10 @@ TEST_F(SweepFiles, OnlyWhatMethodsAreToldSharesAWalk) {
   ASSERT_EQ(sweep.runs.size(), 12U);
   std::set<std::string> walks;
   for (const SweepRun& a : sweep.runs) {
-    walks.insert(a.walk_digest);
+    walks.insert(a.simulation_digest);
     for (const SweepRun& b : sweep.runs) {
       const bool alike = a.scenario == b.scenario && a.seed == b.seed && (a.variant == "slow") == (b.variant == "slow");
-      EXPECT_EQ(a.walk_digest == b.walk_digest, alike) << a.key << " " << b.key;
+      EXPECT_EQ(a.simulation_digest == b.simulation_digest, alike) << a.key << " " << b.key;
     }
   }
   EXPECT_EQ(walks.size(), 8U);
@@ -97,7 +88,7 @@ TEST_F(SweepFiles, AVariantReplacesValues) {
   EXPECT_EQ(scenario.prior.yaw, Knowledge::unknown);
   EXPECT_EQ(scenario.prior.storey, Knowledge::known);
   EXPECT_EQ(scenario.speed_mps, 0.5);
-  EXPECT_EQ(scenario.start.random, StartDraw::rooms);
+  EXPECT_EQ(scenario.start.random, RandomStart::rooms);
   EXPECT_FALSE(scenario.start.room.has_value());
 }
 
@@ -106,30 +97,25 @@ TEST_F(SweepFiles, NoTwoRunsHaveOneName) {
   fs::copy_file(folder_ / "library/house.yaml", folder_ / "library/a.yaml");
   fs::copy_file(folder_ / "library/house.yaml", folder_ / "library/a-b.yaml");
   const std::string files = "sweep: 1\nscenarios: [library/a.yaml, library/a-b.yaml]\nseeds: 1\n";
-  EXPECT_EQ(complaint(files + "variants: [{name: c}, {name: d}]\n"), "");
-  EXPECT_NE(complaint(files + "variants: [{name: c}, {name: b-c}]\n").find("both called 'a-b-c'"), std::string::npos);
+  EXPECT_EQ(error_of(files + "variants: [{name: c}, {name: d}]\n"), "no error");
+  EXPECT_NE(error_of(files + "variants: [{name: c}, {name: b-c}]\n").find("both called 'a-b-c'"), std::string::npos);
 }
 
 TEST_F(SweepFiles, FaultsAreNamedWhereTheyStand) {
   const std::string head = "sweep: 1\nscenarios: [library/quickstart.yaml]\n";
-  EXPECT_NE(complaint("scenarios: [a]\n").find("sweep.yaml:1:1"), std::string::npos);
-  EXPECT_NE(complaint("sweep: 1\n").find("scenarios"), std::string::npos);
-  EXPECT_NE(complaint("sweep: 1\nscenarios: [library/none.yaml]\n").find("sweep.yaml:2:13"), std::string::npos);
-  EXPECT_NE(complaint("sweep: 1\nscenarios: [library/house.plan.yaml]\n").find("no scenario"), std::string::npos);
-  EXPECT_NE(complaint(head + "methods: [vgcip]\n").find("sweep.yaml:3:11"), std::string::npos);
-  EXPECT_NE(complaint(head + "seeds: 0\n").find("sweep.yaml:3:8"), std::string::npos);
-  EXPECT_NE(complaint(head + "variants: [{name: a, set: [speed_mps]}]\n").find("key.key=value"), std::string::npos);
-  EXPECT_NE(complaint(head + "variants: [{name: a, set: [sped_mps=1]}]\n").find("did you mean"), std::string::npos);
+  EXPECT_NE(error_of("scenarios: [a]\n").find("sweep.yaml:1:1"), std::string::npos);
+  EXPECT_NE(error_of("sweep: 1\n").find("scenarios"), std::string::npos);
+  EXPECT_NE(error_of("sweep: 1\nscenarios: [library/none.yaml]\n").find("sweep.yaml:2:13"), std::string::npos);
+  EXPECT_NE(error_of("sweep: 1\nscenarios: [library/house.plan.yaml]\n").find("no scenario"), std::string::npos);
+  EXPECT_NE(error_of(head + "methods: [vgcip]\n").find("sweep.yaml:3:11"), std::string::npos);
+  EXPECT_NE(error_of(head + "seeds: 0\n").find("sweep.yaml:3:8"), std::string::npos);
+  EXPECT_NE(error_of(head + "variants: [{name: a, set: [speed_mps]}]\n").find("key.key=value"), std::string::npos);
+  EXPECT_NE(error_of(head + "variants: [{name: a, set: [sped_mps=1]}]\n").find("did you mean"), std::string::npos);
   std::string deep;
   for (int i = 0; i < 200000; ++i) deep += "a.";
-  EXPECT_NE(complaint(head + "variants: [{name: a, set: [" + deep + "a=1]}]\n").find("of more than 16 parts"),
+  EXPECT_NE(error_of(head + "variants: [{name: a, set: [" + deep + "a=1]}]\n").find("of more than 16 parts"),
             std::string::npos);
-  EXPECT_NE(complaint(head + "variants: [{name: a}, {name: a}]\n").find("there already"), std::string::npos);
-}
-
-TEST(SweepPage, IsTheOneThatIsKept) {
-  EXPECT_EQ(read_text_file(source() + "/scenarios/SWEEP.md"), sweep_page())
-      << "write it with: plumbline sweep --schema > scenarios/SWEEP.md";
+  EXPECT_NE(error_of(head + "variants: [{name: a}, {name: a}]\n").find("there already"), std::string::npos);
 }
 
 }  // namespace

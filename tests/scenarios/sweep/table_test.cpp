@@ -9,7 +9,7 @@ namespace plumbline::scenarios {
 namespace {
 
 TEST(Wilson, KnownIntervals) {
-  // [facts: localization 1.1] 6, 5 and 10 of 10, rounded to percent there
+  // [wilson1927] for 6, 5 and 10 of 10, rounded to percent
   EXPECT_NEAR(wilson95(6, 10).first, 0.31, 0.005);
   EXPECT_NEAR(wilson95(6, 10).second, 0.83, 0.005);
   EXPECT_NEAR(wilson95(5, 10).first, 0.24, 0.005);
@@ -54,13 +54,13 @@ std::vector<SweepRow> rows() {
 }
 
 TEST(SweepTable, CountsWeakEvidenceApart) {
-  std::vector<SweepRow> weak = rows();
-  std::erase_if(weak, [](const SweepRow& row) { return row.method != "finder"; });
-  for (SweepRow& row : weak) row.evidence = "weak";
-  const SweepCell cell = cells_of(weak).front();
+  std::vector<SweepRow> marginal = rows();
+  std::erase_if(marginal, [](const SweepRow& row) { return row.method != "finder"; });
+  for (SweepRow& row : marginal) row.evidence = "weak";
+  const SweepCell cell = cells_of(marginal).front();
   EXPECT_EQ(cell.judged + cell.ambiguous, 0);
-  EXPECT_EQ(cell.weak, 6);
-  EXPECT_EQ(cell.weak_right, 3);
+  EXPECT_EQ(cell.marginal, 6);
+  EXPECT_EQ(cell.marginal_right, 3);
   EXPECT_EQ(cell.false_convergences, 1);
 }
 

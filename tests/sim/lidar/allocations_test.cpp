@@ -2,13 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <cstdlib>
 #include <string>
 #include <vector>
 
 #include "bim/load/load.h"
 #include "bim/mesh/mesh.h"
 #include "sim/lidar/lidar.h"
+#include "tests/data.h"
 #include "tests/sim/lidar/heap_requests.h"
 
 namespace plumbline::sim {
@@ -18,9 +18,7 @@ class Allocations : public ::testing::TestWithParam<LidarPreset> {};
 
 // A walk across a furnished house, turning; the first messages may grow the buffers.
 TEST_P(Allocations, NoneAfterTheFirstScan) {
-  const char* source = std::getenv("PLUMBLINE_SOURCE");
-  const bim::Building building =
-      bim::load_building(std::string(source == nullptr ? "." : source) + "/scenarios/library/house.plan.yaml");
+  const bim::Building building = bim::load_building(project_file("scenarios/library/house.plan.yaml"));
   const bim::BuildingMesh mesh = bim::build_mesh(building);
   const bim::RayScene scene(mesh);
   const RoomLookup rooms(building);

@@ -248,8 +248,8 @@ double wall_residual(const slam::Scan& scan, const ReturnLabels& labels, const P
 }
 
 TEST_F(LidarTest, WallsAreAsThickAsRealUnitsSeeThem) {
-  // [facts: lidar section 2.5] measured 12-17 mm on walls 3-20 m away; a single run's draw of 16 laser biases moves
-  // the residual by about 10 %, so the mean over seeds must lie in the band and every wall near it.
+  // Real units show 12-17 mm, docs/methods/lidar_model.md, on walls 3-20 m away; a single run's draw of 16 laser biases
+  // moves the residual by about 10 %, so the mean over seeds must lie in the band and every wall near it.
   double sum = 0.0;
   int walls = 0;
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {

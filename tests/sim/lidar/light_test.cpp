@@ -26,12 +26,12 @@ class LightTest : public ::testing::Test {
     const bim::RayScene scene(mesh_);
     const std::vector<Surface> surfaces = {body, wall_, wall_};
     Light light(scene, surfaces, config_);
-    Leg leg;
-    leg.ray = {Eigen::Vector3d::Zero(), direction.normalized()};
-    std::vector<Leg> legs = {leg};
-    std::vector<bim::Hit> hits = {scene.cast(leg.ray, 100.0)};
+    RaySegment segment;
+    segment.ray = {Eigen::Vector3d::Zero(), direction.normalized()};
+    std::vector<RaySegment> segments = {segment};
+    std::vector<bim::Hit> hits = {scene.cast(segment.ray, 100.0)};
     std::vector<Reflection> out;
-    light.follow(legs, hits, out);
+    light.trace(segments, hits, out);
     return out;
   }
 
@@ -86,12 +86,12 @@ TEST_F(LightTest, LightBetweenTwoMirrorsComesToAnEnd) {
   const bim::RayScene scene(mesh_);
   const std::vector<Surface> surfaces(3, Surface{0.03, 0.0, 1.0});
   Light light(scene, surfaces, config_);
-  Leg leg;
-  leg.ray = {Eigen::Vector3d::Zero(), Eigen::Vector3d(1.0, 0.01, 0.0).normalized()};
-  std::vector<Leg> legs = {leg};
-  std::vector<bim::Hit> hits = {scene.cast(leg.ray, 100.0)};
+  RaySegment segment;
+  segment.ray = {Eigen::Vector3d::Zero(), Eigen::Vector3d(1.0, 0.01, 0.0).normalized()};
+  std::vector<RaySegment> segments = {segment};
+  std::vector<bim::Hit> hits = {scene.cast(segment.ray, 100.0)};
   std::vector<Reflection> out;
-  light.follow(legs, hits, out);
+  light.trace(segments, hits, out);
   const auto plain =
       std::count_if(out.begin(), out.end(), [](const auto& r) { return !(r.flags & light_path::glint); });
   EXPECT_EQ(plain, 3);  // the first mirror, and one after each of two bounces

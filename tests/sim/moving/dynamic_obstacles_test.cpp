@@ -31,14 +31,14 @@ SwingDoorConfig door(std::vector<double> times) {
 }
 
 /// Steps to a time with the robot at one place.
-void step_to(MovingThings& things, slam::Nanoseconds& t, double time_s, const Eigen::Vector3d& robot_W) {
+void step_to(DynamicObstacles& things, slam::Nanoseconds& t, double time_s, const Eigen::Vector3d& robot_W) {
   for (; 1e-9 * static_cast<double>(t) <= time_s + 1e-9; t += tick_ns) things.step(t, robot_W);
 }
 
-Eigen::Vector3d place(const MovingThings& things) { return things.bodies()[0].stations.back().position_W; }
+Eigen::Vector3d place(const DynamicObstacles& things) { return things.bodies()[0].stations.back().position_W; }
 
-TEST(MovingThings, PeopleWalkToTheEndAndBackAtTheirSpeed) {
-  MovingThings things({person({{0, 0, 0}, {2, 0, 0}, {2, 1, 0}})}, {}, 50);
+TEST(DynamicObstacles, PeopleWalkToTheEndAndBackAtTheirSpeed) {
+  DynamicObstacles things({person({{0, 0, 0}, {2, 0, 0}, {2, 1, 0}})}, {}, 50);
   slam::Nanoseconds t = 0;
   const std::vector<std::pair<double, Eigen::Vector3d>> expected = {
       {0.0, {0, 0, 0}}, {1.0, {1, 0, 0}}, {2.5, {2, 0.5, 0}}, {3.5, {2, 0.5, 0}},
@@ -50,26 +50,26 @@ TEST(MovingThings, PeopleWalkToTheEndAndBackAtTheirSpeed) {
   EXPECT_EQ(things.bodies()[0].element, 50);
 }
 
-TEST(MovingThings, PeopleStandStillWhileTheRobotIsNear) {
-  MovingThings things({person({{0, 0, 0}, {10, 0, 0}})}, {}, 0);
+TEST(DynamicObstacles, PeopleStandStillWhileTheRobotIsNear) {
+  DynamicObstacles things({person({{0, 0, 0}, {10, 0, 0}})}, {}, 0);
   slam::Nanoseconds t = 0;
   step_to(things, t, 5.0, {3.0, 0.5, 0.4});
-  EXPECT_NEAR((place(things).head<2>() - Eigen::Vector2d(3.0, 0.5)).norm(), MovingThings::keep_away_m, 0.01);
+  EXPECT_NEAR((place(things).head<2>() - Eigen::Vector2d(3.0, 0.5)).norm(), DynamicObstacles::keep_away_m, 0.01);
   step_to(things, t, 6.0, far_away);
   EXPECT_NEAR(place(things).x(), 3.0 - std::sqrt(0.75) + 1.0, 0.01);
 }
 
-TEST(MovingThings, PeopleOfOnePlaceOrOfNoWayStand) {
-  MovingThings things({person({{1, 2, 0}}), person({{1, 2, 0}, {1, 2, 0}})}, {}, 0);
+TEST(DynamicObstacles, PeopleOfOnePlaceOrOfNoWayStand) {
+  DynamicObstacles things({person({{1, 2, 0}}), person({{1, 2, 0}, {1, 2, 0}})}, {}, 0);
   slam::Nanoseconds t = 0;
   step_to(things, t, 1.0, far_away);
   for (const bim::MovingBody& body : things.bodies())
     EXPECT_EQ(body.stations.back().position_W, Eigen::Vector3d(1, 2, 0));
-  EXPECT_THROW(MovingThings({person({})}, {}, 0), InternalError);
+  EXPECT_THROW(DynamicObstacles({person({})}, {}, 0), InternalError);
 }
 
-TEST(MovingThings, DoorsKeepTheirTimesAndOpenForTheRobot) {
-  MovingThings things({}, {door({2.0, 5.0})}, 7);
+TEST(DynamicObstacles, DoorsKeepTheirTimesAndOpenForTheRobot) {
+  DynamicObstacles things({}, {door({2.0, 5.0})}, 7);
   slam::Nanoseconds t = 0;
   const auto yaw = [&] { return things.bodies()[0].stations.back().yaw; };
   step_to(things, t, 2.0, far_away);
@@ -86,8 +86,8 @@ TEST(MovingThings, DoorsKeepTheirTimesAndOpenForTheRobot) {
   EXPECT_NEAR(yaw(), 0.0, 1e-9);
 }
 
-TEST(MovingThings, ForgetsWhatIsPast) {
-  MovingThings things({person({{0, 0, 0}, {10, 0, 0}})}, {door({})}, 0);
+TEST(DynamicObstacles, ForgetsWhatIsPast) {
+  DynamicObstacles things({person({{0, 0, 0}, {10, 0, 0}})}, {door({})}, 0);
   slam::Nanoseconds t = 0;
   step_to(things, t, 1.0, far_away);
   things.forget_before(901'000'000);

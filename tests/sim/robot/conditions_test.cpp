@@ -70,13 +70,13 @@ TEST(Conditions, PushesAreHeldOffWhileTheRobotWalksCarefully) {
     Conditions conditions;
     conditions.pushes = {.min_n = 100.0, .max_n = 100.0, .every_s = 1.0, .on_stairs = on_stairs};
     const Push push = pushes_of(conditions.pushes, 1, 500).at(0);
-    Command careful;
-    careful.careful = true;
+    Command slow_gait;
+    slow_gait.slow_gait = true;
     Robot robot = robot_in(conditions);
     Robot undisturbed = robot_in({});
     for (std::int64_t i = 0; i < push.begin + push.length; ++i) {
-      robot.step(careful);
-      undisturbed.step(careful);
+      robot.step(slow_gait);
+      undisturbed.step(slow_gait);
     }
     EXPECT_EQ(robot.digest() == undisturbed.digest(), !on_stairs);
   }
@@ -150,7 +150,7 @@ TEST(Conditions, ASlipperyFloorDoesNotFellTheRobot) {
 TEST(Conditions, AnUnevenFloorShakesTheRobotButDoesNotFellIt) {
   const Conditions even;
   Conditions uneven;
-  uneven.uneven_m = 0.015;
+  uneven.terrain_noise_m = 0.015;
   const auto heights = [](const Conditions& conditions) {
     Robot robot = robot_in(conditions);
     double sum = 0.0;

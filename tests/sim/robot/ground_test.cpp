@@ -5,24 +5,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <stdexcept>
 #include <string>
 
 #include "bim/errors.h"
-#include "bim/formats/plan_yaml/stair_builder.h"
 #include "bim/load/load.h"
 #include "sim/robot/robot.h"
 #include "sim/robot/solid_boxes.h"
 #include "sim/route/pure_pursuit.h"
+#include "tests/data.h"
 
 namespace plumbline::sim {
 namespace {
 
 bim::Building library_building(const std::string& name) {
-  const char* source = std::getenv("PLUMBLINE_SOURCE");
-  if (source == nullptr) throw std::runtime_error("PLUMBLINE_SOURCE is not set; run through ctest");
-  return bim::load_building(std::string(source) + "/scenarios/library/" + name);
+  return bim::load_building(project_file("scenarios/library/" + name));
 }
 
 const bim::Building& house() {
@@ -116,15 +113,15 @@ TEST(Robot, ClimbsAFlightAndComesDown) {
         upright_box({2.0 + (k + 0.5) * run, 0.0}, 0.0, {0.5 * run, 1.0}, {k * rise - 0.15, (k + 1) * rise}));
   steps.push_back(upright_box({7.0, 0.0}, 0.0, {2.0, 2.0}, {1.3, 1.5}));
   Robot robot(Pose::from_xyz_yaw({1.0, 0.0, 0.9}, 0.0), Ground({{0.0, {}}}, steps), {});
-  Follower follower(
-      FollowerConfig{},
+  PurePursuit pursuit(
+      PurePursuitConfig{},
       {{{1.0, 0.0, 0.0}}, {{5.4, 0.0, 1.5}, true}, {{6.5, 0.0, 1.5}}, {{5.6, 0.0, 1.5}}, {{1.4, 0.0, 0.0}, true}}, 1);
   double z_max = 0.0;
-  for (std::int64_t tick = 0; !follower.done() && tick < 30000; ++tick) {
-    robot.step(follower.update(robot.X_WR(), tick));
+  for (std::int64_t tick = 0; !pursuit.done() && tick < 30000; ++tick) {
+    robot.step(pursuit.update(robot.X_WR(), tick));
     z_max = std::max(z_max, robot.X_WR().t.z());
   }
-  EXPECT_TRUE(follower.done());
+  EXPECT_TRUE(pursuit.done());
   EXPECT_NEAR(z_max, 2.0, 0.1);
   EXPECT_NEAR(robot.X_WR().t.z(), 0.5, 0.1);
 }

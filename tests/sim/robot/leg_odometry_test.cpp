@@ -52,12 +52,12 @@ Walk stair_walk() {
     steps.push_back(upright_box({2.15 + 0.3 * k, 0.0}, 0.0, {0.15, 1.0}, {0.15 * k - 0.15, 0.15 * k + 0.15}));
   steps.push_back(upright_box({7.0, 0.0}, 0.0, {2.0, 2.0}, {1.3, 1.5}));
   Robot robot(Pose::from_xyz_yaw({1.0, 0.0, 0.9}, 0.0), Ground({{0.0, {}}}, steps), {});
-  Follower follower(
-      FollowerConfig{},
+  PurePursuit pursuit(
+      PurePursuitConfig{},
       {{{1.0, 0.0, 0.0}}, {{5.4, 0.0, 1.5}, true}, {{6.5, 0.0, 1.5}}, {{5.6, 0.0, 1.5}}, {{1.4, 0.0, 0.0}, true}}, 1);
   Walk w;
-  for (std::int64_t tick = 0; !follower.done() && tick < 30000; ++tick)
-    w.step(robot, follower.update(robot.X_WR(), tick));
+  for (std::int64_t tick = 0; !pursuit.done() && tick < 30000; ++tick)
+    w.step(robot, pursuit.update(robot.X_WR(), tick));
   return w;
 }
 

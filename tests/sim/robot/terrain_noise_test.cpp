@@ -15,7 +15,7 @@ constexpr double height_m = 0.02;
 
 ModelConfig with_plates() {
   ModelConfig config;
-  config.plates = UnevenConfig().plates();
+  config.plates = TerrainNoiseConfig().plates();
   return config;
 }
 
@@ -23,7 +23,7 @@ struct Fixture {
   ModelPtr model = load_model(model_xml(with_plates()));
   std::vector<int> geoms = plate_geoms(*model, with_plates().plates);
 
-  [[nodiscard]] Uneven uneven(std::uint64_t seed = 1) const { return {height_m, {0.0, 0.0}, geoms, seed}; }
+  [[nodiscard]] TerrainNoise noise(std::uint64_t seed = 1) const { return {height_m, {0.0, 0.0}, geoms, seed}; }
   /// Places of the plates that are in the model.
   [[nodiscard]] std::set<std::array<double, 3>> places() const {
     std::set<std::array<double, 3>> out;
@@ -35,17 +35,17 @@ struct Fixture {
   }
 };
 
-TEST(Uneven, NoCornerIsHigherThanAskedForAndNoPlateLiesAtTheStart) {
+TEST(TerrainNoise, NoCornerIsHigherThanAskedForAndNoPlateLiesAtTheStart) {
   const Fixture fixture;
-  const Uneven uneven = fixture.uneven();
+  const TerrainNoise noise = fixture.noise();
   double highest = 0.0;
   int plates = 0;
   for (int i = -30; i < 30; ++i)
     for (int j = -30; j < 30; ++j) {
-      const std::optional<CollisionBox> box = uneven.plate({i, j});
+      const std::optional<CollisionBox> box = noise.plate({i, j});
       if (!box) continue;
       ++plates;
-      EXPECT_GE(box->X_WB.t.head<2>().norm(), UnevenConfig().even_m);
+      EXPECT_GE(box->X_WB.t.head<2>().norm(), TerrainNoiseConfig().start_clear_m);
       const double top = box->X_WB.t.z() + (box->X_WB.rotation().cwiseAbs() * box->half).z();
       EXPECT_LE(top, height_m + 1e-12);
       EXPECT_GE(top, 0.0 - 1e-3);
@@ -56,27 +56,27 @@ TEST(Uneven, NoCornerIsHigherThanAskedForAndNoPlateLiesAtTheStart) {
 }
 
 /// What lies in reach does not depend on the way there.
-TEST(Uneven, ThePlatesAroundAPlaceAreTheSameFromEverySide) {
+TEST(TerrainNoise, ThePlatesAroundAPlaceAreTheSameFromEverySide) {
   const Fixture one;
-  Uneven there = one.uneven();
+  TerrainNoise there = one.noise();
   there.refresh(*one.model, {5.05, -3.05}, 0.0);
   const Fixture other;
-  Uneven walked = other.uneven();
+  TerrainNoise walked = other.noise();
   for (int i = 0; i <= 100; ++i) walked.refresh(*other.model, {0.0505 * i, -0.0305 * i}, 0.0);
   EXPECT_EQ(one.places(), other.places());
-  EXPECT_EQ(one.places().size(), static_cast<std::size_t>(UnevenConfig().plates()));
+  EXPECT_EQ(one.places().size(), static_cast<std::size_t>(TerrainNoiseConfig().plates()));
   const Fixture third;
-  Uneven seed_2 = third.uneven(2);
+  TerrainNoise seed_2 = third.noise(2);
   seed_2.refresh(*third.model, {5.05, -3.05}, 0.0);
   EXPECT_NE(third.places(), one.places());
 }
 
-TEST(Uneven, PlatesLieOnTheFloorOfTheStorey) {
+TEST(TerrainNoise, PlatesLieOnTheFloorOfTheStorey) {
   const Fixture fixture;
-  Uneven uneven = fixture.uneven();
-  uneven.refresh(*fixture.model, {5.0, 5.0}, 0.0);
+  TerrainNoise noise = fixture.noise();
+  noise.refresh(*fixture.model, {5.0, 5.0}, 0.0);
   const auto below = fixture.places();
-  uneven.refresh(*fixture.model, {5.0, 5.0}, 3.0);
+  noise.refresh(*fixture.model, {5.0, 5.0}, 3.0);
   const auto above = fixture.places();
   ASSERT_EQ(below.size(), above.size());
   for (const auto& [x, y, z] : below) EXPECT_TRUE(above.contains({x, y, z + 3.0}));

@@ -56,18 +56,18 @@ std::vector<Eigen::Vector3d> over_stairs(const std::vector<Waypoint>& path) {
   return points;
 }
 
-TEST(WalkSpace, GoesUpTheMiddleOfAStraightStair) {
+TEST(MultiStoreyPlanner, GoesUpTheMiddleOfAStraightStair) {
   const bim::Building tower = building(straight);
-  const WalkSpace space(tower);
+  const MultiStoreyPlanner space(tower);
   const std::vector<Eigen::Vector3d> points = over_stairs(space.path({0, {1.0, 5.0}}, {1, {7.0, 5.0}}));
   ASSERT_EQ(points.size(), 2U);
   EXPECT_LT((points[0] - Eigen::Vector3d(0.9, 3.0, 0.0)).norm(), 1e-9);
   EXPECT_LT((points[1] - Eigen::Vector3d(1.6 + 17 * 0.27 + 0.7, 3.0, 3.0)).norm(), 1e-9);
 }
 
-TEST(WalkSpace, TurnsOnALandingWithRoomBehindTheKnees) {
+TEST(MultiStoreyPlanner, TurnsOnALandingWithRoomBehindTheKnees) {
   const bim::Building tower = building(back);
-  const WalkSpace space(tower);
+  const MultiStoreyPlanner space(tower);
   const std::vector<Eigen::Vector3d> points = over_stairs(space.path({0, {1.0, 5.0}}, {1, {1.0, 5.0}}));
   ASSERT_EQ(points.size(), 4U);
   const double middle = 3.0 + 8 * 0.27 + 0.5, level = 8 * 3.0 / 17;
@@ -77,18 +77,19 @@ TEST(WalkSpace, TurnsOnALandingWithRoomBehindTheKnees) {
   EXPECT_EQ(points[3].y(), 3.6);
 }
 
-TEST(WalkSpace, TurnsOnceOnAQuarterLanding) {
+TEST(MultiStoreyPlanner, TurnsOnceOnAQuarterLanding) {
   const bim::Building tower = building(left);
-  const std::vector<Eigen::Vector3d> points = over_stairs(WalkSpace(tower).path({0, {1.0, 5.0}}, {1, {1.0, 5.0}}));
+  const std::vector<Eigen::Vector3d> points =
+      over_stairs(MultiStoreyPlanner(tower).path({0, {1.0, 5.0}}, {1, {1.0, 5.0}}));
   ASSERT_EQ(points.size(), 3U);
   EXPECT_LT((points[1].head<2>() - Eigen::Vector2d(2.0 + 8 * 0.27 + 0.5, 1.0)).norm(), 1e-9);
   EXPECT_NEAR(points[2].x(), points[1].x(), 1e-9);
 }
 
-TEST(WalkSpace, TheWayDownIsTheWayUpBackwards) {
+TEST(MultiStoreyPlanner, TheWayDownIsTheWayUpBackwards) {
   for (const std::string& stair : {straight, back, left}) {
     const bim::Building tower = building(stair);
-    const WalkSpace space(tower);
+    const MultiStoreyPlanner space(tower);
     std::vector<Eigen::Vector3d> up = over_stairs(space.path({0, {1.0, 5.0}}, {1, {7.0, 5.0}}));
     const std::vector<Eigen::Vector3d> down = over_stairs(space.path({1, {7.0, 5.0}}, {0, {1.0, 5.0}}));
     std::reverse(up.begin(), up.end());
@@ -97,9 +98,9 @@ TEST(WalkSpace, TheWayDownIsTheWayUpBackwards) {
   }
 }
 
-TEST(WalkSpace, HeightsGrowFromFloorToFloor) {
+TEST(MultiStoreyPlanner, HeightsGrowFromFloorToFloor) {
   const bim::Building tower = building(back);
-  const std::vector<Waypoint> path = WalkSpace(tower).path({0, {1.0, 5.0}}, {1, {7.0, 5.0}});
+  const std::vector<Waypoint> path = MultiStoreyPlanner(tower).path({0, {1.0, 5.0}}, {1, {7.0, 5.0}});
   ASSERT_FALSE(path.empty());
   EXPECT_EQ(path.front().p_W.z(), 0.0);
   EXPECT_EQ(path.back().p_W.z(), 3.0);
@@ -109,19 +110,19 @@ TEST(WalkSpace, HeightsGrowFromFloorToFloor) {
   }
 }
 
-TEST(WalkSpace, AWayOnOneStoreyTakesNoStair) {
+TEST(MultiStoreyPlanner, AWayOnOneStoreyTakesNoStair) {
   const bim::Building tower = building(straight);
-  const WalkSpace space(tower);
+  const MultiStoreyPlanner space(tower);
   const std::vector<Waypoint> path = space.path({0, {1.0, 5.0}}, {0, {7.0, 1.0}});
   ASSERT_FALSE(path.empty());
   EXPECT_EQ(length_on_stairs(path), 0.0);
   EXPECT_EQ(space.reachable_storeys({0, {1.0, 5.0}}), (std::vector<int>{0, 1}));
 }
 
-TEST(WalkSpace, StairsThatCannotBeWalkedSayWhy) {
+TEST(MultiStoreyPlanner, StairsThatCannotBeWalkedSayWhy) {
   const auto fault = [](const std::string& stair, const std::string& more = "") {
     const bim::Building tower = building(stair, more);
-    const WalkSpace space(tower);
+    const MultiStoreyPlanner space(tower);
     EXPECT_TRUE(space.path({0, {1.0, 5.0}}, {1, {7.0, 5.0}}).empty()) << stair;
     EXPECT_EQ(space.reachable_storeys({0, {1.0, 5.0}}), std::vector<int>{0});
     return space.stairs().front().fault;
@@ -157,14 +158,14 @@ std::optional<bim::Building> random_tower(const Stream& stream, std::uint64_t i)
   }
 }
 
-TEST(WalkSpace, RandomStairsAreClimbedInTheMiddleOrRefused) {
+TEST(MultiStoreyPlanner, RandomStairsAreClimbedInTheMiddleOrRefused) {
   const Stream stream(7, "bim.generate");
   int walked = 0, refused = 0;
   for (std::uint64_t i = 0; i < 400; ++i) {
     const std::optional<bim::Building> tower = random_tower(stream, i);
     if (!tower) continue;
     const bim::Stair& stair = tower->stairs.front();
-    const WalkSpace space(*tower);
+    const MultiStoreyPlanner space(*tower);
     const StairWay& way = space.stairs().front();
     if (!way.fault.empty()) {
       ++refused;
@@ -194,7 +195,7 @@ TEST(WalkSpace, RandomStairsAreClimbedInTheMiddleOrRefused) {
   EXPECT_GE(refused, 5);
 }
 
-TEST(WalkSpace, WhatEndsUnderTheFloorAboveIsNotInTheWayOfTheLastSteps) {
+TEST(MultiStoreyPlanner, WhatEndsUnderTheFloorAboveIsNotInTheWayOfTheLastSteps) {
   bim::Building tower = building(straight);
   bim::Wall under = tower.walls.front();
   under.id = "under";
@@ -202,33 +203,33 @@ TEST(WalkSpace, WhatEndsUnderTheFloorAboveIsNotInTheWayOfTheLastSteps) {
   under.b = {6.5, 4.0};
   under.z1_m = 2.95;
   tower.walls.push_back(under);
-  EXPECT_EQ(WalkSpace(tower).stairs().front().fault, "");
+  EXPECT_EQ(MultiStoreyPlanner(tower).stairs().front().fault, "");
   tower.walls.back().z1_m = 3.6;
-  EXPECT_NE(WalkSpace(tower).stairs().front().fault, "");
+  EXPECT_NE(MultiStoreyPlanner(tower).stairs().front().fault, "");
 }
 
-TEST(WalkSpace, AStairWithoutStepsIsABody) {
+TEST(MultiStoreyPlanner, AStairWithoutStepsIsABody) {
   bim::Building tower = building(straight);
   tower.stairs.front().flights.clear();
-  const WalkSpace space(tower);
+  const MultiStoreyPlanner space(tower);
   EXPECT_TRUE(space.path({0, {1.0, 5.0}}, {1, {7.0, 5.0}}).empty());
-  EXPECT_EQ(space.stairs().front().fault, "is a body without steps that could be told apart");
+  EXPECT_EQ(space.stairs().front().fault, "is a body without recognizable steps");
 }
 
-TEST(WalkSpace, OnlyALandingThatTurnsMustBeDeep) {
+TEST(MultiStoreyPlanner, OnlyALandingThatTurnsMustBeDeep) {
   const std::string landing = straight.substr(0, straight.size() - 1) + ", landing_after: 8, landing_m: 0.5}";
   const bim::Building on = building(landing);
-  EXPECT_EQ(over_stairs(WalkSpace(on).path({0, {1.0, 5.0}}, {1, {7.4, 5.0}})).size(), 2U);
+  EXPECT_EQ(over_stairs(MultiStoreyPlanner(on).path({0, {1.0, 5.0}}, {1, {7.4, 5.0}})).size(), 2U);
   bim::Building tower = building(left);
   Polygon2& polygon = tower.stairs.front().landings.front().polygon;
   for (Eigen::Vector2d& p : polygon) p.x() = std::min(p.x(), 2.0 + 8 * 0.27 + 0.6);
-  EXPECT_EQ(WalkSpace(tower).stairs().front().fault, "has a landing 0.6 m deep; the robot needs 0.7 m");
+  EXPECT_EQ(MultiStoreyPlanner(tower).stairs().front().fault, "has a landing 0.6 m deep; the robot needs 0.7 m");
 }
 
-TEST(WalkSpace, FlightsWithoutALandingBetweenThemMustRunStraightOn) {
+TEST(MultiStoreyPlanner, FlightsWithoutALandingBetweenThemMustRunStraightOn) {
   bim::Building tower = building(back);
   tower.stairs.front().landings.clear();
-  EXPECT_NE(WalkSpace(tower).stairs().front().fault.find("winds"), std::string::npos);
+  EXPECT_NE(MultiStoreyPlanner(tower).stairs().front().fault.find("winds"), std::string::npos);
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace {
 TEST(Narrow, ADoorOnALongLegGetsWaypointsOfItsOwn) {
   bim::Building building = two_rooms(1.5);
   add_door(building, 0, 2.5, 0.9);
-  const FreeSpace space(building, 0);
+  const ClearanceMap space(building, 0);
   const std::vector<Waypoint> way = with_clearance(space, {{1.5, 2.5}, {6.5, 2.5}}, 1.5);
   ASSERT_EQ(way.size(), 4U);
   EXPECT_NEAR(way[2].clearance_m, 0.45, 0.03);
@@ -26,7 +26,7 @@ TEST(Narrow, ADoorOnALongLegGetsWaypointsOfItsOwn) {
 }
 
 TEST(Narrow, AnOpenWayStaysAsItIs) {
-  const FreeSpace space(two_rooms(), 0);
+  const ClearanceMap space(two_rooms(), 0);
   const std::vector<Waypoint> way = with_clearance(space, {{1.5, 1.5}, {2.5, 1.5}, {2.5, 3.5}}, 0.0);
   EXPECT_EQ(way.size(), 3U);
   EXPECT_TRUE(with_clearance(space, {}, 0.0).empty());
@@ -37,7 +37,7 @@ TEST(Narrow, ALegThatIsNarrowAllAlongStaysOne) {
   bim::Building building = two_rooms();
   add_obstacle(building, rectangle({1.0, 3.0}, {3.0, 4.0}), 0.0, 1.0);
   add_obstacle(building, rectangle({1.0, 1.2}, {3.0, 2.2}), 0.0, 1.0);
-  const std::vector<Waypoint> way = with_clearance(FreeSpace(building, 0), {{1.2, 2.6}, {2.8, 2.6}}, 0.0);
+  const std::vector<Waypoint> way = with_clearance(ClearanceMap(building, 0), {{1.2, 2.6}, {2.8, 2.6}}, 0.0);
   ASSERT_EQ(way.size(), 2U);
   EXPECT_NEAR(way[1].clearance_m, 0.4, 0.03);
 }

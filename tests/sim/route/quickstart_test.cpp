@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <vector>
 
-#include "bim/formats/plan_yaml/plan_yaml.h"
+#include "bim/load/load.h"
 #include "sim/route/route.h"
+#include "tests/data.h"
 
 namespace plumbline::sim {
 namespace {
@@ -15,11 +15,9 @@ namespace {
 class QuickstartRoutes : public ::testing::Test {
  protected:
   void SetUp() override {
-    const char* source = std::getenv("PLUMBLINE_SOURCE");
-    const auto path =
-        std::filesystem::path(source != nullptr ? source : ".") / "scenarios/library/quickstart.plan.yaml";
+    const std::string path = project_file("scenarios/library/quickstart.plan.yaml");
     if (!std::filesystem::exists(path)) GTEST_SKIP() << "no plan at " << path;
-    building_ = bim::read_plan(path.string());
+    building_ = bim::load_building(path);
     for (const bim::Column& column : building_.columns) solids_.push_back(column.footprint);
     for (const bim::Obstacle& obstacle : building_.obstacles) {
       // Upright prisms: their walls stand on their lowest vertices, in order around.
@@ -36,7 +34,7 @@ class QuickstartRoutes : public ::testing::Test {
 };
 
 TEST_F(QuickstartRoutes, EveryRoomIsReachedFromEveryOther) {
-  const FreeSpace space(building_, 0);
+  const ClearanceMap space(building_, 0);
   ASSERT_GE(building_.rooms.size(), 7U);
   std::vector<Eigen::Vector2d> targets;
   for (const bim::Room& room : building_.rooms) {
@@ -62,8 +60,8 @@ TEST_F(QuickstartRoutes, EveryRoomIsReachedFromEveryOther) {
 }
 
 TEST_F(QuickstartRoutes, AreTheSameTwice) {
-  const FreeSpace first(building_, 0);
-  const FreeSpace second(building_, 0);
+  const ClearanceMap first(building_, 0);
+  const ClearanceMap second(building_, 0);
   const Eigen::Vector2d a = first.room_target(building_.rooms.front().polygon).at(0);
   const Eigen::Vector2d b = first.room_target(building_.rooms.back().polygon).at(0);
   EXPECT_EQ(first.path(a, b), second.path(a, b));

@@ -37,10 +37,10 @@ std::vector<Polygon2> solids_of_two_rooms(double y0, double y1) {
           rectangle({-0.1, 4.9}, {8.1, 5.1}), rectangle({-0.1, 0}, {0.1, 5.0}), rectangle({7.9, 0}, {8.1, 5.0})};
 }
 
-TEST(FreeSpace, WalksThroughTheMiddleOfADoor) {
+TEST(ClearanceMap, WalksThroughTheMiddleOfADoor) {
   bim::Building building = two_rooms();
   add_door(building, 0, 1.2, 1.0);
-  const FreeSpace space(building, 0);
+  const ClearanceMap space(building, 0);
   const std::vector<Eigen::Vector2d> path = space.path(west, east);
   ASSERT_GE(path.size(), 3U);
   EXPECT_LE(path.size(), 6U);
@@ -55,17 +55,17 @@ TEST(FreeSpace, WalksThroughTheMiddleOfADoor) {
   }
 }
 
-TEST(FreeSpace, StraightLineStaysOneLeg) {
-  const FreeSpace space(two_rooms(), 0);
+TEST(ClearanceMap, StraightLineStaysOneLeg) {
+  const ClearanceMap space(two_rooms(), 0);
   EXPECT_EQ(space.path({1.0, 1.0}, {3.0, 4.0}).size(), 2U);
   EXPECT_EQ(space.path(west, west).size(), 2U);
 }
 
-TEST(FreeSpace, OnlyPassableOpeningsArePassed) {
+TEST(ClearanceMap, OnlyPassableOpeningsArePassed) {
   const auto reached = [](auto&& change) {
     bim::Building building = two_rooms();
     change(add_door(building, 0, 2.5, 1.0));
-    return !FreeSpace(building, 0).path(west, east).empty();
+    return !ClearanceMap(building, 0).path(west, east).empty();
   };
   using bim::Leaf;
   using bim::OpeningKind;
@@ -80,19 +80,19 @@ TEST(FreeSpace, OnlyPassableOpeningsArePassed) {
   EXPECT_FALSE(reached([](bim::Opening& o) { o.width_m = 0.6; }));
 }
 
-TEST(FreeSpace, DoorsAsWideAsTheRobotArePassedWhereverTheyLieOnTheGrid) {
+TEST(ClearanceMap, DoorsAsWideAsTheRobotArePassedWhereverTheyLieOnTheGrid) {
   const Stream stream(1, "bim.generate");
   for (std::uint64_t i = 0; i < 40; ++i) {
     bim::Building building = two_rooms();
     const double s = 0.8 + 3.4 * stream.uniform(i);
     add_door(building, 0, s, 0.70);
-    const std::vector<Eigen::Vector2d> path = FreeSpace(building, 0).path(west, east);
+    const std::vector<Eigen::Vector2d> path = ClearanceMap(building, 0).path(west, east);
     ASSERT_FALSE(path.empty()) << "door at " << s;
     EXPECT_GE(least_clearance(path, solids_of_two_rooms(s - 0.35, s + 0.35)), 0.35 - 0.05);
   }
 }
 
-TEST(FreeSpace, ClearanceIsTheDistanceToTheNearestSolid) {
+TEST(ClearanceMap, ClearanceIsTheDistanceToTheNearestSolid) {
   bim::Building building = two_rooms();
   add_door(building, 0, 3.0, 1.0);
   const Polygon2 turned = {{1.0, 1.0}, {1.6, 1.3}, {1.4, 1.7}, {0.8, 1.4}};
@@ -104,7 +104,7 @@ TEST(FreeSpace, ClearanceIsTheDistanceToTheNearestSolid) {
   std::vector<Polygon2> solids = solids_of_two_rooms(2.5, 3.5);
   solids.push_back(turned);
   solids.push_back(column.footprint);
-  const FreeSpace space(building, 0);
+  const ClearanceMap space(building, 0);
   const Stream stream(2, "bim.generate");
   for (std::uint64_t i = 0; i < 4000; ++i) {
     const Eigen::Vector2d p(0.1 + 7.8 * stream.uniform(i, 0), 0.1 + 4.8 * stream.uniform(i, 1));
@@ -118,11 +118,11 @@ TEST(FreeSpace, ClearanceIsTheDistanceToTheNearestSolid) {
   EXPECT_FALSE(space.free({4.0, 1.0}));
 }
 
-TEST(FreeSpace, OnlyWhatIsAtTheRobotsHeightIsInTheWay) {
+TEST(ClearanceMap, OnlyWhatIsAtTheRobotsHeightIsInTheWay) {
   const auto free_at = [](double z0, double z1) {
     bim::Building building = two_rooms(6.0);
     add_obstacle(building, rectangle({1.5, 2.0}, {2.5, 3.0}), 6.0 + z0, 6.0 + z1);
-    return FreeSpace(building, 0).free(west);
+    return ClearanceMap(building, 0).free(west);
   };
   EXPECT_TRUE(free_at(0.0, 0.04));
   EXPECT_FALSE(free_at(0.0, 0.06));
@@ -132,15 +132,15 @@ TEST(FreeSpace, OnlyWhatIsAtTheRobotsHeightIsInTheWay) {
   EXPECT_TRUE(free_at(-2.0, -0.5));
 }
 
-TEST(FreeSpace, BigSolidsAreNotFreeInside) {
+TEST(ClearanceMap, BigSolidsAreNotFreeInside) {
   bim::Building building = two_rooms();
   add_obstacle(building, rectangle({0.8, 1.0}, {3.2, 4.0}), 0.0, 2.0);
-  const FreeSpace space(building, 0);
+  const ClearanceMap space(building, 0);
   EXPECT_EQ(space.clearance(west), 0.0);
   EXPECT_TRUE(space.path(west, {0.5, 2.5}).empty());
 }
 
-TEST(FreeSpace, NobodyStandsInsideHollowFurniture) {
+TEST(ClearanceMap, NobodyStandsInsideHollowFurniture) {
   for (const bool open : {false, true}) {
     bim::Building building = two_rooms();
     add_obstacle(building, rectangle({1.0, 1.5}, {3.0, 3.5}), 0.0, 2.0);
@@ -151,7 +151,7 @@ TEST(FreeSpace, NobodyStandsInsideHollowFurniture) {
       for (const int k : t) middle += cupboard.vertices[static_cast<std::size_t>(k)] / 3.0;
       return middle.z() == 0.0 || (open && middle.x() == 3.0);
     });
-    const FreeSpace space(building, 0);
+    const ClearanceMap space(building, 0);
     EXPECT_EQ(space.clearance(west) > 0.5, open);
     EXPECT_EQ(space.path({3.45, 2.5}, west).empty(), !open);
     EXPECT_TRUE(space.free(east));
@@ -164,31 +164,31 @@ TEST(FreeSpace, NobodyStandsInsideHollowFurniture) {
     return std::ranges::all_of(std::vector<int>{t[0], t[1], t[2]},
                                [&](int k) { return v[static_cast<std::size_t>(k)].z() == 0.0; });
   });
-  EXPECT_TRUE(FreeSpace(building, 0).free(east));
+  EXPECT_TRUE(ClearanceMap(building, 0).free(east));
 }
 
-TEST(FreeSpace, HolesInTheFloorAreWalkedAround) {
+TEST(ClearanceMap, HolesInTheFloorAreWalkedAround) {
   bim::Building building = two_rooms();
   building.slabs[0].polygon.holes.push_back({{1.5, 1.5}, {1.5, 3.5}, {2.5, 3.5}, {2.5, 1.5}});
-  const FreeSpace space(building, 0);
+  const ClearanceMap space(building, 0);
   EXPECT_FALSE(space.free(west));
   const std::vector<Eigen::Vector2d> path = space.path({0.8, 2.5}, {3.2, 2.5});
   ASSERT_GE(path.size(), 3U);
   EXPECT_GE(least_clearance(path, {rectangle({1.5, 1.5}, {2.5, 3.5})}), 0.40 - 0.05);
 }
 
-TEST(FreeSpace, GapsBetweenSlabsUnderADoorAreSteppedOver) {
+TEST(ClearanceMap, GapsBetweenSlabsUnderADoorAreSteppedOver) {
   bim::Building building = two_rooms();
   add_door(building, 0, 2.5, 1.0);
   building.slabs[0].polygon.outer = rectangle({0.0, 0.0}, {3.8, 5.0});
   building.slabs.push_back(building.slabs[0]);
   building.slabs[1].polygon.outer = rectangle({4.2, 0.0}, {8.0, 5.0});
-  EXPECT_FALSE(FreeSpace(building, 0).path(west, east).empty());
+  EXPECT_FALSE(ClearanceMap(building, 0).path(west, east).empty());
   building.slabs[1].polygon.outer = rectangle({5.0, 0.0}, {8.0, 5.0});
-  EXPECT_TRUE(FreeSpace(building, 0).path(west, east).empty());
+  EXPECT_TRUE(ClearanceMap(building, 0).path(west, east).empty());
 }
 
-TEST(FreeSpace, WallsWithABodyAreAsGoodAsBoxes) {
+TEST(ClearanceMap, WallsWithABodyAreAsGoodAsBoxes) {
   bim::Building boxes = two_rooms();
   add_door(boxes, 0, 1.7, 0.9);
   bim::Building bodies = boxes;
@@ -197,8 +197,8 @@ TEST(FreeSpace, WallsWithABodyAreAsGoodAsBoxes) {
     const Eigen::Vector2d far = (wall.offset_m + wall.thickness_m) * wall.left();
     wall.body = prism({wall.a + near, wall.b + near, wall.b + far, wall.a + far}, 0.0, 3.0);
   }
-  const FreeSpace a(boxes, 0);
-  const FreeSpace b(bodies, 0);
+  const ClearanceMap a(boxes, 0);
+  const ClearanceMap b(bodies, 0);
   const Stream stream(3, "bim.generate");
   for (std::uint64_t i = 0; i < 2000; ++i) {
     const Eigen::Vector2d p(8.0 * stream.uniform(i, 0), 5.0 * stream.uniform(i, 1));
@@ -207,18 +207,18 @@ TEST(FreeSpace, WallsWithABodyAreAsGoodAsBoxes) {
   EXPECT_EQ(a.path(west, east), b.path(west, east));
 }
 
-TEST(FreeSpace, TargetOfARoomIsItsFreestPoint) {
+TEST(ClearanceMap, TargetOfARoomIsItsFreestPoint) {
   bim::Building building = two_rooms();
-  const FreeSpace space(building, 0);
+  const ClearanceMap space(building, 0);
   const auto target = space.room_target(building.rooms[0].polygon);
   ASSERT_EQ(target.size(), 1U);
   EXPECT_TRUE(contains(building.rooms[0].polygon, target[0]));
   EXPECT_NEAR(space.clearance(target[0]), 1.9, 0.03);
   add_obstacle(building, rectangle({0.0, 0.0}, {4.0, 5.0}), 0.0, 1.0);
-  EXPECT_TRUE(FreeSpace(building, 0).room_target(building.rooms[0].polygon).empty());
+  EXPECT_TRUE(ClearanceMap(building, 0).room_target(building.rooms[0].polygon).empty());
 }
 
-TEST(FreeSpace, ARoomInWhichTheRobotCannotTurnIsNoTarget) {
+TEST(ClearanceMap, ARoomInWhichTheRobotCannotTurnIsNoTarget) {
   const bim::Building building = two_rooms();
   const Polygon2 room = building.rooms[0].polygon;
   // Two boxes leave a lane along the middle of the room, which is walked through but not turned in.
@@ -226,29 +226,29 @@ TEST(FreeSpace, ARoomInWhichTheRobotCannotTurnIsNoTarget) {
     bim::Building filled = building;
     add_obstacle(filled, rectangle({0.0, 0.0}, {4.0, 2.5 - 0.5 * lane}), 0.0, 1.0);
     add_obstacle(filled, rectangle({0.0, 2.5 + 0.5 * lane}, {4.0, 5.0}), 0.0, 1.0);
-    const FreeSpace space(filled, 0);
+    const ClearanceMap space(filled, 0);
     EXPECT_TRUE(space.free({2.0, 2.5})) << lane;
     EXPECT_EQ(space.room_target(room).empty(), lane < 1.1) << lane;
   }
 }
 
-TEST(FreeSpace, OpenTargetIsTheFreestPointOfTheLargestPieceOfFloor) {
+TEST(ClearanceMap, OpenTargetIsTheFreestPointOfTheLargestPieceOfFloor) {
   bim::Building building = two_rooms();
   // The west room has the freest place, the east one, with a pillar in it, more floor.
   add_obstacle(building, rectangle({0.0, 0.0}, {4.0, 1.2}), 0.0, 1.0);
   add_obstacle(building, rectangle({5.8, 2.3}, {6.2, 2.7}), 0.0, 1.0);
-  const FreeSpace space(building, 0);
+  const ClearanceMap space(building, 0);
   const auto in_west = space.room_target(building.rooms[0].polygon);
   const auto target = space.open_target();
   ASSERT_EQ(in_west.size(), 1U);
   ASSERT_EQ(target, space.room_target(building.rooms[1].polygon));
   EXPECT_GT(space.clearance(in_west[0]), space.clearance(target[0]));
   add_obstacle(building, rectangle({0.0, 0.0}, {8.0, 5.0}), 0.0, 1.0);
-  EXPECT_TRUE(FreeSpace(building, 0).open_target().empty());
+  EXPECT_TRUE(ClearanceMap(building, 0).open_target().empty());
 }
 
-TEST(FreeSpace, UnreachableOrOccupiedEndsGiveNoPath) {
-  const FreeSpace space(two_rooms(), 0);
+TEST(ClearanceMap, UnreachableOrOccupiedEndsGiveNoPath) {
+  const ClearanceMap space(two_rooms(), 0);
   EXPECT_TRUE(space.path(west, east).empty());
   EXPECT_TRUE(space.path(west, {4.0, 2.5}).empty());
   EXPECT_TRUE(space.path({0.2, 2.5}, west).empty());

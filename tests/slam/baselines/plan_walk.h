@@ -10,7 +10,7 @@
 
 namespace plumbline::slam::synthetic {
 
-/// What a method of the table said of a walk, its config given as YAML ("" for the defaults).
+/// Outputs of a method of the table on a walk, its config given as YAML ("" for the defaults).
 struct PlanWalkAnswers {
   std::vector<Output> outputs;
   Estimate estimate;

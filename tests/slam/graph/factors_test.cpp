@@ -13,8 +13,8 @@ namespace plumbline::slam {
 namespace {
 
 constexpr int trials = 200;
-// Central differences with step h: truncation h^2 ~ 1e-10 times third derivatives (values up to 1e2 m), rounding
-// 1e-16 * 1e2 / h = 1e-9.
+// Central differences with step h: truncation h^2 ~ 1e-10 times third derivatives (values up to 1e2 m), rounding 1e-16
+// * 1e2 / h = 1e-9.
 constexpr double h = 1e-5;
 constexpr double tolerance = 1e-6;
 

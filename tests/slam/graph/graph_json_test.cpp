@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "bim/errors.h"
+#include "tests/slam/graph/graph_reader.h"
 #include "tests/slam/graph/random_values.h"
 
 namespace plumbline::slam {

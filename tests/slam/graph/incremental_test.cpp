@@ -28,7 +28,7 @@ IncrementalConfig small_window() {
   return config;
 }
 
-FactorSelection everything(const Graph& graph) {
+FactorSelection batch(const Graph& graph) {
   const auto all = [](std::size_t n) {
     std::vector<std::size_t> list(n);
     for (std::size_t i = 0; i < n; ++i) list[i] = i;
@@ -68,10 +68,10 @@ struct Whole {
   }
 };
 
-/// The factors of poses and planes that only a window from keyframe `first` on has; rooms say nothing of either, since
+/// The factors of poses and planes that only a window from keyframe `first` on has; rooms constrain neither, since
 /// their centres are free.
 FactorSelection since(const Graph& graph, int first) {
-  FactorSelection all = everything(graph);
+  FactorSelection all = batch(graph);
   all.room.clear();
   std::erase_if(all.pose, [&](std::size_t i) { return graph.pose_factors[i].from < first; });
   std::erase_if(all.plane, [&](std::size_t i) { return graph.plane_factors[i].keyframe < first; });
@@ -87,7 +87,7 @@ TEST(Incremental, PriorIsTheSchurComplementOfAllThatLeft) {
     IncrementalOptimizer optimizer(small_window(), {});
     optimizer.relinearize(walk.graph);
     const MarginalPrior& prior = optimizer.prior();
-    FactorSelection old = everything(walk.graph);
+    FactorSelection old = batch(walk.graph);
     old.room.clear();
     std::erase_if(old.pose,
                   [&](std::size_t i) { return walk.graph.pose_factors[i].from >= optimizer.first_keyframe(); });
@@ -121,7 +121,7 @@ TEST(Incremental, WindowWithItsPriorFindsWhatTheWholeGraphFinds) {
       EXPECT_LT(log_so3(error.q).norm(), 1e-8) << "seed " << seed << " keyframe " << k;
     }
     std::vector<VertexId> newest = {{Layer::keyframe, 39}, {Layer::plane, 0}};
-    const Whole all(whole, everything(whole));
+    const Whole all(whole, batch(whole));
     const Whole window(walk.graph, since(walk.graph, first), optimizer.prior());
     EXPECT_LT(relative_difference(covariance_of(window.H, window.ordering, newest),
                                   covariance_of(all.H, all.ordering, newest)),
@@ -149,12 +149,12 @@ TEST(Incremental, ANewLinearisationChangesNothingWhereAllIsLinear) {
 TEST(Incremental, TheWindowsProblemDoesNotGrow) {
   LongWalkGraph walk(2, {.keyframes = 400, .lap = 80, .walls_a_lap = 40, .noise = 0.002});
   IncrementalOptimizer optimizer(small_window(), {});
-  int most_terms = 0, most_rows = 0, returned = 0;
+  int most_terms = 0, most_rows = 0, revisited_marginalized_plane = 0;
   int early_terms = 0, early_rows = 0;
   while (!walk.done()) {
     walk.grow();
     const OptimizeReport report = optimizer.update(walk.graph);
-    returned += optimizer.returned() ? 1 : 0;
+    revisited_marginalized_plane += optimizer.revisited_marginalized_plane() ? 1 : 0;
     most_terms = std::max(most_terms, report.terms);
     most_rows = std::max(most_rows, static_cast<int>(optimizer.prior().gradient.size()));
     if (walk.graph.keyframes.size() != 60) continue;
@@ -163,7 +163,7 @@ TEST(Incremental, TheWindowsProblemDoesNotGrow) {
   }
   EXPECT_LE(most_terms, early_terms + 1);  // the room's factor comes and goes with its walls
   EXPECT_LE(most_rows, early_rows + 3);
-  EXPECT_GT(returned, 100);
+  EXPECT_GT(revisited_marginalized_plane, 100);
 }
 
 // A wall that comes back after it was marginalised counts as unknown until the next solve: never better known than all
@@ -176,7 +176,7 @@ TEST(Incremental, WhatComesBackIsNotCountedTwice) {
     optimizer.update(walk.graph);
   }
   const std::vector<VertexId> newest = {{Layer::keyframe, 99}};
-  const Whole all(walk.graph, everything(walk.graph));
+  const Whole all(walk.graph, batch(walk.graph));
   const Eigen::MatrixXd best = covariance_of(all.H, all.ordering, newest);
   const auto now = [&] {
     const Whole window(walk.graph, since(walk.graph, optimizer.first_keyframe()), optimizer.prior());
@@ -192,8 +192,8 @@ TEST(Incremental, WhatComesBackIsNotCountedTwice) {
 
 TEST(Incremental, SolvesAreSpacedByWhatTheyCost) {
   IncrementalConfig config;
-  config.full_share = 0.1;
-  config.full_spacing = 4;
+  config.global_solve_share = 0.1;
+  config.global_solve_spacing = 4;
   IncrementalOptimizer optimizer(config, {});
   Graph graph;
   for (int k = 0; k < 4; ++k) {
@@ -223,7 +223,7 @@ TEST(Incremental, WhatNothingDeterminesCanStillBeEliminated) {
     graph.plane_factors.push_back(factor);
   }
   graph.duplicate_factors.push_back({.a = 0, .b = 1, .angle_sigma = 1e-3, .offset_sigma = 1e-4});
-  const std::vector<Term> terms = make_terms(graph, everything(graph), {});
+  const std::vector<Term> terms = make_terms(graph, batch(graph), {});
   const std::vector<VertexId> kept = {{Layer::keyframe, 1}};
   for (const MarginalPrior& prior :
        {marginalize(graph, {}, terms, kept, {gauge}), marginalize_sparse(graph, terms, kept, {gauge})}) {

@@ -65,7 +65,7 @@ TEST(LidarModel, RatesFollowTheManuals) {
   EXPECT_EQ(firings_per_message(lidar_model(LidarModelId::vlp32c), 600.0), 151 * 12);
   EXPECT_EQ(firings_per_message(lidar_model(LidarModelId::hdl32e), 600.0), 181 * 12);
   EXPECT_EQ(firings_per_message(lidar_model(LidarModelId::os1_64), 600.0), 1024);
-  EXPECT_EQ(lidar_model(LidarModelId::vlp32c).lasers[15].elevation_deg, -4.0);  // user manual, table 9-2
+  EXPECT_EQ(lidar_model(LidarModelId::vlp32c).lasers[15].elevation_deg, -4.0);  // [velodyne2018a, table 9-2]
   EXPECT_EQ(lidar_model(LidarModelId::vlp32c).lasers[20].azimuth_deg, 4.2);
   EXPECT_EQ(lidar_model(LidarModelId::hdl32e).lasers[31].elevation_deg, 10.67);
 }

@@ -87,7 +87,7 @@ TEST(LoamMatchTest, GradientAgreesWithDifferences) {
 
 class LidarOdometryTest : public testing::TestWithParam<OdometryKind> {};
 
-// Measured: 0.03 to 0.06 m, legs 0.15 m.
+// Measured: 0.03 to 0.06 m, odometry 0.15 m.
 TEST_P(LidarOdometryTest, FollowsAWalkThroughADoor) {
   synthetic::WalkConfig config;
   config.range_bias_m = 0.015;

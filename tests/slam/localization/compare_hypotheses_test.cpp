@@ -18,19 +18,19 @@ synthetic::Box column_at(double x, double y, double height = 2.8) { return {{x, 
 double here_against_there(const synthetic::House& planned, const synthetic::House& built, const Pose& X_WR,
                           std::uint64_t seed) {
   const PlanIndex index = make_plan_index(synthetic::plan_of(planned), "ground", {});
-  const View view = synthetic::standing_view(built, X_WR, Pose{}, seed).view;
+  const LocalizationScan scan = synthetic::house_scan(built, X_WR, Pose{}, seed).scan;
   Pose X_there = X_WR;
   X_there.t += Eigen::Vector3d(shift_x, shift_y, 0.0);
   const Pose X_IW = index.X_WI.inverse();
   const StoreyIndex& storey = index.storeys.front();
-  const Sight here = sight(storey, heading(X_IW * X_WR), view, {}),
-              there = sight(storey, heading(X_IW * X_there), view, {});
-  const double ratio = contest(view, here, there, {}).ratio;
-  EXPECT_EQ(contest(view, there, here, {}).ratio, -ratio);
+  const PredictedScan here = predict_scan(storey, heading(X_IW * X_WR), scan, {}),
+                      there = predict_scan(storey, heading(X_IW * X_there), scan, {});
+  const double ratio = compare_hypotheses(scan, here, there, {}).ratio;
+  EXPECT_EQ(compare_hypotheses(scan, there, here, {}).ratio, -ratio);
   return ratio;
 }
 
-class ContestAt : public testing::TestWithParam<int> {
+class CompareHypothesesAt : public testing::TestWithParam<int> {
  protected:
   [[nodiscard]] Pose somewhere() const {
     const Stream stream(5, "slam.localize.init");
@@ -41,47 +41,47 @@ class ContestAt : public testing::TestWithParam<int> {
   const synthetic::House twins_ = synthetic::twin_rooms();
 };
 
-TEST_P(ContestAt, RoomsThatAreAlikeSayNothingOfEachOther) {
+TEST_P(CompareHypothesesAt, RoomsThatAreAlikeAreNoEvidence) {
   EXPECT_EQ(here_against_there(twins_, twins_, somewhere(), 1), 0.0);
 }
 
-TEST_P(ContestAt, ClutterThatNoPlanShowsSaysNothing) {
+TEST_P(CompareHypothesesAt, UnplannedClutterIsNoEvidence) {
   synthetic::House built = twins_;
   built.boxes.push_back(column_at(4.2, 0.3));
   EXPECT_EQ(here_against_there(twins_, built, somewhere(), 2), 0.0);
 }
 
-TEST_P(ContestAt, AColumnTellsItsRoomFromTheOther) {
+TEST_P(CompareHypothesesAt, AColumnTellsItsRoomFromTheOther) {
   synthetic::House here = twins_, there = twins_;
   here.boxes.push_back(column_at(4.2, 0.3));
   there.boxes.push_back(column_at(4.2 + shift_x, 0.3 + shift_y));
   const double seen = here_against_there(here, here, somewhere(), 3);
   const double missed = here_against_there(there, there, somewhere(), 4);
   EXPECT_GT(seen, 2.0);
-  // Light that passes through the other room's column says more than light cut short, which clutter may do.
+  // Beams that penetrate the other room's column are more evidence than beams cut short, which clutter may cause.
   EXPECT_GT(missed, 1.2 * seen);
 }
 
-TEST_P(ContestAt, ASightIsWhatTheGridGivesBeamByBeam) {
+TEST_P(CompareHypothesesAt, APredictedScanIsWhatTheGridGivesBeamByBeam) {
   const synthetic::House house = synthetic::corridor_house();
   const PlanIndex index = make_plan_index(synthetic::plan_of(house), "ground", {});
   const StoreyIndex& storey = index.storeys.front();
   Pose X_WR = somewhere();
   X_WR.t.y() *= 0.6;  // in the corridor
-  const View view = synthetic::standing_view(house, X_WR, Pose{}).view;
+  const LocalizationScan scan = synthetic::house_scan(house, X_WR, Pose{}).scan;
   const Pose2 X_IH = heading(index.X_WI.inverse() * X_WR);
-  const ContestConfig config;
-  const Sight seen = sight(storey, X_IH, view, config);
-  const double z = storey.floor_z + view.sensor_height;
+  const HypothesisComparisonConfig config;
+  const PredictedScan seen = predict_scan(storey, X_IH, scan, config);
+  const double z = storey.floor_z + scan.sensor_height;
   int beams = 0, others = 0;
-  for (std::size_t i = 0; i < view.sweep.blocks.size(); ++i)
+  for (std::size_t i = 0; i < scan.beam_grid.blocks.size(); ++i)
     for (std::size_t k = 0; k < 4; ++k) {
-      const SweepBlock& block = view.sweep.blocks[i];
+      const BeamGridBlock& block = scan.beam_grid.blocks[i];
       if (block.range[k] <= 0.0F) continue;
-      const PlanRay ray{X_IH * view.sensor_H, X_IH.rotation() * Eigen::Vector2d(block.x[k], block.y[k]), z,
+      const PlanRay ray{X_IH * scan.sensor_H, X_IH.rotation() * Eigen::Vector2d(block.x[k], block.y[k]), z,
                         block.slope[k]};
       double reach = block.range[k] + 2.0;
-      if (ray.slope < 0.0) reach = std::min(reach, -view.sensor_height / ray.slope);
+      if (ray.slope < 0.0) reach = std::min(reach, -scan.sensor_height / ray.slope);
       if (ray.slope > 0.0) reach = std::min(reach, (storey.ceiling_z - z) / ray.slope);
       const PlanHit hit = storey.grid.cast(storey.segments, ray, reach);
       ++beams;
@@ -94,53 +94,56 @@ TEST_P(ContestAt, ASightIsWhatTheGridGivesBeamByBeam) {
   EXPECT_LE(others, beams / 1000);
 }
 
-TEST(Objections, NoCauseCountsForMoreThanTheCap) {
-  const Cause wall{Cause::Kind::not_built, 3}, before{Cause::Kind::before_face, 3}, thing{Cause::Kind::unplanned, 3, 1};
-  Objections objections, more;
-  for (int i = 0; i < 10; ++i) objections.add(wall, 1.0);
-  objections.add(before, 1.0);
-  objections.add(thing, 2.0);
-  EXPECT_EQ(objections.total(100.0), 13.0);
-  EXPECT_EQ(objections.total(4.0), 7.0);
-  more.add({Cause::Kind::unplanned, 3, 2}, 6.0);
-  objections.add(more, 0.5);
-  EXPECT_EQ(objections.total(4.0), 10.0);
-  objections.clear();
-  EXPECT_EQ(objections.total(4.0), 0.0);
+TEST(EvidenceByCause, NoCauseCountsForMoreThanTheCap) {
+  const OutlierCause wall{OutlierCause::Kind::not_built, 3}, before{OutlierCause::Kind::in_front_of_face, 3},
+      thing{OutlierCause::Kind::unplanned, 3, 1};
+  EvidenceByCause evidence, more;
+  for (int i = 0; i < 10; ++i) evidence.add(wall, 1.0);
+  evidence.add(before, 1.0);
+  evidence.add(thing, 2.0);
+  EXPECT_EQ(evidence.total(100.0), 13.0);
+  EXPECT_EQ(evidence.total(4.0), 7.0);
+  more.add({OutlierCause::Kind::unplanned, 3, 2}, 6.0);
+  evidence.add(more, 0.5);
+  EXPECT_EQ(evidence.total(4.0), 10.0);
+  evidence.clear();
+  EXPECT_EQ(evidence.total(4.0), 0.0);
 }
 
 // Nothing of the plan is in the way out there, so everything seen is something else that it does not show.
-TEST(Contest, OutsideOfThePlanEachThingSeenNeedsACauseOfItsOwn) {
+TEST(PairwiseLikelihoodRatio, OutsideOfThePlanEachThingSeenNeedsACauseOfItsOwn) {
   const synthetic::House house = synthetic::one_room();
   const PlanIndex index = make_plan_index(synthetic::plan_of(house), "ground", {});
   const StoreyIndex& storey = index.storeys.front();
   const Pose X_WR = Pose::from_xyz_yaw({2.0, 1.5, 0.46}, 0.4);
-  const View view = synthetic::standing_view(house, X_WR, Pose{}).view;
+  const LocalizationScan scan = synthetic::house_scan(house, X_WR, Pose{}).scan;
   const Pose2 X_IH = heading(index.X_WI.inverse() * X_WR);
   Pose2 outside = X_IH;
   outside.t += Eigen::Vector2d(60.0, 40.0);
-  const ContestConfig config;
-  const Contest said = contest(view, sight(storey, X_IH, view, config), sight(storey, outside, view, config), config);
+  const HypothesisComparisonConfig config;
+  const PairwiseLikelihoodRatio said = compare_hypotheses(scan, predict_scan(storey, X_IH, scan, config),
+                                                          predict_scan(storey, outside, scan, config), config);
   EXPECT_EQ(said.against_a.total(config.cause_cap), 0.0);
-  // The four walls, 20 m long, pass through 20 cells of 1 m or more; a cell that few beams end in says less.
+  // The four walls, 20 m long, pass through 20 cells of 1 m or more; a cell that few beams end in counts less.
   EXPECT_GT(said.against_b.total(config.cause_cap), 10.0 * config.cause_cap);
 }
 
-// Both faces of it have been looked through, from either side.
-TEST(Contest, AWallThatWasNotBuiltIsOneCauseFromBothSides) {
+// Beams penetrate both of its faces, from either side.
+TEST(PairwiseLikelihoodRatio, AWallThatWasNotBuiltIsOneCauseFromBothSides) {
   const synthetic::House built = synthetic::one_room(8.0, 4.0);
   synthetic::House planned = built;
   planned.boxes.push_back({{3.9, 0.0, 0.0}, {4.1, 4.0, 2.8}});
   const PlanIndex with = make_plan_index(synthetic::plan_of(planned), "ground", {}),
                   without = make_plan_index(synthetic::plan_of(built), "ground", {});
-  const ContestConfig config;
-  Objections against;
+  const HypothesisComparisonConfig config;
+  EvidenceByCause against;
   for (const double x : {2.0, 6.0}) {
     const Pose X_WR = Pose::from_xyz_yaw({x, 1.7, 0.46}, 0.1);
-    const View view = synthetic::standing_view(built, X_WR, Pose{}).view;
-    const Sight sees_it = sight(with.storeys.front(), heading(with.X_WI.inverse() * X_WR), view, config),
-                sees_none = sight(without.storeys.front(), heading(without.X_WI.inverse() * X_WR), view, config);
-    const Contest said = contest(view, sees_it, sees_none, config);
+    const LocalizationScan scan = synthetic::house_scan(built, X_WR, Pose{}).scan;
+    const PredictedScan sees_it = predict_scan(with.storeys.front(), heading(with.X_WI.inverse() * X_WR), scan, config),
+                        sees_none =
+                            predict_scan(without.storeys.front(), heading(without.X_WI.inverse() * X_WR), scan, config);
+    const PairwiseLikelihoodRatio said = compare_hypotheses(scan, sees_it, sees_none, config);
     EXPECT_EQ(said.against_b.total(config.cause_cap), 0.0);
     EXPECT_GT(said.against_a.total(1e9), config.cause_cap);
     against.add(said.against_a, 1.0);
@@ -148,7 +151,7 @@ TEST(Contest, AWallThatWasNotBuiltIsOneCauseFromBothSides) {
   EXPECT_NEAR(against.total(config.cause_cap), config.cause_cap, 0.5);
 }
 
-INSTANTIATE_TEST_SUITE_P(Places, ContestAt, testing::Range(0, 6));
+INSTANTIATE_TEST_SUITE_P(Places, CompareHypothesesAt, testing::Range(0, 6));
 
 }  // namespace
 }  // namespace plumbline::slam

@@ -21,42 +21,42 @@ double shared(const ParticleSet& a, const ParticleSet& b) {
   return count / static_cast<double>(a.size());
 }
 
-TEST(PlanSearch, DrawsOtherNumbersAfterARestart) {
+TEST(GlobalLocalizer, DrawsOtherNumbersAfterARestart) {
   const synthetic::House house = synthetic::corridor_house();
   const PlanIndex index = make_plan_index(synthetic::plan_of(house), "ground", {});
-  const View view = synthetic::standing_view(house, Pose::from_xyz_yaw({7.0, 1.1, 0.46}, 0.3), Pose{}).view;
-  PlanSearch search({}, 7), again({}, 7);
-  search.update(index, {}, view);
-  again.update(index, {}, view);
+  const LocalizationScan scan = synthetic::house_scan(house, Pose::from_xyz_yaw({7.0, 1.1, 0.46}, 0.3), Pose{}).scan;
+  GlobalLocalizer search({}, 7), again({}, 7);
+  search.update(index, {}, scan);
+  again.update(index, {}, scan);
   const ParticleSet first = search.particles();
   ASSERT_FALSE(first.empty());
   EXPECT_EQ(shared(first, again.particles()), 1.0);
   search.restart();
-  search.update(index, {}, view);
+  search.update(index, {}, scan);
   EXPECT_EQ(shared(first, search.particles()), 0.0);
 }
 
 // The way walked while nothing was searched would count as one straight step, through walls.
-TEST(PlanSearch, KnowsNothingOfTheWayBeforeARestart) {
+TEST(GlobalLocalizer, KnowsNothingOfTheWayBeforeARestart) {
   const synthetic::House house = synthetic::corridor_house();
   const PlanIndex index = make_plan_index(synthetic::plan_of(house), "ground", {});
   const Pose X_OW = Pose::from_xyz_yaw({9.0, 4.0, 0.0}, 0.5);
   const auto seen = [&](double x, const Pose& X_OR) {
-    return synthetic::standing_view(house, Pose::from_xyz_yaw({x, 1.1, 0.46}, 0.3), X_OR).view;
+    return synthetic::house_scan(house, Pose::from_xyz_yaw({x, 1.1, 0.46}, 0.3), X_OR).scan;
   };
-  PlanSearch walked({}, 7), stood({}, 7);
+  GlobalLocalizer walked({}, 7), stood({}, 7);
   walked.update(index, {}, seen(3.0, Pose{}));
   stood.update(index, {}, seen(3.0, X_OW * Pose::from_xyz_yaw({3.0, 1.1, 0.46}, 0.3)));
   walked.restart();
   stood.restart();
   for (int i = 0; i < 16; ++i) {
     const double x = 3.0 + 0.25 * i;
-    const View view = seen(x, X_OW * Pose::from_xyz_yaw({x, 1.1, 0.46}, 0.3));
-    const std::vector<StageDigest> a = walked.update(index, {}, view), b = stood.update(index, {}, view);
+    const LocalizationScan scan = seen(x, X_OW * Pose::from_xyz_yaw({x, 1.1, 0.46}, 0.3));
+    const std::vector<StageDigest> a = walked.update(index, {}, scan), b = stood.update(index, {}, scan);
     ASSERT_EQ(a.size(), b.size());
     for (std::size_t k = 0; k < a.size(); ++k) EXPECT_EQ(a[k].digest, b[k].digest) << a[k].stage << " " << i;
   }
-  EXPECT_FALSE(stood.candidates().empty());
+  EXPECT_FALSE(stood.hypotheses().empty());
 }
 
 }  // namespace

@@ -89,4 +89,10 @@ House twin_rooms() {
   return house;
 }
 
+StoreyIndex storey_of(const bim::Plan& plan) {
+  PlanIndexConfig config;
+  config.visibility_rays = 8;
+  return make_plan_index(plan, std::nullopt, config).storeys.front();
+}
+
 }  // namespace plumbline::slam::synthetic

@@ -3,16 +3,16 @@
 
 namespace plumbline::slam::synthetic {
 
-Standing standing_view(const House& house, const Pose& X_WR, const Pose& X_OR, std::uint64_t seed) {
+HouseScan house_scan(const House& house, const Pose& X_WR, const Pose& X_OR, std::uint64_t seed) {
   WalkConfig config;
   config.seed = seed;
   MotionBuffer motion;
   motion.add({0, X_OR});
-  const DeskewedScan scan = deskew(standing_scan(house, X_WR, config), motion, calibration());
-  Standing standing;
-  standing.planes = detect_planes(scan, {});
-  standing.view = make_view(scan, standing.planes, X_OR, calibration(), {});
-  return standing;
+  const DeskewedScan deskewed = deskew(standing_scan(house, X_WR, config), motion, calibration());
+  HouseScan out;
+  out.planes = detect_planes(deskewed, {});
+  out.scan = make_localization_scan(deskewed, out.planes, X_OR, calibration(), {});
+  return out;
 }
 
 }  // namespace plumbline::slam::synthetic

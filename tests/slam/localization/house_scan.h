@@ -7,10 +7,10 @@
 namespace plumbline::slam::synthetic {
 
 /// What a robot standing at X_WR sees, with its odometry at X_OR.
-struct Standing {
+struct HouseScan {
   std::vector<PlaneObservation> planes;
-  View view;
+  LocalizationScan scan;
 };
-[[nodiscard]] Standing standing_view(const House& house, const Pose& X_WR, const Pose& X_OR, std::uint64_t seed = 1);
+[[nodiscard]] HouseScan house_scan(const House& house, const Pose& X_WR, const Pose& X_OR, std::uint64_t seed = 1);
 
 }  // namespace plumbline::slam::synthetic

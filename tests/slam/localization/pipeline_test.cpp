@@ -58,7 +58,7 @@ bool same_bits(const Answers& a, const Answers& b) {
       });
 }
 
-TEST(SGraphLocalization, FindsItsPlaceAndKeepsIt) {
+TEST(SGraphLocalization, ConvergesAndTracks) {
   const synthetic::Recording recording = short_walk(10.0);
   const Answers result = run(recording, input_for(recording, synthetic::plan_of(synthetic::corridor_house()), true));
   EXPECT_FALSE(result.outputs.front().X_FR.has_value());
@@ -74,7 +74,7 @@ TEST(SGraphLocalization, FindsItsPlaceAndKeepsIt) {
     EXPECT_LT((result.estimate.trajectory[i].X_FR.t - recording.truth[i].X_FR.t).norm(), 0.08);
 }
 
-TEST(SGraphLocalization, FindsItsPlaceWithoutACompass) {
+TEST(SGraphLocalization, ConvergesWithoutACompass) {
   const synthetic::Recording recording = short_walk(8.0);
   const Answers result = run(recording, input_for(recording, synthetic::plan_of(synthetic::corridor_house()), false));
   ASSERT_EQ(result.outputs.back().state, State::converged);
@@ -162,13 +162,13 @@ TEST(SGraphLocalization, ARoomTurnedByHalfATurnStaysAmbiguousWithoutACompass) {
   EXPECT_NEAR(result.outputs.back().hypotheses[0].mass, 0.5, 0.02);
 }
 
-TEST(SGraphLocalization, AWrongPlanIsNotBelieved) {
+TEST(SGraphLocalization, AWrongPlanDoesNotConverge) {
   const synthetic::Recording recording = short_walk(10.0);
   const Answers result = run(recording, input_for(recording, synthetic::plan_of(synthetic::one_room(7.0, 5.0)), true));
   for (const Output& output : result.outputs) EXPECT_NE(output.state, State::converged);
 }
 
-void expect_never_sure(const synthetic::Recording& recording, const bim::Plan& plan) {
+void expect_never_converged(const synthetic::Recording& recording, const bim::Plan& plan) {
   const Answers result = run(recording, input_for(recording, plan, true));
   for (const Output& output : result.outputs) {
     EXPECT_TRUE(output.state == State::searching || output.state == State::lost || output.state == State::ambiguous);
@@ -177,13 +177,13 @@ void expect_never_sure(const synthetic::Recording& recording, const bim::Plan& p
   EXPECT_TRUE(result.estimate.trajectory.empty());
 }
 
-TEST(SGraphLocalization, APlanWithoutWallsIsNotBelieved) {
+TEST(SGraphLocalization, APlanWithoutWallsDoesNotConverge) {
   bim::Plan plan = synthetic::plan_of(synthetic::corridor_house());
   plan.faces.clear();
-  expect_never_sure(short_walk(4.0), plan);
+  expect_never_converged(short_walk(4.0), plan);
 }
 
-TEST(SGraphLocalization, AStartOutsideThePlanIsNotBelieved) {
+TEST(SGraphLocalization, AStartOutsideThePlanDoesNotConverge) {
   // The robot walks in the corridor; the plan knows the rooms on one side of it only.
   bim::Plan plan = synthetic::plan_of(synthetic::corridor_house());
   std::erase_if(plan.rooms, [](const bim::PlanRoom& room) { return room.name != "r4" && room.name != "r5"; });
@@ -191,10 +191,10 @@ TEST(SGraphLocalization, AStartOutsideThePlanIsNotBelieved) {
   const std::vector<Eigen::Vector2d> corridor = {{1.0, 1.1}, {13.0, 1.1}};
   synthetic::WalkConfig config;
   config.duration_s = 8.0;
-  expect_never_sure(synthetic::walk(house, corridor, config), plan);
+  expect_never_converged(synthetic::walk(house, corridor, config), plan);
 }
 
-TEST(SGraphLocalization, AStoreyOfAnotherShapeThanTheOneTheRobotIsOnIsNotBelieved) {
+TEST(SGraphLocalization, AStoreyOfAnotherShapeDoesNotConverge) {
   bim::Plan plan = synthetic::plan_of(synthetic::corridor_house());
   const bim::Plan upper = synthetic::plan_of(synthetic::one_room(9.0, 7.0));
   plan.storeys.push_back({"upper", 3.0, 2.8});
@@ -254,22 +254,22 @@ TEST_P(KidnappedRobot, NoticesAndFindsItselfAgain) {
   const Answers result =
       run(recording, input_for(recording, synthetic::plan_of(synthetic::corridor_house()), GetParam()));
   bool lost = false;
-  Nanoseconds believed_wrongly = 0;
+  Nanoseconds wrongly_converged = 0;
   for (std::size_t i = 1; i < result.outputs.size(); ++i) {
     const Output& output = result.outputs[i];
     lost = lost || output.state == State::lost;
     if (output.state == State::converged && (output.X_FR->t - recording.truth[i].X_FR.t).norm() > 0.5)
-      believed_wrongly += output.stamp - result.outputs[i - 1].stamp;
+      wrongly_converged += output.stamp - result.outputs[i - 1].stamp;
   }
   EXPECT_TRUE(lost);
-  EXPECT_LT(seconds(believed_wrongly), 4.0);  // eight updates: 2.3 s here, 1.6 to 5.8 s in 15 simulated walks
+  EXPECT_LT(seconds(wrongly_converged), 4.0);  // eight updates: 2.3 s here, 1.6 to 5.8 s in 15 simulated walks
   EXPECT_EQ(result.outputs.back().state, State::converged);
   ASSERT_TRUE(result.outputs.back().X_FR.has_value());
   EXPECT_LT((result.outputs.back().X_FR->t - recording.truth.back().X_FR.t).norm(), 0.05);
 }
 
-// The heading told at the start says nothing about a robot that was turned in the air.
-INSTANTIATE_TEST_SUITE_P(HeadingTold, KidnappedRobot, testing::Bool());
+// The prior heading is no evidence for a robot that was turned in the air.
+INSTANTIATE_TEST_SUITE_P(PriorHeading, KidnappedRobot, testing::Bool());
 
 double distance_to_way(const Eigen::Vector2d& p, const std::vector<Eigen::Vector2d>& way) {
   double least = segment_distance(way[0], way[1], p);
@@ -291,8 +291,8 @@ synthetic::House cluttered(synthetic::House house, int crates, std::uint64_t see
   return house;
 }
 
-// Places where walls of the plan stand in front of much of what is seen have fewer things to explain.
-TEST(SGraphLocalization, ARightPlaceAmongClutterIsNotTakenBack) {
+// Poses with planned walls in front of much of what is seen have fewer outliers to explain.
+TEST(SGraphLocalization, ARightPoseAmongClutterIsKept) {
   synthetic::WalkConfig config;
   config.duration_s = 35.0;
   config.range_bias_m = 0.015;

@@ -11,35 +11,35 @@
 namespace plumbline::slam {
 namespace {
 
-bool holds(const std::vector<Place>& places, const Pose2& X_IH) {
-  return std::any_of(places.begin(), places.end(), [&](const Place& place) {
-    return (place.X_IH.t - X_IH.t).norm() < 0.1 && std::abs(wrap_angle(place.X_IH.yaw - X_IH.yaw)) < 0.03;
+bool holds(const std::vector<StoreyPose>& poses, const Pose2& X_IH) {
+  return std::any_of(poses.begin(), poses.end(), [&](const StoreyPose& pose) {
+    return (pose.X_IH.t - X_IH.t).norm() < 0.1 && std::abs(wrap_angle(pose.X_IH.yaw - X_IH.yaw)) < 0.03;
   });
 }
 
-TEST(Proposals, HoldTheTruePlaceInEveryRoom) {
+TEST(Proposals, HoldTheTruePoseInEveryRoom) {
   const synthetic::House house = synthetic::corridor_house();
   const PlanIndex index = make_plan_index(synthetic::plan_of(house), "ground", {});
   for (std::size_t i = 0; i < house.rooms.size(); ++i) {
     const Eigen::Vector2d middle = centroid(house.rooms[i]);
     const Pose X_WR = Pose::from_xyz_yaw({middle.x() + 0.3, middle.y() - 0.2, 0.46}, 1.1 * static_cast<double>(i));
-    const View view = synthetic::standing_view(house, X_WR, Pose{}, i + 1).view;
+    const LocalizationScan scan = synthetic::house_scan(house, X_WR, Pose{}, i + 1).scan;
     const Pose2 X_IH = heading(index.X_WI.inverse() * X_WR);
-    EXPECT_TRUE(holds(propose_places(index, {}, view, 6, {}, {}), X_IH)) << i;
-    EXPECT_TRUE(holds(propose_places(index, {X_IH.yaw + 0.1, 0.05}, view, 6, {}, {}), X_IH)) << i;
-    for (const Place& place : propose_places(index, {X_IH.yaw, 0.05}, view, 6, {}, {}))
-      EXPECT_LT(std::abs(wrap_angle(place.X_IH.yaw - X_IH.yaw)), 0.4);
+    EXPECT_TRUE(holds(propose_poses(index, {}, scan, 6, {}, {}), X_IH)) << i;
+    EXPECT_TRUE(holds(propose_poses(index, {X_IH.yaw + 0.1, 0.05}, scan, 6, {}, {}), X_IH)) << i;
+    for (const StoreyPose& pose : propose_poses(index, {X_IH.yaw, 0.05}, scan, 6, {}, {}))
+      EXPECT_LT(std::abs(wrap_angle(pose.X_IH.yaw - X_IH.yaw)), 0.4);
   }
 }
 
-TEST(Proposals, HoldEveryPlaceThatLooksTheSame) {
+TEST(Proposals, HoldEveryPoseThatLooksTheSame) {
   const synthetic::House house = synthetic::twin_rooms();
   const PlanIndex index = make_plan_index(synthetic::plan_of(house), "ground", {});
-  const View view = synthetic::standing_view(house, Pose::from_xyz_yaw({1.4, 1.3, 0.46}, 0.4), Pose{}).view;
-  const std::vector<Place> places = propose_places(index, {}, view, 6, {}, {});
-  ASSERT_GE(places.size(), 2U);
-  EXPECT_TRUE(holds({places[0], places[1]}, heading(index.X_WI.inverse() * Pose::from_xyz_yaw({1.4, 1.3, 0}, 0.4))));
-  EXPECT_TRUE(holds({places[0], places[1]}, heading(index.X_WI.inverse() * Pose::from_xyz_yaw({10.4, 2.3, 0}, 0.4))));
+  const LocalizationScan scan = synthetic::house_scan(house, Pose::from_xyz_yaw({1.4, 1.3, 0.46}, 0.4), Pose{}).scan;
+  const std::vector<StoreyPose> poses = propose_poses(index, {}, scan, 6, {}, {});
+  ASSERT_GE(poses.size(), 2U);
+  EXPECT_TRUE(holds({poses[0], poses[1]}, heading(index.X_WI.inverse() * Pose::from_xyz_yaw({1.4, 1.3, 0}, 0.4))));
+  EXPECT_TRUE(holds({poses[0], poses[1]}, heading(index.X_WI.inverse() * Pose::from_xyz_yaw({10.4, 2.3, 0}, 0.4))));
 }
 
 }  // namespace

@@ -12,36 +12,36 @@
 namespace plumbline::slam {
 namespace {
 
-struct Place {
+struct ScanAtPose {
   PlanIndex index;
-  View view;
+  LocalizationScan scan;
   Pose2 X_IH;  ///< true
 };
 
-Place place_at(const Pose& X_WR) {
+ScanAtPose scan_at(const Pose& X_WR) {
   const synthetic::House house = synthetic::corridor_house();
-  Place place{
-      make_plan_index(synthetic::plan_of(house), "ground", {}), synthetic::standing_view(house, X_WR, Pose{}).view, {}};
-  place.X_IH = heading(place.index.X_WI.inverse() * X_WR);
-  return place;
+  ScanAtPose at{
+      make_plan_index(synthetic::plan_of(house), "ground", {}), synthetic::house_scan(house, X_WR, Pose{}).scan, {}};
+  at.X_IH = heading(at.index.X_WI.inverse() * X_WR);
+  return at;
 }
 
 TEST(Refine, FindsBackFromRandomOffsets) {
-  const Place place = place_at(Pose::from_xyz_yaw({3.1, 0.9, 0.46}, 0.3));
-  const StoreyIndex& storey = place.index.storeys.front();
+  const ScanAtPose at = scan_at(Pose::from_xyz_yaw({3.1, 0.9, 0.46}, 0.3));
+  const StoreyIndex& storey = at.index.storeys.front();
   RefineConfig free;
   free.prior_sigma_m = 10.0;
   free.prior_sigma_rad = 10.0;
   free.iterations = 10;
   const Stream stream(9, "slam.localize.init");
   for (std::uint32_t i = 0; i < 30; ++i) {
-    Pose2 start = place.X_IH;
+    Pose2 start = at.X_IH;
     start.t += 0.12 * Eigen::Vector2d(stream.gauss(0, i, 0), stream.gauss(0, i, 1));
     start.yaw += 0.03 * stream.gauss(0, i, 2);
-    const Refined refined = refine(storey, start, place.view, {}, free);
+    const Refined refined = refine(storey, start, at.scan, {}, free);
     // 12 mm range noise over 180 beams; measured: 1.5 mm, 0.3 mrad from every start.
-    EXPECT_LT((refined.X_IH.t - place.X_IH.t).norm(), 0.005) << i;
-    EXPECT_LT(std::abs(wrap_angle(refined.X_IH.yaw - place.X_IH.yaw)), 0.001) << i;
+    EXPECT_LT((refined.X_IH.t - at.X_IH.t).norm(), 0.005) << i;
+    EXPECT_LT(std::abs(wrap_angle(refined.X_IH.yaw - at.X_IH.yaw)), 0.001) << i;
   }
 }
 
@@ -53,24 +53,24 @@ TEST(Refine, AWallThatMostLightGoesThroughHoldsNothing) {
   for (const double y : {0.3, 1.9, 3.3}) built.boxes.push_back({{3.12, y, 0.0}, {3.5, y + 0.35, 1.0}});
   const PlanIndex index = make_plan_index(synthetic::plan_of(planned), "ground", {});
   const Pose X_WR = Pose::from_xyz_yaw({1.2, 2.1, 0.46}, 0.3);
-  const View view = synthetic::standing_view(built, X_WR, Pose{}).view;
+  const LocalizationScan scan = synthetic::house_scan(built, X_WR, Pose{}).scan;
   const Pose2 X_IH = heading(index.X_WI.inverse() * X_WR);
-  const Refined refined = refine(index.storeys.front(), X_IH, view, {}, {});
+  const Refined refined = refine(index.storeys.front(), X_IH, scan, {}, {});
   EXPECT_LT((refined.X_IH.t - X_IH.t).norm(), 0.01);
 }
 
-TEST(Refine, AgreementTellsTheTruePlaceFromAWrongOne) {
-  const Place place = place_at(Pose::from_xyz_yaw({3.1, 0.9, 0.46}, 0.3));
-  const StoreyIndex& storey = place.index.storeys.front();
-  const Agreement right = agreement(storey, place.X_IH, place.view, {}, {});
+TEST(Refine, AgreementSeparatesTheTruePoseFromAWrongOne) {
+  const ScanAtPose at = scan_at(Pose::from_xyz_yaw({3.1, 0.9, 0.46}, 0.3));
+  const StoreyIndex& storey = at.index.storeys.front();
+  const Agreement right = agreement(storey, at.X_IH, at.scan, {}, {});
   EXPECT_GT(right.inliers, 0.9);
-  EXPECT_LT(right.through, 0.05);
-  Pose2 wrong = place.X_IH;
+  EXPECT_LT(right.penetration_ratio, 0.05);
+  Pose2 wrong = at.X_IH;
   wrong.yaw = wrap_angle(wrong.yaw + 1.57);
-  EXPECT_LT(agreement(storey, wrong, place.view, {}, {}).inliers, 0.5);
+  EXPECT_LT(agreement(storey, wrong, at.scan, {}, {}).inliers, 0.5);
 }
 
-// The robot walks through a planned wall that is not there: light leaves it by both of its faces.
+// The robot walks through a planned wall that is not there: beams leave it by both of its faces.
 TEST(Refine, AWallThatWasNotBuiltIsOneWallFromItsInsideToo) {
   const synthetic::House built = synthetic::one_room(8.0, 4.0);
   synthetic::House planned = built;
@@ -78,17 +78,17 @@ TEST(Refine, AWallThatWasNotBuiltIsOneWallFromItsInsideToo) {
   const PlanIndex index = make_plan_index(synthetic::plan_of(planned), "ground", {});
   const StoreyIndex& storey = index.storeys.front();
   const Pose X_WR = Pose::from_xyz_yaw({3.9, 1.7, 0.46}, 1.57);
-  const View view = synthetic::standing_view(built, X_WR, Pose{}).view;
-  const Agreement inside = agreement(storey, heading(index.X_WI.inverse() * X_WR), view, {}, {});
-  EXPECT_GT(inside.through, 0.8);
-  EXPECT_LT(inside.through_others_share(), 0.1);
+  const LocalizationScan scan = synthetic::house_scan(built, X_WR, Pose{}).scan;
+  const Agreement inside = agreement(storey, heading(index.X_WI.inverse() * X_WR), scan, {}, {});
+  EXPECT_GT(inside.penetration_ratio, 0.8);
+  EXPECT_LT(inside.penetration_ratio_other_walls(), 0.1);
 }
 
 TEST(Refine, BeamResidualIsTheShiftAcrossTheWall) {
-  const Place place = place_at(Pose::from_xyz_yaw({3.1, 0.9, 0.46}, 0.0));
-  const StoreyIndex& storey = place.index.storeys.front();
-  const Eigen::Matrix2d R_IH = place.X_IH.rotation();
-  const Eigen::Vector2d sensor_I = place.X_IH * place.view.sensor_H;
+  const ScanAtPose at = scan_at(Pose::from_xyz_yaw({3.1, 0.9, 0.46}, 0.0));
+  const StoreyIndex& storey = at.index.storeys.front();
+  const Eigen::Matrix2d R_IH = at.X_IH.rotation();
+  const Eigen::Vector2d sensor_I = at.X_IH * at.scan.sensor_H;
   const LikelihoodConfig config;
   const Beam level{{0.0, 1.0}, 1.0, 0.0};
   const BeamResidual before = beam_residual(storey, sensor_I, storey.grid.cell_at(sensor_I), R_IH, level, 0.66, config);

@@ -12,13 +12,13 @@
 namespace plumbline::slam {
 namespace {
 
-using synthetic::Standing;
+using synthetic::HouseScan;
 
 /// A straight walk in the corridor seen every 0.25 m, with odometry that reads `scale` of the way.
 struct Walked {
   PlanIndex index;
   std::vector<Pose> X_IR;
-  std::vector<Standing> seen;
+  std::vector<HouseScan> seen;
 };
 
 Walked walk_straight(double scale) {
@@ -29,20 +29,26 @@ Walked walk_straight(double scale) {
     const Pose X_OR{Eigen::Quaterniond::Identity(),
                     scale * (Pose::from_xyz_yaw(Eigen::Vector3d::Zero(), -0.1) * Eigen::Vector3d(0.25 * i, 0, 0))};
     walked.X_IR.push_back(walked.index.X_WI.inverse() * X_WR);
-    walked.seen.push_back(synthetic::standing_view(house, X_WR, X_OR, static_cast<std::uint64_t>(i + 1)));
+    walked.seen.push_back(synthetic::house_scan(house, X_WR, X_OR, static_cast<std::uint64_t>(i + 1)));
   }
   return walked;
 }
 
+/// Tracks all scans from a start at the first.
+PlanTracker track(const Walked& walked, const Pose& start) {
+  PlanTracker tracker({}, walked.index.storeys.front());
+  tracker.start(walked.seen[0].scan, walked.seen[0].planes, start);
+  for (std::size_t i = 1; i < walked.seen.size(); ++i)
+    static_cast<void>(tracker.update(walked.seen[i].scan, walked.seen[i].planes));
+  return tracker;
+}
+
 TEST(Tracker, PullsAWrongStartOntoThePlan) {
   const Walked walked = walk_straight(1.0);
-  PlanTracker tracker({}, walked.index.storeys.front());
   Pose start = walked.X_IR.front();
   start.t += Eigen::Vector3d(0.04, -0.05, 0.03);
-  tracker.start(walked.seen[0].view, walked.seen[0].planes, start);
-  for (std::size_t i = 1; i < walked.seen.size(); ++i)
-    static_cast<void>(tracker.update(walked.seen[i].view, walked.seen[i].planes));
-  const Pose X_IR = tracker.pose(walked.seen.back().view.X_OR);
+  const PlanTracker tracker = track(walked, start);
+  const Pose X_IR = tracker.pose(walked.seen.back().scan.X_OR);
   // Walls across the corridor, its ends and the floor are all seen: measured 1 mm, 0.3 mrad.
   EXPECT_LT((X_IR.t - walked.X_IR.back().t).norm(), 0.005);
   EXPECT_LT(std::abs(wrap_angle(X_IR.yaw() - walked.X_IR.back().yaw())), 0.001);
@@ -50,21 +56,15 @@ TEST(Tracker, PullsAWrongStartOntoThePlan) {
 
 TEST(Tracker, CorrectsAnOdometryScaleError) {
   const Walked walked = walk_straight(0.9);
-  PlanTracker tracker({}, walked.index.storeys.front());
-  tracker.start(walked.seen[0].view, walked.seen[0].planes, walked.X_IR.front());
-  for (std::size_t i = 1; i < walked.seen.size(); ++i)
-    static_cast<void>(tracker.update(walked.seen[i].view, walked.seen[i].planes));
-  const double error = (tracker.pose(walked.seen.back().view.X_OR).t - walked.X_IR.back().t).norm();
+  const PlanTracker tracker = track(walked, walked.X_IR.front());
+  const double error = (tracker.pose(walked.seen.back().scan.X_OR).t - walked.X_IR.back().t).norm();
   // 10 % of 1.75 m is 0.175 m; measured 14 mm.
   EXPECT_LT(error, 0.04);
 }
 
 TEST(Tracker, PositionAndHeadingAreUncertainTogether) {
   const Walked walked = walk_straight(1.0);
-  PlanTracker tracker({}, walked.index.storeys.front());
-  tracker.start(walked.seen[0].view, walked.seen[0].planes, walked.X_IR.front());
-  for (std::size_t i = 1; i < walked.seen.size(); ++i)
-    static_cast<void>(tracker.update(walked.seen[i].view, walked.seen[i].planes));
+  const PlanTracker tracker = track(walked, walked.X_IR.front());
   const Eigen::Matrix3d& P = tracker.covariance();
   EXPECT_EQ(P, P.transpose());
   EXPECT_GT(P.determinant(), 0.0);
@@ -78,10 +78,10 @@ TEST(Tracker, DropsTheOldestPoseBeyondItsWindow) {
   TrackerConfig config;
   config.window = 4;
   PlanTracker tracker(config, walked.index.storeys.front());
-  tracker.start(walked.seen[0].view, walked.seen[0].planes, walked.X_IR.front());
+  tracker.start(walked.seen[0].scan, walked.seen[0].planes, walked.X_IR.front());
   std::size_t left = 0;
   for (std::size_t i = 1; i < walked.seen.size(); ++i)
-    left += tracker.update(walked.seen[i].view, walked.seen[i].planes).size();
+    left += tracker.update(walked.seen[i].scan, walked.seen[i].planes).size();
   EXPECT_EQ(left, walked.seen.size() - 4);
   EXPECT_EQ(tracker.window().size(), 4U);
 }
@@ -93,7 +93,7 @@ TEST(Tracker, PairsOpposedWallsOfTheRoom) {
   pose.X_IR = walked.X_IR.front();
   pose.room = storey.room_at(pose.X_IR.t.head<2>());
   ASSERT_GE(pose.room, 0);
-  pose.walls = associate_walls(storey, walked.seen[0].view, walked.seen[0].planes, pose.X_IR, {});
+  pose.walls = associate_walls(storey, walked.seen[0].scan, walked.seen[0].planes, pose.X_IR, {});
   const std::vector<WallPair> pairs = opposed_pairs(storey, pose, {});
   ASSERT_FALSE(pairs.empty());
   for (const WallPair& pair : pairs) {

@@ -14,10 +14,10 @@ namespace {
 
 std::vector<WallMatch> matches_in(const bim::Plan& plan, const synthetic::House& house, const Pose& X_WR) {
   const PlanIndex index = make_plan_index(plan, "ground", {});
-  const synthetic::Standing seen = synthetic::standing_view(house, X_WR, Pose{});
+  const synthetic::HouseScan seen = synthetic::house_scan(house, X_WR, Pose{});
   const Pose X_IR = index.X_WI.inverse() * X_WR;
   const StoreyIndex& storey = index.storeys.front();
-  return wall_matches(plan, storey, associate_walls(storey, seen.view, seen.planes, X_IR, {}));
+  return wall_matches(plan, storey, associate_walls(storey, seen.scan, seen.planes, X_IR, {}));
 }
 
 TEST(WallMatches, NameTheFacesThatThePatchesLieOn) {
@@ -36,7 +36,7 @@ TEST(WallMatches, NameTheFacesThatThePatchesLieOn) {
       EXPECT_GT((p1_W - p0_W).head<2>().dot(face.p1 - face.p0), 0.0);
     }
   }
-  // Ids, not places in the list.
+  // Ids, not indices into the list.
   std::reverse(plan.faces.begin(), plan.faces.end());
   const std::vector<WallMatch> reversed = matches_in(plan, house, X_WR);
   ASSERT_EQ(reversed.size(), matches.size());

@@ -17,7 +17,7 @@ DeskewedScan look(const synthetic::House& house, const Pose& X_WR) {
 
 Pose standing(double x, double y, double yaw) { return Pose::from_xyz_yaw({x, y, 0.5}, yaw); }
 
-/// A walk from the corridor and back whose belief has drifted by `drift` at the end; returns what the loop says there.
+/// A walk from the corridor and back whose estimate has drifted by `drift` at the end; returns the loop's factor.
 std::optional<PoseFactor> walk_and_return(const Pose& drift, double way_m, Pose& truth_FT, int last_storey = 0) {
   const synthetic::House house = synthetic::corridor_house();
   const std::vector<Pose> X_WR = {standing(2.0, 1.1, 0.0), standing(3.0, 1.1, 0.1), standing(8.0, 1.0, 0.0),

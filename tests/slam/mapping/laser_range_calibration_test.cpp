@@ -73,10 +73,10 @@ struct Walk {
 };
 
 // 14,400 returns of 1 cm: 2.5 mm is four standard deviations of what all lasers have in common.
-TEST(RangeOffsets, AreFoundByHowWallsMoveWithTheAngleTheyAreMetAt) {
+TEST(LaserRangeCalibration, AreFoundByHowWallsMoveWithTheAngleTheyAreMetAt) {
   for (std::uint64_t trial = 0; trial < 10; ++trial) {
     Walk walk(trial);
-    const std::vector<double> found = range_offsets(walk.clouds, walk.walls, sensor_R, {.inflation = 1.0}, {});
+    const std::vector<double> found = calibrate_laser_ranges(walk.clouds, walk.walls, sensor_R, {.inflation = 1.0}, {});
     ASSERT_EQ(found.size(), walk.offset_m.size());
     for (std::size_t k = 0; k < found.size(); ++k) EXPECT_NEAR(found[k], walk.offset_m[k], 0.0025) << trial;
     correct_ranges(walk.clouds, found, sensor_R);
@@ -84,22 +84,23 @@ TEST(RangeOffsets, AreFoundByHowWallsMoveWithTheAngleTheyAreMetAt) {
   }
 }
 
-TEST(RangeOffsets, AreZeroWhereWallsSayNothing) {
+TEST(LaserRangeCalibration, IsZeroWhereWallsConstrainNothing) {
   Walk walk(1);
-  // One laser that met one wall at one angle: the wall may as well stand elsewhere.
+  // One laser that hit one wall at one angle: the wall may as well stand elsewhere.
   CloudKeyframe cloud{Pose::from_xyz_yaw({4, 2.5, 0.5}, 0.0), {}, {}};
   for (int k = 0; k < 1000; ++k) {
     cloud.points_R.emplace_back(0.0F, 2.55F, 0.2F);
     cloud.lasers.push_back(0);
   }
   const std::vector<CloudKeyframe> one = {cloud};
-  const std::vector<double> found = range_offsets(one, walk.walls, sensor_R, {.inflation = 1.0}, {});
+  const std::vector<double> found = calibrate_laser_ranges(one, walk.walls, sensor_R, {.inflation = 1.0}, {});
   ASSERT_EQ(found.size(), 1U);
   EXPECT_NEAR(found[0], 0.0, 1e-6);
 }
 
-// A pane 0.2 m behind its wall's face: part of that wall, as for mirror images, unless it is said to stand nearer.
-TEST(RangeOffsets, TakeTheSameWallsForOneAsMirrorImagesDo) {
+// A pane 0.2 m behind its wall's face: part of that wall, as for mirror images, unless the config says that it stands
+// nearer.
+TEST(LaserRangeCalibration, TakeTheSameWallsForOneAsMirrorImagesDo) {
   const std::vector<PlaneNode> walls = {{0, Plane{{0, -1, 0}, 5.0}, {0, 5}, {8, 5}, 0.0, 2.4, 9},
                                         {1, Plane{{0, -1, 0}, 5.2}, {3.5, 5.2}, {4.5, 5.2}, 0.0, 2.4, 3}};
   CloudKeyframe cloud{Pose::from_xyz_yaw({4, 2.5, 0.5}, 0.0), {}, {}};
@@ -108,15 +109,15 @@ TEST(RangeOffsets, TakeTheSameWallsForOneAsMirrorImagesDo) {
     cloud.lasers.push_back(0);
   }
   const std::vector<CloudKeyframe> one = {cloud};
-  EXPECT_TRUE(range_offsets(one, walls, sensor_R, {}, {}).empty());
-  EXPECT_EQ(range_offsets(one, walls, sensor_R, {}, {.pane_depth_m = 0.1}).size(), 1U);
+  EXPECT_TRUE(calibrate_laser_ranges(one, walls, sensor_R, {}, {}).empty());
+  EXPECT_EQ(calibrate_laser_ranges(one, walls, sensor_R, {}, {.pane_depth_m = 0.1}).size(), 1U);
 }
 
-TEST(RangeOffsets, NeedWallsAndLasers) {
+TEST(LaserRangeCalibration, NeedWallsAndLasers) {
   Walk walk(2);
-  EXPECT_TRUE(range_offsets(walk.clouds, {}, sensor_R, {}, {}).empty());
+  EXPECT_TRUE(calibrate_laser_ranges(walk.clouds, {}, sensor_R, {}, {}).empty());
   for (CloudKeyframe& cloud : walk.clouds) cloud.lasers.clear();
-  EXPECT_TRUE(range_offsets(walk.clouds, walk.walls, sensor_R, {}, {}).empty());
+  EXPECT_TRUE(calibrate_laser_ranges(walk.clouds, walk.walls, sensor_R, {}, {}).empty());
   const std::vector<Eigen::Vector3f> before = walk.clouds[0].points_R;
   correct_ranges(walk.clouds, std::vector<double>(lasers, 0.1), sensor_R);
   EXPECT_EQ(walk.clouds[0].points_R, before);

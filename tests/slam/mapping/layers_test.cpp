@@ -125,7 +125,7 @@ TEST(WallLayer, ReportsHighWallsThatWereSeenOften) {
 TEST(WallLayer, PullsDuplicatesTogetherAndMergesThem) {
   const Pose X = Pose::from_xyz_yaw({2, 2, 0}, 0);
   WallLayerConfig config;
-  config.gate_chi2 = 0.0;  // no association: every look makes a vertex
+  config.gate_chi2 = 0.0;  // no association: every observation makes a vertex
   config.min_observations = 1;
   Graph graph = at(X);
   WallLayer walls(config);
@@ -173,7 +173,7 @@ TEST(RoomLayer, OfOneKeyframeFollowsItsWallsAndTheGraph) {
   ASSERT_EQ(graph.room_factors.size(), 1U);
   ASSERT_EQ(graph.room_factors[0].planes, (std::vector<int>{0, 4, 2, 3}));
   graph.planes[4].merged_into = 1;
-  rooms.follow_merged(graph);
+  rooms.redirect_merged_planes(graph);
   EXPECT_EQ(graph.room_factors[0].planes, (std::vector<int>{0, 1, 2, 3}));
   graph.rooms[0].center_M += Eigen::Vector2d(0.3, -0.2);
   const std::vector<RoomNode> nodes = rooms.nodes(graph);
@@ -199,14 +199,16 @@ TEST(WallLayer, WallsOfARoomSeenAgainAreOneUnlessAScanShowsBoth) {
   EXPECT_EQ(walls.observe(graph, std::vector{back}, 0.0), std::vector<int>{0});
   graph.keyframes.push_back({1, X, X, 0});
   EXPECT_EQ(walls.observe(graph, std::vector{front}, 30.0), std::vector<int>{1});
-  EXPECT_LT(walls.room_misfit(walls.walls(graph, 0), 0, 1), 1.0);
-  EXPECT_EQ(walls.room_misfit(walls.walls(graph, 0), 0, 1), walls.room_misfit(walls.walls(graph, 0), 1, 0));
+  EXPECT_LT(walls.room_normalized_mahalanobis2(walls.walls(graph, 0), 0, 1), 1.0);
+  EXPECT_EQ(walls.room_normalized_mahalanobis2(walls.walls(graph, 0), 0, 1),
+            walls.room_normalized_mahalanobis2(walls.walls(graph, 0), 1, 0));
   graph.keyframes.push_back({2, X, X, 0});
   EXPECT_EQ(walls.observe(graph, std::vector{beside}, 60.0), std::vector<int>{2});
-  EXPECT_GT(walls.room_misfit(walls.walls(graph, 0), 0, 2), 1.0) << "in line, but not the same stretch";
+  EXPECT_GT(walls.room_normalized_mahalanobis2(walls.walls(graph, 0), 0, 2), 1.0)
+      << "in line, but not the same stretch";
   graph.keyframes.push_back({3, X, X, 0});
   EXPECT_EQ(walls.observe(graph, std::vector{back, front}, 60.1), (std::vector<int>{0, 1}));
-  EXPECT_GT(walls.room_misfit(walls.walls(graph, 0), 0, 1), 1.0);
+  EXPECT_GT(walls.room_normalized_mahalanobis2(walls.walls(graph, 0), 0, 1), 1.0);
 }
 
 TEST(FloorLayer, ANewStoreyBeginsWhereTheFloorIsAnother) {
@@ -258,7 +260,7 @@ TEST(FloorLayer, FlightsOfStairsAreNoFloors) {
   flight.plane_R.n = (X.q.conjugate() * Eigen::Vector3d(-0.5, 0.0, 0.8)).normalized();
   ramp.plane_R.n = X.q.conjugate() * Eigen::Vector3d(std::sin(0.05), 0.0, std::cos(0.05));
   std::vector<PlaneObservation> seen = {flight, see_floor(X, 0.0), ramp, see(X, {0, 0}, {4, 0})};
-  keep_level(seen, X, {});
+  drop_tilted_planes(seen, X, {});
   ASSERT_EQ(seen.size(), 3U);
   EXPECT_EQ(seen[0].plane_R.n, see_floor(X, 0.0).plane_R.n);
   EXPECT_TRUE(seen[2].vertical);
@@ -349,7 +351,7 @@ TEST(WallLayer, ALeafIsNeverItsWall) {
   }
 }
 
-TEST(WallLayer, WhatIsSettledHasTheExtentItHad) {
+TEST(WallLayer, FrozenObservationsKeepTheirExtent) {
   for (std::uint64_t trial = 0; trial < 50; ++trial) {
     RandomValues random(31, trial);
     const double yaw = random.uniform(-3.0, 3.0);
@@ -370,7 +372,7 @@ TEST(WallLayer, WhatIsSettledHasTheExtentItHad) {
       const Pose X_MR = pose(k);
       step(graph, walls, X_MR, look(X_MR, k));
       const std::vector<PlaneNode> whole = walls.extents(graph);
-      walls.settle(graph, k - 4);
+      walls.freeze_extents(graph, k - 4);
       const std::vector<PlaneNode> summed = walls.extents(graph);
       ASSERT_EQ(summed.size(), whole.size());
       for (std::size_t id = 0; id < whole.size(); ++id) {
@@ -379,7 +381,7 @@ TEST(WallLayer, WhatIsSettledHasTheExtentItHad) {
         EXPECT_EQ(summed[id].z0, whole[id].z0);
         EXPECT_EQ(summed[id].z1, whole[id].z1);
       }
-      if (k == 6) walls.unsettle();
+      if (k == 6) walls.unfreeze_extents();
     }
   }
 }

@@ -7,9 +7,9 @@ namespace plumbline::slam {
 namespace {
 
 /// A room of 6 x 4 x 2.6 m round the frame's origin corner, its floor at z = 0; the sensor stands at (3, 2, 0.7).
-class Reflections : public testing::Test {
+class MirrorGhosts : public testing::Test {
  protected:
-  Reflections() {
+  MirrorGhosts() {
     add_wall({1, 0}, {0, 0}, {0, 4});
     add_wall({-1, 0}, {6, 0}, {6, 4});
     add_wall({0, 1}, {0, 0}, {6, 0});
@@ -39,10 +39,10 @@ class Reflections : public testing::Test {
         ++through_;
       }
   }
-  std::size_t remove(const ReflectionConfig& config = {}) {
+  std::size_t remove(const MirrorGhostConfig& config = {}) {
     std::vector<CloudKeyframe> clouds = {cloud_};
     const std::vector<Plane> levels = {{Eigen::Vector3d::UnitZ(), 0.0}, {-Eigen::Vector3d::UnitZ(), 2.6}};
-    const std::size_t removed = remove_reflections(clouds, walls_, levels, {0, 0, 0.2}, config);
+    const std::size_t removed = remove_mirror_ghosts(clouds, walls_, levels, {0, 0, 0.2}, config);
     EXPECT_EQ(clouds[0].points_R.size() + removed, cloud_.points_R.size());
     return removed;
   }
@@ -52,19 +52,19 @@ class Reflections : public testing::Test {
   std::size_t through_ = 0;
 };
 
-TEST_F(Reflections, LeaveARoomWithoutPanesAlone) { EXPECT_EQ(remove(), 0U); }
+TEST_F(MirrorGhosts, LeaveARoomWithoutPanesAlone) { EXPECT_EQ(remove(), 0U); }
 
 // A pane at y = 4.15 shows the wall y = 0 at y = 8.3; where it is seen higher than directly, too.
-TEST_F(Reflections, OfTheRoomBehindAPaneGo) {
+TEST_F(MirrorGhosts, OfTheRoomBehindAPaneGo) {
   look_through(2.4, 3.6, 0.9, 1.25, 8.3);
   EXPECT_EQ(remove(), through_);
-  ReflectionConfig off;
+  MirrorGhostConfig off;
   off.remove = false;
   EXPECT_EQ(remove(off), 0U);
 }
 
 // The pane itself gives back a little, from which comes a small plane that leans.
-TEST_F(Reflections, GoThoughThePaneIsAPlaneOfItsOwn) {
+TEST_F(MirrorGhosts, GoThoughThePaneIsAPlaneOfItsOwn) {
   look_through(2.4, 3.6, 0.9, 1.25, 8.3);
   add_wall({0, -1}, {2.4, 4.15}, {3.6, 4.15});
   walls_.back().observations = 3;
@@ -73,55 +73,55 @@ TEST_F(Reflections, GoThoughThePaneIsAPlaneOfItsOwn) {
   EXPECT_EQ(remove(), through_);
 }
 
-TEST_F(Reflections, AreNotWhatAPaneLetsThrough) {
+TEST_F(MirrorGhosts, AreNotWhatAPaneLetsThrough) {
   look_through(2.4, 3.6, 0.9, 1.25, 11.0);
   EXPECT_EQ(remove(), 0U);
 }
 
 // A room of the same depth may lie behind a door, and the robot need not have entered it.
-TEST_F(Reflections, AreNotLookedForBehindDoors) {
+TEST_F(MirrorGhosts, AreNotLookedForBehindDoors) {
   look_through(2.4, 3.4, 0.03, 1.25, 8.3);
   EXPECT_EQ(remove(), 0U);
 }
 
 // From afar the floor behind a door is seen by few rays only.
-TEST_F(Reflections, AreNotLookedForBehindDoorsWhoseFloorIsHardlySeen) {
+TEST_F(MirrorGhosts, AreNotLookedForBehindDoorsWhoseFloorIsHardlySeen) {
   look_through(2.4, 3.4, 0.5, 1.25, 8.3);
   look_through(2.4, 2.8, 0.3, 0.5, 8.3);
   look_through(2.4, 2.5, 0.03, 0.3, 8.3);
   EXPECT_EQ(remove(), 0U);
 }
 
-TEST_F(Reflections, AboveALowSillGo) {
+TEST_F(MirrorGhosts, AboveALowSillGo) {
   look_through(2.4, 3.6, 0.2, 1.25, 8.3);
   EXPECT_EQ(remove(), through_);
 }
 
 // Some points lie low behind the wall under a window; that makes it no door.
-TEST_F(Reflections, GoThoughStraysPassUnderTheWindow) {
+TEST_F(MirrorGhosts, GoThoughStraysPassUnderTheWindow) {
   look_through(2.4, 3.6, 0.9, 1.25, 8.3);
   const Eigen::Vector3d eye(3, 2, 0.7);
   for (double z = 0.1; z < 0.9; z += 0.15, ++through_) look_at(eye + 1.25 * (Eigen::Vector3d(2.5, 4, z) - eye));
   EXPECT_EQ(remove(), through_);
-  ReflectionConfig config;
+  MirrorGhostConfig config;
   config.under_sill = 0.0;
   EXPECT_EQ(remove(config), 0U);
 }
 
-TEST_F(Reflections, OfSideWallsAloneGoWhereTheyStandHereToo) {
+TEST_F(MirrorGhosts, OfSideWallsAloneGoWhereTheyStandHereToo) {
   std::size_t seen = 0;
   for (double y = 4.4; y < 7.5; y += 0.05)
     for (double z = 0.4; z < 1.2; z += 0.05, ++seen) look_at({0, y, z});
   EXPECT_EQ(remove(), seen);
 }
 
-TEST_F(Reflections, AreNotSideWallsThatGoOnFartherThanHere) {
+TEST_F(MirrorGhosts, AreNotSideWallsThatGoOnFartherThanHere) {
   for (double y = 8.5; y < 12.0; y += 0.05)
     for (double z = 0.4; z < 1.2; z += 0.05) look_at({0, y, z});
   EXPECT_EQ(remove(), 0U);
 }
 
-TEST_F(Reflections, AreNotWhatWasSeenDirectlyToo) {
+TEST_F(MirrorGhosts, AreNotWhatWasSeenDirectlyToo) {
   look_through(2.4, 3.6, 0.9, 1.25, 8.3);
   CloudKeyframe entered;
   entered.X_FR = Pose::from_xyz_yaw({3, 6, 0.5}, 0.0);
@@ -130,11 +130,11 @@ TEST_F(Reflections, AreNotWhatWasSeenDirectlyToo) {
     if (p_F.y() > 8.0) entered.points_R.push_back((entered.X_FR.inverse() * p_F).cast<float>());
   }
   std::vector<CloudKeyframe> clouds = {cloud_, entered};
-  EXPECT_EQ(remove_reflections(clouds, walls_, {}, {0, 0, 0.2}, {}), 0U);
+  EXPECT_EQ(remove_mirror_ghosts(clouds, walls_, {}, {0, 0, 0.2}, {}), 0U);
 }
 
-// A polished box in the room shows what no plane of it says; nothing is seen through the wall behind it all the same.
-TEST_F(Reflections, BehindAWallsSolidPartGo) {
+// A polished box in the room shows what no plane of it holds; nothing is seen through the wall behind it all the same.
+TEST_F(MirrorGhosts, BehindAWallsSolidPartGo) {
   std::size_t seen = 0;
   for (double y = 1.0; y < 3.0; y += 0.05)
     for (double z = 0.3; z < 1.2; z += 0.05, ++seen) look_at({7.0 + y, y, z});
@@ -142,26 +142,26 @@ TEST_F(Reflections, BehindAWallsSolidPartGo) {
 }
 
 // What is seen through a door's edge crosses a cell that the wall is seen in too.
-TEST_F(Reflections, AreNotWhatIsSeenPastADoorsEdge) {
+TEST_F(MirrorGhosts, AreNotWhatIsSeenPastADoorsEdge) {
   look_through(3.8, 4.0, 0.03, 1.25, 9.7);
   EXPECT_EQ(remove(), 0U);
 }
 
 // Of a wall that is glass from corner to corner little is seen.
-TEST_F(Reflections, BesideTheSeenPartOfAWallGoUpToTheCorner) {
+TEST_F(MirrorGhosts, BesideTheSeenPartOfAWallGoUpToTheCorner) {
   walls_[3].p0.x() = 0.5;
   look_through(0.1, 3.6, 0.9, 1.25, 8.3);
   EXPECT_EQ(remove(), through_);
-  ReflectionConfig config;
+  MirrorGhostConfig config;
   config.corner_m = 0.0;
   EXPECT_LT(remove(config), through_);
 }
 
-TEST_F(Reflections, NeedWallsAndPoints) {
+TEST_F(MirrorGhosts, NeedWallsAndPoints) {
   std::vector<CloudKeyframe> clouds = {cloud_};
-  EXPECT_EQ(remove_reflections(clouds, {}, {}, {0, 0, 0.2}, {}), 0U);
+  EXPECT_EQ(remove_mirror_ghosts(clouds, {}, {}, {0, 0, 0.2}, {}), 0U);
   clouds.clear();
-  EXPECT_EQ(remove_reflections(clouds, walls_, {}, {0, 0, 0.2}, {}), 0U);
+  EXPECT_EQ(remove_mirror_ghosts(clouds, walls_, {}, {0, 0, 0.2}, {}), 0U);
 }
 
 }  // namespace

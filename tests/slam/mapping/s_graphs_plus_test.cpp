@@ -121,7 +121,7 @@ TEST(SGraphsPlus, SurvivesTheMapsOriginAtARoomsCentre) {
   EXPECT_LT(ate(r.causal, r.truth), 0.02);
   ASSERT_EQ(r.estimate.rooms.size(), 1U);
   EXPECT_EQ(r.estimate.rooms[0].kind, RoomKind::four_wall);
-  // M is where the first sweep ended, 0.06 m on. Bounds: a fraction of a free-space cell, and the range noise.
+  // M is where the first scan ended, 0.06 m on. Bounds: a fraction of a free-space cell, and the range noise.
   const Eigen::Vector2d center_M = Eigen::Vector2d(3.0, 2.0) - r.truth[0].head<2>();
   EXPECT_LT(center_M.norm(), 0.02);
   EXPECT_LT((r.estimate.rooms[0].center_F - center_M).norm(), 0.02);

@@ -20,17 +20,17 @@ using Pairs = std::vector<SameWall>;
 
 TEST(SameWalls, MatchesByIdFirstThenTheBestFit) {
   // Wall k + 10 is wall k seen again; 12 is not quite as near to 3 as 13 is.
-  const WallMisfit misfit = [](int a, int b) { return b - 10 == a ? 0.1 : b == 12 && a == 3 ? 0.2 : 2.0; };
-  EXPECT_EQ(same_walls(Walls{1, 2, 3, 4}, Walls{3, 4, 1, 2}, misfit), Pairs{});
-  EXPECT_EQ(same_walls(Walls{1, 2, 3, 4}, Walls{11, 2, 3, 4}, misfit), (Pairs{{1, 11}}));
-  EXPECT_EQ(same_walls(Walls{4, 3, 2, 1}, Walls{12, 13, 14, 1}, misfit), (Pairs{{2, 12}, {3, 13}, {4, 14}}));
+  const WallDistance distance = [](int a, int b) { return b - 10 == a ? 0.1 : b == 12 && a == 3 ? 0.2 : 2.0; };
+  EXPECT_EQ(same_walls(Walls{1, 2, 3, 4}, Walls{3, 4, 1, 2}, distance), Pairs{});
+  EXPECT_EQ(same_walls(Walls{1, 2, 3, 4}, Walls{11, 2, 3, 4}, distance), (Pairs{{1, 11}}));
+  EXPECT_EQ(same_walls(Walls{4, 3, 2, 1}, Walls{12, 13, 14, 1}, distance), (Pairs{{2, 12}, {3, 13}, {4, 14}}));
 }
 
 TEST(SameWalls, ARoomWithOneWallThatIsAnotherIsAnotherRoom) {
-  const WallMisfit misfit = [](int a, int b) { return b - 10 == a && a != 4 ? 0.1 : 1.5; };
-  EXPECT_FALSE(same_walls(Walls{1, 2, 3, 4}, Walls{11, 12, 13, 14}, misfit).has_value());
-  EXPECT_FALSE(same_walls(Walls{1, 2}, Walls{1, 2, 3, 4}, misfit).has_value());
-  EXPECT_FALSE(same_walls(Walls{1, 2}, Walls{11, 11}, misfit).has_value()) << "one wall cannot be two";
+  const WallDistance distance = [](int a, int b) { return b - 10 == a && a != 4 ? 0.1 : 1.5; };
+  EXPECT_FALSE(same_walls(Walls{1, 2, 3, 4}, Walls{11, 12, 13, 14}, distance).has_value());
+  EXPECT_FALSE(same_walls(Walls{1, 2}, Walls{1, 2, 3, 4}, distance).has_value());
+  EXPECT_FALSE(same_walls(Walls{1, 2}, Walls{11, 11}, distance).has_value()) << "one wall cannot be two";
 }
 
 /// A room seen on two visits with a way between them over which the belief drifts.
@@ -73,13 +73,13 @@ Visits visit_twice(const Pose& drift, const WallLayerConfig& config) {
     const DeskewedScan scan =
         deskew(synthetic::standing_scan(house, truth.back(), {}), still, synthetic::calibration());
     std::vector<PlaneObservation> seen = detect_planes(scan, {});
-    keep_level(seen, X_MR, levels);
+    drop_tilted_planes(seen, X_MR, levels);
     walls.observe(graph, seen, walked_m);
     bool found = walls.find_duplicates(graph, 0);
-    rooms.look(graph, scan, seen);
+    rooms.add_scan(graph, scan, seen);
     const std::vector<PlaneNode> known = walls.walls(graph, 0);
-    const WallMisfit misfit = [&](int a, int b) { return walls.room_misfit(known, a, b); };
-    found |= walls.add_duplicates(graph, known, rooms.seen_again(graph, walls.seen_now(graph), misfit));
+    const WallDistance distance = [&](int a, int b) { return walls.room_normalized_mahalanobis2(known, a, b); };
+    found |= walls.add_duplicates(graph, known, rooms.find_revisited_walls(graph, walls.seen_now(graph), distance));
     rooms.update(graph, 0, known);
     if (k == 9) visits.known = static_cast<int>(graph.planes.size());
     if (!found) continue;
@@ -92,7 +92,7 @@ Visits visit_twice(const Pose& drift, const WallLayerConfig& config) {
   return visits;
 }
 
-// 0.42 m off, a wall alone is another wall to the gate of one look; all walls of the room agree.
+// 0.42 m off, a wall alone is another wall to the gate of one observation; all walls of the room agree.
 TEST(SameWalls, ARoomSeenAgainBringsTheRobotBack) {
   WallLayerConfig without;
   without.room_offset_m = 0.0;

@@ -9,7 +9,7 @@
 namespace plumbline::slam {
 namespace {
 
-/// Answers each scan with a place 0.1 m on, and keeps what it is told.
+/// Answers each scan with a pose 0.1 m on, and records the predictions that it gets.
 class Walker final : public Method {
  public:
   explicit Walker(std::vector<Odometry>& told) : told_(told) {}
@@ -27,7 +27,7 @@ class Walker final : public Method {
   int scans_ = 0;
 };
 
-/// How far the method is told to have gone before the last of these scans.
+/// How far the predictions move before the last of these scans.
 double told_before_last_m(const std::vector<Nanoseconds>& stamps) {
   std::vector<Odometry> told;
   const std::unique_ptr<Method> method = with_constant_velocity(std::make_unique<Walker>(told));

@@ -25,7 +25,7 @@ TEST(OdometryHealth, LosesAndFindsWithHysteresis) {
   config.bad_scans = 3;
   config.good_scans = 4;
   OdometryHealth health(config);
-  const auto scan = [&](double share) { return health.judge(matched(share), {}, period); };
+  const auto scan = [&](double share) { return health.assess(matched(share), {}, period); };
   for (int k = 0; k < 2; ++k) EXPECT_FALSE(scan(0.1));
   EXPECT_FALSE(health.lost()) << "two bad scans are not yet three";
   EXPECT_TRUE(scan(0.9));
@@ -37,16 +37,16 @@ TEST(OdometryHealth, LosesAndFindsWithHysteresis) {
   EXPECT_FALSE(health.lost());
 }
 
-TEST(OdometryHealth, StepsNoRobotTakesAreNotBelieved) {
+TEST(OdometryHealth, ImplausibleStepsAreNotAccepted) {
   const HealthConfig config;
   OdometryHealth health(config);
   const auto step = [](double x, double yaw) { return Pose::from_xyz_yaw({x, 0.0, 0.0}, yaw); };
-  EXPECT_TRUE(health.judge(matched(0.9), step(0.12, 0.1), period));
-  EXPECT_FALSE(health.judge(matched(0.9), step(0.1 * config.max_speed_mps + 0.1, 0.0), period));
-  EXPECT_FALSE(health.judge(matched(0.9), step(0.0, 0.1 * config.max_turn_radps + 0.1), period));
-  EXPECT_TRUE(health.judge(matched(0.9), step(1.2, 0.0), 20 * period)) << "2 s went by";
-  EXPECT_FALSE(health.judge(matched(0.9), step(std::nan(""), 0.0), period));
-  EXPECT_FALSE(health.judge(matched(0.9), step(1.0, 0.0), 0)) << "no time went by";
+  EXPECT_TRUE(health.assess(matched(0.9), step(0.12, 0.1), period));
+  EXPECT_FALSE(health.assess(matched(0.9), step(0.1 * config.max_speed_mps + 0.1, 0.0), period));
+  EXPECT_FALSE(health.assess(matched(0.9), step(0.0, 0.1 * config.max_turn_radps + 0.1), period));
+  EXPECT_TRUE(health.assess(matched(0.9), step(1.2, 0.0), 20 * period)) << "2 s went by";
+  EXPECT_FALSE(health.assess(matched(0.9), step(std::nan(""), 0.0), period));
+  EXPECT_FALSE(health.assess(matched(0.9), step(1.0, 0.0), 0)) << "no time went by";
 }
 
 struct Tracked {
@@ -56,7 +56,7 @@ struct Tracked {
   double least_matched = 1.0;
 };
 
-/// A walk with exact legs through the house, whose scans from `from` to `to` are without returns.
+/// A walk with exact odometry through the house, whose scans from `from` to `to` are without returns.
 Tracked track(OdometryKind kind, std::size_t from, std::size_t to) {
   synthetic::WalkConfig walk;
   walk.duration_s = 4.5;
@@ -77,7 +77,7 @@ Tracked track(OdometryKind kind, std::size_t from, std::size_t to) {
     tracked.worst_m = std::max(tracked.worst_m, (r.X_MR.t - (X_MW * recording.truth[k].X_FR).t).norm());
     tracked.lost |= r.lost;
     tracked.lost_at_end = r.lost;
-    if (k > 0 && r.believed) tracked.least_matched = std::min(tracked.least_matched, r.matched);
+    if (k > 0 && r.accepted) tracked.least_matched = std::min(tracked.least_matched, r.matched);
   }
   return tracked;
 }
@@ -96,7 +96,7 @@ struct Silence {
   double from_s = 0.0, to_s = 0.0;
 };
 
-/// Farthest from the truth of a straight walk over which the legs, exact otherwise, are not heard for a while.
+/// Farthest from the truth of a straight walk over which odometry, exact otherwise, is silent for a while.
 double worst_with_silence(const Silence& silence) {
   synthetic::WalkConfig walk;
   walk.duration_s = 6.0;
@@ -121,11 +121,11 @@ double worst_with_silence(const Silence& silence) {
 
 // 1.5 m unheard, which counted twice would stay; 0.36 m, which a robot could go in the one scan after. Scans meanwhile
 // are undeskewed: 3 cm of half a sweep at 0.6 m/s, beside what scan matching alone is off by.
-TEST(LidarOdometry, WhatTheLegsSayOfASilenceIsNotCountedAgain) {
+TEST(LidarOdometry, OdometryOverAGapIsNotCountedAgain) {
   for (const double to_s : {4.0, 2.1}) EXPECT_LT(worst_with_silence({1.5, to_s}), 0.2) << to_s;
 }
 
-TEST(LidarOdometry, AStepNoRobotTakesIsNoneOfTheLegs) {
+TEST(LidarOdometry, AnImplausibleOdometryStepIsDiscarded) {
   const Pose X_WR = Pose::from_xyz_yaw({3.0, 2.0, 0.46}, 0.3);
   MotionBuffer still;
   still.add({0, Pose{}});
@@ -137,16 +137,16 @@ TEST(LidarOdometry, AStepNoRobotTakesIsNoneOfTheLegs) {
     DeskewedScan scan =
         deskew(synthetic::standing_scan(synthetic::one_room(), X_WR, noise), still, synthetic::calibration());
     scan.stamp += k * period;
-    // The legs leap by 1.5 m between the third scan and the fourth, which as records 0.2 s apart is no jump.
+    // Odometry jumps by 1.5 m between the third scan and the fourth, which as records 0.2 s apart is no jump.
     const Registration r = odometry->update(scan, Pose::from_xyz_yaw({k < 3 ? 0.0 : 1.5, 0.0, 0.0}, 0.0));
-    EXPECT_EQ(r.followed, k != 3);
-    EXPECT_TRUE(r.believed || k == 0);
+    EXPECT_EQ(r.odometry_valid, k != 3);
+    EXPECT_TRUE(r.accepted || k == 0);
     X_MR = r.X_MR;
   }
   EXPECT_LT(X_MR.t.norm(), 0.05);
 }
 
-TEST(LidarOdometry, WithoutLegsAndReturnsAStepMayBeAny) {
+TEST(LidarOdometry, WithoutOdometryAndReturnsAStepMayBeAny) {
   MotionBuffer silent;
   silent.add({0, Pose{}});
   const std::unique_ptr<LidarOdometry> odometry = make_lidar_odometry({});
@@ -155,14 +155,14 @@ TEST(LidarOdometry, WithoutLegsAndReturnsAStepMayBeAny) {
   scan.stamp += period;
   std::fill(scan.range_m.begin(), scan.range_m.end(), 0.0);
   const Registration r = odometry->update(deskew(scan, silent, synthetic::calibration()), Pose{});
-  EXPECT_FALSE(r.believed);
-  EXPECT_FALSE(r.followed);
+  EXPECT_FALSE(r.accepted);
+  EXPECT_FALSE(r.odometry_valid);
   const HealthConfig limits;
   EXPECT_NEAR(1.0 / std::sqrt(r.information(0, 0)), 0.1 * limits.max_speed_mps, 1e-9);
   EXPECT_NEAR(1.0 / std::sqrt(r.information(5, 5)), 0.1 * limits.max_turn_radps, 1e-9);
 }
 
-// A second without returns: lost meanwhile, on the legs, and found again.
+// A second without returns: lost meanwhile, on dead reckoning, and found again.
 TEST(OdometryHealth, BlindScansAreDeadReckoned) {
   for (const OdometryKind kind : {OdometryKind::vgicp, OdometryKind::floam, OdometryKind::aloam}) {
     const Tracked tracked = track(kind, 15, 25);

@@ -7,26 +7,27 @@
 #include <cmath>
 
 #include "tests/slam/localization/house_plan.h"
+#include "tests/slam/plan_map/wall_log_likelihood.h"
 
 namespace plumbline::slam {
 namespace {
 
 PlanIndex corridor_index() { return make_plan_index(synthetic::plan_of(synthetic::corridor_house()), "ground", {}); }
 
-View view_at(const synthetic::House& house, const Pose& X_WR) {
+LocalizationScan scan_at(const synthetic::House& house, const Pose& X_WR) {
   const synthetic::WalkConfig config;
   const Scan scan = synthetic::standing_scan(house, X_WR, config);
   MotionBuffer motion;
   motion.add({0, Pose{}});
   const DeskewedScan deskewed = deskew(scan, motion, synthetic::calibration());
-  return make_view(deskewed, detect_planes(deskewed, {}), Pose{}, synthetic::calibration(), {});
+  return make_localization_scan(deskewed, detect_planes(deskewed, {}), Pose{}, synthetic::calibration(), {});
 }
 
 TEST(Particles, StartUniformlyInTheRoomsOnly) {
   const PlanIndex index = corridor_index();
-  StartBelief belief;
-  belief.yaw_I = 1.0;
-  const ParticleSet particles = draw_start(index, belief, View{}, {}, 7, 1);
+  StartPrior prior;
+  prior.yaw_I = 1.0;
+  const ParticleSet particles = sample_initial_particles(index, prior, LocalizationScan{}, {}, 7, 1);
   const StoreyIndex& storey = index.storeys.front();
   std::vector<double> per_room(storey.rooms.size(), 0.0);
   double yaw = 0.0;
@@ -42,7 +43,7 @@ TEST(Particles, StartUniformlyInTheRoomsOnly) {
     EXPECT_GT(per_room[i] / area, 15.0);
     EXPECT_LT(per_room[i] / area, 30.0);
   }
-  EXPECT_NEAR(yaw, 1.0, 4.0 * belief.yaw_sigma / std::sqrt(static_cast<double>(particles.size())));
+  EXPECT_NEAR(yaw, 1.0, 4.0 * prior.yaw_sigma / std::sqrt(static_cast<double>(particles.size())));
 }
 
 TEST(Particles, WhoWalksThroughAWallDies) {
@@ -77,10 +78,10 @@ TEST(Particles, MotionNoiseHasThePromisedSpread) {
 TEST(Particles, TemperingKeepsAShareEffective) {
   const synthetic::House house = synthetic::corridor_house();
   const PlanIndex index = corridor_index();
-  const View view = view_at(house, Pose::from_xyz_yaw({7.0, 1.1, 0.46}, 0.3));
-  ParticleSet particles = draw_start(index, {0.3, 0.05}, view, {}, 7, 1);
+  const LocalizationScan scan = scan_at(house, Pose::from_xyz_yaw({7.0, 1.1, 0.46}, 0.3));
+  ParticleSet particles = sample_initial_particles(index, {0.3, 0.05}, scan, {}, 7, 1);
   const double n = static_cast<double>(particles.size());
-  const Reweighting weighting = reweight(particles, view, index, {}, {});
+  const Reweighting weighting = reweight(particles, scan, index, {}, {});
   EXPECT_LT(weighting.temper, 1.0);
   EXPECT_NEAR(weighting.effective, 0.1 * n, 0.01 * n);
 }
@@ -116,8 +117,8 @@ TEST(Particles, TemperingTakesTheLargestExponentThatLeavesSoMany) {
 TEST(Particles, WhoDiedStaysDead) {
   const synthetic::House house = synthetic::corridor_house();
   const PlanIndex index = corridor_index();
-  const View view = view_at(house, Pose::from_xyz_yaw({7.0, 1.1, 0.46}, 0.3));
-  ParticleSet particles = draw_start(index, {0.3, 0.05}, view, {}, 7, 1), without;
+  const LocalizationScan scan = scan_at(house, Pose::from_xyz_yaw({7.0, 1.1, 0.46}, 0.3));
+  ParticleSet particles = sample_initial_particles(index, {0.3, 0.05}, scan, {}, 7, 1), without;
   for (std::size_t i = 0; i < particles.size(); ++i)
     if (i % 3 == 0)
       particles[i].weight = 0.0;
@@ -125,8 +126,8 @@ TEST(Particles, WhoDiedStaysDead) {
       without.push_back(particles[i]);
   FilterConfig config;
   config.ess_floor = 0.0;
-  static_cast<void>(reweight(particles, view, index, {}, config));
-  static_cast<void>(reweight(without, view, index, {}, config));
+  static_cast<void>(reweight(particles, scan, index, {}, config));
+  static_cast<void>(reweight(without, scan, index, {}, config));
   std::size_t next = 0;
   for (std::size_t i = 0; i < particles.size(); ++i)
     EXPECT_NEAR(particles[i].weight, i % 3 == 0 ? 0.0 : without[next++].weight, 1e-12);
@@ -136,15 +137,15 @@ TEST(Particles, TheTruePlaceIsTheMostLikely) {
   const synthetic::House house = synthetic::corridor_house();
   const PlanIndex index = corridor_index();
   const Pose X_WR = Pose::from_xyz_yaw({3.1, 0.9, 0.46}, 0.3);
-  const View view = view_at(house, X_WR);
+  const LocalizationScan scan = scan_at(house, X_WR);
   const Pose X_IR = index.X_WI.inverse() * X_WR;
   const StoreyIndex& storey = index.storeys.front();
   const auto log_likelihood = [&](const Pose2& X) {
-    return wall_log_likelihood(storey, X, view, {}) + beam_log_likelihood(storey, X, view, 1, {});
+    return wall_log_likelihood(storey, X, scan, {}) + beam_log_likelihood(storey, X, scan, 1, {});
   };
   const double at_truth = log_likelihood(heading(X_IR));
   int better = 0;
-  for (const LocalParticle& p : draw_start(index, {heading(X_IR).yaw, 0.05}, view, {}, 7, 1))
+  for (const LocalParticle& p : sample_initial_particles(index, {heading(X_IR).yaw, 0.05}, scan, {}, 7, 1))
     if ((p.X_IH.t - X_IR.t.head<2>()).norm() > 0.3 && log_likelihood(p.X_IH) >= at_truth) ++better;
   EXPECT_EQ(better, 0);
 }

@@ -11,12 +11,6 @@
 namespace plumbline::slam {
 namespace {
 
-StoreyIndex storey_of(const bim::Plan& plan) {
-  PlanIndexConfig config;
-  config.visibility_rays = 8;
-  return make_plan_index(plan, std::nullopt, config).storeys.front();
-}
-
 /// Of points 1 cm apart on every piece.
 double sampled_distance(const std::vector<SlicePiece>& pieces, const Eigen::Vector2d& p) {
   double least = 1e9;
@@ -28,7 +22,7 @@ double sampled_distance(const std::vector<SlicePiece>& pieces, const Eigen::Vect
 }
 
 TEST(LikelihoodField, IsTheDistanceToTheNearestWall) {
-  const StoreyIndex storey = storey_of(synthetic::plan_of(synthetic::corridor_house()));
+  const StoreyIndex storey = synthetic::storey_of(synthetic::plan_of(synthetic::corridor_house()));
   const LikelihoodFieldConfig config;
   const LikelihoodField field(storey, config);
   const std::vector<SlicePiece> pieces = cut_plan(storey, config.slice_height_m);
@@ -46,7 +40,7 @@ TEST(LikelihoodField, IsTheDistanceToTheNearestWall) {
 TEST(LikelihoodField, LeavesHolesOpenAtTheHeightOfTheSlice) {
   bim::Plan plan = synthetic::plan_of(synthetic::one_room());
   for (bim::PlanFace& face : plan.faces) face.holes.push_back({1.0, 2.0, 0.9, 2.1});
-  const StoreyIndex storey = storey_of(plan);
+  const StoreyIndex storey = synthetic::storey_of(plan);
   const auto length = [&](double height) {
     double sum = 0.0;
     for (const SlicePiece& piece : cut_plan(storey, height)) sum += (piece.b - piece.a).norm();
@@ -59,15 +53,15 @@ TEST(LikelihoodField, LeavesHolesOpenAtTheHeightOfTheSlice) {
 }
 
 TEST(LikelihoodField, StaysWithinItsMemoryAndInItsRooms) {
-  const StoreyIndex storey = storey_of(synthetic::plan_of(synthetic::corridor_house()));
+  const StoreyIndex storey = synthetic::storey_of(synthetic::plan_of(synthetic::corridor_house()));
   LikelihoodFieldConfig config;
   config.max_cells = 5000;
   const LikelihoodField coarse(storey, config), fine(storey, {});
-  EXPECT_GT(coarse.cell_m(), config.cell_m);
-  EXPECT_EQ(fine.cell_m(), config.cell_m);
+  EXPECT_GT(coarse.frame().cell, config.cell_m);
+  EXPECT_EQ(fine.frame().cell, config.cell_m);
   double area = 0.0;
-  for (const IndexRoom& room : storey.rooms) area += std::abs(signed_area(room.polygon));
-  const double free = static_cast<double>(fine.free_cells().size()) * fine.cell_m() * fine.cell_m();
+  for (const LocalRoom& room : storey.rooms) area += std::abs(signed_area(room.polygon));
+  const double free = static_cast<double>(fine.free_cells().size()) * fine.frame().cell * fine.frame().cell;
   EXPECT_NEAR(free, area, 0.05 * area);
   for (const Eigen::Vector2f& p : fine.free_cells()) ASSERT_GE(storey.room_at(p.cast<double>()), 0);
 }

@@ -41,11 +41,11 @@ std::vector<PlanSegment> some_plan(const Stream& stream) {
   return segments;
 }
 
-TEST(FirstFaces, FindsWhatLookingAtEveryFaceFinds) {
+TEST(RayCandidateTable, FindsWhatTestingEveryFaceFinds) {
   const Stream stream(5, "slam.localize.init");
   const std::vector<PlanSegment> segments = some_plan(stream);
-  const CellFrame frame{{-0.7, -0.6}, 0.5, 27, 27};
-  const FirstFaces faces(segments, frame);
+  const GridFrame frame{{-0.7, -0.6}, 0.5, 27, 27};
+  const RayCandidateTable faces(segments, frame);
   constexpr std::uint32_t rays = 40000;
   int settled = 0, hits = 0;
   for (std::uint32_t i = 0; i < rays; ++i) {
@@ -59,7 +59,7 @@ TEST(FirstFaces, FindsWhatLookingAtEveryFaceFinds) {
     const double most = 20.0 * stream.uniform(1, i, 5);
     PlanHit all{most, -1}, found{most, -1};
     for (std::size_t k = 0; k < segments.size(); ++k) keep_nearest(segments[k], static_cast<int>(k), ray, all);
-    if (!faces.cast(segments, frame.at(ray.origin), ray, found)) continue;
+    if (!faces.cast(segments, static_cast<int>(frame.find(ray.origin).value()), ray, found)) continue;
     ++settled;
     hits += found.segment >= 0 ? 1 : 0;
     ASSERT_EQ(found.segment, all.segment) << "ray " << i;

@@ -26,6 +26,12 @@ PlanSegment random_segment(const Stream& stream, std::uint32_t lane) {
   return segment;
 }
 
+std::vector<PlanSegment> random_segments(const Stream& stream) {
+  std::vector<PlanSegment> segments;
+  for (std::uint32_t i = 0; i < 40; ++i) segments.push_back(random_segment(stream, i));
+  return segments;
+}
+
 /// Solves for the crossing with every segment, without a grid.
 double brute_force(const std::vector<PlanSegment>& segments, const PlanRay& ray, double most) {
   double best = most;
@@ -44,8 +50,7 @@ double brute_force(const std::vector<PlanSegment>& segments, const PlanRay& ray,
 
 TEST(SegmentGrid, FindsTheFirstHitOfRandomRays) {
   const Stream stream(3, "slam.localize.init");
-  std::vector<PlanSegment> segments;
-  for (std::uint32_t i = 0; i < 40; ++i) segments.push_back(random_segment(stream, i));
+  const std::vector<PlanSegment> segments = random_segments(stream);
   const SegmentGrid grid(segments, 0.5);
   int hits = 0;
   for (std::uint32_t i = 0; i < 3000; ++i) {
@@ -64,8 +69,7 @@ TEST(SegmentGrid, FindsTheFirstHitOfRandomRays) {
 
 TEST(SegmentGrid, NothingStandsWithinTheClearance) {
   const Stream stream(3, "slam.localize.init");
-  std::vector<PlanSegment> segments;
-  for (std::uint32_t i = 0; i < 40; ++i) segments.push_back(random_segment(stream, i));
+  const std::vector<PlanSegment> segments = random_segments(stream);
   const SegmentGrid grid(segments, 0.5);
   int wide = 0;
   for (std::uint32_t i = 0; i < 3000; ++i) {
@@ -131,7 +135,7 @@ TEST(SegmentGrid, OfAWideSiteHasCoarserCells) {
   std::vector<PlanSegment> segments(2);
   segments[1].a = {8000.0, 9000.0};
   const SegmentGrid grid(segments, 0.5);
-  EXPECT_LE(static_cast<std::size_t>(grid.cells()), FirstFaces::most_cells);
+  EXPECT_LE(static_cast<std::size_t>(grid.cells()), RayCandidateTable::most_cells);
   for (const PlanSegment& segment : segments) {
     const PlanRay ray{segment.a + 0.5 * segment.length * segment.e - 2.0 * segment.n, segment.n, 1.0, 0.0};
     EXPECT_NEAR(grid.cast(segments, ray, 15.0).distance, 2.0, 1e-9);

@@ -6,8 +6,8 @@
 namespace plumbline::slam {
 namespace {
 
-TEST(Trail, CarriesTheFirstCorrectionBackAndInterpolatesBetween) {
-  Trail trail;
+TEST(CorrectedTrajectory, CarriesTheFirstCorrectionBackAndInterpolatesBetween) {
+  CorrectedTrajectory trail;
   for (int i = 0; i < 5; ++i) trail.add_scan(i, Pose{Eigen::Quaterniond::Identity(), {1.0 * i, 0.0, 0.0}});
   EXPECT_TRUE(trail.poses(Pose{}).empty());
   trail.add_correction(1, Pose::from_xyz_yaw({0.0, 2.0, 0.0}, 0.0));

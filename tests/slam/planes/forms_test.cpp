@@ -5,8 +5,8 @@
 
 #include <numbers>
 
-#include "bim/errors.h"
 #include "bim/random/stream.h"
+#include "tests/slam/planes/plane_forms.h"
 
 namespace plumbline::slam {
 namespace {
@@ -28,21 +28,6 @@ Pose random_pose(std::uint64_t k) {
 void expect_same(const Plane& a, const Plane& b) {
   EXPECT_LT((a.n - b.n).norm(), 1e-12);  // a few roundings of numbers up to 1
   EXPECT_NEAR(a.d, b.d, 1e-12);
-}
-
-TEST(PlaneForms, AClosestPointLiesOnThePlaneAndGivesItBack) {
-  for (std::uint64_t k = 0; k < trials; ++k) {
-    const Plane plane = random_plane(k, 0);
-    const Eigen::Vector3d foot = closest_point(plane);
-    EXPECT_NEAR(plane.distance(foot), 0.0, 1e-12);
-    EXPECT_NEAR(foot.norm(), std::abs(plane.d), 1e-12);
-    expect_same(from_closest_point(foot), plane.d > 0.0 ? plane : plane.flipped());
-  }
-}
-
-TEST(PlaneForms, AClosestPointAtTheOriginSaysNothing) {
-  EXPECT_EQ(closest_point({Eigen::Vector3d::UnitX(), 0.0}), Eigen::Vector3d(0, 0, 0));
-  EXPECT_THROW(static_cast<void>(from_closest_point(Eigen::Vector3d::Zero())), InternalError);
 }
 
 TEST(PlaneForms, AnglesGiveThePlaneBack) {

@@ -123,7 +123,7 @@ void set_off(DeskewedScan& scan, std::uint64_t k, double sigma_m) {
 
 // With no floors under it, the predicted variance of a wall's tilt is that of noise and lasers alone. Measured, errors
 // squared over it: 0.61 to 0.73 for the far wall of halls of 12 to 24 m, 0.56 for the near one (a ring that hits the
-// wall askew moves it by less), and 50 to 100 when lasers are said to be alike.
+// wall askew moves it by less), and 50 to 100 when the config takes lasers as alike.
 TEST(DetectPlanesTest, TiltsAreAsWrongAsLasersDiffer) {
   PlaneDetectorConfig alike;
   alike.bias_floor_m = alike.bias_floor_rad = alike.bias_floor_tilt_rad = alike.bias_end_m = 0.0;

@@ -52,7 +52,7 @@ TEST(RansacPlanes, DependOnScanAndSeedOnly) {
   }
 }
 
-// The band of 1 cm of the papers' code is narrower than a VLP-16's noise: walls come out in slices [facts: slam 8.2].
+// The band of 1 cm of the papers' code is narrower than a VLP-16's noise: walls come out in slices.
 TEST(RansacPlanes, SplitWallsWhereTheBandIsNarrowerThanTheNoise) {
   synthetic::WalkConfig walk = clean();
   walk.range_sigma_m = 0.02;

@@ -81,7 +81,7 @@ TEST(RegistrationTest, GradientIsThatOfTheCost) {
   SurfelMap map(0.5);
   map.add(surfels, Pose{});
   RegistrationConfig config;
-  config.in_plane_m = config.across_m = 0.1;  // isotropic covariances do not turn, and the gradient is exact
+  config.sigma_tangent_m = config.sigma_normal_m = 0.1;  // isotropic covariances do not turn, and the gradient is exact
   constexpr double h = 1e-6;
   constexpr int poses = 20;
   std::array<int, 6> compared{};
@@ -106,9 +106,9 @@ TEST(RegistrationTest, GradientIsThatOfTheCost) {
 }
 
 double tilt_cost(const TiltPrior& tilt, const Pose& X_MR) {
-  constexpr double kernel2 = 9.0;
+  constexpr double scale2 = 9.0;
   const double squared = (X_MR.q * tilt.up_R - tilt.up_M).squaredNorm() / (tilt.sigma_rad * tilt.sigma_rad);
-  return 0.5 * kernel2 * std::log1p(squared / kernel2);
+  return 0.5 * scale2 * std::log1p(squared / scale2);
 }
 
 TEST(TiltPriorTest, GradientIsThatOfTheCost) {
@@ -170,8 +170,8 @@ TEST(VgicpTest, TakesNoSoffitForACeiling) {
   const Eigen::Vector3d soffit(std::sin(0.56), 0.0, std::cos(0.56));
   SurfelMap map(config.map_voxel_m);
   map.add(std::vector<Surfel>{{{0.05, 0.05, 0.05}, up}}, Pose{});
-  EXPECT_NE(map.find({0.06, 0.05, 0.05}, up, config.registration.agreement), nullptr);
-  EXPECT_EQ(map.find({0.06, 0.05, 0.05}, soffit, config.registration.agreement), nullptr);
+  EXPECT_NE(map.find({0.06, 0.05, 0.05}, up, config.registration.min_normal_agreement), nullptr);
+  EXPECT_EQ(map.find({0.06, 0.05, 0.05}, soffit, config.registration.min_normal_agreement), nullptr);
 }
 
 TEST(RegistrationTest, FindsAPlantedMotionBetweenTwoScans) {

@@ -68,7 +68,7 @@ TEST(EdgeMapTest, ForgetsAllButTheLatestKeyframes) {
   EXPECT_FALSE(map.match(points_R, X_WF).empty());
 }
 
-/// Error along a corridor whose ends are out of reach, after a walk of 6 m. Legs say 3 % too much.
+/// Error along a corridor whose ends are out of reach, after a walk of 6 m. Odometry reads 3 % too much.
 double error_along_m(bool edges) {
   synthetic::House house = synthetic::one_room(80.0, 2.4);
   for (const double x : {32.1, 36.9, 43.2, 47.4}) house.boxes.push_back({{x, 0.0, 0.0}, {x + 0.3, 0.15, 2.8}});

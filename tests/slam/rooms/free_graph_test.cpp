@@ -42,14 +42,14 @@ std::size_t count(const FreeGrid& grid, Cut cut, Removal removal = Removal::near
 
 TEST(FreeGraph, OwnsEveryFreeCellAndJoinsNeighbours) {
   const FreeGrid grid = two_rooms(0.9);
-  const std::vector<float> distance = clearance(grid);
+  const std::vector<float> distance = distance_transform(grid);
   const FreeGraph graph = free_graph(grid, distance, 0.35);
   for (std::size_t k = 0; k < grid.free.size(); ++k) EXPECT_EQ(graph.owner[k] >= 0, grid.free[k] != 0);
   for (const FreeVertex& v : graph.vertices) EXPECT_EQ(v.distance_m, static_cast<double>(distance[v.cell]));
   for (const FreeEdge& e : graph.edges) {
     EXPECT_LT(e.a, e.b);
     const FreeVertex& a = graph.vertices[static_cast<std::size_t>(e.a)];
-    EXPECT_LE(e.distance_m, a.distance_m + 1e-6);  // vertices are the widest places of what they own
+    EXPECT_LE(e.distance_m, a.distance_m + 1e-6);  // vertices are the widest points of what they own
   }
   // Sparse: hundreds of cells a vertex in the open.
   EXPECT_LT(graph.vertices.size(), grid.frame.size() / 100);
@@ -57,7 +57,7 @@ TEST(FreeGraph, OwnsEveryFreeCellAndJoinsNeighbours) {
 
 TEST(FreeGraph, EveryVertexOfOnePieceOfFreeSpaceGetsACluster) {
   const FreeGrid grid = two_rooms(0.9);
-  const FreeGraph graph = free_graph(grid, clearance(grid), 0.35);
+  const FreeGraph graph = free_graph(grid, distance_transform(grid), 0.35);
   const std::vector<int> cluster = cluster_vertices(graph, 0.8, Removal::near);
   EXPECT_EQ(std::count(cluster.begin(), cluster.end(), -1), 0);
   EXPECT_EQ(std::set<int>(cluster.begin(), cluster.end()).size(), 2U);
@@ -77,7 +77,7 @@ TEST(FixedCut, OfTheLongPaperTearsAHallApart) {
 TEST(Cuts, DoorsWiderThanTwiceTheThresholdNeedTheRelativeCut) {
   const FreeGrid grid = two_rooms(2.0);
   EXPECT_EQ(count(grid, Cut::fixed), 1U);
-  EXPECT_EQ(count(grid, Cut::necks), 2U);
+  EXPECT_EQ(count(grid, Cut::watershed), 2U);
 }
 
 // A corridor of 1.2 m has no vertex that survives the threshold: it falls to the rooms it joins.
@@ -91,7 +91,7 @@ TEST(Cuts, CorridorsNarrowerThanTwiceTheThresholdNeedTheRelativeCut) {
 
 TEST(Cuts, OfNothingFreeAreNone) {
   EXPECT_EQ(count(grid_of({}), Cut::fixed), 0U);
-  EXPECT_EQ(count(grid_of({}), Cut::necks), 0U);
+  EXPECT_EQ(count(grid_of({}), Cut::watershed), 0U);
 }
 
 }  // namespace

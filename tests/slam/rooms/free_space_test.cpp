@@ -44,7 +44,7 @@ TEST(FreeSpace, IslandsAreWhatAFloodFillSaysOnRandomGrids) {
   }
 }
 
-// A window over a sill: light passes, and comes back from a mirror image far behind; the wall below is hit.
+// A window over a sill: beams pass, and come back from a mirror image far behind; the wall below is hit.
 TEST(FreeSpace, EndsAtAWallThatLightPassesOver) {
   FreeSpaceMap with_wall{FreeSpaceConfig{}}, without{FreeSpaceConfig{}};
   FreeRays rays;
@@ -57,9 +57,7 @@ TEST(FreeSpace, EndsAtAWallThatLightPassesOver) {
   for (int look = 0; look < 3; ++look) with_wall.carve(rays, Pose{});
   const auto parts = [](const FreeSpaceMap& map) {
     const FreeGrid grid = map.grid();
-    const auto at = [&](double x, double y) {
-      return grid.free[static_cast<std::size_t>(grid.frame.find({x, y}))] != 0;
-    };
+    const auto at = [&](double x, double y) { return grid.free[grid.frame.find({x, y}).value()] != 0; };
     return std::array{at(2.0, 0.05), at(4.05, 0.05), at(6.0, 0.05)};
   };
   EXPECT_EQ(parts(without), (std::array{true, true, true}));

@@ -14,7 +14,7 @@
 namespace plumbline::slam {
 namespace {
 
-/// Grid of nx x ny cells of 0.1 m, free where the test says so.
+/// Grid of nx x ny cells of 0.1 m, free as the test sets it.
 template <class Free>
 FreeGrid make_grid(int nx, int ny, Free free) {
   FreeGrid grid{{{0.0, 0.0}, 0.1, nx, ny}, {}};
@@ -33,7 +33,7 @@ TEST(Clearance, IsTheDistanceToTheNearestObstacleOnRandomGrids) {
     FreeGrid grid = make_grid(23, 17, [](const auto&) { return true; });
     for (std::size_t k = 0; k < grid.free.size(); ++k)
       grid.free[k] = stream.uniform(trial, static_cast<std::uint32_t>(k)) < 0.95 ? 1 : 0;
-    const std::vector<float> fast = clearance(grid);
+    const std::vector<float> fast = distance_transform(grid);
     for (std::size_t k = 0; k < grid.free.size(); ++k) {
       double slow = 1e9;
       for (std::size_t o = 0; o < grid.free.size(); ++o)
@@ -95,9 +95,9 @@ TEST(FreeSpace, ChangedCellsAreCountedAcrossExtents) {
   EXPECT_EQ(changed_cells(small, small), 0U);
   EXPECT_EQ(changed_cells(small, large), 500U);
   EXPECT_EQ(changed_cells({}, small), 100U);
-  large.frame.origin_M = {-0.5, -0.5};
+  large.frame.origin = {-0.5, -0.5};
   EXPECT_EQ(changed_cells(large, small), 500U);
-  large.frame.origin_M = {0.5, 0.5};
+  large.frame.origin = {0.5, 0.5};
   EXPECT_EQ(changed_cells(large, small), 600U + 100U - 2U * 25U);
 }
 
@@ -254,7 +254,7 @@ TEST(Rooms, HaveCornersWhereTwoWallsMeetAtAnAngle) {
     walls[k].m = normals[k].second.normalized();
   }
   RoomCandidate room;
-  chain(outline, walls, room);
+  set_polygon_planes(outline, walls, room);
   EXPECT_EQ(room.planes, (std::vector<int>{7, 2, 5, 6}));
   EXPECT_EQ(room.corners, (std::vector<std::array<int, 2>>{{0, 1}, {1, 2}}));
   EXPECT_LT((room.center_M - Eigen::Vector2d(6, 2)).norm(), 1e-12);
@@ -292,7 +292,7 @@ TEST(Rooms, ARingIsItsStraightParts) {
 }
 
 /// Rooms of a hall of 12 x 4 m that a wall from its side parts in the middle, over all but `open_m` of its width; the
-/// wall's clearance is below the neck ratio of the free space.
+/// wall's clearance is below the saddle ratio of the free space.
 std::size_t rooms_beside_wall(double open_m, double yaw) {
   const Pose X_MW = Pose::from_xyz_yaw({13.0, 9.0, 0.0}, yaw);
   return rooms_in(shape({{0, 0}, {12, 0}, {12, 4}, {0, 4}}, {{5.9, 0}, {5.9, 4 - open_m}, {6.1, 4 - open_m}, {6.1, 0}},

@@ -59,7 +59,7 @@ TEST(MotionBufferTest, JumpsAndNonsenseAreNoMotion) {
                    1e-9);
 }
 
-// Gravity does not jump: what an IMU says of the tilt before and after holds in one frame.
+// Gravity does not jump: the IMU's tilt before and after is valid in one frame.
 TEST(MotionBufferTest, JumpsLeaveTheTiltAsItIsTold) {
   const Pose jump = Pose::from_xyz_yaw({20.0, -5.0, 1.0}, 0.65);
   const auto swaying = [](double t) {
@@ -77,16 +77,16 @@ TEST(MotionBufferTest, JumpsLeaveTheTiltAsItIsTold) {
 }
 
 TEST(MotionBufferTest, IsSilentOnceItsNewestRecordIsOld) {
-  EXPECT_TRUE(MotionBuffer().silent_at(0));
+  EXPECT_TRUE(MotionBuffer().is_stale_at(0));
   const MotionBuffer motion = buffer(100'000'000);
-  EXPECT_FALSE(motion.silent_at(100'000'000 + MotionBuffer::max_silence));
-  EXPECT_TRUE(motion.silent_at(100'000'001 + MotionBuffer::max_silence));
+  EXPECT_FALSE(motion.is_stale_at(100'000'000 + MotionBuffer::max_age));
+  EXPECT_TRUE(motion.is_stale_at(100'000'001 + MotionBuffer::max_age));
   synthetic::WalkConfig walk;
   walk.duration_s = 0.45;
   const synthetic::Recording recording = synthetic::walk(synthetic::one_room(), {{1.0, 1.0}, {3.0, 1.0}}, walk);
   ASSERT_EQ(recording.scans.size(), 4U);
-  EXPECT_FALSE(deskew(recording.scans[1], motion, recording.calibration).odometry_silent);
-  EXPECT_TRUE(deskew(recording.scans[3], motion, recording.calibration).odometry_silent);
+  EXPECT_FALSE(deskew(recording.scans[1], motion, recording.calibration).odometry_stale);
+  EXPECT_TRUE(deskew(recording.scans[3], motion, recording.calibration).odometry_stale);
 }
 
 TEST(MotionBufferTest, RefusesToGuess) {

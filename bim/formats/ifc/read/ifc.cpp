@@ -50,7 +50,7 @@ void warn_of_unresolved_doors(Building& building) {
 Building read_ifc_text(std::string_view text, const std::string& file, const IfcConfig& config) {
   const std::string clean = without_comments(text);
   const StepText checked = check_step_text(clean, file);
-  if (has_written_mark(text)) return read_written(clean, file);
+  if (has_roundtrip_signature(text)) return read_roundtrip(clean, file);
   const StepModel model = read_step_model(clean, checked, file);
 
   Interpreter interpreter(model, config);
@@ -81,10 +81,6 @@ Building read_ifc_text(std::string_view text, const std::string& file, const Ifc
   find_virtual_edges(building);
   find_stair_rooms(building);
   return building;
-}
-
-Building read_ifc(const std::string& path, const IfcConfig& config) {
-  return read_ifc_text(read_text_file(path), path, config);
 }
 
 }  // namespace plumbline::bim

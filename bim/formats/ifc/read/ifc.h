@@ -11,7 +11,7 @@ namespace plumbline::bim {
 /// Thresholds of reading IFC.
 struct IfcConfig {
   double grid_m = 1e-4;           ///< of plan coordinates, elevations and heights
-  double layer_match_m = 2e-3;    ///< layer set and body may differ by this much [facts: exact below 2 mm for 714/716]
+  double layer_match_m = 2e-3;    ///< layer set and body may differ by this much; 714 of 716 walls agree
   double storey_below_m = 0.3;    ///< an element in no storey may begin this much below the one it is given to
   double assumed_height_m = 3.0;  ///< of a top storey without walls and rooms
   double least_cut_m2 = 1e-3;     ///< an opening in a group of walls belongs to those it cuts more than this out of
@@ -20,11 +20,10 @@ struct IfcConfig {
   double stair_reach_m = 0.1;     ///< the foot or head of a stair is this close to the floor of its storey
 };
 
-/// Reads an IFC2X3 or IFC4 file as a building in W: storeys, walls with uncut bodies, openings, rooms, slabs, columns,
-/// and what else of the shell has a body as obstacles. Ids are GlobalIds; every list is sorted by (elevation of the
-/// storey, GlobalId). What had to be given up stands in Building::warnings. Throws InputError with file and line for
-/// whatever is no whole IFC file or holds no storeys or walls.
-[[nodiscard]] Building read_ifc(const std::string& path, const IfcConfig& config = {});
+/// Reads the text of an IFC2X3 or IFC4 file as a building in W: storeys, walls with uncut bodies, openings, rooms,
+/// slabs, columns, and other elements with a body as obstacles. Ids are GlobalIds; every list is sorted by (elevation
+/// of the storey, GlobalId). Building::warnings lists the compromises. `file` names the text in errors. Throws
+/// InputError with file and line for text that is not a complete IFC file or has no storeys or no walls.
 [[nodiscard]] Building read_ifc_text(std::string_view text, const std::string& file, const IfcConfig& config = {});
 
 }  // namespace plumbline::bim

@@ -62,7 +62,7 @@ Interpreter::Interpreter(const StepModel& model, const IfcConfig& config) : mode
 
 double Interpreter::snapped(double v) const { return snap(v, config_.grid_m); }
 
-void Interpreter::warn(const StepProduct& product, const std::string& kind, const std::string& text) {
+void Interpreter::warn(const StepProduct& product, WarningKind kind, const std::string& text) {
   building_.warnings.push_back({product.id, kind, product.type + " #" + std::to_string(product.step_id) + ": " + text});
 }
 
@@ -83,7 +83,7 @@ std::vector<Solid> Interpreter::solids_of(const StepProduct& product) {
     for (const std::string& problem : problems) warn(product, "not_clipped", problem);
     if (!solid.triangles.empty()) solids.push_back(placed(product.X_WP, std::move(solid)));
   }
-  for (const std::string& complaint : product.complaints) warn(product, "geometry", complaint);
+  for (const std::string& diagnostic : product.diagnostics) warn(product, "geometry", diagnostic);
   return solids;
 }
 

@@ -41,7 +41,7 @@ class Interpreter {
   /// Items of its own body; without one, those of its parts, which then do not stand for themselves.
   [[nodiscard]] std::vector<Solid> uncut_solids(const StepProduct& product);
   /// The same as one mesh, cut by the openings of the product and of what it is a part of. Empty where there is
-  /// nothing, with a warning unless the product is a mere group.
+  /// nothing, with a warning unless the product only groups others.
   [[nodiscard]] Solid body_of(const StepProduct& product);
   [[nodiscard]] std::vector<Solid> solids_of(const StepProduct& product);
 
@@ -60,7 +60,7 @@ class Interpreter {
   void add_missing_rooms();
   void add_materials();
   void sort_all();
-  void warn(const StepProduct& product, const std::string& kind, const std::string& text);
+  void warn(const StepProduct& product, WarningKind kind, const std::string& text);
   [[nodiscard]] double snapped(double v) const;
 
   const StepModel& model_;

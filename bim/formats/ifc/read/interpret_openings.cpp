@@ -37,9 +37,7 @@ WallBox box_in(const Wall& wall, const std::vector<Solid>& solids) {
   return box;
 }
 
-double overlap(const Interval& a, const Interval& b) {
-  return std::max(0.0, std::min(a.high, b.high) - std::max(a.low, b.low));
-}
+double overlap(const Interval& a, const Interval& b) { return std::max(0.0, -gap(a, b)); }
 
 /// Area that two boxes have in common in the wall's elevation, m^2; 0 where they lie apart across it.
 double common_area(const WallBox& a, const WallBox& b, double slack_m) {
@@ -47,7 +45,7 @@ double common_area(const WallBox& a, const WallBox& b, double slack_m) {
   return overlap(a.along, b.along) * overlap(a.height, b.height);
 }
 
-double area(const WallBox& box) { return (box.along.high - box.along.low) * (box.height.high - box.height.low); }
+double area(const WallBox& box) { return box.along.length() * box.height.length(); }
 
 }  // namespace
 

@@ -58,7 +58,7 @@ void Interpreter::add_stairs() {
       warn(product, "no_body", "has no body that can be read, and is left out");
       continue;
     }
-    StairShape shape = stair_shape(stair.bodies);
+    RecognizedStair shape = recognize_stair(stair.bodies);
     stair.flights = std::move(shape.flights);
     stair.landings = std::move(shape.landings);
     place_stair(product, stair);

@@ -32,11 +32,11 @@ void Interpreter::read_reference_line(const StepProduct& product, const Solid& b
   warn(product, "no_axis", "the reference line is the body's extent along the placement's x axis");
 }
 
-/// Faces from the layer set [facts: the reference line is not a face], from the body where the two differ.
+/// Faces from the layer set, from the body where the two differ.
 void Interpreter::read_faces(const StepProduct& product, const Solid& body, Wall& wall) {
   const Interval across = extent_across(WallFrame(wall), {body});
   wall.offset_m = snapped(across.low);
-  wall.thickness_m = snapped(across.high - across.low);
+  wall.thickness_m = snapped(across.length());
   if (!product.layers) return warn(product, "no_layers", "offset and thickness are those of the body");
   // Layers are counted along the placement's y axis, the wall's offset to the left of a to b.
   const double side = product.X_WP.linear().col(1).head<2>().dot(wall.left()) < 0.0 ? -1.0 : 1.0;

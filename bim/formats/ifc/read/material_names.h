@@ -8,8 +8,8 @@
 
 namespace plumbline::bim {
 
-/// True when a name speaks of glass that one sees through, in one of the languages of common exporters; not of glass
-/// wool, glass fibre or glass blocks.
+/// True when a name contains a word for transparent glass, in one of the languages of common exporters; false for
+/// glass wool, glass fibre and glass blocks.
 [[nodiscard]] bool says_glass(std::string_view name);
 
 /// The material of this name: clear glass when it says so, otherwise a Material's defaults.

@@ -26,7 +26,7 @@ struct LevelFaces {
 };
 
 /// Level up-facing triangles by height.
-std::vector<LevelFaces> level_faces(const std::vector<Solid>& bodies, const StairShapeConfig& config) {
+std::vector<LevelFaces> level_faces(const std::vector<Solid>& bodies, const StairRecognitionConfig& config) {
   std::vector<std::pair<double, Polygon2>> faces;
   for (const Solid& body : bodies) {
     for (const Eigen::Vector3i& t : body.triangles) {
@@ -70,7 +70,7 @@ Eigen::Vector2d sides(const Polygon2& polygon) {
 }
 
 /// What can be stepped on at each level: its largest piece that no face close above covers.
-std::vector<Tread> treads_of(const std::vector<LevelFaces>& levels, const StairShapeConfig& config) {
+std::vector<Tread> treads_of(const std::vector<LevelFaces>& levels, const StairRecognitionConfig& config) {
   std::vector<Tread> treads;
   for (std::size_t i = 0; i < levels.size(); ++i) {
     std::vector<Polygon2> above;
@@ -88,7 +88,7 @@ std::vector<Tread> treads_of(const std::vector<LevelFaces>& levels, const StairS
   return treads;
 }
 
-void mark_landings(std::vector<Tread>& treads, const StairShapeConfig& config) {
+void mark_landings(std::vector<Tread>& treads, const StairRecognitionConfig& config) {
   if (treads.size() < 3) return;
   std::vector<double> areas;
   for (const Tread& tread : treads) areas.push_back(tread.area_m2);
@@ -97,12 +97,13 @@ void mark_landings(std::vector<Tread>& treads, const StairShapeConfig& config) {
   for (Tread& tread : treads) tread.landing = tread.area_m2 > config.landing_runs * median;
 }
 
-bool is_step(const Tread& low, const Tread& high, const StairShapeConfig& config) {
+bool is_step(const Tread& low, const Tread& high, const StairRecognitionConfig& config) {
   return high.z - low.z <= config.most_rise_m;
 }
 
-/// Direction of ascent at each tread: from the one before to the one after, landings only where nothing else tells.
-std::vector<Eigen::Vector2d> directions(const std::vector<Tread>& treads, const StairShapeConfig& config) {
+/// Direction of ascent at each tread: from the one before to the one after, landings only where there is no other
+/// neighbour.
+std::vector<Eigen::Vector2d> directions(const std::vector<Tread>& treads, const StairRecognitionConfig& config) {
   std::vector<Eigen::Vector2d> result;
   for (std::size_t i = 0; i < treads.size(); ++i) {
     const bool has_before = i > 0 && is_step(treads[i - 1], treads[i], config);
@@ -123,7 +124,7 @@ double angle_between(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
 }
 
 /// Direction square to the longest edge of a tread that runs across `way`; `way` itself when none does.
-Eigen::Vector2d square_to_edge(const Tread& tread, const Eigen::Vector2d& way, const StairShapeConfig& config) {
+Eigen::Vector2d square_to_edge(const Tread& tread, const Eigen::Vector2d& way, const StairRecognitionConfig& config) {
   Eigen::Vector2d best = way;
   double longest = config.least_width_m;
   for (std::size_t i = 0; i < tread.outline.size(); ++i) {
@@ -153,7 +154,7 @@ Span span_along(const Polygon2& polygon, const Eigen::Vector2d& u) {
 
 /// Treads [first, last) as one flight; `below` is the level under the first.
 StairFlight flight_of(const std::vector<Tread>& treads, std::size_t first, std::size_t last, double below,
-                      const Eigen::Vector2d& way, const StairShapeConfig& config) {
+                      const Eigen::Vector2d& way, const StairRecognitionConfig& config) {
   const std::size_t n = last - first;
   const Tread& middle = treads[first + n / 2];
   const Eigen::Vector2d u = square_to_edge(middle, way, config), v(-u.y(), u.x());
@@ -175,7 +176,7 @@ StairFlight flight_of(const std::vector<Tread>& treads, std::size_t first, std::
 
 /// End of the flight that begins at tread `first`.
 std::size_t flight_end(const std::vector<Tread>& treads, const std::vector<Eigen::Vector2d>& ways, std::size_t first,
-                       const StairShapeConfig& config) {
+                       const StairRecognitionConfig& config) {
   std::size_t last = first + 1;
   for (; last < treads.size() && !treads[last].landing; ++last) {
     const Eigen::Vector2d step = treads[last].middle - treads[first].middle;
@@ -190,11 +191,11 @@ std::size_t flight_end(const std::vector<Tread>& treads, const std::vector<Eigen
 
 }  // namespace
 
-StairShape stair_shape(const std::vector<Solid>& bodies, const StairShapeConfig& config) {
+RecognizedStair recognize_stair(const std::vector<Solid>& bodies, const StairRecognitionConfig& config) {
   std::vector<Tread> treads = treads_of(level_faces(bodies, config), config);
   mark_landings(treads, config);
   const std::vector<Eigen::Vector2d> ways = directions(treads, config);
-  StairShape shape;
+  RecognizedStair shape;
   for (std::size_t i = 0; i < treads.size();) {
     if (treads[i].landing || ways[i].isZero(0.0)) {
       if (treads[i].landing) shape.landings.push_back({treads[i].outline, snap(treads[i].z, config.grid_m)});

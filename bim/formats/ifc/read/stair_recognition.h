@@ -8,7 +8,7 @@
 namespace plumbline::bim {
 
 /// What counts as a step [stairs in the building codes of Europe and the US: rise 0.10 to 0.22 m, run 0.21 to 0.37 m].
-struct StairShapeConfig {
+struct StairRecognitionConfig {
   double level_m = 5e-3;        ///< up-facing triangles this close in height belong to one tread
   double upright = 0.999;       ///< cosine of the tilt of a tread, at least
   double headroom_m = 1.5;      ///< a face covers the one below when it is less than this above it
@@ -23,7 +23,7 @@ struct StairShapeConfig {
   double step_grid_m = 1e-6;    ///< of rise and run, which add up over a flight
 };
 
-struct StairShape {
+struct RecognizedStair {
   std::vector<StairFlight> flights;  ///< from the lowest up
   std::vector<Landing> landings;     ///< from the lowest up
 };
@@ -31,6 +31,7 @@ struct StairShape {
 /// Flights and landings found in the bodies of a stair: level faces that can be stepped on, in order of height, taken
 /// together while they rise and advance alike. A winding stair becomes a row of short flights. Empty when the bodies
 /// have no level faces.
-[[nodiscard]] StairShape stair_shape(const std::vector<Solid>& bodies, const StairShapeConfig& config = {});
+[[nodiscard]] RecognizedStair recognize_stair(const std::vector<Solid>& bodies,
+                                              const StairRecognitionConfig& config = {});
 
 }  // namespace plumbline::bim

@@ -250,6 +250,6 @@ class WrittenReader {
 
 }  // namespace
 
-Building read_written(std::string_view text, const std::string& file) { return WrittenReader(text, file).read(); }
+Building read_roundtrip(std::string_view text, const std::string& file) { return WrittenReader(text, file).read(); }
 
 }  // namespace plumbline::bim

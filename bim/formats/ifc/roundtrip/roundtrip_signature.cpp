@@ -35,20 +35,21 @@ std::optional<Value> value_in(const Names<Value, n>& names, std::string_view nam
 
 }  // namespace
 
-std::string written_mark(std::string_view entities) {
+std::string roundtrip_signature(std::string_view entities) {
   std::string text;
   for (const char c : entities)
     if (c != '\r') text += c;
   return "Plumbline [1 " + Digest().add(text).hex() + "]";
 }
 
-bool has_written_mark(std::string_view text) {
+bool has_roundtrip_signature(std::string_view text) {
   // A line break within a string is escaped, so these are no part of one.
   const std::size_t data = text.find("\nDATA;"), end = text.rfind("\nENDSEC;");
   if (data == std::string_view::npos || end == std::string_view::npos) return false;
   const std::size_t first = text.find('#', data);
   if (first > end) return false;
-  const std::size_t mark = text.substr(0, data).find(step_string(written_mark(text.substr(first, end + 1 - first))));
+  const std::size_t mark =
+      text.substr(0, data).find(step_string(roundtrip_signature(text.substr(first, end + 1 - first))));
   return mark != std::string_view::npos;
 }
 

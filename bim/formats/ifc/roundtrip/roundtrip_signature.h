@@ -9,14 +9,14 @@
 
 namespace plumbline::bim {
 
-/// What the header of a file says that write_ifc() made: the version of what it writes and a digest of the entities,
-/// carriage returns left out. A file whose entities were changed since is read like any other.
-[[nodiscard]] std::string written_mark(std::string_view entities);
+/// Signature in the header of a file that write_ifc() made: its version and a digest of the entities, without carriage
+/// returns. A file whose entities have changed since is read like any other.
+[[nodiscard]] std::string roundtrip_signature(std::string_view entities);
 
-/// True when the text carries the mark of just its entities.
-[[nodiscard]] bool has_written_mark(std::string_view text);
+/// True when the text carries the signature of its own entities.
+[[nodiscard]] bool has_roundtrip_signature(std::string_view text);
 
-/// The words in which property sets give enumerations.
+/// Names of enumerations in property sets.
 [[nodiscard]] std::string_view name_of(StoreyKind kind);
 [[nodiscard]] std::string_view name_of(OpeningKind kind);
 [[nodiscard]] std::string_view name_of(Leaf leaf);

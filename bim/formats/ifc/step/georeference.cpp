@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bim/formats/ifc/step/georeference.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
+
+#include "bim/median.h"
 
 namespace plumbline::bim {
 namespace {
@@ -23,14 +24,9 @@ bool within(const Eigen::AlignedBox3d& box, double furthest_m) {
          (box.min().cwiseAbs().maxCoeff() <= furthest_m && box.max().cwiseAbs().maxCoeff() <= furthest_m);
 }
 
-double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
-  return values[values.size() / 2];
-}
-
 }  // namespace
 
-bool within_reach(const StepProduct& product, const ReachConfig& config) {
+bool within_reach(const StepProduct& product, const GeoreferenceConfig& config) {
   Eigen::AlignedBox3d in_world, body;
   if (!extend(in_world, product.axis_W) || !extend(in_world, {product.X_WP.translation()})) return false;
   for (const Shape& shape : product.body) {
@@ -45,7 +41,7 @@ bool within_reach(const StepProduct& product, const ReachConfig& config) {
          (body.isEmpty() || body.sizes().maxCoeff() <= config.largest_m);
 }
 
-std::optional<Eigen::Vector3d> recentre(StepModel& model, const ReachConfig& config) {
+std::optional<Eigen::Vector3d> move_to_origin(StepModel& model, const GeoreferenceConfig& config) {
   std::array<std::vector<double>, 3> coordinates;
   for (const StepProduct& product : model.products) {
     if (product.kind != StepClass::wall || product.body.empty() || product.body.front().base.points.empty()) continue;
@@ -55,7 +51,7 @@ std::optional<Eigen::Vector3d> recentre(StepModel& model, const ReachConfig& con
   if (coordinates.front().empty()) return std::nullopt;
   Eigen::Vector3d middle;
   for (std::size_t axis = 0; axis < 3; ++axis)
-    middle[static_cast<Eigen::Index>(axis)] = std::round(median(coordinates[axis]));
+    middle[static_cast<Eigen::Index>(axis)] = std::round(upper_median(coordinates[axis]));
   Eigen::Vector3d move = Eigen::Vector3d::Zero();
   if (middle.head<2>().norm() > config.local_m) move.head<2>() = -middle.head<2>();
   if (std::abs(middle.z()) > config.local_m) move.z() = -middle.z();

@@ -9,17 +9,17 @@
 namespace plumbline::bim {
 
 /// How far coordinates may be from the origin.
-struct ReachConfig {
+struct GeoreferenceConfig {
   double furthest_m = 1e7;  ///< further out than any map grid
   double largest_m = 1e4;   ///< a body of this size is no building's
   double local_m = 5e3;     ///< a model whose middle is further out is moved: map coordinates
 };
 
 /// False where a coordinate is not a number or out of reach, or a body is too large.
-[[nodiscard]] bool within_reach(const StepProduct& product, const ReachConfig& config = {});
+[[nodiscard]] bool within_reach(const StepProduct& product, const GeoreferenceConfig& config = {});
 
 /// Moves a model that stands far from the origin (in map coordinates) so that the median of its walls comes near it, by
 /// whole metres. The move, or nullopt where none was needed.
-[[nodiscard]] std::optional<Eigen::Vector3d> recentre(StepModel& model, const ReachConfig& config = {});
+[[nodiscard]] std::optional<Eigen::Vector3d> move_to_origin(StepModel& model, const GeoreferenceConfig& config = {});
 
 }  // namespace plumbline::bim

@@ -6,7 +6,7 @@
 
 namespace plumbline::bim {
 
-Quiet::Quiet()
+ScopedSilence::ScopedSilence()
     : locale_(std::setlocale(LC_ALL, nullptr)),
       out_(std::cout.rdbuf(nullptr)),
       error_(std::cerr.rdbuf(nullptr)),
@@ -14,7 +14,7 @@ Quiet::Quiet()
   std::setlocale(LC_ALL, "C");
 }
 
-Quiet::~Quiet() {
+ScopedSilence::~ScopedSilence() {
   std::setlocale(LC_ALL, locale_.c_str());
   // rdbuf() also clears the error state that writing to no buffer has left.
   std::cout.rdbuf(out_);

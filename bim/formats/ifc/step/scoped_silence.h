@@ -6,14 +6,14 @@
 
 namespace plumbline::bim {
 
-/// While it lives, IFC++ and Carve write to no stream and read numbers with a decimal point, and what they set is put
-/// back: streams' buffers and the C locale are the process's, so only one may live at a time.
-class Quiet {
+/// During its lifetime IFC++ and Carve write to no stream and read numbers with a decimal point, and what they set is
+/// put back: streams' buffers and the C locale are the process's, so only one may live at a time.
+class ScopedSilence {
  public:
-  Quiet();
-  ~Quiet();
-  Quiet(const Quiet&) = delete;
-  Quiet& operator=(const Quiet&) = delete;
+  ScopedSilence();
+  ~ScopedSilence();
+  ScopedSilence(const ScopedSilence&) = delete;
+  ScopedSilence& operator=(const ScopedSilence&) = delete;
 
  private:
   std::string locale_;

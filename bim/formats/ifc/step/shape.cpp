@@ -103,7 +103,7 @@ bool add_ears(Solid& solid, const Ring& ring, const Polygon2& flat) {
     add_triangle(ears, ring[left[(i + n - 1) % n]], ring[left[i]], ring[left[(i + 1) % n]]);
     left.erase(left.begin() + static_cast<std::ptrdiff_t>(i));
   }
-  // What is left of a sound loop is a line with no area, there and back.
+  // What is left of a valid loop is a line without area, traversed both ways.
   double rest = 0.0;
   for (std::size_t i = 1; i + 1 < left.size(); ++i) rest += turn(flat[left[0]], flat[left[i]], flat[left[i + 1]]);
   if (std::abs(rest) > solid_grid_m * solid_grid_m) return false;

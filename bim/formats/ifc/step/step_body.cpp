@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bim/formats/ifc/step/step_body.h"
 
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wall"
-#pragma GCC diagnostic ignored "-Wextra"
-#pragma GCC diagnostic ignored "-Wconversion"
 #include <ifcpp/IFC4/include/IfcLabel.h>
 #include <ifcpp/IFC4/include/IfcProduct.h>
 #include <ifcpp/IFC4/include/IfcProductRepresentation.h>
 #include <ifcpp/IFC4/include/IfcShapeRepresentation.h>
-#pragma GCC diagnostic pop
 
 #include <algorithm>
 #include <array>
@@ -41,7 +36,7 @@ std::optional<int> body_rank(const IfcRepresentation& representation, StepClass 
 }
 
 /// Representations that may serve as a body, the best first.
-Representations bodies_of(const IfcProduct& source, StepClass kind) {
+Representations symmetry_bodies(const IfcProduct& source, StepClass kind) {
   std::vector<std::pair<int, std::shared_ptr<IfcRepresentation>>> ranked;
   for (const auto& representation : source.m_Representation->m_Representations) {
     const std::optional<int> rank = representation ? body_rank(*representation, kind) : std::nullopt;
@@ -56,25 +51,25 @@ Representations bodies_of(const IfcProduct& source, StepClass kind) {
 }  // namespace
 
 bool has_body(const IfcProduct& source, StepClass kind) {
-  return source.m_Representation && !bodies_of(source, kind).empty();
+  return source.m_Representation && !symmetry_bodies(source, kind).empty();
 }
 
-void read_axis(const IfcProduct& source, StepSoundness& soundness, StepGeometry& geometry, StepProduct& product) {
+void read_axis(const IfcProduct& source, StepValidator& validator, StepGeometry& geometry, StepProduct& product) {
   if (!source.m_Representation) return;
   for (const auto& representation : source.m_Representation->m_Representations) {
     const bool named = representation && representation->m_RepresentationIdentifier;
     if (!named || utf8(representation->m_RepresentationIdentifier->m_value) != "Axis") continue;
-    soundness.check(*representation);
-    product.axis_W = geometry.curve(representation, product.complaints);
+    validator.check(*representation);
+    product.axis_W = geometry.curve(representation, product.diagnostics);
     for (Eigen::Vector3d& p : product.axis_W) p = product.X_WP * p;
   }
 }
 
-void read_body(const IfcProduct& source, StepSoundness& soundness, StepGeometry& geometry, StepProduct& product) {
+void read_body(const IfcProduct& source, StepValidator& validator, StepGeometry& geometry, StepProduct& product) {
   if (!source.m_Representation) return;
-  for (const auto& representation : bodies_of(source, product.kind)) {
-    soundness.check(*representation);
-    product.body = geometry.shapes(representation, product.complaints);
+  for (const auto& representation : symmetry_bodies(source, product.kind)) {
+    validator.check(*representation);
+    product.body = geometry.shapes(representation, product.diagnostics);
     if (!product.body.empty()) return;
   }
 }

@@ -14,9 +14,9 @@ namespace plumbline::bim {
 
 /// Fills the body of a product with the items of the first representation that has any: Body, for openings Reference,
 /// or one without a name whose type is that of a solid. Throws InputError where its entities lack what IFC demands.
-void read_body(const IfcProduct& source, StepSoundness& soundness, StepGeometry& geometry, StepProduct& product);
+void read_body(const IfcProduct& source, StepValidator& validator, StepGeometry& geometry, StepProduct& product);
 
 /// Fills the points of the Axis of a wall, in W.
-void read_axis(const IfcProduct& source, StepSoundness& soundness, StepGeometry& geometry, StepProduct& product);
+void read_axis(const IfcProduct& source, StepValidator& validator, StepGeometry& geometry, StepProduct& product);
 
 }  // namespace plumbline::bim

@@ -22,7 +22,7 @@ enum class StepClass {
   stair_flight,
   curtain_wall,
   part,      ///< of a wall or slab that has no body of its own
-  obstacle,  ///< any other element; its kind is told by obstacle_kind()
+  obstacle,  ///< any other element; obstacle_kind() gives its kind
   hidden     ///< inside other elements, or no solid: steel in concrete, fasteners, terrain
 };
 

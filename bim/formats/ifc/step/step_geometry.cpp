@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bim/formats/ifc/step/step_geometry.h"
 
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wall"
-#pragma GCC diagnostic ignored "-Wextra"
-#pragma GCC diagnostic ignored "-Wconversion"
-#pragma GCC diagnostic ignored "-Wunknown-pragmas"
 #include <ifcpp/IFC4/include/IfcBooleanResult.h>
 #include <ifcpp/IFC4/include/IfcBoxedHalfSpace.h>
 #include <ifcpp/IFC4/include/IfcCsgPrimitive3D.h>
@@ -15,7 +10,6 @@
 #include <ifcpp/IFC4/include/IfcShapeRepresentation.h>
 #include <ifcpp/geometry/Carve/RepresentationConverter.h>
 #include <ifcpp/model/BuildingModel.h>
-#pragma GCC diagnostic pop
 
 #include <map>
 
@@ -55,7 +49,7 @@ Eigen::Affine3d to_eigen(const carve::math::Matrix& matrix) {
 }
 
 /// IFC++ reports by callback only.
-void collect_complaint(void* complaints, std::shared_ptr<StatusCallback::Message> message) {
+void collect_diagnostic(void* diagnostics, std::shared_ptr<StatusCallback::Message> message) {
   if (!message) return;
   if (message->m_message_type != StatusCallback::MESSAGE_TYPE_ERROR &&
       message->m_message_type != StatusCallback::MESSAGE_TYPE_WARNING) {
@@ -63,7 +57,7 @@ void collect_complaint(void* complaints, std::shared_ptr<StatusCallback::Message
   }
   std::string text;
   for (const wchar_t c : message->m_message_text) text += c >= 32 && c < 127 ? static_cast<char>(c) : '?';
-  static_cast<std::vector<std::string>*>(complaints)->push_back(text);
+  static_cast<std::vector<std::string>*>(diagnostics)->push_back(text);
 }
 
 }  // namespace
@@ -82,7 +76,7 @@ struct StepGeometry::Impl {
       } else if (const auto geometric = std::dynamic_pointer_cast<IfcGeometricRepresentationItem>(item)) {
         convert_item(geometric, X, shapes);
       } else if (item) {
-        complain("item of a kind that is not read: " + std::string(item->className()));
+        report("item of a kind that is not read: " + std::string(item->className()));
       }
     }
   }
@@ -120,7 +114,7 @@ struct StepGeometry::Impl {
     }
     if (const auto solid = std::dynamic_pointer_cast<IfcCsgSolid>(item)) {
       const auto root = std::dynamic_pointer_cast<IfcGeometricRepresentationItem>(solid->m_TreeRootExpression);
-      return root ? convert_item(root, X, shapes) : complain("a CSG solid lacks its tree");
+      return root ? convert_item(root, X, shapes) : report("a CSG solid lacks its tree");
     }
     const auto data = std::make_shared<ItemShapeData>();
     const auto& solids = converter.getSolidConverter();
@@ -134,7 +128,7 @@ struct StepGeometry::Impl {
     for (Facets& facets : facets_of(*data)) shapes.push_back({transformed(X, std::move(facets)), {}, {}});
   }
 
-  /// The box of a boxed half space is a hint for readers; it bounds nothing [IFC4, IfcBoxedHalfSpace].
+  /// The box of a boxed half space is a hint for readers; it bounds nothing [iso2018, IfcBoxedHalfSpace].
   static std::shared_ptr<IfcHalfSpaceSolid> unboxed(const std::shared_ptr<IfcHalfSpaceSolid>& half_space) {
     if (!std::dynamic_pointer_cast<IfcBoxedHalfSpace>(half_space)) return half_space;
     auto plain = std::make_shared<IfcHalfSpaceSolid>(half_space->m_entity_id);
@@ -145,7 +139,7 @@ struct StepGeometry::Impl {
 
   void convert_boolean(const IfcBooleanResult& boolean, const Eigen::Affine3d& X, std::vector<Shape>& shapes) {
     if (!boolean.m_Operator || !boolean.m_FirstOperand || !boolean.m_SecondOperand) {
-      return complain("a boolean result lacks an operand");
+      return report("a boolean result lacks an operand");
     }
     std::vector<Shape> first, second;
     convert_operand(boolean.m_FirstOperand, X, first);
@@ -174,7 +168,7 @@ struct StepGeometry::Impl {
   /// An operand that is itself the result of booleans as the one solid it makes.
   Facets whole_of(const Shape& shape) {
     if (shape.minus.empty() && shape.within.empty()) return shape.base;
-    const Solid solid = solid_of(shape, *complaints);
+    const Solid solid = solid_of(shape, *diagnostics);
     Facets facets{solid.vertices, {}};
     for (const Eigen::Vector3i& t : solid.triangles) facets.loops.push_back({t[0], t[1], t[2]});
     return facets;
@@ -185,38 +179,38 @@ struct StepGeometry::Impl {
     if (const auto item = std::dynamic_pointer_cast<IfcGeometricRepresentationItem>(operand)) {
       convert_item(item, X, shapes);
     } else {
-      complain("operand of a kind that is not read");
+      report("operand of a kind that is not read");
     }
   }
 
-  void complain(const std::string& text) { complaints->push_back(text); }
+  void report(const std::string& text) { diagnostics->push_back(text); }
 
   RepresentationConverter converter;
   std::map<int, std::vector<Shape>> converted;  ///< mapped representations by STEP number
-  std::vector<std::string>* complaints = nullptr;
+  std::vector<std::string>* diagnostics = nullptr;
 };
 
 StepGeometry::StepGeometry(const std::shared_ptr<BuildingModel>& model) : impl_(std::make_unique<Impl>(model)) {}
 StepGeometry::~StepGeometry() = default;
 
 std::vector<Shape> StepGeometry::shapes(const std::shared_ptr<IfcRepresentation>& representation,
-                                        std::vector<std::string>& complaints) {
-  impl_->complaints = &complaints;
-  impl_->converter.setMessageCallBack(&complaints, collect_complaint);
+                                        std::vector<std::string>& diagnostics) {
+  impl_->diagnostics = &diagnostics;
+  impl_->converter.setMessageCallBack(&diagnostics, collect_diagnostic);
   std::vector<Shape> result;
   try {
     impl_->convert(representation, Eigen::Affine3d::Identity(), result);
   } catch (const std::exception& error) {  // IFC++ throws on entities it cannot make sense of
-    complaints.emplace_back(error.what());
+    diagnostics.emplace_back(error.what());
   }
   impl_->converter.unsetMessageCallBack();
   return result;
 }
 
 std::vector<Eigen::Vector3d> StepGeometry::curve(const std::shared_ptr<IfcRepresentation>& representation,
-                                                 std::vector<std::string>& complaints) {
-  impl_->complaints = &complaints;
-  impl_->converter.setMessageCallBack(&complaints, collect_complaint);
+                                                 std::vector<std::string>& diagnostics) {
+  impl_->diagnostics = &diagnostics;
+  impl_->converter.setMessageCallBack(&diagnostics, collect_diagnostic);
   std::vector<Eigen::Vector3d> points;
   try {
     auto data = std::make_shared<RepresentationData>();
@@ -225,7 +219,7 @@ std::vector<Eigen::Vector3d> StepGeometry::curve(const std::shared_ptr<IfcRepres
       for (const auto& line : item->m_polylines)
         for (const auto& p : line->points) points.emplace_back(p.x, p.y, p.z);
   } catch (const std::exception& error) {
-    complaints.emplace_back(error.what());
+    diagnostics.emplace_back(error.what());
   }
   impl_->converter.unsetMessageCallBack();
   return points;

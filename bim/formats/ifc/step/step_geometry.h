@@ -19,12 +19,12 @@ class StepGeometry {
   explicit StepGeometry(const std::shared_ptr<BuildingModel>& model);
   ~StepGeometry();
 
-  /// Uncut items of a representation in its product's frame, m. Adds what the converter said to `complaints`.
+  /// Uncut items of a representation in its product's frame, m. Adds the converter's messages to `diagnostics`.
   [[nodiscard]] std::vector<Shape> shapes(const std::shared_ptr<IfcRepresentation>& representation,
-                                          std::vector<std::string>& complaints);
+                                          std::vector<std::string>& diagnostics);
   /// Points of the curves of an Axis representation in its product's frame, m.
   [[nodiscard]] std::vector<Eigen::Vector3d> curve(const std::shared_ptr<IfcRepresentation>& representation,
-                                                   std::vector<std::string>& complaints);
+                                                   std::vector<std::string>& diagnostics);
 
  private:
   struct Impl;

@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bim/formats/ifc/step/step_grid.h"
 
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wall"
-#pragma GCC diagnostic ignored "-Wextra"
-#pragma GCC diagnostic ignored "-Wconversion"
 #include <ifcpp/IFC4/include/IfcBoolean.h>
 #include <ifcpp/IFC4/include/IfcCartesianPoint.h>
 #include <ifcpp/IFC4/include/IfcCurve.h>
@@ -20,7 +16,6 @@
 #include <ifcpp/IFC4/include/IfcTrimmedCurve.h>
 #include <ifcpp/IFC4/include/IfcVector.h>
 #include <ifcpp/IFC4/include/IfcVirtualGridIntersection.h>
-#pragma GCC diagnostic pop
 
 #include <cmath>
 

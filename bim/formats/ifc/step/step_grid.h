@@ -18,7 +18,7 @@ struct GridPose {
 
 /// The intersection of two axes of a grid, each moved to its left by its offset, at the height of the third offset; x
 /// along the reference direction, towards the reference intersection, or along the first axis; z is the grid's
-/// [IFC4, IfcGridPlacement, IfcVirtualGridIntersection]. Nullopt where an axis is no straight line, axes are parallel
+/// [iso2018, IfcGridPlacement]. Nullopt where an axis is no straight line, axes are parallel
 /// or something is missing.
 [[nodiscard]] std::optional<GridPose> grid_pose(const IfcGridPlacement& placement, double unit_m);
 

@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bim/formats/ifc/step/step_material.h"
 
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wall"
-#pragma GCC diagnostic ignored "-Wextra"
-#pragma GCC diagnostic ignored "-Wconversion"
 #include <ifcpp/IFC4/include/IfcDirectionSenseEnum.h>
 #include <ifcpp/IFC4/include/IfcLabel.h>
 #include <ifcpp/IFC4/include/IfcLayerSetDirectionEnum.h>
@@ -16,7 +12,6 @@
 #include <ifcpp/IFC4/include/IfcNonNegativeLengthMeasure.h>
 #include <ifcpp/IFC4/include/IfcProduct.h>
 #include <ifcpp/IFC4/include/IfcRelAssociatesMaterial.h>
-#pragma GCC diagnostic pop
 
 #include "bim/formats/ifc/step/step_parse.h"
 

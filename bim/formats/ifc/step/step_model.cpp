@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bim/formats/ifc/step/step_model.h"
 
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wall"
-#pragma GCC diagnostic ignored "-Wextra"
-#pragma GCC diagnostic ignored "-Wconversion"
 #include <ifcpp/IFC4/include/IfcBuildingStorey.h>
 #include <ifcpp/IFC4/include/IfcGloballyUniqueId.h>
 #include <ifcpp/IFC4/include/IfcLabel.h>
@@ -24,7 +20,6 @@
 #include <ifcpp/IFC4/include/IfcWall.h>
 #include <ifcpp/model/BuildingModel.h>
 #include <ifcpp/model/UnitConverter.h>
-#pragma GCC diagnostic pop
 
 #include <algorithm>
 #include <array>
@@ -100,7 +95,7 @@ std::int64_t whole_of(const IfcProduct& product) {
   return 0;
 }
 
-/// Doors and windows are known by their openings in walls; others have nothing but their body to tell where they are.
+/// Doors and windows are known by their openings in walls; others are located by their body alone.
 bool needs_geometry(const std::shared_ptr<IfcProduct>& source, StepClass kind) {
   if (kind == StepClass::storey || kind == StepClass::hidden) return false;
   if (kind != StepClass::door && kind != StepClass::window) return true;
@@ -120,7 +115,7 @@ bool has_length_unit(const IfcProject& project) {
 class Reader {
  public:
   Reader(const std::shared_ptr<BuildingModel>& model, const StepText& checked, const std::string& file)
-      : model_(model), soundness_(checked, file), geometry_(model), checked_(checked), file_(file) {}
+      : model_(model), validator_(checked, file), geometry_(model), checked_(checked), file_(file) {}
 
   StepModel read() {
     StepModel result;
@@ -162,7 +157,7 @@ class Reader {
     }
   }
 
-  /// Nullopt, with a warning, for a product that stands where cannot be told.
+  /// Nullopt, with a warning, for a product whose placement cannot be resolved.
   std::optional<StepProduct> read_product(const std::shared_ptr<IfcProduct>& source, StepClass kind, StepModel& model) {
     StepProduct product;
     product.step_id = source->m_entity_id;
@@ -191,8 +186,8 @@ class Reader {
 
   void read_geometry(const std::shared_ptr<IfcProduct>& source, StepProduct& product) {
     product.has_body = has_body(*source, product.kind);
-    if (product.kind == StepClass::wall) read_axis(*source, soundness_, geometry_, product);
-    if (needs_geometry(source, product.kind)) read_body(*source, soundness_, geometry_, product);
+    if (product.kind == StepClass::wall) read_axis(*source, validator_, geometry_, product);
+    if (needs_geometry(source, product.kind)) read_body(*source, validator_, geometry_, product);
   }
 
   /// Rooms have a number for a name and say what they are in the long name: "Kitchen A102".
@@ -209,7 +204,7 @@ class Reader {
   }
 
   std::shared_ptr<BuildingModel> model_;
-  StepSoundness soundness_;
+  StepValidator validator_;
   StepGeometry geometry_;
   const StepText& checked_;
   const std::string& file_;
@@ -218,10 +213,10 @@ class Reader {
 }  // namespace
 
 StepModel read_step_model(const std::string& text, const StepText& checked, const std::string& file) {
-  const Quiet quiet;
+  const ScopedSilence quiet;
   const std::shared_ptr<BuildingModel> model = parse_step(with_known_placements(text, file), checked.schema, file);
   StepModel result = Reader(model, checked, file).read();
-  result.move = recentre(result);
+  result.move = move_to_origin(result);
   return result;
 }
 

@@ -35,10 +35,10 @@ struct StepProduct {
   std::int64_t whole = 0;                              ///< STEP number of the product it is a part of, 0 for none
   bool has_body = false;                               ///< the file gives a body, whether or not it was read
   std::optional<StepLayers> layers;
-  std::string material;                 ///< of the thickest layer
-  std::vector<Eigen::Vector3d> axis_W;  ///< points of the Axis representation
-  std::vector<Shape> body;              ///< items of the Body in its own frame (openings: Body or Reference)
-  std::vector<std::string> complaints;  ///< what the geometry reader said
+  std::string material;                  ///< of the thickest layer
+  std::vector<Eigen::Vector3d> axis_W;   ///< points of the Axis representation
+  std::vector<Shape> body;               ///< items of the Body in its own frame (openings: Body or Reference)
+  std::vector<std::string> diagnostics;  ///< messages of the geometry reader
 };
 
 struct StepModel {
@@ -47,7 +47,7 @@ struct StepModel {
   bool has_unit = true;                    ///< false: no length unit given, metres assumed
   std::vector<StepProduct> products;       ///< by GlobalId
   std::map<std::string, Material> optics;  ///< what the file says about light, by material name
-  std::vector<Warning> skipped;            ///< products that stand where cannot be told
+  std::vector<Warning> skipped;            ///< products whose placement cannot be resolved
   std::optional<Eigen::Vector3d> move;     ///< from the file's world to W, where it stands in map coordinates
 };
 

@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bim/formats/ifc/step/step_optics.h"
 
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wall"
-#pragma GCC diagnostic ignored "-Wextra"
-#pragma GCC diagnostic ignored "-Wconversion"
 #include <ifcpp/IFC4/include/IfcIdentifier.h>
 #include <ifcpp/IFC4/include/IfcLabel.h>
 #include <ifcpp/IFC4/include/IfcMaterial.h>
@@ -13,7 +9,6 @@
 #include <ifcpp/IFC4/include/IfcRatioMeasure.h>
 #include <ifcpp/IFC4/include/IfcReal.h>
 #include <ifcpp/model/BuildingModel.h>
-#pragma GCC diagnostic pop
 
 #include <optional>
 

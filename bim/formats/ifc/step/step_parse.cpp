@@ -1,13 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bim/formats/ifc/step/step_parse.h"
 
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wall"
-#pragma GCC diagnostic ignored "-Wextra"
-#pragma GCC diagnostic ignored "-Wconversion"
 #include <ifcpp/model/BuildingModel.h>
 #include <ifcpp/reader/ReaderSTEP.h>
-#pragma GCC diagnostic pop
 
 #include <cstdint>
 
@@ -22,12 +17,12 @@ std::string schema_for_reader(const std::string& schema) {
 }
 
 std::shared_ptr<BuildingModel> parse_step(const std::string& text, const std::string& schema, const std::string& file) {
-  // loadModelFromFile() wants the locale en_US and gives an empty model without it; this does not.
+  // loadModelFromFile() needs the locale en_US and gives an empty model without it; this does not.
   auto model = std::make_shared<BuildingModel>();
   try {
     ReaderSTEP reader;
     std::string content = text;
-    // It reads files of no other schema than these two, and knows them by this name.
+    // It reads files of no other schema than these two, and identifies them by this name.
     const std::size_t header = content.find("FILE_SCHEMA");
     const std::size_t begin = header == std::string::npos ? header : content.find('\'', header);
     const std::size_t end = begin == std::string::npos ? begin : content.find('\'', begin + 1);

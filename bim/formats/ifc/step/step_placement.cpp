@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bim/formats/ifc/step/step_placement.h"
 
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wall"
-#pragma GCC diagnostic ignored "-Wextra"
-#pragma GCC diagnostic ignored "-Wconversion"
 #include <ifcpp/IFC4/include/IfcAxis2Placement2D.h>
 #include <ifcpp/IFC4/include/IfcAxis2Placement3D.h>
 #include <ifcpp/IFC4/include/IfcCartesianPoint.h>
@@ -13,7 +9,6 @@
 #include <ifcpp/IFC4/include/IfcLengthMeasure.h>
 #include <ifcpp/IFC4/include/IfcLocalPlacement.h>
 #include <ifcpp/IFC4/include/IfcReal.h>
-#pragma GCC diagnostic pop
 
 #include "bim/formats/ifc/step/step_grid.h"
 #include "bim/formats/ifc/step/step_vector.h"
@@ -49,7 +44,7 @@ std::optional<Eigen::Affine3d> relative(const std::shared_ptr<IfcAxis2Placement>
   if (const auto in_space = std::dynamic_pointer_cast<IfcAxis2Placement3D>(select)) {
     axis = direction_of(in_space->m_Axis, Eigen::Vector3d::UnitZ());
     if (!axis) return std::nullopt;
-    // Without a reference the x axis is the part of the file's x axis across z [ISO 10303-42 first_proj_axis].
+    // Without a reference the x axis is the part of the file's x axis across z [iso2021, first_proj_axis].
     const bool along_x = axis->cross(Eigen::Vector3d::UnitX()).norm() <= 1e-9 * axis->norm();
     reference = direction_of(in_space->m_RefDirection, along_x ? Eigen::Vector3d::UnitZ() : Eigen::Vector3d::UnitX());
   } else if (const auto in_plane = std::dynamic_pointer_cast<IfcAxis2Placement2D>(select)) {

@@ -6,7 +6,7 @@
 
 namespace plumbline::bim {
 
-/// UTF-8 as a STEP string with its quotes [ISO 10303-21]: ' and \ doubled, everything that is not printable ASCII as
+/// UTF-8 as a STEP string with its quotes [iso2016]: ' and \ doubled, everything that is not printable ASCII as
 /// \X2\ or \X4\ groups. A byte that is no UTF-8 becomes U+FFFD.
 [[nodiscard]] std::string step_string(std::string_view utf8);
 

@@ -19,7 +19,7 @@ struct Statement {
   int line = 0;
 };
 
-/// Splits STEP text into statements; knows strings, comments and brackets.
+/// Splits STEP text into statements, with regard to strings, comments and brackets.
 class StatementReader {
  public:
   StatementReader(std::string_view text, const std::string& file, const StepLimits& limits)

@@ -15,7 +15,7 @@ struct StepLimits {
   int chain = 1000;  ///< entities that refer to each other in a row; real files stay below 40
 };
 
-/// What one look over a STEP file (ISO 10303-21) yields: its schema and where each entity stands.
+/// Result of one pass over a STEP file (ISO 10303-21): its schema and where each entity stands.
 struct StepText {
   std::string schema;                                 ///< first name of FILE_SCHEMA, upper case, such as IFC2X3
   std::vector<std::pair<std::int64_t, int>> line_of;  ///< (entity number, line of its '#'), ascending

@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bim/formats/ifc/step/step_validator.h"
 
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wall"
-#pragma GCC diagnostic ignored "-Wextra"
-#pragma GCC diagnostic ignored "-Wconversion"
 #include <ifcpp/IFC4/include/IfcMappedItem.h>
 #include <ifcpp/IFC4/include/IfcRepresentation.h>
 #include <ifcpp/IFC4/include/IfcRepresentationItem.h>
 #include <ifcpp/IFC4/include/IfcRepresentationMap.h>
 #include <ifcpp/model/AttributeObject.h>
 #include <ifcpp/model/BuildingObject.h>
-#pragma GCC diagnostic pop
 
 #include <algorithm>
 #include <array>
@@ -22,7 +17,7 @@
 namespace plumbline::bim {
 namespace {
 
-/// Attributes of geometry that a file may leave open [IFC4 schema, geometry, profile and topology resources]; EdgeStart
+/// Attributes of geometry that a file may leave open [iso2018, geometry, profile and topology resources]; EdgeStart
 /// and EdgeEnd of an oriented edge are derived.
 constexpr std::array<std::string_view, 36> optional_attributes{{"Axis",
                                                                 "Axis1",
@@ -67,14 +62,14 @@ bool is_optional(std::string_view name) {
 
 }  // namespace
 
-void StepSoundness::fail(const BuildingEntity& entity, const std::string& attribute) const {
+void StepValidator::fail(const BuildingEntity& entity, const std::string& attribute) const {
   const std::string number = "#" + std::to_string(entity.m_entity_id);
   throw InputError({file_, text_.line(entity.m_entity_id), 0},
                    number + ": " + entity.className() + " needs a " + attribute + " of its proper kind");
 }
 
-void StepSoundness::check(const BuildingEntity& entity) {
-  if (!sound_.insert(entity.m_entity_id).second) return;
+void StepValidator::check(const BuildingEntity& entity) {
+  if (!valid_.insert(entity.m_entity_id).second) return;
   if (const auto* map = dynamic_cast<const IfcRepresentationMap*>(&entity)) {
     if (!map->m_MappedRepresentation) fail(entity, "MappedRepresentation");
     check(*map->m_MappedRepresentation);
@@ -97,7 +92,7 @@ void StepSoundness::check(const BuildingEntity& entity) {
   }
 }
 
-void StepSoundness::check(const IfcRepresentation& representation) {
+void StepValidator::check(const IfcRepresentation& representation) {
   for (const auto& item : representation.m_Items) {
     if (!item) fail(representation, "Items");
     check(*item);

@@ -12,10 +12,10 @@ class IfcRepresentation;
 
 namespace plumbline::bim {
 
-/// Looks through geometry before it is converted, since IFC++ follows attributes that are not there.
-class StepSoundness {
+/// Validates geometry before it is converted, since IFC++ dereferences missing attributes.
+class StepValidator {
  public:
-  StepSoundness(const StepText& text, const std::string& file) : text_(text), file_(file) {}
+  StepValidator(const StepText& text, const std::string& file) : text_(text), file_(file) {}
 
   /// Throws InputError with the line of an entity under the representation that lacks an attribute which IFC demands,
   /// or has an entity of the wrong kind in its place.
@@ -27,7 +27,7 @@ class StepSoundness {
 
   const StepText& text_;
   const std::string& file_;
-  std::set<int> sound_;  ///< STEP numbers that have been looked at
+  std::set<int> valid_;  ///< STEP numbers that have been checked
 };
 
 }  // namespace plumbline::bim

@@ -16,7 +16,7 @@ struct IdBits {
 };
 
 /// 22 characters of the IFC alphabet, 6 bits each, the highest first; the first holds 2 bits and is 0 to 3
-/// [IFC4 IfcGloballyUniqueId].
+/// [iso2018, IfcGloballyUniqueId].
 [[nodiscard]] std::string global_id(const IdBits& bits);
 
 /// The bits of a GlobalId, or nullopt when the text is none.

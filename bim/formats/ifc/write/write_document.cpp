@@ -33,8 +33,9 @@ std::string hashed_id(const std::vector<std::string>& key) {
 
 std::string header(const std::string& name, const std::string& data) {
   return "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION(('ViewDefinition [DesignTransferView_V1.0]'," +
-         step_string(written_mark(data)) + "),'2;1');\nFILE_NAME(" + step_string(name) + "," + step_string(time_stamp) +
-         ",(''),('')," + step_string(program) + "," + step_string(program) + ",'');\nFILE_SCHEMA(('IFC4'));\nENDSEC;\n";
+         step_string(roundtrip_signature(data)) + "),'2;1');\nFILE_NAME(" + step_string(name) + "," +
+         step_string(time_stamp) + ",(''),('')," + step_string(program) + "," + step_string(program) +
+         ",'');\nFILE_SCHEMA(('IFC4'));\nENDSEC;\n";
 }
 
 }  // namespace
@@ -158,9 +159,9 @@ void IfcDocument::add_material(const Material* optics, const std::string& name) 
   step_.add("IFCMATERIALPROPERTIES", {step_string("Plumbline_Optics"), none, step::refs(values), ref(number)});
 }
 
-void IfcDocument::paint(int item, std::string_view name) {
-  const auto all = paints();
-  const auto known = std::find_if(all.begin(), all.end(), [&](const Paint& paint) { return paint.name == name; });
+void IfcDocument::assign_colour(int item, std::string_view name) {
+  const auto all = palette();
+  const auto known = std::find_if(all.begin(), all.end(), [&](const Colour& colour) { return colour.name == name; });
   if (known == all.end()) return;
   if (!styles_.contains(name)) {
     // IFC's colours are those of a screen, whose curve is close to a square root.

@@ -58,8 +58,8 @@ class IfcDocument {
   void decompose(int space, int storey);
   /// Empty names have no material.
   void assign_material(int product, const std::string& material);
-  /// Colours an item as mesh files colour elements (bim/mesh/paint.h). Empty names leave it as it is.
-  void paint(int item, std::string_view paint);
+  /// Colours an item as mesh files colour elements (bim/mesh/palette.h). Empty names leave it as it is.
+  void assign_colour(int item, std::string_view colour);
   /// Number of an IfcMaterial, nothing for the empty name.
   [[nodiscard]] std::optional<int> material(const std::string& name) const;
   [[nodiscard]] const std::string& global_id_of(int product) const { return ids_.at(product); }
@@ -92,7 +92,7 @@ class IfcDocument {
   std::vector<int> storeys_;                                ///< numbers of the IfcBuildingStoreys
   std::map<int, std::vector<int>> contained_, decomposed_;  ///< by number of the container
   std::map<std::string, int> materials_;
-  std::map<std::string, int, std::less<>> styles_;   ///< IfcSurfaceStyles by name of the paint
+  std::map<std::string, int, std::less<>> styles_;   ///< IfcSurfaceStyles by name of the colour
   std::map<std::string, std::vector<int>> made_of_;  ///< products by material
   int owner_ = 0, context_ = 0, body_context_ = 0, axis_context_ = 0, footprint_context_ = 0;
   int world_ = 0, building_placement_ = 0, building_ = 0, relations_ = 0;

@@ -142,7 +142,7 @@ int ElementWriter::opening_of(const Obstacle& obstacle) const {
 
 void ElementWriter::add_obstacles() {
   for (const Obstacle& obstacle : building_.obstacles) {
-    const int shape = ShapeWriter(document_, paint_of(obstacle)).body({obstacle.body}).finish();
+    const int shape = ShapeWriter(document_, colour_of(obstacle)).body({obstacle.body}).finish();
     const int opening = opening_of(obstacle);
     int number = 0;
     if (opening >= 0) {

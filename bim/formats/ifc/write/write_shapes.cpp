@@ -33,7 +33,7 @@ ShapeWriter& ShapeWriter::body(const std::vector<Solid>& solids) {
   std::vector<int> items;
   for (const Solid& solid : solids)
     if (!solid.triangles.empty()) items.push_back(add_faces(document_.step(), solid));
-  for (const int item : items) document_.paint(item, paint_);
+  for (const int item : items) document_.assign_colour(item, colour_);
   if (!items.empty()) represent(document_.body_context(), "Body", "Tessellation", items);
   return *this;
 }
@@ -53,7 +53,7 @@ ShapeWriter& ShapeWriter::body(const Prism& prism) {
   const int up = out.add("IFCDIRECTION", {coordinates(direction)});
   const int solid =
       out.add("IFCEXTRUDEDAREASOLID", {ref(area), ref(axes), ref(up), step_real(height * direction.norm())});
-  document_.paint(solid, paint_);
+  document_.assign_colour(solid, colour_);
   represent(document_.body_context(), "Body", "SweptSolid", {solid});
   return *this;
 }

@@ -20,8 +20,8 @@ struct Prism {
 /// Representations of one product, gathered.
 class ShapeWriter {
  public:
-  /// Bodies are coloured by the name of a paint, or left as they are.
-  explicit ShapeWriter(IfcDocument& document, std::string_view paint = "") : document_(document), paint_(paint) {}
+  /// Bodies get the palette's colour of this name, or none.
+  explicit ShapeWriter(IfcDocument& document, std::string_view colour = "") : document_(document), colour_(colour) {}
 
   /// Body of triangles, each solid an item. Nothing without triangles.
   ShapeWriter& body(const std::vector<Solid>& solids);
@@ -39,7 +39,7 @@ class ShapeWriter {
   void represent(int context, const char* name, const char* type, const std::vector<int>& items);
 
   IfcDocument& document_;
-  std::string_view paint_;
+  std::string_view colour_;
   std::vector<int> representations_;
 };
 

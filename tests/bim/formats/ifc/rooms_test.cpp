@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rooms of real files: their walls against the relation that two of the files have, and the rooms at their doors.
+// Rooms of files: their walls against the relation that some of the files have, and the rooms at their doors.
 #include "bim/model/rooms.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,9 @@
 #include "bim/config/tree.h"
 #include "bim/formats/ifc/read/ifc.h"
 #include "bim/model/adjacency.h"
-#include "tests/bim/formats/ifc/data.h"
+#include "tests/bim/formats/ifc/read_ifc.h"
+#include "tests/data.h"
+#include "tests/test_name.h"
 
 namespace plumbline::bim {
 namespace {
@@ -46,20 +48,36 @@ Pairs found_boundaries(const Building& building) {
   return pairs;
 }
 
-class RealRooms : public testing::TestWithParam<const char*> {
+/// Whether a file says which walls bound its rooms.
+enum class StatedBounds { none, stated };
+
+struct RoomsFile {
+  const char* name;
+  StatedBounds bounds;
+};
+
+void PrintTo(const RoomsFile& file, std::ostream* out) { *out << file.name; }
+
+class RoomsOf : public testing::TestWithParam<RoomsFile> {
  protected:
   void SetUp() override {
-    path_ = data_path(std::string("ifc/") + GetParam() + ".ifc");
-    if (!std::filesystem::exists(path_)) GTEST_SKIP() << "no test data at " << path_;
+    const std::string name = std::string("ifc/") + GetParam().name + ".ifc";
+    if (const std::string why = data_missing(name); !why.empty()) GTEST_SKIP() << why;
+    path_ = data_path(name);
     building_ = read_ifc(path_);
   }
+  void bounding_walls_are_those_the_file_states();
+  void doors_lead_somewhere_and_rooms_can_be_left();
+  void virtual_edges_lie_on_the_outline_and_not_on_walls();
+
   std::string path_;
   Building building_;
 };
 
-TEST_P(RealRooms, BoundingWallsAreThoseTheFileStates) {
+void RoomsOf::bounding_walls_are_those_the_file_states() {
   const Pairs stated = stated_boundaries(path_, building_), found = found_boundaries(building_);
-  if (stated.empty()) GTEST_SKIP() << "the file states no boundaries";
+  EXPECT_EQ(stated.empty(), GetParam().bounds == StatedBounds::none);
+  if (stated.empty()) return;
   Pairs both;
   std::set_intersection(stated.begin(), stated.end(), found.begin(), found.end(), std::inserter(both, both.end()));
   EXPECT_EQ(both.size(), stated.size());  // recall 1
@@ -67,7 +85,7 @@ TEST_P(RealRooms, BoundingWallsAreThoseTheFileStates) {
 }
 
 /// Every door leads from one room to another or to the outside, and every room can be left.
-TEST_P(RealRooms, DoorsLeadSomewhereAndRoomsCanBeLeft) {
+void RoomsOf::doors_lead_somewhere_and_rooms_can_be_left() {
   std::set<int> left;
   for (const Adjacent& pair : adjacency(building_))
     if (pair.by != Passage::window) left.insert({pair.a, pair.b});
@@ -84,7 +102,7 @@ TEST_P(RealRooms, DoorsLeadSomewhereAndRoomsCanBeLeft) {
 }
 
 /// A stretch without a wall is not also one along a wall: together they are no longer than the outline.
-TEST_P(RealRooms, VirtualEdgesLieOnTheOutlineAndNotOnWalls) {
+void RoomsOf::virtual_edges_lie_on_the_outline_and_not_on_walls() {
   for (const Room& room : building_.rooms) {
     double open = 0.0, along = 0.0, outline = 0.0;
     for (const VirtualEdge& edge : room.virtual_edges) {
@@ -99,17 +117,39 @@ TEST_P(RealRooms, VirtualEdgesLieOnTheOutlineAndNotOnWalls) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Files, RealRooms, testing::Values("duplex", "AC20-FZK-Haus", "LargeBuilding"),
-                         [](const testing::TestParamInfo<const char*>& info) {
-                           std::string name = info.param;
-                           std::erase_if(name, [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; });
-                           return name;
-                         });
+TEST_P(RoomsOf, AreBoundedAndCanBeLeft) {
+  bounding_walls_are_those_the_file_states();
+  doors_lead_somewhere_and_rooms_can_be_left();
+  virtual_edges_lie_on_the_outline_and_not_on_walls();
+}
 
-TEST(RealAdjacency, DuplexStairsJoinItsLevels) {
-  const std::string path = data_path("ifc/duplex.ifc");
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << "no test data at " << path;
-  const Building building = read_ifc(path);
+std::string rooms_name(const testing::TestParamInfo<RoomsFile>& info) { return test_name(info.param.name); }
+
+INSTANTIATE_TEST_SUITE_P(Own, RoomsOf,
+                         testing::Values(RoomsFile{"twin_flats", StatedBounds::stated},
+                                         RoomsFile{"gable_house", StatedBounds::stated},
+                                         RoomsFile{"workshop", StatedBounds::none}),
+                         rooms_name);
+INSTANTIATE_TEST_SUITE_P(Foreign, RoomsOf,
+                         testing::Values(RoomsFile{"duplex", StatedBounds::stated},
+                                         RoomsFile{"AC20-FZK-Haus", StatedBounds::stated},
+                                         RoomsFile{"LargeBuilding", StatedBounds::none}),
+                         rooms_name);
+
+/// Two flats with a stair each.
+struct JoinedFlats {
+  const char* file;
+  int doors;
+};
+
+void PrintTo(const JoinedFlats& c, std::ostream* out) { *out << c.file; }
+
+class AdjacencyOfFlats : public testing::TestWithParam<JoinedFlats> {};
+
+TEST_P(AdjacencyOfFlats, StairsJoinTheLevels) {
+  const std::string name = std::string("ifc/") + GetParam().file + ".ifc";
+  if (const std::string why = data_missing(name); !why.empty()) GTEST_SKIP() << why;
+  const Building building = read_ifc(data_path(name));
   std::map<Passage, int> count;
   std::set<std::pair<std::string, std::string>> stairs;
   for (const Adjacent& pair : adjacency(building)) {
@@ -118,10 +158,15 @@ TEST(RealAdjacency, DuplexStairsJoinItsLevels) {
       stairs.insert(std::minmax(building.rooms[static_cast<std::size_t>(pair.a)].name,
                                 building.rooms[static_cast<std::size_t>(pair.b)].name));
   }
-  EXPECT_EQ(count[Passage::door], 14);
+  EXPECT_EQ(count[Passage::door], GetParam().doors);
   EXPECT_EQ(stairs, (std::set<std::pair<std::string, std::string>>{{"Foyer A101", "Hallway A201"},
                                                                    {"Foyer B101", "Hallway B201"}}));
 }
+
+INSTANTIATE_TEST_SUITE_P(Own, AdjacencyOfFlats, testing::Values(JoinedFlats{"twin_flats", 6}),
+                         [](const auto& info) { return std::string(info.param.file); });
+INSTANTIATE_TEST_SUITE_P(Foreign, AdjacencyOfFlats, testing::Values(JoinedFlats{"duplex", 14}),
+                         [](const auto& info) { return std::string(info.param.file); });
 
 }  // namespace
 }  // namespace plumbline::bim

@@ -9,7 +9,7 @@
 #include "bim/config/tree.h"
 #include "bim/formats/ifc/read/ifc.h"
 #include "bim/mesh/mesh.h"
-#include "tests/bim/formats/ifc/data.h"
+#include "tests/data.h"
 
 namespace plumbline::bim {
 namespace {
@@ -35,12 +35,14 @@ struct Move {
   double x, y, turn;
 };
 
+void PrintTo(const Move& m, std::ostream* out) { *out << m.file; }
+
 class TurnedTest : public testing::TestWithParam<Move> {};
 
 TEST_P(TurnedTest, IsReadTheSame) {
-  const std::string path = data_path(std::string("ifc/") + GetParam().file + ".ifc");
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << "no test data at " << path;
-  const std::string text = read_text_file(path);
+  const std::string name = std::string("ifc/") + GetParam().file + ".ifc";
+  if (const std::string why = data_missing(name); !why.empty()) GTEST_SKIP() << why;
+  const std::string text = read_text_file(data_path(name));
   const std::string moved_text = with_site_at(text, GetParam().x, GetParam().y, GetParam().turn);
   ASSERT_FALSE(moved_text.empty());
   const Building still = read_ifc_text(text, "still.ifc"), moved = read_ifc_text(moved_text, "moved.ifc");
@@ -70,7 +72,12 @@ TEST_P(TurnedTest, IsReadTheSame) {
     EXPECT_TRUE(kind == "recentred" || difference == 0) << kind << ": " << difference;
 }
 
-INSTANTIATE_TEST_SUITE_P(Files, TurnedTest,
+INSTANTIATE_TEST_SUITE_P(Own, TurnedTest,
+                         testing::Values(Move{"twin_flats", 0, 0, 0.35}, Move{"twin_flats", 512345.678, 5412345.25, 0},
+                                         Move{"gable_house", 512345.678, 5412345.25, 0.35}, Move{"workshop", 0, 0, 2.2},
+                                         Move{"walls_only", 0, 0, 1.1}),
+                         [](const testing::TestParamInfo<Move>& info) { return "Case" + std::to_string(info.index); });
+INSTANTIATE_TEST_SUITE_P(Foreign, TurnedTest,
                          testing::Values(Move{"duplex", 0, 0, 0.35}, Move{"duplex", 512345.678, 5412345.25, 0},
                                          Move{"AC20-FZK-Haus", 512345.678, 5412345.25, 0.35},
                                          Move{"LargeBuilding", 0, 0, 2.2}),

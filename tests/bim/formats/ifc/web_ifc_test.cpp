@@ -15,15 +15,11 @@
 #include "bim/formats/ifc/write/write_ifc.h"
 #include "bim/load/load.h"
 #include "bim/mesh/mesh.h"
-#include "tests/bim/formats/ifc/data.h"
+#include "tests/data.h"
+#include "tests/test_name.h"
 
 namespace plumbline::bim {
 namespace {
-
-std::filesystem::path source_root() {
-  const char* source = std::getenv("PLUMBLINE_SOURCE");
-  return source != nullptr ? source : ".";
-}
 
 struct Measured {
   std::map<std::string, int> counts;
@@ -32,7 +28,7 @@ struct Measured {
 
 /// What the script prints, nothing where it could not run.
 std::optional<Measured> measured(const std::filesystem::path& file) {
-  const std::filesystem::path folder = source_root() / "tests" / "golden" / "web_ifc";
+  const std::filesystem::path folder = project_file("tests/golden/web_ifc");
   if (!std::filesystem::exists(folder / "node_modules" / "web-ifc")) return std::nullopt;
   const std::string command = "node '" + (folder / "measure.mjs").string() + "' '" + file.string() + "' 2>&1";
   const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(command.c_str(), "r"), pclose);
@@ -97,8 +93,9 @@ class WebIfc : public testing::TestWithParam<const char*> {};
 
 TEST_P(WebIfc, FindsTheSameCountsAndWallVolumes) {
   const std::string name = GetParam();
-  const std::string path = name.starts_with("scenarios/") ? (source_root() / name).string() : data_path(name);
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
+  const bool in_library = name.starts_with("scenarios/");
+  if (const std::string why = in_library ? "" : data_missing(name); !why.empty()) GTEST_SKIP() << why;
+  const std::string path = in_library ? project_file(name) : data_path(name);
   const Building building = load_building(path);
   const std::string text = write_ifc(building);
   const std::filesystem::path written =
@@ -126,10 +123,7 @@ INSTANTIATE_TEST_SUITE_P(Files, WebIfc,
                                          "plans/office.building.yaml", "plans/hotel.building.yaml",
                                          "scenarios/library/quickstart.plan.yaml"),
                          [](const testing::TestParamInfo<const char*>& info) {
-                           std::string name = std::filesystem::path(info.param).stem();
-                           std::replace_if(
-                               name.begin(), name.end(), [](char c) { return std::isalnum(c) == 0; }, '_');
-                           return name;
+                           return test_name(std::filesystem::path(info.param).stem());
                          });
 
 }  // namespace

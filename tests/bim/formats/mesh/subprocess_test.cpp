@@ -12,26 +12,26 @@ namespace plumbline::bim {
 namespace {
 
 TEST(Isolated, GivesBackWhatTheTaskGives) {
-  EXPECT_EQ(run_isolated([] { return std::string("answer"); }), "answer");
-  EXPECT_EQ(run_isolated([] { return std::string(); }), "");
+  EXPECT_EQ(run_in_subprocess([] { return std::string("answer"); }), "answer");
+  EXPECT_EQ(run_in_subprocess([] { return std::string(); }), "");
   const std::string large(3'000'000, 'x');
-  EXPECT_EQ(run_isolated([&] { return large; }), large);
+  EXPECT_EQ(run_in_subprocess([&] { return large; }), large);
 }
 
 TEST(Isolated, SurvivesWhatTheTaskDoesNot) {
-  EXPECT_FALSE(run_isolated([]() -> std::string { throw std::runtime_error("thrown"); }));
-  EXPECT_FALSE(run_isolated([]() -> std::string { std::abort(); }));
-  EXPECT_FALSE(run_isolated([]() -> std::string {
+  EXPECT_FALSE(run_in_subprocess([]() -> std::string { throw std::runtime_error("thrown"); }));
+  EXPECT_FALSE(run_in_subprocess([]() -> std::string { std::abort(); }));
+  EXPECT_FALSE(run_in_subprocess([]() -> std::string {
     (void)std::raise(SIGSEGV);
     return "";
   }));
-  EXPECT_FALSE(run_isolated([]() -> std::string { std::_Exit(0); }));
+  EXPECT_FALSE(run_in_subprocess([]() -> std::string { std::_Exit(0); }));
 }
 
 TEST(Isolated, BoundsTimeMemoryAndAnswer) {
-  IsolationConfig config;
+  SubprocessLimits config;
   config.cpu_s = 1;
-  EXPECT_FALSE(run_isolated(
+  EXPECT_FALSE(run_in_subprocess(
       []() -> std::string {
         volatile int forever = 1;
         while (forever == 1) {
@@ -39,18 +39,18 @@ TEST(Isolated, BoundsTimeMemoryAndAnswer) {
         return "";
       },
       config));
-  EXPECT_FALSE(run_isolated([] { return std::to_string(std::vector<char>(std::size_t{4} << 30U, 'x').size()); }));
+  EXPECT_FALSE(run_in_subprocess([] { return std::to_string(std::vector<char>(std::size_t{4} << 30U, 'x').size()); }));
   config.answer = 100;
-  EXPECT_FALSE(run_isolated([] { return std::string(1000, 'x'); }, config));
+  EXPECT_FALSE(run_in_subprocess([] { return std::string(1000, 'x'); }, config));
 }
 
 TEST(Isolated, BoundsGrowWithTheFile) {
-  const IsolationConfig least;
-  EXPECT_EQ(isolation_for(0).cpu_s, least.cpu_s);
-  EXPECT_EQ(isolation_for(0).memory, least.memory);
+  const SubprocessLimits least;
+  EXPECT_EQ(subprocess_limits(0).cpu_s, least.cpu_s);
+  EXPECT_EQ(subprocess_limits(0).memory, least.memory);
   const std::size_t largest = std::size_t{256} << 20U;
-  EXPECT_EQ(isolation_for(largest).cpu_s, least.cpu_s + 128);
-  EXPECT_EQ(isolation_for(largest).memory, least.memory + 32 * largest);
+  EXPECT_EQ(subprocess_limits(largest).cpu_s, least.cpu_s + 128);
+  EXPECT_EQ(subprocess_limits(largest).memory, least.memory + 32 * largest);
 }
 
 }  // namespace

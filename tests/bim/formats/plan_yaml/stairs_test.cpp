@@ -10,8 +10,10 @@
 #include "bim/formats/plan_yaml/stairwell.h"
 #include "bim/geometry/polygon_boolean.h"
 #include "bim/mesh/mesh.h"
+#include "bim/model/stair_flight.h"
 #include "bim/random/stream.h"
 #include "bim/rays/ray_scene.h"
+#include "tests/bim/formats/plan_yaml/plan_error.h"
 
 namespace plumbline::bim {
 namespace {
@@ -29,17 +31,6 @@ const std::string base =
     "stairs:\n";                                                                            // 9
 
 Building with(const std::string& stairs) { return read_plan_text(base + stairs, "p.yaml"); }
-
-void expect_error(const std::string& text, const std::string& line, const std::string& part) {
-  try {
-    (void)read_plan_text(text, "p.yaml");
-    ADD_FAILURE() << "no error for " << text;
-  } catch (const InputError& error) {
-    const std::string message = error.what();
-    EXPECT_EQ(message.rfind("p.yaml:" + line + ":", 0), 0U) << message;
-    EXPECT_NE(message.find(part), std::string::npos) << message;
-  }
-}
 
 double slab_volume(const Building& building, std::size_t slab) {
   return build_mesh(building).elements[building.walls.size() + slab].volume_m3;
@@ -72,7 +63,7 @@ TEST(Stairs, BodiesCloseAndTheLastStepIsFlushAtRandom) {
     entry.turn = static_cast<Turn>(tick % 5);
     entry.landing_after = 2 + static_cast<int>(tick % 3);
     const double z0 = draw(6, -3, 3), height = draw(7, 2.5, 4);
-    const Stair stair = stair_of(entry, z0, height);
+    const Stair stair = build_stair(entry, z0, height);
     ASSERT_EQ(stair.flights.size(), 2U);
     ASSERT_EQ(stair.landings.size(), 1U);
     EXPECT_EQ(stair.bodies.size(), 3U);
@@ -110,7 +101,7 @@ TEST(Stairs, RaysMeetTheStepsWhereTheFlightSays) {
     const Hit down = scene.cast({{p.x(), p.y(), z + 1.0}, -Eigen::Vector3d::UnitZ()}, 10.0);
     EXPECT_NEAR(down.range_m, 1.0, 2e-6) << k;
     const Hit up = scene.cast({{p.x(), p.y(), z + 0.01}, Eigen::Vector3d::UnitZ()}, 10.0);
-    EXPECT_GE(up.range_m, StairConfig().head_room_m - 0.01) << k;
+    EXPECT_GE(up.range_m, StairBuilderConfig().head_room_m - 0.01) << k;
   }
 }
 
@@ -148,12 +139,13 @@ TEST(Stairs, ACopyTooLowForTheLandingIsRefused) {
   std::string text = base + "  - {id: st, from: lower, to: upper, start: [1, 3], landing_after: 12}\n";
   text.replace(text.find("copy_of: lower}]"), 16,
                "height_m: 1.2, copy_of: lower}, {id: top, elevation_m: 4.4, height_m: 2.8, copy_of: lower}]");
-  expect_error(text, "10", "stair 'upper/st' from 'upper' to 'top' has only 8 steps; its landing must come before");
+  expect_plan_error(text, "10",
+                    "stair 'upper/st' from 'upper' to 'top' has only 8 steps; its landing must come before");
 }
 
 TEST(Stairs, WhatCannotBeWalkedIsRefusedAtItsLine) {
   const auto refuse = [&](const std::string& stair, const std::string& part) {
-    expect_error(base + "  - {id: st, " + stair + "}\n", "10", part);
+    expect_plan_error(base + "  - {id: st, " + stair + "}\n", "10", part);
   };
   refuse("from: lower, to: attic, start: [1, 3]", "no storey 'attic'");
   refuse("from: upper, to: lower, start: [1, 3]", "must lead up");
@@ -170,13 +162,13 @@ TEST(Stairs, WhatCannotBeWalkedIsRefusedAtItsLine) {
   refuse("from: lower, to: upper, start: [1, 3], turn: left", "give landing_after");
   refuse("from: lower, to: upper, start: [1, 3], turn: left, landing_after: 5, landing_m: 0.6", "less deep");
   refuse("from: lower, to: upper, start: [1, 3], turn: lft, landing_after: 5", "did you mean 'left'");
-  expect_error(base + "  - {id: s, from: lower, to: upper, start: [1, 3]}\n", "10", "the id 's' is taken");
+  expect_plan_error(base + "  - {id: s, from: lower, to: upper, start: [1, 3]}\n", "10", "the id 's' is taken");
 }
 
 TEST(Stairs, AStoreyTooFarAboveIsRefused) {
   std::string text = base + "  - {id: st, from: lower, to: upper, start: [1, 3], rise_m: 0.05}\n";
   text.replace(text.find("elevation_m: 3,"), 15, "elevation_m: 9e3,");
-  expect_error(text, "10", "at most 1000 can be built");
+  expect_plan_error(text, "10", "at most 1000 can be built");
 }
 
 }  // namespace

@@ -4,14 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <set>
 
 #include "bim/config/tree.h"
 #include "bim/errors.h"
 #include "bim/load/load.h"
 #include "bim/mesh/mesh.h"
-#include "tests/bim/formats/ifc/data.h"
+#include "tests/data.h"
 
 namespace plumbline::bim {
 namespace {
@@ -163,44 +162,64 @@ TEST(TrafficEditor, CutAnywhereIsReadOrRefused) {
   }
 }
 
-/// Counts derived from the file itself: every wall and door is there, hotel's L2 and L3 have equal walls and rooms.
-TEST(TrafficEditor, RealPlans) {
-  for (const std::string name : {"office", "hotel"}) {
-    const std::string path = data_path("plans/" + name + ".building.yaml");
-    if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
-    const Building building = load_building(path);
-    const Tree file = read_yaml(read_text_file(path), path);
-    for (const auto& [level, tree] : file.find("levels")->as_map()) {
-      const auto of_level = [&](const auto& list, const std::string& part) {
-        return std::count_if(list.begin(), list.end(),
-                             [&](const auto& item) { return item.id.starts_with(level + "/" + part); });
-      };
-      EXPECT_EQ(of_level(building.walls, "wall"), static_cast<std::ptrdiff_t>(tree.find("walls")->as_list().size()));
-      const auto doors = std::count_if(building.openings.begin(), building.openings.end(), [&](const Opening& o) {
-        return o.kind == OpeningKind::door &&
-               building.storeys[static_cast<std::size_t>(building.walls[static_cast<std::size_t>(o.wall)].storey)].id ==
-                   level;
-      });
-      EXPECT_EQ(doors, static_cast<std::ptrdiff_t>(tree.find("doors")->as_list().size())) << level;
-    }
-    for (const MeshElement& element : build_mesh(building).elements) EXPECT_TRUE(element.closed) << element.id;
+class TrafficEditorPlans : public testing::TestWithParam<std::string> {};
+
+/// Counts derived from the file itself: every wall and door is there.
+TEST_P(TrafficEditorPlans, HaveEveryWallAndDoor) {
+  const std::string name = "plans/" + GetParam() + ".building.yaml", path = data_path(name);
+  if (const std::string why = data_missing(name); !why.empty()) GTEST_SKIP() << why;
+  const Building building = load_building(path);
+  const Tree file = read_yaml(read_text_file(path), path);
+  for (const auto& [level, tree] : file.find("levels")->as_map()) {
+    const auto of_level = [&](const auto& list, const std::string& part) {
+      return std::count_if(list.begin(), list.end(),
+                           [&](const auto& item) { return item.id.starts_with(level + "/" + part); });
+    };
+    EXPECT_EQ(of_level(building.walls, "wall"), static_cast<std::ptrdiff_t>(tree.find("walls")->as_list().size()));
+    const auto doors = std::count_if(building.openings.begin(), building.openings.end(), [&](const Opening& o) {
+      return o.kind == OpeningKind::door &&
+             building.storeys[static_cast<std::size_t>(building.walls[static_cast<std::size_t>(o.wall)].storey)].id ==
+                 level;
+    });
+    EXPECT_EQ(doors, static_cast<std::ptrdiff_t>(tree.find("doors")->as_list().size())) << level;
   }
+  for (const MeshElement& element : build_mesh(building).elements) EXPECT_TRUE(element.closed) << element.id;
 }
 
-TEST(TrafficEditor, HotelRepeatsItsUpperFloor) {
-  const std::string path = data_path("plans/hotel.building.yaml");
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
-  const Building building = load_building(path);
+INSTANTIATE_TEST_SUITE_P(Own, TrafficEditorPlans, testing::Values("guesthouse"),
+                         [](const auto& info) { return info.param; });
+INSTANTIATE_TEST_SUITE_P(Foreign, TrafficEditorPlans, testing::Values("office", "hotel"),
+                         [](const auto& info) { return info.param; });
+
+/// A plan whose two upper floors are the same, each with so many rooms.
+struct RepeatedFloor {
+  std::string plan;
+  std::ptrdiff_t rooms;
+};
+
+void PrintTo(const RepeatedFloor& c, std::ostream* out) { *out << c.plan; }
+
+class TrafficEditorFloors : public testing::TestWithParam<RepeatedFloor> {};
+
+TEST_P(TrafficEditorFloors, AreRepeated) {
+  const std::string name = "plans/" + GetParam().plan + ".building.yaml";
+  if (const std::string why = data_missing(name); !why.empty()) GTEST_SKIP() << why;
+  const Building building = load_building(data_path(name));
   ASSERT_EQ(building.storeys.size(), 3u);
   std::vector<Wall> upper[2];
   for (const Wall& wall : building.walls)
     if (wall.storey > 0) upper[wall.storey - 1].push_back(wall);
   ASSERT_EQ(upper[0].size(), upper[1].size());
   for (std::size_t i = 0; i < upper[0].size(); ++i) EXPECT_LT((upper[0][i].a - upper[1][i].a).norm(), 1e-9);
-  // As counted on a drawing of the file: 22 of the enclosed regions have a floor, the lift and the stairs none.
   EXPECT_EQ(std::count_if(building.rooms.begin(), building.rooms.end(), [](const Room& r) { return r.storey == 1; }),
-            22);
+            GetParam().rooms);
 }
+
+// As counted on the drawings: so many of the enclosed regions have a floor; lift, shaft and stairs have none.
+INSTANTIATE_TEST_SUITE_P(Own, TrafficEditorFloors, testing::Values(RepeatedFloor{"guesthouse", 5}),
+                         [](const auto& info) { return info.param.plan; });
+INSTANTIATE_TEST_SUITE_P(Foreign, TrafficEditorFloors, testing::Values(RepeatedFloor{"hotel", 22}),
+                         [](const auto& info) { return info.param.plan; });
 
 }  // namespace
 }  // namespace plumbline::bim

@@ -56,7 +56,7 @@ TEST_F(InspectTest, WallsHaveTwoOppositeFacesOneThicknessApart) {
     ASSERT_EQ(faces.size(), 2u);
     for (std::size_t i = 0; i < 3; ++i)
       EXPECT_NEAR(faces[0].find("n")->as_list()[i].as_double(), -faces[1].find("n")->as_list()[i].as_double(), 1e-12);
-    // Outward normals: the sum of both d is minus the thickness [facts: equation 2, corrected].
+    // Outward normals: the sum of both d is minus the thickness [shaheer2023, eq. 2, corrected].
     EXPECT_NEAR(faces[0].find("d")->as_double() + faces[1].find("d")->as_double(), -0.2, 1e-9);
   }
 }

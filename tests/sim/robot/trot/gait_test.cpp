@@ -61,15 +61,15 @@ TEST(Gait, ChangesToCarefulOnAllFourFeet) {
     for (std::size_t leg = 0; leg < leg_count; ++leg) out[leg] = gait.scheduled_stance(leg);
     return out;
   };
-  for (const bool careful : {true, false}) {
-    while (gait.careful() != careful) {
+  for (const bool slow_gait : {true, false}) {
+    while (gait.slow_gait() != slow_gait) {
       const PerLeg<bool> before = stances();
-      gait.update({.still = false, .careful = careful}, dt);
-      for (std::size_t leg = 0; gait.careful() == careful && leg < leg_count; ++leg)
+      gait.update({.still = false, .slow_gait = slow_gait}, dt);
+      for (std::size_t leg = 0; gait.slow_gait() == slow_gait && leg < leg_count; ++leg)
         EXPECT_TRUE(before[leg] && gait.scheduled_stance(leg)) << leg;
     }
-    const double duty = careful ? config.careful_duty : config.duty;
-    const double period_s = careful ? config.careful_period_s : config.period_s;
+    const double duty = slow_gait ? config.slow_duty : config.duty;
+    const double period_s = slow_gait ? config.slow_period_s : config.period_s;
     EXPECT_NEAR(gait.stance_s(), duty * period_s, 1e-12);
     EXPECT_NEAR(gait.swing_s(), (1.0 - duty) * period_s, 1e-12);
   }

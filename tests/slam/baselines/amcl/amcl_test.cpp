@@ -72,13 +72,13 @@ TEST(Amcl, StartsOverAllFreeSpaceAndKeepsItsCount) {
     if (room >= 0) ++count[static_cast<std::size_t>(room)];
     cosine += std::cos(particle.X_IH.yaw) / 2000.0;
   }
-  for (const IndexRoom& room : storey.rooms) area += std::abs(signed_area(room.polygon));
+  for (const LocalRoom& room : storey.rooms) area += std::abs(signed_area(room.polygon));
   for (std::size_t r = 0; r < count.size(); ++r) {
     const double share = std::abs(signed_area(storey.rooms[r].polygon)) / area;
     EXPECT_NEAR(count[r] / 2000.0, share, 4.0 * std::sqrt(share * (1.0 - share) / 2000.0) + 0.01);
   }
   EXPECT_NEAR(cosine, 0.0, 4.0 / std::sqrt(2.0 * 2000.0));
-  filter.weigh({});
+  filter.update_weights({});
   EXPECT_NEAR(effective_size(filter.particles()), 2000.0, 1e-6) << "without beams";
 }
 
@@ -89,7 +89,7 @@ TEST(Amcl, MovesByItsMotionModel) {
   AmclFilter filter(config, {}, index, 5);
   filter.start(0.0, 0.0, 1);
   const ParticleSet before = filter.particles();
-  filter.move({{1.0, 0.0}, 0.5}, 2);
+  filter.predict({{1.0, 0.0}, 0.5}, 2);
   double ahead = 0.0, ahead2 = 0.0, yaw = 0.0, yaw2 = 0.0;
   const double n = static_cast<double>(before.size());
   for (std::size_t i = 0; i < before.size(); ++i) {
@@ -119,7 +119,7 @@ TEST(Amcl, RecoversOnlyWhenToldTo) {
     nowhere.ends_H.assign(4, Eigen::Vector2d(100.0, 0.0));
     double most = 0.0;  // resampling with a share forgets the averages
     for (std::uint64_t tick = 2; tick < 42; ++tick) {
-      filter.weigh(tick < 12 ? cross(0.0) : nowhere);
+      filter.update_weights(tick < 12 ? cross(0.0) : nowhere);
       most = std::max(most, filter.random_share());
       filter.resample(tick);
     }

@@ -14,12 +14,6 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-StoreyIndex storey_of(const bim::Plan& plan) {
-  PlanIndexConfig config;
-  config.visibility_rays = 8;
-  return make_plan_index(plan, std::nullopt, config).storeys.front();
-}
-
 double upright_area(const bim::BuildingMesh& mesh) {
   double area = 0.0;
   for (const Eigen::Vector3i& t : mesh.triangles) {
@@ -32,7 +26,7 @@ double upright_area(const bim::BuildingMesh& mesh) {
 
 TEST(PlanMesh, HasFacesWithoutTheirHoles) {
   bim::Plan plan = synthetic::plan_of(synthetic::one_room());
-  const double whole = upright_area(plan_mesh(storey_of(plan)));
+  const double whole = upright_area(plan_mesh(synthetic::storey_of(plan)));
   double expected = 0.0;
   for (const bim::PlanFace& face : plan.faces) expected += (face.p1 - face.p0).norm() * (face.z1 - face.z0);
   EXPECT_NEAR(whole, expected, 1e-6);
@@ -43,7 +37,7 @@ TEST(PlanMesh, HasFacesWithoutTheirHoles) {
       face.holes = {{0.5, 1.5, 1.0, 2.0}, {1.0, 1.6, 0.5, 1.2}, {2.0, 2.9, -0.1, 2.1}};
       holes += 1.0 * 1.0 + 0.6 * 0.7 - 0.5 * 0.2 + 0.9 * 2.1;
     }
-  EXPECT_NEAR(whole - upright_area(plan_mesh(storey_of(plan))), holes, 1e-6);
+  EXPECT_NEAR(whole - upright_area(plan_mesh(synthetic::storey_of(plan))), holes, 1e-6);
 }
 
 MeshBeams beams_at(const synthetic::House& house, const Pose& X_WR) {
@@ -52,10 +46,10 @@ MeshBeams beams_at(const synthetic::House& house, const Pose& X_WR) {
   return pick_beams(deskew(synthetic::standing_scan(house, X_WR, {}), motion, synthetic::calibration()), {});
 }
 
-// [facts: localization 2.3: 100 % of 60 trials from 0.5 m and 15 degrees]
+// Inside the basin of attraction, docs/methods/baselines.md.
 TEST(MeshCorrect, ComesBackFromHalfAMeterAndFifteenDegrees) {
   const synthetic::House house = synthetic::corridor_house();
-  const MeshCorrector corrector(storey_of(synthetic::plan_of(house)), {});
+  const MeshCorrector corrector(synthetic::storey_of(synthetic::plan_of(house)), {});
   const Stream stream(9, "bim.generate");
   const Eigen::Vector2d places[] = {{3.0, 1.1}, {11.0, 1.0}};
   for (std::uint64_t i = 0; i < 24; ++i) {
@@ -73,7 +67,7 @@ TEST(MeshCorrect, ComesBackFromHalfAMeterAndFifteenDegrees) {
 
 TEST(MeshCorrect, BothSolversAgree) {
   const synthetic::House house = synthetic::corridor_house();
-  const StoreyIndex storey = storey_of(synthetic::plan_of(house));
+  const StoreyIndex storey = synthetic::storey_of(synthetic::plan_of(house));
   MeshCorrectConfig config;
   config.solver = MeshSolver::umeyama;
   const MeshCorrector umeyama(storey, config), gauss_newton(storey, {});
@@ -86,7 +80,7 @@ TEST(MeshCorrect, BothSolversAgree) {
 }
 
 TEST(MeshCorrect, WithoutBeamsOrHitsStaysPut) {
-  const MeshCorrector corrector(storey_of(synthetic::plan_of(synthetic::one_room())), {});
+  const MeshCorrector corrector(synthetic::storey_of(synthetic::plan_of(synthetic::one_room())), {});
   const Pose start = Pose::from_xyz_yaw({3.0, 2.0, 0.5}, 0.1), far = Pose::from_xyz_yaw({300.0, 2.0, 50.0}, 0.1);
   EXPECT_EQ(corrector.correct({}, start, 5, 1.0).X_IR.t, start.t);
   EXPECT_EQ(corrector.correct({}, start, 5, 1.0).inliers, 0.0);

@@ -26,7 +26,7 @@ TEST(Micp, TracksFromAGivenStartAndFromNone) {
   }
 }
 
-// Two closed rooms that are alike, each by half a turn like itself: four places, and nothing tells.
+// Two closed rooms that are alike, each by half a turn like itself: four poses that nothing separates.
 TEST(Micp, KeepsPlacesThatLookAlike) {
   synthetic::WalkConfig walk;
   walk.duration_s = 1.0;

@@ -13,12 +13,6 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-StoreyIndex storey_of(const synthetic::House& house) {
-  PlanIndexConfig config;
-  config.visibility_rays = 8;
-  return make_plan_index(synthetic::plan_of(house), std::nullopt, config).storeys.front();
-}
-
 /// What a planar scanner at X_IH sees, some beams cut short.
 std::vector<Eigen::Vector2d> scan_at(const StoreyIndex& storey, const Pose2& X_IH, const Stream& stream,
                                      std::uint64_t tick) {
@@ -40,7 +34,7 @@ TEST(GridMatch, FindsWhatAnExhaustiveSearchFinds) {
   config.cell_m = config.sigma_m = 0.4;
   config.levels = 4;
   for (const synthetic::House& house : {synthetic::one_room(), synthetic::twin_rooms()}) {
-    const StoreyIndex storey = storey_of(house);
+    const StoreyIndex storey = synthetic::storey_of(synthetic::plan_of(house));
     const GridMatcher matcher(storey, 0.7, config);
     for (std::uint64_t i = 0; i < 12; ++i) {
       const Pose2 truth{{0.5 + 4.0 * stream.uniform(i, 100), 0.5 + 3.0 * stream.uniform(i, 101)}, 0.0};
@@ -65,7 +59,7 @@ TEST(GridMatch, FindsWhatAnExhaustiveSearchFinds) {
 }
 
 TEST(GridMatch, FindsThePlaceOfAScan) {
-  const StoreyIndex storey = storey_of(synthetic::corridor_house());
+  const StoreyIndex storey = synthetic::storey_of(synthetic::plan_of(synthetic::corridor_house()));
   const GridMatcher matcher(storey, 0.7, {});
   const std::vector<double> yaws = matcher.yaws(0.0, pi);
   const Stream stream(8, "bim.generate");
@@ -81,7 +75,7 @@ TEST(GridMatch, FindsThePlaceOfAScan) {
 }
 
 TEST(GridMatch, StaysWithinItsMemoryAndItsNodes) {
-  const StoreyIndex storey = storey_of(synthetic::corridor_house());
+  const StoreyIndex storey = synthetic::storey_of(synthetic::plan_of(synthetic::corridor_house()));
   GridMatchConfig config;
   config.max_cells = 1000;
   config.max_nodes = 1000;

@@ -11,12 +11,6 @@
 namespace plumbline::slam {
 namespace {
 
-StoreyIndex storey_of(const synthetic::House& house) {
-  PlanIndexConfig config;
-  config.visibility_rays = 8;
-  return make_plan_index(synthetic::plan_of(house), std::nullopt, config).storeys.front();
-}
-
 std::vector<Eigen::Vector3d> points_at(const synthetic::House& house, const Pose& X_WR, const NdtConfig& config) {
   MotionBuffer motion;
   motion.add({0, X_WR});
@@ -31,7 +25,7 @@ Pose near(const Pose& X, const Stream& stream, std::uint64_t i, double way, doub
 
 TEST(Ndt, GradientIsThatOfTheScore) {
   const synthetic::House house = synthetic::one_room();
-  const NdtMap map(storey_of(house), {});
+  const NdtMap map(synthetic::storey_of(synthetic::plan_of(house)), {});
   const Pose truth = Pose::from_xyz_yaw({2.0, 1.6, 0.5}, 0.4);
   const auto points = points_at(house, truth, {});
   ASSERT_GT(points.size(), 200U);
@@ -57,7 +51,7 @@ TEST(Ndt, BringsAScanBackToItsPlace) {
   const synthetic::House house = synthetic::corridor_house();
   NdtConfig config;
   config.epsilon = 1e-4;
-  const NdtMap map(storey_of(house), config);
+  const NdtMap map(synthetic::storey_of(synthetic::plan_of(house)), config);
   const Pose truth = Pose::from_xyz_yaw({3.0, 1.2, 0.5}, 0.4);
   const auto points = points_at(house, truth, {});
   const Stream stream(6, "bim.generate");
@@ -73,7 +67,7 @@ TEST(Ndt, BringsAScanBackToItsPlace) {
 }
 
 TEST(Ndt, StaysWithinItsMemoryAndWithoutPointsStaysPut) {
-  const StoreyIndex storey = storey_of(synthetic::corridor_house());
+  const StoreyIndex storey = synthetic::storey_of(synthetic::plan_of(synthetic::corridor_house()));
   NdtConfig config;
   config.max_voxels = 1000;
   const NdtMap coarse(storey, config), fine(storey, {});

@@ -2,7 +2,6 @@
 #include "slam/io/bags/bag.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,6 +12,8 @@
 #include <limits>
 
 #include "bim/errors.h"
+#include "tests/folder.h"
+#include "tests/input_error.h"
 #include "tests/slam/io/packets/packets.h"
 
 namespace plumbline::slam {
@@ -22,27 +23,22 @@ namespace fs = std::filesystem;
 
 class BagTest : public ::testing::Test {
  protected:
-  void SetUp() override { fs::create_directories(folder_); }
-  void TearDown() override { fs::remove_all(folder_); }
-  [[nodiscard]] std::string file(const std::string& name) const { return (folder_ / name).string(); }
+  [[nodiscard]] std::string file(const std::string& name) const { return folder_ / name; }
 
   static std::string bytes(const std::string& path) {
     std::ifstream stream(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(stream), {}};
   }
   static std::string complaint(const std::string& path, const BagTopics& topics = {}) {
-    try {
+    return input_error([&] {
       const auto recording = open_bag(path, topics, nullptr);
       for (SensorFrame frame; recording->next(frame);) {
       }
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "none";
+    });
   }
 
  private:
-  fs::path folder_ = fs::temp_directory_path() / ("plumbline_bag_test_" + std::to_string(::getpid()));
+  Folder folder_;
 };
 
 Calibration mount() {
@@ -214,7 +210,7 @@ TEST_F(BagTest, NamesWhatIsWrong) {
   std::vector<SensorFrame> frames = three_frames();
   const std::string path = file("bad.bag");
   write(path, bag_profiles[0], frames);
-  EXPECT_EQ(complaint(path), "none");
+  EXPECT_EQ(complaint(path), "no error");
   EXPECT_NE(complaint(path, {"/none", "", ""}).find("without messages on /none"), std::string::npos);
   EXPECT_NE(complaint(path, {"/odom", "", ""}).find("is of type nav_msgs/Odometry"), std::string::npos);
   const auto size = fs::file_size(path);

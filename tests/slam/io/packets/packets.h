@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
+#include <string>
 #include <vector>
 
 #include "bim/random/stream.h"
+#include "slam/io/packets/pcap.h"
 #include "slam/io/packets/vlp16.h"
 
 namespace plumbline::slam {
@@ -27,6 +30,21 @@ inline std::vector<Vlp16Packet> turning_packets(int count, Nanoseconds start = 0
     packets.push_back(encode_packet(start + p * 24 * vlp16::firing_period_ns, firings));
   }
   return packets;
+}
+
+/// All packets of a capture.
+inline std::vector<Vlp16Packet> read_pcap(const std::string& path) {
+  PcapReader reader(path);
+  std::vector<Vlp16Packet> packets;
+  for (Vlp16Packet packet; reader.next(packet);) packets.push_back(packet);
+  return packets;
+}
+
+/// A capture of these packets.
+inline void write_pcap(const std::string& path, std::span<const Vlp16Packet> packets) {
+  PcapWriter writer(path);
+  for (const Vlp16Packet& packet : packets) writer.add(packet);
+  writer.finish();
 }
 
 }  // namespace plumbline::slam

@@ -2,14 +2,16 @@
 #include "slam/io/packets/pcap.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
 #include "bim/errors.h"
+#include "tests/data.h"
+#include "tests/folder.h"
+#include "tests/slam/io/packets/foreign_capture.h"
+#include "tests/slam/io/packets/packets.h"
 
 namespace plumbline::slam {
 namespace {
@@ -18,19 +20,10 @@ namespace fs = std::filesystem;
 
 class PcapTest : public ::testing::Test {
  protected:
-  void SetUp() override { fs::create_directories(folder_); }
-  void TearDown() override { fs::remove_all(folder_); }
-  [[nodiscard]] std::string file(const std::string& name) const { return (folder_ / name).string(); }
-
-  [[nodiscard]] static std::string sample() {
-    const char* data = std::getenv("PLUMBLINE_DATA");
-    const char* source = std::getenv("PLUMBLINE_SOURCE");
-    const fs::path folder = data != nullptr ? data : fs::path(source != nullptr ? source : ".") / "../shared/data";
-    return (folder / "vlp16/sample_velodyne_vlp16_gps.pcap").string();
-  }
+  [[nodiscard]] std::string file(const std::string& name) const { return folder_ / name; }
 
  private:
-  fs::path folder_ = fs::temp_directory_path() / ("plumbline_pcap_test_" + std::to_string(::getpid()));
+  Folder folder_;
 };
 
 std::vector<Vlp16Packet> some_packets() {
@@ -70,13 +63,39 @@ TEST_F(PcapTest, ForeignStampsComeFromThePacketsOwnClockAcrossTheHour) {
     EXPECT_NEAR(static_cast<double>(again[i].stamp), static_cast<double>(i) * 24 * 55296, 1'000.0);
 }
 
-TEST_F(PcapTest, ReadsTheCaptureOfARealSensor) {
-  if (!fs::exists(sample())) GTEST_SKIP() << "no capture at " << sample();
-  const std::vector<Vlp16Packet> packets = read_pcap(sample());
+void expect_steady_packets(const std::vector<Vlp16Packet>& packets) {
   ASSERT_EQ(packets.size(), 293U);
   EXPECT_EQ(packets.front().stamp, 0);
   for (std::size_t i = 1; i < packets.size(); ++i)
     EXPECT_NEAR(static_cast<double>(packets[i].stamp - packets[i - 1].stamp), 1'327'500.0, 1'000.0);
+}
+
+TEST_F(PcapTest, ReadsTheCaptureOfAnotherProgram) {
+  std::ofstream(file("hall.pcap"), std::ios::binary) << foreign_capture(293);
+  const std::vector<Vlp16Packet> packets = read_pcap(file("hall.pcap"));
+  expect_steady_packets(packets);
+  PcapReader reader(file("hall.pcap"));
+  Vlp16Packet first;
+  ASSERT_TRUE(reader.next(first));
+  EXPECT_EQ(reader.origin(), 946'684'800'000'000'000);
+  const Scan scan = decode_message(packets);
+  ASSERT_EQ(scan.size(), 293U * 24U * 16U);
+  std::size_t returns = 0;
+  for (std::size_t slot = 0; slot < scan.size(); ++slot) {
+    if (scan.range_m[slot] == 0.0) continue;
+    ++returns;
+    const Eigen::Vector3d beyond = scan.point_L[slot].cwiseAbs() - Eigen::Vector3d(hall_x_m, hall_y_m, hall_z_m);
+    // Ranges are rounded to 2 mm, azimuths of the firings to 0.01 degrees and in between.
+    EXPECT_NEAR(beyond.maxCoeff(), 0.0, 0.003) << slot;
+  }
+  EXPECT_EQ(returns, scan.size() / 3 * 2);
+}
+
+TEST_F(PcapTest, ReadsTheCaptureOfARealSensor) {
+  const std::string sample = "vlp16/sample_velodyne_vlp16_gps.pcap";
+  if (const std::string why = data_missing(sample); !why.empty()) GTEST_SKIP() << why;
+  const std::vector<Vlp16Packet> packets = read_pcap(data_path(sample));
+  expect_steady_packets(packets);
   const Scan scan = decode_message(packets);
   std::size_t returns = 0;
   std::size_t odd = 0;

@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include <bit>
 #include <cstring>
@@ -13,6 +12,8 @@
 #include "bim/errors.h"
 #include "slam/io/packets/pcap.h"
 #include "slam/io/recordings/recording_writer.h"
+#include "tests/folder.h"
+#include "tests/input_error.h"
 #include "tests/slam/io/packets/packets.h"
 
 namespace plumbline::slam {
@@ -22,22 +23,17 @@ namespace fs = std::filesystem;
 
 class RecordingTest : public ::testing::Test {
  protected:
-  void SetUp() override { fs::create_directories(folder_); }
-  void TearDown() override { fs::remove_all(folder_); }
-  [[nodiscard]] std::string path() const { return folder_.string(); }
-  [[nodiscard]] std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  [[nodiscard]] std::string path() const { return folder_.path(); }
+  [[nodiscard]] std::string path(const std::string& name) const { return folder_ / name; }
   void put(const std::string& name, const std::string& text) const { std::ofstream(folder_ / name) << text; }
 
   /// Everything the recording gives; or what it complains of.
   static std::string complaint(const std::string& path) {
-    try {
+    return input_error([&] {
       const auto recording = open_recording(path);
       for (SensorFrame frame; recording->next(frame);) {
       }
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "none";
+    });
   }
   void expect_complaint(const std::string& path, const std::string& where, const std::string& what) const {
     const std::string text = complaint(path);
@@ -46,7 +42,7 @@ class RecordingTest : public ::testing::Test {
   }
 
  private:
-  fs::path folder_ = fs::temp_directory_path() / ("plumbline_recording_test_" + std::to_string(::getpid()));
+  Folder folder_;
 };
 
 Odometry odometry_at(Nanoseconds stamp) {
@@ -159,7 +155,7 @@ TEST_F(RecordingTest, NamesWhatIsWrongWithTheCovariances) {
   const std::string header = "t,xx,xy,xz,xa,xb,xc,yy,yz,ya,yb,yc,zz,za,zb,zc,aa,ab,ac,bb,bc,cc\n";
   const std::string zeros = ",0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,";
   put("odometry_covariance.csv", header + "0.01" + zeros + "0\n");
-  EXPECT_EQ(complaint(path()), "none");
+  EXPECT_EQ(complaint(path()), "no error");
   put("odometry_covariance.csv", "t,xx\n");
   expect_complaint(path(), file + ":1:1", "the first line must be");
   put("odometry_covariance.csv", header + "0.01" + zeros + "\n");
@@ -244,7 +240,7 @@ TEST_F(RecordingTest, OdometryThatNoScanMeetsIsRefused) {
   put("odometry.tum", "0 0 0 0 0 0 0 1\n0.1 1 0 0 0 0 0 1\n");
   expect_complaint(path(), odometry, "the odometry ends before the first scan");
   put("odometry.tum", "0 0 0 0 0 0 0 1\n100.01 1 0 0 0 0 0 1\n");
-  EXPECT_EQ(complaint(path()), "none");
+  EXPECT_EQ(complaint(path()), "no error");
 }
 
 TEST_F(RecordingTest, AForeignCaptureMovesOdometryToItsOwnClock) {
@@ -310,7 +306,7 @@ TEST_F(RecordingTest, NamesWhatIsWrongWithPackets) {
     return path("bad.pcap");
   };
   const std::string bad = path("bad.pcap");
-  EXPECT_EQ(complaint(with(0, [](Vlp16Packet&) {})), "none");
+  EXPECT_EQ(complaint(with(0, [](Vlp16Packet&) {})), "no error");
   expect_complaint(with(3, [](Vlp16Packet& p) { p.payload[1205] = 0x28; }), bad, "from different sensors");
   expect_complaint(with(3, [](Vlp16Packet& p) { p.payload[1205] = 0x41; }), bad, "product 65");
   expect_complaint(with(3, [](Vlp16Packet& p) { p.payload[300] = 0; }), bad, "flag");
@@ -344,7 +340,7 @@ TEST_F(RecordingTest, NamesWhatIsWrongWithTheFilesBesides) {
   put("imu.csv", "t,wx,wy,wz,ax,ay,az\n0,0,0,0,0,0,9.81,3\n");
   expect_complaint(path(), imu + ":2:1", "not 7 numbers");
   put("imu.csv", "t,wx,wy,wz,ax,ay,az\n");
-  EXPECT_EQ(complaint(path()), "none");
+  EXPECT_EQ(complaint(path()), "no error");
   put("recording.yaml", "recording: 1\nmount: {position_m: [1, 2]}\n");
   expect_complaint(path(), info + ":2:", "3 numbers");
   put("recording.yaml", "recording: 1\nmount: {quaternion_xyzw: [1, 1, 0, 0]}\n");

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "bim/errors.h"
+#include "tests/input_error.h"
 
 namespace plumbline::slam {
 namespace {
@@ -28,15 +29,10 @@ TEST(Tum, RoundTripIsExact) {
 
 TEST(Tum, NamesTheLineThatIsWrong) {
   const auto complaint = [](const std::string& text) {
-    try {
-      static_cast<void>(read_tum(text, "t.tum"));
-    } catch (const InputError& error) {
-      return std::string(error.what());
-    }
-    return std::string("none");
+    return input_error([&] { static_cast<void>(read_tum(text, "t.tum")); });
   };
   const std::string good = "0.5 1 2 3 0 0 0 1\n";
-  EXPECT_EQ(complaint(good), "none");
+  EXPECT_EQ(complaint(good), "no error");
   EXPECT_EQ(complaint(good + "1.0 1 2 3 0 0 1\n").rfind("t.tum:2:1: 7 columns", 0), 0U);
   EXPECT_EQ(complaint(good + "1.0,1,2,3,0,0,0,1\n").rfind("t.tum:2:1: 1 columns", 0), 0U);
   EXPECT_EQ(complaint(good + "1.0 1 2 x 0 0 0 1\n").rfind("t.tum:2:1: not a number", 0), 0U);

@@ -42,7 +42,7 @@ std::vector<Solid> boards(const Straight& s) {
   return solids;
 }
 
-void expect_straight(const StairShape& shape, const Straight& s) {
+void expect_straight(const RecognizedStair& shape, const Straight& s) {
   ASSERT_EQ(shape.flights.size(), 1u);
   const StairFlight& flight = shape.flights.front();
   EXPECT_EQ(flight.steps, s.steps);
@@ -54,23 +54,23 @@ void expect_straight(const StairShape& shape, const Straight& s) {
   EXPECT_NEAR((flight.start - s.at).norm(), 0.0, 2e-3);
 }
 
-TEST(StairShape, FindsAStraightFlightWhicheverWayItRuns) {
+TEST(RecognizedStair, FindsAStraightFlightWhicheverWayItRuns) {
   for (const double yaw : {0.0, 0.4, 1.5707963, 2.5, -2.9, -0.7}) {
     Straight s;
     s.yaw = yaw;
-    expect_straight(stair_shape(blocks(s)), s);
-    expect_straight(stair_shape(boards(s)), s);
+    expect_straight(recognize_stair(blocks(s)), s);
+    expect_straight(recognize_stair(boards(s)), s);
   }
 }
 
-TEST(StairShape, TwoStepsAreAFlight) {
+TEST(RecognizedStair, TwoStepsAreAFlight) {
   Straight s;
   s.steps = 2;
-  expect_straight(stair_shape(blocks(s)), s);
+  expect_straight(recognize_stair(blocks(s)), s);
 }
 
 /// Up along x, a landing across both flights, back along -x.
-TEST(StairShape, DogLegHasALandingBetweenTwoFlights) {
+TEST(RecognizedStair, DogLegHasALandingBetweenTwoFlights) {
   const Straight up;
   Straight back = up;
   back.at = {up.at.x() + up.steps * up.run, up.at.y() + 1.2};
@@ -80,7 +80,7 @@ TEST(StairShape, DogLegHasALandingBetweenTwoFlights) {
   const double top = back.z0;
   solids.push_back(box(back.at, 0.0, 0.0, 1.2, -1.75, 0.55, top - 0.2, top));
   for (Solid& solid : boards(back)) solids.push_back(std::move(solid));
-  const StairShape shape = stair_shape(solids);
+  const RecognizedStair shape = recognize_stair(solids);
   ASSERT_EQ(shape.flights.size(), 2u);
   ASSERT_EQ(shape.landings.size(), 1u);
   EXPECT_NEAR(shape.landings.front().z_m, top, 1e-4);
@@ -92,11 +92,11 @@ TEST(StairShape, DogLegHasALandingBetweenTwoFlights) {
 }
 
 /// A winding stair: single steps that rise evenly and turn.
-TEST(StairShape, WindingStairIsARowOfShortFlights) {
+TEST(RecognizedStair, WindingStairIsARowOfShortFlights) {
   std::vector<Solid> solids;
   const double turn = 0.3, rise = 0.18;
   for (int k = 0; k < 12; ++k) solids.push_back(box({0, 0}, k * turn, 0.3, 1.2, -0.13, 0.13, k * rise, (k + 1) * rise));
-  const StairShape shape = stair_shape(solids);
+  const RecognizedStair shape = recognize_stair(solids);
   ASSERT_EQ(shape.flights.size(), 12u);
   for (std::size_t k = 0; k < shape.flights.size(); ++k) {
     EXPECT_EQ(shape.flights[k].steps, 1);
@@ -107,11 +107,11 @@ TEST(StairShape, WindingStairIsARowOfShortFlights) {
   EXPECT_NEAR(std::remainder(heading, 2.0 * M_PI), 0.0, 0.1);
 }
 
-TEST(StairShape, ARampHasNoSteps) {
+TEST(RecognizedStair, ARampHasNoSteps) {
   Solid ramp = box({0, 0}, 0.0, 0.0, 4.0, -0.6, 0.6, 0.0, 0.1);
   for (Eigen::Vector3d& p : ramp.vertices) p.z() += 0.1 * p.x();
-  EXPECT_TRUE(stair_shape({ramp}).flights.empty());
-  EXPECT_TRUE(stair_shape({}).flights.empty());
+  EXPECT_TRUE(recognize_stair({ramp}).flights.empty());
+  EXPECT_TRUE(recognize_stair({}).flights.empty());
 }
 
 }  // namespace

@@ -6,7 +6,8 @@
 #include "bim/formats/ifc/read/ifc.h"
 #include "bim/formats/ifc/read/material_names.h"
 #include "bim/formats/ifc/step/step_class.h"
-#include "tests/bim/formats/ifc/data.h"
+#include "tests/bim/formats/ifc/read_ifc.h"
+#include "tests/data.h"
 
 namespace plumbline::bim {
 namespace {
@@ -58,16 +59,23 @@ TEST(StoreyKinds, WithoutRoomsAndFloorsWallsDecide) {
   EXPECT_TRUE(building.warnings.empty());
 }
 
-TEST(StoreyKinds, DuplexHasTwoStoreysToWalkOn) {
-  const std::string path = data_path("ifc/duplex.ifc");
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << "no test data at " << path;
-  const Building building = read_ifc(path);
+class StoreyKindsOf : public testing::TestWithParam<const char*> {};
+
+TEST_P(StoreyKindsOf, TwoStoreysCanBeWalkedOn) {
+  const std::string name = std::string("ifc/") + GetParam() + ".ifc";
+  if (const std::string why = data_missing(name); !why.empty()) GTEST_SKIP() << why;
+  const Building building = read_ifc(data_path(name));
   ASSERT_EQ(building.storeys.size(), 4u);
   EXPECT_EQ(building.storeys[0].kind, StoreyKind::foundation);
   EXPECT_EQ(building.storeys[1].kind, StoreyKind::habitable);
   EXPECT_EQ(building.storeys[2].kind, StoreyKind::habitable);
   EXPECT_EQ(building.storeys[3].kind, StoreyKind::roof);
 }
+
+INSTANTIATE_TEST_SUITE_P(Own, StoreyKindsOf, testing::Values("twin_flats"),
+                         [](const auto& info) { return std::string(info.param); });
+INSTANTIATE_TEST_SUITE_P(Foreign, StoreyKindsOf, testing::Values("duplex"),
+                         [](const auto& info) { return std::string(info.param); });
 
 TEST(MaterialNames, GlassIsWhatOneSeesThrough) {
   for (const char* name : {"Glass", "Glas - klar", "Glazing, double", "Vidrio", "Verre trempe", "Isolierverglasung"})

@@ -26,33 +26,33 @@ TEST(Recentre, MovesMapCoordinatesByWholeMetres) {
   StepProduct far;  // not a wall: moves with the others but has no say
   far.kind = StepClass::obstacle;
   model.products.push_back(far);
-  const std::optional<Eigen::Vector3d> move = recentre(model);
+  const std::optional<Eigen::Vector3d> move = move_to_origin(model);
   ASSERT_TRUE(move.has_value());
   EXPECT_EQ(*move, Eigen::Vector3d(-512349, -5412345, 0));  // the middle wall's x rounded; heights are near enough
   EXPECT_EQ(model.products[1].X_WP.translation(), corner + Eigen::Vector3d(3, 0, 0) + *move);
   EXPECT_EQ(model.products[1].axis_W.front(), model.products[1].X_WP.translation());
   EXPECT_EQ(model.products[3].X_WP.translation(), *move);
-  EXPECT_FALSE(recentre(model).has_value());
+  EXPECT_FALSE(move_to_origin(model).has_value());
 }
 
 TEST(Recentre, OneStrayWallMovesNothing) {
   StepModel model;
   for (const double x : {0.0, 3.0, 8.0, 4e6}) model.products.push_back(wall_at({x, 1, 0}));
-  EXPECT_FALSE(recentre(model).has_value());
+  EXPECT_FALSE(move_to_origin(model).has_value());
   EXPECT_EQ(model.products.front().X_WP.translation(), Eigen::Vector3d(0, 1, 0));
 }
 
 TEST(Recentre, HeightsMoveApart) {
   StepModel model;
   model.products.push_back(wall_at({1, 2, 8000.4}));
-  const std::optional<Eigen::Vector3d> move = recentre(model);
+  const std::optional<Eigen::Vector3d> move = move_to_origin(model);
   ASSERT_TRUE(move.has_value());
   EXPECT_EQ(*move, Eigen::Vector3d(0, 0, -8000));
 }
 
 TEST(Recentre, NeedsAWall) {
   StepModel model;
-  EXPECT_FALSE(recentre(model).has_value());
+  EXPECT_FALSE(move_to_origin(model).has_value());
 }
 
 TEST(WithinReach, BoundsPlacesAndSizes) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "bim/errors.h"
+#include "tests/input_error.h"
 
 namespace plumbline::bim {
 namespace {
@@ -14,12 +15,7 @@ const std::string header =
 const std::string footer = "ENDSEC;\nEND-ISO-10303-21;\n";
 
 std::string message_of(const std::string& text) {
-  try {
-    (void)check_step_text(text, "f.ifc");
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
+  return input_error([&] { (void)check_step_text(text, "f.ifc"); });
 }
 
 TEST(StepText, FindsSchemaAndLines) {

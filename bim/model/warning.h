@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace plumbline::bim {
+
+/// A kind of warning and what it means: one sentence without its full stop.
+struct WarningRow {
+  std::string_view kind;
+  std::string_view doc;
+};
+
+/// Every kind of warning that a reader or the mesh gives, by name.
+inline constexpr std::array<WarningRow, 44> warning_rows = {{
+    {"assumed_doorway", "a gap between two walls in line becomes a doorway with a lintel"},
+    {"assumed_floor", "the drawing has no floor; everything within the outer walls gets one"},
+    {"assumed_height", "the file gives no height of the storey; it is taken as 3 m"},
+    {"assumed_unit", "the file gives no unit of length; it is taken as metres"},
+    {"bad_floor", "the outline of a floor crosses itself or has no area; the floor is left out"},
+    {"body_of_parts", "the element has no body of its own; those of its parts replace it"},
+    {"curved_axis", "the axis of a wall is curved; the wall is taken as straight"},
+    {"door_unresolved", "a door has the same room, or none, on both sides; where it leads is unknown"},
+    {"door_without_wall", "a door stands in no wall; its doorway stays open"},
+    {"empty", "its openings leave nothing of a wall"},
+    {"filling_matched", "a door or window names no opening; it gets the one it stands in"},
+    {"geometry", "a part of the element's geometry could not be read; the rest was"},
+    {"inferred_room", "the file has no spaces; the room is what walls enclose"},
+    {"layer_mismatch", "the material layers contradict the body of the wall; the body's faces count"},
+    {"left_out", "the element is not part of the building model; its text says why"},
+    {"levels_overlap", "a level is lower than its walls; they reach into the next one"},
+    {"niche", "an opening does not go through its wall; it is cut in 3D"},
+    {"no_area", "a slab has no area on the plan; it is kept as an obstacle"},
+    {"no_axis",
+     "a wall has no reference line; its body's extent along the placement replaces it, or the wall is left out"},
+    {"no_body", "the element has no body that can be read; it is left out, and an opening cuts nothing"},
+    {"no_flights", "a stair has no steps in its body; it is a solid and cannot be climbed"},
+    {"no_layers", "a wall has no material layers; offset and thickness are those of its body"},
+    {"no_plan", "a mesh has no rooms and walls; plan localization is refused"},
+    {"no_rooms", "walls enclose no room over a floor"},
+    {"no_walls", "a level has no walls"},
+    {"not_aligned", "a level shares no fiducial with the lowest, or one that does not fit"},
+    {"not_clipped", "a clipping of the body could not be applied; the body is larger than designed"},
+    {"not_closed", "the surface of a body is not closed; a wall then keeps its openings uncut"},
+    {"not_cut", "an opening could not be cut out of its wall"},
+    {"not_prismatic", "a wall is not an extrusion of its elevation; its openings are cut in 3D"},
+    {"opening_assumed", "a door or window fills no opening; its box is cut out of the wall it stands in"},
+    {"opening_unused", "an opening belongs to an element without a body; nothing is cut"},
+    {"other_schema", "the file has another version of IFC than IFC2X3 and IFC4; the nearer one is used"},
+    {"recentred", "the coordinates are those of a map; the building is moved to the origin"},
+    {"room_hole", "the outline of a room has holes; they are filled"},
+    {"room_pieces", "the outline of a room has several pieces; the largest is the room"},
+    {"scale_spread", "the measurements of a level disagree; their mean is used"},
+    {"second_filling", "another door or window fills the same opening already"},
+    {"see_through", "the LiDAR sees through this material, except at normal incidence"},
+    {"skipped_placement", "the element stands on a grid or alignment that cannot be evaluated; it is left out"},
+    {"slab_pieces", "a slab has several pieces; the robot walks on the largest only"},
+    {"stair_ends", "the head of a stair reaches the floor of no storey"},
+    {"stair_within", "a stair leads from and to the same storey"},
+    {"storey_kinds", "no storey has contents; all are taken as habitable"},
+}};
+
+/// The name of a row. A name that the table does not hold is an error of the compiler.
+class WarningKind {
+ public:
+  consteval WarningKind(const char* kind) : kind_(kind) {
+    if (std::none_of(warning_rows.begin(), warning_rows.end(), [&](const auto& row) { return row.kind == kind_; }))
+      throw "not in warning_rows";
+  }
+  [[nodiscard]] constexpr std::string_view name() const { return kind_; }
+
+ private:
+  std::string_view kind_;
+};
+
+/// A compromise made while reading an element; listed by `inspect`.
+struct Warning {
+  Warning(std::string element_id, WarningKind row, std::string sentence)
+      : element(std::move(element_id)), kind(row.name()), text(std::move(sentence)) {}
+
+  std::string element;  ///< id of the element, empty for the whole file
+  std::string kind;     ///< of warning_rows
+  std::string text;
+};
+
+}  // namespace plumbline::bim

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "slam/io/estimate.h"
+
+namespace plumbline::scenarios {
+
+/// Names of slam::State in files and reports, in the order of its values.
+inline constexpr std::array<std::string_view, 4> state_names = {"SEARCHING", "AMBIGUOUS", "CONVERGED", "LOST"};
+
+[[nodiscard]] constexpr std::string_view state_name(slam::State state) {
+  return state_names[static_cast<std::size_t>(state)];
+}
+
+}  // namespace plumbline::scenarios

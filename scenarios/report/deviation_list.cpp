@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenarios/report/deviation_list.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "bim/model/hull.h"
+#include "bim/model/wall_face.h"
+#include "scenarios/report/svg.h"
+
+namespace plumbline::scenarios {
+
+namespace {
+
+/// An element of one building seen from above; the storey it stands on, -1 when the building does not have it.
+struct Outline {
+  int storey = -1;
+  Polygon2 polygon_W;
+};
+
+template <class Element>
+const Element* named(const std::vector<Element>& elements, const std::string& id) {
+  const auto found =
+      std::find_if(elements.begin(), elements.end(), [&](const Element& element) { return element.id == id; });
+  return found == elements.end() ? nullptr : &*found;
+}
+
+/// The opening's stretch of its wall.
+Polygon2 outline_of(const bim::Opening& opening, const bim::Wall& wall) {
+  const Eigen::Vector2d e = wall.direction(), near = wall.offset_m * wall.left(),
+                        far = (wall.offset_m + wall.thickness_m) * wall.left();
+  const Eigen::Vector2d p = wall.a + (opening.s_m - 0.5 * opening.width_m) * e,
+                        q = wall.a + (opening.s_m + 0.5 * opening.width_m) * e;
+  return {p + near, q + near, q + far, p + far};
+}
+
+/// Convex hull of a solid's corners on the ground.
+Polygon2 hull_of(const bim::Solid& solid) {
+  Polygon2 points;
+  for (const Eigen::Vector3d& p : solid.vertices) points.emplace_back(p.head<2>());
+  return bim::convex_hull(std::move(points));
+}
+
+Outline outline_in(const bim::Building& building, const std::string& id) {
+  if (const bim::Wall* wall = named(building.walls, id)) return {wall->storey, bim::footprint(*wall)};
+  if (const bim::Opening* opening = named(building.openings, id); opening != nullptr && opening->wall >= 0) {
+    const bim::Wall& wall = building.walls[static_cast<std::size_t>(opening->wall)];
+    return {wall.storey, outline_of(*opening, wall)};
+  }
+  if (const bim::Column* column = named(building.columns, id)) return {column->storey, column->footprint};
+  if (const bim::Obstacle* obstacle = named(building.obstacles, id)) return {obstacle->storey, hull_of(obstacle->body)};
+  if (const bim::Room* room = named(building.rooms, id)) return {room->storey, {}};
+  return {};
+}
+
+std::string spaced(std::string text) {
+  std::replace(text.begin(), text.end(), '_', ' ');
+  return text;
+}
+
+}  // namespace
+
+std::vector<ReportDeviation> report_deviations(const bim::PlannedAndBuilt& site, int storey) {
+  std::vector<ReportDeviation> deviations;
+  for (const bim::Change& change : site.changes) {
+    const Outline planned = outline_in(site.as_planned, change.element);
+    const Outline built = outline_in(site.as_built, change.element);
+    if (planned.storey != storey && built.storey != storey) continue;
+    deviations.push_back({change.op, change.element, planned.polygon_W, built.polygon_W});
+  }
+  return deviations;
+}
+
+std::string draw_deviations(const std::vector<ReportDeviation>& deviations) {
+  std::string out;
+  for (const ReportDeviation& deviation : deviations) {
+    if (deviation.planned_W.empty() && deviation.built_W.empty()) continue;
+    out += "<g><title>" + svg::escape(spaced(deviation.op) + ": " + deviation.element) + "</title>";
+    if (!deviation.built_W.empty()) out += svg::polygon(deviation.built_W, "class=\"asbuilt\"");
+    if (!deviation.planned_W.empty()) out += svg::polygon(deviation.planned_W, "class=\"planned\"");
+    out += "</g>";
+  }
+  return out;
+}
+
+std::string list_deviations(const std::vector<ReportDeviation>& deviations) {
+  if (deviations.empty()) return "";
+  std::string out =
+      "<section class=\"card\"><h2>Built otherwise than planned</h2><p class=\"facts\">Localization methods know the "
+      "plan; the sensor sees what was built. In the map: orange is what stands, dashed where the plan has it.</p><ul>";
+  for (const ReportDeviation& deviation : deviations)
+    out += "<li>" + svg::escape(spaced(deviation.op) + ": " + deviation.element) + "</li>";
+  return out + "</ul></section>";
+}
+
+}  // namespace plumbline::scenarios

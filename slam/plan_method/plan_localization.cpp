@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/plan_method/plan_localization.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "bim/digest/digest.h"
+#include "bim/errors.h"
+
+namespace plumbline::slam {
+
+namespace {
+
+const bim::Plan& plan_for(std::string_view name, const MethodInput& input) {
+  if (!input.plan) throw InputError({}, std::string(name) + " needs a plan; give a plan or an IFC file");
+  if (!input.has_odometry) throw InputError({}, std::string(name) + " needs odometry, which there is none of");
+  return *input.plan;
+}
+
+/// (x, y, yaw) covariance turned about z.
+Eigen::Matrix3d turned(const Eigen::Matrix3d& P, const Pose& X_WI) {
+  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
+  R.topLeftCorner<2, 2>() = heading(X_WI).rotation();
+  return R * P * R.transpose();
+}
+
+}  // namespace
+
+void record_stage(std::string_view stage, Stopwatch& stopwatch, Output& output) {
+  output.times.push_back({std::string(stage), stopwatch.cpu_ms()});
+  stopwatch.restart();
+}
+
+PlanLocalization::PlanLocalization(std::string_view name, const MethodInput& input, const PlanMethodConfig& config,
+                                   const MapCloudConfig& map)
+    : input_(input),
+      config_(config),
+      index_(make_plan_index(plan_for(name, input), input.prior.storey, config.index)),
+      map_config_(map),
+      cloud_(map) {}
+
+Output PlanLocalization::on_scan(const Scan& scan) {
+  Output output;
+  output.stamp = scan.stamp;
+  Stopwatch stopwatch;
+  const Pose X_OR = motion_.at(scan.stamp);
+  if (!X_OR_start_) X_OR_start_ = X_OR;
+  if (is_due(X_OR)) {
+    ++tick_;
+    const PlanScan prepared_scan = prepare_scan(scan, X_OR);
+    if (cloud_.add(prepared_scan.deskewed, X_OR)) cloud_stamps_.push_back(scan.stamp);
+    record_stage("deskew", stopwatch, output);
+    use_scan(prepared_scan, output);
+    X_OR_update_ = X_OR;
+  }
+  report(X_OR, output);
+  Digest digest;
+  for (const Hypothesis& hypothesis : output.hypotheses) digest.add(hypothesis.mass).add(hypothesis.X_WR);
+  output.digests.push_back({"pose", digest.add(static_cast<int>(output.state)).value()});
+  trajectory_.add_scan(scan.stamp, X_OR);
+  motion_.forget_before(scan.stamp - 1'000'000'000);
+  return output;
+}
+
+bool PlanLocalization::is_due(const Pose& X_OR) const {
+  if (!X_OR_update_) return true;
+  const Pose2 u = heading(X_OR_update_->inverse() * X_OR);
+  return u.t.norm() >= config_.update_m || std::abs(u.yaw) >= config_.update_rad;
+}
+
+PlanScan PlanLocalization::prepare_scan(const Scan& scan, const Pose& X_OR) const {
+  PlanScan out;
+  out.deskewed = deskew(scan, motion_, input_.calibration);
+  out.X_OR = X_OR;
+  if (X_OR_update_) out.u = heading(*X_OR_update_).inverse() * heading(X_OR);
+  out.q_HR = exp_so3({0.0, 0.0, -X_OR.yaw()}) * X_OR.q;
+  if (input_.prior.yaw_W) {
+    // Rounded, so that a plan moved as a whole gives the same numbers.
+    const double yaw_I = std::round((*input_.prior.yaw_W - index_.X_WI.yaw()) * 1e9) * 1e-9;
+    out.prior_yaw_I = wrap_angle(yaw_I + X_OR.yaw() - X_OR_start_->yaw());
+    out.prior_yaw_sigma = input_.prior.yaw_sigma + config_.yaw_drift * seconds(scan.stamp);
+  }
+  out.tick = tick_;
+  return out;
+}
+
+Pose PlanLocalization::pose_on_floor(int storey, const Pose2& X_IH, const Eigen::Quaterniond& q_HR,
+                                     double sensor_height_m) const {
+  const double sensor_z = index_.storeys[static_cast<std::size_t>(storey)].floor_z + sensor_height_m;
+  const double z = sensor_z - (q_HR * input_.calibration.X_RL.t).z();
+  return Pose::from_xyz_yaw({X_IH.t.x(), X_IH.t.y(), z}, X_IH.yaw) * Pose{q_HR, Eigen::Vector3d::Zero()};
+}
+
+Hypothesis PlanLocalization::hypothesis_in_W(double mass, int storey, const Pose& X_IR,
+                                             const Eigen::Matrix3d& covariance) const {
+  const StoreyIndex& there = index_.storeys[static_cast<std::size_t>(storey)];
+  const int room = there.room_at(X_IR.t.head<2>());
+  return {mass, index_.X_WI * X_IR, turned(covariance, index_.X_WI),
+          room < 0 ? "" : there.rooms[static_cast<std::size_t>(room)].name};
+}
+
+void PlanLocalization::report_particles(const ParticleSet& particles, const Pose2& u, Output& output) const {
+  const std::size_t most = static_cast<std::size_t>(config_.particles_shown);
+  const std::size_t stride = std::max<std::size_t>(1, (particles.size() + most - 1) / most);
+  const Pose2 X_WI = heading(index_.X_WI);
+  for (std::size_t i = 0; i < particles.size(); i += stride) {
+    const Pose2 X_WH = X_WI * (particles[i].X_IH * u);
+    output.particles.push_back({X_WH.t.x(), X_WH.t.y(), X_WH.yaw, particles[i].weight});
+  }
+}
+
+Estimate PlanLocalization::finish() {
+  Estimate estimate;
+  estimate.frame = Frame::world;
+  if (trajectory_.empty()) return estimate;
+  estimate.trajectory = trajectory_.poses(index_.X_WI);
+  std::vector<CloudKeyframe> keyframes(cloud_.keyframes().begin(), cloud_.keyframes().end());
+  for (std::size_t i = 0; i < keyframes.size(); ++i)
+    keyframes[i].X_FR =
+        index_.X_WI * (trajectory_.correction_at(cloud_stamps_[i], keyframes[i].X_FR) * keyframes[i].X_FR);
+  estimate.map_F = map_cloud(keyframes, map_config_);
+  return estimate;
+}
+
+}  // namespace plumbline::slam

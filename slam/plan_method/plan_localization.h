@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "bim/config/visit.h"
+#include "slam/io/method.h"
+#include "slam/io/stopwatch.h"
+#include "slam/particles/particles.h"
+#include "slam/plan_map/plan_index.h"
+#include "slam/plan_method/corrected_trajectory.h"
+#include "slam/plan_method/prior_yaw.h"
+#include "slam/scan/map_cloud.h"
+
+namespace plumbline::slam {
+
+/// When a localization in a plan is updated, and what it reports.
+struct PlanUpdateConfig {
+  double update_m = 0.25;
+  double update_rad = 0.2;
+  int particles_shown = 500;
+  double mass_shown = 0.02;
+
+  template <class V>
+  void visit(V& v) {
+    v("update_m", update_m, Field{.doc = "distance walked between two updates", .min = 0, .basic = true});
+    v("update_rad", update_rad, Field{.doc = "or angle turned between two updates", .min = 0, .basic = true});
+    v("particles_shown", particles_shown, Field{.doc = "most particles that an output carries", .min = 1, .max = 500});
+    v("mass_shown", mass_shown, share_field("least mass of a hypothesis that an output carries"));
+  }
+};
+
+struct PlanMethodConfig : PlanUpdateConfig {
+  double yaw_drift = prior_yaw_drift;
+  PlanIndexConfig index = {};
+
+  template <class V>
+  void visit(V& v) {
+    PlanUpdateConfig::visit(v);
+    v("yaw_drift", yaw_drift,
+      Field{.doc = "rate at which the standard deviation of the prior yaw grows", .unit = "rad/s", .min = 0});
+    v("index", index);
+  }
+};
+
+/// One scan to localize by.
+struct PlanScan {
+  DeskewedScan deskewed;
+  Pose X_OR;                          ///< odometry at its stamp
+  Pose2 u;                            ///< motion since the last update's scan, identity at the first
+  Eigen::Quaterniond q_HR;            ///< roll and pitch, from gravity
+  std::optional<double> prior_yaw_I;  ///< the prior yaw propagated by odometry
+  double prior_yaw_sigma = 0.0;       ///< rad
+  std::uint64_t tick = 0;             ///< counts the updates, from 1
+};
+
+/// What all localizations in a plan share: odometry, when a scan is used, the plan in its own frame I, what is reported
+/// in W, and the trajectory and map at the end.
+class PlanLocalization : public Method {
+ public:
+  /// Throws InputError when there is no plan, no such storey, or no room in it.
+  PlanLocalization(std::string_view name, const MethodInput& input, const PlanMethodConfig& config,
+                   const MapCloudConfig& map);
+
+  void on_odometry(const Odometry& odometry) final { motion_.add(odometry); }
+  [[nodiscard]] Output on_scan(const Scan& scan) final;
+  /// The trajectory and its map; empty without a correction.
+  [[nodiscard]] Estimate finish() override;
+
+ protected:
+  /// Uses a scan that is due; its stages go into the output's digests and times.
+  virtual void use_scan(const PlanScan& scan, Output& output) = 0;
+  /// Adds state, pose, hypotheses and particles at any scan, due or not.
+  virtual void report(const Pose& X_OR, Output& output) = 0;
+
+  [[nodiscard]] const PlanIndex& index() const { return index_; }
+  [[nodiscard]] const MethodInput& input() const { return input_; }
+  /// Odometry at the last scan that was used.
+  [[nodiscard]] const std::optional<Pose>& X_OR_update() const { return X_OR_update_; }
+  void add_correction(Nanoseconds stamp, const Pose& X_IO) { trajectory_.add_correction(stamp, X_IO); }
+
+  /// Pose of a robot that stands on its storey's floor with roll and pitch from gravity, its sensor at the calibrated
+  /// height or another one.
+  [[nodiscard]] Pose pose_on_floor(int storey, const Pose2& X_IH, const Eigen::Quaterniond& q_HR) const {
+    return pose_on_floor(storey, X_IH, q_HR, input_.calibration.sensor_height_m);
+  }
+  [[nodiscard]] Pose pose_on_floor(int storey, const Pose2& X_IH, const Eigen::Quaterniond& q_HR,
+                                   double sensor_height_m) const;
+
+  [[nodiscard]] bool is_shown(double mass) const { return mass >= config_.mass_shown; }
+  /// In W, with the name of its room. covariance: of (x, y, yaw) in I.
+  [[nodiscard]] Hypothesis hypothesis_in_W(double mass, int storey, const Pose& X_IR,
+                                           const Eigen::Matrix3d& covariance) const;
+  /// As many as an Output may carry, each moved by u.
+  void report_particles(const ParticleSet& particles, const Pose2& u, Output& output) const;
+
+ private:
+  [[nodiscard]] bool is_due(const Pose& X_OR) const;
+  [[nodiscard]] PlanScan prepare_scan(const Scan& scan, const Pose& X_OR) const;
+
+  MethodInput input_;
+  PlanMethodConfig config_;
+  PlanIndex index_;
+  MotionBuffer motion_;
+  std::optional<Pose> X_OR_start_, X_OR_update_;
+  std::uint64_t tick_ = 0;
+  CorrectedTrajectory trajectory_;
+  MapCloudConfig map_config_;
+  MapCloudRecorder cloud_;  ///< in O until the end
+  std::vector<Nanoseconds> cloud_stamps_;
+};
+
+/// Records the time since the last stage and starts the next one.
+void record_stage(std::string_view stage, Stopwatch& stopwatch, Output& output);
+
+}  // namespace plumbline::slam

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "slam/rooms/cluster_walls.h"
+
+namespace plumbline::slam {
+
+/// Clusters that a pilaster or a fin parts, made one: those that touch between the same two opposed walls, over at
+/// least config.joined_share of the width between them. In the clusters' order, each at the position of its first.
+[[nodiscard]] std::vector<Cluster> merge_clusters(const FreeGrid& grid, std::span<const Cluster> clusters,
+                                                  std::span<const FaceLine> faces, const RoomConfig& config);
+
+}  // namespace plumbline::slam

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/docs/reference.h"
+
+#include <algorithm>
+#include <string_view>
+
+#include "bim/config/markdown.h"
+#include "bim/formats/plan_yaml/plan_schema.h"
+#include "bim/model/warning.h"
+#include "scenarios/app/program.h"
+#include "scenarios/host/files.h"
+#include "scenarios/metrics/metrics.h"
+#include "scenarios/metrics/result_words.h"
+#include "scenarios/spec/method_names.h"
+#include "scenarios/spec/scenario_schema.h"
+#include "scenarios/sweep/sweep_schema.h"
+#include "slam/methods.h"
+
+namespace plumbline::docs {
+
+namespace {
+
+std::string metrics_page() {
+  namespace score = scenarios::score;
+  std::string page = R"md(# Metrics
+
+`results.json` holds these values for each method, and a scenario's gates may bound them. A metric that does not apply,
+or cannot be computed, is absent. A dot in a name stands for a block. [Localizability](../methods/localizability.md) says
+when scans and plan determine the pose.
+
+)md";
+  MarkdownTable table({"metric", "unit", "better", "says"});
+  for (const score::MetricRow& row : score::metrics()) {
+    const char* better = row.better == score::Better::lower ? "lower" : "higher";
+    table.add({markdown_code(row.name), std::string(row.unit), row.better == score::Better::neither ? "" : better,
+               std::string(row.doc)});
+  }
+  page += table.text() +
+          "\nAfter a kidnapping, all values of a localization except its state, its hypotheses and `kidnap_*` belong "
+          "to the time before it.\n\n## Verdicts, evidence and causes of failure\n\n";
+  MarkdownTable words({"of", "word", "says"});
+  for (const score::ResultWord& word : score::result_words())
+    words.add({word.key.starts_with("localization.") ? markdown_code(word.key) : std::string(word.key),
+               markdown_code(word.word), std::string(word.doc)});
+  return page + words.text();
+}
+
+std::string overview_of_methods() {
+  MarkdownTable table({"method", "what it is", "plan", "odometry", "default"});
+  for (const slam::MethodRow& row : slam::methods())
+    table.add({row.config_schema ? "[`" + std::string(row.name) + "`](#" + std::string(row.name) + ")"
+                                 : markdown_code(row.name),
+               std::string(row.summary), row.needs_plan ? "needed" : "", row.needs_odometry ? "needed" : "optional",
+               row.standard ? "yes" : ""});
+  table.add({markdown_code(scenarios::truth_method), "the true poses; its errors are 0, which checks the scores", "",
+             "", ""});
+  return table.text();
+}
+
+std::string method_section(const slam::MethodRow& row) {
+  const std::vector<SchemaField> fields = row.config_schema().front().fields;
+  const std::vector<SchemaField> basic = basic_fields(fields);
+  std::string text = "\n## " + std::string(row.name) + "\n\n" + std::string(row.summary) + ".\n\n";
+  if (basic.size() < fields.size()) text += schema_table(basic) + "\n";
+  return text + "<details><summary>All " + std::to_string(fields.size()) + " keys</summary>\n\n" +
+         schema_table(fields) + "\n</details>\n";
+}
+
+std::string methods_page() {
+  std::string page = R"md(# Methods
+
+A scenario, `run --method` and `estimate --method` name methods. Those marked as default run where none is named.
+Localization needs the plan of the building. Where odometry is optional, a method without it assumes constant velocity.
+
+)md";
+  page += overview_of_methods() + R"md(
+`plumbline methods --config METHOD` prints the basic keys of a method at their defaults, and `--all` every key. Saved as
+a file and changed, `--config FILE` of `estimate` takes it. Each section below lists the basic keys first.
+)md";
+  for (const slam::MethodRow& row : slam::methods())
+    if (row.config_schema) page += method_section(row);
+  return page;
+}
+
+std::string warnings_page() {
+  std::string page = R"md(# Warnings
+
+Every compromise that a reader makes is a warning of the element. `plumbline inspect BUILDING` counts them by kind and
+shows one of each; `--json` lists all. A file that cannot be read is refused instead, with its place.
+
+)md";
+  MarkdownTable table({"kind", "means"});
+  for (const bim::WarningRow& row : bim::warning_rows) table.add({markdown_code(row.kind), std::string(row.doc)});
+  return page + table.text();
+}
+
+std::string commands_page() {
+  std::string page = "# Commands\n\nWhat `--help` prints for the program and for each command.\n";
+  for (const scenarios::CommandHelp& help : scenarios::program_help()) {
+    const bool sub = std::count(help.command.begin(), help.command.end(), ' ') > 1;
+    page += (sub ? "\n### " : "\n## ") + help.command + "\n\n```text\n" + help.text;
+    page += std::string(help.text.ends_with('\n') ? "" : "\n") + "```\n";
+  }
+  return page;
+}
+
+std::string file_table(scenarios::DirectoryKind kind) {
+  MarkdownTable table({"file", "holds"});
+  for (const scenarios::FileRow& row : scenarios::files_of(kind))
+    table.add({markdown_code(row.name), std::string(row.doc)});
+  return table.text();
+}
+
+std::string files_page() {
+  using Kind = scenarios::DirectoryKind;
+  return R"md(# Files
+
+Commands write their directories complete or not at all, and never replace a directory of another kind. Trajectories are
+in the format of TUM: `t x y z qx qy qz qw`, in seconds of the run's clock and metres. The first scan is at 0.1 s.
+
+## A run: `plumbline run`
+
+)md" + file_table(Kind::run) +
+         "\n## A recording: `plumbline simulate`\n\n" + file_table(Kind::recording) +
+         "\n## An estimate: `plumbline estimate`\n\n" + file_table(Kind::estimate) +
+         "\n## A sweep: `plumbline sweep`\n\n" + file_table(Kind::sweep);
+}
+
+std::string index_page() {
+  return R"md(# Reference
+
+The program describes itself here: `build/release/tests/plumbline_reference docs/reference` writes these pages, and a
+test compares them. Change the code, not the pages.
+
+- [commands.md](commands.md): each command's `--help`
+- [plan.md](plan.md): plan files, every key
+- [scenario.md](scenario.md): scenario files, every key
+- [sweep.md](sweep.md): sweep files, every key
+- [methods.md](methods.md): methods and their configs
+- [metrics.md](metrics.md): metrics, verdicts, causes of failure
+- [warnings.md](warnings.md): warnings of readers
+- [files.md](files.md): directories of runs, recordings, estimates and sweeps
+)md";
+}
+
+}  // namespace
+
+std::vector<Page> reference_pages() {
+  return {{"README.md", index_page()},
+          {"commands.md", commands_page()},
+          {"files.md", files_page()},
+          {"methods.md", methods_page()},
+          {"metrics.md", metrics_page()},
+          {"plan.md", bim::plan_page()},
+          {"scenario.md", scenarios::scenario_page()},
+          {"sweep.md", scenarios::sweep_page()},
+          {"warnings.md", warnings_page()}};
+}
+
+}  // namespace plumbline::docs
