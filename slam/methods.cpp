@@ -49,7 +49,7 @@ std::vector<MethodRow> localizations() {
       localization<LocalizationConfig>(
           make_s_graph_localization,
           {.name = "s_graph_localization",
-           .summary = "particle filter on the plan's walls and rooms, then a graph against them"}),
+           .summary = "particle filter and pose hypotheses on the plan's walls and rooms, then tracking by a graph"}),
       localization<LocalizationPaperConfig>(
           make_s_graph_localization_paper,
           {.name = "s_graph_localization_paper",
@@ -76,9 +76,10 @@ std::vector<MethodRow> localizations() {
                      .summary = "NDT on the plan, smoothed by an unscented filter, in the style of hdl_localization",
                      .standard = false}),
       localization<MicpConfig>(
-          make_micp, {.name = "micp",
-                      .summary = "corrections by casting each scan's beams in the plan, in the style of MICP-L",
-                      .standard = false}),
+          make_micp,
+          {.name = "micp",
+           .summary = "pose corrections by casting each scan's beams in the plan's mesh, in the style of MICP-L",
+           .standard = false}),
   };
 }
 
@@ -94,7 +95,7 @@ std::vector<MethodRow> odometry_and_slam() {
       odometry_alone<VgicpConfig>(
           OdometryKind::vgicp, &LidarOdometryConfig::vgicp,
           {.name = "vgicp_tuned",
-           .summary = "vgicp with the fine voxels and edges that s_graphs_plus and the other graphs walk on",
+           .summary = "vgicp with the fine voxels and the edges that s_graphs_plus and the other graph methods use",
            .standard = false,
            .variant = true}),
       odometry_alone<loam::FloamConfig>(

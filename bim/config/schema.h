@@ -18,7 +18,7 @@ struct SchemaField {
   std::string standard;  ///< the default, empty where there is none
   std::string meaning;
   bool required = false;
-  bool basic = false;  ///< one of the keys that users turn
+  bool basic = false;  ///< one of the keys that users change
 };
 
 /// The keys of the file itself (no name) or of the entries of one of its lists.

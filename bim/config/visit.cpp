@@ -78,7 +78,9 @@ std::size_t read_choice(const Tree& tree, std::string_view key, const std::strin
 FieldReader::FieldReader(const Tree& map) : map_(map) { static_cast<void>(map.as_map()); }
 
 void FieldReader::finish() const {
-  for (const auto& [key, child] : map_.as_map()) {
+  for (const auto& entry : map_.as_map()) {
+    const std::string& key = entry.first;  // clang 14 captures no structured binding
+    const Tree& child = entry.second;
     if (std::find(known_.begin(), known_.end(), key) != known_.end()) continue;
     const auto renamed =
         std::find_if(former_.begin(), former_.end(), [&](const auto& name) { return name.first == key; });

@@ -24,7 +24,7 @@ struct Field {
   double min = -std::numeric_limits<double>::infinity();
   double max = std::numeric_limits<double>::infinity();
   bool required = false;
-  bool basic = false;            ///< shown without --all: what users turn
+  bool basic = false;            ///< shown without --all: a key that users change
   bool advanced = false;         ///< of a nested struct: none of its keys is basic here
   std::string_view former = {};  ///< the key's name in the version before; refused with the new one
 };

@@ -49,7 +49,7 @@ Command add_bench(CommandLine& program) {
   for (const BenchPart& part : bench_parts())
     parts += "\n  " + std::string(part.name) + ": " + std::string(part.summary);
   line.option("PART", options->part, "one of:" + parts).required();
-  line.flag("--json", options->json, "for programs");
+  line.flag("--json", options->json, "as JSON");
   line.option("--repetitions", options->setting.repetitions, "of each figure; the median counts")
       .range(1, 1000)
       .shows_default();

@@ -27,7 +27,7 @@ Command add_diff(CommandLine& program) {
     std::string a, b;
   };
   const auto options = std::make_shared<Options>();
-  CommandLine line = program.add_command("diff", "Names the first stage and tick in which two runs differ");
+  CommandLine line = program.add_command("diff", "Names the first stage and scan in which two runs differ");
   line.option("A", options->a, "run directory").required();
   line.option("B", options->b, "run directory").required();
   line.footer("Example: plumbline diff runs/quickstart-1 runs/quickstart-1-changed\nExit code 1 when they differ");

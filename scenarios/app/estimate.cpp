@@ -218,15 +218,17 @@ Command add_estimate(CommandLine& program, slam::MethodTable table) {
   const auto options = std::make_shared<EstimateArguments>();
   CommandLine line = program.add_command("estimate", "Runs a method on a recording, simulated or real");
   line.option("RECORDING", options->recording,
-              "directory of simulate or of run --record, capture of a VLP-16 (.pcap), or ROS 1 bag")
+              "directory written by simulate or run --record, capture of a Velodyne LiDAR (.pcap), or ROS 1 bag")
       .required();
-  line.option("--description", options->description, "a recording.yaml, for what has none: where the LiDAR sits");
+  line.option("--description", options->description,
+              "a recording.yaml with the LiDAR's mount, for a capture or bag, which has none");
   line.option("--points-topic", options->topics.points, "of a bag [the first PointCloud2]");
   line.option("--odometry-topic", options->topics.odometry, "of a bag [the first Odometry]");
   line.option("--imu-topic", options->topics.imu, "of a bag [the first Imu]");
   line.option("--method", options->method, "one of plumbline methods").required();
   line.option("--plan", options->plan, "building, for methods that localize in a plan");
-  line.option("--config", options->config, "values of the method (YAML); plumbline methods --config NAME prints all");
+  line.option("--config", options->config,
+              "parameters of the method (YAML); plumbline methods --config NAME prints them");
   line.option("-o,--out", options->out, "directory to write").required();
   options->seed_option = line.seed("--seed", options->seed, "seed of the run [the recording's, else 1]");
   options->yaw_option = line.option("--yaw-deg", options->yaw_deg,

@@ -11,8 +11,8 @@
 #include "scenarios/app/process.h"
 #include "scenarios/host/files.h"
 #include "scenarios/host/interrupt.h"
-#include "scenarios/localizability/building_map.h"
 #include "scenarios/localizability/planned_walk.h"
+#include "scenarios/report/localizability_page.h"
 
 namespace plumbline::scenarios {
 
@@ -66,7 +66,7 @@ int identify(const IdentifyOptions& options) {
     throw InputError({options.building, 0, 0}, "is a mesh, which has no plan; name a plan or an .ifc");
   if (is_scenario(options.building)) {
     refuse_given(options.of_buildings,
-                 "is of a building; of a scenario's walks only --seeds, --json and --threads are");
+                 "is for a building; with a scenario only --seeds, --json and --threads are allowed");
     catch_interrupts();
     return identify_scenario(options, threads);
   }
@@ -97,20 +97,18 @@ Command add_identify(CommandLine& program) {
   CommandLine line =
       program.add_command("identify", "Maps where in a building a VLP-16 can be localized, and after what walk");
   line.option("BUILDING", options->building,
-              "plan or traffic-editor plan (.yaml) or .ifc; or a scenario, for the walks it plans")
+              "plan or traffic-editor plan (.yaml) or .ifc; or a scenario, to judge its planned walks")
       .required();
   options->of_buildings = {
-      line.option("--storey", options->storey, "of this storey alone, by its id or name"),
-      line.option("--step", options->map.step_m, "distance between the places on the map, m")
-          .range(0.1, 5.0)
-          .shows_default(),
-      line.flag("--across", options->map.across, "storey unknown: places on other storeys count"),
-      line.flag("--compass", options->map.compass_only, "with a known heading only, which is quicker"),
+      line.option("--storey", options->storey, "only this storey, by its id or name"),
+      line.option("--step", options->map.step_m, "spacing of the map's grid, m").range(0.1, 5.0).shows_default(),
+      line.flag("--across", options->map.across, "storey unknown: aliased poses on other storeys count"),
+      line.flag("--compass", options->map.compass_only, "only with a known heading, which is quicker"),
       line.option("-o,--out", options->out, "page to write (.html), or a directory for identify.html"),
       line.flag("--force", options->force, "replaces the page that is there")};
-  line.flag("--json", options->json, "for programs, every place");
+  line.flag("--json", options->json, "as JSON, every grid point");
   line.option("--threads", options->threads, "threads [2, or the CPUs allowed]").range(1, 1024);
-  options->of_scenarios = {line.option("--seeds", options->seeds, "of a scenario: walks with the seeds from 1 on")
+  options->of_scenarios = {line.option("--seeds", options->seeds, "of a scenario: number of seeds, from 1 on")
                                .range(1, 100000)
                                .shows_default()};
   line.footer(

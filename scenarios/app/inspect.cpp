@@ -66,10 +66,11 @@ int inspect(const InspectOptions& options) {
 
 Command add_inspect(CommandLine& program) {
   const auto options = std::make_shared<InspectOptions>();
-  CommandLine line = program.add_command("inspect", "Says what is in a building: storeys, rooms, walls, warnings");
+  CommandLine line =
+      program.add_command("inspect", "Lists what a building holds: storeys, rooms, walls, volumes, symmetry, warnings");
   line.option("BUILDING", options->building,
               "plan or traffic-editor plan (.yaml), .ifc, or mesh (.glb, .obj, .dae, .ply, .stl)");
-  line.flag("--json", options->json, "for programs, every element");
+  line.flag("--json", options->json, "as JSON, every element");
   line.flag("--as-built", options->as_built, "with its deviations, closed doors and window panes");
   line.option("--mesh", options->mesh, "writes the cut building as .glb, .obj or .ply");
   line.flag("--schema", options->schema, "prints instead every key of plan files, with examples");

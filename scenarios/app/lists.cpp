@@ -27,7 +27,7 @@ int list_methods(slam::MethodTable table) {
     std::printf("%-*s %s%s\n", width, std::string(row.name).c_str(), std::string(row.summary).c_str(),
                 row.needs_plan ? " (needs the plan)" : "");
   std::printf("%-*s %s\n", width, std::string(truth_method).c_str(),
-              "the true poses; scores 0, which checks the scorer");
+              "the true poses; its errors are 0, which checks the scores");
   return 0;
 }
 
@@ -74,10 +74,11 @@ Command add_methods(CommandLine& program, slam::MethodTable table) {
     bool all = false;
   };
   const auto options = std::make_shared<Options>();
-  CommandLine line = program.add_command("methods", "Lists the methods a scenario may ask for");
-  const Argument config = line.option("--config", options->config,
-                                      "prints instead the basic keys of this method's config, at their defaults");
-  line.flag("--all", options->all, "every key of the config").needs(config);
+  CommandLine line = program.add_command("methods", "Lists the methods, or prints the parameters of one");
+  const Argument config = line.option(
+      "--config", options->config,
+      "prints instead the basic parameters of this method at their defaults, as a file for estimate --config");
+  line.flag("--all", options->all, "every parameter").needs(config);
   line.footer("Example: plumbline methods\n         plumbline methods --config vgicp > vgicp.yaml");
   return {line, [options, table] {
             return options->config.empty() ? list_methods(table) : print_config(options->config, options->all, table);

@@ -60,7 +60,7 @@ std::vector<slam::MethodRow> with_ours(std::vector<slam::MethodRow> own_methods)
   std::vector<slam::MethodRow> table(slam::methods().begin(), slam::methods().end());
   for (slam::MethodRow& row : own_methods) {
     if (row.name == truth_method || slam::find_method(row.name, table) != nullptr)
-      throw InternalError("method '" + std::string(row.name) + "' stands in the table already; give it another name");
+      throw InternalError("method '" + std::string(row.name) + "' is in the table already; give it another name");
     table.push_back(std::move(row));
   }
   return table;

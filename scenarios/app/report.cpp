@@ -12,7 +12,7 @@ namespace plumbline::scenarios {
 
 Command add_report(CommandLine& program) {
   const auto dir = std::make_shared<std::string>();
-  CommandLine line = program.add_command("report", "Writes the page of a run again");
+  CommandLine line = program.add_command("report", "Writes report.html of a run again");
   line.option("DIR", *dir, "run directory").required();
   line.footer("Example: plumbline report runs/quickstart-1");
   return {line, [dir] {

@@ -142,12 +142,13 @@ Command add_score(CommandLine& program) {
     std::vector<std::string> dropped;
   };
   const auto options = std::make_shared<Options>();
-  CommandLine line = program.add_command("score", "Scores a run again from what is on disk, with outside estimates");
+  CommandLine line = program.add_command(
+      "score", "Scores a run directory again, with estimates of other programs or of plumbline estimate");
   line.option("DIR", options->dir, "run directory").required();
   line.option("--estimate", options->estimates,
               "NAME=trajectory.tum[,frame=W|M]: poses of the robot in the plan's frame W or its own M [M]; or "
               "NAME=directory that plumbline estimate wrote, of the run's recording");
-  line.option("--drop", options->dropped, "outside estimates of this name, which were given before");
+  line.option("--drop", options->dropped, "removes the outside estimate of this name, which was given before");
   line.footer(
       "Example: plumbline score runs/quickstart-1 --estimate kiss=kiss.tum --estimate amcl=amcl.tum,frame=W\n"
       "         plumbline score runs/quickstart-1 --estimate paper=estimates/paper");

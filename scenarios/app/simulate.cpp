@@ -78,7 +78,7 @@ int simulate(const SimulateArguments& options, slam::MethodTable table) {
 Command add_simulate(CommandLine& program, slam::MethodTable table) {
   const auto options = std::make_shared<SimulateArguments>();
   CommandLine line =
-      program.add_command("simulate", "Records what the sensors see on a walk, with the truth beside it");
+      program.add_command("simulate", "Records the sensor data of a walk, and the true poses in a file apart");
   line.option("INPUT", options->input, "scenario, plan or building, as for run").required();
   line.option("-o,--out", options->out, "directory to write").required();
   options->seed_option = line.seed("--seed", options->seed, "seed [the scenario's]");
@@ -91,7 +91,8 @@ Command add_simulate(CommandLine& program, slam::MethodTable table) {
   line.flag("--force", options->force, "replace the recording that stands in --out");
   line.footer(
       "Example: plumbline simulate scenarios/library/house.yaml -o walk --bag\n"
-      "Writes lidar.pcap (packets of a VLP-16), odometry.tum, imu.csv, recording.yaml and truth.tum; plumbline "
+      "Writes lidar.pcap (packets of the LiDAR), odometry.tum, odometry_covariance.csv, imu.csv, recording.yaml and "
+      "truth.tum; plumbline "
       "estimate "
       "reads all but the last.");
   return {line, [options, table] { return simulate(*options, table); }};

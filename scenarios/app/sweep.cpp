@@ -67,16 +67,18 @@ Command add_sweep(CommandLine& program, slam::MethodTable table) {
   const auto options = std::make_shared<SweepArguments>();
   CommandLine line = program.add_command("sweep", "Runs scenarios with many seeds and variants; makes one table");
   line.option("SWEEP", options->file, "sweep file (.yaml)");
-  line.option("-o,--out", options->out, "folder of the sweep, new or to be gone on with [sweeps/<name>]");
+  line.option("-o,--out", options->out, "folder of the sweep, new or to be resumed [sweeps/<name>]");
   line.option("--jobs", options->jobs, "runs at a time [the CPUs allowed]").range(1, 1024);
-  line.option("--seeds", options->seeds, "how many seeds of each, in place of the file's; what is made stays for more")
+  line.option("--seeds", options->seeds, "number of seeds, in place of the file's; runs that are there are kept")
       .range(1, 100000);
   line.flag("--schema", options->schema, "prints instead every key of sweep files, with examples");
   line.option("--runs", options->runs,
               "scenarios that differ in prior, methods and gates alone, to be run on one simulation")
       .hidden();
   line.seed("--seed", options->seed, "their seed").hidden();
-  line.footer("Example: plumbline sweep ci/sweeps/look.yaml --jobs 2\nStopped at any moment, it goes on where it was.");
+  line.footer(
+      "Example: plumbline sweep ci/sweeps/look.yaml --jobs 2\nA sweep that was stopped is resumed by the same "
+      "command.");
   return {line, [options, table] { return sweep(*options, table); }};
 }
 

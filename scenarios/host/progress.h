@@ -14,7 +14,7 @@ class Progress {
   Progress& operator=(const Progress&) = delete;
 
   void at(double simulated_s);
-  /// Says what goes on now, without a number.
+  /// Names what is being done, without a number.
   void phase(const std::string& text);
 
  private:

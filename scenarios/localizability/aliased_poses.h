@@ -27,7 +27,7 @@ struct AliasSearch {
   bool yaw_known = false;
 };
 
-/// Looks for places that a scan cannot tell from its own, docs/methods/localizability.md: candidates by signature,
+/// Looks for poses that a scan cannot tell from its own, docs/methods/localizability.md: candidates by signature,
 /// refined on planes, judged by the log-likelihood ratio. Everything must outlive it. May be used by several threads.
 class AliasFinder {
  public:

@@ -50,8 +50,5 @@ struct MapShare {
 [[nodiscard]] Tree localizability_json(const RunBuilding& building, const BuildingMap& map);
 /// A line a storey and condition.
 [[nodiscard]] std::string localizability_text(const RunBuilding& building, const BuildingMap& map);
-/// One self-contained page with a map a storey and condition.
-[[nodiscard]] std::string localizability_page(const RunBuilding& building, const std::string& name,
-                                              const BuildingMap& map);
 
 }  // namespace plumbline::scenarios

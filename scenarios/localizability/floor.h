@@ -36,7 +36,7 @@ struct FloorLink {
   double length_m = 0.0;
 };
 
-/// Places on the floor of a storey where a robot's centre can be, and how they hang together.
+/// Places on the floor of a storey where a robot's centre can be, and which of them are neighbours.
 struct Floor {
   std::size_t storey = 0;
   std::vector<Eigen::Vector2d> cells_W;

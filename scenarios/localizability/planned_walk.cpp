@@ -170,7 +170,7 @@ std::string walks_text(const std::vector<WalkAnswers>& walks) {
   if (after.walks == 0) return text;
   add("set down", after);
   return text +
-         "The robot is carried off on its way: unknown and compass are of the walk before, set down is of the walk "
+         "The robot is kidnapped on its way: unknown and compass are of the walk before, set down is of the walk "
          "after,\ncounted from where it is set down, with the heading unknown.\n";
 }
 

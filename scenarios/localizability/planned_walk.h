@@ -11,18 +11,18 @@
 namespace plumbline::scenarios {
 
 /// The walk a scenario plans, as its robot would make it at best: at its speed along the waypoints, turning in place at
-/// sharp corners, until its duration is over or it is carried off. Nothing is simulated.
+/// sharp corners, until its duration is over or it is kidnapped. Nothing is simulated.
 [[nodiscard]] std::vector<TruthSample> planned_walk(const ResolvedScenario& resolved);
-/// The walk from where it is set down, its time counted from there; empty where it is not carried off.
+/// The walk from where it is set down, its time counted from there; empty where it is not kidnapped.
 [[nodiscard]] std::vector<TruthSample> planned_walk_after(const ResolvedScenario& resolved);
 
 /// Localizability along one seed's walk, with the heading unknown and with a compass.
 struct WalkAnswers {
   std::uint64_t seed = 0;
-  double length_m = 0.0;  ///< until it is carried off, where it is
+  double length_m = 0.0;  ///< until it is kidnapped, where it is
   RunIdentifiability unknown;
   RunIdentifiability compass;
-  /// From where it is set down; the heading known at the start is of no use there. Absent where it is not carried off.
+  /// From where it is set down; the heading known at the start is of no use there. Absent where it is not kidnapped.
   std::optional<RunIdentifiability> set_down;
 };
 

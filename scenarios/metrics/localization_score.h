@@ -18,7 +18,7 @@ struct LocalizationRules {
   double hold_m = 1.0;      ///< and over how much walking
 };
 
-/// What a plan localization said after one scan.
+/// What a plan localization reported after one scan.
 struct Belief {
   slam::Nanoseconds stamp = 0;
   slam::State state = slam::State::searching;
@@ -32,7 +32,7 @@ struct AliasesLeft {
   double t_s = 0.0;
   double distance_m = 0.0;
   int aliases = 0;
-  int marginal = 0;  ///< of them, those that are nearly out
+  int marginal = 0;  ///< of them, those that are nearly ruled out
 };
 
 /// What ruled out the last other pose.
@@ -60,20 +60,20 @@ struct Identifiability {
 enum class LocalizationVerdict { success, false_convergence, overconfident, honest_ambiguity, late, lost, lucky };
 [[nodiscard]] std::string to_string(LocalizationVerdict verdict);
 
-/// What the plan allows to be known of a run's place, docs/methods/localizability.md.
+/// What the plan allows to be known of a run's pose, docs/methods/localizability.md.
 enum class Evidence {
-  unique,    ///< no other place is left, early enough for an answer to be held to the end
-  marginal,  ///< the others are nearly out: one right answer is right, and so is an honest ambiguity; or they went too
-             ///< late for an answer to be held
-  ambiguous  ///< others explain what was seen as well as the true one
+  unique,    ///< no aliased pose is left, early enough for an answer to be held to the end
+  marginal,  ///< "weak" in files: the aliased poses are nearly ruled out, so that one right answer and an honest
+             ///< ambiguity are both right; or they were ruled out too late for an answer to be held
+  ambiguous  ///< aliased poses explain the scans as well as the true one
 };
 [[nodiscard]] std::string to_string(Evidence evidence);
 
-/// Why a plan localization failed, from what it said after each scan.
+/// Why a plan localization failed, from what it reported after each scan.
 enum class Failure {
   never_sampled,    ///< the true pose was never among the hypotheses or the particles kept
-  depleted,         ///< it was, and went, before the answer was given or the run ended
-  alias_preferred,  ///< a pose aliased with it at the start was chosen over it
+  depleted,         ///< it was, and was dropped before the answer was given or the run ended
+  alias_preferred,  ///< "twin_preferred" in files: a pose aliased with it at the start was chosen over it
   wrong_model,      ///< a pose not aliased with it was
   tracking_lost,    ///< the right answer was given, and lost
   undecided         ///< it was there to the end, and never chosen
@@ -93,7 +93,7 @@ struct LocalizationScore {
   std::optional<double> identifiable_at_s;
   std::optional<double> identifiable_at_m;
   /// As ape_rmse_m, each pose held against the nearest of the true one and its aliases at the start: a small value
-  /// beside a large ape_rmse_m says "right shape, wrong alias".
+  /// beside a large ape_rmse_m means that an aliased pose was tracked.
   std::optional<double> aliased_error_rmse_m;
   std::optional<double> true_mass;  ///< share of the last hypotheses that are right
   std::optional<double> nees;       ///< mean of e' P^-1 e of (x, y, yaw) while converged and right; 3 where P is honest
@@ -106,8 +106,8 @@ struct LocalizationScore {
 };
 
 /// Scores the beliefs of a run, one a scan in time order; nothing is ever aligned. A scan without a pose after the
-/// first convergence is held against the last pose given. A robot that was carried off is judged by what it said
-/// before; then the kidnap_* values say what came of it, and state and hypotheses are those of the end.
+/// first convergence is held against the last pose given. A robot that was kidnapped is judged by what was
+/// reported before; the kidnap_* values describe the time after it, and state and hypotheses are those of the end.
 [[nodiscard]] LocalizationScore score_localization(const Truth& truth, const std::vector<Belief>& beliefs,
                                                    const std::optional<Identifiability>& identifiability,
                                                    const LocalizationRules& rules = {});

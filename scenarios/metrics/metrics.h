@@ -57,7 +57,7 @@ struct GateResult {
   std::string op;  ///< "<=" or ">="
   double limit = 0.0;
   std::optional<double> value;  ///< absent when the metric is
-  std::string but;              ///< why it fails whatever the value is; empty where nothing is amiss
+  std::string but;              ///< why it fails whatever the value is; empty where only the value decides
   bool passed = false;
 };
 

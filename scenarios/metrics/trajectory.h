@@ -20,9 +20,9 @@ struct TrajectoryRules {
 struct Truth {
   std::vector<slam::StampedPose> poses_W;
   std::vector<slam::Nanoseconds> scans;
-  std::optional<slam::Nanoseconds> set_down = {};  ///< first scan of a robot that was carried off, where it was
+  std::optional<slam::Nanoseconds> set_down = {};  ///< first scan of a robot that was kidnapped, where it was
 
-  /// What was before the robot was carried off; all where it was not.
+  /// What was before the robot was kidnapped; all where it was not.
   [[nodiscard]] Truth before() const;
   /// X_WR at t, interpolated between neighbours; the first or last pose outside.
   [[nodiscard]] Pose at(slam::Nanoseconds t) const;

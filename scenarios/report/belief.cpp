@@ -177,7 +177,7 @@ std::vector<PlotMark> common_marks(const ReportInput& input) {
   else if (!identifiable && marginal && *marginal > 0.0)
     marks.push_back({*marginal, "marginally identifiable from here on"});
   if (input.kidnap) {
-    marks.push_back({input.kidnap->lifted_s, "carried off"});
+    marks.push_back({input.kidnap->lifted_s, "kidnapped"});
     marks.push_back({input.kidnap->set_down_s, "set down elsewhere"});
   }
   std::stable_sort(marks.begin(), marks.end(), [](const PlotMark& a, const PlotMark& b) { return a.t_s < b.t_s; });

@@ -9,10 +9,10 @@
 
 namespace plumbline::scenarios {
 
-/// What happened to the robot, and when what it had seen left a single place: the same for every method.
+/// When the robot was kidnapped, and when its scans left a single pose: the same for every method.
 [[nodiscard]] std::vector<PlotMark> common_marks(const ReportInput& input);
 
-/// Of each plan localization: the share of its belief that every place had over time, its state, the walls it
+/// Of each plan localization: the share of every pose hypothesis over time, its state, the walls it
 /// recognised and its particles.
 [[nodiscard]] std::string draw_beliefs(const ReportInput& input, const MapBox& box, double end_s);
 

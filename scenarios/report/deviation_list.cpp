@@ -86,7 +86,7 @@ std::string draw_deviations(const std::vector<ReportDeviation>& deviations) {
 std::string list_deviations(const std::vector<ReportDeviation>& deviations) {
   if (deviations.empty()) return "";
   std::string out =
-      "<section class=\"card\"><h2>Built otherwise than planned</h2><p class=\"facts\">Localization methods know the "
+      "<section class=\"card\"><h2>Built otherwise than planned</h2><p class=\"facts\">Localization methods get the "
       "plan; the sensor sees what was built. In the map: orange is what stands, dashed where the plan has it.</p><ul>";
   for (const ReportDeviation& deviation : deviations)
     out += "<li>" + svg::escape(spaced(deviation.op) + ": " + deviation.element) + "</li>";

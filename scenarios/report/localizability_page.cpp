@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "scenarios/report/localizability_page.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "bim/plan/plan.h"
-#include "scenarios/localizability/building_map.h"
 #include "scenarios/report/map_drawing.h"
 #include "scenarios/report/page.h"
 #include "scenarios/report/svg.h"

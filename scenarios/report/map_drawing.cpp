@@ -84,7 +84,7 @@ std::string draw_kidnap(const ReportInput& input, int storey) {
   if (!input.kidnap) return "";
   std::string out;
   const std::array<std::pair<double, const char*>, 2> events = {
-      {{input.kidnap->lifted_s, "carried off"}, {input.kidnap->set_down_s, "set down"}}};
+      {{input.kidnap->lifted_s, "kidnapped"}, {input.kidnap->set_down_s, "set down"}}};
   for (const auto& [t_s, text] : events) {
     const auto at = std::find_if(input.truth.begin(), input.truth.end(),
                                  [t = t_s](const ReportSample& sample) { return sample.t_s >= t; });
@@ -200,9 +200,9 @@ std::string map_key() {
   return "<div class=\"key\">" +
          item("stroke=\"#39424e\" stroke-width=\"3\"", "wall of the building (faint: overhead)") +
          "<span><svg viewBox=\"0 0 34 10\"><rect class=\"thing\" x=\"9\" y=\"1\" width=\"16\" height=\"8\"/></svg>"
-         "what else stands there: columns, furniture (dashed: with gaps)</span>" +
-         item("stroke=\"#111\" stroke-width=\"2\" stroke-dasharray=\"5 4\"", "where the robot truly walked") +
-         item("stroke=\"#0072b2\" stroke-width=\"2\"", "where a method says it walked (its colour)") +
+         "columns, furniture and other obstacles (dashed: with gaps)</span>" +
+         item("stroke=\"#111\" stroke-width=\"2\" stroke-dasharray=\"5 4\"", "ground truth") +
+         item("stroke=\"#0072b2\" stroke-width=\"2\"", "estimate (in the colour of its method)") +
          item("stroke=\"#0072b2\" stroke-width=\"4\" stroke-opacity=\".8\"", "wall a method found") +
          "<span>tinted area: room a method found (red: there is none)</span></div>";
 }

@@ -45,7 +45,7 @@ std::string after_kidnap(const Tree* where) {
   if (!wrong) return "";
   const auto found = number_of(where, "kidnap_found_s");
   const std::string text =
-      " Carried off and set down elsewhere, it gave a wrong answer for " + svg::number(*wrong, 1) + " s at a stretch";
+      " After the kidnapping it gave a wrong answer for " + svg::number(*wrong, 1) + " s at a stretch";
   return text + (found ? " and was localized again after " + svg::number(*found, 1) + " s."
                        : " and was not localized again for good.");
 }
@@ -81,7 +81,7 @@ std::string sentence(const ReportMethod& method, const Tree* results) {
   }
   const auto error = number_of(results, "ate_aligned_rmse_m");
   if (!error) return "No trajectory that could be scored.";
-  std::string text = "Its path is " + centimetres(*error) + " off the true one (rms, after alignment)";
+  std::string text = "Position error " + centimetres(*error) + " rms after alignment";
   const Tree* rooms = results->find("rooms");
   const auto visited = number_of(rooms, "visited");
   const auto recall = number_of(rooms, "recall");
@@ -243,7 +243,7 @@ std::string script_data(const ReportInput& input, double end_s) {
 
 /// How many poses are consistent with the scans, over time.
 PlotCurve consistent_poses(const ReportInput& input, double end_s) {
-  PlotCurve curve{"consistent with the scans", "#5d6b7c", {}, "truth"};
+  PlotCurve curve{"consistent poses", "#5d6b7c", {}, "truth"};
   const Tree* known = input.results.find("identifiability");
   if (known == nullptr) return curve;
   constexpr double step_s = 0.5;  // a curve with larger gaps would be drawn open

@@ -103,7 +103,7 @@ struct ReportStorey {
   std::vector<ReportDeviation> deviations;
 };
 
-/// A robot that was carried off: its last scan before and its first one after.
+/// A robot that was kidnapped: its last scan before and its first one after.
 struct ReportKidnap {
   double lifted_s = 0.0;
   double set_down_s = 0.0;

@@ -100,8 +100,11 @@ slam::FloorNode read_floor(const Tree& tree) {
           {read_3d(child(tree, "n")), child(tree, "d").as_double()}};
 }
 
-/// Files hold no negative zero.
-double positive_zero(double value) { return value == 0.0 ? 0.0 : value; }
+/// Files hold no negative zero, and nothing that is not finite.
+double positive_zero(double value) {
+  if (!std::isfinite(value)) throw InternalError("a result is not a finite number");
+  return value == 0.0 ? 0.0 : value;
+}
 double round_to(double value, double steps) { return positive_zero(std::round(value * steps) / steps); }
 
 Eigen::Vector3d rounded(const Eigen::Vector3d& p) {
@@ -212,6 +215,8 @@ void round_as_written(slam::Estimate& estimate) {
     for (Eigen::Vector3d* v : {&floor.center_F, &floor.plane_F.n}) drop_negative_zeros(*v);
     drop_negative_zeros(floor.plane_F.d);
   }
+  for (const Eigen::Vector3f& p : estimate.map_F)
+    if (!p.allFinite()) throw InternalError("a map point is not a finite number");
   estimate.graph = Tree();
 }
 
@@ -266,7 +271,7 @@ std::vector<BeliefRecord> read_beliefs(std::string_view text, const std::string&
       tree = read_json(text.substr(0, end), file);
       beliefs.push_back(read_belief(tree));
     } catch (const InputError&) {
-      throw InputError({file, line, 1}, "the line is no belief: {stamp_ns, state, hypotheses}");
+      throw InputError({file, line, 1}, "the line must be a belief: {stamp_ns, state, hypotheses}");
     }
     text.remove_prefix(std::min(end + 1, text.size()));
   }

@@ -24,7 +24,8 @@ void read_estimate(std::string_view text, const std::string& file, MethodRecord&
 
 /// Poses as read back from a trajectory file: quaternions of norm 1, no negative zeros.
 void round_as_written(std::vector<slam::StampedPose>& poses);
-/// A record as read back from the files of its method: walls and particles rounded, without the graph.
+/// A record as read back from the files of its method: walls and particles rounded, without the graph. Throws
+/// InternalError on what those files cannot hold: a value that is not finite.
 void round_as_written(MethodRecord& method);
 
 }  // namespace plumbline::scenarios

@@ -51,7 +51,8 @@ std::uint64_t digest_of(const slam::Estimate& estimate) {
 /// A pose that could not be read back from the files of a run is refused.
 void check(const Pose& X_FR) {
   if (!slam::plausible(X_FR))
-    throw InternalError("said a pose that is none: more than 100,000 km off, or its quaternion is not of norm 1");
+    throw InternalError(
+        "gave an invalid pose: more than 100,000 km from the origin, or a quaternion that is not of norm 1");
 }
 
 }  // namespace

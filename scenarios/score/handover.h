@@ -19,8 +19,8 @@ namespace plumbline::scenarios::score {
                                               const StructureRules& rules = {});
 
 /// Share of the wall patches matched at the first convergence, where the plan's graph takes over from the particles,
-/// that are matched with the right wall. Absent where nothing converged (of a robot that was carried off: before), or
-/// the hypothesis of the largest mass then names no wall.
+/// that are matched with the right wall. Absent where nothing converged (of a kidnapped robot: before the kidnapping),
+/// or the hypothesis of the largest mass then names no wall.
 [[nodiscard]] std::optional<double> handover_precision(const Truth& truth, const std::vector<Belief>& beliefs,
                                                        const bim::Plan& as_planned, const bim::Plan& as_built,
                                                        const StructureRules& rules = {});

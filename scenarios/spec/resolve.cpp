@@ -37,7 +37,7 @@ std::string kind_of(const std::string& text, const std::string& path) {
   return tree.find("levels") != nullptr ? "plan" : tree.as_map().front().first;
 }
 
-/// The default scenario of a is_implicit building.
+/// The default scenario of a building that is given without one.
 ScenarioText default_scenario(const std::string& path) {
   ScenarioText text;
   text.tree = Tree::map();

@@ -207,7 +207,7 @@ struct PriorSpec {
   }
 };
 
-/// The robot is lifted, carried off and set down elsewhere, and walks the rooms of its route again from there.
+/// The robot is lifted and set down elsewhere, and walks the rooms of its route again from there.
 struct KidnapSpec {
   double after_s = 30.0;
   double away_s = 3.0;

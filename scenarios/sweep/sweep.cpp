@@ -73,7 +73,7 @@ class SweepFolder {
   bool made_ = false;  ///< the folder was not there
 };
 
-/// A child's last_line without the place in a file that the sweep made.
+/// A child's error message without the place in a file that the sweep made.
 std::string without_place(const std::string& last_line, const std::string& folder) {
   if (!last_line.starts_with(folder)) return last_line;
   const std::size_t end = last_line.find(": ");

@@ -139,12 +139,12 @@ void check(const SweepFile& file, const Tree& tree, slam::MethodTable table) {
   for (std::size_t i = 0; i < file.variants.size(); ++i) {
     check_name(file.variants[i].name, mark_of(tree, "variants", i));
     if (!names.insert(file_name(file.variants[i].name)).second)
-      throw InputError(mark_of(tree, "variants", i), "a variant of this name stands there already");
+      throw InputError(mark_of(tree, "variants", i), "a variant of this name is in the list already");
   }
   std::set<std::string> scenarios;
   for (std::size_t i = 0; i < file.scenarios.size(); ++i)
     if (!scenarios.insert(file_name(fs::path(file.scenarios[i]).stem().string())).second)
-      throw InputError(mark_of(tree, "scenarios", i), "a scenario of this name stands there already");
+      throw InputError(mark_of(tree, "scenarios", i), "a scenario of this name is in the list already");
   std::vector<Mark> marks;
   for (std::size_t i = 0; i < file.methods.size(); ++i) marks.push_back(mark_of(tree, "methods", i));
   check_methods(file.methods, marks, table);

@@ -20,7 +20,7 @@ struct SweepRow {
   std::string verdict;  ///< of the method; "failed" where the scenario did
   std::string digest;
   std::optional<bool> identifiable;
-  std::string evidence;                       ///< of a localization: unique, marginal or ambiguous
+  std::string evidence;                       ///< of a localization: unique, weak or ambiguous
   std::string failure;                        ///< why the scenario failed, or else a localization
   std::vector<std::optional<double>> values;  ///< by score::metrics()
 };

@@ -12,10 +12,12 @@ namespace plumbline::slam {
 namespace {
 
 // Elevation in degrees, its cosine and sine (written out, since compilers and libraries round them differently),
-// azimuth offset in degrees, height in m, time in ns, ring. clang-format off VLP-16 [velodyne2018, pages 49-62].
-// VLP-32C [velodyne2018a, tables 9-2 and 9-6]. HDL-32E: calibration that comes with the sensor. Heights of both: focal
-// distances of 42.4 mm and 28.83 mm times tan(-elevation). OS1-like: 64 evenly spaced lasers over 33.2 degrees that
-// fire at once.
+// azimuth offset in degrees, height in m, time in ns, ring.
+// clang-format off
+// VLP-16 [velodyne2018, pages 49-62].
+// VLP-32C [velodyne2018a, tables 9-2 and 9-6]. HDL-32E: calibration that comes with the sensor. Heights of both:
+// focal distances of 42.4 mm and 28.83 mm times tan(-elevation).
+// OS1-like: 64 evenly spaced lasers over 33.2 degrees that fire at once.
 constexpr std::array<Laser, 16> vlp16_lasers = {{
     {-15.0, 0.9659258262890683, -0.25881904510252074, 0.0, 0.0112, 0, 0},
     {1.0, 0.9998476951563913, 0.01745240643728351, 0.0, -0.0007, 2304, 8},

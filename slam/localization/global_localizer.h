@@ -104,7 +104,7 @@ class GlobalLocalizer {
 
  private:
   void update_state(const PlanIndex& index, const StartPrior& start, const LocalizationScan& scan, double walked);
-  /// Searches the whole storey for poses that would see the same.
+  /// Searches the whole storey for aliased poses.
   void find_alternatives(const PlanIndex& index, const StartPrior& start, const LocalizationScan& scan);
 
   GlobalLocalizerConfig config_;

@@ -171,10 +171,9 @@ void HypothesisSet::clear() {
 void HypothesisSet::update_agreement(const Agreement& latest, PoseHypothesis& hypothesis) const {
   Agreement& mean = hypothesis.agreement;
   mean.update_mean(latest, config_.ema_alpha);
-  const bool fit_count = mean.inliers >= config_.cluttered_inliers &&
-                         mean.penetration_ratio_other_walls() <= config_.cluttered_penetration_ratio;
-  hypothesis.fit_count =
-      fit_count ? hypothesis.fit_count + 1 : std::max(config_.min_fit_count, hypothesis.fit_count - 2);
+  const bool fits = mean.inliers >= config_.cluttered_inliers &&
+                    mean.penetration_ratio_other_walls() <= config_.cluttered_penetration_ratio;
+  hypothesis.fit_count = fits ? hypothesis.fit_count + 1 : std::max(config_.min_fit_count, hypothesis.fit_count - 2);
 }
 
 void HypothesisSet::replay_agreement(const StoreyIndex& storey, const std::vector<ScanAtPose>& scans,

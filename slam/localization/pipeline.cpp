@@ -123,7 +123,7 @@ void SGraphLocalization::track(const LocalizationScan& scan, const std::vector<P
   output.digests.push_back({"tracking", Digest().add(tracker_->pose(scan.X_OR)).value()});
   record_stage("tracking", stopwatch, output);
   check_kidnap(scan);
-  record_stage("watch", stopwatch, output);
+  record_stage("monitor", stopwatch, output);
 }
 
 /// True when another hypothesis explains the last scans better at two checks in a row: where a wall of the plan is
@@ -184,7 +184,7 @@ void SGraphLocalization::record_tracked_poses(const std::vector<TrackedPose>& po
   }
 }
 
-/// A robot that is lost may have been carried off and turned.
+/// A robot that is lost may have been kidnapped and turned.
 StartPrior SGraphLocalization::start_prior(const PlanScan& scan) const {
   if (!scan.prior_yaw_I || state_ == State::lost) return {};
   return {scan.prior_yaw_I, scan.prior_yaw_sigma};

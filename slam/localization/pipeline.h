@@ -13,7 +13,7 @@
 namespace plumbline::slam {
 
 /// Withdraws a convergence when beams penetrate more of the plan than one wall that may be missing, and when another
-/// hypothesis explains the last scans better. It detects a robot that was carried away, or that converged to the wrong
+/// hypothesis explains the last scans better. It detects a kidnapped robot, or one that converged to the wrong
 /// one of two poses.
 struct KidnapMonitorConfig {
   double lost_penetration_ratio = 0.15;

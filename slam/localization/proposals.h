@@ -48,7 +48,7 @@ struct ScoredPose {
                                                           double gap_rad);
 
 /// Every pose from which two of the observed walls are two walls of the plan, best first by the beams. Two walls that
-/// are not parallel fix a pose, so no pose that looks the same is missed, as a random sample may.
+/// are not parallel fix a pose, so that no aliased pose is missed, which a random sample might do.
 [[nodiscard]] std::vector<StoreyPose> propose_poses(const PlanIndex& index, const StartPrior& prior,
                                                     const LocalizationScan& scan, int beam_stride,
                                                     const LikelihoodConfig& likelihood, const ProposalConfig& config);

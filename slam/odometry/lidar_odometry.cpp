@@ -157,7 +157,7 @@ std::unique_ptr<LidarOdometry> make_lidar_odometry(const LidarOdometryConfig& co
     case OdometryKind::legs:
       return std::make_unique<DeadReckoning>(config);
   }
-  throw InternalError("no such odometry");
+  throw InternalError("unknown kind of odometry");
 }
 
 }  // namespace plumbline::slam

@@ -14,7 +14,7 @@ namespace {
 
 const bim::Plan& plan_for(std::string_view name, const MethodInput& input) {
   if (!input.plan) throw InputError({}, std::string(name) + " needs a plan; give a plan or an IFC file");
-  if (!input.has_odometry) throw InputError({}, std::string(name) + " needs odometry, which there is none of");
+  if (!input.has_odometry) throw InputError({}, std::string(name) + " needs odometry, and there is none");
   return *input.plan;
 }
 

@@ -47,8 +47,8 @@ struct CloudKeyframe {
 /// The same for each laser by itself, in the order of its returns: one mean point for those in a row within a voxel.
 [[nodiscard]] CloudKeyframe thin_rings(const DeskewedScan& scan, const Pose& X_FR, const MapCloudConfig& config);
 
-/// All keyframes in F, one mean point a voxel, ordered by voxel, without strays. What lies on a floor or ceiling is
-/// none: these are hit at a slant, where rings lie far apart. levels: those planes in F.
+/// All keyframes in F, one mean point a voxel, ordered by voxel, without strays. Points on a floor or ceiling are
+/// never strays: these are hit at a slant, where rings lie far apart. levels: those planes in F.
 [[nodiscard]] std::vector<Eigen::Vector3f> map_cloud(std::span<const CloudKeyframe> keyframes,
                                                      const MapCloudConfig& config, std::span<const Plane> levels = {});
 

@@ -169,9 +169,9 @@ TEST_F(BadInput, CommandLine) {
            {"--storey", "attic"}, {"--step", "1"}, {"--across"}, {"--compass"}, {"--force"}}) {
     std::vector<std::string> line = {"identify", input};
     line.insert(line.end(), words.begin(), words.end());
-    refuse_line(line, words.front() + ": is of a building");
+    refuse_line(line, words.front() + ": is for a building");
   }
-  refuse_line({"identify", input, "-o", folder_ / "page.html"}, "--out: is of a building");
+  refuse_line({"identify", input, "-o", folder_ / "page.html"}, "--out: is for a building");
   write_file(folder_ / "short.yaml", scenario_);
   write_file(folder_ / "short.plan.yaml", plan_);
   refuse_file("short.yaml", {"unknown method 'vgcip'", "'vgicp'"}, {"--method", "truth,vgcip"});

@@ -85,7 +85,7 @@ TEST(Published, ASmallRoomAtSpeed) {
   // Two rounds drift less than six; half as much again as the worst committed seed of six is allowed.
   for (const char* name : {"vgicp", "s_graphs_plus"}) {
     EXPECT_EQ(methods[name]["verdict"], "ok") << name;
-    EXPECT_LE(ate(methods, name), 1.5 * worst_committed_ate("t8", name)) << name;
+    EXPECT_LE(ate(methods, name), std::min(0.04, 1.5 * worst_committed_ate("t8", name))) << name;
   }
 }
 

@@ -116,7 +116,7 @@ TEST_F(Recordings, DamagedOnesAreRefusedWhole) {
   cut(pcap, 0.7);
   refuse({dir, "--method", "vgicp"}, pcap, "truncated");
   write_file(pcap, packets.substr(0, 24));
-  refuse({dir, "--method", "vgicp"}, pcap, "no VLP-16 data packets");
+  refuse({dir, "--method", "vgicp"}, pcap, "no Velodyne data packets");
   std::string ports = packets;
   for (std::size_t at = 0; (at = ports.find("\x09\x40\x09\x40", at)) != std::string::npos;)
     ports.replace(at, 4, "\x09\x41\x09\x41");

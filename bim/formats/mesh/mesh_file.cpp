@@ -52,7 +52,7 @@ class Unpacker {
 
   template <class T>
   void get(T* values, std::size_t count) {
-    if (text_.size() / sizeof(T) < count) throw InternalError("a mesh was cut on its way");
+    if (text_.size() / sizeof(T) < count) throw InternalError("the answer of the mesh reader's process is too short");
     if (count > 0) std::memcpy(values, text_.data(), count * sizeof(T));
     text_.remove_prefix(count * sizeof(T));
   }
@@ -64,7 +64,7 @@ class Unpacker {
   /// A count of items of so many bytes each, which the file must hold.
   std::size_t count(std::size_t bytes) {
     const std::uint64_t value = get();
-    if (value > text_.size() / bytes) throw InternalError("a mesh was cut on its way");
+    if (value > text_.size() / bytes) throw InternalError("the answer of the mesh reader's process is too short");
     return static_cast<std::size_t>(value);
   }
 
@@ -231,13 +231,13 @@ std::vector<MeshPart> read_mesh_parts(std::string_view bytes, const std::string&
   const SubprocessLimits subprocess = subprocess_limits(bytes.size(), config.subprocess);
   const auto answer = run_in_subprocess([&] { return import(bytes, *format, config); }, subprocess);
   if (!answer)
-    throw InputError(mark, "this is no sound " + std::string(format->ending) + " file: reading it failed, or takes " +
-                               "more than " + std::to_string(subprocess.cpu_s) + " s and " +
-                               std::to_string(subprocess.memory >> 20U) + " MB");
+    throw InputError(mark, "this is not a valid " + std::string(format->ending) +
+                               " file: reading it failed, or takes " + "more than " + std::to_string(subprocess.cpu_s) +
+                               " s and " + std::to_string(subprocess.memory >> 20U) + " MB");
   Unpacker unpacker(*answer);
   const auto kind = static_cast<Answer>(unpacker.get());
   if (kind == Answer::refused)
-    throw InputError(mark, "this is no sound " + std::string(format->ending) +
+    throw InputError(mark, "this is not a valid " + std::string(format->ending) +
                                " file: " + reason(answer->substr(sizeof(std::uint64_t))));
   if (kind == Answer::too_large)
     throw InputError(mark, "more than " + std::to_string(config.most_triangles) + " triangles or " +

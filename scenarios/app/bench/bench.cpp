@@ -40,8 +40,7 @@ double growth_exponent(double n0, double cost0, double n1, double cost1) {
 const std::vector<BenchPart>& bench_parts() {
   static const std::vector<BenchPart> parts = {
       {"bim", "reading, cutting and comparing buildings, and how it grows with the number of walls", bench_bim},
-      {"identify", "mapping where one can know one's place, and how it grows with the number of places",
-       bench_identify},
+      {"identify", "the localizability map, and how its cost grows with the number of grid points", bench_identify},
       {"lidar", "casting rays, against a plain loop over Embree, and how it grows with the number of triangles",
        bench_lidar},
       {"localize",

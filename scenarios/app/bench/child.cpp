@@ -55,8 +55,7 @@ ChildCost run_self(const std::vector<std::string>& arguments) {
   while (wait4(child, &status, 0, &usage) == -1)
     if (errno != EINTR) throw EnvironmentError(std::string("bench: lost the child: ") + std::strerror(errno));
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
-    throw EnvironmentError("bench: 'plumbline " + (arguments.empty() ? std::string() : arguments.front()) +
-                           "' did not end well");
+    throw EnvironmentError("bench: 'plumbline " + (arguments.empty() ? std::string() : arguments.front()) + "' failed");
   return {seconds(usage.ru_utime) + seconds(usage.ru_stime), 1024e-6 * static_cast<double>(usage.ru_maxrss)};
 }
 

@@ -118,7 +118,7 @@ class BagRecording final : public Recording {
     } catch (const rosbag::BagUnindexedException&) {
       throw InputError(mark_, "a bag that was not closed or is cut off; rosbag reindex may save it");
     } catch (const std::exception& error) {
-      throw InputError(mark_, where + "no sound ROS 1 bag: " + error.what());
+      throw InputError(mark_, where + "not a valid ROS 1 bag: " + error.what());
     }
   }
 

@@ -110,7 +110,7 @@ struct PcapReader::Impl {
   [[noreturn]] void fail_empty() const {
     std::string ports;
     for (const unsigned port : other_ports) ports += (ports.empty() ? "" : ", ") + std::to_string(port);
-    throw InputError(mark, "no VLP-16 data packets (UDP port 2368) in the capture" +
+    throw InputError(mark, "no Velodyne data packets (UDP port 2368) in the capture" +
                                (ports.empty() ? "" : "; there is traffic to port " + ports));
   }
 

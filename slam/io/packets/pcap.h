@@ -10,10 +10,10 @@
 
 namespace plumbline::slam {
 
-/// Reads the VLP-16 data packets (UDP port 2368 over IPv4) of a capture one by one, in bounded memory. Position packets
-/// and other traffic are left out. pcap and pcapng; Ethernet with or without VLAN tags, Linux cooked and raw IP frames.
-/// Stamps: a capture of PcapWriter gives back its own, to the nanosecond; any other starts at 0 and counts the packets'
-/// own microseconds, across full hours.
+/// Reads the Velodyne data packets (UDP port 2368 over IPv4) of a capture one by one, in bounded memory. Position
+/// packets and other traffic are left out. pcap and pcapng; Ethernet with or without VLAN tags, Linux cooked and raw IP
+/// frames. Stamps: a capture of PcapWriter gives back its own, to the nanosecond; any other starts at 0 and counts the
+/// packets' own microseconds, across full hours.
 class PcapReader {
  public:
   /// Throws InputError when the file is missing, no capture or of another link type.
@@ -23,13 +23,13 @@ class PcapReader {
   PcapReader& operator=(const PcapReader&) = delete;
 
   /// The next data packet; false at the end. Throws InputError, with the packet's number in the file, where the capture
-  /// is cut off or damaged, a data packet is short or its flags or product are not those of a VLP-16, its time goes
-  /// back or leaps by more than `max_gap`, or the end comes without any data packet.
+  /// is cut off or damaged, a data packet is short or its flags or product are not those of a known Velodyne LiDAR, its
+  /// time goes back or leaps by more than `max_gap`, or the end comes without any data packet.
   [[nodiscard]] bool next(Vlp16Packet& packet);
   /// Time of the first packet on the clock of the computer that captured it; 0 for a capture of PcapWriter.
   [[nodiscard]] Nanoseconds origin() const;
 
-  /// A robot may be carried off for a minute; the sensor's own clock resolves gaps of up to half an hour.
+  /// A robot may be kidnapped for a minute; the sensor's own clock resolves gaps of up to half an hour.
   static constexpr Nanoseconds max_gap = 120'000'000'000;
 
  private:

@@ -39,9 +39,9 @@ inline constexpr std::string_view imu = "imu.csv";
 }  // namespace recording_files
 
 /// Opens a recording directory (lidar.pcap; recording.yaml, odometry.tum with its covariances and imu.csv where they
-/// are there) or a bare capture of a VLP-16; `info`, where it is not null, stands for recording.yaml. Messages are cut
-/// as drivers do, by the number of packets; scans before the first odometry record and a message that the end or a gap
-/// of seconds cuts short are left out. Throws InputError, also where no scan overlaps the odometry.
+/// are there) or a bare capture of a Velodyne LiDAR; `info`, where it is not null, stands for recording.yaml. Messages
+/// are cut as drivers do, by the number of packets; scans before the first odometry record and a message that the end
+/// or a gap of seconds cuts short are left out. Throws InputError, also where no scan overlaps the odometry.
 [[nodiscard]] std::unique_ptr<Recording> open_recording(const std::string& path, const RecordingInfo* info = nullptr);
 
 /// Packets of a full turn, rounded up, at the speed that one packet gives (a multiple of 60 rpm): 76 at 600 rpm.

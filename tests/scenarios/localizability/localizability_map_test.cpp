@@ -12,7 +12,7 @@
 #include "bim/generators/generators.h"
 #include "bim/symmetry/isometry.h"
 #include "scenarios/localizability/aliased_poses.h"
-#include "scenarios/localizability/building_map.h"
+#include "scenarios/report/localizability_page.h"
 #include "tests/data.h"
 
 namespace plumbline::scenarios {

@@ -37,7 +37,7 @@ slam::Hypothesis hypothesis(double mass, const Pose& X_WR, const std::string& ro
   return {mass, X_WR, Eigen::Matrix3d::Zero(), room};
 }
 
-/// A alias of every pose, turned half a turn: it walks the other way.
+/// An alias of every pose, turned half a turn: it walks the other way.
 const Pose alias = Pose::from_xyz_yaw({20.0, 4.0, 0.0}, std::numbers::pi);
 
 TEST(Tracks, FollowEachPlaceAlongTheWalk) {

@@ -45,7 +45,7 @@ TEST(Report, IsSelfContainedAndSaysWhatFailed) {
   const std::string page = render_report(sample());
   EXPECT_EQ(count(page, "http://") + count(page, "https://") + count(page, "src=") + count(page, "<link"), 0U);
   EXPECT_NE(page.find("FAIL"), std::string::npos);
-  EXPECT_NE(page.find("8 cm off the true one"), std::string::npos);
+  EXPECT_NE(page.find("8 cm rms after alignment"), std::string::npos);
   EXPECT_NE(page.find("a &lt;b&gt; &amp; &quot;c&quot;"), std::string::npos);
 }
 
@@ -161,7 +161,7 @@ TEST(Report, DoesNotJoinPathsWhereTheRobotWasCarried) {
   input.kidnap = ReportKidnap{4.9, 8.0};
   const std::string page = render_report(input);
   EXPECT_EQ(count(page, "<polyline"), lines + 2);  // the truth's and the method's
-  EXPECT_EQ(count(page, ">carried off<"), 2U);     // on the map and over the errors
+  EXPECT_EQ(count(page, ">kidnapped<"), 2U);       // on the map and over the errors
   // A method that changes its mind within a scan does not walk there either.
   for (std::size_t i = 70; i < input.methods.front().samples.size(); ++i) input.methods.front().samples[i].x += 2.0;
   EXPECT_EQ(count(render_report(input), "<polyline"), lines + 3);

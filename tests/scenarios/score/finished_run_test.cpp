@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+#include <vector>
+
 #include "bim/digest/digest.h"
 #include "scenarios/report/report_builder.h"
 #include "scenarios/run/run_files.h"
@@ -96,6 +99,41 @@ TEST_F(FinishedRunTest, RecordsHaveThePrecisionOfTheirFiles) {
     };
     EXPECT_EQ(digest(method), digest(expected)) << method.name;
     EXPECT_EQ(method.estimate.graph.is_null(), true);
+  }
+}
+
+/// A run whose files could not be written has no scores either, also where a sweep writes none.
+TEST_F(FinishedRunTest, WhatFilesCannotHoldIsRefused) {
+  const ResolvedScenario resolved = short_run();
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  RunRecord record;
+  record.truth_W = {{200, Pose()}};
+  record.digests = {{200, "sim.lidar", 7}};
+  const auto with = [&](auto&& change) {
+    RunRecord changed = record;
+    MethodRecord& method = changed.methods.emplace_back();
+    method.name = "mapper";
+    change(method);
+    return changed;
+  };
+  const std::vector<RunRecord> refused = {
+      with([&](MethodRecord& m) {
+        m.estimate.map_F = {{0.0F, std::numeric_limits<float>::infinity(), 0.0F}};
+      }),
+      with([&](MethodRecord& m) {
+        m.estimate.planes = {{0, {{1.0, 0.0, 0.0}, nan}, {0, 0}, {1, 0}, 0.0, 1.0, 1}};
+      }),
+      with([&](MethodRecord& m) {
+        m.estimate.floors = {{0, {0.0, nan, 0.0}, {{0.0, 0.0, 1.0}, 0.0}}};
+      }),
+      with([&](MethodRecord& m) {
+        m.localization = true;
+        m.beliefs = {{200, slam::State::ambiguous, {{nan, Pose(), Eigen::Matrix3d::Zero(), "", {}}}, {}}};
+      })};
+  EXPECT_NO_THROW(static_cast<void>(finished_run(resolved, with([](MethodRecord&) {}))));
+  for (const RunRecord& run : refused) {
+    EXPECT_THROW(static_cast<void>(finished_run(resolved, run)), InternalError);
+    EXPECT_THROW(write_run_files(folder_.path(), resolved, run), InternalError);
   }
 }
 

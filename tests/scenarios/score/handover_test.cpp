@@ -76,7 +76,7 @@ TEST(Handover, ShareAtTheFirstConvergence) {
   EXPECT_EQ(handover_precision(truth, beliefs, room(), room()), 0.75);
   EXPECT_FALSE(handover_precision(truth, {beliefs[0]}, room(), room()));
   EXPECT_FALSE(handover_precision(truth, {belief(0, slam::State::converged, {})}, room(), room()));
-  truth.set_down = 100;  // carried off before it had an answer
+  truth.set_down = 100;  // kidnapped before it had an answer
   EXPECT_FALSE(handover_precision(truth, beliefs, room(), room()));
 }
 

@@ -115,7 +115,7 @@ TEST_F(SweepFiles, FaultsAreNamedWhereTheyStand) {
   for (int i = 0; i < 200000; ++i) deep += "a.";
   EXPECT_NE(error_of(head + "variants: [{name: a, set: [" + deep + "a=1]}]\n").find("of more than 16 parts"),
             std::string::npos);
-  EXPECT_NE(error_of(head + "variants: [{name: a}, {name: a}]\n").find("there already"), std::string::npos);
+  EXPECT_NE(error_of(head + "variants: [{name: a}, {name: a}]\n").find("in the list already"), std::string::npos);
 }
 
 }  // namespace
