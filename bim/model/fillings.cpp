@@ -2,7 +2,6 @@
 #include "bim/model/fillings.h"
 
 #include <algorithm>
-#include <array>
 #include <set>
 #include <string>
 #include <string_view>
@@ -10,6 +9,7 @@
 #include "bim/geometry/polygon_boolean.h"
 #include "bim/model/extrude.h"
 #include "bim/model/materials.h"
+#include "bim/model/permanence.h"
 #include "bim/model/wall_frame.h"
 
 namespace plumbline::bim {
@@ -18,12 +18,9 @@ namespace {
 
 constexpr std::string_view leaf_kind = "door_leaf";
 constexpr std::string_view pane_kind = "window_pane";
-/// Kinds of obstacles that are not fixed to the building.
-constexpr std::array<std::string_view, 5> furniture_kinds = {"box", "cylinder", "furniture", "covering", "proxy"};
-
-bool is_furniture(const Obstacle& obstacle) {
-  return obstacle.planned &&
-         std::find(furniture_kinds.begin(), furniture_kinds.end(), obstacle.kind) != furniture_kinds.end();
+/// Furniture, and coverings of floors and ceilings, which may not lie yet.
+bool is_left_out(const Obstacle& obstacle) {
+  return permanence_of(obstacle) == Permanence::furniture || (obstacle.planned && obstacle.kind == "covering");
 }
 
 /// The opening's rectangle as a plate in the middle of its wall; it leans with the wall.
@@ -56,7 +53,7 @@ void fill(Building& building, const Opening& opening, std::string_view kind, dou
 bool is_filling(const Obstacle& obstacle) { return obstacle.kind == leaf_kind || obstacle.kind == pane_kind; }
 
 void apply_options(Building& building, const BuildingOptions& options) {
-  if (!options.furniture) std::erase_if(building.obstacles, is_furniture);
+  if (!options.furniture) std::erase_if(building.obstacles, is_left_out);
   if (options.doors == Doors::as_designed) return;
   for (Opening& opening : building.openings)
     if (opening.kind == OpeningKind::door && opening.leaf != Leaf::none)

@@ -6,9 +6,11 @@
 
 #include "bim/errors.h"
 #include "bim/mesh/solid.h"
+#include "bim/mesh/visible.h"
 #include "bim/model/boxes.h"
 #include "bim/model/fillings.h"
 #include "bim/model/hull.h"
+#include "bim/model/permanence.h"
 #include "bim/model/rooms.h"
 #include "bim/model/wall_face.h"
 
@@ -106,7 +108,7 @@ std::optional<PlanSolid> solid_of(const Obstacle& obstacle) {
   if (!obstacle.planned || is_filling(obstacle) || obstacle.body.vertices.empty()) return std::nullopt;
   const auto [low, high] = std::minmax_element(obstacle.body.vertices.begin(), obstacle.body.vertices.end(),
                                                [](const auto& p, const auto& q) { return p.z() < q.z(); });
-  PlanSolid solid{obstacle.id, obstacle.storey, {}, low->z(), high->z()};
+  PlanSolid solid{obstacle.id, obstacle.storey, {}, low->z(), high->z(), may_have_moved(obstacle)};
   for (const Eigen::Vector3d& p : obstacle.body.vertices) solid.outline.emplace_back(p.head<2>());
   solid.outline = convex_hull(std::move(solid.outline));
   if (solid.outline.empty()) return std::nullopt;
@@ -127,13 +129,47 @@ std::vector<PlanSolid> solids_of(const Building& building) {
   return solids;
 }
 
+/// Triangles of what was built to stay, with the vertices they need.
+BuildingMesh structure_of(const Building& building, const BuildingMesh& mesh) {
+  BuildingMesh visible = visible_mesh(building, mesh);
+  BuildingMesh structure;
+  structure.elements = visible.elements;
+  std::vector<int> vertex_of(visible.vertices.size(), -1);
+  for (MeshElement& element : structure.elements) {
+    const int first = element.first_triangle, count = element.triangle_count;
+    element.first_triangle = static_cast<int>(structure.triangles.size());
+    element.triangle_count = 0;
+    if (element.kind == ElementKind::obstacle) {
+      const Obstacle& obstacle = building.obstacles[static_cast<std::size_t>(element.index)];
+      if (is_filling(obstacle) || may_have_moved(obstacle)) continue;
+    }
+    element.triangle_count = count;
+    for (int i = first; i < first + count; ++i) {
+      Eigen::Vector3i triangle = visible.triangles[static_cast<std::size_t>(i)];
+      for (int& vertex : triangle.reshaped()) {
+        int& kept_as = vertex_of[static_cast<std::size_t>(vertex)];
+        if (kept_as < 0) {
+          kept_as = static_cast<int>(structure.vertices.size());
+          structure.vertices.push_back(visible.vertices[static_cast<std::size_t>(vertex)]);
+        }
+        vertex = kept_as;
+      }
+      structure.triangles.push_back(triangle);
+      structure.element.push_back(static_cast<int>(&element - structure.elements.data()));
+    }
+  }
+  return structure;
+}
+
 Eigen::Vector2d moved(const Pose& X_VW, const Eigen::Vector2d& p_W) {
   return (X_VW * Eigen::Vector3d(p_W.x(), p_W.y(), 0.0)).head<2>();
 }
 
 }  // namespace
 
-Plan make_plan(const Building& as_planned) {
+Plan make_plan(const Building& as_planned) { return make_plan(as_planned, build_mesh(as_planned)); }
+
+Plan make_plan(const Building& as_planned, const BuildingMesh& mesh) {
   Plan plan;
   for (const Storey& storey : as_planned.storeys)
     plan.storeys.push_back({storey.id, storey.elevation_m, storey.height_m});
@@ -144,6 +180,7 @@ Plan make_plan(const Building& as_planned) {
   link_faces(as_planned, plan);
   link_rooms(as_planned, plan);
   plan.solids = solids_of(as_planned);
+  plan.structure = structure_of(as_planned, mesh);
   return plan;
 }
 
@@ -175,6 +212,7 @@ Plan transformed(const Plan& plan_W, const Pose& X_VW) {
     solid.z0 += rise;
     solid.z1 += rise;
   }
+  for (Eigen::Vector3d& p : plan_V.structure.vertices) p = X_VW * p;
   return plan_V;
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "bim/mesh/mesh.h"
 #include "bim/model/building.h"
 
 namespace plumbline::bim {
@@ -53,6 +54,7 @@ struct PlanSolid {
   Polygon2 outline;  ///< counter-clockwise
   double z0 = 0.0;
   double z1 = 3.0;
+  bool may_have_moved = false;  ///< furniture
 };
 
 /// The plan that an estimator may use, in W. All parts stand in one coordinate frame so that moving the plan by
@@ -62,9 +64,13 @@ struct Plan {
   std::vector<PlanFace> faces;
   std::vector<PlanRoom> rooms;
   std::vector<PlanSolid> solids;  ///< columns, then obstacles; those that fill their convex hull, unlike tables
+  /// What was built to stay, as a LiDAR sees it: no furniture, no panes, doors open. Empty in a plan that was not made
+  /// from a building; faces and solids stand for it there.
+  BuildingMesh structure;
 };
 
-/// Plan of an as-planned building.
+/// Plan of an as-planned building. mesh: as build_mesh gives it for the same building.
+[[nodiscard]] Plan make_plan(const Building& as_planned, const BuildingMesh& mesh);
 [[nodiscard]] Plan make_plan(const Building& as_planned);
 /// The plan moved by a rotation about z and a translation: p_V = X_VW p_W.
 [[nodiscard]] Plan transformed(const Plan& plan_W, const Pose& X_VW);

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "bim/errors.h"
-#include "bim/load/load.h"
 #include "bim/plan/plan.h"
 #include "bim/random/stream.h"
 #include "scenarios/app/commands.h"
@@ -22,6 +21,7 @@
 #include "scenarios/run/run_pipeline.h"
 #include "scenarios/run/timings.h"
 #include "scenarios/spec/resolve.h"
+#include "scenarios/spec/run_site.h"
 #include "slam/io/bags/bag.h"
 #include "slam/io/recordings/recording.h"
 #include "slam/io/stopwatch.h"
@@ -35,6 +35,7 @@ struct EstimateArguments {
   std::string recording;
   std::string method;
   std::string plan;
+  std::string plan_furniture = "as_planned";
   std::string config;
   std::string description;
   slam::BagTopics topics;
@@ -45,6 +46,7 @@ struct EstimateArguments {
   bool force = false;
   std::optional<Argument> seed_option;
   std::optional<Argument> yaw_option;
+  std::optional<Argument> furniture_option;
 };
 
 const slam::MethodRow& find_row(const std::string& name, slam::MethodTable table) {
@@ -55,12 +57,29 @@ const slam::MethodRow& find_row(const std::string& name, slam::MethodTable table
   return *row;
 }
 
+/// The scenario that run and simulate leave beside a recording; of one from elsewhere, the default.
+Scenario scenario_of(const std::string& recording) {
+  namespace fs = std::filesystem;
+  fs::path folder = fs::is_directory(recording) ? fs::path(recording) : fs::path(recording).parent_path();
+  if (!folder.has_filename()) folder = folder.parent_path();  // of a closing slash
+  const bool inner = folder.filename() == recording_folder && !fs::exists(folder / "scenario.yaml");
+  const std::string path = ((inner ? folder.parent_path() : folder) / "scenario.yaml").string();
+  return fs::exists(path) ? read_scenario(read_text_file(path), path).scenario : Scenario();
+}
+
+/// The plan, with the furniture that the run's methods were told of, or as --plan-furniture says.
 std::shared_ptr<const bim::Plan> load_plan(const EstimateArguments& options, const slam::MethodRow& row,
                                            const bim::BuildingOptions& taken) {
   if (!row.needs_plan) return nullptr;
   if (options.plan.empty())
     throw InputError({"--plan", 0, 0}, "is missing; method '" + options.method + "' localizes in a plan");
-  return std::make_shared<const bim::Plan>(bim::make_plan(bim::load_planned_and_built(options.plan, taken).as_planned));
+  Scenario scenario = scenario_of(options.recording);
+  scenario.building_options = taken;
+  scenario.world = {};
+  const bool none = options.furniture_option->given() ? options.plan_furniture == names_of(ToldFurniture{}).front()
+                                                      : scenario.plan.furniture == ToldFurniture::none;
+  const RunBuilding building(load_site(options.plan, scenario), none ? ToldFurniture::none : ToldFurniture::as_planned);
+  return building.plan_as_planned();
 }
 
 /// What only localization takes is refused elsewhere: who gives it expects poses in the plan.
@@ -72,6 +91,7 @@ void check_plan_options(const EstimateArguments& options, const slam::MethodRow&
   if (!options.plan.empty()) refuse("--plan");
   if (!options.storey.empty()) refuse("--storey");
   if (options.yaw_option->given()) refuse("--yaw-deg");
+  if (options.furniture_option->given()) refuse("--plan-furniture");
 }
 
 /// Localization starts from rooms: without one on the storey of the prior, or anywhere, there is nothing to run.
@@ -227,6 +247,10 @@ Command add_estimate(CommandLine& program, slam::MethodTable table) {
   line.option("--imu-topic", options->topics.imu, "of a bag [the first Imu]");
   line.option("--method", options->method, "one of plumbline methods").required();
   line.option("--plan", options->plan, "building, for methods that localize in a plan");
+  options->furniture_option =
+      line.option("--plan-furniture", options->plan_furniture,
+                  "what the plan has of what may have moved: none or as_planned [the run's, else as_planned]")
+          .one_of({"none", "as_planned"});
   line.option("--config", options->config,
               "parameters of the method (YAML); plumbline methods --config NAME prints them");
   line.option("-o,--out", options->out, "directory to write").required();

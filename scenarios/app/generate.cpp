@@ -7,10 +7,15 @@
 #include <string>
 #include <vector>
 
+#include "bim/config/tree.h"
 #include "bim/errors.h"
+#include "bim/formats/ifc/write/write_ifc.h"
+#include "bim/formats/plan_yaml/plan_furniture.h"
 #include "bim/formats/plan_yaml/plan_write.h"
 #include "bim/formats/plan_yaml/plan_yaml.h"
+#include "bim/furniture/furnish.h"
 #include "bim/generators/generators.h"
+#include "bim/load/load.h"
 #include "scenarios/app/commands.h"
 #include "scenarios/host/files.h"
 #include "scenarios/spec/route_plan.h"
@@ -29,7 +34,14 @@ struct GenerateOptions {
   std::string unknown_family;
   std::vector<CommandLine> families;
   std::map<std::string, std::string> values;  ///< by "family key", as written
+  bim::FurnishOptions furniture;
+  std::vector<CommandLine> furnish;  ///< the command, once it is there
+  std::string building;              ///< to furnish
+
+  GenerateOptions() { furniture.density = 0.0; }
 };
+
+constexpr double density_max = 0.4;
 
 /// epsilon_m is given as --epsilon.
 std::string flag_of(const std::string& key) {
@@ -60,6 +72,12 @@ Asked asked_for(const GenerateOptions& options, const std::string& family) {
   return asked;
 }
 
+/// What the command line says of furniture, as it would be typed.
+std::string furniture_asked(const bim::FurnishOptions& furniture) {
+  if (!(furniture.density > 0.0)) return "";
+  return " --furnish " + format_number(furniture.density) + " --furnish-seed " + std::to_string(furniture.seed);
+}
+
 void refuse_to_replace(const std::string& path, bool force) {
   if (fs::is_directory(path)) throw InputError({path, 0, 0}, "is a directory; name a file");
   if (!force && fs::exists(path)) throw InputError({path, 0, 0}, "exists already; --force replaces it");
@@ -86,14 +104,50 @@ std::string scenario_for(const bim::GeneratedPlan& generated, const std::string&
   return write_scenario(scenario);
 }
 
+bool is_ifc(const std::string& path) { return fs::path(path).extension() == ".ifc"; }
+
+/// The plan, or the building as IFC, with furniture.
+std::string furnished(const GenerateOptions& options) {
+  bim::Building building = bim::load_building(options.building);
+  if (building.rooms.empty()) throw InputError({options.building, 0, 0}, "has no rooms to furnish");
+  if (is_ifc(options.out)) {
+    for (bim::Obstacle& piece : bim::furnish(building, options.furniture))
+      building.obstacles.push_back(std::move(piece));
+    return bim::write_ifc(building);
+  }
+  if (building.schema != "plan")
+    throw InputError({options.out, 0, 0}, "only a plan can be written as a plan; name a file that ends in .ifc");
+  bim::PlanFile plan = bim::plan_entries(read_yaml(read_text_file(options.building), options.building));
+  bim::furnish_plan(plan, options.furniture);
+  return bim::write_plan(
+      plan,
+      "Made by: plumbline generate furnish " + fs::path(options.building).filename().string() + " --furnish " +
+          format_number(options.furniture.density) + " --seed " + std::to_string(options.furniture.seed) +
+          (options.furniture.people > 0 ? " --people " + std::to_string(options.furniture.people) : std::string()));
+}
+
+int furnish(const GenerateOptions& options) {
+  if (options.out != "-") refuse_to_replace(options.out, options.force);
+  const std::string text = furnished(options);
+  if (options.out == "-") {
+    std::fwrite(text.data(), 1, text.size(), stdout);
+  } else {
+    write_file(options.out, text);
+  }
+  return 0;
+}
+
 int generate(const GenerateOptions& options) {
+  if (options.furnish.front().asked()) return furnish(options);
   std::string family = options.unknown_family;
   for (const CommandLine& line : options.families)
     if (line.asked()) family = line.name();
   if (family.empty()) throw InputError({"plumbline generate", 0, 0}, "name a family; see plumbline generate --help");
   const Asked asked = asked_for(options, family);
-  const bim::GeneratedPlan generated = bim::generate(family, asked.options);
-  const std::string text = bim::write_plan(generated.plan, "Made by: " + asked.command);
+  bim::GeneratedPlan generated = bim::generate(family, asked.options);
+  if (options.furniture.density > 0.0) bim::furnish_plan(generated.plan, options.furniture);
+  const std::string text =
+      bim::write_plan(generated.plan, "Made by: " + asked.command + furniture_asked(options.furniture));
   if (options.out == "-") {
     if (!options.scenario.empty()) throw InputError({"--scenario", 0, 0}, "needs a plan in a file; give -o a path");
     std::fwrite(text.data(), 1, text.size(), stdout);
@@ -123,8 +177,29 @@ CommandLine add_family(CommandLine& program, const bim::GeneratorRow& row,
     const std::string value = option.value.empty() ? "" : " [" + option.value + "]";
     line.option(flag_of(option.key), options->values[name + " " + option.key], option.doc + choices + value);
   }
+  const auto density = line.option("--furnish", options->furniture.density,
+                                   "share of each room's floor under furniture, as far as it stays walkable")
+                           .range(0.0, density_max);
+  line.seed("--furnish-seed", options->furniture.seed, "seed from which furniture is chosen and placed").needs(density);
   line.footer("Example: plumbline generate " + name + " --seed 7 --feature column --epsilon 0.3 -o " + name +
               ".plan.yaml");
+  return line;
+}
+
+CommandLine add_furnish(CommandLine& program, const std::shared_ptr<GenerateOptions>& options) {
+  CommandLine line =
+      program.add_command("furnish", "adds furniture to any building: a plan, or IFC where OUT ends in .ifc");
+  line.option("BUILDING", options->building, "building to furnish: a plan or an IFC file").required();
+  line.option("-o,--out", options->out, "plan or IFC file to write; - for a plan on stdout").required();
+  line.flag("--force", options->force, "replace files that are there");
+  line.option("--furnish", options->furniture.density,
+              "share of each room's floor under furniture, as far as it stays walkable")
+      .range(0.0, density_max)
+      .required();
+  line.seed("--seed", options->furniture.seed, "seed from which furniture is chosen and placed");
+  line.option("--people", options->furniture.people, "number of people that sit, each in place of a chair")
+      .range(0, 50);
+  line.footer("Example: plumbline generate furnish house.plan.yaml --furnish 0.2 -o furnished.plan.yaml");
   return line;
 }
 
@@ -134,6 +209,7 @@ Command add_generate(CommandLine& program) {
   const auto options = std::make_shared<GenerateOptions>();
   CommandLine line = program.add_command("generate", "Makes a building that is hard to localize in");
   for (const bim::GeneratorRow& row : bim::generators()) options->families.push_back(add_family(line, row, options));
+  options->furnish.push_back(add_furnish(line, options));
   // A name that is no family is refused by the action, which lists the families.
   line.option("FAMILY", options->unknown_family).hidden();
   line.takes_command_or_any("FAMILY");

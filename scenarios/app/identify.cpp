@@ -54,7 +54,7 @@ void refuse_given(const std::vector<Argument>& others, const std::string& why) {
 }
 
 int identify_scenario(const IdentifyOptions& options, int threads) {
-  const std::vector<WalkAnswers> walks = localizability_of_walks(options.building, options.seeds, threads);
+  const std::vector<SeedAnswers> walks = localizability_of_walks(options.building, options.seeds, threads);
   const std::string text = options.json ? write_json(walks_json(walks)) + "\n" : walks_text(walks);
   std::fwrite(text.data(), 1, text.size(), stdout);
   return 0;
@@ -77,15 +77,15 @@ int identify(const IdentifyOptions& options) {
   if (!options.storey.empty()) map_options.storey = options.storey;
   map_options.threads = threads;
   catch_interrupts();
-  const BuildingMap map = map_of(building, map_options);
+  const BuildingMaps maps = maps_of(building, map_options);
   if (!page.empty()) {
     const std::filesystem::path folder = std::filesystem::path(page).parent_path();
     std::error_code error;
     if (!folder.empty()) std::filesystem::create_directories(folder, error);
-    write_file(page, localizability_page(building, std::filesystem::path(options.building).filename().string(), map));
+    write_file(page, localizability_page(building, std::filesystem::path(options.building).filename().string(), maps));
   }
   const std::string text =
-      options.json ? write_json(localizability_json(building, map)) + "\n" : localizability_text(building, map);
+      options.json ? write_json(localizability_json(building, maps)) + "\n" : localizability_text(building, maps);
   std::fwrite(text.data(), 1, text.size(), stdout);
   return 0;
 }
@@ -112,6 +112,7 @@ Command add_identify(CommandLine& program) {
                                .range(1, 100000)
                                .shows_default()};
   line.footer(
+      "Answers by the building alone, and with the furniture as planned where there is any.\n"
       "Example: plumbline identify house.plan.yaml -o house.html\n"
       "         plumbline identify scenario.yaml --seeds 100");
   return {line, [options] { return identify(*options); }};

@@ -4,6 +4,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace plumbline::scenarios {
 
@@ -41,20 +42,42 @@ PlaneFit fit_planes(const std::vector<Eigen::Vector3d>& directions, const RangeI
 
 }  // namespace
 
-AliasFinder::AliasFinder(const PlaceIndex& index, const bim::RayScene& as_planned, const bim::RayScene& as_built)
+AliasFinder::AliasFinder(const PlaceIndex& index, const bim::RayScene& as_planned, const bim::RayScene& as_built,
+                         std::span<const char> loose)
     : index_(index),
       as_planned_(as_planned),
       as_built_(as_built),
+      loose_(loose),
       coarse_(localizability_constants.refine_azimuths, localizability_constants.refine_elevations_deg) {}
 
+bool AliasFinder::is_loose(int element) const {
+  return element >= 0 && !loose_.empty() && loose_[static_cast<std::size_t>(element)] != 0;
+}
+
 ReferenceScan AliasFinder::scan_at(const SensorPose& place) const {
-  ReferenceScan scan{place, imager_.cast(as_built_, place).range_m, 0.0};
-  if (&as_built_ != &as_planned_) scan.own = imager_.cost(scan.range_m, imager_.cast(as_planned_, place).range_m);
+  RangeImage seen = imager_.cast(as_built_, place);
+  ReferenceScan scan{place, std::move(seen.range_m), {}, {}};
+  if (&as_built_ == &as_planned_) return scan;
+  scan.predicted_m = imager_.cast(as_planned_, place).range_m;
+  if (!loose_.empty())
+    for (const int element : seen.element) scan.loose.push_back(is_loose(element));
   return scan;
 }
 
+double AliasFinder::evidence(const ReferenceScan& scan, std::size_t beam, double other_m) const {
+  const double own_m = scan.predicted_m.empty() ? scan.range_m[beam] : scan.predicted_m[beam];
+  return beam_evidence(scan.range_m[beam], own_m, other_m, !scan.loose.empty() && scan.loose[beam]);
+}
+
 double AliasFinder::llr(const ReferenceScan& scan, const SensorPose& other) const {
-  return imager_.cost(scan.range_m, imager_.cast(as_planned_, other).range_m) - scan.own;
+  const std::vector<double> expected = imager_.cast(as_planned_, other).range_m;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    const double own_m = scan.predicted_m.empty() ? scan.range_m[i] : scan.predicted_m[i];
+    sum += beam_evidence(as_planned_, other, imager_.directions()[i], scan.range_m[i], own_m, expected[i],
+                         !scan.loose.empty() && scan.loose[i]);
+  }
+  return sum;
 }
 
 bool AliasFinder::clearly_different(const ReferenceScan& scan, const SensorPose& other) const {
@@ -68,8 +91,17 @@ bool AliasFinder::clearly_different(const ReferenceScan& scan, const SensorPose&
   std::vector<bim::Hit> hits(rays.size());
   as_planned_.cast(rays, localizability_constants.range_max_m, hits);
   double sum = 0.0;
-  for (std::size_t i = 0; i < hits.size(); ++i) sum += beam_cost(scan.range_m[4 * n + i * stride], hits[i].range_m);
-  return sum * 8.0 * stride - scan.own > sure * localizability_constants.drop_llr;
+  for (std::size_t i = 0; i < hits.size(); ++i) sum += evidence(scan, 4 * n + i * stride, hits[i].range_m);
+  return sum * 8.0 * stride > sure * localizability_constants.drop_llr;
+}
+
+std::vector<AliasFinder::View> AliasFinder::views_of(const SensorPose& place) const {
+  const auto view = [&](const bim::RayScene& scene) {
+    return View{signature_of(index_.imager(), scene, place.position_W), coarse_.cast(scene, place)};
+  };
+  // The plan's first: where it is symmetric, its aliases are exact, whatever stands about.
+  if (&as_built_ == &as_planned_) return {view(as_built_)};
+  return {view(as_planned_), view(as_built_)};
 }
 
 bool AliasFinder::refine(const RangeImage& seen, SensorPose& place) const {
@@ -95,38 +127,38 @@ bool AliasFinder::refine(const RangeImage& seen, SensorPose& place) const {
 
 std::vector<FoundAlias> AliasFinder::find(const ReferenceScan& scan, const AliasSearch& search,
                                           std::span<const SensorPose> known) const {
-  const RangeImage seen = coarse_.cast(as_built_, scan.place);
-  const Signature signature = signature_of(index_.imager(), as_built_, scan.place.position_W);
   std::vector<SensorPose> taken(known.begin(), known.end());
   taken.push_back(scan.place);
-  std::vector<SensorPose> tried;
   std::vector<FoundAlias> aliases;
   const auto near_any = [](const std::vector<SensorPose>& places, const SensorPose& place, double metres,
                            double degrees) {
     return std::any_of(places.begin(), places.end(),
                        [&](const SensorPose& other) { return same_pose(place, other, metres, degrees); });
   };
-  int in_vain = 0;
-  for (SensorPose place : index_.like(signature, scan.place.yaw, search.storey, search.yaw_known)) {
-    if (near_any(taken, place, localizability_constants.basin_m, localizability_constants.basin_deg) ||
-        near_any(tried, place, 0.5 * localizability_constants.basin_m, 0.5 * localizability_constants.basin_deg))
-      continue;
-    if (++in_vain > localizability_constants.give_up_after) break;
-    const bool sound = refine(seen, place);
-    tried.push_back(place);
-    if (!sound) continue;
-    if (search.yaw_known &&
-        std::abs(wrap_angle(place.yaw - scan.place.yaw)) > localizability_constants.known_yaw_deg * rad_per_deg)
-      continue;
-    if (same_pose(place, scan.place, localizability_constants.distinct_m, localizability_constants.distinct_deg) ||
-        near_any(taken, place, 0.3, 6.0))
-      continue;
-    if (clearly_different(scan, place)) continue;
-    const double llr = this->llr(scan, place);
-    if (llr > localizability_constants.drop_llr) continue;
-    taken.push_back(place);
-    in_vain = 0;
-    aliases.push_back({place, llr});
+  for (const View& view : views_of(scan.place)) {
+    std::vector<SensorPose> tried;
+    int in_vain = 0;
+    for (SensorPose place : index_.like(view.signature, scan.place.yaw, search.storey, search.yaw_known)) {
+      if (near_any(taken, place, localizability_constants.basin_m, localizability_constants.basin_deg) ||
+          near_any(tried, place, 0.5 * localizability_constants.basin_m, 0.5 * localizability_constants.basin_deg))
+        continue;
+      if (++in_vain > localizability_constants.give_up_after) break;
+      const bool sound = refine(view.image, place);
+      tried.push_back(place);
+      if (!sound) continue;
+      if (search.yaw_known &&
+          std::abs(wrap_angle(place.yaw - scan.place.yaw)) > localizability_constants.known_yaw_deg * rad_per_deg)
+        continue;
+      if (same_pose(place, scan.place, localizability_constants.distinct_m, localizability_constants.distinct_deg) ||
+          near_any(taken, place, 0.3, 6.0))
+        continue;
+      if (clearly_different(scan, place)) continue;
+      const double llr = this->llr(scan, place);
+      if (llr > localizability_constants.drop_llr) continue;
+      taken.push_back(place);
+      in_vain = 0;
+      aliases.push_back({place, llr});
+    }
   }
   return aliases;
 }

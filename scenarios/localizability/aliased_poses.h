@@ -11,14 +11,15 @@ namespace plumbline::scenarios {
 /// The scan at a pose in the building as built, and how well the plan explains it there.
 struct ReferenceScan {
   SensorPose place;
-  std::vector<double> range_m;  ///< of RangeImager's default beams
-  double own = 0.0;             ///< cost of the plan's range image at the pose itself
+  std::vector<double> range_m;      ///< of RangeImager's default beams
+  std::vector<double> predicted_m;  ///< by the plan at the pose itself; empty where it is what was built
+  std::vector<bool> loose;          ///< beams that end on what may have moved; empty: none
 };
 
 /// A pose at which the plan explains a scan nearly as well as at its own.
 struct FoundAlias {
   SensorPose place;
-  double llr = 0.0;  ///< of the scan: cost there less the scan's own; at most drop_llr
+  double llr = 0.0;  ///< of the scan; at most drop_llr
 };
 
 /// Which storeys and headings an alias may have.
@@ -29,9 +30,13 @@ struct AliasSearch {
 
 /// Looks for poses that a scan cannot tell from its own, docs/methods/localizability.md: candidates by signature,
 /// refined on planes, judged by the log-likelihood ratio. Everything must outlive it. May be used by several threads.
+/// Where plan and building differ, what the plan predicts at the pose is searched for besides what is seen there:
+/// things that stand about hide what looks alike. `loose`: elements as built that may have moved and do not stand as
+/// planned.
 class AliasFinder {
  public:
-  AliasFinder(const PlaceIndex& index, const bim::RayScene& as_planned, const bim::RayScene& as_built);
+  AliasFinder(const PlaceIndex& index, const bim::RayScene& as_planned, const bim::RayScene& as_built,
+              std::span<const char> loose = {});
 
   [[nodiscard]] ReferenceScan scan_at(const SensorPose& place) const;
   /// Log-likelihood ratio of the pose of a scan over another pose.
@@ -43,11 +48,20 @@ class AliasFinder {
                                              std::span<const SensorPose> known = {}) const;
 
  private:
+  /// A view of the scan's place by which aliases are looked for.
+  struct View {
+    Signature signature;
+    RangeImage image;  ///< of the coarse beams
+  };
+  [[nodiscard]] std::vector<View> views_of(const SensorPose& place) const;
+  [[nodiscard]] bool is_loose(int element) const;
+  [[nodiscard]] double evidence(const ReferenceScan& scan, std::size_t beam, double other_m) const;
   [[nodiscard]] bool refine(const RangeImage& seen, SensorPose& place) const;
 
   const PlaceIndex& index_;
   const bim::RayScene& as_planned_;
   const bim::RayScene& as_built_;
+  std::span<const char> loose_;
   RangeImager imager_;
   RangeImager coarse_;
 };

@@ -54,13 +54,14 @@ Tree conditions(const BuildingMap& map, const std::function<bool(const MapCell&)
 
 std::string name_of(const bim::Storey& storey) { return storey.name.empty() ? storey.id : storey.name; }
 
-BuildingMap map_of(const RunBuilding& building, const BuildingMapOptions& options) {
+BuildingMap map_of(const RunBuilding& building, const BuildingMapOptions& options, PlanEvidence by) {
   BuildingMap result;
   result.options = options;
-  const VisibleBuilding visible = visible_building(building);
+  const VisibleBuilding visible = visible_building(building, by);
   LocalizabilityMapInput input;
   input.as_planned = &visible.planned.scene;
   input.as_built = &visible.as_built().scene;
+  input.loose = visible.loose;
   input.step_m = options.step_m;
   input.across = options.across;
   input.compass_only = options.compass_only;
@@ -73,6 +74,12 @@ BuildingMap map_of(const RunBuilding& building, const BuildingMapOptions& option
   input.floors = result.floors;
   result.map = compute_localizability_map(input);
   return result;
+}
+
+BuildingMaps maps_of(const RunBuilding& building, const BuildingMapOptions& options) {
+  BuildingMaps maps{map_of(building, options, PlanEvidence::building), std::nullopt};
+  if (building.plans_movables()) maps.with_furniture = map_of(building, options, PlanEvidence::with_furniture);
+  return maps;
 }
 
 MapShare share_of(const BuildingMap& map, bool compass, const std::function<bool(const MapCell&)>& of) {
@@ -98,10 +105,10 @@ MapShare share_of(const BuildingMap& map, bool compass, const std::function<bool
   return share;
 }
 
-Tree localizability_json(const RunBuilding& building, const BuildingMap& map) {
-  const bim::Building& plan = building.as_planned();
-  Tree tree = Tree::map();
-  tree.set("step_m", map.options.step_m).set("across", map.options.across);
+namespace {
+
+/// Sets the answers of storeys, rooms and cells.
+void set_answers(const bim::Building& plan, const BuildingMap& map, Tree& tree) {
   Tree storeys = Tree::list(), rooms = Tree::list(), cells = Tree::list();
   for (std::size_t f = 0; f < map.floors.size(); ++f)
     storeys.push(Tree::map()
@@ -122,10 +129,10 @@ Tree localizability_json(const RunBuilding& building, const BuildingMap& map) {
     one.set("compass", tree_of(cell.compass));
     cells.push(std::move(one));
   }
-  return tree.set("storeys", storeys).set("rooms", rooms).set("cells", cells);
+  tree.set("storeys", storeys).set("rooms", rooms).set("cells", cells);
 }
 
-std::string localizability_text(const RunBuilding& building, const BuildingMap& map) {
+std::string table_of(const RunBuilding& building, const BuildingMap& map) {
   std::string text = "storey                 heading   places  one look      walk (median, longest)   never\n";
   for (std::size_t f = 0; f < map.floors.size(); ++f)
     for (const bool compass : {false, true}) {
@@ -141,6 +148,24 @@ std::string localizability_text(const RunBuilding& building, const BuildingMap& 
       text += line;
     }
   return text;
+}
+
+}  // namespace
+
+Tree localizability_json(const RunBuilding& building, const BuildingMaps& maps) {
+  Tree tree = Tree::map();
+  tree.set("step_m", maps.building.options.step_m).set("across", maps.building.options.across);
+  set_answers(building.as_planned(), maps.building, tree);
+  if (!maps.with_furniture) return tree;
+  Tree with_furniture = Tree::map();
+  set_answers(building.as_planned(), *maps.with_furniture, with_furniture);
+  return tree.set("with_furniture", std::move(with_furniture));
+}
+
+std::string localizability_text(const RunBuilding& building, const BuildingMaps& maps) {
+  std::string text = "By the building alone:\n" + table_of(building, maps.building);
+  if (!maps.with_furniture) return text + "Nothing in the plan may have moved.\n";
+  return text + "With the furniture as planned:\n" + table_of(building, *maps.with_furniture);
 }
 
 }  // namespace plumbline::scenarios

@@ -27,7 +27,15 @@ struct BuildingMap {
 };
 
 /// Where the pose can be known from LiDAR scans of the building as built and its plan. Throws InputError.
-[[nodiscard]] BuildingMap map_of(const RunBuilding& building, const BuildingMapOptions& options);
+[[nodiscard]] BuildingMap map_of(const RunBuilding& building, const BuildingMapOptions& options,
+                                 PlanEvidence by = PlanEvidence::building);
+
+/// Both answers for a building.
+struct BuildingMaps {
+  BuildingMap building;                       ///< by what was built alone
+  std::optional<BuildingMap> with_furniture;  ///< absent where nothing planned may have moved: the same
+};
+[[nodiscard]] BuildingMaps maps_of(const RunBuilding& building, const BuildingMapOptions& options);
 
 /// Shares of the cells of a floor or a room by how the pose can be known there.
 struct MapShare {
@@ -46,9 +54,9 @@ struct MapShare {
 [[nodiscard]] std::string name_of(const bim::Storey& storey);
 
 /// identify --json: {step_m, across, storeys: [{id, unknown: {cells, one_look, walk, never, ...}, compass: {...}}],
-/// rooms: [...], cells: [...]}
-[[nodiscard]] Tree localizability_json(const RunBuilding& building, const BuildingMap& map);
-/// A line a storey and condition.
-[[nodiscard]] std::string localizability_text(const RunBuilding& building, const BuildingMap& map);
+/// rooms: [...], cells: [...]} by the building alone; the same lists again in with_furniture, where that differs.
+[[nodiscard]] Tree localizability_json(const RunBuilding& building, const BuildingMaps& maps);
+/// A table an answer, a line a storey and condition.
+[[nodiscard]] std::string localizability_text(const RunBuilding& building, const BuildingMaps& maps);
 
 }  // namespace plumbline::scenarios

@@ -10,6 +10,7 @@
 #include "bim/errors.h"
 #include "bim/geometry/grid_frame.h"
 #include "bim/mesh/visible.h"
+#include "bim/model/permanence.h"
 #include "sim/route/route.h"
 #include "sim/world.h"
 
@@ -101,17 +102,65 @@ std::vector<FloorLink> links_of(const Floor& floor, const Surroundings& s) {
   return links;
 }
 
-VisibleScene visible_scene(const bim::Building& building, const bim::BuildingMesh& mesh) {
+bool is_movable(const bim::Building& building, const bim::MeshElement& element) {
+  return element.kind == bim::ElementKind::obstacle &&
+         bim::may_have_moved(building.obstacles[static_cast<std::size_t>(element.index)]);
+}
+
+/// The mesh without what may have moved; elements keep their numbers.
+bim::BuildingMesh without_movables(const bim::Building& building, const bim::BuildingMesh& mesh) {
+  bim::BuildingMesh kept{mesh.vertices, {}, {}, mesh.elements, mesh.warnings};
+  for (bim::MeshElement& element : kept.elements) {
+    const int first = element.first_triangle;
+    element.first_triangle = static_cast<int>(kept.triangles.size());
+    if (is_movable(building, element)) element.triangle_count = 0;
+    const auto from = mesh.triangles.begin() + first;
+    kept.triangles.insert(kept.triangles.end(), from, from + element.triangle_count);
+    const auto number = static_cast<int>(&element - kept.elements.data());
+    kept.element.insert(kept.element.end(), static_cast<std::size_t>(element.triangle_count), number);
+  }
+  return kept;
+}
+
+VisibleScene visible_scene(const bim::BuildingMesh& visible) {
   std::vector<std::string> elements;
-  for (const bim::MeshElement& element : mesh.elements) elements.push_back(element.id);
-  return {bim::RayScene(bim::visible_mesh(building, mesh)), std::move(elements)};
+  for (const bim::MeshElement& element : visible.elements) elements.push_back(element.id);
+  return {bim::RayScene(visible), std::move(elements)};
+}
+
+/// What may have moved, by id.
+std::map<std::string, const bim::Obstacle*> movables_of(const bim::Building& building) {
+  std::map<std::string, const bim::Obstacle*> found;
+  for (const bim::Obstacle& obstacle : building.obstacles)
+    if (bim::may_have_moved(obstacle)) found.emplace(obstacle.id, &obstacle);
+  return found;
+}
+
+std::vector<char> loose_elements(const RunBuilding& building, PlanEvidence by) {
+  std::map<std::string, const bim::Obstacle*> counted;
+  if (by == PlanEvidence::with_furniture) counted = movables_of(building.as_planned());
+  const bim::Building& as_built = building.as_built();
+  std::vector<char> loose;
+  for (const bim::MeshElement& element : building.mesh_as_built().elements) {
+    const auto planned = counted.find(element.id);
+    const bool stands =
+        planned != counted.end() && element.kind == bim::ElementKind::obstacle &&
+        planned->second->body.vertices == as_built.obstacles[static_cast<std::size_t>(element.index)].body.vertices;
+    loose.push_back(is_movable(as_built, element) && !stands ? 1 : 0);
+  }
+  return loose;
 }
 
 }  // namespace
 
-VisibleBuilding visible_building(const RunBuilding& building) {
-  VisibleBuilding visible{visible_scene(building.as_planned(), building.mesh_as_planned()), std::nullopt};
-  if (building.deviates()) visible.built.emplace(visible_scene(building.as_built(), building.mesh_as_built()));
+VisibleBuilding visible_building(const RunBuilding& building, PlanEvidence by) {
+  const bim::BuildingMesh planned = bim::visible_mesh(building.as_planned(), building.mesh_as_planned());
+  const bool leaves_out = by == PlanEvidence::building && building.plans_movables();
+  VisibleBuilding visible{
+      visible_scene(leaves_out ? without_movables(building.as_planned(), planned) : planned), std::nullopt, {}};
+  if (!building.deviates() && !leaves_out) return visible;
+  visible.built.emplace(visible_scene(bim::visible_mesh(building.as_built(), building.mesh_as_built())));
+  visible.loose = loose_elements(building, by);
   return visible;
 }
 

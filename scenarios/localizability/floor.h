@@ -18,14 +18,21 @@ struct VisibleScene {
   std::vector<std::string> elements;  ///< ids, by the element of a hit
 };
 
-/// The building as planned and as built.
+/// By what of a plan a pose is asked for.
+enum class PlanEvidence {
+  building,       ///< by what was built: the plan without what may have moved
+  with_furniture  ///< by the plan as it is
+};
+
+/// The building as planned, as far as it counts, and as built, with everything.
 struct VisibleBuilding {
   VisibleScene planned;
-  std::optional<VisibleScene> built;  ///< absent where nothing deviates from the plan
+  std::optional<VisibleScene> built;  ///< absent where it is the same
+  std::vector<char> loose;            ///< by element as built: it may have moved and does not stand as planned
 
   [[nodiscard]] const VisibleScene& as_built() const { return built ? *built : planned; }
 };
-[[nodiscard]] VisibleBuilding visible_building(const RunBuilding& building);
+[[nodiscard]] VisibleBuilding visible_building(const RunBuilding& building, PlanEvidence by = PlanEvidence::building);
 
 /// Box around the walls of a storey, with the sensor's height over its floor.
 [[nodiscard]] SearchArea search_area(const bim::Building& building, std::size_t storey);

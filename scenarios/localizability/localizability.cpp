@@ -45,7 +45,10 @@ void compare(const LocalizabilityInput& input, const SensorPose& truth, std::vec
     const Pose X = one.alias.transform * truth.pose();
     const RangeImage expected = imager.cast(*input.as_planned, {X.t, X.yaw()});
     for (std::size_t i = 0; i < seen.range_m.size(); ++i) {
-      const double gain = beam_cost(seen.range_m[i], expected.range_m[i]) - beam_cost(seen.range_m[i], own.range_m[i]);
+      const bool loose =
+          !input.loose.empty() && seen.element[i] >= 0 && input.loose[static_cast<std::size_t>(seen.element[i])] != 0;
+      const double gain = beam_evidence(*input.as_planned, {X.t, X.yaw()}, imager.directions()[i], seen.range_m[i],
+                                        own.range_m[i], expected.range_m[i], loose);
       if (gain == 0.0) continue;
       one.alias.llr += gain;
       // Of two surfaces the nearer one is the feature: it stands before the other, or would.
@@ -112,7 +115,7 @@ std::optional<double> RunIdentifiability::marginal_from_s() const {
 RunIdentifiability compute_localizability(const LocalizabilityInput& input, const std::vector<TruthSample>& truth) {
   RunIdentifiability run;
   const PlaceIndex index(*input.as_planned, input.storeys, localizability_constants.grid_m, input.threads);
-  const AliasFinder finder(index, *input.as_planned, *input.as_built);
+  const AliasFinder finder(index, *input.as_planned, *input.as_built, input.loose);
   std::vector<Followed> followed;
   for (const auto& [walked, sample] : stations(truth)) {
     const SensorPose place = levelled(sample->X_WR, sample->sensor_z_W);

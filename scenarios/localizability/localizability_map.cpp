@@ -13,7 +13,7 @@ namespace plumbline::scenarios {
 
 namespace {
 
-constexpr std::size_t most_cells = 10000;  ///< a scan is 23 kB
+constexpr std::size_t most_cells = 10000;  ///< a scan is 23 kB, twice that where plan and building differ
 constexpr std::size_t most_ratios = std::size_t{1} << 27U;
 constexpr std::size_t block = 64;  ///< cells between two moments at which isometries are shared
 constexpr double height_m = 1e-3;  ///< heights of sensors on one storey differ by less
@@ -25,7 +25,7 @@ class Mapper {
       : input_(input),
         index_(*input.as_planned, input.storeys, std::min(input.step_m, localizability_constants.grid_m),
                input.threads),
-        finder_(index_, *input.as_planned, *input.as_built) {
+        finder_(index_, *input.as_planned, *input.as_built, input.loose) {
     for (std::size_t f = 0; f < input.floors.size(); ++f)
       for (const Eigen::Vector2d& p : input.floors[f].cells_W) map_.cells.push_back({f, p, {}, {}, {}});
     if (map_.cells.size() > most_cells)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "scenarios/localizability/floor.h"
@@ -11,6 +12,7 @@ namespace plumbline::scenarios {
 struct LocalizabilityMapInput {
   const bim::RayScene* as_planned = nullptr;
   const bim::RayScene* as_built = nullptr;
+  std::span<const char> loose;      ///< as in LocalizabilityInput
   std::vector<SearchArea> storeys;  ///< of the building, all
   std::vector<Floor> floors;        ///< those asked about
   double step_m = 0.5;              ///< of the floors' cells

@@ -75,6 +75,7 @@ LocalizabilityInput input_of(const ResolvedScenario& resolved, int storey, const
   LocalizabilityInput input;
   input.as_planned = &visible.planned.scene;
   input.as_built = &visible.as_built().scene;
+  input.loose = visible.loose;
   const bim::Building& plan = resolved.building->as_planned();
   for (std::size_t i = 0; i < plan.storeys.size(); ++i)
     if (static_cast<int>(i) == storey || resolved.scenario.prior.storey == Knowledge::unknown)
@@ -85,16 +86,12 @@ LocalizabilityInput input_of(const ResolvedScenario& resolved, int storey, const
   return input;
 }
 
-WalkAnswers answer(const std::string& scenario, std::uint64_t seed) {
-  Overrides overrides;
-  overrides.seed = seed;
-  overrides.methods = std::vector<std::string>{"truth"};
-  const ResolvedScenario resolved = resolve(scenario, overrides);
-  const VisibleBuilding visible = visible_building(*resolved.building);
+WalkAnswers answer_by(const ResolvedScenario& resolved, PlanEvidence by) {
+  const VisibleBuilding visible = visible_building(*resolved.building, by);
   LocalizabilityInput input = input_of(resolved, resolved.world.storey, visible);
   const std::vector<TruthSample> walk = planned_walk(resolved);
   WalkAnswers answers;
-  answers.seed = seed;
+  answers.seed = resolved.scenario.seed;
   answers.unknown = compute_localizability(input, walk);
   input.yaw_known = true;
   answers.compass = compute_localizability(input, walk);
@@ -102,6 +99,16 @@ WalkAnswers answer(const std::string& scenario, std::uint64_t seed) {
   const std::vector<TruthSample> after = planned_walk_after(resolved);
   if (!after.empty())
     answers.set_down = compute_localizability(input_of(resolved, resolved.world_after->storey, visible), after);
+  return answers;
+}
+
+SeedAnswers answer(const std::string& scenario, std::uint64_t seed) {
+  Overrides overrides;
+  overrides.seed = seed;
+  overrides.methods = std::vector<std::string>{"truth"};
+  const ResolvedScenario resolved = resolve(scenario, overrides);
+  SeedAnswers answers{answer_by(resolved, PlanEvidence::building), std::nullopt};
+  if (resolved.building->plans_movables()) answers.with_furniture = answer_by(resolved, PlanEvidence::with_furniture);
   return answers;
 }
 
@@ -118,6 +125,11 @@ Tree tree_of(const RunIdentifiability& run) {
   return tree;
 }
 
+void set_answers(const WalkAnswers& walk, Tree& tree) {
+  tree.set("unknown", tree_of(walk.unknown)).set("compass", tree_of(walk.compass));
+  if (walk.set_down) tree.set("set_down", tree_of(*walk.set_down));
+}
+
 }  // namespace
 
 std::vector<TruthSample> planned_walk(const ResolvedScenario& resolved) { return walk_in(resolved.world); }
@@ -130,17 +142,18 @@ std::vector<TruthSample> planned_walk_after(const ResolvedScenario& resolved) {
   return walk_in(world);
 }
 
-std::vector<WalkAnswers> localizability_of_walks(const std::string& scenario, int seeds, int threads) {
-  std::vector<WalkAnswers> walks(static_cast<std::size_t>(std::max(seeds, 0)));
+std::vector<SeedAnswers> localizability_of_walks(const std::string& scenario, int seeds, int threads) {
+  std::vector<SeedAnswers> walks(static_cast<std::size_t>(std::max(seeds, 0)));
   for_each_index(walks.size(), threads, [&](std::size_t i) { walks[i] = answer(scenario, i + 1); });
   return walks;
 }
 
-WalkSummary summary_of(const std::vector<WalkAnswers>& walks, WalkPart part) {
+WalkSummary summary_of(const std::vector<SeedAnswers>& walks, WalkPart part, PlanEvidence by) {
   WalkSummary summary;
   std::vector<double> at_s, at_m;
-  for (const WalkAnswers& walk : walks) {
-    const RunIdentifiability* run = part_of(walk, part);
+  for (const SeedAnswers& walk : walks) {
+    const bool other = by == PlanEvidence::with_furniture && walk.with_furniture;
+    const RunIdentifiability* run = part_of(other ? *walk.with_furniture : walk.building, part);
     if (run == nullptr) continue;
     ++summary.walks;
     if (!run->identifiable) continue;
@@ -154,8 +167,9 @@ WalkSummary summary_of(const std::vector<WalkAnswers>& walks, WalkPart part) {
   return summary;
 }
 
-std::string walks_text(const std::vector<WalkAnswers>& walks) {
-  std::string text = "heading    walks  identifiable   at once   median s   median m\n";
+std::string walks_text(const std::vector<SeedAnswers>& walks) {
+  const WalkSummary after = summary_of(walks, WalkPart::set_down);
+  std::string text;
   const auto add = [&](const char* name, const WalkSummary& s) {
     char line[160];
     std::snprintf(line, sizeof line, "%-8s %7d %12.0f %% %7.0f %% ", name, s.walks,
@@ -164,23 +178,34 @@ std::string walks_text(const std::vector<WalkAnswers>& walks) {
     std::snprintf(line, sizeof line, "%10.1f %10.1f\n", s.median_at_s, s.median_at_m);
     text += s.identifiable > 0 ? line : "         -          -\n";
   };
-  add("unknown", summary_of(walks, WalkPart::unknown));
-  add("compass", summary_of(walks, WalkPart::compass));
-  const WalkSummary after = summary_of(walks, WalkPart::set_down);
+  const auto add_table = [&](const char* title, PlanEvidence by) {
+    text += std::string(title) + "\nheading    walks  identifiable   at once   median s   median m\n";
+    add("unknown", summary_of(walks, WalkPart::unknown, by));
+    add("compass", summary_of(walks, WalkPart::compass, by));
+    if (after.walks > 0) add("set down", summary_of(walks, WalkPart::set_down, by));
+  };
+  add_table("By the building alone:", PlanEvidence::building);
+  if (std::any_of(walks.begin(), walks.end(), [](const SeedAnswers& walk) { return walk.with_furniture.has_value(); }))
+    add_table("With the furniture as planned:", PlanEvidence::with_furniture);
+  else
+    text += "Nothing in the plan may have moved.\n";
   if (after.walks == 0) return text;
-  add("set down", after);
   return text +
          "The robot is kidnapped on its way: unknown and compass are of the walk before, set down is of the walk "
          "after,\ncounted from where it is set down, with the heading unknown.\n";
 }
 
-Tree walks_json(const std::vector<WalkAnswers>& walks) {
+Tree walks_json(const std::vector<SeedAnswers>& walks) {
   Tree list = Tree::list();
-  for (const WalkAnswers& walk : walks) {
+  for (const SeedAnswers& walk : walks) {
     Tree tree = Tree::map();
-    tree.set("seed", std::to_string(walk.seed)).set("length_m", walk.length_m);
-    tree.set("unknown", tree_of(walk.unknown)).set("compass", tree_of(walk.compass));
-    if (walk.set_down) tree.set("set_down", tree_of(*walk.set_down));
+    tree.set("seed", std::to_string(walk.building.seed)).set("length_m", walk.building.length_m);
+    set_answers(walk.building, tree);
+    if (walk.with_furniture) {
+      Tree other = Tree::map();
+      set_answers(*walk.with_furniture, other);
+      tree.set("with_furniture", std::move(other));
+    }
     list.push(std::move(tree));
   }
   return Tree::map().set("walks", std::move(list));

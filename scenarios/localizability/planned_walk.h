@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "scenarios/localizability/floor.h"
 #include "scenarios/localizability/localizability.h"
 #include "scenarios/spec/resolve.h"
 
@@ -26,8 +27,14 @@ struct WalkAnswers {
   std::optional<RunIdentifiability> set_down;
 };
 
+/// The same by the building alone and with the furniture as planned.
+struct SeedAnswers {
+  WalkAnswers building;
+  std::optional<WalkAnswers> with_furniture;  ///< absent where nothing planned may have moved: the same
+};
+
 /// The answers of the seeds 1 to `seeds` of a scenario file.
-[[nodiscard]] std::vector<WalkAnswers> localizability_of_walks(const std::string& scenario, int seeds, int threads);
+[[nodiscard]] std::vector<SeedAnswers> localizability_of_walks(const std::string& scenario, int seeds, int threads);
 
 /// How many walks end with one place left, at once or later, and when.
 struct WalkSummary {
@@ -38,9 +45,13 @@ struct WalkSummary {
   double median_at_m = 0.0;
 };
 enum class WalkPart { unknown, compass, set_down };
-[[nodiscard]] WalkSummary summary_of(const std::vector<WalkAnswers>& walks, WalkPart part);
+[[nodiscard]] WalkSummary summary_of(const std::vector<SeedAnswers>& walks, WalkPart part,
+                                     PlanEvidence by = PlanEvidence::building);
 
-[[nodiscard]] std::string walks_text(const std::vector<WalkAnswers>& walks);
-[[nodiscard]] Tree walks_json(const std::vector<WalkAnswers>& walks);
+/// A table an answer.
+[[nodiscard]] std::string walks_text(const std::vector<SeedAnswers>& walks);
+/// {walks: [{seed, length_m, unknown, compass, set_down}]} by the building alone; with_furniture has the last three
+/// again where they differ.
+[[nodiscard]] Tree walks_json(const std::vector<SeedAnswers>& walks);
 
 }  // namespace plumbline::scenarios

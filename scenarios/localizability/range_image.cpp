@@ -53,6 +53,29 @@ double beam_cost(double seen_m, double expected_m) {
   return 0.5 * (std::isfinite(dr) ? std::min(dr * dr / variance, cap) : cap) / localizability_constants.correlation;
 }
 
+double beam_evidence(double seen_m, double own_m, double other_m, bool loose) {
+  const double own = beam_cost(seen_m, own_m), other = beam_cost(seen_m, other_m);
+  if (!loose) return other - own;
+  const double own_passed = seen_m > own_m ? own : 0.0, other_passed = seen_m > other_m ? other : 0.0;
+  return std::max(other_passed - own_passed, 0.0) + std::min(other - own, 0.0);
+}
+
+double beam_evidence(const bim::RayScene& as_planned, const SensorPose& other, const Eigen::Vector3d& direction,
+                     double seen_m, double own_m, double other_m, bool loose) {
+  constexpr double negligible = 0.01;
+  double least = beam_evidence(seen_m, own_m, other_m, loose);
+  const double range = std::min(seen_m, other_m);
+  if (least < negligible || !std::isfinite(range)) return least;
+  const double turn = localizability_constants.model_sigma_m / std::max(range, 0.1);
+  const Eigen::Vector3d left = Eigen::Vector3d::UnitZ().cross(direction).normalized(), up = direction.cross(left);
+  for (const Eigen::Vector3d& side : {left, Eigen::Vector3d(-left), up, Eigen::Vector3d(-up)}) {
+    const Eigen::Vector3d beside = other.pose().q * (direction + turn * side).normalized();
+    const bim::Hit hit = as_planned.cast({other.position_W, beside, 0.0}, localizability_constants.range_max_m);
+    least = std::min(least, beam_evidence(seen_m, own_m, hit.range_m, loose));
+  }
+  return std::max(least, 0.0);
+}
+
 double RangeImager::cost(const std::vector<double>& seen, const std::vector<double>& expected) const {
   if (seen.size() != directions_.size() || expected.size() != directions_.size())
     throw InternalError("identify: views of another size");

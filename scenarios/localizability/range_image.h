@@ -44,4 +44,16 @@ class RangeImager {
 /// What one beam adds to RangeImager::cost.
 [[nodiscard]] double beam_cost(double seen_m, double expected_m);
 
+/// What one beam adds to the log-likelihood ratio of a pose, where the plan predicts own_m, over another, where it
+/// predicts other_m. `loose`: the beam ends on what may have moved and does not stand as planned. It then tells what
+/// the way up to there tells, that no face of the other pose stands in it; and its end never speaks for the pose, but
+/// may for the other.
+[[nodiscard]] double beam_evidence(double seen_m, double own_m, double other_m, bool loose);
+
+/// The same against what the plan predicts for a beam of the other pose, or next to that beam by what a plan leaves
+/// open: beside an edge either side of it may be seen.
+[[nodiscard]] double beam_evidence(const bim::RayScene& as_planned, const SensorPose& other,
+                                   const Eigen::Vector3d& direction, double seen_m, double own_m, double other_m,
+                                   bool loose);
+
 }  // namespace plumbline::scenarios

@@ -142,11 +142,26 @@ LocalizationVerdict judge_ambiguous(const std::optional<Course>& course, const B
   return last.state == slam::State::lost ? LocalizationVerdict::lost : LocalizationVerdict::late;
 }
 
-Evidence evidence_of(const Identifiability& known, const Truth& truth, const LocalizationRules& rules) {
+Evidence evidence_of(const IdentifiabilityAnswer& known, const Truth& truth, const LocalizationRules& rules) {
   if (!known.identifiable) return known.marginal_from_s ? Evidence::marginal : Evidence::ambiguous;
   const double left_s = slam::seconds(truth.scans.back() - truth.scans.front()) - known.at_s.value_or(0.0);
   const double left_m = truth.walked().back() - known.at_m.value_or(0.0);
   return left_s >= rules.hold_s && left_m >= rules.hold_m ? Evidence::unique : Evidence::marginal;
+}
+
+/// Sets what can be known by the building, and with the furniture besides.
+void set_identifiability(const Identifiability& known, const Truth& truth, const LocalizationRules& rules,
+                         LocalizationScore& score) {
+  score.identifiable = known.identifiable;
+  score.identifiable_at_s = known.at_s;
+  score.identifiable_at_m = known.at_m;
+  score.evidence = evidence_of(known, truth, rules);
+  if (!known.with_furniture) return;
+  const IdentifiabilityAnswer& other = *known.with_furniture;
+  score.with_furniture = WithFurniture{other.identifiable, evidence_of(other, truth, rules), other.at_s, other.at_m,
+                                       static_cast<int>(other.others_W.size())};
+  score.evidence_by_furniture = known.told_furniture && score.evidence == Evidence::ambiguous &&
+                                score.with_furniture->evidence == Evidence::unique;
 }
 
 /// What came of a kidnapping. Time in which the robot stands counts too.
@@ -185,6 +200,10 @@ std::string to_string(LocalizationVerdict verdict) {
   return names[static_cast<std::size_t>(verdict)];
 }
 
+bool is_sure_and_wrong(LocalizationVerdict verdict) {
+  return verdict == LocalizationVerdict::false_convergence || verdict == LocalizationVerdict::overconfident;
+}
+
 LocalizationScore score_localization(const Truth& truth, const std::vector<Belief>& beliefs,
                                      const std::optional<Identifiability>& identifiability,
                                      const LocalizationRules& rules) {
@@ -213,12 +232,7 @@ LocalizationScore score_localization(const Truth& truth, const std::vector<Belie
     held = slam::seconds(last.stamp - t) >= rules.hold_s &&
            walked_at(truth, last.stamp) - *score.converged_at_m >= rules.hold_m;
   }
-  if (identifiability) {
-    score.identifiable = identifiability->identifiable;
-    score.identifiable_at_s = identifiability->at_s;
-    score.identifiable_at_m = identifiability->at_m;
-    score.evidence = evidence_of(*identifiability, truth, rules);
-  }
+  if (identifiability) set_identifiability(*identifiability, truth, rules, score);
   // Where others are left but marginal, a single answer that stands to the end is judged as where none is.
   const bool answers_marginal = course && score.evidence == Evidence::marginal && last.state == slam::State::converged;
   const bool ambiguous = identifiability && !identifiability->others_W.empty() && !answers_marginal;

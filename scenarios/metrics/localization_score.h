@@ -42,9 +42,8 @@ struct DecidingElement {
   double share = 0.0;    ///< of the evidence
 };
 
-/// What can be known of the pose on this route, from scenarios/localizability. A run is scored without it where it has
-/// not been computed.
-struct Identifiability {
+/// What can be known of the pose on this route by one kind of evidence, from scenarios/localizability.
+struct IdentifiabilityAnswer {
   bool identifiable = false;
   std::optional<double> at_s;
   std::optional<double> at_m;
@@ -57,8 +56,17 @@ struct Identifiability {
   std::optional<DecidingElement> decided_by;
 };
 
+/// Both answers: by the building alone, which verdicts use, since what may have moved never makes a single answer right
+/// by itself; and with the furniture as planned. A run is scored without it where it has not been computed.
+struct Identifiability : IdentifiabilityAnswer {
+  std::optional<IdentifiabilityAnswer> with_furniture;  ///< absent where nothing planned may have moved: the same
+  bool told_furniture = true;                           ///< methods got the furniture as planned
+};
+
 enum class LocalizationVerdict { success, false_convergence, overconfident, honest_ambiguity, late, lost, lucky };
 [[nodiscard]] std::string to_string(LocalizationVerdict verdict);
+/// A single wrong answer, or one that nothing justified: false_convergence or overconfident.
+[[nodiscard]] bool is_sure_and_wrong(LocalizationVerdict verdict);
 
 /// What the plan allows to be known of a run's pose, docs/methods/localizability.md.
 enum class Evidence {
@@ -80,6 +88,15 @@ enum class Failure {
 };
 [[nodiscard]] std::string to_string(Failure failure);
 
+/// What the furniture as planned would allow to be known besides.
+struct WithFurniture {
+  bool identifiable = false;
+  Evidence evidence = Evidence::ambiguous;
+  std::optional<double> at_s;
+  std::optional<double> at_m;
+  int aliases = 0;  ///< left at the end
+};
+
 struct LocalizationScore {
   LocalizationVerdict verdict = LocalizationVerdict::late;
   slam::State state = slam::State::searching;  ///< at the end
@@ -92,6 +109,9 @@ struct LocalizationScore {
   std::optional<Evidence> evidence;
   std::optional<double> identifiable_at_s;
   std::optional<double> identifiable_at_m;
+  std::optional<WithFurniture> with_furniture;  ///< absent where nothing planned may have moved
+  /// Only furniture tells the poses apart, and the method was told of it: the building alone is ambiguous.
+  bool evidence_by_furniture = false;
   /// As ape_rmse_m, each pose held against the nearest of the true one and its aliases at the start: a small value
   /// beside a large ape_rmse_m means that an aliased pose was tracked.
   std::optional<double> aliased_error_rmse_m;

@@ -86,9 +86,17 @@ std::vector<MetricRow> make_rows() {
        field(&S::localization, &L::ape_rmse_m)},
       {"localization.yaw_rmse_deg", "deg", Better::lower, "RMS heading error of the same poses",
        field(&S::localization, &L::yaw_rmse_deg)},
+      {"localization.sure_and_wrong", "", Better::lower,
+       "1 where the verdict is false_convergence or overconfident, else 0",
+       [](const S& score) -> Value {
+         if (!score.localization) return std::nullopt;
+         return is_sure_and_wrong(score.localization->verdict) ? 1.0 : 0.0;
+       },
+       true},
       {"localization.hypotheses", "", Better::neither, "pose hypotheses after the last scan",
        field(&S::localization, &L::hypotheses)},
-      {"localization.identifiable_at_s", "s", Better::neither, "time from which on scans and plan determine the pose",
+      {"localization.identifiable_at_s", "s", Better::neither,
+       "time from which on scans and plan determine the pose, by the building alone",
        field(&S::localization, &L::identifiable_at_s)},
       {"localization.identifiable_at_m", "m", Better::neither, "distance walked until then",
        field(&S::localization, &L::identifiable_at_m)},
@@ -118,6 +126,17 @@ std::vector<MetricRow> make_rows() {
       {"localization.kidnap_found_m", "m", Better::lower, "distance walked from the kidnapping to that pose",
        field(&S::localization, &L::kidnap_found_m)},
   };
+}
+
+}  // namespace
+
+namespace {
+
+Tree to_results(const WithFurniture& known) {
+  Tree tree = Tree::map();
+  tree.set("identifiable", known.identifiable).set("evidence", to_string(known.evidence));
+  if (known.at_s) tree.set("at_s", *known.at_s).set("at_m", known.at_m.value());
+  return tree.set("twins", known.aliases);
 }
 
 }  // namespace
@@ -160,6 +179,9 @@ Tree to_results(const MethodScore& score) {
       block_of("localization").set("identifiable", *score.localization->identifiable);
     if (score.localization->evidence)
       block_of("localization").set("evidence", to_string(*score.localization->evidence));
+    if (score.localization->with_furniture)
+      block_of("localization").set("with_furniture", to_results(*score.localization->with_furniture));
+    if (score.localization->evidence_by_furniture) block_of("localization").set("evidence_by_furniture", true);
   }
   for (const MetricRow& row : metrics()) {
     const Value value = row.value(score);

@@ -41,6 +41,7 @@ struct MetricRow {
   Better better = Better::neither;
   std::string_view doc;  ///< one sentence without its full stop
   std::function<std::optional<double>(const MethodScore&)> value;
+  bool also_when_lost = false;  ///< a gate on it judges a method that is lost, too
 };
 
 /// Every metric, in the order of results.json. Adding a metric is adding a row.
@@ -61,8 +62,8 @@ struct GateResult {
   bool passed = false;
 };
 
-/// A gate fails also when its metric is absent, when its method crashed or covers less than the run, and when the
-/// run itself did not come to its end.
+/// A gate fails also when its metric is absent, when its method crashed or covers less than the run (where the metric
+/// is not also_when_lost), and when the run itself did not come to its end.
 [[nodiscard]] std::vector<GateResult> judge_gates(const std::vector<GateSpec>& gates,
                                                   const std::vector<MethodScore>& scores, bool run_completed);
 [[nodiscard]] Tree to_results(const GateResult& gate);

@@ -29,7 +29,8 @@ std::span<const ResultWord> result_words() {
       {evidence, to_string(Evidence::marginal),
        "the alternatives are nearly excluded, or too late for an answer of 5 s and 1 m; one right answer and an honest "
        "ambiguity are both right"},
-      {evidence, to_string(Evidence::ambiguous), "another pose explains the scans as well as the true one"},
+      {evidence, to_string(Evidence::ambiguous),
+       "another pose explains the scans as well as the true one, by what was built alone"},
       {failure, to_string(F::never_sampled), "the true pose was never among hypotheses and kept particles"},
       {failure, to_string(F::depleted), "the true pose was among them and vanished before the answer or the end"},
       {failure, to_string(F::alias_preferred), "a pose that looked like the true one at the start was chosen"},

@@ -120,9 +120,16 @@ class ConditionPage {
   ReportInput input_;
 };
 
+std::string answer(const std::string& title, const RunBuilding& building, const BuildingMap& map) {
+  std::string out = "<h2>" + title + "</h2>\n";
+  if (!map.options.compass_only) out += ConditionPage(building, map, false).card();
+  return out + ConditionPage(building, map, true).card();
+}
+
 }  // namespace
 
-std::string localizability_page(const RunBuilding& building, const std::string& name, const BuildingMap& map) {
+std::string localizability_page(const RunBuilding& building, const std::string& name, const BuildingMaps& maps) {
+  const BuildingMap& map = maps.building;
   std::string page =
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
       "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\"><title>" +
@@ -131,12 +138,17 @@ std::string localizability_page(const RunBuilding& building, const std::string& 
   page += "</style></head>\n<body><main><header><h1>Localizability: " + svg::escape(name) +
           "</h1><span class=\"facts\">a place every " + svg::number(map.options.step_m) + " m, aliased poses on " +
           (map.options.across ? "all storeys" : "the same storey") + "</span></header>\n";
-  if (!map.options.compass_only) page += ConditionPage(building, map, false).card();
-  page += ConditionPage(building, map, true).card();
+  page += answer("By the building alone", building, map);
+  if (maps.with_furniture)
+    page += answer("With the furniture as planned", building, *maps.with_furniture);
+  else
+    page += "<p class=\"facts\">Nothing in the plan may have moved.</p>\n";
   return page +
          "<p class=\"facts\">Two places are aliased where a levelled LiDAR of 8 x 360 beams measures the same at both, "
          "within noise. A walk resolves a place when no aliased pose explains the scans at all its "
-         "steps.</p></main></body></html>\n";
+         "steps. The scan sees everything that stands in the building; by the building alone, what may have moved is "
+         "no "
+         "part of the plan.</p></main></body></html>\n";
 }
 
 }  // namespace plumbline::scenarios

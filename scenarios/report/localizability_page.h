@@ -7,8 +7,8 @@
 
 namespace plumbline::scenarios {
 
-/// One self-contained page with a map a storey and condition.
+/// One self-contained page with a map an answer, storey and condition.
 [[nodiscard]] std::string localizability_page(const RunBuilding& building, const std::string& name,
-                                              const BuildingMap& map);
+                                              const BuildingMaps& maps);
 
 }  // namespace plumbline::scenarios

@@ -77,7 +77,9 @@ std::string sentence(const ReportMethod& method, const Tree* results) {
   if (verdict == "crashed") return "The method stopped with an error.";
   if (method.localization) {
     const Tree* where = results == nullptr ? nullptr : results->find("localization");
-    return place_sentence(verdict, where) + after_kidnap(where);
+    const bool by_furniture = where != nullptr && where->find("evidence_by_furniture") != nullptr;
+    return place_sentence(verdict, where) + after_kidnap(where) +
+           (by_furniture ? " Only furniture tells these apart." : "");
   }
   const auto error = number_of(results, "ate_aligned_rmse_m");
   if (!error) return "No trajectory that could be scored.";
@@ -114,6 +116,16 @@ std::string method_cards(const ReportInput& input) {
   return out;
 }
 
+/// What methods were told of the furniture, and how it was built; nothing where there is none.
+std::string told_text(const ReportInput& input) {
+  const Tree* told = input.results.find("told");
+  if (told == nullptr) return "";
+  std::string world = text_of(*told, "world_furniture");
+  std::replace(world.begin(), world.end(), '_', ' ');
+  const bool none = text_of(*told, "plan_furniture") == "none";
+  return " · furniture told: " + std::string(none ? "none" : "as planned") + ", built: " + svg::escape(world);
+}
+
 std::string header(const ReportInput& input) {
   const Tree* gates = input.results.find("gates");
   std::size_t failed = 0;
@@ -135,6 +147,7 @@ std::string header(const ReportInput& input) {
   std::string facts = "seed " + svg::escape(text_of(input.results, "seed"));
   if (const auto d = number_of(results, "duration_s")) facts += " · " + svg::number(*d, 1) + " s";
   if (const auto d = number_of(results, "distance_m")) facts += " · " + svg::number(*d, 1) + " m walked";
+  facts += told_text(input);
   return "<header><h1>" + svg::escape(text_of(input.results, "scenario")) + "</h1>" + badge + "<span class=\"facts\">" +
          facts + "</span></header>";
 }
@@ -257,19 +270,29 @@ PlotCurve consistent_poses(const ReportInput& input, double end_s) {
   return curve;
 }
 
-std::string identifiability_text(const ReportInput& input) {
-  const Tree* known = input.results.find("identifiability");
-  if (known == nullptr) return "";
-  std::string text = "The scans never distinguished the true pose from all others.";
-  if (const auto at = number_of(known, "at_s"))
-    text = *at <= 0.0 ? "Identifiable from the first scan on."
-                      : "Identifiable after " + svg::number(*at, 1) + " s and " +
-                            svg::number(number_of(known, "at_m").value_or(0.0), 1) + " m.";
-  if (const Tree* element = known->find("decided_by"))
+std::string identifiability_sentence(const Tree& known) {
+  std::string text = "the scans never distinguished the true pose from all others.";
+  if (const auto at = number_of(&known, "at_s"))
+    text = *at <= 0.0 ? "identifiable from the first scan on."
+                      : "identifiable after " + svg::number(*at, 1) + " s and " +
+                            svg::number(number_of(&known, "at_m").value_or(0.0), 1) + " m.";
+  if (const Tree* element = known.find("decided_by"))
     text += " Decided by " + text_of(*element, "element") +
             (element->find("missing")->as_bool() ? ", which would be visible from the last aliased pose and was not."
                                                  : ", which was visible and would not be from the last aliased pose.");
-  return "<p class=\"facts\">" + svg::escape(text) + "</p>";
+  return text;
+}
+
+std::string identifiability_text(const ReportInput& input) {
+  const Tree* known = input.results.find("identifiability");
+  if (known == nullptr) return "";
+  const auto line = [](const std::string& text) { return "<p class=\"facts\">" + svg::escape(text) + "</p>"; };
+  const Tree* with_furniture = known->find("with_furniture");
+  std::string out = line("By the building alone: " + identifiability_sentence(*known));
+  if (with_furniture != nullptr)
+    out += line("With the furniture as planned: " + identifiability_sentence(*with_furniture));
+  const bool by_furniture = with_furniture != nullptr && number_of(with_furniture, "at_s") && !number_of(known, "at_s");
+  return by_furniture ? out + line("Only furniture tells these apart; it may have moved.") : out;
 }
 
 std::string plots(const ReportInput& input, double end_s) {

@@ -9,6 +9,7 @@
 #include "scenarios/run/cloud_file.h"
 #include "scenarios/run/estimate_file.h"
 #include "scenarios/spec/method_names.h"
+#include "scenarios/spec/run_site.h"
 #include "slam/io/recordings/tum.h"
 
 namespace plumbline::scenarios {
@@ -114,8 +115,8 @@ FinishedRun read_run(const std::string& dir) {
   const auto path = [&](std::string_view name) { return dir + "/" + std::string(name); };
   FinishedRun run;
   run.scenario = read_scenario(read_text_file(path("scenario.yaml")), path("scenario.yaml")).scenario;
-  run.building = std::make_shared<const RunBuilding>(
-      bim::load_planned_and_built(path(run.scenario.building), run.scenario.building_options));
+  run.building = std::make_shared<const RunBuilding>(load_site(path(run.scenario.building), run.scenario),
+                                                     run.scenario.plan.furniture);
   RunRecord& record = run.record;
   record.digests = read_digests(read_text_file(path("digests.csv")), path("digests.csv"));
   run.scans = scans_of(record.digests);

@@ -42,11 +42,12 @@ std::vector<GateResult> judge_gates(const std::vector<GateSpec>& gates, const st
     const auto score =
         std::find_if(scores.begin(), scores.end(), [&](const MethodScore& s) { return s.name == gate.method; });
     if (score != scores.end()) {
-      result.value = find_metric(gate.metric)->value(*score);
-      result.but = !run_completed                ? "the run ended early"
-                   : score->verdict == "crashed" ? "the method crashed"
-                   : score->verdict == "lost"    ? "the method was lost"
-                                                 : "";
+      const MetricRow& metric = *find_metric(gate.metric);
+      result.value = metric.value(*score);
+      result.but = !run_completed                                       ? "the run ended early"
+                   : score->verdict == "crashed"                        ? "the method crashed"
+                   : score->verdict == "lost" && !metric.also_when_lost ? "the method was lost"
+                                                                        : "";
       const bool within = result.value && (gate.max ? *result.value <= *gate.max : *result.value >= *gate.min);
       result.passed = result.but.empty() && within;
     }

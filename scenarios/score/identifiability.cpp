@@ -35,31 +35,22 @@ std::vector<AliasesLeft> places_left(const RunIdentifiability& run) {
   return places;
 }
 
-}  // namespace
+struct Question {
+  std::vector<SearchArea> storeys;
+  bool yaw_known = false;
+  std::vector<TruthSample> samples;
+};
 
-std::optional<Identifiability> identifiability_of(const FinishedRun& run, const Truth& truth) {
-  const std::vector<slam::StampedPose>& truth_W = run.record.truth_W;
-  if (truth.scans.empty() || truth_W.empty()) return std::nullopt;
-  const bim::Building& as_planned = run.building->as_planned();
-  const bim::Plan& plan = *run.building->plan_as_planned();
-  const VisibleBuilding visible = visible_building(*run.building);
-  const auto start = static_cast<std::size_t>(storey_of_base(plan.storeys, truth_W.front().X_FR.t.z()));
-
+IdentifiabilityAnswer answer(const RunBuilding& building, PlanEvidence by, const Question& question) {
+  const VisibleBuilding visible = visible_building(building, by);
   LocalizabilityInput input;
   input.as_planned = &visible.planned.scene;
   input.as_built = &visible.as_built().scene;
-  input.yaw_known = run.scenario.prior.yaw == Knowledge::known;
-  for (std::size_t i = 0; i < as_planned.storeys.size(); ++i)
-    if (i == start || run.scenario.prior.storey == Knowledge::unknown)
-      if (const SearchArea area = search_area(as_planned, i); !area.empty()) input.storeys.push_back(area);
-  if (input.storeys.empty()) return std::nullopt;  // a mesh
-
-  std::vector<TruthSample> samples;
-  for (const slam::Nanoseconds t : truth.scans)
-    samples.push_back({slam::seconds(t - truth.scans.front()), truth.at(t), sensor_z_W(plan, truth.at(t))});
-  const RunIdentifiability known = compute_localizability(input, samples);
-
-  Identifiability result;
+  input.loose = visible.loose;
+  input.storeys = question.storeys;
+  input.yaw_known = question.yaw_known;
+  const RunIdentifiability known = compute_localizability(input, question.samples);
+  IdentifiabilityAnswer result;
   result.identifiable = known.identifiable;
   result.at_s = known.identifiable_at_s;
   result.at_m = known.identifiable_at_m;
@@ -71,7 +62,32 @@ std::optional<Identifiability> identifiability_of(const FinishedRun& run, const 
     result.decided_by = DecidingElement{seen.elements.at(static_cast<std::size_t>(known.decided_by->element)),
                                         known.decided_by->missing, known.decided_by->share};
   }
-  result.others_W = known.ambiguity_set(samples.back().t_s, samples.back().X_WR);
+  result.others_W = known.ambiguity_set(question.samples.back().t_s, question.samples.back().X_WR);
+  return result;
+}
+
+}  // namespace
+
+std::optional<Identifiability> identifiability_of(const FinishedRun& run, const Truth& truth) {
+  const std::vector<slam::StampedPose>& truth_W = run.record.truth_W;
+  if (truth.scans.empty() || truth_W.empty()) return std::nullopt;
+  const RunBuilding& building = *run.building;
+  const bim::Building& as_planned = building.as_planned();
+  const bim::Plan& plan = *building.plan_as_planned();
+  const auto start = static_cast<std::size_t>(storey_of_base(plan.storeys, truth_W.front().X_FR.t.z()));
+
+  Question question;
+  question.yaw_known = run.scenario.prior.yaw == Knowledge::known;
+  for (std::size_t i = 0; i < as_planned.storeys.size(); ++i)
+    if (i == start || run.scenario.prior.storey == Knowledge::unknown)
+      if (const SearchArea area = search_area(as_planned, i); !area.empty()) question.storeys.push_back(area);
+  if (question.storeys.empty()) return std::nullopt;  // a mesh
+  for (const slam::Nanoseconds t : truth.scans)
+    question.samples.push_back({slam::seconds(t - truth.scans.front()), truth.at(t), sensor_z_W(plan, truth.at(t))});
+
+  Identifiability result{answer(building, PlanEvidence::building, question), std::nullopt, true};
+  result.told_furniture = building.told_furniture() == ToldFurniture::as_planned;
+  if (building.plans_movables()) result.with_furniture = answer(building, PlanEvidence::with_furniture, question);
   return result;
 }
 

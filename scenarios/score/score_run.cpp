@@ -142,7 +142,7 @@ Tree changes_of(const bim::PlannedAndBuilt& site) {
   return list;
 }
 
-Tree to_results(const Identifiability& known) {
+Tree to_results(const IdentifiabilityAnswer& known) {
   Tree tree = Tree::map();
   tree.set("identifiable", known.identifiable);
   if (known.at_s) tree.set("at_s", *known.at_s).set("at_m", known.at_m.value());
@@ -159,6 +159,20 @@ Tree to_results(const Identifiability& known) {
                     .set("twins", left.aliases)
                     .set("weak", left.marginal));
   return tree.set("places", std::move(places));
+}
+
+Tree both_to_results(const Identifiability& known) {
+  Tree tree = to_results(static_cast<const IdentifiabilityAnswer&>(known));
+  if (known.with_furniture) tree.set("with_furniture", to_results(*known.with_furniture));
+  return tree;
+}
+
+/// What methods with a plan were told, and what the world was.
+Tree told_of(const FinishedRun& run) {
+  const Tree scenario = to_tree(run.scenario);
+  Tree tree = Tree::map();
+  return tree.set("plan_furniture", scenario.find("plan")->find("furniture")->as_string())
+      .set("world_furniture", scenario.find("world")->find("furniture")->as_string());
 }
 
 /// A robot that was in the air is set down where the scans begin anew.
@@ -213,8 +227,9 @@ std::string write_results(const FinishedRun& run, const RunScore& score) {
   tree.set("duration_s", score.duration_s).set("distance_m", score.distance_m);
   if (!run.record.failure.empty()) tree.set("failure", run.record.failure);
   tree.set("sensors", sensors_of(run.scenario));
+  if (run.building->plans_movables() || run.building->deviates()) tree.set("told", told_of(run));
   if (run.building->deviates()) tree.set("as_built", changes_of(run.building->variants()));
-  if (score.identifiability) tree.set("identifiability", to_results(*score.identifiability));
+  if (score.identifiability) tree.set("identifiability", both_to_results(*score.identifiability));
   Tree gates = Tree::list();
   for (const GateResult& gate : score.gates) gates.push(to_results(gate));
   tree.set("gates", gates);

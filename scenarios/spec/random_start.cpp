@@ -17,6 +17,7 @@ constexpr double coordinate_steps = 1e4;  ///< written with four decimals
 constexpr std::uint32_t start_lane = 0;   ///< of Stream "scenario.start"
 constexpr std::uint32_t heading_lane = 1;
 constexpr std::uint32_t route_lane = 2;
+constexpr std::uint32_t passage_lane = 3;
 
 double rounded(double x) { return std::round(x * coordinate_steps) / coordinate_steps; }
 
@@ -43,6 +44,46 @@ std::vector<Eigen::Vector2d> places_in(const bim::Building& building, const bim:
   return places;
 }
 
+/// Middles of the doorways of a storey that the robot can pass, in the order of the openings.
+std::vector<Eigen::Vector2d> doorways_of(const bim::Building& building, int storey, const sim::ClearanceMap& space) {
+  std::vector<Eigen::Vector2d> places;
+  for (const bim::Opening& opening : building.openings) {
+    if (opening.wall < 0) continue;
+    const bim::Wall& wall = building.walls[static_cast<std::size_t>(opening.wall)];
+    if (wall.storey != storey) continue;
+    const Eigen::Vector2d p =
+        wall.a + opening.s_m * wall.direction() + (wall.offset_m + 0.5 * wall.thickness_m) * wall.left();
+    const Eigen::Vector2d place(rounded(p.x()), rounded(p.y()));
+    if (in_a_doorway(building, storey, place) && space.free(place)) places.push_back(place);
+  }
+  return places;
+}
+
+/// Where the robot lines up with the stairs that it can climb, on one storey; in the order of the stairs.
+std::vector<Eigen::Vector2d> stair_ends_of(const bim::Building& building, int storey,
+                                           const sim::MultiStoreyPlanner& space) {
+  std::vector<Eigen::Vector2d> places;
+  const auto add = [&](const Eigen::Vector3d& point) {
+    const Eigen::Vector2d p(rounded(point.x()), rounded(point.y()));
+    const bool in_room = std::any_of(building.rooms.begin(), building.rooms.end(), [&](const bim::Room& room) {
+      return room.storey == storey && contains(room.polygon, p);
+    });
+    if (in_room && space.storey(storey).free(p) && !on_a_stair(building, storey, p)) places.push_back(p);
+  };
+  for (const sim::StairWay& way : space.stairs()) {
+    if (!way.fault.empty() || way.points.empty()) continue;
+    if (way.from == storey) add(way.points.front());
+    if (way.to == storey) add(way.points.back());
+  }
+  return places;
+}
+
+/// A place to start at.
+struct DrawnStart {
+  Eigen::Vector2d p_W = Eigen::Vector2d::Zero();
+  bool narrow = false;  ///< there may be no room to turn round
+};
+
 /// Draws from the rooms of one storey.
 class StartSampler {
  public:
@@ -57,15 +98,28 @@ class StartSampler {
   }
 
   /// Tries places until one has a way to another room.
-  [[nodiscard]] Eigen::Vector2d start(RandomStart how, const Mark& mark) const {
+  [[nodiscard]] DrawnStart start(RandomStart how, const bim::Building& building, const Mark& mark) const {
     constexpr std::uint64_t most_tries = 200;
+    constexpr double passage_share = 0.25;
+    std::vector<Eigen::Vector2d> passages;
+    if (how == RandomStart::anywhere) {
+      passages = doorways_of(building, storey_, space_.storey(storey_));
+      const std::vector<Eigen::Vector2d> ends = stair_ends_of(building, storey_, space_);
+      passages.insert(passages.end(), ends.begin(), ends.end());
+    }
     for (std::uint64_t i = 0; i < most_tries && rooms_.size() > 1; ++i) {
+      if (!passages.empty() && stream_.uniform(i, passage_lane) < passage_share) {
+        const Eigen::Vector2d& p = passages[one_of(passages.size(), i, passage_lane, 1)];
+        if (std::count_if(rooms_.begin(), rooms_.end(), [&](const OpenRoom& room) { return reaches(p, room); }) > 1)
+          return {p, true};
+        continue;
+      }
       const std::size_t room = how == RandomStart::rooms ? one_of(rooms_.size(), i, start_lane) : room_by_area(i);
       const std::vector<Eigen::Vector2d>& places = rooms_[room].places_W;
       if (places.empty()) continue;
       const Eigen::Vector2d& p = places[one_of(places.size(), i, start_lane, 1)];
       for (std::size_t other = 0; other < rooms_.size(); ++other)
-        if (other != room && reaches(p, rooms_[other])) return p;
+        if (other != room && reaches(p, rooms_[other])) return {p, false};
     }
     throw InputError(mark, "no place to draw on this storey from which another room can be reached");
   }
@@ -137,8 +191,9 @@ void sample_start(const bim::Building& building, Scenario& scenario, const Route
   if (start.random) {
     const int storey = storey_of(building, start.storey, marks.start);
     const StartSampler sampler(building, storey, scenario.seed);
-    start.at = sampler.start(*start.random, marks.start);
-    if (!start.yaw_deg) start.yaw_deg = sampler.heading_deg();
+    const DrawnStart drawn = sampler.start(*start.random, building, marks.start);
+    start.at = drawn.p_W;
+    if (!start.yaw_deg && !drawn.narrow) start.yaw_deg = sampler.heading_deg();
     start.storey = building.storeys[static_cast<std::size_t>(storey)].id;
     start.random.reset();
   }

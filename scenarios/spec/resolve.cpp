@@ -13,6 +13,7 @@
 #include "scenarios/spec/moving.h"
 #include "scenarios/spec/random_start.h"
 #include "scenarios/spec/route_plan.h"
+#include "scenarios/spec/run_site.h"
 
 namespace plumbline::scenarios {
 
@@ -187,6 +188,17 @@ std::string name_of_copy(const fs::path& building, const std::string& bytes) {
   return is_ifc(bytes) ? "building.ifc" : "building.plan.yaml";
 }
 
+/// A mesh has neither rooms to furnish nor planned furniture.
+void check_furniture(const ScenarioText& text) {
+  if (!bim::is_mesh_path(text.scenario.building)) return;
+  const auto refuse = [&](const char* key) {
+    throw InputError(mark_at(text.tree, {key}),
+                     std::string(key) + " is of a building with a plan; '" + text.scenario.building + "' is a mesh");
+  };
+  if (text.scenario.furnish) refuse("furnish");
+  if (text.scenario.world.furniture != bim::FurnitureWorld::as_planned) refuse("world");
+}
+
 double default_duration(const RoutePlan& plan, double speed) {
   const DefaultDuration rule;
   const double walk_s = (plan.length_m - plan.stairs_m) / speed;
@@ -223,7 +235,8 @@ ResolvedScenario resolve(const std::string& input_path, const Overrides& overrid
   if (!is_implicit && !fs::exists(building))
     throw InputError(mark_at(text.tree, {"building"}), "the building '" + building.string() + "' does not exist");
   resolved.building_bytes = read_text_file(building.string());
-  bim::PlannedAndBuilt site = bim::load_planned_and_built(building.string(), text.scenario.building_options);
+  check_furniture(text);
+  bim::PlannedAndBuilt site = load_site(building.string(), text.scenario);
 
   const RouteMarks marks{mark_at(text.tree, {"start"}), mark_at(text.tree, {"route"}),
                          marks_of(text.tree, {"route", "rooms"}, text.scenario.route.rooms.size())};
@@ -249,7 +262,7 @@ ResolvedScenario resolve(const std::string& input_path, const Overrides& overrid
     resolved.world_after->doors = resolved.world.doors;
     resolved.world.duration_s = scenario.kidnap->after_s;
   }
-  resolved.building = std::make_shared<const RunBuilding>(std::move(site));
+  resolved.building = std::make_shared<const RunBuilding>(std::move(site), scenario.plan.furniture);
   resolved.prior = make_prior(scenario, *resolved.building->plan_as_planned(), plan);
   resolved.scenario = std::move(scenario);
   return resolved;

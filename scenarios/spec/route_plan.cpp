@@ -32,7 +32,7 @@ Eigen::Vector2d rounded(const Eigen::Vector2d& p) { return {round_coordinate(p.x
 
 std::string text(const Eigen::Vector2d& p) { return "[" + format_number(p.x()) + ", " + format_number(p.y()) + "]"; }
 
-/// In the plane; openings do not count, since no run starts in a doorway.
+/// In the plane, openings included.
 bool in_body(const bim::Wall& wall, const Eigen::Vector2d& p) {
   const double along = (p - wall.a).dot(wall.direction());
   const double across = (p - wall.a).dot(wall.left());
@@ -88,8 +88,9 @@ class Planner {
 
   [[nodiscard]] Eigen::Vector2d check_start(const Eigen::Vector2d& at) const {
     const std::string start = "the start " + text(at);
+    const bool doorway = in_a_doorway(building_, storey_, at);
     for (const bim::Wall& wall : building_.walls)
-      if (wall.storey == storey_ && in_body(wall, at))
+      if (!doorway && wall.storey == storey_ && in_body(wall, at))
         throw InputError(marks_.start, start + " is inside a wall ('" + wall.id + "'); it must be in a room");
     for (const bim::Stair& stair : building_.stairs)
       if ((stair.from == storey_ || stair.to == storey_) && on_stair(stair, at))
@@ -97,7 +98,7 @@ class Planner {
     const auto in_room = [&](const bim::Room& r) { return r.storey == storey_ && contains(r.polygon, at); };
     const bool has_rooms = std::any_of(building_.rooms.begin(), building_.rooms.end(),
                                        [&](const bim::Room& r) { return r.storey == storey_; });
-    if (has_rooms && std::none_of(building_.rooms.begin(), building_.rooms.end(), in_room))
+    if (has_rooms && !doorway && std::none_of(building_.rooms.begin(), building_.rooms.end(), in_room))
       throw InputError(marks_.start, start + " is outside every room; it must be in a room");
     if (!space_.storey(storey_).free(at))
       throw InputError(marks_.start, start + " is in or too near to a wall or another thing (" +
@@ -354,6 +355,15 @@ int lowest_habitable_storey(const bim::Building& building) {
 bool on_a_stair(const bim::Building& building, int storey, const Eigen::Vector2d& p_W) {
   return std::any_of(building.stairs.begin(), building.stairs.end(), [&](const bim::Stair& stair) {
     return (stair.from == storey || stair.to == storey) && on_stair(stair, p_W);
+  });
+}
+
+bool in_a_doorway(const bim::Building& building, int storey, const Eigen::Vector2d& p_W) {
+  return std::any_of(building.openings.begin(), building.openings.end(), [&](const bim::Opening& opening) {
+    if (opening.wall < 0 || opening.kind == bim::OpeningKind::window || opening.leaf == bim::Leaf::closed) return false;
+    const bim::Wall& wall = building.walls[static_cast<std::size_t>(opening.wall)];
+    const double along = (p_W - wall.a).dot(wall.direction());
+    return wall.storey == storey && in_body(wall, p_W) && std::abs(along - opening.s_m) <= 0.5 * opening.width_m;
   });
 }
 

@@ -37,6 +37,9 @@ struct RoutePlan {
 /// Where on a storey no floor is stood on: under or over a stair.
 [[nodiscard]] bool on_a_stair(const bim::Building& building, int storey, const Eigen::Vector2d& p_W);
 
+/// In the plane: in a door that is open, or a void, of a storey's walls.
+[[nodiscard]] bool in_a_doorway(const bim::Building& building, int storey, const Eigen::Vector2d& p_W);
+
 /// Plans the walk through the as-built free space and over its stairs. Throws InputError when the start is inside
 /// something, on a stair or outside every room, a room is not known, or a goal cannot be reached.
 [[nodiscard]] RoutePlan plan_route(const bim::Building& building, const Start& start, const Route& route,

@@ -187,6 +187,12 @@ std::vector<std::string> off_defaults(const Scenario& scenario) {
     names.push_back("doors: " + to_tree(options).find("doors")->as_string());
   if (options.furniture != defaults.building_options.furniture)
     names.push_back(std::string("furniture: ") + (options.furniture ? "true" : "false"));
+  if (scenario.furnish) {
+    const Tree furnish = to_tree(*scenario.furnish);
+    for (const auto& [key, value] : furnish.as_map()) names.push_back("furnish." + key + ": " + text_of(value));
+  }
+  add_differences("plan", to_tree(defaults.plan), to_tree(scenario.plan), names);
+  add_differences("world", to_tree(defaults.world), to_tree(scenario.world), names);
   if (scenario.kidnap) names.emplace_back("kidnap");
   if (!scenario.people.empty()) names.push_back("people: " + std::to_string(scenario.people.size()));
   if (!scenario.moving_doors.empty()) names.push_back("moving_doors: " + std::to_string(scenario.moving_doors.size()));

@@ -6,7 +6,10 @@
 #include <vector>
 
 #include "bim/config/visit.h"
+#include "bim/furniture/alter.h"
+#include "bim/furniture/furnish.h"
 #include "bim/model/building_options.h"
+#include "scenarios/spec/told_furniture.h"
 #include "sim/lidar/lidar.h"
 #include "sim/robot/conditions.h"
 #include "sim/robot/leg_odometry.h"
@@ -18,7 +21,8 @@ enum class Knowledge { unknown, known };
 /// Which storeys `rooms: all` means.
 enum class RouteStoreys { start, all };
 [[nodiscard]] constexpr std::array<std::string_view, 2> names_of(RouteStoreys) { return {"start", "all"}; }
-/// Of a start that is drawn: a room with even chances and a place in it, or a place on all of the rooms' floor.
+/// Of a start that is drawn: a room with even chances and a place in it; or a place on all of the rooms' floor, or
+/// often in a doorway or at a stair.
 enum class RandomStart { rooms, anywhere };
 [[nodiscard]] constexpr std::array<std::string_view, 2> names_of(RandomStart) { return {"rooms", "anywhere"}; }
 enum class Hinge { a, b };
@@ -37,7 +41,8 @@ struct Start {
   template <class V>
   void visit(V& v) {
     v("random", random,
-      Field{.doc = "start drawn from the seed: a place in a room drawn first, or anywhere in the rooms"});
+      Field{.doc = "start drawn from the seed: a place in a room drawn first; or anywhere in the rooms, every fourth "
+                   "time in a doorway or at the foot or head of a stair"});
     v("room", room, Field{.doc = "id of the room in which to start, at the point of greatest clearance"});
     v("storey", storey, Field{.doc = "id of the storey of `at` and `random`; the lowest with rooms when not given"});
     v("at", at, Field{.doc = "start position [x, y] in the plan", .unit = "m", .min = -1e4, .max = 1e4});
@@ -207,6 +212,27 @@ struct PriorSpec {
   }
 };
 
+/// What methods with a plan are told besides what was built.
+struct PlanSpec {
+  ToldFurniture furniture = ToldFurniture::as_planned;
+  template <class V>
+  void visit(V& v) {
+    v("furniture", furniture, Field{.doc = "whether the plan that methods get has the furniture as planned, or none"});
+  }
+};
+
+/// How what may have moved was built.
+struct WorldSpec {
+  bim::FurnitureWorld furniture = bim::FurnitureWorld::as_planned;
+  template <class V>
+  void visit(V& v) {
+    v("furniture", furniture,
+      Field{.doc =
+                "furniture as built: as planned; moved by up to 0.5 m and 20 degrees; swapped, a third of it gone or "
+                "of another shape; more, as much again that is not planned; unknown, another layout"});
+  }
+};
+
 /// The robot is lifted and set down elsewhere, and walks the rooms of its route again from there.
 struct KidnapSpec {
   double after_s = 30.0;
@@ -253,6 +279,9 @@ struct Scenario {
   std::string name = "unnamed";
   std::string building;
   bim::BuildingOptions building_options;
+  std::optional<bim::FurnishOptions> furnish;
+  PlanSpec plan;
+  WorldSpec world;
   std::uint64_t seed = 1;
   Start start;
   Route route;
@@ -276,6 +305,9 @@ struct Scenario {
       Field{.doc = "path of the plan, IFC file or other building, relative to the scenario's folder",
             .required = true});
     building_options.visit(v);
+    v("furnish", furnish, Field{.doc = "generated furniture in every room, as planned and as built alike"});
+    v("plan", plan, Field{.doc = "what methods that localize in the plan are told of it"});
+    v("world", world, Field{.doc = "how the furniture as built differs from the plan; the seed decides"});
     v("seed", seed, plain_field("seed of all random numbers", {.min = 0, .max = 9.2e18}));
     v("start", start, Field{.doc = "where the robot starts"});
     v("route", route, Field{.doc = "where the robot walks"});

@@ -17,10 +17,15 @@ itself.
   scenario. Methods get it as planned; the robot walks through it and the LiDAR sees it as built.
 - `doors` and `furniture` change the building for this run, both as planned and as built. `results.json` names a value
   other than the default. A room behind a closed door cannot be reached: the run is refused and the door named.
+- `furnish` puts generated furniture into every room, as planned and as built alike. `world: {furniture: ...}` says how
+  furniture as built differs from the plan; the seed of the run decides what moves. `plan: {furniture: none}` keeps what
+  may have moved from methods. `results.json` names all three, and says what could be known by the building alone and
+  with the furniture as planned.
 - `start` takes a room, or a point of a storey. `route` takes `rooms` (`all`, or a list) or `shuttle`. Rooms of other
   storeys are reached over stairs that the robot can climb. `all` stays on the start's storey unless `storeys: all`.
-- `start: {random: rooms}` and `route: {random: 5}` depend on the seed, so that every seed is another walk. The run
-  directory's `scenario.yaml` holds the start and the route that were drawn.
+- `start: {random: rooms}`, `{random: anywhere}` and `route: {random: 5}` depend on the seed, so that every seed is
+  another walk. The run directory's `scenario.yaml` holds the start and the route that were drawn. `anywhere` also draws
+  doorways and the ends of stairs, not their landings; there the robot faces its first goal.
 - Only the LiDAR sees `people` and `moving_doors`. The robot passes through them, no plan holds them, and what the LiDAR
   sees of them does not count as surface of the building. A moving door is open while the robot is near it.
 - `ground` and `pushes` make walking harder; `results.json` names a value other than the default. Nobody pushes on stairs
@@ -39,6 +44,8 @@ name: example
 building: library/house.plan.yaml
 doors: as_designed
 furniture: true
+plan: {furniture: none}
+world: {furniture: moved}
 seed: 1
 start: {room: living}
 route: {rooms: [hall, kitchen, living], loop: 1}
@@ -84,6 +91,7 @@ lidar:
       R"yaml(scenario: 1
 name: every room of both storeys
 building: library/house.plan.yaml
+furnish: {density: 0.1, seed: 3, people: 1}
 start: {room: living}
 route: {rooms: all, storeys: all}
 duration_s: 300

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace plumbline::slam {
 
@@ -12,6 +13,8 @@ namespace {
 
 /// The plan is cast no farther than this beyond a return: the residual is at its cap there.
 constexpr float cast_beyond_m = 2.0F;
+/// Neighbouring beams of a ring that are cast one after another.
+constexpr std::size_t columns_together = 8;
 
 PlanRay ray_of(const PredictedScan& predicted, const LocalizationScan& scan, const BeamGridBlock& block,
                std::size_t k) {
@@ -19,75 +22,21 @@ PlanRay ray_of(const PredictedScan& predicted, const LocalizationScan& scan, con
           predicted.storey->floor_z + scan.sensor_height, block.slope[k]};
 }
 
-/// How far to cast beams: a little beyond the return, no farther than floor and ceiling.
-Float4 reach_of(const BeamGridBlock& block, const StoreyIndex& storey, const LocalizationScan& scan) {
-  const auto height = static_cast<float>(scan.sensor_height),
-             above = static_cast<float>(storey.ceiling_z - storey.floor_z - scan.sensor_height);
-  const Float4 beyond = block.range + cast_beyond_m;
-  const Float4 end =
-      choose(block.slope < 0.0F, -height / block.slope, choose(block.slope > 0.0F, above / block.slope, beyond));
-  const Float4 reach = choose(end < beyond, end, beyond);
-  return choose(reach > 0.0F, reach, all(0.0F));
+/// Eighth of a turn that a normal points to.
+int side_of(const Eigen::Vector2d& n) {
+  const int octant = static_cast<int>(2.0 * pseudo_angle(n) + 0.5);
+  return octant % 8;
 }
 
-/// Casts beam k by itself.
-void cast_beam(const LocalizationScan& scan, const BeamGridBlock& block, std::size_t k, double reach,
-               const PredictedScan& predicted, PredictedBlock& hits) {
-  const StoreyIndex& storey = *predicted.storey;
-  const PlanRay ray = ray_of(predicted, scan, block, k);
-  const PlanHit hit = storey.grid.cast(storey.segments, ray, reach, predicted.cell);
-  hits.expected[k] = static_cast<float>(hit.distance);
-  hits.segment[k] = hit.segment;
-  hits.incidence[k] =
-      hit.segment < 0
-          ? 1.0F
-          : static_cast<float>(std::abs(storey.segments[static_cast<std::size_t>(hit.segment)].n.dot(ray.direction)));
-}
-
-/// Of four beams in I.
-struct Directions {
-  Float4 x, y;
-};
-
-Directions directions_of(const BeamGridBlock& block, const PredictedScan& predicted) {
-  const auto c = static_cast<float>(predicted.R_IH(0, 0)), s = static_cast<float>(predicted.R_IH(1, 0));
-  return {c * block.x - s * block.y, s * block.x + c * block.y};
-}
-
-/// Azimuth bin of each beam.
-Mask4 azimuth_bins_of(const Directions& directions) {
-  const auto& [x, y] = directions;
-  const Float4 p = y / (choose(x < 0.0F, -x, x) + choose(y < 0.0F, -y, y));
-  const Float4 turn = choose(x < 0.0F, 2.0F - p, choose(y < 0.0F, 4.0F + p, p));
-  const Float4 bin = turn * static_cast<float>(RayCandidateTable::azimuth_bins_per_quadrant);
-  const Float4 last = all(static_cast<float>(RayCandidateTable::azimuth_bins_per_turn - 1));
-  return __builtin_convertvector(choose(bin < last, bin, last), Mask4);
-}
-
-/// Casts the beams of a block that lie in one azimuth bin, and keeps the hits of those in `wanted`.
-void cast_beams(const LocalizationScan& scan, const BeamGridBlock& block, const Directions& directions, int bin,
-                int wanted, Float4 reach, const PredictedScan& predicted, PredictedBlock& hits) {
-  const StoreyIndex& storey = *predicted.storey;
-  const Float4 px = all(static_cast<float>(predicted.sensor_I.x())),
-               py = all(static_cast<float>(predicted.sensor_I.y()));
-  const auto z = static_cast<float>(storey.floor_z + scan.sensor_height);
-  PredictedBlock found{reach, all(1.0F), {-1, -1, -1, -1}};
-  const RayCandidateTable::Entry* entry = storey.grid.ray_candidates().list(predicted.cell, bin);
-  const auto open = [&] { return lanes(found.expected >= entry->from) & wanted; };
-  for (; open() != 0 && entry->segment >= 0; ++entry) {
-    const FaceSectors::Intersection meeting = storey.sectors.intersect(
-        storey.sectors.face(entry->segment), px, py, z, directions.x, directions.y, block.slope, found.expected);
-    found.expected = choose(meeting.hit, meeting.t, found.expected);
-    found.incidence = choose(meeting.hit, meeting.across, found.incidence);
-    found.segment = meeting.hit ? Mask4{entry->segment, entry->segment, entry->segment, entry->segment} : found.segment;
-  }
-  const Mask4 taken = (Mask4{wanted, wanted, wanted, wanted} & Mask4{1, 2, 4, 8}) != 0;
-  hits.expected = choose(taken, found.expected, hits.expected);
-  hits.incidence = choose(taken, choose(found.incidence < 0.0F, -found.incidence, found.incidence), hits.incidence);
-  hits.segment = taken ? found.segment : hits.segment;
-  const int beyond = entry->segment < 0 ? open() : 0;
-  for (std::size_t k = 0; beyond != 0 && k < 4; ++k)
-    if ((beyond & (1 << k)) != 0) cast_beam(scan, block, k, static_cast<double>(reach[k]), predicted, hits);
+/// Takes what a ray hits over into lane k.
+void take(const StructureHit& hit, const Eigen::Vector2d& direction, std::size_t k, PredictedBlock& block) {
+  const auto distance = static_cast<float>(hit.distance);
+  if (hit.element < 0 || distance > block.expected[k]) return;
+  block.expected[k] = distance;
+  if (!hit.upright) return;
+  block.incidence[k] = static_cast<float>(std::abs(hit.n.dot(direction)));
+  block.element[k] = hit.element;
+  block.side[k] = side_of(hit.n);
 }
 
 /// Negative log-likelihood of ranges where the plan predicts `hits`.
@@ -138,14 +87,15 @@ bool ends_in_opening(const PredictedScan& predicted, const PlanRay& ray, double 
                                                 range + config.sigma_m, predicted.cell);
 }
 
-OutlierCause cause_of(const PredictedScan& predicted, const PlanRay& ray, double range, int segment, double expected,
+OutlierCause cause_of(const PlanRay& ray, double range, const PredictedBlock& block, std::size_t k,
                       const HypothesisComparisonConfig& config) {
-  if (segment < 0) {
+  if (block.element[k] < 0) {
     const Eigen::Vector2d cell = ((ray.origin + range * ray.direction) / config.clutter_cell_m).array().floor();
     return {OutlierCause::Kind::unplanned, static_cast<int>(cell.x()), static_cast<int>(cell.y())};
   }
-  if (expected >= range) return {OutlierCause::Kind::in_front_of_face, segment};
-  return {OutlierCause::Kind::not_built, predicted.storey->segments[static_cast<std::size_t>(segment)].element};
+  if (static_cast<double>(block.expected[k]) >= range)
+    return {OutlierCause::Kind::in_front_of_face, block.element[k], block.side[k]};
+  return {OutlierCause::Kind::not_built, block.element[k]};
 }
 
 /// Sums the evidence of neighbouring beams for one cause before the cause is looked up.
@@ -187,26 +137,29 @@ PredictedScan predict_scan(const StoreyIndex& storey, const Pose2& X_IH, const L
                           storey.grid.cell_at(sensor_I),
                           std::vector<PredictedBlock>(blocks.size()),
                           std::vector<Float4>(blocks.size(), all(-1.0F))};
-  const bool listed = predicted.cell >= 0 && !storey.sectors.empty();
+  std::vector<SensorRay> rays;
+  std::vector<std::pair<std::size_t, std::size_t>> lanes_of;  // block and lane of each ray
+  const auto columns = static_cast<std::size_t>(scan.beam_grid.columns);
+  double farthest = 0.0;
+  for (std::size_t first = 0; first < blocks.size(); first += columns)
+    for (std::size_t begin = first; begin < first + columns; begin += columns_together)
+      for (std::size_t k = 0; k < 4; ++k)
+        for (std::size_t i = begin; i < std::min(begin + columns_together, first + columns); ++i) {
+          const BeamGridBlock& block = blocks[i];
+          if (block.range[k] <= 0.0F) continue;
+          const double slope = block.slope[k];
+          predicted.blocks[i].expected[k] = block.range[k] + cast_beyond_m;
+          farthest = std::max(farthest, predicted.blocks[i].expected[k] * std::sqrt(1.0 + slope * slope));
+          rays.push_back({R_IH * Eigen::Vector2d(block.x[k], block.y[k]), slope});
+          lanes_of.emplace_back(i, k);
+        }
+  std::vector<StructureHit> hits(rays.size());
+  storey.structure->cast({sensor_I.x(), sensor_I.y(), storey.floor_z + scan.sensor_height}, rays, farthest, hits);
+  for (std::size_t r = 0; r < rays.size(); ++r)
+    take(hits[r], rays[r].direction, lanes_of[r].second, predicted.blocks[lanes_of[r].first]);
   const Float4 least = all(static_cast<float>(config.min_incidence));
-  for (std::size_t i = 0; i < blocks.size(); ++i) {
-    PredictedBlock& hits = predicted.blocks[i];
-    int wanted = lanes(blocks[i].range > 0.0F);
-    if (wanted == 0) continue;
-    const Float4 reach = reach_of(blocks[i], storey, scan);
-    const Directions directions = directions_of(blocks[i], predicted);
-    const Mask4 bins = azimuth_bins_of(directions);
-    while (wanted != 0) {
-      const auto k = static_cast<std::size_t>(std::countr_zero(static_cast<unsigned>(wanted)));
-      const int together = listed ? wanted & lanes(bins == bins[k]) : 1 << k;
-      if (listed)
-        cast_beams(scan, blocks[i], directions, bins[k], together, reach, predicted, hits);
-      else
-        cast_beam(scan, blocks[i], k, static_cast<double>(reach[k]), predicted, hits);
-      wanted &= ~together;
-    }
-    hits.incidence = choose(hits.incidence > least, hits.incidence, least);
-  }
+  for (PredictedBlock& block : predicted.blocks)
+    block.incidence = choose(block.incidence > least, block.incidence, least);
   return predicted;
 }
 
@@ -241,7 +194,7 @@ PairwiseLikelihoodRatio compare_hypotheses(const LocalizationScan& scan, const P
         const double range = block.range[k], expected = worse.blocks[i].expected[k];
         const PlanRay ray = ray_of(worse, scan, block, k);
         if (expected > range && ends_in_opening(worse, ray, range, config)) continue;
-        const OutlierCause cause = cause_of(worse, ray, range, worse.blocks[i].segment[k], expected, config);
+        const OutlierCause cause = cause_of(ray, range, worse.blocks[i], k, config);
         (gain > 0.0 ? against_b : against_a).add(cause, std::abs(gain));
         result.ratio += gain;
       }

@@ -51,11 +51,12 @@ struct HypothesisComparisonConfig {
   }
 };
 
-/// What the plan predicts for four beams.
+/// What the plan's structure predicts for four beams.
 struct PredictedBlock {
   Float4 expected = all(0.0F);    ///< horizontal range, m; where nothing is hit, how far was cast
-  Float4 incidence = all(1.0F);   ///< cosine at the face hit, at least min_incidence; 1 where nothing is hit
-  Mask4 segment{-1, -1, -1, -1};  ///< hit, -1: none
+  Float4 incidence = all(1.0F);   ///< cosine at the face hit, at least min_incidence; 1 where no upright face is
+  Mask4 element{-1, -1, -1, -1};  ///< with the upright face that is hit, -1: none
+  Mask4 side{0, 0, 0, 0};         ///< eighth of a turn that the face's normal points to
 };
 
 /// What the plan predicts for each beam of LocalizationScan::beam_grid at one pose. In single precision: 0.01 mm in a
@@ -76,7 +77,7 @@ struct PredictedScan {
 struct OutlierCause {
   enum class Kind { not_built, in_front_of_face, unplanned };
   Kind kind = Kind::unplanned;
-  int x = 0, y = 0;  ///< PlanSegment::element; segment; cell of HypothesisComparisonConfig::clutter_cell_m in I
+  int x = 0, y = 0;  ///< element; element and side; cell of HypothesisComparisonConfig::clutter_cell_m in I
 
   friend auto operator<=>(const OutlierCause&, const OutlierCause&) = default;
 };

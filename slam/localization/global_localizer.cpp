@@ -95,7 +95,7 @@ void GlobalLocalizer::update_state(const PlanIndex& index, const StartPrior& sta
 
   const Agreement& fit = hypotheses.front().agreement;
   const bool fits = (fit.inliers >= c.inliers_min && fit.penetration_ratio <= c.max_penetration_ratio) ||
-                    hypotheses.front().fit_count >= c.cluttered_updates;
+                    (hypotheses.front().fit >= c.min_fit && hypotheses.front().mean_fit() >= c.min_mean_fit);
   failed_updates_ = fit.penetration_ratio_other_walls() > c.restart_penetration_ratio ? failed_updates_ + 1 : 0;
   if (failed_updates_ >= c.restart_updates) return restart();
 
@@ -130,6 +130,15 @@ void GlobalLocalizer::find_alternatives(const PlanIndex& index, const StartPrior
     poses.push_back(pose);
   hypotheses_.add(index, poses);
   hypotheses_.prune_and_normalize();
+  hypotheses_.add(index, aliases(index, hypotheses_.all().front().pose(), prior, scan));
+  hypotheses_.prune_and_normalize();
+}
+
+std::vector<StoreyPose> GlobalLocalizer::aliases(const PlanIndex& index, const StoreyPose& pose,
+                                                 const StartPrior& prior, const LocalizationScan& scan) {
+  if (!alias_search_ || alias_search_->storeys() != index.storeys.size())
+    alias_search_.emplace(index, scan.sensor_height, config_.aliases);
+  return alias_search_->find(index, pose, prior, scan, config_.likelihood, config_.refine);
 }
 
 }  // namespace plumbline::slam

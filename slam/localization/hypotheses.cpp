@@ -10,17 +10,23 @@ namespace plumbline::slam {
 
 namespace {
 
-/// Adds the element of the plan that a step goes through, if any.
+/// Adds the wall or column that a step goes through, if any.
 void add_crossed(const StoreyIndex& storey, const Pose2& from, const Pose2& to, double body_height,
                  std::vector<int>& elements) {
-  const Eigen::Vector2d way = to.t - from.t;
-  if (way.norm() < 1e-6) return;
-  const PlanRay ray{from.t, way.normalized(), storey.floor_z + body_height, 0.0};
-  const int segment = storey.grid.cast(storey.segments, ray, way.norm()).segment;
-  if (segment >= 0) elements.push_back(storey.segments[static_cast<std::size_t>(segment)].element);
+  const double z = storey.floor_z + body_height;
+  const int element = storey.structure->barrier({from.t.x(), from.t.y(), z}, {to.t.x(), to.t.y(), z});
+  if (element >= 0) elements.push_back(element);
 }
 
 }  // namespace
+
+double FitConfig::of_scan(const Agreement& seen) const {
+  const double other = seen.penetration_ratio_other_walls();
+  if (other > misfit_penetration) return -misfit_scan;
+  if (seen.inliers < inliers_min || other > other_penetration_max) return -doubtful_scan;
+  if (seen.penetration_ratio > penetration_max) return missing_wall_scan;
+  return std::min(seen.inliers / inliers_full, most_a_scan);
+}
 
 void HypothesisSet::predict_and_update(const PlanIndex& index, const Pose2& u, const LocalizationScan& scan) {
   history_.push_back({u, scan});
@@ -78,15 +84,13 @@ void HypothesisSet::add(const PlanIndex& index, const std::vector<StoreyPose>& p
     if (reference.empty() && !hypotheses_.empty()) reference = replay(index, hypotheses_[reference_].pose(), {}).scans;
     Replay past = replay(index, fitted, reference);
     if (past.evidence < -config_.drop_ratio) continue;
-    hypotheses_.push_back({next_id_++,
-                           fitted.storey,
-                           fitted.X_IH,
-                           refined.covariance,
-                           std::move(past.balance),
-                           past.evidence,
-                           0.0,
-                           0,
-                           {}});
+    PoseHypothesis& hypothesis = hypotheses_.emplace_back();
+    hypothesis.id = next_id_++;
+    hypothesis.storey = fitted.storey;
+    hypothesis.X_IH = fitted.X_IH;
+    hypothesis.covariance = refined.covariance;
+    hypothesis.balance = std::move(past.balance);
+    hypothesis.evidence = past.evidence;
     replay_agreement(storey, past.scans, hypotheses_.back());
     if (reference.empty()) reference = std::move(past.scans);
   }
@@ -169,11 +173,11 @@ void HypothesisSet::clear() {
 }
 
 void HypothesisSet::update_agreement(const Agreement& latest, PoseHypothesis& hypothesis) const {
-  Agreement& mean = hypothesis.agreement;
-  mean.update_mean(latest, config_.ema_alpha);
-  const bool fits = mean.inliers >= config_.cluttered_inliers &&
-                    mean.penetration_ratio_other_walls() <= config_.cluttered_penetration_ratio;
-  hypothesis.fit_count = fits ? hypothesis.fit_count + 1 : std::max(config_.min_fit_count, hypothesis.fit_count - 2);
+  hypothesis.agreement.update_mean(latest, config_.ema_alpha);
+  const double fit = config_.fit.of_scan(latest);
+  hypothesis.fit = std::clamp(hypothesis.fit + fit, -config_.fit.limit, config_.fit.limit);
+  hypothesis.fit_sum += fit;
+  ++hypothesis.scans;
 }
 
 void HypothesisSet::replay_agreement(const StoreyIndex& storey, const std::vector<ScanAtPose>& scans,

@@ -13,6 +13,40 @@
 
 namespace plumbline::slam {
 
+/// How scans add up to how well the plan fits at a pose, where clutter and furniture hide walls. Right poses in
+/// furnished and cluttered worlds have 0.3 to 0.9 of the beams on their faces and up to 0.01 penetrate; poses in plans
+/// of other buildings soon have 0.1 to 0.5 that penetrate.
+struct FitConfig {
+  double inliers_min = 0.3;
+  double inliers_full = 0.5;
+  double most_a_scan = 1.5;
+  double penetration_max = 0.05;
+  double other_penetration_max = 0.03;
+  double missing_wall_scan = 0.25;
+  double misfit_penetration = 0.06;
+  double misfit_scan = 3.0;
+  double doubtful_scan = 0.5;
+  double limit = 18.0;
+
+  template <class V>
+  void visit(V& v) {
+    v("inliers_min", inliers_min, share_field("least share of beams on their face for a scan to fit"));
+    v("inliers_full", inliers_full, share_field("share at which it counts for one; others in proportion"));
+    v("most_a_scan", most_a_scan, plain_field("most that one scan counts for", {.min = 0}));
+    v("penetration_max", penetration_max, share_field("largest penetration ratio of a scan that fits"));
+    v("other_penetration_max", other_penetration_max,
+      share_field("largest penetration ratio without the worst wall of a scan that may fit, if that wall is missing"));
+    v("missing_wall_scan", missing_wall_scan, plain_field("what such a scan counts for", {.min = 0}));
+    v("misfit_penetration", misfit_penetration,
+      share_field("penetration ratio without the worst wall above which a scan does not fit"));
+    v("misfit_scan", misfit_scan, plain_field("what such a scan counts against the pose", {.min = 0}));
+    v("doubtful_scan", doubtful_scan, plain_field("what any other scan counts against it", {.min = 0}));
+    v("limit", limit, plain_field("least and largest sum", {.min = 0}));
+  }
+  /// What one scan counts for.
+  [[nodiscard]] double of_scan(const Agreement& seen) const;
+};
+
 struct HypothesisConfig {
   int max_count = 24;
   double covered_mass = 0.99;
@@ -29,9 +63,7 @@ struct HypothesisConfig {
   int history = 240;
   int replay_stride = 3;
   double ema_alpha = 0.15;
-  double cluttered_inliers = 0.30;
-  double cluttered_penetration_ratio = 0.10;
-  int min_fit_count = -18;
+  FitConfig fit;
   double unassigned_mass = 0.01;
 
   template <class V>
@@ -65,14 +97,7 @@ struct HypothesisConfig {
           .doc = "every how many of these scans one is replayed, which stands for all of them", .min = 1, .max = 1000});
     v("ema_alpha", ema_alpha,
       share_field("weight of the newest scan in the moving average of the agreement", {.former = "newest"}));
-    v("cluttered_inliers", cluttered_inliers,
-      share_field("least share of beams on their face for a scan to fit where clutter hides walls"));
-    v("cluttered_penetration_ratio", cluttered_penetration_ratio,
-      share_field("largest penetration ratio for such a scan to fit", {.former = "cluttered_through"}));
-    v("min_fit_count", min_fit_count,
-      Field{.doc = "lower limit of the count of fitting scans less twice those that do not fit",
-            .max = 0,
-            .former = "least_fits"});
+    v("fit", fit, Field{.former = "cluttered_inliers"});
     v("unassigned_mass", unassigned_mass,
       share_field("mass left to particles of no hypothesis", {.former = "stray_mass"}));
   }
@@ -96,10 +121,13 @@ struct PoseHypothesis {
   EvidenceBalance balance;  ///< from its comparison with the reference
   double evidence = 0.0;    ///< log-likelihood ratio to the reference, whose own is 0
   double mass = 0.0;        ///< share by evidence
-  int fit_count = 0;        ///< scans that fit behind clutter, less twice those that do not
+  double fit = 0.0;         ///< sum over its scans within FitConfig::limit
+  double fit_sum = 0.0;     ///< the same without the limit
+  int scans = 0;            ///< that it was compared with
   Agreement agreement;      ///< moving average over the last scans, see HypothesisConfig::ema_alpha
 
   [[nodiscard]] StoreyPose pose() const { return {storey, X_IH}; }
+  [[nodiscard]] double mean_fit() const { return scans > 0 ? fit_sum / scans : 0.0; }
 };
 
 /// Hypotheses tracked one by one. The evidence of a hypothesis compares it with the best one so far by every scan, each

@@ -2,6 +2,7 @@
 #include "slam/localization/pipeline.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "bim/digest/digest.h"
@@ -52,7 +53,9 @@ class SGraphLocalization final : public PlanLocalization {
                 const std::vector<PlaneObservation>& planes, Output& output);
   void track(const LocalizationScan& scan, const std::vector<PlaneObservation>& planes, Output& output);
   void start_tracking(const LocalizationScan& scan, const std::vector<PlaneObservation>& planes);
+  void follow_storey();
   void check_kidnap(const LocalizationScan& scan);
+  [[nodiscard]] bool is_on_floor() const;
   [[nodiscard]] bool has_better_alternative(const LocalizationScan& scan);
   [[nodiscard]] bool is_tracked(const PoseHypothesis& hypothesis, const LocalizationScan& scan) const;
   [[nodiscard]] StartPrior start_prior(const PlanScan& scan) const;
@@ -68,6 +71,7 @@ class SGraphLocalization final : public PlanLocalization {
   State state_ = State::searching;
   double mass_ = 0.0;  ///< of the tracked hypothesis when it was announced
   int failed_updates_ = 0;
+  double fit_ = 0.0;       ///< of the tracked pose, see FitConfig
   int storey_ = 0;         ///< of the tracked hypothesis, index into PlanIndex::storeys
   HypothesisSet monitor_;  ///< of the last scans; hypotheses only while a check runs
   double since_check_m_ = 0.0;
@@ -106,10 +110,12 @@ void SGraphLocalization::start_tracking(const LocalizationScan& scan, const std:
   const PoseHypothesis& best = global_localizer_.hypotheses().front();
   mass_ = best.mass;
   failed_updates_ = 0;
+  fit_ = config_.monitor.misfit;
   storey_ = best.storey;
   monitor_.clear();
   since_check_m_ = 0.0;
-  tracker_.emplace(config_.tracker, index().storeys[static_cast<std::size_t>(best.storey)]);
+  tracker_.emplace(config_.tracker, index().storeys[static_cast<std::size_t>(best.storey)],
+                   input().calibration.sensor_height_m - input().calibration.X_RL.t.z());
   tracker_->start(scan, planes, pose_in_I(best, scan));
   agreement_ = best.agreement;
   X_IO_last_ = tracker_->X_IO();
@@ -122,8 +128,33 @@ void SGraphLocalization::track(const LocalizationScan& scan, const std::vector<P
   X_IO_last_ = tracker_->X_IO();
   output.digests.push_back({"tracking", Digest().add(tracker_->pose(scan.X_OR)).value()});
   record_stage("tracking", stopwatch, output);
-  check_kidnap(scan);
+  follow_storey();
+  if (is_on_floor()) check_kidnap(scan);
   record_stage("monitor", stopwatch, output);
+}
+
+bool SGraphLocalization::is_on_floor() const {
+  return std::abs(tracker_->height_over_floor()) < config_.monitor.off_floor_m;
+}
+
+/// Changes to the storey whose floor the robot has reached by a stair.
+void SGraphLocalization::follow_storey() {
+  if (is_on_floor()) return;
+  failed_updates_ = 0;
+  fit_ = config_.monitor.misfit;  // the plan is compared at the height of a floor
+  const bim::Plan& plan = *input().plan;
+  const double z_W = tracker_->storey().floor_z + tracker_->height_over_floor() + index().X_WI.t.z();
+  for (int i = 0; i < static_cast<int>(plan.storeys.size()); ++i) {
+    const bool has_room =
+        std::any_of(plan.rooms.begin(), plan.rooms.end(), [&](const bim::PlanRoom& room) { return room.storey == i; });
+    const double height = z_W - plan.storeys[static_cast<std::size_t>(i)].elevation_m;
+    if (!has_room || std::abs(height) >= config_.monitor.off_floor_m) continue;
+    storey_ = storey_of_plan(i);
+    tracker_->change_storey(index().storeys[static_cast<std::size_t>(storey_)]);
+    monitor_.clear();
+    since_check_m_ = 0.0;
+    return;
+  }
 }
 
 /// True when another hypothesis explains the last scans better at two checks in a row: where a wall of the plan is
@@ -140,6 +171,7 @@ bool SGraphLocalization::has_better_alternative(const LocalizationScan& scan) {
     const GlobalLocalizerConfig& search = config_.search;
     monitor_.add(index(),
                  propose_poses(index(), {}, scan, search.filter.beam_stride, search.likelihood, search.proposals));
+    monitor_.add(index(), global_localizer_.aliases(index(), {storey_, heading(tracker_->pose(scan.X_OR))}, {}, scan));
   }
   monitor_.prune_and_normalize();
   const std::vector<PoseHypothesis>& alternatives = monitor_.all();
@@ -171,7 +203,10 @@ void SGraphLocalization::check_kidnap(const LocalizationScan& scan) {
   agreement_.update_mean(fit, config_.search.hypotheses.ema_alpha);
   failed_updates_ =
       fit.penetration_ratio_other_walls() > config_.monitor.lost_penetration_ratio ? failed_updates_ + 1 : 0;
-  if (!has_better_alternative(scan) && failed_updates_ < config_.monitor.lost_updates) return;
+  const double limit = config_.monitor.misfit;
+  fit_ = std::clamp(fit_ + config_.search.hypotheses.fit.of_scan(fit), -limit, limit);
+  const bool misfits = failed_updates_ >= config_.monitor.lost_updates || fit_ <= -limit;
+  if (!has_better_alternative(scan) && !misfits) return;
   tracker_.reset();  // with its window, which was refuted
   global_localizer_.restart();
   state_ = State::lost;

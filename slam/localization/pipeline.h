@@ -23,6 +23,8 @@ struct KidnapMonitorConfig {
   double log_ratio = 20.0;
   double drop_ratio = 30.0;
   double penetration_ratio_margin = 0.03;
+  double off_floor_m = 0.3;
+  double misfit = 12.0;
 
   template <class V>
   void visit(V& v) {
@@ -43,11 +45,18 @@ struct KidnapMonitorConfig {
     v("penetration_ratio_margin", penetration_ratio_margin,
       share_field("margin by which the other's penetration ratio may be larger: its noise",
                   {.former = "through_margin"}));
+    v("misfit", misfit,
+      plain_field("sum of scans that do not fit, less those that do, which withdraws a convergence", {.min = 0}));
+    v("off_floor_m", off_floor_m,
+      Field{.doc = "height over or under a storey's floor from which the robot is on a stair", .min = 0.05});
   }
 };
 
 struct LocalizationConfig : PlanUpdateConfig {
-  LocalizationConfig() { update_m = 0.2; }  // scans from one position are not independent
+  LocalizationConfig() {
+    update_m = 0.2;           // scans from one position are not independent
+    index.furniture = false;  // it may have moved
+  }
 
   PlaneDetectorConfig planes;
   LocalizationScanConfig scan;

@@ -4,6 +4,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <vector>
 
 namespace plumbline::slam {
@@ -20,50 +21,66 @@ struct NormalEquations {
   }
 };
 
-/// Votes of the beams on whether each wall or solid of the plan stands.
-class ElementHits {
+/// The beams of a scan against the structure at a pose.
+class StructureResiduals {
  public:
-  explicit ElementHits(const StoreyIndex& storey) : storey_(storey), ends_(storey.segments.size(), 0) {}
-
-  void add(const BeamResidual& residual, double gate) {
-    if (residual.segment >= 0 && residual.across > -gate) ends_[element(residual)] += residual.across <= gate ? 1 : -1;
+  StructureResiduals(const StoreyIndex& storey, const Pose2& X_IH, const LocalizationScan& scan, double min_incidence)
+      : R_IH_(X_IH.rotation()), sensor_I_(R_IH_ * scan.sensor_H + X_IH.t), hits_(scan.beams.size()) {
+    std::vector<SensorRay> rays;
+    double farthest = 0.0;
+    for (const Beam& beam : scan.beams) {
+      rays.push_back({R_IH_ * beam.direction_H, beam.slope});
+      farthest = std::max(farthest, (beam.range + beyond_m) * std::sqrt(1.0 + beam.slope * beam.slope));
+    }
+    storey.structure->cast({sensor_I_.x(), sensor_I_.y(), storey.floor_z + scan.sensor_height}, rays, farthest, hits_);
+    for (std::size_t i = 0; i < hits_.size(); ++i) {
+      const double reach = scan.beams[i].range + beyond_m;
+      const bool hit = hits_[i].element >= 0 && hits_[i].distance < reach;
+      if (!hit || !hits_[i].upright) hits_[i].element = -1;
+      across_.push_back(scan.beams[i].range - (hit ? hits_[i].distance : reach));
+      if (hits_[i].element >= 0) across_.back() *= std::max(std::abs(hits_[i].n.dot(rays[i].direction)), min_incidence);
+    }
   }
-  /// False where more beams penetrate it than end at it: what ends there is then something else.
-  [[nodiscard]] bool stands(const BeamResidual& residual) const { return ends_[element(residual)] > 0; }
+
+  [[nodiscard]] const Eigen::Matrix2d& R_IH() const { return R_IH_; }
+  [[nodiscard]] const Eigen::Vector2d& sensor_I() const { return sensor_I_; }
+  /// Element that beam i should end at, -1: no upright face.
+  [[nodiscard]] int element(std::size_t i) const { return hits_[i].element; }
+  /// Measured minus expected range, across the face hit, m; positive: through it.
+  [[nodiscard]] double across(std::size_t i) const { return across_[i]; }
+  [[nodiscard]] const Eigen::Vector2d& n(std::size_t i) const { return hits_[i].n; }
+  [[nodiscard]] double expected(std::size_t i) const { return hits_[i].distance; }
+  [[nodiscard]] std::size_t size() const { return hits_.size(); }
 
  private:
-  [[nodiscard]] std::size_t element(const BeamResidual& residual) const {
-    return static_cast<std::size_t>(storey_.segments[static_cast<std::size_t>(residual.segment)].element);
-  }
-  const StoreyIndex& storey_;
-  std::vector<int> ends_;
+  static constexpr double beyond_m = 1.0;  // a beam this far behind a face has long penetrated it
+
+  Eigen::Matrix2d R_IH_;
+  Eigen::Vector2d sensor_I_;
+  std::vector<StructureHit> hits_;
+  std::vector<double> across_;
 };
 
 /// Distances of the beams' ends to the faces they should hit, linearised in (x, y, yaw).
 NormalEquations beam_equations(const StoreyIndex& storey, const Pose2& X_IH, const LocalizationScan& scan, double gate,
                                const LikelihoodConfig& likelihood) {
   NormalEquations equations;
-  const Eigen::Matrix2d R_IH = X_IH.rotation();
-  const Eigen::Vector2d sensor_I = R_IH * scan.sensor_H + X_IH.t;
-  const int cell = storey.grid.cell_at(sensor_I);
+  const StructureResiduals residuals(storey, X_IH, scan, likelihood.beam_min_incidence);
   // The share of evidence of a beam keeps its errors from being averaged away as if they were independent.
   const double information = likelihood.beam_weight / (likelihood.beam_sigma_m * likelihood.beam_sigma_m);
-  std::vector<BeamResidual> residuals;
-  ElementHits hits(storey);
-  for (const Beam& beam : scan.beams) {
-    residuals.push_back(beam_residual(storey, sensor_I, cell, R_IH, beam, scan.sensor_height, likelihood));
-    hits.add(residuals.back(), gate);
-  }
-  for (std::size_t i = 0; i < scan.beams.size(); ++i) {
-    const Beam& beam = scan.beams[i];
-    const BeamResidual& residual = residuals[i];
-    if (residual.segment < 0 || std::abs(residual.across) > gate || !hits.stands(residual)) continue;
-    const PlanSegment& segment = storey.segments[static_cast<std::size_t>(residual.segment)];
-    if (segment.n.dot(R_IH * beam.direction_H) >= 0.0) continue;  // the back of a face stands for a jamb
-    const Eigen::Vector2d arm = R_IH * (scan.sensor_H + beam.range * beam.direction_H);
-    const double e = segment.n.dot(arm + X_IH.t - segment.a);
-    const Eigen::RowVector3d J(segment.n.x(), segment.n.y(), segment.n.dot(Eigen::Vector2d(-arm.y(), arm.x())));
-    equations.add(J, e, information);
+  // Votes of the beams on whether each element stands: where more beams penetrate it than end at it, what ends there is
+  // something else.
+  std::map<int, int> votes;
+  for (std::size_t i = 0; i < residuals.size(); ++i)
+    if (residuals.element(i) >= 0 && residuals.across(i) > -gate)
+      votes[residuals.element(i)] += residuals.across(i) <= gate ? 1 : -1;
+  for (std::size_t i = 0; i < residuals.size(); ++i) {
+    if (residuals.element(i) < 0 || std::abs(residuals.across(i)) > gate || votes[residuals.element(i)] <= 0) continue;
+    const Eigen::Vector2d& n = residuals.n(i);
+    const Eigen::Vector2d direction = residuals.R_IH() * scan.beams[i].direction_H;
+    const Eigen::Vector2d arm = residuals.R_IH() * scan.sensor_H + scan.beams[i].range * direction;
+    const double e = n.dot(direction) * (scan.beams[i].range - residuals.expected(i));
+    equations.add({n.x(), n.y(), n.dot(Eigen::Vector2d(-arm.y(), arm.x()))}, e, information);
   }
   return equations;
 }
@@ -97,23 +114,18 @@ Refined refine(const StoreyIndex& storey, const Pose2& X_IH, const LocalizationS
 
 Agreement agreement(const StoreyIndex& storey, const Pose2& X_IH, const LocalizationScan& scan,
                     const LikelihoodConfig& likelihood, const RefineConfig& config) {
-  const Eigen::Matrix2d R_IH = X_IH.rotation();
-  const Eigen::Vector2d sensor_I = R_IH * scan.sensor_H + X_IH.t;
-  const int cell = storey.grid.cell_at(sensor_I);
-  int inliers = 0, penetration_ratio = 0, penetration_ratio_worst_wall = 0;
-  std::vector<int> crossings_of_element(storey.segments.size(), 0);
-  for (const Beam& beam : scan.beams) {
-    const BeamResidual residual = beam_residual(storey, sensor_I, cell, R_IH, beam, scan.sensor_height, likelihood);
-    if (std::abs(residual.across) <= config.inlier_m) ++inliers;
-    if (residual.across <= config.inlier_m) continue;
-    ++penetration_ratio;
-    if (residual.segment < 0) continue;
-    const int element = storey.segments[static_cast<std::size_t>(residual.segment)].element;
-    penetration_ratio_worst_wall =
-        std::max(penetration_ratio_worst_wall, ++crossings_of_element[static_cast<std::size_t>(element)]);
+  const StructureResiduals residuals(storey, X_IH, scan, likelihood.beam_min_incidence);
+  int inliers = 0, penetrating = 0, penetrating_worst_wall = 0;
+  std::map<int, int> penetrating_element;
+  for (std::size_t i = 0; i < residuals.size(); ++i) {
+    if (std::abs(residuals.across(i)) <= config.inlier_m) ++inliers;
+    if (residuals.across(i) <= config.inlier_m) continue;
+    ++penetrating;
+    if (residuals.element(i) >= 0)
+      penetrating_worst_wall = std::max(penetrating_worst_wall, ++penetrating_element[residuals.element(i)]);
   }
   const double count = std::max<double>(1.0, static_cast<double>(scan.beams.size()));
-  return {inliers / count, penetration_ratio / count, penetration_ratio_worst_wall / count};
+  return {inliers / count, penetrating / count, penetrating_worst_wall / count};
 }
 
 }  // namespace plumbline::slam

@@ -4,6 +4,10 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+#include <utility>
 
 #include "slam/graph/factors.h"
 #include "slam/localization/associate.h"
@@ -12,19 +16,38 @@ namespace plumbline::slam {
 
 namespace {
 
-/// Normal equations over a window of poses, 6 increments each.
+/// Normal equations over a window of poses, 6 increments each, and the LiDAR's range bias, which comes last.
 class WindowProblem {
  public:
   explicit WindowProblem(std::size_t poses)
-      : H_(Eigen::MatrixXd::Zero(6 * static_cast<Eigen::Index>(poses), 6 * static_cast<Eigen::Index>(poses))),
-        b_(Eigen::VectorXd::Zero(6 * static_cast<Eigen::Index>(poses))) {}
+      : H_(Eigen::MatrixXd::Zero(6 * static_cast<Eigen::Index>(poses) + 1, 6 * static_cast<Eigen::Index>(poses) + 1)),
+        b_(Eigen::VectorXd::Zero(6 * static_cast<Eigen::Index>(poses) + 1)) {}
 
   /// Residual e with Jacobian J towards pose i; sigmas by row; Huber in whitened length, 0: none.
-  void add(std::size_t i, Eigen::MatrixXd J, Eigen::VectorXd e, const Eigen::VectorXd& sigmas, double huber) {
-    whiten(J, e, sigmas, huber);
-    const Eigen::Index k = 6 * static_cast<Eigen::Index>(i);
-    H_.block<6, 6>(k, k) += J.transpose() * J;
-    b_.segment<6>(k) -= J.transpose() * e;
+  void add(std::size_t i, const Eigen::MatrixXd& J, const Eigen::VectorXd& e, const Eigen::VectorXd& sigmas,
+           double huber) {
+    add_with_bias(i, J, Eigen::VectorXd::Zero(e.size()), e, sigmas, huber);
+  }
+  /// J_bias: towards the range bias.
+  void add_with_bias(std::size_t i, const Eigen::MatrixXd& J, const Eigen::VectorXd& J_bias, Eigen::VectorXd e,
+                     const Eigen::VectorXd& sigmas, double huber) {
+    Eigen::MatrixXd J_both(J.rows(), 7);
+    J_both << J, J_bias;
+    whiten(J_both, e, sigmas, huber);
+    const Eigen::Index k = 6 * static_cast<Eigen::Index>(i), last = b_.size() - 1;
+    const Eigen::Matrix<double, 7, 7> JtJ = J_both.transpose() * J_both;
+    const Eigen::Matrix<double, 7, 1> Jte = J_both.transpose() * e;
+    H_.block<6, 6>(k, k) += JtJ.topLeftCorner<6, 6>();
+    H_.block<6, 1>(k, last) += JtJ.topRightCorner<6, 1>();
+    H_.block<1, 6>(last, k) += JtJ.bottomLeftCorner<1, 6>();
+    H_(last, last) += JtJ(6, 6);
+    b_.segment<6>(k) -= Jte.head<6>();
+    b_[last] -= Jte[6];
+  }
+  void add_bias_prior(double bias, double sigma) {
+    const Eigen::Index last = b_.size() - 1;
+    H_(last, last) += 1.0 / (sigma * sigma);
+    b_[last] -= bias / (sigma * sigma);
   }
 
   void add_between(std::size_t i, const PoseResidual& residual, const Vector6d& sigmas) {
@@ -38,13 +61,6 @@ class WindowProblem {
   }
 
   [[nodiscard]] Eigen::VectorXd solve() const { return H_.ldlt().solve(b_); }
-  /// Covariance of the last pose's increment.
-  [[nodiscard]] Matrix6d last_covariance() const {
-    const Eigen::Index n = H_.rows();
-    Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(n, 6);
-    unit.bottomRows<6>().setIdentity();
-    return H_.ldlt().solve(unit).bottomRows<6>();
-  }
 
  private:
   static void whiten(Eigen::MatrixXd& J, Eigen::VectorXd& e, const Eigen::VectorXd& sigmas, double huber) {
@@ -69,14 +85,28 @@ Eigen::Vector3d plane_sigmas(const PlaneObservation& observed, double angle, dou
           join(observed.covariance(2, 2), offset)};
 }
 
+/// How much of a range bias shows in the distance of an observed wall: cosine of the beams' incidence.
+double bias_share(const PlaneObservation& observed) {
+  const double range = observed.centroid_R.norm();
+  return range > 0.0 ? std::min(1.0, std::abs(observed.plane_R.d) / range) : 1.0;
+}
+
+/// Residual of an observed wall, its distance corrected by the range bias.
+PlaneResidual wall_residual(const TrackedPose& pose, const WallLink& link, const StoreyIndex& storey, double bias) {
+  const Plane plane_I = plane_of(storey.lines[static_cast<std::size_t>(link.line)]);
+  PlaneResidual residual = plane_residual(pose.X_IR, plane_I, link.observed.plane_R);
+  residual.e[2] += bias_share(link.observed) * bias;
+  return residual;
+}
+
 /// Pose-plane factors to the walls and the floor of the plan, which stand still.
-void add_planes(WindowProblem& problem, std::size_t i, const TrackedPose& pose, const StoreyIndex& storey,
+void add_planes(WindowProblem& problem, std::size_t i, const TrackedPose& pose, const StoreyIndex& storey, double bias,
                 const TrackerConfig& config) {
   for (const WallLink& link : pose.walls) {
-    const Plane plane_I = plane_of(storey.lines[static_cast<std::size_t>(link.line)]);
-    const PlaneResidual residual = plane_residual(pose.X_IR, plane_I, link.observed.plane_R);
-    problem.add(i, residual.J_pose, residual.e,
-                plane_sigmas(link.observed, config.plane_angle_sigma, config.plane_offset_sigma_m), config.huber);
+    const PlaneResidual residual = wall_residual(pose, link, storey, bias);
+    problem.add_with_bias(i, residual.J_pose, Eigen::Vector3d(0.0, 0.0, bias_share(link.observed)), residual.e,
+                          plane_sigmas(link.observed, config.plane_angle_sigma, config.plane_offset_sigma_m),
+                          config.huber);
   }
   for (const PlaneObservation& floor : pose.floor) {
     const Plane floor_I{Eigen::Vector3d::UnitZ(), -storey.floor_z};
@@ -84,6 +114,18 @@ void add_planes(WindowProblem& problem, std::size_t i, const TrackedPose& pose, 
     problem.add(i, residual.J_pose, residual.e,
                 plane_sigmas(floor, config.floor_angle_sigma, config.floor_offset_sigma_m), config.huber);
   }
+}
+
+/// The robot stands on what the plan has below it: floor, landing or step.
+void add_ground(WindowProblem& problem, std::size_t i, const TrackedPose& pose, const StoreyIndex& storey,
+                double standing_m, const TrackerConfig& config) {
+  const std::optional<double> ground = storey.structure->ground_below(pose.X_IR.t, standing_m + config.ground_gate_m);
+  if (!ground) return;
+  const double e = pose.X_IR.t.z() - standing_m - *ground;
+  if (std::abs(e) > config.ground_gate_m) return;
+  Eigen::MatrixXd J = Eigen::MatrixXd::Zero(1, 6);
+  J.leftCols<3>() = pose.X_IR.rotation().row(2);
+  problem.add(i, J, Eigen::VectorXd::Constant(1, e), Eigen::VectorXd::Constant(1, config.ground_sigma_m), 0.0);
 }
 
 /// Room factors [bavle2023, eq. 7-8] with the room held by the plan: the robot's offset from the middle of two opposed
@@ -139,6 +181,15 @@ std::vector<TrackedPose> PlanTracker::update(const LocalizationScan& scan,
   return left;
 }
 
+void PlanTracker::change_storey(StoreyIndex storey) {
+  storey_ = std::move(storey);
+  for (TrackedPose& pose : window_) {
+    pose.walls.clear();
+    pose.floor.clear();
+    pose.room = storey_.room_at(pose.X_IR.t.head<2>());
+  }
+}
+
 TrackedPose PlanTracker::associate(const LocalizationScan& scan, const std::vector<PlaneObservation>& planes,
                                    const Pose& X_IR) const {
   TrackedPose pose;
@@ -148,6 +199,10 @@ TrackedPose PlanTracker::associate(const LocalizationScan& scan, const std::vect
   pose.room = storey_.room_at(X_IR.t.head<2>());
   pose.walls = associate_walls(storey_, scan, planes, X_IR, config_);
   pose.floor = find_floor(scan, planes, config_);
+  const Plane floor_I{Eigen::Vector3d::UnitZ(), -storey_.floor_z};
+  std::erase_if(pose.floor, [&](const PlaneObservation& floor) {
+    return std::abs(plane_residual(X_IR, floor_I, floor.plane_R).e[2]) > config_.floor_gate_m;
+  });
   return pose;
 }
 
@@ -157,11 +212,13 @@ void PlanTracker::optimise() {
       config_.anchor_sigma_rad, config_.anchor_sigma_rad;
   for (int k = 0; k < config_.iterations; ++k) {
     WindowProblem problem(window_.size());
+    problem.add_bias_prior(range_bias_m_, config_.range_bias_sigma_m);
     const PoseResidual held = pose_residual(anchor_X_IR_, window_.front().X_IR, Pose{});
     problem.add(0, held.J_j, held.e, hold, 0.0);
     for (std::size_t i = 0; i < window_.size(); ++i) {
-      add_planes(problem, i, window_[i], storey_, config_);
+      add_planes(problem, i, window_[i], storey_, range_bias_m_, config_);
       add_rooms(problem, i, window_[i], storey_, config_);
+      add_ground(problem, i, window_[i], storey_, standing_m_, config_);
       if (i + 1 == window_.size()) continue;
       const Pose X_ij = window_[i].X_OR.inverse() * window_[i + 1].X_OR;
       problem.add_between(i, pose_residual(window_[i].X_IR, window_[i + 1].X_IR, X_ij), odometry_sigmas(X_ij, config_));
@@ -169,14 +226,53 @@ void PlanTracker::optimise() {
     const Eigen::VectorXd step = problem.solve();
     for (std::size_t i = 0; i < window_.size(); ++i)
       window_[i].X_IR = increment(window_[i].X_IR, step.segment<6>(6 * static_cast<Eigen::Index>(i)));
-    if (k + 1 < config_.iterations) continue;
-    const Eigen::Matrix3d R = window_.back().X_IR.rotation();
-    const Matrix6d P = problem.last_covariance();
-    covariance_.topLeftCorner<2, 2>() = (R * P.topLeftCorner<3, 3>() * R.transpose()).topLeftCorner<2, 2>();
-    covariance_.topRightCorner<2, 1>() = (R * P.block<3, 1>(0, 5)).head<2>();
-    covariance_.bottomLeftCorner<1, 2>() = covariance_.topRightCorner<2, 1>().transpose();
-    covariance_(2, 2) = P(5, 5);
+    range_bias_m_ += step[step.size() - 1];
   }
+  covariance_ = covariance_of_newest();
+}
+
+double PlanTracker::wall_tolerance() const {
+  struct Mean {
+    double sum = 0.0;
+    int count = 0;
+  };
+  std::map<int, Mean> of_line;
+  for (const TrackedPose& pose : window_)
+    for (const WallLink& link : pose.walls) {
+      Mean& mean = of_line[link.line];
+      mean.sum += std::clamp(wall_residual(pose, link, storey_, range_bias_m_).e[2], -config_.wall_residual_max_m,
+                             config_.wall_residual_max_m);
+      ++mean.count;
+    }
+  double squares = config_.wall_tolerance_weight * config_.wall_tolerance_m * config_.wall_tolerance_m;
+  for (const auto& [line, mean] : of_line) squares += std::pow(mean.sum / mean.count, 2);
+  constexpr double fitted = 4.0;  // x, y, yaw and the range bias
+  const double freedom = config_.wall_tolerance_weight + std::max(0.0, static_cast<double>(of_line.size()) - fitted);
+  return std::sqrt(squares / freedom);
+}
+
+Eigen::Matrix3d PlanTracker::covariance_of_newest() const {
+  const TrackedPose& pose = window_.back();
+  const double tolerance = wall_tolerance();
+  Eigen::Matrix3d information = Eigen::Vector3d(1.0, 1.0, 0.0).asDiagonal();
+  information /= config_.anchor_sigma_m * config_.anchor_sigma_m;
+  information(2, 2) = 1.0 / (config_.anchor_sigma_rad * config_.anchor_sigma_rad);
+  const auto add = [&](const Eigen::Vector3d& J, double sigma) { information += J * J.transpose() / (sigma * sigma); };
+  std::set<int> counted;
+  // All walls of the window: those out of sight now still hold the pose by odometry.
+  for (auto it = window_.rbegin(); it != window_.rend(); ++it)
+    for (const WallLink& link : it->walls) {
+      if (!counted.insert(link.line).second) continue;
+      const Eigen::Vector2d& n = storey_.lines[static_cast<std::size_t>(link.line)].n;
+      const Eigen::Vector2d arm = (it->X_IR * link.observed.centroid_R - pose.X_IR.t).head<2>();
+      add({n.x(), n.y(), n.y() * arm.x() - n.x() * arm.y()}, tolerance);
+      const double length = (link.observed.p1_R - link.observed.p0_R).norm();
+      if (length > 0.0) add({0.0, 0.0, 1.0}, std::sqrt(12.0) * tolerance / length + config_.wall_angle_min);
+    }
+  Eigen::Matrix3d P = information.inverse();
+  P.topLeftCorner<2, 2>() += config_.position_sigma_min_m * config_.position_sigma_min_m * Eigen::Matrix2d::Identity();
+  P(2, 2) += config_.yaw_sigma_min * config_.yaw_sigma_min;
+  return P;
 }
 
 }  // namespace plumbline::slam

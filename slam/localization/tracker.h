@@ -24,6 +24,9 @@ struct TrackerConfig {
   double pair_min_cos = 0.999;
   double floor_offset_sigma_m = 0.02;
   double floor_angle_sigma = 0.01;
+  double floor_gate_m = 0.3;
+  double ground_sigma_m = 0.08;
+  double ground_gate_m = 0.35;
   double floor_max_tilt = LocalizationScanConfig{}.floor_max_tilt_rad;
   double odometry_trans_per_m = 0.03;
   double odometry_rot_per_rad = 0.02;
@@ -33,6 +36,13 @@ struct TrackerConfig {
   double anchor_sigma_m = 0.03;
   double anchor_sigma_rad = 0.01;
   double huber = 2.0;
+  double range_bias_sigma_m = 0.03;
+  double wall_tolerance_m = 0.012;
+  double wall_tolerance_weight = 4.0;
+  double wall_residual_max_m = 0.1;
+  double wall_angle_min = 0.001;
+  double position_sigma_min_m = 0.003;
+  double yaw_sigma_min = 0.0005;
 
   template <class V>
   void visit(V& v) {
@@ -58,6 +68,15 @@ struct TrackerConfig {
       Field{.doc = "standard deviation of the height above the floor", .min = 1e-6});
     v("floor_angle_sigma", floor_angle_sigma,
       Field{.doc = "standard deviation of the floor's tilt", .unit = "rad", .min = 1e-6});
+    v("floor_gate_m", floor_gate_m,
+      Field{.doc = "largest difference of a level plane from the storey's floor; on a stair there are others",
+            .min = 0});
+    // Half a riser.
+    v("ground_sigma_m", ground_sigma_m,
+      Field{.doc = "standard deviation of the robot's height above the floor or step that the plan has below it",
+            .min = 1e-6});
+    v("ground_gate_m", ground_gate_m,
+      Field{.doc = "largest difference from that height for which it counts", .min = 0});
     v("floor_max_tilt", floor_max_tilt,
       Field{.doc = "largest tilt of a plane that is taken for the floor", .unit = "rad", .min = 0});
     v("odometry_trans_per_m", odometry_trans_per_m,
@@ -79,6 +98,22 @@ struct TrackerConfig {
       Field{.doc = "standard deviation of the prior attitude that anchors the oldest pose",
             .min = 1e-6,
             .former = "hold_rad"});
+    // A VLP-16 is given as accurate to 3 cm.
+    v("range_bias_sigma_m", range_bias_sigma_m,
+      Field{.doc = "standard deviation of the LiDAR's range bias before any wall is seen", .min = 1e-6});
+    v("wall_tolerance_m", wall_tolerance_m,
+      Field{.doc = "standard deviation of a wall's offset from the plan, before its residual is measured",
+            .min = 1e-6});
+    v("wall_tolerance_weight", wall_tolerance_weight,
+      plain_field("number of walls that this value counts for beside those seen", {.min = 0.1}));
+    v("wall_residual_max_m", wall_residual_max_m,
+      Field{.doc = "residual beyond which a wall's counts no further", .min = 0});
+    v("wall_angle_min", wall_angle_min,
+      Field{.doc = "least standard deviation of a wall's direction", .unit = "rad", .min = 1e-6});
+    v("position_sigma_min_m", position_sigma_min_m,
+      Field{.doc = "standard deviation of the position that no number of walls lessens", .min = 1e-6});
+    v("yaw_sigma_min", yaw_sigma_min,
+      Field{.doc = "standard deviation of the yaw that no number of walls lessens", .unit = "rad", .min = 1e-6});
     v("huber", huber, plain_field("whitened residual above which a factor counts linearly (Huber)", {.min = 1e-6}));
   }
 };
@@ -104,13 +139,20 @@ struct TrackedPose {
 /// them. An error of the plan or of the sensor ends up in the residuals, never in the plan.
 class PlanTracker {
  public:
-  PlanTracker(TrackerConfig config, StoreyIndex storey) : config_(config), storey_(std::move(storey)) {}
+  /// standing_m: height of R above the ground of a robot that stands.
+  PlanTracker(TrackerConfig config, StoreyIndex storey, double standing_m)
+      : config_(config), storey_(std::move(storey)), standing_m_(standing_m) {}
 
   /// Starts at a pose in I.
   void start(const LocalizationScan& scan, const std::vector<PlaneObservation>& planes, const Pose& X_IR);
   /// Adds a pose by odometry, associates, optimises. Returns the pose that left the window, if one did.
   std::vector<TrackedPose> update(const LocalizationScan& scan, const std::vector<PlaneObservation>& planes);
 
+  /// Goes on on another storey, whose walls are associated from the next pose on.
+  void change_storey(StoreyIndex storey);
+
+  /// Height of the robot's feet above the storey's floor by the newest pose, m.
+  [[nodiscard]] double height_over_floor() const { return window_.back().X_IR.t.z() - standing_m_ - storey_.floor_z; }
   /// Pose at odometry X_OR by the last correction [shaheer2023, eq. 10].
   [[nodiscard]] Pose pose(const Pose& X_OR) const { return X_IO() * X_OR; }
   [[nodiscard]] Pose X_IO() const;
@@ -123,11 +165,18 @@ class PlanTracker {
   [[nodiscard]] TrackedPose associate(const LocalizationScan& scan, const std::vector<PlaneObservation>& planes,
                                       const Pose& X_IR) const;
   void optimise();
+  /// Standard deviation of a wall's offset from the plan, by the mean residual of each wall in the window.
+  [[nodiscard]] double wall_tolerance() const;
+  /// Of (x, y, yaw) of the newest pose in I: each wall of the window counts once, off by the tolerance, since a wall
+  /// that stands off the plan shifts all its observations alike.
+  [[nodiscard]] Eigen::Matrix3d covariance_of_newest() const;
 
   TrackerConfig config_;
   StoreyIndex storey_;
+  double standing_m_;
   std::deque<TrackedPose> window_;
   Pose anchor_X_IR_;
+  double range_bias_m_ = 0.0;  ///< of the LiDAR: measured less true range
   Eigen::Matrix3d covariance_ = Eigen::Matrix3d::Identity();
 };
 

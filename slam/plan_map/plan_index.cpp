@@ -7,8 +7,10 @@
 #include <numbers>
 #include <string>
 #include <tuple>
+#include <utility>
 
 #include "bim/errors.h"
+#include "slam/plan_map/plan_mesh.h"
 #include "slam/plan_map/pose2.h"
 #include "slam/plan_map/wall_lines.h"
 
@@ -97,7 +99,8 @@ void number_elements(std::vector<PlanSegment>& segments) {
 
 /// Faces and sides of solids that stand between floor and ceiling, ordered by geometry, so that the order in the plan
 /// does not matter.
-std::vector<PlanSegment> storey_segments(const bim::Plan& plan, const Pose& X_WI, double floor_z, double ceiling_z) {
+std::vector<PlanSegment> storey_segments(const bim::Plan& plan, const Pose& X_WI, double floor_z, double ceiling_z,
+                                         bool furniture) {
   const Pose2 X_IW = heading(X_WI).inverse();
   std::vector<PlanSegment> segments;
   Elements elements;
@@ -109,6 +112,7 @@ std::vector<PlanSegment> storey_segments(const bim::Plan& plan, const Pose& X_WI
     if ((plan.faces[i].p1 - plan.faces[i].p0).norm() >= 1e-3)
       add(segment_in_I(plan.faces[i], static_cast<int>(i), X_IW, X_WI.t.z()), elements.of_wall(plan.faces[i]));
   for (const bim::PlanSolid& solid : plan.solids) {
+    if (solid.may_have_moved && !furniture) continue;
     const int element = elements.next();
     for (std::size_t i = 0; i < solid.outline.size(); ++i) {
       // Free space is on the right of a counter-clockwise outline.
@@ -168,7 +172,19 @@ void drop_out_of_sight(std::vector<PlanSegment>& segments, const std::vector<Loc
   number_elements(segments);
 }
 
-StoreyIndex make_storey(const bim::Plan& plan_W, int plan_storey, const Pose& X_WI, const PlanIndexConfig& config) {
+std::shared_ptr<const Structure> structure_in_I(const bim::Plan& plan_W, const Pose& X_WI) {
+  if (plan_W.structure.triangles.empty()) return nullptr;
+  bim::BuildingMesh mesh = plan_W.structure;
+  const Pose X_IW = X_WI.inverse();
+  for (Eigen::Vector3d& p : mesh.vertices) {
+    const Eigen::Vector3d p_I = X_IW * p;
+    p = {snap(p_I.x()), snap(p_I.y()), snap(p_I.z())};
+  }
+  return std::make_shared<const Structure>(mesh);
+}
+
+StoreyIndex make_storey(const bim::Plan& plan_W, int plan_storey, const Pose& X_WI, const PlanIndexConfig& config,
+                        std::shared_ptr<const Structure> structure) {
   const bim::PlanStorey& source = plan_W.storeys[static_cast<std::size_t>(plan_storey)];
   StoreyIndex storey;
   storey.plan_storey = plan_storey;
@@ -181,12 +197,13 @@ StoreyIndex make_storey(const bim::Plan& plan_W, int plan_storey, const Pose& X_
     for (const Eigen::Vector2d& p_W : plan_W.rooms[i].polygon) room.polygon.push_back(snap(X_IW * p_W));
     storey.rooms.push_back(std::move(room));
   }
-  storey.segments = storey_segments(plan_W, X_WI, storey.floor_z, storey.ceiling_z);
+  storey.segments = storey_segments(plan_W, X_WI, storey.floor_z, storey.ceiling_z, config.furniture);
   drop_out_of_sight(storey.segments, storey.rooms);
   storey.lines = merge_wall_lines(storey.segments, storey.floor_z + config.wall_band_m, config);
   storey.grid = SegmentGrid(storey.segments, config.cell_m);
   storey.sectors = FaceSectors(storey.segments, storey.grid.ray_candidates(), storey.grid.cells());
   storey.visible = visible_lines(storey, config);
+  storey.structure = structure ? std::move(structure) : std::make_shared<const Structure>(plan_mesh(storey));
   return storey;
 }
 
@@ -210,9 +227,15 @@ PlanIndex make_plan_index(const bim::Plan& plan_W, const std::optional<std::stri
   PlanIndex index;
   index.config = config;
   index.X_WI = plan_fixed_frame(plan_W);
+  const std::shared_ptr<const Structure> structure = structure_in_I(plan_W, index.X_WI);
   for (const int i : storeys_in_use(plan_W, storey))
-    index.storeys.push_back(make_storey(plan_W, i, index.X_WI, config));
+    index.storeys.push_back(make_storey(plan_W, i, index.X_WI, config, structure));
   return index;
+}
+
+int add_storey(PlanIndex& index, const bim::Plan& plan_W, int plan_storey) {
+  index.storeys.push_back(make_storey(plan_W, plan_storey, index.X_WI, index.config, index.storeys.front().structure));
+  return static_cast<int>(index.storeys.size()) - 1;
 }
 
 }  // namespace plumbline::slam

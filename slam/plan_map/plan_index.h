@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "bim/plan/plan.h"
 #include "slam/plan_map/face_sectors.h"
 #include "slam/plan_map/segment_grid.h"
+#include "slam/plan_map/structure.h"
 
 namespace plumbline::slam {
 
@@ -23,6 +25,7 @@ struct PlanIndexConfig {
   int visibility_rays = 72;
   double visibility_range_m = 25.0;
   double body_height_m = 0.4;
+  bool furniture = true;
 
   template <class V>
   void visit(V& v) {
@@ -38,6 +41,7 @@ struct PlanIndexConfig {
     v("visibility_range_m", visibility_range_m, Field{.doc = "largest range of these rays", .min = 0});
     v("body_height_m", body_height_m,
       Field{.doc = "height of the robot's trunk, which must fit through doors", .min = 0});
+    v("furniture", furniture, Field{.doc = "whether planned furniture counts as part of the plan"});
   }
 };
 
@@ -65,9 +69,10 @@ struct StoreyIndex {
   std::vector<PlanSegment> segments;  ///< wall faces, in an order that depends on geometry alone
   std::vector<WallLine> lines;
   std::vector<LocalRoom> rooms;
-  SegmentGrid grid;                       ///< over segments
-  FaceSectors sectors;                    ///< by cell of the grid
-  std::vector<std::vector<int>> visible;  ///< per cell of the grid: lines seen from it, ascending
+  SegmentGrid grid;                            ///< over segments
+  FaceSectors sectors;                         ///< by cell of the grid
+  std::vector<std::vector<int>> visible;       ///< per cell of the grid: lines seen from it, ascending
+  std::shared_ptr<const Structure> structure;  ///< of the whole plan; copies of the storey share it
 
   /// Room that holds p, or -1 (ties: lowest).
   [[nodiscard]] int room_at(const Eigen::Vector2d& p) const;
@@ -89,5 +94,8 @@ struct PlanIndex {
 /// or no room is.
 [[nodiscard]] PlanIndex make_plan_index(const bim::Plan& plan_W, const std::optional<std::string>& storey,
                                         const PlanIndexConfig& config);
+
+/// Adds a storey of the plan that the index does not have. Returns its place in PlanIndex::storeys.
+int add_storey(PlanIndex& index, const bim::Plan& plan_W, int plan_storey);
 
 }  // namespace plumbline::slam

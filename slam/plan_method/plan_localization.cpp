@@ -63,6 +63,12 @@ Output PlanLocalization::on_scan(const Scan& scan) {
   return output;
 }
 
+int PlanLocalization::storey_of_plan(int plan_storey) {
+  for (std::size_t i = 0; i < index_.storeys.size(); ++i)
+    if (index_.storeys[i].plan_storey == plan_storey) return static_cast<int>(i);
+  return add_storey(index_, *input_.plan, plan_storey);
+}
+
 bool PlanLocalization::is_due(const Pose& X_OR) const {
   if (!X_OR_update_) return true;
   const Pose2 u = heading(X_OR_update_->inverse() * X_OR);

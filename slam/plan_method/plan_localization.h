@@ -76,6 +76,8 @@ class PlanLocalization : public Method {
   virtual void report(const Pose& X_OR, Output& output) = 0;
 
   [[nodiscard]] const PlanIndex& index() const { return index_; }
+  /// Place of a storey of the plan in the index; it is added when it is not there yet.
+  [[nodiscard]] int storey_of_plan(int plan_storey);
   [[nodiscard]] const MethodInput& input() const { return input_; }
   /// Odometry at the last scan that was used.
   [[nodiscard]] const std::optional<Pose>& X_OR_update() const { return X_OR_update_; }

@@ -101,6 +101,7 @@ TEST_F(Recordings, WhatIsNoRecordingIsRefused) {
   refuse({good, "--method", "s_graph_localization", "--plan", plan(), "--storey", "attic"}, "--storey", "ground");
   refuse({good, "--method", "vgicp", "--plan", plan()}, "--plan", "'vgicp' does not");
   refuse({good, "--method", "vgicp", "--storey", "ground"}, "--storey", "'vgicp' does not");
+  refuse({good, "--method", "vgicp", "--plan-furniture", "none"}, "--plan-furniture", "'vgicp' does not");
   refuse({good, "--method", "odometry", "--yaw-deg", "0"}, "--yaw-deg", "'odometry' does not");
   refuse({good + "/lidar.pcap", "--method", "odometry"}, good, "holds no odometry");
   const std::string text = read_file(plan()), roomless = folder_ / "roomless.plan.yaml";
@@ -108,6 +109,17 @@ TEST_F(Recordings, WhatIsNoRecordingIsRefused) {
   ASSERT_LT(rooms, after);
   write_file(roomless, text.substr(0, rooms) + text.substr(after));
   refuse({good, "--method", "s_graph_localization", "--plan", roomless}, roomless, "add rooms");
+}
+
+TEST_F(Recordings, AMethodIsToldOfFurnitureWhatTheRunToldIt) {
+  write_file(folder_ / "short.plan.yaml", read_file(plan()));
+  write_file(folder_ / "told.yaml", read_file(input()) +
+                                        "furnish: {density: 0.1, seed: 2}\nplan: {furniture: none}\n"
+                                        "world: {furniture: moved}\n");
+  const std::string run = folder_ / "run";
+  ASSERT_EQ(plumbline({"run", folder_ / "told.yaml", "--method", "s_graph_localization", "--record", "-o", run}).code,
+            0);
+  expect_same(run, run, "s_graph_localization");
 }
 
 TEST_F(Recordings, DamagedOnesAreRefusedWhole) {

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bim/formats/plan_yaml/plan_elements.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "bim/errors.h"
+#include "bim/furniture/footprint.h"
 #include "bim/geometry/polygon_boolean.h"
 #include "bim/model/extrude.h"
 
@@ -24,18 +26,19 @@ double body_offset(const PlanWallEntry& wall) {
   throw InternalError("unknown justification of a wall");
 }
 
-/// Rectangle of the given size around `at`, turned by yaw.
-Polygon2 turned_rectangle(const Eigen::Vector2d& at, const Eigen::Vector2d& size, double yaw_deg) {
-  const Eigen::Rotation2Dd turn(yaw_deg * std::numbers::pi / 180.0);
-  Polygon2 polygon;
-  for (const auto& [x, y] : {std::pair{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}})
-    polygon.push_back(at + turn * Eigen::Vector2d(x * size.x(), y * size.y()));
-  return polygon;
-}
+/// Shapes of furniture follow the two plain ones, in their own order.
+constexpr std::size_t plain_shapes = 2;
+static_assert([] {
+  constexpr auto clutter = EnumNames<ClutterShape>::names;
+  constexpr auto furniture = EnumNames<FurnitureShape>::names;
+  return std::equal(clutter.begin() + plain_shapes, clutter.end(), furniture.begin(), furniture.end());
+}());
+
+double radians(double deg) { return deg * std::numbers::pi / 180.0; }
 
 /// Polygon with its corners on the ellipse of the given diameters.
 Polygon2 turned_ellipse(const Eigen::Vector2d& at, const Eigen::Vector2d& size, double yaw_deg, int sides) {
-  const Eigen::Rotation2Dd turn(yaw_deg * std::numbers::pi / 180.0);
+  const Eigen::Rotation2Dd turn(radians(yaw_deg));
   Polygon2 polygon;
   for (int i = 0; i < sides; ++i) {
     const double angle = 2.0 * std::numbers::pi * i / sides;
@@ -80,23 +83,39 @@ Column column_of(const PlanColumnEntry& entry, const PlanLevel& level) {
   Column column;
   column.id = level.prefix + entry.id;
   column.storey = level.index;
-  column.footprint = turned_rectangle(entry.at, entry.size, entry.yaw_deg);
+  column.footprint = turned_rectangle(entry.at, entry.size, radians(entry.yaw_deg));
   column.z0_m = level.floor_z_m;
   column.z1_m = entry.height_m ? level.floor_z_m + *entry.height_m : level.top_z_m;
   column.material = entry.material;
   return column;
 }
 
+std::optional<FurnitureShape> furniture_of(ClutterShape shape) {
+  const auto i = static_cast<std::size_t>(shape);
+  if (i < plain_shapes) return std::nullopt;
+  return static_cast<FurnitureShape>(i - plain_shapes);
+}
+
+ClutterShape clutter_shape_of(FurnitureShape shape) {
+  return static_cast<ClutterShape>(static_cast<std::size_t>(shape) + plain_shapes);
+}
+
 Obstacle clutter_of(const PlanClutterEntry& entry, const PlanLevel& level, int cylinder_sides) {
-  const bool round = entry.shape == ClutterShape::cylinder;
-  const Polygon2 outline = round ? turned_ellipse(entry.at, entry.size, entry.yaw_deg, cylinder_sides)
-                                 : turned_rectangle(entry.at, entry.size, entry.yaw_deg);
   Obstacle obstacle;
   obstacle.id = level.prefix + entry.id;
-  obstacle.kind = round ? "cylinder" : "box";
   obstacle.storey = level.index;
-  obstacle.body = extrude({{outline, {}}}, level.floor_z_m, level.floor_z_m + entry.height_m);
   obstacle.material = entry.material;
+  if (const std::optional<FurnitureShape> shape = furniture_of(entry.shape)) {
+    obstacle.kind = "furniture";
+    obstacle.body = furniture_solid(*shape, {entry.size.x(), entry.size.y(), entry.height_m}, entry.at,
+                                    radians(entry.yaw_deg), level.floor_z_m);
+    return obstacle;
+  }
+  const bool round = entry.shape == ClutterShape::cylinder;
+  const Polygon2 outline = round ? turned_ellipse(entry.at, entry.size, entry.yaw_deg, cylinder_sides)
+                                 : turned_rectangle(entry.at, entry.size, radians(entry.yaw_deg));
+  obstacle.kind = round ? "cylinder" : "box";
+  obstacle.body = extrude({{outline, {}}}, level.floor_z_m, level.floor_z_m + entry.height_m);
   return obstacle;
 }
 

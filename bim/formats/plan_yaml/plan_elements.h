@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "bim/formats/plan_yaml/plan_entries.h"
+#include "bim/furniture/shapes.h"
 #include "bim/model/building.h"
 
 namespace plumbline::bim {
@@ -21,7 +23,10 @@ struct PlanLevel {
 [[nodiscard]] Opening opening_of(const PlanOpeningEntry& entry, const std::string& prefix, int wall_index,
                                  const Wall& wall);
 [[nodiscard]] Column column_of(const PlanColumnEntry& entry, const PlanLevel& level);
-/// Round clutter has its corners, so many, on the ellipse.
+/// The furniture that a shape is; none for a box or cylinder.
+[[nodiscard]] std::optional<FurnitureShape> furniture_of(ClutterShape shape);
+[[nodiscard]] ClutterShape clutter_shape_of(FurnitureShape shape);
+/// Of kind box, cylinder or furniture. Round clutter has its corners, so many, on the ellipse.
 [[nodiscard]] Obstacle clutter_of(const PlanClutterEntry& entry, const PlanLevel& level, int cylinder_sides);
 
 }  // namespace plumbline::bim

@@ -19,8 +19,26 @@ namespace plumbline::bim {
 enum class Just { center, left, right };
 [[nodiscard]] constexpr std::array<std::string_view, 3> names_of(Just) { return {"center", "left", "right"}; }
 
-enum class ClutterShape { box, cylinder };
-[[nodiscard]] constexpr std::array<std::string_view, 2> names_of(ClutterShape) { return {"box", "cylinder"}; }
+/// Boxes, cylinders, and furniture with the same names as its shapes.
+enum class ClutterShape {
+  box,
+  cylinder,
+  table,
+  desk,
+  chair,
+  bed,
+  sofa,
+  shelf,
+  wardrobe,
+  kitchen,
+  machine,
+  pallet,
+  person
+};
+[[nodiscard]] constexpr std::array<std::string_view, 13> names_of(ClutterShape) {
+  return {"box",   "cylinder", "table",   "desk",    "chair",  "bed",   "sofa",
+          "shelf", "wardrobe", "kitchen", "machine", "pallet", "person"};
+}
 
 /// Limits of what a plan may say. A building reaches at most 10 km from its origin, so that a float keeps 1 mm.
 inline constexpr double plan_reach_m = 1e4;
@@ -172,7 +190,9 @@ struct PlanClutterEntry {
   void visit(V& v) {
     v("id", id, plan_id);
     v("storey", storey, plan_storey);
-    v("shape", shape, Field{.doc = "shape of the object; the diameters of a cylinder are `size`"});
+    v("shape", shape,
+      Field{.doc =
+                "shape of the object; the diameters of a cylinder are `size`; furniture has its back at its own +y"});
     v("at", at, plan_centre);
     v("size", size, plan_size);
     v("yaw_deg", yaw_deg, plan_yaw);

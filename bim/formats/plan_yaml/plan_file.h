@@ -66,5 +66,7 @@ void check_plan_symmetry(const PlanFile& plan, const Tree& tree);
 /// Every rule that a single field cannot know (references, lengths, overlaps). Throws InputError at the offending
 /// place of `tree`, which the file was read from.
 void check_plan(const PlanFile& plan, const Tree& tree);
+/// The entries of a file, checked. Throws InputError, also where the first key is not `plan`.
+[[nodiscard]] PlanFile plan_entries(const Tree& tree);
 
 }  // namespace plumbline::bim

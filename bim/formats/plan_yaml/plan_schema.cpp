@@ -48,6 +48,7 @@ stairs:
      landing_after: 9, landing_m: 1.1, turn: back_left, gap_m: 0.1, material: wood}
 clutter:
   - {id: desk, storey: ground, shape: box, at: [10.5, 1.5], size: [1.6, 0.8], yaw_deg: 90, height_m: 0.75, material: wood}
+  - {id: chair, storey: ground, shape: chair, at: [11.3, 1.5], size: [0.45, 0.45], yaw_deg: -90, height_m: 0.9, material: wood}
   - {id: plant, storey: upper, shape: cylinder, at: [11, 6], size: [0.4, 0.4], height_m: 1.2, material: wood}
 materials:
   - {id: brick, reflectivity: 0.35, transmission: 0, specular: 0, retro: 0}
@@ -82,6 +83,8 @@ through it. `plumbline inspect --schema` prints this page, which is made from th
   than 2.1 m of head room.
 - A closed door has a leaf. A window has a pane, of glass unless it names another material. The LiDAR sees through a
   material that transmits at least half of the light, except at normal incidence; for the robot it is an obstacle.
+- Clutter is a box, a cylinder or a piece of furniture with legs and hollows. Seen along its own y axis its back is
+  behind. `plumbline generate furnish` adds furniture to a plan.
 - `deviations` make the building as built differ from the plan; they apply in their order. Methods get the plan without
   them. The robot walks through the building as built, the LiDAR sees it, and scores compare with it.
 - A wall that met a moved wall stays where it is. As built, a room without closed walls is no room, joined rooms are one

@@ -231,16 +231,21 @@ class PlanBuilder {
 
 }  // namespace
 
+PlanFile plan_entries(const Tree& tree) {
+  if (!tree.is_map() || tree.as_map().empty() || tree.as_map().front().first != "plan")
+    throw InputError(tree.mark, "this is no plan; its first key must be 'plan: 1'");
+  PlanFile plan = from_tree<PlanFile>(tree);
+  check_plan(plan, tree);
+  return plan;
+}
+
 Building read_plan_text(std::string_view text, const std::string& file, const PlanSolids& solids) {
   return read_plan_with_deviations(text, file, solids).as_planned;
 }
 
 PlanWithDeviations read_plan_with_deviations(std::string_view text, const std::string& file, const PlanSolids& solids) {
   const Tree tree = read_yaml(text, file);
-  if (!tree.is_map() || tree.as_map().empty() || tree.as_map().front().first != "plan")
-    throw InputError(tree.mark, "this is no plan; its first key must be 'plan: 1'");
-  const PlanFile plan = from_tree<PlanFile>(tree);
-  check_plan(plan, tree);
+  const PlanFile plan = plan_entries(tree);
   PlanWithDeviations both;
   both.as_planned = PlanBuilder(plan, tree, solids).build();
   const Tree* deviations = tree.find("deviations");

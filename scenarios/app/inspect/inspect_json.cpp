@@ -44,7 +44,7 @@ std::string_view name_of(bim::StoreyKind kind) {
 class Inspector {
  public:
   Inspector(const Building& building, const BuildingMesh& mesh)
-      : building_(building), mesh_(mesh), plan_(bim::make_plan(building)) {}
+      : building_(building), mesh_(mesh), plan_(bim::make_plan(building, {})) {}
 
   [[nodiscard]] Tree inspect() const {
     Tree tree = Tree::map();

@@ -130,7 +130,7 @@ std::string stair_table(const Building& building) {
 }
 
 std::string room_table(const Building& building) {
-  const bim::Plan plan = bim::make_plan(building);
+  const bim::Plan plan = bim::make_plan(building, {});
   const std::vector<bim::Adjacent> pairs = bim::adjacency(building);
   Table table({"room", "storey", "area m2", "height m", "faces", "leads to"});
   for (std::size_t i = 0; i < building.rooms.size(); ++i) {

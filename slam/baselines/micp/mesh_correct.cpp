@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "bim/geometry/best_rotation.h"
-#include "slam/baselines/micp/plan_mesh.h"
+#include "slam/plan_map/plan_mesh.h"
 
 namespace plumbline::slam {
 

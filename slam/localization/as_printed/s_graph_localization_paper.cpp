@@ -71,7 +71,8 @@ void SGraphLocalizationPaper::hand_over(const PlanScan& scan, const Localization
   TrackerConfig config = config_.tracker;
   const bool printed = config_.switches.handover == PaperVariant::printed;
   if (printed) config.overlap_margin_m = 1e6;  // walls are infinite
-  tracker_.emplace(config, printed ? without_visibility(storey) : storey);
+  tracker_.emplace(config, printed ? without_visibility(storey) : storey,
+                   input().calibration.sensor_height_m - input().calibration.X_RL.t.z());
   tracker_->start(localization_scan, planes, pose_on_floor(filter_.best().storey, filter_.best().X_IH, scan.q_HR));
 }
 

@@ -84,6 +84,18 @@ TEST(Fillings, DoorsAndFurnitureAreTheScenariosChoice) {
   EXPECT_EQ(unplanned.obstacles.size(), 1U);
 }
 
+TEST(Fillings, WithoutFurnitureCoveringsAndAppliancesGoAndInstallationsStay) {
+  Building b = building();
+  for (const std::string kind :
+       {"furniture", "covering", "proxy", "electric_appliance", "railing", "sanitary_terminal"}) {
+    b.obstacles.push_back(b.obstacles.front());
+    b.obstacles.back().id = kind;
+    b.obstacles.back().kind = kind;
+  }
+  apply_options(b, {Doors::as_designed, false});
+  EXPECT_EQ(obstacle_ids(b), (std::vector<std::string>{"railing", "sanitary_terminal"}));
+}
+
 TEST(VisibleMesh, LetsTheLidarLookThroughGlassAndNothingElse) {
   Building b = building();
   add_fillings(b);

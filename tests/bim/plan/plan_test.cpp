@@ -222,6 +222,25 @@ TEST(Plan, SolidsAreColumnsAndWhatIsPlannedAndFillsItsOutline) {
   EXPECT_NEAR((moved.solids[0].outline[0] - there.head<2>()).norm(), 0.0, 1e-12);
 }
 
+TEST(Plan, TheStructureHasNeitherFurnitureNorLeavesNorPanes) {
+  Building building = two_rooms();
+  const std::size_t walls_alone = make_plan(building).structure.triangles.size();
+  EXPECT_GT(walls_alone, 0U);
+  building.obstacles.push_back({"table", "furniture", 0, table()});
+  for (Opening& opening : building.openings) opening.leaf = Leaf::closed;
+  add_fillings(building);
+  ASSERT_GT(building.obstacles.size(), 1U);
+  EXPECT_EQ(make_plan(building).structure.triangles.size(), walls_alone);
+  building.obstacles.push_back({"rail", "railing", 0, table()});
+  const Plan plan = make_plan(building);
+  EXPECT_EQ(plan.structure.triangles.size(), walls_alone + table().triangles.size());
+  for (std::size_t i = 0; i < plan.structure.triangles.size(); ++i)
+    EXPECT_NE(plan.structure.elements[static_cast<std::size_t>(plan.structure.element[i])].id, "table");
+  const Plan moved = transformed(plan, Pose::from_xyz_yaw({1, 2, 3}, 0.0));
+  const Eigen::Vector3d step = moved.structure.vertices.front() - plan.structure.vertices.front();
+  EXPECT_NEAR((step - Eigen::Vector3d(1, 2, 3)).norm(), 0.0, 1e-12);
+}
+
 TEST(Plan, MovesAsOneBody) {
   const Plan plan_W = make_plan(two_rooms());
   const Stream stream(9, "bim.generate");

@@ -7,6 +7,7 @@
 
 #include "bim/config/tree.h"
 #include "bim/formats/plan_yaml/plan_yaml.h"
+#include "bim/load/load.h"
 #include "scenarios/spec/scenario.h"
 #include "tests/folder.h"
 
@@ -73,6 +74,43 @@ TEST_F(GenerateCommand, SaysWhatIsWrong) {
   EXPECT_NE(said_.find("is a directory"), std::string::npos) << said_;
   EXPECT_EQ(run("grid -o same.yaml --scenario none/x.yaml"), 2);
   EXPECT_FALSE(std::filesystem::exists(folder_ / "same.yaml"));
+}
+
+TEST_F(GenerateCommand, FurnishesAFamily) {
+  ASSERT_EQ(run("corridor --rooms 3 --furnish 0.2 --furnish-seed 4 -o c.plan.yaml --scenario c.yaml"), 0) << said_;
+  const std::string plan = read_text_file(folder_ / "c.plan.yaml");
+  EXPECT_EQ(plan.rfind("# Made by: plumbline generate corridor --rooms 3 --furnish 0.2 --furnish-seed 4\n", 0), 0U);
+  const bim::Building building = bim::read_plan_text(plan, "c");
+  EXPECT_GT(building.obstacles.size(), 8U);
+  for (const bim::Obstacle& obstacle : building.obstacles) EXPECT_EQ(obstacle.kind, "furniture");
+  ASSERT_EQ(run("corridor --rooms 3 --furnish 0.2 --furnish-seed 5 -o -"), 0);
+  EXPECT_NE(said_, plan);
+  EXPECT_EQ(run("corridor --furnish 0.5 -o -"), 2);
+  EXPECT_NE(said_.find("0 to 0.4"), std::string::npos) << said_;
+  EXPECT_EQ(run("corridor --furnish-seed 2 -o -"), 2);
+}
+
+TEST_F(GenerateCommand, FurnishesABuildingAsPlanAndAsIfc) {
+  ASSERT_EQ(run("grid --rows 2 --columns 2 -o bare.plan.yaml"), 0) << said_;
+  ASSERT_EQ(run("furnish bare.plan.yaml --furnish 0.2 --seed 3 --people 2 -o full.plan.yaml"), 0) << said_;
+  const bim::Building bare = bim::load_building(folder_ / "bare.plan.yaml");
+  const bim::Building full = bim::load_building(folder_ / "full.plan.yaml");
+  EXPECT_TRUE(bare.obstacles.empty());
+  EXPECT_GT(full.obstacles.size(), 8U);
+  bim::Building emptied = full;
+  emptied.obstacles.clear();
+  EXPECT_EQ(emptied.hash(), bare.hash());
+  EXPECT_NE(read_text_file(folder_ / "full.plan.yaml").find("shape: person"), std::string::npos);
+  ASSERT_EQ(run("furnish bare.plan.yaml --furnish 0.2 --seed 3 --people 2 -o full.ifc"), 0) << said_;
+  EXPECT_EQ(bim::load_building(folder_ / "full.ifc").hash(), full.hash());
+  ASSERT_EQ(run("furnish full.ifc --furnish 0.1 -o fuller.ifc"), 0) << said_;
+  EXPECT_GT(bim::load_building(folder_ / "fuller.ifc").obstacles.size(), full.obstacles.size());
+  EXPECT_EQ(run("furnish full.ifc --furnish 0.1 -o fuller.plan.yaml"), 2);
+  EXPECT_NE(said_.find("ends in .ifc"), std::string::npos) << said_;
+  EXPECT_EQ(run("furnish bare.plan.yaml --furnish 0.1 -o full.ifc"), 2);
+  EXPECT_NE(said_.find("--force"), std::string::npos) << said_;
+  EXPECT_EQ(run("furnish bare.plan.yaml -o other.plan.yaml"), 2);
+  EXPECT_EQ(run("furnish nothing.plan.yaml --furnish 0.1 -o other.plan.yaml"), 2);
 }
 
 }  // namespace

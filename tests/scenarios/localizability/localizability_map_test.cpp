@@ -10,6 +10,8 @@
 #include "bim/formats/plan_yaml/plan_write.h"
 #include "bim/formats/plan_yaml/plan_yaml.h"
 #include "bim/generators/generators.h"
+#include "bim/model/extrude.h"
+#include "bim/model/permanence.h"
 #include "bim/symmetry/isometry.h"
 #include "scenarios/localizability/aliased_poses.h"
 #include "scenarios/report/localizability_page.h"
@@ -95,6 +97,102 @@ TEST(LocalizabilityMap, PointSymmetricFloorHasOneAliasEverywhereThatACompassRule
   }
 }
 
+/// A piece of furniture or, where it is not planned, clutter.
+bim::Obstacle box_at(const std::string& id, const Eigen::Vector2d& low, const Eigen::Vector2d& size, double height_m,
+                     bool planned) {
+  const Eigen::Vector2d high = low + size;
+  bim::Obstacle box;
+  box.id = id;
+  box.kind = "box";
+  box.storey = 0;
+  box.planned = planned;
+  const PolygonWithHoles2 outline{{low, {high.x(), low.y()}, high, {low.x(), high.y()}}, {}};
+  box.body = bim::extrude({outline}, 0.0, height_m);
+  return box;
+}
+
+/// Boxes in every room, of sizes and at places that no turn maps onto one another: some against walls, so that a beam
+/// to them ends nearly where the wall is, and low ones before the rest.
+std::vector<bim::Obstacle> clutter_of(const bim::Building& building, bool planned) {
+  std::vector<bim::Obstacle> boxes;
+  for (const bim::Room& room : building.rooms) {
+    Eigen::AlignedBox2d box;
+    for (const Eigen::Vector2d& p : room.polygon) box.extend(p);
+    const auto k = static_cast<double>(boxes.size());
+    const Eigen::Vector2d size(0.5 + 0.04 * k, 0.4 + 0.03 * k), flat(0.9 + 0.02 * k, 0.05);
+    boxes.push_back(
+        box_at(room.id + "_box", box.min() + Eigen::Vector2d(0.5 + 0.02 * k, 0.6), size, 1.1 + 0.05 * k, planned));
+    boxes.push_back(box_at(room.id + "_board", box.max() - Eigen::Vector2d(1.5 + 0.03 * k, 0.17), flat, 2.0, planned));
+  }
+  return boxes;
+}
+
+bim::Building with(bim::Building building, const std::vector<bim::Obstacle>& more) {
+  building.obstacles.insert(building.obstacles.end(), more.begin(), more.end());
+  return building;
+}
+
+/// Every place is aliased with its image under the half turn, exactly and for ever. Furniture that hides what differs
+/// may leave further places.
+void expect_half_turn(const BuildingMap& map, const bim::Building& bare) {
+  const SearchArea area = search_area(bare, 0);
+  const Eigen::Vector2d center = 0.5 * (area.min + area.max);
+  EXPECT_GT(map.map.cells.size(), 20U);
+  for (const MapCell& cell : map.map.cells) {
+    const auto half_turn = [&](const CellAlias& alias) {
+      const Pose& g = map.map.isometries[alias.isometry];
+      const Eigen::Vector3d image = g * Eigen::Vector3d(cell.p_W.x(), cell.p_W.y(), 0.0);
+      return (image.head<2>() - (2.0 * center - cell.p_W)).norm() < 1e-3 && std::abs(alias.llr) < 1e-3;
+    };
+    EXPECT_TRUE(std::any_of(cell.aliases.begin(), cell.aliases.end(), half_turn)) << cell.p_W.transpose();
+    EXPECT_FALSE(cell.unknown->walk_m.has_value()) << cell.p_W.transpose();
+  }
+}
+
+TEST(LocalizabilityMap, FurnitureDoesNotMakeASymmetricBuildingKnown) {
+  const bim::Building bare = building_of("rot180", "")->as_planned();
+  const bim::Building furnished = with(bare, clutter_of(bare, true));
+  const RunBuilding planned(bim::PlannedAndBuilt{furnished, furnished, {}, true});
+  BuildingMapOptions options;
+  options.step_m = 1.5;
+  const BuildingMaps maps = maps_of(planned, options);
+  expect_half_turn(maps.building, bare);
+  ASSERT_TRUE(maps.with_furniture.has_value());
+  for (const MapCell& cell : maps.with_furniture->map.cells)
+    EXPECT_TRUE(cell.unknown->walk_m.has_value()) << cell.p_W.transpose();
+  const std::string text = localizability_text(planned, maps);
+  EXPECT_LT(text.find("By the building alone"), text.find("With the furniture as planned"));
+  EXPECT_NE(localizability_page(planned, "x", maps).find("With the furniture as planned"), std::string::npos);
+  EXPECT_NE(localizability_json(planned, maps).find("with_furniture"), nullptr);
+}
+
+TEST(LocalizabilityMap, ClutterThatNoPlanHasMakesNothingKnownEither) {
+  const bim::Building bare = building_of("rot180", "")->as_planned();
+  const bim::PlannedAndBuilt site{bare, with(bare, clutter_of(bare, false)), {{"add_clutter", "boxes"}}, true};
+  BuildingMapOptions options;
+  options.step_m = 1.5;
+  const BuildingMaps maps = maps_of(RunBuilding(site), options);
+  EXPECT_FALSE(maps.with_furniture.has_value());  // nothing planned may have moved
+  expect_half_turn(maps.building, bare);
+}
+
+TEST(LocalizabilityMap, WhatWasBuiltDecidesBehindFurnitureToo) {
+  // A column that no half turn maps onto another makes the building known, wherever a way to it is left.
+  const bim::Building bare = building_of("rot180", "{feature: column, epsilon_m: 0.4}")->as_planned();
+  const bim::Building furnished = with(bare, clutter_of(bare, true));
+  const RunBuilding planned(bim::PlannedAndBuilt{furnished, furnished, {}, true});
+  BuildingMapOptions options;
+  options.step_m = 1.5;
+  const BuildingMap map = map_of(planned, options);
+  const MapShare share = share_of(map, false, [](const MapCell&) { return true; });
+  EXPECT_GT(share.one_scan + share.walk, share.cells / 2);
+  EXPECT_GT(share.one_scan, 5);
+  for (const MapCell& cell : map.map.cells)
+    if (contains(bare.rooms[1].polygon, cell.p_W)) {  // the column's
+      EXPECT_TRUE(cell.unknown->walk_m.has_value()) << cell.p_W.transpose();
+    }
+}
+
 TEST(LocalizabilityMap, MirrorImagesAreNotAliased) {
   const auto building = building_of("mirrored", "");
   const BuildingMap map = map_at(*building, 1.5);
@@ -163,9 +261,9 @@ TEST(LocalizabilityMap, ThreadsDoNotChangeAByte) {
   const auto building = building_of("corridor", "{rooms: 2, feature: column, epsilon_m: 0.2}");
   BuildingMapOptions options;
   options.step_m = 1.0;
-  const BuildingMap one = map_of(*building, options);
+  const BuildingMaps one = maps_of(*building, options);
   options.threads = 3;
-  const BuildingMap three = map_of(*building, options);
+  const BuildingMaps three = maps_of(*building, options);
   EXPECT_EQ(write_json(localizability_json(*building, one)), write_json(localizability_json(*building, three)));
   EXPECT_EQ(localizability_page(*building, "x", one), localizability_page(*building, "x", three));
 }

@@ -53,11 +53,11 @@ TEST(PlannedWalk, EndsWhereTheRobotIsCarriedOffAndGoesOnElsewhere) {
 
 TEST(PlannedWalk, AnswersSayWhatIsKnownBeforeAndAfter) {
   const Written free("free", ""), taken("taken", "kidnap: {after_s: 2, away_s: 2, to: {room: right, yaw_deg: 90}}\n");
-  const std::vector<WalkAnswers> alone = localizability_of_walks(free.path(), 1, 1),
+  const std::vector<SeedAnswers> alone = localizability_of_walks(free.path(), 1, 1),
                                  both = localizability_of_walks(taken.path(), 1, 1);
   ASSERT_EQ(both.size(), 1U);
-  EXPECT_FALSE(alone.front().set_down);
-  ASSERT_TRUE(both.front().set_down);
+  EXPECT_FALSE(alone.front().building.set_down);
+  ASSERT_TRUE(both.front().building.set_down);
   EXPECT_EQ(walks_text(alone).find("set down"), std::string::npos);
   EXPECT_NE(walks_text(both).find("set down"), std::string::npos);
   EXPECT_NE(walks_json(both).find("walks")->as_list().front().find("set_down"), nullptr);

@@ -99,6 +99,30 @@ TEST(Localization, WhereThePlanHasTwoAnswers) {
   EXPECT_EQ(judge(both, alias).verdict, LocalizationVerdict::late);  // one that is no alias
 }
 
+TEST(Localization, FurnitureIsNotedAndMakesNoAnswerRight) {
+  Identifiability known;  // ambiguous by the building alone
+  known.others_W = {Pose::from_xyz_yaw({50.0, 0.0, 0.5}, std::numbers::pi)};
+  known.with_furniture = IdentifiabilityAnswer{true, 0.0, 0.0, 0.0, {}, {}, {}, {}};
+  const LocalizationScore told = judge(converges_at(40, 0.0), known);
+  EXPECT_EQ(told.verdict, LocalizationVerdict::lucky);
+  EXPECT_EQ(told.evidence, Evidence::ambiguous);
+  ASSERT_TRUE(told.with_furniture.has_value());
+  EXPECT_EQ(told.with_furniture->evidence, Evidence::unique);
+  EXPECT_EQ(told.with_furniture->aliases, 0);
+  EXPECT_TRUE(told.evidence_by_furniture);
+  EXPECT_EQ(judge(converges_at(40, 3.0), known).verdict, LocalizationVerdict::overconfident);
+  known.told_furniture = false;
+  EXPECT_EQ(judge(converges_at(40, 0.0), known).verdict, LocalizationVerdict::lucky);
+  EXPECT_FALSE(judge(converges_at(40, 0.0), known).evidence_by_furniture);
+}
+
+TEST(Localization, SureAndWrongAreTheTwoVerdictsOfAWrongSingleAnswer) {
+  using V = LocalizationVerdict;
+  for (const V verdict : {V::false_convergence, V::overconfident}) EXPECT_TRUE(is_sure_and_wrong(verdict));
+  for (const V verdict : {V::success, V::honest_ambiguity, V::late, V::lost, V::lucky})
+    EXPECT_FALSE(is_sure_and_wrong(verdict));
+}
+
 TEST(Localization, AWrongAnswerThatStoodIsNotMadeGoodByDoubtAtTheEnd) {
   Identifiability alias;
   alias.others_W = {Pose::from_xyz_yaw({50.0, 0.0, 0.5}, std::numbers::pi)};

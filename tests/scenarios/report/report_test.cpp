@@ -49,6 +49,23 @@ TEST(Report, IsSelfContainedAndSaysWhatFailed) {
   EXPECT_NE(page.find("a &lt;b&gt; &amp; &quot;c&quot;"), std::string::npos);
 }
 
+TEST(Report, GivesBothAnswersAndWhatMethodsWereTold) {
+  ReportInput input = sample();
+  const auto place = Tree::map().set("t_s", 0.0).set("distance_m", 0.0).set("twins", 1).set("weak", 0);
+  Tree alone = Tree::map(), furnished = Tree::map();
+  alone.set("identifiable", false).set("places", Tree(Tree::List{place}));
+  furnished.set("identifiable", true).set("at_s", 0.0).set("at_m", 0.0).set("places", Tree(Tree::List{place}));
+  input.results.set("identifiability", alone.set("with_furniture", furnished));
+  input.results.set("told", Tree::map().set("plan_furniture", "none").set("world_furniture", "as_planned"));
+  input.methods.front().states.push_back({0.0, 1, slam::State::searching});
+  const std::string page = render_report(input);
+  EXPECT_NE(page.find("By the building alone: the scans never distinguished"), std::string::npos);
+  EXPECT_NE(page.find("With the furniture as planned: identifiable from the first scan"), std::string::npos);
+  EXPECT_NE(page.find("Only furniture tells these apart"), std::string::npos);
+  EXPECT_NE(page.find("furniture told: none, built: as planned"), std::string::npos);
+  EXPECT_EQ(render_report(sample()).find("furniture told"), std::string::npos);
+}
+
 TEST(Report, ShowsAGatesLimitHoweverSmall) {
   ReportInput input = sample();
   Tree gate = Tree::map();

@@ -22,8 +22,8 @@ std::vector<std::string> files_of_kind(const std::string& kind) {
   std::vector<std::string> files;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(library())) {
     const std::string path = entry.path().string();
-    if (entry.path().extension() == ".yaml" && read_yaml(read_text_file(path), path).find(kind) != nullptr)
-      files.push_back(path);
+    if (entry.path().extension() != ".yaml") continue;
+    if (read_yaml(read_text_file(path), path).as_map().front().first == kind) files.push_back(path);
   }
   std::sort(files.begin(), files.end());
   return files;
@@ -68,6 +68,21 @@ TEST(Library, MethodsOfTheSiteAreGivenThePlanAndTheWorldWhatWasBuilt) {
   EXPECT_FALSE(wall(resolved.building->as_built(), "office_archive"));
   EXPECT_FALSE(wall(resolved.building->as_planned(), "site_office"));
   EXPECT_TRUE(wall(resolved.building->as_built(), "site_office"));
+}
+
+/// A method in the plan that is sure and wrong must not pass for want of a bound.
+TEST(Library, EveryLocalizationHasAGate) {
+  for (const std::string& path : files_of_kind("scenario")) {
+    const Scenario scenario = read_scenario(read_text_file(path), path).scenario;
+    for (const std::string& method : scenario.methods) {
+      const slam::MethodRow* row = slam::find_method(method, slam::methods());
+      if (row == nullptr || !row->needs_plan) continue;
+      const auto bounds = [&](const GateSpec& gate) {
+        return gate.method == method && gate.metric == "localization.sure_and_wrong" && gate.max == 0.0;
+      };
+      EXPECT_TRUE(std::any_of(scenario.gates.begin(), scenario.gates.end(), bounds)) << path << " " << method;
+    }
+  }
 }
 
 TEST(Library, AClosedDoorOnTheOnlyWayIsNamed) {

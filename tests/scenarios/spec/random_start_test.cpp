@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
 #include <set>
 
 #include "bim/load/load.h"
@@ -57,16 +59,49 @@ TEST(StartSampler, EveryRoomOfTheStoreyAndEveryQuadrantComesUp) {
 
 TEST(StartSampler, AnywhereFollowsTheFloorSpace) {
   const bim::Building building = house();
-  int bedrooms = 0;
-  constexpr int seeds = 30;
-  for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+  int bedrooms = 0, open_floor = 0, passages = 0;
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     const Scenario scenario = drawn(building, seed, RandomStart::anywhere);
+    if (!scenario.start.yaw_deg) {  // a doorway or the head of the stair
+      ++passages;
+      continue;
+    }
     const bim::Room* room = room_at(building, *scenario.start.at);
     ASSERT_NE(room, nullptr) << seed;
+    ++open_floor;
     if (room->id.ends_with("bedroom")) ++bedrooms;
   }
-  // They are half of the area and more than half of what is free; two of five rooms would be 12 of 30 (sigma 2.7).
-  EXPECT_GT(bedrooms, 14);
+  // Every fourth draw is a passage, sigma 3.4 of 60. Bedrooms are half of the area and more than half of what is free;
+  // two of five rooms would be 40 % of the draws.
+  EXPECT_GT(passages, 4);
+  EXPECT_LT(passages, 28);
+  EXPECT_GT(10 * bedrooms, 4 * open_floor);
+}
+
+TEST(StartSampler, AnywhereDrawsDoorwaysAndStairHeadsFromWhichTheWalkIsPlanned) {
+  const bim::Building building = house();
+  int doorways = 0, heads = 0;
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    const Scenario scenario = drawn(building, seed, RandomStart::anywhere);
+    const RoutePlan plan = plan_route(building, scenario.start, scenario.route, {});
+    EXPECT_EQ(plan.start_W, *scenario.start.at) << seed;
+    EXPECT_GT(plan.length_m, 0.5) << seed;
+    if (scenario.start.yaw_deg) continue;
+    if (in_a_doorway(building, plan.storey, plan.start_W))
+      ++doorways;
+    else
+      ++heads;
+    const Eigen::Vector3d leg = plan.waypoints[1].p_W - plan.waypoints[0].p_W;
+    EXPECT_NEAR(wrap_angle(plan.yaw_deg * std::numbers::pi / 180.0 - std::atan2(leg.y(), leg.x())), 0.0, 1e-3) << seed;
+  }
+  EXPECT_GT(doorways, 0);
+  EXPECT_GT(heads, 0);
+}
+
+TEST(StartSampler, RoomsAreDrawnAsBeforeThereWereOtherPlaces) {
+  const Scenario scenario = drawn(house(), 5, RandomStart::rooms);
+  EXPECT_TRUE(scenario.start.yaw_deg.has_value());
+  EXPECT_FALSE(in_a_doorway(house(), 1, *scenario.start.at));
 }
 
 TEST(StartSampler, TheSeedAloneDecides) {

@@ -86,7 +86,8 @@ TEST_P(CompareHypothesesAt, APredictedScanIsWhatTheGridGivesBeamByBeam) {
       const PlanHit hit = storey.grid.cast(storey.segments, ray, reach);
       ++beams;
       // Single precision within 20 m of the origin, and a beam that grazes an edge may go to either side of it.
-      const bool same = seen.blocks[i].segment[k] == hit.segment &&
+      const int element = hit.segment < 0 ? -1 : storey.segments[static_cast<std::size_t>(hit.segment)].element;
+      const bool same = seen.blocks[i].element[k] == element &&
                         std::abs(static_cast<double>(seen.blocks[i].expected[k]) - hit.distance) < 1e-4;
       others += same ? 0 : 1;
     }

@@ -112,8 +112,9 @@ TEST(Hypotheses, ALateHypothesisFitsAsOftenAsATrackedOne) {
   HypothesisSet set(config, {}, {}, {});
   track_and_add_twin(twins, set);
   ASSERT_EQ(set.all().size(), 2U);
-  EXPECT_EQ(set.all()[0].fit_count, static_cast<int>(twins.scans.size()));
-  EXPECT_EQ(set.all()[1].fit_count, static_cast<int>(twins.scans.size()));
+  EXPECT_EQ(set.all()[0].scans, static_cast<int>(twins.scans.size()));
+  EXPECT_EQ(set.all()[1].scans, static_cast<int>(twins.scans.size()));
+  EXPECT_NEAR(set.all()[1].fit, set.all()[0].fit, 1.0);
 }
 
 TEST(Hypotheses, ScansThatDidNotFitBeforeCount) {
@@ -126,8 +127,8 @@ TEST(Hypotheses, ScansThatDidNotFitBeforeCount) {
   set.predict_and_update(twins.index, {}, twins.scans[0]);
   set.add(twins.index, std::vector<StoreyPose>{{0, twins.here}});
   ASSERT_EQ(set.all().size(), 1U);
-  EXPECT_LT(set.all()[0].fit_count, -10);
-  EXPECT_GE(set.all()[0].fit_count, config.min_fit_count);
+  EXPECT_LT(set.all()[0].fit, -10.0);
+  EXPECT_GE(set.all()[0].fit, -config.fit.limit);
 }
 
 // Where clutter hides a wall, the pose that takes the clutter's front for the wall is 0.5 m off.
@@ -182,6 +183,16 @@ TEST(Hypotheses, ReweightingGivesEachHypothesisItsMassAndNewParticles) {
   for (const LocalParticle& p : particles)
     if ((p.X_IH.t - twins.there.t).norm() < 0.5) mass += p.weight;
   EXPECT_NEAR(mass, 0.5, 0.01);
+}
+
+TEST(FitConfig, ScansThatPenetrateCountAgainstAPose) {
+  const FitConfig config;
+  EXPECT_NEAR(config.of_scan({0.5, 0.0, 0.0}), 1.0, 1e-12);
+  EXPECT_EQ(config.of_scan({0.95, 0.01, 0.0}), config.most_a_scan);
+  EXPECT_EQ(config.of_scan({0.2, 0.0, 0.0}), -config.doubtful_scan);
+  // One wall that is missing explains all that penetrate.
+  EXPECT_EQ(config.of_scan({0.5, 0.2, 0.2}), config.missing_wall_scan);
+  EXPECT_EQ(config.of_scan({0.5, 0.2, 0.1}), -config.misfit_scan);
 }
 
 }  // namespace

@@ -12,6 +12,8 @@
 namespace plumbline::slam {
 namespace {
 
+constexpr double standing_m = 0.46;
+
 using synthetic::HouseScan;
 
 /// A straight walk in the corridor seen every 0.25 m, with odometry that reads `scale` of the way.
@@ -36,7 +38,7 @@ Walked walk_straight(double scale) {
 
 /// Tracks all scans from a start at the first.
 PlanTracker track(const Walked& walked, const Pose& start) {
-  PlanTracker tracker({}, walked.index.storeys.front());
+  PlanTracker tracker({}, walked.index.storeys.front(), standing_m);
   tracker.start(walked.seen[0].scan, walked.seen[0].planes, start);
   for (std::size_t i = 1; i < walked.seen.size(); ++i)
     static_cast<void>(tracker.update(walked.seen[i].scan, walked.seen[i].planes));
@@ -77,7 +79,7 @@ TEST(Tracker, DropsTheOldestPoseBeyondItsWindow) {
   const Walked walked = walk_straight(1.0);
   TrackerConfig config;
   config.window = 4;
-  PlanTracker tracker(config, walked.index.storeys.front());
+  PlanTracker tracker(config, walked.index.storeys.front(), standing_m);
   tracker.start(walked.seen[0].scan, walked.seen[0].planes, walked.X_IR.front());
   std::size_t left = 0;
   for (std::size_t i = 1; i < walked.seen.size(); ++i)

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "bim/random/stream.h"
-#include "slam/baselines/micp/plan_mesh.h"
+#include "slam/plan_map/plan_mesh.h"
 #include "tests/slam/localization/house_plan.h"
 
 namespace plumbline::slam {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "slam/baselines/micp/plan_mesh.h"
+#include "slam/plan_map/plan_mesh.h"
 
 #include <algorithm>
 #include <array>
@@ -43,7 +43,7 @@ void add_face(bim::BuildingMesh& mesh, const PlanSegment& segment, int element) 
 bim::BuildingMesh plan_mesh(const StoreyIndex& storey) {
   bim::BuildingMesh mesh;
   for (const PlanSegment& segment : storey.segments) {
-    add_face(mesh, segment, static_cast<int>(mesh.elements.size()));
+    add_face(mesh, segment, segment.element);
     mesh.elements.emplace_back();
   }
   Eigen::Vector2d low = Eigen::Vector2d::Zero(), high = low;
@@ -55,7 +55,7 @@ bim::BuildingMesh plan_mesh(const StoreyIndex& storey) {
   for (const double z : {storey.floor_z, storey.ceiling_z}) {
     add_quad(mesh, {{{low.x(), low.y(), z}, {high.x(), low.y(), z}, {high.x(), high.y(), z}, {low.x(), high.y(), z}}},
              static_cast<int>(mesh.elements.size()));
-    mesh.elements.emplace_back();
+    mesh.elements.emplace_back().kind = bim::ElementKind::slab;
   }
   return mesh;
 }

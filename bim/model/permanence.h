@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "bim/model/building.h"
+
+namespace plumbline::bim {
+
+/// How surely an element still stands where the plan has it, surest first. Walls, slabs, columns, stairs and openings
+/// are always structure.
+enum class Permanence {
+  structure,  ///< what was built: also railings, beams, curtain walls, door leaves and panes
+  fixed,      ///< installations: sanitary and other terminals, ducts, lifts
+  furniture,  ///< planned, and may have been moved, swapped or taken away
+  clutter     ///< not planned
+};
+[[nodiscard]] constexpr std::array<std::string_view, 4> names_of(Permanence) {
+  return {"structure", "fixed", "furniture", "clutter"};
+}
+
+[[nodiscard]] Permanence permanence_of(const Obstacle& obstacle);
+/// Furniture or clutter.
+[[nodiscard]] bool may_have_moved(const Obstacle& obstacle);
+/// The building without what may have moved: what its structure alone tells.
+[[nodiscard]] Building without_movables(Building building);
+
+}  // namespace plumbline::bim

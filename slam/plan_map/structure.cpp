@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/plan_map/structure.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace plumbline::slam {
+
+namespace {
+
+constexpr std::size_t batch = 256;         // rays cast in one call, so that their memory is small and stays near
+constexpr double upright_max_slope = 0.5;  // of a normal
+
+}  // namespace
+
+Structure::Structure(const bim::BuildingMesh& mesh_I) : scene_(mesh_I) {
+  for (const bim::MeshElement& element : mesh_I.elements)
+    blocks_.push_back(element.kind == bim::ElementKind::wall || element.kind == bim::ElementKind::column);
+}
+
+void Structure::cast(const Eigen::Vector3d& origin_I, std::span<const SensorRay> rays, double range_max_m,
+                     std::span<StructureHit> hits) const {
+  std::array<bim::Ray, batch> rays_W;
+  std::array<bim::Hit, batch> hits_W;
+  std::array<double, batch> level;
+  for (std::size_t first = 0; first < rays.size(); first += batch) {
+    const std::size_t count = std::min(batch, rays.size() - first);
+    for (std::size_t i = 0; i < count; ++i) {
+      const SensorRay& ray = rays[first + i];
+      level[i] = 1.0 / std::sqrt(1.0 + ray.slope * ray.slope);
+      rays_W[i] = {origin_I, {level[i] * ray.direction.x(), level[i] * ray.direction.y(), level[i] * ray.slope}, 0.0};
+    }
+    scene_.cast(std::span(rays_W).first(count), range_max_m, std::span(hits_W).first(count));
+    for (std::size_t i = 0; i < count; ++i) {
+      const bim::Hit& found = hits_W[i];
+      StructureHit& hit = hits[first + i];
+      hit = {};
+      if (found.element < 0) continue;
+      hit.distance = found.range_m * level[i];
+      hit.element = found.element;
+      const Eigen::Vector2d n = found.normal_W.head<2>();
+      const double length = n.norm();
+      hit.upright = std::abs(found.normal_W.z()) < upright_max_slope * length;
+      if (hit.upright) hit.n = n / length;
+    }
+  }
+}
+
+int Structure::barrier(const Eigen::Vector3d& from_I, const Eigen::Vector3d& to_I) const {
+  const double length = (to_I - from_I).norm();
+  if (length < 1e-6) return -1;
+  const bim::Hit hit = scene_.cast({from_I, (to_I - from_I) / length, 0.0}, length);
+  return hit.element >= 0 && blocks_[static_cast<std::size_t>(hit.element)] ? hit.element : -1;
+}
+
+std::optional<double> Structure::ground_below(const Eigen::Vector3d& p_I, double reach_m) const {
+  const bim::Hit hit = scene_.cast({p_I, -Eigen::Vector3d::UnitZ(), 0.0}, reach_m);
+  if (hit.element < 0) return std::nullopt;
+  return p_I.z() - hit.range_m;
+}
+
+}  // namespace plumbline::slam

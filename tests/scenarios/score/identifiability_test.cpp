@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenarios/score/identifiability.h"
+
+#include <gtest/gtest.h>
+
+#include <utility>
+
+#include "bim/formats/plan_yaml/plan_write.h"
+#include "bim/formats/plan_yaml/plan_yaml.h"
+#include "bim/generators/generators.h"
+#include "bim/model/extrude.h"
+#include "scenarios/metrics/storey.h"
+
+namespace plumbline::scenarios::score {
+namespace {
+
+/// A point-symmetric floor with one cupboard.
+bim::Building furnished() {
+  bim::Building building = bim::read_plan_text(bim::write_plan(bim::generate("rot180", Tree::map()).plan), "generated");
+  const PolygonWithHoles2 outline{{{0.3, 3.0}, {0.9, 3.0}, {0.9, 4.2}, {0.3, 4.2}}, {}};
+  bim::Obstacle cupboard;
+  cupboard.id = "cupboard";
+  cupboard.kind = "box";
+  cupboard.storey = 0;
+  cupboard.body = bim::extrude({outline}, 0.0, 1.9);
+  building.obstacles.push_back(std::move(cupboard));
+  return building;
+}
+
+/// A walk of 2 m in the room of the cupboard.
+FinishedRun walk_in(const RunBuilding& building) {
+  FinishedRun run;
+  run.building = std::make_shared<const RunBuilding>(building.variants(), building.told_furniture());
+  for (int i = 0; i <= 40; ++i) {
+    const slam::Nanoseconds stamp = slam::Nanoseconds{100'000'000} * i;
+    run.scans.push_back(stamp);
+    run.record.truth_W.push_back({stamp, Pose::from_xyz_yaw({2.0 + 0.05 * i, 2.0, base_height_m()}, 0.4)});
+  }
+  return run;
+}
+
+std::optional<Identifiability> answers_of(const RunBuilding& building) {
+  const FinishedRun run = walk_in(building);
+  return identifiability_of(run, {run.record.truth_W, run.scans, std::nullopt});
+}
+
+TEST(IdentifiabilityOfARun, FurnitureCountsInTheSecondAnswerOnly) {
+  const bim::Building plan = furnished();
+  for (const ToldFurniture told : {ToldFurniture::as_planned, ToldFurniture::none}) {
+    const auto known = answers_of(RunBuilding({plan, plan, {}, true}, told));
+    ASSERT_TRUE(known.has_value());
+    EXPECT_FALSE(known->identifiable);
+    ASSERT_EQ(known->others_W.size(), 1U);
+    EXPECT_FALSE(known->marginal_from_s.has_value());
+    ASSERT_TRUE(known->with_furniture.has_value());
+    EXPECT_TRUE(known->with_furniture->identifiable);
+    EXPECT_EQ(known->told_furniture, told == ToldFurniture::as_planned);
+  }
+}
+
+TEST(IdentifiabilityOfARun, IsOneAnswerWhereNothingMayHaveMoved) {
+  bim::Building plan = furnished();
+  plan.obstacles.clear();
+  const auto known = answers_of(RunBuilding({plan, plan, {}, true}));
+  ASSERT_TRUE(known.has_value());
+  EXPECT_FALSE(known->identifiable);
+  EXPECT_FALSE(known->with_furniture.has_value());
+}
+
+TEST(IdentifiabilityOfARun, InstallationsCountAsBuilding) {
+  bim::Building plan = furnished();
+  plan.obstacles.front().kind = "sanitary_terminal";
+  const auto known = answers_of(RunBuilding({plan, plan, {}, true}));
+  ASSERT_TRUE(known.has_value());
+  EXPECT_TRUE(known->identifiable);
+  EXPECT_FALSE(known->with_furniture.has_value());
+}
+
+}  // namespace
+}  // namespace plumbline::scenarios::score
