@@ -40,6 +40,42 @@ LocalizationScan predicted_scan(const StoreyIndex& storey, const Pose2& X_IH, co
   return predicted;
 }
 
+struct Edge {
+  Eigen::Vector2d a, e;
+  double length = 0.0;
+};
+
+std::vector<Edge> edges_of(const Polygon2& polygon) {
+  std::vector<Edge> edges;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Eigen::Vector2d way = polygon[(i + 1) % polygon.size()] - polygon[i];
+    if (way.norm() > 0.0) edges.push_back({polygon[i], way.normalized(), way.norm()});
+  }
+  return edges;
+}
+
+/// Whether a room moved by T covers the other.
+bool covers(const Polygon2& room, const Pose2& T, const Polygon2& other, double tolerance) {
+  return std::all_of(room.begin(), room.end(),
+                     [&](const Eigen::Vector2d& p) { return boundary_distance(other, T * p) <= tolerance; });
+}
+
+/// Motions that bring the outline of a room onto that of another one, or onto itself by a turn.
+std::vector<Pose2> motions_onto(const Polygon2& room, const Polygon2& other, double tolerance) {
+  std::vector<Pose2> motions;
+  const std::vector<Edge> edges = edges_of(room);
+  const auto longest =
+      std::max_element(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) { return a.length < b.length; });
+  if (longest == edges.end()) return motions;
+  for (const Edge& edge : edges_of(other)) {
+    if (std::abs(edge.length - longest->length) > tolerance) continue;
+    Pose2 T{{}, wrap_angle(std::atan2(edge.e.y(), edge.e.x()) - std::atan2(longest->e.y(), longest->e.x()))};
+    T.t = edge.a - T.rotation() * longest->a;
+    if (covers(room, T, other, tolerance)) motions.push_back(T);
+  }
+  return motions;
+}
+
 }  // namespace
 
 AliasSearch::AliasSearch(const PlanIndex& index, double sensor_height, const AliasSearchConfig& config)
@@ -96,6 +132,24 @@ std::vector<ScoredPose> AliasSearch::candidates(int storey, const std::vector<fl
   return found;
 }
 
+std::vector<StoreyPose> AliasSearch::in_rooms_alike(const PlanIndex& index, const StoreyPose& pose,
+                                                    const StartPrior& prior) const {
+  std::vector<StoreyPose> images;
+  const StoreyIndex& own = index.storeys[static_cast<std::size_t>(pose.storey)];
+  const int room = own.room_at(pose.X_IH.t);
+  if (room < 0) return images;
+  for (std::size_t s = 0; s < index.storeys.size(); ++s)
+    for (const LocalRoom& other : index.storeys[s].rooms)
+      for (const Pose2& T :
+           motions_onto(own.rooms[static_cast<std::size_t>(room)].polygon, other.polygon, config_.room_tolerance_m)) {
+        const Pose2 X_IH = T * pose.X_IH;
+        if (prior.yaw_I && std::abs(wrap_angle(X_IH.yaw - *prior.yaw_I)) > config_.yaw_tolerance) continue;
+        if (images.size() < static_cast<std::size_t>(config_.count))
+          images.push_back({static_cast<int>(s), X_IH, true});
+      }
+  return images;
+}
+
 std::vector<StoreyPose> AliasSearch::find(const PlanIndex& index, const StoreyPose& pose, const StartPrior& prior,
                                           const LocalizationScan& scan, const LikelihoodConfig& likelihood,
                                           const RefineConfig& refine) const {
@@ -103,18 +157,20 @@ std::vector<StoreyPose> AliasSearch::find(const PlanIndex& index, const StoreyPo
   const std::vector<float> wanted = ring(own, pose.X_IH * scan.sensor_H, pose.X_IH.yaw);
   const LocalizationScan predicted = predicted_scan(own, pose.X_IH, scan, config_.range_max_m);
   std::vector<ScoredPose> fitted;
-  for (std::size_t s = 0; s < storeys_.size(); ++s) {
-    const StoreyIndex& storey = index.storeys[s];
-    for (const StoreyPose& candidate :
-         non_max_suppression(candidates(static_cast<int>(s), wanted, prior, scan.sensor_H), config_.count,
-                             config_.gap_m, config_.gap_rad)) {
-      Pose2 X_IH = candidate.X_IH;
-      for (int pass = 0; pass < 2; ++pass) X_IH = slam::refine(storey, X_IH, predicted, likelihood, refine).X_IH;
-      if (candidate.storey == pose.storey && is_near(X_IH, pose.X_IH, config_.gap_m, config_.gap_rad)) continue;
-      const double inliers = agreement(storey, X_IH, predicted, likelihood, refine).inliers;
-      if (inliers >= config_.min_inliers) fitted.push_back({{candidate.storey, X_IH, true}, inliers});
-    }
-  }
+  const auto fit = [&](const StoreyPose& candidate) {
+    const StoreyIndex& storey = index.storeys[static_cast<std::size_t>(candidate.storey)];
+    Pose2 X_IH = candidate.X_IH;
+    for (int pass = 0; pass < 2; ++pass) X_IH = slam::refine(storey, X_IH, predicted, likelihood, refine).X_IH;
+    if (candidate.storey == pose.storey && is_near(X_IH, pose.X_IH, config_.gap_m, config_.gap_rad)) return;
+    const double inliers = agreement(storey, X_IH, predicted, likelihood, refine).inliers;
+    if (inliers >= config_.min_inliers) fitted.push_back({{candidate.storey, X_IH, true}, inliers});
+  };
+  // First, so that they win ties: along a corridor there are many places that look alike.
+  for (const StoreyPose& image : in_rooms_alike(index, pose, prior)) fit(image);
+  for (int s = 0; s < static_cast<int>(storeys_.size()); ++s)
+    for (const StoreyPose& candidate : non_max_suppression(candidates(s, wanted, prior, scan.sensor_H), config_.count,
+                                                           config_.gap_m, config_.gap_rad))
+      fit(candidate);
   return non_max_suppression(std::move(fitted), config_.count, 0.5 * config_.gap_m, 0.5 * config_.gap_rad);
 }
 

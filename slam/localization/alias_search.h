@@ -13,11 +13,12 @@ struct AliasSearchConfig {
   double spacing_m = 0.5;
   int max_places = 40000;
   int azimuths = 72;
-  double range_max_m = 15.0;
+  double range_max_m = 25.0;
+  double room_tolerance_m = 0.3;
   double residual_cap_m = 1.0;
   double max_mean_m = 0.55;
   double min_inliers = 0.85;
-  int count = 48;
+  int count = 64;
   double gap_m = 0.6;
   double gap_rad = 0.35;
   double yaw_tolerance = 0.3;
@@ -29,6 +30,8 @@ struct AliasSearchConfig {
       Field{.doc = "most places; they stand farther apart where there would be more", .min = 100, .max = 200000});
     v("azimuths", azimuths, Field{.doc = "rays of a level ring, by which places are compared", .min = 16, .max = 720});
     v("range_max_m", range_max_m, Field{.doc = "range at which these rays end", .min = 1});
+    v("room_tolerance_m", room_tolerance_m,
+      Field{.doc = "largest distance of the outlines of two rooms that are alike", .min = 0});
     v("residual_cap_m", residual_cap_m,
       Field{.doc = "difference of two ranges beyond which it counts no more", .min = 0});
     v("max_mean_m", max_mean_m, Field{.doc = "largest mean difference of a ring from that of the pose", .min = 0});
@@ -42,8 +45,8 @@ struct AliasSearchConfig {
 };
 
 /// Finds the poses from which the plan's structure looks as it does from a given one, whatever a scan says: clutter and
-/// furniture hide neither of them. Level rings of ranges choose the candidates; Gauss-Newton on the predicted beams
-/// fits them.
+/// furniture hide neither of them. Candidates are its images in rooms of the same outline, and places whose level ring
+/// of ranges is like its own; Gauss-Newton on the predicted beams fits them.
 class AliasSearch {
  public:
   AliasSearch(const PlanIndex& index, double sensor_height, const AliasSearchConfig& config);
@@ -63,6 +66,10 @@ class AliasSearch {
   [[nodiscard]] std::vector<float> ring(const StoreyIndex& storey, const Eigen::Vector2d& sensor_I, double yaw) const;
   [[nodiscard]] std::vector<ScoredPose> candidates(int storey, const std::vector<float>& wanted,
                                                    const StartPrior& prior, const Eigen::Vector2d& sensor_H) const;
+
+  /// Images of the pose in the rooms that have the same outline, its own turned among them.
+  [[nodiscard]] std::vector<StoreyPose> in_rooms_alike(const PlanIndex& index, const StoreyPose& pose,
+                                                       const StartPrior& prior) const;
 
   AliasSearchConfig config_;
   double sensor_height_;

@@ -167,9 +167,10 @@ void EvidenceByCause::add(const EvidenceByCause& more, double scale) {
   for (const auto& [cause, sum] : more.sums_) sums_[cause] += scale * sum;
 }
 
-double EvidenceByCause::total(double cap) const {
+double EvidenceByCause::total(double object_cap, double element_cap) const {
   double sum = 0.0;
-  for (const auto& [cause, one] : sums_) sum += std::min(one, cap);
+  for (const auto& [cause, one] : sums_)
+    sum += std::min(one, cause.kind == OutlierCause::Kind::not_built ? element_cap : object_cap);
   return sum;
 }
 

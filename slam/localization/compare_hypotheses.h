@@ -21,6 +21,7 @@ struct HypothesisComparisonConfig {
   double edge_m = 0.05;
   double edge_rad = 0.0015;
   double cause_cap = 8.0;
+  double object_cap = 4.0;
   double clutter_cell_m = 1.0;
   double opening_depth_m = 0.35;
 
@@ -44,6 +45,10 @@ struct HypothesisComparisonConfig {
     v("edge_rad", edge_rad, Field{.doc = "tolerance of an edge of the plan in direction", .min = 0});
     v("cause_cap", cause_cap,
       plain_field("most evidence of one cause, such as a missing wall or an unplanned object", {.min = 0}));
+    // Less than convergence.log_ratio: furniture that ends by chance where another pose has a wall decides nothing.
+    v("object_cap", object_cap,
+      plain_field("most evidence of an unplanned object as its cause, before a face or where the plan has nothing",
+                  {.min = 0}));
     v("clutter_cell_m", clutter_cell_m,
       Field{.doc = "cell size of clutter where the plan has nothing", .min = 0.01, .former = "thing_m"});
     v("opening_depth_m", opening_depth_m,
@@ -88,8 +93,8 @@ class EvidenceByCause {
   void add(const OutlierCause& cause, double log_likelihood) { sums_[cause] += log_likelihood; }
   void add(const EvidenceByCause& more, double scale);
   void clear() { sums_.clear(); }
-  /// No cause counts for more than the cap.
-  [[nodiscard]] double total(double cap) const;
+  /// No cause counts for more than its cap: an object that was not planned, or an element that was not built.
+  [[nodiscard]] double total(double object_cap, double element_cap) const;
 
  private:
   std::map<OutlierCause, double> sums_;

@@ -104,6 +104,8 @@ void GlobalLocalizer::update_state(const PlanIndex& index, const StartPrior& sta
   converged_updates_ = decisive ? converged_updates_ + 1 : 0;
   if (converged_updates_ < c.updates || converged_travel_m_ < c.travel_m) return;
   find_alternatives(index, start, scan);
+  hypotheses_.reassess(index);
+  hypotheses_.prune_and_normalize();
   if (!best_is_decisive()) {
     converged_updates_ = 0;
     state_ = State::ambiguous;

@@ -48,7 +48,7 @@ void HypothesisSet::predict_and_update(const PlanIndex& index, const Pose2& u, c
   for (std::size_t i = 0; i < hypotheses_.size(); ++i) {
     if (i == reference_) continue;
     accumulate_evidence(scan, carry(hypotheses_[i]), reference, hypotheses_[i].balance);
-    hypotheses_[i].evidence = hypotheses_[i].balance.evidence(comparison_.cause_cap);
+    hypotheses_[i].evidence = hypotheses_[i].balance.evidence(comparison_);
   }
   rebase_reference(index);
 }
@@ -215,10 +215,20 @@ void HypothesisSet::rebase_reference(const PlanIndex& index) {
   if (best == hypotheses_.end() || best->evidence <= hypotheses_[reference_].evidence + config_.reference_switch_margin)
     return;
   reference_ = static_cast<std::size_t>(best - hypotheses_.begin());
-  const std::vector<ScanAtPose> scans = replay(index, best->pose(), {}).scans;
+  compare_all_with_reference(index);
+}
+
+void HypothesisSet::reassess(const PlanIndex& index) {
+  if (hypotheses_.size() < 2 || history_.empty()) return;
+  compare_all_with_reference(index);
+  rebase_reference(index);
+}
+
+void HypothesisSet::compare_all_with_reference(const PlanIndex& index) {
+  const std::vector<ScanAtPose> scans = replay(index, hypotheses_[reference_].pose(), {}).scans;
   for (PoseHypothesis& hypothesis : hypotheses_) {
     Replay past;
-    if (&hypothesis != &*best) past = replay(index, hypothesis.pose(), scans);
+    if (&hypothesis != &hypotheses_[reference_]) past = replay(index, hypothesis.pose(), scans);
     hypothesis.balance = std::move(past.balance);
     hypothesis.evidence = past.evidence;
   }
@@ -247,7 +257,7 @@ HypothesisSet::Replay HypothesisSet::replay(const PlanIndex& index, const Storey
     if (!is_sampled || k >= reference.size()) continue;
     accumulate_evidence(step.scan, past.scans[k], reference[k], past.balance);
     past.scans[k].predicted = {};
-    past.evidence = past.balance.evidence(comparison_.cause_cap);
+    past.evidence = past.balance.evidence(comparison_);
     if (past.evidence < -config_.drop_ratio) break;
   }
   return past;

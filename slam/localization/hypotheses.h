@@ -107,8 +107,8 @@ struct HypothesisConfig {
 struct EvidenceBalance {
   EvidenceByCause against, supporting;
 
-  [[nodiscard]] double evidence(double cause_cap) const {
-    return supporting.total(cause_cap) - against.total(cause_cap);
+  [[nodiscard]] double evidence(const HypothesisComparisonConfig& config) const {
+    return supporting.total(config.object_cap, config.cause_cap) - against.total(config.object_cap, config.cause_cap);
   }
 };
 
@@ -147,6 +147,9 @@ class HypothesisSet {
   void add(const PlanIndex& index, const Clustering& clustering);
   /// Adds the poses that are not known yet and that the kept history does not rule out.
   void add(const PlanIndex& index, const std::vector<StoreyPose>& poses);
+  /// Compares all with the best one anew, each by all scans kept along one path that ends at its pose. While it was
+  /// tracked a hypothesis may have slid along a corridor to where each scan fitted best.
+  void reassess(const PlanIndex& index);
   /// Merges near ones, drops unlikely ones, normalises the mass.
   void prune_and_normalize();
   /// Scales the particles so that each hypothesis's cluster has its mass, and adds particles where a hypothesis has
@@ -190,6 +193,7 @@ class HypothesisSet {
   /// Compares all hypotheses with the best by all scans kept, once that is a new one: the evidence between two does not
   /// follow from the evidence of each against a third.
   void rebase_reference(const PlanIndex& index);
+  void compare_all_with_reference(const PlanIndex& index);
   /// The kept scans along the odometry back from the pose at the last one, compared with the reference (when there is
   /// one). Stops once the evidence has fallen below the drop ratio.
   [[nodiscard]] Replay replay(const PlanIndex& index, const StoreyPose& pose,

@@ -102,13 +102,14 @@ TEST(EvidenceByCause, NoCauseCountsForMoreThanTheCap) {
   for (int i = 0; i < 10; ++i) evidence.add(wall, 1.0);
   evidence.add(before, 1.0);
   evidence.add(thing, 2.0);
-  EXPECT_EQ(evidence.total(100.0), 13.0);
-  EXPECT_EQ(evidence.total(4.0), 7.0);
+  EXPECT_EQ(evidence.total(100.0, 100.0), 13.0);
+  EXPECT_EQ(evidence.total(4.0, 4.0), 7.0);
   more.add({OutlierCause::Kind::unplanned, 3, 2}, 6.0);
   evidence.add(more, 0.5);
-  EXPECT_EQ(evidence.total(4.0), 10.0);
+  EXPECT_EQ(evidence.total(4.0, 4.0), 10.0);
+  EXPECT_EQ(evidence.total(2.0, 4.0), 1.0 + 2.0 + 2.0 + 4.0);
   evidence.clear();
-  EXPECT_EQ(evidence.total(4.0), 0.0);
+  EXPECT_EQ(evidence.total(4.0, 4.0), 0.0);
 }
 
 // Nothing of the plan is in the way out there, so everything seen is something else that it does not show.
@@ -124,9 +125,9 @@ TEST(PairwiseLikelihoodRatio, OutsideOfThePlanEachThingSeenNeedsACauseOfItsOwn) 
   const HypothesisComparisonConfig config;
   const PairwiseLikelihoodRatio said = compare_hypotheses(scan, predict_scan(storey, X_IH, scan, config),
                                                           predict_scan(storey, outside, scan, config), config);
-  EXPECT_EQ(said.against_a.total(config.cause_cap), 0.0);
+  EXPECT_EQ(said.against_a.total(config.object_cap, config.cause_cap), 0.0);
   // The four walls, 20 m long, pass through 20 cells of 1 m or more; a cell that few beams end in counts less.
-  EXPECT_GT(said.against_b.total(config.cause_cap), 10.0 * config.cause_cap);
+  EXPECT_GT(said.against_b.total(config.object_cap, config.cause_cap), 10.0 * config.object_cap);
 }
 
 // Beams penetrate both of its faces, from either side.
@@ -145,11 +146,11 @@ TEST(PairwiseLikelihoodRatio, AWallThatWasNotBuiltIsOneCauseFromBothSides) {
                         sees_none =
                             predict_scan(without.storeys.front(), heading(without.X_WI.inverse() * X_WR), scan, config);
     const PairwiseLikelihoodRatio said = compare_hypotheses(scan, sees_it, sees_none, config);
-    EXPECT_EQ(said.against_b.total(config.cause_cap), 0.0);
-    EXPECT_GT(said.against_a.total(1e9), config.cause_cap);
+    EXPECT_EQ(said.against_b.total(config.object_cap, config.cause_cap), 0.0);
+    EXPECT_GT(said.against_a.total(1e9, 1e9), config.cause_cap);
     against.add(said.against_a, 1.0);
   }
-  EXPECT_NEAR(against.total(config.cause_cap), config.cause_cap, 0.5);
+  EXPECT_NEAR(against.total(config.object_cap, config.cause_cap), config.cause_cap, 0.5);
 }
 
 INSTANTIATE_TEST_SUITE_P(Places, CompareHypothesesAt, testing::Range(0, 6));
