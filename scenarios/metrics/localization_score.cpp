@@ -200,10 +200,6 @@ std::string to_string(LocalizationVerdict verdict) {
   return names[static_cast<std::size_t>(verdict)];
 }
 
-bool is_sure_and_wrong(LocalizationVerdict verdict) {
-  return verdict == LocalizationVerdict::false_convergence || verdict == LocalizationVerdict::overconfident;
-}
-
 LocalizationScore score_localization(const Truth& truth, const std::vector<Belief>& beliefs,
                                      const std::optional<Identifiability>& identifiability,
                                      const LocalizationRules& rules) {

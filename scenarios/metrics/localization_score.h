@@ -66,7 +66,9 @@ struct Identifiability : IdentifiabilityAnswer {
 enum class LocalizationVerdict { success, false_convergence, overconfident, honest_ambiguity, late, lost, lucky };
 [[nodiscard]] std::string to_string(LocalizationVerdict verdict);
 /// A single wrong answer, or one that nothing justified: false_convergence or overconfident.
-[[nodiscard]] bool is_sure_and_wrong(LocalizationVerdict verdict);
+[[nodiscard]] constexpr bool is_sure_and_wrong(LocalizationVerdict verdict) {
+  return verdict == LocalizationVerdict::false_convergence || verdict == LocalizationVerdict::overconfident;
+}
 
 /// What the plan allows to be known of a run's pose, docs/methods/localizability.md.
 enum class Evidence {
