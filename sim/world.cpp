@@ -93,8 +93,10 @@ struct World::Impl {
         robot(start_pose(config, floor), building_ground(as_built, walked_storeys(config, as_built)),
               collision_boxes(as_built, walked_storeys(config, as_built)), config.conditions, config.seed),
         pursuit(pursuit_config(config), config.waypoints, config.seed),
-        sensors(config.odometry, config.seed),
-        leg_odometry(leg_odometry_config(config.odometry, config.seed)) {
+        sensors(config.odometry, config.seed, config.faults.imu, config.faults.slip),
+        leg_odometry(leg_odometry_config(config.odometry, config.seed)),
+        odometry_stamps(config.faults.clock, config.seed, 0),
+        imu_stamps(config.faults.clock, config.seed, 1) {
     record(0);
   }
 
@@ -103,7 +105,7 @@ struct World::Impl {
     const Nanoseconds stamp = end_of_firings(lidar.model(), end_firing);
     if (finished(stamp)) return false;
     slam::Stopwatch stopwatch;
-    while (track.last_stamp() < stamp) step();
+    while (track.last_stamp() < stamp + longest_lead(config.faults.clock)) step();
 
     WorldFrame out;
     out.times.push_back({"sim.physics", stopwatch.cpu_ms()});
@@ -145,12 +147,23 @@ struct World::Impl {
     if (tick > 0) leg_odometry.update(reading, 1e-9 * static_cast<double>(Robot::step_ns));
     track.add(stamp, X_WR);
     dynamic_obstacles.step(stamp, X_WR.t);
-    if (tick % imu_every == 0) imu.push_back({stamp, reading.gyro_R, reading.accelerometer_R});
+    if (tick % imu_every == 0) record_imu(tick, reading);
     if (tick % pose_every == 0) {
-      odometry.push_back({stamp, leg_odometry.X_OR()});
-      if (tick > 0) covariances.push_back({stamp, leg_odometry.take_covariance()});
+      record_odometry(tick);
       true_poses.push_back({stamp, X_WR});
     }
+  }
+
+  void record_imu(std::int64_t tick, const SensorReading& reading) {
+    if (const auto stamp = imu_stamps.stamp(tick, tick * Robot::step_ns))
+      imu.push_back({*stamp, reading.gyro_R, reading.accelerometer_R});
+  }
+
+  void record_odometry(std::int64_t tick) {
+    const auto stamp = odometry_stamps.stamp(tick, tick * Robot::step_ns);
+    if (!stamp) return;
+    odometry.push_back({*stamp, leg_odometry.X_OR()});
+    if (tick > 0) covariances.push_back({*stamp, leg_odometry.take_covariance()});
   }
 
   void scan(WorldFrame& out) {
@@ -177,6 +190,7 @@ struct World::Impl {
   PurePursuit pursuit;
   ProprioceptiveSensors sensors;
   LegOdometry leg_odometry;
+  StampError odometry_stamps, imu_stamps;
 
   PoseTrack track;
   std::vector<slam::Imu> imu;

@@ -6,6 +6,7 @@
 
 #include "bim/mesh/mesh.h"
 #include "bim/model/building.h"
+#include "sim/faults.h"
 #include "sim/lidar/lidar.h"
 #include "sim/moving/dynamic_obstacles.h"
 #include "sim/robot/conditions.h"
@@ -22,6 +23,7 @@ struct WorldConfig {
   double rpm = 600.0;
   bool vertical_offsets = true;  ///< of the lasers, in the driver's calibration
   OdometryPreset odometry = OdometryPreset::noisy;
+  Faults faults;          ///< of time, IMU and feet; that of the mount is in what estimators are told
   Conditions conditions;  ///< friction, terrain noise, pushes
   int storey = 0;
   Eigen::Vector2d start_W = Eigen::Vector2d::Zero();
@@ -47,7 +49,8 @@ struct GroundTruth {
 };
 
 /// Everything that happened up to and including one scan, since the previous one. Sensor rates: IMU 250 Hz, odometry
-/// 100 Hz, whose frame O is the robot's pose at time 0; the scan is decoded from the packets.
+/// 100 Hz, whose frame O is the robot's pose at time 0; the scan is decoded from the packets. Stamps of IMU and
+/// odometry are those of the legs' clock.
 struct WorldFrame {
   slam::SensorFrame sensors;
   GroundTruth truth;
@@ -70,6 +73,7 @@ class World {
   /// Advances to the end of the next LiDAR message. False when the route or the time is done (frame untouched).
   /// Throws ScenarioFailure on a fall or a stall.
   [[nodiscard]] bool next(WorldFrame& frame);
+  /// The true one.
   [[nodiscard]] static slam::Calibration calibration();
 
  private:

@@ -5,8 +5,10 @@
 #include <vector>
 
 #include "slam/baselines/amcl/amcl.h"
+#include "slam/baselines/kiss_icp/kiss_icp.h"
 #include "slam/baselines/lidar_odometry/lidar_odometry_method.h"
 #include "slam/baselines/micp/micp.h"
+#include "slam/baselines/pcl_registration/pcl_registration.h"
 #include "slam/baselines/ukf/ukf.h"
 #include "slam/localization/as_printed/s_graph_localization_paper.h"
 #include "slam/localization/pipeline.h"
@@ -36,11 +38,24 @@ std::unique_ptr<Method> make_dead_reckoning(const MethodInput& input) {
   return make_lidar_odometry_method(input, config, config_of<DeadReckoningConfig>(input).map);
 }
 
+/// Completes a row of KISS-ICP; Own is its config with the defaults of this row.
+template <class Own>
+MethodRow kiss_icp(MethodRow row) {
+  row.make = [](const MethodInput& input) { return make_kiss_icp(input, config_of<Own>(input)); };
+  row.standard = false;
+  return with_config<Own>(std::move(row));
+}
+
+template <class Config, auto make>
+std::unique_ptr<Method> make_pcl(const MethodInput& input) {
+  return make(input, config_of<Config>(input));
+}
+
 /// Completes the row of a method that localizes in a plan; Own is its config with the defaults of this row.
 template <class Own, class Config>
 MethodRow localization(std::unique_ptr<Method> (*make)(const MethodInput&, const Config&), MethodRow row) {
   row.make = [make](const MethodInput& input) { return make(input, config_of<Own>(input)); };
-  row.needs_plan = row.needs_odometry = true;
+  row.needs_plan = true;
   return with_config<Own>(std::move(row));
 }
 
@@ -107,6 +122,21 @@ std::vector<MethodRow> odometry_and_slam() {
           OdometryKind::aloam, &LidarOdometryConfig::aloam,
           {.name = "aloam",
            .summary = "LiDAR odometry: scan to scan, then against a feature map, in the style of A-LOAM",
+           .standard = false}),
+      kiss_icp<KissIcpConfig>(
+          {.name = "kiss_icp", .summary = "LiDAR odometry: point-to-point ICP with an adaptive threshold, KISS-ICP"}),
+      kiss_icp<KissIcpIndoorConfig>({.name = "kiss_icp_indoor",
+                                     .summary = "kiss_icp with finer voxels and all points of the map, for rooms",
+                                     .variant = true}),
+      with_config<PclGicpMethodConfig>(
+          {.name = "pcl_gicp",
+           .summary = "LiDAR odometry: PCL's own GICP against the latest keyframes, started by odometry",
+           .make = make_pcl<PclGicpMethodConfig, make_pcl_gicp_method>,
+           .standard = false}),
+      with_config<PclNdtMethodConfig>(
+          {.name = "pcl_ndt",
+           .summary = "LiDAR odometry: PCL's own NDT against the latest keyframes, started by odometry",
+           .make = make_pcl<PclNdtMethodConfig, make_pcl_ndt_method>,
            .standard = false}),
       with_config<HdlSlamConfig>(
           {.name = "hdl_slam",

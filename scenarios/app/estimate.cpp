@@ -12,6 +12,7 @@
 #include "bim/plan/plan.h"
 #include "bim/random/stream.h"
 #include "scenarios/app/commands.h"
+#include "scenarios/app/poorer_recording.h"
 #include "scenarios/host/files.h"
 #include "scenarios/host/interrupt.h"
 #include "scenarios/host/progress.h"
@@ -20,9 +21,11 @@
 #include "scenarios/run/run_files.h"
 #include "scenarios/run/run_pipeline.h"
 #include "scenarios/run/timings.h"
+#include "scenarios/spec/method_names.h"
 #include "scenarios/spec/resolve.h"
 #include "scenarios/spec/run_site.h"
 #include "slam/io/bags/bag.h"
+#include "slam/io/clouds/cloud_recording.h"
 #include "slam/io/recordings/recording.h"
 #include "slam/io/stopwatch.h"
 #include "slam/methods.h"
@@ -38,6 +41,9 @@ struct EstimateArguments {
   std::string plan_furniture = "as_planned";
   std::string config;
   std::string description;
+  std::string sensors = "all";
+  int every = 1;
+  std::vector<std::string> without;
   slam::BagTopics topics;
   std::string out;
   std::uint64_t seed = 1;
@@ -47,14 +53,20 @@ struct EstimateArguments {
   std::optional<Argument> seed_option;
   std::optional<Argument> yaw_option;
   std::optional<Argument> furniture_option;
+  std::optional<Argument> sensors_option;
 };
 
-const slam::MethodRow& find_row(const std::string& name, slam::MethodTable table) {
-  check_methods({name}, {Mark{"--method", 0, 0}}, table);
-  const slam::MethodRow* row = slam::find_method(name, table);
-  if (row == nullptr)
-    throw InputError({"--method", 0, 0}, "'" + name + "' is no estimator; a recording holds no truth");
-  return *row;
+/// The method asked for, whose name may say .lidar as in a scenario.
+MethodChoice find_choice(const EstimateArguments& options, slam::MethodTable table) {
+  MethodChoice choice = choice_of(options.method);
+  const Sensors asked = options.sensors == "lidar" ? Sensors::lidar : Sensors::all;
+  if (options.sensors_option->given() && asked == Sensors::all && choice.sensors == Sensors::lidar)
+    throw InputError({"--sensors", 0, 0}, "says all, and '" + options.method + "' LiDAR alone; give one of them");
+  if (asked == Sensors::lidar) choice.sensors = asked;
+  check_methods({choice.label()}, {Mark{"--method", 0, 0}}, table);
+  if (choice.method == truth_method)
+    throw InputError({"--method", 0, 0}, "'" + choice.method + "' is no estimator; a recording holds no truth");
+  return choice;
 }
 
 /// The scenario that run and simulate leave beside a recording; of one from elsewhere, the default.
@@ -105,6 +117,25 @@ void check_rooms(const EstimateArguments& options, const bim::Plan& plan, const 
                                              ", and method '" + options.method + "' starts from rooms; add rooms");
 }
 
+Poverty poverty_of(const EstimateArguments& options) {
+  const auto without = [&](const char* what) {
+    return std::find(options.without.begin(), options.without.end(), what) != options.without.end();
+  };
+  return {options.every, without("rings"), without("times")};
+}
+
+/// Of a LiDAR that sends no packets simulate leaves a bag alone, with the description beside it.
+std::unique_ptr<slam::Recording> open_folder(const std::string& folder, const slam::BagTopics& topics,
+                                             const slam::RecordingInfo* given) {
+  namespace fs = std::filesystem;
+  const std::string bag = folder + "/recording.bag", description = folder + "/recording.yaml";
+  const bool bag_alone = fs::exists(bag) && fs::exists(description) && !fs::exists(folder + "/lidar.pcap");
+  if (!bag_alone) return slam::open_recording(folder, given);
+  const slam::RecordingInfo info =
+      given != nullptr ? *given : slam::read_recording_info(read_text_file(description), description);
+  return slam::open_bag(bag, topics, &info);
+}
+
 /// A run directory holds its recording in a folder.
 std::unique_ptr<slam::Recording> open_input(const EstimateArguments& options) {
   std::optional<slam::RecordingInfo> info;
@@ -112,8 +143,9 @@ std::unique_ptr<slam::Recording> open_input(const EstimateArguments& options) {
     info = slam::read_recording_info(read_text_file(options.description), options.description);
   const slam::RecordingInfo* given = info ? &*info : nullptr;
   if (slam::is_bag(options.recording)) return slam::open_bag(options.recording, options.topics, given);
+  if (slam::is_cloud_folder(options.recording)) return slam::open_cloud_folder(options.recording, given);
   const std::string inner = options.recording + "/" + std::string(recording_folder);
-  return slam::open_recording(std::filesystem::is_directory(inner) ? inner : options.recording, given);
+  return open_folder(std::filesystem::is_directory(inner) ? inner : options.recording, options.topics, given);
 }
 
 /// The prior of the recording, with that of the command line over it.
@@ -146,7 +178,7 @@ slam::MethodInput make_input(const EstimateArguments& options, const slam::Metho
   const slam::RecordingInfo& info = recording.info();
   slam::MethodInput input;
   input.config = make_config(options, row);
-  input.has_odometry = recording.has_odometry();
+  input.has_odometry = recording.has_odometry();  // MethodRunner keeps it back where LiDAR alone is asked for
   if (row.needs_odometry && !input.has_odometry)
     throw InputError({options.recording, 0, 0}, "holds no odometry, which method '" + options.method +
                                                     "' needs; vgicp and s_graphs_plus do without");
@@ -169,7 +201,8 @@ struct Answer {
   double recorded_s = 0.0;  ///< from the first scan to the last
 };
 
-Answer run_method(slam::Recording& recording, const slam::MethodRow& row, const slam::MethodInput& input) {
+Answer run_method(slam::Recording& recording, const slam::MethodRow& row, const slam::MethodInput& input,
+                  Sensors sensors) {
   Progress progress(std::string(row.name), 0.0);
   std::optional<slam::Nanoseconds> first;
   slam::Nanoseconds last = 0;
@@ -181,19 +214,26 @@ Answer run_method(slam::Recording& recording, const slam::MethodRow& row, const 
     return true;
   };
   std::vector<std::unique_ptr<MethodRunner>> methods;
-  methods.push_back(std::make_unique<MethodRunner>(row, input));
+  methods.push_back(std::make_unique<MethodRunner>(row, input, sensors));
   MethodRecord record = std::move(run_pipeline(source, std::move(methods), {}).front());
   shift(record.causal, recording.origin());
   shift(record.estimate.trajectory, recording.origin());
   for (BeliefRecord& belief : record.beliefs) belief.stamp += recording.origin();
+  for (score::LostSpan& span : record.lost) span = {span.from + recording.origin(), span.to + recording.origin()};
   return {std::move(record), slam::seconds(last - first.value_or(last))};
 }
 
 /// estimate.yaml: which walk the answer is of, and what it depends on besides recording and plan.
 std::string describe(const slam::MethodRow& row, std::uint64_t seed, const slam::RecordingInfo& info,
-                     const slam::MethodInput& input) {
+                     const slam::MethodInput& input, Sensors sensors, const Poverty& poverty) {
   Tree tree = Tree::map();
   tree.set("estimate", 1).set("method", row.name).set("seed", static_cast<std::int64_t>(seed));
+  if (sensors != Sensors::all) tree.set("sensors", names_of(sensors)[static_cast<std::size_t>(sensors)]);
+  if (poverty.every != 1) tree.set("every", poverty.every);
+  Tree without = Tree::list();
+  if (poverty.no_rings) without.push("rings");
+  if (poverty.no_times) without.push("times");
+  if (poverty.no_rings || poverty.no_times) tree.set("without", without);
   if (info.walk) tree.set("walk", *info.walk);
   if (!input.config.is_null()) tree.set("config", input.config);
   return write_yaml(tree);
@@ -206,19 +246,21 @@ std::string write_cost(const Answer& answer, double start_s) {
 
 int estimate(const EstimateArguments& options, slam::MethodTable table) {
   const double start_s = slam::wall_s();
-  const slam::MethodRow& row = find_row(options.method, table);
+  const MethodChoice choice = find_choice(options, table);
+  const slam::MethodRow& row = *row_of(choice.method, table);
   check_plan_options(options, row);
-  const std::unique_ptr<slam::Recording> recording = open_input(options);
+  const Poverty poverty = poverty_of(options);
+  const std::unique_ptr<slam::Recording> recording = poorer(open_input(options), poverty);
   const slam::MethodInput input = make_input(options, row, *recording);
 
   catch_interrupts();
   RunDirectory directory(options.out, DirectoryKind::estimate, options.force);
-  const Answer answer = run_method(*recording, row, input);
+  const Answer answer = run_method(*recording, row, input, choice.sensors);
   const MethodRecord& record = answer.record;
   write_method(directory.staging(), record);
   write_file(directory.staging() + "/digests.csv", write_digests(record.digests));
   write_file(directory.staging() + "/estimate.yaml",
-             describe(row, run_seed(options, recording->info()), recording->info(), input));
+             describe(row, run_seed(options, recording->info()), recording->info(), input, choice.sensors, poverty));
   write_file(directory.staging() + "/timings.json", write_cost(answer, start_s));
   directory.commit();
   if (record.crashed) {
@@ -226,6 +268,7 @@ int estimate(const EstimateArguments& options, slam::MethodTable table) {
     return 1;
   }
   std::printf("%s/%s.tum: %zu poses\n", options.out.c_str(), record.name.c_str(), record.causal.size());
+  if (record.lost_scans > 0) std::printf("lost after %d of %d scans\n", record.lost_scans, record.scans);
   if (!record.beliefs.empty())
     std::printf("%s at the end, %zu hypotheses\n", std::string(state_name(record.beliefs.back().state)).c_str(),
                 record.beliefs.back().hypotheses.size());
@@ -238,7 +281,8 @@ Command add_estimate(CommandLine& program, slam::MethodTable table) {
   const auto options = std::make_shared<EstimateArguments>();
   CommandLine line = program.add_command("estimate", "Runs a method on a recording, simulated or real");
   line.option("RECORDING", options->recording,
-              "directory written by simulate or run --record, capture of a Velodyne LiDAR (.pcap), or ROS 1 bag")
+              "directory written by simulate or run --record, capture of a Velodyne LiDAR (.pcap), ROS 1 bag, or "
+              "folder of point clouds (.pcd or .ply)")
       .required();
   line.option("--description", options->description,
               "a recording.yaml with the LiDAR's mount, for a capture or bag, which has none");
@@ -246,6 +290,18 @@ Command add_estimate(CommandLine& program, slam::MethodTable table) {
   line.option("--odometry-topic", options->topics.odometry, "of a bag [the first Odometry]");
   line.option("--imu-topic", options->topics.imu, "of a bag [the first Imu]");
   line.option("--method", options->method, "one of plumbline methods").required();
+  options->sensors_option =
+      line.option("--sensors", options->sensors,
+                  "what the method gets: all records, or lidar, without odometry and IMU; names its files NAME.lidar "
+                  "[all]")
+          .one_of({"all", "lidar"});
+  line.option("--every", options->every, "uses every Nth scan, with all odometry and IMU in between [1]")
+      .range(1, 1000);
+  line.option("--without", options->without,
+              "what scans shall lack, of rings and times: rings makes one ring of all, times gives every return the "
+              "scan's stamp")
+      .one_of({"rings", "times"})
+      .delimiter(',');
   line.option("--plan", options->plan, "building, for methods that localize in a plan");
   options->furniture_option =
       line.option("--plan-furniture", options->plan_furniture,
@@ -263,6 +319,8 @@ Command add_estimate(CommandLine& program, slam::MethodTable table) {
   line.footer(
       "Example: plumbline estimate walk --method s_graphs_plus -o out\n"
       "         plumbline estimate walk --method s_graph_localization --plan house.plan.yaml -o out\n"
+      "         plumbline estimate walk --method vgicp --sensors lidar -o out\n"
+      "         plumbline estimate walk --method vgicp --every 5 --without rings,times -o out\n"
       "         plumbline estimate vlp16.pcap --method vgicp -o out");
   return {line, [options, table] { return estimate(*options, table); }};
 }

@@ -19,13 +19,19 @@ namespace fs = std::filesystem;
 
 namespace {
 
+std::string needs_of(const slam::MethodRow& row) {
+  const bool odometry = !runs_on_lidar_alone(row);
+  if (row.needs_plan) return odometry ? " (needs the plan and odometry)" : " (needs the plan)";
+  return odometry ? " (needs odometry)" : "";
+}
+
 int list_methods(slam::MethodTable table) {
   std::size_t widest = truth_method.size();
   for (const slam::MethodRow& row : table) widest = std::max(widest, row.name.size());
   const int width = static_cast<int>(widest);
   for (const slam::MethodRow& row : table)
     std::printf("%-*s %s%s\n", width, std::string(row.name).c_str(), std::string(row.summary).c_str(),
-                row.needs_plan ? " (needs the plan)" : "");
+                needs_of(row).c_str());
   std::printf("%-*s %s\n", width, std::string(truth_method).c_str(),
               "the true poses; its errors are 0, which checks the scores");
   return 0;
@@ -33,7 +39,7 @@ int list_methods(slam::MethodTable table) {
 
 int print_config(const std::string& name, bool all, slam::MethodTable table) {
   check_methods({name}, {Mark{"--config", 0, 0}}, table);
-  const slam::MethodRow* row = slam::find_method(name, table);
+  const slam::MethodRow* row = row_of(name, table);
   if (row == nullptr || !row->config_schema)
     throw InputError({"--config", 0, 0}, "method '" + name + "' has no values to set");
   const std::vector<SchemaField> fields = row->config_schema().front().fields;

@@ -61,6 +61,9 @@ std::vector<slam::MethodRow> with_ours(std::vector<slam::MethodRow> own_methods)
   for (slam::MethodRow& row : own_methods) {
     if (row.name == truth_method || slam::find_method(row.name, table) != nullptr)
       throw InternalError("method '" + std::string(row.name) + "' is in the table already; give it another name");
+    if (row.name.ends_with(lidar_ending))
+      throw InternalError("method '" + std::string(row.name) +
+                          "' ends as those with LiDAR alone; give it another name");
     table.push_back(std::move(row));
   }
   return table;

@@ -101,7 +101,9 @@ Command add_run(CommandLine& program, slam::MethodTable table) {
               "scenario, plan or traffic-editor plan (.yaml), .ifc, or mesh (.glb, .obj, .dae, .ply, .stl)")
       .required();
   options->methods_option =
-      line.option("--method", options->methods, "methods to run, comma-separated [the scenario's]").delimiter(',');
+      line.option("--method", options->methods,
+                  "methods to run, comma-separated; NAME.lidar: with LiDAR alone [the scenario's]")
+          .delimiter(',');
   options->seed_option = line.seed("--seed", options->seed, "seed [the scenario's]");
   line.option("-o,--out", options->out, "run directory [runs/<scenario>-<seed>]");
   line.option("--threads", options->threads, "threads [the CPUs allowed]").range(1, 1024);

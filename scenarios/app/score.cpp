@@ -10,6 +10,7 @@
 
 #include "bim/config/tree.h"
 #include "scenarios/app/commands.h"
+#include "scenarios/app/estimate_score.h"
 #include "scenarios/app/summary.h"
 #include "scenarios/metrics/trajectory.h"
 #include "scenarios/run/ground_truth_recorder.h"
@@ -21,7 +22,8 @@ namespace plumbline::scenarios {
 
 namespace {
 
-bool is_plain_name(const std::string& name) {
+bool is_plain_name(const std::string& label) {
+  const std::string name = choice_of(label).method;
   const auto plain = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
   };
@@ -133,6 +135,20 @@ int score_again(const std::string& dir, const std::vector<std::string>& estimate
   return exit_code(run, score);
 }
 
+/// A run, or an estimate of a recording that has no run.
+int score_any(const std::string& dir, const std::vector<std::string>& estimates,
+              const std::vector<std::string>& dropped, const std::string& reference) {
+  if (is_estimate_directory(dir)) {
+    if (!estimates.empty() || !dropped.empty())
+      throw InputError({dir, 0, 0}, "is an estimate; --estimate and --drop are of run directories");
+    score_estimate(dir, reference);
+    return 0;
+  }
+  if (!reference.empty())
+    throw InputError({"--reference", 0, 0}, "is of a directory of plumbline estimate; '" + dir + "' is none");
+  return score_again(dir, estimates, dropped);
+}
+
 }  // namespace
 
 Command add_score(CommandLine& program) {
@@ -140,19 +156,26 @@ Command add_score(CommandLine& program) {
     std::string dir;
     std::vector<std::string> estimates;
     std::vector<std::string> dropped;
+    std::string reference;
   };
   const auto options = std::make_shared<Options>();
   CommandLine line = program.add_command(
-      "score", "Scores a run directory again, with estimates of other programs or of plumbline estimate");
-  line.option("DIR", options->dir, "run directory").required();
+      "score",
+      "Scores a run directory again, with estimates of other programs or of plumbline estimate; or an estimate alone");
+  line.option("DIR", options->dir, "run directory, or directory that plumbline estimate wrote").required();
   line.option("--estimate", options->estimates,
               "NAME=trajectory.tum[,frame=W|M]: poses of the robot in the plan's frame W or its own M [M]; or "
               "NAME=directory that plumbline estimate wrote, of the run's recording");
   line.option("--drop", options->dropped, "removes the outside estimate of this name, which was given before");
+  line.option("--reference", options->reference,
+              "of an estimate: true poses (TUM) of the same frame of the robot, in any world frame, on the estimate's "
+              "clock; both are aligned");
   line.footer(
       "Example: plumbline score runs/quickstart-1 --estimate kiss=kiss.tum --estimate amcl=amcl.tum,frame=W\n"
-      "         plumbline score runs/quickstart-1 --estimate paper=estimates/paper");
-  return {line, [options] { return score_again(options->dir, options->estimates, options->dropped); }};
+      "         plumbline score runs/quickstart-1 --estimate paper=estimates/paper\n"
+      "         plumbline score estimates/street --reference street.tum");
+  return {line,
+          [options] { return score_any(options->dir, options->estimates, options->dropped, options->reference); }};
 }
 
 }  // namespace plumbline::scenarios

@@ -49,7 +49,7 @@ int simulate(const SimulateArguments& options, slam::MethodTable table) {
   catch_interrupts();
   RunDirectory directory(options.out, DirectoryKind::recording, options.force);
   const std::string& dir = directory.staging();
-  Recorder recorder(dir, resolved);
+  Recorder recorder(dir, resolved, options.bag);
   if (options.bag) recorder.add_bag(find_profile(options.profile), options.bag_truth);
   RunOptions run_options;
   run_options.methods = false;

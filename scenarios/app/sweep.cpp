@@ -73,7 +73,7 @@ Command add_sweep(CommandLine& program, slam::MethodTable table) {
       .range(1, 100000);
   line.flag("--schema", options->schema, "prints instead every key of sweep files, with examples");
   line.option("--runs", options->runs,
-              "scenarios that differ in prior, methods and gates alone, to be run on one simulation")
+              "scenarios that differ in prior, methods, sensors and gates alone, to be run on one simulation")
       .hidden();
   line.seed("--seed", options->seed, "their seed").hidden();
   line.footer(

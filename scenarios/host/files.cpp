@@ -116,7 +116,7 @@ constexpr std::array<FileRow, 18> run_files = {{
 }};
 
 constexpr std::array<FileRow, 9> recording_files = {{
-    {"lidar.pcap", "the LiDAR's packets as the sensor sends them, with nanosecond stamps"},
+    {"lidar.pcap", "the LiDAR's packets as the sensor sends them, with nanosecond stamps; not of an `os1_64`"},
     {"odometry.tum", "odometry poses"},
     {"odometry_covariance.csv",
      "time and the upper triangle of the covariance of each odometry increment, along and about the robot's axes"},
@@ -129,8 +129,11 @@ constexpr std::array<FileRow, 9> recording_files = {{
     {"building.*", "the building that the scenario names", false},
 }};
 
-constexpr std::array<FileRow, 10> estimate_files = {{
+constexpr std::array<FileRow, 11> estimate_files = {{
     {"estimate.yaml", "the recording, method and seed of the estimate; `score` compares them with the run"},
+    {"score.json",
+     "with `score`: path, share of scans after which the method was lost, errors by a reference, and whether it said "
+     "so"},
     {"<method>.tum", "the causal trajectory", false},
     {"<method>.final.tum", "the trajectory after the last optimisation", false},
     {"<method>.map.ply", "the map", false},

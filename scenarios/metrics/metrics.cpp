@@ -50,6 +50,11 @@ std::vector<MetricRow> make_rows() {
        field(&S::trajectory, &T::drift_10m_deg_per_m)},
       {"coverage", "", Better::higher, "share of the scans with a pose within 10 ms",
        field(&S::trajectory, &T::coverage)},
+      {"tracking.lost_share", "", Better::lower, "share of the scans after which the method said that it was lost",
+       field(&S::tracking, &TrackingScore::lost_share), true},
+      {"tracking.degenerate_share", "", Better::neither,
+       "share of the scans whose surfaces leave a direction of the pose open, as along a bare corridor",
+       field(&S::tracking, &TrackingScore::degenerate_share), true},
       {"map_rmse_m", "m", Better::lower,
        "RMS distance of the map's points to the building as built, each capped at 0.5 m; the final trajectory's "
        "alignment places the map",

@@ -20,12 +20,19 @@ struct GateSpec;
 
 namespace plumbline::scenarios::score {
 
+/// What a method says of its own tracking.
+struct TrackingScore {
+  double lost_share = 0.0;
+  double degenerate_share = 0.0;
+};
+
 /// Everything scored of one method. What does not apply is absent.
 struct MethodScore {
   std::string name;
   std::string verdict;  ///< ok | lost | crashed, or a LocalizationVerdict
   std::string error;    ///< why it crashed
   std::optional<TrajectoryScore> trajectory;
+  std::optional<TrackingScore> tracking;
   std::optional<MapScore> map;
   std::optional<RoomScore> rooms;
   std::optional<WallScore> walls;

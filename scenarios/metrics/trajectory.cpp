@@ -90,9 +90,17 @@ double position_rmse(const std::vector<PosePair>& pairs, const Pose& X_WF) {
   return std::sqrt(sum / static_cast<double>(pairs.size()));
 }
 
+Pose motion_error(const PosePair& a, const PosePair& b) {
+  return (a.X_WR.inverse() * b.X_WR).inverse() * (a.X_FR.inverse() * b.X_FR);
+}
+
 std::optional<RelativeErrors> relative_errors(const std::vector<PosePair>& pairs, const Truth& truth,
                                               double distance_m) {
-  const std::vector<double> walked = truth.walked();
+  return relative_errors(pairs, truth.walked(), distance_m);
+}
+
+std::optional<RelativeErrors> relative_errors(const std::vector<PosePair>& pairs, const std::vector<double>& walked,
+                                              double distance_m) {
   RelativeErrors errors;
   int count = 0;
   std::size_t j = 0;
@@ -100,9 +108,7 @@ std::optional<RelativeErrors> relative_errors(const std::vector<PosePair>& pairs
     const double goal = walked[pairs[i].scan] + distance_m;
     while (j < pairs.size() && walked[pairs[j].scan] < goal) ++j;
     if (j == pairs.size()) break;
-    const Pose step_F = pairs[i].X_FR.inverse() * pairs[j].X_FR;
-    const Pose step_W = pairs[i].X_WR.inverse() * pairs[j].X_WR;
-    const Pose error = step_W.inverse() * step_F;
+    const Pose error = motion_error(pairs[i], pairs[j]);
     errors.translation_rmse_m += error.t.squaredNorm();
     errors.translation_mean_m += error.t.norm();
     errors.rotation_mean_rad += log_so3(error.q).norm();

@@ -51,6 +51,9 @@ struct PosePair {
 
 /// Root mean square of the position error |X_WF p_F - p_W|, m. Throws InternalError on no pairs.
 [[nodiscard]] double position_rmse(const std::vector<PosePair>& pairs, const Pose& X_WF);
+/// The error of the motion from pair `a` to pair `b`, in the frame of b's true pose.
+[[nodiscard]] Pose motion_error(const PosePair& a, const PosePair& b);
+
 /// Relative errors over every stretch of one length.
 struct RelativeErrors {
   double translation_rmse_m = 0.0;
@@ -61,6 +64,9 @@ struct RelativeErrors {
 /// Of every stretch of `distance_m` walked; absent when the walk is shorter.
 [[nodiscard]] std::optional<RelativeErrors> relative_errors(const std::vector<PosePair>& pairs, const Truth& truth,
                                                             double distance_m);
+/// The same where `walked` is the distance at each index that PosePair::scan may be, m, ascending.
+[[nodiscard]] std::optional<RelativeErrors> relative_errors(const std::vector<PosePair>& pairs,
+                                                            const std::vector<double>& walked, double distance_m);
 
 /// What the SLAM trajectory metrics say of one method.
 struct TrajectoryScore {

@@ -120,7 +120,7 @@ std::string_view page_script() {
   });
   document.querySelectorAll("input[data-layer]").forEach(function (box) {
     box.addEventListener("change", function () {
-      document.querySelectorAll(".layer-" + box.dataset.layer).forEach(function (g) {
+      document.querySelectorAll(".layer-" + CSS.escape(box.dataset.layer)).forEach(function (g) {
         g.style.display = box.checked ? "" : "none";
       });
     });

@@ -17,29 +17,17 @@ constexpr std::size_t point_bytes = 3 * sizeof(float);
 constexpr std::string_view before_count = "ply\nformat binary_little_endian 1.0\nelement vertex ";
 constexpr std::string_view after_count = "\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
 
-std::string with_points(std::string header, const std::vector<Eigen::Vector3f>& points) {
-  const std::size_t start = header.size();
-  header.resize(start + points.size() * point_bytes);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!points[i].allFinite()) throw InternalError("a map point is not a finite number");
-    std::memcpy(header.data() + start + i * point_bytes, points[i].data(), point_bytes);
-  }
-  return header;
-}
-
 }  // namespace
 
 std::string write_ply(const std::vector<Eigen::Vector3f>& points) {
-  return with_points(std::string(before_count) + std::to_string(points.size()) + std::string(after_count), points);
-}
-
-std::string write_pcd(const std::vector<Eigen::Vector3f>& points) {
-  const std::string count = std::to_string(points.size());
-  return with_points(
-      "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\n"
-      "COUNT 1 1 1\nWIDTH " +
-          count + "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + count + "\nDATA binary\n",
-      points);
+  std::string bytes = std::string(before_count) + std::to_string(points.size()) + std::string(after_count);
+  const std::size_t start = bytes.size();
+  bytes.resize(start + points.size() * point_bytes);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!points[i].allFinite()) throw InternalError("a map point is not a finite number");
+    std::memcpy(bytes.data() + start + i * point_bytes, points[i].data(), point_bytes);
+  }
+  return bytes;
 }
 
 std::vector<Eigen::Vector3f> read_ply(std::string_view bytes, const std::string& file) {

@@ -10,8 +10,6 @@ namespace plumbline::scenarios {
 
 /// Binary little-endian PLY with float x, y, z.
 [[nodiscard]] std::string write_ply(const std::vector<Eigen::Vector3f>& points);
-/// The same points as a binary PCD 0.7 with float x, y, z, for tools that read no PLY.
-[[nodiscard]] std::string write_pcd(const std::vector<Eigen::Vector3f>& points);
 /// Reads what write_ply writes; anything else is an InputError.
 [[nodiscard]] std::vector<Eigen::Vector3f> read_ply(std::string_view bytes, const std::string& file);
 

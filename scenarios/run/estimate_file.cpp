@@ -148,6 +148,22 @@ Tree write(const slam::Particle& particle) {
   return number_list({p.x, p.y, p.yaw, p.weight});
 }
 
+Tree write(const score::LostSpan& span) { return Tree::list().push(span.from).push(span.to); }
+
+/// In time order, as score_silence wants them.
+std::vector<score::LostSpan> read_spans(const Tree& tree) {
+  std::vector<score::LostSpan> spans;
+  for (const Tree& entry : tree.as_list()) {
+    const Tree::List& ends = entry.as_list();
+    if (ends.size() != 2) throw InputError(entry.mark, "2 numbers are expected");
+    const score::LostSpan span{ends[0].as_int(), ends[1].as_int()};
+    if (span.to < span.from || (!spans.empty() && span.from < spans.back().to))
+      throw InputError(entry.mark, "times must be in order");
+    spans.push_back(span);
+  }
+  return spans;
+}
+
 template <class T>
 Tree write_list(const std::vector<T>& values) {
   Tree list = Tree::list();
@@ -228,6 +244,11 @@ std::string write_estimate(const MethodRecord& method) {
   tree.set("frame", method.estimate.frame == slam::Frame::world ? "world" : "map");
   tree.set("scored_as", method.localization ? "localization" : "slam");
   if (method.crashed) tree.set("crashed", method.error);
+  if (method.scans > 0)
+    tree.set("scans", method.scans)
+        .set("lost_scans", method.lost_scans)
+        .set("degenerate_scans", method.degenerate_scans)
+        .set("lost_ns", write_list(method.lost));
   tree.set("planes", write_list(method.estimate.planes));
   tree.set("rooms", write_list(method.estimate.rooms));
   tree.set("floors", write_list(method.estimate.floors));
@@ -242,6 +263,12 @@ void read_estimate(std::string_view text, const std::string& file, MethodRecord&
   if (const Tree* error = tree.find("crashed")) {
     method.crashed = true;
     method.error = error->as_string();
+  }
+  if (const Tree* scans = tree.find("scans")) {
+    method.scans = static_cast<int>(scans->as_int());
+    method.lost_scans = static_cast<int>(child(tree, "lost_scans").as_int());
+    method.degenerate_scans = static_cast<int>(child(tree, "degenerate_scans").as_int());
+    method.lost = read_spans(child(tree, "lost_ns"));
   }
   for (const Tree& plane : child(tree, "planes").as_list()) method.estimate.planes.push_back(read_plane(plane));
   for (const Tree& room : child(tree, "rooms").as_list()) method.estimate.rooms.push_back(read_room(room));

@@ -9,8 +9,9 @@
 
 namespace plumbline::scenarios {
 
-/// <method>.estimate.json: frame, whether and why it crashed, planes, rooms, floors. Trajectories and the map stand in
-/// files of their own.
+/// <method>.estimate.json: frame, whether and why it crashed, scans, after how many it was lost, how many were
+/// degenerate, stamps of the first and last scan of each time it was lost (lost_ns: [[from, to], ...]), planes, rooms,
+/// floors. Trajectories and the map stand in files of their own.
 [[nodiscard]] std::string write_estimate(const MethodRecord& method);
 /// Sets what write_estimate wrote. Throws InputError.
 void read_estimate(std::string_view text, const std::string& file, MethodRecord& method);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <utility>
 
 #include "bim/digest/digest.h"
 #include "bim/errors.h"
@@ -76,6 +77,9 @@ void MethodRecorder::on_scan(slam::Nanoseconds stamp, const std::function<slam::
 void MethodRecorder::keep(const slam::Output& output) {
   if (output.X_FR) check(*output.X_FR);
   for (const slam::Hypothesis& hypothesis : output.hypotheses) check(hypothesis.X_WR);
+  ++record_.scans;
+  keep_lost(output);
+  if (output.degenerate_directions > 0) ++record_.degenerate_scans;
   const auto log = [&](const std::string& stage, std::uint64_t digest) {
     record_.digests.push_back({last_stamp_, record_.name + "/" + stage, digest});
   };
@@ -84,6 +88,14 @@ void MethodRecorder::keep(const slam::Output& output) {
   if (output.X_FR) record_.causal.push_back({output.stamp, *output.X_FR});
   if (record_.localization) keep_belief(output);
   for (const slam::StageTime& time : output.times) add_time(record_.times, time);
+}
+
+void MethodRecorder::keep_lost(const slam::Output& output) {
+  const bool was_lost = std::exchange(lost_, output.state == slam::State::lost);
+  if (!lost_) return;
+  ++record_.lost_scans;
+  if (!was_lost) record_.lost.push_back({last_stamp_, last_stamp_});
+  record_.lost.back().to = last_stamp_;
 }
 
 void MethodRecorder::keep_belief(const slam::Output& output) {

@@ -20,9 +20,11 @@ class MethodRecorder {
 
  private:
   void keep(const slam::Output& output);
+  void keep_lost(const slam::Output& output);
   void keep_belief(const slam::Output& output);
 
   MethodRecord record_;
+  bool lost_ = false;  ///< after the last scan
   slam::Nanoseconds last_stamp_ = 0;
   slam::Nanoseconds particles_stamp_ = 0;
   slam::Nanoseconds walls_stamp_ = 0;

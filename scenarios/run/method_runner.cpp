@@ -5,8 +5,13 @@
 
 namespace plumbline::scenarios {
 
-MethodRunner::MethodRunner(slam::MethodRow row, slam::MethodInput input)
-    : row_(std::move(row)), input_(std::move(input)), recorder_(std::string(row_.name), row_.needs_plan) {}
+MethodRunner::MethodRunner(slam::MethodRow row, slam::MethodInput input, Sensors sensors)
+    : row_(std::move(row)),
+      input_(std::move(input)),
+      sensors_(sensors),
+      recorder_(MethodChoice{std::string(row_.name), sensors}.label(), row_.needs_plan) {
+  if (sensors_ == Sensors::lidar) input_.has_odometry = false;
+}
 
 void MethodRunner::on_frame(const slam::SensorFrame& frame) {
   recorder_.on_scan(frame.scan.stamp, [&] { return process(frame); });
@@ -15,6 +20,7 @@ void MethodRunner::on_frame(const slam::SensorFrame& frame) {
 /// Records by time; at equal times IMU, then odometry, then the scan.
 slam::Output MethodRunner::process(const slam::SensorFrame& frame) {
   if (!method_) method_ = row_.make(input_);  // here, so that a method that cannot even start has crashed
+  if (sensors_ == Sensors::lidar) return method_->on_scan(frame.scan);
   auto imu = frame.imu.begin();
   for (const slam::Odometry& odometry : frame.odometry) {
     for (; imu != frame.imu.end() && imu->stamp <= odometry.stamp; ++imu) method_->on_imu(*imu);

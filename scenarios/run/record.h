@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "scenarios/metrics/silence.h"
 #include "scenarios/run/digest_log.h"
 #include "scenarios/spec/scenario.h"
 #include "slam/io/estimate.h"
@@ -33,6 +34,10 @@ struct MethodRecord {
   bool crashed = false;
   std::string error;                      ///< why it crashed
   bool localization = false;              ///< answers in W and is scored as a plan localization
+  int scans = 0;                          ///< it was given; 0 of an outside trajectory, of which that is not known
+  int lost_scans = 0;                     ///< of these, after how many it said that it is lost
+  int degenerate_scans = 0;               ///< and how many left a direction of the pose open
+  std::vector<score::LostSpan> lost;      ///< when it was lost
   std::vector<slam::StampedPose> causal;  ///< each pose as first given
   std::vector<BeliefRecord> beliefs;      ///< of plan localization: one a scan
   slam::Estimate estimate;

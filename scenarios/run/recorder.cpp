@@ -5,6 +5,7 @@
 
 #include "bim/errors.h"
 #include "scenarios/run/ground_truth_recorder.h"
+#include "slam/io/recordings/recording.h"
 
 namespace plumbline::scenarios {
 
@@ -17,12 +18,15 @@ const std::string& made(const std::string& dir) {
   return dir;
 }
 
-slam::RecordingInfo info_of(const ResolvedScenario& resolved) {
-  const slam::LidarModel& model = slam::lidar_model(resolved.world.lidar.model);
-  if (model.product == 0)
-    throw InputError({}, "LiDAR model " + std::string(model.name) +
-                             " sends no packets to record; vlp16, vlp32c or hdl32e would be right");
-  slam::RecordingInfo info = slam::recording_info(resolved.scenario.seed, sim::World::calibration(), resolved.prior);
+bool sends_packets(const ResolvedScenario& resolved) {
+  return slam::lidar_model(resolved.world.lidar.model).product != 0;
+}
+
+slam::RecordingInfo info_of(const ResolvedScenario& resolved, bool to_bag) {
+  if (!to_bag && !sends_packets(resolved))
+    throw InputError({}, "LiDAR model " + std::string(slam::lidar_model(resolved.world.lidar.model).name) +
+                             " sends no packets to record; simulate --bag would be right, or vlp16, vlp32c or hdl32e");
+  slam::RecordingInfo info = slam::recording_info(resolved.scenario.seed, resolved.calibration, resolved.prior);
   info.lidar.vertical_offsets = resolved.world.vertical_offsets;
   info.plan = resolved.scenario.building_options;
   return info;
@@ -30,11 +34,14 @@ slam::RecordingInfo info_of(const ResolvedScenario& resolved) {
 
 }  // namespace
 
-Recorder::Recorder(const std::string& dir, const ResolvedScenario& resolved)
-    : dir_(dir), writer_(made(dir), info_of(resolved)) {}
+Recorder::Recorder(const std::string& dir, const ResolvedScenario& resolved, bool to_bag)
+    : dir_(dir),
+      packets_(sends_packets(resolved)),
+      calibration_(resolved.calibration),
+      writer_(made(dir), info_of(resolved, to_bag)) {}
 
 void Recorder::add_bag(const slam::BagProfile& profile, bool with_truth) {
-  bag_ = std::make_unique<slam::BagWriter>(dir_ + "/recording.bag", profile, sim::World::calibration());
+  bag_ = std::make_unique<slam::BagWriter>(dir_ + "/recording.bag", profile, calibration_);
   truth_in_bag_ = with_truth;
 }
 
@@ -54,6 +61,7 @@ void Recorder::add(const sim::WorldFrame& frame) {
 void Recorder::finish() {
   writer_.finish(sensor_digest_of(digests_));
   if (bag_) bag_->finish();
+  if (!packets_) std::filesystem::remove(dir_ + "/" + std::string(slam::recording_files::lidar));  // without a packet
 }
 
 }  // namespace plumbline::scenarios

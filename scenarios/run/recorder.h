@@ -15,8 +15,9 @@ namespace plumbline::scenarios {
 /// Writes a run's sensor records as they come.
 class Recorder {
  public:
-  /// Writes into `dir`, which is made where it does not exist. Throws EnvironmentError.
-  Recorder(const std::string& dir, const ResolvedScenario& resolved);
+  /// Writes into `dir`, which is made where it does not exist. Throws EnvironmentError; and InputError for a LiDAR that
+  /// sends no packets unless it goes `to_bag`, which add_bag() is to be called for: lidar.pcap is then left out.
+  Recorder(const std::string& dir, const ResolvedScenario& resolved, bool to_bag = false);
   /// Also writes recording.bag. Call before the first frame.
   void add_bag(const slam::BagProfile& profile, bool with_truth);
   void add(const sim::WorldFrame& frame);
@@ -25,6 +26,8 @@ class Recorder {
 
  private:
   std::string dir_;
+  bool packets_;                   ///< whether the LiDAR sends any
+  slam::Calibration calibration_;  ///< as methods are told
   slam::RecordingWriter writer_;
   std::unique_ptr<slam::BagWriter> bag_;
   bool truth_in_bag_ = false;

@@ -10,6 +10,7 @@
 #include "scenarios/run/estimate_file.h"
 #include "scenarios/spec/method_names.h"
 #include "scenarios/spec/run_site.h"
+#include "slam/io/clouds/cloud_file.h"
 #include "slam/io/recordings/tum.h"
 
 namespace plumbline::scenarios {
@@ -50,7 +51,7 @@ void write_method(const std::string& dir, const MethodRecord& method) {
   for (const char* end : other_ends) fs::remove(stem + end);  // of an estimate that had this name before
   if (!method.estimate.map_F.empty()) {
     write_file(stem + ".map.ply", write_ply(method.estimate.map_F));
-    write_file(stem + ".map.pcd", write_pcd(method.estimate.map_F));
+    slam::write_cloud_file(stem + ".map.pcd", slam::cloud_of(method.estimate.map_F));
   }
   if (!method.estimate.graph.is_null()) write_file(stem + ".graph.json", write_json(method.estimate.graph, 0) + "\n");
   if (method.localization) write_file(stem + ".hypotheses.jsonl", write_beliefs(method.beliefs));

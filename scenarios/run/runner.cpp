@@ -22,16 +22,16 @@ RunMethods make_methods(const ResolvedScenario& resolved) {
       methods.oracle.emplace();
       continue;
     }
-    const slam::MethodRow* row = slam::find_method(name, resolved.table);
+    const slam::MethodRow* row = row_of(name, resolved.table);
     if (row == nullptr) throw InternalError("method '" + name + "' is not in the table");
     slam::MethodInput input;
-    input.seed = method_seed(resolved.scenario.seed, name);
-    input.calibration = sim::World::calibration();
+    input.seed = method_seed(resolved.scenario.seed, row->name);  // whatever it is fed
+    input.calibration = resolved.calibration;
     if (row->needs_plan) {
       input.plan = resolved.building->plan_as_planned();
       input.prior = resolved.prior;
     }
-    methods.estimators.push_back(std::make_unique<MethodRunner>(*row, std::move(input)));
+    methods.estimators.push_back(std::make_unique<MethodRunner>(*row, std::move(input), choice_of(name).sensors));
   }
   return methods;
 }

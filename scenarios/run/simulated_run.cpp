@@ -28,6 +28,7 @@ void SimulatedRun::set_down() {
   X_OO_ = Pose::from_xyz_yaw(last_X_OR_.t, last_X_OR_.yaw());
   sim::WorldConfig after = *resolved_.world_after;
   after.duration_s -= slam::seconds(*begin_);
+  after.lidar.running_s += slam::seconds(*begin_);
   world_.emplace(after, resolved_.building->as_built(), resolved_.building->mesh_as_built());
 }
 

@@ -57,11 +57,19 @@ void score_structure(const MethodRecord& method, const Pose& X_WF, const Referen
   score.rooms = score_rooms(estimate, X_WF, reference.as_built, *score.walls, reference.truth);
 }
 
+/// Absent of an outside trajectory.
+std::optional<TrackingScore> tracking_of(const MethodRecord& method) {
+  if (method.scans == 0) return std::nullopt;
+  const double scans = method.scans;
+  return TrackingScore{method.lost_scans / scans, method.degenerate_scans / scans};
+}
+
 MethodScore score_slam(const MethodRecord& method, const Reference& reference) {
   MethodScore score;
   score.trajectory = score_trajectory(reference.truth, method.causal, method.estimate.trajectory);
   const bool covered = score.trajectory && score.trajectory->coverage >= TrajectoryRules().min_coverage;
   score.verdict = covered ? "ok" : "lost";
+  score.tracking = tracking_of(method);
   if (score.trajectory) score_structure(method, score.trajectory->X_WF_final, reference, score);
   return score;
 }
@@ -83,6 +91,7 @@ MethodScore score_localizer(const MethodRecord& method, const Reference& referen
 /// Whether an estimate of this kind has a metric when all goes well.
 bool is_asked_for(std::string_view metric, const MethodRecord& method) {
   const slam::Estimate& estimate = method.estimate;
+  if (metric.starts_with("tracking.")) return method.scans > 0 && !method.localization;
   if (metric.starts_with("map_")) return !estimate.map_F.empty();
   if (metric.starts_with("walls.")) return !estimate.planes.empty();
   if (metric.starts_with("rooms.")) return !estimate.planes.empty() && !(method.localization && estimate.rooms.empty());

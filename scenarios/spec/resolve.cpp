@@ -69,41 +69,66 @@ std::vector<Mark> marks_of(const Tree& tree, std::initializer_list<std::string_v
 }
 
 bool needs_plan(const std::string& method, slam::MethodTable table) {
-  const slam::MethodRow* row = slam::find_method(method, table);
+  const slam::MethodRow* row = row_of(method, table);
   return row != nullptr && row->needs_plan;
 }
 
-/// Without a plan the default is every method that needs none, and asking for another is wrong.
-void choose_methods(ScenarioText& text, const Overrides& overrides, bool has_plan, slam::MethodTable table) {
+/// Runs each method with each of the scenario's sensors. `marks` say where each of them is asked for.
+void give_sensors(Scenario& scenario, std::vector<Mark>& marks, slam::MethodTable table) {
+  std::vector<std::string> labels;
+  std::vector<Mark> places;
+  for (std::size_t i = 0; i < scenario.methods.size(); ++i)
+    for (std::string& label : labels_of(scenario.methods[i], scenario.sensors, table)) {
+      labels.push_back(std::move(label));
+      places.push_back(marks[i]);
+    }
+  scenario.methods = std::move(labels);
+  scenario.sensors.clear();
+  marks = std::move(places);
+}
+
+/// Every standard method that can run with this plan and these sensors.
+std::vector<std::string> default_methods(const Scenario& scenario, bool has_plan, slam::MethodTable table) {
+  const auto& sensors = scenario.sensors;
+  const bool alone = !sensors.empty() && std::find(sensors.begin(), sensors.end(), Sensors::all) == sensors.end();
+  std::vector<std::string> names;
+  for (const slam::MethodRow& row : table)
+    if (row.standard && (has_plan || !row.needs_plan) && (!alone || runs_on_lidar_alone(row)))
+      names.emplace_back(row.name);
+  return names;
+}
+
+/// Without a plan the default is every method that needs none, and asking for another is wrong. Returns where each
+/// method is asked for.
+std::vector<Mark> choose_methods(ScenarioText& text, const Overrides& overrides, bool has_plan,
+                                 slam::MethodTable table) {
   std::vector<std::string>& methods = text.scenario.methods;
   if (overrides.methods) methods = *overrides.methods;
-  const std::vector<Mark> marks = overrides.methods ? std::vector<Mark>(methods.size(), Mark{"--method", 0, 0})
-                                                    : marks_of(text.tree, {"methods"}, methods.size());
+  if (methods.empty()) methods = default_methods(text.scenario, has_plan, table);
+  std::vector<Mark> marks = overrides.methods ? std::vector<Mark>(methods.size(), Mark{"--method", 0, 0})
+                                              : marks_of(text.tree, {"methods"}, methods.size());
+  give_sensors(text.scenario, marks, table);
   check_methods(methods, marks, table);
   for (std::size_t i = 0; i < methods.size(); ++i)
     if (!has_plan && needs_plan(methods[i], table))
       throw InputError(marks[i], "method '" + methods[i] + "' localizes in a plan, which the mesh '" +
                                      text.scenario.building + "' does not have; ask for SLAM methods only");
-  if (!methods.empty()) return;
-  for (const slam::MethodRow& row : table)
-    if (row.standard && (has_plan || !row.needs_plan)) methods.emplace_back(row.name);
+  return marks;
 }
 
 /// Localization in a plan starts from rooms. Where there are none (on the storey of the prior), the default is what
-/// needs none, and asking for it is wrong.
-void check_rooms(ScenarioText& text, const Overrides& overrides, const bim::Building& plan, int storey,
-                 bool is_implicit, slam::MethodTable table) {
+/// needs none, and asking for it is wrong. `marks`: where each method is asked for; none where the choice is ours.
+void check_rooms(ScenarioText& text, const std::vector<Mark>& marks, const bim::Building& plan, int storey,
+                 slam::MethodTable table) {
   const bool storey_known = text.scenario.prior.storey == Knowledge::known;
   const bool has_rooms = std::any_of(plan.rooms.begin(), plan.rooms.end(),
                                      [&](const bim::Room& room) { return !storey_known || room.storey == storey; });
   if (has_rooms) return;
   std::vector<std::string>& methods = text.scenario.methods;
-  if (is_implicit && !overrides.methods) {
+  if (marks.empty()) {
     std::erase_if(methods, [&](const std::string& name) { return needs_plan(name, table); });
     return;
   }
-  const std::vector<Mark> marks = overrides.methods ? std::vector<Mark>(methods.size(), Mark{"--method", 0, 0})
-                                                    : marks_of(text.tree, {"methods"}, methods.size());
   for (std::size_t i = 0; i < methods.size(); ++i)
     if (needs_plan(methods[i], table))
       throw InputError(marks[i], "method '" + methods[i] + "' starts from the rooms of its plan, and '" +
@@ -111,9 +136,11 @@ void check_rooms(ScenarioText& text, const Overrides& overrides, const bim::Buil
                                      "; add rooms, or ask for SLAM methods only");
 }
 
-void resolve_methods(ScenarioText& text, const Overrides& overrides, bool has_plan, ResolvedScenario& resolved) {
+/// Returns where each method is asked for.
+std::vector<Mark> resolve_methods(ScenarioText& text, const Overrides& overrides, bool has_plan,
+                                  ResolvedScenario& resolved) {
   Scenario& scenario = text.scenario;
-  choose_methods(text, overrides, has_plan, resolved.table);
+  std::vector<Mark> methods = choose_methods(text, overrides, has_plan, resolved.table);
   const auto asked = [&](const GateSpec& gate) {
     return std::find(scenario.methods.begin(), scenario.methods.end(), gate.method) != scenario.methods.end();
   };
@@ -128,6 +155,7 @@ void resolve_methods(ScenarioText& text, const Overrides& overrides, bool has_pl
   const auto kept = std::stable_partition(scenario.gates.begin(), scenario.gates.end(), asked);
   resolved.dropped_gates = static_cast<int>(scenario.gates.end() - kept);
   scenario.gates.erase(kept, scenario.gates.end());
+  return methods;
 }
 
 /// A compass with slam::Prior's error, drawn once a run.
@@ -148,6 +176,7 @@ sim::WorldConfig make_world(const Scenario& scenario, const RoutePlan& plan) {
   world.rpm = scenario.lidar.rpm;
   world.vertical_offsets = scenario.lidar.vertical_offsets;
   world.odometry = scenario.odometry.preset;
+  world.faults = faults(scenario.faults);
   world.conditions = conditions(scenario.ground, scenario.pushes);
   world.storey = plan.storey;
   world.start_W = plan.start_W;
@@ -206,6 +235,14 @@ double default_duration(const RoutePlan& plan, double speed) {
   return std::min(rule.longest_s, std::ceil(rule.factor * (walk_s + climb_s) + rule.extra_s));
 }
 
+/// LiDAR alone must be enough for the method.
+void check_sensors(const MethodChoice& choice, const Mark& mark, slam::MethodTable table) {
+  if (choice.sensors == Sensors::all) return;
+  if (choice.method == truth_method) throw InputError(mark, "method 'truth' reads no sensors; ask for it as 'truth'");
+  if (!runs_on_lidar_alone(*row_of(choice.method, table)))
+    throw InputError(mark, "method '" + choice.method + "' needs odometry and does not run with LiDAR alone");
+}
+
 }  // namespace
 
 void check_methods(const std::vector<std::string>& names, const std::vector<Mark>& marks, slam::MethodTable table) {
@@ -214,12 +251,18 @@ void check_methods(const std::vector<std::string>& names, const std::vector<Mark
     if (std::find(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(i), names[i]) !=
         names.begin() + static_cast<std::ptrdiff_t>(i))
       throw InputError(marks[i], "method '" + names[i] + "' is asked for twice");
-    if (std::find(known.begin(), known.end(), names[i]) != known.end()) continue;
-    const std::string close = did_you_mean(names[i], known);
+    const MethodChoice choice = choice_of(names[i]);
+    if (std::find(known.begin(), known.end(), choice.method) != known.end()) {
+      check_sensors(choice, marks[i], table);
+      continue;
+    }
+    const std::string close = did_you_mean(choice.method, known);
     std::string list;
     for (const std::string& name : known) list += (list.empty() ? "" : ", ") + name;
-    throw InputError(marks[i], "unknown method '" + names[i] + "'; " +
-                                   (close.empty() ? "known: " + list : "did you mean '" + close + "'?"));
+    throw InputError(
+        marks[i],
+        "unknown method '" + names[i] + "'; " +
+            (close.empty() ? "known: " + list : "did you mean '" + MethodChoice{close, choice.sensors}.label() + "'?"));
   }
 }
 
@@ -227,9 +270,11 @@ ResolvedScenario resolve(const std::string& input_path, const Overrides& overrid
   ResolvedScenario resolved;
   resolved.table = table;
   ScenarioText text = read_input(input_path);
-  resolve_methods(text, overrides, !bim::is_mesh_path(text.scenario.building), resolved);
+  std::vector<Mark> method_marks =
+      resolve_methods(text, overrides, !bim::is_mesh_path(text.scenario.building), resolved);
   if (overrides.seed) text.scenario.seed = *overrides.seed;
   const bool is_implicit = text.tree.as_map().empty();
+  if (is_implicit && !overrides.methods) method_marks.clear();
 
   const fs::path building = fs::path(input_path).parent_path() / text.scenario.building;
   if (!is_implicit && !fs::exists(building))
@@ -243,7 +288,7 @@ ResolvedScenario resolve(const std::string& input_path, const Overrides& overrid
   const bim::Building walked = walked_building(site);
   sample_start(walked, text.scenario, marks);
   const RoutePlan plan = plan_route(walked, text.scenario.start, text.scenario.route, marks);
-  check_rooms(text, overrides, site.as_planned, plan.storey, is_implicit, table);
+  check_rooms(text, method_marks, site.as_planned, plan.storey, table);
   if (is_implicit) text.scenario.duration_s = default_duration(plan, text.scenario.speed_mps);
 
   Scenario& scenario = text.scenario;
@@ -254,6 +299,7 @@ ResolvedScenario resolve(const std::string& input_path, const Overrides& overrid
   scenario.route.random.reset();
   scenario.building = name_of_copy(building, resolved.building_bytes);
   resolved.world = make_world(scenario, plan);
+  resolved.calibration = sim::told_calibration(sim::World::calibration(), resolved.world.faults.mount, scenario.seed);
   resolved.world.people = place_people(walked, scenario, text.tree, plan.storey);
   resolved.world.doors = place_doors(site.as_built, scenario, text.tree);
   if (scenario.kidnap) {

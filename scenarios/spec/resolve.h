@@ -27,8 +27,9 @@ struct ResolvedScenario {
   sim::WorldConfig world;                       ///< until the robot is lifted, where it is
   std::optional<sim::WorldConfig> world_after;  ///< from where it is set down, until the end of the scenario
   slam::Prior prior;
-  int dropped_gates = 0;    ///< gates of methods that Overrides left out
-  slam::MethodTable table;  ///< where its methods stand; must outlive this
+  slam::Calibration calibration = sim::World::calibration();  ///< as methods are told, off by the mount's error
+  int dropped_gates = 0;                                      ///< gates of methods that Overrides left out
+  slam::MethodTable table;                                    ///< where its methods stand; must outlive this
 };
 
 /// Reads INPUT (a scenario, a plan, an .ifc or a mesh; all but the first get the default scenario: start in the largest
@@ -38,7 +39,8 @@ struct ResolvedScenario {
 [[nodiscard]] ResolvedScenario resolve(const std::string& input_path, const Overrides& overrides,
                                        slam::MethodTable table = slam::methods());
 
-/// Checks that methods are known and asked for once; `mark(i)` says where name i stands.
+/// Checks that methods are known, asked for once, and can do with the sensors that their labels name; `marks[i]` says
+/// where name i stands.
 void check_methods(const std::vector<std::string>& names, const std::vector<Mark>& marks,
                    slam::MethodTable table = slam::methods());
 

@@ -10,17 +10,22 @@ namespace plumbline::scenarios {
 
 namespace {
 
-/// `rooms: all` is a scalar in the file; lists are read everywhere else.
-Tree with_room_list(Tree tree) {
+/// A scalar becomes the list of it.
+void make_list(Tree& value) {
+  if (!value.is_scalar() || value.is_null()) return;
+  Tree list = Tree::list();
+  list.mark = value.mark;
+  list.push(value);
+  value = std::move(list);
+}
+
+/// `rooms: all` and `sensors: lidar` are scalars in the file; lists are read everywhere else.
+Tree with_lists(Tree tree) {
   for (auto& [key, child] : std::get<Tree::Map>(tree.value)) {
+    if (key == "sensors") make_list(child);
     if (key != "route" || !child.is_map()) continue;
-    for (auto& [route_key, rooms] : std::get<Tree::Map>(child.value)) {
-      if (route_key != "rooms" || !rooms.is_scalar() || rooms.is_null()) continue;
-      Tree list = Tree::list();
-      list.mark = rooms.mark;
-      list.push(rooms);
-      rooms = std::move(list);
-    }
+    for (auto& [route_key, rooms] : std::get<Tree::Map>(child.value))
+      if (route_key == "rooms") make_list(rooms);
   }
   return tree;
 }
@@ -107,12 +112,13 @@ ScenarioText read_scenario(std::string_view text, const std::string& file) {
   Tree tree = read_yaml(text, file);
   if (!tree.is_map() || tree.as_map().empty() || tree.as_map().front().first != "scenario")
     throw InputError({file, 1, 1}, "the first key of a scenario must be 'scenario: 1'");
-  tree = with_room_list(std::move(tree));
+  tree = with_lists(std::move(tree));
   ScenarioText result{from_tree<Scenario>(tree), tree};
   check_name(result.scenario.name, mark_at(tree, {"name"}));
   check_gates(result.scenario, tree);
   check_route_and_start(result.scenario, tree);
   check_pushes(result.scenario.pushes, tree);
+  check_faults(result.scenario.faults, mark_at(tree, {"faults"}));
   check_bodies(result.scenario, tree);
   check_kidnap(result.scenario, tree);
   return result;
@@ -141,6 +147,12 @@ sim::LidarConfig lidar_config(const LidarSpec& spec) {
   config.dropout = spec.dropout.value_or(config.dropout);
   config.optics = spec.optics.value_or(config.optics);
   config.footprint = spec.footprint.value_or(config.footprint);
+  config.distance_bias_m = spec.distance_bias_m.value_or(config.distance_bias_m);
+  config.reflectivity_bias_m = spec.reflectivity_bias_m.value_or(config.reflectivity_bias_m);
+  config.incidence_bias_m = spec.incidence_bias_m.value_or(config.incidence_bias_m);
+  config.warm_up_m = spec.warm_up_m.value_or(config.warm_up_m);
+  config.warm_up_s = spec.warm_up_s.value_or(config.warm_up_s);
+  config.airborne_per_m = spec.airborne_per_m.value_or(config.airborne_per_m);
   return config;
 }
 
@@ -180,6 +192,7 @@ std::vector<std::string> off_defaults(const Scenario& scenario) {
   add_differences("lidar", to_tree(defaults.lidar), to_tree(scenario.lidar), names);
   if (scenario.odometry.preset != defaults.odometry.preset)
     names.push_back("odometry.preset: " + to_tree(scenario.odometry).find("preset")->as_string());
+  if (scenario.faults) add_differences("faults", to_tree(FaultsSpec{}), to_tree(*scenario.faults), names);
   add_differences("ground", to_tree(defaults.ground), to_tree(scenario.ground), names);
   if (scenario.pushes.max_n > 0.0) add_differences("pushes", to_tree(defaults.pushes), to_tree(scenario.pushes), names);
   const bim::BuildingOptions& options = scenario.building_options;

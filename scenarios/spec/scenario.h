@@ -9,6 +9,8 @@
 #include "bim/furniture/alter.h"
 #include "bim/furniture/furnish.h"
 #include "bim/model/building_options.h"
+#include "scenarios/spec/faults.h"
+#include "scenarios/spec/sensors.h"
 #include "scenarios/spec/told_furniture.h"
 #include "sim/lidar/lidar.h"
 #include "sim/robot/conditions.h"
@@ -91,6 +93,12 @@ struct LidarSpec {
   std::optional<bool> dropout;
   std::optional<bool> optics;
   std::optional<sim::Footprint> footprint;
+  std::optional<double> distance_bias_m;
+  std::optional<double> reflectivity_bias_m;
+  std::optional<double> incidence_bias_m;
+  std::optional<double> warm_up_m;
+  std::optional<double> warm_up_s;
+  std::optional<double> airborne_per_m;
   template <class V>
   void visit(V& v) {
     v("model", model, Field{.doc = "sensor model"});
@@ -110,6 +118,36 @@ struct LidarSpec {
           .doc =
               "transmission and mirror reflection; false: the LiDAR does not see glass; the preset's when not given"});
     v("footprint", footprint, Field{.doc = "where a beam has a width; the preset's when not given"});
+    v("distance_bias_m", distance_bias_m,
+      Field{.doc =
+                "how much too short ranges up to 2.4 m are; less beyond, nothing from 25 m on; the preset's when not "
+                "given",
+            .min = -1.0,
+            .max = 1.0});
+    v("reflectivity_bias_m", reflectivity_bias_m,
+      Field{.doc = "how much too long a range is for each decade of reflectivity below 0.5, and too short above; the "
+                   "preset's when not given",
+            .min = -1.0,
+            .max = 1.0});
+    v("incidence_bias_m", incidence_bias_m,
+      Field{.doc =
+                "how much too short a range is at 10 m and 80° of incidence, elsewhere by the depth of the footprint "
+                "on the surface; the preset's when not given",
+            .min = -1.0,
+            .max = 1.0});
+    v("warm_up_m", warm_up_m,
+      Field{.doc = "how much too long ranges are when the sensor is switched on, at the start; the preset's when not "
+                   "given",
+            .min = -1.0,
+            .max = 1.0});
+    v("warm_up_s", warm_up_s,
+      Field{.doc = "time until 1/e of that error is left; the preset's when not given", .min = 1.0, .max = 36000.0});
+    v("airborne_per_m", airborne_per_m,
+      Field{.doc = "share of the beams that dust or rain gives back early, for each metre of their way; the preset's "
+                   "when not given",
+            .unit = "1/m",
+            .min = 0.0,
+            .max = 1.0});
   }
 };
 /// The preset with the switches that are given.
@@ -289,6 +327,7 @@ struct Scenario {
   double duration_s = 120.0;
   LidarSpec lidar;
   OdometrySpec odometry;
+  std::optional<FaultsSpec> faults;
   GroundSpec ground;
   PushesSpec pushes;
   std::vector<PersonSpec> people;
@@ -296,6 +335,7 @@ struct Scenario {
   std::optional<KidnapSpec> kidnap;
   PriorSpec prior;
   std::vector<std::string> methods;
+  std::vector<Sensors> sensors;
   std::vector<GateSpec> gates;
   template <class V>
   void visit(V& v) {
@@ -315,6 +355,8 @@ struct Scenario {
     v("duration_s", duration_s, Field{.doc = "greatest duration of the run", .min = 1.0, .max = 36000.0});
     v("lidar", lidar, Field{.doc = "LiDAR"});
     v("odometry", odometry, Field{.doc = "leg odometry"});
+    v("faults", faults,
+      Field{.doc = "errors of clocks, mount, IMU and feet that no method is told of; none when not given"});
     v("ground", ground, Field{.doc = "ground the robot walks on; neither the LiDAR nor the gait controller knows it"});
     v("pushes", pushes, Field{.doc = "horizontal pushes of 0.15 s against the robot, from any direction"});
     v("people", people, Field{.doc = "people who walk about; the LiDAR sees them, no plan has them"});
@@ -322,7 +364,13 @@ struct Scenario {
     v("kidnap", kidnap,
       Field{.doc = "once on its way the robot is lifted and set down elsewhere; people and doors then start again"});
     v("prior", prior, Field{.doc = "what plan localization knows at the start beside the plan"});
-    v("methods", methods, Field{.doc = "names of the methods to run; the default ones when none is named"});
+    v("methods", methods,
+      Field{.doc = "names of the methods to run, `NAME.lidar` for one with LiDAR alone; the default ones when none is "
+                   "named"});
+    v("sensors", sensors,
+      Field{.doc =
+                "what methods get: all records, or lidar, the scans without odometry and IMU; with both, each method "
+                "that can runs twice, the second time as `NAME.lidar`; all when not given"});
     v("gates", gates, Field{.doc = "bounds on metrics that decide whether the run passes"});
   }
 };

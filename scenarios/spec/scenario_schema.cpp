@@ -30,8 +30,13 @@ itself.
   sees of them does not count as surface of the building. A moving door is open while the robot is near it.
 - `ground` and `pushes` make walking harder; `results.json` names a value other than the default. Nobody pushes on stairs
   and their landings unless `on_stairs`. A fall ends the run with exit code 4: the scenario failed, not a method.
+- `lidar: {preset: harsh}` and `faults: {preset: harsh}` make sensors wrong in ways that no method solves for: range
+  errors, dust, clocks, mount, IMU, slipping feet. Each size is a key. `results.json` names them; no method is told.
 - `plumbline methods` lists the methods; a scenario that names none runs the default ones. A gate has either `max` or
   `min` and bounds one of the [metrics](metrics.md).
+- Methods get LiDAR, leg odometry and IMU. `NAME.lidar` in `methods` is the same method with LiDAR alone, and so are
+  `NAME.lidar` in gates, files and tables. `sensors: [all, lidar]` runs every method both ways, `sensors: lidar` with
+  LiDAR alone. Beside `all`, a method that needs odometry runs once; alone it is refused.
 
 )md";
 
@@ -63,6 +68,7 @@ moving_doors:
 kidnap: {after_s: 60, away_s: 3, to: {room: kitchen}}
 prior: {yaw: unknown, storey: known}
 methods: [vgicp, s_graphs_plus, s_graph_localization]
+sensors: [all, lidar]
 gates:
   - {metric: ate_aligned_rmse_m, method: s_graphs_plus, max: 0.05}
   - {metric: rooms.recall, method: s_graphs_plus, min: 0.5}
@@ -103,6 +109,35 @@ start: {random: rooms, storey: ground}
 route: {random: 5}
 duration_s: 90
 kidnap: {after_s: 40, to: {random: rooms, storey: ground}}
+)yaml",
+      R"yaml(scenario: 1
+name: sensors that are wrong
+building: library/quickstart.plan.yaml
+start: {room: office_a}
+route: {rooms: [meeting, office_a]}
+duration_s: 60
+lidar:
+  preset: harsh
+  distance_bias_m: 0.04
+  reflectivity_bias_m: 0.02
+  incidence_bias_m: 0.06
+  warm_up_m: 0.03
+  warm_up_s: 120
+  airborne_per_m: 0.004
+faults:
+  preset: harsh
+  clock_offset_s: -0.02
+  clock_jitter_s: 0.004
+  mount_error_m: 0.02
+  mount_error_deg: 1
+  mount_offset_m: [0.01, 0, -0.01]
+  mount_rotation_deg: [0, 0.5, 0]
+  gyro_bias_radps: 0.005
+  accelerometer_bias: 0.05
+  imu_scale: 0.01
+  slip_mps: 0.5
+  slip_s: 0.3
+  slip_every_s: 5
 )yaml"};
   return examples;
 }

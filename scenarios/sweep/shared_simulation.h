@@ -12,7 +12,7 @@
 namespace plumbline::scenarios {
 
 /// Keys of a scenario that decide about its methods and their scores, and not about what the robot and its sensors do.
-inline constexpr std::array<std::string_view, 3> method_keys = {"prior", "methods", "gates"};
+inline constexpr std::array<std::string_view, 4> method_keys = {"prior", "methods", "sensors", "gates"};
 
 /// Runs of one seed whose scenario files differ in method_keys alone, which the caller warrants: simulated once,
 /// every method of each fed from that, each scored by itself. A file NAME.yaml leaves NAME/results.json, to the last

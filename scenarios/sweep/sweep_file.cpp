@@ -7,6 +7,7 @@
 #include <set>
 
 #include "bim/digest/digest.h"
+#include "scenarios/spec/method_names.h"
 #include "scenarios/spec/resolve.h"
 #include "scenarios/sweep/shared_simulation.h"
 
@@ -40,13 +41,15 @@ class Template {
   [[nodiscard]] const std::string& building_bytes() const { return building_bytes_; }
 
   /// The scenario with what a sweep asks for; its form is checked.
-  [[nodiscard]] Tree with(const SweepVariant& variant, const Start* start, const std::vector<std::string>& methods,
-                          const Mark& mark) const {
+  [[nodiscard]] Tree with(const SweepVariant& variant, const Start* start, const SweepFile& sweep, const Mark& mark,
+                          slam::MethodTable table) const {
+    const std::vector<std::string>& methods = sweep.methods;
     Tree tree = tree_;
     for (const std::string& text : variant.set) {
       set(tree, text, mark);
       const std::string key = text.substr(0, text.find_first_of(".="));
-      if ((key == "start" && start != nullptr) || (key == "methods" && !methods.empty()))
+      if ((key == "start" && start != nullptr) || (key == "methods" && !methods.empty()) ||
+          (key == "sensors" && !sweep.sensors.empty()))
         throw InputError(mark, "the sweep sets '" + key + (key == "start" ? "' by its starts" : "' itself") +
                                    "; set it in one place");
     }
@@ -56,7 +59,8 @@ class Template {
       for (const std::string& method : methods) list.push(method);
       tree.set("methods", list).set("gates", Tree::list());
     }
-    check(tree, variant, mark);
+    if (!sweep.sensors.empty()) tree.set("sensors", to_tree(sweep.sensors));
+    name_labels(check(tree, variant, mark), table, tree);
     return tree;
   }
 
@@ -64,15 +68,24 @@ class Template {
 
  private:
   /// A place in the text made here would be none that the user wrote.
-  void check(const Tree& tree, const SweepVariant& variant, const Mark& mark) const {
+  [[nodiscard]] Scenario check(const Tree& tree, const SweepVariant& variant, const Mark& mark) const {
     try {
-      (void)read_scenario(write_yaml(tree), "made");
+      return read_scenario(write_yaml(tree), "made").scenario;
     } catch (const InputError& error) {
       const std::string what = error.what();
       const std::size_t start = what.find(": ");
       throw InputError(mark, "'" + path_ + "'" + (variant.name.empty() ? "" : " as '" + variant.name + "'") +
                                  (start == std::string::npos ? ": " + what : what.substr(start)));
     }
+  }
+
+  /// Methods that are named get their labels here, so that the rows of a run that fails have them, too.
+  static void name_labels(const Scenario& scenario, slam::MethodTable table, Tree& tree) {
+    if (scenario.methods.empty() || scenario.sensors.empty()) return;
+    Tree labels = Tree::list();
+    for (const std::string& method : scenario.methods)
+      for (const std::string& label : labels_of(method, scenario.sensors, table)) labels.push(label);
+    tree.set("methods", labels).set("sensors", Tree::list());
   }
 
   static void set(Tree& tree, const std::string& text, const Mark& mark) {
@@ -169,7 +182,7 @@ Sweep read_sweep(const std::string& path, int seeds, slam::MethodTable table) {
     for (std::size_t v = 0; v < variants.size(); ++v)
       for (std::size_t s = 0; s < std::max<std::size_t>(file.starts.size(), 1); ++s) {
         const Start* start = file.starts.empty() ? nullptr : &file.starts[s];
-        const Tree made = scenario.with(variants[v], start, file.methods, mark_of(tree, "variants", v));
+        const Tree made = scenario.with(variants[v], start, file, mark_of(tree, "variants", v), table);
         const std::string part = file_name(scenario.name()) +
                                  (file.variants.empty() ? "" : "-" + file_name(variants[v].name)) +
                                  (start == nullptr ? "" : "-start" + std::to_string(s + 1));

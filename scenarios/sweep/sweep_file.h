@@ -30,6 +30,7 @@ struct SweepFile {
   int seeds = 10;
   std::uint64_t first_seed = 1;
   std::vector<std::string> methods;
+  std::vector<Sensors> sensors;
   std::vector<Start> starts;
   std::vector<SweepVariant> variants;
   template <class V>
@@ -40,6 +41,9 @@ struct SweepFile {
     v("seeds", seeds, plain_field("number of seeds of each scenario", {.min = 1, .max = 100000}));
     v("first_seed", first_seed, plain_field("first seed; the others follow it", {.min = 0, .max = 9e18}));
     v("methods", methods, Field{.doc = "names of the methods of every run; each scenario's own when none is named"});
+    v("sensors", sensors,
+      Field{.doc = "what methods get in every run, as in a scenario: [all, lidar] runs each that can with LiDAR alone, "
+                   "too; each scenario's own when not given"});
     v("starts", starts, Field{.doc = "starts that replace those of the scenarios"});
     v("variants", variants, Field{.doc = "variants of the scenarios; the scenarios unchanged when none is given"});
   }

@@ -13,8 +13,10 @@ A sweep makes many runs and one table: scenarios x variants x starts x seeds, ea
 SWEEP` runs it. `plumbline sweep --schema` prints this page, which is made from the reader itself.
 
 - `scenarios` are files. A variant replaces values in them (`set: [prior.yaw=known]`); `starts` replace their starts.
-- Runs of one seed that differ in `prior`, `methods` and `gates` only share one simulation. Each of them has, to the last
+- Runs of one seed that differ in `prior`, `methods`, `sensors` and `gates` only share one simulation. Each of them has, to the last
   bit, the scores that `plumbline run` gives.
+- `sensors: [all, lidar]` gives every method that can run with LiDAR alone a second row, `NAME.lidar`. A variant may set it
+  instead (`set: [sensors=lidar]`).
 - Groups of such runs are processes of their own, `--jobs` at a time.
 - Each run leaves one file in `results/`, complete or not at all. A run is not repeated while scenario, building, seed
   and version are those of its file. A sweep that was interrupted therefore continues.
@@ -41,6 +43,7 @@ scenarios: [library/quickstart.yaml, library/house.yaml]
 seeds: 20
 first_seed: 1
 methods: [vgicp, s_graph_localization]
+sensors: [all, lidar]
 variants:
   - {name: compass, set: [prior.yaw=known]}
   - {name: no compass, set: [prior.yaw=unknown, duration_s=90]}

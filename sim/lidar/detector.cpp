@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/lidar/range_error.h"
+
 namespace plumbline::sim {
 
 namespace {
@@ -37,7 +39,8 @@ slam::ReturnWord Detector::measure(std::int64_t firing, std::size_t laser, std::
   if (config_.dropout && dropout_.uniform(tick, lane, rank) >= return_share(config_, range_m, cosine, strength))
     return {};
   const double noise = config_.range_noise ? range_sigma(config_, range_m) * range_.gauss(tick, lane, rank) : 0.0;
-  const double range = range_m + bias_m_[laser] + noise;
+  const double time_s = config_.running_s + 1e-9 * static_cast<double>(firing * model_.firing_period_ns);
+  const double range = range_m + bias_m_[laser] + noise + range_error(config_, time_s, range_m, strength, cosine);
   if (range < model_.range_min_m || range > model_.range_max_m) return {};
   double reflectivity = calibrated_reflectivity(strength, cosine);
   if (config_.reflectivity_noise)

@@ -10,8 +10,8 @@
 
 namespace plumbline::sim {
 
-/// Detector model of one unit: dropouts, range noise and biases. Every draw is addressed by firing,
-/// laser and the echo's rank alone, so that none moves another.
+/// Detector model of one unit: dropouts, range noise, biases and systematic range errors. Every draw is addressed by
+/// firing, laser and the echo's rank alone, so that none moves another.
 class Detector {
  public:
   /// Draws the unit's biases.

@@ -5,11 +5,13 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <tuple>
 #include <utility>
 
 #include "bim/errors.h"
 #include "bim/random/stream.h"
+#include "sim/lidar/airborne.h"
 #include "sim/lidar/beams.h"
 #include "sim/lidar/detector.h"
 #include "sim/lidar/echo.h"
@@ -46,6 +48,7 @@ struct Lidar::Impl {
   std::vector<Surface> surfaces;
   const RoomLookup* rooms;
   Detector detector;
+  std::optional<Airborne> airborne;
   Beams centres;
   EdgeFinder edges;
   SubRays footprint;
@@ -75,6 +78,7 @@ struct Lidar::Impl {
   void group_by_beam();
   void add_segments(const MultiEchoBeam& beam, std::uint32_t number);
   void receive(const MultiEchoBeam& beam, Sweep& sweep);
+  void add_airborne(Sweep& sweep) const;
   void label(std::size_t slot, const Reflection& reflection, ReturnLabels& labels) const;
   void pack(Sweep& sweep) const;
 };
@@ -93,6 +97,7 @@ Lidar::Impl::Impl(const LidarConfig& config_in, double rpm, std::uint64_t seed, 
       footprint(footprint_of(config)),
       light(scene, surfaces, config) {
   (void)slam::firings_per_message(model, rpm);
+  if (config.airborne_per_m > 0.0) airborne.emplace(config, seed);
 }
 
 void Lidar::Impl::start(std::int64_t first, std::span<const Pose> poses, Sweep& sweep) {
@@ -226,6 +231,33 @@ void Lidar::Impl::receive(const MultiEchoBeam& beam, Sweep& sweep) {
   label(slot(beam.column, beam.laser), (last_seems_stronger ? last : strongest).echo->main, sweep.labels);
 }
 
+/// A particle before the first surface gives its return in place of the strongest, and of the last where that is lost.
+void Lidar::Impl::add_airborne(Sweep& sweep) const {
+  const std::size_t lasers = model.lasers.size();
+  for (std::size_t column = 0; column < centres.columns(); ++column) {
+    const auto c = static_cast<std::int64_t>(column);
+    for (std::size_t k = 0; k < lasers; ++k) {
+      const std::optional<double> range_m = airborne->at(first_firing + c, k);
+      const std::size_t beam = centres.index(c, k);
+      const bim::Hit& hit = centres.hit(beam);
+      if (!range_m || (hit.element >= 0 && *range_m >= hit.range_m)) continue;
+      const std::size_t i = column * lasers + k;
+      const ReturnWord word = airborne->word(*range_m);
+      if (config.returns == ReturnMode::last && sweep.words[i].distance != 0) continue;
+      sweep.words[i] = word;
+      if (config.returns == ReturnMode::dual) {
+        if (sweep.last[i].distance == 0) sweep.last[i] = word;
+        if (!slam::seems_stronger(word, sweep.last[i])) continue;
+      }
+      Reflection reflection;
+      reflection.flags = light_path::airborne;
+      reflection.direction_W = centres.ray(beam).direction_W;
+      reflection.point_W = centres.ray(beam).origin_W + *range_m * reflection.direction_W;
+      label(slot(column, k), reflection, sweep.labels);
+    }
+  }
+}
+
 void Lidar::Impl::label(std::size_t slot, const Reflection& reflection, ReturnLabels& labels) const {
   labels.element[slot] = reflection.element;
   labels.triangle[slot] = reflection.triangle;
@@ -274,6 +306,7 @@ void Lidar::sweep(std::int64_t first_firing, std::span<const Pose> X_WL, Sweep& 
   const std::span<const MultiEchoBeam> multi_echo = impl_->multi_echo;
   for (std::size_t i = 0; i < multi_echo.size(); i += batch_beams)
     impl_->fire_multi_echo(multi_echo.subspan(i, std::min(batch_beams, multi_echo.size() - i)), sweep);
+  if (impl_->airborne) impl_->add_airborne(sweep);
   impl_->pack(sweep);
 }
 

@@ -17,7 +17,7 @@ namespace plumbline::sim {
 /// Ground truth of one message's returns, for scoring only; index as in slam::Scan. With two returns a beam the
 /// labels belong to the stronger one.
 struct ReturnLabels {
-  std::vector<std::int32_t> element;     ///< element id, -1 no return
+  std::vector<std::int32_t> element;     ///< element id, -1 no return, or one of dust or rain
   std::vector<std::int32_t> triangle;    ///< of the mesh that is seen (without optics: less panes), -1 no return
   std::vector<std::int32_t> room;        ///< index into Building::rooms, -1 in none
   std::vector<std::uint8_t> path;        ///< what happened to the light, see light_path
@@ -36,7 +36,8 @@ struct Sweep {
 
 /// Emulated spinning LiDAR: real firing order and times, a pose per firing (rolling shutter), the beam's footprint
 /// (mixed pixels, two returns), panes and mirrors, ranges in the model's unit, noise by range, a bias per unit and per
-/// laser, dropouts by incidence, reflectivity and range. Each is a switch of LidarConfig.
+/// laser, dropouts by incidence, reflectivity and range, systematic range errors, returns of dust and rain. Each is a
+/// switch of LidarConfig.
 class Lidar {
  public:
   /// rpm from 300 to 1200. Surfaces by element; elements beyond them reflect config.reflectivity. Without rooms labels

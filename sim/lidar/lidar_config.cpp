@@ -6,7 +6,14 @@ namespace plumbline::sim {
 LidarConfig lidar_config(LidarPreset preset) {
   LidarConfig config;
   if (preset == LidarPreset::full) config.footprint = Footprint::everywhere;
-  if (preset == LidarPreset::real || preset == LidarPreset::full) return config;
+  if (preset == LidarPreset::harsh) {
+    config.distance_bias_m = 0.02;
+    config.reflectivity_bias_m = 0.01;
+    config.incidence_bias_m = 0.03;
+    config.warm_up_m = 0.015;
+    config.airborne_per_m = 0.002;
+  }
+  if (preset != LidarPreset::ideal && preset != LidarPreset::datasheet) return config;
   config.range_noise = preset == LidarPreset::datasheet;
   if (config.range_noise) config.sigma.fill({0.0, 0.03});  // the data sheet's accuracy
   config.unit_bias = config.laser_bias = config.reflectivity_noise = config.dropout = config.optics = false;

@@ -9,10 +9,11 @@
 namespace plumbline::sim {
 
 /// ideal: packets and timing only. datasheet: the data sheet's accuracy taken as noise. real: as measured on two real
-/// units, with the beam's footprint where it meets an edge. full: real with the footprint of every beam.
-enum class LidarPreset { ideal, datasheet, real, full };
-[[nodiscard]] constexpr std::array<std::string_view, 4> names_of(LidarPreset) {
-  return {"ideal", "datasheet", "real", "full"};
+/// units, with the beam's footprint where it meets an edge. full: real with the footprint of every beam. harsh: real
+/// with range errors that no estimator solves for, and with dust.
+enum class LidarPreset { ideal, datasheet, real, full, harsh };
+[[nodiscard]] constexpr std::array<std::string_view, 5> names_of(LidarPreset) {
+  return {"ideal", "datasheet", "real", "full", "harsh"};
 }
 
 /// Where a beam is a bundle of sub-rays: nowhere, where it or a neighbour of its ring meets another face or a jump in
@@ -62,6 +63,17 @@ struct LidarConfig {
   double edge_jump_m = 0.1;        ///< between neighbours of a ring: an edge
   double echo_separation_m = 1.0;  ///< nearer surfaces in one beam give one echo between them [velodyne2018c]
   double glint_rad = 0.01;         ///< a polished surface this close to square shines back as a retro-reflector
+
+  /// Systematic range errors, m, see range_error(); 0: none.
+  double distance_bias_m = 0.0;      ///< too short up to 2.4 m, less beyond, 0 from 25 m on
+  double reflectivity_bias_m = 0.0;  ///< too long for each decade below a reflectivity of 0.5, too short above
+  double incidence_bias_m = 0.0;     ///< too short at 10 m and 80 degrees, by the depth of the footprint elsewhere
+  double warm_up_m = 0.0;            ///< too long when the sensor is switched on
+  double warm_up_s = 300.0;          ///< until 1/e of that is left
+  double running_s = 0.0;            ///< since the sensor was switched on, at firing 0
+
+  double airborne_per_m = 0.0;     ///< share of beams that dust or rain gives back early, per metre; 0: clear air
+  double airborne_reach_m = 15.0;  ///< farther particles give too little light
 };
 
 [[nodiscard]] LidarConfig lidar_config(LidarPreset preset);

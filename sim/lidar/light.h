@@ -14,10 +14,11 @@ namespace plumbline::sim {
 
 /// What happened to the light of a return; bits.
 namespace light_path {
-inline constexpr std::uint8_t mixed = 1;     ///< from surfaces apart: the range lies between them
-inline constexpr std::uint8_t through = 2;   ///< came through a pane
-inline constexpr std::uint8_t mirrored = 4;  ///< came over a mirror: the return lies where there is no surface
-inline constexpr std::uint8_t glint = 8;     ///< mirrored straight back
+inline constexpr std::uint8_t mixed = 1;      ///< from surfaces apart: the range lies between them
+inline constexpr std::uint8_t through = 2;    ///< came through a pane
+inline constexpr std::uint8_t mirrored = 4;   ///< came over a mirror: the return lies where there is no surface
+inline constexpr std::uint8_t glint = 8;      ///< mirrored straight back
+inline constexpr std::uint8_t airborne = 16;  ///< came back from dust or rain: of no element
 }  // namespace light_path
 
 /// A point that reflects part of a ray's light back to the sensor.

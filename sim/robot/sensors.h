@@ -3,10 +3,13 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string_view>
 
 #include "bim/random/stream.h"
+#include "sim/robot/imu_error.h"
 #include "sim/robot/robot.h"
+#include "sim/robot/slip.h"
 
 namespace plumbline::sim {
 
@@ -42,16 +45,21 @@ struct SensorReading {
   Eigen::Vector3d accelerometer_R = Eigen::Vector3d::Zero();  ///< m/s^2, includes -g
 };
 
-/// Adds the preset's noise to the truth.
+/// Adds the preset's noise to the truth, and errors of the IMU and slipping feet where they are asked for.
 class ProprioceptiveSensors {
  public:
-  ProprioceptiveSensors(OdometryPreset preset, std::uint64_t seed);
+  ProprioceptiveSensors(OdometryPreset preset, std::uint64_t seed, const ImuError& imu = {},
+                        const SlipConfig& slip = {});
 
   /// tick counts physics steps and must grow by one from call to call, since the gyro's bias walks.
   [[nodiscard]] SensorReading read(const Proprioception& truth, std::int64_t tick);
 
  private:
+  void slide(const Proprioception& truth, std::int64_t tick, SensorReading& reading) const;
+
   ProprioceptionNoise noise_;
+  std::optional<ImuErrorDraw> imu_;
+  Slips slips_;
   Stream encoder_, velocity_, gyro_, bias_, accelerometer_, contact_;
   Eigen::Vector3d gyro_bias_R_;
 };

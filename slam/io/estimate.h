@@ -63,6 +63,7 @@ struct Output {
   Nanoseconds stamp = 0;
   std::optional<Pose> X_FR;  ///< absent while a plan localization has no single answer
   State state = State::converged;
+  int degenerate_directions = 0;  ///< of six, in which the surfaces that the scan met leave the pose open
   std::vector<Hypothesis> hypotheses;
   std::vector<Particle> particles;   ///< at most 500, for the report; empty when there is no particle set
   std::vector<StageDigest> digests;  ///< in pipeline order

@@ -5,7 +5,8 @@
 
 namespace plumbline::slam::loam {
 
-Registration AloamOdometry::match(const DeskewedScan& scan, const OdometrySample& /*odometry*/) {
+Registration AloamOdometry::match(const DeskewedScan& scan, const OdometrySample& /*odometry*/,
+                                  double /*usual_matched*/) {
   scan_ = find_features(scan, config_.features);
   thinned_ = thin(scan_, config_.map);
   Registration result;

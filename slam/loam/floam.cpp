@@ -5,7 +5,8 @@
 
 namespace plumbline::slam::loam {
 
-Registration FloamOdometry::match(const DeskewedScan& scan, const OdometrySample& /*odometry*/) {
+Registration FloamOdometry::match(const DeskewedScan& scan, const OdometrySample& /*odometry*/,
+                                  double /*usual_matched*/) {
   scan_ = thin(find_features(scan, config_.features), config_.map);
   Registration result;
   result.X_MR = X_MR_;

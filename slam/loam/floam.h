@@ -29,7 +29,8 @@ class FloamOdometry {
   explicit FloamOdometry(const FloamConfig& config) : config_(config), map_(config.map), rounds_(config.first_rounds) {}
 
   /// Registers the scan. Odometry is not used.
-  [[nodiscard]] Registration match(const DeskewedScan& scan, const OdometrySample& odometry);
+  [[nodiscard]] Registration match(const DeskewedScan& scan, const OdometrySample& odometry,
+                                   double usual_matched = 0.0);
   /// Takes it in at X_MR, into the map only if `mapped`.
   void commit(const Pose& X_MR, bool mapped);
   /// Whether there is a map to match against.

@@ -40,6 +40,7 @@ RoomLayerConfig printed_rooms() {
 
 SGraphsPlusPaperConfig::SGraphsPlusPaperConfig() {
   plane_source = PlaneSource::ransac;
+  ransac.source = RansacSource::pcl;
   pose_weights = PoseWeights::fitness;
   keyframe_distance_m = 2.0;
   keyframe_angle_rad = 2.0;

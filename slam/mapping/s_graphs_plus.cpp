@@ -7,7 +7,7 @@
 #include "slam/graph/factors.h"
 #include "slam/graph/graph_json.h"
 #include "slam/io/stopwatch.h"
-#include "slam/odometry/constant_velocity.h"
+#include "slam/planes/level.h"
 
 namespace plumbline::slam {
 
@@ -16,15 +16,6 @@ namespace {
 RoomLayerConfig with_mount(RoomLayerConfig config, const Calibration& calibration) {
   config.free_space.sensor_height_m = calibration.sensor_height_m;
   return config;
-}
-
-bool is_floor(const PlaneObservation& o) { return !o.vertical && o.plane_R.n.z() > 0.0; }
-
-/// M's z axis stands on the first floor seen, so that walls are upright in M whatever the gait's phase at the start.
-Pose levelled_start(std::span<const PlaneObservation> seen) {
-  const auto floor = std::find_if(seen.begin(), seen.end(), is_floor);
-  if (floor == seen.end()) return {};
-  return {Eigen::Quaterniond::FromTwoVectors(floor->plane_R.n, Eigen::Vector3d::UnitZ()), Eigen::Vector3d::Zero()};
 }
 
 std::uint64_t digest_of(std::span<const PlaneObservation> planes) {
@@ -69,9 +60,7 @@ std::uint64_t digest_of(const std::vector<FloorVertex>& floors) {
 std::unique_ptr<Method> make(const MethodInput& input, SGraphsPlusConfig config) {
   config.odometry.vgicp.odometry_prior &= input.has_odometry;
   config.odometry.vgicp.tilt_prior &= input.has_odometry;
-  auto method = std::make_unique<SGraphsPlus>(input, config);
-  if (input.has_odometry) return method;
-  return with_constant_velocity(std::move(method));
+  return std::make_unique<SGraphsPlus>(input, config);
 }
 
 }  // namespace
@@ -80,7 +69,7 @@ SGraphsPlus::SGraphsPlus(const MethodInput& input, const SGraphsPlusConfig& conf
     : config_(config),
       seed_(input.seed),
       calibration_(input.calibration),
-      odometry_(make_lidar_odometry(config.odometry)),
+      front_end_(config.odometry, input.calibration, input.has_odometry),
       walls_(config.walls),
       rooms_(with_mount(config.rooms, input.calibration)),
       floors_(config.floors),
@@ -93,16 +82,15 @@ Output SGraphsPlus::on_scan(const Scan& scan) {
   Output output;
   output.stamp = scan.stamp;
   Stopwatch stopwatch;
-  const DeskewedScan deskewed = deskew(scan, motion_, calibration_);
-  const Pose odometry_OR = motion_.at(scan.stamp);
-  motion_.forget_before(scan.stamp);
+  DeskewedScan deskewed = front_end_.deskewed(scan);
   record_stage(output, stopwatch, "deskew", digest(deskewed));
 
-  const Registration odometry = odometry_->update(deskewed, odometry_OR);
-  record_stage(output, stopwatch, "odometry", Digest().add(odometry.X_MR).value());
+  const Registration odometry = front_end_.track(scan, deskewed);
+  record_stage(output, stopwatch, "odometry", Digest().add(odometry.X_MR).add(odometry.degenerate_directions).value());
 
   const Pose& X_OR = odometry.X_MR;
   if (odometry.lost) output.state = State::lost;
+  output.degenerate_directions = odometry.degenerate_directions;
   odometry_valid_ &= odometry.odometry_valid;
   // A scan that does not fit would be mapped at a wrong pose.
   if (!odometry.accepted && !graph_.keyframes.empty())
@@ -166,9 +154,14 @@ void SGraphsPlus::keep_cloud(const DeskewedScan& scan) {
 }
 
 std::vector<PlaneObservation> SGraphsPlus::planes_of(const DeskewedScan& scan) const {
-  std::vector<PlaneObservation> seen = config_.plane_source == PlaneSource::rings
-                                           ? detect_planes(scan, config_.planes)
-                                           : ransac_planes(scan, config_.ransac, config_.planes, seed_);
+  constexpr int fewest_rings = 4;  // without rings there are no stretches of them
+  std::vector<PlaneObservation> seen;
+  if (config_.plane_source == PlaneSource::ransac)
+    seen = ransac_planes(scan, config_.ransac, config_.planes, seed_);
+  else if (scan.rings < fewest_rings)
+    seen = ransac_planes(scan, config_.ransac_without_rings, config_.planes, seed_);
+  else
+    seen = detect_planes(scan, config_.planes);
   if (!config_.parts.walls) std::erase_if(seen, [](const PlaneObservation& o) { return !is_floor(o); });
   return seen;
 }
@@ -198,7 +191,7 @@ void SGraphsPlus::add_keyframe_vertex(Nanoseconds stamp, const Registration& odo
                                       std::vector<PlaneObservation>& seen) {
   const Pose& X_OR = odometry.X_MR;
   if (graph_.keyframes.empty()) {
-    graph_.keyframes.push_back({stamp, levelled_start(seen), X_OR, 0});
+    graph_.keyframes.push_back({stamp, Pose{level_by_floor(seen), Eigen::Vector3d::Zero()}, X_OR, 0});
     return;
   }
   const KeyframeVertex& last = graph_.keyframes.back();

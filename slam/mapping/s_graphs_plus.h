@@ -16,7 +16,7 @@
 #include "slam/mapping/mirror_ghosts.h"
 #include "slam/mapping/room_layer.h"
 #include "slam/mapping/wall_layer.h"
-#include "slam/odometry/lidar_odometry.h"
+#include "slam/odometry/front_end.h"
 #include "slam/planes/plane_detector.h"
 #include "slam/planes/ransac.h"
 #include "slam/scan/map_cloud.h"
@@ -61,6 +61,12 @@ struct SGraphsPlusConfig {
   /// as independent.
   PlaneDetectorConfig planes{.laser_sigma_m = 0.022};
   RansacConfig ransac;
+  RansacConfig ransac_without_rings{.voxel_m = 0.3,
+                                    .distance_m = 0.04,
+                                    .iterations = 100,
+                                    .min_left = 1500,
+                                    .min_inliers = 200,
+                                    .min_horizontal = 200};
   FitnessConfig fitness;
   WallLayerConfig walls;
   RoomLayerConfig rooms;
@@ -91,6 +97,7 @@ struct SGraphsPlusConfig {
     v("odometry", odometry);
     v("planes", planes);
     v("ransac", ransac);
+    v("ransac_without_rings", ransac_without_rings, Field{.advanced = true});
     v("fitness", fitness);
     v("walls", walls);
     v("rooms", rooms);
@@ -124,7 +131,7 @@ class SGraphsPlus : public Method {
  public:
   SGraphsPlus(const MethodInput& input, const SGraphsPlusConfig& config);
 
-  void on_odometry(const Odometry& odometry) override { motion_.add(odometry); }
+  void on_odometry(const Odometry& odometry) override { front_end_.on_odometry(odometry); }
   [[nodiscard]] Output on_scan(const Scan& scan) override;
   [[nodiscard]] Estimate finish() override;
 
@@ -160,8 +167,7 @@ class SGraphsPlus : public Method {
   SGraphsPlusConfig config_;
   std::uint64_t seed_;
   Calibration calibration_;
-  MotionBuffer motion_;
-  std::unique_ptr<LidarOdometry> odometry_;
+  FrontEnd front_end_;
   WallLayer walls_;
   RoomLayer rooms_;
   FloorLayer floors_;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <deque>
+#include <optional>
+
 #include "bim/config/visit.h"
 #include "slam/io/records.h"
 #include "slam/registration/registration.h"
@@ -8,40 +11,78 @@
 namespace plumbline::slam {
 
 struct HealthConfig {
-  double min_matched = 0.35;
-  double max_speed_mps = 4.0;
-  double max_turn_radps = 6.0;
+  double usual_share = 0.5;
+  double min_matched = 0.15;
+  int recent_scans = 20;
+  double max_acceleration_mps2 = 40.0;
+  double max_turn_acceleration_radps2 = 60.0;
+  double max_start_speed_mps = 40.0;
   int bad_scans = 3;
   int good_scans = 10;
   int restart_scans = 20;
+  double restart_s = 2.0;
+  double max_unobserved_m = 1.0;
+
+  [[nodiscard]] Nanoseconds restart_ns() const { return static_cast<Nanoseconds>(restart_s * 1e9); }
 
   template <class V>
   void visit(V& v) {
-    v("min_matched", min_matched, share_field("least share of a scan's features that must match the map"));
-    v("max_speed_mps", max_speed_mps, Field{.doc = "largest speed of a plausible step", .min = 0.1});
-    v("max_turn_radps", max_turn_radps, Field{.doc = "largest turn rate of a plausible step", .min = 0.1});
+    v("usual_share", usual_share,
+      share_field(
+          "share of what recent scans matched of their features, in the median, below which a scan does not fit"));
+    v("min_matched", min_matched,
+      share_field("least share of a scan's features that must match the map, whatever is usual"));
+    v("recent_scans", recent_scans, Field{.doc = "accepted scans that tell what is usual", .min = 1, .max = 1000});
+    v("max_acceleration_mps2", max_acceleration_mps2,
+      Field{.doc = "largest acceleration of a plausible step, beside odometry and the step before",
+            .unit = "m/s²",
+            .min = 0.1});
+    v("max_turn_acceleration_radps2", max_turn_acceleration_radps2,
+      Field{.doc = "largest angular acceleration of a plausible step", .unit = "rad/s²", .min = 0.1});
+    v("max_start_speed_mps", max_start_speed_mps,
+      Field{.doc = "largest speed of the first step, when none is known", .min = 0.1});
     v("bad_scans", bad_scans, Field{.doc = "bad scans in a row after which the odometry is lost", .min = 1});
     v("good_scans", good_scans, Field{.doc = "good scans in a row after which it has recovered", .min = 1});
     v("restart_scans", restart_scans, Field{.doc = "bad scans in a row after which a new map starts", .min = 1});
+    v("restart_s", restart_s,
+      Field{.doc = "or, without odometry, time lost after which it does", .min = 0.0, .max = 1e6});
+    v("max_unobserved_m", max_unobserved_m,
+      Field{.doc = "standard deviation of the way gone where nothing measures it, above which the odometry is lost",
+            .min = 0.01});
   }
 };
 
-/// Whether scan matching is trusted: for each scan at once, and as a state with hysteresis.
+/// What a step may be compared with. Either of them suffices: feet slip, and a robot may stop.
+struct ExpectedStep {
+  Nanoseconds dt = 0;             ///< since the scan before
+  std::optional<Pose> odometry;   ///< what odometry measured of it
+  std::optional<Pose> continued;  ///< as if the motion before went on
+};
+
+/// Whether scan matching is trusted: for each scan at once, and as a state with hysteresis. All that it compares with
+/// comes from the scans before: no sensor's noise, no robot's speed.
 class OdometryHealth {
  public:
   explicit OdometryHealth(const HealthConfig& config) : config_(config) {}
 
-  /// Assesses one registration. step: the robot's motion since the scan dt before. True: accept it.
-  [[nodiscard]] bool assess(const Registration& registration, const Pose& step, Nanoseconds dt);
-  /// Whether a robot can have made this step in the time dt.
-  [[nodiscard]] bool is_plausible_step(const Pose& step, Nanoseconds dt) const;
+  /// Assesses one registration. step: the robot's motion since the scan before. True: accept it.
+  [[nodiscard]] bool assess(const Registration& registration, const Pose& step, const ExpectedStep& expected);
+  /// Share of its features that a scan matches as a rule; 1 before any did.
+  [[nodiscard]] double usual_matched() const;
+  /// Share below which a scan does not fit.
+  [[nodiscard]] double least_matched() const;
+  /// Whether a robot can have made this step.
+  [[nodiscard]] bool is_plausible_step(const Pose& step, const ExpectedStep& expected) const;
   [[nodiscard]] bool lost() const { return lost_; }
   /// True once after so many bad scans that the map is of no use.
   [[nodiscard]] bool wants_restart() const { return bad_ > 0 && bad_ % config_.restart_scans == 0; }
+  /// A new map began: nothing is usual yet.
+  void restart() { matched_.clear(); }
 
  private:
   HealthConfig config_;
-  int bad_ = 0, good_ = 0;  ///< in a row
+  std::deque<double> matched_;  ///< by accepted scans
+  int bad_ = 0, good_ = 0;      ///< in a row
   bool lost_ = false;
 };
 

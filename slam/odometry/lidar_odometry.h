@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string_view>
 
 #include "bim/config/visit.h"
@@ -50,6 +52,15 @@ struct LidarOdometryConfig {
   }
 };
 
+/// The scan that was last matched, deskewed by the step that was found for it. When it is the second of all, so is the
+/// first: nothing was known of its motion before.
+struct DeskewedAgain {
+  DeskewedScan scan;
+  std::optional<DeskewedScan> first;
+};
+/// Nothing where it is no better.
+using DeskewAgain = std::function<std::optional<DeskewedAgain>(const Pose& step)>;
+
 /// Scan by scan pose in M, which starts at the first pose: X_MR = identity. A scan that does not fit leaves the pose to
 /// dead reckoning, see Registration::accepted. Odometry's motion over a gap in its records, or over a jump, is
 /// discarded: scans alone measure it.
@@ -58,11 +69,15 @@ class LidarOdometry {
   virtual ~LidarOdometry() = default;
   /// X_OR: leg odometry at scan.stamp, in a frame whose z is up; only its increments and its tilt may be used.
   [[nodiscard]] virtual Registration update(const DeskewedScan& scan, const Pose& X_OR) = 0;
+  /// From scans alone: a search starts as if the motion before went on.
+  [[nodiscard]] virtual Registration update_alone(const DeskewedScan& scan, const DeskewAgain& again) = 0;
+  /// R's motion from the last scan until `stamp` if the motion before goes on.
+  [[nodiscard]] virtual Pose continued_step(Nanoseconds stamp) const = 0;
 };
 
 /// Information of a step by dead reckoning over `way_m` walked, of the right increment: errors grow with its root.
 [[nodiscard]] Matrix6d dead_reckoning_information(const LidarOdometryConfig& config, double way_m);
-/// Information of a step of which only the time is known: all that a robot can do in it.
+/// Information of a step that nothing measured: any acceleration that a robot is capable of.
 [[nodiscard]] Matrix6d unknown_information(const HealthConfig& limits, Nanoseconds dt);
 
 [[nodiscard]] std::unique_ptr<LidarOdometry> make_lidar_odometry(const LidarOdometryConfig& config);

@@ -4,9 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "bim/digest/digest.h"
 #include "bim/errors.h"
+#include "slam/planes/level.h"
+#include "slam/planes/plane_detector.h"
 
 namespace plumbline::slam {
 
@@ -14,7 +17,6 @@ namespace {
 
 const bim::Plan& plan_for(std::string_view name, const MethodInput& input) {
   if (!input.plan) throw InputError({}, std::string(name) + " needs a plan; give a plan or an IFC file");
-  if (!input.has_odometry) throw InputError({}, std::string(name) + " needs odometry, and there is none");
   return *input.plan;
 }
 
@@ -38,17 +40,24 @@ PlanLocalization::PlanLocalization(std::string_view name, const MethodInput& inp
       config_(config),
       index_(make_plan_index(plan_for(name, input), input.prior.storey, config.index)),
       map_config_(map),
-      cloud_(map) {}
+      cloud_(map) {
+  if (input.has_odometry) return;
+  LidarOdometryConfig odometry;
+  odometry.vgicp.odometry_prior = odometry.vgicp.tilt_prior = false;
+  lidar_odometry_.emplace(odometry, input.calibration, false);
+}
 
 Output PlanLocalization::on_scan(const Scan& scan) {
   Output output;
   output.stamp = scan.stamp;
   Stopwatch stopwatch;
-  const Pose X_OR = motion_.at(scan.stamp);
+  DeskewedScan tracked;
+  const Pose X_OR = lidar_odometry_ ? track(scan, tracked) : motion_.at(scan.stamp);
   if (!X_OR_start_) X_OR_start_ = X_OR;
   if (is_due(X_OR)) {
     ++tick_;
-    const PlanScan prepared_scan = prepare_scan(scan, X_OR);
+    const PlanScan prepared_scan =
+        prepare_scan(lidar_odometry_ ? std::move(tracked) : deskew(scan, motion_, input_.calibration), X_OR);
     if (cloud_.add(prepared_scan.deskewed, X_OR)) cloud_stamps_.push_back(scan.stamp);
     record_stage("deskew", stopwatch, output);
     use_scan(prepared_scan, output);
@@ -59,7 +68,7 @@ Output PlanLocalization::on_scan(const Scan& scan) {
   for (const Hypothesis& hypothesis : output.hypotheses) digest.add(hypothesis.mass).add(hypothesis.X_WR);
   output.digests.push_back({"pose", digest.add(static_cast<int>(output.state)).value()});
   trajectory_.add_scan(scan.stamp, X_OR);
-  motion_.forget_before(scan.stamp - 1'000'000'000);
+  if (!lidar_odometry_) motion_.forget_before(scan.stamp - 1'000'000'000);
   return output;
 }
 
@@ -75,9 +84,16 @@ bool PlanLocalization::is_due(const Pose& X_OR) const {
   return u.t.norm() >= config_.update_m || std::abs(u.yaw) >= config_.update_rad;
 }
 
-PlanScan PlanLocalization::prepare_scan(const Scan& scan, const Pose& X_OR) const {
+Pose PlanLocalization::track(const Scan& raw, DeskewedScan& scan) {
+  scan = lidar_odometry_->deskewed(raw);
+  if (!q_OM_) q_OM_ = level_by_floor(detect_planes(scan, {}));
+  const Registration odometry = lidar_odometry_->track(raw, scan);
+  return Pose{*q_OM_, Eigen::Vector3d::Zero()} * odometry.X_MR;
+}
+
+PlanScan PlanLocalization::prepare_scan(DeskewedScan scan, const Pose& X_OR) const {
   PlanScan out;
-  out.deskewed = deskew(scan, motion_, input_.calibration);
+  out.deskewed = std::move(scan);
   out.X_OR = X_OR;
   if (X_OR_update_) out.u = heading(*X_OR_update_).inverse() * heading(X_OR);
   out.q_HR = exp_so3({0.0, 0.0, -X_OR.yaw()}) * X_OR.q;
@@ -85,7 +101,7 @@ PlanScan PlanLocalization::prepare_scan(const Scan& scan, const Pose& X_OR) cons
     // Rounded, so that a plan moved as a whole gives the same numbers.
     const double yaw_I = std::round((*input_.prior.yaw_W - index_.X_WI.yaw()) * 1e9) * 1e-9;
     out.prior_yaw_I = wrap_angle(yaw_I + X_OR.yaw() - X_OR_start_->yaw());
-    out.prior_yaw_sigma = input_.prior.yaw_sigma + config_.yaw_drift * seconds(scan.stamp);
+    out.prior_yaw_sigma = input_.prior.yaw_sigma + config_.yaw_drift * seconds(out.deskewed.stamp);
   }
   out.tick = tick_;
   return out;

@@ -8,6 +8,7 @@
 #include "bim/config/visit.h"
 #include "slam/io/method.h"
 #include "slam/io/stopwatch.h"
+#include "slam/odometry/front_end.h"
 #include "slam/particles/particles.h"
 #include "slam/plan_map/plan_index.h"
 #include "slam/plan_method/corrected_trajectory.h"
@@ -56,8 +57,8 @@ struct PlanScan {
   std::uint64_t tick = 0;             ///< counts the updates, from 1
 };
 
-/// What all localizations in a plan share: odometry, when a scan is used, the plan in its own frame I, what is reported
-/// in W, and the trajectory and map at the end.
+/// What all localizations in a plan share: odometry, by scan matching where the robot has none, when a scan is used,
+/// the plan in its own frame I, what is reported in W, and the trajectory and map at the end.
 class PlanLocalization : public Method {
  public:
   /// Throws InputError when there is no plan, no such storey, or no room in it.
@@ -100,12 +101,16 @@ class PlanLocalization : public Method {
 
  private:
   [[nodiscard]] bool is_due(const Pose& X_OR) const;
-  [[nodiscard]] PlanScan prepare_scan(const Scan& scan, const Pose& X_OR) const;
+  [[nodiscard]] PlanScan prepare_scan(DeskewedScan scan, const Pose& X_OR) const;
+  /// R in O by scan matching, for a robot without odometry; the scan is deskewed. O stands on the first floor seen.
+  [[nodiscard]] Pose track(const Scan& raw, DeskewedScan& scan);
 
   MethodInput input_;
   PlanMethodConfig config_;
   PlanIndex index_;
   MotionBuffer motion_;
+  std::optional<FrontEnd> lidar_odometry_;  ///< where the robot has no odometry
+  std::optional<Eigen::Quaterniond> q_OM_;  ///< of its map's frame, once a scan was seen
   std::optional<Pose> X_OR_start_, X_OR_update_;
   std::uint64_t tick_ = 0;
   CorrectedTrajectory trajectory_;

@@ -11,10 +11,12 @@
 #include <limits>
 #include <optional>
 #include <tuple>
+#include <utility>
 
 #include "bim/random/stream.h"
 #include "slam/planes/forms.h"
 #include "slam/planes/patch.h"
+#include "slam/planes/sac_segmentation.h"
 #include "slam/scan/voxel.h"
 
 namespace plumbline::slam {
@@ -108,14 +110,43 @@ class Sampler {
   std::vector<Pair> pairs_;
 };
 
-/// Moves the points within the distance of the plane out of `points`.
-std::vector<std::uint32_t> take_inliers(const DeskewedScan& scan, const Plane& plane, double distance_m,
-                                        std::vector<std::uint32_t>& points) {
+/// A plane and its returns.
+struct PlanePoints {
+  Plane plane;
+  std::vector<std::uint32_t> inliers;
+};
+
+/// Takes the inliers out of `points`; nothing when no three points span a plane.
+std::optional<PlanePoints> take_plane(const DeskewedScan& scan, const RansacConfig& config, const Stream& stream,
+                                      std::uint32_t round, std::vector<std::uint32_t>& points) {
+  const std::optional<Plane> plane =
+      Sampler(scan, points, config).best(stream, static_cast<std::uint64_t>(scan.stamp), round);
+  if (!plane) return std::nullopt;
   std::vector<std::uint32_t> inliers, rest;
   for (const std::uint32_t i : points)
-    (std::abs(plane.distance(scan.point_R[i])) <= distance_m ? inliers : rest).push_back(i);
+    (std::abs(plane->distance(scan.point_R[i])) <= config.distance_m ? inliers : rest).push_back(i);
   points = std::move(rest);
-  return inliers;
+  return PlanePoints{*plane, std::move(inliers)};
+}
+
+/// The same by PCL.
+std::optional<PlanePoints> take_pcl_plane(const DeskewedScan& scan, const RansacConfig& config,
+                                          std::vector<std::uint32_t>& points) {
+  std::vector<Eigen::Vector3d> points_R;
+  points_R.reserve(points.size());
+  for (const std::uint32_t i : points) points_R.push_back(scan.point_R[i]);
+  const std::optional<SacPlane> found = sac_plane(points_R, config.distance_m, config.iterations, config.confidence);
+  if (!found) return std::nullopt;
+  PlanePoints taken{found->plane, {}};
+  std::vector<std::uint32_t> rest;
+  auto inlier = found->inliers.begin();
+  for (std::uint32_t k = 0; k < points.size(); ++k) {
+    const bool in = inlier != found->inliers.end() && *inlier == k;
+    (in ? taken.inliers : rest).push_back(points[k]);
+    if (in) ++inlier;
+  }
+  points = std::move(rest);
+  return taken;
 }
 
 /// Stretches of a plane's points: those at most two cells of half the gap apart belong together. By first point.
@@ -194,13 +225,13 @@ std::vector<PlaneObservation> ransac_planes(const DeskewedScan& scan, const Rans
   std::vector<std::uint32_t> points = thinned(scan, config);
   std::vector<PlaneObservation> planes;
   for (std::uint32_t round = 0; points.size() > static_cast<std::size_t>(config.min_left); ++round) {
-    const std::optional<Plane> plane =
-        Sampler(scan, points, config).best(stream, static_cast<std::uint64_t>(scan.stamp), round);
-    if (!plane) break;
-    const std::vector<std::uint32_t> inliers = take_inliers(scan, *plane, config.distance_m, points);
-    const bool level = axis_of(plane->n) == PlaneAxis::horizontal;
+    const std::optional<PlanePoints> found = config.source == RansacSource::pcl
+                                                 ? take_pcl_plane(scan, config, points)
+                                                 : take_plane(scan, config, stream, round, points);
+    if (!found) break;
+    const bool level = axis_of(found->plane.n) == PlaneAxis::horizontal;
     const auto enough = static_cast<std::size_t>(level ? config.min_horizontal : config.min_inliers);
-    if (inliers.size() >= enough) add_patches(scan, *plane, inliers, config, noise, planes);
+    if (found->inliers.size() >= enough) add_patches(scan, found->plane, found->inliers, config, noise, planes);
   }
   return planes;
 }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
 #include "bim/config/visit.h"
@@ -9,8 +11,13 @@
 
 namespace plumbline::slam {
 
-/// Defaults: those of the papers' code [lsg2022].
+/// Whose RANSAC: ours, or pcl::SACSegmentation, which the papers' code calls.
+enum class RansacSource { ours, pcl };
+[[nodiscard]] constexpr std::array<std::string_view, 2> names_of(RansacSource) { return {"ours", "pcl"}; }
+
+/// Defaults: those of the papers' code [lsg2022], but for the source.
 struct RansacConfig {
+  RansacSource source = RansacSource::ours;
   double min_range_m = 0.5;
   double max_range_m = 100.0;
   double voxel_m = 0.1;
@@ -26,6 +33,7 @@ struct RansacConfig {
 
   template <class V>
   void visit(V& v) {
+    v("source", source, Field{.doc = "whose RANSAC: ours, or SACSegmentation of PCL as in the papers' code"});
     v("min_range_m", min_range_m, Field{.doc = "least range of a return that is used", .min = 0});
     v("max_range_m", max_range_m, Field{.doc = "largest range of a return that is used", .min = 1});
     v("voxel_m", voxel_m, Field{.doc = "voxel size at which a scan is thinned to one return each", .min = 0.01});
@@ -47,8 +55,8 @@ struct RansacConfig {
 
 /// Planes of one scan by sequential RANSAC [bavle2023, section IV-B]: the plane with most returns within distance_m of
 /// it is fitted, its inliers leave whether it is large enough or not, and the search goes on with the rest. Stretches
-/// of one plane that lie apart are planes of their own. In the order found. Draws are addressed by the scan's stamp, so
-/// that no scan depends on another; seed: the method's.
+/// of one plane that lie apart are planes of their own. In the order found. No scan depends on another: draws of ours
+/// are addressed by the scan's stamp and the method's seed, PCL begins anew at each plane.
 [[nodiscard]] std::vector<PlaneObservation> ransac_planes(const DeskewedScan& scan, const RansacConfig& config,
                                                           const PlaneDetectorConfig& noise, std::uint64_t seed);
 

@@ -34,9 +34,7 @@ struct CloudRegistrationConfig {
   }
 };
 
-/// One surfel per voxel: the mean of its points, and the normal of all points in it and the six voxels round it, so
-/// that no neighbour is searched for. In the order of each voxel's first point. Points that are not finite are left
-/// out.
+/// See cell_surfels().
 [[nodiscard]] std::vector<Surfel> cloud_surfels(std::span<const Eigen::Vector3f> points,
                                                 const CloudRegistrationConfig& config);
 

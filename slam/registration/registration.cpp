@@ -2,8 +2,13 @@
 #include "slam/registration/registration.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
+#include <vector>
+
+#include "bim/median.h"
 
 namespace plumbline::slam {
 
@@ -15,6 +20,13 @@ Matrix6d block_rotation(const Eigen::Matrix3d& R_MR) {
   b.topLeftCorner<3, 3>() = R_MR;
   b.bottomRightCorner<3, 3>() = R_MR;
   return b;
+}
+
+/// Takes the surfels' information from degenerate directions and holds those weakly to the start.
+void leave_open(Normal6& normal, const Observability& seen, double sigma_m, const Pose& start, const Pose& X_MR) {
+  const Matrix6d weak = seen.degenerate / (sigma_m * sigma_m);
+  normal.h = seen.kept.transpose() * normal.h * seen.kept + weak;
+  normal.g = seen.kept.transpose() * normal.g + weak * log_se3(start.inverse() * X_MR);
 }
 
 }  // namespace
@@ -84,20 +96,63 @@ Normal6 linearize(std::span<const Surfel> surfels, const SurfelMap& map, const P
     if (squared > 2.0 * scale2) continue;
     sum.inliers += 1.0;
     sum.squared += squared;
+    sum.across.push_back(std::abs(normal_M.dot(e)));
   }
   to_right_increment(sum, R_MR);
   return sum;
 }
 
+Observability observability(std::span<const Surfel> surfels, const SurfelMap& map, const Pose& X_MR,
+                            const RegistrationConfig& config) {
+  const Eigen::Matrix3d R_MR = X_MR.rotation();
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen3;
+  Normal6 sum;
+  std::vector<double> distances;
+  for (const Surfel& surfel : surfels) {
+    const Eigen::Vector3d arm_M = R_MR * surfel.mean_R, normal_M = R_MR * surfel.normal_R;
+    const SurfelMap::Voxel* voxel = map.find(arm_M + X_MR.t, normal_M, config.min_normal_agreement);
+    if (voxel == nullptr) continue;
+    // The map's normal is the mean of many; scatter of a surfel's own would pass for information.
+    eigen3.computeDirect(voxel->normals);
+    const Eigen::Vector3d mean_M = eigen3.eigenvectors().col(2);
+    add_point(sum, arm_M, mean_M * mean_M.transpose(), Eigen::Vector3d::Zero());
+    distances.push_back(surfel.mean_R.norm());
+  }
+  Observability result;
+  constexpr std::size_t fewest = 10;  // six directions and some more
+  if (distances.size() < fewest) return result;
+  to_right_increment(sum, R_MR);
+  const double distance = std::max(upper_median(distances), 0.1);
+  Vector6d unit;
+  unit << Eigen::Vector3d::Ones(), Eigen::Vector3d::Constant(1.0 / distance);
+  const Matrix6d scaled = unit.asDiagonal() * sum.h * unit.asDiagonal() / static_cast<double>(distances.size());
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(scaled);
+  result.least_eigenvalue = eigen.eigenvalues()(0);
+  for (int k = 0; k < 6 && eigen.eigenvalues()(k) < config.least_eigenvalue; ++k) {
+    const Vector6d direction = unit.cwiseProduct(eigen.eigenvectors().col(k));
+    const Vector6d part = eigen.eigenvectors().col(k).cwiseQuotient(unit);
+    result.kept -= direction * part.transpose();
+    result.degenerate += part * part.transpose();
+    result.degenerate_directions.push_back(direction);
+  }
+  return result;
+}
+
 Registration align(std::span<const Surfel> surfels, const SurfelMap& map, const Pose& start,
                    const std::optional<PosePrior>& prior, const RegistrationConfig& config,
-                   const AdditionalFactors& additional) {
+                   const AdditionalFactors& additional, double degenerate_sigma_m,
+                   const std::optional<Pose>& expected) {
   Registration result;
   result.X_MR = start;
+  const Observability seen = observability(surfels, map, start, config);
+  result.least_eigenvalue = seen.least_eigenvalue;
+  result.degenerate_directions = static_cast<int>(seen.degenerate_directions.size());
   Normal6 normal;
   while (result.iterations < config.max_iterations && !result.converged) {
     ++result.iterations;
     normal = linearize(surfels, map, result.X_MR, config);
+    if (!seen.degenerate_directions.empty())
+      leave_open(normal, seen, degenerate_sigma_m, expected.value_or(start), result.X_MR);
     if (additional) {
       const Normal6 terms = additional(result.X_MR);
       normal.h += terms.h;
@@ -111,7 +166,15 @@ Registration align(std::span<const Surfel> surfels, const SurfelMap& map, const 
     result.converged =
         step->head<3>().norm() < config.translation_epsilon_m && step->tail<3>().norm() < config.rotation_epsilon_rad;
   }
+  if (!seen.degenerate_directions.empty()) {
+    Matrix6d known = prior ? prior->information : Matrix6d(Matrix6d::Zero());
+    if (additional) known += additional(result.X_MR).h;
+    constexpr double known_m = 0.01;  // a stray edge or two tell nothing
+    for (const Vector6d& direction : seen.degenerate_directions)
+      if (direction.dot(known * direction) * known_m * known_m < 1.0) ++result.unobserved_directions;
+  }
   if (!surfels.empty()) result.matched = normal.inliers / static_cast<double>(surfels.size());
+  if (!normal.across.empty()) result.residual_m = 1.4826 * upper_median(normal.across);
   if (normal.inliers > 0.0) result.rms = std::sqrt(normal.squared / normal.inliers);
   return result;
 }

@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "bim/config/visit.h"
 #include "bim/geometry/pose.h"
@@ -19,6 +20,7 @@ struct RegistrationConfig {
   int max_iterations = 15;
   double translation_epsilon_m = 2e-4;
   double rotation_epsilon_rad = 2e-5;
+  double least_eigenvalue = 0.003;
 
   template <class V>
   void visit(V& v) {
@@ -39,6 +41,8 @@ struct RegistrationConfig {
       Field{.doc = "translation of a step below which the iteration stops", .min = 0.0});
     v("rotation_epsilon_rad", rotation_epsilon_rad,
       Field{.doc = "rotation of a step below which the iteration stops", .min = 0.0});
+    v("least_eigenvalue", least_eigenvalue,
+      share_field("eigenvalue of the normals' Hessian per surfel below which a direction is degenerate"));
   }
 };
 
@@ -60,8 +64,12 @@ struct Registration {
   Pose X_MR;
   Matrix6d information = Matrix6d::Zero();  ///< Gauss-Newton Hessian of the surfels alone, of the right increment
                                             ///< (rho in m, phi in rad); counts every surfel as independent
-  double matched = 0.0;  ///< share of the surfels that fall into a voxel and are not outliers, 0 to 1
-  double rms = 0.0;      ///< of the inliers' Mahalanobis distances; 0.3 to 0.8 for a good match
+  double matched = 0.0;           ///< share of the surfels that fall into a voxel and are not outliers, 0 to 1
+  double rms = 0.0;               ///< of the inliers' Mahalanobis distances; 0.3 to 0.8 for a good match
+  double residual_m = 0.0;        ///< 1.4826 times the median distance of inliers from the surfaces they meet
+  double least_eigenvalue = 1.0;  ///< of the normals' Hessian per surfel, rotations times the surfels' median distance
+  int degenerate_directions = 0;  ///< that surfaces leave open: edges, odometry or the start decided there
+  int unobserved_directions = 0;  ///< of those, the ones in which neither edges nor odometry tell anything
   int iterations = 0;
   bool converged = false;
   bool accepted = true;        ///< false: X_MR is dead reckoning, the scan did not fit
@@ -75,17 +83,33 @@ struct Normal6 {
   Vector6d g = Vector6d::Zero();
   double cost = 0.0;
   double inliers = 0.0;
-  double squared = 0.0;  ///< sum over the inliers of the squared Mahalanobis distance
+  double squared = 0.0;        ///< sum over the inliers of the squared Mahalanobis distance
+  std::vector<double> across;  ///< distance of each inlier from the surface it meets, m
 };
 
 /// Additional factors of a pose: normal equations of the right increment at X_MR, in units of standard deviations.
 using AdditionalFactors = std::function<Normal6(const Pose& X_MR)>;
 
+/// What surfaces tell of a pose [zhang2016]: point-to-plane Hessian per surfel by the right increment, its rotations
+/// multiplied by the surfels' median distance, so that all of it is in the same unit.
+struct Observability {
+  double least_eigenvalue = 1.0;
+  std::vector<Vector6d> degenerate_directions;  ///< unit increments
+  Matrix6d kept = Matrix6d::Identity();         ///< takes from an increment what it has of degenerate directions
+  Matrix6d degenerate = Matrix6d::Zero();       ///< information of 1 / m^2 in those alone
+};
+[[nodiscard]] Observability observability(std::span<const Surfel> surfels, const SurfelMap& map, const Pose& X_MR,
+                                          const RegistrationConfig& config);
+
 /// Voxelized GICP: minimises sum rho(e^T (C_voxel + R C_surfel R^T)^-1 e) with e the vector from the moved surfel to
-/// the mean of the voxel it falls in, plus the prior and `additional` if any, by Gauss-Newton on SE(3) from `start`.
+/// the mean of the voxel it falls in, plus the prior and `additional` if any, by Gauss-Newton on SE(3) from `start`. In
+/// directions that are degenerate at the start surfels count for nothing: what they pull along their own surfaces would
+/// hold the robot where it was. There the pose is kept to `expected`, else the start, within degenerate_sigma_m
+/// (rotations: at the surfels' median distance), unless prior or `additional` know better.
 [[nodiscard]] Registration align(std::span<const Surfel> surfels, const SurfelMap& map, const Pose& start,
                                  const std::optional<PosePrior>& prior, const RegistrationConfig& config,
-                                 const AdditionalFactors& additional = {});
+                                 const AdditionalFactors& additional = {}, double degenerate_sigma_m = 0.1,
+                                 const std::optional<Pose>& expected = std::nullopt);
 
 /// Adds a point at arm_M from the robot, displaced by e: weighted information W and W e, axes of M.
 void add_point(Normal6& sum, const Eigen::Vector3d& arm_M, const Eigen::Matrix3d& weight,

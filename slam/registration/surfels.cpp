@@ -8,6 +8,8 @@
 #include <cstddef>
 #include <optional>
 
+#include "slam/registration/cell_surfels.h"
+
 namespace plumbline::slam {
 
 namespace {
@@ -71,9 +73,25 @@ class Neighbourhood {
   const double azimuth_step_rad_;  ///< between columns
 };
 
+std::vector<Surfel> surfels_of_cells(const DeskewedScan& scan, const SurfelConfig& config) {
+  std::vector<Eigen::Vector3f> points;
+  points.reserve(scan.range_m.size());
+  for (std::size_t i = 0; i < scan.range_m.size(); ++i)
+    if (scan.range_m[i] >= config.min_range_m && scan.range_m[i] <= config.max_range_m && scan.range_m[i] > 0.0)
+      points.push_back(scan.point_R[i].cast<float>());
+  return cell_surfels(points, {config.voxel_m, config.min_neighbours, config.max_thickness_m});
+}
+
 }  // namespace
 
+bool has_ring_image(const DeskewedScan& scan) {
+  // With many rings every voxel has neighbours to all sides, and ten columns of a ring span centimetres.
+  constexpr int fewest_rings = 8, most_rings = 40;
+  return scan.rings >= fewest_rings && scan.rings <= most_rings;
+}
+
 std::vector<Surfel> make_surfels(const DeskewedScan& scan, const SurfelConfig& config) {
+  if (!has_ring_image(scan)) return surfels_of_cells(scan, config);
   const Neighbourhood neighbourhood(scan, config);
   VoxelIndex seen;
   std::vector<Surfel> surfels;

@@ -43,7 +43,11 @@ struct Surfel {
   Eigen::Vector3d normal_R;  ///< unit, sign free
 };
 
-/// Surfels of a scan: one raw return a voxel, its neighbours in the ring image, their scatter. In firing order.
+/// Whether a scan has few rings, but some: its neighbours are sought in the ring image then, and its edges along rings.
+[[nodiscard]] bool has_ring_image(const DeskewedScan& scan);
+
+/// Surfels of a scan. Of few rings: one raw return a voxel, its neighbours in the ring image, their scatter; in firing
+/// order. Of many rings or without any: one a voxel, from its returns and those of the voxels round it.
 [[nodiscard]] std::vector<Surfel> make_surfels(const DeskewedScan& scan, const SurfelConfig& config);
 
 /// Gaussian voxel map in M: each voxel pools the surfels that fell into it.

@@ -3,6 +3,7 @@
 
 #include <deque>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "bim/config/visit.h"
@@ -30,6 +31,10 @@ struct VgicpConfig {
   double prior_per_rad = 0.05;
   bool tilt_prior = true;
   double tilt_rad = 0.01;
+  double reference_range_m = 6.0;
+  double largest_scale = 6.0;
+  int coarse_levels = 2;
+  int coarse_share = 4;
 
   template <class V>
   void visit(V& v) {
@@ -74,8 +79,10 @@ class VgicpOdometry {
   /// X_OR: leg odometry at scan.stamp, in a frame whose z is up: its increments are start and prior, its tilt a prior;
   /// neither is used where odometry is not valid.
   [[nodiscard]] Registration update(const DeskewedScan& scan, const Pose& X_OR);
-  /// The two halves of update(): where the scan fits, and taking it in there, into the map only if `mapped`.
-  [[nodiscard]] Registration match(const DeskewedScan& scan, const OdometrySample& odometry);
+  /// The two halves of update(): where the scan fits, and taking it in there, into the map only if `mapped`. Where
+  /// fewer of its surfels fit than is usual, coarser maps place it first, from several starts.
+  [[nodiscard]] Registration match(const DeskewedScan& scan, const OdometrySample& odometry,
+                                   double usual_matched = 0.0);
   void commit(const Pose& X_MR, bool mapped);
   /// Whether there is a map to match against.
   [[nodiscard]] bool ready() const { return !keyframes_.empty(); }
@@ -91,16 +98,29 @@ class VgicpOdometry {
   };
 
   [[nodiscard]] PosePrior predict(const DeskewedScan& scan, const OdometrySample& odometry) const;
+  [[nodiscard]] Registration align_finely(const Pose& start, const std::optional<PosePrior>& prior,
+                                          const OdometrySample& odometry) const;
+  /// The start that leads to the most matches in coarse maps, and where it leads.
+  [[nodiscard]] Registration align_coarsely(std::span<const Pose> starts) const;
   void insert(const Pose& X_MR);
+  /// Follows the scene's scale: all sizes change by steps, since the map is made anew.
+  void follow_scale(const DeskewedScan& scan);
+  void set_scale(double scale);
 
   VgicpConfig config_;
-  SurfelMap map_;
+  SurfelConfig surfels_;             ///< at the scene's scale
+  RegistrationConfig registration_;  ///< likewise
+  RegistrationConfig fine_;          ///< for the scan last matched
+  std::vector<SurfelMap> maps_;      ///< finest first
   EdgeMap edge_map_;
   std::deque<Keyframe> keyframes_;
   std::vector<Surfel> scan_;              ///< surfels of the scan last matched ...
+  std::vector<Surfel> few_;               ///< ... a share of them ...
   std::vector<Eigen::Vector3d> edges_R_;  ///< ... and its edge points
+  double median_range_m_ = 0.0;           ///< low-pass filtered; 0 before the first scan
+  double scale_ = 1.0;
   Pose X_MR_;
-  Pose X_OR_;
+  Pose X_OR_;                               ///< what update() was given last
   std::optional<Eigen::Quaterniond> q_OM_;  ///< of the first scan, where M starts: gives the vertical in M
   bool is_keyframe_ = false;
 };

@@ -17,8 +17,8 @@ class MotionBuffer {
   static constexpr Nanoseconds max_extrapolation = 20'000'000;
   /// Farther than a robot goes between two records: the odometry has jumped. Its frame is then moved along, so that the
   /// robot keeps position and heading over the jump; only increments and tilt mean anything.
-  static constexpr double max_speed_mps = 10.0;
-  static constexpr double max_turn_radps = 20.0;
+  static constexpr double max_speed_mps = 60.0;
+  static constexpr double max_turn_radps = 60.0;
   /// Age of the newest record from which the odometry counts as stale: one and a half periods of one of 10 Hz.
   static constexpr Nanoseconds max_age = 150'000'000;
 
@@ -48,10 +48,12 @@ class MotionBuffer {
 /// heading, since z is up in both and the robot's tilt is its own.
 [[nodiscard]] Pose join_frames(const Pose& X_OR, const Pose& X_BR);
 
-/// Odometry at a scan's stamp.
+/// What is known of a scan's pose before it is matched.
 struct OdometrySample {
-  Pose X_OR;          ///< z of O is up
-  bool valid = true;  ///< false: the motion from the scan before is not known
+  Pose step;                               ///< of R since the scan before: where a search starts
+  bool valid = true;                       ///< false: nothing measured the step
+  double sigma_m = 0.1;                    ///< of the step, if nothing measured it
+  std::optional<Eigen::Quaterniond> q_OR;  ///< R's attitude in a frame whose z is up, where odometry tells it
 };
 
 /// A scan with every return moved to R at scan.stamp. Index of a return: column * rings + ring; rings are in line, that

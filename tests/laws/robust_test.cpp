@@ -103,7 +103,8 @@ TEST_P(Robust, FaultyInputsEndInAStatedState) {
     const bool kidnapped = frames[k].scan.stamp >= walk.frames[kidnapped_at].scan.stamp;
     lost_after_kidnapping |= kidnapped && output.state == slam::State::lost;
   }
-  if (!localizes && GetParam() != "odometry") {
+  // KISS-ICP has no notion of its health: its threshold opens until the new place matches.
+  if (!localizes && GetParam() != "odometry" && !GetParam().starts_with("kiss_icp")) {
     EXPECT_TRUE(lost_after_kidnapping);
   }
   for (const auto& pose : answer.estimate.trajectory) EXPECT_TRUE(finite(pose.X_FR));

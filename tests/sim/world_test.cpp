@@ -7,6 +7,7 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <vector>
 
 #include "bim/digest/digest.h"
 #include "bim/errors.h"
@@ -252,6 +253,94 @@ TEST(World, WithoutARouteItStands) {
   while (world.next(frame)) ++frames;
   EXPECT_EQ(frames, 29);
   EXPECT_NEAR((frame.truth.poses.back().X_WR.t.head<2>() - Eigen::Vector2d(1.5, 2.5)).norm(), 0.0, 0.02);
+}
+
+/// Sensor records of a run, with the truth of its scans.
+struct Records {
+  std::vector<slam::Imu> imu;
+  std::vector<slam::Odometry> odometry;
+  std::vector<slam::OdometryCovariance> covariances;
+  std::vector<std::vector<double>> ranges_m;
+  std::vector<TruePose> truth;
+};
+
+Records records_of(const Faults& faults) {
+  WorldConfig c = config({{1.5, 2.5}, {3.0, 2.5}}, 2.0);
+  c.faults = faults;
+  World world = make_world(c);
+  Records out;
+  for (WorldFrame frame; world.next(frame);) {
+    const slam::SensorFrame& s = frame.sensors;
+    EXPECT_LE(s.imu.back().stamp, s.scan.stamp);
+    EXPECT_LE(s.odometry.back().stamp, s.scan.stamp);
+    EXPECT_EQ(frame.truth.poses.back().stamp, s.scan.stamp);
+    out.imu.insert(out.imu.end(), s.imu.begin(), s.imu.end());
+    out.odometry.insert(out.odometry.end(), s.odometry.begin(), s.odometry.end());
+    out.covariances.insert(out.covariances.end(), s.covariances.begin(), s.covariances.end());
+    out.ranges_m.push_back(s.scan.range_m);
+    out.truth.push_back(frame.truth.poses.back());
+  }
+  for (std::size_t i = 1; i < out.odometry.size(); ++i) {
+    EXPECT_GT(out.odometry[i].stamp, out.odometry[i - 1].stamp);
+    EXPECT_EQ(out.covariances[i - 1].stamp, out.odometry[i].stamp);
+  }
+  for (std::size_t i = 1; i < out.imu.size(); ++i) EXPECT_GT(out.imu[i].stamp, out.imu[i - 1].stamp);
+  return out;
+}
+
+void expect_same_truth(const Records& a, const Records& b) {
+  EXPECT_EQ(a.ranges_m, b.ranges_m);
+  ASSERT_EQ(a.truth.size(), b.truth.size());
+  for (std::size_t i = 0; i < a.truth.size(); ++i) EXPECT_EQ(a.truth[i].X_WR.t, b.truth[i].X_WR.t);
+}
+
+TEST(World, AClockOffsetShiftsStampsAndNothingElse) {
+  const Records right = records_of({});
+  Faults faults;
+  faults.clock.offset_s = 0.03;
+  const Records late = records_of(faults);
+  expect_same_truth(right, late);
+  ASSERT_EQ(late.odometry.size() + 3, right.odometry.size());
+  for (std::size_t i = 0; i < late.odometry.size(); ++i) {
+    EXPECT_EQ(late.odometry[i].X_OR.t, right.odometry[i].X_OR.t);
+    EXPECT_EQ(late.odometry[i].stamp, right.odometry[i].stamp + (i > 0 ? 30'000'000 : 0));
+  }
+  faults.clock.offset_s = -0.03;
+  const Records early = records_of(faults);
+  expect_same_truth(right, early);
+  ASSERT_EQ(early.odometry.size(), right.odometry.size());
+  for (std::size_t i = 1; i + 3 < right.odometry.size(); ++i) {
+    EXPECT_EQ(early.odometry[i].X_OR.t, right.odometry[i + 3].X_OR.t);
+    EXPECT_EQ(early.odometry[i].stamp, right.odometry[i].stamp);
+  }
+  EXPECT_EQ(early.imu[1].angular_velocity_R, right.imu[1 + 7].angular_velocity_R) << "28 ms would be before the first";
+}
+
+TEST(World, JitteredStampsKeepTheirOrderAndTheWalkItsTruth) {
+  Faults faults;
+  faults.clock = {0.01, 0.004};
+  const Records right = records_of({}), jittered = records_of(faults);
+  expect_same_truth(right, jittered);
+  EXPECT_GT(jittered.odometry.size() + 5, right.odometry.size());
+}
+
+TEST(World, FaultsOfFeetAndImuReachOdometryAndNotTheTruth) {
+  const Records right = records_of({});
+  Faults faults;
+  faults.slip = {0.5, 0.2, 1.0};
+  const Records slipping = records_of(faults);
+  expect_same_truth(right, slipping);
+  // Two slips of 10 cm of any direction.
+  EXPECT_GT((slipping.odometry.back().X_OR.t - right.odometry.back().X_OR.t).norm(), 0.01);
+  faults = {};
+  faults.imu.gyro_bias = 0.1;
+  const Records biased = records_of(faults);
+  expect_same_truth(right, biased);
+  const double turned = wrap_angle(biased.odometry.back().X_OR.yaw() - right.odometry.back().X_OR.yaw());
+  EXPECT_NEAR(std::abs(turned), 0.1 * slam::seconds(right.odometry.back().stamp), 0.02);
+  for (std::size_t i = 0; i < right.imu.size(); ++i)
+    EXPECT_NEAR((biased.imu[i].angular_velocity_R - right.imu[i].angular_velocity_R).norm(), 0.1 * std::sqrt(3.0),
+                1e-9);
 }
 
 TEST(World, AMissingStoreyIsBadInput) {

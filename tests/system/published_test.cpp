@@ -44,13 +44,13 @@ double worst_committed_ate(const std::string& scenario, const std::string& metho
     EXPECT_NE(at, columns.end()) << name;
     return static_cast<std::size_t>(at - columns.begin());
   };
-  const std::size_t of_scenario = column("scenario"), of_method = column("method"),
+  const std::size_t of_scenario = column("scenario"), of_method = column("method"), of_sensors = column("sensors"),
                     of_ate = column("ate_aligned_rmse_m");
   double worst = 0.0;
   int rows = 0;
   while (std::getline(table, line)) {
     const std::vector<std::string> cells = cells_of(line);
-    if (cells.at(of_scenario) != scenario || cells.at(of_method) != method) continue;
+    if (cells.at(of_scenario) != scenario || cells.at(of_method) != method || cells.at(of_sensors) != "all") continue;
     worst = std::max(worst, std::stod(cells.at(of_ate)));
     ++rows;
   }

@@ -2,17 +2,12 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <optional>
-#include <string>
 #include <vector>
 
 #include "bim/geometry/pose.h"
 
 /// Our registration of two clouds against PCL's, on real scans.
 namespace plumbline::scenarios {
-
-/// Vertices of a binary little-endian .ply whose properties are all float and begin with x, y, z. Throws InputError.
-[[nodiscard]] std::vector<Eigen::Vector3f> read_ply(const std::string& file);
 
 /// What one registration gave and cost.
 struct Registered {
@@ -23,8 +18,8 @@ struct Registered {
 /// Both thin the clouds, find their normals or covariances and match them, from the identity.
 [[nodiscard]] Registered register_ours(const std::vector<Eigen::Vector3f>& target_T,
                                        const std::vector<Eigen::Vector3f>& source_S);
-/// Voxel grid of 0.25 m and GICP at its defaults, one thread. Nothing in a program that was built without PCL.
-[[nodiscard]] std::optional<Registered> register_pcl(const std::vector<Eigen::Vector3f>& target_T,
-                                                     const std::vector<Eigen::Vector3f>& source_S);
+/// Voxels of 0.25 m and PCL's GICP at its defaults, one thread.
+[[nodiscard]] Registered register_pcl(const std::vector<Eigen::Vector3f>& target_T,
+                                      const std::vector<Eigen::Vector3f>& source_S);
 
 }  // namespace plumbline::scenarios

@@ -3,8 +3,7 @@
 
 #include "bim/digest/digest.h"
 #include "slam/io/stopwatch.h"
-#include "slam/odometry/constant_velocity.h"
-#include "slam/odometry/lidar_odometry.h"
+#include "slam/odometry/front_end.h"
 #include "slam/scan/motion.h"
 
 namespace plumbline::slam {
@@ -23,29 +22,36 @@ Registration dead_reckoning(const Pose& X_OR) {
 class LidarOdometryMethod final : public Method {
  public:
   LidarOdometryMethod(const MethodInput& input, const LidarOdometryConfig& config, const MapCloudConfig& map)
-      : calibration_(input.calibration),
-        odometry_(config.kind == OdometryKind::legs ? nullptr : make_lidar_odometry(config)),
+      : dead_reckoning_(config.kind == OdometryKind::legs),
+        calibration_(input.calibration),
+        front_end_(config, input.calibration, input.has_odometry),
         map_(map) {}
 
-  void on_odometry(const Odometry& odometry) override { motion_.add(odometry); }
+  void on_odometry(const Odometry& odometry) override {
+    if (dead_reckoning_) motion_.add(odometry);
+    front_end_.on_odometry(odometry);
+  }
 
   [[nodiscard]] Output on_scan(const Scan& scan) override {
     Output output;
     output.stamp = scan.stamp;
     Stopwatch stopwatch;
-    const DeskewedScan deskewed = deskew(scan, motion_, calibration_);
+    DeskewedScan deskewed = dead_reckoning_ ? deskew(scan, motion_, calibration_) : front_end_.deskewed(scan);
     output.times.push_back({"deskew", stopwatch.cpu_ms()});
     output.digests.push_back({"deskew", digest(deskewed)});
 
     stopwatch.restart();
-    const Pose X_OR = motion_.at(scan.stamp);
-    const Registration registration = odometry_ ? odometry_->update(deskewed, X_OR) : dead_reckoning(X_OR);
+    const Registration registration =
+        dead_reckoning_ ? dead_reckoning(motion_.at(scan.stamp)) : front_end_.track(scan, deskewed);
     output.times.push_back({"odometry", stopwatch.cpu_ms()});
-    output.digests.push_back({"odometry", Digest().add(registration.X_MR).add(registration.matched).value()});
+    output.digests.push_back(
+        {"odometry",
+         Digest().add(registration.X_MR).add(registration.matched).add(registration.degenerate_directions).value()});
 
-    motion_.forget_before(scan.stamp);
+    if (dead_reckoning_) motion_.forget_before(scan.stamp);
     output.X_FR = registration.X_MR;
     if (registration.lost) output.state = State::lost;
+    output.degenerate_directions = registration.degenerate_directions;
     trajectory_.push_back({scan.stamp, registration.X_MR});
     if (registration.accepted || trajectory_.size() == 1) map_.add(deskewed, registration.X_MR);
     return output;
@@ -59,9 +65,10 @@ class LidarOdometryMethod final : public Method {
   }
 
  private:
+  bool dead_reckoning_;  ///< by leg odometry alone, in its own frame
   Calibration calibration_;
   MotionBuffer motion_;
-  std::unique_ptr<LidarOdometry> odometry_;  ///< null: leg odometry alone
+  FrontEnd front_end_;
   MapCloudRecorder map_;
   std::vector<StampedPose> trajectory_;
 };
@@ -72,9 +79,7 @@ std::unique_ptr<Method> make_lidar_odometry_method(const MethodInput& input, Lid
                                                    const MapCloudConfig& map) {
   config.vgicp.odometry_prior &= input.has_odometry;
   config.vgicp.tilt_prior &= input.has_odometry;
-  auto method = std::make_unique<LidarOdometryMethod>(input, config, map);
-  if (input.has_odometry) return method;
-  return with_constant_velocity(std::move(method));
+  return std::make_unique<LidarOdometryMethod>(input, config, map);
 }
 
 }  // namespace plumbline::slam

@@ -21,8 +21,7 @@ namespace {
 
 constexpr double farthest_m = 1000.0;
 constexpr double column_azimuth =
-    0.3 * std::numbers::pi / 180.0;             ///< lasers of a VLP-16 that fire together lie this close
-constexpr Nanoseconds spread_ns = 100'000'000;  ///< one turn, where points have no time
+    0.3 * std::numbers::pi / 180.0;  ///< lasers of a VLP-16 that fire together lie this close
 constexpr Nanoseconds longest_ns = 1'000'000'000;
 constexpr std::uint64_t most_points = 4'000'000;
 constexpr int most_rings = 128;
@@ -148,13 +147,29 @@ std::vector<Point> read_points(const PointCloud& cloud) {
   return points;
 }
 
-/// Rings of a VLP-16 by elevation, for clouds that do not name them.
-void find_rings(std::vector<Point>& points) {
-  for (Point& point : points) {
-    if (point.ring >= 0 || !point.valid) continue;
-    const double elevation_deg = std::atan2(point.p_L.z(), point.p_L.head<2>().norm()) * (180.0 / std::numbers::pi);
-    point.ring = std::clamp(static_cast<int>(std::lround((elevation_deg + 15.0) / 2.0)), 0, vlp16::rings - 1);
+double elevation_deg(const Point& point) {
+  return std::atan2(point.p_L.z(), point.p_L.head<2>().norm()) * (180.0 / std::numbers::pi);
+}
+
+/// Rings of a VLP-16 by elevation, for clouds that do not name them. False, and nothing is changed, unless nearly all
+/// points lie where its lasers point: by chance three in ten do.
+bool find_rings(std::vector<Point>& points) {
+  constexpr double off_deg = 0.3, origin_m = 0.0112;  // of an elevation; of a laser's origin above the sensor's
+  constexpr double least_share = 0.8;
+  std::size_t valid = 0, on_ring = 0;
+  std::vector<int> rings(points.size(), -1);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!points[i].valid) continue;
+    ++valid;
+    const double place = (elevation_deg(points[i]) + 15.0) / 2.0;
+    const double nearest = std::clamp(std::round(place), 0.0, vlp16::rings - 1.0);
+    const double slack_deg = off_deg + origin_m / points[i].p_L.norm() * (180.0 / std::numbers::pi);
+    if (2.0 * std::abs(place - nearest) <= slack_deg) ++on_ring;
+    rings[i] = static_cast<int>(nearest);
   }
+  if (static_cast<double>(on_ring) < least_share * static_cast<double>(valid)) return false;
+  for (std::size_t i = 0; i < points.size(); ++i) points[i].ring = rings[i];
+  return true;
 }
 
 int ring_count(const std::vector<Point>& points) {
@@ -163,6 +178,22 @@ int ring_count(const std::vector<Point>& points) {
   for (const int rings : {16, 32, 64})
     if (highest < rings) return rings;
   return most_rings;
+}
+
+/// Ring 0 is the lowest here; some drivers count from the top.
+void order_rings(std::vector<Point>& points, int rings) {
+  double rising = 0.0;
+  std::vector<double> sum(static_cast<std::size_t>(rings), 0.0), count(sum);
+  for (const Point& point : points) {
+    if (point.ring < 0 || !point.valid) continue;
+    sum[static_cast<std::size_t>(point.ring)] += elevation_deg(point);
+    count[static_cast<std::size_t>(point.ring)] += 1.0;
+  }
+  for (std::size_t r = 1; r < sum.size(); ++r)
+    if (count[r] > 0.0 && count[r - 1] > 0.0) rising += sum[r] / count[r] > sum[r - 1] / count[r - 1] ? 1.0 : -1.0;
+  if (rising >= 0.0) return;
+  for (Point& point : points)
+    if (point.ring >= 0) point.ring = rings - 1 - point.ring;
 }
 
 /// Firing of each point from its time, for a VLP-16 with a time for every laser. False where times do not fit the
@@ -218,24 +249,77 @@ void columns_by_azimuth(std::vector<Point>& points, int rings) {
   static_cast<void>(columns_in_order(points, by_laser, azimuth_max));
 }
 
-/// Gives every point its column; returns how many there are.
-int find_columns(const PointCloud& cloud, std::vector<Point>& points, int rings, bool timed) {
-  const auto count = static_cast<std::uint32_t>(rings);
-  const bool row_a_firing = cloud.width == count && cloud.height > 1;
-  const bool row_a_ring = !row_a_firing && cloud.height == count && cloud.width > 1;
-  for (std::size_t i = 0; i < points.size() && (row_a_firing || row_a_ring); ++i) {
-    points[i].column = static_cast<int>(row_a_firing ? i / cloud.width : i % cloud.width);
-    if (points[i].ring < 0) points[i].ring = static_cast<int>(row_a_firing ? i % cloud.width : i / cloud.width);
-  }
-  if (!row_a_firing && !row_a_ring && !(timed && rings == vlp16::rings && columns_by_time(points)))
-    columns_by_azimuth(points, rings);
+int column_count(const std::vector<Point>& points) {
   int last = 0;
   for (const Point& point : points) last = std::max(last, point.column);
   return last + 1;
 }
 
-void spread_times(std::vector<Point>& points, int columns) {
-  for (Point& point : points) point.time = spread_ns * point.column / columns;
+/// Columns by azimuth alone, for points that come ring by ring or in no order: as many as the fullest ring has points,
+/// and half as many again for those that fall into a column twice, which move to the next free one or are dropped.
+void columns_by_angle(std::vector<Point>& points, int rings) {
+  std::vector<int> filled(static_cast<std::size_t>(rings), 0);
+  for (const Point& point : points)
+    if (point.ring >= 0 && point.valid) ++filled[static_cast<std::size_t>(point.ring)];
+  const int fullest = *std::max_element(filled.begin(), filled.end());
+  const int columns = fullest + fullest / 2 + 1;
+  if (static_cast<std::uint64_t>(columns) * static_cast<std::uint64_t>(rings) > most_points)
+    throw InputError({}, "point cloud with most of its points on one ring");
+  std::vector<bool> taken(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rings), false);
+  for (Point& point : points) {
+    if (point.ring < 0 || !point.valid) {
+      point.ring = -1;
+      continue;
+    }
+    const double turn = 0.5 - std::atan2(point.p_L.y(), point.p_L.x()) / (2.0 * std::numbers::pi);  // clockwise
+    const int column = std::clamp(static_cast<int>(turn * columns), 0, columns - 1);
+    const auto slot = [&](int c) {
+      return static_cast<std::size_t>(c % columns) * static_cast<std::size_t>(rings) +
+             static_cast<std::size_t>(point.ring);
+    };
+    constexpr int reach = 3;
+    int step = 0;
+    while (step < reach && taken[slot(column + step)]) ++step;
+    point.column = (column + step) % columns;
+    if (step == reach) point.ring = -1;
+    if (step < reach) taken[slot(column + step)] = true;
+  }
+}
+
+/// Gives every point its column; returns how many there are.
+int find_columns(const PointCloud& cloud, std::vector<Point>& points, int rings, bool timed) {
+  const auto count = static_cast<std::uint32_t>(rings);
+  const bool row_a_firing = cloud.width == count && cloud.height > 1;
+  const bool row_a_ring = !row_a_firing && cloud.height == count && cloud.width > 1;
+  for (std::size_t i = 0; i < points.size() && (row_a_firing || row_a_ring); ++i)
+    points[i].column = static_cast<int>(row_a_firing ? i / cloud.width : i % cloud.width);
+  if (row_a_firing || row_a_ring) return column_count(points);
+  if (timed && rings == vlp16::rings && columns_by_time(points)) return column_count(points);
+  columns_by_azimuth(points, rings);
+  constexpr std::size_t emptiest = 4;  // slots a point
+  const auto columns = static_cast<std::size_t>(column_count(points));
+  if (columns * static_cast<std::size_t>(rings) > emptiest * std::max(points.size(), columns))
+    columns_by_angle(points, rings);
+  return column_count(points);
+}
+
+/// Rows or columns of an organised cloud as rings, where no field names them. False: it is not organised so.
+bool rings_by_layout(const PointCloud& cloud, std::vector<Point>& points) {
+  const auto is_ring_count = [](std::uint32_t n) { return n == 16 || n == 32 || n == 64 || n == most_rings; };
+  const bool row_a_firing = is_ring_count(cloud.width) && cloud.height > cloud.width;
+  if (!row_a_firing && !(is_ring_count(cloud.height) && cloud.width > 1)) return false;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    points[i].ring = static_cast<int>(row_a_firing ? i % cloud.width : i / cloud.width);
+  return true;
+}
+
+/// A scan without order: one ring, a column a point.
+int without_rings(std::vector<Point>& points) {
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    points[i].ring = 0;
+    points[i].column = static_cast<int>(i);
+  }
+  return static_cast<int>(points.size());
 }
 
 }  // namespace
@@ -280,11 +364,11 @@ Scan scan_of(const PointCloud& cloud) {
   std::vector<Point> points = read_points(cloud);
   const bool timed = find_field(cloud, {"t", "time", "timestamp", "time_stamp"}) != nullptr;
   const bool named_rings = find_field(cloud, {"ring"}) != nullptr;
-  if (!named_rings && cloud.height != vlp16::rings) find_rings(points);
-  const int rings = ring_count(points);
+  const bool ringed = named_rings || rings_by_layout(cloud, points) || find_rings(points);
+  const int rings = ringed ? ring_count(points) : 1;
+  if (ringed) order_rings(points, rings);
   scan.rings = rings;
-  scan.columns = find_columns(cloud, points, rings, timed);
-  if (!timed) spread_times(points, scan.columns);
+  scan.columns = ringed ? find_columns(cloud, points, rings, timed) : without_rings(points);
 
   const auto first_last =
       std::minmax_element(points.begin(), points.end(), [](const Point& a, const Point& b) { return a.time < b.time; });

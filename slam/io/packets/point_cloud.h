@@ -42,8 +42,10 @@ enum class CloudLayout {
 [[nodiscard]] PointCloud cloud_of(const Scan& scan, CloudLayout layout);
 
 /// The scan of a cloud whose fields are found by name and type: x, y, z (f32 or f64); intensity or reflectivity; ring
-/// (else by elevation, for a VLP-16); time (f32, s), timestamp (f64, s, from the stamp or absolute) or t (u32, ns),
-/// else spread over 0.1 s. Columns are the rows or columns of an organised cloud, else found by time or azimuth. Points
+/// (else by the layout of an organised cloud, or by elevation where that is a VLP-16's; else the scan has one ring);
+/// time (f32, s), timestamp (f64, s, from the stamp or absolute) or t (u32, ns). Without times all points have the
+/// cloud's stamp: whether they are deskewed is not known, and undoing a motion twice is as bad as not at all. Columns
+/// are the rows or columns of an organised cloud, else found by time or azimuth; of one ring, a column a point. Points
 /// that are not finite, at the origin or beyond 1 km are no returns. Scan::stamp is the time of the last point; a cloud
 /// without points is a scan without columns at the cloud's. Throws InputError without a mark on a cloud without fields,
 /// of wrong size, with rings above 127 or times over more than 1 s.

@@ -135,15 +135,6 @@ TEST(CloudFile, RoundTripAndDamage) {
   EXPECT_THROW(static_cast<void>(write_ply({{std::numeric_limits<float>::quiet_NaN(), 0, 0}})), InternalError);
 }
 
-TEST(CloudFile, APcdHoldsThePlysPoints) {
-  const std::vector<Eigen::Vector3f> points = {{1.5F, -2.0F, 1e-9F}, {0.0F, 3.25F, 1e9F}};
-  const std::string pcd = write_pcd(points), ply = write_ply(points);
-  EXPECT_EQ(pcd.rfind("# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS x y z\n", 0), 0U);
-  EXPECT_NE(pcd.find("\nWIDTH 2\nHEIGHT 1\n"), std::string::npos);
-  const std::string_view data = "\nDATA binary\n";
-  EXPECT_EQ(pcd.substr(pcd.find(data) + data.size()), ply.substr(ply.size() - 24));
-}
-
 TEST(EstimateFile, RoundTrip) {
   MethodRecord method;
   method.name = "s_graphs_plus";

@@ -92,6 +92,30 @@ TEST_F(SweepFiles, AVariantReplacesValues) {
   EXPECT_FALSE(scenario.start.room.has_value());
 }
 
+TEST_F(SweepFiles, SensorsAreOfTheSweepOrOfAVariantAndShareAWalk) {
+  const auto methods_of = [](const Sweep& sweep, std::size_t run) {
+    return read_scenario(sweep.scenario_texts.at(sweep.runs.at(run).text), "made").scenario.methods;
+  };
+  const std::string head =
+      "sweep: 1\nscenarios: [library/quickstart.yaml]\nseeds: 1\nmethods: [truth, odometry, vgicp]\n";
+  const Sweep both = read(head + "sensors: [all, lidar]\n");
+  EXPECT_EQ(methods_of(both, 0), (std::vector<std::string>{"truth", "odometry", "vgicp", "vgicp.lidar"}));
+  const Sweep each = read(
+      "sweep: 1\nscenarios: [library/quickstart.yaml]\nseeds: 1\nmethods: [vgicp]\nvariants:\n"
+      "  - {name: all, set: [sensors=all]}\n  - {name: lidar, set: [sensors=lidar]}\n");
+  ASSERT_EQ(each.runs.size(), 2U);
+  EXPECT_EQ(methods_of(each, 0), std::vector<std::string>{"vgicp"});
+  EXPECT_EQ(methods_of(each, 1), std::vector<std::string>{"vgicp.lidar"});
+  EXPECT_EQ(each.runs[0].simulation_digest, each.runs[1].simulation_digest);
+  EXPECT_NE(each.runs[0].input_digest, each.runs[1].input_digest);
+  EXPECT_NE(
+      error_of(head + "sensors: [lidar]\nvariants: [{name: a, set: [sensors=all]}]\n").find("set it in one place"),
+      std::string::npos);
+  EXPECT_NE(
+      error_of("sweep: 1\nscenarios: [library/quickstart.yaml]\nmethods: [odometry.lidar]\n").find("sweep.yaml:3:11"),
+      std::string::npos);
+}
+
 TEST_F(SweepFiles, NoTwoRunsHaveOneName) {
   namespace fs = std::filesystem;
   fs::copy_file(folder_ / "library/house.yaml", folder_ / "library/a.yaml");

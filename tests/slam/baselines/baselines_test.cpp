@@ -73,7 +73,8 @@ TEST_P(BaselineTest, MapPointsLieOnTheHouse) {
   EXPECT_GT(static_cast<double>(near), 0.95 * static_cast<double>(result.estimate.map_F.size()));
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, BaselineTest, testing::Values("odometry", "vgicp", "floam", "aloam"),
+INSTANTIATE_TEST_SUITE_P(Methods, BaselineTest,
+                         testing::Values("odometry", "vgicp", "floam", "aloam", "pcl_gicp", "pcl_ndt"),
                          [](const auto& name) { return std::string(name.param); });
 
 TEST(MethodsTest, NamesAreUniqueAndFound) {

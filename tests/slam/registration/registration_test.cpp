@@ -202,5 +202,55 @@ TEST(RegistrationTest, WithoutAMapTheStartIsKeptAndNothingIsClaimed) {
   EXPECT_EQ(found.X_MR.t, start.t);
 }
 
+/// Surfels of an endless corridor along x about the robot: floor, ceiling and two walls, with voxels' own slack.
+std::vector<Surfel> corridor_surfels(const Stream& random, bool with_end) {
+  std::vector<Surfel> surfels;
+  for (std::uint64_t k = 0; k < 1600; ++k) {
+    const double x = 16.0 * random.uniform(k, 0) - 8.0, across = 2.0 * random.uniform(k, 1) - 1.0;
+    const int side = static_cast<int>(k % 4);
+    const double sign = side % 2 == 0 ? 1.0 : -1.0;
+    if (side < 2) surfels.push_back({{x, sign, across}, {0.0, -sign, 0.0}});
+    if (side >= 2) surfels.push_back({{x, across, sign}, {0.0, 0.0, -sign}});
+  }
+  for (std::uint64_t k = 0; with_end && k < 100; ++k)
+    surfels.push_back({{8.0, 2.0 * random.uniform(k, 2) - 1.0, 2.0 * random.uniform(k, 3) - 1.0}, {-1.0, 0.0, 0.0}});
+  return surfels;
+}
+
+TEST(Observability, ACorridorLeavesTheWayAlongItOpen) {
+  const Stream random(43, "bim.generate");
+  for (std::uint64_t trial = 0; trial < 20; ++trial) {
+    const Pose X_MR = exp_se3(random_twist(random, trial, 2.0, 1.0));
+    for (const bool with_end : {false, true}) {
+      const std::vector<Surfel> surfels = corridor_surfels(random, with_end);
+      SurfelMap map(0.2);
+      map.add(surfels, X_MR);
+      const Observability seen = observability(surfels, map, X_MR, {});
+      ASSERT_EQ(seen.degenerate_directions.size(), with_end ? 0U : 1U);
+      if (with_end) continue;
+      EXPECT_GT(std::abs(seen.degenerate_directions.front()(0)), 0.999) << "along x of R";
+      Vector6d along = Vector6d::Zero(), across = Vector6d::Zero();
+      along(0) = across(1) = 1.0;
+      EXPECT_LT((seen.kept * along).norm(), 0.05);
+      EXPECT_LT((seen.kept * across - across).norm(), 0.05);
+    }
+  }
+}
+
+// Where surfaces leave a direction open the start stays, whatever the surfels' own places along it would pull.
+TEST(Observability, ADegenerateDirectionKeepsTheStart) {
+  const Stream random(44, "bim.generate");
+  const std::vector<Surfel> surfels = corridor_surfels(random, false);
+  SurfelMap map(0.2);
+  map.add(surfels, Pose{});
+  const Pose start = Pose::from_xyz_yaw({0.07, 0.04, 0.0}, 0.01);
+  const Registration found = align(surfels, map, start, std::nullopt, {});
+  EXPECT_EQ(found.degenerate_directions, 1);
+  EXPECT_EQ(found.unobserved_directions, 1);
+  EXPECT_NEAR(found.X_MR.t.x(), 0.07, 0.01);
+  EXPECT_NEAR(found.X_MR.t.y(), 0.0, 0.01);
+  EXPECT_NEAR(found.X_MR.yaw(), 0.0, 0.005);
+}
+
 }  // namespace
 }  // namespace plumbline::slam

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenarios/app/estimate_score.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "bim/config/tree.h"
+#include "bim/errors.h"
+#include "scenarios/host/files.h"
+#include "scenarios/metrics/reference_score.h"
+#include "scenarios/metrics/silence.h"
+#include "scenarios/run/run_files.h"
+#include "slam/io/recordings/tum.h"
+
+namespace plumbline::scenarios {
+
+namespace {
+
+using Poses = std::vector<slam::StampedPose>;
+
+/// Of one trajectory of an estimate.
+struct TrajectoryScores {
+  score::PathScore path;
+  std::optional<score::ReferenceScore> reference;
+};
+
+std::string span_of(const Poses& poses) {
+  return slam::format_stamp(poses.front().stamp) + " to " + slam::format_stamp(poses.back().stamp) + " s";
+}
+
+Poses read_reference(const std::string& file) {
+  Poses poses = slam::read_tum(read_text_file(file), file);
+  if (poses.empty()) throw InputError({file, 0, 0}, "holds no pose");
+  return poses;
+}
+
+TrajectoryScores score_one(const Poses& poses, const Poses& reference, const std::string& file) {
+  TrajectoryScores scores{score::score_path(poses), {}};
+  if (reference.empty() || poses.empty()) return scores;
+  scores.reference = score::score_by_reference(reference, poses);
+  if (!scores.reference)
+    throw InputError({file, 0, 0}, "has fewer than " + std::to_string(score::ReferenceRules().least_matched) +
+                                       " poses at times of the estimate; it is of " + span_of(reference) +
+                                       ", the estimate of " + span_of(poses));
+  return scores;
+}
+
+Tree to_json(const TrajectoryScores& scores) {
+  const score::PathScore& path = scores.path;
+  Tree tree = Tree::map();
+  tree.set("poses", static_cast<std::int64_t>(path.poses)).set("duration_s", path.duration_s);
+  tree.set("length_m", path.length_m).set("vertical_m", path.vertical_m);
+  if (path.straightness) tree.set("straightness", *path.straightness);
+  if (!scores.reference) return tree;
+  const score::ReferenceScore& by = *scores.reference;
+  tree.set("matched", static_cast<std::int64_t>(by.matched)).set("ate_aligned_rmse_m", by.ate_aligned_rmse_m);
+  tree.set("step_error_median_m", by.step_error_median_m).set("step_error_max_m", by.step_error_max_m);
+  tree.set("step_rotation_median_deg", by.step_rotation_median_deg);
+  tree.set("step_rotation_max_deg", by.step_rotation_max_deg);
+  if (by.rpe_1m_rmse_m) tree.set("rpe_1m_rmse_m", *by.rpe_1m_rmse_m);
+  if (by.rpe_1m_rotation_deg) tree.set("rpe_1m_rotation_deg", *by.rpe_1m_rotation_deg);
+  return tree;
+}
+
+Tree to_json(const score::Silence& silence) {
+  Tree tree = Tree::map();
+  tree.set("silent_s", silence.silent_s);
+  if (silence.off_at_s) tree.set("off_at_s", *silence.off_at_s);
+  if (silence.said_after_s) tree.set("said_after_s", *silence.said_after_s);
+  return tree;
+}
+
+std::string cell(const std::optional<double>& value, int decimals) {
+  char text[32];
+  if (!value) return "        -";
+  std::snprintf(text, sizeof(text), "%9.*f", decimals, *value);
+  return text;
+}
+
+std::string line_of(const char* name, const TrajectoryScores& scores) {
+  char head[64];
+  std::snprintf(head, sizeof(head), "%-8s%7zu", name, scores.path.poses);
+  std::string text =
+      head + cell(scores.path.length_m, 2) + cell(scores.path.straightness, 3) + cell(scores.path.vertical_m, 2);
+  if (!scores.reference) return text + "\n";
+  const score::ReferenceScore& by = *scores.reference;
+  text += cell(static_cast<double>(by.matched), 0) + cell(by.ate_aligned_rmse_m, 3) + cell(by.step_error_median_m, 3);
+  text += cell(by.step_error_max_m, 3) + cell(by.step_rotation_median_deg, 3) + cell(by.step_rotation_max_deg, 3);
+  return text + cell(by.rpe_1m_rmse_m, 3) + cell(by.rpe_1m_rotation_deg, 3) + "\n";
+}
+
+/// Of a method whose error was more than a metre.
+std::string words_of(const score::Silence& silence) {
+  std::string text = "off by more than a metre after " + format_number(*silence.off_at_s) + " s, ";
+  if (!silence.said_after_s) return text + "and never said so";
+  return text + "said so " + format_number(*silence.said_after_s) + " s later; off and silent for " +
+         format_number(silence.silent_s) + " s at a time";
+}
+
+}  // namespace
+
+bool is_estimate_directory(const std::string& dir) {
+  namespace fs = std::filesystem;
+  return fs::exists(dir + "/estimate.yaml") && !fs::exists(dir + "/scenario.yaml");
+}
+
+void score_estimate(const std::string& dir, const std::string& reference_file) {
+  const std::vector<std::string> methods = estimates_in(dir);
+  if (methods.size() != 1) throw InputError({dir, 0, 0}, "holds no single estimate; make it again");
+  const MethodRecord method = read_method(dir, methods.front());
+  if (method.crashed) throw InputError({dir, 0, 0}, "is of a method that crashed: " + method.error);
+  if (method.causal.empty()) throw InputError({dir, 0, 0}, "holds no pose; the method gave none");
+  const Poses reference = reference_file.empty() ? Poses() : read_reference(reference_file);
+  const TrajectoryScores causal = score_one(method.causal, reference, reference_file);
+  const TrajectoryScores last = score_one(method.estimate.trajectory, reference, reference_file);
+
+  Tree tree = Tree::map();
+  tree.set("plumbline", PLUMBLINE_VERSION).set("method", method.name);
+  if (method.scans > 0)
+    tree.set("scans", method.scans)
+        .set("lost_share", 1.0 * method.lost_scans / method.scans)
+        .set("degenerate_share", 1.0 * method.degenerate_scans / method.scans);
+  if (!reference.empty())
+    tree.set("reference", Tree::map()
+                              .set("poses", static_cast<std::int64_t>(reference.size()))
+                              .set("length_m", score::score_path(reference).length_m));
+  std::optional<score::Silence> silence;
+  if (method.scans > 0) silence = score::score_silence(reference, method.causal, method.lost);
+  if (silence) tree.set("silence", to_json(*silence));
+  tree.set("causal", to_json(causal));
+  if (last.path.poses > 0) tree.set("final", to_json(last));
+  write_file(dir + "/score.json", write_json(tree) + "\n");
+
+  std::string text = method.name;
+  if (method.scans > 0)
+    text += ": lost after " + std::to_string(method.lost_scans) + " of " + std::to_string(method.scans) + " scans";
+  if (!reference.empty()) text += "; reference: " + std::to_string(reference.size()) + " poses";
+  if (silence && silence->off_at_s) text += "\n" + words_of(*silence);
+  text += "\n          poses   path m straight   vert. m";
+  if (!reference.empty()) text += "  matched    ATE m   step m    max m step deg  max deg    RPE/m    deg/m";
+  text += "\n" + line_of("causal", causal);
+  if (last.path.poses > 0) text += line_of("final", last);
+  std::fputs((text + "scores: " + dir + "/score.json\n").c_str(), stdout);
+}
+
+}  // namespace plumbline::scenarios

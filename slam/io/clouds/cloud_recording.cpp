@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/io/clouds/cloud_recording.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <filesystem>
+#include <utility>
+#include <vector>
+
+#include "bim/config/tree.h"
+#include "bim/errors.h"
+#include "slam/io/clouds/cloud_file.h"
+
+namespace plumbline::slam {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr Nanoseconds period = 100'000'000;
+
+/// Names of the clouds in order; none where there is anything else than clouds of one ending and recording.yaml.
+std::vector<std::string> names_of_clouds(const std::string& folder) {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+    const std::string name = it->path().filename().string();
+    if (name == recording_files::info) continue;
+    if (!is_cloud_file(name) || !it->is_regular_file()) return {};
+    names.push_back(name);
+  }
+  std::sort(names.begin(), names.end());
+  for (const std::string& name : names)
+    if (cloud_format_of(name) != cloud_format_of(names.front())) return {};
+  return names;
+}
+
+class CloudRecording final : public Recording {
+ public:
+  CloudRecording(std::string folder, RecordingInfo info)
+      : folder_(std::move(folder)), info_(std::move(info)), names_(names_of_clouds(folder_)) {
+    if (names_.empty())
+      throw InputError({folder_, 0, 0}, "is no folder of point clouds, all of them .pcd or all of them .ply");
+  }
+
+  [[nodiscard]] bool next(SensorFrame& frame) override {
+    if (next_ == names_.size()) return false;
+    const std::string file = folder_ + "/" + names_[next_];
+    PointCloud cloud = read_cloud_file(file);
+    cloud.stamp = static_cast<Nanoseconds>(next_) * period;
+    frame = {};
+    try {
+      frame.scan = scan_of(cloud);
+    } catch (const InputError& error) {
+      throw InputError({file, 0, 0}, error.what());
+    }
+    ++next_;
+    // Times within a cloud may reach beyond the next one's.
+    if (frame.scan.stamp <= last_) throw InputError({file, 0, 0}, "its points are measured for longer than 0.1 s");
+    last_ = frame.scan.stamp;
+    return true;
+  }
+
+  [[nodiscard]] const RecordingInfo& info() const override { return info_; }
+  [[nodiscard]] bool has_odometry() const override { return false; }
+  [[nodiscard]] Nanoseconds origin() const override { return 0; }
+
+ private:
+  std::string folder_;
+  RecordingInfo info_;
+  std::vector<std::string> names_;
+  std::size_t next_ = 0;
+  Nanoseconds last_ = -1;
+};
+
+}  // namespace
+
+bool is_cloud_folder(const std::string& path) { return fs::is_directory(path) && !names_of_clouds(path).empty(); }
+
+std::unique_ptr<Recording> open_cloud_folder(const std::string& path, const RecordingInfo* info) {
+  const std::string file = path + "/" + std::string(recording_files::info);
+  RecordingInfo description;
+  if (info != nullptr)
+    description = *info;
+  else if (fs::exists(file))
+    description = read_recording_info(read_text_file(file), file);
+  return std::make_unique<CloudRecording>(path, std::move(description));
+}
+
+}  // namespace plumbline::slam

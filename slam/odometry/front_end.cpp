@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/odometry/front_end.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace plumbline::slam {
+
+namespace {
+
+/// Time from a scan's first return to its stamp; 0 where returns have no times.
+Nanoseconds sweep_time(const Scan& scan) {
+  return scan.offset_ns.empty() ? 0 : -*std::min_element(scan.offset_ns.begin(), scan.offset_ns.end());
+}
+
+}  // namespace
+
+FrontEnd::FrontEnd(const LidarOdometryConfig& config, const Calibration& calibration, bool has_odometry)
+    : calibration_(calibration), has_odometry_(has_odometry), odometry_(make_lidar_odometry(config)) {}
+
+DeskewedScan FrontEnd::deskewed(const Scan& scan) const {
+  if (compensated()) return deskewed_by(scan, Pose{}, 1);
+  if (has_odometry_) return deskew(scan, motion_, calibration_);
+  return deskewed_by(scan, odometry_->continued_step(scan.stamp),
+                     stamp_ ? std::max<Nanoseconds>(scan.stamp - *stamp_, 1) : 1);
+}
+
+Registration FrontEnd::track(const Scan& raw, DeskewedScan& scan) {
+  Registration result;
+  if (has_odometry_) {
+    result = odometry_->update(scan, motion_.at(raw.stamp));
+    motion_.forget_before(raw.stamp);
+    if (stamp_ && result.accepted) test_compensation(raw, X_MR_.inverse() * result.X_MR, raw.stamp - *stamp_);
+  } else {
+    result = track_alone(raw, scan);
+  }
+  stamp_ = raw.stamp;
+  X_MR_ = result.X_MR;
+  return result;
+}
+
+Registration FrontEnd::track_alone(const Scan& raw, DeskewedScan& scan) {
+  const Nanoseconds sweep = sweep_time(raw);
+  const Pose expected = odometry_->continued_step(raw.stamp);
+  Pose used = compensated() ? Pose{} : expected;
+  bool tested = false;
+  const DeskewAgain again = [&](const Pose& step) -> std::optional<DeskewedAgain> {
+    if (!stamp_ || sweep <= 0 || raw.stamp <= *stamp_) return std::nullopt;
+    const Nanoseconds dt = raw.stamp - *stamp_;
+    if (!tested) test_compensation(raw, step, dt);
+    tested = true;
+    // A pose at a sweep's end that follows from its mean by half of the step that it makes swings about the truth for
+    // ever; with half of the step before in it, that dies out, and small errors are left alone.
+    const Pose found = first_ ? step : expected * interpolate(Pose{}, expected.inverse() * step, 0.5);
+    const Pose motion = compensated() ? Pose{} : found;
+    // What the error of the step bends the scan by, from its first return to its last.
+    const double bent_m = first_ ? 0.005 : 0.03, bent_rad = first_ ? 0.001 : 0.01;
+    const double share = std::min(1.0, seconds(sweep) / seconds(dt));
+    const Pose error = used.inverse() * motion;
+    if (share * error.t.norm() < bent_m && share * log_so3(error.q).norm() < bent_rad) return std::nullopt;
+    used = motion;
+    scan = deskewed_by(raw, motion, dt);
+    DeskewedAgain better{scan, std::nullopt};
+    if (first_) better.first = deskewed_by(*first_, motion, dt);
+    return better;
+  };
+  const Registration result = odometry_->update_alone(scan, again);
+  if (stamp_)
+    first_.reset();
+  else if (sweep > 0)
+    first_ = raw;
+  return result;
+}
+
+void FrontEnd::test_compensation(const Scan& raw, const Pose& step, Nanoseconds dt) {
+  if (compensated() || dt <= 0) return;
+  compensation_.add(raw, calibration_.X_RL.q.conjugate() * step.t / seconds(dt));
+}
+
+DeskewedScan FrontEnd::deskewed_by(const Scan& scan, const Pose& step, Nanoseconds dt) const {
+  MotionBuffer motion;
+  motion.add({scan.stamp - dt, Pose{}});
+  motion.add({scan.stamp, step});
+  return deskew(scan, motion, calibration_);
+}
+
+}  // namespace plumbline::slam

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "slam/io/method.h"
+#include "slam/odometry/compensation.h"
+#include "slam/odometry/lidar_odometry.h"
+#include "slam/scan/motion.h"
+
+namespace plumbline::slam {
+
+/// From raw scans to poses in M: deskewing and LiDAR odometry, by odometry's motion or, where there is none, by the
+/// scans' own.
+class FrontEnd {
+ public:
+  FrontEnd(const LidarOdometryConfig& config, const Calibration& calibration, bool has_odometry);
+
+  void on_odometry(const Odometry& odometry) { motion_.add(odometry); }
+  [[nodiscard]] DeskewedScan deskewed(const Scan& scan) const;
+  /// Of a scan that was deskewed by deskewed(); `scan` is replaced by one that was deskewed better where that is known.
+  [[nodiscard]] Registration track(const Scan& raw, DeskewedScan& scan);
+  /// True once it is known that scans come deskewed; they are left as they are from then on.
+  [[nodiscard]] bool compensated() const { return compensation_.compensated(); }
+
+ private:
+  [[nodiscard]] Registration track_alone(const Scan& raw, DeskewedScan& scan);
+  void test_compensation(const Scan& raw, const Pose& step, Nanoseconds dt);
+  [[nodiscard]] DeskewedScan deskewed_by(const Scan& scan, const Pose& step, Nanoseconds dt) const;
+
+  Calibration calibration_;
+  bool has_odometry_;
+  MotionBuffer motion_;
+  std::unique_ptr<LidarOdometry> odometry_;
+  CompensationTest compensation_;
+  std::optional<Nanoseconds> stamp_;  ///< of the last scan
+  Pose X_MR_;                         ///< at that scan
+  std::optional<Scan> first_;         ///< until the second came: only then its motion is known
+};
+
+}  // namespace plumbline::slam

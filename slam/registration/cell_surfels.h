@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "slam/registration/surfels.h"
+
+namespace plumbline::slam {
+
+struct CellSurfels {
+  double size_m = 0.3;
+  int min_points = 8;            ///< in a surfel's voxel and the six around it
+  double max_thickness_m = 0.1;  ///< standard deviation across them
+};
+
+/// One surfel per voxel: the mean of its points, and the normal of all points in it and the six voxels round it, so
+/// that no neighbour is searched for. In the order of each voxel's first point. Points that are not finite are left
+/// out.
+[[nodiscard]] std::vector<Surfel> cell_surfels(std::span<const Eigen::Vector3f> points, const CellSurfels& config);
+
+}  // namespace plumbline::slam
