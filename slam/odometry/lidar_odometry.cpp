@@ -140,7 +140,7 @@ class GuardedScanMatcher final : public LidarOdometry {
     }
     const bool measured = sample.valid || (result.accepted && result.unobserved_directions == 0);
     // One that tells something now and then is a stray: it takes two such scans to make up for one that told nothing.
-    unobserved_scans_ = sample.valid ? 0.0 : std::max(0.0, unobserved_scans_ + (measured ? -0.5 : 1.0));
+    unobserved_scans_ = sample.valid || !ready ? 0.0 : std::max(0.0, unobserved_scans_ + (measured ? -0.5 : 1.0));
     if (result.accepted && dt > 0) motion_.add(step, dt);
     if (result.accepted || !ready) accepted_stamp_ = stamp;
     X_MR_ = result.X_MR;
