@@ -25,18 +25,19 @@ void check_vector(const std::optional<std::vector<double>>& numbers, const char*
 sim::Faults faults(const std::optional<FaultsSpec>& spec) {
   if (!spec) return {};
   sim::Faults out = sim::faults_of(spec->preset);
-  out.clock.offset_s = spec->clock_offset_s.value_or(out.clock.offset_s);
-  out.clock.jitter_s = spec->clock_jitter_s.value_or(out.clock.jitter_s);
-  out.mount.length_m = spec->mount_error_m.value_or(out.mount.length_m);
+  const auto set = [](double& value, const std::optional<double>& given) { value = given.value_or(value); };
+  set(out.clock.offset_s, spec->clock_offset_s);
+  set(out.clock.jitter_s, spec->clock_jitter_s);
+  set(out.mount.length_m, spec->mount_error_m);
   if (spec->mount_error_deg) out.mount.angle_rad = rad * *spec->mount_error_deg;
   out.mount.offset_R = vector3(spec->mount_offset_m, 1.0);
   out.mount.rotation_L = vector3(spec->mount_rotation_deg, rad);
-  out.imu.gyro_bias = spec->gyro_bias_radps.value_or(out.imu.gyro_bias);
-  out.imu.accelerometer_bias = spec->accelerometer_bias.value_or(out.imu.accelerometer_bias);
-  out.imu.scale = spec->imu_scale.value_or(out.imu.scale);
-  out.slip.speed_mps = spec->slip_mps.value_or(out.slip.speed_mps);
-  out.slip.duration_s = spec->slip_s.value_or(out.slip.duration_s);
-  out.slip.every_s = spec->slip_every_s.value_or(out.slip.every_s);
+  set(out.imu.gyro_bias, spec->gyro_bias_radps);
+  set(out.imu.accelerometer_bias, spec->accelerometer_bias);
+  set(out.imu.scale, spec->imu_scale);
+  set(out.slip.speed_mps, spec->slip_mps);
+  set(out.slip.duration_s, spec->slip_s);
+  set(out.slip.every_s, spec->slip_every_s);
   return out;
 }
 

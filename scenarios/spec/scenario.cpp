@@ -140,19 +140,20 @@ sim::LidarConfig lidar_config(const LidarSpec& spec) {
   sim::LidarConfig config = sim::lidar_config(spec.preset);
   config.model = spec.model;
   config.returns = spec.returns;
-  config.range_noise = spec.range_noise.value_or(config.range_noise);
-  config.unit_bias = spec.unit_bias.value_or(config.unit_bias);
-  config.laser_bias = spec.laser_bias.value_or(config.laser_bias);
-  config.reflectivity_noise = spec.reflectivity_noise.value_or(config.reflectivity_noise);
-  config.dropout = spec.dropout.value_or(config.dropout);
-  config.optics = spec.optics.value_or(config.optics);
-  config.footprint = spec.footprint.value_or(config.footprint);
-  config.distance_bias_m = spec.distance_bias_m.value_or(config.distance_bias_m);
-  config.reflectivity_bias_m = spec.reflectivity_bias_m.value_or(config.reflectivity_bias_m);
-  config.incidence_bias_m = spec.incidence_bias_m.value_or(config.incidence_bias_m);
-  config.warm_up_m = spec.warm_up_m.value_or(config.warm_up_m);
-  config.warm_up_s = spec.warm_up_s.value_or(config.warm_up_s);
-  config.airborne_per_m = spec.airborne_per_m.value_or(config.airborne_per_m);
+  const auto set = [](auto& value, const auto& given) { value = given.value_or(value); };
+  set(config.range_noise, spec.range_noise);
+  set(config.unit_bias, spec.unit_bias);
+  set(config.laser_bias, spec.laser_bias);
+  set(config.reflectivity_noise, spec.reflectivity_noise);
+  set(config.dropout, spec.dropout);
+  set(config.optics, spec.optics);
+  set(config.footprint, spec.footprint);
+  set(config.distance_bias_m, spec.distance_bias_m);
+  set(config.reflectivity_bias_m, spec.reflectivity_bias_m);
+  set(config.incidence_bias_m, spec.incidence_bias_m);
+  set(config.warm_up_m, spec.warm_up_m);
+  set(config.warm_up_s, spec.warm_up_s);
+  set(config.airborne_per_m, spec.airborne_per_m);
   return config;
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bim/digest/digest.h"
@@ -11,7 +12,7 @@
 #include "slam/baselines/kiss_icp/robust_icp.h"
 #include "slam/baselines/kiss_icp/scan_points.h"
 #include "slam/baselines/kiss_icp/voxel_hash_map.h"
-#include "slam/io/stopwatch.h"
+#include "slam/odometry/odometry_method.h"
 #include "slam/scan/motion.h"
 
 namespace plumbline::slam {
@@ -24,50 +25,36 @@ constexpr double map_thinning = 0.5, registration_thinning = 1.5;
 // Of sigma.
 constexpr double gate_sigmas = 3.0;
 
-class KissIcp final : public Method {
+class KissIcp final : public OdometryMethod {
  public:
   KissIcp(const MethodInput& input, const KissIcpConfig& config)
-      : config_(config),
+      : OdometryMethod(config.map),
+        config_(config),
         voxel_m_(config.map_voxel_m()),
         X_RL_(input.calibration.X_RL),
         threshold_(config.initial_threshold_m, config.min_motion_m, config.max_range_m),
         local_map_(voxel_m_, config.max_points_per_voxel),
-        map_(config.map),
         X_ML_(X_RL_) {}
 
-  [[nodiscard]] Output on_scan(const Scan& scan) override {
-    Output output;
-    output.stamp = scan.stamp;
-    Stopwatch stopwatch;
-    const kiss::ScanPoints points =
-        kiss::deskewed_points(scan, twist_within(scan), config_.min_range_m, config_.max_range_m);
-    const DeskewedScan deskewed = deskewed_scan(scan, points);
-    output.times.push_back({"deskew", stopwatch.cpu_ms()});
-    output.digests.push_back({"deskew", digest(deskewed)});
-
-    stopwatch.restart();
-    const bool first = trajectory_.empty();
-    const bool matched = advance(points.points_L);
-    const Pose X_MR = first ? Pose{} : X_ML_ * X_RL_.inverse();
-    interval_ = first ? 0 : scan.stamp - trajectory_.back().stamp;
-    output.times.push_back({"odometry", stopwatch.cpu_ms()});
-    output.digests.push_back({"odometry", Digest().add(X_MR).add(threshold_.sigma_m()).value()});
-
-    output.X_FR = X_MR;
-    if (!matched) output.state = State::lost;
-    trajectory_.push_back({scan.stamp, X_MR});
-    if (X_MR.t.lpNorm<Eigen::Infinity>() < map_reach_m()) map_.add(deskewed, X_MR);
-    return output;
-  }
-
-  [[nodiscard]] Estimate finish() override {
-    Estimate estimate;
-    estimate.trajectory = trajectory_;
-    estimate.map_F = map_.cloud();
-    return estimate;
-  }
-
  private:
+  [[nodiscard]] DeskewedScan deskewed(const Scan& raw) override {
+    kiss::ScanPoints points = kiss::deskewed_points(raw, twist_within(raw), config_.min_range_m, config_.max_range_m);
+    DeskewedScan scan = deskewed_scan(raw, points);
+    points_L_ = std::move(points.points_L);
+    return scan;
+  }
+
+  [[nodiscard]] OdometryAnswer track(const Scan& raw, DeskewedScan&) override {
+    const bool first = trajectory().empty();
+    OdometryAnswer answer;
+    answer.lost = !advance(points_L_);
+    if (!first) answer.X_MR = X_ML_ * X_RL_.inverse();
+    interval_ = first ? 0 : raw.stamp - trajectory().back().stamp;
+    answer.accepted = answer.X_MR.t.lpNorm<Eigen::Infinity>() < map_reach_m();
+    answer.digest = Digest().add(answer.X_MR).add(threshold_.sigma_m()).value();
+    return answer;
+  }
+
   /// How far from M's origin the robot may be for its returns to fit into the grid of the map that is scored.
   [[nodiscard]] double map_reach_m() const { return 1e6 * config_.map.voxel_m - 2.0 * config_.max_range_m; }
 
@@ -126,11 +113,10 @@ class KissIcp final : public Method {
   Pose X_RL_;
   kiss::AdaptiveThreshold threshold_;
   kiss::VoxelHashMap local_map_;
-  MapCloudRecorder map_;
+  std::vector<Eigen::Vector3d> points_L_;  ///< of the newest scan, deskewed
   Pose X_ML_;
   Pose motion_;               ///< of L between the last two scans
   Nanoseconds interval_ = 0;  ///< that it took
-  std::vector<StampedPose> trajectory_;
 };
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "bim/digest/digest.h"
-#include "slam/io/stopwatch.h"
+#include "slam/odometry/odometry_method.h"
 #include "slam/scan/motion.h"
 #include "slam/scan/voxel.h"
 
@@ -160,60 +160,30 @@ class Fit {
   bool lost_ = false;
 };
 
-class PclRegistrationMethod final : public Method {
+class PclRegistrationMethod final : public OdometryMethod {
  public:
   PclRegistrationMethod(const MethodInput& input, const PclLocalMapConfig& config, const MapCloudConfig& map,
                         std::unique_ptr<PclMatcher> matcher)
-      : config_(config),
+      : OdometryMethod(map),
+        config_(config),
         motion_(config.guess, input.has_odometry, input.calibration),
         local_map_(config, std::move(matcher)),
-        fit_(config.fit),
-        map_(map) {}
+        fit_(config.fit) {}
 
   void on_odometry(const Odometry& odometry) override { motion_.add(odometry); }
 
-  [[nodiscard]] Output on_scan(const Scan& scan) override {
-    Output output;
-    output.stamp = scan.stamp;
-    Stopwatch stopwatch;
-    const DeskewedScan deskewed = motion_.deskewed(scan);
-    output.times.push_back({"deskew", stopwatch.cpu_ms()});
-    output.digests.push_back({"deskew", digest(deskewed)});
-
-    stopwatch.restart();
-    const Answer answer = register_scan(deskewed);
-    output.times.push_back({"odometry", stopwatch.cpu_ms()});
-    output.digests.push_back({"odometry", Digest().add(answer.X_MR).add(answer.matched).value()});
-
-    output.X_FR = answer.X_MR;
-    if (fit_.lost()) output.state = State::lost;
-    trajectory_.push_back({scan.stamp, answer.X_MR});
-    if (answer.accepted || trajectory_.size() == 1) map_.add(deskewed, answer.X_MR);
-    return output;
-  }
-
-  [[nodiscard]] Estimate finish() override {
-    Estimate estimate;
-    estimate.trajectory = trajectory_;
-    estimate.map_F = map_.cloud();
-    return estimate;
-  }
-
  private:
-  struct Answer {
-    Pose X_MR;  ///< the guess, where it is not accepted
-    double matched = 0.0;
-    bool accepted = false;
-  };
+  [[nodiscard]] DeskewedScan deskewed(const Scan& raw) override { return motion_.deskewed(raw); }
 
-  /// Registers the scan, and takes it into the local map where it fits.
-  [[nodiscard]] Answer register_scan(const DeskewedScan& scan) {
+  /// Registers the scan, and takes it into the local map where it fits. The pose is the guess, where it does not.
+  [[nodiscard]] OdometryAnswer track(const Scan&, DeskewedScan& scan) override {
     const std::vector<Eigen::Vector3d> points_R = thinned_returns(scan, config_);
-    Answer answer{motion_.guess(scan)};
+    OdometryAnswer answer{.X_MR = motion_.guess(scan), .accepted = false};
+    double matched = 0.0;
     const bool begun = !local_map_.empty(), enough = points_R.size() >= PclMatcher::least_points;
     if (begun) {
       const PclMatch match = local_map_.match(points_R, answer.X_MR);
-      answer.matched = match.matched;
+      matched = match.matched;
       answer.accepted = fit_.assess(match, answer.X_MR.inverse() * match.X_TS);
       if (answer.accepted) answer.X_MR = match.X_TS;
       if (!answer.accepted && fit_.wants_restart()) local_map_.clear();
@@ -222,6 +192,8 @@ class PclRegistrationMethod final : public Method {
     }
     if (answer.accepted || (!begun && enough)) local_map_.add(points_R, answer.X_MR);
     motion_.keep(scan.stamp, answer.X_MR, answer.accepted);
+    answer.lost = fit_.lost();
+    answer.digest = Digest().add(answer.X_MR).add(matched).value();
     return answer;
   }
 
@@ -229,8 +201,6 @@ class PclRegistrationMethod final : public Method {
   Motion motion_;
   LocalMap local_map_;
   Fit fit_;
-  MapCloudRecorder map_;
-  std::vector<StampedPose> trajectory_;
 };
 
 }  // namespace

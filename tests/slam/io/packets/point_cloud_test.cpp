@@ -56,6 +56,17 @@ TEST(PointCloud, AnOrganisedCloudGivesBackTheScan) {
   for (std::size_t i = 0; i < scan.size(); ++i) EXPECT_NEAR(again.offset_ns[i], scan.offset_ns[i], 16);
 }
 
+// Drivers fill what they did not measure with anything.
+TEST(PointCloud, TimesOfMissingReturnsAreNotBelieved) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const Scan scan = scan_of(
+      cloud_with({"x", "y", "z", "time"},
+                 {{5, 0, 0, 0.01F}, {nan, nan, nan, nan}, {0, 5, 0, 0.02F}, {0, 0, 0, 1e9F}, {-5, 0, 0, 0.03F}}));
+  EXPECT_EQ(std::count_if(scan.range_m.begin(), scan.range_m.end(), [](double r) { return r > 0.0; }), 3);
+  EXPECT_NEAR(static_cast<double>(scan.stamp), 3e7, 8.0);
+  EXPECT_THROW((void)scan_of(cloud_with({"x", "y", "z", "time"}, {{5, 0, 0, nan}})), InputError);
+}
+
 TEST(PointCloud, ADenseCloudGivesBackTheScanWhereThereAreReturns) {
   const Scan scan = some_scan();
   const PointCloud cloud = cloud_of(scan, CloudLayout::dense);

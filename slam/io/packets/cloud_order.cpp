@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/io/packets/cloud_order.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "bim/errors.h"
+#include "slam/io/packets/vlp16.h"
+
+namespace plumbline::slam {
+
+namespace {
+
+constexpr double column_azimuth =
+    0.3 * std::numbers::pi / 180.0;  ///< lasers of a VLP-16 that fire together lie this close
+
+double elevation_deg(const CloudPoint& point) {
+  return std::atan2(point.p_L.z(), point.p_L.head<2>().norm()) * (180.0 / std::numbers::pi);
+}
+
+/// Rings of a VLP-16 by elevation, for clouds that do not name them. False, and nothing is changed, unless nearly all
+/// points lie where its lasers point: by chance three in ten do.
+bool find_rings(std::vector<CloudPoint>& points) {
+  constexpr double off_deg = 0.3, origin_m = 0.0112;  // of an elevation; of a laser's origin above the sensor's
+  constexpr double least_share = 0.8;
+  std::size_t valid = 0, on_ring = 0;
+  std::vector<int> rings(points.size(), -1);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!points[i].valid) continue;
+    ++valid;
+    const double place = (elevation_deg(points[i]) + 15.0) / 2.0;
+    const double nearest = std::clamp(std::round(place), 0.0, vlp16::rings - 1.0);
+    const double slack_deg = off_deg + origin_m / points[i].p_L.norm() * (180.0 / std::numbers::pi);
+    if (2.0 * std::abs(place - nearest) <= slack_deg) ++on_ring;
+    rings[i] = static_cast<int>(nearest);
+  }
+  if (static_cast<double>(on_ring) < least_share * static_cast<double>(valid)) return false;
+  for (std::size_t i = 0; i < points.size(); ++i) points[i].ring = rings[i];
+  return true;
+}
+
+int ring_count(const std::vector<CloudPoint>& points) {
+  int highest = 0;
+  for (const CloudPoint& point : points) highest = std::max(highest, point.ring);
+  for (const int rings : {16, 32, 64})
+    if (highest < rings) return rings;
+  return most_cloud_rings;
+}
+
+/// Ring 0 is the lowest here; some drivers count from the top.
+void order_rings(std::vector<CloudPoint>& points, int rings) {
+  double rising = 0.0;
+  std::vector<double> sum(static_cast<std::size_t>(rings), 0.0), count(sum);
+  for (const CloudPoint& point : points) {
+    if (point.ring < 0 || !point.valid) continue;
+    sum[static_cast<std::size_t>(point.ring)] += elevation_deg(point);
+    count[static_cast<std::size_t>(point.ring)] += 1.0;
+  }
+  for (std::size_t r = 1; r < sum.size(); ++r)
+    if (count[r] > 0.0 && count[r - 1] > 0.0) rising += sum[r] / count[r] > sum[r - 1] / count[r - 1] ? 1.0 : -1.0;
+  if (rising >= 0.0) return;
+  for (CloudPoint& point : points)
+    if (point.ring >= 0) point.ring = rings - 1 - point.ring;
+}
+
+/// Firing of each point from its time, for a VLP-16 with a time for every laser. False where times do not fit the
+/// firings.
+bool columns_by_time(std::vector<CloudPoint>& points) {
+  std::array<Nanoseconds, vlp16::rings> laser_ns{};
+  for (int k = 0; k < vlp16::rings; ++k)
+    laser_ns[static_cast<std::size_t>(vlp16::ring_of_laser(k))] = k * vlp16::laser_period_ns;
+  const auto firing_ns = [&](const CloudPoint& point) {
+    return point.time - laser_ns[static_cast<std::size_t>(point.ring)];
+  };
+  Nanoseconds first = std::numeric_limits<Nanoseconds>::max();
+  for (const CloudPoint& point : points)
+    if (point.ring >= 0) first = std::min(first, firing_ns(point));
+  for (CloudPoint& point : points) {
+    if (point.ring < 0) continue;
+    const Nanoseconds t = firing_ns(point) - first;
+    const Nanoseconds column = (t + vlp16::firing_period_ns / 2) / vlp16::firing_period_ns;
+    if (std::abs(t - column * vlp16::firing_period_ns) > vlp16::laser_period_ns / 2) return false;
+    point.column = static_cast<int>(column);
+  }
+  return true;
+}
+
+/// Columns in the order of the points, whose place in a firing is place[ring]: a new one where the place does not
+/// increase or the azimuth has gone on by more than azimuth_max. Returns their number.
+int columns_in_order(std::vector<CloudPoint>& points, const std::array<int, most_cloud_rings>& place,
+                     double azimuth_max) {
+  int column = -1, last_place = 0;
+  double azimuth = 0.0;
+  for (CloudPoint& point : points) {
+    if (!point.valid || point.ring < 0) continue;
+    const double here = std::atan2(point.p_L.y(), point.p_L.x());
+    const int here_place = place[static_cast<std::size_t>(point.ring)];
+    if (column < 0 || here_place <= last_place || std::abs(wrap_angle(here - azimuth)) > azimuth_max) {
+      ++column;
+      azimuth = here;
+    }
+    last_place = here_place;
+    point.column = column;
+  }
+  return column + 1;
+}
+
+/// Points of a firing come by ring or, of a VLP-16, as its lasers fire: whichever gives fewer columns.
+void columns_by_azimuth(std::vector<CloudPoint>& points, int rings) {
+  std::array<int, most_cloud_rings> by_ring{}, by_laser{};
+  for (int r = 0; r < most_cloud_rings; ++r)
+    by_ring[static_cast<std::size_t>(r)] = by_laser[static_cast<std::size_t>(r)] = r;
+  for (int k = 0; k < vlp16::rings && rings == vlp16::rings; ++k)
+    by_laser[static_cast<std::size_t>(vlp16::ring_of_laser(k))] = k;
+  // Other sensors' lasers may point degrees apart.
+  const double azimuth_max = rings == vlp16::rings ? column_azimuth : std::numbers::pi;
+  if (columns_in_order(points, by_laser, azimuth_max) >= columns_in_order(points, by_ring, azimuth_max)) return;
+  static_cast<void>(columns_in_order(points, by_laser, azimuth_max));
+}
+
+int column_count(const std::vector<CloudPoint>& points) {
+  int last = 0;
+  for (const CloudPoint& point : points) last = std::max(last, point.column);
+  return last + 1;
+}
+
+/// Columns by azimuth alone, for points that come ring by ring or in no order: as many as the fullest ring has points,
+/// and half as many again for those that fall into a column twice, which move to the next free one or are dropped.
+void columns_by_angle(std::vector<CloudPoint>& points, int rings) {
+  std::vector<int> filled(static_cast<std::size_t>(rings), 0);
+  for (const CloudPoint& point : points)
+    if (point.ring >= 0 && point.valid) ++filled[static_cast<std::size_t>(point.ring)];
+  const int fullest = *std::max_element(filled.begin(), filled.end());
+  const int columns = fullest + fullest / 2 + 1;
+  if (static_cast<std::uint64_t>(columns) * static_cast<std::uint64_t>(rings) > most_cloud_points)
+    throw InputError({}, "point cloud with most of its points on one ring");
+  std::vector<bool> taken(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rings), false);
+  for (CloudPoint& point : points) {
+    if (point.ring < 0 || !point.valid) {
+      point.ring = -1;
+      continue;
+    }
+    const double turn = 0.5 - std::atan2(point.p_L.y(), point.p_L.x()) / (2.0 * std::numbers::pi);  // clockwise
+    const int column = std::clamp(static_cast<int>(turn * columns), 0, columns - 1);
+    const auto slot = [&](int c) {
+      return static_cast<std::size_t>(c % columns) * static_cast<std::size_t>(rings) +
+             static_cast<std::size_t>(point.ring);
+    };
+    constexpr int reach = 3;
+    int step = 0;
+    while (step < reach && taken[slot(column + step)]) ++step;
+    point.column = (column + step) % columns;
+    if (step == reach) point.ring = -1;
+    if (step < reach) taken[slot(column + step)] = true;
+  }
+}
+
+/// Gives every point its column; returns how many there are.
+int find_columns(std::vector<CloudPoint>& points, const CloudLines& lines, int rings) {
+  const auto count = static_cast<std::uint32_t>(rings);
+  const bool row_a_firing = lines.width == count && lines.height > 1;
+  const bool row_a_ring = !row_a_firing && lines.height == count && lines.width > 1;
+  for (std::size_t i = 0; i < points.size() && (row_a_firing || row_a_ring); ++i)
+    points[i].column = static_cast<int>(row_a_firing ? i / lines.width : i % lines.width);
+  if (row_a_firing || row_a_ring) return column_count(points);
+  if (lines.timed && rings == vlp16::rings && columns_by_time(points)) return column_count(points);
+  columns_by_azimuth(points, rings);
+  constexpr std::size_t emptiest = 4;  // slots a point
+  const auto columns = static_cast<std::size_t>(column_count(points));
+  if (columns * static_cast<std::size_t>(rings) > emptiest * std::max(points.size(), columns))
+    columns_by_angle(points, rings);
+  return column_count(points);
+}
+
+/// Rows or columns of an organised cloud as rings, where no field names them. False: it is not organised so.
+bool rings_by_layout(std::vector<CloudPoint>& points, const CloudLines& lines) {
+  const auto is_ring_count = [](std::uint32_t n) { return n == 16 || n == 32 || n == 64 || n == most_cloud_rings; };
+  const bool row_a_firing = is_ring_count(lines.width) && lines.height > lines.width;
+  if (!row_a_firing && !(is_ring_count(lines.height) && lines.width > 1)) return false;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    points[i].ring = static_cast<int>(row_a_firing ? i % lines.width : i / lines.width);
+  return true;
+}
+
+/// A scan without order: one ring, a column a point.
+int without_rings(std::vector<CloudPoint>& points) {
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    points[i].ring = 0;
+    points[i].column = static_cast<int>(i);
+  }
+  return static_cast<int>(points.size());
+}
+
+}  // namespace
+
+CloudOrder order_points(std::vector<CloudPoint>& points, const CloudLines& lines) {
+  if (!lines.named_rings && !rings_by_layout(points, lines) && !find_rings(points)) return {1, without_rings(points)};
+  const int rings = ring_count(points);
+  order_rings(points, rings);
+  return {rings, find_columns(points, lines, rings)};
+}
+
+}  // namespace plumbline::slam

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+// Recordings of which a method gets less than usual: wrong sensors, scans alone, few or plain scans, no packets.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tests/system/recordings.h"
+
+namespace plumbline::system_tests {
+namespace {
+
+namespace fs = std::filesystem;
+
+// What the sensors do wrong is in their records; the mount is the one that methods are told.
+TEST_F(Recordings, AHarshWalkIsEstimatedAsItRan) {
+  for (const char* offset : {"0.03", "-0.03"}) {
+    write_file(folder_ / "harsh.yaml", read_file(input()) +
+                                           "lidar: {preset: harsh}\nfaults: {preset: harsh, clock_offset_s: " +
+                                           std::string(offset) + ", mount_offset_m: [0.01, 0.02, 0]}\n");
+    write_file(folder_ / "short.plan.yaml", read_file(plan()));
+    const std::string run = folder_ / ("run" + std::string(offset));
+    ASSERT_EQ(
+        plumbline({"run", folder_ / "harsh.yaml", "--out", run, "--record", "--method", "vgicp,s_graphs_plus"}).code,
+        0);
+    const std::string info = read_file(run + "/recording/recording.yaml");
+    EXPECT_NE(info.find("0.01"), std::string::npos) << info;
+    EXPECT_EQ(info.find("faults"), std::string::npos) << info;
+    for (const char* method : {"vgicp", "s_graphs_plus"}) {
+      expect_same(run, run, method);
+      fs::remove_all(folder_ / (std::string("out_") + method));
+    }
+  }
+}
+
+TEST_F(Recordings, LidarAloneIsAnEstimateOfItsOwn) {
+  write_file(folder_ / "both.yaml", read_file(input()) + "sensors: [all, lidar]\n");
+  write_file(folder_ / "short.plan.yaml", read_file(plan()));
+  const std::string run = folder_ / "run", alone = folder_ / "alone", without = folder_ / "without";
+  ASSERT_EQ(plumbline({"run", folder_ / "both.yaml", "--out", run, "--record", "--method", "vgicp,odometry"}).code, 0);
+  EXPECT_TRUE(fs::exists(run + "/odometry.tum"));
+  EXPECT_FALSE(fs::exists(run + "/odometry.lidar.tum")) << "it needs odometry";
+  EXPECT_FALSE(read_file(run + "/vgicp.tum") == read_file(run + "/vgicp.lidar.tum"));
+  EXPECT_TRUE(nlohmann::json::parse(read_file(run + "/results.json"))["methods"].contains("vgicp.lidar"));
+  EXPECT_NE(read_file(run + "/report.html").find("vgicp.lidar"), std::string::npos);
+  EXPECT_EQ(plumbline({"replay", run}).out.rfind("equal: ", 0), 0U);
+
+  // The same by --sensors, by the label, and of a recording that has nothing else.
+  ASSERT_EQ(plumbline({"estimate", run, "--method", "vgicp", "--sensors", "lidar", "-o", alone}).code, 0);
+  EXPECT_NE(read_file(alone + "/estimate.yaml").find("sensors: lidar"), std::string::npos);
+  ASSERT_EQ(plumbline({"estimate", run, "--method", "vgicp.lidar", "-o", without}).code, 0);
+  for (const char* end : {".tum", ".final.tum", ".estimate.json", ".map.ply"}) {
+    const std::string name = std::string("/vgicp.lidar") + end;
+    EXPECT_TRUE(read_file(alone + name) == read_file(run + name)) << name;
+    EXPECT_TRUE(read_file(without + name) == read_file(run + name)) << name;
+  }
+  ASSERT_EQ(plumbline({"estimate", run, "--method", "vgicp", "-o", folder_ / "with"}).code, 0);
+  EXPECT_EQ(plumbline({"diff", folder_ / "with", alone}).code, 1);
+  refuse({run, "--method", "odometry", "--sensors", "lidar"}, "--method", "needs odometry");
+  refuse({run, "--method", "vgicp.lidar", "--sensors", "all"}, "--sensors", "give one of them");
+  EXPECT_EQ(plumbline({"score", run, "--estimate", "copy.lidar=" + alone}).code, 0);
+  EXPECT_EQ(plumbline({"score", run, "--estimate", "a.final=" + alone}).code, 2);
+}
+
+TEST_F(Recordings, EveryNthScanAndPlainerScansAreEstimatesOfTheSameWalk) {
+  const std::string walk = this->walk("walk"), whole = folder_ / "whole", poor = folder_ / "poor";
+  const auto lines = [](const std::string& file) {
+    std::istringstream in(read_file(file));
+    std::vector<std::string> stamps;
+    for (std::string line; std::getline(in, line);) stamps.push_back(line.substr(0, line.find(' ')));
+    return stamps;
+  };
+  ASSERT_EQ(plumbline({"estimate", walk, "--method", "vgicp", "-o", whole}).code, 0);
+  EXPECT_EQ(read_file(whole + "/estimate.yaml").find("every"), std::string::npos);
+  const Outcome outcome =
+      plumbline({"estimate", walk, "--method", "vgicp", "--every", "4", "--without", "rings,times", "-o", poor});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const std::string said = read_file(poor + "/estimate.yaml");
+  EXPECT_NE(said.find("every: 4"), std::string::npos) << said;
+  for (const char* word : {"without:", "rings", "times"}) EXPECT_NE(said.find(word), std::string::npos) << said;
+  const auto all = lines(whole + "/vgicp.tum"), some = lines(poor + "/vgicp.tum");
+  ASSERT_EQ(some.size(), (all.size() + 3) / 4);
+  for (std::size_t i = 0; i < some.size(); ++i) EXPECT_EQ(some[i], all[4 * i]);
+  ASSERT_EQ(plumbline({"score", poor, "--reference", walk + "/truth.tum"}).code, 0);
+  EXPECT_EQ(nlohmann::json::parse(read_file(poor + "/score.json"))["silence"]["silent_s"], 0.0);
+  refuse({walk, "--method", "vgicp", "--every", "0"}, "plumbline: --every", "estimate --help");
+  refuse({walk, "--method", "vgicp", "--without", "points"}, "plumbline: --without", "estimate --help");
+}
+
+TEST_F(Recordings, ALidarThatSendsNoPacketsIsRecordedAsABag) {
+  std::string scenario = read_file(input());
+  scenario.replace(scenario.find("duration_s: 5"), 13, "duration_s: 1\nlidar: {model: os1_64}");
+  write_file(folder_ / "os1.yaml", scenario);
+  write_file(folder_ / "short.plan.yaml", read_file(plan()));
+  const std::string walk = folder_ / "walk", out = folder_ / "out";
+  const Outcome refused = plumbline({"simulate", folder_ / "os1.yaml", "-o", walk});
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.err.find("--bag"), std::string::npos) << refused.err;
+  ASSERT_EQ(plumbline({"simulate", folder_ / "os1.yaml", "-o", walk, "--bag"}).code, 0);
+  EXPECT_FALSE(fs::exists(walk + "/lidar.pcap"));
+  ASSERT_EQ(plumbline({"estimate", walk, "--method", "vgicp", "-o", out}).code, 0);
+  EXPECT_NE(read_file(out + "/estimate.yaml").find("walk:"), std::string::npos);
+  ASSERT_EQ(plumbline({"score", out, "--reference", walk + "/truth.tum"}).code, 0);
+  EXPECT_LT(nlohmann::json::parse(read_file(out + "/score.json"))["causal"]["ate_aligned_rmse_m"], 0.1);
+}
+
+}  // namespace
+}  // namespace plumbline::system_tests
