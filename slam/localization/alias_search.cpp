@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <optional>
+
+#include "bim/geometry/polygon.h"
 
 namespace plumbline::slam {
 
@@ -54,16 +55,21 @@ std::vector<Edge> edges_of(const Polygon2& polygon) {
   return edges;
 }
 
-/// Whether a room moved by T covers the other.
+/// Whether all corners of a room moved by T lie on the outline of the other.
 bool covers(const Polygon2& room, const Pose2& T, const Polygon2& other, double tolerance) {
   return std::all_of(room.begin(), room.end(),
                      [&](const Eigen::Vector2d& p) { return boundary_distance(other, T * p) <= tolerance; });
 }
 
-/// Motions that bring the outline of a room onto that of another one, or onto itself by a turn.
+/// Motions that bring the outline of a room onto that of another one, or onto itself by a turn; of a round room, which
+/// has many, some.
 std::vector<Pose2> motions_onto(const Polygon2& room, const Polygon2& other, double tolerance) {
+  constexpr std::size_t most = 8;
   std::vector<Pose2> motions;
   const std::vector<Edge> edges = edges_of(room);
+  double around = 0.0;
+  for (const Edge& edge : edges) around += edge.length;
+  if (std::abs(std::abs(signed_area(room)) - std::abs(signed_area(other))) > tolerance * around) return motions;
   const auto longest =
       std::max_element(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) { return a.length < b.length; });
   if (longest == edges.end()) return motions;
@@ -72,6 +78,7 @@ std::vector<Pose2> motions_onto(const Polygon2& room, const Polygon2& other, dou
     Pose2 T{{}, wrap_angle(std::atan2(edge.e.y(), edge.e.x()) - std::atan2(longest->e.y(), longest->e.x()))};
     T.t = edge.a - T.rotation() * longest->a;
     if (covers(room, T, other, tolerance)) motions.push_back(T);
+    if (motions.size() >= most) break;
   }
   return motions;
 }

@@ -83,7 +83,8 @@ class SGraphLocalization final : public PlanLocalization {
 
 void SGraphLocalization::use_scan(const PlanScan& scan, Output& output) {
   Stopwatch stopwatch;
-  const std::vector<PlaneObservation> planes = detect_planes(scan.deskewed, config_.planes);  // [shaheer2023, eq. 3]
+  const std::vector<PlaneObservation> planes = observe_planes(
+      scan.deskewed, config_.planes, config_.ransac_without_rings, input().seed);  // [shaheer2023, eq. 3]
   const LocalizationScan localization_scan =
       make_localization_scan(scan.deskewed, planes, scan.X_OR, input().calibration, config_.scan);
   record_stage("planes", stopwatch, output);

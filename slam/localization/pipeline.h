@@ -8,6 +8,7 @@
 #include "slam/localization/global_localizer.h"
 #include "slam/localization/tracker.h"
 #include "slam/plan_method/plan_localization.h"
+#include "slam/planes/observe.h"
 #include "slam/scan/map_cloud.h"
 
 namespace plumbline::slam {
@@ -59,6 +60,7 @@ struct LocalizationConfig : PlanUpdateConfig {
   }
 
   PlaneDetectorConfig planes;
+  RinglessRansacConfig ransac_without_rings;
   LocalizationScanConfig scan;
   PlanIndexConfig index;
   GlobalLocalizerConfig search;
@@ -70,6 +72,7 @@ struct LocalizationConfig : PlanUpdateConfig {
   void visit(V& v) {
     PlanUpdateConfig::visit(v);
     v("planes", planes);
+    v("ransac_without_rings", ransac_without_rings, Field{.advanced = true});
     v("scan", scan, Field{.former = "view"});
     v("index", index);
     v("search", search);

@@ -89,7 +89,7 @@ Output SGraphsPlus::on_scan(const Scan& scan) {
   record_stage(output, stopwatch, "odometry", Digest().add(odometry.X_MR).add(odometry.degenerate_directions).value());
 
   const Pose& X_OR = odometry.X_MR;
-  if (odometry.lost) output.state = State::lost;
+  if (odometry.lost || odometry.displaced) output.state = State::lost;
   output.degenerate_directions = odometry.degenerate_directions;
   odometry_valid_ &= odometry.odometry_valid;
   // A scan that does not fit would be mapped at a wrong pose.
@@ -154,14 +154,11 @@ void SGraphsPlus::keep_cloud(const DeskewedScan& scan) {
 }
 
 std::vector<PlaneObservation> SGraphsPlus::planes_of(const DeskewedScan& scan) const {
-  constexpr int fewest_rings = 4;  // without rings there are no stretches of them
   std::vector<PlaneObservation> seen;
   if (config_.plane_source == PlaneSource::ransac)
     seen = ransac_planes(scan, config_.ransac, config_.planes, seed_);
-  else if (scan.rings < fewest_rings)
-    seen = ransac_planes(scan, config_.ransac_without_rings, config_.planes, seed_);
   else
-    seen = detect_planes(scan, config_.planes);
+    seen = observe_planes(scan, config_.planes, config_.ransac_without_rings, seed_);
   if (!config_.parts.walls) std::erase_if(seen, [](const PlaneObservation& o) { return !is_floor(o); });
   return seen;
 }

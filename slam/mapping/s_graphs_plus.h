@@ -17,8 +17,7 @@
 #include "slam/mapping/room_layer.h"
 #include "slam/mapping/wall_layer.h"
 #include "slam/odometry/front_end.h"
-#include "slam/planes/plane_detector.h"
-#include "slam/planes/ransac.h"
+#include "slam/planes/observe.h"
 #include "slam/scan/map_cloud.h"
 #include "slam/scan/motion.h"
 
@@ -61,12 +60,7 @@ struct SGraphsPlusConfig {
   /// as independent.
   PlaneDetectorConfig planes{.laser_sigma_m = 0.022};
   RansacConfig ransac;
-  RansacConfig ransac_without_rings{.voxel_m = 0.3,
-                                    .distance_m = 0.04,
-                                    .iterations = 100,
-                                    .min_left = 1500,
-                                    .min_inliers = 200,
-                                    .min_horizontal = 200};
+  RinglessRansacConfig ransac_without_rings;
   FitnessConfig fitness;
   WallLayerConfig walls;
   RoomLayerConfig rooms;

@@ -19,10 +19,14 @@ FrontEnd::FrontEnd(const LidarOdometryConfig& config, const Calibration& calibra
     : calibration_(calibration), has_odometry_(has_odometry), odometry_(make_lidar_odometry(config)) {}
 
 DeskewedScan FrontEnd::deskewed(const Scan& scan) const {
-  if (compensated()) return deskewed_by(scan, Pose{}, 1);
-  if (has_odometry_) return deskew(scan, motion_, calibration_);
-  return deskewed_by(scan, odometry_->continued_step(scan.stamp),
-                     stamp_ ? std::max<Nanoseconds>(scan.stamp - *stamp_, 1) : 1);
+  const bool stale = !has_odometry_ || motion_.is_stale_at(scan.stamp);
+  DeskewedScan out = compensated() ? deskewed_by(scan, Pose{}, 1)
+                     : stale       ? deskewed_by(scan, odometry_->continued_step(scan.stamp),
+                                           stamp_ ? std::max<Nanoseconds>(scan.stamp - *stamp_, 1) : 1)
+                                   : deskew(scan, motion_, calibration_);
+  out.odometry_stale = has_odometry_ && stale;
+  out.odometry_age = motion_.age_at(scan.stamp);
+  return out;
 }
 
 Registration FrontEnd::track(const Scan& raw, DeskewedScan& scan) {
@@ -65,10 +69,8 @@ Registration FrontEnd::track_alone(const Scan& raw, DeskewedScan& scan) {
     return better;
   };
   const Registration result = odometry_->update_alone(scan, again);
-  if (stamp_)
-    first_.reset();
-  else if (sweep > 0)
-    first_ = raw;
+  first_.reset();
+  if (result.began && sweep > 0) first_ = raw;
   return result;
 }
 

@@ -36,7 +36,7 @@ class FrontEnd {
   CompensationTest compensation_;
   std::optional<Nanoseconds> stamp_;  ///< of the last scan
   Pose X_MR_;                         ///< at that scan
-  std::optional<Scan> first_;         ///< until the second came: only then its motion is known
+  std::optional<Scan> first_;         ///< of a map, until the second came: only then its motion is known
 };
 
 }  // namespace plumbline::slam

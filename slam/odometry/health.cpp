@@ -2,6 +2,7 @@
 #include "slam/odometry/health.h"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "bim/median.h"
@@ -10,14 +11,17 @@ namespace plumbline::slam {
 
 namespace {
 
-constexpr double noise_m = 0.05;  ///< registration's own scatter, which no motion explains
-constexpr double noise_rad = 0.05;
+bool within(const Pose& expected, const Pose& step, double way_m, double turn_rad) {
+  const Pose difference = expected.inverse() * step;
+  return difference.t.norm() <= way_m && log_so3(difference.q).norm() <= turn_rad;
+}
 
 }  // namespace
 
 bool OdometryHealth::assess(const Registration& registration, const Pose& step, const ExpectedStep& expected) {
   const bool sound = step.t.allFinite() && step.q.coeffs().allFinite();
-  const bool good = sound && registration.matched >= least_matched() && is_plausible_step(step, expected);
+  const bool good = sound && registration.matched >= least_matched() && is_plausible_step(step, expected) &&
+                    (is_as_usual(registration) || is_expected_step(step, expected));
   good_ = good ? good_ + 1 : 0;
   bad_ = good ? 0 : bad_ + 1;
   if (bad_ >= config_.bad_scans) lost_ = true;
@@ -27,26 +31,39 @@ bool OdometryHealth::assess(const Registration& registration, const Pose& step, 
   return good;
 }
 
-double OdometryHealth::usual_matched() const {
-  return matched_.empty() ? 1.0 : upper_median(std::vector<double>(matched_.begin(), matched_.end()));
+double OdometryHealth::usual() const {
+  return matched_.empty() ? 0.0 : upper_median(std::vector<double>(matched_.begin(), matched_.end()));
 }
 
-double OdometryHealth::least_matched() const {
-  if (matched_.empty()) return config_.min_matched;
-  return std::max(config_.min_matched, config_.usual_share * usual_matched());
+double OdometryHealth::usual_matched() const {
+  constexpr std::size_t enough = 5;
+  return matched_.size() < enough ? 1.0 : usual();
 }
+
+double OdometryHealth::least_matched() const { return std::max(config_.min_matched, config_.usual_share * usual()); }
 
 bool OdometryHealth::is_plausible_step(const Pose& step, const ExpectedStep& expected) const {
   const double dt_s = std::max(seconds(expected.dt), 0.0);
-  const auto within = [&](const Pose& difference, double way_m, double turn_rad) {
-    return difference.t.norm() <= way_m + noise_m && log_so3(difference.q).norm() <= turn_rad + noise_rad;
-  };
-  const double way_m = config_.max_acceleration_mps2 * dt_s * dt_s;
-  const double turn_rad = config_.max_turn_acceleration_radps2 * dt_s * dt_s;
-  if (expected.odometry && within(expected.odometry->inverse() * step, way_m, turn_rad)) return true;
-  if (expected.continued && within(expected.continued->inverse() * step, way_m, turn_rad)) return true;
+  const double way_m = config_.max_deviation_m + config_.max_acceleration_mps2 * dt_s * dt_s;
+  const double turn_rad = config_.max_deviation_rad + config_.max_turn_acceleration_radps2 * dt_s * dt_s;
+  if (expected.odometry && within(expected.odometry->step, step, way_m, turn_rad)) return true;
+  if (expected.continued && within(expected.continued->step, step, way_m, turn_rad)) return true;
   if (expected.odometry || expected.continued) return false;
-  return within(step, std::max(config_.max_start_speed_mps * dt_s, way_m), turn_rad);
+  return within(Pose{}, step, std::max(config_.max_start_speed_mps * dt_s, way_m), turn_rad);
+}
+
+bool OdometryHealth::is_expected_step(const Pose& step, const ExpectedStep& expected) {
+  constexpr double sigmas = 4.0;
+  constexpr double noise_m = 0.05, noise_rad = 0.02;  // registration's own scatter, which no motion explains
+  constexpr double most_m = 0.3, most_rad = 0.35;     // of an expectation that excludes something
+  const auto met = [&](const ExpectedMotion& motion) {
+    if (std::isinf(motion.sigma_m)) return true;
+    return within(motion.step, step, std::min(most_m, sigmas * motion.sigma_m + noise_m),
+                  std::min(most_rad, sigmas * motion.sigma_rad + noise_rad));
+  };
+  if (expected.odometry && met(*expected.odometry)) return true;
+  if (expected.continued && met(*expected.continued)) return true;
+  return !expected.odometry && !expected.continued;
 }
 
 }  // namespace plumbline::slam

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <deque>
+#include <limits>
 #include <optional>
 
 #include "bim/config/visit.h"
@@ -14,8 +15,11 @@ struct HealthConfig {
   double usual_share = 0.5;
   double min_matched = 0.15;
   int recent_scans = 20;
-  double max_acceleration_mps2 = 40.0;
-  double max_turn_acceleration_radps2 = 60.0;
+  double as_usual_share = 0.7;
+  double max_deviation_m = 0.2;
+  double max_deviation_rad = 0.3;
+  double max_acceleration_mps2 = 10.0;
+  double max_turn_acceleration_radps2 = 20.0;
   double max_start_speed_mps = 40.0;
   int bad_scans = 3;
   int good_scans = 10;
@@ -33,10 +37,18 @@ struct HealthConfig {
     v("min_matched", min_matched,
       share_field("least share of a scan's features that must match the map, whatever is usual"));
     v("recent_scans", recent_scans, Field{.doc = "accepted scans that tell what is usual", .min = 1, .max = 1000});
+    v("as_usual_share", as_usual_share,
+      share_field("the same for a scan whose step neither odometry nor the motion before let expect"));
+    v("max_deviation_m", max_deviation_m,
+      Field{.doc = "how far a plausible step may be from what odometry or the motion before let expect, whatever the "
+                   "time between scans",
+            .min = 0.0});
+    v("max_deviation_rad", max_deviation_rad, Field{.doc = "the same for its rotation", .min = 0.0});
     v("max_acceleration_mps2", max_acceleration_mps2,
-      Field{.doc = "largest acceleration of a plausible step, beside odometry and the step before",
-            .unit = "m/s²",
-            .min = 0.1});
+      Field{
+          .doc = "and how much farther: largest acceleration of a plausible step, beside odometry and the step before",
+          .unit = "m/s²",
+          .min = 0.1});
     v("max_turn_acceleration_radps2", max_turn_acceleration_radps2,
       Field{.doc = "largest angular acceleration of a plausible step", .unit = "rad/s²", .min = 0.1});
     v("max_start_speed_mps", max_start_speed_mps,
@@ -52,11 +64,23 @@ struct HealthConfig {
   }
 };
 
+/// A step that is expected, and how far such steps were off of late or are as a rule; infinite where that is not known.
+struct ExpectedMotion {
+  // Not explicit: a step alone is expected, too.
+  ExpectedMotion(const Pose& expected, double sigma = std::numeric_limits<double>::infinity(),
+                 double rotation_sigma = std::numeric_limits<double>::infinity())
+      : step(expected), sigma_m(sigma), sigma_rad(rotation_sigma) {}
+
+  Pose step;
+  double sigma_m;
+  double sigma_rad;
+};
+
 /// What a step may be compared with. Either of them suffices: feet slip, and a robot may stop.
 struct ExpectedStep {
-  Nanoseconds dt = 0;             ///< since the scan before
-  std::optional<Pose> odometry;   ///< what odometry measured of it
-  std::optional<Pose> continued;  ///< as if the motion before went on
+  Nanoseconds dt = 0;                       ///< since the scan before
+  std::optional<ExpectedMotion> odometry;   ///< what odometry measured of it
+  std::optional<ExpectedMotion> continued;  ///< as if the motion before went on
 };
 
 /// Whether scan matching is trusted: for each scan at once, and as a state with hysteresis. All that it compares with
@@ -67,12 +91,18 @@ class OdometryHealth {
 
   /// Assesses one registration. step: the robot's motion since the scan before. True: accept it.
   [[nodiscard]] bool assess(const Registration& registration, const Pose& step, const ExpectedStep& expected);
-  /// Share of its features that a scan matches as a rule; 1 before any did.
+  /// Share of its features that a scan matches as a rule; 1 before enough of them did.
   [[nodiscard]] double usual_matched() const;
+  /// Whether a scan matches about as much as is usual.
+  [[nodiscard]] bool is_as_usual(const Registration& registration) const {
+    return registration.matched >= config_.as_usual_share * usual();
+  }
   /// Share below which a scan does not fit.
   [[nodiscard]] double least_matched() const;
   /// Whether a robot can have made this step.
   [[nodiscard]] bool is_plausible_step(const Pose& step, const ExpectedStep& expected) const;
+  /// Whether this step is within the errors of what let it expect. True where nothing did.
+  [[nodiscard]] static bool is_expected_step(const Pose& step, const ExpectedStep& expected);
   [[nodiscard]] bool lost() const { return lost_; }
   /// True once after so many bad scans that the map is of no use.
   [[nodiscard]] bool wants_restart() const { return bad_ > 0 && bad_ % config_.restart_scans == 0; }
@@ -80,6 +110,8 @@ class OdometryHealth {
   void restart() { matched_.clear(); }
 
  private:
+  [[nodiscard]] double usual() const;  ///< 0 before any scan matched
+
   HealthConfig config_;
   std::deque<double> matched_;  ///< by accepted scans
   int bad_ = 0, good_ = 0;      ///< in a row

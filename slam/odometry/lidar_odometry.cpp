@@ -8,6 +8,7 @@
 
 #include "bim/errors.h"
 #include "slam/odometry/motion_prediction.h"
+#include "slam/odometry/unmeasured_way.h"
 
 namespace plumbline::slam {
 
@@ -31,17 +32,30 @@ class OdometryIncrements {
 /// Of an odometry's step in directions that surfaces leave open.
 constexpr double measured_sigma_m = 0.004;
 
+/// Standard deviation of a step that goes on as the one before: what a robot or person accelerates by in passing.
+double continued_sigma(Nanoseconds dt) {
+  constexpr double acceleration_mps2 = 2.0, least_m = 0.002;
+  return std::max(least_m, acceleration_mps2 * seconds(dt) * seconds(dt));
+}
+
+/// What odometry errs by as a rule: feet and wheels slip by some of their way.
+ExpectedMotion expected_of(const OdometrySample& odometry) {
+  constexpr double least_m = 0.01, per_m = 0.1, least_rad = 0.01, per_rad = 0.1;
+  return {odometry.step, least_m + per_m * odometry.step.t.norm() + odometry.extrapolated_m,
+          least_rad + per_rad * log_so3(odometry.step.q).norm() + odometry.extrapolated_rad};
+}
+
 /// The same for scan matchers. After a gap or an implausible step odometry's motion is discarded, since scans have
 /// measured it: its frame is moved so that the robot is where it was.
 class ContinuousOdometry {
  public:
   [[nodiscard]] OdometrySample to(const Pose& X_BR, const DeskewedScan& scan, const OdometryHealth& health,
-                                  const std::optional<Pose>& continued) {
+                                  const std::optional<ExpectedMotion>& continued) {
     Pose X_OR = X_OB_ ? *X_OB_ * X_BR : X_BR;
     OdometrySample sample;
     if (last_) {
       sample.step = last_->X_OR.inverse() * X_OR;
-      const ExpectedStep expected{scan.stamp - last_->stamp, std::nullopt, continued};
+      const ExpectedStep expected{scan.stamp - last_->stamp, last_->step, continued};
       const bool discontinuous = last_->stale || !health.is_plausible_step(sample.step, expected);
       if (discontinuous) {
         X_OB_ = join_frames(last_->X_OR, X_BR);
@@ -49,10 +63,17 @@ class ContinuousOdometry {
         sample.step = last_->X_OR.inverse() * X_OR;
       }
       sample.valid = !discontinuous && !scan.odometry_stale;
-      if (sample.valid) sample.sigma_m = measured_sigma_m;
+      const double age_s = seconds(scan.odometry_age), last_age_s = seconds(last_->age);
+      constexpr double acceleration_mps2 = 2.0, turn_acceleration_radps2 = 4.0;
+      const double extrapolated_s2 = age_s * age_s + last_age_s * last_age_s;
+      sample.extrapolated_m = acceleration_mps2 * extrapolated_s2;
+      sample.extrapolated_rad = turn_acceleration_radps2 * extrapolated_s2;
+      if (sample.valid) sample.sigma_m = measured_sigma_m + sample.extrapolated_m;
     }
     sample.q_OR = X_OR.q;
-    last_ = Last{scan.stamp, X_OR, scan.odometry_stale};
+    const Nanoseconds dt = last_ ? scan.stamp - last_->stamp : 0;
+    last_ = Last{scan.stamp, X_OR, scan.odometry_stale, scan.odometry_age, std::nullopt};
+    if (sample.valid && dt > 0) last_->step = ExpectedMotion(sample.step);
     return sample;
   }
 
@@ -61,17 +82,13 @@ class ContinuousOdometry {
     Nanoseconds stamp = 0;
     Pose X_OR;
     bool stale = false;
+    Nanoseconds age = 0;
+    std::optional<ExpectedMotion> step;  ///< as if it went on
   };
 
   std::optional<Last> last_;
   std::optional<Pose> X_OB_;  ///< of the odometry's own frame, once it was moved
 };
-
-/// Standard deviation of a step that goes on as the one before: what a robot or person accelerates by in passing.
-double continued_sigma(Nanoseconds dt) {
-  constexpr double acceleration_mps2 = 2.0, least_m = 0.002;
-  return std::max(least_m, acceleration_mps2 * seconds(dt) * seconds(dt));
-}
 
 /// Any of the scan matchers behind the common interface. A scan that does not fit is dead reckoned and not mapped;
 /// after many of them the map is begun anew.
@@ -80,22 +97,29 @@ class GuardedScanMatcher final : public LidarOdometry {
  public:
   template <class MatcherConfig>
   GuardedScanMatcher(const LidarOdometryConfig& config, const MatcherConfig& matcher)
-      : config_(config), matcher_(matcher), health_(config.health) {}
+      : config_(config), matcher_(matcher), health_(config.health), unmeasured_(config.health.max_unobserved_m) {}
 
   [[nodiscard]] Registration update(const DeskewedScan& scan, const Pose& X_OR) override {
-    const OdometrySample sample = increments_.to(X_OR, scan, health_, continued(scan.stamp));
+    OdometrySample sample = increments_.to(X_OR, scan, health_, continued(scan.stamp));
+    if (!sample.valid && started_) {
+      sample.step = continued_pose(scan.stamp);
+      sample.sigma_m = continued_sigma(scan.stamp - stamp_);
+    }
     Registration result = matcher_.match(scan, sample, health_.usual_matched());
     result.odometry_valid = sample.valid;
     return keep(scan.stamp, std::move(result), sample);
   }
 
   [[nodiscard]] Registration update_alone(const DeskewedScan& scan, const DeskewAgain& again) override {
-    OdometrySample sample{continued_step(scan.stamp), false, continued_sigma(scan.stamp - stamp_), std::nullopt};
+    OdometrySample sample;
+    sample.step = continued_pose(scan.stamp);
+    sample.valid = false;
+    sample.sigma_m = continued_sigma(scan.stamp - stamp_);
     const Pose expected = sample.step;
     Registration result = matcher_.match(scan, sample, health_.usual_matched());
-    // A scan deskewed by a motion that it did not make is bent.
+    // A scan deskewed by a motion that it did not make is bent. What a lost robot did meanwhile is no motion of a scan.
     constexpr int most_rounds = 3;
-    for (int round = 0; round < most_rounds && matcher_.ready() && again; ++round) {
+    for (int round = 0; round < most_rounds && matcher_.ready() && again && moved_stamp_ == stamp_; ++round) {
       sample.step = X_MR_.inverse() * result.X_MR;
       const std::optional<DeskewedAgain> better = again(sample.step);
       if (!better) break;
@@ -107,15 +131,24 @@ class GuardedScanMatcher final : public LidarOdometry {
     return keep(scan.stamp, std::move(result), sample);
   }
 
-  [[nodiscard]] Pose continued_step(Nanoseconds stamp) const override { return continued(stamp).value_or(Pose{}); }
-
- private:
-  /// Standard deviation of the way gone in directions that nothing measured: a random walk of the speed.
-  [[nodiscard]] double unobserved_sigma(Nanoseconds dt) const {
-    return continued_sigma(dt) * std::sqrt(std::pow(unobserved_scans_, 3.0) / 3.0);
+  [[nodiscard]] Pose continued_step(Nanoseconds stamp) const override {
+    return motion_.over(stamp - stamp_).value_or(Pose{});
   }
 
-  [[nodiscard]] std::optional<Pose> continued(Nanoseconds stamp) const { return motion_.over(stamp - stamp_); }
+ private:
+  /// From X_MR_, as if the motion before went on.
+  [[nodiscard]] std::optional<ExpectedMotion> continued(Nanoseconds stamp) const {
+    const std::optional<Pose> step = motion_.over(stamp - moved_stamp_);
+    if (!step) return std::nullopt;
+    // Beside what predictions erred by of late: whoever stops or turns, begins to.
+    constexpr double acceleration_mps2 = 0.5, turn_acceleration_radps2 = 1.0;
+    const double dt_s = seconds(stamp - moved_stamp_);
+    return ExpectedMotion{*step, motion_.sigma_m() + acceleration_mps2 * dt_s * dt_s,
+                          motion_.sigma_rad() + turn_acceleration_radps2 * dt_s * dt_s};
+  }
+  [[nodiscard]] Pose continued_pose(Nanoseconds stamp) const {
+    return motion_.over(stamp - moved_stamp_).value_or(Pose{});
+  }
 
   /// With a first scan in place of the one that began the map.
   void begin_anew(const DeskewedScan& first) {
@@ -126,47 +159,86 @@ class GuardedScanMatcher final : public LidarOdometry {
 
   [[nodiscard]] Registration keep(Nanoseconds stamp, Registration result, const OdometrySample& sample) {
     const bool ready = matcher_.ready();
-    const Nanoseconds dt = stamp - stamp_;
+    const Nanoseconds dt = stamp - stamp_, moved = stamp - moved_stamp_;
     const Pose step = X_MR_.inverse() * result.X_MR;
-    const ExpectedStep expected{stamp - accepted_stamp_, sample.valid ? std::optional(sample.step) : std::nullopt,
-                                continued(stamp)};
+    const ExpectedStep expected{stamp - accepted_stamp_,
+                                sample.valid ? std::optional(expected_of(sample)) : std::nullopt, continued(stamp)};
+    // A handful of surfels tell nothing.
+    constexpr int all_directions = 6;
+    if (!sample.valid && result.unobserved_directions >= all_directions) result.matched = 0.0;
+    const bool as_usual = health_.is_as_usual(result);
     // The first scan of a map is placed by dead reckoning.
     result.accepted = ready && health_.assess(result, step, expected);
+    const bool frozen = !result.accepted && !sample.valid && health_.lost();  // nothing measures where it goes on to
+    if (had_map_) account_for_way(dt, result, {as_usual, sample.valid, frozen || !ready});
     if (!result.accepted) {
-      // Nothing measures where a lost robot goes on to.
-      result.X_MR = sample.valid || !health_.lost() ? X_MR_ * sample.step : X_MR_;
+      result.X_MR = frozen ? X_MR_ : X_MR_ * sample.step;
       result.information = sample.valid ? dead_reckoning_information(config_, sample.step.t.norm())
-                                        : unknown_information(config_.health, dt);
+                                        : unknown_information(config_.health, dt, speed_mps_);
+    } else if (!sample.valid) {
+      const double sigma_m = std::max(unmeasured_.open_m(), continued_sigma(dt));
+      result.information += result.open / (sigma_m * sigma_m);
     }
-    const bool measured = sample.valid || (result.accepted && result.unobserved_directions == 0);
-    // One that tells something now and then is a stray: it takes two such scans to make up for one that told nothing.
-    unobserved_scans_ = sample.valid || !ready ? 0.0 : std::max(0.0, unobserved_scans_ + (measured ? -0.5 : 1.0));
-    if (result.accepted && dt > 0) motion_.add(step, dt);
+    if (result.accepted && moved > 0) motion_.add(step, moved);
+    if (!result.accepted && sample.valid && ready && dt > 0) motion_.add(sample.step, dt);
+    if (ready) speed_mps_ = motion_.speed_mps();
     if (result.accepted || !ready) accepted_stamp_ = stamp;
     X_MR_ = result.X_MR;
     stamp_ = stamp;
+    if (!frozen) moved_stamp_ = stamp;
+    result.began = !ready;
     matcher_.commit(X_MR_, result.accepted || !ready);
+    result.began &= matcher_.ready();
+    if (result.began) unmeasured_.begin_map();
+    had_map_ |= matcher_.ready();
     if (!matcher_.ready()) (void)health_.assess(Registration{}, sample.step, expected);  // nothing to begin a map with
-    const bool alone_for_long =
-        !sample.valid && health_.lost() && stamp - accepted_stamp_ > config_.health.restart_ns();
-    if (ready && !result.accepted && (health_.wants_restart() || alone_for_long)) {
-      matcher_.reset_map();
-      health_.restart();
-      motion_.clear();
-    }
-    result.lost = health_.lost() || unobserved_sigma(dt) > config_.health.max_unobserved_m;
+    started_ = true;
+    restart_if_lost_for_long(result.accepted || !ready, sample.valid);
+    result.lost = health_.lost() || unmeasured_.lost();
+    result.displaced = unmeasured_.displaced();
     return result;
+  }
+
+  struct Measured {
+    bool as_usual, by_odometry, frozen;
+  };
+
+  void account_for_way(Nanoseconds dt, const Registration& result, const Measured& measured) {
+    if (result.accepted && result.unobserved_directions == 0) {
+      unmeasured_.add_measured(dt, measured.as_usual);
+    } else if (!measured.by_odometry) {
+      if (result.accepted)
+        unmeasured_.add_open(dt);
+      else if (measured.frozen)
+        unmeasured_.add_frozen(dt, speed_mps_);
+      else
+        unmeasured_.add_continued(dt);
+    }
+  }
+
+  void restart_if_lost_for_long(bool accepted, bool odometry_valid) {
+    const bool alone_for_long =
+        !odometry_valid && health_.lost() && stamp_ - accepted_stamp_ > config_.health.restart_ns();
+    if (accepted || !matcher_.ready() || !(health_.wants_restart() || alone_for_long)) return;
+    matcher_.reset_map();
+    health_.restart();
+    motion_.clear();
+    moved_stamp_ = stamp_;
   }
 
   const LidarOdometryConfig config_;
   Matcher matcher_;
   OdometryHealth health_;
+  UnmeasuredWay unmeasured_;
   ContinuousOdometry increments_;
+  bool started_ = false;  ///< a scan came ...
+  bool had_map_ = false;  ///< ... and one that could begin a map
   Pose X_MR_;
   MotionPrediction motion_;  ///< from the accepted scans
+  double speed_mps_ = 0.0;   ///< when a map was last there
   Nanoseconds stamp_ = 0;
+  Nanoseconds moved_stamp_ = 0;  ///< of the last scan that X_MR_ was moved at
   Nanoseconds accepted_stamp_ = 0;
-  double unobserved_scans_ = 0.0;  ///< more than made up for
 };
 
 class DeadReckoning final : public LidarOdometry {
@@ -208,11 +280,11 @@ Matrix6d dead_reckoning_information(const LidarOdometryConfig& config, double wa
   return information;
 }
 
-Matrix6d unknown_information(const HealthConfig& limits, Nanoseconds dt) {
+Matrix6d unknown_information(const HealthConfig& limits, Nanoseconds dt, double speed_mps) {
   constexpr double least_dt_s = 0.01;
   const double dt_s = std::max(seconds(dt), least_dt_s);
-  const double way_m = limits.max_acceleration_mps2 * dt_s * dt_s;
-  const double turn_rad = limits.max_turn_acceleration_radps2 * dt_s * dt_s;
+  const double way_m = limits.max_deviation_m + speed_mps * dt_s + limits.max_acceleration_mps2 * dt_s * dt_s;
+  const double turn_rad = limits.max_deviation_rad + limits.max_turn_acceleration_radps2 * dt_s * dt_s;
   Matrix6d information = Matrix6d::Zero();
   information.diagonal().head<3>().setConstant(1.0 / (way_m * way_m));
   information.diagonal().tail<3>().setConstant(1.0 / (turn_rad * turn_rad));

@@ -77,8 +77,8 @@ class LidarOdometry {
 
 /// Information of a step by dead reckoning over `way_m` walked, of the right increment: errors grow with its root.
 [[nodiscard]] Matrix6d dead_reckoning_information(const LidarOdometryConfig& config, double way_m);
-/// Information of a step that nothing measured: any acceleration that a robot is capable of.
-[[nodiscard]] Matrix6d unknown_information(const HealthConfig& limits, Nanoseconds dt);
+/// Information of a step that nothing measured of a robot that last went at this speed: any plausible one.
+[[nodiscard]] Matrix6d unknown_information(const HealthConfig& limits, Nanoseconds dt, double speed_mps);
 
 [[nodiscard]] std::unique_ptr<LidarOdometry> make_lidar_odometry(const LidarOdometryConfig& config);
 

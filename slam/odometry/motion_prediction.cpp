@@ -2,6 +2,7 @@
 #include "slam/odometry/motion_prediction.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace plumbline::slam {
 
@@ -36,6 +37,14 @@ std::optional<Pose> MotionPrediction::over(Nanoseconds dt) const {
   step.head<3>() = mean(windows[least(translation_errors_)]).head<3>();
   step.tail<3>() = mean(windows[least(rotation_errors_)]).tail<3>();
   return exp_se3(step * time_s);
+}
+
+double MotionPrediction::sigma_m() const { return std::sqrt(translation_errors_[least(translation_errors_)]); }
+
+double MotionPrediction::sigma_rad() const { return std::sqrt(rotation_errors_[least(rotation_errors_)]); }
+
+double MotionPrediction::speed_mps() const {
+  return rates_.empty() ? 0.0 : mean(windows[least(translation_errors_)]).head<3>().norm();
 }
 
 Vector6d MotionPrediction::mean(std::size_t window) const {

@@ -19,6 +19,11 @@ class MotionPrediction {
   void add(const Pose& step, Nanoseconds dt);
   /// Nothing before the first step. Farther ahead than three of the last steps noise dominates: no farther.
   [[nodiscard]] std::optional<Pose> over(Nanoseconds dt) const;
+  /// Root mean square error of such predictions of late, translation in m and rotation in rad.
+  [[nodiscard]] double sigma_m() const;
+  [[nodiscard]] double sigma_rad() const;
+  /// Speed of late in m/s, 0 before the first step.
+  [[nodiscard]] double speed_mps() const;
   void clear() { *this = MotionPrediction(); }
 
  private:

@@ -9,7 +9,7 @@
 #include "bim/digest/digest.h"
 #include "bim/errors.h"
 #include "slam/planes/level.h"
-#include "slam/planes/plane_detector.h"
+#include "slam/planes/observe.h"
 
 namespace plumbline::slam {
 
@@ -86,7 +86,7 @@ bool PlanLocalization::is_due(const Pose& X_OR) const {
 
 Pose PlanLocalization::track(const Scan& raw, DeskewedScan& scan) {
   scan = lidar_odometry_->deskewed(raw);
-  if (!q_OM_) q_OM_ = level_by_floor(detect_planes(scan, {}));
+  if (!q_OM_) q_OM_ = level_by_floor(observe_planes(scan, {}, RinglessRansacConfig(), input_.seed));
   const Registration odometry = lidar_odometry_->track(raw, scan);
   return Pose{*q_OM_, Eigen::Vector3d::Zero()} * odometry.X_MR;
 }

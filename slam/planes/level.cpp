@@ -8,9 +8,12 @@ namespace plumbline::slam {
 bool is_floor(const PlaneObservation& seen) { return !seen.vertical && seen.plane_R.n.z() > 0.0; }
 
 Eigen::Quaterniond level_by_floor(std::span<const PlaneObservation> seen) {
-  const auto floor = std::find_if(seen.begin(), seen.end(), is_floor);
-  if (floor == seen.end()) return Eigen::Quaterniond::Identity();
-  return Eigen::Quaterniond::FromTwoVectors(floor->plane_R.n, Eigen::Vector3d::UnitZ());
+  const PlaneObservation* widest = nullptr;
+  for (const PlaneObservation& plane : seen)
+    if (!plane.vertical && (widest == nullptr || plane.points > widest->points)) widest = &plane;
+  if (widest == nullptr) return Eigen::Quaterniond::Identity();
+  const Eigen::Vector3d up_R = is_floor(*widest) ? widest->plane_R.n : Eigen::Vector3d(-widest->plane_R.n);
+  return Eigen::Quaterniond::FromTwoVectors(up_R, Eigen::Vector3d::UnitZ());
 }
 
 }  // namespace plumbline::slam

@@ -22,11 +22,10 @@ Matrix6d block_rotation(const Eigen::Matrix3d& R_MR) {
   return b;
 }
 
-/// Takes the surfels' information from degenerate directions and holds those weakly to the start.
-void leave_open(Normal6& normal, const Observability& seen, double sigma_m, const Pose& start, const Pose& X_MR) {
-  const Matrix6d weak = seen.degenerate / (sigma_m * sigma_m);
-  normal.h = seen.kept.transpose() * normal.h * seen.kept + weak;
-  normal.g = seen.kept.transpose() * normal.g + weak * log_se3(start.inverse() * X_MR);
+/// Takes the surfels' information from degenerate directions.
+void leave_open(Normal6& normal, const Observability& seen) {
+  normal.h = seen.kept.transpose() * normal.h * seen.kept;
+  normal.g = seen.kept.transpose() * normal.g;
 }
 
 }  // namespace
@@ -120,7 +119,14 @@ Observability observability(std::span<const Surfel> surfels, const SurfelMap& ma
   }
   Observability result;
   constexpr std::size_t fewest = 10;  // six directions and some more
-  if (distances.size() < fewest) return result;
+  if (config.least_eigenvalue <= 0.0) return result;
+  if (distances.size() < fewest) {
+    result.least_eigenvalue = 0.0;
+    result.kept.setZero();
+    result.degenerate.setIdentity();
+    for (int k = 0; k < 6; ++k) result.degenerate_directions.push_back(Vector6d::Unit(k));
+    return result;
+  }
   to_right_increment(sum, R_MR);
   const double distance = std::max(upper_median(distances), 0.1);
   Vector6d unit;
@@ -147,18 +153,21 @@ Registration align(std::span<const Surfel> surfels, const SurfelMap& map, const 
   const Observability seen = observability(surfels, map, start, config);
   result.least_eigenvalue = seen.least_eigenvalue;
   result.degenerate_directions = static_cast<int>(seen.degenerate_directions.size());
+  result.open = seen.degenerate;
+  const PosePrior hold{expected.value_or(start), seen.degenerate / (degenerate_sigma_m * degenerate_sigma_m),
+                       std::nullopt};
   Normal6 normal;
   while (result.iterations < config.max_iterations && !result.converged) {
     ++result.iterations;
     normal = linearize(surfels, map, result.X_MR, config);
-    if (!seen.degenerate_directions.empty())
-      leave_open(normal, seen, degenerate_sigma_m, expected.value_or(start), result.X_MR);
+    if (!seen.degenerate_directions.empty()) leave_open(normal, seen);
     if (additional) {
       const Normal6 terms = additional(result.X_MR);
       normal.h += terms.h;
       normal.g += terms.g;
     }
     result.information = normal.h;
+    if (!seen.degenerate_directions.empty()) add_prior(normal, hold, result.X_MR);
     if (prior) add_prior(normal, *prior, result.X_MR);
     const std::optional<Vector6d> step = solve_step(normal);
     if (!step) break;

@@ -62,8 +62,9 @@ struct PosePrior {
 
 struct Registration {
   Pose X_MR;
-  Matrix6d information = Matrix6d::Zero();  ///< Gauss-Newton Hessian of the surfels alone, of the right increment
-                                            ///< (rho in m, phi in rad); counts every surfel as independent
+  Matrix6d information = Matrix6d::Zero();  ///< Gauss-Newton Hessian of surfels and edges, without priors, of the right
+                                            ///< increment (rho in m, phi in rad); counts every surfel as independent
+  Matrix6d open = Matrix6d::Zero();         ///< information of 1 / m^2 in the degenerate directions alone
   double matched = 0.0;           ///< share of the surfels that fall into a voxel and are not outliers, 0 to 1
   double rms = 0.0;               ///< of the inliers' Mahalanobis distances; 0.3 to 0.8 for a good match
   double residual_m = 0.0;        ///< 1.4826 times the median distance of inliers from the surfaces they meet
@@ -73,7 +74,9 @@ struct Registration {
   int iterations = 0;
   bool converged = false;
   bool accepted = true;        ///< false: X_MR is dead reckoning, the scan did not fit
-  bool lost = false;           ///< scans have not fitted for a while
+  bool began = false;          ///< the scan began a map: it was placed by what was expected of it
+  bool lost = false;           ///< scans have not fitted for a while, or did not tell the way gone
+  bool displaced = false;      ///< scans may fit, but the way from the first pose to these is not known
   bool odometry_valid = true;  ///< false: odometry has no valid motion from the scan before
 };
 

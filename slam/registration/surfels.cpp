@@ -145,10 +145,14 @@ void SurfelMap::pool(std::span<const Surfel> surfels, const Pose& X_MR, double s
     const auto slot = static_cast<std::size_t>(index_.insert(VoxelKey::of(mean_M, voxel_m_)));
     if (slot == voxels_.size()) voxels_.emplace_back();
     Voxel& voxel = voxels_[slot];
+    const bool was_empty = voxel.n < 0.5;
     voxel.n += sign;
     voxel.sum += sign * mean_M;
     voxel.normals += sign * normal_M * normal_M.transpose();
-    if (voxel.n < 0.5) voxel = {};
+    const bool is_empty = voxel.n < 0.5;
+    if (was_empty && !is_empty) ++live_;
+    if (!was_empty && is_empty) --live_;
+    if (is_empty) voxel = {};
   }
 }
 

@@ -71,6 +71,11 @@ class SurfelMap {
   [[nodiscard]] const Voxel* find(const Eigen::Vector3d& p_M, const Eigen::Vector3d& normal_M,
                                   double min_normal_agreement) const;
   [[nodiscard]] double voxel_m() const { return voxel_m_; }
+  /// Whether most voxels were emptied by remove(); their slots stay.
+  [[nodiscard]] bool holds_many_empty() const {
+    constexpr std::size_t few = 10'000, share = 4;
+    return voxels_.size() > few && voxels_.size() > share * live_;
+  }
 
  private:
   [[nodiscard]] const Voxel* at(const VoxelKey& key) const;
@@ -79,6 +84,7 @@ class SurfelMap {
   double voxel_m_;
   VoxelIndex index_;
   std::vector<Voxel> voxels_;
+  std::size_t live_ = 0;  ///< voxels that hold surfels
 };
 
 }  // namespace plumbline::slam

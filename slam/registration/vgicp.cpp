@@ -76,16 +76,19 @@ Registration VgicpOdometry::match(const DeskewedScan& scan, const OdometrySample
     const bool any = config_.odometry_prior || config_.tilt_prior;
     const std::optional<PosePrior> prior = any ? std::optional(prediction) : std::nullopt;
     result = align_finely(prediction.X_MR, prior, odometry);
-    // Along a degenerate direction one start matches as well as another: only clearly more matches are better.
-    constexpr double clearly = 1.1, as_usual = 0.8, hardly = 0.5;
+    // Along a degenerate direction one start matches as well as another: only clearly more matches are better, or as
+    // many that leave less open. Surfaces that a scan does not meet where it starts count as open.
+    constexpr double clearly = 1.1, as_usual = 0.8, hardly = 0.5, about = 0.9;
     const auto try_from = [&](std::span<const Pose> starts) {
       const Registration again = align_finely(align_coarsely(starts).X_MR, prior, odometry);
-      if (again.matched > clearly * result.matched) result = again;
+      const bool tells_more = again.unobserved_directions < result.unobserved_directions;
+      if (again.matched > (tells_more ? about : clearly) * result.matched) result = again;
     };
     const bool measured = config_.odometry_prior && odometry.valid;
-    if (result.matched < (measured ? hardly : as_usual) * usual_matched)
-      try_from(std::array<Pose, 3>{prediction.X_MR, X_MR_, Pose{prediction.X_MR.q, X_MR_.t}});
-    if (result.matched < hardly * usual_matched) try_from(yaw_fan(X_MR_));
+    const std::array<Pose, 3> starts = {prediction.X_MR, X_MR_, Pose{prediction.X_MR.q, X_MR_.t}};
+    if (result.matched < as_usual * usual_matched || (!measured && result.unobserved_directions > 0))
+      try_from(measured ? std::span<const Pose>(starts).first(1) : starts);
+    if (result.matched < (measured ? hardly : as_usual) * usual_matched) try_from(yaw_fan(X_MR_));
   }
   if (!q_OM_) q_OM_ = odometry.q_OR;
   return result;
@@ -148,11 +151,16 @@ void VgicpOdometry::reset_map() {
 }
 
 void VgicpOdometry::follow_scale(const DeskewedScan& scan) {
-  constexpr double low_pass = 0.95;  // a few seconds at 10 Hz
-  constexpr double change = 1.25;    // from which sizes follow
+  constexpr double time_constant_s = 2.0;
+  constexpr double change = 1.25;  // from which sizes follow
+  if (scale_stamp_ && scan.stamp <= *scale_stamp_) return;
   const double now_m = median_range(scan);
   if (now_m <= 0.0) return;
-  median_range_m_ = median_range_m_ > 0.0 ? low_pass * median_range_m_ + (1.0 - low_pass) * now_m : now_m;
+  const double kept = median_range_m_ > 0.0
+                          ? std::exp(-seconds(scan.stamp - scale_stamp_.value_or(scan.stamp)) / time_constant_s)
+                          : 0.0;
+  scale_stamp_ = scan.stamp;
+  median_range_m_ = kept * median_range_m_ + (1.0 - kept) * now_m;
   const double scale = std::clamp(median_range_m_ / config_.reference_range_m, 1.0, config_.largest_scale);
   const bool to_the_least = scale <= 1.0 && scale_ > 1.0;
   if (scale < change * scale_ && scale_ < change * scale && !to_the_least) return;
@@ -179,8 +187,9 @@ PosePrior VgicpOdometry::predict(const DeskewedScan& scan, const OdometrySample&
   const Pose& step = odometry.step;
   PosePrior prior{X_MR_ * step, Matrix6d::Zero(), std::nullopt};
   if (config_.odometry_prior && odometry.valid) {
-    const double sigma_m = config_.prior_m + config_.prior_per_m * step.t.norm();
-    const double sigma_rad = config_.prior_rad + config_.prior_per_rad * log_so3(step.q).norm();
+    const double sigma_m = config_.prior_m + config_.prior_per_m * step.t.norm() + odometry.extrapolated_m;
+    const double sigma_rad =
+        config_.prior_rad + config_.prior_per_rad * log_so3(step.q).norm() + odometry.extrapolated_rad;
     prior.information.diagonal().head<3>().setConstant(1.0 / (sigma_m * sigma_m));
     prior.information.diagonal().tail<3>().setConstant(1.0 / (sigma_rad * sigma_rad));
   }
@@ -198,6 +207,7 @@ void VgicpOdometry::insert(const Pose& X_MR) {
   if (keyframes_.size() <= static_cast<std::size_t>(config_.map_keyframes)) return;
   for (SurfelMap& map : maps_) map.remove(keyframes_.front().surfels, keyframes_.front().X_MR);
   keyframes_.pop_front();
+  if (maps_.front().holds_many_empty()) set_scale(scale_);
 }
 
 }  // namespace plumbline::slam

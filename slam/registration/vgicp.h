@@ -114,10 +114,11 @@ class VgicpOdometry {
   std::vector<SurfelMap> maps_;      ///< finest first
   EdgeMap edge_map_;
   std::deque<Keyframe> keyframes_;
-  std::vector<Surfel> scan_;              ///< surfels of the scan last matched ...
-  std::vector<Surfel> few_;               ///< ... a share of them ...
-  std::vector<Eigen::Vector3d> edges_R_;  ///< ... and its edge points
-  double median_range_m_ = 0.0;           ///< low-pass filtered; 0 before the first scan
+  std::vector<Surfel> scan_;                ///< surfels of the scan last matched ...
+  std::vector<Surfel> few_;                 ///< ... a share of them ...
+  std::vector<Eigen::Vector3d> edges_R_;    ///< ... and its edge points
+  double median_range_m_ = 0.0;             ///< low-pass filtered; 0 before the first scan
+  std::optional<Nanoseconds> scale_stamp_;  ///< of the scan that it last followed
   double scale_ = 1.0;
   Pose X_MR_;
   Pose X_OR_;                               ///< what update() was given last

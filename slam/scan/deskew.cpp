@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 #include <cstddef>
+#include <cstdlib>
 #include <numbers>
+#include <optional>
 #include <vector>
 
 #include "bim/digest/digest.h"
@@ -13,10 +15,8 @@ namespace plumbline::slam {
 namespace {
 
 constexpr std::size_t digest_stride = 8;
+constexpr Nanoseconds one_firing = 100'000;
 constexpr double max_range_m = 1e3;  ///< beyond what any of the LiDARs can measure
-
-/// Time of a column relative to the scan's stamp: that of its first return slot.
-Nanoseconds column_offset(const Scan& scan, std::size_t first) { return scan.offset_ns[first]; }
 
 /// A finite point no farther than its range says; NaN compares false.
 bool is_return(const Scan& scan, std::size_t i) {
@@ -59,19 +59,25 @@ DeskewedScan deskew(const Scan& scan, const MotionBuffer& motion, const Calibrat
   out.point_R.assign(scan.size(), Eigen::Vector3d::Zero());
   out.X_RL = calibration.X_RL;
   out.odometry_stale = motion.is_stale_at(scan.stamp);
+  out.odometry_age = motion.age_at(scan.stamp);
 
   const Pose X_RO = motion.at(scan.stamp).inverse();
   const auto rings = static_cast<std::size_t>(scan.rings);
   const std::vector<int> shifts = column_shifts(scan);
   for (int column = 0; column < scan.columns; ++column) {
     const auto first = static_cast<std::size_t>(column) * rings;
-    // X_RC: the robot at the column's time, seen from the robot at the stamp.
-    const Pose X_RC = X_RO * motion.at(scan.stamp + column_offset(scan, first));
-    const Pose X_RL = X_RC * calibration.X_RL;
-    const Eigen::Matrix3d R_RL = X_RL.rotation();
+    std::optional<Nanoseconds> offset;  // that the pose of the LiDAR is of
+    Pose X_RL;
+    Eigen::Matrix3d R_RL = Eigen::Matrix3d::Identity();
     for (std::size_t ring = 0; ring < rings; ++ring) {
       const int aligned = column - shifts[ring];
       if (!is_return(scan, first + ring) || aligned < 0 || aligned >= scan.columns) continue;
+      if (const Nanoseconds own = scan.offset_ns[first + ring]; !offset || std::abs(own - *offset) > one_firing) {
+        offset = own;
+        // The robot then, seen from the robot at the stamp.
+        X_RL = X_RO * motion.at(scan.stamp + own) * calibration.X_RL;
+        R_RL = X_RL.rotation();
+      }
       const std::size_t i = static_cast<std::size_t>(aligned) * rings + ring;
       out.range_m[i] = scan.range_m[first + ring];
       out.point_R[i] = R_RL * scan.point_L[first + ring] + X_RL.t;

@@ -44,7 +44,13 @@ Pose MotionBuffer::at(Nanoseconds t) const {
                                       [](const Odometry& record, Nanoseconds time) { return record.stamp < time; });
   const Odometry& b = *after;
   const Odometry& a = *(after - 1);
-  return interpolate(a.X_OR, b.X_OR, fraction(a.stamp, b.stamp, std::min(t, b.stamp + max_extrapolation)));
+  return interpolate(a.X_OR, b.X_OR, fraction(a.stamp, b.stamp, std::min(t, b.stamp + max_age())));
+}
+
+Nanoseconds MotionBuffer::max_age() const {
+  if (records_.size() < 2) return least_max_age;
+  const Nanoseconds period = records_.back().stamp - records_[records_.size() - 2].stamp;
+  return std::clamp(period + period / 2, least_max_age, most_max_age);
 }
 
 void MotionBuffer::forget_before(Nanoseconds t) {

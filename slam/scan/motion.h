@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <deque>
 #include <optional>
@@ -13,27 +14,29 @@ namespace plumbline::slam {
 /// Recent odometry, interpolated for the robot's motion between scan times.
 class MotionBuffer {
  public:
-  /// Farthest that at() extrapolates past the newest record: two periods of a 100 Hz odometry.
-  static constexpr Nanoseconds max_extrapolation = 20'000'000;
   /// Farther than a robot goes between two records: the odometry has jumped. Its frame is then moved along, so that the
   /// robot keeps position and heading over the jump; only increments and tilt mean anything.
   static constexpr double max_speed_mps = 60.0;
   static constexpr double max_turn_radps = 60.0;
-  /// Age of the newest record from which the odometry counts as stale: one and a half periods of one of 10 Hz.
-  static constexpr Nanoseconds max_age = 150'000'000;
+  /// Age of the newest record from which the odometry counts as stale: one and a half of its periods, and between one
+  /// and a half periods of 10 and of 2 Hz.
+  static constexpr Nanoseconds least_max_age = 150'000'000, most_max_age = 750'000'000;
 
   /// Records come in time order, else InternalError; one with the newest stamp replaces it, one that is not finite is
   /// left out.
   void add(const Odometry& odometry);
-  /// X_OR at time t, interpolated. After the newest record the last velocity goes on, for at most max_extrapolation (a
-  /// scan ends between two records, and a robot moves 6 mm in 10 ms); before the oldest it is the oldest pose. Needs at
-  /// least one record, else InternalError.
+  /// X_OR at time t, interpolated. After the newest record the last velocity goes on until the odometry is stale: a
+  /// scan ends between two records. Before the oldest it is the oldest pose. Needs at least one record, else
+  /// InternalError.
   [[nodiscard]] Pose at(Nanoseconds t) const;
   [[nodiscard]] bool empty() const { return records_.empty(); }
-  /// True when the newest record is older than max_age at time t, so that at(t) does not give the motion since.
-  [[nodiscard]] bool is_stale_at(Nanoseconds t) const {
-    return records_.empty() || t - records_.back().stamp > max_age;
+  /// True when the newest record is older than max_age() at time t, so that at(t) does not give the motion since.
+  [[nodiscard]] bool is_stale_at(Nanoseconds t) const { return records_.empty() || age_at(t) > max_age(); }
+  /// Time from the newest record to t, over which at(t) extrapolates; 0 where there is one at or after t.
+  [[nodiscard]] Nanoseconds age_at(Nanoseconds t) const {
+    return records_.empty() ? 0 : std::max<Nanoseconds>(t - records_.back().stamp, 0);
   }
+  [[nodiscard]] Nanoseconds max_age() const;
   /// Drops what is not needed for times from t on.
   void forget_before(Nanoseconds t);
 
@@ -52,7 +55,9 @@ class MotionBuffer {
 struct OdometrySample {
   Pose step;                               ///< of R since the scan before: where a search starts
   bool valid = true;                       ///< false: nothing measured the step
-  double sigma_m = 0.1;                    ///< of the step, if nothing measured it
+  double sigma_m = 0.1;                    ///< of the step in directions that surfaces leave open
+  double extrapolated_m = 0.0;             ///< standard deviations of what odometry's records do not reach ...
+  double extrapolated_rad = 0.0;           ///< ... at either end of the step
   std::optional<Eigen::Quaterniond> q_OR;  ///< R's attitude in a frame whose z is up, where odometry tells it
 };
 
@@ -65,12 +70,13 @@ struct DeskewedScan {
   std::vector<double> range_m;           ///< as measured; 0: no return, or one that is no finite point in its range
   std::vector<Eigen::Vector3d> point_R;  ///< at stamp; zero where there is no return
   Pose X_RL;                             ///< sensor in R
-  bool odometry_stale = false;           ///< at stamp: what came since its last record is taken as if R stood still
+  bool odometry_stale = false;           ///< at stamp: nothing is known of the motion since its last record
+  Nanoseconds odometry_age = 0;          ///< at stamp, of its last record: the motion since is extrapolated
 };
 
-/// Undoes the robot's motion during the scan by the odometry's relative poses. One pose a column: its lasers fire
-/// within 35 us, in which a walking robot moves 0.02 mm. Putting rings in line drops at either end of the scan the few
-/// columns that some rings do not have; a message's overlap is as wide.
+/// Undoes the robot's motion during the scan by the odometry's relative poses: one for all returns of a column that are
+/// measured within 0.1 ms, in which even a car moves 3 mm. Putting rings in line drops at either end of the scan the
+/// few columns that some rings do not have; a message's overlap is as wide.
 [[nodiscard]] DeskewedScan deskew(const Scan& scan, const MotionBuffer& motion, const Calibration& calibration);
 
 /// Of every eighth column's points; what differs elsewhere shows in the stages behind.

@@ -17,8 +17,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr Nanoseconds period = 100'000'000;
-
 /// Names of the clouds in order; none where there is anything else than clouds of one ending and recording.yaml.
 std::vector<std::string> names_of_clouds(const std::string& folder) {
   std::vector<std::string> names;
@@ -38,7 +36,10 @@ std::vector<std::string> names_of_clouds(const std::string& folder) {
 class CloudRecording final : public Recording {
  public:
   CloudRecording(std::string folder, RecordingInfo info)
-      : folder_(std::move(folder)), info_(std::move(info)), names_(names_of_clouds(folder_)) {
+      : folder_(std::move(folder)),
+        info_(std::move(info)),
+        period_(static_cast<Nanoseconds>(info_.lidar.period_s * 1e9)),
+        names_(names_of_clouds(folder_)) {
     if (names_.empty())
       throw InputError({folder_, 0, 0}, "is no folder of point clouds, all of them .pcd or all of them .ply");
   }
@@ -47,7 +48,7 @@ class CloudRecording final : public Recording {
     if (next_ == names_.size()) return false;
     const std::string file = folder_ + "/" + names_[next_];
     PointCloud cloud = read_cloud_file(file);
-    cloud.stamp = static_cast<Nanoseconds>(next_) * period;
+    cloud.stamp = static_cast<Nanoseconds>(next_) * period_;
     frame = {};
     try {
       frame.scan = scan_of(cloud);
@@ -55,8 +56,11 @@ class CloudRecording final : public Recording {
       throw InputError({file, 0, 0}, error.what());
     }
     ++next_;
-    // Times within a cloud may reach beyond the next one's.
-    if (frame.scan.stamp <= last_) throw InputError({file, 0, 0}, "its points are measured for longer than 0.1 s");
+    if (frame.scan.stamp - cloud.stamp > period_ + period_ / 10)
+      throw InputError({file, 0, 0},
+                       "its points are measured for longer than a period; recording.yaml beside the clouds, "
+                       "or --description, says what that is: lidar: {period_s: 0.2}");
+    frame.scan.stamp = std::max(frame.scan.stamp, last_ + 1);
     last_ = frame.scan.stamp;
     return true;
   }
@@ -68,6 +72,7 @@ class CloudRecording final : public Recording {
  private:
   std::string folder_;
   RecordingInfo info_;
+  Nanoseconds period_;
   std::vector<std::string> names_;
   std::size_t next_ = 0;
   Nanoseconds last_ = -1;

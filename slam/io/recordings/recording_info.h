@@ -32,12 +32,17 @@ struct MountSpec {
 struct MessageSpec {
   std::optional<int> packets_per_message;
   bool vertical_offsets = true;
+  double period_s = 0.1;
   template <class V>
   void visit(V& v) {
     v("packets_per_message", packets_per_message,
       Field{
           .doc = "one turn, rounded up, as drivers cut; found from the packets when not given", .min = 1, .max = 2000});
     v("vertical_offsets", vertical_offsets, Field{.doc = "lasers start up to 11.2 mm above or below the origin"});
+    v("period_s", period_s,
+      Field{.doc = "time from one cloud to the next, for a folder of clouds, which have no stamps",
+            .min = 0.001,
+            .max = 60.0});
   }
 };
 

@@ -79,5 +79,129 @@ TEST(FrontEnd, AnEndlessCorridorIsDegenerateAndLost) {
   EXPECT_LT(walked.highest_m, 0.3);
 }
 
+/// What odometry and driver do to a walk.
+struct Given {
+  Nanoseconds odometry_period = 10'000'000;
+  Nanoseconds silent_from = 1'000'000'000'000;  ///< odometry's records from then on ...
+  Nanoseconds silent_to = 1'000'000'000'000;    ///< ... until then are missing
+  bool compensated = false;                     ///< clouds come deskewed
+  double blank_from_s = 1e9, blank_to_s = 1e9;  ///< scans without returns
+  bool patch = false;                           ///< from 2 s on scans see a patch of the floor alone
+};
+
+struct Honest {
+  double worst_m = 0.0;  ///< farthest from the truth
+  double last_m = 0.0;
+  int silent = 0;  ///< scans off by more than a metre of which the front end does not say that it is lost
+  int scans = 0;
+};
+
+Scan deskewed_by_truth(const Scan& scan, const std::vector<Eigen::Vector2d>& way, const synthetic::WalkConfig& walk,
+                       const Calibration& calibration) {
+  Scan out = scan;
+  const Pose X_LW = (synthetic::walk_pose(way, walk, seconds(scan.stamp)) * calibration.X_RL).inverse();
+  for (std::size_t i = 0; i < scan.size(); ++i)
+    if (scan.range_m[i] > 0.0)
+      out.point_L[i] = X_LW * (synthetic::walk_pose(way, walk, seconds(scan.stamp + scan.offset_ns[i])) *
+                               calibration.X_RL * scan.point_L[i]);
+  return out;
+}
+
+/// Blinds a scan but for a patch of the floor before the robot.
+void leave_a_patch(Scan& scan) {
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    const Eigen::Vector3d& p_L = scan.point_L[i];
+    if (p_L.z() > -0.4 || p_L.x() < 1.5 || p_L.x() > 2.2 || std::abs(p_L.y()) > 0.5) scan.range_m[i] = 0.0;
+  }
+}
+
+Honest follow(const synthetic::House& house, const std::vector<Eigen::Vector2d>& way, double speed_mps,
+              double duration_s, std::size_t nth, bool has_odometry, const Given& given) {
+  synthetic::WalkConfig walk;
+  walk.speed_mps = speed_mps;
+  walk.duration_s = duration_s;
+  walk.vibration = 0.3;
+  walk.odometry_sigma = walk.odometry_yaw_sigma = 0.0;
+  const synthetic::Recording recording = synthetic::walk(house, way, walk);
+  FrontEnd front_end(has_odometry ? LidarOdometryConfig{} : alone(), recording.calibration, has_odometry);
+  Honest result;
+  const Pose X_MW = recording.truth.front().X_FR.inverse();
+  Nanoseconds next = 0;
+  std::size_t record = 0;
+  for (std::size_t k = 0; k < recording.scans.size(); k += nth) {
+    Scan scan = recording.scans[k];
+    for (; record < recording.odometry.size() && recording.odometry[record].stamp <= scan.stamp; ++record) {
+      const Odometry& odometry = recording.odometry[record];
+      if (!has_odometry || odometry.stamp < next) continue;
+      next = odometry.stamp + given.odometry_period;
+      if (odometry.stamp < given.silent_from || odometry.stamp > given.silent_to) front_end.on_odometry(odometry);
+    }
+    const double t = seconds(scan.stamp);
+    if (given.compensated) scan = deskewed_by_truth(scan, way, walk, recording.calibration);
+    if (t > given.blank_from_s && t < given.blank_to_s) std::fill(scan.range_m.begin(), scan.range_m.end(), 0.0);
+    if (given.patch && t > 2.0) leave_a_patch(scan);
+    DeskewedScan deskewed = front_end.deskewed(scan);
+    const Registration odometry = front_end.track(scan, deskewed);
+    result.last_m = (odometry.X_MR.t - (X_MW * recording.truth[k].X_FR).t).norm();
+    result.worst_m = std::max(result.worst_m, result.last_m);
+    result.silent += result.last_m > 1.0 && !odometry.lost && !odometry.displaced ? 1 : 0;
+    ++result.scans;
+  }
+  return result;
+}
+
+const std::vector<Eigen::Vector2d> across_the_hall = {{2.0, 2.0}, {38.0, 10.0}};
+
+synthetic::House hall() { return synthetic::one_room(40.0, 12.0); }
+
+TEST(FrontEnd, SlowOdometryIsNoWorseThanNone) {
+  for (const Nanoseconds period : {10'000'000, 100'000'000, 200'000'000, 500'000'000}) {
+    const Honest hall_walk = follow(hall(), across_the_hall, 3.0, 8.0, 1, true, {.odometry_period = period});
+    EXPECT_LT(hall_walk.worst_m, 0.3) << period;
+    const Honest house_walk = follow(synthetic::corridor_house(), synthetic::corridor_house_walk(), 1.0, 20.0, 1, true,
+                                     {.odometry_period = period});
+    EXPECT_LT(house_walk.worst_m, 0.4) << period;
+  }
+}
+
+TEST(FrontEnd, OdometryThatDiesLeavesLidarAlone) {
+  const Honest walked = follow(hall(), across_the_hall, 3.0, 8.0, 1, true, {.silent_from = 2'000'000'000});
+  EXPECT_LT(walked.worst_m, 0.5);
+  EXPECT_EQ(walked.silent, 0);
+}
+
+TEST(FrontEnd, OdometryOfCompensatedCloudsMayFallSilent) {
+  const Honest walked = follow(hall(), across_the_hall, 1.0, 10.0, 1, true,
+                               {.silent_from = 4'000'000'000, .silent_to = 7'000'000'000, .compensated = true});
+  EXPECT_LT(walked.worst_m, 0.3);
+  const Honest corridor = follow(synthetic::one_room(300.0, 2.2), {{140.0, 1.1}, {160.0, 1.1}}, 1.0, 12.0, 1, true,
+                                 {.silent_from = 4'000'000'000, .silent_to = 9'000'000'000, .compensated = true});
+  EXPECT_LE(corridor.silent, 10) << "walls tell nothing of the way along them";
+}
+
+TEST(FrontEnd, FewScansASecondAtAWalkingPaceAreFollowedOrLost) {
+  for (const double speed_mps : {0.8, 1.0}) {
+    const Honest walked =
+        follow(synthetic::corridor_house(), synthetic::corridor_house_walk(), speed_mps, 40.0, 5, false, {});
+    EXPECT_LE(walked.silent, 6) << speed_mps << ": within three seconds";
+  }
+}
+
+TEST(FrontEnd, AHandfulOfSurfelsTellsNothing) {
+  const Honest walked =
+      follow(synthetic::corridor_house(), synthetic::corridor_house_walk(), 1.0, 12.0, 1, false, {.patch = true});
+  EXPECT_LE(walked.silent, 10);
+}
+
+// Once found again, a robot is where it is believed to be, or says that this is not known.
+TEST(FrontEnd, AfterScansWithoutReturnsThePlaceIsKnownOrLost) {
+  for (const double blank_s : {0.5, 1.5, 3.0})
+    for (const double speed_mps : {1.0, 1.5}) {
+      const Honest walked = follow(synthetic::corridor_house(), synthetic::corridor_house_walk(), speed_mps, 16.0, 1,
+                                   false, {.blank_from_s = 5.0, .blank_to_s = 5.0 + blank_s});
+      EXPECT_LE(walked.silent, 30) << blank_s << " s at " << speed_mps << " m/s";
+    }
+}
+
 }  // namespace
 }  // namespace plumbline::slam

@@ -53,7 +53,8 @@ TEST(OdometryHealth, AStepIsComparedWithOdometryAndTheStepBefore) {
   const HealthConfig config;
   OdometryHealth health(config);
   const auto step = [](double x, double yaw) { return Pose::from_xyz_yaw({x, 0.0, 0.0}, yaw); };
-  const double way = 0.01 * config.max_acceleration_mps2, turn = 0.01 * config.max_turn_acceleration_radps2;
+  const double way = config.max_deviation_m + 0.01 * config.max_acceleration_mps2;
+  const double turn = config.max_deviation_rad + 0.01 * config.max_turn_acceleration_radps2;
   const ExpectedStep walked{period, step(0.1, 0.0), std::nullopt};
   EXPECT_TRUE(health.is_plausible_step(step(0.12, 0.1), walked));
   EXPECT_FALSE(health.is_plausible_step(step(0.1 + way + 0.1, 0.0), walked));
@@ -64,6 +65,20 @@ TEST(OdometryHealth, AStepIsComparedWithOdometryAndTheStepBefore) {
   EXPECT_TRUE(health.is_plausible_step(step(1.2, 0.0), {10 * period, step(0.0, 0.0), std::nullopt})) << "1 s went by";
   EXPECT_FALSE(health.assess(matched(0.9), step(std::nan(""), 0.0), walked));
   EXPECT_FALSE(health.is_plausible_step(step(1.0, 0.0), {0, Pose{}, Pose{}})) << "no time went by";
+}
+
+// What nothing let expect takes as many matches as usual: an alias has fewer.
+TEST(OdometryHealth, ASurpriseTakesAsManyMatchesAsUsual) {
+  const HealthConfig config;
+  OdometryHealth health(config);
+  const auto step = [](double x, double yaw) { return Pose::from_xyz_yaw({x, 0.0, 0.0}, yaw); };
+  const ExpectedStep expected{5 * period, std::nullopt, ExpectedMotion(step(0.5, 0.0), 0.02, 0.01)};
+  for (int k = 0; k < config.recent_scans; ++k) ASSERT_TRUE(health.assess(matched(0.8), step(0.5, 0.0), expected));
+  EXPECT_TRUE(health.assess(matched(0.5), step(0.55, 0.02), expected));
+  EXPECT_FALSE(health.assess(matched(0.5), step(1.5, 0.0), expected));
+  EXPECT_FALSE(health.assess(matched(0.5), step(0.5, 0.5), expected));
+  EXPECT_TRUE(health.assess(matched(0.7), step(1.5, 0.5), expected)) << "it did stop and turn";
+  EXPECT_TRUE(health.assess(matched(0.5), step(1.5, 0.0), {5 * period, step(1.4, 0.0), {}})) << "of unknown error";
 }
 
 struct Tracked {
@@ -175,8 +190,9 @@ TEST(LidarOdometry, WithoutOdometryAndReturnsAStepMayBeAny) {
   EXPECT_FALSE(r.accepted);
   EXPECT_FALSE(r.odometry_valid);
   const HealthConfig limits;
-  EXPECT_NEAR(1.0 / std::sqrt(r.information(0, 0)), 0.01 * limits.max_acceleration_mps2, 1e-9);
-  EXPECT_NEAR(1.0 / std::sqrt(r.information(5, 5)), 0.01 * limits.max_turn_acceleration_radps2, 1e-9);
+  EXPECT_NEAR(1.0 / std::sqrt(r.information(0, 0)), limits.max_deviation_m + 0.01 * limits.max_acceleration_mps2, 1e-9);
+  EXPECT_NEAR(1.0 / std::sqrt(r.information(5, 5)),
+              limits.max_deviation_rad + 0.01 * limits.max_turn_acceleration_radps2, 1e-9);
 }
 
 // A second without returns: lost meanwhile, on dead reckoning, and found again.

@@ -237,6 +237,29 @@ TEST(Observability, ACorridorLeavesTheWayAlongItOpen) {
   }
 }
 
+// A few surfels fit anywhere.
+TEST(Observability, AHandfulOfSurfelsLeavesAllOpen) {
+  const std::vector<Surfel> few = {{{2.0, 0.0, -0.6}, {0.0, 0.0, 1.0}}, {{2.0, 0.3, -0.6}, {0.0, 0.0, 1.0}}};
+  SurfelMap map(0.2);
+  map.add(few, Pose{});
+  const Pose start = Pose::from_xyz_yaw({0.03, 0.02, 0.01}, 0.01);
+  const Registration found = align(few, map, start, std::nullopt, {});
+  EXPECT_EQ(found.unobserved_directions, 6);
+  EXPECT_LT((start.inverse() * found.X_MR).t.norm(), 1e-9);
+}
+
+// What holds a pose where nothing measures it is no information about it.
+TEST(Observability, TheHoldIsNoInformation) {
+  const Stream random(45, "bim.generate");
+  const std::vector<Surfel> surfels = corridor_surfels(random, false);
+  SurfelMap map(0.2);
+  map.add(surfels, Pose{});
+  const Registration found = align(surfels, map, Pose{}, std::nullopt, {}, {}, 1e-3);
+  ASSERT_EQ(found.degenerate_directions, 1);
+  EXPECT_LT(found.information(0, 0), 1e-3 * found.information(1, 1));
+  EXPECT_NEAR(found.open(0, 0), 1.0, 0.05);
+}
+
 // Where surfaces leave a direction open the start stays, whatever the surfels' own places along it would pull.
 TEST(Observability, ADegenerateDirectionKeepsTheStart) {
   const Stream random(44, "bim.generate");

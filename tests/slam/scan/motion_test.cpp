@@ -33,7 +33,7 @@ TEST(MotionBufferTest, InterpolatesBetweenRecordsAndGoesOnAfterTheLast) {
 TEST(MotionBufferTest, StopsAtItsEnds) {
   const MotionBuffer motion = buffer(100'000'000);
   expect_pose_near(motion.at(-5), straight(0.0), 1e-12);
-  expect_pose_near(motion.at(500'000'000), straight(0.12), 1e-9);
+  expect_pose_near(motion.at(500'000'000), straight(0.1 + seconds(motion.max_age())), 1e-9);
 }
 
 TEST(MotionBufferTest, ForgettingKeepsWhatLaterTimesNeed) {
@@ -79,14 +79,29 @@ TEST(MotionBufferTest, JumpsLeaveTheTiltAsItIsTold) {
 TEST(MotionBufferTest, IsSilentOnceItsNewestRecordIsOld) {
   EXPECT_TRUE(MotionBuffer().is_stale_at(0));
   const MotionBuffer motion = buffer(100'000'000);
-  EXPECT_FALSE(motion.is_stale_at(100'000'000 + MotionBuffer::max_age));
-  EXPECT_TRUE(motion.is_stale_at(100'000'001 + MotionBuffer::max_age));
+  EXPECT_EQ(motion.max_age(), MotionBuffer::least_max_age);
+  EXPECT_FALSE(motion.is_stale_at(100'000'000 + motion.max_age()));
+  EXPECT_TRUE(motion.is_stale_at(100'000'001 + motion.max_age()));
   synthetic::WalkConfig walk;
   walk.duration_s = 0.45;
   const synthetic::Recording recording = synthetic::walk(synthetic::one_room(), {{1.0, 1.0}, {3.0, 1.0}}, walk);
   ASSERT_EQ(recording.scans.size(), 4U);
   EXPECT_FALSE(deskew(recording.scans[1], motion, recording.calibration).odometry_stale);
   EXPECT_TRUE(deskew(recording.scans[3], motion, recording.calibration).odometry_stale);
+}
+
+// Until the odometry is stale its motion is taken to go on: what is called valid is the motion until then.
+TEST(MotionBufferTest, GoesOnUntilItIsStale) {
+  for (const Nanoseconds period : {10'000'000, 100'000'000, 200'000'000, 500'000'000, 2'000'000'000}) {
+    MotionBuffer motion;
+    for (Nanoseconds t = 0; t <= 3 * period; t += period) motion.add({t, straight(seconds(t))});
+    EXPECT_GE(motion.max_age(), std::min<Nanoseconds>(period, MotionBuffer::most_max_age));
+    for (Nanoseconds age = 0; age <= motion.max_age(); age += 10'000'000) {
+      const Nanoseconds t = 3 * period + age;
+      EXPECT_EQ(motion.age_at(t), age);
+      EXPECT_LT((motion.at(t).t - straight(seconds(t)).t).norm(), 1e-9) << period << ", " << age;
+    }
+  }
 }
 
 TEST(MotionBufferTest, RefusesToGuess) {

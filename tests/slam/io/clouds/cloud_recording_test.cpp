@@ -44,6 +44,20 @@ TEST(CloudRecording, IsAScanEachTenthOfASecond) {
   EXPECT_FALSE(recording->next(frame));
 }
 
+TEST(CloudRecording, AScanEachPeriodThatTheDescriptionTells) {
+  const Folder folder;
+  write_clouds(folder, {"0.pcd", "1.pcd"});
+  RecordingInfo info;
+  info.lidar.period_s = 0.5;
+  const auto recording = open_cloud_folder(folder.path(), &info);
+  SensorFrame first, second;
+  ASSERT_TRUE(recording->next(first));
+  ASSERT_TRUE(recording->next(second));
+  EXPECT_EQ(second.scan.stamp - first.scan.stamp, 500'000'000);
+  info.lidar.period_s = 0.05;  // and a turn of 0.1 s
+  EXPECT_THROW((void)open_cloud_folder(folder.path(), &info)->next(first), InputError);
+}
+
 TEST(CloudRecording, TakesTheDescription) {
   const Folder folder;
   write_clouds(folder, {"a.ply"});

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "slam/io/records.h"
+
+namespace plumbline::slam {
+
+/// How far from where it is believed to be a robot may have gone while nothing measured its way: standard deviations in
+/// m. Scans that fit take back what came in while none did, since the map is of before; nothing takes back what came in
+/// before a map that began meanwhile, nor what a map drifted by that was built on the way.
+class UnmeasuredWay {
+ public:
+  /// limit_m: from which on the robot is not known to be where it is believed to be.
+  explicit UnmeasuredWay(double limit_m) : limit_m_(limit_m) {}
+
+  /// A scan that fits the map and tells the whole pose. as_usual: it fits as well as scans do, so that it is in its
+  /// place.
+  void add_measured(Nanoseconds dt, bool as_usual);
+  /// A scan that fits, but leaves some direction open: the map drifts with the robot.
+  void add_open(Nanoseconds dt);
+  /// A scan that does not fit, after which the robot is believed to have gone on as before ...
+  void add_continued(Nanoseconds dt) { open_s_ += seconds(dt); }
+  /// ... or where it was, although it went at this speed.
+  void add_frozen(Nanoseconds dt, double speed_mps);
+  /// A new map begins here.
+  void begin_map();
+
+  /// Of the way gone unmeasured that may still be made up for.
+  [[nodiscard]] double open_m() const;
+  [[nodiscard]] bool lost() const { return open_m() > limit_m_; }
+  /// Whether the place of the map itself is not known.
+  [[nodiscard]] bool displaced() const { return map_m_ > limit_m_; }
+
+ private:
+  double limit_m_;
+  double open_s_ = 0.0;    ///< time without a measurement that was not yet made up for
+  double frozen_m_ = 0.0;  ///< way gone while the robot was believed to stand
+  double map_m_ = 0.0;
+};
+
+}  // namespace plumbline::slam

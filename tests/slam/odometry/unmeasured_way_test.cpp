@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/odometry/unmeasured_way.h"
+
+#include <gtest/gtest.h>
+
+namespace plumbline::slam {
+namespace {
+
+constexpr double limit_m = 1.0;
+
+Nanoseconds period(double rate_hz) { return static_cast<Nanoseconds>(1e9 / rate_hz); }
+
+// Random accelerations take as long at 2 Hz as at 20.
+TEST(UnmeasuredWay, GrowsWithTimeWhateverTheRate) {
+  for (const double rate_hz : {2.0, 5.0, 10.0, 20.0}) {
+    UnmeasuredWay way(limit_m);
+    double before_m = 0.0, lost_s = 0.0;
+    for (int k = 0; k < static_cast<int>(4.0 * rate_hz); ++k) {
+      way.add_open(period(rate_hz));
+      EXPECT_GT(way.open_m(), before_m);
+      before_m = way.open_m();
+      if (!way.lost()) lost_s += 1.0 / rate_hz;
+    }
+    EXPECT_NEAR(lost_s, 1.96, 0.5) << "2 m/s^2 for 0.1 s each, integrated";
+    EXPECT_TRUE(way.displaced()) << "the map drifted with the robot";
+  }
+}
+
+TEST(UnmeasuredWay, ScansOfTheSameMapTakeBackWhatTheyDidNotSee) {
+  UnmeasuredWay way(limit_m);
+  for (int k = 0; k < 30; ++k) way.add_frozen(period(10.0), 1.0);
+  EXPECT_GT(way.open_m(), 3.0);
+  EXPECT_TRUE(way.lost());
+  way.add_measured(period(10.0), false);
+  EXPECT_TRUE(way.lost()) << "half of a scan fits anywhere";
+  for (int k = 0; k < 60; ++k) way.add_measured(period(10.0), true);
+  EXPECT_FALSE(way.lost());
+  EXPECT_FALSE(way.displaced());
+}
+
+TEST(UnmeasuredWay, ANewMapDoesNotKnowWhereItIs) {
+  UnmeasuredWay way(limit_m);
+  for (int k = 0; k < 30; ++k) way.add_frozen(period(10.0), 1.0);
+  way.begin_map();
+  for (int k = 0; k < 1000; ++k) way.add_measured(period(10.0), true);
+  EXPECT_FALSE(way.lost());
+  EXPECT_TRUE(way.displaced());
+  UnmeasuredWay standing(limit_m);
+  for (int k = 0; k < 10; ++k) standing.add_frozen(period(10.0), 0.0);
+  standing.begin_map();
+  EXPECT_FALSE(standing.displaced()) << "a second without scans of a robot that stood";
+}
+
+}  // namespace
+}  // namespace plumbline::slam
