@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "bim/config/input_file.h"
 #include "bim/errors.h"
 
 namespace plumbline {
@@ -66,8 +67,6 @@ class Tree {
 /// Reads YAML text. Duplicate keys, anchors on cycles, more than one document and nesting deeper than 64 are
 /// InputErrors.
 [[nodiscard]] Tree read_yaml(std::string_view text, const std::string& file);
-/// Reads a whole file: missing, a directory, unreadable or empty is an InputError; so is one over max_bytes.
-[[nodiscard]] std::string read_text_file(const std::string& path, std::size_t max_bytes = std::size_t{1} << 30U);
 [[nodiscard]] std::string write_yaml(const Tree& tree);
 [[nodiscard]] Tree read_json(std::string_view text, const std::string& file);
 /// indent 0: one line.

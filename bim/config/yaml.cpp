@@ -2,11 +2,6 @@
 #include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
-#include <filesystem>
-#include <memory>
 #include <sstream>
 
 #include "bim/config/tree.h"
@@ -184,26 +179,6 @@ Tree read_yaml(std::string_view text, const std::string& file) {
     throw InputError(builder.place(error.mark), "no valid YAML: " + error.msg);
   }
   return std::move(builder.root);
-}
-
-std::string read_text_file(const std::string& path, std::size_t max_bytes) {
-  namespace fs = std::filesystem;
-  const Mark mark{path, 0, 0};
-  std::error_code error;
-  const fs::file_status status = fs::status(path, error);
-  if (!fs::exists(status)) throw InputError(mark, "no such file");
-  if (fs::is_directory(status)) throw InputError(mark, "is a directory; a file is expected");
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
-  if (!file) throw InputError(mark, std::string("cannot be read: ") + std::strerror(errno));
-  std::string text;
-  std::vector<char> buffer(std::size_t{1} << 16U);
-  while (const std::size_t n = std::fread(buffer.data(), 1, buffer.size(), file.get())) {
-    text.append(buffer.data(), n);
-    if (text.size() > max_bytes)
-      throw InputError(mark, "larger than the " + std::to_string(max_bytes) + " bytes that are read at most");
-  }
-  if (text.empty()) throw InputError(mark, "the file is empty");
-  return text;
 }
 
 std::string write_yaml(const Tree& tree) {

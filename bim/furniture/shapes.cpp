@@ -51,13 +51,13 @@ class Boxes {
 
 // Parts are of usual thickness, or a share of the size where a piece is small.
 
-void table(Boxes& b) {
+void add_table(Boxes& b) {
   const double top = std::min(0.04, 0.2 * b.z()), leg = std::min(0.06, 0.15 * b.narrow());
   b.add(0, b.x(), 0, b.y(), b.z() - top, b.z());
   b.add_legs(leg, 0.3 * leg, b.z() - top);
 }
 
-void desk(Boxes& b) {
+void add_desk(Boxes& b) {
   const double top = std::min(0.03, 0.2 * b.z()), side = std::min(0.04, 0.1 * b.x());
   const double under = b.z() - top, back = std::min(0.02, 0.1 * b.y()), in = 0.05 * b.y();
   b.add(0, b.x(), 0, b.y(), under, b.z());
@@ -66,14 +66,14 @@ void desk(Boxes& b) {
   b.add(1.5 * side, b.x() - 1.5 * side, b.y() - 2 * in - back, b.y() - 2 * in, 0.4 * under, 0.95 * under);
 }
 
-void chair(Boxes& b) {
+void add_chair(Boxes& b) {
   const double seat = 0.5 * b.z(), thick = 0.08 * seat, leg = 0.09 * b.narrow(), back = 0.1 * b.y();
   b.add(0, b.x(), 0, b.y(), seat - thick, seat);
   b.add_legs(leg, 0.2 * leg, seat - thick);
   b.add(0.05 * b.x(), 0.95 * b.x(), b.y() - 1.1 * back, b.y() - 0.1 * back, seat, b.z());
 }
 
-void bed(Boxes& b) {
+void add_bed(Boxes& b) {
   const double lying = 0.6 * b.z(), frame = 0.4 * lying, leg = std::min(0.08, 0.15 * b.narrow());
   const double board = std::min(0.06, 0.05 * b.y());
   const double length = b.y() - board;
@@ -83,7 +83,7 @@ void bed(Boxes& b) {
   b.add(0.01 * b.x(), 0.99 * b.x(), length, b.y(), 0.5 * frame, b.z());
 }
 
-void sofa(Boxes& b) {
+void add_sofa(Boxes& b) {
   const double seat = 0.5 * b.z(), foot = 0.12 * b.z(), back = 0.28 * b.y(), arm = std::min(0.2, 0.15 * b.x());
   b.add(arm, b.x() - arm, 0.02 * b.y(), b.y() - back, foot, seat);
   b.add(arm, b.x() - arm, b.y() - back, b.y() - 0.01 * b.y(), 1.1 * foot, b.z());
@@ -91,7 +91,7 @@ void sofa(Boxes& b) {
   b.add_legs(0.5 * arm, 0.1 * arm, foot);
 }
 
-void shelf(Boxes& b) {
+void add_shelf(Boxes& b) {
   const double thick = std::min({0.025, 0.05 * b.x(), 0.05 * b.z()}), back = std::min(0.01, 0.1 * b.y());
   for (const double x : {0.0, b.x() - thick}) b.add(x, x + thick, 0, b.y(), 0, b.z());
   b.add(thick, b.x() - thick, b.y() - back, 0.999 * b.y(), 0.01 * b.z(), 0.995 * b.z());
@@ -102,13 +102,13 @@ void shelf(Boxes& b) {
   }
 }
 
-void wardrobe(Boxes& b) {
+void add_wardrobe(Boxes& b) {
   const double foot = std::min(0.1, 0.1 * b.z()), leg = std::min(0.06, 0.15 * b.narrow());
   b.add(0, b.x(), 0, b.y(), foot, b.z());
   b.add_legs(leg, 0.2 * leg, foot);
 }
 
-void kitchen(Boxes& b) {
+void add_kitchen(Boxes& b) {
   const double tall = std::min(0.6, 0.4 * b.x()), worktop = 0.43 * b.z(), top = 0.02 * b.z();
   const double plinth = 0.05 * b.z(), front = 0.08 * b.y();
   const double units = b.x() - tall;
@@ -118,7 +118,7 @@ void kitchen(Boxes& b) {
   b.add(units, b.x(), 0.5 * front, 0.995 * b.y(), 0, b.z());
 }
 
-void machine(Boxes& b) {
+void add_machine(Boxes& b) {
   const double bench = 0.55 * b.z();
   b.add(0.02 * b.x(), 0.98 * b.x(), 0.15 * b.y(), 0.98 * b.y(), 0, 0.1 * b.z());
   b.add(0, b.x(), 0.1 * b.y(), b.y(), 0.1 * b.z(), bench);
@@ -127,7 +127,7 @@ void machine(Boxes& b) {
   b.add(0.72 * b.x(), 0.93 * b.x(), 0, 0.08 * b.y(), 0.6 * b.z(), 0.85 * b.z());
 }
 
-void pallet(Boxes& b) {
+void add_pallet(Boxes& b) {
   const double height = std::min(0.144, 0.3 * b.z()), board = 0.18 * height;
   for (const double y : {0.0, 0.43, 0.86}) {
     b.add(0.01 * b.x(), 0.99 * b.x(), (y + 0.01) * b.y(), (y + 0.13) * b.y(), 0, board);
@@ -140,7 +140,7 @@ void pallet(Boxes& b) {
 }
 
 /// Sits on a block; front towards -y.
-void person(Boxes& b) {
+void add_person(Boxes& b) {
   const double seat = 0.34 * b.z(), lap = 0.45 * b.z(), shoulders = 0.8 * b.z();
   b.add(0.1 * b.x(), 0.9 * b.x(), 0.35 * b.y(), 0.98 * b.y(), 0, seat);
   for (const double x : {0.14, 0.58}) b.add(x * b.x(), (x + 0.28) * b.x(), 0, 0.25 * b.y(), 0, seat);
@@ -152,27 +152,27 @@ void person(Boxes& b) {
 void build(FurnitureShape shape, Boxes& boxes) {
   switch (shape) {
     case FurnitureShape::table:
-      return table(boxes);
+      return add_table(boxes);
     case FurnitureShape::desk:
-      return desk(boxes);
+      return add_desk(boxes);
     case FurnitureShape::chair:
-      return chair(boxes);
+      return add_chair(boxes);
     case FurnitureShape::bed:
-      return bed(boxes);
+      return add_bed(boxes);
     case FurnitureShape::sofa:
-      return sofa(boxes);
+      return add_sofa(boxes);
     case FurnitureShape::shelf:
-      return shelf(boxes);
+      return add_shelf(boxes);
     case FurnitureShape::wardrobe:
-      return wardrobe(boxes);
+      return add_wardrobe(boxes);
     case FurnitureShape::kitchen:
-      return kitchen(boxes);
+      return add_kitchen(boxes);
     case FurnitureShape::machine:
-      return machine(boxes);
+      return add_machine(boxes);
     case FurnitureShape::pallet:
-      return pallet(boxes);
+      return add_pallet(boxes);
     case FurnitureShape::person:
-      return person(boxes);
+      return add_person(boxes);
   }
   throw InternalError("unknown shape of furniture");
 }

@@ -73,8 +73,12 @@ PlannedAndBuilt read_planned_and_built(const std::string& text, const std::strin
 
 }  // namespace
 
+std::string read_building_file(const std::string& path) {
+  return is_mesh_path(path) ? read_text_file(path, MeshFileConfig().most_bytes) : read_text_file(path);
+}
+
 PlannedAndBuilt load_planned_and_built(const std::string& path, const BuildingOptions& options) {
-  PlannedAndBuilt both = read_planned_and_built(read_text_file(path), path);
+  PlannedAndBuilt both = read_planned_and_built(read_building_file(path), path);
   for (Building* building : {&both.as_planned, &both.as_built}) {
     apply_options(*building, options);
     add_fillings(*building);
@@ -83,7 +87,7 @@ PlannedAndBuilt load_planned_and_built(const std::string& path, const BuildingOp
 }
 
 Building load_building(const std::string& path) {
-  return read_planned_and_built(read_text_file(path), path).as_planned;
+  return read_planned_and_built(read_building_file(path), path).as_planned;
 }
 
 }  // namespace plumbline::bim

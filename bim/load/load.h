@@ -18,6 +18,10 @@ struct PlannedAndBuilt {
   bool has_plan = true;         ///< false: a mesh without a plan, in which no method can localize
 };
 
+/// The bytes of a building's file: of a mesh as many as MeshFileConfig allows, of others 1 GiB. Errors as
+/// read_text_file().
+[[nodiscard]] std::string read_building_file(const std::string& path);
+
 /// Reads a building with its as-built deviations, with a scenario's options, and fills its closed doors and its windows
 /// (bim/model/fillings.h). Errors as load_building.
 [[nodiscard]] PlannedAndBuilt load_planned_and_built(const std::string& path, const BuildingOptions& options = {});

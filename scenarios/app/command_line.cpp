@@ -32,6 +32,9 @@ std::string check_positive(std::string& text) {
   return "'" + text + "' must be a number above 0, 1000000 at most";
 }
 
+/// An empty word where a name belongs is most often a variable of a shell that was not set.
+std::string check_not_empty(std::string& text) { return text.empty() ? "must not be empty" : ""; }
+
 std::string guess_of(const std::string& word, const std::vector<std::string>& known) {
   const std::string guess = did_you_mean(word, known);
   return guess.empty() ? "" : "; did you mean '" + guess + "'?";
@@ -143,12 +146,19 @@ Argument CommandLine::add(const std::string& name, T& value, const std::string& 
   return Argument(app_->add_option(name, value, doc));
 }
 
+template <class T>
+Argument CommandLine::add_words(const std::string& name, T& value, const std::string& doc) {
+  CLI::Option* option = app_->add_option(name, value, doc);
+  option->check(CLI::Validator(check_not_empty, ""));
+  return Argument(option);
+}
+
 Argument CommandLine::option(const std::string& name, std::string& value, const std::string& doc) {
-  return add(name, value, doc);
+  return add_words(name, value, doc);
 }
 
 Argument CommandLine::option(const std::string& name, std::vector<std::string>& value, const std::string& doc) {
-  return add(name, value, doc);
+  return add_words(name, value, doc);
 }
 
 Argument CommandLine::option(const std::string& name, int& value, const std::string& doc) {
@@ -185,10 +195,28 @@ bool CommandLine::parse(const std::vector<std::string>& arguments) {
   try {
     app_->parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));  // the last stands first there
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app_->exit(error) != 0;  // --help, --version
+    if (error.get_exit_code() == 0) {  // --help, --version
+      check_commands(arguments);
+      return app_->exit(error) != 0;
+    }
     throw InputError({name(), 0, 0}, error_text(arguments, error.what()));
   }
   return true;
+}
+
+void CommandLine::check_commands(const std::vector<std::string>& arguments) const {
+  const CLI::App* line = app_.get();
+  std::string command = name();
+  for (const std::string& word : arguments) {
+    std::vector<std::string> known;
+    for (const CLI::App* below : line->get_subcommands(nullptr)) known.push_back(below->get_name());
+    if (known.empty() || word.starts_with('-')) return;
+    if (std::find(known.begin(), known.end(), word) == known.end())
+      throw InputError({name(), 0, 0},
+                       "unknown command '" + word + "'" + guess_of(word, known) + "; see " + command + " --help");
+    line = line->get_subcommand(word);
+    command += " " + word;
+  }
 }
 
 std::string CommandLine::error_text(const std::vector<std::string>& arguments, const std::string& what) const {

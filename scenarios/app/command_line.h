@@ -53,6 +53,7 @@ class CommandLine {
   [[nodiscard]] CommandLine add_command(const std::string& name, const std::string& summary);
 
   /// `name`: NAME by position, or "-n,--name".
+  /// An empty text is refused.
   Argument option(const std::string& name, std::string& value, const std::string& doc = "");
   Argument option(const std::string& name, std::vector<std::string>& value, const std::string& doc);
   Argument option(const std::string& name, int& value, const std::string& doc);
@@ -79,9 +80,13 @@ class CommandLine {
 
  private:
   explicit CommandLine(std::shared_ptr<CLI::App> app) : app_(std::move(app)) {}
+  /// Help that is asked for after a word that is no command would hide the mistake. Throws InputError.
+  void check_commands(const std::vector<std::string>& arguments) const;
   [[nodiscard]] std::string error_text(const std::vector<std::string>& arguments, const std::string& what) const;
   template <class T>
   Argument add(const std::string& name, T& value, const std::string& doc);
+  template <class T>
+  Argument add_words(const std::string& name, T& value, const std::string& doc);
 
   std::shared_ptr<CLI::App> app_;
 };

@@ -4,8 +4,10 @@
 #include <memory>
 #include <string>
 
+#include "bim/config/printable.h"
 #include "bim/config/tree.h"
 #include "scenarios/app/commands.h"
+#include "scenarios/host/terminal.h"
 #include "scenarios/run/digest_log.h"
 #include "slam/io/recordings/tum.h"
 
@@ -37,8 +39,8 @@ Command add_diff(CommandLine& program) {
               std::puts("equal");
               return 0;
             }
-            std::printf("first difference at %s s in %s: %s\n", slam::format_stamp(difference->tick).c_str(),
-                        difference->stage.c_str(), difference->what.c_str());
+            print("first difference at " + slam::format_stamp(difference->tick) + " s in " +
+                  printable(difference->stage) + ": " + difference->what + "\n");
             return 1;
           }};
 }

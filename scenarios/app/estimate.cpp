@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "bim/config/printable.h"
 #include "bim/errors.h"
 #include "bim/plan/plan.h"
 #include "bim/random/stream.h"
@@ -16,6 +17,7 @@
 #include "scenarios/host/files.h"
 #include "scenarios/host/interrupt.h"
 #include "scenarios/host/progress.h"
+#include "scenarios/host/terminal.h"
 #include "scenarios/metrics/state_names.h"
 #include "scenarios/run/method_runner.h"
 #include "scenarios/run/run_files.h"
@@ -136,12 +138,26 @@ std::unique_ptr<slam::Recording> open_folder(const std::string& folder, const sl
   return slam::open_bag(bag, topics, &info);
 }
 
+/// What is not there or only has the name of a bag is said before a reader of captures sees it.
+void check_kind(const std::string& recording) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  if (!fs::exists(recording, error))
+    throw InputError({recording, 0, 0},
+                     "no such file; a recording directory, a capture (.pcap), a ROS 1 bag or a folder "
+                     "of point clouds would be right");
+  if (fs::is_directory(recording, error) || slam::is_bag(recording)) return;
+  if (fs::path(recording).extension() == ".bag")
+    throw InputError({recording, 0, 0}, "is no ROS 1 bag; one begins with '#ROSBAG V2.0'");
+}
+
 /// A run directory holds its recording in a folder.
 std::unique_ptr<slam::Recording> open_input(const EstimateArguments& options) {
   std::optional<slam::RecordingInfo> info;
   if (!options.description.empty())
     info = slam::read_recording_info(read_text_file(options.description), options.description);
   const slam::RecordingInfo* given = info ? &*info : nullptr;
+  check_kind(options.recording);
   if (slam::is_bag(options.recording)) return slam::open_bag(options.recording, options.topics, given);
   if (slam::is_cloud_folder(options.recording)) return slam::open_cloud_folder(options.recording, given);
   const std::string inner = options.recording + "/" + std::string(recording_folder);
@@ -264,10 +280,10 @@ int estimate(const EstimateArguments& options, slam::MethodTable table) {
   write_file(directory.staging() + "/timings.json", write_cost(answer, start_s));
   directory.commit();
   if (record.crashed) {
-    std::fprintf(stderr, "plumbline: method '%s' crashed: %s\n", record.name.c_str(), record.error.c_str());
+    print_note("plumbline: method '" + record.name + "' crashed: " + record.error);
     return 1;
   }
-  std::printf("%s/%s.tum: %zu poses\n", options.out.c_str(), record.name.c_str(), record.causal.size());
+  print(printable(options.out) + "/" + record.name + ".tum: " + std::to_string(record.causal.size()) + " poses\n");
   if (record.lost_scans > 0) std::printf("lost after %d of %d scans\n", record.lost_scans, record.scans);
   if (!record.beliefs.empty())
     std::printf("%s at the end, %zu hypotheses\n", std::string(state_name(record.beliefs.back().state)).c_str(),

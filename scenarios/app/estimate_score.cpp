@@ -6,12 +6,15 @@
 #include <optional>
 #include <vector>
 
+#include "bim/config/printable.h"
 #include "bim/config/tree.h"
 #include "bim/errors.h"
 #include "scenarios/host/files.h"
+#include "scenarios/host/terminal.h"
 #include "scenarios/metrics/reference_score.h"
 #include "scenarios/metrics/silence.h"
 #include "scenarios/run/run_files.h"
+#include "slam/io/recordings/trajectory.h"
 #include "slam/io/recordings/tum.h"
 
 namespace plumbline::scenarios {
@@ -30,8 +33,11 @@ std::string span_of(const Poses& poses) {
   return slam::format_stamp(poses.front().stamp) + " to " + slam::format_stamp(poses.back().stamp) + " s";
 }
 
-Poses read_reference(const std::string& file) {
-  Poses poses = slam::read_tum(read_text_file(file), file);
+/// `estimate`: its stamps are those of a reference without times.
+Poses read_reference(const std::string& file, const Poses& estimate) {
+  std::vector<slam::Nanoseconds> scans;
+  for (const slam::StampedPose& pose : estimate) scans.push_back(pose.stamp);
+  Poses poses = slam::read_trajectory(read_text_file(file), file, scans);
   if (poses.empty()) throw InputError({file, 0, 0}, "holds no pose");
   return poses;
 }
@@ -110,9 +116,10 @@ void score_estimate(const std::string& dir, const std::string& reference_file) {
   const std::vector<std::string> methods = estimates_in(dir);
   if (methods.size() != 1) throw InputError({dir, 0, 0}, "holds no single estimate; make it again");
   const MethodRecord method = read_method(dir, methods.front());
+  remove_abandoned(dir);
   if (method.crashed) throw InputError({dir, 0, 0}, "is of a method that crashed: " + method.error);
   if (method.causal.empty()) throw InputError({dir, 0, 0}, "holds no pose; the method gave none");
-  const Poses reference = reference_file.empty() ? Poses() : read_reference(reference_file);
+  const Poses reference = reference_file.empty() ? Poses() : read_reference(reference_file, method.causal);
   const TrajectoryScores causal = score_one(method.causal, reference, reference_file);
   const TrajectoryScores last = score_one(method.estimate.trajectory, reference, reference_file);
 
@@ -142,7 +149,7 @@ void score_estimate(const std::string& dir, const std::string& reference_file) {
   if (!reference.empty()) text += "  matched    ATE m   step m    max m step deg  max deg    RPE/m    deg/m";
   text += "\n" + line_of("causal", causal);
   if (last.path.poses > 0) text += line_of("final", last);
-  std::fputs((text + "scores: " + dir + "/score.json\n").c_str(), stdout);
+  print(text + "scores: " + printable(dir) + "/score.json\n");
 }
 
 }  // namespace plumbline::scenarios

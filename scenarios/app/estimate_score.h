@@ -8,7 +8,7 @@ namespace plumbline::scenarios {
 /// Whether `plumbline estimate` wrote this directory.
 [[nodiscard]] bool is_estimate_directory(const std::string& dir);
 
-/// Scores what `plumbline estimate` left by itself and, where `reference` names a trajectory (TUM), by that. Writes
+/// Scores what `plumbline estimate` left by itself and, where `reference` names a trajectory, by that. Writes
 /// score.json into `dir` and prints a table. Throws InputError, also where the two are of different times.
 void score_estimate(const std::string& dir, const std::string& reference);
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -18,6 +17,7 @@
 #include "bim/load/load.h"
 #include "scenarios/app/commands.h"
 #include "scenarios/host/files.h"
+#include "scenarios/host/terminal.h"
 #include "scenarios/spec/route_plan.h"
 #include "scenarios/spec/scenario.h"
 
@@ -130,7 +130,7 @@ int furnish(const GenerateOptions& options) {
   if (options.out != "-") refuse_to_replace(options.out, options.force);
   const std::string text = furnished(options);
   if (options.out == "-") {
-    std::fwrite(text.data(), 1, text.size(), stdout);
+    print_data(text);
   } else {
     write_file(options.out, text);
   }
@@ -150,7 +150,7 @@ int generate(const GenerateOptions& options) {
       bim::write_plan(generated.plan, "Made by: " + asked.command + furniture_asked(options.furniture));
   if (options.out == "-") {
     if (!options.scenario.empty()) throw InputError({"--scenario", 0, 0}, "needs a plan in a file; give -o a path");
-    std::fwrite(text.data(), 1, text.size(), stdout);
+    print_data(text);
     return 0;
   }
   refuse_to_replace(options.out, options.force);

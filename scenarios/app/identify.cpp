@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -11,6 +10,7 @@
 #include "scenarios/app/process.h"
 #include "scenarios/host/files.h"
 #include "scenarios/host/interrupt.h"
+#include "scenarios/host/terminal.h"
 #include "scenarios/localizability/planned_walk.h"
 #include "scenarios/report/localizability_page.h"
 
@@ -56,7 +56,7 @@ void refuse_given(const std::vector<Argument>& others, const std::string& why) {
 int identify_scenario(const IdentifyOptions& options, int threads) {
   const std::vector<SeedAnswers> walks = localizability_of_walks(options.building, options.seeds, threads);
   const std::string text = options.json ? write_json(walks_json(walks)) + "\n" : walks_text(walks);
-  std::fwrite(text.data(), 1, text.size(), stdout);
+  print(text);
   return 0;
 }
 
@@ -64,10 +64,10 @@ int identify(const IdentifyOptions& options) {
   const int threads = options.threads > 0 ? options.threads : std::min(allowed_cpus(), 2);
   if (bim::is_mesh_path(options.building))
     throw InputError({options.building, 0, 0}, "is a mesh, which has no plan; name a plan or an .ifc");
+  exit_on_interrupts();
   if (is_scenario(options.building)) {
     refuse_given(options.of_buildings,
                  "is for a building; with a scenario only --seeds, --json and --threads are allowed");
-    catch_interrupts();
     return identify_scenario(options, threads);
   }
   refuse_given(options.of_scenarios, "is of a scenario's walks; this is a building");
@@ -76,8 +76,8 @@ int identify(const IdentifyOptions& options) {
   BuildingMapOptions map_options = options.map;
   if (!options.storey.empty()) map_options.storey = options.storey;
   map_options.threads = threads;
-  catch_interrupts();
   const BuildingMaps maps = maps_of(building, map_options);
+  catch_interrupts();  // a page is written whole or not at all
   if (!page.empty()) {
     const std::filesystem::path folder = std::filesystem::path(page).parent_path();
     std::error_code error;
@@ -86,7 +86,7 @@ int identify(const IdentifyOptions& options) {
   }
   const std::string text =
       options.json ? write_json(localizability_json(building, maps)) + "\n" : localizability_text(building, maps);
-  std::fwrite(text.data(), 1, text.size(), stdout);
+  print(text);
   return 0;
 }
 

@@ -14,6 +14,7 @@
 #include "bim/mesh/export.h"
 #include "scenarios/app/commands.h"
 #include "scenarios/host/files.h"
+#include "scenarios/host/terminal.h"
 
 namespace plumbline::scenarios {
 
@@ -58,7 +59,7 @@ int inspect(const InspectOptions& options) {
   if (!options.ifc.empty()) write_file(options.ifc, bim::write_ifc(building));
   const std::string text =
       options.json ? write_json(inspect_json(building, mesh)) + "\n" : inspect_text(building, mesh, site.changes);
-  std::fwrite(text.data(), 1, text.size(), stdout);
+  print(text);
   return 0;
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "bim/config/printable.h"
 #include "scenarios/app/commands.h"
 #include "scenarios/run/method_runner.h"
 #include "scenarios/spec/method_names.h"
@@ -62,7 +63,8 @@ int list_scenarios(const std::string& folder) {
     const Scenario scenario = read_scenario(read_text_file(path), path).scenario;
     std::string methods;
     for (const std::string& name : scenario.methods) methods += " " + name;
-    std::printf("%-40s %-20s%s\n", path.c_str(), scenario.name.c_str(), methods.c_str());
+    std::printf("%-40s %-20s%s\n", printable(path).c_str(), printable(scenario.name).c_str(),
+                printable(methods).c_str());
   }
   return 0;
 }

@@ -15,6 +15,7 @@
 #include "scenarios/app/commands.h"
 #include "scenarios/app/process.h"
 #include "scenarios/host/interrupt.h"
+#include "scenarios/host/terminal.h"
 #include "scenarios/run/method_runner.h"
 #include "scenarios/spec/method_names.h"
 
@@ -25,10 +26,7 @@ namespace {
 enum ExitCode { bad_input = 2, environment_or_internal = 3, scenario_failed = 4 };
 
 int print_error(const std::string& text, int code) {
-  std::string line = text;
-  for (char& c : line)
-    if (c == '\n') c = ' ';
-  std::fprintf(stderr, "%s\n", line.c_str());
+  print_note(text);
   return code;
 }
 

@@ -6,11 +6,13 @@
 #include <optional>
 #include <string>
 
+#include "bim/config/printable.h"
 #include "bim/errors.h"
 #include "scenarios/app/commands.h"
 #include "scenarios/app/process.h"
 #include "scenarios/host/interrupt.h"
 #include "scenarios/host/progress.h"
+#include "scenarios/host/terminal.h"
 #include "scenarios/run/run_files.h"
 #include "scenarios/run/runner.h"
 #include "slam/io/recordings/tum.h"
@@ -63,8 +65,8 @@ int replay(const ReplayArguments& options, slam::MethodTable table) {
     std::printf("equal: %zu digests\n", again.size());
     return 0;
   }
-  std::printf("first difference at %s s in %s: %s (the first is the recorded run)\n",
-              slam::format_stamp(difference->tick).c_str(), difference->stage.c_str(), difference->what.c_str());
+  print("first difference at " + slam::format_stamp(difference->tick) + " s in " + printable(difference->stage) + ": " +
+        difference->what + " (the first is the recorded run)\n");
   return 1;
 }
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <cstdio>
 #include <memory>
 #include <string>
 
+#include "bim/config/printable.h"
 #include "scenarios/app/commands.h"
 #include "scenarios/host/files.h"
+#include "scenarios/host/terminal.h"
 #include "scenarios/report/report_builder.h"
 #include "scenarios/run/run_files.h"
 
@@ -17,8 +18,9 @@ Command add_report(CommandLine& program) {
   line.footer("Example: plumbline report runs/quickstart-1");
   return {line, [dir] {
             const FinishedRun run = read_run(*dir);
+            remove_abandoned(*dir);
             write_file(*dir + "/report.html", render_report(report_input(run, score::score_run(run))));
-            std::printf("report: %s/report.html\n", dir->c_str());
+            print("report: " + printable(*dir) + "/report.html\n");
             return 0;
           }};
 }

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "bim/config/printable.h"
 #include "bim/errors.h"
 #include "scenarios/app/commands.h"
 #include "scenarios/app/process.h"
@@ -13,6 +14,7 @@
 #include "scenarios/host/files.h"
 #include "scenarios/host/interrupt.h"
 #include "scenarios/host/progress.h"
+#include "scenarios/host/terminal.h"
 #include "scenarios/run/recorder.h"
 #include "scenarios/run/run_files.h"
 #include "scenarios/run/runner.h"
@@ -87,8 +89,8 @@ int run(const RunArguments& options, slam::MethodTable table) {
              write_timings(finished.record.sim_times, finished.record.methods, cost));
   directory.commit();
 
-  if (!finished.record.failure.empty()) std::fprintf(stderr, "%s\n", finished.record.failure.c_str());
-  std::fputs(("report: " + out + "/report.html\n" + summarise(finished, score)).c_str(), stdout);
+  if (!finished.record.failure.empty()) print_note(finished.record.failure);
+  print("report: " + printable(out) + "/report.html\n" + summarise(finished, score));
   return exit_code(finished, score);
 }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -8,14 +7,18 @@
 #include <utility>
 #include <vector>
 
+#include "bim/config/printable.h"
 #include "bim/config/tree.h"
 #include "scenarios/app/commands.h"
 #include "scenarios/app/estimate_score.h"
 #include "scenarios/app/summary.h"
+#include "scenarios/host/files.h"
+#include "scenarios/host/terminal.h"
 #include "scenarios/metrics/trajectory.h"
 #include "scenarios/run/ground_truth_recorder.h"
 #include "scenarios/run/run_files.h"
 #include "scenarios/spec/method_names.h"
+#include "slam/io/recordings/trajectory.h"
 #include "slam/io/recordings/tum.h"
 
 namespace plumbline::scenarios {
@@ -70,10 +73,9 @@ MethodRecord read_outside(const std::string& text, const std::string& run_dir, c
   if (const std::size_t frame = path.rfind(",frame="); frame != std::string::npos)
     throw InputError(mark, "'" + path.substr(frame + 1) + "' must be frame=W, the plan's, or frame=M, its own");
   if (!is_plain_name(method.name) || path.empty())
-    throw InputError(
-        mark, "'" + text + "' must be NAME=trajectory.tum, NAME=trajectory.tum,frame=W or NAME=directory of estimate");
+    throw InputError(mark, "'" + text + "' must be NAME=FILE, NAME=FILE,frame=W or NAME=directory of estimate");
   method.estimate.frame = method.localization ? slam::Frame::world : slam::Frame::map;
-  method.causal = slam::read_tum(read_text_file(path), path);
+  method.causal = slam::read_trajectory(read_text_file(path), path, run.scans);
   if (method.causal.empty()) throw InputError({path, 0, 0}, "holds no pose");
   return method;
 }
@@ -113,6 +115,7 @@ void check_dropped(const std::vector<std::string>& dropped, const FinishedRun& r
 int score_again(const std::string& dir, const std::vector<std::string>& estimates,
                 const std::vector<std::string>& dropped) {
   FinishedRun run = read_run(dir);
+  remove_abandoned(dir);
   check_dropped(dropped, run);
   std::vector<MethodRecord> outside;
   for (const std::string& text : estimates) {
@@ -131,7 +134,7 @@ int score_again(const std::string& dir, const std::vector<std::string>& estimate
   for (const MethodRecord& method : outside) write_method(dir, method);
   if (!outside.empty() || !dropped.empty()) run = read_run(dir);
   const score::RunScore score = score_and_report(dir, run);
-  std::fputs(("report: " + dir + "/report.html\n" + summarise(run, score)).c_str(), stdout);
+  print("report: " + printable(dir) + "/report.html\n" + summarise(run, score));
   return exit_code(run, score);
 }
 
@@ -163,12 +166,14 @@ Command add_score(CommandLine& program) {
       "score",
       "Scores a run directory again, with estimates of other programs or of plumbline estimate; or an estimate alone");
   line.option("DIR", options->dir, "run directory, or directory that plumbline estimate wrote").required();
-  line.option("--estimate", options->estimates,
-              "NAME=trajectory.tum[,frame=W|M]: poses of the robot in the plan's frame W or its own M [M]; or "
-              "NAME=directory that plumbline estimate wrote, of the run's recording");
+  line.option(
+      "--estimate", options->estimates,
+      "NAME=FILE[,frame=W|M]: poses of the robot (TUM, KITTI or EuRoC) in the plan's frame W or its own M [M]; or "
+      "NAME=directory that plumbline estimate wrote, of the run's recording");
   line.option("--drop", options->dropped, "removes the outside estimate of this name, which was given before");
   line.option("--reference", options->reference,
-              "of an estimate: true poses (TUM) of the same frame of the robot, in any world frame, on the estimate's "
+              "of an estimate: true poses (TUM, KITTI or EuRoC) of the same frame of the robot, in any world frame, on "
+              "the estimate's "
               "clock; both are aligned");
   line.footer(
       "Example: plumbline score runs/quickstart-1 --estimate kiss=kiss.tum --estimate amcl=amcl.tum,frame=W\n"

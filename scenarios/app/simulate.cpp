@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <cstdio>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "bim/config/printable.h"
 #include "bim/errors.h"
 #include "scenarios/app/commands.h"
 #include "scenarios/host/files.h"
 #include "scenarios/host/interrupt.h"
 #include "scenarios/host/progress.h"
+#include "scenarios/host/terminal.h"
 #include "scenarios/run/recorder.h"
 #include "scenarios/run/runner.h"
 #include "slam/io/recordings/tum.h"
@@ -68,7 +69,7 @@ int simulate(const SimulateArguments& options, slam::MethodTable table) {
   write_file(dir + "/scenario.yaml", write_scenario(resolved.scenario));
   directory.commit();
 
-  std::printf("recording: %s (%s s)\n", options.out.c_str(), slam::format_stamp(record.truth_W.back().stamp).c_str());
+  print("recording: " + printable(options.out) + " (" + slam::format_stamp(record.truth_W.back().stamp) + " s)\n");
   if (record.failure.empty()) return 0;
   throw ScenarioFailure(record.failure);
 }

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdio>
 
+#include "bim/config/printable.h"
 #include "scenarios/host/files.h"
 #include "scenarios/report/report_builder.h"
 
@@ -45,11 +46,11 @@ std::string row(const std::string& name, std::size_t width, const std::string& v
 
 std::string summarise(const FinishedRun& run, const score::RunScore& score) {
   char head[160];
-  std::snprintf(head, sizeof(head), "%s, seed %llu: %.1f m in %.1f s, digest %s\n", run.scenario.name.c_str(),
-                static_cast<unsigned long long>(run.scenario.seed), score.distance_m, score.duration_s,
-                score.digest.c_str());
+  std::snprintf(head, sizeof(head), "%s, seed %llu: %.1f m in %.1f s, digest %s\n",
+                printable(run.scenario.name).c_str(), static_cast<unsigned long long>(run.scenario.seed),
+                score.distance_m, score.duration_s, score.digest.c_str());
   std::string text = head;
-  if (!run.record.failure.empty()) text += "the scenario failed: " + run.record.failure + "\n";
+  if (!run.record.failure.empty()) text += "the scenario failed: " + printable(run.record.failure) + "\n";
   std::size_t width = 22;
   for (const score::MethodScore& method : score.methods) width = std::max(width, method.name.size());
   text += row("method", width, "verdict");
@@ -62,7 +63,7 @@ std::string summarise(const FinishedRun& run, const score::RunScore& score) {
   for (const score::MethodScore& method : score.methods) {
     text += row(method.name, width, method.verdict);
     for (const Column& column : columns) text += cell(method, column);
-    text += method.error.empty() ? "\n" : "  " + method.error + "\n";
+    text += method.error.empty() ? "\n" : "  " + printable(method.error) + "\n";
   }
   for (const score::GateResult& gate : score.gates)
     text += (gate.passed ? "passed: " : "FAILED: ") + score::describe(gate) + "\n";

@@ -8,10 +8,12 @@
 #include <string>
 #include <vector>
 
+#include "bim/config/printable.h"
 #include "bim/errors.h"
 #include "scenarios/app/commands.h"
 #include "scenarios/app/process.h"
 #include "scenarios/host/interrupt.h"
+#include "scenarios/host/terminal.h"
 #include "scenarios/sweep/shared_simulation.h"
 #include "scenarios/sweep/sweep_schema.h"
 
@@ -48,16 +50,15 @@ int sweep(const SweepArguments& options, slam::MethodTable table) {
   run.out = options.out.empty() ? "sweeps/" + name : options.out;
   run.jobs = options.jobs > 0 ? options.jobs : allowed_cpus();
   run.resumed = [&](std::size_t done, std::size_t all) {
-    std::fprintf(stderr,
-                 "plumbline: %zu of %zu runs are there already; %s/results holds them, remove those to be made anew\n",
-                 done, all, run.out.c_str());
+    print_note("plumbline: " + std::to_string(done) + " of " + std::to_string(all) + " runs are there already; " +
+               run.out + "/results holds them, remove those to be made anew");
   };
   if (::isatty(STDERR_FILENO) == 1)
     run.progress = [](std::size_t done, std::size_t all) { std::fprintf(stderr, "\r%zu of %zu runs", done, all); };
   catch_interrupts();
   const std::string text = run_sweep(sweep, run);
   if (run.progress) std::fputc('\n', stderr);
-  std::fputs((text + "table: " + run.out + "/table.html\n").c_str(), stdout);
+  print(text + "table: " + printable(run.out) + "/table.html\n");
   return 0;
 }
 

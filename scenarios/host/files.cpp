@@ -2,7 +2,6 @@
 #include "scenarios/host/files.h"
 
 #include <fcntl.h>
-#include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -185,8 +184,47 @@ std::span<const FileRow> files_of(DirectoryKind kind) {
   return rows[static_cast<std::size_t>(kind)];
 }
 
+std::vector<std::string> make_folders(const std::string& path, const std::string& named) {
+  std::vector<std::string> missing, made;
+  std::error_code error;
+  for (fs::path p = fs::path(path); !p.empty() && !fs::exists(p, error); p = p.parent_path()) {
+    if (fs::is_symlink(fs::symlink_status(p, error)))
+      throw InputError({p.string(), 0, 0}, "is a link to '" + fs::read_symlink(p, error).string() +
+                                               "', which does not exist; name another --out");
+    missing.push_back(p.string());
+  }
+  std::reverse(missing.begin(), missing.end());
+  for (const std::string& folder : missing) {
+    if (!fs::create_directory(folder, error) && error) {
+      for (auto it = made.rbegin(); it != made.rend(); ++it) ::rmdir(it->c_str());
+      fail(named, "cannot be created", error.value());
+    }
+    made.push_back(folder);
+  }
+  return made;
+}
+
+namespace {
+
+std::string staging_of(const std::string& path) { return (fs::path(path) / staging_name).string(); }
+
+std::string lock_in(const std::string& staging) { return staging + "/lock"; }
+
+}  // namespace
+
+void remove_abandoned(const std::string& directory) noexcept {
+  try {
+    const std::string staging = staging_of(directory);
+    std::error_code error;
+    if (!fs::is_regular_file(lock_in(staging), error)) return;
+    const std::optional<FolderLock> lock = FolderLock::take(lock_in(staging), directory);
+    if (lock) fs::remove_all(staging, error);
+  } catch (const std::exception&) {  // no place of ours to tidy
+  }
+}
+
 RunDirectory::RunDirectory(const std::string& path, DirectoryKind kind, bool force)
-    : path_(path), staging_((fs::path(path) / staging_name).string()) {
+    : path_(path), staging_(staging_of(path)) {
   std::error_code error;
   const fs::file_status status = fs::status(path_, error);
   const Mark mark{path_, 0, 0};
@@ -202,7 +240,10 @@ RunDirectory::RunDirectory(const std::string& path, DirectoryKind kind, bool for
       ours = ours || known.names(name);
     }
     if (occupied && !ours) throw InputError(mark, "is not empty and holds no " + what + "; name another --out");
-    if (occupied && !force) throw InputError(mark, "exists and is not empty; name another --out or add --force");
+    if (occupied && !force) {
+      remove_abandoned(path_);
+      throw InputError(mark, "exists and is not empty; name another --out or add --force");
+    }
   }
   try {
     create();
@@ -213,22 +254,9 @@ RunDirectory::RunDirectory(const std::string& path, DirectoryKind kind, bool for
 }
 
 void RunDirectory::create() {
-  std::vector<std::string> missing;
-  std::error_code error;
-  for (fs::path p = fs::path(staging_); !p.empty() && !fs::exists(p, error); p = p.parent_path())
-    missing.push_back(p.string());
-  std::reverse(missing.begin(), missing.end());
-  for (const std::string& folder : missing) {
-    if (!fs::create_directory(folder, error) && error) fail(path_, "cannot be created", error.value());
-    created_.push_back(folder);
-  }
-  const std::string lock_path = staging_ + "/lock";
-  lock_ = ::open(lock_path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
-  if (lock_ < 0) fail(path_, "cannot be written", errno);
-  if (::flock(lock_, LOCK_EX | LOCK_NB) != 0) {
-    ::close(std::exchange(lock_, -1));
-    throw InputError({path_, 0, 0}, "another run is writing here; name another --out");
-  }
+  created_ = make_folders(staging_, path_);
+  lock_ = FolderLock::take(lock_in(staging_), path_);
+  if (!lock_) throw InputError({path_, 0, 0}, "another run is writing here; name another --out");
   for (const std::string& name : names_in(staging_))  // what an interrupted run left
     if (name != "lock") fs::remove_all(fs::path(staging_) / name);
 }
@@ -253,16 +281,13 @@ void RunDirectory::commit() {
 
 void RunDirectory::discard() noexcept {
   std::error_code error;
-  if (lock_ >= 0) {
-    fs::remove_all(staging_, error);
-    ::close(std::exchange(lock_, -1));
-  }
+  if (lock_) fs::remove_all(staging_, error);
+  lock_.reset();
   for (auto it = created_.rbegin(); it != created_.rend(); ++it) fs::remove(*it, error);  // empty ones only
 }
 
 RunDirectory::~RunDirectory() {
   if (!committed_) discard();
-  if (lock_ >= 0) ::close(lock_);
 }
 
 }  // namespace plumbline::scenarios

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "scenarios/host/folder_lock.h"
 
 namespace plumbline::scenarios {
 
@@ -14,6 +17,13 @@ inline constexpr std::string_view recording_folder = "recording";
 /// Writes a whole file so that it appears complete or not at all: a temporary file beside it, fsync, rename.
 /// Throws EnvironmentError.
 void write_file(const std::string& path, std::string_view bytes);
+
+/// Makes a folder and those that it stands in; returns those that were not there, outermost first. Throws InputError
+/// where one of them is a link to nothing, else EnvironmentError in words about `named`, which it is in.
+std::vector<std::string> make_folders(const std::string& path, const std::string& named);
+
+/// Removes what a killed run left in a directory of ours, unless a run is writing there or nothing may be removed.
+void remove_abandoned(const std::string& directory) noexcept;
 
 /// What a directory holds: one kind never replaces another.
 enum class DirectoryKind { run, recording, estimate, sweep };
@@ -51,7 +61,7 @@ class RunDirectory {
   std::string path_;
   std::string staging_;
   std::vector<std::string> created_;  ///< folders made for this run, outermost first
-  int lock_ = -1;
+  std::optional<FolderLock> lock_;
   bool committed_ = false;
 };
 

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <string_view>
 
 #include "slam/io/stopwatch.h"
 
@@ -27,11 +28,16 @@ void note_signal(int signal) {
   pending_signal = signal;
 }
 
-}  // namespace
+/// Nothing here may allocate or lock.
+void end_process(int signal) {
+  constexpr std::string_view message = "plumbline: interrupted; nothing was written\n";
+  static_cast<void>(!::write(STDERR_FILENO, message.data(), message.size()));
+  _exit(128 + signal);
+}
 
-void catch_interrupts() {
+void handle_signals(void (*handler)(int)) {
   struct sigaction action {};
-  action.sa_handler = note_signal;
+  action.sa_handler = handler;
   sigemptyset(&action.sa_mask);
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
@@ -39,6 +45,12 @@ void catch_interrupts() {
   sigaction(SIGHUP, nullptr, &hangup);
   if (hangup.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);  // nohup asked for it to be ignored
 }
+
+}  // namespace
+
+void catch_interrupts() { handle_signals(note_signal); }
+
+void exit_on_interrupts() { handle_signals(end_process); }
 
 void check_interrupt() {
   if (pending_signal != 0) throw Interrupted(pending_signal);

@@ -20,6 +20,9 @@ class Interrupted : public std::runtime_error {
 /// From here on SIGINT, SIGTERM and SIGHUP only leave a note, which check_interrupt() finds; one that comes 2 s or more
 /// after it ends the process.
 void catch_interrupts();
+/// From here on, until catch_interrupts(), SIGINT, SIGTERM and SIGHUP end the process at once with the message and exit
+/// code of Interrupted: for work that has written nothing.
+void exit_on_interrupts();
 /// Throws Interrupted when a signal came.
 void check_interrupt();
 

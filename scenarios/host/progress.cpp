@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "bim/config/printable.h"
 #include "slam/io/stopwatch.h"
 
 namespace plumbline::scenarios {
@@ -14,8 +15,8 @@ namespace {
 constexpr double refresh_s = 0.2;
 }
 
-Progress::Progress(std::string what, double longest_s)
-    : what_(std::move(what)), longest_s_(longest_s), start_(slam::wall_s()), terminal_(isatty(STDERR_FILENO) == 1) {}
+Progress::Progress(const std::string& what, double longest_s)
+    : what_(printable(what)), longest_s_(longest_s), start_(slam::wall_s()), terminal_(isatty(STDERR_FILENO) == 1) {}
 
 Progress::~Progress() {
   if (terminal_) std::fputs("\r\033[K", stderr);

@@ -8,7 +8,7 @@ namespace plumbline::scenarios {
 /// One line on stderr that says how far a run is; silent where stderr is no terminal.
 class Progress {
  public:
-  Progress(std::string what, double longest_s);
+  Progress(const std::string& what, double longest_s);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;

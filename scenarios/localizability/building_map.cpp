@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "bim/config/printable.h"
 #include "bim/errors.h"
 
 namespace plumbline::scenarios {
@@ -142,7 +143,7 @@ std::string table_of(const RunBuilding& building, const BuildingMap& map) {
       char line[200], walk[40] = "      -        -  ";
       if (s.walk > 0) std::snprintf(walk, sizeof walk, "(%5.1f m, %5.1f m)", s.walk_median_m, s.walk_max_m);
       std::snprintf(line, sizeof line, "%-22.22s %-8s %7d   %5.1f %%   %5.1f %% %-18s  %5.1f %%\n",
-                    name_of(building.as_planned().storeys[map.floors[f].storey]).c_str(),
+                    printable(name_of(building.as_planned().storeys[map.floors[f].storey])).c_str(),
                     compass ? "compass" : "unknown", s.cells, 100.0 * s.one_scan / all, 100.0 * s.walk / all, walk,
                     100.0 * s.never / all);
       text += line;

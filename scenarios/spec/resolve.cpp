@@ -103,7 +103,10 @@ std::vector<std::string> default_methods(const Scenario& scenario, bool has_plan
 std::vector<Mark> choose_methods(ScenarioText& text, const Overrides& overrides, bool has_plan,
                                  slam::MethodTable table) {
   std::vector<std::string>& methods = text.scenario.methods;
-  if (overrides.methods) methods = *overrides.methods;
+  if (overrides.methods) {
+    check_methods(methods, marks_of(text.tree, {"methods"}, methods.size()), table);  // those it stands in for
+    methods = *overrides.methods;
+  }
   if (methods.empty()) methods = default_methods(text.scenario, has_plan, table);
   std::vector<Mark> marks = overrides.methods ? std::vector<Mark>(methods.size(), Mark{"--method", 0, 0})
                                               : marks_of(text.tree, {"methods"}, methods.size());
@@ -279,7 +282,7 @@ ResolvedScenario resolve(const std::string& input_path, const Overrides& overrid
   const fs::path building = fs::path(input_path).parent_path() / text.scenario.building;
   if (!is_implicit && !fs::exists(building))
     throw InputError(mark_at(text.tree, {"building"}), "the building '" + building.string() + "' does not exist");
-  resolved.building_bytes = read_text_file(building.string());
+  resolved.building_bytes = bim::read_building_file(building.string());
   check_furniture(text);
   bim::PlannedAndBuilt site = load_site(building.string(), text.scenario);
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenarios/sweep/shared_simulation.h"
 
-#include <cstdio>
 #include <filesystem>
 #include <utility>
 
 #include "bim/errors.h"
 #include "scenarios/host/files.h"
 #include "scenarios/host/interrupt.h"
+#include "scenarios/host/terminal.h"
 #include "scenarios/run/finished_run.h"
 #include "scenarios/run/runner.h"
 #include "scenarios/score/score_run.h"
@@ -83,7 +83,7 @@ bool run_shared(const std::vector<std::string>& files, std::uint64_t seed, slam:
   if (simulated.truth_W.empty())
     throw ScenarioFailure(simulated.failure.empty() ? "the run ended before its first scan" : simulated.failure);
   for (SharedRun& run : runs) run.score(simulated);
-  if (!simulated.failure.empty()) std::fprintf(stderr, "%s\n", simulated.failure.c_str());
+  if (!simulated.failure.empty()) print_note(simulated.failure);
   return simulated.failure.empty();
 }
 

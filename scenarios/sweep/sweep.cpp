@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenarios/sweep/sweep.h"
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
 #include <map>
+#include <optional>
 
 #include "bim/errors.h"
 #include "scenarios/host/files.h"
+#include "scenarios/host/folder_lock.h"
 #include "scenarios/host/interrupt.h"
 #include "scenarios/sweep/children.h"
 #include "scenarios/sweep/table.h"
@@ -33,32 +29,25 @@ class SweepFolder {
              std::any_of(rows.begin(), rows.end(), [&](const FileRow& row) { return row.name == name; });
     };
     std::error_code error;
+    if (fs::exists(path) && !fs::is_directory(path))
+      throw InputError({path, 0, 0}, "is a file; --out must name a directory");
     if (fs::exists(path))
       for (fs::directory_iterator it(path, error), end; !error && it != end; it.increment(error)) {
         const std::string name = it->path().filename().string();
         if (!known(name) && it->path().extension() != ".tmp")
           throw InputError({path, 0, 0}, "holds '" + name + "', which no sweep wrote; name another --out");
       }
-    made_ = !fs::exists(path);
-    fs::create_directories(results(), error);
-    lock_ = ::open((path + "/.lock").c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
-    if (lock_ < 0) throw EnvironmentError(path + ": cannot be written: " + std::strerror(errno));
-    if (::flock(lock_, LOCK_EX | LOCK_NB) != 0) {
-      ::close(lock_);
-      throw InputError({path, 0, 0}, "another sweep is writing here; name another --out");
-    }
+    made_ = make_folders(results(), path);
+    take_lock();
     fs::remove_all(work(), error);
-    if (!fs::create_directory(work(), error)) throw EnvironmentError(path + ": cannot be written");
+    fs::create_directory(work(), error);
+    if (error) throw EnvironmentError(path + ": cannot be written: " + error.message());
   }
   ~SweepFolder() {
     std::error_code error;
     fs::remove_all(work(), error);
-    if (made_ && fs::is_empty(results(), error)) {  // the first run was refused
-      fs::remove(results(), error);
-      fs::remove(path_ + "/.lock", error);
-      fs::remove(path_, error);
-    }
-    ::close(lock_);
+    lock_.reset();
+    remove_made();
   }
   SweepFolder(const SweepFolder&) = delete;
   SweepFolder& operator=(const SweepFolder&) = delete;
@@ -68,9 +57,24 @@ class SweepFolder {
   [[nodiscard]] std::string result(const SweepRun& run) const { return results() + "/" + run.key + ".json"; }
 
  private:
+  void take_lock() {
+    try {
+      lock_ = FolderLock::take(path_ + "/.lock", path_);
+    } catch (const EnvironmentError&) {
+      remove_made();
+      throw;
+    }
+    if (!lock_) throw InputError({path_, 0, 0}, "another sweep is writing here; name another --out");
+  }
+  /// What is empty of it, as where the first run was refused.
+  void remove_made() const {
+    std::error_code error;
+    for (auto it = made_.rbegin(); it != made_.rend(); ++it) fs::remove(*it, error);
+  }
+
   std::string path_;
-  int lock_ = -1;
-  bool made_ = false;  ///< the folder was not there
+  std::optional<FolderLock> lock_;
+  std::vector<std::string> made_;  ///< folders that were not there, outermost first
 };
 
 /// A child's error message without the place in a file that the sweep made.

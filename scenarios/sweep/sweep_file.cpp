@@ -7,6 +7,7 @@
 #include <set>
 
 #include "bim/digest/digest.h"
+#include "bim/load/load.h"
 #include "scenarios/spec/method_names.h"
 #include "scenarios/spec/resolve.h"
 #include "scenarios/sweep/shared_simulation.h"
@@ -34,7 +35,7 @@ class Template {
     const Tree* building = tree_.find("building");
     if (building == nullptr) throw InputError(tree_.mark, "a scenario needs a building");
     building_ = fs::absolute(fs::path(path).parent_path() / building->as_string()).lexically_normal().string();
-    building_bytes_ = fs::exists(building_) ? read_text_file(building_) : "";
+    building_bytes_ = fs::exists(building_) ? bim::read_building_file(building_) : "";
   }
 
   [[nodiscard]] std::string name() const { return fs::path(path_).stem().string(); }

@@ -2,11 +2,14 @@
 #include "scenarios/sweep/table.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <limits>
 #include <set>
+#include <string_view>
 
+#include "bim/config/printable.h"
 #include "bim/median.h"
 #include "scenarios/metrics/metrics.h"
 #include "scenarios/report/page.h"
@@ -126,8 +129,19 @@ std::vector<Line> table_lines(const std::vector<SweepCell>& cells) {
   return lines;
 }
 
-std::string csv(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+/// A word that a spreadsheet would take for a formula gets an apostrophe before it; a number and "-" stay.
+std::string no_formula(const std::string& text) {
+  if (text.empty() || text == "-" || std::string_view("=+-@\t\r").find(text.front()) == std::string_view::npos)
+    return text;
+  double number = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  const bool is_number = error == std::errc() && end == text.data() + text.size();
+  return is_number ? text : "'" + text;
+}
+
+std::string csv(const std::string& cell) {
+  const std::string text = no_formula(cell);
+  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
   std::string quoted = "\"";
   for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
   return quoted + "\"";
@@ -215,7 +229,9 @@ std::string runs_csv(const std::vector<SweepRow>& rows) {
 }
 
 std::string table_text(const std::vector<SweepCell>& cells) {
-  const std::vector<Line> lines = table_lines(cells);
+  std::vector<Line> lines = table_lines(cells);
+  for (Line& line : lines)
+    for (std::string& text : line) text = printable(text);
   std::vector<std::size_t> width(lines.front().size(), 0);
   for (const Line& line : lines)
     for (std::size_t i = 0; i < line.size(); ++i) width[i] = std::max(width[i], line[i].size());

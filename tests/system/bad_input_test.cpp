@@ -92,6 +92,8 @@ TEST_F(BadInput, ScenarioKeysAndValues) {
   refuse(with(scenario_, "method: truth", "method: nobody"), plan_, {"short.yaml:14:", "nobody"});
   write_file(folder_ / "short.yaml", with(scenario_, "method: vgicp", "method: vgipc"));
   refuse_file("short.yaml", {"short.yaml:15:", "unknown method 'vgipc'", "'vgicp'"}, {"--method", "truth"});
+  write_file(folder_ / "short.yaml", with(scenario_, "odometry, vgicp", "odometry, vgcip"));
+  refuse_file("short.yaml", {"short.yaml:12:", "unknown method 'vgcip'", "'vgicp'"}, {"--method", "truth"});
   refuse(with(scenario_, "name: short", "name: caf\xe9"), plan_, {"short.yaml:4:10", "no UTF-8"});
 }
 

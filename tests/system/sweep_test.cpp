@@ -51,6 +51,7 @@ TEST(Sweep, KilledAtAnyMomentItGivesTheSameTable) {
     EXPECT_TRUE(bytes == read_file((folder / "broken") + "/" + table)) << table;
   }
   EXPECT_FALSE(fs::exists((folder / "broken") + "/.work"));
+  for (const char* out : {"broken", "whole"}) EXPECT_FALSE(fs::exists((folder / out) + "/.lock")) << out;
   EXPECT_EQ(std::distance(fs::directory_iterator((folder / "whole") + "/results"), fs::directory_iterator()), 9);
 }
 

@@ -13,6 +13,7 @@
 #include <map>
 
 #include "bim/errors.h"
+#include "bim/formats/mesh/ply_check.h"
 
 namespace plumbline::bim {
 
@@ -186,22 +187,24 @@ std::vector<MeshPart> unpacked(Unpacker& unpacker) {
 }
 
 /// What a name in a report may hold.
-std::string printable(std::string name) {
+std::string ascii(std::string name) {
   for (char& c : name)
     if (static_cast<unsigned char>(c) < 0x20 || static_cast<unsigned char>(c) >= 0x7f) c = '_';
   return name;
 }
 
-/// assimp's reason, without the name it gives to what lies in memory.
+/// assimp's reason, without the name it gives to what lies in memory and without those of the library's exceptions.
 std::string reason(const std::string& text) {
-  return text.find("$$$") == std::string::npos ? printable(text) : "it holds something else";
+  if (text.find("$$$") != std::string::npos) return "it holds something else";
+  const bool exception = text.find("::") != std::string::npos || text.starts_with("sto");
+  return exception ? "its content is damaged" : ascii(text);
 }
 
 void make_names_unique(std::vector<MeshPart>& parts) {
   std::map<std::string, int> uses;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     std::string& name = parts[i].name;
-    name = name.empty() ? "part" + std::to_string(i + 1) : printable(name);
+    name = name.empty() ? "part" + std::to_string(i + 1) : ascii(name);
     std::string unique = name;
     while (uses.contains(unique)) unique = name + "#" + std::to_string(++uses[name]);
     uses[unique] = 1;
@@ -228,6 +231,7 @@ std::vector<MeshPart> read_mesh_parts(std::string_view bytes, const std::string&
   const Mark mark{path, 0, 0};
   if (bytes.size() > config.most_bytes)
     throw InputError(mark, "larger than " + std::to_string(config.most_bytes >> 20U) + " MB; make it coarser");
+  if (format->ending == ".ply") check_ply(bytes, path);
   const SubprocessLimits subprocess = subprocess_limits(bytes.size(), config.subprocess);
   const auto answer = run_in_subprocess([&] { return import(bytes, *format, config); }, subprocess);
   if (!answer)

@@ -46,6 +46,7 @@ std::uint64_t address_space() {
 void bound(const SubprocessLimits& config) {
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_CPU, config.cpu_s);
+  (void)::alarm(config.wall_s);  // its default action ends the process
 #ifndef PLUMBLINE_SHADOW_MEMORY  // which alone takes terabytes of addresses
   limit(RLIMIT_AS, address_space() + config.memory);
 #endif
@@ -63,8 +64,11 @@ bool write_all(int pipe, const char* at, std::size_t size) {
 }
 
 [[noreturn]] void child(int pipe, const std::function<std::string()>& task, const SubprocessLimits& config) {
-  for (const int signal : {SIGSEGV, SIGABRT, SIGFPE, SIGILL, SIGBUS, SIGINT, SIGTERM, SIGPIPE, SIGXCPU})
+  for (const int signal : {SIGSEGV, SIGABRT, SIGFPE, SIGILL, SIGBUS, SIGINT, SIGTERM, SIGPIPE, SIGXCPU, SIGALRM})
     (void)std::signal(signal, SIG_DFL);
+  sigset_t none;
+  ::sigemptyset(&none);
+  (void)::sigprocmask(SIG_SETMASK, &none, nullptr);
   // The caller reports the failure; messages of the crashing library are dropped.
   const int silence = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
   if (silence >= 0) {
@@ -100,6 +104,7 @@ SubprocessLimits subprocess_limits(std::size_t bytes, const SubprocessLimits& le
   constexpr std::size_t bytes_a_second = std::size_t{2} << 20U, memory_a_byte = 32;
   SubprocessLimits bounds = least;
   bounds.cpu_s += static_cast<unsigned>(bytes / bytes_a_second);
+  bounds.wall_s += 3 * static_cast<unsigned>(bytes / bytes_a_second);
   bounds.memory += memory_a_byte * bytes;
   return bounds;
 }

@@ -10,7 +10,8 @@ namespace plumbline::bim {
 
 /// Limits of a task in a subprocess.
 struct SubprocessLimits {
-  unsigned cpu_s = 8;                                ///< CPU time; a hang is ended here
+  unsigned cpu_s = 8;                                ///< CPU time
+  unsigned wall_s = 24;                              ///< time that passes, also while the task waits
   std::uint64_t memory = std::uint64_t{768} << 20U;  ///< bytes beyond those the program holds already
   std::size_t answer = std::size_t{256} << 20U;      ///< longest answer, bytes
 };

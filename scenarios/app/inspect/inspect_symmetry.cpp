@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "bim/config/printable.h"
 #include "scenarios/app/inspect/fixed_point.h"
 
 namespace plumbline::scenarios {
@@ -77,8 +78,8 @@ Tree rooms_json(const bim::Building& building, const std::vector<bim::RoomClass>
   return list;
 }
 
-std::string name_of(const bim::Storey& storey) { return storey.name.empty() ? storey.id : storey.name; }
-std::string name_of(const bim::Room& room) { return room.name.empty() ? room.id : room.name; }
+std::string name_of(const bim::Storey& storey) { return printable(storey.name.empty() ? storey.id : storey.name); }
+std::string name_of(const bim::Room& room) { return printable(room.name.empty() ? room.id : room.name); }
 
 std::string motion(const Isometry2& g) {
   if (const auto centre = g.centre())
@@ -93,7 +94,7 @@ std::string similarity_text(const Similarity& similarity) {
   text += ", IoU " + fixed_point(similarity.iou, 3);
   if (similarity.deviations.empty()) return text;
   const bim::Deviation& first = similarity.deviations.front();
-  text += ", off by " + fixed_point(first.size_m, 3) + " m in " + first.element + " at " + place(first.at);
+  text += ", off by " + fixed_point(first.size_m, 3) + " m in " + printable(first.element) + " at " + place(first.at);
   const std::size_t others = similarity.deviations.size() - 1;
   return others == 0 ? text : text + " and in " + std::to_string(others) + " more";
 }
@@ -104,7 +105,7 @@ std::string rooms_text(const bim::Building& building, const bim::RoomClass& like
     text += (text.empty() ? "" : ", ") + name_of(building.rooms[static_cast<std::size_t>(room.room)]);
     if (room.similarity.grade == SimilarityGrade::near)
       text += " (off by " + fixed_point(room.similarity.deviation_m, 3) + " m in " +
-              room.similarity.deviations.front().element + ")";
+              printable(room.similarity.deviations.front().element) + ")";
   }
   for (const Isometry2& turn : like.turns)
     text += "; each also turned by " + fixed_point(turn.angle * degrees, 0) + " deg";

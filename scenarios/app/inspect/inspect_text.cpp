@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "bim/config/printable.h"
 #include "bim/digest/digest.h"
 #include "bim/model/adjacency.h"
 #include "bim/plan/plan.h"
@@ -27,7 +28,10 @@ std::size_t width(const std::string& text) {
 class Table {
  public:
   explicit Table(std::vector<std::string> header) { rows_.push_back(std::move(header)); }
-  void add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }
+  void add(std::vector<std::string> row) {
+    for (std::string& cell : row) cell = printable(cell);  // names come from the building's file
+    rows_.push_back(std::move(row));
+  }
 
   [[nodiscard]] std::string text() const {
     std::vector<std::size_t> widths(rows_.front().size(), 0);
@@ -204,8 +208,9 @@ std::string totals(const Building& building, const BuildingMesh& mesh) {
 }  // namespace
 
 std::string inspect_text(const Building& building, const BuildingMesh& mesh, const std::vector<bim::Change>& changes) {
-  std::string text = (building.name.empty() ? "building" : building.name) + " (" + building.schema + ", unit " +
-                     building.unit + "), hash " + hex64(building.hash()) + "\n\n";
+  std::string text = printable(building.name.empty() ? "building" : building.name) + " (" +
+                     printable(building.schema + ", unit " + building.unit) + "), hash " + hex64(building.hash()) +
+                     "\n\n";
   text += storey_table(building) + "\n";
   if (!building.rooms.empty()) text += room_table(building) + "\n";
   if (!building.stairs.empty()) text += stair_table(building) + "\n";

@@ -57,13 +57,13 @@ struct BagTopics {
   std::string points, odometry, imu;
 };
 
-/// True when the file starts as a ROS 1 bag.
+/// True when the file starts as a ROS 1 bag. Throws InputError where it cannot be read.
 [[nodiscard]] bool is_bag(const std::string& path);
 
 /// Opens a bag. Records are put in order by their own stamps; the mount comes from /tf_static where `info` is null, and
-/// so does the IMU's attitude where it is there. O is moved to the robot's first position and heading. Throws
-/// InputError when it is no bag, was not closed, holds no cloud, has an IMU of unknown attitude or odometry that
-/// overlaps no scan.
+/// so does the IMU's attitude where it is there. The bag is checked as a whole first (check_bag). O is moved to the
+/// robot's first position and heading. Throws InputError when it is no bag, was not closed, holds no cloud, has an IMU
+/// of unknown attitude or odometry that overlaps no scan.
 [[nodiscard]] std::unique_ptr<Recording> open_bag(const std::string& path, const BagTopics& topics,
                                                   const RecordingInfo* info);
 

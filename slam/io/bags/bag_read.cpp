@@ -11,13 +11,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <deque>
-#include <fstream>
+#include <filesystem>
 #include <optional>
 #include <vector>
 
+#include "bim/config/input_file.h"
 #include "bim/errors.h"
 #include "slam/io/bags/bag.h"
+#include "slam/io/bags/bag_check.h"
 #include "slam/io/bags/frame_tree.h"
 #include "slam/io/bags/odometry_motion.h"
 #include "slam/io/bags/ros_message.h"
@@ -78,6 +81,7 @@ class BagRecording final : public Recording {
  public:
   BagRecording(const std::string& path, const BagTopics& topics, const RecordingInfo* info) : mark_{path, 0, 0} {
     guarded([&] {
+      check_bag(path);
       bag_.open(path, rosbag::bagmode::Read);
       choose_topics(topics);
       std::vector<std::string> names = {topics_.points};
@@ -279,10 +283,12 @@ class BagRecording final : public Recording {
 }  // namespace
 
 bool is_bag(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return false;
+  const InputFile file = open_input_file(path);
   std::array<char, magic.size()> start{};
-  file.read(start.data(), start.size());
-  return file && std::string_view(start.data(), start.size()) == magic;
+  const std::size_t read = std::fread(start.data(), 1, start.size(), file.stream.get());
+  return std::string_view(start.data(), read) == magic;
 }
 
 std::unique_ptr<Recording> open_bag(const std::string& path, const BagTopics& topics, const RecordingInfo* info) {

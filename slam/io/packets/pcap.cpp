@@ -8,10 +8,10 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
-#include <filesystem>
 #include <optional>
 #include <set>
 
+#include "bim/config/input_file.h"
 #include "bim/errors.h"
 #include "slam/io/packets/position_packet.h"
 #include "slam/io/packets/udp_frame.h"
@@ -147,10 +147,12 @@ struct PcapReader::Impl {
 
 PcapReader::PcapReader(const std::string& path) : impl_(std::make_unique<Impl>()) {
   impl_->mark = {path, 0, 0};
-  if (!std::filesystem::is_regular_file(path))
-    throw InputError(impl_->mark, "no such file; a pcap capture would be right");
+  InputFile file = open_input_file(path);
+  if (!file.regular) throw InputError(impl_->mark, "is no file; a pcap capture would be right");
   std::array<char, PCAP_ERRBUF_SIZE> error{};
-  impl_->capture.reset(pcap_open_offline_with_tstamp_precision(path.c_str(), PCAP_TSTAMP_PRECISION_NANO, error.data()));
+  impl_->capture.reset(
+      pcap_fopen_offline_with_tstamp_precision(file.stream.get(), PCAP_TSTAMP_PRECISION_NANO, error.data()));
+  if (impl_->capture != nullptr) static_cast<void>(file.stream.release());  // closed with the capture
   if (impl_->capture == nullptr) throw InputError(impl_->mark, std::string("no pcap capture: ") + error.data());
   const std::optional<Link> link = link_of(pcap_datalink(impl_->capture.get()));
   if (!link) throw InputError(impl_->mark, "frames of a link type that is not known; Ethernet would be right");

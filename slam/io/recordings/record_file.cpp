@@ -50,23 +50,23 @@ void parse_row(std::string_view line, std::string_view header, const Mark& mark,
 
 }  // namespace
 
-LineReader::LineReader(const std::string& path) : path_(path), stream_(path) {
-  if (!stream_) throw InputError({path, 0, 0}, "cannot be opened");
-}
+LineReader::LineReader(const std::string& path) : path_(path), file_(open_input_file(path)) {}
 
 bool LineReader::next(std::string& line) {
-  std::array<char, 4096> buffer{};
-  while (stream_.getline(buffer.data(), buffer.size())) {
+  constexpr std::size_t longest = 4095;
+  for (int c = 0; c != EOF;) {
+    line.clear();
+    while ((c = ::getc_unlocked(file_.stream.get())) != EOF && c != '\n' && line.size() <= longest)
+      line += static_cast<char>(c);
+    if (c == EOF && line.empty()) break;
     ++number_;
-    const auto length = static_cast<std::size_t>(stream_.gcount());
-    line.assign(buffer.data(), stream_.eof() ? length : length - 1);
+    if (line.size() > longest)
+      throw InputError(mark(), "a line of more than 4095 characters; this is no text file of records");
     if (!line.empty() && line.back() == '\r') line.pop_back();
     if (!line.empty() && line.front() != '#') return true;
   }
-  if (stream_.bad()) throw InputError({path_, 0, 0}, "cannot be read");
-  if (stream_.eof()) return false;
-  ++number_;
-  throw InputError(mark(), "a line of more than 4095 characters; this is no text file of records");
+  if (std::ferror(file_.stream.get()) != 0) throw InputError({path_, 0, 0}, "cannot be read");
+  return false;
 }
 
 bool OdometryReader::next(Odometry& record) {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <fstream>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "bim/config/input_file.h"
 #include "bim/errors.h"
 #include "slam/io/odometry_covariance.h"
 
@@ -14,7 +14,7 @@ namespace plumbline::slam {
 /// Lines of a text file one by one, in bounded memory. Empty lines and those that start with # are left out.
 class LineReader {
  public:
-  /// Throws InputError when the file cannot be opened.
+  /// Errors as open_input_file().
   explicit LineReader(const std::string& path);
   /// False at the end. Throws InputError on a line of more than 4,095 characters.
   [[nodiscard]] bool next(std::string& line);
@@ -23,7 +23,7 @@ class LineReader {
 
  private:
   std::string path_;
-  std::ifstream stream_;
+  InputFile file_;
   int number_ = 0;
 };
 

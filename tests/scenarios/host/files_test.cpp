@@ -11,6 +11,7 @@
 #include "scenarios/run/digest_log.h"
 #include "scenarios/run/estimate_file.h"
 #include "tests/folder.h"
+#include "tests/input_error.h"
 
 namespace plumbline::scenarios {
 namespace {
@@ -98,6 +99,65 @@ TEST_F(Files, WhatAKilledRunLeftIsNoObstacle) {
   write_file(run.staging() + "/truth.tum", "");
   run.commit();
   EXPECT_FALSE(fs::exists(path("killed/results.json")));
+}
+
+/// A run that was killed while it replaced another.
+TEST_F(Files, WhatAKilledReplacementLeftGoesWithTheNextLook) {
+  const auto kill = [&] {
+    fs::create_directories(path("run/.partial"));
+    write_file(path("run/results.json"), "{}");
+    write_file(path("run/.partial/lock"), "x");
+    write_file(path("run/.partial/truth.tum"), "half");
+  };
+  kill();
+  EXPECT_THROW(RunDirectory(path("run"), DirectoryKind::run, false), InputError);
+  EXPECT_FALSE(fs::exists(path("run/.partial")));
+  kill();
+  remove_abandoned(path("run"));
+  EXPECT_FALSE(fs::exists(path("run/.partial")));
+  EXPECT_EQ(read_text_file(path("run/results.json")), "{}");
+  remove_abandoned(path("run"));
+  remove_abandoned(path("none"));
+  EXPECT_FALSE(fs::exists(path("none")));
+}
+
+TEST_F(Files, WhatARunIsWritingIsNotAbandoned) {
+  RunDirectory run(path("run"), DirectoryKind::run, false);
+  write_file(run.staging() + "/truth.tum", "half");
+  remove_abandoned(path("run"));
+  EXPECT_TRUE(fs::exists(run.staging() + "/truth.tum"));
+}
+
+/// A folder of this name may be another program's.
+TEST_F(Files, APartialFolderWithoutALockIsNotOurs) {
+  fs::create_directories(path("mine/.partial"));
+  write_file(path("mine/.partial/thesis.tex"), "mine");
+  remove_abandoned(path("mine"));
+  EXPECT_TRUE(fs::exists(path("mine/.partial/thesis.tex")));
+}
+
+TEST_F(Files, ALinkToNothingIsNamed) {
+  fs::create_symlink(path("nowhere"), path("link"));
+  for (const std::string& name : {path("link"), path("link/below")}) {
+    const std::string text = input_error([&] { RunDirectory(name, DirectoryKind::run, false); });
+    EXPECT_EQ(text,
+              path("link") + ": is a link to '" + path("nowhere") + "', which does not exist; name another --out");
+  }
+  EXPECT_FALSE(fs::exists(path("nowhere")));
+  fs::create_directory(path("nowhere"));
+  EXPECT_NO_THROW(RunDirectory(path("link"), DirectoryKind::run, false));
+}
+
+TEST_F(Files, FoldersAreMadeOrSaidWhyNot) {
+  EXPECT_EQ(make_folders(path("a/b/c"), path("a")), (std::vector<std::string>{path("a"), path("a/b"), path("a/b/c")}));
+  EXPECT_TRUE(make_folders(path("a/b/c"), path("a")).empty());
+  write_file(path("file"), "x");
+  try {
+    (void)make_folders(path("file/below"), "here");
+    FAIL();
+  } catch (const EnvironmentError& error) {
+    EXPECT_STREQ(error.what(), "here: cannot be created: Not a directory");
+  }
 }
 
 TEST(DigestLog, RoundTripAndFirstDifference) {

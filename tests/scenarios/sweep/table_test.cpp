@@ -104,6 +104,32 @@ TEST(SweepTable, CsvQuotesWhatNeedsIt) {
   EXPECT_NE(runs_csv(all).find("a,,\"{at: [1, 2], storey: \"\"x\"\"}\",1,finder,success"), std::string::npos);
 }
 
+/// A spreadsheet would compute what begins so; numbers and the dash of an empty cell are none of it.
+TEST(SweepTable, CsvHoldsNoFormula) {
+  for (const char* name : {"=1+2", "+a", "-a", "@SUM(A1)", "\tx", "=cmd|' /C calc'!A0"}) {
+    std::vector<SweepRow> all = rows();
+    for (SweepRow& row : all) row.variant = name;
+    for (const std::string& csv : {runs_csv(all), table_csv(cells_of(all))}) {
+      EXPECT_EQ(csv.find("," + std::string(name)), std::string::npos) << csv;
+      EXPECT_NE(csv.find(",'" + std::string(name) + ","), std::string::npos) << csv;
+    }
+  }
+  std::vector<SweepRow> all = rows();
+  all[0].values.assign(all[0].values.size(), -0.5);
+  EXPECT_NE(runs_csv(all).find(",-0.5,"), std::string::npos);
+  EXPECT_EQ(runs_csv(all).find('\''), std::string::npos);
+  EXPECT_NE(table_csv(cells_of(all)).find(",-,-,mapper,"), std::string::npos);
+}
+
+/// table.txt is read in a terminal.
+TEST(SweepTable, TextHoldsNoControlCharacter) {
+  std::vector<SweepRow> all = rows();
+  for (SweepRow& row : all) row.variant = "a\x1b[31m\nb";
+  const std::string text = table_text(cells_of(all));
+  EXPECT_EQ(text.find('\x1b'), std::string::npos);
+  EXPECT_NE(text.find("a\\u001b[31m\\u000ab"), std::string::npos);
+}
+
 TEST(SweepTable, SaysWhyARunFailed) {
   const Tree depleted = Tree::map().set("identifiable", true).set("failure", "depleted");
   const Tree methods = Tree::map().set("finder", Tree::map().set("verdict", "late").set("localization", depleted));

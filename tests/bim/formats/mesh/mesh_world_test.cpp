@@ -10,6 +10,7 @@
 #include "bim/formats/plan_yaml/plan_yaml.h"
 #include "bim/mesh/export.h"
 #include "bim/mesh/mesh.h"
+#include "tests/input_error.h"
 
 namespace plumbline::bim {
 namespace {
@@ -116,20 +117,35 @@ TEST(MeshFile, NoTrianglesOrNoFloorIsSaid) {
   EXPECT_THROW((void)read_mesh_world("v 0 0 0\nv 1 0 0\nv 1 1 0\nf 3 2 1\n", "a.obj"), InputError);
 }
 
+constexpr const char* dae_node =
+    R"(<node name="a"><matrix>1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1</matrix><instance_geometry url="#g"/></node>)";
+
+/// A triangle with these nodes and indices of corners.
+std::string dae(const std::string& nodes, const std::string& corners) {
+  return R"(<?xml version="1.0"?><COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1"><asset>)"
+         R"(<unit meter="1"/><up_axis>Z_UP</up_axis></asset><library_geometries><geometry id="g"><mesh><source id="p">)"
+         R"(<float_array id="f" count="9">0 0 0 4 0 0 4 4 0</float_array><technique_common>)"
+         R"(<accessor source="#f" count="3" stride="3"><param name="X" type="float"/><param name="Y" type="float"/>)"
+         R"(<param name="Z" type="float"/></accessor></technique_common></source><vertices id="v">)"
+         R"(<input semantic="POSITION" source="#p"/></vertices><triangles count="1">)"
+         R"(<input semantic="VERTEX" source="#v" offset="0"/><p>)" +
+         corners +
+         R"(</p></triangles></mesh></geometry></library_geometries><library_visual_scenes><visual_scene id="s">)" +
+         nodes + R"(</visual_scene></library_visual_scenes><scene><instance_visual_scene url="#s"/></scene></COLLADA>)";
+}
+
+TEST(MeshFile, NoNameOfAnExceptionLeaks) {
+  EXPECT_EQ(read_mesh_parts(dae(dae_node, "0 1 2"), "a.dae").size(), 1U);
+  for (const char* corners : {"0 1 *", "0 * 2", "0 1 99999999999999999999"}) {
+    const std::string text = input_error([&] { static_cast<void>(read_mesh_parts(dae(dae_node, corners), "a.dae")); });
+    EXPECT_EQ(text.rfind("a.dae: ", 0), 0U) << corners << ": " << text;
+    EXPECT_EQ(text.find("::"), std::string::npos) << corners << ": " << text;
+    EXPECT_EQ(text.find("bad_alloc"), std::string::npos) << corners << ": " << text;
+  }
+}
+
 TEST(MeshFile, EqualNamesAreToldApart) {
-  const std::string node =
-      R"(<node name="a"><matrix>1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1</matrix><instance_geometry url="#g"/></node>)";
-  const std::string two =
-      R"(<?xml version="1.0"?><COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1"><asset>)"
-      R"(<unit meter="1"/><up_axis>Z_UP</up_axis></asset><library_geometries><geometry id="g"><mesh><source id="p">)"
-      R"(<float_array id="f" count="9">0 0 0 4 0 0 4 4 0</float_array><technique_common>)"
-      R"(<accessor source="#f" count="3" stride="3"><param name="X" type="float"/><param name="Y" type="float"/>)"
-      R"(<param name="Z" type="float"/></accessor></technique_common></source><vertices id="v">)"
-      R"(<input semantic="POSITION" source="#p"/></vertices><triangles count="1">)"
-      R"(<input semantic="VERTEX" source="#v" offset="0"/><p>0 1 2</p></triangles></mesh></geometry>)"
-      R"(</library_geometries><library_visual_scenes><visual_scene id="s">)" +
-      node + node +
-      R"(</visual_scene></library_visual_scenes><scene><instance_visual_scene url="#s"/></scene></COLLADA>)";
+  const std::string two = dae(std::string(dae_node) + dae_node, "0 1 2");
   const std::vector<MeshPart> parts = read_mesh_parts(two, "a.dae");
   ASSERT_EQ(parts.size(), 2u);
   EXPECT_NE(parts[0].name, parts[1].name);

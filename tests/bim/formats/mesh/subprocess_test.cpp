@@ -2,6 +2,7 @@
 #include "bim/formats/mesh/subprocess.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <csignal>
 #include <cstdlib>
@@ -44,12 +45,25 @@ TEST(Isolated, BoundsTimeMemoryAndAnswer) {
   EXPECT_FALSE(run_in_subprocess([] { return std::string(1000, 'x'); }, config));
 }
 
+/// One that waits spends no CPU time.
+TEST(Isolated, BoundsTheTimeThatPasses) {
+  SubprocessLimits config;
+  config.wall_s = 1;
+  EXPECT_FALSE(run_in_subprocess(
+      [] {
+        for (int left = 60; left > 0;) left = static_cast<int>(::sleep(static_cast<unsigned>(left)));
+        return std::string("slept");
+      },
+      config));
+}
+
 TEST(Isolated, BoundsGrowWithTheFile) {
   const SubprocessLimits least;
   EXPECT_EQ(subprocess_limits(0).cpu_s, least.cpu_s);
   EXPECT_EQ(subprocess_limits(0).memory, least.memory);
   const std::size_t largest = std::size_t{256} << 20U;
   EXPECT_EQ(subprocess_limits(largest).cpu_s, least.cpu_s + 128);
+  EXPECT_EQ(subprocess_limits(largest).wall_s, least.wall_s + 3 * 128);
   EXPECT_EQ(subprocess_limits(largest).memory, least.memory + 32 * largest);
 }
 
