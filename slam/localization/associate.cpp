@@ -14,7 +14,8 @@ namespace {
 
 /// Squared Mahalanobis distance of (yaw of the normal, offset), or infinity where the patch is not on the line.
 double squared_distance(const WallLine& line, const WallObservation& wall, const PlaneObservation& observed,
-                        const LocalizationScan& scan, const Pose& X_IR, const TrackerConfig& config) {
+                        const LocalizationScan& scan, const Pose& X_IR, const Eigen::Matrix2d& covariance,
+                        const TrackerConfig& config) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const Pose2 X_IH = heading(X_IR);
   const Eigen::Vector2d sensor_I = X_IH * scan.sensor_H;
@@ -29,7 +30,7 @@ double squared_distance(const WallLine& line, const WallObservation& wall, const
   const double var_angle = observed.covariance(0, 0) + config.plane_angle_sigma * config.plane_angle_sigma +
                            config.anchor_sigma_rad * config.anchor_sigma_rad;
   const double var_offset = observed.covariance(2, 2) + config.plane_offset_sigma_m * config.plane_offset_sigma_m +
-                            config.anchor_sigma_m * config.anchor_sigma_m;
+                            std::max(config.anchor_sigma_m * config.anchor_sigma_m, line.n.dot(covariance * line.n));
   return e_angle * e_angle / var_angle + e_offset * e_offset / var_offset;
 }
 
@@ -54,7 +55,7 @@ Plane plane_of(const WallLine& line) { return {{line.n.x(), line.n.y(), 0.0}, li
 
 std::vector<WallLink> associate_walls(const StoreyIndex& storey, const LocalizationScan& scan,
                                       const std::vector<PlaneObservation>& planes, const Pose& X_IR,
-                                      const TrackerConfig& config) {
+                                      const Eigen::Matrix2d& covariance, const TrackerConfig& config) {
   std::vector<WallLink> links;
   const int cell = storey.grid.cell_at(heading(X_IR) * scan.sensor_H);
   if (cell < 0) return links;
@@ -63,7 +64,8 @@ std::vector<WallLink> associate_walls(const StoreyIndex& storey, const Localizat
     int best = -1;
     double best_distance = config.gate * config.gate;
     for (const int i : storey.visible[static_cast<std::size_t>(cell)]) {
-      const double d2 = squared_distance(storey.lines[static_cast<std::size_t>(i)], wall, observed, scan, X_IR, config);
+      const double d2 =
+          squared_distance(storey.lines[static_cast<std::size_t>(i)], wall, observed, scan, X_IR, covariance, config);
       if (d2 >= best_distance) continue;
       best_distance = d2;
       best = i;

@@ -10,11 +10,12 @@ namespace plumbline::slam {
 /// The plan's wall as a vertical plane in I.
 [[nodiscard]] Plane plane_of(const WallLine& line);
 
-/// Observed walls with the faces of the plan they are, at a predicted pose: visible from there, Mahalanobis distance
-/// within the gate [shaheer2023, eq. 7, in the sensor's frame], patch on the face. Ties: lowest line.
+/// Observed walls with the faces of the plan they are, at a predicted pose with this covariance of its position:
+/// visible from there, Mahalanobis distance within the gate [shaheer2023, eq. 7, in the sensor's frame], patch on the
+/// face. Ties: lowest line.
 [[nodiscard]] std::vector<WallLink> associate_walls(const StoreyIndex& storey, const LocalizationScan& scan,
                                                     const std::vector<PlaneObservation>& planes, const Pose& X_IR,
-                                                    const TrackerConfig& config);
+                                                    const Eigen::Matrix2d& covariance, const TrackerConfig& config);
 
 /// The largest upward plane under the robot, or nothing.
 [[nodiscard]] std::vector<PlaneObservation> find_floor(const LocalizationScan& scan,

@@ -108,21 +108,48 @@ class EvidenceAccumulator {
   EvidenceAccumulator& operator=(const EvidenceAccumulator&) = delete;
   EvidenceAccumulator& operator=(EvidenceAccumulator&&) = delete;
 
-  void add(const OutlierCause& cause, double log_likelihood) {
+  void add(const OutlierCause& cause, double log_likelihood, const Eigen::Vector2d& end_I) {
     if (cause != cause_) flush();
     cause_ = cause;
     sum_ += log_likelihood;
+    within_.extend(end_I);
   }
 
  private:
   void flush() {
-    if (sum_ > 0.0) evidence_.add(cause_, sum_);
+    if (sum_ > 0.0) evidence_.add(cause_, sum_, within_);
     sum_ = 0.0;
+    within_.setEmpty();
   }
   EvidenceByCause& evidence_;
   OutlierCause cause_;
   double sum_ = 0.0;
+  Eigen::AlignedBox2d within_;
 };
+
+/// An object that was not planned, whatever it stands before.
+struct UnplannedObject {
+  double log_likelihood = 0.0;
+  double length_m = 0.0;  ///< of what beams ended at
+  Eigen::AlignedBox2d within;
+};
+
+/// Joins objects nearer than the gap, until none are.
+void join_near(std::vector<UnplannedObject>& objects, double gap) {
+  for (std::size_t i = 0; i < objects.size();) {
+    std::size_t k = i + 1;
+    while (k < objects.size() && objects[i].within.exteriorDistance(objects[k].within) > gap) ++k;
+    if (k == objects.size()) {
+      ++i;
+      continue;
+    }
+    objects[i].log_likelihood += objects[k].log_likelihood;
+    objects[i].length_m += objects[k].length_m;
+    objects[i].within.extend(objects[k].within);
+    objects.erase(objects.begin() + static_cast<std::ptrdiff_t>(k));
+    i = 0;
+  }
+}
 
 }  // namespace
 
@@ -163,15 +190,44 @@ PredictedScan predict_scan(const StoreyIndex& storey, const Pose2& X_IH, const L
   return predicted;
 }
 
-void EvidenceByCause::add(const EvidenceByCause& more, double scale) {
-  for (const auto& [cause, sum] : more.sums_) sums_[cause] += scale * sum;
+double total_cost(const LocalizationScan& scan, const PredictedScan& predicted,
+                  const HypothesisComparisonConfig& config) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < scan.beam_grid.blocks.size(); ++i) {
+    const Float4 costs = beam_cost(scan, predicted, i, config);
+    for (std::size_t k = 0; k < 4; ++k)
+      if (scan.beam_grid.blocks[i].range[k] > 0.0F) sum += static_cast<double>(costs[k]);
+  }
+  return sum;
 }
 
-double EvidenceByCause::total(double object_cap, double element_cap) const {
-  double sum = 0.0;
-  for (const auto& [cause, one] : sums_)
-    sum += std::min(one, cause.kind == OutlierCause::Kind::not_built ? element_cap : object_cap);
-  return sum;
+void EvidenceByCause::add(const OutlierCause& cause, double log_likelihood, const Eigen::AlignedBox2d& within) {
+  Sum& sum = sums_[cause];
+  sum.log_likelihood += log_likelihood;
+  sum.within.extend(within);
+}
+
+void EvidenceByCause::add(const EvidenceByCause& more, double scale) {
+  for (const auto& [cause, sum] : more.sums_) add(cause, scale * sum.log_likelihood, sum.within);
+}
+
+double EvidenceByCause::total(const HypothesisComparisonConfig& config) const {
+  double total = 0.0;
+  std::vector<UnplannedObject> objects;
+  for (const auto& [cause, sum] : sums_) {
+    if (cause.kind == OutlierCause::Kind::not_built)
+      total += std::min(sum.log_likelihood, config.cause_cap);
+    else if (sum.within.isEmpty())
+      total += std::min(sum.log_likelihood, config.object_cap);
+    else
+      objects.push_back({std::min(sum.log_likelihood, config.object_cap), sum.within.diagonal().norm(), sum.within});
+  }
+  join_near(objects, config.object_gap_m);
+  for (const UnplannedObject& object : objects) {
+    const double count = std::max(1.0, object.length_m / config.object_m);
+    total += std::min(object.log_likelihood, count * config.object_cap);
+  }
+  return total;
 }
 
 PairwiseLikelihoodRatio compare_hypotheses(const LocalizationScan& scan, const PredictedScan& a, const PredictedScan& b,
@@ -196,7 +252,7 @@ PairwiseLikelihoodRatio compare_hypotheses(const LocalizationScan& scan, const P
         const PlanRay ray = ray_of(worse, scan, block, k);
         if (expected > range && ends_in_opening(worse, ray, range, config)) continue;
         const OutlierCause cause = cause_of(ray, range, worse.blocks[i], k, config);
-        (gain > 0.0 ? against_b : against_a).add(cause, std::abs(gain));
+        (gain > 0.0 ? against_b : against_a).add(cause, std::abs(gain), ray.origin + range * ray.direction);
         result.ratio += gain;
       }
     }

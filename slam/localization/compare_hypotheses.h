@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <map>
 #include <vector>
 
@@ -23,6 +25,8 @@ struct HypothesisComparisonConfig {
   double cause_cap = 8.0;
   double object_cap = 4.0;
   double clutter_cell_m = 1.0;
+  double object_m = 1.0;
+  double object_gap_m = 0.25;
   double opening_depth_m = 0.35;
 
   template <class V>
@@ -51,6 +55,11 @@ struct HypothesisComparisonConfig {
                   {.min = 0}));
     v("clutter_cell_m", clutter_cell_m,
       Field{.doc = "cell size of clutter where the plan has nothing", .min = 0.01, .former = "thing_m"});
+    // A chair to a desk.
+    v("object_m", object_m,
+      Field{.doc = "size of an object up to which it counts for one; a larger one in proportion", .min = 0.01});
+    v("object_gap_m", object_gap_m,
+      Field{.doc = "gap up to which what stands before two faces is one object", .min = 0});
     v("opening_depth_m", opening_depth_m,
       Field{.doc = "depth behind a planned opening up to which a beam hit its leaf or pane", .min = 0});
   }
@@ -90,15 +99,26 @@ struct OutlierCause {
 /// Evidence against a hypothesis, by the cause that would explain it.
 class EvidenceByCause {
  public:
-  void add(const OutlierCause& cause, double log_likelihood) { sums_[cause] += log_likelihood; }
+  void add(const OutlierCause& cause, double log_likelihood) { sums_[cause].log_likelihood += log_likelihood; }
+  /// within: where beams ended, in I.
+  void add(const OutlierCause& cause, double log_likelihood, const Eigen::AlignedBox2d& within);
   void add(const EvidenceByCause& more, double scale);
   void clear() { sums_.clear(); }
-  /// No cause counts for more than its cap: an object that was not planned, or an element that was not built.
-  [[nodiscard]] double total(double object_cap, double element_cap) const;
+  /// No cause counts for more than its cap: an element that was not built, or an object that was not planned. What
+  /// stands at one place before several faces, as in a corner, is one object.
+  [[nodiscard]] double total(const HypothesisComparisonConfig& config) const;
 
  private:
-  std::map<OutlierCause, double> sums_;
+  struct Sum {
+    double log_likelihood = 0.0;
+    Eigen::AlignedBox2d within;
+  };
+  std::map<OutlierCause, Sum> sums_;
 };
+
+/// Negative log-likelihood of a scan where the plan predicts this one, in beams.
+[[nodiscard]] double total_cost(const LocalizationScan& scan, const PredictedScan& predicted,
+                                const HypothesisComparisonConfig& config);
 
 /// Comparison of two hypotheses by one scan.
 struct PairwiseLikelihoodRatio {

@@ -2,6 +2,7 @@
 #include "slam/localization/hypotheses.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -218,8 +219,33 @@ void HypothesisSet::rebase_reference(const PlanIndex& index) {
   compare_all_with_reference(index);
 }
 
+// Beams at the few faces across it are too few for Gauss-Newton, and enough to contradict a pose that is off.
+void HypothesisSet::slide_along_open_direction(const PlanIndex& index, PoseHypothesis& hypothesis) const {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(hypothesis.covariance.topLeftCorner<2, 2>());
+  if (std::sqrt(axes.eigenvalues()[1]) < config_.open_share * refine_.prior_sigma_m) return;
+  const Eigen::Vector2d along = axes.eigenvectors().col(1);
+  const StoreyIndex& storey = index.storeys[static_cast<std::size_t>(hypothesis.storey)];
+  const LocalizationScan& scan = history_.back().scan;
+  const auto cost_at = [&](double shift_m) {
+    const Pose2 X_IH{hypothesis.X_IH.t + shift_m * along, hypothesis.X_IH.yaw};
+    return total_cost(scan, predict_scan(storey, X_IH, scan, comparison_), comparison_);
+  };
+  double best_m = 0.0, best = cost_at(0.0);
+  const auto try_at = [&](double shift_m) {
+    if (const double cost = cost_at(shift_m); cost < best) best = cost, best_m = shift_m;
+  };
+  for (double step = config_.slide_step_m; step <= config_.slide_m; step += config_.slide_step_m)
+    for (const double shift_m : {step, -step}) try_at(shift_m);
+  constexpr int halvings = 3;
+  double step = 0.5 * config_.slide_step_m;
+  for (int i = 0; i < halvings; ++i, step *= 0.5)
+    for (const double shift_m : {best_m + step, best_m - step}) try_at(shift_m);
+  hypothesis.X_IH.t += best_m * along;
+}
+
 void HypothesisSet::reassess(const PlanIndex& index) {
   if (hypotheses_.size() < 2 || history_.empty()) return;
+  for (PoseHypothesis& hypothesis : hypotheses_) slide_along_open_direction(index, hypothesis);
   compare_all_with_reference(index);
   rebase_reference(index);
 }

@@ -65,6 +65,9 @@ struct HypothesisConfig {
   double ema_alpha = 0.15;
   FitConfig fit;
   double unassigned_mass = 0.01;
+  double open_share = 0.5;
+  double slide_m = 0.3;
+  double slide_step_m = 0.1;
 
   template <class V>
   void visit(V& v) {
@@ -100,6 +103,11 @@ struct HypothesisConfig {
     v("fit", fit, Field{.former = "cluttered_inliers"});
     v("unassigned_mass", unassigned_mass,
       share_field("mass left to particles of no hypothesis", {.former = "stray_mass"}));
+    v("open_share", open_share,
+      share_field("share of the prior standard deviation above which a fitted pose's leaves a direction open"));
+    // Places that are compared stand 0.5 m apart.
+    v("slide_m", slide_m, Field{.doc = "farthest that a pose is moved along it", .min = 0, .max = 5});
+    v("slide_step_m", slide_step_m, Field{.doc = "distance between the places that are tried", .min = 0.01});
   }
 };
 
@@ -108,7 +116,7 @@ struct EvidenceBalance {
   EvidenceByCause against, supporting;
 
   [[nodiscard]] double evidence(const HypothesisComparisonConfig& config) const {
-    return supporting.total(config.object_cap, config.cause_cap) - against.total(config.object_cap, config.cause_cap);
+    return supporting.total(config) - against.total(config);
   }
 };
 
@@ -148,7 +156,8 @@ class HypothesisSet {
   /// Adds the poses that are not known yet and that the kept history does not rule out.
   void add(const PlanIndex& index, const std::vector<StoreyPose>& poses);
   /// Compares all with the best one anew, each by all scans kept along one path that ends at its pose. While it was
-  /// tracked a hypothesis may have slid along a corridor to where each scan fitted best.
+  /// tracked a hypothesis may have slid along a corridor to where each scan fitted best; one that faces did not hold
+  /// along some direction is moved to where the last scan fits best.
   void reassess(const PlanIndex& index);
   /// Merges near ones, drops unlikely ones, normalises the mass.
   void prune_and_normalize();
@@ -182,6 +191,8 @@ class HypothesisSet {
     EvidenceBalance balance;        ///< against the reference
     double evidence = 0.0;          ///< from the balance
   };
+  /// The place along the direction that the fit of the last scan left open, if any.
+  void slide_along_open_direction(const PlanIndex& index, PoseHypothesis& hypothesis) const;
   /// Adds the newest scan's agreement with the plan.
   void update_agreement(const Agreement& latest, PoseHypothesis& hypothesis) const;
   /// The same for all scans kept.

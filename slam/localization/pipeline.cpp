@@ -57,6 +57,7 @@ class SGraphLocalization final : public PlanLocalization {
   void check_kidnap(const LocalizationScan& scan);
   [[nodiscard]] bool is_on_floor() const;
   [[nodiscard]] bool has_better_alternative(const LocalizationScan& scan);
+  void correct_by_beams(const LocalizationScan& scan);
   [[nodiscard]] bool is_tracked(const PoseHypothesis& hypothesis, const LocalizationScan& scan) const;
   [[nodiscard]] StartPrior start_prior(const PlanScan& scan) const;
   [[nodiscard]] Pose pose_in_I(const PoseHypothesis& hypothesis, const LocalizationScan& scan) const;
@@ -117,7 +118,7 @@ void SGraphLocalization::start_tracking(const LocalizationScan& scan, const std:
   since_check_m_ = 0.0;
   tracker_.emplace(config_.tracker, index().storeys[static_cast<std::size_t>(best.storey)],
                    input().calibration.sensor_height_m - input().calibration.X_RL.t.z());
-  tracker_->start(scan, planes, pose_in_I(best, scan));
+  tracker_->start(scan, planes, pose_in_I(best, scan), best.covariance.topLeftCorner<2, 2>());
   agreement_ = best.agreement;
   X_IO_last_ = tracker_->X_IO();
 }
@@ -126,12 +127,29 @@ void SGraphLocalization::track(const LocalizationScan& scan, const std::vector<P
                                Output& output) {
   Stopwatch stopwatch;
   record_tracked_poses(tracker_->update(scan, planes));
+  correct_by_beams(scan);
   X_IO_last_ = tracker_->X_IO();
   output.digests.push_back({"tracking", Digest().add(tracker_->pose(scan.X_OR)).value()});
   record_stage("tracking", stopwatch, output);
   follow_storey();
   if (is_on_floor()) check_kidnap(scan);
   record_stage("monitor", stopwatch, output);
+}
+
+/// Along a corridor walls hold nothing, and the few beams that end at the faces across it are no planes.
+void SGraphLocalization::correct_by_beams(const LocalizationScan& scan) {
+  const std::optional<Eigen::Vector2d> along = tracker_->open_direction();
+  if (!along || !is_on_floor()) return;
+  RefineConfig config = config_.search.refine;
+  config.first_gate_m = config.tracking_gate_m;
+  const Pose2 X_IH = heading(tracker_->pose(scan.X_OR));
+  const Refined refined = refine(tracker_->storey(), X_IH, scan, config_.search.likelihood, config);
+  const double prior = 1.0 / (config.prior_sigma_m * config.prior_sigma_m);
+  const double information = 1.0 / along->dot(refined.covariance.topLeftCorner<2, 2>() * *along);
+  const double measured = information - prior;
+  if (measured < 0.01 * prior) return;
+  // Gauss-Newton's step is held back by its prior.
+  tracker_->correct_along(*along, along->dot(refined.X_IH.t - X_IH.t) * information / measured, 1.0 / measured);
 }
 
 bool SGraphLocalization::is_on_floor() const {
@@ -268,7 +286,9 @@ std::vector<std::vector<WallMatch>> SGraphLocalization::match_walls(const Locali
     if (!is_shown(hypothesis.mass)) continue;
     const StoreyIndex& storey = index().storeys[static_cast<std::size_t>(hypothesis.storey)];
     const Pose X_IR = pose_in_I(hypothesis, scan);
-    walls.push_back(wall_matches(*input().plan, storey, associate_walls(storey, scan, planes, X_IR, config_.tracker)));
+    walls.push_back(wall_matches(
+        *input().plan, storey,
+        associate_walls(storey, scan, planes, X_IR, hypothesis.covariance.topLeftCorner<2, 2>(), config_.tracker)));
   }
   return walls;
 }

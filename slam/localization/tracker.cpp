@@ -2,6 +2,7 @@
 #include "slam/localization/tracker.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -158,14 +159,59 @@ Vector6d odometry_sigmas(const Pose& X_ij, const TrackerConfig& config) {
   return sigmas;
 }
 
+/// Whitens e of covariance P: (L^-1) with P = L L'.
+Eigen::Matrix2d inverse_root(const Eigen::Matrix2d& P) {
+  const Eigen::Matrix2d root = P.llt().matrixL();
+  return root.inverse();
+}
+
 }  // namespace
 
 Pose PlanTracker::X_IO() const { return window_.back().X_IR * window_.back().X_OR.inverse(); }
 
-void PlanTracker::start(const LocalizationScan& scan, const std::vector<PlaneObservation>& planes, const Pose& X_IR) {
+void PlanTracker::start(const LocalizationScan& scan, const std::vector<PlaneObservation>& planes, const Pose& X_IR,
+                        const Eigen::Matrix2d& position_covariance) {
+  const double least = config_.anchor_sigma_m * config_.anchor_sigma_m;
+  anchor_covariance_ = position_covariance + least * Eigen::Matrix2d::Identity();
+  covariance_.topLeftCorner<2, 2>() = anchor_covariance_;
   window_.assign(1, associate(scan, planes, X_IR));
   anchor_X_IR_ = X_IR;
   optimise();
+}
+
+void PlanTracker::carry_anchor_covariance(const TrackedPose& from, const TrackedPose& to) {
+  // A wall that stands off the plan shifts all its observations alike: they take back no more than to this.
+  const double least = config_.anchor_sigma_m * config_.anchor_sigma_m;
+  Eigen::Matrix2d& P = anchor_covariance_;
+  for (const WallLink& link : from.walls) {
+    const Eigen::Vector2d& n = storey_.lines[static_cast<std::size_t>(link.line)].n;
+    const Eigen::Vector2d Pn = P * n;
+    const double variance = n.dot(Pn);
+    if (variance > least) P -= (variance - least) / (variance * variance) * Pn * Pn.transpose();
+  }
+  const double grown = config_.drift_per_m * (to.X_OR.t - from.X_OR.t).norm();
+  const double largest = Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(P).eigenvalues()[1];
+  P += (grown * grown + 2.0 * grown * std::sqrt(largest)) * Eigen::Matrix2d::Identity();
+}
+
+std::optional<Eigen::Vector2d> PlanTracker::open_direction() const {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(covariance_.topLeftCorner<2, 2>());
+  if (std::sqrt(axes.eigenvalues()[1]) < config_.anchor_sigma_m) return std::nullopt;
+  return axes.eigenvectors().col(1);
+}
+
+// The odometry within the window is good: all of it is off alike.
+void PlanTracker::correct_along(const Eigen::Vector2d& direction_I, double off_m, double variance) {
+  const auto taken_in = [&](Eigen::Ref<Eigen::Matrix2d> P) {
+    const Eigen::Vector2d gain = P * direction_I / (direction_I.dot(P * direction_I) + variance);
+    P -= gain * (direction_I.transpose() * P);
+    return gain;
+  };
+  (void)taken_in(anchor_covariance_);
+  const Eigen::Vector2d gain = taken_in(covariance_.topLeftCorner<2, 2>());
+  const Eigen::Vector2d shift = gain * off_m;
+  for (TrackedPose& pose : window_) pose.X_IR.t.head<2>() += shift;
+  anchor_X_IR_.t.head<2>() += shift;
 }
 
 std::vector<TrackedPose> PlanTracker::update(const LocalizationScan& scan,
@@ -174,6 +220,7 @@ std::vector<TrackedPose> PlanTracker::update(const LocalizationScan& scan,
   std::vector<TrackedPose> left;
   if (static_cast<int>(window_.size()) > config_.window) {
     left.push_back(window_.front());
+    carry_anchor_covariance(window_[0], window_[1]);
     window_.pop_front();
     anchor_X_IR_ = window_.front().X_IR;
   }
@@ -197,7 +244,7 @@ TrackedPose PlanTracker::associate(const LocalizationScan& scan, const std::vect
   pose.X_OR = scan.X_OR;
   pose.X_IR = X_IR;
   pose.room = storey_.room_at(X_IR.t.head<2>());
-  pose.walls = associate_walls(storey_, scan, planes, X_IR, config_);
+  pose.walls = associate_walls(storey_, scan, planes, X_IR, covariance_.topLeftCorner<2, 2>(), config_);
   pose.floor = find_floor(scan, planes, config_);
   const Plane floor_I{Eigen::Vector3d::UnitZ(), -storey_.floor_z};
   std::erase_if(pose.floor, [&](const PlaneObservation& floor) {
@@ -214,7 +261,10 @@ void PlanTracker::optimise() {
     WindowProblem problem(window_.size());
     problem.add_bias_prior(range_bias_m_, config_.range_bias_sigma_m);
     const PoseResidual held = pose_residual(anchor_X_IR_, window_.front().X_IR, Pose{});
-    problem.add(0, held.J_j, held.e, hold, 0.0);
+    Matrix6d unheld = Matrix6d::Identity();
+    unheld.topLeftCorner<2, 2>() =
+        config_.anchor_sigma_m * inverse_root(anchor_covariance_) * anchor_X_IR_.rotation().topLeftCorner<2, 2>();
+    problem.add(0, unheld * held.J_j, unheld * held.e, hold, 0.0);
     for (std::size_t i = 0; i < window_.size(); ++i) {
       add_planes(problem, i, window_[i], storey_, range_bias_m_, config_);
       add_rooms(problem, i, window_[i], storey_, config_);
@@ -254,8 +304,8 @@ double PlanTracker::wall_tolerance() const {
 Eigen::Matrix3d PlanTracker::covariance_of_newest() const {
   const TrackedPose& pose = window_.back();
   const double tolerance = wall_tolerance();
-  Eigen::Matrix3d information = Eigen::Vector3d(1.0, 1.0, 0.0).asDiagonal();
-  information /= config_.anchor_sigma_m * config_.anchor_sigma_m;
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+  information.topLeftCorner<2, 2>() = anchor_covariance_.inverse();
   information(2, 2) = 1.0 / (config_.anchor_sigma_rad * config_.anchor_sigma_rad);
   const auto add = [&](const Eigen::Vector3d& J, double sigma) { information += J * J.transpose() / (sigma * sigma); };
   std::set<int> counted;

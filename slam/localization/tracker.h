@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <deque>
+#include <optional>
 #include <vector>
 
 #include "bim/config/visit.h"
@@ -35,6 +36,7 @@ struct TrackerConfig {
   double odometry_height_per_m = 0.05;
   double anchor_sigma_m = 0.03;
   double anchor_sigma_rad = 0.01;
+  double drift_per_m = 0.03;
   double huber = 2.0;
   double range_bias_sigma_m = 0.03;
   double wall_tolerance_m = 0.012;
@@ -98,6 +100,11 @@ struct TrackerConfig {
       Field{.doc = "standard deviation of the prior attitude that anchors the oldest pose",
             .min = 1e-6,
             .former = "hold_rad"});
+    // Leg odometry is off by up to 0.02 of the way, always to the same side.
+    v("drift_per_m", drift_per_m,
+      Field{.doc = "growth of the position's standard deviation per metre walked, where no wall holds it",
+            .unit = "m/m",
+            .min = 0});
     // A VLP-16 is given as accurate to 3 cm.
     v("range_bias_sigma_m", range_bias_sigma_m,
       Field{.doc = "standard deviation of the LiDAR's range bias before any wall is seen", .min = 1e-6});
@@ -144,9 +151,15 @@ class PlanTracker {
       : config_(config), storey_(std::move(storey)), standing_m_(standing_m) {}
 
   /// Starts at a pose in I.
-  void start(const LocalizationScan& scan, const std::vector<PlaneObservation>& planes, const Pose& X_IR);
+  void start(const LocalizationScan& scan, const std::vector<PlaneObservation>& planes, const Pose& X_IR,
+             const Eigen::Matrix2d& position_covariance = Eigen::Matrix2d::Zero());
   /// Adds a pose by odometry, associates, optimises. Returns the pose that left the window, if one did.
   std::vector<TrackedPose> update(const LocalizationScan& scan, const std::vector<PlaneObservation>& planes);
+
+  /// The direction that walls leave open, as along a corridor; none where they hold the position.
+  [[nodiscard]] std::optional<Eigen::Vector2d> open_direction() const;
+  /// Takes in that the newest position is off by so much along a direction: a measurement with this variance.
+  void correct_along(const Eigen::Vector2d& direction_I, double off_m, double variance);
 
   /// Goes on on another storey, whose walls are associated from the next pose on.
   void change_storey(StoreyIndex storey);
@@ -162,6 +175,8 @@ class PlanTracker {
   [[nodiscard]] const Eigen::Matrix3d& covariance() const { return covariance_; }
 
  private:
+  /// Standard deviations grow by the way gone; walls take back what they hold.
+  void carry_anchor_covariance(const TrackedPose& from, const TrackedPose& to);
   [[nodiscard]] TrackedPose associate(const LocalizationScan& scan, const std::vector<PlaneObservation>& planes,
                                       const Pose& X_IR) const;
   void optimise();
@@ -176,7 +191,8 @@ class PlanTracker {
   double standing_m_;
   std::deque<TrackedPose> window_;
   Pose anchor_X_IR_;
-  double range_bias_m_ = 0.0;  ///< of the LiDAR: measured less true range
+  Eigen::Matrix2d anchor_covariance_ = Eigen::Matrix2d::Identity();  ///< of its position in I
+  double range_bias_m_ = 0.0;                                        ///< of the LiDAR: measured less true range
   Eigen::Matrix3d covariance_ = Eigen::Matrix3d::Identity();
 };
 

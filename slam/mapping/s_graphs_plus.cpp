@@ -90,6 +90,10 @@ Output SGraphsPlus::on_scan(const Scan& scan) {
 
   const Pose& X_OR = odometry.X_MR;
   if (odometry.lost || odometry.displaced) output.state = State::lost;
+  if (!odometry.displaced)
+    first_displaced_keyframe_.reset();
+  else if (!first_displaced_keyframe_)
+    first_displaced_keyframe_ = static_cast<int>(graph_.keyframes.size());
   output.degenerate_directions = odometry.degenerate_directions;
   odometry_valid_ &= odometry.odometry_valid;
   // A scan that does not fit would be mapped at a wrong pose.
@@ -224,6 +228,7 @@ void SGraphsPlus::close_loop(const DeskewedScan& scan) {
   graph_.pose_factors.push_back(*loop);
   if (config_.pose_weights == PoseWeights::fitness) weigh_by_fitness(graph_.pose_factors.back());
   const PoseFactor& factor = graph_.pose_factors.back();
+  if (std::min(factor.from, factor.to) < first_displaced_keyframe_.value_or(0)) front_end_.locate_map();
   const auto X_M = [&](int k) { return graph_.keyframes[static_cast<std::size_t>(k)].X_MR; };
   const Vector6d e = pose_residual(X_M(factor.from), X_M(factor.to), factor.X_FT).e;
   global_solve_requested_ = true;

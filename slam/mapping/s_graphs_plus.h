@@ -175,6 +175,7 @@ class SGraphsPlus : public Method {
   std::optional<Vector6d>
       dead_reckoning_variance_;  ///< variances of the dead reckoning since the last keyframe, if there was any
   bool odometry_valid_ = true;   ///< odometry is continuous since the last keyframe
+  std::optional<int> first_displaced_keyframe_;  ///< since when the place of the map is not known
   double walked_m_ = 0.0;
   bool global_solve_requested_ = false;  ///< a loop, a duplicate or a wall from before the prior came in
   bool global_solve_urgent_ = false;     ///< a loop that contradicts the estimate

@@ -21,6 +21,8 @@ class FrontEnd {
   [[nodiscard]] DeskewedScan deskewed(const Scan& scan) const;
   /// Of a scan that was deskewed by deskewed(); `scan` is replaced by one that was deskewed better where that is known.
   [[nodiscard]] Registration track(const Scan& raw, DeskewedScan& scan);
+  /// The place of the map is known again, see LidarOdometry.
+  void locate_map() { odometry_->locate_map(); }
   /// True once it is known that scans come deskewed; they are left as they are from then on.
   [[nodiscard]] bool compensated() const { return compensation_.compensated(); }
 

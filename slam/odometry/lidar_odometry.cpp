@@ -131,6 +131,8 @@ class GuardedScanMatcher final : public LidarOdometry {
     return keep(scan.stamp, std::move(result), sample);
   }
 
+  void locate_map() override { unmeasured_.locate_map(); }
+
   [[nodiscard]] Pose continued_step(Nanoseconds stamp) const override {
     return motion_.over(stamp - stamp_).value_or(Pose{});
   }
@@ -259,6 +261,7 @@ class DeadReckoning final : public LidarOdometry {
   [[nodiscard]] Registration update_alone(const DeskewedScan&, const DeskewAgain&) override {
     throw InternalError("dead reckoning without odometry");
   }
+  void locate_map() override {}
   [[nodiscard]] Pose continued_step(Nanoseconds) const override { return {}; }
 
  private:

@@ -71,6 +71,8 @@ class LidarOdometry {
   [[nodiscard]] virtual Registration update(const DeskewedScan& scan, const Pose& X_OR) = 0;
   /// From scans alone: a search starts as if the motion before went on.
   [[nodiscard]] virtual Registration update_alone(const DeskewedScan& scan, const DeskewAgain& again) = 0;
+  /// The place of the map is known again, from outside: a loop closure to before it was lost.
+  virtual void locate_map() = 0;
   /// R's motion from the last scan until `stamp` if the motion before goes on.
   [[nodiscard]] virtual Pose continued_step(Nanoseconds stamp) const = 0;
 };

@@ -24,6 +24,8 @@ class UnmeasuredWay {
   void add_frozen(Nanoseconds dt, double speed_mps);
   /// A new map begins here.
   void begin_map();
+  /// Something outside, as a loop closure, says where the map is.
+  void locate_map() { map_m_ = 0.0; }
 
   /// Of the way gone unmeasured that may still be made up for.
   [[nodiscard]] double open_m() const;

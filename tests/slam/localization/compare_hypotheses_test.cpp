@@ -95,6 +95,13 @@ TEST_P(CompareHypothesesAt, APredictedScanIsWhatTheGridGivesBeamByBeam) {
   EXPECT_LE(others, beams / 1000);
 }
 
+HypothesisComparisonConfig capped_at(double object_cap, double cause_cap) {
+  HypothesisComparisonConfig config;
+  config.object_cap = object_cap;
+  config.cause_cap = cause_cap;
+  return config;
+}
+
 TEST(EvidenceByCause, NoCauseCountsForMoreThanTheCap) {
   const OutlierCause wall{OutlierCause::Kind::not_built, 3}, before{OutlierCause::Kind::in_front_of_face, 3},
       thing{OutlierCause::Kind::unplanned, 3, 1};
@@ -102,14 +109,36 @@ TEST(EvidenceByCause, NoCauseCountsForMoreThanTheCap) {
   for (int i = 0; i < 10; ++i) evidence.add(wall, 1.0);
   evidence.add(before, 1.0);
   evidence.add(thing, 2.0);
-  EXPECT_EQ(evidence.total(100.0, 100.0), 13.0);
-  EXPECT_EQ(evidence.total(4.0, 4.0), 7.0);
+  EXPECT_EQ(evidence.total(capped_at(100.0, 100.0)), 13.0);
+  EXPECT_EQ(evidence.total(capped_at(4.0, 4.0)), 7.0);
   more.add({OutlierCause::Kind::unplanned, 3, 2}, 6.0);
   evidence.add(more, 0.5);
-  EXPECT_EQ(evidence.total(4.0, 4.0), 10.0);
-  EXPECT_EQ(evidence.total(2.0, 4.0), 1.0 + 2.0 + 2.0 + 4.0);
+  EXPECT_EQ(evidence.total(capped_at(4.0, 4.0)), 10.0);
+  EXPECT_EQ(evidence.total(capped_at(2.0, 4.0)), 1.0 + 2.0 + 2.0 + 4.0);
   evidence.clear();
-  EXPECT_EQ(evidence.total(4.0, 4.0), 0.0);
+  EXPECT_EQ(evidence.total(capped_at(4.0, 4.0)), 0.0);
+}
+
+// A cupboard in a corner stands before two walls, and on the line between two cells.
+TEST(EvidenceByCause, AnObjectCountsOnceWhateverItStandsBefore) {
+  const HypothesisComparisonConfig config = capped_at(4.0, 8.0);
+  const auto box = [](double x0, double y0, double x1, double y1) {
+    return Eigen::AlignedBox2d(Eigen::Vector2d(x0, y0), Eigen::Vector2d(x1, y1));
+  };
+  using Kind = OutlierCause::Kind;
+  EvidenceByCause corner;
+  corner.add({Kind::in_front_of_face, 1, 2}, 9.0, box(0.0, 0.4, 0.4, 0.4));
+  corner.add({Kind::in_front_of_face, 2, 4}, 9.0, box(0.4, 0.0, 0.4, 0.4));
+  EXPECT_EQ(corner.total(config), 4.0);
+  corner.add({Kind::unplanned, 0, 0}, 9.0, box(0.5, 0.5, 0.55, 0.55));
+  EXPECT_EQ(corner.total(config), 4.0);
+  corner.add({Kind::in_front_of_face, 3, 4}, 9.0, box(5.0, 0.0, 5.0, 0.4));
+  EXPECT_EQ(corner.total(config), 8.0) << "another one stands far from it";
+  EvidenceByCause wall;
+  for (int x = 0; x < 6; ++x) wall.add({Kind::unplanned, x, 0}, 9.0, box(x, 0.0, x + 1.0, 0.0));
+  EXPECT_NEAR(wall.total(config), 24.0, 1e-9) << "six metres are no single object";
+  wall.add({Kind::not_built, 7}, 9.0, box(0.0, 0.0, 6.0, 0.0));
+  EXPECT_NEAR(wall.total(config), 32.0, 1e-9);
 }
 
 // Nothing of the plan is in the way out there, so everything seen is something else that it does not show.
@@ -125,9 +154,9 @@ TEST(PairwiseLikelihoodRatio, OutsideOfThePlanEachThingSeenNeedsACauseOfItsOwn) 
   const HypothesisComparisonConfig config;
   const PairwiseLikelihoodRatio said = compare_hypotheses(scan, predict_scan(storey, X_IH, scan, config),
                                                           predict_scan(storey, outside, scan, config), config);
-  EXPECT_EQ(said.against_a.total(config.object_cap, config.cause_cap), 0.0);
+  EXPECT_EQ(said.against_a.total(config), 0.0);
   // The four walls, 20 m long, pass through 20 cells of 1 m or more; a cell that few beams end in counts less.
-  EXPECT_GT(said.against_b.total(config.object_cap, config.cause_cap), 10.0 * config.object_cap);
+  EXPECT_GT(said.against_b.total(config), 10.0 * config.object_cap);
 }
 
 // Beams penetrate both of its faces, from either side.
@@ -146,11 +175,11 @@ TEST(PairwiseLikelihoodRatio, AWallThatWasNotBuiltIsOneCauseFromBothSides) {
                         sees_none =
                             predict_scan(without.storeys.front(), heading(without.X_WI.inverse() * X_WR), scan, config);
     const PairwiseLikelihoodRatio said = compare_hypotheses(scan, sees_it, sees_none, config);
-    EXPECT_EQ(said.against_b.total(config.object_cap, config.cause_cap), 0.0);
-    EXPECT_GT(said.against_a.total(1e9, 1e9), config.cause_cap);
+    EXPECT_EQ(said.against_b.total(config), 0.0);
+    EXPECT_GT(said.against_a.total(capped_at(1e9, 1e9)), config.cause_cap);
     against.add(said.against_a, 1.0);
   }
-  EXPECT_NEAR(against.total(config.object_cap, config.cause_cap), config.cause_cap, 0.5);
+  EXPECT_NEAR(against.total(config), config.cause_cap, 0.5);
 }
 
 INSTANTIATE_TEST_SUITE_P(Places, CompareHypothesesAt, testing::Range(0, 6));

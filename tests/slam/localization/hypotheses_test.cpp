@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/slam/localization/house_plan.h"
@@ -54,6 +55,27 @@ void add_after_a_wrong_one(const TwinRooms& twins, const Eigen::Vector2d& off_H,
   set.add(twins.index, std::vector<StoreyPose>{{0, off, true}});
   set.add(twins.index, others);
   set.prune_and_normalize();
+}
+
+// As in a corridor: the faces across it are beyond the gate, and those along it say nothing of the way.
+TEST(Hypotheses, APoseOffAlongAnOpenDirectionIsMovedWhereTheScanFits) {
+  const TwinRooms twins = twin_rooms_scans();
+  for (const double off_m : {-0.29, 0.28}) {
+    const HypothesisConfig config;
+    HypothesisSet set(config, {}, {}, {});
+    set.predict_and_update(twins.index, twins.u[0], twins.scans[0]);
+    Pose2 off = twins.here;
+    off.t.x() += off_m;
+    set.add(twins.index, std::vector<StoreyPose>{{0, off, true}, {0, twins.there, true}});
+    const auto error = [&] {
+      double least = 1e9;
+      for (const PoseHypothesis& h : set.all()) least = std::min(least, (h.X_IH.t - twins.here.t).norm());
+      return least;
+    };
+    EXPECT_GT(error(), 0.2);
+    set.reassess(twins.index);
+    EXPECT_LT(error(), 0.03);
+  }
 }
 
 TEST(Hypotheses, TwinsKeepEqualSharesAndOthersDie) {

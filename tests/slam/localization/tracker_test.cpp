@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
 
 #include "slam/localization/associate.h"
 #include "tests/slam/localization/house_plan.h"
@@ -88,6 +89,37 @@ TEST(Tracker, DropsTheOldestPoseBeyondItsWindow) {
   EXPECT_EQ(tracker.window().size(), 4U);
 }
 
+// Walls along the way hold nothing of the position on it.
+TEST(Tracker, KnowsWhatNoWallHolds) {
+  Walked walked = walk_straight(1.02);
+  for (HouseScan& seen : walked.seen)
+    std::erase_if(seen.scan.walls, [](const WallObservation& w) { return std::abs(std::cos(w.azimuth + 0.1)) > 0.5; });
+  TrackerConfig config;
+  config.window = 2;
+  PlanTracker tracker(config, walked.index.storeys.front(), standing_m);
+  tracker.start(walked.seen[0].scan, walked.seen[0].planes, walked.X_IR.front());
+  double before_m = 0.0;
+  for (std::size_t i = 1; i < walked.seen.size(); ++i) {
+    static_cast<void>(tracker.update(walked.seen[i].scan, walked.seen[i].planes));
+    const double sigma_m = std::sqrt(tracker.covariance()(0, 0));
+    EXPECT_GT(sigma_m, before_m);
+    before_m = sigma_m;
+  }
+  const double way_m = 0.25 * static_cast<double>(walked.seen.size() - 2);
+  EXPECT_GT(before_m, config.anchor_sigma_m + 0.9 * config.drift_per_m * way_m);
+  EXPECT_LT(std::sqrt(tracker.covariance()(1, 1)), config.anchor_sigma_m);
+  const std::optional<Eigen::Vector2d> along = tracker.open_direction();
+  ASSERT_TRUE(along.has_value());
+  EXPECT_GT(std::abs(along->x()), 0.99);
+
+  const Pose& X_OR = walked.seen.back().scan.X_OR;
+  const double off_m = (walked.X_IR.back().t - tracker.pose(X_OR).t).head<2>().dot(*along);
+  EXPECT_GT(std::abs(off_m), 0.02);
+  tracker.correct_along(*along, off_m, 1e-4);
+  EXPECT_LT((walked.X_IR.back().t - tracker.pose(X_OR).t).norm(), 0.25 * std::abs(off_m) + 0.01);
+  EXPECT_LT(along->dot(tracker.covariance().topLeftCorner<2, 2>() * *along), 1e-4);
+}
+
 TEST(Tracker, PairsOpposedWallsOfTheRoom) {
   const Walked walked = walk_straight(1.0);
   const StoreyIndex& storey = walked.index.storeys.front();
@@ -95,7 +127,8 @@ TEST(Tracker, PairsOpposedWallsOfTheRoom) {
   pose.X_IR = walked.X_IR.front();
   pose.room = storey.room_at(pose.X_IR.t.head<2>());
   ASSERT_GE(pose.room, 0);
-  pose.walls = associate_walls(storey, walked.seen[0].scan, walked.seen[0].planes, pose.X_IR, {});
+  pose.walls =
+      associate_walls(storey, walked.seen[0].scan, walked.seen[0].planes, pose.X_IR, Eigen::Matrix2d::Zero(), {});
   const std::vector<WallPair> pairs = opposed_pairs(storey, pose, {});
   ASSERT_FALSE(pairs.empty());
   for (const WallPair& pair : pairs) {

@@ -17,7 +17,7 @@ std::vector<WallMatch> matches_in(const bim::Plan& plan, const synthetic::House&
   const synthetic::HouseScan seen = synthetic::house_scan(house, X_WR, Pose{});
   const Pose X_IR = index.X_WI.inverse() * X_WR;
   const StoreyIndex& storey = index.storeys.front();
-  return wall_matches(plan, storey, associate_walls(storey, seen.scan, seen.planes, X_IR, {}));
+  return wall_matches(plan, storey, associate_walls(storey, seen.scan, seen.planes, X_IR, Eigen::Matrix2d::Zero(), {}));
 }
 
 TEST(WallMatches, NameTheFacesThatThePatchesLieOn) {

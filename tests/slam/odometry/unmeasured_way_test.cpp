@@ -38,6 +38,16 @@ TEST(UnmeasuredWay, ScansOfTheSameMapTakeBackWhatTheyDidNotSee) {
   EXPECT_FALSE(way.displaced());
 }
 
+TEST(UnmeasuredWay, ALoopClosureLocatesAMapAgain) {
+  UnmeasuredWay way(limit_m);
+  for (int k = 0; k < 40; ++k) way.add_open(period(10.0));
+  for (int k = 0; k < 100; ++k) way.add_measured(period(10.0), true);
+  EXPECT_FALSE(way.lost());
+  EXPECT_TRUE(way.displaced());
+  way.locate_map();
+  EXPECT_FALSE(way.displaced());
+}
+
 TEST(UnmeasuredWay, ANewMapDoesNotKnowWhereItIs) {
   UnmeasuredWay way(limit_m);
   for (int k = 0; k < 30; ++k) way.add_frozen(period(10.0), 1.0);
