@@ -260,8 +260,19 @@ std::string write_cost(const Answer& answer, double start_s) {
   return write_timings({}, {answer.record}, {slam::wall_s() - start_s, slam::process_cpu_s(), answer.recorded_s, 1});
 }
 
-int estimate(const EstimateArguments& options, slam::MethodTable table) {
+/// The table with the process that --method gives, if it does.
+std::optional<ProcessTable> take_process(EstimateArguments& options, slam::MethodTable table) {
+  std::optional<ProcessSpec> process = process_of(options.method, std::filesystem::current_path().string());
+  if (!process) return std::nullopt;
+  process->plan = !options.plan.empty();
+  options.method = process->name;
+  return ProcessTable(table, {*process}, {Mark{"--method", 0, 0}});
+}
+
+int estimate(EstimateArguments options, slam::MethodTable table) {
   const double start_s = slam::wall_s();
+  const std::optional<ProcessTable> own = take_process(options, table);
+  if (own) table = own->table();
   const MethodChoice choice = find_choice(options, table);
   const slam::MethodRow& row = *row_of(choice.method, table);
   check_plan_options(options, row);
@@ -305,7 +316,8 @@ Command add_estimate(CommandLine& program, slam::MethodTable table) {
   line.option("--points-topic", options->topics.points, "of a bag [the first PointCloud2]");
   line.option("--odometry-topic", options->topics.odometry, "of a bag [the first Odometry]");
   line.option("--imu-topic", options->topics.imu, "of a bag [the first Imu]");
-  line.option("--method", options->method, "one of plumbline methods").required();
+  line.option("--method", options->method, "one of plumbline methods, or NAME=COMMAND: a process of your own")
+      .required();
   options->sensors_option =
       line.option("--sensors", options->sensors,
                   "what the method gets: all records, or lidar, without odometry and IMU; names its files NAME.lidar "

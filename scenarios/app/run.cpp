@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -50,8 +51,14 @@ std::string default_out(const Scenario& scenario) {
 
 Overrides overrides_of(const RunArguments& options) {
   Overrides overrides;
-  if (options.methods_option->given()) overrides.methods = options.methods;
   if (options.seed_option->given()) overrides.seed = options.seed;
+  if (options.methods_option->given()) overrides.methods = options.methods;
+  if (!overrides.methods) return overrides;
+  for (std::string& method : *overrides.methods)
+    if (std::optional<ProcessSpec> process = process_of(method, std::filesystem::current_path().string())) {
+      method = process->name;
+      overrides.processes.push_back(std::move(*process));
+    }
   return overrides;
 }
 
@@ -103,8 +110,10 @@ Command add_run(CommandLine& program, slam::MethodTable table) {
               "scenario, plan or traffic-editor plan (.yaml), .ifc, or mesh (.glb, .obj, .dae, .ply, .stl)")
       .required();
   options->methods_option =
-      line.option("--method", options->methods,
-                  "methods to run, comma-separated; NAME.lidar: with LiDAR alone [the scenario's]")
+      line.option(
+              "--method", options->methods,
+              "methods to run, comma-separated; NAME.lidar: with LiDAR alone; NAME=COMMAND: a process of your own [the "
+              "scenario's]")
           .delimiter(',');
   options->seed_option = line.seed("--seed", options->seed, "seed [the scenario's]");
   line.option("-o,--out", options->out, "run directory [runs/<scenario>-<seed>]");

@@ -139,6 +139,18 @@ void check_rooms(ScenarioText& text, const std::vector<Mark>& marks, const bim::
                                      "; add rooms, or ask for SLAM methods only");
 }
 
+/// The table with the processes of the scenario, which start in its folder, and of the command line.
+std::shared_ptr<const ProcessTable> process_table(ScenarioText& text, const Overrides& overrides,
+                                                  const std::string& input_path, slam::MethodTable table) {
+  std::vector<ProcessSpec>& processes = text.scenario.processes;
+  std::vector<Mark> marks = marks_of(text.tree, {"processes"}, processes.size());
+  for (ProcessSpec& process : processes)
+    if (!process.folder) process.folder = fs::absolute(fs::path(input_path).parent_path()).lexically_normal().string();
+  processes.insert(processes.end(), overrides.processes.begin(), overrides.processes.end());
+  marks.resize(processes.size(), Mark{"--method", 0, 0});
+  return std::make_shared<const ProcessTable>(table, processes, marks);
+}
+
 /// Returns where each method is asked for.
 std::vector<Mark> resolve_methods(ScenarioText& text, const Overrides& overrides, bool has_plan,
                                   ResolvedScenario& resolved) {
@@ -271,8 +283,9 @@ void check_methods(const std::vector<std::string>& names, const std::vector<Mark
 
 ResolvedScenario resolve(const std::string& input_path, const Overrides& overrides, slam::MethodTable table) {
   ResolvedScenario resolved;
-  resolved.table = table;
   ScenarioText text = read_input(input_path);
+  resolved.processes = process_table(text, overrides, input_path, table);
+  resolved.table = table = resolved.processes->table();
   std::vector<Mark> method_marks =
       resolve_methods(text, overrides, !bim::is_mesh_path(text.scenario.building), resolved);
   if (overrides.seed) text.scenario.seed = *overrides.seed;

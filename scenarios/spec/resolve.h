@@ -17,6 +17,7 @@ namespace plumbline::scenarios {
 struct Overrides {
   std::optional<std::vector<std::string>> methods;  ///< gates of methods left out are dropped
   std::optional<std::uint64_t> seed;
+  std::vector<ProcessSpec> processes = {};  ///< that `methods` names, besides those of the scenario
 };
 
 /// A scenario with its building, every choice made.
@@ -30,6 +31,7 @@ struct ResolvedScenario {
   slam::Calibration calibration = sim::World::calibration();  ///< as methods are told, off by the mount's error
   int dropped_gates = 0;                                      ///< gates of methods that Overrides left out
   slam::MethodTable table;                                    ///< where its methods stand; must outlive this
+  std::shared_ptr<const ProcessTable> processes;              ///< the table, where the scenario has processes
 };
 
 /// Reads INPUT (a scenario, a plan, an .ifc or a mesh; all but the first get the default scenario: start in the largest

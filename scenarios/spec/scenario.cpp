@@ -112,7 +112,7 @@ ScenarioText read_scenario(std::string_view text, const std::string& file) {
   Tree tree = read_yaml(text, file);
   if (!tree.is_map() || tree.as_map().empty() || tree.as_map().front().first != "scenario")
     throw InputError({file, 1, 1}, "the first key of a scenario must be 'scenario: 1'");
-  tree = with_lists(std::move(tree));
+  tree = with_processes_apart(with_lists(std::move(tree)));
   ScenarioText result{from_tree<Scenario>(tree), tree};
   check_name(result.scenario.name, mark_at(tree, {"name"}));
   check_gates(result.scenario, tree);

@@ -10,6 +10,7 @@
 #include "bim/furniture/furnish.h"
 #include "bim/model/building_options.h"
 #include "scenarios/spec/faults.h"
+#include "scenarios/spec/process_spec.h"
 #include "scenarios/spec/sensors.h"
 #include "scenarios/spec/told_furniture.h"
 #include "sim/lidar/lidar.h"
@@ -335,6 +336,7 @@ struct Scenario {
   std::optional<KidnapSpec> kidnap;
   PriorSpec prior;
   std::vector<std::string> methods;
+  std::vector<ProcessSpec> processes;
   std::vector<Sensors> sensors;
   std::vector<GateSpec> gates;
   template <class V>
@@ -366,7 +368,10 @@ struct Scenario {
     v("prior", prior, Field{.doc = "what plan localization knows at the start beside the plan"});
     v("methods", methods,
       Field{.doc = "names of the methods to run, `NAME.lidar` for one with LiDAR alone; the default ones when none is "
-                   "named"});
+                   "named; `{name: NAME, command: [PROGRAM, ARGUMENT]}` for a process of your own, see `processes`"});
+    v("processes", processes,
+      Field{.doc = "methods that are programs of the user's; each is run where `methods` names it, and may stand there "
+                   "in place of its name"});
     v("sensors", sensors,
       Field{.doc =
                 "what methods get: all records, or lidar, the scans without odometry and IMU; with both, each method "

@@ -28,7 +28,8 @@ class Template {
   Template(const std::string& path, const Mark& mark) : path_(path) {
     if (!fs::exists(path)) throw InputError(mark, "the scenario '" + path + "' does not exist");
     const std::string text = read_text_file(path);
-    tree_ = read_yaml(text, path);
+    tree_ = with_process_folders(read_yaml(text, path),
+                                 fs::absolute(fs::path(path).parent_path()).lexically_normal().string());
     if (!tree_.is_map() || tree_.find("scenario") == nullptr)
       throw InputError(mark, "'" + path + "' is no scenario; its first key must be 'scenario: 1'");
     (void)read_scenario(text, path);

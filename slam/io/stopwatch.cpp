@@ -17,6 +17,10 @@ double read(clockid_t clock) {
 
 double thread_cpu_s() { return read(CLOCK_THREAD_CPUTIME_ID); }
 double process_cpu_s() { return read(CLOCK_PROCESS_CPUTIME_ID); }
+double process_cpu_s(int pid) {
+  clockid_t clock{};
+  return clock_getcpuclockid(pid, &clock) == 0 ? read(clock) : 0.0;
+}
 double wall_s() { return read(CLOCK_MONOTONIC); }
 
 }  // namespace plumbline::slam

@@ -7,6 +7,8 @@ namespace plumbline::slam {
 [[nodiscard]] double thread_cpu_s();   ///< CPU time of this thread, s
 [[nodiscard]] double process_cpu_s();  ///< CPU time of all threads, s
 [[nodiscard]] double wall_s();         ///< since some fixed moment, s
+/// CPU time of another process, s; 0 where the system does not tell.
+[[nodiscard]] double process_cpu_s(int pid);
 
 /// CPU time of this thread since it was made or last restarted.
 class Stopwatch {

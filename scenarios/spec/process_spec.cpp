@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenarios/spec/process_spec.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "bim/errors.h"
+#include "scenarios/spec/method_names.h"
+#include "slam/process/process_method.h"
+
+namespace plumbline::scenarios {
+
+namespace {
+
+/// Splits a command as a shell does where there is nothing but spaces and quotes.
+std::vector<std::string> words_of(const std::string& text, const Mark& mark) {
+  std::vector<std::string> words;
+  std::string word;
+  bool in_word = false;
+  char quote = 0;
+  for (const char c : text) {
+    if (quote != 0 && c == quote) {
+      quote = 0;
+    } else if (quote == 0 && (c == '\'' || c == '"')) {
+      quote = c;
+      in_word = true;
+    } else if (quote == 0 && c == ' ') {
+      if (in_word) words.push_back(std::exchange(word, {}));
+      in_word = false;
+    } else {
+      word += c;
+      in_word = true;
+    }
+  }
+  if (quote != 0) throw InputError(mark, "'" + text + "' has a quote that is not closed");
+  if (in_word) words.push_back(word);
+  return words;
+}
+
+void check(const ProcessSpec& process, slam::MethodTable table, const Mark& mark) {
+  const auto allowed = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+  };
+  constexpr std::size_t longest = 60;
+  if (process.name.empty() || process.name.size() > longest ||
+      !std::all_of(process.name.begin(), process.name.end(), allowed))
+    throw InputError(mark, "a method's name must be 1 to 60 letters, digits, - and _, not '" + process.name + "'");
+  if (process.name == truth_method || slam::find_method(process.name, table) != nullptr)
+    throw InputError(mark, "method '" + process.name + "' is in the table already; give the process another name");
+  if (process.command.empty() || process.command.front().empty())
+    throw InputError(mark, "the process '" + process.name + "' needs a command: a program and its arguments");
+}
+
+slam::MethodRow row_for(const ProcessSpec& process) {
+  slam::ProcessCommand command{process.name,   process.command, process.folder.value_or(""),
+                               process.plan,   process.repeat,  process.start_s,
+                               process.scan_s, process.finish_s};
+  slam::MethodRow row;
+  row.name = process.name;
+  row.summary = "a process of the user's";
+  row.needs_plan = process.plan;
+  row.make = [command = std::move(command)](const slam::MethodInput& input) {
+    return slam::make_process_method(command, input);
+  };
+  row.standard = false;
+  return row;
+}
+
+}  // namespace
+
+Tree with_processes_apart(Tree scenario) {
+  const Tree* methods = scenario.is_map() ? scenario.find("methods") : nullptr;
+  if (methods == nullptr || !methods->is_list()) return scenario;
+  const Tree* given = scenario.find("processes");
+  if (given != nullptr && !given->is_list() && !given->is_null())
+    throw InputError(given->mark, "'processes' must be a list");
+  Tree names = Tree::list(), processes = given != nullptr ? *given : Tree::list();
+  names.mark = methods->mark;
+  if (given == nullptr) processes.mark = methods->mark;
+  bool found = false;
+  for (const Tree& method : methods->as_list()) {
+    const Tree* name = method.is_map() ? method.find("name") : nullptr;
+    if (!method.is_map()) {
+      names.push(method);
+      continue;
+    }
+    if (name == nullptr) throw InputError(method.mark, "a method that is a process needs a name and a command");
+    names.push(*name);
+    processes.push(method);
+    found = true;
+  }
+  if (!found) return scenario;
+  return std::move(scenario.set("methods", std::move(names)).set("processes", std::move(processes)));
+}
+
+Tree with_process_folders(Tree scenario, const std::string& folder) {
+  scenario = with_processes_apart(std::move(scenario));
+  const Tree* given = scenario.is_map() ? scenario.find("processes") : nullptr;
+  if (given == nullptr || !given->is_list()) return scenario;
+  Tree processes = Tree::list();
+  processes.mark = given->mark;
+  for (Tree process : given->as_list()) {
+    if (process.is_map() && process.find("folder") == nullptr) process.set("folder", folder);
+    processes.push(std::move(process));
+  }
+  return std::move(scenario.set("processes", std::move(processes)));
+}
+
+std::optional<ProcessSpec> process_of(const std::string& text, const std::string& folder) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos) return std::nullopt;
+  ProcessSpec process;
+  process.name = text.substr(0, equals);
+  process.command = words_of(text.substr(equals + 1), {"--method", 0, 0});
+  process.folder = folder;
+  return process;
+}
+
+ProcessTable::ProcessTable(slam::MethodTable table, std::vector<ProcessSpec> processes, const std::vector<Mark>& marks)
+    : processes_(std::move(processes)), rows_(table.begin(), table.end()) {
+  for (std::size_t i = 0; i < processes_.size(); ++i) {
+    check(processes_[i], rows_, marks[i]);
+    rows_.push_back(row_for(processes_[i]));
+  }
+}
+
+}  // namespace plumbline::scenarios

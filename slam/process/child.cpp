@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/process/child.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/socket.h>
+#include <sys/timerfd.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <ctime>
+
+#include "bim/errors.h"
+#include "slam/io/stopwatch.h"
+
+extern char** environ;
+
+namespace plumbline::slam {
+
+namespace {
+
+constexpr int child_stream = 3;
+constexpr std::size_t printed_max = 4096;
+
+std::string error_text(int error) { return std::strerror(error); }
+
+/// Two connected descriptors that no other child inherits.
+std::array<int, 2> pipe_or_socket(bool socket) {
+  std::array<int, 2> ends{-1, -1};
+  const int made =
+      socket ? ::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) : ::pipe2(ends.data(), O_CLOEXEC);
+  if (made != 0) throw EnvironmentError("no connection to a process can be made: " + error_text(errno));
+  return ends;
+}
+
+/// This process's environment with some variables set.
+std::vector<std::string> environment_with(const std::vector<std::string>& variables) {
+  std::vector<std::string> all = variables;
+  for (char** at = environ; *at != nullptr; ++at) {
+    const std::string one = *at;
+    const std::string name = one.substr(0, one.find('=') + 1);
+    const bool given = std::any_of(variables.begin(), variables.end(),
+                                   [&](const std::string& variable) { return variable.starts_with(name); });
+    if (!given) all.push_back(one);
+  }
+  return all;
+}
+
+std::vector<char*> pointers(const std::vector<std::string>& words) {
+  std::vector<char*> all;
+  for (const std::string& word : words) all.push_back(const_cast<char*>(word.c_str()));
+  all.push_back(nullptr);
+  return all;
+}
+
+/// Of posix_spawn, freed at the end.
+class SpawnPlan {
+ public:
+  SpawnPlan() {
+    posix_spawn_file_actions_init(&actions);
+    posix_spawnattr_init(&attributes);
+  }
+  ~SpawnPlan() {
+    posix_spawn_file_actions_destroy(&actions);
+    posix_spawnattr_destroy(&attributes);
+  }
+  SpawnPlan(const SpawnPlan&) = delete;
+  SpawnPlan(SpawnPlan&&) = delete;
+  SpawnPlan& operator=(const SpawnPlan&) = delete;
+  SpawnPlan& operator=(SpawnPlan&&) = delete;
+
+  posix_spawn_file_actions_t actions;
+  posix_spawnattr_t attributes;
+};
+
+/// Signals that this program handles or ignores come to the child as to any other.
+void reset_signals(posix_spawnattr_t& attributes) {
+  sigset_t none, all;
+  sigemptyset(&none);
+  sigfillset(&all);
+  posix_spawnattr_setsigmask(&attributes, &none);
+  posix_spawnattr_setsigdefault(&attributes, &all);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSID | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+}
+
+void close_if_open(int& descriptor) {
+  if (descriptor >= 0) ::close(descriptor);
+  descriptor = -1;
+}
+
+}  // namespace
+
+Child::Child(const std::vector<std::string>& command, const std::string& folder,
+             const std::vector<std::string>& variables) {
+  const auto [own_stream, its_stream] = pipe_or_socket(true);
+  const auto [own_output, its_output] = pipe_or_socket(false);
+  stream_ = own_stream;
+  output_ = own_output;
+  timer_ = ::timerfd_create(CLOCK_MONOTONIC, TFD_CLOEXEC | TFD_NONBLOCK);
+  ::fcntl(stream_, F_SETFL, O_NONBLOCK);
+  ::fcntl(output_, F_SETFL, O_NONBLOCK);
+
+  SpawnPlan plan;
+  posix_spawn_file_actions_addopen(&plan.actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  posix_spawn_file_actions_adddup2(&plan.actions, its_output, STDOUT_FILENO);
+  posix_spawn_file_actions_adddup2(&plan.actions, its_output, STDERR_FILENO);
+  // dup2 onto itself would leave it to be closed at exec.
+  const int above = ::fcntl(its_stream, F_DUPFD_CLOEXEC, child_stream + 1);
+  posix_spawn_file_actions_adddup2(&plan.actions, above, child_stream);
+  posix_spawn_file_actions_addclosefrom_np(&plan.actions, child_stream + 1);
+  if (!folder.empty()) posix_spawn_file_actions_addchdir_np(&plan.actions, folder.c_str());
+  reset_signals(plan.attributes);
+  const std::vector<std::string> environment = environment_with(variables);
+  const int failed = ::posix_spawnp(&pid_, command.front().c_str(), &plan.actions, &plan.attributes,
+                                    pointers(command).data(), pointers(environment).data());
+  ::close(its_stream);
+  ::close(its_output);
+  ::close(above);
+  if (failed == 0) return;
+  for (int* descriptor : {&stream_, &output_, &timer_}) close_if_open(*descriptor);
+  throw ProcessFailure("'" + command.front() + "' cannot be started: " + error_text(failed));
+}
+
+Child::~Child() {
+  close_if_open(stream_);
+  ::kill(-pid_, SIGKILL);
+  if (!ended_) ::waitpid(pid_, &status_, 0);
+  close_if_open(output_);
+  close_if_open(timer_);
+}
+
+void Child::set_deadline(double seconds) {
+  deadline_s_ = seconds;
+  itimerspec time{};
+  time.it_value.tv_sec = static_cast<time_t>(seconds);
+  time.it_value.tv_nsec = static_cast<long>(1e9 * (seconds - std::floor(seconds))) + 1;
+  ::timerfd_settime(timer_, 0, &time, nullptr);
+}
+
+void Child::send(const void* bytes, std::size_t size) {
+  const char* at = static_cast<const char*>(bytes);
+  while (size > 0) {
+    const ssize_t sent = ::send(stream_, at, size, MSG_NOSIGNAL);
+    if (sent > 0) {
+      at += sent;
+      size -= static_cast<std::size_t>(sent);
+    } else if (sent < 0 && (errno == EAGAIN || errno == EINTR)) {
+      if (wait_for(POLLOUT) == Ready::over) throw ProcessFailure("took more than its time to read what it was sent");
+    } else {
+      fail_as_it_ended();
+    }
+  }
+}
+
+void Child::receive(void* bytes, std::size_t size) {
+  char* at = static_cast<char*>(bytes);
+  while (size > 0) {
+    const ssize_t got = ::recv(stream_, at, size, 0);
+    if (got > 0) {
+      at += got;
+      size -= static_cast<std::size_t>(got);
+    } else if (got < 0 && (errno == EAGAIN || errno == EINTR)) {
+      if (wait_for(POLLIN) == Ready::over) {
+        char text[32];
+        std::snprintf(text, sizeof text, "%g s", deadline_s_);
+        throw ProcessFailure("gave no answer within " + std::string(text));
+      }
+    } else {
+      fail_as_it_ended();
+    }
+  }
+}
+
+Child::Ready Child::wait_for(short events) {
+  for (;;) {
+    std::array<pollfd, 3> waits{{{stream_, events, 0}, {timer_, POLLIN, 0}, {output_, POLLIN, 0}}};
+    if (::poll(waits.data(), waits.size(), -1) < 0 && errno != EINTR)
+      throw EnvironmentError("no process can be waited for: " + error_text(errno));
+    if (waits[2].revents != 0) read_printed();
+    if (waits[0].revents != 0) return Ready::stream;
+    if (waits[1].revents != 0) return Ready::over;
+  }
+}
+
+void Child::read_printed() {
+  std::array<char, 65536> text;
+  const ssize_t got = ::read(output_, text.data(), text.size());
+  if (got > 0) {
+    printed_.append(text.data(), static_cast<std::size_t>(got));
+    if (printed_.size() > printed_max) printed_.erase(0, printed_.size() - printed_max);
+  } else if (got == 0) {
+    close_if_open(output_);  // poll() passes over -1
+  }
+}
+
+bool Child::close_and_wait() {
+  ::shutdown(stream_, SHUT_WR);
+  char byte = 0;
+  for (;;) {
+    const ssize_t got = ::recv(stream_, &byte, 1, 0);
+    if (got == 0 || (got < 0 && errno != EAGAIN && errno != EINTR)) break;
+    if (got < 0 && wait_for(POLLIN) == Ready::over) return false;
+  }
+  constexpr int tries = 200;
+  for (int i = 0; i < tries && !ended_; ++i) {
+    ended_ = ::waitpid(pid_, &status_, WNOHANG) == pid_;
+    if (!ended_) ::poll(nullptr, 0, 10);
+  }
+  return ended_ && WIFEXITED(status_) && WEXITSTATUS(status_) == 0;
+}
+
+double Child::cpu_ms() const { return ended_ ? 0.0 : 1e3 * process_cpu_s(pid_); }
+
+void Child::fail_as_it_ended() {
+  const std::string how = how_it_ended();
+  if (output_ >= 0) read_printed();
+  std::string last = printed_;
+  while (!last.empty() && last.back() == '\n') last.pop_back();
+  last.erase(0, last.rfind('\n') + 1);
+  throw ProcessFailure(how + (last.empty() ? "" : "; the last it printed: " + last));
+}
+
+// It may have closed the stream and gone on.
+std::string Child::how_it_ended() {
+  constexpr int tries = 100;
+  for (int i = 0; i < tries && !ended_; ++i) {
+    ended_ = ::waitpid(pid_, &status_, WNOHANG) == pid_;
+    if (!ended_) ::poll(nullptr, 0, 10);
+  }
+  if (!ended_) return "closed the connection";
+  if (WIFSIGNALED(status_)) return "was ended by signal " + std::to_string(WTERMSIG(status_));
+  return "exited with " + std::to_string(WEXITSTATUS(status_));
+}
+
+}  // namespace plumbline::slam

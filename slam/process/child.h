@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <sys/types.h>
+
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace plumbline::slam {
+
+/// A process that does not do what it should; what() says what it did.
+class ProcessFailure : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A child process and a stream to it, which is its file descriptor 3. Its standard input is empty; what it prints is
+/// kept, the last of it. It dies with this object, and all that it started with it.
+class Child {
+ public:
+  /// folder: its working directory. variables: NAME=VALUE, over those of this process. Throws ProcessFailure where the
+  /// program cannot be started.
+  Child(const std::vector<std::string>& command, const std::string& folder, const std::vector<std::string>& variables);
+  ~Child();
+  Child(const Child&) = delete;
+  Child(Child&&) = delete;
+  Child& operator=(const Child&) = delete;
+  Child& operator=(Child&&) = delete;
+
+  /// From now on send() and receive() together may take this long by the wall clock.
+  void set_deadline(double seconds);
+  /// All bytes, or ProcessFailure: the process ended, or the time is over.
+  void send(const void* bytes, std::size_t size);
+  void receive(void* bytes, std::size_t size);
+  /// Closes the stream and waits for the process until the deadline; whether it ended by itself, with 0.
+  [[nodiscard]] bool close_and_wait();
+
+  /// CPU time of the process itself so far, ms; 0 where the system does not tell.
+  [[nodiscard]] double cpu_ms() const;
+  /// The last lines that it printed.
+  [[nodiscard]] const std::string& printed() const { return printed_; }
+
+ private:
+  enum class Ready { stream, over };
+  [[nodiscard]] Ready wait_for(short events);
+  void read_printed();
+  [[noreturn]] void fail_as_it_ended();
+  [[nodiscard]] std::string how_it_ended();
+
+  pid_t pid_ = -1;
+  int stream_ = -1, output_ = -1, timer_ = -1;
+  double deadline_s_ = 0.0;
+  bool ended_ = false;
+  int status_ = 0;
+  std::string printed_;
+};
+
+}  // namespace plumbline::slam

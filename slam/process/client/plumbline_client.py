@@ -1,0 +1,218 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Runs an estimator as a process of plumbline. Needs numpy alone.
+
+    import plumbline_client
+
+    def start(recording):                # once; returns what answers scans
+        def on_scan(scan):
+            return pose                  # 4x4: the robot in a frame of your own, or None while it is unknown
+        return on_scan
+
+    plumbline_client.run(start)
+
+Then: plumbline run quickstart.yaml --method "mine=python3 my_slam.py"
+"""
+import json
+import os
+import socket
+import struct
+import sys
+import traceback
+
+import numpy as np
+
+MAGIC = 0x31424C50
+HELLO, STEP, FINISH, HELLO_OK, OUTPUT, ESTIMATE, LOG, FAIL = 1, 2, 3, 0x81, 0x82, 0x83, 0x84, 0x8F
+SEARCHING, AMBIGUOUS, CONVERGED, LOST = range(4)
+
+_IMU = np.dtype([("stamp_ns", "<i8"), ("angular_velocity", "<f8", 3), ("linear_acceleration", "<f8", 3)])
+_POSE = np.dtype([("stamp_ns", "<i8"), ("t", "<f8", 3), ("q", "<f8", 4)])
+_RETURN = np.dtype([("point", "<f8", 3), ("range", "<f8"), ("offset_ns", "<i4"), ("reflectivity", "<f4")])
+_HYPOTHESIS = struct.Struct("<14d")
+
+
+def matrix(t, q):
+    """4x4 of a position and a quaternion x, y, z, w."""
+    x, y, z, w = q
+    pose = np.eye(4)
+    pose[:3, :3] = [
+        [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+        [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+        [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
+    ]
+    pose[:3, 3] = t
+    return pose
+
+
+def quaternion(rotation):
+    """x, y, z, w of norm 1 of a rotation matrix."""
+    r = np.asarray(rotation, dtype=float)
+    k = np.array([
+        [r[0, 0] - r[1, 1] - r[2, 2], 0, 0, 0],
+        [r[1, 0] + r[0, 1], r[1, 1] - r[0, 0] - r[2, 2], 0, 0],
+        [r[2, 0] + r[0, 2], r[2, 1] + r[1, 2], r[2, 2] - r[0, 0] - r[1, 1], 0],
+        [r[2, 1] - r[1, 2], r[0, 2] - r[2, 0], r[1, 0] - r[0, 1], r[0, 0] + r[1, 1] + r[2, 2]],
+    ])
+    _, vectors = np.linalg.eigh(k)
+    q = vectors[:, -1]
+    return q if q[3] >= 0 else -q
+
+
+class Recording:
+    """What is known before the first scan."""
+
+    def __init__(self, hello):
+        self.hello = hello
+        self.seed = int(hello["seed"])
+        self.X_RL = matrix(hello["X_RL"][:3], hello["X_RL"][3:])  # mount: the LiDAR in the robot
+        self.sensor_height_m = hello["sensor_height_m"]
+        self.has_odometry = hello["has_odometry"]
+        self.prior = hello["prior"]  # of a localization: yaw_W, yaw_sigma, storey
+        self.plan = hello["plan"]  # of a localization: storeys, faces, rooms, solids
+
+    def robot_pose(self, lidar_pose):
+        """The robot's pose, from that of the LiDAR in the frame of its first scan, as LiDAR odometry gives it."""
+        return self.X_RL @ np.asarray(lidar_pose, dtype=float) @ np.linalg.inv(self.X_RL)
+
+
+class Scan:
+    """One turn of the LiDAR, and what else was measured since the scan before. Copy what you keep."""
+
+    def __init__(self, payload):
+        self.stamp_ns, imus, odometries, returns, self.rings, self.columns, _ = struct.unpack_from("<qIIIHHQ", payload)
+        at = 32
+        self.imu = np.frombuffer(payload, _IMU, imus, at)  # stamp_ns, angular_velocity, linear_acceleration, in R
+        at += imus * _IMU.itemsize
+        self.odometry = np.frombuffer(payload, _POSE, odometries, at)  # stamp_ns, t, q: the robot in O
+        at += odometries * _POSE.itemsize
+        self.slots = np.frombuffer(payload, _RETURN, returns, at)  # all firings, column by column; range 0: none
+        self._hit = self.slots["range"] > 0
+
+    @property
+    def points(self):
+        """N x 3, m, in the LiDAR's frame at each return's own time."""
+        return np.ascontiguousarray(self.slots["point"][self._hit])
+
+    @property
+    def times(self):
+        """N, s, of each return relative to the scan's stamp: 0 is the end of the scan."""
+        return self.slots["offset_ns"][self._hit] * 1e-9
+
+    @property
+    def relative_times(self):
+        """N, 0 at the first return of the scan to 1 at its end."""
+        times = self.times
+        first = times.min() if len(times) else 0.0
+        return (times - first) / -first if first < 0 else np.zeros(len(times))
+
+    @property
+    def ring(self):
+        return np.flatnonzero(self._hit) % max(self.rings, 1)
+
+    @property
+    def reflectivity(self):
+        return self.slots["reflectivity"][self._hit]
+
+    def odometry_pose(self):
+        """4x4 of the last odometry up to the scan, or None."""
+        return matrix(self.odometry[-1]["t"], self.odometry[-1]["q"]) if len(self.odometry) else None
+
+
+class Answer:
+    """More than a pose: state, and of a localization hypotheses as (mass, 4x4 in W, 3x3 covariance of x, y, yaw)."""
+
+    def __init__(self, pose=None, state=CONVERGED, hypotheses=(), particles=()):
+        self.pose, self.state, self.hypotheses, self.particles = pose, state, hypotheses, particles
+
+    def pack(self, stamp_ns):
+        numbers = [0.0] * 6 + [1.0] if self.pose is None else _numbers(self.pose)
+        out = struct.pack("<qBBHI7d", stamp_ns, self.pose is not None, self.state, len(self.hypotheses),
+                          len(self.particles), *numbers)
+        for mass, pose, covariance in self.hypotheses:
+            c = np.asarray(covariance, dtype=float)
+            out += _HYPOTHESIS.pack(mass, *_numbers(pose), c[0, 0], c[0, 1], c[0, 2], c[1, 1], c[1, 2], c[2, 2])
+        return out + np.asarray(self.particles, "<f4").tobytes()
+
+
+def _numbers(pose):
+    pose = np.asarray(pose, dtype=float)
+    return [*pose[:3, 3], *quaternion(pose[:3, :3])]
+
+
+class _Stream:
+    def __init__(self):
+        if "PLUMBLINE_FD" not in os.environ:
+            raise SystemExit("plumbline_client: started by hand; give this command to plumbline as --method NAME=COMMAND")
+        self.socket = socket.socket(fileno=int(os.environ["PLUMBLINE_FD"]))
+
+    def receive(self):
+        head = self._read(16)
+        if head is None:
+            return None, None
+        magic, kind, _, size = struct.unpack("<IHHQ", head)
+        if magic != MAGIC:
+            raise RuntimeError("this is no message of plumbline")
+        return kind, self._read(size)
+
+    def send(self, kind, payload):
+        self.socket.sendall(struct.pack("<IHHQ", MAGIC, kind, 0, len(payload)) + payload)
+
+    def _read(self, size):
+        data = bytearray(size)
+        view, got = memoryview(data), 0
+        while got < size:
+            count = self.socket.recv_into(view[got:])
+            if count == 0:
+                return None
+            got += count
+        return data
+
+
+def _estimate(poses, points):
+    trajectory = np.zeros(len(poses), _POSE)
+    for row, (stamp_ns, pose) in zip(trajectory, poses):
+        numbers = _numbers(pose)
+        row["stamp_ns"], row["t"], row["q"] = stamp_ns, numbers[:3], numbers[3:]
+    cloud = np.ascontiguousarray(np.asarray(points, "<f4").reshape(-1, 3))
+    return struct.pack("<QQQ", 0, len(trajectory), len(cloud)) + trajectory.tobytes() + cloud.tobytes()
+
+
+def run(start, finish=None):
+    """start(Recording) returns on_scan(Scan), which returns a 4x4 pose, None or an Answer. finish(), if given, returns
+    (poses, points): a corrected trajectory [(stamp_ns, 4x4)] and a map N x 3; else the poses given scan by scan stand."""
+    stream = _Stream()
+    poses = []
+    on_scan = None
+    try:
+        while True:
+            kind, payload = stream.receive()
+            if kind is None:
+                return
+            if kind == HELLO:
+                on_scan = start(Recording(json.loads(bytes(payload))))
+                stream.send(HELLO_OK, json.dumps({"protocol": 1}).encode())
+            elif kind == STEP:
+                scan = Scan(payload)
+                answer = on_scan(scan)
+                if not isinstance(answer, Answer):
+                    answer = Answer(answer)
+                if answer.pose is not None:
+                    poses.append((scan.stamp_ns, np.array(answer.pose, dtype=float)))
+                stream.send(OUTPUT, answer.pack(scan.stamp_ns))
+            elif kind == FINISH:
+                final, points = finish() if finish else (poses, ())
+                stream.send(ESTIMATE, _estimate(final, points))
+    except BrokenPipeError:
+        return
+    except Exception:
+        raise SystemExit(_give_up(stream))
+
+
+def _give_up(stream):
+    """The whole trace where the process prints to, one line to plumbline."""
+    traceback.print_exc()
+    kind, error, trace = sys.exc_info()
+    where = traceback.extract_tb(trace)[-1]
+    text = f"{kind.__name__}: {error} ({os.path.basename(where.filename)}, line {where.lineno})"
+    stream.send(FAIL, text.replace("\n", " ").encode())
+    return 1

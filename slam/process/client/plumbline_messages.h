@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+/// What travels between plumbline and a method that is a process of its own: little endian, in this layout without
+/// gaps. One message each way at a time; docs/guide/your_method.md.
+namespace plumbline::slam::wire {
+
+inline constexpr std::uint32_t magic = 0x31424C50;  ///< "PLB1"
+inline constexpr int protocol = 1;
+/// Most bytes of an answer's payload.
+inline constexpr std::uint64_t max_payload = 256ULL << 20U;
+
+enum class Type : std::uint16_t {
+  hello = 1,
+  step = 2,
+  finish = 3,
+  hello_ok = 0x81,
+  output = 0x82,
+  estimate = 0x83,
+  log = 0x84,
+  fail = 0x8F,
+};
+
+struct Head {
+  std::uint32_t magic = wire::magic;
+  std::uint16_t type = 0;
+  std::uint16_t flags = 0;
+  std::uint64_t size = 0;  ///< of the payload that follows
+};
+static_assert(sizeof(Head) == 16);
+
+/// Begins a STEP; then imus, odometries and returns.
+struct Step {
+  std::int64_t stamp_ns = 0;
+  std::uint32_t imus = 0;
+  std::uint32_t odometries = 0;
+  std::uint32_t returns = 0;
+  std::uint16_t rings = 0;
+  std::uint16_t columns = 0;
+  std::uint64_t reserved = 0;
+};
+static_assert(sizeof(Step) == 32);
+
+struct Imu {
+  std::int64_t stamp_ns = 0;
+  double angular_velocity[3] = {};
+  double linear_acceleration[3] = {};
+};
+static_assert(sizeof(Imu) == 56);
+
+/// Position, then the quaternion x, y, z, w.
+struct Pose {
+  double t[3] = {};
+  double q[4] = {};
+};
+static_assert(sizeof(Pose) == 56);
+
+struct Odometry {
+  std::int64_t stamp_ns = 0;
+  Pose X_OR;
+};
+static_assert(sizeof(Odometry) == 64);
+
+/// One slot of a scan, index column * rings + ring; range 0: no return.
+struct Return {
+  double point_L[3] = {};
+  double range_m = 0.0;
+  std::int32_t offset_ns = 0;  ///< relative to the scan's stamp, <= 0
+  float reflectivity = 0.0F;
+};
+static_assert(sizeof(Return) == 40);
+
+/// Begins an OUTPUT; then hypotheses and particles.
+struct Output {
+  std::int64_t stamp_ns = 0;  ///< of the scan that is answered
+  std::uint8_t has_pose = 0;
+  std::uint8_t state = 2;  ///< 0 SEARCHING, 1 AMBIGUOUS, 2 CONVERGED, 3 LOST
+  std::uint16_t hypotheses = 0;
+  std::uint32_t particles = 0;
+  Pose X_FR;
+};
+static_assert(sizeof(Output) == 72);
+
+struct Hypothesis {
+  double mass = 0.0;
+  Pose X_WR;
+  double covariance[6] = {};  ///< xx, xy, xyaw, yy, yyaw, yawyaw
+};
+static_assert(sizeof(Hypothesis) == 112);
+
+struct Particle {
+  float x = 0.0F, y = 0.0F, yaw = 0.0F, weight = 0.0F;
+};
+static_assert(sizeof(Particle) == 16);
+
+/// Begins an ESTIMATE; then the JSON text of planes, rooms and floors, poses of the trajectory (as Odometry), and
+/// points of the map (three floats each).
+struct Estimate {
+  std::uint64_t json_bytes = 0;
+  std::uint64_t poses = 0;
+  std::uint64_t points = 0;
+};
+static_assert(sizeof(Estimate) == 24);
+
+}  // namespace plumbline::slam::wire

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+// Methods that are processes: what they answer counts as a built-in method's, and what they do harms nothing else.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "tests/system/program.h"
+
+namespace plumbline::system_tests {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Process : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (!available()) GTEST_SKIP() << "PLUMBLINE_BINARY and PLUMBLINE_SOURCE are not set; run through ctest";
+  }
+  static std::string program(const std::string& name) {
+    return (fs::path(std::getenv("PLUMBLINE_BINARY")).parent_path() / "tests" / name).string();
+  }
+  /// A short walk with these methods, in YAML.
+  [[nodiscard]] std::string scenario(const std::string& methods, const std::string& seconds = "4") const {
+    fs::copy_file(project_file("tests/system/short.plan.yaml"), folder_ / "short.plan.yaml",
+                  fs::copy_options::skip_existing);
+    const std::string path = folder_ / "walk.yaml";
+    write_file(path,
+               "scenario: 1\nname: walk\nbuilding: short.plan.yaml\nseed: 3\nstart: {room: left}\n"
+               "route: {rooms: [hall, right]}\nduration_s: " +
+                   seconds + "\nmethods:\n" + methods);
+    return path;
+  }
+  static nlohmann::json json(const std::string& path) { return nlohmann::json::parse(read_file(path)); }
+
+  Folder folder_;
+};
+
+TEST_F(Process, VgicpWrappedGivesTheBuiltInsBytes) {
+  const std::string input = scenario("  - vgicp\n  - vgicp.lidar\n  - {name: mine, command: [" +
+                                         program("process_vgicp") + "], repeat: true}\n  - {name: alone, command: [" +
+                                         program("process_vgicp") + "]}\n  - alone.lidar\n",
+                                     "8");
+  std::string text = read_file(input);
+  text.replace(text.find("  - {name: alone"), text.find("  - alone.lidar") - text.find("  - {name: alone"), "");
+  text += "processes:\n  - {name: alone, command: [" + program("process_vgicp") + "]}\n";
+  write_file(input, text);
+  const std::string out = folder_ / "run";
+  const Outcome outcome = plumbline({"run", input, "-o", out});
+  ASSERT_EQ(outcome.code, 0) << outcome.out << outcome.err;
+  EXPECT_EQ(read_file(out + "/mine.tum"), read_file(out + "/vgicp.tum"));
+  EXPECT_EQ(read_file(out + "/mine.final.tum"), read_file(out + "/vgicp.final.tum"));
+  EXPECT_EQ(read_file(out + "/alone.lidar.tum"), read_file(out + "/vgicp.lidar.tum"));
+  EXPECT_NE(read_file(out + "/vgicp.tum"), read_file(out + "/vgicp.lidar.tum"));
+
+  const Outcome again = plumbline({"replay", out});
+  EXPECT_EQ(again.code, 0) << again.out << again.err;
+}
+
+TEST_F(Process, ThePythonExampleFollowsAndRepeats) {
+  const std::string python = "/usr/bin/python3";
+  if (std::system((python + " -c 'import numpy' 2>/dev/null").c_str()) != 0) GTEST_SKIP() << "no numpy for " << python;
+  const std::string icp = project_file("slam/process/client/examples/icp.py");
+  const Outcome outcome = plumbline({"run",
+                                     scenario("  - {name: icp, command: [" + python + ", " + icp +
+                                                  "], repeat: true}\n"
+                                                  "  - icp.lidar\n",
+                                              "6"),
+                                     "-o", folder_ / "run"});
+  ASSERT_EQ(outcome.code, 0) << outcome.out << outcome.err;
+  const nlohmann::json results = json(folder_ / "run/results.json");
+  EXPECT_EQ(results["methods"]["icp"]["verdict"], "ok");
+  // Scans are not deskewed: measured 3 cm.
+  EXPECT_LT(results["methods"]["icp"]["ate_aligned_rmse_m"].get<double>(), 0.2);
+  EXPECT_EQ(read_file(folder_ / "run/icp.tum"), read_file(folder_ / "run/icp.lidar.tum"));
+}
+
+TEST_F(Process, EstimateTakesOneToo) {
+  const std::string input = scenario("  - odometry\n");
+  ASSERT_EQ(plumbline({"simulate", input, "-o", folder_ / "rec"}).code, 0);
+  ASSERT_EQ(plumbline({"estimate", folder_ / "rec", "--method", "vgicp", "-o", folder_ / "built_in"}).code, 0);
+  const Outcome outcome = plumbline({"estimate", folder_ / "rec", "--method",
+                                     "mine='" + program("process_vgicp") + "' unused", "-o", folder_ / "mine"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(read_file(folder_ / "mine/mine.tum"), read_file(folder_ / "built_in/vgicp.tum"));
+}
+
+// All in one run: each crashes for its own reason, and who did right stands.
+TEST_F(Process, WhateverItDoesOnlyItselfHasCrashed) {
+  const std::map<std::string, std::string> reasons = {
+      {"exit", "at scan 11 (1.1 s): exited with 3"},
+      {"signal", "was ended by signal 11"},
+      {"hang", "gave no answer within 0.5 s"},
+      {"ignores_signals", "gave no answer within 0.5 s"},
+      {"grandchild", "at scan 11"},
+      {"closes", "closed the connection"},
+      {"garbage", "sent what is no message"},
+      {"huge", "at most 256 MiB are taken"},
+      {"announces", "gave no answer within 0.5 s"},
+      {"short", "is shorter than it says"},
+      {"long", "8 bytes left where 0 should follow"},
+      {"type", "a message of type 131 where 130 is due"},
+      {"drip", "gave no answer within 0.5 s"},
+      {"fails", "gave up: no wall in sight"},
+      {"stamp", "is for the time"},
+      {"nan", "the pose is none"},
+      {"quaternion", "the pose is none"},
+      {"far", "the pose is none"},
+      {"state", "has the state 9"},
+      {"hypotheses", "has hypotheses, which only a localization"},
+      {"otherwise", "does not repeat"},
+      {"twice", "at scan 12"},
+      {"dies_at_once", "exited with 7; the last it printed: libcuda is missing"},
+      {"old", "speaks another protocol"},
+      {"no_json", "no JSON"},
+      {"never_greets", "gave no answer within 0.5 s"},
+      {"never_reads", "took more than its time to read"},
+      {"no_poses", "bytes left where"},
+  };
+  std::string methods = "  - odometry\n  - {name: good, command: [" + program("hostile_process") +
+                        ", good]}\n  - {name: missing, command: [./no_such_program]}\n";
+  for (const std::string name : {"floods", "logs"})
+    methods += "  - {name: " + name + ", command: [" + program("hostile_process") + ", " + name + "]}\n";
+  for (const auto& [how, reason] : reasons)
+    methods += "  - {name: " + how + ", command: [" + program("hostile_process") + ", " + how +
+               "], scan_s: 0.5, start_s: 0.5, finish_s: 5, repeat: " + (how == "otherwise" ? "true" : "false") + "}\n";
+  const Outcome outcome = plumbline({"run", scenario(methods, "3"), "-o", folder_ / "run"});
+  EXPECT_NE(outcome.code, 3) << outcome.err;
+  const nlohmann::json results = json(folder_ / "run/results.json")["methods"];
+  for (const std::string name : {"odometry", "good", "floods", "logs"})
+    EXPECT_EQ(results[name]["verdict"], "ok") << name;
+  const auto crashed = [&](const std::string& name, const std::string& reason) {
+    EXPECT_EQ(results[name]["verdict"], "crashed") << name;
+    const std::string error = json(folder_ / ("run/" + name + ".estimate.json")).value("crashed", "");
+    EXPECT_NE(error.find(reason), std::string::npos) << name << ": " << error;
+  };
+  crashed("missing", "cannot be started: No such file or directory");
+  for (const auto& [how, reason] : reasons) crashed(how, reason);
+}
+
+TEST_F(Process, AWrongOneIsRefusedAtItsPlace) {
+  const auto refuse = [&](const std::string& methods, const std::string& words) {
+    const Outcome outcome = plumbline({"run", scenario(methods), "-o", folder_ / "run"});
+    EXPECT_EQ(outcome.code, 2) << outcome.err;
+    EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
+  };
+  refuse("  - {command: [x]}\n", "walk.yaml:9:5: a method that is a process needs a name");
+  refuse("  - {name: a/b, command: [x]}\n", "must be 1 to 60 letters");
+  refuse("  - {name: vgicp, command: [x]}\n", "'vgicp' is in the table already");
+  refuse("  - {name: mine, command: []}\n", "needs a command");
+  refuse("  - {name: mine, comand: [x]}\n", "is 'comand' meant to be it?");
+  refuse("  - {name: mine, command: [x]}\n  - {name: mine, command: [y]}\n", "in the table already");
+  const Outcome outcome = plumbline({"run", scenario("  - odometry\n"), "--method", "mine='x", "-o", folder_ / "run"});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_NE(outcome.err.find("a quote that is not closed"), std::string::npos) << outcome.err;
+}
+
+}  // namespace
+}  // namespace plumbline::system_tests
