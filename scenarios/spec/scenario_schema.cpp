@@ -138,6 +138,23 @@ faults:
   slip_mps: 0.5
   slip_s: 0.3
   slip_every_s: 5
+)yaml",
+      R"yaml(scenario: 1
+name: a method of your own
+building: library/quickstart.plan.yaml
+start: {room: office_a}
+route: {rooms: [meeting, office_a]}
+duration_s: 60
+methods: [vgicp, mine]
+processes:
+  - name: mine
+    command: [python3, my_slam.py, --voxel, "0.3"]
+    folder: slam
+    plan: false
+    repeat: true
+    start_s: 60
+    scan_s: 2
+    finish_s: 300
 )yaml"};
   return examples;
 }
