@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bim/model/floors.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <tuple>
+
+#include "bim/geometry/polygon_boolean.h"
+#include "bim/model/boxes.h"
+#include "bim/model/hull.h"
+#include "bim/model/wall_face.h"
+
+namespace plumbline::bim {
+namespace {
+
+/// Faces of one plane, seen from above.
+struct Face {
+  double z0_m = 0.0;
+  Eigen::Vector2d slope = Eigen::Vector2d::Zero();
+  std::vector<Polygon2> triangles;
+};
+
+/// Upward faces of a body by plane: slope to a grid of 0.002, heights to 2 mm.
+std::vector<Face> upward_faces(const Solid& body, const FloorConfig& config) {
+  constexpr double grid = 2e-3;
+  std::map<std::array<std::int64_t, 3>, Face> planes;
+  for (const Eigen::Vector3i& t : body.triangles) {
+    const auto p = [&](int k) -> const Eigen::Vector3d& { return body.vertices[static_cast<std::size_t>(t[k])]; };
+    const Eigen::Vector3d n = (p(1) - p(0)).cross(p(2) - p(0));
+    if (!(n.z() > 0.0) || n.head<2>().norm() > config.steepest * n.z()) continue;
+    Eigen::Vector2d slope = -n.head<2>() / n.z();
+    if (slope.norm() <= config.level) slope.setZero();
+    const Eigen::Vector3d middle = (p(0) + p(1) + p(2)) / 3.0;
+    const double z0 = middle.z() - slope.dot(middle.head<2>());
+    const auto cell = [&](double v) { return static_cast<std::int64_t>(std::llround(v / grid)); };
+    Face& face = planes[{cell(slope.x()), cell(slope.y()), cell(z0)}];
+    if (face.triangles.empty()) face = {z0, slope, {}};
+    face.triangles.push_back({p(0).head<2>(), p(1).head<2>(), p(2).head<2>()});
+  }
+  std::vector<Face> faces;
+  for (auto& [key, face] : planes) faces.push_back(std::move(face));
+  return faces;
+}
+
+/// Everything in the box where a + b.p > 0, as a polygon; empty where that is nowhere.
+Polygon2 half_plane(const Eigen::AlignedBox2d& box, double a, const Eigen::Vector2d& b) {
+  const Eigen::Vector2d low = box.min(), high = box.max();
+  const std::array<Eigen::Vector2d, 4> corners = {low, {high.x(), low.y()}, high, {low.x(), high.y()}};
+  Polygon2 kept;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Eigen::Vector2d &p = corners[i], &q = corners[(i + 1) % corners.size()];
+    const double u = a + b.dot(p), v = a + b.dot(q);
+    if (u > 0.0) kept.push_back(p);
+    if ((u > 0.0) != (v > 0.0)) kept.push_back(p + (q - p) * (u / (u - v)));
+  }
+  return kept.size() < 3 ? Polygon2{} : kept;
+}
+
+Region2 region_of(const PolygonWithHoles2& polygon) {
+  return subtract(unite(std::vector<Polygon2>{polygon.outer}), polygon.holes);
+}
+
+Region2 less(const Region2& region, const Region2& cut) {
+  std::vector<Polygon2> outers;
+  Region2 rest = region;
+  for (const PolygonWithHoles2& piece : cut) {
+    // A hole of what is cut away keeps what is in it.
+    Region2 kept;
+    if (!piece.holes.empty()) {
+      std::vector<Polygon2> holes;
+      for (Polygon2 hole : piece.holes) {
+        std::reverse(hole.begin(), hole.end());
+        holes.push_back(std::move(hole));
+      }
+      kept = intersect(rest, unite(holes));
+    }
+    rest = subtract(rest, std::vector<Polygon2>{piece.outer});
+    rest.insert(rest.end(), kept.begin(), kept.end());
+  }
+  return rest;
+}
+
+class Floors {
+ public:
+  Floors(const Building& building, const FloorConfig& config) : building_(building), config_(config) {}
+
+  std::vector<FloorPiece> find() {
+    for (std::size_t i = 0; i < building_.slabs.size(); ++i) {
+      const Slab& slab = building_.slabs[i];
+      if (slab.body)
+        add_body(FloorSource::slab, static_cast<int>(i), *slab.body, slab.z0_m);
+      else
+        add(FloorSource::slab, static_cast<int>(i), slab.polygon, slab.z1_m, Eigen::Vector2d::Zero(), slab.z0_m);
+    }
+    for (std::size_t i = 0; i < building_.obstacles.size(); ++i)
+      if (building_.obstacles[i].kind == "ramp")
+        add_body(FloorSource::ramp, static_cast<int>(i), building_.obstacles[i].body, std::nullopt);
+    cut_covered();
+    add_rooms();
+    add_within_walls();
+    const auto order = [](const FloorPiece& a, const FloorPiece& b) {
+      const auto key = [](const FloorPiece& f) {
+        const Eigen::Vector2d& p = f.polygon.outer.front();
+        return std::make_tuple(f.storey, f.z_at(p), p.x(), p.y(), f.source, f.element);
+      };
+      return key(a) < key(b);
+    };
+    std::stable_sort(pieces_.begin(), pieces_.end(), order);
+    return std::move(pieces_);
+  }
+
+ private:
+  void add(FloorSource source, int element, PolygonWithHoles2 polygon, double z0, const Eigen::Vector2d& slope,
+           std::optional<double> under) {
+    if (polygon.outer.size() < 3 || area({polygon}) < config_.least_m2) return;
+    FloorPiece piece{source, element, -1, std::move(polygon), z0, slope};
+    boxes_.add(piece.polygon.outer);
+    under_.push_back(under);
+    pieces_.push_back(std::move(piece));
+  }
+
+  void add_body(FloorSource source, int element, const Solid& body, std::optional<double> under) {
+    for (const Face& face : upward_faces(body, config_))
+      for (PolygonWithHoles2& polygon : unite(face.triangles))
+        add(source, element, std::move(polygon), face.z0_m, face.slope, under);
+  }
+
+  /// Where b hides a: too little headroom under b, or a within the body whose top b is.
+  [[nodiscard]] Region2 hidden_by(const FloorPiece& a, const FloorPiece& b,
+                                  const std::optional<double>& b_under) const {
+    constexpr double same_m = 1e-3;
+    const double dz = b.z0_m - a.z0_m;
+    const Eigen::Vector2d dslope = b.slope - a.slope;
+    const bool inside = b_under && *b_under <= a.z0_m + same_m && a.slope.isZero(0.0);
+    if (dslope.isZero(0.0)) {
+      if (dz <= same_m || (dz >= config_.headroom_m && !inside)) return {};
+      return region_of(b.polygon);
+    }
+    Eigen::AlignedBox2d box = box_of(b.polygon.outer);
+    Region2 hidden = region_of(b.polygon);
+    const Polygon2 above = half_plane(box, dz - same_m, dslope);
+    if (above.empty()) return {};
+    hidden = intersect(hidden, unite(std::vector<Polygon2>{above}));
+    if (inside) return hidden;
+    const Polygon2 low = half_plane(box, config_.headroom_m - dz, -dslope);
+    if (low.empty()) return {};
+    return intersect(hidden, unite(std::vector<Polygon2>{low}));
+  }
+
+  void cut_covered() {
+    std::vector<FloorPiece> rest;
+    for (std::size_t i = 0; i < pieces_.size(); ++i) {
+      const FloorPiece& a = pieces_[i];
+      Region2 region = {a.polygon};
+      bool whole = true;
+      for (const int k : boxes_.near(a.polygon.outer, 0.0)) {
+        const auto j = static_cast<std::size_t>(k);
+        // Of two faces at the same place the first one counts.
+        if (j == i) continue;
+        const FloorPiece& b = pieces_[j];
+        const bool same = j < i && std::abs(b.z0_m - a.z0_m) <= 1e-3 && (b.slope - a.slope).isZero(0.0);
+        const Region2 hidden = same ? region_of(b.polygon) : hidden_by(a, b, under_[j]);
+        if (hidden.empty()) continue;
+        region = less(region, hidden);
+        whole = false;
+      }
+      for (PolygonWithHoles2& part : region) {
+        if (!whole && area({part}) < config_.least_m2) continue;
+        FloorPiece piece = a;
+        piece.polygon = std::move(part);
+        piece.storey = storey_of(piece);
+        rest.push_back(std::move(piece));
+      }
+    }
+    pieces_ = std::move(rest);
+  }
+
+  [[nodiscard]] int storey_of(const FloorPiece& piece) const {
+    const Eigen::Vector2d p = interior_point(piece.polygon.outer);
+    const double z = piece.z_at(p);
+    for (const Room& room : building_.rooms)
+      if (std::abs(room.z0_m - z) <= config_.at_room_m && contains(room.polygon, p)) return room.storey;
+    int found = -1;
+    const double unbounded = config_.sunken_m;
+    for (std::size_t i = 0; i < building_.storeys.size(); ++i) {
+      const Storey& storey = building_.storeys[i];
+      if (storey.kind != StoreyKind::habitable) continue;
+      const double gap = found < 0
+                             ? 2.0 * unbounded
+                             : storey.elevation_m - building_.storeys[static_cast<std::size_t>(found)].elevation_m;
+      if (storey.elevation_m <= z + std::min(unbounded, 0.5 * gap)) found = static_cast<int>(i);
+    }
+    return found;
+  }
+
+  /// Share of a room's area that stands on pieces at its lower end.
+  [[nodiscard]] double share_on_floor(const Room& room, const BoxIndex& boxes) const {
+    const Region2 outline = unite(std::vector<Polygon2>{room.polygon});
+    double sum = 0.0;
+    for (const int k : boxes.near(room.polygon, 0.0)) {
+      const FloorPiece& piece = pieces_[static_cast<std::size_t>(k)];
+      if (std::abs(piece.z_at(centroid(room.polygon)) - room.z0_m) > config_.at_room_m) continue;
+      sum += area(intersect(outline, {piece.polygon}));
+    }
+    const double whole = area(outline);
+    return whole > 0.0 ? sum / whole : 1.0;
+  }
+
+  void add_rooms() {
+    BoxIndex boxes;
+    for (const FloorPiece& piece : pieces_) boxes.add(piece.polygon.outer);
+    for (std::size_t i = 0; i < building_.rooms.size(); ++i) {
+      const Room& room = building_.rooms[i];
+      if (room.polygon.size() < 3 || share_on_floor(room, boxes) >= config_.covered_share) continue;
+      pieces_.push_back({FloorSource::room,
+                         static_cast<int>(i),
+                         room.storey,
+                         {room.polygon, {}},
+                         room.z0_m,
+                         Eigen::Vector2d::Zero()});
+    }
+  }
+
+  void add_within_walls() {
+    for (std::size_t i = 0; i < building_.storeys.size(); ++i) {
+      const auto storey = static_cast<int>(i);
+      if (building_.storeys[i].kind != StoreyKind::habitable) continue;
+      if (std::any_of(pieces_.begin(), pieces_.end(), [&](const FloorPiece& p) { return p.storey == storey; }))
+        continue;
+      Polygon2 corners;
+      for (const Wall& wall : building_.walls)
+        if (wall.storey == storey)
+          for (const Eigen::Vector2d& p : footprint(wall)) corners.push_back(p);
+      Polygon2 hull = convex_hull(std::move(corners));
+      if (hull.size() < 3) continue;
+      pieces_.push_back({FloorSource::walls,
+                         -1,
+                         storey,
+                         {std::move(hull), {}},
+                         building_.storeys[i].elevation_m,
+                         Eigen::Vector2d::Zero()});
+    }
+  }
+
+  const Building& building_;
+  FloorConfig config_;
+  std::vector<FloorPiece> pieces_;
+  BoxIndex boxes_;                            ///< of pieces_ before cutting
+  std::vector<std::optional<double>> under_;  ///< underside of the body of each
+};
+
+}  // namespace
+
+std::vector<FloorPiece> floor_pieces(const Building& building, const FloorConfig& config) {
+  return Floors(building, config).find();
+}
+
+}  // namespace plumbline::bim

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bim/model/floors.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "bim/geometry/polygon_boolean.h"
+#include "bim/model/extrude.h"
+
+namespace plumbline::bim {
+namespace {
+
+Polygon2 box(double x0, double y0, double x1, double y1) { return {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}; }
+
+Slab slab(const Polygon2& outline, double z0, double z1) {
+  Slab s;
+  s.storey = 0;
+  s.polygon = {outline, {}};
+  s.z0_m = z0;
+  s.z1_m = z1;
+  return s;
+}
+
+/// The same with its body given, as IFC does.
+Slab with_body(Slab s) {
+  s.body = extrude({s.polygon}, s.z0_m, s.z1_m);
+  return s;
+}
+
+Building two_storeys() {
+  Building building;
+  building.storeys.push_back({"s0", "s0", 0.0, 3.0, 0});
+  building.storeys.push_back({"s1", "s1", 3.0, 3.0, 0});
+  return building;
+}
+
+double total(const std::vector<FloorPiece>& pieces, int storey) {
+  double sum = 0.0;
+  for (const FloorPiece& p : pieces)
+    if (p.storey == storey) sum += area({p.polygon});
+  return sum;
+}
+
+const FloorPiece* at(const std::vector<FloorPiece>& pieces, const Eigen::Vector2d& p) {
+  for (const FloorPiece& piece : pieces)
+    if (contains(piece.polygon, p)) return &piece;
+  return nullptr;
+}
+
+TEST(Floors, LieWhereTheSlabsAre) {
+  Building building = two_storeys();
+  building.slabs = {with_body(slab(box(0, 0, 5, 4), -0.2, 0.0)), with_body(slab(box(5, 0, 9, 4), 0.25, 0.45)),
+                    with_body(slab(box(9, 0, 12, 4), -0.6, -0.4)), with_body(slab(box(0, 0, 12, 4), 2.8, 3.0))};
+  const std::vector<FloorPiece> pieces = floor_pieces(building);
+  ASSERT_EQ(pieces.size(), 4u);
+  EXPECT_NEAR(at(pieces, {2, 2})->z_at({2, 2}), 0.0, 1e-9);
+  EXPECT_NEAR(at(pieces, {7, 2})->z_at({7, 2}), 0.45, 1e-9);
+  EXPECT_NEAR(at(pieces, {10, 2})->z_at({10, 2}), -0.4, 1e-9);
+  EXPECT_NEAR(total(pieces, 0), 48.0, 1e-6);
+  EXPECT_NEAR(total(pieces, 1), 48.0, 1e-6);
+}
+
+TEST(Floors, OfTwoWithoutHeadroomBetweenThemTheUpperCounts) {
+  Building building = two_storeys();
+  building.slabs = {slab(box(0, 0, 6, 4), -0.3, -0.1), slab(box(1, 1, 3, 3), -0.1, 0.05)};
+  const std::vector<FloorPiece> pieces = floor_pieces(building);
+  EXPECT_NEAR(total(pieces, 0), 24.0, 1e-6);
+  EXPECT_NEAR(at(pieces, {2, 2})->z_at({2, 2}), 0.05, 1e-9);
+  EXPECT_NEAR(at(pieces, {5, 2})->z_at({5, 2}), -0.1, 1e-9);
+}
+
+TEST(Floors, AMezzanineIsOneMoreFloorAndABlockHidesWhatItStandsOn) {
+  Building building = two_storeys();
+  building.slabs = {slab(box(0, 0, 6, 4), -0.2, 0.0), slab(box(4, 0, 6, 4), 1.4, 1.5)};
+  EXPECT_NEAR(total(floor_pieces(building), 0), 24.0 + 8.0, 1e-6);
+  building.slabs[1].z0_m = 0.0;
+  EXPECT_NEAR(total(floor_pieces(building), 0), 16.0 + 8.0, 1e-6);
+}
+
+TEST(Floors, ARampSlopes) {
+  // 4 m long, 0.6 m high, on a slab; the slab is hidden under it.
+  Building building = two_storeys();
+  building.slabs = {slab(box(0, 0, 10, 2), -0.2, 0.0)};
+  Obstacle ramp;
+  ramp.kind = "ramp";
+  ramp.storey = 0;
+  ramp.body.vertices = {{3, 0, 0}, {7, 0, 0}, {7, 0, 0.6}, {3, 2, 0}, {7, 2, 0}, {7, 2, 0.6}};
+  ramp.body.triangles = {{0, 1, 2}, {3, 5, 4}, {0, 3, 4}, {0, 4, 1}, {1, 4, 5}, {1, 5, 2}, {0, 2, 5}, {0, 5, 3}};
+  building.obstacles = {ramp};
+  const std::vector<FloorPiece> pieces = floor_pieces(building);
+  EXPECT_EQ(at(pieces, {6, 1})->source, FloorSource::ramp);
+  EXPECT_NEAR(at(pieces, {6, 1})->z_at({6, 1}), 0.45, 1e-6);
+  EXPECT_NEAR(at(pieces, {4, 1})->z_at({4, 1}), 0.15, 1e-6);
+  EXPECT_NEAR(at(pieces, {8, 1})->z_at({8, 1}), 0.0, 1e-9);
+  // The slab is hidden up to where the ramp leaves 0.5 m over it.
+  EXPECT_NEAR(total(pieces, 0), 20.0 + (0.6 - 0.5) / 0.15 * 2.0, 0.02);
+}
+
+TEST(Floors, RoomsAndThenWallsStandInForMissingSlabs) {
+  Building building = two_storeys();
+  Room room;
+  room.storey = 0;
+  room.polygon = box(0, 0, 3, 3);
+  room.z0_m = 0.3;
+  building.rooms = {room};
+  room.polygon = box(3, 0, 6, 3);
+  building.rooms.push_back(room);
+  building.slabs = {slab(box(3, 0, 6, 3), 0.1, 0.3)};
+  for (const auto& [a, b] : {std::pair<Eigen::Vector2d, Eigen::Vector2d>{{0, 0}, {8, 0}}, {{8, 0}, {8, 5}}}) {
+    Wall wall;
+    wall.storey = 1;
+    wall.a = a;
+    wall.b = b;
+    building.walls.push_back(wall);
+  }
+  const std::vector<FloorPiece> pieces = floor_pieces(building);
+  ASSERT_EQ(pieces.size(), 3u);
+  EXPECT_EQ(pieces[0].source, FloorSource::room);
+  EXPECT_NEAR(pieces[0].z_at({1, 1}), 0.3, 1e-9);
+  EXPECT_EQ(pieces[1].source, FloorSource::slab);
+  EXPECT_EQ(pieces[2].source, FloorSource::walls);
+  EXPECT_EQ(pieces[2].storey, 1);
+  EXPECT_NEAR(pieces[2].z_at({1, 1}), 3.0, 1e-9);
+}
+
+TEST(Floors, ARoomSaysWhichStoreyAHalfLevelBelongsTo) {
+  Building building = two_storeys();
+  building.slabs = {slab(box(0, 0, 3, 3), 1.9, 2.1), slab(box(4, 0, 7, 3), 1.9, 2.1)};
+  EXPECT_NEAR(total(floor_pieces(building), 0), 18.0, 1e-6);
+  Room room;
+  room.storey = 1;
+  room.polygon = box(4, 0, 7, 3);
+  room.z0_m = 2.1;
+  building.rooms = {room};
+  EXPECT_NEAR(total(floor_pieces(building), 0), 9.0, 1e-6);
+  EXPECT_NEAR(total(floor_pieces(building), 1), 9.0, 1e-6);
+}
+
+}  // namespace
+}  // namespace plumbline::bim
