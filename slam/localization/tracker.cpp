@@ -7,157 +7,15 @@
 #include <cmath>
 #include <map>
 #include <optional>
-#include <set>
 #include <utility>
 
 #include "slam/graph/factors.h"
 #include "slam/localization/associate.h"
+#include "slam/localization/tracker_factors.h"
 
 namespace plumbline::slam {
 
 namespace {
-
-/// Normal equations over a window of poses, 6 increments each, and the LiDAR's range bias, which comes last.
-class WindowProblem {
- public:
-  explicit WindowProblem(std::size_t poses)
-      : H_(Eigen::MatrixXd::Zero(6 * static_cast<Eigen::Index>(poses) + 1, 6 * static_cast<Eigen::Index>(poses) + 1)),
-        b_(Eigen::VectorXd::Zero(6 * static_cast<Eigen::Index>(poses) + 1)) {}
-
-  /// Residual e with Jacobian J towards pose i; sigmas by row; Huber in whitened length, 0: none.
-  void add(std::size_t i, const Eigen::MatrixXd& J, const Eigen::VectorXd& e, const Eigen::VectorXd& sigmas,
-           double huber) {
-    add_with_bias(i, J, Eigen::VectorXd::Zero(e.size()), e, sigmas, huber);
-  }
-  /// J_bias: towards the range bias.
-  void add_with_bias(std::size_t i, const Eigen::MatrixXd& J, const Eigen::VectorXd& J_bias, Eigen::VectorXd e,
-                     const Eigen::VectorXd& sigmas, double huber) {
-    Eigen::MatrixXd J_both(J.rows(), 7);
-    J_both << J, J_bias;
-    whiten(J_both, e, sigmas, huber);
-    const Eigen::Index k = 6 * static_cast<Eigen::Index>(i), last = b_.size() - 1;
-    const Eigen::Matrix<double, 7, 7> JtJ = J_both.transpose() * J_both;
-    const Eigen::Matrix<double, 7, 1> Jte = J_both.transpose() * e;
-    H_.block<6, 6>(k, k) += JtJ.topLeftCorner<6, 6>();
-    H_.block<6, 1>(k, last) += JtJ.topRightCorner<6, 1>();
-    H_.block<1, 6>(last, k) += JtJ.bottomLeftCorner<1, 6>();
-    H_(last, last) += JtJ(6, 6);
-    b_.segment<6>(k) -= Jte.head<6>();
-    b_[last] -= Jte[6];
-  }
-  void add_bias_prior(double bias, double sigma) {
-    const Eigen::Index last = b_.size() - 1;
-    H_(last, last) += 1.0 / (sigma * sigma);
-    b_[last] -= bias / (sigma * sigma);
-  }
-
-  void add_between(std::size_t i, const PoseResidual& residual, const Vector6d& sigmas) {
-    Eigen::MatrixXd J(6, 12);
-    J << residual.J_i, residual.J_j;
-    Eigen::VectorXd e = residual.e;
-    whiten(J, e, sigmas, 0.0);
-    const Eigen::Index k = 6 * static_cast<Eigen::Index>(i);
-    H_.block<12, 12>(k, k) += J.transpose() * J;
-    b_.segment<12>(k) -= J.transpose() * e;
-  }
-
-  [[nodiscard]] Eigen::VectorXd solve() const { return H_.ldlt().solve(b_); }
-
- private:
-  static void whiten(Eigen::MatrixXd& J, Eigen::VectorXd& e, const Eigen::VectorXd& sigmas, double huber) {
-    for (Eigen::Index r = 0; r < e.size(); ++r) {
-      J.row(r) /= sigmas[r];
-      e[r] /= sigmas[r];
-    }
-    const double length = e.norm();
-    if (huber <= 0.0 || length <= huber) return;
-    const double scale = std::sqrt(huber / length);
-    J *= scale;
-    e *= scale;
-  }
-
-  Eigen::MatrixXd H_;
-  Eigen::VectorXd b_;
-};
-
-Eigen::Vector3d plane_sigmas(const PlaneObservation& observed, double angle, double offset) {
-  const auto join = [](double variance, double sigma) { return std::sqrt(variance + sigma * sigma); };
-  return {join(observed.covariance(0, 0), angle), join(observed.covariance(1, 1), angle),
-          join(observed.covariance(2, 2), offset)};
-}
-
-/// How much of a range bias shows in the distance of an observed wall: cosine of the beams' incidence.
-double bias_share(const PlaneObservation& observed) {
-  const double range = observed.centroid_R.norm();
-  return range > 0.0 ? std::min(1.0, std::abs(observed.plane_R.d) / range) : 1.0;
-}
-
-/// Residual of an observed wall, its distance corrected by the range bias.
-PlaneResidual wall_residual(const TrackedPose& pose, const WallLink& link, const StoreyIndex& storey, double bias) {
-  const Plane plane_I = plane_of(storey.lines[static_cast<std::size_t>(link.line)]);
-  PlaneResidual residual = plane_residual(pose.X_IR, plane_I, link.observed.plane_R);
-  residual.e[2] += bias_share(link.observed) * bias;
-  return residual;
-}
-
-/// Pose-plane factors to the walls and the floor of the plan, which stand still.
-void add_planes(WindowProblem& problem, std::size_t i, const TrackedPose& pose, const StoreyIndex& storey, double bias,
-                const TrackerConfig& config) {
-  for (const WallLink& link : pose.walls) {
-    const PlaneResidual residual = wall_residual(pose, link, storey, bias);
-    problem.add_with_bias(i, residual.J_pose, Eigen::Vector3d(0.0, 0.0, bias_share(link.observed)), residual.e,
-                          plane_sigmas(link.observed, config.plane_angle_sigma, config.plane_offset_sigma_m),
-                          config.huber);
-  }
-  for (const PlaneObservation& floor : pose.floor) {
-    const Plane floor_I{Eigen::Vector3d::UnitZ(), -storey.floor_z};
-    const PlaneResidual residual = plane_residual(pose.X_IR, floor_I, floor.plane_R);
-    problem.add(i, residual.J_pose, residual.e,
-                plane_sigmas(floor, config.floor_angle_sigma, config.floor_offset_sigma_m), config.huber);
-  }
-}
-
-/// The robot stands on what the plan has below it: floor, landing or step.
-void add_ground(WindowProblem& problem, std::size_t i, const TrackedPose& pose, const StoreyIndex& storey,
-                double standing_m, const TrackerConfig& config) {
-  const std::optional<double> ground = storey.structure->ground_below(pose.X_IR.t, standing_m + config.ground_gate_m);
-  if (!ground) return;
-  const double e = pose.X_IR.t.z() - standing_m - *ground;
-  if (std::abs(e) > config.ground_gate_m) return;
-  Eigen::MatrixXd J = Eigen::MatrixXd::Zero(1, 6);
-  J.leftCols<3>() = pose.X_IR.rotation().row(2);
-  problem.add(i, J, Eigen::VectorXd::Constant(1, e), Eigen::VectorXd::Constant(1, config.ground_sigma_m), 0.0);
-}
-
-/// Room factors [bavle2023, eq. 7-8] with the room held by the plan: the robot's offset from the middle of two opposed
-/// walls, as seen and as planned. A range bias shifts both walls alike and cancels.
-void add_rooms(WindowProblem& problem, std::size_t i, const TrackedPose& pose, const StoreyIndex& storey,
-               const TrackerConfig& config) {
-  for (const WallPair& pair : opposed_pairs(storey, pose, config)) {
-    const WallLink& a = pose.walls[static_cast<std::size_t>(pair.a)];
-    const WallLink& b = pose.walls[static_cast<std::size_t>(pair.b)];
-    const auto offset = [&](const WallLink& link) {
-      return plane_residual(pose.X_IR, plane_of(storey.lines[static_cast<std::size_t>(link.line)]),
-                            link.observed.plane_R);
-    };
-    const PlaneResidual to_a = offset(a), to_b = offset(b);
-    const Eigen::VectorXd e = Eigen::VectorXd::Constant(1, 0.5 * (to_a.e[2] - to_b.e[2]));
-    const Eigen::MatrixXd J = 0.5 * (to_a.J_pose.row(2) - to_b.J_pose.row(2));
-    const double fit = 0.25 * (a.observed.covariance(2, 2) + b.observed.covariance(2, 2));
-    const double sigma = std::sqrt(fit + config.pair_sigma_m * config.pair_sigma_m);
-    problem.add(i, J, e, Eigen::VectorXd::Constant(1, sigma), config.huber);
-  }
-}
-
-Vector6d odometry_sigmas(const Pose& X_ij, const TrackerConfig& config) {
-  const double walked = X_ij.t.norm();
-  const double turned = log_so3(X_ij.q).norm();
-  const double trans = config.odometry_min_m + config.odometry_trans_per_m * walked;
-  const double rot = config.odometry_min_rad + config.odometry_rot_per_rad * turned;
-  Vector6d sigmas;
-  sigmas << trans, trans, trans + config.odometry_height_per_m * walked, rot, rot, rot;
-  return sigmas;
-}
 
 /// Whitens e of covariance P: (L^-1) with P = L L'.
 Eigen::Matrix2d inverse_root(const Eigen::Matrix2d& P) {
@@ -220,6 +78,7 @@ std::vector<TrackedPose> PlanTracker::update(const LocalizationScan& scan,
   std::vector<TrackedPose> left;
   if (static_cast<int>(window_.size()) > config_.window) {
     left.push_back(window_.front());
+    range_bias_.add(window_.front(), storey_, 1.0 / config_.window, config_);
     carry_anchor_covariance(window_[0], window_[1]);
     window_.pop_front();
     anchor_X_IR_ = window_.front().X_IR;
@@ -258,8 +117,9 @@ void PlanTracker::optimise() {
   hold << config_.anchor_sigma_m, config_.anchor_sigma_m, config_.anchor_sigma_m, config_.anchor_sigma_rad,
       config_.anchor_sigma_rad, config_.anchor_sigma_rad;
   for (int k = 0; k < config_.iterations; ++k) {
+    weigh_walls();
     WindowProblem problem(window_.size());
-    problem.add_bias_prior(range_bias_m_, config_.range_bias_sigma_m);
+    problem.add_bias_prior(range_bias_m_ - range_bias_.mean(), std::sqrt(range_bias_.variance()));
     const PoseResidual held = pose_residual(anchor_X_IR_, window_.front().X_IR, Pose{});
     Matrix6d unheld = Matrix6d::Identity();
     unheld.topLeftCorner<2, 2>() =
@@ -278,51 +138,93 @@ void PlanTracker::optimise() {
       window_[i].X_IR = increment(window_[i].X_IR, step.segment<6>(6 * static_cast<Eigen::Index>(i)));
     range_bias_m_ += step[step.size() - 1];
   }
+  update_wall_tolerance();
   covariance_ = covariance_of_newest();
 }
 
-double PlanTracker::wall_tolerance() const {
+void PlanTracker::weigh_walls() {
+  for (TrackedPose& pose : window_)
+    for (WallLink& link : pose.walls)
+      link.weight = wall_weight(pose, link, storey_, range_bias_m_, covariance_.topLeftCorner<2, 2>(), config_);
+}
+
+void PlanTracker::update_wall_tolerance() {
   struct Mean {
-    double sum = 0.0;
-    int count = 0;
+    double sum = 0.0, weight = 0.0, largest_weight = 0.0, information = 0.0;
   };
   std::map<int, Mean> of_line;
   for (const TrackedPose& pose : window_)
     for (const WallLink& link : pose.walls) {
       Mean& mean = of_line[link.line];
-      mean.sum += std::clamp(wall_residual(pose, link, storey_, range_bias_m_).e[2], -config_.wall_residual_max_m,
-                             config_.wall_residual_max_m);
-      ++mean.count;
+      mean.sum += link.weight * std::clamp(wall_residual(pose, link, storey_, range_bias_m_).e[2],
+                                           -config_.wall_residual_max_m, config_.wall_residual_max_m);
+      mean.weight += link.weight;
+      mean.largest_weight = std::max(mean.largest_weight, link.weight);
+      mean.information += link.weight / link.observed.covariance(2, 2);
     }
-  double squares = config_.wall_tolerance_weight * config_.wall_tolerance_m * config_.wall_tolerance_m;
-  for (const auto& [line, mean] : of_line) squares += std::pow(mean.sum / mean.count, 2);
+  double squares = 0.0, walls = 0.0;
+  for (const auto& [line, mean] : of_line) {
+    squares += mean.largest_weight * (std::pow(mean.sum / mean.weight, 2) - 1.0 / mean.information);
+    walls += mean.largest_weight;
+  }
   constexpr double fitted = 4.0;  // x, y, yaw and the range bias
-  const double freedom = config_.wall_tolerance_weight + std::max(0.0, static_cast<double>(of_line.size()) - fitted);
-  return std::sqrt(squares / freedom);
+  if (walls <= fitted) return;
+  // Windows overlap: what one adds is a part of it.
+  const double part = 1.0 / config_.window;
+  wall_freedom_ += part * (walls - fitted - config_.wall_forgetting * wall_freedom_);
+  wall_squares_ += part * (squares - config_.wall_forgetting * wall_squares_);
+  const double prior = config_.wall_tolerance_weight * config_.wall_tolerance_m * config_.wall_tolerance_m;
+  wall_tolerance_ =
+      std::max(std::sqrt((prior + std::max(0.0, wall_squares_)) / (config_.wall_tolerance_weight + wall_freedom_)),
+               config_.wall_tolerance_min_m);
 }
 
+namespace {
+
+/// A wall of the plan by all its observations in the window.
+struct SeenWall {
+  Eigen::Vector4d J;  ///< of its distance, towards x, y, yaw of the newest pose and the range bias
+  double information = 0.0, length = 0.0, weight = 0.0;
+};
+
+/// Those out of sight now still hold the pose by odometry.
+std::map<int, SeenWall> seen_walls(const std::deque<TrackedPose>& window, const StoreyIndex& storey,
+                                   const TrackerConfig& config) {
+  std::map<int, SeenWall> walls;
+  const TrackedPose& newest = window.back();
+  for (auto it = window.rbegin(); it != window.rend(); ++it) {
+    const double drift = config.drift_per_m * (newest.X_OR.t - it->X_OR.t).norm();
+    for (const WallLink& link : it->walls) {
+      const Eigen::Vector2d& n = storey.lines[static_cast<std::size_t>(link.line)].n;
+      const Eigen::Vector2d arm = (it->X_IR * link.observed.centroid_R - newest.X_IR.t).head<2>();
+      const Eigen::Vector4d J{n.x(), n.y(), n.y() * arm.x() - n.x() * arm.y(), bias_share(link.observed)};
+      SeenWall& wall = walls.try_emplace(link.line, SeenWall{J}).first->second;
+      wall.information += link.weight / (link.observed.covariance(2, 2) + drift * drift);
+      wall.length = std::max(wall.length, (link.observed.p1_R - link.observed.p0_R).norm());
+      wall.weight = std::max(wall.weight, link.weight);
+    }
+  }
+  return walls;
+}
+
+}  // namespace
+
 Eigen::Matrix3d PlanTracker::covariance_of_newest() const {
-  const TrackedPose& pose = window_.back();
-  const double tolerance = wall_tolerance();
-  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+  Eigen::Matrix4d information = Eigen::Matrix4d::Zero();
   information.topLeftCorner<2, 2>() = anchor_covariance_.inverse();
   information(2, 2) = 1.0 / (config_.anchor_sigma_rad * config_.anchor_sigma_rad);
-  const auto add = [&](const Eigen::Vector3d& J, double sigma) { information += J * J.transpose() / (sigma * sigma); };
-  std::set<int> counted;
-  // All walls of the window: those out of sight now still hold the pose by odometry.
-  for (auto it = window_.rbegin(); it != window_.rend(); ++it)
-    for (const WallLink& link : it->walls) {
-      if (!counted.insert(link.line).second) continue;
-      const Eigen::Vector2d& n = storey_.lines[static_cast<std::size_t>(link.line)].n;
-      const Eigen::Vector2d arm = (it->X_IR * link.observed.centroid_R - pose.X_IR.t).head<2>();
-      add({n.x(), n.y(), n.y() * arm.x() - n.x() * arm.y()}, tolerance);
-      const double length = (link.observed.p1_R - link.observed.p0_R).norm();
-      if (length > 0.0) add({0.0, 0.0, 1.0}, std::sqrt(12.0) * tolerance / length + config_.wall_angle_min);
-    }
-  Eigen::Matrix3d P = information.inverse();
+  information(3, 3) = 1.0 / range_bias_.variance();
+  for (const auto& [line, wall] : seen_walls(window_, storey_, config_)) {
+    const double variance = wall_tolerance_ * wall_tolerance_ + 1.0 / wall.information;
+    information += wall.J * wall.J.transpose() * (wall.weight / variance);
+    if (wall.length <= 0.0) continue;
+    const double sigma = std::sqrt(12.0) * wall_tolerance_ / wall.length + config_.wall_angle_min;
+    information(2, 2) += wall.weight / (sigma * sigma);
+  }
+  Eigen::Matrix3d P = information.inverse().topLeftCorner<3, 3>();
   P.topLeftCorner<2, 2>() += config_.position_sigma_min_m * config_.position_sigma_min_m * Eigen::Matrix2d::Identity();
   P(2, 2) += config_.yaw_sigma_min * config_.yaw_sigma_min;
-  return P;
+  return 0.5 * (P + P.transpose());
 }
 
 }  // namespace plumbline::slam

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bim/config/visit.h"
+#include "slam/localization/range_bias.h"
 #include "slam/plan_map/localization_scan.h"
 #include "slam/plan_map/plan_index.h"
 #include "slam/planes/plane_detector.h"
@@ -38,9 +39,13 @@ struct TrackerConfig {
   double anchor_sigma_rad = 0.01;
   double drift_per_m = 0.03;
   double huber = 2.0;
+  double clutter_sigmas = 1.5;
+  double misplaced_sigmas = 3.0;
   double range_bias_sigma_m = 0.03;
-  double wall_tolerance_m = 0.012;
+  double wall_tolerance_m = 0.008;
+  double wall_tolerance_min_m = 0.005;
   double wall_tolerance_weight = 4.0;
+  double wall_forgetting = 0.2;
   double wall_residual_max_m = 0.1;
   double wall_angle_min = 0.001;
   double position_sigma_min_m = 0.003;
@@ -105,14 +110,23 @@ struct TrackerConfig {
       Field{.doc = "growth of the position's standard deviation per metre walked, where no wall holds it",
             .unit = "m/m",
             .min = 0});
+    v("clutter_sigmas", clutter_sigmas,
+      plain_field("whitened residual at which a wall observed too near counts a quarter: something stands before it",
+                  {.min = 0.1}));
+    v("misplaced_sigmas", misplaced_sigmas,
+      plain_field("the same of a wall observed too far, which only an error of the plan explains", {.min = 0.1}));
     // A VLP-16 is given as accurate to 3 cm.
     v("range_bias_sigma_m", range_bias_sigma_m,
       Field{.doc = "standard deviation of the LiDAR's range bias before any wall is seen", .min = 1e-6});
     v("wall_tolerance_m", wall_tolerance_m,
       Field{.doc = "standard deviation of a wall's offset from the plan, before its residual is measured",
             .min = 1e-6});
+    v("wall_tolerance_min_m", wall_tolerance_min_m, Field{.doc = "and its least value", .min = 1e-6});
     v("wall_tolerance_weight", wall_tolerance_weight,
       plain_field("number of walls that this value counts for beside those seen", {.min = 0.1}));
+    // Five windows.
+    v("wall_forgetting", wall_forgetting,
+      share_field("share of the walls seen before that a window's way takes away from this measurement"));
     v("wall_residual_max_m", wall_residual_max_m,
       Field{.doc = "residual beyond which a wall's counts no further", .min = 0});
     v("wall_angle_min", wall_angle_min,
@@ -129,6 +143,7 @@ struct TrackerConfig {
 struct WallLink {
   int line = -1;  ///< index into StoreyIndex::lines
   PlaneObservation observed;
+  double weight = 1.0;  ///< by its residual
 };
 
 /// One pose of the robot-tracking layer.
@@ -148,7 +163,11 @@ class PlanTracker {
  public:
   /// standing_m: height of R above the ground of a robot that stands.
   PlanTracker(TrackerConfig config, StoreyIndex storey, double standing_m)
-      : config_(config), storey_(std::move(storey)), standing_m_(standing_m) {}
+      : config_(config),
+        storey_(std::move(storey)),
+        standing_m_(standing_m),
+        range_bias_(config.range_bias_sigma_m),
+        wall_tolerance_(config.wall_tolerance_m) {}
 
   /// Starts at a pose in I.
   void start(const LocalizationScan& scan, const std::vector<PlaneObservation>& planes, const Pose& X_IR,
@@ -180,8 +199,9 @@ class PlanTracker {
   [[nodiscard]] TrackedPose associate(const LocalizationScan& scan, const std::vector<PlaneObservation>& planes,
                                       const Pose& X_IR) const;
   void optimise();
-  /// Standard deviation of a wall's offset from the plan, by the mean residual of each wall in the window.
-  [[nodiscard]] double wall_tolerance() const;
+  void weigh_walls();
+  /// Takes in the mean residual of each wall in the window.
+  void update_wall_tolerance();
   /// Of (x, y, yaw) of the newest pose in I: each wall of the window counts once, off by the tolerance, since a wall
   /// that stands off the plan shifts all its observations alike.
   [[nodiscard]] Eigen::Matrix3d covariance_of_newest() const;
@@ -192,7 +212,11 @@ class PlanTracker {
   std::deque<TrackedPose> window_;
   Pose anchor_X_IR_;
   Eigen::Matrix2d anchor_covariance_ = Eigen::Matrix2d::Identity();  ///< of its position in I
-  double range_bias_m_ = 0.0;                                        ///< of the LiDAR: measured less true range
+  RangeBias range_bias_;                                             ///< by the poses that left the window
+  double range_bias_m_ = 0.0;                                        ///< by those of the window, too
+  double wall_tolerance_;  ///< standard deviation of a wall's offset from the plan, m
+  double wall_squares_ = 0.0,
+         wall_freedom_ = 0.0;  ///< of the walls' mean residuals, and their number less those fitted
   Eigen::Matrix3d covariance_ = Eigen::Matrix3d::Identity();
 };
 
