@@ -7,6 +7,7 @@
 #include <CGAL/Polygon_mesh_processing/orientation.h>
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 #include <CGAL/Polygon_mesh_processing/repair_polygon_soup.h>
+#include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <CGAL/Surface_mesh.h>
 
 #include <array>
@@ -76,6 +77,17 @@ std::optional<Solid> repaired(const Solid& solid, double grid_m) {
   const std::optional<Mesh> mesh = to_mesh(solid, grid_m);
   if (!mesh) return std::nullopt;
   return to_solid(*mesh);
+}
+
+bool runs_through_itself(const Solid& closed) {
+  Mesh mesh;
+  std::vector<Mesh::Vertex_index> vertices;
+  for (const Eigen::Vector3d& p : closed.vertices) vertices.push_back(mesh.add_vertex({p.x(), p.y(), p.z()}));
+  for (const Eigen::Vector3i& t : closed.triangles) {
+    const auto v = [&](int k) { return vertices[static_cast<std::size_t>(t[k])]; };
+    if (mesh.add_face(v(0), v(1), v(2)) == Mesh::null_face()) return true;
+  }
+  return pmp::does_self_intersect(mesh);
 }
 
 std::optional<Solid> difference(const Solid& body, const Solid& cutter, double grid_m) {

@@ -14,6 +14,9 @@ namespace plumbline::bim {
 /// does not close. Coordinates are put on the grid.
 [[nodiscard]] std::optional<Solid> repaired(const Solid& solid, double grid_m = MeshConfig{}.weld_m);
 
+/// True when triangles of a closed solid meet anywhere but in the edges and vertices that they share.
+[[nodiscard]] bool runs_through_itself(const Solid& closed);
+
 /// Body minus one closed cutter, by corefinement in 3D; nullopt when the two cannot be corefined (self-intersections,
 /// non-manifold result). Both must be closed and outward. The order of vertices and triangles depends on what ran
 /// before: canonicalise.

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "bim/geometry/polygon_boolean.h"
+#include "bim/mesh/boolean.h"
 #include "bim/mesh/corefine.h"
 #include "bim/mesh/solid.h"
 #include "bim/model/extrude.h"
@@ -75,30 +76,64 @@ Solid in_world(Solid solid, const WallFrame& frame) {
   return solid;
 }
 
+/// The same opening as its outline in the wall's elevation, as deep as it is: for a body that does not close.
+std::optional<Solid> outline_cutter(const Opening& opening, const WallFrame& frame, const Interval& y,
+                                    const MeshConfig& config) {
+  const std::vector<Solid> solids = solids_of(opening);
+  Region2 outline = unite(projected(frame, solids));
+  if (outline.empty()) outline = unite(std::vector<Polygon2>{rectangle_of(opening)});
+  if (outline.empty()) return std::nullopt;
+  Interval depth = extent_across(frame, solids);
+  if (depth.length() <= config.depth_m) depth = y;
+  return overhanging(through_cutter(outline, frame, depth, config), frame, y, config);
+}
+
+/// Sides of the openings through a wall whose body has no inside: what one sees in them.
+void add_reveals(Solid& surface, const std::vector<BooleanStep>& steps, const Interval& y, const MeshConfig& config) {
+  for (const BooleanStep& step : steps) {
+    Solid inner = step.other;
+    for (Eigen::Vector3d& p : inner.vertices) p.y() = std::clamp(p.y(), y.low, y.high);
+    for (const Eigen::Vector3i& t : inner.triangles) {
+      const auto at = [&](int k) { return inner.vertices[static_cast<std::size_t>(t[k])]; };
+      const Interval across = [&] {
+        Interval range;
+        for (int k = 0; k < 3; ++k) range.add(at(k).y());
+        return range;
+      }();
+      if (across.length() <= config.face_m) continue;  // on a face of the wall
+      const int first = static_cast<int>(surface.vertices.size());
+      surface.vertices.insert(surface.vertices.end(), {at(0), at(2), at(1)});
+      surface.triangles.emplace_back(first, first + 1, first + 2);
+    }
+  }
+}
+
 /// In the wall's own frame, where its faces lie square to the grid however the wall is turned.
 CutWall cut_in_space(const Wall& wall, const std::vector<Opening>& openings, const MeshConfig& config) {
   const WallFrame frame(wall);
   const Interval y = thickness_of(wall, frame);
   CutWall cut;
-  const Solid whole = whole_body(wall, config);
-  std::optional<Solid> body = repaired(in_wall(whole, frame), config.weld_m);
-  cut.closed = body.has_value();
-  if (!body) {
-    cut.warnings.push_back({wall.id, "not_closed", "the body's surface does not close; openings are not cut"});
-    cut.solid = canonical(welded(whole, config.weld_m), config.grid_m);
-    return cut;
-  }
+  std::vector<BooleanStep> steps;
   for (const Opening& opening : openings) {
     for (const Solid& part : cutters_of(opening, frame, y, config)) {
-      const std::optional<Solid> cutter = repaired(in_wall(part, frame), config.weld_m);
-      std::optional<Solid> rest = cutter ? difference(*body, *cutter, config.weld_m) : std::nullopt;
-      if (rest)
-        body = std::move(rest);
+      std::optional<Solid> cutter = repaired(in_wall(part, frame), config.weld_m);
+      if (!cutter)
+        if (const std::optional<Solid> outline = outline_cutter(opening, frame, y, config))
+          cutter = repaired(in_wall(*outline, frame), config.weld_m);
+      if (cutter)
+        steps.push_back({BooleanOperation::difference, std::move(*cutter)});
       else
         cut.warnings.push_back({wall.id, "not_cut", "opening '" + opening.id + "' could not be cut out"});
     }
   }
-  cut.solid = canonical(in_world(*body, frame), config.grid_m);
+  BooleanResult rest = boolean_steps(in_wall(whole_body(wall, config), frame), steps, config.weld_m);
+  cut.closed = rest.closed;
+  if (!cut.closed) {
+    cut.warnings.push_back({wall.id, "not_closed", "the body's surface does not close"});
+    add_reveals(rest.solid, steps, y, config);
+    rest.solid = welded(rest.solid, config.weld_m);
+  }
+  cut.solid = canonical(in_world(rest.solid, frame), config.grid_m);
   return cut;
 }
 

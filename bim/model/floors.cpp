@@ -97,8 +97,8 @@ class Floors {
         add(FloorSource::slab, static_cast<int>(i), slab.polygon, slab.z1_m, Eigen::Vector2d::Zero(), slab.z0_m);
     }
     for (std::size_t i = 0; i < building_.obstacles.size(); ++i)
-      if (building_.obstacles[i].kind == "ramp")
-        add_body(FloorSource::ramp, static_cast<int>(i), building_.obstacles[i].body, std::nullopt);
+      if (building_.obstacles[i].kind == "ramp" || building_.obstacles[i].kind == "footing")
+        add_body(FloorSource::obstacle, static_cast<int>(i), building_.obstacles[i].body, std::nullopt);
     cut_covered();
     add_rooms();
     add_within_walls();
@@ -197,17 +197,23 @@ class Floors {
     return found;
   }
 
-  /// Share of a room's area that stands on pieces at its lower end.
+  /// Share of a room's area that stands on pieces at its lower end, by points of a grid.
   [[nodiscard]] double share_on_floor(const Room& room, const BoxIndex& boxes) const {
-    const Region2 outline = unite(std::vector<Polygon2>{room.polygon});
-    double sum = 0.0;
-    for (const int k : boxes.near(room.polygon, 0.0)) {
-      const FloorPiece& piece = pieces_[static_cast<std::size_t>(k)];
-      if (std::abs(piece.z_at(centroid(room.polygon)) - room.z0_m) > config_.at_room_m) continue;
-      sum += area(intersect(outline, {piece.polygon}));
+    constexpr int across = 9;
+    const Eigen::AlignedBox2d box = box_of(room.polygon);
+    const std::vector<int> near = boxes.near(room.polygon, 0.0);
+    int inside = 0, carried = 0;
+    for (int i = 0; i < across * across; ++i) {
+      const Eigen::Array2d share((i % across + 0.5) / across, (i / across + 0.5) / across);
+      const Eigen::Vector2d p = box.min() + (share * box.sizes().array()).matrix();
+      if (!contains(room.polygon, p)) continue;
+      ++inside;
+      carried += std::any_of(near.begin(), near.end(), [&](int k) {
+        const FloorPiece& piece = pieces_[static_cast<std::size_t>(k)];
+        return std::abs(piece.z_at(p) - room.z0_m) <= config_.at_room_m && contains(piece.polygon, p);
+      });
     }
-    const double whole = area(outline);
-    return whole > 0.0 ? sum / whole : 1.0;
+    return inside > 0 ? static_cast<double>(carried) / inside : 1.0;
   }
 
   void add_rooms() {

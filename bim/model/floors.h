@@ -10,16 +10,16 @@ namespace plumbline::bim {
 
 /// What a piece of floor is known from, surest first.
 enum class FloorSource {
-  slab,   ///< the top of a slab
-  ramp,   ///< the top of a ramp
-  room,   ///< no slab under a room: its own lower end
-  walls,  ///< neither slabs nor rooms on the storey: everything within its walls, at its elevation
+  slab,      ///< the top of a slab
+  obstacle,  ///< the top of a ramp or a footing
+  room,      ///< no slab under a room: its own lower end
+  walls,     ///< neither slabs nor rooms on the storey: everything within its walls, at its elevation
 };
 
 /// A level or sloping face on which one can stand.
 struct FloorPiece {
   FloorSource source = FloorSource::slab;
-  int element = -1;  ///< index into Building::slabs, obstacles (ramp) or rooms; -1 for walls
+  int element = -1;  ///< index into Building::slabs, obstacles or rooms; -1 for walls
   int storey = -1;
   PolygonWithHoles2 polygon;                        ///< on the plan
   double z0_m = 0.0;                                ///< height over the plan's origin; of a level piece everywhere
@@ -39,12 +39,12 @@ struct FloorConfig {
   double least_m2 = 0.01;      ///< smaller pieces are left out
 };
 
-/// The floors of all storeys, by (storey, height, outline): the upward faces of slabs and ramps, each as high as it is,
-/// so that split levels, raised and sunken floors, mezzanines and ramps lie where they are and not at their storey's
-/// elevation. A piece belongs to the storey of the room it is the floor of, otherwise to the highest habitable storey
-/// that begins no more than sunken_m above it. What lies under another piece without headroom, or inside another slab,
-/// is cut away; so where two pieces of a storey overlap on the plan one can stand on both. Whether a robot gets from
-/// one piece to the next is not looked at.
+/// The floors of all storeys, by (storey, height, outline): the upward faces of slabs, ramps and footings, each as high
+/// as it is, so that split levels, raised and sunken floors, mezzanines and ramps lie where they are and not at their
+/// storey's elevation. A piece belongs to the storey of the room it is the floor of, otherwise to the highest habitable
+/// storey that begins no more than sunken_m above it. What lies under another piece without headroom, or inside another
+/// slab, is cut away; so where two pieces of a storey overlap on the plan one can stand on both. Whether a robot gets
+/// from one piece to the next is not looked at.
 [[nodiscard]] std::vector<FloorPiece> floor_pieces(const Building& building, const FloorConfig& config = {});
 
 }  // namespace plumbline::bim

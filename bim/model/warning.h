@@ -16,14 +16,16 @@ struct WarningRow {
 };
 
 /// Every kind of warning that a reader or the mesh gives, by name.
-inline constexpr std::array<WarningRow, 44> warning_rows = {{
+inline constexpr std::array<WarningRow, 53> warning_rows = {{
     {"assumed_doorway", "a gap between two walls in line becomes a doorway with a lintel"},
     {"assumed_floor", "the drawing has no floor; everything within the outer walls gets one"},
     {"assumed_height", "the file gives no height of the storey; it is taken as 3 m"},
+    {"assumed_storey", "the file has no storeys; levels at which walls begin are taken as such"},
     {"assumed_unit", "the file gives no unit of length; it is taken as metres"},
     {"bad_floor", "the outline of a floor crosses itself or has no area; the floor is left out"},
     {"body_of_parts", "the element has no body of its own; those of its parts replace it"},
     {"curved_axis", "the axis of a wall is curved; the wall is taken as straight"},
+    {"dangling", "an entity that the file refers to is not in it; what depends on it is left out"},
     {"door_unresolved", "a door has the same room, or none, on both sides; where it leads is unknown"},
     {"door_without_wall", "a door stands in no wall; its doorway stays open"},
     {"empty", "its openings leave nothing of a wall"},
@@ -32,6 +34,7 @@ inline constexpr std::array<WarningRow, 44> warning_rows = {{
     {"inferred_room", "the file has no spaces; the room is what walls enclose"},
     {"layer_mismatch", "the material layers contradict the body of the wall; the body's faces count"},
     {"left_out", "the element is not part of the building model; its text says why"},
+    {"makes_no_sense", "the element contradicts IFC; it is left out"},
     {"levels_overlap", "a level is lower than its walls; they reach into the next one"},
     {"niche", "an opening does not go through its wall; it is cut in 3D"},
     {"no_area", "a slab has no area on the plan; it is kept as an obstacle"},
@@ -39,18 +42,23 @@ inline constexpr std::array<WarningRow, 44> warning_rows = {{
      "a wall has no reference line; its body's extent along the placement replaces it, or the wall is left out"},
     {"no_body", "the element has no body that can be read; it is left out, and an opening cuts nothing"},
     {"no_flights", "a stair has no steps in its body; it is a solid and cannot be climbed"},
+    {"no_global_id", "an element has no GlobalId, or that of another; its number names it"},
+    {"no_floor",
+     "no slab lies under a storey or some of its rooms; the robot walks at the lower end of the rooms, the LiDAR sees "
+     "no floor"},
     {"no_layers", "a wall has no material layers; offset and thickness are those of its body"},
     {"no_plan", "a mesh has no rooms and walls; plan localization is refused"},
     {"no_rooms", "walls enclose no room over a floor"},
     {"no_walls", "a level has no walls"},
     {"not_aligned", "a level shares no fiducial with the lowest, or one that does not fit"},
-    {"not_clipped", "a clipping of the body could not be applied; the body is larger than designed"},
-    {"not_closed", "the surface of a body is not closed; a wall then keeps its openings uncut"},
+    {"not_clipped", "what a body should be clipped by does not close; the body is larger than designed"},
+    {"not_closed", "the surface of a body is not closed; openings of a wall are then cut out of its surface"},
     {"not_cut", "an opening could not be cut out of its wall"},
     {"not_prismatic", "a wall is not an extrusion of its elevation; its openings are cut in 3D"},
     {"opening_assumed", "a door or window fills no opening; its box is cut out of the wall it stands in"},
     {"opening_unused", "an opening belongs to an element without a body; nothing is cut"},
-    {"other_schema", "the file has another version of IFC than IFC2X3 and IFC4; the nearer one is used"},
+    {"other_schema",
+     "the file has another version of IFC than IFC2X3 and IFC4, or not the one that it says; the nearer one is used"},
     {"recentred", "the coordinates are those of a map; the building is moved to the origin"},
     {"room_hole", "the outline of a room has holes; they are filled"},
     {"room_pieces", "the outline of a room has several pieces; the largest is the room"},
@@ -62,6 +70,10 @@ inline constexpr std::array<WarningRow, 44> warning_rows = {{
     {"stair_ends", "the head of a stair reaches the floor of no storey"},
     {"stair_within", "a stair leads from and to the same storey"},
     {"storey_kinds", "no storey has contents; all are taken as habitable"},
+    {"taken_as_slab", "the storey has no slab; the element lies flat and is taken as one"},
+    {"taken_as_wall", "the file has no walls; the element stands upright like one and is taken as one"},
+    {"unknown_class", "entities of a class that is not read are left out"},
+    {"walls_overlap", "a door of one wall stands in another too; the other is opened there"},
 }};
 
 /// The name of a row. A name that the table does not hold is an error of the compiler.

@@ -89,7 +89,7 @@ TEST(Floors, ARampSlopes) {
   ramp.body.triangles = {{0, 1, 2}, {3, 5, 4}, {0, 3, 4}, {0, 4, 1}, {1, 4, 5}, {1, 5, 2}, {0, 2, 5}, {0, 5, 3}};
   building.obstacles = {ramp};
   const std::vector<FloorPiece> pieces = floor_pieces(building);
-  EXPECT_EQ(at(pieces, {6, 1})->source, FloorSource::ramp);
+  EXPECT_EQ(at(pieces, {6, 1})->source, FloorSource::obstacle);
   EXPECT_NEAR(at(pieces, {6, 1})->z_at({6, 1}), 0.45, 1e-6);
   EXPECT_NEAR(at(pieces, {4, 1})->z_at({4, 1}), 0.15, 1e-6);
   EXPECT_NEAR(at(pieces, {8, 1})->z_at({8, 1}), 0.0, 1e-9);

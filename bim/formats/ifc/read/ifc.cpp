@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bim/formats/ifc/read/ifc.h"
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "bim/config/tree.h"
 #include "bim/errors.h"
@@ -9,7 +11,9 @@
 #include "bim/formats/ifc/roundtrip/roundtrip_reader.h"
 #include "bim/formats/ifc/roundtrip/roundtrip_signature.h"
 #include "bim/formats/ifc/step/step_parse.h"
+#include "bim/formats/ifc/step/step_repair.h"
 #include "bim/formats/ifc/step/step_text.h"
+#include "bim/model/floors.h"
 #include "bim/model/rooms.h"
 #include "bim/model/virtual_edges.h"
 
@@ -45,12 +49,55 @@ void warn_of_unresolved_doors(Building& building) {
   }
 }
 
+/// Refuses a file in which nothing can stand and says what it lacks.
+void check_substance(Building& building, const std::string& file) {
+  const bool solid = !building.walls.empty() || !building.slabs.empty() || !building.rooms.empty() ||
+                     !building.columns.empty() || !building.obstacles.empty() || !building.stairs.empty();
+  if (!solid) {
+    const auto reason = std::find_if(building.warnings.begin(), building.warnings.end(), [](const Warning& warning) {
+      return warning.kind == "dangling" || warning.kind == "makes_no_sense" || warning.kind == "skipped_placement" ||
+             warning.kind == "no_body" || warning.kind == "unknown_class";
+    });
+    const std::string left_out =
+        reason == building.warnings.end() ? std::string() : "; the first that was left out: " + reason->text;
+    throw InputError({file, 0, 0},
+                     "nothing in it has a body: no IfcWall, IfcSlab, IfcSpace or other element that can "
+                     "be read" +
+                         left_out);
+  }
+  if (building.slabs.empty() && building.rooms.empty() && building.walls.empty())
+    throw InputError({file, 0, 0},
+                     "nothing in it says where one could stand: it has no IfcSlab, no IfcSpace and no "
+                     "IfcWall, only " +
+                         std::to_string(building.obstacles.size() + building.columns.size()) + " other elements");
+  if (building.walls.empty())
+    building.warnings.push_back({"", "no_walls", "the file has no IfcWall; methods that need a plan have none"});
+}
+
+void warn_of_missing_floors(Building& building) {
+  std::map<int, std::pair<int, int>> lacking;  // storey to rooms without slab, and whether it has nothing at all
+  for (const FloorPiece& piece : floor_pieces(building)) {
+    if (piece.source == FloorSource::room) ++lacking[piece.storey].first;
+    if (piece.source == FloorSource::walls) ++lacking[piece.storey].second;
+  }
+  for (const auto& [index, rooms] : lacking) {
+    const Storey& storey = building.storeys[static_cast<std::size_t>(index)];
+    building.warnings.push_back(
+        {storey.id, "no_floor",
+         rooms.second > 0
+             ? "the storey has neither slabs nor rooms; all within its walls is taken as floor"
+             : std::to_string(rooms.first) + " of its rooms have no slab; their lower ends are the floor"});
+  }
+}
+
 }  // namespace
 
 Building read_ifc_text(std::string_view text, const std::string& file, const IfcConfig& config) {
   const std::string clean = without_comments(text);
-  const StepText checked = check_step_text(clean, file);
+  StepText checked = check_step_text(clean, file);
   if (has_roundtrip_signature(text)) return read_roundtrip(clean, file);
+  const std::string said = checked.schema;
+  checked.schema = schema_of_entities(clean, checked, file);
   const StepModel model = read_step_model(clean, checked, file);
 
   Interpreter interpreter(model, config);
@@ -58,6 +105,7 @@ Building read_ifc_text(std::string_view text, const std::string& file, const Ifc
   interpreter.add_walls();
   interpreter.add_openings();
   interpreter.add_unlinked_fillings();
+  interpreter.open_overlapping_walls();
   interpreter.add_rooms();
   interpreter.add_slabs();
   interpreter.add_columns();
@@ -66,20 +114,19 @@ Building read_ifc_text(std::string_view text, const std::string& file, const Ifc
   Building building = interpreter.finish();
 
   building.name = model.name;
-  building.schema = checked.schema;
+  building.schema = said;
   building.unit = unit_name(model.unit_m);
-  if (building.storeys.empty()) throw InputError({file, 0, 0}, "no storey in it; a building has IfcBuildingStorey");
-  if (building.walls.empty()) throw InputError({file, 0, 0}, "no wall in it; a building has IfcWall with a Body");
+  check_substance(building, file);
   if (!model.has_unit) building.warnings.push_back({"", "assumed_unit", "the file gives no unit; metres assumed"});
   if (model.move) building.warnings.push_back({"", "recentred", moved_text(*model.move)});
   const std::string read_as = schema_for_reader(checked.schema);
-  if (read_as != checked.schema)
-    building.warnings.push_back({"", "other_schema", checked.schema + " read as " + read_as});
+  if (read_as != said) building.warnings.push_back({"", "other_schema", said + " read as " + read_as});
   find_room_walls(building);
   find_opening_rooms(building);
   warn_of_unresolved_doors(building);
   find_virtual_edges(building);
   find_stair_rooms(building);
+  warn_of_missing_floors(building);
   return building;
 }
 

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <tuple>
 
+#include "bim/config/tree.h"
 #include "bim/formats/ifc/read/material_names.h"
 #include "bim/formats/ifc/read/storey_kinds.h"
 #include "bim/geometry/polygon_boolean.h"
@@ -147,11 +149,40 @@ void Interpreter::add_storeys() {
     storey.step_id = product.step_id;
     building_.storeys.push_back(std::move(storey));
   }
+  if (building_.storeys.empty()) assume_storeys();
   std::sort(building_.storeys.begin(), building_.storeys.end(), [](const Storey& a, const Storey& b) {
     return std::tie(a.elevation_m, a.id) < std::tie(b.elevation_m, b.id);
   });
   for (std::size_t i = 0; i < building_.storeys.size(); ++i)
-    storeys_[building_.storeys[i].step_id] = static_cast<int>(i);
+    if (building_.storeys[i].step_id != 0) storeys_[building_.storeys[i].step_id] = static_cast<int>(i);
+}
+
+/// Levels at which walls begin, or without walls other elements, where they lie a storey's height apart.
+void Interpreter::assume_storeys() {
+  std::vector<double> feet;
+  for (const bool walls : {true, false}) {
+    for (const StepProduct& product : model_.products) {
+      if (walls != (product.kind == StepClass::wall) || product.kind == StepClass::hidden) continue;
+      double foot = std::numeric_limits<double>::infinity();
+      for (const Shape& shape : product.body)
+        for (const Eigen::Vector3d& p : shape.base.points) foot = std::min(foot, (product.X_WP * p).z());
+      if (std::isfinite(foot)) feet.push_back(foot);
+    }
+    if (!feet.empty()) break;
+  }
+  std::sort(feet.begin(), feet.end());
+  for (const double foot : feet) {
+    if (!building_.storeys.empty() && foot < building_.storeys.back().elevation_m + config_.least_storey_m) continue;
+    Storey storey;
+    storey.id = "storey" + std::to_string(building_.storeys.size() + 1);
+    storey.name = storey.id;
+    storey.elevation_m = snapped(foot);
+    building_.storeys.push_back(std::move(storey));
+  }
+  for (const Storey& storey : building_.storeys)
+    building_.warnings.push_back(
+        {storey.id, "assumed_storey",
+         "the file has no IfcBuildingStorey; one begins at " + format_number(storey.elevation_m) + " m"});
 }
 
 void Interpreter::set_heights() {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <set>
 #include <vector>
 
@@ -16,14 +17,19 @@ class Interpreter {
  public:
   Interpreter(const StepModel& model, const IfcConfig& config);
 
+  /// Those of the file; without any, levels at which its walls, or else its other elements, begin.
   void add_storeys();
+  /// Those of the file; without any, elements of no class of their own that stand like walls.
   void add_walls();
   /// Openings of walls; those of all else are remembered as cuts.
   void add_openings();
   /// Doors and windows that fill no opening of a wall: matched to one by where they stand, made one, or kept as
   /// obstacles.
   void add_unlinked_fillings();
+  /// Where a door of one wall stands in another too, the other gives way.
+  void open_overlapping_walls();
   void add_rooms();
+  /// Those of the file; without any, elements of no class of their own that lie like floors.
   void add_slabs();
   void add_columns();
   void add_stairs();
@@ -45,6 +51,11 @@ class Interpreter {
   [[nodiscard]] Solid body_of(const StepProduct& product);
   [[nodiscard]] std::vector<Solid> solids_of(const StepProduct& product);
 
+  void assume_storeys();
+  /// True for elements whose class does not say what they are for, with a body that is still free.
+  [[nodiscard]] bool is_nameless(const StepProduct& product) const;
+  void take_as_wall(const StepProduct& product);
+  void take_as_slab(const StepProduct& product);
   void read_reference_line(const StepProduct& product, const Solid& body, Wall& wall);
   void read_faces(const StepProduct& product, const Solid& body, Wall& wall);
   [[nodiscard]] std::vector<int> host_walls(const StepProduct& opening, const std::vector<Solid>& solids) const;
@@ -52,6 +63,8 @@ class Interpreter {
   void fill(Opening& opening, const StepProduct& filling) const;
   [[nodiscard]] bool fill_empty_opening(const StepProduct& filling, const Solid& body);
   [[nodiscard]] bool open_wall_for(const StepProduct& filling, const Solid& body);
+  [[nodiscard]] std::optional<Opening> opening_in(const Wall& wall, int index, const Opening& opening) const;
+  [[nodiscard]] bool has_opening_at(int wall, const Opening& like) const;
   void add_stair_bodies(const StepProduct& product, Stair& stair);
   void place_stair(const StepProduct& product, Stair& stair);
   void add_obstacle(const StepProduct& product, const std::string& kind, const std::string& material, Solid body);

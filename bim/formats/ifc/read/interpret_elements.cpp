@@ -73,6 +73,45 @@ void Interpreter::add_slabs() {
     slab.body = std::move(body);
     building_.slabs.push_back(std::move(slab));
   }
+  if (!building_.slabs.empty()) return;
+  for (const StepProduct& product : model_.products)
+    if (is_nameless(product)) take_as_slab(product);
+}
+
+bool Interpreter::is_nameless(const StepProduct& product) const {
+  if (product.kind != StepClass::obstacle || taken_.contains(product.step_id) || product.body.empty() ||
+      within(product, StepClass::curtain_wall))
+    return false;
+  const std::string kind = obstacle_kind(product.type);
+  return kind == "proxy" || kind == "plate" || kind == "covering" || kind == "footing";
+}
+
+/// A flat element that is level on top.
+void Interpreter::take_as_slab(const StepProduct& product) {
+  const LookalikeConfig config;
+  Solid body = joined(uncut_solids(product));
+  if (body.triangles.empty()) return;
+  const Extent box = extent(body);
+  if (box.high.z() - box.low.z() > config.most_thickness_m) return;
+  const std::vector<PolygonWithHoles2> outline = footprint(body);
+  if (outline.empty() || area(outline) < config.least_floor_m2) return;
+  Slab slab = element_of<Slab>(product);
+  slab.material = product.material;
+  slab.polygon = largest(outline);
+  slab.z0_m = snapped(box.low.z());
+  slab.z1_m = snapped(box.high.z());
+  Solid top{body.vertices, {}};
+  for (const Eigen::Vector3i& t : body.triangles)
+    if (std::all_of(t.begin(), t.end(), [&](int i) {
+          return body.vertices[static_cast<std::size_t>(i)].z() > box.high.z() - config_.layer_match_m;
+        }))
+      top.triangles.push_back(t);
+  if (area(footprint(top)) < config.level_share * area(outline)) return;
+  slab.storey = storey_index(product, slab.z0_m);
+  slab.body = std::move(body);
+  taken_.insert(product.step_id);
+  warn(product, "taken_as_slab", "the file has no IfcSlab; this lies like a floor");
+  building_.slabs.push_back(std::move(slab));
 }
 
 void Interpreter::add_columns() {

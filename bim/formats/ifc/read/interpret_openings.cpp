@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "bim/formats/ifc/read/interpret.h"
+#include "bim/geometry/polygon_boolean.h"
+#include "bim/model/wall_face.h"
 #include "bim/model/wall_frame.h"
 
 namespace plumbline::bim {
@@ -173,12 +176,15 @@ bool Interpreter::open_wall_for(const StepProduct& filling, const Solid& body) {
 
 void Interpreter::add_unlinked_fillings() {
   std::set<std::string> linked;
-  for (const Opening& opening : building_.openings) linked.insert(opening.filling_id);
+  std::set<std::int64_t> cut;
+  for (const Opening& opening : building_.openings) {
+    linked.insert(opening.filling_id);
+    cut.insert(opening.step_id);
+  }
   for (const StepProduct& product : model_.products) {
     const bool door = product.kind == StepClass::door;
     if ((!door && product.kind != StepClass::window) || linked.contains(product.id)) continue;
-    const std::int64_t opening = product.host;
-    if (const StepProduct* hole = find(opening); hole != nullptr && !host_walls(*hole, solids_of(*hole)).empty()) {
+    if (product.host != 0 && cut.contains(product.host)) {
       warn(product, "second_filling", "its opening is filled by another door or window already");
       continue;
     }
@@ -187,11 +193,81 @@ void Interpreter::add_unlinked_fillings() {
       warn(product, "no_body", "has neither an opening nor a body, and is left out");
       continue;
     }
-    if (opening == 0 && (fill_empty_opening(product, body) || open_wall_for(product, body))) continue;
+    // An opening without a body, or in nothing, says no more than none.
+    const StepProduct* hole = find(product.host);
+    const bool in_other = hole != nullptr && !hole->body.empty() && find(hole->host) != nullptr;
+    if (!in_other && (fill_empty_opening(product, body) || open_wall_for(product, body))) continue;
     if (door) {
       warn(product, "door_without_wall", "stands in no wall, and is left open");
     } else {
-      add_obstacle(product, opening != 0 ? "roof_window" : "window", "glass", std::move(body));
+      add_obstacle(product, in_other ? "roof_window" : "window", "glass", std::move(body));
+    }
+  }
+}
+
+/// The wall that a door of another stands in, opened for it: through its whole thickness where the two run along each
+/// other, otherwise as far as the opening reaches. Nullopt where the wall leaves most of the doorway free.
+std::optional<Opening> Interpreter::opening_in(const Wall& wall, int index, const Opening& opening) const {
+  constexpr double least_m = 0.03, least_height_m = 0.5, along = 0.1;
+  if (wall.z0_m > opening.z1_m - least_height_m || wall.z1_m < opening.z0_m + least_height_m) return std::nullopt;
+  const Wall& host = building_.walls[static_cast<std::size_t>(opening.wall)];
+  const Eigen::Vector2d e = host.direction(), foot = host.a + opening.s_m * e;
+  const double half = 0.5 * opening.width_m;
+  Polygon2 doorway;
+  for (const auto& [s, share] :
+       {std::pair(-half, 0.0), std::pair(half, 0.0), std::pair(half, 1.0), std::pair(-half, 1.0)})
+    doorway.emplace_back(foot + s * e + (host.offset_m + share * host.thickness_m) * host.left());
+  Interval range, across;  // of the doorway, in the frame of the other wall
+  for (const Eigen::Vector2d& p : doorway) {
+    range.add(wall.direction().dot(p - wall.a));
+    across.add(wall.left().dot(p - wall.a));
+  }
+  if (overlap(range, {0.0, wall.length()}) < least_m ||
+      overlap(across, {wall.offset_m, wall.offset_m + wall.thickness_m}) < least_m)
+    return std::nullopt;
+  Interval blocked;  // along the host
+  for (const PolygonWithHoles2& piece :
+       intersect(unite(std::vector<Polygon2>{doorway}), unite(std::vector<Polygon2>{footprint(wall)})))
+    for (const Eigen::Vector2d& p : piece.outer) blocked.add(e.dot(p - foot));
+  if (blocked.high < blocked.low) return std::nullopt;
+  if (std::max(blocked.low + half, half - blocked.high) >= config_.clear_share * opening.width_m) return std::nullopt;
+  Opening other = opening;
+  other.id = opening.id + "/" + wall.id;
+  other.wall = index;
+  other.kind = OpeningKind::opening_void;
+  other.leaf = Leaf::none;
+  other.filling_id.clear();
+  other.material.clear();
+  other.s_m = snapped(0.5 * (range.low + range.high));
+  other.width_m = snapped(range.length());
+  if (std::abs(e.dot(wall.left())) < along) {
+    other.solid.reset();
+    other.parts.clear();
+  }
+  return other;
+}
+
+/// An opening of the same wall that the doorway is in already.
+bool Interpreter::has_opening_at(int wall, const Opening& like) const {
+  return std::any_of(building_.openings.begin(), building_.openings.end(), [&](const Opening& other) {
+    return other.wall == wall && other.kind != OpeningKind::window &&
+           std::abs(other.s_m - like.s_m) < 0.5 * like.width_m && other.z0_m < like.z1_m && other.z1_m > like.z0_m;
+  });
+}
+
+void Interpreter::open_overlapping_walls() {
+  const std::size_t count = building_.openings.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const Opening opening = building_.openings[i];
+    if (opening.kind == OpeningKind::window) continue;
+    for (int w = 0; w < static_cast<int>(building_.walls.size()); ++w) {
+      if (w == opening.wall) continue;
+      const Wall& wall = building_.walls[static_cast<std::size_t>(w)];
+      std::optional<Opening> other = opening_in(wall, w, opening);
+      if (!other || has_opening_at(w, *other)) continue;
+      building_.warnings.push_back({opening.filling_id.empty() ? opening.id : opening.filling_id, "walls_overlap",
+                                    "stands in wall " + wall.id + " too, which is opened there"});
+      building_.openings.push_back(std::move(*other));
     }
   }
 }

@@ -3,13 +3,38 @@
 #include <cmath>
 
 #include "bim/formats/ifc/read/interpret.h"
+#include "bim/geometry/polygon_boolean.h"
 #include "bim/mesh/solid.h"
+#include "bim/model/hull.h"
 #include "bim/model/wall_frame.h"
 
 namespace plumbline::bim {
 namespace {
 
 constexpr double shortest_line_m = 1e-3;
+
+/// A rectangle around points of the plan.
+struct ThinRectangle {
+  Eigen::Vector2d direction = Eigen::Vector2d::UnitX();  ///< of its longer sides
+  Interval along, across;                                ///< of the points, along the direction and to its left
+};
+
+/// The one of least width; one side lies on an edge of the hull.
+ThinRectangle thinnest_rectangle(const Polygon2& hull) {
+  ThinRectangle best;
+  for (std::size_t i = 0; i < hull.size(); ++i) {
+    const Eigen::Vector2d edge = hull[(i + 1) % hull.size()] - hull[i];
+    ThinRectangle rectangle;
+    rectangle.direction = edge.normalized();
+    const Eigen::Vector2d left(-rectangle.direction.y(), rectangle.direction.x());
+    for (const Eigen::Vector2d& p : hull) {
+      rectangle.along.add(p.dot(rectangle.direction));
+      rectangle.across.add(p.dot(left));
+    }
+    if (i == 0 || rectangle.across.length() < best.across.length()) best = rectangle;
+  }
+  return best;
+}
 
 }  // namespace
 
@@ -76,6 +101,47 @@ void Interpreter::add_walls() {
     walls_[product.step_id] = static_cast<int>(building_.walls.size());
     building_.walls.push_back(std::move(wall));
   }
+  if (!building_.walls.empty()) return;
+  for (const StepProduct& product : model_.products)
+    if (is_nameless(product)) take_as_wall(product);
+}
+
+/// An element that stands on the plan as a long thin rectangle, and is as high as a wall.
+void Interpreter::take_as_wall(const StepProduct& product) {
+  const LookalikeConfig config;
+  const std::string kind = obstacle_kind(product.type);
+  if (kind != "proxy" && kind != "plate") return;
+  Solid body = joined(uncut_solids(product));
+  if (body.triangles.empty()) return;
+  const Extent box = extent(body);
+  if (box.high.z() - box.low.z() < config.least_height_m) return;
+  Polygon2 corners;
+  for (const Eigen::Vector3d& p : body.vertices) corners.push_back(p.head<2>());
+  const ThinRectangle rectangle = thinnest_rectangle(convex_hull(std::move(corners)));
+  const double thickness = rectangle.across.length(), length = rectangle.along.length();
+  if (thickness > config.most_thickness_m || thickness < shortest_line_m) return;
+  if (length < std::max(config.least_length_m, 2.0 * thickness)) return;
+  if (area(footprint(body)) < config.least_fill * thickness * length) return;
+  Wall wall;
+  wall.id = product.id;
+  wall.name = product.name;
+  wall.step_id = product.step_id;
+  wall.material = product.material;
+  wall.z0_m = snapped(box.low.z());
+  wall.z1_m = snapped(box.high.z());
+  wall.storey = storey_index(product, wall.z0_m);
+  const Eigen::Vector2d &e = rectangle.direction, left(-e.y(), e.x());
+  const double middle = 0.5 * (rectangle.across.low + rectangle.across.high);
+  const auto on_plan = [&](const Eigen::Vector2d& p) { return Eigen::Vector2d(snapped(p.x()), snapped(p.y())); };
+  wall.a = on_plan(rectangle.along.low * e + middle * left);
+  wall.b = on_plan(rectangle.along.high * e + middle * left);
+  wall.thickness_m = snapped(thickness);
+  wall.offset_m = -0.5 * wall.thickness_m;
+  warn(product, "taken_as_wall", "the file has no IfcWall; this stands like one");
+  wall.body = std::move(body);
+  taken_.insert(product.step_id);
+  walls_[product.step_id] = static_cast<int>(building_.walls.size());
+  building_.walls.push_back(std::move(wall));
 }
 
 }  // namespace plumbline::bim

@@ -7,7 +7,7 @@
 
 #include "bim/errors.h"
 #include "bim/geometry/polygon_boolean.h"
-#include "bim/mesh/corefine.h"
+#include "bim/mesh/boolean.h"
 #include "bim/mesh/solid.h"
 #include "bim/model/triangulate.h"
 
@@ -163,31 +163,32 @@ Solid triangulated(const Facets& facets) {
   return canonical(is_closed(solid) ? turned_outward(solid) : solid, solid_grid_m);
 }
 
+namespace {
+
+Solid after(const Solid& body, const std::vector<BooleanStep>& steps, std::vector<std::string>& problems) {
+  if (steps.empty()) return body;
+  BooleanResult result = boolean_steps(body, steps, solid_grid_m);
+  for (const std::size_t i : result.failed)
+    problems.emplace_back(steps[i].operation == BooleanOperation::difference
+                              ? "what should be cut off does not close, and stays"
+                              : "what it should be cut down to does not close; the whole stays");
+  if (result.closed) result.solid = without_slivers(std::move(result.solid), solid_grid_m);
+  return canonical(result.solid, solid_grid_m);
+}
+
+}  // namespace
+
 Solid without(Solid body, const std::vector<Solid>& cuts, std::vector<std::string>& problems) {
-  for (const Solid& cut : cuts) {
-    const std::optional<Solid> rest = difference(body, cut);
-    if (rest) {
-      body = canonical(without_slivers(welded(*rest, solid_grid_m), solid_grid_m), solid_grid_m);
-    } else {
-      problems.emplace_back("a part could not be cut off and stays");
-    }
-  }
-  return body;
+  std::vector<BooleanStep> steps;
+  for (const Solid& cut : cuts) steps.push_back({BooleanOperation::difference, cut});
+  return after(body, steps, problems);
 }
 
 Solid solid_of(const Shape& shape, std::vector<std::string>& problems) {
-  std::vector<Solid> cuts;
-  for (const Facets& facets : shape.minus) cuts.push_back(triangulated(facets));
-  Solid body = triangulated(shape.base);
-  for (const Facets& facets : shape.within) {
-    const std::optional<Solid> common = intersection(body, triangulated(facets));
-    if (common) {
-      body = canonical(without_slivers(welded(*common, solid_grid_m), solid_grid_m), solid_grid_m);
-    } else {
-      problems.emplace_back("a common part could not be found; the whole stays");
-    }
-  }
-  return without(std::move(body), cuts, problems);
+  std::vector<BooleanStep> steps;
+  for (const Facets& facets : shape.within) steps.push_back({BooleanOperation::intersection, triangulated(facets)});
+  for (const Facets& facets : shape.minus) steps.push_back({BooleanOperation::difference, triangulated(facets)});
+  return after(triangulated(shape.base), steps, problems);
 }
 
 Solid joined(const std::vector<Solid>& solids) {

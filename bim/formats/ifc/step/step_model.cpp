@@ -23,18 +23,23 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
+#include <set>
 #include <string_view>
 
 #include "bim/errors.h"
 #include "bim/formats/ifc/step/georeference.h"
 #include "bim/formats/ifc/step/scoped_silence.h"
 #include "bim/formats/ifc/step/step_body.h"
+#include "bim/formats/ifc/step/step_curves.h"
+#include "bim/formats/ifc/step/step_entities.h"
 #include "bim/formats/ifc/step/step_geometry.h"
 #include "bim/formats/ifc/step/step_known_placements.h"
 #include "bim/formats/ifc/step/step_material.h"
 #include "bim/formats/ifc/step/step_optics.h"
 #include "bim/formats/ifc/step/step_parse.h"
 #include "bim/formats/ifc/step/step_placement.h"
+#include "bim/formats/ifc/step/step_repair.h"
 #include "bim/formats/ifc/step/step_validator.h"
 
 namespace plumbline::bim {
@@ -100,7 +105,7 @@ bool needs_geometry(const std::shared_ptr<IfcProduct>& source, StepClass kind) {
   if (kind == StepClass::storey || kind == StepClass::hidden) return false;
   if (kind != StepClass::door && kind != StepClass::window) return true;
   const auto opening = std::dynamic_pointer_cast<IfcFeatureElementSubtraction>(parent_of(source));
-  return !opening || !std::dynamic_pointer_cast<IfcWall>(parent_of(opening));
+  return !opening || !opening->m_Representation || !std::dynamic_pointer_cast<IfcWall>(parent_of(opening));
 }
 
 bool has_length_unit(const IfcProject& project) {
@@ -120,24 +125,21 @@ class Reader {
   StepModel read() {
     StepModel result;
     const std::shared_ptr<IfcProject> project = model_->getIfcProject();
-    if (!project) throw InputError({file_, 0, 0}, "the file has no IfcProject, so nothing says its unit");
-    result.name = project->m_Name ? utf8(project->m_Name->m_value) : std::string();
-    result.has_unit = has_length_unit(*project);
+    result.name = project && project->m_Name ? utf8(project->m_Name->m_value) : std::string();
+    result.has_unit = project && has_length_unit(*project);
     result.unit_m = model_->getUnitConverter()->getLengthInMeterFactor();
     result.optics = read_optics(*model_);
     for (const auto& [step_id, entity] : model_->getMapIfcEntities()) {
       const auto product = std::dynamic_pointer_cast<IfcProduct>(entity);
       const std::optional<StepClass> kind = product ? class_of_product(*product) : std::nullopt;
       if (!kind) continue;
-      if (std::optional<StepProduct> read = read_product(product, *kind, result)) {
+      if (std::optional<StepProduct> read = try_product(product, *kind, result)) {
         result.products.push_back(std::move(*read));
       }
     }
+    name_apart(result);
     std::sort(result.products.begin(), result.products.end(),
               [](const StepProduct& a, const StepProduct& b) { return a.id < b.id; });
-    for (std::size_t i = 1; i < result.products.size(); ++i)
-      if (result.products[i].id == result.products[i - 1].id)
-        fail(result.products[i].step_id, "GlobalId " + result.products[i].id + " is used twice");
     check_wholes(result.products);
     return result;
   }
@@ -157,14 +159,52 @@ class Reader {
     }
   }
 
-  /// Nullopt, with a warning, for a product whose placement cannot be resolved.
+  static std::string title(const IfcProduct& source) {
+    return source.className() + std::string(" #") + std::to_string(source.m_entity_id);
+  }
+
+  /// Products without a GlobalId get one of their number; of those that share one all but the first get theirs too.
+  static void name_apart(StepModel& model) {
+    std::sort(model.products.begin(), model.products.end(),
+              [](const StepProduct& a, const StepProduct& b) { return a.step_id < b.step_id; });
+    std::set<std::string> used;
+    for (StepProduct& product : model.products) {
+      const std::string given = product.id;
+      if (!given.empty() && used.insert(given).second) continue;
+      product.id = (given.empty() ? "" : given + "/") + std::string("#") + std::to_string(product.step_id);
+      used.insert(product.id);
+      model.skipped.push_back({product.id, "no_global_id",
+                               product.type + " #" + std::to_string(product.step_id) +
+                                   (given.empty() ? ": has no GlobalId" : ": shares its GlobalId with another") +
+                                   "; its number names it"});
+    }
+  }
+
+  /// Nullopt, with a warning, for a product that makes no sense.
+  std::optional<StepProduct> try_product(const std::shared_ptr<IfcProduct>& source, StepClass kind, StepModel& model) {
+    const std::string id = source->m_GlobalId ? utf8(source->m_GlobalId->m_value) : std::string();
+    if (const std::int64_t missing = checked_.missing(source->m_entity_id); missing != 0) {
+      model.skipped.push_back({id, "dangling",
+                               title(*source) + ": depends on #" + std::to_string(missing) +
+                                   ", which is not in the file, and is left out"});
+      return std::nullopt;
+    }
+    try {
+      return read_product(source, kind, model);
+    } catch (const InputError& error) {
+      model.skipped.push_back({id, "makes_no_sense", title(*source) + ": is left out: " + error.what()});
+      return std::nullopt;
+    }
+  }
+
+  /// Nullopt, with a warning, for a product whose placement cannot be resolved. Throws InputError for one that makes no
+  /// sense.
   std::optional<StepProduct> read_product(const std::shared_ptr<IfcProduct>& source, StepClass kind, StepModel& model) {
     StepProduct product;
     product.step_id = source->m_entity_id;
     product.kind = kind;
     product.type = source->className();
     product.id = source->m_GlobalId ? utf8(source->m_GlobalId->m_value) : std::string();
-    if (product.id.empty()) fail(product.step_id, product.type + " has no GlobalId");
     product.name = name_of(*source);
     const ProductPose pose = placement(source->m_ObjectPlacement, model.unit_m);
     if (pose.malformed) fail(product.step_id, product.type + " has a placement that makes no sense");
@@ -210,12 +250,33 @@ class Reader {
   const std::string& file_;
 };
 
+/// Classes that IFC++ does not know, which it leaves out without a word.
+void warn_of_unknown(const BuildingModel& model, const std::string& text, const std::string& file, StepModel& result) {
+  const auto& known = model.getMapIfcEntities();
+  const StepEntities entities(text, file);
+  std::map<std::string, int> unknown;
+  for (const StepEntities::Entity& entity : entities.all())
+    if (!known.contains(static_cast<int>(entity.number))) ++unknown[std::string(entity.type)];
+  for (const auto& [type, count] : unknown)
+    result.skipped.push_back({"", "unknown_class", std::to_string(count) + " of the class " + type + " are not read"});
+}
+
 }  // namespace
 
 StepModel read_step_model(const std::string& text, const StepText& checked, const std::string& file) {
   const ScopedSilence quiet;
-  const std::shared_ptr<BuildingModel> model = parse_step(with_known_placements(text, file), checked.schema, file);
+  const std::string whole =
+      with_plain_curves(with_known_classes(without_dangling(text, checked, file), checked, file), file);
+  const std::shared_ptr<BuildingModel> model = parse_step(with_known_placements(whole, file), checked.schema, file);
   StepModel result = Reader(model, checked, file).read();
+  warn_of_unknown(*model, whole, file, result);
+  if (!checked.dangling.empty()) {
+    const auto& [number, target] = checked.dangling.front();
+    result.skipped.push_back({"", "dangling",
+                              "line " + std::to_string(checked.line(number)) + ": #" + std::to_string(number) +
+                                  " refers to #" + std::to_string(target) + ", which is not in the file; " +
+                                  std::to_string(checked.dangling.size()) + " such references in all"});
+  }
   result.move = move_to_origin(result);
   return result;
 }

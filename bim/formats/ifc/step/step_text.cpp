@@ -90,9 +90,11 @@ struct Graph {
     std::int64_t id = 0;
     int line = 0;
     std::size_t first = 0, last = 0;  ///< range in refs
+    bool owner = false;               ///< says who made something; nothing of the building depends on it
+    bool has_owner = false;           ///< its first reference says who made it
   };
   std::vector<Node> nodes;
-  std::vector<std::int64_t> refs;
+  std::vector<std::int64_t> refs;  ///< entity numbers; once resolved indices of nodes, or -1 - number of a missing one
 };
 
 std::int64_t read_number(std::string_view text, std::size_t& at) {
@@ -123,6 +125,16 @@ bool collect_refs(std::string_view text, std::size_t at, std::vector<std::int64_
   return true;
 }
 
+/// True for the attributes of an IfcRoot: ('22 letters',#owner,
+bool has_owner(std::string_view attributes) {
+  constexpr std::size_t letters = 22;
+  if (!attributes.starts_with("('") || attributes.size() < letters + 4 || attributes[letters + 2] != '\'') return false;
+  std::size_t at = skip_spaces(attributes, letters + 3);
+  if (at >= attributes.size() || attributes[at] != ',') return false;
+  at = skip_spaces(attributes, at + 1);
+  return at < attributes.size() && attributes[at] == '#';
+}
+
 /// #12 = IFCTHING(...)
 bool read_entity(const Statement& statement, Graph& graph) {
   const std::string_view text = statement.text;
@@ -135,11 +147,12 @@ bool read_entity(const Statement& statement, Graph& graph) {
   const std::size_t keyword = at;
   while (at < text.size() && (std::isalnum(static_cast<unsigned char>(text[at])) != 0 || text[at] == '_')) ++at;
   if (at == keyword) return false;
+  const bool owner = text.substr(keyword, at - keyword) == "IFCOWNERHISTORY";
   at = skip_spaces(text, at);
   if (at >= text.size() || text[at] != '(' || text.back() != ')') return false;
   const std::size_t first = graph.refs.size();
   if (!collect_refs(text, at, graph.refs)) return false;
-  graph.nodes.push_back({id, statement.line, first, graph.refs.size()});
+  graph.nodes.push_back({id, statement.line, first, graph.refs.size(), owner, has_owner(text.substr(at))});
   return true;
 }
 
@@ -161,7 +174,7 @@ std::string schema_of(std::string_view header) {
 }
 
 /// Replaces references by node indices. nodes must be sorted by id.
-void resolve(Graph& graph, const std::string& file) {
+void resolve(Graph& graph, const std::string& file, StepText& result) {
   for (std::size_t i = 1; i < graph.nodes.size(); ++i) {
     const auto& node = graph.nodes[i];
     if (node.id == graph.nodes[i - 1].id) {
@@ -174,20 +187,31 @@ void resolve(Graph& graph, const std::string& file) {
       const std::int64_t id = graph.refs[r];
       const auto found = std::lower_bound(graph.nodes.begin(), graph.nodes.end(), id,
                                           [](const Graph::Node& n, std::int64_t v) { return n.id < v; });
-      if (found == graph.nodes.end() || found->id != id) {
-        throw InputError({file, node.line, 0}, "#" + std::to_string(node.id) + " refers to #" + std::to_string(id) +
-                                                   ", which is not in the file");
-      }
-      graph.refs[r] = found - graph.nodes.begin();
+      const bool missing = found == graph.nodes.end() || found->id != id;
+      if (missing) result.dangling.emplace_back(node.id, id);
+      graph.refs[r] = missing ? -1 - id : found - graph.nodes.begin();
     }
   }
 }
 
-/// Depth-first walk without recursion; throws where references lead in a circle or in too long a row.
-void check_acyclic(const Graph& graph, const std::string& file, int chain) {
+/// The first missing entity that a node depends on, or 0; that of its children is known.
+std::int64_t first_missing(const Graph& graph, const Graph::Node& node, const std::vector<std::int64_t>& missing) {
+  if (node.owner) return 0;
+  for (std::size_t r = node.first + (node.has_owner ? 1 : 0); r < node.last; ++r) {
+    const std::int64_t ref = graph.refs[r];
+    const std::int64_t number = ref < 0 ? -1 - ref : missing[static_cast<std::size_t>(ref)];
+    if (number != 0) return number;
+  }
+  return 0;
+}
+
+/// Depth-first walk without recursion; throws where references lead in a circle or in too long a row. Returns what
+/// missing entity each depends on.
+std::vector<std::int64_t> check_acyclic(const Graph& graph, const std::string& file, int chain) {
   constexpr int unseen = -1;
   constexpr int open = -2;
   std::vector<int> depth(graph.nodes.size(), unseen);
+  std::vector<std::int64_t> missing(graph.nodes.size(), 0);
   std::vector<std::pair<std::size_t, std::size_t>> stack;
   for (std::size_t root = 0; root < graph.nodes.size(); ++root) {
     if (depth[root] != unseen) continue;
@@ -197,7 +221,9 @@ void check_acyclic(const Graph& graph, const std::string& file, int chain) {
       auto& [index, next] = stack.back();
       const Graph::Node& node = graph.nodes[index];
       if (next < node.last) {
-        const auto child = static_cast<std::size_t>(graph.refs[next++]);
+        const std::int64_t ref = graph.refs[next++];
+        if (ref < 0) continue;
+        const auto child = static_cast<std::size_t>(ref);
         if (depth[child] == open) {
           throw InputError({file, node.line, 0}, "#" + std::to_string(node.id) + " refers to itself by way of #" +
                                                      std::to_string(graph.nodes[child].id));
@@ -210,16 +236,18 @@ void check_acyclic(const Graph& graph, const std::string& file, int chain) {
       }
       int deepest = 0;
       for (std::size_t r = node.first; r < node.last; ++r) {
-        deepest = std::max(deepest, depth[static_cast<std::size_t>(graph.refs[r])] + 1);
+        if (graph.refs[r] >= 0) deepest = std::max(deepest, depth[static_cast<std::size_t>(graph.refs[r])] + 1);
       }
       if (deepest > chain) {
         throw InputError({file, node.line, 0}, "#" + std::to_string(node.id) + " refers through more than " +
                                                    std::to_string(chain) + " entities in a row");
       }
       depth[index] = deepest;
+      missing[index] = first_missing(graph, node, missing);
       stack.pop_back();
     }
   }
+  return missing;
 }
 
 /// Reads HEADER up to its ENDSEC; returns the schema.
@@ -248,6 +276,11 @@ std::string read_header(StatementReader& reader, const std::string& file) {
 int StepText::line(std::int64_t step_id) const {
   const auto found = std::lower_bound(line_of.begin(), line_of.end(), std::make_pair(step_id, 0));
   return found == line_of.end() || found->first != step_id ? 0 : found->second;
+}
+
+std::int64_t StepText::missing(std::int64_t step_id) const {
+  const auto found = std::lower_bound(broken.begin(), broken.end(), std::make_pair(step_id, std::int64_t{0}));
+  return found == broken.end() || found->first != step_id ? 0 : found->second;
 }
 
 std::string without_comments(std::string_view text) {
@@ -292,8 +325,10 @@ StepText check_step_text(std::string_view text, const std::string& file, const S
   std::sort(graph.nodes.begin(), graph.nodes.end(), [](const Graph::Node& a, const Graph::Node& b) {
     return std::make_pair(a.id, a.line) < std::make_pair(b.id, b.line);
   });
-  resolve(graph, file);
-  check_acyclic(graph, file, limits.chain);
+  resolve(graph, file, result);
+  const std::vector<std::int64_t> missing = check_acyclic(graph, file, limits.chain);
+  for (std::size_t i = 0; i < missing.size(); ++i)
+    if (missing[i] != 0) result.broken.emplace_back(graph.nodes[i].id, missing[i]);
   result.line_of.reserve(graph.nodes.size());
   for (const auto& node : graph.nodes) result.line_of.emplace_back(node.id, node.line);
   return result;

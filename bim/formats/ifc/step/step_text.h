@@ -19,17 +19,22 @@ struct StepLimits {
 struct StepText {
   std::string schema;                                 ///< first name of FILE_SCHEMA, upper case, such as IFC2X3
   std::vector<std::pair<std::int64_t, int>> line_of;  ///< (entity number, line of its '#'), ascending
+  std::vector<std::pair<std::int64_t, std::int64_t>> dangling;  ///< (entity, the number it refers to without an entity)
+  /// Entities that depend on such a reference, not counting who owns them, each with the missing number; ascending.
+  std::vector<std::pair<std::int64_t, std::int64_t>> broken;
 
   /// Line of an entity, or 0 when the file has none of that number.
   [[nodiscard]] int line(std::int64_t step_id) const;
+  /// The missing entity that an entity depends on, or 0.
+  [[nodiscard]] std::int64_t missing(std::int64_t step_id) const;
 };
 
 /// The text with comments and a byte-order mark blanked out; lines stay where they are.
 [[nodiscard]] std::string without_comments(std::string_view text);
 
-/// Checks that the text is a whole, well-formed STEP file whose references all lead somewhere and never in a circle,
-/// so that the library that reads it next meets no surprise. The text has no comments. Throws InputError with file and
-/// line otherwise.
+/// Checks that the text is a whole, well-formed STEP file whose references never lead in a circle, so that the library
+/// that reads it next meets no surprise; lists those that lead nowhere. The text has no comments. Throws InputError
+/// with file and line otherwise.
 [[nodiscard]] StepText check_step_text(std::string_view text, const std::string& file, const StepLimits& limits = {});
 
 }  // namespace plumbline::bim

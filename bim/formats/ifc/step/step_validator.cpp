@@ -69,7 +69,19 @@ void StepValidator::fail(const BuildingEntity& entity, const std::string& attrib
 }
 
 void StepValidator::check(const BuildingEntity& entity) {
-  if (!valid_.insert(entity.m_entity_id).second) return;
+  const int number = entity.m_entity_id;
+  if (const auto known = faulty_.find(number); known != faulty_.end()) throw known->second;
+  if (!valid_.insert(number).second) return;
+  try {
+    check_attributes(entity);
+  } catch (const InputError& error) {
+    valid_.erase(number);
+    faulty_.emplace(number, error);
+    throw;
+  }
+}
+
+void StepValidator::check_attributes(const BuildingEntity& entity) {
   if (const auto* map = dynamic_cast<const IfcRepresentationMap*>(&entity)) {
     if (!map->m_MappedRepresentation) fail(entity, "MappedRepresentation");
     check(*map->m_MappedRepresentation);

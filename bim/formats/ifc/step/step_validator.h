@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <map>
 #include <memory>
 #include <set>
 #include <string>
 
+#include "bim/errors.h"
 #include "bim/formats/ifc/step/step_text.h"
 
 class BuildingEntity;
@@ -23,11 +25,13 @@ class StepValidator {
 
  private:
   void check(const BuildingEntity& entity);
+  void check_attributes(const BuildingEntity& entity);
   [[noreturn]] void fail(const BuildingEntity& entity, const std::string& attribute) const;
 
   const StepText& text_;
   const std::string& file_;
-  std::set<int> valid_;  ///< STEP numbers that have been checked
+  std::set<int> valid_;               ///< STEP numbers that have been checked
+  std::map<int, InputError> faulty_;  ///< ... and found wanting
 };
 
 }  // namespace plumbline::bim

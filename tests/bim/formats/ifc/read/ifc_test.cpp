@@ -19,10 +19,11 @@
 namespace plumbline::bim {
 namespace {
 
-/// Without the warning that the door leads from nowhere to nowhere, which it does in each of these.
+/// Without the warnings that the door leads from nowhere to nowhere and that there is no floor, as in each of these.
 Building read(const SmallIfc& options) {
   Building building = read_ifc_text(small_ifc(options), "small.ifc");
-  std::erase_if(building.warnings, [](const Warning& warning) { return warning.kind == "door_unresolved"; });
+  std::erase_if(building.warnings,
+                [](const Warning& warning) { return warning.kind == "door_unresolved" || warning.kind == "no_floor"; });
   return building;
 }
 
@@ -187,7 +188,9 @@ std::string message_of(const std::string& text) {
 TEST(Ifc, BadPlacementIsNamedByItsLine) {
   SmallIfc parallel;
   parallel.wall_reference = "0.,0.,1.";
-  EXPECT_EQ(message_of(small_ifc(parallel)).substr(0, 16), "small.ifc:22: #4");
+  const std::string message = message_of(small_ifc(parallel));
+  EXPECT_NE(message.find("nothing in it has a body"), std::string::npos) << message;
+  EXPECT_NE(message.find("small.ifc:22: #40"), std::string::npos) << message;
 }
 
 TEST(Ifc, NothingToWalkInIsRefused) {
@@ -200,7 +203,7 @@ TEST(Ifc, NothingToWalkInIsRefused) {
   EXPECT_NE(message_of(rename("IFCWALL(", "IFCPROXX(")).find("small.ifc"), std::string::npos);
   EXPECT_NE(message_of(rename("=IFCWALL('0000000000000000000006',$,'wall',$,$,#41,#50,$,$)",
                               "=IFCFOOTING('0000000000000000000006',$,'wall',$,$,#41,#50,$,$)"))
-                .find("no wall"),
+                .find("no IfcWall"),
             std::string::npos);
 }
 

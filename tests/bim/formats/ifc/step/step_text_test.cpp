@@ -35,7 +35,6 @@ TEST(StepText, CommentsAreBlankedAndLinesStay) {
 
 TEST(StepText, SaysWhereTheTextIsWrong) {
   const auto wrong = [](const std::string& data) { return message_of(header + data + footer); };
-  EXPECT_EQ(wrong("#1=IFCA(#2);\n"), "f.ifc:8: #1 refers to #2, which is not in the file");
   EXPECT_EQ(wrong("#1=IFCA();\n#1=IFCB();\n"), "f.ifc:9: #1 is defined twice");
   EXPECT_EQ(wrong("#1=IFCA(#2);\n#2=IFCB(#1);\n"), "f.ifc:9: #2 refers to itself by way of #1");
   EXPECT_EQ(wrong("#1=IFCA(#1);\n"), "f.ifc:8: #1 refers to itself by way of #1");
@@ -47,6 +46,17 @@ TEST(StepText, SaysWhereTheTextIsWrong) {
   EXPECT_EQ(message_of(" \n"), "f.ifc: the file is empty; an IFC file begins with ISO-10303-21;");
   EXPECT_EQ(message_of("ISO-10303-21;\nHEADER;\nFILE_SCHEMA(('AP214'));\nENDSEC;\n"),
             "f.ifc:4: schema 'AP214' is not IFC; IFC2X3 and IFC4 are read");
+}
+
+TEST(StepText, ListsReferencesThatLeadNowhereAndWhatDependsOnThem) {
+  const StepText text = check_step_text(
+      header + "#1=IFCA(#2,#9);\n#2=IFCOWNERHISTORY(#8);\n#3=IFCB(#1);\n#4=IFCC(#2);\n" + footer, "f.ifc");
+  const std::vector<std::pair<std::int64_t, std::int64_t>> dangling = {{1, 9}, {2, 8}};
+  EXPECT_EQ(text.dangling, dangling);
+  EXPECT_EQ(text.missing(1), 9);
+  EXPECT_EQ(text.missing(3), 9);
+  EXPECT_EQ(text.missing(2), 0);
+  EXPECT_EQ(text.missing(4), 0);
 }
 
 TEST(StepText, RefusesWhatWouldExhaustTheStack) {

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+namespace plumbline::bim {
+
+/// The text with curves that IFC++ cannot evaluate as polylines: indexed curves with lines and arcs, and arcs of
+/// circles and ellipses trimmed by points. Arcs get a corner every 10 degrees. Points come behind all other entities.
+[[nodiscard]] std::string with_plain_curves(const std::string& text, const std::string& file);
+
+}  // namespace plumbline::bim

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bim/mesh/boolean.h"
+
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "bim/mesh/corefine.h"
+#include "bim/mesh/solid.h"
+#include "bim/mesh/surface_cut.h"
+
+namespace plumbline::bim {
+namespace {
+
+Solid tidied(const Solid& solid, double grid_m) {
+  return canonical(without_slivers(welded(solid, grid_m), grid_m), grid_m);
+}
+
+/// Nullopt when a step cannot be taken or its result does not close.
+std::optional<Solid> corefined(Solid body, std::span<const BooleanStep> steps, double grid_m) {
+  for (const BooleanStep& step : steps) {
+    const std::optional<Solid> rest = step.operation == BooleanOperation::difference
+                                          ? difference(body, step.other, grid_m)
+                                          : intersection(body, step.other, grid_m);
+    if (!rest) return std::nullopt;
+    Solid next = tidied(*rest, grid_m);
+    if (next.triangles.empty()) return next;
+    if (!is_closed(next)) return std::nullopt;
+    // What only touches the body would leave its outline on it.
+    if (std::abs(volume(next) - volume(body)) > grid_m * grid_m) body = std::move(next);
+  }
+  return body;
+}
+
+}  // namespace
+
+BooleanResult boolean_steps(const Solid& body, std::span<const BooleanStep> steps, double grid_m) {
+  BooleanResult result;
+  std::vector<BooleanStep> usable;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    std::optional<Solid> closed = repaired(steps[i].other, grid_m);
+    if (closed)
+      usable.push_back({steps[i].operation, canonical(*closed, grid_m)});
+    else
+      result.failed.push_back(i);
+  }
+  std::optional<Solid> whole = repaired(body, grid_m);
+  if (usable.empty()) {
+    result.closed = whole.has_value();
+    result.solid = whole ? std::move(*whole) : body;
+    return result;
+  }
+  if (whole) {
+    std::optional<Solid> rest = corefined(body, usable, grid_m);
+    if (!rest) rest = exact_boolean(*whole, usable, grid_m);
+    if (rest) {
+      result.solid = std::move(*rest);
+      return result;
+    }
+  }
+  result.closed = false;
+  result.solid = body;
+  for (const BooleanStep& step : usable) result.solid = surface_cut(result.solid, step, grid_m);
+  return result;
+}
+
+}  // namespace plumbline::bim
