@@ -2,7 +2,10 @@
 // The real program in furnished buildings: localization may be undecided there, never sure and wrong.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <regex>
+#include <sstream>
 
 #include "tests/data.h"
 #include "tests/system/program.h"
@@ -21,6 +24,29 @@ class Furnished : public ::testing::Test {
         plumbline({"run", input, "--method", "s_graph_localization", "--out", folder_ / "run", "--force"});
     EXPECT_LE(outcome.code, 1) << outcome.out << outcome.err;
     return nlohmann::json::parse(read_file(folder_ / "run" + "/results.json"));
+  }
+  /// Generates a building. Returns the file of its plan.
+  std::string generated(const std::string& name, const std::vector<std::string>& arguments) const {
+    std::vector<std::string> all{"generate"};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    all.insert(all.end(), {"-o", folder_ / name});
+    const Outcome made = plumbline(all);
+    EXPECT_EQ(made.code, 0) << made.err;
+    return folder_ / name;
+  }
+  /// States of s_graph_localization on a recording in a plan, one a scan.
+  std::vector<std::string> states_in(const std::string& recording, const std::string& plan,
+                                     const std::vector<std::string>& more = {}) const {
+    const std::string out = folder_ / "estimate";
+    std::vector<std::string> all{"estimate", recording, "--method", "s_graph_localization", "--plan", plan,
+                                 "--out",    out,       "--force"};
+    all.insert(all.end(), more.begin(), more.end());
+    const Outcome outcome = plumbline(all);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    std::istringstream lines(read_file(out + "/s_graph_localization.hypotheses.jsonl"));
+    std::vector<std::string> states;
+    for (std::string line; std::getline(lines, line);) states.push_back(nlohmann::json::parse(line).at("state"));
+    return states;
   }
   static nlohmann::json localization_in(const nlohmann::json& results) {
     return results.at("methods").at("s_graph_localization");
@@ -48,6 +74,56 @@ TEST_F(Furnished, FurnitureThatTellsTwinsApartDecidesNothing) {
   const nlohmann::json method = localization_in(results);
   EXPECT_EQ(method.at("verdict"), "honest_ambiguity") << method.dump(1);
   EXPECT_GE(method.at("localization").at("hypotheses").get<int>(), 2);
+}
+
+/// A plan file with the sign of all y turned.
+std::string mirrored(const std::string& plan) {
+  const std::regex point(R"(\[(-?[0-9.]+), (-?)([0-9.]+)\])");
+  std::string text;
+  auto from = plan.cbegin();
+  for (std::sregex_iterator it(plan.begin(), plan.end(), point), end; it != end; ++it) {
+    text.append(from, plan.cbegin() + it->position());
+    text += "[" + it->str(1) + ", " + (it->length(2) > 0 ? "" : "-") + it->str(3) + "]";
+    from = plan.cbegin() + it->position() + it->length();
+  }
+  return text.append(from, plan.cend());
+}
+
+TEST_F(Furnished, NoPlanButTheBuildingsOwnGivesAConfidentPose) {
+  static_cast<void>(generated("own.plan.yaml", {"storeys", "--seed", "3", "--furnish", "0.2"}));
+  write_file(folder_ / "walk.yaml",
+             "scenario: 1\nname: walk\nbuilding: own.plan.yaml\nstart: {random: rooms}\nroute: {random: 2}\n"
+             "duration_s: 20\nmethods: [s_graph_localization]\n");
+  const Outcome simulated = plumbline({"simulate", folder_ / "walk.yaml", "--out", folder_ / "recording"});
+  ASSERT_EQ(simulated.code, 0) << simulated.err;
+
+  // The furniture is in no plan that follows.
+  const std::string bare = generated("bare.plan.yaml", {"storeys", "--seed", "3"});
+  const std::vector<std::string> own = states_in(folder_ / "recording", bare);
+  EXPECT_EQ(own.back(), "CONVERGED");
+
+  write_file(folder_ / "mirror.plan.yaml", mirrored(read_file(bare)));
+  for (const std::string& plan :
+       {folder_ / "mirror.plan.yaml", generated("other.plan.yaml", {"storeys", "--seed", "4"}),
+        generated("hall.plan.yaml", {"hall", "--seed", "3"})}) {
+    const std::vector<std::string> states = states_in(folder_ / "recording", plan);
+    EXPECT_EQ(states.size(), own.size());
+    EXPECT_EQ(std::count(states.begin(), states.end(), "CONVERGED"), 0) << plan;
+  }
+}
+
+TEST_F(Furnished, OnTheWrongStoreyThereIsNoConfidentPose) {
+  if (const std::string missing = data_missing("ifc/duplex.ifc"); !missing.empty()) GTEST_SKIP() << missing;
+  constexpr const char* upper = "1xS3BCk291UvhgP2dvNMQJ";
+  write_file(folder_ / "walk.yaml", "scenario: 1\nname: walk\nbuilding: " + data_path("ifc/duplex.ifc") +
+                                        "\nstart: {random: rooms, storey: " + upper +
+                                        "}\nroute: {random: 1}\nduration_s: 15\nmethods: [s_graph_localization]\n");
+  const Outcome simulated = plumbline({"simulate", folder_ / "walk.yaml", "--out", folder_ / "recording"});
+  ASSERT_EQ(simulated.code, 0) << simulated.err;
+  const std::vector<std::string> states =
+      states_in(folder_ / "recording", data_path("ifc/duplex.ifc"), {"--storey", "1xS3BCk291UvhgP2dvNMKI"});
+  ASSERT_FALSE(states.empty());
+  EXPECT_EQ(std::count(states.begin(), states.end(), "CONVERGED"), 0);
 }
 
 // The tracked storey used to stay the one of the start, 2.9 m below.
