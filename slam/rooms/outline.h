@@ -20,6 +20,7 @@ struct Outline {
   std::vector<OutlineSide> sides;  ///< counter-clockwise, no two neighbours on one line
   double fill = 0.0;               ///< free share of what it encloses
   double wall_share = 0.0;         ///< share of its length that lies on walls that were seen
+  double edge_share = 0.0;         ///< share of its length that lies on walls or on straight edges of free space
   double inside = 0.0;             ///< share of the cluster's cells that it encloses
   bool ring = false;               ///< it encloses something that is no part of the room and larger than a column
 };
@@ -33,6 +34,8 @@ void set_polygon_planes(const Outline& outline, std::span<const FaceLine> walls,
 
 /// The lines of the walls, and four cuts where free space ends, part the plane into convex pieces; those mostly free
 /// make the room, their border is its outline. Nothing where no piece is mostly free, or where walls are too many.
-[[nodiscard]] std::optional<Outline> outline_of(const ClusterWalls& cluster_walls);
+/// `edges`: straight edges of free space, to take as lines as well.
+[[nodiscard]] std::optional<Outline> outline_of(const ClusterWalls& cluster_walls,
+                                                std::span<const FaceLine> edges = {});
 
 }  // namespace plumbline::slam

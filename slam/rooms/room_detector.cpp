@@ -14,6 +14,8 @@
 #include "slam/rooms/merge_clusters.h"
 #include "slam/rooms/outline.h"
 #include "slam/rooms/overlap.h"
+#include "slam/rooms/straight_edges.h"
+#include "slam/rooms/wall_cuts.h"
 
 namespace plumbline::slam {
 
@@ -135,13 +137,11 @@ std::optional<RoomCandidate> rectangle(const ClusterWalls& cluster_walls) {
   return two_walls(cluster_walls, *x);
 }
 
-/// A room of more than four sides.
-std::optional<RoomCandidate> polygon(const ClusterWalls& cluster_walls, const Outline& outline) {
-  constexpr std::size_t least_sides = 5, least_corners = 2;
+/// Of an outline that is mostly free and encloses the cluster.
+std::optional<RoomCandidate> polygon(const ClusterWalls& cluster_walls, const Outline& outline,
+                                     std::size_t least_corners) {
   const RoomConfig& config = cluster_walls.config;
-  if (outline.ring || outline.sides.size() < least_sides || outline.inside < config.inside_share ||
-      outline.fill < config.polygon_fill || outline.wall_share < config.polygon_wall_share)
-    return {};
+  if (outline.ring || outline.inside < config.inside_share || outline.fill < config.polygon_fill) return {};
   RoomCandidate room;
   room.kind = RoomKind::polygon;
   room.polygon_M = polygon_of(outline);
@@ -152,6 +152,41 @@ std::optional<RoomCandidate> polygon(const ClusterWalls& cluster_walls, const Ou
       room.corners.size() > max_room_planes || !is_simple(room.polygon_M))
     return {};
   return room;
+}
+
+/// A room of more than four sides, most of its outline on walls.
+std::optional<RoomCandidate> polygon(const ClusterWalls& cluster_walls, const Outline& outline) {
+  constexpr std::size_t least_sides = 5, least_corners = 2;
+  if (outline.sides.size() < least_sides || outline.wall_share < cluster_walls.config.polygon_wall_share) return {};
+  return polygon(cluster_walls, outline, least_corners);
+}
+
+/// With the border alone that is no opening to other free space.
+ClusterWalls without_openings(ClusterWalls cluster_walls) {
+  const FreeGrid& grid = cluster_walls.grid;
+  const double cell = grid.frame.cell;
+  const auto free = [&](const Vector2d& p) {
+    const auto at = grid.frame.find(p);
+    return at && grid.free[*at] != 0;
+  };
+  std::erase_if(cluster_walls.border_M, [&](const Vector2d& p) {
+    return free(p + Vector2d(cell, 0)) && free(p - Vector2d(cell, 0)) && free(p + Vector2d(0, cell)) &&
+           free(p - Vector2d(0, cell));
+  });
+  return cluster_walls;
+}
+
+/// A room of any number of sides, of which walls that meet are but some: the robot saw the others in too few scans.
+std::optional<RoomCandidate> partly_seen(const ClusterWalls& cluster_walls) {
+  constexpr double least_wall_share = 0.2;
+  const auto most = std::max_element(cluster_walls.walls.begin(), cluster_walls.walls.end(),
+                                     [](const FaceLine& a, const FaceLine& b) { return a.support < b.support; });
+  if (most == cluster_walls.walls.end()) return {};
+  const ClusterWalls closed = without_openings(cluster_walls);
+  const std::optional<Outline> outline = outline_of(closed, straight_edges(closed, most->m));
+  if (!outline || outline->wall_share < least_wall_share || outline->edge_share < cluster_walls.config.edge_share)
+    return {};
+  return polygon(cluster_walls, *outline, 1);
 }
 
 /// Rooms in the straight parts of a ring.
@@ -165,16 +200,34 @@ std::vector<RoomCandidate> parts_of(const ClusterWalls& cluster_walls) {
 }
 
 std::vector<RoomCandidate> rooms_of(const ClusterWalls& cluster_walls) {
+  const RoomConfig& config = cluster_walls.config;
   std::optional<RoomCandidate> room = rectangle(cluster_walls);
-  if (cluster_walls.config.polygons && (!room || room->fill < cluster_walls.config.rectangle_fill)) {
+  const auto poor = [&] { return config.polygons && (!room || room->fill < config.rectangle_fill); };
+  const auto take = [&](std::optional<RoomCandidate> other) {
+    if (other && (!room || other->fill > room->fill + fuller)) room = std::move(other);
+  };
+  if (poor()) {
     const std::optional<Outline> outline = outline_of(cluster_walls);
     if (outline && outline->ring)
       if (std::vector<RoomCandidate> parts = parts_of(cluster_walls); parts.size() > 1) return parts;
-    std::optional<RoomCandidate> any = outline ? polygon(cluster_walls, *outline) : std::nullopt;
-    if (any && (!room || any->fill > room->fill + fuller)) room = std::move(any);
+    if (outline) take(polygon(cluster_walls, *outline));
   }
+  if (poor()) take(partly_seen(cluster_walls));
   if (!room) return {};
   return {std::move(*room)};
+}
+
+/// Rooms of a cluster that may be an open plan.
+std::vector<RoomCandidate> rooms_within(const ClusterWalls& cluster_walls, std::span<const FaceLine> faces,
+                                        std::span<const Vector2d> visited_M) {
+  std::vector<Cluster> parts;
+  if (cluster_walls.config.polygons) parts = cut_along_walls(cluster_walls, faces, visited_M);
+  if (parts.empty()) return rooms_of(cluster_walls);
+  std::vector<RoomCandidate> rooms;
+  for (const Cluster& part : parts)
+    for (RoomCandidate& room : rooms_of(make_cluster_walls(cluster_walls.grid, part, faces, cluster_walls.config)))
+      rooms.push_back(std::move(room));
+  return rooms;
 }
 
 double overlap_of(const Polygon2& a, const Polygon2& b) {
@@ -270,11 +323,24 @@ std::vector<RoomCandidate> detect_rooms(const FreeGrid& grid, std::span<const Cl
                        [&](const Vector2d& p) { return contains(room.polygon_M, p); });
   };
   std::vector<RoomCandidate> rooms;
+  /// Whether it holds a room that was entered, or a rectangle or corridor that was not.
+  const auto add_rooms = [&](const Cluster& cluster) {
+    bool any = false;
+    for (RoomCandidate& room : rooms_within(make_cluster_walls(grid, cluster, faces, config), faces, visited_M)) {
+      const bool kept = !config.entered_only || entered(room);
+      any |= kept || room.kind != RoomKind::polygon;
+      if (kept) rooms.push_back(std::move(room));
+    }
+    return any;
+  };
   const std::vector<Cluster> joined = config.polygons ? merge_clusters(grid, clusters, faces, config)
                                                       : std::vector<Cluster>(clusters.begin(), clusters.end());
+  std::vector<Cluster> left;
   for (const Cluster& cluster : joined)
-    for (RoomCandidate& room : rooms_of(make_cluster_walls(grid, cluster, faces, config)))
-      if (!config.entered_only || entered(room)) rooms.push_back(std::move(room));
+    if (!add_rooms(cluster)) left.push_back(cluster);
+  // A hall that pillars and furniture cut into parts of which none is a room.
+  if (config.polygons)
+    for (const Cluster& hall : merge_wide(grid, left, config.wide_m)) (void)add_rooms(hall);
   if (config.polygons) merge_two_wall_rooms(rooms, grid.frame.cell);
   drop_overlapping(rooms, config.max_overlap);
   return rooms;

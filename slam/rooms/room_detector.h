@@ -25,8 +25,12 @@ struct RoomConfig {
   double rectangle_fill = 0.85;
   double polygon_fill = 0.75;
   double polygon_wall_share = 0.5;
+  double edge_share = 0.75;
   double joined_share = 0.6;
+  double passed_share = 0.4;
+  double wide_m = 1.6;
   double min_part_m2 = 2.0;
+  double cut_share = 0.4;
   double max_overlap = 0.3;
   bool entered_only = true;
 
@@ -54,10 +58,24 @@ struct RoomConfig {
     v("polygon_fill", polygon_fill, share_field("least share of a polygon that is seen free"));
     v("polygon_wall_share", polygon_wall_share,
       share_field("least share of a polygon's outline on observed walls", {.former = "polygon_walled"}));
+    v("edge_share", edge_share,
+      share_field(
+          "least share of the outline of a room that was partly seen on walls or straight edges of free space"));
     v("joined_share", joined_share,
       plain_field("share of the width between two shared walls over which clusters join; above 1: never",
                   {.min = 0, .max = 2}));
-    v("min_part_m2", min_part_m2, Field{.doc = "least area of a straight part of a corridor in a ring", .min = 0});
+    v("passed_share", passed_share,
+      plain_field("the same where what stands between them is thicker than a wall; above 1: never",
+                  {.min = 0, .max = 2}));
+    // Wider than doors.
+    v("wide_m", wide_m,
+      Field{.doc = "length of their contact above which clusters that are no rooms may be parts of one", .min = 0});
+    v("min_part_m2", min_part_m2,
+      Field{.doc = "least area of a straight part of a corridor in a ring, and of a part of an open plan", .min = 0});
+    v("cut_share", cut_share,
+      plain_field("share of the border between two parts of an open plan from which on walls on it part them; above 1: "
+                  "never",
+                  {.min = 0, .max = 2}));
     v("max_overlap", max_overlap,
       share_field("largest overlap of two rooms, of the smaller; above it the worse one is dropped"));
     v("entered_only", entered_only, Field{.doc = "report only rooms that the robot has entered"});
@@ -78,9 +96,11 @@ struct RoomCandidate {
 
 /// Rooms that have been entered [bavle2023, section IV-C]: per cluster the opposed pair of wall faces that carries most
 /// of its border (ties: lower ids) with the cluster between them, and the best perpendicular pair if there is one.
-/// Beyond the papers: where no rectangle fits, the closed chain of walls and openings round the cluster; a cluster that
-/// runs in a ring falls into its straight parts, the longest first. visited_M: positions of the robot, for
-/// entered_only. In the clusters' order.
+/// Beyond the papers (`polygons`): a cluster is cut first where walls stop short of each other, see cut_along_walls();
+/// where no rectangle fits, the closed chain of walls and openings round it, or of walls and straight edges of free
+/// space; a cluster that runs in a ring falls into its straight parts, the longest first; clusters that touch widely
+/// and of which none is a room are tried as one. visited_M: positions of the robot, for entered_only and the cuts. In
+/// the clusters' order.
 [[nodiscard]] std::vector<RoomCandidate> detect_rooms(const FreeGrid& grid, std::span<const Cluster> clusters,
                                                       std::span<const PlaneNode> walls_M,
                                                       std::span<const Eigen::Vector2d> visited_M,
