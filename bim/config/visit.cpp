@@ -8,18 +8,23 @@ namespace plumbline {
 
 namespace {
 
-std::string named(std::string_view key) { return key.empty() ? "" : "'" + std::string(key) + "': "; }
+/// The key before what is wrong with its value; an option of the command line is named by the mark already.
+std::string named(const Tree& tree, std::string_view key) {
+  return key.empty() || tree.mark.file.starts_with("--") ? "" : "'" + std::string(key) + "': ";
+}
 
 void check_range(const Tree& tree, std::string_view key, const Field& field, double value) {
   if (value >= field.min && value <= field.max) return;
   std::string range;
-  if (std::isinf(field.max))
+  if (field.min == field.max)
+    range = format_number(field.min);
+  else if (std::isinf(field.max))
     range = "at least " + format_number(field.min);
   else if (std::isinf(field.min))
     range = "at most " + format_number(field.max);
   else
     range = "between " + format_number(field.min) + " and " + format_number(field.max);
-  throw InputError(tree.mark, named(key) + format_number(value) + " is out of range; it must be " + range);
+  throw InputError(tree.mark, named(tree, key) + format_number(value) + " is out of range; it must be " + range);
 }
 
 /// Adds the key to what a conversion complains about.
@@ -31,7 +36,7 @@ decltype(auto) convert(const Tree& tree, std::string_view key, const Convert& fu
     const std::string prefix = to_string(tree.mark) + ": ";
     const std::string what = error.what();
     const bool has_prefix = what.rfind(prefix, 0) == 0;
-    throw InputError(tree.mark, named(key) + (has_prefix ? what.substr(prefix.size()) : what));
+    throw InputError(tree.mark, named(tree, key) + (has_prefix ? what.substr(prefix.size()) : what));
   }
 }
 
@@ -46,14 +51,15 @@ void read_scalar(const Tree& tree, std::string_view key, const Field& field, int
   const std::int64_t wide = convert(tree, key, [&] { return tree.as_int(); });
   check_range(tree, key, field, static_cast<double>(wide));
   if (wide < std::numeric_limits<int>::min() || wide > std::numeric_limits<int>::max())
-    throw InputError(tree.mark, named(key) + std::to_string(wide) + " is too large");
+    throw InputError(tree.mark, named(tree, key) + std::to_string(wide) + " is too large");
   value = static_cast<int>(wide);
 }
 
 void read_scalar(const Tree& tree, std::string_view key, const Field& field, std::uint64_t& value) {
   const std::int64_t wide = convert(tree, key, [&] { return tree.as_int(); });
   check_range(tree, key, field, static_cast<double>(wide));
-  if (wide < 0) throw InputError(tree.mark, named(key) + std::to_string(wide) + " is negative; it must be at least 0");
+  if (wide < 0)
+    throw InputError(tree.mark, named(tree, key) + std::to_string(wide) + " is negative; it must be at least 0");
   value = static_cast<std::uint64_t>(wide);
 }
 
@@ -69,7 +75,7 @@ std::size_t read_choice(const Tree& tree, std::string_view key, const std::strin
   const std::string text = convert(tree, key, [&] { return tree.as_string(); });
   const auto* found = std::find(names, names + count, text);
   if (found != names + count) return static_cast<std::size_t>(found - names);
-  std::string message = named(key) + "'" + text + "' is not one of ";
+  std::string message = named(tree, key) + "'" + text + "' is not one of ";
   for (std::size_t i = 0; i < count; ++i) message += (i > 0 ? ", " : "") + std::string(names[i]);
   const std::string guess = did_you_mean(text, std::vector<std::string>(names, names + count));
   throw InputError(tree.mark, message + (guess.empty() ? "" : "; did you mean '" + guess + "'?"));
@@ -112,7 +118,7 @@ void FieldReader::fail_missing(std::string_view key) const {
 
 void FieldReader::read_value(const Tree& tree, std::string_view key, const Field& field, Eigen::Vector2d& value) {
   const Tree::List& list = convert(tree, key, [&]() -> const Tree::List& { return tree.as_list(); });
-  if (list.size() != 2) throw InputError(tree.mark, named(key) + "two numbers [x, y] are expected");
+  if (list.size() != 2) throw InputError(tree.mark, named(tree, key) + "two numbers [x, y] are expected");
   read_scalar(list[0], key, field, value.x());
   read_scalar(list[1], key, field, value.y());
 }

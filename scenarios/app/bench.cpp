@@ -9,6 +9,7 @@
 
 #include "bim/errors.h"
 #include "scenarios/app/commands.h"
+#include "scenarios/host/progress.h"
 
 namespace plumbline::scenarios {
 
@@ -31,8 +32,16 @@ const BenchPart& part_of(const std::string& name) {
   throw InputError({"bench", 0, 0}, "unknown part '" + name + "'; known: " + list);
 }
 
+std::vector<BenchRow> measure(const BenchOptions& options) {
+  const BenchPart& part = part_of(options.part);
+  Progress progress("bench " + options.part, {0.0, "repetitions"});
+  BenchSetting setting = options.setting;
+  setting.step = [&, done = 0]() mutable { progress.at(done++); };
+  return part.measure(setting);
+}
+
 int bench(const BenchOptions& options) {
-  const std::vector<BenchRow> rows = part_of(options.part).measure(options.setting);
+  const std::vector<BenchRow> rows = measure(options);
   const std::string text = options.json ? write_json(bench_json(rows)) + "\n" : bench_text(rows);
   std::fwrite(text.data(), 1, text.size(), stdout);
   const bool passed = std::all_of(rows.begin(), rows.end(),

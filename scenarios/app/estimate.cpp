@@ -219,7 +219,7 @@ struct Answer {
 
 Answer run_method(slam::Recording& recording, const slam::MethodRow& row, const slam::MethodInput& input,
                   Sensors sensors) {
-  Progress progress(std::string(row.name), 0.0);
+  Progress progress(std::string(row.name), {});
   std::optional<slam::Nanoseconds> first;
   slam::Nanoseconds last = 0;
   const SensorSource source = [&](slam::SensorFrame& frame) {

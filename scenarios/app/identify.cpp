@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "scenarios/app/process.h"
 #include "scenarios/host/files.h"
 #include "scenarios/host/interrupt.h"
+#include "scenarios/host/progress.h"
 #include "scenarios/host/terminal.h"
 #include "scenarios/localizability/planned_walk.h"
 #include "scenarios/report/localizability_page.h"
@@ -76,7 +78,13 @@ int identify(const IdentifyOptions& options) {
   BuildingMapOptions map_options = options.map;
   if (!options.storey.empty()) map_options.storey = options.storey;
   map_options.threads = threads;
+  std::optional<Progress> progress;
+  map_options.progress = [&](std::size_t done, std::size_t all) {
+    if (done == 0) progress.emplace("identify", ProgressOf{static_cast<double>(all), "places"});  // for each answer
+    progress->at(static_cast<double>(done));
+  };
   const BuildingMaps maps = maps_of(building, map_options);
+  progress.reset();
   catch_interrupts();  // a page is written whole or not at all
   if (!page.empty()) {
     const std::filesystem::path folder = std::filesystem::path(page).parent_path();

@@ -55,7 +55,7 @@ int replay(const ReplayArguments& options, slam::MethodTable table) {
   catch_interrupts();
   RunRecord record;
   {
-    Progress progress("replay", run_options.until_s.value_or(resolved.scenario.duration_s));
+    Progress progress("replay", {run_options.until_s.value_or(resolved.scenario.duration_s), "s", true});
     run_options.tick = [&](double t) { progress.at(t); };
     record = execute(resolved, run_options);
   }

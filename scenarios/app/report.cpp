@@ -3,26 +3,77 @@
 #include <string>
 
 #include "bim/config/printable.h"
+#include "bim/errors.h"
 #include "scenarios/app/commands.h"
+#include "scenarios/app/summary.h"
 #include "scenarios/host/files.h"
+#include "scenarios/host/interrupt.h"
+#include "scenarios/host/progress.h"
 #include "scenarios/host/terminal.h"
+#include "scenarios/report/replay/replay_page.h"
 #include "scenarios/report/report_builder.h"
+#include "scenarios/run/ground_truth_recorder.h"
 #include "scenarios/run/run_files.h"
+#include "scenarios/run/runner.h"
 
 namespace plumbline::scenarios {
 
+namespace {
+
+struct ReportArguments {
+  std::string dir;
+  bool replay = false;
+  double megabytes = 15.0;
+};
+
+/// The scans of a run, simulated again: they are the same, to the last bit, or nothing is shown.
+ScanPacker simulate_scans(const std::string& dir, const FinishedRun& run) {
+  const ResolvedScenario resolved = resolve(dir + "/scenario.yaml", {});
+  ScanPacker scans = packer_of(resolved);
+  Progress progress("scans", {resolved.scenario.duration_s, "s", true});
+  RunOptions options;
+  options.methods = false;
+  options.tick = [&](double t_s) { progress.at(t_s); };
+  options.observe = [&](const sim::WorldFrame& frame) { scans.add(frame.sensors.scan); };
+  const RunRecord again = execute(resolved, options);
+  if (sensor_digest_of(again.digests) != sensor_digest_of(run.record.digests))
+    throw InputError({dir, 0, 0},
+                     "simulated again, this run's scans come out otherwise: another version of the program made it");
+  return scans;
+}
+
+int report(const ReportArguments& options) {
+  const FinishedRun run = read_run(options.dir);
+  const score::RunScore score = score::score_run(run);
+  remove_abandoned(options.dir);
+  write_file(options.dir + "/report.html", render_report(report_input(run, score)));
+  std::string written = "report: " + printable(options.dir) + "/report.html\n";
+  if (options.replay) {
+    catch_interrupts();
+    const ScanPacker scans = simulate_scans(options.dir, run);
+    check_interrupt();
+    ReplayOptions most;
+    most.most_bytes = static_cast<std::size_t>(options.megabytes * 1e6);
+    write_file(options.dir + "/replay.html", render_replay(run, score, scans, read_graphs(options.dir, run), most));
+    written += "replay: " + printable(options.dir) + "/replay.html\n";
+  }
+  print(written);
+  return 0;
+}
+
+}  // namespace
+
 Command add_report(CommandLine& program) {
-  const auto dir = std::make_shared<std::string>();
-  CommandLine line = program.add_command("report", "Writes report.html of a run again");
-  line.option("DIR", *dir, "run directory").required();
-  line.footer("Example: plumbline report runs/quickstart-1");
-  return {line, [dir] {
-            const FinishedRun run = read_run(*dir);
-            remove_abandoned(*dir);
-            write_file(*dir + "/report.html", render_report(report_input(run, score::score_run(run))));
-            print("report: " + printable(*dir) + "/report.html\n");
-            return 0;
-          }};
+  const auto options = std::make_shared<ReportArguments>();
+  CommandLine line = program.add_command("report", "Writes report.html of a run again, and replay.html if asked");
+  line.option("DIR", options->dir, "run directory").required();
+  line.flag("--3d", options->replay,
+            "also write replay.html, the run in three dimensions at any of its times; simulates its scans again");
+  line.option("--size-mb", options->megabytes,
+              "most that replay.html may take: scans are left out, away from what is worth a look, until it fits [15]")
+      .range(1.0, 1000.0);
+  line.footer("Example: plumbline report --3d runs/quickstart-1");
+  return {line, [options] { return report(*options); }};
 }
 
 }  // namespace plumbline::scenarios

@@ -16,6 +16,7 @@
 #include "scenarios/host/interrupt.h"
 #include "scenarios/host/progress.h"
 #include "scenarios/host/terminal.h"
+#include "scenarios/report/replay/replay_page.h"
 #include "scenarios/run/recorder.h"
 #include "scenarios/run/run_files.h"
 #include "scenarios/run/runner.h"
@@ -33,6 +34,7 @@ struct RunArguments {
   std::string out;
   int threads = 0;
   bool record = false;
+  bool replay = false;
   bool force = false;
   std::optional<Argument> methods_option;
   std::optional<Argument> seed_option;
@@ -67,20 +69,24 @@ int run(const RunArguments& options, slam::MethodTable table) {
   const ResolvedScenario resolved = resolve(options.input, overrides_of(options), table);
   const std::string out = options.out.empty() ? default_out(resolved.scenario) : options.out;
   if (resolved.dropped_gates > 0)
-    std::fprintf(stderr, "plumbline: %d gates of methods left out by --method are not asked\n", resolved.dropped_gates);
+    std::fprintf(stderr, "plumbline: --method leaves out methods with %d %s, not judged in this run\n",
+                 resolved.dropped_gates, resolved.dropped_gates == 1 ? "gate" : "gates");
 
   catch_interrupts();
   RunDirectory directory(out, DirectoryKind::run, options.force);
-  Progress progress(resolved.scenario.name, resolved.scenario.duration_s);
+  Progress progress(resolved.scenario.name, {resolved.scenario.duration_s, "s", true});
   const int threads = options.threads > 0 ? options.threads : allowed_cpus();
   RunOptions run_options;
   run_options.threads = threads;
   run_options.tick = [&](double t) { progress.at(t); };
   std::optional<Recorder> recorder;
-  if (options.record) {
-    recorder.emplace(directory.staging() + "/" + std::string(recording_folder), resolved);
-    run_options.observe = [&](const sim::WorldFrame& frame) { recorder->add(frame); };
-  }
+  if (options.record) recorder.emplace(directory.staging() + "/" + std::string(recording_folder), resolved);
+  const bool may_show = options.replay || !resolved.scenario.gates.empty();
+  ScanPacker scans = packer_of(resolved);
+  run_options.observe = [&](const sim::WorldFrame& frame) {
+    if (recorder) recorder->add(frame);
+    if (may_show) scans.add(frame.sensors.scan);
+  };
   RunRecord record = execute(resolved, run_options);
   if (record.truth_W.empty())
     throw ScenarioFailure(record.failure.empty() ? "the run ended before its first scan" : record.failure);
@@ -90,6 +96,10 @@ int run(const RunArguments& options, slam::MethodTable table) {
   if (recorder) recorder->finish();
   const FinishedRun finished = finished_run(resolved, std::move(record));
   const score::RunScore score = score_and_report(directory.staging(), finished);
+  const bool shows = may_show && (options.replay || exit_code(finished, score) != 0);
+  if (shows)
+    write_file(directory.staging() + "/replay.html",
+               render_replay(finished, score, scans, read_graphs(directory.staging(), finished)));
   check_interrupt();
   const RunCost cost{slam::wall_s() - start, slam::process_cpu_s(), score.duration_s, threads};
   write_file(directory.staging() + "/timings.json",
@@ -97,7 +107,7 @@ int run(const RunArguments& options, slam::MethodTable table) {
   directory.commit();
 
   if (!finished.record.failure.empty()) print_note(finished.record.failure);
-  print("report: " + printable(out) + "/report.html\n" + summarise(finished, score));
+  print("report: " + printable(out) + "/report.html\n" + summarise(finished, score) + next_steps(out, finished, score));
   return exit_code(finished, score);
 }
 
@@ -119,6 +129,8 @@ Command add_run(CommandLine& program, slam::MethodTable table) {
   line.option("-o,--out", options->out, "run directory [runs/<scenario>-<seed>]");
   line.option("--threads", options->threads, "threads [the CPUs allowed]").range(1, 1024);
   line.flag("--record", options->record, "also write the recording, as simulate does, into the folder recording");
+  line.flag("--replay", options->replay,
+            "also write replay.html, the run in three dimensions; a run that fails a gate has it anyway");
   line.flag("--force", options->force, "replace the run that stands in --out");
   line.footer(
       "Example: plumbline run scenarios/library/quickstart.yaml --method vgicp,truth --seed 7 --out runs/seven");

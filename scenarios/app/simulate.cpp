@@ -57,7 +57,7 @@ int simulate(const SimulateArguments& options, slam::MethodTable table) {
   run_options.observe = [&](const sim::WorldFrame& frame) { recorder.add(frame); };
   RunRecord record;
   {
-    Progress progress(resolved.scenario.name, resolved.scenario.duration_s);
+    Progress progress(resolved.scenario.name, {resolved.scenario.duration_s, "s", true});
     run_options.tick = [&](double t) { progress.at(t); };
     record = execute(resolved, run_options);
   }

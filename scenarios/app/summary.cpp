@@ -3,11 +3,15 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
+#include <filesystem>
+#include <string_view>
 
 #include "bim/config/printable.h"
 #include "scenarios/host/files.h"
 #include "scenarios/report/report_builder.h"
+#include "scenarios/score/moment.h"
 
 namespace plumbline::scenarios {
 
@@ -70,6 +74,41 @@ std::string summarise(const FinishedRun& run, const score::RunScore& score) {
   if (score.gates.empty()) return text + "no gates\n";
   const auto passed = std::count_if(score.gates.begin(), score.gates.end(), [](const auto& g) { return g.passed; });
   return text + "gates: " + std::to_string(passed) + " of " + std::to_string(score.gates.size()) + " passed\n";
+}
+
+std::string shell_word(const std::string& text) {
+  const auto plain = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+           std::string_view("_-./=+,:@%").find(c) != std::string_view::npos;
+  };
+  if (!text.empty() && std::all_of(text.begin(), text.end(), plain)) return text;
+  std::string out = "'";
+  for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
+}
+
+std::string next_steps(const std::string& dir, const FinishedRun& run, const score::RunScore& score) {
+  if (exit_code(run, score) == 0) return "";
+  const auto failed =
+      std::find_if(score.gates.begin(), score.gates.end(), [](const score::GateResult& gate) { return !gate.passed; });
+  double at_s = score.duration_s;
+  std::string link;
+  if (run.record.failure.empty() && failed != score.gates.end()) {
+    at_s = score::telling_moment(run, score, failed->method).value_or(at_s);
+    link = failed->see;
+  }
+  if (link.empty()) link = "#t=" + format_number(std::round(10.0 * at_s) / 10.0);
+  return "look:  " + printable(dir) + "/replay.html" + link + "\n" + "again: plumbline replay " +
+         printable(shell_word(dir)) + " --until " + format_number(std::ceil(10.0 * at_s) / 10.0) + "\n";
+}
+
+std::map<std::string, Tree> read_graphs(const std::string& dir, const FinishedRun& run) {
+  std::map<std::string, Tree> graphs;
+  for (const MethodRecord& method : run.record.methods) {
+    const std::string path = dir + "/" + method.name + ".graph.json";
+    if (std::filesystem::exists(path)) graphs.emplace(method.name, read_json(read_text_file(path), path));
+  }
+  return graphs;
 }
 
 int exit_code(const FinishedRun& run, const score::RunScore& score) {

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <map>
 #include <string>
 
+#include "bim/config/tree.h"
 #include "scenarios/score/score_run.h"
 
 namespace plumbline::scenarios {
@@ -11,8 +13,17 @@ namespace plumbline::scenarios {
 /// says "gates: 3 of 4 passed" or "no gates".
 [[nodiscard]] std::string summarise(const FinishedRun& run, const score::RunScore& score);
 
+/// After a run that failed: which page shows where, and the command that stops there; nothing after any other.
+[[nodiscard]] std::string next_steps(const std::string& dir, const FinishedRun& run, const score::RunScore& score);
+
+/// A folder as a shell takes it for one word.
+[[nodiscard]] std::string shell_word(const std::string& text);
+
 /// 0 all gates passed or none asked for, 1 a gate failed, 4 the scenario failed.
 [[nodiscard]] int exit_code(const FinishedRun& run, const score::RunScore& score);
+
+/// The graph files of a run's methods, by name.
+[[nodiscard]] std::map<std::string, Tree> read_graphs(const std::string& dir, const FinishedRun& run);
 
 /// Scores a run and writes results.json, junit.xml and report.html into `dir`.
 [[nodiscard]] score::RunScore score_and_report(const std::string& dir, const FinishedRun& run);

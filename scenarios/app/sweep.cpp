@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenarios/sweep/sweep.h"
 
-#include <unistd.h>
-
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -13,6 +11,7 @@
 #include "scenarios/app/commands.h"
 #include "scenarios/app/process.h"
 #include "scenarios/host/interrupt.h"
+#include "scenarios/host/progress.h"
 #include "scenarios/host/terminal.h"
 #include "scenarios/sweep/shared_simulation.h"
 #include "scenarios/sweep/sweep_schema.h"
@@ -30,6 +29,12 @@ struct SweepArguments {
   std::vector<std::string> runs;  ///< what this program asks its children for: the runs of one simulation
   std::uint64_t seed = 1;
 };
+
+std::string run_with_progress(const Sweep& sweep, SweepOptions options) {
+  Progress progress(sweep.file.name, {static_cast<double>(sweep.runs.size()), "runs"});
+  options.progress = [&](std::size_t done, std::size_t) { progress.at(static_cast<double>(done)); };
+  return run_sweep(sweep, options);
+}
 
 int sweep(const SweepArguments& options, slam::MethodTable table) {
   if (!options.runs.empty()) {
@@ -53,11 +58,8 @@ int sweep(const SweepArguments& options, slam::MethodTable table) {
     print_note("plumbline: " + std::to_string(done) + " of " + std::to_string(all) + " runs are there already; " +
                run.out + "/results holds them, remove those to be made anew");
   };
-  if (::isatty(STDERR_FILENO) == 1)
-    run.progress = [](std::size_t done, std::size_t all) { std::fprintf(stderr, "\r%zu of %zu runs", done, all); };
   catch_interrupts();
-  const std::string text = run_sweep(sweep, run);
-  if (run.progress) std::fputc('\n', stderr);
+  const std::string text = run_with_progress(sweep, run);
   print(text + "table: " + printable(run.out) + "/table.html\n");
   return 0;
 }

@@ -92,8 +92,10 @@ namespace {
 
 constexpr std::string_view method_name = "<method>", building_start = "building.";
 
-constexpr std::array<FileRow, 18> run_files = {{
+constexpr std::array<FileRow, 19> run_files = {{
     {"report.html", "the report: maps, errors over time, verdicts, gates; it loads nothing from elsewhere"},
+    {"replay.html",
+     "with `--replay`, `report --3d` or a failed gate: the run in three dimensions at any of its times, in one file"},
     {"results.json", "scores and gates; it appears last, so that its directory is complete"},
     {"junit.xml", "gates and methods as JUnit test cases"},
     {"<method>.tum", "the causal trajectory: each pose as first given, one a scan; SLAM scores use it", false},

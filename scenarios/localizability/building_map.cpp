@@ -67,6 +67,7 @@ BuildingMap map_of(const RunBuilding& building, const BuildingMapOptions& option
   input.across = options.across;
   input.compass_only = options.compass_only;
   input.threads = options.threads;
+  input.progress = options.progress;
   for (std::size_t i = 0; i < building.as_planned().storeys.size(); ++i)
     input.storeys.push_back(search_area(building.as_planned(), i));
   for (const std::size_t storey : storeys_asked_for(building.as_planned(), options))

@@ -17,6 +17,7 @@ struct BuildingMapOptions {
   bool across = false;
   bool compass_only = false;
   int threads = 1;
+  std::function<void(std::size_t done, std::size_t all)> progress = {};  ///< called as places are done; may be empty
 };
 
 /// The map of a building with the floors it was made of.

@@ -111,6 +111,7 @@ class Mapper {
   void find_aliases() {
     const std::size_t n = map_.cells.size();
     for (std::size_t first = 0; first < n; first += block) {
+      if (input_.progress) input_.progress(first, n);
       std::vector<Found> found(std::min(block, n - first));
       for_each_index(found.size(), input_.threads, [&](std::size_t i) { found[i] = search(first + i); });
       for (std::size_t i = 0; i < found.size(); ++i) {

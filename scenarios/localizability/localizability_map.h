@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -19,6 +20,7 @@ struct LocalizabilityMapInput {
   bool across = false;              ///< aliases on other storeys count: the storey is unknown
   bool compass_only = false;        ///< aliases that a compass rules out are not searched for
   int threads = 1;
+  std::function<void(std::size_t done, std::size_t all)> progress = {};  ///< called as cells are done; may be empty
 };
 
 /// A pose aliased with that of a cell in one scan: the image of the cell under an isometry of LocalizabilityMap.

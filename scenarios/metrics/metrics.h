@@ -29,7 +29,7 @@ struct TrackingScore {
 /// Everything scored of one method. What does not apply is absent.
 struct MethodScore {
   std::string name;
-  std::string verdict;  ///< ok | lost | crashed, or a LocalizationVerdict
+  std::string verdict;  ///< complete | lost | crashed, or a LocalizationVerdict
   std::string error;    ///< why it crashed
   std::optional<TrajectoryScore> trajectory;
   std::optional<TrackingScore> tracking;
@@ -67,6 +67,7 @@ struct GateResult {
   std::optional<double> value;  ///< absent when the metric is
   std::string but;              ///< why it fails whatever the value is; empty where only the value decides
   bool passed = false;
+  std::string see = {};  ///< of a failed one: "#t=34.1&m=vgicp", where the replay page shows why
 };
 
 /// A gate fails also when its metric is absent, when its method crashed or covers less than the run (where the metric

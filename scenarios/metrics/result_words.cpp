@@ -13,7 +13,7 @@ std::span<const ResultWord> result_words() {
   constexpr std::string_view slam = "verdict of SLAM", place = "verdict of localization",
                              evidence = "localization.evidence", failure = "localization.failure";
   static const std::vector<ResultWord> words = {
-      {slam, "ok", "at least 95 % of the scans have a pose"},
+      {slam, "complete", "at least 95 % of the scans have a pose, however wrong: gates judge the error"},
       {slam, "lost", "fewer than 95 % of the scans have a pose"},
       {slam, "crashed", "the method stopped with an error, which `error` gives; a localization may, too"},
       {place, to_string(V::success),

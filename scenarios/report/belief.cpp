@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <numbers>
+#include <utility>
 
 #include "scenarios/metrics/state_names.h"
 #include "scenarios/report/results.h"
@@ -17,10 +18,10 @@ struct StateStyle {
   std::string_view colour, meaning;
 };
 /// By slam::State.
-constexpr std::array<StateStyle, 4> state_styles = {{{"#8492a6", "no pose is likely yet"},
-                                                     {"#b58900", "several hypotheses are left"},
-                                                     {"#0a7d4f", "it gives one answer"},
-                                                     {"#c02f1d", "it withdrew its answer"}}};
+constexpr std::array<StateStyle, 4> state_styles = {{{"#e69f00", "no pose is likely yet"},
+                                                     {"#f0e442", "several hypotheses are left"},
+                                                     {"#009e73", "it gives one answer"},
+                                                     {"#d55e00", "it withdrew its answer"}}};
 
 constexpr std::string_view right_colour = "#0a7d4f", wrong_colour = "#d4452f";
 // Of places that are not the true one, apart from the colours of states and of right and wrong.
@@ -52,14 +53,19 @@ std::string state_key() {
 std::vector<PlotCurve> curves_of(const ReportMethod& method) {
   constexpr std::size_t longest = 12;  // of a room's name beside the plot
   std::vector<PlotCurve> curves;
-  std::size_t others = 0;
+  bool true_is_named = false;
+  int named = -1;  // the last hypothesis with a name beside the plot
   for (const HypothesisHistory& history : method.histories) {
+    const auto other = static_cast<std::size_t>(history.hypothesis) % other_colours.size();
     PlotCurve curve;
     curve.layer = method.name;
-    curve.name = history.is_true ? "true pose" : "other";
-    curve.colour = history.is_true ? right_colour : other_colours[others++ % other_colours.size()];
-    if (!history.is_true && !history.room.empty() && history.room.size() <= longest) curve.name += ": " + history.room;
-    const double apart = static_cast<double>(curves.size());  // % each, or equal shares would hide each other
+    curve.colour = history.is_true ? right_colour : other_colours[other];
+    if (history.is_true && !std::exchange(true_is_named, true)) curve.name = "true pose";
+    if (!history.is_true && std::exchange(named, history.hypothesis) != history.hypothesis) {
+      curve.name = "other";
+      if (!history.room.empty() && history.room.size() <= longest) curve.name += ": " + history.room;
+    }
+    const double apart = history.hypothesis;  // % each, or equal shares would hide each other
     for (const Eigen::Vector2d& p : history.points)
       curve.points.emplace_back(p.x(), std::max(0.0, 100.0 * p.y() - apart));
     curves.push_back(std::move(curve));
@@ -73,19 +79,18 @@ std::string chart(const ReportInput& input, const ReportMethod& method, double e
   extras.marks = common_marks(input);
   extras.bands = state_bands(method.states, end_s);
   extras.max = 104.0;  // %, so that a curve along 100 stays whole
+  extras.title = "share of the belief, %";
   const Tree* results = results_of(input, method.name);
   if (const auto at = number_of(results == nullptr ? nullptr : results->find("localization"), "converged_at_s"))
     extras.marks.push_back({*at, "converged"});
   std::stable_sort(extras.marks.begin(), extras.marks.end(),
                    [](const PlotMark& a, const PlotMark& b) { return a.t_s < b.t_s; });
   const std::string name = svg::escape(method.name);
-  return "<section class=\"card\"><h2>Hypotheses of " + name + " over time: probability mass, %</h2>" +
+  return "<section class=\"card\"><h2>Hypotheses of " + name + " over time</h2>" +
          draw_plot("belief-" + name, curves_of(method), end_s, extras) + state_key() +
-         "<p class=\"facts\">Each line is one hypothesis, moved along with the robot. Green is the true pose; others "
-         "bear "
-         "the name of the room they came up in. Hypotheses below 2 % are left out, and equal lines are drawn 1 % "
-         "apart. "
-         "The bar shows the state that the method reports.</p></section>";
+         "<p class=\"facts\">Each line is one hypothesis, moved along with the robot. It is green while it is the true "
+         "pose (0.5 m, 10°); others bear the name of the room they came up in. Hypotheses below 2 % are left out, and "
+         "equal lines are drawn 1 % apart. The bar shows the state that the method reports.</p></section>";
 }
 
 std::string draw_hypothesis(const ReportHypothesis& hypothesis) {

@@ -2,6 +2,7 @@
 #include "scenarios/report/deviation_list.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "bim/model/hull.h"
@@ -53,6 +54,12 @@ Outline outline_in(const bim::Building& building, const std::string& id) {
   return {};
 }
 
+Eigen::Vector2d middle_of(const Polygon2& polygon) {
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  for (const Eigen::Vector2d& p : polygon) sum += p;
+  return sum / static_cast<double>(polygon.size());
+}
+
 std::string spaced(std::string text) {
   std::replace(text.begin(), text.end(), '_', ' ');
   return text;
@@ -71,11 +78,22 @@ std::vector<ReportDeviation> report_deviations(const bim::PlannedAndBuilt& site,
   return deviations;
 }
 
+std::string describe(const ReportDeviation& deviation) {
+  std::string text = spaced(deviation.op) + " " + deviation.element;
+  if (deviation.planned_W.empty() || deviation.built_W.empty()) return text;
+  const Eigen::Vector2d moved = middle_of(deviation.built_W) - middle_of(deviation.planned_W);
+  for (const int axis : {0, 1})
+    if (std::abs(moved[axis]) >= 0.0005)
+      text += std::string(text.find(": ") == std::string::npos ? ": " : ", ") + svg::number(std::abs(moved[axis])) +
+              " m towards " + (moved[axis] > 0.0 ? "+" : "-") + "xy"[axis];
+  return text;
+}
+
 std::string draw_deviations(const std::vector<ReportDeviation>& deviations) {
   std::string out;
   for (const ReportDeviation& deviation : deviations) {
     if (deviation.planned_W.empty() && deviation.built_W.empty()) continue;
-    out += "<g><title>" + svg::escape(spaced(deviation.op) + ": " + deviation.element) + "</title>";
+    out += "<g><title>" + svg::escape(describe(deviation)) + "</title>";
     if (!deviation.built_W.empty()) out += svg::polygon(deviation.built_W, "class=\"asbuilt\"");
     if (!deviation.planned_W.empty()) out += svg::polygon(deviation.planned_W, "class=\"planned\"");
     out += "</g>";
@@ -88,8 +106,7 @@ std::string list_deviations(const std::vector<ReportDeviation>& deviations) {
   std::string out =
       "<section class=\"card\"><h2>Built otherwise than planned</h2><p class=\"facts\">Localization methods get the "
       "plan; the sensor sees what was built. In the map: orange is what stands, dashed where the plan has it.</p><ul>";
-  for (const ReportDeviation& deviation : deviations)
-    out += "<li>" + svg::escape(spaced(deviation.op) + ": " + deviation.element) + "</li>";
+  for (const ReportDeviation& deviation : deviations) out += "<li>" + svg::escape(describe(deviation)) + "</li>";
   return out + "</ul></section>";
 }
 

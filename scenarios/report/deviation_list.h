@@ -19,6 +19,9 @@ struct ReportDeviation {
 /// What differs on a storey, in the order of the site. Rooms have no outlines here.
 [[nodiscard]] std::vector<ReportDeviation> report_deviations(const bim::PlannedAndBuilt& site, int storey);
 
+/// What differs, how far and which way: "move wall w3: 0.2 m towards +x".
+[[nodiscard]] std::string describe(const ReportDeviation& deviation);
+
 /// Outlines over the plan: dashed where something was planned, filled where it was built.
 [[nodiscard]] std::string draw_deviations(const std::vector<ReportDeviation>& deviations);
 /// What the outlines mean, and all differences in words; empty when there are none.

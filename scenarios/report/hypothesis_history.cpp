@@ -18,10 +18,11 @@ constexpr double thinned_mass = 0.002;            // a fifth of a pixel or so
 /// A hypothesis from scan to scan: X_WH = offset * X_WR_true.
 struct Tracked {
   Pose offset;
-  HypothesisHistory history;
-  double most = 0.0;  ///< largest mass it ever had
-  int right = 0, seen = 0;
-  std::size_t scan = 0;  ///< in which it was seen last
+  std::string room;
+  std::vector<HypothesisHistory> stretches;
+  double most = 0.0;      ///< largest mass it ever had
+  bool was_true = false;  ///< at some scan
+  std::size_t scan = 0;   ///< in which it was seen last
 };
 
 double metres(const Pose& a, const Pose& b) { return (a.t - b.t).norm(); }
@@ -52,6 +53,15 @@ void add(std::vector<Eigen::Vector2d>& points, const Eigen::Vector2d& point) {
     points.back() = point;
 }
 
+/// The stretch that goes on, or a new one that starts where the last one ended.
+HypothesisHistory& stretch_of(Tracked& one, bool is_true) {
+  if (!one.stretches.empty() && one.stretches.back().is_true == is_true) return one.stretches.back();
+  HypothesisHistory next;
+  next.is_true = is_true;
+  if (!one.stretches.empty()) next.points.push_back(one.stretches.back().points.back());
+  return one.stretches.emplace_back(std::move(next));
+}
+
 }  // namespace
 
 std::vector<HypothesisHistory> hypothesis_histories(const std::vector<BeliefRecord>& beliefs, const score::Truth& truth,
@@ -65,21 +75,24 @@ std::vector<HypothesisHistory> hypothesis_histories(const std::vector<BeliefReco
       one.scan = i + 1;
       one.offset = hypothesis.X_WR * X_WR.inverse();
       one.most = std::max(one.most, hypothesis.mass);
-      ++one.seen;
-      if (metres(hypothesis.X_WR, X_WR) <= rules.position_m &&
-          radians(hypothesis.X_WR, X_WR) <= rules.yaw_deg * std::numbers::pi / 180.0)
-        ++one.right;
-      if (one.history.room.empty()) one.history.room = hypothesis.room;
-      add(one.history.points, {slam::seconds(beliefs[i].stamp), hypothesis.mass});
+      if (one.room.empty()) one.room = hypothesis.room;
+      const bool is_true = metres(hypothesis.X_WR, X_WR) <= rules.position_m &&
+                           radians(hypothesis.X_WR, X_WR) <= rules.yaw_deg * std::numbers::pi / 180.0;
+      one.was_true = one.was_true || is_true;
+      add(stretch_of(one, is_true).points, {slam::seconds(beliefs[i].stamp), hypothesis.mass});
     }
   }
-  for (Tracked& one : tracked) one.history.is_true = 2 * one.right > one.seen;
   std::stable_sort(tracked.begin(), tracked.end(), [](const Tracked& a, const Tracked& b) {
-    return a.history.is_true != b.history.is_true ? a.history.is_true : a.most > b.most;
+    return a.was_true != b.was_true ? a.was_true : a.most > b.most;
   });
   if (tracked.size() > most) tracked.resize(most);
   std::vector<HypothesisHistory> histories;
-  for (Tracked& one : tracked) histories.push_back(std::move(one.history));
+  for (std::size_t k = 0; k < tracked.size(); ++k)
+    for (HypothesisHistory& stretch : tracked[k].stretches) {
+      stretch.hypothesis = static_cast<int>(k);
+      stretch.room = tracked[k].room;
+      histories.push_back(std::move(stretch));
+    }
   return histories;
 }
 

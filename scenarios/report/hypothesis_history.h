@@ -10,8 +10,8 @@
 namespace plumbline::scenarios {
 
 /// The hypotheses of all scans joined into histories, each moved along by the true motion, since they carry no id.
-/// Those with the largest mass come first (ties: found first), at most `most` of them, the true one before all others.
-/// A history is the true one where it was right (0.5 m, 10 degrees) in most of its scans.
+/// Those with the largest mass come first (ties: found first), at most `most` of them, before all others those that
+/// were the true one for a while. Each is cut where it becomes right (0.5 m, 10 degrees) or wrong.
 [[nodiscard]] std::vector<HypothesisHistory> hypothesis_histories(const std::vector<BeliefRecord>& beliefs,
                                                                   const score::Truth& truth, std::size_t most);
 

@@ -67,6 +67,12 @@ class ConditionPage {
       : building_(building), map_(map), compass_(compass) {
     input_.plan = *building.plan_as_planned();
     input_.obstacles = obstacles_of(building.as_planned(), input_.plan);
+    for (bim::PlanRoom& room : input_.plan.rooms)
+      for (const bim::Room& named : building.as_planned().rooms)
+        if (named.id == room.name && !named.name.empty()) {
+          room.name = named.name;
+          break;
+        }
     for (const Floor& floor : map.floors) input_.storeys.push_back({static_cast<int>(floor.storey), "", {}});
   }
 
@@ -91,9 +97,9 @@ class ConditionPage {
     for (const MapCell& cell : map_.map.cells)
       if (cell.floor == f) cells += cell_square(cell, answer(cell), map_.options.step_m);
     // Rooms are filled: cells lie over them, walls over cells.
-    const std::size_t walls = plan.find("<line");
-    if (walls == std::string::npos) return out + plan + cells + "</svg>";
-    return out + plan.substr(0, walls) + cells + plan.substr(walls) + "</svg>";
+    const std::size_t walls = std::min(plan.find("<line"), plan.size());
+    return out + plan.substr(0, walls) + cells + plan.substr(walls) + room_names(input_, storey) +
+           draw_scale(bounds(input_)) + "</svg>";
   }
 
   [[nodiscard]] std::string table() const {
@@ -148,7 +154,9 @@ std::string localizability_page(const RunBuilding& building, const std::string& 
          "within noise. A walk resolves a place when no aliased pose explains the scans at all its "
          "steps. The scan sees everything that stands in the building; by the building alone, what may have moved is "
          "no "
-         "part of the plan.</p></main></body></html>\n";
+         "part of the plan. Click a map, then zoom with the wheel or + and -, drag or arrow keys to move, 0 for all of "
+         "it.</p></main><script>" +
+         std::string(map_script()) + "</script></body></html>\n";
 }
 
 }  // namespace plumbline::scenarios

@@ -13,10 +13,10 @@ namespace plumbline::scenarios {
 
 namespace {
 
-// Colours that stay apart for colour-blind readers (Okabe and Ito), in the order of the methods; then as many that are
-// darker or lighter than those.
-constexpr std::array<std::string_view, 12> colours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#b58900", "#56b4e9",
-                                                      "#6a3d9a", "#8c3d00", "#00d4a0", "#ff5fa2", "#6b6b00", "#7f7f7f"};
+// Colours that stay apart for colour-blind readers, by hue or lightness, in the order of the methods. Green and
+// vermilion are left to right and wrong.
+constexpr std::array<std::string_view, 12> colours = {"#0072b2", "#8c6d31", "#56b4e9", "#6a3d9a", "#cc79a7", "#e69f00",
+                                                      "#1f3a5f", "#a0a0a0", "#7b4b2a", "#b8257f", "#5b6770", "#80b1d3"};
 
 /// Wall segments of a face without its openings, as strokes.
 std::string face_strokes(const bim::PlanFace& face, double floor_z) {
@@ -47,18 +47,6 @@ bool is_shown(const ReportInput& input, int storey) {
                      [&](const ReportStorey& shown) { return shown.index == storey; });
 }
 
-/// Names stand in the upper left corner of their rooms, away from most paths.
-std::string room_names(const ReportInput& input, int storey) {
-  std::string out;
-  for (const auto& room : input.plan.rooms) {
-    if (room.storey != storey || room.name.size() > 18) continue;
-    Eigen::Vector2d corner(1e9, -1e9);
-    for (const auto& p : room.polygon) corner = {std::min(corner.x(), p.x()), std::max(corner.y(), p.y())};
-    out += svg::text(corner + Eigen::Vector2d(0.3, -0.6), room.name, "");
-  }
-  return out;
-}
-
 bool is_jump(const ReportSample& from, const ReportSample& to) {
   return to.t_s - from.t_s > path_gap_s || std::hypot(to.x - from.x, to.y - from.y) > path_jump_m;
 }
@@ -72,8 +60,9 @@ std::string draw_path(const std::vector<ReportSample>& samples, int storey, cons
     stretch.clear();
   };
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    if (samples[i].storey != storey || (i > 0 && is_jump(samples[i - 1], samples[i]))) draw();
-    if (samples[i].storey == storey) stretch.emplace_back(samples[i].x, samples[i].y);
+    const bool shown = samples[i].storey == storey && !samples[i].lost;  // a pose given while lost is no answer
+    if (!shown || (i > 0 && is_jump(samples[i - 1], samples[i]))) draw();
+    if (shown) stretch.emplace_back(samples[i].x, samples[i].y);
   }
   draw();
   return out;
@@ -120,17 +109,6 @@ std::string draw_method(const ReportMethod& method, std::size_t index, int store
   return out + robot_mark(method.name, storey, c) + "</g>";
 }
 
-/// A length to measure by, in the margin below the plan.
-std::string draw_scale(const MapBox& box) {
-  constexpr std::array<int, 7> lengths_m = {1, 2, 5, 10, 20, 50, 100};
-  int length_m = lengths_m.front();
-  for (const int m : lengths_m)
-    if (m <= 0.25 * (box.max.x() - box.min.x())) length_m = m;
-  const Eigen::Vector2d a = box.min + Eigen::Vector2d(0.5, 0.2), b = a + Eigen::Vector2d(length_m, 0.0);
-  return svg::line(a, b, "class=\"scale\"") +
-         svg::text(b + Eigen::Vector2d(0.15, -0.1), std::to_string(length_m) + " m", "");
-}
-
 std::string draw_map(const ReportInput& input, const ReportStorey& storey, const MapBox& box) {
   const bool several = input.storeys.size() > 1;
   std::string out = several ? "<p class=\"storey\">" + svg::escape(storey.name) + "</p>" : "";
@@ -145,6 +123,35 @@ std::string draw_map(const ReportInput& input, const ReportStorey& storey, const
 }
 
 }  // namespace
+
+/// Names stand in the upper left corner of their rooms, away from most paths.
+std::string room_names(const ReportInput& input, int storey) {
+  std::string out;
+  for (const auto& room : input.plan.rooms) {
+    if (room.storey != storey || room.polygon.empty()) continue;
+    Eigen::Vector2d corner(1e9, -1e9);
+    double right = -1e9;
+    for (const auto& p : room.polygon) {
+      corner = {std::min(corner.x(), p.x()), std::max(corner.y(), p.y())};
+      right = std::max(right, p.x());
+    }
+    // The script leaves out what does not fit into its room, or lies over another name.
+    out += svg::text(corner + Eigen::Vector2d(0.2, -0.45), room.name,
+                     "class=\"name\" data-room=\"" + svg::number(right - corner.x() - 0.3) + "\"");
+  }
+  return out;
+}
+
+/// A length to measure by, in the margin below the plan.
+std::string draw_scale(const MapBox& box) {
+  constexpr std::array<int, 7> lengths_m = {1, 2, 5, 10, 20, 50, 100};
+  int length_m = lengths_m.front();
+  for (const int m : lengths_m)
+    if (m <= 0.25 * (box.max.x() - box.min.x())) length_m = m;
+  const Eigen::Vector2d a = box.min + Eigen::Vector2d(0.5, 0.2), b = a + Eigen::Vector2d(length_m, 0.0);
+  return svg::line(a, b, "class=\"scale\"") +
+         svg::text(b + Eigen::Vector2d(0.15, -0.1), std::to_string(length_m) + " m", "");
+}
 
 std::string colour(std::size_t method) { return std::string(colours[method % colours.size()]); }
 
@@ -187,9 +194,17 @@ std::string draw_plan(const ReportInput& input, int storey) {
 }
 
 std::string draw_maps(const ReportInput& input, const MapBox& box) {
-  std::string out;
-  for (const ReportStorey& storey : input.storeys) out += "<div>" + draw_map(input, storey, box) + "</div>";
-  return "<div class=\"maps\">" + out + "</div>";
+  std::string maps, switches;
+  for (const ReportStorey& storey : input.storeys) {
+    const std::string index = std::to_string(storey.index);
+    maps += "<div class=\"floor\" data-floor=\"" + index + "\">" + draw_map(input, storey, box) + "</div>";
+    switches += "<button type=\"button\" data-switch=\"" + index + "\">" + svg::escape(storey.name) + "</button>";
+  }
+  if (input.storeys.size() < 2) return "<div class=\"maps\">" + maps + "</div>";
+  // Without a script all storeys stand below each other.
+  return "<div class=\"switch\" role=\"group\" aria-label=\"storey\">" + switches +
+         "<label><input type=\"checkbox\" id=\"follow\" checked> follow the robot</label></div><div class=\"maps\">" +
+         maps + "</div>";
 }
 
 std::string map_key() {

@@ -22,6 +22,10 @@ struct MapBox {
 [[nodiscard]] MapBox bounds(const ReportInput& input);
 /// Start tag of a map.
 [[nodiscard]] std::string open_map(const MapBox& box, const std::string& label);
+/// Names of the storey's rooms; the script of the page leaves out those without space.
+[[nodiscard]] std::string room_names(const ReportInput& input, int storey);
+/// A stretch of whole metres with its length, in the lower left corner.
+[[nodiscard]] std::string draw_scale(const MapBox& box);
 /// Rooms and walls of a storey.
 [[nodiscard]] std::string draw_plan(const ReportInput& input, int storey);
 /// A map of every storey with the parts of the paths on it, and what was found there.

@@ -19,7 +19,8 @@ constexpr double shown_quantile = 0.995;
 double shown_max(const std::vector<PlotCurve>& curves) {
   std::vector<double> values;
   for (const auto& curve : curves)
-    for (const auto& p : curve.points) values.push_back(p.y());
+    for (const auto& p : curve.points)
+      if (!curve.disclaimed) values.push_back(p.y());
   if (values.empty()) return 1.0;
   std::sort(values.begin(), values.end());
   const auto last = static_cast<double>(values.size() - 1);
@@ -48,9 +49,9 @@ std::string label(double x, double y, const std::string& text, const std::string
          ">" + svg::escape(text) + "</text>";
 }
 
-std::string axes(const Scale& scale, bool counts) {
+std::string axes(const Scale& scale, const PlotExtras& extras) {
   std::string out;
-  const double v_step = std::max(round_step(scale.max, 5), counts ? 1.0 : 0.0);
+  const double v_step = std::max(round_step(scale.max, 5), extras.counts ? 1.0 : 0.0);
   for (int i = 0; i * v_step <= scale.max; ++i) {
     const double y = scale.y(i * v_step);
     out += segment(plot_frame.x0, y, plot_frame.x1, y, "class=\"grid\"");
@@ -59,7 +60,9 @@ std::string axes(const Scale& scale, bool counts) {
   const double t_step = round_step(scale.end_s, 10);
   for (int i = 0; i * t_step <= scale.end_s && scale.end_s > 0.0; ++i)
     out += label(scale.x(i * t_step), scale.y1 + 18.0, svg::number(i * t_step, 2) + " s", "middle");
-  return out;
+  const double middle = 0.5 * (scale.y0 + scale.y1);
+  out += label(12.0, middle, extras.title, "middle", " transform=\"rotate(-90 12 " + svg::number(middle, 1) + ")\"");
+  return out + label(plot_frame.x1 + 8.0, scale.y1 + 18.0, "time", "start");
 }
 
 std::string path(const PlotCurve& curve, const Scale& scale) {
@@ -70,8 +73,24 @@ std::string path(const PlotCurve& curve, const Scale& scale) {
     d += svg::number(scale.x(p.x()), 1) + " " + svg::number(scale.y(p.y()), 1);
     last_t = p.x();
   }
-  return "<path class=\"curve layer-" + svg::escape(curve.layer.empty() ? curve.name : curve.layer) + "\" stroke=\"" +
-         curve.colour + "\" d=\"" + d + "\"/>";
+  return "<path class=\"curve " + std::string(curve.disclaimed ? "disclaimed " : "") + "layer-" +
+         svg::escape(curve.layer.empty() ? curve.name : curve.layer) + "\" stroke=\"" + curve.colour + "\" d=\"" + d +
+         "\"/>";
+}
+
+/// Where a curve leaves the scale, as small triangles at its upper end.
+std::string above_scale(const PlotCurve& curve, const Scale& scale) {
+  constexpr double apart = 10.0;
+  std::string out;
+  double last = -1e9;
+  for (const Eigen::Vector2d& p : curve.points) {
+    const double x = scale.x(p.x());
+    if (p.y() <= scale.max || x - last < apart) continue;
+    out += "<path class=\"above layer-" + svg::escape(curve.layer.empty() ? curve.name : curve.layer) + "\" fill=\"" +
+           curve.colour + "\" d=\"M" + svg::number(x - 4.0, 1) + " " + svg::number(scale.y0 + 6.0, 1) + "h8l-4 -6z\"/>";
+    last = x;
+  }
+  return out;
 }
 
 /// Labels stand in rows of their own, so that marks of about the same time stay legible.
@@ -89,7 +108,7 @@ std::string draw_marks(const std::vector<PlotMark>& marks, const Scale& scale) {
 }
 
 std::string draw_bands(const std::vector<PlotBand>& bands, const Scale& scale) {
-  constexpr double height = 16.0, letter = 6.6;  // about what a letter takes
+  constexpr double height = 16.0, letter = 8.6;  // what a capital takes at most, bold, 11 px
   std::string out;
   for (const PlotBand& band : bands) {
     const double x = scale.x(band.from_s), width = scale.x(band.to_s) - x, y = scale.y1 + band_room;
@@ -120,16 +139,19 @@ std::string draw_plot(const std::string& id, const std::vector<PlotCurve>& curve
   const Scale scale{end_s, extras.max > 0.0 ? extras.max : shown_max(curves), plot_frame.y0 + lower,
                     plot_frame.y1 + lower};
   const double height = plot_frame.height + lower + (extras.bands.empty() ? 0.0 : band_room);
-  std::string out = "<svg class=\"plot\" id=\"" + id + "\" viewBox=\"0 0 " + svg::number(plot_frame.width, 0) + " " +
-                    svg::number(height, 0) + "\">" + axes(scale, extras.counts) + draw_bands(extras.bands, scale) +
-                    draw_marks(extras.marks, scale);
+  std::string out = "<div class=\"plotbox\"><svg class=\"plot\" id=\"" + id + "\" viewBox=\"0 0 " +
+                    svg::number(plot_frame.width, 0) + " " + svg::number(height, 0) + "\">" + axes(scale, extras) +
+                    draw_bands(extras.bands, scale) + draw_marks(extras.marks, scale);
   double label_y = scale.y0 + 12.0;
   for (const auto& curve : curves) {
-    if (!curve.points.empty()) out += path(curve, scale);
-    out += label(plot_frame.x1 + 10.0, label_y, curve.name, "start", " style=\"fill:" + curve.colour + "\"");
+    if (!curve.points.empty()) out += path(curve, scale) + above_scale(curve, scale);
+    if (curve.name.empty()) continue;  // another stretch of one that has its name already
+    out += segment(plot_frame.x1 + 8.0, label_y - 4.0, plot_frame.x1 + 24.0, label_y - 4.0,
+                   "stroke-width=\"3\" stroke=\"" + curve.colour + "\"") +
+           label(plot_frame.x1 + 29.0, label_y, curve.name, "start");
     label_y += 16.0;
   }
-  return out + segment(plot_frame.x0, scale.y0, plot_frame.x0, scale.y1, "class=\"cursor\"") + "</svg>";
+  return out + segment(plot_frame.x0, scale.y0, plot_frame.x0, scale.y1, "class=\"cursor\"") + "</svg></div>";
 }
 
 }  // namespace plumbline::scenarios

@@ -12,7 +12,7 @@ namespace plumbline::scenarios {
 struct PlotFrame {
   double width = 1200.0;
   double height = 240.0;
-  double x0 = 52.0;
+  double x0 = 64.0;
   double x1 = 1060.0;
   double y0 = 10.0;
   double y1 = 214.0;
@@ -24,6 +24,7 @@ struct PlotCurve {
   std::string colour;
   std::vector<Eigen::Vector2d> points;  ///< (time in s, value)
   std::string layer = {};               ///< method with which it is shown and hidden; its name where empty
+  bool disclaimed = false;              ///< the method said that it is lost: dotted, and the scale does not heed it
 };
 
 /// Something that happened, as an upright line with its label above the drawing area.
@@ -44,8 +45,9 @@ struct PlotBand {
 struct PlotExtras {
   std::vector<PlotMark> marks;  ///< by time
   std::vector<PlotBand> bands;
-  double max = 0.0;     ///< of the values shown; 0: by the curves
-  bool counts = false;  ///< the values are whole numbers
+  double max = 0.0;        ///< of the values shown; 0: by the curves
+  bool counts = false;     ///< the values are whole numbers
+  std::string title = {};  ///< of the values, with their unit: "position error, cm"
 };
 
 /// Two points of a path further apart than this in time, or further in space, are not joined: the robot was carried, or

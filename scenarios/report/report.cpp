@@ -5,9 +5,12 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <utility>
 
 #include "bim/config/tree.h"
+#include "scenarios/metrics/state_names.h"
 #include "scenarios/report/belief.h"
+#include "scenarios/report/glossary.h"
 #include "scenarios/report/map_drawing.h"
 #include "scenarios/report/page.h"
 #include "scenarios/report/plot.h"
@@ -20,8 +23,38 @@ namespace {
 
 std::string centimetres(double metres) { return svg::number(100.0 * metres, 1) + " cm"; }
 
-bool is_good(const std::string& verdict) {
-  return verdict == "ok" || verdict == "success" || verdict == "honest_ambiguity";
+struct GateCount {
+  std::size_t passed = 0, all = 0;
+};
+
+/// Of one method, or of all where `method` is empty.
+GateCount gates_of(const ReportInput& input, const std::string& method) {
+  GateCount count;
+  const Tree* gates = input.results.find("gates");
+  if (gates == nullptr) return count;
+  for (const Tree& gate : gates->as_list()) {
+    if (!method.empty() && text_of(gate, "method") != method) continue;
+    ++count.all;
+    if (gate.find("passed")->as_bool()) ++count.passed;
+  }
+  return count;
+}
+
+/// A method's gates decide on its colour. Without any a verdict that says something of the answer does: `complete` does
+/// not.
+std::string judged(const ReportInput& input, const std::string& method, const std::string& verdict) {
+  const GateCount gates = gates_of(input, method);
+  if (gates.passed < gates.all) return "bad";
+  if (verdict == "success" || verdict == "honest_ambiguity") return "good";
+  if (verdict != "complete") return "bad";
+  return gates.all > 0 ? "good" : "open";
+}
+
+std::string gates_sentence(const ReportInput& input, const std::string& method) {
+  const GateCount gates = gates_of(input, method);
+  if (gates.all == 0) return "No gate judges it.";
+  return std::to_string(gates.passed) + " of " + std::to_string(gates.all) +
+         (gates.all == 1 ? " gate passed." : " gates passed.");
 }
 
 /// ", since ... (at 12.3 s)", or nothing.
@@ -39,15 +72,19 @@ std::string why_it_failed(const Tree* where) {
   return ", since " + why + (at ? " (at " + svg::number(*at, 1) + " s)" : "");
 }
 
-/// What came of a kidnapping, as a sentence of its own, or nothing.
-std::string after_kidnap(const Tree* where) {
+/// What came of a kidnapping, as sentences of their own, or nothing. Durations and times of the run stand apart.
+std::string after_kidnap(const ReportInput& input, const Tree* where) {
   const auto wrong = number_of(where, "kidnap_wrong_s");
-  if (!wrong) return "";
+  if (!wrong || !input.kidnap) return "";
   const auto found = number_of(where, "kidnap_found_s");
+  const double down_s = input.kidnap->set_down_s;
   const std::string text =
-      " After the kidnapping it gave a wrong answer for " + svg::number(*wrong, 1) + " s at a stretch";
-  return text + (found ? " and was localized again after " + svg::number(*found, 1) + " s."
-                       : " and was not localized again for good.");
+      " Kidnapped at t = " + svg::number(input.kidnap->lifted_s, 1) + " s, set down at t = " + svg::number(down_s, 1) +
+      " s. From there on " +
+      (*wrong > 0.0 ? "a wrong answer stood for up to " + svg::number(*wrong, 1) + " s" : "it gave no wrong answer");
+  return text + (found ? ", and it was localized again at t = " + svg::number(down_s + *found, 1) + " s, " +
+                             svg::number(*found, 1) + " s after it was set down."
+                       : ", and it was not localized again for good.");
 }
 
 /// What a plan localization did; `where` is its block of numbers, may be null.
@@ -72,13 +109,13 @@ std::string place_sentence(const std::string& verdict, const Tree* where) {
 }
 
 /// What happened, in a sentence or two.
-std::string sentence(const ReportMethod& method, const Tree* results) {
+std::string sentence(const ReportInput& input, const ReportMethod& method, const Tree* results) {
   const std::string verdict = results == nullptr ? "" : text_of(*results, "verdict");
   if (verdict == "crashed") return "The method stopped with an error.";
   if (method.localization) {
     const Tree* where = results == nullptr ? nullptr : results->find("localization");
     const bool by_furniture = where != nullptr && where->find("evidence_by_furniture") != nullptr;
-    return place_sentence(verdict, where) + after_kidnap(where) +
+    return place_sentence(verdict, where) + after_kidnap(input, where) +
            (by_furniture ? " Only furniture tells these apart." : "");
   }
   const auto error = number_of(results, "ate_aligned_rmse_m");
@@ -110,8 +147,10 @@ std::string method_cards(const ReportInput& input) {
     const std::string name = svg::escape(method.name);
     out += "<div class=\"method\" style=\"border-color:" + colour(i) +
            "\"><h3><label><input type=\"checkbox\" checked data-layer=\"" + name + "\"> " + name +
-           "</label> <span class=\"verdict " + (is_good(verdict) ? "good" : "bad") + "\">" + svg::escape(verdict) +
-           "</span></h3><p>" + svg::escape(sentence(method, results)) + "</p><p id=\"now-" + name + "\"></p></div>";
+           "</label> <button type=\"button\" class=\"only\" data-only=\"" + name +
+           "\">only</button> <span class=\"verdict " + judged(input, method.name, verdict) + "\">" +
+           svg::escape(verdict) + "</span></h3><p>" + svg::escape(sentence(input, method, results)) + "</p><p>" +
+           gates_sentence(input, method.name) + "</p><p id=\"now-" + name + "\"></p></div>";
   }
   return out;
 }
@@ -123,23 +162,18 @@ std::string told_text(const ReportInput& input) {
   std::string world = text_of(*told, "world_furniture");
   std::replace(world.begin(), world.end(), '_', ' ');
   const bool none = text_of(*told, "plan_furniture") == "none";
-  return " · furniture told: " + std::string(none ? "none" : "as planned") + ", built: " + svg::escape(world);
+  return " · furniture in the methods' plan: " + std::string(none ? "none" : "as planned") +
+         ", as built: " + svg::escape(world);
 }
 
 std::string header(const ReportInput& input) {
-  const Tree* gates = input.results.find("gates");
-  std::size_t failed = 0;
-  std::size_t count = 0;
-  if (gates != nullptr)
-    for (const Tree& gate : gates->as_list()) {
-      ++count;
-      failed += gate.find("passed")->as_bool() ? 0U : 1U;
-    }
+  const GateCount gates = gates_of(input, "");
+  const std::size_t count = gates.all, failed = gates.all - gates.passed;
   std::string badge = "<span class=\"badge\">no gates</span>";
   if (count > 0 && failed == 0) badge = "<span class=\"badge good\">PASS</span>";
   if (failed > 0)
     badge = "<span class=\"badge bad\">FAIL</span> <span>" + std::to_string(failed) + " of " + std::to_string(count) +
-            " gates failed</span>";
+            (count == 1 ? " gate failed</span>" : " gates failed</span>");
   const Tree* results = &input.results;
   if (const Tree* failure = input.results.find("failure"))
     badge +=
@@ -220,6 +254,7 @@ Tree track(const std::vector<ReportSample>& samples, bool with_error) {
   Tree yaw = Tree::list();
   Tree storey = Tree::list();
   Tree error = Tree::list();
+  Tree lost = Tree::list();
   const auto rounded = [](double v, double unit) { return Tree(std::round(v / unit) * unit); };
   for (const auto& sample : samples) {
     t.push(rounded(sample.t_s, 0.01));
@@ -228,6 +263,7 @@ Tree track(const std::vector<ReportSample>& samples, bool with_error) {
     yaw.push(rounded(sample.yaw, 0.001));
     storey.push(sample.storey);
     error.push(rounded(sample.error_m, 0.0001));
+    lost.push(sample.lost ? 1 : 0);
   }
   Tree out = Tree::map();
   out.set("t", std::move(t))
@@ -235,8 +271,18 @@ Tree track(const std::vector<ReportSample>& samples, bool with_error) {
       .set("y", std::move(y))
       .set("yaw", std::move(yaw))
       .set("s", std::move(storey));
-  if (with_error) out.set("e", std::move(error));
+  if (with_error) out.set("e", std::move(error)).set("lost", std::move(lost));
   return out;
+}
+
+/// [[since t, state], ...]
+Tree state_changes(const std::vector<ReportState>& states) {
+  Tree list = Tree::list();
+  std::optional<slam::State> before;
+  for (const ReportState& state : states)
+    if (std::exchange(before, state.state) != state.state)
+      list.push(Tree(Tree::List{Tree(std::round(100.0 * state.t_s) / 100.0), Tree(state_name(state.state))}));
+  return list;
 }
 
 std::string script_data(const ReportInput& input, double end_s) {
@@ -246,7 +292,11 @@ std::string script_data(const ReportInput& input, double end_s) {
     if (!is_truth(method)) tracks.set(method.name, track(method.samples, true));
   Tree plot = Tree::map();
   plot.set("x0", plot_frame.x0).set("x1", plot_frame.x1).set("w", plot_frame.width);
+  Tree states = Tree::map();
+  for (const auto& method : input.methods)
+    if (!method.states.empty()) states.set(method.name, state_changes(method.states));
   Tree data = Tree::map();
+  data.set("states", std::move(states));
   data.set("end", end_s).set("plot", std::move(plot)).set("tracks", std::move(tracks));
   std::string json = write_json(data, 0);
   // "</" would end the script element.
@@ -300,21 +350,26 @@ std::string plots(const ReportInput& input, double end_s) {
   std::vector<PlotCurve> counts;
   for (std::size_t i = 0; i < input.methods.size(); ++i) {
     if (is_truth(input.methods[i])) continue;
-    PlotCurve curve{input.methods[i].name, colour(i), {}};
-    for (const auto& sample : input.methods[i].samples) curve.points.emplace_back(sample.t_s, 100.0 * sample.error_m);
+    PlotCurve curve{input.methods[i].name, colour(i), {}}, lost{"", colour(i), {}, input.methods[i].name, true};
+    for (const auto& sample : input.methods[i].samples)
+      (sample.lost ? lost : curve).points.emplace_back(sample.t_s, 100.0 * sample.error_m);
     curves.push_back(std::move(curve));
+    if (!lost.points.empty()) curves.push_back(std::move(lost));
     PlotCurve count{input.methods[i].name, colour(i), {}};
     for (const auto& state : input.methods[i].states) count.points.emplace_back(state.t_s, state.hypotheses);
     if (!count.points.empty()) counts.push_back(std::move(count));
   }
   if (PlotCurve possible = consistent_poses(input, end_s); !counts.empty() && !possible.points.empty())
     counts.push_back(std::move(possible));
-  std::string out = "<section class=\"card\"><h2>Position error over time, cm (click to jump)</h2>" +
-                    draw_plot("errors", curves, end_s, {common_marks(input), {}, 0.0, false}) + "</section>";
+  std::string out =
+      "<section class=\"card\"><h2>Position error over time</h2>" +
+      draw_plot("errors", curves, end_s, {common_marks(input), {}, 0.0, false, "position error, cm"}) +
+      "<p class=\"facts\">Point at it for values, click to jump there. Triangles: beyond the scale. Dotted: "
+      "the method says that it is lost.</p></section>";
   if (!counts.empty())
     out += "<section class=\"card\"><h2>Hypotheses over time</h2>" +
-           draw_plot("hypotheses", counts, end_s, {common_marks(input), {}, 0.0, true}) + identifiability_text(input) +
-           "</section>";
+           draw_plot("hypotheses", counts, end_s, {common_marks(input), {}, 0.0, true, "poses"}) +
+           identifiability_text(input) + "</section>";
   return out;
 }
 
@@ -338,8 +393,10 @@ std::string render_report(const ReportInput& input) {
           "\n" + gates_table(input) + "\n" + numbers_table(input);
   page += "<details class=\"card\"><summary>What was simulated</summary><pre><code>" +
           svg::escape(input.results.find("sensors") == nullptr ? "" : write_yaml(*input.results.find("sensors"))) +
-          "digest: " + svg::escape(text_of(input.results, "digest")) + "\n</code></pre></details></main>\n";
+          "digest: " + svg::escape(text_of(input.results, "digest")) + "\n</code></pre></details>" + glossary() +
+          "</main>\n";
   page += "<script type=\"application/json\" id=\"data\">" + script_data(input, end_s) + "</script>\n<script>";
+  page += map_script();
   page += page_script();
   return page + "</script></body></html>\n";
 }

@@ -22,6 +22,7 @@ struct ReportSample {
   double yaw = 0.0;      ///< rad
   double error_m = 0.0;  ///< distance to the true position (0 for the truth itself)
   int storey = 0;        ///< index into Plan::storeys, by its height
+  bool lost = false;     ///< the method said that it is lost: this is no answer
 };
 
 /// A wall face of an estimate or of the plan, as a segment in W.
@@ -53,9 +54,10 @@ struct ReportState {
   slam::State state = slam::State::searching;
 };
 
-/// One hypothesis of a plan localization over time.
+/// A stretch of one hypothesis of a plan localization over time, in which it is the true pose or is not.
 struct HypothesisHistory {
-  bool is_true = false;                 ///< it is the true pose
+  int hypothesis = 0;                   ///< which; one that becomes right or wrong has several stretches
+  bool is_true = false;                 ///< it is the true pose, at each of its scans
   std::string room;                     ///< in which it came up first, may be empty
   std::vector<Eigen::Vector2d> points;  ///< (time in s, mass in [0, 1])
 };

@@ -26,6 +26,7 @@ std::vector<ReportSample> samples_of(const bim::Plan& plan, const MethodRecord& 
   for (const score::PosePair& pair : pairs) {
     const Pose X_WR = X_WF * pair.X_FR;
     samples.push_back(sample(plan, truth.scans[pair.scan], X_WR, (X_WR.t - pair.X_WR.t).norm()));
+    samples.back().lost = said_lost(method, truth.scans[pair.scan]);
   }
   return samples;
 }

@@ -45,6 +45,9 @@ struct MethodRecord {
   std::vector<StageTimes> times;
 };
 
+/// Whether a method said after a scan that it is lost: its pose there is no answer.
+[[nodiscard]] bool said_lost(const MethodRecord& method, slam::Nanoseconds stamp);
+
 /// Everything one run left behind, the ground truth with it, which is for scoring alone.
 struct RunRecord {
   std::vector<slam::StampedPose> truth_W;  ///< X_WR, 100 Hz and at every scan

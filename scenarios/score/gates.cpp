@@ -25,10 +25,13 @@ std::string escape_xml(std::string_view text) {
   return out;
 }
 
-std::string test_case(const std::string& class_name, const std::string& name, const std::string& failure) {
+std::string test_case(const std::string& class_name, const std::string& name, const std::string& failure,
+                      const std::string& see) {
   std::string text = "  <testcase classname=\"" + escape_xml(class_name) + "\" name=\"" + escape_xml(name) + "\"";
   if (failure.empty()) return text + "/>\n";
-  return text + ">\n    <failure message=\"" + escape_xml(failure) + "\">see report.html</failure>\n  </testcase>\n";
+  return text + ">\n    <failure message=\"" + escape_xml(failure) + "\">see report.html" +
+         (see.empty() ? "" : ", or replay.html" + escape_xml(see) + " (plumbline report --3d writes it)") +
+         "</failure>\n  </testcase>\n";
 }
 
 }  // namespace
@@ -60,7 +63,9 @@ Tree to_results(const GateResult& gate) {
   Tree tree = Tree::map();
   tree.set("metric", gate.metric).set("method", gate.method).set("op", gate.op).set("limit", gate.limit);
   if (gate.value) tree.set("value", *gate.value);
-  return tree.set("passed", gate.passed);
+  tree.set("passed", gate.passed);
+  if (!gate.see.empty()) tree.set("see", "replay.html" + gate.see);
+  return tree;
 }
 
 std::string describe(const GateResult& gate) {
@@ -75,15 +80,16 @@ std::string write_junit(const std::string& suite, const std::vector<GateResult>&
   std::string cases;
   std::size_t count = 0;
   std::size_t failures = 0;
-  const auto add = [&](const std::string& class_name, const std::string& name, const std::string& failure) {
-    cases += test_case(class_name, name, failure);
+  const auto add = [&](const std::string& class_name, const std::string& name, const std::string& failure,
+                       const std::string& see = "") {
+    cases += test_case(class_name, name, failure, see);
     ++count;
     if (!failure.empty()) ++failures;
   };
   add(suite, "the walk is done", failure);
   for (const GateResult& gate : gates)
     add(suite + "." + gate.method, gate.metric + " " + gate.op + " " + format_number(gate.limit),
-        gate.passed ? "" : describe(gate));
+        gate.passed ? "" : describe(gate), gate.see);
   for (const MethodScore& score : scores)
     add(suite + "." + score.name, "runs to the end", score.verdict == "crashed" ? "crashed: " + score.error : "");
   return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuite name=\"" + escape_xml(suite) + "\" tests=\"" +

@@ -7,6 +7,7 @@
 #include "scenarios/host/files.h"
 #include "scenarios/score/handover.h"
 #include "scenarios/score/identifiability.h"
+#include "scenarios/score/moment.h"
 #include "scenarios/spec/method_names.h"
 
 namespace plumbline::scenarios::score {
@@ -68,7 +69,7 @@ MethodScore score_slam(const MethodRecord& method, const Reference& reference) {
   MethodScore score;
   score.trajectory = score_trajectory(reference.truth, method.causal, method.estimate.trajectory);
   const bool covered = score.trajectory && score.trajectory->coverage >= TrajectoryRules().min_coverage;
-  score.verdict = covered ? "ok" : "lost";
+  score.verdict = covered ? "complete" : "lost";
   score.tracking = tracking_of(method);
   if (score.trajectory) score_structure(method, score.trajectory->X_WF_final, reference, score);
   return score;
@@ -226,6 +227,8 @@ RunScore score_run(const FinishedRun& run) {
     score.methods.push_back(std::move(one));
   }
   score.gates = judge_gates(all_gates(run), score.methods, run.record.failure.empty());
+  for (GateResult& gate : score.gates)
+    if (!gate.passed) gate.see = moment_link(run, score, gate.method);
   return score;
 }
 

@@ -71,7 +71,7 @@ void count(const SweepRow& row, SweepCell& cell, Samples& samples) {
     if (row.verdict == "success" || row.verdict == "honest_ambiguity") ++cell.marginal_right;
   } else if (row.identifiable.value_or(true)) {
     ++cell.judged;
-    if (row.verdict == "success" || row.verdict == "ok") ++cell.succeeded;
+    if (row.verdict == "success" || row.verdict == "complete") ++cell.succeeded;
     const bool found = row.verdict == "success";
     samples.converged_at_m.push_back(found ? row.values[converged_m].value_or(infinite) : infinite);
     if (row.values[at_s]) samples.identifiable_at_s.push_back(*row.values[at_s]);
@@ -252,10 +252,12 @@ std::string table_csv(const std::vector<SweepCell>& cells) {
 }
 
 std::string table_html(const std::string& name, const std::vector<SweepCell>& cells) {
-  std::string page = "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>" + svg::escape(name) +
-                     " · Plumbline</title><style>" + std::string(page_style()) +
-                     "</style></head>\n<body><main><header><h1>" + svg::escape(name) +
-                     "</h1></header><section class=\"card\"><div class=\"scroll\"><table>\n";
+  std::string page =
+      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
+      "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\"><title>" +
+      svg::escape(name) + " · Plumbline</title><style>" + std::string(page_style()) +
+      "</style></head>\n<body><main><header><h1>" + svg::escape(name) +
+      "</h1></header><section class=\"card\"><div class=\"scroll\"><table class=\"sorted\">\n";
   bool head = true;
   for (const Line& line : table_lines(cells)) {
     page += "<tr>";
@@ -266,12 +268,12 @@ std::string table_html(const std::string& name, const std::vector<SweepCell>& ce
   }
   return page +
          R"html(</table></div><p class="facts">Success of a plan localization is over the identifiable runs, of SLAM
-the share of ok; in brackets the 95 % interval of Wilson. Honest: of the runs whose scans fit several poses to the end,
+the share of complete; in brackets the 95 % interval of Wilson. Honest: of the runs whose scans fit several poses to the end,
 those that reported so. Marginal: right ones of the runs between, where the other poses are nearly ruled out, or were too
 late to hold an answer for 5 s and 1 m. Wrong: single answers at a wrong pose, or where several fit. Identifiable at:
 when the scans left one pose, median. Converged at: metres until the answer of a success, median over the identifiable
-runs, the others counted as never. Error: of the position, rms, median of all runs that have one.</p></section></main></body></html>
-)html";
+runs, the others counted as never. Error: of the position, rms, median of all runs that have one. Click a heading to sort by it.</p></section></main><script>)html" +
+         std::string(sort_script()) + "</script></body></html>\n";
 }
 
 }  // namespace plumbline::scenarios

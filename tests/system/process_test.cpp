@@ -70,7 +70,7 @@ TEST_F(Process, ThePythonExampleFollowsAndRepeats) {
                                      "-o", folder_ / "run"});
   ASSERT_EQ(outcome.code, 0) << outcome.out << outcome.err;
   const nlohmann::json results = json(folder_ / "run/results.json");
-  EXPECT_EQ(results["methods"]["icp"]["verdict"], "ok");
+  EXPECT_EQ(results["methods"]["icp"]["verdict"], "complete");
   // Scans are not deskewed: measured 3 cm.
   EXPECT_LT(results["methods"]["icp"]["ate_aligned_rmse_m"].get<double>(), 0.2);
   EXPECT_EQ(read_file(folder_ / "run/icp.tum"), read_file(folder_ / "run/icp.lidar.tum"));
@@ -129,7 +129,7 @@ TEST_F(Process, WhateverItDoesOnlyItselfHasCrashed) {
   EXPECT_NE(outcome.code, 3) << outcome.err;
   const nlohmann::json results = json(folder_ / "run/results.json")["methods"];
   for (const std::string name : {"odometry", "good", "floods", "logs"})
-    EXPECT_EQ(results[name]["verdict"], "ok") << name;
+    EXPECT_EQ(results[name]["verdict"], "complete") << name;
   const auto crashed = [&](const std::string& name, const std::string& reason) {
     EXPECT_EQ(results[name]["verdict"], "crashed") << name;
     const std::string error = json(folder_ / ("run/" + name + ".estimate.json")).value("crashed", "");

@@ -59,6 +59,7 @@ void measure_duplex(const BenchSetting& setting, std::vector<BenchRow>& rows) {
   std::vector<double> cpu, memory, symmetry;
   const bim::Building duplex = bim::load_building(path);
   for (int k = 0; k < setting.repetitions; ++k) {
+    setting.step();
     const ChildCost cost = run_self({"inspect", path});
     cpu.push_back(cost.cpu_s);
     memory.push_back(cost.peak_rss_mb);

@@ -214,6 +214,7 @@ std::vector<BenchRow> bench_legs(const BenchSetting& setting) {
     std::vector<double> speeds, tracks, tilts, drifts;
     const int seeds = c.all_seeds ? setting.repetitions : (setting.repetitions + 1) / 2;
     for (int seed = 1; seed <= seeds; ++seed) {
+      setting.step();
       const Walk one = walk(c, config, static_cast<std::uint64_t>(seed));
       falls += one.fell ? 1.0 : 0.0;
       speeds.push_back(one.speed_error_mps);

@@ -54,6 +54,7 @@ BenchRow measure_scan(const BenchSetting& setting, const std::string& name, sim:
   constexpr std::size_t firings = 1824;
   std::vector<double> times;
   for (int k = -1; k < 10 * setting.repetitions; ++k) {
+    setting.step();
     std::vector<Pose> X_WL;
     for (std::size_t i = 0; i < firings; ++i) {
       const double walked = 0.06 * (static_cast<double>(k) + static_cast<double>(i) / firings);
@@ -80,6 +81,7 @@ double measure_kernel(const BenchSetting& setting, const StoreySize& size, bool 
   (void)rate(scene, rays, hits);
   (void)rate(plain, rays, hits);
   for (int k = 0; k < setting.repetitions; ++k) {
+    setting.step();
     const double before = rate(plain, rays, hits);
     rates.push_back(rate(scene, rays, hits));
     const double after = rate(plain, rays, hits);

@@ -141,8 +141,10 @@ std::vector<BenchRow> bench_localize(const BenchSetting& setting) {
   rows.push_back(
       make_row("localize.tables_growth_area", "power", {growth_exponent(1, base.tables_ms, 9, area.tables_ms)}));
   std::vector<double> factors;
-  for (int k = 0; k < setting.repetitions; ++k)
+  for (int k = 0; k < setting.repetitions; ++k) {
+    setting.step();
     factors.push_back(realtime_factor(setting, "localization/d6.yaml", static_cast<std::uint64_t>(k + 1)));
+  }
   rows.push_back(make_row("localize.realtime_factor", "x", factors, BenchLimit{limits.realtime_factor, false}));
   return rows;
 }

@@ -34,6 +34,7 @@ std::vector<BenchRow> bench_registration(const BenchSetting& setting) {
   std::vector<double> ours_ms, pcl_ms, faster;
   Pose ours, pcl;
   for (int k = 0; k < setting.repetitions; ++k) {
+    setting.step();
     const Registered a = register_ours(target, source);
     ours_ms.push_back(a.cpu_ms);
     ours = error(a.X_TS);

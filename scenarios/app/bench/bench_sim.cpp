@@ -100,6 +100,7 @@ std::vector<BenchRow> bench_sim(const BenchSetting& setting) {
   const std::string scenario = write_walk(folder, config);
   std::vector<double> physics, all, memory;
   for (int k = 1; k <= setting.repetitions; ++k) {
+    setting.step();
     const Factors factors = realtime_factors(scenario, static_cast<std::uint64_t>(k));
     physics.push_back(factors.physics);
     all.push_back(factors.all);

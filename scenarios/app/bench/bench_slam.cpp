@@ -64,6 +64,7 @@ double growth(const RunRecord& record, const std::string& stage) {
 std::vector<BenchRow> bench_slam(const BenchSetting& setting) {
   std::vector<double> odometry, planes, rooms, back_end, factor;
   for (int k = 0; k < setting.repetitions; ++k) {
+    setting.step();
     const RunRecord record = walk(setting, "quickstart.yaml", static_cast<std::uint64_t>(k + 1));
     odometry.push_back(mean(times_of(record, "odometry")) + mean(times_of(record, "deskew")));
     planes.push_back(mean(times_of(record, "plane_segmentation")));

@@ -103,9 +103,11 @@ std::vector<BenchRow> bench_stairs(const BenchSetting& setting) {
       if (pushed) conditions.pushes = {.min_n = config.push_min_n, .max_n = config.push_max_n, .on_stairs = true};
       const int seeds = pushed ? (setting.repetitions + 1) / 2 : setting.repetitions;
       std::vector<double> times;
-      for (int seed = 1; seed <= seeds; ++seed)
+      for (int seed = 1; seed <= seeds; ++seed) {
+        setting.step();
         if (const auto seconds = walk(building, way, config, conditions, static_cast<std::uint64_t>(seed)))
           times.push_back(*seconds);
+      }
       const std::string name = std::string("legs.stairs_") + c.name + (pushed ? "_pushed" : "");
       const auto failures = static_cast<double>(seeds) - static_cast<double>(times.size());
       const std::string of = "of " + std::to_string(seeds);

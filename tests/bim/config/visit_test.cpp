@@ -74,5 +74,26 @@ TEST(Visit, NamesEveryMistake) {
   EXPECT_EQ(error_of("name: x\nparts: 3\n"), "f.yaml:2:8: found '3' where a list is expected");
 }
 
+/// A file's version: a range of one number.
+struct Version {
+  int version = 1;
+  template <class V>
+  void visit(V& v) {
+    v("version", version, Field{.min = 1, .max = 1});
+  }
+};
+
+TEST(Visit, SaysPlainlyWhatMustBeOneNumber) {
+  EXPECT_EQ(input_error([] { (void)from_tree<Version>(read_yaml("version: 3", "f.yaml")); }),
+            "f.yaml:1:10: 'version': 3 is out of range; it must be 1");
+}
+
+TEST(Visit, NamesAnOptionOfTheCommandLineOnce) {
+  Tree count("x");
+  count.mark = {"--version", 0, 0};
+  EXPECT_EQ(input_error([&] { (void)from_tree<Version>(Tree::map().set("version", count)); }),
+            "--version: found 'x' where a whole number is expected");
+}
+
 }  // namespace
 }  // namespace plumbline

@@ -47,7 +47,7 @@ TEST(ReportDeviations, ShowWhereThingsWerePlannedAndWhereTheyStand) {
 TEST(ReportDeviations, AreNamedOnThePage) {
   const std::vector<ReportDeviation> some =
       report_deviations(site_of("  - {op: move_wall, wall: p, by: [0.5, 0]}\n"), 0);
-  EXPECT_NE(list_deviations(some).find("<li>move wall: p</li>"), std::string::npos);
+  EXPECT_NE(list_deviations(some).find("<li>move wall p: 0.5 m towards +x</li>"), std::string::npos);
   EXPECT_NE(draw_deviations(some).find("class=\"planned\""), std::string::npos);
   EXPECT_NE(draw_deviations(some).find("class=\"asbuilt\""), std::string::npos);
   EXPECT_TRUE(list_deviations({}).empty());

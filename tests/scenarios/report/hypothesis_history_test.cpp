@@ -75,6 +75,23 @@ TEST(Tracks, KeepTheTruePlaceAndThoseThatWereBelievedMost) {
   EXPECT_EQ(histories[1].points.front().y(), 0.4);
 }
 
+TEST(Tracks, TurnTrueAndFalseWithTheHypothesis) {
+  // It drifts off to the side in the second half, as on a stair that it does not see.
+  const score::Truth truth = walk(100);
+  const std::vector<BeliefRecord> beliefs = believed(truth, [](std::size_t i, const Pose& X_WR) {
+    const double off = i < 50 ? 0.0 : 0.05 * static_cast<double>(i - 50);
+    return std::vector{hypothesis(1.0, Pose::from_xyz_yaw({0.0, off, 0.0}, 0.0) * X_WR, "hall")};
+  });
+  const std::vector<HypothesisHistory> histories = hypothesis_histories(beliefs, truth, 6);
+  ASSERT_EQ(histories.size(), 2U);
+  EXPECT_TRUE(histories[0].is_true);
+  EXPECT_FALSE(histories[1].is_true);
+  EXPECT_EQ(histories[0].hypothesis, histories[1].hypothesis);
+  EXPECT_EQ(histories[0].points.back(), histories[1].points.front());  // one line in two colours
+  EXPECT_NEAR(histories[1].points.front().x(), 6.0, 0.11);             // 0.5 m off
+  EXPECT_EQ(histories[1].room, "hall");
+}
+
 TEST(Tracks, ALevelLineNeedsFewPointsAndLeavesNoGap) {
   const score::Truth truth = walk(100);
   std::vector<BeliefRecord> beliefs;

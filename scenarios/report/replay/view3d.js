@@ -1,0 +1,454 @@
+// SPDX-License-Identifier: Apache-2.0
+// The run in three dimensions. The only part that uses three.js; it is given a moment and draws it.
+"use strict";
+
+Plumb.View3d = class {
+  /** Throws where there is no WebGL. */
+  constructor(canvas, data, labels) {
+    THREE.ColorManagement.enabled = false; // colours of the page are those of the picture
+    this.data = data;
+    this.base = data.run.base * 1e-3; // of the robot's frame above the floor
+    this.labels = labels;
+    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: Plumb.testing === true });
+    this.renderer.outputColorSpace = THREE.LinearSRGBColorSpace;
+    this.camera = new THREE.PerspectiveCamera(45, 1, 0.1, 1000);
+    this.camera.up.set(0, 0, 1);
+    this.controls = new THREE.OrbitControls(this.camera, canvas);
+    this.controls.maxPolarAngle = 0.49 * Math.PI;
+    this.controls.screenSpacePanning = false;
+    this.controls.addEventListener("start", () => { this.placed = true; });
+    this.scene = new THREE.Scene();
+    this.groups = {};
+    for (const name of ["building", "scan", "paths", "robots", "particles", "hypotheses", "walls", "graph", "deviations", "selection"]) {
+      this.groups[name] = new THREE.Group();
+      this.scene.add(this.groups[name]);
+    }
+    this.cut = { value: 0 };
+    this.buildBuilding();
+    this.buildScan();
+    this.buildPaths();
+    this.buildDeviations();
+    this.home();
+  }
+
+  /** From the south and above, so that the building fits the narrow side. */
+  home(storey = 0) {
+    const box = this.box(), level = this.data.storeys[storey] ? this.data.storeys[storey].z : 0;
+    const cx = 0.5 * (box.min[0] + box.max[0]), cy = 0.5 * (box.min[1] + box.max[1]);
+    const corners = [box.min[0], box.max[0]].flatMap((x) => [box.min[1], box.max[1]].map((y) => new THREE.Vector3(x, y, level)));
+    this.controls.target.set(cx, cy, level);
+    for (let distance = 3; distance < 900; distance *= 1.05) {
+      this.camera.position.set(cx, cy - 0.5 * distance, level + 0.87 * distance);
+      this.camera.lookAt(cx, cy, level);
+      this.camera.updateMatrixWorld(true);
+      if (corners.every((p) => { const v = p.clone().project(this.camera); return Math.abs(v.x) < 0.97 && Math.abs(v.y) < 0.92 && v.z < 1; })) break;
+    }
+    this.controls.update();
+  }
+
+  box() {
+    const min = [1e9, 1e9], max = [-1e9, -1e9];
+    const add = (x, y) => {
+      min[0] = Math.min(min[0], x);
+      min[1] = Math.min(min[1], y);
+      max[0] = Math.max(max[0], x);
+      max[1] = Math.max(max[1], y);
+    };
+    for (const f of this.data.faces) {
+      add(f.p[0], f.p[1]);
+      add(f.q[0], f.q[1]);
+    }
+    if (this.data.faces.length === 0)
+      for (let i = 0; i < this.data.mesh.position.length; i += 3) add(this.data.mesh.position[i], this.data.mesh.position[i + 1]);
+    return { min, max };
+  }
+
+  /** Solids are closed: where they are cut, their back faces look like a filled section. */
+  buildBuilding() {
+    const geometry = new THREE.BufferGeometry();
+    geometry.setAttribute("position", new THREE.BufferAttribute(this.data.mesh.position, 3));
+    geometry.setIndex(new THREE.BufferAttribute(this.data.mesh.index, 1));
+    this.buildingMaterial = new THREE.ShaderMaterial({
+      side: THREE.DoubleSide,
+      uniforms: { cut: this.cut, floor: { value: 0 }, light: { value: 1 } },
+      vertexShader: "varying vec3 at; void main() { at = position; gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0); }",
+      fragmentShader: `
+        uniform float cut, floor, light;
+        varying vec3 at;
+        void main() {
+          if (at.z > cut) discard;
+          vec3 n = normalize(cross(dFdx(at), dFdy(at)));
+          float up = abs(n.z), side = 0.5 + 0.5 * abs(n.x * 0.8 + n.y * 0.35);
+          vec3 wall = mix(vec3(0.70, 0.74, 0.79), vec3(0.86, 0.88, 0.91), side);
+          vec3 ground = vec3(0.955, 0.96, 0.97);
+          vec3 c = mix(wall, ground, smoothstep(0.6, 0.9, up));
+          if (!gl_FrontFacing) c = vec3(0.22, 0.26, 0.31);
+          if (at.z < floor - 0.4) c = mix(c, vec3(0.9), 0.5);
+          gl_FragColor = vec4(mix(c * vec3(0.42, 0.45, 0.5), c, light), 1.0);
+        }`,
+    });
+    this.building = new THREE.Mesh(geometry, this.buildingMaterial);
+    this.building.frustumCulled = false;
+    this.groups.building.add(this.building);
+  }
+
+  pointsOf(most, size, lift) {
+    const geometry = new THREE.BufferGeometry();
+    geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(3 * most), 3));
+    geometry.setAttribute("colour", new THREE.BufferAttribute(new Uint8Array(3 * most), 3, true));
+    const material = new THREE.ShaderMaterial({
+      uniforms: { size: { value: size }, lift: { value: lift } },
+      vertexShader: `
+        attribute vec3 colour;
+        uniform float size, lift;
+        varying vec3 shown;
+        void main() {
+          shown = colour;
+          gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
+          gl_Position.z -= lift * gl_Position.w;
+          gl_PointSize = size;
+        }`,
+      fragmentShader: "varying vec3 shown; void main() { gl_FragColor = vec4(shown, 1.0); }",
+    });
+    const points = new THREE.Points(geometry, material);
+    points.frustumCulled = false;
+    return points;
+  }
+
+  setPoints(points, positions, colours, count) {
+    const { position, colour } = points.geometry.attributes;
+    position.array.set(positions.subarray(0, 3 * count));
+    colour.array.set(colours.subarray(0, 3 * count));
+    position.needsUpdate = colour.needsUpdate = true;
+    points.geometry.setDrawRange(0, count);
+  }
+
+  buildScan() {
+    this.scanPoints = this.pointsOf(this.data.scans.size, 3, 2e-4);
+    this.groups.scan.add(this.scanPoints);
+    this.particlePoints = this.pointsOf(2048, 4, 4e-4);
+    this.groups.particles.add(this.particlePoints);
+  }
+
+  flat(colour, opacity = 1) {
+    return new THREE.MeshBasicMaterial({ color: colour, side: THREE.DoubleSide, transparent: opacity < 1, opacity, depthWrite: opacity === 1 });
+  }
+
+  /** A mesh of quads, four corners each. */
+  quads(corners, material) {
+    const n = corners.length / 12, index = new Uint32Array(6 * n);
+    for (let i = 0; i < n; ++i) index.set([4 * i, 4 * i + 1, 4 * i + 2, 4 * i, 4 * i + 2, 4 * i + 3], 6 * i);
+    const geometry = new THREE.BufferGeometry();
+    geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(corners), 3));
+    geometry.setIndex(new THREE.BufferAttribute(index, 1));
+    const mesh = new THREE.Mesh(geometry, material);
+    mesh.frustumCulled = false;
+    return mesh;
+  }
+
+  /** Paths are ribbons a few cm above the floor; a piece is never drawn over a gap, a jump, or where the method is lost. */
+  buildPaths() {
+    this.paths = {};
+    const names = ["truth", ...this.data.run.methods.map((m) => m.name)];
+    names.forEach((name, k) => {
+      const track = this.data.tracks[name];
+      if (!track) return;
+      const corners = [], half = name === "truth" ? 0.035 : 0.03, lift = name === "truth" ? 0.06 : 0.05 - 0.002 * k;
+      const ends = []; // index of the pose at the end of each piece
+      for (let i = 1, from = 0; i < track.t.length; ++i) {
+        const dx = track.p[0][i] - track.p[0][from], dy = track.p[1][i] - track.p[1][from], d = Math.hypot(dx, dy);
+        if (track.t[i] - track.t[i - 1] > 1 || d > 1 || track.lost[i] > 0.5) {
+          from = i;
+          continue;
+        }
+        if (d < 0.05) continue;
+        const nx = (-dy / d) * half, ny = (dx / d) * half, z0 = track.p[2][from] - this.base + lift, z1 = track.p[2][i] - this.base + lift;
+        corners.push(track.p[0][from] + nx, track.p[1][from] + ny, z0, track.p[0][from] - nx, track.p[1][from] - ny, z0,
+          track.p[0][i] - nx, track.p[1][i] - ny, z1, track.p[0][i] + nx, track.p[1][i] + ny, z1);
+        ends.push(i);
+        from = i;
+      }
+      const method = this.data.run.methods.find((m) => m.name === name);
+      const mesh = this.quads(corners, this.flat(method ? method.colour : "#111111"));
+      this.paths[name] = { mesh, ends };
+      this.groups.paths.add(mesh);
+      const robot = this.robot(method ? method.colour : "#111111", name === "truth");
+      this.paths[name].robot = robot;
+      this.groups.robots.add(robot);
+    });
+  }
+
+  /** An arrow on the floor with a rim, 0.7 m long. */
+  robot(colour, isTruth) {
+    const group = new THREE.Group(), scale = isTruth ? 1.15 : 1;
+    const shape = (s, material) => {
+      const tip = [0.4 * s, 0, 0], left = [-0.26 * s, 0.24 * s, 0], right = [-0.26 * s, -0.24 * s, 0], tail = [-0.12 * s, 0, 0];
+      return this.quads([...tip, ...left, ...tail, ...right], material);
+    };
+    const rim = shape(1.35 * scale, this.flat("#ffffff"));
+    rim.position.z = -0.004;
+    group.add(rim, shape(scale, this.flat(colour)));
+    return group;
+  }
+
+  buildDeviations() {
+    for (const d of this.data.scene.deviations) {
+      const floor = this.data.storeys[d.s] ? this.data.storeys[d.s].z : 0;
+      for (const [outline, colour] of [[d.built, "#E8871E"], [d.planned, "#7A4A9E"]]) {
+        const corners = [];
+        for (let i = 0; i < outline.length; ++i) {
+          const a = outline[i].map((v) => v * 1e-3), b = outline[(i + 1) % outline.length].map((v) => v * 1e-3);
+          const z = floor + (colour === "#7A4A9E" ? 1.22 : 1.21);
+          const d2 = Math.hypot(b[0] - a[0], b[1] - a[1]) || 1, nx = (-(b[1] - a[1]) / d2) * 0.03, ny = ((b[0] - a[0]) / d2) * 0.03;
+          corners.push(a[0] + nx, a[1] + ny, z, a[0] - nx, a[1] - ny, z, b[0] - nx, b[1] - ny, z, b[0] + nx, b[1] + ny, z);
+        }
+        const mesh = this.quads(corners, this.flat(colour));
+        mesh.userData.storey = d.s;
+        this.groups.deviations.add(mesh);
+      }
+    }
+  }
+
+  clear(group) {
+    for (const child of [...group.children]) {
+      group.remove(child);
+      child.traverse((part) => {
+        if (part.geometry) part.geometry.dispose();
+        if (part.material) part.material.dispose();
+      });
+    }
+  }
+
+  /** Strips along faces, from z0 to z1, moved out by `out`. */
+  strip(faces, z0, z1, out) {
+    const corners = [];
+    for (const f of faces) {
+      const dx = f.q[0] - f.p[0], dy = f.q[1] - f.p[1], d = Math.hypot(dx, dy) || 1, nx = (-dy / d) * out, ny = (dx / d) * out;
+      const low = Math.max(f.z[0], z0), high = Math.min(f.z[1], z1);
+      corners.push(f.p[0] + nx, f.p[1] + ny, low, f.q[0] + nx, f.q[1] + ny, low, f.q[0] + nx, f.q[1] + ny, high, f.p[0] + nx, f.p[1] + ny, high);
+    }
+    return corners;
+  }
+
+  /** Right matches are whole strips, wrong ones are cut into short pieces, so that they differ without colour. */
+  drawWalls(moment) {
+    this.clear(this.groups.walls);
+    if (!moment.set) return;
+    const floor = moment.floor, byId = this.facesById();
+    const hypothesis = moment.set.hypotheses[0];
+    if (!hypothesis) return;
+    for (const right of [true, false]) {
+      const faces = hypothesis.walls.filter((w) => w.right === right).flatMap((w) => w.faces.map((id) => byId.get(id)).filter(Boolean));
+      let corners = this.strip(faces, floor + 0.05, floor + 1.19, 0.02);
+      if (!right) {
+        corners = [];
+        for (const f of faces) {
+          const length = Math.hypot(f.q[0] - f.p[0], f.q[1] - f.p[1]), n = Math.max(2, Math.round(length / 0.3));
+          for (let k = 0; k < n; k += 2) {
+            const at = (s) => [f.p[0] + (f.q[0] - f.p[0]) * s, f.p[1] + (f.q[1] - f.p[1]) * s];
+            corners.push(...this.strip([{ p: at(k / n), q: at((k + 1) / n), z: f.z }], floor + 0.05, floor + 1.19, 0.02));
+          }
+        }
+      }
+      if (corners.length) this.groups.walls.add(this.quads(corners, this.flat(right ? "#009E73" : "#D55E00", 0.75)));
+    }
+  }
+
+  facesById() {
+    if (!this.byId) this.byId = new Map(this.data.faces.map((f) => [f.id, f]));
+    return this.byId;
+  }
+
+  /** A bar of 3 m for the whole belief, an arrow and the 95 % ellipse, for each hypothesis. */
+  drawHypotheses(moment) {
+    this.clear(this.groups.hypotheses);
+    if (!moment.set) return;
+    const colour = moment.colour;
+    for (const h of moment.set.hypotheses) {
+      const group = new THREE.Group(), w = 0.07, top = 3 * h.share, bar = [];
+      for (const [a, b] of [[[-w, -w], [w, -w]], [[w, -w], [w, w]], [[w, w], [-w, w]], [[-w, w], [-w, -w]]])
+        bar.push(...a, 0, ...b, 0, ...b, top, ...a, top);
+      bar.push(-w, -w, top, w, -w, top, w, w, top, -w, w, top);
+      group.add(this.quads(bar, this.flat(colour, 0.85)));
+      const arrow = this.robot(colour, false);
+      arrow.rotation.z = h.yaw;
+      arrow.position.z = 0.03;
+      group.add(arrow, this.ellipse(h.cov, colour));
+      group.position.set(h.p[0], h.p[1], h.p[2] - this.base + 0.04);
+      this.groups.hypotheses.add(group);
+    }
+  }
+
+  ellipse([xx, xy, yy], colour) {
+    const half = 0.5 * (xx + yy), root = Math.sqrt(Math.max(0, 0.25 * (xx - yy) ** 2 + xy * xy)), angle = 0.5 * Math.atan2(2 * xy, xx - yy);
+    const a = Math.sqrt(5.991 * Math.max(0, half + root)), b = Math.sqrt(5.991 * Math.max(0, half - root)), corners = [];
+    const at = (k, grow) => {
+      const u = (2 * Math.PI * k) / 32, x = (a + grow) * Math.cos(u), y = (b + grow) * Math.sin(u);
+      return [x * Math.cos(angle) - y * Math.sin(angle), x * Math.sin(angle) + y * Math.cos(angle), 0.02];
+    };
+    for (let k = 0; k < 32; ++k) corners.push(...at(k, 0), ...at(k, 0.03), ...at(k + 1, 0.03), ...at(k + 1, 0));
+    return this.quads(corners, this.flat(colour));
+  }
+
+  drawParticles(moment) {
+    const list = moment.particles, points = this.particlePoints;
+    points.visible = !!list;
+    if (!list) return;
+    const n = Math.min(2048, list.length / 2), at = new Float32Array(3 * n), colours = new Uint8Array(3 * n);
+    const rgb = [1, 3, 5].map((k) => parseInt(moment.colour.slice(k, k + 2), 16));
+    for (let i = 0; i < n; ++i) {
+      at.set([list[2 * i] * 0.01, list[2 * i + 1] * 0.01, moment.floor + 0.1], 3 * i);
+      colours.set(rgb, 3 * i);
+    }
+    this.setPoints(points, at, colours, n);
+  }
+
+  /** Keyframes, walls, rooms and floors above the plan, each kind higher than the one before. */
+  drawGraph(moment) {
+    this.clear(this.groups.graph);
+    const graph = moment.graph;
+    if (!graph) return;
+    const lift = moment.lift, m = (p) => p.map((v) => v * 1e-3);
+    const heights = { keyframe: 2.0, wall: 3.6, room: 5.4, floor: 7.0 };
+    const at = {
+      keyframe: graph.keyframes.map((k) => { const p = m(k.slice(0, 3)); return [p[0], p[1], p[2] + heights.keyframe * lift]; }),
+      wall: [], room: [], floor: [],
+    };
+    for (const [id, p, q] of graph.walls) {
+      const a = m(p), b = m(q);
+      at.wall[id] = [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]), a[2] + heights.wall * lift];
+    }
+    for (const [id, p] of graph.rooms) { const a = m(p); at.room[id] = [a[0], a[1], a[2] + heights.room * lift]; }
+    for (const [id, p] of graph.floors) { const a = m(p); at.floor[id] = [a[0], a[1], a[2] + heights.floor * lift + 1]; }
+    const shown = graph.keyframes.map((k) => k[3] * 1e-3 <= moment.t + 1e-6);
+    const nodes = [], colours = [], sizes = { keyframe: [86, 180, 233], wall: [0, 114, 178], room: [204, 121, 167], floor: [230, 159, 0] };
+    for (const [kind, list] of Object.entries(at))
+      list.forEach((p, i) => {
+        if (!p || (kind === "keyframe" && !shown[i])) return;
+        nodes.push(...p);
+        colours.push(...sizes[kind]);
+      });
+    const points = this.pointsOf(nodes.length / 3, 8, 1e-4);
+    this.setPoints(points, new Float32Array(nodes), new Uint8Array(colours), nodes.length / 3);
+    this.groups.graph.add(points);
+    const walls = [];
+    for (const [, p, q] of graph.walls) {
+      const a = m(p), b = m(q), z = a[2] + heights.wall * lift;
+      walls.push(a[0], a[1], z - 0.35, b[0], b[1], z - 0.35, b[0], b[1], z + 0.35, a[0], a[1], z + 0.35);
+    }
+    this.groups.graph.add(this.quads(walls, this.flat("#0072B2", 0.35)));
+    const path = [];
+    for (let i = 1; i < at.keyframe.length; ++i) if (shown[i]) path.push(...at.keyframe[i - 1], ...at.keyframe[i]);
+    this.lines(path, "#56B4E9", 0.9);
+    const edges = [];
+    for (let i = 0; i < graph.keyframe_wall.length; i += 6) // one edge in three, or they would hide everything
+      if (shown[graph.keyframe_wall[i]]) this.edge(edges, at.keyframe[graph.keyframe_wall[i]], at.wall[graph.keyframe_wall[i + 1]]);
+    this.lines(edges, "#888888", 0.18);
+    const upper = [];
+    for (let i = 0; i < graph.room_wall.length; i += 2) this.edge(upper, at.room[graph.room_wall[i]], at.wall[graph.room_wall[i + 1]]);
+    for (let i = 0; i < graph.floor_room.length; i += 2) this.edge(upper, at.floor[graph.floor_room[i]], at.room[graph.floor_room[i + 1]]);
+    this.lines(upper, "#CC79A7", 0.8);
+  }
+
+  edge(list, a, b) { if (a && b) list.push(...a, ...b); }
+
+  lines(positions, colour, opacity) {
+    if (positions.length === 0) return;
+    const geometry = new THREE.BufferGeometry();
+    geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(positions), 3));
+    const line = new THREE.LineSegments(geometry, new THREE.LineBasicMaterial({ color: colour, transparent: true, opacity }));
+    line.frustumCulled = false;
+    this.groups.graph.add(line);
+  }
+
+  drawSelection(moment) {
+    this.clear(this.groups.selection);
+    if (!moment.selected || moment.selected.faces.length === 0) return;
+    this.groups.selection.add(this.quads(this.strip(moment.selected.faces, -1e9, moment.floor + 1.25, 0.035), this.flat("#F0E442", 0.85)));
+  }
+
+  /** Draws a moment: see app.js for what it holds. `changed`: what to build again. */
+  draw(moment, changed) {
+    this.cut.value = moment.floor + 1.2;
+    this.buildingMaterial.uniforms.floor.value = moment.floor;
+    this.buildingMaterial.uniforms.light.value = moment.dark ? 0 : 1;
+    this.renderer.setClearColor(moment.dark ? 0x14181e : 0xffffff, 1);
+    for (const [name, group] of Object.entries(this.groups)) group.visible = !moment.off.has(name);
+    if (changed && moment.cloud) this.setPoints(this.scanPoints, moment.cloud.points, moment.colours, moment.cloud.count);
+    this.scanPoints.visible = !!moment.cloud;
+    this.scanPoints.material.uniforms.size.value = this.pointSize;
+    for (const [name, path] of Object.entries(this.paths)) this.place(name, path, moment);
+    if (changed) {
+      this.drawParticles(moment);
+      this.drawHypotheses(moment);
+      this.drawWalls(moment);
+      this.drawGraph(moment);
+      this.drawSelection(moment);
+    }
+    for (const mesh of this.groups.deviations.children) mesh.visible = mesh.userData.storey === moment.storey;
+    this.renderer.render(this.scene, this.camera);
+    this.placeLabels(moment);
+  }
+
+  place(name, path, moment) {
+    const pose = moment.poses[name], hidden = moment.hidden.has(name);
+    path.robot.visible = !!pose && !hidden && !moment.off.has("robots");
+    path.mesh.visible = !hidden;
+    const i = moment.known[name];
+    let n = 0, hi = path.ends.length;
+    while (n < hi) {
+      const mid = (n + hi) >> 1;
+      if (path.ends[mid] <= i) n = mid + 1;
+      else hi = mid;
+    }
+    path.mesh.geometry.setDrawRange(0, 6 * n);
+    path.mesh.material.color.set(name === "truth" ? (moment.dark ? "#ffffff" : "#111111") : path.mesh.material.color);
+    if (!pose) return;
+    path.robot.position.set(pose.p[0], pose.p[1], pose.p[2] - this.base + (name === "truth" ? 0.12 : 0.09));
+    path.robot.rotation.z = Plumb.data.yawOf(pose.q);
+  }
+
+  get pointSize() { return 3 * this.renderer.getPixelRatio(); }
+
+  resize(width, height) {
+    this.renderer.setPixelRatio(Math.min(2, devicePixelRatio || 1));
+    this.renderer.setSize(width, height, false);
+    this.camera.aspect = width / height;
+    this.camera.updateProjectionMatrix();
+    this.size = [width, height];
+  }
+
+  /** Where a point of the scene is in the picture, px, or null behind the camera. */
+  project(p) {
+    const v = new THREE.Vector3(...p).project(this.camera);
+    if (v.z > 1 || Math.abs(v.x) > 1.2 || Math.abs(v.y) > 1.2) return null;
+    return [(0.5 + 0.5 * v.x) * this.size[0], (0.5 - 0.5 * v.y) * this.size[1]];
+  }
+
+  placeLabels(moment) { Plumb.placeLabels(this.labels, moment, (p) => this.project(p)); }
+
+  /** Id of the element under a place of the picture, or null. */
+  pick(x, y, moment) {
+    const ray = new THREE.Raycaster();
+    ray.setFromCamera(new THREE.Vector2((2 * x) / this.size[0] - 1, 1 - (2 * y) / this.size[1]), this.camera);
+    const cut = moment.floor + 1.2;
+    const hit = ray.intersectObject(this.building, false).find((h) => h.point.z <= cut + 1e-6);
+    if (!hit) return null;
+    const element = this.data.scene.elements.find((e) => hit.faceIndex >= e[3] && hit.faceIndex < e[3] + e[4]);
+    return element && element[1] !== "slab" ? element[0] : null;
+  }
+
+  camera6() {
+    const round = (v) => Math.round(100 * v) / 100;
+    return [...this.camera.position.toArray(), ...this.controls.target.toArray()].map(round);
+  }
+
+  setCamera6(values) {
+    this.placed = true;
+    this.camera.position.set(values[0], values[1], values[2]);
+    this.controls.target.set(values[3], values[4], values[5]);
+    this.controls.update();
+  }
+
+  onMove(callback) { this.controls.addEventListener("change", callback); }
+};

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenarios/score/moment.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+#include "bim/config/tree.h"
+namespace plumbline::scenarios::score {
+
+namespace {
+
+/// The scan of the greatest error among those that the method does not disclaim.
+std::optional<double> worst_moment(const MethodRecord& method, const Truth& truth) {
+  const std::vector<PosePair> pairs = associate(truth, method.causal, {});
+  if (pairs.empty()) return std::nullopt;
+  const Pose X_WF = method.localization ? Pose() : umeyama(pairs);
+  double worst = -1.0;
+  std::optional<double> at_s;
+  for (const PosePair& pair : pairs) {
+    const slam::Nanoseconds stamp = truth.scans[pair.scan];
+    const double error = (X_WF * pair.X_FR.t - pair.X_WR.t).norm();
+    if (error <= worst || (at_s && said_lost(method, stamp))) continue;
+    worst = error;
+    at_s = slam::seconds(stamp);
+  }
+  return at_s;
+}
+
+/// "m=" takes what a link may hold: letters, digits, "_", "." and "-"; the rest as %XX.
+std::string in_link(const std::string& text) {
+  constexpr std::string_view digits = "0123456789ABCDEF";
+  std::string out;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool plain =
+        (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '.' || c == '-';
+    if (plain)
+      out += c;
+    else
+      out += {'%', digits[byte >> 4U], digits[byte & 15U]};
+  }
+  return out;
+}
+
+}  // namespace
+
+std::optional<double> telling_moment(const FinishedRun& run, const RunScore& score, const std::string& method) {
+  const std::vector<MethodRecord>& records = run.record.methods;
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    if (records[i].name != method) continue;
+    const std::optional<LocalizationScore>& where = score.methods[i].localization;
+    if (where && where->failure_at_s) return where->failure_at_s;
+    if (!records[i].lost.empty()) return slam::seconds(records[i].lost.front().from);
+    for (const BeliefRecord& belief : records[i].beliefs)
+      if (belief.state == slam::State::lost) return slam::seconds(belief.stamp);
+    return worst_moment(records[i], score.truth);
+  }
+  return std::nullopt;
+}
+
+std::string moment_link(const FinishedRun& run, const RunScore& score, const std::string& method) {
+  const double at_s = telling_moment(run, score, method).value_or(score.duration_s);
+  return "#t=" + format_number(std::round(10.0 * at_s) / 10.0) + "&m=" + in_link(method);
+}
+
+}  // namespace plumbline::scenarios::score

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "scenarios/score/score_run.h"
+
+namespace plumbline::scenarios::score {
+
+/// When a method's run is worth a look: where a localization failed, first gave a wrong answer or lost its own; where a
+/// method first said that it is lost; else where its error is greatest. On the run's clock, s; absent without a pose.
+[[nodiscard]] std::optional<double> telling_moment(const FinishedRun& run, const RunScore& score,
+                                                   const std::string& method);
+
+/// "#t=34.1&m=vgicp" of the replay page, at that moment.
+[[nodiscard]] std::string moment_link(const FinishedRun& run, const RunScore& score, const std::string& method);
+
+}  // namespace plumbline::scenarios::score

@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: Apache-2.0
+// The replay page in a real browser: node replay_test.mjs RUN NAME, of a run with its recording whose scenario has that name.
+// Prints a line a check; exit code 1 when one fails.
+import { readFileSync, writeFileSync } from "node:fs";
+import { createHash } from "node:crypto";
+import { join, resolve } from "node:path";
+import { pathToFileURL } from "node:url";
+import { Browser } from "./browser.mjs";
+
+const [run, name] = [resolve(process.argv[2]), process.argv[3]];
+const page_file = join(run, "replay.html"), url = pathToFileURL(page_file).href;
+const results = JSON.parse(readFileSync(join(run, "results.json")));
+let failures = 0;
+function check(what, passed, seen) {
+  console.log((passed ? "passed: " : "FAILED: ") + what + (passed ? "" : "; seen: " + JSON.stringify(seen)));
+  if (!passed) ++failures;
+}
+const equal = (what, seen, expected) => check(what + " is " + JSON.stringify(expected), JSON.stringify(seen) === JSON.stringify(expected), seen);
+
+/** Poses of a TUM file: [t, x, y, z] a line. */
+const tum = (file) => readFileSync(join(run, file), "utf8").trim().split("\n").map((line) => line.split(" ").map(Number));
+
+/** Distances in mm of message i of the recording, column by column, from its packets alone. */
+function message(i) {
+  const bytes = readFileSync(join(run, "recording/lidar.pcap")), packets = 76, columns = [];
+  const rings = [0, 8, 1, 9, 2, 10, 3, 11, 4, 12, 5, 13, 6, 14, 7, 15]; // of a VLP-16's lasers, in firing order
+  let at = 24, n = 0;
+  while (at < bytes.length) {
+    const size = bytes.readUInt32LE(at + 8), payload = at + 16 + size - 1206;
+    at += 16 + size;
+    if (size < 1206 || Math.floor(n++ / packets) !== i) continue;
+    for (let block = 0; block < 12; ++block)
+      for (let half = 0; half < 2; ++half) {
+        const column = new Array(16);
+        for (let k = 0; k < 16; ++k) column[rings[k]] = 2 * bytes.readUInt16LE(payload + 100 * block + 4 + 48 * half + 3 * k);
+        columns.push(column);
+      }
+  }
+  return columns;
+}
+
+/** Colours of the picture: how many, share of the commonest, and a hash. */
+const picture = `(() => {
+  const c = document.getElementById("view"), d = document.createElement("canvas");
+  d.width = c.width; d.height = c.height;
+  const g = d.getContext("2d", { willReadFrequently: true });
+  g.drawImage(c, 0, 0);
+  const p = new Uint32Array(g.getImageData(0, 0, d.width, d.height).data.buffer), counts = new Map();
+  let hash = 0;
+  for (const v of p) { counts.set(v, (counts.get(v) || 0) + 1); hash = (Math.imul(hash, 31) + v) | 0; }
+  return { colours: counts.size, most: Math.max(...counts.values()) / p.length, hash };
+})()`;
+const ready = 'document.body.dataset.ready === "1" || document.body.dataset.error';
+const testing = "globalThis.Plumb = { testing: true };";
+
+async function whole(browser) {
+  const page = await browser.page(1100, 760, { before: testing });
+  await page.open(url);
+  await page.until(ready);
+  const first_ms = performance.now() - page.opened;
+  check("the first picture comes within 5 s of loaded software drawing", first_ms < 5000, first_ms);
+  equal("error of the page", await page.get("document.body.dataset.error || ''"), "");
+  equal("heading", await page.get("document.querySelector('h1').textContent"), name);
+  equal("title", await page.get("document.title"), name + " · replay");
+  check("a hostile name makes no element", await page.get("document.querySelectorAll('b, img').length === 0"), "b or img");
+  equal("the view", await page.get("document.body.dataset.view"), "3d");
+  equal("requests", page.requests.length, 1);
+  equal("fetching is forbidden", await page.get("fetch('https://example.org').then(() => 'went', () => 'forbidden')"), "forbidden");
+
+  // Time: a link, and the error as the trajectories say.
+  const truth = tum("truth.tum"), loc = tum("s_graph_localization.tum"), end = results.duration_s, last = loc[loc.length - 1];
+  await page.get(`Plumb.app.seek(${last[0] + 0.001})`);
+  equal("data-t at the last pose", +(await page.get("document.body.dataset.t")), Math.min(+end.toFixed(3), +(last[0] + 0.001).toFixed(3)));
+  const at = truth.reduce((a, b) => (Math.abs(b[0] - last[0]) < Math.abs(a[0] - last[0]) ? b : a));
+  const off_cm = 100 * Math.hypot(last[1] - at[1], last[2] - at[2], last[3] - at[3]);
+  const shown = parseFloat(await page.get("document.querySelector('[data-now=s_graph_localization]').textContent"));
+  check("the error shown is that of the trajectories, to 0.1 cm", Math.abs(shown - off_cm) <= 0.1, [shown, off_cm]);
+  const lines = readFileSync(join(run, "s_graph_localization.hypotheses.jsonl"), "utf8").trim().split("\n").map((line) => JSON.parse(line));
+  for (const line of [lines[0], lines[lines.length >> 1], lines[lines.length - 1]]) {
+    await page.get(`Plumb.app.choose("s_graph_localization"); Plumb.app.seek(${line.stamp_ns * 1e-9})`);
+    equal("state at " + (line.stamp_ns * 1e-9).toFixed(2) + " s", await page.get("document.body.dataset.state"), line.state);
+  }
+
+  // Scans: the ranges of the packets, and points that lie on the plan at the true pose only.
+  const count = await page.get("Plumb.app.data.scans.count");
+  check("there are scans", count > 10, count);
+  let worst = 0, compared = 0;
+  for (let k = 0; k < 20; ++k) {
+    const i = Math.floor((k * (count - 1)) / 19);
+    const [t, ranges] = await page.get(`Plumb.app.data.scans.ranges(${i}).then((r) => [Plumb.app.data.scans.t[${i}], [...r]])`);
+    const sent = message(lines.findIndex((line) => Math.abs(line.stamp_ns * 1e-9 - t) < 0.002)), columns = ranges.length / 16;
+    ranges.forEach((range, k2) => {
+      const mm = sent[4 * (k2 % columns)]?.[Math.floor(k2 / columns)] ?? 0;
+      worst = Math.max(worst, Math.abs(10 * range - mm));
+      ++compared;
+    });
+  }
+  check("ranges are those of the packets to half a centimetre", worst <= 5 && compared > 1000, [worst, compared]);
+  const residual = (move) => page.get(`(async () => {
+    const app = Plumb.app, i = app.data.scans.nearest(${end / 2}), ranges = await app.data.scans.ranges(i);
+    const poses = Plumb.data.sweepPoses(app.data.tracks.truth, app.data.scans.t[i], app.data.scans.span);
+    for (const pose of poses) pose.p = [pose.p[0] + ${move}, pose.p[1] + ${move}, pose.p[2]];
+    const cloud = app.data.scans.points(i, ranges, ...poses);
+    return Plumb.median(app.residuals.of(cloud.points, cloud.count));
+  })()`);
+  const near = await residual(0), far = await residual(1);
+  check("the scan lies on the plan at the true pose, median at most 3 cm", near <= 0.03, near);
+  check("and does not a metre beside it, three times as far", far > 3 * near && far > 0.05, far);
+
+  // Picture: it shows something, the same thing again, and something else without the scan.
+  await page.get(`Plumb.app.seek(${end / 2})`);
+  const a = await page.get(picture);
+  check("the picture has more than 500 colours", a.colours > 500, a);
+  check("the commonest colour covers 10 to 90 % of it", a.most > 0.1 && a.most < 0.9, a);
+  await page.get("Plumb.app.seek(1)");
+  const b = await page.get(picture);
+  check("another time looks otherwise", a.hash !== b.hash, b.hash);
+  await page.get(`Plumb.app.seek(${end / 2})`);
+  equal("the same time looks the same", (await page.get(picture)).hash, a.hash);
+  await page.get("Plumb.app.layer('scan', false)");
+  check("the scan is seen", (await page.get(picture)).hash !== a.hash, "the same picture without it");
+  await page.get("Plumb.app.layer('scan', true)");
+
+  // A wall.
+  const wall = await page.get("Plumb.app.data.faces[0].wall");
+  await page.get(`Plumb.app.select(${JSON.stringify(wall)})`);
+  check("a chosen wall is named with its distance", /wall .*points within|no point within/s.test(await page.get("document.getElementById('about').innerText")), wall);
+  await page.get("Plumb.app.select('no such <i>')");
+  check("an unknown id gives a sentence", (await page.get("document.getElementById('about').textContent")).includes("'no such <i>' is no element"), "");
+  await page.get("Plumb.app.select('')");
+
+  // Keys, links, the command.
+  await page.get("document.getElementById('view').focus()");
+  await page.key("Home");
+  await page.until("document.body.dataset.t === '0.000'", 5);
+  await page.key("ArrowRight");
+  await page.until("document.body.dataset.scan === '1'", 5);
+  await page.until("location.hash.includes('t=')", 5);
+  check("the address says the time", /#t=\d/.test(await page.get("location.hash")), await page.get("location.hash"));
+  const command = await page.get("document.getElementById('command').textContent");
+  check("the command replays this folder", command.startsWith("plumbline replay ") && command.includes(run.split("/").pop()), command);
+
+  // How long a seek takes: the data alone, and with the picture, behind a read of one pixel.
+  const times = await page.get(`(async () => {
+    const app = Plumb.app, all = [], data = [], canvas = document.getElementById("view"), gl = canvas.getContext("webgl2"), pixel = new Uint8Array(4);
+    let seed = 12345;
+    for (let k = 0; k < 40; ++k) {
+      seed = (Math.imul(seed, 1103515245) + 12345) >>> 0;
+      const t = (seed / 2 ** 32) * app.data.end;
+      app.data.scans.cache.clear();
+      let begin = performance.now();
+      await app.cloudAt(t);
+      data.push(performance.now() - begin);
+      app.data.scans.cache.clear();
+      begin = performance.now();
+      await app.seek(t);
+      gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
+      all.push(performance.now() - begin);
+    }
+    return { all: Plumb.median(all), data: Plumb.median(data) };
+  })()`);
+  console.log("seek: median " + times.all.toFixed(0) + " ms, of it data " + times.data.toFixed(1) + " ms; first picture " + first_ms.toFixed(0) + " ms");
+  check("a seek takes at most a second on a loaded machine", times.all < 1000, times);
+  equal("errors on the console", page.errors.filter((text) => !text.includes("example.org")), []);
+}
+
+async function linked(browser) {
+  const page = await browser.page(1100, 760);
+  await page.open(url + "#t=3.21&m=vgicp&c=residual&off=graph,particles,nonsense&sel=north&unknown=1");
+  await page.until(ready);
+  equal("time of a link", await page.get("document.body.dataset.t"), "3.210");
+  equal("method of a link", await page.get("Plumb.app.m"), "vgicp");
+  equal("colour of a link", await page.get("document.getElementById('colouring').value"), "residual");
+  equal("layers of a link", await page.get("[...Plumb.app.off].sort().join()"), "graph,particles");
+  equal("wall of a link", await page.get("document.body.dataset.selected"), "north");
+  await page.get("location.hash = '#t=9999'");
+  await page.until("+document.body.dataset.t > 5", 5);
+  equal("a time beyond the end is the end", await page.get("+document.body.dataset.t"), await page.get("Plumb.app.data.end"));
+  equal("errors on the console", page.errors, []);
+}
+
+async function narrow(browser) {
+  const page = await browser.page(390, 844, { mobile: true, dark: true, before: testing });
+  await page.open(url);
+  await page.until(ready);
+  const widths = await page.get("[document.documentElement.scrollWidth, innerWidth]");
+  check("390 px need no scrolling sideways", widths[0] <= widths[1], widths);
+  const small = await page.get("[...document.querySelectorAll('#bar button, #copy')].map((b) => b.getBoundingClientRect().height).filter((h) => h < 44).length");
+  equal("buttons lower than 44 px", small, 0);
+  check("dark is dark", (await page.get("getComputedStyle(document.body).backgroundColor")) === "rgb(20, 24, 30)", "");
+  check("the phone's picture shows something", (await page.get(picture)).colours > 200, "");
+}
+
+async function without(browser) {
+  const flat = await browser.page(900, 700, { before: testing });
+  await flat.open(url);
+  await flat.until(ready);
+  equal("without WebGL the view", await flat.get("document.body.dataset.view"), "2d");
+  equal("error of the page", await flat.get("document.body.dataset.error || ''"), "");
+  await flat.get(`Plumb.app.seek(${results.duration_s / 2})`);
+  check("the plan from above shows something", (await flat.get(picture)).colours > 20, "");
+  equal("errors on the console", flat.errors.filter((text) => !/webgl/i.test(text)), []);
+}
+
+async function damaged(browser) {
+  const old = await browser.page(900, 700, { before: "delete globalThis.DecompressionStream;" });
+  await old.open(url);
+  await old.until(ready);
+  check("a browser that cannot unpack says so", (await old.get("document.body.innerText")).includes("cannot unpack"), "");
+  const cut = join(run, "cut.html"), text = readFileSync(page_file, "utf8");
+  writeFileSync(cut, text.replace(/(id="tracks">.{40}).*?</, "$1<"));
+  const page = await browser.page(900, 700);
+  await page.open(pathToFileURL(cut).href);
+  await page.until(ready);
+  check("a damaged block is named", (await page.get("document.body.innerText")).includes("'tracks'"), await page.get("document.body.innerText"));
+}
+
+/** The same canvas in two browsers. */
+async function hashOf() {
+  const browser = await Browser.start();
+  try {
+    const page = await browser.page(700, 500, { before: testing });
+    await page.open(url + "#t=4");
+    await page.until(ready);
+    return createHash("sha256").update(await page.get("document.getElementById('view').toDataURL()")).digest("hex");
+  } finally {
+    await browser.close();
+  }
+}
+
+for (const [flags, parts] of [[[], [whole, linked, narrow, damaged]], [["--disable-3d-apis"], [without]]]) {
+  const browser = await Browser.start(flags);
+  try {
+    for (const part of parts) await part(browser);
+  } catch (error) {
+    check(error.stack, false, "an exception");
+  } finally {
+    await browser.close();
+  }
+}
+equal("the picture of another browser", await hashOf(), await hashOf());
+console.log(failures ? failures + " checks failed" : "all checks passed");
+process.exit(failures ? 1 : 0);
