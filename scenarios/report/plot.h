@@ -13,7 +13,7 @@ struct PlotFrame {
   double width = 1200.0;
   double height = 240.0;
   double x0 = 64.0;
-  double x1 = 1060.0;
+  double x1 = 1012.0;
   double y0 = 10.0;
   double y1 = 214.0;
 };

@@ -102,7 +102,7 @@ class Page {
   }
 
   /** Waits until the expression is true. */
-  async until(expression, seconds = 30) {
+  async until(expression, seconds = 120) {
     const end = performance.now() + 1000 * seconds;
     while (!(await this.get(expression).catch(() => false))) {
       if (performance.now() > end) throw new Error("after " + seconds + " s still not: " + expression);

@@ -9,7 +9,7 @@ const [file, ...link] = page_and_link.split("#");
 const browser = await Browser.start();
 const page = await browser.page(+width, +height, { dark: dark === "dark" });
 await page.open(pathToFileURL(resolve(file)).href + (link.length ? "#" + link.join("#") : ""));
-await page.until("document.readyState === 'complete' && (!document.getElementById('app') || document.body.dataset.ready || document.body.dataset.error)", 60);
+await page.until("document.readyState === 'complete' && (!document.getElementById('app') || document.body.dataset.ready || document.body.dataset.error)", 300);
 await new Promise((done) => setTimeout(done, 300));
 await page.picture(out);
 const error = (await page.get("document.body.dataset.error || ''")) || page.errors.join("; ");

@@ -25,10 +25,10 @@ class ReplayPage : public ::testing::Test {
     if (!available()) return;
     folder_ = new Folder();
     const std::string plan = read_file(project_file("tests/system/short.plan.yaml"));
-    write_file(*folder_ / "short.plan.yaml", replaced(plan, "hall", "'h</script><img src=x>'"));
+    write_file(*folder_ / "short.plan.yaml", replaced(plan, "id: hall,", "id: 'h<img src=x onerror=y>',"));
     std::string scenario = read_file(project_file("tests/system/short.yaml"));
     scenario =
-        replaced(replaced(scenario, "name: short", "name: '" + hostile + "'"), "hall", "'h</script><img src=x>'");
+        replaced(replaced(scenario, "name: short", "name: '" + hostile + "'"), "[hall,", "['h<img src=x onerror=y>',");
     write_file(*folder_ / "hostile.yaml", replaced(scenario, "max: 0.25", "max: 0.0001"));
     outcome_ = new Outcome(plumbline({"run", *folder_ / "hostile.yaml", "--out", dir(), "--threads", "2", "--record"}));
   }

@@ -363,7 +363,7 @@ Plumb.App = class {
     this.clock.textContent = this.t.toFixed(2) + " s";
     for (const cell of document.querySelectorAll("[data-now]")) {
       const pose = moment.poses[cell.dataset.now];
-      cell.textContent = cell.dataset.now === "truth" ? "" : !pose ? "no answer" : pose.lost ? "says LOST" : (100 * pose.e).toFixed(1) + " cm off";
+      cell.textContent = cell.dataset.now === "truth" ? "" : !pose ? "no answer" : pose.lost ? "says LOST" : (pose.e < 1 ? (100 * pose.e).toFixed(1) + " cm" : pose.e.toFixed(2) + " m") + " off";
     }
     const parts = [];
     const scans = this.data.scans;

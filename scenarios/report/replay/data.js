@@ -36,12 +36,14 @@ Plumb.data = (() => {
     return out;
   }
 
+  const half_ms = 6e-4; // times are whole ms
+
   /** Index of the last value <= t, or -1. */
   function lastAt(times, t) {
     let lo = 0, hi = times.length;
     while (lo < hi) {
       const mid = (lo + hi) >> 1;
-      if (times[mid] <= t + 1e-9) lo = mid + 1;
+      if (times[mid] <= t + half_ms) lo = mid + 1;
       else hi = mid;
     }
     return lo - 1;

@@ -165,7 +165,7 @@ Plumb.Timeline = class {
     const g = this.store.getContext("2d"), ends = [];
     g.font = "11px system-ui, sans-serif";
     return this.data.run.marks.filter((m) => m.m === "" || !this.hidden.has(m.m)).map((mark) => {
-      let label = mark.label + (mark.m !== "" && this.data.run.methods.length > 2 && !this.narrow ? " (" + mark.m + ")" : "");
+      let label = mark.label + (mark.m !== "" && this.data.run.methods.length > 1 && !this.narrow ? " (" + mark.m + ")" : "");
       const x = this.x(mark.t), room = Math.max(this.x1 - x, x - 4) - 10;
       if (g.measureText(label).width > room) {
         while (label.length > 4 && g.measureText(label + "…").width > room) label = label.slice(0, -1);

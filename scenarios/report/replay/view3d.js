@@ -219,10 +219,25 @@ Plumb.View3d = class {
     }
   }
 
+  /** A face without its doors, as faces. */
+  solid(f) {
+    const length = Math.hypot(f.q[0] - f.p[0], f.q[1] - f.p[1]) || 1, parts = [];
+    const at = (s) => [f.p[0] + ((f.q[0] - f.p[0]) * s) / length, f.p[1] + ((f.q[1] - f.p[1]) * s) / length];
+    let s = 0;
+    const add = (to) => { if (to > s + 0.01) parts.push({ p: at(s), q: at(to), z: f.z }); };
+    for (const hole of [...(f.holes || [])].sort((a, b) => a[0] - b[0])) {
+      if (hole[2] > f.z[0] + 0.3) continue; // a window has wall below
+      add(hole[0]);
+      s = Math.max(s, hole[1]);
+    }
+    add(length);
+    return parts;
+  }
+
   /** Strips along faces, from z0 to z1, moved out by `out`. */
   strip(faces, z0, z1, out) {
     const corners = [];
-    for (const f of faces) {
+    for (const f of faces.flatMap((face) => this.solid(face))) {
       const dx = f.q[0] - f.p[0], dy = f.q[1] - f.p[1], d = Math.hypot(dx, dy) || 1, nx = (-dy / d) * out, ny = (dx / d) * out;
       const low = Math.max(f.z[0], z0), high = Math.min(f.z[1], z1);
       corners.push(f.p[0] + nx, f.p[1] + ny, low, f.q[0] + nx, f.q[1] + ny, low, f.q[0] + nx, f.q[1] + ny, high, f.p[0] + nx, f.p[1] + ny, high);
