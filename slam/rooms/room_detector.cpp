@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <optional>
 
 #include "slam/graph/graph.h"
@@ -240,17 +241,21 @@ bool better(const RoomCandidate& a, const RoomCandidate& b) {
   return a.fill > b.fill;
 }
 
-/// Of two overlapping rooms keeps the better one (ties: the earlier).
+/// Of overlapping rooms keeps the better one (ties: the earlier). One that gives way drops none in turn.
 void drop_overlapping(std::vector<RoomCandidate>& rooms, double max_overlap) {
-  std::vector<bool> dropped(rooms.size(), false);
-  for (std::size_t i = 0; i < rooms.size(); ++i)
-    for (std::size_t j = i + 1; j < rooms.size(); ++j)
-      if (overlap_of(rooms[i].polygon_M, rooms[j].polygon_M) > max_overlap)
-        dropped[better(rooms[j], rooms[i]) ? i : j] = true;
-  std::vector<RoomCandidate> kept;
-  for (std::size_t i = 0; i < rooms.size(); ++i)
-    if (!dropped[i]) kept.push_back(std::move(rooms[i]));
-  rooms = std::move(kept);
+  std::vector<std::size_t> order(rooms.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t i, std::size_t j) { return better(rooms[i], rooms[j]); });
+  std::vector<std::size_t> kept;
+  for (const std::size_t i : order)
+    if (std::none_of(kept.begin(), kept.end(),
+                     [&](std::size_t k) { return overlap_of(rooms[i].polygon_M, rooms[k].polygon_M) > max_overlap; }))
+      kept.push_back(i);
+  std::sort(kept.begin(), kept.end());
+  std::vector<RoomCandidate> left;
+  for (const std::size_t i : kept) left.push_back(std::move(rooms[i]));
+  rooms = std::move(left);
 }
 
 /// Direction of a two-wall room's walls: the sides of its polygon that lie on them are those along which both rooms are
