@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "bim/geometry/interval.h"
+
 namespace plumbline::bim {
 
 namespace {
@@ -29,6 +31,22 @@ Polygon2 convex_hull(Polygon2 points) {
   for (auto p = points.rbegin() + 1; p != points.rend(); ++p) add(*p, base);
   hull.pop_back();
   return hull;
+}
+
+ThinRectangle thinnest_rectangle(const Polygon2& hull) {
+  ThinRectangle best;
+  for (std::size_t i = 0; hull.size() >= 3 && i < hull.size(); ++i) {
+    const Eigen::Vector2d e = (hull[(i + 1) % hull.size()] - hull[i]).normalized(), left(-e.y(), e.x());
+    Interval along, across;
+    for (const Eigen::Vector2d& p : hull) {
+      along.add(p.dot(e));
+      across.add(p.dot(left));
+    }
+    if (i > 0 && across.length() >= best.width_m) continue;
+    const Eigen::Vector2d middle = 0.5 * (across.low + across.high) * left;
+    best = {along.low * e + middle, along.high * e + middle, across.length()};
+  }
+  return best;
 }
 
 }  // namespace plumbline::bim

@@ -5,8 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bim/geometry/interval.h"
 #include "bim/geometry/polygon_boolean.h"
 #include "bim/model/boxes.h"
+#include "bim/model/floors.h"
+#include "bim/model/hull.h"
 #include "bim/model/rooms.h"
 #include "bim/model/wall_face.h"
 
@@ -53,6 +56,61 @@ std::vector<Wall> walls_near(const Polygon2& outline, const std::vector<Wall>& w
   return near;
 }
 
+/// Curtain panels, plates and mullions that cross the slice, as walls: they close rooms as walls do. Their ends are
+/// stretched over the joints between them.
+void add_fronts(const Building& building, double slice_m, double joint_m, std::vector<Wall>& walls) {
+  constexpr double most_thickness_m = 0.6;
+  for (const Obstacle& obstacle : building.obstacles) {
+    const std::string& kind = obstacle.kind;
+    if (kind != "curtain_panel" && kind != "mullion" && kind != "curtain_wall" && kind != "plate") continue;
+    Polygon2 corners;
+    Interval height;
+    for (const Eigen::Vector3d& p : obstacle.body.vertices) {
+      corners.push_back(p.head<2>());
+      height.add(p.z());
+    }
+    if (height.low > slice_m || height.high < slice_m) continue;
+    const ThinRectangle rectangle = thinnest_rectangle(convex_hull(std::move(corners)));
+    if (rectangle.width_m <= 0.0 || rectangle.width_m > most_thickness_m) continue;
+    Wall wall;
+    const Eigen::Vector2d e = (rectangle.b - rectangle.a).normalized() * joint_m;
+    wall.a = rectangle.a - e;
+    wall.b = rectangle.b + e;
+    wall.thickness_m = rectangle.width_m;
+    wall.offset_m = -0.5 * rectangle.width_m;
+    wall.z0_m = height.low;
+    wall.z1_m = height.high;
+    walls.push_back(std::move(wall));
+  }
+}
+
+/// The level floor that most of an outline lies on, of equal ones the lowest; the storey's elevation without one.
+double floor_of(const Polygon2& outline, const std::vector<FloorPiece>& pieces, const Storey& level) {
+  constexpr int across = 7;
+  constexpr double least_share = 0.5, headroom_m = 1.8;
+  const Eigen::AlignedBox2d box = box_of(outline);
+  double best_z = level.elevation_m;
+  int best = 0, inside = 0;
+  std::vector<Eigen::Vector2d> points;
+  for (int i = 0; i < across * across; ++i) {
+    const Eigen::Array2d share((i % across + 0.5) / across, (i / across + 0.5) / across);
+    const Eigen::Vector2d p = box.min() + (share * box.sizes().array()).matrix();
+    if (!contains(outline, p)) continue;
+    points.push_back(p);
+    ++inside;
+  }
+  for (const FloorPiece& piece : pieces) {
+    const bool level_piece = piece.slope.isZero(0.0) && piece.z0_m < level.elevation_m + level.height_m - headroom_m;
+    if (!level_piece || !box.intersects(box_of(piece.polygon.outer))) continue;
+    const auto on = static_cast<int>(
+        std::count_if(points.begin(), points.end(), [&](const auto& p) { return contains(piece.polygon, p); }));
+    if (on <= best || on < least_share * inside) continue;
+    best = on;
+    best_z = piece.z0_m;
+  }
+  return best_z;
+}
+
 }  // namespace
 
 std::vector<Room> infer_rooms(const Building& building, int storey, const RoomInferenceConfig& config) {
@@ -62,6 +120,9 @@ std::vector<Room> infer_rooms(const Building& building, int storey, const RoomIn
   std::vector<Wall> walls;
   for (const Wall& wall : building.walls)
     if (wall.z0_m <= slice_m && wall.z1_m >= slice_m) walls.push_back(wall);
+  add_fronts(building, slice_m, config.closing_m, walls);
+  std::vector<FloorPiece> floors = floor_pieces(building);
+  std::erase_if(floors, [&](const FloorPiece& piece) { return piece.storey != storey; });
   std::vector<Polygon2> footprints;
   for (const Wall& wall : walls) footprints.push_back(footprint(grown(wall, config.closing_m)));
   std::vector<Room> rooms;
@@ -77,7 +138,7 @@ std::vector<Room> infer_rooms(const Building& building, int storey, const RoomIn
       room.name = "room " + std::to_string(rooms.size() + 1);
       room.storey = storey;
       room.polygon = outlines.front();
-      room.z0_m = level.elevation_m;
+      room.z0_m = floor_of(room.polygon, floors, level);
       room.z1_m = level.elevation_m + level.height_m;
       rooms.push_back(std::move(room));
     }

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bim/config/tree.h"
@@ -13,8 +15,10 @@
 #include "bim/formats/plan_yaml/plan_write.h"
 #include "bim/formats/plan_yaml/plan_yaml.h"
 #include "bim/furniture/furnish.h"
+#include "bim/generators/faults.h"
 #include "bim/generators/generators.h"
 #include "bim/load/load.h"
+#include "bim/random/stream.h"
 #include "scenarios/app/commands.h"
 #include "scenarios/host/files.h"
 #include "scenarios/host/terminal.h"
@@ -36,7 +40,10 @@ struct GenerateOptions {
   std::map<std::string, std::string> values;  ///< by "family key", as written
   bim::FurnishOptions furniture;
   std::vector<CommandLine> furnish;  ///< the command, once it is there
-  std::string building;              ///< to furnish
+  std::string building;              ///< to furnish or damage
+  std::vector<CommandLine> damage;   ///< the command, once it is there
+  std::vector<std::string> faults;
+  std::uint64_t fault_seed = 1;
 
   GenerateOptions() { furniture.density = 0.0; }
 };
@@ -137,8 +144,31 @@ int furnish(const GenerateOptions& options) {
   return 0;
 }
 
+/// The building with faults as a file of another program would have them.
+int damage(const GenerateOptions& options) {
+  if (!is_ifc(options.out))
+    throw InputError({options.out, 0, 0}, "only IFC can hold such faults; name a file that ends in .ifc");
+  refuse_to_replace(options.out, options.force);
+  bim::Building building = bim::load_building(options.building);
+  const Stream stream(options.fault_seed, "bim.generate");
+  const auto& names = bim::building_fault_names;
+  for (std::size_t i = 0; i < options.faults.size(); ++i) {
+    const auto* name = std::find(names.begin(), names.end(), options.faults[i]);
+    const std::uint64_t before = building.hash();
+    building = bim::with_fault(std::move(building), static_cast<bim::BuildingFault>(name - names.begin()), stream, i);
+    if (building.hash() == before)
+      throw InputError({options.building, 0, 0},
+                       "has no place for " + options.faults[i] + "; another fault or building");
+  }
+  bim::IfcWriteConfig config;
+  config.signature = false;
+  write_file(options.out, bim::write_ifc(building, config));
+  return 0;
+}
+
 int generate(const GenerateOptions& options) {
   if (options.furnish.front().asked()) return furnish(options);
+  if (options.damage.front().asked()) return damage(options);
   std::string family = options.unknown_family;
   for (const CommandLine& line : options.families)
     if (line.asked()) family = line.name();
@@ -203,6 +233,22 @@ CommandLine add_furnish(CommandLine& program, const std::shared_ptr<GenerateOpti
   return line;
 }
 
+CommandLine add_damage(CommandLine& program, const std::shared_ptr<GenerateOptions>& options) {
+  CommandLine line = program.add_command("damage", "gives any building the faults of real files, as IFC");
+  line.option("BUILDING", options->building, "building: a plan or an IFC file").required();
+  line.option("-o,--out", options->out, "IFC file to write").required();
+  line.flag("--force", options->force, "replace files that are there");
+  line.option("--fault", options->faults,
+              "one or more: a split level, a mezzanine, a wall drawn twice over its door, "
+              "a wall that ends in a doorway, no slabs, a front of glass panels")
+      .one_of({bim::building_fault_names.begin(), bim::building_fault_names.end()})
+      .required();
+  line.seed("--seed", options->fault_seed, "seed from which places and sizes are drawn");
+  line.footer(
+      "Example: plumbline generate damage house.plan.yaml --fault split_level --fault missing_slabs -o odd.ifc");
+  return line;
+}
+
 }  // namespace
 
 Command add_generate(CommandLine& program) {
@@ -210,6 +256,7 @@ Command add_generate(CommandLine& program) {
   CommandLine line = program.add_command("generate", "Makes a building that is hard to localize in");
   for (const bim::GeneratorRow& row : bim::generators()) options->families.push_back(add_family(line, row, options));
   options->furnish.push_back(add_furnish(line, options));
+  options->damage.push_back(add_damage(line, options));
   // A name that is no family is refused by the action, which lists the families.
   line.option("FAMILY", options->unknown_family).hidden();
   line.takes_command_or_any("FAMILY");

@@ -198,6 +198,9 @@ void Interpreter::set_heights() {
         if (room.storey == static_cast<int>(i)) top = std::max(top, room.z1_m);
       for (const Wall& wall : building_.walls)
         if (wall.storey == static_cast<int>(i)) top = std::max(top, wall.z1_m);
+      for (const Obstacle& obstacle : building_.obstacles)
+        if (obstacle.storey == static_cast<int>(i) && obstacle.kind == "curtain_panel")
+          top = std::max(top, extent(obstacle.body).high.z());
     }
     storey.height_m = snapped(top - storey.elevation_m);
     if (storey.height_m > 0.0) continue;

@@ -13,29 +13,6 @@ namespace {
 
 constexpr double shortest_line_m = 1e-3;
 
-/// A rectangle around points of the plan.
-struct ThinRectangle {
-  Eigen::Vector2d direction = Eigen::Vector2d::UnitX();  ///< of its longer sides
-  Interval along, across;                                ///< of the points, along the direction and to its left
-};
-
-/// The one of least width; one side lies on an edge of the hull.
-ThinRectangle thinnest_rectangle(const Polygon2& hull) {
-  ThinRectangle best;
-  for (std::size_t i = 0; i < hull.size(); ++i) {
-    const Eigen::Vector2d edge = hull[(i + 1) % hull.size()] - hull[i];
-    ThinRectangle rectangle;
-    rectangle.direction = edge.normalized();
-    const Eigen::Vector2d left(-rectangle.direction.y(), rectangle.direction.x());
-    for (const Eigen::Vector2d& p : hull) {
-      rectangle.along.add(p.dot(rectangle.direction));
-      rectangle.across.add(p.dot(left));
-    }
-    if (i == 0 || rectangle.across.length() < best.across.length()) best = rectangle;
-  }
-  return best;
-}
-
 }  // namespace
 
 /// Axis where the file has one, otherwise the body's extent along the placement's x axis.
@@ -118,7 +95,7 @@ void Interpreter::take_as_wall(const StepProduct& product) {
   Polygon2 corners;
   for (const Eigen::Vector3d& p : body.vertices) corners.push_back(p.head<2>());
   const ThinRectangle rectangle = thinnest_rectangle(convex_hull(std::move(corners)));
-  const double thickness = rectangle.across.length(), length = rectangle.along.length();
+  const double thickness = rectangle.width_m, length = (rectangle.b - rectangle.a).norm();
   if (thickness > config.most_thickness_m || thickness < shortest_line_m) return;
   if (length < std::max(config.least_length_m, 2.0 * thickness)) return;
   if (area(footprint(body)) < config.least_fill * thickness * length) return;
@@ -130,11 +107,9 @@ void Interpreter::take_as_wall(const StepProduct& product) {
   wall.z0_m = snapped(box.low.z());
   wall.z1_m = snapped(box.high.z());
   wall.storey = storey_index(product, wall.z0_m);
-  const Eigen::Vector2d &e = rectangle.direction, left(-e.y(), e.x());
-  const double middle = 0.5 * (rectangle.across.low + rectangle.across.high);
   const auto on_plan = [&](const Eigen::Vector2d& p) { return Eigen::Vector2d(snapped(p.x()), snapped(p.y())); };
-  wall.a = on_plan(rectangle.along.low * e + middle * left);
-  wall.b = on_plan(rectangle.along.high * e + middle * left);
+  wall.a = on_plan(rectangle.a);
+  wall.b = on_plan(rectangle.b);
   wall.thickness_m = snapped(thickness);
   wall.offset_m = -0.5 * wall.thickness_m;
   warn(product, "taken_as_wall", "the file has no IfcWall; this stands like one");

@@ -31,11 +31,10 @@ std::string hashed_id(const std::vector<std::string>& key) {
   return global_id({half(0), half(1)});
 }
 
-std::string header(const std::string& name, const std::string& data) {
+std::string header(const std::string& name, const std::string& signature) {
   return "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION(('ViewDefinition [DesignTransferView_V1.0]'," +
-         step_string(roundtrip_signature(data)) + "),'2;1');\nFILE_NAME(" + step_string(name) + "," +
-         step_string(time_stamp) + ",(''),('')," + step_string(program) + "," + step_string(program) +
-         ",'');\nFILE_SCHEMA(('IFC4'));\nENDSEC;\n";
+         step_string(signature) + "),'2;1');\nFILE_NAME(" + step_string(name) + "," + step_string(time_stamp) +
+         ",(''),('')," + step_string(program) + "," + step_string(program) + ",'');\nFILE_SCHEMA(('IFC4'));\nENDSEC;\n";
 }
 
 }  // namespace
@@ -251,14 +250,15 @@ void IfcDocument::assign_material(int product, const std::string& material) {
   if (!material.empty()) made_of_[material].push_back(product);
 }
 
-std::string IfcDocument::finish() {
+std::string IfcDocument::finish(bool sign) {
   for (const auto& [container, products] : contained_)
     relate("IFCRELCONTAINEDINSPATIALSTRUCTURE", {step::refs(products), ref(container)});
   for (const auto& [container, spaces] : decomposed_) relate("IFCRELAGGREGATES", {ref(container), step::refs(spaces)});
   for (const auto& [name, products] : made_of_)
     relate("IFCRELASSOCIATESMATERIAL", {step::refs(products), ref(materials_.at(name))});
   const std::string& data = step_.lines();
-  return header(building_name_, data) + "DATA;\n" + data + "ENDSEC;\nEND-ISO-10303-21;\n";
+  return header(building_name_, sign ? roundtrip_signature(data) : std::string()) + "DATA;\n" + data +
+         "ENDSEC;\nEND-ISO-10303-21;\n";
 }
 
 }  // namespace plumbline::bim

@@ -69,7 +69,7 @@ class IfcDocument {
   }
 
   /// Writes the collected relations and returns the whole file.
-  [[nodiscard]] std::string finish();
+  [[nodiscard]] std::string finish(bool sign);
 
  private:
   void add_owner();

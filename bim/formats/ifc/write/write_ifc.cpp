@@ -18,7 +18,7 @@ std::string write_ifc(const Building& building, const IfcWriteConfig& config) {
   writer.add_stairs();
   writer.add_obstacles();
   writer.add_fillings();
-  return document.finish();
+  return document.finish(config.signature);
 }
 
 }  // namespace plumbline::bim

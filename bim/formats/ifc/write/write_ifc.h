@@ -10,6 +10,7 @@ namespace plumbline::bim {
 /// Dimensions that IFC needs and a building does not have.
 struct IfcWriteConfig {
   double overhang_m = 0.01;  ///< of a plain opening beyond both faces of its wall, so that no faces coincide
+  bool signature = true;     ///< false: read again as the file of another program
   double leaf_m = 0.04;      ///< thickness of the doors and windows drawn in openings; never above the wall's
 };
 

@@ -340,17 +340,37 @@ TEST(Missing, StoreysAreWhereWallsBegin) {
 
 TEST(Missing, CurtainFrontsAndSlabsAreABuilding) {
   Sketch sketch = hut({.wall = ""});
-  const std::string front = sketch.element("IFCCURTAINWALL", "$", "$,$");
-  std::string panels;
-  for (int i = 0; i < 6; ++i)
-    panels +=
-        (i > 0 ? "," : "") + sketch.element("IFCPLATE", sketch.shape(sketch.box(i, 0, 0, i + 0.95, 0.05, 3)), "$,$");
-  sketch.rooted("IFCRELAGGREGATES", "$,$," + front + ",(" + panels + ")");
+  const auto front = [&](double x, double y, bool along_y, int panels) {
+    const std::string whole = sketch.element("IFCCURTAINWALL", "$", "$,$");
+    std::string parts;
+    for (int i = 0; i < panels; ++i) {
+      const std::string panel = along_y ? sketch.box(x, y + i, 0, x + 0.05, y + i + 0.95, 3)
+                                        : sketch.box(x + i, y, 0, x + i + 0.95, y + 0.05, 3);
+      parts += (i > 0 ? "," : "") + sketch.element("IFCPLATE", sketch.shape(panel), "$,$");
+    }
+    sketch.rooted("IFCRELAGGREGATES", "$,$," + whole + ",(" + parts + ")");
+  };
+  front(0, 0, false, 6);
+  front(0, 3.95, false, 6);
+  front(0, 0, true, 4);
+  front(5.95, 0, true, 4);
   const Building building = read(sketch);
   EXPECT_TRUE(building.walls.empty());
-  EXPECT_EQ(building.obstacles.size(), 6u);
+  EXPECT_EQ(building.obstacles.size(), 20u);
   EXPECT_EQ(count(building, "no_walls"), 1);
   EXPECT_EQ(building.storeys.front().kind, StoreyKind::habitable);
+  EXPECT_NEAR(building.storeys.front().height_m, 3.0, 1e-9);
+  ASSERT_EQ(building.rooms.size(), 1u);
+  EXPECT_NEAR(inner_area(building), 5.9 * 3.9, 0.3) << "bounded by the panels";
+}
+
+TEST(Missing, InferredRoomsStandOnTheirFloor) {
+  Sketch sketch = hut({});
+  sketch.slab({{0.2, 0.2}, {5.8, 0.2}, {5.8, 3.8}, {0.2, 3.8}}, 0.0, 0.45);
+  const Building building = read(sketch);
+  ASSERT_EQ(building.rooms.size(), 1u);
+  EXPECT_NEAR(building.rooms.front().z0_m, 0.45, 1e-9);
+  EXPECT_EQ(count(building, "no_floor"), 0);
 }
 
 TEST(Missing, EverythingIsRefusedWithWhatWouldBeRight) {
