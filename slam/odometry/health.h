@@ -16,6 +16,7 @@ struct HealthConfig {
   double min_matched = 0.15;
   int recent_scans = 20;
   double as_usual_share = 0.7;
+  double sure_share = 0.85;
   double max_deviation_m = 0.2;
   double max_deviation_rad = 0.3;
   double max_acceleration_mps2 = 10.0;
@@ -39,6 +40,8 @@ struct HealthConfig {
     v("recent_scans", recent_scans, Field{.doc = "accepted scans that tell what is usual", .min = 1, .max = 1000});
     v("as_usual_share", as_usual_share,
       share_field("the same for a scan whose step neither odometry nor the motion before let expect"));
+    v("sure_share", sure_share,
+      share_field("the same below which such a step may be an alias: the place counts as unknown from there on"));
     v("max_deviation_m", max_deviation_m,
       Field{.doc = "how far a plausible step may be from what odometry or the motion before let expect, whatever the "
                    "time between scans",
@@ -96,6 +99,12 @@ class OdometryHealth {
   /// Whether a scan matches about as much as is usual.
   [[nodiscard]] bool is_as_usual(const Registration& registration) const {
     return registration.matched >= config_.as_usual_share * usual();
+  }
+  /// Whether a step that nothing let expect rests on a match that is clearly poorer than usual: it may be an alias of
+  /// the place.
+  [[nodiscard]] bool is_doubtful(const Registration& registration, const Pose& step,
+                                 const ExpectedStep& expected) const {
+    return registration.matched < config_.sure_share * usual() && !is_expected_step(step, expected);
   }
   /// Share below which a scan does not fit.
   [[nodiscard]] double least_matched() const;

@@ -38,6 +38,13 @@ double continued_sigma(Nanoseconds dt) {
   return std::max(least_m, acceleration_mps2 * seconds(dt) * seconds(dt));
 }
 
+/// By how far a step is not the one that was expected: as far as a point of the scene that is next to the robot.
+double surprise_m(const Pose& step, const Pose& expected) {
+  constexpr double near_m = 3.0;
+  const Pose difference = expected.inverse() * step;
+  return difference.t.norm() + near_m * log_so3(difference.q).norm();
+}
+
 /// What odometry errs by as a rule: feet and wheels slip by some of their way.
 ExpectedMotion expected_of(const OdometrySample& odometry) {
   constexpr double least_m = 0.01, per_m = 0.1, least_rad = 0.01, per_rad = 0.1;
@@ -173,6 +180,8 @@ class GuardedScanMatcher final : public LidarOdometry {
     result.accepted = ready && health_.assess(result, step, expected);
     const bool frozen = !result.accepted && !sample.valid && health_.lost();  // nothing measures where it goes on to
     if (had_map_) account_for_way(dt, result, {as_usual, sample.valid, frozen || !ready});
+    if (had_map_ && result.accepted && !sample.valid && health_.is_doubtful(result, step, expected))
+      unmeasured_.add_doubtful(surprise_m(step, sample.step));
     if (!result.accepted) {
       result.X_MR = frozen ? X_MR_ : X_MR_ * sample.step;
       result.information = sample.valid ? dead_reckoning_information(config_, sample.step.t.norm())

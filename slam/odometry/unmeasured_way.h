@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+
 #include "slam/io/records.h"
 
 namespace plumbline::slam {
@@ -22,6 +24,9 @@ class UnmeasuredWay {
   void add_continued(Nanoseconds dt) { open_s_ += seconds(dt); }
   /// ... or where it was, although it went at this speed.
   void add_frozen(Nanoseconds dt, double speed_mps);
+  /// A scan that fits, but so far from what was expected, and so much less than usual, that it may fit elsewhere as
+  /// well: by this way. What is mapped from here on goes with it.
+  void add_doubtful(double way_m) { map_m_ = std::max(map_m_, way_m); }
   /// A new map begins here.
   void begin_map();
   /// Something outside, as a loop closure, says where the map is.

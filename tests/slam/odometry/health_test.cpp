@@ -37,6 +37,16 @@ TEST(OdometryHealth, LosesAndFindsWithHysteresis) {
   EXPECT_FALSE(health.lost());
 }
 
+TEST(OdometryHealth, APoorMatchFarFromWhatWasExpectedMayBeAnAlias) {
+  OdometryHealth health(HealthConfig{});
+  for (int k = 0; k < 20; ++k) EXPECT_TRUE(health.assess(matched(0.68), {}, {period, Pose{}, {}}));
+  const ExpectedStep expected{5 * period, {}, ExpectedMotion(Pose{}, 0.05, 0.05)};
+  const Pose far = Pose::from_xyz_yaw({0.5, 0.0, 0.0}, 1.0), near = Pose::from_xyz_yaw({0.05, 0.0, 0.0}, 0.02);
+  EXPECT_TRUE(health.is_doubtful(matched(0.5), far, expected));
+  EXPECT_FALSE(health.is_doubtful(matched(0.65), far, expected));
+  EXPECT_FALSE(health.is_doubtful(matched(0.5), near, expected));
+}
+
 TEST(OdometryHealth, WhatIsUsualDecidesWhatFits) {
   const HealthConfig config;
   const auto fits = [&](double usual, double share) {

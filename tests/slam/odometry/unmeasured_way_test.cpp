@@ -48,6 +48,18 @@ TEST(UnmeasuredWay, ALoopClosureLocatesAMapAgain) {
   EXPECT_FALSE(way.displaced());
 }
 
+TEST(UnmeasuredWay, AnAliasIsNotMadeUpFor) {
+  UnmeasuredWay way(limit_m);
+  way.add_doubtful(0.9 * limit_m);
+  EXPECT_FALSE(way.displaced());
+  way.add_doubtful(1.1 * limit_m);
+  for (int k = 0; k < 1000; ++k) way.add_measured(period(10.0), true);
+  EXPECT_FALSE(way.lost());
+  EXPECT_TRUE(way.displaced());
+  way.locate_map();
+  EXPECT_FALSE(way.displaced());
+}
+
 TEST(UnmeasuredWay, ANewMapDoesNotKnowWhereItIs) {
   UnmeasuredWay way(limit_m);
   for (int k = 0; k < 30; ++k) way.add_frozen(period(10.0), 1.0);
