@@ -25,6 +25,7 @@ DeskewedScan FrontEnd::deskewed(const Scan& scan) const {
                                            stamp_ ? std::max<Nanoseconds>(scan.stamp - *stamp_, 1) : 1)
                                    : deskew(scan, motion_, calibration_);
   out.odometry_stale = has_odometry_ && stale;
+  if (!compensated()) out.twist_sigma = twist_sigma(scan, stale);
   out.odometry_age = motion_.age_at(scan.stamp);
   return out;
 }
@@ -40,7 +41,18 @@ Registration FrontEnd::track(const Scan& raw, DeskewedScan& scan) {
   }
   stamp_ = raw.stamp;
   X_MR_ = result.X_MR;
+  if (!result.sweep_twist.isZero(0.0)) correct_motion(scan, result.sweep_twist);
   return result;
+}
+
+TwistSigma FrontEnd::twist_sigma(const Scan& scan, bool stale) const {
+  // What a hand or robot accelerates by in passing, over half of the interval whose mean is known.
+  constexpr double acceleration_mps2 = 2.0, turn_acceleration_radps2 = 4.0, most_s = 1.0;
+  constexpr double dense = 1.5;  // intervals that are about a scan each are followed from scan to scan
+  const Nanoseconds known = stale ? (stamp_ ? scan.stamp - *stamp_ : 0) : motion_.period();
+  if (static_cast<double>(known) < dense * static_cast<double>(sweep_time(scan))) return {};
+  const double half_s = 0.5 * std::min(seconds(known), most_s);
+  return {acceleration_mps2 * half_s, turn_acceleration_radps2 * half_s};
 }
 
 Registration FrontEnd::track_alone(const Scan& raw, DeskewedScan& scan) {
@@ -63,7 +75,9 @@ Registration FrontEnd::track_alone(const Scan& raw, DeskewedScan& scan) {
     const Pose error = used.inverse() * motion;
     if (share * error.t.norm() < bent_m && share * log_so3(error.q).norm() < bent_rad) return std::nullopt;
     used = motion;
+    const TwistSigma sigma = scan.twist_sigma;
     scan = deskewed_by(raw, motion, dt);
+    scan.twist_sigma = sigma;
     DeskewedAgain better{scan, std::nullopt};
     if (first_) better.first = deskewed_by(*first_, motion, dt);
     return better;

@@ -28,6 +28,8 @@ class FrontEnd {
 
  private:
   [[nodiscard]] Registration track_alone(const Scan& raw, DeskewedScan& scan);
+  /// Of the motion during a scan: what is known of it is its mean over an interval that may be longer.
+  [[nodiscard]] TwistSigma twist_sigma(const Scan& scan, bool stale) const;
   void test_compensation(const Scan& raw, const Pose& step, Nanoseconds dt);
   [[nodiscard]] DeskewedScan deskewed_by(const Scan& scan, const Pose& step, Nanoseconds dt) const;
 

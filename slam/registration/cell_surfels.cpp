@@ -15,22 +15,25 @@ namespace {
 struct Cell {
   VoxelKey key;
   Moments moments;
+  double time_s = 0.0;  ///< sum
 };
 
 class Cells {
  public:
-  Cells(std::span<const Eigen::Vector3f> points, double size) : size_(size) {
+  Cells(std::span<const Eigen::Vector3f> points, std::span<const float> times_s, double size) : size_(size) {
     std::size_t slot = 0;
-    for (const Eigen::Vector3f& point : points) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const Eigen::Vector3f& point = points[i];
       if (!point.allFinite()) continue;
       const Eigen::Vector3d p = point.cast<double>();
       const VoxelKey key = VoxelKey::of(p, size);
       // Points come along scan lines: most fall into the last one's cell.
       if (cells_.empty() || !(key == cells_[slot].key)) {
         slot = static_cast<std::size_t>(index_.insert(key));
-        if (slot == cells_.size()) cells_.push_back({key, {}});
+        if (slot == cells_.size()) cells_.push_back({key, {}, 0.0});
       }
       cells_[slot].moments.add(p - centre(key));
+      if (!times_s.empty()) cells_[slot].time_s += static_cast<double>(times_s[i]);
     }
   }
 
@@ -75,14 +78,16 @@ std::optional<Eigen::Vector3d> normal_of(const Moments& moments, double thickest
 
 }  // namespace
 
-std::vector<Surfel> cell_surfels(std::span<const Eigen::Vector3f> points, const CellSurfels& config) {
-  const Cells cells(points, config.size_m);
+std::vector<Surfel> cell_surfels(std::span<const Eigen::Vector3f> points, const CellSurfels& config,
+                                 std::span<const float> times_s) {
+  const Cells cells(points, times_s, config.size_m);
   std::vector<Surfel> surfels;
   for (const Cell& cell : cells.all()) {
     const Moments round = cells.round(cell);
     if (round.n < config.min_points) continue;
     if (const std::optional<Eigen::Vector3d> normal = normal_of(round, config.max_thickness_m))
-      surfels.push_back({cells.centre(cell.key) + cell.moments.mean(), *normal});
+      surfels.push_back(
+          {cells.centre(cell.key) + cell.moments.mean(), *normal, static_cast<float>(cell.time_s / cell.moments.n)});
   }
   return surfels;
 }

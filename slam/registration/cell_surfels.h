@@ -17,7 +17,8 @@ struct CellSurfels {
 
 /// One surfel per voxel: the mean of its points, and the normal of all points in it and the six voxels round it, so
 /// that no neighbour is searched for. In the order of each voxel's first point. Points that are not finite are left
-/// out.
-[[nodiscard]] std::vector<Surfel> cell_surfels(std::span<const Eigen::Vector3f> points, const CellSurfels& config);
+/// out. Times of the points, where they have any, give a surfel the mean of its own.
+[[nodiscard]] std::vector<Surfel> cell_surfels(std::span<const Eigen::Vector3f> points, const CellSurfels& config,
+                                               std::span<const float> times_s = {});
 
 }  // namespace plumbline::slam

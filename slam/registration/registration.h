@@ -71,6 +71,7 @@ struct Registration {
   double least_eigenvalue = 1.0;  ///< of the normals' Hessian per surfel, rotations times the surfels' median distance
   int degenerate_directions = 0;  ///< that surfaces leave open: edges, odometry or the start decided there
   int unobserved_directions = 0;  ///< of those, the ones in which neither edges nor odometry tell anything
+  Vector6d sweep_twist = Vector6d::Zero();  ///< by which the scan's deskewing was corrected, see sweep_twist()
   int iterations = 0;
   bool converged = false;
   bool accepted = true;        ///< false: X_MR is dead reckoning, the scan did not fit

@@ -50,7 +50,9 @@ class Neighbourhood {
       }
     if (n < config_.min_neighbours || !other_ring) return std::nullopt;
     const Eigen::Vector3d mean = sum / n;
-    return flat(p + mean, outer / n - mean * mean.transpose());
+    std::optional<Surfel> surfel = flat(p + mean, outer / n - mean * mean.transpose());
+    if (surfel && !scan_.time_s.empty()) surfel->time_s = scan_.time_s[centre];
+    return surfel;
   }
 
  private:
@@ -65,7 +67,7 @@ class Neighbourhood {
     const double thickest = config_.max_thickness_m * config_.max_thickness_m;
     // A line of returns has no normal: the second direction must stand out of the first.
     if (l(0) > thickest || l(1) < 2.0 * l(0)) return std::nullopt;
-    return Surfel{mean, eigen.eigenvectors().col(0)};
+    return Surfel{mean, eigen.eigenvectors().col(0), 0.0F};
   }
 
   const DeskewedScan& scan_;
@@ -75,11 +77,15 @@ class Neighbourhood {
 
 std::vector<Surfel> surfels_of_cells(const DeskewedScan& scan, const SurfelConfig& config) {
   std::vector<Eigen::Vector3f> points;
+  std::vector<float> times;
   points.reserve(scan.range_m.size());
-  for (std::size_t i = 0; i < scan.range_m.size(); ++i)
-    if (scan.range_m[i] >= config.min_range_m && scan.range_m[i] <= config.max_range_m && scan.range_m[i] > 0.0)
-      points.push_back(scan.point_R[i].cast<float>());
-  return cell_surfels(points, {config.voxel_m, config.min_neighbours, config.max_thickness_m});
+  for (std::size_t i = 0; i < scan.range_m.size(); ++i) {
+    if (!(scan.range_m[i] >= config.min_range_m && scan.range_m[i] <= config.max_range_m && scan.range_m[i] > 0.0))
+      continue;
+    points.push_back(scan.point_R[i].cast<float>());
+    if (!scan.time_s.empty()) times.push_back(scan.time_s[i]);
+  }
+  return cell_surfels(points, {config.voxel_m, config.min_neighbours, config.max_thickness_m}, times);
 }
 
 }  // namespace

@@ -41,6 +41,7 @@ struct SurfelConfig {
 struct Surfel {
   Eigen::Vector3d mean_R;
   Eigen::Vector3d normal_R;  ///< unit, sign free
+  float time_s = 0.0F;       ///< of its returns after the scan's stamp
 };
 
 /// Whether a scan has few rings, but some: its neighbours are sought in the ring image then, and its edges along rings.

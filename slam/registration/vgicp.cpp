@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "bim/median.h"
+#include "slam/registration/sweep_twist.h"
 
 namespace plumbline::slam {
 
@@ -62,13 +63,7 @@ Registration VgicpOdometry::update(const DeskewedScan& scan, const Pose& X_OR) {
 
 Registration VgicpOdometry::match(const DeskewedScan& scan, const OdometrySample& odometry, double usual_matched) {
   follow_scale(scan);
-  scan_ = make_surfels(scan, surfels_);
-  edges_R_ = has_ring_image(scan) ? edge_points(scan, config_.edges) : std::vector<Eigen::Vector3d>();
-  fine_ = registration_;
-  if (!has_ring_image(scan)) fine_.sigma_tangent_m *= lattice_slack;
-  few_.clear();
-  for (std::size_t k = 0; k < scan_.size(); k += static_cast<std::size_t>(config_.coarse_share))
-    few_.push_back(scan_[k]);
+  take_features(scan);
   Registration result;
   result.X_MR = X_MR_;
   if (ready()) {
@@ -89,9 +84,36 @@ Registration VgicpOdometry::match(const DeskewedScan& scan, const OdometrySample
     if (result.matched < as_usual * usual_matched || (!measured && result.unobserved_directions > 0))
       try_from(measured ? std::span<const Pose>(starts).first(1) : starts);
     if (result.matched < (measured ? hardly : as_usual) * usual_matched) try_from(yaw_fan(X_MR_));
+    correct_sweep(scan, prior, odometry, result);
   }
   if (!q_OM_) q_OM_ = odometry.q_OR;
   return result;
+}
+
+void VgicpOdometry::take_features(const DeskewedScan& scan) {
+  scan_ = make_surfels(scan, surfels_);
+  edges_R_ = has_ring_image(scan) ? edge_points(scan, config_.edges) : std::vector<Eigen::Vector3d>();
+  fine_ = registration_;
+  if (!has_ring_image(scan)) fine_.sigma_tangent_m *= lattice_slack;
+  few_.clear();
+  for (std::size_t k = 0; k < scan_.size(); k += static_cast<std::size_t>(config_.coarse_share))
+    few_.push_back(scan_[k]);
+}
+
+void VgicpOdometry::correct_sweep(const DeskewedScan& scan, const std::optional<PosePrior>& prior,
+                                  const OdometrySample& odometry, Registration& result) {
+  if (scan.time_s.empty() || !(scan.twist_sigma.mps > 0.0)) return;
+  const std::array<RegistrationConfig, 2> configs = {fine_, coarser(registration_, maps_[1].voxel_m())};
+  const Vector6d twist =
+      sweep_twist(scan_, std::span(maps_).first(configs.size()), result.X_MR, prior, scan.twist_sigma, configs);
+  DeskewedScan corrected = scan;
+  correct_motion(corrected, twist);
+  take_features(corrected);
+  Registration again = align_finely(result.X_MR, prior, odometry);
+  constexpr double about = 0.9;
+  if (again.matched < about * result.matched || again.residual_m > result.residual_m) return take_features(scan);
+  result = std::move(again);
+  result.sweep_twist = twist;
 }
 
 Registration VgicpOdometry::align_finely(const Pose& start, const std::optional<PosePrior>& prior,

@@ -100,6 +100,10 @@ class VgicpOdometry {
   [[nodiscard]] PosePrior predict(const DeskewedScan& scan, const OdometrySample& odometry) const;
   [[nodiscard]] Registration align_finely(const Pose& start, const std::optional<PosePrior>& prior,
                                           const OdometrySample& odometry) const;
+  /// Corrects the scan by the motion during it that its deskewing did not know, and places it again.
+  void correct_sweep(const DeskewedScan& scan, const std::optional<PosePrior>& prior, const OdometrySample& odometry,
+                     Registration& result);
+  void take_features(const DeskewedScan& scan);
   /// The start that leads to the most matches in coarse maps, and where it leads.
   [[nodiscard]] Registration align_coarsely(std::span<const Pose> starts) const;
   void insert(const Pose& X_MR);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdlib>
@@ -58,6 +59,8 @@ DeskewedScan deskew(const Scan& scan, const MotionBuffer& motion, const Calibrat
   out.range_m.assign(scan.size(), 0.0);
   out.point_R.assign(scan.size(), Eigen::Vector3d::Zero());
   out.X_RL = calibration.X_RL;
+  const bool timed = std::any_of(scan.offset_ns.begin(), scan.offset_ns.end(), [](auto offset) { return offset != 0; });
+  if (timed) out.time_s.assign(scan.size(), 0.0F);
   out.odometry_stale = motion.is_stale_at(scan.stamp);
   out.odometry_age = motion.age_at(scan.stamp);
 
@@ -81,9 +84,26 @@ DeskewedScan deskew(const Scan& scan, const MotionBuffer& motion, const Calibrat
       const std::size_t i = static_cast<std::size_t>(aligned) * rings + ring;
       out.range_m[i] = scan.range_m[first + ring];
       out.point_R[i] = R_RL * scan.point_L[first + ring] + X_RL.t;
+      if (timed) out.time_s[i] = static_cast<float>(seconds(scan.offset_ns[first + ring]));
     }
   }
   return out;
+}
+
+void correct_motion(DeskewedScan& scan, const Vector6d& twist) {
+  constexpr float one_firing_s = 1e-4F;
+  std::optional<float> time;  // that the correction is of
+  Pose correction;
+  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
+  for (std::size_t i = 0; i < scan.time_s.size(); ++i) {
+    if (scan.range_m[i] <= 0.0) continue;
+    if (!time || std::abs(scan.time_s[i] - *time) > one_firing_s) {
+      time = scan.time_s[i];
+      correction = exp_se3(twist * static_cast<double>(*time));
+      R = correction.rotation();
+    }
+    scan.point_R[i] = R * scan.point_R[i] + correction.t;
+  }
 }
 
 std::uint64_t digest(const DeskewedScan& scan) {

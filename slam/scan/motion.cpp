@@ -49,8 +49,7 @@ Pose MotionBuffer::at(Nanoseconds t) const {
 
 Nanoseconds MotionBuffer::max_age() const {
   if (records_.size() < 2) return least_max_age;
-  const Nanoseconds period = records_.back().stamp - records_[records_.size() - 2].stamp;
-  return std::clamp(period + period / 2, least_max_age, most_max_age);
+  return std::clamp(period() + period() / 2, least_max_age, most_max_age);
 }
 
 void MotionBuffer::forget_before(Nanoseconds t) {

@@ -37,6 +37,10 @@ class MotionBuffer {
     return records_.empty() ? 0 : std::max<Nanoseconds>(t - records_.back().stamp, 0);
   }
   [[nodiscard]] Nanoseconds max_age() const;
+  /// Time between the two newest records, 0 before the second.
+  [[nodiscard]] Nanoseconds period() const {
+    return records_.size() < 2 ? 0 : records_.back().stamp - records_[records_.size() - 2].stamp;
+  }
   /// Drops what is not needed for times from t on.
   void forget_before(Nanoseconds t);
 
@@ -61,6 +65,12 @@ struct OdometrySample {
   std::optional<Eigen::Quaterniond> q_OR;  ///< R's attitude in a frame whose z is up, where odometry tells it
 };
 
+/// Standard deviation of a motion, 0 where it was measured as it was made.
+struct TwistSigma {
+  double mps = 0.0;
+  double radps = 0.0;
+};
+
 /// A scan with every return moved to R at scan.stamp. Index of a return: column * rings + ring; rings are in line, that
 /// is, returns of a column have one azimuth also where lasers of one firing point to different sides (VLP-32C).
 struct DeskewedScan {
@@ -72,7 +82,12 @@ struct DeskewedScan {
   Pose X_RL;                             ///< sensor in R
   bool odometry_stale = false;           ///< at stamp: nothing is known of the motion since its last record
   Nanoseconds odometry_age = 0;          ///< at stamp, of its last record: the motion since is extrapolated
+  std::vector<float> time_s;             ///< of a return after stamp, 0 or less; empty where returns have no times
+  TwistSigma twist_sigma;                ///< of the motion during the scan that was undone
 };
+
+/// The same scan where the robot's motion during it was off by `twist` per second, (rho, phi) in R.
+void correct_motion(DeskewedScan& scan, const Vector6d& twist);
 
 /// Undoes the robot's motion during the scan by the odometry's relative poses: one for all returns of a column that are
 /// measured within 0.1 ms, in which even a car moves 3 mm. Putting rings in line drops at either end of the scan the
