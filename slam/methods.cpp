@@ -5,9 +5,12 @@
 #include <vector>
 
 #include "slam/baselines/amcl/amcl.h"
+#include "slam/baselines/hdl_slam_paper/hdl_slam_paper.h"
 #include "slam/baselines/kiss_icp/kiss_icp.h"
+#include "slam/baselines/lego_loam/lego_loam.h"
 #include "slam/baselines/lidar_odometry/lidar_odometry_method.h"
 #include "slam/baselines/micp/micp.h"
+#include "slam/baselines/mloam/mloam.h"
 #include "slam/baselines/pcl_registration/pcl_registration.h"
 #include "slam/baselines/ukf/ukf.h"
 #include "slam/localization/as_printed/s_graph_localization_paper.h"
@@ -47,7 +50,7 @@ MethodRow kiss_icp(MethodRow row) {
 }
 
 template <class Config, auto make>
-std::unique_ptr<Method> make_pcl(const MethodInput& input) {
+std::unique_ptr<Method> make_by(const MethodInput& input) {
   return make(input, config_of<Config>(input));
 }
 
@@ -106,7 +109,9 @@ std::vector<MethodRow> odometry_and_slam() {
                                         .needs_odometry = true}),
       odometry_alone<CoarseVgicpConfig>(
           OdometryKind::vgicp, &LidarOdometryConfig::vgicp,
-          {.name = "vgicp", .summary = "LiDAR odometry: voxelized GICP against a sliding local map"}),
+          {.name = "vgicp",
+           .summary =
+               "odometry of our front end with coarse voxels: VGICP on a sliding map, with legs where there are any"}),
       odometry_alone<VgicpConfig>(
           OdometryKind::vgicp, &LidarOdometryConfig::vgicp,
           {.name = "vgicp_tuned",
@@ -128,31 +133,65 @@ std::vector<MethodRow> odometry_and_slam() {
       kiss_icp<KissIcpIndoorConfig>({.name = "kiss_icp_indoor",
                                      .summary = "kiss_icp with finer voxels and all points of the map, for rooms",
                                      .variant = true}),
+      with_config<LegoLoamConfig>(
+          {.name = "lego_loam",
+           .summary = "LiDAR alone: ground and segments, odometry in two steps, a map of keyframes, LeGO-LOAM",
+           .make = make_by<LegoLoamConfig, make_lego_loam>,
+           .standard = false}),
+      with_config<MloamConfig>(
+          {.name = "mloam",
+           .summary =
+               "LiDAR alone: what one LiDAR leaves of M-LOAM, LOAM with a keyframe map; its window of scans is off",
+           .make = make_by<MloamConfig, make_mloam>,
+           .standard = false}),
       with_config<PclGicpMethodConfig>(
           {.name = "pcl_gicp",
            .summary = "LiDAR odometry: PCL's own GICP against the latest keyframes, started by odometry",
-           .make = make_pcl<PclGicpMethodConfig, make_pcl_gicp_method>,
+           .make = make_by<PclGicpMethodConfig, make_pcl_gicp_method>,
            .standard = false}),
       with_config<PclNdtMethodConfig>(
           {.name = "pcl_ndt",
            .summary = "LiDAR odometry: PCL's own NDT against the latest keyframes, started by odometry",
-           .make = make_pcl<PclNdtMethodConfig, make_pcl_ndt_method>,
+           .make = make_by<PclNdtMethodConfig, make_pcl_ndt_method>,
            .standard = false}),
-      with_config<HdlSlamConfig>(
-          {.name = "hdl_slam",
-           .summary = "keyframe pose graph with floor plane and loop closures, in the style of HDL graph SLAM",
-           .make = make_hdl_slam_method,
+      with_config<HdlSlamPaperConfig>(
+          {.name = "hdl_slam_paper",
+           .summary =
+               "LiDAR alone: HDL graph SLAM as its authors run it indoors, GICP to single keyframes, a floor, loops",
+           .make = make_by<HdlSlamPaperConfig, make_hdl_slam_paper>,
            .standard = false}),
+      with_config<HdlSlamPaperNdtConfig>({.name = "hdl_slam_paper_ndt",
+                                          .summary = "hdl_slam_paper with NDT, which its code has by default",
+                                          .make = make_by<HdlSlamPaperNdtConfig, make_hdl_slam_paper>,
+                                          .standard = false,
+                                          .variant = true}),
+      with_config<HdlSlamConfig>({.name = "hdl_slam",
+                                  .summary = "the graph of s_graphs_plus without walls, rooms and floor layer: its "
+                                             "odometry, with legs where there are any, floor planes, loops",
+                                  .make = make_hdl_slam_method,
+                                  .standard = false}),
       with_config<SGraphsConfig>(
           {.name = "s_graphs",
-           .summary = "S-Graphs of 2022: walls, rooms from the planes of one keyframe, loops, as printed",
+           .summary = "s_graphs_plus_paper with rooms of one keyframe's longest opposed walls and without floors",
            .make = make_s_graphs_method,
            .standard = false}),
+      with_config<SGraphs2022Config>(
+          {.name = "s_graphs_2022",
+           .summary = "s_graphs by the rules of 2022: windows of length and width, nearest ends, a gate of 0.2",
+           .make = make_s_graphs_2022_method,
+           .standard = false,
+           .variant = true}),
       with_config<SGraphsPlusPaperConfig>(
           {.name = "s_graphs_plus_paper",
-           .summary = "S-Graphs+ as printed: RANSAC planes, rooms cut at a fixed distance, the papers' weights",
+           .summary = "S-Graphs+ with the papers' planes, cut and weights, but rooms of all walls, on our front end",
            .make = make_s_graphs_plus_paper_method,
            .standard = false}),
+      with_config<SGraphsPlusPrintedConfig>(
+          {.name = "s_graphs_plus_printed",
+           .summary = "s_graphs_plus_paper with rooms as printed: one keyframe's planes, by centre, a factor each look",
+           .make = make_s_graphs_plus_printed_method,
+           .standard = false,
+           .variant = true}),
       with_config<SGraphsPlusConfig>({.name = "s_graphs_plus",
                                       .summary = "S-Graphs+: walls, rooms, floors and loops in one four-layered graph",
                                       .make = make_s_graphs_plus_method}),

@@ -16,6 +16,12 @@ struct MapRules {
   double complete_within_m = 0.05;  ///< a surface point is mapped when a map point lies this near
 };
 
+/// A triangle of a mesh and how far a point is from it.
+struct NearTriangle {
+  int triangle = 0;
+  double distance_m = 0.0;
+};
+
 /// Distance to the nearest triangle of a mesh, exact up to a cap: triangles in the cells of a uniform grid.
 class SurfaceDistance {
  public:
@@ -27,6 +33,8 @@ class SurfaceDistance {
 
   /// min(cap, distance of p_W to the surface), m.
   [[nodiscard]] double operator()(const Eigen::Vector3d& p_W) const;
+  /// Triangles within reach_m, at most the cap, of p_W; one may be listed more than once.
+  [[nodiscard]] std::vector<NearTriangle> near(const Eigen::Vector3d& p_W, double reach_m) const;
 
  private:
   struct Grid;

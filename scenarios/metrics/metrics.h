@@ -10,7 +10,9 @@
 
 #include "bim/config/tree.h"
 #include "scenarios/metrics/localization_score.h"
+#include "scenarios/metrics/loop_score.h"
 #include "scenarios/metrics/map_score.h"
+#include "scenarios/metrics/segmentation_score.h"
 #include "scenarios/metrics/structure.h"
 #include "scenarios/metrics/trajectory.h"
 
@@ -36,6 +38,9 @@ struct MethodScore {
   std::optional<MapScore> map;
   std::optional<RoomScore> rooms;
   std::optional<WallScore> walls;
+  std::optional<StoreyScore> storeys;
+  std::optional<LoopScore> loops;
+  std::optional<SegmentationScore> segmentation;
   std::optional<LocalizationScore> localization;
 };
 

@@ -22,6 +22,7 @@ struct StructureRules {
   double room_across_m = 0.5;   ///< two-wall: distance of the centres across the corridor
   double visit_inside_m = 0.5;  ///< depth inside a room that counts
   double visit_s = 2.0;         ///< without leaving that depth
+  double storey_m = 0.3;        ///< height of a floor off its storey's, found or stood on
 };
 
 struct WallScore {
@@ -29,6 +30,15 @@ struct WallScore {
   std::optional<double> recall;  ///< absent when no face was seen
   /// PlanFace ids matched by each plane, the longest stretch first; index as in Estimate::planes.
   std::vector<std::vector<int>> faces_of_plane;
+  int duplicates = 0;  ///< found walls on stretches that others were matched with
+};
+
+struct StoreyScore {
+  int visited = 0;                  ///< storeys whose floor the robot stood on
+  int found = 0;                    ///< floors that the method claims
+  int matched = 0;                  ///< of these, with a storey at their height, one to one
+  std::optional<double> precision;  ///< matched / found; absent when none was found
+  std::optional<double> recall;     ///< visited storeys that were found / visited; absent when none was visited
 };
 
 struct RoomScore {
@@ -51,6 +61,11 @@ struct RoomScore {
 /// by found room, then room.
 [[nodiscard]] RoomScore score_rooms(const slam::Estimate& estimate, const Pose& X_WF, const bim::Plan& as_built,
                                     const WallScore& walls, const Truth& truth, const StructureRules& rules = {});
+
+/// Matches found floors with storeys by height, the nearest first (ties: found floor, then storey). A robot stands on a
+/// floor that is where its feet are for as long as a room is visited.
+[[nodiscard]] StoreyScore score_storeys(const slam::Estimate& estimate, const Pose& X_WF, const bim::Plan& as_built,
+                                        const Truth& truth, const StructureRules& rules = {});
 
 /// Ids of the rooms the robot's centre was deep enough inside for long enough, ascending.
 [[nodiscard]] std::vector<int> visited_rooms(const bim::Plan& as_built, const Truth& truth,

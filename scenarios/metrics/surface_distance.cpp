@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numeric>
+#include <utility>
 
 #include "bim/errors.h"
 #include "scenarios/metrics/extent.h"
@@ -136,6 +137,30 @@ double SurfaceDistance::operator()(const Eigen::Vector3d& p_W) const {
     for (int dy = -1; dy <= 1; ++dy)
       for (int dx = -1; dx <= 1; ++dx) grid_->visit_cell(p_W, x + dx, y + dy, z + dz, best);
   return best;
+}
+
+std::vector<NearTriangle> SurfaceDistance::near(const Eigen::Vector3d& p_W, double reach_m) const {
+  const Grid& grid = *grid_;
+  std::vector<NearTriangle> near;
+  const auto cells = [&](Eigen::Index axis) {
+    return std::pair(
+        std::max(0, grid.coordinate(p_W[axis] - reach_m, axis)),
+        std::min(grid.count[static_cast<std::size_t>(axis)] - 1, grid.coordinate(p_W[axis] + reach_m, axis)));
+  };
+  const auto [x0, x1] = cells(0);
+  const auto [y0, y1] = cells(1);
+  const auto [z0, z1] = cells(2);
+  for (int z = z0; z <= z1; ++z)
+    for (int y = y0; y <= y1; ++y)
+      for (int x = x0; x <= x1; ++x) {
+        const std::size_t cell = grid.index(x, y, z);
+        for (std::uint32_t i = grid.offset[cell]; i < grid.offset[cell + 1]; ++i) {
+          const Triangle& t = grid.triangles[grid.entry[i]];
+          const double distance_m = triangle_distance(p_W, t.a, t.b, t.c);
+          if (distance_m <= reach_m) near.push_back({static_cast<int>(grid.entry[i]), distance_m});
+        }
+      }
+  return near;
 }
 
 }  // namespace plumbline::scenarios::score

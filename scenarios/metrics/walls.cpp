@@ -72,6 +72,15 @@ bool overlap(const Stretch& a, const Stretch& b) {
   return std::min(a.high, b.high) - std::max(a.low, b.low) > 0.5 * std::min(a.length(), b.length());
 }
 
+/// True where more than half of the found wall lies on stretches that other walls were matched with.
+bool is_duplicate(const Candidate& wall, const std::vector<std::vector<Stretch>>& taken) {
+  double shared_m = 0.0;
+  for (const Part& part : wall.parts)
+    for (const Stretch& other : taken[static_cast<std::size_t>(part.face)])
+      shared_m += std::max(0.0, std::min(other.high, part.on_face.high) - std::max(other.low, part.on_face.low));
+  return shared_m > 0.5 * wall.length;
+}
+
 /// What of a found wall's parts is not some other wall's, and of those one over the other the nearest only.
 std::vector<Part> free_parts(const Candidate& wall, const std::vector<std::vector<Stretch>>& taken) {
   std::vector<Part> free;
@@ -136,7 +145,10 @@ WallScore score_walls(const slam::Estimate& estimate, const Pose& X_WF, const bi
     std::vector<Part> parts = free_parts(wall, taken);
     const double shared = std::accumulate(parts.begin(), parts.end(), 0.0,
                                           [](double sum, const Part& part) { return sum + part.on_face.length(); });
-    if (parts.empty() || shared < rules.wall_overlap * wall.length) continue;
+    if (parts.empty() || shared < rules.wall_overlap * wall.length) {
+      score.duplicates += is_duplicate(wall, taken);
+      continue;
+    }
     std::stable_sort(parts.begin(), parts.end(),
                      [](const Part& a, const Part& b) { return a.on_face.length() > b.on_face.length(); });
     for (const Part& part : parts) {

@@ -100,6 +100,41 @@ slam::FloorNode read_floor(const Tree& tree) {
           {read_3d(child(tree, "n")), child(tree, "d").as_double()}};
 }
 
+Tree write(const slam::LoopEdge& loop) {
+  return Tree::map().set("from_ns", loop.from).set("to_ns", loop.to).set("pose", number_list(loop.X_FT));
+}
+
+slam::LoopEdge read_loop(const Tree& tree) {
+  return {child(tree, "from_ns").as_int(), child(tree, "to_ns").as_int(), read_pose(child(tree, "pose"))};
+}
+
+/// One list of x, y, z, plane, x, ...
+Tree write(const slam::SegmentedScan& scan) {
+  Tree values = Tree::list();
+  for (std::size_t i = 0; i < scan.point_mm.size(); ++i) {
+    for (const int mm : scan.point_mm[i]) values.push(mm);
+    values.push(scan.plane[i]);
+  }
+  return Tree::map().set("stamp_ns", scan.stamp).set("sensor", number_list(scan.sensor_R)).set("xyz_mm_plane", values);
+}
+
+slam::SegmentedScan read_segmented(const Tree& tree) {
+  slam::SegmentedScan scan{child(tree, "stamp_ns").as_int(), read_3d(child(tree, "sensor")), {}, {}};
+  const Tree& values = child(tree, "xyz_mm_plane");
+  const Tree::List& list = values.as_list();
+  if (list.size() % 4 != 0) throw InputError(values.mark, "four numbers a point are expected");
+  const auto at = [&](std::size_t k) {
+    const std::int64_t value = list[k].as_int();
+    if (std::abs(value) > 1'000'000) throw InputError(list[k].mark, "numbers of at most 1000000 are expected");
+    return static_cast<int>(value);
+  };
+  for (std::size_t i = 0; i < list.size(); i += 4) {
+    scan.point_mm.emplace_back(at(i), at(i + 1), at(i + 2));
+    scan.plane.push_back(at(i + 3));
+  }
+  return scan;
+}
+
 /// Files hold no negative zero, and nothing that is not finite.
 double positive_zero(double value) {
   if (!std::isfinite(value)) throw InternalError("a result is not a finite number");
@@ -231,6 +266,9 @@ void round_as_written(slam::Estimate& estimate) {
     for (Eigen::Vector3d* v : {&floor.center_F, &floor.plane_F.n}) drop_negative_zeros(*v);
     drop_negative_zeros(floor.plane_F.d);
   }
+  if (estimate.loops)
+    for (slam::LoopEdge& loop : *estimate.loops) drop_negative_zeros(loop.X_FT);
+  for (slam::SegmentedScan& scan : estimate.segmented) drop_negative_zeros(scan.sensor_R);
   for (const Eigen::Vector3f& p : estimate.map_F)
     if (!p.allFinite()) throw InternalError("a map point is not a finite number");
   estimate.graph = Tree();
@@ -252,6 +290,8 @@ std::string write_estimate(const MethodRecord& method) {
   tree.set("planes", write_list(method.estimate.planes));
   tree.set("rooms", write_list(method.estimate.rooms));
   tree.set("floors", write_list(method.estimate.floors));
+  if (method.estimate.loops) tree.set("loops", write_list(*method.estimate.loops));
+  if (!method.estimate.segmented.empty()) tree.set("segmented", write_list(method.estimate.segmented));
   return write_json(tree) + "\n";
 }
 
@@ -273,6 +313,12 @@ void read_estimate(std::string_view text, const std::string& file, MethodRecord&
   for (const Tree& plane : child(tree, "planes").as_list()) method.estimate.planes.push_back(read_plane(plane));
   for (const Tree& room : child(tree, "rooms").as_list()) method.estimate.rooms.push_back(read_room(room));
   for (const Tree& floor : child(tree, "floors").as_list()) method.estimate.floors.push_back(read_floor(floor));
+  if (const Tree* loops = tree.find("loops")) {
+    method.estimate.loops.emplace();
+    for (const Tree& loop : loops->as_list()) method.estimate.loops->push_back(read_loop(loop));
+  }
+  if (const Tree* segmented = tree.find("segmented"))
+    for (const Tree& scan : segmented->as_list()) method.estimate.segmented.push_back(read_segmented(scan));
 }
 
 std::string write_beliefs(const std::vector<BeliefRecord>& beliefs) {

@@ -21,6 +21,7 @@ struct Reference {
   const Truth& truth;
   const std::vector<Eigen::Vector3d>& surface_W;
   const SurfaceDistance& distance;
+  const bim::BuildingMesh& mesh;
 };
 
 /// Beliefs with the poses given for them. An outside trajectory in W claims to know where it is from its first pose to
@@ -52,6 +53,8 @@ void score_structure(const MethodRecord& method, const Pose& X_WF, const Referen
   const slam::Estimate& estimate = method.estimate;
   if (!estimate.map_F.empty() && !reference.surface_W.empty())
     score.map = score_map(estimate.map_F, X_WF, reference.distance, reference.surface_W);
+  if (!method.localization && !estimate.floors.empty())
+    score.storeys = score_storeys(estimate, X_WF, reference.as_built, reference.truth);
   if (estimate.planes.empty()) return;
   score.walls = score_walls(estimate, X_WF, reference.as_built, reference.surface_W);
   if (method.localization && estimate.rooms.empty()) return;  // it is given the rooms
@@ -71,6 +74,10 @@ MethodScore score_slam(const MethodRecord& method, const Reference& reference) {
   const bool covered = score.trajectory && score.trajectory->coverage >= TrajectoryRules().min_coverage;
   score.verdict = covered ? "complete" : "lost";
   score.tracking = tracking_of(method);
+  if (method.estimate.loops) score.loops = score_loops(*method.estimate.loops, reference.truth);
+  if (!method.estimate.segmented.empty())
+    score.segmentation =
+        score_segmentation(method.estimate.segmented, reference.truth, reference.mesh, reference.distance);
   if (score.trajectory) score_structure(method, score.trajectory->X_WF_final, reference, score);
   return score;
 }
@@ -95,6 +102,9 @@ bool is_asked_for(std::string_view metric, const MethodRecord& method) {
   if (metric.starts_with("tracking.")) return method.scans > 0 && !method.localization;
   if (metric.starts_with("map_")) return !estimate.map_F.empty();
   if (metric.starts_with("walls.")) return !estimate.planes.empty();
+  if (metric.starts_with("storeys.")) return !estimate.floors.empty() && !method.localization;
+  if (metric.starts_with("loops.")) return estimate.loops.has_value() && !method.localization;
+  if (metric.starts_with("segmentation.")) return !estimate.segmented.empty() && !method.localization;
   if (metric.starts_with("rooms.")) return !estimate.planes.empty() && !(method.localization && estimate.rooms.empty());
   if (metric == "localization.nees" || metric == "localization.handover_precision") return !method.beliefs.empty();
   return metric.starts_with("localization.") == method.localization;
@@ -211,7 +221,8 @@ RunScore score_run(const FinishedRun& run) {
   const std::vector<Eigen::Vector3d> surface_W = to_double(run.record.surface_W);
   const RunBuilding& building = *run.building;
   const SurfaceDistance distance(building.mesh_as_built(), MapRules().cap_m);
-  const Reference reference{*building.plan_as_planned(), building.plan_as_built(), score.truth, surface_W, distance};
+  const Reference reference{*building.plan_as_planned(), building.plan_as_built(), score.truth, surface_W, distance,
+                            building.mesh_as_built()};
   const bool localizes = std::any_of(run.record.methods.begin(), run.record.methods.end(),
                                      [](const MethodRecord& m) { return m.localization && !m.crashed; });
   if (localizes) score.identifiability = identifiability_of(run, score.truth.before());

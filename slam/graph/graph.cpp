@@ -14,4 +14,12 @@ std::uint64_t digest_of(const Graph& graph) {
   return digest.value();
 }
 
+std::vector<LoopEdge> loop_edges(const Graph& graph) {
+  std::vector<LoopEdge> edges;
+  const auto stamp = [&](int keyframe) { return graph.keyframes[static_cast<std::size_t>(keyframe)].stamp; };
+  for (const PoseFactor& factor : graph.pose_factors)
+    if (factor.loop) edges.push_back({stamp(factor.from), stamp(factor.to), factor.X_FT});
+  return edges;
+}
+
 }  // namespace plumbline::slam

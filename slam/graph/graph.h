@@ -26,6 +26,7 @@ struct PlaneVertex {
   PlaneKind kind = PlaneKind::wall;
   int storey = 0;
   int merged_into = -1;  ///< id of the plane that took over its observations; -1: alive
+  bool fixed = false;    ///< it is where it is; optimize() does not move it
 };
 
 /// Layer 3: centre of a four-wall room, of a two-wall stretch or of a polygon's corners.
@@ -102,6 +103,9 @@ struct Graph {
   std::vector<FloorFactor> floor_factors;
   std::vector<DuplicateFactor> duplicate_factors;
 };
+
+/// The loop closures among the pose factors, in their order.
+[[nodiscard]] std::vector<LoopEdge> loop_edges(const Graph& graph);
 
 /// Hash of every estimate, in order of layers and ids.
 [[nodiscard]] std::uint64_t digest_of(const Graph& graph);

@@ -26,7 +26,8 @@ Scope make_scope(const Graph& graph, int first_free) {
   for (std::size_t k = static_cast<std::size_t>(std::max(first_free, 1)); k < graph.keyframes.size(); ++k)
     scope.keyframes[k] = true;
   for (const PlaneFactor& f : graph.plane_factors)
-    if (marked(scope.keyframes, f.keyframe)) mark(scope.planes, f.plane);
+    if (marked(scope.keyframes, f.keyframe) && !graph.planes[static_cast<std::size_t>(f.plane)].fixed)
+      mark(scope.planes, f.plane);
   for (const RoomFactor& f : graph.room_factors)
     if (std::any_of(f.planes.begin(), f.planes.end(), [&](int p) { return marked(scope.planes, p); }))
       mark(scope.rooms, f.room);
@@ -47,7 +48,9 @@ FactorSelection select(const Graph& graph, const Scope& scope) {
   return {
       .pose = indices(graph.pose_factors,
                       [&](const PoseFactor& f) { return in(scope.keyframes, f.from) || in(scope.keyframes, f.to); }),
-      .plane = indices(graph.plane_factors, [&](const PlaneFactor& f) { return in(scope.planes, f.plane); }),
+      .plane =
+          indices(graph.plane_factors,
+                  [&](const PlaneFactor& f) { return in(scope.planes, f.plane) || in(scope.keyframes, f.keyframe); }),
       .room = indices(graph.room_factors, [&](const RoomFactor& f) { return in(scope.rooms, f.room); }),
       .floor = indices(graph.floor_factors, [&](const FloorFactor& f) { return in(scope.floors, f.floor); }),
       .duplicate = indices(graph.duplicate_factors,

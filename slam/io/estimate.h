@@ -102,6 +102,20 @@ struct FloorNode {
   Plane plane_F;
 };
 
+/// A loop closure that a method kept: the measured pose of R at `to` in R at `from`.
+struct LoopEdge {
+  Nanoseconds from = 0, to = 0;
+  Pose X_FT;
+};
+
+/// How a method put returns of one scan into planes. Not all of the scan's: enough for a score.
+struct SegmentedScan {
+  Nanoseconds stamp = 0;
+  Eigen::Vector3d sensor_R = Eigen::Vector3d::Zero();
+  std::vector<Eigen::Vector3i> point_mm;  ///< in R at stamp
+  std::vector<int> plane;                 ///< of each point, within this scan; -1: none
+};
+
 /// A method's answer at the end of a run.
 struct Estimate {
   Frame frame = Frame::map;
@@ -109,8 +123,10 @@ struct Estimate {
   std::vector<PlaneNode> planes;
   std::vector<RoomNode> rooms;
   std::vector<FloorNode> floors;
-  std::vector<Eigen::Vector3f> map_F;  ///< point map, voxel-thinned to 0.05 m
-  Tree graph;                          ///< as graph_tree() writes it; null where the method has none
+  std::vector<Eigen::Vector3f> map_F;               ///< point map, voxel-thinned to 0.05 m
+  std::optional<std::vector<LoopEdge>> loops = {};  ///< absent of a method that closes none
+  std::vector<SegmentedScan> segmented = {};        ///< a few scans; empty of a method that segments none
+  Tree graph;                                       ///< as graph_tree() writes it; null where the method has none
 };
 
 }  // namespace plumbline::slam

@@ -65,4 +65,15 @@ SGraphsConfig::SGraphsConfig() {
   parts.floors = false;
 }
 
+SGraphsPlusPrintedConfig::SGraphsPlusPrintedConfig() { rooms.source = RoomSource::keyframe_clusters; }
+
+SGraphs2022Config::SGraphs2022Config() {
+  walls.angles_gate = 0.2;
+  walls.angles_gate_few = 0.2;
+  walls.information = 1.0;
+  rooms.keyframe_rooms.rule = KeyframeRoomRule::end_points;
+  rooms.sigma_m = sigma(0.01);
+  rooms.two_wall_sigma_m = sigma(0.01);
+}
+
 }  // namespace plumbline::slam

@@ -2,12 +2,13 @@
 #include "slam/mapping/room_layer.h"
 
 #include <algorithm>
-
-#include "slam/rooms/keyframe_rooms.h"
+#include <cmath>
 
 namespace plumbline::slam {
 
 namespace {
+
+constexpr double same_axis_cos = 0.9;  ///< of two corridors that may be one
 
 /// The plane that a plane has become part of, or itself.
 int merge_root(const Graph& graph, int plane) {
@@ -19,7 +20,7 @@ int merge_root(const Graph& graph, int plane) {
 }  // namespace
 
 void RoomLayer::add_scan(const Graph& graph, const DeskewedScan& scan, std::span<const PlaneObservation> seen) {
-  if (config_.source != RoomSource::free_space) return;
+  if (config_.source == RoomSource::keyframe) return;
   const KeyframeVertex& keyframe = graph.keyframes.back();
   const Eigen::Vector3d up_R = keyframe.X_MR.q.conjugate() * Eigen::Vector3d::UnitZ();
   free_space_scans_.push_back({free_rays(scan, up_R, config_.free_space), keyframe.X_MR, keyframe.storey});
@@ -52,32 +53,64 @@ RoomFactor RoomLayer::factor_of(const Graph& graph, int id, const RoomCandidate&
           .corners = room.corners};
 }
 
-// A room is known again by its kind and centre [bavle2023, section IV-C]; the walls of the latest detection replace the
-// former ones. A two-wall room inside a four-wall one gives way to it [lsg2022].
-void RoomLayer::add_from_keyframe(Graph& graph, std::span<const PlaneNode> seen_M) {
+std::vector<RoomCandidate> RoomLayer::rooms_round(const Graph& graph, std::span<const PlaneNode> seen_M) {
   const KeyframeVertex& keyframe = graph.keyframes.back();
-  for (const RoomCandidate& room : keyframe_rooms(seen_M, keyframe.X_MR.t.head<2>(), config_.rooms)) {
-    int id = -1;
-    double nearest = config_.same_center_m;
-    for (std::size_t k = 0; k < candidates_.size(); ++k) {
-      if (!graph.rooms[k].found || graph.rooms[k].storey != keyframe.storey) continue;
-      const double distance = (graph.rooms[k].center_M - room.center_M).norm();
-      if (distance >= nearest) continue;
-      nearest = distance;
-      id = static_cast<int>(k);
+  const Eigen::Vector2d robot_M = keyframe.X_MR.t.head<2>();
+  if (config_.source == RoomSource::keyframe)
+    return keyframe_rooms(seen_M, robot_M, config_.rooms, config_.keyframe_rooms);
+  rebuild_if_moved(graph);
+  const Partition& partition = partition_of(keyframe.storey);
+  return detect_rooms(partition.grid, partition.clusters, seen_M, std::span(&robot_M, 1), config_.rooms);
+}
+
+// The centre of a two-wall room says nothing along it [bavle2023, section IV-C].
+int RoomLayer::known_by_center(const Graph& graph, const RoomCandidate& room) const {
+  int known = -1;
+  double nearest_m = config_.same_center_m;
+  for (std::size_t k = 0; k < candidates_.size(); ++k) {
+    if (!graph.rooms[k].found || graph.rooms[k].storey != graph.keyframes.back().storey) continue;
+    Eigen::Vector2d off = graph.rooms[k].center_M - room.center_M;
+    if (config_.source == RoomSource::keyframe_clusters && room.kind == RoomKind::two_wall &&
+        candidates_[k].kind == RoomKind::two_wall) {
+      const auto normal = [&](const RoomCandidate& r) {
+        return Eigen::Vector2d(
+            graph.planes[static_cast<std::size_t>(r.planes.front())].plane_M.n.head<2>().normalized());
+      };
+      if (std::abs(normal(room).dot(normal(candidates_[k]))) < same_axis_cos) continue;
+      off = normal(room) * normal(room).dot(off);
     }
+    if (off.norm() >= nearest_m) continue;
+    nearest_m = off.norm();
+    known = static_cast<int>(k);
+  }
+  return known;
+}
+
+// A room is known again by its kind and centre [bavle2023, section IV-C]; the walls of the latest detection replace the
+// former ones, or, as printed, each look adds a factor. A two-wall room inside a four-wall one gives way to it
+// [lsg2022].
+void RoomLayer::add_from_keyframe(Graph& graph, std::span<const PlaneNode> seen_M) {
+  if (config_.source == RoomSource::free_space) return;
+  const int storey = graph.keyframes.back().storey;
+  for (const RoomCandidate& room : rooms_round(graph, seen_M)) {
+    int id = known_by_center(graph, room);
     const bool known = id >= 0;
     if (known && candidates_[static_cast<std::size_t>(id)].kind == RoomKind::four_wall &&
         room.kind == RoomKind::two_wall)
       continue;
     if (!known) {
       id = static_cast<int>(graph.rooms.size());
-      graph.rooms.push_back({.storey = keyframe.storey});
+      graph.rooms.push_back({.storey = storey});
       candidates_.emplace_back();
     }
-    graph.rooms[static_cast<std::size_t>(id)] = {room.kind, room.center_M, keyframe.storey, true};
-    candidates_[static_cast<std::size_t>(id)] = room;
-    std::erase_if(graph.room_factors, [&](const RoomFactor& f) { return f.room == id; });
+    RoomCandidate& latest = candidates_[static_cast<std::size_t>(id)];
+    const bool each_look = known && config_.source == RoomSource::keyframe_clusters && latest.kind == room.kind;
+    RoomVertex& vertex = graph.rooms[static_cast<std::size_t>(id)];
+    if (!each_look) {
+      vertex = {room.kind, room.center_M, storey, true};
+      std::erase_if(graph.room_factors, [&](const RoomFactor& f) { return f.room == id; });
+    }
+    latest = room;
     graph.room_factors.push_back(factor_of(graph, id, room));
   }
 }
@@ -85,7 +118,8 @@ void RoomLayer::add_from_keyframe(Graph& graph, std::span<const PlaneNode> seen_
 std::vector<SameWall> RoomLayer::find_revisited_walls(const Graph& graph, std::span<const PlaneNode> seen_M,
                                                       const WallDistance& distance) const {
   const KeyframeVertex& keyframe = graph.keyframes.back();
-  for (const RoomCandidate& room : keyframe_rooms(seen_M, keyframe.X_MR.t.head<2>(), config_.rooms))
+  for (const RoomCandidate& room :
+       keyframe_rooms(seen_M, keyframe.X_MR.t.head<2>(), config_.rooms, config_.keyframe_rooms))
     for (std::size_t id = 0; id < candidates_.size(); ++id) {
       const RoomVertex& known = graph.rooms[id];
       if (!known.found || known.storey != keyframe.storey || known.kind != room.kind) continue;
@@ -97,7 +131,7 @@ std::vector<SameWall> RoomLayer::find_revisited_walls(const Graph& graph, std::s
 }
 
 void RoomLayer::redirect_merged_planes(Graph& graph) {
-  if (config_.source != RoomSource::keyframe) return;
+  if (config_.source == RoomSource::free_space) return;
   for (RoomCandidate& room : candidates_)
     for (int& plane : room.planes) plane = merge_root(graph, plane);
   for (RoomFactor& factor : graph.room_factors)
@@ -120,7 +154,7 @@ std::vector<RoomNode> RoomLayer::nodes(const Graph& graph) const {
     const RoomCandidate& room = candidates_[id];
     const Eigen::Vector2d& center_M = graph.rooms[id].center_M;
     nodes.push_back({static_cast<int>(id), room.kind, center_M, room.polygon_M, room.planes});
-    if (config_.source != RoomSource::keyframe) continue;
+    if (config_.source == RoomSource::free_space) continue;
     // Its keyframe drew it where the graph then had it.
     for (Eigen::Vector2d& p : nodes.back().polygon_F) p += center_M - room.center_M;
   }

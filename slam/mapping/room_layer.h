@@ -8,19 +8,24 @@
 
 #include "slam/graph/graph.h"
 #include "slam/mapping/same_walls.h"
+#include "slam/rooms/keyframe_rooms.h"
 #include "slam/rooms/room_detector.h"
 
 namespace plumbline::slam {
 
-/// What rooms are made of: free space and the whole map's walls, or the planes of one keyframe alone.
-enum class RoomSource { free_space, keyframe };
-[[nodiscard]] constexpr std::array<std::string_view, 2> names_of(RoomSource) { return {"free_space", "keyframe"}; }
+/// What rooms are made of: free space and the whole map's walls, the planes of one keyframe alone, or free space and
+/// the planes of one keyframe, as printed [bavle2023, section IV-C].
+enum class RoomSource { free_space, keyframe, keyframe_clusters };
+[[nodiscard]] constexpr std::array<std::string_view, 3> names_of(RoomSource) {
+  return {"free_space", "keyframe", "keyframe_clusters"};
+}
 
 struct RoomLayerConfig {
   RoomSource source = RoomSource::free_space;
   FreeSpaceConfig free_space;
   ClusterConfig clusters;
   RoomConfig rooms;
+  KeyframeRoomConfig keyframe_rooms;
   double refresh_m2 = 1.0;
   double rebuild_distance_m = 0.1;
   double same_overlap = 0.3;
@@ -31,10 +36,14 @@ struct RoomLayerConfig {
   template <class V>
   void visit(V& v) {
     v("source", source,
-      Field{.doc = "where rooms come from: free space of a storey, or the planes of one keyframe alone"});
+      Field{
+          .doc =
+              "where rooms come from: free space of a storey and its walls, the planes of one keyframe alone, or free "
+              "space and the planes of one keyframe"});
     v("free_space", free_space);
     v("clusters", clusters);
     v("rooms", rooms);
+    v("keyframe_rooms", keyframe_rooms, Field{.advanced = true});
     v("refresh_m2", refresh_m2,
       Field{.doc = "change of a storey's free space after which it is clustered again", .min = 0});
     v("rebuild_distance_m", rebuild_distance_m,
@@ -61,7 +70,7 @@ class RoomLayer {
   void add_scan(const Graph& graph, const DeskewedScan& scan, std::span<const PlaneObservation> seen);
   /// Rooms of a storey from its walls: vertices, and factors in place of the former ones.
   void update(Graph& graph, int storey, std::span<const PlaneNode> walls);
-  /// The room that the newest keyframe's own planes close round it, for RoomSource::keyframe; known rooms stay.
+  /// The rooms of the newest keyframe's own planes, but for RoomSource::free_space; known rooms stay.
   void add_from_keyframe(Graph& graph, std::span<const PlaneNode> seen_M);
   /// The room that the newest keyframe's own planes close round it, compared with the known ones of its storey: walls
   /// that are the same, see same_walls(). Rooms of four or two walls only.
@@ -85,6 +94,9 @@ class RoomLayer {
 
   void rebuild_if_moved(const Graph& graph);
   [[nodiscard]] RoomFactor factor_of(const Graph& graph, int id, const RoomCandidate& room) const;
+  [[nodiscard]] std::vector<RoomCandidate> rooms_round(const Graph& graph, std::span<const PlaneNode> seen_M);
+  /// The known room that a candidate is by its centre, or -1.
+  [[nodiscard]] int known_by_center(const Graph& graph, const RoomCandidate& room) const;
   [[nodiscard]] std::vector<int> associate(Graph& graph, int storey, const std::vector<RoomCandidate>& candidates);
   FreeSpaceMap& map_of(int storey);
 

@@ -8,6 +8,7 @@
 #include "slam/graph/graph_json.h"
 #include "slam/io/stopwatch.h"
 #include "slam/planes/level.h"
+#include "slam/planes/segmented_scan.h"
 
 namespace plumbline::slam {
 
@@ -122,6 +123,8 @@ void SGraphsPlus::add_keyframe(const DeskewedScan& scan, const Registration& odo
   Stopwatch stopwatch;
   std::vector<PlaneObservation> seen = planes_of(scan);
   record_stage(output, stopwatch, "planes", digest_of(seen), "plane_segmentation");
+  if (config_.parts.walls && (segmented_.empty() || scan.stamp - segmented_.back().stamp >= segmented_interval))
+    segmented_.push_back(segmented_scan(scan, seen));
 
   add_keyframe_vertex(scan.stamp, odometry, seen);
   if (config_.pose_weights == PoseWeights::fitness) {
@@ -136,7 +139,7 @@ void SGraphsPlus::add_keyframe(const DeskewedScan& scan, const Registration& odo
   const std::vector<PlaneNode> seen_now = walls_.seen_now(graph_);
   const std::vector<PlaneNode> walls = walls_.walls(graph_, storey);
   if (config_.parts.rooms) global_solve_requested_ |= find_duplicates_in_rooms(walls, seen_now);
-  if (config_.parts.rooms && config_.rooms.source == RoomSource::keyframe) rooms_.add_from_keyframe(graph_, seen_now);
+  if (config_.parts.rooms) rooms_.add_from_keyframe(graph_, seen_now);
   if (config_.parts.rooms) rooms_.update(graph_, storey, walls);
   record_stage(output, stopwatch, "rooms", digest_of(rooms_.nodes(graph_)), "room_segmentation");
   if (config_.parts.rooms && config_.parts.floors) floors_.update(graph_, storey, walls);
@@ -291,6 +294,8 @@ Estimate SGraphsPlus::finish() {
     const double z = -(plane.d + plane.n.head<2>().dot(floor.center_M)) / plane.n.z();
     estimate.floors.push_back({floor.storey, {floor.center_M.x(), floor.center_M.y(), z}, plane});
   }
+  if (config_.parts.loops) estimate.loops = loop_edges(graph_);
+  estimate.segmented = segmented_;
   estimate.map_F = point_map(estimate);
   estimate.graph = graph_tree(graph_);
   return estimate;
@@ -338,6 +343,14 @@ std::unique_ptr<Method> make_s_graphs_plus_paper_method(const MethodInput& input
 
 std::unique_ptr<Method> make_s_graphs_method(const MethodInput& input) {
   return make(input, config_of<SGraphsConfig>(input));
+}
+
+std::unique_ptr<Method> make_s_graphs_plus_printed_method(const MethodInput& input) {
+  return make(input, config_of<SGraphsPlusPrintedConfig>(input));
+}
+
+std::unique_ptr<Method> make_s_graphs_2022_method(const MethodInput& input) {
+  return make(input, config_of<SGraphs2022Config>(input));
 }
 
 std::unique_ptr<Method> make_hdl_slam_method(const MethodInput& input) {

@@ -115,7 +115,20 @@ struct SGraphsConfig : SGraphsPlusPaperConfig {
   SGraphsConfig();
 };
 
-/// HDL graph SLAM [koide2019]: keyframes, odometry, floor plane and loop closures; no walls, no rooms.
+/// S-Graphs+ as printed in its rooms, too: clusters of free space with the newest keyframe's own planes, known again by
+/// their centres, a factor each look [bavle2023, section IV-C].
+struct SGraphsPlusPrintedConfig : SGraphsPlusPaperConfig {
+  SGraphsPlusPrintedConfig();
+};
+
+/// S-Graphs by the rules of 2022 [lsg2022s]: rooms and corridors of one keyframe's planes within windows of length and
+/// width, association within 0.2, plane factors of information 1.
+struct SGraphs2022Config : SGraphsConfig {
+  SGraphs2022Config();
+};
+
+/// The same graph without walls, rooms and floor layer, in the style of HDL graph SLAM [koide2019]: keyframes, our
+/// odometry, floor plane and loop closures.
 struct HdlSlamConfig : SGraphsPlusConfig {
   HdlSlamConfig() { parts = {.walls = false, .rooms = false, .floors = false, .loops = true}; }
 };
@@ -168,6 +181,7 @@ class SGraphsPlus : public Method {
   LoopClosure loop_;
   Graph graph_;
   IncrementalOptimizer back_end_;
+  std::vector<SegmentedScan> segmented_;
   std::vector<TrackedScan> scans_;
   std::vector<CloudKeyframe> clouds_;                         ///< of scans at least map.spacing_m apart along the way
   std::vector<std::size_t> cloud_scans_;                      ///< index into scans_ of each cloud
@@ -185,6 +199,8 @@ class SGraphsPlus : public Method {
 [[nodiscard]] std::unique_ptr<Method> make_s_graphs_plus_method(const MethodInput& input);
 [[nodiscard]] std::unique_ptr<Method> make_s_graphs_plus_paper_method(const MethodInput& input);
 [[nodiscard]] std::unique_ptr<Method> make_s_graphs_method(const MethodInput& input);
+[[nodiscard]] std::unique_ptr<Method> make_s_graphs_plus_printed_method(const MethodInput& input);
+[[nodiscard]] std::unique_ptr<Method> make_s_graphs_2022_method(const MethodInput& input);
 [[nodiscard]] std::unique_ptr<Method> make_hdl_slam_method(const MethodInput& input);
 
 }  // namespace plumbline::slam

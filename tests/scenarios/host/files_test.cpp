@@ -205,11 +205,16 @@ TEST(EstimateFile, RoundTrip) {
   method.estimate.planes.push_back({7, {{0.6, 0.8, 0.0}, -1.25}, {1, 2}, {3, 4}, 0.1, 2.9, 12});
   method.estimate.rooms.push_back({2, slam::RoomKind::two_wall, {1, 2}, {{0, 0}, {1, 0}, {1, 1}}, {7, 8}});
   method.estimate.floors.push_back({1, {1, 2, 3}, {{0, 0, 1}, 0.0}});
+  method.estimate.loops = {{100, 200, Pose::from_xyz_yaw({1, 2, 3}, 0.5)}};
+  method.estimate.segmented = {{300, {0, 0, 0.2}, {{-1500, 20, 3}, {4, 5, 6}}, {-1, 2}}};
   MethodRecord again;
   read_estimate(write_estimate(method), "e.json", again);
   EXPECT_EQ(write_estimate(again), write_estimate(method));
   EXPECT_EQ(again.estimate.rooms[0].kind, slam::RoomKind::two_wall);
   EXPECT_EQ(again.error, method.error);
+  EXPECT_EQ(again.estimate.loops->at(0).to, 200);
+  EXPECT_EQ(again.estimate.segmented.at(0).point_mm, method.estimate.segmented[0].point_mm);
+  EXPECT_EQ(again.estimate.segmented[0].plane, (std::vector<int>{-1, 2}));
   EXPECT_THROW(read_estimate("{}", "e.json", again), InputError);
 }
 

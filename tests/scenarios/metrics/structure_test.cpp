@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
+#include <utility>
+
+#include "scenarios/metrics/storey.h"
 
 namespace plumbline::scenarios::score {
 namespace {
@@ -262,6 +265,58 @@ TEST(Rooms, ACorridorMatchesByItsTwoWalls) {
   estimate.planes[1].p0.y() += 1.0;
   estimate.planes[1].p1.y() += 1.0;
   EXPECT_EQ(matched(), 0);  // one wall is not where it should be
+}
+
+TEST(Walls, DuplicatesLieOnStretchesThatAreTaken) {
+  const bim::Plan plan = small_plan();
+  slam::Estimate estimate = perfect(plan);
+  EXPECT_EQ(score_walls(estimate, Pose(), plan, {}).duplicates, 0);
+  slam::PlaneNode again = node_of(plan.faces[0], 100);  // the whole face, 3 cm behind it
+  again.plane_F.d += 0.03;
+  again.p0.y() -= 0.03;
+  again.p1.y() -= 0.03;
+  estimate.planes.push_back(again);
+  slam::PlaneNode wrong = node_of(plan.faces[0], 101);  // not on any face
+  wrong.plane_F.d -= 1.0;
+  wrong.p0.y() += 1.0;
+  wrong.p1.y() += 1.0;
+  estimate.planes.push_back(wrong);
+  const WallScore score = score_walls(estimate, Pose(), plan, {});
+  EXPECT_EQ(score.duplicates, 1);
+  EXPECT_DOUBLE_EQ(score.precision, 12.0 / 14.0);
+  // Two halves of one face are different stretches.
+  estimate.planes.resize(12);
+  estimate.planes[0].p1.x() = 2.0;
+  slam::PlaneNode rest = node_of(plan.faces[0], 102);
+  rest.p0.x() = 2.0;
+  estimate.planes.push_back(rest);
+  EXPECT_EQ(score_walls(estimate, Pose(), plan, {}).duplicates, 0);
+}
+
+TEST(Storeys, FloorsAreMatchedByHeightOneToOne) {
+  bim::Plan plan;
+  for (const double z : {0.0, 3.0, 6.0}) {
+    bim::PlanStorey storey;
+    storey.elevation_m = z;
+    plan.storeys.push_back(storey);
+  }
+  Truth truth;  // three seconds on the first two storeys, one on the last
+  const double base = base_height_m();
+  slam::Nanoseconds t = 0;
+  for (const auto& [z, duration_s] : {std::pair(0.0, 3), std::pair(1.5, 3), std::pair(3.0, 3), std::pair(6.0, 1)})
+    for (int i = 0; i <= 10 * duration_s; ++i, t += 100'000'000)
+      truth.poses_W.push_back({t, Pose::from_xyz_yaw({0, 0, z + base}, 0.0)});
+  slam::Estimate estimate;
+  for (const double z : {0.02, 0.1, 3.29, 4.5}) estimate.floors.push_back({0, {1, 1, z}, {{0, 0, 1}, -z}});
+  const StoreyScore score = score_storeys(estimate, Pose(), plan, truth);
+  EXPECT_EQ(score.visited, 2);
+  EXPECT_EQ(score.found, 4);
+  EXPECT_EQ(score.matched, 2);  // the second one is the ground floor once more, the last is a landing
+  EXPECT_EQ(*score.precision, 0.5);
+  EXPECT_EQ(*score.recall, 1.0);
+  const StoreyScore sunk = score_storeys(estimate, Pose::from_xyz_yaw({0, 0, -0.35}, 0.0), plan, truth);
+  EXPECT_EQ(sunk.matched, 2);  // 0.1 is 0.25 too low, 3.29 is 0.06
+  EXPECT_EQ(score_storeys({}, Pose(), plan, truth).recall, 0.0);
 }
 
 }  // namespace

@@ -7,8 +7,11 @@
 #include "slam/graph/factors.h"
 #include "slam/mapping/floor_layer.h"
 #include "slam/mapping/room_layer.h"
+#include "slam/mapping/s_graphs_plus.h"
 #include "slam/mapping/wall_layer.h"
+#include "slam/scan/motion.h"
 #include "tests/slam/graph/random_values.h"
+#include "tests/slam/synthetic.h"
 
 namespace plumbline::slam {
 namespace {
@@ -184,6 +187,35 @@ TEST(RoomLayer, OfOneKeyframeFollowsItsWallsAndTheGraph) {
   for (const Eigen::Vector2d& p : nodes[0].polygon_F) mean += 0.25 * p;
   EXPECT_LT((mean - Eigen::Vector2d(2.3, 1.3)).norm(), 1e-12);
   EXPECT_NEAR(std::abs(signed_area(nodes[0].polygon_F)), 12.0, 1e-9);
+}
+
+// As printed: free space is cut into clusters, the planes are of the newest keyframe, each look adds a factor.
+TEST(RoomLayer, AsPrintedEachLookAddsAFactor) {
+  Graph graph = at(Pose::from_xyz_yaw({2, 1.5, 0.46}, 0));
+  const std::vector<PlaneNode> seen = {{0, Plane{{1, 0, 0}, 0}, {0, 0}, {0, 3}, 0.0, 2.4, 1},
+                                       {1, Plane{{-1, 0, 0}, 4}, {4, 0}, {4, 3}, 0.0, 2.4, 1},
+                                       {2, Plane{{0, 1, 0}, 0}, {0, 0}, {4, 0}, 0.0, 2.4, 1},
+                                       {3, Plane{{0, -1, 0}, 3}, {0, 3}, {4, 3}, 0.0, 2.4, 1}};
+  for (const PlaneNode& wall : seen) graph.planes.push_back({wall.plane_F, PlaneKind::wall, 0, -1});
+  RoomLayerConfig config = SGraphsPlusPrintedConfig().rooms;
+  config.free_space.sensor_height_m = synthetic::calibration().sensor_height_m;
+  RoomLayer rooms(config);
+  const Scan raw = synthetic::standing_scan(synthetic::one_room(4.0, 3.0), graph.keyframes[0].X_MR, {});
+  MotionBuffer still;
+  still.add({0, Pose()});
+  const DeskewedScan scan = deskew(raw, still, synthetic::calibration());
+  for (std::size_t look = 1; look <= 2; ++look) {
+    if (look > 1) graph.keyframes.push_back({1, graph.keyframes[0].X_MR, Pose(), 0});
+    rooms.add_scan(graph, scan, {});
+    rooms.add_from_keyframe(graph, seen);
+    ASSERT_EQ(graph.rooms.size(), 1U);
+    EXPECT_EQ(graph.rooms[0].kind, RoomKind::four_wall);
+    EXPECT_EQ(graph.room_factors.size(), look);
+  }
+  // With two of its walls in sight it is not known anew, and stays what it was.
+  rooms.add_from_keyframe(graph, std::span(seen).first(2));
+  EXPECT_EQ(graph.rooms.size(), 1U);
+  EXPECT_EQ(graph.rooms[0].kind, RoomKind::four_wall);
 }
 
 // 0.3 m apart, first seen 30 m of way after each other: drift, until one scan shows both.
