@@ -338,6 +338,7 @@ Plumb.App = class {
       this.frame = 0;
       if (!this.moment) return;
       if (this.follow && this.moment.poses.truth) this.followRobot(this.moment.poses.truth);
+      if (!this.view.placed && this.homeOf !== this.moment.storey) this.view.home((this.homeOf = this.moment.storey));
       this.view.draw(this.moment, this.changed);
       if (this.changed) this.writeLink();
       this.changed = false;
