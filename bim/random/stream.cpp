@@ -18,7 +18,7 @@ namespace plumbline {
 
 namespace {
 
-constexpr std::array<std::string_view, 32> names = {
+constexpr std::array<std::string_view, 33> names = {
     "bim.furnish",
     "bim.furniture.alter",
     "bim.furniture.people",
@@ -51,6 +51,7 @@ constexpr std::array<std::string_view, 32> names = {
     "slam.localize.recover",
     "slam.loop",
     "slam.ransac",
+    "slam.trial",
 };
 
 std::array<std::uint32_t, 4> philox(std::uint64_t key, std::uint64_t tick, std::uint32_t lane, std::uint32_t draw) {

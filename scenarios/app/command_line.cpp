@@ -120,12 +120,12 @@ bool Argument::given() const { return option_->count() > 0; }
 
 namespace {
 
-/// Help of a command that is followed by one of its own.
+/// Help of a command that is followed by more than options and values.
 class OneOf : public CLI::Formatter {
  public:
   explicit OneOf(std::string what) : what_(std::move(what)) {}
   std::string make_usage(const CLI::App* /*app*/, std::string name) const override {
-    return "Usage: " + name + " " + what_ + " [OPTIONS]\n";
+    return "Usage: " + name + " " + what_ + "\n";
   }
 
  private:
@@ -187,8 +187,19 @@ void CommandLine::needs_command() { app_->require_subcommand(1); }
 
 void CommandLine::takes_command_or_any(const std::string& what) {
   app_->require_subcommand(0, 1);
-  app_->formatter(std::make_shared<OneOf>(what));
+  app_->formatter(std::make_shared<OneOf>(what + " [OPTIONS]"));
   app_->allow_extras();
+}
+
+void CommandLine::takes_rest(const std::string& what) {
+  app_->formatter(std::make_shared<OneOf>("[OPTIONS] " + what));
+  app_->prefix_command();
+}
+
+std::vector<std::string> CommandLine::rest() const {
+  std::vector<std::string> words = app_->remaining();
+  if (!words.empty() && words.front() == "--") words.erase(words.begin());
+  return words;
 }
 
 bool CommandLine::parse(const std::vector<std::string>& arguments) {

@@ -68,6 +68,10 @@ class CommandLine {
   /// At most one subcommand, which the help calls so; what is none of them is left to the action to refuse.
   void takes_command_or_any(const std::string& what);
 
+  /// All words from the first on that is no option are left as they are; the help calls them so.
+  void takes_rest(const std::string& what);
+  [[nodiscard]] std::vector<std::string> rest() const;
+
   /// Reads the arguments after the program's name. False where help or version was asked for, which is then printed.
   /// Throws InputError.
   [[nodiscard]] bool parse(const std::vector<std::string>& arguments);

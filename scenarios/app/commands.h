@@ -29,6 +29,8 @@ struct Command {
 [[nodiscard]] Command add_scenarios(CommandLine& program);
 [[nodiscard]] Command add_simulate(CommandLine& program, slam::MethodTable table);
 [[nodiscard]] Command add_estimate(CommandLine& program, slam::MethodTable table);
+[[nodiscard]] Command add_conformance(CommandLine& program);
+[[nodiscard]] Command add_doctor(CommandLine& program);
 [[nodiscard]] Command add_bench(CommandLine& program);
 
 }  // namespace plumbline::scenarios

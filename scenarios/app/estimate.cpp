@@ -126,13 +126,16 @@ Poverty poverty_of(const EstimateArguments& options) {
   return {options.every, without("rings"), without("times")};
 }
 
-/// Of a LiDAR that sends no packets simulate leaves a bag alone, with the description beside it.
+/// Of a LiDAR that sends no packets simulate leaves bags alone, with the description beside it.
 std::unique_ptr<slam::Recording> open_folder(const std::string& folder, const slam::BagTopics& topics,
                                              const slam::RecordingInfo* given) {
   namespace fs = std::filesystem;
-  const std::string bag = folder + "/recording.bag", description = folder + "/recording.yaml";
-  const bool bag_alone = fs::exists(bag) && fs::exists(description) && !fs::exists(folder + "/lidar.pcap");
-  if (!bag_alone) return slam::open_recording(folder, given);
+  const std::string description = folder + "/recording.yaml";
+  std::string bag;
+  for (const char* name : {"/rosbag2", "/recording.mcap", "/recording.bag"})
+    if (fs::exists(folder + name)) bag = folder + name;
+  if (bag.empty() || !fs::exists(description) || fs::exists(folder + "/lidar.pcap"))
+    return slam::open_recording(folder, given);
   const slam::RecordingInfo info =
       given != nullptr ? *given : slam::read_recording_info(read_text_file(description), description);
   return slam::open_bag(bag, topics, &info);
@@ -144,11 +147,13 @@ void check_kind(const std::string& recording) {
   std::error_code error;
   if (!fs::exists(recording, error))
     throw InputError({recording, 0, 0},
-                     "no such file; a recording directory, a capture (.pcap), a ROS 1 bag or a folder "
-                     "of point clouds would be right");
+                     "no such file; a recording directory, a capture (.pcap), a bag (.bag, .mcap, .db3 "
+                     "or a rosbag2 folder) or a folder of point clouds would be right");
   if (fs::is_directory(recording, error) || slam::is_bag(recording)) return;
   if (fs::path(recording).extension() == ".bag")
     throw InputError({recording, 0, 0}, "is no ROS 1 bag; one begins with '#ROSBAG V2.0'");
+  if (fs::path(recording).extension() == ".mcap" || fs::path(recording).extension() == ".db3")
+    throw InputError({recording, 0, 0}, "is no ROS 2 bag; an MCAP or an SQLite file would be right");
 }
 
 /// A run directory holds its recording in a folder.
@@ -308,12 +313,13 @@ Command add_estimate(CommandLine& program, slam::MethodTable table) {
   const auto options = std::make_shared<EstimateArguments>();
   CommandLine line = program.add_command("estimate", "Runs a method on a recording, simulated or real");
   line.option("RECORDING", options->recording,
-              "directory written by simulate or run --record, capture of a Velodyne LiDAR (.pcap), ROS 1 bag, or "
-              "folder of point clouds (.pcd or .ply)")
+              "directory written by simulate or run --record, capture of a Velodyne LiDAR (.pcap), bag of ROS 1 (.bag) "
+              "or ROS "
+              "2 (.mcap, .db3, rosbag2 folder), or folder of point clouds (.pcd or .ply)")
       .required();
   line.option("--description", options->description,
               "a recording.yaml with the LiDAR's mount, for a capture or bag, which has none");
-  line.option("--points-topic", options->topics.points, "of a bag [the first PointCloud2]");
+  line.option("--points-topic", options->topics.points, "of a bag [the first PointCloud2 or Livox CustomMsg]");
   line.option("--odometry-topic", options->topics.odometry, "of a bag [the first Odometry]");
   line.option("--imu-topic", options->topics.imu, "of a bag [the first Imu]");
   line.option("--method", options->method, "one of plumbline methods, or NAME=COMMAND: a process of your own")

@@ -10,6 +10,7 @@
 #include "bim/config/tree.h"
 #include "bim/errors.h"
 #include "scenarios/host/files.h"
+#include "scenarios/host/manifest.h"
 #include "scenarios/host/terminal.h"
 #include "scenarios/metrics/reference_score.h"
 #include "scenarios/metrics/silence.h"
@@ -112,11 +113,13 @@ bool is_estimate_directory(const std::string& dir) {
   return fs::exists(dir + "/estimate.yaml") && !fs::exists(dir + "/scenario.yaml");
 }
 
-void score_estimate(const std::string& dir, const std::string& reference_file) {
+void score_estimate(const std::string& dir, const std::string& reference_file, bool unchecked) {
   const std::vector<std::string> methods = estimates_in(dir);
   if (methods.size() != 1) throw InputError({dir, 0, 0}, "holds no single estimate; make it again");
   const MethodRecord method = read_method(dir, methods.front());
   remove_abandoned(dir);
+  const std::vector<std::string> altered = altered_files(dir, {{"score.json"}});
+  refuse_altered(dir, altered, unchecked);
   if (method.crashed) throw InputError({dir, 0, 0}, "is of a method that crashed: " + method.error);
   if (method.causal.empty()) throw InputError({dir, 0, 0}, "holds no pose; the method gave none");
   const Poses reference = reference_file.empty() ? Poses() : read_reference(reference_file, method.causal);
@@ -125,6 +128,9 @@ void score_estimate(const std::string& dir, const std::string& reference_file) {
 
   Tree tree = Tree::map();
   tree.set("plumbline", PLUMBLINE_VERSION).set("method", method.name);
+  Tree names = Tree::list();
+  for (const std::string& name : altered) names.push(name);
+  if (!altered.empty()) tree.set("unchecked", std::move(names));
   if (method.scans > 0)
     tree.set("scans", method.scans)
         .set("lost_share", 1.0 * method.lost_scans / method.scans)
@@ -139,6 +145,7 @@ void score_estimate(const std::string& dir, const std::string& reference_file) {
   tree.set("causal", to_json(causal));
   if (last.path.poses > 0) tree.set("final", to_json(last));
   write_file(dir + "/score.json", write_json(tree) + "\n");
+  renew_manifest(dir, {"score.json"});
 
   std::string text = method.name;
   if (method.scans > 0)

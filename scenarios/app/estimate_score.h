@@ -9,7 +9,8 @@ namespace plumbline::scenarios {
 [[nodiscard]] bool is_estimate_directory(const std::string& dir);
 
 /// Scores what `plumbline estimate` left by itself and, where `reference` names a trajectory, by that. Writes
-/// score.json into `dir` and prints a table. Throws InputError, also where the two are of different times.
-void score_estimate(const std::string& dir, const std::string& reference);
+/// score.json into `dir` and prints a table. Throws InputError, also where the two are of different times, and, unless
+/// `unchecked`, where files were altered since they were written.
+void score_estimate(const std::string& dir, const std::string& reference, bool unchecked);
 
 }  // namespace plumbline::scenarios

@@ -8,8 +8,10 @@
 #include <vector>
 
 #include "bim/config/printable.h"
+#include "bim/errors.h"
 #include "scenarios/app/commands.h"
 #include "scenarios/run/method_runner.h"
+#include "scenarios/spec/library.h"
 #include "scenarios/spec/method_names.h"
 #include "scenarios/spec/resolve.h"
 #include "scenarios/spec/scenario_schema.h"
@@ -51,19 +53,19 @@ int print_config(const std::string& name, bool all, slam::MethodTable table) {
   return 0;
 }
 
-int list_scenarios(const std::string& folder) {
+/// Of the library by the names that run takes, of another folder by their paths.
+int list_scenarios(const std::string& given) {
+  const std::string folder = given.empty() ? library_folder() : given;
+  if (folder.empty())
+    throw EnvironmentError("the scenarios that come with the program are not beside it; name a folder with scenarios");
   if (!fs::is_directory(folder)) throw InputError({folder, 0, 0}, "no such directory; name one with scenarios in it");
-  std::vector<std::string> paths;
-  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder))
-    if (entry.path().extension() == ".yaml") paths.push_back(entry.path().string());
-  std::sort(paths.begin(), paths.end());
-  for (const std::string& path : paths) {
-    const Tree tree = read_yaml(read_text_file(path), path);
-    if (tree.find("scenario") == nullptr) continue;
+  for (const std::string& path : scenario_files(folder)) {
     const Scenario scenario = read_scenario(read_text_file(path), path).scenario;
     std::string methods;
     for (const std::string& name : scenario.methods) methods += " " + name;
-    std::printf("%-40s %-20s%s\n", printable(path).c_str(), printable(scenario.name).c_str(),
+    const std::string shown =
+        given.empty() ? fs::path(path).lexically_relative(folder).replace_extension().string() : path;
+    std::printf("%-40s %-20s%s\n", printable(shown).c_str(), printable(scenario.name).c_str(),
                 printable(methods).c_str());
   }
   return 0;
@@ -95,14 +97,15 @@ Command add_methods(CommandLine& program, slam::MethodTable table) {
 
 Command add_scenarios(CommandLine& program) {
   struct Options {
-    std::string folder = "scenarios/library";
+    std::string folder;
     bool schema = false;
   };
   const auto options = std::make_shared<Options>();
-  CommandLine line = program.add_command("scenarios", "Lists the scenarios of a folder and the folders in it");
-  line.option("FOLDER", options->folder, "folder with scenarios").shows_default();
+  CommandLine line = program.add_command(
+      "scenarios", "Lists the scenarios that come with the program, by the names that run takes; or those of a folder");
+  line.option("FOLDER", options->folder, "folder with scenarios, and the folders in it [those of the program]");
   line.flag("--schema", options->schema, "prints instead every key of scenario files, with examples");
-  line.footer("Example: plumbline scenarios scenarios/library");
+  line.footer("Example: plumbline scenarios\n         plumbline scenarios my_scenarios");
   return {line, [options] { return options->schema ? print_schema() : list_scenarios(options->folder); }};
 }
 

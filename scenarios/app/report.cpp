@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "bim/config/printable.h"
 #include "bim/errors.h"
@@ -8,6 +9,7 @@
 #include "scenarios/app/summary.h"
 #include "scenarios/host/files.h"
 #include "scenarios/host/interrupt.h"
+#include "scenarios/host/manifest.h"
 #include "scenarios/host/progress.h"
 #include "scenarios/host/terminal.h"
 #include "scenarios/report/replay/replay_page.h"
@@ -23,6 +25,7 @@ namespace {
 struct ReportArguments {
   std::string dir;
   bool replay = false;
+  bool unchecked = false;
   double megabytes = 15.0;
 };
 
@@ -43,9 +46,12 @@ ScanPacker simulate_scans(const std::string& dir, const FinishedRun& run) {
 }
 
 int report(const ReportArguments& options) {
-  const FinishedRun run = read_run(options.dir);
-  const score::RunScore score = score::score_run(run);
+  FinishedRun run = read_run(options.dir);
   remove_abandoned(options.dir);
+  const std::vector<std::string> written_here = {"report.html", "replay.html"};
+  run.altered = altered_files(options.dir, {written_here, false});
+  refuse_altered(options.dir, run.altered, options.unchecked);
+  const score::RunScore score = score::score_run(run);
   write_file(options.dir + "/report.html", render_report(report_input(run, score)));
   std::string written = "report: " + printable(options.dir) + "/report.html\n";
   if (options.replay) {
@@ -57,6 +63,7 @@ int report(const ReportArguments& options) {
     write_file(options.dir + "/replay.html", render_replay(run, score, scans, read_graphs(options.dir, run), most));
     written += "replay: " + printable(options.dir) + "/replay.html\n";
   }
+  renew_manifest(options.dir, written_here);
   print(written);
   return 0;
 }
@@ -72,6 +79,7 @@ Command add_report(CommandLine& program) {
   line.option("--size-mb", options->megabytes,
               "most that replay.html may take: scans are left out, away from what is worth a look, until it fits [15]")
       .range(1.0, 1000.0);
+  line.flag("--unchecked", options->unchecked, "takes files that were altered since they were written");
   line.footer("Example: plumbline report --3d runs/quickstart-1");
   return {line, [options] { return report(*options); }};
 }

@@ -117,7 +117,9 @@ Command add_run(CommandLine& program, slam::MethodTable table) {
   const auto options = std::make_shared<RunArguments>();
   CommandLine line = program.add_command("run", "Simulates a scenario, runs the methods, scores and reports them");
   line.option("INPUT", options->input,
-              "scenario, plan or traffic-editor plan (.yaml), .ifc, or mesh (.glb, .obj, .dae, .ply, .stl)")
+              "scenario, plan or traffic-editor plan (.yaml), name of a scenario (plumbline scenarios), .ifc, or mesh "
+              "(.glb, .obj, "
+              ".dae, .ply, .stl)")
       .required();
   options->methods_option =
       line.option(
@@ -133,7 +135,8 @@ Command add_run(CommandLine& program, slam::MethodTable table) {
             "also write replay.html, the run in three dimensions; a run that fails a gate has it anyway");
   line.flag("--force", options->force, "replace the run that stands in --out");
   line.footer(
-      "Example: plumbline run scenarios/library/quickstart.yaml --method vgicp,truth --seed 7 --out runs/seven");
+      "Example: plumbline run quickstart --out runs/first\n"
+      "         plumbline run scenarios/library/quickstart.yaml --method vgicp,truth --seed 7 --out runs/seven");
   return {line, [options, table] { return run(*options, table); }};
 }
 

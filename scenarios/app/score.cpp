@@ -13,6 +13,7 @@
 #include "scenarios/app/estimate_score.h"
 #include "scenarios/app/summary.h"
 #include "scenarios/host/files.h"
+#include "scenarios/host/manifest.h"
 #include "scenarios/host/terminal.h"
 #include "scenarios/metrics/trajectory.h"
 #include "scenarios/run/ground_truth_recorder.h"
@@ -113,9 +114,12 @@ void check_dropped(const std::vector<std::string>& dropped, const FinishedRun& r
 }
 
 int score_again(const std::string& dir, const std::vector<std::string>& estimates,
-                const std::vector<std::string>& dropped) {
+                const std::vector<std::string>& dropped, bool unchecked) {
   FinishedRun run = read_run(dir);
   remove_abandoned(dir);
+  std::vector<std::string> written = {"report.html", "junit.xml", "results.json"};
+  const std::vector<std::string> altered = altered_files(dir, {written, false});
+  refuse_altered(dir, altered, unchecked);
   check_dropped(dropped, run);
   std::vector<MethodRecord> outside;
   for (const std::string& text : estimates) {
@@ -133,23 +137,29 @@ int score_again(const std::string& dir, const std::vector<std::string>& estimate
   for (const std::string& name : dropped) remove_method(dir, name);
   for (const MethodRecord& method : outside) write_method(dir, method);
   if (!outside.empty() || !dropped.empty()) run = read_run(dir);
+  run.altered = altered;
   const score::RunScore score = score_and_report(dir, run);
+  std::vector<std::string> methods = dropped;
+  for (const MethodRecord& method : outside) methods.push_back(method.name);
+  for (const std::string& method : methods)
+    for (const std::string& name : files_of_method(method)) written.push_back(name);
+  renew_manifest(dir, written);
   print("report: " + printable(dir) + "/report.html\n" + summarise(run, score));
   return exit_code(run, score);
 }
 
 /// A run, or an estimate of a recording that has no run.
 int score_any(const std::string& dir, const std::vector<std::string>& estimates,
-              const std::vector<std::string>& dropped, const std::string& reference) {
+              const std::vector<std::string>& dropped, const std::string& reference, bool unchecked) {
   if (is_estimate_directory(dir)) {
     if (!estimates.empty() || !dropped.empty())
       throw InputError({dir, 0, 0}, "is an estimate; --estimate and --drop are of run directories");
-    score_estimate(dir, reference);
+    score_estimate(dir, reference, unchecked);
     return 0;
   }
   if (!reference.empty())
     throw InputError({"--reference", 0, 0}, "is of a directory of plumbline estimate; '" + dir + "' is none");
-  return score_again(dir, estimates, dropped);
+  return score_again(dir, estimates, dropped, unchecked);
 }
 
 }  // namespace
@@ -160,6 +170,7 @@ Command add_score(CommandLine& program) {
     std::vector<std::string> estimates;
     std::vector<std::string> dropped;
     std::string reference;
+    bool unchecked = false;
   };
   const auto options = std::make_shared<Options>();
   CommandLine line = program.add_command(
@@ -175,12 +186,16 @@ Command add_score(CommandLine& program) {
               "of an estimate: true poses (TUM, KITTI or EuRoC) of the same frame of the robot, in any world frame, on "
               "the estimate's "
               "clock; both are aligned");
+  line.flag("--unchecked", options->unchecked,
+            "takes files that were altered since they were written; results.json names them");
   line.footer(
       "Example: plumbline score runs/quickstart-1 --estimate kiss=kiss.tum --estimate amcl=amcl.tum,frame=W\n"
       "         plumbline score runs/quickstart-1 --estimate paper=estimates/paper\n"
       "         plumbline score estimates/street --reference street.tum");
-  return {line,
-          [options] { return score_any(options->dir, options->estimates, options->dropped, options->reference); }};
+  return {line, [options] {
+            return score_any(options->dir, options->estimates, options->dropped, options->reference,
+                             options->unchecked);
+          }};
 }
 
 }  // namespace plumbline::scenarios

@@ -26,9 +26,13 @@ struct SimulateArguments {
   std::uint64_t seed = 0;
   bool force = false;
   bool bag = false;
+  bool mcap = false;
+  bool rosbag2 = false;
+  std::string compression = "none";
   bool bag_truth = false;
   std::string profile = "velodyne";
   std::optional<Argument> seed_option;
+  std::optional<Argument> profile_option;
 };
 
 std::vector<std::string> profile_names() {
@@ -42,7 +46,16 @@ const slam::BagProfile& find_profile(const std::string& name) {
   return *std::find_if(rows.begin(), rows.end(), [&](const slam::BagProfile& row) { return row.name == name; });
 }
 
+/// What is of bags says nothing where none is written.
+void check_bag_options(const SimulateArguments& options) {
+  if (options.bag || options.mcap || options.rosbag2) return;
+  if (options.profile_option->given() || options.bag_truth)
+    throw InputError({options.bag_truth ? "--bag-truth" : "--ros-profile", 0, 0},
+                     "is of bags; --bag, --mcap or --rosbag2 is to be given with it");
+}
+
 int simulate(const SimulateArguments& options, slam::MethodTable table) {
+  check_bag_options(options);
   Overrides overrides;
   if (options.seed_option->given()) overrides.seed = options.seed;
   const ResolvedScenario resolved = resolve(options.input, overrides, table);
@@ -50,8 +63,14 @@ int simulate(const SimulateArguments& options, slam::MethodTable table) {
   catch_interrupts();
   RunDirectory directory(options.out, DirectoryKind::recording, options.force);
   const std::string& dir = directory.staging();
-  Recorder recorder(dir, resolved, options.bag);
-  if (options.bag) recorder.add_bag(find_profile(options.profile), options.bag_truth);
+  const bool to_bag = options.bag || options.mcap || options.rosbag2;
+  Recorder recorder(dir, resolved, to_bag);
+  const slam::BagProfile& profile = find_profile(options.profile);
+  if (options.bag) recorder.add_bag(profile, options.bag_truth);
+  if (options.mcap)
+    recorder.add_bag(profile, options.bag_truth, slam::BagFormat::mcap,
+                     options.compression == "none" ? "" : options.compression);
+  if (options.rosbag2) recorder.add_bag(profile, options.bag_truth, slam::BagFormat::rosbag2);
   RunOptions run_options;
   run_options.methods = false;
   run_options.observe = [&](const sim::WorldFrame& frame) { recorder.add(frame); };
@@ -83,15 +102,22 @@ Command add_simulate(CommandLine& program, slam::MethodTable table) {
   line.option("INPUT", options->input, "scenario, plan or building, as for run").required();
   line.option("-o,--out", options->out, "directory to write").required();
   options->seed_option = line.seed("--seed", options->seed, "seed [the scenario's]");
-  const Argument bag = line.flag("--bag", options->bag, "also write recording.bag (ROS 1, LZ4)");
-  line.option("--ros-profile", options->profile, "topics, frames and cloud layout of the bag")
-      .one_of(profile_names())
+  line.flag("--bag", options->bag, "also write recording.bag (ROS 1, LZ4)");
+  const Argument mcap = line.flag("--mcap", options->mcap, "also write recording.mcap (ROS 2)");
+  line.flag("--rosbag2", options->rosbag2, "also write the folder rosbag2 (ROS 2, SQLite, as Humble)");
+  line.option("--compression", options->compression, "of the MCAP file's chunks")
+      .one_of({"none", "zstd", "lz4"})
       .shows_default()
-      .needs(bag);
-  line.flag("--bag-truth", options->bag_truth, "true poses in the bag, on /ground_truth/odom").needs(bag);
+      .needs(mcap);
+  options->profile_option =
+      line.option("--ros-profile", options->profile, "topics, frames and cloud layout of the bags")
+          .one_of(profile_names())
+          .shows_default();
+  line.flag("--bag-truth", options->bag_truth, "true poses in the bags, on /ground_truth/odom");
   line.flag("--force", options->force, "replace the recording that stands in --out");
   line.footer(
       "Example: plumbline simulate scenarios/library/house.yaml -o walk --bag\n"
+      "         plumbline simulate scenarios/library/house.yaml -o walk --mcap --bag-truth\n"
       "Writes lidar.pcap (packets of the LiDAR), odometry.tum, odometry_covariance.csv, imu.csv, recording.yaml and "
       "truth.tum; plumbline "
       "estimate "

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenarios/sweep/sweep.h"
 
+#include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -14,6 +16,7 @@
 #include "scenarios/host/progress.h"
 #include "scenarios/host/terminal.h"
 #include "scenarios/sweep/shared_simulation.h"
+#include "scenarios/sweep/slurm.h"
 #include "scenarios/sweep/sweep_schema.h"
 
 namespace plumbline::scenarios {
@@ -26,6 +29,9 @@ struct SweepArguments {
   int jobs = 0;
   int seeds = 0;
   bool schema = false;
+  std::string shard;
+  bool slurm = false;
+  int runs_per_task = 20;
   std::vector<std::string> runs;  ///< what this program asks its children for: the runs of one simulation
   std::uint64_t seed = 1;
 };
@@ -34,6 +40,63 @@ std::string run_with_progress(const Sweep& sweep, SweepOptions options) {
   Progress progress(sweep.file.name, {static_cast<double>(sweep.runs.size()), "runs"});
   options.progress = [&](std::size_t done, std::size_t) { progress.at(static_cast<double>(done)); };
   return run_sweep(sweep, options);
+}
+
+struct CollectArguments {
+  std::string file;
+  std::vector<std::string> from;
+  std::string out;
+  int seeds = 0;
+};
+
+std::string default_out(const Sweep& sweep) {
+  std::string name = sweep.file.name;
+  for (char& c : name)
+    if (c == '/' || c == ' ') c = '_';
+  return "sweeps/" + name;
+}
+
+/// "I/N", with I from 1 to N.
+Shard shard_of(const std::string& text) {
+  Shard shard;
+  int end = 0;
+  constexpr int most = 1'000'000;
+  const bool read = std::sscanf(text.c_str(), "%d/%d%n", &shard.number, &shard.of, &end) == 2 &&
+                    static_cast<std::size_t>(end) == text.size();
+  if (!read || shard.of < 1 || shard.of > most || shard.number < 1 || shard.number > shard.of)
+    throw InputError({"--shard", 0, 0}, "'" + text + "' must be I/N, with I from 1 to N, as in 2/8");
+  return shard;
+}
+
+/// Words of the command line that a part of the sweep is to be asked with.
+std::vector<std::string> words_of(const std::string& file, int seeds) {
+  std::vector<std::string> words = {std::filesystem::absolute(file).lexically_normal().string()};
+  if (seeds > 0) words.insert(words.end(), {"--seeds", std::to_string(seeds)});
+  return words;
+}
+
+int submit_to_slurm(const SweepArguments& options, const Sweep& sweep) {
+  SlurmJob job;
+  job.name = sweep.file.name;
+  for (char& c : job.name)
+    if (c <= ' ' || c == '/' || c == ',') c = '_';
+  std::error_code error;
+  job.program = std::filesystem::read_symlink("/proc/self/exe", error).string();
+  job.sweep = words_of(options.file, options.seeds);
+  const std::string out = options.out.empty() ? default_out(sweep) : options.out;
+  job.out = std::filesystem::absolute(out).lexically_normal().string();
+  const auto runs = static_cast<int>(sweep.runs.size());
+  job.shards = std::clamp((runs + options.runs_per_task - 1) / options.runs_per_task, 1, walks_of(sweep));
+  job.at_once = options.jobs;
+  print(submit(job));
+  return 0;
+}
+
+int collect(const CollectArguments& options, slam::MethodTable table) {
+  const Sweep sweep = read_sweep(options.file, options.seeds, table);
+  const std::string out = options.out.empty() ? default_out(sweep) : options.out;
+  print(collect_sweep(sweep, options.from, out) + "table: " + printable(out) + "/table.html\n");
+  return 0;
 }
 
 int sweep(const SweepArguments& options, slam::MethodTable table) {
@@ -48,11 +111,16 @@ int sweep(const SweepArguments& options, slam::MethodTable table) {
   }
   if (options.file.empty()) throw InputError({"SWEEP", 0, 0}, "is missing; name a sweep file");
   const Sweep sweep = read_sweep(options.file, options.seeds, table);
-  std::string name = sweep.file.name;
-  for (char& c : name)
-    if (c == '/' || c == ' ') c = '_';
+  if (options.slurm) {
+    if (!options.shard.empty()) throw InputError({"--shard", 0, 0}, "is chosen by the cluster with --slurm");
+    return submit_to_slurm(options, sweep);
+  }
   SweepOptions run;
-  run.out = options.out.empty() ? "sweeps/" + name : options.out;
+  run.out = options.out.empty() ? default_out(sweep) : options.out;
+  if (!options.shard.empty()) {
+    run.shard = shard_of(options.shard);
+    if (options.out.empty()) run.out = shard_folder(run.out, run.shard->number, run.shard->of);
+  }
   run.jobs = options.jobs > 0 ? options.jobs : allowed_cpus();
   run.resumed = [&](std::size_t done, std::size_t all) {
     print_note("plumbline: " + std::to_string(done) + " of " + std::to_string(all) + " runs are there already; " +
@@ -60,7 +128,8 @@ int sweep(const SweepArguments& options, slam::MethodTable table) {
   };
   catch_interrupts();
   const std::string text = run_with_progress(sweep, run);
-  print(text + "table: " + printable(run.out) + "/table.html\n");
+  print(text + (run.shard ? "results: " + printable(run.out) + "/results\n"
+                          : "table: " + printable(run.out) + "/table.html\n"));
   return 0;
 }
 
@@ -75,14 +144,33 @@ Command add_sweep(CommandLine& program, slam::MethodTable table) {
   line.option("--seeds", options->seeds, "number of seeds, in place of the file's; runs that are there are kept")
       .range(1, 100000);
   line.flag("--schema", options->schema, "prints instead every key of sweep files, with examples");
+  line.option("--shard", options->shard,
+              "I/N: only part I of N, for one of N machines; sweep collect makes the table of all parts");
+  line.flag("--slurm", options->slurm,
+            "submits the sweep to Slurm as an array of shards, --jobs tasks at a time, and a job that collects them");
+  line.option("--runs-per-task", options->runs_per_task,
+              "with --slurm: runs that a task has at least, so that it lasts ten minutes or more [20]")
+      .range(1, 100000);
   line.option("--runs", options->runs,
               "scenarios that differ in prior, methods, sensors and gates alone, to be run on one simulation")
       .hidden();
   line.seed("--seed", options->seed, "their seed").hidden();
+  const auto collected = std::make_shared<CollectArguments>();
+  CommandLine collector = line.add_command("collect", "makes the table of a sweep from what its shards left");
+  collector.option("SWEEP", collected->file, "sweep file (.yaml)").required();
+  collector.option("--from", collected->from, "folders that sweep --shard wrote").required();
+  collector.option("-o,--out", collected->out, "folder of the sweep, new or to be completed [sweeps/<name>]");
+  collector.option("--seeds", collected->seeds, "as given to the shards").range(1, 100000);
+  collector.footer("Example: plumbline sweep collect look.yaml --from sweeps/look.shards/* -o sweeps/look");
   line.footer(
-      "Example: plumbline sweep ci/sweeps/look.yaml --jobs 2\nA sweep that was stopped is resumed by the same "
-      "command.");
-  return {line, [options, table] { return sweep(*options, table); }};
+      "Example: plumbline sweep ci/sweeps/look.yaml --jobs 2\n"
+      "         plumbline sweep look.yaml --shard 2/8\n"
+      "         parallel -S host1,host2 --wd . plumbline sweep look.yaml --shard {}/8 ::: {1..8}\n"
+      "         plumbline sweep look.yaml --slurm --jobs 50\n"
+      "A sweep or shard that was stopped is resumed by the same command.");
+  return {line, [options, collected, collector, table] {
+            return collector.asked() ? collect(*collected, table) : sweep(*options, table);
+          }};
 }
 
 }  // namespace plumbline::scenarios

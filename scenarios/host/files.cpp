@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "bim/errors.h"
+#include "scenarios/host/manifest.h"
 
 namespace plumbline::scenarios {
 
@@ -92,7 +93,7 @@ namespace {
 
 constexpr std::string_view method_name = "<method>", building_start = "building.";
 
-constexpr std::array<FileRow, 19> run_files = {{
+constexpr std::array<FileRow, 20> run_files = {{
     {"report.html", "the report: maps, errors over time, verdicts, gates; it loads nothing from elsewhere"},
     {"replay.html",
      "with `--replay`, `report --3d` or a failed gate: the run in three dimensions at any of its times, in one file"},
@@ -114,10 +115,11 @@ constexpr std::array<FileRow, 19> run_files = {{
     {"digests.csv", "a digest for each stage and scan; `diff` and `replay` compare them"},
     {"timings.json", "CPU time of each stage; the only file that differs between repetitions"},
     {"failure.txt", "why the scenario ended early, where it did"},
+    {manifest_name, "a digest of every file as it was written; `score`, `report` and `replay` compare them", false},
     {recording_folder, "with `--record`: the sensor data of the run, as `simulate` writes it"},
 }};
 
-constexpr std::array<FileRow, 9> recording_files = {{
+constexpr std::array<FileRow, 12> recording_files = {{
     {"lidar.pcap", "the LiDAR's packets as the sensor sends them, with nanosecond stamps; not of an `os1_64`"},
     {"odometry.tum", "odometry poses"},
     {"odometry_covariance.csv",
@@ -126,12 +128,16 @@ constexpr std::array<FileRow, 9> recording_files = {{
     {"recording.yaml",
      "the LiDAR's mount, packets per scan, seed, digest of the sensor data, and the prior of localization"},
     {"recording.bag", "the same data as a ROS 1 bag (LZ4), with `--bag`"},
+    {"recording.mcap", "the same data as ROS 2 records it (MCAP), with `--mcap`"},
+    {"rosbag2", "the same data as ROS 2 records it (SQLite and metadata.yaml), with `--rosbag2`"},
     {"truth.tum", "true poses; `estimate` does not read them"},
+    {manifest_name, "a digest of every file as it was written", false},
     {"scenario.yaml", "the resolved scenario"},
     {"building.*", "the building that the scenario names", false},
 }};
 
-constexpr std::array<FileRow, 11> estimate_files = {{
+constexpr std::array<FileRow, 12> estimate_files = {{
+    {manifest_name, "a digest of every file as it was written; `score` compares them", false},
     {"estimate.yaml", "the recording, method and seed of the estimate; `score` compares them with the run"},
     {"score.json",
      "with `score`: path, share of scans after which the method was lost, errors by a reference, and whether it said "
@@ -267,6 +273,7 @@ void RunDirectory::create() {
 void RunDirectory::commit() {
   const fs::path target(path_);
   std::error_code error;
+  write_manifest(staging_);
   fs::remove(target / "results.json", error);
   for (const std::string& name : names_in(path_))
     if (name != staging_name) fs::remove_all(target / name, error);

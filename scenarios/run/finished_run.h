@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "scenarios/run/record.h"
@@ -16,6 +17,7 @@ struct FinishedRun {
   std::shared_ptr<const RunBuilding> building;
   std::vector<slam::Nanoseconds> scans;  ///< stamps of all scans
   RunRecord record;                      ///< methods: the scenario's in its order, then outside estimates by name
+  std::vector<std::string> altered;      ///< files that are not as the run wrote them, and were taken all the same
 };
 
 /// Stamps of the scans in a log.

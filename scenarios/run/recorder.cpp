@@ -25,7 +25,8 @@ bool sends_packets(const ResolvedScenario& resolved) {
 slam::RecordingInfo info_of(const ResolvedScenario& resolved, bool to_bag) {
   if (!to_bag && !sends_packets(resolved))
     throw InputError({}, "LiDAR model " + std::string(slam::lidar_model(resolved.world.lidar.model).name) +
-                             " sends no packets to record; simulate --bag would be right, or vlp16, vlp32c or hdl32e");
+                             " sends no packets to record; simulate with --bag, --mcap or --rosbag2 would be right, or "
+                             "vlp16, vlp32c or hdl32e");
   slam::RecordingInfo info = slam::recording_info(resolved.scenario.seed, resolved.calibration, resolved.prior);
   info.lidar.vertical_offsets = resolved.world.vertical_offsets;
   info.plan = resolved.scenario.building_options;
@@ -40,8 +41,12 @@ Recorder::Recorder(const std::string& dir, const ResolvedScenario& resolved, boo
       calibration_(resolved.calibration),
       writer_(made(dir), info_of(resolved, to_bag)) {}
 
-void Recorder::add_bag(const slam::BagProfile& profile, bool with_truth) {
-  bag_ = std::make_unique<slam::BagWriter>(dir_ + "/recording.bag", profile, calibration_);
+void Recorder::add_bag(const slam::BagProfile& profile, bool with_truth, slam::BagFormat format,
+                       std::string_view compression) {
+  const char* name = format == slam::BagFormat::ros1   ? "recording.bag"
+                     : format == slam::BagFormat::mcap ? "recording.mcap"
+                                                       : "rosbag2";
+  bags_.push_back(std::make_unique<slam::BagWriter>(dir_ + "/" + name, profile, calibration_, format, compression));
   truth_in_bag_ = with_truth;
 }
 
@@ -50,17 +55,18 @@ void Recorder::add(const sim::WorldFrame& frame) {
   writer_.add(sensors.packets, sensors.odometry, sensors.imu);
   writer_.add(sensors.covariances);
   add_sensor_digests(sensors, digests_);
-  if (!bag_) return;
-  bag_->add(sensors.scan, sensors.odometry, sensors.imu, sensors.covariances);
-  if (!truth_in_bag_) return;
   std::vector<slam::StampedPose> truth;
-  for (const sim::TruePose& pose : frame.truth.poses) truth.push_back({pose.stamp, pose.X_WR});
-  bag_->add_truth(truth);
+  if (truth_in_bag_)
+    for (const sim::TruePose& pose : frame.truth.poses) truth.push_back({pose.stamp, pose.X_WR});
+  for (const auto& bag : bags_) {
+    bag->add(sensors.scan, sensors.odometry, sensors.imu, sensors.covariances);
+    bag->add_truth(truth);
+  }
 }
 
 void Recorder::finish() {
   writer_.finish(sensor_digest_of(digests_));
-  if (bag_) bag_->finish();
+  for (const auto& bag : bags_) bag->finish();
   if (!packets_) std::filesystem::remove(dir_ + "/" + std::string(slam::recording_files::lidar));  // without a packet
 }
 

@@ -3,6 +3,8 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "scenarios/run/digest_log.h"
 #include "scenarios/spec/resolve.h"
@@ -18,8 +20,10 @@ class Recorder {
   /// Writes into `dir`, which is made where it does not exist. Throws EnvironmentError; and InputError for a LiDAR that
   /// sends no packets unless it goes `to_bag`, which add_bag() is to be called for: lidar.pcap is then left out.
   Recorder(const std::string& dir, const ResolvedScenario& resolved, bool to_bag = false);
-  /// Also writes recording.bag. Call before the first frame.
-  void add_bag(const slam::BagProfile& profile, bool with_truth);
+  /// Also writes a bag: recording.bag, recording.mcap or the folder rosbag2. Call before the first frame, for each
+  /// format once. compression: of MCAP.
+  void add_bag(const slam::BagProfile& profile, bool with_truth, slam::BagFormat format = slam::BagFormat::ros1,
+               std::string_view compression = {});
   void add(const sim::WorldFrame& frame);
   /// Completes the files.
   void finish();
@@ -29,7 +33,7 @@ class Recorder {
   bool packets_;                   ///< whether the LiDAR sends any
   slam::Calibration calibration_;  ///< as methods are told
   slam::RecordingWriter writer_;
-  std::unique_ptr<slam::BagWriter> bag_;
+  std::vector<std::unique_ptr<slam::BagWriter>> bags_;
   bool truth_in_bag_ = false;
   DigestLog digests_;
 };

@@ -64,6 +64,12 @@ void remove_method(const std::string& dir, const std::string& name) {
   for (const char* end : other_ends) fs::remove(stem + end);
 }
 
+std::vector<std::string> files_of_method(const std::string& name) {
+  std::vector<std::string> files = {name + std::string(estimate_end), name + ".tum", name + ".final.tum"};
+  for (const char* end : other_ends) files.push_back(name + end);
+  return files;
+}
+
 MethodRecord read_method(const std::string& dir, const std::string& name) {
   const std::string stem = dir + "/" + name;
   const auto text_if_there = [](const std::string& path) {

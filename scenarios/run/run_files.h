@@ -28,6 +28,8 @@ void give_truth(const RunRecord& run, MethodRecord& oracle);
 void write_method(const std::string& dir, const MethodRecord& method);
 /// Removes them.
 void remove_method(const std::string& dir, const std::string& name);
+/// Names that they may have.
+[[nodiscard]] std::vector<std::string> files_of_method(const std::string& name);
 /// Reads them. Throws InputError.
 [[nodiscard]] MethodRecord read_method(const std::string& dir, const std::string& name);
 /// Methods with an estimate in `dir`, by name.

@@ -249,6 +249,9 @@ std::string write_results(const FinishedRun& run, const RunScore& score) {
   tree.set("seed", std::to_string(run.scenario.seed)).set("digest", score.digest);
   tree.set("duration_s", score.duration_s).set("distance_m", score.distance_m);
   if (!run.record.failure.empty()) tree.set("failure", run.record.failure);
+  Tree altered = Tree::list();
+  for (const std::string& name : run.altered) altered.push(name);
+  if (!run.altered.empty()) tree.set("unchecked", std::move(altered));
   tree.set("sensors", sensors_of(run.scenario));
   if (run.building->plans_movables() || run.building->deviates()) tree.set("told", told_of(run));
   if (run.building->deviates()) tree.set("as_built", changes_of(run.building->variants()));

@@ -106,12 +106,12 @@ Tree with_process_folders(Tree scenario, const std::string& folder) {
   return std::move(scenario.set("processes", std::move(processes)));
 }
 
-std::optional<ProcessSpec> process_of(const std::string& text, const std::string& folder) {
+std::optional<ProcessSpec> process_of(const std::string& text, const std::string& folder, const std::string& where) {
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos) return std::nullopt;
   ProcessSpec process;
   process.name = text.substr(0, equals);
-  process.command = words_of(text.substr(equals + 1), {"--method", 0, 0});
+  process.command = words_of(text.substr(equals + 1), {where, 0, 0});
   process.folder = folder;
   return process;
 }

@@ -44,8 +44,9 @@ struct ProcessSpec {
 [[nodiscard]] Tree with_process_folders(Tree scenario, const std::string& folder);
 
 /// A method as the command line gives it: "NAME=PROGRAM ARGUMENT...", words apart by spaces, ' and " around words with
-/// spaces. Nothing where the text has no '='. Throws InputError.
-[[nodiscard]] std::optional<ProcessSpec> process_of(const std::string& text, const std::string& folder);
+/// spaces. Nothing where the text has no '='. Throws InputError at the option `where`.
+[[nodiscard]] std::optional<ProcessSpec> process_of(const std::string& text, const std::string& folder,
+                                                    const std::string& where = "--method");
 
 /// A table of methods with processes added. Throws InputError at marks[i] where process i has no name or one that is
 /// taken, or no command.

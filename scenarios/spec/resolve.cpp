@@ -9,6 +9,7 @@
 #include "bim/digest/digest.h"
 #include "bim/formats/mesh/mesh_file.h"
 #include "bim/random/stream.h"
+#include "scenarios/spec/library.h"
 #include "scenarios/spec/method_names.h"
 #include "scenarios/spec/moving.h"
 #include "scenarios/spec/random_start.h"
@@ -281,8 +282,9 @@ void check_methods(const std::vector<std::string>& names, const std::vector<Mark
   }
 }
 
-ResolvedScenario resolve(const std::string& input_path, const Overrides& overrides, slam::MethodTable table) {
+ResolvedScenario resolve(const std::string& input, const Overrides& overrides, slam::MethodTable table) {
   ResolvedScenario resolved;
+  const std::string input_path = find_input(input);
   ScenarioText text = read_input(input_path);
   resolved.processes = process_table(text, overrides, input_path, table);
   resolved.table = table = resolved.processes->table();

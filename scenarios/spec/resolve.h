@@ -34,11 +34,12 @@ struct ResolvedScenario {
   std::shared_ptr<const ProcessTable> processes;              ///< the table, where the scenario has processes
 };
 
-/// Reads INPUT (a scenario, a plan, an .ifc or a mesh; all but the first get the default scenario: start in the largest
-/// room of the lowest habitable storey, route through all rooms reachable on it, every method; in a mesh, which has
-/// no rooms, the freest place, a round through what can be reached, and the methods that need no plan) and checks
-/// everything that can be known before the first step. Throws InputError at the place in the file that is wrong.
-[[nodiscard]] ResolvedScenario resolve(const std::string& input_path, const Overrides& overrides,
+/// Reads INPUT (a scenario or the name of one in the library, a plan, an .ifc or a mesh; all but the first get the
+/// default scenario: start in the largest room of the lowest habitable storey, route through all rooms reachable on it,
+/// every method; in a mesh, which has no rooms, the freest place, a round through what can be reached, and the methods
+/// that need no plan) and checks everything that can be known before the first step. Throws InputError at the place in
+/// the file that is wrong.
+[[nodiscard]] ResolvedScenario resolve(const std::string& input, const Overrides& overrides,
                                        slam::MethodTable table = slam::methods());
 
 /// Checks that methods are known, asked for once, and can do with the sensors that their labels name; `marks[i]` says

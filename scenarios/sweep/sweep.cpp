@@ -135,28 +135,45 @@ void keep(const Sweep& sweep, const SweepFolder& folder, const SweepRun& run, co
   fs::remove_all(folder.work() + "/" + run.key, error);
 }
 
+/// Which walk of the sweep each is, by the digest of its simulation.
+std::map<std::string, int> walk_numbers(const Sweep& sweep) {
+  std::map<std::string, int> numbers;
+  for (const SweepRun& run : sweep.runs) numbers.try_emplace(run.simulation_digest, static_cast<int>(numbers.size()));
+  return numbers;
+}
+
+/// The runs of a shard, or all.
+std::vector<const SweepRun*> runs_of(const Sweep& sweep, const std::optional<Shard>& shard) {
+  const std::map<std::string, int> numbers = walk_numbers(sweep);
+  std::vector<const SweepRun*> runs;
+  for (const SweepRun& run : sweep.runs)
+    if (!shard || numbers.at(run.simulation_digest) % shard->of == shard->number - 1) runs.push_back(&run);
+  return runs;
+}
+
 using Group = std::vector<const SweepRun*>;
 
 /// The runs that are not made yet, those of one walk together, by the first of each.
-std::vector<Group> missing_groups(const Sweep& sweep, const SweepFolder& folder) {
+std::vector<Group> missing_groups(const std::vector<const SweepRun*>& runs, const SweepFolder& folder) {
   constexpr std::size_t most_at_once = 32;  // their methods stand in memory side by side
   std::vector<Group> groups;
   std::map<std::string, std::size_t> group_of;
-  for (const SweepRun& run : sweep.runs) {
-    if (is_made(folder.result(run), run)) continue;
-    const auto [it, fresh] = group_of.try_emplace(run.simulation_digest, groups.size());
+  for (const SweepRun* run : runs) {
+    if (is_made(folder.result(*run), *run)) continue;
+    const auto [it, fresh] = group_of.try_emplace(run->simulation_digest, groups.size());
     if (!fresh && groups[it->second].size() >= most_at_once) it->second = groups.size();
     if (it->second == groups.size()) groups.emplace_back();
-    groups[it->second].push_back(&run);
+    groups[it->second].push_back(run);
   }
   return groups;
 }
 
-void make_missing(const Sweep& sweep, const SweepOptions& options, const SweepFolder& folder) {
-  const std::vector<Group> groups = missing_groups(sweep, folder);
-  std::size_t done = sweep.runs.size();
+void make_missing(const Sweep& sweep, const std::vector<const SweepRun*>& runs, const SweepOptions& options,
+                  const SweepFolder& folder) {
+  const std::vector<Group> groups = missing_groups(runs, folder);
+  std::size_t done = runs.size();
   for (const Group& group : groups) done -= group.size();
-  if (done > 0 && options.resumed) options.resumed(done, sweep.runs.size());
+  if (done > 0 && options.resumed) options.resumed(done, runs.size());
   run_children(
       groups.size(), options.jobs,
       [&](std::size_t i) {
@@ -171,22 +188,12 @@ void make_missing(const Sweep& sweep, const SweepOptions& options, const SweepFo
       [&](std::size_t i, const ChildEnd& end) {
         for (const SweepRun* run : groups[i]) keep(sweep, folder, *run, end);
         done += groups[i].size();
-        if (options.progress) options.progress(done, sweep.runs.size());
+        if (options.progress) options.progress(done, runs.size());
       });
 }
 
-}  // namespace
-
-std::string run_sweep(const Sweep& sweep, const SweepOptions& options) {
-  const SweepFolder folder(options.out);
-  try {
-    make_missing(sweep, options, folder);
-  } catch (const Interrupted& interrupted) {
-    const auto done = std::count_if(sweep.runs.begin(), sweep.runs.end(),
-                                    [&](const SweepRun& run) { return is_made(folder.result(run), run); });
-    throw Interrupted(interrupted.signal(), std::to_string(done) + " of " + std::to_string(sweep.runs.size()) +
-                                                " runs are done; the same command goes on");
-  }
+/// The tables of results that are all there.
+std::string write_tables(const Sweep& sweep, const SweepFolder& folder, const std::string& out) {
   std::vector<SweepRow> rows;
   for (const SweepRun& run : sweep.runs) {
     const std::string file = folder.result(run);
@@ -194,12 +201,68 @@ std::string run_sweep(const Sweep& sweep, const SweepOptions& options) {
   }
   const std::vector<SweepCell> cells = cells_of(rows);
   const std::string text = table_text(cells);
-  write_file(options.out + "/runs.csv", runs_csv(rows));
-  write_file(options.out + "/table.csv", table_csv(cells));
-  write_file(options.out + "/table.html", table_html(sweep.file.name, cells));
-  write_database(options.out + "/sweep.sqlite", rows, cells);
-  write_file(options.out + "/table.txt", text);
+  write_file(out + "/runs.csv", runs_csv(rows));
+  write_file(out + "/table.csv", table_csv(cells));
+  write_file(out + "/table.html", table_html(sweep.file.name, cells));
+  write_database(out + "/sweep.sqlite", rows, cells);
+  write_file(out + "/table.txt", text);
   return text;
+}
+
+/// The result of a run among those of shards; empty where there is none of this input.
+std::string find_result(const SweepRun& run, const std::vector<std::string>& folders) {
+  std::string found, from;
+  for (const std::string& folder : folders) {
+    const std::string path = folder + "/results/" + run.key + ".json";
+    if (!is_made(path, run)) continue;
+    std::string text = read_text_file(path);
+    if (!found.empty() && text != found) throw InputError({path, 0, 0}, "differs from that in " + from);
+    found = std::move(text);
+    from = folder;
+  }
+  return found;
+}
+
+}  // namespace
+
+int walks_of(const Sweep& sweep) { return static_cast<int>(walk_numbers(sweep).size()); }
+
+std::string run_sweep(const Sweep& sweep, const SweepOptions& options) {
+  const SweepFolder folder(options.out);
+  const std::vector<const SweepRun*> runs = runs_of(sweep, options.shard);
+  try {
+    make_missing(sweep, runs, options, folder);
+  } catch (const Interrupted& interrupted) {
+    const auto done = std::count_if(runs.begin(), runs.end(),
+                                    [&](const SweepRun* run) { return is_made(folder.result(*run), *run); });
+    throw Interrupted(interrupted.signal(), std::to_string(done) + " of " + std::to_string(runs.size()) +
+                                                " runs are done; the same command goes on");
+  }
+  if (!options.shard) return write_tables(sweep, folder, options.out);
+  return "shard " + std::to_string(options.shard->number) + " of " + std::to_string(options.shard->of) + ": " +
+         std::to_string(runs.size()) + " of " + std::to_string(sweep.runs.size()) + " runs are there\n";
+}
+
+std::string collect_sweep(const Sweep& sweep, const std::vector<std::string>& folders, const std::string& out) {
+  for (const std::string& folder : folders)
+    if (!fs::is_directory(folder + "/results"))
+      throw InputError({folder, 0, 0}, "holds no results; name folders that sweep --shard wrote");
+  std::vector<std::string> texts;
+  std::size_t missing = 0;
+  std::string first_missing;
+  for (const SweepRun& run : sweep.runs) {
+    texts.push_back(find_result(run, folders));
+    if (!texts.back().empty()) continue;
+    if (missing++ == 0) first_missing = run.key;
+  }
+  if (missing > 0)
+    throw InputError({folders.front(), 0, 0}, "and its like lack " + std::to_string(missing) + " of " +
+                                                  std::to_string(sweep.runs.size()) + " runs, the first is " +
+                                                  first_missing + "; run the shards again, they go on");
+  const SweepFolder folder(out);
+  for (std::size_t i = 0; i < sweep.runs.size(); ++i)
+    if (!is_made(folder.result(sweep.runs[i]), sweep.runs[i])) write_file(folder.result(sweep.runs[i]), texts[i]);
+  return write_tables(sweep, folder, out);
 }
 
 }  // namespace plumbline::scenarios

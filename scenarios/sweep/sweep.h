@@ -2,14 +2,24 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "scenarios/sweep/sweep_file.h"
 
 namespace plumbline::scenarios {
 
+/// Part `number` of `of` of a sweep: whole walks, so that runs that share one stay together. Which runs are in it does
+/// not depend on what is there already.
+struct Shard {
+  int number = 1;
+  int of = 1;
+};
+
 struct SweepOptions {
   std::string out;
+  std::optional<Shard> shard;  ///< only this part, without tables
   int jobs = 1;
   std::function<void(std::size_t done, std::size_t all)> resumed;   ///< called where runs are there already
   std::function<void(std::size_t done, std::size_t all)> progress;  ///< called after each run; may be empty
@@ -19,5 +29,13 @@ struct SweepOptions {
 /// gives the table as text. Throws InputError where a run refuses its input or another sweep stands in `out`,
 /// EnvironmentError, and Interrupted; what is there by then stays.
 [[nodiscard]] std::string run_sweep(const Sweep& sweep, const SweepOptions& options);
+
+/// Makes the tables in `out` from the results that shards left in these folders, and gives the table as text. Throws
+/// InputError where a run is in none of them, or differs between two.
+[[nodiscard]] std::string collect_sweep(const Sweep& sweep, const std::vector<std::string>& folders,
+                                        const std::string& out);
+
+/// Number of walks, the most shards that a sweep can be cut into.
+[[nodiscard]] int walks_of(const Sweep& sweep);
 
 }  // namespace plumbline::scenarios

@@ -17,6 +17,7 @@
 #include <cstdio>
 #include <cstring>
 #include <ctime>
+#include <utility>
 
 #include "bim/errors.h"
 #include "slam/io/stopwatch.h"
@@ -99,13 +100,17 @@ void close_if_open(int& descriptor) {
 }  // namespace
 
 Child::Child(const std::vector<std::string>& command, const std::string& folder,
-             const std::vector<std::string>& variables) {
+             const std::vector<std::string>& variables, std::function<void(std::string_view)> printed)
+    : on_printed_(std::move(printed)) {
   const auto [own_stream, its_stream] = pipe_or_socket(true);
   const auto [own_output, its_output] = pipe_or_socket(false);
   stream_ = own_stream;
   output_ = own_output;
   timer_ = ::timerfd_create(CLOCK_MONOTONIC, TFD_CLOEXEC | TFD_NONBLOCK);
   ::fcntl(stream_, F_SETFL, O_NONBLOCK);
+  // A whole scan goes through in few turns; the system may allow less.
+  constexpr int scan_bytes = 4 << 20;
+  ::setsockopt(stream_, SOL_SOCKET, SO_SNDBUF, &scan_bytes, sizeof scan_bytes);
   ::fcntl(output_, F_SETFL, O_NONBLOCK);
 
   SpawnPlan plan;
@@ -194,6 +199,7 @@ void Child::read_printed() {
   std::array<char, 65536> text;
   const ssize_t got = ::read(output_, text.data(), text.size());
   if (got > 0) {
+    if (on_printed_) on_printed_({text.data(), static_cast<std::size_t>(got)});
     printed_.append(text.data(), static_cast<std::size_t>(got));
     if (printed_.size() > printed_max) printed_.erase(0, printed_.size() - printed_max);
   } else if (got == 0) {

@@ -4,8 +4,10 @@
 #include <sys/types.h>
 
 #include <cstddef>
+#include <functional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace plumbline::slam {
@@ -20,9 +22,10 @@ class ProcessFailure : public std::runtime_error {
 /// kept, the last of it. It dies with this object, and all that it started with it.
 class Child {
  public:
-  /// folder: its working directory. variables: NAME=VALUE, over those of this process. Throws ProcessFailure where the
-  /// program cannot be started.
-  Child(const std::vector<std::string>& command, const std::string& folder, const std::vector<std::string>& variables);
+  /// folder: its working directory. variables: NAME=VALUE, over those of this process. printed: gets what it prints, as
+  /// it comes. Throws ProcessFailure where the program cannot be started.
+  Child(const std::vector<std::string>& command, const std::string& folder, const std::vector<std::string>& variables,
+        std::function<void(std::string_view)> printed = {});
   ~Child();
   Child(const Child&) = delete;
   Child(Child&&) = delete;
@@ -54,7 +57,8 @@ class Child {
   double deadline_s_ = 0.0;
   bool ended_ = false;
   int status_ = 0;
-  std::string printed_;
+  std::string printed_;  ///< the last of it
+  std::function<void(std::string_view)> on_printed_;
 };
 
 }  // namespace plumbline::slam

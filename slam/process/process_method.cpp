@@ -38,7 +38,7 @@ struct Message {
 class Conversation {
  public:
   Conversation(const ProcessCommand& command, const MethodInput& input)
-      : command_(command), child_(command.command, command.folder, environment_of(input)) {
+      : command_(command), child_(command.command, command.folder, environment_of(input), command.printed) {
     child_.set_deadline(command.start_s);
     const std::string hello = greeting(command, input);
     Bytes payload(hello.size());
@@ -166,9 +166,12 @@ class ProcessMethod final : public Method {
                              static_cast<std::uint16_t>(scan.columns), 0});
     bytes.insert(bytes.end(), imus_.begin(), imus_.end());
     bytes.insert(bytes.end(), odometries_.begin(), odometries_.end());
-    for (std::size_t i = 0; i < scan.size(); ++i) {
+    std::size_t at = bytes.size();
+    bytes.resize(at + scan.size() * sizeof(wire::Return));
+    for (std::size_t i = 0; i < scan.size(); ++i, at += sizeof(wire::Return)) {
       const Eigen::Vector3d& p = scan.point_L[i];
-      append(bytes, wire::Return{{p.x(), p.y(), p.z()}, scan.range_m[i], scan.offset_ns[i], scan.reflectivity[i]});
+      const wire::Return one{{p.x(), p.y(), p.z()}, scan.range_m[i], scan.offset_ns[i], scan.reflectivity[i]};
+      std::memcpy(&bytes[at], &one, sizeof one);
     }
     return bytes;
   }

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "slam/io/method.h"
@@ -19,6 +21,7 @@ struct ProcessCommand {
   double start_s = 30.0;
   double scan_s = 10.0;
   double finish_s = 120.0;
+  std::function<void(std::string_view)> printed = {};  ///< gets what it prints, as it comes
 };
 
 /// Runs the program and speaks with it in lock step, slam/process/client/plumbline_messages.h: a scan and what was

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A method that is a process and answers the first ten scans well; then it does what its argument says.
+// A method that is a process and answers the first ten scans well, or as many as its second argument says; then it does
+// what its first argument says.
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -111,6 +112,7 @@ bool misbehave(const std::string& how, wire::Output& output) {
 
 int main(int argc, char** argv) {
   const std::string how = argc > 1 ? argv[1] : "good";
+  const int good_scans = argc > 2 ? std::atoi(argv[2]) : 10;
   if (how == "dies_at_once") {
     std::fprintf(stderr, "libcuda is missing\n");
     return 7;
@@ -135,7 +137,7 @@ int main(int argc, char** argv) {
         std::memcpy(&stamp_ns, payload.data(), sizeof stamp_ns);
         wire::Output output = good(stamp_ns);
         ++scans;
-        if (scans <= 10 || how == "good" || how == "no_poses" || misbehave(how, output))
+        if (scans <= good_scans || how == "good" || how == "no_poses" || misbehave(how, output))
           send(wire::Type::output, &output, sizeof output);
         break;
       }

@@ -2,6 +2,8 @@
 // Methods that are processes: what they answer counts as a built-in method's, and what they do harms nothing else.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -76,6 +78,81 @@ TEST_F(Process, ThePythonExampleFollowsAndRepeats) {
   EXPECT_EQ(read_file(folder_ / "run/icp.tum"), read_file(folder_ / "run/icp.lidar.tum"));
 }
 
+/// The first block of this language in the guide.
+std::string guide_block(const std::string& language) {
+  const std::string text = read_file(project_file("docs/guide/your_method.md")), begin = "```" + language + "\n";
+  const std::size_t from = text.find(begin) + begin.size();
+  return text.substr(from, text.find("```\n", from) - from);
+}
+
+// A stranger's path: the guide's script as it stands, on a stand-in with the public KISS-ICP's interface.
+TEST_F(Process, TheGuidesKissIcpConformsAndRuns) {
+  const std::string python = "/usr/bin/python3";
+  if (std::system((python + " -c 'import numpy' 2>/dev/null").c_str()) != 0) GTEST_SKIP() << "no numpy for " << python;
+  const std::string script = guide_block("python");
+  EXPECT_LE(std::count(script.begin(), script.end(), '\n'), 60);
+  write_file(folder_ / "my_kiss.py", script);
+  Setting here;
+  here.cwd = folder_ / "";
+  here.env["PYTHONPATH"] = project_file("tests/processes/kiss_icp");
+  const Outcome tried = plumbline({"conformance", python, "my_kiss.py"}, here);
+  EXPECT_EQ(tried.code, 0) << tried.out << tried.err;
+  for (const std::string words : {"ok    follows the walk", "ok    repeats", "ok    takes LiDAR alone", "conforms\n"})
+    EXPECT_NE(tried.out.find(words), std::string::npos) << words << ":\n" << tried.out;
+
+  const Outcome run = plumbline(
+      {"run", scenario("  - odometry\n", "6"), "--method", "kiss=" + python + " my_kiss.py", "-o", folder_ / "run"},
+      here);
+  ASSERT_EQ(run.code, 0) << run.out << run.err;
+  const nlohmann::json kiss = json(folder_ / "run/results.json")["methods"]["kiss"];
+  EXPECT_EQ(kiss["verdict"], "ok");
+  // The robot sways, which the stand-in's planar deskewing leaves out: measured 3 cm.
+  EXPECT_LT(kiss["ate_aligned_rmse_m"].get<double>(), 0.1);
+}
+
+TEST_F(Process, ConformanceSaysWhatIsWrong) {
+  const auto tried = [&](const std::vector<std::string>& words) {
+    std::vector<std::string> arguments = {"conformance"};
+    arguments.insert(arguments.end(), words.begin(), words.end());
+    return plumbline(arguments);
+  };
+  const Outcome good = tried({program("process_vgicp")});
+  EXPECT_EQ(good.code, 0) << good.out;
+  const auto wrong = [&](const std::vector<std::string>& words, const std::string& said) {
+    const Outcome outcome = tried(words);
+    EXPECT_EQ(outcome.code, 1) << outcome.out;
+    EXPECT_NE(outcome.out.find("WRONG"), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find(said), std::string::npos) << outcome.out;
+  };
+  wrong({"./no_such_program"}, "cannot be started");
+  wrong({program("hostile_process"), "good"}, "its pose never changes");
+  wrong({"'" + program("hostile_process") + "' nan"}, "at scan 11 (1.1 s): the pose is none");
+  wrong({"--scan-s", "0.3", program("hostile_process"), "hang"}, "gave no answer within 0.3 s");
+  wrong({program("hostile_process"), "no_json"}, "what is no JSON");
+  for (const std::vector<std::string>& words : {std::vector<std::string>{}, {"--plam", "x"}})
+    EXPECT_EQ(tried(words).code, 2);
+
+  const std::string python = "/usr/bin/python3";
+  if (std::system((python + " -c 'import numpy' 2>/dev/null").c_str()) != 0) return;
+  const auto answering = [&](const std::string& answer) {
+    write_file(folder_ / "m.py",
+               "import numpy as np, plumbline_client\ndef start(recording):\n    return lambda scan: " + answer +
+                   "\nplumbline_client.run(start)\n");
+    return std::vector<std::string>{python, folder_ / "m.py"};
+  };
+  wrong(answering("np.eye(3)"), "not of shape (3, 3)");
+  wrong(answering("'here'"), "not a str");
+  wrong(answering("2 * np.eye(4)"), "last row of a pose must be 0 0 0 1");
+  wrong(answering("np.diag([1, 1, -1, 1])"), "scales, shears or mirrors");
+  wrong(answering("np.eye(4) * np.nan"), "must be finite");
+  wrong(answering("no_such_name"), "NameError: name 'no_such_name' is not defined (m.py, line 3)");
+  wrong(answering("recording.robot_pose(np.linalg.inv(recording.X_RL) @ np.linalg.inv(scan.odometry_pose()) @ "
+                  "recording.X_RL)"),
+        "the map in the robot");
+  write_file(folder_ / "m.py", "import plumbline_client\nplumbline_client.run(lambda recording: None)\n");
+  wrong({python, folder_ / "m.py"}, "start() must return the function that answers scans");
+}
+
 TEST_F(Process, EstimateTakesOneToo) {
   const std::string input = scenario("  - odometry\n");
   ASSERT_EQ(plumbline({"simulate", input, "-o", folder_ / "rec"}).code, 0);
@@ -137,6 +214,39 @@ TEST_F(Process, WhateverItDoesOnlyItselfHasCrashed) {
   };
   crashed("missing", "cannot be started: No such file or directory");
   for (const auto& [how, reason] : reasons) crashed(how, reason);
+}
+
+/// How often what may go wrong by chance is tried; ci/full asks for 100.
+int trials() {
+  const char* asked = std::getenv("PLUMBLINE_PROCESS_TRIALS");
+  return asked == nullptr ? 6 : std::atoi(asked);
+}
+
+// Killed, hanging or silent from any scan on.
+TEST_F(Process, EveryOneThatIsKilledOrHangsHasCrashed) {
+  std::string methods = "  - odometry\n";
+  const std::vector<std::string> ways = {"signal", "hang", "exit", "ignores_signals", "closes", "grandchild"};
+  for (int i = 0; i < trials(); ++i)
+    methods += "  - {name: k" + std::to_string(i) + ", command: [" + program("hostile_process") + ", " +
+               ways[static_cast<std::size_t>(i) % ways.size()] + ", '" + std::to_string(i % 29) + "'], scan_s: 0.3}\n";
+  const Outcome outcome = plumbline({"run", scenario(methods, "3"), "-o", folder_ / "run"});
+  EXPECT_NE(outcome.code, 3) << outcome.err;
+  const nlohmann::json results = json(folder_ / "run/results.json")["methods"];
+  EXPECT_EQ(results["odometry"]["verdict"], "ok");
+  int crashed = 0;
+  for (int i = 0; i < trials(); ++i) crashed += results["k" + std::to_string(i)]["verdict"] == "crashed" ? 1 : 0;
+  EXPECT_EQ(crashed, trials());
+  EXPECT_EQ(read_file(folder_ / "run/manifest.csv").find(".partial"), std::string::npos);
+}
+
+TEST_F(Process, ItAnswersTheSameEveryTime) {
+  std::string methods;
+  for (int i = 0; i < trials(); ++i)
+    methods += "  - {name: r" + std::to_string(i) + ", command: [" + program("process_vgicp") + "]}\n";
+  ASSERT_EQ(plumbline({"run", scenario(methods, "3"), "-o", folder_ / "run"}).code, 0);
+  const std::string first = read_file(folder_ / "run/r0.tum");
+  EXPECT_GT(first.size(), 1000U);
+  for (int i = 1; i < trials(); ++i) EXPECT_EQ(read_file(folder_ / ("run/r" + std::to_string(i) + ".tum")), first) << i;
 }
 
 TEST_F(Process, AWrongOneIsRefusedAtItsPlace) {

@@ -139,12 +139,49 @@ TEST_F(ShortRun, ReplayAndDiffNameTheFirstDifference) {
   char& digit = digests[stage + std::string("vgicp/odometry,").size()];
   digit = digit == '0' ? '1' : '0';
   write_file(copy + "/digests.csv", digests);
-  const Outcome replay = plumbline({"replay", copy, "--until", "3"});
+  const Outcome altered = plumbline({"replay", copy, "--until", "3"});
+  EXPECT_EQ(altered.code, 2);
+  EXPECT_NE(altered.err.find("altered since they were written: digests.csv"), std::string::npos) << altered.err;
+  const Outcome replay = plumbline({"replay", copy, "--until", "3", "--unchecked"});
   EXPECT_EQ(replay.code, 1);
   EXPECT_NE(replay.out.find(" s in vgicp/odometry: "), std::string::npos) << replay.out;
   const Outcome diff = plumbline({"diff", dir(), copy});
   EXPECT_EQ(diff.code, 1);
   EXPECT_NE(diff.out.find(" s in vgicp/odometry: "), std::string::npos) << diff.out;
+}
+
+TEST_F(ShortRun, AlteredFilesAreNamed) {
+  const std::string copy = *folder_ / "altered";
+  fs::copy(dir(), copy, fs::copy_options::recursive);
+  const auto refused = [&](const std::string& command, const std::string& words) {
+    const Outcome outcome = plumbline({command, copy});
+    EXPECT_EQ(outcome.code, 2) << outcome.out;
+    EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
+  };
+  // One method's poses under another's name; a truth that was cut.
+  fs::copy_file(copy + "/truth.tum", copy + "/vgicp.tum", fs::copy_options::overwrite_existing);
+  for (const char* command : {"score", "report", "replay"}) refused(command, "written: vgicp.tum;");
+  const std::string truth = read_file(copy + "/truth.tum");
+  write_file(copy + "/truth.tum", truth.substr(0, truth.rfind('\n', truth.size() - 2) + 1));
+  refused("score", "written: truth.tum, vgicp.tum;");
+  const Outcome taken = plumbline({"score", copy, "--unchecked"});
+  EXPECT_NE(taken.err.find("truth.tum, vgicp.tum; taken as they are"), std::string::npos) << taken.err;
+  const auto unchecked = nlohmann::json::parse(read_file(copy + "/results.json"))["unchecked"];
+  EXPECT_EQ(unchecked, (nlohmann::json{"truth.tum", "vgicp.tum"}));
+  refused("score", "written: truth.tum, vgicp.tum;");  // it stays so
+  fs::copy_file(dir() + "/truth.tum", copy + "/truth.tum", fs::copy_options::overwrite_existing);
+  fs::copy_file(dir() + "/vgicp.tum", copy + "/vgicp.tum", fs::copy_options::overwrite_existing);
+  EXPECT_EQ(plumbline({"score", copy}).code, 0);
+  expect_equal(dir(), copy);
+
+  fs::copy_file(copy + "/vgicp.estimate.json", copy + "/added.estimate.json");
+  EXPECT_EQ(plumbline({"report", copy}).code, 2);
+  fs::remove(copy + "/added.estimate.json");
+  write_file(copy + "/results.json", "{}");
+  refused("report", "written: results.json;");
+  fs::remove(copy + "/manifest.csv");
+  refused("score", "has no manifest.csv");
+  EXPECT_EQ(plumbline({"score", copy, "--unchecked"}).code, 0);
 }
 
 TEST_F(ShortRun, OutsideTrajectoriesAreScoredLikeOurs) {

@@ -55,6 +55,80 @@ TEST(Sweep, KilledAtAnyMomentItGivesTheSameTable) {
   EXPECT_EQ(std::distance(fs::directory_iterator((folder / "whole") + "/results"), fs::directory_iterator()), 9);
 }
 
+/// A sweep of six short runs on three walks.
+std::string six_runs(const Folder& folder) {
+  for (const char* name : {"short.yaml", "short.plan.yaml"})
+    write_file(folder / name, read_file(project_file(std::string("tests/system/") + name)));
+  write_file(folder / "sweep.yaml",
+             "sweep: 1\nname: six\nscenarios: [short.yaml]\nseeds: 3\nmethods: [odometry]\n"
+             "variants: [{name: told, set: [duration_s=2]}, {name: untold, set: [duration_s=2, prior.yaw=unknown]}]\n");
+  return folder / "sweep.yaml";
+}
+
+TEST(Sweep, ShardsGiveTheTableOfTheWhole) {
+  if (!available()) GTEST_SKIP() << "PLUMBLINE_BINARY and PLUMBLINE_SOURCE are not set; run through ctest";
+  const Folder folder;
+  const std::string sweep = six_runs(folder);
+  ASSERT_EQ(plumbline({"sweep", sweep, "-o", folder / "whole"}).code, 0);
+  const auto collect = [&] {
+    return plumbline({"sweep", "collect", sweep, "--from", folder / "1", folder / "2", "-o", folder / "collected"});
+  };
+  ASSERT_EQ(plumbline({"sweep", sweep, "--shard", "1/2", "-o", folder / "1"}).code, 0);
+  EXPECT_EQ(collect().code, 2);  // the second is not there
+  const Outcome second = plumbline({"sweep", sweep, "--shard", "2/2", "-o", folder / "2"});
+  ASSERT_EQ(second.code, 0) << second.err;
+  EXPECT_NE(second.out.find("shard 2 of 2: 2 of 6 runs are there"), std::string::npos) << second.out;
+  EXPECT_FALSE(fs::exists(folder / "2/table.txt"));
+  const Outcome collected = collect();
+  ASSERT_EQ(collected.code, 0) << collected.err;
+  for (const char* table : tables)
+    EXPECT_TRUE(read_file(folder / ("whole/" + std::string(table))) ==
+                read_file(folder / ("collected/" + std::string(table))))
+        << table;
+  fs::remove(folder / "1/results/" / fs::directory_iterator(folder / "1/results")->path().filename());
+  EXPECT_NE(collect().err.find("lack 1 of 6 runs"), std::string::npos);
+  for (const char* wrong : {"0/2", "3/2", "1", "1/2x", "a/b", "-1/2", "1/0"})
+    EXPECT_EQ(plumbline({"sweep", sweep, "--shard", wrong, "-o", folder / "no"}).code, 2) << wrong;
+  EXPECT_FALSE(fs::exists(folder / "no"));
+}
+
+// With a stand-in for sbatch that runs what it is given at once, every task twice, as after the death of a node.
+TEST(Sweep, SlurmGetsAnArrayAndACollector) {
+  if (!available()) GTEST_SKIP() << "PLUMBLINE_BINARY and PLUMBLINE_SOURCE are not set; run through ctest";
+  const Folder folder;
+  const std::string sweep = six_runs(folder);
+  fs::create_directory(folder / "bin");
+  write_file(
+      folder / "bin/sbatch",
+      "#!/bin/bash\necho \"$@\" >>\"$CALLS\"\nscript=${!#}\n"
+      "last=$(sed -n 's/^#SBATCH --array=0-\\([0-9]*\\).*/\\1/p' \"$script\")\n"
+      "if [ -n \"$last\" ]; then for t in $(seq 0 $last) 0; do SLURM_ARRAY_TASK_ID=$t bash \"$script\" "
+      ">/dev/null || exit 1; done\nelse bash \"$script\" >/dev/null || exit 1; fi\necho 4$(wc -l <\"$CALLS\")\n");
+  write_file(folder / "bin/scontrol", "#!/bin/bash\necho 'MaxArraySize            = 3'\n");
+  for (const char* name : {"bin/sbatch", "bin/scontrol"}) fs::permissions(folder / name, fs::perms::owner_all);
+  Setting setting;
+  setting.env["PATH"] = folder / "bin:/usr/bin:/bin";
+  setting.env["CALLS"] = folder / "calls";
+  const Outcome outcome =
+      plumbline({"sweep", sweep, "--slurm", "--jobs", "2", "--runs-per-task", "2", "-o", folder / "out it"}, setting);
+  ASSERT_EQ(outcome.code, 0) << outcome.out << outcome.err;
+  // Three walks, at most two tasks an array.
+  const std::string shards = folder / "out it.shards/";
+  EXPECT_NE(read_file(shards + "array.sbatch").find("--array=0-1%2\n"), std::string::npos);
+  EXPECT_NE(read_file(shards + "array2.sbatch").find("--array=0-0%2\n"), std::string::npos);
+  EXPECT_NE(read_file(shards + "array.sbatch").find("#SBATCH --requeue"), std::string::npos);
+  EXPECT_NE(read_file(folder / "calls").find("--dependency=afterany:41:42 "), std::string::npos)
+      << read_file(folder / "calls");
+  ASSERT_EQ(plumbline({"sweep", sweep, "-o", folder / "whole"}).code, 0);
+  for (const char* table : tables)
+    EXPECT_TRUE(read_file(folder / ("whole/" + std::string(table))) == read_file((folder / "out it/") + table))
+        << table;
+  setting.env["PATH"] = "/usr/bin:/bin";
+  const Outcome none = plumbline({"sweep", sweep, "--slurm", "-o", folder / "none"}, setting);
+  EXPECT_EQ(none.code, 3);
+  EXPECT_NE(none.err.find("sbatch is not there"), std::string::npos) << none.err;
+}
+
 TEST(Sweep, ASharedWalkGivesWhatSingleRunsGive) {
   if (!available()) GTEST_SKIP() << "PLUMBLINE_BINARY and PLUMBLINE_SOURCE are not set; run through ctest";
   const Folder folder;

@@ -13,7 +13,7 @@
 
 namespace plumbline::slam {
 
-/// Names and forms that a family of programs expects in a ROS 1 bag.
+/// Names and forms that a family of programs expects in a bag.
 struct BagProfile {
   std::string_view name;
   std::string_view points, odometry, imu;  ///< topics
@@ -30,12 +30,17 @@ inline constexpr std::array<BagProfile, 3> bag_profiles = {{
     {"kiss", "/points", "/odom", "/imu/data", "odom", "base_link", "lidar", CloudLayout::dense},
 }};
 
-/// Writes a ROS 1 bag (LZ4): PointCloud2, Odometry, Imu, /tf, /tf_static and /clock. Every time in it is that of a
-/// record, so the same records give the same bytes. The file appears complete on finish() or not at all.
+/// ros1: a ROS 1 bag (LZ4). mcap: an MCAP file as ROS 2 records. rosbag2: a folder with an SQLite file.
+enum class BagFormat { ros1, mcap, rosbag2 };
+
+/// Writes a bag: PointCloud2, Odometry, Imu, /tf, /tf_static and /clock. Every time in it is that of a record, so the
+/// same records give the same bytes. It appears complete on finish() or not at all.
 class BagWriter {
  public:
-  /// Throws EnvironmentError when the file cannot be written, as the other functions do.
-  BagWriter(const std::string& path, const BagProfile& profile, const Calibration& calibration);
+  /// compression: of MCAP, "", "zstd" or "lz4". Throws EnvironmentError when the file cannot be written, as the other
+  /// functions do.
+  BagWriter(const std::string& path, const BagProfile& profile, const Calibration& calibration,
+            BagFormat format = BagFormat::ros1, std::string_view compression = {});
   ~BagWriter();
   BagWriter(const BagWriter&) = delete;
   BagWriter& operator=(const BagWriter&) = delete;
@@ -57,11 +62,14 @@ struct BagTopics {
   std::string points, odometry, imu;
 };
 
-/// True when the file starts as a ROS 1 bag. Throws InputError where it cannot be read.
+/// True for a file that starts as a ROS 1 bag, an MCAP or an SQLite file, and a folder of a rosbag2. Throws InputError
+/// where it cannot be read.
 [[nodiscard]] bool is_bag(const std::string& path);
 
-/// Opens a bag. Records are put in order by their own stamps; the mount comes from /tf_static where `info` is null, and
-/// so does the IMU's attitude where it is there. The bag is checked as a whole first (check_bag). O is moved to the
+/// Opens a bag of any of these kinds, of ROS 1 or 2. Clouds are PointCloud2 or Livox's CustomMsg; an IMU whose first
+/// acceleration is within 15 % of 1 is taken to be in g, as Livox's. Records are put in
+/// order by their own stamps; the mount comes from /tf_static where `info` is null, and so does the IMU's attitude
+/// where it is there. A ROS 1 bag is checked as a whole first (check_bag), others as they are read. O is moved to the
 /// robot's first position and heading. Throws InputError when it is no bag, was not closed, holds no cloud, has an IMU
 /// of unknown attitude or odometry that overlaps no scan.
 [[nodiscard]] std::unique_ptr<Recording> open_bag(const std::string& path, const BagTopics& topics,

@@ -1,13 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Apart, for what it includes takes long to compile.
-#include <console_bridge/console.h>
-#include <nav_msgs/Odometry.h>
-#include <rosbag/bag.h>
-#include <rosbag/view.h>
-#include <sensor_msgs/Imu.h>
-#include <sensor_msgs/PointCloud2.h>
-#include <tf2_msgs/TFMessage.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,34 +11,25 @@
 #include "bim/config/input_file.h"
 #include "bim/errors.h"
 #include "slam/io/bags/bag.h"
-#include "slam/io/bags/bag_check.h"
 #include "slam/io/bags/frame_tree.h"
 #include "slam/io/bags/odometry_motion.h"
+#include "slam/io/bags/ros1_source.h"
 #include "slam/io/bags/ros_message.h"
+#include "slam/io/ros2/mcap_format.h"
+#include "slam/io/ros2/mcap_reader.h"
+#include "slam/io/ros2/rosbag2_reader.h"
 
 namespace plumbline::slam {
 
 namespace {
 
-constexpr std::string_view magic = "#ROSBAG V2.0";
 constexpr std::size_t most_waiting = 20;  ///< scans that wait for slower topics
 
-template <class M>
-std::string type_of() {
-  return ::ros::message_traits::DataType<M>::value();
-}
+constexpr std::string_view cloud_type = "sensor_msgs/PointCloud2", odometry_type = "nav_msgs/Odometry",
+                           imu_type = "sensor_msgs/Imu", transforms_type = "tf2_msgs/TFMessage";
 
-template <class M>
-bool is(const rosbag::MessageInstance& message) {
-  return message.getMD5Sum() == ::ros::message_traits::MD5Sum<M>::value();
-}
-
-ros::Bytes bytes_of(const rosbag::MessageInstance& message) {
-  ros::Bytes bytes(message.size());
-  ::ros::serialization::OStream stream(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
-  message.write(stream);
-  return bytes;
-}
+bool is_livox(std::string_view type) { return type.starts_with("livox_") && type.ends_with("/CustomMsg"); }
+bool is_cloud(std::string_view type) { return type == cloud_type || is_livox(type); }
 
 /// Records of one topic in time order. A record with the stamp of the one before it is left out.
 template <class Record>
@@ -77,12 +59,49 @@ class Waiting {
   std::optional<Nanoseconds> last_;
 };
 
+enum class Kind { none, ros1, mcap, database, folder };
+
+Kind kind_of(const std::string& path) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  if (fs::is_directory(path, error)) {
+    const std::string metadata = path + "/metadata.yaml";
+    if (!fs::exists(metadata, error)) return Kind::none;
+    constexpr std::uint64_t most_metadata_bytes = 16U << 20U;
+    return read_text_file(metadata, most_metadata_bytes).find("rosbag2_bagfile_information") != std::string::npos
+               ? Kind::folder
+               : Kind::none;
+  }
+  if (!fs::is_regular_file(path, error)) return Kind::none;
+  const InputFile file = open_input_file(path);
+  std::array<char, 16> start{};
+  const std::string_view bytes(start.data(), std::fread(start.data(), 1, start.size(), file.stream.get()));
+  if (bytes.starts_with("#ROSBAG V2.0")) return Kind::ros1;
+  if (bytes.starts_with(std::string_view("SQLite format 3", 16))) return Kind::database;
+  const std::string_view mcap(reinterpret_cast<const char*>(mcap::magic.data()), mcap::magic.size());
+  return bytes.starts_with(mcap) ? Kind::mcap : Kind::none;
+}
+
+std::unique_ptr<MessageSource> open_source(const std::string& path) {
+  switch (kind_of(path)) {
+    case Kind::mcap:
+      return open_mcap(path);
+    case Kind::database:
+      return open_rosbag2_database(path);
+    case Kind::folder:
+      return open_rosbag2_folder(path);
+    case Kind::ros1:
+    case Kind::none:
+      break;
+  }
+  return open_ros1_bag(path);
+}
+
 class BagRecording final : public Recording {
  public:
   BagRecording(const std::string& path, const BagTopics& topics, const RecordingInfo* info) : mark_{path, 0, 0} {
     guarded([&] {
-      check_bag(path);
-      bag_.open(path, rosbag::bagmode::Read);
+      source_ = open_source(path);
       choose_topics(topics);
       std::vector<std::string> names = {topics_.points};
       if (!topics_.odometry.empty()) names.push_back(topics_.odometry);
@@ -93,8 +112,7 @@ class BagRecording final : public Recording {
         info_ = *info;
       else if (const std::optional<Pose> X_RL = frames_.find(lidar, base_))
         info_.mount = recording_info(0, {*X_RL, info_.mount.height_m}, {}).mount;
-      view_.addQuery(bag_, rosbag::TopicQuery(names));
-      at_ = view_.begin();
+      source_->select(names);
     });
   }
 
@@ -109,64 +127,89 @@ class BagRecording final : public Recording {
   }
 
  private:
-  /// What the library throws on a bag that is damaged, with the bag's name.
+  /// What messages themselves have wrong is said with the bag's name and the message's number.
   template <class F>
   void guarded(const F& function) {
-    const std::string where = messages_ == 0 ? "" : "message " + std::to_string(messages_) + ": ";
     try {
       function();
     } catch (const InputError& error) {
       const bool has_mark = std::string_view(error.what()).starts_with(mark_.file);
       if (has_mark) throw;
       throw InputError(mark_, "message " + std::to_string(messages_) + ": " + error.what());
-    } catch (const rosbag::BagUnindexedException&) {
-      throw InputError(mark_, "a bag that was not closed or is cut off; rosbag reindex may save it");
-    } catch (const std::exception& error) {
-      throw InputError(mark_, where + "not a valid ROS 1 bag: " + error.what());
     }
   }
 
-  template <class M>
-  [[nodiscard]] std::string first_topic() {
-    rosbag::View all(bag_);
-    for (const rosbag::ConnectionInfo* connection : all.getConnections())
-      if (connection->datatype == type_of<M>() && !connection->topic.starts_with("/ground_truth"))
-        return connection->topic;
+  /// The first topic of a type, or none; truth is not looked for.
+  template <class Is>
+  [[nodiscard]] std::string first_topic(const Is& is) const {
+    for (const BagTopic& topic : source_->topics())
+      if (is(topic.type) && topic.encoding != Encoding::unknown && !topic.name.starts_with("/ground_truth"))
+        return topic.name;
     return {};
   }
 
   void choose_topics(const BagTopics& topics) {
+    const auto odometry = [](std::string_view type) { return type == odometry_type; };
+    const auto imu = [](std::string_view type) { return type == imu_type; };
     topics_ = topics;
-    if (topics_.points.empty()) topics_.points = first_topic<sensor_msgs::PointCloud2>();
-    if (topics_.odometry.empty()) topics_.odometry = first_topic<nav_msgs::Odometry>();
-    if (topics_.imu.empty()) topics_.imu = first_topic<sensor_msgs::Imu>();
-    if (topics_.points.empty()) throw InputError(mark_, "a bag without sensor_msgs/PointCloud2");
-    check_topic<sensor_msgs::PointCloud2>(topics_.points);
-    if (!topics_.odometry.empty()) check_topic<nav_msgs::Odometry>(topics_.odometry);
-    if (!topics_.imu.empty()) check_topic<sensor_msgs::Imu>(topics_.imu);
+    if (topics_.points.empty()) topics_.points = first_topic(is_cloud);
+    if (topics_.odometry.empty()) topics_.odometry = first_topic(odometry);
+    if (topics_.imu.empty()) topics_.imu = first_topic(imu);
+    if (topics_.points.empty())
+      throw InputError(mark_, "a bag without sensor_msgs/PointCloud2 or Livox's CustomMsg" + packets());
+    check_topic(topics_.points, is_cloud, cloud_type);
+    if (!topics_.odometry.empty()) check_topic(topics_.odometry, odometry, odometry_type);
+    if (!topics_.imu.empty()) check_topic(topics_.imu, imu, imu_type);
   }
 
-  template <class M>
-  void check_topic(const std::string& topic) {
-    rosbag::View view(bag_, rosbag::TopicQuery(topic));
-    const std::string type = type_of<M>();
-    if (view.size() == 0) throw InputError(mark_, "a bag without messages on " + topic);
-    for (const rosbag::ConnectionInfo* connection : view.getConnections())
-      if (connection->datatype != type)
-        throw InputError(mark_, topic + " is of type " + connection->datatype + ", not " + type);
+  /// What a driver records before it makes clouds.
+  [[nodiscard]] std::string packets() const {
+    for (const BagTopic& topic : source_->topics())
+      if (topic.type.ends_with("Packet") || topic.type.ends_with("PacketMsg") || topic.type.ends_with("UdpFrame") ||
+          topic.type == "velodyne_msgs/VelodyneScan")
+        return "; " + topic.name + " holds packets (" + topic.type + "), which the driver makes clouds of";
+    return {};
+  }
+
+  template <class Is>
+  void check_topic(const std::string& name, const Is& is, std::string_view type) const {
+    for (const BagTopic& topic : source_->topics()) {
+      if (topic.name != name) continue;
+      if (!is(topic.type)) throw InputError(mark_, name + " is of type " + topic.type + ", not " + std::string(type));
+      if (topic.encoding == Encoding::unknown)
+        throw InputError(mark_, name + " is of " + topic.type + " in another layout than ROS has");
+      return;
+    }
+    throw InputError(mark_, "a bag without messages on " + name);
+  }
+
+  [[nodiscard]] const BagTopic& topic_of(const RawMessage& message) const { return source_->topics()[message.topic]; }
+
+  [[nodiscard]] ros::FramedCloud cloud_of(const RawMessage& message) const {
+    const BagTopic& topic = topic_of(message);
+    return is_livox(topic.type) ? ros::read_livox(message.bytes, topic.encoding)
+                                : ros::read_cloud(message.bytes, topic.encoding);
   }
 
   /// Reads /tf_static and the frame of the odometry, which is R's; returns that of the clouds.
   [[nodiscard]] std::string find_frames(const std::vector<std::string>& names) {
-    for (const rosbag::MessageInstance& message : rosbag::View(bag_, rosbag::TopicQuery("/tf_static")))
-      if (is<tf2_msgs::TFMessage>(message))
-        for (const ros::Transform& t : ros::read_transforms(bytes_of(message))) frames_.add(t);
+    RawMessage message;
+    source_->select({"/tf_static"});
+    while (source_->next(message))
+      if (topic_of(message).type == transforms_type)
+        for (const ros::Transform& t : ros::read_transforms(message.bytes, topic_of(message).encoding)) frames_.add(t);
     std::string lidar;
-    for (const rosbag::MessageInstance& message : rosbag::View(bag_, rosbag::TopicQuery(names))) {
-      if (is<nav_msgs::Odometry>(message)) base_ = plain_frame(ros::read_odometry(bytes_of(message)).X_OR.child);
-      if (is<sensor_msgs::PointCloud2>(message)) lidar = plain_frame(ros::read_cloud(bytes_of(message)).frame);
+    source_->select(names);
+    bool any_cloud = false;
+    while (source_->next(message)) {
+      const BagTopic& topic = topic_of(message);
+      if (topic.type == odometry_type)
+        base_ = plain_frame(ros::read_odometry(message.bytes, topic.encoding).X_OR.child);
+      if (is_cloud(topic.type)) lidar = plain_frame(cloud_of(message).frame);
+      any_cloud = any_cloud || is_cloud(topic.type);
       if (!lidar.empty() && (!base_.empty() || topics_.odometry.empty())) break;
     }
+    if (!any_cloud) throw InputError(mark_, "a bag without messages on " + topics_.points);
     return lidar;
   }
 
@@ -196,11 +239,17 @@ class BagRecording final : public Recording {
 
   /// Reads on until a scan is ready.
   void fill() {
-    while (!ready() && at_ != view_.end()) {
+    RawMessage message;
+    while (!ready() && source_->next(message)) {
       ++messages_;
-      read(*at_);
-      ++at_;
+      read(message);
     }
+  }
+
+  /// Livox's drivers give accelerations in g: what is near 1 at rest cannot be in m/s^2.
+  static double gravity_in(const Imu& first) {
+    constexpr double standard_gravity = 9.80665, tolerance = 0.15;
+    return std::abs(first.linear_acceleration_R.norm() - 1.0) < tolerance ? standard_gravity : 1.0;
   }
 
   static Nanoseconds least_offset(const Scan& scan) {
@@ -231,13 +280,14 @@ class BagRecording final : public Recording {
     return stamp - *origin_;
   }
 
-  void read(const rosbag::MessageInstance& message) {
-    if (is<sensor_msgs::PointCloud2>(message)) {
-      Scan scan = scan_of(ros::read_cloud(bytes_of(message)).cloud);
+  void read(const RawMessage& message) {
+    const BagTopic& topic = topic_of(message);
+    if (is_cloud(topic.type)) {
+      Scan scan = scan_of(cloud_of(message).cloud);
       scan.stamp = shifted(scan.stamp);
       scans_.add(scan, topics_.points);
-    } else if (is<nav_msgs::Odometry>(message)) {
-      const ros::OdometryMessage said = ros::read_odometry(bytes_of(message));
+    } else if (topic.type == odometry_type) {
+      const ros::OdometryMessage said = ros::read_odometry(message.bytes, topic.encoding);
       if (!X_OB_) X_OB_ = start_of(said.X_OR.X);
       const Nanoseconds stamp = shifted(said.X_OR.stamp);
       odometry_.add({stamp, *X_OB_ * said.X_OR.X}, topics_.odometry);
@@ -245,9 +295,11 @@ class BagRecording final : public Recording {
       if (const auto covariance = increment_covariance(said, dt))
         covariances_.add({stamp, *covariance}, topics_.odometry);
       odometry_stamp_ = stamp;
-    } else if (is<sensor_msgs::Imu>(message)) {
-      Imu record = imu_of(ros::read_imu(bytes_of(message)));
+    } else if (topic.type == imu_type) {
+      Imu record = imu_of(ros::read_imu(message.bytes, topic.encoding));
       record.stamp = shifted(record.stamp);
+      if (!gravity_) gravity_ = gravity_in(record);
+      record.linear_acceleration_R *= *gravity_;
       imu_.add(record, topics_.imu);
     }
   }
@@ -260,9 +312,7 @@ class BagRecording final : public Recording {
   }
 
   Mark mark_;
-  rosbag::Bag bag_;
-  rosbag::View view_;
-  rosbag::View::iterator at_;
+  std::unique_ptr<MessageSource> source_;
   BagTopics topics_;
   RecordingInfo info_;
   bool described_ = false;  ///< by its owner
@@ -276,23 +326,16 @@ class BagRecording final : public Recording {
   std::optional<Nanoseconds> odometry_stamp_;  ///< of the last message
   std::optional<Nanoseconds> first_scan_;      ///< when it began
   std::optional<Pose> X_OB_;
+  std::optional<double> gravity_;  ///< m/s^2 of the unit that the IMU's accelerations are in
   std::int64_t messages_ = 0;
   bool started_ = false;
 };
 
 }  // namespace
 
-bool is_bag(const std::string& path) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) return false;
-  const InputFile file = open_input_file(path);
-  std::array<char, magic.size()> start{};
-  const std::size_t read = std::fread(start.data(), 1, start.size(), file.stream.get());
-  return std::string_view(start.data(), read) == magic;
-}
+bool is_bag(const std::string& path) { return kind_of(path) != Kind::none; }
 
 std::unique_ptr<Recording> open_bag(const std::string& path, const BagTopics& topics, const RecordingInfo* info) {
-  console_bridge::noOutputHandler();  // the library prints what it also throws
   return std::make_unique<BagRecording>(path, topics, info);
 }
 

@@ -1,151 +1,84 @@
 // SPDX-License-Identifier: Apache-2.0
-// Apart, for what it includes takes long to compile.
-#include <nav_msgs/Odometry.h>
-#include <rosbag/bag.h>
-#include <rosgraph_msgs/Clock.h>
-#include <sensor_msgs/Imu.h>
-#include <sensor_msgs/PointCloud2.h>
-#include <tf2_msgs/TFMessage.h>
-
 #include <algorithm>
-#include <cstdio>
+#include <filesystem>
 #include <optional>
 
 #include "bim/errors.h"
 #include "slam/io/bags/bag.h"
+#include "slam/io/bags/message_sink.h"
 #include "slam/io/bags/odometry_motion.h"
 #include "slam/io/bags/ros_message.h"
 
 namespace plumbline::slam {
 
+namespace fs = std::filesystem;
+
 namespace {
 
-/// A message that is bytes already, with its type as a bag describes it.
-struct RawMessage {
-  const char* type = nullptr;
-  const char* md5 = nullptr;
-  const char* definition = nullptr;
-  ros::Bytes bytes;
-};
-
-/// Bytes of a message of the installed type M.
-template <class M>
-RawMessage raw(ros::Bytes bytes) {
-  namespace traits = ::ros::message_traits;
-  return {traits::DataType<M>::value(), traits::MD5Sum<M>::value(), traits::Definition<M>::value(), std::move(bytes)};
-}
-
-::ros::Time ros_time(Nanoseconds t) {
-  ::ros::Time time;
-  time.fromNSec(static_cast<std::uint64_t>(std::max<Nanoseconds>(t, 0)));
-  return time;
+std::unique_ptr<MessageSink> make_sink(const std::string& path, const std::string& name, BagFormat format,
+                                       std::string_view compression) {
+  switch (format) {
+    case BagFormat::ros1:
+      return make_ros1_sink(path);
+    case BagFormat::mcap:
+      return make_mcap_sink(path, compression);
+    case BagFormat::rosbag2:
+      return make_rosbag2_sink(path, name);
+  }
+  throw InternalError("unknown format of a bag");
 }
 
 }  // namespace
-}  // namespace plumbline::slam
-
-// Traits that rosbag needs of a message.
-namespace ros {
-namespace message_traits {
-template <>
-struct DataType<plumbline::slam::RawMessage> {
-  static const char* value(const plumbline::slam::RawMessage& m) { return m.type; }
-};
-template <>
-struct MD5Sum<plumbline::slam::RawMessage> {
-  static const char* value(const plumbline::slam::RawMessage& m) { return m.md5; }
-};
-template <>
-struct Definition<plumbline::slam::RawMessage> {
-  static const char* value(const plumbline::slam::RawMessage& m) { return m.definition; }
-};
-}  // namespace message_traits
-namespace serialization {
-template <>
-struct Serializer<plumbline::slam::RawMessage> {
-  template <class Stream>
-  static void write(Stream& stream, const plumbline::slam::RawMessage& m) {
-    std::copy(m.bytes.begin(), m.bytes.end(), stream.advance(static_cast<std::uint32_t>(m.bytes.size())));
-  }
-  static std::uint32_t serializedLength(const plumbline::slam::RawMessage& m) {
-    return static_cast<std::uint32_t>(m.bytes.size());
-  }
-};
-}  // namespace serialization
-}  // namespace ros
-
-namespace plumbline::slam {
 
 struct BagWriter::Impl {
   std::string path;
   std::string temporary;
   BagProfile profile;
-  rosbag::Bag bag;
-  bool open = false;
+  std::unique_ptr<MessageSink> sink;  ///< none once it is finished
+  Encoding encoding = Encoding::ros1;
   OdometryMotion motion;
 
-  template <class F>
-  void guarded(const F& function) const {
-    try {
-      function();
-    } catch (const ::ros::Exception& error) {
-      throw EnvironmentError(path + ": cannot be written: " + error.what());
-    }
+  /// A bag has no time before 1 ns.
+  void write(std::string_view topic, MessageType type, Nanoseconds stamp, const ros::Bytes& bytes,
+             bool latched = false) {
+    sink->write(topic, type, std::max<Nanoseconds>(stamp, 1), bytes, latched);
   }
 
-  /// With a connection header of our own: the library's would hold no caller.
-  void write(std::string_view topic, Nanoseconds stamp, const RawMessage& message, bool latching = false) {
-    const auto header = boost::make_shared<::ros::M_string>();
-    (*header)["callerid"] = "/plumbline";
-    (*header)["latching"] = latching ? "1" : "0";
-    (*header)["topic"] = topic;
-    (*header)["type"] = message.type;
-    (*header)["md5sum"] = message.md5;
-    (*header)["message_definition"] = message.definition;
-    // A bag has no time before 1 ns.
-    guarded([&] { bag.write(std::string(topic), ros_time(std::max<Nanoseconds>(stamp, 1)), message, header); });
-  }
-
-  void write_transform(std::string_view topic, const ros::Transform& transform, bool latching) {
-    write(topic, transform.stamp, raw<tf2_msgs::TFMessage>(ros::write_transforms({&transform, 1})), latching);
+  void write_transform(std::string_view topic, const ros::Transform& transform, bool latched) {
+    write(topic, MessageType::transforms, transform.stamp, ros::write_transforms({&transform, 1}, encoding), latched);
   }
 
   void write_imu(const Imu& imu) {
-    write(profile.imu, imu.stamp, raw<sensor_msgs::Imu>(ros::write_imu(imu, profile.base)));
+    write(profile.imu, MessageType::imu, imu.stamp, ros::write_imu(imu, profile.base, encoding));
   }
 
   void write_odometry(const Odometry& record, const std::optional<Matrix6d>& covariance) {
     ros::OdometryMessage message = motion.message(record, covariance);
     message.X_OR.parent = profile.odom;
     message.X_OR.child = profile.base;
-    write("/clock", record.stamp, raw<rosgraph_msgs::Clock>(ros::write_clock(record.stamp)));
-    write(profile.odometry, record.stamp, raw<nav_msgs::Odometry>(ros::write_odometry(message)));
+    write("/clock", MessageType::clock, record.stamp, ros::write_clock(record.stamp, encoding));
+    write(profile.odometry, MessageType::odometry, record.stamp, ros::write_odometry(message, encoding));
     write_transform("/tf", message.X_OR, false);
   }
 };
 
-BagWriter::BagWriter(const std::string& path, const BagProfile& profile, const Calibration& calibration)
+BagWriter::BagWriter(const std::string& path, const BagProfile& profile, const Calibration& calibration,
+                     BagFormat format, std::string_view compression)
     : impl_(std::make_unique<Impl>()) {
   impl_->path = path;
   impl_->temporary = path + ".part";
   impl_->profile = profile;
-  impl_->guarded([&] {
-    impl_->bag.open(impl_->temporary, rosbag::bagmode::Write);
-    impl_->bag.setCompression(rosbag::compression::LZ4);
-  });
-  impl_->open = true;
+  impl_->sink = make_sink(impl_->temporary, fs::path(path).filename().string(), format, compression);
+  impl_->encoding = impl_->sink->encoding();
   impl_->write_transform("/tf_static", {0, std::string(profile.base), std::string(profile.lidar), calibration.X_RL},
                          true);
 }
 
 BagWriter::~BagWriter() {
-  if (!impl_->open) return;
-  try {
-    impl_->bag.close();
-  } catch (const ::ros::Exception&) {
-    // It goes anyway.
-  }
-  std::remove(impl_->temporary.c_str());
+  if (!impl_->sink) return;
+  impl_->sink.reset();
+  std::error_code error;
+  fs::remove_all(impl_->temporary, error);
 }
 
 void BagWriter::add(const Scan& scan, std::span<const Odometry> odometry, std::span<const Imu> imu,
@@ -160,23 +93,23 @@ void BagWriter::add(const Scan& scan, std::span<const Odometry> odometry, std::s
   }
   for (; next != imu.end(); ++next) impl_->write_imu(*next);
   const BagProfile& profile = impl_->profile;
-  impl_->write(profile.points, scan.stamp,
-               raw<sensor_msgs::PointCloud2>(ros::write_cloud(cloud_of(scan, profile.layout), profile.lidar)));
+  impl_->write(profile.points, MessageType::cloud, scan.stamp,
+               ros::write_cloud(cloud_of(scan, profile.layout), profile.lidar, impl_->encoding));
 }
 
 void BagWriter::add_truth(std::span<const StampedPose> truth_W) {
   for (const StampedPose& truth : truth_W)
-    impl_->write("/ground_truth/odom", truth.stamp,
-                 raw<nav_msgs::Odometry>(
-                     ros::write_odometry({{truth.stamp, "map", std::string(impl_->profile.base), truth.X_FR}})));
+    impl_->write(
+        "/ground_truth/odom", MessageType::odometry, truth.stamp,
+        ros::write_odometry({{truth.stamp, "map", std::string(impl_->profile.base), truth.X_FR}}, impl_->encoding));
 }
 
 void BagWriter::finish() {
-  impl_->guarded([&] { impl_->bag.close(); });
-  impl_->open = false;
-  if (std::rename(impl_->temporary.c_str(), impl_->path.c_str()) == 0) return;
-  std::remove(impl_->temporary.c_str());
-  throw EnvironmentError(impl_->path + ": cannot be moved into place");
+  impl_->sink->finish();
+  std::error_code error;
+  fs::rename(impl_->temporary, impl_->path, error);
+  if (error) throw EnvironmentError(impl_->path + ": cannot be moved into place: " + error.message());
+  impl_->sink.reset();
 }
 
 }  // namespace plumbline::slam

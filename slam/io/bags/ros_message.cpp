@@ -16,11 +16,18 @@ static_assert(std::endian::native == std::endian::little);
 
 namespace {
 
+constexpr std::size_t cdr_head_bytes = 4;
+
 class Writer {
  public:
+  explicit Writer(Encoding encoding) : cdr_(encoding == Encoding::cdr) {
+    if (cdr_) bytes = {0, 1, 0, 0};  // little endian
+  }
+
   template <class T>
   void number(T value) {
     static_assert(std::is_arithmetic_v<T>);
+    if (cdr_) bytes.resize(cdr_head_bytes + (bytes.size() - cdr_head_bytes + sizeof(T) - 1) / sizeof(T) * sizeof(T));
     const std::size_t at = bytes.size();
     bytes.resize(at + sizeof(T));
     std::memcpy(&bytes[at], &value, sizeof(T));
@@ -29,8 +36,9 @@ class Writer {
     for (int i = 0; i < count; ++i) number(0.0);
   }
   void text(std::string_view value) {
-    number(static_cast<std::uint32_t>(value.size()));
+    number(static_cast<std::uint32_t>(value.size() + (cdr_ ? 1 : 0)));
     bytes.insert(bytes.end(), value.begin(), value.end());
+    if (cdr_) bytes.push_back(0);
   }
   void time(Nanoseconds stamp) {
     const Nanoseconds t = std::max<Nanoseconds>(stamp, 0);
@@ -38,7 +46,7 @@ class Writer {
     number(static_cast<std::uint32_t>(t % second_ns));
   }
   void header(Nanoseconds stamp, std::string_view frame) {
-    number(std::uint32_t{0});  // sequence, which nobody reads
+    if (!cdr_) number(std::uint32_t{0});  // sequence, which nobody reads
     time(stamp);
     text(frame);
   }
@@ -58,11 +66,20 @@ class Writer {
   }
 
   Bytes bytes;
+
+ private:
+  bool cdr_;
 };
 
 class Reader {
  public:
-  explicit Reader(std::span<const std::uint8_t> bytes) : rest_(bytes) {}
+  Reader(std::span<const std::uint8_t> bytes, Encoding encoding) : rest_(bytes), cdr_(encoding == Encoding::cdr) {
+    if (!cdr_) return;
+    const auto head = take(cdr_head_bytes);
+    if (head[0] != 0 || head[1] != 1)
+      throw InputError({}, "a message that is not little-endian CDR (XCDR1), as ROS 2 writes");
+    whole_ = rest_.size();
+  }
 
   std::span<const std::uint8_t> take(std::size_t count) {
     if (count > rest_.size()) throw InputError({}, "a message that ends too early");
@@ -73,11 +90,15 @@ class Reader {
   template <class T>
   T number() {
     static_assert(std::is_arithmetic_v<T>);
+    align(sizeof(T));
     T value;
     std::memcpy(&value, take(sizeof(T)).data(), sizeof(T));
     return value;
   }
-  void skip_numbers(std::size_t count) { static_cast<void>(take(count * sizeof(double))); }
+  void skip_numbers(std::size_t count) {
+    align(sizeof(double));
+    static_cast<void>(take(count * sizeof(double)));
+  }
   /// How many entries of at least so many bytes follow.
   std::size_t length(std::size_t least_bytes) {
     const std::size_t count = number<std::uint32_t>();
@@ -85,7 +106,8 @@ class Reader {
     return count;
   }
   std::string text() {
-    const auto bytes = take(length(1));
+    auto bytes = take(length(1));
+    if (cdr_ && !bytes.empty() && bytes.back() == 0) bytes = bytes.first(bytes.size() - 1);
     return {bytes.begin(), bytes.end()};
   }
   Nanoseconds time() {
@@ -93,7 +115,7 @@ class Reader {
     return s * second_ns + number<std::uint32_t>();
   }
   Nanoseconds header(std::string& frame) {
-    static_cast<void>(number<std::uint32_t>());
+    if (!cdr_) static_cast<void>(number<std::uint32_t>());
     const Nanoseconds stamp = time();
     frame = text();
     return stamp;
@@ -118,19 +140,27 @@ class Reader {
   }
 
  private:
+  void align(std::size_t size) {
+    if (!cdr_) return;
+    const std::size_t beyond = (whole_ - rest_.size()) % size;
+    if (beyond != 0) static_cast<void>(take(size - beyond));
+  }
+
   std::span<const std::uint8_t> rest_;
+  bool cdr_;
+  std::size_t whole_ = 0;  ///< bytes after the head
 };
 
 }  // namespace
 
-Bytes write_clock(Nanoseconds stamp) {
-  Writer out;
+Bytes write_clock(Nanoseconds stamp, Encoding encoding) {
+  Writer out(encoding);
   out.time(stamp);
   return out.bytes;
 }
 
-Bytes write_cloud(const PointCloud& cloud, std::string_view frame) {
-  Writer out;
+Bytes write_cloud(const PointCloud& cloud, std::string_view frame, Encoding encoding) {
+  Writer out(encoding);
   out.header(cloud.stamp, frame);
   out.number(cloud.height);
   out.number(cloud.width);
@@ -150,8 +180,8 @@ Bytes write_cloud(const PointCloud& cloud, std::string_view frame) {
   return out.bytes;
 }
 
-Bytes write_odometry(const OdometryMessage& message) {
-  Writer out;
+Bytes write_odometry(const OdometryMessage& message, Encoding encoding) {
+  Writer out(encoding);
   out.header(message.X_OR.stamp, message.X_OR.parent);
   out.text(message.X_OR.child);
   out.pose(message.X_OR.X);
@@ -161,8 +191,8 @@ Bytes write_odometry(const OdometryMessage& message) {
   return out.bytes;
 }
 
-Bytes write_imu(const Imu& imu, std::string_view frame) {
-  Writer out;
+Bytes write_imu(const Imu& imu, std::string_view frame, Encoding encoding) {
+  Writer out(encoding);
   out.header(imu.stamp, frame);
   out.quaternion(Eigen::Quaterniond::Identity());
   out.number(-1.0);  // there is no orientation
@@ -174,8 +204,8 @@ Bytes write_imu(const Imu& imu, std::string_view frame) {
   return out.bytes;
 }
 
-Bytes write_transforms(std::span<const Transform> transforms) {
-  Writer out;
+Bytes write_transforms(std::span<const Transform> transforms, Encoding encoding) {
+  Writer out(encoding);
   out.number(static_cast<std::uint32_t>(transforms.size()));
   for (const Transform& transform : transforms) {
     out.header(transform.stamp, transform.parent);
@@ -185,8 +215,8 @@ Bytes write_transforms(std::span<const Transform> transforms) {
   return out.bytes;
 }
 
-FramedCloud read_cloud(std::span<const std::uint8_t> bytes) {
-  Reader in(bytes);
+FramedCloud read_cloud(std::span<const std::uint8_t> bytes, Encoding encoding) {
+  Reader in(bytes, encoding);
   FramedCloud out;
   PointCloud& cloud = out.cloud;
   cloud.stamp = in.header(out.frame);
@@ -208,8 +238,44 @@ FramedCloud read_cloud(std::span<const std::uint8_t> bytes) {
   return out;
 }
 
-OdometryMessage read_odometry(std::span<const std::uint8_t> bytes) {
-  Reader in(bytes);
+FramedCloud read_livox(std::span<const std::uint8_t> bytes, Encoding encoding) {
+  constexpr std::size_t point_bytes = 19;
+  Reader in(bytes, encoding);
+  FramedCloud out;
+  PointCloud& cloud = out.cloud;
+  static_cast<void>(in.header(out.frame));
+  cloud.stamp = static_cast<Nanoseconds>(in.number<std::uint64_t>());
+  if (cloud.stamp < 0) throw InputError({}, "a time base that is no time");
+  const auto points = in.number<std::uint32_t>();
+  static_cast<void>(in.take(4));  // the LiDAR's number, and three that are kept free
+  if (in.length(point_bytes) != points) throw InputError({}, "a CustomMsg of another number of points than it says");
+  cloud.fields = {{"t", 0, PointType::u32},
+                  {"x", 4, PointType::f32},
+                  {"y", 8, PointType::f32},
+                  {"z", 12, PointType::f32},
+                  {"reflectivity", 16, PointType::u8}};
+  constexpr std::size_t step = 17;
+  cloud.point_step = step;
+  cloud.width = points;
+  cloud.height = 1;
+  cloud.row_step = static_cast<std::uint32_t>(step * points);
+  cloud.data.resize(step * points);
+  for (std::size_t i = 0; i < points; ++i) {
+    std::uint8_t* to = &cloud.data[step * i];
+    const auto offset = in.number<std::uint32_t>();
+    std::memcpy(to, &offset, sizeof offset);
+    for (std::size_t a = 0; a < 3; ++a) {
+      const auto value = in.number<float>();
+      std::memcpy(to + 4 + 4 * a, &value, sizeof value);
+    }
+    to[16] = in.number<std::uint8_t>();
+    static_cast<void>(in.take(2));  // tag and line
+  }
+  return out;
+}
+
+OdometryMessage read_odometry(std::span<const std::uint8_t> bytes, Encoding encoding) {
+  Reader in(bytes, encoding);
   OdometryMessage out;
   out.X_OR.stamp = in.header(out.X_OR.parent);
   out.X_OR.child = in.text();
@@ -220,8 +286,8 @@ OdometryMessage read_odometry(std::span<const std::uint8_t> bytes) {
   return out;
 }
 
-FramedImu read_imu(std::span<const std::uint8_t> bytes) {
-  Reader in(bytes);
+FramedImu read_imu(std::span<const std::uint8_t> bytes, Encoding encoding) {
+  Reader in(bytes, encoding);
   FramedImu out;
   out.imu.stamp = in.header(out.frame);
   in.skip_numbers(4 + 9);
@@ -231,8 +297,8 @@ FramedImu read_imu(std::span<const std::uint8_t> bytes) {
   return out;
 }
 
-std::vector<Transform> read_transforms(std::span<const std::uint8_t> bytes) {
-  Reader in(bytes);
+std::vector<Transform> read_transforms(std::span<const std::uint8_t> bytes, Encoding encoding) {
+  Reader in(bytes, encoding);
   std::vector<Transform> out;
   for (std::size_t left = in.length(76); left > 0; --left) {
     Transform& transform = out.emplace_back();

@@ -9,9 +9,12 @@
 
 #include "slam/io/packets/point_cloud.h"
 #include "slam/io/records.h"
+#include "slam/io/ros2/message_source.h"
 
-// Messages of ROS 1 as bytes: little endian, texts and lists with their length before them. Times before 0 are written
-// as 0. What reads throws InputError, without a mark, on bytes that end too early or numbers that cannot be.
+// Messages of ROS 1 and 2 as bytes: little endian, texts and lists with their length before them. CDR, of ROS 2, has a
+// head of 4 bytes, numbers at multiples of their size from there on, a 0 after each text, and no sequence number. Times
+// before 0 are written as 0. What reads throws InputError, without a mark, on bytes that end too early or numbers that
+// cannot be.
 namespace plumbline::slam::ros {
 
 using Bytes = std::vector<std::uint8_t>;
@@ -43,15 +46,24 @@ struct FramedImu {
   Imu imu;
 };
 
-[[nodiscard]] Bytes write_clock(Nanoseconds stamp);                                ///< rosgraph_msgs/Clock
-[[nodiscard]] Bytes write_cloud(const PointCloud& cloud, std::string_view frame);  ///< sensor_msgs/PointCloud2
-[[nodiscard]] Bytes write_odometry(const OdometryMessage& message);                ///< nav_msgs/Odometry
-[[nodiscard]] Bytes write_imu(const Imu& imu, std::string_view frame);             ///< sensor_msgs/Imu
-[[nodiscard]] Bytes write_transforms(std::span<const Transform> transforms);       ///< tf2_msgs/TFMessage
+[[nodiscard]] Bytes write_clock(Nanoseconds stamp, Encoding encoding = Encoding::ros1);  ///< rosgraph_msgs/Clock
+[[nodiscard]] Bytes write_cloud(const PointCloud& cloud, std::string_view frame,
+                                Encoding encoding = Encoding::ros1);  ///< sensor_msgs/PointCloud2
+[[nodiscard]] Bytes write_odometry(const OdometryMessage& message,
+                                   Encoding encoding = Encoding::ros1);  ///< nav_msgs/Odometry
+[[nodiscard]] Bytes write_imu(const Imu& imu, std::string_view frame,
+                              Encoding encoding = Encoding::ros1);  ///< sensor_msgs/Imu
+[[nodiscard]] Bytes write_transforms(std::span<const Transform> transforms,
+                                     Encoding encoding = Encoding::ros1);  ///< tf2_msgs/TFMessage
 
-[[nodiscard]] FramedCloud read_cloud(std::span<const std::uint8_t> bytes);
-[[nodiscard]] OdometryMessage read_odometry(std::span<const std::uint8_t> bytes);
-[[nodiscard]] FramedImu read_imu(std::span<const std::uint8_t> bytes);
-[[nodiscard]] std::vector<Transform> read_transforms(std::span<const std::uint8_t> bytes);
+[[nodiscard]] FramedCloud read_cloud(std::span<const std::uint8_t> bytes, Encoding encoding = Encoding::ros1);
+[[nodiscard]] OdometryMessage read_odometry(std::span<const std::uint8_t> bytes, Encoding encoding = Encoding::ros1);
+[[nodiscard]] FramedImu read_imu(std::span<const std::uint8_t> bytes, Encoding encoding = Encoding::ros1);
+[[nodiscard]] std::vector<Transform> read_transforms(std::span<const std::uint8_t> bytes,
+                                                     Encoding encoding = Encoding::ros1);
+
+/// livox_ros_driver2/CustomMsg and its older names: points with times from a base in ns. A cloud without rings, since
+/// Livox's lines are none, of the time base as its stamp.
+[[nodiscard]] FramedCloud read_livox(std::span<const std::uint8_t> bytes, Encoding encoding);
 
 }  // namespace plumbline::slam::ros

@@ -68,6 +68,12 @@ const PointField* find_field(const PointCloud& cloud, std::initializer_list<std:
   return nullptr;
 }
 
+// Livox's `line` is no ring: its lines cross each other.
+const PointField* ring_field(const PointCloud& cloud) { return find_field(cloud, {"ring", "channel"}); }
+const PointField* time_field(const PointCloud& cloud) {
+  return find_field(cloud, {"t", "time", "timestamp", "time_stamp"});
+}
+
 const PointField& need_field(const PointCloud& cloud, std::string_view name) {
   const PointField* field = find_field(cloud, {name});
   if (field == nullptr) throw InputError({}, "point cloud without field '" + std::string(name) + "'");
@@ -90,37 +96,66 @@ void check(const PointCloud& cloud) {
   }
 }
 
-/// Time of a point from the cloud's stamp, in ns; the field decides what the number means.
-double nanoseconds_of(const PointCloud& cloud, const PointField& field, const std::uint8_t* bytes) {
-  double t = number_at(bytes + field.offset, field.type);
+/// What the numbers of a time field mean.
+struct PointClock {
+  const PointField* field = nullptr;
+  double unit_ns = 1.0;
+  double zero_ns = 0.0;  ///< the cloud's stamp where the times are those of the day, else 0
+
+  [[nodiscard]] double nanoseconds(const std::uint8_t* point) const {
+    return unit_ns * number_at(point + field->offset, field->type) - zero_ns;
+  }
+};
+
+const std::uint8_t* bytes_of(const PointCloud& cloud, std::size_t i) {
+  return &cloud.data[i / cloud.width * cloud.row_step + i % cloud.width * std::size_t{cloud.point_step}];
+}
+
+/// Least and greatest time of the returns, ns from the stamp; (0, 0) without one.
+std::pair<double, double> extent(const PointCloud& cloud, const PointClock& clock,
+                                 const std::vector<CloudPoint>& points) {
+  std::pair<double, double> found(std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!points[i].valid) continue;
+    const double t = clock.nanoseconds(bytes_of(cloud, i));
+    if (!std::isfinite(t)) return {-std::numeric_limits<double>::infinity(), 0.0};
+    found = {std::min(found.first, t), std::max(found.second, t)};
+  }
+  return found.first > found.second ? std::pair(0.0, 0.0) : found;
+}
+
+/// Whole numbers are ns from the stamp. Others count from it in s, or are times of the day in the unit that puts all
+/// returns within a second of it, or count from it in a unit by which they are of a scan, 5 ms to 1 s long.
+PointClock clock_of(const PointCloud& cloud, const PointField& field, const std::vector<CloudPoint>& points) {
+  constexpr double longest = longest_ns, least_turn = 5e6;
+  constexpr std::array<double, 4> units_ns = {1e9, 1e6, 1e3, 1.0};
+  const auto fits = [&](const PointClock& clock, double least) {
+    const auto [first, last] = extent(cloud, clock, points);
+    return std::abs(first) <= longest && std::abs(last) <= longest && last - first >= least;
+  };
   const bool whole = field.type != PointType::f32 && field.type != PointType::f64;
-  if (!whole) t *= 1e9;
-  if (field.type == PointType::f64 && std::abs(t) > 1e3 * 1e9) t -= static_cast<double>(cloud.stamp);
-  return t;
-}
-
-bool within_a_second(const PointCloud& cloud, const PointField& field, const std::uint8_t* bytes) {
-  return std::abs(nanoseconds_of(cloud, field, bytes)) <= static_cast<double>(longest_ns);
-}
-
-Nanoseconds time_of(const PointCloud& cloud, const PointField& field, const std::uint8_t* bytes) {
-  const double t = nanoseconds_of(cloud, field, bytes);
-  if (!(std::abs(t) <= static_cast<double>(longest_ns)))
-    throw InputError({},
-                     "field '" + field.name + "' is not within 1 s of the stamp; f32 and f64 must be s, integers ns");
-  return std::llround(t);
+  const PointClock plain{&field, whole ? 1.0 : units_ns[0], 0.0};
+  if (fits(plain, 0.0)) return plain;
+  for (const double unit : units_ns)
+    if (const PointClock of_day{&field, unit, static_cast<double>(cloud.stamp)};
+        field.type == PointType::f64 && fits(of_day, 0.0))
+      return of_day;
+  for (const double unit : units_ns)
+    if (const PointClock other{&field, unit, 0.0}; !whole && fits(other, least_turn)) return other;
+  throw InputError({}, "field '" + field.name +
+                           "' is not within 1 s of the stamp, be it in s, ms, us or ns, from the stamp or of the day "
+                           "(whole numbers: ns from the stamp)");
 }
 
 std::vector<CloudPoint> read_points(const PointCloud& cloud) {
   const std::array<const PointField*, 3> xyz = {&need_field(cloud, "x"), &need_field(cloud, "y"),
                                                 &need_field(cloud, "z")};
   const PointField* intensity = find_field(cloud, {"intensity", "reflectivity"});
-  const PointField* ring = find_field(cloud, {"ring"});
-  const PointField* time = find_field(cloud, {"t", "time", "timestamp", "time_stamp"});
+  const PointField* ring = ring_field(cloud);
+  const PointField* time = time_field(cloud);
   std::vector<CloudPoint> points(std::size_t{cloud.width} * cloud.height);
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const std::uint8_t* bytes =
-        &cloud.data[i / cloud.width * cloud.row_step + i % cloud.width * std::size_t{cloud.point_step}];
+    const std::uint8_t* bytes = bytes_of(cloud, i);
     CloudPoint& point = points[i];
     for (int a = 0; a < 3; ++a)
       point.p_L[a] =
@@ -136,9 +171,13 @@ std::vector<CloudPoint> read_points(const PointCloud& cloud) {
         throw InputError({}, "point of a ring that is not within 0 to 127");
       point.ring = static_cast<int>(value);
     }
+  }
+  if (time == nullptr) return points;
+  const PointClock clock = clock_of(cloud, *time, points);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double t = clock.nanoseconds(bytes_of(cloud, i));
     // What stands where no return is may be anything.
-    if (time != nullptr && (point.valid || within_a_second(cloud, *time, bytes)))
-      point.time = time_of(cloud, *time, bytes);
+    if (points[i].valid || std::abs(t) <= static_cast<double>(longest_ns)) points[i].time = std::llround(t);
   }
   return points;
 }
@@ -183,8 +222,8 @@ Scan scan_of(const PointCloud& cloud) {
   scan.stamp = cloud.stamp;
   if (cloud.width == 0 || cloud.height == 0) return scan;
   std::vector<CloudPoint> points = read_points(cloud);
-  const bool timed = find_field(cloud, {"t", "time", "timestamp", "time_stamp"}) != nullptr;
-  const bool named_rings = find_field(cloud, {"ring"}) != nullptr;
+  const bool timed = time_field(cloud) != nullptr;
+  const bool named_rings = ring_field(cloud) != nullptr;
   const auto [rings, columns] = order_points(points, {cloud.width, cloud.height, named_rings, timed});
   scan.rings = rings;
   scan.columns = columns;

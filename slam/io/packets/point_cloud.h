@@ -41,9 +41,11 @@ enum class CloudLayout {
 /// return slot, which is the cloud's stamp.
 [[nodiscard]] PointCloud cloud_of(const Scan& scan, CloudLayout layout);
 
-/// The scan of a cloud whose fields are found by name and type: x, y, z (f32 or f64); intensity or reflectivity; ring
-/// (else by the layout of an organised cloud, or by elevation where that is a VLP-16's; else the scan has one ring);
-/// time (f32, s), timestamp (f64, s, from the stamp or absolute) or t (u32, ns). Without times all points have the
+/// The scan of a cloud whose fields are found by name and type, as the drivers of Velodyne, Ouster, Hesai, RoboSense
+/// and Livox write them: x, y, z (f32 or f64); intensity or reflectivity; ring or channel (else by the layout of an
+/// organised cloud, or by elevation where that is a VLP-16's; else the scan has one ring); t, time, timestamp or
+/// time_stamp: whole numbers in ns from the stamp, others in s from it, or as times of the day (f64) in the unit that
+/// puts them within 1 s of it, or in a unit by which they are 5 ms to 1 s long. Without times all points have the
 /// cloud's stamp: whether they are deskewed is not known, and undoing a motion twice is as bad as not at all. Columns
 /// are the rows or columns of an organised cloud, else found by time or azimuth; of one ring, a column a point. Points
 /// that are not finite, at the origin or beyond 1 km are no returns. Scan::stamp is the time of the last point; a cloud

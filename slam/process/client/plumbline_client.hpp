@@ -16,10 +16,13 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -45,7 +48,57 @@ struct Scan {
   std::vector<wire::Imu> imu;
   std::vector<wire::Odometry> odometry;
   std::vector<wire::Return> returns;  ///< index column * rings + ring; range 0: no return
+
+  /// What came back, in the LiDAR's frame at each point's own time; Point is made of x, y, z (Eigen::Vector3d).
+  template <class Point>
+  [[nodiscard]] std::vector<Point> points() const {
+    std::vector<Point> out;
+    for (const wire::Return& r : returns)
+      if (r.range_m > 0.0) out.push_back(Point(r.point_L[0], r.point_L[1], r.point_L[2]));
+    return out;
+  }
+  /// Of these points, 0 at the first to 1 at the last; empty where all have one time, since there is nothing to deskew.
+  [[nodiscard]] std::vector<double> relative_times() const {
+    std::int32_t first = 0, last = std::numeric_limits<std::int32_t>::min();
+    for (const wire::Return& r : returns)
+      if (r.range_m > 0.0) {
+        first = std::min(first, r.offset_ns);
+        last = std::max(last, r.offset_ns);
+      }
+    std::vector<double> out;
+    if (first >= last) return out;
+    for (const wire::Return& r : returns)
+      if (r.range_m > 0.0) out.push_back((double(r.offset_ns) - first) / (double(last) - first));
+    return out;
+  }
 };
+
+/// X_AC = X_AB * X_BC.
+[[nodiscard]] inline Pose compose(const Pose& a, const Pose& b) {
+  const auto turned = [](const double(&q)[4], const double(&v)[3], double(&out)[3]) {
+    const double u[3] = {2 * (q[1] * v[2] - q[2] * v[1]), 2 * (q[2] * v[0] - q[0] * v[2]),
+                         2 * (q[0] * v[1] - q[1] * v[0])};
+    out[0] = v[0] + q[3] * u[0] + q[1] * u[2] - q[2] * u[1];
+    out[1] = v[1] + q[3] * u[1] + q[2] * u[0] - q[0] * u[2];
+    out[2] = v[2] + q[3] * u[2] + q[0] * u[1] - q[1] * u[0];
+  };
+  Pose out;
+  turned(a.q, b.t, out.t);
+  for (int i = 0; i < 3; ++i) out.t[i] += a.t[i];
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    out.q[i] = a.q[3] * b.q[i] + b.q[3] * a.q[i] + a.q[j] * b.q[k] - a.q[k] * b.q[j];
+  }
+  out.q[3] = a.q[3] * b.q[3] - a.q[0] * b.q[0] - a.q[1] * b.q[1] - a.q[2] * b.q[2];
+  const double norm = std::sqrt(out.q[0] * out.q[0] + out.q[1] * out.q[1] + out.q[2] * out.q[2] + out.q[3] * out.q[3]);
+  for (double& value : out.q) value /= norm;
+  return out;
+}
+
+[[nodiscard]] inline Pose inverse(const Pose& a) {
+  const Pose turn{{0, 0, 0}, {-a.q[0], -a.q[1], -a.q[2], a.q[3]}};
+  return compose(turn, Pose{{-a.t[0], -a.t[1], -a.t[2]}, {0, 0, 0, 1}});
+}
 
 class Client {
  public:
@@ -64,11 +117,30 @@ class Client {
   /// JSON: seed, X_RL (the LiDAR's mount), sensor_height_m, has_odometry, plan, prior.
   [[nodiscard]] const std::string& hello() const { return hello_; }
 
+  /// X_RL: the LiDAR in the robot.
+  [[nodiscard]] Pose mount() const {
+    Pose X_RL;
+    const std::size_t at = hello_.find("\"X_RL\":");
+    if (at == std::string::npos) throw std::runtime_error("plumbline did not say where the LiDAR is mounted");
+    const char* from = hello_.c_str() + at + 7;
+    for (int i = 0; i < 7; ++i) {
+      while (*from == ' ' || *from == '[' || *from == ',') ++from;
+      char* end = nullptr;
+      (i < 3 ? X_RL.t[i] : X_RL.q[i - 3]) = std::strtod(from, &end);
+      from = end;
+    }
+    return X_RL;
+  }
+  /// The robot's pose, from that of the LiDAR in the frame of its first scan, as LiDAR odometry gives it.
+  [[nodiscard]] Pose robot_pose(const Pose& lidar) const {
+    const Pose X_RL = mount();
+    return compose(compose(X_RL, lidar), inverse(X_RL));
+  }
+
   /// The next scan, to be answered; null after the last.
   [[nodiscard]] const Scan* next() {
-    std::vector<char> payload;
-    if (receive(payload) != wire::Type::step) return nullptr;
-    const char* at = payload.data();
+    if (receive(payload_) != wire::Type::step) return nullptr;
+    const char* at = payload_.data();
     wire::Step step;
     take(at, &step, 1);
     scan_.stamp_ns = step.stamp_ns;
@@ -170,6 +242,7 @@ class Client {
 
   int stream_ = -1;
   std::string hello_;
+  std::vector<char> payload_;  ///< of the last scan; its memory is used again
   Scan scan_;
   std::vector<StampedPose> answered_;
 };

@@ -72,7 +72,7 @@ class Recording:
 
     def robot_pose(self, lidar_pose):
         """The robot's pose, from that of the LiDAR in the frame of its first scan, as LiDAR odometry gives it."""
-        return self.X_RL @ np.asarray(lidar_pose, dtype=float) @ np.linalg.inv(self.X_RL)
+        return self.X_RL @ _checked(lidar_pose) @ np.linalg.inv(self.X_RL)
 
 
 class Scan:
@@ -100,10 +100,11 @@ class Scan:
 
     @property
     def relative_times(self):
-        """N, 0 at the first return of the scan to 1 at its end."""
+        """N, 0 at the first return of the scan to 1 at its last; of length 0 where all returns have one time, since there
+        is nothing to deskew then."""
         times = self.times
-        first = times.min() if len(times) else 0.0
-        return (times - first) / -first if first < 0 else np.zeros(len(times))
+        turn = times.max() - times.min() if len(times) else 0.0
+        return (times - times.min()) / turn if turn > 0 else np.zeros(0)
 
     @property
     def ring(self):
@@ -134,15 +135,34 @@ class Answer:
         return out + np.asarray(self.particles, "<f4").tobytes()
 
 
+def _checked(pose):
+    """The pose as 4x4, or what is wrong with it."""
+    try:
+        matrix_ = np.asarray(pose, dtype=float)
+    except (TypeError, ValueError):
+        raise TypeError(f"a pose must be a 4x4 matrix, None or an Answer, not a {type(pose).__name__}") from None
+    if matrix_.shape != (4, 4):
+        raise ValueError(f"a pose must be a 4x4 matrix, None or an Answer, not of shape {matrix_.shape}")
+    if not np.isfinite(matrix_).all():
+        raise ValueError("a pose must be finite; this one has not-a-number or infinity in it")
+    turn = matrix_[:3, :3]
+    if not np.allclose(matrix_[3], [0, 0, 0, 1], atol=1e-6):
+        raise ValueError(f"the last row of a pose must be 0 0 0 1, not {matrix_[3]}; is it transposed?")
+    if not np.allclose(turn @ turn.T, np.eye(3), atol=1e-3) or np.linalg.det(turn) < 0:
+        raise ValueError("the upper left 3x3 of a pose must be a rotation; this one scales, shears or mirrors")
+    return matrix_
+
+
 def _numbers(pose):
-    pose = np.asarray(pose, dtype=float)
+    pose = _checked(pose)
     return [*pose[:3, 3], *quaternion(pose[:3, :3])]
 
 
 class _Stream:
     def __init__(self):
         if "PLUMBLINE_FD" not in os.environ:
-            raise SystemExit("plumbline_client: started by hand; give this command to plumbline as --method NAME=COMMAND")
+            raise SystemExit("plumbline_client: started by hand; plumbline conformance COMMAND tries it, and\n"
+                             "plumbline run quickstart --method NAME=COMMAND runs it")
         self.socket = socket.socket(fileno=int(os.environ["PLUMBLINE_FD"]))
 
     def receive(self):
@@ -190,6 +210,8 @@ def run(start, finish=None):
                 return
             if kind == HELLO:
                 on_scan = start(Recording(json.loads(bytes(payload))))
+                if not callable(on_scan):
+                    raise TypeError("start() must return the function that answers scans; does it end in return on_scan?")
                 stream.send(HELLO_OK, json.dumps({"protocol": 1}).encode())
             elif kind == STEP:
                 scan = Scan(payload)
@@ -197,7 +219,7 @@ def run(start, finish=None):
                 if not isinstance(answer, Answer):
                     answer = Answer(answer)
                 if answer.pose is not None:
-                    poses.append((scan.stamp_ns, np.array(answer.pose, dtype=float)))
+                    poses.append((scan.stamp_ns, _checked(answer.pose).copy()))
                 stream.send(OUTPUT, answer.pack(scan.stamp_ns))
             elif kind == FINISH:
                 final, points = finish() if finish else (poses, ())

@@ -28,6 +28,10 @@ slam::MethodInput input_of(const Tree& hello) {
 
 slam::Scan scan_of(const client::Scan& from) {
   slam::Scan scan{from.stamp_ns, from.rings, from.columns, {}, {}, {}, {}};
+  scan.range_m.reserve(from.returns.size());
+  scan.point_L.reserve(from.returns.size());
+  scan.reflectivity.reserve(from.returns.size());
+  scan.offset_ns.reserve(from.returns.size());
   for (const auto& r : from.returns) {
     scan.range_m.push_back(r.range_m);
     scan.point_L.emplace_back(r.point_L[0], r.point_L[1], r.point_L[2]);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <limits>
 
 #include "bim/errors.h"
@@ -182,7 +183,103 @@ TEST(PointCloud, AbsoluteAndRelativeTimesOfOtherTypes) {
   cloud.fields.back() = {"time", 16, PointType::f32};
   const float us[2] = {25'000.0F, 50'000.0F};  // microseconds, which some drivers write
   for (std::size_t i = 0; i < 2; ++i) set(i, &us[i], 4);
+  EXPECT_EQ(scan_of(cloud).stamp - cloud.stamp, 50'000'000);
+  // Neither a scan in any unit nor a time of the day: from the start of something else.
+  const float since_start[2] = {37.0F, 37.1F};
+  for (std::size_t i = 0; i < 2; ++i) set(i, &since_start[i], 4);
   EXPECT_THROW(static_cast<void>(scan_of(cloud)), InputError);
+}
+
+/// A cloud of a driver: its fields, and the time of two points 60 and 100 ms after `stamp` as `write` puts it.
+struct Driver {
+  std::string name;
+  std::vector<PointField> fields;
+  std::uint32_t step;
+  std::function<void(std::uint8_t* point, Nanoseconds after)> write;
+  Nanoseconds after_stamp;  ///< of the last point
+  double tolerance_ns;
+};
+
+// Layouts as the drivers' sources have them: velodyne 2, ouster-ros, livox_ros_driver2, HesaiLidar_ROS_2.0,
+// rslidar_sdk.
+TEST(PointCloud, CloudsOfFiveDriversGiveTheSameScan) {
+  constexpr Nanoseconds stamp = 1'700'000'000'250'000'000;
+  const auto put = [](std::uint8_t* to, auto value) { std::memcpy(to, &value, sizeof value); };
+  const PointField x{"x", 0, PointType::f32}, y{"y", 4, PointType::f32}, z{"z", 8, PointType::f32};
+  const std::vector<Driver> drivers = {
+      {"velodyne",
+       {x, y, z, {"intensity", 12, PointType::f32}, {"ring", 16, PointType::u16}, {"time", 18, PointType::f32}},
+       22,
+       [&](std::uint8_t* p, Nanoseconds t) {
+         put(p + 18, static_cast<float>(1e-9 * static_cast<double>(t - 100'000'000)));
+       },
+       0,
+       16.0},
+      {"ouster",
+       {x,
+        y,
+        z,
+        {"intensity", 16, PointType::f32},
+        {"t", 20, PointType::u32},
+        {"reflectivity", 24, PointType::u16},
+        {"ring", 26, PointType::u16},
+        {"range", 32, PointType::u32}},
+       48,
+       [&](std::uint8_t* p, Nanoseconds t) { put(p + 20, static_cast<std::uint32_t>(t)); },
+       100'000'000,
+       0.0},
+      {"livox",
+       {x,
+        y,
+        z,
+        {"intensity", 12, PointType::f32},
+        {"tag", 16, PointType::u8},
+        {"line", 17, PointType::u8},
+        {"timestamp", 18, PointType::f64}},
+       26,
+       [&](std::uint8_t* p, Nanoseconds t) { put(p + 18, static_cast<double>(stamp + t)); },
+       100'000'000,
+       300.0},
+      {"hesai",
+       {x, y, z, {"intensity", 12, PointType::f32}, {"ring", 16, PointType::u16}, {"timestamp", 18, PointType::f64}},
+       26,
+       [&](std::uint8_t* p, Nanoseconds t) { put(p + 18, 1e-9 * static_cast<double>(stamp + t)); },
+       100'000'000,
+       500.0},
+      {"robosense",
+       {x, y, z, {"intensity", 12, PointType::f32}, {"ring", 16, PointType::u16}, {"timestamp", 18, PointType::f64}},
+       26,
+       [&](std::uint8_t* p, Nanoseconds t) { put(p + 18, 1e-9 * static_cast<double>(stamp + t)); },
+       100'000'000,
+       500.0},
+  };
+  for (const Driver& driver : drivers) {
+    PointCloud cloud;
+    cloud.stamp = stamp;
+    cloud.fields = driver.fields;
+    cloud.point_step = driver.step;
+    cloud.width = 2;
+    cloud.height = 1;
+    cloud.row_step = 2 * driver.step;
+    cloud.data.resize(cloud.row_step);
+    for (std::size_t i = 0; i < 2; ++i) {
+      std::uint8_t* point = &cloud.data[i * driver.step];
+      put(point, static_cast<float>(i == 0 ? 3.0 : 0.0));
+      put(point + 4, static_cast<float>(i == 0 ? 0.0 : 4.0));
+      driver.write(point, i == 0 ? 60'000'000 : 100'000'000);
+    }
+    const Scan scan = scan_of(cloud);
+    EXPECT_NEAR(static_cast<double>(scan.stamp - stamp), static_cast<double>(driver.after_stamp), driver.tolerance_ns)
+        << driver.name;
+    int returns = 0;
+    for (std::size_t i = 0; i < scan.size(); ++i) {
+      if (scan.range_m[i] == 0.0) continue;
+      ++returns;
+      const double expected = scan.range_m[i] == 3.0 ? -40e6 : 0.0;
+      EXPECT_NEAR(scan.offset_ns[i], expected, 1000.0) << driver.name;
+    }
+    EXPECT_EQ(returns, 2) << driver.name;
+  }
 }
 
 TEST(PointCloud, WithoutPointsIsAScanWithoutColumns) {

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenarios/host/manifest.h"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <map>
+
+#include "bim/config/input_file.h"
+#include "bim/config/printable.h"
+#include "bim/digest/digest.h"
+#include "bim/errors.h"
+#include "scenarios/host/files.h"
+#include "scenarios/host/terminal.h"
+
+namespace plumbline::scenarios {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using Entries = std::map<std::string, std::string>;  ///< digest by name
+
+std::string path_of(const std::string& directory) { return directory + "/" + std::string(manifest_name); }
+
+std::string digest_of_file(const std::string& path) {
+  const InputFile file = open_input_file(path);
+  std::array<std::uint8_t, 65536> bytes;
+  Digest digest;
+  while (const std::size_t got = std::fread(bytes.data(), 1, bytes.size(), file.stream.get()))
+    digest.add_bytes({bytes.data(), got});
+  if (std::ferror(file.stream.get()) != 0) throw EnvironmentError(path + ": cannot be read");
+  return digest.hex();
+}
+
+bool is_listed(const std::string& name) {
+  return name != manifest_name && name != "timings.json" && !name.ends_with("/timings.json") && name != "lock" &&
+         !name.starts_with(".partial") && !name.ends_with(".tmp");
+}
+
+/// Names of all files, those in folders with the folder's name before them.
+std::vector<std::string> files_in(const std::string& directory) {
+  std::vector<std::string> names;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(directory)) {
+    const std::string name = entry.path().lexically_relative(directory).string();
+    if (entry.is_regular_file() && is_listed(name)) names.push_back(name);
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+Entries read_manifest(const std::string& directory) {
+  const std::string path = path_of(directory), text = read_text_file(path);
+  constexpr std::string_view head = "file,digest\n";
+  if (!text.starts_with(head)) throw InputError({path, 1, 1}, "a manifest begins with 'file,digest'");
+  Entries entries;
+  int line = 2;
+  for (std::size_t at = head.size(); at < text.size(); ++line) {
+    const std::size_t end = text.find('\n', at), comma = text.rfind(',', end);
+    constexpr std::size_t digits = 16;
+    if (end == std::string::npos || comma == std::string::npos || comma <= at || end - comma - 1 != digits)
+      throw InputError({path, line, 1}, "a line must be the name of a file, a comma and 16 digits");
+    entries[text.substr(at, comma - at)] = text.substr(comma + 1, digits);
+    at = end + 1;
+  }
+  return entries;
+}
+
+void write(const std::string& directory, const Entries& entries) {
+  std::string text = "file,digest\n";
+  for (const auto& [name, digest] : entries) text.append(name).append(",").append(digest).append("\n");
+  write_file(path_of(directory), text);
+}
+
+bool is_among(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+}  // namespace
+
+void write_manifest(const std::string& directory) {
+  Entries entries;
+  for (const std::string& name : files_in(directory)) entries[name] = digest_of_file(directory + "/" + name);
+  write(directory, entries);
+}
+
+std::vector<std::string> altered_files(const std::string& directory, const ManifestCheck& check) {
+  if (!fs::exists(path_of(directory))) return {std::string(manifest_name)};
+  const Entries entries = read_manifest(directory);
+  const std::string of_recording = std::string(recording_folder) + "/";
+  std::vector<std::string> altered;
+  for (const auto& [name, digest] : entries) {
+    if (is_among(check.written_anew, name) || (!check.recording && name.starts_with(of_recording))) continue;
+    const std::string path = directory + "/" + name;
+    if (!fs::is_regular_file(path) || digest_of_file(path) != digest) altered.push_back(name);
+  }
+  for (const std::string& name : files_in(directory))
+    if (name.ends_with(".estimate.json") && !entries.contains(name)) altered.push_back(name);
+  std::sort(altered.begin(), altered.end());
+  return altered;
+}
+
+void refuse_altered(const std::string& directory, const std::vector<std::string>& altered, bool unchecked) {
+  if (altered.empty()) return;
+  constexpr std::size_t most_named = 5;
+  std::string names;
+  for (std::size_t i = 0; i < std::min(altered.size(), most_named); ++i) names += (i == 0 ? "" : ", ") + altered[i];
+  if (altered.size() > most_named) names += " and " + std::to_string(altered.size() - most_named) + " more";
+  const bool none = altered.front() == manifest_name;
+  if (unchecked)
+    print_note("plumbline: " + (none ? "there is no manifest.csv" : "altered since they were written: " + names) +
+               "; taken as they are");
+  else if (none)
+    throw InputError({directory, 0, 0},
+                     "has no manifest.csv, which says whether its files are as they were written; "
+                     "--unchecked goes on without");
+  else
+    throw InputError({directory, 0, 0}, "altered since they were written: " + names +
+                                            "; run it again, or add --unchecked to take them as they are");
+}
+
+void renew_manifest(const std::string& directory, const std::vector<std::string>& names) {
+  if (!fs::exists(path_of(directory))) return;
+  Entries entries = read_manifest(directory);
+  for (const std::string& name : names) {
+    entries.erase(name);
+    const std::string path = directory + "/" + name;
+    if (is_listed(name) && fs::is_regular_file(path)) entries[name] = digest_of_file(path);
+  }
+  write(directory, entries);
+}
+
+}  // namespace plumbline::scenarios

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace plumbline::scenarios {
+
+/// manifest.csv: file,digest of every file of a directory of ours when it was written, so that what was altered later
+/// can be named. timings.json, which differs between repetitions, is left out.
+inline constexpr std::string_view manifest_name = "manifest.csv";
+
+/// Writes it for what `directory` holds now. Throws EnvironmentError.
+void write_manifest(const std::string& directory);
+
+/// What a check leaves out.
+struct ManifestCheck {
+  std::vector<std::string> written_anew;  ///< files that the command writes itself
+  bool recording = true;                  ///< whether the recording is compared, too, which may be large
+};
+/// Files that are not as they were written, are missing, or are of a method and were not there, in the order of their
+/// names; the manifest itself where there is none. Throws InputError on a manifest that is damaged.
+[[nodiscard]] std::vector<std::string> altered_files(const std::string& directory, const ManifestCheck& check);
+
+/// Throws InputError that names the altered files, unless `unchecked`: then says on stderr which they are.
+void refuse_altered(const std::string& directory, const std::vector<std::string>& altered, bool unchecked);
+
+/// Takes files as they are now into the manifest, and those that are gone out of it. Of others nothing changes. Does
+/// nothing where there is no manifest.
+void renew_manifest(const std::string& directory, const std::vector<std::string>& names);
+
+}  // namespace plumbline::scenarios

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenarios/spec/library.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <system_error>
+
+#include "bim/config/input_file.h"
+#include "bim/config/tree.h"
+#include "bim/errors.h"
+
+namespace plumbline::scenarios {
+
+namespace fs = std::filesystem;
+
+std::string library_folder() {
+  std::error_code error;
+  const fs::path program = fs::read_symlink("/proc/self/exe", error);
+  if (error) return {};
+  for (const char* from_program :
+       {"../share/plumbline/scenarios", "../../scenarios/library", "../../../scenarios/library"}) {
+    const fs::path folder = (program.parent_path() / from_program).lexically_normal();
+    if (fs::exists(folder / "quickstart.yaml", error)) return folder.string();
+  }
+  return {};
+}
+
+std::vector<std::string> scenario_files(const std::string& folder) {
+  std::vector<std::string> paths;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
+    const std::string path = entry.path().string();
+    if (entry.path().extension() != ".yaml" || path.ends_with(".plan.yaml")) continue;
+    const Tree tree = read_yaml(read_text_file(path), path);
+    if (tree.is_map() && tree.find("scenario") != nullptr) paths.push_back(path);
+  }
+  std::sort(paths.begin(), paths.end());
+  return paths;
+}
+
+std::string find_input(const std::string& input) {
+  std::error_code error;
+  if (fs::exists(input, error) || fs::path(input).has_extension()) return input;
+  const std::string folder = library_folder();
+  if (folder.empty()) return input;
+  std::vector<std::string> found, names;
+  for (const std::string& path : scenario_files(folder)) {
+    const std::string name = fs::path(path).lexically_relative(folder).replace_extension().string();
+    names.push_back(name);
+    if (name == input) return path;
+    if (name.ends_with("/" + input)) found.push_back(path);
+  }
+  if (found.size() == 1) return found.front();
+  if (found.size() > 1)
+    throw InputError({input, 0, 0},
+                     "is the name of several scenarios; say more of it, as in '" +
+                         fs::path(found.front()).lexically_relative(folder).replace_extension().string() + "'");
+  if (const std::string close = did_you_mean(input, names); !close.empty())
+    throw InputError({input, 0, 0}, "is no file and no scenario of the library; did you mean '" + close + "'?");
+  return input;
+}
+
+}  // namespace plumbline::scenarios

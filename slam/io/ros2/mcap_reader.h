@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "slam/io/ros2/message_source.h"
+
+namespace plumbline::slam {
+
+/// Opens an MCAP file [mcap2024]: every length in it is compared with the bytes that are there before anything is
+/// allocated, every checksum of a chunk that is read is checked. Memory: the largest chunk, packed and unpacked. Throws
+/// InputError, also where the file was not closed.
+[[nodiscard]] std::unique_ptr<MessageSource> open_mcap(const std::string& path);
+
+}  // namespace plumbline::slam

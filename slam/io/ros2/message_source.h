@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "slam/io/records.h"
+
+namespace plumbline::slam {
+
+/// How the bytes of messages are laid out: as ROS 1 does, or CDR (XCDR1), as ROS 2 does.
+enum class Encoding { ros1, cdr, unknown };
+
+struct BagTopic {
+  std::string name;
+  std::string type;  ///< "sensor_msgs/PointCloud2", in ROS 2 too
+  Encoding encoding = Encoding::unknown;
+};
+
+struct RawMessage {
+  std::size_t topic = 0;  ///< index in topics()
+  std::vector<std::uint8_t> bytes;
+};
+
+/// Messages of a bag, of whatever kind it is. Functions throw InputError where it is damaged.
+class MessageSource {
+ public:
+  virtual ~MessageSource() = default;
+  [[nodiscard]] virtual const std::vector<BagTopic>& topics() const = 0;
+  /// Goes back to the beginning; next() then gives messages of these topics alone.
+  virtual void select(const std::vector<std::string>& topics) = 0;
+  /// The next message in the order of the file; false at its end.
+  [[nodiscard]] virtual bool next(RawMessage& message) = 0;
+};
+
+/// A type's name as ROS 1 writes it: without "msg/" in the middle.
+[[nodiscard]] inline std::string plain_type(std::string_view type) {
+  const std::size_t at = type.find("/msg/");
+  return at == std::string_view::npos ? std::string(type)
+                                      : std::string(type.substr(0, at)) + std::string(type.substr(at + 4));
+}
+
+}  // namespace plumbline::slam

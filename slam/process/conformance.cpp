@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/process/conformance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <optional>
+
+#include "slam/io/stopwatch.h"
+#include "slam/process/child.h"
+#include "slam/process/trial_walk.h"
+
+namespace plumbline::slam {
+
+namespace {
+
+using Kind = Finding::Kind;
+
+constexpr double near_m = 0.03;  ///< three times the noise of a range
+constexpr double far_m = 0.25;   ///< of a walk of 4 m
+constexpr double period_ms = 100.0;
+constexpr std::size_t without_return = 12, with_one_return = 14;  ///< scans of the poor walk
+
+std::string format(const char* pattern, double a, double b = 0.0) {
+  char text[200];
+  std::snprintf(text, sizeof text, pattern, a, b);
+  return text;
+}
+
+/// What a process answered to a walk.
+struct Trial {
+  std::vector<Output> outputs;
+  std::vector<double> wall_ms;
+  Estimate estimate;
+  double start_s = 0.0;
+  std::string failure;  ///< empty: it went to the end
+};
+
+MethodInput input_of(const TrialWalk& walk, const std::shared_ptr<const bim::Plan>& plan, bool lidar_alone) {
+  MethodInput input;
+  input.seed = 1;
+  input.calibration = walk.calibration;
+  input.plan = plan;
+  input.has_odometry = !lidar_alone;
+  return input;
+}
+
+void give(Method& method, const TrialStep& step, bool lidar_alone, Trial& trial) {
+  if (!lidar_alone) {
+    for (const Imu& imu : step.imu) method.on_imu(imu);
+    for (const Odometry& odometry : step.odometry) method.on_odometry(odometry);
+  }
+  const double before_s = wall_s();
+  trial.outputs.push_back(method.on_scan(step.scan));
+  trial.wall_ms.push_back(1e3 * (wall_s() - before_s));
+}
+
+Trial try_on(const ProcessCommand& command, const TrialWalk& walk, const MethodInput& input) {
+  Trial trial;
+  try {
+    const double before_s = wall_s();
+    const std::unique_ptr<Method> method = make_process_method(command, input);
+    trial.start_s = wall_s() - before_s;
+    for (const TrialStep& step : walk.steps) give(*method, step, !input.has_odometry, trial);
+    trial.estimate = method->finish();
+  } catch (const ProcessFailure& failure) {
+    trial.failure = failure.what();
+  }
+  return trial;
+}
+
+bool same(const Pose& a, const Pose& b) { return a.t == b.t && a.q.coeffs() == b.q.coeffs(); }
+
+bool same(const Output& a, const Output& b) {
+  if (a.state != b.state || a.X_FR.has_value() != b.X_FR.has_value()) return false;
+  if (a.X_FR && !same(*a.X_FR, *b.X_FR)) return false;
+  return std::equal(a.hypotheses.begin(), a.hypotheses.end(), b.hypotheses.begin(), b.hypotheses.end(),
+                    [](const Hypothesis& x, const Hypothesis& y) { return x.mass == y.mass && same(x.X_WR, y.X_WR); });
+}
+
+/// Root mean square distance of what f makes of the answers from where `truth` has the robot.
+double misfit(const std::vector<StampedPose>& answered, bool aligned, const std::function<Pose(const Pose&)>& f,
+              const std::function<Pose(Nanoseconds)>& truth) {
+  const Pose X_WF = aligned ? truth(answered.front().stamp) * f(answered.front().X_FR).inverse() : Pose{};
+  double sum = 0.0;
+  for (const StampedPose& pose : answered) sum += ((X_WF * f(pose.X_FR)).t - truth(pose.stamp).t).squaredNorm();
+  return std::sqrt(sum / static_cast<double>(answered.size()));
+}
+
+std::vector<StampedPose> poses_of(const Trial& trial) {
+  std::vector<StampedPose> poses;
+  for (const Output& output : trial.outputs)
+    if (output.X_FR) poses.push_back({output.stamp, *output.X_FR});
+  return poses;
+}
+
+/// The beginning of the walk, with scans in it that a method does not expect.
+TrialWalk without_returns(TrialWalk walk) {
+  const auto spoil = [](Scan& scan, std::size_t kept) {
+    for (std::size_t i = kept; i < scan.size(); ++i) {
+      scan.range_m[i] = 0.0;
+      scan.point_L[i].setZero();
+      scan.reflectivity[i] = 0.0F;
+    }
+  };
+  spoil(walk.steps[without_return].scan, 0);
+  spoil(walk.steps[with_one_return].scan, 1);
+  walk.steps.resize(20);
+  return walk;
+}
+
+void report_poor(const Trial& poor, std::vector<Finding>& findings) {
+  if (poor.failure.empty())
+    findings.push_back({Kind::fine, "takes LiDAR alone, and scans of no and of one return"});
+  else if (poor.outputs.size() < without_return)
+    findings.push_back({Kind::note, "does not run on LiDAR alone: " + poor.failure});
+  else
+    findings.push_back({Kind::note, std::string("does not take a scan of ") +
+                                        (poor.outputs.size() == without_return ? "no return" : "one return") +
+                                        ", which a damaged recording may have: " + poor.failure});
+}
+
+void report_speed(const Trial& trial, std::vector<Finding>& findings) {
+  double sum = 0.0;
+  for (const double ms : trial.wall_ms) sum += ms;
+  const double mean = sum / static_cast<double>(trial.wall_ms.size());
+  const double most = *std::max_element(trial.wall_ms.begin(), trial.wall_ms.end());
+  findings.push_back({Kind::fine, format("answers a scan in %.1f ms, the slowest in %.1f ms", mean, most)});
+  if (mean > period_ms) findings.push_back({Kind::note, "is slower than the LiDAR, which turns in 100 ms"});
+}
+
+void report_estimate(const Trial& trial, std::vector<Finding>& findings) {
+  const std::size_t poses = trial.estimate.trajectory.size();
+  findings.push_back({poses > 0 ? Kind::fine : Kind::note,
+                      "gives at the end a trajectory of " + std::to_string(poses) + " poses and a map of " +
+                          std::to_string(trial.estimate.map_F.size()) + " points"});
+  for (const StampedPose& pose : trial.estimate.trajectory)
+    if (std::none_of(trial.outputs.begin(), trial.outputs.end(),
+                     [&](const Output& output) { return output.stamp == pose.stamp; })) {
+      findings.push_back({Kind::wrong, "gives at the end a pose for " + std::to_string(pose.stamp) +
+                                           " ns, which is no scan's time; use the stamps of the scans"});
+      return;
+    }
+}
+
+void report_poses(const Trial& trial, const Pose& X_RL, bool localization, std::vector<Finding>& findings) {
+  const std::vector<StampedPose> poses = poses_of(trial);
+  const std::size_t scans = trial.outputs.size();
+  if (poses.empty()) {
+    findings.push_back({localization ? Kind::note : Kind::wrong,
+                        "gave no pose for any of " + std::to_string(scans) + " scans; a run would count it as lost"});
+    return;
+  }
+  if (poses.size() < scans)
+    findings.push_back(
+        {Kind::note, "gave a pose for " + std::to_string(poses.size()) + " of " + std::to_string(scans) + " scans"});
+  const auto as_is = [](const Pose& X) { return X; };
+  const double rms = misfit(poses, !localization, as_is, trial_pose);
+  if (const std::optional<Finding> why = misunderstanding(poses, X_RL, !localization))
+    findings.push_back({why->kind, format("is off by %.3f m, rms, on a walk of 4 m: ", rms) + why->text});
+  else
+    findings.push_back({rms < far_m ? Kind::fine : Kind::note,
+                        format(rms < far_m ? "follows the walk within %.3f m, rms"
+                                           : "is off by %.3f m, rms, on a walk of 4 m with a good view",
+                               rms)});
+}
+
+}  // namespace
+
+std::optional<Finding> misunderstanding(const std::vector<StampedPose>& answered, const Pose& X_RL, bool aligned) {
+  struct Reading {
+    Kind kind;
+    const char* words;
+    std::function<Pose(const Pose&)> f;
+    Nanoseconds late = 0;
+  };
+  const auto as_is = [](const Pose& X) { return X; };
+  const auto of_lidar = [&](const Pose& X) { return X_RL * X * X_RL.inverse(); };
+  const auto in_metres = [](const Pose& X) { return Pose{X.q, 1e-3 * X.t}; };
+  const double plain = misfit(answered, aligned, as_is, trial_pose);
+  const auto first = [&](const StampedPose& pose) { return same(pose.X_FR, answered.front().X_FR); };
+  if (std::all_of(answered.begin(), answered.end(), first)) return Finding{Kind::wrong, "its pose never changes"};
+  constexpr Nanoseconds half_ns = 50'000'000;
+  constexpr Kind wrong = Kind::wrong, note = Kind::note;
+  const std::vector<Reading> readings = {
+      {wrong, "these are poses of the LiDAR in the frame of its first scan; recording.robot_pose() makes the robot's",
+       of_lidar},
+      {wrong, "these are poses of the LiDAR; multiply them by the inverse of its mount X_RL from the right",
+       [&](const Pose& X) { return X * X_RL.inverse(); }},
+      {wrong, "these are poses of the map in the robot; give their inverse", [](const Pose& X) { return X.inverse(); }},
+      {wrong, "these are poses of the map in the LiDAR; give recording.robot_pose() of their inverse",
+       [&](const Pose& X) { return of_lidar(X.inverse()); }},
+      {wrong, "these are in millimetres; give metres", in_metres},
+      {wrong, "these fit the scan before; answer each scan with its own pose", as_is, 2 * half_ns},
+      {note, "these fit the middle of each scan, as without deskewing; a pose belongs to the scan's end", as_is,
+       half_ns},
+      {wrong,
+       "these fit the LiDAR's poses in the middle of each scan; recording.robot_pose() makes the robot's, and a "
+       "pose belongs to the scan's end",
+       of_lidar, half_ns},
+  };
+  constexpr double clearly = 0.6;
+  double best = std::min(near_m, clearly * plain);
+  std::optional<Finding> found;
+  for (const Reading& reading : readings) {
+    const auto truth = [&](Nanoseconds t) { return trial_pose(t - reading.late); };
+    const double off = misfit(answered, aligned, reading.f, truth);
+    if (plain <= near_m || off >= best) continue;
+    best = off;
+    found = Finding{reading.kind, reading.words};
+  }
+  return found;
+}
+
+std::vector<Finding> check_conformance(const ProcessCommand& command, const std::shared_ptr<const bim::Plan>& plan) {
+  std::vector<Finding> findings;
+  const TrialWalk walk = trial_walk();
+  const Trial first = try_on(command, walk, input_of(walk, plan, false));
+  if (first.wall_ms.empty() && !first.failure.empty()) return {{Kind::wrong, first.failure}};
+  findings.push_back({Kind::fine, format("starts and greets in %.2f s", first.start_s)});
+  if (!first.failure.empty()) findings.push_back({Kind::wrong, first.failure});
+  report_speed(first, findings);
+  if (!first.failure.empty()) return findings;
+  report_poses(first, walk.calibration.X_RL, plan != nullptr, findings);
+  report_estimate(first, findings);
+
+  ProcessCommand quiet = command;
+  quiet.printed = {};
+  const Trial second = try_on(quiet, walk, input_of(walk, plan, false));
+  const auto [one, other] =
+      std::mismatch(first.outputs.begin(), first.outputs.end(), second.outputs.begin(), second.outputs.end(),
+                    [](const Output& a, const Output& b) { return same(a, b); });
+  if (!second.failure.empty())
+    findings.push_back({Kind::wrong, "the second time: " + second.failure});
+  else if (one != first.outputs.end() || other != second.outputs.end())
+    findings.push_back(
+        {Kind::note, "does not repeat: the same records gave another answer at scan " +
+                         std::to_string(one - first.outputs.begin() + 1) +
+                         "; replay and repeat: true will say so. Threads, clocks and seeds are the usual "
+                         "causes"});
+  else
+    findings.push_back({Kind::fine, "repeats to the last bit"});
+
+  report_poor(try_on(quiet, without_returns(walk), input_of(walk, plan, true)), findings);
+  return findings;
+}
+
+}  // namespace plumbline::slam

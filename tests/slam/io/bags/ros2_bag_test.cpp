@@ -1,0 +1,378 @@
+// SPDX-License-Identifier: Apache-2.0
+// ROS 2 bags hold what ROS 1 bags hold, and nothing in them is believed.
+#include <gtest/gtest.h>
+#include <sqlite3.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "bim/errors.h"
+#include "slam/io/bags/bag.h"
+#include "slam/io/bags/ros2_definitions.h"
+#include "slam/io/ros2/compression.h"
+#include "slam/io/ros2/mcap_reader.h"
+#include "slam/io/ros2/mcap_writer.h"
+#include "slam/io/ros2/rosbag2_writer.h"
+#include "tests/data.h"
+#include "tests/folder.h"
+#include "tests/input_error.h"
+#include "tests/slam/io/packets/packets.h"
+
+namespace plumbline::slam {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string bytes(const std::string& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+void write_bytes(const std::string& path, const std::string& text) {
+  std::ofstream(path, std::ios::binary).write(text.data(), static_cast<std::streamsize>(text.size()));
+}
+
+std::vector<SensorFrame> read_all(const std::string& path, const BagTopics& topics = {}) {
+  const auto recording = open_bag(path, topics, nullptr);
+  std::vector<SensorFrame> frames;
+  for (SensorFrame frame; recording->next(frame);) frames.push_back(frame);
+  return frames;
+}
+
+std::vector<SensorFrame> walk() {
+  constexpr int turns = 4, packets = 76;
+  const std::vector<Vlp16Packet> all = turning_packets(turns * packets);
+  std::vector<SensorFrame> frames(turns);
+  Nanoseconds odometry = 0, imu = 0;
+  for (std::size_t m = 0; m < turns; ++m) {
+    frames[m].scan = decode_message(std::span(all).subspan(packets * m, packets));
+    for (; odometry <= frames[m].scan.stamp; odometry += 10'000'000) {
+      const double s = seconds(odometry);
+      frames[m].odometry.push_back({odometry, Pose::from_xyz_yaw({0.3 * s, -0.1 * s, 0.0}, 0.2 * s)});
+      frames[m].covariances.push_back({odometry, 1e-8 * Matrix6d::Identity()});
+    }
+    for (; imu <= frames[m].scan.stamp; imu += 4'000'000)
+      frames[m].imu.push_back({imu, Eigen::Vector3d(0.1, 0.2, 1.0 / 3.0), Eigen::Vector3d(0, -0.5, 9.81)});
+  }
+  return frames;
+}
+
+void write(const std::string& path, BagFormat format, std::string_view compression = {}) {
+  Calibration calibration;
+  calibration.X_RL = Pose::from_xyz_yaw({0.1, -0.2, 0.3}, 1.0);
+  BagWriter writer(path, bag_profiles[0], calibration, format, compression);
+  for (const SensorFrame& frame : walk()) {
+    writer.add(frame.scan, frame.odometry, frame.imu, frame.covariances);
+    const std::vector<StampedPose> truth = {{frame.scan.stamp, Pose{}}};
+    writer.add_truth(truth);
+  }
+  writer.finish();
+}
+
+void expect_same(const std::vector<SensorFrame>& a, const std::vector<SensorFrame>& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_EQ(a[i].scan.stamp, b[i].scan.stamp);
+    EXPECT_EQ(a[i].scan.range_m, b[i].scan.range_m);
+    EXPECT_EQ(a[i].scan.point_L, b[i].scan.point_L);
+    EXPECT_EQ(a[i].scan.offset_ns, b[i].scan.offset_ns);
+    EXPECT_EQ(a[i].scan.reflectivity, b[i].scan.reflectivity);
+    ASSERT_EQ(a[i].odometry.size(), b[i].odometry.size());
+    for (std::size_t k = 0; k < a[i].odometry.size(); ++k) {
+      EXPECT_EQ(a[i].odometry[k].stamp, b[i].odometry[k].stamp);
+      EXPECT_EQ(a[i].odometry[k].X_OR.t, b[i].odometry[k].X_OR.t);
+      EXPECT_EQ(a[i].odometry[k].X_OR.q.coeffs(), b[i].odometry[k].X_OR.q.coeffs());
+    }
+    ASSERT_EQ(a[i].covariances.size(), b[i].covariances.size());
+    for (std::size_t k = 0; k < a[i].covariances.size(); ++k)
+      EXPECT_EQ(a[i].covariances[k].covariance, b[i].covariances[k].covariance);
+    ASSERT_EQ(a[i].imu.size(), b[i].imu.size());
+    for (std::size_t k = 0; k < a[i].imu.size(); ++k)
+      EXPECT_EQ(a[i].imu[k].angular_velocity_R, b[i].imu[k].angular_velocity_R);
+  }
+}
+
+class Ros2Bag : public ::testing::Test {
+ protected:
+  [[nodiscard]] std::string file(const std::string& name) const { return folder_ / name; }
+  [[nodiscard]] std::string complaint(const std::string& path) const {
+    return input_error([&] { static_cast<void>(read_all(path)); });
+  }
+  void expect_complaint(const std::string& path, const std::string& words) const {
+    EXPECT_NE(complaint(path).find(words), std::string::npos) << complaint(path);
+    EXPECT_EQ(complaint(path).rfind(path, 0), 0U) << complaint(path);
+  }
+  static void run_sql(const std::string& path, const std::string& sql) {
+    sqlite3* db = nullptr;
+    ASSERT_EQ(sqlite3_open(path.c_str(), &db), SQLITE_OK);
+    EXPECT_EQ(sqlite3_exec(db, sql.c_str(), nullptr, nullptr, nullptr), SQLITE_OK) << sqlite3_errmsg(db);
+    sqlite3_close(db);
+  }
+
+ private:
+  Folder folder_;
+};
+
+TEST_F(Ros2Bag, EveryKindOfOneWalkReadsAsTheSame) {
+  write(file("a.bag"), BagFormat::ros1);
+  const std::vector<SensorFrame> expected = read_all(file("a.bag"));
+  ASSERT_EQ(expected.size(), 4U);
+  for (const std::string compression : {"", "zstd", "lz4"}) {
+    write(file("a" + compression + ".mcap"), BagFormat::mcap, compression);
+    EXPECT_TRUE(is_bag(file("a" + compression + ".mcap")));
+    expect_same(read_all(file("a" + compression + ".mcap")), expected);
+  }
+  write(file("walk"), BagFormat::rosbag2);
+  EXPECT_TRUE(is_bag(file("walk")) && is_bag(file("walk/walk_0.db3")));
+  expect_same(read_all(file("walk")), expected);
+  expect_same(read_all(file("walk/walk_0.db3")), expected);
+}
+
+TEST_F(Ros2Bag, AnImuInGIsTakenAsSuch) {
+  std::vector<SensorFrame> frames = walk();
+  for (SensorFrame& frame : frames)
+    for (Imu& imu : frame.imu) imu.linear_acceleration_R /= 9.80665;
+  BagWriter writer(file("g.mcap"), bag_profiles[0], {}, BagFormat::mcap);
+  for (const SensorFrame& frame : frames) writer.add(frame.scan, frame.odometry, frame.imu);
+  writer.finish();
+  EXPECT_NEAR(read_all(file("g.mcap"))[1].imu[0].linear_acceleration_R.z(), 9.81, 1e-12);
+}
+
+TEST_F(Ros2Bag, TheSameRecordsGiveTheSameBytes) {
+  for (const std::string name : {"a", "b"}) {
+    write(file(name + ".mcap"), BagFormat::mcap);
+    fs::create_directory(file(name));
+    write(file(name + "/walk"), BagFormat::rosbag2);
+  }
+  EXPECT_TRUE(bytes(file("a.mcap")) == bytes(file("b.mcap")));
+  EXPECT_FALSE(fs::exists(file("a.mcap.part")));
+  for (const std::string inner : {"/walk/walk_0.db3", "/walk/metadata.yaml"})
+    EXPECT_TRUE(bytes(file("a" + inner)) == bytes(file("b" + inner))) << inner;
+  // The layout of a file without compression is ours alone; a change must be meant.
+  EXPECT_EQ(bytes(file("a/walk/metadata.yaml")).find("rosbag2_bagfile_information:"), 0U);
+}
+
+// Lengths that a program of ROS 2 gave for the same messages.
+TEST(Cdr, MessagesHaveTheLengthsOfRos2) {
+  EXPECT_EQ(ros::write_clock(5, Encoding::cdr).size(), 12U);
+  EXPECT_EQ(ros::write_imu({}, "base_link", Encoding::cdr).size(), 324U);
+  ros::OdometryMessage odometry;
+  odometry.X_OR.parent = "odom";
+  odometry.X_OR.child = "base_link";
+  EXPECT_EQ(ros::write_odometry(odometry, Encoding::cdr).size(), 724U);
+  PointCloud cloud;
+  cloud.width = 3;
+  cloud.height = 1;
+  cloud.point_step = 22;
+  cloud.row_step = 66;
+  cloud.data.resize(66);
+  for (const char* name : {"x", "y", "z", "intensity", "ring", "time"})
+    cloud.fields.push_back({name, 0, PointType::f32});
+  EXPECT_EQ(ros::write_cloud(cloud, "velodyne", Encoding::cdr).size(), 259U);
+}
+
+TEST(Cdr, EveryCutMessageIsRefused) {
+  const ros::Transform transform{7, "base_link", "velodyne", Pose::from_xyz_yaw({1, 2, 3}, 0.5)};
+  const ros::Bytes whole = ros::write_transforms({&transform, 1}, Encoding::cdr);
+  EXPECT_EQ(ros::read_transforms(whole, Encoding::cdr)[0].X.t, transform.X.t);
+  EXPECT_EQ(ros::read_transforms(whole, Encoding::cdr)[0].child, "velodyne");
+  for (std::size_t size = 0; size < whole.size(); ++size)
+    EXPECT_THROW((void)ros::read_transforms(std::span(whole).first(size), Encoding::cdr), InputError) << size;
+  ros::Bytes big_endian = whole;
+  big_endian[1] = 0;
+  EXPECT_NE(input_error([&] { (void)ros::read_transforms(big_endian, Encoding::cdr); }).find("little-endian CDR"),
+            std::string::npos);
+}
+
+TEST(Cdr, LivoxMessagesAreClouds) {
+  std::vector<std::uint8_t> m = {0, 1, 0, 0};
+  const auto put = [&](auto value) {
+    m.resize(4 + (m.size() - 4 + sizeof value - 1) / sizeof value * sizeof value);
+    m.resize(m.size() + sizeof value);
+    std::memcpy(&m[m.size() - sizeof value], &value, sizeof value);
+  };
+  put(std::int32_t{1});
+  put(std::uint32_t{0});
+  put(std::uint32_t{12});
+  for (const char c : "livox_frame") put(c);
+  put(std::uint64_t{2'000'000'000});
+  constexpr std::uint32_t points = 100;
+  put(points);
+  for (int i = 0; i < 4; ++i) put(std::uint8_t{0});
+  put(points);
+  for (std::uint32_t i = 0; i < points; ++i) {
+    put(400'000 * (i + 1));
+    for (const float value : {3.0F, 0.0F, 0.013F * static_cast<float>(i)}) put(value);
+    for (const int value : {200, 0, 1}) put(static_cast<std::uint8_t>(value));
+  }
+  const ros::FramedCloud cloud = ros::read_livox(m, Encoding::cdr);
+  EXPECT_EQ(cloud.frame, "livox_frame");
+  const Scan scan = scan_of(cloud.cloud);
+  EXPECT_EQ(scan.rings, 1);
+  EXPECT_EQ(scan.stamp, 2'040'000'000);
+  ASSERT_EQ(scan.size(), points);
+  EXPECT_EQ(scan.offset_ns[0], -39'600'000);
+  EXPECT_EQ(scan.point_L[99], Eigen::Vector3d(3.0, 0.0, static_cast<double>(0.013F * 99.0F)));
+  EXPECT_EQ(scan.reflectivity[1], 200.0F);
+  // Two more points than said before.
+  const std::uint32_t other = points + 2;
+  std::memcpy(&m[4 + 8 + 4 + 12 + 8], &other, sizeof other);
+  EXPECT_THROW((void)ros::read_livox(m, Encoding::cdr), InputError);
+}
+
+// A byte that is spoilt is found, or changes nothing.
+TEST_F(Ros2Bag, NoByteOfAnMcapIsBelieved) {
+  {
+    McapWriter writer(file("small.mcap"), "");
+    const auto topic = writer.add_topic({"/odom", "nav_msgs/msg/Odometry", "x", ""});
+    for (const int i : {1, 2, 3}) writer.write(topic, i, ros::write_clock(i, Encoding::cdr));
+    writer.finish();
+  }
+  const auto messages = [&](const std::string& name) {
+    const auto source = open_mcap(file(name));
+    source->select({"/odom"});
+    std::vector<ros::Bytes> all;
+    for (RawMessage message; source->next(message);) all.push_back(message.bytes);
+    return all;
+  };
+  const std::vector<ros::Bytes> expected = messages("small.mcap");
+  ASSERT_EQ(expected.size(), 3U);
+  const std::string whole = bytes(file("small.mcap"));
+  int found = 0;
+  for (std::size_t i = 0; i < whole.size(); ++i)
+    for (const char flip : {'\x01', '\x02', '\x04', '\x80', '\xff'}) {
+      std::string spoilt = whole;
+      spoilt[i] = static_cast<char>(spoilt[i] ^ flip);
+      write_bytes(file("spoilt.mcap"), spoilt);
+      try {
+        EXPECT_EQ(messages("spoilt.mcap"), expected) << "byte " << i << " of " << whole.size();
+      } catch (const InputError&) {
+        ++found;
+      }
+    }
+  EXPECT_GT(found, static_cast<int>(whole.size()));
+  for (std::size_t size = 0; size < whole.size(); ++size) {
+    write_bytes(file("cut.mcap"), whole.substr(0, size));
+    EXPECT_THROW((void)messages("cut.mcap"), InputError) << size;
+  }
+}
+
+TEST_F(Ros2Bag, AFlippedByteInAChunkIsFound) {
+  write(file("a.mcap"), BagFormat::mcap);
+  std::string spoilt = bytes(file("a.mcap"));
+  spoilt[spoilt.size() / 2] = static_cast<char>(spoilt[spoilt.size() / 2] ^ 4);
+  write_bytes(file("b.mcap"), spoilt);
+  expect_complaint(file("b.mcap"), "a chunk whose checksum is wrong");
+}
+
+TEST_F(Ros2Bag, BombsAreRefusedBeforeTheyAreUnpacked) {
+  const std::vector<std::uint8_t> few(100);
+  for (const std::string compression : {"zstd", "lz4"}) {
+    EXPECT_NE(input_error([&] { (void)unpack(compression, few, std::uint64_t{1} << 30U); }).find("cannot hold so much"),
+              std::string::npos);
+    EXPECT_NE(input_error([&] { (void)unpack(compression, few, std::uint64_t{1} << 40U); }).find("at most 1 GiB"),
+              std::string::npos);
+    EXPECT_NE(input_error([&] { (void)unpack(compression, few, 1000); }).find("damaged"), std::string::npos);
+    const std::vector<std::uint8_t> zeros(3'000'000), packed = pack(compression, zeros);
+    EXPECT_EQ(unpack(compression, packed, zeros.size()), zeros);
+    EXPECT_THROW((void)unpack(compression, packed, zeros.size() - 1), InputError);
+    EXPECT_THROW((void)unpack(compression, packed, zeros.size() + 1), InputError);
+  }
+  EXPECT_NE(input_error([&] { (void)unpack("xz", few, 100); }).find("'xz'"), std::string::npos);
+}
+
+TEST_F(Ros2Bag, WhatIsWrongWithARosbag2IsSaid) {
+  write(file("walk"), BagFormat::rosbag2);
+  const std::string metadata = bytes(file("walk/metadata.yaml"));
+  const auto with = [&](const std::string& from, const std::string& to, const std::string& words) {
+    std::string text = metadata;
+    ASSERT_NE(text.find(from), std::string::npos) << text;
+    text.replace(text.find(from), from.size(), to);
+    write_bytes(file("walk/metadata.yaml"), text);
+    EXPECT_NE(complaint(file("walk")).find(words), std::string::npos) << complaint(file("walk"));
+  };
+  with("storage_identifier: sqlite3", "storage_identifier: leveldb", "'leveldb' storage");
+  with("[walk_0.db3]", "[../walk_0.db3]", "not in the bag's folder");
+  with("[walk_0.db3]", "[walk_1.db3]", "which is missing");
+  with("compression_mode: \"\"", "compression_mode: FILE", "zstd -d");
+  write_bytes(file("walk/metadata.yaml"), metadata);
+
+  const std::string database = file("walk/walk_0.db3");
+  write_bytes(database + "-wal", "x");
+  expect_complaint(database, "close the bag where it was recorded");
+  fs::remove(database + "-wal");
+  const std::string whole = bytes(database);
+  write_bytes(file("cut.db3"), whole.substr(0, whole.size() / 2));
+  EXPECT_NE(complaint(file("cut.db3")), "no error");
+  // What looks like a table may be a program.
+  fs::copy_file(database, file("view.db3"));
+  run_sql(file("view.db3"), "ALTER TABLE messages RENAME TO m; CREATE VIEW messages AS SELECT * FROM m;");
+  expect_complaint(file("view.db3"), "it has no table 'messages'");
+  fs::copy_file(database, file("none.db3"));
+  run_sql(file("none.db3"), "DELETE FROM messages;");
+  expect_complaint(file("none.db3"), "a bag without messages on /velodyne_points");
+  fs::copy_file(database, file("short.db3"));
+  run_sql(file("short.db3"), "UPDATE messages SET data = x'00010000' WHERE id = 20;");
+  expect_complaint(file("short.db3"), "ends too early");
+}
+
+TEST_F(Ros2Bag, CompressedMessagesAreRead) {
+  write(file("walk"), BagFormat::rosbag2);
+  const std::vector<SensorFrame> expected = read_all(file("walk"));
+  {
+    sqlite3* db = nullptr;
+    ASSERT_EQ(sqlite3_open(file("walk/walk_0.db3").c_str(), &db), SQLITE_OK);
+    const auto compress = [](sqlite3_context* context, int, sqlite3_value** values) {
+      const auto* data = static_cast<const std::uint8_t*>(sqlite3_value_blob(values[0]));
+      const auto packed = pack("zstd", {data, data + sqlite3_value_bytes(values[0])});
+      sqlite3_result_blob(context, packed.data(), static_cast<int>(packed.size()), SQLITE_TRANSIENT);
+    };
+    sqlite3_create_function(db, "z", 1, SQLITE_UTF8, nullptr, compress, nullptr, nullptr);
+    EXPECT_EQ(sqlite3_exec(db, "UPDATE messages SET data = z(data)", nullptr, nullptr, nullptr), SQLITE_OK);
+    sqlite3_close(db);
+  }
+  std::string metadata = bytes(file("walk/metadata.yaml"));
+  metadata.replace(metadata.find("compression_format: \"\""), 22, "compression_format: zstd");
+  metadata.replace(metadata.find("compression_mode: \"\""), 20, "compression_mode: MESSAGE");
+  write_bytes(file("walk/metadata.yaml"), metadata);
+  expect_same(read_all(file("walk")), expected);
+}
+
+// Without our code: node's packages for MCAP and CDR, and Python's own SQLite.
+TEST_F(Ros2Bag, OthersReadThem) {
+  write(file("walk"), BagFormat::rosbag2);
+  std::ofstream(file("read.py")) << R"(import sqlite3, struct, sys
+db = sqlite3.connect(sys.argv[1])
+topics = {i: (n, t) for i, n, t in db.execute("SELECT id, name, type FROM topics")}
+assert ("/velodyne_points", "sensor_msgs/msg/PointCloud2") in topics.values(), topics
+counts = {}
+for topic, time, data in db.execute("SELECT topic_id, timestamp, data FROM messages ORDER BY timestamp, id"):
+    name, kind = topics[topic]
+    counts[name] = counts.get(name, 0) + 1
+    assert data[:4] == b"\0\1\0\0"
+    if name == "/velodyne_points":
+        sec, nanosec, length = struct.unpack_from("<iII", data, 4)
+        assert data[16:16 + length] == b"velodyne\0", data[16:40]
+        height, width, fields = struct.unpack_from("<III", data, 4 + (12 + length + 3) // 4 * 4)
+        assert (width, fields) == (16, 6), (height, width, fields)
+assert counts["/velodyne_points"] == 4 and counts["/tf_static"] == 1, counts
+assert db.execute("SELECT schema_version FROM schema").fetchone() == (3,)
+assert "message_count" in db.execute("SELECT metadata FROM metadata").fetchone()[0]
+)";
+  EXPECT_EQ(std::system(("/usr/bin/python3 " + file("read.py") + " " + file("walk/walk_0.db3")).c_str()), 0);
+
+  const char* modules = std::getenv("PLUMBLINE_NODE_MODULES");
+  if (modules == nullptr) GTEST_SKIP() << "PLUMBLINE_NODE_MODULES names no folder with @mcap/core and its like";
+  for (const std::string compression : {"", "zstd", "lz4"}) {
+    write(file("a.mcap"), BagFormat::mcap, compression);
+    const std::string reader = project_file("tests/slam/io/bags/read_mcap.mjs");
+    EXPECT_EQ(std::system(("node " + reader + " " + modules + " " + file("a.mcap")).c_str()), 0) << compression;
+    fs::remove(file("a.mcap"));
+  }
+}
+
+}  // namespace
+}  // namespace plumbline::slam

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+// One walk in every kind of bag.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+
+#include "tests/system/program.h"
+
+namespace plumbline::system_tests {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Ros2 : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (!available()) GTEST_SKIP() << "PLUMBLINE_BINARY and PLUMBLINE_SOURCE are not set; run through ctest";
+  }
+  Folder folder_;
+};
+
+TEST_F(Ros2, EveryKindOfBagGivesTheSameEstimate) {
+  const std::string walk = folder_ / "walk";
+  fs::copy_file(project_file("tests/system/short.plan.yaml"), folder_ / "short.plan.yaml");
+  write_file(folder_ / "walk.yaml",
+             "scenario: 1\nname: walk\nbuilding: short.plan.yaml\nseed: 3\nstart: {room: left}\n"
+             "route: {rooms: [hall, right]}\nduration_s: 5\nmethods: [truth]\n");
+  const Outcome made = plumbline({"simulate", folder_ / "walk.yaml", "-o", walk, "--bag", "--mcap", "--compression",
+                                  "zstd", "--rosbag2", "--bag-truth"});
+  ASSERT_EQ(made.code, 0) << made.err;
+  const auto estimate = [&](const std::string& recording, const std::string& name) {
+    const Outcome outcome =
+        plumbline({"estimate", walk + "/" + recording, "--method", "s_graphs_plus", "-o", folder_ / name});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return read_file(folder_ / (name + "/s_graphs_plus.tum")) + read_file(folder_ / (name + "/digests.csv"));
+  };
+  const std::string expected = estimate("recording.bag", "of_bag");
+  EXPECT_GT(expected.size(), 1000U);
+  EXPECT_TRUE(estimate("recording.mcap", "of_mcap") == expected);
+  EXPECT_TRUE(estimate("rosbag2", "of_rosbag2") == expected);
+  EXPECT_TRUE(estimate("rosbag2/rosbag2_0.db3", "of_db3") == expected);
+  // Of a recording without packets any bag is the recording.
+  fs::remove(walk + "/lidar.pcap");
+  fs::remove(walk + "/recording.bag");
+  EXPECT_EQ(plumbline({"estimate", walk, "--method", "odometry", "-o", folder_ / "of_folder"}).code, 0);
+}
+
+TEST_F(Ros2, WhatIsNoneIsRefused) {
+  const auto refused = [&](const std::string& name, const std::string& words) {
+    const Outcome outcome = plumbline({"estimate", folder_ / name, "--method", "vgicp", "-o", folder_ / "out"});
+    EXPECT_EQ(outcome.code, 2) << outcome.err;
+    EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
+    EXPECT_FALSE(fs::exists(folder_ / "out"));
+  };
+  write_file(folder_ / "odd.mcap", "nothing");
+  refused("odd.mcap", "is no ROS 2 bag");
+  write_file(folder_ / "odd.db3", "SQLite format 2");
+  refused("odd.db3", "is no ROS 2 bag");
+  const Outcome unused = plumbline({"simulate", "quickstart", "-o", folder_ / "walk", "--bag-truth"});
+  EXPECT_EQ(unused.code, 2);
+  EXPECT_NE(unused.err.find("--bag, --mcap or --rosbag2"), std::string::npos) << unused.err;
+}
+
+TEST_F(Ros2, ScenariosOfTheLibraryAreFoundByName) {
+  Setting elsewhere;
+  elsewhere.cwd = folder_ / "";
+  const Outcome list = plumbline({"scenarios"}, elsewhere);
+  EXPECT_EQ(list.code, 0) << list.err;
+  for (const std::string name : {"quickstart ", "s_graphs/t7 "})
+    EXPECT_NE(("\n" + list.out).find("\n" + name), std::string::npos) << list.out;
+  const auto says = [&](const std::string& input, const std::string& words) {
+    const Outcome outcome = plumbline({"run", input, "--method", "no_such", "-o", "out"}, elsewhere);
+    EXPECT_EQ(outcome.code, 2);
+    EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
+  };
+  for (const std::string input : {"quickstart", "t7", "s_graphs/t7"}) says(input, "no_such");
+  says("quickstrat", "did you mean 'quickstart'?");
+  const Outcome doctor = plumbline({"doctor"}, elsewhere);
+  EXPECT_EQ(doctor.code, 0) << doctor.out;
+  for (const std::string words : {"scenarios", "clients", "all that the program itself needs is there"})
+    EXPECT_NE(doctor.out.find(words), std::string::npos) << doctor.out;
+}
+
+}  // namespace
+}  // namespace plumbline::system_tests
