@@ -87,7 +87,8 @@ std::vector<Command> add_commands(CommandLine& program, slam::MethodTable table)
           add_score(program),      add_report(program),          add_replay(program, table),
           add_diff(program),       add_methods(program, table),  add_scenarios(program),
           add_bench(program),      add_simulate(program, table), add_estimate(program, table),
-          add_identify(program),   add_sweep(program, table),    add_conformance(program)};
+          add_identify(program),   add_sweep(program, table),    add_conformance(program),
+          add_doctor(program)};
 }
 
 int parse_and_run(int argc, char** argv, slam::MethodTable table) {

@@ -192,7 +192,7 @@ TEST_F(Process, WhateverItDoesOnlyItselfHasCrashed) {
       {"old", "speaks another protocol"},
       {"no_json", "no JSON"},
       {"never_greets", "gave no answer within 0.5 s"},
-      {"never_reads", "took more than its time to read"},
+      {"never_reads", "at scan 1 (0.1 s): "},
       {"no_poses", "bytes left where"},
   };
   std::string methods = "  - odometry\n  - {name: good, command: [" + program("hostile_process") +
