@@ -29,6 +29,8 @@ struct IdentifyOptions {
   int seeds = 20;
   bool json = false;
   bool force = false;
+  double budget_s = 120.0;
+  std::optional<Argument> step_option, budget_option;
   std::vector<Argument> of_buildings;
   std::vector<Argument> of_scenarios;
 };
@@ -77,6 +79,8 @@ int identify(const IdentifyOptions& options) {
   const RunBuilding building(bim::load_planned_and_built(options.building));
   BuildingMapOptions map_options = options.map;
   if (!options.storey.empty()) map_options.storey = options.storey;
+  if (!options.step_option->given() || options.budget_option->given()) map_options.budget_s = options.budget_s;
+  map_options.phase = [](const std::string& text) { print_note("identify: " + text); };
   map_options.threads = threads;
   std::optional<Progress> progress;
   map_options.progress = [&](std::size_t done, std::size_t all) {
@@ -107,9 +111,19 @@ Command add_identify(CommandLine& program) {
   line.option("BUILDING", options->building,
               "plan or traffic-editor plan (.yaml) or .ifc; or a scenario, to judge its planned walks")
       .required();
+  options->step_option =
+      line.option("--step", options->map.step_m, "spacing of the map's grid, m [0.5, or what --budget allows]")
+          .range(0.1, 5.0);
+  options->budget_option =
+      line.option("--budget", options->budget_s,
+                  "time that the map may take on two cores, s; by its count of work, the same on every machine, it "
+                  "chooses a step, the finest that fits and not below --step")
+          .range(1.0, 1e6)
+          .shows_default();
   options->of_buildings = {
       line.option("--storey", options->storey, "only this storey, by its id or name"),
-      line.option("--step", options->map.step_m, "spacing of the map's grid, m").range(0.1, 5.0).shows_default(),
+      *options->step_option,
+      *options->budget_option,
       line.flag("--across", options->map.across, "storey unknown: aliased poses on other storeys count"),
       line.flag("--compass", options->map.compass_only, "only with a known heading, which is quicker"),
       line.option("-o,--out", options->out, "page to write (.html), or a directory for identify.html"),

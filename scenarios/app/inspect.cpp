@@ -9,12 +9,14 @@
 
 #include "bim/errors.h"
 #include "bim/formats/ifc/write/write_ifc.h"
+#include "bim/formats/mesh/mesh_file.h"
 #include "bim/formats/plan_yaml/plan_schema.h"
 #include "bim/load/load.h"
 #include "bim/mesh/export.h"
 #include "scenarios/app/commands.h"
 #include "scenarios/host/files.h"
 #include "scenarios/host/terminal.h"
+#include "scenarios/report/walk_page.h"
 
 namespace plumbline::scenarios {
 
@@ -24,6 +26,7 @@ struct InspectOptions {
   std::string building;
   std::string mesh;
   std::string ifc;
+  std::string walk;
   bool json = false;
   bool as_built = false;
   bool schema = false;
@@ -39,6 +42,18 @@ void check_output(const std::string& path, const InspectOptions& options) {
     throw InputError({path, 0, 0}, "exists already; --force replaces it");
 }
 
+/// Writes the page on where a robot can walk, and prints the same in short.
+int inspect_walk(const InspectOptions& options) {
+  if (std::filesystem::path(options.walk).extension() != ".html")
+    throw InputError({options.walk, 0, 0}, "must be a page; name a file that ends in .html");
+  if (bim::is_mesh_path(options.building))
+    throw InputError({options.building, 0, 0}, "is a mesh, of which no rooms are known; name a plan or an .ifc");
+  const bim::PlannedAndBuilt site = bim::load_planned_and_built(options.building);
+  write_file(options.walk, walk_page(site, std::filesystem::path(options.building).filename().string()));
+  print("page: " + options.walk + "\n");
+  return 0;
+}
+
 int inspect(const InspectOptions& options) {
   if (options.schema) {
     std::fputs(bim::plan_page().c_str(), stdout);
@@ -47,10 +62,11 @@ int inspect(const InspectOptions& options) {
   if (options.building.empty()) throw InputError({"BUILDING", 0, 0}, "is missing; name a plan or an .ifc");
   std::optional<bim::MeshFormat> format;
   if (!options.mesh.empty()) format = bim::mesh_format(options.mesh);
-  for (const std::string& output : {options.mesh, options.ifc})
+  for (const std::string& output : {options.mesh, options.ifc, options.walk})
     if (!output.empty()) check_output(output, options);
   if (!options.ifc.empty() && options.ifc == options.mesh)
     throw InputError({"--ifc", 0, 0}, "names the file that --mesh does");
+  if (!options.walk.empty()) return inspect_walk(options);
   const bim::PlannedAndBuilt site =
       options.as_built ? bim::load_planned_and_built(options.building) : bim::PlannedAndBuilt{};
   const bim::Building building = options.as_built ? site.as_built : bim::load_building(options.building);
@@ -74,6 +90,8 @@ Command add_inspect(CommandLine& program) {
   line.flag("--json", options->json, "as JSON, every element");
   line.flag("--as-built", options->as_built, "with its deviations, closed doors and window panes");
   line.option("--mesh", options->mesh, "writes the cut building as .glb, .obj or .ply");
+  line.option("--walk", options->walk,
+              "writes instead a page (.html) on where a robot can walk, room by room, and what stops it");
   line.flag("--schema", options->schema, "prints instead every key of plan files, with examples");
   line.option("--ifc", options->ifc, "writes the building as IFC4");
   line.flag("--force", options->force, "replaces the files that are there");

@@ -59,6 +59,7 @@ int simulate(const SimulateArguments& options, slam::MethodTable table) {
   Overrides overrides;
   if (options.seed_option->given()) overrides.seed = options.seed;
   const ResolvedScenario resolved = resolve(options.input, overrides, table);
+  for (const std::string& note : walk_notes(resolved)) print_note(note);
 
   catch_interrupts();
   RunDirectory directory(options.out, DirectoryKind::recording, options.force);

@@ -12,6 +12,7 @@
 #include "scenarios/host/files.h"
 #include "scenarios/report/report_builder.h"
 #include "scenarios/score/moment.h"
+#include "scenarios/score/walk_end.h"
 
 namespace plumbline::scenarios {
 
@@ -54,6 +55,8 @@ std::string summarise(const FinishedRun& run, const score::RunScore& score) {
                 printable(run.scenario.name).c_str(), static_cast<unsigned long long>(run.scenario.seed),
                 score.distance_m, score.duration_s, score.digest.c_str());
   std::string text = head;
+  text += "walk: " + printable(walk_sentence(run.walk)) + "\n";
+  for (const std::string& warning : score::warnings_of_walk(run)) text += "warning: " + printable(warning) + "\n";
   if (!run.record.failure.empty()) text += "the scenario failed: " + printable(run.record.failure) + "\n";
   std::size_t width = 22;
   for (const score::MethodScore& method : score.methods) width = std::max(width, method.name.size());

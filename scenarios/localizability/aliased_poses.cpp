@@ -10,6 +10,9 @@ namespace plumbline::scenarios {
 
 namespace {
 
+constexpr int stride = 5;                  ///< of the beams that tell clearly different views apart
+constexpr std::size_t places_a_beam = 50;  ///< of the index compared in the time of a beam; measured
+
 /// Gauss-Newton step on (x, y, yaw) of seen points against the planes that the plan's view predicts, and how many
 /// points lie within the gate of them.
 struct PlaneFit {
@@ -55,6 +58,7 @@ bool AliasFinder::is_loose(int element) const {
 }
 
 ReferenceScan AliasFinder::scan_at(const SensorPose& place) const {
+  work_ += (&as_built_ == &as_planned_ ? 1 : 2) * imager_.directions().size();
   RangeImage seen = imager_.cast(as_built_, place);
   ReferenceScan scan{place, std::move(seen.range_m), {}, {}};
   if (&as_built_ == &as_planned_) return scan;
@@ -70,6 +74,7 @@ double AliasFinder::evidence(const ReferenceScan& scan, std::size_t beam, double
 }
 
 double AliasFinder::llr(const ReferenceScan& scan, const SensorPose& other) const {
+  work_ += imager_.directions().size();
   const std::vector<double> expected = imager_.cast(as_planned_, other).range_m;
   double sum = 0.0;
   for (std::size_t i = 0; i < expected.size(); ++i) {
@@ -80,11 +85,15 @@ double AliasFinder::llr(const ReferenceScan& scan, const SensorPose& other) cons
   return sum;
 }
 
+std::uint64_t AliasFinder::work_of_llr() const {
+  return imager_.directions().size() + static_cast<std::size_t>(imager_.azimuths()) / stride;
+}
+
 bool AliasFinder::clearly_different(const ReferenceScan& scan, const SensorPose& other) const {
   // The fifth ring alone, every fifth beam of it: llr there is a fortieth of that of all beams.
   constexpr double sure = 4.0;
-  constexpr int stride = 5;
   const auto n = static_cast<std::size_t>(imager_.azimuths());
+  work_ += n / stride;
   std::vector<bim::Ray> rays;
   for (std::size_t a = 0; a < n; a += stride)
     rays.push_back({other.position_W, other.pose().q * imager_.directions()[4 * n + a]});
@@ -111,6 +120,7 @@ bool AliasFinder::refine(const RangeImage& seen, SensorPose& place) const {
   constexpr double early_share = 0.6, late_share = 0.85;
   double gate = 1.0;
   for (int iteration = 0; iteration < localizability_constants.refine_iterations; ++iteration) {
+    work_ += coarse_.directions().size();
     const RangeImage expected = coarse_.cast(as_planned_, place);
     const PlaneFit fit = fit_planes(coarse_.directions(), seen, expected, place, gate);
     const double share = iteration < early ? 0.0 : iteration < late ? early_share : late_share;
@@ -138,6 +148,7 @@ std::vector<FoundAlias> AliasFinder::find(const ReferenceScan& scan, const Alias
   for (const View& view : views_of(scan.place)) {
     std::vector<SensorPose> tried;
     int in_vain = 0;
+    work_ += index_.imager().directions().size() + coarse_.directions().size() + index_.size() / places_a_beam;
     for (SensorPose place : index_.like(view.signature, scan.place.yaw, search.storey, search.yaw_known)) {
       if (near_any(taken, place, localizability_constants.basin_m, localizability_constants.basin_deg) ||
           near_any(tried, place, 0.5 * localizability_constants.basin_m, 0.5 * localizability_constants.basin_deg))

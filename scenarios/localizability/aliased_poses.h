@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -46,6 +48,10 @@ class AliasFinder {
   /// Aliases of a scan, apart from itself and from `known` ones, in the order they were found.
   [[nodiscard]] std::vector<FoundAlias> find(const ReferenceScan& scan, const AliasSearch& search,
                                              std::span<const SensorPose> known = {}) const;
+  /// Beams cast so far, and what else was computed in beams of the same cost. It depends on what was asked for alone.
+  [[nodiscard]] std::uint64_t work() const { return work_; }
+  /// Of one llr() with the clearly_different() before it.
+  [[nodiscard]] std::uint64_t work_of_llr() const;
 
  private:
   /// A view of the scan's place by which aliases are looked for.
@@ -64,6 +70,7 @@ class AliasFinder {
   std::span<const char> loose_;
   RangeImager imager_;
   RangeImager coarse_;
+  mutable std::atomic<std::uint64_t> work_ = 0;
 };
 
 }  // namespace plumbline::scenarios

@@ -2,10 +2,12 @@
 #include "scenarios/localizability/building_map.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "bim/config/printable.h"
 #include "bim/errors.h"
+#include "scenarios/localizability/step_choice.h"
 
 namespace plumbline::scenarios {
 
@@ -55,32 +57,98 @@ Tree conditions(const BuildingMap& map, const std::function<bool(const MapCell&)
 
 std::string name_of(const bim::Storey& storey) { return storey.name.empty() ? storey.id : storey.name; }
 
+namespace {
+
+/// Makes maps of one building at several steps.
+class MapMaker {
+ public:
+  MapMaker(const RunBuilding& building, const BuildingMapOptions& options, PlanEvidence by)
+      : building_(building), options_(options), visible_(visible_building(building, by)) {
+    input_.as_planned = &visible_.planned.scene;
+    input_.as_built = &visible_.as_built().scene;
+    input_.loose = visible_.loose;
+    input_.step_m = options.step_m;
+    input_.across = options.across;
+    input_.compass_only = options.compass_only;
+    input_.threads = options.threads;
+    for (std::size_t i = 0; i < building.as_planned().storeys.size(); ++i)
+      input_.storeys.push_back(search_area(building.as_planned(), i));
+    if (options.budget_s) index_.emplace(index_of(input_));
+  }
+
+  [[nodiscard]] BuildingMap at(double step_m, const std::string& expected = "") {
+    BuildingMap result;
+    result.options = options_;
+    result.options.step_m = step_m;
+    for (const std::size_t storey : storeys_asked_for(building_.as_planned(), options_))
+      result.floors.push_back(floor_of(building_.as_built(), storey, step_m));
+    std::erase_if(result.floors, [](const Floor& floor) { return floor.cells_W.empty(); });
+    std::size_t places = 0;
+    for (const Floor& floor : result.floors) places += floor.cells_W.size();
+    LocalizabilityMapInput input = input_;
+    input.floors = result.floors;
+    input.step_m = step_m;
+    if (index_) input.index = &*index_;
+    const std::string what =
+        "a place every " + format_number(step_m) + " m, " + std::to_string(places) + " places" + expected;
+    if (options_.phase && options_.budget_s) options_.phase(what);
+    input.progress = options_.progress;
+    result.map = compute_localizability_map(input);
+    return result;
+  }
+
+  /// The finest map that fits the budget: a coarse one first, whose work says what a finer one would take.
+  [[nodiscard]] BuildingMap within(double budget_s) {
+    const StepBudget budget;
+    const double all = budget_s * budget.cores * budget.beams_per_core_s;
+    const double spent = static_cast<double>(index_->beams());
+    const double first = coarse_step(floor_area(), options_.step_m);
+    BuildingMap map = at(first);
+    const MapWork coarse{first, map.map.cells.size(), map.map.beams};
+    const double left = all - spent - static_cast<double>(coarse.beams);
+    const double step = finest_step(coarse, left, options_.step_m);
+    if (step >= first) return map;
+    const double expected_s = expected_beams(coarse, step) / budget.cores / budget.beams_per_core_s;
+    return at(step, ", about " + std::to_string(std::lround(expected_s)) + " s on two cores");
+  }
+
+ private:
+  /// Of the rooms asked about, or of the boxes around the walls where there are none.
+  [[nodiscard]] double floor_area() const {
+    double area = 0.0;
+    for (const std::size_t storey : storeys_asked_for(building_.as_planned(), options_)) {
+      const SearchArea& box = input_.storeys[storey];
+      double rooms = 0.0;
+      for (const bim::Room& room : building_.as_planned().rooms)
+        if (room.storey == static_cast<int>(storey)) rooms += std::abs(signed_area(room.polygon));
+      area += rooms > 0.0 ? rooms : box.empty() ? 0.0 : (box.max - box.min).prod();
+    }
+    return area;
+  }
+
+  const RunBuilding& building_;
+  const BuildingMapOptions& options_;
+  VisibleBuilding visible_;
+  LocalizabilityMapInput input_;
+  std::optional<PlaceIndex> index_;
+};
+
+}  // namespace
+
 BuildingMap map_of(const RunBuilding& building, const BuildingMapOptions& options, PlanEvidence by) {
-  BuildingMap result;
-  result.options = options;
-  const VisibleBuilding visible = visible_building(building, by);
-  LocalizabilityMapInput input;
-  input.as_planned = &visible.planned.scene;
-  input.as_built = &visible.as_built().scene;
-  input.loose = visible.loose;
-  input.step_m = options.step_m;
-  input.across = options.across;
-  input.compass_only = options.compass_only;
-  input.threads = options.threads;
-  input.progress = options.progress;
-  for (std::size_t i = 0; i < building.as_planned().storeys.size(); ++i)
-    input.storeys.push_back(search_area(building.as_planned(), i));
-  for (const std::size_t storey : storeys_asked_for(building.as_planned(), options))
-    result.floors.push_back(floor_of(building.as_built(), storey, options.step_m));
-  std::erase_if(result.floors, [](const Floor& floor) { return floor.cells_W.empty(); });
-  input.floors = result.floors;
-  result.map = compute_localizability_map(input);
-  return result;
+  MapMaker maker(building, options, by);
+  return options.budget_s ? maker.within(*options.budget_s) : maker.at(options.step_m);
 }
 
 BuildingMaps maps_of(const RunBuilding& building, const BuildingMapOptions& options) {
-  BuildingMaps maps{map_of(building, options, PlanEvidence::building), std::nullopt};
-  if (building.plans_movables()) maps.with_furniture = map_of(building, options, PlanEvidence::with_furniture);
+  if (!building.plans_movables()) return {map_of(building, options, PlanEvidence::building), std::nullopt};
+  BuildingMapOptions first = options;
+  if (options.budget_s) first.budget_s = 0.5 * *options.budget_s;
+  BuildingMaps maps{map_of(building, first, PlanEvidence::building), std::nullopt};
+  BuildingMapOptions second = options;  // both answers are of the same places
+  second.step_m = maps.building.options.step_m;
+  second.budget_s.reset();
+  maps.with_furniture = map_of(building, second, PlanEvidence::with_furniture);
   return maps;
 }
 
@@ -157,6 +225,7 @@ std::string table_of(const RunBuilding& building, const BuildingMap& map) {
 Tree localizability_json(const RunBuilding& building, const BuildingMaps& maps) {
   Tree tree = Tree::map();
   tree.set("step_m", maps.building.options.step_m).set("across", maps.building.options.across);
+  tree.set("beams", static_cast<std::int64_t>(maps.building.map.beams));
   set_answers(building.as_planned(), maps.building, tree);
   if (!maps.with_furniture) return tree;
   Tree with_furniture = Tree::map();
@@ -165,7 +234,8 @@ Tree localizability_json(const RunBuilding& building, const BuildingMaps& maps) 
 }
 
 std::string localizability_text(const RunBuilding& building, const BuildingMaps& maps) {
-  std::string text = "By the building alone:\n" + table_of(building, maps.building);
+  std::string text = "a place every " + format_number(maps.building.options.step_m) + " m\nBy the building alone:\n" +
+                     table_of(building, maps.building);
   if (!maps.with_furniture) return text + "Nothing in the plan may have moved.\n";
   return text + "With the furniture as planned:\n" + table_of(building, *maps.with_furniture);
 }

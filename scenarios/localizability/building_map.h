@@ -14,10 +14,12 @@ namespace plumbline::scenarios {
 struct BuildingMapOptions {
   std::optional<std::string> storey;  ///< id or name; absent: every storey with rooms, or with walls where none has
   double step_m = 0.5;
+  std::optional<double> budget_s;  ///< step_m grows until the map fits into this time on two cores (StepBudget)
   bool across = false;
   bool compass_only = false;
   int threads = 1;
   std::function<void(std::size_t done, std::size_t all)> progress = {};  ///< called as places are done; may be empty
+  std::function<void(const std::string&)> phase;  ///< told what is being done, for a person who waits
 };
 
 /// The map of a building with the floors it was made of.

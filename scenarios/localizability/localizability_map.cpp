@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
+#include "bim/config/tree.h"
 #include "bim/errors.h"
 #include "scenarios/host/parallel.h"
 #include "scenarios/localizability/aliased_poses.h"
@@ -13,7 +15,6 @@ namespace plumbline::scenarios {
 
 namespace {
 
-constexpr std::size_t most_cells = 10000;  ///< a scan is 23 kB, twice that where plan and building differ
 constexpr std::size_t most_ratios = std::size_t{1} << 27U;
 constexpr std::size_t block = 64;  ///< cells between two moments at which isometries are shared
 constexpr double height_m = 1e-3;  ///< heights of sensors on one storey differ by less
@@ -23,22 +24,24 @@ class Mapper {
  public:
   explicit Mapper(const LocalizabilityMapInput& input)
       : input_(input),
-        index_(*input.as_planned, input.storeys, std::min(input.step_m, localizability_constants.grid_m),
-               input.threads),
-        finder_(index_, *input.as_planned, *input.as_built, input.loose) {
+        own_index_(input.index == nullptr ? std::make_unique<PlaceIndex>(index_of(input)) : nullptr),
+        finder_(own_index_ ? *own_index_ : *input.index, *input.as_planned, *input.as_built, input.loose) {
     for (std::size_t f = 0; f < input.floors.size(); ++f)
       for (const Eigen::Vector2d& p : input.floors[f].cells_W) map_.cells.push_back({f, p, {}, {}, {}});
-    if (map_.cells.size() > most_cells)
-      throw InputError({"--step", 0, 0}, "gives " + std::to_string(map_.cells.size()) +
-                                             " places; it must be larger, so that there are at most " +
-                                             std::to_string(most_cells));
+    if (map_.cells.size() <= most_map_cells) return;
+    const double share = static_cast<double>(map_.cells.size()) / static_cast<double>(most_map_cells);
+    throw InputError({"--step", 0, 0}, "gives " + std::to_string(map_.cells.size()) + " places, and there may be " +
+                                           std::to_string(most_map_cells) + "; " +
+                                           format_number(std::ceil(11.0 * input.step_m * std::sqrt(share)) / 10.0) +
+                                           " m would do, or no --step, for one that fits --budget");
   }
 
   LocalizabilityMap make() {
     scans_.resize(map_.cells.size());
     for_each_index(scans_.size(), input_.threads, [&](std::size_t i) { scans_[i] = finder_.scan_at(place(i)); });
     find_aliases();
-    answer_by_walks({input_, finder_, scans_}, map_);
+    map_.beams = finder_.work();
+    map_.beams += finder_.work_of_llr() * answer_by_walks({input_, finder_, scans_}, map_);
     return std::move(map_);
   }
 
@@ -127,13 +130,17 @@ class Mapper {
   }
 
   const LocalizabilityMapInput& input_;
-  PlaceIndex index_;
+  std::unique_ptr<PlaceIndex> own_index_;
   AliasFinder finder_;
   std::vector<ReferenceScan> scans_;
   LocalizabilityMap map_;
 };
 
 }  // namespace
+
+PlaceIndex index_of(const LocalizabilityMapInput& input) {
+  return {*input.as_planned, input.storeys, std::min(input.step_m, localizability_constants.grid_m), input.threads};
+}
 
 LocalizabilityMap compute_localizability_map(const LocalizabilityMapInput& input) { return Mapper(input).make(); }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <span>
@@ -21,7 +22,11 @@ struct LocalizabilityMapInput {
   bool compass_only = false;        ///< aliases that a compass rules out are not searched for
   int threads = 1;
   std::function<void(std::size_t done, std::size_t all)> progress = {};  ///< called as cells are done; may be empty
+  const PlaceIndex* index = nullptr;                                     ///< of all storeys; made where it is not given
 };
+
+/// Most cells of a map: a scan is 23 kB, twice that where plan and building differ.
+inline constexpr std::size_t most_map_cells = 10000;
 
 /// A pose aliased with that of a cell in one scan: the image of the cell under an isometry of LocalizabilityMap.
 struct CellAlias {
@@ -47,12 +52,16 @@ struct MapCell {
 struct LocalizabilityMap {
   std::vector<MapCell> cells;    ///< by floor, then as its cells
   std::vector<Pose> isometries;  ///< alias = isometry * pose
+  std::uint64_t beams = 0;       ///< the work of making it, as AliasFinder counts it
 };
+
+/// The places that such maps compare with.
+[[nodiscard]] PlaceIndex index_of(const LocalizabilityMapInput& input);
 
 /// Aliases of every cell by one scan, and the walk after which none is left: the shortest one such that along the
 /// shortest ways over the floor from cell to cell, with one scan in each, the accumulated log-likelihood ratio against
 /// every alias, carried along by the same motion, has exceeded drop_llr. A walk stays on its storey. No result depends
-/// on `threads`. Throws InputError when there are more than 10,000 cells.
+/// on `threads`. Throws InputError when there are more than most_map_cells, with a step that would do.
 [[nodiscard]] LocalizabilityMap compute_localizability_map(const LocalizabilityMapInput& input);
 
 }  // namespace plumbline::scenarios

@@ -111,6 +111,7 @@ Signature signature_of(const RangeImager& imager, const bim::RayScene& scene, co
 PlaceIndex::PlaceIndex(const bim::RayScene& plan, std::vector<SearchArea> storeys, double spacing_m, int threads)
     : storeys_(std::move(storeys)), imager_(localizability_constants.signature_azimuths) {
   const auto grid = grid_of(storeys_, spacing_m);
+  beams_ = grid.size() * imager_.directions().size();
   std::vector<Entry> all(grid.size());
   for_each_index(grid.size(), threads, [&](std::size_t i) {
     all[i] = {grid[i].first, grid[i].second, signature_of(imager_, plan, grid[i].second)};

@@ -42,6 +42,8 @@ class PlaceIndex {
   [[nodiscard]] const RangeImager& imager() const { return imager_; }
   [[nodiscard]] const std::vector<SearchArea>& storeys() const { return storeys_; }
   [[nodiscard]] std::size_t size() const { return places_.size(); }
+  /// Cast to make it.
+  [[nodiscard]] std::size_t beams() const { return beams_; }
 
  private:
   struct Entry {
@@ -52,6 +54,7 @@ class PlaceIndex {
   std::vector<SearchArea> storeys_;
   RangeImager imager_;
   std::vector<Entry> places_;
+  std::size_t beams_ = 0;
 };
 
 }  // namespace plumbline::scenarios

@@ -55,6 +55,14 @@ class Ratios {
     return static_cast<double>(value);
   }
 
+  /// How many were asked for, each counted once.
+  [[nodiscard]] std::uint64_t made() const {
+    std::uint64_t count = 0;
+    for (const auto& row : rows_)
+      for (std::size_t i = 0; i < map_.cells.size(); ++i) count += row[i] == unknown ? 0U : 1U;
+    return count;
+  }
+
  private:
   static constexpr float unknown = std::numeric_limits<float>::max();
   static constexpr float out = 1e6F;  ///< surely more than drop_llr
@@ -130,12 +138,13 @@ class Walker {
 
 }  // namespace
 
-void answer_by_walks(const WalkInput& walks, LocalizabilityMap& map) {
+std::uint64_t answer_by_walks(const WalkInput& walks, LocalizabilityMap& map) {
   const Graph graph = graph_of(walks.input);
   const Ratios ratios(walks, map);
   const Walker walker(graph, ratios, map);
   for_each_index(map.cells.size(), walks.input.threads,
                  [&](std::size_t i) { walker.answer(i, map.cells[i], walks.input.compass_only); });
+  return ratios.made();
 }
 
 }  // namespace plumbline::scenarios

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "scenarios/localizability/aliased_poses.h"
@@ -15,7 +16,7 @@ struct WalkInput {
   const std::vector<ReferenceScan>& scans;
 };
 
-/// Fills the answers of a map whose aliases are known.
-void answer_by_walks(const WalkInput& walks, LocalizabilityMap& map);
+/// Fills the answers of a map whose aliases are known. Returns how many scans it compared with how many images.
+std::uint64_t answer_by_walks(const WalkInput& walks, LocalizabilityMap& map);
 
 }  // namespace plumbline::scenarios

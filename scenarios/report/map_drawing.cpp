@@ -89,22 +89,24 @@ std::string robot_mark(const std::string& name, int storey, const std::string& f
          "\" d=\"M.36 0L-.22 -.2L-.12 0L-.22 .2Z\" fill=\"" + fill + "\" stroke=\"#fff\" stroke-width=\".04\"/>";
 }
 
-std::string draw_structure(const ReportMethod& method, int storey, const std::string& c) {
+/// Rooms of the method are right or wrong only where rooms of the building are known.
+std::string draw_structure(const ReportMethod& method, int storey, bool rooms_known, const std::string& c) {
   std::string out;
   for (const auto& room : method.rooms)
     if (room.storey == storey)
-      out += svg::polygon(room.polygon_W, room.matched ? "class=\"foundroom\" fill=\"" + c + "\" stroke=\"" + c + "\""
-                                                       : std::string("class=\"foundroom invented\""));
+      out += svg::polygon(room.polygon_W, room.matched || !rooms_known
+                                              ? "class=\"foundroom\" fill=\"" + c + "\" stroke=\"" + c + "\""
+                                              : std::string("class=\"foundroom invented\""));
   for (const auto& wall : method.walls)
     if (wall.storey == storey) out += svg::line(wall.p0, wall.p1, "class=\"found\" stroke=\"" + c + "\"");
   return out;
 }
 
-std::string draw_method(const ReportMethod& method, std::size_t index, int storey) {
+std::string draw_method(const ReportMethod& method, std::size_t index, int storey, bool rooms_known) {
   const std::string c = colour(index);
   std::string out = "<g class=\"layer-" + svg::escape(method.name) + "\">";
   // What a localization finds are the plan's own walls and rooms, which are drawn already.
-  if (!method.localization) out += draw_structure(method, storey, c);
+  if (!method.localization) out += draw_structure(method, storey, rooms_known, c);
   out += draw_path(method.samples, storey, "class=\"path\" stroke=\"" + c + "\"");
   return out + robot_mark(method.name, storey, c) + "</g>";
 }
@@ -115,8 +117,10 @@ std::string draw_map(const ReportInput& input, const ReportStorey& storey, const
   out +=
       open_map(box, "floor plan" + (several ? " of " + storey.name : "") + " with the true and the estimated paths") +
       draw_plan(input, storey.index) + draw_deviations(storey.deviations);
+  const bool rooms_known = std::any_of(input.plan.rooms.begin(), input.plan.rooms.end(),
+                                       [&](const bim::PlanRoom& room) { return room.storey == storey.index; });
   for (std::size_t i = 0; i < input.methods.size(); ++i)
-    if (!is_truth(input.methods[i])) out += draw_method(input.methods[i], i, storey.index);
+    if (!is_truth(input.methods[i])) out += draw_method(input.methods[i], i, storey.index, rooms_known);
   out += draw_path(input.truth, storey.index, "class=\"truth\"") + room_names(input, storey.index) +
          draw_kidnap(input, storey.index) + robot_mark("truth", storey.index, "#111") + draw_scale(box);
   return out + "</svg>";

@@ -16,6 +16,7 @@
 #include "scenarios/report/plot.h"
 #include "scenarios/report/results.h"
 #include "scenarios/report/svg.h"
+#include "scenarios/report/walk_list.h"
 
 namespace plumbline::scenarios {
 
@@ -389,6 +390,7 @@ std::string render_report(const ReportInput& input) {
           "<input id=\"time\" type=\"range\" min=\"0\" max=\"1\" step=\"0.1\" aria-label=\"time\">"
           "<span class=\"clock\" id=\"clock\"></span></div></section><aside class=\"card\">" +
           method_cards(input) + "</aside></div>\n";
+  page += list_walk(input.results.find("walk")) + "\n";
   page += plots(input, end_s) + "\n" + list_deviations(all_deviations(input)) + "\n" + draw_beliefs(input, box, end_s) +
           "\n" + gates_table(input) + "\n" + numbers_table(input);
   page += "<details class=\"card\"><summary>What was simulated</summary><pre><code>" +

@@ -24,6 +24,7 @@ FinishedRun finished_run(const ResolvedScenario& resolved, RunRecord record) {
   FinishedRun run;
   run.scenario = resolved.scenario;
   run.building = resolved.building;
+  run.walk = resolved.walk;
   run.scans = scans_of(record.digests);
   run.record = std::move(record);
   return run;

@@ -15,6 +15,7 @@ namespace plumbline::scenarios {
 struct FinishedRun {
   Scenario scenario;
   std::shared_ptr<const RunBuilding> building;
+  WalkCoverage walk;                     ///< as planned
   std::vector<slam::Nanoseconds> scans;  ///< stamps of all scans
   RunRecord record;                      ///< methods: the scenario's in its order, then outside estimates by name
   std::vector<std::string> altered;      ///< files that are not as the run wrote them, and were taken all the same

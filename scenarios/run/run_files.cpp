@@ -124,6 +124,7 @@ FinishedRun read_run(const std::string& dir) {
   run.scenario = read_scenario(read_text_file(path("scenario.yaml")), path("scenario.yaml")).scenario;
   run.building = std::make_shared<const RunBuilding>(load_site(path(run.scenario.building), run.scenario),
                                                      run.scenario.plan.furniture);
+  run.walk = walk_coverage(run.building->variants(), run.scenario);
   RunRecord& record = run.record;
   record.digests = read_digests(read_text_file(path("digests.csv")), path("digests.csv"));
   run.scans = scans_of(record.digests);

@@ -5,9 +5,11 @@
 
 #include "bim/digest/digest.h"
 #include "scenarios/host/files.h"
+#include "scenarios/metrics/storey.h"
 #include "scenarios/score/handover.h"
 #include "scenarios/score/identifiability.h"
 #include "scenarios/score/moment.h"
+#include "scenarios/score/walk_end.h"
 #include "scenarios/spec/method_names.h"
 
 namespace plumbline::scenarios::score {
@@ -49,6 +51,18 @@ std::vector<Belief> beliefs_of(const MethodRecord& method, const Truth& truth) {
   return beliefs;
 }
 
+/// Whether rooms are known of a storey that the robot was on; where none are, a room found is neither right nor wrong.
+bool rooms_are_known(const Reference& reference) {
+  const bim::Plan& plan = reference.as_built;
+  std::vector<char> walked(plan.storeys.size(), 0);
+  for (const slam::StampedPose& pose : reference.truth.poses_W)
+    if (const int storey = storey_of_base(plan.storeys, pose.X_FR.t.z()); storey >= 0)
+      walked[static_cast<std::size_t>(storey)] = 1;
+  return std::any_of(plan.rooms.begin(), plan.rooms.end(), [&](const bim::PlanRoom& room) {
+    return room.storey >= 0 && walked[static_cast<std::size_t>(room.storey)] != 0;
+  });
+}
+
 void score_structure(const MethodRecord& method, const Pose& X_WF, const Reference& reference, MethodScore& score) {
   const slam::Estimate& estimate = method.estimate;
   if (!estimate.map_F.empty() && !reference.surface_W.empty())
@@ -58,6 +72,7 @@ void score_structure(const MethodRecord& method, const Pose& X_WF, const Referen
   if (estimate.planes.empty()) return;
   score.walls = score_walls(estimate, X_WF, reference.as_built, reference.surface_W);
   if (method.localization && estimate.rooms.empty()) return;  // it is given the rooms
+  if (!rooms_are_known(reference)) return;
   score.rooms = score_rooms(estimate, X_WF, reference.as_built, *score.walls, reference.truth);
 }
 
@@ -252,6 +267,7 @@ std::string write_results(const FinishedRun& run, const RunScore& score) {
   Tree altered = Tree::list();
   for (const std::string& name : run.altered) altered.push(name);
   if (!run.altered.empty()) tree.set("unchecked", std::move(altered));
+  tree.set("walk", to_results(run.walk, warnings_of_walk(run)));
   tree.set("sensors", sensors_of(run.scenario));
   if (run.building->plans_movables() || run.building->deviates()) tree.set("told", told_of(run));
   if (run.building->deviates()) tree.set("as_built", changes_of(run.building->variants()));

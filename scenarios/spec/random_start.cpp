@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "bim/random/stream.h"
+#include "scenarios/spec/start_check.h"
 #include "sim/route/multi_storey_planner.h"
 
 namespace plumbline::scenarios {

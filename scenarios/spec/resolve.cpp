@@ -22,13 +22,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Of the default scenario: time to walk the route with its turns, and to stand at the end.
-struct DefaultDuration {
-  double factor = 1.8;  ///< over distance / speed; a walk through rooms turns on the spot at each goal
-  double extra_s = 20.0;
-  double longest_s = 900.0;
-};
-
 bool is_ifc(const std::string& text) { return text.substr(0, 256).find("ISO-10303-21") != std::string::npos; }
 
 /// The first key of a YAML file, which names its kind.
@@ -203,16 +196,6 @@ sim::WorldConfig make_world(const Scenario& scenario, const RoutePlan& plan) {
   return world;
 }
 
-/// What the robot walks through: as built, with the rooms of the plan, so that a route may name any of them.
-bim::Building walked_building(const bim::PlannedAndBuilt& site) {
-  bim::Building walked = site.as_built;
-  for (const bim::Room& planned : site.as_planned.rooms) {
-    const auto same = [&](const bim::Room& room) { return room.id == planned.id; };
-    if (std::none_of(walked.rooms.begin(), walked.rooms.end(), same)) walked.rooms.push_back(planned);
-  }
-  return walked;
-}
-
 /// The walk from where the robot is set down, whose place it resolves. The random draw differs from that of the start.
 RoutePlan plan_after_kidnap(const bim::Building& walked, const Tree& tree, Scenario& scenario) {
   Scenario after = scenario;
@@ -242,13 +225,6 @@ void check_furniture(const ScenarioText& text) {
   };
   if (text.scenario.furnish) refuse("furnish");
   if (text.scenario.world.furniture != bim::FurnitureWorld::as_planned) refuse("world");
-}
-
-double default_duration(const RoutePlan& plan, double speed) {
-  const DefaultDuration rule;
-  const double walk_s = (plan.length_m - plan.stairs_m) / speed;
-  const double climb_s = plan.stairs_m / std::min(speed, sim::SpeedConfig().stairs_mps);
-  return std::min(rule.longest_s, std::ceil(rule.factor * (walk_s + climb_s) + rule.extra_s));
 }
 
 /// LiDAR alone must be enough for the method.
@@ -305,9 +281,17 @@ ResolvedScenario resolve(const std::string& input, const Overrides& overrides, s
                          marks_of(text.tree, {"route", "rooms"}, text.scenario.route.rooms.size())};
   const bim::Building walked = walked_building(site);
   sample_start(walked, text.scenario, marks);
-  const RoutePlan plan = plan_route(walked, text.scenario.start, text.scenario.route, marks);
+  const sim::MultiStoreyPlanner space(walked);
+  std::optional<double> longest_m;
+  if (is_implicit) longest_m = walk_length(default_longest_s, text.scenario.speed_mps);
+  const RoutePlan plan = plan_route(space, text.scenario.start, text.scenario.route, marks, longest_m);
+  resolved.walk = walk_coverage(space, plan);
+  const std::vector<std::string> asked = text.scenario.route.rooms;
+  resolved.own_route = text.scenario.route.shuttle || asked != Route().rooms;
   check_rooms(text, method_marks, site.as_planned, plan.storey, table);
-  if (is_implicit) text.scenario.duration_s = default_duration(plan, text.scenario.speed_mps);
+  if (is_implicit)
+    text.scenario.duration_s =
+        std::min(default_longest_s, walk_duration(plan.length_m, plan.stairs_m, text.scenario.speed_mps));
 
   Scenario& scenario = text.scenario;
   const std::string& storey = site.as_planned.storeys[static_cast<std::size_t>(plan.storey)].id;
@@ -330,6 +314,21 @@ ResolvedScenario resolve(const std::string& input, const Overrides& overrides, s
   resolved.prior = make_prior(scenario, *resolved.building->plan_as_planned(), plan);
   resolved.scenario = std::move(scenario);
   return resolved;
+}
+
+std::vector<std::string> walk_notes(const ResolvedScenario& resolved) {
+  constexpr std::size_t most_reasons = 6;
+  const WalkCoverage& walk = resolved.walk;
+  std::vector<std::string> notes;
+  for (const std::string& warning : walk_warnings(walk)) notes.push_back("warning: " + warning);
+  if (resolved.own_route) return notes;
+  for (const std::string& line : out_of_reach_lines(walk, most_reasons)) notes.push_back("out of reach: " + line);
+  if (!walk.left_out.empty())
+    notes.push_back("left out: " + std::to_string(walk.left_out.size()) +
+                    " rooms in reach, since a default walk takes " + "at most " +
+                    format_number(default_longest_s / 60.0) +
+                    " minutes; a scenario with `route: {rooms: all}` and a longer `duration_s` walks them too");
+  return notes;
 }
 
 }  // namespace plumbline::scenarios

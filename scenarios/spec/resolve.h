@@ -8,6 +8,7 @@
 
 #include "scenarios/spec/run_building.h"
 #include "scenarios/spec/scenario.h"
+#include "scenarios/spec/walk_coverage.h"
 #include "sim/world.h"
 #include "slam/methods.h"
 
@@ -29,18 +30,23 @@ struct ResolvedScenario {
   std::optional<sim::WorldConfig> world_after;  ///< from where it is set down, until the end of the scenario
   slam::Prior prior;
   slam::Calibration calibration = sim::World::calibration();  ///< as methods are told, off by the mount's error
+  WalkCoverage walk;                                          ///< what of its storey the walk covers
+  bool own_route = false;                                     ///< the scenario says where to walk
   int dropped_gates = 0;                                      ///< gates of methods that Overrides left out
   slam::MethodTable table;                                    ///< where its methods stand; must outlive this
   std::shared_ptr<const ProcessTable> processes;              ///< the table, where the scenario has processes
 };
 
 /// Reads INPUT (a scenario or the name of one in the library, a plan, an .ifc or a mesh; all but the first get the
-/// default scenario: start in the largest room of the lowest habitable storey, route through all rooms reachable on it,
-/// every method; in a mesh, which has no rooms, the freest place, a round through what can be reached, and the methods
-/// that need no plan) and checks everything that can be known before the first step. Throws InputError at the place in
-/// the file that is wrong.
+/// default scenario: start in the largest room of the largest piece of floor of the lowest storey with rooms, route
+/// through all rooms in reach on it or as many as 10 minutes allow, every method; in a mesh, which has no rooms, the
+/// freest place, a round through what can be reached, and the methods that need no plan) and checks everything that can
+/// be known before the first step. Throws InputError at the place in the file that is wrong.
 [[nodiscard]] ResolvedScenario resolve(const std::string& input, const Overrides& overrides,
                                        slam::MethodTable table = slam::methods());
+
+/// What is to be said of the walk before it begins: rooms out of reach and why, rooms left out, warnings. A line each.
+[[nodiscard]] std::vector<std::string> walk_notes(const ResolvedScenario& resolved);
 
 /// Checks that methods are known, asked for once, and can do with the sensors that their labels name; `marks[i]` says
 /// where name i stands.

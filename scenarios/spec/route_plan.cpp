@@ -7,11 +7,14 @@
 #include <numbers>
 #include <optional>
 
-#include "bim/model/stair_flight.h"
 #include "scenarios/spec/closed_doors.h"
 #include "scenarios/spec/exploration_route.h"
 #include "scenarios/spec/named_places.h"
-#include "sim/route/multi_storey_planner.h"
+#include "scenarios/spec/room_places.h"
+#include "scenarios/spec/start_check.h"
+#include "scenarios/spec/tour.h"
+#include "sim/route/blockage.h"
+#include "sim/route/neighbour_ways.h"
 
 namespace plumbline::scenarios {
 
@@ -21,43 +24,28 @@ using sim::FloorPoint;
 using Path = std::vector<sim::Waypoint>;
 
 constexpr std::string_view all_rooms = "all";
-/// Start points and headings are written with this many decimals (0.1 mm), so that the resolved file reads well.
-constexpr double coordinate_steps = 1e4;
-
 constexpr double shuttle_min_m = 0.5;  ///< of a way worth walking to and fro
+constexpr double walk_min_m = 0.5;     ///< no shorter walk is one
 
-double round_coordinate(double x) { return std::round(x * coordinate_steps) / coordinate_steps; }
-
-Eigen::Vector2d rounded(const Eigen::Vector2d& p) { return {round_coordinate(p.x()), round_coordinate(p.y())}; }
-
-std::string text(const Eigen::Vector2d& p) { return "[" + format_number(p.x()) + ", " + format_number(p.y()) + "]"; }
-
-/// In the plane, openings included.
-bool in_body(const bim::Wall& wall, const Eigen::Vector2d& p) {
-  const double along = (p - wall.a).dot(wall.direction());
-  const double across = (p - wall.a).dot(wall.left());
-  return along >= 0.0 && along <= wall.length() && across >= wall.offset_m &&
-         across <= wall.offset_m + wall.thickness_m;
-}
-
-/// Where in the plane a stair stands.
-bool on_stair(const bim::Stair& stair, const Eigen::Vector2d& p) {
-  return std::any_of(stair.flights.begin(), stair.flights.end(),
-                     [&](const bim::StairFlight& f) {
-                       return f.steps > 0 && contains(bim::steps_outline(f, 0, f.steps - 1), p);
-                     }) ||
-         std::any_of(stair.landings.begin(), stair.landings.end(),
-                     [&](const bim::Landing& landing) { return contains(landing.polygon, p); });
-}
+double round_coordinate(double x) { return rounded({x, 0.0}).x(); }
 
 /// Plans from a start on one storey of a building, with the place in the file to blame.
 class Planner {
  public:
-  Planner(const bim::Building& building, int storey, const RouteMarks& marks)
-      : building_(building), storey_(storey), marks_(marks), space_(building) {}
+  Planner(const sim::MultiStoreyPlanner& space, const RoomPlaces& places, int storey, const RouteMarks& marks,
+          std::optional<double> all_longest_m)
+      : building_(space.building()),
+        storey_(storey),
+        marks_(marks),
+        all_longest_m_(all_longest_m),
+        space_(space),
+        places_(places) {}
 
   [[nodiscard]] Eigen::Vector2d place(const Start& start) const {
-    if (start.at) return check_start(*start.at);
+    if (start.at) {
+      check_start(space_, storey_, *start.at, marks_.start);
+      return *start.at;
+    }
     if (!start.room && building_.rooms.empty()) return freest_place();
     return target(start.room ? find_room(building_, *start.room, marks_.start) : largest_room(), marks_.start).p_W;
   }
@@ -86,48 +74,42 @@ class Planner {
 
   [[nodiscard]] const bim::Room& room(int index) const { return building_.rooms[static_cast<std::size_t>(index)]; }
 
-  [[nodiscard]] Eigen::Vector2d check_start(const Eigen::Vector2d& at) const {
-    const std::string start = "the start " + text(at);
-    const bool doorway = in_a_doorway(building_, storey_, at);
-    for (const bim::Wall& wall : building_.walls)
-      if (!doorway && wall.storey == storey_ && in_body(wall, at))
-        throw InputError(marks_.start, start + " is inside a wall ('" + wall.id + "'); it must be in a room");
-    for (const bim::Stair& stair : building_.stairs)
-      if ((stair.from == storey_ || stair.to == storey_) && on_stair(stair, at))
-        throw InputError(marks_.start, start + " is on stair '" + stair.id + "'; it must be on the floor of a storey");
-    const auto in_room = [&](const bim::Room& r) { return r.storey == storey_ && contains(r.polygon, at); };
-    const bool has_rooms = std::any_of(building_.rooms.begin(), building_.rooms.end(),
-                                       [&](const bim::Room& r) { return r.storey == storey_; });
-    if (has_rooms && !doorway && std::none_of(building_.rooms.begin(), building_.rooms.end(), in_room))
-      throw InputError(marks_.start, start + " is outside every room; it must be in a room");
-    if (!space_.storey(storey_).free(at))
-      throw InputError(marks_.start, start + " is in or too near to a wall or another thing (" +
-                                         format_number(round_coordinate(space_.storey(storey_).clearance(at))) +
-                                         " m clear); the robot needs more room around it");
-    return at;
-  }
-
-  /// Box around the floor of the start's storey.
+  /// Box around the floor of the start's storey, or around its walls where there is none.
   [[nodiscard]] Eigen::AlignedBox2d floor_box() const {
     Eigen::AlignedBox2d box;
     for (const bim::Slab& slab : building_.slabs)
       for (const Eigen::Vector2d& p : slab.polygon.outer)
         if (slab.storey == storey_) box.extend(p);
+    if (!box.isEmpty()) return box;
+    for (const bim::Wall& wall : building_.walls)
+      if (wall.storey == storey_) box.extend(wall.a).extend(wall.b);
     return box;
-  }
-
-  /// The freest place of a room, if the robot fits in it.
-  [[nodiscard]] std::optional<FloorPoint> place_in(int storey, const Polygon2& polygon) const {
-    const std::vector<Eigen::Vector2d> found = space_.storey(storey).room_target(polygon);
-    if (found.empty()) return std::nullopt;
-    return FloorPoint{storey, rounded(found.front())};
   }
 
   /// Where no rooms are known.
   [[nodiscard]] Eigen::Vector2d freest_place() const {
     const std::vector<Eigen::Vector2d> found = space_.storey(storey_).open_target();
-    if (found.empty()) throw InputError(marks_.start, "there is no place on the floor where the robot fits");
+    if (found.empty())
+      throw InputError(marks_.start,
+                       "there is no place on the floor where the robot fits, and no rooms are known; give a "
+                       "start: {storey: ..., at: [x, y]} from where it can walk");
     return rounded(found.front());
+  }
+
+  /// What stops the robot on the way to the first of the other rooms of its storey.
+  [[nodiscard]] std::string what_stops(const Eigen::Vector2d& start_W) const {
+    const sim::ClearanceMap& space = space_.storey(storey_);
+    const sim::Blockages blockages(building_, storey_, space, start_W);
+    std::string list;
+    for (const bim::Room& other : building_.rooms) {
+      if (other.storey != storey_ || contains(other.polygon, start_W)) continue;
+      const std::optional<std::size_t> goal = space.freest_cell(other.polygon);
+      if (!goal) continue;
+      for (const sim::Blockage& blockage : blockages.before(space.grid().center(*goal)))
+        list += (list.empty() ? ": on the way to room '" + other.id + "' " : "; ") + blockage.text;
+      if (!list.empty()) break;
+    }
+    return list + "; give a start: {storey: ..., at: [x, y]} from where the robot can walk";
   }
 
   /// Where no rooms are known, or none but the one of the start is in reach.
@@ -137,27 +119,21 @@ class Planner {
                                      : sim::with_clearance(space_.storey(storey_),
                                                            exploration_route(space_.storey(storey_), box, plan.start_W),
                                                            elevation(storey_));
+    if (sim::length(round) < walk_min_m)
+      throw InputError(marks_.route,
+                       "there is nowhere to walk to from " + point_text(plan.start_W) + what_stops(plan.start_W));
     for (int lap = 0; lap < laps; ++lap) append(round, plan);
     plan.rooms = {std::string(all_rooms)};
   }
 
-  /// Rooms of the start's storey that can be stood in, largest first (ties: lower index).
   [[nodiscard]] int largest_room() const {
-    int best = -1;
-    double best_area = 0.0;
-    for (std::size_t i = 0; i < building_.rooms.size(); ++i) {
-      const bim::Room& candidate = building_.rooms[i];
-      const double area = std::abs(signed_area(candidate.polygon));
-      if (candidate.storey != storey_ || area <= best_area || !place_in(storey_, candidate.polygon)) continue;
-      best = static_cast<int>(i);
-      best_area = area;
-    }
-    if (best < 0) throw InputError(marks_.start, "no room to start in; give a start: {storey: ..., at: [x, y]}");
-    return best;
+    const int room = places_.start_on(storey_).room;
+    if (room < 0) throw InputError(marks_.start, "no room to start in; give a start: {storey: ..., at: [x, y]}");
+    return room;
   }
 
   [[nodiscard]] FloorPoint target(int index, const Mark& mark) const {
-    const std::optional<FloorPoint> found = place_in(room(index).storey, room(index).polygon);
+    const std::optional<FloorPoint>& found = places_.of(index);
     if (!found)
       throw InputError(mark, "room '" + room(index).id + "' has no place where the robot can turn round; it needs " +
                                  format_number(2.0 * sim::RouteConfig().turn_m) + " m");
@@ -185,7 +161,7 @@ class Planner {
     else if (from.storey != goal.storey)
       why = ", since it is on storey '" + building_.storeys[static_cast<std::size_t>(goal.storey)].id +
             "': " + stairs_at_fault();
-    throw InputError(mark, "room '" + name + "' cannot be reached from " + text(from.p_W) + why);
+    throw InputError(mark, "room '" + name + "' cannot be reached from " + point_text(from.p_W) + why);
   }
 
   /// Why the stairs of the building do not help.
@@ -206,48 +182,100 @@ class Planner {
       const bim::Room& candidate = building_.rooms[i];
       if (!std::binary_search(storeys.begin(), storeys.end(), candidate.storey)) continue;
       if (candidate.storey == at.storey && contains(candidate.polygon, at.p_W)) continue;
-      if (place_in(candidate.storey, candidate.polygon)) found.push_back(static_cast<int>(i));
+      if (places_.of(static_cast<int>(i))) found.push_back(static_cast<int>(i));
     }
     return found;
   }
 
   /// Index into `left` of the room nearest by the way to walk (ties: lower index): of the storey the robot is on, and
-  /// of others when none of those can be reached.
-  [[nodiscard]] std::optional<std::size_t> nearest_room(const std::vector<int>& left, const FloorPoint& at,
-                                                        Path& way) const {
+  /// of others when none of those can be reached. Takes out of `left` what cannot be reached.
+  [[nodiscard]] std::optional<std::size_t> nearest_room(std::vector<int>& left, const FloorPoint& at, Path& way) const {
     for (const bool here : {true, false}) {
-      std::optional<std::size_t> best;
-      for (std::size_t i = 0; i < left.size(); ++i) {
-        if ((room(left[i]).storey == at.storey) != here) continue;
-        Path leg = space_.path(at, target(left[i], marks_.route));
-        if (leg.empty() || (best && sim::length(leg) >= sim::length(way))) continue;
-        best = i;
+      std::optional<int> best;
+      for (const int candidate : in_straight_order(left, at, here)) {
+        const FloorPoint goal = target(candidate, marks_.route);
+        if (best && (goal.p_W - at.p_W).norm() > sim::length(way)) break;  // no way is shorter than the straight line
+        Path leg = space_.path(at, goal);
+        if (leg.empty()) {
+          std::erase(left, candidate);
+          continue;
+        }
+        const double length = sim::length(leg);
+        if (best && (length > sim::length(way) || (length == sim::length(way) && candidate > *best))) continue;
+        best = candidate;
         way = std::move(leg);
       }
-      if (best) return best;
+      if (best) return static_cast<std::size_t>(std::find(left.begin(), left.end(), *best) - left.begin());
     }
     return std::nullopt;
+  }
+
+  /// Rooms on the robot's storey, or on others, by the straight line to them.
+  [[nodiscard]] std::vector<int> in_straight_order(const std::vector<int>& rooms, const FloorPoint& at,
+                                                   bool here) const {
+    std::vector<std::pair<double, int>> order;
+    for (const int index : rooms)
+      if ((room(index).storey == at.storey) == here)
+        order.emplace_back((target(index, marks_.route).p_W - at.p_W).norm(), index);
+    std::sort(order.begin(), order.end());
+    std::vector<int> sorted;
+    for (const auto& [distance, index] : order) sorted.push_back(index);
+    return sorted;
   }
 
   /// Nearest room first, each storey before the next, and back to the room of the start; rooms out of reach are left
   /// out, and where that leaves none the robot walks round where it is.
   void walk_all(const Route& route, FloorPoint at, RoutePlan& plan) const {
     const FloorPoint start = at;
-    std::vector<int> left = rooms_of_all(route, at);
-    Path way;
-    while (const std::optional<std::size_t> next = nearest_room(left, at, way)) {
-      append(way, plan);
-      plan.rooms.push_back(room(left[*next]).id);
-      at = target(left[*next], marks_.route);
-      left.erase(left.begin() + static_cast<std::ptrdiff_t>(*next));
-    }
+    const std::vector<int> others = rooms_of_all(route, at);
+    if (!walk_nearest_first(others, at, plan)) walk_tour(others, start, at, plan);
     if (plan.rooms.empty()) {
-      refuse_when_shut_in(left, start);
+      refuse_when_shut_in(others, start);
       return walk_round(route.loop, plan);
     }
     return_home(start, at, plan);
     for (int lap = 1; lap < route.loop; ++lap)
       for (const std::string& name : std::vector<std::string>(plan.rooms)) walk_to(name, marks_.route, at, plan);
+  }
+
+  /// False, with the walk as it was, where it would become longer than it may.
+  [[nodiscard]] bool walk_nearest_first(std::vector<int> left, FloorPoint& at, RoutePlan& plan) const {
+    const RoutePlan before = plan;
+    const FloorPoint start = at;
+    Path way;
+    double length = 0.0;
+    while (const std::optional<std::size_t> next = nearest_room(left, at, way)) {
+      append(way, plan);
+      length += sim::length(way);
+      plan.rooms.push_back(room(left[*next]).id);
+      at = target(left[*next], marks_.route);
+      left.erase(left.begin() + static_cast<std::ptrdiff_t>(*next));
+      if (!all_longest_m_ || length + (at.p_W - start.p_W).norm() <= *all_longest_m_) continue;
+      plan = before;
+      at = start;
+      return false;
+    }
+    if (!all_longest_m_ || length + sim::length(space_.path(at, start)) <= *all_longest_m_) return true;
+    plan = before;
+    at = start;
+    return false;
+  }
+
+  /// Through as many of the rooms on the start's storey as the longest walk allows, far ends first.
+  void walk_tour(const std::vector<int>& others, const FloorPoint& start, FloorPoint& at, RoutePlan& plan) const {
+    std::vector<Eigen::Vector2d> places = {start.p_W};
+    std::vector<int> rooms = {-1};
+    for (const int other : others) {
+      const FloorPoint goal = target(other, marks_.route);
+      if (goal.storey != start.storey) continue;
+      places.push_back(goal.p_W);
+      rooms.push_back(other);
+    }
+    const auto ways = sim::neighbour_ways(space_.storey(start.storey), places);
+    for (const std::size_t next : tour(places.size(), ways, *all_longest_m_)) {
+      walk_to(room(rooms[next]).id, marks_.route, at, plan);
+      plan.rooms.push_back(room(rooms[next]).id);
+    }
   }
 
   /// A walk of no steps is refused where closed doors are the reason.
@@ -261,7 +289,7 @@ class Planner {
   void return_home(const FloorPoint& start, FloorPoint& at, RoutePlan& plan) const {
     for (const bim::Room& home : building_.rooms) {
       if (home.storey != start.storey || !contains(home.polygon, start.p_W)) continue;
-      if (!place_in(home.storey, home.polygon)) return;
+      if (!places_.of(static_cast<int>(&home - building_.rooms.data()))) return;
       walk_to(home.id, marks_.route, at, plan);
       plan.rooms.push_back(home.id);
       return;
@@ -310,14 +338,16 @@ class Planner {
   const bim::Building& building_;
   int storey_;
   const RouteMarks& marks_;
-  sim::MultiStoreyPlanner space_;
+  std::optional<double> all_longest_m_;
+  const sim::MultiStoreyPlanner& space_;
+  const RoomPlaces& places_;
 };
 
-int start_storey(const bim::Building& building, const Start& start, const RouteMarks& marks) {
+int start_storey(const bim::Building& building, const RoomPlaces& places, const Start& start, const RouteMarks& marks) {
   if (start.room) return building.rooms[static_cast<std::size_t>(find_room(building, *start.room, marks.start))].storey;
   if (start.storey) return find_storey(building, *start.storey, marks.start);
   if (building.rooms.empty() && !building.storeys.empty()) return 0;
-  const int lowest = lowest_habitable_storey(building);
+  const int lowest = places.start_storey();
   if (lowest < 0 && !start.at)
     throw InputError(marks.start,
                      "the building has no room the robot fits in; give a start: {storey: ..., at: [x, y]}");
@@ -334,55 +364,29 @@ double first_heading_deg(const Path& waypoints) {
 
 }  // namespace
 
-int lowest_habitable_storey(const bim::Building& building) {
-  std::vector<int> order;
-  for (std::size_t i = 0; i < building.storeys.size(); ++i) order.push_back(static_cast<int>(i));
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
-    return building.storeys[static_cast<std::size_t>(a)].elevation_m <
-           building.storeys[static_cast<std::size_t>(b)].elevation_m;
-  });
-  for (const int storey : order) {
-    std::optional<sim::ClearanceMap> space;
-    for (const bim::Room& room : building.rooms) {
-      if (room.storey != storey) continue;
-      if (!space) space.emplace(building, storey);
-      if (!space->room_target(room.polygon).empty()) return storey;
-    }
-  }
-  return -1;
-}
-
-bool on_a_stair(const bim::Building& building, int storey, const Eigen::Vector2d& p_W) {
-  return std::any_of(building.stairs.begin(), building.stairs.end(), [&](const bim::Stair& stair) {
-    return (stair.from == storey || stair.to == storey) && on_stair(stair, p_W);
-  });
-}
-
-bool in_a_doorway(const bim::Building& building, int storey, const Eigen::Vector2d& p_W) {
-  return std::any_of(building.openings.begin(), building.openings.end(), [&](const bim::Opening& opening) {
-    if (opening.wall < 0 || opening.kind == bim::OpeningKind::window || opening.leaf == bim::Leaf::closed) return false;
-    const bim::Wall& wall = building.walls[static_cast<std::size_t>(opening.wall)];
-    const double along = (p_W - wall.a).dot(wall.direction());
-    return wall.storey == storey && in_body(wall, p_W) && std::abs(along - opening.s_m) <= 0.5 * opening.width_m;
-  });
-}
-
 int storey_of(const bim::Building& building, const std::optional<std::string>& name, const Mark& mark) {
   Start start;
   start.storey = name;
-  return start_storey(building, start, {mark, {}, {}});
+  const sim::MultiStoreyPlanner space(building);
+  return start_storey(building, RoomPlaces(building, space), start, {mark, {}, {}});
 }
 
-RoutePlan plan_route(const bim::Building& building, const Start& start, const Route& route, const RouteMarks& marks) {
+RoutePlan plan_route(const sim::MultiStoreyPlanner& space, const Start& start, const Route& route,
+                     const RouteMarks& marks, std::optional<double> all_longest_m) {
   RoutePlan plan;
-  plan.storey = start_storey(building, start, marks);
-  const Planner planner(building, plan.storey, marks);
+  const RoomPlaces places(space.building(), space);
+  plan.storey = start_storey(space.building(), places, start, marks);
+  const Planner planner(space, places, plan.storey, marks, all_longest_m);
   plan.start_W = planner.place(start);
   planner.walk(route, plan);
   plan.length_m = sim::length(plan.waypoints);
   plan.stairs_m = sim::length_on_stairs(plan.waypoints);
   plan.yaw_deg = start.yaw_deg ? *start.yaw_deg : first_heading_deg(plan.waypoints);
   return plan;
+}
+
+RoutePlan plan_route(const bim::Building& building, const Start& start, const Route& route, const RouteMarks& marks) {
+  return plan_route(sim::MultiStoreyPlanner(building), start, route, marks);
 }
 
 }  // namespace plumbline::scenarios

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "bim/model/building.h"
 #include "scenarios/spec/scenario.h"
-#include "sim/route/waypoint.h"
+#include "sim/route/multi_storey_planner.h"
 
 namespace plumbline::scenarios {
 
@@ -28,20 +29,16 @@ struct RoutePlan {
   double stairs_m = 0.0;  ///< of the length, how much leads over stairs
 };
 
-/// The lowest storey with a room the robot can stand in, or -1.
-[[nodiscard]] int lowest_habitable_storey(const bim::Building& building);
-
-/// Index of a storey by id or name, or of the lowest habitable one without a name. Throws InputError at `mark`.
+/// Index of a storey by id or name; without a name that of RoomPlaces::start_storey. Throws InputError at `mark`.
 [[nodiscard]] int storey_of(const bim::Building& building, const std::optional<std::string>& name, const Mark& mark);
 
-/// Where on a storey no floor is stood on: under or over a stair.
-[[nodiscard]] bool on_a_stair(const bim::Building& building, int storey, const Eigen::Vector2d& p_W);
-
-/// In the plane: in a door that is open, or a void, of a storey's walls.
-[[nodiscard]] bool in_a_doorway(const bim::Building& building, int storey, const Eigen::Vector2d& p_W);
-
-/// Plans the walk through the as-built free space and over its stairs. Throws InputError when the start is inside
-/// something, on a stair or outside every room, a room is not known, or a goal cannot be reached.
+/// Plans the walk through the as-built free space and over its stairs. `rooms: all` on the start's storey leaves out
+/// rooms where the walk would be longer than `all_longest_m`: far ends come first, then what lies between (tour()).
+/// Throws InputError when the start is inside something, on a stair or outside every room, a room is not known, a goal
+/// cannot be reached, or `rooms: all` finds nowhere to walk to, with what stops the robot.
+[[nodiscard]] RoutePlan plan_route(const sim::MultiStoreyPlanner& space, const Start& start, const Route& route,
+                                   const RouteMarks& marks, std::optional<double> all_longest_m = std::nullopt);
+/// The same for who asks a building once.
 [[nodiscard]] RoutePlan plan_route(const bim::Building& building, const Start& start, const Route& route,
                                    const RouteMarks& marks);
 

@@ -2,39 +2,12 @@
 #include "sim/route/clearance_map.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 namespace plumbline::sim {
 
 namespace {
-
-/// Calls visit(cell) for every cell whose centre is inside a closed outline (even-odd, row by row).
-template <class Visit>
-void fill(const GridFrame& grid, const std::vector<Segment2>& outline, Visit&& visit) {
-  if (outline.empty()) return;
-  double low = std::numeric_limits<double>::infinity();
-  double high = -low;
-  for (const Segment2& s : outline) {
-    low = std::min({low, s.a.y(), s.b.y()});
-    high = std::max({high, s.a.y(), s.b.y()});
-  }
-  std::vector<double> crossings;
-  const int last = std::min(grid.ny - 1, grid.row(high));
-  for (int iy = std::max(0, grid.row(low)); iy <= last; ++iy) {
-    const double y = grid.center(0, iy).y();
-    crossings.clear();
-    for (const Segment2& s : outline)
-      if ((s.a.y() > y) != (s.b.y() > y))
-        crossings.push_back(s.a.x() + (s.b.x() - s.a.x()) * ((y - s.a.y()) / (s.b.y() - s.a.y())));
-    std::sort(crossings.begin(), crossings.end());
-    for (std::size_t k = 0; k + 1 < crossings.size(); k += 2) {
-      // A centre is inside when crossings[k] <= x < crossings[k + 1].
-      const int from = std::max(0, grid.column(crossings[k] + 0.5 * grid.cell));
-      const int to = std::min(grid.nx, grid.column(crossings[k + 1] + 0.5 * grid.cell));
-      for (int ix = from; ix < to; ++ix) visit(grid.index(ix, iy));
-    }
-  }
-}
 
 std::vector<Segment2> outline_of(const PolygonWithHoles2& polygon) {
   std::vector<Segment2> outline;
@@ -146,6 +119,82 @@ void add_floor_border(const GridFrame& grid, const std::vector<char>& floor, std
 
 }  // namespace
 
+void fill_cells(const GridFrame& grid, const std::vector<Segment2>& outline,
+                const std::function<void(std::size_t)>& visit) {
+  if (outline.empty()) return;
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  for (const Segment2& s : outline) {
+    low = std::min({low, s.a.y(), s.b.y()});
+    high = std::max({high, s.a.y(), s.b.y()});
+  }
+  std::vector<double> crossings;
+  const int last = std::min(grid.ny - 1, grid.row(high));
+  for (int iy = std::max(0, grid.row(low)); iy <= last; ++iy) {
+    const double y = grid.center(0, iy).y();
+    crossings.clear();
+    for (const Segment2& s : outline)
+      if ((s.a.y() > y) != (s.b.y() > y))
+        crossings.push_back(s.a.x() + (s.b.x() - s.a.x()) * ((y - s.a.y()) / (s.b.y() - s.a.y())));
+    std::sort(crossings.begin(), crossings.end());
+    for (std::size_t k = 0; k + 1 < crossings.size(); k += 2) {
+      // A centre is inside when crossings[k] <= x < crossings[k + 1].
+      const int from = std::max(0, grid.column(crossings[k] + 0.5 * grid.cell));
+      const int to = std::min(grid.nx, grid.column(crossings[k + 1] + 0.5 * grid.cell));
+      for (int ix = from; ix < to; ++ix) visit(grid.index(ix, iy));
+    }
+  }
+}
+
+namespace {
+
+/// True where something is overhead: a ceiling, a roof, the head of a door.
+std::vector<char> covered_cells(const bim::Building& building, double floor_z, const GridFrame& grid,
+                                const RouteConfig& config) {
+  std::vector<char> covered(grid.size(), 0);
+  const auto cover = [&](const std::vector<Segment2>& outline) {
+    fill_cells(grid, outline, [&](std::size_t cell) { covered[cell] = 1; });
+  };
+  const double low = floor_z + config.overhead_low_m, high = floor_z + config.overhead_high_m;
+  for (const bim::Slab& slab : building.slabs)
+    if (slab.z0_m > low && slab.z0_m < high) cover(outline_of(slab.polygon));
+  for (const bim::Obstacle& obstacle : building.obstacles)
+    for (const Eigen::Vector3i& triangle : obstacle.body.triangles) {
+      std::array<Eigen::Vector3d, 3> p;
+      for (int k = 0; k < 3; ++k)
+        p[static_cast<std::size_t>(k)] = obstacle.body.vertices[static_cast<std::size_t>(triangle[k])];
+      const auto [z0, z1] = std::minmax({p[0].z(), p[1].z(), p[2].z()});
+      if (z0 < low || z1 > high) continue;
+      cover({{p[0].head<2>(), p[1].head<2>()}, {p[1].head<2>(), p[2].head<2>()}, {p[2].head<2>(), p[0].head<2>()}});
+    }
+  return covered;
+}
+
+/// Where no rooms are known, inside is where something is overhead: the floor outside is no floor then.
+void keep_inside(const bim::Building& building, double floor_z, const GridFrame& grid, const RouteConfig& config,
+                 std::vector<char>& floor) {
+  const int reach = static_cast<int>(config.floor_gap_m / grid.cell + 0.5);
+  const std::vector<char> covered =
+      spread(grid, spread(grid, covered_cells(building, floor_z, grid, config), 1, reach), 0, reach);
+  std::size_t inside = 0;
+  for (std::size_t i = 0; i < floor.size(); ++i) inside += floor[i] != 0 && covered[i] != 0 ? 1U : 0U;
+  if (static_cast<double>(inside) * grid.cell * grid.cell < config.inside_min_m2) return;
+  for (std::size_t i = 0; i < floor.size(); ++i)
+    if (covered[i] == 0) floor[i] = 0;
+}
+
+}  // namespace
+
+bool has_known_floor(const bim::Building& building, int storey, const RouteConfig& config) {
+  const double floor_z = building.storeys.at(static_cast<std::size_t>(storey)).elevation_m;
+  return std::any_of(building.slabs.begin(), building.slabs.end(),
+                     [&](const bim::Slab& slab) {
+                       return slab.z1_m <= floor_z + config.band_low_m && slab.z1_m >= floor_z - config.floor_below_m;
+                     }) ||
+         std::any_of(building.rooms.begin(), building.rooms.end(),
+                     [&](const bim::Room& room) { return room.storey == storey; });
+}
+
 std::vector<char> floor_cells(const bim::Building& building, int storey, const GridFrame& grid,
                               const RouteConfig& config) {
   const double floor_z = building.storeys.at(static_cast<std::size_t>(storey)).elevation_m;
@@ -154,14 +203,17 @@ std::vector<char> floor_cells(const bim::Building& building, int storey, const G
   bool any = false;
   for (const bim::Slab& slab : building.slabs) {
     if (slab.z1_m > floor_z + config.band_low_m || slab.z1_m < floor_z - config.floor_below_m) continue;
-    fill(grid, outline_of(slab.polygon), set);
+    fill_cells(grid, outline_of(slab.polygon), set);
     any = true;
   }
   if (!any)
     for (const bim::Room& room : building.rooms)
-      if (room.storey == storey) fill(grid, outline_of({room.polygon, {}}), set);
+      if (room.storey == storey) fill_cells(grid, outline_of({room.polygon, {}}), set);
+  if (!has_known_floor(building, storey, config)) std::fill(cells.begin(), cells.end(), char{1});
   const int reach = static_cast<int>(config.floor_gap_m / grid.cell + 0.5);
-  return spread(grid, spread(grid, std::move(cells), 1, reach), 0, reach);
+  cells = spread(grid, spread(grid, std::move(cells), 1, reach), 0, reach);
+  if (building.rooms.empty()) keep_inside(building, floor_z, grid, config, cells);
+  return cells;
 }
 
 std::vector<double> clearances(const GridFrame& grid, const std::vector<ObstacleFootprint>& footprints,
@@ -174,7 +226,7 @@ std::vector<double> clearances(const GridFrame& grid, const std::vector<Obstacle
   std::vector<double> result = nearest.distance();
   for (const ObstacleFootprint& b : footprints) {
     for (const std::vector<Segment2>& section : b.sections) {
-      fill(grid, section, [&](std::size_t cell) {
+      fill_cells(grid, section, [&](std::size_t cell) {
         const Eigen::Vector2d p = grid.center(cell);
         if (std::none_of(b.gaps.begin(), b.gaps.end(), [&](const Gap& gap) { return gap.holds(p); }))
           result[cell] = 0.0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "bim/geometry/grid_frame.h"
@@ -8,7 +9,16 @@
 
 namespace plumbline::sim {
 
-/// True where the floor of a storey carries a robot, by cell. Without any slab on the storey its rooms do.
+/// Calls visit(cell) for every cell whose centre is inside a closed outline (even-odd), row by row.
+void fill_cells(const GridFrame& grid, const std::vector<Segment2>& outline,
+                const std::function<void(std::size_t)>& visit);
+
+/// Whether a slab or a room says where the floor of a storey is.
+[[nodiscard]] bool has_known_floor(const bim::Building& building, int storey, const RouteConfig& config);
+
+/// True where the floor of a storey carries a robot, by cell. Without any slab on the storey its rooms do, and without
+/// those the ground does, everywhere. Of a building without rooms, such as a mesh, only the floor with something
+/// overhead counts, where there is such floor: inside is where there is a ceiling.
 [[nodiscard]] std::vector<char> floor_cells(const bim::Building& building, int storey, const GridFrame& grid,
                                             const RouteConfig& config);
 

@@ -38,6 +38,7 @@ class MultiStoreyPlanner {
   /// The building must outlive it.
   explicit MultiStoreyPlanner(const bim::Building& as_built, const MultiStoreyPlannerConfig& config = {});
 
+  [[nodiscard]] const bim::Building& building() const { return building_; }
   /// Free space of one storey. Throws InputError when the storey is too large.
   [[nodiscard]] const ClearanceMap& storey(int index) const;
   /// Waypoints from a to b, both included; empty when b cannot be reached. Where b is on a's storey and can be reached

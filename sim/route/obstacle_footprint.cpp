@@ -187,24 +187,27 @@ std::vector<ObstacleFootprint> find_obstacle_footprints(const bim::Building& bui
                                                         const RouteConfig& config) {
   const Band band{floor_z + config.band_low_m, floor_z + config.band_high_m};
   std::vector<ObstacleFootprint> result;
+  const auto add = [&](ObstacleFootprint footprint, const std::string& kind, const std::string& id) {
+    footprint.name = kind + " '" + id + "'";
+    result.push_back(std::move(footprint));
+  };
+  const auto of = [&](const auto& element, const PolygonWithHoles2& outline) {
+    return element.body ? from_solid(*element.body, band, config.weld_m) : from_polygon(outline);
+  };
   for (std::size_t i = 0; i < building.walls.size(); ++i)
-    if (band.meets(building.walls[i].z0_m, building.walls[i].z1_m))
-      result.push_back(wall_footprint(building, static_cast<int>(i), floor_z, band, config));
+    if (const bim::Wall& wall = building.walls[i]; band.meets(wall.z0_m, wall.z1_m))
+      add(wall_footprint(building, static_cast<int>(i), floor_z, band, config), "wall", wall.id);
   for (const bim::Slab& slab : building.slabs)
-    if (band.meets(slab.z0_m, slab.z1_m))
-      result.push_back(slab.body ? from_solid(*slab.body, band, config.weld_m) : from_polygon(slab.polygon));
+    if (band.meets(slab.z0_m, slab.z1_m)) add(of(slab, slab.polygon), "slab", slab.id);
   for (const bim::Column& column : building.columns)
-    if (band.meets(column.z0_m, column.z1_m))
-      result.push_back(column.body ? from_solid(*column.body, band, config.weld_m)
-                                   : from_polygon({column.footprint, {}}));
+    if (band.meets(column.z0_m, column.z1_m)) add(of(column, {column.footprint, {}}), "column", column.id);
   for (const bim::Stair& stair : building.stairs)
     for (const bim::Solid& body : stair.bodies)
       if (ObstacleFootprint footprint = from_solid(body, band, config.weld_m); !footprint.edges.empty())
-        result.push_back(std::move(footprint));
-  for (const bim::Obstacle& obstacle : building.obstacles) {
-    ObstacleFootprint footprint = from_solid(obstacle.body, band, config.weld_m);
-    if (!footprint.edges.empty()) result.push_back(std::move(footprint));
-  }
+        add(std::move(footprint), "stair", stair.id);
+  for (const bim::Obstacle& obstacle : building.obstacles)
+    if (ObstacleFootprint footprint = from_solid(obstacle.body, band, config.weld_m); !footprint.edges.empty())
+      add(std::move(footprint), obstacle.kind, obstacle.id);
   return result;
 }
 

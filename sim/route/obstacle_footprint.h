@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string>
 #include <vector>
 
 #include "bim/model/building.h"
@@ -29,6 +30,7 @@ struct Gap {
 
 /// One element as seen from above at the robot's height.
 struct ObstacleFootprint {
+  std::string name;                             ///< as messages call it: "wall 'w1'"
   std::vector<Segment2> edges;                  ///< of everything between the band's heights
   std::vector<std::vector<Segment2>> sections;  ///< closed outlines at some heights; inside (even-odd) is solid
   std::vector<Gap> gaps;                        ///< no section is solid here; the edges are cut already

@@ -1,53 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <array>
 #include <cstdlib>
 #include <functional>
 #include <limits>
 #include <queue>
 #include <utility>
 
+#include "sim/route/grid_search.h"
 #include "sim/route/route.h"
 
 namespace plumbline::sim {
 
 namespace {
 
-constexpr std::int64_t unit_cost = 100;      // of a tenth of a cell at comfortable clearance
-constexpr std::int64_t straight_steps = 10;  // lengths of steps: 10 and 14, near 1 : sqrt 2
-constexpr std::int64_t diagonal_steps = 14;
-
-struct Step {
-  int dx = 0;
-  int dy = 0;
-  std::int64_t length = 0;
-};
-
-constexpr std::array<Step, 8> steps = {{{1, 0, straight_steps},
-                                        {0, 1, straight_steps},
-                                        {-1, 0, straight_steps},
-                                        {0, -1, straight_steps},
-                                        {1, 1, diagonal_steps},
-                                        {-1, 1, diagonal_steps},
-                                        {-1, -1, diagonal_steps},
-                                        {1, -1, diagonal_steps}}};
-
+constexpr std::int64_t unit_cost = 100;  // of a tenth of a cell at comfortable clearance
 /// Admissible A* heuristic: the cost of the path over open ground.
 std::int64_t open_ground_cost(const GridFrame& grid, std::size_t from, std::size_t to) {
   const auto [from_x, from_y] = grid.column_and_row(from);
   const auto [to_x, to_y] = grid.column_and_row(to);
   const std::int64_t dx = std::abs(from_x - to_x), dy = std::abs(from_y - to_y);
-  return unit_cost * (straight_steps * (std::max(dx, dy) - std::min(dx, dy)) + diagonal_steps * std::min(dx, dy));
+  return unit_cost * (straight_step * (std::max(dx, dy) - std::min(dx, dy)) + diagonal_step * std::min(dx, dy));
 }
 
 }  // namespace
 
-std::vector<std::size_t> ClearanceMap::region(std::size_t from, std::vector<char>& seen) const {
+std::vector<std::size_t> ClearanceMap::cells_in_reach(std::size_t from, std::vector<char>& seen) const {
   std::vector<std::size_t> cells = {from};
   seen[from] = 1;
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const auto [column, row] = grid_.column_and_row(cells[i]);
-    for (const Step& step : steps) {
+    for (const GridStep& step : grid_steps) {
       const int x = column + step.dx, y = row + step.dy;
       if (!grid_.holds(x, y)) continue;
       const std::size_t next = grid_.index(x, y);
@@ -65,37 +47,62 @@ std::int64_t ClearanceMap::step_cost(std::size_t cell) const {
          static_cast<std::int64_t>(static_cast<double>(unit_cost) * config_.crowding * std::max(0.0, crowded));
 }
 
+const std::vector<int>& ClearanceMap::regions() const {
+  if (!regions_.empty()) return regions_;
+  regions_.assign(grid_.size(), -1);
+  std::vector<char> seen(grid_.size(), 0);
+  int count = 0;
+  for (std::size_t cell = 0; cell < grid_.size(); ++cell) {
+    if (seen[cell] != 0 || !passable(cell)) continue;
+    for (const std::size_t other : cells_in_reach(cell, seen)) regions_[other] = count;
+    ++count;
+  }
+  return regions_;
+}
+
+int ClearanceMap::region(const Eigen::Vector2d& p) const {
+  const auto cell = grid_.find(p);
+  return cell ? regions()[*cell] : -1;
+}
+
 /// A*: integer costs; of equal costs the cell with the lowest index goes first, and the first path found stays.
 std::vector<std::size_t> ClearanceMap::search(std::size_t from, std::size_t to) const {
+  if (regions()[from] != regions()[to]) return {};
   constexpr std::int64_t unknown = std::numeric_limits<std::int64_t>::max();
   using Entry = std::pair<std::int64_t, std::size_t>;
-  std::vector<std::int64_t> cost(grid_.size(), unknown);
-  std::vector<std::size_t> before(grid_.size(), grid_.size());
-  std::vector<char> done(grid_.size(), 0);
+  search_.cost.resize(grid_.size(), unknown);
+  search_.before.resize(grid_.size());
+  search_.done.resize(grid_.size(), 0);
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
-  cost[from] = 0;
-  open.emplace(open_ground_cost(grid_, from, to), from);
-  while (!open.empty() && done[to] == 0) {
+  const auto reach = [&](std::size_t cell, std::size_t before, std::int64_t cost) {
+    if (cost >= search_.cost[cell]) return;
+    if (search_.cost[cell] == unknown) search_.touched.push_back(cell);
+    search_.cost[cell] = cost;
+    search_.before[cell] = static_cast<std::uint32_t>(before);
+    open.emplace(cost + open_ground_cost(grid_, cell, to), cell);
+  };
+  reach(from, from, 0);
+  while (search_.done[to] == 0) {
     const std::size_t cell = open.top().second;
     open.pop();
-    if (done[cell] != 0) continue;
-    done[cell] = 1;
+    if (search_.done[cell] != 0) continue;
+    search_.done[cell] = 1;
     const auto [column, row] = grid_.column_and_row(cell);
-    for (const Step& step : steps) {
+    for (const GridStep& step : grid_steps) {
       const int x = column + step.dx, y = row + step.dy;
       if (!grid_.holds(x, y) || !passable(grid_.index(x, y))) continue;
       const std::size_t next = grid_.index(x, y);
-      const std::int64_t reached = cost[cell] + step.length * step_cost(next);
-      if (reached >= cost[next]) continue;
-      cost[next] = reached;
-      before[next] = cell;
-      open.emplace(reached + open_ground_cost(grid_, next, to), next);
+      reach(next, cell, search_.cost[cell] + step.length * step_cost(next));
     }
   }
-  if (done[to] == 0) return {};
   std::vector<std::size_t> cells = {to};
-  while (cells.back() != from) cells.push_back(before[cells.back()]);
+  while (cells.back() != from) cells.push_back(search_.before[cells.back()]);
   std::reverse(cells.begin(), cells.end());
+  for (const std::size_t cell : search_.touched) {
+    search_.cost[cell] = unknown;
+    search_.done[cell] = 0;
+  }
+  search_.touched.clear();
   return cells;
 }
 
@@ -140,13 +147,10 @@ std::vector<Eigen::Vector2d> ClearanceMap::path(const Eigen::Vector2d& a, const 
 
 std::vector<Eigen::Vector2d> ClearanceMap::reachable(const Eigen::Vector2d& from,
                                                      const std::vector<Eigen::Vector2d>& points) const {
-  const auto start = grid_.find(from);
-  if (!start || !passable(*start)) return {};
-  std::vector<char> seen(grid_.size(), 0);
-  static_cast<void>(region(*start, seen));
+  const int here = region(from);
   std::vector<Eigen::Vector2d> found;
   for (const Eigen::Vector2d& point : points)
-    if (const auto cell = grid_.find(point); cell && seen[*cell] != 0) found.push_back(point);
+    if (here >= 0 && region(point) == here) found.push_back(point);
   return found;
 }
 

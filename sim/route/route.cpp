@@ -47,8 +47,8 @@ GridFrame make_grid(const bim::Building& building, int storey, double cell) {
 ClearanceMap::ClearanceMap(const bim::Building& as_built, int storey, const RouteConfig& config) : config_(config) {
   const double floor_z = as_built.storeys.at(static_cast<std::size_t>(storey)).elevation_m;
   grid_ = make_grid(as_built, storey, config.cell_m);
-  clearance_ = clearances(grid_, find_obstacle_footprints(as_built, floor_z, config),
-                          floor_cells(as_built, storey, grid_, config));
+  floor_ = floor_cells(as_built, storey, grid_, config);
+  clearance_ = clearances(grid_, find_obstacle_footprints(as_built, floor_z, config), floor_);
   close_pockets(hollow_obstacles(as_built, floor_z, config));
 }
 
@@ -58,7 +58,7 @@ void ClearanceMap::close_pockets(const std::vector<Polygon2>& hollow_obstacles) 
   std::vector<char> seen(grid_.size(), 0);
   for (std::size_t cell = 0; cell < clearance_.size(); ++cell) {
     if (seen[cell] != 0 || !passable(cell)) continue;
-    const std::vector<std::size_t> cells = region(cell, seen);
+    const std::vector<std::size_t> cells = cells_in_reach(cell, seen);
     if (static_cast<double>(cells.size()) > cells_max) continue;
     const bool shut_in = std::any_of(hollow_obstacles.begin(), hollow_obstacles.end(), [&](const Polygon2& hull) {
       return std::all_of(cells.begin(), cells.end(), [&](std::size_t c) { return contains(hull, grid_.center(c)); });
@@ -85,14 +85,24 @@ double ClearanceMap::clearance(const Eigen::Vector2d& p) const {
 
 bool ClearanceMap::free(const Eigen::Vector2d& p) const { return clearance(p) >= clearance_min(); }
 
-std::vector<Eigen::Vector2d> ClearanceMap::room_target(const Polygon2& room) const {
+std::optional<std::size_t> ClearanceMap::freest_cell(const Polygon2& room) const {
+  Eigen::AlignedBox2d box;
+  for (const Eigen::Vector2d& p : room) box.extend(p);
+  if (box.isEmpty() || grid_.size() == 0) return std::nullopt;
   std::optional<std::size_t> best;
-  for (std::size_t cell = 0; cell < clearance_.size(); ++cell) {
-    if (!turnable(cell)) continue;
-    if (best && clearance_[cell] <= clearance_[*best]) continue;
-    if (contains(room, grid_.center(cell))) best = cell;
-  }
-  if (!best) return {};
+  for (int j = std::max(0, grid_.row(box.min().y())); j <= std::min(grid_.ny - 1, grid_.row(box.max().y())); ++j)
+    for (int i = std::max(0, grid_.column(box.min().x())); i <= std::min(grid_.nx - 1, grid_.column(box.max().x()));
+         ++i) {
+      const std::size_t cell = grid_.index(i, j);
+      if (best && clearance_[cell] <= clearance_[*best]) continue;
+      if (contains(room, grid_.center(cell))) best = cell;
+    }
+  return best;
+}
+
+std::vector<Eigen::Vector2d> ClearanceMap::room_target(const Polygon2& room) const {
+  const std::optional<std::size_t> best = freest_cell(room);
+  if (!best || !turnable(*best)) return {};
   return {grid_.center(*best)};
 }
 
@@ -101,7 +111,7 @@ std::vector<Eigen::Vector2d> ClearanceMap::open_target() const {
   std::vector<std::size_t> largest;
   for (std::size_t cell = 0; cell < clearance_.size(); ++cell) {
     if (seen[cell] != 0 || !turnable(cell)) continue;
-    std::vector<std::size_t> cells = region(cell, seen);
+    std::vector<std::size_t> cells = cells_in_reach(cell, seen);
     if (cells.size() > largest.size()) largest = std::move(cells);
   }
   if (largest.empty()) return {};

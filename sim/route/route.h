@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "bim/geometry/grid_frame.h"
@@ -25,11 +26,14 @@ struct RouteConfig {
   double floor_below_m = 0.35;     ///< a slab's top this far below the storey (floor covering) still carries it
   double furniture_max_m2 = 10.0;  ///< no piece of furniture is larger, seen from above
   double weld_m = 1e-5;            ///< vertices this close are joined for the test whether a solid is closed
+  double overhead_low_m = 1.8;     ///< what lies between this
+  double overhead_high_m = 12.0;   ///< and this above the floor is a ceiling or a roof
+  double inside_min_m2 = 10.0;     ///< less covered floor than this is no inside
   double floor_gap_m = 0.3;        ///< gaps in the floor up to twice this (between slabs, under walls) are stepped over
 };
 
 /// Where a robot's centre can be on one storey of the as-built building. Walls stand where they are not opened by a
-/// passable door or void; columns, obstacles and edges of the floor count as walls.
+/// passable door or void; columns, obstacles and edges of the floor count as walls. Not for several threads at once.
 class ClearanceMap {
  public:
   /// Throws InputError when the storey is too large for a grid of this cell size (2^24 cells).
@@ -45,31 +49,55 @@ class ClearanceMap {
   /// Those of the points that a path reaches.
   [[nodiscard]] std::vector<Eigen::Vector2d> reachable(const Eigen::Vector2d& from,
                                                        const std::vector<Eigen::Vector2d>& points) const;
+  /// Number of the piece of walkable floor that a point lies on: a path joins two points of a piece, none joins two
+  /// pieces. -1 where the robot cannot be. Numbered from 0 in the order of the lowest cells.
+  [[nodiscard]] int region(const Eigen::Vector2d& p) const;
   /// The point of a room with the most clearance (ties: lowest cell), or none where the robot cannot turn round: a
   /// robot that enters such a room cannot leave it.
   [[nodiscard]] std::vector<Eigen::Vector2d> room_target(const Polygon2& room) const;
-  /// The same of the largest connected walkable area, for buildings without rooms.
+  /// The cell of a room with the most clearance, be it too little; none where no cell's centre lies in the room.
+  [[nodiscard]] std::optional<std::size_t> freest_cell(const Polygon2& room) const;
+  /// The freest place of the largest connected walkable area, for buildings without rooms.
   [[nodiscard]] std::vector<Eigen::Vector2d> open_target() const;
+
+  [[nodiscard]] const RouteConfig& config() const { return config_; }
+  [[nodiscard]] const GridFrame& grid() const { return grid_; }
+  [[nodiscard]] double cell_clearance(std::size_t cell) const { return clearance_[cell]; }
+  /// Whether a floor carries the robot in a cell, whatever stands on it.
+  [[nodiscard]] bool has_floor(std::size_t cell) const { return floor_[cell] != 0; }
+  /// Clearance of at least the radius, to half a cell, at the centre of a cell.
+  [[nodiscard]] bool passable(std::size_t cell) const { return clearance_[cell] >= clearance_min(); }
+  /// Cost of a tenth of a cell walked in a passable cell.
+  [[nodiscard]] std::int64_t step_cost(std::size_t cell) const;
 
  private:
   [[nodiscard]] double clearance_min() const { return config_.radius_m - 0.5 * config_.cell_m; }
-  [[nodiscard]] bool passable(std::size_t cell) const { return clearance_[cell] >= clearance_min(); }
   [[nodiscard]] bool turnable(std::size_t cell) const {
     return clearance_[cell] >= config_.turn_m - 0.5 * config_.cell_m;
   }
-  /// Cost of a tenth of a cell walked in a cell.
-  [[nodiscard]] std::int64_t step_cost(std::size_t cell) const;
   /// Removes floor that is enclosed by hollow obstacles, such as the inside of a cupboard.
   void close_pockets(const std::vector<Polygon2>& hollow_obstacles);
   /// Cells that can be walked to from this one, in the order found; marks them.
-  [[nodiscard]] std::vector<std::size_t> region(std::size_t from, std::vector<char>& seen) const;
+  [[nodiscard]] std::vector<std::size_t> cells_in_reach(std::size_t from, std::vector<char>& seen) const;
+  [[nodiscard]] const std::vector<int>& regions() const;
   [[nodiscard]] std::vector<std::size_t> search(std::size_t from, std::size_t to) const;
   [[nodiscard]] bool clear_line(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double clearance_m) const;
   [[nodiscard]] std::vector<Eigen::Vector2d> shortened(const std::vector<Eigen::Vector2d>& points) const;
 
+  /// What a search writes; its vectors are as before after each.
+  struct Search {
+    std::vector<std::int64_t> cost;
+    std::vector<std::uint32_t> before;
+    std::vector<char> done;
+    std::vector<std::size_t> touched;
+  };
+
   RouteConfig config_;
   GridFrame grid_;
   std::vector<double> clearance_;  ///< by cell, at its centre
+  std::vector<char> floor_;        ///< by cell
+  mutable std::vector<int> regions_;
+  mutable Search search_;
 };
 
 }  // namespace plumbline::sim

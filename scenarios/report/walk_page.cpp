@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenarios/report/walk_page.h"
+
+#include <algorithm>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "scenarios/report/map_drawing.h"
+#include "scenarios/report/page.h"
+#include "scenarios/report/svg.h"
+#include "scenarios/report/walk_list.h"
+#include "scenarios/spec/room_places.h"
+#include "scenarios/spec/walk_coverage.h"
+
+namespace plumbline::scenarios {
+
+namespace {
+
+constexpr std::string_view floor_colour = "#7cc4a0", elsewhere_colour = "#d8dde4", red = "#c9402d",
+                           walk_colour = "#0b4f8a";
+constexpr int most_rows = 400;  ///< of floor drawn, so that a page of a large building opens
+
+std::string name_of(const bim::Room& room) { return room.name.empty() ? room.id : room.name; }
+
+/// Walkable floor in rows: what is reached from the start, and what is walkable and is not.
+std::string draw_floor(const sim::ClearanceMap& space, const Eigen::Vector2d& start_W) {
+  const GridFrame& grid = space.grid();
+  const int stride = 1 + (grid.ny - 1) / most_rows;
+  const int here = space.region(start_W);
+  std::string rows[2];
+  for (int j = stride / 2; j < grid.ny; j += stride) {
+    int from = 0, kind = -1;
+    const auto end_run = [&](int to) {
+      if (kind < 0) return;
+      const Eigen::Vector2d p = grid.center(from, j);
+      rows[kind] += "M" + svg::number(p.x() - 0.5 * grid.cell, 2) + " " + svg::number(-p.y(), 2) + "h" +
+                    svg::number(grid.cell * (to - from), 2);
+    };
+    for (int i = 0; i < grid.nx; ++i) {
+      const int region = space.region(grid.center(i, j));
+      const int now = region < 0 ? -1 : region == here ? 0 : 1;
+      if (now == kind) continue;
+      end_run(i);
+      kind = now;
+      from = i;
+    }
+    end_run(grid.nx);
+  }
+  const auto path = [&](const std::string& d, std::string_view colour) {
+    return "<path d=\"" + d + "\" stroke=\"" + std::string(colour) + "\" stroke-width=\"" +
+           svg::number(grid.cell * stride) + "\" fill=\"none\"/>";
+  };
+  return path(rows[1], elsewhere_colour) + path(rows[0], floor_colour);
+}
+
+/// Red over rooms out of reach, and a mark where the way to each of them is blocked; reasons show on hovering.
+std::string draw_reasons(const bim::Building& building, const WalkCoverage& walk) {
+  std::string out;
+  std::set<std::pair<double, double>> marked;
+  for (const RoomOutOfReach& missed : walk.out_of_reach) {
+    const auto room = std::find_if(building.rooms.begin(), building.rooms.end(),
+                                   [&](const bim::Room& candidate) { return candidate.id == missed.id; });
+    out += svg::polygon(room->polygon, "fill=\"" + std::string(red) + "\" fill-opacity=\".22\"",
+                        missed.name + ": " + missed.why);
+    for (const sim::Blockage& blockage : missed.blockages)
+      if (marked.emplace(blockage.at_W.x(), blockage.at_W.y()).second)
+        out +=
+            "<g><title>" + svg::escape(blockage.text) + "</title>" +
+            svg::circle(blockage.at_W, 0.25, "fill=\"#fff\" stroke=\"" + std::string(red) + "\" stroke-width=\".12\"") +
+            "</g>";
+  }
+  return out;
+}
+
+std::string draw_names(const bim::Building& building, int storey) {
+  std::string out;
+  for (const bim::Room& room : building.rooms) {
+    if (room.storey != storey || name_of(room).size() > 18) continue;
+    Eigen::Vector2d corner(1e9, -1e9);
+    for (const auto& p : room.polygon) corner = {std::min(corner.x(), p.x()), std::max(corner.y(), p.y())};
+    out += svg::text(corner + Eigen::Vector2d(0.3, -0.6), name_of(room), "");
+  }
+  return out;
+}
+
+std::string key() {
+  const auto item = [](std::string_view colour, const std::string& text) {
+    return "<span><svg viewBox=\"0 0 34 10\"><rect width=\"34\" height=\"10\" fill=\"" + std::string(colour) +
+           "\"/></svg>" + text + "</span>";
+  };
+  return "<div class=\"key\">" + item(floor_colour, "floor in reach of the start") +
+         item(elsewhere_colour, "floor out of reach") + item("#efc4be", "room out of reach") +
+         item(walk_colour, "the default walk, from its start (dot)") +
+         "<span>ring: what stops the robot (hover for why)</span></div>";
+}
+
+/// What pages show of one storey.
+class StoreyCard {
+ public:
+  StoreyCard(const bim::PlannedAndBuilt& site, const sim::MultiStoreyPlanner& space, int storey)
+      : building_(space.building()), space_(space), storey_(storey) {
+    bim::Plan plan = bim::make_plan(site.as_built);
+    input_.obstacles = obstacles_of(site.as_built, plan);
+    input_.plan = std::move(plan);
+    const bim::Storey& of = building_.storeys[static_cast<std::size_t>(storey)];
+    name_ = of.name.empty() ? of.id : of.name;
+    input_.storeys.push_back({storey, name_, {}});
+  }
+
+  [[nodiscard]] std::string html(int start_room) const {
+    Start start;
+    start.room = building_.rooms[static_cast<std::size_t>(start_room)].id;
+    RoutePlan plan;
+    std::string refused;
+    const Scenario defaults;
+    try {
+      plan = plan_route(space_, start, Route{}, {}, walk_length(default_longest_s, defaults.speed_mps));
+    } catch (const InputError& error) {
+      refused = error.what();
+      Route stay;
+      stay.rooms = {};
+      plan = plan_route(space_, start, stay, {});
+    }
+    const WalkCoverage walk = walk_coverage(space_, plan);
+    std::string out =
+        "<section class=\"card\"><h2>" + svg::escape(name_) + "</h2>" + draw(plan, walk) + key() + "</section>\n";
+    if (!refused.empty()) out += "<p class=\"verdict bad\">" + svg::escape(refused) + "</p>";
+    const Tree results = to_results(walk, walk_warnings(walk));
+    return out + list_walk(&results) + "\n";
+  }
+
+ private:
+  [[nodiscard]] std::string draw(const RoutePlan& plan, const WalkCoverage& walk) const {
+    std::vector<Eigen::Vector2d> way;
+    for (const sim::Waypoint& waypoint : plan.waypoints) way.emplace_back(waypoint.p_W.head<2>());
+    const std::string drawn = draw_plan(input_, storey_);
+    const std::size_t walls = std::min(drawn.find("<line"), drawn.size());
+    return open_map(bounds(input_), "where the robot can walk on " + name_) + drawn.substr(0, walls) +
+           draw_floor(space_.storey(storey_), plan.start_W) + draw_reasons(building_, walk) + drawn.substr(walls) +
+           svg::polyline(way, "fill=\"none\" stroke=\"" + std::string(walk_colour) + "\" stroke-width=\".09\"") +
+           svg::circle(plan.start_W, 0.22, "fill=\"" + std::string(walk_colour) + "\"") +
+           draw_names(building_, storey_) + "</svg>";
+  }
+
+  const bim::Building& building_;
+  const sim::MultiStoreyPlanner& space_;
+  int storey_;
+  std::string name_;
+  ReportInput input_;
+};
+
+}  // namespace
+
+std::string walk_page(const bim::PlannedAndBuilt& site, const std::string& name) {
+  const bim::Building walked = walked_building(site);
+  const sim::MultiStoreyPlanner space(walked);
+  const RoomPlaces places(walked, space);
+  std::string page =
+      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
+      "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\"><title>" +
+      svg::escape(name) + " · Plumbline</title><style>";
+  page += page_style();
+  page +=
+      "</style></head>\n<body><main><header><h1>Where the robot can walk: " + svg::escape(name) + "</h1></header>\n";
+  for (std::size_t i = 0; i < walked.storeys.size(); ++i) {
+    const int storey = static_cast<int>(i);
+    const auto rooms = std::count_if(walked.rooms.begin(), walked.rooms.end(),
+                                     [&](const bim::Room& room) { return room.storey == storey; });
+    if (rooms == 0) continue;
+    const int start = places.start_on(storey).room;
+    if (start >= 0)
+      page += StoreyCard(site, space, storey).html(start);
+    else
+      page += "<section class=\"card\"><h2>" + svg::escape(walked.storeys[i].name) +
+              "</h2><p class=\"verdict bad\">The robot can turn round in none of its " + std::to_string(rooms) +
+              " rooms.</p></section>\n";
+  }
+  return page + "</main></body></html>\n";
+}
+
+}  // namespace plumbline::scenarios

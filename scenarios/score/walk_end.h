@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scenarios/run/finished_run.h"
+
+namespace plumbline::scenarios::score {
+
+/// Warnings of the walk as planned, and where its time was up before its route was done, with what was left.
+[[nodiscard]] std::vector<std::string> warnings_of_walk(const FinishedRun& run);
+
+}  // namespace plumbline::scenarios::score

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "bim/model/building.h"
+#include "sim/route/multi_storey_planner.h"
+
+namespace plumbline::scenarios {
+
+/// Start points are written with four decimals, 0.1 mm, so that a resolved file reads well.
+[[nodiscard]] Eigen::Vector2d rounded(const Eigen::Vector2d& p);
+
+/// The freest places of the rooms of a building, each looked for once.
+class RoomPlaces {
+ public:
+  /// Both must outlive it.
+  RoomPlaces(const bim::Building& as_built, const sim::MultiStoreyPlanner& space);
+
+  /// Of the room with this index, if the robot can turn round in it.
+  [[nodiscard]] const std::optional<sim::FloorPoint>& of(int room) const;
+
+  /// A start for who names none: of the pieces of floor of a storey, each as large as the rooms that it joins, the
+  /// largest, and there the largest room that the robot can turn round in (ties: the lower index); -1 where there is
+  /// none. `rooms` of the storey are joined by that piece.
+  struct Start {
+    int room = -1;
+    int rooms = 0;
+  };
+  [[nodiscard]] Start start_on(int storey) const;
+  /// The lowest storey on which one can walk from one room to another; where there is none, the lowest with a room for
+  /// the robot; -1 without.
+  [[nodiscard]] int start_storey() const;
+
+ private:
+  const bim::Building& building_;
+  const sim::MultiStoreyPlanner& space_;
+  mutable std::vector<std::optional<std::optional<sim::FloorPoint>>> places_;
+};
+
+}  // namespace plumbline::scenarios

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenarios/spec/walk_coverage.h"
+
+#include <gtest/gtest.h>
+
+#include "scenarios/spec/room_places.h"
+#include "tests/input_error.h"
+#include "tests/sim/route/floor_plan.h"
+
+namespace plumbline::scenarios {
+namespace {
+
+/// A row of rooms of 4 x 5 m with a door of 0.9 m in each wall between two; walls first, west to east.
+bim::Building row_of_rooms(int count) {
+  bim::Building building = sim::empty_storey();
+  for (int i = 1; i < count; ++i) sim::add_wall(building, {4.0 * i, 0.0}, {4.0 * i, 5.0});
+  const double end = 4.0 * count;
+  sim::add_wall(building, {0, 0}, {end, 0});
+  sim::add_wall(building, {end, 0}, {end, 5});
+  sim::add_wall(building, {end, 5}, {0, 5});
+  sim::add_wall(building, {0, 5}, {0, 0});
+  for (int i = 0; i < count; ++i)
+    sim::add_room(building, "r" + std::to_string(i), sim::rectangle({4.0 * i + 0.1, 0.1}, {4.0 * i + 3.9, 4.9}));
+  for (int i = 1; i < count; ++i) sim::add_door(building, i - 1, 2.5, 0.9);
+  bim::Slab slab;
+  slab.id = "slab";
+  slab.storey = 0;
+  slab.polygon.outer = sim::rectangle({-0.1, -0.1}, {end + 0.1, 5.1});
+  building.slabs.push_back(slab);
+  return building;
+}
+
+WalkCoverage coverage_of(const bim::Building& building, std::optional<double> longest_m = std::nullopt) {
+  const sim::MultiStoreyPlanner space(building);
+  return walk_coverage(space, plan_route(space, {}, {}, {}, longest_m));
+}
+
+TEST(WalkCoverage, AWalkThroughAllRoomsHasNothingToSay) {
+  const WalkCoverage walk = coverage_of(row_of_rooms(4));
+  EXPECT_EQ(walk.rooms, 4);
+  EXPECT_EQ(walk.in_reach, 4);
+  EXPECT_EQ(walk.on_route, 4);
+  EXPECT_TRUE(walk.out_of_reach.empty());
+  EXPECT_TRUE(walk.left_out.empty());
+  EXPECT_TRUE(walk_warnings(walk).empty());
+}
+
+TEST(WalkCoverage, RoomsBehindADoorSayWhichAndTheLargerPieceIsWalked) {
+  bim::Building building = row_of_rooms(7);
+  building.openings[1].width_m = 0.5;  // two rooms on this side, five beyond
+  const WalkCoverage walk = coverage_of(building);
+  EXPECT_EQ(walk.in_reach, 5);
+  ASSERT_EQ(walk.out_of_reach.size(), 2U);
+  for (const RoomOutOfReach& room : walk.out_of_reach) {
+    EXPECT_EQ(room.why.rfind("door 'd1' leaves 0.5", 0), 0U) << room.why;
+    ASSERT_EQ(room.blockages.size(), 1U);
+  }
+  ASSERT_EQ(out_of_reach_lines(walk, 5).size(), 1U);
+  EXPECT_EQ(out_of_reach_lines(walk, 5).front().rfind("r0, r1: door 'd1'", 0), 0U);
+  EXPECT_TRUE(walk_warnings(walk).empty());
+}
+
+TEST(WalkCoverage, FewRoomsInReachAreAWarningThatNamesWhatWouldHelp) {
+  bim::Building building = row_of_rooms(7);
+  for (const std::size_t door : {0U, 2U, 4U}) building.openings[door].leaf = bim::Leaf::closed;
+  building.openings[5].leaf = bim::Leaf::closed;
+  const std::vector<std::string> warnings = walk_warnings(coverage_of(building));
+  ASSERT_FALSE(warnings.empty());
+  EXPECT_EQ(warnings.front().rfind("the start reaches only 2 of the 7 rooms on ground: door '", 0), 0U)
+      << warnings.front();
+  EXPECT_NE(warnings.front().find("`doors: open`"), std::string::npos);
+}
+
+TEST(WalkCoverage, ARoomTooSmallToTurnInSaysHowMuchItNeeds) {
+  bim::Building building = row_of_rooms(3);
+  sim::add_obstacle(building, sim::rectangle({8.9, 0.1}, {11.9, 4.9}), 0.0, 1.0);
+  const WalkCoverage walk = coverage_of(building);
+  ASSERT_EQ(walk.out_of_reach.size(), 1U);
+  EXPECT_NE(walk.out_of_reach.front().why.find("it needs 1.1 m"), std::string::npos) << walk.out_of_reach.front().why;
+}
+
+TEST(WalkCoverage, ARoomWithoutAFloorSaysSo) {
+  bim::Building building = row_of_rooms(3);
+  building.slabs.front().polygon.outer = sim::rectangle({-0.1, -0.1}, {8.0, 5.1});
+  const WalkCoverage walk = coverage_of(building);
+  ASSERT_EQ(walk.out_of_reach.size(), 1U);
+  EXPECT_EQ(walk.out_of_reach.front().why.rfind("there is no floor in it", 0), 0U) << walk.out_of_reach.front().why;
+}
+
+TEST(WalkCoverage, AWalkThatMayNotBeLongGoesFarAndSaysWhatItLeavesOut) {
+  const bim::Building building = row_of_rooms(20);
+  const WalkCoverage walk = coverage_of(building, 60.0);
+  EXPECT_LE(walk.planned_m, 60.0);
+  EXPECT_GT(walk.planned_m, 45.0);
+  EXPECT_EQ(walk.in_reach, 20);
+  EXPECT_GE(walk.on_route, 6);
+  EXPECT_EQ(walk.left_out.size(), static_cast<std::size_t>(walk.in_reach - walk.on_route));
+}
+
+TEST(WalkCoverage, NowhereToWalkIsRefusedWithWhatStopsTheRobot) {
+  bim::Building building = row_of_rooms(2);
+  building.openings.front().width_m = 0.5;
+  for (const double x : {0.1, 4.1})  // room to turn, and no more
+    for (const double y : {0.1, 3.1}) sim::add_obstacle(building, sim::rectangle({x, y}, {x + 3.8, y + 1.8}), 0.0, 1.0);
+  for (const double x : {0.1, 5.3}) sim::add_obstacle(building, sim::rectangle({x, 1.9}, {x + 2.6, 3.1}), 0.0, 1.0);
+  const std::string text = input_error([&] { (void)coverage_of(building); });
+  EXPECT_NE(text.find("there is nowhere to walk to from ["), std::string::npos) << text;
+  EXPECT_NE(text.find("door 'd0' leaves 0.5"), std::string::npos) << text;
+}
+
+TEST(RoomPlaces, ABasementOfOneRoomIsNoStartWhereAStoreyAboveHasMore) {
+  bim::Building building = row_of_rooms(3);
+  building.storeys.push_back({"cellar", "cellar", -3.0, 3.0, 0});
+  sim::add_room(building, "cellar", sim::rectangle({0.1, 0.1}, {3.9, 4.9}));
+  building.rooms.back().storey = 1;
+  bim::Slab slab = building.slabs.front();
+  slab.storey = 1;
+  slab.z0_m = -3.2;
+  slab.z1_m = -3.0;
+  building.slabs.push_back(slab);
+  const sim::MultiStoreyPlanner space(building);
+  EXPECT_EQ(RoomPlaces(building, space).start_storey(), 0);
+  EXPECT_EQ(RoomPlaces(building, space).start_on(1).rooms, 1);
+  bim::Building alone = building;
+  for (bim::Opening& door : alone.openings) door.leaf = bim::Leaf::closed;
+  const sim::MultiStoreyPlanner shut(alone);
+  EXPECT_EQ(RoomPlaces(alone, shut).start_storey(), 1);
+}
+
+}  // namespace
+}  // namespace plumbline::scenarios
