@@ -140,6 +140,17 @@ class StartSampler {
       from = rooms_[at].middle_W;
       ids.push_back(rooms_[at].id);
     }
+    // Where few of many rooms can be reached, so many draws need not have found enough.
+    std::vector<std::size_t> in_reach;
+    for (std::size_t i = 0; i < rooms_.size(); ++i)
+      if (reaches(start, rooms_[i])) in_reach.push_back(i);
+    for (std::uint64_t i = most_tries; ids.size() < static_cast<std::size_t>(count) && !in_reach.empty(); ++i) {
+      if (in_reach.size() == 1 && in_reach.front() == at) break;
+      const std::size_t next = in_reach[one_of(in_reach.size(), i, route_lane)];
+      if (next == at) continue;
+      at = next;
+      ids.push_back(rooms_[at].id);
+    }
     if (ids.empty()) throw InputError(mark, "no room to draw can be reached from the start");
     return ids;
   }
@@ -163,7 +174,8 @@ class StartSampler {
   }
 
   [[nodiscard]] bool reaches(const Eigen::Vector2d& from, const OpenRoom& room) const {
-    return !space_.storey(storey_).path(from, room.middle_W).empty();
+    const int here = space_.storey(storey_).region(from);
+    return here >= 0 && here == space_.storey(storey_).region(room.middle_W);
   }
 
   /// The room the start stands in: where its places come nearest (ties: the first).

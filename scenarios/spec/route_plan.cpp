@@ -52,7 +52,7 @@ class Planner {
 
   /// Room indices in the order of the walk and the waypoints through them.
   void walk(const Route& route, RoutePlan& plan) const {
-    plan.waypoints = sim::on_floor({plan.start_W}, elevation(storey_));
+    plan.waypoints = sim::on_floor({plan.start_W}, elevation(storey_) + space_.storey(storey_).height(plan.start_W));
     FloorPoint at{storey_, plan.start_W};
     if (route.shuttle) return shuttle(route, at, plan);
     const bool all = route.rooms.size() == 1 && route.rooms.front() == all_rooms;
@@ -118,7 +118,7 @@ class Planner {
     const Path round = box.isEmpty() ? Path{}
                                      : sim::with_clearance(space_.storey(storey_),
                                                            exploration_route(space_.storey(storey_), box, plan.start_W),
-                                                           elevation(storey_));
+                                                           plan.waypoints.front().p_W.z());
     if (sim::length(round) < walk_min_m)
       throw InputError(marks_.route,
                        "there is nowhere to walk to from " + point_text(plan.start_W) + what_stops(plan.start_W));
@@ -272,9 +272,16 @@ class Planner {
       rooms.push_back(other);
     }
     const auto ways = sim::neighbour_ways(space_.storey(start.storey), places);
-    for (const std::size_t next : tour(places.size(), ways, *all_longest_m_)) {
-      walk_to(room(rooms[next]).id, marks_.route, at, plan);
-      plan.rooms.push_back(room(rooms[next]).id);
+    // Ways from place to place are longer than the walk, which does not pass the middle of every room between.
+    for (const double longer : {1.6, 1.45, 1.3, 1.15, 1.0}) {
+      const RoutePlan before = plan;
+      at = start;
+      for (const std::size_t next : tour(places.size(), ways, longer * *all_longest_m_)) {
+        walk_to(room(rooms[next]).id, marks_.route, at, plan);
+        plan.rooms.push_back(room(rooms[next]).id);
+      }
+      if (longer <= 1.0 || sim::length(plan.waypoints) + sim::length(space_.path(at, start)) <= *all_longest_m_) return;
+      plan = before;
     }
   }
 

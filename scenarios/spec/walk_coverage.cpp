@@ -74,15 +74,20 @@ class Surveyor {
   }
 
  private:
+  /// Gaps in floors are closed, so that a little of it along its walls counts as floor in any case.
   [[nodiscard]] static bool has_floor(const sim::ClearanceMap& floor, const bim::Room& room) {
+    constexpr double least_share = 0.3;
     Eigen::AlignedBox2d box;
     for (const Eigen::Vector2d& p : room.polygon) box.extend(p);
     const double cell = floor.grid().cell;
+    double cells = 0.0, with_floor = 0.0;
     for (double y = box.min().y(); y <= box.max().y(); y += cell)
-      for (double x = box.min().x(); x <= box.max().x(); x += cell)
-        if (const auto at = floor.grid().find({x, y}); at && floor.has_floor(*at) && contains(room.polygon, {x, y}))
-          return true;
-    return false;
+      for (double x = box.min().x(); x <= box.max().x(); x += cell) {
+        if (!contains(room.polygon, {x, y})) continue;
+        ++cells;
+        if (const auto at = floor.grid().find({x, y}); at && floor.has_floor(*at)) ++with_floor;
+      }
+    return with_floor >= least_share * cells;
   }
 
   [[nodiscard]] const sim::Blockages& blockages() {

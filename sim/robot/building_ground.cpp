@@ -7,6 +7,7 @@
 #include "bim/errors.h"
 #include "bim/model/stair_flight.h"
 #include "sim/robot/ground.h"
+#include "sim/robot/raised_floor.h"
 #include "sim/robot/solid_boxes.h"
 
 namespace plumbline::sim {
@@ -196,6 +197,61 @@ std::vector<std::vector<Well>> grouped(const std::vector<Well>& wells, double re
   return groups;
 }
 
+/// Whether four corners make a rectangle.
+bool is_rectangle(const PolygonWithHoles2& polygon) {
+  const Polygon2& p = polygon.outer;
+  if (p.size() != 4 || !polygon.holes.empty()) return false;
+  return ((p[0] + p[2]) - (p[1] + p[3])).norm() < 1e-3 && std::abs((p[2] - p[0]).norm() - (p[3] - p[1]).norm()) < 1e-3;
+}
+
+/// Runs of cells along x inside a polygon; rows with the same runs are one box.
+void add_rows(const PolygonWithHoles2& polygon, const HeightRange& z, double cell_m, std::vector<CollisionBox>& out) {
+  Eigen::AlignedBox2d box;
+  for (const Eigen::Vector2d& p : polygon.outer) box.extend(p);
+  const Eigen::Vector2i count = (box.sizes() / cell_m).array().ceil().cast<int>();
+  const Eigen::Vector2d cell = box.sizes().cwiseQuotient(count.cast<double>());
+  using Runs = std::vector<std::pair<int, int>>;
+  const auto runs_of = [&](int row) {
+    Runs runs;
+    for (int i = 0; i < count.x(); ++i) {
+      const Eigen::Vector2d p = box.min() + Eigen::Vector2d((i + 0.5) * cell.x(), (row + 0.5) * cell.y());
+      const auto in = [&](const Polygon2& ring) { return contains(ring, p); };
+      if (!in(polygon.outer) || std::any_of(polygon.holes.begin(), polygon.holes.end(), in)) continue;
+      if (!runs.empty() && runs.back().second == i)
+        ++runs.back().second;
+      else
+        runs.emplace_back(i, i + 1);
+    }
+    return runs;
+  };
+  Runs open;
+  int open_from = 0;
+  for (int row = 0; row <= count.y(); ++row) {
+    const Runs here = row < count.y() ? runs_of(row) : Runs{};
+    if (row < count.y() && here == open) continue;
+    for (const auto& [from, to] : open) {
+      const Eigen::Vector2d low = box.min() + Eigen::Vector2d(from * cell.x(), open_from * cell.y());
+      const Eigen::Vector2d high = box.min() + Eigen::Vector2d(to * cell.x(), row * cell.y());
+      out.push_back(upright_box(0.5 * (low + high), 0.0, 0.5 * (high - low), z));
+    }
+    open = here;
+    open_from = row;
+  }
+}
+
+/// Raised floors, each down to below the storey's own.
+void add_raised(const bim::Building& building, int storey, const BuildingGroundConfig& config,
+                std::vector<CollisionBox>& out) {
+  const double elevation = building.storeys[static_cast<std::size_t>(storey)].elevation_m;
+  for (const RaisedFloor& floor : raised_floors(building, storey)) {
+    const HeightRange z{elevation - config.floor_body_m, floor.z_W};
+    if (is_rectangle(floor.polygon))
+      out.push_back(bounding_box(floor.polygon.outer, z));
+    else
+      add_rows(floor.polygon, z, config.cell_m, out);
+  }
+}
+
 /// Low walls under passable doors.
 void add_sills(const bim::Building& building, double floor_z, const BuildingGroundConfig& config,
                std::vector<CollisionBox>& out) {
@@ -229,6 +285,7 @@ Ground building_ground(const bim::Building& as_built, const std::vector<int>& st
     for (std::vector<Well>& group : grouped(wells, well_config.boxes_to_m))
       FloorAround(std::move(group), level.z_m, config).add_to(surfaces, well_config.boxes_to_m);
     add_sills(as_built, level.z_m, config, surfaces);
+    add_raised(as_built, storey, config, surfaces);
     levels.push_back(std::move(level));
   }
   if (levels.empty()) throw InputError({}, "a robot needs a storey to stand on");

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "sim/robot/raised_floor.h"
 #include "sim/robot/solid_boxes.h"
 
 namespace plumbline::sim {
@@ -14,14 +15,18 @@ namespace {
 /// Heights a robot on the storeys can touch, in W, ascending and apart.
 std::vector<HeightRange> touchable(const bim::Building& building, const std::vector<int>& storeys,
                                    const CollisionConfig& config) {
-  std::vector<double> floors;
-  for (const int storey : storeys) floors.push_back(building.storeys.at(static_cast<std::size_t>(storey)).elevation_m);
+  std::vector<std::pair<double, double>> floors;  // of the storey, and its highest
+  for (const int storey : storeys) {
+    const double elevation = building.storeys.at(static_cast<std::size_t>(storey)).elevation_m;
+    const std::vector<RaisedFloor> raised = raised_floors(building, storey);
+    floors.emplace_back(elevation, raised.empty() ? elevation : raised.back().z_W);
+  }
   std::sort(floors.begin(), floors.end());
   std::vector<HeightRange> out;
-  for (const double floor : floors) {
-    const HeightRange range{floor + config.floor_gap_m, floor + config.reach_m};
+  for (const auto& [floor, highest] : floors) {
+    const HeightRange range{floor + config.floor_gap_m, highest + config.reach_m};
     if (!out.empty() && overlap(range, out.back()))
-      out.back().to = range.to;
+      out.back().to = std::max(out.back().to, range.to);
     else
       out.push_back(range);
   }
@@ -31,7 +36,8 @@ std::vector<HeightRange> touchable(const bim::Building& building, const std::vec
 /// The wall under an open door, low enough to be walked over from the floor of the range.
 bool is_sill(const HeightRange& z, const std::vector<const bim::Opening*>& openings, double s, const HeightRange& reach,
              const CollisionConfig& config) {
-  if (z.to > reach.from - config.floor_gap_m + config.sill_max_m) return false;
+  // Of a door to a raised floor too, since the range reaches from the storey's floor to above the highest.
+  if (z.to > std::max(reach.from - config.floor_gap_m + config.sill_max_m, reach.to - config.reach_m)) return false;
   return std::any_of(openings.begin(), openings.end(), [&](const bim::Opening* o) {
     return o->kind != bim::OpeningKind::window && o->z0_m == z.to && std::abs(s - o->s_m) < 0.5 * o->width_m;
   });

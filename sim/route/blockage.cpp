@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <set>
+#include <utility>
 
 #include "bim/config/tree.h"
 #include "sim/route/clearance_map.h"
@@ -20,8 +22,8 @@ constexpr std::int64_t free_cost = 1;
 constexpr std::int64_t narrow_cost = 30;      // and so much more where nothing is clear
 constexpr std::int64_t opening_cost = 300;    // a door that is closed, a window
 constexpr std::int64_t furniture_cost = 500;  // and columns, stairs, slabs
-constexpr std::int64_t no_floor_cost = 800;
-constexpr std::int64_t wall_cost = 1500;
+constexpr std::int64_t no_floor_cost = 100;
+constexpr std::int64_t wall_cost = 20000;  // metres of missing floor are cleared before a wall is
 
 std::string metres(double x) { return format_number(std::round(x * 1e2) / 1e2) + " m"; }
 
@@ -35,7 +37,7 @@ std::string_view kind_of(const bim::Opening& opening) {
 }
 
 BlockageKind kind_of(const std::string& name) {
-  for (const char* built : {"wall", "slab", "column", "stair", "door", "window", "opening", "the edge"})
+  for (const char* built : {"wall", "slab", "column", "stair", "door", "window", "opening", "step", "the edge"})
     if (name.rfind(built, 0) == 0) return BlockageKind::structure;
   return BlockageKind::furniture;
 }
@@ -62,6 +64,7 @@ struct Blockages::Impl {
     for (std::size_t i = 0; i < footprints.size(); ++i)
       for (const std::vector<Segment2>& section : footprints[i].sections)
         fill_cells(space.grid(), section, [&](std::size_t cell) { mark_solid(cell, i); });
+    for (std::size_t i = 0; i < building.walls.size(); ++i) mark_wall(i);
     for (std::size_t i = 0; i < building.openings.size(); ++i) mark_opening(i);
     search(start_W);
   }
@@ -74,6 +77,29 @@ struct Blockages::Impl {
     solid[cell] = static_cast<std::int32_t>(footprint);
   }
 
+  /// A wall whose surface does not close is solid all the same.
+  void mark_wall(std::size_t index) {
+    const bim::Wall& wall = building.walls[index];
+    const std::string name = "wall '" + wall.id + "'";
+    const auto own = std::find_if(footprints.begin(), footprints.end(),
+                                  [&](const ObstacleFootprint& footprint) { return footprint.name == name; });
+    if (own == footprints.end()) return;
+    const Eigen::Vector2d low = wall.offset_m * wall.left(), high = (wall.offset_m + wall.thickness_m) * wall.left();
+    fill_cells(space.grid(), outline({wall.a + low, wall.b + low, wall.b + high, wall.a + high}),
+               [&](std::size_t cell) { mark_solid(cell, static_cast<std::size_t>(own - footprints.begin())); });
+  }
+
+  [[nodiscard]] static std::vector<Segment2> outline(const Polygon2& corners) {
+    std::vector<Segment2> segments;
+    for (std::size_t i = 0; i < corners.size(); ++i)
+      segments.push_back({corners[i], corners[(i + 1) % corners.size()]});
+    return segments;
+  }
+
+  [[nodiscard]] bool in_wall(std::size_t cell) const {
+    return solid[cell] >= 0 && footprints[static_cast<std::size_t>(solid[cell])].name.rfind("wall", 0) == 0;
+  }
+
   /// Also what lies a little before its wall, where nothing else is.
   void mark_opening(std::size_t index) {
     const bim::Opening& o = building.openings[index];
@@ -84,20 +110,17 @@ struct Blockages::Impl {
     const Eigen::Vector2d low = (wall.offset_m - reach) * left;
     const Eigen::Vector2d high = (wall.offset_m + wall.thickness_m + reach) * left;
     const Eigen::Vector2d from = wall.a + (o.s_m - along) * e, to = wall.a + (o.s_m + along) * e;
-    const std::vector<Eigen::Vector2d> corners = {from + low, to + low, to + high, from + high};
-    std::vector<Segment2> outline;
-    for (std::size_t i = 0; i < 4; ++i) outline.push_back({corners[i], corners[(i + 1) % 4]});
-    fill_cells(space.grid(), outline, [&](std::size_t cell) { opening[cell] = static_cast<std::int32_t>(index); });
+    fill_cells(space.grid(), outline({from + low, to + low, to + high, from + high}),
+               [&](std::size_t cell) { opening[cell] = static_cast<std::int32_t>(index); });
   }
 
   [[nodiscard]] std::int64_t cost_of(std::size_t cell) const {
     if (space.passable(cell)) return free_cost;
     const double clearance = space.cell_clearance(cell);
+    if (opening[cell] >= 0 && !(clearance > 0.0)) return opening_cost;
+    if (opening[cell] < 0 && in_wall(cell)) return wall_cost;
     if (clearance > 0.0)
       return narrow_cost + static_cast<std::int64_t>(narrow_cost * (1.0 - clearance / space.config().radius_m));
-    if (opening[cell] >= 0) return opening_cost;
-    if (solid[cell] >= 0 && footprints[static_cast<std::size_t>(solid[cell])].name.rfind("wall", 0) == 0)
-      return wall_cost;
     if (!space.has_floor(cell)) return no_floor_cost;
     return furniture_cost;
   }
@@ -130,29 +153,82 @@ struct Blockages::Impl {
     std::vector<std::vector<std::size_t>> found;
     bool inside = false;
     for (std::size_t cell = goal;; cell = before[cell]) {
-      const bool blocked = !space.passable(cell);
+      const bool blocked = !space.passable(cell) || (before[cell] != cell && !space.joined(cell, before[cell]));
       if (blocked && !inside) found.emplace_back();
       if (blocked) found.back().push_back(cell);
       inside = blocked;
       if (before[cell] == cell) break;
     }
     std::reverse(found.begin(), found.end());
+    for (std::vector<std::size_t>& stretch : found) std::reverse(stretch.begin(), stretch.end());
     return found;
   }
 
-  [[nodiscard]] Blockage describe(const std::vector<std::size_t>& stretch) const {
+  /// The highest step of a stretch, where nothing but the floor is in the way.
+  [[nodiscard]] std::optional<Blockage> too_high(const std::vector<std::size_t>& stretch) const {
+    double highest = 0.0;
+    std::size_t at = stretch.front();
+    for (const std::size_t cell : stretch) {
+      if (!(space.cell_clearance(cell) > 0.0) || (opening[cell] < 0 && in_wall(cell))) return std::nullopt;
+      const double rise = std::abs(space.cell_height(cell) - space.cell_height(before[cell]));
+      if (!space.is_step(cell, before[cell]) || rise <= highest) continue;
+      highest = rise;
+      at = cell;
+    }
+    if (!(highest > 0.0)) return std::nullopt;
+    const Eigen::Vector2d p = space.grid().center(at);
+    const std::string step = "a step of " + metres(highest) + " near " + place(p);
+    if (highest > space.config().climb_m + 1e-3)
+      return Blockage{BlockageKind::structure, "step",
+                      step + " is higher than the " + metres(space.config().climb_m) + " that the robot climbs", p};
+    return Blockage{
+        BlockageKind::structure, "step",
+        step + " has less than " + metres(space.config().step_before_min_m) + " of free floor before or behind it", p};
+  }
+
+  /// Everything in a stretch of the way that has to be cleared, each thing once.
+  [[nodiscard]] std::vector<Blockage> describe(const std::vector<std::size_t>& stretch) const {
+    std::vector<Blockage> found;
+    std::set<std::pair<int, std::int32_t>> named;
+    std::size_t floorless = 0;
+    for (std::size_t i = 0; i <= stretch.size(); ++i) {
+      const bool edge = i < stretch.size() && !is_obstructed(stretch[i]) && !space.has_floor(stretch[i]);
+      if (!edge && floorless >= least_gap) found.push_back(end_of_floor(stretch[i - 1 - floorless / 2]));
+      floorless = edge ? floorless + 1 : 0;
+      if (i == stretch.size() || edge || !is_obstructed(stretch[i])) continue;
+      const std::size_t cell = stretch[i];
+      if (!named.emplace(opening[cell] >= 0 ? 0 : 1, opening[cell] >= 0 ? opening[cell] : solid[cell]).second) continue;
+      if (opening[cell] < 0)
+        found.push_back(solid_or_edge(cell));
+      else
+        found.push_back(is_shut(cell) ? in_opening(cell) : narrow_opening(cell));
+    }
+    if (!found.empty()) return found;
+    if (std::optional<Blockage> step = too_high(stretch)) return {*step};
     const auto narrowest = std::min_element(stretch.begin(), stretch.end(), [&](std::size_t a, std::size_t b) {
       return space.cell_clearance(a) < space.cell_clearance(b);
     });
-    const auto doorway =
-        std::find_if(stretch.begin(), stretch.end(), [&](std::size_t cell) { return opening[cell] >= 0; });
-    const auto shut = std::find_if(stretch.begin(), stretch.end(), [&](std::size_t cell) {
-      return opening[cell] >= 0 && !(space.cell_clearance(cell) > 0.0);
-    });
-    if (shut != stretch.end()) return in_opening(*shut);
-    if (space.cell_clearance(*narrowest) > 0.0)
-      return doorway != stretch.end() && opening[*narrowest] >= 0 ? narrow_opening(*narrowest) : gap(*narrowest);
-    return solid_or_edge(*worst(stretch));
+    if (!(space.cell_clearance(*narrowest) > 0.0)) return {solid_or_edge(*worst(stretch))};
+    return {opening[*narrowest] >= 0 ? narrow_opening(*narrowest) : gap(*narrowest)};
+  }
+
+  /// In an opening that is no way for the robot, or in a wall or another solid thing.
+  [[nodiscard]] bool is_obstructed(std::size_t cell) const {
+    if (opening[cell] < 0) return solid[cell] >= 0 && (in_wall(cell) || !(space.cell_clearance(cell) > 0.0));
+    const bim::Opening& o = building.openings[static_cast<std::size_t>(opening[cell])];
+    return is_shut(cell) || o.width_m < 2.0 * space.config().radius_m;
+  }
+
+  [[nodiscard]] bool is_shut(std::size_t cell) const {
+    if (space.cell_clearance(cell) > 0.0) return false;
+    const bim::Opening& o = building.openings[static_cast<std::size_t>(opening[cell])];
+    return o.kind == bim::OpeningKind::window || solid[cell] >= 0 ||
+           (o.kind == bim::OpeningKind::door && o.leaf == bim::Leaf::closed);
+  }
+
+  [[nodiscard]] Blockage end_of_floor(std::size_t cell) const {
+    const Eigen::Vector2d p = space.grid().center(cell);
+    return {BlockageKind::structure, "", "there is no floor near " + place(p), p};
   }
 
   [[nodiscard]] std::vector<std::size_t>::const_iterator worst(const std::vector<std::size_t>& stretch) const {
@@ -194,14 +270,12 @@ struct Blockages::Impl {
     const bim::Opening& o = building.openings[static_cast<std::size_t>(opening[cell])];
     const std::string name = std::string(kind_of(o)) + " '" + o.id + "'";
     const Eigen::Vector2d p = space.grid().center(cell);
-    std::string text = name + " leaves " + free_and_needed(cell);
-    BlockageKind kind = BlockageKind::structure;
-    if (o.width_m >= 2.0 * space.config().radius_m) {
-      const std::string near = nearest(p, 1).front();
-      text += " (" + near + " is in it)";
-      kind = kind_of(near);
-    }
-    return {kind, name, text, p};
+    const double needed = 2.0 * space.config().radius_m;
+    if (o.width_m < needed)
+      return {BlockageKind::structure, name,
+              name + " is " + metres(o.width_m) + " wide, and the robot needs " + metres(needed), p};
+    const std::string near = nearest(p, 1).front();
+    return {kind_of(near), name, name + " leaves " + free_and_needed(cell) + " (" + near + " is in it)", p};
   }
 
   /// Names of the nearest obstacles, by distance (ties: the one listed first).
@@ -232,12 +306,13 @@ struct Blockages::Impl {
       const bool is_wall = name.rfind("wall", 0) == 0;
       return {kind_of(name), name, name + (is_wall ? " has no door near " : " stands in the way near ") + place(p), p};
     }
-    if (!space.has_floor(cell)) return {BlockageKind::structure, "", "there is no floor near " + place(p), p};
+    if (!space.has_floor(cell)) return end_of_floor(cell);
     const std::string name = nearest(p, 1).front();
     return {kind_of(name), name, name + " stands in the way near " + place(p), p};
   }
 
-  static constexpr double high_sill_m = 1.2;  ///< what begins higher is no way for a robot by any name
+  static constexpr std::size_t least_gap = 4;  ///< cells without a floor in a row that count
+  static constexpr double high_sill_m = 1.2;   ///< what begins higher is no way for a robot by any name
 
   const bim::Building& building;
   int storey;
@@ -261,8 +336,9 @@ std::vector<Blockage> Blockages::before(const Eigen::Vector2d& goal_W) const {
   const auto goal = impl_->space.grid().find(goal_W);
   if (!goal || impl_->cost[*goal] == std::numeric_limits<std::int32_t>::max()) return found;
   for (const std::vector<std::size_t>& stretch : impl_->stretches(*goal)) {
-    Blockage blockage = impl_->describe(stretch);
-    if (found.empty() || found.back().text != blockage.text) found.push_back(std::move(blockage));
+    for (Blockage& blockage : impl_->describe(stretch))
+      if (std::none_of(found.begin(), found.end(), [&](const Blockage& other) { return other.text == blockage.text; }))
+        found.push_back(std::move(blockage));
   }
   return found;
 }

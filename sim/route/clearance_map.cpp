@@ -3,7 +3,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
+#include <set>
+#include <utility>
+
+#include "sim/robot/raised_floor.h"
 
 namespace plumbline::sim {
 
@@ -217,8 +222,8 @@ std::vector<char> floor_cells(const bim::Building& building, int storey, const G
 }
 
 std::vector<double> clearances(const GridFrame& grid, const std::vector<ObstacleFootprint>& footprints,
-                               const std::vector<char>& floor) {
-  std::vector<Segment2> edges;
+                               const std::vector<char>& floor, const std::vector<Segment2>& more_edges) {
+  std::vector<Segment2> edges = more_edges;
   for (const ObstacleFootprint& b : footprints) edges.insert(edges.end(), b.edges.begin(), b.edges.end());
   add_floor_border(grid, floor, edges);
   Nearest nearest(grid, edges);
@@ -235,6 +240,82 @@ std::vector<double> clearances(const GridFrame& grid, const std::vector<Obstacle
   }
   for (std::size_t i = 0; i < result.size(); ++i)
     if (floor[i] == 0) result[i] = 0.0;
+  return result;
+}
+
+std::vector<float> floor_heights(const bim::Building& building, int storey, const GridFrame& grid,
+                                 const RouteConfig& config, std::vector<char>& floor) {
+  const std::vector<RaisedFloor> raised = raised_floors(building, storey);
+  if (raised.empty()) return {};
+  const double elevation = building.storeys.at(static_cast<std::size_t>(storey)).elevation_m;
+  constexpr float unknown = -1.0F;
+  std::vector<float> heights(grid.size(), unknown);
+  for (std::size_t i = 0; i < floor.size(); ++i)
+    if (floor[i] != 0) heights[i] = 0.0F;
+  for (const RaisedFloor& piece : raised)
+    fill_cells(grid, outline_of(piece.polygon), [&](std::size_t cell) {
+      heights[cell] = static_cast<float>(std::round((piece.z_W - elevation) * 100.0) / 100.0);
+      floor[cell] = 1;
+    });
+  // Gaps under walls that the floor steps over are as high as the nearest floor: the first found, by rows and columns.
+  const int reach = static_cast<int>(config.floor_gap_m / grid.cell + 0.5);
+  std::vector<char> closed = spread(grid, spread(grid, floor, 1, reach), 0, reach);
+  for (std::size_t i = 0; i < floor.size(); ++i) {
+    if (floor[i] != 0 || closed[i] == 0) continue;
+    const auto [column, row] = grid.column_and_row(i);
+    for (int ring = 1; ring <= 2 * reach && heights[i] < 0.0F; ++ring)
+      for (const auto& [dx, dy] : {std::pair{-ring, 0}, {ring, 0}, {0, -ring}, {0, ring}})
+        if (heights[i] < 0.0F && grid.holds(column + dx, row + dy) && floor[grid.index(column + dx, row + dy)] != 0)
+          heights[i] = heights[grid.index(column + dx, row + dy)];
+    if (heights[i] < 0.0F) closed[i] = 0;
+  }
+  floor = std::move(closed);
+  return heights;
+}
+
+std::vector<double> clearances_over(const bim::Building& building, int storey, const GridFrame& grid,
+                                    const RouteConfig& config, const std::vector<char>& floor,
+                                    const std::vector<float>& heights) {
+  const double elevation = building.storeys.at(static_cast<std::size_t>(storey)).elevation_m;
+  bim::Building solid = building;  // a slab that is floor is no obstacle of the floor beside it
+  std::erase_if(solid.slabs, [&](const bim::Slab& slab) {
+    return slab.z1_m > elevation && slab.z1_m <= elevation + RaisedFloorConfig().highest_m;
+  });
+  // From below, a door to a raised floor begins where its threshold rises: that is a step, and no sill.
+  std::vector<std::size_t> doors_up;
+  for (std::size_t i = 0; i < solid.openings.size(); ++i) {
+    const bim::Opening& o = solid.openings[i];
+    if (o.wall < 0 || !(o.z0_m > elevation + config.sill_max_m)) continue;
+    const bim::Wall& wall = solid.walls[static_cast<std::size_t>(o.wall)];
+    const auto cell =
+        grid.find(wall.a + o.s_m * wall.direction() + (wall.offset_m + 0.5 * wall.thickness_m) * wall.left());
+    if (cell && floor[*cell] != 0 &&
+        std::abs(static_cast<double>(heights[*cell]) - (o.z0_m - elevation)) <= config.flat_m)
+      doors_up.push_back(i);
+  }
+  std::vector<Segment2> edges;
+  std::set<float> levels;
+  for (std::size_t i = 0; i < floor.size(); ++i) {
+    if (floor[i] == 0) continue;
+    levels.insert(heights[i]);
+    const auto [column, row] = grid.column_and_row(i);
+    for (const auto& [dx, dy] : {std::pair{1, 0}, {0, 1}}) {
+      if (!grid.holds(column + dx, row + dy)) continue;
+      const std::size_t next = grid.index(column + dx, row + dy);
+      if (floor[next] == 0 || std::abs(heights[i] - heights[next]) <= static_cast<float>(config.climb_m)) continue;
+      const Eigen::Vector2d middle = 0.5 * (grid.center(i) + grid.center(next));
+      edges.push_back({middle, middle});
+    }
+  }
+  std::vector<double> result(grid.size(), 0.0);
+  for (const float level : levels) {
+    for (const std::size_t i : doors_up)
+      solid.openings[i].z0_m = std::min(building.openings[i].z0_m, elevation + static_cast<double>(level));
+    const std::vector<double> at_level =
+        clearances(grid, find_obstacle_footprints(solid, elevation + static_cast<double>(level), config), floor, edges);
+    for (std::size_t i = 0; i < floor.size(); ++i)
+      if (floor[i] != 0 && heights[i] == level) result[i] = at_level[i];
+  }
   return result;
 }
 

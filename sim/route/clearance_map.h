@@ -22,10 +22,22 @@ void fill_cells(const GridFrame& grid, const std::vector<Segment2>& outline,
 [[nodiscard]] std::vector<char> floor_cells(const bim::Building& building, int storey, const GridFrame& grid,
                                             const RouteConfig& config);
 
+/// Height of the floor over the storey's elevation by cell, m, where raised floors are; empty where there are none.
+/// Cells of raised floors become floor.
+[[nodiscard]] std::vector<float> floor_heights(const bim::Building& building, int storey, const GridFrame& grid,
+                                               const RouteConfig& config, std::vector<char>& floor);
+
+/// The clearances of a storey with raised floors: of each cell for a robot at the height of its floor, where a step
+/// that is too high is an edge.
+[[nodiscard]] std::vector<double> clearances_over(const bim::Building& building, int storey, const GridFrame& grid,
+                                                  const RouteConfig& config, const std::vector<char>& floor,
+                                                  const std::vector<float>& heights);
+
 /// Distance of every cell's centre to the nearest edge of a blockage or border of the floor, m; 0 inside a blockage
 /// and off the floor. Distances are to the edges themselves, not to cells; which edge is nearest is handed on from
 /// cell to cell, so that a clearance is never too small, and too large by less than a tenth of a cell [danielsson1980].
 [[nodiscard]] std::vector<double> clearances(const GridFrame& grid, const std::vector<ObstacleFootprint>& footprints,
-                                             const std::vector<char>& floor);
+                                             const std::vector<char>& floor,
+                                             const std::vector<Segment2>& more_edges = {});
 
 }  // namespace plumbline::sim

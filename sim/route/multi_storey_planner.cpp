@@ -77,8 +77,19 @@ const std::vector<StairWay>& MultiStoreyPlanner::stairs() const {
 
 MultiStoreyPlanner::Path MultiStoreyPlanner::on_storey(const FloorPoint& a, const FloorPoint& b) const {
   const double z = building_.storeys.at(static_cast<std::size_t>(a.storey)).elevation_m;
-  if ((b.p_W - a.p_W).norm() < same_place_m) return {{{a.p_W.x(), a.p_W.y(), z}, false}};
-  return with_clearance(storey(a.storey), storey(a.storey).path(a.p_W, b.p_W), z, config_.narrow);
+  if ((b.p_W - a.p_W).norm() < same_place_m)
+    return {{{a.p_W.x(), a.p_W.y(), z + storey(a.storey).height(a.p_W)}, false}};
+  const ClearanceMap& space = storey(a.storey);
+  Path path;
+  for (const PathPart& part : space.parts(a.p_W, b.p_W)) {
+    if (!part.step) {
+      append(with_clearance(space, part.points, z + part.height_m, config_.narrow), path);
+      continue;
+    }
+    const Eigen::Vector2d &foot = part.points.front(), &head = part.points.back();
+    append({{{foot.x(), foot.y(), z + space.height(foot)}}, {{head.x(), head.y(), z + part.height_m}, true}}, path);
+  }
+  return path;
 }
 
 MultiStoreyPlanner::Path MultiStoreyPlanner::over_stair(const StairWay& way, bool up) const {

@@ -73,7 +73,7 @@ class Territories {
 
   void spread(std::size_t cell, BucketQueue& open) {
     each_neighbour(cell, [&](std::size_t next, std::int64_t step) {
-      if (!space_.passable(next)) return;
+      if (!space_.passable(next) || !space_.joined(cell, next)) return;
       const std::int64_t cost = cost_[cell] + step * space_.step_cost(next);
       if (cost >= cost_[next]) return;
       cost_[next] = static_cast<std::int32_t>(cost);

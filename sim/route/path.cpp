@@ -33,7 +33,7 @@ std::vector<std::size_t> ClearanceMap::cells_in_reach(std::size_t from, std::vec
       const int x = column + step.dx, y = row + step.dy;
       if (!grid_.holds(x, y)) continue;
       const std::size_t next = grid_.index(x, y);
-      if (seen[next] != 0 || !passable(next)) continue;
+      if (seen[next] != 0 || !passable(next) || !joined(cells[i], next)) continue;
       seen[next] = 1;
       cells.push_back(next);
     }
@@ -92,7 +92,9 @@ std::vector<std::size_t> ClearanceMap::search(std::size_t from, std::size_t to) 
       const int x = column + step.dx, y = row + step.dy;
       if (!grid_.holds(x, y) || !passable(grid_.index(x, y))) continue;
       const std::size_t next = grid_.index(x, y);
-      reach(next, cell, search_.cost[cell] + step.length * step_cost(next));
+      if (!joined(cell, next)) continue;
+      const std::int64_t detour = is_step(cell, next) ? std::llround(config_.step_detour_m / grid_.cell) : 0;
+      reach(next, cell, search_.cost[cell] + (step.length + straight_step * detour) * step_cost(next));
     }
   }
   std::vector<std::size_t> cells = {to};
@@ -134,15 +136,43 @@ std::vector<Eigen::Vector2d> ClearanceMap::shortened(const std::vector<Eigen::Ve
 }
 
 std::vector<Eigen::Vector2d> ClearanceMap::path(const Eigen::Vector2d& a, const Eigen::Vector2d& b) const {
+  std::vector<Eigen::Vector2d> points;
+  for (const PathPart& part : parts(a, b))
+    points.insert(points.end(), part.points.begin() + (points.empty() ? 0 : 1), part.points.end());
+  return points;
+}
+
+std::vector<PathPart> ClearanceMap::parts(const Eigen::Vector2d& a, const Eigen::Vector2d& b) const {
+  constexpr int most_steps = 40;
+  std::vector<PathPart> parts;
+  if (!add_parts(a, b, most_steps, parts)) parts.clear();
+  return parts;
+}
+
+/// Up to the first step, over it, and on from there.
+bool ClearanceMap::add_parts(const Eigen::Vector2d& a, const Eigen::Vector2d& b, int steps_left,
+                             std::vector<PathPart>& parts) const {
   const auto from = grid_.find(a);
   const auto to = grid_.find(b);
-  if (!from || !to || !passable(*from) || !passable(*to)) return {};
+  if (!from || !to || !passable(*from) || !passable(*to)) return false;
   const std::vector<std::size_t> cells = search(*from, *to);
-  if (cells.empty()) return {};
-  std::vector<Eigen::Vector2d> points = {a};
-  for (std::size_t i = 1; i + 1 < cells.size(); ++i) points.push_back(grid_.center(cells[i]));
-  points.push_back(b);
-  return shortened(points);
+  if (cells.empty()) return false;
+  std::size_t end = 1;
+  while (end < cells.size() && !is_step(cells[end - 1], cells[end])) ++end;
+  if (end >= cells.size()) {
+    std::vector<Eigen::Vector2d> points = {a};
+    for (std::size_t i = 1; i + 1 < cells.size(); ++i) points.push_back(grid_.center(cells[i]));
+    points.push_back(b);
+    parts.push_back({shortened(points), height(b), false});
+    return true;
+  }
+  const auto over = over_step(cells[end - 1], cells[end]);
+  if (!over || steps_left == 0) return false;
+  // To where the robot lines up, which need not lie on the path; no step leads there.
+  if ((over->first - a).norm() > grid_.cell && !add_parts(a, over->first, 0, parts)) return false;
+  const Eigen::Vector2d foot = parts.empty() ? a : parts.back().points.back();
+  parts.push_back({{foot, over->second}, height(over->second), true});
+  return add_parts(over->second, b, steps_left - 1, parts);
 }
 
 std::vector<Eigen::Vector2d> ClearanceMap::reachable(const Eigen::Vector2d& from,

@@ -48,7 +48,9 @@ ClearanceMap::ClearanceMap(const bim::Building& as_built, int storey, const Rout
   const double floor_z = as_built.storeys.at(static_cast<std::size_t>(storey)).elevation_m;
   grid_ = make_grid(as_built, storey, config.cell_m);
   floor_ = floor_cells(as_built, storey, grid_, config);
-  clearance_ = clearances(grid_, find_obstacle_footprints(as_built, floor_z, config), floor_);
+  heights_ = floor_heights(as_built, storey, grid_, config, floor_);
+  clearance_ = heights_.empty() ? clearances(grid_, find_obstacle_footprints(as_built, floor_z, config), floor_)
+                                : clearances_over(as_built, storey, grid_, config, floor_, heights_);
   close_pockets(hollow_obstacles(as_built, floor_z, config));
 }
 

@@ -4,7 +4,9 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "bim/geometry/grid_frame.h"
@@ -16,24 +18,37 @@ struct RouteConfig {
   double radius_m = 0.35;  ///< of the robot seen from above while it walks
   double turn_m = 0.55;    ///< the same while it turns round: 1.0 m long from nose to knees and 0.4 m wide
   double cell_m = 0.05;
-  double band_low_m = 0.05;        ///< what ends below this above the floor is stepped over
-  double band_high_m = 1.0;        ///< what begins above this is walked under
-  double sill_max_m = 0.05;        ///< openings with a higher sill are not passed
-  double head_min_m = 1.2;         ///< nor those with a lower head
-  double comfort_m = 0.8;          ///< more clearance than this is worth no detour
-  double shortcut_m = 0.6;         ///< straight lines pass walls nearer than this only where the path around did too
-  double crowding = 3.0;           ///< a metre at `radius` clearance counts as 1 + this many at `comfort`
-  double floor_below_m = 0.35;     ///< a slab's top this far below the storey (floor covering) still carries it
-  double furniture_max_m2 = 10.0;  ///< no piece of furniture is larger, seen from above
-  double weld_m = 1e-5;            ///< vertices this close are joined for the test whether a solid is closed
-  double overhead_low_m = 1.8;     ///< what lies between this
-  double overhead_high_m = 12.0;   ///< and this above the floor is a ceiling or a roof
-  double inside_min_m2 = 10.0;     ///< less covered floor than this is no inside
-  double floor_gap_m = 0.3;        ///< gaps in the floor up to twice this (between slabs, under walls) are stepped over
+  double band_low_m = 0.05;         ///< what ends below this above the floor is stepped over
+  double band_high_m = 1.0;         ///< what begins above this is walked under
+  double climb_m = 0.20;            ///< highest step between two floors
+  double flat_m = 0.05;             ///< no higher than this is no step
+  double step_before_m = 0.7;       ///< preferred between a step and where the robot lines up with it,
+  double step_before_min_m = 0.45;  ///< and the least
+  double step_detour_m = 2.0;       ///< a step counts as so much more way
+  double sill_max_m = 0.05;         ///< openings with a higher sill are not passed
+  double head_min_m = 1.2;          ///< nor those with a lower head
+  double comfort_m = 0.8;           ///< more clearance than this is worth no detour
+  double shortcut_m = 0.6;          ///< straight lines pass walls nearer than this only where the path around did too
+  double crowding = 3.0;            ///< a metre at `radius` clearance counts as 1 + this many at `comfort`
+  double floor_below_m = 0.35;      ///< a slab's top this far below the storey (floor covering) still carries it
+  double furniture_max_m2 = 10.0;   ///< no piece of furniture is larger, seen from above
+  double weld_m = 1e-5;             ///< vertices this close are joined for the test whether a solid is closed
+  double overhead_low_m = 1.8;      ///< what lies between this
+  double overhead_high_m = 12.0;    ///< and this above the floor is a ceiling or a roof
+  double inside_min_m2 = 10.0;      ///< less covered floor than this is no inside
+  double floor_gap_m = 0.3;  ///< gaps in the floor up to twice this (between slabs, under walls) are stepped over
+};
+
+/// A part of a path: over the floor, or straight up or down one step.
+struct PathPart {
+  std::vector<Eigen::Vector2d> points;
+  double height_m = 0.0;  ///< of the floor at its end, over the storey's elevation
+  bool step = false;
 };
 
 /// Where a robot's centre can be on one storey of the as-built building. Walls stand where they are not opened by a
-/// passable door or void; columns, obstacles and edges of the floor count as walls. Not for several threads at once.
+/// passable door or void; columns, obstacles and edges of the floor count as walls, and so do steps to raised floors
+/// that are too high to climb or have no room before and behind them. Not for several threads at once.
 class ClearanceMap {
  public:
   /// Throws InputError when the storey is too large for a grid of this cell size (2^24 cells).
@@ -46,6 +61,17 @@ class ClearanceMap {
   /// Short path from a to b that keeps the radius clear and to the middle of narrow passages, as few waypoints as that
   /// allows, a and b included; empty when b cannot be reached from a.
   [[nodiscard]] std::vector<Eigen::Vector2d> path(const Eigen::Vector2d& a, const Eigen::Vector2d& b) const;
+  /// The same in parts, so that the robot can line up with each step.
+  [[nodiscard]] std::vector<PathPart> parts(const Eigen::Vector2d& a, const Eigen::Vector2d& b) const;
+  /// Height of the floor over the storey's elevation, m; 0 off the grid.
+  [[nodiscard]] double height(const Eigen::Vector2d& p) const;
+  [[nodiscard]] double cell_height(std::size_t cell) const {
+    return heights_.empty() ? 0.0 : static_cast<double>(heights_[cell]);
+  }
+  /// Whether the floors of two neighbouring cells differ in height by a step.
+  [[nodiscard]] bool is_step(std::size_t cell, std::size_t next) const;
+  /// Whether the robot gets from a passable cell to a passable neighbour.
+  [[nodiscard]] bool joined(std::size_t cell, std::size_t next) const;
   /// Those of the points that a path reaches.
   [[nodiscard]] std::vector<Eigen::Vector2d> reachable(const Eigen::Vector2d& from,
                                                        const std::vector<Eigen::Vector2d>& points) const;
@@ -83,6 +109,11 @@ class ClearanceMap {
   [[nodiscard]] std::vector<std::size_t> search(std::size_t from, std::size_t to) const;
   [[nodiscard]] bool clear_line(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double clearance_m) const;
   [[nodiscard]] std::vector<Eigen::Vector2d> shortened(const std::vector<Eigen::Vector2d>& points) const;
+  /// Where the robot stands before and behind the step between two cells, where there is room for it.
+  [[nodiscard]] std::optional<std::pair<Eigen::Vector2d, Eigen::Vector2d>> over_step(std::size_t cell,
+                                                                                     std::size_t next) const;
+  [[nodiscard]] bool add_parts(const Eigen::Vector2d& a, const Eigen::Vector2d& b, int steps_left,
+                               std::vector<PathPart>& parts) const;
 
   /// What a search writes; its vectors are as before after each.
   struct Search {
@@ -94,8 +125,10 @@ class ClearanceMap {
 
   RouteConfig config_;
   GridFrame grid_;
-  std::vector<double> clearance_;  ///< by cell, at its centre
-  std::vector<char> floor_;        ///< by cell
+  std::vector<double> clearance_;                                       ///< by cell, at its centre
+  std::vector<char> floor_;                                             ///< by cell
+  std::vector<float> heights_;                                          ///< of the floor by cell; empty: all 0
+  mutable std::map<std::pair<std::size_t, std::size_t>, bool> joined_;  ///< by steps, lower cell first
   mutable std::vector<int> regions_;
   mutable Search search_;
 };

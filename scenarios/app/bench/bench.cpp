@@ -51,7 +51,10 @@ const std::vector<BenchPart>& bench_parts() {
       {"sim", "walking and scanning in 100 rooms, against real time, and the memory it takes", bench_sim},
       {"legs",
        "laps of 120 s on several floors and stairs up and down, with a seed each: falls, errors of speed and way",
-       bench_legs}};
+       bench_legs},
+      {"walks",
+       "default walks through hundreds of generated buildings with faults, and how planning grows with the floor",
+       bench_walks}};
   return parts;
 }
 

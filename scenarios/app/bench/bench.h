@@ -72,5 +72,8 @@ struct BenchPart {
 [[nodiscard]] std::vector<BenchRow> bench_sim(const BenchSetting& setting);
 /// Each walk has its own seed, 1 to setting.repetitions.
 [[nodiscard]] std::vector<BenchRow> bench_legs(const BenchSetting& setting);
+/// Default walks through generated buildings with faults, two hundred a repetition, against what their
+/// construction says; and how planning grows with the floor.
+[[nodiscard]] std::vector<BenchRow> bench_walks(const BenchSetting& setting);
 
 }  // namespace plumbline::scenarios

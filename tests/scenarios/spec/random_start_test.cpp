@@ -8,6 +8,8 @@
 #include <set>
 
 #include "bim/load/load.h"
+#include "scenarios/spec/start_check.h"
+#include "scenarios/spec/start_check.h"
 #include "tests/data.h"
 
 namespace plumbline::scenarios {

@@ -52,7 +52,7 @@ TEST(WalkCoverage, RoomsBehindADoorSayWhichAndTheLargerPieceIsWalked) {
   EXPECT_EQ(walk.in_reach, 5);
   ASSERT_EQ(walk.out_of_reach.size(), 2U);
   for (const RoomOutOfReach& room : walk.out_of_reach) {
-    EXPECT_EQ(room.why.rfind("door 'd1' leaves 0.5", 0), 0U) << room.why;
+    EXPECT_EQ(room.why.rfind("door 'd1' is 0.5 m wide", 0), 0U) << room.why;
     ASSERT_EQ(room.blockages.size(), 1U);
   }
   ASSERT_EQ(out_of_reach_lines(walk, 5).size(), 1U);
@@ -105,7 +105,7 @@ TEST(WalkCoverage, NowhereToWalkIsRefusedWithWhatStopsTheRobot) {
   for (const double x : {0.1, 5.3}) sim::add_obstacle(building, sim::rectangle({x, 1.9}, {x + 2.6, 3.1}), 0.0, 1.0);
   const std::string text = input_error([&] { (void)coverage_of(building); });
   EXPECT_NE(text.find("there is nowhere to walk to from ["), std::string::npos) << text;
-  EXPECT_NE(text.find("door 'd0' leaves 0.5"), std::string::npos) << text;
+  EXPECT_NE(text.find("door 'd0' is 0.5 m wide"), std::string::npos) << text;
 }
 
 TEST(RoomPlaces, ABasementOfOneRoomIsNoStartWhereAStoreyAboveHasMore) {

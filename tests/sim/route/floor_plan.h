@@ -100,4 +100,20 @@ inline bim::Building two_rooms(double elevation_m = 0.0) {
   return building;
 }
 
+/// The east room's floor so much above the west room's, with its door at the height of its floor.
+inline bim::Building split_level(double rise_m, double door_m = 1.0) {
+  bim::Building building = two_rooms();
+  add_door(building, 0, 2.5, door_m);
+  building.openings.front().z0_m = rise_m;
+  building.openings.front().z1_m = rise_m + 2.1;
+  building.slabs.front().polygon.outer = rectangle({-0.1, -0.1}, {4.0, 5.1});
+  bim::Slab raised = building.slabs.front();
+  raised.id = "raised";
+  raised.polygon.outer = rectangle({4.0, -0.1}, {8.1, 5.1});
+  raised.z1_m = rise_m;
+  building.slabs.push_back(raised);
+  building.rooms[1].z0_m = rise_m;
+  return building;
+}
+
 }  // namespace plumbline::sim

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenarios/report/walk_page.h"
+
+#include <gtest/gtest.h>
+
+#include "scenarios/report/walk_list.h"
+#include "tests/sim/route/floor_plan.h"
+
+namespace plumbline::scenarios {
+namespace {
+
+bim::PlannedAndBuilt site_with_door(double width_m) {
+  bim::Building building = sim::two_rooms();
+  sim::add_door(building, 0, 2.5, width_m);
+  return {building, building, {}, true};
+}
+
+TEST(WalkPage, ShowsTheFloorTheWalkAndNoReasonsWhereNothingStopsTheRobot) {
+  const std::string page = walk_page(site_with_door(0.9), "two <rooms>");
+  EXPECT_NE(page.find("Where the robot can walk: two &lt;rooms&gt;"), std::string::npos);
+  EXPECT_NE(page.find("through 2 of its 2 rooms"), std::string::npos);
+  EXPECT_NE(page.find("<polyline"), std::string::npos);
+  EXPECT_EQ(page.find("Out of reach:"), std::string::npos);
+  EXPECT_EQ(page, walk_page(site_with_door(0.9), "two <rooms>"));
+}
+
+TEST(WalkPage, NamesWhatStopsTheRobotAtItsPlace) {
+  const std::string page = walk_page(site_with_door(0.5), "two rooms");
+  EXPECT_NE(page.find("<b>west</b>: door 'd0' is 0.5 m wide"), std::string::npos) << page.substr(page.size() / 2);
+  EXPECT_NE(page.find("<circle"), std::string::npos);
+}
+
+TEST(WalkList, IsEmptyWithoutTheBlock) { EXPECT_EQ(list_walk(nullptr), ""); }
+
+TEST(WalkList, RoomsWithOneReasonStandTogether) {
+  const Tree walk = read_json(
+      R"({"storey": "ground", "planned_m": 12.5, "rooms": {"on_storey": 5, "in_reach": 2, "on_route": 1},
+          "out_of_reach": [{"room": "a", "name": "A", "why": "door 'd' is closed"},
+                           {"room": "b", "name": "B", "why": "wall 'w' has no door near [1, 2]"},
+                           {"room": "c", "name": "C", "why": "door 'd' is closed"}],
+          "left_out": ["E"], "warnings": ["the start reaches only 2 of the 5 rooms"]})",
+      "test");
+  const std::string html = list_walk(&walk);
+  EXPECT_NE(html.find("<b>A, C</b>: door"), std::string::npos) << html;
+  EXPECT_NE(html.find("<b>B</b>: wall"), std::string::npos) << html;
+  EXPECT_NE(html.find("not on the route: E."), std::string::npos) << html;
+  EXPECT_NE(html.find("reaches only 2 of the 5 rooms"), std::string::npos) << html;
+}
+
+}  // namespace
+}  // namespace plumbline::scenarios
