@@ -20,7 +20,7 @@ constexpr std::uint32_t heading_lane = 1;
 constexpr std::uint32_t route_lane = 2;
 constexpr std::uint32_t passage_lane = 3;
 
-double rounded(double x) { return std::round(x * coordinate_steps) / coordinate_steps; }
+double on_grid(double x) { return std::round(x * coordinate_steps) / coordinate_steps; }
 
 /// A room the robot can stand in, with its places.
 struct OpenRoom {
@@ -38,7 +38,7 @@ std::vector<Eigen::Vector2d> places_in(const bim::Building& building, const bim:
   std::vector<Eigen::Vector2d> places;
   for (double x = box.min().x() + 0.5 * cell_m; x < box.max().x(); x += cell_m)
     for (double y = box.min().y() + 0.5 * cell_m; y < box.max().y(); y += cell_m) {
-      const Eigen::Vector2d p(rounded(x), rounded(y));
+      const Eigen::Vector2d p(on_grid(x), on_grid(y));
       if (contains(polygon, p) && space.clearance(p) >= turn_m && !on_a_stair(building, room.storey, p))
         places.push_back(p);
     }
@@ -54,7 +54,7 @@ std::vector<Eigen::Vector2d> doorways_of(const bim::Building& building, int stor
     if (wall.storey != storey) continue;
     const Eigen::Vector2d p =
         wall.a + opening.s_m * wall.direction() + (wall.offset_m + 0.5 * wall.thickness_m) * wall.left();
-    const Eigen::Vector2d place(rounded(p.x()), rounded(p.y()));
+    const Eigen::Vector2d place(on_grid(p.x()), on_grid(p.y()));
     if (in_a_doorway(building, storey, place) && space.free(place)) places.push_back(place);
   }
   return places;
@@ -65,7 +65,7 @@ std::vector<Eigen::Vector2d> stair_ends_of(const bim::Building& building, int st
                                            const sim::MultiStoreyPlanner& space) {
   std::vector<Eigen::Vector2d> places;
   const auto add = [&](const Eigen::Vector3d& point) {
-    const Eigen::Vector2d p(rounded(point.x()), rounded(point.y()));
+    const Eigen::Vector2d p(on_grid(point.x()), on_grid(point.y()));
     const bool in_room = std::any_of(building.rooms.begin(), building.rooms.end(), [&](const bim::Room& room) {
       return room.storey == storey && contains(room.polygon, p);
     });
@@ -125,7 +125,7 @@ class StartSampler {
     throw InputError(mark, "no place to draw on this storey from which another room can be reached");
   }
 
-  [[nodiscard]] double heading_deg() const { return rounded(360.0 * stream_.uniform(0, heading_lane) - 180.0); }
+  [[nodiscard]] double heading_deg() const { return on_grid(360.0 * stream_.uniform(0, heading_lane) - 180.0); }
 
   [[nodiscard]] std::vector<std::string> route(const Eigen::Vector2d& start, int count, const Mark& mark) const {
     std::vector<std::string> ids;
