@@ -72,9 +72,9 @@ int run(const RunArguments& options, slam::MethodTable table) {
     std::fprintf(stderr, "plumbline: --method leaves out methods with %d %s, not judged in this run\n",
                  resolved.dropped_gates, resolved.dropped_gates == 1 ? "gate" : "gates");
 
-  for (const std::string& note : walk_notes(resolved)) print_note(note);
   catch_interrupts();
   RunDirectory directory(out, DirectoryKind::run, options.force);
+  for (const std::string& note : walk_notes(resolved)) print_note(note);
   Progress progress(resolved.scenario.name, {resolved.scenario.duration_s, "s", true});
   const int threads = options.threads > 0 ? options.threads : allowed_cpus();
   RunOptions run_options;

@@ -318,10 +318,10 @@ ResolvedScenario resolve(const std::string& input, const Overrides& overrides, s
 
 std::vector<std::string> walk_notes(const ResolvedScenario& resolved) {
   constexpr std::size_t most_reasons = 6;
+  if (resolved.own_route) return {};  // what it says of its walk stands in results.json and on the page
   const WalkCoverage& walk = resolved.walk;
   std::vector<std::string> notes;
   for (const std::string& warning : walk_warnings(walk)) notes.push_back("warning: " + warning);
-  if (resolved.own_route) return notes;
   for (const std::string& line : out_of_reach_lines(walk, most_reasons)) notes.push_back("out of reach: " + line);
   if (!walk.left_out.empty())
     notes.push_back("left out: " + std::to_string(walk.left_out.size()) +

@@ -9,7 +9,6 @@
 
 #include "bim/load/load.h"
 #include "scenarios/spec/start_check.h"
-#include "scenarios/spec/start_check.h"
 #include "tests/data.h"
 
 namespace plumbline::scenarios {
