@@ -129,25 +129,65 @@ class EvidenceAccumulator {
 
 /// An object that was not planned, whatever it stands before.
 struct UnplannedObject {
-  double log_likelihood = 0.0;
-  double length_m = 0.0;  ///< of what beams ended at
-  Eigen::AlignedBox2d within;
+  double log_likelihood = 0.0;  ///< each cause's up to its cap
+  double length_m = 0.0;        ///< of what beams ended at
+  EvidenceByCause::Sum sum;     ///< not capped
 };
+
+bool is_outlined(const EvidenceByCause::Sum& sum, const HypothesisComparisonConfig& config) {
+  return sum.unexplained <= config.outline_share * sum.log_likelihood;
+}
+
+/// Most that an object counts for.
+double cap_of(const UnplannedObject& object, const HypothesisComparisonConfig& config) {
+  const double cap = std::max(1.0, object.length_m / config.object_m) * config.object_cap;
+  const bool outlined = object.length_m <= config.object_m && is_outlined(object.sum, config);
+  return outlined ? std::max(cap, config.outlined_cap) : cap;
+}
 
 /// Joins objects nearer than the gap, until none are.
 void join_near(std::vector<UnplannedObject>& objects, double gap) {
   for (std::size_t i = 0; i < objects.size();) {
     std::size_t k = i + 1;
-    while (k < objects.size() && objects[i].within.exteriorDistance(objects[k].within) > gap) ++k;
+    while (k < objects.size() && objects[i].sum.within.exteriorDistance(objects[k].sum.within) > gap) ++k;
     if (k == objects.size()) {
       ++i;
       continue;
     }
     objects[i].log_likelihood += objects[k].log_likelihood;
     objects[i].length_m += objects[k].length_m;
-    objects[i].within.extend(objects[k].within);
+    objects[i].sum.log_likelihood += objects[k].sum.log_likelihood;
+    objects[i].sum.unexplained += objects[k].sum.unexplained;
+    objects[i].sum.within.extend(objects[k].sum.within);
     objects.erase(objects.begin() + static_cast<std::ptrdiff_t>(k));
     i = 0;
+  }
+}
+
+/// Adds to each object of `against` what ends next to it and is too short at the better pose, too: furniture is seldom
+/// as large as the plan's element that it is taken for.
+void add_unexplained(const LocalizationScan& scan, const PredictedScan& better, const PredictedScan& worse,
+                     const HypothesisComparisonConfig& config, EvidenceByCause& against) {
+  std::vector<std::pair<Eigen::AlignedBox2d, EvidenceByCause::Sum*>> objects;
+  for (auto& [cause, sum] : against.sums()) {
+    if (cause.kind == OutlierCause::Kind::not_built || sum.within.isEmpty()) continue;
+    const Eigen::Vector2d gap = Eigen::Vector2d::Constant(config.object_gap_m);
+    objects.push_back({{sum.within.min() - gap, sum.within.max() + gap}, &sum});
+  }
+  if (objects.empty()) return;
+  constexpr double no_fit = 0.75;  // of the largest cost
+  for (std::size_t i = 0; i < scan.beam_grid.blocks.size(); ++i) {
+    const BeamGridBlock& block = scan.beam_grid.blocks[i];
+    for (std::size_t k = 0; k < 4; ++k) {
+      const double range = block.range[k];
+      if (range <= 0.0 || range >= static_cast<double>(better.blocks[i].expected[k])) continue;
+      const Eigen::Vector2d end = worse.sensor_I + worse.R_IH * (range * Eigen::Vector2d(block.x[k], block.y[k]));
+      for (auto& [near, sum] : objects) {
+        if (!near.contains(end)) continue;
+        const double at_better = static_cast<double>(beam_cost(scan, better, i, config)[k]);
+        if (at_better >= no_fit * config.max_nll_short) sum->unexplained += config.weight * at_better;
+      }
+    }
   }
 }
 
@@ -208,7 +248,10 @@ void EvidenceByCause::add(const OutlierCause& cause, double log_likelihood, cons
 }
 
 void EvidenceByCause::add(const EvidenceByCause& more, double scale) {
-  for (const auto& [cause, sum] : more.sums_) add(cause, scale * sum.log_likelihood, sum.within);
+  for (const auto& [cause, sum] : more.sums_) {
+    add(cause, scale * sum.log_likelihood, sum.within);
+    sums_[cause].unexplained += scale * sum.unexplained;
+  }
 }
 
 double EvidenceByCause::total(const HypothesisComparisonConfig& config) const {
@@ -219,14 +262,15 @@ double EvidenceByCause::total(const HypothesisComparisonConfig& config) const {
       total += std::min(sum.log_likelihood, config.cause_cap);
     else if (sum.within.isEmpty())
       total += std::min(sum.log_likelihood, config.object_cap);
-    else
-      objects.push_back({std::min(sum.log_likelihood, config.object_cap), sum.within.diagonal().norm(), sum.within});
+    else {
+      UnplannedObject object{0.0, sum.within.diagonal().norm(), sum};
+      object.log_likelihood =
+          std::min(sum.log_likelihood, is_outlined(sum, config) ? config.outlined_cap : config.object_cap);
+      objects.push_back(object);
+    }
   }
   join_near(objects, config.object_gap_m);
-  for (const UnplannedObject& object : objects) {
-    const double count = std::max(1.0, object.length_m / config.object_m);
-    total += std::min(object.log_likelihood, count * config.object_cap);
-  }
+  for (const UnplannedObject& object : objects) total += std::min(object.log_likelihood, cap_of(object, config));
   return total;
 }
 
@@ -257,6 +301,8 @@ PairwiseLikelihoodRatio compare_hypotheses(const LocalizationScan& scan, const P
       }
     }
   }
+  add_unexplained(scan, b, a, config, result.against_a);
+  add_unexplained(scan, a, b, config, result.against_b);
   return result;
 }
 

@@ -15,7 +15,7 @@ namespace plumbline::slam {
 /// How one scan compares two pose hypotheses.
 struct HypothesisComparisonConfig {
   double sigma_m = 0.05;
-  double gate_m = 0.12;
+  double gate_m = 0.08;
   double min_incidence = 0.2;
   double max_nll_short = 2.0;
   double max_nll_long = 4.5;
@@ -24,6 +24,8 @@ struct HypothesisComparisonConfig {
   double edge_rad = 0.0015;
   double cause_cap = 8.0;
   double object_cap = 4.0;
+  double outlined_cap = 6.0;
+  double outline_share = 0.1;
   double clutter_cell_m = 1.0;
   double object_m = 1.0;
   double object_gap_m = 0.25;
@@ -53,6 +55,14 @@ struct HypothesisComparisonConfig {
     v("object_cap", object_cap,
       plain_field("most evidence of an unplanned object as its cause, before a face or where the plan has nothing",
                   {.min = 0}));
+    // More than convergence.log_ratio, less than cause_cap.
+    v("outlined_cap", outlined_cap,
+      plain_field("most evidence of an object up to object_m long whose outline the better pose predicts", {.min = 0}));
+    v("outline_share", outline_share,
+      plain_field(
+          "evidence next to an object that the better pose does not explain either, as a share of the object's; "
+          "above it the plan does not predict its outline",
+          {.min = 0}));
     v("clutter_cell_m", clutter_cell_m,
       Field{.doc = "cell size of clutter where the plan has nothing", .min = 0.01, .former = "thing_m"});
     // A chair to a desk.
@@ -105,14 +115,18 @@ class EvidenceByCause {
   void add(const EvidenceByCause& more, double scale);
   void clear() { sums_.clear(); }
   /// No cause counts for more than its cap: an element that was not built, or an object that was not planned. What
-  /// stands at one place before several faces, as in a corner, is one object.
+  /// stands at one place before several faces, as in a corner, is one object. An object that ends where the better pose
+  /// has something end, on all sides, is hardly furniture there by chance and counts for more.
   [[nodiscard]] double total(const HypothesisComparisonConfig& config) const;
 
- private:
   struct Sum {
     double log_likelihood = 0.0;
+    double unexplained = 0.0;  ///< of beams that end next to `within` and fit at neither pose
     Eigen::AlignedBox2d within;
   };
+  [[nodiscard]] std::map<OutlierCause, Sum>& sums() { return sums_; }
+
+ private:
   std::map<OutlierCause, Sum> sums_;
 };
 

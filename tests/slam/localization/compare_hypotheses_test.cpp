@@ -14,9 +14,9 @@ constexpr double shift_x = 9.0, shift_y = 1.0;  // of the second of the twin roo
 
 synthetic::Box column_at(double x, double y, double height = 2.8) { return {{x, y, 0.0}, {x + 0.4, y + 0.4, height}}; }
 
-/// Log-likelihood ratio of standing where one stands, in the first room, to standing in the other.
-double here_against_there(const synthetic::House& planned, const synthetic::House& built, const Pose& X_WR,
-                          std::uint64_t seed) {
+/// Standing where one stands, in the first room, compared with standing in the other.
+PairwiseLikelihoodRatio compare_here_and_there(const synthetic::House& planned, const synthetic::House& built,
+                                               const Pose& X_WR, std::uint64_t seed) {
   const PlanIndex index = make_plan_index(synthetic::plan_of(planned), "ground", {});
   const LocalizationScan scan = synthetic::house_scan(built, X_WR, Pose{}, seed).scan;
   Pose X_there = X_WR;
@@ -25,9 +25,21 @@ double here_against_there(const synthetic::House& planned, const synthetic::Hous
   const StoreyIndex& storey = index.storeys.front();
   const PredictedScan here = predict_scan(storey, heading(X_IW * X_WR), scan, {}),
                       there = predict_scan(storey, heading(X_IW * X_there), scan, {});
-  const double ratio = compare_hypotheses(scan, here, there, {}).ratio;
-  EXPECT_EQ(compare_hypotheses(scan, there, here, {}).ratio, -ratio);
-  return ratio;
+  const PairwiseLikelihoodRatio said = compare_hypotheses(scan, here, there, {});
+  EXPECT_EQ(compare_hypotheses(scan, there, here, {}).ratio, -said.ratio);
+  return said;
+}
+
+double here_against_there(const synthetic::House& planned, const synthetic::House& built, const Pose& X_WR,
+                          std::uint64_t seed) {
+  return compare_here_and_there(planned, built, X_WR, seed).ratio;
+}
+
+/// What evidence counts for once it was seen ever so often.
+double in_the_end(const EvidenceByCause& evidence) {
+  EvidenceByCause often;
+  often.add(evidence, 1000.0);
+  return often.total({});
 }
 
 class CompareHypothesesAt : public testing::TestWithParam<int> {
@@ -60,6 +72,28 @@ TEST_P(CompareHypothesesAt, AColumnTellsItsRoomFromTheOther) {
   EXPECT_GT(seen, 2.0);
   // Beams that penetrate the other room's column are more evidence than beams cut short, which clutter may cause.
   EXPECT_GT(missed, 1.2 * seen);
+}
+
+TEST_P(CompareHypothesesAt, AColumnDecidesAndWiderFurnitureDoesNot) {
+  const HypothesisComparisonConfig config;
+  synthetic::House planned = twins_, cupboard = twins_;
+  planned.boxes.push_back(column_at(4.2, 1.5));
+  const PairwiseLikelihoodRatio column = compare_here_and_there(planned, planned, somewhere(), 5);
+  EXPECT_NEAR(in_the_end(column.against_b), config.outlined_cap, 1e-9);
+  EXPECT_EQ(in_the_end(column.against_a), 0.0);
+  // Its front is where the other room's column would have its own, and goes on beside it.
+  cupboard.boxes.push_back({{4.2, 1.5, 0.0}, {4.6, 2.7, 2.8}});
+  planned = twins_;
+  planned.boxes.push_back(column_at(4.2 + shift_x, 1.5 + shift_y));
+  const PairwiseLikelihoodRatio furniture = compare_here_and_there(planned, cupboard, somewhere(), 6);
+  EXPECT_GT(in_the_end(furniture.against_a), 0.0);
+  EXPECT_LE(in_the_end(furniture.against_a), config.object_cap);
+}
+
+TEST_P(CompareHypothesesAt, AWallThatStandsOutByTenCentimetresIsEvidence) {
+  synthetic::House house = twins_;
+  house.boxes.push_back({{4.9, 1.2, 0.0}, {5.0, 2.8, 2.8}});
+  EXPECT_GT(here_against_there(house, house, somewhere(), 7), 2.0);
 }
 
 TEST_P(CompareHypothesesAt, APredictedScanIsWhatTheGridGivesBeamByBeam) {
@@ -97,7 +131,7 @@ TEST_P(CompareHypothesesAt, APredictedScanIsWhatTheGridGivesBeamByBeam) {
 
 HypothesisComparisonConfig capped_at(double object_cap, double cause_cap) {
   HypothesisComparisonConfig config;
-  config.object_cap = object_cap;
+  config.object_cap = config.outlined_cap = object_cap;
   config.cause_cap = cause_cap;
   return config;
 }
@@ -139,6 +173,21 @@ TEST(EvidenceByCause, AnObjectCountsOnceWhateverItStandsBefore) {
   EXPECT_NEAR(wall.total(config), 24.0, 1e-9) << "six metres are no single object";
   wall.add({Kind::not_built, 7}, 9.0, box(0.0, 0.0, 6.0, 0.0));
   EXPECT_NEAR(wall.total(config), 32.0, 1e-9);
+}
+
+TEST(EvidenceByCause, AnObjectThatThePlanOutlinesCountsForMore) {
+  const HypothesisComparisonConfig config;
+  const OutlierCause cause{OutlierCause::Kind::in_front_of_face, 1, 2};
+  const auto seen = [&](double length_m, double unexplained) {
+    EvidenceByCause evidence;
+    evidence.add(cause, 100.0, {Eigen::Vector2d(0.0, 0.0), Eigen::Vector2d(length_m, 0.0)});
+    evidence.sums().at(cause).unexplained = unexplained;
+    return evidence.total(config);
+  };
+  EXPECT_EQ(seen(0.5, 0.0), config.outlined_cap);
+  EXPECT_EQ(seen(0.5, 100.0 * config.outline_share), config.outlined_cap);
+  EXPECT_EQ(seen(0.5, 101.0 * config.outline_share), config.object_cap);
+  EXPECT_EQ(seen(1.2 * config.object_m, 0.0), 1.2 * config.object_cap) << "a front as long as furniture's";
 }
 
 // Nothing of the plan is in the way out there, so everything seen is something else that it does not show.
