@@ -40,9 +40,11 @@ std::vector<std::string> rooms_not_entered(const FinishedRun& run) {
 std::vector<std::string> warnings_of_walk(const FinishedRun& run) {
   std::vector<std::string> warnings = walk_warnings(run.walk);
   if (run.scenario.kidnap || !run.record.failure.empty() || run.record.truth_W.empty()) return warnings;
+  constexpr double before_s = 1.0;  // of the end of the time, at most: the last scan of a walk that is cut short
+  if (slam::seconds(run.record.truth_W.back().stamp) < run.scenario.duration_s - before_s) return warnings;
   const double left_m = (run.record.truth_W.back().X_FR.t.head<2>() - run.walk.end_W).norm();
   const std::vector<std::string> names = rooms_not_entered(run);
-  if (left_m < at_the_end_m && names.empty()) return warnings;
+  if (left_m < at_the_end_m) return warnings;
   std::string text = "the walk ended when its time was up (" + format_number(run.scenario.duration_s) + " s)";
   for (std::size_t i = 0; i < std::min(names.size(), most_named); ++i)
     text += (i == 0 ? ", before it came to " : ", ") + names[i];
