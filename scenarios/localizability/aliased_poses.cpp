@@ -11,7 +11,7 @@ namespace plumbline::scenarios {
 namespace {
 
 constexpr int stride = 5;                  ///< of the beams that tell clearly different views apart
-constexpr std::size_t places_a_beam = 50;  ///< of the index compared in the time of a beam; measured
+constexpr std::size_t places_a_beam = 50;  ///< of the index compared in the time of a beam; assumed
 
 /// Gauss-Newton step on (x, y, yaw) of seen points against the planes that the plan's view predicts, and how many
 /// points lie within the gate of them.

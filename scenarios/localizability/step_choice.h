@@ -8,9 +8,9 @@ namespace plumbline::scenarios {
 
 /// What the time for a map is turned into: counted work, so that the step it allows is the same on every machine.
 struct StepBudget {
-  double beams_per_core_s = 5e5;  ///< with all that belongs to a beam; measured, docs/methods/localizability.md
+  double beams_per_core_s = 5e5;  ///< with all that belongs to a beam; assumed
   double cores = 2.0;             ///< that a budget in seconds is for
-  double growth = 1.25;           ///< work grows with this power of the number of places: images of more of them count
+  double growth = 1.25;           ///< assumed: the power of the number of places with which work grows
   double coarse_places = 250.0;   ///< of the map that is made first
 };
 

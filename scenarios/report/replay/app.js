@@ -197,7 +197,7 @@ Plumb.App = class {
 
   bind() {
     addEventListener("keydown", (event) => this.key(event));
-    addEventListener("hashchange", () => { if (location.hash !== this.written) { this.readLink(); this.update(); } });
+    addEventListener("hashchange", () => { if (location.hash !== this.address) { this.readLink(); this.update(); } });
     this.bindPicture();
   }
 
@@ -482,6 +482,7 @@ Plumb.App = class {
   // ---- links and keys
 
   readLink() {
+    this.address = location.hash;
     const link = new URLSearchParams(location.hash.slice(1)), t = parseFloat(link.get("t"));
     this.t = Number.isFinite(t) ? Math.min(this.data.end, Math.max(0, t)) : this.t;
     const m = link.get("m");
@@ -506,6 +507,7 @@ Plumb.App = class {
   writeLink() {
     clearTimeout(this.linkTimer);
     this.linkTimer = setTimeout(() => {
+      if (location.hash !== this.address) return;  // another link was opened and is not read yet
       const link = new URLSearchParams();
       link.set("t", this.t.toFixed(2));
       if (this.m) link.set("m", this.m);
@@ -515,8 +517,8 @@ Plumb.App = class {
       if (this.storey !== "auto" && this.data.storeys[+this.storey]) link.set("s", this.data.storeys[+this.storey].name);
       link.set("off", this.layers.map(([k]) => k).filter((k) => this.off.has(k)).join(","));
       link.set("cam", this.view.camera6().join(","));
-      this.written = "#" + link.toString();
-      try { history.replaceState(null, "", this.written); } catch { /* where a viewer forbids it */ }
+      try { history.replaceState(null, "", "#" + link.toString()); } catch { /* where a viewer forbids it */ }
+      this.address = location.hash;
     }, 150);
   }
 
