@@ -38,11 +38,6 @@ struct ProcessSpec {
   }
 };
 
-/// A scenario's tree whose `methods` are names alone: those given as maps stand under `processes`.
-[[nodiscard]] Tree with_processes_apart(Tree scenario);
-/// Gives each process that says none the folder.
-[[nodiscard]] Tree with_process_folders(Tree scenario, const std::string& folder);
-
 /// A method as the command line gives it: "NAME=PROGRAM ARGUMENT...", words apart by spaces, ' and " around words with
 /// spaces. Nothing where the text has no '='. Throws InputError at the option `where`.
 [[nodiscard]] std::optional<ProcessSpec> process_of(const std::string& text, const std::string& folder,

@@ -5,6 +5,7 @@
 
 #include "bim/rays/ray_bodies.h"
 #include "scenarios/metrics/metrics.h"
+#include "scenarios/spec/process_tree.h"
 
 namespace plumbline::scenarios {
 

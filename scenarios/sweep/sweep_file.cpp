@@ -9,6 +9,7 @@
 #include "bim/digest/digest.h"
 #include "bim/load/load.h"
 #include "scenarios/spec/method_names.h"
+#include "scenarios/spec/process_tree.h"
 #include "scenarios/spec/resolve.h"
 #include "scenarios/sweep/shared_simulation.h"
 

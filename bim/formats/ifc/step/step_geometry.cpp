@@ -159,7 +159,7 @@ struct StepGeometry::Impl {
     if (const auto* bounded = dynamic_cast<const IfcPolygonalBoundedHalfSpace*>(&item)) {
       std::vector<carve::geom::vector<2>> outline, starts;
       converter.getCurveConverter()->convertIfcCurve2D(bounded->m_PolygonalBoundary, outline, starts);
-      HalfSpace::Boundary& boundary = half_space.boundary.emplace();
+      HalfSpace::Boundary& boundary = half_space.boundary.emplace(HalfSpace::Boundary{});
       boundary.X_PB = X * frame_of(bounded->m_Position);
       for (const auto& p : outline) boundary.outline.emplace_back(p.x, p.y);
     }
