@@ -97,10 +97,8 @@ Output SGraphsPlus::on_scan(const Scan& scan) {
     first_displaced_keyframe_ = static_cast<int>(graph_.keyframes.size());
   output.degenerate_directions = odometry.degenerate_directions;
   odometry_valid_ &= odometry.odometry_valid;
+  if (!graph_.keyframes.empty()) account_for_dead_reckoning(odometry);
   // A scan that does not fit would be mapped at a wrong pose.
-  if (!odometry.accepted && !graph_.keyframes.empty())
-    dead_reckoning_variance_ =
-        dead_reckoning_variance_.value_or(Vector6d(Vector6d::Zero())) + odometry.information.diagonal().cwiseInverse();
   if (graph_.keyframes.empty() || (odometry.accepted && !odometry.lost && is_keyframe(X_OR)))
     add_keyframe(deskewed, odometry, output);
   const auto keyframe = graph_.keyframes.size() - 1;
@@ -110,6 +108,17 @@ Output SGraphsPlus::on_scan(const Scan& scan) {
   output.times.push_back({"map", stopwatch.cpu_ms()});
   output.X_FR = X_MO(keyframe) * X_OR;
   return output;
+}
+
+// The map that the last keyframe was matched with measures the step to the next one, whatever did not fit meanwhile; a
+// map that began since then is placed by dead reckoning.
+void SGraphsPlus::account_for_dead_reckoning(const Registration& odometry) {
+  map_began_ |= odometry.began;
+  if (!odometry.accepted)
+    dead_reckoning_variance_ =
+        dead_reckoning_variance_.value_or(Vector6d(Vector6d::Zero())) + odometry.information.diagonal().cwiseInverse();
+  else if (!map_began_)
+    dead_reckoning_variance_.reset();
 }
 
 bool SGraphsPlus::is_keyframe(const Pose& X_OR) const {
@@ -206,6 +215,7 @@ void SGraphsPlus::add_keyframe_vertex(Nanoseconds stamp, const Registration& odo
   walked_m_ += step.t.norm();
   graph_.pose_factors.push_back({from, from + 1, step, step_information(odometry, step.t.norm()), false});
   dead_reckoning_variance_.reset();
+  map_began_ = false;
   odometry_valid_ = true;
   graph_.keyframes.push_back({stamp, X_MR, X_OR, storey_of(graph_, X_MR, seen, config_.floors)});
 }

@@ -152,6 +152,7 @@ class SGraphsPlus : public Method {
     Pose X_OR;
   };
 
+  void account_for_dead_reckoning(const Registration& odometry);
   [[nodiscard]] bool is_keyframe(const Pose& X_OR) const;
   void add_keyframe(const DeskewedScan& scan, const Registration& odometry, Output& output);
   [[nodiscard]] std::vector<PlaneObservation> planes_of(const DeskewedScan& scan) const;
@@ -187,7 +188,8 @@ class SGraphsPlus : public Method {
   std::vector<std::size_t> cloud_scans_;                      ///< index into scans_ of each cloud
   std::vector<std::vector<Eigen::Vector3d>> fitness_clouds_;  ///< index = keyframe, for PoseWeights::fitness
   std::optional<Vector6d>
-      dead_reckoning_variance_;  ///< variances of the dead reckoning since the last keyframe, if there was any
+      dead_reckoning_variance_;  ///< variances of the dead reckoning since the last keyframe that no scan took back
+  bool map_began_ = false;       ///< since the last keyframe
   bool odometry_valid_ = true;   ///< odometry is continuous since the last keyframe
   std::optional<int> first_displaced_keyframe_;  ///< since when the place of the map is not known
   double walked_m_ = 0.0;
