@@ -97,19 +97,26 @@ class MapMaker {
     return result;
   }
 
-  /// The finest map that fits the budget: a coarse one first, whose work says what a finer one would take.
+  /// The finest map that fits the budget: coarse ones first, whose work says what a finer one would take.
   [[nodiscard]] BuildingMap within(double budget_s) {
-    const StepBudget budget;
-    const double all = budget_s * budget.cores * budget.beams_per_core_s;
-    const double spent = static_cast<double>(index_->beams());
+    StepBudget budget;
+    double left = budget_s * budget.cores * budget.beams_per_core_s - static_cast<double>(index_->beams());
     const double first = coarse_step(floor_area(), options_.step_m);
     BuildingMap map = at(first);
-    const MapWork coarse{first, map.map.cells.size(), map.map.beams};
-    const double left = all - spent - static_cast<double>(coarse.beams);
-    const double step = finest_step(coarse, left, options_.step_m);
-    if (step >= first) return map;
-    const double expected_s = expected_beams(coarse, step) / budget.cores / budget.beams_per_core_s;
-    return at(step, ", about " + std::to_string(std::lround(expected_s)) + " s on two cores");
+    MapWork work{first, map.map.cells.size(), map.map.beams};
+    left -= static_cast<double>(work.beams);
+    for (const bool last : {false, true}) {
+      const double least = last ? options_.step_m : std::max(options_.step_m, first / std::sqrt(budget.more_places));
+      const double step = finest_step(work, left, least, budget);
+      if (step >= work.step_m) break;
+      const double expected_s = expected_beams(work, step, budget) / budget.cores / budget.beams_per_core_s;
+      map = at(step, ", at most about " + std::to_string(std::lround(std::max(expected_s, 1.0))) + " s on two cores");
+      const MapWork finer{step, map.map.cells.size(), map.map.beams};
+      budget.growth = growth_between(work, finer);
+      left -= static_cast<double>(finer.beams);
+      work = finer;
+    }
+    return map;
   }
 
  private:

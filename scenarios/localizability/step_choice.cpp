@@ -39,6 +39,13 @@ double finest_step(const MapWork& coarse, double beams_left, double finest_m, co
   return coarse.step_m;
 }
 
+double growth_between(const MapWork& coarse, const MapWork& fine) {
+  if (coarse.beams == 0 || fine.places <= coarse.places) return StepBudget().growth;
+  const double places = static_cast<double>(fine.places) / static_cast<double>(std::max<std::size_t>(coarse.places, 1));
+  const double beams = static_cast<double>(fine.beams) / static_cast<double>(coarse.beams);
+  return std::clamp(std::log(beams) / std::log(places), 1.0, 2.0);
+}
+
 double coarse_step(double area_m2, double finest_m, const StepBudget& budget) {
   int k = 0;
   while (area_m2 > budget.coarse_places * step_at(finest_m, k) * step_at(finest_m, k)) ++k;

@@ -5,6 +5,9 @@
 #include <cmath>
 #include <map>
 
+#include "bim/config/tree.h"
+#include "sim/route/clearance_map.h"
+
 namespace plumbline::scenarios {
 
 namespace {
@@ -38,6 +41,45 @@ const std::optional<sim::FloorPoint>& RoomPlaces::of(int room) const {
   place.emplace();
   if (!found.empty()) *place = sim::FloorPoint{of.storey, rounded(found.front())};
   return *place;
+}
+
+bool RoomPlaces::has_floor(int room) const {
+  constexpr double least_share = 0.3;
+  const bim::Room& of = building_.rooms[static_cast<std::size_t>(room)];
+  const sim::ClearanceMap& floor = space_.storey(of.storey);
+  Eigen::AlignedBox2d box;
+  for (const Eigen::Vector2d& p : of.polygon) box.extend(p);
+  const double cell = floor.grid().cell;
+  double cells = 0.0, with_floor = 0.0;
+  for (double y = box.min().y(); y <= box.max().y(); y += cell)
+    for (double x = box.min().x(); x <= box.max().x(); x += cell) {
+      if (!contains(of.polygon, {x, y})) continue;
+      ++cells;
+      if (const auto at = floor.grid().find({x, y}); at && floor.has_floor(*at)) ++with_floor;
+    }
+  return with_floor >= least_share * cells;
+}
+
+std::string RoomPlaces::why_none(int room) const {
+  const bim::Room& of = building_.rooms[static_cast<std::size_t>(room)];
+  const sim::ClearanceMap& floor = space_.storey(of.storey);
+  const std::optional<std::size_t> freest = floor.freest_cell(of.polygon);
+  if (!freest) return "it is smaller than the robot";
+  if (!has_floor(room)) return "there is no floor in it at the level of its storey";
+  const auto metres = [](double x) { return format_number(std::round(x * 1e2) / 1e2) + " m"; };
+  return "it has no place where the robot can turn round: " + metres(2.0 * floor.cell_clearance(*freest)) +
+         " are free, and it needs " + metres(2.0 * floor.config().turn_m);
+}
+
+std::string RoomPlaces::why_nowhere() const {
+  if (building_.rooms.empty()) return "it has no rooms";
+  const auto largest =
+      std::max_element(building_.rooms.begin(), building_.rooms.end(), [](const bim::Room& a, const bim::Room& b) {
+        return std::abs(signed_area(a.polygon)) < std::abs(signed_area(b.polygon));
+      });
+  const std::string more = std::to_string(building_.rooms.size() - 1);
+  return "room '" + largest->id + "': " + why_none(static_cast<int>(largest - building_.rooms.begin())) +
+         (building_.rooms.size() > 1 ? "; " + more + " smaller ones" : "");
 }
 
 RoomPlaces::Start RoomPlaces::start_on(int storey) const {

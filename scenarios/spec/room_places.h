@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "bim/model/building.h"
@@ -20,6 +21,14 @@ class RoomPlaces {
 
   /// Of the room with this index, if the robot can turn round in it.
   [[nodiscard]] const std::optional<sim::FloorPoint>& of(int room) const;
+
+  /// Whether there is floor in it at the level of its storey. Gaps in floors are closed, so that a little of it along
+  /// its walls counts in any case.
+  [[nodiscard]] bool has_floor(int room) const;
+  /// Why the robot has no place in a room, a clause; to be asked only where it has none.
+  [[nodiscard]] std::string why_none(int room) const;
+  /// Why it has none in the whole building, a clause: that of the largest room, and how many more there are.
+  [[nodiscard]] std::string why_nowhere() const;
 
   /// A start for who names none: of the pieces of floor of a storey, each as large as the rooms that it joins, the
   /// largest, and there the largest room that the robot can turn round in (ties: the lower index); -1 where there is

@@ -356,8 +356,8 @@ int start_storey(const bim::Building& building, const RoomPlaces& places, const 
   if (building.rooms.empty() && !building.storeys.empty()) return 0;
   const int lowest = places.start_storey();
   if (lowest < 0 && !start.at)
-    throw InputError(marks.start,
-                     "the building has no room the robot fits in; give a start: {storey: ..., at: [x, y]}");
+    throw InputError(marks.start, "the building has no room the robot fits in (" + places.why_nowhere() +
+                                      "); give a start: {storey: ..., at: [x, y]}");
   return std::max(lowest, 0);
 }
 

@@ -53,43 +53,19 @@ class Surveyor {
     return !building_.stairs.empty() && !space_.path({plan_.storey, plan_.start_W}, *place).empty();
   }
 
-  [[nodiscard]] RoomOutOfReach why_not(const bim::Room& room) {
+  [[nodiscard]] RoomOutOfReach why_not(int index) {
+    const bim::Room& room = building_.rooms[static_cast<std::size_t>(index)];
     RoomOutOfReach out{room.id, name_of(room), "", {}};
     const sim::ClearanceMap& floor = space_.storey(plan_.storey);
     const std::optional<std::size_t> goal = floor.freest_cell(room.polygon);
-    if (!goal) {
-      out.why = "it is smaller than the robot";
-      return out;
-    }
-    if (!has_floor(floor, room)) {
-      out.why = "there is no floor in it at the level of its storey";
-      return out;
-    }
-    if (floor.cell_clearance(*goal) > 0.0) out.blockages = blockages().before(floor.grid().center(*goal));
+    if (goal && places_.has_floor(index) && floor.cell_clearance(*goal) > 0.0)
+      out.blockages = blockages().before(floor.grid().center(*goal));
     for (const sim::Blockage& blockage : out.blockages) out.why += (out.why.empty() ? "" : "; ") + blockage.text;
-    if (out.why.empty())
-      out.why = "it has no place where the robot can turn round: " + metres(2.0 * floor.cell_clearance(*goal)) +
-                " are free, and it needs " + metres(2.0 * floor.config().turn_m);
+    if (out.why.empty()) out.why = places_.why_none(index);
     return out;
   }
 
  private:
-  /// Gaps in floors are closed, so that a little of it along its walls counts as floor in any case.
-  [[nodiscard]] static bool has_floor(const sim::ClearanceMap& floor, const bim::Room& room) {
-    constexpr double least_share = 0.3;
-    Eigen::AlignedBox2d box;
-    for (const Eigen::Vector2d& p : room.polygon) box.extend(p);
-    const double cell = floor.grid().cell;
-    double cells = 0.0, with_floor = 0.0;
-    for (double y = box.min().y(); y <= box.max().y(); y += cell)
-      for (double x = box.min().x(); x <= box.max().x(); x += cell) {
-        if (!contains(room.polygon, {x, y})) continue;
-        ++cells;
-        if (const auto at = floor.grid().find({x, y}); at && floor.has_floor(*at)) ++with_floor;
-      }
-    return with_floor >= least_share * cells;
-  }
-
   [[nodiscard]] const sim::Blockages& blockages() {
     if (!blockages_)
       blockages_ =
@@ -177,7 +153,7 @@ WalkCoverage walk_coverage(const sim::MultiStoreyPlanner& space, const RoutePlan
     walk.on_route += entered ? 1 : 0;
     walk.in_reach += in_reach ? 1 : 0;
     if (!in_reach)
-      walk.out_of_reach.push_back(surveyor.why_not(room));
+      walk.out_of_reach.push_back(surveyor.why_not(static_cast<int>(i)));
     else if (!entered)
       walk.left_out.push_back(name_of(room));
   }

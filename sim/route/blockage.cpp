@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 #include <set>
+#include <span>
 #include <utility>
 
 #include "bim/config/tree.h"
@@ -192,8 +193,8 @@ struct Blockages::Impl {
     std::set<std::pair<int, std::int32_t>> named;
     std::size_t floorless = 0;
     for (std::size_t i = 0; i <= stretch.size(); ++i) {
-      const bool edge = i < stretch.size() && !is_obstructed(stretch[i]) && !space.has_floor(stretch[i]);
-      if (!edge && floorless >= least_gap) found.push_back(end_of_floor(stretch[i - 1 - floorless / 2]));
+      const bool edge = i < stretch.size() && !is_obstructed(stretch[i]) && is_at_edge(stretch[i]);
+      if (!edge && floorless >= least_gap) found.push_back(edge_of_floor({stretch.data() + i - floorless, floorless}));
       floorless = edge ? floorless + 1 : 0;
       if (i == stretch.size() || edge || !is_obstructed(stretch[i])) continue;
       const std::size_t cell = stretch[i];
@@ -212,6 +213,22 @@ struct Blockages::Impl {
     return {opening[*narrowest] >= 0 ? narrow_opening(*narrowest) : gap(*narrowest)};
   }
 
+  /// Without a floor, or where the end of the floor is what leaves too little room, whatever is on the other side.
+  [[nodiscard]] bool is_at_edge(std::size_t cell) const {
+    if (!space.has_floor(cell)) return true;
+    if (space.passable(cell)) return false;
+    const double cell_m = space.grid().cell, within = space.cell_clearance(cell) + 0.75 * cell_m;
+    const auto reach = static_cast<int>(within / cell_m);
+    const auto [column, row] = space.grid().column_and_row(cell);
+    for (int dy = -reach; dy <= reach; ++dy)
+      for (int dx = -reach; dx <= reach; ++dx) {
+        if (!space.grid().holds(column + dx, row + dy) || cell_m * std::hypot(dx, dy) > within) continue;
+        const std::size_t near = space.grid().index(column + dx, row + dy);
+        if (solid[near] < 0 && opening[near] < 0 && !space.has_floor(near)) return true;
+      }
+    return false;
+  }
+
   /// In an opening that is no way for the robot, or in a wall or another solid thing.
   [[nodiscard]] bool is_obstructed(std::size_t cell) const {
     if (opening[cell] < 0) return solid[cell] >= 0 && (in_wall(cell) || !(space.cell_clearance(cell) > 0.0));
@@ -224,6 +241,20 @@ struct Blockages::Impl {
     const bim::Opening& o = building.openings[static_cast<std::size_t>(opening[cell])];
     return o.kind == bim::OpeningKind::window || solid[cell] >= 0 ||
            (o.kind == bim::OpeningKind::door && o.leaf == bim::Leaf::closed);
+  }
+
+  /// Of cells at the edge, in the order of the way.
+  [[nodiscard]] Blockage edge_of_floor(std::span<const std::size_t> cells) const {
+    if (std::any_of(cells.begin(), cells.end(), [&](std::size_t cell) { return !space.has_floor(cell); }))
+      return end_of_floor(cells[(cells.size() - 1) / 2]);
+    const std::size_t narrowest = *std::min_element(cells.begin(), cells.end(), [&](std::size_t a, std::size_t b) {
+      return space.cell_clearance(a) < space.cell_clearance(b);
+    });
+    const Eigen::Vector2d p = space.grid().center(narrowest);
+    const std::string beside = nearest(p, 1).front();
+    return {kind_of(beside), "",
+            "between " + beside + " and the edge of the floor near " + place(p) + " are " + free_and_needed(narrowest),
+            p};
   }
 
   [[nodiscard]] Blockage end_of_floor(std::size_t cell) const {

@@ -19,7 +19,8 @@ namespace {
 struct IdentifyLimits {
   double duplex_s = 60.0;
   double run_s = 3.0;
-  double growth = 2.0;  ///< exponent over the number of places: each is compared with all others at a glance
+  double large_s = 240.0;  ///< the budget of 120 s on two cores, on 300 x 100 m with 300 equal rooms
+  double growth = 2.0;     ///< exponent over the number of places: each is compared with all others at a glance
 };
 
 /// Both conditions of quickstart's planned walk.
@@ -41,6 +42,19 @@ std::pair<double, double> map_cost(int rooms) {
   return {static_cast<double>(map.map.cells.size()), 1e-3 * watch.cpu_ms()};
 }
 
+/// CPU seconds of one core and step of the map that the default budget allows of 300 equal rooms, each with hundreds of
+/// aliases.
+std::pair<double, double> large_map() {
+  const Tree options = read_yaml("{rows: 10, columns: 30, room_width_m: 10, room_depth_m: 10}", "bench");
+  const bim::Building plan = bim::read_plan_text(bim::write_plan(bim::generate("grid", options).plan), "grid");
+  BuildingMapOptions map_options;
+  map_options.budget_s = 120.0;
+  const slam::Stopwatch watch;
+  const RunBuilding building(bim::PlannedAndBuilt{plan, plan, {}, true});
+  const BuildingMap map = map_of(building, map_options);
+  return {map.options.step_m, 1e-3 * watch.cpu_ms()};
+}
+
 }  // namespace
 
 std::vector<BenchRow> bench_identify(const BenchSetting& setting) {
@@ -59,6 +73,9 @@ std::vector<BenchRow> bench_identify(const BenchSetting& setting) {
     runs.push_back(walk_cost(setting));
   }
   rows.push_back(make_row("identify.run_s", "s", runs, BenchLimit{limits.run_s}));
+  const auto [step_m, large_s] = large_map();
+  rows.push_back(make_row("identify.map_300_rooms_step_m", "m", {step_m}));
+  rows.push_back(make_row("identify.map_300_rooms_s", "s", {large_s}, BenchLimit{limits.large_s}));
   const auto [few, before] = map_cost(3);
   const auto [many, after] = map_cost(9);
   rows.push_back(make_row("identify.map_3_rooms_s", "s", {before}));

@@ -110,21 +110,22 @@ const bim::Room* room_named(const bim::Building& building, const std::string& id
   return found == building.rooms.end() ? nullptr : &*found;
 }
 
-/// Index of the fault that a blockage names for a room; none where it names something else.
-std::optional<std::size_t> fault_of(const FaultyBuilding& faulty, const sim::Blockage& blockage) {
+/// Indices of the faults that a blockage names for a room; none where it names something else.
+std::vector<std::size_t> faults_of(const FaultyBuilding& faulty, const sim::Blockage& blockage) {
+  std::vector<std::size_t> named;
   for (std::size_t i = 0; i < faulty.faults.size(); ++i) {
     const Fault& fault = faulty.faults[i];
     if (fault.kind == FaultKind::missing_floor) {
       const bim::Room& room = *room_named(faulty.building, fault.where);
       if (blockage.element.empty() &&
           (contains(room.polygon, blockage.at_W) || boundary_distance(room.polygon, blockage.at_W) < 0.5))
-        return i;
+        named.push_back(i);
     } else if (blockage.text.find(fault.element) != std::string::npos ||
                blockage.element == "door '" + fault.where + "'") {
-      return i;
+      named.push_back(i);
     }
   }
-  return std::nullopt;
+  return named;
 }
 
 /// Whether what is said of a room is right: with all of it repaired the room can be reached.
@@ -136,9 +137,9 @@ bool is_named(const FaultyBuilding& faulty, const RoomOutOfReach& missed, const 
       repaired.insert(i);
   const bool by_floor = !repaired.empty();
   for (const sim::Blockage& blockage : missed.blockages) {
-    const std::optional<std::size_t> fault = fault_of(faulty, blockage);
-    if (!fault) return false;
-    repaired.insert(*fault);
+    const std::vector<std::size_t> named = faults_of(faulty, blockage);
+    if (named.empty()) return false;
+    repaired.insert(named.begin(), named.end());
   }
   return by_floor || faulty.reachable(start, repaired).contains(missed.id);
 }

@@ -33,6 +33,26 @@ TEST(FaultyBuilding, DefaultWalksCoverWhatCanBeReachedOrNameWhatStopsThem) {
   for (const std::size_t count : faults) EXPECT_GE(count, 5U);
 }
 
+// Rooms beside a corridor without a floor: a ledge, or the corner between the edge and a doorway.
+TEST(FaultyBuilding, TheEdgeOfTheFloorIsNamedWhereItLeavesTooLittleRoom) {
+  for (const std::uint64_t k : {236, 376, 446, 651, 936, 1296, 1566}) {
+    const std::optional<FaultyBuilding> faulty = faulty_building(k);
+    ASSERT_TRUE(faulty.has_value()) << k;
+    const FaultyWalk walk = walk_through(*faulty);
+    EXPECT_EQ(walk.wrong, "") << faulty->what;
+    EXPECT_EQ(walk.named, walk.missed) << faulty->what;
+  }
+}
+
+TEST(FaultyBuilding, WhatHasNoFloorAnywhereIsRefusedForThat) {
+  const std::optional<FaultyBuilding> faulty = faulty_building(1418);
+  ASSERT_TRUE(faulty.has_value());
+  EXPECT_EQ(faulty->faults.size(), 2U);
+  const FaultyWalk walk = walk_through(*faulty);
+  EXPECT_TRUE(walk.refused);
+  EXPECT_EQ(walk.wrong, "") << faulty->what;
+}
+
 TEST(FaultyBuilding, ReachabilityIsThatOfTheDoors) {
   FaultyBuilding faulty;
   faulty.building.rooms.resize(3);
