@@ -55,16 +55,22 @@ Command add_bench(CommandLine& program) {
   const auto options = std::make_shared<BenchOptions>();
   CommandLine line = program.add_command("bench", "Measures what a part of the program costs, in CPU time");
   std::string parts;
-  for (const BenchPart& part : bench_parts())
+  std::string names;
+  for (const BenchPart& part : bench_parts()) {
     parts += "\n  " + std::string(part.name) + ": " + std::string(part.summary);
-  line.option("PART", options->part, "one of:" + parts).required();
+    names += (names.empty() ? "" : ",") + std::string(part.name);
+  }
+  line.option("PART", options->part, "one of:" + parts).takes("{" + names + "}").required();
   line.flag("--json", options->json, "as JSON");
   line.option("--repetitions", options->setting.repetitions, "of each figure; the median counts")
       .range(1, 1000)
       .shows_default();
   line.option("--library", options->setting.library, "folder with quickstart.yaml and s_graphs/long.yaml")
+      .takes("DIR")
       .shows_default();
-  line.option("--data", options->setting.data_dir, "folder with ifc/duplex.ifc").environment("PLUMBLINE_DATA");
+  line.option("--data", options->setting.data_dir, "folder with ifc/duplex.ifc")
+      .takes("DIR")
+      .environment("PLUMBLINE_DATA");
   line.footer("Example: plumbline bench bim --json\nExit code 1 when a ratio misses its gate; times are targets.");
   return {line, [options] { return bench(*options); }};
 }

@@ -109,6 +109,11 @@ Argument& Argument::shows_default() {
   return *this;
 }
 
+Argument& Argument::takes(const std::string& what) {
+  option_->type_name(what);
+  return *this;
+}
+
 Argument& Argument::hidden() {
   option_->group("");
   return *this;
@@ -251,8 +256,38 @@ bool CommandLine::asked() const { return app_->parsed(); }
 
 namespace {
 
+OptionHelp option_help(const CLI::Option& option) {
+  OptionHelp help;
+  help.positional = !option.nonpositional();
+  if (help.positional) help.names = {option.get_name(true)};
+  for (const std::string& name : option.get_snames()) help.names.push_back("-" + name);
+  for (const std::string& name : option.get_lnames()) help.names.push_back("--" + name);
+  if (option.get_items_expected_max() > 0) help.value = option.get_type_name();
+  help.doc = option.get_description();
+  help.many = option.get_items_expected_max() > 1;
+  return help;
+}
+
+CommandHelp command_help(const CLI::App& line, const std::string& above) {
+  CommandHelp help;
+  help.command = above.empty() ? line.get_name() : above + " " + line.get_name();
+  help.text = line.help(above);
+  help.summary = line.get_description();
+  const std::string usage = "\nUsage: " + help.command + " ";
+  if (const std::size_t at = help.text.find(usage); at != std::string::npos) {
+    const std::size_t begin = at + usage.size();
+    help.usage = help.text.substr(begin, help.text.find('\n', begin) - begin);
+  }
+  for (const CLI::Option* option : line.get_options())
+    if (!option->get_group().empty()) help.options.push_back(option_help(*option));
+  for (const CLI::App* command : line.get_subcommands([](const CLI::App*) { return true; }))
+    help.commands.push_back(command->get_name());
+  help.footer = line.get_footer();
+  return help;
+}
+
 void add_help(const CLI::App& line, const std::string& above, std::vector<CommandHelp>& help) {
-  help.push_back({above.empty() ? line.get_name() : above + " " + line.get_name(), line.help(above)});
+  help.push_back(command_help(line, above));
   const std::string name = help.back().command;
   for (const CLI::App* command : line.get_subcommands([](const CLI::App*) { return true; }))
     add_help(*command, name, help);

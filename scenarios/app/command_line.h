@@ -13,10 +13,24 @@ class Option;
 
 namespace plumbline::scenarios {
 
-/// What a command prints for --help.
+/// What may stand on a command's line.
+struct OptionHelp {
+  std::vector<std::string> names;  ///< with their dashes; of a value by position, what the help calls it
+  std::string value;               ///< as the help has it, as DIR or TEXT:{all,lidar}; empty for a flag
+  std::string doc;
+  bool positional = false;
+  bool many = false;  ///< takes several values
+};
+
+/// What a command prints for --help, whole and in parts.
 struct CommandHelp {
   std::string command;  ///< as typed: "plumbline run"
   std::string text;
+  std::string summary;
+  std::string usage;                  ///< after the command's name
+  std::vector<OptionHelp> options;    ///< in the order of the help; without hidden ones
+  std::vector<std::string> commands;  ///< below this one
+  std::string footer;
 };
 
 /// What an argument may be, given one after the other: line.option(...).required().
@@ -33,6 +47,8 @@ class Argument {
   Argument& environment(const std::string& variable);  ///< stands in where the argument is not given
   Argument& needs(const Argument& other);
   Argument& shows_default();
+  /// What the help calls the value; shells complete METHOD, SCENARIO, DIR and {one,of,these}, and else names of files.
+  Argument& takes(const std::string& what);
   Argument& hidden();
 
   /// The long one, with its dashes.

@@ -31,6 +31,8 @@ struct Command {
 [[nodiscard]] Command add_estimate(CommandLine& program, slam::MethodTable table);
 [[nodiscard]] Command add_conformance(CommandLine& program);
 [[nodiscard]] Command add_doctor(CommandLine& program);
+[[nodiscard]] Command add_completion(CommandLine& program, slam::MethodTable table);
+[[nodiscard]] Command add_manual(CommandLine& program);
 [[nodiscard]] Command add_bench(CommandLine& program);
 
 }  // namespace plumbline::scenarios

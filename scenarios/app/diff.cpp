@@ -30,8 +30,8 @@ Command add_diff(CommandLine& program) {
   };
   const auto options = std::make_shared<Options>();
   CommandLine line = program.add_command("diff", "Names the first stage and scan in which two runs differ");
-  line.option("A", options->a, "run directory").required();
-  line.option("B", options->b, "run directory").required();
+  line.option("A", options->a, "run directory").takes("DIR").required();
+  line.option("B", options->b, "run directory").takes("DIR").required();
   line.footer("Example: plumbline diff runs/quickstart-1 runs/quickstart-1-changed\nExit code 1 when they differ");
   return {line, [options] {
             const auto difference = first_difference(load(options->a), load(options->b));

@@ -323,6 +323,7 @@ Command add_estimate(CommandLine& program, slam::MethodTable table) {
   line.option("--odometry-topic", options->topics.odometry, "of a bag [the first Odometry]");
   line.option("--imu-topic", options->topics.imu, "of a bag [the first Imu]");
   line.option("--method", options->method, "one of plumbline methods, or NAME=COMMAND: a process of your own")
+      .takes("METHOD")
       .required();
   options->sensors_option =
       line.option("--sensors", options->sensors,
@@ -343,7 +344,7 @@ Command add_estimate(CommandLine& program, slam::MethodTable table) {
           .one_of({"none", "as_planned"});
   line.option("--config", options->config,
               "parameters of the method (YAML); plumbline methods --config NAME prints them");
-  line.option("-o,--out", options->out, "directory to write").required();
+  line.option("-o,--out", options->out, "directory to write").takes("DIR").required();
   options->seed_option = line.seed("--seed", options->seed, "seed of the run [the recording's, else 1]");
   options->yaw_option = line.option("--yaw-deg", options->yaw_deg,
                                     "compass: heading in the plan at the start [the recording's, else unknown]")

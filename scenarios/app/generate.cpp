@@ -195,6 +195,17 @@ int generate(const GenerateOptions& options) {
   return 0;
 }
 
+/// {a,b} of "a | b".
+std::string in_braces(const std::string& choices) {
+  std::string words;
+  for (std::size_t begin = 0; begin < choices.size();) {
+    const std::size_t end = std::min(choices.find(" | ", begin), choices.size());
+    words += (words.empty() ? "" : ",") + choices.substr(begin, end - begin);
+    begin = end + 3;
+  }
+  return "{" + words + "}";
+}
+
 CommandLine add_family(CommandLine& program, const bim::GeneratorRow& row,
                        const std::shared_ptr<GenerateOptions>& options) {
   const std::string name(row.name);
@@ -203,9 +214,9 @@ CommandLine add_family(CommandLine& program, const bim::GeneratorRow& row,
   line.option("--scenario", options->scenario, "also writes a scenario that walks through all rooms");
   line.flag("--force", options->force, "replace files that are there");
   for (const bim::OptionRow& option : bim::generator_options(name)) {
-    const std::string choices = option.choices.empty() ? "" : ": " + option.choices;
     const std::string value = option.value.empty() ? "" : " [" + option.value + "]";
-    line.option(flag_of(option.key), options->values[name + " " + option.key], option.doc + choices + value);
+    Argument argument = line.option(flag_of(option.key), options->values[name + " " + option.key], option.doc + value);
+    if (!option.choices.empty()) argument.takes(in_braces(option.choices));
   }
   const auto density = line.option("--furnish", options->furniture.density,
                                    "share of each room's floor under furniture, as far as it stays walkable")

@@ -85,9 +85,11 @@ Command add_methods(CommandLine& program, slam::MethodTable table) {
   };
   const auto options = std::make_shared<Options>();
   CommandLine line = program.add_command("methods", "Lists the methods, or prints the parameters of one");
-  const Argument config = line.option(
-      "--config", options->config,
-      "prints instead the basic parameters of this method at their defaults, as a file for estimate --config");
+  const Argument config =
+      line.option(
+              "--config", options->config,
+              "prints instead the basic parameters of this method at their defaults, as a file for estimate --config")
+          .takes("METHOD");
   line.flag("--all", options->all, "every parameter").needs(config);
   line.footer("Example: plumbline methods\n         plumbline methods --config vgicp > vgicp.yaml");
   return {line, [options, table] {
@@ -103,7 +105,8 @@ Command add_scenarios(CommandLine& program) {
   const auto options = std::make_shared<Options>();
   CommandLine line = program.add_command(
       "scenarios", "Lists the scenarios that come with the program, by the names that run takes; or those of a folder");
-  line.option("FOLDER", options->folder, "folder with scenarios, and the folders in it [those of the program]");
+  line.option("FOLDER", options->folder, "folder with scenarios, and the folders in it [those of the program]")
+      .takes("DIR");
   line.flag("--schema", options->schema, "prints instead every key of scenario files, with examples");
   line.footer("Example: plumbline scenarios\n         plumbline scenarios my_scenarios");
   return {line, [options] { return options->schema ? print_schema() : list_scenarios(options->folder); }};

@@ -83,12 +83,24 @@ CommandLine program_line() {
 
 /// Adds every command, in the order of the help.
 std::vector<Command> add_commands(CommandLine& program, slam::MethodTable table) {
-  return {add_run(program, table), add_inspect(program),         add_generate(program),
-          add_score(program),      add_report(program),          add_replay(program, table),
-          add_diff(program),       add_methods(program, table),  add_scenarios(program),
-          add_bench(program),      add_simulate(program, table), add_estimate(program, table),
-          add_identify(program),   add_sweep(program, table),    add_conformance(program),
-          add_doctor(program)};
+  return {add_run(program, table),
+          add_inspect(program),
+          add_generate(program),
+          add_score(program),
+          add_report(program),
+          add_replay(program, table),
+          add_diff(program),
+          add_methods(program, table),
+          add_scenarios(program),
+          add_bench(program),
+          add_simulate(program, table),
+          add_estimate(program, table),
+          add_identify(program),
+          add_sweep(program, table),
+          add_conformance(program),
+          add_doctor(program),
+          add_completion(program, table),
+          add_manual(program)};
 }
 
 int parse_and_run(int argc, char** argv, slam::MethodTable table) {

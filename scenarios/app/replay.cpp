@@ -100,7 +100,7 @@ int replay(const ReplayArguments& options, slam::MethodTable table) {
 Command add_replay(CommandLine& program, slam::MethodTable table) {
   const auto options = std::make_shared<ReplayArguments>();
   CommandLine line = program.add_command("replay", "Runs a run directory again and compares every digest");
-  line.option("DIR", options->dir, "run directory").required();
+  line.option("DIR", options->dir, "run directory").takes("DIR").required();
   options->until_option = line.option("--until", options->until_s, "stop after so many simulated seconds").positive();
   line.option("--threads", options->threads, "threads [the CPUs allowed]").range(1, 1024);
   line.flag("--unchecked", options->unchecked, "runs although files were altered since they were written");

@@ -73,7 +73,7 @@ int report(const ReportArguments& options) {
 Command add_report(CommandLine& program) {
   const auto options = std::make_shared<ReportArguments>();
   CommandLine line = program.add_command("report", "Writes report.html of a run again, and replay.html if asked");
-  line.option("DIR", options->dir, "run directory").required();
+  line.option("DIR", options->dir, "run directory").takes("DIR").required();
   line.flag("--3d", options->replay,
             "also write replay.html, the run in three dimensions at any of its times; simulates its scans again");
   line.option("--size-mb", options->megabytes,

@@ -121,15 +121,17 @@ Command add_run(CommandLine& program, slam::MethodTable table) {
               "scenario, plan or traffic-editor plan (.yaml), name of a scenario (plumbline scenarios), .ifc, or mesh "
               "(.glb, .obj, "
               ".dae, .ply, .stl)")
+      .takes("SCENARIO")
       .required();
   options->methods_option =
       line.option(
               "--method", options->methods,
               "methods to run, comma-separated; NAME.lidar: with LiDAR alone; NAME=COMMAND: a process of your own [the "
               "scenario's]")
+          .takes("METHOD")
           .delimiter(',');
   options->seed_option = line.seed("--seed", options->seed, "seed [the scenario's]");
-  line.option("-o,--out", options->out, "run directory [runs/<scenario>-<seed>]");
+  line.option("-o,--out", options->out, "run directory [runs/<scenario>-<seed>]").takes("DIR");
   line.option("--threads", options->threads, "threads [the CPUs allowed]").range(1, 1024);
   line.flag("--record", options->record, "also write the recording, as simulate does, into the folder recording");
   line.flag("--replay", options->replay,

@@ -176,7 +176,7 @@ Command add_score(CommandLine& program) {
   CommandLine line = program.add_command(
       "score",
       "Scores a run directory again, with estimates of other programs or of plumbline estimate; or an estimate alone");
-  line.option("DIR", options->dir, "run directory, or directory that plumbline estimate wrote").required();
+  line.option("DIR", options->dir, "run directory, or directory that plumbline estimate wrote").takes("DIR").required();
   line.option(
       "--estimate", options->estimates,
       "NAME=FILE[,frame=W|M]: poses of the robot (TUM, KITTI or EuRoC) in the plan's frame W or its own M [M]; or "

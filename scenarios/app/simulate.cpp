@@ -100,8 +100,8 @@ Command add_simulate(CommandLine& program, slam::MethodTable table) {
   const auto options = std::make_shared<SimulateArguments>();
   CommandLine line =
       program.add_command("simulate", "Records the sensor data of a walk, and the true poses in a file apart");
-  line.option("INPUT", options->input, "scenario, plan or building, as for run").required();
-  line.option("-o,--out", options->out, "directory to write").required();
+  line.option("INPUT", options->input, "scenario, plan or building, as for run").takes("SCENARIO").required();
+  line.option("-o,--out", options->out, "directory to write").takes("DIR").required();
   options->seed_option = line.seed("--seed", options->seed, "seed [the scenario's]");
   line.flag("--bag", options->bag, "also write recording.bag (ROS 1, LZ4)");
   const Argument mcap = line.flag("--mcap", options->mcap, "also write recording.mcap (ROS 2)");

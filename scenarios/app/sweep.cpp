@@ -139,7 +139,7 @@ Command add_sweep(CommandLine& program, slam::MethodTable table) {
   const auto options = std::make_shared<SweepArguments>();
   CommandLine line = program.add_command("sweep", "Runs scenarios with many seeds and variants; makes one table");
   line.option("SWEEP", options->file, "sweep file (.yaml)");
-  line.option("-o,--out", options->out, "folder of the sweep, new or to be resumed [sweeps/<name>]");
+  line.option("-o,--out", options->out, "folder of the sweep, new or to be resumed [sweeps/<name>]").takes("DIR");
   line.option("--jobs", options->jobs, "runs at a time [the CPUs allowed]").range(1, 1024);
   line.option("--seeds", options->seeds, "number of seeds, in place of the file's; runs that are there are kept")
       .range(1, 100000);
@@ -158,8 +158,9 @@ Command add_sweep(CommandLine& program, slam::MethodTable table) {
   const auto collected = std::make_shared<CollectArguments>();
   CommandLine collector = line.add_command("collect", "makes the table of a sweep from what its shards left");
   collector.option("SWEEP", collected->file, "sweep file (.yaml)").required();
-  collector.option("--from", collected->from, "folders that sweep --shard wrote").required();
-  collector.option("-o,--out", collected->out, "folder of the sweep, new or to be completed [sweeps/<name>]");
+  collector.option("--from", collected->from, "folders that sweep --shard wrote").takes("DIR").required();
+  collector.option("-o,--out", collected->out, "folder of the sweep, new or to be completed [sweeps/<name>]")
+      .takes("DIR");
   collector.option("--seeds", collected->seeds, "as given to the shards").range(1, 100000);
   collector.footer("Example: plumbline sweep collect look.yaml --from sweeps/look.shards/* -o sweeps/look");
   line.footer(
