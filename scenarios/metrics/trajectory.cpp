@@ -121,6 +121,17 @@ std::optional<RelativeErrors> relative_errors(const std::vector<PosePair>& pairs
   return errors;
 }
 
+std::vector<std::optional<double>> errors_over(const std::vector<PosePair>& pairs, const std::vector<double>& walked,
+                                               double distance_m) {
+  std::vector<std::optional<double>> errors(pairs.size());
+  std::size_t from = 0;  // one past the last pair that lies far enough back
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    while (from < i && walked[pairs[from].scan] + distance_m <= walked[pairs[i].scan]) ++from;
+    if (from > 0) errors[i] = motion_error(pairs[from - 1], pairs[i]).t.norm();
+  }
+  return errors;
+}
+
 std::optional<TrajectoryScore> score_trajectory(const Truth& truth, const std::vector<slam::StampedPose>& causal_F,
                                                 const std::vector<slam::StampedPose>& final_F,
                                                 const TrajectoryRules& rules) {

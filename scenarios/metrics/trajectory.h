@@ -68,6 +68,10 @@ struct RelativeErrors {
 [[nodiscard]] std::optional<RelativeErrors> relative_errors(const std::vector<PosePair>& pairs,
                                                             const std::vector<double>& walked, double distance_m);
 
+/// Error of the motion, m, over the last `distance_m` walked before each pair; absent at the first ones.
+[[nodiscard]] std::vector<std::optional<double>> errors_over(const std::vector<PosePair>& pairs,
+                                                             const std::vector<double>& walked, double distance_m);
+
 /// What the SLAM trajectory metrics say of one method.
 struct TrajectoryScore {
   double coverage = 0.0;  ///< share of scans with a pose

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "scenarios/metrics/state_names.h"
+#include "scenarios/report/palette.h"
 #include "scenarios/report/results.h"
 #include "scenarios/report/svg.h"
 
@@ -18,14 +19,15 @@ struct StateStyle {
   std::string_view colour, meaning;
 };
 /// By slam::State.
-constexpr std::array<StateStyle, 4> state_styles = {{{"#e69f00", "no pose is likely yet"},
-                                                     {"#f0e442", "several hypotheses are left"},
-                                                     {"#009e73", "it gives one answer"},
-                                                     {"#d55e00", "it withdrew its answer"}}};
+constexpr std::array<StateStyle, 4> state_styles = {{{"var(--searching)", "no pose is likely yet"},
+                                                     {"var(--ambiguous)", "several hypotheses are left"},
+                                                     {"var(--converged)", "it gives one answer"},
+                                                     {"var(--lost)", "it withdrew its answer"}}};
 
-constexpr std::string_view right_colour = "#0a7d4f", wrong_colour = "#d4452f";
+constexpr std::string_view right_colour = "var(--right)", wrong_colour = "var(--wrong)";
 // Of places that are not the true one, apart from the colours of states and of right and wrong.
-constexpr std::array<std::string_view, 5> other_colours = {"#d55e00", "#0072b2", "#cc79a7", "#7a4a9e", "#56b4e9"};
+constexpr std::array<std::string_view, 5> other_colours = {"var(--o0)", "var(--o1)", "var(--o2)", "var(--o3)",
+                                                           "var(--o4)"};
 
 std::vector<PlotBand> state_bands(const std::vector<ReportState>& states, double end_s) {
   std::vector<PlotBand> bands;
@@ -50,29 +52,6 @@ std::string state_key() {
   return out + "</div>";
 }
 
-std::vector<PlotCurve> curves_of(const ReportMethod& method) {
-  constexpr std::size_t longest = 12;  // of a room's name beside the plot
-  std::vector<PlotCurve> curves;
-  bool true_is_named = false;
-  int named = -1;  // the last hypothesis with a name beside the plot
-  for (const HypothesisHistory& history : method.histories) {
-    const auto other = static_cast<std::size_t>(history.hypothesis) % other_colours.size();
-    PlotCurve curve;
-    curve.layer = method.name;
-    curve.colour = history.is_true ? right_colour : other_colours[other];
-    if (history.is_true && !std::exchange(true_is_named, true)) curve.name = "true pose";
-    if (!history.is_true && std::exchange(named, history.hypothesis) != history.hypothesis) {
-      curve.name = "other";
-      if (!history.room.empty() && history.room.size() <= longest) curve.name += ": " + history.room;
-    }
-    const double apart = history.hypothesis;  // % each, or equal shares would hide each other
-    for (const Eigen::Vector2d& p : history.points)
-      curve.points.emplace_back(p.x(), std::max(0.0, 100.0 * p.y() - apart));
-    curves.push_back(std::move(curve));
-  }
-  return curves;
-}
-
 std::string chart(const ReportInput& input, const ReportMethod& method, double end_s) {
   if (method.histories.empty() && method.states.empty()) return "";
   PlotExtras extras;
@@ -87,7 +66,7 @@ std::string chart(const ReportInput& input, const ReportMethod& method, double e
                    [](const PlotMark& a, const PlotMark& b) { return a.t_s < b.t_s; });
   const std::string name = svg::escape(method.name);
   return "<section class=\"card\"><h2>Hypotheses of " + name + " over time</h2>" +
-         draw_plot("belief-" + name, curves_of(method), end_s, extras) + state_key() +
+         draw_plot("belief-" + name, belief_curves(method), end_s, extras) + state_key() +
          "<p class=\"facts\">Each line is one hypothesis, moved along with the robot. It is green while it is the true "
          "pose (0.5 m, 10°); others bear the name of the room they came up in. Hypotheses below 2 % are left out, and "
          "equal lines are drawn 1 % apart. The bar shows the state that the method reports.</p></section>";
@@ -107,7 +86,7 @@ std::string draw_hypothesis(const ReportHypothesis& hypothesis) {
 }
 
 std::string ring(const Eigen::Vector2d& at) {
-  return svg::circle(at, 0.6, "fill=\"none\" stroke=\"#111\" stroke-width=\".08\"");
+  return svg::circle(at, 0.6, "fill=\"none\" stroke=\"var(--truth)\" stroke-width=\".08\"");
 }
 
 std::string counted(std::size_t n, const std::string& what) {
@@ -150,7 +129,8 @@ std::string particles(const ReportInput& input, std::size_t index, const MapBox&
     out += "<div><p>" + svg::escape(belief.label) + ", " + svg::number(belief.t_s, 1) + " s</p>" +
            open_map(box, "particles at " + belief.label) + draw_plan(input, belief.storey);
     for (const auto& particle : belief.particles)
-      out += svg::circle({particle.x, particle.y}, 0.09, "fill=\"" + colour(index) + "\" fill-opacity=\".55\"");
+      out +=
+          svg::circle({particle.x, particle.y}, 0.09, "fill=\"" + method_ink(method.ink) + "\" fill-opacity=\".55\"");
     out += ring(belief.truth) + "</svg></div>";
   }
   return out + "</div><p class=\"facts\">Each dot is a particle; the ring is the true position.</p></section>";
@@ -171,6 +151,29 @@ std::optional<double> marginal_since(const ReportInput& input) {
 }
 
 }  // namespace
+
+std::vector<PlotCurve> belief_curves(const ReportMethod& method) {
+  constexpr std::size_t longest = 12;  // of a room's name beside the plot
+  std::vector<PlotCurve> curves;
+  bool true_is_named = false;
+  int named = -1;  // the last hypothesis with a name beside the plot
+  for (const HypothesisHistory& history : method.histories) {
+    const auto other = static_cast<std::size_t>(history.hypothesis) % other_colours.size();
+    PlotCurve curve;
+    curve.layer = method.name;
+    curve.colour = history.is_true ? right_colour : other_colours[other];
+    if (history.is_true && !std::exchange(true_is_named, true)) curve.name = "true pose";
+    if (!history.is_true && std::exchange(named, history.hypothesis) != history.hypothesis) {
+      curve.name = "other";
+      if (!history.room.empty() && history.room.size() <= longest) curve.name += ": " + history.room;
+    }
+    const double apart = history.hypothesis;  // % each, or equal shares would hide each other
+    for (const Eigen::Vector2d& p : history.points)
+      curve.points.emplace_back(p.x(), std::max(0.0, 100.0 * p.y() - apart));
+    curves.push_back(std::move(curve));
+  }
+  return curves;
+}
 
 std::vector<PlotMark> common_marks(const ReportInput& input) {
   std::vector<PlotMark> marks;

@@ -12,6 +12,9 @@ namespace plumbline::scenarios {
 /// When the robot was kidnapped, and when its scans left a single pose: the same for every method.
 [[nodiscard]] std::vector<PlotMark> common_marks(const ReportInput& input);
 
+/// Shares of its hypotheses over time, %.
+[[nodiscard]] std::vector<PlotCurve> belief_curves(const ReportMethod& method);
+
 /// Of each plan localization: the share of every pose hypothesis over time, its state, the walls it
 /// recognised and its particles.
 [[nodiscard]] std::string draw_beliefs(const ReportInput& input, const MapBox& box, double end_s);

@@ -14,11 +14,12 @@ namespace plumbline::scenarios {
 
 std::string glossary() {
   const auto row = [](std::string_view name, std::string_view unit, std::string_view doc) {
-    return "<tr><td><code>" + svg::escape(name) + "</code></td><td>" + svg::escape(unit) + "</td><td>" +
-           svg::escape(doc) + "</td></tr>";
+    return "<tr><td><code>" + svg::escape(name) + "</code></td><td data-head=\"unit\">" + svg::escape(unit) +
+           "</td><td class=\"plain\">" + svg::escape(doc) + "</td></tr>";
   };
   std::string out =
-      "<details class=\"card\"><summary>Glossary: verdicts, states, metrics</summary><div class=\"scroll\"><table>";
+      "<details class=\"card\"><summary>Glossary: verdicts, states, metrics</summary><div class=\"scroll\"><table "
+      "class=\"stacked\">";
   std::string_view key;
   for (const score::ResultWord& word : score::result_words()) {
     if (std::exchange(key, word.key) != word.key)

@@ -14,10 +14,10 @@ namespace plumbline::scenarios {
 
 namespace {
 
-constexpr std::string_view green = "#3f9d6b", red = "#c9402d";
-/// Amber, by the length of the walk: up to these metres each, then beyond.
+constexpr std::string_view green = "var(--sure)", red = "var(--never)";
+/// By the length of the walk: up to these metres each, then beyond.
 constexpr std::array<double, 3> amber_up_to_m = {2.0, 5.0, 10.0};
-constexpr std::array<std::string_view, 4> ambers = {"#f6dd9a", "#f1c04f", "#e39a1e", "#b56d09"};
+constexpr std::array<std::string_view, 4> ambers = {"var(--walk0)", "var(--walk1)", "var(--walk2)", "var(--walk3)"};
 
 std::string_view colour_of(const CellAnswer& answer) {
   if (!answer.walk_m) return red;
@@ -47,7 +47,7 @@ std::string legend() {
   };
   return "<div class=\"key\">" + item(green, "one scan suffices") + item(ambers[0], "a walk of up to 2 m suffices") +
          item(ambers[1], "up to 5 m") + item(ambers[2], "up to 10 m") + item(ambers[3], "further") +
-         item(red, "no walk on the storey suffices") + item("#c3cbd6", "column, furniture") + "</div>";
+         item(red, "no walk on the storey suffices") + item("var(--thing)", "column, furniture") + "</div>";
 }
 
 std::string percent(int part, int whole) { return whole == 0 ? "–" : svg::number(100.0 * part / whole, 1) + " %"; }
@@ -104,7 +104,8 @@ class ConditionPage {
 
   [[nodiscard]] std::string table() const {
     std::string out =
-        "<div class=\"scroll\"><table><tr><th></th><th class=\"num\">places</th><th class=\"num\">one scan</th>"
+        "<div class=\"scroll\"><table class=\"stacked\"><tr class=\"heads\"><th></th><th class=\"num\">places</th><th "
+        "class=\"num\">one scan</th>"
         "<th class=\"num\">a walk</th><th class=\"num\">median m</th><th class=\"num\">longest m</th>"
         "<th class=\"num\">never</th><th class=\"num\">aliases, most</th></tr>";
     for (std::size_t f = 0; f < map_.floors.size(); ++f) {
@@ -136,14 +137,10 @@ std::string answer(const std::string& title, const RunBuilding& building, const 
 
 std::string localizability_page(const RunBuilding& building, const std::string& name, const BuildingMaps& maps) {
   const BuildingMap& map = maps.building;
-  std::string page =
-      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
-      "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\"><title>" +
-      svg::escape(name) + " · Plumbline</title><style>";
-  page += page_style();
-  page += "</style></head>\n<body><main><header><h1>Localizability: " + svg::escape(name) +
-          "</h1><span class=\"facts\">a place every " + svg::number(map.options.step_m) + " m, aliased poses on " +
-          (map.options.across ? "all storeys" : "the same storey") + "</span></header>\n";
+  std::string page = open_page(name) + "<header><h1>Localizability: " + svg::escape(name) +
+                     "</h1><span class=\"facts\">a place every " + svg::number(map.options.step_m) +
+                     " m, aliased poses on " + (map.options.across ? "all storeys" : "the same storey") +
+                     "</span></header>\n";
   page += answer("By the building alone", building, map);
   if (maps.with_furniture)
     page += answer("With the furniture as planned", building, *maps.with_furniture);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "scenarios/report/palette.h"
 #include "scenarios/report/plot.h"
 #include "scenarios/report/svg.h"
 
@@ -13,10 +14,8 @@ namespace plumbline::scenarios {
 
 namespace {
 
-// Colours that stay apart for colour-blind readers, by hue or lightness, in the order of the methods. Green and
-// vermilion are left to right and wrong.
-constexpr std::array<std::string_view, 12> colours = {"#0072b2", "#8c6d31", "#56b4e9", "#6a3d9a", "#cc79a7", "#e69f00",
-                                                      "#1f3a5f", "#a0a0a0", "#7b4b2a", "#b8257f", "#5b6770", "#80b1d3"};
+/// Errors up to these, m, have a colour each along a path; what is beyond has the last one.
+constexpr std::array<double, 4> error_up_to_m = {0.02, 0.05, 0.10, 0.50};
 
 /// Wall segments of a face without its openings, as strokes.
 std::string face_strokes(const bim::PlanFace& face, double floor_z) {
@@ -68,6 +67,48 @@ std::string draw_path(const std::vector<ReportSample>& samples, int storey, cons
   return out;
 }
 
+std::size_t error_band(double error_m) {
+  const auto at = std::lower_bound(error_up_to_m.begin(), error_up_to_m.end(), error_m);
+  return static_cast<std::size_t>(at - error_up_to_m.begin());
+}
+
+/// The same path in stretches by the size of its error; the page shows one of the two.
+std::string draw_path_by_error(const std::vector<ReportSample>& samples, int storey) {
+  std::string out;
+  std::vector<Eigen::Vector2d> stretch;
+  std::size_t band = 0;
+  const auto draw = [&] {
+    const std::string ink = "var(--e" + std::to_string(band) + ")";
+    if (stretch.size() > 1) out += svg::polyline(stretch, "class=\"errorpath\" stroke=\"" + ink + "\"");
+    stretch.clear();
+  };
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const bool shown = samples[i].storey == storey && !samples[i].lost;
+    if (!shown || (i > 0 && is_jump(samples[i - 1], samples[i]))) draw();
+    if (!shown) continue;
+    const Eigen::Vector2d at(samples[i].x, samples[i].y);
+    const std::size_t now = error_band(samples[i].error_m);
+    if (!stretch.empty() && now != band) {
+      stretch.push_back(at);  // stretches meet
+      draw();
+    }
+    band = now;
+    stretch.push_back(at);
+  }
+  draw();
+  return out;
+}
+
+std::string error_key() {
+  std::string out = "<div class=\"key byerrorkey\">";
+  for (std::size_t i = 0; i <= error_up_to_m.size(); ++i) {
+    const bool last = i == error_up_to_m.size();
+    out += "<span><i class=\"swatch\" style=\"background:var(--e" + std::to_string(i) + ")\"></i>" +
+           (last ? "further off" : "up to " + svg::number(100.0 * error_up_to_m[i], 0) + " cm off") + "</span>";
+  }
+  return out + "</div>";
+}
+
 /// Where the robot was lifted and set down.
 std::string draw_kidnap(const ReportInput& input, int storey) {
   if (!input.kidnap) return "";
@@ -78,7 +119,7 @@ std::string draw_kidnap(const ReportInput& input, int storey) {
     const auto at = std::find_if(input.truth.begin(), input.truth.end(),
                                  [t = t_s](const ReportSample& sample) { return sample.t_s >= t; });
     if (at == input.truth.end() || at->storey != storey) continue;
-    out += svg::circle({at->x, at->y}, 0.16, "fill=\"#fff\" stroke=\"#111\" stroke-width=\".07\"") +
+    out += svg::circle({at->x, at->y}, 0.16, "fill=\"var(--room)\" stroke=\"var(--truth)\" stroke-width=\".07\"") +
            svg::text({at->x + 0.28, at->y + 0.1}, text, "class=\"event\"");
   }
   return out;
@@ -86,7 +127,7 @@ std::string draw_kidnap(const ReportInput& input, int storey) {
 
 std::string robot_mark(const std::string& name, int storey, const std::string& fill) {
   return "<path class=\"robot\" data-robot=\"" + svg::escape(name) + "\" data-storey=\"" + std::to_string(storey) +
-         "\" d=\"M.36 0L-.22 -.2L-.12 0L-.22 .2Z\" fill=\"" + fill + "\" stroke=\"#fff\" stroke-width=\".04\"/>";
+         "\" d=\"M.36 0L-.22 -.2L-.12 0L-.22 .2Z\" fill=\"" + fill + "\" stroke=\"var(--room)\" stroke-width=\".04\"/>";
 }
 
 /// Rooms of the method are right or wrong only where rooms of the building are known.
@@ -102,12 +143,13 @@ std::string draw_structure(const ReportMethod& method, int storey, bool rooms_kn
   return out;
 }
 
-std::string draw_method(const ReportMethod& method, std::size_t index, int storey, bool rooms_known) {
-  const std::string c = colour(index);
+std::string draw_method(const ReportMethod& method, int storey, bool rooms_known) {
+  const std::string c = method_ink(method.ink);
   std::string out = "<g class=\"layer-" + svg::escape(method.name) + "\">";
   // What a localization finds are the plan's own walls and rooms, which are drawn already.
   if (!method.localization) out += draw_structure(method, storey, rooms_known, c);
   out += draw_path(method.samples, storey, "class=\"path\" stroke=\"" + c + "\"");
+  out += draw_path_by_error(method.samples, storey);
   return out + robot_mark(method.name, storey, c) + "</g>";
 }
 
@@ -119,10 +161,10 @@ std::string draw_map(const ReportInput& input, const ReportStorey& storey, const
       draw_plan(input, storey.index) + draw_deviations(storey.deviations);
   const bool rooms_known = std::any_of(input.plan.rooms.begin(), input.plan.rooms.end(),
                                        [&](const bim::PlanRoom& room) { return room.storey == storey.index; });
-  for (std::size_t i = 0; i < input.methods.size(); ++i)
-    if (!is_truth(input.methods[i])) out += draw_method(input.methods[i], i, storey.index, rooms_known);
+  for (const ReportMethod& method : input.methods)
+    if (!is_truth(method)) out += draw_method(method, storey.index, rooms_known);
   out += draw_path(input.truth, storey.index, "class=\"truth\"") + room_names(input, storey.index) +
-         draw_kidnap(input, storey.index) + robot_mark("truth", storey.index, "#111") + draw_scale(box);
+         draw_kidnap(input, storey.index) + robot_mark("truth", storey.index, "var(--truth)") + draw_scale(box);
   return out + "</svg>";
 }
 
@@ -156,8 +198,6 @@ std::string draw_scale(const MapBox& box) {
   return svg::line(a, b, "class=\"scale\"") +
          svg::text(b + Eigen::Vector2d(0.15, -0.1), std::to_string(length_m) + " m", "");
 }
-
-std::string colour(std::size_t method) { return std::string(colours[method % colours.size()]); }
 
 bool is_truth(const ReportMethod& method) { return method.name == "truth"; }
 
@@ -217,13 +257,13 @@ std::string map_key() {
            label + "</span>";
   };
   return "<div class=\"key\">" +
-         item("stroke=\"#39424e\" stroke-width=\"3\"", "wall of the building (faint: overhead)") +
+         item("stroke=\"var(--wall)\" stroke-width=\"3\"", "wall of the building (faint: overhead)") +
          "<span><svg viewBox=\"0 0 34 10\"><rect class=\"thing\" x=\"9\" y=\"1\" width=\"16\" height=\"8\"/></svg>"
          "columns, furniture and other obstacles (dashed: with gaps)</span>" +
-         item("stroke=\"#111\" stroke-width=\"2\" stroke-dasharray=\"5 4\"", "ground truth") +
-         item("stroke=\"#0072b2\" stroke-width=\"2\"", "estimate (in the colour of its method)") +
-         item("stroke=\"#0072b2\" stroke-width=\"4\" stroke-opacity=\".8\"", "wall a method found") +
-         "<span>tinted area: room a method found (red: there is none)</span></div>";
+         item("stroke=\"var(--truth)\" stroke-width=\"2\" stroke-dasharray=\"5 4\"", "ground truth") +
+         item("stroke=\"var(--m0)\" stroke-width=\"2\"", "estimate (in the colour of its method)") +
+         item("stroke=\"var(--m0)\" stroke-width=\"4\" stroke-opacity=\".8\"", "wall a method found") +
+         "<span>tinted area: room a method found (red: there is none)</span></div>" + error_key();
 }
 
 }  // namespace plumbline::scenarios

@@ -33,8 +33,6 @@ struct MapBox {
 /// What the lines of a map mean.
 [[nodiscard]] std::string map_key();
 
-/// Colour of the method with this index.
-[[nodiscard]] std::string colour(std::size_t method);
 /// The row that checks the scorer; it would lie under everything it is compared with.
 [[nodiscard]] bool is_truth(const ReportMethod& method);
 

@@ -7,21 +7,9 @@
 
 namespace plumbline::scenarios {
 
-/// Geometry of a plot in its own units: the drawing area between (x0, y0) and (x1, y1), where it has neither marks nor
-/// bands.
-struct PlotFrame {
-  double width = 1200.0;
-  double height = 240.0;
-  double x0 = 64.0;
-  double x1 = 1012.0;
-  double y0 = 10.0;
-  double y1 = 214.0;
-};
-inline constexpr PlotFrame plot_frame;
-
 struct PlotCurve {
-  std::string name;
-  std::string colour;
+  std::string name;                     ///< in the legend; empty for another stretch of a curve that stands there
+  std::string colour;                   ///< as CSS has it
   std::vector<Eigen::Vector2d> points;  ///< (time in s, value)
   std::string layer = {};               ///< method with which it is shown and hidden; its name where empty
   bool disclaimed = false;              ///< the method said that it is lost: dotted, and the scale does not heed it
@@ -48,6 +36,8 @@ struct PlotExtras {
   double max = 0.0;        ///< of the values shown; 0: by the curves
   bool counts = false;     ///< the values are whole numbers
   std::string title = {};  ///< of the values, with their unit: "position error, cm"
+  bool both_ways = false;  ///< values below zero too: the scale goes from -max to max
+  bool small = false;      ///< one of several
 };
 
 /// Two points of a path further apart than this in time, or further in space, are not joined: the robot was carried, or
@@ -55,7 +45,9 @@ struct PlotExtras {
 inline constexpr double path_gap_s = 1.0;
 inline constexpr double path_jump_m = 1.0;
 
-/// Line plot over time from 0 to end_s with round ticks; gaps over path_gap_s in a curve stay open.
+/// Line plot over time from 0 to end_s with round ticks and a legend; gaps over path_gap_s in a curve stay open, what
+/// is beyond the scale is marked at its edge. As wide as the page lets it be: curves stretch, text does not. The script
+/// fills in the legend's values.
 [[nodiscard]] std::string draw_plot(const std::string& id, const std::vector<PlotCurve>& curves, double end_s,
                                     const PlotExtras& extras = {});
 

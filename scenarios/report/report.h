@@ -19,10 +19,13 @@ struct ReportSample {
   double t_s = 0.0;
   double x = 0.0;
   double y = 0.0;
-  double yaw = 0.0;      ///< rad
-  double error_m = 0.0;  ///< distance to the true position (0 for the truth itself)
-  int storey = 0;        ///< index into Plan::storeys, by its height
-  bool lost = false;     ///< the method said that it is lost: this is no answer
+  double yaw = 0.0;                                   ///< rad
+  double error_m = 0.0;                               ///< distance to the true position (0 for the truth itself)
+  int storey = 0;                                     ///< index into Plan::storeys, by its height
+  bool lost = false;                                  ///< the method said that it is lost: this is no answer
+  Eigen::Vector3d error_W = Eigen::Vector3d::Zero();  ///< estimated minus true position, m
+  double yaw_error = 0.0;                             ///< estimated minus true, rad, in (-pi, pi]
+  std::optional<double> relative_m = {};              ///< error of the motion over the last metre walked, m
 };
 
 /// A wall face of an estimate or of the plan, as a segment in W.
@@ -89,6 +92,7 @@ struct ReportWalls {
 struct ReportMethod {
   std::string name;
   bool localization = false;
+  std::size_t ink = 0;  ///< which of the methods' colours; the truth takes none
   std::vector<ReportSample> samples;
   std::vector<ReportWall> walls;
   std::vector<ReportRoom> rooms;

@@ -6,6 +6,7 @@
 
 #include "scenarios/metrics/storey.h"
 #include "scenarios/report/hypothesis_history.h"
+#include "scenarios/report/map_drawing.h"
 #include "scenarios/score/handover.h"
 
 namespace plumbline::scenarios {
@@ -23,10 +24,16 @@ std::vector<ReportSample> samples_of(const bim::Plan& plan, const MethodRecord& 
   std::vector<ReportSample> samples;
   if (pairs.empty()) return samples;
   const Pose X_WF = method.localization ? Pose() : score::umeyama(pairs);
-  for (const score::PosePair& pair : pairs) {
+  const std::vector<std::optional<double>> relative =
+      score::errors_over(pairs, truth.walked(), score::TrajectoryRules{}.rpe_distance_m);
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const score::PosePair& pair = pairs[i];
     const Pose X_WR = X_WF * pair.X_FR;
     samples.push_back(sample(plan, truth.scans[pair.scan], X_WR, (X_WR.t - pair.X_WR.t).norm()));
     samples.back().lost = said_lost(method, truth.scans[pair.scan]);
+    samples.back().error_W = X_WR.t - pair.X_WR.t;
+    samples.back().yaw_error = (pair.X_WR.inverse() * X_WR).yaw();
+    samples.back().relative_m = relative[i];
   }
   return samples;
 }
@@ -173,11 +180,14 @@ ReportInput report_input(const FinishedRun& run, const score::RunScore& score) {
     const auto down = std::find(score.truth.scans.begin(), score.truth.scans.end(), *score.truth.set_down);
     input.kidnap = ReportKidnap{slam::seconds(*(down - 1)), slam::seconds(*down)};
   }
+  std::size_t inks = 0;
   for (std::size_t i = 0; i < run.record.methods.size(); ++i) {
     const MethodRecord& method = run.record.methods[i];
     ReportMethod shown;
     shown.name = method.name;
     shown.localization = method.localization;
+    shown.ink = inks;
+    if (!is_truth(shown)) ++inks;
     shown.samples = samples_of(input.plan, method, score.truth);
     add_structure(input.plan, method, score.methods[i], shown);
     add_beliefs(input.plan, method, score.truth, shown);

@@ -17,8 +17,8 @@ namespace plumbline::scenarios {
 
 namespace {
 
-constexpr std::string_view floor_colour = "#7cc4a0", elsewhere_colour = "#d8dde4", red = "#c9402d",
-                           walk_colour = "#0b4f8a";
+constexpr std::string_view floor_colour = "var(--reached)", elsewhere_colour = "var(--elsewhere)", red = "var(--never)",
+                           walk_colour = "var(--walked)";
 constexpr int most_rows = 400;  ///< of floor drawn, so that a page of a large building opens
 
 std::string name_of(const bim::Room& room) { return room.name.empty() ? room.id : room.name; }
@@ -65,10 +65,10 @@ std::string draw_reasons(const bim::Building& building, const WalkCoverage& walk
                         missed.name + ": " + missed.why);
     for (const sim::Blockage& blockage : missed.blockages)
       if (marked.emplace(blockage.at_W.x(), blockage.at_W.y()).second)
-        out +=
-            "<g><title>" + svg::escape(blockage.text) + "</title>" +
-            svg::circle(blockage.at_W, 0.25, "fill=\"#fff\" stroke=\"" + std::string(red) + "\" stroke-width=\".12\"") +
-            "</g>";
+        out += "<g><title>" + svg::escape(blockage.text) + "</title>" +
+               svg::circle(blockage.at_W, 0.25,
+                           "fill=\"var(--paper)\" stroke=\"" + std::string(red) + "\" stroke-width=\".12\"") +
+               "</g>";
   }
   return out;
 }
@@ -90,7 +90,7 @@ std::string key() {
            "\"/></svg>" + text + "</span>";
   };
   return "<div class=\"key\">" + item(floor_colour, "floor in reach of the start") +
-         item(elsewhere_colour, "floor out of reach") + item("#efc4be", "room out of reach") +
+         item(elsewhere_colour, "floor out of reach") + item("var(--shade)", "room out of reach") +
          item(walk_colour, "the default walk, from its start (dot)") +
          "<span>ring: what stops the robot (hover for why)</span></div>";
 }
@@ -157,12 +157,7 @@ std::string walk_page(const bim::PlannedAndBuilt& site, const std::string& name)
   const sim::MultiStoreyPlanner space(walked);
   const RoomPlaces places(walked, space);
   std::string page =
-      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
-      "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\"><title>" +
-      svg::escape(name) + " · Plumbline</title><style>";
-  page += page_style();
-  page +=
-      "</style></head>\n<body><main><header><h1>Where the robot can walk: " + svg::escape(name) + "</h1></header>\n";
+      open_page(name) + "<header><h1>Where the robot can walk: " + svg::escape(name) + "</h1></header>\n";
   for (std::size_t i = 0; i < walked.storeys.size(); ++i) {
     const int storey = static_cast<int>(i);
     const auto rooms = std::count_if(walked.rooms.begin(), walked.rooms.end(),

@@ -252,12 +252,8 @@ std::string table_csv(const std::vector<SweepCell>& cells) {
 }
 
 std::string table_html(const std::string& name, const std::vector<SweepCell>& cells) {
-  std::string page =
-      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
-      "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\"><title>" +
-      svg::escape(name) + " · Plumbline</title><style>" + std::string(page_style()) +
-      "</style></head>\n<body><main><header><h1>" + svg::escape(name) +
-      "</h1></header><section class=\"card\"><div class=\"scroll\"><table class=\"sorted\">\n";
+  std::string page = open_page(name) + "<header><h1>" + svg::escape(name) +
+                     "</h1></header><section class=\"card\"><div class=\"scroll\"><table class=\"sorted\">\n";
   bool head = true;
   for (const Line& line : table_lines(cells)) {
     page += "<tr>";

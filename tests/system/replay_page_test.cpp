@@ -80,13 +80,28 @@ TEST_F(ReplayPage, ComesOutTheSameAgain) {
   EXPECT_TRUE(page() == before);
 }
 
+/// What keeps a script for a browser from running here; empty where nothing does.
+std::string no_browser() {
+  for (const std::string program : {"node", "chromium"})
+    if (std::system(("command -v " + program + " >/dev/null 2>&1").c_str()) != 0)
+      return "no " + program + "; ci/setup full installs it";
+  return "";
+}
+
 TEST_F(ReplayPage, WorksInABrowser) {
-  if (std::system("command -v node >/dev/null 2>&1") != 0) GTEST_SKIP() << "no node; ci/setup full installs it";
-  if (std::system("command -v chromium >/dev/null 2>&1") != 0) GTEST_SKIP() << "no chromium; ci/setup full installs it";
+  if (const std::string missing = no_browser(); !missing.empty()) GTEST_SKIP() << missing;
   const std::string log = *folder_ / "browser.log";
   const std::string name = replaced(hostile, "\"", "\\\"");
   const std::string command = "node '" + project_file("tests/browser/replay_test.mjs") + "' '" + dir() + "' \"" + name +
                               "\" >'" + log + "' 2>&1";
+  EXPECT_EQ(std::system(command.c_str()), 0) << read_file(log);
+}
+
+TEST_F(ReplayPage, TheReportIsLegibleAndWorksByKeyboardAndOnAPhone) {
+  if (const std::string missing = no_browser(); !missing.empty()) GTEST_SKIP() << missing;
+  const std::string log = *folder_ / "pages.log";
+  const std::string command =
+      "node '" + project_file("tests/browser/pages_test.mjs") + "' '" + dir() + "/report.html' >'" + log + "' 2>&1";
   EXPECT_EQ(std::system(command.c_str()), 0) << read_file(log);
 }
 

@@ -54,6 +54,7 @@ Plumb.App = class {
     this.selected = null;
     this.playing = 0;
     this.residuals = new Plumb.Residuals(data.faces, data.storeys);
+    if (Plumb.colours.dark()) for (const method of data.run.methods) method.colour = method.dark;
     this.preferMethod();
   }
 

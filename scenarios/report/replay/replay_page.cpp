@@ -8,6 +8,7 @@
 #include "scenarios/metrics/storey.h"
 #include "scenarios/report/belief.h"
 #include "scenarios/report/map_drawing.h"
+#include "scenarios/report/palette.h"
 #include "scenarios/report/replay/assets.h"
 #include "scenarios/report/replay/deflate.h"
 #include "scenarios/report/replay/replay_scene.h"
@@ -93,7 +94,8 @@ Tree methods_of(const FinishedRun& run, const ReportInput& input) {
     const Tree* results = results_of(input, method.name);
     list.push(Tree::map()
                   .set("name", method.name)
-                  .set("colour", colour(i))
+                  .set("colour", std::string(method_colour(method.ink).light))
+                  .set("dark", std::string(method_colour(method.ink).dark))
                   .set("localizes", method.localization)
                   .set("crashed", run.record.methods[i].crashed)
                   .set("verdict", results == nullptr ? std::string() : text_of(*results, "verdict")));

@@ -171,5 +171,18 @@ TEST(Trajectory, TruthIsInterpolatedBetweenItsPoses) {
   EXPECT_EQ(truth.at(99).t.x(), 1.0);
 }
 
+TEST(Trajectory, ErrorsOverTheLastMetre) {
+  const Truth truth = straight_walk(21, {0.0, 0.0, 0.0}, 0.1);
+  std::vector<PosePair> pairs = associate(truth, truth.poses_W, {});
+  pairs[15].X_FR.t.y() += 0.05;  // one pose that is off: seen where a metre ends there, and where one begins there
+  const auto errors = errors_over(pairs, truth.walked(), 0.95);
+  ASSERT_EQ(errors.size(), 21U);
+  for (std::size_t i = 0; i < 21; ++i) EXPECT_EQ(errors[i].has_value(), i >= 10) << i;
+  EXPECT_NEAR(*errors[14], 0.0, 1e-12);
+  EXPECT_NEAR(*errors[15], 0.05, 1e-12);
+  EXPECT_NEAR(*errors[16], 0.0, 1e-12);
+  EXPECT_TRUE(errors_over({}, {}, 1.0).empty());
+}
+
 }  // namespace
 }  // namespace plumbline::scenarios::score

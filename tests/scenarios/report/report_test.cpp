@@ -141,13 +141,13 @@ TEST(Report, ShowsWhatALocalizationBelievedOverTime) {
   const std::string page = render_report(localized());
   const std::size_t chart = page.find("id=\"belief-m\"");
   ASSERT_NE(chart, std::string::npos);
-  const std::string plot = page.substr(chart, page.find("</svg>", chart) - chart);
-  EXPECT_EQ(count(plot, "<rect "), 2U);
+  const std::string plot = page.substr(chart, page.find("</figure>", chart) - chart);
+  EXPECT_EQ(count(plot, "background:var(--ambiguous)") + count(plot, "background:var(--converged)"), 2U);
   EXPECT_NE(plot.find("AMBIGUOUS, 0 to 6 s"), std::string::npos);
   EXPECT_NE(plot.find("CONVERGED, 6 to 10 s"), std::string::npos);
   EXPECT_NE(plot.find(">converged<"), std::string::npos);
-  EXPECT_NE(plot.find(">true pose<"), std::string::npos);
-  EXPECT_NE(plot.find("other: a&lt;b"), std::string::npos);
+  EXPECT_NE(plot.find("</i>true pose "), std::string::npos);
+  EXPECT_NE(plot.find("</i>other: a&lt;b "), std::string::npos);
   EXPECT_EQ(count(plot, "class=\"curve"), 2U);
   EXPECT_EQ(count(render_report(sample()), "belief-m"), 0U);
 }
@@ -158,8 +158,8 @@ TEST(Report, NamesTheTruePoseOnceHoweverOftenItIsLost) {
                                      {0, false, "hall", {{0.5, 1.0}, {0.9, 1.0}}},
                                      {0, true, "hall", {{0.9, 1.0}, {1.4, 1.0}}}};
   const std::string page = render_report(input);
-  EXPECT_EQ(count(page, ">true pose<"), 1U);
-  EXPECT_EQ(count(page, ">other: hall<"), 1U);
+  EXPECT_EQ(count(page, "</i>true pose "), 1U);
+  EXPECT_EQ(count(page, "</i>other: hall "), 1U);
 }
 
 TEST(Report, ColoursAVerdictByTheGates) {
@@ -208,11 +208,11 @@ TEST(Report, DoesNotJoinPathsWhereTheRobotWasCarried) {
   carry(input.methods.front().samples);
   input.kidnap = ReportKidnap{4.9, 8.0};
   const std::string page = render_report(input);
-  EXPECT_EQ(count(page, "<polyline"), lines + 2);  // the truth's and the method's
+  EXPECT_EQ(count(page, "<polyline"), lines + 3);  // the truth's, the method's, and that by its error
   EXPECT_EQ(count(page, ">kidnapped<"), 2U);       // on the map and over the errors
   // A method that changes its mind within a scan does not walk there either.
   for (std::size_t i = 70; i < input.methods.front().samples.size(); ++i) input.methods.front().samples[i].x += 2.0;
-  EXPECT_EQ(count(render_report(input), "<polyline"), lines + 3);
+  EXPECT_EQ(count(render_report(input), "<polyline"), lines + 5);
 }
 
 TEST(Report, SameInputSameBytes) { EXPECT_EQ(render_report(sample()), render_report(sample())); }
@@ -234,10 +234,53 @@ TEST(Plot, MarksHaveRowsOfTheirOwn) {
   const std::string plot =
       draw_plot("p", {{"c", "#111", {{0, 1}, {0.5, 1}}}}, 10.0, {{{2, "one"}, {2.1, "two"}}, {}, 0});
   const auto row_of = [&](const std::string& text) {
-    const std::size_t at = plot.rfind("y=\"", plot.find(">" + text + "<"));
-    return plot.substr(at, plot.find('"', at + 3) - at);
+    const std::size_t at = plot.rfind("top:", plot.find(">" + text + "<"));
+    return plot.substr(at, plot.find(';', at) - at);
   };
   EXPECT_NE(row_of("one"), row_of("two"));
+}
+
+TEST(Plot, MarksWhereACurveLeavesTheScale) {
+  std::vector<Eigen::Vector2d> points;
+  for (int i = 0; i < 2000; ++i) points.emplace_back(0.01 * i, i >= 1000 && i < 1004 ? 50.0 : 1.0);
+  PlotExtras extras;
+  const std::string plot = draw_plot("p", {{"c", "#111", points}}, 20.0, extras);
+  EXPECT_EQ(count(plot, "class=\"over layer-c\" style=\"left:50%"), 1U);
+  EXPECT_EQ(count(plot, "▲"), 1U);
+  extras.both_ways = true;
+  extras.max = 1.0;
+  const std::string both = draw_plot("p", {{"c", "#111", {{1.0, -3.0}, {1.1, 0.5}}}}, 20.0, extras);
+  EXPECT_EQ(count(both, "▼") + 10 * count(both, "▲"), 1U);
+  EXPECT_NE(both.find(">-0.5<"), std::string::npos) << both;
+}
+
+TEST(Report, HasTheErrorOfEachAxisTheHeadingAndTheLastMetre) {
+  ReportInput input = sample();
+  for (ReportSample& s : input.methods.front().samples) {
+    s.error_W = {0.03, -0.04, 0.0625};
+    s.yaw_error = -0.1;
+    if (s.t_s > 5.0) s.relative_m = 0.02;
+  }
+  const std::string page = render_report(input);
+  for (const char* id : {"errors", "errors-x", "errors-y", "errors-z", "errors-heading", "errors-relative"})
+    EXPECT_EQ(count(page, "<figure class=\"plot" + std::string(std::string(id) == "errors" ? "" : " small") +
+                              "\" id=\"" + id + "\""),
+              1U)
+        << id;
+  const std::string data = page.substr(page.find("id=\"data\""));
+  EXPECT_NE(data.find("\"ex\":[0.03,"), std::string::npos);
+  EXPECT_NE(data.find("\"ey\":[-0.04,"), std::string::npos);
+  EXPECT_NE(data.find("\"ez\":[0.0625,"), std::string::npos);
+  EXPECT_NE(data.find("\"eh\":[-0.1,"), std::string::npos);
+  EXPECT_NE(data.find("\"er\":[null,"), std::string::npos);
+}
+
+TEST(Report, DrawsThePathByTheSizeOfItsError) {
+  ReportInput input = sample();  // 8 cm off
+  for (std::size_t i = 50; i < 101; ++i) input.methods.front().samples[i].error_m = 0.7;
+  const std::string page = render_report(input);
+  EXPECT_EQ(count(page, "class=\"errorpath\" stroke=\"var(--e2)\""), 1U);
+  EXPECT_EQ(count(page, "class=\"errorpath\" stroke=\"var(--e4)\""), 1U);
 }
 
 TEST(Plot, StepsAreRound) {

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenarios/report/error_plots.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "scenarios/report/belief.h"
+#include "scenarios/report/map_drawing.h"
+#include "scenarios/report/palette.h"
+#include "scenarios/report/results.h"
+#include "scenarios/report/svg.h"
+
+namespace plumbline::scenarios {
+
+namespace {
+
+constexpr double deg = 180.0 / std::numbers::pi;
+
+constexpr std::array<ErrorKind, 6> kinds = {{
+    {"errors", "position error, cm", "e", "cm", 100.0, 1, false,
+     [](const ReportSample& s) { return std::optional(s.error_m); }},
+    {"errors-x", "error along x of the building, cm", "ex", "cm", 100.0, 1, true,
+     [](const ReportSample& s) { return std::optional(s.error_W.x()); }},
+    {"errors-y", "error along y of the building, cm", "ey", "cm", 100.0, 1, true,
+     [](const ReportSample& s) { return std::optional(s.error_W.y()); }},
+    {"errors-z", "error of the height, cm", "ez", "cm", 100.0, 1, true,
+     [](const ReportSample& s) { return std::optional(s.error_W.z()); }},
+    {"errors-heading", "error of the heading, degrees", "eh", "°", deg, 2, true,
+     [](const ReportSample& s) { return std::optional(s.yaw_error); }},
+    {"errors-relative", "error of the motion over the last metre walked, cm", "er", "cm", 100.0, 1, false,
+     [](const ReportSample& s) { return s.relative_m; }},
+}};
+
+/// How many poses are consistent with the scans, over time.
+PlotCurve consistent_poses(const ReportInput& input, double end_s) {
+  PlotCurve curve{"consistent poses", "var(--soft)", {}, "truth"};
+  const Tree* known = input.results.find("identifiability");
+  if (known == nullptr) return curve;
+  constexpr double step_s = 0.5;  // a curve with larger gaps would be drawn open
+  const Tree::List& places = known->find("places")->as_list();
+  if (input.kidnap) end_s = std::min(end_s, input.kidnap->lifted_s);  // it is computed up to there
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const double until = i + 1 < places.size() ? places[i + 1].find("t_s")->as_double() : end_s;
+    for (double t = places[i].find("t_s")->as_double(); t <= until; t += step_s)
+      curve.points.emplace_back(t, 1.0 + places[i].find("twins")->as_double());
+  }
+  return curve;
+}
+
+std::string identifiability_sentence(const Tree& known) {
+  std::string text = "the scans never distinguished the true pose from all others.";
+  if (const auto at = number_of(&known, "at_s"))
+    text = *at <= 0.0 ? "identifiable from the first scan on."
+                      : "identifiable after " + svg::number(*at, 1) + " s and " +
+                            svg::number(number_of(&known, "at_m").value_or(0.0), 1) + " m.";
+  if (const Tree* element = known.find("decided_by"))
+    text += " Decided by " + text_of(*element, "element") +
+            (element->find("missing")->as_bool() ? ", which would be visible from the last aliased pose and was not."
+                                                 : ", which was visible and would not be from the last aliased pose.");
+  return text;
+}
+
+std::string identifiability_text(const ReportInput& input) {
+  const Tree* known = input.results.find("identifiability");
+  if (known == nullptr) return "";
+  const auto line = [](const std::string& text) { return "<p class=\"facts\">" + svg::escape(text) + "</p>"; };
+  const Tree* with_furniture = known->find("with_furniture");
+  std::string out = line("By the building alone: " + identifiability_sentence(*known));
+  if (with_furniture != nullptr)
+    out += line("With the furniture as planned: " + identifiability_sentence(*with_furniture));
+  const bool by_furniture = with_furniture != nullptr && number_of(with_furniture, "at_s") && !number_of(known, "at_s");
+  return by_furniture ? out + line("Only furniture tells these apart; it may have moved.") : out;
+}
+
+/// A curve for each method; where it says that it is lost, another one.
+std::vector<PlotCurve> error_curves(const ReportInput& input, const ErrorKind& kind) {
+  std::vector<PlotCurve> curves;
+  for (const ReportMethod& method : input.methods) {
+    if (is_truth(method)) continue;
+    PlotCurve curve{method.name, method_ink(method.ink), {}}, lost{"", method_ink(method.ink), {}, method.name, true};
+    for (const ReportSample& sample : method.samples)
+      if (const std::optional<double> value = kind.value(sample))
+        (sample.lost ? lost : curve).points.emplace_back(sample.t_s, kind.scale * *value);
+    curves.push_back(std::move(curve));
+    if (!lost.points.empty()) curves.push_back(std::move(lost));
+  }
+  return curves;
+}
+
+std::string draw_kind(const ReportInput& input, const ErrorKind& kind, double end_s, bool small) {
+  PlotExtras extras;
+  if (!small) extras.marks = common_marks(input);
+  extras.title = kind.title;
+  extras.both_ways = kind.both_ways;
+  extras.small = small;
+  return draw_plot(std::string(kind.id), error_curves(input, kind), end_s, extras);
+}
+
+}  // namespace
+
+std::span<const ErrorKind> error_kinds() { return kinds; }
+
+std::string draw_errors(const ReportInput& input, double end_s) {
+  std::string out =
+      "<section class=\"card\"><h2>Position error over time</h2>" + draw_kind(input, kinds.front(), end_s, false) +
+      "<p class=\"facts\">Point at it for values, click to jump there; the legend gives the values at the "
+      "time shown. Triangles: beyond the scale. Dotted: the method says that it is lost.</p>"
+      "<details open><summary>By axis, heading, and over the last metre</summary><div class=\"pair\">";
+  for (const ErrorKind& kind : std::span(kinds).subspan(1)) out += draw_kind(input, kind, end_s, true);
+  return out + "</div></details></section>";
+}
+
+std::vector<PlotCurve> hypothesis_counts(const ReportInput& input, double end_s) {
+  std::vector<PlotCurve> counts;
+  for (const ReportMethod& method : input.methods) {
+    if (is_truth(method)) continue;
+    PlotCurve count{method.name, method_ink(method.ink), {}};
+    for (const auto& state : method.states) count.points.emplace_back(state.t_s, state.hypotheses);
+    if (!count.points.empty()) counts.push_back(std::move(count));
+  }
+  if (counts.empty()) return counts;
+  if (PlotCurve possible = consistent_poses(input, end_s); !possible.points.empty())
+    counts.push_back(std::move(possible));
+  return counts;
+}
+
+std::string draw_hypothesis_counts(const ReportInput& input, double end_s) {
+  const std::vector<PlotCurve> counts = hypothesis_counts(input, end_s);
+  if (counts.empty()) return "";
+  PlotExtras extras;
+  extras.marks = common_marks(input);
+  extras.counts = true;
+  extras.title = "poses";
+  return "<section class=\"card\"><h2>Hypotheses over time</h2>" + draw_plot("hypotheses", counts, end_s, extras) +
+         identifiability_text(input) + "</section>";
+}
+
+}  // namespace plumbline::scenarios

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenarios/report/method_cards.h"
+
+#include "scenarios/report/map_drawing.h"
+#include "scenarios/report/palette.h"
+#include "scenarios/report/results.h"
+#include "scenarios/report/svg.h"
+
+namespace plumbline::scenarios {
+
+namespace {
+
+std::string centimetres(double metres) { return svg::number(100.0 * metres, 1) + " cm"; }
+
+/// A method's gates decide on its colour. Without any a verdict that says something of the answer does: `complete` does
+/// not.
+std::string judged(const ReportInput& input, const std::string& method, const std::string& verdict) {
+  const GateCount gates = gates_of(input, method);
+  if (gates.passed < gates.all) return "bad";
+  if (verdict == "success" || verdict == "honest_ambiguity") return "good";
+  if (verdict != "complete") return "bad";
+  return gates.all > 0 ? "good" : "open";
+}
+
+std::string gates_sentence(const ReportInput& input, const std::string& method) {
+  const GateCount gates = gates_of(input, method);
+  if (gates.all == 0) return "No gate judges it.";
+  return std::to_string(gates.passed) + " of " + std::to_string(gates.all) +
+         (gates.all == 1 ? " gate passed." : " gates passed.");
+}
+
+/// ", since ... (at 12.3 s)", or nothing.
+std::string why_it_failed(const Tree* where) {
+  const std::string failure = where == nullptr ? "" : text_of(*where, "failure");
+  std::string why;
+  if (failure == "never_sampled") why = "the true pose was never among the hypotheses";
+  if (failure == "depleted") why = "the true pose dropped out of the hypotheses";
+  if (failure == "twin_preferred") why = "a pose aliased with the true one at the start was preferred";
+  if (failure == "wrong_model") why = "a pose not aliased with the true one was preferred";
+  if (failure == "tracking_lost") why = "the right pose was lost again";
+  if (failure == "undecided") why = "the true pose remained one of several to the end";
+  if (why.empty()) return "";
+  const auto at = number_of(where, "failure_at_s");
+  return ", since " + why + (at ? " (at " + svg::number(*at, 1) + " s)" : "");
+}
+
+/// What came of a kidnapping, as sentences of their own, or nothing. Durations and times of the run stand apart.
+std::string after_kidnap(const ReportInput& input, const Tree* where) {
+  const auto wrong = number_of(where, "kidnap_wrong_s");
+  if (!wrong || !input.kidnap) return "";
+  const auto found = number_of(where, "kidnap_found_s");
+  const double down_s = input.kidnap->set_down_s;
+  const std::string text =
+      " Kidnapped at t = " + svg::number(input.kidnap->lifted_s, 1) + " s, set down at t = " + svg::number(down_s, 1) +
+      " s. From there on " +
+      (*wrong > 0.0 ? "a wrong answer stood for up to " + svg::number(*wrong, 1) + " s" : "it gave no wrong answer");
+  return text + (found ? ", and it was localized again at t = " + svg::number(down_s + *found, 1) + " s, " +
+                             svg::number(*found, 1) + " s after it was set down."
+                       : ", and it was not localized again for good.");
+}
+
+/// What a plan localization did; `where` is its block of numbers, may be null.
+std::string place_sentence(const std::string& verdict, const Tree* where) {
+  const auto time = number_of(where, "converged_at_s");
+  const auto error = number_of(where, "ape_rmse_m");
+  const auto places = number_of(where, "hypotheses");
+  if (verdict == "honest_ambiguity" && places)
+    return "Kept " + svg::number(*places, 0) + " hypotheses, rightly: the scans do not distinguish them.";
+  if (verdict == "overconfident") return "Converged on one pose though several explain the scans.";
+  if (!time) return "Never converged on one pose in the building" + why_it_failed(where) + ".";
+  if (verdict == "lucky") return "Converged on the right pose before the scans distinguished it from others.";
+  if (verdict == "false_convergence") return "Converged on a wrong pose" + why_it_failed(where) + ".";
+  const std::string failure = text_of(*where, "failure");
+  if (verdict == "lost")
+    return "Converged after " + svg::number(*time, 1) + " s and lost the pose later" + why_it_failed(where) + ".";
+  if (verdict == "late" && failure != "undecided")
+    return "Converged after " + svg::number(*time, 1) + " s and withdrew its answer" + why_it_failed(where) + ".";
+  std::string text = "Converged on the right pose after " + svg::number(*time, 1) + " s";
+  if (error) text += ", with an error of " + centimetres(*error) + " from then on (rms)";
+  return text + (verdict == "late" ? "; too late to count: an answer must hold for 5 s and 1 m." : ".");
+}
+
+/// What happened, in a sentence or two.
+std::string sentence(const ReportInput& input, const ReportMethod& method, const Tree* results) {
+  const std::string verdict = results == nullptr ? "" : text_of(*results, "verdict");
+  if (verdict == "crashed") return "The method stopped with an error.";
+  if (method.localization) {
+    const Tree* where = results == nullptr ? nullptr : results->find("localization");
+    const bool by_furniture = where != nullptr && where->find("evidence_by_furniture") != nullptr;
+    return place_sentence(verdict, where) + after_kidnap(input, where) +
+           (by_furniture ? " Only furniture tells these apart." : "");
+  }
+  const auto error = number_of(results, "ate_aligned_rmse_m");
+  if (!error) return "No trajectory that could be scored.";
+  std::string text = "Position error " + centimetres(*error) + " rms after alignment";
+  const Tree* rooms = results->find("rooms");
+  const auto visited = number_of(rooms, "visited");
+  const auto recall = number_of(rooms, "recall");
+  if (visited && recall)
+    text += "; recognised " + svg::number(*recall * *visited, 0) + " of the " + svg::number(*visited, 0) +
+            " rooms it was in";
+  return text + ".";
+}
+
+}  // namespace
+
+GateCount gates_of(const ReportInput& input, const std::string& method) {
+  GateCount count;
+  const Tree* gates = input.results.find("gates");
+  if (gates == nullptr) return count;
+  for (const Tree& gate : gates->as_list()) {
+    if (!method.empty() && text_of(gate, "method") != method) continue;
+    ++count.all;
+    if (gate.find("passed")->as_bool()) ++count.passed;
+  }
+  return count;
+}
+
+std::string method_cards(const ReportInput& input) {
+  std::string out;
+  for (std::size_t i = 0; i < input.methods.size(); ++i) {
+    const ReportMethod& method = input.methods[i];
+    if (is_truth(method)) continue;
+    const Tree* results = results_of(input, method.name);
+    const std::string verdict = results == nullptr ? "" : text_of(*results, "verdict");
+    const std::string name = svg::escape(method.name);
+    out += "<div class=\"method\" style=\"border-color:" + method_ink(method.ink) +
+           "\"><h3><label><input type=\"checkbox\" checked data-layer=\"" + name + "\"> " + name +
+           "</label> <button type=\"button\" class=\"only\" data-only=\"" + name +
+           "\">only</button> <span class=\"verdict " + judged(input, method.name, verdict) + "\">" +
+           svg::escape(verdict) + "</span></h3><p>" + svg::escape(sentence(input, method, results)) + "</p><p>" +
+           gates_sentence(input, method.name) + "</p><p id=\"now-" + name + "\"></p></div>";
+  }
+  return out;
+}
+
+}  // namespace plumbline::scenarios

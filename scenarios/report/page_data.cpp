@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenarios/report/page_data.h"
+
+#include <cmath>
+#include <utility>
+
+#include "scenarios/metrics/state_names.h"
+#include "scenarios/report/belief.h"
+#include "scenarios/report/error_plots.h"
+#include "scenarios/report/map_drawing.h"
+
+namespace plumbline::scenarios {
+
+namespace {
+
+/// To 1 / `parts`, as the nearest number, which has the shortest text.
+double rounded(double value, double parts) { return std::round(value * parts) / parts; }
+
+/// Times, places, headings and storeys; of a method its errors too, null where there is none.
+Tree track(const std::vector<ReportSample>& samples, bool with_error) {
+  const auto column = [&](const auto& value) {
+    Tree list = Tree::list();
+    for (const ReportSample& sample : samples) list.push(value(sample));
+    return list;
+  };
+  Tree out = Tree::map();
+  out.set("t", column([](const ReportSample& s) { return Tree(rounded(s.t_s, 100.0)); }))
+      .set("x", column([](const ReportSample& s) { return Tree(rounded(s.x, 1000.0)); }))
+      .set("y", column([](const ReportSample& s) { return Tree(rounded(s.y, 1000.0)); }))
+      .set("yaw", column([](const ReportSample& s) { return Tree(rounded(s.yaw, 1000.0)); }))
+      .set("s", column([](const ReportSample& s) { return Tree(s.storey); }));
+  if (!with_error) return out;
+  out.set("lost", column([](const ReportSample& s) { return Tree(s.lost ? 1 : 0); }));
+  for (const ErrorKind& kind : error_kinds())
+    out.set(std::string(kind.column), column([&](const ReportSample& s) {
+              const std::optional<double> value = kind.value(s);
+              return value ? Tree(rounded(*value, 10000.0)) : Tree();
+            }));
+  return out;
+}
+
+/// [[since t, state], ...]
+Tree state_changes(const std::vector<ReportState>& states) {
+  Tree list = Tree::list();
+  std::optional<slam::State> before;
+  for (const ReportState& state : states)
+    if (std::exchange(before, state.state) != state.state)
+      list.push(Tree(Tree::List{Tree(std::round(100.0 * state.t_s) / 100.0), Tree(state_name(state.state))}));
+  return list;
+}
+
+/// What a curve of counts or shares is, as [[since t, value], ...]; stretches without a name belong to the one before.
+Tree steps(const std::vector<PlotCurve>& curves, std::size_t first) {
+  Tree list = Tree::list();
+  for (std::size_t i = first; i < curves.size() && (i == first || curves[i].name.empty()); ++i) {
+    std::optional<double> before;
+    for (const Eigen::Vector2d& p : curves[i].points)
+      if (const double value = std::round(p.y()); std::exchange(before, value) != value)
+        list.push(Tree(Tree::List{Tree(rounded(p.x(), 100.0)), Tree(value)}));
+    if (!curves[i].points.empty())
+      list.push(Tree(Tree::List{Tree(rounded(curves[i].points.back().x() + path_gap_s, 100.0)), Tree()}));
+  }
+  return list;
+}
+
+Tree plot_of(std::string_view unit, int decimals, double scale) {
+  return Tree::map().set("unit", std::string(unit)).set("decimals", decimals).set("scale", scale);
+}
+
+Tree plot_of_curves(std::string_view unit, const std::vector<PlotCurve>& curves) {
+  Tree series = Tree::list();
+  for (std::size_t i = 0; i < curves.size(); ++i)
+    if (!curves[i].name.empty()) series.push(Tree::map().set("name", curves[i].name).set("steps", steps(curves, i)));
+  return plot_of(unit, 0, 1.0).set("series", std::move(series));
+}
+
+/// By plot: unit, decimals, and in the order of its legend what the curves are.
+Tree plots(const ReportInput& input, double end_s) {
+  Tree out = Tree::map();
+  for (const ErrorKind& kind : error_kinds()) {
+    Tree series = Tree::list();
+    for (const ReportMethod& method : input.methods)
+      if (!is_truth(method)) series.push(Tree::map().set("name", method.name).set("column", std::string(kind.column)));
+    out.set(std::string(kind.id), plot_of(kind.unit, kind.decimals, kind.scale).set("series", std::move(series)));
+  }
+  if (const auto counts = hypothesis_counts(input, end_s); !counts.empty())
+    out.set("hypotheses", plot_of_curves("", counts));
+  for (const ReportMethod& method : input.methods)
+    if (!method.histories.empty()) out.set("belief-" + method.name, plot_of_curves("%", belief_curves(method)));
+  return out;
+}
+
+}  // namespace
+
+std::string script_data(const ReportInput& input, double end_s) {
+  Tree tracks = Tree::map();
+  tracks.set("truth", track(input.truth, false));
+  for (const auto& method : input.methods)
+    if (!is_truth(method)) tracks.set(method.name, track(method.samples, true));
+  Tree states = Tree::map();
+  for (const auto& method : input.methods)
+    if (!method.states.empty()) states.set(method.name, state_changes(method.states));
+  Tree data = Tree::map();
+  data.set("states", std::move(states)).set("plots", plots(input, end_s));
+  data.set("end", end_s).set("tracks", std::move(tracks));
+  std::string json = write_json(data, 0);
+  // "</" would end the script element.
+  for (std::size_t at = 0; (at = json.find("</", at)) != std::string::npos; at += 3) json.replace(at, 2, "<\\/");
+  return json;
+}
+
+}  // namespace plumbline::scenarios
