@@ -50,6 +50,7 @@ std::vector<StageDigest> GlobalLocalizer::update(const PlanIndex& index, const S
   const Clustering clustering = find_clusters(particles_, config_.clusters);
   done("clusters", digest_of(clustering));
 
+  hypotheses_.expect_yaw(start.doubted_yaw);
   hypotheses_.predict_and_update(index, u, scan);
   const bool first = hypotheses_.all().empty();
   hypotheses_.add(index, clustering);

@@ -5,6 +5,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 namespace plumbline::slam {
@@ -49,7 +50,7 @@ void HypothesisSet::predict_and_update(const PlanIndex& index, const Pose2& u, c
   for (std::size_t i = 0; i < hypotheses_.size(); ++i) {
     if (i == reference_) continue;
     accumulate_evidence(scan, carry(hypotheses_[i]), reference, hypotheses_[i].balance);
-    hypotheses_[i].evidence = hypotheses_[i].balance.evidence(comparison_);
+    hypotheses_[i].evidence = hypotheses_[i].balance.evidence(comparison_) + yaw_evidence(hypotheses_[i].X_IH);
   }
   rebase_reference(index);
 }
@@ -91,7 +92,7 @@ void HypothesisSet::add(const PlanIndex& index, const std::vector<StoreyPose>& p
     hypothesis.X_IH = fitted.X_IH;
     hypothesis.covariance = refined.covariance;
     hypothesis.balance = std::move(past.balance);
-    hypothesis.evidence = past.evidence;
+    hypothesis.evidence = past.evidence + yaw_evidence(hypothesis.X_IH);
     replay_agreement(storey, past.scans, hypotheses_.back());
     if (reference.empty()) reference = std::move(past.scans);
   }
@@ -256,7 +257,7 @@ void HypothesisSet::compare_all_with_reference(const PlanIndex& index) {
     Replay past;
     if (&hypothesis != &hypotheses_[reference_]) past = replay(index, hypothesis.pose(), scans);
     hypothesis.balance = std::move(past.balance);
-    hypothesis.evidence = past.evidence;
+    hypothesis.evidence = past.evidence + yaw_evidence(hypothesis.X_IH);
   }
 }
 
@@ -287,6 +288,16 @@ HypothesisSet::Replay HypothesisSet::replay(const PlanIndex& index, const Storey
     if (past.evidence < -config_.drop_ratio) break;
   }
   return past;
+}
+
+double HypothesisSet::yaw_evidence(const Pose2& X_IH) const {
+  if (!expected_yaw_) return 0.0;
+  // Normal about what is expected or uniform, with even odds.
+  const auto log_density = [&](double yaw) {
+    const double e = wrap_angle(yaw - expected_yaw_->yaw_I) / expected_yaw_->sigma;
+    return std::log1p(std::sqrt(2.0 * std::numbers::pi) / expected_yaw_->sigma * std::exp(-0.5 * e * e));
+  };
+  return log_density(X_IH.yaw) - log_density(hypotheses_[reference_].X_IH.yaw);
 }
 
 int HypothesisSet::find(const StoreyPose& pose, double near_m, double near_rad) const {

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <deque>
+#include <optional>
 #include <vector>
 
 #include "bim/config/visit.h"
@@ -127,7 +128,7 @@ struct PoseHypothesis {
   Pose2 X_IH;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();
   EvidenceBalance balance;  ///< from its comparison with the reference
-  double evidence = 0.0;    ///< log-likelihood ratio to the reference, whose own is 0
+  double evidence = 0.0;    ///< log-likelihood ratio to the reference, whose own is 0, with that of its yaw
   double mass = 0.0;        ///< share by evidence
   double fit = 0.0;         ///< sum over its scans within FitConfig::limit
   double fit_sum = 0.0;     ///< the same without the limit
@@ -149,6 +150,8 @@ class HypothesisSet {
     tracking_refine_.first_gate_m = refine.tracking_gate_m;
   }
 
+  /// The yaw at the next scan that is as likely right as worth nothing: evidence for the poses that have it.
+  void expect_yaw(const std::optional<ExpectedYaw>& yaw) { expected_yaw_ = yaw; }
   /// Moves every hypothesis by u, fits it to the scan and adds the scan's evidence.
   void predict_and_update(const PlanIndex& index, const Pose2& u, const LocalizationScan& scan);
   /// Adds clusters that are no hypothesis yet, once few compact ones hold nearly all of the mass.
@@ -209,6 +212,8 @@ class HypothesisSet {
   /// one). Stops once the evidence has fallen below the drop ratio.
   [[nodiscard]] Replay replay(const PlanIndex& index, const StoreyPose& pose,
                               const std::vector<ScanAtPose>& reference) const;
+  /// Log-likelihood ratio of a pose's yaw to the reference's by what is expected.
+  [[nodiscard]] double yaw_evidence(const Pose2& X_IH) const;
   [[nodiscard]] int find(const StoreyPose& pose, double near_m, double near_rad) const;
 
   HypothesisConfig config_;
@@ -218,6 +223,7 @@ class HypothesisSet {
   HypothesisComparisonConfig comparison_;
   std::vector<PoseHypothesis> hypotheses_;
   std::deque<HistoryStep> history_;
+  std::optional<ExpectedYaw> expected_yaw_;
   int next_id_ = 0;
   std::size_t reference_ = 0;  ///< hypothesis that the others are compared with
 };

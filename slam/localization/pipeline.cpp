@@ -48,6 +48,7 @@ class SGraphLocalization final : public PlanLocalization {
 
  private:
   void use_scan(const PlanScan& scan, Output& output) override;
+  [[nodiscard]] bool start_anew() override;
   void report(const Pose& X_OR, Output& output) override;
   void localize(const LocalizationScan& scan, const StartPrior& start_prior,
                 const std::vector<PlaneObservation>& planes, Output& output);
@@ -72,9 +73,10 @@ class SGraphLocalization final : public PlanLocalization {
   State state_ = State::searching;
   double mass_ = 0.0;  ///< of the tracked hypothesis when it was announced
   int failed_updates_ = 0;
-  double fit_ = 0.0;       ///< of the tracked pose, see FitConfig
-  int storey_ = 0;         ///< of the tracked hypothesis, index into PlanIndex::storeys
-  HypothesisSet monitor_;  ///< of the last scans; hypotheses only while a check runs
+  double fit_ = 0.0;                        ///< of the tracked pose, see FitConfig
+  int storey_ = 0;                          ///< of the tracked hypothesis, index into PlanIndex::storeys
+  std::optional<ExpectedYaw> doubted_yaw_;  ///< of the present scan: the robot may have been kidnapped and turned
+  HypothesisSet monitor_;                   ///< of the last scans; hypotheses only while a check runs
   double since_check_m_ = 0.0;
   Agreement agreement_;            ///< of the tracked hypothesis, moving average over scans
   std::optional<Pose> X_IO_last_;  ///< of the last tracking, also after it was lost
@@ -84,6 +86,8 @@ class SGraphLocalization final : public PlanLocalization {
 
 void SGraphLocalization::use_scan(const PlanScan& scan, Output& output) {
   Stopwatch stopwatch;
+  doubted_yaw_.reset();
+  if (scan.prior_yaw_I) doubted_yaw_ = ExpectedYaw{*scan.prior_yaw_I, scan.prior_yaw_sigma};
   const std::vector<PlaneObservation> planes = observe_planes(
       scan.deskewed, config_.planes, config_.ransac_without_rings, input().seed);  // [shaheer2023, eq. 3]
   const LocalizationScan localization_scan =
@@ -180,6 +184,7 @@ void SGraphLocalization::follow_storey() {
 /// missing, many do for a while.
 bool SGraphLocalization::has_better_alternative(const LocalizationScan& scan) {
   const Pose2 u = heading(X_OR_update()->inverse() * scan.X_OR);
+  monitor_.expect_yaw(doubted_yaw_);
   monitor_.predict_and_update(index(), u, scan);
   since_check_m_ += u.t.norm();
   if (since_check_m_ < config_.monitor.every_m) return false;
@@ -238,10 +243,29 @@ void SGraphLocalization::record_tracked_poses(const std::vector<TrackedPose>& po
   }
 }
 
+/// Never a confident pose where nothing measures the robot's way.
+bool SGraphLocalization::start_anew() {
+  if (tracker_) {
+    record_tracked_poses({tracker_->window().begin(), tracker_->window().end()});
+    tracker_.reset();
+    state_ = State::lost;
+  }
+  global_localizer_.restart();
+  if (state_ != State::lost) state_ = State::searching;
+  return true;
+}
+
 /// A robot that is lost may have been kidnapped and turned.
 StartPrior SGraphLocalization::start_prior(const PlanScan& scan) const {
-  if (!scan.prior_yaw_I || state_ == State::lost) return {};
-  return {scan.prior_yaw_I, scan.prior_yaw_sigma};
+  if (!scan.prior_yaw_I) return {};
+  StartPrior prior;
+  if (state_ == State::lost) {
+    prior.doubted_yaw = doubted_yaw_;
+  } else {
+    prior.yaw_I = scan.prior_yaw_I;
+    prior.yaw_sigma = scan.prior_yaw_sigma;
+  }
+  return prior;
 }
 
 Pose SGraphLocalization::pose_in_I(const PoseHypothesis& hypothesis, const LocalizationScan& scan) const {

@@ -5,7 +5,6 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <optional>
 #include <utility>
 
@@ -138,8 +137,9 @@ void PlanTracker::optimise() {
       window_[i].X_IR = increment(window_[i].X_IR, step.segment<6>(6 * static_cast<Eigen::Index>(i)));
     range_bias_m_ += step[step.size() - 1];
   }
-  update_wall_tolerance();
-  covariance_ = covariance_of_newest();
+  const std::vector<SeenWall> walls = seen_walls(window_, storey_, range_bias_m_, config_);
+  wall_variance_factor_.add(walls, {range_bias_.mean(), range_bias_.variance(), range_bias_m_}, config_);
+  covariance_ = covariance_of_newest(walls);
 }
 
 void PlanTracker::weigh_walls() {
@@ -148,79 +148,11 @@ void PlanTracker::weigh_walls() {
       link.weight = wall_weight(pose, link, storey_, range_bias_m_, covariance_.topLeftCorner<2, 2>(), config_);
 }
 
-void PlanTracker::update_wall_tolerance() {
-  struct Mean {
-    double sum = 0.0, weight = 0.0, largest_weight = 0.0, information = 0.0;
-  };
-  std::map<int, Mean> of_line;
-  for (const TrackedPose& pose : window_)
-    for (const WallLink& link : pose.walls) {
-      Mean& mean = of_line[link.line];
-      mean.sum += link.weight * std::clamp(wall_residual(pose, link, storey_, range_bias_m_).e[2],
-                                           -config_.wall_residual_max_m, config_.wall_residual_max_m);
-      mean.weight += link.weight;
-      mean.largest_weight = std::max(mean.largest_weight, link.weight);
-      mean.information += link.weight / link.observed.covariance(2, 2);
-    }
-  double squares = 0.0, walls = 0.0;
-  for (const auto& [line, mean] : of_line) {
-    squares += mean.largest_weight * (std::pow(mean.sum / mean.weight, 2) - 1.0 / mean.information);
-    walls += mean.largest_weight;
-  }
-  constexpr double fitted = 4.0;  // x, y, yaw and the range bias
-  if (walls <= fitted) return;
-  // Windows overlap: what one adds is a part of it.
-  const double part = 1.0 / config_.window;
-  wall_freedom_ += part * (walls - fitted - config_.wall_forgetting * wall_freedom_);
-  wall_squares_ += part * (squares - config_.wall_forgetting * wall_squares_);
-  const double prior = config_.wall_tolerance_weight * config_.wall_tolerance_m * config_.wall_tolerance_m;
-  wall_tolerance_ =
-      std::max(std::sqrt((prior + std::max(0.0, wall_squares_)) / (config_.wall_tolerance_weight + wall_freedom_)),
-               config_.wall_tolerance_min_m);
-}
-
-namespace {
-
-/// A wall of the plan by all its observations in the window.
-struct SeenWall {
-  Eigen::Vector4d J;  ///< of its distance, towards x, y, yaw of the newest pose and the range bias
-  double information = 0.0, length = 0.0, weight = 0.0;
-};
-
-/// Those out of sight now still hold the pose by odometry.
-std::map<int, SeenWall> seen_walls(const std::deque<TrackedPose>& window, const StoreyIndex& storey,
-                                   const TrackerConfig& config) {
-  std::map<int, SeenWall> walls;
-  const TrackedPose& newest = window.back();
-  for (auto it = window.rbegin(); it != window.rend(); ++it) {
-    const double drift = config.drift_per_m * (newest.X_OR.t - it->X_OR.t).norm();
-    for (const WallLink& link : it->walls) {
-      const Eigen::Vector2d& n = storey.lines[static_cast<std::size_t>(link.line)].n;
-      const Eigen::Vector2d arm = (it->X_IR * link.observed.centroid_R - newest.X_IR.t).head<2>();
-      const Eigen::Vector4d J{n.x(), n.y(), n.y() * arm.x() - n.x() * arm.y(), bias_share(link.observed)};
-      SeenWall& wall = walls.try_emplace(link.line, SeenWall{J}).first->second;
-      wall.information += link.weight / (link.observed.covariance(2, 2) + drift * drift);
-      wall.length = std::max(wall.length, (link.observed.p1_R - link.observed.p0_R).norm());
-      wall.weight = std::max(wall.weight, link.weight);
-    }
-  }
-  return walls;
-}
-
-}  // namespace
-
-Eigen::Matrix3d PlanTracker::covariance_of_newest() const {
-  Eigen::Matrix4d information = Eigen::Matrix4d::Zero();
-  information.topLeftCorner<2, 2>() = anchor_covariance_.inverse();
-  information(2, 2) = 1.0 / (config_.anchor_sigma_rad * config_.anchor_sigma_rad);
-  information(3, 3) = 1.0 / range_bias_.variance();
-  for (const auto& [line, wall] : seen_walls(window_, storey_, config_)) {
-    const double variance = wall_tolerance_ * wall_tolerance_ + 1.0 / wall.information;
-    information += wall.J * wall.J.transpose() * (wall.weight / variance);
-    if (wall.length <= 0.0) continue;
-    const double sigma = std::sqrt(12.0) * wall_tolerance_ / wall.length + config_.wall_angle_min;
-    information(2, 2) += wall.weight / (sigma * sigma);
-  }
+Eigen::Matrix3d PlanTracker::covariance_of_newest(const std::vector<SeenWall>& walls) const {
+  Eigen::Matrix4d information = wall_information(walls, wall_variance_factor_.value(), config_);
+  information.topLeftCorner<2, 2>() += anchor_covariance_.inverse();
+  information(2, 2) += 1.0 / (config_.anchor_sigma_rad * config_.anchor_sigma_rad);
+  information(3, 3) += 1.0 / range_bias_.variance();
   Eigen::Matrix3d P = information.inverse().topLeftCorner<3, 3>();
   P.topLeftCorner<2, 2>() += config_.position_sigma_min_m * config_.position_sigma_min_m * Eigen::Matrix2d::Identity();
   P(2, 2) += config_.yaw_sigma_min * config_.yaw_sigma_min;

@@ -8,6 +8,7 @@
 
 #include "bim/config/visit.h"
 #include "slam/localization/range_bias.h"
+#include "slam/localization/wall_variance.h"
 #include "slam/plan_map/localization_scan.h"
 #include "slam/plan_map/plan_index.h"
 #include "slam/planes/plane_detector.h"
@@ -43,8 +44,8 @@ struct TrackerConfig {
   double misplaced_sigmas = 3.0;
   double range_bias_sigma_m = 0.03;
   double wall_tolerance_m = 0.008;
-  double wall_tolerance_min_m = 0.005;
-  double wall_tolerance_weight = 4.0;
+  double wall_tolerance_min_m = 0.002;
+  double wall_tolerance_weight = 2.0;
   double wall_forgetting = 0.2;
   double wall_residual_max_m = 0.1;
   double wall_angle_min = 0.001;
@@ -119,11 +120,13 @@ struct TrackerConfig {
     v("range_bias_sigma_m", range_bias_sigma_m,
       Field{.doc = "standard deviation of the LiDAR's range bias before any wall is seen", .min = 1e-6});
     v("wall_tolerance_m", wall_tolerance_m,
-      Field{.doc = "standard deviation of a wall's offset from the plan, before its residual is measured",
+      Field{.doc = "standard deviation of a wall's offset from the plan, before residuals of walls are measured",
             .min = 1e-6});
-    v("wall_tolerance_min_m", wall_tolerance_min_m, Field{.doc = "and its least value", .min = 1e-6});
+    v("wall_tolerance_min_m", wall_tolerance_min_m,
+      Field{.doc = "and its least value, however small they are", .min = 1e-6});
     v("wall_tolerance_weight", wall_tolerance_weight,
-      plain_field("number of walls that this value counts for beside those seen", {.min = 0.1}));
+      plain_field("number of walls, beyond those that fix a pose, that this value counts for beside those seen",
+                  {.min = 0.1}));
     // Five windows.
     v("wall_forgetting", wall_forgetting,
       share_field("share of the walls seen before that a window's way takes away from this measurement"));
@@ -163,11 +166,7 @@ class PlanTracker {
  public:
   /// standing_m: height of R above the ground of a robot that stands.
   PlanTracker(TrackerConfig config, StoreyIndex storey, double standing_m)
-      : config_(config),
-        storey_(std::move(storey)),
-        standing_m_(standing_m),
-        range_bias_(config.range_bias_sigma_m),
-        wall_tolerance_(config.wall_tolerance_m) {}
+      : config_(config), storey_(std::move(storey)), standing_m_(standing_m), range_bias_(config.range_bias_sigma_m) {}
 
   /// Starts at a pose in I.
   void start(const LocalizationScan& scan, const std::vector<PlaneObservation>& planes, const Pose& X_IR,
@@ -200,11 +199,8 @@ class PlanTracker {
                                       const Pose& X_IR) const;
   void optimise();
   void weigh_walls();
-  /// Takes in the mean residual of each wall in the window.
-  void update_wall_tolerance();
-  /// Of (x, y, yaw) of the newest pose in I: each wall of the window counts once, off by the tolerance, since a wall
-  /// that stands off the plan shifts all its observations alike.
-  [[nodiscard]] Eigen::Matrix3d covariance_of_newest() const;
+  /// Of (x, y, yaw) of the newest pose in I.
+  [[nodiscard]] Eigen::Matrix3d covariance_of_newest(const std::vector<SeenWall>& walls) const;
 
   TrackerConfig config_;
   StoreyIndex storey_;
@@ -214,9 +210,7 @@ class PlanTracker {
   Eigen::Matrix2d anchor_covariance_ = Eigen::Matrix2d::Identity();  ///< of its position in I
   RangeBias range_bias_;                                             ///< by the poses that left the window
   double range_bias_m_ = 0.0;                                        ///< by those of the window, too
-  double wall_tolerance_;  ///< standard deviation of a wall's offset from the plan, m
-  double wall_squares_ = 0.0,
-         wall_freedom_ = 0.0;  ///< of the walls' mean residuals, and their number less those fitted
+  WallVarianceFactor wall_variance_factor_;
   Eigen::Matrix3d covariance_ = Eigen::Matrix3d::Identity();
 };
 

@@ -92,10 +92,17 @@ struct FilterConfig {
   }
 };
 
+/// A yaw that is expected in I, rad.
+struct ExpectedYaw {
+  double yaw_I = 0.0;
+  double sigma = 0.05;
+};
+
 /// Prior of the pose before any observation, in I.
 struct StartPrior {
   std::optional<double> yaw_I;
   double yaw_sigma = 0.05;
+  std::optional<ExpectedYaw> doubted_yaw = {};  ///< rules no pose out, see HypothesisSet::expect_yaw
 };
 
 /// Uniform over the rooms of the storeys in use, stratified; yaw from the prior, else uniform together with yaws at

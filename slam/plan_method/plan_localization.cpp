@@ -54,7 +54,11 @@ Output PlanLocalization::on_scan(const Scan& scan) {
   DeskewedScan tracked;
   const Pose X_OR = lidar_odometry_ ? track(scan, tracked) : motion_.at(scan.stamp);
   if (!X_OR_start_) X_OR_start_ = X_OR;
-  if (is_due(X_OR)) {
+  const bool began_anew = !is_way_known_ && start_anew();
+  if (began_anew) {
+    X_OR_update_.reset();
+    is_start_known_ = false;
+  } else if (is_due(X_OR)) {
     ++tick_;
     const PlanScan prepared_scan =
         prepare_scan(lidar_odometry_ ? std::move(tracked) : deskew(scan, motion_, input_.calibration), X_OR);
@@ -88,6 +92,9 @@ Pose PlanLocalization::track(const Scan& raw, DeskewedScan& scan) {
   scan = lidar_odometry_->deskewed(raw);
   if (!q_OM_) q_OM_ = level_by_floor(observe_planes(scan, {}, RinglessRansacConfig(), input_.seed));
   const Registration odometry = lidar_odometry_->track(raw, scan);
+  is_way_known_ = !odometry.lost && !odometry.displaced;
+  // Localization starts anew: what matters is whether the way from here on is known.
+  if (!odometry.lost && odometry.displaced) lidar_odometry_->locate_map();
   return Pose{*q_OM_, Eigen::Vector3d::Zero()} * odometry.X_MR;
 }
 
@@ -97,7 +104,7 @@ PlanScan PlanLocalization::prepare_scan(DeskewedScan scan, const Pose& X_OR) con
   out.X_OR = X_OR;
   if (X_OR_update_) out.u = heading(*X_OR_update_).inverse() * heading(X_OR);
   out.q_HR = exp_so3({0.0, 0.0, -X_OR.yaw()}) * X_OR.q;
-  if (input_.prior.yaw_W) {
+  if (input_.prior.yaw_W && is_start_known_) {
     // Rounded, so that a plan moved as a whole gives the same numbers.
     const double yaw_I = std::round((*input_.prior.yaw_W - index_.X_WI.yaw()) * 1e9) * 1e-9;
     out.prior_yaw_I = wrap_angle(yaw_I + X_OR.yaw() - X_OR_start_->yaw());

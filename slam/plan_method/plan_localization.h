@@ -73,6 +73,9 @@ class PlanLocalization : public Method {
  protected:
   /// Uses a scan that is due; its stages go into the output's digests and times.
   virtual void use_scan(const PlanScan& scan, Output& output) = 0;
+  /// Called where the way to a scan is not known: scan matching is lost, or went on from elsewhere. True: the method
+  /// starts anew at the next scan, without the prior yaw, which odometry carried on; false: it goes on as it was.
+  [[nodiscard]] virtual bool start_anew() { return false; }
   /// Adds state, pose, hypotheses and particles at any scan, due or not.
   virtual void report(const Pose& X_OR, Output& output) = 0;
 
@@ -103,6 +106,7 @@ class PlanLocalization : public Method {
   [[nodiscard]] bool is_due(const Pose& X_OR) const;
   [[nodiscard]] PlanScan prepare_scan(DeskewedScan scan, const Pose& X_OR) const;
   /// R in O by scan matching, for a robot without odometry; the scan is deskewed. O stands on the first floor seen.
+  /// Sets whether the way from the scan before is known.
   [[nodiscard]] Pose track(const Scan& raw, DeskewedScan& scan);
 
   MethodInput input_;
@@ -111,6 +115,8 @@ class PlanLocalization : public Method {
   MotionBuffer motion_;
   std::optional<FrontEnd> lidar_odometry_;  ///< where the robot has no odometry
   std::optional<Eigen::Quaterniond> q_OM_;  ///< of its map's frame, once a scan was seen
+  bool is_way_known_ = true;                ///< from the scan before to this one
+  bool is_start_known_ = true;              ///< whether odometry leads back to the first scan
   std::optional<Pose> X_OR_start_, X_OR_update_;
   std::uint64_t tick_ = 0;
   CorrectedTrajectory trajectory_;
