@@ -47,6 +47,26 @@ Tree tree_of(const CellAnswer& answer) {
   return tree;
 }
 
+Tree tree_of(const bim::Building& plan, const Alike& alike) {
+  const auto room = [&](int index) {
+    return index < 0 ? Tree() : Tree(plan.rooms[static_cast<std::size_t>(index)].id);
+  };
+  Tree rooms = Tree::list();
+  for (const auto& [a, b] : alike.rooms) rooms.push(Tree(Tree::List{room(a), room(b)}));
+  const Eigen::Vector3d moved = alike.transform.t;
+  Tree tree = Tree::map();
+  tree.set("turned_deg", alike.transform.yaw() / rad_per_deg)
+      .set("moved_m", Tree(Tree::List{moved.x(), moved.y(), moved.z()}))
+      .set("places", alike.places)
+      .set("rooms", std::move(rooms));
+  if (const auto& by = alike.distinguished)
+    tree.set("element", by->element)
+        .set("missing", by->missing)
+        .set("share", by->share)
+        .set("from", Tree(Tree::List{by->from_W.x(), by->from_W.y()}));
+  return tree;
+}
+
 Tree conditions(const BuildingMap& map, const std::function<bool(const MapCell&)>& of) {
   Tree tree = Tree::map();
   if (!map.options.compass_only) tree.set("unknown", tree_of(share_of(map, false, of)));
@@ -97,6 +117,10 @@ class MapMaker {
     return result;
   }
 
+  [[nodiscard]] std::vector<Alike> alike_in(const BuildingMap& map) const {
+    return alike_places(building_.as_planned(), visible_, input_.storeys, map.floors, map.map);
+  }
+
   /// The finest map that fits the budget: coarse ones first, whose work says what a finer one would take.
   [[nodiscard]] BuildingMap within(double budget_s) {
     StepBudget budget;
@@ -144,7 +168,9 @@ class MapMaker {
 
 BuildingMap map_of(const RunBuilding& building, const BuildingMapOptions& options, PlanEvidence by) {
   MapMaker maker(building, options, by);
-  return options.budget_s ? maker.within(*options.budget_s) : maker.at(options.step_m);
+  BuildingMap map = options.budget_s ? maker.within(*options.budget_s) : maker.at(options.step_m);
+  map.alike = maker.alike_in(map);
+  return map;
 }
 
 BuildingMaps maps_of(const RunBuilding& building, const BuildingMapOptions& options) {
@@ -206,7 +232,9 @@ void set_answers(const bim::Building& plan, const BuildingMap& map, Tree& tree) 
     one.set("compass", tree_of(cell.compass));
     cells.push(std::move(one));
   }
-  tree.set("storeys", storeys).set("rooms", rooms).set("cells", cells);
+  Tree alike = Tree::list();
+  for (const Alike& one : map.alike) alike.push(tree_of(plan, one));
+  tree.set("storeys", storeys).set("rooms", rooms).set("cells", cells).set("alike", alike);
 }
 
 std::string table_of(const RunBuilding& building, const BuildingMap& map) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bim/config/tree.h"
+#include "scenarios/localizability/alike.h"
 #include "scenarios/localizability/localizability_map.h"
 
 namespace plumbline::scenarios {
@@ -27,6 +28,7 @@ struct BuildingMap {
   BuildingMapOptions options;
   std::vector<Floor> floors;
   LocalizabilityMap map;
+  std::vector<Alike> alike;  ///< what looks alike in it, and what distinguishes it
 };
 
 /// Where the pose can be known from LiDAR scans of the building as built and its plan. Throws InputError.
@@ -57,7 +59,8 @@ struct MapShare {
 [[nodiscard]] std::string name_of(const bim::Storey& storey);
 
 /// identify --json: {step_m, across, storeys: [{id, unknown: {cells, one_look, walk, never, ...}, compass: {...}}],
-/// rooms: [...], cells: [...]} by the building alone; the same lists again in with_furniture, where that differs.
+/// rooms: [...], cells: [...], alike: [{turned_deg, moved_m, places, rooms, element, missing, share, from}]} by the
+/// building alone; the same lists again in with_furniture, where that differs.
 [[nodiscard]] Tree localizability_json(const RunBuilding& building, const BuildingMaps& maps);
 /// A table an answer, a line a storey and condition.
 [[nodiscard]] std::string localizability_text(const RunBuilding& building, const BuildingMaps& maps);

@@ -2,7 +2,7 @@
 #include "scenarios/localizability/localizability.h"
 
 #include <algorithm>
-#include <map>
+#include <optional>
 #include <utility>
 
 #include "scenarios/localizability/aliased_poses.h"
@@ -13,13 +13,10 @@ namespace {
 
 SensorPose levelled(const Pose& X_WR, double z) { return {{X_WR.t.x(), X_WR.t.y(), z}, X_WR.yaw()}; }
 
-/// Evidence by element: of the planned mesh where missing, else of the one as built.
-using Evidence = std::map<std::pair<bool, int>, double>;
-
 /// An aliased pose with the evidence against it.
 struct Followed {
-  AliasedPose alias;
-  Evidence evidence;
+  Pose transform;
+  ElementEvidence evidence;
 };
 
 /// Poses at which a scan is compared: the first, then one per step_m walked.
@@ -37,45 +34,22 @@ std::vector<std::pair<double, const TruthSample*>> stations(const std::vector<Tr
 }
 
 /// Adds the evidence of a scan at the true pose against each alias.
-void compare(const LocalizabilityInput& input, const SensorPose& truth, std::vector<Followed>& followed) {
+void compare(const ComparedScenes& scenes, const SensorPose& truth, std::vector<Followed>& followed) {
   const RangeImager imager;
-  const RangeImage seen = imager.cast(*input.as_built, truth);
-  const RangeImage own = input.as_built == input.as_planned ? seen : imager.cast(*input.as_planned, truth);
+  const SeenPlace place = see(imager, scenes, truth);
   for (Followed& one : followed) {
-    const Pose X = one.alias.transform * truth.pose();
-    const RangeImage expected = imager.cast(*input.as_planned, {X.t, X.yaw()});
-    for (std::size_t i = 0; i < seen.range_m.size(); ++i) {
-      const bool loose =
-          !input.loose.empty() && seen.element[i] >= 0 && input.loose[static_cast<std::size_t>(seen.element[i])] != 0;
-      const double gain = beam_evidence(*input.as_planned, {X.t, X.yaw()}, imager.directions()[i], seen.range_m[i],
-                                        own.range_m[i], expected.range_m[i], loose);
-      if (gain == 0.0) continue;
-      one.alias.llr += gain;
-      // Of two surfaces the nearer one is the feature: it stands before the other, or would.
-      const bool missing = expected.range_m[i] < seen.range_m[i];
-      one.evidence[{missing, missing ? expected.element[i] : seen.element[i]}] += gain;
-    }
+    const Pose X = one.transform * truth.pose();
+    one.evidence.add(imager, scenes, place, {X.t, X.yaw()});
   }
 }
 
 /// Drops aliases that are ruled out. The first of those that are dropped last says what decided.
 void drop(std::vector<Followed>& followed, RunIdentifiability& run) {
-  std::optional<Followed> last;
-  for (const Followed& one : followed)
-    if (one.alias.llr > localizability_constants.drop_llr && !last) last = one;
-  std::erase_if(followed, [](const Followed& one) { return one.alias.llr > localizability_constants.drop_llr; });
-  if (!last || !followed.empty()) return;
-  double sum = 0.0;
-  DecidingFeature feature;
-  double most = 0.0;
-  for (const auto& [key, gain] : last->evidence) {
-    sum += std::max(gain, 0.0);
-    if (gain <= most) continue;
-    most = gain;
-    feature = {key.first, key.second, 0.0};
-  }
-  feature.share = sum > 0.0 ? most / sum : 0.0;
-  if (feature.element >= 0) run.decided_by = feature;
+  const auto ruled_out = [](const Followed& one) { return one.evidence.llr > localizability_constants.drop_llr; };
+  const auto first = std::find_if(followed.begin(), followed.end(), ruled_out);
+  const std::optional<Followed> last = first == followed.end() ? std::nullopt : std::optional(*first);
+  std::erase_if(followed, ruled_out);
+  if (last && followed.empty()) run.decided_by = last->evidence.deciding();
 }
 
 void conclude(RunIdentifiability& run) {
@@ -121,13 +95,13 @@ RunIdentifiability compute_localizability(const LocalizabilityInput& input, cons
     const SensorPose place = levelled(sample->X_WR, sample->sensor_z_W);
     if (run.steps.empty())
       for (const FoundAlias& found : finder.find(finder.scan_at(place), {-1, input.yaw_known}))
-        followed.push_back({{found.place.pose() * place.pose().inverse(), 0.0}, {}});
+        followed.push_back({found.place.pose() * place.pose().inverse(), {}});
     if (!followed.empty()) {
-      compare(input, place, followed);
+      compare({input.as_planned, input.as_built, input.loose}, place, followed);
       drop(followed, run);
     }
     LocalizabilityStep& step = run.steps.emplace_back(LocalizabilityStep{sample->t_s, walked, {}});
-    for (const Followed& one : followed) step.alive.push_back(one.alias);
+    for (const Followed& one : followed) step.alive.push_back({one.transform, one.evidence.llr});
   }
   conclude(run);
   return run;

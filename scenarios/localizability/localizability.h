@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bim/rays/ray_scene.h"
+#include "scenarios/localizability/element_evidence.h"
 #include "scenarios/localizability/place_index.h"
 #include "slam/io/records.h"
 
@@ -38,17 +39,10 @@ struct LocalizabilityStep {
   std::vector<AliasedPose> alive;  ///< all with llr <= drop_llr, ordered by where they were found
 };
 
-/// The element that ruled out the last alias: most of the log-likelihood ratio comes from beams to it.
-struct DecidingFeature {
-  bool missing = false;  ///< it would be visible from the alias, and is not; else it is visible, and would not be
-  int element = -1;      ///< of the planned mesh where missing, else of the one as built
-  double share = 0.0;    ///< of the positive evidence
-};
-
 /// What any estimator could have known of the pose.
 struct RunIdentifiability {
   std::vector<LocalizabilityStep> steps;
-  std::optional<DecidingFeature> decided_by;  ///< absent when the first scan sufficed or nothing did
+  std::optional<DecidingFeature> decided_by;  ///< of the last alias; absent when the first scan sufficed or nothing did
   bool identifiable = false;                  ///< no alias is alive at the end
   std::optional<double> identifiable_at_s;    ///< first time from which on none is
   std::optional<double> identifiable_at_m;

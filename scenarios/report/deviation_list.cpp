@@ -13,12 +13,6 @@ namespace plumbline::scenarios {
 
 namespace {
 
-/// An element of one building seen from above; the storey it stands on, -1 when the building does not have it.
-struct Outline {
-  int storey = -1;
-  Polygon2 polygon_W;
-};
-
 template <class Element>
 const Element* named(const std::vector<Element>& elements, const std::string& id) {
   const auto found =
@@ -42,18 +36,6 @@ Polygon2 hull_of(const bim::Solid& solid) {
   return bim::convex_hull(std::move(points));
 }
 
-Outline outline_in(const bim::Building& building, const std::string& id) {
-  if (const bim::Wall* wall = named(building.walls, id)) return {wall->storey, bim::footprint(*wall)};
-  if (const bim::Opening* opening = named(building.openings, id); opening != nullptr && opening->wall >= 0) {
-    const bim::Wall& wall = building.walls[static_cast<std::size_t>(opening->wall)];
-    return {wall.storey, outline_of(*opening, wall)};
-  }
-  if (const bim::Column* column = named(building.columns, id)) return {column->storey, column->footprint};
-  if (const bim::Obstacle* obstacle = named(building.obstacles, id)) return {obstacle->storey, hull_of(obstacle->body)};
-  if (const bim::Room* room = named(building.rooms, id)) return {room->storey, {}};
-  return {};
-}
-
 Eigen::Vector2d middle_of(const Polygon2& polygon) {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   for (const Eigen::Vector2d& p : polygon) sum += p;
@@ -67,11 +49,23 @@ std::string spaced(std::string text) {
 
 }  // namespace
 
+ElementOutline outline_in(const bim::Building& building, const std::string& id) {
+  if (const bim::Wall* wall = named(building.walls, id)) return {wall->storey, bim::footprint(*wall)};
+  if (const bim::Opening* opening = named(building.openings, id); opening != nullptr && opening->wall >= 0) {
+    const bim::Wall& wall = building.walls[static_cast<std::size_t>(opening->wall)];
+    return {wall.storey, outline_of(*opening, wall)};
+  }
+  if (const bim::Column* column = named(building.columns, id)) return {column->storey, column->footprint};
+  if (const bim::Obstacle* obstacle = named(building.obstacles, id)) return {obstacle->storey, hull_of(obstacle->body)};
+  if (const bim::Room* room = named(building.rooms, id)) return {room->storey, {}};
+  return {};
+}
+
 std::vector<ReportDeviation> report_deviations(const bim::PlannedAndBuilt& site, int storey) {
   std::vector<ReportDeviation> deviations;
   for (const bim::Change& change : site.changes) {
-    const Outline planned = outline_in(site.as_planned, change.element);
-    const Outline built = outline_in(site.as_built, change.element);
+    const ElementOutline planned = outline_in(site.as_planned, change.element);
+    const ElementOutline built = outline_in(site.as_built, change.element);
     if (planned.storey != storey && built.storey != storey) continue;
     deviations.push_back({change.op, change.element, planned.polygon_W, built.polygon_W});
   }
@@ -80,13 +74,18 @@ std::vector<ReportDeviation> report_deviations(const bim::PlannedAndBuilt& site,
 
 std::string describe(const ReportDeviation& deviation) {
   std::string text = spaced(deviation.op) + " " + deviation.element;
-  if (deviation.planned_W.empty() || deviation.built_W.empty()) return text;
-  const Eigen::Vector2d moved = middle_of(deviation.built_W) - middle_of(deviation.planned_W);
-  for (const int axis : {0, 1})
-    if (std::abs(moved[axis]) >= 0.0005)
-      text += std::string(text.find(": ") == std::string::npos ? ": " : ", ") + svg::number(std::abs(moved[axis])) +
-              " m towards " + (moved[axis] > 0.0 ? "+" : "-") + "xy"[axis];
-  return text;
+  if (!deviation.planned_W.empty() && !deviation.built_W.empty()) {
+    const Eigen::Vector2d moved = middle_of(deviation.built_W) - middle_of(deviation.planned_W);
+    std::string by;
+    for (const int axis : {0, 1})
+      if (std::abs(moved[axis]) >= 0.0005)
+        by += (by.empty() ? "" : ", ") + svg::number(std::abs(moved[axis])) + " m towards " +
+              (moved[axis] > 0.0 ? "+" : "-") + "xy"[axis];
+    if (!by.empty()) text += ": " + by;
+  }
+  if (!deviation.judged) return text;
+  return text + (deviation.seen_at_s ? "; in sight from " + svg::number(*deviation.seen_at_s, 1) + " s on"
+                                     : "; never in sight of the robot");
 }
 
 std::string draw_deviations(const std::vector<ReportDeviation>& deviations) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "bim/plan/plan.h"
+#include "scenarios/report/alike_list.h"
 #include "scenarios/report/map_drawing.h"
 #include "scenarios/report/page.h"
 #include "scenarios/report/svg.h"
@@ -47,17 +48,21 @@ std::string legend() {
   };
   return "<div class=\"key\">" + item(green, "one scan suffices") + item(ambers[0], "a walk of up to 2 m suffices") +
          item(ambers[1], "up to 5 m") + item(ambers[2], "up to 10 m") + item(ambers[3], "further") +
-         item(red, "no walk on the storey suffices") + item("var(--thing)", "column, furniture") + "</div>";
+         item(red, "no walk on the storey suffices") + item("var(--thing)", "column, furniture") +
+         item("var(--deciding)", "what distinguishes places that look alike, by number") + "</div>";
 }
 
 std::string percent(int part, int whole) { return whole == 0 ? "–" : svg::number(100.0 * part / whole, 1) + " %"; }
 
 std::string share_row(const std::string& name, const MapShare& s) {
-  const auto cell = [](const std::string& text) { return "<td class=\"num\">" + text + "</td>"; };
-  return "<tr><td>" + svg::escape(name) + "</td>" + cell(std::to_string(s.cells)) + cell(percent(s.one_scan, s.cells)) +
-         cell(percent(s.walk, s.cells)) + cell(s.walk > 0 ? svg::number(s.walk_median_m, 1) : "–") +
-         cell(s.walk > 0 ? svg::number(s.walk_max_m, 1) : "–") + cell(percent(s.never, s.cells)) +
-         cell(std::to_string(s.aliases_max)) + "</tr>";
+  const auto cell = [](const char* head, const std::string& text) {
+    return "<td class=\"num\" data-head=\"" + std::string(head) + "\">" + text + "</td>";
+  };
+  return "<tr><td>" + svg::escape(name) + "</td>" + cell("places", std::to_string(s.cells)) +
+         cell("one scan", percent(s.one_scan, s.cells)) + cell("a walk", percent(s.walk, s.cells)) +
+         cell("median m", s.walk > 0 ? svg::number(s.walk_median_m, 1) : "–") +
+         cell("longest m", s.walk > 0 ? svg::number(s.walk_max_m, 1) : "–") + cell("never", percent(s.never, s.cells)) +
+         cell("aliases, most", std::to_string(s.aliases_max)) + "</tr>";
 }
 
 /// What pages show of one condition.
@@ -81,7 +86,7 @@ class ConditionPage {
                       std::string(compass_ ? "Heading known from a compass" : "Heading unknown") +
                       "</h2><div class=\"maps\">";
     for (std::size_t f = 0; f < map_.floors.size(); ++f) out += "<div>" + draw(f) + "</div>";
-    return out + "</div>" + legend() + table() + "</section>\n";
+    return out + "</div>" + legend() + table() + list_alike(building_, shown_alike(map_, compass_)) + "</section>\n";
   }
 
  private:
@@ -98,7 +103,8 @@ class ConditionPage {
       if (cell.floor == f) cells += cell_square(cell, answer(cell), map_.options.step_m);
     // Rooms are filled: cells lie over them, walls over cells.
     const std::size_t walls = std::min(plan.find("<line"), plan.size());
-    return out + plan.substr(0, walls) + cells + plan.substr(walls) + room_names(input_, storey) +
+    return out + plan.substr(0, walls) + cells + plan.substr(walls) +
+           draw_deciding(building_, shown_alike(map_, compass_), storey) + room_names(input_, storey) +
            draw_scale(bounds(input_)) + "</svg>";
   }
 
@@ -116,7 +122,7 @@ class ConditionPage {
       const MapShare share = share_of(map_, compass_, [&](const MapCell& cell) {
         return static_cast<int>(map_.floors[cell.floor].storey) == room.storey && contains(room.polygon, cell.p_W);
       });
-      if (share.cells > 0) out += share_row("room " + (room.name.empty() ? room.id : room.name), share);
+      if (share.cells > 0) out += share_row(room.name.empty() ? room.id : room.name, share);
     }
     return out + "</table></div>";
   }

@@ -10,7 +10,7 @@ namespace {
 
 using enum InkUse;
 
-constexpr std::array<Ink, 57> inks = {{
+constexpr std::array<Ink, 58> inks = {{
     {"paper", "#ffffff", "#1b2027", ground},
     {"ground", "#f3f5f8", "#14181e", ground},
     {"room", "#f8fafc", "#232a33", ground},
@@ -73,6 +73,7 @@ constexpr std::array<Ink, 57> inks = {{
     {"reached", "#7cc4a0", "#2f6b4e", area},
     {"elsewhere", "#d8dde4", "#3c4652", area},
     {"shade", "#efc4be", "#63312a", area},
+    {"deciding", "#b8257f", "#ff9ad5", graphic},
     {"walked", "#0b4f8a", "#6cb6ee", graphic},
 }};
 

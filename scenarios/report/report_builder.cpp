@@ -5,9 +5,11 @@
 #include <set>
 
 #include "scenarios/metrics/storey.h"
+#include "scenarios/report/deviation_sight.h"
 #include "scenarios/report/hypothesis_history.h"
 #include "scenarios/report/map_drawing.h"
 #include "scenarios/score/handover.h"
+#include "sim/world.h"
 
 namespace plumbline::scenarios {
 
@@ -159,6 +161,16 @@ std::vector<ReportStorey> storeys_of(const FinishedRun& run, const std::vector<R
   return out;
 }
 
+std::vector<TruthSample> walk_of(const score::Truth& truth) {
+  std::vector<TruthSample> walk;
+  for (const slam::Nanoseconds stamp : truth.scans) {
+    const Pose X_WR = truth.at(stamp);
+    walk.push_back(
+        {slam::seconds(stamp), X_WR, X_WR.t.z() - score::base_height_m() + sim::World::calibration().sensor_height_m});
+  }
+  return walk;
+}
+
 }  // namespace
 
 ReportInput report_input(const FinishedRun& run, const score::RunScore& score) {
@@ -176,6 +188,8 @@ ReportInput report_input(const FinishedRun& run, const score::RunScore& score) {
   for (const slam::Nanoseconds stamp : score.truth.scans)
     input.truth.push_back(sample(input.plan, stamp, score.truth.at(stamp), 0.0));
   input.storeys = storeys_of(run, input.truth);
+  const std::vector<TruthSample> walk = walk_of(score.truth);
+  for (ReportStorey& storey : input.storeys) set_sights(*run.building, walk, storey.deviations);
   if (score.truth.set_down) {
     const auto down = std::find(score.truth.scans.begin(), score.truth.scans.end(), *score.truth.set_down);
     input.kidnap = ReportKidnap{slam::seconds(*(down - 1)), slam::seconds(*down)};

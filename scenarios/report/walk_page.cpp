@@ -171,7 +171,7 @@ std::string walk_page(const bim::PlannedAndBuilt& site, const std::string& name)
               "</h2><p class=\"verdict bad\">The robot can turn round in none of its " + std::to_string(rooms) +
               " rooms.</p></section>\n";
   }
-  return page + "</main></body></html>\n";
+  return page + "</main><script>" + std::string(map_script()) + "</script></body></html>\n";
 }
 
 }  // namespace plumbline::scenarios

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "bim/formats/plan_yaml/plan_yaml.h"
+#include "scenarios/report/deviation_sight.h"
 
 namespace plumbline::scenarios {
 namespace {
@@ -52,6 +53,24 @@ TEST(ReportDeviations, AreNamedOnThePage) {
   EXPECT_NE(draw_deviations(some).find("class=\"asbuilt\""), std::string::npos);
   EXPECT_TRUE(list_deviations({}).empty());
   EXPECT_TRUE(draw_deviations({}).empty());
+}
+
+TEST(ReportDeviations, SayWhetherTheRobotCouldSeeThem) {
+  // In the left room, whose door to the right one is open: the tank there stands behind the wall, the moved door shows.
+  const bim::PlannedAndBuilt site = site_of(
+      "  - {op: add_clutter, id: near, storey: g, shape: box, at: [2, 4], size: [0.5, 0.5]}\n"
+      "  - {op: add_clutter, id: hidden, storey: g, shape: box, at: [7.4, 4.4], size: [0.5, 0.5]}\n"
+      "  - {op: move_opening, opening: d, by_m: 0.4}\n"
+      "  - {op: tilt_wall, wall: attic, deg: 1}\n");
+  const RunBuilding building(site);
+  std::vector<ReportDeviation> ground = report_deviations(site, 0);
+  ASSERT_EQ(ground.size(), 3U);
+  std::vector<TruthSample> walk;
+  for (int i = 0; i < 4; ++i) walk.push_back({1.0 + i, Pose::from_xyz_yaw({1.0, 3.5 + 0.01 * i, 0.3}, 0.0), 0.66});
+  set_sights(building, walk, ground);
+  EXPECT_EQ(describe(ground[0]), "add clutter near; in sight from 1 s on");
+  EXPECT_EQ(describe(ground[1]), "add clutter hidden; never in sight of the robot");
+  EXPECT_EQ(describe(ground[2]), "move opening d: 0.4 m towards +y; in sight from 1 s on");
 }
 
 }  // namespace
