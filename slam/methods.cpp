@@ -138,10 +138,15 @@ std::vector<MethodRow> odometry_and_slam() {
            .summary = "LiDAR alone: ground and segments, odometry in two steps, a map of keyframes, LeGO-LOAM",
            .make = make_by<LegoLoamConfig, make_lego_loam>,
            .standard = false}),
+      with_config<LegoLoamIndoorConfig>(
+          {.name = "lego_loam_indoor",
+           .summary = "lego_loam that is corrected by its map where rooms show little of the floor, too",
+           .make = make_by<LegoLoamIndoorConfig, make_lego_loam>,
+           .standard = false,
+           .variant = true}),
       with_config<MloamConfig>(
           {.name = "mloam",
-           .summary =
-               "LiDAR alone: what one LiDAR leaves of M-LOAM, LOAM with a keyframe map; its window of scans is off",
+           .summary = "LiDAR alone: what one LiDAR leaves of M-LOAM, LOAM with a window of scans and a keyframe map",
            .make = make_by<MloamConfig, make_mloam>,
            .standard = false}),
       with_config<PclGicpMethodConfig>(

@@ -40,6 +40,11 @@ struct LegoLoamConfig {
   }
 };
 
+/// In rooms the map's normal matrix holds height and tilt by fewer than the 100 points that the reference asks for.
+struct LegoLoamIndoorConfig : LegoLoamConfig {
+  LegoLoamIndoorConfig() { submap.least_eigenvalue = 10.0; }
+};
+
 /// LeGO-LOAM [shan2018]: ground and segments of a range image, odometry in two steps, then a map of keyframes. LiDAR
 /// alone: odometry and IMU are not used. LOST where ground or edges do not tell the motion: the pose then stands.
 [[nodiscard]] std::unique_ptr<Method> make_lego_loam(const MethodInput& input, const LegoLoamConfig& config);

@@ -136,6 +136,8 @@ class Solver {
     Eigen::Matrix3d H = Eigen::Matrix3d::Zero();
     Eigen::Vector3d g = Eigen::Vector3d::Zero();
     int used = 0;
+    // As in the reference, a point tells of the whole motion what it shows of its share.
+    const Rotations whole = rotations(motion.rpy);
     for (const Match& match : matches_) {
       const double s = match.point->share;
       const Rotations R = rotations(s * motion.rpy);
@@ -151,8 +153,8 @@ class Solver {
       Eigen::Matrix3d J;
       for (int k = 0; k < 3; ++k) {
         const int variable = free_[static_cast<std::size_t>(k)];
-        J.col(k) = s * (variable < 3 ? Eigen::Vector3d(R[static_cast<std::size_t>(variable) + 1] * match.point->p_R)
-                                     : Eigen::Vector3d::Unit(variable - 3));
+        J.col(k) = variable < 3 ? Eigen::Vector3d(whole[static_cast<std::size_t>(variable) + 1] * match.point->p_R)
+                                : Eigen::Vector3d::Unit(variable - 3);
       }
       H += weight * weight * J.transpose() * across * J;
       g += weight * weight * J.transpose() * off;
@@ -166,11 +168,9 @@ class Solver {
   }
 
   [[nodiscard]] bool is_small(const Eigen::Vector3d& step) const {
-    for (int k = 0; k < 3; ++k) {
-      const bool angle = free_[static_cast<std::size_t>(k)] < 3;
-      if (std::abs(step[k]) > (angle ? 0.1 * std::numbers::pi / 180.0 : 1e-3)) return false;
-    }
-    return true;
+    double angle2 = 0.0, way2 = 0.0;
+    for (int k = 0; k < 3; ++k) (free_[static_cast<std::size_t>(k)] < 3 ? angle2 : way2) += step[k] * step[k];
+    return std::sqrt(angle2) < 0.1 * std::numbers::pi / 180.0 && std::sqrt(way2) < 1e-3;
   }
 
   Step step_;

@@ -41,8 +41,8 @@ struct MloamConfig {
   }
 };
 
-/// What one LiDAR leaves of M-LOAM [jiao2022]: LOAM features tracked from scan to scan, and a map of keyframes; a
-/// window of scans with a prior of what left it is there and off. No extrinsics are calibrated, and points carry no
+/// What one LiDAR leaves of M-LOAM [jiao2022]: LOAM features tracked from scan to scan, and a map of keyframes, with a
+/// window of scans and a prior of what left it in between. No extrinsics are calibrated, and points carry no
 /// uncertainty: with one LiDAR it is the same for all. LiDAR alone: odometry and IMU are not used. LOST where a scan is
 /// matched neither with the window nor with the map: the pose then stands.
 [[nodiscard]] std::unique_ptr<Method> make_mloam(const MethodInput& input, const MloamConfig& config);

@@ -106,15 +106,15 @@ bool Window::optimize() {
     for (const Eigen::Vector3d& p_R : scans_[k].features.flats_R) flats.add(X_PR * p_R);
   }
   const LocalMap map{KdTree(edges.means()), KdTree(flats.means())};
-  bool newest_matched = false;
+  std::vector<std::vector<loam::Match>> matches(n);
+  for (std::size_t k = 1; k < n; ++k)
+    matches[k] = matches_of(scans_[p + k].features, map, scans_[p].X_MR.inverse() * scans_[p + k].X_MR, config_);
   for (int iteration = 0; iteration < config_.iterations; ++iteration) {
     Quadratic sum{Eigen::MatrixXd::Zero(size, size), Eigen::VectorXd::Zero(size)};
     std::vector<Eigen::MatrixXd> good(n, Eigen::MatrixXd::Identity(6, 6));
     for (std::size_t k = 1; k < n; ++k) {
       const Pose X_PR = scans_[p].X_MR.inverse() * scans_[p + k].X_MR;
-      const std::vector<loam::Match> matches = matches_of(scans_[p + k].features, map, X_PR, config_);
-      if (k + 1 == n) newest_matched = matches.size() >= least_matches;
-      const Normal6 normal = loam::linearize(matches, X_PR, config_.huber_m);
+      const Normal6 normal = loam::linearize(matches[k], X_PR, config_.huber_m);
       good[k] = loam::good_directions(normal.h, config_.least_eigenvalue).projection;
       const Matrix6d J = by_pivot(X_PR);
       sum.H.block<6, 6>(at(k), at(k)) += normal.h;
@@ -145,7 +145,7 @@ bool Window::optimize() {
     }
     if (step.norm() < 1e-5) break;
   }
-  return newest_matched;
+  return matches.back().size() >= least_matches;
 }
 
 }  // namespace plumbline::slam::mloam

@@ -13,7 +13,7 @@
 namespace plumbline::slam::mloam {
 
 struct WindowConfig {
-  bool on = false;
+  bool on = true;
   int scans = 4;
   int optimized = 2;
   double edge_leaf_m = 0.2;
@@ -28,7 +28,7 @@ struct WindowConfig {
 
   template <class V>
   void visit(V& v) {
-    v("on", on, Field{.doc = "optimise the latest scans together; off, since it drifts here", .basic = true});
+    v("on", on, Field{.doc = "optimise the latest scans together", .basic = true});
     v("scans", scans, Field{.doc = "scans of the window", .min = 2, .max = 50, .basic = true});
     v("optimized", optimized,
       Field{.doc = "latest of them whose poses are optimised", .min = 1, .max = 49, .basic = true});

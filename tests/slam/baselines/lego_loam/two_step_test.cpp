@@ -97,6 +97,26 @@ TEST(TwoStep, YawAndHeightAreFoundByTheRightStep) {
   EXPECT_NEAR(height.motion.rpy.z(), 0.0, 1e-4);
 }
 
+// Height is held by as many points as see the floor, whenever within the sweep they saw it: indoors 20 are few.
+TEST(TwoStep, FewPointsOverAWholeSweepHoldTheHeight) {
+  const World w = world();
+  Motion lifted;
+  lifted.t.z() = 0.02;
+  Features now = seen(w, lifted);
+  std::vector<ImagePoint> few;
+  for (std::size_t i = 0; i < now.flat.size(); i += 12) {
+    ImagePoint point = now.flat[i];
+    point.share = static_cast<double>(few.size() + 1) / 20.0;
+    point.p_R.z() = w.floor[i].p.z() - point.share * lifted.t.z();
+    few.push_back(point);
+  }
+  ASSERT_EQ(few.size(), 20U);
+  now.flat = few;
+  const TwoStepResult found = two_step(now, former(w), {}, whole);
+  EXPECT_EQ(found.degenerate, 0);
+  EXPECT_NEAR(found.motion.t.z(), 0.02, 1e-3);
+}
+
 // Edges along x alone, as the skirting of a bare corridor: nothing tells how far it went.
 TEST(TwoStep, ADegenerateDirectionIsLeftAsItIs) {
   World w = world();

@@ -59,8 +59,13 @@ double worst_error(const MloamConfig& config) {
   return worst_m;
 }
 
-// With the reference's leaves a bare house is followed within some per cent: 0.41 m of 6 m as measured.
-TEST(Mloam, FollowsAWalk) { EXPECT_LT(worst_error({}), 0.5); }
+// With the reference's leaves a bare house is followed within some per cent: 0.38 m of 6 m, 0.41 without the window.
+TEST(Mloam, FollowsAWalk) {
+  EXPECT_LT(worst_error({}), 0.45);
+  MloamConfig without;
+  without.window.on = false;
+  EXPECT_LT(worst_error(without), 0.5);
+}
 
 TEST(Mloam, WithoutReturnsThePoseStands) {
   const auto method = make_mloam(input(), {});
