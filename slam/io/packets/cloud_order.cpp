@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "bim/errors.h"
 #include "slam/io/packets/vlp16.h"
@@ -39,6 +40,41 @@ bool find_rings(std::vector<CloudPoint>& points) {
   }
   if (static_cast<double>(on_ring) < least_share * static_cast<double>(valid)) return false;
   for (std::size_t i = 0; i < points.size(); ++i) points[i].ring = rings[i];
+  return true;
+}
+
+/// Rings of any LiDAR whose lasers turn about one point, by elevation: raw returns then lie on narrow cones with gaps
+/// between them. False, and nothing is changed, where they do not: other lasers, or a motion undone.
+bool find_cones(std::vector<CloudPoint>& points) {
+  constexpr double gap_deg = 0.05, most_stray = 0.02;        // between cones; share of returns on none
+  constexpr std::size_t least_cones = 8, least_points = 20;  // points: of a cone, where a scan is no accident
+  constexpr double narrow = 0.5;                             // width of a cone over the gaps beside it
+  std::vector<std::pair<double, std::size_t>> order;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (points[i].valid) order.emplace_back(elevation_deg(points[i]), i);
+  std::sort(order.begin(), order.end());
+  struct Cone {
+    std::size_t begin, end;
+  };
+  std::vector<Cone> cones;
+  std::size_t stray = 0;
+  for (std::size_t begin = 0, i = 1; i <= order.size(); ++i) {
+    if (i < order.size() && order[i].first - order[i - 1].first < gap_deg) continue;
+    if (i - begin >= least_points)
+      cones.push_back({begin, i});
+    else
+      stray += i - begin;
+    begin = i;
+  }
+  if (cones.size() < least_cones || cones.size() > most_cloud_rings) return false;
+  if (static_cast<double>(stray) > most_stray * static_cast<double>(order.size())) return false;
+  const auto width = [&](const Cone& cone) { return order[cone.end - 1].first - order[cone.begin].first; };
+  for (std::size_t k = 1; k < cones.size(); ++k) {
+    const double gap = order[cones[k].begin].first - order[cones[k - 1].end - 1].first;
+    if (std::max(width(cones[k - 1]), width(cones[k])) > narrow * gap) return false;
+  }
+  for (std::size_t k = 0; k < cones.size(); ++k)
+    for (std::size_t i = cones[k].begin; i < cones[k].end; ++i) points[order[i].second].ring = static_cast<int>(k);
   return true;
 }
 
@@ -197,7 +233,8 @@ int without_rings(std::vector<CloudPoint>& points) {
 }  // namespace
 
 CloudOrder order_points(std::vector<CloudPoint>& points, const CloudLines& lines) {
-  if (!lines.named_rings && !rings_by_layout(points, lines) && !find_rings(points)) return {1, without_rings(points)};
+  if (!lines.named_rings && !rings_by_layout(points, lines) && !find_rings(points) && !find_cones(points))
+    return {1, without_rings(points)};
   const int rings = ring_count(points);
   order_rings(points, rings);
   return {rings, find_columns(points, lines, rings)};

@@ -117,6 +117,29 @@ TEST_P(LidarOdometryTest, FollowsAWalkThroughADoor) {
   EXPECT_LT(worst, 0.7 * legs);
 }
 
+// A cloud in the order of a file has no rings, and curvature along it tells nothing.
+TEST(LoamOdometryTest, IsLostWhereScansHaveNoRings) {
+  synthetic::WalkConfig config;
+  config.duration_s = 1.5;
+  synthetic::Recording recording =
+      synthetic::walk(synthetic::corridor_house(), synthetic::corridor_house_walk(), config);
+  for (const OdometryKind kind : {OdometryKind::floam, OdometryKind::aloam}) {
+    LidarOdometryConfig choice;
+    choice.kind = kind;
+    const std::unique_ptr<LidarOdometry> odometry = make_lidar_odometry(choice);
+    MotionBuffer still;
+    still.add({0, Pose{}});
+    for (std::size_t k = 0; k < recording.scans.size(); ++k) {
+      Scan scan = recording.scans[k];
+      scan.columns *= scan.rings;
+      scan.rings = 1;
+      const Registration r = odometry->update_alone(deskew(scan, still, recording.calibration), {});
+      EXPECT_FALSE(r.accepted);
+      EXPECT_EQ(r.lost, k + 1 >= static_cast<std::size_t>(HealthConfig().bad_scans)) << k;
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Kinds, LidarOdometryTest,
                          testing::Values(OdometryKind::vgicp, OdometryKind::floam, OdometryKind::aloam),
                          [](const auto& kind) {

@@ -155,6 +155,34 @@ TEST(PointCloud, WithoutRingsTheyAreFoundByElevation) {
     EXPECT_NEAR(scan.point_L[static_cast<std::size_t>(ring)].z(), 5 * std::sin((2 * ring - 15) * M_PI / 180.0), 1e-6);
 }
 
+/// 32 lasers from 20 degrees down, evenly apart, round a box of a room; moved_m: R's way during the turn, undone.
+std::vector<std::vector<float>> turn_of_32_lasers(double moved_m) {
+  std::vector<std::vector<float>> points;
+  for (int column = 0; column < 512; ++column)
+    for (int ring = 0; ring < 32; ++ring) {
+      const double elevation = (1.1 * ring - 20.0) * M_PI / 180.0, azimuth = -2.0 * M_PI * column / 512.0;
+      const Eigen::Vector3d ray(std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
+                                std::sin(elevation));
+      const double range = std::min({4.0 / std::max(std::abs(ray.x()), 1e-3), 2.5 / std::max(std::abs(ray.y()), 1e-3),
+                                     (ray.z() < 0.0 ? 0.6 : 2.0) / std::max(std::abs(ray.z()), 1e-3)});
+      const Eigen::Vector3d p = range * ray - moved_m * (1.0 - column / 512.0) * Eigen::Vector3d::UnitX();
+      points.push_back({static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())});
+    }
+  return points;
+}
+
+TEST(PointCloud, RingsOfAnyLidarAreFoundByItsCones) {
+  const Scan scan = scan_of(cloud_with({"x", "y", "z"}, turn_of_32_lasers(0.0)));
+  ASSERT_EQ(scan.rings, 32);
+  EXPECT_EQ(scan.columns, 512);
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    ASSERT_GT(scan.range_m[i], 0.0);
+    const double elevation = std::asin(scan.point_L[i].z() / scan.range_m[i]) * 180.0 / M_PI;
+    ASSERT_NEAR(elevation, 1.1 * static_cast<double>(i % 32) - 20.0, 1e-3);
+  }
+  EXPECT_EQ(scan_of(cloud_with({"x", "y", "z"}, turn_of_32_lasers(0.1))).rings, 1) << "deskewed: no cones are left";
+}
+
 TEST(PointCloud, WhatIsNoPlaceIsNoReturn) {
   constexpr float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
   const Scan scan =
