@@ -10,6 +10,7 @@
 
 #include "bim/config/printable.h"
 #include "scenarios/host/files.h"
+#include "scenarios/host/terminal.h"
 #include "scenarios/report/report_builder.h"
 #include "scenarios/score/moment.h"
 #include "scenarios/score/walk_end.h"
@@ -79,17 +80,6 @@ std::string summarise(const FinishedRun& run, const score::RunScore& score) {
   return text + "gates: " + std::to_string(passed) + " of " + std::to_string(score.gates.size()) + " passed\n";
 }
 
-std::string shell_word(const std::string& text) {
-  const auto plain = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-           std::string_view("_-./=+,:@%").find(c) != std::string_view::npos;
-  };
-  if (!text.empty() && std::all_of(text.begin(), text.end(), plain)) return text;
-  std::string out = "'";
-  for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
-}
-
 std::string next_steps(const std::string& dir, const FinishedRun& run, const score::RunScore& score) {
   if (exit_code(run, score) == 0) return "";
   const auto failed =
@@ -102,7 +92,7 @@ std::string next_steps(const std::string& dir, const FinishedRun& run, const sco
   }
   if (link.empty()) link = "#t=" + format_number(std::round(10.0 * at_s) / 10.0);
   return "look:  " + printable(dir) + "/replay.html" + link + "\n" + "again: plumbline replay " +
-         printable(shell_word(dir)) + " --until " + format_number(std::ceil(10.0 * at_s) / 10.0) + "\n";
+         printable(shell_argument(dir)) + " --until " + format_number(std::ceil(10.0 * at_s) / 10.0) + "\n";
 }
 
 std::map<std::string, Tree> read_graphs(const std::string& dir, const FinishedRun& run) {

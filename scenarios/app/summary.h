@@ -16,9 +16,6 @@ namespace plumbline::scenarios {
 /// After a run that failed: which page shows where, and the command that stops there; nothing after any other.
 [[nodiscard]] std::string next_steps(const std::string& dir, const FinishedRun& run, const score::RunScore& score);
 
-/// A folder as a shell takes it for one word.
-[[nodiscard]] std::string shell_word(const std::string& text);
-
 /// 0 all gates passed or none asked for, 1 a gate failed, 4 the scenario failed.
 [[nodiscard]] int exit_code(const FinishedRun& run, const score::RunScore& score);
 

@@ -31,6 +31,7 @@ struct SweepArguments {
   bool schema = false;
   std::string shard;
   bool slurm = false;
+  std::vector<std::string> pages;
   int runs_per_task = 20;
   std::vector<std::string> runs;  ///< what this program asks its children for: the runs of one simulation
   std::uint64_t seed = 1;
@@ -122,6 +123,9 @@ int sweep(const SweepArguments& options, slam::MethodTable table) {
     if (options.out.empty()) run.out = shard_folder(run.out, run.shard->number, run.shard->of);
   }
   run.jobs = options.jobs > 0 ? options.jobs : allowed_cpus();
+  run.pages = options.pages;
+  if (run.shard && !run.pages.empty())
+    throw InputError({"--page", 0, 0}, "is of a whole sweep; a shard makes no tables");
   run.resumed = [&](std::size_t done, std::size_t all) {
     print_note("plumbline: " + std::to_string(done) + " of " + std::to_string(all) + " runs are there already; " +
                run.out + "/results holds them, remove those to be made anew");
@@ -146,6 +150,10 @@ Command add_sweep(CommandLine& program, slam::MethodTable table) {
   line.flag("--schema", options->schema, "prints instead every key of sweep files, with examples");
   line.option("--shard", options->shard,
               "I/N: only part I of N, for one of N machines; sweep collect makes the table of all parts");
+  line.option(
+          "--page", options->pages,
+          "makes a run again, with its report and replay page, in OUT/pages/RUN; RUN as table.html names it, or worst")
+      .takes("RUN");
   line.flag("--slurm", options->slurm,
             "submits the sweep to Slurm as an array of shards, --jobs tasks at a time, and a job that collects them");
   line.option("--runs-per-task", options->runs_per_task,

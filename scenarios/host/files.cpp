@@ -153,13 +153,14 @@ constexpr std::array<FileRow, 12> estimate_files = {{
     {"timings.json", "CPU time of each stage"},
 }};
 
-constexpr std::array<FileRow, 6> sweep_files = {{
+constexpr std::array<FileRow, 7> sweep_files = {{
     {"runs.csv", "a row for each run and method"},
     {"table.txt", "a row for each scenario, variant, start and method, over all seeds"},
     {"table.csv", "the same rows for programs"},
     {"table.html", "the same rows as a page"},
     {"sweep.sqlite", "runs and rows as tables of a database"},
     {"results", "a file for each run; a sweep that continues keeps them"},
+    {"pages", "with --page: a run directory for each run asked for", false},
 }};
 
 /// Which names a directory may hold.

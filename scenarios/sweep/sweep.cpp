@@ -11,7 +11,7 @@
 #include "scenarios/host/folder_lock.h"
 #include "scenarios/host/interrupt.h"
 #include "scenarios/sweep/children.h"
-#include "scenarios/sweep/table.h"
+#include "scenarios/sweep/table_page.h"
 
 namespace plumbline::scenarios {
 
@@ -54,6 +54,7 @@ class SweepFolder {
 
   [[nodiscard]] std::string results() const { return path_ + "/results"; }
   [[nodiscard]] std::string work() const { return path_ + "/.work"; }
+  [[nodiscard]] std::string page(const std::string& key) const { return path_ + "/pages/" + key; }
   [[nodiscard]] std::string result(const SweepRun& run) const { return results() + "/" + run.key + ".json"; }
 
  private:
@@ -192,18 +193,68 @@ void make_missing(const Sweep& sweep, const std::vector<const SweepRun*>& runs, 
       });
 }
 
+/// The runs whose pages are asked for.
+struct PagesAsked {
+  std::vector<std::string> keys;  ///< of runs, or "worst"
+  int jobs = 1;
+};
+
+const SweepRun& asked_run(const Sweep& sweep, const std::vector<SweepRow>& rows, const std::string& key) {
+  const std::vector<const SweepRow*> order = worst_first(rows);
+  const std::string wanted = key == "worst" && !order.empty() ? order.front()->key : key;
+  const auto run =
+      std::find_if(sweep.runs.begin(), sweep.runs.end(), [&](const SweepRun& one) { return one.key == wanted; });
+  if (run == sweep.runs.end())
+    throw InputError({"--page", 0, 0}, "the sweep has no run '" + key + "'; its runs are called like " +
+                                           sweep.runs.front().key + ", and 'worst' is the worst one");
+  return *run;
+}
+
+/// Makes the runs again, each into a directory of its own with its report and its replay page.
+void make_pages(const Sweep& sweep, const std::vector<SweepRow>& rows, const SweepFolder& folder,
+                const PagesAsked& asked) {
+  std::vector<const SweepRun*> runs;
+  for (const std::string& key : asked.keys) runs.push_back(&asked_run(sweep, rows, key));
+  if (runs.empty()) return;
+  (void)make_folders(folder.page(""), folder.page(""));
+  run_children(
+      runs.size(), asked.jobs,
+      [&](std::size_t i) {
+        const std::string scenario = folder.work() + "/" + runs[i]->key + ".yaml";
+        write_file(scenario, sweep.scenario_texts[runs[i]->text]);
+        return std::vector<std::string>{
+            "run",     scenario,  "--seed", std::to_string(runs[i]->seed), "--out", folder.page(runs[i]->key),
+            "--force", "--replay"};
+      },
+      [&](std::size_t i) { return folder.work() + "/" + runs[i]->key + ".log"; },
+      [&](std::size_t i, const ChildEnd& end) {
+        constexpr int gate_failed = 1, scenario_failed = 4;
+        if (end.code != 0 && end.code != gate_failed && end.code != scenario_failed)
+          throw EnvironmentError("sweep: page of " + runs[i]->key + " ended with " + std::to_string(end.code) + ": " +
+                                 end.last_line);
+      });
+}
+
 /// The tables of results that are all there.
-std::string write_tables(const Sweep& sweep, const SweepFolder& folder, const std::string& out) {
+std::string write_tables(const Sweep& sweep, const SweepFolder& folder, const std::string& out,
+                         const PagesAsked& asked) {
   std::vector<SweepRow> rows;
   for (const SweepRun& run : sweep.runs) {
     const std::string file = folder.result(run);
-    for (SweepRow& row : rows_of(read_json(read_text_file(file), file), file)) rows.push_back(std::move(row));
+    for (SweepRow& row : rows_of(read_json(read_text_file(file), file), file)) {
+      row.key = run.key;
+      rows.push_back(std::move(row));
+    }
   }
+  make_pages(sweep, rows, folder, asked);
+  SweepPage page{sweep.file.name, sweep.file_name, {}};
+  for (const SweepRun& run : sweep.runs)
+    if (fs::exists(folder.page(run.key) + "/report.html")) page.pages.insert(run.key);
   const std::vector<SweepCell> cells = cells_of(rows);
   const std::string text = table_text(cells);
   write_file(out + "/runs.csv", runs_csv(rows));
   write_file(out + "/table.csv", table_csv(cells));
-  write_file(out + "/table.html", table_html(sweep.file.name, cells));
+  write_file(out + "/table.html", table_html(page, rows, cells));
   write_database(out + "/sweep.sqlite", rows, cells);
   write_file(out + "/table.txt", text);
   return text;
@@ -238,7 +289,7 @@ std::string run_sweep(const Sweep& sweep, const SweepOptions& options) {
     throw Interrupted(interrupted.signal(), std::to_string(done) + " of " + std::to_string(runs.size()) +
                                                 " runs are done; the same command goes on");
   }
-  if (!options.shard) return write_tables(sweep, folder, options.out);
+  if (!options.shard) return write_tables(sweep, folder, options.out, {options.pages, options.jobs});
   return "shard " + std::to_string(options.shard->number) + " of " + std::to_string(options.shard->of) + ": " +
          std::to_string(runs.size()) + " of " + std::to_string(sweep.runs.size()) + " runs are there\n";
 }
@@ -262,7 +313,7 @@ std::string collect_sweep(const Sweep& sweep, const std::vector<std::string>& fo
   const SweepFolder folder(out);
   for (std::size_t i = 0; i < sweep.runs.size(); ++i)
     if (!is_made(folder.result(sweep.runs[i]), sweep.runs[i])) write_file(folder.result(sweep.runs[i]), texts[i]);
-  return write_tables(sweep, folder, out);
+  return write_tables(sweep, folder, out, {});
 }
 
 }  // namespace plumbline::scenarios

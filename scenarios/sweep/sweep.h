@@ -21,6 +21,7 @@ struct SweepOptions {
   std::string out;
   std::optional<Shard> shard;  ///< only this part, without tables
   int jobs = 1;
+  std::vector<std::string> pages;  ///< keys of runs to be made again with their pages, or "worst"
   std::function<void(std::size_t done, std::size_t all)> resumed;   ///< called where runs are there already
   std::function<void(std::size_t done, std::size_t all)> progress;  ///< called after each run; may be empty
 };

@@ -174,6 +174,7 @@ Sweep read_sweep(const std::string& path, int seeds, slam::MethodTable table) {
     throw InputError({path, 1, 1}, "the first key of a sweep must be 'sweep: 1'");
   Sweep sweep;
   sweep.file = from_tree<SweepFile>(tree);
+  sweep.file_name = fs::path(path).filename().string();
   if (seeds > 0) sweep.file.seeds = seeds;
   const SweepFile& file = sweep.file;
   check(file, tree, table);

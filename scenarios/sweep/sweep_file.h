@@ -64,6 +64,7 @@ struct SweepRun {
 /// Every run of a sweep file, by scenario, variant, start, seed, with the methods of all of them.
 struct Sweep {
   SweepFile file;
+  std::string file_name;                    ///< of the sweep file, without its folder
   std::vector<std::string> scenario_texts;  ///< for all seeds, the building by its whole path
   std::vector<SweepRun> runs;
 };

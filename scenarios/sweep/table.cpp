@@ -12,7 +12,6 @@
 #include "bim/config/printable.h"
 #include "bim/median.h"
 #include "scenarios/metrics/metrics.h"
-#include "scenarios/report/page.h"
 #include "scenarios/report/svg.h"
 
 namespace plumbline::scenarios {
@@ -113,22 +112,6 @@ std::string verdict_list(const SweepCell& cell) {
 
 using Line = std::vector<std::string>;
 
-std::vector<Line> table_lines(const std::vector<SweepCell>& cells) {
-  std::vector<Line> lines = {{"scenario", "variant", "start", "method", "runs", "identifiable", "success", "honest",
-                              "marginal", "wrong", "identifiable at s", "identifiable at m", "converged at m",
-                              "error m", "verdicts"}};
-  for (const SweepCell& c : cells)
-    lines.push_back(
-        {c.scenario, c.variant.empty() ? "-" : c.variant, c.start.empty() ? "-" : c.start, c.method,
-         std::to_string(c.runs), c.localizes ? std::to_string(c.judged) : "-", share_text(c.succeeded, c.judged),
-         share_text(c.honest, c.ambiguous), count_text(c.marginal_right, c.marginal),
-         std::to_string(c.false_convergences), optional_text(c.median_identifiable_at_s, 1),
-         optional_text(c.median_identifiable_at_m, 1),
-         c.localizes && c.judged > 0 && !c.median_converged_at_m ? "never" : optional_text(c.median_converged_at_m, 1),
-         optional_text(c.median_error_m, 3), verdict_list(c)});
-  return lines;
-}
-
 /// A word that a spreadsheet would take for a formula gets an apostrophe before it; a number and "-" stay.
 std::string no_formula(const std::string& text) {
   if (text.empty() || text == "-" || std::string_view("=+-@\t\r").find(text.front()) == std::string_view::npos)
@@ -191,6 +174,12 @@ std::vector<SweepRow> rows_of(const Tree& result, const std::string& file) {
   return rows;
 }
 
+std::optional<double> error_of(const SweepRow& row) {
+  static const std::size_t ape = metric_index("localization.ape_rmse_m");
+  static const std::size_t ate = metric_index("ate_aligned_rmse_m");
+  return row.values[row.identifiable ? ape : ate];
+}
+
 std::vector<SweepCell> cells_of(const std::vector<SweepRow>& rows) {
   std::vector<SweepCell> cells;
   std::vector<Samples> samples;
@@ -228,6 +217,22 @@ std::string runs_csv(const std::vector<SweepRow>& rows) {
   return text;
 }
 
+std::vector<Line> table_lines(const std::vector<SweepCell>& cells) {
+  std::vector<Line> lines = {{"scenario", "variant", "start", "method", "runs", "identifiable", "success", "honest",
+                              "marginal", "wrong", "identifiable at s", "identifiable at m", "converged at m",
+                              "error m", "verdicts"}};
+  for (const SweepCell& c : cells)
+    lines.push_back(
+        {c.scenario, c.variant.empty() ? "-" : c.variant, c.start.empty() ? "-" : c.start, c.method,
+         std::to_string(c.runs), c.localizes ? std::to_string(c.judged) : "-", share_text(c.succeeded, c.judged),
+         share_text(c.honest, c.ambiguous), count_text(c.marginal_right, c.marginal),
+         std::to_string(c.false_convergences), optional_text(c.median_identifiable_at_s, 1),
+         optional_text(c.median_identifiable_at_m, 1),
+         c.localizes && c.judged > 0 && !c.median_converged_at_m ? "never" : optional_text(c.median_converged_at_m, 1),
+         optional_text(c.median_error_m, 3), verdict_list(c)});
+  return lines;
+}
+
 std::string table_text(const std::vector<SweepCell>& cells) {
   std::vector<Line> lines = table_lines(cells);
   for (Line& line : lines)
@@ -249,27 +254,6 @@ std::string table_csv(const std::vector<SweepCell>& cells) {
   std::string text;
   for (const Line& line : table_lines(cells)) text += csv_line(line);
   return text;
-}
-
-std::string table_html(const std::string& name, const std::vector<SweepCell>& cells) {
-  std::string page = open_page(name) + "<header><h1>" + svg::escape(name) +
-                     "</h1></header><section class=\"card\"><div class=\"scroll\"><table class=\"sorted\">\n";
-  bool head = true;
-  for (const Line& line : table_lines(cells)) {
-    page += "<tr>";
-    for (const std::string& text : line)
-      page += (head ? "<th>" : "<td>") + svg::escape(text) + (head ? "</th>" : "</td>");
-    page += "</tr>\n";
-    head = false;
-  }
-  return page +
-         R"html(</table></div><p class="facts">Success of a plan localization is over the identifiable runs, of SLAM
-the share of complete; in brackets the 95 % interval of Wilson. Honest: of the runs whose scans fit several poses to the end,
-those that reported so. Marginal: right ones of the runs between, where the other poses are nearly ruled out, or were too
-late to hold an answer for 5 s and 1 m. Wrong: single answers at a wrong pose, or where several fit. Identifiable at:
-when the scans left one pose, median. Converged at: metres until the answer of a success, median over the identifiable
-runs, the others counted as never. Error: of the position, rms, median of all runs that have one. Click a heading to sort by it.</p></section></main><script>)html" +
-         std::string(sort_script()) + "</script></body></html>\n";
 }
 
 }  // namespace plumbline::scenarios

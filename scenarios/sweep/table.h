@@ -23,7 +23,11 @@ struct SweepRow {
   std::string evidence;                       ///< of a localization: unique, weak or ambiguous
   std::string failure;                        ///< why the scenario failed, or else a localization
   std::vector<std::optional<double>> values;  ///< by score::metrics()
+  std::string key = {};                       ///< of the run's files
 };
+
+/// Of the position, m: APE of a localization, aligned ATE of SLAM.
+[[nodiscard]] std::optional<double> error_of(const SweepRow& row);
 
 /// Rows of the result of a run, as run_result() made it.
 [[nodiscard]] std::vector<SweepRow> rows_of(const Tree& result, const std::string& file);
@@ -53,7 +57,8 @@ struct SweepCell {
 [[nodiscard]] std::string runs_csv(const std::vector<SweepRow>& rows);
 [[nodiscard]] std::string table_text(const std::vector<SweepCell>& cells);
 [[nodiscard]] std::string table_csv(const std::vector<SweepCell>& cells);
-[[nodiscard]] std::string table_html(const std::string& name, const std::vector<SweepCell>& cells);
+/// The same, a line of words each, the heads first.
+[[nodiscard]] std::vector<std::vector<std::string>> table_lines(const std::vector<SweepCell>& cells);
 /// Writes both as tables `runs` and `cells`, so that the file appears complete or not at all. Throws EnvironmentError.
 void write_database(const std::string& path, const std::vector<SweepRow>& rows, const std::vector<SweepCell>& cells);
 

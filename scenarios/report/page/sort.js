@@ -3,7 +3,7 @@ document.querySelectorAll("table.sorted").forEach(function (table) {
   "use strict";
   var heads = table.rows[0].cells;
   function value(row, k) {
-    var text = row.cells[k] ? row.cells[k].textContent.trim() : "", number = parseFloat(text);
+    var cell = row.cells[k], text = !cell ? "" : cell.dataset.sort !== undefined ? cell.dataset.sort : cell.textContent.trim(), number = parseFloat(text);
     return isNaN(number) ? text : number;
   }
   Array.prototype.forEach.call(heads, function (head, k) {
