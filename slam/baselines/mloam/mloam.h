@@ -25,7 +25,8 @@ struct MloamConfig {
                                  .residual_weight = 0.0,
                                  .least_matches = 10,
                                  .least_flats = 50,
-                                 .least_eigenvalue = 0.75};
+                                 .least_eigenvalue = 100.0};
+  double point_sigma_m = 0.05;
   MapCloudConfig map;
 
   template <class V>
@@ -37,14 +38,18 @@ struct MloamConfig {
       Field{.doc = "distance walked after which a scan enters the map", .min = 0.01, .basic = true});
     v("keyframe_angle_rad", keyframe_angle_rad, Field{.doc = "or angle turned after which it does", .min = 1e-3});
     v("submap", submap);
+    v("point_sigma_m", point_sigma_m,
+      Field{.doc = "standard deviation of a point's coordinates; eigenvalues are of matrices weighed by it",
+            .min = 1e-4});
     v("map", map);
   }
 };
 
 /// What one LiDAR leaves of M-LOAM [jiao2022]: LOAM features tracked from scan to scan, and a map of keyframes, with a
-/// window of scans and a prior of what left it in between. No extrinsics are calibrated, and points carry no
-/// uncertainty: with one LiDAR it is the same for all. LiDAR alone: odometry and IMU are not used. LOST where a scan is
-/// matched neither with the window nor with the map: the pose then stands.
+/// window of scans and a prior of what left it in between. No extrinsics are calibrated, and the
+/// uncertainty of points is the same for all, so that it weighs nothing but the tests of degeneracy. LiDAR alone:
+/// odometry and IMU are not used. LOST where a scan is matched neither with the window nor with the map: the pose then
+/// stands.
 [[nodiscard]] std::unique_ptr<Method> make_mloam(const MethodInput& input, const MloamConfig& config);
 
 }  // namespace plumbline::slam

@@ -24,7 +24,7 @@ struct WindowConfig {
   double plane_tolerance_m = 0.2;
   double huber_m = 1.0;
   int iterations = 5;
-  double least_eigenvalue = 0.75;  ///< the reference's 100 is of residuals weighed by 1 / 0.0075 m^2
+  double least_eigenvalue = 100.0;
 
   template <class V>
   void visit(V& v) {
@@ -45,7 +45,8 @@ struct WindowConfig {
     v("huber_m", huber_m, Field{.doc = "residual above which a feature counts linearly (Huber)", .min = 1e-4});
     v("iterations", iterations, Field{.doc = "solver iterations; counted, never timed", .min = 1, .max = 1000});
     v("least_eigenvalue", least_eigenvalue,
-      plain_field("eigenvalue of a pose's normal matrix below which a direction is left as it is", {.min = 0.0}));
+      plain_field("eigenvalue of a pose's weighed normal matrix below which a direction is left as it is",
+                  {.min = 0.0}));
   }
 };
 
