@@ -106,6 +106,7 @@ struct Slab {
   std::string material;
   std::optional<Solid> body;
   std::int64_t step_id = 0;
+  bool assumed = false;  ///< stands in no file, see assumed_slabs
 };
 
 struct Column {

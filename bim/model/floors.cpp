@@ -265,4 +265,35 @@ std::vector<FloorPiece> floor_pieces(const Building& building, const FloorConfig
   return Floors(building, config).find();
 }
 
+std::vector<Slab> assumed_slabs(const Building& building, double beyond_m) {
+  constexpr double thickness_m = 0.02;
+  std::vector<Slab> slabs;
+  if (!building.stairs.empty()) return slabs;
+  const std::vector<FloorPiece> pieces = floor_pieces(building);
+  for (const FloorPiece& piece : pieces) {
+    const bool built = std::any_of(pieces.begin(), pieces.end(), [&](const FloorPiece& other) {
+      return other.storey == piece.storey &&
+             (other.source == FloorSource::slab || other.source == FloorSource::obstacle);
+    });
+    if (built || piece.storey < 0) continue;
+    Slab slab;
+    slab.id = "assumed_floor/" + building.storeys[static_cast<std::size_t>(piece.storey)].id + "/" +
+              std::to_string(slabs.size());
+    slab.storey = piece.storey;
+    slab.polygon = piece.polygon;
+    if (piece.source == FloorSource::walls) {
+      Polygon2 wider;
+      for (const Eigen::Vector2d& p : piece.polygon.outer)
+        for (const double dx : {-beyond_m, beyond_m})
+          for (const double dy : {-beyond_m, beyond_m}) wider.emplace_back(p.x() + dx, p.y() + dy);
+      slab.polygon = {convex_hull(std::move(wider)), {}};
+    }
+    slab.z1_m = piece.z0_m;
+    slab.z0_m = piece.z0_m - thickness_m;
+    slab.assumed = true;
+    slabs.push_back(std::move(slab));
+  }
+  return slabs;
+}
+
 }  // namespace plumbline::bim

@@ -47,4 +47,8 @@ struct FloorConfig {
 /// from one piece to the next is not looked at.
 [[nodiscard]] std::vector<FloorPiece> floor_pieces(const Building& building, const FloorConfig& config = {});
 
+/// Thin slabs for storeys that have none, so that a LiDAR sees what a robot stands on: under their rooms, without rooms
+/// from wall to wall and beyond_m farther. None in buildings with stairs, whose wells they would close.
+[[nodiscard]] std::vector<Slab> assumed_slabs(const Building& building, double beyond_m = 5.0);
+
 }  // namespace plumbline::bim

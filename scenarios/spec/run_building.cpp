@@ -34,7 +34,9 @@ bool RunBuilding::plans_movables() const {
 }
 
 const bim::BuildingMesh& RunBuilding::mesh_as_built() const {
-  if (!deviates()) return mesh_as_planned();
+  const auto assumed = [](const bim::Slab& slab) { return slab.assumed; };
+  if (!deviates() && std::none_of(building_.as_built.slabs.begin(), building_.as_built.slabs.end(), assumed))
+    return mesh_as_planned();
   std::call_once(made_as_built_, [&] { mesh_as_built_ = bim::build_mesh(building_.as_built); });
   return *mesh_as_built_;
 }

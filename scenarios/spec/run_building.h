@@ -34,7 +34,7 @@ class RunBuilding {
   /// What maps are scored against. The same plan where nothing deviates.
   [[nodiscard]] const bim::Plan& plan_as_built() const { return *plan_as_built_; }
   [[nodiscard]] const bim::BuildingMesh& mesh_as_planned() const { return mesh_as_planned_; }
-  /// What the LiDAR hits. The same mesh where nothing deviates.
+  /// What the LiDAR hits. The same mesh where nothing deviates and no floor is assumed.
   [[nodiscard]] const bim::BuildingMesh& mesh_as_built() const;
 
  private:

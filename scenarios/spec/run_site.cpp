@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "bim/model/floors.h"
+
 namespace plumbline::scenarios {
 
 namespace {
@@ -38,6 +40,8 @@ void add_changes(const Obstacles& before, const Obstacles& after, std::vector<bi
 
 bim::PlannedAndBuilt load_site(const std::string& path, const Scenario& scenario) {
   bim::PlannedAndBuilt site = bim::load_planned_and_built(path, scenario.building_options);
+  const std::vector<bim::Slab> floors = bim::assumed_slabs(site.as_built);
+  site.as_built.slabs.insert(site.as_built.slabs.end(), floors.begin(), floors.end());
   if (scenario.furnish) {
     const Obstacles added = bim::furnish(site.as_planned, *scenario.furnish);
     check_ids(added, site.as_built, path);

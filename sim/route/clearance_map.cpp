@@ -194,7 +194,8 @@ bool has_known_floor(const bim::Building& building, int storey, const RouteConfi
   const double floor_z = building.storeys.at(static_cast<std::size_t>(storey)).elevation_m;
   return std::any_of(building.slabs.begin(), building.slabs.end(),
                      [&](const bim::Slab& slab) {
-                       return slab.z1_m <= floor_z + config.band_low_m && slab.z1_m >= floor_z - config.floor_below_m;
+                       return !slab.assumed && slab.z1_m <= floor_z + config.band_low_m &&
+                              slab.z1_m >= floor_z - config.floor_below_m;
                      }) ||
          std::any_of(building.rooms.begin(), building.rooms.end(),
                      [&](const bim::Room& room) { return room.storey == storey; });

@@ -137,5 +137,35 @@ TEST(Floors, ARoomSaysWhichStoreyAHalfLevelBelongsTo) {
   EXPECT_NEAR(total(floor_pieces(building), 1), 9.0, 1e-6);
 }
 
+TEST(AssumedSlabs, LieUnderRoomsOrBeyondWallsWhereAStoreyHasNone) {
+  Building rooms = two_storeys();
+  rooms.rooms.push_back({});
+  rooms.rooms.back().storey = 0;
+  rooms.rooms.back().polygon = box(0, 0, 4, 3);
+  rooms.rooms.back().z0_m = 0.1;
+  const std::vector<Slab> under = assumed_slabs(rooms);
+  ASSERT_EQ(under.size(), 1U);
+  EXPECT_TRUE(under[0].assumed);
+  EXPECT_EQ(under[0].z1_m, 0.1);
+  EXPECT_NEAR(std::abs(signed_area(under[0].polygon.outer)), 12.0, 1e-9);
+  rooms.slabs.push_back(slab(box(-1, -1, 5, 4), -0.2, 0.1));
+  EXPECT_TRUE(assumed_slabs(rooms).empty());
+
+  Building walls = two_storeys();
+  for (const double y : {0.0, 6.0}) {
+    Wall wall;
+    wall.storey = 0;
+    wall.a = {0.0, y};
+    wall.b = {8.0, y};
+    wall.thickness_m = 0.0;
+    walls.walls.push_back(wall);
+  }
+  const std::vector<Slab> beyond = assumed_slabs(walls, 2.0);
+  ASSERT_EQ(beyond.size(), 1U);
+  EXPECT_NEAR(std::abs(signed_area(beyond[0].polygon.outer)), 12.0 * 10.0, 1e-9);
+  walls.stairs.emplace_back();
+  EXPECT_TRUE(assumed_slabs(walls).empty());
+}
+
 }  // namespace
 }  // namespace plumbline::bim

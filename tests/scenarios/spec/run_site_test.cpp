@@ -4,10 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
 
+#include "bim/formats/ifc/write/write_ifc.h"
 #include "bim/model/permanence.h"
 #include "scenarios/spec/run_building.h"
 #include "tests/data.h"
+#include "tests/folder.h"
 #include "tests/input_error.h"
 
 namespace plumbline::scenarios {
@@ -35,6 +38,22 @@ TEST(RunSite, IsTheFilesBuildingUnlessTheScenarioSaysOtherwise) {
   const bim::PlannedAndBuilt site = load_site(house(), with(""));
   EXPECT_EQ(site.as_planned.obstacles.size(), site.as_built.obstacles.size());
   EXPECT_TRUE(site.changes.empty());
+}
+
+// The robot stands on a floor that the file does not have, so that the LiDAR sees it; methods are told of none.
+TEST(RunSite, AFloorThatTheRobotStandsOnIsSeen) {
+  bim::Building walls = load_site(project_file("scenarios/library/quickstart.plan.yaml"), with("")).as_planned;
+  ASSERT_TRUE(walls.stairs.empty());
+  walls.slabs.clear();
+  walls.rooms.clear();
+  walls.openings.clear();
+  const Folder folder;
+  std::ofstream(folder / "walls.ifc") << bim::write_ifc(walls);
+  const RunBuilding building(load_site(folder / "walls.ifc", with("")));
+  EXPECT_FALSE(building.deviates());
+  EXPECT_TRUE(building.as_planned().slabs.empty());
+  ASSERT_EQ(building.as_built().slabs.size(), 1U);
+  EXPECT_EQ(building.mesh_as_built().elements.size(), building.mesh_as_planned().elements.size() + 1);
 }
 
 TEST(RunSite, FurnitureIsAddedAsPlannedAndAsBuilt) {
