@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -22,6 +23,15 @@ DigestLog load(const std::string& dir) {
   return read_digests(read_text_file(path), path);
 }
 
+/// The page of A with that of B beside it, at the time at which they differ; nothing where one of them has none.
+std::string where_to_look(const std::string& a, const std::string& b, slam::Nanoseconds tick) {
+  namespace fs = std::filesystem;
+  if (!fs::exists(a + "/replay.html") || !fs::exists(b + "/replay.html")) return "";
+  const std::string other = fs::absolute(b).lexically_normal().lexically_relative(fs::absolute(a).lexically_normal());
+  return "look: " + a + "/replay.html#t=" + format_number(std::ceil(100.0 * slam::seconds(tick) - 1e-6) / 100.0) +
+         "&with=" + other + "/replay.html\n";
+}
+
 }  // namespace
 
 Command add_diff(CommandLine& program) {
@@ -40,7 +50,8 @@ Command add_diff(CommandLine& program) {
               return 0;
             }
             print("first difference at " + slam::format_stamp(difference->tick) + " s in " +
-                  printable(difference->stage) + ": " + difference->what + "\n");
+                  printable(difference->stage) + ": " + difference->what + "\n" +
+                  printable(where_to_look(options->a, options->b, difference->tick)));
             return 1;
           }};
 }

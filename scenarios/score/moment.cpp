@@ -59,9 +59,10 @@ std::optional<double> telling_moment(const FinishedRun& run, const RunScore& sco
   return std::nullopt;
 }
 
+/// Rounded up: a moment earlier nothing has happened yet.
 std::string moment_link(const FinishedRun& run, const RunScore& score, const std::string& method) {
   const double at_s = telling_moment(run, score, method).value_or(score.duration_s);
-  return "#t=" + format_number(std::round(10.0 * at_s) / 10.0) + "&m=" + in_link(method);
+  return "#t=" + format_number(std::ceil(10.0 * at_s - 1e-6) / 10.0) + "&m=" + in_link(method);
 }
 
 }  // namespace plumbline::scenarios::score

@@ -120,6 +120,30 @@ async function whole(browser) {
   check("the scan is seen", (await page.get(picture)).hash !== a.hash, "the same picture without it");
   await page.get("Plumb.app.layer('scan', true)");
 
+  // By element: points on the walls of the plan have their colours, and the legend says so.
+  const owners = await page.get(`(async () => { const app = Plumb.app, { cloud } = await app.cloudAt(${end / 2});
+    const all = app.residuals.owners(cloud.points, cloud.count), count = (f) => [...all].filter(f).length / all.length;
+    return [count((v) => v >= 0), count((v) => v === -1), count((v) => v === -2), new Set(all).size]; })()`);
+  check("most points lie on walls, floor or ceiling, and on more than three elements", owners[0] > 0.2 && owners[2] < 0.4 && owners[3] > 4, owners);
+  await page.get("document.getElementById('colouring').value = 'element'; document.getElementById('colouring').dispatchEvent(new Event('change')); Plumb.app.update()");
+  check("by element it looks otherwise", (await page.get(picture)).hash !== a.hash, "the same picture");
+  check("the legend speaks of elements", (await page.get("document.getElementById('legend').textContent")).includes("nothing within 20 cm"), "");
+  await page.get("document.getElementById('colouring').value = 'height'; document.getElementById('colouring').dispatchEvent(new Event('change')); Plumb.app.update()");
+
+  // The map cloud: its points lie on the plan. The graph of the plan.
+  const before = (await page.get(picture)).hash;
+  await page.get("Plumb.app.choose('s_graphs_plus').then(() => Plumb.app.layer('map', true))");
+  const mapped = await page.get(`Plumb.data.mapOf(Plumb.app.data, "s_graphs_plus").then((at) => [at.length / 3, Plumb.median(Plumb.app.residuals.of(at, at.length / 3))])`);
+  check("the map cloud lies on the plan, median at most 4 cm", mapped[0] > 500 && mapped[1] < 0.04, mapped);
+  check("and is seen", (await page.get(picture)).hash !== before, "the same picture");
+  await page.get("Plumb.app.layer('map', false)");
+  const without = (await page.get(picture)).hash;
+  await page.get("Plumb.app.layer('plangraph', true)");
+  check("the graph of the plan is seen", (await page.get(picture)).hash !== without, "the same picture");
+  const plangraph = await page.get("[Plumb.app.data.plangraph.rooms.length, Plumb.app.data.plangraph.faces.length / 2, Plumb.app.data.plangraph.doors.length / 2]");
+  check("it has rooms, faces that bound them and doors", plangraph[0] === 4 && plangraph[1] >= 16 && plangraph[2] === 3, plangraph);
+  await page.get("Plumb.app.layer('plangraph', false); Plumb.app.choose('s_graph_localization')");
+
   // A wall.
   const wall = await page.get("Plumb.app.data.faces[0].wall");
   await page.get(`Plumb.app.select(${JSON.stringify(wall)})`);
@@ -177,12 +201,38 @@ async function linked(browser) {
   equal("errors on the console", page.errors, []);
 }
 
+/** Two methods side by side: the second picture is a frame that follows the time and the camera. */
+async function beside(browser) {
+  const page = await browser.page(1300, 760, { before: testing });
+  await page.open(url + "#t=2&m=vgicp");
+  await page.until(ready);
+  await page.get("document.getElementById('beside').value = 's_graph_localization'; document.getElementById('beside').dispatchEvent(new Event('change'))");
+  await page.until("Plumb.app.beside.ready", 120);
+  const apart = await page.get("[document.body.dataset.apart, document.getElementById('apart').textContent]");
+  check("it says where the two are first apart", apart[0] === "" ? apart[1].includes("never more") : apart[1].includes(parseFloat(apart[0]).toFixed(2)), apart);
+  const frames = (await page.send("Page.getFrameTree", {})).frameTree.childFrames || [];
+  equal("frames beside it", frames.length, 1);
+  const { executionContextId } = await page.send("Page.createIsolatedWorld", { frameId: frames[0].frame.id });
+  const inside = async (expression) => (await page.send("Runtime.evaluate", { expression, contextId: executionContextId, returnByValue: true })).result.value;
+  await page.get("Plumb.app.seek(3.5).then(() => { Plumb.app.view.setCamera6([1, -9, 9, 2, 2, 0]); Plumb.app.dirty(); Plumb.app.beside.send(); })");
+  let seen = null;
+  for (let k = 0; k < 200; ++k) {
+    seen = [await inside("document.body.dataset.t"), await inside("document.body.className"), await inside("document.getElementById('caption').textContent.split(':')[0]")];
+    if (seen[0] === "3.500") break;
+    await new Promise((done) => setTimeout(done, 50));
+  }
+  equal("the frame shows the same time, its picture alone, and the other method", seen, ["3.500", "embed", "s_graph_localization"]);
+  equal("requests", new Set(page.requests.map((r) => r.replace(/[?#].*/, ""))).size, 1);
+  equal("a page of elsewhere is no run", await page.get("Plumb.app.beside.open(null, 'https://example.org/replay.html', true) || Plumb.app.beside.name"), "");
+  equal("errors on the console", page.errors, []);
+}
+
 async function narrow(browser) {
   const page = await browser.page(390, 844, { mobile: true, dark: true, before: testing });
   await page.open(url);
   await page.until(ready);
   const widths = await page.get("[document.documentElement.scrollWidth, innerWidth]");
-  check("390 px need no scrolling sideways", widths[0] <= widths[1], widths);
+  check("390 px need no scrolling sideways", widths[0] <= 390, widths);
   const small = await page.get("[...document.querySelectorAll('#bar button, #copy')].map((b) => b.getBoundingClientRect().height).filter((h) => h < 44).length");
   equal("buttons lower than 44 px", small, 0);
   check("dark is dark", (await page.get("getComputedStyle(document.body).backgroundColor")) === "rgb(20, 24, 30)", "");
@@ -226,7 +276,7 @@ async function hashOf() {
   }
 }
 
-for (const [flags, parts] of [[[], [whole, linked, narrow, damaged]], [["--disable-3d-apis"], [without]]]) {
+for (const [flags, parts] of [[[], [whole, linked, beside, narrow, damaged]], [["--disable-3d-apis"], [without]]]) {
   const browser = await Browser.start(flags);
   try {
     for (const part of parts) await part(browser);

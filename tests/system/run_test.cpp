@@ -148,6 +148,13 @@ TEST_F(ShortRun, ReplayAndDiffNameTheFirstDifference) {
   const Outcome diff = plumbline({"diff", dir(), copy});
   EXPECT_EQ(diff.code, 1);
   EXPECT_NE(diff.out.find(" s in vgicp/odometry: "), std::string::npos) << diff.out;
+  EXPECT_EQ(diff.out.find("look: "), std::string::npos);
+  const std::string same = *folder_ / "same";
+  fs::copy(dir(), same, fs::copy_options::recursive);
+  for (const std::string& run : {same, copy}) write_file(run + "/replay.html", "");
+  const std::string look = plumbline({"diff", same, copy}).out;
+  EXPECT_NE(look.find("look: " + same + "/replay.html#t="), std::string::npos) << look;
+  EXPECT_NE(look.find("&with=../changed/replay.html\n"), std::string::npos) << look;
 }
 
 TEST_F(ShortRun, AlteredFilesAreNamed) {

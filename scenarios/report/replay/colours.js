@@ -29,6 +29,16 @@ Plumb.colours = (() => {
     }
     return out;
   }
+  // Walls and objects: colours of Okabe and Ito and their darker kin, without vermilion and grey, which stand for none.
+  const kinds = [[0, 114, 178], [230, 159, 0], [0, 158, 115], [204, 121, 167], [86, 180, 233], [150, 130, 0], [106, 61, 154],
+    [0, 84, 130], [0, 104, 80], [150, 80, 120]];
+  const elsewhere = [[150, 156, 164], [213, 94, 0]]; // floors and ceilings; nothing of the plan
+  /** By what each point lies on: index of an element, -1: a floor or ceiling, -2: nothing. */
+  function ofElements(owners) {
+    const out = new Uint8Array(3 * owners.length);
+    owners.forEach((owner, i) => out.set(owner >= 0 ? kinds[owner % kinds.length] : elsewhere[-1 - owner], 3 * i));
+    return out;
+  }
   const css = (c) => "rgb(" + c.map((v) => Math.round(v)).join(",") + ")";
-  return { right, wrong, states, dark, ofPoints, css, along, even, far };
+  return { right, wrong, states, dark, ofPoints, ofElements, elsewhere, css, along, even, far };
 })();

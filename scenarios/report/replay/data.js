@@ -188,6 +188,10 @@ Plumb.data = (() => {
     }));
     data.storeys = scene.storeys.map((s) => ({ name: s.name, z: s.z * 1e-3, h: s.h * 1e-3 }));
     data.rooms = scene.rooms.map((r) => ({ name: r.name, s: r.s, at: r.at.map((p) => p.map((v) => v * 1e-3)) }));
+    data.plangraph = scene.plangraph && {
+      rooms: scene.plangraph.rooms.map(([name, s, x, y]) => ({ name, s, p: [x * 1e-3, y * 1e-3] })),
+      faces: scene.plangraph.room_face, doors: scene.plangraph.room_room,
+    };
     for (const belief of Object.values(beliefs)) {
       belief.stateTimes = belief.states.map((s) => s[0] * 1e-3);
       belief.setTimes = belief.sets.map((s) => s[0] * 1e-3);
@@ -242,6 +246,19 @@ Plumb.data = (() => {
     return belief.particles[i][1];
   }
 
+  /** Points of a method's final map, m, or null where it has none: x, y, z in cm, low bytes, then high bytes. */
+  function mapOf(data, name) {
+    const map = data.run.maps[name];
+    if (!map) return null;
+    if (!map.points)
+      map.points = bytesOf(map.block).then((bytes) => {
+        const n = map.count, points = new Float32Array(3 * n);
+        for (let k = 0; k < 3 * n; ++k) points[3 * (k % n) + Math.floor(k / n)] = 0.01 * (((bytes[k] | (bytes[3 * n + k] << 8)) << 16) >> 16);
+        return points;
+      });
+    return map.points;
+  }
+
   const states = ["SEARCHING", "AMBIGUOUS", "CONVERGED", "LOST"];
-  return { load, known, sweepPoses, stateAt, setAt, particlesAt, lastAt, yawOf, poseAt, states, bytesOf };
+  return { load, mapOf, known, sweepPoses, stateAt, setAt, particlesAt, lastAt, yawOf, poseAt, states, bytesOf };
 })();

@@ -11,6 +11,7 @@
 #include "scenarios/report/palette.h"
 #include "scenarios/report/replay/assets.h"
 #include "scenarios/report/replay/deflate.h"
+#include "scenarios/report/replay/map_packer.h"
 #include "scenarios/report/replay/replay_scene.h"
 #include "scenarios/report/replay/replay_tracks.h"
 #include "scenarios/report/report_builder.h"
@@ -43,7 +44,7 @@ std::string policy_hash(std::string_view sha256_hex) {
 std::string policy() {
   return "default-src 'none'; script-src " + policy_hash(replay_library.sha256_hex) + " " +
          policy_hash(replay_script.sha256_hex) + "; style-src " + policy_hash(replay_style.sha256_hex) +
-         "; img-src data: blob:; base-uri 'none'; form-action 'none'";
+         "; img-src data: blob:; frame-src 'self' file:; base-uri 'none'; form-action 'none'";
 }
 
 Tree mark(double t_s, const std::string& label, const std::string& kind, const std::string& method = "") {
@@ -173,6 +174,25 @@ Tree run_of(const FinishedRun& run, const score::RunScore& score, const ReportIn
       .set("marks", marks_of(run, score, input));
 }
 
+/// The map clouds of methods, a block each, and where they stand.
+struct DrawnMaps {
+  Tree about = Tree::map();
+  std::string blocks;
+};
+
+DrawnMaps maps_of(const FinishedRun& run, const score::RunScore& score, const Eigen::Vector3d& origin) {
+  DrawnMaps maps;
+  for (std::size_t i = 0; i < run.record.methods.size(); ++i) {
+    const MethodRecord& method = run.record.methods[i];
+    if (method.name == "truth" || method.estimate.map_F.empty()) continue;
+    const PackedMap map = pack_map(method.estimate.map_F, map_pose(method, score.methods[i]), origin);
+    const std::string id = "map" + std::to_string(i);
+    maps.about.set(method.name, Tree::map().set("block", id).set("count", static_cast<std::int64_t>(map.count)));
+    maps.blocks += block(id, map.bytes);
+  }
+  return maps;
+}
+
 std::vector<double> moments_of(const Tree& run) {
   std::vector<double> moments;
   for (const Tree& mark : run.find("marks")->as_list())
@@ -223,7 +243,6 @@ std::string render_replay(const FinishedRun& run, const score::RunScore& score, 
                           const std::map<std::string, Tree>& graphs, const ReplayOptions& options) {
   const ReportInput input = report_input(run, score);
   const Eigen::Vector3d origin = replay_origin(run);
-  const Tree about = run_of(run, score, input);
   Tree drawn_graphs = Tree::map();
   for (std::size_t i = 0; i < run.record.methods.size(); ++i) {
     const MethodRecord& method = run.record.methods[i];
@@ -232,7 +251,10 @@ std::string render_replay(const FinishedRun& run, const score::RunScore& score, 
       drawn_graphs.set(method.name, replay_graph(method, score.methods[i], graph->second, origin));
   }
   std::string page = head(text_of(input.results, "scenario"));
-  page += tree_block("run", about) + tree_block("scene", replay_scene(run, input, origin)) +
+  const DrawnMaps maps = maps_of(run, score, origin);
+  Tree about = run_of(run, score, input);
+  about.set("maps", maps.about);
+  page += maps.blocks + tree_block("run", about) + tree_block("scene", replay_scene(run, input, origin)) +
           block("mesh", replay_mesh(run, origin)) + tree_block("tracks", replay_tracks(run, score, origin)) +
           tree_block("beliefs", replay_beliefs(run, score, origin)) + tree_block("graphs", drawn_graphs);
   std::string scripts = "<script>";

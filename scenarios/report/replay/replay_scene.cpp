@@ -74,6 +74,26 @@ void add_solids(const bim::Plan& plan, const Eigen::Vector3d& origin, Tree& face
                      .set("holes", Tree::list()));
 }
 
+/// The architectural graph of the plan: rooms as [name, storey, x, y], pairs of a room and a face that bounds it, pairs
+/// of rooms that a door or void joins.
+Tree plan_graph(const bim::Plan& plan, const Eigen::Vector3d& origin) {
+  Tree rooms = Tree::list(), bounds = Tree::list(), doors = Tree::list();
+  for (std::size_t i = 0; i < plan.rooms.size(); ++i) {
+    const bim::PlanRoom& room = plan.rooms[i];
+    Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+    for (const Eigen::Vector2d& p : room.polygon) middle += p / static_cast<double>(room.polygon.size());
+    rooms.push(Tree(
+        Tree::List{room.name, room.storey, whole(middle.x() - origin.x(), mm), whole(middle.y() - origin.y(), mm)}));
+    for (const int face : room.faces) bounds.push(static_cast<int>(i)).push(face);
+    for (const int other : room.neighbours)
+      if (other > static_cast<int>(i)) doors.push(static_cast<int>(i)).push(other);
+  }
+  return Tree::map()
+      .set("rooms", std::move(rooms))
+      .set("room_face", std::move(bounds))
+      .set("room_room", std::move(doors));
+}
+
 Tree elements_of(const bim::BuildingMesh& mesh) {
   Tree list = Tree::list();
   for (const bim::MeshElement& element : mesh.elements)
@@ -131,6 +151,7 @@ Tree replay_scene(const FinishedRun& run, const ReportInput& input, const Eigen:
       .set("storeys", storeys_of(input.plan, origin))
       .set("rooms", rooms_of(input.plan, origin))
       .set("faces", std::move(faces))
+      .set("plangraph", plan_graph(planned, origin))
       .set("elements", elements_of(run.building->mesh_as_built()))
       .set("deviations", deviations_of(input, origin));
 }

@@ -202,10 +202,14 @@ Tree replay_beliefs(const FinishedRun& run, const score::RunScore& score, const 
   return beliefs;
 }
 
+Pose map_pose(const MethodRecord& method, const score::MethodScore& score) {
+  return method.localization || !score.trajectory ? Pose() : score.trajectory->X_WF_final;
+}
+
 Tree replay_graph(const MethodRecord& method, const score::MethodScore& score, const Tree& graph,
                   const Eigen::Vector3d& origin) {
   if (graph.find("keyframes") == nullptr) return {};
-  const Pose X_WF = method.localization || !score.trajectory ? Pose() : score.trajectory->X_WF_final;
+  const Pose X_WF = map_pose(method, score);
   Tree walls = Tree::list(), rooms = Tree::list(), floors = Tree::list();
   for (const slam::PlaneNode& plane : method.estimate.planes) {
     const double z = 0.5 * (plane.z0 + plane.z1);

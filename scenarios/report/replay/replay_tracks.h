@@ -18,6 +18,9 @@ namespace plumbline::scenarios {
 /// localization, by name.
 [[nodiscard]] Tree replay_beliefs(const FinishedRun& run, const score::RunScore& score, const Eigen::Vector3d& origin);
 
+/// X_WF of what a method made: by the alignment of its final trajectory; that of a localization is in W.
+[[nodiscard]] Pose map_pose(const MethodRecord& method, const score::MethodScore& score);
+
 /// The situational graph of the method, from its graph file, with the extents of its walls; null where it has none.
 [[nodiscard]] Tree replay_graph(const MethodRecord& method, const score::MethodScore& score, const Tree& graph,
                                 const Eigen::Vector3d& origin);

@@ -49,6 +49,28 @@ Plumb.Residuals = class {
     return least;
   }
 
+  /** The element of the plan that each point lies on, by index; -1: a floor or ceiling, -2: nothing within `most`. */
+  owners(points, count) {
+    if (!this.elements) {
+      const known = new Map();
+      this.elements = this.faces.map((f) => (known.has(f.wall) ? known : known.set(f.wall, known.size)).get(f.wall));
+    }
+    const out = new Int32Array(count);
+    for (let i = 0; i < count; ++i) {
+      const [x, y, z] = [points[3 * i], points[3 * i + 1], points[3 * i + 2]];
+      let least = Plumb.Residuals.most, owner = -2;
+      for (const level of this.levels) if (Math.abs(z - level) < least) [least, owner] = [Math.abs(z - level), -1];
+      for (const index of this.cells.get(Math.floor(x / this.cell) * 1e6 + Math.floor(y / this.cell)) || []) {
+        const f = this.faces[index];
+        if (z < f.z[0] - least || z > f.z[1] + least) continue;
+        const d = this.toFace(f, x, y);
+        if (d < least) [least, owner] = [d, this.elements[index]];
+      }
+      out[i] = owner;
+    }
+    return out;
+  }
+
   /** Of every point. */
   of(points, count) {
     const out = new Float32Array(count);

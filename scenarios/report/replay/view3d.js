@@ -19,7 +19,7 @@ Plumb.View3d = class {
     this.controls.addEventListener("start", () => { this.placed = true; });
     this.scene = new THREE.Scene();
     this.groups = {};
-    for (const name of ["building", "scan", "paths", "robots", "particles", "hypotheses", "walls", "graph", "deviations", "selection"]) {
+    for (const name of ["building", "scan", "paths", "robots", "particles", "hypotheses", "walls", "graph", "plangraph", "map", "deviations", "selection"]) {
       this.groups[name] = new THREE.Group();
       this.scene.add(this.groups[name]);
     }
@@ -274,108 +274,6 @@ Plumb.View3d = class {
     return this.byId;
   }
 
-  /** A bar of 3 m for the whole belief, an arrow and the 95 % ellipse, for each hypothesis. */
-  drawHypotheses(moment) {
-    this.clear(this.groups.hypotheses);
-    if (!moment.set) return;
-    const colour = moment.colour;
-    for (const h of moment.set.hypotheses) {
-      const group = new THREE.Group(), w = 0.07, top = 3 * h.share, bar = [];
-      for (const [a, b] of [[[-w, -w], [w, -w]], [[w, -w], [w, w]], [[w, w], [-w, w]], [[-w, w], [-w, -w]]])
-        bar.push(...a, 0, ...b, 0, ...b, top, ...a, top);
-      bar.push(-w, -w, top, w, -w, top, w, w, top, -w, w, top);
-      group.add(this.quads(bar, this.flat(colour, 0.85)));
-      const arrow = this.robot(colour, false);
-      arrow.rotation.z = h.yaw;
-      arrow.position.z = 0.03;
-      group.add(arrow, this.ellipse(h.cov, colour));
-      group.position.set(h.p[0], h.p[1], h.p[2] - this.base + 0.04);
-      this.groups.hypotheses.add(group);
-    }
-  }
-
-  ellipse([xx, xy, yy], colour) {
-    const half = 0.5 * (xx + yy), root = Math.sqrt(Math.max(0, 0.25 * (xx - yy) ** 2 + xy * xy)), angle = 0.5 * Math.atan2(2 * xy, xx - yy);
-    const a = Math.sqrt(5.991 * Math.max(0, half + root)), b = Math.sqrt(5.991 * Math.max(0, half - root)), corners = [];
-    const at = (k, grow) => {
-      const u = (2 * Math.PI * k) / 32, x = (a + grow) * Math.cos(u), y = (b + grow) * Math.sin(u);
-      return [x * Math.cos(angle) - y * Math.sin(angle), x * Math.sin(angle) + y * Math.cos(angle), 0.02];
-    };
-    for (let k = 0; k < 32; ++k) corners.push(...at(k, 0), ...at(k, 0.03), ...at(k + 1, 0.03), ...at(k + 1, 0));
-    return this.quads(corners, this.flat(colour));
-  }
-
-  drawParticles(moment) {
-    const list = moment.particles, points = this.particlePoints;
-    points.visible = !!list;
-    if (!list) return;
-    const n = Math.min(2048, list.length / 2), at = new Float32Array(3 * n), colours = new Uint8Array(3 * n);
-    const rgb = [1, 3, 5].map((k) => parseInt(moment.colour.slice(k, k + 2), 16));
-    for (let i = 0; i < n; ++i) {
-      at.set([list[2 * i] * 0.01, list[2 * i + 1] * 0.01, moment.floor + 0.1], 3 * i);
-      colours.set(rgb, 3 * i);
-    }
-    this.setPoints(points, at, colours, n);
-  }
-
-  /** Keyframes, walls, rooms and floors above the plan, each kind higher than the one before. */
-  drawGraph(moment) {
-    this.clear(this.groups.graph);
-    const graph = moment.graph;
-    if (!graph) return;
-    const lift = moment.lift, m = (p) => p.map((v) => v * 1e-3);
-    const heights = { keyframe: 2.0, wall: 3.6, room: 5.4, floor: 7.0 };
-    const at = {
-      keyframe: graph.keyframes.map((k) => { const p = m(k.slice(0, 3)); return [p[0], p[1], p[2] + heights.keyframe * lift]; }),
-      wall: [], room: [], floor: [],
-    };
-    for (const [id, p, q] of graph.walls) {
-      const a = m(p), b = m(q);
-      at.wall[id] = [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]), a[2] + heights.wall * lift];
-    }
-    for (const [id, p] of graph.rooms) { const a = m(p); at.room[id] = [a[0], a[1], a[2] + heights.room * lift]; }
-    for (const [id, p] of graph.floors) { const a = m(p); at.floor[id] = [a[0], a[1], a[2] + heights.floor * lift + 1]; }
-    const shown = graph.keyframes.map((k) => k[3] * 1e-3 <= moment.t + 1e-6);
-    const nodes = [], colours = [], sizes = { keyframe: [86, 180, 233], wall: [0, 114, 178], room: [204, 121, 167], floor: [230, 159, 0] };
-    for (const [kind, list] of Object.entries(at))
-      list.forEach((p, i) => {
-        if (!p || (kind === "keyframe" && !shown[i])) return;
-        nodes.push(...p);
-        colours.push(...sizes[kind]);
-      });
-    const points = this.pointsOf(nodes.length / 3, 8, 1e-4);
-    this.setPoints(points, new Float32Array(nodes), new Uint8Array(colours), nodes.length / 3);
-    this.groups.graph.add(points);
-    const walls = [];
-    for (const [, p, q] of graph.walls) {
-      const a = m(p), b = m(q), z = a[2] + heights.wall * lift;
-      walls.push(a[0], a[1], z - 0.35, b[0], b[1], z - 0.35, b[0], b[1], z + 0.35, a[0], a[1], z + 0.35);
-    }
-    this.groups.graph.add(this.quads(walls, this.flat("#0072B2", 0.35)));
-    const path = [];
-    for (let i = 1; i < at.keyframe.length; ++i) if (shown[i]) path.push(...at.keyframe[i - 1], ...at.keyframe[i]);
-    this.lines(path, "#56B4E9", 0.9);
-    const edges = [];
-    for (let i = 0; i < graph.keyframe_wall.length; i += 6) // one edge in three, or they would hide everything
-      if (shown[graph.keyframe_wall[i]]) this.edge(edges, at.keyframe[graph.keyframe_wall[i]], at.wall[graph.keyframe_wall[i + 1]]);
-    this.lines(edges, "#888888", 0.18);
-    const upper = [];
-    for (let i = 0; i < graph.room_wall.length; i += 2) this.edge(upper, at.room[graph.room_wall[i]], at.wall[graph.room_wall[i + 1]]);
-    for (let i = 0; i < graph.floor_room.length; i += 2) this.edge(upper, at.floor[graph.floor_room[i]], at.room[graph.floor_room[i + 1]]);
-    this.lines(upper, "#CC79A7", 0.8);
-  }
-
-  edge(list, a, b) { if (a && b) list.push(...a, ...b); }
-
-  lines(positions, colour, opacity) {
-    if (positions.length === 0) return;
-    const geometry = new THREE.BufferGeometry();
-    geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(positions), 3));
-    const line = new THREE.LineSegments(geometry, new THREE.LineBasicMaterial({ color: colour, transparent: true, opacity }));
-    line.frustumCulled = false;
-    this.groups.graph.add(line);
-  }
-
   drawSelection(moment) {
     this.clear(this.groups.selection);
     if (!moment.selected || moment.selected.faces.length === 0) return;
@@ -398,6 +296,8 @@ Plumb.View3d = class {
       this.drawHypotheses(moment);
       this.drawWalls(moment);
       this.drawGraph(moment);
+      this.drawPlanGraph(moment);
+      this.drawMap(moment);
       this.drawSelection(moment);
     }
     for (const mesh of this.groups.deviations.children) mesh.visible = mesh.userData.storey === moment.storey;
