@@ -127,8 +127,12 @@ std::vector<Eigen::Vector3f> map_cloud(std::span<const CloudKeyframe> keyframes,
 
 bool MapCloudRecorder::add(const DeskewedScan& scan, const Pose& X_FR) {
   if (!keyframes_.empty() && (keyframes_.back().X_FR.t - X_FR.t).norm() < config_.spacing_m) return false;
-  keyframes_.push_back({X_FR, thin_scan(scan, config_), {}});
+  keep(scan, X_FR);
   return true;
+}
+
+void MapCloudRecorder::keep(const DeskewedScan& scan, const Pose& X_FR) {
+  keyframes_.push_back({X_FR, thin_scan(scan, config_), {}});
 }
 
 }  // namespace plumbline::slam

@@ -59,6 +59,8 @@ class MapCloudRecorder {
 
   /// True when the scan was kept.
   bool add(const DeskewedScan& scan, const Pose& X_FR);
+  /// Keeps it wherever it is.
+  void keep(const DeskewedScan& scan, const Pose& X_FR);
   [[nodiscard]] std::span<const CloudKeyframe> keyframes() const { return keyframes_; }
   [[nodiscard]] std::vector<Eigen::Vector3f> cloud() const { return map_cloud(keyframes_, config_); }
 

@@ -7,50 +7,27 @@
 #include <cmath>
 
 #include "bim/random/stream.h"
+#include "tests/slam/baselines/house_walk.h"
 #include "tests/slam/synthetic.h"
 
 namespace plumbline::slam {
 namespace {
 
-MethodInput input() {
-  MethodInput given;
-  given.calibration = synthetic::calibration();
-  return given;
-}
-
-struct Worst {
-  double across_m = 0.0, height_m = 0.0;
-};
-
-/// Largest distances from the truth over 6 m of the corridor house.
-Worst worst_of(const LegoLoamConfig& config) {
-  const synthetic::Recording recording =
-      synthetic::walk(synthetic::corridor_house(), synthetic::corridor_house_walk(), {.duration_s = 10.0});
-  const auto method = make_lego_loam(input(), config);
-  Worst worst;
-  for (std::size_t k = 0; k < recording.scans.size(); ++k) {
-    const Output output = method->on_scan(recording.scans[k]);
-    const Pose X_WR = recording.truth.front().X_FR * *output.X_FR;
-    const Eigen::Vector3d off = X_WR.t - recording.truth[k].X_FR.t;
-    worst.across_m = std::max(worst.across_m, off.head<2>().norm());
-    worst.height_m = std::max(worst.height_m, std::abs(off.z()));
-  }
-  return worst;
-}
-
 // Rings at -15 to -1 deg meet this floor from 2.5 m on: little ground indoors. Measured: 13 cm across and 59 cm of
 // height; indoor 14 and 33.
 TEST(LegoLoam, FollowsAWalk) {
-  const Worst reference = worst_of({});
+  const auto plain = make_lego_loam(synthetic::robot(), {});
+  const synthetic::WorstError reference = synthetic::worst_in_house(*plain, 10.0);
   EXPECT_LT(reference.across_m, 0.18);
   EXPECT_LT(reference.height_m, 0.75);
-  const Worst indoor = worst_of(LegoLoamIndoorConfig());
+  const auto for_rooms = make_lego_loam(synthetic::robot(), LegoLoamIndoorConfig());
+  const synthetic::WorstError indoor = synthetic::worst_in_house(*for_rooms, 10.0);
   EXPECT_LT(indoor.across_m, 0.18);
   EXPECT_LT(indoor.height_m, 0.45);
 }
 
 TEST(LegoLoam, WithoutAFloorItSaysSo) {
-  const auto method = make_lego_loam(input(), {});
+  const auto method = make_lego_loam(synthetic::robot(), {});
   for (int k = 0; k < 3; ++k) {
     Scan scan =
         synthetic::standing_scan(synthetic::one_room(12.0, 10.0), Pose::from_xyz_yaw({6.0, 5.0, 0.46}, 0.0), {});

@@ -7,16 +7,11 @@
 #include <algorithm>
 
 #include "bim/random/stream.h"
+#include "tests/slam/baselines/house_walk.h"
 #include "tests/slam/synthetic.h"
 
 namespace plumbline::slam {
 namespace {
-
-MethodInput input() {
-  MethodInput given;
-  given.calibration = synthetic::calibration();
-  return given;
-}
 
 // A chain of five unknowns measured pairwise: window and prior give what the whole problem gives.
 TEST(MloamPrior, IsTheWholeProblem) {
@@ -45,30 +40,18 @@ TEST(MloamPrior, WhatNothingHoldsSaysNothing) {
   EXPECT_EQ(rest.g[0], 1.0);
 }
 
-/// Largest distance from the truth over some metres of the corridor house.
-double worst_error(const MloamConfig& config) {
-  const synthetic::Recording recording =
-      synthetic::walk(synthetic::corridor_house(), synthetic::corridor_house_walk(), {.duration_s = 10.0});
-  const auto method = make_mloam(input(), config);
-  double worst_m = 0.0;
-  for (std::size_t k = 0; k < recording.scans.size(); ++k) {
-    const Output output = method->on_scan(recording.scans[k]);
-    const Pose X_WR = recording.truth.front().X_FR * *output.X_FR;
-    worst_m = std::max(worst_m, (X_WR.t - recording.truth[k].X_FR.t).norm());
-  }
-  return worst_m;
-}
-
 // With the reference's leaves a bare house is followed within some per cent: 0.38 m of 6 m, 0.41 without the window.
 TEST(Mloam, FollowsAWalk) {
-  EXPECT_LT(worst_error({}), 0.45);
-  MloamConfig without;
-  without.window.on = false;
-  EXPECT_LT(worst_error(without), 0.5);
+  const auto with = make_mloam(synthetic::robot(), {});
+  EXPECT_LT(synthetic::worst_in_house(*with, 10.0).m, 0.45);
+  MloamConfig config;
+  config.window.on = false;
+  const auto without = make_mloam(synthetic::robot(), config);
+  EXPECT_LT(synthetic::worst_in_house(*without, 10.0).m, 0.5);
 }
 
 TEST(Mloam, WithoutReturnsThePoseStands) {
-  const auto method = make_mloam(input(), {});
+  const auto method = make_mloam(synthetic::robot(), {});
   const Scan scan = synthetic::standing_scan(synthetic::corridor_house(), Pose::from_xyz_yaw({3, 1, 0.46}, 0.0), {});
   EXPECT_EQ(method->on_scan(scan).state, State::converged);
   for (int k = 1; k < 5; ++k) {
