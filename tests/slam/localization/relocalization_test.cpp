@@ -42,7 +42,7 @@ Walked localize(synthetic::Recording recording, const synthetic::House& house, b
 TEST(Relocalization, ALidarAloneIsNotSureAfterAWayThatNothingMeasured) {
   for (const double blank_s : {1.5, 5.0}) {
     synthetic::WalkConfig config;
-    config.duration_s = 20.0;
+    config.duration_s = 13.0 + blank_s;
     const synthetic::House house = synthetic::corridor_house();
     synthetic::Recording recording = synthetic::walk(house, synthetic::corridor_house_walk(), config);
     const double from_s = 6.0;
