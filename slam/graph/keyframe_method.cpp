@@ -19,7 +19,7 @@ Output KeyframeMethod::on_scan(const Scan& scan) {
   Output output;
   output.stamp = scan.stamp;
   ScanStages stages(output);
-  const TrackedPose tracked = track(scan, stages);
+  const ScanPlacement tracked = track(scan, stages);
   scans_.push_back({scan.stamp, graph_.keyframes.size() - 1, tracked.X_OR});
   output.X_FR = corrected(scans_.back());
   if (tracked.lost) output.state = State::lost;

@@ -28,7 +28,7 @@ class ScanStages {
 };
 
 /// Where a scan is.
-struct TrackedPose {
+struct ScanPlacement {
   Pose X_OR;  ///< by odometry, in the frame of the keyframes' X_OR
   bool lost = false;
   int degenerate_directions = 0;  ///< as in Output
@@ -49,7 +49,7 @@ class KeyframeMethod : public Method {
 
  protected:
   /// The pose of a scan; may add keyframes and factors to graph().
-  [[nodiscard]] virtual TrackedPose track(const Scan& raw, ScanStages& stages) = 0;
+  [[nodiscard]] virtual ScanPlacement track(const Scan& raw, ScanStages& stages) = 0;
   /// Puts the scan that is being tracked into the map.
   void keep(const DeskewedScan& scan);
   /// The same where the last one in it is far enough from X_MR.

@@ -85,7 +85,7 @@ class HdlSlamPaper final : public KeyframeMethod {
         loop_matcher_(make_matcher(config)) {}
 
  private:
-  [[nodiscard]] TrackedPose track(const Scan& raw, ScanStages& stages) override;
+  [[nodiscard]] ScanPlacement track(const Scan& raw, ScanStages& stages) override;
   [[nodiscard]] bool keyframe_is_due() const;
   void add_keyframe(const DeskewedScan& scan, std::vector<Eigen::Vector3d> points_R, ScanStages& stages);
   void add_vertex(Nanoseconds stamp, const std::vector<Eigen::Vector3d>& points_R, const std::optional<Plane>& floor_R);
@@ -107,7 +107,7 @@ bool HdlSlamPaper::keyframe_is_due() const {
   return step.t.norm() >= config_.keyframe_distance_m || log_so3(step.q).norm() >= config_.keyframe_angle_rad;
 }
 
-TrackedPose HdlSlamPaper::track(const Scan& raw, ScanStages& stages) {
+ScanPlacement HdlSlamPaper::track(const Scan& raw, ScanStages& stages) {
   const DeskewedScan scan = as_it_is(raw);
   std::vector<Eigen::Vector3d> points_R = prefiltered(scan, config_.prefilter);
   stages.end("prefilter", Digest().add(static_cast<std::int64_t>(points_R.size())).value());

@@ -37,7 +37,7 @@ class LegoLoam final : public KeyframeMethod {
       : KeyframeMethod(input.calibration, config.map, config.loop.on), config_(config), map_(config.submap) {}
 
  private:
-  [[nodiscard]] TrackedPose track(const Scan& scan, ScanStages& stages) override;
+  [[nodiscard]] ScanPlacement track(const Scan& scan, ScanStages& stages) override;
   [[nodiscard]] bool advance(const Features& features);
   void refine(Nanoseconds stamp, const std::vector<FormerPoint>& outliers);
   void add_keyframe(Nanoseconds stamp, loam::MapFeatures features);
@@ -109,7 +109,7 @@ void LegoLoam::close_loop() {
   X_MR_ = graph().keyframes.back().X_MR;
 }
 
-TrackedPose LegoLoam::track(const Scan& scan, ScanStages& stages) {
+ScanPlacement LegoLoam::track(const Scan& scan, ScanStages& stages) {
   const SegmentedCloud cloud = segmented_cloud(scan, calibration().X_RL, config_.image);
   const Features features = find_features(cloud, config_.features);
   stages.end("features", Digest()
