@@ -6,12 +6,15 @@
 #include <Eigen/Core>
 #include <cstdio>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "bim/config/printable.h"
+#include "bim/errors.h"
 #include "scenarios/app/commands.h"
 #include "scenarios/app/process.h"
+#include "scenarios/host/files.h"
 #include "scenarios/host/terminal.h"
 #include "scenarios/spec/library.h"
 #include "slam/process/child.h"
@@ -76,13 +79,33 @@ int examine() {
   return broken == 0 ? 0 : environment;
 }
 
+/// Names and removes what killed runs left in a folder of runs.
+int tidy(const std::string& folder) {
+  if (!std::filesystem::is_directory(folder))
+    throw InputError({folder, 0, 0}, "no such directory; name one with runs in it");
+  const std::vector<std::string> unfinished = unfinished_in(folder);
+  for (const std::string& directory : unfinished) {
+    const bool removed = remove_abandoned(directory);
+    say(removed ? "removed" : "kept", ".partial",
+        directory +
+            (removed ? ": left by a run that was killed" : ": a run is writing there, or it may not be removed"));
+  }
+  if (unfinished.empty()) print("no run left anything unfinished in " + printable(folder) + "\n");
+  return 0;
+}
+
 }  // namespace
 
 Command add_doctor(CommandLine& program) {
   CommandLine line =
       program.add_command("doctor", "Says what is installed, what is missing, and what that is needed for");
-  line.footer("Example: plumbline doctor\nExit codes: 0 all that the program itself needs is there, 3 it is not");
-  return {line, [] { return examine(); }};
+  const auto folder = std::make_shared<std::string>();
+  line.option("FOLDER", *folder, "names and removes instead what killed runs left in this folder and those below it")
+      .takes("DIR");
+  line.footer(
+      "Example: plumbline doctor\n         plumbline doctor runs\nExit codes: 0 all that the program itself needs is "
+      "there, 3 it is not");
+  return {line, [folder] { return folder->empty() ? examine() : tidy(*folder); }};
 }
 
 }  // namespace plumbline::scenarios

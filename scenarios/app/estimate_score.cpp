@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenarios/app/estimate_score.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <optional>
@@ -12,6 +13,7 @@
 #include "scenarios/host/files.h"
 #include "scenarios/host/manifest.h"
 #include "scenarios/host/terminal.h"
+#include "scenarios/metrics/metrics.h"
 #include "scenarios/metrics/reference_score.h"
 #include "scenarios/metrics/silence.h"
 #include "scenarios/run/run_files.h"
@@ -106,6 +108,60 @@ std::string words_of(const score::Silence& silence) {
          format_number(silence.silent_s) + " s at a time";
 }
 
+/// What gates may name, whether this estimate has it or not.
+const std::vector<std::string>& gate_names() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all = {"lost_share", "degenerate_share", "silence.silent_s"};
+    TrajectoryScores every;
+    every.path.straightness = 1.0;
+    every.reference.emplace();
+    every.reference->rpe_1m_rmse_m = every.reference->rpe_1m_rotation_deg = 0.0;
+    const Tree tree = to_json(every);
+    for (const auto& [key, value] : std::get<Tree::Map>(tree.value)) {
+      all.push_back(key);
+      all.push_back("final." + key);
+    }
+    return all;
+  }();
+  return names;
+}
+
+std::optional<double> value_at(const Tree& scores, const std::string& name) {
+  const std::size_t dot = name.find('.');
+  const Tree* at = scores.find(name.substr(0, dot));
+  if (at != nullptr && dot != std::string::npos) at = at->find(name.substr(dot + 1));
+  if (at == nullptr && dot == std::string::npos) at = scores.find("causal")->find(name);
+  return at == nullptr ? std::nullopt : std::optional(at->as_double());
+}
+
+void check_names(const std::vector<GateSpec>& gates) {
+  for (const GateSpec& gate : gates) {
+    const auto& known = gate_names();
+    if (std::find(known.begin(), known.end(), gate.metric) != known.end()) continue;
+    const std::string close = did_you_mean(gate.metric, known);
+    throw InputError({"--gate", 0, 0},
+                     "an estimate alone has no '" + gate.metric + "'" +
+                         (close.empty() ? "; score.json names what it has" : "; did you mean '" + close + "'?"));
+  }
+}
+
+/// Judges them, adds them to the scores, and says so in words; their number that failed.
+int judge(const std::vector<GateSpec>& gates, const std::string& method, Tree& scores, std::string& text) {
+  int failed = 0;
+  Tree list = Tree::list();
+  for (const GateSpec& gate : gates) {
+    score::GateResult result{gate.metric, method, gate.max ? "<=" : ">=", gate.max ? *gate.max : *gate.min, {},
+                             {},          false};
+    result.value = value_at(scores, gate.metric);
+    result.passed = result.value && (gate.max ? *result.value <= *gate.max : *result.value >= *gate.min);
+    failed += result.passed ? 0 : 1;
+    text += (result.passed ? "passed: " : "FAILED: ") + score::describe(result) + "\n";
+    list.push(score::to_results(result));
+  }
+  if (!gates.empty()) scores.set("gates", std::move(list));
+  return failed;
+}
+
 }  // namespace
 
 bool is_estimate_directory(const std::string& dir) {
@@ -113,7 +169,9 @@ bool is_estimate_directory(const std::string& dir) {
   return fs::exists(dir + "/estimate.yaml") && !fs::exists(dir + "/scenario.yaml");
 }
 
-void score_estimate(const std::string& dir, const std::string& reference_file, bool unchecked) {
+int score_estimate(const std::string& dir, const std::string& reference_file, const std::vector<GateSpec>& gates,
+                   bool unchecked) {
+  check_names(gates);
   const std::vector<std::string> methods = estimates_in(dir);
   if (methods.size() != 1) throw InputError({dir, 0, 0}, "holds no single estimate; make it again");
   const MethodRecord method = read_method(dir, methods.front());
@@ -144,6 +202,8 @@ void score_estimate(const std::string& dir, const std::string& reference_file, b
   if (silence) tree.set("silence", to_json(*silence));
   tree.set("causal", to_json(causal));
   if (last.path.poses > 0) tree.set("final", to_json(last));
+  std::string judged;
+  const int failed = judge(gates, method.name, tree, judged);
   write_file(dir + "/score.json", write_json(tree) + "\n");
   renew_manifest(dir, {"score.json"});
 
@@ -156,7 +216,8 @@ void score_estimate(const std::string& dir, const std::string& reference_file, b
   if (!reference.empty()) text += "  matched    ATE m   step m    max m step deg  max deg    RPE/m    deg/m";
   text += "\n" + line_of("causal", causal);
   if (last.path.poses > 0) text += line_of("final", last);
-  print(text + "scores: " + printable(dir) + "/score.json\n");
+  print(text + "scores: " + printable(dir) + "/score.json\n" + judged);
+  return failed == 0 ? 0 : 1;
 }
 
 }  // namespace plumbline::scenarios

@@ -2,6 +2,9 @@
 #pragma once
 
 #include <string>
+#include <vector>
+
+#include "scenarios/spec/scenario.h"
 
 namespace plumbline::scenarios {
 
@@ -11,6 +14,9 @@ namespace plumbline::scenarios {
 /// Scores what `plumbline estimate` left by itself and, where `reference` names a trajectory, by that. Writes
 /// score.json into `dir` and prints a table. Throws InputError, also where the two are of different times, and, unless
 /// `unchecked`, where files were altered since they were written.
-void score_estimate(const std::string& dir, const std::string& reference, bool unchecked);
+/// A gate names a value of score.json: as causal has it, "final.NAME", or one at the top; it fails where that is
+/// absent. Returns the exit code.
+[[nodiscard]] int score_estimate(const std::string& dir, const std::string& reference,
+                                 const std::vector<GateSpec>& gates, bool unchecked);
 
 }  // namespace plumbline::scenarios

@@ -11,6 +11,7 @@
 #include "bim/config/tree.h"
 #include "scenarios/app/commands.h"
 #include "scenarios/app/estimate_score.h"
+#include "scenarios/app/outside_gate.h"
 #include "scenarios/app/summary.h"
 #include "scenarios/host/files.h"
 #include "scenarios/host/manifest.h"
@@ -19,6 +20,7 @@
 #include "scenarios/run/ground_truth_recorder.h"
 #include "scenarios/run/run_files.h"
 #include "scenarios/spec/method_names.h"
+#include "slam/io/clouds/cloud_file.h"
 #include "slam/io/recordings/trajectory.h"
 #include "slam/io/recordings/tum.h"
 
@@ -113,8 +115,61 @@ void check_dropped(const std::vector<std::string>& dropped, const FinishedRun& r
   }
 }
 
-int score_again(const std::string& dir, const std::vector<std::string>& estimates,
-                const std::vector<std::string>& dropped, bool unchecked) {
+struct ScoreArguments {
+  std::string dir;
+  std::vector<std::string> estimates;
+  std::vector<std::string> maps;
+  std::vector<std::string> gates;
+  std::vector<std::string> dropped;
+  std::string reference;
+  bool unchecked = false;
+};
+
+/// Of every estimate that is given with them.
+std::vector<GateSpec> gates_of(const std::vector<std::string>& texts) {
+  std::vector<GateSpec> gates;
+  for (const std::string& text : texts) {
+    gates.push_back(parse_gate(text));
+    Tree written = Tree::map();
+    written.mark = {"--gate", 0, 0};
+    check_gate(gates.back(), written);
+  }
+  return gates;
+}
+
+/// NAME=FILE: a cloud in the frame of the trajectory of this name.
+void add_map(const std::string& text, std::vector<MethodRecord>& outside) {
+  const Mark mark{"--map", 0, 0};
+  const std::size_t equals = text.find('=');
+  const std::string name = text.substr(0, equals);
+  const auto method =
+      std::find_if(outside.begin(), outside.end(), [&](const MethodRecord& m) { return m.name == name; });
+  if (equals == std::string::npos || equals + 1 == text.size())
+    throw InputError(mark, "'" + text + "' must be NAME=FILE, a .ply or .pcd");
+  if (method == outside.end())
+    throw InputError(mark, "there is no --estimate '" + name + "' that it could be the map of");
+  const std::string file = text.substr(equals + 1);
+  method->estimate.map_F = slam::points_of(slam::read_cloud_file(file));
+  if (method->estimate.map_F.empty()) throw InputError({file, 0, 0}, "holds no point");
+}
+
+/// Which gates an outside estimate is asked, and whose they are.
+std::string asked_text(const MethodRecord& method, const score::RunScore& score) {
+  std::string gates;
+  for (const score::GateResult& gate : score.gates)
+    if (gate.method == method.name)
+      gates += (gates.empty() ? "" : ", ") + gate.metric + " " + gate.op + " " + format_number(gate.limit);
+  if (gates.empty())
+    return method.name + " is asked no gate: the scenario has none that apply, and --gate gives none\n";
+  return method.name + " is asked " +
+         (method.gates.empty() ? "the strictest of the scenario's gates: " : "by --gate: ") + gates + "\n";
+}
+
+int score_again(const ScoreArguments& arguments) {
+  const auto& [dir, estimates, maps, gates, dropped, reference, unchecked] = arguments;
+  const std::vector<GateSpec> own_gates = gates_of(gates);
+  if (estimates.empty() && !(gates.empty() && maps.empty()))
+    throw InputError({gates.empty() ? "--map" : "--gate", 0, 0}, "is of outside estimates; give them with --estimate");
   FinishedRun run = read_run(dir);
   remove_abandoned(dir);
   std::vector<std::string> written = {"report.html", "junit.xml", "results.json"};
@@ -127,6 +182,8 @@ int score_again(const std::string& dir, const std::vector<std::string>& estimate
     check_stamps(text, read, run);
     if (std::any_of(outside.begin(), outside.end(), [&](const MethodRecord& m) { return m.name == read.name; }))
       throw InputError({"--estimate", 0, 0}, "'" + read.name + "' is given twice");
+    read.gates = own_gates;
+    for (GateSpec& gate : read.gates) gate.method = read.name;
     outside.push_back(std::move(read));
     const auto& names = run.scenario.methods;
     if (outside.back().name == truth_method ||
@@ -134,6 +191,7 @@ int score_again(const std::string& dir, const std::vector<std::string>& estimate
       throw InputError({"--estimate", 0, 0},
                        "'" + outside.back().name + "' is a method of this run; give another name");
   }
+  for (const std::string& text : maps) add_map(text, outside);
   for (const std::string& name : dropped) remove_method(dir, name);
   for (const MethodRecord& method : outside) write_method(dir, method);
   if (!outside.empty() || !dropped.empty()) run = read_run(dir);
@@ -144,35 +202,31 @@ int score_again(const std::string& dir, const std::vector<std::string>& estimate
   for (const std::string& method : methods)
     for (const std::string& name : files_of_method(method)) written.push_back(name);
   renew_manifest(dir, written);
-  print("report: " + printable(dir) + "/report.html\n" + summarise(run, score));
+  std::string asked;
+  for (const MethodRecord& method : outside) asked += asked_text(method, score);
+  print("report: " + printable(dir) + "/report.html\n" + asked + summarise(run, score));
   return exit_code(run, score);
 }
 
 /// A run, or an estimate of a recording that has no run.
-int score_any(const std::string& dir, const std::vector<std::string>& estimates,
-              const std::vector<std::string>& dropped, const std::string& reference, bool unchecked) {
+int score_any(const ScoreArguments& arguments) {
+  const std::string& dir = arguments.dir;
   if (is_estimate_directory(dir)) {
-    if (!estimates.empty() || !dropped.empty())
-      throw InputError({dir, 0, 0}, "is an estimate; --estimate and --drop are of run directories");
-    score_estimate(dir, reference, unchecked);
-    return 0;
+    if (!arguments.estimates.empty() || !arguments.maps.empty() || !arguments.dropped.empty())
+      throw InputError({dir, 0, 0}, "is an estimate; --estimate, --map and --drop are of run directories");
+    std::vector<GateSpec> gates;
+    for (const std::string& text : arguments.gates) gates.push_back(parse_gate(text));
+    return score_estimate(dir, arguments.reference, gates, arguments.unchecked);
   }
-  if (!reference.empty())
+  if (!arguments.reference.empty())
     throw InputError({"--reference", 0, 0}, "is of a directory of plumbline estimate; '" + dir + "' is none");
-  return score_again(dir, estimates, dropped, unchecked);
+  return score_again(arguments);
 }
 
 }  // namespace
 
 Command add_score(CommandLine& program) {
-  struct Options {
-    std::string dir;
-    std::vector<std::string> estimates;
-    std::vector<std::string> dropped;
-    std::string reference;
-    bool unchecked = false;
-  };
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ScoreArguments>();
   CommandLine line = program.add_command(
       "score",
       "Scores a run directory again, with estimates of other programs or of plumbline estimate; or an estimate alone");
@@ -181,6 +235,13 @@ Command add_score(CommandLine& program) {
       "--estimate", options->estimates,
       "NAME=FILE[,frame=W|M]: poses of the robot (TUM, KITTI or EuRoC) in the plan's frame W or its own M [M]; or "
       "NAME=directory that plumbline estimate wrote, of the run's recording");
+  line.option("--map", options->maps,
+              "NAME=FILE: the map (.ply, .pcd) of the estimate of this name, in the frame of its poses");
+  line.option(
+          "--gate", options->gates,
+          "METRIC<=X or METRIC>=X, in quotes: asked of the estimates given, in place of the scenario's gates; of an "
+          "estimate alone, a value of score.json")
+      .takes("GATE");
   line.option("--drop", options->dropped, "removes the outside estimate of this name, which was given before");
   line.option("--reference", options->reference,
               "of an estimate: true poses (TUM, KITTI or EuRoC) of the same frame of the robot, in any world frame, on "
@@ -191,11 +252,10 @@ Command add_score(CommandLine& program) {
   line.footer(
       "Example: plumbline score runs/quickstart-1 --estimate kiss=kiss.tum --estimate amcl=amcl.tum,frame=W\n"
       "         plumbline score runs/quickstart-1 --estimate paper=estimates/paper\n"
-      "         plumbline score estimates/street --reference street.tum");
-  return {line, [options] {
-            return score_any(options->dir, options->estimates, options->dropped, options->reference,
-                             options->unchecked);
-          }};
+      "         plumbline score runs/quickstart-1 --estimate mine=mine.tum --map mine=mine.ply --gate "
+      "'map_rmse_m<=0.05'\n"
+      "         plumbline score estimates/street --reference street.tum --gate 'ate_aligned_rmse_m<=0.5'");
+  return {line, [options] { return score_any(*options); }};
 }
 
 }  // namespace plumbline::scenarios

@@ -72,6 +72,7 @@ int simulate(const SimulateArguments& options, slam::MethodTable table) {
     recorder.add_bag(profile, options.bag_truth, slam::BagFormat::mcap,
                      options.compression == "none" ? "" : options.compression);
   if (options.rosbag2) recorder.add_bag(profile, options.bag_truth, slam::BagFormat::rosbag2);
+  recorder.add_building(resolved);
   RunOptions run_options;
   run_options.methods = false;
   run_options.observe = [&](const sim::WorldFrame& frame) { recorder.add(frame); };

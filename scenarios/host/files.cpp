@@ -222,15 +222,32 @@ std::string lock_in(const std::string& staging) { return staging + "/lock"; }
 
 }  // namespace
 
-void remove_abandoned(const std::string& directory) noexcept {
+bool remove_abandoned(const std::string& directory) noexcept {
   try {
     const std::string staging = staging_of(directory);
     std::error_code error;
-    if (!fs::is_regular_file(lock_in(staging), error)) return;
+    if (!fs::is_regular_file(lock_in(staging), error)) return false;
     const std::optional<FolderLock> lock = FolderLock::take(lock_in(staging), directory);
     if (lock) fs::remove_all(staging, error);
+    return lock && !error;
   } catch (const std::exception&) {  // no place of ours to tidy
+    return false;
   }
+}
+
+std::vector<std::string> unfinished_in(const std::string& folder) {
+  std::vector<std::string> found;
+  std::error_code error;
+  if (fs::is_regular_file(lock_in(staging_of(folder)), error)) found.push_back(folder);
+  constexpr auto skip = fs::directory_options::skip_permission_denied;
+  for (fs::recursive_directory_iterator at(folder, skip, error), end; !error && at != end; at.increment(error)) {
+    if (at->path().filename() != staging_name || !at->is_directory(error)) continue;
+    at.disable_recursion_pending();
+    const std::string directory = at->path().parent_path().string();
+    if (directory != folder && fs::is_regular_file(lock_in(at->path().string()), error)) found.push_back(directory);
+  }
+  std::sort(found.begin(), found.end());
+  return found;
 }
 
 RunDirectory::RunDirectory(const std::string& path, DirectoryKind kind, bool force)

@@ -23,7 +23,11 @@ void write_file(const std::string& path, std::string_view bytes);
 std::vector<std::string> make_folders(const std::string& path, const std::string& named);
 
 /// Removes what a killed run left in a directory of ours, unless a run is writing there or nothing may be removed.
-void remove_abandoned(const std::string& directory) noexcept;
+/// Whether there was something.
+bool remove_abandoned(const std::string& directory) noexcept;
+/// Directories with what runs that are still going or were killed left unfinished, in `folder` and those below it, by
+/// name. Links are not followed.
+[[nodiscard]] std::vector<std::string> unfinished_in(const std::string& folder);
 
 /// What a directory holds: one kind never replaces another.
 enum class DirectoryKind { run, recording, estimate, sweep };

@@ -292,6 +292,11 @@ std::string write_estimate(const MethodRecord& method) {
   tree.set("floors", write_list(method.estimate.floors));
   if (method.estimate.loops) tree.set("loops", write_list(*method.estimate.loops));
   if (!method.estimate.segmented.empty()) tree.set("segmented", write_list(method.estimate.segmented));
+  if (!method.gates.empty()) {
+    Tree gates = Tree::list();
+    for (const GateSpec& gate : method.gates) gates.push(to_tree(gate));
+    tree.set("gates", std::move(gates));
+  }
   return write_json(tree) + "\n";
 }
 
@@ -319,6 +324,11 @@ void read_estimate(std::string_view text, const std::string& file, MethodRecord&
   }
   if (const Tree* segmented = tree.find("segmented"))
     for (const Tree& scan : segmented->as_list()) method.estimate.segmented.push_back(read_segmented(scan));
+  if (const Tree* gates = tree.find("gates"))
+    for (const Tree& gate : gates->as_list()) {
+      method.gates.push_back(from_tree<GateSpec>(gate));
+      check_gate(method.gates.back(), gate);
+    }
 }
 
 std::string write_beliefs(const std::vector<BeliefRecord>& beliefs) {

@@ -41,6 +41,7 @@ struct MethodRecord {
   std::vector<slam::StampedPose> causal;  ///< each pose as first given
   std::vector<BeliefRecord> beliefs;      ///< of plan localization: one a scan
   slam::Estimate estimate;
+  std::vector<GateSpec> gates;  ///< of an outside estimate: asked of it in place of the scenario's
   DigestLog digests;
   std::vector<StageTimes> times;
 };

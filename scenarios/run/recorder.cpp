@@ -5,6 +5,7 @@
 
 #include "bim/errors.h"
 #include "scenarios/run/ground_truth_recorder.h"
+#include "slam/io/bags/building_view.h"
 #include "slam/io/recordings/recording.h"
 
 namespace plumbline::scenarios {
@@ -48,6 +49,14 @@ void Recorder::add_bag(const slam::BagProfile& profile, bool with_truth, slam::B
                                                        : "rosbag2";
   bags_.push_back(std::make_unique<slam::BagWriter>(dir_ + "/" + name, profile, calibration_, format, compression));
   truth_in_bag_ = with_truth;
+}
+
+void Recorder::add_building(const ResolvedScenario& resolved) {
+  if (bags_.empty()) return;
+  const RunBuilding& building = *resolved.building;
+  const slam::ros::BuildingView view =
+      slam::ros::building_view(building.mesh_as_planned(), *building.plan_as_planned(), resolved.world.storey);
+  for (const auto& bag : bags_) bag->add_building(view);
 }
 
 void Recorder::add(const sim::WorldFrame& frame) {

@@ -24,6 +24,8 @@ class Recorder {
   /// format once. compression: of MCAP.
   void add_bag(const slam::BagProfile& profile, bool with_truth, slam::BagFormat format = slam::BagFormat::ros1,
                std::string_view compression = {});
+  /// To the bags of ROS 2, for viewers: the building as planned, and the plan of the storey of the start.
+  void add_building(const ResolvedScenario& resolved);
   void add(const sim::WorldFrame& frame);
   /// Completes the files.
   void finish();

@@ -125,9 +125,10 @@ bool is_asked_for(std::string_view metric, const MethodRecord& method) {
   return metric.starts_with("localization.") == method.localization;
 }
 
-/// The strictest bound in the good direction of each metric, asked of an outside estimate. Bounds on the truth check
-/// the scorer and apply to no other method.
+/// What is asked of an outside estimate: its own gates, else the strictest bound in the good direction of each metric.
+/// Bounds on the truth check the scorer and apply to no other method.
 std::vector<GateSpec> gates_for_outside(const std::vector<GateSpec>& gates, const MethodRecord& method) {
+  if (!method.gates.empty()) return method.gates;
   std::vector<GateSpec> strictest;
   for (const GateSpec& gate : gates) {
     const MetricRow& row = *find_metric(gate.metric);

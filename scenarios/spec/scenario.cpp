@@ -33,17 +33,7 @@ Tree with_lists(Tree tree) {
 
 void check_gates(const Scenario& scenario, const Tree& tree) {
   const Tree* gates = tree.find("gates");
-  for (std::size_t i = 0; i < scenario.gates.size(); ++i) {
-    const GateSpec& gate = scenario.gates[i];
-    const Tree& written = gates->as_list()[i];
-    if (gate.max.has_value() == gate.min.has_value()) throw InputError(written.mark, "a gate needs either max or min");
-    if (score::find_metric(gate.metric) != nullptr) continue;
-    std::vector<std::string> known;
-    for (const score::MetricRow& row : score::metrics()) known.emplace_back(row.name);
-    const std::string close = did_you_mean(gate.metric, known);
-    throw InputError(written.find("metric")->mark,
-                     "unknown metric '" + gate.metric + "'" + (close.empty() ? "" : "; did you mean '" + close + "'?"));
-  }
+  for (std::size_t i = 0; i < scenario.gates.size(); ++i) check_gate(scenario.gates[i], gates->as_list()[i]);
 }
 
 /// Values that this kind of route has no use for.
@@ -102,6 +92,17 @@ void check_pushes(const PushesSpec& pushes, const Tree& tree) {
 }
 
 }  // namespace
+
+void check_gate(const GateSpec& gate, const Tree& written) {
+  if (gate.max.has_value() == gate.min.has_value()) throw InputError(written.mark, "a gate needs either max or min");
+  if (score::find_metric(gate.metric) != nullptr) return;
+  std::vector<std::string> known;
+  for (const score::MetricRow& row : score::metrics()) known.emplace_back(row.name);
+  const std::string close = did_you_mean(gate.metric, known);
+  const Tree* metric = written.is_map() ? written.find("metric") : nullptr;
+  throw InputError(metric != nullptr ? metric->mark : written.mark,
+                   "unknown metric '" + gate.metric + "'" + (close.empty() ? "" : "; did you mean '" + close + "'?"));
+}
 
 void check_name(const std::string& name, const Mark& mark) {
   if (name.size() > longest_name)

@@ -312,6 +312,9 @@ struct GateSpec {
   }
 };
 
+/// Throws InputError at the gate as written where it has not exactly one bound, or is of no metric.
+void check_gate(const GateSpec& gate, const Tree& written);
+
 /// One run, as written by a user (`scenario: 1`).
 struct Scenario {
   int version = 1;

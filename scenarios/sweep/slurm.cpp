@@ -72,15 +72,24 @@ std::string array_script(const SlurmJob& job, int tasks) {
          "#SBATCH --output=\"" +
          job.out +
          ".shards/%A_%a.log\"\n"
-         "# A task that is begun again goes on: runs that are there are kept.\n"
+         "# A task that is begun again goes on: runs that are there are kept. Slurm begins it again where a node is "
+         "lost; here\n"
+         "# it is where one of its processes was killed. What is wrong with the input stays wrong (2), and who stops "
+         "it means it.\n"
          "shard=$((SLURM_ARRAY_TASK_ID + 1 + " +
          std::to_string(job.first) +
          "))\n"
-         "exec " +
+         "for try in 1 2 3 4 5; do\n"
+         "  code=0\n"
+         "  " +
          command_of(job) + " --shard \"$shard/" + std::to_string(job.shards) +
          "\" --jobs \"${SLURM_CPUS_PER_TASK:-1}\" \\\n"
-         "  -o " +
-         quoted(job.out) + ".shards/\"$shard\"-of-" + std::to_string(job.shards) + "\n";
+         "    -o " +
+         quoted(job.out) + ".shards/\"$shard\"-of-" + std::to_string(job.shards) +
+         " || code=$?\n"
+         "  case $code in 0|2|130|143) break ;; esac\n"
+         "done\n"
+         "exit $code\n";
 }
 
 std::string collect_script(const SlurmJob& job) {

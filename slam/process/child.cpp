@@ -29,6 +29,7 @@ namespace plumbline::slam {
 namespace {
 
 constexpr int child_stream = 3;
+constexpr int child_file = 4;
 constexpr std::size_t printed_max = 4096;
 
 std::string error_text(int error) { return std::strerror(error); }
@@ -100,7 +101,7 @@ void close_if_open(int& descriptor) {
 }  // namespace
 
 Child::Child(const std::vector<std::string>& command, const std::string& folder,
-             const std::vector<std::string>& variables, std::function<void(std::string_view)> printed)
+             const std::vector<std::string>& variables, std::function<void(std::string_view)> printed, int also)
     : on_printed_(std::move(printed)) {
   const auto [own_stream, its_stream] = pipe_or_socket(true);
   const auto [own_output, its_output] = pipe_or_socket(false);
@@ -120,7 +121,9 @@ Child::Child(const std::vector<std::string>& command, const std::string& folder,
   // dup2 onto itself would leave it to be closed at exec.
   const int above = ::fcntl(its_stream, F_DUPFD_CLOEXEC, child_stream + 1);
   posix_spawn_file_actions_adddup2(&plan.actions, above, child_stream);
-  posix_spawn_file_actions_addclosefrom_np(&plan.actions, child_stream + 1);
+  const int also_above = also < 0 ? -1 : ::fcntl(also, F_DUPFD_CLOEXEC, child_file + 1);
+  if (also >= 0) posix_spawn_file_actions_adddup2(&plan.actions, also_above, child_file);
+  posix_spawn_file_actions_addclosefrom_np(&plan.actions, (also < 0 ? child_stream : child_file) + 1);
   if (!folder.empty()) posix_spawn_file_actions_addchdir_np(&plan.actions, folder.c_str());
   reset_signals(plan.attributes);
   const std::vector<std::string> environment = environment_with(variables);
@@ -129,6 +132,7 @@ Child::Child(const std::vector<std::string>& command, const std::string& folder,
   ::close(its_stream);
   ::close(its_output);
   ::close(above);
+  if (also_above >= 0) ::close(also_above);
   if (failed == 0) return;
   for (int* descriptor : {&stream_, &output_, &timer_}) close_if_open(*descriptor);
   throw ProcessFailure("'" + command.front() + "' cannot be started: " + error_text(failed));

@@ -72,26 +72,29 @@ Tree prior_tree(const Prior& prior) {
 
 }  // namespace
 
-std::string greeting(const ProcessCommand& command, const MethodInput& input) {
+std::string greeting(const ProcessCommand& command, const MethodInput& input, std::size_t shared_memory) {
   const bool with_plan = command.needs_plan && input.plan;
-  const Tree hello = Tree::map()
-                         .set("protocol", wire::protocol)
-                         .set("method", command.name)
-                         .set("seed", std::to_string(input.seed))
-                         .set("X_RL", pose(input.calibration.X_RL))
-                         .set("sensor_height_m", input.calibration.sensor_height_m)
-                         .set("has_odometry", input.has_odometry)
-                         .set("prior", with_plan ? prior_tree(input.prior) : Tree())
-                         .set("plan", with_plan ? plan_tree(*input.plan) : Tree());
+  Tree hello = Tree::map()
+                   .set("protocol", wire::protocol)
+                   .set("method", command.name)
+                   .set("seed", std::to_string(input.seed))
+                   .set("X_RL", pose(input.calibration.X_RL))
+                   .set("sensor_height_m", input.calibration.sensor_height_m)
+                   .set("has_odometry", input.has_odometry)
+                   .set("prior", with_plan ? prior_tree(input.prior) : Tree())
+                   .set("plan", with_plan ? plan_tree(*input.plan) : Tree());
+  if (shared_memory > 0) hello.set("shared_memory_bytes", static_cast<std::int64_t>(shared_memory));
   return write_json(hello, 0);
 }
 
-void check_greeting(const std::string& text) {
+GreetingAnswer read_greeting(const std::string& text) {
   try {
     const Tree answer = read_json(text, "HELLO_OK");
     const Tree* protocol = answer.is_map() ? answer.find("protocol") : nullptr;
     if (protocol == nullptr || protocol->as_int() != wire::protocol)
       throw ProcessFailure("speaks another protocol; " + std::to_string(wire::protocol) + " is spoken here");
+    const Tree* shared = answer.find("shared_memory");
+    return {shared != nullptr && shared->as_bool()};
   } catch (const InputError& error) {
     throw ProcessFailure(std::string("answered the greeting with what is no JSON: ") + error.what());
   }

@@ -2,8 +2,8 @@
 #include "slam/process/process_method.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
-#include <cstring>
 #include <optional>
 #include <span>
 #include <utility>
@@ -12,18 +12,13 @@
 #include "slam/process/child.h"
 #include "slam/process/client/plumbline_messages.h"
 #include "slam/process/greeting.h"
+#include "slam/process/shared_memory.h"
 
 namespace plumbline::slam {
 
 namespace {
 
 using Bytes = std::vector<std::byte>;
-
-template <class T>
-void append(Bytes& bytes, const T& value) {
-  const auto* from = reinterpret_cast<const std::byte*>(&value);
-  bytes.insert(bytes.end(), from, from + sizeof(T));
-}
 
 wire::Pose wire_of(const Pose& X) { return {{X.t.x(), X.t.y(), X.t.z()}, {X.q.x(), X.q.y(), X.q.z(), X.q.w()}}; }
 
@@ -34,24 +29,43 @@ struct Message {
   Bytes payload;
 };
 
+/// What stands in either half of the shared memory; most scans take 1.2 MB, the largest 10.
+constexpr std::size_t half_bytes = 32U << 20U;
+
 /// One process and what is said to it.
 class Conversation {
  public:
   Conversation(const ProcessCommand& command, const MethodInput& input)
-      : command_(command), child_(command.command, command.folder, environment_of(input), command.printed) {
+      : command_(command),
+        memory_(2 * half_bytes),
+        child_(command.command, command.folder, environment_of(input), command.printed, memory_.descriptor()) {
     child_.set_deadline(command.start_s);
-    const std::string hello = greeting(command, input);
-    Bytes payload(hello.size());
-    std::memcpy(payload.data(), hello.data(), hello.size());
-    send(wire::Type::hello, payload);
-    check_greeting(text_of(receive(wire::Type::hello_ok)));
+    const std::string hello = greeting(command, input, memory_.bytes().size());
+    send({wire::magic, static_cast<std::uint16_t>(wire::Type::hello), 0, hello.size()}, hello.data());
+    shares_ = read_greeting(text_of(receive(wire::Type::hello_ok))).shared_memory && !memory_.bytes().empty();
   }
 
-  /// The answer's payload.
-  [[nodiscard]] Bytes ask(wire::Type question, const Bytes& payload, wire::Type answer, double seconds) {
-    child_.set_deadline(seconds);
-    send(question, payload);
-    return receive(answer);
+  /// The answer to a scan, whose message `write` writes.
+  template <class Write>
+  [[nodiscard]] Bytes ask_step(std::size_t size, const Write& write) {
+    child_.set_deadline(command_.scan_s);
+    wire::Head head{wire::magic, static_cast<std::uint16_t>(wire::Type::step), 0, size};
+    if (shares_ && size <= half_bytes) {
+      half_ = 1 - half_;
+      write(memory_.bytes().subspan(half_ * half_bytes, size));
+      head.memory = static_cast<std::uint16_t>(half_ + 1);
+      child_.send(&head, sizeof head);
+    } else {
+      step_.resize(size);
+      write(std::span(step_));
+      send(head, step_.data());
+    }
+    return receive(wire::Type::output);
+  }
+  [[nodiscard]] Bytes ask_finish() {
+    child_.set_deadline(command_.finish_s);
+    send({wire::magic, static_cast<std::uint16_t>(wire::Type::finish), 0, 0}, nullptr);
+    return receive(wire::Type::estimate);
   }
   [[nodiscard]] double cpu_ms() const { return child_.cpu_ms(); }
   void end() {
@@ -60,10 +74,9 @@ class Conversation {
   }
 
  private:
-  void send(wire::Type type, const Bytes& payload) {
-    const wire::Head head{wire::magic, static_cast<std::uint16_t>(type), 0, payload.size()};
+  void send(const wire::Head& head, const void* payload) {
     child_.send(&head, sizeof head);
-    child_.send(payload.data(), payload.size());
+    child_.send(payload, head.size);
   }
 
   /// Lines for the log are passed over.
@@ -97,7 +110,11 @@ class Conversation {
   }
 
   ProcessCommand command_;
+  SharedMemory memory_;
   Child child_;
+  bool shares_ = false;
+  std::size_t half_ = 1;  ///< that was written last
+  Bytes step_;            ///< of the last scan; its memory is used again
 };
 
 class ProcessMethod final : public Method {
@@ -109,37 +126,36 @@ class ProcessMethod final : public Method {
 
   void on_imu(const Imu& imu) override {
     const Eigen::Vector3d &w = imu.angular_velocity_R, &a = imu.linear_acceleration_R;
-    append(imus_, wire::Imu{imu.stamp, {w.x(), w.y(), w.z()}, {a.x(), a.y(), a.z()}});
+    imus_.push_back({imu.stamp, {w.x(), w.y(), w.z()}, {a.x(), a.y(), a.z()}});
   }
   void on_odometry(const Odometry& odometry) override {
-    append(odometries_, wire::Odometry{odometry.stamp, wire_of(odometry.X_OR)});
+    odometries_.push_back({odometry.stamp, wire_of(odometry.X_OR)});
   }
 
   [[nodiscard]] Output on_scan(const Scan& scan) override {
     ++scans_;
-    const Bytes step = step_of(scan);
-    imus_.clear();
-    odometries_.clear();
     Output output;
     char when[64];
     std::snprintf(when, sizeof when, "at scan %d (%.1f s)", scans_, seconds(scan.stamp));
     with_context(when, [&] {
       const double before_ms = first_->cpu_ms();
-      const Bytes answer = first_->ask(wire::Type::step, step, wire::Type::output, command_.scan_s);
+      const Bytes answer = ask_step(*first_, scan);
       output = read_output(answer, scan.stamp, command_.needs_plan);
       output.times.push_back({"process", std::max(0.0, first_->cpu_ms() - before_ms)});
-      if (second_ && second_->ask(wire::Type::step, step, wire::Type::output, command_.scan_s) != answer)
+      if (second_ && ask_step(*second_, scan) != answer)
         throw ProcessFailure("does not repeat: a second process answers the same records otherwise");
     });
+    imus_.clear();
+    odometries_.clear();
     return output;
   }
 
   [[nodiscard]] Estimate finish() override {
     Estimate estimate;
     with_context("at the end", [&] {
-      const Bytes answer = first_->ask(wire::Type::finish, {}, wire::Type::estimate, command_.finish_s);
+      const Bytes answer = first_->ask_finish();
       estimate = read_estimate(answer, command_.needs_plan);
-      if (second_ && second_->ask(wire::Type::finish, {}, wire::Type::estimate, command_.finish_s) != answer)
+      if (second_ && second_->ask_finish() != answer)
         throw ProcessFailure("does not repeat: a second process gives another estimate");
       first_->end();
       if (second_) second_->end();
@@ -157,28 +173,34 @@ class ProcessMethod final : public Method {
     }
   }
 
-  [[nodiscard]] Bytes step_of(const Scan& scan) const {
-    Bytes bytes;
-    bytes.reserve(sizeof(wire::Step) + imus_.size() + odometries_.size() + scan.size() * sizeof(wire::Return));
-    append(bytes, wire::Step{scan.stamp, static_cast<std::uint32_t>(imus_.size() / sizeof(wire::Imu)),
-                             static_cast<std::uint32_t>(odometries_.size() / sizeof(wire::Odometry)),
-                             static_cast<std::uint32_t>(scan.size()), static_cast<std::uint16_t>(scan.rings),
-                             static_cast<std::uint16_t>(scan.columns), 0});
-    bytes.insert(bytes.end(), imus_.begin(), imus_.end());
-    bytes.insert(bytes.end(), odometries_.begin(), odometries_.end());
-    std::size_t at = bytes.size();
-    bytes.resize(at + scan.size() * sizeof(wire::Return));
-    for (std::size_t i = 0; i < scan.size(); ++i, at += sizeof(wire::Return)) {
-      const Eigen::Vector3d& p = scan.point_L[i];
-      const wire::Return one{{p.x(), p.y(), p.z()}, scan.range_m[i], scan.offset_ns[i], scan.reflectivity[i]};
-      std::memcpy(&bytes[at], &one, sizeof one);
-    }
-    return bytes;
+  [[nodiscard]] Bytes ask_step(Conversation& conversation, const Scan& scan) const {
+    const wire::Step step{scan.stamp,
+                          static_cast<std::uint32_t>(imus_.size()),
+                          static_cast<std::uint32_t>(odometries_.size()),
+                          static_cast<std::uint32_t>(scan.size()),
+                          static_cast<std::uint16_t>(scan.rings),
+                          static_cast<std::uint16_t>(scan.columns),
+                          0};
+    static_assert(sizeof(wire::Point) == sizeof(Eigen::Vector3d));
+    const std::array<std::span<const std::byte>, 7> parts = {
+        std::as_bytes(std::span(&step, 1)),      std::as_bytes(std::span(imus_)),
+        std::as_bytes(std::span(odometries_)),   std::as_bytes(std::span(scan.range_m)),
+        std::as_bytes(std::span(scan.point_L)),  std::as_bytes(std::span(scan.reflectivity)),
+        std::as_bytes(std::span(scan.offset_ns))};
+    std::size_t size = 0;
+    for (const auto& part : parts) size += part.size();
+    return conversation.ask_step(size, [&](std::span<std::byte> to) {
+      for (const auto& part : parts) {
+        std::copy(part.begin(), part.end(), to.begin());
+        to = to.subspan(part.size());
+      }
+    });
   }
 
   ProcessCommand command_;
   std::optional<Conversation> first_, second_;
-  Bytes imus_, odometries_;  ///< since the scan before
+  std::vector<wire::Imu> imus_;  ///< since the scan before, as the next one
+  std::vector<wire::Odometry> odometries_;
   int scans_ = 0;
 };
 

@@ -126,7 +126,7 @@ int main(int argc, char** argv) {
       case wire::Type::hello: {
         const std::string answer = how == "old"       ? R"({"protocol": 0})"
                                    : how == "no_json" ? "hello"
-                                                      : R"({"protocol": 1})";
+                                                      : "{\"protocol\": " + std::to_string(wire::protocol) + "}";
         if (how == "never_greets") hang();
         send(wire::Type::hello_ok, answer.data(), answer.size());
         if (how == "never_reads") hang();

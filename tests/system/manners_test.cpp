@@ -170,5 +170,35 @@ TEST_F(Manners, TrajectoriesOfOtherFormsGetTheSameScores) {
   refuse({"score", run, "--estimate", "s=" + (folder_ / "short.txt")}, "poses in KITTI form, which has no times");
 }
 
+TEST_F(Manners, OutsideEstimatesAreAskedTheirOwnGates) {
+  const std::string run = folder_ / "run";
+  ASSERT_EQ(plumbline({"run", input(), "--method", "odometry", "--out", run}).code, 0);
+  const std::string given = "mine=" + run + "/odometry.tum", map = "mine=" + run + "/odometry.map.ply";
+  const auto results = [&] { return nlohmann::json::parse(read_file(run + "/results.json")); };
+
+  const Outcome failed = plumbline({"score", run, "--estimate", given, "--gate", "ate_aligned_rmse_m <= 1e-9"});
+  EXPECT_EQ(failed.code, 1) << failed.err;
+  EXPECT_NE(failed.out.find("mine is asked by --gate: ate_aligned_rmse_m <= "), std::string::npos) << failed.out;
+  EXPECT_FALSE(results()["methods"]["mine"].contains("map_rmse_m"));
+  // They stay with the estimate.
+  ASSERT_EQ(plumbline({"report", run}).code, 0);
+  EXPECT_EQ(plumbline({"score", run}).code, 1);
+
+  const Outcome passed = plumbline({"score", run, "--estimate", given, "--map", map, "--gate", "ate_aligned_rmse_m<=5",
+                                    "--gate", "map_rmse_m<=0.5", "--gate", "map_completeness>=0.01"});
+  EXPECT_EQ(passed.code, 0) << passed.out << passed.err;
+  const auto methods = results()["methods"];
+  EXPECT_EQ(methods["mine"]["map_rmse_m"], methods["odometry"]["map_rmse_m"]);
+  EXPECT_EQ(results()["gates"].size(), 3);
+  EXPECT_EQ(plumbline({"score", run, "--estimate", given, "--gate", "map_rmse_m<=0.5"}).code, 1);  // it has no map now
+
+  refuse({"score", run, "--gate", "ate_rmse_m<=1"}, "give them with --estimate");
+  refuse({"score", run, "--estimate", given, "--gate", "ate_rmse_m=1"}, "must be METRIC<=X");
+  refuse({"score", run, "--estimate", given, "--gate", "ate_rmse_m<=1m"}, "must be a number");
+  refuse({"score", run, "--estimate", given, "--gate", "ate_rmse<=1"}, "did you mean 'ate_rmse_m'?");
+  refuse({"score", run, "--estimate", given, "--map", "other=" + run + "/odometry.map.ply"}, "no --estimate 'other'");
+  refuse({"score", run, "--estimate", given, "--map", given}, "odometry.tum");
+}
+
 }  // namespace
 }  // namespace plumbline::system_tests

@@ -60,6 +60,25 @@ TEST_F(Process, VgicpWrappedGivesTheBuiltInsBytes) {
   EXPECT_EQ(again.code, 0) << again.out << again.err;
 }
 
+TEST_F(Process, TheBridgeToRos2GivesWhatComesBackFromThere) {
+  const std::string python = "/usr/bin/python3";
+  if (std::system((python + " -c 'import numpy' 2>/dev/null").c_str()) != 0) GTEST_SKIP() << "no numpy for " << python;
+  const std::string stub = project_file("tests/processes/ros2_stub/bridge.py");
+  const std::string bridge = project_file("slam/process/client/examples/ros2_bridge.py");
+  const Outcome outcome = plumbline({"run",
+                                     scenario("  - odometry\n  - {name: bridge, command: [" + python + ", " + stub +
+                                                  ", " + bridge + ", --wait-s, '60'], repeat: true}\n",
+                                              "3"),
+                                     "-o", folder_ / "run"});
+  ASSERT_EQ(outcome.code, 0) << outcome.out << outcome.err;
+  const nlohmann::json methods = json(folder_ / "run/results.json")["methods"];
+  EXPECT_EQ(methods["bridge"]["verdict"], "complete") << outcome.out;
+  // The stand-in answers with the odometry that it got last.
+  EXPECT_EQ(methods["bridge"]["rpe_1m_rmse_m"].is_null(), methods["odometry"]["rpe_1m_rmse_m"].is_null());
+  EXPECT_NEAR(methods["bridge"]["ate_aligned_rmse_m"].get<double>(),
+              methods["odometry"]["ate_aligned_rmse_m"].get<double>(), 1e-3);
+}
+
 TEST_F(Process, ThePythonExampleFollowsAndRepeats) {
   const std::string python = "/usr/bin/python3";
   if (std::system((python + " -c 'import numpy' 2>/dev/null").c_str()) != 0) GTEST_SKIP() << "no numpy for " << python;

@@ -206,6 +206,20 @@ TEST_F(Recordings, AnEstimateWithoutARunIsScoredByAReference) {
   EXPECT_GT(scores()["causal"]["ate_aligned_rmse_m"], 0.0);
   EXPECT_LT(scores()["causal"]["ate_aligned_rmse_m"], 0.1);  // half a metre walked
 
+  EXPECT_EQ(plumbline({"score", out, "--gate", "ate_aligned_rmse_m<=1"}).code, 1);  // absent without a reference
+  const std::vector<std::string> scored = {"score", out, "--reference", walk + "/truth.tum", "--gate"};
+  const auto with_gate = [&](const std::string& gate) {
+    std::vector<std::string> line = scored;
+    line.push_back(gate);
+    return plumbline(line);
+  };
+  EXPECT_EQ(with_gate("final.ate_aligned_rmse_m<=0.1").code, 0);
+  EXPECT_EQ(with_gate("lost_share<=0").code, 0);
+  const Outcome missed = with_gate("ate_aligned_rmse_m<=1e-9");
+  EXPECT_EQ(missed.code, 1);
+  EXPECT_NE(missed.out.find("FAILED: ate_aligned_rmse_m of vgicp is "), std::string::npos) << missed.out;
+  EXPECT_EQ(scores()["gates"][0]["passed"], false);
+
   const std::string kept = read_file(out + "/score.json");
   const auto refused = [&](const std::vector<std::string>& line, const std::string& what) {
     const Outcome outcome = plumbline(line);
@@ -219,6 +233,7 @@ TEST_F(Recordings, AnEstimateWithoutARunIsScoredByAReference) {
   write_file(folder_ / "empty.tum", "# nothing\n");
   refused({"score", out, "--reference", folder_ / "empty.tum"}, "holds no pose");
   refused({"score", out, "--estimate", "a=" + out}, "is an estimate");
+  refused({"score", out, "--gate", "ate_aligned_rmse<=1"}, "did you mean 'ate_aligned_rmse_m'?");
   refused({"score", walk, "--reference", walk + "/truth.tum"}, "--reference");
 }
 

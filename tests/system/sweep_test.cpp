@@ -123,7 +123,7 @@ TEST(Sweep, SlurmGetsAnArrayAndACollector) {
   for (const char* table : tables)
     EXPECT_TRUE(read_file(folder / ("whole/" + std::string(table))) == read_file((folder / "out it/") + table))
         << table;
-  setting.env["PATH"] = "/usr/bin:/bin";
+  setting.env["PATH"] = folder / "nothing";  // where Slurm is installed it would be found
   const Outcome none = plumbline({"sweep", sweep, "--slurm", "-o", folder / "none"}, setting);
   EXPECT_EQ(none.code, 3);
   EXPECT_NE(none.err.find("sbatch is not there"), std::string::npos) << none.err;

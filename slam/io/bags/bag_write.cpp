@@ -5,6 +5,7 @@
 
 #include "bim/errors.h"
 #include "slam/io/bags/bag.h"
+#include "slam/io/bags/building_view.h"
 #include "slam/io/bags/message_sink.h"
 #include "slam/io/bags/odometry_motion.h"
 #include "slam/io/bags/ros_message.h"
@@ -95,6 +96,13 @@ void BagWriter::add(const Scan& scan, std::span<const Odometry> odometry, std::s
   const BagProfile& profile = impl_->profile;
   impl_->write(profile.points, MessageType::cloud, scan.stamp,
                ros::write_cloud(cloud_of(scan, profile.layout), profile.lidar, impl_->encoding));
+}
+
+void BagWriter::add_building(const ros::BuildingView& view) {
+  if (impl_->encoding != Encoding::cdr) return;
+  impl_->write("/building", MessageType::markers, 0, ros::write_markers(view.parts, "map", impl_->encoding), true);
+  if (!view.plan.cells.empty())
+    impl_->write("/map", MessageType::grid, 0, ros::write_grid(view.plan, impl_->encoding), true);
 }
 
 void BagWriter::add_truth(std::span<const StampedPose> truth_W) {

@@ -9,9 +9,9 @@
 
 namespace plumbline::slam {
 
-enum class MessageType { clock, cloud, odometry, imu, transforms };
+enum class MessageType { clock, cloud, odometry, imu, transforms, markers, grid };
 
-/// A bag that is being written. Functions throw EnvironmentError.
+/// A bag that is being written. Markers and grids are of ROS 2 alone. Functions throw EnvironmentError.
 class MessageSink {
  public:
   virtual ~MessageSink() = default;

@@ -43,6 +43,9 @@ TypedBytes typed(MessageType type, const ros::Bytes& bytes) {
       return typed<sensor_msgs::Imu>(bytes);
     case MessageType::transforms:
       return typed<tf2_msgs::TFMessage>(bytes);
+    case MessageType::markers:
+    case MessageType::grid:
+      break;
   }
   throw InternalError("unknown type of message");
 }

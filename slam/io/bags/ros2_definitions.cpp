@@ -17,7 +17,7 @@ struct Definition {
   std::string_view fields;
 };
 
-constexpr std::array<Definition, 17> definitions = {{
+constexpr std::array<Definition, 26> definitions = {{
     {"builtin_interfaces/Time", "int32 sec\nuint32 nanosec\n"},
     {"std_msgs/Header", "builtin_interfaces/Time stamp\nstring frame_id\n"},
     {"geometry_msgs/Point", "float64 x\nfloat64 y\nfloat64 z\n"},
@@ -44,6 +44,23 @@ constexpr std::array<Definition, 17> definitions = {{
      "std_msgs/Header header\nstring child_frame_id\ngeometry_msgs/PoseWithCovariance pose\n"
      "geometry_msgs/TwistWithCovariance twist\n"},
     {"tf2_msgs/TFMessage", "geometry_msgs/TransformStamped[] transforms\n"},
+    {"builtin_interfaces/Duration", "int32 sec\nuint32 nanosec\n"},
+    {"std_msgs/ColorRGBA", "float32 r\nfloat32 g\nfloat32 b\nfloat32 a\n"},
+    {"sensor_msgs/CompressedImage", "std_msgs/Header header\nstring format\nuint8[] data\n"},
+    {"visualization_msgs/UVCoordinate", "float32 u\nfloat32 v\n"},
+    {"visualization_msgs/MeshFile", "string filename\nuint8[] data\n"},
+    {"visualization_msgs/Marker",
+     "int32 TRIANGLE_LIST=11\nint32 ADD=0\nstd_msgs/Header header\nstring ns\nint32 id\nint32 type\nint32 action\n"
+     "geometry_msgs/Pose pose\ngeometry_msgs/Vector3 scale\nstd_msgs/ColorRGBA color\n"
+     "builtin_interfaces/Duration lifetime\nbool frame_locked\ngeometry_msgs/Point[] points\n"
+     "std_msgs/ColorRGBA[] colors\nstring texture_resource\nsensor_msgs/CompressedImage texture\n"
+     "UVCoordinate[] uv_coordinates\nstring text\nstring mesh_resource\nMeshFile mesh_file\n"
+     "bool mesh_use_embedded_materials\n"},
+    {"visualization_msgs/MarkerArray", "Marker[] markers\n"},
+    {"nav_msgs/MapMetaData",
+     "builtin_interfaces/Time map_load_time\nfloat32 resolution\nuint32 width\nuint32 height\n"
+     "geometry_msgs/Pose origin\n"},
+    {"nav_msgs/OccupancyGrid", "std_msgs/Header header\nMapMetaData info\nint8[] data\n"},
 }};
 
 std::string_view fields_of(std::string_view name) {
@@ -76,6 +93,24 @@ std::vector<std::string_view> types_of(MessageType type) {
     case MessageType::transforms:
       return {"tf2_msgs/TFMessage",    "geometry_msgs/TransformStamped", header, time, "geometry_msgs/Transform",
               "geometry_msgs/Vector3", "geometry_msgs/Quaternion"};
+    case MessageType::markers:
+      return {"visualization_msgs/MarkerArray",
+              "visualization_msgs/Marker",
+              header,
+              time,
+              "geometry_msgs/Pose",
+              "geometry_msgs/Point",
+              "geometry_msgs/Quaternion",
+              "geometry_msgs/Vector3",
+              "std_msgs/ColorRGBA",
+              "builtin_interfaces/Duration",
+              "sensor_msgs/CompressedImage",
+              "visualization_msgs/UVCoordinate",
+              "visualization_msgs/MeshFile"};
+    case MessageType::grid:
+      return {
+          "nav_msgs/OccupancyGrid",  header, time, "nav_msgs/MapMetaData", "geometry_msgs/Pose", "geometry_msgs/Point",
+          "geometry_msgs/Quaternion"};
   }
   throw InternalError("unknown type of message");
 }

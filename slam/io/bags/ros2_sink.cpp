@@ -1,21 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <map>
+#include <utility>
 
 #include "slam/io/bags/message_sink.h"
 #include "slam/io/bags/ros2_definitions.h"
-#include "slam/io/ros2/mcap_writer.h"
-#include "slam/io/ros2/rosbag2_writer.h"
+#include "slam/io/ros2/ros2_writer.h"
 
 namespace plumbline::slam {
 
 namespace {
 
 /// CDR into a file format of ROS 2.
-template <class File>
 class Ros2Sink final : public MessageSink {
  public:
-  template <class... Arguments>
-  explicit Ros2Sink(const Arguments&... arguments) : file_(arguments...) {}
+  explicit Ros2Sink(std::unique_ptr<Ros2Writer> file) : file_(std::move(file)) {}
 
   [[nodiscard]] Encoding encoding() const override { return Encoding::cdr; }
 
@@ -24,25 +22,25 @@ class Ros2Sink final : public MessageSink {
     auto known = topics_.find(topic);
     if (known == topics_.end()) {
       const Ros2Topic described{std::string(topic), ros2_type(type), ros2_definition(type), ros2_qos(latched)};
-      known = topics_.emplace(topic, file_.add_topic(described)).first;
+      known = topics_.emplace(topic, file_->add_topic(described)).first;
     }
-    file_.write(known->second, stamp, bytes);
+    file_->write(known->second, stamp, bytes);
   }
-  void finish() override { file_.finish(); }
+  void finish() override { file_->finish(); }
 
  private:
-  File file_;
+  std::unique_ptr<Ros2Writer> file_;
   std::map<std::string, std::uint16_t, std::less<>> topics_;
 };
 
 }  // namespace
 
 std::unique_ptr<MessageSink> make_mcap_sink(const std::string& path, std::string_view compression) {
-  return std::make_unique<Ros2Sink<McapWriter>>(path, compression);
+  return std::make_unique<Ros2Sink>(make_mcap_writer(path, compression));
 }
 
 std::unique_ptr<MessageSink> make_rosbag2_sink(const std::string& path, const std::string& name) {
-  return std::make_unique<Ros2Sink<Rosbag2Writer>>(path, name);
+  return std::make_unique<Ros2Sink>(make_rosbag2_writer(path, name));
 }
 
 }  // namespace plumbline::slam

@@ -215,6 +215,51 @@ Bytes write_transforms(std::span<const Transform> transforms, Encoding encoding)
   return out.bytes;
 }
 
+Bytes write_markers(std::span<const Triangles> all, std::string_view frame, Encoding encoding) {
+  constexpr std::int32_t triangle_list = 11, add = 0;
+  Writer out(encoding);
+  out.number(static_cast<std::uint32_t>(all.size()));
+  for (const Triangles& one : all) {
+    out.header(0, frame);
+    out.text(one.name);
+    out.number(std::int32_t{0});
+    out.number(triangle_list);
+    out.number(add);
+    out.pose(Pose());
+    out.vector(Eigen::Vector3d::Ones());
+    for (const float value : one.colour) out.number(value);
+    out.time(Nanoseconds{});      // it stays for ever
+    out.number(std::uint8_t{0});  // not bound to the frame's later motion
+    out.number(static_cast<std::uint32_t>(one.corners.size()));
+    for (const Eigen::Vector3d& corner : one.corners) out.vector(corner);
+    out.number(std::uint32_t{0});  // colours of corners
+    out.text("");                  // and no texture, words or file of a mesh
+    out.header(0, "");
+    out.text("");
+    out.number(std::uint32_t{0});
+    out.number(std::uint32_t{0});
+    out.text("");
+    out.text("");
+    out.text("");
+    out.number(std::uint32_t{0});
+    out.number(std::uint8_t{0});
+  }
+  return out.bytes;
+}
+
+Bytes write_grid(const Grid& grid, Encoding encoding) {
+  Writer out(encoding);
+  out.header(grid.stamp, grid.frame);
+  out.time(grid.stamp);
+  out.number(grid.resolution_m);
+  out.number(grid.width);
+  out.number(grid.height);
+  out.pose({Eigen::Quaterniond::Identity(), grid.origin});
+  out.number(static_cast<std::uint32_t>(grid.cells.size()));
+  for (const std::int8_t cell : grid.cells) out.number(cell);
+  return out.bytes;
+}
+
 FramedCloud read_cloud(std::span<const std::uint8_t> bytes, Encoding encoding) {
   Reader in(bytes, encoding);
   FramedCloud out;

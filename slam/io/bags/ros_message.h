@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -40,6 +41,23 @@ struct FramedCloud {
   PointCloud cloud;
 };
 
+/// nav_msgs/OccupancyGrid, whose x and y are those of its frame: cells of a row along x, rows along y.
+struct Grid {
+  Nanoseconds stamp = 0;
+  std::string frame;
+  float resolution_m = 0.05F;
+  std::uint32_t width = 0, height = 0;
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< the corner of the first cell
+  std::vector<std::int8_t> cells;                    ///< 0 free, 100 occupied, -1 unknown
+};
+
+/// Triangles of one kind and colour.
+struct Triangles {
+  std::string name;
+  std::array<float, 4> colour{0.7F, 0.7F, 0.7F, 1.0F};  ///< red, green, blue, opacity
+  std::vector<Eigen::Vector3d> corners;                 ///< three a triangle
+};
+
 /// An Imu whose vectors are along the axes of `frame`, not R.
 struct FramedImu {
   std::string frame;
@@ -55,6 +73,10 @@ struct FramedImu {
                               Encoding encoding = Encoding::ros1);  ///< sensor_msgs/Imu
 [[nodiscard]] Bytes write_transforms(std::span<const Transform> transforms,
                                      Encoding encoding = Encoding::ros1);  ///< tf2_msgs/TFMessage
+
+/// visualization_msgs/MarkerArray: a TRIANGLE_LIST each.
+[[nodiscard]] Bytes write_markers(std::span<const Triangles> all, std::string_view frame, Encoding encoding);
+[[nodiscard]] Bytes write_grid(const Grid& grid, Encoding encoding);
 
 [[nodiscard]] FramedCloud read_cloud(std::span<const std::uint8_t> bytes, Encoding encoding = Encoding::ros1);
 [[nodiscard]] OdometryMessage read_odometry(std::span<const std::uint8_t> bytes, Encoding encoding = Encoding::ros1);

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "slam/io/ros2/mcap_writer.h"
-
 #include <zlib.h>
 
 #include <algorithm>
@@ -10,6 +8,7 @@
 #include "bim/errors.h"
 #include "slam/io/ros2/compression.h"
 #include "slam/io/ros2/mcap_format.h"
+#include "slam/io/ros2/ros2_writer.h"
 
 namespace plumbline::slam {
 
@@ -51,9 +50,8 @@ Bytes record(Op op, std::span<const std::uint8_t> content) {
 /// Where the messages of a topic stand in the open chunk: (time, offset) each.
 using Index = std::vector<std::pair<std::uint64_t, std::uint64_t>>;
 
-}  // namespace
-
-struct McapWriter::Impl {
+/// What is being written.
+struct McapFile {
   std::string path, compression;
   std::unique_ptr<std::FILE, int (*)(std::FILE*)> file{nullptr, &std::fclose};
   std::uint64_t written = 0;
@@ -138,22 +136,31 @@ struct McapWriter::Impl {
   }
 };
 
-McapWriter::McapWriter(const std::string& path, std::string_view compression) : impl_(std::make_unique<Impl>()) {
-  impl_->path = path;
-  impl_->compression = compression;
-  impl_->file.reset(std::fopen(path.c_str(), "wb"));
-  if (!impl_->file) throw EnvironmentError(path + ": cannot be written: " + std::strerror(errno));
-  impl_->emit(mcap::magic);
+class McapWriter final : public Ros2Writer {
+ public:
+  McapWriter(const std::string& path, std::string_view compression);
+  [[nodiscard]] std::uint16_t add_topic(const Ros2Topic& topic) override;
+  void write(std::uint16_t topic, Nanoseconds time, std::span<const std::uint8_t> cdr) override;
+  void finish() override;
+
+ private:
+  McapFile file_;
+};
+
+McapWriter::McapWriter(const std::string& path, std::string_view compression) {
+  file_.path = path;
+  file_.compression = compression;
+  file_.file.reset(std::fopen(path.c_str(), "wb"));
+  if (!file_.file) throw EnvironmentError(path + ": cannot be written: " + std::strerror(errno));
+  file_.emit(mcap::magic);
   Bytes header;
   put_text(header, "ros2");
   put_text(header, "plumbline");
-  impl_->emit(record(Op::header, header));
+  file_.emit(record(Op::header, header));
 }
 
-McapWriter::~McapWriter() = default;
-
 std::uint16_t McapWriter::add_topic(const Ros2Topic& topic) {
-  Impl& w = *impl_;
+  McapFile& w = file_;
   Bytes definitions;
   auto schema = w.schema_ids.find(topic.type);
   if (schema == w.schema_ids.end()) {
@@ -185,7 +192,7 @@ std::uint16_t McapWriter::add_topic(const Ros2Topic& topic) {
 }
 
 void McapWriter::write(std::uint16_t topic, Nanoseconds time, std::span<const std::uint8_t> cdr) {
-  Impl& w = *impl_;
+  McapFile& w = file_;
   if (w.chunk.size() + cdr.size() > chunk_bytes) w.close_chunk();
   const auto t = static_cast<std::uint64_t>(time);
   if (w.index.empty()) w.chunk_start = w.chunk_end = t;
@@ -206,7 +213,7 @@ void McapWriter::write(std::uint16_t topic, Nanoseconds time, std::span<const st
 }
 
 void McapWriter::finish() {
-  Impl& w = *impl_;
+  McapFile& w = file_;
   w.close_chunk();
   Bytes data_end;
   put(data_end, w.data_crc);
@@ -240,6 +247,12 @@ void McapWriter::finish() {
   w.emit(mcap::magic);
   if (std::fclose(w.file.release()) != 0)
     throw EnvironmentError(w.path + ": cannot be written: " + std::strerror(errno));
+}
+
+}  // namespace
+
+std::unique_ptr<Ros2Writer> make_mcap_writer(const std::string& path, std::string_view compression) {
+  return std::make_unique<McapWriter>(path, compression);
 }
 
 }  // namespace plumbline::slam

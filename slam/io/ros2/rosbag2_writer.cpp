@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "slam/io/ros2/rosbag2_writer.h"
-
 #include <sqlite3.h>
 
 #include <algorithm>
@@ -10,6 +8,7 @@
 
 #include "bim/config/tree.h"
 #include "bim/errors.h"
+#include "slam/io/ros2/ros2_writer.h"
 
 namespace plumbline::slam {
 
@@ -26,9 +25,8 @@ void write_text(const std::string& path, const std::string& text) {
     throw EnvironmentError(path + ": cannot be written: " + std::strerror(errno));
 }
 
-}  // namespace
-
-struct Rosbag2Writer::Impl {
+/// What is being written.
+struct Rosbag2Files {
   std::string folder, file;
   std::unique_ptr<sqlite3, decltype(&sqlite3_close)> db{nullptr, &sqlite3_close};
   Statement insert{nullptr, &sqlite3_finalize};
@@ -78,8 +76,19 @@ struct Rosbag2Writer::Impl {
   }
 };
 
-Rosbag2Writer::Rosbag2Writer(const std::string& folder, const std::string& name) : impl_(std::make_unique<Impl>()) {
-  Impl& w = *impl_;
+class Rosbag2Writer final : public Ros2Writer {
+ public:
+  Rosbag2Writer(const std::string& folder, const std::string& name);
+  [[nodiscard]] std::uint16_t add_topic(const Ros2Topic& topic) override;
+  void write(std::uint16_t topic, Nanoseconds time, std::span<const std::uint8_t> cdr) override;
+  void finish() override;
+
+ private:
+  Rosbag2Files file_;
+};
+
+Rosbag2Writer::Rosbag2Writer(const std::string& folder, const std::string& name) {
+  Rosbag2Files& w = file_;
   w.folder = folder;
   w.file = name + "_0.db3";
   std::error_code error;
@@ -102,10 +111,8 @@ Rosbag2Writer::Rosbag2Writer(const std::string& folder, const std::string& name)
   w.insert = w.prepare("INSERT INTO messages(topic_id, timestamp, data) VALUES (?, ?, ?)");
 }
 
-Rosbag2Writer::~Rosbag2Writer() = default;
-
 std::uint16_t Rosbag2Writer::add_topic(const Ros2Topic& topic) {
-  Impl& w = *impl_;
+  Rosbag2Files& w = file_;
   const Statement row = w.prepare("INSERT INTO topics VALUES (?, ?, ?, 'cdr', ?)");
   const auto id = static_cast<std::uint16_t>(w.topics.size());
   sqlite3_bind_int(row.get(), 1, id + 1);
@@ -119,7 +126,7 @@ std::uint16_t Rosbag2Writer::add_topic(const Ros2Topic& topic) {
 }
 
 void Rosbag2Writer::write(std::uint16_t topic, Nanoseconds time, std::span<const std::uint8_t> cdr) {
-  Impl& w = *impl_;
+  Rosbag2Files& w = file_;
   sqlite3_reset(w.insert.get());
   sqlite3_bind_int(w.insert.get(), 1, topic + 1);
   sqlite3_bind_int64(w.insert.get(), 2, time);
@@ -132,7 +139,7 @@ void Rosbag2Writer::write(std::uint16_t topic, Nanoseconds time, std::span<const
 }
 
 void Rosbag2Writer::finish() {
-  Impl& w = *impl_;
+  Rosbag2Files& w = file_;
   w.insert.reset();
   const std::string metadata = w.metadata();
   {
@@ -144,6 +151,12 @@ void Rosbag2Writer::finish() {
   w.run("CREATE INDEX timestamp_idx ON messages (timestamp ASC); COMMIT;");
   if (sqlite3_close(w.db.release()) != SQLITE_OK) throw EnvironmentError(w.folder + ": cannot be closed");
   write_text(w.folder + "/metadata.yaml", metadata);
+}
+
+}  // namespace
+
+std::unique_ptr<Ros2Writer> make_rosbag2_writer(const std::string& folder, const std::string& name) {
+  return std::make_unique<Rosbag2Writer>(folder, name);
 }
 
 }  // namespace plumbline::slam

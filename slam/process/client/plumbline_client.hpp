@@ -13,7 +13,9 @@
 //
 // Then: plumbline run quickstart.yaml --method mine=./my_slam
 
+#include <sys/mman.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -41,34 +43,56 @@ struct StampedPose {
   Pose pose;
 };
 
-/// One turn of the LiDAR and what was measured since the scan before.
+/// Values in the memory of someone else.
+template <class T>
+class View {
+ public:
+  View() = default;
+  View(const T* from, std::size_t count) : from_(from), count_(count) {}
+  [[nodiscard]] const T* begin() const { return from_; }
+  [[nodiscard]] const T* end() const { return from_ + count_; }
+  [[nodiscard]] const T* data() const { return from_; }
+  [[nodiscard]] std::size_t size() const { return count_; }
+  [[nodiscard]] bool empty() const { return count_ == 0; }
+  const T& operator[](std::size_t i) const { return from_[i]; }
+
+ private:
+  const T* from_ = nullptr;
+  std::size_t count_ = 0;
+};
+
+/// One turn of the LiDAR and what was measured since the scan before. There until the next one is asked for: copy what
+/// you keep. Of the slots of the scan, index column * rings + ring, there are range, point, reflectivity and time.
 struct Scan {
   std::int64_t stamp_ns = 0;
   int rings = 0, columns = 0;
-  std::vector<wire::Imu> imu;
-  std::vector<wire::Odometry> odometry;
-  std::vector<wire::Return> returns;  ///< index column * rings + ring; range 0: no return
+  View<wire::Imu> imu;
+  View<wire::Odometry> odometry;
+  View<double> range_m;  ///< 0: no return
+  View<wire::Point> point_L;
+  View<float> reflectivity;      ///< 0 to 255
+  View<std::int32_t> offset_ns;  ///< relative to the scan's stamp, <= 0
 
   /// What came back, in the LiDAR's frame at each point's own time; Point is made of x, y, z (Eigen::Vector3d).
   template <class Point>
   [[nodiscard]] std::vector<Point> points() const {
     std::vector<Point> out;
-    for (const wire::Return& r : returns)
-      if (r.range_m > 0.0) out.push_back(Point(r.point_L[0], r.point_L[1], r.point_L[2]));
+    for (std::size_t i = 0; i < range_m.size(); ++i)
+      if (range_m[i] > 0.0) out.push_back(Point(point_L[i].x, point_L[i].y, point_L[i].z));
     return out;
   }
   /// Of these points, 0 at the first to 1 at the last; empty where all have one time, since there is nothing to deskew.
   [[nodiscard]] std::vector<double> relative_times() const {
     std::int32_t first = 0, last = std::numeric_limits<std::int32_t>::min();
-    for (const wire::Return& r : returns)
-      if (r.range_m > 0.0) {
-        first = std::min(first, r.offset_ns);
-        last = std::max(last, r.offset_ns);
+    for (std::size_t i = 0; i < range_m.size(); ++i)
+      if (range_m[i] > 0.0) {
+        first = std::min(first, offset_ns[i]);
+        last = std::max(last, offset_ns[i]);
       }
     std::vector<double> out;
     if (first >= last) return out;
-    for (const wire::Return& r : returns)
-      if (r.range_m > 0.0) out.push_back((double(r.offset_ns) - first) / (double(last) - first));
+    for (std::size_t i = 0; i < range_m.size(); ++i)
+      if (range_m[i] > 0.0) out.push_back((double(offset_ns[i]) - first) / (double(last) - first));
     return out;
   }
 };
@@ -107,10 +131,13 @@ class Client {
     const char* descriptor = std::getenv("PLUMBLINE_FD");
     if (descriptor == nullptr) throw std::runtime_error("give this command to plumbline as --method NAME=COMMAND");
     stream_ = std::atoi(descriptor);
-    std::vector<char> payload;
-    if (receive(payload) != wire::Type::hello) throw std::runtime_error("plumbline did not greet");
-    hello_.assign(payload.begin(), payload.end());
-    const std::string answer = "{\"protocol\": 1}";
+    wire::Head head;
+    if (!receive(head) || head.type != static_cast<std::uint16_t>(wire::Type::hello))
+      throw std::runtime_error("plumbline did not greet");
+    hello_.assign(payload_.begin(), payload_.end());
+    map_memory();
+    const std::string answer = "{\"protocol\": " + std::to_string(wire::protocol) +
+                               ", \"shared_memory\": " + (memory_ != nullptr ? "true}" : "false}");
     send(wire::Type::hello_ok, answer.data(), answer.size());
   }
 
@@ -139,19 +166,20 @@ class Client {
 
   /// The next scan, to be answered; null after the last.
   [[nodiscard]] const Scan* next() {
-    if (receive(payload_) != wire::Type::step) return nullptr;
-    const char* at = payload_.data();
-    wire::Step step;
-    take(at, &step, 1);
+    wire::Head head;
+    if (!receive(head) || head.type != static_cast<std::uint16_t>(wire::Type::step)) return nullptr;
+    const char* at = head.memory == 0 ? payload_.data() : memory_ + (head.memory - 1) * (memory_bytes_ / 2);
+    const char* end = at + head.size;
+    const wire::Step& step = *view<wire::Step>(at, end, 1).data();
     scan_.stamp_ns = step.stamp_ns;
     scan_.rings = step.rings;
     scan_.columns = step.columns;
-    scan_.imu.resize(step.imus);
-    scan_.odometry.resize(step.odometries);
-    scan_.returns.resize(step.returns);
-    take(at, scan_.imu.data(), scan_.imu.size());
-    take(at, scan_.odometry.data(), scan_.odometry.size());
-    take(at, scan_.returns.data(), scan_.returns.size());
+    scan_.imu = view<wire::Imu>(at, end, step.imus);
+    scan_.odometry = view<wire::Odometry>(at, end, step.odometries);
+    scan_.range_m = view<double>(at, end, step.slots);
+    scan_.point_L = view<wire::Point>(at, end, step.slots);
+    scan_.reflectivity = view<float>(at, end, step.slots);
+    scan_.offset_ns = view<std::int32_t>(at, end, step.slots);
     return &scan_;
   }
 
@@ -194,10 +222,13 @@ class Client {
  private:
   static_assert(sizeof(StampedPose) == sizeof(wire::Odometry));
 
+  /// The next values of a payload, of which nothing is copied.
   template <class T>
-  static void take(const char*& from, T* to, std::size_t count) {
-    if (count > 0) std::memcpy(to, from, count * sizeof(T));
+  static View<T> view(const char*& from, const char* end, std::size_t count) {
+    if (count * sizeof(T) > static_cast<std::size_t>(end - from)) throw std::runtime_error("a message is cut off");
+    const View<T> values(reinterpret_cast<const T*>(from), count);
     from += count * sizeof(T);
+    return values;
   }
   template <class T>
   static void put(std::vector<char>& to, const T* from, std::size_t count) {
@@ -205,13 +236,28 @@ class Client {
     to.insert(to.end(), bytes, bytes + count * sizeof(T));
   }
 
-  /// fail: plumbline is gone.
-  wire::Type receive(std::vector<char>& payload) {
-    wire::Head head;
-    if (!read(&head, sizeof head)) return wire::Type::fail;
+  /// Memory that plumbline shares spares both sides the copies; without it scans come through the stream.
+  void map_memory() {
+    const std::string key = "\"shared_memory_bytes\":";
+    const std::size_t at = hello_.find(key);
+    if (at == std::string::npos) return;
+    constexpr int file = 4;
+    struct stat status {};
+    const auto bytes = static_cast<std::size_t>(std::strtoull(hello_.c_str() + at + key.size(), nullptr, 10));
+    if (::fstat(file, &status) != 0 || static_cast<std::size_t>(status.st_size) != bytes) return;
+    void* mapped = ::mmap(nullptr, bytes, PROT_READ, MAP_SHARED, file, 0);
+    if (mapped == MAP_FAILED) return;
+    memory_ = static_cast<const char*>(mapped);
+    memory_bytes_ = bytes;
+  }
+
+  /// False: plumbline is gone. The payload comes into payload_, unless it stands in the memory.
+  bool receive(wire::Head& head) {
+    if (!read(&head, sizeof head)) return false;
     if (head.magic != wire::magic) throw std::runtime_error("this is no message of plumbline");
-    payload.resize(head.size);
-    return read(payload.data(), payload.size()) ? static_cast<wire::Type>(head.type) : wire::Type::fail;
+    if (head.memory != 0) return true;
+    payload_.resize(head.size);
+    return read(payload_.data(), payload_.size());
   }
   bool read(void* bytes, std::size_t size) {
     char* at = static_cast<char*>(bytes);
@@ -242,7 +288,9 @@ class Client {
 
   int stream_ = -1;
   std::string hello_;
-  std::vector<char> payload_;  ///< of the last scan; its memory is used again
+  std::vector<char> payload_;  ///< of the last message; its memory is used again
+  const char* memory_ = nullptr;
+  std::size_t memory_bytes_ = 0;
   Scan scan_;
   std::vector<StampedPose> answered_;
 };

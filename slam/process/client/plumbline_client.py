@@ -13,6 +13,7 @@
 Then: plumbline run quickstart.yaml --method "mine=python3 my_slam.py"
 """
 import json
+import mmap
 import os
 import socket
 import struct
@@ -22,12 +23,13 @@ import traceback
 import numpy as np
 
 MAGIC = 0x31424C50
+PROTOCOL = 2
 HELLO, STEP, FINISH, HELLO_OK, OUTPUT, ESTIMATE, LOG, FAIL = 1, 2, 3, 0x81, 0x82, 0x83, 0x84, 0x8F
 SEARCHING, AMBIGUOUS, CONVERGED, LOST = range(4)
 
 _IMU = np.dtype([("stamp_ns", "<i8"), ("angular_velocity", "<f8", 3), ("linear_acceleration", "<f8", 3)])
 _POSE = np.dtype([("stamp_ns", "<i8"), ("t", "<f8", 3), ("q", "<f8", 4)])
-_RETURN = np.dtype([("point", "<f8", 3), ("range", "<f8"), ("offset_ns", "<i4"), ("reflectivity", "<f4")])
+_SLOTS = (("range", "<f8", 1), ("point", "<f8", 3), ("reflectivity", "<f4", 1), ("offset_ns", "<i4", 1))
 _HYPOTHESIS = struct.Struct("<14d")
 
 
@@ -79,19 +81,23 @@ class Scan:
     """One turn of the LiDAR, and what else was measured since the scan before. Copy what you keep."""
 
     def __init__(self, payload):
-        self.stamp_ns, imus, odometries, returns, self.rings, self.columns, _ = struct.unpack_from("<qIIIHHQ", payload)
+        self.stamp_ns, imus, odometries, slots, self.rings, self.columns, _ = struct.unpack_from("<qIIIHHQ", payload)
         at = 32
         self.imu = np.frombuffer(payload, _IMU, imus, at)  # stamp_ns, angular_velocity, linear_acceleration, in R
         at += imus * _IMU.itemsize
         self.odometry = np.frombuffer(payload, _POSE, odometries, at)  # stamp_ns, t, q: the robot in O
         at += odometries * _POSE.itemsize
-        self.slots = np.frombuffer(payload, _RETURN, returns, at)  # all firings, column by column; range 0: none
+        self.slots = {}  # range, point, reflectivity, offset_ns of all firings, column by column; range 0: none
+        for name, kind, width in _SLOTS:
+            values = np.frombuffer(payload, kind, slots * width, at)
+            self.slots[name] = values.reshape(-1, width) if width > 1 else values
+            at += values.nbytes
         self._hit = self.slots["range"] > 0
 
     @property
     def points(self):
         """N x 3, m, in the LiDAR's frame at each return's own time."""
-        return np.ascontiguousarray(self.slots["point"][self._hit])
+        return self.slots["point"][self._hit]
 
     @property
     def times(self):
@@ -164,14 +170,27 @@ class _Stream:
             raise SystemExit("plumbline_client: started by hand; plumbline conformance COMMAND tries it, and\n"
                              "plumbline run quickstart --method NAME=COMMAND runs it")
         self.socket = socket.socket(fileno=int(os.environ["PLUMBLINE_FD"]))
+        self.memory = None
+
+    def share(self, size):
+        """Maps the memory that plumbline shares, if it does: scans are not copied then. Whether it is there."""
+        try:
+            if size and os.fstat(4).st_size == size:
+                self.memory = memoryview(mmap.mmap(4, size, prot=mmap.PROT_READ))
+        except OSError:
+            pass
+        return self.memory is not None
 
     def receive(self):
         head = self._read(16)
         if head is None:
             return None, None
-        magic, kind, _, size = struct.unpack("<IHHQ", head)
+        magic, kind, half, size = struct.unpack("<IHHQ", head)
         if magic != MAGIC:
             raise RuntimeError("this is no message of plumbline")
+        if half:
+            begin = (half - 1) * (len(self.memory) // 2)
+            return kind, self.memory[begin:begin + size]
         return kind, self._read(size)
 
     def send(self, kind, payload):
@@ -209,10 +228,12 @@ def run(start, finish=None):
             if kind is None:
                 return
             if kind == HELLO:
-                on_scan = start(Recording(json.loads(bytes(payload))))
+                hello = json.loads(bytes(payload))
+                on_scan = start(Recording(hello))
                 if not callable(on_scan):
                     raise TypeError("start() must return the function that answers scans; does it end in return on_scan?")
-                stream.send(HELLO_OK, json.dumps({"protocol": 1}).encode())
+                answer = {"protocol": PROTOCOL, "shared_memory": stream.share(hello.get("shared_memory_bytes"))}
+                stream.send(HELLO_OK, json.dumps(answer).encode())
             elif kind == STEP:
                 scan = Scan(payload)
                 answer = on_scan(scan)

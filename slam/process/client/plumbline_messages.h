@@ -8,7 +8,7 @@
 namespace plumbline::slam::wire {
 
 inline constexpr std::uint32_t magic = 0x31424C50;  ///< "PLB1"
-inline constexpr int protocol = 1;
+inline constexpr int protocol = 2;
 /// Most bytes of an answer's payload.
 inline constexpr std::uint64_t max_payload = 256ULL << 20U;
 
@@ -26,17 +26,23 @@ enum class Type : std::uint16_t {
 struct Head {
   std::uint32_t magic = wire::magic;
   std::uint16_t type = 0;
-  std::uint16_t flags = 0;
-  std::uint64_t size = 0;  ///< of the payload that follows
+  std::uint16_t memory = 0;  ///< where the payload is: 0 it follows; 1, 2: in this half of the shared memory
+  std::uint64_t size = 0;    ///< of the payload
 };
 static_assert(sizeof(Head) == 16);
 
-/// Begins a STEP; then imus, odometries and returns.
+// HELLO names shared_memory_bytes where there is some: file descriptor 4, to be mapped for reading. A process whose
+// HELLO_OK says "shared_memory": true gets the payloads of STEP there, in each half in turn: a scan stays until the one
+// after it is answered.
+
+/// Begins a STEP; then imus, odometries, and of each slot of the scan (index column * rings + ring) first all ranges
+/// (double, m; 0: no return), then all points (three doubles, in L), all reflectivities (float) and all times relative
+/// to the scan's stamp (int32, ns, <= 0).
 struct Step {
   std::int64_t stamp_ns = 0;
   std::uint32_t imus = 0;
   std::uint32_t odometries = 0;
-  std::uint32_t returns = 0;
+  std::uint32_t slots = 0;
   std::uint16_t rings = 0;
   std::uint16_t columns = 0;
   std::uint64_t reserved = 0;
@@ -63,14 +69,10 @@ struct Odometry {
 };
 static_assert(sizeof(Odometry) == 64);
 
-/// One slot of a scan, index column * rings + ring; range 0: no return.
-struct Return {
-  double point_L[3] = {};
-  double range_m = 0.0;
-  std::int32_t offset_ns = 0;  ///< relative to the scan's stamp, <= 0
-  float reflectivity = 0.0F;
+struct Point {
+  double x = 0.0, y = 0.0, z = 0.0;
 };
-static_assert(sizeof(Return) == 40);
+static_assert(sizeof(Point) == 24);
 
 /// Begins an OUTPUT; then hypotheses and particles.
 struct Output {

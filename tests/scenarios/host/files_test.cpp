@@ -128,6 +128,21 @@ TEST_F(Files, WhatARunIsWritingIsNotAbandoned) {
   EXPECT_TRUE(fs::exists(run.staging() + "/truth.tum"));
 }
 
+TEST_F(Files, WhatIsUnfinishedIsFoundBelowAFolder) {
+  for (const char* killed : {"runs/b/.partial", "runs/deep/a/.partial", "runs/.partial"}) {
+    fs::create_directories(path(killed));
+    write_file(path(killed) + "/lock", "");
+  }
+  fs::create_directories(path("runs/other/.partial"));  // without a lock it is not ours
+  const RunDirectory going(path("runs/going"), DirectoryKind::run, false);
+  EXPECT_EQ(unfinished_in(path("runs")),
+            (std::vector<std::string>{path("runs"), path("runs/b"), path("runs/deep/a"), path("runs/going")}));
+  EXPECT_TRUE(remove_abandoned(path("runs/deep/a")));
+  EXPECT_FALSE(remove_abandoned(path("runs/going")));
+  EXPECT_EQ(unfinished_in(path("runs/deep")), std::vector<std::string>());
+  EXPECT_EQ(unfinished_in(path("none")), std::vector<std::string>());
+}
+
 /// A folder of this name may be another program's.
 TEST_F(Files, APartialFolderWithoutALockIsNotOurs) {
   fs::create_directories(path("mine/.partial"));

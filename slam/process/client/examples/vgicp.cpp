@@ -26,19 +26,17 @@ slam::MethodInput input_of(const Tree& hello) {
   return input;
 }
 
-slam::Scan scan_of(const client::Scan& from) {
-  slam::Scan scan{from.stamp_ns, from.rings, from.columns, {}, {}, {}, {}};
-  scan.range_m.reserve(from.returns.size());
-  scan.point_L.reserve(from.returns.size());
-  scan.reflectivity.reserve(from.returns.size());
-  scan.offset_ns.reserve(from.returns.size());
-  for (const auto& r : from.returns) {
-    scan.range_m.push_back(r.range_m);
-    scan.point_L.emplace_back(r.point_L[0], r.point_L[1], r.point_L[2]);
-    scan.reflectivity.push_back(r.reflectivity);
-    scan.offset_ns.push_back(r.offset_ns);
-  }
-  return scan;
+/// `scan` is used again, so that its memory is there already.
+void copy_scan(const client::Scan& from, slam::Scan& scan) {
+  scan.stamp = from.stamp_ns;
+  scan.rings = from.rings;
+  scan.columns = from.columns;
+  scan.range_m.assign(from.range_m.begin(), from.range_m.end());
+  scan.point_L.resize(from.point_L.size());
+  for (std::size_t i = 0; i < from.point_L.size(); ++i)
+    scan.point_L[i] = {from.point_L[i].x, from.point_L[i].y, from.point_L[i].z};
+  scan.reflectivity.assign(from.reflectivity.begin(), from.reflectivity.end());
+  scan.offset_ns.assign(from.offset_ns.begin(), from.offset_ns.end());
 }
 
 }  // namespace
@@ -47,9 +45,11 @@ int main() {
   set_float_mode();
   client::Client plumbline;
   const auto method = slam::find_method("vgicp")->make(input_of(read_json(plumbline.hello(), "HELLO")));
+  slam::Scan copy;
   while (const client::Scan* scan = plumbline.next()) {
     for (const auto& odometry : scan->odometry) method->on_odometry({odometry.stamp_ns, pose_of(odometry.X_OR)});
-    const slam::Output output = method->on_scan(scan_of(*scan));
+    copy_scan(*scan, copy);
+    const slam::Output output = method->on_scan(copy);
     plumbline.answer(wire_of(*output.X_FR), static_cast<int>(output.state));
   }
   std::vector<client::StampedPose> trajectory;

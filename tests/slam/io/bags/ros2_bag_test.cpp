@@ -15,8 +15,7 @@
 #include "slam/io/bags/ros2_definitions.h"
 #include "slam/io/ros2/compression.h"
 #include "slam/io/ros2/mcap_reader.h"
-#include "slam/io/ros2/mcap_writer.h"
-#include "slam/io/ros2/rosbag2_writer.h"
+#include "slam/io/ros2/ros2_writer.h"
 #include "tests/data.h"
 #include "tests/folder.h"
 #include "tests/input_error.h"
@@ -226,10 +225,10 @@ TEST(Cdr, LivoxMessagesAreClouds) {
 // A byte that is spoilt is found, or changes nothing.
 TEST_F(Ros2Bag, NoByteOfAnMcapIsBelieved) {
   {
-    McapWriter writer(file("small.mcap"), "");
-    const auto topic = writer.add_topic({"/odom", "nav_msgs/msg/Odometry", "x", ""});
-    for (const int i : {1, 2, 3}) writer.write(topic, i, ros::write_clock(i, Encoding::cdr));
-    writer.finish();
+    const auto writer = make_mcap_writer(file("small.mcap"), "");
+    const auto topic = writer->add_topic({"/odom", "nav_msgs/msg/Odometry", "x", ""});
+    for (const int i : {1, 2, 3}) writer->write(topic, i, ros::write_clock(i, Encoding::cdr));
+    writer->finish();
   }
   const auto messages = [&](const std::string& name) {
     const auto source = open_mcap(file(name));
