@@ -110,6 +110,9 @@ std::vector<std::string> environment_of(const MethodInput& input) {
                                         "PYTHONUNBUFFERED=1",
                                         "LC_ALL=C.UTF-8",
                                         "TZ=UTC"};
+  // Memory of a scan stays with the process until the next one, as in this program.
+  variables.emplace_back("MALLOC_MMAP_THRESHOLD_=33554432");
+  variables.emplace_back("MALLOC_TRIM_THRESHOLD_=134217728");
   if (const std::string clients = client_folder(); !clients.empty()) {
     const char* before = std::getenv("PYTHONPATH");
     variables.push_back("PYTHONPATH=" + clients + (before != nullptr && *before != 0 ? ":" + std::string(before) : ""));

@@ -271,9 +271,12 @@ class Client {
     return true;
   }
   void send(wire::Type type, const void* bytes, std::size_t size) {
+    // In one piece: two would wake plumbline twice.
     const wire::Head head{wire::magic, static_cast<std::uint16_t>(type), 0, size};
-    write(&head, sizeof head);
-    write(bytes, size);
+    sent_.clear();
+    put(sent_, &head, 1);
+    put(sent_, static_cast<const char*>(bytes), size);
+    write(sent_.data(), sent_.size());
   }
   void write(const void* bytes, std::size_t size) {
     const char* at = static_cast<const char*>(bytes);
@@ -289,6 +292,7 @@ class Client {
   int stream_ = -1;
   std::string hello_;
   std::vector<char> payload_;  ///< of the last message; its memory is used again
+  std::vector<char> sent_;     ///< likewise
   const char* memory_ = nullptr;
   std::size_t memory_bytes_ = 0;
   Scan scan_;

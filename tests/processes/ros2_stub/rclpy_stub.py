@@ -16,8 +16,8 @@ class Fields:
             setattr(self, name, value)
 
 
-def message(name, **nested):
-    return type(name, (Fields,), {"nested": nested})
+def message(kind_name, /, **nested):
+    return type(kind_name, (Fields,), {"nested": nested})
 
 
 Number = float
