@@ -56,8 +56,26 @@ int RangeImageConfig::ground_rows(int rings) const {
   return std::min(rows, rings - 1);
 }
 
+int columns_of(const Scan& scan) {
+  constexpr int reference = 1800, least = 36, most = 20000;
+  const auto rings = static_cast<std::size_t>(std::max(1, scan.rings));
+  const auto azimuth = [&](std::size_t i) { return std::atan2(scan.point_L[i].y(), scan.point_L[i].x()); };
+  std::vector<double> steps;
+  for (std::size_t i = 0; i + rings < scan.size(); ++i) {
+    if (!(scan.range_m[i] > 0.0) || !(scan.range_m[i + rings] > 0.0)) continue;
+    const double step = std::abs(std::remainder(azimuth(i + rings) - azimuth(i), 2.0 * std::numbers::pi));
+    if (step > 0.0) steps.push_back(step);
+  }
+  if (steps.empty()) return reference;
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  const double beams = 2.0 * std::numbers::pi / *middle + 0.5;  // 1800 may come as 1799.99
+  const int columns = static_cast<int>(std::min(beams, static_cast<double>(most)));
+  return columns >= 100 ? columns / 100 * 100 : std::max(columns, least);
+}
+
 RangeImage range_image(const Scan& scan, const Pose& X_RL, const RangeImageConfig& config) {
-  RangeImage image{std::max(1, scan.rings), config.columns, {}};
+  RangeImage image{std::max(1, scan.rings), config.columns > 0 ? config.columns : columns_of(scan), {}};
   image.cells.resize(static_cast<std::size_t>(image.rows) * static_cast<std::size_t>(image.columns));
   std::int32_t first_ns = 0;
   for (const std::int32_t offset : scan.offset_ns) first_ns = std::min(first_ns, offset);

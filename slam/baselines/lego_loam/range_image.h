@@ -12,7 +12,7 @@ namespace plumbline::slam::lego {
 
 /// Values of the reference for a VLP-16 [shan2018].
 struct RangeImageConfig {
-  int columns = 1800;
+  int columns = 0;
   double min_range_m = 1.0;
   double max_range_m = 100.0;
   int ground_rings = 0;
@@ -29,7 +29,10 @@ struct RangeImageConfig {
 
   template <class V>
   void visit(V& v) {
-    v("columns", columns, Field{.doc = "columns of the range image", .min = 36, .max = 20000});
+    v("columns", columns,
+      Field{.doc = "columns of the range image; 0: as many as a turn has beams, 1800 of a VLP-16",
+            .min = 0,
+            .max = 20000});
     v("min_range_m", min_range_m, Field{.doc = "least range of a return that is used", .min = 0.0});
     v("max_range_m", max_range_m, Field{.doc = "largest range of a return that is used", .min = 1.0, .max = 1000.0});
     v("ground_rings", ground_rings,
@@ -70,6 +73,9 @@ struct RangeImage {
   [[nodiscard]] ImagePoint& at(int row, int column) { return cells[static_cast<std::size_t>(row * columns + column)]; }
 };
 
+/// So many columns that neighbouring beams never leave one empty: by the scan's median step of azimuth, rounded down to
+/// a hundred as the reference's 1800 of a VLP-16 at 10 Hz; 1800 where a scan does not tell.
+[[nodiscard]] int columns_of(const Scan& scan);
 [[nodiscard]] RangeImage range_image(const Scan& scan, const Pose& X_RL, const RangeImageConfig& config);
 /// Marks cells that lie level with the one above.
 void mark_ground(RangeImage& image, const RangeImageConfig& config);

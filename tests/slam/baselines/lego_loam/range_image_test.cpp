@@ -92,6 +92,38 @@ TEST(LegoSegments, SmallOnesNeedRows) {
   EXPECT_EQ(flat.at(1, 5).cell, Cell::clutter);
 }
 
+/// A wall all round, seen by so many columns of 16 rings, each fifth return of the third ring missing.
+Scan round_wall(int columns, double range_m) {
+  Scan scan;
+  scan.rings = 16;
+  scan.columns = columns;
+  for (int column = 0; column < columns; ++column)
+    for (int ring = 0; ring < 16; ++ring) {
+      const double azimuth = -2.0 * std::numbers::pi * column / columns, elevation = (2.0 * ring - 15.0) * degree;
+      const bool missing = ring == 2 && column % 5 == 0;
+      scan.range_m.push_back(missing ? 0.0 : range_m);
+      scan.point_L.push_back(missing ? Eigen::Vector3d(0, 0, 0)
+                                     : Eigen::Vector3d(range_m * std::cos(elevation) * std::cos(azimuth),
+                                                       range_m * std::cos(elevation) * std::sin(azimuth),
+                                                       range_m * std::sin(elevation)));
+      scan.offset_ns.push_back(0);
+    }
+  return scan;
+}
+
+// A LiDAR with another number of columns is seen as whole as a VLP-16: an empty column between two beams parts
+// segments.
+TEST(LegoImage, HasNoEmptyColumnWhateverTheLidar) {
+  for (const auto& [beams, expected] :
+       {std::pair(1808, 1800), {1800, 1800}, {904, 900}, {1024, 1000}, {2048, 2000}, {60, 60}}) {
+    const Scan scan = round_wall(beams, 4.0);
+    EXPECT_EQ(columns_of(scan), expected) << beams;
+    const SegmentedCloud cloud = segmented_cloud(scan, Pose(), {});
+    EXPECT_EQ(cloud.rows[8].size(), static_cast<std::size_t>(expected)) << beams;
+  }
+  EXPECT_EQ(columns_of(Scan()), 1800);
+}
+
 TEST(LegoSegments, ColumnsWrap) {
   RangeImage ring = image_of(1, 40, std::vector<double>(40, 0.0));
   for (int k = -15; k < 15; ++k) {
