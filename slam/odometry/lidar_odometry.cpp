@@ -180,7 +180,9 @@ class GuardedScanMatcher final : public LidarOdometry {
     result.accepted = ready && health_.assess(result, step, expected);
     const bool frozen = !result.accepted && !sample.valid && health_.lost();  // nothing measures where it goes on to
     if (had_map_) account_for_way(dt, result, {as_usual, sample.valid, frozen || !ready});
-    if (had_map_ && result.accepted && !sample.valid && health_.is_doubtful(result, step, expected))
+    // Where the last scan was in its place, an alias is what another start leads to.
+    const bool continues = result.from_expected && accepted_stamp_ == stamp_;
+    if (had_map_ && result.accepted && !sample.valid && !continues && health_.is_doubtful(result, step, expected))
       unmeasured_.add_doubtful(surprise_m(step, sample.step));
     if (!result.accepted) {
       result.X_MR = frozen ? X_MR_ : X_MR_ * sample.step;
@@ -191,6 +193,8 @@ class GuardedScanMatcher final : public LidarOdometry {
       result.information += result.open / (sigma_m * sigma_m);
     }
     if (result.accepted && moved > 0) motion_.add(step, moved);
+    if (result.accepted && moved > 0 && result.unobserved_directions == 0)
+      unmeasured_.measure_acceleration(motion_.sigma_m(), moved);
     if (!result.accepted && sample.valid && ready && dt > 0) motion_.add(sample.step, dt);
     if (ready) speed_mps_ = motion_.speed_mps();
     if (result.accepted || !ready) accepted_stamp_ = stamp;

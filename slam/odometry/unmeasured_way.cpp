@@ -8,10 +8,17 @@ namespace plumbline::slam {
 
 namespace {
 
-/// What a robot or person accelerates by in passing, and for how long.
-constexpr double acceleration_mps2 = 2.0, correlation_s = 0.1;
+constexpr double correlation_s = 0.1;  ///< how long an acceleration lasts
 
 }  // namespace
+
+// Over less than an acceleration lasts it is the same; over more, many of them add up.
+void UnmeasuredWay::measure_acceleration(double sigma_m, Nanoseconds dt) {
+  const double dt_s = seconds(dt);
+  if (!(dt_s > 0.0) || !(sigma_m >= 0.0)) return;
+  const double measured_mps2 = sigma_m / (dt_s * std::min(dt_s, std::sqrt(correlation_s * dt_s)));
+  acceleration_mps2_ = std::clamp(measured_mps2, least_mps2, most_mps2);
+}
 
 void UnmeasuredWay::add_measured(Nanoseconds dt, bool as_usual) {
   // One that tells something now and then is a stray: it takes twice the time to make up for one that told nothing.
@@ -37,7 +44,7 @@ void UnmeasuredWay::begin_map() {
 
 // A speed that random accelerations change, integrated.
 double UnmeasuredWay::open_m() const {
-  return frozen_m_ + acceleration_mps2 * std::sqrt(correlation_s * open_s_ * open_s_ * open_s_ / 3.0);
+  return frozen_m_ + acceleration_mps2_ * std::sqrt(correlation_s * open_s_ * open_s_ * open_s_ / 3.0);
 }
 
 }  // namespace plumbline::slam

@@ -15,6 +15,9 @@ class UnmeasuredWay {
   /// limit_m: from which on the robot is not known to be where it is believed to be.
   explicit UnmeasuredWay(double limit_m) : limit_m_(limit_m) {}
 
+  /// What steps over dt were off of late by what the motion before let expect, m: the carrier's accelerations. Before
+  /// the first, the most is assumed.
+  void measure_acceleration(double sigma_m, Nanoseconds dt);
   /// A scan that fits the map and tells the whole pose. as_usual: it fits as well as scans do, so that it is in its
   /// place.
   void add_measured(Nanoseconds dt, bool as_usual);
@@ -39,7 +42,11 @@ class UnmeasuredWay {
   [[nodiscard]] bool displaced() const { return map_m_ > limit_m_; }
 
  private:
+  /// What a robot or person accelerates by in passing: at least, since one that goes evenly may stop, and at most.
+  static constexpr double least_mps2 = 0.6, most_mps2 = 2.0;
+
   double limit_m_;
+  double acceleration_mps2_ = most_mps2;
   double open_s_ = 0.0;    ///< time without a measurement that was not yet made up for
   double frozen_m_ = 0.0;  ///< way gone while the robot was believed to stand
   double map_m_ = 0.0;

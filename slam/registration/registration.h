@@ -74,6 +74,7 @@ struct Registration {
   Vector6d sweep_twist = Vector6d::Zero();  ///< by which the scan's deskewing was corrected, see sweep_twist()
   int iterations = 0;
   bool converged = false;
+  bool from_expected = false;  ///< the expected pose leads here, too: no other start was needed
   bool accepted = true;        ///< false: X_MR is dead reckoning, the scan did not fit
   bool began = false;          ///< the scan began a map: it was placed by what was expected of it
   bool lost = false;           ///< scans have not fitted for a while, or did not tell the way gone

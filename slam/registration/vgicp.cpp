@@ -71,13 +71,17 @@ Registration VgicpOdometry::match(const DeskewedScan& scan, const OdometrySample
     const bool any = config_.odometry_prior || config_.tilt_prior;
     const std::optional<PosePrior> prior = any ? std::optional(prediction) : std::nullopt;
     result = align_finely(prediction.X_MR, prior, odometry);
+    result.from_expected = true;
+    const auto starts_from_expected = std::span<const Pose>(&prediction.X_MR, 1);
     // Along a degenerate direction one start matches as well as another: only clearly more matches are better, or as
     // many that leave less open. Surfaces that a scan does not meet where it starts count as open.
     constexpr double clearly = 1.1, as_usual = 0.8, hardly = 0.5, about = 0.9;
     const auto try_from = [&](std::span<const Pose> starts) {
-      const Registration again = align_finely(align_coarsely(starts).X_MR, prior, odometry);
+      Registration again = align_finely(align_coarsely(starts).X_MR, prior, odometry);
       const bool tells_more = again.unobserved_directions < result.unobserved_directions;
-      if (again.matched > (tells_more ? about : clearly) * result.matched) result = again;
+      if (again.matched <= (tells_more ? about : clearly) * result.matched) return;
+      again.from_expected = is_near(again.X_MR, align_coarsely(starts_from_expected).X_MR);
+      result = again;
     };
     const bool measured = config_.odometry_prior && odometry.valid;
     const std::array<Pose, 3> starts = {prediction.X_MR, X_MR_, Pose{prediction.X_MR.q, X_MR_.t}};
@@ -88,6 +92,13 @@ Registration VgicpOdometry::match(const DeskewedScan& scan, const OdometrySample
   }
   if (!q_OM_) q_OM_ = odometry.q_OR;
   return result;
+}
+
+// Within the reach of the coarsest map from one another.
+bool VgicpOdometry::is_near(const Pose& a, const Pose& b) const {
+  constexpr double turn_rad = 15.0 * std::numbers::pi / 180.0;
+  const Pose difference = a.inverse() * b;
+  return difference.t.norm() < 0.5 * maps_.back().voxel_m() && log_so3(difference.q).norm() < turn_rad;
 }
 
 void VgicpOdometry::take_features(const DeskewedScan& scan) {
@@ -112,6 +123,7 @@ void VgicpOdometry::correct_sweep(const DeskewedScan& scan, const std::optional<
   Registration again = align_finely(result.X_MR, prior, odometry);
   constexpr double about = 0.9;
   if (again.matched < about * result.matched || again.residual_m > result.residual_m) return take_features(scan);
+  again.from_expected = result.from_expected;
   result = std::move(again);
   result.sweep_twist = twist;
 }

@@ -104,6 +104,7 @@ class VgicpOdometry {
   void correct_sweep(const DeskewedScan& scan, const std::optional<PosePrior>& prior, const OdometrySample& odometry,
                      Registration& result);
   void take_features(const DeskewedScan& scan);
+  [[nodiscard]] bool is_near(const Pose& a, const Pose& b) const;
   /// The start that leads to the most matches in coarse maps, and where it leads.
   [[nodiscard]] Registration align_coarsely(std::span<const Pose> starts) const;
   void insert(const Pose& X_MR);

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace plumbline::slam {
 namespace {
 
@@ -23,6 +26,24 @@ TEST(UnmeasuredWay, GrowsWithTimeWhateverTheRate) {
     }
     EXPECT_NEAR(lost_s, 1.96, 0.5) << "2 m/s^2 for 0.1 s each, integrated";
     EXPECT_TRUE(way.displaced()) << "the map drifted with the robot";
+  }
+}
+
+// 0.6 m/s^2 at least: a robot that stops at 0.6 m/s is a metre off after 1.7 s, and LOST within three seconds of that.
+TEST(UnmeasuredWay, GrowsByTheAccelerationsThatWereMeasured) {
+  const auto lost_after_s = [](double acceleration_mps2, double rate_hz) {
+    UnmeasuredWay way(limit_m);
+    const double dt_s = 1.0 / rate_hz, speed = acceleration_mps2 * std::min(dt_s, std::sqrt(0.1 * dt_s));
+    way.measure_acceleration(speed * dt_s, period(rate_hz));
+    double s = 0.0;
+    for (; !way.lost(); s += dt_s) way.add_open(period(rate_hz));
+    return s;
+  };
+  for (const double rate_hz : {5.0, 10.0, 20.0}) {
+    EXPECT_NEAR(lost_after_s(2.0, rate_hz), 1.96, 0.2);
+    EXPECT_NEAR(lost_after_s(1.0, rate_hz), 3.11, 0.2);
+    EXPECT_NEAR(lost_after_s(0.1, rate_hz), 4.37, 0.2);
+    EXPECT_NEAR(lost_after_s(50.0, rate_hz), 1.96, 0.2);
   }
 }
 
