@@ -129,7 +129,7 @@ std::optional<double> aliased_error(const Truth& truth, const std::vector<Belief
 LocalizationVerdict judge_unique(const std::optional<Course>& course, slam::State last, bool held) {
   if (!course) return last == slam::State::lost ? LocalizationVerdict::lost : LocalizationVerdict::late;
   if (!course->right_at_first || course->wrong_while_converged) return LocalizationVerdict::false_convergence;
-  if (!course->right_to_the_end) return LocalizationVerdict::lost;
+  if (!course->right_to_the_end || last != slam::State::converged) return LocalizationVerdict::lost;
   return held ? LocalizationVerdict::success : LocalizationVerdict::late;
 }
 

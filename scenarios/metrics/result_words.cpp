@@ -24,7 +24,8 @@ std::span<const ResultWord> result_words() {
       {place, to_string(V::overconfident), "a single answer although several poses explain the scans"},
       {place, to_string(V::lucky), "the right answer before the scans could determine it"},
       {place, to_string(V::late), "no answer, or one held for less than 5 s or 1 m"},
-      {place, to_string(V::lost), "the right answer was given and lost, or the method reports LOST at the end"},
+      {place, to_string(V::lost),
+       "the right answer was given and lost or given up, or the method reports LOST at the end"},
       {evidence, to_string(Evidence::unique), "the pose is determined at least 5 s and 1 m before the end"},
       {evidence, to_string(Evidence::marginal),
        "the alternatives are nearly excluded, or too late for an answer of 5 s and 1 m; one right answer and an honest "

@@ -12,6 +12,14 @@ namespace plumbline::slam {
 
 namespace {
 
+/// Length of a patch from s0 to s1 along a line that lies on its faces and not in their openings, m.
+double length_on_faces(const WallLine& line, double s0, double s1, double margin) {
+  double length = std::min(s1, line.length + margin) - std::max(s0, -margin);
+  for (const Eigen::Vector2d& opening : line.openings)
+    length -= std::max(0.0, std::min(s1, opening.y()) - std::max(s0, opening.x()));
+  return length;
+}
+
 /// Squared Mahalanobis distance of (yaw of the normal, offset), or infinity where the patch is not on the line.
 double squared_distance(const WallLine& line, const WallObservation& wall, const PlaneObservation& observed,
                         const LocalizationScan& scan, const Pose& X_IR, const Eigen::Matrix2d& covariance,
@@ -20,8 +28,7 @@ double squared_distance(const WallLine& line, const WallObservation& wall, const
   const Pose2 X_IH = heading(X_IR);
   const Eigen::Vector2d sensor_I = X_IH * scan.sensor_H;
   const double foot = line.e.dot(sensor_I - line.a);
-  const double overlap = std::min(foot + wall.s1, line.length + config.overlap_margin_m) -
-                         std::max(foot + wall.s0, -config.overlap_margin_m);
+  const double overlap = length_on_faces(line, foot + wall.s0, foot + wall.s1, config.overlap_margin_m);
   const double distance = line.n.dot(sensor_I) + line.d;
   if (distance <= 0.0 || overlap < config.overlap_min * (wall.s1 - wall.s0)) return infinity;
   const double e_angle = wrap_angle(wall.azimuth + X_IH.yaw - line.azimuth);

@@ -55,6 +55,14 @@ std::vector<FaceSpan> run_with(const std::vector<FaceSpan>& spans, std::size_t f
   return run;
 }
 
+/// Doors of a face, and windows over most of its height, along a line whose start is s from the face's.
+void add_openings(const PlanSegment& face, double s, WallLine& line) {
+  constexpr double least_share = 0.6;
+  for (const bim::FaceHole& hole : face.holes)
+    if (std::min(hole.z1, face.z1) - std::max(hole.z0, face.z0) > least_share * (face.z1 - face.z0))
+      line.openings.emplace_back(s + hole.s0, s + hole.s1);
+}
+
 }  // namespace
 
 std::vector<WallLine> merge_wall_lines(std::vector<PlanSegment>& segments, double band_z,
@@ -76,6 +84,7 @@ std::vector<WallLine> merge_wall_lines(std::vector<PlanSegment>& segments, doubl
     line.length = s1 - s0;
     line.d = -line.n.dot(line.a);
     line.azimuth = std::atan2(line.n.y(), line.n.x());
+    for (const FaceSpan& span : run) add_openings(segments[span.segment], span.s0 - s0, line);
     lines.push_back(line);
   }
   return lines;

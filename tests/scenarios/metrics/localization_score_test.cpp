@@ -71,6 +71,17 @@ TEST(Localization, ErrorsWhileLostCount) {
   EXPECT_GT(*score.ape_rmse_m, 1.0);
 }
 
+// Carried on by odometry the pose stays right, but it was given up.
+TEST(Localization, AnAnswerThatIsGivenUpForGoodIsLostHoweverRightItsPose) {
+  for (const slam::State state : {slam::State::lost, slam::State::searching, slam::State::ambiguous}) {
+    auto beliefs = converges_at(0, 0.0);
+    for (std::size_t i = 100; i < beliefs.size(); ++i) beliefs[i].state = state;
+    EXPECT_EQ(judge(beliefs).verdict, LocalizationVerdict::lost);
+    beliefs.back().state = slam::State::converged;
+    EXPECT_EQ(judge(beliefs).verdict, LocalizationVerdict::success);
+  }
+}
+
 TEST(Localization, WrongAgainAfterConvergenceIsNoSuccess) {
   auto beliefs = converges_at(0, 0.0);
   beliefs[150].X_WR->t.y() += 3.0;

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -55,6 +56,30 @@ TEST(Tracker, PullsAWrongStartOntoThePlan) {
   // Walls across the corridor, its ends and the floor are all seen: measured 1 mm, 0.3 mrad.
   EXPECT_LT((X_IR.t - walked.X_IR.back().t).norm(), 0.005);
   EXPECT_LT(std::abs(wrap_angle(X_IR.yaw() - walked.X_IR.back().yaw())), 0.001);
+}
+
+// Glass and frames stand a hand's breadth behind the face of their wall: a patch there is not the wall.
+TEST(Tracker, APatchInAnOpeningIsNotTheWall) {
+  const Walked walked = walk_straight(1.0);
+  const StoreyIndex& storey = walked.index.storeys.front();
+  const auto linked = [&](const StoreyIndex& with) {
+    std::vector<int> lines;
+    for (const WallLink& link : associate_walls(with, walked.seen[0].scan, walked.seen[0].planes, walked.X_IR[0],
+                                                Eigen::Matrix2d::Zero(), TrackerConfig()))
+      lines.push_back(link.line);
+    return lines;
+  };
+  const std::vector<int> all = linked(storey);
+  ASSERT_GE(all.size(), 3U);
+  for (const int line : all) {
+    StoreyIndex other = storey;
+    WallLine& wall = other.lines[static_cast<std::size_t>(line)];
+    wall.openings = {{0.45 * wall.length, 0.55 * wall.length}};
+    EXPECT_EQ(linked(other), all) << "a door in wall " << line;
+    wall.openings = {{0.0, wall.length}};
+    const std::vector<int> less = linked(other);
+    EXPECT_EQ(std::count(less.begin(), less.end(), line), 0) << line;
+  }
 }
 
 TEST(Tracker, CorrectsAnOdometryScaleError) {
