@@ -68,6 +68,12 @@ std::string few_digits(double value) {
   return {text.data(), end};
 }
 
+/// A link to the replay page at the moment at which the gate's method failed.
+std::string look(const Tree& gate) {
+  const std::string see = text_of(gate, "see");
+  return see.empty() ? "" : " <a href=\"" + svg::escape(see) + "\">look</a>";
+}
+
 std::string gates_table(const ReportInput& input) {
   const Tree* gates = input.results.find("gates");
   if (gates == nullptr || gates->as_list().empty()) return "";
@@ -82,7 +88,7 @@ std::string gates_table(const ReportInput& input) {
            svg::escape(text_of(gate, "method")) + "</td><td class=\"num\" data-head=\"value\">" +
            (value ? few_digits(*value) : "absent") + "</td><td class=\"num\" data-head=\"limit\">" +
            svg::escape(text_of(gate, "op")) + " " + format_number(number_of(&gate, "limit").value_or(0.0)) +
-           "</td><td class=\"verdict " + (passed ? "good\">passed" : "bad\">failed") + "</td></tr>";
+           "</td><td class=\"verdict " + (passed ? "good\">passed" : "bad\">failed") + look(gate) + "</td></tr>";
   }
   return out + "</table></div></section>";
 }

@@ -6,6 +6,8 @@
 #include <string_view>
 
 #include "bim/config/tree.h"
+#include "scenarios/metrics/localization_score.h"
+
 namespace plumbline::scenarios::score {
 
 namespace {
@@ -25,6 +27,17 @@ std::optional<double> worst_moment(const MethodRecord& method, const Truth& trut
     at_s = slam::seconds(stamp);
   }
   return at_s;
+}
+
+/// The first answer of a localization from then on that is wrong by its place.
+std::optional<double> first_wrong_answer(const MethodRecord& method, const Truth& truth, double from_s) {
+  for (const PosePair& pair : associate(truth, method.causal, {})) {
+    const slam::Nanoseconds stamp = truth.scans[pair.scan];
+    const double t_s = slam::seconds(stamp);
+    if (t_s < from_s - 1e-6 || said_lost(method, stamp)) continue;
+    if ((pair.X_FR.t - pair.X_WR.t).norm() > LocalizationRules().position_m) return t_s;
+  }
+  return std::nullopt;
 }
 
 /// "m=" takes what a link may hold: letters, digits, "_", "." and "-"; the rest as %XX.
@@ -50,7 +63,11 @@ std::optional<double> telling_moment(const FinishedRun& run, const RunScore& sco
   for (std::size_t i = 0; i < records.size(); ++i) {
     if (records[i].name != method) continue;
     const std::optional<LocalizationScore>& where = score.methods[i].localization;
-    if (where && where->failure_at_s) return where->failure_at_s;
+    if (where && where->failure_at_s) {
+      // What failed before anything was said shows once something is said.
+      const auto said = first_wrong_answer(records[i], score.truth, *where->failure_at_s);
+      return said ? said : where->failure_at_s;
+    }
     if (!records[i].lost.empty()) return slam::seconds(records[i].lost.front().from);
     for (const BeliefRecord& belief : records[i].beliefs)
       if (belief.state == slam::State::lost) return slam::seconds(belief.stamp);

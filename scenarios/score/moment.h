@@ -8,8 +8,9 @@
 
 namespace plumbline::scenarios::score {
 
-/// When a method's run is worth a look: where a localization failed, first gave a wrong answer or lost its own; where a
-/// method first said that it is lost; else where its error is greatest. On the run's clock, s; absent without a pose.
+/// When a method's run is worth a look: where a localization that failed first gave a wrong answer from then on, or
+/// else failed; where a method first said that it is lost; else where its error is greatest. On the run's clock, s;
+/// absent without a pose.
 [[nodiscard]] std::optional<double> telling_moment(const FinishedRun& run, const RunScore& score,
                                                    const std::string& method);
 
