@@ -276,7 +276,8 @@ void SGraphLocalization::report(const Pose& X_OR, Output& output) {
   output.state = state_;
   if (X_IO_last_) output.X_FR = index().X_WI * (*X_IO_last_ * X_OR);  // [shaheer2023, eq. 10]
   if (tracker_) {
-    output.hypotheses.push_back(hypothesis_in_W(mass_, storey_, tracker_->pose(X_OR), tracker_->covariance()));
+    output.hypotheses.push_back(
+        hypothesis_in_W(mass_, storey_, tracker_->pose(X_OR), tracker_->covariance() + end_of_sweep_covariance()));
   } else {
     const Pose2 u = X_OR_update() ? heading(*X_OR_update()).inverse() * heading(X_OR) : Pose2{};
     output.hypotheses = hypotheses(u, X_OR);
@@ -296,7 +297,8 @@ std::vector<Hypothesis> SGraphLocalization::hypotheses(const Pose2& u, const Pos
     const Pose X_level = Pose::from_xyz_yaw({X_IH.t.x(), X_IH.t.y(), floor_z + height}, X_IH.yaw);
     const Eigen::Quaterniond q_HR = exp_so3({0.0, 0.0, -X_OR.yaw()}) * X_OR.q;
     reported.push_back(hypothesis_in_W(hypothesis.mass, hypothesis.storey,
-                                       X_level * Pose{q_HR, Eigen::Vector3d::Zero()}, hypothesis.covariance));
+                                       X_level * Pose{q_HR, Eigen::Vector3d::Zero()},
+                                       hypothesis.covariance + end_of_sweep_covariance()));
   }
   return reported;
 }

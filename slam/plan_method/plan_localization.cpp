@@ -93,6 +93,8 @@ Pose PlanLocalization::track(const Scan& raw, DeskewedScan& scan) {
   if (!q_OM_) q_OM_ = level_by_floor(observe_planes(scan, {}, RinglessRansacConfig(), input_.seed));
   const Registration odometry = lidar_odometry_->track(raw, scan);
   is_way_known_ = !odometry.lost && !odometry.displaced;
+  if (!is_way_known_) step_changes_.interrupt();
+  step_changes_.add(odometry.X_MR);
   // Localization starts anew: what matters is whether the way from here on is known.
   if (!odometry.lost && odometry.displaced) lidar_odometry_->locate_map();
   return Pose{*q_OM_, Eigen::Vector3d::Zero()} * odometry.X_MR;

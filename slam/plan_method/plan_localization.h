@@ -13,6 +13,7 @@
 #include "slam/plan_map/plan_index.h"
 #include "slam/plan_method/corrected_trajectory.h"
 #include "slam/plan_method/prior_yaw.h"
+#include "slam/plan_method/step_changes.h"
 #include "slam/scan/map_cloud.h"
 
 namespace plumbline::slam {
@@ -99,6 +100,8 @@ class PlanLocalization : public Method {
   /// In W, with the name of its room. covariance: of (x, y, yaw) in I.
   [[nodiscard]] Hypothesis hypothesis_in_W(double mass, int storey, const Pose& X_IR,
                                            const Eigen::Matrix3d& covariance) const;
+  /// What the present pose of (x, y, yaw) is off by besides, where scan matching stands in for odometry; else none.
+  [[nodiscard]] Eigen::Matrix3d end_of_sweep_covariance() const { return step_changes_.covariance(); }
   /// As many as an Output may carry, each moved by u.
   void report_particles(const ParticleSet& particles, const Pose2& u, Output& output) const;
 
@@ -115,6 +118,7 @@ class PlanLocalization : public Method {
   MotionBuffer motion_;
   std::optional<FrontEnd> lidar_odometry_;  ///< where the robot has no odometry
   std::optional<Eigen::Quaterniond> q_OM_;  ///< of its map's frame, once a scan was seen
+  StepChanges step_changes_;                ///< of scan matching
   bool is_way_known_ = true;                ///< from the scan before to this one
   bool is_start_known_ = true;              ///< whether odometry leads back to the first scan
   std::optional<Pose> X_OR_start_, X_OR_update_;
