@@ -115,22 +115,41 @@ std::string heads(const std::vector<std::string>& names) {
   return out + "</tr>\n";
 }
 
+/// Columns that say something: variants and starts only where there are any.
+std::vector<std::size_t> shown_columns(const std::vector<std::vector<std::string>>& lines) {
+  std::vector<std::size_t> shown;
+  for (std::size_t i = 0; i < lines.front().size(); ++i) {
+    const bool optional = lines.front()[i] == "variant" || lines.front()[i] == "start";
+    const bool empty = std::all_of(lines.begin() + 1, lines.end(), [&](const auto& line) { return line[i] == "-"; });
+    if (!optional || !empty) shown.push_back(i);
+  }
+  return shown;
+}
+
 std::string cells_table(const std::vector<SweepRow>& rows, const std::vector<SweepCell>& cells) {
   const std::vector<std::vector<std::string>> lines = table_lines(cells);
-  std::vector<std::string> names = lines.front();
+  const std::vector<std::size_t> columns = shown_columns(lines);
   const std::string spread = "error of each run";
-  names.push_back(spread);
+  std::vector<std::string> names;
+  for (const std::size_t i : columns) {
+    names.push_back(lines.front()[i]);
+    if (names.back() == "method") names.push_back(spread);  // where it is seen without scrolling
+  }
   std::string out = "<div class=\"scroll\"><table class=\"sorted stacked\">" + heads(names);
   for (std::size_t c = 0; c < cells.size(); ++c) {
     out += "<tr>";
-    for (std::size_t i = 0; i < lines[c + 1].size(); ++i)
-      out += "<td data-head=\"" + svg::escape(names[i]) + "\">" + svg::escape(lines[c + 1][i]) + "</td>";
-    std::vector<const SweepRow*> own;
-    for (const SweepRow& row : rows)
-      if (is_in(row, cells[c])) own.push_back(&row);
-    const auto& median = cells[c].median_error_m;
-    out += "<td data-head=\"" + spread + "\" data-sort=\"" + (median ? svg::number(*median, 6) : "") + "\">" +
-           strip(own) + "</td></tr>\n";
+    for (const std::size_t i : columns) {
+      const std::string& name = lines.front()[i];
+      out += "<td data-head=\"" + svg::escape(name) + "\">" + svg::escape(lines[c + 1][i]) + "</td>";
+      if (name != "method") continue;
+      std::vector<const SweepRow*> own;
+      for (const SweepRow& row : rows)
+        if (is_in(row, cells[c])) own.push_back(&row);
+      const auto& median = cells[c].median_error_m;
+      out += "<td data-head=\"" + spread + "\" data-sort=\"" + (median ? svg::number(*median, 6) : "") + "\">" +
+             strip(own) + "</td>";
+    }
+    out += "</tr>\n";
   }
   return out +
          "</table></div><p class=\"facts\">Errors stand on a scale from 1 mm to 100 m; lines at 1 cm, 10 cm, 1 m "
