@@ -28,8 +28,9 @@ std::string where_to_look(const std::string& a, const std::string& b, slam::Nano
   namespace fs = std::filesystem;
   if (!fs::exists(a + "/replay.html") || !fs::exists(b + "/replay.html")) return "";
   const std::string other = fs::absolute(b).lexically_normal().lexically_relative(fs::absolute(a).lexically_normal());
-  return "look: " + a + "/replay.html#t=" + format_number(std::ceil(100.0 * slam::seconds(tick) - 1e-6) / 100.0) +
-         "&with=" + other + "/replay.html\n";
+  return "look: " + printable(a) +
+         "/replay.html#t=" + format_number(std::ceil(100.0 * slam::seconds(tick) - 1e-6) / 100.0) +
+         "&with=" + printable(other) + "/replay.html\n";
 }
 
 }  // namespace
@@ -51,7 +52,7 @@ Command add_diff(CommandLine& program) {
             }
             print("first difference at " + slam::format_stamp(difference->tick) + " s in " +
                   printable(difference->stage) + ": " + difference->what + "\n" +
-                  printable(where_to_look(options->a, options->b, difference->tick)));
+                  where_to_look(options->a, options->b, difference->tick));
             return 1;
           }};
 }
