@@ -5,46 +5,16 @@
 #include <array>
 
 #include "slam/graph/factors.h"
-#include "slam/mapping/floor_layer.h"
 #include "slam/mapping/room_layer.h"
 #include "slam/mapping/s_graphs_plus.h"
 #include "slam/mapping/wall_layer.h"
 #include "slam/scan/motion.h"
 #include "tests/slam/graph/random_values.h"
+#include "tests/slam/mapping/seen_planes.h"
 #include "tests/slam/synthetic.h"
 
 namespace plumbline::slam {
 namespace {
-
-/// What a robot at X_MR sees of the stretch a-b of a wall whose free side lies left of a to b; z from 0 to 2.4 m above
-/// the floor, which is 0.5 m below R.
-PlaneObservation see(const Pose& X_MR, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  const Eigen::Vector2d n = Eigen::Vector2d(-(b - a).y(), (b - a).x()).normalized();
-  const Pose X_RM = X_MR.inverse();
-  PlaneObservation seen;
-  seen.plane_R = X_RM * Plane{{n.x(), n.y(), 0.0}, -n.dot(a)};
-  seen.covariance = Eigen::Vector3d(1e-5, 1e-4, 1e-4).asDiagonal();
-  seen.points = 1000;
-  seen.p0_R = X_RM * Eigen::Vector3d(a.x(), a.y(), 0.0);
-  seen.p1_R = X_RM * Eigen::Vector3d(b.x(), b.y(), 0.0);
-  seen.z0 = -0.5;
-  seen.z1 = 1.9;
-  seen.vertical = true;
-  return seen;
-}
-
-PlaneObservation see_floor(const Pose& X_MR, double height_M) {
-  PlaneObservation seen;
-  seen.plane_R = X_MR.inverse() * Plane{Eigen::Vector3d::UnitZ(), -height_M};
-  seen.covariance = Eigen::Vector3d(1e-5, 1e-5, 1e-4).asDiagonal();
-  return seen;
-}
-
-Graph at(const Pose& X_MR) {
-  Graph graph;
-  graph.keyframes.push_back({0, X_MR, X_MR, 0});
-  return graph;
-}
 
 /// The next keyframe, which sees `seen`; returns the plane ids.
 std::vector<int> step(Graph& graph, WallLayer& walls, const Pose& X_MR, const std::vector<PlaneObservation>& seen) {
@@ -243,61 +213,6 @@ TEST(WallLayer, WallsOfARoomSeenAgainAreOneUnlessAScanShowsBoth) {
   EXPECT_GT(walls.room_normalized_mahalanobis2(walls.walls(graph, 0), 0, 1), 1.0);
 }
 
-TEST(FloorLayer, ANewStoreyBeginsWhereTheFloorIsAnother) {
-  const FloorLayerConfig config;
-  const Pose ground = Pose::from_xyz_yaw({0, 0, 0.5}, 0), first = Pose::from_xyz_yaw({5, 0, 3.5}, 0);
-  Graph graph;
-  EXPECT_EQ(storey_of(graph, ground, std::vector{see_floor(ground, 0.0)}, config), 0);
-  graph.keyframes.push_back({0, ground, ground, 0});
-  graph.planes.push_back({Plane{Eigen::Vector3d::UnitZ(), 0.0}, PlaneKind::floor, 0, -1});
-  EXPECT_EQ(storey_of(graph, ground, std::vector{see_floor(ground, 0.05)}, config), 0);
-  EXPECT_EQ(storey_of(graph, first, std::vector{see_floor(first, 3.0)}, config), 1);
-  graph.keyframes.push_back({1, first, first, 1});
-  graph.planes.push_back({Plane{Eigen::Vector3d::UnitZ(), -3.0}, PlaneKind::floor, 1, -1});
-  EXPECT_EQ(storey_of(graph, first, {}, config), 1) << "no floor seen: where it was";
-  EXPECT_EQ(storey_of(graph, ground, std::vector{see_floor(ground, 0.0)}, config), 0) << "back down";
-}
-
-/// Storeys at 0 and 3 m.
-Graph two_storeys() {
-  Graph graph = at(Pose::from_xyz_yaw({0, 0, 0.5}, 0));
-  graph.planes.push_back({Plane{Eigen::Vector3d::UnitZ(), 0.0}, PlaneKind::floor, 0, -1});
-  graph.planes.push_back({Plane{Eigen::Vector3d::UnitZ(), -3.0}, PlaneKind::floor, 1, -1});
-  return graph;
-}
-
-TEST(FloorLayer, ALandingBelongsToTheStoreyBelow) {
-  Graph graph = two_storeys();
-  for (const int former : {0, 1}) {
-    graph.keyframes.back().storey = former;
-    const Pose landing = Pose::from_xyz_yaw({2, 0, 2.0}, 0);
-    EXPECT_EQ(storey_of(graph, landing, std::vector{see_floor(landing, 1.5)}, {}), 0);
-  }
-  graph.planes.pop_back();
-  const Pose half_down = Pose::from_xyz_yaw({2, 0, -0.9}, 0), cellar = Pose::from_xyz_yaw({2, 0, -2.4}, 0);
-  EXPECT_EQ(storey_of(graph, half_down, std::vector{see_floor(half_down, -1.4)}, {}), 0) << "nothing known below";
-  EXPECT_EQ(storey_of(graph, cellar, std::vector{see_floor(cellar, -2.9)}, {}), 1);
-}
-
-TEST(FloorLayer, AFloorSeenFromAboveIsNotWhereTheRobotStands) {
-  Graph graph = two_storeys();
-  graph.keyframes.back().storey = 1;
-  const Pose above = Pose::from_xyz_yaw({2, 0, 3.5}, 0);
-  EXPECT_EQ(storey_of(graph, above, std::vector{see_floor(above, 0.0)}, {}), 1);
-}
-
-TEST(FloorLayer, FlightsOfStairsAreNoFloors) {
-  const Pose X = Pose::from_xyz_yaw({2, 0, 0.5}, 0.7);
-  PlaneObservation flight = see_floor(X, 0.0), ramp = flight;
-  flight.plane_R.n = (X.q.conjugate() * Eigen::Vector3d(-0.5, 0.0, 0.8)).normalized();
-  ramp.plane_R.n = X.q.conjugate() * Eigen::Vector3d(std::sin(0.05), 0.0, std::cos(0.05));
-  std::vector<PlaneObservation> seen = {flight, see_floor(X, 0.0), ramp, see(X, {0, 0}, {4, 0})};
-  drop_tilted_planes(seen, X, {});
-  ASSERT_EQ(seen.size(), 3U);
-  EXPECT_EQ(seen[0].plane_R.n, see_floor(X, 0.0).plane_R.n);
-  EXPECT_TRUE(seen[2].vertical);
-}
-
 TEST(WallLayer, WallsOfOneOutlineOnTwoStoreysAreTwoWalls) {
   const Pose low = Pose::from_xyz_yaw({2, 2, 0.5}, 0), high = Pose::from_xyz_yaw({2, 2, 3.5}, 0);
   Graph graph = at(low);
@@ -308,55 +223,6 @@ TEST(WallLayer, WallsOfOneOutlineOnTwoStoreysAreTwoWalls) {
   EXPECT_NE(first, second);
   EXPECT_FALSE(walls.find_duplicates(graph, 0));
   EXPECT_FALSE(walls.find_duplicates(graph, 1));
-}
-
-TEST(FloorLayer, CentreIsMidwayBetweenTheWidestPairsAndRoomsHangOnIt) {
-  const Pose X = Pose::from_xyz_yaw({2, 2, 0}, 0);
-  Graph graph = at(X);
-  WallLayerConfig config;
-  config.min_observations = 1;
-  WallLayer walls(config);
-  // A storey of 10 x 6 m with a partition's two faces at x = 4 and 4.1.
-  (void)walls.observe(graph,
-                      std::vector{see(X, {0, 0}, {10, 0}), see(X, {10, 0}, {10, 6}), see(X, {10, 6}, {0, 6}),
-                                  see(X, {0, 6}, {0, 0}), see(X, {4, 0}, {4, 6}), see(X, {4.1, 6}, {4.1, 0})},
-                      0.0);
-  graph.rooms.push_back({RoomKind::four_wall, {2.0, 3.0}, 0, true});
-  graph.rooms.push_back({RoomKind::four_wall, {7.0, 3.0}, 0, false});
-  FloorLayer floors({});
-  floors.update(graph, 0, walls.walls(graph, 0));
-  floors.update(graph, 0, walls.walls(graph, 0));
-  ASSERT_EQ(graph.floors.size(), 1U);
-  EXPECT_LT((graph.floors[0].center_M - Eigen::Vector2d(5, 3)).norm(), 1e-9);
-  ASSERT_EQ(graph.floor_factors.size(), 1U) << "one factor a room that is found, however often it is updated";
-  const FloorFactor& f = graph.floor_factors[0];
-  EXPECT_LT(floor_residual(graph.floors[0].center_M, graph.rooms[0].center_M, f.offset_M).norm(), 1e-9);
-}
-
-// The centre is that of the widest pairs when it was taken; it is taken anew once they have moved by refresh_m (t_f).
-TEST(FloorLayer, CentreIsTakenAnewBeyondTheThreshold) {
-  const FloorLayerConfig config;
-  const Pose X = Pose::from_xyz_yaw({2, 2, 0}, 0);
-  const auto centre_after = [&](double longer_m) {
-    Graph graph = at(X);
-    WallLayerConfig once;
-    once.min_observations = 1;
-    FloorLayer floors(config);
-    for (const double length : {6.0, 6.0 + longer_m}) {
-      WallLayer walls(once);
-      graph.planes.clear();
-      graph.plane_factors.clear();
-      (void)walls.observe(graph,
-                          std::vector{see(X, {0, 0}, {length, 0}), see(X, {length, 0}, {length, 4}),
-                                      see(X, {length, 4}, {0, 4}), see(X, {0, 4}, {0, 0})},
-                          0.0);
-      floors.update(graph, 0, walls.walls(graph, 0));
-    }
-    EXPECT_EQ(graph.floors.size(), 1U);
-    return graph.floors.at(0).center_M.x();
-  };
-  EXPECT_NEAR(centre_after(1.9 * config.refresh_m), 3.0, 1e-9);
-  EXPECT_NEAR(centre_after(2.1 * config.refresh_m), 3.0 + 1.05 * config.refresh_m, 1e-9);
 }
 
 // A leaf 8 cm back in its wall is within the drift of it, but one scan shows both.

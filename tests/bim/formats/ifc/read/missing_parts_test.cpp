@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Apache-2.0
+// Buildings as other programs write them, with parts, references or entities that are missing or of another schema.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "bim/formats/ifc/read/ifc.h"
+#include "bim/geometry/polygon_boolean.h"
+#include "bim/mesh/mesh.h"
+#include "bim/model/floors.h"
+#include "tests/bim/formats/ifc/sketch.h"
+#include "tests/input_error.h"
+
+namespace plumbline::bim {
+namespace {
+
+Building read_sketch(const Sketch& sketch) { return read_ifc_text(sketch.text(), "s.ifc"); }
+
+int warnings_of(const Building& building, const std::string& kind) {
+  return static_cast<int>(std::count_if(building.warnings.begin(), building.warnings.end(),
+                                        [&](const Warning& w) { return w.kind == kind; }));
+}
+
+/// Floor, four walls and a door, with walls, slab and storey only where asked for.
+struct Parts {
+  std::string wall = "IFCWALL", slab = "IFCSLAB";
+  bool storey = true;
+};
+
+Sketch hut(const Parts& parts) {
+  Sketch sketch;
+  if (parts.storey) sketch.storey(0);
+  const auto element = [&](const std::string& type, const std::string& item) {
+    if (type.empty()) return;
+    sketch.element(type, sketch.shape(item), type == "IFCBUILTELEMENT" ? "$" : "$,$");
+  };
+  element(parts.slab, sketch.box(0, 0, -0.2, 6, 4, 0));
+  element(parts.wall, sketch.box(0, 0, 0, 6, 0.2, 3));
+  element(parts.wall, sketch.box(0, 3.8, 0, 6, 4, 3));
+  element(parts.wall, sketch.box(0, 0.2, 0, 0.2, 3.8, 3));
+  element(parts.wall, sketch.box(5.8, 0.2, 0, 6, 3.8, 3));
+  return sketch;
+}
+
+constexpr double hut_area_m2 = 5.6 * 3.6;
+
+double inner_area(const Building& building) {
+  double sum = 0.0;
+  for (const Room& room : building.rooms) sum += signed_area(room.polygon);
+  return sum;
+}
+
+TEST(Missing, WallsAreTakenFromWhatStandsLikeThem) {
+  for (const char* type : {"IFCBUILDINGELEMENTPROXY", "IFCPLATE"}) {
+    const Building building = read_sketch(hut({.wall = type}));
+    EXPECT_EQ(building.walls.size(), 4u) << type;
+    EXPECT_EQ(warnings_of(building, "taken_as_wall"), 4);
+    EXPECT_NEAR(inner_area(building), hut_area_m2, 1e-3);
+  }
+}
+
+TEST(Missing, SlabsAreTakenFromWhatLiesLikeThem) {
+  for (const char* type : {"IFCBUILDINGELEMENTPROXY", "IFCPLATE", "IFCFOOTING", "IFCCOVERING"}) {
+    const Building building = read_sketch(hut({.slab = type}));
+    ASSERT_EQ(building.slabs.size(), 1u) << type;
+    EXPECT_EQ(warnings_of(building, "taken_as_slab"), 1);
+    EXPECT_EQ(warnings_of(building, "no_floor"), 0);
+  }
+}
+
+TEST(Missing, WithoutSlabsTheRoomsCarryAndItIsSaid) {
+  const Building building = read_sketch(hut({.slab = ""}));
+  EXPECT_EQ(warnings_of(building, "no_floor"), 1);
+  const std::vector<FloorPiece> floors = floor_pieces(building);
+  ASSERT_EQ(floors.size(), 1u);
+  EXPECT_EQ(floors.front().source, FloorSource::room);
+  EXPECT_NEAR(area({floors.front().polygon}), hut_area_m2, 1e-3);
+}
+
+TEST(Missing, StoreysAreWhereWallsBegin) {
+  Sketch sketch = hut({.storey = false});
+  sketch.element("IFCWALL", sketch.shape(sketch.box(0, 0, 3.2, 6, 0.2, 6)), "$,$");
+  const Building building = read_sketch(sketch);
+  ASSERT_EQ(building.storeys.size(), 2u);
+  EXPECT_NEAR(building.storeys[0].elevation_m, 0.0, 1e-9);
+  EXPECT_NEAR(building.storeys[1].elevation_m, 3.2, 1e-9);
+  EXPECT_EQ(warnings_of(building, "assumed_storey"), 2);
+}
+
+TEST(Missing, CurtainFrontsAndSlabsAreABuilding) {
+  Sketch sketch = hut({.wall = ""});
+  const auto front = [&](double x, double y, bool along_y, int panels) {
+    const std::string whole = sketch.element("IFCCURTAINWALL", "$", "$,$");
+    std::string parts;
+    for (int i = 0; i < panels; ++i) {
+      const std::string panel = along_y ? sketch.box(x, y + i, 0, x + 0.05, y + i + 0.95, 3)
+                                        : sketch.box(x + i, y, 0, x + i + 0.95, y + 0.05, 3);
+      parts += (i > 0 ? "," : "") + sketch.element("IFCPLATE", sketch.shape(panel), "$,$");
+    }
+    sketch.rooted("IFCRELAGGREGATES", "$,$," + whole + ",(" + parts + ")");
+  };
+  front(0, 0, false, 6);
+  front(0, 3.95, false, 6);
+  front(0, 0, true, 4);
+  front(5.95, 0, true, 4);
+  const Building building = read_sketch(sketch);
+  EXPECT_TRUE(building.walls.empty());
+  EXPECT_EQ(building.obstacles.size(), 20u);
+  EXPECT_EQ(warnings_of(building, "no_walls"), 1);
+  EXPECT_EQ(building.storeys.front().kind, StoreyKind::habitable);
+  EXPECT_NEAR(building.storeys.front().height_m, 3.0, 1e-9);
+  ASSERT_EQ(building.rooms.size(), 1u);
+  EXPECT_NEAR(inner_area(building), 5.9 * 3.9, 0.3) << "bounded by the panels";
+}
+
+TEST(Missing, InferredRoomsStandOnTheirFloor) {
+  Sketch sketch = hut({});
+  sketch.slab({{0.2, 0.2}, {5.8, 0.2}, {5.8, 3.8}, {0.2, 3.8}}, 0.0, 0.45);
+  const Building building = read_sketch(sketch);
+  ASSERT_EQ(building.rooms.size(), 1u);
+  EXPECT_NEAR(building.rooms.front().z0_m, 0.45, 1e-9);
+  EXPECT_EQ(warnings_of(building, "no_floor"), 0);
+}
+
+TEST(Missing, EverythingIsRefusedWithWhatWouldBeRight) {
+  Sketch nothing;
+  nothing.storey(0);
+  EXPECT_NE(input_error([&] { (void)read_sketch(nothing); }).find("nothing in it has a body"), std::string::npos);
+  Sketch beams;
+  beams.storey(0);
+  beams.element("IFCBEAM", beams.shape(beams.box(0, 0, 3, 5, 0.2, 3.3)), "$,$");
+  EXPECT_NE(input_error([&] { (void)read_sketch(beams); }).find("no IfcSlab, no IfcSpace and no IfcWall"),
+            std::string::npos);
+}
+
+TEST(Dangling, ReferencesCostWhatDependsOnThemAndNoMore) {
+  Sketch sketch = hut({});
+  // A style that nothing needs, a fifth wall without a placement, an owner that is not there, and a list.
+  sketch.add(
+      "IFCWINDOWSTYLE('0000000000000000009001',#9999,'w',$,$,(#9998,#9997),$,$,.NOTDEFINED.,.NOTDEFINED.,.F.,.F.)");
+  sketch.add("IFCWALL('0000000000000000009002',$,'w',$,$,#9996,$,$,$)");
+  sketch.add("IFCOWNERHISTORY(#9995,#9994,$,.ADDED.,$,$,$,0)");
+  const std::string text = sketch.text();
+  const Building building = read_ifc_text(text, "s.ifc");
+  EXPECT_EQ(building.walls.size(), 4u);
+  EXPECT_NEAR(inner_area(building), hut_area_m2, 1e-3);
+  EXPECT_EQ(warnings_of(building, "dangling"), 2);  // the wall, and that there are such references
+}
+
+TEST(Dangling, APlacementThatStandsOnNothingIsNotPutAtTheOrigin) {
+  Sketch sketch = hut({});
+  const std::string at = sketch.add("IFCLOCALPLACEMENT(#9999," + sketch.frame(2, 2, 0) + ")");
+  const std::string lost =
+      sketch.rooted("IFCCOLUMN", "'c',$,$," + at + "," + sketch.shape(sketch.box(0, 0, 0, 1, 1, 3)) + ",$,$");
+  const Building building = read_sketch(sketch);
+  EXPECT_TRUE(building.columns.empty()) << lost;
+  EXPECT_EQ(warnings_of(building, "dangling"), 2);
+}
+
+TEST(Sense, OneElementWithoutItIsLeftOut) {
+  Sketch sketch = hut({});
+  // A solid without a depth; a shared GlobalId; none at all.
+  sketch.element("IFCCOLUMN", sketch.shape(sketch.add("IFCEXTRUDEDAREASOLID($,$,$,$)")), "$,$");
+  sketch.add("IFCWALL('0000000000000000000006',$,'again',$,$,$," + sketch.shape(sketch.box(2, 1, 0, 2.2, 3, 3)) +
+             ",$,$)");
+  sketch.add("IFCWALL($,$,'nobody',$,$,$," + sketch.shape(sketch.box(4, 1, 0, 4.2, 3, 3)) + ",$,$)");
+  const Building building = read_sketch(sketch);
+  EXPECT_EQ(building.walls.size(), 6u);
+  EXPECT_EQ(warnings_of(building, "makes_no_sense"), 1);
+  EXPECT_EQ(warnings_of(building, "no_global_id"), 2);
+}
+
+TEST(Schema, Ifc4x3ReadsWithItsNewClasses) {
+  Sketch sketch = hut({.slab = "IFCBUILTELEMENT"});
+  sketch.schema = "IFC4X3_ADD2";
+  const std::string facility = sketch.rooted("IFCFACILITY", "'f',$,$,$,$,$,.ELEMENT.");
+  sketch.rooted("IFCRELAGGREGATES", "$,$," + sketch.project + ",(" + facility + ")");
+  sketch.add("IFCTRIANGULATEDIRREGULARNETWORK($,$,$,$,$)");
+  const Building building = read_sketch(sketch);
+  EXPECT_EQ(building.schema, "IFC4X3_ADD2");
+  EXPECT_EQ(building.slabs.size(), 1u);
+  EXPECT_EQ(building.walls.size(), 4u);
+  EXPECT_EQ(warnings_of(building, "other_schema"), 1);
+  EXPECT_EQ(warnings_of(building, "unknown_class"), 1);
+}
+
+TEST(Schema, AHeaderThatContradictsTheEntitiesIsNotBelieved) {
+  Sketch sketch = hut({});
+  sketch.schema = "IFC2X3";
+  const Building building = read_sketch(sketch);
+  EXPECT_EQ(building.walls.size(), 4u);
+  EXPECT_EQ(warnings_of(building, "other_schema"), 1);
+}
+
+}  // namespace
+}  // namespace plumbline::bim
