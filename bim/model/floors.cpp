@@ -266,7 +266,7 @@ std::vector<FloorPiece> floor_pieces(const Building& building, const FloorConfig
 }
 
 std::vector<Slab> assumed_slabs(const Building& building, double beyond_m) {
-  constexpr double thickness_m = 0.02;
+  constexpr double thickness_m = 0.02;  // any will do: it is seen from above
   std::vector<Slab> slabs;
   if (!building.stairs.empty()) return slabs;
   const std::vector<FloorPiece> pieces = floor_pieces(building);

@@ -48,7 +48,8 @@ struct FloorConfig {
 [[nodiscard]] std::vector<FloorPiece> floor_pieces(const Building& building, const FloorConfig& config = {});
 
 /// Thin slabs for storeys that have none, so that a LiDAR sees what a robot stands on: under their rooms, without rooms
-/// from wall to wall and beyond_m farther. None in buildings with stairs, whose wells they would close.
+/// from wall to wall and beyond_m farther (assumed: a walk goes round outside). None in buildings with stairs, whose
+/// wells they would close.
 [[nodiscard]] std::vector<Slab> assumed_slabs(const Building& building, double beyond_m = 5.0);
 
 }  // namespace plumbline::bim

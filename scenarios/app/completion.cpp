@@ -108,9 +108,8 @@ _plumbline() {
 constexpr std::string_view bash_end = R"sh(
   if [[ $word == -* ]]; then
     _plumbline_words "$options"
-  elif [[ -n $commands ]]; then
-    _plumbline_words "$commands"
   else
+    _plumbline_words "$commands"
     _plumbline_position
   fi
 }
@@ -150,6 +149,7 @@ std::string bash_positions(const std::vector<CommandHelp>& help) {
     std::string values;
     for (const OptionHelp& option : command.options)  // they are of one kind in every command
       if (option.positional && values.empty()) values = bash_value(value_of(option));
+    if (values.empty() && !command.commands.empty()) values = ":";  // its subcommands stand there
     if (!values.empty()) text += "    " + shell_word(command.command) + ") " + values + " ;;\n";
   }
   return text + "    *) _plumbline_files -f ;;\n  esac\n}\n";

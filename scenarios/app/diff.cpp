@@ -10,6 +10,7 @@
 #include "scenarios/app/commands.h"
 #include "scenarios/host/terminal.h"
 #include "scenarios/run/digest_log.h"
+#include "scenarios/score/moment.h"
 #include "slam/io/recordings/tum.h"
 
 namespace plumbline::scenarios {
@@ -28,8 +29,7 @@ std::string where_to_look(const std::string& a, const std::string& b, slam::Nano
   namespace fs = std::filesystem;
   if (!fs::exists(a + "/replay.html") || !fs::exists(b + "/replay.html")) return "";
   const std::string other = fs::absolute(b).lexically_normal().lexically_relative(fs::absolute(a).lexically_normal());
-  return "look: " + printable(a) +
-         "/replay.html#t=" + format_number(std::ceil(100.0 * slam::seconds(tick) - 1e-6) / 100.0) +
+  return "look: " + printable(a) + "/replay.html#t=" + format_number(score::rounded_up(slam::seconds(tick), 100.0)) +
          "&with=" + printable(other) + "/replay.html\n";
 }
 

@@ -37,8 +37,4 @@ GateSpec parse_gate(const std::string& text) {
   return gate;
 }
 
-std::string gate_text(const GateSpec& gate) {
-  return gate.metric + (gate.max ? "<=" + format_number(*gate.max) : ">=" + format_number(gate.min.value()));
-}
-
 }  // namespace plumbline::scenarios

@@ -160,7 +160,7 @@ std::string asked_text(const MethodRecord& method, const score::RunScore& score)
     if (gate.method == method.name)
       gates += (gates.empty() ? "" : ", ") + gate.metric + " " + gate.op + " " + format_number(gate.limit);
   if (gates.empty())
-    return method.name + " is asked no gate: the scenario has none that apply, and --gate gives none\n";
+    return method.name + " is judged by no gate: none of the scenario's applies, and --gate gives none\n";
   return method.name + " is asked " +
          (method.gates.empty() ? "the strictest of the scenario's gates: " : "by --gate: ") + gates + "\n";
 }

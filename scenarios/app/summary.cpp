@@ -90,9 +90,9 @@ std::string next_steps(const std::string& dir, const FinishedRun& run, const sco
     at_s = score::telling_moment(run, score, failed->method).value_or(at_s);
     link = failed->see;
   }
-  if (link.empty()) link = "#t=" + format_number(std::ceil(10.0 * at_s - 1e-6) / 10.0);
+  if (link.empty()) link = "#t=" + format_number(score::rounded_up(at_s, 10.0));
   return "look:  " + printable(dir) + "/replay.html" + link + "\n" + "again: plumbline replay " +
-         printable(shell_argument(dir)) + " --until " + format_number(std::ceil(10.0 * at_s) / 10.0) + "\n";
+         printable(shell_argument(dir)) + " --until " + format_number(score::rounded_up(at_s, 10.0)) + "\n";
 }
 
 std::map<std::string, Tree> read_graphs(const std::string& dir, const FinishedRun& run) {

@@ -23,7 +23,7 @@ void write_file(const std::string& path, std::string_view bytes);
 std::vector<std::string> make_folders(const std::string& path, const std::string& named);
 
 /// Removes what a killed run left in a directory of ours, unless a run is writing there or nothing may be removed.
-/// Whether there was something.
+/// Returns whether something was removed.
 bool remove_abandoned(const std::string& directory) noexcept;
 /// Directories with what runs that are still going or were killed left unfinished, in `folder` and those below it, by
 /// name. Links are not followed.

@@ -11,8 +11,8 @@ namespace plumbline::scenarios {
 
 namespace {
 
-constexpr std::size_t asked_places = 4;         ///< by whose scans the deciding element is named
-constexpr std::size_t most_tried = 60;          ///< places compared to find them
+constexpr std::size_t asked_places = 4;         ///< by whose scans the deciding element is named; assumed
+constexpr std::size_t most_tried = 60;          ///< places compared to find them; assumed, so that the work is bounded
 constexpr double same_m = 0.3, same_deg = 6.0;  ///< as in compute_localizability_map
 
 class AlikeFinder {
@@ -100,7 +100,8 @@ class AlikeFinder {
     return alike;
   }
 
-  /// Places that are not aliased under the motion though their images are on the floor, those near aliased ones first.
+  /// Places on floors with aliased ones that are not aliased under the motion themselves, those near aliased ones
+  /// first.
   [[nodiscard]] std::vector<std::size_t> others(std::size_t g, const std::vector<std::size_t>& cells) const {
     std::vector<std::pair<double, std::size_t>> near;
     for (std::size_t c = 0; c < map_.cells.size(); ++c) {
@@ -111,7 +112,7 @@ class AlikeFinder {
       for (const std::size_t a : cells)
         if (map_.cells[a].floor == map_.cells[c].floor)
           least = std::min(least, (map_.cells[a].p_W - map_.cells[c].p_W).norm());
-      if (least < 1e9 && on_floor(image(g, place(c)).position_W)) near.emplace_back(least, c);
+      if (least < 1e9) near.emplace_back(least, c);
     }
     std::sort(near.begin(), near.end());
     std::vector<std::size_t> out;
@@ -124,9 +125,11 @@ class AlikeFinder {
     std::size_t asked = 0, tried = 0;
     std::optional<Eigen::Vector2d> from;
     for (const std::size_t c : others(g, cells)) {
-      if (asked == asked_places || tried++ == most_tried) break;
-      ElementEvidence one;
+      if (asked == asked_places || tried == most_tried) break;
       const SensorPose here = place(c), other = image(g, here);
+      if (!on_floor(other.position_W)) continue;
+      ++tried;
+      ElementEvidence one;
       one.add(imager_, scenes_, see(imager_, scenes_, here), other);
       if (one.llr <= localizability_constants.drop_llr) continue;
       ++asked;

@@ -14,7 +14,7 @@ struct StepBudget {
   /// The power of the number of places with which work grows, until two maps tell: 1.0 to 1.1 measured on four
   /// buildings.
   double growth = 1.25;
-  double coarse_places = 32.0;  ///< of the map that is made first
+  double coarse_places = 32.0;  ///< of the map that is made first; assumed, as the next
   double more_places = 4.0;     ///< times as many has the second one, which tells how work grows
 };
 

@@ -76,10 +76,14 @@ std::optional<double> telling_moment(const FinishedRun& run, const RunScore& sco
   return std::nullopt;
 }
 
-/// Rounded up: a moment earlier nothing has happened yet.
+double rounded_up(double t_s, double steps) {
+  constexpr double noise = 1e-6;  // of a time that is a multiple already
+  return std::ceil(steps * t_s - noise) / steps;
+}
+
 std::string moment_link(const FinishedRun& run, const RunScore& score, const std::string& method) {
   const double at_s = telling_moment(run, score, method).value_or(score.duration_s);
-  return "#t=" + format_number(std::ceil(10.0 * at_s - 1e-6) / 10.0) + "&m=" + in_link(method);
+  return "#t=" + format_number(rounded_up(at_s, 10.0)) + "&m=" + in_link(method);
 }
 
 }  // namespace plumbline::scenarios::score

@@ -14,6 +14,9 @@ namespace plumbline::scenarios::score {
 [[nodiscard]] std::optional<double> telling_moment(const FinishedRun& run, const RunScore& score,
                                                    const std::string& method);
 
+/// A moment for a link, s, rounded up to 1 / steps: earlier nothing has happened yet.
+[[nodiscard]] double rounded_up(double t_s, double steps);
+
 /// "#t=34.1&m=vgicp" of the replay page, at that moment.
 [[nodiscard]] std::string moment_link(const FinishedRun& run, const RunScore& score, const std::string& method);
 

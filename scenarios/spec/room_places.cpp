@@ -77,9 +77,9 @@ std::string RoomPlaces::why_nowhere() const {
       std::max_element(building_.rooms.begin(), building_.rooms.end(), [](const bim::Room& a, const bim::Room& b) {
         return std::abs(signed_area(a.polygon)) < std::abs(signed_area(b.polygon));
       });
-  const std::string more = std::to_string(building_.rooms.size() - 1);
   return "room '" + largest->id + "': " + why_none(static_cast<int>(largest - building_.rooms.begin())) +
-         (building_.rooms.size() > 1 ? "; " + more + " smaller ones" : "");
+         (building_.rooms.size() > 1 ? "; it is the largest of " + std::to_string(building_.rooms.size()) + " rooms"
+                                     : "");
 }
 
 RoomPlaces::Start RoomPlaces::start_on(int storey) const {

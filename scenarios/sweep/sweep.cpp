@@ -199,9 +199,11 @@ struct PagesAsked {
   int jobs = 1;
 };
 
+constexpr std::string_view worst_run = "worst";
+
 const SweepRun& asked_run(const Sweep& sweep, const std::vector<SweepRow>& rows, const std::string& key) {
   const std::vector<const SweepRow*> order = worst_first(rows);
-  const std::string wanted = key == "worst" && !order.empty() ? order.front()->key : key;
+  const std::string wanted = key == worst_run && !order.empty() ? order.front()->key : key;
   const auto run =
       std::find_if(sweep.runs.begin(), sweep.runs.end(), [&](const SweepRun& one) { return one.key == wanted; });
   if (run == sweep.runs.end())
@@ -214,7 +216,9 @@ const SweepRun& asked_run(const Sweep& sweep, const std::vector<SweepRow>& rows,
 void make_pages(const Sweep& sweep, const std::vector<SweepRow>& rows, const SweepFolder& folder,
                 const PagesAsked& asked) {
   std::vector<const SweepRun*> runs;
-  for (const std::string& key : asked.keys) runs.push_back(&asked_run(sweep, rows, key));
+  for (const std::string& key : asked.keys)
+    if (const SweepRun* run = &asked_run(sweep, rows, key); std::find(runs.begin(), runs.end(), run) == runs.end())
+      runs.push_back(run);
   if (runs.empty()) return;
   (void)make_folders(folder.page(""), folder.page(""));
   run_children(
@@ -279,6 +283,8 @@ std::string find_result(const SweepRun& run, const std::vector<std::string>& fol
 int walks_of(const Sweep& sweep) { return static_cast<int>(walk_numbers(sweep).size()); }
 
 std::string run_sweep(const Sweep& sweep, const SweepOptions& options) {
+  for (const std::string& key : options.pages)
+    if (key != worst_run) (void)asked_run(sweep, {}, key);  // refused before any run is made
   const SweepFolder folder(options.out);
   const std::vector<const SweepRun*> runs = runs_of(sweep, options.shard);
   try {

@@ -188,9 +188,8 @@ std::string worst_card(const SweepPage& page, const SweepRow& row) {
          (page.pages.count(row.key) > 0 ? page_of(page, row)
                                         : "<code>" + svg::escape(command) + "</code> " + copy_button(command)) +
          "</p><p class=\"facts\">The command makes the run again, the same to the last bit, with its report and its "
-         "replay "
-         "page in pages/" +
-         svg::escape(row.key) + "; name the -o of the sweep, where it has one.</p></section>";
+         "replay page in pages/" +
+         svg::escape(row.key) + "; give it the -o and the --seeds of the sweep, where it had them.</p></section>";
 }
 
 std::string runs_table(const SweepPage& page, const std::vector<const SweepRow*>& rows) {
@@ -233,8 +232,8 @@ std::vector<const SweepRow*> worst_first(const std::vector<SweepRow>& rows) {
 std::string table_html(const SweepPage& page, const std::vector<SweepRow>& rows, const std::vector<SweepCell>& cells) {
   const std::vector<const SweepRow*> order = worst_first(rows);
   std::string out = open_page(page.name) + "<header><h1>" + svg::escape(page.name) + "</h1><span class=\"facts\">" +
-                    std::to_string(rows.size()) + (rows.size() == 1 ? " answer" : " answers") +
-                    " of methods</span></header>\n";
+                    std::to_string(rows.size()) + (rows.size() == 1 ? " result" : " results") +
+                    " (runs x methods)</span></header>\n";
   out += "<section class=\"card\">" + cells_table(rows, cells) +
          R"html(<p class="facts">Success of a plan localization is over the identifiable runs, of SLAM
 the share of complete; in brackets the 95 % interval of Wilson. Honest: of the runs whose scans fit several poses to the end,

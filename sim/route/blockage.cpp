@@ -217,7 +217,8 @@ struct Blockages::Impl {
   [[nodiscard]] bool is_at_edge(std::size_t cell) const {
     if (!space.has_floor(cell)) return true;
     if (space.passable(cell)) return false;
-    const double cell_m = space.grid().cell, within = space.cell_clearance(cell) + 0.75 * cell_m;
+    const double cell_m = space.grid().cell,
+                 within = space.cell_clearance(cell) + 0.75 * cell_m;  // half a diagonal of a cell
     const auto reach = static_cast<int>(within / cell_m);
     const auto [column, row] = space.grid().column_and_row(cell);
     for (int dy = -reach; dy <= reach; ++dy)

@@ -55,7 +55,7 @@ class KeyframeMethod : public Method {
   /// The same where the last one in it is far enough from X_MR.
   void keep_if_far(const DeskewedScan& scan, const Pose& X_MR);
   /// The scan as if the robot had stood still.
-  [[nodiscard]] DeskewedScan as_it_is(const Scan& raw) const { return deskew(raw, still_, calibration_); }
+  [[nodiscard]] DeskewedScan not_deskewed(const Scan& raw) const { return deskew(raw, still_, calibration_); }
   [[nodiscard]] const Calibration& calibration() const { return calibration_; }
   [[nodiscard]] Graph& graph() { return graph_; }
   [[nodiscard]] const Graph& graph() const { return graph_; }

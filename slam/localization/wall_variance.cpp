@@ -62,9 +62,9 @@ Eigen::Matrix4d wall_information(const std::vector<SeenWall>& walls, double fact
 void WallVarianceFactor::add(const std::vector<SeenWall>& walls, const BiasPrior& bias, const TrackerConfig& config) {
   Eigen::Matrix4d information = wall_information(walls, 1.0, config);
   // What walls leave open must not count as known.
-  constexpr double open_m = 1.0;
+  constexpr double open_m = 1.0, open_rad = 1.0;  // far above any tracking error
   information.topLeftCorner<2, 2>() += Eigen::Matrix2d::Identity() / (open_m * open_m);
-  information(2, 2) += 1.0;
+  information(2, 2) += 1.0 / (open_rad * open_rad);
   information(3, 3) += 1.0 / bias.variance;
   Eigen::Vector4d pull{0.0, 0.0, 0.0, (bias.used_m - bias.mean_m) / bias.variance};
   for (const SeenWall& wall : walls) pull += wall.J * (wall.weight * wall.residual_m / expected_variance(wall, config));

@@ -42,7 +42,8 @@ class UnmeasuredWay {
   [[nodiscard]] bool displaced() const { return map_m_ > limit_m_; }
 
  private:
-  /// What a robot or person accelerates by in passing: at least, since one that goes evenly may stop, and at most.
+  /// What a robot or person accelerates by in passing: at least, since one that goes evenly may stop, and at most;
+  /// assumed.
   static constexpr double least_mps2 = 0.6, most_mps2 = 2.0;
 
   double limit_m_;

@@ -94,8 +94,7 @@ struct FilterConfig {
 
 /// A yaw that is expected in I, rad.
 struct ExpectedYaw {
-  double yaw_I = 0.0;
-  double sigma = 0.05;
+  double yaw_I, sigma;
 };
 
 /// Prior of the pose before any observation, in I.

@@ -6,7 +6,7 @@
 namespace plumbline::slam {
 
 void StepChanges::add(const Pose& X_MR) {
-  constexpr int most_scans = 20;
+  constexpr int most_scans = 20;  // some steps of a trot; assumed
   if (last_X_MR_) {
     const Pose step = last_X_MR_->inverse() * X_MR;
     if (last_step_) {

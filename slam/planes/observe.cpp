@@ -5,8 +5,7 @@ namespace plumbline::slam {
 
 std::vector<PlaneObservation> observe_planes(const DeskewedScan& scan, const PlaneDetectorConfig& config,
                                              const RansacConfig& without_rings, std::uint64_t seed) {
-  constexpr int fewest_rings = 4;
-  return scan.rings < fewest_rings ? ransac_planes(scan, without_rings, config, seed) : detect_planes(scan, config);
+  return has_rings(scan) ? detect_planes(scan, config) : ransac_planes(scan, without_rings, config, seed);
 }
 
 }  // namespace plumbline::slam

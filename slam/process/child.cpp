@@ -101,7 +101,7 @@ void close_if_open(int& descriptor) {
 }  // namespace
 
 Child::Child(const std::vector<std::string>& command, const std::string& folder,
-             const std::vector<std::string>& variables, std::function<void(std::string_view)> printed, int also)
+             const std::vector<std::string>& variables, std::function<void(std::string_view)> printed, int inherited)
     : on_printed_(std::move(printed)) {
   const auto [own_stream, its_stream] = pipe_or_socket(true);
   const auto [own_output, its_output] = pipe_or_socket(false);
@@ -121,9 +121,9 @@ Child::Child(const std::vector<std::string>& command, const std::string& folder,
   // dup2 onto itself would leave it to be closed at exec.
   const int above = ::fcntl(its_stream, F_DUPFD_CLOEXEC, child_stream + 1);
   posix_spawn_file_actions_adddup2(&plan.actions, above, child_stream);
-  const int also_above = also < 0 ? -1 : ::fcntl(also, F_DUPFD_CLOEXEC, child_file + 1);
-  if (also >= 0) posix_spawn_file_actions_adddup2(&plan.actions, also_above, child_file);
-  posix_spawn_file_actions_addclosefrom_np(&plan.actions, (also < 0 ? child_stream : child_file) + 1);
+  const int inherited_above = inherited < 0 ? -1 : ::fcntl(inherited, F_DUPFD_CLOEXEC, child_file + 1);
+  if (inherited >= 0) posix_spawn_file_actions_adddup2(&plan.actions, inherited_above, child_file);
+  posix_spawn_file_actions_addclosefrom_np(&plan.actions, (inherited < 0 ? child_stream : child_file) + 1);
   if (!folder.empty()) posix_spawn_file_actions_addchdir_np(&plan.actions, folder.c_str());
   reset_signals(plan.attributes);
   const std::vector<std::string> environment = environment_with(variables);
@@ -132,7 +132,7 @@ Child::Child(const std::vector<std::string>& command, const std::string& folder,
   ::close(its_stream);
   ::close(its_output);
   ::close(above);
-  if (also_above >= 0) ::close(also_above);
+  if (inherited_above >= 0) ::close(inherited_above);
   if (failed == 0) return;
   for (int* descriptor : {&stream_, &output_, &timer_}) close_if_open(*descriptor);
   throw ProcessFailure("'" + command.front() + "' cannot be started: " + error_text(failed));

@@ -23,10 +23,10 @@ class ProcessFailure : public std::runtime_error {
 class Child {
  public:
   /// folder: its working directory. variables: NAME=VALUE, over those of this process. printed: gets what it prints, as
-  /// it comes. also: a file of this process that is its file descriptor 4; -1: none. Throws ProcessFailure where the
-  /// program cannot be started.
+  /// it comes. inherited: descriptor of this process that the child gets as descriptor 4; -1: none. Throws
+  /// ProcessFailure where the program cannot be started.
   Child(const std::vector<std::string>& command, const std::string& folder, const std::vector<std::string>& variables,
-        std::function<void(std::string_view)> printed = {}, int also = -1);
+        std::function<void(std::string_view)> printed = {}, int inherited = -1);
   ~Child();
   Child(const Child&) = delete;
   Child(Child&&) = delete;

@@ -96,7 +96,7 @@ GreetingAnswer read_greeting(const std::string& text) {
     const Tree* shared = answer.find("shared_memory");
     return {shared != nullptr && shared->as_bool()};
   } catch (const InputError& error) {
-    throw ProcessFailure(std::string("answered the greeting with what is no JSON: ") + error.what());
+    throw ProcessFailure(std::string("answered the greeting with what is no JSON of HELLO_OK: ") + error.what());
   }
 }
 
@@ -110,7 +110,7 @@ std::vector<std::string> environment_of(const MethodInput& input) {
                                         "PYTHONUNBUFFERED=1",
                                         "LC_ALL=C.UTF-8",
                                         "TZ=UTC"};
-  // Memory of a scan stays with the process until the next one, as in this program.
+  // Memory of a scan stays with the process until the next one, as settle_process() sets it in this program.
   variables.emplace_back("MALLOC_MMAP_THRESHOLD_=33554432");
   variables.emplace_back("MALLOC_TRIM_THRESHOLD_=134217728");
   if (const std::string clients = client_folder(); !clients.empty()) {

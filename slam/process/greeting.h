@@ -20,7 +20,8 @@ struct GreetingAnswer {
 };
 /// HELLO_OK: JSON with the protocol that the process speaks. Throws ProcessFailure where it is another one.
 [[nodiscard]] GreetingAnswer read_greeting(const std::string& text);
-/// Variables of its environment: where the stream is, the seed, one thread in the libraries that ask.
+/// Variables of its environment: where the stream is, the seed, one thread in the libraries that ask,
+/// and an allocator that keeps the memory of a scan.
 [[nodiscard]] std::vector<std::string> environment_of(const MethodInput& input);
 
 }  // namespace plumbline::slam

@@ -111,9 +111,8 @@ class Ring {
 }  // namespace
 
 Features find_features(const DeskewedScan& scan, const FeatureConfig& config) {
-  constexpr int fewest_rings = 4;  // fewer are no rings: points in the order of a file
   Features features;
-  if (scan.rings < fewest_rings) return features;
+  if (!has_rings(scan)) return features;
   for (int ring = 0; ring < scan.rings; ++ring) Ring(scan, ring, config).pick(features, true);
   return features;
 }

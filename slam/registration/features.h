@@ -53,7 +53,7 @@ struct Features {
 };
 
 /// Edge and planar points by the curvature of the ring they lie on. Equal curvatures: the earlier column first. A ring
-/// with fewer than sectors * 11 returns gives none, nor does a scan without rings.
+/// with fewer than sectors * 11 returns gives none, nor does a scan of fewer than four rings.
 [[nodiscard]] Features find_features(const DeskewedScan& scan, const FeatureConfig& config);
 
 /// Edge points alone: the less sharp ones of find_features(), but flat points silence none of them.

@@ -41,10 +41,11 @@ RegistrationConfig coarser(RegistrationConfig config, double voxel_m) {
   return config;
 }
 
+constexpr double turn_rad = 15.0 * std::numbers::pi / 180.0;  ///< from start to start, and what one start reaches
+
 /// The same place, turned by up to 60 degrees either way.
 std::vector<Pose> yaw_fan(const Pose& X_MR) {
   constexpr int turns = 4;
-  constexpr double turn_rad = 15.0 * std::numbers::pi / 180.0;
   std::vector<Pose> fan;
   for (int k = -turns; k <= turns; ++k) fan.push_back(X_MR * Pose::from_xyz_yaw(Eigen::Vector3d::Zero(), k * turn_rad));
   return fan;
@@ -96,7 +97,6 @@ Registration VgicpOdometry::match(const DeskewedScan& scan, const OdometrySample
 
 // Within the reach of the coarsest map from one another.
 bool VgicpOdometry::is_near(const Pose& a, const Pose& b) const {
-  constexpr double turn_rad = 15.0 * std::numbers::pi / 180.0;
   const Pose difference = a.inverse() * b;
   return difference.t.norm() < 0.5 * maps_.back().voxel_m() && log_so3(difference.q).norm() < turn_rad;
 }

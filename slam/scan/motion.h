@@ -86,6 +86,9 @@ struct DeskewedScan {
   TwistSigma twist_sigma;                ///< of the motion during the scan that was undone
 };
 
+/// False: points in the order of a file, not of lasers.
+[[nodiscard]] inline bool has_rings(const DeskewedScan& scan) { return scan.rings >= 4; }
+
 /// The same scan where the robot's motion during it was off by `twist` per second, (rho, phi) in R.
 void correct_motion(DeskewedScan& scan, const Vector6d& twist);
 

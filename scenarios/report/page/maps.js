@@ -45,8 +45,8 @@ var fitMaps = (function () {
     said.textContent = "\u00a0";
     map.parentNode.insertBefore(said, map.nextSibling);
     function tell(event) {
-      var p = place(map, event), title = event.target.parentNode.querySelector ? event.target.querySelector("title") : null;
-      if (!title && event.target.parentNode.tagName === "g") title = event.target.parentNode.querySelector("title");
+      var p = place(map, event), shape = event.target, title = shape.querySelector(":scope > title");
+      if (!title && shape.parentNode.tagName === "g") title = shape.parentNode.querySelector(":scope > title");
       said.textContent = "x " + p[0].toFixed(2) + " m, y " + (-p[1]).toFixed(2) + " m" + (title ? ": " + title.textContent : "");
     }
     map.addEventListener("pointermove", tell);

@@ -108,7 +108,7 @@ bool HdlSlamPaper::keyframe_is_due() const {
 }
 
 ScanPlacement HdlSlamPaper::track(const Scan& raw, ScanStages& stages) {
-  const DeskewedScan scan = as_it_is(raw);
+  const DeskewedScan scan = not_deskewed(raw);
   std::vector<Eigen::Vector3d> points_R = prefiltered(scan, config_.prefilter);
   stages.end("prefilter", Digest().add(static_cast<std::int64_t>(points_R.size())).value());
   const bool tracked = odometry_.advance(points_R);

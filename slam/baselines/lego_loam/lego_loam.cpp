@@ -119,7 +119,7 @@ ScanPlacement LegoLoam::track(const Scan& scan, ScanStages& stages) {
   const bool told = advance(features);
   stages.end("odometry", Digest().add(X_MR_).value());
   if (told) refine(scan.stamp, at_end(cloud.outliers, motion_));
-  if (told) keep_if_far(as_it_is(scan), X_MR_);
+  if (told) keep_if_far(not_deskewed(scan), X_MR_);
   stages.end("mapping", Digest().add(X_MR_).add(static_cast<std::int64_t>(map_.size())).value());
   // Keyframes keep the pose that they had at first as X_OR.
   const KeyframeVertex& last = graph().keyframes.back();

@@ -22,13 +22,12 @@ std::vector<Eigen::Vector3d> places(const std::vector<loam::FeaturePoint>& point
   return result;
 }
 
-/// Residuals weigh 1 / trace of their point's covariance. With one LiDAR, whose mount is known, that is one number,
-/// which moves nothing but what eigenvalues are compared with.
-MloamConfig weighed(MloamConfig config, const Calibration& calibration) {
+/// The reference weighs residuals by 1 / trace of their point's covariance. With one LiDAR of known mount that is one
+/// number for all, so the thresholds of eigenvalues are scaled instead.
+MloamConfig with_scaled_thresholds(MloamConfig config, const Calibration& calibration) {
   const Eigen::Matrix3d of_point = config.point_sigma_m * config.point_sigma_m * Eigen::Matrix3d::Identity();
   const Eigen::Matrix3d covariance =
-      mloam::point_covariance(calibration.X_RL, mloam::compound_covariance(Pose(), Matrix6d::Zero(), Matrix6d::Zero()),
-                              Eigen::Vector3d::Zero(), of_point);
+      mloam::point_covariance(calibration.X_RL, Matrix6d::Zero(), Eigen::Vector3d::Zero(), of_point);
   config.window.least_eigenvalue *= covariance.trace();
   config.submap.least_eigenvalue *= covariance.trace();
   return config;
@@ -38,7 +37,7 @@ class Mloam final : public OdometryMethod {
  public:
   Mloam(const MethodInput& input, const MloamConfig& config)
       : OdometryMethod(config.map),
-        config_(weighed(config, input.calibration)),
+        config_(with_scaled_thresholds(config, input.calibration)),
         calibration_(input.calibration),
         window_(config_.window),
         submap_(config_.submap) {}

@@ -11,15 +11,6 @@ Eigen::Matrix3d less_traces(const Eigen::Matrix3d& M, const Eigen::Matrix3d& N) 
   return less_trace(M) * less_trace(N) + less_trace(N * M);
 }
 
-Matrix6d left_adjoint(const Pose& X) {
-  const Eigen::Matrix3d R = X.rotation();
-  Matrix6d adjoint = Matrix6d::Zero();
-  adjoint.topLeftCorner<3, 3>() = R;
-  adjoint.topRightCorner<3, 3>() = hat(X.t) * R;
-  adjoint.bottomRightCorner<3, 3>() = R;
-  return adjoint;
-}
-
 Matrix6d second_moment(const Matrix6d& S) {
   const Eigen::Matrix3d rotation = S.bottomRightCorner<3, 3>();
   const Eigen::Matrix3d mixed = S.topRightCorner<3, 3>() + S.bottomLeftCorner<3, 3>();
@@ -31,8 +22,17 @@ Matrix6d second_moment(const Matrix6d& S) {
 
 }  // namespace
 
+Matrix6d adjoint(const Pose& X_AB) {
+  const Eigen::Matrix3d R = X_AB.rotation();
+  Matrix6d result = Matrix6d::Zero();
+  result.topLeftCorner<3, 3>() = R;
+  result.topRightCorner<3, 3>() = hat(X_AB.t) * R;
+  result.bottomRightCorner<3, 3>() = R;
+  return result;
+}
+
 Matrix6d compound_covariance(const Pose& X_AB, const Matrix6d& covariance_AB, const Matrix6d& covariance_BC) {
-  const Matrix6d Ad = left_adjoint(X_AB);
+  const Matrix6d Ad = adjoint(X_AB);
   const Matrix6d& S1 = covariance_AB;
   const Matrix6d S2 = Ad * covariance_BC * Ad.transpose();
   const Eigen::Matrix3d r1 = S1.topLeftCorner<3, 3>(), m1 = S1.topRightCorner<3, 3>(),

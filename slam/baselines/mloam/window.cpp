@@ -44,15 +44,7 @@ std::vector<loam::Match> matches_of(const loam::MapFeatures& features, const Loc
 }
 
 /// d(X_P^-1 X_k) by a right increment of X_P, as a right increment of the product: minus its inverse adjoint.
-Matrix6d by_pivot(const Pose& X_Pk) {
-  const Pose X_kP = X_Pk.inverse();
-  const Eigen::Matrix3d R = X_kP.rotation();
-  Matrix6d adjoint = Matrix6d::Zero();
-  adjoint.topLeftCorner<3, 3>() = R;
-  adjoint.topRightCorner<3, 3>() = hat(X_kP.t) * R;
-  adjoint.bottomRightCorner<3, 3>() = R;
-  return -adjoint;
-}
+Matrix6d by_pivot(const Pose& X_Pk) { return -adjoint(X_Pk.inverse()); }
 
 }  // namespace
 

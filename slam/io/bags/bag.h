@@ -53,7 +53,7 @@ class BagWriter {
   void add(const Scan& scan, std::span<const Odometry> odometry, std::span<const Imu> imu,
            std::span<const OdometryCovariance> covariances = {});
   /// For viewers, never read here, and of ROS 2 alone: the building on /building (markers), its plan on /map (a grid of
-  /// 5 cm), both kept for who comes later, in the frame map, which is W. Before the first record.
+  /// 5 cm), both latched (transient local), in the frame map, which is W. Before the first record.
   void add_building(const ros::BuildingView& view);
   /// For scoring elsewhere, never read here: X_WR on /ground_truth/odom.
   void add_truth(std::span<const StampedPose> truth_W);

@@ -46,6 +46,7 @@ bool find_rings(std::vector<CloudPoint>& points) {
 /// Rings of any LiDAR whose lasers turn about one point, by elevation: raw returns then lie on narrow cones with gaps
 /// between them. False, and nothing is changed, where they do not: other lasers, or a motion undone.
 bool find_cones(std::vector<CloudPoint>& points) {
+  // Assumed; cones of the LiDARs here are 0.33 to 2 degrees apart.
   constexpr double gap_deg = 0.05, most_stray = 0.02;        // between cones; share of returns on none
   constexpr std::size_t least_cones = 8, least_points = 20;  // points: of a cone, where a scan is no accident
   constexpr double narrow = 0.5;                             // width of a cone over the gaps beside it

@@ -35,10 +35,10 @@ struct CloudOrder {
   int columns = 0;
 };
 
-/// Gives width x height points the slots of a scan: rings from the lowest, by name, by the layout of an organised cloud
-/// by the elevations of a VLP-16 or by cones that returns lie on, else one ring; columns by layout, time or azimuth, of
-/// one ring a column a point. A point that has no slot gets ring -1. Throws InputError without a mark where most points
-/// are on one ring.
+/// Gives width x height points the slots of a scan: rings from the lowest, by name, by the layout of an organised
+/// cloud, by the elevations of a VLP-16 or by cones of equal elevation, else one ring; columns by layout, time or
+/// azimuth, of one ring a column a point. A point that has no slot gets ring -1. Throws InputError without a mark where
+/// most points are on one ring.
 [[nodiscard]] CloudOrder order_points(std::vector<CloudPoint>& points, const CloudLines& lines);
 
 }  // namespace plumbline::slam

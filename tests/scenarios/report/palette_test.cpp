@@ -87,14 +87,14 @@ TEST(Palette, NoMethodIsGreen) {
     }
 }
 
-TEST(Palette, EveryColourThatPagesNameIsInIt) {
-  for (const std::string_view text : {page_style()})
-    for (std::size_t at = 0; (at = text.find("var(--", at)) != std::string::npos; ++at) {
-      const std::string_view name = text.substr(at + 6, text.find(')', at) - at - 6);
-      const auto all = palette();
-      EXPECT_TRUE(name == "px" || std::any_of(all.begin(), all.end(), [&](const Ink& one) { return one.name == name; }))
-          << name;
-    }
+TEST(Palette, EveryColourOfTheStyleSheetIsInIt) {
+  const std::string_view text = page_style();
+  const auto all = palette();
+  for (std::size_t at = 0; (at = text.find("var(--", at)) != std::string::npos; ++at) {
+    const std::string_view name = text.substr(at + 6, text.find(')', at) - at - 6);
+    EXPECT_TRUE(name == "px" || std::any_of(all.begin(), all.end(), [&](const Ink& one) { return one.name == name; }))
+        << name;
+  }
   const std::string css = palette_css();
   EXPECT_NE(css.find(";--ink:#1c2430;"), std::string::npos);
   EXPECT_NE(css.find("@media screen and (prefers-color-scheme:dark){:root{--paper:#1b2027;"), std::string::npos);
