@@ -78,14 +78,17 @@ void HypothesisSet::add(const PlanIndex& index, const std::vector<StoreyPose>& p
   const LocalizationScan& scan = history_.back().scan;
   std::vector<ScanAtPose> reference;
   for (const StoreyPose& pose : poses) {
-    if (find(pose, config_.merge_m, config_.merge_rad) >= 0) continue;
     const StoreyIndex& storey = index.storeys[static_cast<std::size_t>(pose.storey)];
     const Refined refined = refine(storey, pose.X_IH, scan, likelihood_, pose.exact ? tracking_refine_ : refine_);
     const StoreyPose fitted{pose.storey, refined.X_IH};
-    if (find(fitted, config_.merge_m, config_.merge_rad) >= 0) continue;
+    const int known = find(fitted, config_.merge_m, config_.merge_rad);
+    if (known >= 0 && !fits_better(storey, fitted.X_IH, hypotheses_[static_cast<std::size_t>(known)].X_IH)) continue;
     if (reference.empty() && !hypotheses_.empty()) reference = replay(index, hypotheses_[reference_].pose(), {}).scans;
     Replay past = replay(index, fitted, reference);
-    if (past.evidence < -config_.drop_ratio) continue;
+    const double least = known >= 0
+                             ? hypotheses_[static_cast<std::size_t>(known)].evidence + config_.reference_switch_margin
+                             : -config_.drop_ratio;
+    if (past.evidence < least) continue;
     PoseHypothesis& hypothesis = hypotheses_.emplace_back();
     hypothesis.id = next_id_++;
     hypothesis.storey = fitted.storey;
@@ -97,6 +100,13 @@ void HypothesisSet::add(const PlanIndex& index, const std::vector<StoreyPose>& p
     if (reference.empty()) reference = std::move(past.scans);
   }
   rebase_reference(index);
+}
+
+bool HypothesisSet::fits_better(const StoreyIndex& storey, const Pose2& X_IH, const Pose2& other) const {
+  const LocalizationScan& scan = history_.back().scan;
+  return compare_hypotheses(scan, predict_scan(storey, X_IH, scan, comparison_),
+                            predict_scan(storey, other, scan, comparison_), comparison_)
+             .ratio > config_.deadband;
 }
 
 void HypothesisSet::prune_and_normalize() {

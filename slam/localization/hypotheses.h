@@ -157,7 +157,9 @@ class HypothesisSet {
   void predict_and_update(const PlanIndex& index, const Pose2& u, const LocalizationScan& scan);
   /// Adds clusters that are no hypothesis yet, once few compact ones hold nearly all of the mass.
   void add(const PlanIndex& index, const Clustering& clustering);
-  /// Adds the poses that are not known yet and that the kept history does not rule out.
+  /// Adds the poses that are not known yet and that the kept history does not rule out. One near a known hypothesis is
+  /// added where it explains the history better, and takes its place when near ones merge: a hypothesis that clutter
+  /// has pulled aside would lose against its alias.
   void add(const PlanIndex& index, const std::vector<StoreyPose>& poses);
   /// Compares all with the best one anew, each by all scans kept along one path that ends at its pose. While it was
   /// tracked a hypothesis may have slid along a corridor to where each scan fitted best; one that faces did not hold
@@ -197,6 +199,8 @@ class HypothesisSet {
   };
   /// The place along the direction that the fit of the last scan left open, if any.
   void slide_along_open_direction(const PlanIndex& index, PoseHypothesis& hypothesis) const;
+  /// True where the last scan is likelier at the first pose.
+  [[nodiscard]] bool fits_better(const StoreyIndex& storey, const Pose2& X_IH, const Pose2& other) const;
   /// Adds the newest scan's agreement with the plan.
   void update_agreement(const Agreement& latest, PoseHypothesis& hypothesis) const;
   /// The same for all scans kept.

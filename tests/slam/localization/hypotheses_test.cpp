@@ -78,6 +78,28 @@ TEST(Hypotheses, APoseOffAlongAnOpenDirectionIsMovedWhereTheScanFits) {
   }
 }
 
+// A hypothesis pulled aside, as by furniture, would lose against the twin of the pose that it should have.
+TEST(Hypotheses, APoseNearAKnownOneTakesItsPlaceWhereItFitsBetter) {
+  const TwinRooms twins = twin_rooms_scans();
+  HypothesisSet set({}, {}, {}, {});
+  set.predict_and_update(twins.index, twins.u[0], twins.scans[0]);
+  Pose2 off = twins.here;
+  off.t.x() -= 0.28;
+  set.add(twins.index, std::vector<StoreyPose>{{0, off, true}});
+  set.add(twins.index, std::vector<StoreyPose>{{0, twins.there, true}});
+  set.prune_and_normalize();
+  EXPECT_TRUE(std::none_of(set.all().begin(), set.all().end(), [&](const PoseHypothesis& h) {
+    return (h.X_IH.t - twins.here.t).norm() < 0.2 && h.mass > 0.4;
+  }));
+  set.add(twins.index, std::vector<StoreyPose>{{0, twins.here, true}});
+  set.prune_and_normalize();
+  ASSERT_EQ(set.all().size(), 2U);
+  for (const Pose2& expected : {twins.here, twins.there})
+    EXPECT_TRUE(std::any_of(set.all().begin(), set.all().end(), [&](const PoseHypothesis& h) {
+      return (h.X_IH.t - expected.t).norm() < 0.03 && std::abs(h.mass - 0.5) < 1e-6;
+    }));
+}
+
 TEST(Hypotheses, TwinsKeepEqualSharesAndOthersDie) {
   const TwinRooms twins = twin_rooms_scans();
   HypothesisSet set({}, {}, {}, {});
