@@ -48,11 +48,11 @@ Float4 cost(Float4 range, const PredictedBlock& hits, const HypothesisComparison
   return choose(squares < cap, squares, cap);
 }
 
-/// How many columns to either side may explain a beam, as an edge of the plan may be a little off.
-Float4 edge_tolerance_columns(Float4 range, int columns, const HypothesisComparisonConfig& config) {
+/// How many columns to either side may explain a beam, as an edge of the plan at this distance may be a little off.
+Float4 edge_tolerance_columns(Float4 distance, int columns, const HypothesisComparisonConfig& config) {
   const auto per_rad = static_cast<float>(columns / (2.0 * std::numbers::pi));
   const Float4 beams =
-      whole_of((static_cast<float>(config.edge_m) / range + static_cast<float>(config.edge_rad)) * per_rad);
+      whole_of((static_cast<float>(config.edge_m) / distance + static_cast<float>(config.edge_rad)) * per_rad);
   const int half_turn = columns / 2;
   const auto most = static_cast<float>(half_turn);
   return choose(beams > 1.0F, choose(beams < most, beams, all(most)), all(1.0F));
@@ -65,7 +65,9 @@ Float4 beam_cost(const LocalizationScan& scan, const PredictedScan& predicted, s
   const int columns = scan.beam_grid.columns, column = static_cast<int>(i) % columns,
             first = static_cast<int>(i) - column;
   const Float4 range = scan.beam_grid.blocks[i].range;
-  const Float4 most = choose(range > 0.0F, edge_tolerance_columns(range, columns, config), all(0.0F));
+  // A beam that passes an edge, as a baluster's, passes it at the distance expected.
+  const Float4 expected = predicted.blocks[i].expected, nearer = choose(expected < range, expected, range);
+  const Float4 most = choose(range > 0.0F, edge_tolerance_columns(nearer, columns, config), all(0.0F));
   Float4 best = cost(range, predicted.blocks[i], config);
   for (int shift = 1;; ++shift) {
     const Mask4 near = most >= static_cast<float>(shift);
@@ -87,15 +89,16 @@ bool ends_in_opening(const PredictedScan& predicted, const PlanRay& ray, double 
                                                 range + config.sigma_m, predicted.cell);
 }
 
-OutlierCause cause_of(const PlanRay& ray, double range, const PredictedBlock& block, std::size_t k,
-                      const HypothesisComparisonConfig& config) {
+OutlierCause cause_of(const Structure& structure, const PlanRay& ray, double range, const PredictedBlock& block,
+                      std::size_t k, const HypothesisComparisonConfig& config) {
   if (block.element[k] < 0) {
     const Eigen::Vector2d cell = ((ray.origin + range * ray.direction) / config.clutter_cell_m).array().floor();
     return {OutlierCause::Kind::unplanned, static_cast<int>(cell.x()), static_cast<int>(cell.y())};
   }
   if (static_cast<double>(block.expected[k]) >= range)
     return {OutlierCause::Kind::in_front_of_face, block.element[k], block.side[k]};
-  return {OutlierCause::Kind::not_built, block.element[k]};
+  const bool railing = structure.is_railing(block.element[k]);
+  return {railing ? OutlierCause::Kind::between_bars : OutlierCause::Kind::not_built, block.element[k]};
 }
 
 /// Sums the evidence of neighbouring beams for one cause before the cause is looked up.
@@ -170,7 +173,9 @@ void add_unexplained(const LocalizationScan& scan, const PredictedScan& better, 
                      const HypothesisComparisonConfig& config, EvidenceByCause& against) {
   std::vector<std::pair<Eigen::AlignedBox2d, EvidenceByCause::Sum*>> objects;
   for (auto& [cause, sum] : against.sums()) {
-    if (cause.kind == OutlierCause::Kind::not_built || sum.within.isEmpty()) continue;
+    const bool is_object =
+        cause.kind == OutlierCause::Kind::in_front_of_face || cause.kind == OutlierCause::Kind::unplanned;
+    if (!is_object || sum.within.isEmpty()) continue;
     const Eigen::Vector2d gap = Eigen::Vector2d::Constant(config.object_gap_m);
     objects.push_back({{sum.within.min() - gap, sum.within.max() + gap}, &sum});
   }
@@ -260,7 +265,7 @@ double EvidenceByCause::total(const HypothesisComparisonConfig& config) const {
   for (const auto& [cause, sum] : sums_) {
     if (cause.kind == OutlierCause::Kind::not_built)
       total += std::min(sum.log_likelihood, config.cause_cap);
-    else if (sum.within.isEmpty())
+    else if (cause.kind == OutlierCause::Kind::between_bars || sum.within.isEmpty())
       total += std::min(sum.log_likelihood, config.object_cap);
     else {
       UnplannedObject object{0.0, sum.within.diagonal().norm(), sum};
@@ -295,7 +300,7 @@ PairwiseLikelihoodRatio compare_hypotheses(const LocalizationScan& scan, const P
         const double range = block.range[k], expected = worse.blocks[i].expected[k];
         const PlanRay ray = ray_of(worse, scan, block, k);
         if (expected > range && ends_in_opening(worse, ray, range, config)) continue;
-        const OutlierCause cause = cause_of(ray, range, worse.blocks[i], k, config);
+        const OutlierCause cause = cause_of(*worse.storey->structure, ray, range, worse.blocks[i], k, config);
         (gain > 0.0 ? against_b : against_a).add(cause, std::abs(gain), ray.origin + range * ray.direction);
         result.ratio += gain;
       }

@@ -95,8 +95,13 @@ void GlobalLocalizer::update_state(const PlanIndex& index, const StartPrior& sta
   if (hypotheses.size() > 1 && !best_is_decisive()) state_ = State::ambiguous;
 
   const Agreement& fit = hypotheses.front().agreement;
-  const bool fits = (fit.inliers >= c.inliers_min && fit.penetration_ratio <= c.max_penetration_ratio) ||
-                    (hypotheses.front().fit >= c.min_fit && hypotheses.front().mean_fit() >= c.min_mean_fit);
+  const auto best_fits = [&] {
+    return (fit.inliers >= c.inliers_min && fit.penetration_ratio <= c.max_penetration_ratio) ||
+           (hypotheses.front().fit >= c.min_fit && hypotheses.front().mean_fit() >= c.min_mean_fit);
+  };
+  // While it was tracked it may have stood elsewhere.
+  if (since_alternatives_m_ == 0.0 && best_is_decisive() && !best_fits()) hypotheses_.replay_best_agreement(index);
+  const bool fits = best_fits();
   failed_updates_ = fit.penetration_ratio_other_walls() > c.restart_penetration_ratio ? failed_updates_ + 1 : 0;
   if (failed_updates_ >= c.restart_updates) return restart();
 
@@ -104,15 +109,21 @@ void GlobalLocalizer::update_state(const PlanIndex& index, const StartPrior& sta
   converged_travel_m_ = decisive && converged_updates_ > 0 ? converged_travel_m_ + walked : 0.0;
   converged_updates_ = decisive ? converged_updates_ + 1 : 0;
   if (converged_updates_ < c.updates || converged_travel_m_ < c.travel_m) return;
+  const StoreyPose leader = hypotheses.front().pose();
   find_alternatives(index, start, scan);
   hypotheses_.reassess(index);
   hypotheses_.prune_and_normalize();
-  if (!best_is_decisive()) {
+  // Another leader has yet to lead for as long: evidence that turns within one scan is none.
+  if (!best_is_decisive() || !is_same(hypotheses.front().pose(), leader)) {
     converged_updates_ = 0;
     state_ = State::ambiguous;
     return;
   }
   state_ = State::converged;
+}
+
+bool GlobalLocalizer::is_same(const StoreyPose& a, const StoreyPose& b) const {
+  return a.storey == b.storey && is_near(a.X_IH, b.X_IH, config_.hypotheses.match_m, config_.hypotheses.match_rad);
 }
 
 void GlobalLocalizer::find_alternatives(const PlanIndex& index, const StartPrior& start, const LocalizationScan& scan) {

@@ -114,6 +114,8 @@ class GlobalLocalizer {
 
  private:
   void update_state(const PlanIndex& index, const StartPrior& start, const LocalizationScan& scan, double walked);
+  /// True for two poses that one hypothesis may have.
+  [[nodiscard]] bool is_same(const StoreyPose& a, const StoreyPose& b) const;
   /// Searches the whole storey for aliased poses.
   void find_alternatives(const PlanIndex& index, const StartPrior& start, const LocalizationScan& scan);
 

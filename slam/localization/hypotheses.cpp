@@ -80,26 +80,34 @@ void HypothesisSet::add(const PlanIndex& index, const std::vector<StoreyPose>& p
   for (const StoreyPose& pose : poses) {
     const StoreyIndex& storey = index.storeys[static_cast<std::size_t>(pose.storey)];
     const Refined refined = refine(storey, pose.X_IH, scan, likelihood_, pose.exact ? tracking_refine_ : refine_);
-    const StoreyPose fitted{pose.storey, refined.X_IH};
-    const int known = find(fitted, config_.merge_m, config_.merge_rad);
-    if (known >= 0 && !fits_better(storey, fitted.X_IH, hypotheses_[static_cast<std::size_t>(known)].X_IH)) continue;
-    if (reference.empty() && !hypotheses_.empty()) reference = replay(index, hypotheses_[reference_].pose(), {}).scans;
-    Replay past = replay(index, fitted, reference);
-    const double least = known >= 0
-                             ? hypotheses_[static_cast<std::size_t>(known)].evidence + config_.reference_switch_margin
-                             : -config_.drop_ratio;
-    if (past.evidence < least) continue;
-    PoseHypothesis& hypothesis = hypotheses_.emplace_back();
-    hypothesis.id = next_id_++;
-    hypothesis.storey = fitted.storey;
-    hypothesis.X_IH = fitted.X_IH;
-    hypothesis.covariance = refined.covariance;
-    hypothesis.balance = std::move(past.balance);
-    hypothesis.evidence = past.evidence + yaw_evidence(hypothesis.X_IH);
-    replay_agreement(storey, past.scans, hypotheses_.back());
-    if (reference.empty()) reference = std::move(past.scans);
+    // An alias keeps its share at exactly its pose; the scan, fitted from there, may pull it aside.
+    if (pose.exact) try_pose(index, pose, refined.covariance, reference);
+    try_pose(index, {pose.storey, refined.X_IH}, refined.covariance, reference);
   }
   rebase_reference(index);
+}
+
+void HypothesisSet::try_pose(const PlanIndex& index, const StoreyPose& pose, const Eigen::Matrix3d& covariance,
+                             std::vector<ScanAtPose>& reference) {
+  const StoreyIndex& storey = index.storeys[static_cast<std::size_t>(pose.storey)];
+  const int known = find(pose, config_.merge_m, config_.merge_rad);
+  if (known >= 0 && !pose.exact && !fits_better(storey, pose.X_IH, hypotheses_[static_cast<std::size_t>(known)].X_IH))
+    return;
+  if (reference.empty() && !hypotheses_.empty()) reference = replay(index, hypotheses_[reference_].pose(), {}).scans;
+  Replay past = replay(index, pose, reference);
+  const double evidence = past.evidence + (hypotheses_.empty() ? 0.0 : yaw_evidence(pose.X_IH));
+  if (past.evidence < -config_.drop_ratio) return;
+  const double margin = pose.exact ? 0.0 : config_.reference_switch_margin;
+  if (known >= 0 && evidence <= hypotheses_[static_cast<std::size_t>(known)].evidence + margin) return;
+  PoseHypothesis& hypothesis = hypotheses_.emplace_back();
+  hypothesis.id = next_id_++;
+  hypothesis.storey = pose.storey;
+  hypothesis.X_IH = pose.X_IH;
+  hypothesis.covariance = covariance;
+  hypothesis.balance = std::move(past.balance);
+  hypothesis.evidence = evidence;
+  replay_agreement(storey, past.scans, hypothesis);
+  if (reference.empty()) reference = std::move(past.scans);
 }
 
 bool HypothesisSet::fits_better(const StoreyIndex& storey, const Pose2& X_IH, const Pose2& other) const {
@@ -201,6 +209,14 @@ void HypothesisSet::replay_agreement(const StoreyIndex& storey, const std::vecto
     if (k + 1 == scans.size()) hypothesis.agreement = seen;
     for (int i = 0; i < scans[k].represented_scans; ++i) update_agreement(seen, hypothesis);
   }
+}
+
+void HypothesisSet::replay_best_agreement(const PlanIndex& index) {
+  if (hypotheses_.empty() || history_.empty()) return;
+  PoseHypothesis& best = hypotheses_.front();
+  best.fit = best.fit_sum = 0.0;
+  best.scans = 0;
+  replay_agreement(index.storeys[static_cast<std::size_t>(best.storey)], replay(index, best.pose(), {}).scans, best);
 }
 
 void HypothesisSet::accumulate_evidence(const LocalizationScan& scan, const ScanAtPose& own,

@@ -165,6 +165,8 @@ class HypothesisSet {
   /// tracked a hypothesis may have slid along a corridor to where each scan fitted best; one that faces did not hold
   /// along some direction is moved to where the last scan fits best.
   void reassess(const PlanIndex& index);
+  /// Sums up anew how well the best one fits, along one path that ends at its pose.
+  void replay_best_agreement(const PlanIndex& index);
   /// Merges near ones, drops unlikely ones, normalises the mass.
   void prune_and_normalize();
   /// Scales the particles so that each hypothesis's cluster has its mass, and adds particles where a hypothesis has
@@ -199,6 +201,9 @@ class HypothesisSet {
   };
   /// The place along the direction that the fit of the last scan left open, if any.
   void slide_along_open_direction(const PlanIndex& index, PoseHypothesis& hypothesis) const;
+  /// Adds a pose unless it is known or ruled out. reference: the reference's replay, made when first needed.
+  void try_pose(const PlanIndex& index, const StoreyPose& pose, const Eigen::Matrix3d& covariance,
+                std::vector<ScanAtPose>& reference);
   /// True where the last scan is likelier at the first pose.
   [[nodiscard]] bool fits_better(const StoreyIndex& storey, const Pose2& X_IH, const Pose2& other) const;
   /// Adds the newest scan's agreement with the plan.

@@ -61,9 +61,12 @@ class StructureResiduals {
   std::vector<double> across_;
 };
 
+/// Weight of a residual under a Cauchy kernel of this scale.
+double cauchy_weight(double e, double scale) { return 1.0 / (1.0 + e * e / (scale * scale)); }
+
 /// Distances of the beams' ends to the faces they should hit, linearised in (x, y, yaw).
 NormalEquations beam_equations(const StoreyIndex& storey, const Pose2& X_IH, const LocalizationScan& scan, double gate,
-                               const LikelihoodConfig& likelihood) {
+                               const LikelihoodConfig& likelihood, const RefineConfig& config) {
   NormalEquations equations;
   const StructureResiduals residuals(storey, X_IH, scan, likelihood.beam_min_incidence);
   // The share of evidence of a beam keeps its errors from being averaged away as if they were independent.
@@ -80,7 +83,8 @@ NormalEquations beam_equations(const StoreyIndex& storey, const Pose2& X_IH, con
     const Eigen::Vector2d direction = residuals.R_IH() * scan.beams[i].direction_H;
     const Eigen::Vector2d arm = residuals.R_IH() * scan.sensor_H + scan.beams[i].range * direction;
     const double e = n.dot(direction) * (scan.beams[i].range - residuals.expected(i));
-    equations.add({n.x(), n.y(), n.dot(Eigen::Vector2d(-arm.y(), arm.x()))}, e, information);
+    equations.add({n.x(), n.y(), n.dot(Eigen::Vector2d(-arm.y(), arm.x()))}, e,
+                  gate > config.last_gate_m ? information : information * cauchy_weight(e, config.cauchy_share * gate));
   }
   return equations;
 }
@@ -101,7 +105,7 @@ Refined refine(const StoreyIndex& storey, const Pose2& X_IH, const LocalizationS
   Refined result{X_IH, {}};
   double gate = config.first_gate_m;
   for (int i = 0; i < config.iterations; ++i) {
-    NormalEquations equations = beam_equations(storey, result.X_IH, scan, gate, likelihood);
+    NormalEquations equations = beam_equations(storey, result.X_IH, scan, gate, likelihood, config);
     add_prior(equations, X_IH, result.X_IH, config);
     const Eigen::Vector3d step = equations.H.ldlt().solve(equations.b);
     result.X_IH.t += step.head<2>();

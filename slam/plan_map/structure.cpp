@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slam/plan_map/structure.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+#include <numeric>
 
 namespace plumbline::slam {
 
@@ -12,11 +15,50 @@ namespace {
 constexpr std::size_t batch = 256;         // rays cast in one call, so that their memory is small and stays near
 constexpr double upright_max_slope = 0.5;  // of a normal
 
+/// A part of an element that hangs together by its vertices.
+struct Part {
+  Eigen::AlignedBox3d box;
+  /// Thin and upright, as a baluster is.
+  [[nodiscard]] bool is_bar() const {
+    constexpr double thickness_max_m = 0.15, height_min_m = 0.3;
+    const Eigen::Vector3d size = box.sizes();
+    return size.head<2>().norm() <= thickness_max_m && size.z() >= height_min_m;
+  }
+};
+
+std::vector<Part> parts_of(const bim::BuildingMesh& mesh, const bim::MeshElement& element) {
+  std::map<int, int> parent;  // of each vertex
+  const auto root = [&](int vertex) {
+    while (parent.try_emplace(vertex, vertex).first->second != vertex) vertex = parent[vertex] = parent[parent[vertex]];
+    return vertex;
+  };
+  const auto triangles =
+      std::span(mesh.triangles)
+          .subspan(static_cast<std::size_t>(element.first_triangle), static_cast<std::size_t>(element.triangle_count));
+  for (const Eigen::Vector3i& triangle : triangles)
+    for (const int vertex : {triangle.y(), triangle.z()}) parent[root(vertex)] = root(triangle.x());
+  std::map<int, Part> parts;
+  for (const Eigen::Vector3i& triangle : triangles)
+    for (const int vertex : triangle) parts[root(vertex)].box.extend(mesh.vertices[static_cast<std::size_t>(vertex)]);
+  std::vector<Part> list;
+  for (const auto& [vertex, part] : parts) list.push_back(part);
+  return list;
+}
+
+bool has_bars(const bim::BuildingMesh& mesh, const bim::MeshElement& element) {
+  constexpr std::ptrdiff_t bars_min = 3;
+  if (element.kind != bim::ElementKind::obstacle) return false;
+  const std::vector<Part> parts = parts_of(mesh, element);
+  return std::count_if(parts.begin(), parts.end(), [](const Part& part) { return part.is_bar(); }) >= bars_min;
+}
+
 }  // namespace
 
 Structure::Structure(const bim::BuildingMesh& mesh_I) : scene_(mesh_I) {
-  for (const bim::MeshElement& element : mesh_I.elements)
+  for (const bim::MeshElement& element : mesh_I.elements) {
     blocks_.push_back(element.kind == bim::ElementKind::wall || element.kind == bim::ElementKind::column);
+    railing_.push_back(has_bars(mesh_I, element));
+  }
 }
 
 void Structure::cast(const Eigen::Vector3d& origin_I, std::span<const SensorRay> rays, double range_max_m,

@@ -154,6 +154,17 @@ TEST(EvidenceByCause, NoCauseCountsForMoreThanTheCap) {
 }
 
 // A cupboard in a corner stands before two walls, and on the line between two cells.
+TEST(EvidenceByCause, ARailingDoesNotDecide) {
+  const HypothesisComparisonConfig config;
+  const OutlierCause railing{OutlierCause::Kind::between_bars, 3}, wall{OutlierCause::Kind::not_built, 4};
+  const Eigen::AlignedBox2d seen_behind(Eigen::Vector2d(0.0, 0.0), Eigen::Vector2d(5.0, 3.0));
+  EvidenceByCause evidence;
+  evidence.add(railing, 50.0, seen_behind);
+  EXPECT_EQ(evidence.total(config), config.object_cap);
+  evidence.add(wall, 50.0, seen_behind);
+  EXPECT_EQ(evidence.total(config), config.object_cap + config.cause_cap);
+}
+
 TEST(EvidenceByCause, AnObjectCountsOnceWhateverItStandsBefore) {
   const HypothesisComparisonConfig config = capped_at(4.0, 8.0);
   const auto box = [](double x0, double y0, double x1, double y1) {

@@ -100,6 +100,36 @@ TEST(Hypotheses, APoseNearAKnownOneTakesItsPlaceWhereItFitsBetter) {
     }));
 }
 
+TEST(Hypotheses, AnAliasTakesThePlaceOfOneThatWasPulledAside) {
+  const TwinRooms twins = twin_rooms_scans();
+  HypothesisSet set({}, {}, {}, {});
+  set.predict_and_update(twins.index, twins.u[0], twins.scans[0]);
+  set.add(twins.index, std::vector<StoreyPose>{{0, twins.here, true}});
+  Pose2 aside = twins.there;
+  aside.t.x() += 0.26;
+  set.add(twins.index, std::vector<StoreyPose>{{0, aside}});
+  set.prune_and_normalize();
+  set.add(twins.index, std::vector<StoreyPose>{{0, twins.there, true}});
+  set.prune_and_normalize();
+  ASSERT_EQ(set.all().size(), 2U);
+  EXPECT_NEAR(set.all()[0].mass, 0.5, 1e-6);
+}
+
+TEST(Hypotheses, TheFitAlongThePathToThePresentPoseIsTheTrackedOneWhereThePoseWasRight) {
+  const TwinRooms twins = twin_rooms_scans();
+  HypothesisConfig config;
+  config.replay_stride = 1;
+  HypothesisSet set(config, {}, {}, {});
+  track_and_add_twin(twins, set);
+  set.prune_and_normalize();
+  const PoseHypothesis tracked = set.all().front();
+  set.replay_best_agreement(twins.index);
+  EXPECT_EQ(set.all().front().scans, static_cast<int>(twins.scans.size()));
+  EXPECT_NEAR(set.all().front().fit_sum, tracked.fit_sum, 0.05 * tracked.fit_sum);
+  set.replay_best_agreement(twins.index);
+  EXPECT_EQ(set.all().front().scans, static_cast<int>(twins.scans.size()));
+}
+
 TEST(Hypotheses, TwinsKeepEqualSharesAndOthersDie) {
   const TwinRooms twins = twin_rooms_scans();
   HypothesisSet set({}, {}, {}, {});
