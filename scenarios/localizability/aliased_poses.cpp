@@ -140,6 +140,8 @@ std::vector<FoundAlias> AliasFinder::find(const ReferenceScan& scan, const Alias
   std::vector<SensorPose> taken(known.begin(), known.end());
   taken.push_back(scan.place);
   std::vector<FoundAlias> aliases;
+  const int give_up_after =
+      search.thorough ? localizability_constants.give_up_after_of_run : localizability_constants.give_up_after;
   const auto near_any = [](const std::vector<SensorPose>& places, const SensorPose& place, double metres,
                            double degrees) {
     return std::any_of(places.begin(), places.end(),
@@ -147,14 +149,17 @@ std::vector<FoundAlias> AliasFinder::find(const ReferenceScan& scan, const Alias
   };
   for (const View& view : views_of(scan.place)) {
     std::vector<SensorPose> tried;
+    const auto is_tried = [&](const SensorPose& place) {
+      return near_any(tried, place, 0.5 * localizability_constants.basin_m, 0.5 * localizability_constants.basin_deg);
+    };
     int in_vain = 0;
     work_ += index_.imager().directions().size() + coarse_.directions().size() + index_.size() / places_a_beam;
     for (SensorPose place : index_.like(view.signature, scan.place.yaw, search.storey, search.yaw_known)) {
       if (near_any(taken, place, localizability_constants.basin_m, localizability_constants.basin_deg) ||
-          near_any(tried, place, 0.5 * localizability_constants.basin_m, 0.5 * localizability_constants.basin_deg))
+          is_tried(place))
         continue;
-      if (++in_vain > localizability_constants.give_up_after) break;
       const bool sound = refine(view.image, place);
+      if (!(search.thorough && is_tried(place)) && ++in_vain > give_up_after) break;
       tried.push_back(place);
       if (!sound) continue;
       if (search.yaw_known &&

@@ -28,6 +28,7 @@ struct FoundAlias {
 struct AliasSearch {
   int storey = -1;  ///< of the index; -1: all
   bool yaw_known = false;
+  bool thorough = false;  ///< for a run: gives up later, and candidates that end at one place count once
 };
 
 /// Looks for poses that a scan cannot tell from its own, docs/methods/localizability.md: candidates by signature,

@@ -32,7 +32,8 @@ struct LocalizabilityConstants {
   double like_level_cap_m = 1.0;    ///< each counted up to this
   int headings_a_place = 4;         ///< kept, best first
   int max_seeds = 400;              ///< refined candidates, best first
-  int give_up_after = 50;           ///< candidates in a row that lead to no alias; measured: at most 12 before one does
+  int give_up_after = 50;           ///< candidates in a row that lead to no alias, of a map
+  int give_up_after_of_run = 200;   ///< and of a run: along a corridor of 38 m more than 50 come before the half turn
   double basin_m = 0.3;             ///< a candidate this near to one refined before would end where that did
   double basin_deg = 10.0;
   int refine_azimuths = 72;  ///< beams a ring while refining

@@ -94,7 +94,7 @@ RunIdentifiability compute_localizability(const LocalizabilityInput& input, cons
   for (const auto& [walked, sample] : stations(truth)) {
     const SensorPose place = levelled(sample->X_WR, sample->sensor_z_W);
     if (run.steps.empty())
-      for (const FoundAlias& found : finder.find(finder.scan_at(place), {-1, input.yaw_known}))
+      for (const FoundAlias& found : finder.find(finder.scan_at(place), {-1, input.yaw_known, true}))
         followed.push_back({found.place.pose() * place.pose().inverse(), {}});
     if (!followed.empty()) {
       compare({input.as_planned, input.as_built, input.loose}, place, followed);

@@ -67,6 +67,26 @@ TEST(IdentifiabilityOfARun, IsOneAnswerWhereNothingMayHaveMoved) {
   EXPECT_FALSE(known->with_furniture.has_value());
 }
 
+// Among the places along a corridor, whose scans are much alike, the search must come to the half turn.
+TEST(IdentifiabilityOfARun, ALongCorridorHasItsHalfTurnWhereverTheWalkBegins) {
+  const bim::GeneratedPlan generated = bim::generate("long", Tree::map().set("seed", 1));
+  const bim::Building plan = bim::read_plan_text(bim::write_plan(generated.plan), "generated");
+  const RunBuilding building({plan, plan, {}, true});
+  for (const double x : {8.0, 11.0, 13.35, 16.0}) {
+    FinishedRun run;
+    run.building = std::make_shared<const RunBuilding>(building.variants(), building.told_furniture());
+    for (int i = 0; i <= 30; ++i) {
+      const slam::Nanoseconds stamp = slam::Nanoseconds{100'000'000} * i;
+      run.scans.push_back(stamp);
+      run.record.truth_W.push_back(
+          {stamp, Pose::from_xyz_yaw({x + 0.05 * i, 0.951, base_height_m()}, i == 0 ? -0.0781 : 0.0)});
+    }
+    const auto known = identifiability_of(run, {run.record.truth_W, run.scans, std::nullopt});
+    ASSERT_TRUE(known.has_value());
+    EXPECT_FALSE(known->identifiable) << x;
+  }
+}
+
 TEST(IdentifiabilityOfARun, InstallationsCountAsBuilding) {
   bim::Building plan = furnished();
   plan.obstacles.front().kind = "sanitary_terminal";
