@@ -31,7 +31,8 @@ struct RefineConfig {
     // Of the last gate alone: a wider one must draw a pose in from afar. Fronts of furniture 5 to 15 cm before a wall
     // drew poses up to 6 cm aside; chosen on a furnished walk in the duplex and 116 others.
     v("cauchy_share", cauchy_share,
-      Field{.doc = "scale of the Cauchy kernel of a beam's distance, as a share of the gate", .min = 0.01, .max = 100});
+      plain_field("scale of the Cauchy kernel of a beam's distance, as a share of the last gate",
+                  {.min = 0.01, .max = 100}));
     v("prior_sigma_m", prior_sigma_m,
       Field{.doc = "standard deviation of the initial position, which holds unobserved directions", .min = 1e-6});
     v("prior_sigma_rad", prior_sigma_rad, Field{.doc = "standard deviation of the initial attitude", .min = 1e-6});
