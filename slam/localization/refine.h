@@ -47,7 +47,7 @@ struct Refined {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();  ///< of (x, y, yaw) in I
 };
 
-/// Gauss-Newton on point-to-face distances over (x, y, yaw), with a Cauchy kernel.
+/// Gauss-Newton on point-to-face distances over (x, y, yaw), at the last gate with a Cauchy kernel.
 [[nodiscard]] Refined refine(const StoreyIndex& storey, const Pose2& X_IH, const LocalizationScan& scan,
                              const LikelihoodConfig& likelihood, const RefineConfig& config);
 

@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numeric>
 
 namespace plumbline::slam {
 
@@ -15,18 +14,8 @@ namespace {
 constexpr std::size_t batch = 256;         // rays cast in one call, so that their memory is small and stays near
 constexpr double upright_max_slope = 0.5;  // of a normal
 
-/// A part of an element that hangs together by its vertices.
-struct Part {
-  Eigen::AlignedBox3d box;
-  /// Thin and upright, as a baluster is.
-  [[nodiscard]] bool is_bar() const {
-    constexpr double thickness_max_m = 0.15, height_min_m = 0.3;
-    const Eigen::Vector3d size = box.sizes();
-    return size.head<2>().norm() <= thickness_max_m && size.z() >= height_min_m;
-  }
-};
-
-std::vector<Part> parts_of(const bim::BuildingMesh& mesh, const bim::MeshElement& element) {
+/// Boxes around the parts of an element that hang together by their vertices.
+std::map<int, Eigen::AlignedBox3d> parts_of(const bim::BuildingMesh& mesh, const bim::MeshElement& element) {
   std::map<int, int> parent;  // of each vertex
   const auto root = [&](int vertex) {
     while (parent.try_emplace(vertex, vertex).first->second != vertex) vertex = parent[vertex] = parent[parent[vertex]];
@@ -37,19 +26,22 @@ std::vector<Part> parts_of(const bim::BuildingMesh& mesh, const bim::MeshElement
           .subspan(static_cast<std::size_t>(element.first_triangle), static_cast<std::size_t>(element.triangle_count));
   for (const Eigen::Vector3i& triangle : triangles)
     for (const int vertex : {triangle.y(), triangle.z()}) parent[root(vertex)] = root(triangle.x());
-  std::map<int, Part> parts;
+  std::map<int, Eigen::AlignedBox3d> parts;
   for (const Eigen::Vector3i& triangle : triangles)
-    for (const int vertex : triangle) parts[root(vertex)].box.extend(mesh.vertices[static_cast<std::size_t>(vertex)]);
-  std::vector<Part> list;
-  for (const auto& [vertex, part] : parts) list.push_back(part);
-  return list;
+    for (const int vertex : triangle) parts[root(vertex)].extend(mesh.vertices[static_cast<std::size_t>(vertex)]);
+  return parts;
 }
 
 bool has_bars(const bim::BuildingMesh& mesh, const bim::MeshElement& element) {
+  // Balusters are 1 to 6 cm thick and 0.7 m high or more.
+  constexpr double thickness_max_m = 0.15, height_min_m = 0.3;
   constexpr std::ptrdiff_t bars_min = 3;
   if (element.kind != bim::ElementKind::obstacle) return false;
-  const std::vector<Part> parts = parts_of(mesh, element);
-  return std::count_if(parts.begin(), parts.end(), [](const Part& part) { return part.is_bar(); }) >= bars_min;
+  const std::map<int, Eigen::AlignedBox3d> parts = parts_of(mesh, element);
+  return std::count_if(parts.begin(), parts.end(), [&](const auto& part) {
+           const Eigen::Vector3d size = part.second.sizes();
+           return size.head<2>().norm() <= thickness_max_m && size.z() >= height_min_m;
+         }) >= bars_min;
 }
 
 }  // namespace

@@ -90,6 +90,23 @@ TEST_P(CompareHypothesesAt, AColumnDecidesAndWiderFurnitureDoesNot) {
   EXPECT_LE(in_the_end(furniture.against_a), config.object_cap);
 }
 
+// A beam that passes a post and ends far behind it passes the post's edge near by.
+TEST_P(CompareHypothesesAt, APostNearByIsNoEvidenceForAPoseTwoCentimetresAside) {
+  const Pose X_WR = somewhere();
+  synthetic::House house = twins_;
+  const Eigen::Vector2d post = X_WR.t.head<2>() + Eigen::Vector2d(0.0, -0.6);
+  house.boxes.push_back({{post.x() - 0.02, post.y() - 0.02, 0.0}, {post.x() + 0.02, post.y() + 0.02, 2.8}});
+  const PlanIndex index = make_plan_index(synthetic::plan_of(house), "ground", {});
+  const LocalizationScan scan = synthetic::house_scan(house, X_WR, Pose{}, 8).scan;
+  const auto predicted_at = [&](double aside_m) {
+    Pose X = X_WR;
+    X.t.x() += aside_m;
+    return predict_scan(index.storeys.front(), heading(index.X_WI.inverse() * X), scan, {});
+  };
+  for (const double aside_m : {-0.02, 0.02})
+    EXPECT_LT(compare_hypotheses(scan, predicted_at(0.0), predicted_at(aside_m), {}).ratio, 0.5) << aside_m;
+}
+
 TEST_P(CompareHypothesesAt, AWallThatStandsOutByTenCentimetresIsEvidence) {
   synthetic::House house = twins_;
   house.boxes.push_back({{4.9, 1.2, 0.0}, {5.0, 2.8, 2.8}});
@@ -153,7 +170,6 @@ TEST(EvidenceByCause, NoCauseCountsForMoreThanTheCap) {
   EXPECT_EQ(evidence.total(capped_at(4.0, 4.0)), 0.0);
 }
 
-// A cupboard in a corner stands before two walls, and on the line between two cells.
 TEST(EvidenceByCause, ARailingDoesNotDecide) {
   const HypothesisComparisonConfig config;
   const OutlierCause railing{OutlierCause::Kind::between_bars, 3}, wall{OutlierCause::Kind::not_built, 4};
@@ -165,6 +181,7 @@ TEST(EvidenceByCause, ARailingDoesNotDecide) {
   EXPECT_EQ(evidence.total(config), config.object_cap + config.cause_cap);
 }
 
+// A cupboard in a corner stands before two walls, and on the line between two cells.
 TEST(EvidenceByCause, AnObjectCountsOnceWhateverItStandsBefore) {
   const HypothesisComparisonConfig config = capped_at(4.0, 8.0);
   const auto box = [](double x0, double y0, double x1, double y1) {

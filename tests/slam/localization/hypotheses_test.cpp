@@ -106,9 +106,11 @@ TEST(Hypotheses, AnAliasTakesThePlaceOfOneThatWasPulledAside) {
   set.predict_and_update(twins.index, twins.u[0], twins.scans[0]);
   set.add(twins.index, std::vector<StoreyPose>{{0, twins.here, true}});
   Pose2 aside = twins.there;
-  aside.t.x() += 0.26;
-  set.add(twins.index, std::vector<StoreyPose>{{0, aside}});
+  aside.t.x() += 0.29;
+  set.add(twins.index, std::vector<StoreyPose>{{0, aside, true}});
   set.prune_and_normalize();
+  ASSERT_EQ(set.all().size(), 2U);
+  EXPECT_GT(set.all()[0].mass, 0.6);
   set.add(twins.index, std::vector<StoreyPose>{{0, twins.there, true}});
   set.prune_and_normalize();
   ASSERT_EQ(set.all().size(), 2U);
