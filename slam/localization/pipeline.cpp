@@ -191,7 +191,7 @@ bool SGraphLocalization::has_better_alternative(const LocalizationScan& scan) {
   since_check_m_ = 0.0;
   const bool confirming = !monitor_.all().empty();
   if (!confirming) {
-    monitor_.add(index(), std::vector<StoreyPose>{{storey_, heading(tracker_->pose(scan.X_OR))}});
+    monitor_.add(index(), std::vector<StoreyPose>{{storey_, heading(tracker_->pose(scan.X_OR)), true}});
     const GlobalLocalizerConfig& search = config_.search;
     monitor_.add(index(),
                  propose_poses(index(), {}, scan, search.filter.beam_stride, search.likelihood, search.proposals));

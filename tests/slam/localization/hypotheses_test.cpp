@@ -265,7 +265,10 @@ TEST(FitConfig, ScansThatPenetrateCountAgainstAPose) {
   const FitConfig config;
   EXPECT_NEAR(config.of_scan({0.5, 0.0, 0.0}), 1.0, 1e-12);
   EXPECT_EQ(config.of_scan({0.95, 0.01, 0.0}), config.most_a_scan);
-  EXPECT_EQ(config.of_scan({0.2, 0.0, 0.0}), -config.doubtful_scan);
+  EXPECT_EQ(config.of_scan({0.05, 0.0, 0.0}), -config.doubtful_scan);
+  EXPECT_EQ(config.of_scan({0.2, 0.05, 0.04}), -config.doubtful_scan);
+  // Behind clutter few beams reach the walls.
+  EXPECT_EQ(config.of_scan({0.2, 0.0, 0.0}), 0.0);
   // One wall that is missing explains all that penetrate.
   EXPECT_EQ(config.of_scan({0.5, 0.2, 0.2}), config.missing_wall_scan);
   EXPECT_EQ(config.of_scan({0.5, 0.2, 0.1}), -config.misfit_scan);
