@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <utility>
+#include <vector>
 
 namespace plumbline::slam {
 
@@ -60,6 +61,7 @@ Registration FrontEnd::track_alone(const Scan& raw, DeskewedScan& scan) {
   const Pose expected = odometry_->continued_step(raw.stamp);
   Pose used = compensated() ? Pose{} : expected;
   bool tested = false;
+  std::vector<DeskewedScan> rounds;
   const DeskewAgain again = [&](const Pose& step) -> std::optional<DeskewedAgain> {
     if (!stamp_ || sweep <= 0 || raw.stamp <= *stamp_) return std::nullopt;
     const Nanoseconds dt = raw.stamp - *stamp_;
@@ -75,14 +77,14 @@ Registration FrontEnd::track_alone(const Scan& raw, DeskewedScan& scan) {
     const Pose error = used.inverse() * motion;
     if (share * error.t.norm() < bent_m && share * log_so3(error.q).norm() < bent_rad) return std::nullopt;
     used = motion;
-    const TwistSigma sigma = scan.twist_sigma;
-    scan = deskewed_by(raw, motion, dt);
-    scan.twist_sigma = sigma;
-    DeskewedAgain better{scan, std::nullopt};
+    rounds.push_back(deskewed_by(raw, motion, dt));
+    rounds.back().twist_sigma = scan.twist_sigma;
+    DeskewedAgain better{rounds.back(), std::nullopt};
     if (first_) better.first = deskewed_by(*first_, motion, dt);
     return better;
   };
   const Registration result = odometry_->update_alone(scan, again);
+  if (result.deskewed_again > 0) scan = std::move(rounds[static_cast<std::size_t>(result.deskewed_again - 1)]);
   first_.reset();
   if (result.began && sweep > 0) first_ = raw;
   return result;

@@ -131,7 +131,12 @@ class GuardedScanMatcher final : public LidarOdometry {
       const std::optional<DeskewedAgain> better = again(sample.step);
       if (!better) break;
       if (better->first) begin_anew(*better->first);
-      result = matcher_.match(better->scan, sample, health_.usual_matched());
+      Registration next = matcher_.match(better->scan, sample, health_.usual_matched());
+      // A wrong step bends the scan towards a place still farther off, where it matches less.
+      constexpr double about_as_much = 0.95;
+      if (!better->first && next.matched < about_as_much * result.matched) break;
+      result = std::move(next);
+      result.deskewed_again = round + 1;
     }
     sample.step = expected;
     result.odometry_valid = false;

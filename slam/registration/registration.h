@@ -75,6 +75,7 @@ struct Registration {
   int iterations = 0;
   bool converged = false;
   bool from_expected = false;  ///< the expected pose leads here, too: no other start was needed
+  int deskewed_again = 0;      ///< times that the scan was deskewed by the step found, until it matched best
   bool accepted = true;        ///< false: X_MR is dead reckoning, the scan did not fit
   bool began = false;          ///< the scan began a map: it was placed by what was expected of it
   bool lost = false;           ///< scans have not fitted for a while, or did not tell the way gone

@@ -225,5 +225,34 @@ TEST(FrontEnd, SaysThatAStepMayBeAnAlias) {
   EXPECT_EQ(silent, 0);
 }
 
+// In a corridor a wrong step may bend the scan so that a place still farther off fits it, though less.
+TEST(FrontEnd, DeskewingAgainThatMakesAScanMatchLessIsNotTaken) {
+  const synthetic::Recording recording =
+      synthetic::walk(synthetic::corridor_house(), synthetic::corridor_house_walk(), {.duration_s = 2.0});
+  MotionBuffer motion;
+  for (const Odometry& o : recording.odometry) motion.add(o);
+  const auto deskewed = [&](std::size_t k) { return deskew(recording.scans[k], motion, recording.calibration); };
+  const std::size_t k = recording.scans.size() - 1;
+  for (const bool bent : {false, true}) {
+    int rounds = 0;
+    const std::unique_ptr<LidarOdometry> tried = make_lidar_odometry(alone());
+    for (std::size_t i = 0; i < k; ++i) (void)tried->update_alone(deskewed(i), {});
+    const Registration result = tried->update_alone(deskewed(k), [&](const Pose&) -> std::optional<DeskewedAgain> {
+      ++rounds;
+      if (rounds > 1) return std::nullopt;
+      DeskewedAgain again{deskewed(k), std::nullopt};
+      const double columns = again.scan.columns;
+      for (std::size_t i = 0; bent && i < again.scan.point_R.size(); ++i)
+        again.scan.point_R[i].x() +=
+            0.8 * static_cast<double>(i / static_cast<std::size_t>(again.scan.rings)) / columns;
+      return again;
+    });
+    EXPECT_EQ(rounds, bent ? 1 : 2);
+    EXPECT_EQ(result.deskewed_again, bent ? 0 : 1);
+    const Pose X_MR = recording.truth.front().X_FR.inverse() * recording.truth[k].X_FR;
+    EXPECT_LT((result.X_MR.t - X_MR.t).norm(), 0.05);
+  }
+}
+
 }  // namespace
 }  // namespace plumbline::slam
