@@ -54,6 +54,14 @@ Eigen::Matrix3d hat(const Eigen::Vector3d& a) {
   return m;
 }
 
+Matrix6d adjoint(const Pose& X_AB) {
+  const Eigen::Matrix3d R = X_AB.rotation();
+  Matrix6d A = Matrix6d::Zero();
+  A.topLeftCorner<3, 3>() = A.bottomRightCorner<3, 3>() = R;
+  A.topRightCorner<3, 3>() = hat(X_AB.t) * R;
+  return A;
+}
+
 Pose exp_se3(const Vector6d& xi) { return {exp_so3(xi.tail<3>()), left_jacobian(xi.tail<3>()) * xi.head<3>()}; }
 
 Vector6d log_se3(const Pose& X) {

@@ -30,6 +30,8 @@ struct Pose {
 [[nodiscard]] Eigen::Quaterniond exp_so3(const Eigen::Vector3d& w);
 /// Unit quaternion to rotation vector, norm in [0, pi].
 [[nodiscard]] Eigen::Vector3d log_so3(const Eigen::Quaterniond& q);
+/// Of a right increment (rho, phi) of X_AB, as a left one: Exp(adjoint(X) xi) X = X Exp(xi).
+[[nodiscard]] Matrix6d adjoint(const Pose& X_AB);
 /// Cross-product matrix: hat(a) * b == a x b.
 [[nodiscard]] Eigen::Matrix3d hat(const Eigen::Vector3d& a);
 

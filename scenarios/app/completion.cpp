@@ -9,6 +9,7 @@
 
 #include "bim/errors.h"
 #include "scenarios/app/commands.h"
+#include "scenarios/host/terminal.h"
 #include "scenarios/spec/library.h"
 #include "scenarios/spec/method_names.h"
 
@@ -50,13 +51,6 @@ std::string joined(const std::vector<std::string>& words) {
   return text;
 }
 
-/// A word of a shell that means this text, whatever is in it.
-std::string shell_word(std::string_view text) {
-  std::string out = "'";
-  for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
-}
-
 // Bash ----------------------------------------------------------------------------------------------------------------
 
 /// What fills COMPREPLY for a value; with the variables `word`, the part of it that is there.
@@ -69,7 +63,7 @@ std::string bash_value(const ValueOf& value) {
     case ValueKind::folder:
       return "_plumbline_files -d";
     case ValueKind::words:
-      return "_plumbline_words " + shell_word(joined(value.words));
+      return "_plumbline_words " + shell_argument(joined(value.words));
     case ValueKind::file:
       return "_plumbline_files -f";
     case ValueKind::none:
@@ -117,14 +111,14 @@ constexpr std::string_view bash_end = R"sh(
 
 std::string bash_commands(const std::vector<CommandHelp>& help) {
   std::string text = "  for ((i = 1; i < COMP_CWORD; ++i)); do\n    case \"$at ${COMP_WORDS[i]}\" in\n      ";
-  for (std::size_t i = 1; i < help.size(); ++i) text += (i == 1 ? "" : "|") + shell_word(help[i].command);
+  for (std::size_t i = 1; i < help.size(); ++i) text += (i == 1 ? "" : "|") + shell_argument(help[i].command);
   text += ") at=\"$at ${COMP_WORDS[i]}\" ;;\n    esac\n  done\n  case $at in\n";
   for (const CommandHelp& command : help) {
     std::string options;
     for (const OptionHelp& option : command.options)
       if (!option.positional) options += (options.empty() ? "" : " ") + joined(option.names);
-    text += "    " + shell_word(command.command) + ") commands=" + shell_word(joined(command.commands)) +
-            " options=" + shell_word(options) + " ;;\n";
+    text += "    " + shell_argument(command.command) + ") commands=" + shell_argument(joined(command.commands)) +
+            " options=" + shell_argument(options) + " ;;\n";
   }
   return text + "  esac\n";
 }
@@ -137,7 +131,7 @@ std::string bash_options(const std::vector<CommandHelp>& help) {
       if (option.positional || value.kind == ValueKind::none) continue;
       std::string names;
       for (const std::string& name : option.names)
-        names += (names.empty() ? "" : "|") + shell_word(command.command + " " + name);
+        names += (names.empty() ? "" : "|") + shell_argument(command.command + " " + name);
       text += "    " + names + ") " + bash_value(value) + "; return ;;\n";
     }
   return text + "  esac\n";
@@ -150,7 +144,7 @@ std::string bash_positions(const std::vector<CommandHelp>& help) {
     for (const OptionHelp& option : command.options)  // they are of one kind in every command
       if (option.positional && values.empty()) values = bash_value(value_of(option));
     if (values.empty() && !command.commands.empty()) values = ":";  // its subcommands stand there
-    if (!values.empty()) text += "    " + shell_word(command.command) + ") " + values + " ;;\n";
+    if (!values.empty()) text += "    " + shell_argument(command.command) + ") " + values + " ;;\n";
   }
   return text + "    *) _plumbline_files -f ;;\n  esac\n}\n";
 }
@@ -193,11 +187,12 @@ std::string zsh_option(const OptionHelp& option) {
   const std::string& last = option.names.back();
   const std::string value = zsh_value(value_of(option), option.positional ? last : last.substr(2));
   if (option.positional)
-    return " \\\n    " + shell_word((option.many ? "*:" : ":") + option.names[0] + value.substr(value.find(':', 1)));
+    return " \\\n    " +
+           shell_argument((option.many ? "*:" : ":") + option.names[0] + value.substr(value.find(':', 1)));
   const std::string other = option.many ? "*" : "(" + joined(option.names) + ")";
   for (const std::string& name : option.names) {
     const char* ending = value.empty() ? "" : name.starts_with("--") ? "=" : "+";
-    text += " \\\n    " + shell_word(other + name + ending + "[" + zsh_doc(option.doc) + "]" + value);
+    text += " \\\n    " + shell_argument(other + name + ending + "[" + zsh_doc(option.doc) + "]" + value);
   }
   return text;
 }
@@ -218,7 +213,7 @@ std::string zsh_command(const std::vector<CommandHelp>& help, const CommandHelp&
   for (const CommandHelp& below : help)
     for (const std::string& name : command.commands)
       if (below.command == command.command + " " + name)
-        text += "\n        " + shell_word(name + ":" + zsh_doc(below.summary));
+        text += "\n        " + shell_argument(name + ":" + zsh_doc(below.summary));
   text += ")\n      _describe command commands";
   for (const OptionHelp& option : command.options)
     if (option.positional && value_of(option).kind == ValueKind::file) text += "\n      _files";
@@ -247,8 +242,8 @@ std::string bash_completion(const std::vector<CommandHelp>& help, const KnownNam
   text += bash_functions;
   text += bash_positions(help);
   text += bash_begin;
-  text += "  local methods=" + shell_word(joined(names.methods)) +
-          "\n  local scenarios=" + shell_word(joined(names.scenarios)) + "\n";
+  text += "  local methods=" + shell_argument(joined(names.methods)) +
+          "\n  local scenarios=" + shell_argument(joined(names.scenarios)) + "\n";
   text += bash_commands(help) + bash_options(help);
   text += bash_end;
   return text + "complete -F _plumbline " + program + "\n";

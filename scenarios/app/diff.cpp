@@ -30,7 +30,7 @@ std::string where_to_look(const std::string& a, const std::string& b, slam::Nano
   if (!fs::exists(a + "/replay.html") || !fs::exists(b + "/replay.html")) return "";
   const std::string other = fs::absolute(b).lexically_normal().lexically_relative(fs::absolute(a).lexically_normal());
   return "look: " + printable(a) + "/replay.html#t=" + format_number(score::rounded_up(slam::seconds(tick), 100.0)) +
-         "&with=" + printable(other) + "/replay.html\n";
+         "&with=" + score::in_link(other) + "/replay.html\n";
 }
 
 }  // namespace

@@ -40,14 +40,15 @@ std::optional<double> first_wrong_answer(const MethodRecord& method, const Truth
   return std::nullopt;
 }
 
-/// "m=" takes what a link may hold: letters, digits, "_", "." and "-"; the rest as %XX.
+}  // namespace
+
 std::string in_link(const std::string& text) {
   constexpr std::string_view digits = "0123456789ABCDEF";
   std::string out;
   for (const char c : text) {
     const auto byte = static_cast<unsigned char>(c);
-    const bool plain =
-        (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '.' || c == '-';
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+                       c == '.' || c == '-' || c == '/';
     if (plain)
       out += c;
     else
@@ -55,8 +56,6 @@ std::string in_link(const std::string& text) {
   }
   return out;
 }
-
-}  // namespace
 
 std::optional<double> telling_moment(const FinishedRun& run, const RunScore& score, const std::string& method) {
   const std::vector<MethodRecord>& records = run.record.methods;

@@ -17,6 +17,9 @@ namespace plumbline::scenarios::score {
 /// A moment for a link, s, rounded up to 1 / steps: earlier nothing has happened yet.
 [[nodiscard]] double rounded_up(double t_s, double steps);
 
+/// A value of a link: letters, digits, "_", ".", "-" and "/" as they are, the rest as %XX.
+[[nodiscard]] std::string in_link(const std::string& text);
+
 /// "#t=34.1&m=vgicp" of the replay page, at that moment.
 [[nodiscard]] std::string moment_link(const FinishedRun& run, const RunScore& score, const std::string& method);
 

@@ -11,21 +11,15 @@
 
 #include "bim/errors.h"
 #include "scenarios/host/files.h"
+#include "scenarios/host/terminal.h"
 
 namespace plumbline::scenarios {
 
 namespace {
 
-/// A word as a shell takes it, whatever is in it.
-std::string quoted(const std::string& word) {
-  std::string text = "'";
-  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return text + "'";
-}
-
 std::string command_of(const SlurmJob& job) {
-  std::string text = quoted(job.program) + " sweep";
-  for (const std::string& word : job.sweep) text += " " + quoted(word);
+  std::string text = shell_argument(job.program) + " sweep";
+  for (const std::string& word : job.sweep) text += " " + shell_argument(word);
   return text;
 }
 
@@ -44,7 +38,7 @@ std::string output_of(const std::string& command, int& code) {
 /// The job's number that sbatch --parsable gives: "123" or "123;cluster".
 std::string submit_script(const std::string& path, const std::string& options) {
   int code = 0;
-  std::string text = output_of("sbatch --parsable " + options + " " + quoted(path), code);
+  std::string text = output_of("sbatch --parsable " + options + " " + shell_argument(path), code);
   text.erase(std::find_if(text.begin(), text.end(), [](char c) { return c < '0' || c > '9'; }), text.end());
   if (code == 0 && !text.empty()) return text;
   constexpr int not_found = 127;
@@ -85,7 +79,7 @@ std::string array_script(const SlurmJob& job, int tasks) {
          command_of(job) + " --shard \"$shard/" + std::to_string(job.shards) +
          "\" --jobs \"${SLURM_CPUS_PER_TASK:-1}\" \\\n"
          "    -o " +
-         quoted(job.out) + ".shards/\"$shard\"-of-" + std::to_string(job.shards) +
+         shell_argument(job.out) + ".shards/\"$shard\"-of-" + std::to_string(job.shards) +
          " || code=$?\n"
          "  case $code in 0|2|130|143) break ;; esac\n"
          "done\n"
@@ -93,8 +87,8 @@ std::string array_script(const SlurmJob& job, int tasks) {
 }
 
 std::string collect_script(const SlurmJob& job) {
-  std::string command = quoted(job.program) + " sweep collect";
-  for (const std::string& word : job.sweep) command += " " + quoted(word);
+  std::string command = shell_argument(job.program) + " sweep collect";
+  for (const std::string& word : job.sweep) command += " " + shell_argument(word);
   return "#!/bin/bash\n"
          "#SBATCH --job-name=" +
          job.name +
@@ -104,8 +98,8 @@ std::string collect_script(const SlurmJob& job) {
          job.out +
          ".shards/collect.log\"\n"
          "exec " +
-         command + " --from " + quoted(job.out) + ".shards/*-of-" + std::to_string(job.shards) + " -o " +
-         quoted(job.out) + "\n";
+         command + " --from " + shell_argument(job.out) + ".shards/*-of-" + std::to_string(job.shards) + " -o " +
+         shell_argument(job.out) + "\n";
 }
 
 int longest_array() {

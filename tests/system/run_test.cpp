@@ -149,12 +149,14 @@ TEST_F(ShortRun, ReplayAndDiffNameTheFirstDifference) {
   EXPECT_EQ(diff.code, 1);
   EXPECT_NE(diff.out.find(" s in vgicp/odometry: "), std::string::npos) << diff.out;
   EXPECT_EQ(diff.out.find("look: "), std::string::npos);
-  const std::string same = *folder_ / "same";
+  const std::string same = *folder_ / "same & like";
   fs::copy(dir(), same, fs::copy_options::recursive);
   for (const std::string& run : {same, copy}) write_file(run + "/replay.html", "");
   const std::string look = plumbline({"diff", same, copy}).out;
   EXPECT_NE(look.find("look: " + same + "/replay.html#t="), std::string::npos) << look;
   EXPECT_NE(look.find("&with=../changed/replay.html\n"), std::string::npos) << look;
+  const std::string back = plumbline({"diff", copy, same}).out;
+  EXPECT_NE(back.find("&with=../same%20%26%20like/replay.html\n"), std::string::npos) << back;
 }
 
 TEST_F(ShortRun, AlteredFilesAreNamed) {

@@ -22,15 +22,6 @@ Matrix6d second_moment(const Matrix6d& S) {
 
 }  // namespace
 
-Matrix6d adjoint(const Pose& X_AB) {
-  const Eigen::Matrix3d R = X_AB.rotation();
-  Matrix6d result = Matrix6d::Zero();
-  result.topLeftCorner<3, 3>() = R;
-  result.topRightCorner<3, 3>() = hat(X_AB.t) * R;
-  result.bottomRightCorner<3, 3>() = R;
-  return result;
-}
-
 Matrix6d compound_covariance(const Pose& X_AB, const Matrix6d& covariance_AB, const Matrix6d& covariance_BC) {
   const Matrix6d Ad = adjoint(X_AB);
   const Matrix6d& S1 = covariance_AB;

@@ -7,9 +7,6 @@
 
 namespace plumbline::slam::mloam {
 
-/// Of a right increment of X_AB, as a left one: Exp(Ad xi) X = X Exp(xi).
-[[nodiscard]] Matrix6d adjoint(const Pose& X_AB);
-
 /// Covariance of X_AB X_BC from those of both, all of increments on the left: Exp(xi) X, xi translation first. To the
 /// fourth order in the standard deviations [barfoot2014, section III-A].
 [[nodiscard]] Matrix6d compound_covariance(const Pose& X_AB, const Matrix6d& covariance_AB,

@@ -3,19 +3,6 @@
 
 namespace plumbline::slam {
 
-namespace {
-
-/// Takes an increment (rho, phi) in B to the same one in A.
-Matrix6d adjoint(const Pose& X_AB) {
-  const Eigen::Matrix3d R = X_AB.rotation();
-  Matrix6d A = Matrix6d::Zero();
-  A.topLeftCorner<3, 3>() = A.bottomRightCorner<3, 3>() = R;
-  A.topRightCorner<3, 3>() = hat(X_AB.t) * R;
-  return A;
-}
-
-}  // namespace
-
 ros::OdometryMessage OdometryMotion::message(const Odometry& record, const std::optional<Matrix6d>& covariance) {
   ros::OdometryMessage message;
   message.X_OR = {record.stamp, "", "", record.X_OR};

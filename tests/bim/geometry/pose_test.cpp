@@ -63,6 +63,17 @@ TEST_F(PoseLaws, LogInvertsExp) {
   }
 }
 
+TEST_F(PoseLaws, AdjointTakesIncrementsToTheOtherSide) {
+  for (int i = 0; i < trials; ++i) {
+    const Pose X = pose(i, 0), Y = pose(i, 1);
+    Vector6d xi = twist(i, 2);
+    const double angle = xi.tail<3>().norm();
+    if (angle > 3.0) xi.tail<3>() *= 3.0 / angle;
+    expect_near(exp_se3(adjoint(X) * xi) * X, X * exp_se3(xi));
+    EXPECT_LT((adjoint(X * Y) - adjoint(X) * adjoint(Y)).norm(), tolerance * 100);
+  }
+}
+
 TEST_F(PoseLaws, PlaneTransformFollowsItsPoints) {
   for (int i = 0; i < trials; ++i) {
     const Plane plane_B{point(i, 4).normalized(), 1.7};
