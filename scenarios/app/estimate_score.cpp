@@ -150,10 +150,7 @@ int judge(const std::vector<GateSpec>& gates, const std::string& method, Tree& s
   int failed = 0;
   Tree list = Tree::list();
   for (const GateSpec& gate : gates) {
-    score::GateResult result{gate.metric, method, gate.max ? "<=" : ">=", gate.max ? *gate.max : *gate.min, {},
-                             {},          false};
-    result.value = value_at(scores, gate.metric);
-    result.passed = result.value && (gate.max ? *result.value <= *gate.max : *result.value >= *gate.min);
+    const score::GateResult result = score::judge_gate(gate, method, value_at(scores, gate.metric));
     failed += result.passed ? 0 : 1;
     text += (result.passed ? "passed: " : "FAILED: ") + score::describe(result) + "\n";
     list.push(score::to_results(result));

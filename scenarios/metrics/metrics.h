@@ -75,7 +75,10 @@ struct GateResult {
   std::string see = {};  ///< of a failed one: "#t=34.1&m=vgicp", where the replay page shows why
 };
 
-/// A gate fails also when its metric is absent, when its method crashed or covers less than the run (where the metric
+/// A gate fails also when its metric is absent, and where there is a reason why it does whatever the value is.
+[[nodiscard]] GateResult judge_gate(const GateSpec& gate, const std::string& method, std::optional<double> value,
+                                    std::string but = "");
+/// Gates of a run: they fail also when their method crashed or covers less than the run (where the metric
 /// is not also_when_lost), and when the run itself did not come to its end.
 [[nodiscard]] std::vector<GateResult> judge_gates(const std::vector<GateSpec>& gates,
                                                   const std::vector<MethodScore>& scores, bool run_completed);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <utility>
 
 #include "scenarios/metrics/metrics.h"
 #include "scenarios/spec/scenario.h"
@@ -36,25 +37,29 @@ std::string test_case(const std::string& class_name, const std::string& name, co
 
 }  // namespace
 
+GateResult judge_gate(const GateSpec& gate, const std::string& method, std::optional<double> value, std::string but) {
+  const bool within = value && (gate.max ? *value <= *gate.max : *value >= *gate.min);
+  const bool passed = within && but.empty();
+  return {gate.metric, method, gate.max ? "<=" : ">=", gate.max ? *gate.max : *gate.min, value, std::move(but), passed};
+}
+
 std::vector<GateResult> judge_gates(const std::vector<GateSpec>& gates, const std::vector<MethodScore>& scores,
                                     bool run_completed) {
   std::vector<GateResult> results;
   for (const GateSpec& gate : gates) {
-    GateResult result{gate.metric, gate.method, gate.max ? "<=" : ">=", gate.max ? *gate.max : *gate.min, {},
-                      {},          false};
+    std::optional<double> value;
+    std::string but;
     const auto score =
         std::find_if(scores.begin(), scores.end(), [&](const MethodScore& s) { return s.name == gate.method; });
     if (score != scores.end()) {
       const MetricRow& metric = *find_metric(gate.metric);
-      result.value = metric.value(*score);
-      result.but = !run_completed                                       ? "the run ended early"
-                   : score->verdict == "crashed"                        ? "the method crashed"
-                   : score->verdict == "lost" && !metric.also_when_lost ? "the method was lost"
-                                                                        : "";
-      const bool within = result.value && (gate.max ? *result.value <= *gate.max : *result.value >= *gate.min);
-      result.passed = result.but.empty() && within;
+      value = metric.value(*score);
+      but = !run_completed                                       ? "the run ended early"
+            : score->verdict == "crashed"                        ? "the method crashed"
+            : score->verdict == "lost" && !metric.also_when_lost ? "the method was lost"
+                                                                 : "";
     }
-    results.push_back(std::move(result));
+    results.push_back(judge_gate(gate, gate.method, value, std::move(but)));
   }
   return results;
 }

@@ -171,14 +171,6 @@ TEST(LegOdometry, ClimbsWhatTheRobotClimbs) {
   }
 }
 
-/// Adjoint of X: carries right increments of what comes before X to after its inverse.
-Matrix6d adjoint(const Pose& X) {
-  Matrix6d out = Matrix6d::Zero();
-  out.topLeftCorner<3, 3>() = out.bottomRightCorner<3, 3>() = X.rotation();
-  out.topRightCorner<3, 3>() = hat(X.t) * X.rotation();
-  return out;
-}
-
 /// Mean normalised squared error of the increments over 1 s, covariances of 10 ms compounded as if independent.
 double mean_nees(std::uint64_t seed) {
   ProprioceptiveSensors sensors(OdometryPreset::noisy, seed);
