@@ -25,7 +25,7 @@ void add_crossed(const StoreyIndex& storey, const Pose2& from, const Pose2& to, 
 double FitConfig::of_scan(const Agreement& seen) const {
   const double other = seen.penetration_ratio_other_walls();
   if (other > misfit_penetration) return -misfit_scan;
-  if (seen.inliers < inliers_chance || other > other_penetration_max) return -doubtful_scan;
+  if (seen.inliers < inliers_doubtful || other > other_penetration_max) return -doubtful_scan;
   if (seen.inliers < inliers_min) return 0.0;  // beams cut short neither confirm the pose nor contradict it
   if (seen.penetration_ratio > penetration_max) return missing_wall_scan;
   return std::min(seen.inliers / inliers_full, most_a_scan);

@@ -191,6 +191,7 @@ bool SGraphLocalization::has_better_alternative(const LocalizationScan& scan) {
   since_check_m_ = 0.0;
   const bool confirming = !monitor_.all().empty();
   if (!confirming) {
+    // Fitted to one scan it may slide to where a row of shelves looks like a wall.
     monitor_.add(index(), std::vector<StoreyPose>{{storey_, heading(tracker_->pose(scan.X_OR)), true}});
     const GlobalLocalizerConfig& search = config_.search;
     monitor_.add(index(),
