@@ -37,7 +37,6 @@ std::string why_it_failed(const Tree* where) {
   if (failure == "depleted") why = "the true pose dropped out of the hypotheses";
   if (failure == "twin_preferred") why = "a pose aliased with the true one at the start was preferred";
   if (failure == "wrong_model") why = "a pose not aliased with the true one was preferred";
-  if (failure == "tracking_lost") why = "the right pose was lost again";
   if (failure == "undecided") why = "the true pose remained one of several to the end";
   if (why.empty()) return "";
   const auto at = number_of(where, "failure_at_s");
@@ -71,9 +70,11 @@ std::string place_sentence(const std::string& verdict, const Tree* where) {
   if (verdict == "lucky") return "Converged on the right pose before the scans distinguished it from others.";
   if (verdict == "false_convergence") return "Converged on a wrong pose" + why_it_failed(where) + ".";
   const std::string failure = text_of(*where, "failure");
-  if (verdict == "lost")
-    return "Converged after " + svg::number(*time, 1) + " s and lost the pose later" + why_it_failed(where) + ".";
-  if (verdict == "late" && failure != "undecided")
+  const auto failed_at = number_of(where, "failure_at_s");
+  if (failure == "tracking_lost" && failed_at)
+    return "Converged on the right pose after " + svg::number(*time, 1) + " s, and lost it again at " +
+           svg::number(*failed_at, 1) + " s.";
+  if (verdict == "lost" || (verdict == "late" && failure != "undecided"))
     return "Converged after " + svg::number(*time, 1) + " s and withdrew its answer" + why_it_failed(where) + ".";
   std::string text = "Converged on the right pose after " + svg::number(*time, 1) + " s";
   if (error) text += ", with an error of " + centimetres(*error) + " from then on (rms)";

@@ -162,6 +162,15 @@ TEST(Report, NamesTheTruePoseOnceHoweverOftenItIsLost) {
   EXPECT_EQ(count(page, "</i>other: hall "), 1U);
 }
 
+TEST(Report, SaysWhenARightPoseWasLost) {
+  ReportInput input = localized();
+  Tree where = Tree::map();
+  where.set("converged_at_s", 6.0).set("failure", "tracking_lost").set("failure_at_s", 8.5);
+  input.results.set("methods", Tree(Tree::Map{{"m", Tree::map().set("verdict", "lost").set("localization", where)}}));
+  EXPECT_NE(render_report(input).find("Converged on the right pose after 6 s, and lost it again at 8.5 s."),
+            std::string::npos);
+}
+
 TEST(Report, ColoursAVerdictByTheGates) {
   ReportInput input = sample();  // its gate failed
   EXPECT_NE(render_report(input).find("<span class=\"verdict bad\">complete</span>"), std::string::npos);
