@@ -2,9 +2,11 @@
 #include "slam/localization/compare_hypotheses.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <utility>
 
 namespace plumbline::slam {
@@ -15,11 +17,24 @@ namespace {
 constexpr float cast_beyond_m = 2.0F;
 /// Neighbouring beams of a ring that are cast one after another.
 constexpr std::size_t columns_together = 8;
+/// Rays cast in one call, so that their memory stays near.
+constexpr std::size_t rays_together = 256;
 
 PlanRay ray_of(const PredictedScan& predicted, const LocalizationScan& scan, const BeamGridBlock& block,
                std::size_t k) {
   return {predicted.sensor_I, predicted.R_IH * Eigen::Vector2d(block.x[k], block.y[k]),
           predicted.storey->floor_z + scan.sensor_height, block.slope[k]};
+}
+
+/// How far to cast: beyond the farthest return.
+double ray_length(const std::vector<BeamGridBlock>& blocks) {
+  double farthest = 0.0;
+  for (const BeamGridBlock& block : blocks)
+    for (std::size_t k = 0; k < 4; ++k) {
+      const double slope = block.slope[k], reach = block.range[k] + cast_beyond_m;
+      if (block.range[k] > 0.0F) farthest = std::max(farthest, reach * std::sqrt(1.0 + slope * slope));
+    }
+  return farthest;
 }
 
 /// Eighth of a turn that a normal points to.
@@ -183,9 +198,10 @@ void add_unexplained(const LocalizationScan& scan, const PredictedScan& better, 
   constexpr double no_fit = 0.75;  // of the largest cost
   for (std::size_t i = 0; i < scan.beam_grid.blocks.size(); ++i) {
     const BeamGridBlock& block = scan.beam_grid.blocks[i];
+    const int short_of_face = lanes((block.range > 0.0F) & (block.range < better.blocks[i].expected));
     for (std::size_t k = 0; k < 4; ++k) {
+      if ((short_of_face & (1 << k)) == 0) continue;
       const double range = block.range[k];
-      if (range <= 0.0 || range >= static_cast<double>(better.blocks[i].expected[k])) continue;
       const Eigen::Vector2d end = worse.sensor_I + worse.R_IH * (range * Eigen::Vector2d(block.x[k], block.y[k]));
       for (auto& [near, sum] : objects) {
         if (!near.contains(end)) continue;
@@ -209,26 +225,31 @@ PredictedScan predict_scan(const StoreyIndex& storey, const Pose2& X_IH, const L
                           storey.grid.cell_at(sensor_I),
                           std::vector<PredictedBlock>(blocks.size()),
                           std::vector<Float4>(blocks.size(), all(-1.0F))};
-  std::vector<SensorRay> rays;
-  std::vector<std::pair<std::size_t, std::size_t>> lanes_of;  // block and lane of each ray
+  const Eigen::Vector3d origin_I{sensor_I.x(), sensor_I.y(), storey.floor_z + scan.sensor_height};
+  const double farthest = ray_length(blocks);
+  std::array<SensorRay, rays_together> rays;
+  std::array<StructureHit, rays_together> hits;
+  std::array<std::pair<std::size_t, std::size_t>, rays_together> lanes_of;  // block and lane of each ray
+  std::size_t count = 0;
+  const auto cast = [&] {
+    storey.structure->cast(origin_I, std::span(rays).first(count), farthest, std::span(hits).first(count));
+    for (std::size_t r = 0; r < count; ++r)
+      take(hits[r], rays[r].direction, lanes_of[r].second, predicted.blocks[lanes_of[r].first]);
+    count = 0;
+  };
   const auto columns = static_cast<std::size_t>(scan.beam_grid.columns);
-  double farthest = 0.0;
   for (std::size_t first = 0; first < blocks.size(); first += columns)
     for (std::size_t begin = first; begin < first + columns; begin += columns_together)
       for (std::size_t k = 0; k < 4; ++k)
         for (std::size_t i = begin; i < std::min(begin + columns_together, first + columns); ++i) {
           const BeamGridBlock& block = blocks[i];
           if (block.range[k] <= 0.0F) continue;
-          const double slope = block.slope[k];
           predicted.blocks[i].expected[k] = block.range[k] + cast_beyond_m;
-          farthest = std::max(farthest, predicted.blocks[i].expected[k] * std::sqrt(1.0 + slope * slope));
-          rays.push_back({R_IH * Eigen::Vector2d(block.x[k], block.y[k]), slope});
-          lanes_of.emplace_back(i, k);
+          rays[count] = {R_IH * Eigen::Vector2d(block.x[k], block.y[k]), block.slope[k]};
+          lanes_of[count] = {i, k};
+          if (++count == rays.size()) cast();
         }
-  std::vector<StructureHit> hits(rays.size());
-  storey.structure->cast({sensor_I.x(), sensor_I.y(), storey.floor_z + scan.sensor_height}, rays, farthest, hits);
-  for (std::size_t r = 0; r < rays.size(); ++r)
-    take(hits[r], rays[r].direction, lanes_of[r].second, predicted.blocks[lanes_of[r].first]);
+  cast();
   const Float4 least = all(static_cast<float>(config.min_incidence));
   for (PredictedBlock& block : predicted.blocks)
     block.incidence = choose(block.incidence > least, block.incidence, least);

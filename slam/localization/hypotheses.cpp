@@ -32,6 +32,7 @@ double FitConfig::of_scan(const Agreement& seen) const {
 }
 
 void HypothesisSet::predict_and_update(const PlanIndex& index, const Pose2& u, const LocalizationScan& scan) {
+  replayed_reference_.reset();
   history_.push_back({u, scan});
   if (static_cast<int>(history_.size()) > config_.history) history_.pop_front();
   const auto carry = [&](PoseHypothesis& hypothesis) {
@@ -77,25 +78,22 @@ void HypothesisSet::add(const PlanIndex& index, const Clustering& clustering) {
 void HypothesisSet::add(const PlanIndex& index, const std::vector<StoreyPose>& poses) {
   if (history_.empty()) return;
   const LocalizationScan& scan = history_.back().scan;
-  std::vector<ScanAtPose> reference;
   for (const StoreyPose& pose : poses) {
     const StoreyIndex& storey = index.storeys[static_cast<std::size_t>(pose.storey)];
     const Refined refined = refine(storey, pose.X_IH, scan, likelihood_, pose.exact ? tracking_refine_ : refine_);
     // An alias keeps its share at exactly its pose; the scan, fitted from there, may pull it aside.
-    if (pose.exact) try_pose(index, pose, refined.covariance, reference);
-    try_pose(index, {pose.storey, refined.X_IH}, refined.covariance, reference);
+    if (pose.exact) try_pose(index, pose, refined.covariance);
+    try_pose(index, {pose.storey, refined.X_IH}, refined.covariance);
   }
   rebase_reference(index);
 }
 
-void HypothesisSet::try_pose(const PlanIndex& index, const StoreyPose& pose, const Eigen::Matrix3d& covariance,
-                             std::vector<ScanAtPose>& reference) {
+void HypothesisSet::try_pose(const PlanIndex& index, const StoreyPose& pose, const Eigen::Matrix3d& covariance) {
   const StoreyIndex& storey = index.storeys[static_cast<std::size_t>(pose.storey)];
   const int known = find(pose, config_.merge_m, config_.merge_rad);
   if (known >= 0 && !pose.exact && !fits_better(storey, pose.X_IH, hypotheses_[static_cast<std::size_t>(known)].X_IH))
     return;
-  if (reference.empty() && !hypotheses_.empty()) reference = replay(index, hypotheses_[reference_].pose(), {}).scans;
-  Replay past = replay(index, pose, reference);
+  Replay past = hypotheses_.empty() ? replay(index, pose, {}) : replay(index, pose, reference_scans(index));
   const double evidence = past.evidence + (hypotheses_.empty() ? 0.0 : yaw_evidence(pose.X_IH));
   if (past.evidence < -config_.drop_ratio) return;
   const double margin = pose.exact ? 0.0 : config_.reference_switch_margin;
@@ -108,7 +106,17 @@ void HypothesisSet::try_pose(const PlanIndex& index, const StoreyPose& pose, con
   hypothesis.balance = std::move(past.balance);
   hypothesis.evidence = evidence;
   replay_agreement(storey, past.scans, hypothesis);
-  if (reference.empty()) reference = std::move(past.scans);
+  if (hypotheses_.size() == 1) replayed_reference_ = {pose, std::move(past.scans)};
+}
+
+const std::vector<HypothesisSet::ScanAtPose>& HypothesisSet::reference_scans(const PlanIndex& index) {
+  const StoreyPose pose = hypotheses_[reference_].pose();
+  const auto is_kept = [&](const ReplayedReference& kept) {
+    return kept.pose.storey == pose.storey && kept.pose.X_IH.t == pose.X_IH.t && kept.pose.X_IH.yaw == pose.X_IH.yaw;
+  };
+  if (!replayed_reference_ || !is_kept(*replayed_reference_))
+    replayed_reference_ = {pose, replay(index, pose, {}).scans};
+  return replayed_reference_->scans;
 }
 
 bool HypothesisSet::fits_better(const StoreyIndex& storey, const Pose2& X_IH, const Pose2& other) const {
@@ -190,6 +198,7 @@ void HypothesisSet::reweight_particles(ParticleSet& particles, const Clustering&
 void HypothesisSet::clear() {
   hypotheses_.clear();
   history_.clear();
+  replayed_reference_.reset();
   reference_ = 0;
 }
 
@@ -279,7 +288,7 @@ void HypothesisSet::reassess(const PlanIndex& index) {
 }
 
 void HypothesisSet::compare_all_with_reference(const PlanIndex& index) {
-  const std::vector<ScanAtPose> scans = replay(index, hypotheses_[reference_].pose(), {}).scans;
+  const std::vector<ScanAtPose>& scans = reference_scans(index);
   for (PoseHypothesis& hypothesis : hypotheses_) {
     Replay past;
     if (&hypothesis != &hypotheses_[reference_]) past = replay(index, hypothesis.pose(), scans);

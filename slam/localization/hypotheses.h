@@ -203,11 +203,16 @@ class HypothesisSet {
     EvidenceBalance balance;        ///< against the reference
     double evidence = 0.0;          ///< from the balance
   };
+  struct ReplayedReference {
+    StoreyPose pose;
+    std::vector<ScanAtPose> scans;
+  };
   /// The place along the direction that the fit of the last scan left open, if any.
   void slide_along_open_direction(const PlanIndex& index, PoseHypothesis& hypothesis) const;
-  /// Adds a pose unless it is known or ruled out. reference: the reference's replay, made when first needed.
-  void try_pose(const PlanIndex& index, const StoreyPose& pose, const Eigen::Matrix3d& covariance,
-                std::vector<ScanAtPose>& reference);
+  /// Adds a pose unless it is known or ruled out.
+  void try_pose(const PlanIndex& index, const StoreyPose& pose, const Eigen::Matrix3d& covariance);
+  /// The reference's replay, kept until the next scan.
+  const std::vector<ScanAtPose>& reference_scans(const PlanIndex& index);
   /// True where the last scan is likelier at the first pose.
   [[nodiscard]] bool fits_better(const StoreyIndex& storey, const Pose2& X_IH, const Pose2& other) const;
   /// Adds the newest scan's agreement with the plan.
@@ -237,6 +242,7 @@ class HypothesisSet {
   HypothesisComparisonConfig comparison_;
   std::vector<PoseHypothesis> hypotheses_;
   std::deque<HistoryStep> history_;
+  std::optional<ReplayedReference> replayed_reference_;
   std::optional<ExpectedYaw> expected_yaw_;
   int next_id_ = 0;
   std::size_t reference_ = 0;  ///< hypothesis that the others are compared with
