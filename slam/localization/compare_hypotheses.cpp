@@ -199,15 +199,14 @@ void add_unexplained(const LocalizationScan& scan, const PredictedScan& better, 
   for (std::size_t i = 0; i < scan.beam_grid.blocks.size(); ++i) {
     const BeamGridBlock& block = scan.beam_grid.blocks[i];
     const int short_of_face = lanes((block.range > 0.0F) & (block.range < better.blocks[i].expected));
+    if (short_of_face == 0) continue;
+    const Float4 costs = beam_cost(scan, better, i, config);
     for (std::size_t k = 0; k < 4; ++k) {
-      if ((short_of_face & (1 << k)) == 0) continue;
-      const double range = block.range[k];
+      const double range = block.range[k], at_better = costs[k];
+      if ((short_of_face & (1 << k)) == 0 || at_better < no_fit * config.max_nll_short) continue;
       const Eigen::Vector2d end = worse.sensor_I + worse.R_IH * (range * Eigen::Vector2d(block.x[k], block.y[k]));
-      for (auto& [near, sum] : objects) {
-        if (!near.contains(end)) continue;
-        const double at_better = static_cast<double>(beam_cost(scan, better, i, config)[k]);
-        if (at_better >= no_fit * config.max_nll_short) sum->unexplained += config.weight * at_better;
-      }
+      for (auto& [near, sum] : objects)
+        if (near.contains(end)) sum->unexplained += config.weight * at_better;
     }
   }
 }
