@@ -26,15 +26,20 @@ PlanRay ray_of(const PredictedScan& predicted, const LocalizationScan& scan, con
           predicted.storey->floor_z + scan.sensor_height, block.slope[k]};
 }
 
-/// How far to cast: beyond the farthest return.
+/// How far to cast to see beyond every return.
 double ray_length(const std::vector<BeamGridBlock>& blocks) {
-  double farthest = 0.0;
-  for (const BeamGridBlock& block : blocks)
-    for (std::size_t k = 0; k < 4; ++k) {
-      const double slope = block.slope[k], reach = block.range[k] + cast_beyond_m;
-      if (block.range[k] > 0.0F) farthest = std::max(farthest, reach * std::sqrt(1.0 + slope * slope));
-    }
-  return farthest;
+  Float4 range = all(0.0F), steepness = all(0.0F);
+  for (const BeamGridBlock& block : blocks) {
+    const Float4 squares = block.slope * block.slope;
+    range = choose(block.range > range, block.range, range);
+    steepness = choose(squares > steepness, squares, steepness);
+  }
+  double farthest = 0.0, steepest = 0.0;
+  for (std::size_t k = 0; k < 4; ++k) {
+    farthest = std::max(farthest, static_cast<double>(range[k]));
+    steepest = std::max(steepest, static_cast<double>(steepness[k]));
+  }
+  return (farthest + cast_beyond_m) * std::sqrt(1.0 + steepest);
 }
 
 /// Eighth of a turn that a normal points to.

@@ -20,6 +20,14 @@ void add_crossed(const StoreyIndex& storey, const Pose2& from, const Pose2& to, 
   if (element >= 0) elements.push_back(element);
 }
 
+/// Most poses that are tried are fitted to where another one was: apart by no more than the fits leave open.
+bool is_among(const std::vector<StoreyPose>& poses, const StoreyPose& pose) {
+  constexpr double same_m = 0.02, same_rad = 0.01;
+  return std::any_of(poses.begin(), poses.end(), [&](const StoreyPose& other) {
+    return other.storey == pose.storey && is_near(other.X_IH, pose.X_IH, same_m, same_rad);
+  });
+}
+
 }  // namespace
 
 double FitConfig::of_scan(const Agreement& seen) const {
@@ -33,6 +41,7 @@ double FitConfig::of_scan(const Agreement& seen) const {
 
 void HypothesisSet::predict_and_update(const PlanIndex& index, const Pose2& u, const LocalizationScan& scan) {
   replayed_reference_.reset();
+  ruled_out_.clear();
   history_.push_back({u, scan});
   if (static_cast<int>(history_.size()) > config_.history) history_.pop_front();
   const auto carry = [&](PoseHypothesis& hypothesis) {
@@ -83,21 +92,24 @@ void HypothesisSet::add(const PlanIndex& index, const std::vector<StoreyPose>& p
     const Refined refined = refine(storey, pose.X_IH, scan, likelihood_, pose.exact ? tracking_refine_ : refine_);
     // An alias keeps its share at exactly its pose; the scan, fitted from there, may pull it aside.
     if (pose.exact) try_pose(index, pose, refined.covariance);
-    try_pose(index, {pose.storey, refined.X_IH}, refined.covariance);
+    const StoreyPose fitted{pose.storey, refined.X_IH};
+    if (is_among(ruled_out_, fitted)) continue;
+    if (try_pose(index, fitted, refined.covariance) == Trial::ruled_out) ruled_out_.push_back(fitted);
   }
   rebase_reference(index);
 }
 
-void HypothesisSet::try_pose(const PlanIndex& index, const StoreyPose& pose, const Eigen::Matrix3d& covariance) {
+HypothesisSet::Trial HypothesisSet::try_pose(const PlanIndex& index, const StoreyPose& pose,
+                                             const Eigen::Matrix3d& covariance) {
   const StoreyIndex& storey = index.storeys[static_cast<std::size_t>(pose.storey)];
   const int known = find(pose, config_.merge_m, config_.merge_rad);
   if (known >= 0 && !pose.exact && !fits_better(storey, pose.X_IH, hypotheses_[static_cast<std::size_t>(known)].X_IH))
-    return;
+    return Trial::known;
   Replay past = hypotheses_.empty() ? replay(index, pose, {}) : replay(index, pose, reference_scans(index));
   const double evidence = past.evidence + (hypotheses_.empty() ? 0.0 : yaw_evidence(pose.X_IH));
-  if (past.evidence < -config_.drop_ratio) return;
+  if (past.evidence < -config_.drop_ratio) return Trial::ruled_out;
   const double margin = pose.exact ? 0.0 : config_.reference_switch_margin;
-  if (known >= 0 && evidence <= hypotheses_[static_cast<std::size_t>(known)].evidence + margin) return;
+  if (known >= 0 && evidence <= hypotheses_[static_cast<std::size_t>(known)].evidence + margin) return Trial::known;
   PoseHypothesis& hypothesis = hypotheses_.emplace_back();
   hypothesis.id = next_id_++;
   hypothesis.storey = pose.storey;
@@ -107,6 +119,7 @@ void HypothesisSet::try_pose(const PlanIndex& index, const StoreyPose& pose, con
   hypothesis.evidence = evidence;
   replay_agreement(storey, past.scans, hypothesis);
   if (hypotheses_.size() == 1) replayed_reference_ = {pose, std::move(past.scans)};
+  return Trial::added;
 }
 
 const std::vector<HypothesisSet::ScanAtPose>& HypothesisSet::reference_scans(const PlanIndex& index) {
@@ -199,6 +212,7 @@ void HypothesisSet::clear() {
   hypotheses_.clear();
   history_.clear();
   replayed_reference_.reset();
+  ruled_out_.clear();
   reference_ = 0;
 }
 

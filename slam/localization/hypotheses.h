@@ -209,8 +209,9 @@ class HypothesisSet {
   };
   /// The place along the direction that the fit of the last scan left open, if any.
   void slide_along_open_direction(const PlanIndex& index, PoseHypothesis& hypothesis) const;
-  /// Adds a pose unless it is known or ruled out.
-  void try_pose(const PlanIndex& index, const StoreyPose& pose, const Eigen::Matrix3d& covariance);
+  enum class Trial { added, known, ruled_out };
+  /// Adds a pose unless it is known or the kept history rules it out.
+  Trial try_pose(const PlanIndex& index, const StoreyPose& pose, const Eigen::Matrix3d& covariance);
   /// The reference's replay, kept until the next scan.
   const std::vector<ScanAtPose>& reference_scans(const PlanIndex& index);
   /// True where the last scan is likelier at the first pose.
@@ -243,6 +244,7 @@ class HypothesisSet {
   std::vector<PoseHypothesis> hypotheses_;
   std::deque<HistoryStep> history_;
   std::optional<ReplayedReference> replayed_reference_;
+  std::vector<StoreyPose> ruled_out_;  ///< since the last scan
   std::optional<ExpectedYaw> expected_yaw_;
   int next_id_ = 0;
   std::size_t reference_ = 0;  ///< hypothesis that the others are compared with
