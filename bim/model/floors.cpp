@@ -210,7 +210,8 @@ class Floors {
       ++inside;
       carried += std::any_of(near.begin(), near.end(), [&](int k) {
         const FloorPiece& piece = pieces_[static_cast<std::size_t>(k)];
-        return std::abs(piece.z_at(p) - room.z0_m) <= config_.at_room_m && contains(piece.polygon, p);
+        const double over = piece.z_at(p) - room.z0_m;
+        return over >= -config_.sunken_m && over <= config_.at_room_m && contains(piece.polygon, p);
       });
     }
     return inside > 0 ? static_cast<double>(carried) / inside : 1.0;

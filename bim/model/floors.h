@@ -33,7 +33,7 @@ struct FloorConfig {
   double steepest = 0.40;      ///< tangent; a steeper face is no floor
   double level = 2e-3;         ///< ... and a flatter one is level
   double headroom_m = 0.5;     ///< nothing stands under another piece that is less than this above
-  double sunken_m = 0.6;       ///< a floor may lie this much below its storey's elevation
+  double sunken_m = 0.6;       ///< a floor may lie this much below its storey's elevation, or its room's lower end
   double at_room_m = 0.35;     ///< a piece this close to a room's lower end is that room's floor
   double covered_share = 0.5;  ///< a room with less of its area on such pieces has no slab
   double least_m2 = 0.01;      ///< smaller pieces are left out

@@ -65,7 +65,7 @@ std::string RoomPlaces::why_none(int room) const {
   const sim::ClearanceMap& floor = space_.storey(of.storey);
   const std::optional<std::size_t> freest = floor.freest_cell(of.polygon);
   if (!freest) return "it is smaller than the robot";
-  if (!has_floor(room)) return "there is no floor in it at the level of its storey";
+  if (!has_floor(room)) return "there is no floor in it near the level of its storey";
   const auto metres = [](double x) { return format_number(std::round(x * 1e2) / 1e2) + " m"; };
   return "it has no place where the robot can turn round: " + metres(2.0 * floor.cell_clearance(*freest)) +
          " are free, and it needs " + metres(2.0 * floor.config().turn_m);

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "bim/errors.h"
+#include "bim/model/boxes.h"
 #include "bim/model/stair_flight.h"
 #include "sim/robot/ground.h"
 #include "sim/robot/raised_floor.h"
@@ -204,8 +205,9 @@ bool is_rectangle(const PolygonWithHoles2& polygon) {
   return ((p[0] + p[2]) - (p[1] + p[3])).norm() < 1e-3 && std::abs((p[2] - p[0]).norm() - (p[3] - p[1]).norm()) < 1e-3;
 }
 
-/// Runs of cells along x inside a polygon; rows with the same runs are one box.
-void add_rows(const PolygonWithHoles2& polygon, const HeightRange& z, double cell_m, std::vector<CollisionBox>& out) {
+/// Runs of cells along x inside a polygon; rows with the same runs are one rectangle.
+std::vector<Eigen::AlignedBox2d> rows_of(const PolygonWithHoles2& polygon, double cell_m) {
+  std::vector<Eigen::AlignedBox2d> out;
   Eigen::AlignedBox2d box;
   for (const Eigen::Vector2d& p : polygon.outer) box.extend(p);
   const Eigen::Vector2i count = (box.sizes() / cell_m).array().ceil().cast<int>();
@@ -232,23 +234,51 @@ void add_rows(const PolygonWithHoles2& polygon, const HeightRange& z, double cel
     for (const auto& [from, to] : open) {
       const Eigen::Vector2d low = box.min() + Eigen::Vector2d(from * cell.x(), open_from * cell.y());
       const Eigen::Vector2d high = box.min() + Eigen::Vector2d(to * cell.x(), row * cell.y());
-      out.push_back(upright_box(0.5 * (low + high), 0.0, 0.5 * (high - low), z));
+      out.emplace_back(low, high);
     }
     open = here;
     open_from = row;
   }
+  return out;
 }
 
-/// Raised floors, each down to below the storey's own.
+/// A sloping floor as boxes that lean along its slope.
+void add_sloping(const RaisedFloor& floor, const BuildingGroundConfig& config, std::vector<CollisionBox>& out) {
+  const double yaw = std::atan2(floor.slope.y(), floor.slope.x()), tangent = floor.slope.norm(),
+               secant = std::hypot(1.0, tangent);
+  const Eigen::Rotation2Dd turn(yaw), back(-yaw);
+  PolygonWithHoles2 turned = floor.polygon;
+  for (Eigen::Vector2d& p : turned.outer) p = back * p;
+  for (Polygon2& hole : turned.holes)
+    for (Eigen::Vector2d& p : hole) p = back * p;
+  const Eigen::Quaterniond q_WB = Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()) *
+                                  Eigen::AngleAxisd(-std::atan(tangent), Eigen::Vector3d::UnitY());
+  const bool upright = is_rectangle(turned) && std::abs((turned.outer[1] - turned.outer[0]).prod()) < 1e-6;
+  std::vector<Eigen::AlignedBox2d> rows =
+      upright ? std::vector{bim::box_of(turned.outer)} : rows_of(turned, config.cell_m);
+  for (const Eigen::AlignedBox2d& row : rows) {
+    const Eigen::Vector2d center = turn * row.center();
+    CollisionBox box;
+    box.half = {0.5 * row.sizes().x() * secant, 0.5 * row.sizes().y(), 0.5 * config.floor_body_m};
+    const Eigen::Vector3d top(center.x(), center.y(), floor.z_at(center));
+    box.X_WB = {q_WB, top - q_WB * Eigen::Vector3d(0.0, 0.0, box.half.z())};
+    out.push_back(box);
+  }
+}
+
+/// Raised floors, each down to below the ground.
 void add_raised(const bim::Building& building, int storey, const BuildingGroundConfig& config,
                 std::vector<CollisionBox>& out) {
-  const double elevation = building.storeys[static_cast<std::size_t>(storey)].elevation_m;
+  const double ground = ground_level(building, storey);
   for (const RaisedFloor& floor : raised_floors(building, storey)) {
-    const HeightRange z{elevation - config.floor_body_m, floor.z_W};
-    if (is_rectangle(floor.polygon))
+    const HeightRange z{ground - config.floor_body_m, floor.z_W};
+    if (!floor.is_level())
+      add_sloping(floor, config, out);
+    else if (is_rectangle(floor.polygon))
       out.push_back(bounding_box(floor.polygon.outer, z));
     else
-      add_rows(floor.polygon, z, config.cell_m, out);
+      for (const Eigen::AlignedBox2d& row : rows_of(floor.polygon, config.cell_m))
+        out.push_back(upright_box(row.center(), 0.0, 0.5 * row.sizes(), z));
   }
 }
 
@@ -277,7 +307,7 @@ Ground building_ground(const bim::Building& as_built, const std::vector<int>& st
   for (const int storey : storeys) {
     if (storey < 0 || static_cast<std::size_t>(storey) >= as_built.storeys.size())
       throw InputError({}, "the building has no storey number " + std::to_string(storey));
-    GroundLevel level{as_built.storeys[static_cast<std::size_t>(storey)].elevation_m, {}};
+    GroundLevel level{ground_level(as_built, storey), {}};
     std::vector<Well> wells;
     for (const bim::Stair& stair : as_built.stairs)
       if (stair.to == storey && is_walked(stair, storeys)) wells.emplace_back(as_built, stair, config);

@@ -17,9 +17,9 @@ std::vector<HeightRange> touchable(const bim::Building& building, const std::vec
                                    const CollisionConfig& config) {
   std::vector<std::pair<double, double>> floors;  // of the storey, and its highest
   for (const int storey : storeys) {
-    const double elevation = building.storeys.at(static_cast<std::size_t>(storey)).elevation_m;
+    const double ground = ground_level(building, storey);
     const std::vector<RaisedFloor> raised = raised_floors(building, storey);
-    floors.emplace_back(elevation, raised.empty() ? elevation : raised.back().z_W);
+    floors.emplace_back(ground, raised.empty() ? ground : raised.back().z_W);
   }
   std::sort(floors.begin(), floors.end());
   std::vector<HeightRange> out;
@@ -122,6 +122,16 @@ Eigen::AlignedBox2d area_of(const bim::Building& building, const std::vector<int
   return area.isEmpty() ? area : Eigen::AlignedBox2d(area.min() - margin, area.max() + margin);
 }
 
+/// Ramps that are floor of the storeys, indices ascending.
+std::vector<int> walked_ramps(const bim::Building& building, const std::vector<int>& storeys) {
+  std::vector<int> ramps;
+  for (const int storey : storeys)
+    for (const RaisedFloor& floor : raised_floors(building, storey))
+      if (floor.obstacle >= 0) ramps.push_back(floor.obstacle);
+  std::sort(ramps.begin(), ramps.end());
+  return ramps;
+}
+
 }  // namespace
 
 double distance(const CollisionBox& box, const Eigen::Vector3d& p_W) {
@@ -154,7 +164,9 @@ std::vector<CollisionBox> collision_boxes(const bim::Building& as_built, const s
   for (const bim::Stair& stair : as_built.stairs)
     if (!is_walked(stair, storeys))
       for (const bim::Solid& body : stair.bodies) add_solid(body);
-  for (const bim::Obstacle& obstacle : as_built.obstacles) add_solid(obstacle.body);
+  const std::vector<int> ramps = walked_ramps(as_built, storeys);
+  for (std::size_t i = 0; i < as_built.obstacles.size(); ++i)
+    if (!std::binary_search(ramps.begin(), ramps.end(), static_cast<int>(i))) add_solid(as_built.obstacles[i].body);
   for (std::size_t i = 0; i < boxes.size(); ++i) boxes[i].id = static_cast<int>(i);
   return boxes;
 }

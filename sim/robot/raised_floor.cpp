@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "bim/geometry/polygon_boolean.h"
 #include "bim/model/floors.h"
 
 namespace plumbline::sim {
@@ -25,31 +27,86 @@ bool is_beside(const Polygon2& outline, const PolygonWithHoles2& floor, double d
   });
 }
 
+/// Lowest and highest point of a piece.
+std::pair<double, double> heights_of(const bim::FloorPiece& piece) {
+  std::pair<double, double> z{piece.z_at(piece.polygon.outer.front()), piece.z_at(piece.polygon.outer.front())};
+  for (const Eigen::Vector2d& p : piece.polygon.outer) {
+    z.first = std::min(z.first, piece.z_at(p));
+    z.second = std::max(z.second, piece.z_at(p));
+  }
+  return z;
+}
+
+/// A slab's top this far below a storey is the floor of a room: the room begins there, or no covering is so thick.
+bool is_sunken(double z, double elevation, const bim::Room& room, const RaisedFloorConfig& config) {
+  if (z >= elevation - config.level_m || z < elevation - config.lowest_m) return false;
+  return std::abs(room.z0_m - z) <= config.level_m || z < room.z0_m - config.bare_slab_m;
+}
+
+/// Looking for floors costs more than the rest; most buildings have nothing below the levels of their storeys.
+bool may_be_sunken(const bim::Building& building, int storey, double elevation, const RaisedFloorConfig& config) {
+  return std::any_of(building.rooms.begin(), building.rooms.end(), [&](const bim::Room& room) {
+    return room.storey == storey &&
+           std::any_of(building.slabs.begin(), building.slabs.end(), [&](const bim::Slab& slab) {
+             return !slab.assumed && is_sunken(slab.z1_m, elevation, room, config);
+           });
+  });
+}
+
 }  // namespace
+
+double ground_level(const bim::Building& as_built, int storey, const RaisedFloorConfig& config) {
+  const double elevation = as_built.storeys.at(static_cast<std::size_t>(storey)).elevation_m;
+  double level = elevation;
+  if (!may_be_sunken(as_built, storey, elevation, config)) return level;
+  for (const bim::FloorPiece& piece : bim::floor_pieces(as_built)) {
+    if (piece.storey != storey || piece.source != bim::FloorSource::slab || !piece.slope.isZero(0.0)) continue;
+    if (piece.z0_m >= level || area({piece.polygon}) < config.sunken_min_m2) continue;
+    const Eigen::Vector2d p = interior_point(piece.polygon.outer);
+    const bool in_room = std::any_of(as_built.rooms.begin(), as_built.rooms.end(), [&](const bim::Room& room) {
+      return room.storey == storey && contains(room.polygon, p) && is_sunken(piece.z0_m, elevation, room, config);
+    });
+    if (in_room) level = piece.z0_m;
+  }
+  return level;
+}
 
 std::vector<RaisedFloor> raised_floors(const bim::Building& as_built, int storey, const RaisedFloorConfig& config) {
   const double elevation = as_built.storeys.at(static_cast<std::size_t>(storey)).elevation_m;
-  const auto is_raised = [&](double z) { return z > elevation + config.level_m && z <= elevation + config.highest_m; };
+  const double ground = ground_level(as_built, storey, config);
+  const auto is_raised = [&](double z) { return z > ground + config.level_m && z <= elevation + config.highest_m; };
+  const auto is_ramp = [](const bim::Obstacle& obstacle) { return obstacle.kind == "ramp"; };
   // Looking for floors costs more than the rest; most buildings have nothing between the levels of their storeys.
-  const bool any = std::any_of(as_built.slabs.begin(), as_built.slabs.end(),
+  const bool any = ground < elevation ||
+                   std::any_of(as_built.slabs.begin(), as_built.slabs.end(),
                                [&](const bim::Slab& slab) { return is_raised(slab.z1_m); }) ||
                    std::any_of(as_built.rooms.begin(), as_built.rooms.end(),
-                               [&](const bim::Room& room) { return room.storey == storey && is_raised(room.z0_m); });
+                               [&](const bim::Room& room) { return room.storey == storey && is_raised(room.z0_m); }) ||
+                   std::any_of(as_built.obstacles.begin(), as_built.obstacles.end(), is_ramp);
   if (!any) return {};
   std::vector<RaisedFloor> floors;
-  for (const bim::FloorPiece& piece : bim::floor_pieces(as_built))
-    if (piece.storey == storey && piece.slope.isZero(0.0) && is_raised(piece.z0_m))
-      floors.push_back({piece.polygon, piece.z0_m});
+  for (const bim::FloorPiece& piece : bim::floor_pieces(as_built)) {
+    if (piece.storey != storey) continue;
+    const auto [low, high] = heights_of(piece);
+    const bool on_ramp = piece.source == bim::FloorSource::obstacle &&
+                         is_ramp(as_built.obstacles[static_cast<std::size_t>(piece.element)]);
+    const bool slopes = !piece.slope.isZero(0.0);
+    if (slopes && (piece.slope.norm() > config.steepest || high - low < config.slope_min_m)) continue;
+    if (!is_raised(high) || low < ground - config.level_m) continue;
+    floors.push_back({piece.polygon, high, piece.z0_m, piece.slope, on_ramp ? piece.element : -1});
+  }
   const std::size_t count = floors.size();
   for (const bim::Opening& opening : as_built.openings) {
     if (opening.wall < 0 || opening.kind == bim::OpeningKind::window || !is_raised(opening.z0_m)) continue;
     const Polygon2 outline = threshold(opening, as_built.walls[static_cast<std::size_t>(opening.wall)]);
     const bool leads =
         std::any_of(floors.begin(), floors.begin() + static_cast<std::ptrdiff_t>(count), [&](const RaisedFloor& floor) {
-          return std::abs(floor.z_W - opening.z0_m) <= config.doorway_m &&
-                 is_beside(outline, floor.polygon, config.beside_m);
+          return is_beside(outline, floor.polygon, config.beside_m) &&
+                 std::any_of(outline.begin(), outline.end(), [&](const Eigen::Vector2d& p) {
+                   return std::abs(floor.z_at(p) - opening.z0_m) <= config.doorway_m;
+                 });
         });
-    if (leads) floors.push_back({{outline, {}}, opening.z0_m});
+    if (leads) floors.push_back({{outline, {}}, opening.z0_m, opening.z0_m});
   }
   std::stable_sort(floors.begin(), floors.end(),
                    [](const RaisedFloor& a, const RaisedFloor& b) { return a.z_W < b.z_W; });

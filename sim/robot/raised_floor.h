@@ -7,21 +7,37 @@
 
 namespace plumbline::sim {
 
-/// Floors of a storey that the robot can stand on though they lie above its elevation.
+/// Floors of a storey that the robot can stand on though they do not lie at its elevation.
 struct RaisedFloorConfig {
-  double level_m = 0.05;    ///< no higher than this is the storey's own floor
-  double highest_m = 1.2;   ///< above its elevation
-  double doorway_m = 0.05;  ///< the threshold of a door this near in height belongs to the raised floor,
-  double beside_m = 0.35;   ///< and this near to it on the plan
+  double level_m = 0.05;       ///< no higher or lower than this is the storey's own floor
+  double highest_m = 1.2;      ///< above its elevation
+  double lowest_m = 0.6;       ///< below it
+  double bare_slab_m = 0.35;   ///< a slab up to this far below a room may have a covering that was not drawn
+  double sunken_min_m2 = 1.0;  ///< a smaller sunken floor is a pit or a drain
+  double steepest = 0.2;       ///< tangent of a sloping floor that is walked; wheelchairs have 0.06 to 0.1, cars 0.15
+  double slope_min_m = 0.05;   ///< a floor that rises less from end to end is level
+  double doorway_m = 0.05;     ///< the threshold of a door this near in height belongs to the raised floor,
+  double beside_m = 0.35;      ///< and this near to it on the plan
 };
 
-/// Level floor above a storey's elevation.
+/// Height of the lowest floor of a storey on which the robot walks, in W: its elevation, unless a level slab of a room
+/// lies lower.
+[[nodiscard]] double ground_level(const bim::Building& as_built, int storey, const RaisedFloorConfig& config = {});
+
+/// Floor above a storey's ground level.
 struct RaisedFloor {
-  PolygonWithHoles2 polygon;  ///< on the plan
-  double z_W = 0.0;
+  PolygonWithHoles2 polygon;                        ///< on the plan
+  double z_W = 0.0;                                 ///< of its highest point
+  double z0_W = 0.0;                                ///< over the plan's origin
+  Eigen::Vector2d slope = Eigen::Vector2d::Zero();  ///< rise per metre along x and along y
+  int obstacle = -1;                                ///< the ramp that it is the top of, -1: none
+
+  [[nodiscard]] bool is_level() const { return slope.isZero(0.0); }
+  /// Height in W over a point of the plan.
+  [[nodiscard]] double z_at(const Eigen::Vector2d& p) const { return z0_W + slope.dot(p); }
 };
 
-/// Raised floors of a storey from the lowest up, with the thresholds of open doors that lead to them.
+/// Raised and sloping floors of a storey from the lowest up, with the thresholds of open doors that lead to them.
 [[nodiscard]] std::vector<RaisedFloor> raised_floors(const bim::Building& as_built, int storey,
                                                      const RaisedFloorConfig& config = {});
 

@@ -55,7 +55,7 @@ struct Blockages::Impl {
   Impl(const bim::Building& building_in, int storey_in, const ClearanceMap& space_in, const Eigen::Vector2d& start_W)
       : building(building_in),
         storey(storey_in),
-        floor_z(building.storeys.at(static_cast<std::size_t>(storey)).elevation_m),
+        floor_z(space_in.ground_W()),
         space(space_in),
         footprints(find_obstacle_footprints(building, floor_z, space.config())),
         opening(space.grid().size(), -1),

@@ -14,6 +14,8 @@ namespace plumbline::sim {
 
 namespace {
 
+constexpr float slope_level_m = 0.05F;
+
 std::vector<Segment2> outline_of(const PolygonWithHoles2& polygon) {
   std::vector<Segment2> outline;
   const auto add = [&](const Polygon2& ring) {
@@ -191,7 +193,7 @@ void keep_inside(const bim::Building& building, double floor_z, const GridFrame&
 }  // namespace
 
 bool has_known_floor(const bim::Building& building, int storey, const RouteConfig& config) {
-  const double floor_z = building.storeys.at(static_cast<std::size_t>(storey)).elevation_m;
+  const double floor_z = ground_level(building, storey);
   return std::any_of(building.slabs.begin(), building.slabs.end(),
                      [&](const bim::Slab& slab) {
                        return !slab.assumed && slab.z1_m <= floor_z + config.band_low_m &&
@@ -203,7 +205,7 @@ bool has_known_floor(const bim::Building& building, int storey, const RouteConfi
 
 std::vector<char> floor_cells(const bim::Building& building, int storey, const GridFrame& grid,
                               const RouteConfig& config) {
-  const double floor_z = building.storeys.at(static_cast<std::size_t>(storey)).elevation_m;
+  const double floor_z = ground_level(building, storey);
   std::vector<char> cells(grid.size(), 0);
   const auto set = [&](std::size_t cell) { cells[cell] = 1; };
   bool any = false;
@@ -248,14 +250,14 @@ std::vector<float> floor_heights(const bim::Building& building, int storey, cons
                                  const RouteConfig& config, std::vector<char>& floor) {
   const std::vector<RaisedFloor> raised = raised_floors(building, storey);
   if (raised.empty()) return {};
-  const double elevation = building.storeys.at(static_cast<std::size_t>(storey)).elevation_m;
+  const double ground = ground_level(building, storey);
   constexpr float unknown = -1.0F;
   std::vector<float> heights(grid.size(), unknown);
   for (std::size_t i = 0; i < floor.size(); ++i)
     if (floor[i] != 0) heights[i] = 0.0F;
   for (const RaisedFloor& piece : raised)
     fill_cells(grid, outline_of(piece.polygon), [&](std::size_t cell) {
-      heights[cell] = static_cast<float>(std::round((piece.z_W - elevation) * 100.0) / 100.0);
+      heights[cell] = static_cast<float>(std::round((piece.z_at(grid.center(cell)) - ground) * 100.0) / 100.0);
       floor[cell] = 1;
     });
   // Gaps under walls that the floor steps over are as high as the nearest floor: the first found, by rows and columns.
@@ -278,27 +280,36 @@ std::vector<double> clearances_over(const bim::Building& building, int storey, c
                                     const RouteConfig& config, const std::vector<char>& floor,
                                     const std::vector<float>& heights) {
   const double elevation = building.storeys.at(static_cast<std::size_t>(storey)).elevation_m;
-  bim::Building solid = building;  // a slab that is floor is no obstacle of the floor beside it
+  const double ground = ground_level(building, storey);
+  bim::Building solid = building;  // a slab or ramp that is floor is no obstacle of the floor beside it
   std::erase_if(solid.slabs, [&](const bim::Slab& slab) {
-    return slab.z1_m > elevation && slab.z1_m <= elevation + RaisedFloorConfig().highest_m;
+    return slab.z1_m > ground && slab.z1_m <= elevation + RaisedFloorConfig().highest_m;
   });
+  const std::vector<RaisedFloor> raised = raised_floors(building, storey);
+  for (const RaisedFloor& floor : raised)
+    if (floor.obstacle >= 0) solid.obstacles[static_cast<std::size_t>(floor.obstacle)].body = {};
+  const bool slopes =
+      std::any_of(raised.begin(), raised.end(), [](const RaisedFloor& floor) { return !floor.is_level(); });
+  // What is an obstacle from a slope is looked for every few centimetres.
+  const auto level_of = [&](float height) {
+    return slopes ? std::round(height / slope_level_m) * slope_level_m : height;
+  };
   // From below, a door to a raised floor begins where its threshold rises: that is a step, and no sill.
   std::vector<std::size_t> doors_up;
   for (std::size_t i = 0; i < solid.openings.size(); ++i) {
     const bim::Opening& o = solid.openings[i];
-    if (o.wall < 0 || !(o.z0_m > elevation + config.sill_max_m)) continue;
+    if (o.wall < 0 || !(o.z0_m > ground + config.sill_max_m)) continue;
     const bim::Wall& wall = solid.walls[static_cast<std::size_t>(o.wall)];
     const auto cell =
         grid.find(wall.a + o.s_m * wall.direction() + (wall.offset_m + 0.5 * wall.thickness_m) * wall.left());
-    if (cell && floor[*cell] != 0 &&
-        std::abs(static_cast<double>(heights[*cell]) - (o.z0_m - elevation)) <= config.flat_m)
+    if (cell && floor[*cell] != 0 && std::abs(static_cast<double>(heights[*cell]) - (o.z0_m - ground)) <= config.flat_m)
       doors_up.push_back(i);
   }
   std::vector<Segment2> edges;
   std::set<float> levels;
   for (std::size_t i = 0; i < floor.size(); ++i) {
     if (floor[i] == 0) continue;
-    levels.insert(heights[i]);
+    levels.insert(level_of(heights[i]));
     const auto [column, row] = grid.column_and_row(i);
     for (const auto& [dx, dy] : {std::pair{1, 0}, {0, 1}}) {
       if (!grid.holds(column + dx, row + dy)) continue;
@@ -311,11 +322,11 @@ std::vector<double> clearances_over(const bim::Building& building, int storey, c
   std::vector<double> result(grid.size(), 0.0);
   for (const float level : levels) {
     for (const std::size_t i : doors_up)
-      solid.openings[i].z0_m = std::min(building.openings[i].z0_m, elevation + static_cast<double>(level));
+      solid.openings[i].z0_m = std::min(building.openings[i].z0_m, ground + static_cast<double>(level));
     const std::vector<double> at_level =
-        clearances(grid, find_obstacle_footprints(solid, elevation + static_cast<double>(level), config), floor, edges);
+        clearances(grid, find_obstacle_footprints(solid, ground + static_cast<double>(level), config), floor, edges);
     for (std::size_t i = 0; i < floor.size(); ++i)
-      if (floor[i] != 0 && heights[i] == level) result[i] = at_level[i];
+      if (floor[i] != 0 && level_of(heights[i]) == level) result[i] = at_level[i];
   }
   return result;
 }

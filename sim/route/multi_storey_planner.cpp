@@ -76,14 +76,18 @@ const std::vector<StairWay>& MultiStoreyPlanner::stairs() const {
 }
 
 MultiStoreyPlanner::Path MultiStoreyPlanner::on_storey(const FloorPoint& a, const FloorPoint& b) const {
-  const double z = building_.storeys.at(static_cast<std::size_t>(a.storey)).elevation_m;
-  if ((b.p_W - a.p_W).norm() < same_place_m)
-    return {{{a.p_W.x(), a.p_W.y(), z + storey(a.storey).height(a.p_W)}, false}};
   const ClearanceMap& space = storey(a.storey);
+  const double z = space.ground_W();
+  if ((b.p_W - a.p_W).norm() < same_place_m) return {{{a.p_W.x(), a.p_W.y(), z + space.height(a.p_W)}, false}};
   Path path;
   for (const PathPart& part : space.parts(a.p_W, b.p_W)) {
     if (!part.step) {
-      append(with_clearance(space, part.points, z + part.height_m, config_.narrow), path);
+      std::vector<Waypoint> way = with_clearance(space, part.points, z + part.height_m, config_.narrow);
+      for (Waypoint& at : way)
+        if (const double height = space.height(at.p_W.head<2>());
+            std::abs(height - part.height_m) > config_.route.flat_m)
+          at.p_W.z() = z + height;
+      append(way, path);
       continue;
     }
     const Eigen::Vector2d &foot = part.points.front(), &head = part.points.back();

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "bim/errors.h"
+#include "sim/robot/raised_floor.h"
 #include "sim/route/clearance_map.h"
 #include "sim/route/obstacle_footprint.h"
 
@@ -45,13 +46,13 @@ GridFrame make_grid(const bim::Building& building, int storey, double cell) {
 }  // namespace
 
 ClearanceMap::ClearanceMap(const bim::Building& as_built, int storey, const RouteConfig& config) : config_(config) {
-  const double floor_z = as_built.storeys.at(static_cast<std::size_t>(storey)).elevation_m;
+  ground_W_ = ground_level(as_built, storey);
   grid_ = make_grid(as_built, storey, config.cell_m);
   floor_ = floor_cells(as_built, storey, grid_, config);
   heights_ = floor_heights(as_built, storey, grid_, config, floor_);
-  clearance_ = heights_.empty() ? clearances(grid_, find_obstacle_footprints(as_built, floor_z, config), floor_)
+  clearance_ = heights_.empty() ? clearances(grid_, find_obstacle_footprints(as_built, ground_W_, config), floor_)
                                 : clearances_over(as_built, storey, grid_, config, floor_, heights_);
-  close_pockets(hollow_obstacles(as_built, floor_z, config));
+  close_pockets(hollow_obstacles(as_built, ground_W_, config));
 }
 
 void ClearanceMap::close_pockets(const std::vector<Polygon2>& hollow_obstacles) {

@@ -42,7 +42,7 @@ struct RouteConfig {
 /// A part of a path: over the floor, or straight up or down one step.
 struct PathPart {
   std::vector<Eigen::Vector2d> points;
-  double height_m = 0.0;  ///< of the floor at its end, over the storey's elevation
+  double height_m = 0.0;  ///< of the floor at its end, over ClearanceMap::ground_W
   bool step = false;
 };
 
@@ -63,7 +63,9 @@ class ClearanceMap {
   [[nodiscard]] std::vector<Eigen::Vector2d> path(const Eigen::Vector2d& a, const Eigen::Vector2d& b) const;
   /// The same in parts, so that the robot can line up with each step.
   [[nodiscard]] std::vector<PathPart> parts(const Eigen::Vector2d& a, const Eigen::Vector2d& b) const;
-  /// Height of the floor over the storey's elevation, m; 0 off the grid.
+  /// Height in W of the lowest floor that is walked, see ground_level.
+  [[nodiscard]] double ground_W() const { return ground_W_; }
+  /// Height of the floor over ground_W, m; 0 off the grid.
   [[nodiscard]] double height(const Eigen::Vector2d& p) const;
   [[nodiscard]] double cell_height(std::size_t cell) const {
     return heights_.empty() ? 0.0 : static_cast<double>(heights_[cell]);
@@ -124,6 +126,7 @@ class ClearanceMap {
   };
 
   RouteConfig config_;
+  double ground_W_ = 0.0;
   GridFrame grid_;
   std::vector<double> clearance_;                                       ///< by cell, at its centre
   std::vector<char> floor_;                                             ///< by cell

@@ -294,6 +294,17 @@ class Model:
                  [(foot[0] + x * along[0] - y * along[1], foot[1] + x * along[1] + y * along[0], storey["z"] + z)
                   for x in (0, steps * tread) for y in (-width, 0) for z in (0, steps * rise)])
 
+    def ramp(self, storey, outline, y0, y1):
+        """A flight over an outline of (x, z), counter-clockwise, in a ramp without a body of its own."""
+        place = self.placed(storey["place"], (0, 0, 0))
+        shape = self.shape([self.upended(outline, y0, y1)])
+        flight = self.rooted("IFCRAMPFLIGHT", f"'flight',$,$,{place},{shape},$" + self.tail("", ",$"))
+        ramp = self.rooted("IFCRAMP", f"'ramp',$,$,{place},$,$,.STRAIGHT_RUN_RAMP.")
+        self.group(ramp, [flight])
+        storey["products"].append(ramp)
+        self.row(flight, "IFCRAMPFLIGHT", area(outline) * (y1 - y0),
+                 [(x, y, storey["z"] + z) for x, z in outline for y in (y0, y1)])
+
     # The file
 
     def write(self, order=1, folded=False, comments=False):
@@ -429,7 +440,27 @@ def walls_only():
     m.write()
 
 
+def ramp_house():
+    """A room half a metre below its storey, and a ramp down to it over the whole width of the room between."""
+    m = Model("ramp_house", "IFC4")
+    s = m.storey("EG", 0.0)
+    m.wall(s, (0, 0), (18, 0), 0.3, 3.5, y0=0, z0=-1)
+    m.wall(s, (18, 7), (0, 7), 0.3, 3.5, [("window", 2, 1.2, 1.8, 1.3)], y0=0, z0=-1)
+    m.wall(s, (18, 0.3), (18, 6.7), 0.3, 3.5, y0=0, z0=-1)
+    m.wall(s, (0, 6.7), (0, 0.3), 0.3, 3.5, y0=0, z0=-1)
+    m.wall(s, (6, 0.3), (6, 6.7), 0.2, 3.5, [("door", 2.5, 1.2, 1, 2.1)], z0=-1)
+    m.wall(s, (11.5, 0.3), (11.5, 6.7), 0.2, 3.5, [("door", 2.5, 1.2, 0.5, 2.1)], z0=-1)
+    m.slab(s, rectangle(0, 0, 6.1, 7), -0.2, 0)
+    m.slab(s, rectangle(11.4, 0, 18, 7), -0.7, -0.5)
+    m.ramp(s, [(6.1, -0.2), (11.4, -0.7), (11.4, -0.5), (6.1, 0.0)], 0.3, 6.7)
+    m.slab(s, rectangle(0, 0, 18, 7), 2.5, 2.7, kind=".ROOF.")
+    m.space(s, "1", "Upper", rectangle(0.3, 0.3, 5.9, 6.7), 2.5)
+    m.space(s, "2", "Between", rectangle(6.1, 0.3, 11.4, 6.7), 2.5)
+    m.space(s, "3", "Lower", rectangle(11.6, 0.3, 17.7, 6.7), 2.5)
+    m.write()
+
+
 if __name__ == "__main__":
     HERE.mkdir(exist_ok=True)
-    for make in (twin_flats, gable_house, workshop, walls_only):
+    for make in (twin_flats, gable_house, workshop, walls_only, ramp_house):
         make()

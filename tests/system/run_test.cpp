@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "tests/system/program.h"
 
@@ -308,6 +309,25 @@ TEST_F(ShortRun, ReplayComparesSomething) {
   const Outcome outcome = plumbline({"replay", dir(), "--until", "0.001"});
   EXPECT_EQ(outcome.code, 2) << outcome.out;
   EXPECT_NE(outcome.err.find("holds no digest up to then; the first is at 0."), std::string::npos) << outcome.err;
+}
+
+TEST(WalkedFloors, TheRobotWalksDownARampToASunkenRoom) {
+  if (!available()) GTEST_SKIP() << "PLUMBLINE_BINARY and PLUMBLINE_SOURCE are not set; run through ctest";
+  const Folder folder;
+  const Outcome outcome = plumbline(
+      {"run", project_file("tests/data/ifc/ramp_house.ifc"), "--method", "odometry", "--out", folder / "run"});
+  EXPECT_EQ(outcome.code, 0) << outcome.out << outcome.err;
+  EXPECT_NE(outcome.out.find("through 3 of the 3 rooms on EG"), std::string::npos) << outcome.out << outcome.err;
+  std::istringstream lines(read_file(folder / "run" + "/truth.tum"));
+  double lowest = 1e3, highest = -1e3;
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream numbers(line);
+    double stamp = 0.0, x = 0.0, y = 0.0, z = 0.0;
+    numbers >> stamp >> x >> y >> z;
+    lowest = std::min(lowest, z);
+    highest = std::max(highest, z);
+  }
+  EXPECT_NEAR(highest - lowest, 0.5, 0.05) << "of the gait, 5 cm";
 }
 
 }  // namespace

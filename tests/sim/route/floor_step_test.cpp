@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
+#include "sim/robot/collision.h"
 #include "sim/robot/ground.h"
+#include "sim/robot/raised_floor.h"
 #include "sim/route/blockage.h"
 #include "sim/route/multi_storey_planner.h"
 #include "tests/sim/route/floor_plan.h"
@@ -81,6 +84,94 @@ TEST(FloorStep, NothingChangesWhereFloorsAreLevel) {
   const ClearanceMap space(building, 0);
   EXPECT_EQ(space.height(east), 0.0);
   EXPECT_EQ(space.parts(west, east).size(), 1U);
+}
+
+/// Three rooms of 4 x 5 m: one at the storey's elevation, a ramp down, one that much lower.
+bim::Building ramp_down(double drop_m, bool as_obstacle) {
+  bim::Building building = empty_storey();
+  for (const double x : {4.0, 8.0}) add_wall(building, {x, 0}, {x, 5});
+  for (const double y : {0.0, 5.0}) add_wall(building, {0, y}, {12, y});
+  for (const double x : {0.0, 12.0}) add_wall(building, {x, 0}, {x, 5});
+  for (bim::Wall& wall : building.walls) wall.z0_m = -1.0;
+  add_door(building, 0, 2.5, 1.2);
+  bim::Opening& lower = add_door(building, 1, 2.5, 1.2);
+  lower.z0_m = -drop_m;
+  lower.z1_m = 2.1 - drop_m;
+  for (int i = 0; i < 3; ++i)
+    add_room(building, "r" + std::to_string(i), rectangle({4.0 * i + 0.1, 0.1}, {4.0 * i + 3.9, 4.9}));
+  building.rooms[2].z0_m = -drop_m;
+  bim::Slab slab;
+  slab.storey = 0;
+  for (const auto& [id, x0, x1, top] : {std::tuple("upper", -0.1, 4.0, 0.0), {"lower", 8.0, 12.1, -drop_m}}) {
+    slab.id = id;
+    slab.polygon.outer = rectangle({x0, -0.1}, {x1, 5.1});
+    slab.z0_m = top - 0.2;
+    slab.z1_m = top;
+    building.slabs.push_back(slab);
+  }
+  bim::Solid wedge = prism(rectangle({4.0, 0.0}, {8.0, 5.0}), -0.2, 0.0);
+  for (Eigen::Vector3d& p : wedge.vertices) p.z() -= drop_m * (p.x() - 4.0) / 4.0;
+  if (as_obstacle) {
+    building.obstacles.push_back({});
+    building.obstacles.back().id = "ramp";
+    building.obstacles.back().kind = "ramp";
+    building.obstacles.back().storey = 0;
+    building.obstacles.back().body = wedge;
+  } else {
+    slab.id = "sloping";
+    slab.body = wedge;
+    slab.polygon.outer = rectangle({4.0, 0.0}, {8.0, 5.0});
+    slab.z0_m = -drop_m - 0.2;
+    slab.z1_m = 0.0;
+    building.slabs.push_back(slab);
+  }
+  return building;
+}
+
+TEST(SunkenFloor, IsWalkedDownARampOfEitherKind) {
+  const Eigen::Vector2d far(10.0, 2.5);
+  for (const bool as_obstacle : {false, true})
+    for (const double drop : {0.3, 0.5}) {
+      const bim::Building building = ramp_down(drop, as_obstacle);
+      EXPECT_DOUBLE_EQ(ground_level(building, 0), -drop);
+      const MultiStoreyPlanner space(building);
+      const std::vector<Waypoint> way = space.path({0, west}, {0, far});
+      ASSERT_FALSE(way.empty()) << drop << " " << as_obstacle;
+      EXPECT_EQ(std::count_if(way.begin(), way.end(), [](const Waypoint& w) { return w.stairs; }), 0);
+      EXPECT_NEAR(way.front().p_W.z(), 0.0, 0.01);
+      EXPECT_NEAR(way.back().p_W.z(), -drop, 0.01);
+      EXPECT_FALSE(space.path({0, far}, {0, west}).empty());
+      const Ground ground = building_ground(building, {0});
+      for (const double x : {4.5, 5.0, 6.3, 7.7})
+        EXPECT_NEAR(ground.height(x, 2.5, 1.0), -drop * (x - 4.0) / 4.0, 1e-6) << x;
+      EXPECT_NEAR(ground.height(2.0, 2.5, 1.0), 0.0, 1e-9);
+      EXPECT_NEAR(ground.height(10.0, 2.5, 1.0), -drop, 1e-9);
+      const std::vector<CollisionBox> boxes = collision_boxes(building, {0});
+      EXPECT_TRUE(std::all_of(boxes.begin(), boxes.end(), [](const CollisionBox& box) {
+        return distance(box, {6.0, 2.5, 0.1}) > 0.5;
+      })) << "nothing stands on the ramp";
+    }
+}
+
+TEST(SunkenFloor, BehindASlopeThatIsTooSteepOrADropIsOutOfReach) {
+  const Eigen::Vector2d far(10.0, 2.5);
+  bim::Building steep = ramp_down(0.5, true);
+  for (Eigen::Vector3d& p : steep.obstacles[0].body.vertices)
+    if (p.x() > 7.0) p.x() = 5.5;  // 0.5 m in 1.5 m
+  EXPECT_TRUE(ClearanceMap(steep, 0).path(west, far).empty());
+  bim::Building without = ramp_down(0.5, true);
+  without.obstacles.clear();
+  EXPECT_TRUE(ClearanceMap(without, 0).path(west, far).empty());
+}
+
+TEST(SunkenFloor, ABareSlabUnderACoveringIsNone) {
+  for (const double thickness : {0.02, 0.1, 0.3}) {
+    bim::Building building = two_rooms();
+    building.slabs.front().z1_m = -thickness;
+    EXPECT_EQ(ground_level(building, 0), 0.0) << thickness;
+    for (bim::Room& room : building.rooms) room.z0_m = -thickness;
+    EXPECT_EQ(ground_level(building, 0), thickness > 0.05 ? -thickness : 0.0) << "the rooms begin there";
+  }
 }
 
 }  // namespace
