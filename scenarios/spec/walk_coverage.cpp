@@ -133,7 +133,8 @@ WalkCoverage walk_coverage(const sim::MultiStoreyPlanner& space, const RoutePlan
   const bim::Storey& storey = building.storeys.at(static_cast<std::size_t>(plan.storey));
   WalkCoverage walk;
   walk.storey = storey.name.empty() ? storey.id : storey.name;
-  walk.floor_assumed = !sim::has_known_floor(building, plan.storey, sim::RouteConfig());
+  walk.floor_assumed =
+      !sim::has_known_floor(building, plan.storey, space.storey(plan.storey).ground_W(), sim::RouteConfig());
   walk.planned_m = plan.length_m;
   walk.stairs_m = plan.stairs_m;
   if (!plan.waypoints.empty()) walk.end_W = plan.waypoints.back().p_W.head<2>();

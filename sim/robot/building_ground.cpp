@@ -267,11 +267,9 @@ void add_sloping(const RaisedFloor& floor, const BuildingGroundConfig& config, s
 }
 
 /// Raised floors, each down to below the ground.
-void add_raised(const bim::Building& building, int storey, const BuildingGroundConfig& config,
-                std::vector<CollisionBox>& out) {
-  const double ground = ground_level(building, storey);
-  for (const RaisedFloor& floor : raised_floors(building, storey)) {
-    const HeightRange z{ground - config.floor_body_m, floor.z_W};
+void add_raised(const WalkedFloors& floors, const BuildingGroundConfig& config, std::vector<CollisionBox>& out) {
+  for (const RaisedFloor& floor : floors.raised) {
+    const HeightRange z{floors.ground_W - config.floor_body_m, floor.z_W};
     if (!floor.is_level())
       add_sloping(floor, config, out);
     else if (is_rectangle(floor.polygon))
@@ -307,7 +305,8 @@ Ground building_ground(const bim::Building& as_built, const std::vector<int>& st
   for (const int storey : storeys) {
     if (storey < 0 || static_cast<std::size_t>(storey) >= as_built.storeys.size())
       throw InputError({}, "the building has no storey number " + std::to_string(storey));
-    GroundLevel level{ground_level(as_built, storey), {}};
+    const WalkedFloors floors = walked_floors(as_built, storey);
+    GroundLevel level{floors.ground_W, {}};
     std::vector<Well> wells;
     for (const bim::Stair& stair : as_built.stairs)
       if (stair.to == storey && is_walked(stair, storeys)) wells.emplace_back(as_built, stair, config);
@@ -315,7 +314,7 @@ Ground building_ground(const bim::Building& as_built, const std::vector<int>& st
     for (std::vector<Well>& group : grouped(wells, well_config.boxes_to_m))
       FloorAround(std::move(group), level.z_m, config).add_to(surfaces, well_config.boxes_to_m);
     add_sills(as_built, level.z_m, config, surfaces);
-    add_raised(as_built, storey, config, surfaces);
+    add_raised(floors, config, surfaces);
     levels.push_back(std::move(level));
   }
   if (levels.empty()) throw InputError({}, "a robot needs a storey to stand on");

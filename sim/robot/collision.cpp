@@ -13,14 +13,9 @@ namespace plumbline::sim {
 namespace {
 
 /// Heights a robot on the storeys can touch, in W, ascending and apart.
-std::vector<HeightRange> touchable(const bim::Building& building, const std::vector<int>& storeys,
-                                   const CollisionConfig& config) {
-  std::vector<std::pair<double, double>> floors;  // of the storey, and its highest
-  for (const int storey : storeys) {
-    const double ground = ground_level(building, storey);
-    const std::vector<RaisedFloor> raised = raised_floors(building, storey);
-    floors.emplace_back(ground, raised.empty() ? ground : raised.back().z_W);
-  }
+std::vector<HeightRange> touchable(const std::vector<WalkedFloors>& storeys, const CollisionConfig& config) {
+  std::vector<std::pair<double, double>> floors;  // the lowest and the highest of each storey
+  for (const WalkedFloors& of_storey : storeys) floors.emplace_back(of_storey.ground_W, of_storey.highest_W());
   std::sort(floors.begin(), floors.end());
   std::vector<HeightRange> out;
   for (const auto& [floor, highest] : floors) {
@@ -122,16 +117,6 @@ Eigen::AlignedBox2d area_of(const bim::Building& building, const std::vector<int
   return area.isEmpty() ? area : Eigen::AlignedBox2d(area.min() - margin, area.max() + margin);
 }
 
-/// Ramps that are floor of the storeys, indices ascending.
-std::vector<int> walked_ramps(const bim::Building& building, const std::vector<int>& storeys) {
-  std::vector<int> ramps;
-  for (const int storey : storeys)
-    for (const RaisedFloor& floor : raised_floors(building, storey))
-      if (floor.obstacle >= 0) ramps.push_back(floor.obstacle);
-  std::sort(ramps.begin(), ramps.end());
-  return ramps;
-}
-
 }  // namespace
 
 double distance(const CollisionBox& box, const Eigen::Vector3d& p_W) {
@@ -146,7 +131,15 @@ bool is_walked(const bim::Stair& stair, const std::vector<int>& storeys) {
 
 std::vector<CollisionBox> collision_boxes(const bim::Building& as_built, const std::vector<int>& storeys,
                                           const CollisionConfig& config) {
-  const std::vector<HeightRange> reaches = touchable(as_built, storeys, config);
+  std::vector<WalkedFloors> floors;
+  for (const int storey : storeys) floors.push_back(walked_floors(as_built, storey));
+  const auto is_walked_ramp = [&](int obstacle) {
+    return std::any_of(floors.begin(), floors.end(), [&](const WalkedFloors& of_storey) {
+      return std::any_of(of_storey.raised.begin(), of_storey.raised.end(),
+                         [&](const RaisedFloor& floor) { return floor.obstacle == obstacle; });
+    });
+  };
+  const std::vector<HeightRange> reaches = touchable(floors, config);
   const auto reached = [&](const HeightRange& z) {
     return std::any_of(reaches.begin(), reaches.end(), [&](const HeightRange& reach) { return overlap(z, reach); });
   };
@@ -164,9 +157,8 @@ std::vector<CollisionBox> collision_boxes(const bim::Building& as_built, const s
   for (const bim::Stair& stair : as_built.stairs)
     if (!is_walked(stair, storeys))
       for (const bim::Solid& body : stair.bodies) add_solid(body);
-  const std::vector<int> ramps = walked_ramps(as_built, storeys);
   for (std::size_t i = 0; i < as_built.obstacles.size(); ++i)
-    if (!std::binary_search(ramps.begin(), ramps.end(), static_cast<int>(i))) add_solid(as_built.obstacles[i].body);
+    if (!is_walked_ramp(static_cast<int>(i))) add_solid(as_built.obstacles[i].body);
   for (std::size_t i = 0; i < boxes.size(); ++i) boxes[i].id = static_cast<int>(i);
   return boxes;
 }

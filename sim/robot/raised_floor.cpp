@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 #include "bim/geometry/polygon_boolean.h"
-#include "bim/model/floors.h"
 
 namespace plumbline::sim {
 
@@ -53,52 +53,37 @@ bool may_be_sunken(const bim::Building& building, int storey, double elevation, 
   });
 }
 
-}  // namespace
-
-double ground_level(const bim::Building& as_built, int storey, const RaisedFloorConfig& config) {
-  const double elevation = as_built.storeys.at(static_cast<std::size_t>(storey)).elevation_m;
-  double level = elevation;
-  if (!may_be_sunken(as_built, storey, elevation, config)) return level;
-  for (const bim::FloorPiece& piece : bim::floor_pieces(as_built)) {
+/// The lowest level slab of a room, or the storey's elevation.
+double ground_of(const bim::Building& building, int storey, const std::vector<bim::FloorPiece>& pieces,
+                 const RaisedFloorConfig& config) {
+  const double elevation = building.storeys[static_cast<std::size_t>(storey)].elevation_m;
+  double ground = elevation;
+  for (const bim::FloorPiece& piece : pieces) {
     if (piece.storey != storey || piece.source != bim::FloorSource::slab || !piece.slope.isZero(0.0)) continue;
-    if (piece.z0_m >= level || area({piece.polygon}) < config.sunken_min_m2) continue;
+    if (piece.z0_m >= ground || area({piece.polygon}) < config.sunken_min_m2) continue;
+    // One slab may lie under several rooms, and several may lie in one room.
     const Eigen::Vector2d p = interior_point(piece.polygon.outer);
-    const bool in_room = std::any_of(as_built.rooms.begin(), as_built.rooms.end(), [&](const bim::Room& room) {
-      return room.storey == storey && contains(room.polygon, p) && is_sunken(piece.z0_m, elevation, room, config);
+    const bool in_room = std::any_of(building.rooms.begin(), building.rooms.end(), [&](const bim::Room& room) {
+      return room.storey == storey && is_sunken(piece.z0_m, elevation, room, config) &&
+             (contains(room.polygon, p) || contains(piece.polygon.outer, interior_point(room.polygon)));
     });
-    if (in_room) level = piece.z0_m;
+    if (in_room) ground = piece.z0_m;
   }
-  return level;
+  return ground;
 }
 
-std::vector<RaisedFloor> raised_floors(const bim::Building& as_built, int storey, const RaisedFloorConfig& config) {
-  const double elevation = as_built.storeys.at(static_cast<std::size_t>(storey)).elevation_m;
-  const double ground = ground_level(as_built, storey, config);
-  const auto is_raised = [&](double z) { return z > ground + config.level_m && z <= elevation + config.highest_m; };
-  const auto is_ramp = [](const bim::Obstacle& obstacle) { return obstacle.kind == "ramp"; };
-  // Looking for floors costs more than the rest; most buildings have nothing between the levels of their storeys.
-  const bool any = ground < elevation ||
-                   std::any_of(as_built.slabs.begin(), as_built.slabs.end(),
-                               [&](const bim::Slab& slab) { return is_raised(slab.z1_m); }) ||
-                   std::any_of(as_built.rooms.begin(), as_built.rooms.end(),
-                               [&](const bim::Room& room) { return room.storey == storey && is_raised(room.z0_m); }) ||
-                   std::any_of(as_built.obstacles.begin(), as_built.obstacles.end(), is_ramp);
-  if (!any) return {};
-  std::vector<RaisedFloor> floors;
-  for (const bim::FloorPiece& piece : bim::floor_pieces(as_built)) {
-    if (piece.storey != storey) continue;
-    const auto [low, high] = heights_of(piece);
-    const bool on_ramp = piece.source == bim::FloorSource::obstacle &&
-                         is_ramp(as_built.obstacles[static_cast<std::size_t>(piece.element)]);
-    const bool slopes = !piece.slope.isZero(0.0);
-    if (slopes && (piece.slope.norm() > config.steepest || high - low < config.slope_min_m)) continue;
-    if (!is_raised(high) || low < ground - config.level_m) continue;
-    floors.push_back({piece.polygon, high, piece.z0_m, piece.slope, on_ramp ? piece.element : -1});
-  }
+bool is_ramp(const bim::Building& building, const bim::FloorPiece& piece) {
+  return piece.source == bim::FloorSource::obstacle &&
+         building.obstacles[static_cast<std::size_t>(piece.element)].kind == "ramp";
+}
+
+/// Adds the thresholds of open doors that lead to one of the floors.
+void add_thresholds(const bim::Building& building, const std::function<bool(double)>& is_raised,
+                    const RaisedFloorConfig& config, std::vector<RaisedFloor>& floors) {
   const std::size_t count = floors.size();
-  for (const bim::Opening& opening : as_built.openings) {
+  for (const bim::Opening& opening : building.openings) {
     if (opening.wall < 0 || opening.kind == bim::OpeningKind::window || !is_raised(opening.z0_m)) continue;
-    const Polygon2 outline = threshold(opening, as_built.walls[static_cast<std::size_t>(opening.wall)]);
+    const Polygon2 outline = threshold(opening, building.walls[static_cast<std::size_t>(opening.wall)]);
     const bool leads =
         std::any_of(floors.begin(), floors.begin() + static_cast<std::ptrdiff_t>(count), [&](const RaisedFloor& floor) {
           return is_beside(outline, floor.polygon, config.beside_m) &&
@@ -108,7 +93,39 @@ std::vector<RaisedFloor> raised_floors(const bim::Building& as_built, int storey
         });
     if (leads) floors.push_back({{outline, {}}, opening.z0_m, opening.z0_m});
   }
-  std::stable_sort(floors.begin(), floors.end(),
+}
+
+}  // namespace
+
+WalkedFloors walked_floors(const bim::Building& as_built, int storey, const RaisedFloorConfig& config) {
+  const double elevation = as_built.storeys.at(static_cast<std::size_t>(storey)).elevation_m;
+  WalkedFloors floors{elevation, {}};
+  const auto is_raised = [&](double z) {
+    return z > floors.ground_W + config.level_m && z <= elevation + config.highest_m;
+  };
+  // Looking for floors costs more than the rest; most buildings have nothing between the levels of their storeys.
+  const bool sunken = may_be_sunken(as_built, storey, elevation, config);
+  const bool any = sunken ||
+                   std::any_of(as_built.slabs.begin(), as_built.slabs.end(),
+                               [&](const bim::Slab& slab) { return is_raised(slab.z1_m); }) ||
+                   std::any_of(as_built.rooms.begin(), as_built.rooms.end(),
+                               [&](const bim::Room& room) { return room.storey == storey && is_raised(room.z0_m); }) ||
+                   std::any_of(as_built.obstacles.begin(), as_built.obstacles.end(),
+                               [](const bim::Obstacle& obstacle) { return obstacle.kind == "ramp"; });
+  if (!any) return floors;
+  const std::vector<bim::FloorPiece> pieces = bim::floor_pieces(as_built);
+  if (sunken) floors.ground_W = ground_of(as_built, storey, pieces, config);
+  for (const bim::FloorPiece& piece : pieces) {
+    if (piece.storey != storey) continue;
+    const auto [low, high] = heights_of(piece);
+    const bool slopes = !piece.slope.isZero(0.0);
+    if (slopes && (piece.slope.norm() > config.steepest || high - low < config.slope_min_m)) continue;
+    if (!is_raised(high) || low < floors.ground_W - config.level_m) continue;
+    floors.raised.push_back(
+        {piece.polygon, high, piece.z0_m, piece.slope, is_ramp(as_built, piece) ? piece.element : -1});
+  }
+  add_thresholds(as_built, is_raised, config, floors.raised);
+  std::stable_sort(floors.raised.begin(), floors.raised.end(),
                    [](const RaisedFloor& a, const RaisedFloor& b) { return a.z_W < b.z_W; });
   return floors;
 }

@@ -4,14 +4,15 @@
 #include <vector>
 
 #include "bim/model/building.h"
+#include "bim/model/floors.h"
 
 namespace plumbline::sim {
 
 /// Floors of a storey that the robot can stand on though they do not lie at its elevation.
 struct RaisedFloorConfig {
-  double level_m = 0.05;       ///< no higher or lower than this is the storey's own floor
-  double highest_m = 1.2;      ///< above its elevation
-  double lowest_m = 0.6;       ///< below it
+  double level_m = 0.05;                          ///< no higher or lower than this is the storey's own floor
+  double highest_m = 1.2;                         ///< above its elevation
+  double lowest_m = bim::FloorConfig().sunken_m;  ///< below it
   double bare_slab_m = 0.35;   ///< a slab up to this far below a room may have a covering that was not drawn
   double sunken_min_m2 = 1.0;  ///< a smaller sunken floor is a pit or a drain
   double steepest = 0.2;       ///< tangent of a sloping floor that is walked; wheelchairs have 0.06 to 0.1, cars 0.15
@@ -19,10 +20,6 @@ struct RaisedFloorConfig {
   double doorway_m = 0.05;     ///< the threshold of a door this near in height belongs to the raised floor,
   double beside_m = 0.35;      ///< and this near to it on the plan
 };
-
-/// Height of the lowest floor of a storey on which the robot walks, in W: its elevation, unless a level slab of a room
-/// lies lower.
-[[nodiscard]] double ground_level(const bim::Building& as_built, int storey, const RaisedFloorConfig& config = {});
 
 /// Floor above a storey's ground level.
 struct RaisedFloor {
@@ -37,8 +34,14 @@ struct RaisedFloor {
   [[nodiscard]] double z_at(const Eigen::Vector2d& p) const { return z0_W + slope.dot(p); }
 };
 
-/// Raised and sloping floors of a storey from the lowest up, with the thresholds of open doors that lead to them.
-[[nodiscard]] std::vector<RaisedFloor> raised_floors(const bim::Building& as_built, int storey,
-                                                     const RaisedFloorConfig& config = {});
+/// What the robot walks on in a storey.
+struct WalkedFloors {
+  double ground_W = 0.0;            ///< height of the lowest: the elevation, unless a level slab of a room lies lower
+  std::vector<RaisedFloor> raised;  ///< by highest point, with the thresholds of open doors that lead to them
+
+  [[nodiscard]] double highest_W() const { return raised.empty() ? ground_W : raised.back().z_W; }
+};
+[[nodiscard]] WalkedFloors walked_floors(const bim::Building& as_built, int storey,
+                                         const RaisedFloorConfig& config = {});
 
 }  // namespace plumbline::sim

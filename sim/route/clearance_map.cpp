@@ -8,8 +8,6 @@
 #include <set>
 #include <utility>
 
-#include "sim/robot/raised_floor.h"
-
 namespace plumbline::sim {
 
 namespace {
@@ -192,8 +190,7 @@ void keep_inside(const bim::Building& building, double floor_z, const GridFrame&
 
 }  // namespace
 
-bool has_known_floor(const bim::Building& building, int storey, const RouteConfig& config) {
-  const double floor_z = ground_level(building, storey);
+bool has_known_floor(const bim::Building& building, int storey, double floor_z, const RouteConfig& config) {
   return std::any_of(building.slabs.begin(), building.slabs.end(),
                      [&](const bim::Slab& slab) {
                        return !slab.assumed && slab.z1_m <= floor_z + config.band_low_m &&
@@ -203,9 +200,8 @@ bool has_known_floor(const bim::Building& building, int storey, const RouteConfi
                      [&](const bim::Room& room) { return room.storey == storey; });
 }
 
-std::vector<char> floor_cells(const bim::Building& building, int storey, const GridFrame& grid,
+std::vector<char> floor_cells(const bim::Building& building, int storey, double floor_z, const GridFrame& grid,
                               const RouteConfig& config) {
-  const double floor_z = ground_level(building, storey);
   std::vector<char> cells(grid.size(), 0);
   const auto set = [&](std::size_t cell) { cells[cell] = 1; };
   bool any = false;
@@ -217,7 +213,7 @@ std::vector<char> floor_cells(const bim::Building& building, int storey, const G
   if (!any)
     for (const bim::Room& room : building.rooms)
       if (room.storey == storey) fill_cells(grid, outline_of({room.polygon, {}}), set);
-  if (!has_known_floor(building, storey, config)) std::fill(cells.begin(), cells.end(), char{1});
+  if (!has_known_floor(building, storey, floor_z, config)) std::fill(cells.begin(), cells.end(), char{1});
   const int reach = static_cast<int>(config.floor_gap_m / grid.cell + 0.5);
   cells = spread(grid, spread(grid, std::move(cells), 1, reach), 0, reach);
   if (building.rooms.empty()) keep_inside(building, floor_z, grid, config, cells);
@@ -246,18 +242,16 @@ std::vector<double> clearances(const GridFrame& grid, const std::vector<Obstacle
   return result;
 }
 
-std::vector<float> floor_heights(const bim::Building& building, int storey, const GridFrame& grid,
-                                 const RouteConfig& config, std::vector<char>& floor) {
-  const std::vector<RaisedFloor> raised = raised_floors(building, storey);
-  if (raised.empty()) return {};
-  const double ground = ground_level(building, storey);
+std::vector<float> floor_heights(const WalkedFloors& floors, const GridFrame& grid, const RouteConfig& config,
+                                 std::vector<char>& floor) {
+  if (floors.raised.empty()) return {};
   constexpr float unknown = -1.0F;
   std::vector<float> heights(grid.size(), unknown);
   for (std::size_t i = 0; i < floor.size(); ++i)
     if (floor[i] != 0) heights[i] = 0.0F;
-  for (const RaisedFloor& piece : raised)
+  for (const RaisedFloor& piece : floors.raised)
     fill_cells(grid, outline_of(piece.polygon), [&](std::size_t cell) {
-      heights[cell] = static_cast<float>(std::round((piece.z_at(grid.center(cell)) - ground) * 100.0) / 100.0);
+      heights[cell] = static_cast<float>(std::round((piece.z_at(grid.center(cell)) - floors.ground_W) * 100.0) / 100.0);
       floor[cell] = 1;
     });
   // Gaps under walls that the floor steps over are as high as the nearest floor: the first found, by rows and columns.
@@ -276,20 +270,19 @@ std::vector<float> floor_heights(const bim::Building& building, int storey, cons
   return heights;
 }
 
-std::vector<double> clearances_over(const bim::Building& building, int storey, const GridFrame& grid,
-                                    const RouteConfig& config, const std::vector<char>& floor,
+std::vector<double> clearances_over(const bim::Building& building, int storey, const WalkedFloors& floors,
+                                    const GridFrame& grid, const RouteConfig& config, const std::vector<char>& floor,
                                     const std::vector<float>& heights) {
   const double elevation = building.storeys.at(static_cast<std::size_t>(storey)).elevation_m;
-  const double ground = ground_level(building, storey);
+  const double ground = floors.ground_W;
   bim::Building solid = building;  // a slab or ramp that is floor is no obstacle of the floor beside it
   std::erase_if(solid.slabs, [&](const bim::Slab& slab) {
     return slab.z1_m > ground && slab.z1_m <= elevation + RaisedFloorConfig().highest_m;
   });
-  const std::vector<RaisedFloor> raised = raised_floors(building, storey);
-  for (const RaisedFloor& floor : raised)
-    if (floor.obstacle >= 0) solid.obstacles[static_cast<std::size_t>(floor.obstacle)].body = {};
-  const bool slopes =
-      std::any_of(raised.begin(), raised.end(), [](const RaisedFloor& floor) { return !floor.is_level(); });
+  for (const RaisedFloor& raised : floors.raised)
+    if (raised.obstacle >= 0) solid.obstacles[static_cast<std::size_t>(raised.obstacle)].body = {};
+  const bool slopes = std::any_of(floors.raised.begin(), floors.raised.end(),
+                                  [](const RaisedFloor& raised) { return !raised.is_level(); });
   // What is an obstacle from a slope is looked for every few centimetres.
   const auto level_of = [&](float height) {
     return slopes ? std::round(height / slope_level_m) * slope_level_m : height;

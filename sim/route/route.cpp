@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "bim/errors.h"
-#include "sim/robot/raised_floor.h"
 #include "sim/route/clearance_map.h"
 #include "sim/route/obstacle_footprint.h"
 
@@ -46,12 +45,13 @@ GridFrame make_grid(const bim::Building& building, int storey, double cell) {
 }  // namespace
 
 ClearanceMap::ClearanceMap(const bim::Building& as_built, int storey, const RouteConfig& config) : config_(config) {
-  ground_W_ = ground_level(as_built, storey);
+  const WalkedFloors floors = walked_floors(as_built, storey);
+  ground_W_ = floors.ground_W;
   grid_ = make_grid(as_built, storey, config.cell_m);
-  floor_ = floor_cells(as_built, storey, grid_, config);
-  heights_ = floor_heights(as_built, storey, grid_, config, floor_);
+  floor_ = floor_cells(as_built, storey, ground_W_, grid_, config);
+  heights_ = floor_heights(floors, grid_, config, floor_);
   clearance_ = heights_.empty() ? clearances(grid_, find_obstacle_footprints(as_built, ground_W_, config), floor_)
-                                : clearances_over(as_built, storey, grid_, config, floor_, heights_);
+                                : clearances_over(as_built, storey, floors, grid_, config, floor_, heights_);
   close_pockets(hollow_obstacles(as_built, ground_W_, config));
 }
 

@@ -11,6 +11,7 @@
 
 #include "bim/geometry/grid_frame.h"
 #include "bim/model/building.h"
+#include "sim/robot/raised_floor.h"
 
 namespace plumbline::sim {
 
@@ -30,12 +31,13 @@ struct RouteConfig {
   double comfort_m = 0.8;           ///< more clearance than this is worth no detour
   double shortcut_m = 0.6;          ///< straight lines pass walls nearer than this only where the path around did too
   double crowding = 3.0;            ///< a metre at `radius` clearance counts as 1 + this many at `comfort`
-  double floor_below_m = 0.35;      ///< a slab's top this far below the storey (floor covering) still carries it
-  double furniture_max_m2 = 10.0;   ///< no piece of furniture is larger, seen from above
-  double weld_m = 1e-5;             ///< vertices this close are joined for the test whether a solid is closed
-  double overhead_low_m = 1.8;      ///< what lies between this
-  double overhead_high_m = 12.0;    ///< and this above the floor is a ceiling or a roof
-  double inside_min_m2 = 10.0;      ///< less covered floor than this is no inside
+  double floor_below_m =
+      RaisedFloorConfig().bare_slab_m;  ///< a slab's top this far below the storey (floor covering) still carries it
+  double furniture_max_m2 = 10.0;       ///< no piece of furniture is larger, seen from above
+  double weld_m = 1e-5;                 ///< vertices this close are joined for the test whether a solid is closed
+  double overhead_low_m = 1.8;          ///< what lies between this
+  double overhead_high_m = 12.0;        ///< and this above the floor is a ceiling or a roof
+  double inside_min_m2 = 10.0;          ///< less covered floor than this is no inside
   double floor_gap_m = 0.3;  ///< gaps in the floor up to twice this (between slabs, under walls) are stepped over
 };
 
@@ -63,7 +65,7 @@ class ClearanceMap {
   [[nodiscard]] std::vector<Eigen::Vector2d> path(const Eigen::Vector2d& a, const Eigen::Vector2d& b) const;
   /// The same in parts, so that the robot can line up with each step.
   [[nodiscard]] std::vector<PathPart> parts(const Eigen::Vector2d& a, const Eigen::Vector2d& b) const;
-  /// Height in W of the lowest floor that is walked, see ground_level.
+  /// Height in W of the lowest floor that is walked, see WalkedFloors.
   [[nodiscard]] double ground_W() const { return ground_W_; }
   /// Height of the floor over ground_W, m; 0 off the grid.
   [[nodiscard]] double height(const Eigen::Vector2d& p) const;
