@@ -190,33 +190,33 @@ void keep_inside(const bim::Building& building, double floor_z, const GridFrame&
 
 }  // namespace
 
-bool has_known_floor(const bim::Building& building, int storey, double floor_z, const RouteConfig& config) {
+bool has_known_floor(const bim::Building& building, int storey, double ground_W, const RouteConfig& config) {
   return std::any_of(building.slabs.begin(), building.slabs.end(),
                      [&](const bim::Slab& slab) {
-                       return !slab.assumed && slab.z1_m <= floor_z + config.band_low_m &&
-                              slab.z1_m >= floor_z - config.floor_below_m;
+                       return !slab.assumed && slab.z1_m <= ground_W + config.band_low_m &&
+                              slab.z1_m >= ground_W - config.floor_below_m;
                      }) ||
          std::any_of(building.rooms.begin(), building.rooms.end(),
                      [&](const bim::Room& room) { return room.storey == storey; });
 }
 
-std::vector<char> floor_cells(const bim::Building& building, int storey, double floor_z, const GridFrame& grid,
+std::vector<char> floor_cells(const bim::Building& building, int storey, double ground_W, const GridFrame& grid,
                               const RouteConfig& config) {
   std::vector<char> cells(grid.size(), 0);
   const auto set = [&](std::size_t cell) { cells[cell] = 1; };
   bool any = false;
   for (const bim::Slab& slab : building.slabs) {
-    if (slab.z1_m > floor_z + config.band_low_m || slab.z1_m < floor_z - config.floor_below_m) continue;
+    if (slab.z1_m > ground_W + config.band_low_m || slab.z1_m < ground_W - config.floor_below_m) continue;
     fill_cells(grid, outline_of(slab.polygon), set);
     any = true;
   }
   if (!any)
     for (const bim::Room& room : building.rooms)
       if (room.storey == storey) fill_cells(grid, outline_of({room.polygon, {}}), set);
-  if (!has_known_floor(building, storey, floor_z, config)) std::fill(cells.begin(), cells.end(), char{1});
+  if (!has_known_floor(building, storey, ground_W, config)) std::fill(cells.begin(), cells.end(), char{1});
   const int reach = static_cast<int>(config.floor_gap_m / grid.cell + 0.5);
   cells = spread(grid, spread(grid, std::move(cells), 1, reach), 0, reach);
-  if (building.rooms.empty()) keep_inside(building, floor_z, grid, config, cells);
+  if (building.rooms.empty()) keep_inside(building, ground_W, grid, config, cells);
   return cells;
 }
 
