@@ -161,6 +161,13 @@ BuildingMesh structure_of(const Building& building, const BuildingMesh& mesh) {
   return structure;
 }
 
+std::optional<WalkedFloors> floors_of(const Building& building, int storey) {
+  WalkedFloors floors = walked_floors(building, storey);
+  const bool level =
+      floors.raised.empty() && floors.ground_W == building.storeys[static_cast<std::size_t>(storey)].elevation_m;
+  return level ? std::nullopt : std::optional(std::move(floors));
+}
+
 Eigen::Vector2d moved(const Pose& X_VW, const Eigen::Vector2d& p_W) {
   return (X_VW * Eigen::Vector3d(p_W.x(), p_W.y(), 0.0)).head<2>();
 }
@@ -171,8 +178,11 @@ Plan make_plan(const Building& as_planned) { return make_plan(as_planned, build_
 
 Plan make_plan(const Building& as_planned, const BuildingMesh& mesh) {
   Plan plan;
-  for (const Storey& storey : as_planned.storeys)
-    plan.storeys.push_back({storey.id, storey.elevation_m, storey.height_m});
+  for (std::size_t i = 0; i < as_planned.storeys.size(); ++i) {
+    const Storey& storey = as_planned.storeys[i];
+    plan.storeys.push_back(
+        {storey.id, storey.elevation_m, storey.height_m, floors_of(as_planned, static_cast<int>(i))});
+  }
   for (std::size_t wall = 0; wall < as_planned.walls.size(); ++wall)
     for (const int side : {0, 1}) plan.faces.push_back(face_of(as_planned, static_cast<int>(wall), side));
   for (std::size_t room = 0; room < as_planned.rooms.size(); ++room)
@@ -190,7 +200,10 @@ Plan transformed(const Plan& plan_W, const Pose& X_VW) {
     throw InternalError("a plan turns about the vertical only");
   const double rise = X_VW.t.z();
   Plan plan_V = plan_W;
-  for (PlanStorey& storey : plan_V.storeys) storey.elevation_m += rise;
+  for (PlanStorey& storey : plan_V.storeys) {
+    storey.elevation_m += rise;
+    if (storey.floors) storey.floors = moved(X_VW, std::move(*storey.floors));
+  }
   for (PlanFace& face : plan_V.faces) {
     face.plane_W = X_VW * face.plane_W;
     face.p0 = moved(X_VW, face.p0);

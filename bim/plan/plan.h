@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "bim/mesh/mesh.h"
 #include "bim/model/building.h"
+#include "bim/model/walked_floors.h"
 
 namespace plumbline::bim {
 
@@ -45,6 +47,7 @@ struct PlanStorey {
   std::string name;
   double elevation_m = 0.0;
   double height_m = 3.0;
+  std::optional<WalkedFloors> floors = {};  ///< where they do not all lie at its elevation
 };
 
 /// An element other than a wall as an upright prism: a column, planned furniture.

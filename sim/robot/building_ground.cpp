@@ -7,8 +7,8 @@
 #include "bim/errors.h"
 #include "bim/model/boxes.h"
 #include "bim/model/stair_flight.h"
+#include "bim/model/walked_floors.h"
 #include "sim/robot/ground.h"
-#include "sim/robot/raised_floor.h"
 #include "sim/robot/solid_boxes.h"
 
 namespace plumbline::sim {
@@ -243,7 +243,7 @@ std::vector<Eigen::AlignedBox2d> rows_of(const PolygonWithHoles2& polygon, doubl
 }
 
 /// A sloping floor as boxes that lean along its slope.
-void add_sloping(const RaisedFloor& floor, const BuildingGroundConfig& config, std::vector<CollisionBox>& out) {
+void add_sloping(const bim::RaisedFloor& floor, const BuildingGroundConfig& config, std::vector<CollisionBox>& out) {
   const double yaw = std::atan2(floor.slope.y(), floor.slope.x()), tangent = floor.slope.norm(),
                secant = std::hypot(1.0, tangent);
   const Eigen::Rotation2Dd turn(yaw), back(-yaw);
@@ -267,8 +267,8 @@ void add_sloping(const RaisedFloor& floor, const BuildingGroundConfig& config, s
 }
 
 /// Raised floors, each down to below the ground.
-void add_raised(const WalkedFloors& floors, const BuildingGroundConfig& config, std::vector<CollisionBox>& out) {
-  for (const RaisedFloor& floor : floors.raised) {
+void add_raised(const bim::WalkedFloors& floors, const BuildingGroundConfig& config, std::vector<CollisionBox>& out) {
+  for (const bim::RaisedFloor& floor : floors.raised) {
     const HeightRange z{floors.ground_W - config.floor_body_m, floor.z_W};
     if (!floor.is_level())
       add_sloping(floor, config, out);
@@ -305,7 +305,7 @@ Ground building_ground(const bim::Building& as_built, const std::vector<int>& st
   for (const int storey : storeys) {
     if (storey < 0 || static_cast<std::size_t>(storey) >= as_built.storeys.size())
       throw InputError({}, "the building has no storey number " + std::to_string(storey));
-    const WalkedFloors floors = walked_floors(as_built, storey);
+    const bim::WalkedFloors floors = bim::walked_floors(as_built, storey);
     GroundLevel level{floors.ground_W, {}};
     std::vector<Well> wells;
     for (const bim::Stair& stair : as_built.stairs)

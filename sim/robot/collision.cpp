@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "sim/robot/raised_floor.h"
+#include "bim/model/walked_floors.h"
 #include "sim/robot/solid_boxes.h"
 
 namespace plumbline::sim {
@@ -13,9 +13,9 @@ namespace plumbline::sim {
 namespace {
 
 /// Heights a robot on the storeys can touch, in W, ascending and apart.
-std::vector<HeightRange> touchable(const std::vector<WalkedFloors>& storeys, const CollisionConfig& config) {
+std::vector<HeightRange> touchable(const std::vector<bim::WalkedFloors>& storeys, const CollisionConfig& config) {
   std::vector<std::pair<double, double>> floors;  // the lowest and the highest of each storey
-  for (const WalkedFloors& of_storey : storeys) floors.emplace_back(of_storey.ground_W, of_storey.highest_W());
+  for (const bim::WalkedFloors& of_storey : storeys) floors.emplace_back(of_storey.ground_W, of_storey.highest_W());
   std::sort(floors.begin(), floors.end());
   std::vector<HeightRange> out;
   for (const auto& [floor, highest] : floors) {
@@ -131,12 +131,12 @@ bool is_walked(const bim::Stair& stair, const std::vector<int>& storeys) {
 
 std::vector<CollisionBox> collision_boxes(const bim::Building& as_built, const std::vector<int>& storeys,
                                           const CollisionConfig& config) {
-  std::vector<WalkedFloors> floors;
-  for (const int storey : storeys) floors.push_back(walked_floors(as_built, storey));
+  std::vector<bim::WalkedFloors> floors;
+  for (const int storey : storeys) floors.push_back(bim::walked_floors(as_built, storey));
   const auto is_walked_ramp = [&](int obstacle) {
-    return std::any_of(floors.begin(), floors.end(), [&](const WalkedFloors& of_storey) {
+    return std::any_of(floors.begin(), floors.end(), [&](const bim::WalkedFloors& of_storey) {
       return std::any_of(of_storey.raised.begin(), of_storey.raised.end(),
-                         [&](const RaisedFloor& floor) { return floor.obstacle == obstacle; });
+                         [&](const bim::RaisedFloor& floor) { return floor.obstacle == obstacle; });
     });
   };
   const std::vector<HeightRange> reaches = touchable(floors, config);

@@ -242,14 +242,14 @@ std::vector<double> clearances(const GridFrame& grid, const std::vector<Obstacle
   return result;
 }
 
-std::vector<float> floor_heights(const WalkedFloors& floors, const GridFrame& grid, const RouteConfig& config,
+std::vector<float> floor_heights(const bim::WalkedFloors& floors, const GridFrame& grid, const RouteConfig& config,
                                  std::vector<char>& floor) {
   if (floors.raised.empty()) return {};
   constexpr float unknown = -1.0F;
   std::vector<float> heights(grid.size(), unknown);
   for (std::size_t i = 0; i < floor.size(); ++i)
     if (floor[i] != 0) heights[i] = 0.0F;
-  for (const RaisedFloor& piece : floors.raised)
+  for (const bim::RaisedFloor& piece : floors.raised)
     fill_cells(grid, outline_of(piece.polygon), [&](std::size_t cell) {
       heights[cell] = static_cast<float>(std::round((piece.z_at(grid.center(cell)) - floors.ground_W) * 100.0) / 100.0);
       floor[cell] = 1;
@@ -270,19 +270,19 @@ std::vector<float> floor_heights(const WalkedFloors& floors, const GridFrame& gr
   return heights;
 }
 
-std::vector<double> clearances_over(const bim::Building& building, int storey, const WalkedFloors& floors,
+std::vector<double> clearances_over(const bim::Building& building, int storey, const bim::WalkedFloors& floors,
                                     const GridFrame& grid, const RouteConfig& config, const std::vector<char>& floor,
                                     const std::vector<float>& heights) {
   const double elevation = building.storeys.at(static_cast<std::size_t>(storey)).elevation_m;
   const double ground = floors.ground_W;
   bim::Building solid = building;  // a slab or ramp that is floor is no obstacle of the floor beside it
   std::erase_if(solid.slabs, [&](const bim::Slab& slab) {
-    return slab.z1_m > ground && slab.z1_m <= elevation + RaisedFloorConfig().highest_m;
+    return slab.z1_m > ground && slab.z1_m <= elevation + bim::WalkedFloorConfig().highest_m;
   });
-  for (const RaisedFloor& raised : floors.raised)
+  for (const bim::RaisedFloor& raised : floors.raised)
     if (raised.obstacle >= 0) solid.obstacles[static_cast<std::size_t>(raised.obstacle)].body = {};
   const bool slopes = std::any_of(floors.raised.begin(), floors.raised.end(),
-                                  [](const RaisedFloor& raised) { return !raised.is_level(); });
+                                  [](const bim::RaisedFloor& raised) { return !raised.is_level(); });
   // What is an obstacle from a slope is looked for every few centimetres.
   const auto level_of = [&](float height) {
     return slopes ? std::round(height / slope_level_m) * slope_level_m : height;

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "bim/geometry/grid_frame.h"
-#include "sim/robot/raised_floor.h"
+#include "bim/model/walked_floors.h"
 #include "sim/route/obstacle_footprint.h"
 
 namespace plumbline::sim {
@@ -26,14 +26,15 @@ void fill_cells(const GridFrame& grid, const std::vector<Segment2>& outline,
 
 /// Height of the floor over the ground by cell, m, where raised floors are; empty where there are none. Cells of raised
 /// floors become floor.
-[[nodiscard]] std::vector<float> floor_heights(const WalkedFloors& floors, const GridFrame& grid,
+[[nodiscard]] std::vector<float> floor_heights(const bim::WalkedFloors& floors, const GridFrame& grid,
                                                const RouteConfig& config, std::vector<char>& floor);
 
 /// The clearances of a storey with raised floors: of each cell for a robot at the height of its floor, where a step
 /// that is too high is an edge.
-[[nodiscard]] std::vector<double> clearances_over(const bim::Building& building, int storey, const WalkedFloors& floors,
-                                                  const GridFrame& grid, const RouteConfig& config,
-                                                  const std::vector<char>& floor, const std::vector<float>& heights);
+[[nodiscard]] std::vector<double> clearances_over(const bim::Building& building, int storey,
+                                                  const bim::WalkedFloors& floors, const GridFrame& grid,
+                                                  const RouteConfig& config, const std::vector<char>& floor,
+                                                  const std::vector<float>& heights);
 
 /// Distance of every cell's centre to the nearest edge of a blockage or border of the floor, m; 0 inside a blockage
 /// and off the floor. Distances are to the edges themselves, not to cells; which edge is nearest is handed on from

@@ -45,7 +45,7 @@ GridFrame make_grid(const bim::Building& building, int storey, double cell) {
 }  // namespace
 
 ClearanceMap::ClearanceMap(const bim::Building& as_built, int storey, const RouteConfig& config) : config_(config) {
-  const WalkedFloors floors = walked_floors(as_built, storey);
+  const bim::WalkedFloors floors = bim::walked_floors(as_built, storey);
   ground_W_ = floors.ground_W;
   grid_ = make_grid(as_built, storey, config.cell_m);
   floor_ = floor_cells(as_built, storey, ground_W_, grid_, config);

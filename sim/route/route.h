@@ -11,7 +11,7 @@
 
 #include "bim/geometry/grid_frame.h"
 #include "bim/model/building.h"
-#include "sim/robot/raised_floor.h"
+#include "bim/model/walked_floors.h"
 
 namespace plumbline::sim {
 
@@ -32,13 +32,14 @@ struct RouteConfig {
   double shortcut_m = 0.6;          ///< straight lines pass walls nearer than this only where the path around did too
   double crowding = 3.0;            ///< a metre at `radius` clearance counts as 1 + this many at `comfort`
   double floor_below_m =
-      RaisedFloorConfig().bare_slab_m;  ///< a slab's top this far below the storey (floor covering) still carries it
-  double furniture_max_m2 = 10.0;       ///< no piece of furniture is larger, seen from above
-  double weld_m = 1e-5;                 ///< vertices this close are joined for the test whether a solid is closed
-  double overhead_low_m = 1.8;          ///< what lies between this
-  double overhead_high_m = 12.0;        ///< and this above the floor is a ceiling or a roof
-  double inside_min_m2 = 10.0;          ///< less covered floor than this is no inside
-  double floor_gap_m = 0.3;  ///< gaps in the floor up to twice this (between slabs, under walls) are stepped over
+      bim::WalkedFloorConfig()
+          .bare_slab_m;            ///< a slab's top this far below the storey (floor covering) still carries it
+  double furniture_max_m2 = 10.0;  ///< no piece of furniture is larger, seen from above
+  double weld_m = 1e-5;            ///< vertices this close are joined for the test whether a solid is closed
+  double overhead_low_m = 1.8;     ///< what lies between this
+  double overhead_high_m = 12.0;   ///< and this above the floor is a ceiling or a roof
+  double inside_min_m2 = 10.0;     ///< less covered floor than this is no inside
+  double floor_gap_m = 0.3;        ///< gaps in the floor up to twice this (between slabs, under walls) are stepped over
 };
 
 /// A part of a path: over the floor, or straight up or down one step.

@@ -35,7 +35,8 @@ LocalizationScan predicted_scan(const StoreyIndex& storey, const Pose2& X_IH, co
   std::vector<SensorRay> rays;
   for (const Beam& beam : scan.beams) rays.push_back({R_IH * beam.direction_H, beam.slope});
   std::vector<StructureHit> hits(rays.size());
-  storey.structure->cast({sensor_I.x(), sensor_I.y(), storey.floor_z + scan.sensor_height}, rays, range_max, hits);
+  storey.structure->cast({sensor_I.x(), sensor_I.y(), storey.floor_at(sensor_I) + scan.sensor_height}, rays, range_max,
+                         hits);
   for (std::size_t i = 0; i < hits.size(); ++i)
     if (hits[i].upright) predicted.beams.push_back({scan.beams[i].direction_H, hits[i].distance, scan.beams[i].slope});
   return predicted;
@@ -105,8 +106,8 @@ std::vector<float> AliasSearch::ring(const StoreyIndex& storey, const Eigen::Vec
     rays.push_back({{std::cos(angle), std::sin(angle)}, 0.0});
   }
   std::vector<StructureHit> hits(rays.size());
-  storey.structure->cast({sensor_I.x(), sensor_I.y(), storey.floor_z + sensor_height_}, rays, config_.range_max_m,
-                         hits);
+  storey.structure->cast({sensor_I.x(), sensor_I.y(), storey.floor_at(sensor_I) + sensor_height_}, rays,
+                         config_.range_max_m, hits);
   std::vector<float> ranges;
   for (const StructureHit& hit : hits)
     ranges.push_back(static_cast<float>(hit.element >= 0 ? hit.distance : config_.range_max_m));

@@ -92,6 +92,18 @@ std::vector<PlaneObservation> find_floor(const LocalizationScan& scan, const std
   return floor;
 }
 
+Plane nearest_floor(const StoreyIndex& storey, const PlaneObservation& observed, Pose X_IR, double standing_m,
+                    const TrackerConfig& config) {
+  X_IR.t.z() = storey.floor_at(X_IR.t.head<2>()) + standing_m;
+  const Eigen::Vector3d sigmas(config.floor_angle_sigma, config.floor_angle_sigma, config.floor_offset_sigma_m);
+  const std::vector<Plane> planes = storey.floor_planes();
+  const auto distance = [&](const Plane& plane) {
+    return plane_residual(X_IR, plane, observed.plane_R).e.cwiseQuotient(sigmas).squaredNorm();
+  };
+  return *std::min_element(planes.begin(), planes.end(),
+                           [&](const Plane& a, const Plane& b) { return distance(a) < distance(b); });
+}
+
 std::vector<WallPair> opposed_pairs(const StoreyIndex& storey, const TrackedPose& pose, const TrackerConfig& config) {
   std::vector<WallPair> pairs;
   if (pose.room < 0) return pairs;

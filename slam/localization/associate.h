@@ -17,6 +17,11 @@ namespace plumbline::slam {
                                                     const std::vector<PlaneObservation>& planes, const Pose& X_IR,
                                                     const Eigen::Matrix2d& covariance, const TrackerConfig& config);
 
+/// The floor of the plan, level or sloping, that an observed one is most likely to be, for a robot that stands on the
+/// floor below it: its height is what a wrong one would change. standing_m: height of R above the ground. In I.
+[[nodiscard]] Plane nearest_floor(const StoreyIndex& storey, const PlaneObservation& observed, Pose X_IR,
+                                  double standing_m, const TrackerConfig& config);
+
 /// The largest upward plane under the robot, or nothing.
 [[nodiscard]] std::vector<PlaneObservation> find_floor(const LocalizationScan& scan,
                                                        const std::vector<PlaneObservation>& planes,

@@ -166,7 +166,7 @@ void SGraphLocalization::follow_storey() {
   failed_updates_ = 0;
   fit_ = config_.monitor.misfit;  // the plan is compared at the height of a floor
   const bim::Plan& plan = *input().plan;
-  const double z_W = tracker_->storey().floor_z + tracker_->height_over_floor() + index().X_WI.t.z();
+  const double z_W = tracker_->feet_z() + index().X_WI.t.z();
   for (int i = 0; i < static_cast<int>(plan.storeys.size()); ++i) {
     const bool has_room =
         std::any_of(plan.rooms.begin(), plan.rooms.end(), [&](const bim::PlanRoom& room) { return room.storey == i; });
@@ -292,8 +292,8 @@ std::vector<Hypothesis> SGraphLocalization::hypotheses(const Pose2& u, const Pos
   std::vector<Hypothesis> reported;
   for (const PoseHypothesis& hypothesis : global_localizer_.hypotheses()) {
     if (!is_shown(hypothesis.mass)) continue;
-    const double floor_z = index().storeys[static_cast<std::size_t>(hypothesis.storey)].floor_z;
     const Pose2 X_IH = hypothesis.X_IH * u;
+    const double floor_z = index().storeys[static_cast<std::size_t>(hypothesis.storey)].floor_at(X_IH.t);
     const double height = input().calibration.sensor_height_m - input().calibration.X_RL.t.z();
     const Pose X_level = Pose::from_xyz_yaw({X_IH.t.x(), X_IH.t.y(), floor_z + height}, X_IH.yaw);
     const Eigen::Quaterniond q_HR = exp_so3({0.0, 0.0, -X_OR.yaw()}) * X_OR.q;

@@ -32,7 +32,8 @@ class StructureResiduals {
       rays.push_back({R_IH_ * beam.direction_H, beam.slope});
       farthest = std::max(farthest, (beam.range + beyond_m) * std::sqrt(1.0 + beam.slope * beam.slope));
     }
-    storey.structure->cast({sensor_I_.x(), sensor_I_.y(), storey.floor_z + scan.sensor_height}, rays, farthest, hits_);
+    storey.structure->cast({sensor_I_.x(), sensor_I_.y(), storey.floor_at(sensor_I_) + scan.sensor_height}, rays,
+                           farthest, hits_);
     for (std::size_t i = 0; i < hits_.size(); ++i) {
       const double reach = scan.beams[i].range + beyond_m;
       const bool hit = hits_[i].element >= 0 && hits_[i].distance < reach;

@@ -104,9 +104,9 @@ TrackedPose PlanTracker::associate(const LocalizationScan& scan, const std::vect
   pose.room = storey_.room_at(X_IR.t.head<2>());
   pose.walls = associate_walls(storey_, scan, planes, X_IR, covariance_.topLeftCorner<2, 2>(), config_);
   pose.floor = find_floor(scan, planes, config_);
-  const Plane floor_I{Eigen::Vector3d::UnitZ(), -storey_.floor_z};
   std::erase_if(pose.floor, [&](const PlaneObservation& floor) {
-    return std::abs(plane_residual(X_IR, floor_I, floor.plane_R).e[2]) > config_.floor_gate_m;
+    pose.floor_I = nearest_floor(storey_, floor, X_IR, standing_m_, config_);
+    return std::abs(plane_residual(X_IR, pose.floor_I, floor.plane_R).e[2]) > config_.floor_gate_m;
   });
   return pose;
 }

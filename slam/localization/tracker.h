@@ -158,6 +158,7 @@ struct TrackedPose {
   int room = -1;  ///< index into StoreyIndex::rooms
   std::vector<WallLink> walls;
   std::vector<PlaneObservation> floor;  ///< at most one
+  Plane floor_I;                        ///< the plan's floor that it was found to be
 };
 
 /// Localization on the plan's own graph [shaheer2023, section 3.4]: the metric-semantic layer (walls) and the
@@ -183,8 +184,12 @@ class PlanTracker {
   /// Goes on on another storey, whose walls are associated from the next pose on.
   void change_storey(StoreyIndex storey);
 
-  /// Height of the robot's feet above the storey's floor by the newest pose, m.
-  [[nodiscard]] double height_over_floor() const { return window_.back().X_IR.t.z() - standing_m_ - storey_.floor_z; }
+  /// Height in I of the robot's feet by the newest pose, m.
+  [[nodiscard]] double feet_z() const { return window_.back().X_IR.t.z() - standing_m_; }
+  /// The same above the storey's floor there.
+  [[nodiscard]] double height_over_floor() const {
+    return feet_z() - storey_.floor_at(window_.back().X_IR.t.head<2>());
+  }
   /// Pose at odometry X_OR by the last correction [shaheer2023, eq. 10].
   [[nodiscard]] Pose pose(const Pose& X_OR) const { return X_IO() * X_OR; }
   [[nodiscard]] Pose X_IO() const;

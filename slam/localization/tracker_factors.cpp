@@ -111,8 +111,7 @@ void add_planes(WindowProblem& problem, std::size_t i, const TrackedPose& pose, 
                           wall_sigmas(link, config) / std::sqrt(link.weight), 0.0);
   }
   for (const PlaneObservation& floor : pose.floor) {
-    const Plane floor_I{Eigen::Vector3d::UnitZ(), -storey.floor_z};
-    const PlaneResidual residual = plane_residual(pose.X_IR, floor_I, floor.plane_R);
+    const PlaneResidual residual = plane_residual(pose.X_IR, pose.floor_I, floor.plane_R);
     problem.add(i, residual.J_pose, residual.e,
                 plane_sigmas(floor, config.floor_angle_sigma, config.floor_offset_sigma_m), config.huber);
   }

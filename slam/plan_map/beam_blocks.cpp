@@ -127,7 +127,7 @@ Float4 BeamBlocks::penalty(const Block& block, const Hits& hits) const {
 double BeamBlocks::log_likelihood(const SensorPose2& pose) const {
   if (pose.cell < 0 || storey_.sectors.empty()) return beam_log_likelihood(storey_, pose.X_IH, scan_, stride_, config_);
   const Sensor sensor{pose.sensor_I.cast<float>(),
-                      static_cast<float>(storey_.floor_z + scan_.sensor_height),
+                      static_cast<float>(storey_.floor_at(pose.sensor_I) + scan_.sensor_height),
                       static_cast<float>(pose.R_IH(0, 0)),
                       static_cast<float>(pose.R_IH(1, 0)),
                       pose.cell,

@@ -26,7 +26,7 @@ double beam_reach(const StoreyIndex& storey, const Beam& beam, double sensor_hei
   // Beyond this the beam has long gone through a wall; farther faces change nothing.
   const double reach = beam.range + 1.0;
   // Floor and ceiling are divided for only where the beam comes near them.
-  const double z = storey.floor_z + sensor_height, end = 1.001 * reach * beam.slope,
+  const double z = storey.lowest_floor() + sensor_height, end = 1.001 * reach * beam.slope,
                limit = beam.slope < 0.0 ? -sensor_height : storey.ceiling_z - z;
   if (beam.slope < 0.0 ? end < limit : beam.slope > 0.0 && end > limit)
     return std::clamp(limit / beam.slope, 0.0, reach);
@@ -36,7 +36,7 @@ double beam_reach(const StoreyIndex& storey, const Beam& beam, double sensor_hei
 BeamResidual beam_residual(const StoreyIndex& storey, const Eigen::Vector2d& sensor_I, int cell,
                            const Eigen::Matrix2d& R_IH, const Beam& beam, double sensor_height,
                            const LikelihoodConfig& config) {
-  const PlanRay ray{sensor_I, R_IH * beam.direction_H, storey.floor_z + sensor_height, beam.slope};
+  const PlanRay ray{sensor_I, R_IH * beam.direction_H, storey.floor_at(sensor_I) + sensor_height, beam.slope};
   const PlanHit hit = storey.grid.cast(storey.segments, ray, beam_reach(storey, beam, sensor_height), cell);
   BeamResidual residual{beam.range - hit.distance, hit.segment, hit.distance};
   if (hit.segment >= 0) {

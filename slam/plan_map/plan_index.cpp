@@ -183,6 +183,20 @@ std::shared_ptr<const Structure> structure_in_I(const bim::Plan& plan_W, const P
   return std::make_shared<const Structure>(mesh);
 }
 
+bim::WalkedFloors floors_in_I(bim::WalkedFloors floors, const Pose& X_WI) {
+  floors = bim::moved(X_WI.inverse(), std::move(floors));
+  floors.ground_W = snap(floors.ground_W);
+  for (bim::RaisedFloor& floor : floors.raised) {
+    for (Eigen::Vector2d& p : floor.polygon.outer) p = snap(p);
+    for (Polygon2& hole : floor.polygon.holes)
+      for (Eigen::Vector2d& p : hole) p = snap(p);
+    floor.z_W = snap(floor.z_W);
+    floor.z0_W = snap(floor.z0_W);
+    for (double& rise : floor.slope) rise = snap(rise);
+  }
+  return floors;
+}
+
 StoreyIndex make_storey(const bim::Plan& plan_W, int plan_storey, const Pose& X_WI, const PlanIndexConfig& config,
                         std::shared_ptr<const Structure> structure) {
   const bim::PlanStorey& source = plan_W.storeys[static_cast<std::size_t>(plan_storey)];
@@ -190,6 +204,7 @@ StoreyIndex make_storey(const bim::Plan& plan_W, int plan_storey, const Pose& X_
   storey.plan_storey = plan_storey;
   storey.floor_z = snap(source.elevation_m - X_WI.t.z());
   storey.ceiling_z = snap(storey.floor_z + source.height_m);
+  if (source.floors) storey.floors = floors_in_I(*source.floors, X_WI);
   const Pose2 X_IW = heading(X_WI).inverse();
   for (std::size_t i = 0; i < plan_W.rooms.size(); ++i) {
     if (plan_W.rooms[i].storey != plan_storey) continue;
@@ -208,6 +223,16 @@ StoreyIndex make_storey(const bim::Plan& plan_W, int plan_storey, const Pose& X_
 }
 
 }  // namespace
+
+std::vector<Plane> StoreyIndex::floor_planes() const {
+  std::vector<Plane> planes = {{Eigen::Vector3d::UnitZ(), -lowest_floor()}};
+  if (!floors) return planes;
+  for (const bim::RaisedFloor& floor : floors->raised) {
+    const Eigen::Vector3d upward = Eigen::Vector3d(-floor.slope.x(), -floor.slope.y(), 1.0);
+    planes.push_back({upward.normalized(), -floor.z0_W / upward.norm()});
+  }
+  return planes;
+}
 
 int StoreyIndex::room_at(const Eigen::Vector2d& p) const {
   for (std::size_t i = 0; i < rooms.size(); ++i)

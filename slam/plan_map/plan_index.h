@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bim/config/visit.h"
+#include "bim/geometry/plane.h"
 #include "bim/geometry/polygon.h"
 #include "bim/plan/plan.h"
 #include "slam/plan_map/face_sectors.h"
@@ -67,9 +68,10 @@ struct LocalRoom {
 /// One storey in I with its look-up tables.
 struct StoreyIndex {
   int plan_storey = -1;
-  double floor_z = 0.0;  ///< in I
+  double floor_z = 0.0;  ///< of its elevation, in I
   double ceiling_z = 3.0;
-  std::vector<PlanSegment> segments;  ///< wall faces, in an order that depends on geometry alone
+  std::optional<bim::WalkedFloors> floors;  ///< in I, where they do not all lie at floor_z
+  std::vector<PlanSegment> segments;        ///< wall faces, in an order that depends on geometry alone
   std::vector<WallLine> lines;
   std::vector<LocalRoom> rooms;
   SegmentGrid grid;                            ///< over segments
@@ -77,6 +79,13 @@ struct StoreyIndex {
   std::vector<std::vector<int>> visible;       ///< per cell of the grid: lines seen from it, ascending
   std::shared_ptr<const Structure> structure;  ///< of the whole plan; copies of the storey share it
 
+  /// Height in I of the floor at p. m.
+  [[nodiscard]] double floor_at(const Eigen::Vector2d& p_I) const {
+    return floors ? bim::height_at(*floors, p_I) : floor_z;
+  }
+  [[nodiscard]] double lowest_floor() const { return floors ? floors->ground_W : floor_z; }
+  /// Planes of all its floors, in I.
+  [[nodiscard]] std::vector<Plane> floor_planes() const;
   /// Room that holds p, or -1 (ties: lowest).
   [[nodiscard]] int room_at(const Eigen::Vector2d& p) const;
 };

@@ -118,7 +118,7 @@ PlanScan PlanLocalization::prepare_scan(DeskewedScan scan, const Pose& X_OR) con
 
 Pose PlanLocalization::pose_on_floor(int storey, const Pose2& X_IH, const Eigen::Quaterniond& q_HR,
                                      double sensor_height_m) const {
-  const double sensor_z = index_.storeys[static_cast<std::size_t>(storey)].floor_z + sensor_height_m;
+  const double sensor_z = index_.storeys[static_cast<std::size_t>(storey)].floor_at(X_IH.t) + sensor_height_m;
   const double z = sensor_z - (q_HR * input_.calibration.X_RL.t).z();
   return Pose::from_xyz_yaw({X_IH.t.x(), X_IH.t.y(), z}, X_IH.yaw) * Pose{q_HR, Eigen::Vector3d::Zero()};
 }

@@ -330,5 +330,18 @@ TEST(WalkedFloors, TheRobotWalksDownARampToASunkenRoom) {
   EXPECT_NEAR(highest - lowest, 0.5, 0.05) << "of the gait, 5 cm";
 }
 
+TEST(WalkedFloors, ARobotOnARampIsLocalizedAtItsHeight) {
+  if (!available()) GTEST_SKIP() << "PLUMBLINE_BINARY and PLUMBLINE_SOURCE are not set; run through ctest";
+  const Folder folder;
+  const Outcome outcome = plumbline({"run", project_file("tests/data/ifc/ramp_house.ifc"), "--method",
+                                     "s_graph_localization", "--out", folder / "run"});
+  EXPECT_EQ(outcome.code, 0) << outcome.out << outcome.err;
+  const auto results = nlohmann::json::parse(read_file(folder / "run" + "/results.json"));
+  const nlohmann::json& method = results["methods"]["s_graph_localization"];
+  EXPECT_EQ(method["verdict"], "success");
+  // 0.26 m at the height of the storey everywhere; 0.045 m on the floors.
+  EXPECT_LT(method["localization"]["ape_rmse_m"], 0.1);
+}
+
 }  // namespace
 }  // namespace plumbline::system_tests

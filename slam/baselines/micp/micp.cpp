@@ -85,7 +85,8 @@ std::vector<float> Micp::profile(const PlanScan& scan) const {
 /// Adds every yaw at one position with its mean range error.
 void Micp::score_yaws(int storey, const Eigen::Vector2d& p_I, const PlanScan& scan, const std::vector<float>& seen,
                       std::vector<Start>& starts) const {
-  const double height = index().storeys[static_cast<std::size_t>(storey)].floor_z + input().calibration.sensor_height_m;
+  const double height =
+      index().storeys[static_cast<std::size_t>(storey)].floor_at(p_I) + input().calibration.sensor_height_m;
   const std::vector<float> ranges =
       correctors_[static_cast<std::size_t>(storey)].range_profile({p_I.x(), p_I.y(), height}, config_.yaw_steps);
   constexpr float cap_m = 1.0F;

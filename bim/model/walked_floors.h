@@ -6,13 +6,13 @@
 #include "bim/model/building.h"
 #include "bim/model/floors.h"
 
-namespace plumbline::sim {
+namespace plumbline::bim {
 
 /// Floors of a storey that the robot can stand on though they do not lie at its elevation.
-struct RaisedFloorConfig {
-  double level_m = 0.05;                          ///< no higher or lower than this is the storey's own floor
-  double highest_m = 1.2;                         ///< above its elevation
-  double lowest_m = bim::FloorConfig().sunken_m;  ///< below it
+struct WalkedFloorConfig {
+  double level_m = 0.05;                     ///< no higher or lower than this is the storey's own floor
+  double highest_m = 1.2;                    ///< above its elevation
+  double lowest_m = FloorConfig().sunken_m;  ///< below it
   double bare_slab_m = 0.35;   ///< a slab up to this far below a room may have a covering that was not drawn
   double sunken_min_m2 = 1.0;  ///< a smaller sunken floor is a pit or a drain
   double steepest = 0.2;       ///< tangent of a sloping floor that is walked; wheelchairs have 0.06 to 0.1, cars 0.15
@@ -41,7 +41,11 @@ struct WalkedFloors {
 
   [[nodiscard]] double highest_W() const { return raised.empty() ? ground_W : raised.back().z_W; }
 };
-[[nodiscard]] WalkedFloors walked_floors(const bim::Building& as_built, int storey,
-                                         const RaisedFloorConfig& config = {});
+/// Height in W over a point of the plan; where several floors lie above each other, of the highest.
+[[nodiscard]] double height_at(const WalkedFloors& floors, const Eigen::Vector2d& p);
+/// Floors moved by a rotation about z and a translation: p_V = X_VW p_W.
+[[nodiscard]] WalkedFloors moved(const Pose& X_VW, WalkedFloors floors);
+/// Those of a storey of the building.
+[[nodiscard]] WalkedFloors walked_floors(const Building& as_built, int storey, const WalkedFloorConfig& config = {});
 
-}  // namespace plumbline::sim
+}  // namespace plumbline::bim
