@@ -57,6 +57,11 @@ std::vector<int> walls_among(const Building& building, const Room& room, const s
 
 }  // namespace
 
+std::string room_name(const std::vector<Room>& rooms, const std::string& id) {
+  const auto found = std::find_if(rooms.begin(), rooms.end(), [&](const Room& room) { return room.id == id; });
+  return found != rooms.end() && !found->name.empty() ? found->name : id;
+}
+
 double shared_length(const Room& room, const Wall& wall, int side, const AdjacencyConfig& config) {
   if (common_height(room, wall, config) <= config.z_overlap_m) return 0.0;
   const FaceLine face = face_line(wall, side);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "bim/model/building.h"
@@ -19,6 +20,9 @@ struct AdjacencyConfig {
   double below_floor_m = 0.3;    ///< ... allowed below the room's floor
   double virtual_gap_m = 0.005;  ///< edges of two rooms this close have no wall between them
 };
+
+/// Name of the room with an id; its id where it has no name or there is no such room.
+[[nodiscard]] std::string room_name(const std::vector<Room>& rooms, const std::string& id);
 
 /// Length over which a room's outline runs along one side of a wall, with the room in front of that side, m.
 [[nodiscard]] double shared_length(const Room& room, const Wall& wall, int side, const AdjacencyConfig& config = {});

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -52,7 +53,9 @@ int report(const ReportArguments& options) {
   run.altered = altered_files(options.dir, {written_here, false});
   refuse_altered(options.dir, run.altered, options.unchecked);
   const score::RunScore score = score::score_run(run);
-  write_file(options.dir + "/report.html", render_report(report_input(run, score)));
+  ReportInput input = report_input(run, score);
+  input.has_replay = options.replay || std::filesystem::exists(options.dir + "/replay.html");
+  write_file(options.dir + "/report.html", render_report(input));
   std::string written = "report: " + printable(options.dir) + "/report.html\n";
   if (options.replay) {
     catch_interrupts();

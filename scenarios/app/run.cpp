@@ -96,9 +96,11 @@ int run(const RunArguments& options, slam::MethodTable table) {
   write_run_files(directory.staging(), resolved, record);
   if (recorder) recorder->finish();
   const FinishedRun finished = finished_run(resolved, std::move(record));
-  const score::RunScore score = score_and_report(directory.staging(), finished);
-  const bool shows = may_show && (options.replay || exit_code(finished, score) != 0);
-  if (shows)
+  const auto shows = [&](const score::RunScore& scored) {
+    return may_show && (options.replay || exit_code(finished, scored) != 0);
+  };
+  const score::RunScore score = score_and_report(directory.staging(), finished, shows);
+  if (shows(score))
     write_file(directory.staging() + "/replay.html",
                render_replay(finished, score, scans, read_graphs(directory.staging(), finished)));
   check_interrupt();

@@ -109,9 +109,12 @@ int exit_code(const FinishedRun& run, const score::RunScore& score) {
   return score.passed() ? 0 : 1;
 }
 
-score::RunScore score_and_report(const std::string& dir, const FinishedRun& run) {
+score::RunScore score_and_report(const std::string& dir, const FinishedRun& run,
+                                 const std::function<bool(const score::RunScore&)>& has_replay) {
   score::RunScore score = score::score_run(run);
-  write_file(dir + "/report.html", render_report(report_input(run, score)));
+  ReportInput input = report_input(run, score);
+  input.has_replay = has_replay(score);
+  write_file(dir + "/report.html", render_report(input));
   score::write_scores(dir, run, score);
   return score;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <map>
 #include <string>
 
@@ -22,7 +23,9 @@ namespace plumbline::scenarios {
 /// The graph files of a run's methods, by name.
 [[nodiscard]] std::map<std::string, Tree> read_graphs(const std::string& dir, const FinishedRun& run);
 
-/// Scores a run and writes results.json, junit.xml and report.html into `dir`.
-[[nodiscard]] score::RunScore score_and_report(const std::string& dir, const FinishedRun& run);
+/// Scores a run and writes results.json, junit.xml and report.html into `dir`. has_replay: whether replay.html stands
+/// or will stand beside them, by the score.
+[[nodiscard]] score::RunScore score_and_report(const std::string& dir, const FinishedRun& run,
+                                               const std::function<bool(const score::RunScore&)>& has_replay);
 
 }  // namespace plumbline::scenarios

@@ -58,7 +58,8 @@ std::string header(const ReportInput& input) {
   if (const auto d = number_of(results, "distance_m")) facts += " · " + svg::number(*d, 1) + " m walked";
   facts += told_text(input);
   return "<header><h1>" + svg::escape(text_of(input.results, "scenario")) + "</h1>" + badge + "<span class=\"facts\">" +
-         facts + "</span></header>";
+         facts + "</span>" + (input.has_replay ? "<a href=\"replay.html\">replay in three dimensions</a>" : "") +
+         "</header>";
 }
 
 /// Four digits, however small the value is.

@@ -124,6 +124,7 @@ struct ReportInput {
   std::vector<ReportSample> truth;
   std::vector<ReportMethod> methods;
   std::optional<ReportKidnap> kidnap;
+  bool has_replay = false;  ///< replay.html stands beside the page
 };
 
 /// One self-contained HTML page: the plan of every storey the robot was on, true and estimated trajectories, found

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <set>
 
+#include "bim/model/rooms.h"
 #include "scenarios/metrics/storey.h"
 #include "scenarios/report/deviation_sight.h"
 #include "scenarios/report/hypothesis_history.h"
@@ -180,11 +181,7 @@ ReportInput report_input(const FinishedRun& run, const score::RunScore& score) {
   input.plan = run.building->plan_as_built();
   input.obstacles = obstacles_of(run.building->as_built(), run.building->plan_as_built());
   const std::vector<bim::Room>& rooms = run.building->as_built().rooms;
-  for (bim::PlanRoom& room : input.plan.rooms) {
-    const auto named =
-        std::find_if(rooms.begin(), rooms.end(), [&](const bim::Room& candidate) { return candidate.id == room.name; });
-    if (named != rooms.end() && !named->name.empty()) room.name = named->name;
-  }
+  for (bim::PlanRoom& room : input.plan.rooms) room.name = bim::room_name(rooms, room.name);
   for (const slam::Nanoseconds stamp : score.truth.scans)
     input.truth.push_back(sample(input.plan, stamp, score.truth.at(stamp), 0.0));
   input.storeys = storeys_of(run, input.truth);
@@ -206,6 +203,7 @@ ReportInput report_input(const FinishedRun& run, const score::RunScore& score) {
     add_structure(input.plan, method, score.methods[i], shown);
     add_beliefs(input.plan, method, score.truth, shown);
     shown.histories = hypothesis_histories(method.beliefs, score.truth, shown_places);
+    for (HypothesisHistory& history : shown.histories) history.room = bim::room_name(rooms, history.room);
     add_recognised(run, method, score, shown);
     input.methods.push_back(std::move(shown));
   }

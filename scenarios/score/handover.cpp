@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <utility>
 
@@ -74,6 +75,28 @@ std::vector<bool> right_matches(const std::vector<slam::WallMatch>& matches, con
     right.push_back(total(std::move(parts)) >= rules.wall_overlap * patch.length);
   }
   return right;
+}
+
+std::vector<std::string> walls_seen(const std::vector<slam::WallMatch>& matches, const Pose& X_WR_true,
+                                    const bim::Plan& as_built, const StructureRules& rules) {
+  std::vector<std::string> seen;
+  for (const slam::WallMatch& match : matches) {
+    const Patch patch = place(match, X_WR_true);
+    std::map<std::string, std::vector<Stretch>> parts;  // by wall
+    for (const bim::PlanFace& face : as_built.faces) {
+      const Stretch part = part_on(face, patch, rules);
+      if (part.second > part.first) parts[face.wall_id].push_back(part);
+    }
+    double most = 0.0;
+    seen.emplace_back();
+    for (auto& [wall, stretches] : parts) {
+      const double length = total(std::move(stretches));
+      if (length <= most) continue;
+      most = length;
+      seen.back() = wall;
+    }
+  }
+  return seen;
 }
 
 std::optional<double> handover_precision(const Truth& truth, const std::vector<Belief>& beliefs,

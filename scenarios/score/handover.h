@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "bim/plan/plan.h"
@@ -17,6 +18,11 @@ namespace plumbline::scenarios::score {
 [[nodiscard]] std::vector<bool> right_matches(const std::vector<slam::WallMatch>& matches, const Pose& X_WR_true,
                                               const bim::Plan& as_planned, const bim::Plan& as_built,
                                               const StructureRules& rules = {});
+
+/// For each wall patch that a robot at X_WR_true saw, the id of the wall as built that most of it lies on there, within
+/// the same limits; empty where it lies on none, as on furniture.
+[[nodiscard]] std::vector<std::string> walls_seen(const std::vector<slam::WallMatch>& matches, const Pose& X_WR_true,
+                                                  const bim::Plan& as_built, const StructureRules& rules = {});
 
 /// Share of the wall patches matched at the first convergence, where the plan's graph takes over from the particles,
 /// that are matched with the right wall. Absent where nothing converged (of a kidnapped robot: before the kidnapping),

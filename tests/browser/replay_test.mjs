@@ -152,6 +152,56 @@ async function whole(browser) {
   check("an unknown id gives a sentence", (await page.get("document.getElementById('about').textContent")).includes("'no such <i>' is no element"), "");
   await page.get("Plumb.app.select('')");
 
+  // What is taken for what: a match that is made wrong, and a method without matches whose poses are moved.
+  const taken = await page.get(`(async () => {
+    const app = Plumb.app, set = app.data.beliefs.s_graph_localization.sets.findLast((s) => s[2].length && s[2][0][7].length > 1);
+    const [first, second] = set[2][0][7], name = (id) => app.data.faces.find((f) => f.id === id).wall;
+    Object.assign(first, { 2: 0, 3: name(second[1][0]) });
+    await app.seek(set[0] * 1e-3);
+    const seen = { text: app.wrong.innerText, lines: app.moment.moved.length, taken: name(first[1][0]), truly: first[3] };
+    app.wrong.querySelectorAll("button")[1].click();
+    await app.update();
+    seen.selected = document.body.dataset.selected;
+    first[2] = 1;
+    return seen;
+  })()`);
+  check("a wrong match says what it is taken for and what it is", taken.text.includes(taken.taken) && taken.text.includes(taken.truly) && taken.lines === 1, taken);
+  equal("its link chooses the true wall", taken.selected, taken.truly);
+  const mixed = await page.get(`(async () => {
+    const app = Plumb.app, track = app.data.tracks.vgicp, { residuals, faces } = app;
+    const move = (d, e) => { for (const k of [0, 1]) for (let i = 0; i < track.t.length; ++i) track.p[k][i] += d[k]; track.e.fill(e); };
+    await app.choose("vgicp");
+    await app.seek(app.data.end / 2);
+    const { cloud } = await app.cloudAt(app.t), seen = new Map();
+    for (const owner of residuals.owners(cloud.points, cloud.count)) if (owner >= 0) seen.set(owner, (seen.get(owner) || 0) + 1);
+    const most = residuals.names[[...seen].sort((x, y) => y[1] - x[1])[0][0]], f = app.data.faces.find((face) => face.wall === most);
+    const e = [f.q[0] - f.p[0], f.q[1] - f.p[1]].map((v) => v / Math.hypot(f.q[0] - f.p[0], f.q[1] - f.p[1])), n = [-e[1], e[0]];
+    // By as much as a parallel wall is away, what lies on the wall seen most comes to lie on that one.
+    let out = { rows: 0 };
+    for (const g of app.data.faces) {
+      const d = n[0] * (g.p[0] - f.p[0]) + n[1] * (g.p[1] - f.p[1]), aside = n[0] * (g.q[0] - g.p[0]) + n[1] * (g.q[1] - g.p[1]);
+      if (g.wall === most || out.rows > 0 || Math.abs(aside) > 0.01 || Math.abs(d) < 1) continue;
+      move([d * n[0], d * n[1]], Math.abs(d));
+      await app.update();
+      const { mixedUp, moved } = app.moment;
+      if (mixedUp && mixedUp.rows.some((r) => r.truly === most && r.taken === g.wall))
+        out = { rows: mixedUp.rows.length, apart: mixedUp.rows.every((r) => r.taken !== r.truly), lines: moved.length, text: app.wrong.innerText,
+          far: Math.abs(Math.hypot(moved[0][1][0] - moved[0][0][0], moved[0][1][1] - moved[0][0][1]) - Math.abs(d)) };
+      move([-d * n[0], -d * n[1]], 0);
+    }
+    await app.update();
+    out.after = app.wrong.innerText;
+    await app.choose("s_graph_localization");
+    return out;
+  })()`);
+  check("a method that names no walls has them by its scan", mixed.rows > 0 && mixed.apart && mixed.lines === mixed.rows && mixed.far < 0.05 && mixed.text.includes("names no walls"), mixed);
+  equal("and none where it is right", mixed.after, "");
+
+  // Marks: a click on a label goes to its moment.
+  const marked = await page.get(`(() => { const line = Plumb.app.line2; line.layout(); return line.marks.map((m) =>
+    [m.t, line.markAt((m.from + m.to) / 2, 15 * m.row + 8).t, m.label.includes(m.t.toFixed(2) + " s") || m.label.endsWith("…")]); })()`);
+  check("labels of marks lead to their moments and give them", marked.length > 0 && marked.every(([t, at, said]) => t === at && said), marked);
+
   // Keys, links, the command.
   await page.get("document.getElementById('view').focus()");
   await page.key("Home");

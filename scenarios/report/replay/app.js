@@ -15,17 +15,20 @@ Plumb.make = (tag, attributes = {}, ...children) => {
   return element;
 };
 
+/** A name that may break behind its underscores. */
+Plumb.breakable = (name) => name.split(/(?<=_)/).flatMap((part, i) => (i ? [document.createElement("wbr"), part] : [part]));
+
 /** How far off an answer is. */
 Plumb.offText = (pose) => !pose ? "no answer" : pose.lost ? "says LOST" : (pose.e < 1 ? (100 * pose.e).toFixed(1) + " cm" : pose.e.toFixed(2) + " m") + " off";
 
-/** Names of rooms, hypotheses and robots over the picture, none nearer than 40 px to another. */
+/** Names of rooms, hypotheses and robots over the picture, none over another. */
 Plumb.placeLabels = (layer, moment, project) => {
-  const placed = [];
+  const placed = [], half = (text) => 3.6 * text.length + 4; // px
   let used = 0;
   const put = (text, p, kind) => {
     const at = project(p);
-    if (!at || placed.some(([x, y]) => Math.abs(x - at[0]) < 64 && Math.abs(y - at[1]) < 16)) return;
-    placed.push(at);
+    if (!at || placed.some(([x, y, other]) => Math.abs(y - at[1]) < 16 && Math.abs(x - at[0]) < half(text) + half(other))) return;
+    placed.push([...at, text]);
     let span = layer.children[used];
     if (!span) layer.append((span = document.createElement("span")));
     ++used;
@@ -82,7 +85,7 @@ Plumb.App = class {
     this.labels = make("div", { id: "labels", "aria-hidden": "true" });
     this.line = make("canvas", { id: "line", role: "img", "aria-label": "States, marks and position errors over time" });
     this.status = make("p", { id: "status", role: "status", "aria-live": "polite" });
-    this.wrong = make("p", { id: "wrong" });
+    this.wrong = make("div", { id: "wrong" });
     this.caption = make("p", { id: "caption" });
     this.picture = make("div", { id: "picture" }, this.canvas, this.labels, this.caption);
     this.pictures = make("div", { id: "pictures" }, this.picture);
@@ -215,11 +218,15 @@ Plumb.App = class {
     return this.update();
   }
 
-  /** Storey of the true pose, or the one chosen. */
-  storeyNow(truth) {
-    if (this.storey !== "auto") return Math.min(+this.storey, this.data.storeys.length - 1);
-    if (!truth) return 0;
-    const floor = truth.p[2] - this.data.run.base * 1e-3;
+  /** Storey of the true pose, of the method's, or the one chosen. */
+  storeyNow(poses) {
+    if (this.storey === "method" && poses[this.m]) return this.storeyOf(poses[this.m]);
+    if (this.storey !== "auto" && this.storey !== "method") return Math.min(+this.storey, this.data.storeys.length - 1);
+    return this.storeyOf(poses.truth || Plumb.data.poseAt(this.data.tracks.truth, 0));
+  }
+
+  storeyOf(pose) {
+    const floor = pose.p[2] - this.data.run.base * 1e-3;
     let best = 0;
     this.data.storeys.forEach((s, i) => { if (Math.abs(s.z - floor) < Math.abs(this.data.storeys[best].z - floor)) best = i; });
     return best;
@@ -232,17 +239,22 @@ Plumb.App = class {
       poses[name] = Plumb.data.known(track, t);
       known[name] = Plumb.data.lastAt(track.t, t);
     }
-    const storey = this.storeyNow(poses.truth), belief = this.hidden.has(this.m) ? null : data.beliefs[this.m];
+    const storey = this.storeyNow(poses), belief = this.hidden.has(this.m) ? null : data.beliefs[this.m];
     const floor = data.storeys[storey] ? data.storeys[storey].z : 0;
     const rooms = data.rooms.filter((r) => r.s === storey && r.at.length).map((r) => {
       const sum = r.at.reduce((a, p) => [a[0] + p[0], a[1] + p[1]], [0, 0]);
       return { name: r.name, middle: [sum[0] / r.at.length, sum[1] / r.at.length, floor + 0.1] };
     });
+    const set = belief ? Plumb.data.setAt(belief, t) : null;
+    const moved = [], middle = (p) => [(p[0] + p[2]) / 2, (p[1] + p[3]) / 2]; // what is taken for something else: from, to
+    const truth = set && Plumb.data.known(data.tracks.truth, set.t);
+    if (truth && set.hypotheses[0])
+      for (const w of set.hypotheses[0].walls) if (!w.right) moved.push([middle(Plumb.data.patchFrom(w.patch, set.hypotheses[0], truth)), middle(w.patch)]);
     return {
-      t, poses, known, storey, floor, rooms, off: this.off, hidden: this.hidden, dark: Plumb.colours.dark(), lift: this.lift,
+      t, poses, known, storey, moved, floor, rooms, off: this.off, hidden: this.hidden, dark: Plumb.colours.dark(), lift: this.lift,
       colour: this.method ? this.method.colour : "#0072B2",
       state: belief ? Plumb.data.stateAt(belief, t) : null,
-      set: belief ? Plumb.data.setAt(belief, t) : null,
+      set,
       particles: belief ? Plumb.data.particlesAt(belief, t) : null,
       graph: this.off.has("graph") ? null : data.graphs[this.m] || null,
       plangraph: this.off.has("plangraph") ? null : data.plangraph,
@@ -270,6 +282,9 @@ Plumb.App = class {
     if (turn !== this.turn) return;
     moment.scan = scan ? scan.index : -1;
     moment.cloud = scan ? scan.cloud : null;
+    moment.mixedUp = await this.mixedUpAt(moment);
+    if (turn !== this.turn) return;
+    if (moment.mixedUp) moment.moved = moment.mixedUp.rows.map((row) => [row.from, row.to]);
     if (moment.cloud) {
       moment.residuals = this.colouring === "residual" || this.selected ? this.residuals.of(moment.cloud.points, moment.cloud.count) : null;
       moment.colours = this.colouring === "element" ? Plumb.colours.ofElements(this.residuals.owners(moment.cloud.points, moment.cloud.count))
@@ -328,10 +343,15 @@ Plumb.App = class {
       if (moment.set && moment.set.hypotheses[0] && moment.set.hypotheses[0].walls.length) {
         const walls = moment.set.hypotheses[0].walls, right = walls.filter((w) => w.right).length;
         body.walls = right + "/" + walls.length;
-        parts.push(right + " of " + walls.length + (walls.length === 1 ? " wall" : " walls") + " of the first matched rightly");
+        parts.push(right + " of the " + walls.length + (walls.length === 1 ? " wall" : " walls") + " that the first one names matched rightly");
       } else delete body.walls;
       if (moment.set && moment.set.all > moment.set.hypotheses.length) parts.push("and " + (moment.set.all - moment.set.hypotheses.length) + " more hypotheses");
     } else delete body.state;
+    if (moment.poses[this.m] && moment.poses.truth) {
+      const [at, truly] = [moment.poses[this.m], moment.poses.truth].map((pose) => this.storeyOf(pose));
+      if (at !== truly) parts.push("WRONG STOREY: " + this.data.storeys[at].name + ", truly " + this.data.storeys[truly].name);
+    }
+    if (!this.off.has("graph") && !this.data.graphs[this.m]) parts.push(this.m + " keeps no situational graph");
     if (moment.scan >= 0) {
       const off = Math.round(1000 * (scans.t[moment.scan] - this.t));
       parts.push("scan " + (moment.scan + 1) + " of " + scans.count + " kept" + (scans.count < scans.all ? " (of " + scans.all + ")" : "") + (off ? ", " + Math.abs(off) + " ms " + (off < 0 ? "before" : "after") : ""));

@@ -235,9 +235,16 @@ Plumb.data = (() => {
     if (i < 0) return null;
     const hypotheses = belief.sets[i][2].map((h) => ({
       share: h[0] * 1e-4, p: h.slice(1, 4).map((v) => v * 1e-3), yaw: h[4] * 1e-3, room: h[5], cov: h[6].map((v) => v * 1e-4),
-      walls: h[7].map((w) => ({ patch: w[0].map((v) => v * 1e-3), faces: w[1], right: w[2] === 1 })),
+      walls: h[7].map((w) => ({ patch: w[0].map((v) => v * 1e-3), faces: w[1], right: w[2] === 1, seen: w[3] || "" })),
     }));
-    return { age: t - belief.setTimes[i], all: belief.sets[i][1], hypotheses };
+    return { t: belief.setTimes[i], age: t - belief.setTimes[i], all: belief.sets[i][1], hypotheses };
+  }
+
+  /** A patch [x0, y0, x1, y1] that was seen from a hypothesis, where it stands as seen from the true pose. */
+  function patchFrom(patch, hypothesis, truth) {
+    const turn = yawOf(truth.q) - hypothesis.yaw, c = Math.cos(turn), s = Math.sin(turn);
+    const put = (x, y) => [truth.p[0] + c * (x - hypothesis.p[0]) - s * (y - hypothesis.p[1]), truth.p[1] + s * (x - hypothesis.p[0]) + c * (y - hypothesis.p[1])];
+    return [...put(patch[0], patch[1]), ...put(patch[2], patch[3])];
   }
 
   function particlesAt(belief, t) {
@@ -260,5 +267,5 @@ Plumb.data = (() => {
   }
 
   const states = ["SEARCHING", "AMBIGUOUS", "CONVERGED", "LOST"];
-  return { load, mapOf, known, sweepPoses, stateAt, setAt, particlesAt, lastAt, yawOf, poseAt, states, bytesOf };
+  return { load, mapOf, known, sweepPoses, stateAt, setAt, patchFrom, particlesAt, lastAt, yawOf, poseAt, states, bytesOf };
 })();

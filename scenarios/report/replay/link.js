@@ -6,7 +6,7 @@ Object.assign(Plumb.App.prototype, {
   readLink() {
     this.address = location.hash;
     const link = new URLSearchParams(location.hash.slice(1)), t = parseFloat(link.get("t"));
-    this.t = Number.isFinite(t) ? Math.min(this.data.end, Math.max(0, t)) : this.t;
+    this.t = Number.isFinite(t) ? Math.min(this.data.end, Math.max(0, t)) : link.size > 0 ? this.t : this.firstFailure();
     const m = link.get("m");
     if (this.data.run.methods.some((method) => method.name === m)) {
       this.m = m;
@@ -25,6 +25,13 @@ Object.assign(Plumb.App.prototype, {
     if (!this.beside.embedded) this.beside.open(link.get("beside"), link.get("with"), Number.isFinite(t));
     const cam = (link.get("cam") || "").split(",").map(Number);
     if (cam.length === 6 && cam.every(Number.isFinite)) this.view.setCamera6(cam);
+  },
+
+  /** Where a failure begins to show, else the start. */
+  firstFailure() {
+    const marks = this.data.run.marks, first = (kinds) => marks.find((m) => kinds.includes(m.kind));
+    const mark = first(["wrong"]) || first(["lost", "failure", "gate"]);
+    return mark ? mark.t : 0;
   },
 
   writeLink() {

@@ -12,7 +12,7 @@ Object.assign(Plumb.App.prototype, {
       const pick = name === "truth" ? make("span") : make("input", { type: "radio", name: "method", value: name, checked: name === this.m,
         "aria-label": "look at " + name, on: { change: () => this.choose(name) } });
       return make("tr", { class: verdict ? "" : "truth" }, make("td", {}, box), make("td", {}, pick),
-        make("td", {}, make("i", { class: "swatch", style: { background: name === "truth" ? "var(--ink)" : colour } }), name,
+        make("td", {}, make("i", { class: "swatch", style: { background: name === "truth" ? "var(--ink)" : colour } }), ...Plumb.breakable(name),
           verdict ? make("small", {}, " " + verdict) : ""), make("td", {}, now));
     });
     const select = (id, label, options, value, change) => {
@@ -33,18 +33,18 @@ Object.assign(Plumb.App.prototype, {
     return make("aside", {},
       make("section", {}, make("h2", {}, "Methods"), make("table", {}, make("thead", {}, make("tr", {}, make("th", {}, "show"), make("th", {}, "look at"),
         make("th", {}, "name"), make("th", {}, "now"))), make("tbody", {}, ...rows)), this.status, this.wrong, this.beside.control()),
+      make("section", {}, make("h2", {}, "Chosen"), make("label", {}, "id ", this.search = make("input", { id: "sel", type: "search", list: "ids",
+        placeholder: "click a wall, or type its id", on: { change: () => this.select(this.search.value) } })),
+        make("datalist", { id: "ids" }, ...this.data.scene.elements.slice(0, 2000).map((e) => make("option", { value: e[0] }))), this.about),
       make("section", {}, make("h2", {}, "Scan"),
         select("pose", "drawn at the pose of", [["truth", "the truth"], ["method", "the method looked at"]], this.at, (v) => { this.at = v; this.update(); }),
         select("colouring", "coloured by", [["height", "height"], ["ring", "ring"], ["residual", "distance to the plan"], ["element", "element of the plan"]], this.colouring,
           (v) => { this.colouring = v; this.update(); }), this.legend),
       make("section", {}, make("h2", {}, "Layers"), make("div", { class: "layers" }, ...layers),
-        select("storey", "storey", [["auto", "follow the robot"], ...this.data.storeys.map((s, i) => [String(i), s.name])], this.storey,
+        select("storey", "storey", [["auto", "follow the robot"], ["method", "follow the estimate"], ...this.data.storeys.map((s, i) => [String(i), s.name])], this.storey,
           (v) => { this.storey = v; this.update(); }),
         make("label", {}, "height of the graph ", make("input", { type: "range", id: "lift", min: "0", max: "2", step: "0.1", value: "1",
           on: { input: (e) => { this.lift = +e.target.value; this.update(); } } }))),
-      make("section", {}, make("h2", {}, "Chosen"), make("label", {}, "id ", this.search = make("input", { id: "sel", type: "search", list: "ids",
-        placeholder: "click a wall, or type its id", on: { change: () => this.select(this.search.value) } })),
-        make("datalist", { id: "ids" }, ...this.data.scene.elements.slice(0, 2000).map((e) => make("option", { value: e[0] }))), this.about),
       this.data.scene.deviations.length ? make("section", {}, make("h2", {}, "Built otherwise than planned"),
         make("ul", {}, ...this.data.scene.deviations.map((d) => make("li", {}, make("button", { type: "button", class: "link",
           on: { click: () => this.select(d.id) } }, d.text))))) : "",

@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "bim/model/rooms.h"
 #include "scenarios/metrics/storey.h"
 #include "scenarios/report/replay/replay_scene.h"
 #include "scenarios/score/handover.h"
@@ -77,12 +78,14 @@ Tree states_of(const std::vector<BeliefRecord>& beliefs) {
   return list;
 }
 
-/// [[x0, y0, x1, y1 of the patch at the hypothesis], [ids of faces], right]
+/// [[x0, y0, x1, y1 of the patch at the hypothesis], [ids of faces], right]; a wrong one has the wall that was seen,
+/// too.
 Tree walls_of(const slam::Hypothesis& hypothesis, const Pose& X_WR_true, const FinishedRun& run,
               const Eigen::Vector3d& origin) {
   Tree list = Tree::list();
   const std::vector<bool> right = score::right_matches(hypothesis.walls, X_WR_true, *run.building->plan_as_planned(),
                                                        run.building->plan_as_built());
+  const std::vector<std::string> seen = score::walls_seen(hypothesis.walls, X_WR_true, run.building->plan_as_built());
   for (std::size_t i = 0; i < hypothesis.walls.size(); ++i) {
     const slam::WallMatch& match = hypothesis.walls[i];
     Tree patch = Tree::list(), faces = Tree::list();
@@ -91,7 +94,9 @@ Tree walls_of(const slam::Hypothesis& hypothesis, const Pose& X_WR_true, const F
       for (int k = 0; k < 2; ++k) patch.push(whole(p[k], mm));
     }
     for (const int face : match.faces) faces.push(face);
-    list.push(Tree(Tree::List{std::move(patch), std::move(faces), right[i] ? 1 : 0}));
+    Tree::List wall{std::move(patch), std::move(faces), right[i] ? 1 : 0};
+    if (!right[i]) wall.emplace_back(seen[i]);
+    list.push(Tree(std::move(wall)));
   }
   return list;
 }
@@ -103,7 +108,7 @@ Tree hypothesis_of(const slam::Hypothesis& hypothesis, const Pose& X_WR_true, co
   Tree list = Tree::list();
   list.push(whole(hypothesis.mass, share_unit));
   for (int k = 0; k < 3; ++k) list.push(whole(p[k], mm));
-  list.push(whole(hypothesis.X_WR.yaw(), mrad)).push(hypothesis.room);
+  list.push(whole(hypothesis.X_WR.yaw(), mrad)).push(bim::room_name(run.building->as_built().rooms, hypothesis.room));
   const Eigen::Matrix3d& c = hypothesis.covariance;
   list.push(Tree(Tree::List{whole(c(0, 0), 1e-4), whole(c(0, 1), 1e-4), whole(c(1, 1), 1e-4)}));
   return list.push(walls_of(hypothesis, X_WR_true, run, origin));

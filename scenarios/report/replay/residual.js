@@ -54,6 +54,7 @@ Plumb.Residuals = class {
     if (!this.elements) {
       const known = new Map();
       this.elements = this.faces.map((f) => (known.has(f.wall) ? known : known.set(f.wall, known.size)).get(f.wall));
+      this.names = [...known.keys()];
     }
     const out = new Int32Array(count);
     for (let i = 0; i < count; ++i) {

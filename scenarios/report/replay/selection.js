@@ -3,23 +3,63 @@
 "use strict";
 
 Object.assign(Plumb.App.prototype, {
-  /** Walls that the first hypothesis matches wrongly now, to be clicked. */
+  /** What is taken for what now: by the first hypothesis' own matches, or, where a method names none, by the scan. */
   writeWrong(moment) {
-    const walls = moment.set && moment.set.hypotheses[0] ? moment.set.hypotheses[0].walls.filter((w) => !w.right) : [];
-    const byId = new Map(this.data.faces.map((f) => [f.id, f.wall]));
-    const ids = [...new Set(walls.flatMap((w) => w.faces.map((id) => byId.get(id))).filter(Boolean))].sort(), key = ids.join("\n");
+    const pairs = moment.mixedUp || this.wrongMatches(moment), key = JSON.stringify(pairs);
     if (this.wrongKey === key) return;
     this.wrongKey = key;
-    document.body.dataset.wrong = ids.join(" ");
-    if (ids.length === 0) return this.wrong.replaceChildren();
-    this.wrong.replaceChildren("matched wrongly: ", ...ids.map((id) => Plumb.make("button", { type: "button", class: "link", on: { click: () => this.select(id) } }, id)));
+    document.body.dataset.wrong = pairs ? pairs.rows.map((row) => row.taken).join(" ") : "";
+    if (!pairs || pairs.rows.length === 0) return this.wrong.replaceChildren();
+    const make = Plumb.make, link = (id) => make("button", { type: "button", class: "link", on: { click: () => this.select(id) } }, id);
+    this.wrong.replaceChildren(make("p", {}, pairs.title), make("table", {},
+      make("thead", {}, make("tr", {}, make("th", {}, "taken for"), make("th", {}, "truly"))),
+      make("tbody", {}, ...pairs.rows.map((row) => make("tr", {}, make("td", {}, link(row.taken)),
+        make("td", {}, row.truly === row.taken ? "the same, elsewhere on it" : row.truly ? link(row.truly) : "no wall of the plan"))))));
+  },
+
+  wrongMatches(moment) {
+    const hypothesis = moment.set && moment.set.hypotheses[0];
+    if (!hypothesis || hypothesis.walls.length === 0) return null;
+    const byId = new Map(this.data.faces.map((f) => [f.id, f.wall])), rows = [];
+    for (const w of hypothesis.walls) {
+      const taken = w.right ? null : w.faces.map((id) => byId.get(id)).find(Boolean);
+      if (taken && !rows.some((row) => row.taken === taken && row.truly === w.seen)) rows.push({ taken, truly: w.seen });
+    }
+    return { title: "Matched wrongly at " + moment.set.t.toFixed(2) + " s:", rows };
+  },
+
+  /** For a method that names no walls: what the scan lies on at its pose, and what at the true one. Most points first. */
+  async mixedUpAt(moment) {
+    const named = moment.set && moment.set.hypotheses.some((h) => h.walls.length), pose = moment.poses[this.m];
+    if (named || !pose || pose.lost || pose.e < 0.2 || moment.scan < 0) return null;
+    const { scans, tracks } = this.data, ranges = await scans.ranges(moment.scan);
+    const clouds = [tracks[this.m], tracks.truth].map((track) => Plumb.data.sweepPoses(track, scans.t[moment.scan], scans.span))
+      .map((poses) => poses && scans.points(moment.scan, ranges, ...poses));
+    if (!clouds[0] || !clouds[1]) return null;
+    const [at, truly] = clouds.map((cloud) => this.residuals.owners(cloud.points, cloud.count)), pairs = new Map();
+    let walls = 0;
+    truly.forEach((owner, i) => {
+      if (owner < 0) return;
+      ++walls;
+      if (at[i] < 0 || at[i] === owner) return;
+      const key = at[i] + " " + owner, pair = pairs.get(key) || { n: 0, taken: this.residuals.names[at[i]], truly: this.residuals.names[owner], from: [0, 0], to: [0, 0] };
+      pairs.set(key, pair);
+      ++pair.n;
+      for (const k of [0, 1]) {
+        pair.from[k] += clouds[1].points[3 * i + k];
+        pair.to[k] += clouds[0].points[3 * i + k];
+      }
+    });
+    const rows = [...pairs.values()].filter((pair) => pair.n >= 0.03 * walls).sort((a, b) => b.n - a.n).slice(0, 5);
+    for (const row of rows) for (const end of [row.from, row.to]) end.forEach((sum, k) => { end[k] = sum / row.n; });
+    return { title: this.m + " names no walls. At its pose the scan of " + scans.t[moment.scan].toFixed(2) + " s lies on others; most points first:", rows };
   },
 
   /** What is known of the chosen element now. */
   writeSelection(moment) {
     const make = Plumb.make;
     if (!moment.selected) {
-      this.about.replaceChildren(make("p", { class: "soft" }, "Click a wall to see its id, what matched it, and how far the scan is from it."));
+      this.about.replaceChildren(make("p", { class: "soft" }, "Click a wall: its id, what matched it, how far the scan is from it."));
       return;
     }
     const { id, faces } = moment.selected, element = this.data.scene.elements.find((e) => e[0] === id), lines = [];
@@ -35,9 +75,10 @@ Object.assign(Plumb.App.prototype, {
     const ids = new Set(faces.map((f) => f.id));
     if (moment.set)
       moment.set.hypotheses.forEach((h, i) => h.walls.filter((w) => w.faces.some((f) => ids.has(f)))
-        .forEach((w) => lines.push("matched by hypothesis #" + (i + 1) + " of " + this.m + ", " + (w.right ? "rightly" : "wrongly"))));
+        .forEach((w) => lines.push("matched by hypothesis #" + (i + 1) + " of " + this.m + ", "
+          + (w.right ? "rightly" : "wrongly: truly " + (w.seen || "no wall of the plan")))));
     for (const d of this.data.scene.deviations) if (d.id === id) lines.push(d.text);
-    this.about.replaceChildren(...lines.map((text) => make("p", {}, text)));
+    this.about.replaceChildren(...[...new Set(lines)].map((text) => make("p", {}, text)));
     if (faces.length) this.about.append(this.history(id, faces));
     document.body.dataset.selected = id;
   },

@@ -12,20 +12,31 @@ Plumb.Timeline = class {
     this.t = 0;
     this.seek = seek;
     this.store = document.createElement("canvas");
-    const follow = (event) => {
-      const box = canvas.getBoundingClientRect();
-      seek(this.timeOf(event.clientX - box.left));
+    const follow = (event, snaps) => {
+      const box = canvas.getBoundingClientRect(), x = event.clientX - box.left, y = event.clientY - box.top;
+      const mark = snaps ? this.markAt(x, y) : null;
+      seek(mark ? mark.t : this.timeOf(x));
     };
     canvas.addEventListener("pointerdown", (event) => {
       if (event.button !== 0) return;
       canvas.setPointerCapture(event.pointerId);
-      follow(event);
+      this.down = event.clientX;
+      follow(event, true);
     });
     canvas.addEventListener("pointermove", (event) => {
-      if (canvas.hasPointerCapture(event.pointerId)) follow(event);
-      this.hover(event.clientX - canvas.getBoundingClientRect().left);
+      if (canvas.hasPointerCapture(event.pointerId) && Math.abs(event.clientX - this.down) > 3) follow(event, false);
+      const box = canvas.getBoundingClientRect(), mark = this.markAt(event.clientX - box.left, event.clientY - box.top);
+      canvas.style.cursor = mark ? "pointer" : "";
+      canvas.title = mark ? mark.full + ", at " + mark.t.toFixed(2) + " s" : "";
+      this.hover(event.clientX - box.left);
     });
     canvas.addEventListener("pointerleave", () => this.hover(null));
+  }
+
+  /** The mark whose label or line is under a place of the canvas, or null. */
+  markAt(x, y) {
+    const on = (m) => (x >= m.from && x <= m.to && y >= 15 * m.row && y < 15 * (m.row + 1)) || (Math.abs(x - this.x(m.t)) <= 3 && y >= 15 * m.row);
+    return (this.marks || []).find(on) || null;
   }
 
   get beliefs() { return Object.entries(this.data.beliefs).filter(([name]) => !this.hidden.has(name)); }
@@ -39,7 +50,7 @@ Plumb.Timeline = class {
     this.narrow = this.width < 520;
     this.x0 = 46;
     this.x1 = this.width - 12;
-    const marks = this.placedMarks();
+    const marks = (this.marks = this.placedMarks());
     this.marksHeight = 15 * (1 + marks.reduce((most, m) => Math.max(most, m.row), -1));
     this.bandsTop = this.marksHeight + 4;
     this.plotTop = this.bandsTop + 16 * this.beliefs.length + 6;
@@ -165,7 +176,8 @@ Plumb.Timeline = class {
     const g = this.store.getContext("2d"), ends = [];
     g.font = "11px system-ui, sans-serif";
     return this.data.run.marks.filter((m) => m.m === "" || !this.hidden.has(m.m)).map((mark) => {
-      let label = mark.label + (mark.m !== "" && this.data.run.methods.length > 1 && !this.narrow ? " (" + mark.m + ")" : "");
+      const full = mark.label + (mark.m !== "" && this.data.run.methods.length > 1 && !this.narrow ? " (" + mark.m + ")" : "");
+      let label = full + (this.narrow ? "" : ", " + mark.t.toFixed(2) + " s");
       const x = this.x(mark.t), room = Math.max(this.x1 - x, x - 4) - 10;
       if (g.measureText(label).width > room) {
         while (label.length > 4 && g.measureText(label + "…").width > room) label = label.slice(0, -1);
@@ -176,7 +188,7 @@ Plumb.Timeline = class {
       let row = 0;
       while (row < 6 && (ends[row] || []).some(([a, b]) => from < b && to > a)) ++row;
       (ends[row] = ends[row] || []).push([from, to]);
-      return { ...mark, label, row, left };
+      return { ...mark, full, label, row, left, from, to };
     });
   }
 

@@ -91,7 +91,10 @@ Plumb.View2d = class {
         g.fillRect(x - 1.5, y - 1.5, 3, 3);
       }
     }
-    if (!moment.off.has("walls")) this.drawWalls(g, moment);
+    if (!moment.off.has("walls")) {
+      this.drawWalls(g, moment);
+      this.drawMoved(g, moment);
+    }
     this.drawTracks(g, moment);
     if (!moment.off.has("hypotheses") && moment.set)
       for (const h of moment.set.hypotheses) this.arrow(g, h.p, h.yaw, moment.colour, 0.3 + 0.5 * h.share);
@@ -161,6 +164,18 @@ Plumb.View2d = class {
       .flatMap((w) => w.faces.map((id) => this.data.faces.find((f) => f.id === id)).filter(Boolean));
     this.strokeFaces(g, faces(true), "#009E73", 4);
     this.strokeFaces(g, faces(false), "#D55E00", 4, [6, 4]);
+  }
+
+  /** Lines from where what was seen stands to where it is taken to be. */
+  drawMoved(g, moment) {
+    g.strokeStyle = "#D55E00";
+    g.lineWidth = 1.5;
+    for (const [from, to] of moment.moved) {
+      g.beginPath();
+      g.moveTo(...this.toScreen(from));
+      g.lineTo(...this.toScreen(to));
+      g.stroke();
+    }
   }
 
   drawTracks(g, moment) {

@@ -269,6 +269,20 @@ Plumb.View3d = class {
     }
   }
 
+  /** Lines from where what was seen stands to where it is taken to be. */
+  drawMoved(moment) {
+    const lines = moment.moved.flatMap(([from, to]) => this.ribbon(from, to, moment.floor + 1.25));
+    if (lines.length) this.groups.walls.add(this.quads(lines, this.flat("#D55E00", 0.6)));
+  }
+
+  /** Corners of a narrow level strip. */
+  ribbon(a, b, z) {
+    const d = Math.hypot(b[0] - a[0], b[1] - a[1]);
+    if (d < 0.2) return [];
+    const nx = (-(b[1] - a[1]) / d) * 0.025, ny = ((b[0] - a[0]) / d) * 0.025;
+    return [a[0] - nx, a[1] - ny, z, b[0] - nx, b[1] - ny, z, b[0] + nx, b[1] + ny, z, a[0] + nx, a[1] + ny, z];
+  }
+
   facesById() {
     if (!this.byId) this.byId = new Map(this.data.faces.map((f) => [f.id, f]));
     return this.byId;
@@ -295,6 +309,7 @@ Plumb.View3d = class {
       this.drawParticles(moment);
       this.drawHypotheses(moment);
       this.drawWalls(moment);
+      this.drawMoved(moment);
       this.drawGraph(moment);
       this.drawPlanGraph(moment);
       this.drawMap(moment);
@@ -344,13 +359,23 @@ Plumb.View3d = class {
 
   /** Id of the element under a place of the picture, or null. */
   pick(x, y, moment) {
-    const ray = new THREE.Raycaster();
+    const ray = new THREE.Raycaster(), cut = moment.floor + 1.2;
     ray.setFromCamera(new THREE.Vector2((2 * x) / this.size[0] - 1, 1 - (2 * y) / this.size[1]), this.camera);
-    const cut = moment.floor + 1.2;
+    const { origin: o, direction: d } = ray.ray, along = (cut - o.z) / d.z;
+    // Walls are hollow where they are cut: there the ray would go through.
+    const top = along > 0 ? [o.x + along * d.x, o.y + along * d.y] : null;
+    const pixel = (2 * along * Math.tan((this.camera.fov * Math.PI) / 360)) / this.size[1];
+    const near = (reach) => {
+      let best = null, least = reach;
+      for (const f of top ? this.data.faces : []) {
+        const apart = f.s === moment.storey ? Plumb.Residuals.prototype.toFace(f, ...top) : reach;
+        if (apart < least) [best, least] = [f.wall, apart];
+      }
+      return best;
+    };
     const hit = ray.intersectObject(this.building, false).find((h) => h.point.z <= cut + 1e-6);
-    if (!hit) return null;
-    const element = this.data.scene.elements.find((e) => hit.faceIndex >= e[3] && hit.faceIndex < e[3] + e[4]);
-    return element && element[1] !== "slab" ? element[0] : null;
+    const element = hit && hit.point.z >= moment.floor - 0.3 ? this.data.scene.elements.find((e) => hit.faceIndex >= e[3] && hit.faceIndex < e[3] + e[4]) : null;
+    return near(3 * pixel) || (element && element[1] !== "slab" ? element[0] : near(8 * pixel));
   }
 
   camera6() {

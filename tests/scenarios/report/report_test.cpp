@@ -224,6 +224,13 @@ TEST(Report, DoesNotJoinPathsWhereTheRobotWasCarried) {
   EXPECT_EQ(count(render_report(input), "<polyline"), lines + 5);
 }
 
+TEST(Report, LeadsToTheReplayWhereThereIsOne) {
+  ReportInput input = sample();
+  EXPECT_EQ(render_report(input).find("<a href=\"replay.html\">"), std::string::npos);
+  input.has_replay = true;
+  EXPECT_NE(render_report(input).find("<a href=\"replay.html\">"), std::string::npos);
+}
+
 TEST(Report, SameInputSameBytes) { EXPECT_EQ(render_report(sample()), render_report(sample())); }
 
 TEST(Report, WorksWithoutAnyMethod) {

@@ -64,6 +64,15 @@ TEST(Handover, WallsCountWhereTheyWereBuilt) {
   EXPECT_FALSE(is_right(seen({0.0, 2.0}, {0.0, 1.0}, {14}), as_built));
 }
 
+TEST(Handover, TheWallSeenIsTheOneThatMostOfThePatchLiesOn) {
+  const auto wall_of = [](const slam::WallMatch& match) { return walls_seen({match}, X_WR, room()).front(); };
+  EXPECT_EQ(wall_of(seen({0.5, 0.0}, {1.8, 0.0}, {13})), "south_a");
+  EXPECT_EQ(wall_of(seen({0.8, 0.0}, {3.9, 0.0}, {10})), "south_b");  // 1.9 of 3.1 m
+  EXPECT_EQ(wall_of(seen({0.5, 0.12}, {1.8, 0.12}, {10})), "");       // 2 cm beyond the rule
+  EXPECT_EQ(wall_of(seen({1.8, 0.0}, {0.5, 0.0}, {10})), "");         // the side that is in the wall
+  EXPECT_TRUE(walls_seen({}, X_WR, room()).empty());
+}
+
 TEST(Handover, ShareAtTheFirstConvergence) {
   Truth truth{{{0, X_WR}, {400, X_WR}}, {0, 100, 200, 300}, {}};
   const slam::WallMatch good = seen({0.5, 0.0}, {1.8, 0.0}, {10}), bad = seen({0.5, 0.0}, {1.8, 0.0}, {13});
