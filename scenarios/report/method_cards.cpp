@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenarios/report/method_cards.h"
 
+#include <algorithm>
+
+#include "scenarios/metrics/localization_score.h"
 #include "scenarios/report/map_drawing.h"
 #include "scenarios/report/palette.h"
 #include "scenarios/report/results.h"
@@ -11,6 +14,8 @@ namespace plumbline::scenarios {
 namespace {
 
 std::string centimetres(double metres) { return svg::number(100.0 * metres, 1) + " cm"; }
+
+std::string length(double metres) { return metres < 1.0 ? centimetres(metres) : svg::number(metres, 2) + " m"; }
 
 /// A method's gates decide on its colour. Without any a verdict that says something of the answer does: `complete` does
 /// not.
@@ -81,6 +86,36 @@ std::string place_sentence(const std::string& verdict, const Tree* where) {
   return text + (verdict == "late" ? "; too late to count: an answer must hold for 5 s and 1 m." : ".");
 }
 
+/// Index of the storey on which the robot was at a time.
+int true_storey(const ReportInput& input, double t_s) {
+  const auto after = std::upper_bound(input.truth.begin(), input.truth.end(), t_s + 1e-6,
+                                      [](double t, const ReportSample& sample) { return t < sample.t_s; });
+  return after == input.truth.begin() ? -1 : (after - 1)->storey;
+}
+
+/// From when to when its answers were farther off than an answer may be, and on which wrong storey; or nothing.
+std::string wrong_stretch(const ReportInput& input, const ReportMethod& method) {
+  const double limit = score::LocalizationRules().position_m;
+  const ReportSample *first = nullptr, *last = nullptr, *astray = nullptr;
+  double most = 0.0;
+  for (const ReportSample& sample : method.samples) {
+    if (sample.lost || sample.error_m <= limit) continue;
+    if (first == nullptr) first = &sample;
+    last = &sample;
+    most = std::max(most, sample.error_m);
+    const int storey = true_storey(input, sample.t_s);
+    if (astray == nullptr && storey >= 0 && storey != sample.storey) astray = &sample;
+  }
+  if (first == nullptr) return "";
+  std::string text = " More than " + svg::number(limit, 1) + " m off from t = " + svg::number(first->t_s, 1) + " s " +
+                     (last == &method.samples.back() ? "to the end" : "to t = " + svg::number(last->t_s, 1) + " s") +
+                     ", at most " + length(most) + ".";
+  if (astray == nullptr) return text;
+  const auto name = [&](int storey) { return input.plan.storeys[static_cast<std::size_t>(storey)].name; };
+  return text + " At t = " + svg::number(astray->t_s, 1) + " s it was on storey " + name(astray->storey) +
+         ", the robot on " + name(true_storey(input, astray->t_s)) + ".";
+}
+
 /// What happened, in a sentence or two.
 std::string sentence(const ReportInput& input, const ReportMethod& method, const Tree* results) {
   const std::string verdict = results == nullptr ? "" : text_of(*results, "verdict");
@@ -88,7 +123,7 @@ std::string sentence(const ReportInput& input, const ReportMethod& method, const
   if (method.localization) {
     const Tree* where = results == nullptr ? nullptr : results->find("localization");
     const bool by_furniture = where != nullptr && where->find("evidence_by_furniture") != nullptr;
-    return place_sentence(verdict, where) + after_kidnap(input, where) +
+    return place_sentence(verdict, where) + (input.kidnap ? after_kidnap(input, where) : wrong_stretch(input, method)) +
            (by_furniture ? " Only furniture tells these apart." : "");
   }
   const auto error = number_of(results, "ate_aligned_rmse_m");

@@ -137,6 +137,27 @@ ReportInput localized() {
   return input;
 }
 
+TEST(Report, SaysFromWhenToWhenAnAnswerWasWrongAndOnWhichStorey) {
+  ReportInput input = localized();
+  EXPECT_EQ(render_report(input).find("More than 0.5 m off"), std::string::npos);
+  std::vector<ReportSample>& samples = input.methods.front().samples;
+  ASSERT_GT(samples.size(), 60U);
+  for (std::size_t i = 30; i < 50; ++i) samples[i].error_m = i == 40 ? 2.5 : 0.8;
+  for (std::size_t i = 50; i < 60; ++i) {
+    samples[i].error_m = 9.0;
+    samples[i].lost = true;
+  }
+  const auto at = [&](std::size_t i) { return "t = " + svg::number(samples[i].t_s, 1) + " s"; };
+  EXPECT_NE(render_report(input).find("More than 0.5 m off from " + at(30) + " to " + at(49) + ", at most 2.5 m."),
+            std::string::npos);
+  input.plan.storeys = {{"ground", 0.0, 3.0}, {"upper", 3.0, 3.0}};
+  for (std::size_t i = 35; i < 45; ++i) samples[i].storey = 1;
+  samples.back().error_m = 0.9;
+  const std::string page = render_report(input);
+  EXPECT_NE(page.find("More than 0.5 m off from " + at(30) + " to the end"), std::string::npos);
+  EXPECT_NE(page.find("At " + at(35) + " it was on storey upper, the robot on ground."), std::string::npos);
+}
+
 TEST(Report, ShowsWhatALocalizationBelievedOverTime) {
   const std::string page = render_report(localized());
   const std::size_t chart = page.find("id=\"belief-m\"");
