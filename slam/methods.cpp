@@ -68,6 +68,12 @@ std::vector<MethodRow> localizations() {
           make_s_graph_localization,
           {.name = "s_graph_localization",
            .summary = "particle filter and pose hypotheses on the plan's walls and rooms, then tracking by a graph"}),
+      localization<LocalizationNoRoomsConfig>(
+          make_s_graph_localization,
+          {.name = "s_graph_localization_no_rooms",
+           .summary = "s_graph_localization without the room factor: tracked by single walls",
+           .standard = false,
+           .variant = true}),
       localization<LocalizationPaperConfig>(
           make_s_graph_localization_paper,
           {.name = "s_graph_localization_paper",

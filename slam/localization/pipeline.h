@@ -82,6 +82,11 @@ struct LocalizationConfig : PlanUpdateConfig {
   }
 };
 
+/// The same without the room factor.
+struct LocalizationNoRoomsConfig : LocalizationConfig {
+  LocalizationNoRoomsConfig() { tracker.room_factor = false; }
+};
+
 /// Localization in an architectural plan from an unknown position: a particle filter on the plan's walls and rooms
 /// until one hypothesis is left, then a graph whose walls and rooms are the plan's own [shaheer2023, Fig. 1]. Throws
 /// InputError when there is no plan, no such storey, or no room in it.

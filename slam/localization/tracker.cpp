@@ -126,7 +126,7 @@ void PlanTracker::optimise() {
     problem.add(0, unheld * held.J_j, unheld * held.e, hold, 0.0);
     for (std::size_t i = 0; i < window_.size(); ++i) {
       add_planes(problem, i, window_[i], storey_, range_bias_m_, config_);
-      add_rooms(problem, i, window_[i], storey_, config_);
+      if (config_.room_factor) add_rooms(problem, i, window_[i], storey_, config_);
       add_ground(problem, i, window_[i], storey_, standing_m_, config_);
       if (i + 1 == window_.size()) continue;
       const Pose X_ij = window_[i].X_OR.inverse() * window_[i + 1].X_OR;

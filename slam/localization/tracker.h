@@ -23,6 +23,7 @@ struct TrackerConfig {
   double overlap_margin_m = 0.3;
   double plane_angle_sigma = 0.012;
   double plane_offset_sigma_m = 0.025;
+  bool room_factor = true;
   double pair_sigma_m = 0.012;
   double pair_min_cos = 0.999;
   double floor_offset_sigma_m = 0.02;
@@ -68,6 +69,8 @@ struct TrackerConfig {
             .min = 1e-6});
     v("plane_offset_sigma_m", plane_offset_sigma_m,
       Field{.doc = "standard deviation of a plane's distance, added: plan tolerance and range bias", .min = 1e-6});
+    v("room_factor", room_factor,
+      Field{.doc = "whether the middle between opposed walls of the robot's room is a factor", .basic = true});
     v("pair_sigma_m", pair_sigma_m,
       Field{.doc = "standard deviation of the middle between opposed walls, where the range bias cancels",
             .min = 1e-6});

@@ -197,6 +197,21 @@ async function whole(browser) {
   check("a method that names no walls has them by its scan", mixed.rows > 0 && mixed.apart && mixed.lines === mixed.rows && mixed.far < 0.05 && mixed.text.includes("names no walls"), mixed);
   equal("and none where it is right", mixed.after, "");
 
+  // A method that names no walls has a mark where its wrong answer began to slide.
+  const slid = await page.get(`(() => {
+    const app = Plumb.app, { marks } = app.data.run, before = marks.length, track = app.data.tracks.vgicp, n = track.t.length, from = n >> 2, to = n >> 1;
+    for (let i = from; i < to; ++i) track.e[i] = 0.1 + (0.5 * (i - from)) / (to - from);
+    marks.push({ t: track.t[to - 1], label: "wrong by more than 0.5 m", kind: "wrong", m: "vgicp" });
+    app.addMarks();
+    const mark = marks.find((m) => m.label.startsWith("off by more than"));
+    const found = mark && { e: track.e[Plumb.data.lastAt(track.t, mark.t)], before: track.e[Plumb.data.lastAt(track.t, mark.t) - 1] };
+    app.data.run.marks = marks.filter((m) => m.m !== "vgicp");
+    track.e.fill(0);
+    return { found, left: app.data.run.marks.length - before };
+  })()`);
+  check("a mark stands where the error first passes 0.2 m", slid.found && slid.found.e >= 0.2 && slid.found.before < 0.2, slid);
+  check("the time line is seen", (await page.get("document.getElementById('linebox').offsetHeight")) > 100, "");
+
   // Marks: a click on a label goes to its moment.
   const marked = await page.get(`(() => { const line = Plumb.app.line2; line.layout(); return line.marks.map((m) =>
     [m.t, line.markAt((m.from + m.to) / 2, 15 * m.row + 8).t, m.label.includes(m.t.toFixed(2) + " s") || m.label.endsWith("…")]); })()`);

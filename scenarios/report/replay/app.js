@@ -63,7 +63,31 @@ Plumb.App = class {
     if (Plumb.colours.dark()) for (const method of data.run.methods) method.colour = method.dark;
     this.beside = new Plumb.Beside(this);
     this.preferMethod();
+    this.addMarks();
   }
+
+  /** Where a wrong answer began to slide, of methods that name no walls, and where an answer was on another storey. */
+  addMarks() {
+    const { data } = this, { marks } = data.run;
+    for (const [name, track] of Object.entries(data.tracks)) {
+      const wrong = marks.find((m) => m.m === name && m.kind === "wrong");
+      if (name === "truth" || !wrong) continue;
+      let i = Plumb.data.lastAt(track.t, wrong.t);
+      if (!marks.some((m) => m.m === name && m.label.startsWith("first wall"))) {
+        while (i > 0 && track.e[i - 1] >= this.slid && track.lost[i - 1] < 0.5) --i;
+        if (i >= 0 && wrong.t - track.t[i] > 0.05) marks.push({ t: track.t[i], label: "off by more than " + this.slid + " m", kind: "wrong", m: name });
+      }
+      for (let k = 0; k < track.t.length; ++k) {
+        const truth = track.e[k] > 0.5 && track.lost[k] < 0.5 ? Plumb.data.known(data.tracks.truth, track.t[k]) : null;
+        if (!truth || this.storeyOf(Plumb.data.poseAt(track, k)) === this.storeyOf(truth)) continue;
+        marks.push({ t: track.t[k], label: "on the wrong storey", kind: "wrong", m: name });
+        break;
+      }
+    }
+    marks.sort((a, b) => a.t - b.t);
+  }
+
+  get slid() { return 0.2; } // m; twice what points may lie off a wall
 
   preferMethod() {
     const methods = this.data.run.methods;

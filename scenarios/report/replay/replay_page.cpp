@@ -2,7 +2,9 @@
 #include "scenarios/report/replay/replay_page.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <string_view>
 #include <utility>
 
 #include "scenarios/metrics/storey.h"
@@ -51,6 +53,19 @@ Tree mark(double t_s, const std::string& label, const std::string& kind, const s
   return Tree::map().set("t", whole(t_s, 0.001)).set("label", label).set("kind", kind).set("m", method);
 }
 
+/// The cause of a failure in a few words.
+std::string words_of(const std::string& failure) {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 6> words = {
+      {{"never_sampled", "the true pose is no hypothesis"},
+       {"depleted", "the true pose dropped out"},
+       {"twin_preferred", "an aliased pose preferred"},
+       {"wrong_model", "another pose preferred"},
+       {"undecided", "undecided to the end"},
+       {"tracking_lost", "tracking lost"}}};
+  const auto found = std::find_if(words.begin(), words.end(), [&](const auto& pair) { return pair.first == failure; });
+  return found == words.end() ? failure : std::string(found->second);
+}
+
 /// Where a localization first had one answer, first a wrong one, and lost it.
 void add_method_marks(const ReportMethod& method, const Tree* results, Tree& marks) {
   const Tree* where = results == nullptr ? nullptr : results->find("localization");
@@ -68,9 +83,7 @@ void add_method_marks(const ReportMethod& method, const Tree* results, Tree& mar
     was_wrong = wrong;
   }
   if (const auto at = number_of(where, "failure_at_s")) {
-    std::string cause = text_of(*where, "failure");
-    std::replace(cause.begin(), cause.end(), '_', ' ');
-    marks.push(mark(*at, "failed: " + cause, "failure", method.name));
+    marks.push(mark(*at, "failed: " + words_of(text_of(*where, "failure")), "failure", method.name));
   }
 }
 

@@ -13,7 +13,7 @@ Object.assign(Plumb.App.prototype, {
     const make = Plumb.make, link = (id) => make("button", { type: "button", class: "link", on: { click: () => this.select(id) } }, id);
     this.wrong.replaceChildren(make("p", {}, pairs.title), make("table", {},
       make("thead", {}, make("tr", {}, make("th", {}, "taken for"), make("th", {}, "truly"))),
-      make("tbody", {}, ...pairs.rows.map((row) => make("tr", {}, make("td", {}, link(row.taken)),
+      make("tbody", {}, ...pairs.rows.map((row) => make("tr", {}, make("td", {}, link(row.taken), row.patches > 1 ? " (" + row.patches + " patches)" : ""),
         make("td", {}, row.truly === row.taken ? "the same, elsewhere on it" : row.truly ? link(row.truly) : "no wall of the plan"))))));
   },
 
@@ -23,7 +23,9 @@ Object.assign(Plumb.App.prototype, {
     const byId = new Map(this.data.faces.map((f) => [f.id, f.wall])), rows = [];
     for (const w of hypothesis.walls) {
       const taken = w.right ? null : w.faces.map((id) => byId.get(id)).find(Boolean);
-      if (taken && !rows.some((row) => row.taken === taken && row.truly === w.seen)) rows.push({ taken, truly: w.seen });
+      const same = rows.find((row) => row.taken === taken && row.truly === w.seen);
+      if (same) ++same.patches;
+      else if (taken) rows.push({ taken, truly: w.seen, patches: 1 });
     }
     return { title: "Matched wrongly at " + moment.set.t.toFixed(2) + " s:", rows };
   },
@@ -31,7 +33,7 @@ Object.assign(Plumb.App.prototype, {
   /** For a method that names no walls: what the scan lies on at its pose, and what at the true one. Most points first. */
   async mixedUpAt(moment) {
     const named = moment.set && moment.set.hypotheses.some((h) => h.walls.length), pose = moment.poses[this.m];
-    if (named || !pose || pose.lost || pose.e < 0.2 || moment.scan < 0) return null;
+    if (named || !pose || pose.lost || pose.e < this.slid || moment.scan < 0) return null;
     const { scans, tracks } = this.data, ranges = await scans.ranges(moment.scan);
     const clouds = [tracks[this.m], tracks.truth].map((track) => Plumb.data.sweepPoses(track, scans.t[moment.scan], scans.span))
       .map((poses) => poses && scans.points(moment.scan, ranges, ...poses));
@@ -77,6 +79,10 @@ Object.assign(Plumb.App.prototype, {
       moment.set.hypotheses.forEach((h, i) => h.walls.filter((w) => w.faces.some((f) => ids.has(f)))
         .forEach((w) => lines.push("matched by hypothesis #" + (i + 1) + " of " + this.m + ", "
           + (w.right ? "rightly" : "wrongly: truly " + (w.seen || "no wall of the plan")))));
+    for (const row of moment.mixedUp ? moment.mixedUp.rows : []) {
+      if (row.taken === id) lines.push("at the pose of " + this.m + " what is seen of " + row.truly + " lies on it");
+      if (row.truly === id) lines.push("at the pose of " + this.m + " what is seen of it lies on " + row.taken);
+    }
     for (const d of this.data.scene.deviations) if (d.id === id) lines.push(d.text);
     this.about.replaceChildren(...[...new Set(lines)].map((text) => make("p", {}, text)));
     if (faces.length) this.about.append(this.history(id, faces));
