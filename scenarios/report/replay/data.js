@@ -199,7 +199,9 @@ Plumb.data = (() => {
     }
     run.marks.forEach((m) => { m.t *= 1e-3; });
     for (const [name, belief] of Object.entries(beliefs)) {
-      const first = belief.sets.find((set) => set[2].length > 0 && set[2][0][7].some((wall) => wall[2] === 0));
+      // While it has no answer yet, its first hypothesis may be a wrong one.
+      const answers = (t) => { const i = lastAt(belief.stateTimes, t); return i >= 0 && states[belief.states[i][1]] === "CONVERGED"; };
+      const first = belief.sets.find((set) => set[2].length > 0 && set[2][0][7].some((wall) => wall[2] === 0) && answers(set[0] * 1e-3));
       if (first) run.marks.push({ t: first[0] * 1e-3, label: "first wall matched wrongly", kind: "wrong", m: name });
     }
     run.marks.sort((a, b) => a.t - b.t);
