@@ -157,7 +157,16 @@ std::vector<PlotCurve> belief_curves(const ReportMethod& method) {
   std::vector<PlotCurve> curves;
   bool true_is_named = false;
   int named = -1;  // the last hypothesis with a name beside the plot
-  for (const HypothesisHistory& history : method.histories) {
+  // A stretch without a name counts to the one before: those of the true pose stand together.
+  std::vector<HypothesisHistory> histories = method.histories;
+  const auto others = std::stable_partition(histories.begin(), histories.end(),
+                                            [](const HypothesisHistory& history) { return history.is_true; });
+  const auto start = [](const HypothesisHistory& history) {
+    return history.points.empty() ? 0.0 : history.points.front().x();
+  };
+  std::stable_sort(histories.begin(), others,
+                   [&](const HypothesisHistory& a, const HypothesisHistory& b) { return start(a) < start(b); });
+  for (const HypothesisHistory& history : histories) {
     const auto other = static_cast<std::size_t>(history.hypothesis) % other_colours.size();
     PlotCurve curve;
     curve.layer = method.name;

@@ -181,6 +181,12 @@ TEST(Report, NamesTheTruePoseOnceHoweverOftenItIsLost) {
   const std::string page = render_report(input);
   EXPECT_EQ(count(page, "</i>true pose "), 1U);
   EXPECT_EQ(count(page, "</i>other: hall "), 1U);
+  // The legend's values: the later stretch of the true pose is its own, not that of the other one.
+  const std::size_t true_pose = page.find("\"true pose\""), again = page.find("[0.9,100", true_pose),
+                    other = page.find("\"other: hall\"");
+  ASSERT_NE(other, std::string::npos);
+  EXPECT_LT(true_pose, again);
+  EXPECT_LT(again, other);
 }
 
 TEST(Report, SaysWhenARightPoseWasLost) {
