@@ -53,9 +53,6 @@ int report(const ReportArguments& options) {
   run.altered = altered_files(options.dir, {written_here, false});
   refuse_altered(options.dir, run.altered, options.unchecked);
   const score::RunScore score = score::score_run(run);
-  ReportInput input = report_input(run, score);
-  input.has_replay = options.replay || std::filesystem::exists(options.dir + "/replay.html");
-  write_file(options.dir + "/report.html", render_report(input));
   std::string written = "report: " + printable(options.dir) + "/report.html\n";
   if (options.replay) {
     catch_interrupts();
@@ -66,6 +63,9 @@ int report(const ReportArguments& options) {
     write_file(options.dir + "/replay.html", render_replay(run, score, scans, read_graphs(options.dir, run), most));
     written += "replay: " + printable(options.dir) + "/replay.html\n";
   }
+  ReportInput input = report_input(run, score);
+  input.has_replay = options.replay || std::filesystem::exists(options.dir + "/replay.html");
+  write_file(options.dir + "/report.html", render_report(input));
   renew_manifest(options.dir, written_here);
   print(written);
   return 0;

@@ -6,6 +6,7 @@
 #include "scenarios/metrics/localization_score.h"
 #include "scenarios/report/map_drawing.h"
 #include "scenarios/report/palette.h"
+#include "scenarios/report/plot.h"
 #include "scenarios/report/results.h"
 #include "scenarios/report/svg.h"
 
@@ -93,27 +94,42 @@ int true_storey(const ReportInput& input, double t_s) {
   return after == input.truth.begin() ? -1 : (after - 1)->storey;
 }
 
-/// From when to when its answers were farther off than an answer may be, and on which wrong storey; or nothing.
+std::string name_of_storey(const ReportInput& input, int storey) {
+  const auto named = std::find_if(input.storeys.begin(), input.storeys.end(),
+                                  [&](const ReportStorey& shown) { return shown.index == storey; });
+  return named != input.storeys.end() ? named->name : input.plan.storeys[static_cast<std::size_t>(storey)].name;
+}
+
+/// From when to when its answers were first farther off than an answer may be, how often again, and on which wrong
+/// storey; or nothing. LOST is no answer.
 std::string wrong_stretch(const ReportInput& input, const ReportMethod& method) {
   const double limit = score::LocalizationRules().position_m;
   const ReportSample *first = nullptr, *last = nullptr, *astray = nullptr;
   double most = 0.0;
+  int stretches = 0;
+  bool was_wrong = false;
   for (const ReportSample& sample : method.samples) {
-    if (sample.lost || sample.error_m <= limit) continue;
-    if (first == nullptr) first = &sample;
-    last = &sample;
+    const bool wrong = !sample.lost && sample.error_m > limit;
+    if (wrong && !was_wrong && ++stretches == 1) first = &sample;
+    if (wrong && stretches == 1) last = &sample;
+    was_wrong = wrong;
+    if (!wrong) continue;
     most = std::max(most, sample.error_m);
     const int storey = true_storey(input, sample.t_s);
     if (astray == nullptr && storey >= 0 && storey != sample.storey) astray = &sample;
   }
   if (first == nullptr) return "";
+  const bool to_the_end =
+      last == &method.samples.back() && !input.truth.empty() && input.truth.back().t_s - last->t_s <= path_gap_s;
   std::string text = " More than " + svg::number(limit, 1) + " m off from t = " + svg::number(first->t_s, 1) + " s " +
-                     (last == &method.samples.back() ? "to the end" : "to t = " + svg::number(last->t_s, 1) + " s") +
-                     ", at most " + length(most) + ".";
+                     (to_the_end ? "to the end" : "to t = " + svg::number(last->t_s, 1) + " s");
+  if (stretches > 1)
+    text += stretches == 2 ? " and once more" : " and " + std::to_string(stretches - 1) + " times more";
+  text += ", at most " + length(most) + ".";
   if (astray == nullptr) return text;
-  const auto name = [&](int storey) { return input.plan.storeys[static_cast<std::size_t>(storey)].name; };
-  return text + " At t = " + svg::number(astray->t_s, 1) + " s it was on storey " + name(astray->storey) +
-         ", the robot on " + name(true_storey(input, astray->t_s)) + ".";
+  return text + " At t = " + svg::number(astray->t_s, 1) + " s it was on storey " +
+         name_of_storey(input, astray->storey) + ", the robot on " +
+         name_of_storey(input, true_storey(input, astray->t_s)) + ".";
 }
 
 /// What happened, in a sentence or two.

@@ -23,7 +23,7 @@ constexpr std::size_t rays_together = 256;
 PlanRay ray_of(const PredictedScan& predicted, const LocalizationScan& scan, const BeamGridBlock& block,
                std::size_t k) {
   return {predicted.sensor_I, predicted.R_IH * Eigen::Vector2d(block.x[k], block.y[k]),
-          predicted.storey->floor_at(predicted.sensor_I) + scan.sensor_height, block.slope[k]};
+          predicted.floor_z + scan.sensor_height, block.slope[k]};
 }
 
 /// How far to cast to see beyond every return.
@@ -226,10 +226,11 @@ PredictedScan predict_scan(const StoreyIndex& storey, const Pose2& X_IH, const L
   PredictedScan predicted{&storey,
                           R_IH,
                           sensor_I,
+                          storey.floor_at(sensor_I),
                           storey.grid.cell_at(sensor_I),
                           std::vector<PredictedBlock>(blocks.size()),
                           std::vector<Float4>(blocks.size(), all(-1.0F))};
-  const Eigen::Vector3d origin_I{sensor_I.x(), sensor_I.y(), storey.floor_at(sensor_I) + scan.sensor_height};
+  const Eigen::Vector3d origin_I{sensor_I.x(), sensor_I.y(), predicted.floor_z + scan.sensor_height};
   const double farthest = ray_length(blocks);
   std::array<SensorRay, rays_together> rays;
   std::array<StructureHit, rays_together> hits;

@@ -93,6 +93,7 @@ struct PredictedScan {
   const StoreyIndex* storey = nullptr;
   Eigen::Matrix2d R_IH = Eigen::Matrix2d::Identity();
   Eigen::Vector2d sensor_I = Eigen::Vector2d::Zero();
+  double floor_z = 0.0;                ///< in I, below the sensor
   int cell = -1;                       ///< of the storey's grid, with the sensor
   std::vector<PredictedBlock> blocks;  ///< as those of the beam grid
   mutable std::vector<Float4> cost;    ///< of the measured ranges, computed on first use; negative: not yet

@@ -15,8 +15,8 @@ namespace {
 /// Adds the wall or column that a step goes through, if any.
 void add_crossed(const StoreyIndex& storey, const Pose2& from, const Pose2& to, double body_height,
                  std::vector<int>& elements) {
-  const double z = storey.floor_z + body_height;
-  const int element = storey.structure->barrier({from.t.x(), from.t.y(), z}, {to.t.x(), to.t.y(), z});
+  const double from_z = storey.floor_at(from.t) + body_height, to_z = storey.floor_at(to.t) + body_height;
+  const int element = storey.structure->barrier({from.t.x(), from.t.y(), from_z}, {to.t.x(), to.t.y(), to_z});
   if (element >= 0) elements.push_back(element);
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "bim/digest/digest.h"
@@ -14,6 +15,14 @@
 namespace plumbline::slam {
 
 namespace {
+
+/// A gait changes the sensor's height by 3 cm; steps between floors that are walked are higher than 10 cm.
+constexpr double other_floor_m = 0.1;
+
+bool has_floors_at_several_levels(const PlanIndex& index) {
+  return std::any_of(index.storeys.begin(), index.storeys.end(),
+                     [](const StoreyIndex& storey) { return storey.floors.has_value(); });
+}
 
 std::uint64_t digest_of(const LocalizationScan& scan) {
   Digest digest;
@@ -90,8 +99,9 @@ void SGraphLocalization::use_scan(const PlanScan& scan, Output& output) {
   if (scan.prior_yaw_I) doubted_yaw_ = ExpectedYaw{*scan.prior_yaw_I, scan.prior_yaw_sigma};
   const std::vector<PlaneObservation> planes = observe_planes(
       scan.deskewed, config_.planes, config_.ransac_without_rings, input().seed);  // [shaheer2023, eq. 3]
-  const LocalizationScan localization_scan =
-      make_localization_scan(scan.deskewed, planes, scan.X_OR, input().calibration, config_.scan);
+  const LocalizationScan localization_scan = make_localization_scan(
+      scan.deskewed, planes, scan.X_OR, input().calibration, config_.scan,
+      has_floors_at_several_levels(index()) ? other_floor_m : std::numeric_limits<double>::infinity());
   record_stage("planes", stopwatch, output);
   output.digests.push_back({"planes", digest_of(localization_scan)});
   if (!tracker_)
@@ -167,11 +177,14 @@ void SGraphLocalization::follow_storey() {
   fit_ = config_.monitor.misfit;  // the plan is compared at the height of a floor
   const bim::Plan& plan = *input().plan;
   const double z_W = tracker_->feet_z() + index().X_WI.t.z();
+  const Eigen::Vector2d p_W = (index().X_WI * tracker_->window().back().X_IR.t).head<2>();
   for (int i = 0; i < static_cast<int>(plan.storeys.size()); ++i) {
     const bool has_room =
         std::any_of(plan.rooms.begin(), plan.rooms.end(), [&](const bim::PlanRoom& room) { return room.storey == i; });
-    const double height = z_W - plan.storeys[static_cast<std::size_t>(i)].elevation_m;
-    if (!has_room || std::abs(height) >= config_.monitor.off_floor_m) continue;
+    const bim::PlanStorey& storey = plan.storeys[static_cast<std::size_t>(i)];
+    const double floor_W = storey.floors ? bim::height_at(*storey.floors, p_W) : storey.elevation_m;
+    if (i == tracker_->storey().plan_storey || !has_room || std::abs(z_W - floor_W) >= config_.monitor.off_floor_m)
+      continue;
     storey_ = storey_of_plan(i);
     tracker_->change_storey(index().storeys[static_cast<std::size_t>(storey_)]);
     monitor_.clear();

@@ -80,8 +80,7 @@ struct TrackerConfig {
     v("floor_angle_sigma", floor_angle_sigma,
       Field{.doc = "standard deviation of the floor's tilt", .unit = "rad", .min = 1e-6});
     v("floor_gate_m", floor_gate_m,
-      Field{.doc = "largest difference of a level plane from the storey's floor; on a stair there are others",
-            .min = 0});
+      Field{.doc = "largest difference of an observed floor from the plan's; on a stair there are others", .min = 0});
     // Half a riser.
     v("ground_sigma_m", ground_sigma_m,
       Field{.doc = "standard deviation of the robot's height above the floor or step that the plan has below it",

@@ -74,7 +74,7 @@ bool walks_through_wall(const StoreyIndex& storey, const Eigen::Vector2d& from, 
   const double length = (to - from).norm();
   const int cell = storey.grid.cell_at(from);
   if (length < 1e-6 || (cell >= 0 && length < storey.grid.clearance(cell))) return false;
-  const PlanRay ray{from, (to - from) / length, storey.floor_z + body_height, 0.0};
+  const PlanRay ray{from, (to - from) / length, storey.floor_at(from) + body_height, 0.0};
   return storey.grid.cast(storey.segments, ray, length, cell).segment >= 0;
 }
 

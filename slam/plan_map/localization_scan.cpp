@@ -105,7 +105,7 @@ std::optional<WallObservation> wall_observation(const PlaneObservation& plane, c
 
 LocalizationScan make_localization_scan(const DeskewedScan& scan, const std::vector<PlaneObservation>& planes,
                                         const Pose& X_OR, const Calibration& calibration,
-                                        const LocalizationScanConfig& config) {
+                                        const LocalizationScanConfig& config, double height_tolerance_m) {
   LocalizationScan out;
   out.stamp = scan.stamp;
   out.X_OR = X_OR;
@@ -113,7 +113,9 @@ LocalizationScan make_localization_scan(const DeskewedScan& scan, const std::vec
   const Eigen::Vector3d sensor_H = out.q_HR * scan.X_RL.t;
   out.sensor_H = sensor_H.head<2>();
   const std::optional<double> height_R = height_over_floor(planes, out.q_HR, config.floor_max_tilt_rad);
-  out.sensor_height = height_R ? *height_R + sensor_H.z() : calibration.sensor_height_m;
+  out.sensor_height = calibration.sensor_height_m;
+  if (height_R && std::abs(*height_R + sensor_H.z() - calibration.sensor_height_m) <= height_tolerance_m)
+    out.sensor_height = *height_R + sensor_H.z();
   out.beams = pick_beams(scan, out, config);
   out.beam_grid = make_beam_grid(scan, out, config);
   for (std::size_t i = 0; i < planes.size() && out.walls.size() < max_walls; ++i) {

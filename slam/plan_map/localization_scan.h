@@ -98,10 +98,11 @@ struct LocalizationScan {
 };
 
 /// Gravity comes from the odometry's attitude, the height from the floor plane where one is seen, else from the
-/// calibration.
+/// calibration. height_tolerance_m: a floor that lies farther from the calibrated height is not the one below.
 [[nodiscard]] LocalizationScan make_localization_scan(const DeskewedScan& scan,
                                                       const std::vector<PlaneObservation>& planes, const Pose& X_OR,
                                                       const Calibration& calibration,
-                                                      const LocalizationScanConfig& config);
+                                                      const LocalizationScanConfig& config,
+                                                      double height_tolerance_m = 1e9);
 
 }  // namespace plumbline::slam

@@ -73,7 +73,7 @@ Plumb.App = class {
       const wrong = marks.find((m) => m.m === name && m.kind === "wrong");
       if (name === "truth" || !wrong) continue;
       let i = Plumb.data.lastAt(track.t, wrong.t);
-      if (!marks.some((m) => m.m === name && m.label.startsWith("first wall"))) {
+      if (!this.namesWalls(name)) {
         while (i > 0 && track.e[i - 1] >= this.slid && track.lost[i - 1] < 0.5) --i;
         if (i >= 0 && wrong.t - track.t[i] > 0.05) marks.push({ t: track.t[i], label: "off by more than " + this.slid + " m", kind: "wrong", m: name });
       }

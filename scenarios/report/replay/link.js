@@ -6,11 +6,12 @@ Object.assign(Plumb.App.prototype, {
   readLink() {
     this.address = location.hash;
     const link = new URLSearchParams(location.hash.slice(1)), t = parseFloat(link.get("t"));
-    this.t = Number.isFinite(t) ? Math.min(this.data.end, Math.max(0, t)) : link.size > 0 ? this.t : this.firstFailure();
-    const m = link.get("m");
-    if (this.data.run.methods.some((method) => method.name === m)) {
-      this.m = m;
-      for (const box of document.querySelectorAll("input[name=method]")) box.checked = box.value === m;
+    const m = link.get("m"), known = this.data.run.methods.some((method) => method.name === m);
+    const failure = Number.isFinite(t) ? null : this.firstFailure(known ? m : "");
+    this.t = Math.min(this.data.end, Math.max(0, failure ? failure.t : Number.isFinite(t) ? t : this.t));
+    if (known || (failure && failure.m)) {
+      this.m = known ? m : failure.m;
+      for (const box of document.querySelectorAll("input[name=method]")) box.checked = box.value === this.m;
     }
     this.line2.method = this.m;
     if (["height", "ring", "residual", "element"].includes(link.get("c"))) document.getElementById("colouring").value = this.colouring = link.get("c");
@@ -27,11 +28,10 @@ Object.assign(Plumb.App.prototype, {
     if (cam.length === 6 && cam.every(Number.isFinite)) this.view.setCamera6(cam);
   },
 
-  /** Where a failure begins to show, else the start. */
-  firstFailure() {
-    const marks = this.data.run.marks, first = (kinds) => marks.find((m) => kinds.includes(m.kind));
-    const mark = first(["wrong"]) || first(["lost", "failure", "gate"]);
-    return mark ? mark.t : 0;
+  /** The mark where a failure begins to show, of one method or of the one that fails first; or none. */
+  firstFailure(name) {
+    const first = (kinds) => this.data.run.marks.find((m) => kinds.includes(m.kind) && (name === "" || m.m === name));
+    return first(["wrong"]) || first(["lost", "failure", "gate"]);
   },
 
   writeLink() {

@@ -17,6 +17,12 @@ Object.assign(Plumb.App.prototype, {
         make("td", {}, row.truly === row.taken ? "the same, elsewhere on it" : row.truly ? link(row.truly) : "no wall of the plan"))))));
   },
 
+  /** Whether a method ever says which walls it matched. */
+  namesWalls(name) {
+    const belief = this.data.beliefs[name];
+    return !!belief && belief.sets.some((set) => set[2].some((h) => h[7].length > 0));
+  },
+
   wrongMatches(moment) {
     const hypothesis = moment.set && moment.set.hypotheses[0];
     if (!hypothesis || hypothesis.walls.length === 0) return null;
@@ -32,8 +38,8 @@ Object.assign(Plumb.App.prototype, {
 
   /** For a method that names no walls: what the scan lies on at its pose, and what at the true one. Most points first. */
   async mixedUpAt(moment) {
-    const named = moment.set && moment.set.hypotheses.some((h) => h.walls.length), pose = moment.poses[this.m];
-    if (named || !pose || pose.lost || pose.e < this.slid || moment.scan < 0) return null;
+    const pose = moment.poses[this.m];
+    if (this.namesWalls(this.m) || this.hidden.has(this.m) || !pose || pose.lost || pose.e < this.slid || moment.scan < 0) return null;
     const { scans, tracks } = this.data, ranges = await scans.ranges(moment.scan);
     const clouds = [tracks[this.m], tracks.truth].map((track) => Plumb.data.sweepPoses(track, scans.t[moment.scan], scans.span))
       .map((poses) => poses && scans.points(moment.scan, ranges, ...poses));

@@ -153,9 +153,14 @@ TEST(Report, SaysFromWhenToWhenAnAnswerWasWrongAndOnWhichStorey) {
   input.plan.storeys = {{"ground", 0.0, 3.0}, {"upper", 3.0, 3.0}};
   for (std::size_t i = 35; i < 45; ++i) samples[i].storey = 1;
   samples.back().error_m = 0.9;
-  const std::string page = render_report(input);
-  EXPECT_NE(page.find("More than 0.5 m off from " + at(30) + " to the end"), std::string::npos);
+  std::string page = render_report(input);
+  EXPECT_NE(page.find("More than 0.5 m off from " + at(30) + " to " + at(49) + " and once more, at most 2.5 m."),
+            std::string::npos);
   EXPECT_NE(page.find("At " + at(35) + " it was on storey upper, the robot on ground."), std::string::npos);
+  for (std::size_t i = 50; i < samples.size(); ++i) samples[i] = samples[49];
+  samples.back().t_s = input.truth.back().t_s;
+  page = render_report(input);
+  EXPECT_NE(page.find("More than 0.5 m off from " + at(30) + " to the end, at most 2.5 m."), std::string::npos);
 }
 
 TEST(Report, ShowsWhatALocalizationBelievedOverTime) {

@@ -47,6 +47,42 @@ PlanTracker track(const Walked& walked, const Pose& start, const TrackerConfig& 
   return tracker;
 }
 
+TEST(Tracker, TakesAnObservedFloorForTheOneThatItStandsOn) {
+  StoreyIndex storey = walk_straight(1.0).index.storeys.front();
+  const auto rectangle = [](double x0, double x1) { return Polygon2{{x0, 0}, {x1, 0}, {x1, 4}, {x0, 4}}; };
+  storey.floors = bim::WalkedFloors{-0.5, {}};
+  storey.floors->raised.push_back({{rectangle(2.0, 6.0), {}}, 0.0, -0.75, {0.125, 0.0}});
+  storey.floors->raised.push_back({{rectangle(6.0, 9.0), {}}, 0.0, 0.0});
+  const std::vector<Plane> planes = storey.floor_planes();
+  ASSERT_EQ(planes.size(), 3U);
+  for (double x = 0.5; x < 9.0; x += 0.25) {
+    const Eigen::Vector2d p(x, 2.0);
+    const Pose X_IR = Pose::from_xyz_yaw({x, 2.0, storey.floor_at(p) + standing_m}, 0.3);
+    Pose low = X_IR;  // odometry has lost a hand's breadth of height
+    low.t.z() -= 0.1;
+    for (const Plane& plane : planes) {
+      PlaneObservation observed;
+      observed.plane_R = X_IR.inverse() * plane;
+      EXPECT_LT((nearest_floor(storey, observed, low, standing_m, {}).n - plane.n).norm(), 1e-9) << x;
+      EXPECT_NEAR(nearest_floor(storey, observed, low, standing_m, {}).d, plane.d, 1e-9) << x;
+    }
+  }
+}
+
+TEST(Tracker, WithoutTheRoomFactorIsAsWithPairsThatWeighNothing) {
+  const Walked walked = walk_straight(1.0);
+  Pose start = walked.X_IR.front();
+  start.t += Eigen::Vector3d(0.04, -0.05, 0.03);
+  TrackerConfig without, nothing;
+  without.room_factor = false;
+  nothing.pair_sigma_m = 1e6;
+  const Eigen::Vector3d with_t = track(walked, start).window().back().X_IR.t,
+                        without_t = track(walked, start, without).window().back().X_IR.t,
+                        nothing_t = track(walked, start, nothing).window().back().X_IR.t;
+  EXPECT_LT((without_t - nothing_t).norm(), 1e-9);
+  EXPECT_GT((without_t - with_t).norm(), 1e-7);
+}
+
 TEST(Tracker, PullsAWrongStartOntoThePlan) {
   const Walked walked = walk_straight(1.0);
   Pose start = walked.X_IR.front();

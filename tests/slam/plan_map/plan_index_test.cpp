@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 
 #include "bim/errors.h"
 #include "bim/random/stream.h"
@@ -27,6 +28,37 @@ void expect_equal_tables(const PlanIndex& a, const PlanIndex& b) {
     }
     EXPECT_EQ(x.visible, y.visible);
     EXPECT_EQ(x.floor_z, y.floor_z);
+  }
+}
+
+/// A lower floor, a slope up from it along x, an upper one.
+bim::WalkedFloors split_levels() {
+  const auto rectangle = [](double x0, double x1) { return Polygon2{{x0, 0}, {x1, 0}, {x1, 4}, {x0, 4}}; };
+  bim::WalkedFloors floors{-0.5, {}};
+  floors.raised.push_back({{rectangle(2.0, 6.0), {}}, 0.0, -0.75, {0.125, 0.0}});
+  floors.raised.push_back({{rectangle(6.0, 9.0), {}}, 0.0, 0.0});
+  return floors;
+}
+
+TEST(PlanIndex, KnowsTheFloorAtAPlaceHoweverThePlanIsMoved) {
+  bim::Plan plan = synthetic::plan_of(synthetic::corridor_house());
+  EXPECT_EQ(make_plan_index(plan, "ground", {}).storeys.front().floor_at({1.0, 1.0}),
+            make_plan_index(plan, "ground", {}).storeys.front().floor_z);
+  plan.storeys.front().floors = split_levels();
+  const PlanIndex index = make_plan_index(plan, "ground", {});
+  const Stream stream(6, "slam.localize.init");
+  for (std::uint32_t i = 0; i < 50; ++i) {
+    const Pose X_VW =
+        Pose::from_xyz_yaw({50.0 * stream.gauss(0, i, 0), 50.0 * stream.gauss(0, i, 1), 10.0 * stream.gauss(0, i, 2)},
+                           6.28 * stream.uniform(0, i, 3));
+    const PlanIndex moved = make_plan_index(bim::transformed(plan, X_VW), "ground", {});
+    // Away from the edges, which are rounded to a micrometre.
+    const double x = std::array{1.0, 3.0, 5.0, 7.5}.at(i % 4) + 0.4 * stream.uniform(0, i, 4);
+    const Eigen::Vector3d p_W(x, 0.5 + 3.0 * stream.uniform(0, i, 5), 0.0);
+    const double expected_W = x < 2.0 ? -0.5 : x < 6.0 ? -0.75 + 0.125 * x : 0.0;
+    const Eigen::Vector3d p_I = index.X_WI.inverse() * p_W;
+    EXPECT_NEAR(index.storeys.front().floor_at(p_I.head<2>()) + index.X_WI.t.z(), expected_W, 2e-5) << x;
+    EXPECT_EQ(moved.storeys.front().floor_at(p_I.head<2>()), index.storeys.front().floor_at(p_I.head<2>()));
   }
 }
 
