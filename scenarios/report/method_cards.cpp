@@ -94,12 +94,6 @@ int true_storey(const ReportInput& input, double t_s) {
   return after == input.truth.begin() ? -1 : (after - 1)->storey;
 }
 
-std::string name_of_storey(const ReportInput& input, int storey) {
-  const auto named = std::find_if(input.storeys.begin(), input.storeys.end(),
-                                  [&](const ReportStorey& shown) { return shown.index == storey; });
-  return named != input.storeys.end() ? named->name : input.plan.storeys[static_cast<std::size_t>(storey)].name;
-}
-
 /// From when to when its answers were first farther off than an answer may be, how often again, and on which wrong
 /// storey; or nothing. LOST is no answer.
 std::string wrong_stretch(const ReportInput& input, const ReportMethod& method) {
@@ -127,9 +121,9 @@ std::string wrong_stretch(const ReportInput& input, const ReportMethod& method) 
     text += stretches == 2 ? " and once more" : " and " + std::to_string(stretches - 1) + " times more";
   text += ", at most " + length(most) + ".";
   if (astray == nullptr) return text;
-  return text + " At t = " + svg::number(astray->t_s, 1) + " s it was on storey " +
-         name_of_storey(input, astray->storey) + ", the robot on " +
-         name_of_storey(input, true_storey(input, astray->t_s)) + ".";
+  const auto name = [&](int storey) { return input.plan.storeys[static_cast<std::size_t>(storey)].name; };
+  return text + " At t = " + svg::number(astray->t_s, 1) + " s it was on storey " + name(astray->storey) +
+         ", the robot on " + name(true_storey(input, astray->t_s)) + ".";
 }
 
 /// What happened, in a sentence or two.

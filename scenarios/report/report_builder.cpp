@@ -145,6 +145,8 @@ void add_recognised(const FinishedRun& run, const MethodRecord& method, const sc
 }
 
 /// The storey of the start and those the robot was on, from the lowest up.
+std::string name_of(const bim::Storey& storey) { return storey.name.empty() ? storey.id : storey.name; }
+
 std::vector<ReportStorey> storeys_of(const FinishedRun& run, const std::vector<ReportSample>& truth) {
   const std::vector<bim::Storey>& storeys = run.building->as_built().storeys;
   std::set<std::pair<double, int>> shown;
@@ -156,8 +158,7 @@ std::vector<ReportStorey> storeys_of(const FinishedRun& run, const std::vector<R
   std::vector<ReportStorey> out;
   for (const auto& [elevation, index] : shown) {
     const bim::Storey& storey = storeys[static_cast<std::size_t>(index)];
-    out.push_back(
-        {index, storey.name.empty() ? storey.id : storey.name, report_deviations(run.building->variants(), index)});
+    out.push_back({index, name_of(storey), report_deviations(run.building->variants(), index)});
   }
   return out;
 }
@@ -181,6 +182,8 @@ ReportInput report_input(const FinishedRun& run, const score::RunScore& score) {
   input.plan = run.building->plan_as_built();
   input.obstacles = obstacles_of(run.building->as_built(), run.building->plan_as_built());
   const std::vector<bim::Room>& rooms = run.building->as_built().rooms;
+  for (std::size_t i = 0; i < input.plan.storeys.size(); ++i)
+    input.plan.storeys[i].name = name_of(run.building->as_built().storeys[i]);
   for (bim::PlanRoom& room : input.plan.rooms) room.name = bim::room_name(rooms, room.name);
   for (const slam::Nanoseconds stamp : score.truth.scans)
     input.truth.push_back(sample(input.plan, stamp, score.truth.at(stamp), 0.0));
