@@ -196,8 +196,8 @@ int score_again(const ScoreArguments& arguments) {
   for (const MethodRecord& method : outside) write_method(dir, method);
   if (!outside.empty() || !dropped.empty()) run = read_run(dir);
   run.altered = altered;
-  const score::RunScore score =
-      score_and_report(dir, run, [&](const score::RunScore&) { return std::filesystem::exists(dir + "/replay.html"); });
+  const bool has_replay = std::filesystem::exists(dir + "/replay.html");
+  const score::RunScore score = score_and_report(dir, run, [&](const score::RunScore&) { return has_replay; });
   std::vector<std::string> methods = dropped;
   for (const MethodRecord& method : outside) methods.push_back(method.name);
   for (const std::string& method : methods)
