@@ -97,7 +97,7 @@ void add_thresholds(const Building& building, const std::function<bool(double)>&
 }  // namespace
 
 double height_at(const WalkedFloors& floors, const Eigen::Vector2d& p) {
-  double height = floors.ground_W;
+  double height = floors.ground_m;
   for (const RaisedFloor& floor : floors.raised)
     if (contains(floor.polygon, p)) height = std::max(height, floor.z_at(p));
   return height;
@@ -108,13 +108,13 @@ WalkedFloors moved(const Pose& X_VW, WalkedFloors floors) {
     for (Eigen::Vector2d& p : polygon) p = (X_VW * Eigen::Vector3d(p.x(), p.y(), 0.0)).head<2>();
   };
   const double rise = X_VW.t.z();
-  floors.ground_W += rise;
+  floors.ground_m += rise;
   for (RaisedFloor& floor : floors.raised) {
     move(floor.polygon.outer);
     for (Polygon2& hole : floor.polygon.holes) move(hole);
     floor.slope = (X_VW.q * Eigen::Vector3d(floor.slope.x(), floor.slope.y(), 0.0)).head<2>();
-    floor.z_W += rise;
-    floor.z0_W += rise - floor.slope.dot(X_VW.t.head<2>());
+    floor.z_m += rise;
+    floor.z0_m += rise - floor.slope.dot(X_VW.t.head<2>());
   }
   return floors;
 }
@@ -123,7 +123,7 @@ WalkedFloors walked_floors(const Building& as_built, int storey, const WalkedFlo
   const double elevation = as_built.storeys.at(static_cast<std::size_t>(storey)).elevation_m;
   WalkedFloors floors{elevation, {}};
   const auto is_raised = [&](double z) {
-    return z > floors.ground_W + config.level_m && z <= elevation + config.highest_m;
+    return z > floors.ground_m + config.level_m && z <= elevation + config.highest_m;
   };
   // Looking for floors costs more than the rest; most buildings have nothing between the levels of their storeys.
   const bool sunken = may_be_sunken(as_built, storey, elevation, config);
@@ -136,19 +136,19 @@ WalkedFloors walked_floors(const Building& as_built, int storey, const WalkedFlo
                                [](const Obstacle& obstacle) { return obstacle.kind == "ramp"; });
   if (!any) return floors;
   const std::vector<FloorPiece> pieces = floor_pieces(as_built);
-  if (sunken) floors.ground_W = ground_of(as_built, storey, pieces, config);
+  if (sunken) floors.ground_m = ground_of(as_built, storey, pieces, config);
   for (const FloorPiece& piece : pieces) {
     if (piece.storey != storey) continue;
     const auto [low, high] = heights_of(piece);
     const bool slopes = !piece.slope.isZero(0.0);
     if (slopes && (piece.slope.norm() > config.steepest || high - low < config.slope_min_m)) continue;
-    if (!is_raised(high) || low < floors.ground_W - config.level_m) continue;
+    if (!is_raised(high) || low < floors.ground_m - config.level_m) continue;
     floors.raised.push_back(
         {piece.polygon, high, piece.z0_m, piece.slope, is_ramp(as_built, piece) ? piece.element : -1});
   }
   add_thresholds(as_built, is_raised, config, floors.raised);
   std::stable_sort(floors.raised.begin(), floors.raised.end(),
-                   [](const RaisedFloor& a, const RaisedFloor& b) { return a.z_W < b.z_W; });
+                   [](const RaisedFloor& a, const RaisedFloor& b) { return a.z_m < b.z_m; });
   return floors;
 }
 

@@ -21,27 +21,27 @@ struct WalkedFloorConfig {
   double beside_m = 0.35;      ///< and this near to it on the plan
 };
 
-/// Floor above a storey's ground level.
+/// Floor above a storey's ground level. Heights are in the frame of the plan: W, unless it was moved.
 struct RaisedFloor {
   PolygonWithHoles2 polygon;                        ///< on the plan
-  double z_W = 0.0;                                 ///< of its highest point
-  double z0_W = 0.0;                                ///< over the plan's origin
+  double z_m = 0.0;                                 ///< of its highest point
+  double z0_m = 0.0;                                ///< over the plan's origin
   Eigen::Vector2d slope = Eigen::Vector2d::Zero();  ///< rise per metre along x and along y
   int obstacle = -1;                                ///< the ramp that it is the top of, -1: none
 
   [[nodiscard]] bool is_level() const { return slope.isZero(0.0); }
-  /// Height in W over a point of the plan.
-  [[nodiscard]] double z_at(const Eigen::Vector2d& p) const { return z0_W + slope.dot(p); }
+  /// Height over a point of the plan, m.
+  [[nodiscard]] double z_at(const Eigen::Vector2d& p) const { return z0_m + slope.dot(p); }
 };
 
 /// What the robot walks on in a storey.
 struct WalkedFloors {
-  double ground_W = 0.0;            ///< height of the lowest: the elevation, unless a level slab of a room lies lower
+  double ground_m = 0.0;            ///< height of the lowest: the elevation, unless a level slab of a room lies lower
   std::vector<RaisedFloor> raised;  ///< by highest point, with the thresholds of open doors that lead to them
 
-  [[nodiscard]] double highest_W() const { return raised.empty() ? ground_W : raised.back().z_W; }
+  [[nodiscard]] double highest_m() const { return raised.empty() ? ground_m : raised.back().z_m; }
 };
-/// Height in W over a point of the plan; where several floors lie above each other, of the highest.
+/// Height over a point of the plan, m; where several floors lie above each other, of the highest.
 [[nodiscard]] double height_at(const WalkedFloors& floors, const Eigen::Vector2d& p);
 /// Floors moved by a rotation about z and a translation: p_V = X_VW p_W.
 [[nodiscard]] WalkedFloors moved(const Pose& X_VW, WalkedFloors floors);

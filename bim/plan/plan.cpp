@@ -164,7 +164,7 @@ BuildingMesh structure_of(const Building& building, const BuildingMesh& mesh) {
 std::optional<WalkedFloors> floors_of(const Building& building, int storey) {
   WalkedFloors floors = walked_floors(building, storey);
   const bool level =
-      floors.raised.empty() && floors.ground_W == building.storeys[static_cast<std::size_t>(storey)].elevation_m;
+      floors.raised.empty() && floors.ground_m == building.storeys[static_cast<std::size_t>(storey)].elevation_m;
   return level ? std::nullopt : std::optional(std::move(floors));
 }
 

@@ -269,7 +269,7 @@ void add_sloping(const bim::RaisedFloor& floor, const BuildingGroundConfig& conf
 /// Raised floors, each down to below the ground.
 void add_raised(const bim::WalkedFloors& floors, const BuildingGroundConfig& config, std::vector<CollisionBox>& out) {
   for (const bim::RaisedFloor& floor : floors.raised) {
-    const HeightRange z{floors.ground_W - config.floor_body_m, floor.z_W};
+    const HeightRange z{floors.ground_m - config.floor_body_m, floor.z_m};
     if (!floor.is_level())
       add_sloping(floor, config, out);
     else if (is_rectangle(floor.polygon))
@@ -306,7 +306,7 @@ Ground building_ground(const bim::Building& as_built, const std::vector<int>& st
     if (storey < 0 || static_cast<std::size_t>(storey) >= as_built.storeys.size())
       throw InputError({}, "the building has no storey number " + std::to_string(storey));
     const bim::WalkedFloors floors = bim::walked_floors(as_built, storey);
-    GroundLevel level{floors.ground_W, {}};
+    GroundLevel level{floors.ground_m, {}};
     std::vector<Well> wells;
     for (const bim::Stair& stair : as_built.stairs)
       if (stair.to == storey && is_walked(stair, storeys)) wells.emplace_back(as_built, stair, config);

@@ -15,7 +15,7 @@ namespace {
 /// Heights a robot on the storeys can touch, in W, ascending and apart.
 std::vector<HeightRange> touchable(const std::vector<bim::WalkedFloors>& storeys, const CollisionConfig& config) {
   std::vector<std::pair<double, double>> floors;  // the lowest and the highest of each storey
-  for (const bim::WalkedFloors& of_storey : storeys) floors.emplace_back(of_storey.ground_W, of_storey.highest_W());
+  for (const bim::WalkedFloors& of_storey : storeys) floors.emplace_back(of_storey.ground_m, of_storey.highest_m());
   std::sort(floors.begin(), floors.end());
   std::vector<HeightRange> out;
   for (const auto& [floor, highest] : floors) {

@@ -251,7 +251,7 @@ std::vector<float> floor_heights(const bim::WalkedFloors& floors, const GridFram
     if (floor[i] != 0) heights[i] = 0.0F;
   for (const bim::RaisedFloor& piece : floors.raised)
     fill_cells(grid, outline_of(piece.polygon), [&](std::size_t cell) {
-      heights[cell] = static_cast<float>(std::round((piece.z_at(grid.center(cell)) - floors.ground_W) * 100.0) / 100.0);
+      heights[cell] = static_cast<float>(std::round((piece.z_at(grid.center(cell)) - floors.ground_m) * 100.0) / 100.0);
       floor[cell] = 1;
     });
   // Gaps under walls that the floor steps over are as high as the nearest floor: the first found, by rows and columns.
@@ -274,7 +274,7 @@ std::vector<double> clearances_over(const bim::Building& building, int storey, c
                                     const GridFrame& grid, const RouteConfig& config, const std::vector<char>& floor,
                                     const std::vector<float>& heights) {
   const double elevation = building.storeys.at(static_cast<std::size_t>(storey)).elevation_m;
-  const double ground = floors.ground_W;
+  const double ground = floors.ground_m;
   bim::Building solid = building;  // a slab or ramp that is floor is no obstacle of the floor beside it
   std::erase_if(solid.slabs, [&](const bim::Slab& slab) {
     return slab.z1_m > ground && slab.z1_m <= elevation + bim::WalkedFloorConfig().highest_m;

@@ -46,7 +46,7 @@ GridFrame make_grid(const bim::Building& building, int storey, double cell) {
 
 ClearanceMap::ClearanceMap(const bim::Building& as_built, int storey, const RouteConfig& config) : config_(config) {
   const bim::WalkedFloors floors = bim::walked_floors(as_built, storey);
-  ground_W_ = floors.ground_W;
+  ground_W_ = floors.ground_m;
   grid_ = make_grid(as_built, storey, config.cell_m);
   floor_ = floor_cells(as_built, storey, ground_W_, grid_, config);
   heights_ = floor_heights(floors, grid_, config, floor_);

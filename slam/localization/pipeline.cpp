@@ -16,7 +16,7 @@ namespace plumbline::slam {
 
 namespace {
 
-/// A gait changes the sensor's height by 3 cm; steps between floors that are walked are higher than 10 cm.
+/// A gait changes the sensor's height by 3 cm. A floor that is nearer than this is wrong by no more.
 constexpr double other_floor_m = 0.1;
 
 bool has_floors_at_several_levels(const PlanIndex& index) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <vector>
 
 #include "bim/config/visit.h"
@@ -99,10 +100,9 @@ struct LocalizationScan {
 
 /// Gravity comes from the odometry's attitude, the height from the floor plane where one is seen, else from the
 /// calibration. height_tolerance_m: a floor that lies farther from the calibrated height is not the one below.
-[[nodiscard]] LocalizationScan make_localization_scan(const DeskewedScan& scan,
-                                                      const std::vector<PlaneObservation>& planes, const Pose& X_OR,
-                                                      const Calibration& calibration,
-                                                      const LocalizationScanConfig& config,
-                                                      double height_tolerance_m = 1e9);
+[[nodiscard]] LocalizationScan make_localization_scan(
+    const DeskewedScan& scan, const std::vector<PlaneObservation>& planes, const Pose& X_OR,
+    const Calibration& calibration, const LocalizationScanConfig& config,
+    double height_tolerance_m = std::numeric_limits<double>::infinity());
 
 }  // namespace plumbline::slam

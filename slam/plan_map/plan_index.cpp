@@ -185,13 +185,13 @@ std::shared_ptr<const Structure> structure_in_I(const bim::Plan& plan_W, const P
 
 bim::WalkedFloors floors_in_I(bim::WalkedFloors floors, const Pose& X_WI) {
   floors = bim::moved(X_WI.inverse(), std::move(floors));
-  floors.ground_W = snap(floors.ground_W);
+  floors.ground_m = snap(floors.ground_m);
   for (bim::RaisedFloor& floor : floors.raised) {
     for (Eigen::Vector2d& p : floor.polygon.outer) p = snap(p);
     for (Polygon2& hole : floor.polygon.holes)
       for (Eigen::Vector2d& p : hole) p = snap(p);
-    floor.z_W = snap(floor.z_W);
-    floor.z0_W = snap(floor.z0_W);
+    floor.z_m = snap(floor.z_m);
+    floor.z0_m = snap(floor.z0_m);
     for (double& rise : floor.slope) rise = snap(rise);
   }
   return floors;
@@ -229,7 +229,7 @@ std::vector<Plane> StoreyIndex::floor_planes() const {
   if (!floors) return planes;
   for (const bim::RaisedFloor& floor : floors->raised) {
     const Eigen::Vector3d upward = Eigen::Vector3d(-floor.slope.x(), -floor.slope.y(), 1.0);
-    planes.push_back({upward.normalized(), -floor.z0_W / upward.norm()});
+    planes.push_back({upward.normalized(), -floor.z0_m / upward.norm()});
   }
   return planes;
 }

@@ -83,7 +83,7 @@ struct StoreyIndex {
   [[nodiscard]] double floor_at(const Eigen::Vector2d& p_I) const {
     return floors ? bim::height_at(*floors, p_I) : floor_z;
   }
-  [[nodiscard]] double lowest_floor() const { return floors ? floors->ground_W : floor_z; }
+  [[nodiscard]] double lowest_floor() const { return floors ? floors->ground_m : floor_z; }
   /// Planes of all its floors, in I.
   [[nodiscard]] std::vector<Plane> floor_planes() const;
   /// Room that holds p, or -1 (ties: lowest).

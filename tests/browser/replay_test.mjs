@@ -158,7 +158,7 @@ async function whole(browser) {
     const [first, second] = set[2][0][7], name = (id) => app.data.faces.find((f) => f.id === id).wall;
     Object.assign(first, { 2: 0, 3: name(second[1][0]) });
     await app.seek(set[0] * 1e-3);
-    const seen = { text: app.wrong.innerText, lines: app.moment.moved.length, taken: name(first[1][0]), truly: first[3] };
+    const seen = { text: app.wrong.innerText, lines: app.moment.displaced.length, taken: name(first[1][0]), truly: first[3] };
     app.wrong.querySelectorAll("button")[1].click();
     await app.update();
     seen.selected = document.body.dataset.selected;
@@ -183,10 +183,10 @@ async function whole(browser) {
       if (g.wall === most || out.rows > 0 || Math.abs(aside) > 0.01 || Math.abs(d) < 1) continue;
       move([d * n[0], d * n[1]], Math.abs(d));
       await app.update();
-      const { mixedUp, moved } = app.moment;
-      if (mixedUp && mixedUp.rows.some((r) => r.truly === most && r.taken === g.wall))
-        out = { rows: mixedUp.rows.length, apart: mixedUp.rows.every((r) => r.taken !== r.truly), lines: moved.length, text: app.wrong.innerText,
-          far: Math.abs(Math.hypot(moved[0][1][0] - moved[0][0][0], moved[0][1][1] - moved[0][0][1]) - Math.abs(d)) };
+      const { confused, displaced } = app.moment;
+      if (confused && confused.rows.some((r) => r.truly === most && r.taken === g.wall))
+        out = { rows: confused.rows.length, apart: confused.rows.every((r) => r.taken !== r.truly), lines: displaced.length, text: app.wrong.innerText,
+          far: Math.abs(Math.hypot(displaced[0][1][0] - displaced[0][0][0], displaced[0][1][1] - displaced[0][0][1]) - Math.abs(d)) };
       move([-d * n[0], -d * n[1]], 0);
     }
     await app.update();

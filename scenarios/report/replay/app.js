@@ -74,8 +74,8 @@ Plumb.App = class {
       if (name === "truth" || !wrong) continue;
       let i = Plumb.data.lastAt(track.t, wrong.t);
       if (!this.namesWalls(name)) {
-        while (i > 0 && track.e[i - 1] >= this.slid && track.lost[i - 1] < 0.5) --i;
-        if (i >= 0 && wrong.t - track.t[i] > 0.05) marks.push({ t: track.t[i], label: "off by more than " + this.slid + " m", kind: "wrong", m: name });
+        while (i > 0 && track.e[i - 1] >= this.wrongFrom && track.lost[i - 1] < 0.5) --i;
+        if (i >= 0 && wrong.t - track.t[i] > 0.05) marks.push({ t: track.t[i], label: "off by more than " + this.wrongFrom + " m", kind: "wrong", m: name });
       }
       for (let k = 0; k < track.t.length; ++k) {
         const truth = track.e[k] > 0.5 && track.lost[k] < 0.5 ? Plumb.data.known(data.tracks.truth, track.t[k]) : null;
@@ -87,7 +87,7 @@ Plumb.App = class {
     marks.sort((a, b) => a.t - b.t);
   }
 
-  get slid() { return 0.2; } // m; twice what points may lie off a wall
+  get wrongFrom() { return 0.2; } // m; twice what points may lie off a wall
 
   preferMethod() {
     const methods = this.data.run.methods;
@@ -125,12 +125,12 @@ Plumb.App = class {
   bar() {
     const make = Plumb.make;
     this.playButton = make("button", { type: "button", id: "play", on: { click: () => this.togglePlay() } }, "Play");
-    this.slider = make("input", { type: "range", id: "time", min: "0", max: String(this.data.end), step: "any", "aria-label": "time, seconds",
-      on: { input: () => this.seek(+this.slider.value) } });
+    this.wrongFromer = make("input", { type: "range", id: "time", min: "0", max: String(this.data.end), step: "any", "aria-label": "time, seconds",
+      on: { input: () => this.seek(+this.wrongFromer.value) } });
     this.clock = make("output", { id: "clock" });
     this.speed = make("select", { id: "speed", "aria-label": "speed" }, ...[0.5, 1, 2, 5, 10].map((v) => make("option", { value: v, selected: v === 1 }, "× " + v)));
     const step = (text, label, by) => make("button", { type: "button", "aria-label": label, title: label, on: { click: () => this.step(by) } }, text);
-    return make("div", { id: "bar" }, this.playButton, step("◀", "scan before", -1), step("▶", "next scan", 1), this.slider, this.clock, this.speed);
+    return make("div", { id: "bar" }, this.playButton, step("◀", "scan before", -1), step("▶", "next scan", 1), this.wrongFromer, this.clock, this.speed);
   }
 
   start(root) {
@@ -270,12 +270,12 @@ Plumb.App = class {
       return { name: r.name, middle: [sum[0] / r.at.length, sum[1] / r.at.length, floor + 0.1] };
     });
     const set = belief ? Plumb.data.setAt(belief, t) : null;
-    const moved = [], middle = (p) => [(p[0] + p[2]) / 2, (p[1] + p[3]) / 2]; // what is taken for something else: from, to
+    const displaced = [], middle = (p) => [(p[0] + p[2]) / 2, (p[1] + p[3]) / 2]; // what is taken for something else: from, to
     const truth = set && Plumb.data.known(data.tracks.truth, set.t);
     if (truth && set.hypotheses[0])
-      for (const w of set.hypotheses[0].walls) if (!w.right) moved.push([middle(Plumb.data.patchFrom(w.patch, set.hypotheses[0], truth)), middle(w.patch)]);
+      for (const w of set.hypotheses[0].walls) if (!w.right) displaced.push([middle(Plumb.data.patchFrom(w.patch, set.hypotheses[0], truth)), middle(w.patch)]);
     return {
-      t, poses, known, storey, moved, floor, rooms, off: this.off, hidden: this.hidden, dark: Plumb.colours.dark(), lift: this.lift,
+      t, poses, known, storey, displaced, floor, rooms, off: this.off, hidden: this.hidden, dark: Plumb.colours.dark(), lift: this.lift,
       colour: this.method ? this.method.colour : "#0072B2",
       state: belief ? Plumb.data.stateAt(belief, t) : null,
       set,
@@ -306,9 +306,9 @@ Plumb.App = class {
     if (turn !== this.turn) return;
     moment.scan = scan ? scan.index : -1;
     moment.cloud = scan ? scan.cloud : null;
-    moment.mixedUp = await this.mixedUpAt(moment);
+    moment.confused = await this.confusedAt(moment);
     if (turn !== this.turn) return;
-    if (moment.mixedUp) moment.moved = moment.mixedUp.rows.map((row) => [row.from, row.to]);
+    if (moment.confused) moment.displaced = moment.confused.rows.map((row) => [row.from, row.to]);
     if (moment.cloud) {
       moment.residuals = this.colouring === "residual" || this.selected ? this.residuals.of(moment.cloud.points, moment.cloud.count) : null;
       moment.colours = this.colouring === "element" ? Plumb.colours.ofElements(this.residuals.owners(moment.cloud.points, moment.cloud.count))
@@ -353,7 +353,7 @@ Plumb.App = class {
     body.t = this.t.toFixed(3);
     body.scan = String(moment.scan);
     body.storey = String(moment.storey);
-    this.slider.value = String(this.t);
+    this.wrongFromer.value = String(this.t);
     this.clock.textContent = this.t.toFixed(2) + " s";
     for (const cell of document.querySelectorAll("[data-now]")) {
       const pose = moment.poses[cell.dataset.now];

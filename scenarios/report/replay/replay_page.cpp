@@ -2,11 +2,10 @@
 #include "scenarios/report/replay/replay_page.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <string_view>
 #include <utility>
 
+#include "scenarios/metrics/result_words.h"
 #include "scenarios/metrics/storey.h"
 #include "scenarios/report/belief.h"
 #include "scenarios/report/map_drawing.h"
@@ -53,17 +52,13 @@ Tree mark(double t_s, const std::string& label, const std::string& kind, const s
   return Tree::map().set("t", whole(t_s, 0.001)).set("label", label).set("kind", kind).set("m", method);
 }
 
-/// The cause of a failure in a few words.
+/// What a cause of failure says, as the documents have it.
 std::string words_of(const std::string& failure) {
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 6> words = {
-      {{"never_sampled", "the true pose is no hypothesis"},
-       {"depleted", "the true pose dropped out"},
-       {"twin_preferred", "an aliased pose preferred"},
-       {"wrong_model", "another pose preferred"},
-       {"undecided", "undecided to the end"},
-       {"tracking_lost", "tracking lost"}}};
-  const auto found = std::find_if(words.begin(), words.end(), [&](const auto& pair) { return pair.first == failure; });
-  return found == words.end() ? failure : std::string(found->second);
+  const auto words = score::result_words();
+  const auto found = std::find_if(words.begin(), words.end(), [&](const score::ResultWord& word) {
+    return word.key == "localization.failure" && word.word == failure;
+  });
+  return found == words.end() ? failure : std::string(found->doc);
 }
 
 /// Where a localization first had one answer, first a wrong one, and lost it.

@@ -5,7 +5,7 @@
 Object.assign(Plumb.App.prototype, {
   /** What is taken for what now: by the first hypothesis' own matches, or, where a method names none, by the scan. */
   writeWrong(moment) {
-    const pairs = moment.mixedUp || this.wrongMatches(moment), key = JSON.stringify(pairs);
+    const pairs = moment.confused || this.wrongMatches(moment), key = JSON.stringify(pairs);
     if (this.wrongKey === key) return;
     this.wrongKey = key;
     document.body.dataset.wrong = pairs ? pairs.rows.map((row) => row.taken).join(" ") : "";
@@ -37,9 +37,9 @@ Object.assign(Plumb.App.prototype, {
   },
 
   /** For a method that names no walls: what the scan lies on at its pose, and what at the true one. Most points first. */
-  async mixedUpAt(moment) {
+  async confusedAt(moment) {
     const pose = moment.poses[this.m];
-    if (this.namesWalls(this.m) || this.hidden.has(this.m) || !pose || pose.lost || pose.e < this.slid || moment.scan < 0) return null;
+    if (this.namesWalls(this.m) || this.hidden.has(this.m) || !pose || pose.lost || pose.e < this.wrongFrom || moment.scan < 0) return null;
     const { scans, tracks } = this.data, ranges = await scans.ranges(moment.scan);
     const clouds = [tracks[this.m], tracks.truth].map((track) => Plumb.data.sweepPoses(track, scans.t[moment.scan], scans.span))
       .map((poses) => poses && scans.points(moment.scan, ranges, ...poses));
@@ -85,7 +85,7 @@ Object.assign(Plumb.App.prototype, {
       moment.set.hypotheses.forEach((h, i) => h.walls.filter((w) => w.faces.some((f) => ids.has(f)))
         .forEach((w) => lines.push("matched by hypothesis #" + (i + 1) + " of " + this.m + ", "
           + (w.right ? "rightly" : "wrongly: truly " + (w.seen || "no wall of the plan")))));
-    for (const row of moment.mixedUp ? moment.mixedUp.rows : []) {
+    for (const row of moment.confused ? moment.confused.rows : []) {
       if (row.taken === id) lines.push("at the pose of " + this.m + " what is seen of " + row.truly + " lies on it");
       if (row.truly === id) lines.push("at the pose of " + this.m + " what is seen of it lies on " + row.taken);
     }

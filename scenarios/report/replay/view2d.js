@@ -93,7 +93,7 @@ Plumb.View2d = class {
     }
     if (!moment.off.has("walls")) {
       this.drawWalls(g, moment);
-      this.drawMoved(g, moment);
+      this.drawDisplaced(g, moment);
     }
     this.drawTracks(g, moment);
     if (!moment.off.has("hypotheses") && moment.set)
@@ -167,10 +167,10 @@ Plumb.View2d = class {
   }
 
   /** Lines from where what was seen stands to where it is taken to be. */
-  drawMoved(g, moment) {
+  drawDisplaced(g, moment) {
     g.strokeStyle = "#D55E00";
     g.lineWidth = 1.5;
-    for (const [from, to] of moment.moved) {
+    for (const [from, to] of moment.displaced) {
       g.beginPath();
       g.moveTo(...this.toScreen(from));
       g.lineTo(...this.toScreen(to));

@@ -270,8 +270,8 @@ Plumb.View3d = class {
   }
 
   /** Lines from where what was seen stands to where it is taken to be. */
-  drawMoved(moment) {
-    const lines = moment.moved.flatMap(([from, to]) => this.ribbon(from, to, moment.floor + 1.25));
+  drawDisplaced(moment) {
+    const lines = moment.displaced.flatMap(([from, to]) => this.ribbon(from, to, moment.floor + 1.25));
     if (lines.length) this.groups.walls.add(this.quads(lines, this.flat("#D55E00", 0.6)));
   }
 
@@ -309,7 +309,7 @@ Plumb.View3d = class {
       this.drawParticles(moment);
       this.drawHypotheses(moment);
       this.drawWalls(moment);
-      this.drawMoved(moment);
+      this.drawDisplaced(moment);
       this.drawGraph(moment);
       this.drawPlanGraph(moment);
       this.drawMap(moment);

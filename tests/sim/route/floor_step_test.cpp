@@ -133,7 +133,7 @@ TEST(SunkenFloor, IsWalkedDownARampOfEitherKind) {
   for (const bool as_obstacle : {false, true})
     for (const double drop : {0.3, 0.5}) {
       const bim::Building building = ramp_down(drop, as_obstacle);
-      EXPECT_DOUBLE_EQ(bim::walked_floors(building, 0).ground_W, -drop);
+      EXPECT_DOUBLE_EQ(bim::walked_floors(building, 0).ground_m, -drop);
       const MultiStoreyPlanner space(building);
       const std::vector<Waypoint> way = space.path({0, west}, {0, far});
       ASSERT_FALSE(way.empty()) << drop << " " << as_obstacle;
@@ -168,16 +168,16 @@ TEST(SunkenFloor, MayLieUnderSeveralRooms) {
   bim::Building building = two_rooms();  // the middle of their slab lies in the wall between them
   building.slabs.front().z1_m = -0.4;
   for (bim::Room& room : building.rooms) room.z0_m = -0.4;
-  EXPECT_EQ(bim::walked_floors(building, 0).ground_W, -0.4);
+  EXPECT_EQ(bim::walked_floors(building, 0).ground_m, -0.4);
 }
 
 TEST(SunkenFloor, ABareSlabUnderACoveringIsNone) {
   for (const double thickness : {0.02, 0.1, 0.3}) {
     bim::Building building = two_rooms();
     building.slabs.front().z1_m = -thickness;
-    EXPECT_EQ(bim::walked_floors(building, 0).ground_W, 0.0) << thickness;
+    EXPECT_EQ(bim::walked_floors(building, 0).ground_m, 0.0) << thickness;
     for (bim::Room& room : building.rooms) room.z0_m = -thickness;
-    EXPECT_EQ(bim::walked_floors(building, 0).ground_W, thickness > 0.05 ? -thickness : 0.0) << "the rooms begin there";
+    EXPECT_EQ(bim::walked_floors(building, 0).ground_m, thickness > 0.05 ? -thickness : 0.0) << "the rooms begin there";
   }
 }
 

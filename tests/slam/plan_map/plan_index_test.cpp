@@ -31,6 +31,13 @@ void expect_equal_tables(const PlanIndex& a, const PlanIndex& b) {
   }
 }
 
+/// Where a plan is moved to, draw i.
+Pose far_away(const Stream& stream, std::uint32_t i) {
+  return Pose::from_xyz_yaw(
+      {200.0 * stream.gauss(0, i, 0), 200.0 * stream.gauss(0, i, 1), 10.0 * stream.gauss(0, i, 2)},
+      6.28 * stream.uniform(0, i, 3));
+}
+
 /// A lower floor, a slope up from it along x, an upper one.
 bim::WalkedFloors split_levels() {
   const auto rectangle = [](double x0, double x1) { return Polygon2{{x0, 0}, {x1, 0}, {x1, 4}, {x0, 4}}; };
@@ -48,9 +55,7 @@ TEST(PlanIndex, KnowsTheFloorAtAPlaceHoweverThePlanIsMoved) {
   const PlanIndex index = make_plan_index(plan, "ground", {});
   const Stream stream(6, "slam.localize.init");
   for (std::uint32_t i = 0; i < 50; ++i) {
-    const Pose X_VW =
-        Pose::from_xyz_yaw({50.0 * stream.gauss(0, i, 0), 50.0 * stream.gauss(0, i, 1), 10.0 * stream.gauss(0, i, 2)},
-                           6.28 * stream.uniform(0, i, 3));
+    const Pose X_VW = far_away(stream, i);
     const PlanIndex moved = make_plan_index(bim::transformed(plan, X_VW), "ground", {});
     // Away from the edges, which are rounded to a micrometre.
     const double x = std::array{1.0, 3.0, 5.0, 7.5}.at(i % 4) + 0.4 * stream.uniform(0, i, 4);
@@ -67,9 +72,7 @@ TEST(PlanIndex, IsTheSameToTheBitForAMovedPlan) {
   const PlanIndex index = make_plan_index(plan, "ground", {});
   const Stream stream(5, "slam.localize.init");
   for (std::uint32_t i = 0; i < 5; ++i) {
-    const Pose X_VW =
-        Pose::from_xyz_yaw({200.0 * stream.gauss(0, i, 0), 200.0 * stream.gauss(0, i, 1), 10.0 * stream.gauss(0, i, 2)},
-                           6.28 * stream.uniform(0, i, 3));
+    const Pose X_VW = far_away(stream, i);
     const PlanIndex moved = make_plan_index(synthetic::moved(plan, X_VW), "ground", {});
     expect_equal_tables(index, moved);
     EXPECT_LT((moved.X_WI.t - (X_VW * index.X_WI).t).norm(), 1e-9);
