@@ -2,6 +2,9 @@
 #include "slam/registration/cell_surfels.h"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "slam/scan/moments.h"
@@ -20,75 +23,126 @@ struct Cell {
 
 class Cells {
  public:
-  Cells(std::span<const Eigen::Vector3f> points, std::span<const float> times_s, double size) : size_(size) {
+  Cells(std::span<const Eigen::Vector3f> points, std::span<const float> times_s, const CellSurfels& config)
+      : size_(config.size_m) {
     std::size_t slot = 0;
     for (std::size_t i = 0; i < points.size(); ++i) {
       const Eigen::Vector3f& point = points[i];
       if (!point.allFinite()) continue;
       const Eigen::Vector3d p = point.cast<double>();
-      const VoxelKey key = VoxelKey::of(p, size);
+      const VoxelKey key = VoxelKey::of(p, size_);
       // Points come along scan lines: most fall into the last one's cell.
-      if (cells_.empty() || !(key == cells_[slot].key)) {
-        slot = static_cast<std::size_t>(index_.insert(key));
-        if (slot == cells_.size()) cells_.push_back({key, {}, 0.0});
-      }
+      if (cells_.empty() || !(key == cells_[slot].key)) slot = slot_of(key);
       cells_[slot].moments.add(p - centre(key));
       if (!times_s.empty()) cells_[slot].time_s += static_cast<double>(times_s[i]);
     }
   }
+
+  /// Twice as large.
+  [[nodiscard]] Cells doubled() const {
+    Cells large(2.0 * size_);
+    for (const Cell& cell : cells_) {
+      Cell& sum = large.cells_[large.slot_of(half(cell.key))];
+      sum.moments.add(shifted(cell.moments, centre(cell.key) - large.centre(sum.key)));
+    }
+    return large;
+  }
+  /// The one of doubled() that holds a voxel.
+  [[nodiscard]] static VoxelKey half(const VoxelKey& key) { return {key.x >> 1, key.y >> 1, key.z >> 1}; }
 
   [[nodiscard]] const std::vector<Cell>& all() const { return cells_; }
   [[nodiscard]] Eigen::Vector3d centre(const VoxelKey& key) const {
     return size_ * (Eigen::Vector3d(key.x, key.y, key.z) + Eigen::Vector3d::Constant(0.5));
   }
 
-  /// Of a cell and the six that share a face with it, about its centre.
-  [[nodiscard]] Moments round(const Cell& cell) const {
-    Moments sum = cell.moments;
+  /// Of a voxel and the six that share a face with it, about its centre.
+  [[nodiscard]] Moments round(const VoxelKey& key) const {
+    Moments sum;
+    const auto add = [&](const Eigen::Vector3i& step) {
+      const int slot = index_.find({key.x + step.x(), key.y + step.y(), key.z + step.z()});
+      if (slot >= 0) sum.add(shifted(cells_[static_cast<std::size_t>(slot)].moments, size_ * step.cast<double>()));
+    };
+    add(Eigen::Vector3i::Zero());
     for (int axis = 0; axis < 3; ++axis)
-      for (const int side : {-1, 1}) {
-        const Eigen::Vector3i step = side * Eigen::Vector3i::Unit(axis);
-        const int slot = index_.find({cell.key.x + step.x(), cell.key.y + step.y(), cell.key.z + step.z()});
-        if (slot < 0) continue;
-        const Moments& m = cells_[static_cast<std::size_t>(slot)].moments;
-        const Eigen::Vector3d by = size_ * step.cast<double>();
-        const Eigen::Matrix3d mixed = m.sum * by.transpose();
-        sum.outer += m.outer + mixed + mixed.transpose() + m.n * by * by.transpose();
-        sum.sum += m.sum + m.n * by;
-        sum.n += m.n;
-      }
+      for (const int side : {-1, 1}) add(side * Eigen::Vector3i::Unit(axis));
     return sum;
   }
 
  private:
+  explicit Cells(double size) : size_(size) {}
+
+  [[nodiscard]] static Moments shifted(const Moments& m, const Eigen::Vector3d& by) {
+    const Eigen::Matrix3d mixed = m.sum * by.transpose();
+    return {m.n, m.sum + m.n * by, m.outer + mixed + mixed.transpose() + m.n * by * by.transpose()};
+  }
+  [[nodiscard]] std::size_t slot_of(const VoxelKey& key) {
+    const auto slot = static_cast<std::size_t>(index_.insert(key));
+    if (slot == cells_.size()) cells_.push_back({key, {}, 0.0});
+    return slot;
+  }
+
   double size_;
   VoxelIndex index_;
   std::vector<Cell> cells_;
 };
 
-std::optional<Eigen::Vector3d> normal_of(const Moments& moments, double thickest) {
+Eigen::Matrix3d covariance_of(const Moments& moments) {
   const Eigen::Vector3d mean = moments.mean();
+  return moments.outer / moments.n - mean * mean.transpose();
+}
+
+/// Whether points are seen in one line, up to a twentieth of its length. The cone of a ring bends within a voxel by
+/// less, and two rings are farther apart.
+bool is_line_of_sight(const Moments& moments, const Eigen::Vector3d& origin_from_sensor) {
+  constexpr double least_width = 0.05, least_rad = 0.001;
+  const Eigen::Matrix3d c = covariance_of(moments);
+  const Eigen::Vector3d mean = moments.mean() + origin_from_sensor;
+  const Eigen::Vector3d beam = mean.normalized();
+  // Variances across the beam from their sum and, by the adjugate, their product.
+  Eigen::Matrix3d adjugate;
+  adjugate << c.col(1).cross(c.col(2)), c.col(2).cross(c.col(0)), c.col(0).cross(c.col(1));
+  const double half = 0.5 * (c.trace() - beam.dot(c * beam)), product = beam.dot(adjugate * beam);
+  const double length2 = half + std::sqrt(std::max(0.0, half * half - product));
+  const double width2 = length2 > 0.0 ? product / length2 : 0.0;
+  return width2 < least_rad * least_rad * mean.squaredNorm() || width2 < least_width * least_width * length2;
+}
+
+/// flatness: least ratio of the second variance to that across.
+std::optional<Eigen::Vector3d> normal_of(const Moments& moments, double thickest, double flatness) {
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
-  eigen.computeDirect(Eigen::Matrix3d(moments.outer / moments.n - mean * mean.transpose()));
+  eigen.computeDirect(covariance_of(moments));
   const Eigen::Vector3d& l = eigen.eigenvalues();
-  // A line of points has no normal: the second direction must stand out of the first.
-  if (l(0) > thickest * thickest || l(1) < 2.0 * l(0)) return std::nullopt;
+  if (l(0) > thickest * thickest || l(1) < flatness * l(0)) return std::nullopt;
   return eigen.eigenvectors().col(0);
+}
+
+/// Of a voxel and those round it. A line of points has no normal: the second direction must stand out of the first. It
+/// is twice as long in voxels twice as large, with the same noise.
+std::optional<Eigen::Vector3d> normal_at(const Cells& cells, const VoxelKey& key, const std::optional<Cells>& larger,
+                                         const CellSurfels& config) {
+  constexpr double flatness = 2.0;
+  const Moments round = cells.round(key);
+  if (round.n >= config.min_points && !(config.sensor && is_line_of_sight(round, cells.centre(key) - *config.sensor)))
+    return normal_of(round, config.max_thickness_m, flatness);
+  if (!larger) return std::nullopt;
+  const VoxelKey half = Cells::half(key);
+  const Moments beyond = larger->round(half);
+  if (beyond.n < config.min_points || is_line_of_sight(beyond, larger->centre(half) - *config.sensor))
+    return std::nullopt;
+  return normal_of(beyond, config.max_thickness_m, 4.0 * flatness);
 }
 
 }  // namespace
 
 std::vector<Surfel> cell_surfels(std::span<const Eigen::Vector3f> points, const CellSurfels& config,
                                  std::span<const float> times_s) {
-  const Cells cells(points, times_s, config.size_m);
+  const Cells cells(points, times_s, config);
+  const std::optional<Cells> larger = config.sensor ? std::optional(cells.doubled()) : std::nullopt;
   std::vector<Surfel> surfels;
-  for (const Cell& cell : cells.all()) {
-    const Moments round = cells.round(cell);
-    if (round.n < config.min_points) continue;
-    if (const std::optional<Eigen::Vector3d> normal = normal_of(round, config.max_thickness_m))
+  for (const Cell& cell : cells.all())
+    if (const std::optional<Eigen::Vector3d> normal = normal_at(cells, cell.key, larger, config))
       surfels.push_back(
           {cells.centre(cell.key) + cell.moments.mean(), *normal, static_cast<float>(cell.time_s / cell.moments.n)});
-  }
   return surfels;
 }
 

@@ -85,7 +85,7 @@ std::vector<Surfel> surfels_of_cells(const DeskewedScan& scan, const SurfelConfi
     points.push_back(scan.point_R[i].cast<float>());
     if (!scan.time_s.empty()) times.push_back(scan.time_s[i]);
   }
-  return cell_surfels(points, {config.voxel_m, config.min_neighbours, config.max_thickness_m}, times);
+  return cell_surfels(points, {config.voxel_m, config.min_neighbours, config.max_thickness_m, scan.X_RL.t}, times);
 }
 
 }  // namespace
