@@ -46,6 +46,15 @@ class MotionBuffer {
 
  private:
   [[nodiscard]] bool is_jump(const Odometry& from, const Odometry& to) const;
+  struct Interval {
+    double mean_ns = 0.0;
+    bool even = true;
+  };
+  /// Between the newest twenty records.
+  [[nodiscard]] Interval interval() const;
+  /// The record since which the newest one's velocity is taken: the one before it, or where stamps are uneven one that
+  /// is ten intervals older. Needs two records.
+  [[nodiscard]] const Odometry& before_last() const;
 
   std::deque<Odometry> records_;
   std::optional<Pose> frame_shift_;  ///< of the odometry's frame, since a jump

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "bim/errors.h"
+#include "bim/random/stream.h"
 #include "tests/slam/synthetic.h"
 
 namespace plumbline::slam {
@@ -100,6 +101,31 @@ TEST(MotionBufferTest, GoesOnUntilItIsStale) {
       const Nanoseconds t = 3 * period + age;
       EXPECT_EQ(motion.age_at(t), age);
       EXPECT_LT((motion.at(t).t - straight(seconds(t)).t).norm(), 1e-9) << period << ", " << age;
+    }
+  }
+}
+
+// Of a buffer that is read ten times a second, or with a scatter that is larger than the period: 13 m off before.
+TEST(MotionBufferTest, StampsInBurstsAreNoVelocity) {
+  constexpr Nanoseconds period = 5'000'000, burst = 100'000'000, least_step = 1000;
+  constexpr double sigma_s = 0.008;
+  const Stream stream(7, "bim.generate");
+  for (const bool bursts : {true, false}) {
+    MotionBuffer motion;
+    Nanoseconds last = 0;
+    for (std::uint64_t k = 1; k <= 400; ++k) {
+      const Nanoseconds t = static_cast<Nanoseconds>(k) * period;
+      const Nanoseconds late =
+          bursts ? burst - t % burst : std::llround(1e9 * sigma_s * std::clamp(stream.gauss(k, 0), -3.0, 3.0));
+      last = std::max(t + late, last + least_step);
+      motion.add({last, straight(seconds(t))});
+      if (k < 50) continue;
+      // Stamps are off by at most a burst, or three standard deviations; the speed that goes on by as much of ten
+      // periods.
+      const double stamp_error_s = bursts ? seconds(burst) : 3.0 * sigma_s;
+      const Nanoseconds at = last + 10'000'000;
+      const double speed_mps = straight(1.0).t.norm();
+      EXPECT_LT((motion.at(at).t - straight(seconds(at)).t).norm(), 2.0 * speed_mps * stamp_error_s) << k;
     }
   }
 }
