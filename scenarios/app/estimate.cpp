@@ -289,6 +289,7 @@ int estimate(EstimateArguments options, slam::MethodTable table) {
   RunDirectory directory(options.out, DirectoryKind::estimate, options.force);
   const Answer answer = run_method(*recording, row, input, choice.sensors);
   const MethodRecord& record = answer.record;
+  for (const std::string& said : recording->left_out()) print_note("plumbline: warning: " + said);
   write_method(directory.staging(), record);
   write_file(directory.staging() + "/digests.csv", write_digests(record.digests));
   write_file(directory.staging() + "/estimate.yaml",

@@ -31,17 +31,34 @@ constexpr std::string_view cloud_type = "sensor_msgs/PointCloud2", odometry_type
 bool is_livox(std::string_view type) { return type.starts_with("livox_") && type.ends_with("/CustomMsg"); }
 bool is_cloud(std::string_view type) { return type == cloud_type || is_livox(type); }
 
-/// Records of one topic in time order. A record with the stamp of the one before it is left out.
+/// Records of one topic in time order. A record with the stamp of the one before it is left out, and so is one that
+/// comes later than newer ones; where a clock was set back, what follows belongs to another recording.
 template <class Record>
 class Waiting {
  public:
-  void add(const Record& record, std::string_view topic) {
-    if (last_ && record.stamp < *last_)
-      throw InputError({}, "stamps on " + std::string(topic) + " go back by " +
-                               std::to_string((*last_ - record.stamp) / 1'000'000) + " ms");
-    if (last_ && record.stamp == *last_) return;
+  /// False where the record is left out.
+  bool add(const Record& record, std::string_view topic) {
+    const Nanoseconds back = last_.value_or(record.stamp) - record.stamp;
+    if (back > most_back)
+      throw InputError({}, "stamps on " + std::string(topic) + " go back by " + std::to_string(back / 1'000'000) +
+                               " ms; records that come late by at most " + std::to_string(most_back / 1'000'000) +
+                               " ms would be left out");
+    if (back > 0) {
+      ++late_;
+      latest_ = std::max(latest_, back);
+    }
+    if (last_ && record.stamp <= *last_) return false;
     last_ = record.stamp;
     records_.push_back(record);
+    return true;
+  }
+  /// What was, nothing where all could be used.
+  [[nodiscard]] std::optional<std::string> left_out(std::string_view topic) const {
+    if (late_ == 0) return std::nullopt;
+    std::array<char, 32> ms{};
+    std::snprintf(ms.data(), ms.size(), "%.3g", 1e-6 * static_cast<double>(latest_));
+    return std::string(topic) + ": " + std::to_string(late_) + (late_ == 1 ? " record" : " records") +
+           " left out, as stamps go back by up to " + ms.data() + " ms";
   }
   [[nodiscard]] bool reaches(Nanoseconds t) const { return last_ && *last_ >= t; }
   [[nodiscard]] const std::deque<Record>& records() const { return records_; }
@@ -55,8 +72,12 @@ class Waiting {
   }
 
  private:
+  static constexpr Nanoseconds most_back = 1'000'000'000;
+
   std::deque<Record> records_;
   std::optional<Nanoseconds> last_;
+  std::int64_t late_ = 0;
+  Nanoseconds latest_ = 0;
 };
 
 enum class Kind { none, ros1, mcap, database, folder };
@@ -119,6 +140,14 @@ class BagRecording final : public Recording {
   [[nodiscard]] const RecordingInfo& info() const override { return info_; }
   [[nodiscard]] bool has_odometry() const override { return !topics_.odometry.empty(); }
   [[nodiscard]] Nanoseconds origin() const override { return origin_.value_or(0); }
+
+  [[nodiscard]] std::vector<std::string> left_out() const override {
+    std::vector<std::string> all;
+    for (const std::optional<std::string>& said :
+         {scans_.left_out(topics_.points), odometry_.left_out(topics_.odometry), imu_.left_out(topics_.imu)})
+      if (said) all.push_back(mark_.file + ": " + *said);
+    return all;
+  }
 
   [[nodiscard]] bool next(SensorFrame& frame) override {
     bool found = false;
@@ -290,7 +319,7 @@ class BagRecording final : public Recording {
       const ros::OdometryMessage said = ros::read_odometry(message.bytes, topic.encoding);
       if (!X_OB_) X_OB_ = start_of(said.X_OR.X);
       const Nanoseconds stamp = shifted(said.X_OR.stamp);
-      odometry_.add({stamp, *X_OB_ * said.X_OR.X}, topics_.odometry);
+      if (!odometry_.add({stamp, *X_OB_ * said.X_OR.X}, topics_.odometry)) return;
       const Nanoseconds dt = odometry_stamp_ ? stamp - *odometry_stamp_ : 0;
       if (const auto covariance = increment_covariance(said, dt))
         covariances_.add({stamp, *covariance}, topics_.odometry);

@@ -23,6 +23,8 @@ class Recording {
   [[nodiscard]] virtual bool has_odometry() const = 0;
   /// Time 0 on the recording's own clock, known after the first scan; 0 where the two are one.
   [[nodiscard]] virtual Nanoseconds origin() const = 0;
+  /// What could not be used so far and was left out, a sentence each.
+  [[nodiscard]] virtual std::vector<std::string> left_out() const { return {}; }
 };
 
 /// Error message for odometry that overlaps no scan.

@@ -130,6 +130,53 @@ TEST_F(Ros2Bag, EveryKindOfOneWalkReadsAsTheSame) {
   expect_same(read_all(file("walk/walk_0.db3")), expected);
 }
 
+// Two threads of a driver may swap their records.
+TEST_F(Ros2Bag, RecordsThatComeLateAreLeftOutAndCounted) {
+  write(file("walk"), BagFormat::rosbag2);
+  const std::string database = file("walk/walk_0.db3");
+  const std::string of_topic = "(SELECT id FROM messages WHERE topic_id = (SELECT id FROM topics WHERE name = '";
+  const auto swap = [&](const std::string& topic, int at) {
+    const auto nth = [&](int n) {
+      return of_topic + topic + "') ORDER BY id LIMIT 1 OFFSET " + std::to_string(n) + ")";
+    };
+    run_sql(database, "CREATE TEMP TABLE two AS SELECT " + nth(at) + " AS a, " + nth(at + 1) +
+                          " AS b; UPDATE messages SET id = -1 WHERE id = (SELECT a FROM two); UPDATE messages SET id = "
+                          "(SELECT a FROM two) WHERE id = (SELECT b FROM two); UPDATE messages SET id = (SELECT b FROM "
+                          "two) WHERE id = -1; DROP TABLE two;");
+  };
+  const auto counted = [&] {
+    const auto recording = open_bag(database, {}, nullptr);
+    std::size_t imu = 0, odometry = 0;
+    for (SensorFrame frame; recording->next(frame);) {
+      imu += frame.imu.size();
+      odometry += frame.odometry.size();
+      EXPECT_LE(frame.covariances.size(), frame.odometry.size());
+    }
+    return std::tuple(imu, odometry, recording->left_out());
+  };
+  const auto [imu, odometry, none] = counted();
+  EXPECT_TRUE(none.empty());
+  swap("/imu/data", 5);
+  swap("/odom", 7);
+  swap("/odom", 12);
+  const auto [imu_left, odometry_left, said] = counted();
+  EXPECT_EQ(imu_left + 1, imu);
+  EXPECT_EQ(odometry_left + 2, odometry);
+  ASSERT_EQ(said.size(), 2U);
+  EXPECT_EQ(said[0], database + ": /odom: 2 records left out, as stamps go back by up to 10 ms");
+  EXPECT_EQ(said[1], database + ": /imu/data: 1 record left out, as stamps go back by up to 4 ms");
+}
+
+// What follows is of another recording.
+TEST_F(Ros2Bag, AClockThatIsSetBackIsRefused) {
+  std::vector<SensorFrame> frames = walk();
+  for (Imu& imu : frames[1].imu) imu.stamp += 1'500'000'000;
+  BagWriter writer(file("back"), bag_profiles[0], {}, BagFormat::rosbag2);
+  for (const SensorFrame& frame : frames) writer.add(frame.scan, frame.odometry, frame.imu);
+  writer.finish();
+  expect_complaint(file("back"), "go back by 1496 ms; records that come late by at most 1000 ms would be left out");
+}
+
 TEST_F(Ros2Bag, AnImuInGIsTakenAsSuch) {
   std::vector<SensorFrame> frames = walk();
   for (SensorFrame& frame : frames)
