@@ -91,8 +91,9 @@ Eigen::Matrix3d covariance_of(const Moments& moments) {
   return moments.outer / moments.n - mean * mean.transpose();
 }
 
-/// Whether points are seen in one line, up to a twentieth of its length. The cone of a ring bends within a voxel by
-/// less, and two rings are farther apart.
+/// Whether points are seen in one line: their second standard deviation across the beam is below a twentieth of the
+/// first, or below 1 mrad. The cone of a ring bends less within a voxel, unless it is steep and near; two rings of a
+/// VLP-16 are 35 mrad apart.
 bool is_line_of_sight(const Moments& moments, const Eigen::Vector3d& origin_from_sensor) {
   constexpr double least_width = 0.05, least_rad = 0.001;
   const Eigen::Matrix3d c = covariance_of(moments);
@@ -116,8 +117,8 @@ std::optional<Eigen::Vector3d> normal_of(const Moments& moments, double thickest
   return eigen.eigenvectors().col(0);
 }
 
-/// Of a voxel and those round it. A line of points has no normal: the second direction must stand out of the first. It
-/// is twice as long in voxels twice as large, with the same noise.
+/// Of a voxel and those round it. A line of points has no normal: the second direction must stand out of the first. In
+/// voxels twice as large it is twice as long, and noise is the same.
 std::optional<Eigen::Vector3d> normal_at(const Cells& cells, const VoxelKey& key, const std::optional<Cells>& larger,
                                          const CellSurfels& config) {
   constexpr double flatness = 2.0;

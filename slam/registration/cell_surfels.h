@@ -21,7 +21,7 @@ struct CellSurfels {
 /// that no neighbour is searched for. In the order of each voxel's first point. Points that are not finite are left
 /// out. Times of the points, where they have any, give a surfel the mean of its own. Where a sensor sees all those
 /// points in one line, as a ring that is alone there or bent round a corner, their plane is that of its laser, not of a
-/// surface: the normal is then that of voxels twice as large, or there is none.
+/// surface: the normal is then that of voxels twice as large, or there is none. The same where points are too few.
 [[nodiscard]] std::vector<Surfel> cell_surfels(std::span<const Eigen::Vector3f> points, const CellSurfels& config,
                                                std::span<const float> times_s = {});
 

@@ -29,11 +29,13 @@ void MotionBuffer::add(const Odometry& odometry) {
   }
   if (!records_.empty() && record.stamp == records_.back().stamp) records_.pop_back();
   records_.push_back(record);
+  usual_ = usual();
 }
 
 bool MotionBuffer::is_jump(const Odometry& from, const Odometry& to) const {
   constexpr double noise_m = 0.05, noise_rad = 0.05;  // of an odometry's own noise
-  const double dt = std::max(seconds(to.stamp - from.stamp), 1e-9 * interval().mean_ns);
+  constexpr double most_usual_s = 0.1;                // a gap among the intervals says nothing
+  const double dt = std::max(seconds(to.stamp - from.stamp), std::min(1e-9 * usual_.mean_ns, most_usual_s));
   const Pose step = from.X_OR.inverse() * to.X_OR;
   return step.t.norm() > max_speed_mps * dt + noise_m || log_so3(step.q).norm() > max_turn_radps * dt + noise_rad;
 }
@@ -41,36 +43,48 @@ bool MotionBuffer::is_jump(const Odometry& from, const Odometry& to) const {
 Pose MotionBuffer::at(Nanoseconds t) const {
   if (records_.empty()) throw InternalError("motion requested before the first odometry record");
   if (records_.size() == 1 || t <= records_.front().stamp) return records_.front().X_OR;
+  const Odometry& last = records_.back();
+  if (t > last.stamp) {
+    const Odometry& from = records_[usual_.velocity_from];
+    constexpr Nanoseconds least_span = 5'000'000;  // of a first burst, which tells no velocity
+    if (!usual_.even && last.stamp - from.stamp < least_span) return last.X_OR;
+    return interpolate(from.X_OR, last.X_OR, fraction(from.stamp, last.stamp, std::min(t, last.stamp + max_age())));
+  }
   const auto after = std::lower_bound(records_.begin() + 1, records_.end() - 1, t,
                                       [](const Odometry& record, Nanoseconds time) { return record.stamp < time; });
   const Odometry& b = *after;
-  const Odometry& a = t > b.stamp ? before_last() : *(after - 1);
-  return interpolate(a.X_OR, b.X_OR, fraction(a.stamp, b.stamp, std::min(t, b.stamp + max_age())));
-}
-
-MotionBuffer::Interval MotionBuffer::interval() const {
-  constexpr std::size_t most = 20;
-  constexpr double tolerance = 0.25;
-  if (records_.size() < 2) return {};
-  const std::size_t last = records_.size() - 1, first = last > most ? last - most : 0;
-  const double mean_ns =
-      static_cast<double>(records_[last].stamp - records_[first].stamp) / static_cast<double>(last - first);
-  Interval result{mean_ns, true};
-  for (std::size_t i = first; i < last; ++i)
-    result.even &=
-        std::abs(static_cast<double>(records_[i + 1].stamp - records_[i].stamp) - mean_ns) <= tolerance * mean_ns;
-  return result;
+  const Odometry& a = *(after - 1);
+  return interpolate(a.X_OR, b.X_OR, fraction(a.stamp, b.stamp, t));
 }
 
 // Records that come in bursts have stamps microseconds apart: their step is no velocity.
-const Odometry& MotionBuffer::before_last() const {
-  constexpr double intervals = 10.0;
-  const Interval usual = interval();
-  std::size_t i = records_.size() - 2;
-  const auto span_ns = [&] { return static_cast<double>(records_.back().stamp - records_[i].stamp); };
-  if (!usual.even)
-    while (i > 0 && span_ns() < intervals * usual.mean_ns) --i;
-  return records_[i];
+MotionBuffer::Usual MotionBuffer::usual() const {
+  constexpr double tolerance = 0.25, intervals = 10.0;
+  Usual result;
+  if (records_.size() < 2) return result;
+  const std::size_t last = records_.size() - 1;
+  const auto span_ns = [&](std::size_t from) {
+    return static_cast<double>(records_[last].stamp - records_[from].stamp);
+  };
+  std::size_t first = last - 1;
+  while (first > 0 && records_[last].stamp - records_[first].stamp < window) --first;
+  result.mean_ns = span_ns(first) / static_cast<double>(last - first);
+  Nanoseconds largest = 0, second = 0;
+  for (std::size_t i = first; i < last; ++i) {
+    const Nanoseconds interval = records_[i + 1].stamp - records_[i].stamp;
+    result.even &= std::abs(static_cast<double>(interval) - result.mean_ns) <= tolerance * result.mean_ns;
+    second = std::max(second, std::min(largest, interval));
+    largest = std::max(largest, interval);
+  }
+  constexpr double fastest_ns = 1e6;
+  result.even &= result.mean_ns >= fastest_ns;
+  result.velocity_from = last - 1;
+  result.period = records_[last].stamp - records_[last - 1].stamp;
+  if (result.even) return result;
+  while (result.velocity_from > first && span_ns(result.velocity_from) < intervals * result.mean_ns)
+    --result.velocity_from;
+  result.period = second;
+  return result;
 }
 
 Nanoseconds MotionBuffer::max_age() const {
@@ -79,7 +93,10 @@ Nanoseconds MotionBuffer::max_age() const {
 }
 
 void MotionBuffer::forget_before(Nanoseconds t) {
+  if (records_.empty()) return;
+  t = std::min(t, records_.back().stamp - window);
   while (records_.size() > 2 && records_[1].stamp <= t) records_.pop_front();
+  usual_ = usual();
 }
 
 Pose join_frames(const Pose& X_OR, const Pose& X_BR) {

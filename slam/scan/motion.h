@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <optional>
@@ -37,26 +38,27 @@ class MotionBuffer {
     return records_.empty() ? 0 : std::max<Nanoseconds>(t - records_.back().stamp, 0);
   }
   [[nodiscard]] Nanoseconds max_age() const;
-  /// Time between the two newest records, 0 before the second.
-  [[nodiscard]] Nanoseconds period() const {
-    return records_.size() < 2 ? 0 : records_.back().stamp - records_[records_.size() - 2].stamp;
-  }
-  /// Drops what is not needed for times from t on.
+  /// Time between the two newest records, 0 before the second. Where stamps are uneven, the second largest of a
+  /// second: bursts leave gaps again and again, a lost record one.
+  [[nodiscard]] Nanoseconds period() const { return usual_.period; }
+  /// Drops what is not needed for times from t on. A second before the newest record is kept.
   void forget_before(Nanoseconds t);
 
  private:
-  [[nodiscard]] bool is_jump(const Odometry& from, const Odometry& to) const;
-  struct Interval {
-    double mean_ns = 0.0;
-    bool even = true;
+  static constexpr Nanoseconds window = 1'000'000'000;
+  /// Of the records of a window.
+  struct Usual {
+    double mean_ns = 0.0;           ///< interval
+    bool even = true;               ///< all intervals are about the mean, and none of a burst
+    std::size_t velocity_from = 0;  ///< the record since which the newest one's velocity is taken: the one before it,
+                                    ///< or where stamps are uneven one that is ten intervals older
+    Nanoseconds period = 0;
   };
-  /// Between the newest twenty records.
-  [[nodiscard]] Interval interval() const;
-  /// The record since which the newest one's velocity is taken: the one before it, or where stamps are uneven one that
-  /// is ten intervals older. Needs two records.
-  [[nodiscard]] const Odometry& before_last() const;
+  [[nodiscard]] Usual usual() const;
+  [[nodiscard]] bool is_jump(const Odometry& from, const Odometry& to) const;
 
   std::deque<Odometry> records_;
+  Usual usual_;
   std::optional<Pose> frame_shift_;  ///< of the odometry's frame, since a jump
 };
 

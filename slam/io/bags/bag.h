@@ -74,11 +74,11 @@ struct BagTopics {
 [[nodiscard]] bool is_bag(const std::string& path);
 
 /// Opens a bag of any of these kinds, of ROS 1 or 2. Clouds are PointCloud2 or Livox's CustomMsg; an IMU whose first
-/// acceleration is within 15 % of 1 is taken to be in g, as Livox's. Records are put in
-/// order by their own stamps; the mount comes from /tf_static where `info` is null, and so does the IMU's attitude
-/// where it is there. A ROS 1 bag is checked as a whole first (check_bag), others as they are read. O is moved to the
-/// robot's first position and heading. Throws InputError when it is no bag, was not closed, holds no cloud, has an IMU
-/// of unknown attitude or odometry that overlaps no scan.
+/// acceleration is within 15 % of 1 is taken to be in g, as Livox's. A record that comes
+/// later than newer ones of its topic, by at most a second, is left out and counted; the mount comes from /tf_static
+/// where `info` is null, and so does the IMU's attitude where it is there. A ROS 1 bag is checked as a whole first
+/// (check_bag), others as they are read. O is moved to the robot's first position and heading. Throws InputError when
+/// it is no bag, was not closed, holds no cloud, has an IMU of unknown attitude or odometry that overlaps no scan.
 [[nodiscard]] std::unique_ptr<Recording> open_bag(const std::string& path, const BagTopics& topics,
                                                   const RecordingInfo* info);
 

@@ -45,7 +45,7 @@ class Waiting {
                                " ms would be left out");
     if (back > 0) {
       ++late_;
-      latest_ = std::max(latest_, back);
+      most_late_ = std::max(most_late_, back);
     }
     if (last_ && record.stamp <= *last_) return false;
     last_ = record.stamp;
@@ -56,7 +56,7 @@ class Waiting {
   [[nodiscard]] std::optional<std::string> left_out(std::string_view topic) const {
     if (late_ == 0) return std::nullopt;
     std::array<char, 32> ms{};
-    std::snprintf(ms.data(), ms.size(), "%.3g", 1e-6 * static_cast<double>(latest_));
+    std::snprintf(ms.data(), ms.size(), "%.3g", 1e-6 * static_cast<double>(most_late_));
     return std::string(topic) + ": " + std::to_string(late_) + (late_ == 1 ? " record" : " records") +
            " left out, as stamps go back by up to " + ms.data() + " ms";
   }
@@ -77,7 +77,7 @@ class Waiting {
   std::deque<Record> records_;
   std::optional<Nanoseconds> last_;
   std::int64_t late_ = 0;
-  Nanoseconds latest_ = 0;
+  Nanoseconds most_late_ = 0;
 };
 
 enum class Kind { none, ros1, mcap, database, folder };

@@ -17,13 +17,13 @@ class Recording {
  public:
   virtual ~Recording() = default;
   /// The next scan with what came before it; false at the end. Times count from the start of the recording. Throws
-  /// InputError, naming the place, on anything that is not as it should be.
+  /// InputError, naming the place, on anything that is not as it should be and is not left out.
   [[nodiscard]] virtual bool next(SensorFrame& frame) = 0;
   [[nodiscard]] virtual const RecordingInfo& info() const = 0;
   [[nodiscard]] virtual bool has_odometry() const = 0;
   /// Time 0 on the recording's own clock, known after the first scan; 0 where the two are one.
   [[nodiscard]] virtual Nanoseconds origin() const = 0;
-  /// What could not be used so far and was left out, a sentence each.
+  /// Of what came too late so far and was left out, a sentence for each topic.
   [[nodiscard]] virtual std::vector<std::string> left_out() const { return {}; }
 };
 

@@ -38,10 +38,12 @@ TEST(MotionBufferTest, StopsAtItsEnds) {
 }
 
 TEST(MotionBufferTest, ForgettingKeepsWhatLaterTimesNeed) {
-  MotionBuffer motion = buffer(200'000'000);
+  MotionBuffer motion = buffer(1'200'000'000);
   motion.forget_before(55'000'000);
   expect_pose_near(motion.at(55'000'000), straight(0.055), 1e-9);
   expect_pose_near(motion.at(20'000'000), straight(0.05), 1e-9);
+  motion.forget_before(1'100'000'000);
+  expect_pose_near(motion.at(20'000'000), straight(0.2), 1e-9);
 }
 
 // A jump of the odometry's frame is none of the robot: what came before and after joins without it.
@@ -105,28 +107,50 @@ TEST(MotionBufferTest, GoesOnUntilItIsStale) {
   }
 }
 
-// Of a buffer that is read ten times a second, or with a scatter that is larger than the period: 13 m off before.
+// As when a buffer is read now and then: all records of a read have its time, microseconds apart. 13 m off before.
 TEST(MotionBufferTest, StampsInBurstsAreNoVelocity) {
-  constexpr Nanoseconds period = 5'000'000, burst = 100'000'000, least_step = 1000;
-  constexpr double sigma_s = 0.008;
-  const Stream stream(7, "bim.generate");
-  for (const bool bursts : {true, false}) {
-    MotionBuffer motion;
-    Nanoseconds last = 0;
-    for (std::uint64_t k = 1; k <= 400; ++k) {
-      const Nanoseconds t = static_cast<Nanoseconds>(k) * period;
-      const Nanoseconds late =
-          bursts ? burst - t % burst : std::llround(1e9 * sigma_s * std::clamp(stream.gauss(k, 0), -3.0, 3.0));
-      last = std::max(t + late, last + least_step);
-      motion.add({last, straight(seconds(t))});
-      if (k < 50) continue;
-      // Stamps are off by at most a burst, or three standard deviations; the speed that goes on by as much of ten
-      // periods.
-      const double stamp_error_s = bursts ? seconds(burst) : 3.0 * sigma_s;
-      const Nanoseconds at = last + 10'000'000;
-      const double speed_mps = straight(1.0).t.norm();
-      EXPECT_LT((motion.at(at).t - straight(seconds(at)).t).norm(), 2.0 * speed_mps * stamp_error_s) << k;
+  constexpr Nanoseconds least_step = 1000, scan = 100'000'000;
+  const double speed_mps = straight(1.0).t.norm();
+  for (const Nanoseconds period : {2'000'000, 5'000'000, 20'000'000})
+    for (const Nanoseconds burst : {50'000'000, 100'000'000, 101'000'000, 200'000'000}) {
+      MotionBuffer motion;
+      Nanoseconds last = 0, next_scan = scan;
+      for (Nanoseconds t = period; t <= 5'000'000'000; t += period) {
+        const Nanoseconds read = (t / burst + 1) * burst;
+        for (; next_scan < read && !motion.empty(); next_scan += scan) {
+          if (next_scan < last) continue;
+          const Pose X_OR = motion.at(next_scan);
+          // What is known is a burst old, and as much older as stamps are late; the speed that goes on is at most
+          // twice.
+          const double most_s = seconds(next_scan - last) + 2.0 * seconds(burst);
+          EXPECT_LT((X_OR.t - straight(seconds(next_scan)).t).norm(), speed_mps * most_s)
+              << period << ", " << burst << " at " << next_scan;
+          motion.forget_before(next_scan);
+        }
+        last = std::max(read, last + least_step);
+        motion.add({last, straight(seconds(t))});
+      }
     }
+}
+
+// By more than the period.
+TEST(MotionBufferTest, StampsThatScatterAreNoVelocity) {
+  constexpr Nanoseconds period = 5'000'000, least_step = 1000, later = 10'000'000;
+  constexpr double sigma_s = 0.008, most = 3.0;
+  const Stream stream(7, "bim.generate");
+  const double speed_mps = straight(1.0).t.norm();
+  MotionBuffer motion;
+  Nanoseconds last = 0;
+  for (std::uint64_t k = 1; k <= 400; ++k) {
+    const Nanoseconds t = static_cast<Nanoseconds>(k) * period;
+    const Nanoseconds off = std::llround(1e9 * sigma_s * std::clamp(stream.gauss(k, 0), -most, most));
+    last = std::max(t + off, last + least_step);
+    motion.add({last, straight(seconds(t))});
+    const Nanoseconds at = last + later;
+    // A stamp is off by three standard deviations, and a velocity goes on over 10 ms that is at most twice too fast.
+    EXPECT_LT((motion.at(at).t - straight(seconds(at)).t).norm(), speed_mps * (2.0 * most * sigma_s + seconds(later)))
+        << k;
+    if (k % 20 == 0) motion.forget_before(last);
   }
 }
 
