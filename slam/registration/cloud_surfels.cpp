@@ -8,7 +8,8 @@
 namespace plumbline::slam {
 
 std::vector<Surfel> cloud_surfels(std::span<const Eigen::Vector3f> points, const CloudRegistrationConfig& config) {
-  return cell_surfels(points, {config.surfel_m, config.min_points, config.max_thickness * config.surfel_m, std::nullopt});
+  return cell_surfels(points,
+                      {config.surfel_m, config.min_points, config.max_thickness * config.surfel_m, std::nullopt});
 }
 
 Registration register_clouds(std::span<const Eigen::Vector3f> target_T, std::span<const Eigen::Vector3f> source_S,
