@@ -245,8 +245,10 @@ Answer run_method(slam::Recording& recording, const slam::MethodRow& row, const 
 }
 
 /// estimate.yaml: which walk the answer is of, and what it depends on besides recording and plan.
-std::string describe(const slam::MethodRow& row, std::uint64_t seed, const slam::RecordingInfo& info,
+std::string describe(const slam::MethodRow& row, std::uint64_t seed, const slam::Recording& recording,
                      const slam::MethodInput& input, Sensors sensors, const Poverty& poverty) {
+  const slam::RecordingInfo& info = recording.info();
+  const std::vector<std::string> left_out = recording.left_out();
   Tree tree = Tree::map();
   tree.set("estimate", 1).set("method", row.name).set("seed", static_cast<std::int64_t>(seed));
   if (sensors != Sensors::all) tree.set("sensors", names_of(sensors)[static_cast<std::size_t>(sensors)]);
@@ -255,6 +257,9 @@ std::string describe(const slam::MethodRow& row, std::uint64_t seed, const slam:
   if (poverty.no_rings) without.push("rings");
   if (poverty.no_times) without.push("times");
   if (poverty.no_rings || poverty.no_times) tree.set("without", without);
+  Tree late = Tree::list();
+  for (const std::string& said : left_out) late.push(said);
+  if (!left_out.empty()) tree.set("left_out", late);
   if (info.walk) tree.set("walk", *info.walk);
   if (!input.config.is_null()) tree.set("config", input.config);
   return write_yaml(tree);
@@ -289,11 +294,12 @@ int estimate(EstimateArguments options, slam::MethodTable table) {
   RunDirectory directory(options.out, DirectoryKind::estimate, options.force);
   const Answer answer = run_method(*recording, row, input, choice.sensors);
   const MethodRecord& record = answer.record;
-  for (const std::string& said : recording->left_out()) print_note("plumbline: warning: " + said);
+  for (const std::string& said : recording->left_out())
+    print_note("plumbline: warning: " + options.recording + ": " + said);
   write_method(directory.staging(), record);
   write_file(directory.staging() + "/digests.csv", write_digests(record.digests));
   write_file(directory.staging() + "/estimate.yaml",
-             describe(row, run_seed(options, recording->info()), recording->info(), input, choice.sensors, poverty));
+             describe(row, run_seed(options, recording->info()), *recording, input, choice.sensors, poverty));
   write_file(directory.staging() + "/timings.json", write_cost(answer, start_s));
   directory.commit();
   if (record.crashed) {

@@ -2,6 +2,8 @@
 #include "scenarios/report/method_cards.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "scenarios/metrics/localization_score.h"
 #include "scenarios/report/map_drawing.h"
@@ -74,12 +76,13 @@ std::string place_sentence(const std::string& verdict, const Tree* where) {
   if (verdict == "overconfident") return "Converged on one pose though several explain the scans.";
   if (!time) return "Never converged on one pose in the building" + why_it_failed(where) + ".";
   if (verdict == "lucky") return "Converged on the right pose before the scans distinguished it from others.";
-  if (verdict == "false_convergence") return "Converged on a wrong pose" + why_it_failed(where) + ".";
   const std::string failure = text_of(*where, "failure");
   const auto failed_at = number_of(where, "failure_at_s");
+  const bool is_wrong = verdict == "false_convergence";
   if (failure == "tracking_lost" && failed_at)
     return "Converged on the right pose after " + svg::number(*time, 1) + " s, and lost it again at " +
-           svg::number(*failed_at, 1) + " s.";
+           svg::number(*failed_at, 1) + " s" + (is_wrong ? " without saying so." : ".");
+  if (is_wrong) return "Converged on a wrong pose" + why_it_failed(where) + ".";
   if (verdict == "lost" || (verdict == "late" && failure != "undecided"))
     return "Converged after " + svg::number(*time, 1) + " s and withdrew its answer" + why_it_failed(where) + ".";
   std::string text = "Converged on the right pose after " + svg::number(*time, 1) + " s";
@@ -94,32 +97,41 @@ int true_storey(const ReportInput& input, double t_s) {
   return after == input.truth.begin() ? -1 : (after - 1)->storey;
 }
 
-/// From when to when its answers were first farther off than an answer may be, how often again, and on which wrong
-/// storey; or nothing. LOST is no answer.
+/// From when to when its answers were first farther off than an answer may be, in position or heading, how often again,
+/// and on which wrong storey; or nothing. LOST is no answer.
 std::string wrong_stretch(const ReportInput& input, const ReportMethod& method) {
-  const double limit = score::LocalizationRules().position_m;
+  const score::LocalizationRules limits;
   const ReportSample *first = nullptr, *last = nullptr, *astray = nullptr;
-  double most = 0.0;
+  constexpr double degrees = 180.0 / std::numbers::pi;
+  double most_m = 0.0, most_deg = 0.0;
   int stretches = 0;
   bool was_wrong = false;
   for (const ReportSample& sample : method.samples) {
-    const bool wrong = !sample.lost && sample.error_m > limit;
+    const double off_deg = degrees * std::abs(sample.yaw_error);
+    const bool wrong = !sample.lost && (sample.error_m > limits.position_m || off_deg > limits.yaw_deg);
     if (wrong && !was_wrong && ++stretches == 1) first = &sample;
     if (wrong && stretches == 1) last = &sample;
     was_wrong = wrong;
     if (!wrong) continue;
-    most = std::max(most, sample.error_m);
+    most_m = std::max(most_m, sample.error_m);
+    most_deg = std::max(most_deg, off_deg);
     const int storey = true_storey(input, sample.t_s);
     if (astray == nullptr && storey >= 0 && storey != sample.storey) astray = &sample;
   }
   if (first == nullptr) return "";
   const bool to_the_end =
       last == &method.samples.back() && !input.truth.empty() && input.truth.back().t_s - last->t_s <= path_gap_s;
-  std::string text = " More than " + svg::number(limit, 1) + " m off from t = " + svg::number(first->t_s, 1) + " s " +
+  const bool in_position = most_m > limits.position_m, in_heading = most_deg > limits.yaw_deg;
+  const auto listed = [&](const std::string& position, const std::string& word, const std::string& heading) {
+    return (in_position ? position : "") + (in_position && in_heading ? word : "") + (in_heading ? heading : "");
+  };
+  std::string text = " More than " +
+                     listed(svg::number(limits.position_m, 1) + " m", " or ", svg::number(limits.yaw_deg, 0) + "°") +
+                     " off from t = " + svg::number(first->t_s, 1) + " s " +
                      (to_the_end ? "to the end" : "to t = " + svg::number(last->t_s, 1) + " s");
   if (stretches > 1)
     text += stretches == 2 ? " and once more" : " and " + std::to_string(stretches - 1) + " times more";
-  text += ", at most " + length(most) + ".";
+  text += ", at most " + listed(length(most_m), " and ", svg::number(most_deg, 0) + "°") + ".";
   if (astray == nullptr) return text;
   const auto name = [&](int storey) { return input.plan.storeys[static_cast<std::size_t>(storey)].name; };
   return text + " At t = " + svg::number(astray->t_s, 1) + " s it was on storey " + name(astray->storey) +

@@ -17,8 +17,7 @@ constexpr int gated_fits = 3;
 Eigen::Vector3d long_axis(const Plane& plane, const Moments& moments) {
   const Tangents t = plane_tangents(plane.n);
   if (std::abs(plane.n.z()) < 0.5) return t.u;
-  const Eigen::Vector3d c = moments.mean();
-  const Eigen::Matrix2d s = (moments.outer / moments.n - c * c.transpose()).topLeftCorner<2, 2>();
+  const Eigen::Matrix2d s = moments.covariance().topLeftCorner<2, 2>();
   const double angle = 0.5 * std::atan2(2.0 * s(0, 1), s(0, 0) - s(1, 1));
   return {std::cos(angle), std::sin(angle), 0.0};
 }

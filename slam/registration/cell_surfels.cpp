@@ -43,7 +43,7 @@ class Cells {
     Cells large(2.0 * size_);
     for (const Cell& cell : cells_) {
       Cell& sum = large.cells_[large.slot_of(half(cell.key))];
-      sum.moments.add(shifted(cell.moments, centre(cell.key) - large.centre(sum.key)));
+      sum.moments.add(cell.moments.moved(centre(cell.key) - large.centre(sum.key)));
     }
     return large;
   }
@@ -60,7 +60,7 @@ class Cells {
     Moments sum;
     const auto add = [&](const Eigen::Vector3i& step) {
       const int slot = index_.find({key.x + step.x(), key.y + step.y(), key.z + step.z()});
-      if (slot >= 0) sum.add(shifted(cells_[static_cast<std::size_t>(slot)].moments, size_ * step.cast<double>()));
+      if (slot >= 0) sum.add(cells_[static_cast<std::size_t>(slot)].moments.moved(size_ * step.cast<double>()));
     };
     add(Eigen::Vector3i::Zero());
     for (int axis = 0; axis < 3; ++axis)
@@ -71,10 +71,6 @@ class Cells {
  private:
   explicit Cells(double size) : size_(size) {}
 
-  [[nodiscard]] static Moments shifted(const Moments& m, const Eigen::Vector3d& by) {
-    const Eigen::Matrix3d mixed = m.sum * by.transpose();
-    return {m.n, m.sum + m.n * by, m.outer + mixed + mixed.transpose() + m.n * by * by.transpose()};
-  }
   [[nodiscard]] std::size_t slot_of(const VoxelKey& key) {
     const auto slot = static_cast<std::size_t>(index_.insert(key));
     if (slot == cells_.size()) cells_.push_back({key, {}, 0.0});
@@ -86,17 +82,12 @@ class Cells {
   std::vector<Cell> cells_;
 };
 
-Eigen::Matrix3d covariance_of(const Moments& moments) {
-  const Eigen::Vector3d mean = moments.mean();
-  return moments.outer / moments.n - mean * mean.transpose();
-}
-
 /// Whether points are seen in one line: their second standard deviation across the beam is below a twentieth of the
 /// first, or below 1 mrad. The cone of a ring bends less within a voxel, unless it is steep and near; two rings of a
-/// VLP-16 are 35 mrad apart.
+/// VLP-16 are 35 mrad apart. Chosen on lc1, a copy of it without doors, quickstart, se3 and a street with 64 rings.
 bool is_line_of_sight(const Moments& moments, const Eigen::Vector3d& origin_from_sensor) {
   constexpr double least_width = 0.05, least_rad = 0.001;
-  const Eigen::Matrix3d c = covariance_of(moments);
+  const Eigen::Matrix3d c = moments.covariance();
   const Eigen::Vector3d mean = moments.mean() + origin_from_sensor;
   const Eigen::Vector3d beam = mean.normalized();
   // Variances across the beam from their sum and, by the adjugate, their product.
@@ -111,25 +102,27 @@ bool is_line_of_sight(const Moments& moments, const Eigen::Vector3d& origin_from
 /// flatness: least ratio of the second variance to that across.
 std::optional<Eigen::Vector3d> normal_of(const Moments& moments, double thickest, double flatness) {
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
-  eigen.computeDirect(covariance_of(moments));
+  eigen.computeDirect(moments.covariance());
   const Eigen::Vector3d& l = eigen.eigenvalues();
   if (l(0) > thickest * thickest || l(1) < flatness * l(0)) return std::nullopt;
   return eigen.eigenvectors().col(0);
 }
 
-/// Of a voxel and those round it. A line of points has no normal: the second direction must stand out of the first. In
-/// voxels twice as large it is twice as long, and noise is the same.
+/// Whether points round a voxel are enough, and seen as more than a line.
+bool span_a_surface(const Moments& round, const Eigen::Vector3d& centre, const CellSurfels& config) {
+  return round.n >= config.min_points && !(config.sensor && is_line_of_sight(round, centre - *config.sensor));
+}
+
+/// Of a voxel and those round it, else of the larger ones. A line of points has no normal: the second direction must
+/// stand out of the first. In voxels twice as large it is twice as long, and noise is the same.
 std::optional<Eigen::Vector3d> normal_at(const Cells& cells, const VoxelKey& key, const std::optional<Cells>& larger,
                                          const CellSurfels& config) {
   constexpr double flatness = 2.0;
   const Moments round = cells.round(key);
-  if (round.n >= config.min_points && !(config.sensor && is_line_of_sight(round, cells.centre(key) - *config.sensor)))
-    return normal_of(round, config.max_thickness_m, flatness);
+  if (span_a_surface(round, cells.centre(key), config)) return normal_of(round, config.max_thickness_m, flatness);
   if (!larger) return std::nullopt;
-  const VoxelKey half = Cells::half(key);
-  const Moments beyond = larger->round(half);
-  if (beyond.n < config.min_points || is_line_of_sight(beyond, larger->centre(half) - *config.sensor))
-    return std::nullopt;
+  const Moments beyond = larger->round(Cells::half(key));
+  if (!span_a_surface(beyond, larger->centre(Cells::half(key)), config)) return std::nullopt;
   return normal_of(beyond, config.max_thickness_m, 4.0 * flatness);
 }
 

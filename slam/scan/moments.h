@@ -24,6 +24,15 @@ struct Moments {
     outer += other.outer;
   }
   [[nodiscard]] Eigen::Vector3d mean() const { return sum / n; }
+  [[nodiscard]] Eigen::Matrix3d covariance() const {
+    const Eigen::Vector3d m = mean();
+    return outer / n - m * m.transpose();
+  }
+  /// Of the same points, each moved.
+  [[nodiscard]] Moments moved(const Eigen::Vector3d& by) const {
+    const Eigen::Matrix3d mixed = sum * by.transpose();
+    return {n, sum + n * by, outer + mixed + mixed.transpose() + n * by * by.transpose()};
+  }
 };
 
 /// Moments while points are added, in scalars that stay in registers; to the last bit what Moments::add gives.

@@ -4,7 +4,10 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "tests/bag_database.h"
 #include "tests/system/program.h"
 
 namespace plumbline::system_tests {
@@ -17,18 +20,24 @@ class Ros2 : public ::testing::Test {
   void SetUp() override {
     if (!available()) GTEST_SKIP() << "PLUMBLINE_BINARY and PLUMBLINE_SOURCE are not set; run through ctest";
   }
+  /// Five seconds through two rooms.
+  [[nodiscard]] std::string simulated(const std::vector<std::string>& bags) const {
+    fs::copy_file(project_file("tests/system/short.plan.yaml"), folder_ / "short.plan.yaml");
+    write_file(folder_ / "walk.yaml",
+               "scenario: 1\nname: walk\nbuilding: short.plan.yaml\nseed: 3\nstart: {room: left}\n"
+               "route: {rooms: [hall, right]}\nduration_s: 5\nmethods: [truth]\n");
+    std::string walk = folder_ / "walk";
+    std::vector<std::string> arguments = {"simulate", folder_ / "walk.yaml", "-o", walk};
+    arguments.insert(arguments.end(), bags.begin(), bags.end());
+    const Outcome made = plumbline(arguments);
+    EXPECT_EQ(made.code, 0) << made.err;
+    return walk;
+  }
   Folder folder_;
 };
 
 TEST_F(Ros2, EveryKindOfBagGivesTheSameEstimate) {
-  const std::string walk = folder_ / "walk";
-  fs::copy_file(project_file("tests/system/short.plan.yaml"), folder_ / "short.plan.yaml");
-  write_file(folder_ / "walk.yaml",
-             "scenario: 1\nname: walk\nbuilding: short.plan.yaml\nseed: 3\nstart: {room: left}\n"
-             "route: {rooms: [hall, right]}\nduration_s: 5\nmethods: [truth]\n");
-  const Outcome made = plumbline({"simulate", folder_ / "walk.yaml", "-o", walk, "--bag", "--mcap", "--compression",
-                                  "zstd", "--rosbag2", "--bag-truth"});
-  ASSERT_EQ(made.code, 0) << made.err;
+  const std::string walk = simulated({"--bag", "--mcap", "--compression", "zstd", "--rosbag2", "--bag-truth"});
   const auto estimate = [&](const std::string& recording, const std::string& name) {
     const Outcome outcome =
         plumbline({"estimate", walk + "/" + recording, "--method", "s_graphs_plus", "-o", folder_ / name});
@@ -44,6 +53,22 @@ TEST_F(Ros2, EveryKindOfBagGivesTheSameEstimate) {
   fs::remove(walk + "/lidar.pcap");
   fs::remove(walk + "/recording.bag");
   EXPECT_EQ(plumbline({"estimate", walk, "--method", "odometry", "-o", folder_ / "of_folder"}).code, 0);
+}
+
+TEST_F(Ros2, RecordsThatComeLateAreNamed) {
+  const std::string walk = simulated({"--rosbag2"}), database = walk + "/rosbag2/rosbag2_0.db3";
+  const auto estimate = [&](const std::string& name) {
+    const Outcome outcome = plumbline({"estimate", database, "--method", "vgicp", "-o", folder_ / name});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return std::pair(outcome.err, read_file(folder_ / (name + "/estimate.yaml")));
+  };
+  EXPECT_EQ(estimate("whole").second.find("left_out"), std::string::npos);
+  swap_messages(database, "/imu/data", 5);
+  const auto [said, description] = estimate("late");
+  const std::string words = "/imu/data: 1 record left out, as stamps go back by up to 4 ms";
+  EXPECT_NE(said.find("plumbline: warning: " + database + ": " + words), std::string::npos) << said;
+  EXPECT_NE(description.find("left_out:"), std::string::npos) << description;
+  EXPECT_NE(description.find(words), std::string::npos) << description;
 }
 
 TEST_F(Ros2, WhatIsNoneIsRefused) {

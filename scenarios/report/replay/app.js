@@ -125,12 +125,12 @@ Plumb.App = class {
   bar() {
     const make = Plumb.make;
     this.playButton = make("button", { type: "button", id: "play", on: { click: () => this.togglePlay() } }, "Play");
-    this.wrongFromer = make("input", { type: "range", id: "time", min: "0", max: String(this.data.end), step: "any", "aria-label": "time, seconds",
-      on: { input: () => this.seek(+this.wrongFromer.value) } });
+    this.slider = make("input", { type: "range", id: "time", min: "0", max: String(this.data.end), step: "any", "aria-label": "time, seconds",
+      on: { input: () => this.seek(+this.slider.value) } });
     this.clock = make("output", { id: "clock" });
     this.speed = make("select", { id: "speed", "aria-label": "speed" }, ...[0.5, 1, 2, 5, 10].map((v) => make("option", { value: v, selected: v === 1 }, "× " + v)));
     const step = (text, label, by) => make("button", { type: "button", "aria-label": label, title: label, on: { click: () => this.step(by) } }, text);
-    return make("div", { id: "bar" }, this.playButton, step("◀", "scan before", -1), step("▶", "next scan", 1), this.wrongFromer, this.clock, this.speed);
+    return make("div", { id: "bar" }, this.playButton, step("◀", "scan before", -1), step("▶", "next scan", 1), this.slider, this.clock, this.speed);
   }
 
   start(root) {
@@ -353,7 +353,7 @@ Plumb.App = class {
     body.t = this.t.toFixed(3);
     body.scan = String(moment.scan);
     body.storey = String(moment.storey);
-    this.wrongFromer.value = String(this.t);
+    this.slider.value = String(this.t);
     this.clock.textContent = this.t.toFixed(2) + " s";
     for (const cell of document.querySelectorAll("[data-now]")) {
       const pose = moment.poses[cell.dataset.now];

@@ -145,7 +145,7 @@ class BagRecording final : public Recording {
     std::vector<std::string> all;
     for (const std::optional<std::string>& said :
          {scans_.left_out(topics_.points), odometry_.left_out(topics_.odometry), imu_.left_out(topics_.imu)})
-      if (said) all.push_back(mark_.file + ": " + *said);
+      if (said) all.push_back(*said);
     return all;
   }
 

@@ -163,6 +163,28 @@ TEST(Report, SaysFromWhenToWhenAnAnswerWasWrongAndOnWhichStorey) {
   EXPECT_NE(page.find("More than 0.5 m off from " + at(30) + " to the end, at most 2.5 m."), std::string::npos);
 }
 
+// An answer may be right in its place and wrong in its heading.
+TEST(Report, SaysWhenAnAnswersHeadingWasWrong) {
+  ReportInput input = localized();
+  std::vector<ReportSample>& samples = input.methods.front().samples;
+  for (std::size_t i = 30; i < 50; ++i) samples[i].yaw_error = i == 40 ? -0.3 : 0.2;
+  const auto at = [&](std::size_t i) { return "t = " + svg::number(samples[i].t_s, 1) + " s"; };
+  EXPECT_NE(render_report(input).find("More than 10° off from " + at(30) + " to " + at(49) + ", at most 17°."),
+            std::string::npos);
+  samples[35].error_m = 0.8;
+  EXPECT_NE(render_report(input).find("More than 0.5 m or 10° off from " + at(30) + " to " + at(49) +
+                                      ", at most 80 cm and 17°."),
+            std::string::npos);
+  Tree results = Tree::map();
+  results.set("verdict", "false_convergence");
+  results.set("localization",
+              Tree::map().set("converged_at_s", 6.0).set("failure", "tracking_lost").set("failure_at_s", 9.5));
+  input.results.set("methods", Tree(Tree::Map{{"m", results}}));
+  EXPECT_NE(render_report(input).find("Converged on the right pose after 6 s, and lost it again at 9.5 s without "
+                                      "saying so."),
+            std::string::npos);
+}
+
 TEST(Report, ShowsWhatALocalizationBelievedOverTime) {
   const std::string page = render_report(localized());
   const std::size_t chart = page.find("id=\"belief-m\"");

@@ -11,15 +11,15 @@
 #include <iterator>
 
 #include "bim/errors.h"
-#include "slam/io/bags/bag.h"
 #include "slam/io/bags/ros2_definitions.h"
 #include "slam/io/ros2/compression.h"
 #include "slam/io/ros2/mcap_reader.h"
 #include "slam/io/ros2/ros2_writer.h"
+#include "tests/bag_database.h"
 #include "tests/data.h"
 #include "tests/folder.h"
 #include "tests/input_error.h"
-#include "tests/slam/io/packets/packets.h"
+#include "tests/slam/io/bags/bag_of_four_scans.h"
 
 namespace plumbline::slam {
 namespace {
@@ -39,36 +39,6 @@ std::vector<SensorFrame> read_all(const std::string& path, const BagTopics& topi
   std::vector<SensorFrame> frames;
   for (SensorFrame frame; recording->next(frame);) frames.push_back(frame);
   return frames;
-}
-
-std::vector<SensorFrame> walk() {
-  constexpr int turns = 4, packets = 76;
-  const std::vector<Vlp16Packet> all = turning_packets(turns * packets);
-  std::vector<SensorFrame> frames(turns);
-  Nanoseconds odometry = 0, imu = 0;
-  for (std::size_t m = 0; m < turns; ++m) {
-    frames[m].scan = decode_message(std::span(all).subspan(packets * m, packets));
-    for (; odometry <= frames[m].scan.stamp; odometry += 10'000'000) {
-      const double s = seconds(odometry);
-      frames[m].odometry.push_back({odometry, Pose::from_xyz_yaw({0.3 * s, -0.1 * s, 0.0}, 0.2 * s)});
-      frames[m].covariances.push_back({odometry, 1e-8 * Matrix6d::Identity()});
-    }
-    for (; imu <= frames[m].scan.stamp; imu += 4'000'000)
-      frames[m].imu.push_back({imu, Eigen::Vector3d(0.1, 0.2, 1.0 / 3.0), Eigen::Vector3d(0, -0.5, 9.81)});
-  }
-  return frames;
-}
-
-void write(const std::string& path, BagFormat format, std::string_view compression = {}) {
-  Calibration calibration;
-  calibration.X_RL = Pose::from_xyz_yaw({0.1, -0.2, 0.3}, 1.0);
-  BagWriter writer(path, bag_profiles[0], calibration, format, compression);
-  for (const SensorFrame& frame : walk()) {
-    writer.add(frame.scan, frame.odometry, frame.imu, frame.covariances);
-    const std::vector<StampedPose> truth = {{frame.scan.stamp, Pose{}}};
-    writer.add_truth(truth);
-  }
-  writer.finish();
 }
 
 void expect_same(const std::vector<SensorFrame>& a, const std::vector<SensorFrame>& b) {
@@ -104,81 +74,28 @@ class Ros2Bag : public ::testing::Test {
     EXPECT_NE(complaint(path).find(words), std::string::npos) << complaint(path);
     EXPECT_EQ(complaint(path).rfind(path, 0), 0U) << complaint(path);
   }
-  static void run_sql(const std::string& path, const std::string& sql) {
-    sqlite3* db = nullptr;
-    ASSERT_EQ(sqlite3_open(path.c_str(), &db), SQLITE_OK);
-    EXPECT_EQ(sqlite3_exec(db, sql.c_str(), nullptr, nullptr, nullptr), SQLITE_OK) << sqlite3_errmsg(db);
-    sqlite3_close(db);
-  }
 
  private:
   Folder folder_;
 };
 
 TEST_F(Ros2Bag, EveryKindOfOneWalkReadsAsTheSame) {
-  write(file("a.bag"), BagFormat::ros1);
+  write_walk(file("a.bag"), BagFormat::ros1);
   const std::vector<SensorFrame> expected = read_all(file("a.bag"));
   ASSERT_EQ(expected.size(), 4U);
   for (const std::string compression : {"", "zstd", "lz4"}) {
-    write(file("a" + compression + ".mcap"), BagFormat::mcap, compression);
+    write_walk(file("a" + compression + ".mcap"), BagFormat::mcap, compression);
     EXPECT_TRUE(is_bag(file("a" + compression + ".mcap")));
     expect_same(read_all(file("a" + compression + ".mcap")), expected);
   }
-  write(file("walk"), BagFormat::rosbag2);
+  write_walk(file("walk"), BagFormat::rosbag2);
   EXPECT_TRUE(is_bag(file("walk")) && is_bag(file("walk/walk_0.db3")));
   expect_same(read_all(file("walk")), expected);
   expect_same(read_all(file("walk/walk_0.db3")), expected);
 }
 
-// Two threads of a driver may swap their records.
-TEST_F(Ros2Bag, RecordsThatComeLateAreLeftOutAndCounted) {
-  write(file("walk"), BagFormat::rosbag2);
-  const std::string database = file("walk/walk_0.db3");
-  const std::string of_topic = "(SELECT id FROM messages WHERE topic_id = (SELECT id FROM topics WHERE name = '";
-  const auto swap = [&](const std::string& topic, int at) {
-    const auto nth = [&](int n) {
-      return of_topic + topic + "') ORDER BY id LIMIT 1 OFFSET " + std::to_string(n) + ")";
-    };
-    run_sql(database, "CREATE TEMP TABLE two AS SELECT " + nth(at) + " AS a, " + nth(at + 1) +
-                          " AS b; UPDATE messages SET id = -1 WHERE id = (SELECT a FROM two); UPDATE messages SET id = "
-                          "(SELECT a FROM two) WHERE id = (SELECT b FROM two); UPDATE messages SET id = (SELECT b FROM "
-                          "two) WHERE id = -1; DROP TABLE two;");
-  };
-  const auto counted = [&] {
-    const auto recording = open_bag(database, {}, nullptr);
-    std::size_t imu = 0, odometry = 0;
-    for (SensorFrame frame; recording->next(frame);) {
-      imu += frame.imu.size();
-      odometry += frame.odometry.size();
-      EXPECT_LE(frame.covariances.size(), frame.odometry.size());
-    }
-    return std::tuple(imu, odometry, recording->left_out());
-  };
-  const auto [imu, odometry, none] = counted();
-  EXPECT_TRUE(none.empty());
-  swap("/imu/data", 5);
-  swap("/odom", 7);
-  swap("/odom", 12);
-  const auto [imu_left, odometry_left, said] = counted();
-  EXPECT_EQ(imu_left + 1, imu);
-  EXPECT_EQ(odometry_left + 2, odometry);
-  ASSERT_EQ(said.size(), 2U);
-  EXPECT_EQ(said[0], database + ": /odom: 2 records left out, as stamps go back by up to 10 ms");
-  EXPECT_EQ(said[1], database + ": /imu/data: 1 record left out, as stamps go back by up to 4 ms");
-}
-
-// What follows is of another recording.
-TEST_F(Ros2Bag, AClockThatIsSetBackIsRefused) {
-  std::vector<SensorFrame> frames = walk();
-  for (Imu& imu : frames[1].imu) imu.stamp += 1'500'000'000;
-  BagWriter writer(file("back"), bag_profiles[0], {}, BagFormat::rosbag2);
-  for (const SensorFrame& frame : frames) writer.add(frame.scan, frame.odometry, frame.imu);
-  writer.finish();
-  expect_complaint(file("back"), "go back by 1496 ms; records that come late by at most 1000 ms would be left out");
-}
-
 TEST_F(Ros2Bag, AnImuInGIsTakenAsSuch) {
-  std::vector<SensorFrame> frames = walk();
+  std::vector<SensorFrame> frames = walk_of_four_scans();
   for (SensorFrame& frame : frames)
     for (Imu& imu : frame.imu) imu.linear_acceleration_R /= 9.80665;
   BagWriter writer(file("g.mcap"), bag_profiles[0], {}, BagFormat::mcap);
@@ -189,9 +106,9 @@ TEST_F(Ros2Bag, AnImuInGIsTakenAsSuch) {
 
 TEST_F(Ros2Bag, TheSameRecordsGiveTheSameBytes) {
   for (const std::string name : {"a", "b"}) {
-    write(file(name + ".mcap"), BagFormat::mcap);
+    write_walk(file(name + ".mcap"), BagFormat::mcap);
     fs::create_directory(file(name));
-    write(file(name + "/walk"), BagFormat::rosbag2);
+    write_walk(file(name + "/walk"), BagFormat::rosbag2);
   }
   EXPECT_TRUE(bytes(file("a.mcap")) == bytes(file("b.mcap")));
   EXPECT_FALSE(fs::exists(file("a.mcap.part")));
@@ -307,7 +224,7 @@ TEST_F(Ros2Bag, NoByteOfAnMcapIsBelieved) {
 }
 
 TEST_F(Ros2Bag, AFlippedByteInAChunkIsFound) {
-  write(file("a.mcap"), BagFormat::mcap);
+  write_walk(file("a.mcap"), BagFormat::mcap);
   std::string spoilt = bytes(file("a.mcap"));
   spoilt[spoilt.size() / 2] = static_cast<char>(spoilt[spoilt.size() / 2] ^ 4);
   write_bytes(file("b.mcap"), spoilt);
@@ -331,7 +248,7 @@ TEST_F(Ros2Bag, BombsAreRefusedBeforeTheyAreUnpacked) {
 }
 
 TEST_F(Ros2Bag, WhatIsWrongWithARosbag2IsSaid) {
-  write(file("walk"), BagFormat::rosbag2);
+  write_walk(file("walk"), BagFormat::rosbag2);
   const std::string metadata = bytes(file("walk/metadata.yaml"));
   const auto with = [&](const std::string& from, const std::string& to, const std::string& words) {
     std::string text = metadata;
@@ -366,7 +283,7 @@ TEST_F(Ros2Bag, WhatIsWrongWithARosbag2IsSaid) {
 }
 
 TEST_F(Ros2Bag, CompressedMessagesAreRead) {
-  write(file("walk"), BagFormat::rosbag2);
+  write_walk(file("walk"), BagFormat::rosbag2);
   const std::vector<SensorFrame> expected = read_all(file("walk"));
   {
     sqlite3* db = nullptr;
@@ -389,7 +306,7 @@ TEST_F(Ros2Bag, CompressedMessagesAreRead) {
 
 // Without our code: node's packages for MCAP and CDR, and Python's own SQLite.
 TEST_F(Ros2Bag, OthersReadThem) {
-  write(file("walk"), BagFormat::rosbag2);
+  write_walk(file("walk"), BagFormat::rosbag2);
   std::ofstream(file("read.py")) << R"(import sqlite3, struct, sys
 db = sqlite3.connect(sys.argv[1])
 topics = {i: (n, t) for i, n, t in db.execute("SELECT id, name, type FROM topics")}
@@ -413,7 +330,7 @@ assert "message_count" in db.execute("SELECT metadata FROM metadata").fetchone()
   const char* modules = std::getenv("PLUMBLINE_NODE_MODULES");
   if (modules == nullptr) GTEST_SKIP() << "PLUMBLINE_NODE_MODULES names no folder with @mcap/core and its like";
   for (const std::string compression : {"", "zstd", "lz4"}) {
-    write(file("a.mcap"), BagFormat::mcap, compression);
+    write_walk(file("a.mcap"), BagFormat::mcap, compression);
     const std::string reader = project_file("tests/slam/io/bags/read_mcap.mjs");
     EXPECT_EQ(std::system(("node " + reader + " " + modules + " " + file("a.mcap")).c_str()), 0) << compression;
     fs::remove(file("a.mcap"));
