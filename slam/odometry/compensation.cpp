@@ -73,6 +73,6 @@ void CompensationTest::add(const Scan& scan, const Eigen::Vector3d& velocity_L) 
   information_ += information;
 }
 
-bool CompensationTest::compensated() const { return information_ * known * known > 1.0 && coefficient_ > 0.5; }
+bool CompensationTest::is_known() const { return information_ * known * known > 1.0; }
 
 }  // namespace plumbline::slam

@@ -17,7 +17,15 @@ Nanoseconds sweep_time(const Scan& scan) {
 }  // namespace
 
 FrontEnd::FrontEnd(const LidarOdometryConfig& config, const Calibration& calibration, bool has_odometry)
-    : calibration_(calibration), has_odometry_(has_odometry), odometry_(make_lidar_odometry(config)) {}
+    : calibration_(calibration),
+      has_odometry_(has_odometry),
+      odometry_(make_lidar_odometry(config)),
+      clock_offset_(calibration) {}
+
+void FrontEnd::on_odometry(const Odometry& odometry) {
+  motion_.add(odometry);
+  clock_offset_.add(odometry);
+}
 
 DeskewedScan FrontEnd::deskewed(const Scan& scan) const {
   const bool stale = !has_odometry_ || motion_.is_stale_at(scan.stamp);
@@ -37,6 +45,7 @@ Registration FrontEnd::track(const Scan& raw, DeskewedScan& scan) {
     result = odometry_->update(scan, motion_.at(raw.stamp));
     motion_.forget_before(raw.stamp);
     if (stamp_ && result.accepted) test_compensation(raw, X_MR_.inverse() * result.X_MR, raw.stamp - *stamp_);
+    test_clock(raw);
   } else {
     result = track_alone(raw, scan);
   }
@@ -93,6 +102,19 @@ Registration FrontEnd::track_alone(const Scan& raw, DeskewedScan& scan) {
 void FrontEnd::test_compensation(const Scan& raw, const Pose& step, Nanoseconds dt) {
   if (compensated() || dt <= 0) return;
   compensation_.add(raw, calibration_.X_RL.q.conjugate() * step.t / seconds(dt));
+}
+
+void FrontEnd::test_clock(const Scan& raw) {
+  clock_offset_.add(raw);
+  // Of odometry that is later, most of a sweep's motion would be extrapolated: matching finds it better.
+  constexpr double latest_sweeps = 0.6;
+  const bool too_late =
+      static_cast<double>(clock_offset_.value()) > latest_sweeps * static_cast<double>(sweep_time(raw));
+  // Returns of compensated scans are of the stamp, not of their own times.
+  const Nanoseconds offset = compensated() || too_late ? 0 : clock_offset_.value();
+  if (offset == undone_offset_) return;
+  motion_.set_clock_offset(offset, raw.stamp);
+  undone_offset_ = offset;
 }
 
 DeskewedScan FrontEnd::deskewed_by(const Scan& scan, const Pose& step, Nanoseconds dt) const {

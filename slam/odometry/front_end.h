@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "slam/io/method.h"
+#include "slam/odometry/clock_offset.h"
 #include "slam/odometry/compensation.h"
 #include "slam/odometry/lidar_odometry.h"
 #include "slam/scan/motion.h"
@@ -17,7 +18,7 @@ class FrontEnd {
  public:
   FrontEnd(const LidarOdometryConfig& config, const Calibration& calibration, bool has_odometry);
 
-  void on_odometry(const Odometry& odometry) { motion_.add(odometry); }
+  void on_odometry(const Odometry& odometry);
   [[nodiscard]] DeskewedScan deskewed(const Scan& scan) const;
   /// Of a scan that was deskewed by deskewed(); `scan` is replaced by one that was deskewed better where that is known.
   [[nodiscard]] Registration track(const Scan& raw, DeskewedScan& scan);
@@ -31,6 +32,7 @@ class FrontEnd {
   /// Of the motion during a scan: what is known of it is its mean over an interval that may be longer.
   [[nodiscard]] TwistSigma twist_sigma(const Scan& scan, bool stale) const;
   void test_compensation(const Scan& raw, const Pose& step, Nanoseconds dt);
+  void test_clock(const Scan& raw);
   [[nodiscard]] DeskewedScan deskewed_by(const Scan& scan, const Pose& step, Nanoseconds dt) const;
 
   Calibration calibration_;
@@ -38,6 +40,8 @@ class FrontEnd {
   MotionBuffer motion_;
   std::unique_ptr<LidarOdometry> odometry_;
   CompensationTest compensation_;
+  ClockOffset clock_offset_;  ///< of odometry
+  Nanoseconds undone_offset_ = 0;
   std::optional<Nanoseconds> stamp_;  ///< of the last scan
   Pose X_MR_;                         ///< at that scan
   std::optional<Scan> first_;         ///< of a map, until the second came: only then its motion is known

@@ -39,12 +39,18 @@ PlanLocalization::PlanLocalization(std::string_view name, const MethodInput& inp
     : input_(input),
       config_(config),
       index_(make_plan_index(plan_for(name, input), input.prior.storey, config.index)),
+      clock_offset_(input.calibration),
       map_config_(map),
       cloud_(map) {
   if (input.has_odometry) return;
   LidarOdometryConfig odometry;
   odometry.vgicp.odometry_prior = odometry.vgicp.tilt_prior = false;
   lidar_odometry_.emplace(odometry, input.calibration, false);
+}
+
+void PlanLocalization::on_odometry(const Odometry& odometry) {
+  motion_.add(odometry);
+  if (config_.scan_times) clock_offset_.add(odometry);
 }
 
 Output PlanLocalization::on_scan(const Scan& scan) {
@@ -60,8 +66,7 @@ Output PlanLocalization::on_scan(const Scan& scan) {
     is_start_known_ = false;
   } else if (is_due(X_OR)) {
     ++tick_;
-    const PlanScan prepared_scan =
-        prepare_scan(lidar_odometry_ ? std::move(tracked) : deskew(scan, motion_, input_.calibration), X_OR);
+    const PlanScan prepared_scan = prepare_scan(lidar_odometry_ ? std::move(tracked) : deskewed(scan), X_OR);
     if (cloud_.add(prepared_scan.deskewed, X_OR)) cloud_stamps_.push_back(scan.stamp);
     record_stage("deskew", stopwatch, output);
     use_scan(prepared_scan, output);
@@ -72,7 +77,10 @@ Output PlanLocalization::on_scan(const Scan& scan) {
   for (const Hypothesis& hypothesis : output.hypotheses) digest.add(hypothesis.mass).add(hypothesis.X_WR);
   output.digests.push_back({"pose", digest.add(static_cast<int>(output.state)).value()});
   trajectory_.add_scan(scan.stamp, X_OR);
-  if (!lidar_odometry_) motion_.forget_before(scan.stamp - 1'000'000'000);
+  if (!lidar_odometry_) {
+    motion_.forget_before(scan.stamp - 1'000'000'000);
+    if (config_.scan_times) test_times(scan, X_OR);
+  }
   return output;
 }
 
@@ -98,6 +106,32 @@ Pose PlanLocalization::track(const Scan& raw, DeskewedScan& scan) {
   // Localization starts anew: what matters is whether the way from here on is known.
   if (!odometry.lost && odometry.displaced) lidar_odometry_->locate_map();
   return Pose{*q_OM_, Eigen::Vector3d::Zero()} * odometry.X_MR;
+}
+
+DeskewedScan PlanLocalization::deskewed(const Scan& scan) const {
+  if (!compensation_.compensated()) return deskew(scan, motion_, input_.calibration);
+  MotionBuffer still;
+  still.add({scan.stamp, Pose{}});
+  DeskewedScan out = deskew(scan, still, input_.calibration);
+  out.odometry_stale = motion_.is_stale_at(scan.stamp);
+  out.odometry_age = motion_.age_at(scan.stamp);
+  return out;
+}
+
+void PlanLocalization::test_times(const Scan& scan, const Pose& X_OR) {
+  constexpr Nanoseconds sweep = 100'000'000;
+  if (!compensation_.is_known()) {
+    const Eigen::Vector3d way_R = (motion_.at(scan.stamp - sweep).inverse() * X_OR).t;
+    compensation_.add(scan, input_.calibration.X_RL.q.conjugate() * way_R / seconds(sweep));
+  }
+  clock_offset_.add(scan);
+  if (undone_offset_ > 0) extrapolation_.add(scan.stamp, X_OR, motion_);
+  // Returns of compensated scans are of the stamp, not of their own times.
+  const Nanoseconds offset = compensation_.compensated() ? 0 : clock_offset_.value();
+  if (offset == undone_offset_) return;
+  undone_offset_ = offset;
+  motion_.set_clock_offset(offset, scan.stamp);
+  extrapolation_.interrupt();
 }
 
 PlanScan PlanLocalization::prepare_scan(DeskewedScan scan, const Pose& X_OR) const {

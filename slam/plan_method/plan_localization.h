@@ -8,10 +8,13 @@
 #include "bim/config/visit.h"
 #include "slam/io/method.h"
 #include "slam/io/stopwatch.h"
+#include "slam/odometry/clock_offset.h"
+#include "slam/odometry/compensation.h"
 #include "slam/odometry/front_end.h"
 #include "slam/particles/particles.h"
 #include "slam/plan_map/plan_index.h"
 #include "slam/plan_method/corrected_trajectory.h"
+#include "slam/plan_method/extrapolation_errors.h"
 #include "slam/plan_method/prior_yaw.h"
 #include "slam/plan_method/step_changes.h"
 #include "slam/scan/map_cloud.h"
@@ -37,6 +40,7 @@ struct PlanUpdateConfig {
 struct PlanMethodConfig : PlanUpdateConfig {
   double yaw_drift = prior_yaw_drift;
   PlanIndexConfig index = {};
+  bool scan_times = false;
 
   template <class V>
   void visit(V& v) {
@@ -44,6 +48,8 @@ struct PlanMethodConfig : PlanUpdateConfig {
     v("yaw_drift", yaw_drift,
       Field{.doc = "rate at which the standard deviation of the prior yaw grows", .unit = "rad/s", .min = 0});
     v("index", index);
+    v("scan_times", scan_times,
+      Field{.doc = "whether odometry's clock is set by how far scans turn, and scans that come deskewed are left so"});
   }
 };
 
@@ -66,7 +72,7 @@ class PlanLocalization : public Method {
   PlanLocalization(std::string_view name, const MethodInput& input, const PlanMethodConfig& config,
                    const MapCloudConfig& map);
 
-  void on_odometry(const Odometry& odometry) final { motion_.add(odometry); }
+  void on_odometry(const Odometry& odometry) final;
   [[nodiscard]] Output on_scan(const Scan& scan) final;
   /// The trajectory and its map; empty without a correction.
   [[nodiscard]] Estimate finish() override;
@@ -100,8 +106,11 @@ class PlanLocalization : public Method {
   /// In W, with the name of its room. covariance: of (x, y, yaw) in I.
   [[nodiscard]] Hypothesis hypothesis_in_W(double mass, int storey, const Pose& X_IR,
                                            const Eigen::Matrix3d& covariance) const;
-  /// What the present pose of (x, y, yaw) is off by besides, where scan matching stands in for odometry; else none.
-  [[nodiscard]] Eigen::Matrix3d end_of_sweep_covariance() const { return step_changes_.covariance(); }
+  /// What the present pose of (x, y, yaw) is off by besides, where scan matching stands in for odometry or odometry is
+  /// late; else none.
+  [[nodiscard]] Eigen::Matrix3d end_of_sweep_covariance() const {
+    return step_changes_.covariance() + extrapolation_.covariance();
+  }
   /// As many as an Output may carry, each moved by u.
   void report_particles(const ParticleSet& particles, const Pose2& u, Output& output) const;
 
@@ -111,11 +120,19 @@ class PlanLocalization : public Method {
   /// R in O by scan matching, for a robot without odometry; the scan is deskewed. O stands on the first floor seen.
   /// Sets whether the way from the scan before is known.
   [[nodiscard]] Pose track(const Scan& raw, DeskewedScan& scan);
+  /// By odometry.
+  [[nodiscard]] DeskewedScan deskewed(const Scan& scan) const;
+  /// Finds out, for the scans that follow, whether they come deskewed and how late odometry is.
+  void test_times(const Scan& scan, const Pose& X_OR);
 
   MethodInput input_;
   PlanMethodConfig config_;
   PlanIndex index_;
   MotionBuffer motion_;
+  CompensationTest compensation_;  ///< of scans, where there is odometry
+  ClockOffset clock_offset_;       ///< of odometry
+  Nanoseconds undone_offset_ = 0;
+  ExtrapolationErrors extrapolation_;       ///< of odometry that is late
   std::optional<FrontEnd> lidar_odometry_;  ///< where the robot has no odometry
   std::optional<Eigen::Quaterniond> q_OM_;  ///< of its map's frame, once a scan was seen
   StepChanges step_changes_;                ///< of scan matching

@@ -42,6 +42,7 @@ bool MotionBuffer::is_jump(const Odometry& from, const Odometry& to) const {
 
 Pose MotionBuffer::at(Nanoseconds t) const {
   if (records_.empty()) throw InternalError("motion requested before the first odometry record");
+  t += clock_offset_;
   if (records_.size() == 1 || t <= records_.front().stamp) return records_.front().X_OR;
   const Odometry& last = records_.back();
   if (t > last.stamp) {
@@ -88,15 +89,28 @@ MotionBuffer::Usual MotionBuffer::usual() const {
 }
 
 Nanoseconds MotionBuffer::max_age() const {
-  if (records_.size() < 2) return least_max_age;
-  return std::clamp(period() + period() / 2, least_max_age, most_max_age);
+  const Nanoseconds late = std::max<Nanoseconds>(clock_offset_, 0);
+  if (records_.size() < 2) return least_max_age + late;
+  return std::clamp(period() + period() / 2, least_max_age, most_max_age) + late;
 }
 
 void MotionBuffer::forget_before(Nanoseconds t) {
   if (records_.empty()) return;
-  t = std::min(t, records_.back().stamp - window);
+  t = std::min(t + clock_offset_, records_.back().stamp - window);
   while (records_.size() > 2 && records_[1].stamp <= t) records_.pop_front();
   usual_ = usual();
+}
+
+void MotionBuffer::set_clock_offset(Nanoseconds offset, Nanoseconds t) {
+  if (records_.empty()) {
+    clock_offset_ = offset;
+    return;
+  }
+  const Pose before = at(t);
+  clock_offset_ = offset;
+  const Pose shift = join_frames(before, at(t));
+  for (Odometry& record : records_) record.X_OR = shift * record.X_OR;
+  frame_shift_ = frame_shift_ ? shift * *frame_shift_ : shift;
 }
 
 Pose join_frames(const Pose& X_OR, const Pose& X_BR) {

@@ -35,7 +35,7 @@ class MotionBuffer {
   [[nodiscard]] bool is_stale_at(Nanoseconds t) const { return records_.empty() || age_at(t) > max_age(); }
   /// Time from the newest record to t, over which at(t) extrapolates; 0 where there is one at or after t.
   [[nodiscard]] Nanoseconds age_at(Nanoseconds t) const {
-    return records_.empty() ? 0 : std::max<Nanoseconds>(t - records_.back().stamp, 0);
+    return records_.empty() ? 0 : std::max<Nanoseconds>(t + clock_offset_ - records_.back().stamp, 0);
   }
   [[nodiscard]] Nanoseconds max_age() const;
   /// Time between the two newest records, 0 before the second. Where stamps are uneven, the second largest of a
@@ -43,6 +43,8 @@ class MotionBuffer {
   [[nodiscard]] Nanoseconds period() const { return usual_.period; }
   /// Drops what is not needed for times from t on. A second before the newest record is kept.
   void forget_before(Nanoseconds t);
+  /// From now on the records' stamps count as `offset` late. The robot keeps its pose at time t, as over a jump.
+  void set_clock_offset(Nanoseconds offset, Nanoseconds t);
 
  private:
   static constexpr Nanoseconds window = 1'000'000'000;
@@ -59,6 +61,7 @@ class MotionBuffer {
 
   std::deque<Odometry> records_;
   Usual usual_;
+  Nanoseconds clock_offset_ = 0;
   std::optional<Pose> frame_shift_;  ///< of the odometry's frame, since a jump
 };
 

@@ -74,6 +74,35 @@ TEST(SGraphLocalization, ConvergesAndTracks) {
     EXPECT_LT((result.estimate.trajectory[i].X_FR.t - recording.truth[i].X_FR.t).norm(), 0.08);
 }
 
+// Unless its clock is set, the pose is lost, or sure and degrees off.
+TEST(SGraphLocalization, OdometryOfAnotherClockIsNotBelieved) {
+  synthetic::WalkConfig config;
+  config.duration_s = 30.0;
+  const synthetic::Recording recording =
+      synthetic::walk(synthetic::corridor_house(), synthetic::corridor_house_walk(), config);
+  const bim::Plan plan = synthetic::plan_of(synthetic::corridor_house());
+  for (const int late_ms : {150, -150}) {
+    synthetic::Recording late = recording;
+    for (Odometry& odometry : late.odometry) odometry.stamp += late_ms * 1'000'000LL;
+    std::erase_if(late.scans, [&](const Scan& scan) { return scan.stamp < late.odometry.front().stamp; });
+    std::erase_if(late.truth, [&](const StampedPose& pose) { return pose.stamp < late.odometry.front().stamp; });
+    const Answers result = run(late, input_for(late, plan, false));
+    ASSERT_EQ(result.outputs.back().state, State::converged) << late_ms;
+    double squared = 0.0, largest = 0.0;
+    int poses = 0;
+    for (std::size_t i = result.outputs.size() / 3; i < result.outputs.size(); ++i) {
+      if (!result.outputs[i].X_FR) continue;
+      const Pose error = late.truth[i].X_FR.inverse() * *result.outputs[i].X_FR;
+      squared += error.t.squaredNorm();
+      largest = std::max(largest, std::abs(error.yaw()));
+      ++poses;
+    }
+    ASSERT_GT(poses, 100) << late_ms;
+    EXPECT_LT(std::sqrt(squared / poses), 0.05) << late_ms;
+    EXPECT_LT(largest, 0.15) << late_ms;  // what a turn of 1 rad/s hides that begins within 150 ms
+  }
+}
+
 TEST(SGraphLocalization, ConvergesWithoutACompass) {
   const synthetic::Recording recording = short_walk(8.0);
   const Answers result = run(recording, input_for(recording, synthetic::plan_of(synthetic::corridor_house()), false));

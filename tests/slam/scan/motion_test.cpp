@@ -46,6 +46,35 @@ TEST(MotionBufferTest, ForgettingKeepsWhatLaterTimesNeed) {
   expect_pose_near(motion.at(20'000'000), straight(0.2), 1e-9);
 }
 
+// What was recorded at t is stamped t + offset: steps from a scan on are those of the robot, and its pose does not
+// jump.
+TEST(MotionBufferTest, AClockOffsetMovesTheStampsAndNotTheRobot) {
+  const Stream draws(7, "bim.generate");
+  for (std::uint64_t trial = 0; trial < 50; ++trial) {
+    const auto offset = static_cast<Nanoseconds>(200e6 * (2.0 * draws.uniform(trial) - 1.0));
+    const Nanoseconds scan = 600'000'000;
+    MotionBuffer motion;
+    Nanoseconds t = 0;
+    for (; t <= scan; t += 10'000'000) motion.add({t, straight(seconds(t - offset))});
+    const Pose before = motion.at(scan);
+    motion.set_clock_offset(offset, scan);
+    expect_pose_near(motion.at(scan), before, 1e-9);
+    for (; t <= scan + 400'000'000; t += 10'000'000) motion.add({t, straight(seconds(t - offset))});
+    EXPECT_EQ(motion.age_at(scan + 100'000'000), 0);
+    expect_pose_near(motion.at(scan).inverse() * motion.at(scan + 100'000'000),
+                     straight(seconds(scan)).inverse() * straight(seconds(scan + 100'000'000)), 1e-9);
+  }
+}
+
+TEST(MotionBufferTest, LateOdometryIsStaleLater) {
+  MotionBuffer motion = buffer(1'000'000'000);
+  EXPECT_TRUE(motion.is_stale_at(1'160'000'000));
+  motion.set_clock_offset(200'000'000, 1'000'000'000);
+  EXPECT_EQ(motion.age_at(1'000'000'000), 200'000'000);
+  EXPECT_FALSE(motion.is_stale_at(1'000'000'000));
+  EXPECT_TRUE(motion.is_stale_at(1'160'000'000));
+}
+
 // A jump of the odometry's frame is none of the robot: what came before and after joins without it.
 TEST(MotionBufferTest, JumpsAndNonsenseAreNoMotion) {
   const Pose jump = Pose::from_xyz_yaw({1000.0, -500.0, 3.0}, 0.65);

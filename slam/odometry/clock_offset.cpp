@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/odometry/clock_offset.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+namespace plumbline::slam {
+
+namespace {
+
+constexpr int bins = 720;
+constexpr double bin_rad = 2.0 * std::numbers::pi / bins;
+constexpr double flat = 0.09;      ///< sine of a return's elevation
+constexpr double nearest_m = 0.5;  ///< nearer is the robot itself
+constexpr double upright = 0.95;   ///< cosine of the sensor's tilt
+constexpr int fewest_bins = bins / 4;
+constexpr double differs = 0.2;  ///< of two ranges' logarithms: another surface
+
+int wrapped(int bin) { return ((bin % bins) + bins) % bins; }
+std::size_t bin_of(const Eigen::Vector2d& p) {
+  return static_cast<std::size_t>(wrapped(static_cast<int>(std::floor(std::atan2(p.y(), p.x()) / bin_rad))));
+}
+
+/// Of nearly horizontal returns, the mean in each bin.
+std::vector<double> ranges_of(const Scan& scan) {
+  constexpr std::size_t most = 5'000;                    // several in each bin
+  const std::size_t stride = (scan.size() / most) | 1U;  // odd: else it would pass over rings
+  std::vector<double> sum(bins, 0.0);
+  std::vector<int> number(bins, 0);
+  for (std::size_t i = 0; i < scan.size(); i += stride) {
+    const Eigen::Vector3d& p = scan.point_L[i];
+    const double range = p.head<2>().norm();
+    if (!(scan.range_m[i] > nearest_m) || !(range > nearest_m) || !(std::abs(p.z()) < flat * range)) continue;
+    const std::size_t bin = bin_of(p.head<2>());
+    sum[bin] += range;
+    ++number[bin];
+  }
+  for (std::size_t bin = 0; bin < bins; ++bin)
+    if (number[bin] > 0) sum[bin] /= number[bin];
+  return sum;
+}
+
+/// The same seen from `t` away, without a turn.
+std::vector<double> moved_by(const std::vector<double>& range_m, const Eigen::Vector2d& t) {
+  std::vector<double> moved(bins, 0.0);
+  for (std::size_t bin = 0; bin < bins; ++bin) {
+    if (range_m[bin] <= 0.0) continue;
+    const double azimuth = (static_cast<double>(bin) + 0.5) * bin_rad;
+    const Eigen::Vector2d p = range_m[bin] * Eigen::Vector2d(std::cos(azimuth), std::sin(azimuth)) - t;
+    double& there = moved[bin_of(p)];
+    there = there > 0.0 ? std::min(there, p.norm()) : p.norm();
+  }
+  return moved;
+}
+
+std::vector<double> logarithms(std::vector<double> range_m) {
+  for (double& range : range_m) range = range > 0.0 ? std::log(range) : -std::numeric_limits<double>::infinity();
+  return range_m;
+}
+
+/// Mean difference of logarithms of ranges where `now` is turned by a number of bins.
+std::optional<double> difference(const std::vector<double>& before, const std::vector<double>& now, int turn) {
+  double sum = 0.0;
+  int both = 0;
+  for (int bin = 0; bin < bins; ++bin) {
+    const double a = before[static_cast<std::size_t>(bin)], b = now[static_cast<std::size_t>(wrapped(bin - turn))];
+    if (!std::isfinite(a) || !std::isfinite(b)) continue;
+    sum += std::min(std::abs(a - b), differs);
+    ++both;
+  }
+  if (both < fewest_bins) return std::nullopt;
+  return sum / both;
+}
+
+/// Where the parabola through three values is least, in steps from the middle one.
+double vertex(double left, double middle, double right) {
+  const double bend = left - 2.0 * middle + right;
+  return bend > 0.0 ? std::clamp(0.5 * (left - right) / bend, -0.5, 0.5) : 0.0;
+}
+
+/// Turn of the sensor between two profiles of logarithms, rad, counter-clockwise.
+std::optional<double> turn_between(const std::vector<double>& before, const std::vector<double>& now, double least,
+                                   double largest) {
+  const int from = static_cast<int>(std::floor(least / bin_rad)), to = static_cast<int>(std::ceil(largest / bin_rad));
+  std::vector<double> costs;
+  for (int turn = from; turn <= to; ++turn) {
+    const std::optional<double> cost = difference(before, now, turn);
+    if (!cost) return std::nullopt;
+    costs.push_back(*cost);
+  }
+  const auto best = static_cast<std::size_t>(std::min_element(costs.begin(), costs.end()) - costs.begin());
+  if (best == 0 || best + 1 == costs.size()) return std::nullopt;
+  return (from + static_cast<int>(best) + vertex(costs[best - 1], costs[best], costs[best + 1])) * bin_rad;
+}
+
+}  // namespace
+
+ClockOffset::ClockOffset(const Calibration& calibration) : calibration_(calibration) {}
+
+void ClockOffset::add(const Odometry& odometry) {
+  if (!odometry.X_OR.t.allFinite() || !odometry.X_OR.q.coeffs().allFinite()) return;
+  const Pose X_OL = odometry.X_OR * calibration_.X_RL;
+  Place place{odometry.stamp, X_OL.t.head<2>(), X_OL.yaw()};
+  if (!places_.empty()) place.yaw = places_.back().yaw + wrap_angle(place.yaw - places_.back().yaw);
+  if (!places_.empty() && places_.back().stamp == place.stamp) places_.pop_back();
+  places_.push_back(place);
+  constexpr Nanoseconds kept = 10'000'000'000;  // where no scans come
+  while (places_.front().stamp < place.stamp - kept) places_.pop_front();
+}
+
+void ClockOffset::add(const Scan& scan) {
+  if (calibration_.X_RL.rotation()(2, 2) < upright) return;
+  double sum_ns = 0.0, returns = 0.0;
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    if (scan.range_m[i] <= 0.0) continue;
+    sum_ns += static_cast<double>(scan.offset_ns[i]);
+    returns += 1.0;
+  }
+  if (sum_ns == 0.0) return;
+  profiles_.push_back({scan.stamp + std::llround(sum_ns / returns), ranges_of(scan)});
+  while (profiles_.size() > 1 && !places_.empty() && places_.back().stamp >= profiles_[1].time + most) {
+    use(profiles_[0], profiles_[1]);
+    profiles_.pop_front();
+  }
+  constexpr std::size_t most_waiting = 50;  // where no odometry comes
+  if (profiles_.size() > most_waiting) profiles_.pop_front();
+}
+
+ClockOffset::Place ClockOffset::place_at(Nanoseconds t) const {
+  const auto after = std::lower_bound(places_.begin() + 1, places_.end() - 1, t,
+                                      [](const Place& place, Nanoseconds time) { return place.stamp < time; });
+  const Place &a = *(after - 1), &b = *after;
+  const double part = static_cast<double>(t - a.stamp) / static_cast<double>(b.stamp - a.stamp);
+  return {t, a.t_OL + part * (b.t_OL - a.t_OL), a.yaw + part * (b.yaw - a.yaw)};
+}
+
+void ClockOffset::use(const Profile& before, const Profile& now) {
+  constexpr Nanoseconds longest = 1'000'000'000;
+  constexpr double least_spread_rad = 0.02;  // of odometry's turns by offset: else they tell no offset
+  constexpr double margin_rad = 0.05;
+  constexpr double off_rad = 0.05;  // a turn that was not found
+  constexpr double forget = 0.995;
+  if (places_.size() < 2 || places_.front().stamp > before.time - most || now.time <= before.time ||
+      now.time - before.time > longest)
+    return;
+  std::array<double, candidates> turns{};
+  for (std::size_t j = 0; j < candidates; ++j) {
+    const Nanoseconds offset = static_cast<Nanoseconds>(j) * candidate - most;
+    turns[j] = place_at(now.time + offset).yaw - place_at(before.time + offset).yaw;
+  }
+  const auto [least, largest] = std::minmax_element(turns.begin(), turns.end());
+  if (*largest - *least < least_spread_rad || *largest - *least > std::numbers::pi) return;
+  const Place from = place_at(before.time + value_);
+  const Eigen::Vector2d way = Eigen::Rotation2Dd(-from.yaw) * (place_at(now.time + value_).t_OL - from.t_OL);
+  const std::optional<double> turn = turn_between(logarithms(moved_by(before.range_m, way)), logarithms(now.range_m),
+                                                  *least - margin_rad, *largest + margin_rad);
+  if (!turn) return;
+  if (*turn < *least - off_rad || *turn > *largest + off_rad) return;
+  seen2_ = forget * seen2_ + *turn * *turn;
+  for (std::size_t j = 0; j < candidates; ++j) {
+    both_[j] = forget * both_[j] + *turn * turns[j];
+    told2_[j] = forget * told2_[j] + turns[j] * turns[j];
+  }
+  pairs_ = forget * pairs_ + 1.0;
+  decide();
+}
+
+// A turning head meets what it saw before a little later or sooner than a revolution after, and odometry has a scale
+// of its own: all turns may differ by a factor.
+double ClockOffset::left_at(std::size_t j) const {
+  constexpr double most_scale = 0.05;
+  const double scale = told2_[j] > 0.0 ? std::clamp(both_[j] / told2_[j], 1.0 - most_scale, 1.0 + most_scale) : 1.0;
+  return std::max(0.0, seen2_ - 2.0 * scale * both_[j] + scale * scale * told2_[j]);
+}
+
+void ClockOffset::decide() {
+  // In variances of what is left at the best offset: of the one in use, and of those 50 ms away, which is a standard
+  // deviation of 6 ms.
+  constexpr double fewest_pairs = 20.0, better = 60.0, located = 80.0;
+  constexpr std::size_t about = 5;
+  std::array<double, candidates> squares{};
+  for (std::size_t j = 0; j < candidates; ++j) squares[j] = left_at(j);
+  const auto best = static_cast<std::size_t>(std::min_element(squares.begin(), squares.end()) - squares.begin());
+  if (pairs_ < fewest_pairs || best < about || best + about >= candidates) return;
+  const double variance = squares[best] / pairs_;
+  const auto used = static_cast<std::size_t>((value_ + most + candidate / 2) / candidate);
+  if (squares[used] - squares[best] < better * variance ||
+      std::min(squares[best - about], squares[best + about]) - squares[best] < located * variance)
+    return;
+  const double part = vertex(squares[best - 1], squares[best], squares[best + 1]);
+  const Nanoseconds found = static_cast<Nanoseconds>(best) * candidate - most + std::llround(part * candidate);
+  if (std::abs(found - value_) >= ignored) value_ = found;
+}
+
+}  // namespace plumbline::slam

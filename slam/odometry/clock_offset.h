@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <deque>
+#include <vector>
+
+#include "slam/io/records.h"
+
+namespace plumbline::slam {
+
+/// By how much later odometry is stamped than scans. A scan alone tells how far the sensor turned since the scan
+/// before: its ranges by azimuth move along. Where the robot begins or ends a turn, or sways in its gait, odometry
+/// agrees with that at one offset only.
+class ClockOffset {
+ public:
+  static constexpr Nanoseconds most = 300'000'000;      ///< either way
+  static constexpr Nanoseconds ignored = 15'000'000;    ///< what costs less than it may be wrong
+  static constexpr Nanoseconds candidate = 10'000'000;  ///< between two that are tried
+
+  explicit ClockOffset(const Calibration& calibration);
+
+  /// Both in time order.
+  void add(const Odometry& odometry);
+  /// Scans whose returns have no times tell nothing, nor do sensors that stand askew.
+  void add(const Scan& scan);
+  /// Odometry of the time t is stamped t + value(). 0 until it is known to be more than `ignored`.
+  [[nodiscard]] Nanoseconds value() const { return value_; }
+
+ private:
+  static constexpr std::size_t candidates = 2 * most / candidate + 1;
+
+  struct Place {
+    Nanoseconds stamp = 0;
+    Eigen::Vector2d t_OL;
+    double yaw = 0.0;  ///< of L, unwrapped
+  };
+  struct Profile {
+    Nanoseconds time = 0;         ///< mean of its returns'
+    std::vector<double> range_m;  ///< horizontal, by azimuth; 0: nothing
+  };
+
+  [[nodiscard]] Place place_at(Nanoseconds t) const;
+  void use(const Profile& before, const Profile& now);
+  /// Sum of squares that is left between turns at an offset, rad^2.
+  [[nodiscard]] double left_at(std::size_t candidate) const;
+  void decide();
+
+  Calibration calibration_;
+  std::deque<Place> places_;
+  std::deque<Profile> profiles_;  ///< until odometry of all candidates is there
+  // Sums over pairs of scans, rad^2: of the turn seen and that of odometry at each offset.
+  double seen2_ = 0.0, pairs_ = 0.0;
+  std::array<double, candidates> both_{}, told2_{};
+  Nanoseconds value_ = 0;
+};
+
+}  // namespace plumbline::slam
