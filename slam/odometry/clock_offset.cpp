@@ -126,6 +126,7 @@ void ClockOffset::add(const Scan& scan) {
     use(profiles_[0], profiles_[1]);
     profiles_.pop_front();
   }
+  if (goes_straight()) decide();
   constexpr std::size_t most_waiting = 50;  // where no odometry comes
   if (profiles_.size() > most_waiting) profiles_.pop_front();
 }
@@ -166,7 +167,17 @@ void ClockOffset::use(const Profile& before, const Profile& now) {
     told2_[j] = forget * told2_[j] + turns[j] * turns[j];
   }
   pairs_ = forget * pairs_ + 1.0;
-  decide();
+}
+
+bool ClockOffset::goes_straight() const {
+  constexpr double most_rad = 0.05;  // more than a gait sways
+  if (places_.empty()) return false;
+  double least = places_.back().yaw, largest = least;
+  for (auto place = places_.rbegin(); place != places_.rend() && place->stamp >= places_.back().stamp - most; ++place) {
+    least = std::min(least, place->yaw);
+    largest = std::max(largest, place->yaw);
+  }
+  return largest - least < most_rad;
 }
 
 // A turning head meets what it saw before a little later or sooner than a revolution after, and odometry has a scale

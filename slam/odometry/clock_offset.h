@@ -25,7 +25,8 @@ class ClockOffset {
   void add(const Odometry& odometry);
   /// Scans whose returns have no times tell nothing, nor do sensors that stand askew.
   void add(const Scan& scan);
-  /// Odometry of the time t is stamped t + value(). 0 until it is known to be more than `ignored`.
+  /// Odometry of the time t is stamped t + value(). 0 until it is known to be more than `ignored`. It changes where the
+  /// robot goes straight: in a turn, poses that were found by another offset are off.
   [[nodiscard]] Nanoseconds value() const { return value_; }
 
  private:
@@ -45,6 +46,7 @@ class ClockOffset {
   void use(const Profile& before, const Profile& now);
   /// Sum of squares that is left between turns at an offset, rad^2.
   [[nodiscard]] double left_at(std::size_t candidate) const;
+  [[nodiscard]] bool goes_straight() const;
   void decide();
 
   Calibration calibration_;
