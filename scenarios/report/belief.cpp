@@ -52,6 +52,13 @@ std::string state_key() {
   return out + "</div>";
 }
 
+/// Which hypotheses have no line of their own.
+std::string left_out(const ReportMethod& method) {
+  if (method.hypotheses_left_out == 0) return "";
+  return "Lines of their own have the true pose and those with the largest share over the run; the other " +
+         std::to_string(method.hypotheses_left_out) + " are one grey line together. ";
+}
+
 std::string chart(const ReportInput& input, const ReportMethod& method, double end_s) {
   if (method.histories.empty() && method.states.empty()) return "";
   PlotExtras extras;
@@ -61,15 +68,16 @@ std::string chart(const ReportInput& input, const ReportMethod& method, double e
   extras.title = "share of the belief, %";
   const Tree* results = results_of(input, method.name);
   if (const auto at = number_of(results == nullptr ? nullptr : results->find("localization"), "converged_at_s"))
-    extras.marks.push_back({*at, "converged"});
+    extras.marks.push_back({start_s(input) + *at, "converged"});
   std::stable_sort(extras.marks.begin(), extras.marks.end(),
                    [](const PlotMark& a, const PlotMark& b) { return a.t_s < b.t_s; });
   const std::string name = svg::escape(method.name);
   return "<section class=\"card\"><h2>Hypotheses of " + name + " over time</h2>" +
          draw_plot("belief-" + name, belief_curves(method), end_s, extras) + state_key() +
          "<p class=\"facts\">Each line is one hypothesis, moved along with the robot. It is green while it is the true "
-         "pose (0.5 m, 10°); others bear the name of the room they came up in. Hypotheses below 2 % are left out, and "
-         "equal lines are drawn 1 % apart. The bar shows the state that the method reports.</p></section>";
+         "pose (0.5 m, 10°); others bear the name of the room they came up in. " +
+         left_out(method) +
+         "Equal lines are drawn 1 % apart. The bar shows the state that the method reports.</p></section>";
 }
 
 std::string draw_hypothesis(const ReportHypothesis& hypothesis) {
@@ -181,6 +189,10 @@ std::vector<PlotCurve> belief_curves(const ReportMethod& method) {
       curve.points.emplace_back(p.x(), std::max(0.0, 100.0 * p.y() - apart));
     curves.push_back(std::move(curve));
   }
+  if (method.other_hypotheses.empty()) return curves;
+  PlotCurve rest{"all others together", "var(--soft)", {}, method.name};
+  for (const Eigen::Vector2d& p : method.other_hypotheses) rest.points.emplace_back(p.x(), 100.0 * p.y());
+  curves.push_back(std::move(rest));
   return curves;
 }
 
@@ -188,11 +200,12 @@ std::vector<PlotMark> common_marks(const ReportInput& input) {
   std::vector<PlotMark> marks;
   const auto identifiable = number_of(input.results.find("identifiability"), "at_s");
   const auto marginal = marginal_since(input);
+  const double from_s = start_s(input);
   // What holds from the first scan on is no event.
   if (identifiable && *identifiable > 0.0)
-    marks.push_back({*identifiable, "identifiable from here on"});
+    marks.push_back({from_s + *identifiable, "identifiable from here on"});
   else if (!identifiable && marginal && *marginal > 0.0)
-    marks.push_back({*marginal, "marginally identifiable from here on"});
+    marks.push_back({from_s + *marginal, "marginally identifiable from here on"});
   if (input.kidnap) {
     marks.push_back({input.kidnap->lifted_s, "kidnapped"});
     marks.push_back({input.kidnap->set_down_s, "set down elsewhere"});

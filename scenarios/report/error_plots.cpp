@@ -38,12 +38,13 @@ PlotCurve consistent_poses(const ReportInput& input, double end_s) {
   PlotCurve curve{"consistent poses", "var(--soft)", {}, "truth"};
   const Tree* known = input.results.find("identifiability");
   if (known == nullptr) return curve;
+  const double from_s = start_s(input);
   constexpr double step_s = 0.5;  // a curve with larger gaps would be drawn open
   const Tree::List& places = known->find("places")->as_list();
   if (input.kidnap) end_s = std::min(end_s, input.kidnap->lifted_s);  // it is computed up to there
   for (std::size_t i = 0; i < places.size(); ++i) {
-    const double until = i + 1 < places.size() ? places[i + 1].find("t_s")->as_double() : end_s;
-    for (double t = places[i].find("t_s")->as_double(); t <= until; t += step_s)
+    const double until = i + 1 < places.size() ? from_s + places[i + 1].find("t_s")->as_double() : end_s;
+    for (double t = from_s + places[i].find("t_s")->as_double(); t <= until; t += step_s)
       curve.points.emplace_back(t, 1.0 + places[i].find("twins")->as_double());
   }
   return curve;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "scenarios/metrics/localization_score.h"
@@ -20,9 +21,10 @@ struct Tracked {
   Pose offset;
   std::string room;
   std::vector<HypothesisHistory> stretches;
-  double most = 0.0;      ///< largest mass it ever had
-  bool was_true = false;  ///< at some scan
-  std::size_t scan = 0;   ///< in which it was seen last
+  double mass = 0.0;                 ///< over all scans
+  std::vector<Eigen::Vector2d> all;  ///< (time in s, mass), at each of its scans
+  bool was_true = false;             ///< at some scan
+  std::size_t scan = 0;              ///< in which it was seen last
 };
 
 double metres(const Pose& a, const Pose& b) { return (a.t - b.t).norm(); }
@@ -64,8 +66,8 @@ HypothesisHistory& stretch_of(Tracked& one, bool is_true) {
 
 }  // namespace
 
-std::vector<HypothesisHistory> hypothesis_histories(const std::vector<BeliefRecord>& beliefs, const score::Truth& truth,
-                                                    std::size_t most) {
+HypothesisHistories hypothesis_histories(const std::vector<BeliefRecord>& beliefs, const score::Truth& truth,
+                                         std::size_t most) {
   const score::LocalizationRules rules;
   std::vector<Tracked> tracked;
   for (std::size_t i = 0; i < beliefs.size(); ++i) {
@@ -74,7 +76,8 @@ std::vector<HypothesisHistory> hypothesis_histories(const std::vector<BeliefReco
       Tracked& one = nearest_or_new(tracked, i + 1, hypothesis.X_WR, X_WR);
       one.scan = i + 1;
       one.offset = hypothesis.X_WR * X_WR.inverse();
-      one.most = std::max(one.most, hypothesis.mass);
+      one.mass += hypothesis.mass;
+      one.all.emplace_back(slam::seconds(beliefs[i].stamp), hypothesis.mass);
       if (one.room.empty()) one.room = hypothesis.room;
       const bool is_true = metres(hypothesis.X_WR, X_WR) <= rules.position_m &&
                            radians(hypothesis.X_WR, X_WR) <= rules.yaw_deg * std::numbers::pi / 180.0;
@@ -83,15 +86,18 @@ std::vector<HypothesisHistory> hypothesis_histories(const std::vector<BeliefReco
     }
   }
   std::stable_sort(tracked.begin(), tracked.end(), [](const Tracked& a, const Tracked& b) {
-    return a.was_true != b.was_true ? a.was_true : a.most > b.most;
+    return a.was_true != b.was_true ? a.was_true : a.mass > b.mass;
   });
-  if (tracked.size() > most) tracked.resize(most);
-  std::vector<HypothesisHistory> histories;
-  for (std::size_t k = 0; k < tracked.size(); ++k)
+  HypothesisHistories histories;
+  std::map<double, double> others;  // mass by time
+  for (std::size_t k = most; k < tracked.size(); ++k, ++histories.left_out)
+    for (const Eigen::Vector2d& p : tracked[k].all) others[p.x()] += p.y();
+  for (const auto& [t_s, mass] : others) histories.others.emplace_back(t_s, mass);
+  for (std::size_t k = 0; k < std::min(most, tracked.size()); ++k)
     for (HypothesisHistory& stretch : tracked[k].stretches) {
       stretch.hypothesis = static_cast<int>(k);
       stretch.room = tracked[k].room;
-      histories.push_back(std::move(stretch));
+      histories.shown.push_back(std::move(stretch));
     }
   return histories;
 }

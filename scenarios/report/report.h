@@ -99,6 +99,8 @@ struct ReportMethod {
   std::vector<ReportBelief> beliefs;
   std::vector<ReportState> states;
   std::vector<HypothesisHistory> histories;
+  std::vector<Eigen::Vector2d> other_hypotheses;  ///< (time in s, mass) of those without a history, together
+  std::size_t hypotheses_left_out = 0;            ///< how many have none
   std::vector<ReportWalls> recognised;
 };
 

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include "bim/model/rooms.h"
+#include "scenarios/metrics/state_names.h"
 #include "scenarios/metrics/storey.h"
 #include "scenarios/report/deviation_sight.h"
 #include "scenarios/report/hypothesis_history.h"
@@ -139,7 +141,10 @@ void add_recognised(const FinishedRun& run, const MethodRecord& method, const sc
       walls.hypotheses.push_back(hypothesis_of(belief.hypotheses[k], X_WR, as_planned, run.building->plan_as_built()));
     shown.recognised.push_back(std::move(walls));
   };
-  if (!before.empty()) show(before[before.size() / 2], "while searching");
+  if (!before.empty()) {
+    const std::size_t i = before[before.size() / 2];
+    show(i, "while " + std::string(state_name(method.beliefs[i].state)));
+  }
   if (converged) show(*converged, "at convergence");
   if (last != converged && (before.empty() || *last != before[before.size() / 2])) show(*last, "at the end");
 }
@@ -205,7 +210,10 @@ ReportInput report_input(const FinishedRun& run, const score::RunScore& score) {
     shown.samples = samples_of(input.plan, method, score.truth);
     add_structure(input.plan, method, score.methods[i], shown);
     add_beliefs(input.plan, method, score.truth, shown);
-    shown.histories = hypothesis_histories(method.beliefs, score.truth, shown_places);
+    HypothesisHistories histories = hypothesis_histories(method.beliefs, score.truth, shown_places);
+    shown.histories = std::move(histories.shown);
+    shown.other_hypotheses = std::move(histories.others);
+    shown.hypotheses_left_out = histories.left_out;
     for (HypothesisHistory& history : shown.histories) history.room = bim::room_name(rooms, history.room);
     add_recognised(run, method, score, shown);
     input.methods.push_back(std::move(shown));

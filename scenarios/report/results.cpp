@@ -14,6 +14,8 @@ std::optional<double> number_of(const Tree* map, std::string_view key) {
   return value->as_double();
 }
 
+double start_s(const ReportInput& input) { return input.truth.empty() ? 0.0 : input.truth.front().t_s; }
+
 const Tree* results_of(const ReportInput& input, const std::string& method) {
   const Tree* methods = input.results.find("methods");
   return methods == nullptr ? nullptr : methods->find(method);

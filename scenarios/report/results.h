@@ -13,6 +13,8 @@ namespace plumbline::scenarios {
 [[nodiscard]] std::string text_of(const Tree& map, std::string_view key);
 /// Number of a key; `map` may be null.
 [[nodiscard]] std::optional<double> number_of(const Tree* map, std::string_view key);
+/// Time of the first scan on the run's clock, from which results count: converged_at_s, identifiability, s.
+[[nodiscard]] double start_s(const ReportInput& input);
 /// Block of a method, or null.
 [[nodiscard]] const Tree* results_of(const ReportInput& input, const std::string& method);
 

@@ -139,7 +139,7 @@ std::shared_ptr<const ProcessTable> process_table(ScenarioText& text, const Over
   std::vector<ProcessSpec>& processes = text.scenario.processes;
   std::vector<Mark> marks = marks_of(text.tree, {"processes"}, processes.size());
   for (ProcessSpec& process : processes)
-    if (!process.folder) process.folder = fs::absolute(fs::path(input_path).parent_path()).lexically_normal().string();
+    if (!process.folder) process.folder = fs::absolute(input_path).parent_path().lexically_normal().string();
   processes.insert(processes.end(), overrides.processes.begin(), overrides.processes.end());
   marks.resize(processes.size(), Mark{"--method", 0, 0});
   return std::make_shared<const ProcessTable>(table, processes, marks);

@@ -251,7 +251,7 @@ std::string write_tables(const Sweep& sweep, const SweepFolder& folder, const st
     }
   }
   make_pages(sweep, rows, folder, asked);
-  SweepPage page{sweep.file.name, sweep.file_name, {}};
+  SweepPage page{sweep.file.name, sweep.file_name, {}, sweep.seeds};
   for (const SweepRun& run : sweep.runs)
     if (fs::exists(folder.page(run.key) + "/report.html")) page.pages.insert(run.key);
   const std::vector<SweepCell> cells = cells_of(rows);

@@ -29,14 +29,14 @@ class Template {
   Template(const std::string& path, const Mark& mark) : path_(path) {
     if (!fs::exists(path)) throw InputError(mark, "the scenario '" + path + "' does not exist");
     const std::string text = read_text_file(path);
-    tree_ = with_process_folders(read_yaml(text, path),
-                                 fs::absolute(fs::path(path).parent_path()).lexically_normal().string());
+    const fs::path folder = fs::absolute(path).parent_path();  // a bare name has no parent path
+    tree_ = with_process_folders(read_yaml(text, path), folder.lexically_normal().string());
     if (!tree_.is_map() || tree_.find("scenario") == nullptr)
       throw InputError(mark, "'" + path + "' is no scenario; its first key must be 'scenario: 1'");
     (void)read_scenario(text, path);
     const Tree* building = tree_.find("building");
     if (building == nullptr) throw InputError(tree_.mark, "a scenario needs a building");
-    building_ = fs::absolute(fs::path(path).parent_path() / building->as_string()).lexically_normal().string();
+    building_ = (folder / building->as_string()).lexically_normal().string();
     building_bytes_ = fs::exists(building_) ? bim::read_building_file(building_) : "";
   }
 
@@ -175,7 +175,7 @@ Sweep read_sweep(const std::string& path, int seeds, slam::MethodTable table) {
   Sweep sweep;
   sweep.file = from_tree<SweepFile>(tree);
   sweep.file_name = fs::path(path).filename().string();
-  if (seeds > 0) sweep.file.seeds = seeds;
+  if (seeds > 0) sweep.file.seeds = sweep.seeds = seeds;
   const SweepFile& file = sweep.file;
   check(file, tree, table);
   std::size_t text_bytes = 0;

@@ -157,7 +157,8 @@ std::string cells_table(const std::vector<SweepRow>& rows, const std::vector<Swe
 }
 
 std::string command_for(const SweepPage& page, const SweepRow& row) {
-  return "plumbline sweep " + shell_argument(page.file) + " --page " + shell_argument(row.key);
+  return "plumbline sweep " + shell_argument(page.file) +
+         (page.seeds > 0 ? " --seeds " + std::to_string(page.seeds) : "") + " --page " + shell_argument(row.key);
 }
 
 std::string copy_button(const std::string& command) {
@@ -185,11 +186,12 @@ std::string worst_card(const SweepPage& page, const SweepRow& row) {
          svg::escape(row.method) + "</b> is <span class=\"verdict " + std::string(class_of(row)) + "\">" +
          svg::escape(row.verdict) + "</span>, " + error_text(row) +
          (row.failure.empty() ? "" : " (" + svg::escape(row.failure) + ")") + ".</p><p>" +
-         (page.pages.count(row.key) > 0 ? page_of(page, row)
-                                        : "<code>" + svg::escape(command) + "</code> " + copy_button(command)) +
+         (page.pages.count(row.key) > 0
+              ? page_of(page, row)
+              : "<code class=\"command\">" + svg::escape(command) + "</code> " + copy_button(command)) +
          "</p><p class=\"facts\">The command makes the run again, the same to the last bit, with its report and its "
          "replay page in pages/" +
-         svg::escape(row.key) + "; give it the -o and the --seeds of the sweep, where it had them.</p></section>";
+         svg::escape(row.key) + ". Call it from the folder of the sweep's file.</p></section>";
 }
 
 std::string runs_table(const SweepPage& page, const std::vector<const SweepRow*>& rows) {

@@ -14,6 +14,7 @@ struct SweepPage {
   std::string name;
   std::string file;             ///< of the sweep, without its folder
   std::set<std::string> pages;  ///< keys of the runs whose pages are in pages/KEY
+  int seeds = 0;                ///< asked for in place of the file's; 0: the file's
 };
 
 /// Rows from the worst to the best: wrong or failed ones first, then by error, then as they stand.

@@ -69,6 +69,11 @@ async function everyPage(browser, url, name) {
     }
     check(name + ": Tab reaches all of its " + wanted + " controls", reached.size === wanted, reached.size);
   }
+  const commands = await browser.page(1200, 900);
+  await commands.open(url);
+  await commands.until("document.readyState === 'complete'");
+  const cut = await commands.get("[...document.querySelectorAll('[data-copy]')].map((b) => b.dataset.copy).filter((c) => c.includes(' --page ') && !c.includes(' -o '))");
+  check(name + ": commands of a sweep name its folder", cut.length === 0, cut);
   const phone = await browser.page(390, 844, { mobile: true });
   await phone.open(url);
   await phone.until("document.readyState === 'complete'");

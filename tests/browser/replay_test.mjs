@@ -274,7 +274,18 @@ async function beside(browser) {
   await page.get("document.getElementById('beside').value = 's_graph_localization'; document.getElementById('beside').dispatchEvent(new Event('change'))");
   await page.until("Plumb.app.beside.ready", 120);
   const apart = await page.get("[document.body.dataset.apart, document.getElementById('apart').textContent]");
-  check("it says where the two are first apart", apart[0] === "" ? apart[1].includes("never more") : apart[1].includes(parseFloat(apart[0]).toFixed(2)), apart);
+  check("it says where the two are first apart", apart[0] === "" ? /never more|cannot be compared/.test(apart[1]) : apart[1].includes(parseFloat(apart[0]).toFixed(2)), apart);
+  const said = await page.get(`(() => { const app = Plumb.app, { tracks } = app.data, kept = tracks.vgicp, says = (t, change) => {
+      const some = [...kept.t.keys()].filter((i) => kept.t[i] >= t), cut = (a) => Float64Array.from(some, (i) => a[i]);
+      tracks.one = { ...kept, t: cut(kept.t), e: cut(kept.e), lost: cut(kept.lost).fill(change), p: kept.p.map(cut), q: kept.q.map(cut) };
+      return app.beside.firstApart("vgicp", "one"); };
+    const all = [says(1e9, 0), says(kept.t[0], 1), says(kept.t[0], 0)];
+    delete tracks.one;
+    return all; })()`);
+  equal("without a pose of one method nothing is compared", [said[0].t, said[0].text], [null, "vgicp and one cannot be compared: one gives no single pose."]);
+  check("which of the two is lost is said", said[1].t !== null && said[1].text.includes("one says that it is LOST and vgicp does not"), said[1]);
+  check("what is the same is never apart", said[2].t === null && said[2].text.includes("never more"), said[2]);
+  equal("the list offers other methods alone", await page.get("[...document.getElementById('beside').options].map((o) => o.value).includes(Plumb.app.m)"), false);
   const frames = (await page.send("Page.getFrameTree", {})).frameTree.childFrames || [];
   equal("frames beside it", frames.length, 1);
   const { executionContextId } = await page.send("Page.createIsolatedWorld", { frameId: frames[0].frame.id });
@@ -288,6 +299,18 @@ async function beside(browser) {
   }
   equal("the frame shows the same time, its picture alone, and the other method", seen, ["3.500", "embed", "s_graph_localization"]);
   equal("requests", new Set(page.requests.map((r) => r.replace(/[?#].*/, ""))).size, 1);
+  await page.get("Plumb.app.choose('s_graph_localization')");
+  equal("no method stands beside itself", await page.get("[Plumb.app.beside.name, document.getElementById('beside').value]"), ["", ""]);
+  await page.get("Plumb.app.beside.open(null, '../' + encodeURIComponent(decodeURIComponent(location.pathname).split('/').at(-2)) + '/replay.html', true)");
+  await page.until("Plumb.app.beside.ready && Plumb.app.beside.run", 120);
+  await page.get("Plumb.app.update()");
+  const of = name + ", seed " + results.seed;
+  check("the other run is named in the list and above the picture", await page.get(`document.getElementById('beside').selectedOptions[0].textContent === ${JSON.stringify("run " + of)}
+    && document.getElementById('caption').textContent.startsWith(${JSON.stringify(of + ": ")})`), await page.get("[document.getElementById('beside').selectedOptions[0].textContent, document.getElementById('caption').textContent]"));
+  const other = (await page.send("Page.getFrameTree", {})).frameTree.childFrames[0].frame.id, world = await page.send("Page.createIsolatedWorld", { frameId: other });
+  const above = async () => (await page.send("Runtime.evaluate", { expression: "document.getElementById('caption').textContent", contextId: world.executionContextId, returnByValue: true })).result.value;
+  for (let k = 0; k < 200 && !(await above()).startsWith(of); ++k) await new Promise((done) => setTimeout(done, 50));
+  check("and above the other picture", (await above()).startsWith(of), await above());
   equal("a page of elsewhere is no run", await page.get("Plumb.app.beside.open(null, 'https://example.org/replay.html', true) || Plumb.app.beside.name"), "");
   equal("errors on the console", page.errors, []);
 }

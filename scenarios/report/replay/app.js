@@ -215,6 +215,7 @@ Plumb.App = class {
 
   choose(name) {
     this.m = name;
+    this.beside.chosen();
     this.line2.method = name;
     this.line2.layout();
     for (const box of document.querySelectorAll("input[name=method]")) box.checked = box.value === name;
@@ -382,7 +383,7 @@ Plumb.App = class {
     }
     const text = parts.join(" · ");
     if (this.status.textContent !== text) this.status.textContent = text;
-    this.caption.textContent = this.m + (moment.poses[this.m] ? ": " + Plumb.offText(moment.poses[this.m]) : "") + (moment.state ? ", " + Plumb.data.states[moment.state.state] : "");
+    this.caption.textContent = this.beside.title() + this.m + (moment.poses[this.m] ? ": " + Plumb.offText(moment.poses[this.m]) : "") + (moment.state ? ", " + Plumb.data.states[moment.state.state] : "");
     this.writeLegend();
     this.writeSelection(moment);
     this.writeWrong(moment);

@@ -14,6 +14,7 @@ Object.assign(Plumb.App.prototype, {
       for (const box of document.querySelectorAll("input[name=method]")) box.checked = box.value === this.m;
     }
     this.line2.method = this.m;
+    this.beside.chosen();
     if (["height", "ring", "residual", "element"].includes(link.get("c"))) document.getElementById("colouring").value = this.colouring = link.get("c");
     if (["truth", "method"].includes(link.get("pose"))) document.getElementById("pose").value = this.at = link.get("pose");
     const s = this.data.storeys.findIndex((storey) => storey.name === link.get("s"));

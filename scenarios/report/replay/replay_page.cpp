@@ -62,9 +62,10 @@ std::string words_of(const std::string& failure) {
 }
 
 /// Where a localization first had one answer, first a wrong one, and lost it.
-void add_method_marks(const ReportMethod& method, const Tree* results, Tree& marks) {
+void add_method_marks(const ReportMethod& method, const Tree* results, double start_s, Tree& marks) {
   const Tree* where = results == nullptr ? nullptr : results->find("localization");
-  if (const auto at = number_of(where, "converged_at_s")) marks.push(mark(*at, "converged", "converged", method.name));
+  if (const auto at = number_of(where, "converged_at_s"))
+    marks.push(mark(start_s + *at, "converged", "converged", method.name));
   constexpr double apart_s = 5.0;  // of two marks of a kind: a method at the edge of being wrong would fill the line
   bool was_lost = false, was_wrong = false;
   double last_lost_s = -apart_s, last_wrong_s = -apart_s;
@@ -86,7 +87,7 @@ Tree marks_of(const FinishedRun& run, const score::RunScore& score, const Report
   Tree marks = Tree::list();
   for (const PlotMark& common : common_marks(input)) marks.push(mark(common.t_s, common.label, "run"));
   for (const ReportMethod& method : input.methods)
-    if (!is_truth(method)) add_method_marks(method, results_of(input, method.name), marks);
+    if (!is_truth(method)) add_method_marks(method, results_of(input, method.name), start_s(input), marks);
   for (const score::GateResult& gate : score.gates)
     if (const auto at = gate.passed ? std::nullopt : score::telling_moment(run, score, gate.method))
       marks.push(mark(*at, "gate failed: " + gate.metric, "gate", gate.method));

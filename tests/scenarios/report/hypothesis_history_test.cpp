@@ -50,7 +50,7 @@ TEST(Tracks, FollowEachPlaceAlongTheWalk) {
     // Whichever comes first, as methods list them by mass.
     return i % 2 == 0 ? std::vector{here, there} : std::vector{there, here};
   });
-  const std::vector<HypothesisHistory> histories = hypothesis_histories(beliefs, truth, 6);
+  const std::vector<HypothesisHistory> histories = hypothesis_histories(beliefs, truth, 6).shown;
   ASSERT_EQ(histories.size(), 2U);
   EXPECT_TRUE(histories[0].is_true);
   EXPECT_FALSE(histories[1].is_true);
@@ -69,10 +69,26 @@ TEST(Tracks, KeepTheTruePlaceAndThoseThatWereBelievedMost) {
     hypotheses.push_back(hypothesis(0.1, X_WR));
     return hypotheses;
   });
-  const std::vector<HypothesisHistory> histories = hypothesis_histories(beliefs, truth, 2);
+  const std::vector<HypothesisHistory> histories = hypothesis_histories(beliefs, truth, 2).shown;
   ASSERT_EQ(histories.size(), 2U);
   EXPECT_TRUE(histories[0].is_true);
   EXPECT_EQ(histories[1].points.front().y(), 0.4);
+}
+
+TEST(Tracks, KeepWhatIsBelievedLongAndSumUpTheRest) {
+  // At each scan another hypothesis has 60 % for once; one keeps 30 % to the end.
+  const score::Truth truth = walk(20);
+  const std::vector<BeliefRecord> beliefs = believed(truth, [](std::size_t i, const Pose& X_WR) {
+    const double y = 10.0 + 2.0 * static_cast<double>(i);
+    return std::vector{hypothesis(0.6, Pose::from_xyz_yaw({0, y, 0}, 0.0) * X_WR),
+                       hypothesis(0.3, Pose::from_xyz_yaw({0, 5.0, 0}, 0.0) * X_WR, "hall")};
+  });
+  const HypothesisHistories histories = hypothesis_histories(beliefs, truth, 2);
+  ASSERT_EQ(histories.shown.size(), 2U);
+  EXPECT_EQ(histories.shown[0].room, "hall");
+  EXPECT_EQ(histories.left_out, 19U);
+  ASSERT_EQ(histories.others.size(), 19U);  // the first that has 60 % is shown
+  for (const Eigen::Vector2d& p : histories.others) EXPECT_DOUBLE_EQ(p.y(), 0.6);
 }
 
 TEST(Tracks, TurnTrueAndFalseWithTheHypothesis) {
@@ -82,7 +98,7 @@ TEST(Tracks, TurnTrueAndFalseWithTheHypothesis) {
     const double off = i < 50 ? 0.0 : 0.05 * static_cast<double>(i - 50);
     return std::vector{hypothesis(1.0, Pose::from_xyz_yaw({0.0, off, 0.0}, 0.0) * X_WR, "hall")};
   });
-  const std::vector<HypothesisHistory> histories = hypothesis_histories(beliefs, truth, 6);
+  const std::vector<HypothesisHistory> histories = hypothesis_histories(beliefs, truth, 6).shown;
   ASSERT_EQ(histories.size(), 2U);
   EXPECT_TRUE(histories[0].is_true);
   EXPECT_FALSE(histories[1].is_true);
@@ -98,7 +114,7 @@ TEST(Tracks, ALevelLineNeedsFewPointsAndLeavesNoGap) {
   for (int i = 0; i < 100; ++i)
     beliefs.push_back(
         {i * scan_ns, slam::State::converged, {{1.0, truth.at(i * scan_ns), Eigen::Matrix3d::Zero(), ""}}, {}});
-  const std::vector<Eigen::Vector2d> points = hypothesis_histories(beliefs, truth, 1).front().points;
+  const std::vector<Eigen::Vector2d> points = hypothesis_histories(beliefs, truth, 1).shown.front().points;
   EXPECT_LT(points.size(), 30U);
   EXPECT_EQ(points.back().x(), 9.9);
   for (std::size_t i = 1; i < points.size(); ++i) EXPECT_LT(points[i].x() - points[i - 1].x(), 1.0);

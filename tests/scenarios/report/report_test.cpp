@@ -216,6 +216,26 @@ TEST(Report, NamesTheTruePoseOnceHoweverOftenItIsLost) {
   EXPECT_LT(again, other);
 }
 
+TEST(Report, CountsFromTheFirstScanAndMarksOnTheRunsClock) {
+  ReportInput input = localized();
+  for (ReportSample& s : input.truth) s.t_s += 0.5;
+  input.results.set("identifiability", Tree::map().set("at_s", 3.0).set("at_m", 1.0).set("places", Tree::list()));
+  const std::string page = render_report(input);
+  EXPECT_NE(page.find("title=\"converged, 6.5 s\""), std::string::npos);
+  EXPECT_NE(page.find("title=\"identifiable from here on, 3.5 s\""), std::string::npos);
+  EXPECT_NE(page.find("Converged on the right pose after 6 s"), std::string::npos);
+}
+
+TEST(Report, SaysHowManyHypothesesHaveNoLineOfTheirOwn) {
+  ReportInput input = localized();
+  EXPECT_EQ(render_report(input).find("all others together"), std::string::npos);
+  input.methods.front().other_hypotheses = {{0.0, 0.1}, {0.5, 0.2}};
+  input.methods.front().hypotheses_left_out = 17;
+  const std::string page = render_report(input);
+  EXPECT_NE(page.find("</i>all others together <b"), std::string::npos);
+  EXPECT_NE(page.find("the other 17 are one grey line together"), std::string::npos);
+}
+
 TEST(Report, SaysWhenARightPoseWasLost) {
   ReportInput input = localized();
   Tree where = Tree::map();

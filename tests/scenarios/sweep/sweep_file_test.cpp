@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <set>
 
 #include "scenarios/sweep/sweep_schema.h"
@@ -48,6 +49,19 @@ TEST_F(SweepFiles, ExamplesGiveEveryCombinationOnce) {
   EXPECT_EQ(keys.size(), first.runs.size());
   EXPECT_EQ(digests.size(), first.runs.size());
   EXPECT_EQ(read(sweep_examples()[1]).runs.size(), 3U * 5U);
+}
+
+TEST_F(SweepFiles, AreReadFromTheCurrentFolder) {
+  fs::copy(folder_ / "library", folder_ / "here");
+  std::ofstream(folder_ / "here/sweep.yaml") << "sweep: 1\nscenarios: [quickstart.yaml]\nseeds: 1\n";
+  const Sweep whole = read_sweep(folder_ / "here/sweep.yaml", 0);
+  const fs::path before = fs::current_path();
+  fs::current_path(folder_ / "here");
+  std::optional<Sweep> named;
+  EXPECT_NO_THROW(named = read_sweep("sweep.yaml", 0));
+  fs::current_path(before);
+  ASSERT_TRUE(named);
+  EXPECT_EQ(named->scenario_texts, whole.scenario_texts);
 }
 
 TEST_F(SweepFiles, FewerSeedsAreTheFirstOfMore) {

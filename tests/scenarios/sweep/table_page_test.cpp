@@ -30,16 +30,17 @@ TEST(SweepPage, PutsTheWorstRunFirst) {
   std::string order;
   for (const SweepRow* one : worst_first(rows)) order += one->seed;
   EXPECT_EQ(order, "543261");
-  const std::string page = table_html({"n", "my sweep.yaml", {}}, rows, cells_of(rows));
+  const std::string page = table_html({"n", "my sweep.yaml", {}, 3}, rows, cells_of(rows));
   EXPECT_NE(page.find("a&lt;b, seed 5: <b>finder</b>"), std::string::npos);
-  EXPECT_NE(page.find("<code>plumbline sweep 'my sweep.yaml' --page a_b-5</code>"), std::string::npos)
+  EXPECT_NE(page.find("<code class=\"command\">plumbline sweep 'my sweep.yaml' --seeds 3 --page a_b-5</code>"),
+            std::string::npos)
       << page.substr(page.find("The worst run"), 600);
   EXPECT_EQ(page.find("a<b"), std::string::npos);
 }
 
 TEST(SweepPage, LinksARunWhosePageIsThere) {
   const std::vector<SweepRow> rows = {row("1", "success", 0.01), row("2", "late", 0.02)};
-  const std::string page = table_html({"n", "s.yaml", {"a_b-2"}}, rows, cells_of(rows));
+  const std::string page = table_html({"n", "s.yaml", {"a_b-2"}, 0}, rows, cells_of(rows));
   EXPECT_GE(count(page, "<a href=\"pages/a_b-2/report.html\">"), 1U);
   EXPECT_EQ(count(page, "pages/a_b-1/"), 0U);
   EXPECT_EQ(count(page, "data-copy=\"plumbline sweep s.yaml --page a_b-1\""), 1U);
@@ -48,12 +49,12 @@ TEST(SweepPage, LinksARunWhosePageIsThere) {
 TEST(SweepPage, ShowsTheSpreadAsDotsOrAsAHistogram) {
   std::vector<SweepRow> rows;
   for (int i = 0; i < 50; ++i) rows.push_back(row(std::to_string(i), i < 3 ? "late" : "success", 0.01 + 0.001 * i));
-  const std::string few = table_html({"n", "s.yaml", {}}, rows, cells_of(rows));
+  const std::string few = table_html({"n", "s.yaml", {}, 0}, rows, cells_of(rows));
   EXPECT_EQ(count(few, "<circle "), 50U);
   EXPECT_EQ(count(few, "fill=\"var(--wrong)\""), 3U);
   EXPECT_NE(few.find("<title>seed 4: success, 1.4 cm</title>"), std::string::npos);
   for (int i = 50; i < 1500; ++i) rows.push_back(row(std::to_string(i), "success", 0.02));
-  const std::string many = table_html({"n", "s.yaml", {}}, rows, cells_of(rows));
+  const std::string many = table_html({"n", "s.yaml", {}, 0}, rows, cells_of(rows));
   EXPECT_EQ(count(many, "<circle "), 0U);
   EXPECT_NE(many.find("runs</title></rect>"), std::string::npos);
   EXPECT_NE(many.find("The worst 1000 of 1500"), std::string::npos);
