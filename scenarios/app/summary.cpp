@@ -56,7 +56,7 @@ std::string summarise(const FinishedRun& run, const score::RunScore& score) {
                 printable(run.scenario.name).c_str(), static_cast<unsigned long long>(run.scenario.seed),
                 score.distance_m, score.duration_s, score.digest.c_str());
   std::string text = head;
-  text += "walk: " + printable(walk_sentence(run.walk)) + "\n";
+  text += "planned walk: " + printable(walk_sentence(run.walk)) + "\n";
   for (const std::string& warning : score::warnings_of_walk(run)) text += "warning: " + printable(warning) + "\n";
   if (!run.record.failure.empty()) text += "the scenario failed: " + printable(run.record.failure) + "\n";
   std::size_t width = 22;
@@ -87,7 +87,7 @@ std::string next_steps(const std::string& dir, const FinishedRun& run, const sco
   double at_s = score.duration_s;
   std::string link;
   if (run.record.failure.empty() && failed != score.gates.end()) {
-    at_s = score::telling_moment(run, score, failed->method).value_or(at_s);
+    at_s = score::telling_moment(run, score, *failed).value_or(at_s);
     link = failed->see;
   }
   if (link.empty()) link = "#t=" + format_number(score::rounded_up(at_s, 10.0));

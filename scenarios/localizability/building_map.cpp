@@ -238,7 +238,7 @@ void set_answers(const bim::Building& plan, const BuildingMap& map, Tree& tree) 
 }
 
 std::string table_of(const RunBuilding& building, const BuildingMap& map) {
-  std::string text = "storey                 heading   places  one look      walk (median, longest)   never\n";
+  std::string text = "storey                 heading   places  one scan      walk (median, longest)   never\n";
   for (std::size_t f = 0; f < map.floors.size(); ++f)
     for (const bool compass : {false, true}) {
       if (!compass && map.options.compass_only) continue;
@@ -271,7 +271,8 @@ Tree localizability_json(const RunBuilding& building, const BuildingMaps& maps) 
 std::string localizability_text(const RunBuilding& building, const BuildingMaps& maps) {
   std::string text = "a place every " + format_number(maps.building.options.step_m) + " m\nBy the building alone:\n" +
                      table_of(building, maps.building);
-  if (!maps.with_furniture) return text + "Nothing in the plan may have moved.\n";
+  if (!maps.with_furniture)
+    return text + "The plan has no furniture or other object that may have moved; the answer is the same with it.\n";
   return text + "With the furniture as planned:\n" + table_of(building, *maps.with_furniture);
 }
 

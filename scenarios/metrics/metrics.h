@@ -70,7 +70,7 @@ struct GateResult {
   std::string op;  ///< "<=" or ">="
   double limit = 0.0;
   std::optional<double> value;  ///< absent when the metric is
-  std::string but;              ///< why it fails whatever the value is; empty where only the value decides
+  std::string but;              ///< why it fails whatever the value is, or has none; empty where the value decides
   bool passed = false;
   std::string see = {};  ///< of a failed one: "#t=34.1&m=vgicp", where the replay page shows why
 };
@@ -85,6 +85,8 @@ struct GateResult {
 [[nodiscard]] Tree to_results(const GateResult& gate);
 /// "ate_aligned_rmse_m of vgicp is 0.3, must be <= 0.25"
 [[nodiscard]] std::string describe(const GateResult& gate);
+/// A gate's value with four significant digits, or as many as show on which side of the limit it is.
+[[nodiscard]] std::string gate_value(double value, double limit);
 
 /// JUnit XML: one suite a run, a case that the walk was done (`failure`: why it was not), one a gate, and one a method
 /// that it did not crash.

@@ -11,6 +11,11 @@ namespace plumbline::scenarios {
 /// Names of slam::State in files and reports, in the order of its values.
 inline constexpr std::array<std::string_view, 4> state_names = {"SEARCHING", "AMBIGUOUS", "CONVERGED", "LOST"};
 
+/// What they say, in the same order.
+inline constexpr std::array<std::string_view, 4> state_meanings = {"no pose stands out yet", "a few poses are left",
+                                                                   "one pose is left; this is its answer",
+                                                                   "the answer was withdrawn"};
+
 [[nodiscard]] constexpr std::string_view state_name(slam::State state) {
   return state_names[static_cast<std::size_t>(state)];
 }

@@ -15,14 +15,9 @@ namespace plumbline::scenarios {
 
 namespace {
 
-struct StateStyle {
-  std::string_view colour, meaning;
-};
 /// By slam::State.
-constexpr std::array<StateStyle, 4> state_styles = {{{"var(--searching)", "no pose is likely yet"},
-                                                     {"var(--ambiguous)", "several hypotheses are left"},
-                                                     {"var(--converged)", "it gives one answer"},
-                                                     {"var(--lost)", "it withdrew its answer"}}};
+constexpr std::array<std::string_view, 4> state_colours = {"var(--searching)", "var(--ambiguous)", "var(--converged)",
+                                                           "var(--lost)"};
 
 constexpr std::string_view right_colour = "var(--right)", wrong_colour = "var(--wrong)";
 // Of places that are not the true one, apart from the colours of states and of right and wrong.
@@ -35,7 +30,7 @@ std::vector<PlotBand> state_bands(const std::vector<ReportState>& states, double
     const std::string name(state_name(state.state));
     if (!bands.empty() && bands.back().label == name) continue;
     if (!bands.empty()) bands.back().to_s = state.t_s;
-    const std::string_view colour = state_styles[static_cast<std::size_t>(state.state)].colour;
+    const std::string_view colour = state_colours[static_cast<std::size_t>(state.state)];
     bands.push_back({state.t_s, end_s, name, std::string(colour)});
   }
   return bands;
@@ -47,8 +42,8 @@ std::string swatch(std::string_view colour, const std::string& label) {
 
 std::string state_key() {
   std::string out = "<div class=\"key\">";
-  for (std::size_t i = 0; i < state_styles.size(); ++i)
-    out += swatch(state_styles[i].colour, std::string(state_names[i]) + ": " + std::string(state_styles[i].meaning));
+  for (std::size_t i = 0; i < state_colours.size(); ++i)
+    out += swatch(state_colours[i], std::string(state_names[i]) + ": " + std::string(state_meanings[i]));
   return out + "</div>";
 }
 

@@ -12,10 +12,38 @@
 
 namespace plumbline::scenarios {
 
+namespace {
+
+/// Words of pages that are neither verdicts nor metrics, and keys of results.json that no gate can ask for.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 4> terms = {
+    {{"consistent poses", "poses at which the plan explains all scans so far, the true one among them"},
+     {"marginally identifiable",
+      "the scans favour the true pose over every other, but not enough to exclude all of them; this is the evidence "
+      "`weak`"},
+     {"localization.state", "state at the end of the run"},
+     {"localization.with_furniture.*",
+      "`identifiable`, `evidence` and the rest as above, with the furniture as planned in the plan"}}};
+
+/// Text of the documents on a page: what stands in backticks as code.
+std::string marked_up(std::string_view doc) {
+  std::string out;
+  bool code = false;
+  while (!doc.empty()) {
+    const std::size_t end = doc.find('`');
+    const std::string_view part = doc.substr(0, end);
+    out += code ? "<code>" + svg::breakable(part) + "</code>" : svg::escape(part);
+    doc.remove_prefix(end == std::string_view::npos ? doc.size() : end + 1);
+    code = !code;
+  }
+  return out;
+}
+
+}  // namespace
+
 std::string glossary() {
   const auto row = [](std::string_view name, std::string_view unit, std::string_view doc) {
-    return "<tr><td><code>" + svg::escape(name) + "</code></td><td data-head=\"unit\">" + svg::escape(unit) +
-           "</td><td class=\"plain\">" + svg::escape(doc) + "</td></tr>";
+    return "<tr><td><code>" + svg::breakable(name) + "</code></td><td data-head=\"unit\">" + svg::escape(unit) +
+           "</td><td class=\"plain\">" + marked_up(doc) + "</td></tr>";
   };
   std::string out =
       "<details class=\"card\"><summary>Glossary: verdicts, states, metrics</summary><div class=\"scroll\"><table "
@@ -27,13 +55,15 @@ std::string glossary() {
     out += row(word.word, "", word.doc);
   }
   out += "<tr><th colspan=\"3\">state of a localization</th></tr>";
-  constexpr std::array<std::string_view, 4> meanings = {"no pose stands out yet", "a few poses are left",
-                                                        "one pose is left; this is its answer",
-                                                        "the answer was withdrawn"};
-  for (std::size_t i = 0; i < state_names.size(); ++i) out += row(state_names[i], "", meanings[i]);
+  for (std::size_t i = 0; i < state_names.size(); ++i) out += row(state_names[i], "", state_meanings[i]);
+  out += "<tr><th colspan=\"3\">other words</th></tr>";
+  for (const auto& [name, doc] : terms) out += row(name, "", doc);
   out += "<tr><th>metric</th><th>unit</th><th></th></tr>";
   for (const score::MetricRow& metric : score::metrics()) out += row(metric.name, metric.unit, metric.doc);
-  return out + "</table></div></details>\n";
+  return out +
+         "</table></div><p class=\"facts\">[hoover1996]: A. Hoover et al., An Experimental Comparison of Range Image "
+         "Segmentation Algorithms, IEEE Transactions on Pattern Analysis and Machine Intelligence 18(7), 1996, "
+         "673–689.</p></details>\n";
 }
 
 }  // namespace plumbline::scenarios

@@ -151,7 +151,9 @@ std::string localizability_page(const RunBuilding& building, const std::string& 
   if (maps.with_furniture)
     page += answer("With the furniture as planned", building, *maps.with_furniture);
   else
-    page += "<p class=\"facts\">Nothing in the plan may have moved.</p>\n";
+    page +=
+        "<p class=\"facts\">The plan has no furniture or other object that may have moved; the answer is the same with "
+        "it.</p>\n";
   return page +
          "<p class=\"facts\">Two places are aliased where a levelled LiDAR of 8 x 360 beams measures the same at both, "
          "within noise. A walk resolves a place when no aliased pose explains the scans at all its "

@@ -71,9 +71,16 @@ std::string place_sentence(const std::string& verdict, const Tree* where) {
   const auto time = number_of(where, "converged_at_s");
   const auto error = number_of(where, "ape_rmse_m");
   const auto places = number_of(where, "hypotheses");
+  const bool is_marginal =
+      where != nullptr && text_of(*where, "evidence") == score::to_string(score::Evidence::marginal);
   if (verdict == "honest_ambiguity" && places)
-    return "Kept " + svg::number(*places, 0) + " hypotheses, rightly: the scans do not distinguish them.";
-  if (verdict == "overconfident") return "Converged on one pose though several explain the scans.";
+    return "Kept " + svg::number(*places, 0) + " hypotheses, rightly: " +
+           (is_marginal ? "the scans favour one only marginally, which is not enough for an answer."
+                        : "the scans do not distinguish them.");
+  if (verdict == "overconfident")
+    return std::string("Converged on one pose though ") +
+           (is_marginal ? "the scans favour it only marginally" : "several explain the scans") + why_it_failed(where) +
+           ".";
   if (!time) return "Never converged on one pose in the building" + why_it_failed(where) + ".";
   if (verdict == "lucky") return "Converged on the right pose before the scans distinguished it from others.";
   const std::string failure = text_of(*where, "failure");
@@ -172,6 +179,17 @@ GateCount gates_of(const ReportInput& input, const std::string& method) {
     if (gate.find("passed")->as_bool()) ++count.passed;
   }
   return count;
+}
+
+std::vector<std::string> unjudged(const ReportInput& input) {
+  std::vector<std::string> texts;
+  for (const ReportMethod& method : input.methods) {
+    const Tree* results = is_truth(method) ? nullptr : results_of(input, method.name);
+    const std::string verdict = results == nullptr ? "" : text_of(*results, "verdict");
+    if (results != nullptr && gates_of(input, method.name).all == 0 && judged(input, method.name, verdict) == "bad")
+      texts.push_back(method.name + ": " + verdict + ", not judged");
+  }
+  return texts;
 }
 
 std::string method_cards(const ReportInput& input) {

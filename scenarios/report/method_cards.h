@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 #include "scenarios/report/report.h"
 
@@ -14,6 +15,9 @@ struct GateCount {
 
 /// Of one method, or of all where `method` is empty.
 [[nodiscard]] GateCount gates_of(const ReportInput& input, const std::string& method);
+
+/// Methods that no gate judges and whose verdict is not a good one: "amcl: overconfident, not judged".
+[[nodiscard]] std::vector<std::string> unjudged(const ReportInput& input);
 
 /// What each method did, in a sentence or two, its verdict and gates, and what it says at the time shown.
 [[nodiscard]] std::string method_cards(const ReportInput& input);

@@ -2,12 +2,11 @@
 #include "scenarios/report/report.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <utility>
 
 #include "bim/config/tree.h"
+#include "scenarios/metrics/metrics.h"
 #include "scenarios/report/belief.h"
 #include "scenarios/report/error_plots.h"
 #include "scenarios/report/glossary.h"
@@ -37,15 +36,50 @@ std::string told_text(const ReportInput& input) {
   std::string world = text_of(*told, "world_furniture");
   std::replace(world.begin(), world.end(), '_', ' ');
   const bool none = text_of(*told, "plan_furniture") == "none";
-  return " · furniture in the methods' plan: " + std::string(none ? "none" : "as planned") +
-         ", as built: " + svg::escape(world);
+  return " · the methods' plan " + std::string(none ? "has no furniture" : "has the furniture as planned") +
+         "; furniture as built: " + svg::escape(world);
+}
+
+double limit_of(const Tree& gate) { return number_of(&gate, "limit").value_or(0.0); }
+
+std::string value_text(const Tree& gate) {
+  const auto value = number_of(&gate, "value");
+  return value ? score::gate_value(*value, limit_of(gate)) : "absent";
+}
+
+std::string limit_text(const Tree& gate) {
+  return svg::escape(text_of(gate, "op")) + " " + format_number(limit_of(gate));
+}
+
+/// A text about a gate, as a link to the replay page at the moment at which its method failed, where there is one.
+std::string linked(const Tree& gate, const std::string& text) {
+  const std::string see = text_of(gate, "see");
+  return see.empty() ? svg::escape(text) : "<a href=\"" + svg::escape(see) + "\">" + svg::escape(text) + "</a>";
+}
+
+/// What failed and by how much, where it is seen first.
+std::string failed_gates(const ReportInput& input) {
+  constexpr std::size_t most = 6;
+  std::string out;
+  std::size_t failed = 0;
+  const Tree* gates = input.results.find("gates");
+  for (const Tree& gate : gates == nullptr ? Tree::List() : gates->as_list()) {
+    if (gate.find("passed")->as_bool() || ++failed > most) continue;
+    const std::string reason = text_of(gate, "reason");
+    out += "<li>" + linked(gate, text_of(gate, "metric") + " of " + text_of(gate, "method")) + ": " + value_text(gate) +
+           ", must be " + limit_text(gate) + (reason.empty() ? "" : "; " + svg::escape(reason)) + "</li>";
+  }
+  if (failed > most) out += "<li>and " + std::to_string(failed - most) + " more, under Gates</li>";
+  return failed == 0 ? "" : "<ul class=\"failed\" aria-label=\"gates that failed\">" + out + "</ul>";
 }
 
 std::string header(const ReportInput& input) {
   const GateCount gates = gates_of(input, "");
   const std::size_t count = gates.all, failed = gates.all - gates.passed;
   std::string badge = "<span class=\"badge\">no gates</span>";
-  if (count > 0 && failed == 0) badge = "<span class=\"badge good\">PASS</span>";
+  if (count > 0 && failed == 0)
+    badge = "<span class=\"badge good\">PASS</span> <span>" + std::to_string(count) +
+            (count == 1 ? " gate</span>" : " gates</span>");
   if (failed > 0)
     badge = "<span class=\"badge bad\">FAIL</span> <span>" + std::to_string(failed) + " of " + std::to_string(count) +
             (count == 1 ? " gate failed</span>" : " gates failed</span>");
@@ -53,26 +87,15 @@ std::string header(const ReportInput& input) {
   if (const Tree* failure = input.results.find("failure"))
     badge +=
         " <span class=\"badge bad\">the scenario failed</span> <span>" + svg::escape(failure->as_string()) + "</span>";
+  for (const std::string& text : unjudged(input))
+    badge += " <span class=\"badge bad\">" + svg::escape(text) + "</span>";
   std::string facts = "seed " + svg::escape(text_of(input.results, "seed"));
   if (const auto d = number_of(results, "duration_s")) facts += " · " + svg::number(*d, 1) + " s";
   if (const auto d = number_of(results, "distance_m")) facts += " · " + svg::number(*d, 1) + " m walked";
   facts += told_text(input);
   return "<header><h1>" + svg::escape(text_of(input.results, "scenario")) + "</h1>" + badge + "<span class=\"facts\">" +
          facts + "</span>" + (input.has_replay ? "<a href=\"replay.html\">replay in three dimensions</a>" : "") +
-         "</header>";
-}
-
-/// Four digits, however small the value is.
-std::string few_digits(double value) {
-  std::array<char, 32> text{};
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 4).ptr;
-  return {text.data(), end};
-}
-
-/// A link to the replay page at the moment at which the gate's method failed.
-std::string look(const Tree& gate) {
-  const std::string see = text_of(gate, "see");
-  return see.empty() ? "" : " <a href=\"" + svg::escape(see) + "\">look</a>";
+         "</header>" + failed_gates(input);
 }
 
 std::string gates_table(const ReportInput& input) {
@@ -84,12 +107,10 @@ std::string gates_table(const ReportInput& input) {
       "<th class=\"num\">value</th><th class=\"num\">limit</th><th></th></tr>";
   for (const Tree& gate : gates->as_list()) {
     const bool passed = gate.find("passed")->as_bool();
-    const auto value = number_of(&gate, "value");
-    out += "<tr><td>" + svg::escape(text_of(gate, "metric")) + "</td><td data-head=\"method\">" +
-           svg::escape(text_of(gate, "method")) + "</td><td class=\"num\" data-head=\"value\">" +
-           (value ? few_digits(*value) : "absent") + "</td><td class=\"num\" data-head=\"limit\">" +
-           svg::escape(text_of(gate, "op")) + " " + format_number(number_of(&gate, "limit").value_or(0.0)) +
-           "</td><td class=\"verdict " + (passed ? "good\">passed" : "bad\">failed") + look(gate) + "</td></tr>";
+    out += "<tr><td>" + linked(gate, text_of(gate, "metric")) + "</td><td data-head=\"method\">" +
+           svg::escape(text_of(gate, "method")) + "</td><td class=\"num\" data-head=\"value\">" + value_text(gate) +
+           "</td><td class=\"num\" data-head=\"limit\">" + limit_text(gate) + "</td><td class=\"verdict " +
+           (passed ? "good\">passed" : "bad\">failed") + "</td></tr>";
   }
   return out + "</table></div></section>";
 }
@@ -123,7 +144,7 @@ std::string numbers_table(const ReportInput& input) {
   for (const auto& method : input.methods) out += "<th class=\"num\">" + svg::escape(method.name) + "</th>";
   out += "</tr>";
   for (const std::string& key : keys) {
-    out += "<tr><td>" + svg::escape(key) + "</td>";
+    out += "<tr><td>" + svg::breakable(key) + "</td>";
     for (std::size_t i = 0; i < columns.size(); ++i) {
       const auto& column = columns[i];
       const auto it = std::find_if(column.begin(), column.end(), [&](const auto& row) { return row.first == key; });

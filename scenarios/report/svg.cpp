@@ -46,6 +46,15 @@ std::string escape(std::string_view text) {
   return out;
 }
 
+std::string breakable(std::string_view name) {
+  std::string out;
+  for (const char c : escape(name)) {
+    out += c;
+    if (c == '.' || c == '_') out += "<wbr>";
+  }
+  return out;
+}
+
 std::string points(const std::vector<Eigen::Vector2d>& p, int decimals) {
   std::string out;
   for (const auto& v : p) {

@@ -14,6 +14,8 @@ namespace plumbline::scenarios::svg {
 [[nodiscard]] std::string number(double value, int decimals = 3);
 /// Text safe inside HTML and attributes.
 [[nodiscard]] std::string escape(std::string_view text);
+/// A name of code, escaped, that a browser may break after its dots and underscores.
+[[nodiscard]] std::string breakable(std::string_view name);
 /// "x,y x,y ..." with y pointing up on the page.
 [[nodiscard]] std::string points(const std::vector<Eigen::Vector2d>& p, int decimals = 3);
 [[nodiscard]] std::string polyline(const std::vector<Eigen::Vector2d>& p, const std::string& attributes);

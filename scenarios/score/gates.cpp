@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
+#include <charconv>
+#include <limits>
 #include <utility>
 
 #include "scenarios/metrics/metrics.h"
@@ -58,6 +61,8 @@ std::vector<GateResult> judge_gates(const std::vector<GateSpec>& gates, const st
             : score->verdict == "crashed"                        ? "the method crashed"
             : score->verdict == "lost" && !metric.also_when_lost ? "the method was lost"
                                                                  : "";
+      const bool never_answered = score->localization && gate.metric.rfind("localization.", 0) == 0;
+      if (!value && but.empty() && !never_answered) but = gate.method + " has no such metric";
     }
     results.push_back(judge_gate(gate, gate.method, value, std::move(but)));
   }
@@ -69,6 +74,7 @@ Tree to_results(const GateResult& gate) {
   tree.set("metric", gate.metric).set("method", gate.method).set("op", gate.op).set("limit", gate.limit);
   if (gate.value) tree.set("value", *gate.value);
   tree.set("passed", gate.passed);
+  if (!gate.but.empty()) tree.set("reason", gate.but);
   if (!gate.see.empty()) tree.set("see", "replay.html" + gate.see);
   return tree;
 }
@@ -76,8 +82,20 @@ Tree to_results(const GateResult& gate) {
 std::string describe(const GateResult& gate) {
   const std::string what = gate.metric + " of " + gate.method;
   const std::string must = ", must be " + gate.op + " " + format_number(gate.limit);
-  return what + (gate.value ? " is " + format_number(*gate.value) : " is absent") + must +
-         (gate.but.empty() ? "" : ", but " + gate.but);
+  return what + (gate.value ? " is " + gate_value(*gate.value, gate.limit) : " is absent") + must +
+         (gate.but.empty() ? "" : (gate.value ? ", but " : ": ") + gate.but);
+}
+
+std::string gate_value(double value, double limit) {
+  std::array<char, 32> text{};
+  constexpr int all = std::numeric_limits<double>::max_digits10;
+  for (int digits = 4; digits <= all; ++digits) {
+    char* end = std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, digits).ptr;
+    double shown = 0.0;
+    std::from_chars(text.data(), end, shown);
+    if ((shown < limit) == (value < limit) && (shown > limit) == (value > limit)) return {text.data(), end};
+  }
+  return format_number(value);
 }
 
 std::string write_junit(const std::string& suite, const std::vector<GateResult>& gates,

@@ -40,6 +40,20 @@ std::optional<double> first_wrong_answer(const MethodRecord& method, const Truth
   return std::nullopt;
 }
 
+/// Where a method failed or first said that it is lost.
+std::optional<double> failed_at(const MethodRecord& method, const MethodScore& score, const Truth& truth) {
+  const std::optional<LocalizationScore>& where = score.localization;
+  if (where && where->failure_at_s) {
+    // What failed before anything was said shows once something is said.
+    const auto said = first_wrong_answer(method, truth, *where->failure_at_s);
+    return said ? said : where->failure_at_s;
+  }
+  if (!method.lost.empty()) return slam::seconds(method.lost.front().from);
+  for (const BeliefRecord& belief : method.beliefs)
+    if (belief.state == slam::State::lost) return slam::seconds(belief.stamp);
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::string in_link(const std::string& text) {
@@ -61,17 +75,17 @@ std::optional<double> telling_moment(const FinishedRun& run, const RunScore& sco
   const std::vector<MethodRecord>& records = run.record.methods;
   for (std::size_t i = 0; i < records.size(); ++i) {
     if (records[i].name != method) continue;
-    const std::optional<LocalizationScore>& where = score.methods[i].localization;
-    if (where && where->failure_at_s) {
-      // What failed before anything was said shows once something is said.
-      const auto said = first_wrong_answer(records[i], score.truth, *where->failure_at_s);
-      return said ? said : where->failure_at_s;
-    }
-    if (!records[i].lost.empty()) return slam::seconds(records[i].lost.front().from);
-    for (const BeliefRecord& belief : records[i].beliefs)
-      if (belief.state == slam::State::lost) return slam::seconds(belief.stamp);
-    return worst_moment(records[i], score.truth);
+    const std::optional<double> failed = failed_at(records[i], score.methods[i], score.truth);
+    return failed ? failed : worst_moment(records[i], score.truth);
   }
+  return std::nullopt;
+}
+
+std::optional<double> telling_moment(const FinishedRun& run, const RunScore& score, const GateResult& gate) {
+  if (gate.value) return telling_moment(run, score, gate.method);
+  const std::vector<MethodRecord>& records = run.record.methods;
+  for (std::size_t i = 0; i < records.size(); ++i)
+    if (records[i].name == gate.method) return failed_at(records[i], score.methods[i], score.truth);
   return std::nullopt;
 }
 
@@ -80,9 +94,10 @@ double rounded_up(double t_s, double steps) {
   return std::ceil(steps * t_s - noise) / steps;
 }
 
-std::string moment_link(const FinishedRun& run, const RunScore& score, const std::string& method) {
-  const double at_s = telling_moment(run, score, method).value_or(score.duration_s);
-  return "#t=" + format_number(rounded_up(at_s, 10.0)) + "&m=" + in_link(method);
+std::string moment_link(const FinishedRun& run, const RunScore& score, const GateResult& gate) {
+  const std::optional<double> at_s = telling_moment(run, score, gate);
+  if (!at_s && !gate.value) return "";
+  return "#t=" + format_number(rounded_up(at_s.value_or(score.duration_s), 10.0)) + "&m=" + in_link(gate.method);
 }
 
 }  // namespace plumbline::scenarios::score

@@ -14,13 +14,18 @@ namespace plumbline::scenarios::score {
 [[nodiscard]] std::optional<double> telling_moment(const FinishedRun& run, const RunScore& score,
                                                    const std::string& method);
 
+/// When a gate's method is worth a look. Of a metric that is absent the greatest error says nothing: there, where the
+/// method failed or was lost, or nothing.
+[[nodiscard]] std::optional<double> telling_moment(const FinishedRun& run, const RunScore& score,
+                                                   const GateResult& gate);
+
 /// A moment for a link, s, rounded up to 1 / steps: earlier nothing has happened yet.
 [[nodiscard]] double rounded_up(double t_s, double steps);
 
 /// A value of a link: letters, digits, "_", ".", "-" and "/" as they are, the rest as %XX.
 [[nodiscard]] std::string in_link(const std::string& text);
 
-/// "#t=34.1&m=vgicp" of the replay page, at that moment.
-[[nodiscard]] std::string moment_link(const FinishedRun& run, const RunScore& score, const std::string& method);
+/// "#t=34.1&m=vgicp" of the replay page, at that moment; empty where a gate has none because its metric is absent.
+[[nodiscard]] std::string moment_link(const FinishedRun& run, const RunScore& score, const GateResult& gate);
 
 }  // namespace plumbline::scenarios::score

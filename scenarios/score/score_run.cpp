@@ -255,7 +255,7 @@ RunScore score_run(const FinishedRun& run) {
   }
   score.gates = judge_gates(all_gates(run), score.methods, run.record.failure.empty());
   for (GateResult& gate : score.gates)
-    if (!gate.passed) gate.see = moment_link(run, score, gate.method);
+    if (!gate.passed) gate.see = moment_link(run, score, gate);
   return score;
 }
 

@@ -103,7 +103,7 @@ Plumb.App = class {
     const make = Plumb.make, run = this.data.run;
     document.title = run.name + " · replay";
     const failed = run.gates.filter((g) => !g.passed);
-    const badge = run.gates.length === 0 ? ["no gates", ""] : failed.length ? ["FAIL", "bad"] : ["PASS", "good"];
+    const badge = run.gates.length === 0 ? ["no gates", ""] : failed.length ? ["FAIL", "bad"] : ["PASS, " + run.gates.length + (run.gates.length === 1 ? " gate" : " gates"), "good"];
     this.canvas = make("canvas", { id: "view", tabindex: "0", role: "img",
       "aria-label": "The building and the robot at the chosen time. Arrow keys step through the scans; ? lists all keys." });
     this.labels = make("div", { id: "labels", "aria-hidden": "true" });
@@ -116,11 +116,16 @@ Plumb.App = class {
     root.append(
       make("header", {}, make("h1", {}, run.name), make("span", { class: "badge " + badge[1] }, badge[0]),
         make("span", { class: "facts" }, "seed " + run.seed + " · " + this.data.end.toFixed(1) + " s · digest " + run.digest),
+        ...(failed.length ? [make("span", { class: "bad" }, this.gateLink(failed[0]), failed.length > 1 ? ", and " + (failed.length - 1) + " more" : "")] : []),
+        ...run.unjudged.map((text) => make("span", { class: "badge bad" }, text)),
         make("a", { href: "report.html" }, "report")),
       make("main", {}, make("div", { id: "left" }, this.pictures, this.bar(), make("div", { id: "linebox" }, this.line)), this.panel()),
       this.help());
     if (run.failure) root.querySelector("header").append(make("span", { class: "badge bad" }, "the scenario failed: " + run.failure));
   }
+
+  /** What a gate says, as a link to the moment at which its method failed. */
+  gateLink(gate) { return gate.link ? Plumb.make("a", { href: gate.link }, gate.text) : gate.text; }
 
   bar() {
     const make = Plumb.make;
@@ -379,7 +384,8 @@ Plumb.App = class {
     if (!this.off.has("graph") && !this.data.graphs[this.m]) parts.push(this.m + " keeps no situational graph");
     if (moment.scan >= 0) {
       const off = Math.round(1000 * (scans.t[moment.scan] - this.t));
-      parts.push("scan " + (moment.scan + 1) + " of " + scans.count + " kept" + (scans.count < scans.all ? " (of " + scans.all + ")" : "") + (off ? ", " + Math.abs(off) + " ms " + (off < 0 ? "before" : "after") : ""));
+      parts.push("scan " + (moment.scan + 1) + " of the " + scans.count + " on this page" + (scans.count < scans.all ? " (the run has " + scans.all + ")" : "")
+        + (off ? ", taken " + Math.abs(off) + " ms " + (off < 0 ? "before" : "after") + " this time" : ""));
     }
     const text = parts.join(" · ");
     if (this.status.textContent !== text) this.status.textContent = text;

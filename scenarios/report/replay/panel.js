@@ -28,8 +28,7 @@ Object.assign(Plumb.App.prototype, {
     this.about = make("div", { id: "about" });
     this.legend = make("div", { id: "legend" });
     this.command = make("code", { id: "command" });
-    const gates = run.gates.map((g) => make("li", { class: g.passed ? "good" : "bad" }, (g.passed ? "passed: " : "FAILED: ") + g.text + " ",
-      g.link ? make("a", { href: g.link }, "look") : ""));
+    const gates = run.gates.map((g) => make("li", { class: g.passed ? "good" : "bad" }, g.passed ? "passed: " : "FAILED: ", this.gateLink(g)));
     return make("aside", {},
       make("section", {}, make("h2", {}, "Methods"), make("table", {}, make("thead", {}, make("tr", {}, make("th", {}, "show"), make("th", {}, "look at"),
         make("th", {}, "name"), make("th", {}, "now"))), make("tbody", {}, ...rows)), this.status, this.wrong, this.beside.control()),

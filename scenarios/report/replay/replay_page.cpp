@@ -9,6 +9,7 @@
 #include "scenarios/metrics/storey.h"
 #include "scenarios/report/belief.h"
 #include "scenarios/report/map_drawing.h"
+#include "scenarios/report/method_cards.h"
 #include "scenarios/report/palette.h"
 #include "scenarios/report/replay/assets.h"
 #include "scenarios/report/replay/deflate.h"
@@ -89,7 +90,7 @@ Tree marks_of(const FinishedRun& run, const score::RunScore& score, const Report
   for (const ReportMethod& method : input.methods)
     if (!is_truth(method)) add_method_marks(method, results_of(input, method.name), start_s(input), marks);
   for (const score::GateResult& gate : score.gates)
-    if (const auto at = gate.passed ? std::nullopt : score::telling_moment(run, score, gate.method))
+    if (const auto at = gate.passed ? std::nullopt : score::telling_moment(run, score, gate))
       marks.push(mark(*at, "gate failed: " + gate.metric, "gate", gate.method));
   std::stable_sort(std::get<Tree::List>(marks.value).begin(), std::get<Tree::List>(marks.value).end(),
                    [](const Tree& a, const Tree& b) { return a.find("t")->as_int() < b.find("t")->as_int(); });
@@ -117,6 +118,12 @@ Tree gates_of(const score::RunScore& score) {
   Tree list = Tree::list();
   for (const score::GateResult& gate : score.gates)
     list.push(Tree::map().set("text", score::describe(gate)).set("passed", gate.passed).set("link", gate.see));
+  return list;
+}
+
+Tree unjudged_of(const ReportInput& input) {
+  Tree list = Tree::list();
+  for (const std::string& text : unjudged(input)) list.push(text);
   return list;
 }
 
@@ -180,6 +187,7 @@ Tree run_of(const FinishedRun& run, const score::RunScore& score, const ReportIn
       .set("failure", run.record.failure)
       .set("methods", methods_of(run, input))
       .set("gates", gates_of(score))
+      .set("unjudged", unjudged_of(input))
       .set("marks", marks_of(run, score, input));
 }
 

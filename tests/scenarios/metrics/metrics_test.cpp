@@ -64,7 +64,20 @@ TEST(Gates, PassOnlyOnAPresentMetricOfAWholeRun) {
   EXPECT_EQ(describe(judge_gates({below}, {good_slam()}, false)[0]),
             "ate_aligned_rmse_m of vgicp is 0.1, must be <= 0.25, but the run ended early");
   EXPECT_EQ(describe(results[0]), "ate_aligned_rmse_m of vgicp is 0.1, must be <= 0.25");
-  EXPECT_EQ(describe(results[2]), "rooms.recall of vgicp is absent, must be >= 0");
+  EXPECT_EQ(describe(results[2]), "rooms.recall of vgicp is absent, must be >= 0: vgicp has no such metric");
+  EXPECT_EQ(to_results(results[2]).find("reason")->as_string(), "vgicp has no such metric");
+  MethodScore never = good_slam();
+  never.localization.emplace();
+  const GateSpec error{"localization.ape_rmse_m", "vgicp", 0.1, std::nullopt};
+  EXPECT_EQ(describe(judge_gates({error}, {never}, true)[0]),
+            "localization.ape_rmse_m of vgicp is absent, must be <= 0.1");
+}
+
+TEST(Gates, GiveFourDigitsAndMoreWhereTheLimitNeedsThem) {
+  EXPECT_EQ(gate_value(0.028344707293047434, 0.001), "0.02834");
+  EXPECT_EQ(gate_value(0.25000412, 0.25), "0.250004");
+  EXPECT_EQ(gate_value(0.25, 0.25), "0.25");
+  EXPECT_EQ(gate_value(3e-12, 1e-9), "3e-12");
 }
 
 TEST(Junit, CountsFailuresAndEscapes) {

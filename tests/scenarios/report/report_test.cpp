@@ -62,8 +62,8 @@ TEST(Report, GivesBothAnswersAndWhatMethodsWereTold) {
   EXPECT_NE(page.find("By the building alone: the scans never distinguished"), std::string::npos);
   EXPECT_NE(page.find("With the furniture as planned: identifiable from the first scan"), std::string::npos);
   EXPECT_NE(page.find("Only furniture tells these apart"), std::string::npos);
-  EXPECT_NE(page.find("furniture in the methods' plan: none, as built: as planned"), std::string::npos);
-  EXPECT_EQ(render_report(sample()).find("furniture in the methods"), std::string::npos);
+  EXPECT_NE(page.find("the methods' plan has no furniture; furniture as built: as planned"), std::string::npos);
+  EXPECT_EQ(render_report(sample()).find("furniture as built"), std::string::npos);
 }
 
 TEST(Report, ShowsAGatesLimitHoweverSmall) {
@@ -243,6 +243,51 @@ TEST(Report, SaysWhenARightPoseWasLost) {
   input.results.set("methods", Tree(Tree::Map{{"m", Tree::map().set("verdict", "lost").set("localization", where)}}));
   EXPECT_NE(render_report(input).find("Converged on the right pose after 6 s, and lost it again at 8.5 s."),
             std::string::npos);
+}
+
+TEST(Report, SaysFirstWhichGatesFailedAndByHowMuch) {
+  ReportInput input = sample();
+  Tree gate = input.results.find("gates")->as_list().front();
+  gate.set("see", "replay.html#t=1&m=m").set("reason", "the run ended early");
+  input.results.set("gates", Tree(Tree::List{gate}));
+  const std::string page = render_report(input);
+  EXPECT_NE(page.find("<li><a href=\"replay.html#t=1&amp;m=m\">ate_aligned_rmse_m of m</a>: 0.08, must be &lt;= 0.05; "
+                      "the run ended early</li>"),
+            std::string::npos);
+  EXPECT_LT(page.find("class=\"failed\""), page.find("<svg class=\"map\""));
+  EXPECT_EQ(page.find(">look</a>"), std::string::npos);
+}
+
+TEST(Report, NamesABadMethodThatNoGateJudges) {
+  ReportInput input = localized();
+  Tree gate = input.results.find("gates")->as_list().front();
+  gate.set("method", "other").set("passed", true);
+  input.results.set("gates", Tree(Tree::List{gate}));
+  EXPECT_EQ(render_report(input).find("not judged"), std::string::npos);
+  Tree where = Tree::map();
+  where.set("converged_at_s", 6.0).set("failure", "depleted").set("failure_at_s", 4.0).set("evidence", "weak");
+  input.results.set("methods",
+                    Tree(Tree::Map{{"m", Tree::map().set("verdict", "overconfident").set("localization", where)}}));
+  const std::string page = render_report(input);
+  EXPECT_NE(page.find("<span class=\"badge bad\">m: overconfident, not judged</span>"), std::string::npos);
+  EXPECT_NE(
+      page.find("the scans favour it only marginally, since the true pose dropped out of the hypotheses (at 4 s)"),
+      std::string::npos);
+  where.set("hypotheses", 2);
+  input.results.set("methods",
+                    Tree(Tree::Map{{"m", Tree::map().set("verdict", "honest_ambiguity").set("localization", where)}}));
+  EXPECT_NE(render_report(input).find("rightly: the scans favour one only marginally"), std::string::npos);
+}
+
+TEST(Report, GlossaryHoldsNoMarkdownAndNamesWhatPagesSay) {
+  const std::string page = render_report(sample());
+  const std::string glossary =
+      page.substr(page.find("Glossary:"), page.find("</details>", page.find("Glossary:")) - page.find("Glossary:"));
+  EXPECT_EQ(glossary.find('`'), std::string::npos);
+  EXPECT_NE(glossary.find("<code>localization.<wbr>state</code>"), std::string::npos);
+  for (const char* word :
+       {"consistent poses", "marginally identifiable", "with_<wbr>furniture.<wbr>*", "A. Hoover et al."})
+    EXPECT_NE(glossary.find(word), std::string::npos) << word;
 }
 
 TEST(Report, ColoursAVerdictByTheGates) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "scenarios/spec/scenario.h"
 #include "tests/scenarios/metrics/straight_walk.h"
 
 namespace plumbline::scenarios::score {
@@ -27,10 +28,23 @@ struct Failed {
   }
 };
 
+GateResult gate(std::optional<double> value) {
+  return judge_gate({"ate_rmse_m", "finder & co", 0.1, std::nullopt}, "finder & co", value);
+}
+
+TEST(Moment, OfAnAbsentMetricIsTheFailureOrNothing) {
+  Failed failed;
+  EXPECT_NEAR(telling_moment(failed.run, failed.score, gate(std::nullopt)).value(), 3.1, 1e-9);
+  failed.score.methods[0].localization->failure_at_s.reset();
+  EXPECT_TRUE(telling_moment(failed.run, failed.score, gate(2.0)));
+  EXPECT_FALSE(telling_moment(failed.run, failed.score, gate(std::nullopt)));
+  EXPECT_EQ(moment_link(failed.run, failed.score, gate(std::nullopt)), "");
+}
+
 TEST(Moment, IsTheFirstWrongAnswerAfterAFailure) {
   const Failed failed;
   EXPECT_NEAR(telling_moment(failed.run, failed.score, "finder & co").value(), 3.1, 1e-9);
-  EXPECT_EQ(moment_link(failed.run, failed.score, "finder & co"), "#t=3.1&m=finder%20%26%20co");
+  EXPECT_EQ(moment_link(failed.run, failed.score, gate(1.0)), "#t=3.1&m=finder%20%26%20co");
 }
 
 TEST(Moment, IsTheFailureWhereNoAnswerIsWrongAfterIt) {
@@ -38,7 +52,7 @@ TEST(Moment, IsTheFailureWhereNoAnswerIsWrongAfterIt) {
   failed.score.methods[0].localization->failure_at_s = 5.97;
   EXPECT_NEAR(telling_moment(failed.run, failed.score, "finder & co").value(), 5.97, 1e-9);
   // Rounded up: before, nothing has happened yet.
-  EXPECT_EQ(moment_link(failed.run, failed.score, "finder & co").substr(0, 6), "#t=6&m");
+  EXPECT_EQ(moment_link(failed.run, failed.score, gate(1.0)).substr(0, 6), "#t=6&m");
 }
 
 }  // namespace
