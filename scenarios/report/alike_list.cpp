@@ -75,7 +75,8 @@ std::string list_alike(const RunBuilding& building, const std::vector<Alike>& al
   if (alike.empty()) return "<p class=\"facts\">No two places look alike.</p>";
   const bim::Building& plan = building.as_planned();
   std::string out =
-      "<h2>What looks alike, and what distinguishes it</h2><div class=\"scroll\"><table class=\"stacked\">"
+      "<h2>What looks alike, and what distinguishes it</h2><div class=\"scroll\"><table class=\"stacked\" "
+      "aria-label=\"what looks alike\">"
       "<tr class=\"heads\"><th></th><th>the plan, moved onto itself</th><th>rooms</th><th class=\"num\">places</th>"
       "<th>what distinguishes them</th></tr>";
   for (std::size_t i = 0; i < alike.size(); ++i) {

@@ -28,7 +28,7 @@ constexpr std::array<ErrorKind, 6> kinds = {{
     {"errors-z", "error of the height, cm", "ez", "cm", 100.0, 1, true,
      [](const ReportSample& s) { return std::optional(s.error_W.z()); }},
     {"errors-heading", "error of the heading, degrees", "eh", "°", deg, 2, true,
-     [](const ReportSample& s) { return std::optional(s.yaw_error); }},
+     [](const ReportSample& s) { return std::optional(s.yaw_error); }, 180.0},
     {"errors-relative", "error of the motion over the last metre walked, cm", "er", "cm", 100.0, 1, false,
      [](const ReportSample& s) { return s.relative_m; }},
 }};
@@ -80,7 +80,9 @@ std::vector<PlotCurve> error_curves(const ReportInput& input, const ErrorKind& k
   std::vector<PlotCurve> curves;
   for (const ReportMethod& method : input.methods) {
     if (is_truth(method)) continue;
-    PlotCurve curve{method.name, method_ink(method.ink), {}}, lost{"", method_ink(method.ink), {}, method.name, true};
+    PlotCurve curve{method.name, method_ink(method.ink), {}}, lost{"", method_ink(method.ink), {}, method.name};
+    lost.disclaimed = true;
+    curve.jump = lost.jump = kind.jump;
     for (const ReportSample& sample : method.samples)
       if (const std::optional<double> value = kind.value(sample))
         (sample.lost ? lost : curve).points.emplace_back(sample.t_s, kind.scale * *value);

@@ -22,6 +22,7 @@ struct ErrorKind {
   int decimals;
   bool both_ways;  ///< it has a sign
   std::optional<double> (*value)(const ReportSample& sample);
+  double jump = 0.0;  ///< of its unit: further apart a curve is not joined; 0: always
 };
 
 /// The position error first, then the others.

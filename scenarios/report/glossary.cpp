@@ -47,7 +47,7 @@ std::string glossary() {
   };
   std::string out =
       "<details class=\"card\"><summary>Glossary: verdicts, states, metrics</summary><div class=\"scroll\"><table "
-      "class=\"stacked\">";
+      "class=\"stacked\" aria-label=\"glossary\">";
   std::string_view key;
   for (const score::ResultWord& word : score::result_words()) {
     if (std::exchange(key, word.key) != word.key)

@@ -56,7 +56,8 @@ std::string percent(int part, int whole) { return whole == 0 ? "–" : svg::numb
 
 std::string share_row(const std::string& name, const MapShare& s) {
   const auto cell = [](const char* head, const std::string& text) {
-    return "<td class=\"num\" data-head=\"" + std::string(head) + "\">" + text + "</td>";
+    return "<td class=\"num" + std::string(text == "–" ? " none" : "") + "\" data-head=\"" + std::string(head) + "\">" +
+           text + "</td>";
   };
   return "<tr><td>" + svg::escape(name) + "</td>" + cell("places", std::to_string(s.cells)) +
          cell("one scan", percent(s.one_scan, s.cells)) + cell("a walk", percent(s.walk, s.cells)) +
@@ -110,7 +111,8 @@ class ConditionPage {
 
   [[nodiscard]] std::string table() const {
     std::string out =
-        "<div class=\"scroll\"><table class=\"stacked\"><tr class=\"heads\"><th></th><th class=\"num\">places</th><th "
+        "<div class=\"scroll\"><table class=\"stacked\" aria-label=\"places by storey and room\"><tr "
+        "class=\"heads\"><th></th><th class=\"num\">places</th><th "
         "class=\"num\">one scan</th>"
         "<th class=\"num\">a walk</th><th class=\"num\">median m</th><th class=\"num\">longest m</th>"
         "<th class=\"num\">never</th><th class=\"num\">aliases, most</th></tr>";

@@ -251,19 +251,35 @@ std::string draw_maps(const ReportInput& input, const MapBox& box) {
          maps + "</div>";
 }
 
-std::string map_key() {
+std::string map_key(const ReportInput& input) {
   const auto item = [](const std::string& stroke, const std::string& label) {
     return "<span><svg viewBox=\"0 0 34 10\"><line x1=\"1\" y1=\"5\" x2=\"33\" y2=\"5\" " + stroke + "/></svg>" +
            label + "</span>";
   };
+  const auto area = [](const std::string& attributes, const std::string& label) {
+    return "<span><svg viewBox=\"0 0 34 10\"><rect " + attributes +
+           " x=\"9\" y=\"1\" width=\"16\" height=\"8\"/></svg>" + label + "</span>";
+  };
+  std::string found;
+  bool invented = false;
+  for (const ReportMethod& method : input.methods) {
+    if (is_truth(method) || method.localization) continue;
+    const std::string ink = method_ink(method.ink), name = svg::escape(method.name);
+    if (!method.walls.empty())
+      found += item("stroke=\"" + ink + "\" stroke-width=\"4\" stroke-opacity=\".8\"", "wall that " + name + " found");
+    if (!method.rooms.empty())
+      found += area("fill=\"" + ink + "\" fill-opacity=\".2\" stroke=\"" + ink + "\"", "room that " + name + " found");
+    for (const ReportRoom& room : method.rooms) invented = invented || !room.matched;
+  }
+  if (invented && !input.plan.rooms.empty())
+    found +=
+        area("fill=\"var(--wrong)\" fill-opacity=\".18\" stroke=\"var(--wrong)\"", "room found where there is none");
   return "<div class=\"key\">" +
          item("stroke=\"var(--wall)\" stroke-width=\"3\"", "wall of the building (faint: overhead)") +
-         "<span><svg viewBox=\"0 0 34 10\"><rect class=\"thing\" x=\"9\" y=\"1\" width=\"16\" height=\"8\"/></svg>"
-         "columns, furniture and other obstacles (dashed: with gaps)</span>" +
+         area("class=\"thing\"", "columns, furniture and other obstacles (dashed: with gaps)") +
          item("stroke=\"var(--truth)\" stroke-width=\"2\" stroke-dasharray=\"5 4\"", "ground truth") +
-         item("stroke=\"var(--m0)\" stroke-width=\"2\"", "estimate (in the colour of its method)") +
-         item("stroke=\"var(--m0)\" stroke-width=\"4\" stroke-opacity=\".8\"", "wall a method found") +
-         "<span>tinted area: room a method found (red: there is none)</span></div>" + error_key();
+         item("stroke=\"var(--m0)\" stroke-width=\"2\"", "estimate (in the colour of its method)") + found + "</div>" +
+         error_key();
 }
 
 }  // namespace plumbline::scenarios

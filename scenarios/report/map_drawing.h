@@ -31,7 +31,7 @@ struct MapBox {
 /// A map of every storey with the parts of the paths on it, and what was found there.
 [[nodiscard]] std::string draw_maps(const ReportInput& input, const MapBox& box);
 /// What the lines of a map mean.
-[[nodiscard]] std::string map_key();
+[[nodiscard]] std::string map_key(const ReportInput& input);
 
 /// The row that checks the scorer; it would lie under everything it is compared with.
 [[nodiscard]] bool is_truth(const ReportMethod& method);

@@ -75,11 +75,12 @@ std::string times(const Scale& scale) {
 
 std::string path(const PlotCurve& curve, const Scale& scale) {
   std::string d;
-  double last_t = -1e9;
+  Eigen::Vector2d last(-1e9, 0.0);
   for (const auto& p : curve.points) {
-    d += p.x() - last_t > path_gap_s ? "M" : "L";
+    const bool jumps = curve.jump > 0.0 && std::abs(p.y() - last.y()) > curve.jump;
+    d += jumps || p.x() - last.x() > path_gap_s ? "M" : "L";
     d += svg::number(scale.x(p.x()), 1) + " " + svg::number(scale.y(p.y()), 1);
-    last_t = p.x();
+    last = p;
   }
   return "<path class=\"curve " + std::string(curve.disclaimed ? "disclaimed " : "") + layer_of(curve) +
          "\" stroke=\"" + curve.colour + "\" d=\"" + d + "\"/>";

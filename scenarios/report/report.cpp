@@ -102,7 +102,7 @@ std::string gates_table(const ReportInput& input) {
   const Tree* gates = input.results.find("gates");
   if (gates == nullptr || gates->as_list().empty()) return "";
   std::string out =
-      "<section class=\"card\"><h2>Gates</h2><div class=\"scroll\"><table class=\"stacked\"><tr "
+      "<section class=\"card\"><h2>Gates</h2><div class=\"scroll\"><table class=\"stacked\" aria-label=\"gates\"><tr "
       "class=\"heads\"><th>gate</th><th>method</th>"
       "<th class=\"num\">value</th><th class=\"num\">limit</th><th></th></tr>";
   for (const Tree& gate : gates->as_list()) {
@@ -139,7 +139,8 @@ std::string numbers_table(const ReportInput& input) {
       if (std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(key);
   }
   std::string out =
-      "<section class=\"card\"><h2>All numbers</h2><div class=\"scroll\"><table class=\"stacked\"><tr "
+      "<section class=\"card\"><h2>All numbers</h2><div class=\"scroll\"><table class=\"stacked\" aria-label=\"all "
+      "numbers\"><tr "
       "class=\"heads\"><th></th>";
   for (const auto& method : input.methods) out += "<th class=\"num\">" + svg::escape(method.name) + "</th>";
   out += "</tr>";
@@ -148,7 +149,8 @@ std::string numbers_table(const ReportInput& input) {
     for (std::size_t i = 0; i < columns.size(); ++i) {
       const auto& column = columns[i];
       const auto it = std::find_if(column.begin(), column.end(), [&](const auto& row) { return row.first == key; });
-      out += "<td class=\"num\" data-head=\"" + svg::escape(input.methods[i].name) + "\">" +
+      out += "<td class=\"num" + std::string(it == column.end() ? " none" : "") + "\" data-head=\"" +
+             svg::escape(input.methods[i].name) + "\">" +
              (it == column.end() ? std::string("–") : svg::escape(it->second)) + "</td>";
     }
     out += "</tr>";
@@ -162,7 +164,7 @@ std::string render_report(const ReportInput& input) {
   const MapBox box = bounds(input);
   const double end_s = input.truth.empty() ? 0.0 : input.truth.back().t_s;
   std::string page = open_page(text_of(input.results, "scenario")) + header(input);
-  page += "<div class=\"top\"><section class=\"card\">" + draw_maps(input, box) + map_key() +
+  page += "<div class=\"top\"><section class=\"card\">" + draw_maps(input, box) + map_key(input) +
           "<div class=\"controls\"><button id=\"play\" type=\"button\">Play</button>"
           "<input id=\"time\" type=\"range\" min=\"0\" max=\"1\" step=\"0.1\" aria-label=\"time\">"
           "<span class=\"clock\" id=\"clock\"></span><label><input type=\"checkbox\" id=\"byerror\"> error along the "

@@ -135,12 +135,19 @@ std::string cells_table(const std::vector<SweepRow>& rows, const std::vector<Swe
     names.push_back(lines.front()[i]);
     if (names.back() == "method") names.push_back(spread);  // where it is seen without scrolling
   }
-  std::string out = "<div class=\"scroll\"><table class=\"sorted stacked\">" + heads(names);
+  std::string out =
+      "<div class=\"scroll\"><table class=\"sorted stacked dense\" aria-label=\"results\">" + heads(names);
   for (std::size_t c = 0; c < cells.size(); ++c) {
     out += "<tr>";
     for (const std::size_t i : columns) {
       const std::string& name = lines.front()[i];
-      out += "<td data-head=\"" + svg::escape(name) + "\">" + svg::escape(lines[c + 1][i]) + "</td>";
+      const std::string& text = lines[c + 1][i];
+      const bool wraps = name == "scenario" || name == "variant" || name == "start" || name == "verdicts";
+      out += "<td" +
+             std::string(text == "-" ? " class=\"none\""
+                         : wraps     ? " class=\"wraps\""
+                                     : "") +
+             " data-head=\"" + svg::escape(name) + "\">" + svg::escape(text) + "</td>";
       if (name != "method") continue;
       std::vector<const SweepRow*> own;
       for (const SweepRow& row : rows)
@@ -197,7 +204,7 @@ std::string worst_card(const SweepPage& page, const SweepRow& row) {
 std::string runs_table(const SweepPage& page, const std::vector<const SweepRow*>& rows) {
   std::string out =
       "<section class=\"card\"><h2>Runs, the worst first</h2><div class=\"scroll\"><table class=\"sorted "
-      "stacked\">" +
+      "stacked\" aria-label=\"runs\">" +
       heads({"scenario", "seed", "method", "verdict", "error m", "page"});
   for (std::size_t i = 0; i < std::min(rows.size(), most_runs); ++i) {
     const SweepRow& row = *rows[i];
@@ -208,7 +215,7 @@ std::string runs_table(const SweepPage& page, const std::vector<const SweepRow*>
     out += "<tr><td>" + svg::escape(where) + "</td><td data-head=\"seed\">" + svg::escape(row.seed) +
            "</td><td data-head=\"method\">" + svg::escape(row.method) +
            "</td><td data-head=\"verdict\"><span class=\"verdict " + std::string(class_of(row)) + "\">" +
-           svg::escape(row.verdict) + "</span></td><td data-head=\"error m\">" +
+           svg::escape(row.verdict) + "</span></td><td" + (error ? "" : " class=\"none\"") + " data-head=\"error m\">" +
            (error ? svg::number(*error, 3) : "-") + "</td><td data-head=\"page\">" + page_of(page, row) +
            "</td></tr>\n";
   }

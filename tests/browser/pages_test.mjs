@@ -74,10 +74,23 @@ async function everyPage(browser, url, name) {
   await commands.until("document.readyState === 'complete'");
   const cut = await commands.get("[...document.querySelectorAll('[data-copy]')].map((b) => b.dataset.copy).filter((c) => c.includes(' --page ') && !c.includes(' -o '))");
   check(name + ": commands of a sweep name its folder", cut.length === 0, cut);
+  const hidden = await commands.get(`(() => { document.querySelectorAll("details").forEach((d) => { d.open = true; });
+    return [...document.querySelectorAll(".scroll")].filter((s) => s.scrollWidth > s.clientWidth + 1 && !(s.previousElementSibling && s.previousElementSibling.classList.contains("more"))).length; })()`);
+  check(name + ": where columns are out of view a hint says so", hidden === 0, hidden);
   const phone = await browser.page(390, 844, { mobile: true });
   await phone.open(url);
   await phone.until("document.readyState === 'complete'");
   await phone.get("document.querySelectorAll('details').forEach((d) => { d.open = true; })");
+  const cutOff = await phone.get(`[...document.querySelectorAll(".map text")].filter((t) => { if (t.getClientRects().length === 0) return false;
+    const r = t.getBoundingClientRect(), m = t.closest(".map").getBoundingClientRect(); return r.left < m.left - 1 || r.right > m.right + 1; }).map((t) => t.textContent)`);
+  check(name + ": no text of a map is cut off at 390 px", cutOff.length === 0, cutOff);
+  const empty = await phone.get(`[...document.querySelectorAll("table.stacked td")].filter((d) => d.getClientRects().length && /^[-–]?$/.test(d.textContent.trim()) && !d.children.length).length`);
+  check(name + ": a phone shows no empty values", empty === 0, empty);
+  const heading = await phone.get(`[...document.querySelectorAll("table.stacked td:first-child:not([data-head])")].filter((d) => d.getClientRects().length).every((d) => {
+    const range = document.createRange(); range.selectNodeContents(d); return range.getBoundingClientRect().left - d.getBoundingClientRect().left < 2; })`);
+  check(name + ": headings of rows stand left on a phone", heading, heading);
+  const nameless = await phone.get(`[...document.querySelectorAll("table, [role=status]")].filter((e) => !e.getAttribute("aria-label")).length`);
+  check(name + ": tables have names", nameless === 0, nameless);
   const wide = await phone.get(sideways);
   check(name + ": nothing scrolls sideways at 390 px", wide.length === 0, wide);
 }

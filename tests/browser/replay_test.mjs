@@ -213,9 +213,21 @@ async function whole(browser) {
   check("the time line is seen", (await page.get("document.getElementById('linebox').offsetHeight")) > 100, "");
 
   // Marks: a click on a label goes to its moment.
-  const marked = await page.get(`(() => { const line = Plumb.app.line2; line.layout(); return line.marks.map((m) =>
-    [m.t, line.markAt((m.from + m.to) / 2, 15 * m.row + 8).t, m.label.includes(m.t.toFixed(2) + " s") || m.label.endsWith("…")]); })()`);
+  const marked = await page.get(`(() => { const app = Plumb.app, line = app.line2; line.layout(); return line.marks.map((m) =>
+    [m.t, line.markAt((m.from + m.to) / 2, 15 * m.row + 8).t, m.label.startsWith(m.t.toFixed(2) + " s" + (m.m && app.data.run.methods.length > 1 ? " " + m.m : ""))]); })()`);
   check("labels of marks lead to their moments and give them", marked.length > 0 && marked.every(([t, at, said]) => t === at && said), marked);
+
+  // A header that says what failed, a button for the keys, names of tables.
+  const header = await page.get("document.querySelector('header').innerText");
+  const gate = results.gates.find((g) => !g.passed);
+  check("the header names the first gate that failed", header.includes(gate.metric + " of " + gate.method), header);
+  const text = await page.get("document.querySelector('header .bad a').textContent");
+  check("its value has four digits", /is [0-9.]{1,8}(e-?[0-9]+)?,/.test(text), text);
+  check("and links its moment", (await page.get("document.querySelector('header .bad a').getAttribute('href')")) === gate.see.replace("replay.html", ""), gate.see);
+  await page.get("document.getElementById('keys').click()");
+  equal("a button shows the keys", await page.get("document.getElementById('help').open"), true);
+  await page.get("document.getElementById('help').close()");
+  equal("tables and status lines without a name", await page.get("[...document.querySelectorAll('table, [role=status]')].filter((e) => !e.getAttribute('aria-label')).length"), 0);
 
   // Keys, links, the command.
   await page.get("document.getElementById('view').focus()");
@@ -324,6 +336,12 @@ async function narrow(browser) {
   const small = await page.get("[...document.querySelectorAll('#bar button, #copy')].map((b) => b.getBoundingClientRect().height).filter((h) => h < 44).length");
   equal("buttons lower than 44 px", small, 0);
   check("dark is dark", (await page.get("getComputedStyle(document.body).backgroundColor")) === "rgb(20, 24, 30)", "");
+  const edges = await page.get(`(() => { const layer = Plumb.app.labels, { clientWidth: w, clientHeight: h } = layer, box = layer.getBoundingClientRect();
+    const places = [[1, 1], [w - 1, h / 3], [2, h - 1], [w / 2, h / 2]], rooms = places.map((middle, i) => ({ name: "a room with a long name " + i, middle }));
+    Plumb.placeLabels(layer, { off: new Set(), rooms: [...rooms, { name: "outside", middle: [-40, 30] }] }, (p) => [...p]);
+    const seen = [...layer.children].filter((s) => s.style.display !== "none").map((s) => s.getBoundingClientRect());
+    return [seen.length, seen.filter((r) => r.left < box.left || r.right > box.right || r.top < box.top || r.bottom > box.bottom).length]; })()`);
+  equal("labels at the edge, and those that it cuts", edges, [4, 0]);
   check("the phone's picture shows something", (await page.get(picture)).colours > 200, "");
 }
 

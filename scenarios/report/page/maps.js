@@ -9,7 +9,12 @@ var fitMaps = (function () {
     map.style.setProperty("--px", px);
     map.querySelectorAll("text").forEach(function (text) {
       text.style.display = "";
-      var r = text.getBBox();
+      text.removeAttribute("transform");
+      var r = text.getBBox(), beyond = r.x + r.width + 2 * px - map.whole.x - map.whole.width;
+      if (beyond > 0) {  // the map would cut it off
+        text.setAttribute("transform", "translate(" + -beyond + " 0)");
+        r.x -= beyond;
+      }
       var over = taken.some(function (o) {
         return r.x < o.x + o.width && o.x < r.x + r.width && r.y < o.y + o.height && o.y < r.y + r.height;
       });

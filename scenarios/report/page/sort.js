@@ -1,4 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
+// Where columns are out of view, a line says so.
+document.querySelectorAll(".scroll").forEach(function (box) {
+  "use strict";
+  var more = document.createElement("p");
+  more.className = "more";
+  more.textContent = "The table goes on to the right: scroll it sideways. →";
+  box.parentNode.insertBefore(more, box);
+  function look() { more.hidden = box.scrollWidth <= box.clientWidth + 1; }
+  window.addEventListener("resize", look);
+  look();
+});
 document.querySelectorAll("table.sorted").forEach(function (table) {
   "use strict";
   var heads = table.rows[0].cells;

@@ -26,8 +26,12 @@ Plumb.placeLabels = (layer, moment, project) => {
   const placed = [], half = (text) => 3.6 * text.length + 4; // px
   let used = 0;
   const put = (text, p, kind) => {
-    const at = project(p);
-    if (!at || placed.some(([x, y, other]) => Math.abs(y - at[1]) < 16 && Math.abs(x - at[0]) < half(text) + half(other))) return;
+    const at = project(p), { clientWidth: width, clientHeight: height } = layer;
+    if (!at || at[0] < 0 || at[1] < 0 || at[0] > width || at[1] > height) return;
+    const side = Math.min(half(text) + 0.4 * text.length, width / 2); // what is near the edge stays whole
+    at[0] = Math.min(width - side, Math.max(side, at[0]));
+    at[1] = Math.min(height - 9, Math.max(9, at[1]));
+    if ( placed.some(([x, y, other]) => Math.abs(y - at[1]) < 16 && Math.abs(x - at[0]) < half(text) + half(other))) return;
     placed.push([...at, text]);
     let span = layer.children[used];
     if (!span) layer.append((span = document.createElement("span")));
@@ -108,7 +112,7 @@ Plumb.App = class {
       "aria-label": "The building and the robot at the chosen time. Arrow keys step through the scans; ? lists all keys." });
     this.labels = make("div", { id: "labels", "aria-hidden": "true" });
     this.line = make("canvas", { id: "line", role: "img", "aria-label": "States, marks and position errors over time" });
-    this.status = make("p", { id: "status", role: "status", "aria-live": "polite" });
+    this.status = make("p", { id: "status", role: "status", "aria-live": "polite", "aria-label": "what is shown" });
     this.wrong = make("div", { id: "wrong" });
     this.caption = make("p", { id: "caption" });
     this.picture = make("div", { id: "picture" }, this.canvas, this.labels, this.caption);
@@ -135,7 +139,8 @@ Plumb.App = class {
     this.clock = make("output", { id: "clock" });
     this.speed = make("select", { id: "speed", "aria-label": "speed" }, ...[0.5, 1, 2, 5, 10].map((v) => make("option", { value: v, selected: v === 1 }, "× " + v)));
     const step = (text, label, by) => make("button", { type: "button", "aria-label": label, title: label, on: { click: () => this.step(by) } }, text);
-    return make("div", { id: "bar" }, this.playButton, step("◀", "scan before", -1), step("▶", "next scan", 1), this.slider, this.clock, this.speed);
+    const keys = make("button", { type: "button", id: "keys", "aria-label": "keys", title: "keys (?)", on: { click: () => this.helpBox.showModal() } }, "?");
+    return make("div", { id: "bar" }, this.playButton, step("◀", "scan before", -1), step("▶", "next scan", 1), this.slider, this.clock, this.speed, keys);
   }
 
   start(root) {

@@ -15,7 +15,7 @@ Plumb.Beside = class {
     const make = Plumb.make;
     this.list = make("select", { id: "beside", on: { change: () => this.open(this.list.value, this.path ? this.list.value : null, false) } });
     this.offer();
-    this.note = make("p", { class: "soft", id: "apart", role: "status" });
+    this.note = make("p", { class: "soft", id: "apart", role: "status", "aria-label": "how the two differ" });
     return make("div", {}, make("label", {}, "side by side with ", this.list), this.note);
   }
 

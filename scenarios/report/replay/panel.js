@@ -30,7 +30,7 @@ Object.assign(Plumb.App.prototype, {
     this.command = make("code", { id: "command" });
     const gates = run.gates.map((g) => make("li", { class: g.passed ? "good" : "bad" }, g.passed ? "passed: " : "FAILED: ", this.gateLink(g)));
     return make("aside", {},
-      make("section", {}, make("h2", {}, "Methods"), make("table", {}, make("thead", {}, make("tr", {}, make("th", {}, "show"), make("th", {}, "look at"),
+      make("section", {}, make("h2", {}, "Methods"), make("table", { "aria-label": "methods" }, make("thead", {}, make("tr", {}, make("th", {}, "show"), make("th", {}, "look at"),
         make("th", {}, "name"), make("th", {}, "now"))), make("tbody", {}, ...rows)), this.status, this.wrong, this.beside.control()),
       make("section", {}, make("h2", {}, "Chosen"), make("label", {}, "id ", this.search = make("input", { id: "sel", type: "search", list: "ids",
         placeholder: "click a wall, or type its id", on: { change: () => this.select(this.search.value) } })),
@@ -57,7 +57,7 @@ Object.assign(Plumb.App.prototype, {
       ["1 to 0", "layers"], ["PageUp PageDown", "storey"], ["c", "colour of the scan"], ["m", "next method"], ["b", "side by side with the next method; again for the one after"], ["r", "camera as at first"],
       ["f", "follow the robot"], ["/", "find an id"], ["?", "these keys"]];
     this.helpBox = Plumb.make("dialog", { id: "help", "aria-label": "keys" }, Plumb.make("h2", {}, "Keys"),
-      Plumb.make("table", {}, ...keys.map(([k, t]) => Plumb.make("tr", {}, Plumb.make("th", {}, k), Plumb.make("td", {}, t)))),
+      Plumb.make("table", { "aria-label": "keys" }, ...keys.map(([k, t]) => Plumb.make("tr", {}, Plumb.make("th", {}, k), Plumb.make("td", {}, t)))),
       Plumb.make("form", { method: "dialog" }, Plumb.make("button", {}, "Close")));
     return this.helpBox;
   },

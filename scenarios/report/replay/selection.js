@@ -11,7 +11,7 @@ Object.assign(Plumb.App.prototype, {
     document.body.dataset.wrong = pairs ? pairs.rows.map((row) => row.taken).join(" ") : "";
     if (!pairs || pairs.rows.length === 0) return this.wrong.replaceChildren();
     const make = Plumb.make, link = (id) => make("button", { type: "button", class: "link", on: { click: () => this.select(id) } }, id);
-    this.wrong.replaceChildren(make("p", {}, pairs.title), make("table", {},
+    this.wrong.replaceChildren(make("p", {}, pairs.title), make("table", { "aria-label": "walls that are taken for others" },
       make("thead", {}, make("tr", {}, make("th", {}, "taken for"), make("th", {}, "truly"))),
       make("tbody", {}, ...pairs.rows.map((row) => make("tr", {}, make("td", {}, link(row.taken), row.patches > 1 ? " (" + row.patches + " patches)" : ""),
         make("td", {}, row.truly === row.taken ? "the same, elsewhere on it" : row.truly ? link(row.truly) : "no wall of the plan"))))));

@@ -27,7 +27,7 @@ Plumb.Timeline = class {
       if (canvas.hasPointerCapture(event.pointerId) && Math.abs(event.clientX - this.down) > 3) follow(event, false);
       const box = canvas.getBoundingClientRect(), mark = this.markAt(event.clientX - box.left, event.clientY - box.top);
       canvas.style.cursor = mark ? "pointer" : "";
-      canvas.title = mark ? mark.full + ", at " + mark.t.toFixed(2) + " s" : "";
+      canvas.title = mark ? mark.full : "";
       this.hover(event.clientX - box.left);
     });
     canvas.addEventListener("pointerleave", () => this.hover(null));
@@ -176,8 +176,9 @@ Plumb.Timeline = class {
     const g = this.store.getContext("2d"), ends = [];
     g.font = "11px system-ui, sans-serif";
     return this.data.run.marks.filter((m) => m.m === "" || !this.hidden.has(m.m)).map((mark) => {
-      const full = mark.label + (mark.m !== "" && this.data.run.methods.length > 1 && !this.narrow ? " (" + mark.m + ")" : "");
-      let label = full + (this.narrow ? "" : ", " + mark.t.toFixed(2) + " s");
+      // What is cut off where there is no room is the end: when and which method stand first.
+      const full = mark.t.toFixed(2) + " s" + (mark.m !== "" && this.data.run.methods.length > 1 ? " " + mark.m : "") + ": " + mark.label;
+      let label = full;
       const x = this.x(mark.t), room = Math.max(this.x1 - x, x - 4) - 10;
       if (g.measureText(label).width > room) {
         while (label.length > 4 && g.measureText(label + "…").width > room) label = label.slice(0, -1);

@@ -290,6 +290,27 @@ TEST(Report, GlossaryHoldsNoMarkdownAndNamesWhatPagesSay) {
     EXPECT_NE(glossary.find(word), std::string::npos) << word;
 }
 
+TEST(Report, ItsKeyNamesOnlyWhatSomeMethodFound) {
+  ReportInput input = sample();
+  EXPECT_EQ(render_report(input).find(" found</span>"), std::string::npos);
+  input.methods.front().ink = 2;
+  input.methods.front().walls.push_back({{0.0, 0.0}, {1.0, 0.0}, 0});
+  std::string page = render_report(input);
+  EXPECT_NE(page.find("stroke=\"var(--m2)\" stroke-width=\"4\" stroke-opacity=\".8\"/></svg>wall that m found"),
+            std::string::npos);
+  EXPECT_EQ(page.find("room that m found"), std::string::npos);
+  input.methods.front().rooms.push_back({{{0, 0}, {1, 0}, {1, 1}}, true, 0});
+  page = render_report(input);
+  EXPECT_NE(page.find("height=\"8\"/></svg>room that m found"), std::string::npos);
+}
+
+TEST(Report, BreaksTheHeadingWhereItTurnsOver) {
+  PlotCurve curve{"m", "red", {{0.0, 179.0}, {0.1, 179.5}, {0.2, -179.5}, {0.3, -179.0}}};
+  EXPECT_EQ(count(draw_plot("p", {curve}, 1.0), "M"), 1U);
+  curve.jump = 180.0;
+  EXPECT_EQ(count(draw_plot("p", {curve}, 1.0), "M"), 2U);
+}
+
 TEST(Report, ColoursAVerdictByTheGates) {
   ReportInput input = sample();  // its gate failed
   EXPECT_NE(render_report(input).find("<span class=\"verdict bad\">complete</span>"), std::string::npos);
