@@ -6,6 +6,7 @@
 #include <numbers>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bim/config/printable.h"
@@ -126,19 +127,38 @@ Poverty poverty_of(const EstimateArguments& options) {
   return {options.every, without("rings"), without("times")};
 }
 
-/// Of a LiDAR that sends no packets simulate leaves bags alone, with the description beside it.
-std::unique_ptr<slam::Recording> open_folder(const std::string& folder, const slam::BagTopics& topics,
-                                             const slam::RecordingInfo* given) {
+/// Of a LiDAR that sends no packets simulate leaves bags alone, with the description beside it; empty: none.
+std::string bag_beside(const std::string& folder) {
   namespace fs = std::filesystem;
-  const std::string description = folder + "/recording.yaml";
   std::string bag;
   for (const char* name : {"/rosbag2", "/recording.mcap", "/recording.bag"})
     if (fs::exists(folder + name)) bag = folder + name;
-  if (bag.empty() || !fs::exists(description) || fs::exists(folder + "/lidar.pcap"))
-    return slam::open_recording(folder, given);
+  return fs::exists(folder + "/recording.yaml") && !fs::exists(folder + "/lidar.pcap") ? bag : std::string();
+}
+
+std::unique_ptr<slam::Recording> open_folder(const std::string& folder, const slam::BagTopics& topics,
+                                             const slam::RecordingInfo* given) {
+  const std::string description = folder + "/recording.yaml";
+  const std::string bag = bag_beside(folder);
+  if (bag.empty()) return slam::open_recording(folder, given);
   const slam::RecordingInfo info =
       given != nullptr ? *given : slam::read_recording_info(read_text_file(description), description);
   return slam::open_bag(bag, topics, &info);
+}
+
+void check_no_topics(const EstimateArguments& options) {
+  for (const auto& [name, value] :
+       {std::pair("--points-topic", &options.topics.points), std::pair("--odometry-topic", &options.topics.odometry),
+        std::pair("--imu-topic", &options.topics.imu)})
+    if (!value->empty()) throw InputError({name, 0, 0}, "is of bags; '" + options.recording + "' has no topics");
+}
+
+/// Databases in a folder without what says that they belong together.
+bool holds_databases(const std::string& folder) {
+  namespace fs = std::filesystem;
+  if (fs::exists(folder + "/metadata.yaml")) return false;
+  const fs::directory_iterator files(folder);
+  return std::any_of(begin(files), end(files), [](const auto& entry) { return entry.path().extension() == ".db3"; });
 }
 
 /// What is not there or only has the name of a bag is said before a reader of captures sees it.
@@ -149,7 +169,17 @@ void check_kind(const std::string& recording) {
     throw InputError({recording, 0, 0},
                      "no such file; a recording directory, a capture (.pcap), a bag (.bag, .mcap, .db3 "
                      "or a rosbag2 folder) or a folder of point clouds would be right");
-  if (fs::is_directory(recording, error) || slam::is_bag(recording)) return;
+  if (fs::is_directory(recording, error)) {
+    if (holds_databases(recording))
+      throw InputError({recording, 0, 0},
+                       "is a rosbag2 without metadata.yaml; run ros2 bag reindex on it, or give one "
+                       "of its .db3 files");
+    return;
+  }
+  if (slam::is_bag(recording)) return;
+  for (const char* ending : {".mcap.zstd", ".mcap.zst", ".db3.zstd", ".db3.zst", ".bag.zst", ".mcap.lz4", ".bag.gz"})
+    if (recording.ends_with(ending))
+      throw InputError({recording, 0, 0}, "is compressed as a whole; decompress it first (zstd -d, lz4 -d or gunzip)");
   if (fs::path(recording).extension() == ".bag")
     throw InputError({recording, 0, 0}, "is no ROS 1 bag; one begins with '#ROSBAG V2.0'");
   if (fs::path(recording).extension() == ".mcap" || fs::path(recording).extension() == ".db3")
@@ -164,9 +194,11 @@ std::unique_ptr<slam::Recording> open_input(const EstimateArguments& options) {
   const slam::RecordingInfo* given = info ? &*info : nullptr;
   check_kind(options.recording);
   if (slam::is_bag(options.recording)) return slam::open_bag(options.recording, options.topics, given);
-  if (slam::is_cloud_folder(options.recording)) return slam::open_cloud_folder(options.recording, given);
   const std::string inner = options.recording + "/" + std::string(recording_folder);
-  return open_folder(std::filesystem::is_directory(inner) ? inner : options.recording, options.topics, given);
+  const std::string folder = std::filesystem::is_directory(inner) ? inner : options.recording;
+  if (slam::is_cloud_folder(options.recording) || bag_beside(folder).empty()) check_no_topics(options);
+  if (slam::is_cloud_folder(options.recording)) return slam::open_cloud_folder(options.recording, given);
+  return open_folder(folder, options.topics, given);
 }
 
 /// The prior of the recording, with that of the command line over it.
@@ -217,8 +249,22 @@ void shift(std::vector<slam::StampedPose>& poses, slam::Nanoseconds by) {
   for (slam::StampedPose& pose : poses) pose.stamp += by;
 }
 
+/// The scans that a method got.
+struct ScansRead {
+  std::int64_t count = 0;
+  int rings = 0;       ///< the most
+  bool timed = false;  ///< returns have times of their own
+
+  void add(const slam::Scan& scan) {
+    ++count;
+    rings = std::max(rings, scan.rings);
+    timed = timed || std::any_of(scan.offset_ns.begin(), scan.offset_ns.end(), [](auto ns) { return ns != 0; });
+  }
+};
+
 struct Answer {
-  MethodRecord record;      ///< on the recording's own clock
+  MethodRecord record;  ///< on the recording's own clock
+  ScansRead scans;
   double recorded_s = 0.0;  ///< from the first scan to the last
 };
 
@@ -227,10 +273,12 @@ Answer run_method(slam::Recording& recording, const slam::MethodRow& row, const 
   Progress progress(std::string(row.name), {});
   std::optional<slam::Nanoseconds> first;
   slam::Nanoseconds last = 0;
+  ScansRead scans;
   const SensorSource source = [&](slam::SensorFrame& frame) {
     if (!recording.next(frame)) return false;
     last = frame.scan.stamp;
     if (!first) first = last;
+    scans.add(frame.scan);
     progress.at(slam::seconds(last));
     return true;
   };
@@ -241,12 +289,55 @@ Answer run_method(slam::Recording& recording, const slam::MethodRow& row, const 
   shift(record.estimate.trajectory, recording.origin());
   for (BeliefRecord& belief : record.beliefs) belief.stamp += recording.origin();
   for (score::LostSpan& span : record.lost) span = {span.from + recording.origin(), span.to + recording.origin()};
-  return {std::move(record), slam::seconds(last - first.value_or(last))};
+  return {std::move(record), scans, slam::seconds(last - first.value_or(last))};
+}
+
+std::string list_of(const std::vector<std::string>& names) {
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+  return list;
+}
+
+/// What was read, in one line.
+std::string words_of(const slam::Taken& taken, const ScansRead& scans, bool has_odometry) {
+  std::string text = taken.points;
+  if (!taken.other_points.empty()) text += " (not " + list_of(taken.other_points) + ")";
+  text += (text.empty() ? "" : ": ") + std::to_string(scans.count) + " scans, ";
+  text += scans.rings > 1 ? std::to_string(scans.rings) + " rings, " : "no rings, ";
+  text += scans.timed ? "points with times" : "points without times, which are not deskewed";
+  if (!taken.frame.empty()) text += "; frame " + taken.frame;
+  switch (taken.mount) {
+    case slam::MountSource::description:
+      text += "; mount from the description";
+      break;
+    case slam::MountSource::tf_static:
+      text += "; mount from /tf_static";
+      break;
+    case slam::MountSource::unknown:
+      text += "; no mount, so that the robot's frame is the LiDAR's";
+  }
+  text += has_odometry ? "; odometry " + taken.odometry : "; no odometry";
+  if (!taken.imu.empty()) text += "; IMU " + taken.imu;
+  while (text.ends_with(' ')) text.pop_back();
+  return printable(text);
+}
+
+Tree to_tree(const slam::Taken& taken, const ScansRead& scans) {
+  Tree tree = Tree::map();
+  if (!taken.points.empty()) tree.set("points", taken.points);
+  Tree others = Tree::list();
+  for (const std::string& name : taken.other_points) others.push(name);
+  if (!taken.other_points.empty()) tree.set("other_points", std::move(others));
+  if (!taken.odometry.empty()) tree.set("odometry", taken.odometry);
+  if (!taken.imu.empty()) tree.set("imu", taken.imu);
+  if (!taken.frame.empty()) tree.set("frame", taken.frame);
+  tree.set("mount", slam::names_of(taken.mount)[static_cast<std::size_t>(taken.mount)]);
+  return tree.set("scans", scans.count).set("rings", scans.rings).set("point_times", scans.timed);
 }
 
 /// estimate.yaml: which walk the answer is of, and what it depends on besides recording and plan.
 std::string describe(const slam::MethodRow& row, std::uint64_t seed, const slam::Recording& recording,
-                     const slam::MethodInput& input, Sensors sensors, const Poverty& poverty) {
+                     const slam::MethodInput& input, Sensors sensors, const Poverty& poverty, const ScansRead& scans) {
   const slam::RecordingInfo& info = recording.info();
   const std::vector<std::string> left_out = recording.left_out();
   Tree tree = Tree::map();
@@ -260,6 +351,7 @@ std::string describe(const slam::MethodRow& row, std::uint64_t seed, const slam:
   Tree late = Tree::list();
   for (const std::string& said : left_out) late.push(said);
   if (!left_out.empty()) tree.set("left_out", late);
+  tree.set("input", to_tree(recording.taken(), scans));
   if (info.walk) tree.set("walk", *info.walk);
   if (!input.config.is_null()) tree.set("config", input.config);
   return write_yaml(tree);
@@ -268,6 +360,16 @@ std::string describe(const slam::MethodRow& row, std::uint64_t seed, const slam:
 /// timings.json, as that of a run.
 std::string write_cost(const Answer& answer, double start_s) {
   return write_timings({}, {answer.record}, {slam::wall_s() - start_s, slam::process_cpu_s(), answer.recorded_s, 1});
+}
+
+std::vector<std::string> warnings_of(const slam::Recording& recording) {
+  std::vector<std::string> all = recording.left_out();
+  const slam::Taken taken = recording.taken();
+  if (recording.has_odometry() && taken.mount == slam::MountSource::unknown)
+    all.push_back("where the LiDAR sits on the robot is not known; its frame" +
+                  (taken.frame.empty() ? std::string() : " '" + taken.frame + "'") +
+                  " is taken to be the robot's; --description gives the mount");
+  return all;
 }
 
 /// The table with the process that --method gives, if it does.
@@ -294,18 +396,19 @@ int estimate(EstimateArguments options, slam::MethodTable table) {
   RunDirectory directory(options.out, DirectoryKind::estimate, options.force);
   const Answer answer = run_method(*recording, row, input, choice.sensors);
   const MethodRecord& record = answer.record;
-  for (const std::string& said : recording->left_out())
+  for (const std::string& said : warnings_of(*recording))
     print_note("plumbline: warning: " + options.recording + ": " + said);
   write_method(directory.staging(), record);
   write_file(directory.staging() + "/digests.csv", write_digests(record.digests));
-  write_file(directory.staging() + "/estimate.yaml",
-             describe(row, run_seed(options, recording->info()), *recording, input, choice.sensors, poverty));
+  write_file(directory.staging() + "/estimate.yaml", describe(row, run_seed(options, recording->info()), *recording,
+                                                              input, choice.sensors, poverty, answer.scans));
   write_file(directory.staging() + "/timings.json", write_cost(answer, start_s));
   directory.commit();
   if (record.crashed) {
     print_note("plumbline: method '" + record.name + "' crashed: " + record.error);
     return 1;
   }
+  print(words_of(recording->taken(), answer.scans, recording->has_odometry()) + "\n");
   print(printable(options.out) + "/" + record.name + ".tum: " + std::to_string(record.causal.size()) + " poses\n");
   if (record.lost_scans > 0) std::printf("lost after %d of %d scans\n", record.lost_scans, record.scans);
   if (!record.beliefs.empty())

@@ -27,6 +27,7 @@ class PoorerRecording final : public slam::Recording {
   [[nodiscard]] const slam::RecordingInfo& info() const override { return recording_->info(); }
   [[nodiscard]] bool has_odometry() const override { return recording_->has_odometry(); }
   [[nodiscard]] slam::Nanoseconds origin() const override { return recording_->origin(); }
+  [[nodiscard]] slam::Taken taken() const override { return recording_->taken(); }
   [[nodiscard]] std::vector<std::string> left_out() const override { return recording_->left_out(); }
 
   [[nodiscard]] bool next(slam::SensorFrame& frame) override {

@@ -71,6 +71,45 @@ TEST_F(Ros2, RecordsThatComeLateAreNamed) {
   EXPECT_NE(description.find(words), std::string::npos) << description;
 }
 
+TEST_F(Ros2, WhatWasTakenIsSaid) {
+  const std::string walk = simulated({"--rosbag2"}), database = walk + "/rosbag2/rosbag2_0.db3";
+  const auto estimate = [&](const std::string& recording, const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"estimate",           recording, "--method", "odometry", "-o",
+                                          folder_ / "estimate", "--force"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return plumbline(arguments);
+  };
+  run_sql(database,
+          "INSERT INTO topics SELECT 99, '/other/points', type, serialization_format, offered_qos_profiles "
+          "FROM topics WHERE name = '/velodyne_points';");
+  const Outcome bag = estimate(database, {});
+  EXPECT_EQ(bag.code, 0) << bag.err;
+  EXPECT_EQ(
+      bag.out.rfind("/velodyne_points (not /other/points): 49 scans, 16 rings, points with times; frame velodyne; "
+                    "mount from /tf_static; odometry /odom; IMU /imu/data\n",
+                    0),
+      0U)
+      << bag.out;
+  const std::string said = read_file(folder_ / "estimate/estimate.yaml");
+  for (const std::string words : {"input:", "points: /velodyne_points", "other_points:", "frame: velodyne",
+                                  "mount: tf_static", "scans: 49", "rings: 16", "point_times: true"})
+    EXPECT_NE(said.find(words), std::string::npos) << words << ":\n" << said;
+
+  run_sql(database, "DELETE FROM messages WHERE topic_id = (SELECT id FROM topics WHERE name = '/tf_static');");
+  const Outcome unknown = estimate(database, {"--without", "times"});
+  EXPECT_EQ(unknown.code, 0) << unknown.err;
+  EXPECT_NE(unknown.err.find("where the LiDAR sits on the robot is not known"), std::string::npos) << unknown.err;
+  EXPECT_NE(unknown.out.find("which are not deskewed"), std::string::npos) << unknown.out;
+
+  const Outcome recording = estimate(walk, {});
+  EXPECT_NE(recording.out.find("49 scans, 16 rings, points with times; mount from the description; odometry\n"),
+            std::string::npos)
+      << recording.out;
+  const Outcome topic = estimate(walk, {"--points-topic", "/points"});
+  EXPECT_EQ(topic.code, 2);
+  EXPECT_NE(topic.err.find("--points-topic: is of bags"), std::string::npos) << topic.err;
+}
+
 TEST_F(Ros2, WhatIsNoneIsRefused) {
   const auto refused = [&](const std::string& name, const std::string& words) {
     const Outcome outcome = plumbline({"estimate", folder_ / name, "--method", "vgicp", "-o", folder_ / "out"});
@@ -82,6 +121,11 @@ TEST_F(Ros2, WhatIsNoneIsRefused) {
   refused("odd.mcap", "is no ROS 2 bag");
   write_file(folder_ / "odd.db3", "SQLite format 2");
   refused("odd.db3", "is no ROS 2 bag");
+  write_file(folder_ / "walk.mcap.zstd", "x");
+  refused("walk.mcap.zstd", "decompress it first");
+  fs::create_directory(folder_ / "split");
+  write_file(folder_ / "split/split_0.db3", "x");
+  refused("split", "a rosbag2 without metadata.yaml");
   const Outcome unused = plumbline({"simulate", "quickstart", "-o", folder_ / "walk", "--bag-truth"});
   EXPECT_EQ(unused.code, 2);
   EXPECT_NE(unused.err.find("--bag, --mcap or --rosbag2"), std::string::npos) << unused.err;

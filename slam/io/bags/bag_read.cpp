@@ -23,13 +23,19 @@ namespace plumbline::slam {
 
 namespace {
 
-constexpr std::size_t most_waiting = 20;  ///< scans that wait for slower topics
+constexpr std::size_t most_waiting = 20;    ///< scans that wait for slower topics
+constexpr std::int64_t many_records = 100;  ///< by which a clock that stands still is told from a slow start
 
 constexpr std::string_view cloud_type = "sensor_msgs/PointCloud2", odometry_type = "nav_msgs/Odometry",
                            imu_type = "sensor_msgs/Imu", transforms_type = "tf2_msgs/TFMessage";
 
 bool is_livox(std::string_view type) { return type.starts_with("livox_") && type.ends_with("/CustomMsg"); }
 bool is_cloud(std::string_view type) { return type == cloud_type || is_livox(type); }
+
+/// "2 of 7 scans"
+std::string share_of(std::int64_t some, std::int64_t all, std::string_view what) {
+  return std::to_string(some) + " of " + std::to_string(all) + " " + std::string(what);
+}
 
 /// Records of one topic in time order. A record with the stamp of the one before it is left out, and so is one that
 /// comes later than newer ones; where a clock was set back, what follows belongs to another recording.
@@ -43,6 +49,8 @@ class Waiting {
       throw InputError({}, "stamps on " + std::string(topic) + " go back by " + std::to_string(back / 1'000'000) +
                                " ms; records that come late by at most " + std::to_string(most_back / 1'000'000) +
                                " ms would be left out");
+    ++read_;
+    if (last_ && back == 0) ++repeated_;
     if (back > 0) {
       ++late_;
       most_late_ = std::max(most_late_, back);
@@ -52,14 +60,24 @@ class Waiting {
     records_.push_back(record);
     return true;
   }
-  /// What was, nothing where all could be used.
-  [[nodiscard]] std::optional<std::string> left_out(std::string_view topic) const {
-    if (late_ == 0) return std::nullopt;
-    std::array<char, 32> ms{};
-    std::snprintf(ms.data(), ms.size(), "%.3g", 1e-6 * static_cast<double>(most_late_));
-    return std::string(topic) + ": " + std::to_string(late_) + (late_ == 1 ? " record" : " records") +
-           " left out, as stamps go back by up to " + ms.data() + " ms";
+  /// What was, nothing where all could be used. what: records of this kind.
+  [[nodiscard]] std::vector<std::string> left_out(std::string_view topic, std::string_view what) const {
+    std::vector<std::string> said;
+    if (late_ > 0) {
+      std::array<char, 32> ms{};
+      std::snprintf(ms.data(), ms.size(), "%.3g", 1e-6 * static_cast<double>(most_late_));
+      said.push_back(std::string(topic) + ": " + std::to_string(late_) + (late_ == 1 ? " record" : " records") +
+                     " left out, as stamps go back by up to " + ms.data() + " ms");
+    }
+    if (repeated_ > 0)
+      said.push_back(std::string(topic) + ": " + share_of(repeated_, read_, what) +
+                     " left out: same stamp as the one before");
+    return said;
   }
+  [[nodiscard]] std::int64_t read() const { return read_; }
+  [[nodiscard]] std::int64_t lost() const { return late_ + repeated_; }
+  /// More than so many records, and all of one stamp.
+  [[nodiscard]] bool stands_still(std::int64_t more_than) const { return read_ > more_than && repeated_ == read_ - 1; }
   [[nodiscard]] bool reaches(Nanoseconds t) const { return last_ && *last_ >= t; }
   [[nodiscard]] const std::deque<Record>& records() const { return records_; }
   void take_until(Nanoseconds t, std::vector<Record>& out) {
@@ -76,7 +94,7 @@ class Waiting {
 
   std::deque<Record> records_;
   std::optional<Nanoseconds> last_;
-  std::int64_t late_ = 0;
+  std::int64_t read_ = 0, repeated_ = 0, late_ = 0;
   Nanoseconds most_late_ = 0;
 };
 
@@ -127,12 +145,15 @@ class BagRecording final : public Recording {
       std::vector<std::string> names = {topics_.points};
       if (!topics_.odometry.empty()) names.push_back(topics_.odometry);
       if (!topics_.imu.empty()) names.push_back(topics_.imu);
-      const std::string lidar = find_frames(names);
+      lidar_ = find_frames(names);
       described_ = info != nullptr;
-      if (info != nullptr)
+      if (info != nullptr) {
         info_ = *info;
-      else if (const std::optional<Pose> X_RL = frames_.find(lidar, base_))
-        info_.mount = recording_info(0, {*X_RL, info_.mount.height_m}, {}).mount;
+        mount_ = MountSource::description;
+      } else {
+        find_mount();
+      }
+      find_time_base();
       source_->select(names);
     });
   }
@@ -143,10 +164,20 @@ class BagRecording final : public Recording {
 
   [[nodiscard]] std::vector<std::string> left_out() const override {
     std::vector<std::string> all;
-    for (const std::optional<std::string>& said :
-         {scans_.left_out(topics_.points), odometry_.left_out(topics_.odometry), imu_.left_out(topics_.imu)})
-      if (said) all.push_back(*said);
+    for (const std::vector<std::string>& said :
+         {scans_.left_out(topics_.points, "scans"), odometry_.left_out(topics_.odometry, "records"),
+          imu_.left_out(topics_.imu, "records")})
+      all.insert(all.end(), said.begin(), said.end());
+    if (early_ > 0)
+      all.push_back(topics_.points + ": " + share_of(early_, scans_.read(), "scans") +
+                    " left out: before the first odometry");
     return all;
+  }
+  [[nodiscard]] Taken taken() const override {
+    Taken taken{topics_.points, topics_.odometry, topics_.imu, {}, lidar_, mount_};
+    for (const BagTopic& topic : source_->topics())
+      if (is_cloud(topic.type) && topic.name != topics_.points) taken.other_points.push_back(topic.name);
+    return taken;
   }
 
   [[nodiscard]] bool next(SensorFrame& frame) override {
@@ -242,6 +273,25 @@ class BagRecording final : public Recording {
     return lidar;
   }
 
+  /// Without odometry R is the LiDAR's frame, unless the owner says otherwise.
+  void find_mount() {
+    if (const std::optional<Pose> X_RL = frames_.find(lidar_, base_)) {
+      info_.mount = recording_info(0, {*X_RL, info_.mount.height_m}, {}).mount;
+      mount_ = MountSource::tf_static;
+    } else if (!frames_.empty() && !lidar_.empty() && !base_.empty()) {
+      throw InputError(mark_, topics_.points + " is in frame '" + lidar_ + "', which /tf_static does not join to '" +
+                                  base_ +
+                                  "'; give the mount with --description, or name another topic with --points-topic");
+    }
+  }
+
+  void find_time_base() {
+    source_->select({topics_.points});
+    TimeBaseSearch search;
+    for (RawMessage message; source_->next(message) && search.add(cloud_of(message).cloud);) continue;
+    time_base_ = search.base();
+  }
+
   [[nodiscard]] Imu imu_of(const ros::FramedImu& said) const {
     if (const std::optional<Imu> imu = in_robot(said, frames_, base_)) return *imu;
     if (described_) return said.imu;
@@ -258,6 +308,7 @@ class BagRecording final : public Recording {
       odometry_.take_until(out.scan.stamp, out.odometry);
       covariances_.take_until(out.scan.stamp, out.covariances);
       started_ = started_ || !has_odometry() || !out.odometry.empty();
+      early_ += started_ ? 0 : 1;
       if (!started_) continue;
       frame = std::move(out);
       return true;
@@ -288,10 +339,19 @@ class BagRecording final : public Recording {
 
   /// At the end of the bag.
   void check_clocks() const {
+    if (2 * scans_.lost() > scans_.read())
+      throw InputError(mark_, topics_.points + ": " + share_of(scans_.lost(), scans_.read(), "scans") +
+                                  " have a stamp that is no later than that of one before; at most half are left out");
     if (!has_odometry()) return;
+    check_odometry(1);
     if (!started_) throw InputError(mark_, topics_.odometry + ": " + std::string(no_odometry));
     if (odometry_stamp_ && first_scan_ && *odometry_stamp_ < *first_scan_)
       throw InputError(mark_, topics_.odometry + ": " + std::string(odometry_over));
+  }
+
+  void check_odometry(std::int64_t more_than) const {
+    if (odometry_.stands_still(more_than))
+      throw InputError(mark_, topics_.odometry + ": all records have one stamp; each needs that of its measurement");
   }
 
   /// True when nothing that belongs before the first waiting scan can still come.
@@ -312,14 +372,16 @@ class BagRecording final : public Recording {
   void read(const RawMessage& message) {
     const BagTopic& topic = topic_of(message);
     if (is_cloud(topic.type)) {
-      Scan scan = scan_of(cloud_of(message).cloud);
+      Scan scan = scan_of(cloud_of(message).cloud, time_base_);
       scan.stamp = shifted(scan.stamp);
       scans_.add(scan, topics_.points);
     } else if (topic.type == odometry_type) {
       const ros::OdometryMessage said = ros::read_odometry(message.bytes, topic.encoding);
       if (!X_OB_) X_OB_ = start_of(said.X_OR.X);
       const Nanoseconds stamp = shifted(said.X_OR.stamp);
-      if (!odometry_.add({stamp, *X_OB_ * said.X_OR.X}, topics_.odometry)) return;
+      const bool taken = odometry_.add({stamp, *X_OB_ * said.X_OR.X}, topics_.odometry);
+      check_odometry(many_records);
+      if (!taken) return;
       const Nanoseconds dt = odometry_stamp_ ? stamp - *odometry_stamp_ : 0;
       if (const auto covariance = increment_covariance(said, dt))
         covariances_.add({stamp, *covariance}, topics_.odometry);
@@ -346,7 +408,10 @@ class BagRecording final : public Recording {
   RecordingInfo info_;
   bool described_ = false;  ///< by its owner
   FrameTree frames_;
-  std::string base_;  ///< R; empty without odometry
+  std::string base_;   ///< R; empty without odometry
+  std::string lidar_;  ///< L
+  MountSource mount_ = MountSource::unknown;
+  TimeBase time_base_ = TimeBase::unknown;
   Waiting<Scan> scans_;
   Waiting<Odometry> odometry_;
   Waiting<OdometryCovariance> covariances_;
@@ -357,6 +422,7 @@ class BagRecording final : public Recording {
   std::optional<Pose> X_OB_;
   std::optional<double> gravity_;  ///< m/s^2 of the unit that the IMU's accelerations are in
   std::int64_t messages_ = 0;
+  std::int64_t early_ = 0;  ///< scans before the odometry
   bool started_ = false;
 };
 

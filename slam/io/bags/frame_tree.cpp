@@ -3,6 +3,12 @@
 
 namespace plumbline::slam {
 
+namespace {
+
+constexpr int longest_chain = 16;
+
+}  // namespace
+
 std::string plain_frame(const std::string& frame) { return frame.starts_with('/') ? frame.substr(1) : frame; }
 
 void FrameTree::add(const ros::Transform& transform) {
@@ -10,9 +16,21 @@ void FrameTree::add(const ros::Transform& transform) {
 }
 
 std::optional<Pose> FrameTree::find(const std::string& frame, const std::string& base) const {
-  constexpr int longest_chain = 16;
-  std::string here = plain_frame(frame);
-  const std::string there = plain_frame(base);
+  std::string common = plain_frame(base);
+  if (const std::optional<Pose> X = find_above(plain_frame(frame), common)) return X;
+  for (int i = 0; i < longest_chain; ++i) {
+    const auto mount = mounts_.find(common);
+    if (mount == mounts_.end()) return std::nullopt;
+    common = mount->second.parent;
+    const std::optional<Pose> X_CB = find_above(plain_frame(base), common);
+    if (const std::optional<Pose> X_CF = find_above(plain_frame(frame), common); X_CB && X_CF)
+      return X_CB->inverse() * *X_CF;
+  }
+  return std::nullopt;
+}
+
+std::optional<Pose> FrameTree::find_above(const std::string& frame, const std::string& there) const {
+  std::string here = frame;
   Pose X;  // of `frame` in `here`
   for (int i = 0; here != there; ++i) {
     const auto mount = mounts_.find(here);

@@ -16,10 +16,14 @@ namespace plumbline::slam {
 class FrameTree {
  public:
   void add(const ros::Transform& transform);
-  /// Pose of a frame in `base`; nothing where no chain of at most 16 frames leads from the one up to the other.
+  /// Pose of a frame in `base`; nothing where no chain of at most 16 frames leads from each up to one frame.
   [[nodiscard]] std::optional<Pose> find(const std::string& frame, const std::string& base) const;
+  [[nodiscard]] bool empty() const { return mounts_.empty(); }
 
  private:
+  /// Of a frame in one above it, or in itself.
+  [[nodiscard]] std::optional<Pose> find_above(const std::string& frame, const std::string& above) const;
+
   struct Mount {
     std::string parent;
     Pose X;

@@ -59,11 +59,17 @@ class Ros1Source final : public MessageSource {
     });
   }
 
+  [[nodiscard]] Nanoseconds start() override {
+    rosbag::View all(bag_);
+    return static_cast<Nanoseconds>(all.getBeginTime().toNSec());
+  }
+
   [[nodiscard]] bool next(RawMessage& message) override {
     bool found = false;
     guarded([&] {
       if (!view_ || at_ == view_->end()) return;
       message.topic = ids_.at(at_->getTopic());
+      message.time = static_cast<Nanoseconds>(at_->getTime().toNSec());
       message.bytes.resize(at_->size());
       ::ros::serialization::OStream stream(message.bytes.data(), static_cast<std::uint32_t>(message.bytes.size()));
       at_->write(stream);

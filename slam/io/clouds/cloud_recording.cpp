@@ -35,9 +35,10 @@ std::vector<std::string> names_of_clouds(const std::string& folder) {
 
 class CloudRecording final : public Recording {
  public:
-  CloudRecording(std::string folder, RecordingInfo info)
+  CloudRecording(std::string folder, RecordingInfo info, MountSource mount)
       : folder_(std::move(folder)),
         info_(std::move(info)),
+        mount_(mount),
         period_(static_cast<Nanoseconds>(info_.lidar.period_s * 1e9)),
         names_(names_of_clouds(folder_)) {
     if (names_.empty())
@@ -68,10 +69,16 @@ class CloudRecording final : public Recording {
   [[nodiscard]] const RecordingInfo& info() const override { return info_; }
   [[nodiscard]] bool has_odometry() const override { return false; }
   [[nodiscard]] Nanoseconds origin() const override { return 0; }
+  [[nodiscard]] Taken taken() const override {
+    Taken taken;
+    taken.mount = mount_;
+    return taken;
+  }
 
  private:
   std::string folder_;
   RecordingInfo info_;
+  MountSource mount_;
   Nanoseconds period_;
   std::vector<std::string> names_;
   std::size_t next_ = 0;
@@ -89,7 +96,9 @@ std::unique_ptr<Recording> open_cloud_folder(const std::string& path, const Reco
     description = *info;
   else if (fs::exists(file))
     description = read_recording_info(read_text_file(file), file);
-  return std::make_unique<CloudRecording>(path, std::move(description));
+  const bool described = info != nullptr || fs::exists(file);
+  return std::make_unique<CloudRecording>(path, std::move(description),
+                                          described ? MountSource::description : MountSource::unknown);
 }
 
 }  // namespace plumbline::slam

@@ -124,35 +124,67 @@ std::pair<double, double> extent(const PointCloud& cloud, const PointClock& cloc
   return found.first > found.second ? std::pair(0.0, 0.0) : found;
 }
 
-/// Whole numbers are ns from the stamp. Others count from it in s, or are times of the day in the unit that puts all
-/// returns within a second of it, or count from it in a unit by which they are of a scan, 5 ms to 1 s long.
-PointClock clock_of(const PointCloud& cloud, const PointField& field, const std::vector<CloudPoint>& points) {
-  constexpr double longest = longest_ns, least_turn = 5e6;
-  constexpr std::array<double, 4> units_ns = {1e9, 1e6, 1e3, 1.0};
-  const auto fits = [&](const PointClock& clock, double least) {
-    const auto [first, last] = extent(cloud, clock, points);
-    return std::abs(first) <= longest && std::abs(last) <= longest && last - first >= least;
-  };
-  const bool whole = field.type != PointType::f32 && field.type != PointType::f64;
-  const PointClock plain{&field, whole ? 1.0 : units_ns[0], 0.0};
-  if (fits(plain, 0.0)) return plain;
-  for (const double unit : units_ns)
-    if (const PointClock of_day{&field, unit, static_cast<double>(cloud.stamp)};
-        field.type == PointType::f64 && fits(of_day, 0.0))
-      return of_day;
-  for (const double unit : units_ns)
-    if (const PointClock other{&field, unit, 0.0}; !whole && fits(other, least_turn)) return other;
+/// The clocks by which a cloud's times may be read, those from the stamp and those of the day.
+class ClockChoice {
+ public:
+  ClockChoice(const PointCloud& cloud, const PointField& field, const std::vector<CloudPoint>& points)
+      : cloud_(cloud), field_(field), points_(points) {}
+
+  /// Whole numbers are ns; others s, where that fits.
+  [[nodiscard]] std::optional<PointClock> plain() const {
+    return fitting({&field_, whole() ? 1.0 : units_ns[0], 0.0}, 0.0);
+  }
+  /// In the unit that puts all returns within a second of the stamp.
+  [[nodiscard]] std::optional<PointClock> of_day() const {
+    if (field_.type != PointType::f64) return std::nullopt;
+    for (const double unit : units_ns)
+      if (const auto clock = fitting({&field_, unit, static_cast<double>(cloud_.stamp)}, 0.0)) return clock;
+    return std::nullopt;
+  }
+  /// From the stamp, in a unit by which the times are of a scan, 5 ms to 1 s long.
+  [[nodiscard]] std::optional<PointClock> in_other_unit() const {
+    constexpr double least_turn = 5e6;
+    if (whole()) return std::nullopt;
+    for (const double unit : units_ns)
+      if (const auto clock = fitting({&field_, unit, 0.0}, least_turn)) return clock;
+    return std::nullopt;
+  }
+
+ private:
+  static constexpr std::array<double, 4> units_ns = {1e9, 1e6, 1e3, 1.0};
+
+  [[nodiscard]] bool whole() const { return field_.type != PointType::f32 && field_.type != PointType::f64; }
+  [[nodiscard]] std::optional<PointClock> fitting(const PointClock& clock, double least) const {
+    constexpr double longest = longest_ns;
+    const auto [first, last] = extent(cloud_, clock, points_);
+    const bool fits = std::abs(first) <= longest && std::abs(last) <= longest && last - first >= least;
+    return fits ? std::optional(clock) : std::nullopt;
+  }
+
+  const PointCloud& cloud_;
+  const PointField& field_;
+  const std::vector<CloudPoint>& points_;
+};
+
+PointClock clock_of(const PointCloud& cloud, const PointField& field, const std::vector<CloudPoint>& points,
+                    TimeBase base) {
+  const ClockChoice choice(cloud, field, points);
+  std::optional<PointClock> clock;
+  if (base != TimeBase::day) clock = choice.plain();
+  if (!clock && base != TimeBase::stamp) clock = choice.of_day();
+  if (!clock && base != TimeBase::day) clock = choice.in_other_unit();
+  if (clock) return *clock;
   throw InputError({}, "field '" + field.name +
                            "' is not within 1 s of the stamp, be it in s, ms, us or ns, from the stamp or of the day "
                            "(whole numbers: ns from the stamp)");
 }
 
-std::vector<CloudPoint> read_points(const PointCloud& cloud) {
+/// All but their times.
+std::vector<CloudPoint> read_untimed(const PointCloud& cloud) {
   const std::array<const PointField*, 3> xyz = {&need_field(cloud, "x"), &need_field(cloud, "y"),
                                                 &need_field(cloud, "z")};
   const PointField* intensity = find_field(cloud, {"intensity", "reflectivity"});
   const PointField* ring = ring_field(cloud);
-  const PointField* time = time_field(cloud);
   std::vector<CloudPoint> points(std::size_t{cloud.width} * cloud.height);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const std::uint8_t* bytes = bytes_of(cloud, i);
@@ -172,8 +204,14 @@ std::vector<CloudPoint> read_points(const PointCloud& cloud) {
       point.ring = static_cast<int>(value);
     }
   }
+  return points;
+}
+
+std::vector<CloudPoint> read_points(const PointCloud& cloud, TimeBase base) {
+  std::vector<CloudPoint> points = read_untimed(cloud);
+  const PointField* time = time_field(cloud);
   if (time == nullptr) return points;
-  const PointClock clock = clock_of(cloud, *time, points);
+  const PointClock clock = clock_of(cloud, *time, points, base);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double t = clock.nanoseconds(bytes_of(cloud, i));
     // What stands where no return is may be anything.
@@ -216,12 +254,38 @@ PointCloud cloud_of(const Scan& scan, CloudLayout layout) {
   return cloud;
 }
 
-Scan scan_of(const PointCloud& cloud) {
+bool TimeBaseSearch::add(const PointCloud& cloud) {
+  check(cloud);
+  const PointField* time = time_field(cloud);
+  if (time == nullptr || time->type != PointType::f64) found_ = TimeBase::unknown;
+  if (found_) return false;
+  const std::vector<CloudPoint> points = read_untimed(cloud);
+  if (std::none_of(points.begin(), points.end(), [](const CloudPoint& point) { return point.valid; })) return true;
+  const ClockChoice choice(cloud, *time, points);
+  const std::optional<PointClock> of_day = choice.of_day();
+  const bool from_stamp = choice.plain() || choice.in_other_unit();
+  if (of_day && from_stamp) {
+    last_ = {cloud.stamp, extent(cloud, *of_day, points).first + of_day->zero_ns};
+    if (!first_) first_ = last_;
+    return true;
+  }
+  found_ = of_day ? TimeBase::day : from_stamp ? TimeBase::stamp : TimeBase::unknown;
+  return false;
+}
+
+TimeBase TimeBaseSearch::base() const {
+  if (found_) return *found_;
+  if (!first_ || last_->stamp <= first_->stamp) return TimeBase::unknown;
+  const double passed = static_cast<double>(last_->stamp - first_->stamp);
+  return std::abs(last_->first_ns - first_->first_ns - passed) < 0.5 * passed ? TimeBase::day : TimeBase::stamp;
+}
+
+Scan scan_of(const PointCloud& cloud, TimeBase base) {
   check(cloud);
   Scan scan;
   scan.stamp = cloud.stamp;
   if (cloud.width == 0 || cloud.height == 0) return scan;
-  std::vector<CloudPoint> points = read_points(cloud);
+  std::vector<CloudPoint> points = read_points(cloud, base);
   const bool timed = time_field(cloud) != nullptr;
   const bool named_rings = ring_field(cloud) != nullptr;
   const auto [rings, columns] = order_points(points, {cloud.width, cloud.height, named_rings, timed});

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -31,6 +32,27 @@ struct PointCloud {
   std::vector<std::uint8_t> data;
 };
 
+/// What times of points count from: their cloud's stamp, or 0 as that does.
+enum class TimeBase { unknown, stamp, day };
+
+/// Finds the time base of a topic's clouds. One alone does not tell while the clock is near 0; over several, times of
+/// the day grow with the stamps, and others stay within a sweep. Only f64 can hold times of the day.
+class TimeBaseSearch {
+ public:
+  /// The next cloud; false once no other is needed. Throws InputError as scan_of() does.
+  [[nodiscard]] bool add(const PointCloud& cloud);
+  /// From what was added; unknown where it makes no difference, or cannot be told.
+  [[nodiscard]] TimeBase base() const;
+
+ private:
+  struct Seen {
+    Nanoseconds stamp = 0;
+    double first_ns = 0.0;  ///< time of the first point, as one of the day
+  };
+  std::optional<TimeBase> found_;
+  std::optional<Seen> first_, last_;
+};
+
 /// What a cloud is written as.
 enum class CloudLayout {
   organised,  ///< a row a firing, sorted by ring, not-a-number where there is no return; `time` f32, s
@@ -45,12 +67,13 @@ enum class CloudLayout {
 /// and Livox write them: x, y, z (f32 or f64); intensity or reflectivity; ring or channel (else by the layout of an
 /// organised cloud, or by elevation where that is a VLP-16's; else the scan has one ring); t, time, timestamp or
 /// time_stamp: whole numbers in ns from the stamp, others in s from it, or as times of the day (f64) in the unit that
-/// puts them within 1 s of it, or in a unit by which they are 5 ms to 1 s long. Without times all points have the
+/// puts them within 1 s of it, or in a unit by which they are 5 ms to 1 s long; `base` says which of the two, where
+/// both may be. Without times all points have the
 /// cloud's stamp: whether they are deskewed is not known, and undoing a motion twice is as bad as not at all. Columns
 /// are the rows or columns of an organised cloud, else found by time or azimuth; of one ring, a column a point. Points
 /// that are not finite, at the origin or beyond 1 km are no returns. Scan::stamp is the time of the last point; a cloud
 /// without points is a scan without columns at the cloud's. Throws InputError without a mark on a cloud without fields,
 /// of wrong size, with rings above 127 or times over more than 1 s.
-[[nodiscard]] Scan scan_of(const PointCloud& cloud);
+[[nodiscard]] Scan scan_of(const PointCloud& cloud, TimeBase base = TimeBase::unknown);
 
 }  // namespace plumbline::slam

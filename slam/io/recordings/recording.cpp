@@ -57,8 +57,10 @@ class Stream {
 /// LiDAR packets, with odometry and IMU beside them where there are any.
 class PacketRecording final : public Recording {
  public:
-  PacketRecording(const std::string& pcap, RecordingInfo info)
-      : mark_{pcap, 0, 0}, info_(std::move(info)), pcap_(pcap) {}
+  PacketRecording(const std::string& pcap, RecordingInfo info, bool described)
+      : mark_{pcap, 0, 0}, info_(std::move(info)), pcap_(pcap) {
+    if (described) taken_of_.mount = MountSource::description;
+  }
   void add_odometry(const std::string& path) {
     odometry_mark_ = {path, 0, 0};
     odometry_.emplace(path);
@@ -69,6 +71,11 @@ class PacketRecording final : public Recording {
   [[nodiscard]] const RecordingInfo& info() const override { return info_; }
   [[nodiscard]] bool has_odometry() const override { return odometry_.has_value(); }
   [[nodiscard]] Nanoseconds origin() const override { return pcap_.origin(); }
+  [[nodiscard]] Taken taken() const override { return taken_of_; }
+  [[nodiscard]] std::vector<std::string> left_out() const override {
+    if (early_ == 0) return {};
+    return {std::to_string(early_) + " of " + std::to_string(messages_) + " scans left out: before the first odometry"};
+  }
 
   [[nodiscard]] bool next(SensorFrame& frame) override {
     SensorFrame out;
@@ -78,7 +85,9 @@ class PacketRecording final : public Recording {
         return false;
       }
       out.scan = decode(out.packets);
-    } while (odometry_ && !odometry_started(out.scan.stamp));
+      if (!odometry_ || odometry_started(out.scan.stamp)) break;
+      ++early_;
+    } while (true);
     if (imu_) imu_->take_until(out.scan.stamp, origin(), out.imu);
     if (odometry_) take_odometry(out);
     if (covariances_) covariances_->take_until(out.scan.stamp, origin(), out.covariances);
@@ -166,9 +175,11 @@ class PacketRecording final : public Recording {
   std::optional<Stream<OdometryReader, Odometry>> odometry_;
   std::optional<Stream<CovarianceReader, OdometryCovariance>> covariances_;
   std::optional<Stream<ImuReader, Imu>> imu_;
+  Taken taken_of_;
   std::int64_t packets_ = 0, messages_ = 0;
-  bool started_ = false;  ///< odometry has, for the first scan given
-  bool taken_ = false;    ///< and that scan has its records
+  std::int64_t early_ = 0;  ///< scans before the odometry
+  bool started_ = false;    ///< odometry has, for the first scan given
+  bool taken_ = false;      ///< and that scan has its records
 };
 
 std::unique_ptr<Recording> open_directory(const std::string& dir, const RecordingInfo* given) {
@@ -180,7 +191,8 @@ std::unique_ptr<Recording> open_directory(const std::string& dir, const Recordin
     info = *given;
   else if (fs::exists(file))
     info = read_recording_info(read_text_file(file), file);
-  auto recording = std::make_unique<PacketRecording>(pcap, info);
+  const bool described = given != nullptr || fs::exists(path(recording_files::info));
+  auto recording = std::make_unique<PacketRecording>(pcap, info, described);
   if (const std::string file = path(recording_files::odometry); fs::exists(file)) recording->add_odometry(file);
   if (const std::string file = path(recording_files::covariance); fs::exists(file)) recording->add_covariances(file);
   if (const std::string file = path(recording_files::imu); fs::exists(file)) recording->add_imu(file);
@@ -208,7 +220,7 @@ std::unique_ptr<Recording> open_recording(const std::string& path, const Recordi
   if (fs::is_directory(path)) return open_directory(path, info);
   if (!fs::exists(path))
     throw InputError({path, 0, 0}, "no such file; a recording directory or a capture (.pcap) would be right");
-  return std::make_unique<PacketRecording>(path, info != nullptr ? *info : RecordingInfo{});
+  return std::make_unique<PacketRecording>(path, info != nullptr ? *info : RecordingInfo{}, info != nullptr);
 }
 
 }  // namespace plumbline::slam

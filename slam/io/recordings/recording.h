@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -11,6 +12,20 @@
 #include "slam/io/recordings/sensor_frame.h"
 
 namespace plumbline::slam {
+
+/// From where the LiDAR's pose on the robot is known.
+enum class MountSource { unknown, description, tf_static };
+[[nodiscard]] constexpr std::array<std::string_view, 3> names_of(MountSource) {
+  return {"unknown", "description", "tf_static"};
+}
+
+/// What of a recording is read. Topics and frames are a bag's, empty elsewhere.
+struct Taken {
+  std::string points, odometry, imu;
+  std::vector<std::string> other_points;     ///< topics that could have been taken
+  std::string frame;                         ///< of the points
+  MountSource mount = MountSource::unknown;  ///< unknown: R is the LiDAR's frame
+};
 
 /// Records of a simulated or a real robot, read as a stream: never more than one message of them is in memory.
 class Recording {
@@ -23,7 +38,8 @@ class Recording {
   [[nodiscard]] virtual bool has_odometry() const = 0;
   /// Time 0 on the recording's own clock, known after the first scan; 0 where the two are one.
   [[nodiscard]] virtual Nanoseconds origin() const = 0;
-  /// Of what came too late so far and was left out, a sentence for each topic.
+  [[nodiscard]] virtual Taken taken() const = 0;
+  /// Of what could not be used so far and was left out, a sentence for each topic and reason.
   [[nodiscard]] virtual std::vector<std::string> left_out() const { return {}; }
 };
 

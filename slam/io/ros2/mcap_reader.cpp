@@ -23,6 +23,7 @@ using mcap::Op;
 using Bytes = std::vector<std::uint8_t>;
 
 constexpr std::size_t most_name_bytes = 4096;
+constexpr std::size_t most_open_bytes = std::size_t{1} << 30U;
 
 std::uint32_t checksum(std::uint32_t before, std::span<const std::uint8_t> bytes) {
   return static_cast<std::uint32_t>(::crc32_z(before, bytes.data(), bytes.size()));
@@ -73,7 +74,9 @@ class McapReader final : public MessageSource {
       std::fseek(file_.stream.get(), 0, SEEK_END);
       size_ = static_cast<std::uint64_t>(std::ftell(file_.stream.get()));
       read_ends();
-      if (!read_summary()) read_all_channels();
+      const bool known = read_summary();
+      find_blocks();
+      if (!known) read_all_channels();
     });
   }
 
@@ -83,10 +86,9 @@ class McapReader final : public MessageSource {
     wanted_.clear();
     for (const auto& [id, topic] : channels_)
       if (std::find(topics.begin(), topics.end(), topics_[topic].name) != topics.end()) wanted_.insert(id);
-    at_ = mcap::magic.size();
-    chunk_.clear();
-    in_chunk_ = 0;
-    chunks_seen_ = 0;
+    open_.clear();
+    open_bytes_ = 0;
+    next_block_ = 0;
   }
 
   [[nodiscard]] bool next(RawMessage& message) override {
@@ -94,6 +96,8 @@ class McapReader final : public MessageSource {
     guarded([&] { found = find_next(message); });
     return found;
   }
+
+  [[nodiscard]] Nanoseconds start() override { return blocks_.empty() ? 0 : blocks_.front().start; }
 
  private:
   template <class F>
@@ -157,11 +161,52 @@ class McapReader final : public MessageSource {
     return !channels_.empty();
   }
 
+  /// Chunks, and messages that stand outside of any, in runs.
+  void find_blocks() {
+    std::uint64_t at = mcap::magic.size();
+    std::size_t chunks = 0;
+    while (at + mcap::head_bytes <= data_end_) {
+      record_at_ = at;
+      const Head head = head_of(read(at, mcap::head_bytes));
+      if (head.size > data_end_ - at - mcap::head_bytes)
+        throw InputError({}, "a record that goes beyond the data's end");
+      if (head.op == Op::data_end) break;
+      chunks += head.op == Op::chunk ? 1 : 0;
+      if (head.op == Op::chunk || head.op == Op::message) add_block(head, at);
+      const std::uint64_t content_at = at + mcap::head_bytes;
+      at = content_at + head.size;
+      if (head.op == Op::schema || head.op == Op::channel) take_definition(head.op, read(content_at, head.size));
+    }
+    // What the index has and the data does not is lost.
+    if (!chunk_channels_.empty() && chunks != chunk_channels_.size())
+      throw InputError(
+          {}, std::to_string(chunks) + " chunks where the index has " + std::to_string(chunk_channels_.size()));
+    std::stable_sort(blocks_.begin(), blocks_.end(), [](const Block& a, const Block& b) { return a.start < b.start; });
+  }
+
+  void add_block(const Head& head, std::uint64_t at) {
+    constexpr std::uint64_t run_bytes = 4U << 20U, time_at = 6;  // after channel and number of a message
+    const bool chunk = head.op == Op::chunk;
+    if (!chunk && !chunk_channels_.empty())
+      throw InputError({}, "a message outside of the chunks that the file's index has");
+    const Bytes front = read(at + mcap::head_bytes, std::min<std::uint64_t>(head.size, 16));
+    Values values(front);
+    if (!chunk) static_cast<void>(values.take(time_at));
+    const auto start = static_cast<Nanoseconds>(values.number<std::uint64_t>());
+    const std::uint64_t end = at + mcap::head_bytes + head.size;
+    if (!chunk && !blocks_.empty() && !blocks_.back().chunk && blocks_.back().end == at &&
+        end - blocks_.back().at <= run_bytes) {
+      blocks_.back().end = end;
+      blocks_.back().start = std::min(blocks_.back().start, start);
+    } else {
+      blocks_.push_back({at, end, start, chunk});
+    }
+  }
+
   /// A file that was written as a stream says nothing at its end.
   void read_all_channels() {
-    RawMessage message;
-    at_ = mcap::magic.size();
-    while (find_next(message)) continue;
+    for (const Block& block : blocks_)
+      if (block.chunk) static_cast<void>(read_block(block));
   }
 
   static std::pair<Head, std::span<const std::uint8_t>> record_in(std::span<const std::uint8_t> bytes,
@@ -220,61 +265,87 @@ class McapReader final : public MessageSource {
                         [&](std::uint16_t id) { return wanted_.contains(id); });
   }
 
+  struct Block {
+    std::uint64_t at = 0, end = 0;  ///< bytes of the file
+    Nanoseconds start = 0;          ///< of its first message
+    bool chunk = false;
+  };
+
+  /// What is left of a block.
+  struct OpenBlock {
+    Bytes bytes;
+    std::vector<std::pair<Nanoseconds, std::size_t>> messages;  ///< that are asked for, by time; where they stand
+    std::size_t next = 0;
+  };
+
   bool find_next(RawMessage& message) {
-    for (;;) {
-      while (in_chunk_ < chunk_.size()) {
-        const auto [head, content] = record_in(chunk_, in_chunk_);
-        in_chunk_ += mcap::head_bytes + head.size;
-        if (head.op == Op::message && take_message(content, message)) return true;
-        take_definition(head.op, content);
-      }
-      if (at_ + mcap::head_bytes > data_end_) return at_end();
-      record_at_ = at_;
-      const Head head = head_of(read(at_, mcap::head_bytes));
-      if (head.size > data_end_ - at_ - mcap::head_bytes)
-        throw InputError({}, "a record that goes beyond the data's end");
-      const std::uint64_t content_at = at_ + mcap::head_bytes;
-      at_ = content_at + head.size;
-      if (head.op == Op::data_end) return at_end();
-      chunks_seen_ += head.op == Op::chunk ? 1 : 0;
-      if (head.op == Op::chunk && !may_skip(record_at_)) open_chunk(read(content_at, head.size));
-      if (head.op == Op::message && !chunk_channels_.empty())
-        throw InputError({}, "a message outside of the chunks that the file's index has");
-      if (head.op == Op::schema || head.op == Op::channel || head.op == Op::message) {
-        const Bytes content = read(content_at, head.size);
-        if (head.op == Op::message && take_message(content, message)) return true;
-        take_definition(head.op, content);
-      }
+    for (; next_block_ < blocks_.size() && (open_.empty() || blocks_[next_block_].start <= open_.begin()->first.first);
+         ++next_block_)
+      if (!may_skip(blocks_[next_block_].at)) open_block(blocks_[next_block_]);
+    if (open_.empty()) return false;
+    auto front = open_.extract(open_.begin());
+    OpenBlock& block = front.mapped();
+    take_message(record_in(block.bytes, block.messages[block.next].second).second, message);
+    if (++block.next == block.messages.size()) {
+      open_bytes_ -= block.bytes.size();
+      return true;
     }
-  }
-
-  /// What the index has and the data does not is lost.
-  [[nodiscard]] bool at_end() const {
-    if (!chunk_channels_.empty() && chunks_seen_ != chunk_channels_.size())
-      throw InputError(
-          {}, std::to_string(chunks_seen_) + " chunks where the index has " + std::to_string(chunk_channels_.size()));
-    return false;
-  }
-
-  bool take_message(std::span<const std::uint8_t> content, RawMessage& message) {
-    Values values(content);
-    const auto id = values.number<std::uint16_t>();
-    static_cast<void>(values.take(4 + 8 + 8));
-    if (!wanted_.contains(id)) return false;
-    message.topic = channels_.at(id);
-    message.bytes.assign(values.rest().begin(), values.rest().end());
+    front.key().first = block.messages[block.next].first;
+    open_.insert(std::move(front));
     return true;
   }
 
-  void open_chunk(const Bytes& content) {
+  void open_block(const Block& from) {
+    OpenBlock block = read_block(from);
+    if (block.messages.empty()) return;
+    open_bytes_ += block.bytes.size();
+    if (!open_.empty() && open_bytes_ > most_open_bytes)
+      throw InputError({}, "messages that are out of the order of time over more than 1 GiB; `mcap sort` mends that");
+    const std::pair key(block.messages.front().first, from.at);
+    open_.emplace(key, std::move(block));
+  }
+
+  [[nodiscard]] OpenBlock read_block(const Block& from) {
+    record_at_ = from.at;
+    OpenBlock block;
+    block.bytes = from.chunk ? chunk_of(read(from.at + mcap::head_bytes, from.end - from.at - mcap::head_bytes))
+                             : read(from.at, from.end - from.at);
+    for (std::size_t at = 0; at < block.bytes.size();) {
+      const auto [head, content] = record_in(block.bytes, at);
+      if (head.op == Op::message) {
+        Values values(content);
+        const auto id = values.number<std::uint16_t>();
+        static_cast<void>(values.number<std::uint32_t>());
+        const auto time = static_cast<Nanoseconds>(values.number<std::uint64_t>());
+        static_cast<void>(values.number<std::uint64_t>());
+        if (wanted_.contains(id)) block.messages.emplace_back(time, at);
+      }
+      take_definition(head.op, content);
+      at += mcap::head_bytes + head.size;
+    }
+    std::stable_sort(block.messages.begin(), block.messages.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    return block;
+  }
+
+  void take_message(std::span<const std::uint8_t> content, RawMessage& message) const {
+    Values values(content);
+    message.topic = channels_.at(values.number<std::uint16_t>());
+    static_cast<void>(values.number<std::uint32_t>());
+    message.time = static_cast<Nanoseconds>(values.number<std::uint64_t>());
+    static_cast<void>(values.number<std::uint64_t>());
+    message.bytes.assign(values.rest().begin(), values.rest().end());
+  }
+
+  static Bytes chunk_of(const Bytes& content) {
     Values values(content);
     static_cast<void>(values.take(16));
     const auto size = values.number<std::uint64_t>();
     const auto crc = values.number<std::uint32_t>();
     const std::string compression = values.text();
-    chunk_ = unpack(compression, values.take(values.number<std::uint64_t>()), size);
-    in_chunk_ = 0;
-    if (crc != 0 && checksum(0, chunk_) != crc) throw InputError({}, "a chunk whose checksum is wrong");
+    Bytes chunk = unpack(compression, values.take(values.number<std::uint64_t>()), size);
+    if (crc != 0 && checksum(0, chunk) != crc) throw InputError({}, "a chunk whose checksum is wrong");
+    return chunk;
   }
 
   Mark mark_;
@@ -286,11 +357,11 @@ class McapReader final : public MessageSource {
   std::map<std::uint16_t, std::size_t> channels_;                    ///< to topics
   std::map<std::uint64_t, std::set<std::uint16_t>> chunk_channels_;  ///< by where the chunk begins
   std::set<std::uint16_t> wanted_;
-  std::uint64_t at_ = 0;  ///< of the next record of the data
-  std::size_t chunks_seen_ = 0;
   std::uint64_t record_at_ = 0;  ///< of the one being read, for messages
-  Bytes chunk_;
-  std::size_t in_chunk_ = 0;
+  std::vector<Block> blocks_;    ///< by their start
+  std::size_t next_block_ = 0;
+  std::map<std::pair<Nanoseconds, std::uint64_t>, OpenBlock> open_;  ///< by the next message's time, then by place
+  std::size_t open_bytes_ = 0;
 };
 
 }  // namespace

@@ -9,8 +9,8 @@
 namespace plumbline::slam {
 
 /// Opens an MCAP file [mcap2024]: every length in it is compared with the bytes that are there before anything is
-/// allocated, every checksum of a chunk that is read is checked. Memory: the largest chunk, packed and unpacked. Throws
-/// InputError, also where the file was not closed.
+/// allocated, every checksum of a chunk that is read is checked. Memory: the chunks that overlap in time, at most 1 GiB
+/// unless one alone is larger, and a packed one. Throws InputError, also where the file was not closed.
 [[nodiscard]] std::unique_ptr<MessageSource> open_mcap(const std::string& path);
 
 }  // namespace plumbline::slam

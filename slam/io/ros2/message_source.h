@@ -21,6 +21,7 @@ struct BagTopic {
 
 struct RawMessage {
   std::size_t topic = 0;  ///< index in topics()
+  Nanoseconds time = 0;   ///< when it was recorded, not its header's stamp
   std::vector<std::uint8_t> bytes;
 };
 
@@ -31,8 +32,10 @@ class MessageSource {
   [[nodiscard]] virtual const std::vector<BagTopic>& topics() const = 0;
   /// Goes back to the beginning; next() then gives messages of these topics alone.
   virtual void select(const std::vector<std::string>& topics) = 0;
-  /// The next message in the order of the file; false at its end.
+  /// The next message in the order in which they were recorded, of one time in that of the file; false at the end.
   [[nodiscard]] virtual bool next(RawMessage& message) = 0;
+  /// No message was recorded earlier.
+  [[nodiscard]] virtual Nanoseconds start() = 0;
 };
 
 /// A type's name as ROS 1 writes it: without "msg/" in the middle.

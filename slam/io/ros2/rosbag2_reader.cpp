@@ -47,21 +47,31 @@ class DatabaseReader final : public MessageSource {
 
   [[nodiscard]] const std::vector<BagTopic>& topics() const override { return topics_; }
 
-  // By row, since an index on the time would cost a search a row; they stand as they were received.
+  // The order first, of numbers alone: without an index on the time whole messages would be sorted.
   void select(const std::vector<std::string>& topics) override {
     wanted_.clear();
     for (const auto& [id, topic] : ids_)
       if (std::find(topics.begin(), topics.end(), topics_[topic].name) != topics.end()) wanted_.insert(id);
-    rows_ = prepare("SELECT topic_id, data FROM messages ORDER BY id");
+    order_ = prepare("SELECT id FROM messages ORDER BY timestamp, id");
+    row_ = prepare("SELECT topic_id, timestamp, data FROM messages WHERE id = ?");
+  }
+
+  [[nodiscard]] Nanoseconds start() override {
+    const Statement least = prepare("SELECT timestamp FROM messages ORDER BY timestamp LIMIT 1");
+    return step(least) ? sqlite3_column_int64(least.get(), 0) : 0;
   }
 
   [[nodiscard]] bool next(RawMessage& message) override {
-    while (rows_ && step(rows_)) {
-      const sqlite3_int64 id = sqlite3_column_int64(rows_.get(), 0);
-      if (!wanted_.contains(id)) continue;
-      message.topic = ids_.at(id);
-      const auto* bytes = static_cast<const std::uint8_t*>(sqlite3_column_blob(rows_.get(), 1));
-      const auto size = static_cast<std::size_t>(sqlite3_column_bytes(rows_.get(), 1));
+    while (order_ && step(order_)) {
+      sqlite3_reset(row_.get());
+      sqlite3_bind_int64(row_.get(), 1, sqlite3_column_int64(order_.get(), 0));
+      if (!step(row_)) throw InputError(mark_, "is damaged: its index names a message that it does not hold");
+      const sqlite3_int64 topic = sqlite3_column_int64(row_.get(), 0);
+      if (!wanted_.contains(topic)) continue;
+      message.topic = ids_.at(topic);
+      message.time = sqlite3_column_int64(row_.get(), 1);
+      const auto* bytes = static_cast<const std::uint8_t*>(sqlite3_column_blob(row_.get(), 2));
+      const auto size = static_cast<std::size_t>(sqlite3_column_bytes(row_.get(), 2));
       if (size == 0) throw InputError(mark_, "a message without bytes");
       if (zstd_)
         message.bytes = unpack_zstd({bytes, size});
@@ -69,7 +79,7 @@ class DatabaseReader final : public MessageSource {
         message.bytes.assign(bytes, bytes + size);
       return true;
     }
-    rows_.reset();  // a statement that has ended would begin again
+    order_.reset();  // a statement that has ended would begin again
     return false;
   }
 
@@ -118,10 +128,10 @@ class DatabaseReader final : public MessageSource {
   std::vector<BagTopic> topics_;
   std::map<sqlite3_int64, std::size_t> ids_;  ///< to topics
   std::set<sqlite3_int64> wanted_;
-  Statement rows_{nullptr, &sqlite3_finalize};
+  Statement order_{nullptr, &sqlite3_finalize}, row_{nullptr, &sqlite3_finalize};
 };
 
-/// Several files of one bag, one after the other.
+/// Several files of one bag, as one in the order of time. A file is begun when its first message may be the next.
 class Files final : public MessageSource {
  public:
   explicit Files(std::vector<std::unique_ptr<MessageSource>> files) : files_(std::move(files)) {
@@ -138,22 +148,42 @@ class Files final : public MessageSource {
   [[nodiscard]] const std::vector<BagTopic>& topics() const override { return topics_; }
   void select(const std::vector<std::string>& topics) override {
     for (const auto& file : files_) file->select(topics);
-    at_ = 0;
+    fronts_.clear();
+    waiting_.clear();
+    for (std::size_t i = 0; i < files_.size(); ++i) waiting_.emplace(files_[i]->start(), i);
+  }
+  [[nodiscard]] Nanoseconds start() override {
+    Nanoseconds least = files_.front()->start();
+    for (const auto& file : files_) least = std::min(least, file->start());
+    return least;
   }
   [[nodiscard]] bool next(RawMessage& message) override {
-    for (; at_ < files_.size(); ++at_)
-      if (files_[at_]->next(message)) {
-        message.topic = topic_of_[at_][message.topic];
-        return true;
-      }
-    return false;
+    while (!waiting_.empty() && (fronts_.empty() || waiting_.begin()->first <= fronts_.begin()->first.first)) {
+      const std::size_t file = waiting_.begin()->second;
+      waiting_.erase(waiting_.begin());
+      advance(file);
+    }
+    if (fronts_.empty()) return false;
+    auto front = fronts_.extract(fronts_.begin());
+    message = std::move(front.mapped());
+    advance(front.key().second);
+    return true;
   }
 
  private:
+  void advance(std::size_t file) {
+    RawMessage message;
+    if (!files_[file]->next(message)) return;
+    message.topic = topic_of_[file][message.topic];
+    const std::pair key(message.time, file);
+    fronts_.emplace(key, std::move(message));
+  }
+
   std::vector<std::unique_ptr<MessageSource>> files_;
   std::vector<std::vector<std::size_t>> topic_of_;
   std::vector<BagTopic> topics_;
-  std::size_t at_ = 0;
+  std::set<std::pair<Nanoseconds, std::size_t>> waiting_;  ///< files that are not begun, by their start
+  std::map<std::pair<Nanoseconds, std::size_t>, RawMessage> fronts_;
 };
 
 const Tree& need(const Tree& tree, const std::string& key) {

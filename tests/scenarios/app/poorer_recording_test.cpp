@@ -46,6 +46,7 @@ class Walk final : public slam::Recording {
   }
   [[nodiscard]] const slam::RecordingInfo& info() const override { return info_; }
   [[nodiscard]] bool has_odometry() const override { return true; }
+  [[nodiscard]] slam::Taken taken() const override { return {}; }
   [[nodiscard]] slam::Nanoseconds origin() const override { return 77; }
 
  private:

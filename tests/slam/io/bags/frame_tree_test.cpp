@@ -15,6 +15,7 @@ FrameTree mast() {
   FrameTree frames;
   frames.add({0, "/base", "mast", Pose::from_xyz_yaw({1.0, 0.0, 0.0}, right)});
   frames.add({0, "mast", "/imu", {exp_so3({2.0 * right, 0.0, 0.0}), {0.0, 0.5, 0.0}}});
+  frames.add({0, "base", "arm", Pose::from_xyz_yaw({0.7, 0.0, 0.0}, 0.0)});
   frames.add({0, "odd", "even", Pose{}});
   frames.add({0, "even", "odd", Pose{}});
   return frames;
@@ -28,7 +29,12 @@ TEST(FrameTree, FindsAFrameOverOthers) {
   ASSERT_TRUE(X.has_value());
   EXPECT_LT((X->t - Eigen::Vector3d(0.5, 0.0, 0.0)).norm(), 1e-12);
   EXPECT_TRUE(frames.find("base", "/base").has_value());
-  EXPECT_FALSE(frames.find("base", "imu").has_value());
+  const std::optional<Pose> back = frames.find("base", "imu");
+  ASSERT_TRUE(back.has_value());
+  EXPECT_LT((*X * *back).t.norm(), 1e-12);
+  const std::optional<Pose> beside = frames.find("arm", "imu");
+  ASSERT_TRUE(beside.has_value());
+  EXPECT_LT(((*X * *beside).t - Eigen::Vector3d(0.7, 0.0, 0.0)).norm(), 1e-12);
   EXPECT_FALSE(frames.find("nowhere", "base").has_value());
   EXPECT_FALSE(frames.find("odd", "base").has_value()) << "a ring";
 }

@@ -4,6 +4,7 @@
 #include <sqlite3.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -15,6 +16,7 @@
 #include "slam/io/ros2/compression.h"
 #include "slam/io/ros2/mcap_reader.h"
 #include "slam/io/ros2/ros2_writer.h"
+#include "slam/io/ros2/rosbag2_reader.h"
 #include "tests/bag_database.h"
 #include "tests/data.h"
 #include "tests/folder.h"
@@ -221,6 +223,60 @@ TEST_F(Ros2Bag, NoByteOfAnMcapIsBelieved) {
     write_bytes(file("cut.mcap"), whole.substr(0, size));
     EXPECT_THROW((void)messages("cut.mcap"), InputError) << size;
   }
+}
+
+// Chunks of 1 MiB that overlap, and messages out of order within them.
+TEST_F(Ros2Bag, MessagesComeInTheOrderOfTime) {
+  constexpr std::array<int, 8> times = {1, 4, 2, 8, 6, 3, 7, 5};
+  const auto write = [&](Ros2Writer& writer, std::size_t from, std::size_t to) {
+    const auto topic = writer.add_topic({"/odom", "nav_msgs/msg/Odometry", "x", ""});
+    for (std::size_t i = from; i < to; ++i)
+      writer.write(topic, times.at(i), ros::Bytes(700'000, static_cast<std::uint8_t>(times.at(i))));
+    writer.finish();
+  };
+  const auto order = [](MessageSource& source) {
+    std::vector<int> found;
+    for (int again = 0; again < 2; ++again) {
+      found.clear();
+      source.select({"/odom"});
+      for (RawMessage message; source.next(message);) {
+        EXPECT_EQ(message.time, message.bytes[0]);
+        found.push_back(message.bytes[0]);
+      }
+    }
+    return found;
+  };
+  const std::vector<int> sorted = {1, 2, 3, 4, 5, 6, 7, 8};
+  write(*make_mcap_writer(file("a.mcap"), "zstd"), 0, times.size());
+  EXPECT_EQ(order(*open_mcap(file("a.mcap"))), sorted);
+  // The files of a split bag, the later one first.
+  write(*make_rosbag2_writer(file("one"), "one"), 0, 4);
+  write(*make_rosbag2_writer(file("two"), "two"), 4, times.size());
+  fs::copy_file(file("two/two_0.db3"), file("one/one_1.db3"));
+  std::string metadata = bytes(file("one/metadata.yaml"));
+  metadata.replace(metadata.find("[one_0.db3]"), 11, "[one_1.db3, one_0.db3]");
+  write_bytes(file("one/metadata.yaml"), metadata);
+  EXPECT_EQ(order(*open_rosbag2_folder(file("one"))), sorted);
+}
+
+TEST_F(Ros2Bag, ALidarThatIsNotJoinedToTheRobotIsRefused) {
+  write_walk(file("walk"), BagFormat::rosbag2);
+  const std::string database = file("walk/walk_0.db3");
+  EXPECT_EQ(open_bag(database, {}, nullptr)->taken().mount, MountSource::tf_static);
+  const ros::Transform other{0, "base_link", "mast", Pose{}};
+  std::string hex;
+  for (const std::uint8_t byte : ros::write_transforms({&other, 1}, Encoding::cdr)) {
+    char text[3];
+    std::snprintf(text, sizeof text, "%02x", byte);
+    hex += text;
+  }
+  const std::string which = " WHERE topic_id = (SELECT id FROM topics WHERE name = '/tf_static');";
+  run_sql(database, "UPDATE messages SET data = x'" + hex + "'" + which);
+  expect_complaint(database, "/velodyne_points is in frame 'velodyne', which /tf_static does not join to 'base_link'");
+  const RecordingInfo described;
+  EXPECT_EQ(open_bag(database, {}, &described)->taken().mount, MountSource::description);
+  run_sql(database, "DELETE FROM messages" + which);
+  EXPECT_EQ(open_bag(database, {}, nullptr)->taken().mount, MountSource::unknown);
 }
 
 TEST_F(Ros2Bag, AFlippedByteInAChunkIsFound) {

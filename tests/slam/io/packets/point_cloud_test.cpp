@@ -218,6 +218,36 @@ TEST(PointCloud, AbsoluteAndRelativeTimesOfOtherTypes) {
   EXPECT_THROW(static_cast<void>(scan_of(cloud)), InputError);
 }
 
+// A simulator's clock starts at 0, where a time of the day looks like one from the stamp.
+TEST(PointCloud, TheTimeBaseIsToldFromSeveralClouds) {
+  const auto cloud_at = [](double stamp_s, bool of_day, double unit) {
+    PointCloud cloud = cloud_with({"x", "y", "z", "ring", "low", "high"}, {{1, 0, 0, 0, 0, 0}, {1, 0, 0, 1, 0, 0}});
+    cloud.fields.resize(4);
+    cloud.fields.push_back({"timestamp", 16, PointType::f64});
+    cloud.stamp = std::llround(stamp_s * 1e9);
+    for (std::size_t i = 0; i < 2; ++i) {
+      const double t = ((of_day ? stamp_s : 0.0) + 0.1 * static_cast<double>(i)) / unit;
+      std::memcpy(&cloud.data[24 * i + 16], &t, 8);
+    }
+    return cloud;
+  };
+  for (const double unit : {1.0, 1e-9})
+    for (const bool of_day : {true, false})
+      for (const int clouds : {3, 30}) {  // within the first second, and beyond
+        TimeBaseSearch search;
+        int asked = 0;
+        for (; asked < clouds && search.add(cloud_at(0.1 * asked, of_day, unit)); ++asked) continue;
+        EXPECT_LT(asked, 25);
+        const TimeBase base = search.base();
+        EXPECT_EQ(base, of_day ? TimeBase::day : TimeBase::stamp) << unit << " " << clouds;
+        const PointCloud cloud = cloud_at(0.4, of_day, unit);
+        EXPECT_NEAR(static_cast<double>(scan_of(cloud, base).stamp), 0.5e9, 1.0) << unit << " " << of_day;
+      }
+  TimeBaseSearch search;
+  EXPECT_FALSE(search.add(cloud_with({"x", "y", "z", "time"}, {{1, 0, 0, 0}})));
+  EXPECT_EQ(search.base(), TimeBase::unknown);
+}
+
 /// A cloud of a driver: its fields, and the time of two points 60 and 100 ms after `stamp` as `write` puts it.
 struct Driver {
   std::string name;
