@@ -11,6 +11,7 @@
 #include "bim/errors.h"
 #include "bim/formats/plan_yaml/plan_yaml.h"
 #include "scenarios/app/commands.h"
+#include "scenarios/host/interrupt.h"
 #include "scenarios/host/terminal.h"
 #include "scenarios/spec/process_spec.h"
 #include "slam/process/trial_walk.h"
@@ -44,6 +45,7 @@ int check(const ConformanceArguments& options, const std::vector<std::string>& r
   slam::ProcessCommand command;
   command.name = "mine";
   command.command = words_of(rest);
+  check_program(command.command, std::filesystem::current_path().string(), {"COMMAND", 0, 0});
   command.needs_plan = options.plan;
   command.start_s = options.start_s;
   command.scan_s = options.scan_s;
@@ -53,12 +55,15 @@ int check(const ConformanceArguments& options, const std::vector<std::string>& r
     plan =
         std::make_shared<const bim::Plan>(bim::make_plan(bim::read_plan_text(slam::trial_plan(), "trial.plan.yaml")));
   int wrong = 0;
-  for (const slam::Finding& finding : slam::check_conformance(command, plan)) {
+  catch_interrupts();
+  const auto say = [&](const slam::Finding& finding) {
     const bool bad = finding.kind == slam::Finding::Kind::wrong;
     const char* word = bad ? "WRONG " : finding.kind == slam::Finding::Kind::note ? "note  " : "ok    ";
     print(word + printable(finding.text) + "\n");
+    std::fflush(stdout);
     wrong += bad ? 1 : 0;
-  }
+  };
+  slam::check_conformance(command, plan, say, check_interrupt);
   print(wrong == 0 ? "conforms\n" : "does not conform\n");
   return wrong == 0 ? 0 : 1;
 }

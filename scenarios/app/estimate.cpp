@@ -376,6 +376,7 @@ std::vector<std::string> warnings_of(const slam::Recording& recording) {
 std::optional<ProcessTable> take_process(EstimateArguments& options, slam::MethodTable table) {
   std::optional<ProcessSpec> process = process_of(options.method, std::filesystem::current_path().string());
   if (!process) return std::nullopt;
+  check_program(process->command, *process->folder, {"--method", 0, 0});
   process->plan = !options.plan.empty();
   options.method = process->name;
   return ProcessTable(table, {*process}, {Mark{"--method", 0, 0}});

@@ -2,6 +2,7 @@
 #include "scenarios/app/estimate_score.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <optional>
@@ -16,6 +17,7 @@
 #include "scenarios/metrics/metrics.h"
 #include "scenarios/metrics/reference_score.h"
 #include "scenarios/metrics/silence.h"
+#include "scenarios/metrics/trajectory.h"
 #include "scenarios/run/run_files.h"
 #include "slam/io/recordings/trajectory.h"
 #include "slam/io/recordings/tum.h"
@@ -145,12 +147,53 @@ void check_names(const std::vector<GateSpec>& gates) {
   }
 }
 
+/// How much of the walk a trajectory and the reference are of.
+struct Covered {
+  std::size_t poses = 0, scans = 0;       ///< scans 0: not known
+  std::optional<double> reference_share;  ///< of the poses, between the ends of the reference
+
+  /// Why a gate fails whatever its value; empty: enough.
+  [[nodiscard]] std::string too_little() const {
+    constexpr double least = score::TrajectoryRules().min_coverage;
+    if (static_cast<double>(poses) < least * static_cast<double>(scans)) return words_of_poses();
+    if (reference_share && *reference_share < least) return words_of_reference();
+    return {};
+  }
+  [[nodiscard]] std::string words_of_poses() const {
+    return std::to_string(poses) + " of " + std::to_string(scans) + " scans have a pose";
+  }
+  [[nodiscard]] std::string words_of_reference() const {
+    return "the reference covers " + std::to_string(std::lround(100.0 * *reference_share)) + " % of the estimate";
+  }
+};
+
+Covered covered(const Poses& poses, int scans, const Poses& reference) {
+  Covered covered{poses.size(), static_cast<std::size_t>(std::max(scans, 0)), {}};
+  if (reference.empty() || poses.empty()) return covered;
+  // The reference may begin and end between two poses.
+  const slam::Nanoseconds step = poses.size() < 2 ? 0 : poses[1].stamp - poses[0].stamp;
+  const auto within = std::count_if(poses.begin(), poses.end(), [&](const slam::StampedPose& pose) {
+    return pose.stamp >= reference.front().stamp - step && pose.stamp <= reference.back().stamp + step;
+  });
+  covered.reference_share = static_cast<double>(within) / static_cast<double>(poses.size());
+  return covered;
+}
+
+/// Why a gate fails whatever its value is. What a method says of itself is judged however little it covers.
+std::string but(const GateSpec& gate, const Covered& causal, const Covered& last) {
+  for (const char* name : {"lost_share", "degenerate_share", "poses", "final.poses"})
+    if (gate.metric == name) return {};
+  return (gate.metric.starts_with("final.") ? last : causal).too_little();
+}
+
 /// Judges them, adds them to the scores, and says so in words; their number that failed.
-int judge(const std::vector<GateSpec>& gates, const std::string& method, Tree& scores, std::string& text) {
+int judge(const std::vector<GateSpec>& gates, const std::string& method, const Covered& causal, const Covered& last,
+          Tree& scores, std::string& text) {
   int failed = 0;
   Tree list = Tree::list();
   for (const GateSpec& gate : gates) {
-    const score::GateResult result = score::judge_gate(gate, method, value_at(scores, gate.metric));
+    const score::GateResult result =
+        score::judge_gate(gate, method, value_at(scores, gate.metric), but(gate, causal, last));
     failed += result.passed ? 0 : 1;
     text += (result.passed ? "passed: " : "FAILED: ") + score::describe(result) + "\n";
     list.push(score::to_results(result));
@@ -180,6 +223,8 @@ int score_estimate(const std::string& dir, const std::string& reference_file, co
   const Poses reference = reference_file.empty() ? Poses() : read_reference(reference_file, method.causal);
   const TrajectoryScores causal = score_one(method.causal, reference, reference_file);
   const TrajectoryScores last = score_one(method.estimate.trajectory, reference, reference_file);
+  const Covered causal_covered = covered(method.causal, method.scans, reference);
+  const Covered last_covered = covered(method.estimate.trajectory, method.scans, reference);
 
   Tree tree = Tree::map();
   tree.set("plumbline", PLUMBLINE_VERSION).set("method", method.name);
@@ -188,26 +233,30 @@ int score_estimate(const std::string& dir, const std::string& reference_file, co
   if (!altered.empty()) tree.set("unchecked", std::move(names));
   if (method.scans > 0)
     tree.set("scans", method.scans)
+        .set("coverage", static_cast<double>(method.causal.size()) / method.scans)
         .set("lost_share", 1.0 * method.lost_scans / method.scans)
         .set("degenerate_share", 1.0 * method.degenerate_scans / method.scans);
   if (!reference.empty())
     tree.set("reference", Tree::map()
                               .set("poses", static_cast<std::int64_t>(reference.size()))
-                              .set("length_m", score::score_path(reference).length_m));
+                              .set("length_m", score::score_path(reference).length_m)
+                              .set("share", *causal_covered.reference_share));
   std::optional<score::Silence> silence;
   if (method.scans > 0) silence = score::score_silence(reference, method.causal, method.lost);
   if (silence) tree.set("silence", to_json(*silence));
   tree.set("causal", to_json(causal));
   if (last.path.poses > 0) tree.set("final", to_json(last));
   std::string judged;
-  const int failed = judge(gates, method.name, tree, judged);
+  const int failed = judge(gates, method.name, causal_covered, last_covered, tree, judged);
   write_file(dir + "/score.json", write_json(tree) + "\n");
   renew_manifest(dir, {"score.json"});
 
   std::string text = method.name;
   if (method.scans > 0)
     text += ": lost after " + std::to_string(method.lost_scans) + " of " + std::to_string(method.scans) + " scans";
+  if (causal_covered.poses < causal_covered.scans) text += "; " + causal_covered.words_of_poses();
   if (!reference.empty()) text += "; reference: " + std::to_string(reference.size()) + " poses";
+  if (causal_covered.reference_share.value_or(1.0) < 1.0) text += "; " + causal_covered.words_of_reference();
   if (silence && silence->off_at_s) text += "\n" + words_of(*silence);
   text += "\n          poses   path m straight   vert. m";
   if (!reference.empty()) text += "  matched    ATE m   step m    max m step deg  max deg    RPE/m    deg/m";

@@ -58,6 +58,7 @@ Overrides overrides_of(const RunArguments& options) {
   if (!overrides.methods) return overrides;
   for (std::string& method : *overrides.methods)
     if (std::optional<ProcessSpec> process = process_of(method, std::filesystem::current_path().string())) {
+      check_program(process->command, *process->folder, {"--method", 0, 0});
       method = process->name;
       overrides.processes.push_back(std::move(*process));
     }

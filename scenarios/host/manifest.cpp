@@ -107,16 +107,18 @@ void refuse_altered(const std::string& directory, const std::vector<std::string>
   for (std::size_t i = 0; i < std::min(altered.size(), most_named); ++i) names += (i == 0 ? "" : ", ") + altered[i];
   if (altered.size() > most_named) names += " and " + std::to_string(altered.size() - most_named) + " more";
   const bool none = altered.front() == manifest_name;
+  const auto missing = [&](const std::string& name) { return !fs::is_regular_file(directory + "/" + name); };
+  const bool all = std::all_of(altered.begin(), altered.end(), missing);
+  const bool any = std::any_of(altered.begin(), altered.end(), missing);
+  const std::string what = all ? "missing: " : any ? "altered or missing: " : "altered since they were written: ";
   if (unchecked)
-    print_note("plumbline: " + (none ? "there is no manifest.csv" : "altered since they were written: " + names) +
-               "; taken as they are");
+    print_note("plumbline: " + (none ? "there is no manifest.csv" : what + names) + "; taken as they are");
   else if (none)
     throw InputError({directory, 0, 0},
                      "has no manifest.csv, which says whether its files are as they were written; "
                      "--unchecked goes on without");
   else
-    throw InputError({directory, 0, 0}, "altered since they were written: " + names +
-                                            "; run it again, or add --unchecked to take them as they are");
+    throw InputError({directory, 0, 0}, what + names + "; run it again, or add --unchecked to take them as they are");
 }
 
 void renew_manifest(const std::string& directory, const std::vector<std::string>& names) {

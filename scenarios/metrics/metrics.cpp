@@ -40,7 +40,8 @@ std::vector<MetricRow> make_rows() {
        "the same after the best rigid alignment (Umeyama, without scale); the metric of SLAM gates",
        field(&S::trajectory, &T::ate_aligned_rmse_m)},
       {"ate_final_rmse_m", "m", Better::lower,
-       "RMS position error of the trajectory after the last optimisation, aligned",
+       "RMS position error of the trajectory after the last optimisation, aligned; absent where fewer than 95 % of the "
+       "scans have a pose in it",
        field(&S::trajectory, &T::ate_final_rmse_m)},
       {"rpe_1m_rmse_m", "m", Better::lower, "RMS translation error of the relative pose over each metre walked",
        field(&S::trajectory, &T::rpe_1m_rmse_m)},

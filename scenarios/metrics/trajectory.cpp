@@ -149,7 +149,8 @@ std::optional<TrajectoryScore> score_trajectory(const Truth& truth, const std::v
   }
   const std::vector<PosePair> last = associate(truth, final_F, rules);
   score.X_WF_final = umeyama(last.empty() ? causal : last);
-  if (!last.empty()) score.ate_final_rmse_m = position_rmse(last, score.X_WF_final);
+  const bool covers = static_cast<double>(last.size()) >= rules.min_coverage * static_cast<double>(truth.scans.size());
+  if (!last.empty() && covers) score.ate_final_rmse_m = position_rmse(last, score.X_WF_final);
   return score;
 }
 

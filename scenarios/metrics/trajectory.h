@@ -77,7 +77,7 @@ struct TrajectoryScore {
   double coverage = 0.0;  ///< share of scans with a pose
   double ate_rmse_m = 0.0;
   double ate_aligned_rmse_m = 0.0;
-  std::optional<double> ate_final_rmse_m;
+  std::optional<double> ate_final_rmse_m;  ///< absent where too few scans have a final pose
   std::optional<double> rpe_1m_rmse_m;
   std::optional<double> drift_10m_percent;    ///< mean error of translation over 10 m walked
   std::optional<double> drift_10m_deg_per_m;  ///< mean error of rotation over 10 m walked

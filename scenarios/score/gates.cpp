@@ -60,6 +60,7 @@ std::vector<GateResult> judge_gates(const std::vector<GateSpec>& gates, const st
       but = !run_completed                                       ? "the run ended early"
             : score->verdict == "crashed"                        ? "the method crashed"
             : score->verdict == "lost" && !metric.also_when_lost ? "the method was lost"
+            : !value && gate.metric == "ate_final_rmse_m"        ? "fewer than 95 % of the scans have a final pose"
                                                                  : "";
       const bool never_answered = score->localization && gate.metric.rfind("localization.", 0) == 0;
       if (!value && but.empty() && !never_answered) but = gate.method + " has no such metric";

@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenarios/spec/process_spec.h"
 
+#include <unistd.h>
+
 #include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <sstream>
 #include <utility>
 
 #include "bim/errors.h"
@@ -76,6 +81,25 @@ std::optional<ProcessSpec> process_of(const std::string& text, const std::string
   process.command = words_of(text.substr(equals + 1), {where, 0, 0});
   process.folder = folder;
   return process;
+}
+
+void check_program(const std::vector<std::string>& command, const std::string& folder, const Mark& mark) {
+  const std::string& name = command.front();
+  const auto runs = [](const std::filesystem::path& path) {
+    std::error_code error;
+    return std::filesystem::is_regular_file(path, error) && ::access(path.c_str(), X_OK) == 0;
+  };
+  if (name.find('/') != std::string::npos) {
+    const std::filesystem::path path = std::filesystem::path(folder) / name;
+    if (runs(path)) return;
+    throw InputError(mark, std::filesystem::exists(path) ? "'" + name + "' is no program: it may not be executed"
+                                                         : "there is no program '" + name + "'");
+  }
+  const char* folders = std::getenv("PATH");
+  std::istringstream list(folders == nullptr ? "/bin:/usr/bin" : folders);
+  for (std::string one; std::getline(list, one, ':');)
+    if (runs(std::filesystem::path(one.empty() ? folder : one) / name)) return;
+  throw InputError(mark, "there is no program '" + name + "' in PATH; of one in this folder say ./" + name);
 }
 
 ProcessTable::ProcessTable(slam::MethodTable table, std::vector<ProcessSpec> processes, const std::vector<Mark>& marks)

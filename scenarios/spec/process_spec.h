@@ -43,6 +43,9 @@ struct ProcessSpec {
 [[nodiscard]] std::optional<ProcessSpec> process_of(const std::string& text, const std::string& folder,
                                                     const std::string& where = "--method");
 
+/// Throws InputError where there is no program of this name: in `folder` where it has a slash, else in PATH.
+void check_program(const std::vector<std::string>& command, const std::string& folder, const Mark& mark);
+
 /// A table of methods with processes added. Throws InputError at marks[i] where process i has no name or one that is
 /// taken, or no command.
 class ProcessTable {

@@ -106,12 +106,14 @@ Output read_output(std::span<const std::byte> payload, Nanoseconds stamp, bool l
   return output;
 }
 
-Estimate read_estimate(std::span<const std::byte> payload, bool localization) {
+Estimate read_estimate(std::span<const std::byte> payload, bool localization, bool strict) {
   Reader reader(payload);
   const auto head = reader.take<wire::Estimate>();
   if (head.json_bytes > wire::max_payload || head.poses > max_poses || head.points > wire::max_payload)
     throw ProcessFailure("has more poses or points than fit");
   reader.expect_left(head.json_bytes + head.poses * sizeof(wire::Odometry) + head.points * 3 * sizeof(float));
+  if (strict && head.json_bytes > 0)
+    throw ProcessFailure("has " + std::to_string(head.json_bytes) + " reserved bytes, which nobody reads; say 0");
   static_cast<void>(reader.take_bytes(head.json_bytes));
   Estimate estimate;
   estimate.frame = localization ? Frame::world : Frame::map;

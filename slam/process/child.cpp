@@ -12,11 +12,18 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <ctime>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <set>
 #include <utility>
 
 #include "bim/errors.h"
@@ -93,6 +100,46 @@ void reset_signals(posix_spawnattr_t& attributes) {
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSID | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
 }
 
+/// A variable that no other process has set, of this program or another one.
+std::string new_mark() {
+  static std::atomic<int> count = 0;
+  return "PLUMBLINE_PROCESS=" + std::to_string(::getpid()) + "." + std::to_string(slam::wall_s()) + "." +
+         std::to_string(++count);
+}
+
+std::string text_of(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// Running processes that descend from `root` or have the mark in their environment, and what descends from those.
+std::set<pid_t> with_descendants(pid_t root, const std::string& mark) {
+  std::map<pid_t, pid_t> parents;
+  std::set<pid_t> found;
+  std::error_code error;
+  for (std::filesystem::directory_iterator at("/proc", error), end; !error && at != end; at.increment(error)) {
+    const pid_t process = static_cast<pid_t>(std::atoi(at->path().filename().c_str()));
+    if (process <= 0) continue;
+    const std::string status = text_of(at->path() / "stat");  // pid (name) state parent
+    const std::size_t name_end = status.rfind(')');
+    char state = 'Z';
+    int parent = 0;
+    if (name_end == std::string::npos || std::sscanf(status.c_str() + name_end + 1, " %c %d", &state, &parent) != 2 ||
+        state == 'Z')
+      continue;
+    parents[process] = parent;
+    std::string environment(1, '\0');
+    environment += text_of(at->path() / "environ");
+    if (process == root || environment.find('\0' + mark + '\0') != std::string::npos) found.insert(process);
+  }
+  for (bool more = true; more;) {
+    more = false;
+    for (const auto& [process, parent] : parents)
+      if (found.contains(parent)) more = found.insert(process).second || more;
+  }
+  return found;
+}
+
 void close_if_open(int& descriptor) {
   if (descriptor >= 0) ::close(descriptor);
   descriptor = -1;
@@ -102,7 +149,7 @@ void close_if_open(int& descriptor) {
 
 Child::Child(const std::vector<std::string>& command, const std::string& folder,
              const std::vector<std::string>& variables, std::function<void(std::string_view)> printed, int inherited)
-    : on_printed_(std::move(printed)) {
+    : mark_(new_mark()), on_printed_(std::move(printed)) {
   const auto [own_stream, its_stream] = pipe_or_socket(true);
   const auto [own_output, its_output] = pipe_or_socket(false);
   stream_ = own_stream;
@@ -126,7 +173,9 @@ Child::Child(const std::vector<std::string>& command, const std::string& folder,
   posix_spawn_file_actions_addclosefrom_np(&plan.actions, (inherited < 0 ? child_stream : child_file) + 1);
   if (!folder.empty()) posix_spawn_file_actions_addchdir_np(&plan.actions, folder.c_str());
   reset_signals(plan.attributes);
-  const std::vector<std::string> environment = environment_with(variables);
+  std::vector<std::string> marked = variables;
+  marked.push_back(mark_);
+  const std::vector<std::string> environment = environment_with(marked);
   const int failed = ::posix_spawnp(&pid_, command.front().c_str(), &plan.actions, &plan.attributes,
                                     pointers(command).data(), pointers(environment).data());
   ::close(its_stream);
@@ -140,10 +189,24 @@ Child::Child(const std::vector<std::string>& command, const std::string& folder,
 
 Child::~Child() {
   close_if_open(stream_);
-  ::kill(-pid_, SIGKILL);
+  kill_all();
   if (!ended_) ::waitpid(pid_, &status_, 0);
   close_if_open(output_);
   close_if_open(timer_);
+}
+
+// What was started while the others were found is found the next time.
+void Child::kill_all() const {
+  constexpr int tries = 100;
+  std::set<pid_t> killed;
+  for (int i = 0; i < tries; ++i) {
+    const std::set<pid_t> all = with_descendants(ended_ ? 0 : pid_, mark_);
+    bool any = false;
+    for (const pid_t process : all) any = killed.insert(process).second || any;
+    for (const pid_t process : all) ::kill(process, SIGKILL);
+    if (!any) break;
+  }
+  ::kill(-pid_, SIGKILL);  // where /proc is missing
 }
 
 void Child::set_deadline(double seconds) {

@@ -19,7 +19,8 @@ class ProcessFailure : public std::runtime_error {
 };
 
 /// A child process and a stream to it, which is its file descriptor 3. Its standard input is empty; what it prints is
-/// kept, the last of it. It dies with this object, and all that it started with it.
+/// kept, the last of it. It dies with this object, and all that it started with it, in
+/// whatever session: what has its environment, or descends from it.
 class Child {
  public:
   /// folder: its working directory. variables: NAME=VALUE, over those of this process. printed: gets what it prints, as
@@ -40,6 +41,7 @@ class Child {
   void receive(void* bytes, std::size_t size);
   /// Closes the stream and waits for the process until the deadline; whether it ended by itself, with 0.
   [[nodiscard]] bool close_and_wait();
+  [[nodiscard]] bool ended() const { return ended_; }
 
   /// CPU time of the process itself so far, ms; 0 where the system does not tell.
   [[nodiscard]] double cpu_ms() const;
@@ -50,9 +52,11 @@ class Child {
   enum class Ready { stream, over };
   [[nodiscard]] Ready wait_for(short events);
   void read_printed();
+  void kill_all() const;
   [[noreturn]] void fail_as_it_ended();
   [[nodiscard]] std::string how_it_ended();
 
+  std::string mark_;  ///< in the environment of all that it starts
   pid_t pid_ = -1;
   int stream_ = -1, output_ = -1, timer_ = -1;
   double deadline_s_ = 0.0;

@@ -69,8 +69,11 @@ class Conversation {
   }
   [[nodiscard]] double cpu_ms() const { return child_.cpu_ms(); }
   void end() {
-    child_.set_deadline(command_.finish_s);
-    static_cast<void>(child_.close_and_wait());
+    constexpr double strict_s = 5.0;
+    child_.set_deadline(command_.strict ? strict_s : command_.finish_s);
+    if (!child_.close_and_wait() && command_.strict && !child_.ended())
+      throw ProcessFailure(
+          "did not end within 5 s of its last answer, or what it started did not; end when the connection is closed");
   }
 
  private:
@@ -154,7 +157,7 @@ class ProcessMethod final : public Method {
     Estimate estimate;
     with_context("at the end", [&] {
       const Bytes answer = first_->ask_finish();
-      estimate = read_estimate(answer, command_.needs_plan);
+      estimate = read_estimate(answer, command_.needs_plan, command_.strict);
       if (second_ && second_->ask_finish() != answer)
         throw ProcessFailure("does not repeat: a second process gives another estimate");
       first_->end();

@@ -21,6 +21,7 @@ struct ProcessCommand {
   double start_s = 30.0;
   double scan_s = 10.0;
   double finish_s = 120.0;
+  bool strict = false;  ///< as conformance is: it must end within 5 s of its last answer, and send nothing reserved
   std::function<void(std::string_view)> printed = {};  ///< gets what it prints, as it comes
 };
 

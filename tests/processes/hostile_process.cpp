@@ -65,6 +65,19 @@ bool misbehave(const std::string& how, wire::Output& output) {
     if (::fork() == 0) hang();
     std::exit(0);
   }
+  if (how == "session") {
+    if (::fork() == 0) {
+      ::setsid();
+      if (::fork() != 0) std::_Exit(0);
+      if (std::FILE* file = std::fopen(std::getenv("HOSTILE_PID_FILE"), "w")) {
+        std::fprintf(file, "%d\n", ::getpid());
+        std::fclose(file);
+      }
+      hang();
+    }
+    ::sleep(1);
+    std::exit(0);
+  }
   if (how == "closes") {
     ::close(stream);
     hang();
@@ -105,7 +118,8 @@ bool misbehave(const std::string& how, wire::Output& output) {
     for (int i = 0; i < 20000; ++i) std::printf("%s\n", std::string(1000, '.').c_str());
   if (how == "logs") send(wire::Type::log, "a line", 6);
   return how == "stamp" || how == "nan" || how == "quaternion" || how == "far" || how == "state" ||
-         how == "hypotheses" || how == "otherwise" || how == "twice" || how == "floods" || how == "logs";
+         how == "hypotheses" || how == "otherwise" || how == "twice" || how == "floods" || how == "logs" ||
+         how.starts_with("finish_");
 }
 
 }  // namespace
@@ -144,6 +158,7 @@ int main(int argc, char** argv) {
       case wire::Type::finish: {
         const wire::Estimate estimate{0, how == "no_poses" ? 1000ULL : 0ULL, 0};
         send(wire::Type::estimate, &estimate, sizeof estimate);
+        if (how == "finish_stays") hang();
         break;
       }
       default:

@@ -3,10 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "tests/system/program.h"
 
@@ -143,7 +146,12 @@ TEST_F(Process, ConformanceSaysWhatIsWrong) {
     EXPECT_NE(outcome.out.find("WRONG"), std::string::npos) << outcome.out;
     EXPECT_NE(outcome.out.find(said), std::string::npos) << outcome.out;
   };
-  wrong({"./no_such_program"}, "cannot be started");
+  for (const std::string name : {"./no_such_program", "no_such_program"}) {
+    const Outcome none = tried({name});
+    EXPECT_EQ(none.code, 2) << none.out;
+    EXPECT_NE(none.err.find("there is no program '" + name + "'"), std::string::npos) << none.err;
+  }
+  wrong({program("hostile_process"), "finish_stays"}, "did not end within 5 s of its last answer");
   wrong({program("hostile_process"), "good"}, "its pose never changes");
   wrong({"'" + program("hostile_process") + "' nan"}, "at scan 11 (1.1 s): the pose is none");
   wrong({"--scan-s", "0.3", program("hostile_process"), "hang"}, "gave no answer within 0.3 s");
@@ -233,6 +241,39 @@ TEST_F(Process, WhateverItDoesOnlyItselfHasCrashed) {
   };
   crashed("missing", "cannot be started: No such file or directory");
   for (const auto& [how, reason] : reasons) crashed(how, reason);
+}
+
+/// Whether a process is there and does something.
+bool runs(const std::string& pid) {
+  const std::string stat = "/proc/" + pid + "/stat";
+  return fs::exists(stat) && read_file(stat).find(") Z ") == std::string::npos;
+}
+
+TEST_F(Process, WhatItStartedEndsWithItInWhateverSession) {
+  Setting setting;
+  const std::string file = folder_ / "pid";
+  setting.env["HOSTILE_PID_FILE"] = file;
+  const Outcome outcome = plumbline({"conformance", program("hostile_process"), "session"}, setting);
+  EXPECT_EQ(outcome.code, 1) << outcome.out;
+  std::string pid = read_file(file);
+  pid.erase(pid.find_last_not_of('\n') + 1);
+  ASSERT_FALSE(pid.empty());
+  for (int i = 0; i < 100 && runs(pid); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  EXPECT_FALSE(runs(pid));
+}
+
+TEST_F(Process, ConformanceEndsItsMethodWhenItIsStopped) {
+  write_file(folder_ / "slow.sh",
+             "#!/bin/sh\necho $$ > " + (folder_ / "pid") + "\nexec " + program("hostile_process") + " hang 3\n");
+  fs::permissions(folder_ / "slow.sh", fs::perms::owner_all);
+  Setting setting;
+  setting.kill_when = [&] { return fs::exists(folder_ / "pid"); };
+  setting.signal = SIGTERM;
+  const Outcome outcome = plumbline({"conformance", "--scan-s", "1", folder_ / "slow.sh"}, setting);
+  EXPECT_EQ(outcome.code, 128 + SIGTERM) << outcome.out << outcome.err;
+  std::string pid = read_file(folder_ / "pid");
+  pid.erase(pid.find_last_not_of('\n') + 1);
+  EXPECT_FALSE(runs(pid));
 }
 
 /// How often what may go wrong by chance is tried; ci/full asks for 100.

@@ -220,6 +220,34 @@ TEST_F(Recordings, AnEstimateWithoutARunIsScoredByAReference) {
   EXPECT_NE(missed.out.find("FAILED: ate_aligned_rmse_m of vgicp is "), std::string::npos) << missed.out;
   EXPECT_EQ(scores()["gates"][0]["passed"], false);
 
+  // A reference of half the walk, and an estimate of half the scans.
+  const auto first_half = [](const std::string& text) {
+    std::string half;
+    for (long left = std::count(text.begin(), text.end(), '\n') / 2; left > 0; --left)
+      half += text.substr(half.size(), text.find('\n', half.size()) + 1 - half.size());
+    return half;
+  };
+  const std::string whole = read_file(out + "/vgicp.tum");
+  write_file(folder_ / "half.tum", "\xEF\xBB\xBF" + first_half(read_file(walk + "/truth.tum")));
+  const Outcome half =
+      plumbline({"score", out, "--reference", folder_ / "half.tum", "--gate", "ate_aligned_rmse_m<=1"});
+  EXPECT_EQ(half.code, 1) << half.err;
+  EXPECT_NE(half.out.find(", but the reference covers 5"), std::string::npos) << half.out;
+  write_file(out + "/vgicp.tum", first_half(whole));
+  const Outcome lost = plumbline({"score", out, "--reference", walk + "/truth.tum", "--unchecked", "--gate",
+                                  "ate_aligned_rmse_m<=1", "--gate", "lost_share<=0"});
+  EXPECT_EQ(lost.code, 1) << lost.err;
+  EXPECT_NE(lost.out.find("must be <= 1, but "), std::string::npos) << lost.out;
+  EXPECT_NE(lost.out.find(" scans have a pose"), std::string::npos) << lost.out;
+  EXPECT_NE(lost.out.find("passed: lost_share"), std::string::npos) << lost.out;
+  fs::remove(out + "/vgicp.final.tum");
+  write_file(out + "/vgicp.tum", whole);
+  const Outcome missing = plumbline({"score", out});
+  EXPECT_EQ(missing.code, 2);
+  EXPECT_NE(missing.err.find("missing: vgicp.final.tum"), std::string::npos) << missing.err;
+  ASSERT_EQ(plumbline({"estimate", walk, "--method", "vgicp", "-o", out, "--force"}).code, 0);
+  ASSERT_EQ(plumbline({"score", out}).code, 0);
+
   const std::string kept = read_file(out + "/score.json");
   const auto refused = [&](const std::vector<std::string>& line, const std::string& what) {
     const Outcome outcome = plumbline(line);

@@ -130,6 +130,7 @@ TrajectoryForm trajectory_form(std::string_view text) {
 
 std::vector<StampedPose> read_trajectory(std::string_view text, const std::string& file,
                                          std::span<const Nanoseconds> scans) {
+  text = without_byte_order_mark(text);
   switch (trajectory_form(text)) {
     case TrajectoryForm::euroc:
       return read_euroc(text, file);

@@ -26,6 +26,11 @@ std::vector<std::string_view> columns_of(std::string_view line) {
 
 }  // namespace
 
+std::string_view without_byte_order_mark(std::string_view text) {
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+  return text.starts_with(byte_order_mark) ? text.substr(byte_order_mark.size()) : text;
+}
+
 bool parse_number(std::string_view text, double& value) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   return error == std::errc() && end == text.data() + text.size() && std::isfinite(value);
@@ -83,6 +88,7 @@ std::string write_tum(const std::vector<StampedPose>& poses) {
 
 std::vector<StampedPose> read_tum(std::string_view text, const std::string& file) {
   std::vector<StampedPose> poses;
+  text = without_byte_order_mark(text);
   int line_number = 0;
   while (!text.empty()) {
     ++line_number;

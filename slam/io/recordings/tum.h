@@ -17,6 +17,8 @@ namespace plumbline::slam {
 [[nodiscard]] StampedPose parse_tum_line(std::string_view line, const Mark& mark);
 /// Reads decimal seconds, to the nanosecond. False where the text is no number or beyond 9e9 s.
 [[nodiscard]] bool parse_stamp(std::string_view text, Nanoseconds& stamp);
+/// Of UTF-8, which some editors write before the first line.
+[[nodiscard]] std::string_view without_byte_order_mark(std::string_view text);
 /// Reads a finite number that is all of the text.
 [[nodiscard]] bool parse_number(std::string_view text, double& value);
 /// TUM text: "t tx ty tz qx qy qz qw" a line, one space between, numbers that read back to the same bits.

@@ -97,10 +97,10 @@ struct Particle {
 };
 static_assert(sizeof(Particle) == 16);
 
-/// Begins an ESTIMATE; then the JSON text of planes, rooms and floors, poses of the trajectory (as Odometry), and
-/// points of the map (three floats each).
+/// Begins an ESTIMATE; then reserved bytes, poses of the trajectory (as Odometry), and points of the map (three floats
+/// each).
 struct Estimate {
-  std::uint64_t json_bytes = 0;
+  std::uint64_t json_bytes = 0;  ///< reserved for planes, rooms and floors: 0
   std::uint64_t poses = 0;
   std::uint64_t points = 0;
 };

@@ -112,6 +112,10 @@ TEST(Trajectory, HandComputed) {
   EXPECT_NEAR(score->ate_aligned_rmse_m, 0.01 * std::sqrt(440.0 / 12.0), 1e-12);
   EXPECT_NEAR(*score->rpe_1m_rmse_m, 0.1, 0.0101);  // 10 % of a metre, plus at most one step
   EXPECT_FALSE(score->ate_final_rmse_m);
+  // Three poses of many scans fit anything.
+  const std::vector<slam::StampedPose> few(poses.begin(), poses.begin() + 3);
+  EXPECT_FALSE(score_trajectory(truth, poses, few)->ate_final_rmse_m);
+  EXPECT_TRUE(score_trajectory(truth, poses, poses)->ate_final_rmse_m);
   EXPECT_NEAR(truth.walked().back(), 2.0, 1e-12);
 }
 

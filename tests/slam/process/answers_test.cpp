@@ -98,6 +98,14 @@ TEST(ProcessAnswers, WhatIsNoneIsRefused) {
   EXPECT_FALSE(read_output(answer.payload(), 100, true).X_FR.has_value()) << "no pose was given";
 }
 
+TEST(ProcessAnswers, ReservedBytesAreRefusedWhereThatIsAsked) {
+  const wire::Estimate head{4, 0, 0};
+  Bytes payload(sizeof head + 4);
+  std::memcpy(payload.data(), &head, sizeof head);
+  EXPECT_TRUE(read_estimate(payload, false).trajectory.empty());
+  EXPECT_THROW((void)read_estimate(payload, false, true), ProcessFailure);
+}
+
 // Any bytes are an answer or a ProcessFailure; lengths in them allocate nothing.
 TEST(ProcessAnswers, AnyBytesAreReadOrRefused) {
   std::uint64_t drawn = 0;

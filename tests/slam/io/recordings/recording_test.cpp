@@ -243,6 +243,19 @@ TEST_F(RecordingTest, OdometryThatNoScanMeetsIsRefused) {
   EXPECT_EQ(complaint(path()), "no error");
 }
 
+TEST_F(RecordingTest, ScansBeforeTheOdometryAreCounted) {
+  static_cast<void>(write_three(path(), RecordingInfo{}));
+  const auto left_out = [&] {
+    const auto recording = open_recording(path());
+    for (SensorFrame frame; recording->next(frame);) continue;
+    return recording->left_out();
+  };
+  EXPECT_TRUE(left_out().empty());
+  put("odometry.tum", "0.15 0 0 0 0 0 0 1\n0.25 1 0 0 0 0 0 1\n0.35 1 0 0 0 0 0 1\n");
+  ASSERT_EQ(left_out().size(), 1U);
+  EXPECT_EQ(left_out()[0], "1 of 3 scans left out: before the first odometry");
+}
+
 TEST_F(RecordingTest, AForeignCaptureMovesOdometryToItsOwnClock) {
   std::vector<Vlp16Packet> packets = turning_packets(2 * 76, 5'000'000'000);
   const Nanoseconds captured = 1'600'000'000'000'000'123;
