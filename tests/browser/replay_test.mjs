@@ -120,6 +120,31 @@ async function whole(browser) {
   check("the scan is seen", (await page.get(picture)).hash !== a.hash, "the same picture without it");
   await page.get("Plumb.app.layer('scan', true)");
 
+  // Walls that are cut have a solid top, from straight above, where none of their sides is seen.
+  const top = await page.get(`(async () => {
+    const app = Plumb.app, { faces, storeys } = app.data, middle = (f) => [0, 1].map((k) => (f.p[k] + f.q[k]) / 2), off = [...app.off];
+    const whole = (f) => f.s === 0 && f.holes.length === 0, length = (f) => Math.hypot(f.q[0] - f.p[0], f.q[1] - f.p[1]);
+    let best = null;
+    for (const f of faces) for (const g of faces) {
+      if (f === g || f.wall !== g.wall || !whole(f) || !whole(g) || length(f) < 1) continue;
+      const [a, b] = [middle(f), middle(g)], apart = Math.hypot(a[0] - b[0], a[1] - b[1]);
+      if (apart > 0.05 && apart < 0.5 && !best) best = [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2];
+    }
+    if (!best) return null;
+    for (const [key] of app.layers) app.off.add(key);
+    app.off.delete("building");
+    const z = storeys[0].z + 1.2, camera = app.view.camera6();
+    app.view.setCamera6([best[0], best[1] - 0.01, z + 2, best[0], best[1], z]);
+    await app.update();
+    const gl = document.getElementById("view").getContext("webgl2"), pixel = new Uint8Array(4);
+    gl.readPixels(gl.drawingBufferWidth >> 1, gl.drawingBufferHeight >> 1, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
+    app.off = new Set(off);
+    app.view.setCamera6(camera);
+    await app.update();
+    return [...pixel].slice(0, 3);
+  })()`);
+  check("a wall that is cut has a solid top", !!top && top.every((v, k) => Math.abs(v - [0x38, 0x42, 0x4f][k]) <= 2), top);
+
   // By element: points on the walls of the plan have their colours, and the legend says so.
   const owners = await page.get(`(async () => { const app = Plumb.app, { cloud } = await app.cloudAt(${end / 2});
     const all = app.residuals.owners(cloud.points, cloud.count), count = (f) => [...all].filter(f).length / all.length;

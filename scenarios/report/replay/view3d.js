@@ -9,7 +9,7 @@ Plumb.View3d = class {
     this.data = data;
     this.base = data.run.base * 1e-3; // of the robot's frame above the floor
     this.labels = labels;
-    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: Plumb.testing === true });
+    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, stencil: true, preserveDrawingBuffer: Plumb.testing === true });
     this.renderer.outputColorSpace = THREE.LinearSRGBColorSpace;
     this.camera = new THREE.PerspectiveCamera(45, 1, 0.1, 1000);
     this.camera.up.set(0, 0, 1);
@@ -63,7 +63,6 @@ Plumb.View3d = class {
     return { min, max };
   }
 
-  /** Solids are closed: where they are cut, their back faces look like a filled section. */
   buildBuilding() {
     const geometry = new THREE.BufferGeometry();
     geometry.setAttribute("position", new THREE.BufferAttribute(this.data.mesh.position, 3));
@@ -90,6 +89,26 @@ Plumb.View3d = class {
     this.building = new THREE.Mesh(geometry, this.buildingMaterial);
     this.building.frustumCulled = false;
     this.groups.building.add(this.building);
+    if (this.data.faces.length) this.buildCaps(geometry);
+  }
+
+  /** Tops of what is cut. Of a closed solid that the cut goes through, a ray from above meets one more back face than front faces below the
+      cut: these are counted in the stencil, and a plane is drawn where some are left. A building without faces need not be closed. */
+  buildCaps(geometry) {
+    const [front, back, keep, more, less, always, unequal] = [0, 1, 7680, 34055, 34056, 519, 517];
+    const { vertexShader } = this.buildingMaterial, add = (mesh, order) => {
+      mesh.frustumCulled = false;
+      mesh.renderOrder = order;
+      this.groups.building.add(mesh);
+    };
+    for (const [side, op] of [[back, more], [front, less]])
+      add(new THREE.Mesh(geometry, new THREE.ShaderMaterial({ side, uniforms: { cut: this.cut }, vertexShader, depthTest: false, depthWrite: false,
+        colorWrite: false, stencilWrite: true, stencilFunc: always, stencilFail: op, stencilZFail: op, stencilZPass: op,
+        fragmentShader: "uniform float cut; varying vec3 at; void main() { if (at.z > cut) discard; gl_FragColor = vec4(1.0); }" })), -2);
+    const { min, max } = this.box(), [x0, y0, x1, y1] = [min[0] - 5, min[1] - 5, max[0] + 5, max[1] + 5];
+    this.caps = this.quads([x0, y0, 0, x1, y0, 0, x1, y1, 0, x0, y1, 0], this.flat("#38424f"));
+    Object.assign(this.caps.material, { stencilWrite: true, stencilFunc: unequal, stencilRef: 0, stencilFail: keep, stencilZFail: keep, stencilZPass: keep });
+    add(this.caps, -1);
   }
 
   pointsOf(most, size, lift) {
@@ -297,6 +316,10 @@ Plumb.View3d = class {
   /** Draws a moment: see app.js for what it holds. `changed`: what to build again. */
   draw(moment, changed) {
     this.cut.value = moment.floor + 1.2;
+    if (this.caps) {
+      this.caps.position.z = this.cut.value;
+      this.caps.material.color.set(moment.dark ? "#7c8896" : "#38424f");
+    }
     this.buildingMaterial.uniforms.floor.value = moment.floor;
     this.buildingMaterial.uniforms.light.value = moment.dark ? 0 : 1;
     this.renderer.setClearColor(moment.dark ? 0x14181e : 0xffffff, 1);
