@@ -75,7 +75,7 @@ void Interpreter::add_slabs() {
   }
   if (!building_.slabs.empty()) return;
   for (const StepProduct& product : model_.products)
-    if (is_nameless(product)) take_as_slab(product);
+    if (is_nameless(product) && !product.ceiling) take_as_slab(product);
 }
 
 bool Interpreter::is_nameless(const StepProduct& product) const {

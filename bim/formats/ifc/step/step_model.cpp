@@ -2,6 +2,8 @@
 #include "bim/formats/ifc/step/step_model.h"
 
 #include <ifcpp/IFC4/include/IfcBuildingStorey.h>
+#include <ifcpp/IFC4/include/IfcCovering.h>
+#include <ifcpp/IFC4/include/IfcCoveringTypeEnum.h>
 #include <ifcpp/IFC4/include/IfcGloballyUniqueId.h>
 #include <ifcpp/IFC4/include/IfcLabel.h>
 #include <ifcpp/IFC4/include/IfcNamedUnit.h>
@@ -206,6 +208,9 @@ class Reader {
     product.type = source->className();
     product.id = source->m_GlobalId ? utf8(source->m_GlobalId->m_value) : std::string();
     product.name = name_of(*source);
+    if (const auto covering = std::dynamic_pointer_cast<IfcCovering>(source))
+      product.ceiling =
+          covering->m_PredefinedType && covering->m_PredefinedType->m_enum == IfcCoveringTypeEnum::ENUM_CEILING;
     const ProductPose pose = placement(source->m_ObjectPlacement, model.unit_m);
     if (pose.malformed) fail(product.step_id, product.type + " has a placement that makes no sense");
     if (!pose.X_WP) {

@@ -33,6 +33,7 @@ struct StepProduct {
   std::int64_t storey = 0;                             ///< STEP number of the storey it belongs to, 0 for none
   std::int64_t host = 0;                               ///< opening: the element it voids; door or window: its opening
   std::int64_t whole = 0;                              ///< STEP number of the product it is a part of, 0 for none
+  bool ceiling = false;                                ///< a covering that is one
   bool has_body = false;                               ///< the file gives a body, whether or not it was read
   std::optional<StepLayers> layers;
   std::string material;                  ///< of the thickest layer

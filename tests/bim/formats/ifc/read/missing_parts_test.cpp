@@ -69,6 +69,15 @@ TEST(Missing, SlabsAreTakenFromWhatLiesLikeThem) {
   }
 }
 
+TEST(Missing, ASuspendedCeilingIsNoFloor) {
+  Sketch sketch = hut({.slab = ""});
+  sketch.element("IFCCOVERING", sketch.shape(sketch.box(0.2, 0.2, 2.58, 5.8, 3.8, 2.6)), "$,.CEILING.");
+  const Building building = read_sketch(sketch);
+  EXPECT_TRUE(building.slabs.empty());
+  EXPECT_EQ(building.obstacles.size(), 1u);
+  EXPECT_EQ(warnings_of(building, "no_floor"), 1);
+}
+
 TEST(Missing, WithoutSlabsTheRoomsCarryAndItIsSaid) {
   const Building building = read_sketch(hut({.slab = ""}));
   EXPECT_EQ(warnings_of(building, "no_floor"), 1);
