@@ -6,7 +6,6 @@
 #include <numbers>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "bim/config/printable.h"
@@ -14,7 +13,9 @@
 #include "bim/plan/plan.h"
 #include "bim/random/stream.h"
 #include "scenarios/app/commands.h"
+#include "scenarios/app/open_recording.h"
 #include "scenarios/app/poorer_recording.h"
+#include "scenarios/app/recording_summary.h"
 #include "scenarios/host/files.h"
 #include "scenarios/host/interrupt.h"
 #include "scenarios/host/progress.h"
@@ -27,8 +28,6 @@
 #include "scenarios/spec/method_names.h"
 #include "scenarios/spec/resolve.h"
 #include "scenarios/spec/run_site.h"
-#include "slam/io/bags/bag.h"
-#include "slam/io/clouds/cloud_recording.h"
 #include "slam/io/recordings/recording.h"
 #include "slam/io/stopwatch.h"
 #include "slam/methods.h"
@@ -38,16 +37,14 @@ namespace plumbline::scenarios {
 namespace {
 
 struct EstimateArguments {
-  std::string recording;
+  RecordingArguments input;
   std::string method;
   std::string plan;
   std::string plan_furniture = "as_planned";
   std::string config;
-  std::string description;
   std::string sensors = "all";
   int every = 1;
   std::vector<std::string> without;
-  slam::BagTopics topics;
   std::string out;
   std::uint64_t seed = 1;
   double yaw_deg = 0.0;
@@ -88,7 +85,7 @@ std::shared_ptr<const bim::Plan> load_plan(const EstimateArguments& options, con
   if (!row.needs_plan) return nullptr;
   if (options.plan.empty())
     throw InputError({"--plan", 0, 0}, "is missing; method '" + options.method + "' localizes in a plan");
-  Scenario scenario = scenario_of(options.recording);
+  Scenario scenario = scenario_of(options.input.recording);
   scenario.building_options = taken;
   scenario.world = {};
   const bool none = options.furniture_option->given() ? options.plan_furniture == names_of(ToldFurniture{}).front()
@@ -127,80 +124,6 @@ Poverty poverty_of(const EstimateArguments& options) {
   return {options.every, without("rings"), without("times")};
 }
 
-/// Of a LiDAR that sends no packets simulate leaves bags alone, with the description beside it; empty: none.
-std::string bag_beside(const std::string& folder) {
-  namespace fs = std::filesystem;
-  std::string bag;
-  for (const char* name : {"/rosbag2", "/recording.mcap", "/recording.bag"})
-    if (fs::exists(folder + name)) bag = folder + name;
-  return fs::exists(folder + "/recording.yaml") && !fs::exists(folder + "/lidar.pcap") ? bag : std::string();
-}
-
-std::unique_ptr<slam::Recording> open_folder(const std::string& folder, const slam::BagTopics& topics,
-                                             const slam::RecordingInfo* given) {
-  const std::string description = folder + "/recording.yaml";
-  const std::string bag = bag_beside(folder);
-  if (bag.empty()) return slam::open_recording(folder, given);
-  const slam::RecordingInfo info =
-      given != nullptr ? *given : slam::read_recording_info(read_text_file(description), description);
-  return slam::open_bag(bag, topics, &info);
-}
-
-void check_no_topics(const EstimateArguments& options) {
-  for (const auto& [name, value] :
-       {std::pair("--points-topic", &options.topics.points), std::pair("--odometry-topic", &options.topics.odometry),
-        std::pair("--imu-topic", &options.topics.imu)})
-    if (!value->empty()) throw InputError({name, 0, 0}, "is of bags; '" + options.recording + "' has no topics");
-}
-
-/// Databases in a folder without what says that they belong together.
-bool holds_databases(const std::string& folder) {
-  namespace fs = std::filesystem;
-  if (fs::exists(folder + "/metadata.yaml")) return false;
-  const fs::directory_iterator files(folder);
-  return std::any_of(begin(files), end(files), [](const auto& entry) { return entry.path().extension() == ".db3"; });
-}
-
-/// What is not there or only has the name of a bag is said before a reader of captures sees it.
-void check_kind(const std::string& recording) {
-  namespace fs = std::filesystem;
-  std::error_code error;
-  if (!fs::exists(recording, error))
-    throw InputError({recording, 0, 0},
-                     "no such file; a recording directory, a capture (.pcap), a bag (.bag, .mcap, .db3 "
-                     "or a rosbag2 folder) or a folder of point clouds would be right");
-  if (fs::is_directory(recording, error)) {
-    if (holds_databases(recording))
-      throw InputError({recording, 0, 0},
-                       "is a rosbag2 without metadata.yaml; run ros2 bag reindex on it, or give one "
-                       "of its .db3 files");
-    return;
-  }
-  if (slam::is_bag(recording)) return;
-  for (const char* ending : {".mcap.zstd", ".mcap.zst", ".db3.zstd", ".db3.zst", ".bag.zst", ".mcap.lz4", ".bag.gz"})
-    if (recording.ends_with(ending))
-      throw InputError({recording, 0, 0}, "is compressed as a whole; decompress it first (zstd -d, lz4 -d or gunzip)");
-  if (fs::path(recording).extension() == ".bag")
-    throw InputError({recording, 0, 0}, "is no ROS 1 bag; one begins with '#ROSBAG V2.0'");
-  if (fs::path(recording).extension() == ".mcap" || fs::path(recording).extension() == ".db3")
-    throw InputError({recording, 0, 0}, "is no ROS 2 bag; an MCAP or an SQLite file would be right");
-}
-
-/// A run directory holds its recording in a folder.
-std::unique_ptr<slam::Recording> open_input(const EstimateArguments& options) {
-  std::optional<slam::RecordingInfo> info;
-  if (!options.description.empty())
-    info = slam::read_recording_info(read_text_file(options.description), options.description);
-  const slam::RecordingInfo* given = info ? &*info : nullptr;
-  check_kind(options.recording);
-  if (slam::is_bag(options.recording)) return slam::open_bag(options.recording, options.topics, given);
-  const std::string inner = options.recording + "/" + std::string(recording_folder);
-  const std::string folder = std::filesystem::is_directory(inner) ? inner : options.recording;
-  if (slam::is_cloud_folder(options.recording) || bag_beside(folder).empty()) check_no_topics(options);
-  if (slam::is_cloud_folder(options.recording)) return slam::open_cloud_folder(options.recording, given);
-  return open_folder(folder, options.topics, given);
-}
-
 /// The prior of the recording, with that of the command line over it.
 slam::Prior make_prior(const EstimateArguments& options, const slam::RecordingInfo& info, const bim::Plan& plan) {
   slam::Prior prior = slam::prior_of(info);
@@ -233,8 +156,8 @@ slam::MethodInput make_input(const EstimateArguments& options, const slam::Metho
   input.config = make_config(options, row);
   input.has_odometry = recording.has_odometry();  // MethodRunner keeps it back where LiDAR alone is asked for
   if (row.needs_odometry && !input.has_odometry)
-    throw InputError({options.recording, 0, 0}, "holds no odometry, which method '" + options.method +
-                                                    "' needs; vgicp and s_graphs_plus do without");
+    throw InputError({options.input.recording, 0, 0}, "holds no odometry, which method '" + options.method +
+                                                          "' needs; vgicp and s_graphs_plus do without");
   input.seed = method_seed(run_seed(options, info), row.name);
   input.calibration = slam::calibration_of(info);
   input.plan = load_plan(options, row, info.plan);
@@ -248,19 +171,6 @@ slam::MethodInput make_input(const EstimateArguments& options, const slam::Metho
 void shift(std::vector<slam::StampedPose>& poses, slam::Nanoseconds by) {
   for (slam::StampedPose& pose : poses) pose.stamp += by;
 }
-
-/// The scans that a method got.
-struct ScansRead {
-  std::int64_t count = 0;
-  int rings = 0;       ///< the most
-  bool timed = false;  ///< returns have times of their own
-
-  void add(const slam::Scan& scan) {
-    ++count;
-    rings = std::max(rings, scan.rings);
-    timed = timed || std::any_of(scan.offset_ns.begin(), scan.offset_ns.end(), [](auto ns) { return ns != 0; });
-  }
-};
 
 struct Answer {
   MethodRecord record;  ///< on the recording's own clock
@@ -292,49 +202,6 @@ Answer run_method(slam::Recording& recording, const slam::MethodRow& row, const 
   return {std::move(record), scans, slam::seconds(last - first.value_or(last))};
 }
 
-std::string list_of(const std::vector<std::string>& names) {
-  std::string list;
-  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
-  return list;
-}
-
-/// What was read, in one line.
-std::string words_of(const slam::Taken& taken, const ScansRead& scans, bool has_odometry) {
-  std::string text = taken.points;
-  if (!taken.other_points.empty()) text += " (not " + list_of(taken.other_points) + ")";
-  text += (text.empty() ? "" : ": ") + std::to_string(scans.count) + " scans, ";
-  text += scans.rings > 1 ? std::to_string(scans.rings) + " rings, " : "no rings, ";
-  text += scans.timed ? "points with times" : "points without times, which are not deskewed";
-  if (!taken.frame.empty()) text += "; frame " + taken.frame;
-  switch (taken.mount) {
-    case slam::MountSource::description:
-      text += "; mount from the description";
-      break;
-    case slam::MountSource::tf_static:
-      text += "; mount from /tf_static";
-      break;
-    case slam::MountSource::unknown:
-      text += "; no mount, so that the robot's frame is the LiDAR's";
-  }
-  text += has_odometry ? "; odometry " + taken.odometry : "; no odometry";
-  if (!taken.imu.empty()) text += "; IMU " + taken.imu;
-  while (text.ends_with(' ')) text.pop_back();
-  return printable(text);
-}
-
-Tree to_tree(const slam::Taken& taken, const ScansRead& scans) {
-  Tree tree = Tree::map();
-  if (!taken.points.empty()) tree.set("points", taken.points);
-  Tree others = Tree::list();
-  for (const std::string& name : taken.other_points) others.push(name);
-  if (!taken.other_points.empty()) tree.set("other_points", std::move(others));
-  if (!taken.odometry.empty()) tree.set("odometry", taken.odometry);
-  if (!taken.imu.empty()) tree.set("imu", taken.imu);
-  if (!taken.frame.empty()) tree.set("frame", taken.frame);
-  tree.set("mount", slam::names_of(taken.mount)[static_cast<std::size_t>(taken.mount)]);
-  return tree.set("scans", scans.count).set("rings", scans.rings).set("point_times", scans.timed);
-}
-
 /// estimate.yaml: which walk the answer is of, and what it depends on besides recording and plan.
 std::string describe(const slam::MethodRow& row, std::uint64_t seed, const slam::Recording& recording,
                      const slam::MethodInput& input, Sensors sensors, const Poverty& poverty, const ScansRead& scans) {
@@ -362,16 +229,6 @@ std::string write_cost(const Answer& answer, double start_s) {
   return write_timings({}, {answer.record}, {slam::wall_s() - start_s, slam::process_cpu_s(), answer.recorded_s, 1});
 }
 
-std::vector<std::string> warnings_of(const slam::Recording& recording) {
-  std::vector<std::string> all = recording.left_out();
-  const slam::Taken taken = recording.taken();
-  if (recording.has_odometry() && taken.mount == slam::MountSource::unknown)
-    all.push_back("where the LiDAR sits on the robot is not known; its frame" +
-                  (taken.frame.empty() ? std::string() : " '" + taken.frame + "'") +
-                  " is taken to be the robot's; --description gives the mount");
-  return all;
-}
-
 /// The table with the process that --method gives, if it does.
 std::optional<ProcessTable> take_process(EstimateArguments& options, slam::MethodTable table) {
   std::optional<ProcessSpec> process = process_of(options.method, std::filesystem::current_path().string());
@@ -390,7 +247,7 @@ int estimate(EstimateArguments options, slam::MethodTable table) {
   const slam::MethodRow& row = *row_of(choice.method, table);
   check_plan_options(options, row);
   const Poverty poverty = poverty_of(options);
-  const std::unique_ptr<slam::Recording> recording = poorer(open_input(options), poverty);
+  const std::unique_ptr<slam::Recording> recording = poorer(open_any_recording(options.input), poverty);
   const slam::MethodInput input = make_input(options, row, *recording);
 
   catch_interrupts();
@@ -398,7 +255,7 @@ int estimate(EstimateArguments options, slam::MethodTable table) {
   const Answer answer = run_method(*recording, row, input, choice.sensors);
   const MethodRecord& record = answer.record;
   for (const std::string& said : warnings_of(*recording))
-    print_note("plumbline: warning: " + options.recording + ": " + said);
+    print_note("plumbline: warning: " + options.input.recording + ": " + said);
   write_method(directory.staging(), record);
   write_file(directory.staging() + "/digests.csv", write_digests(record.digests));
   write_file(directory.staging() + "/estimate.yaml", describe(row, run_seed(options, recording->info()), *recording,
@@ -423,16 +280,16 @@ int estimate(EstimateArguments options, slam::MethodTable table) {
 Command add_estimate(CommandLine& program, slam::MethodTable table) {
   const auto options = std::make_shared<EstimateArguments>();
   CommandLine line = program.add_command("estimate", "Runs a method on a recording, simulated or real");
-  line.option("RECORDING", options->recording,
+  line.option("RECORDING", options->input.recording,
               "directory written by simulate or run --record, capture of a Velodyne LiDAR (.pcap), bag of ROS 1 (.bag) "
               "or ROS "
               "2 (.mcap, .db3, rosbag2 folder), or folder of point clouds (.pcd or .ply)")
       .required();
-  line.option("--description", options->description,
+  line.option("--description", options->input.description,
               "a recording.yaml with the LiDAR's mount, for a capture or bag, which has none");
-  line.option("--points-topic", options->topics.points, "of a bag [the first PointCloud2 or Livox CustomMsg]");
-  line.option("--odometry-topic", options->topics.odometry, "of a bag [the first Odometry]");
-  line.option("--imu-topic", options->topics.imu, "of a bag [the first Imu]");
+  line.option("--points-topic", options->input.topics.points, "of a bag [the first PointCloud2 or Livox CustomMsg]");
+  line.option("--odometry-topic", options->input.topics.odometry, "of a bag [the first Odometry]");
+  line.option("--imu-topic", options->input.topics.imu, "of a bag [the first Imu]");
   line.option("--method", options->method, "one of plumbline methods, or NAME=COMMAND: a process of your own")
       .takes("METHOD")
       .required();

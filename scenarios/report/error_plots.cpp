@@ -106,6 +106,10 @@ std::string draw_kind(const ReportInput& input, const ErrorKind& kind, double en
 std::span<const ErrorKind> error_kinds() { return kinds; }
 
 std::string draw_errors(const ReportInput& input, double end_s) {
+  const std::vector<PlotCurve> curves = error_curves(input, kinds.front());
+  if (std::all_of(curves.begin(), curves.end(), [](const PlotCurve& curve) { return curve.points.empty(); }))
+    return "<section class=\"card\"><h2>Position error over time</h2><p class=\"facts\">No method gave one "
+           "pose.</p></section>";
   std::string out =
       "<section class=\"card\"><h2>Position error over time</h2>" + draw_kind(input, kinds.front(), end_s, false) +
       "<p class=\"facts\">Point at it for values, click to jump there; the legend gives the values at the "

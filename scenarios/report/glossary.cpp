@@ -24,26 +24,12 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 4> terms = {
      {"localization.with_furniture.*",
       "`identifiable`, `evidence` and the rest as above, with the furniture as planned in the plan"}}};
 
-/// Text of the documents on a page: what stands in backticks as code.
-std::string marked_up(std::string_view doc) {
-  std::string out;
-  bool code = false;
-  while (!doc.empty()) {
-    const std::size_t end = doc.find('`');
-    const std::string_view part = doc.substr(0, end);
-    out += code ? "<code>" + svg::breakable(part) + "</code>" : svg::escape(part);
-    doc.remove_prefix(end == std::string_view::npos ? doc.size() : end + 1);
-    code = !code;
-  }
-  return out;
-}
-
 }  // namespace
 
 std::string glossary() {
   const auto row = [](std::string_view name, std::string_view unit, std::string_view doc) {
     return "<tr><td><code>" + svg::breakable(name) + "</code></td><td data-head=\"unit\">" + svg::escape(unit) +
-           "</td><td class=\"plain\">" + marked_up(doc) + "</td></tr>";
+           "</td><td class=\"plain\">" + svg::marked_up(doc) + "</td></tr>";
   };
   std::string out =
       "<details class=\"card\"><summary>Glossary: verdicts, states, metrics</summary><div class=\"scroll\"><table "

@@ -37,7 +37,7 @@ std::string told_text(const ReportInput& input) {
   std::replace(world.begin(), world.end(), '_', ' ');
   const bool none = text_of(*told, "plan_furniture") == "none";
   return " · the methods' plan " + std::string(none ? "has no furniture" : "has the furniture as planned") +
-         "; furniture as built: " + svg::escape(world);
+         "; in the building: " + svg::escape(world);
 }
 
 double limit_of(const Tree& gate) { return number_of(&gate, "limit").value_or(0.0); }

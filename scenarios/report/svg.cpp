@@ -55,6 +55,19 @@ std::string breakable(std::string_view name) {
   return out;
 }
 
+std::string marked_up(std::string_view sentence) {
+  std::string out;
+  bool code = false;
+  while (!sentence.empty()) {
+    const std::size_t end = sentence.find('`');
+    const std::string_view part = sentence.substr(0, end);
+    out += code ? "<code>" + breakable(part) + "</code>" : escape(part);
+    sentence.remove_prefix(end == std::string_view::npos ? sentence.size() : end + 1);
+    code = !code;
+  }
+  return out;
+}
+
 std::string points(const std::vector<Eigen::Vector2d>& p, int decimals) {
   std::string out;
   for (const auto& v : p) {

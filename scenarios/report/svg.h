@@ -16,6 +16,8 @@ namespace plumbline::scenarios::svg {
 [[nodiscard]] std::string escape(std::string_view text);
 /// A name of code, escaped, that a browser may break after its dots and underscores.
 [[nodiscard]] std::string breakable(std::string_view name);
+/// A sentence, escaped: what stands in backticks as code.
+[[nodiscard]] std::string marked_up(std::string_view sentence);
 /// "x,y x,y ..." with y pointing up on the page.
 [[nodiscard]] std::string points(const std::vector<Eigen::Vector2d>& p, int decimals = 3);
 [[nodiscard]] std::string polyline(const std::vector<Eigen::Vector2d>& p, const std::string& attributes);

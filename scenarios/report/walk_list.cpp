@@ -50,7 +50,7 @@ std::string list_walk(const Tree* walk) {
   if (walk == nullptr) return "";
   std::string out = "<section class=\"card\"><h2>The walk</h2>";
   for (const Tree& warning : walk->find("warnings")->as_list())
-    out += "<p class=\"verdict bad\">" + svg::escape(warning.as_string()) + "</p>";
+    out += "<p class=\"verdict bad\">" + svg::marked_up(warning.as_string()) + "</p>";
   out += "<p class=\"facts\">" + svg::escape(sentence(*walk)) + "</p>";
   return out + out_of_reach(*walk->find("out_of_reach")) + left_out(*walk->find("left_out")) + "</section>";
 }

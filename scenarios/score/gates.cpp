@@ -62,8 +62,9 @@ std::vector<GateResult> judge_gates(const std::vector<GateSpec>& gates, const st
             : score->verdict == "lost" && !metric.also_when_lost ? "the method was lost"
             : !value && gate.metric == "ate_final_rmse_m"        ? "fewer than 95 % of the scans have a final pose"
                                                                  : "";
-      const bool never_answered = score->localization && gate.metric.rfind("localization.", 0) == 0;
-      if (!value && but.empty() && !never_answered) but = gate.method + " has no such metric";
+      const bool of_localization = score->localization && gate.metric.starts_with("localization.");
+      if (!value && but.empty() && !of_localization) but = gate.method + " has no such metric";
+      if (!value && but.empty() && !score->localization->converged_at_s) but = "it never converged on one pose";
     }
     results.push_back(judge_gate(gate, gate.method, value, std::move(but)));
   }

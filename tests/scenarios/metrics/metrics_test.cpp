@@ -70,6 +70,9 @@ TEST(Gates, PassOnlyOnAPresentMetricOfAWholeRun) {
   never.localization.emplace();
   const GateSpec error{"localization.ape_rmse_m", "vgicp", 0.1, std::nullopt};
   EXPECT_EQ(describe(judge_gates({error}, {never}, true)[0]),
+            "localization.ape_rmse_m of vgicp is absent, must be <= 0.1: it never converged on one pose");
+  never.localization->converged_at_s = 2.0;
+  EXPECT_EQ(describe(judge_gates({error}, {never}, true)[0]),
             "localization.ape_rmse_m of vgicp is absent, must be <= 0.1");
 }
 

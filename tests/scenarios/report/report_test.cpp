@@ -3,47 +3,18 @@
 
 #include <gtest/gtest.h>
 
-#include "scenarios/report/plot.h"
 #include "scenarios/report/svg.h"
+#include "tests/occurrences.h"
+#include "tests/scenarios/report/report_sample.h"
 
 namespace plumbline::scenarios {
 namespace {
 
-ReportInput sample() {
-  ReportInput input;
-  Tree gate = Tree::map();
-  gate.set("metric", "ate_aligned_rmse_m").set("method", "m").set("op", "<=").set("limit", 0.05).set("value", 0.08);
-  gate.set("passed", false);
-  Tree method = Tree::map();
-  method.set("verdict", "complete").set("ate_aligned_rmse_m", 0.08);
-  input.results = Tree::map();
-  input.results.set("scenario", "a <b> & \"c\"").set("seed", "1").set("duration_s", 10.0);
-  input.results.set("gates", Tree(Tree::List{gate})).set("methods", Tree(Tree::Map{{"m", method}}));
-  bim::PlanFace face;
-  face.storey = 0;
-  face.p1 = {4.0, 0.0};
-  face.holes = {{1.0, 2.0, 0.0, 2.1}};
-  input.plan.faces = {face};
-  input.plan.storeys = {{"ground", 0.0, 3.0}, {"upper", 3.0, 3.0}};
-  input.storeys = {{0, "ground", {}}};
-  for (int i = 0; i <= 100; ++i) input.truth.push_back({0.1 * i, 0.04 * i, 1.0, 0.0, 0.0, 0});
-  ReportMethod m;
-  m.name = "m";
-  for (const auto& s : input.truth) m.samples.push_back({s.t_s, s.x, s.y + 0.08, 0.0, 0.08, 0});
-  m.beliefs.push_back({"start", 0.0, {{1.0, 1.0, 0.0, 1.0}}, {0.0, 1.0}, 0});
-  input.methods.push_back(m);
-  return input;
-}
-
-std::size_t count(const std::string& text, const std::string& what) {
-  std::size_t n = 0;
-  for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; at += what.size()) ++n;
-  return n;
-}
-
 TEST(Report, IsSelfContainedAndSaysWhatFailed) {
   const std::string page = render_report(sample());
-  EXPECT_EQ(count(page, "http://") + count(page, "https://") + count(page, "src=") + count(page, "<link"), 0U);
+  EXPECT_EQ(occurrences(page, "http://") + occurrences(page, "https://") + occurrences(page, "src=") +
+                occurrences(page, "<link"),
+            0U);
   EXPECT_NE(page.find("FAIL"), std::string::npos);
   EXPECT_NE(page.find("8 cm rms after alignment"), std::string::npos);
   EXPECT_NE(page.find("a &lt;b&gt; &amp; &quot;c&quot;"), std::string::npos);
@@ -62,17 +33,8 @@ TEST(Report, GivesBothAnswersAndWhatMethodsWereTold) {
   EXPECT_NE(page.find("By the building alone: the scans never distinguished"), std::string::npos);
   EXPECT_NE(page.find("With the furniture as planned: identifiable from the first scan"), std::string::npos);
   EXPECT_NE(page.find("Only furniture tells these apart"), std::string::npos);
-  EXPECT_NE(page.find("the methods' plan has no furniture; furniture as built: as planned"), std::string::npos);
-  EXPECT_EQ(render_report(sample()).find("furniture as built"), std::string::npos);
-}
-
-TEST(Report, ShowsAGatesLimitHoweverSmall) {
-  ReportInput input = sample();
-  Tree gate = Tree::map();
-  gate.set("metric", "ate_aligned_rmse_m").set("method", "truth").set("op", "<=").set("limit", 1e-9).set("value", 0.0);
-  gate.set("passed", true);
-  input.results.set("gates", Tree(Tree::List{gate}));
-  EXPECT_NE(render_report(input).find("&lt;= 1e-09"), std::string::npos);
+  EXPECT_NE(page.find("the methods' plan has no furniture; in the building: as planned"), std::string::npos);
+  EXPECT_EQ(render_report(sample()).find("in the building:"), std::string::npos);
 }
 
 TEST(Report, LeavesDoorsOpenInWalls) {
@@ -80,8 +42,8 @@ TEST(Report, LeavesDoorsOpenInWalls) {
   const std::string page = render_report(sample());
   const std::string map =
       page.substr(page.find("<svg class=\"map\""), page.find("</svg>") - page.find("<svg class=\"map\""));
-  EXPECT_EQ(count(map, "class=\"wall\""), 2U);
-  EXPECT_EQ(count(map, "class=\"wall high\""), 0U);
+  EXPECT_EQ(occurrences(map, "class=\"wall\""), 2U);
+  EXPECT_EQ(occurrences(map, "class=\"wall high\""), 0U);
 }
 
 TEST(Report, ShowsWhatHangsAboveTheRobotFaintly) {
@@ -89,8 +51,8 @@ TEST(Report, ShowsWhatHangsAboveTheRobotFaintly) {
   input.plan.faces.front().z0 = 2.5;
   input.plan.faces.front().holes.clear();
   const std::string page = render_report(input);
-  EXPECT_EQ(count(page, "class=\"wall\""), 0U);
-  EXPECT_EQ(count(page, "class=\"wall high\""), count(page, "<svg class=\"map\""));
+  EXPECT_EQ(occurrences(page, "class=\"wall\""), 0U);
+  EXPECT_EQ(occurrences(page, "class=\"wall high\""), occurrences(page, "<svg class=\"map\""));
 }
 
 TEST(Report, DrawsWhatStandsOnTheFloor) {
@@ -99,10 +61,10 @@ TEST(Report, DrawsWhatStandsOnTheFloor) {
   input.obstacles = {{"desk <1>", 0, square, true}, {"table", 0, square, false}, {"upstairs", 1, square, true}};
   const std::string page = render_report(input);
   const std::string outline = "<polygon points=\"1,-1 2,-1 2,-2 1,-2\" class=\"";
-  const std::size_t maps = count(page, "<svg class=\"map\"");
-  EXPECT_EQ(count(page, outline + "thing\"><title>desk &lt;1&gt;</title>"), maps);
-  EXPECT_EQ(count(page, outline + "thing hull\"><title>table</title>"), maps);
-  EXPECT_EQ(count(page, outline), 2 * maps);
+  const std::size_t maps = occurrences(page, "<svg class=\"map\"");
+  EXPECT_EQ(occurrences(page, outline + "thing\"><title>desk &lt;1&gt;</title>"), maps);
+  EXPECT_EQ(occurrences(page, outline + "thing hull\"><title>table</title>"), maps);
+  EXPECT_EQ(occurrences(page, outline), 2 * maps);
 }
 
 TEST(Report, DrawsTheMapOfEveryStoreyWithThePathOnIt) {
@@ -112,29 +74,11 @@ TEST(Report, DrawsTheMapOfEveryStoreyWithThePathOnIt) {
   input.plan.faces.back().storey = 1;
   for (std::size_t i = 60; i < input.truth.size(); ++i) input.truth[i].storey = 1;
   const std::string page = render_report(input);
-  EXPECT_EQ(count(page, "data-robot=\"truth\""), 2U);
-  EXPECT_EQ(count(page, "class=\"truth\""), 2U);
-  EXPECT_EQ(count(page, "<p class=\"storey\">"), 2U);
+  EXPECT_EQ(occurrences(page, "data-robot=\"truth\""), 2U);
+  EXPECT_EQ(occurrences(page, "class=\"truth\""), 2U);
+  EXPECT_EQ(occurrences(page, "<p class=\"storey\">"), 2U);
   EXPECT_NE(page.find("upper &lt;floor&gt;"), std::string::npos);
-  EXPECT_EQ(count(render_report(sample()), "<p class=\"storey\">"), 0U);
-}
-
-/// A localization that had two hypotheses, converged at 6 s and matched two walls, one of them wrongly.
-ReportInput localized() {
-  ReportInput input = sample();
-  ReportMethod& m = input.methods.front();
-  m.localization = true;
-  for (const ReportSample& s : input.truth)
-    m.states.push_back({s.t_s, s.t_s < 6.0 ? 2 : 1, s.t_s < 6.0 ? slam::State::ambiguous : slam::State::converged});
-  m.histories = {{0, true, "hall", {{0.0, 0.5}, {0.9, 0.9}}}, {1, false, "a<b", {{0.0, 0.5}, {0.9, 0.1}}}};
-  const ReportWall wall{{0, 0}, {4, 0}, 0};
-  m.recognised = {
-      {"at convergence", 6.0, 0, {1.0, 1.0}, {{{1.0, 1.0}, 0.5, 1.0, {{{wall}, wall, true}, {{wall}, wall, false}}}}}};
-  Tree results = Tree::map();
-  results.set("verdict", "success");
-  results.set("localization", Tree::map().set("converged_at_s", 6.0).set("ape_rmse_m", 0.08));
-  input.results.set("methods", Tree(Tree::Map{{"m", results}}));
-  return input;
+  EXPECT_EQ(occurrences(render_report(sample()), "<p class=\"storey\">"), 0U);
 }
 
 TEST(Report, SaysFromWhenToWhenAnAnswerWasWrongAndOnWhichStorey) {
@@ -190,14 +134,14 @@ TEST(Report, ShowsWhatALocalizationBelievedOverTime) {
   const std::size_t chart = page.find("id=\"belief-m\"");
   ASSERT_NE(chart, std::string::npos);
   const std::string plot = page.substr(chart, page.find("</figure>", chart) - chart);
-  EXPECT_EQ(count(plot, "background:var(--ambiguous)") + count(plot, "background:var(--converged)"), 2U);
+  EXPECT_EQ(occurrences(plot, "background:var(--ambiguous)") + occurrences(plot, "background:var(--converged)"), 2U);
   EXPECT_NE(plot.find("AMBIGUOUS, 0 to 6 s"), std::string::npos);
   EXPECT_NE(plot.find("CONVERGED, 6 to 10 s"), std::string::npos);
   EXPECT_NE(plot.find(">converged<"), std::string::npos);
   EXPECT_NE(plot.find("</i>true pose "), std::string::npos);
   EXPECT_NE(plot.find("</i>other: a&lt;b "), std::string::npos);
-  EXPECT_EQ(count(plot, "class=\"curve"), 2U);
-  EXPECT_EQ(count(render_report(sample()), "belief-m"), 0U);
+  EXPECT_EQ(occurrences(plot, "class=\"curve"), 2U);
+  EXPECT_EQ(occurrences(render_report(sample()), "belief-m"), 0U);
 }
 
 TEST(Report, NamesTheTruePoseOnceHoweverOftenItIsLost) {
@@ -206,8 +150,8 @@ TEST(Report, NamesTheTruePoseOnceHoweverOftenItIsLost) {
                                      {0, false, "hall", {{0.5, 1.0}, {0.9, 1.0}}},
                                      {0, true, "hall", {{0.9, 1.0}, {1.4, 1.0}}}};
   const std::string page = render_report(input);
-  EXPECT_EQ(count(page, "</i>true pose "), 1U);
-  EXPECT_EQ(count(page, "</i>other: hall "), 1U);
+  EXPECT_EQ(occurrences(page, "</i>true pose "), 1U);
+  EXPECT_EQ(occurrences(page, "</i>other: hall "), 1U);
   // The legend's values: the later stretch of the true pose is its own, not that of the other one.
   const std::size_t true_pose = page.find("\"true pose\""), again = page.find("[0.9,100", true_pose),
                     other = page.find("\"other: hall\"");
@@ -245,40 +189,6 @@ TEST(Report, SaysWhenARightPoseWasLost) {
             std::string::npos);
 }
 
-TEST(Report, SaysFirstWhichGatesFailedAndByHowMuch) {
-  ReportInput input = sample();
-  Tree gate = input.results.find("gates")->as_list().front();
-  gate.set("see", "replay.html#t=1&m=m").set("reason", "the run ended early");
-  input.results.set("gates", Tree(Tree::List{gate}));
-  const std::string page = render_report(input);
-  EXPECT_NE(page.find("<li><a href=\"replay.html#t=1&amp;m=m\">ate_aligned_rmse_m of m</a>: 0.08, must be &lt;= 0.05; "
-                      "the run ended early</li>"),
-            std::string::npos);
-  EXPECT_LT(page.find("class=\"failed\""), page.find("<svg class=\"map\""));
-  EXPECT_EQ(page.find(">look</a>"), std::string::npos);
-}
-
-TEST(Report, NamesABadMethodThatNoGateJudges) {
-  ReportInput input = localized();
-  Tree gate = input.results.find("gates")->as_list().front();
-  gate.set("method", "other").set("passed", true);
-  input.results.set("gates", Tree(Tree::List{gate}));
-  EXPECT_EQ(render_report(input).find("not judged"), std::string::npos);
-  Tree where = Tree::map();
-  where.set("converged_at_s", 6.0).set("failure", "depleted").set("failure_at_s", 4.0).set("evidence", "weak");
-  input.results.set("methods",
-                    Tree(Tree::Map{{"m", Tree::map().set("verdict", "overconfident").set("localization", where)}}));
-  const std::string page = render_report(input);
-  EXPECT_NE(page.find("<span class=\"badge bad\">m: overconfident, not judged</span>"), std::string::npos);
-  EXPECT_NE(
-      page.find("the scans favour it only marginally, since the true pose dropped out of the hypotheses (at 4 s)"),
-      std::string::npos);
-  where.set("hypotheses", 2);
-  input.results.set("methods",
-                    Tree(Tree::Map{{"m", Tree::map().set("verdict", "honest_ambiguity").set("localization", where)}}));
-  EXPECT_NE(render_report(input).find("rightly: the scans favour one only marginally"), std::string::npos);
-}
-
 TEST(Report, GlossaryHoldsNoMarkdownAndNamesWhatPagesSay) {
   const std::string page = render_report(sample());
   const std::string glossary =
@@ -304,22 +214,6 @@ TEST(Report, ItsKeyNamesOnlyWhatSomeMethodFound) {
   EXPECT_NE(page.find("height=\"8\"/></svg>room that m found"), std::string::npos);
 }
 
-TEST(Report, BreaksTheHeadingWhereItTurnsOver) {
-  PlotCurve curve{"m", "red", {{0.0, 179.0}, {0.1, 179.5}, {0.2, -179.5}, {0.3, -179.0}}};
-  EXPECT_EQ(count(draw_plot("p", {curve}, 1.0), "M"), 1U);
-  curve.jump = 180.0;
-  EXPECT_EQ(count(draw_plot("p", {curve}, 1.0), "M"), 2U);
-}
-
-TEST(Report, ColoursAVerdictByTheGates) {
-  ReportInput input = sample();  // its gate failed
-  EXPECT_NE(render_report(input).find("<span class=\"verdict bad\">complete</span>"), std::string::npos);
-  EXPECT_NE(render_report(input).find("0 of 1 gate passed."), std::string::npos);
-  input.results.set("gates", Tree::list());
-  EXPECT_NE(render_report(input).find("<span class=\"verdict open\">complete</span>"), std::string::npos);
-  EXPECT_NE(render_report(input).find("No gate judges it."), std::string::npos);
-}
-
 TEST(Report, DrawsNoErrorWhereAMethodSaysThatItIsLost) {
   ReportInput input = sample();
   for (std::size_t i = 50; i < 101; ++i) {
@@ -329,24 +223,24 @@ TEST(Report, DrawsNoErrorWhereAMethodSaysThatItIsLost) {
   const std::string page = render_report(input);
   EXPECT_NE(page.find("curve disclaimed layer-m"), std::string::npos);
   EXPECT_EQ(page.find(">5000<"), std::string::npos);  // the scale is that of answers
-  EXPECT_EQ(count(page, "<polyline"), count(render_report(sample()), "<polyline"));
+  EXPECT_EQ(occurrences(page, "<polyline"), occurrences(render_report(sample()), "<polyline"));
 }
 
 TEST(Report, ShowsTheWallsItRecognised) {
   const std::string page = render_report(localized());
-  EXPECT_EQ(count(page, "class=\"plannedwall\""), 2U);
-  EXPECT_EQ(count(page, "class=\"seenwall\""), 2U);
+  EXPECT_EQ(occurrences(page, "class=\"plannedwall\""), 2U);
+  EXPECT_EQ(occurrences(page, "class=\"seenwall\""), 2U);
   EXPECT_NE(page.find("at convergence, 6 s: 1 of 2 walls right"), std::string::npos);
   ReportInput ambiguous = localized();
   ReportWalls& walls = ambiguous.methods.front().recognised.front();
   walls.hypotheses.resize(5, walls.hypotheses.front());  // a map each, of three at most
-  EXPECT_EQ(count(render_report(ambiguous), "class=\"heldplace\""), 3U);
+  EXPECT_EQ(occurrences(render_report(ambiguous), "class=\"heldplace\""), 3U);
   EXPECT_NE(render_report(ambiguous).find("6 s: hypothesis 2 of 5, 100 %: 1 of 2 walls right"), std::string::npos);
 }
 
 TEST(Report, DoesNotJoinPathsWhereTheRobotWasCarried) {
   ReportInput input = sample();
-  const std::size_t lines = count(render_report(input), "<polyline");
+  const std::size_t lines = occurrences(render_report(input), "<polyline");
   const auto carry = [](std::vector<ReportSample>& samples) {
     for (std::size_t i = 50; i < samples.size(); ++i) {
       samples[i].t_s += 3.0;
@@ -357,11 +251,11 @@ TEST(Report, DoesNotJoinPathsWhereTheRobotWasCarried) {
   carry(input.methods.front().samples);
   input.kidnap = ReportKidnap{4.9, 8.0};
   const std::string page = render_report(input);
-  EXPECT_EQ(count(page, "<polyline"), lines + 3);  // the truth's, the method's, and that by its error
-  EXPECT_EQ(count(page, ">kidnapped<"), 2U);       // on the map and over the errors
+  EXPECT_EQ(occurrences(page, "<polyline"), lines + 3);  // the truth's, the method's, and that by its error
+  EXPECT_EQ(occurrences(page, ">kidnapped<"), 2U);       // on the map and over the errors
   // A method that changes its mind within a scan does not walk there either.
   for (std::size_t i = 70; i < input.methods.front().samples.size(); ++i) input.methods.front().samples[i].x += 2.0;
-  EXPECT_EQ(count(render_report(input), "<polyline"), lines + 5);
+  EXPECT_EQ(occurrences(render_report(input), "<polyline"), lines + 5);
 }
 
 TEST(Report, LeadsToTheReplayWhereThereIsOne) {
@@ -373,41 +267,26 @@ TEST(Report, LeadsToTheReplayWhereThereIsOne) {
 
 TEST(Report, SameInputSameBytes) { EXPECT_EQ(render_report(sample()), render_report(sample())); }
 
+TEST(Report, WarnsOfTheWalkWithoutMarkdown) {
+  ReportInput input = sample();
+  Tree walk = Tree::map();
+  walk.set("warnings", Tree(Tree::List{Tree("a longer `duration_s: 50` would do")})).set("out_of_reach", Tree::list());
+  input.results.set("walk", walk.set("left_out", Tree::list()));
+  EXPECT_NE(render_report(input).find("a longer <code>duration_<wbr>s: 50</code> would do"), std::string::npos);
+}
+
+TEST(Report, SaysThatNoMethodGaveAPose) {
+  ReportInput input = sample();
+  EXPECT_EQ(render_report(input).find("No method gave one pose."), std::string::npos);
+  input.methods.front().samples.clear();
+  EXPECT_NE(render_report(input).find("No method gave one pose."), std::string::npos);
+}
+
 TEST(Report, WorksWithoutAnyMethod) {
   ReportInput input = sample();
   input.methods.clear();
   input.truth.clear();
   EXPECT_NE(render_report(input).find("</html>"), std::string::npos);
-}
-
-TEST(Svg, NumbersAreShort) {
-  EXPECT_EQ(svg::number(1.5), "1.5");
-  EXPECT_EQ(svg::number(-0.0001), "0");
-  EXPECT_EQ(svg::number(100.0), "100");
-}
-
-TEST(Plot, MarksHaveRowsOfTheirOwn) {
-  const std::string plot =
-      draw_plot("p", {{"c", "#111", {{0, 1}, {0.5, 1}}}}, 10.0, {{{2, "one"}, {2.1, "two"}}, {}, 0});
-  const auto row_of = [&](const std::string& text) {
-    const std::size_t at = plot.rfind("top:", plot.find(">" + text + "<"));
-    return plot.substr(at, plot.find(';', at) - at);
-  };
-  EXPECT_NE(row_of("one"), row_of("two"));
-}
-
-TEST(Plot, MarksWhereACurveLeavesTheScale) {
-  std::vector<Eigen::Vector2d> points;
-  for (int i = 0; i < 2000; ++i) points.emplace_back(0.01 * i, i >= 1000 && i < 1004 ? 50.0 : 1.0);
-  PlotExtras extras;
-  const std::string plot = draw_plot("p", {{"c", "#111", points}}, 20.0, extras);
-  EXPECT_EQ(count(plot, "class=\"over layer-c\" style=\"left:50%"), 1U);
-  EXPECT_EQ(count(plot, "▲"), 1U);
-  extras.both_ways = true;
-  extras.max = 1.0;
-  const std::string both = draw_plot("p", {{"c", "#111", {{1.0, -3.0}, {1.1, 0.5}}}}, 20.0, extras);
-  EXPECT_EQ(count(both, "▼") + 10 * count(both, "▲"), 1U);
-  EXPECT_NE(both.find(">-0.5<"), std::string::npos) << both;
 }
 
 TEST(Report, HasTheErrorOfEachAxisTheHeadingAndTheLastMetre) {
@@ -419,8 +298,8 @@ TEST(Report, HasTheErrorOfEachAxisTheHeadingAndTheLastMetre) {
   }
   const std::string page = render_report(input);
   for (const char* id : {"errors", "errors-x", "errors-y", "errors-z", "errors-heading", "errors-relative"})
-    EXPECT_EQ(count(page, "<figure class=\"plot" + std::string(std::string(id) == "errors" ? "" : " small") +
-                              "\" id=\"" + id + "\""),
+    EXPECT_EQ(occurrences(page, "<figure class=\"plot" + std::string(std::string(id) == "errors" ? "" : " small") +
+                                    "\" id=\"" + id + "\""),
               1U)
         << id;
   const std::string data = page.substr(page.find("id=\"data\""));
@@ -435,14 +314,8 @@ TEST(Report, DrawsThePathByTheSizeOfItsError) {
   ReportInput input = sample();  // 8 cm off
   for (std::size_t i = 50; i < 101; ++i) input.methods.front().samples[i].error_m = 0.7;
   const std::string page = render_report(input);
-  EXPECT_EQ(count(page, "class=\"errorpath\" stroke=\"var(--e2)\""), 1U);
-  EXPECT_EQ(count(page, "class=\"errorpath\" stroke=\"var(--e4)\""), 1U);
-}
-
-TEST(Plot, StepsAreRound) {
-  EXPECT_DOUBLE_EQ(round_step(10.0, 5), 2.0);
-  EXPECT_DOUBLE_EQ(round_step(0.9, 5), 0.2);
-  EXPECT_DOUBLE_EQ(round_step(120.0, 10), 20.0);
+  EXPECT_EQ(occurrences(page, "class=\"errorpath\" stroke=\"var(--e2)\""), 1U);
+  EXPECT_EQ(occurrences(page, "class=\"errorpath\" stroke=\"var(--e4)\""), 1U);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "scenarios/metrics/metrics.h"
+#include "tests/occurrences.h"
 
 namespace plumbline::scenarios {
 namespace {
@@ -15,12 +16,6 @@ SweepRow row(const std::string& seed, const std::string& verdict, double error_m
   SweepRow one = rows_of(Tree::map().set("scenario", "a<b").set("seed", seed).set("methods", methods), "x").front();
   one.key = "a_b-" + seed;
   return one;
-}
-
-std::size_t count(const std::string& text, const std::string& what) {
-  std::size_t n = 0;
-  for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; at += what.size()) ++n;
-  return n;
 }
 
 TEST(SweepPage, PutsTheWorstRunFirst) {
@@ -41,21 +36,21 @@ TEST(SweepPage, PutsTheWorstRunFirst) {
 TEST(SweepPage, LinksARunWhosePageIsThere) {
   const std::vector<SweepRow> rows = {row("1", "success", 0.01), row("2", "late", 0.02)};
   const std::string page = table_html({"n", "s.yaml", {"a_b-2"}, 0}, rows, cells_of(rows));
-  EXPECT_GE(count(page, "<a href=\"pages/a_b-2/report.html\">"), 1U);
-  EXPECT_EQ(count(page, "pages/a_b-1/"), 0U);
-  EXPECT_EQ(count(page, "data-copy=\"plumbline sweep s.yaml --page a_b-1\""), 1U);
+  EXPECT_GE(occurrences(page, "<a href=\"pages/a_b-2/report.html\">"), 1U);
+  EXPECT_EQ(occurrences(page, "pages/a_b-1/"), 0U);
+  EXPECT_EQ(occurrences(page, "data-copy=\"plumbline sweep s.yaml --page a_b-1\""), 1U);
 }
 
 TEST(SweepPage, ShowsTheSpreadAsDotsOrAsAHistogram) {
   std::vector<SweepRow> rows;
   for (int i = 0; i < 50; ++i) rows.push_back(row(std::to_string(i), i < 3 ? "late" : "success", 0.01 + 0.001 * i));
   const std::string few = table_html({"n", "s.yaml", {}, 0}, rows, cells_of(rows));
-  EXPECT_EQ(count(few, "<circle "), 50U);
-  EXPECT_EQ(count(few, "fill=\"var(--wrong)\""), 3U);
+  EXPECT_EQ(occurrences(few, "<circle "), 50U);
+  EXPECT_EQ(occurrences(few, "fill=\"var(--wrong)\""), 3U);
   EXPECT_NE(few.find("<title>seed 4: success, 1.4 cm</title>"), std::string::npos);
   for (int i = 50; i < 1500; ++i) rows.push_back(row(std::to_string(i), "success", 0.02));
   const std::string many = table_html({"n", "s.yaml", {}, 0}, rows, cells_of(rows));
-  EXPECT_EQ(count(many, "<circle "), 0U);
+  EXPECT_EQ(occurrences(many, "<circle "), 0U);
   EXPECT_NE(many.find("runs</title></rect>"), std::string::npos);
   EXPECT_NE(many.find("The worst 1000 of 1500"), std::string::npos);
 }

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include "tests/scenarios/report/report_sample.h"
+
+namespace plumbline::scenarios {
+namespace {
+
+TEST(Report, ShowsAGatesLimitHoweverSmall) {
+  ReportInput input = sample();
+  Tree gate = Tree::map();
+  gate.set("metric", "ate_aligned_rmse_m").set("method", "truth").set("op", "<=").set("limit", 1e-9).set("value", 0.0);
+  gate.set("passed", true);
+  input.results.set("gates", Tree(Tree::List{gate}));
+  EXPECT_NE(render_report(input).find("&lt;= 1e-09"), std::string::npos);
+}
+
+TEST(Report, SaysFirstWhichGatesFailedAndByHowMuch) {
+  ReportInput input = sample();
+  Tree gate = input.results.find("gates")->as_list().front();
+  gate.set("see", "replay.html#t=1&m=m").set("reason", "the run ended early");
+  input.results.set("gates", Tree(Tree::List{gate}));
+  const std::string page = render_report(input);
+  EXPECT_NE(page.find("<li><a href=\"replay.html#t=1&amp;m=m\">ate_aligned_rmse_m of m</a>: 0.08, must be &lt;= 0.05; "
+                      "the run ended early</li>"),
+            std::string::npos);
+  EXPECT_LT(page.find("class=\"failed\""), page.find("<svg class=\"map\""));
+  EXPECT_EQ(page.find(">look</a>"), std::string::npos);
+}
+
+TEST(Report, NamesABadMethodThatNoGateJudges) {
+  ReportInput input = localized();
+  Tree gate = input.results.find("gates")->as_list().front();
+  gate.set("method", "other").set("passed", true);
+  input.results.set("gates", Tree(Tree::List{gate}));
+  EXPECT_EQ(render_report(input).find("not judged"), std::string::npos);
+  Tree where = Tree::map();
+  where.set("converged_at_s", 6.0).set("failure", "depleted").set("failure_at_s", 4.0).set("evidence", "weak");
+  input.results.set("methods",
+                    Tree(Tree::Map{{"m", Tree::map().set("verdict", "overconfident").set("localization", where)}}));
+  const std::string page = render_report(input);
+  EXPECT_NE(page.find("<span class=\"badge bad\">m: overconfident, not judged</span>"), std::string::npos);
+  EXPECT_NE(
+      page.find("the scans favour it only marginally, since the true pose dropped out of the hypotheses (at 4 s)"),
+      std::string::npos);
+  where.set("hypotheses", 2);
+  input.results.set("methods",
+                    Tree(Tree::Map{{"m", Tree::map().set("verdict", "honest_ambiguity").set("localization", where)}}));
+  EXPECT_NE(render_report(input).find("rightly: the scans favour one only marginally"), std::string::npos);
+}
+
+TEST(Report, ColoursAVerdictByTheGates) {
+  ReportInput input = sample();  // its gate failed
+  EXPECT_NE(render_report(input).find("<span class=\"verdict bad\">complete</span>"), std::string::npos);
+  EXPECT_NE(render_report(input).find("0 of 1 gate passed."), std::string::npos);
+  input.results.set("gates", Tree::list());
+  EXPECT_NE(render_report(input).find("<span class=\"verdict open\">complete</span>"), std::string::npos);
+  EXPECT_NE(render_report(input).find("No gate judges it."), std::string::npos);
+}
+
+}  // namespace
+}  // namespace plumbline::scenarios
