@@ -73,6 +73,9 @@ void CompensationTest::add(const Scan& scan, const Eigen::Vector3d& velocity_L) 
   information_ += information;
 }
 
-bool CompensationTest::is_known() const { return information_ * known * known > 1.0; }
+bool CompensationTest::compensated() const { return information_ * known * known > 1.0 && coefficient_ > 0.5; }
+
+// Twice as sure: what decides is then 7 standard deviations from what raw clouds give.
+bool CompensationTest::is_settled() const { return information_ * known * known > 4.0; }
 
 }  // namespace plumbline::slam

@@ -17,9 +17,9 @@ class CompensationTest {
   /// those of a robot that hardly moves, tell nothing.
   void add(const Scan& scan, const Eigen::Vector3d& velocity_L);
   /// False until it is known.
-  [[nodiscard]] bool compensated() const { return is_known() && coefficient_ > 0.5; }
-  /// Whether more scans would tell nothing new.
-  [[nodiscard]] bool is_known() const;
+  [[nodiscard]] bool compensated() const;
+  /// More scans would tell nothing new.
+  [[nodiscard]] bool is_settled() const;
 
  private:
   double coefficient_ = 0.0;  ///< mean, weighted by information

@@ -100,7 +100,7 @@ Registration FrontEnd::track_alone(const Scan& raw, DeskewedScan& scan) {
 }
 
 void FrontEnd::test_compensation(const Scan& raw, const Pose& step, Nanoseconds dt) {
-  if (compensated() || dt <= 0) return;
+  if (compensated() || compensation_.is_settled() || dt <= 0) return;
   compensation_.add(raw, calibration_.X_RL.q.conjugate() * step.t / seconds(dt));
 }
 

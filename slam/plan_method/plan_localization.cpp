@@ -120,7 +120,7 @@ DeskewedScan PlanLocalization::deskewed(const Scan& scan) const {
 
 void PlanLocalization::test_times(const Scan& scan, const Pose& X_OR) {
   constexpr Nanoseconds sweep = 100'000'000;
-  if (!compensation_.is_known()) {
+  if (!compensation_.compensated() && !compensation_.is_settled()) {
     const Eigen::Vector3d way_R = (motion_.at(scan.stamp - sweep).inverse() * X_OR).t;
     compensation_.add(scan, input_.calibration.X_RL.q.conjugate() * way_R / seconds(sweep));
   }

@@ -34,6 +34,8 @@ TEST(CompensationTest, TellsRawCloudsFromDeskewedOnes) {
         raw.add(moving_scan(step, false), velocity);
         deskewed.add(moving_scan(step, true), velocity);
       }
+      for (int k = 0; k < 200 && !raw.is_settled(); ++k) raw.add(moving_scan(step, false), velocity);
+      EXPECT_TRUE(raw.is_settled()) << way << " " << yaw;
       EXPECT_FALSE(raw.compensated()) << way << " " << yaw;
       EXPECT_TRUE(deskewed.compensated()) << way << " " << yaw;
     }
@@ -48,6 +50,7 @@ TEST(CompensationTest, SaysNothingOfARobotAtRestNorOfScansWithoutTimes) {
   test.add(untimed, {10.0, 0.0, 0.0});
   test.add(Scan{}, {10.0, 0.0, 0.0});
   EXPECT_FALSE(test.compensated());
+  EXPECT_FALSE(test.is_settled());
 }
 
 }  // namespace
