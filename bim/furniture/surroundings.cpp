@@ -6,6 +6,7 @@
 
 #include "bim/model/hull.h"
 #include "bim/model/stair_flight.h"
+#include "bim/model/through.h"
 #include "bim/model/wall_face.h"
 
 namespace plumbline::bim {
@@ -70,7 +71,7 @@ void add_door(const Building& building, const Opening& opening, double floor_z_m
   if (opening.kind == OpeningKind::window || opening.wall < 0 || opening.width_m < config.passage_min_m) return;
   if (std::abs(opening.z0_m - floor_z_m) > config.sill_max_m || opening.z1_m < floor_z_m + head_min_m) return;
   const Wall& wall = building.walls[static_cast<std::size_t>(opening.wall)];
-  if (!(wall.length() > 0.0)) return;
+  if (!(wall.length() > 0.0) || !goes_through(opening, wall)) return;
   const Eigen::Vector2d middle = wall.a + opening.s_m * wall.direction();
   const double half = 0.5 * opening.width_m + config.door_beside_m;
   areas.push_back(

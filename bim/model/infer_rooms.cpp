@@ -12,6 +12,7 @@
 #include "bim/model/hull.h"
 #include "bim/model/rooms.h"
 #include "bim/model/wall_face.h"
+#include "bim/model/wall_section.h"
 
 namespace plumbline::bim {
 namespace {
@@ -118,12 +119,24 @@ std::vector<Room> infer_rooms(const Building& building, int storey, const RoomIn
   if (level.height_m < config.least_height_m) return {};
   const double slice_m = level.elevation_m + config.slice_m;
   std::vector<Wall> walls;
-  for (const Wall& wall : building.walls)
-    if (wall.z0_m <= slice_m && wall.z1_m >= slice_m) walls.push_back(wall);
+  std::vector<Polygon2> footprints;
+  for (std::size_t i = 0; i < building.walls.size(); ++i) {
+    const Wall& wall = building.walls[i];
+    if (wall.z0_m > slice_m || wall.z1_m < slice_m) continue;
+    if (is_straight(wall, openings_of(building, static_cast<int>(i)), {wall.z0_m, wall.z1_m})) {
+      walls.push_back(wall);
+      continue;
+    }
+    // A curved one: its faces as walls of their own, and what is between them.
+    for (Wall& face : surface_walls(wall, slice_m, config.closing_m)) walls.push_back(std::move(face));
+    for (const Eigen::Vector3i& t : wall.body->triangles) {
+      Polygon2& triangle = footprints.emplace_back();
+      for (const int corner : t) triangle.push_back(wall.body->vertices[static_cast<std::size_t>(corner)].head<2>());
+    }
+  }
   add_fronts(building, slice_m, config.closing_m, walls);
   std::vector<FloorPiece> floors = floor_pieces(building);
   std::erase_if(floors, [&](const FloorPiece& piece) { return piece.storey != storey; });
-  std::vector<Polygon2> footprints;
   for (const Wall& wall : walls) footprints.push_back(footprint(grown(wall, config.closing_m)));
   std::vector<Room> rooms;
   for (const PolygonWithHoles2& piece : unite(footprints)) {

@@ -8,7 +8,9 @@
 
 #include "bim/geometry/polygon_boolean.h"
 #include "bim/model/boxes.h"
+#include "bim/model/through.h"
 #include "bim/model/wall_face.h"
+#include "bim/model/wall_frame.h"
 
 namespace plumbline::bim {
 
@@ -125,8 +127,14 @@ void find_opening_rooms(Building& building, const AdjacencyConfig& config) {
   for (Opening& opening : building.openings) {
     if (opening.wall < 0) continue;
     const Wall& wall = building.walls[static_cast<std::size_t>(opening.wall)];
+    if (!goes_through(opening, wall)) continue;
     const Eigen::Vector2d on_line = wall.a + opening.s_m * wall.direction();
-    const double left = wall.offset_m + wall.thickness_m + config.step_m, right = wall.offset_m - config.step_m;
+    // In a curved wall the opening's own depth says where its sides are.
+    const Interval depth = extent_across(WallFrame(wall), solids_of(opening));
+    const bool deep = depth.length() > 0.0;
+    const double wall_left = wall.offset_m + wall.thickness_m;
+    const double left = (deep ? std::min(wall_left, depth.high) : wall_left) + config.step_m,
+                 right = (deep ? std::max(wall.offset_m, depth.low) : wall.offset_m) - config.step_m;
     const std::array<Eigen::Vector2d, 2> points = {on_line + left * wall.left(), on_line + right * wall.left()};
     const double z = opening.z0_m + config.above_sill_m;
     for (std::size_t side = 0; side < points.size(); ++side)

@@ -42,7 +42,8 @@ struct AdjacencyConfig {
 
 /// Fills Room::walls of every room that names none.
 void find_room_walls(Building& building, const AdjacencyConfig& config = {});
-/// Fills Opening::rooms of every opening from the points in front of it on either side; of several rooms the first.
+/// Fills Opening::rooms of every opening through its wall from the points in front of it on either side; of several
+/// rooms the first.
 void find_opening_rooms(Building& building, const AdjacencyConfig& config = {});
 
 }  // namespace plumbline::bim

@@ -10,6 +10,7 @@
 #include "bim/model/boxes.h"
 #include "bim/model/hull.h"
 #include "bim/model/wall_face.h"
+#include "bim/model/wall_section.h"
 
 namespace plumbline::bim {
 namespace {
@@ -53,8 +54,17 @@ Blocker blocker_of(const Solid& solid) {
 
 std::vector<Blocker> blockers_of(const Building& building) {
   constexpr std::array<std::string_view, 5> closing{"curtain_panel", "curtain_wall", "mullion", "plate", "window"};
+  constexpr double face_m = 0.1;
   std::vector<Blocker> blockers;
-  for (const Wall& wall : building.walls) blockers.push_back({convex_hull(footprint(wall)), wall.z0_m, wall.z1_m});
+  for (std::size_t i = 0; i < building.walls.size(); ++i) {
+    const Wall& wall = building.walls[i];
+    if (is_straight(wall, openings_of(building, static_cast<int>(i)), {wall.z0_m, wall.z1_m})) {
+      blockers.push_back({convex_hull(footprint(wall)), wall.z0_m, wall.z1_m});
+      continue;
+    }
+    for (const Wall& face : surface_walls(wall, 0.5 * (wall.z0_m + wall.z1_m), face_m))
+      blockers.push_back({convex_hull(footprint(face)), wall.z0_m, wall.z1_m});
+  }
   for (const Column& column : building.columns)
     blockers.push_back({convex_hull(column.footprint), column.z0_m, column.z1_m});
   for (const Obstacle& obstacle : building.obstacles)

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "bim/geometry/polygon_boolean.h"
+#include "bim/model/through.h"
 
 namespace plumbline::bim {
 
@@ -82,7 +83,9 @@ void add_thresholds(const Building& building, const std::function<bool(double)>&
   const std::size_t count = floors.size();
   for (const Opening& opening : building.openings) {
     if (opening.wall < 0 || opening.kind == OpeningKind::window || !is_raised(opening.z0_m)) continue;
-    const Polygon2 outline = threshold(opening, building.walls[static_cast<std::size_t>(opening.wall)]);
+    const Wall& wall = building.walls[static_cast<std::size_t>(opening.wall)];
+    if (!goes_through(opening, wall)) continue;
+    const Polygon2 outline = threshold(opening, wall);
     const bool leads =
         std::any_of(floors.begin(), floors.begin() + static_cast<std::ptrdiff_t>(count), [&](const RaisedFloor& floor) {
           return is_beside(outline, floor.polygon, config.beside_m) &&

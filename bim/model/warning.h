@@ -16,7 +16,7 @@ struct WarningRow {
 };
 
 /// Every kind of warning that a reader or the mesh gives, by name.
-inline constexpr std::array<WarningRow, 53> warning_rows = {{
+inline constexpr std::array<WarningRow, 55> warning_rows = {{
     {"assumed_doorway", "a gap between two walls in line becomes a doorway with a lintel"},
     {"assumed_floor", "the drawing has no floor; everything within the outer walls gets one"},
     {"assumed_height", "the file gives no height of the storey; it is taken as 3 m"},
@@ -24,7 +24,8 @@ inline constexpr std::array<WarningRow, 53> warning_rows = {{
     {"assumed_unit", "the file gives no unit of length; it is taken as metres"},
     {"bad_floor", "the outline of a floor crosses itself or has no area; the floor is left out"},
     {"body_of_parts", "the element has no body of its own; those of its parts replace it"},
-    {"curved_axis", "the axis of a wall is curved; the wall is taken as straight"},
+    {"curved_axis",
+     "the axis of a wall is curved; plans hold the wall as straight, while the LiDAR and the robot meet its body"},
     {"dangling", "an entity that the file refers to is not in it; what depends on it is left out"},
     {"door_unresolved", "a door has the same room, or none, on both sides; where it leads is unknown"},
     {"door_without_wall", "a door stands in no wall; its doorway stays open"},
@@ -36,7 +37,10 @@ inline constexpr std::array<WarningRow, 53> warning_rows = {{
     {"left_out", "the element is not part of the building model; its text says why"},
     {"makes_no_sense", "the element contradicts IFC; it is left out"},
     {"levels_overlap", "a level is lower than its walls; they reach into the next one"},
-    {"niche", "an opening does not go through its wall; it is cut in 3D"},
+    {"niche",
+     "an opening does not go through its wall: it is cut in 3D and leads nowhere; that of a door up to 6 cm short is "
+     "cut "
+     "through"},
     {"no_area", "a slab has no area on the plan; it is kept as an obstacle"},
     {"no_axis",
      "a wall has no reference line; its body's extent along the placement replaces it, or the wall is left out"},
@@ -48,13 +52,14 @@ inline constexpr std::array<WarningRow, 53> warning_rows = {{
      "no floor"},
     {"no_layers", "a wall has no material layers; offset and thickness are those of its body"},
     {"no_plan", "a mesh has no rooms and walls; plan localization is refused"},
-    {"no_rooms", "walls enclose no room over a floor"},
+    {"no_rooms", "walls enclose no room over a floor; no walk goes to such a storey"},
     {"no_walls", "a level has no walls"},
     {"not_aligned", "a level shares no fiducial with the lowest, or one that does not fit"},
     {"not_clipped", "what a body should be clipped by does not close; the body is larger than designed"},
     {"not_closed", "the surface of a body is not closed; openings of a wall are then cut out of its surface"},
     {"not_cut", "an opening could not be cut out of its wall"},
     {"not_prismatic", "a wall is not an extrusion of its elevation; its openings are cut in 3D"},
+    {"odd_size", "the building is smaller than a room or larger than a town; its unit may be wrong"},
     {"opening_assumed", "a door or window fills no opening; its box is cut out of the wall it stands in"},
     {"opening_unused", "an opening belongs to an element without a body; nothing is cut"},
     {"other_schema",
@@ -65,6 +70,7 @@ inline constexpr std::array<WarningRow, 53> warning_rows = {{
     {"scale_spread", "the measurements of a level disagree; their mean is used"},
     {"second_filling", "another door or window fills the same opening already"},
     {"see_through", "the LiDAR sees through this material, except at normal incidence"},
+    {"several_buildings", "the file has several buildings; their storeys are told apart by their names"},
     {"skipped_placement", "the element stands on a grid or alignment that cannot be evaluated; it is left out"},
     {"slab_pieces", "a slab has several pieces; the robot walks on the largest only"},
     {"stair_ends", "the head of a stair reaches the floor of no storey"},

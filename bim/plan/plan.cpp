@@ -12,6 +12,7 @@
 #include "bim/model/hull.h"
 #include "bim/model/permanence.h"
 #include "bim/model/rooms.h"
+#include "bim/model/through.h"
 #include "bim/model/wall_face.h"
 
 namespace plumbline::bim {
@@ -43,7 +44,7 @@ PlanFace face_of(const Building& building, int wall_index, int side) {
   face.z0 = wall.z0_m;
   face.z1 = wall.z1_m;
   for (const Opening& opening : building.openings) {
-    if (opening.wall != wall_index) continue;
+    if (opening.wall != wall_index || !opens_on(opening, wall, side)) continue;
     const FaceHole hole = hole_of(opening, wall, side);
     if (hole.s1 > hole.s0 && hole.z1 > hole.z0) face.holes.push_back(hole);
   }

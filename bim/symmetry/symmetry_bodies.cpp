@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bim/config/tree.h"
 #include "bim/mesh/solid.h"
 #include "bim/model/materials.h"
+#include "bim/model/walked_floors.h"
 #include "bim/model/wall_face.h"
 
 namespace plumbline::bim {
@@ -93,6 +95,7 @@ class Collector {
     for (const Opening& opening : building_.openings)
       if (opening.wall >= 0) openings[static_cast<std::size_t>(opening.wall)].push_back(&opening);
     for (std::size_t i = 0; i < building_.walls.size(); ++i) add_wall(building_.walls[i], openings[i]);
+    add_raised_floors();
     for (const Column& column : building_.columns) add_column(column);
     for (const Stair& stair : building_.stairs) {
       bodies_.elements.push_back(stair.id);
@@ -112,6 +115,16 @@ class Collector {
     const double low = std::max(0.0, z0 - floor_z_), high = std::min(height_m_, z1 - floor_z_);
     if (high - low <= config_.height_min_m || outline.size() < 3 || signed_area(outline) <= config_.area_min_m2) return;
     bodies_.prisms.push_back({outline, low, high, static_cast<int>(bodies_.elements.size()) - 1});
+  }
+
+  /// A storey whose halves lie at different heights is not alike, whatever its walls.
+  void add_raised_floors() {
+    const WalkedFloors floors = walked_floors(building_, bodies_.storey);
+    for (const RaisedFloor& floor : floors.raised) {
+      if (!floor.is_level()) continue;
+      bodies_.elements.push_back("floor at " + format_number(std::round(floor.z_m * 1e2) / 1e2) + " m");
+      add(floor.polygon.outer, floor_z_, floor_z_ + floor.z_m - floors.ground_m);
+    }
   }
 
   void add_wall(const Wall& wall, const std::vector<const Opening*>& openings) {

@@ -318,9 +318,13 @@ ResolvedScenario resolve(const std::string& input, const Overrides& overrides, s
 
 std::vector<std::string> walk_notes(const ResolvedScenario& resolved) {
   constexpr std::size_t most_reasons = 6;
-  if (resolved.own_route) return {};  // what it says of its walk stands in results.json and on the page
   const WalkCoverage& walk = resolved.walk;
   std::vector<std::string> notes;
+  if (resolved.own_route) {  // what else it says of its walk stands in results.json and on the page
+    for (const std::string& storey : walk.storeys_out_of_reach)
+      notes.push_back("warning: `storeys: all` leaves out " + storey);
+    return notes;
+  }
   for (const std::string& warning : walk_warnings(walk)) notes.push_back("warning: " + warning);
   for (const std::string& line : out_of_reach_lines(walk, most_reasons)) notes.push_back("out of reach: " + line);
   if (!walk.left_out.empty())

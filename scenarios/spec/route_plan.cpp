@@ -7,6 +7,7 @@
 #include <numbers>
 #include <optional>
 
+#include "bim/model/odd_size.h"
 #include "scenarios/spec/closed_doors.h"
 #include "scenarios/spec/exploration_route.h"
 #include "scenarios/spec/named_places.h"
@@ -56,6 +57,7 @@ class Planner {
     FloorPoint at{storey_, plan.start_W};
     if (route.shuttle) return shuttle(route, at, plan);
     const bool all = route.rooms.size() == 1 && route.rooms.front() == all_rooms;
+    if (all && route.storeys == RouteStoreys::all) add_storeys_out_of_reach(at, plan);
     if (all && building_.rooms.empty()) return walk_round(route.loop, plan);
     if (all) return walk_all(route, at, plan);
     for (int lap = 0; lap < route.loop; ++lap)
@@ -170,7 +172,25 @@ class Planner {
     for (const sim::StairWay& way : space_.stairs())
       if (!way.fault.empty()) list += (list.empty() ? "" : ", ") + ("stair '" + way.id + "' " + way.fault);
     if (!list.empty()) return list;
-    return building_.stairs.empty() ? "the building has no stairs" : "no stair that can be walked to leads there";
+    if (!building_.stairs.empty()) return "no stair that can be walked to leads there";
+    const bool ramp = std::any_of(building_.obstacles.begin(), building_.obstacles.end(),
+                                  [](const bim::Obstacle& obstacle) { return obstacle.kind == "ramp"; });
+    return ramp ? "the building has ramps and no stairs, and no walk takes a ramp from storey to storey"
+                : "the building has no stairs";
+  }
+
+  /// Storeys with something to walk on that a walk of all storeys does not get to.
+  void add_storeys_out_of_reach(const FloorPoint& at, RoutePlan& plan) const {
+    const std::vector<int> reached = space_.reachable_storeys(at);
+    for (int i = 0; i < static_cast<int>(building_.storeys.size()); ++i) {
+      const bim::Storey& storey = building_.storeys[static_cast<std::size_t>(i)];
+      if (std::binary_search(reached.begin(), reached.end(), i) || storey.kind != bim::StoreyKind::habitable) continue;
+      const auto rooms = std::count_if(building_.rooms.begin(), building_.rooms.end(),
+                                       [&](const bim::Room& candidate) { return candidate.storey == i; });
+      plan.storeys_out_of_reach.push_back((storey.name.empty() ? storey.id : storey.name) + " (" +
+                                          std::to_string(rooms) + (rooms == 1 ? " room): " : " rooms): ") +
+                                          stairs_at_fault());
+    }
   }
 
   /// Indices of the rooms that `all` means, without the one of the start.
@@ -350,14 +370,20 @@ class Planner {
   const RoomPlaces& places_;
 };
 
+/// A size that explains why nothing fits, as the beginning of a sentence.
+std::string odd_size_of(const bim::Building& building) {
+  const std::string odd = bim::odd_size(building);
+  return odd.empty() ? odd : odd + " ";
+}
+
 int start_storey(const bim::Building& building, const RoomPlaces& places, const Start& start, const RouteMarks& marks) {
   if (start.room) return building.rooms[static_cast<std::size_t>(find_room(building, *start.room, marks.start))].storey;
   if (start.storey) return find_storey(building, *start.storey, marks.start);
   if (building.rooms.empty() && !building.storeys.empty()) return 0;
   const int lowest = places.start_storey();
   if (lowest < 0 && !start.at)
-    throw InputError(marks.start, "the building has no room the robot fits in (" + places.why_nowhere() +
-                                      "); give a start: {storey: ..., at: [x, y]}");
+    throw InputError(marks.start, odd_size_of(building) + "the building has no room the robot fits in (" +
+                                      places.why_nowhere() + "); give a start: {storey: ..., at: [x, y]}");
   return std::max(lowest, 0);
 }
 

@@ -26,7 +26,8 @@ struct RoutePlan {
   std::vector<std::string> rooms;        ///< ids in the order of the walk; "all" resolved
   std::vector<sim::Waypoint> waypoints;  ///< from the start on
   double length_m = 0.0;
-  double stairs_m = 0.0;  ///< of the length, how much leads over stairs
+  double stairs_m = 0.0;                          ///< of the length, how much leads over stairs
+  std::vector<std::string> storeys_out_of_reach;  ///< of a walk of all storeys, each with why
 };
 
 /// Index of a storey by id or name; without a name that of RoomPlaces::start_storey. Throws InputError at `mark`.

@@ -6,6 +6,7 @@
 
 #include "bim/config/tree.h"
 #include "bim/model/stair_flight.h"
+#include "bim/model/through.h"
 
 namespace plumbline::scenarios {
 
@@ -41,6 +42,7 @@ bool in_a_doorway(const bim::Building& building, int storey, const Eigen::Vector
   return std::any_of(building.openings.begin(), building.openings.end(), [&](const bim::Opening& opening) {
     if (opening.wall < 0 || opening.kind == bim::OpeningKind::window || opening.leaf == bim::Leaf::closed) return false;
     const bim::Wall& wall = building.walls[static_cast<std::size_t>(opening.wall)];
+    if (!bim::goes_through(opening, wall)) return false;
     const double along = (p_W - wall.a).dot(wall.direction());
     return wall.storey == storey && in_body(wall, p_W) && std::abs(along - opening.s_m) <= 0.5 * opening.width_m;
   });

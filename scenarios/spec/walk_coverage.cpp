@@ -15,8 +15,9 @@ namespace plumbline::scenarios {
 
 namespace {
 
-constexpr double sample_m = 0.25;  ///< of the walk, for the rooms it enters
-constexpr double short_m = 10.0;   ///< a shorter walk shows little
+constexpr double sample_m = 0.25;        ///< of the walk, for the rooms it enters
+constexpr double short_m = 10.0;         ///< a shorter walk shows little
+constexpr double least_share_out = 0.1;  ///< of a room's walkable floor, for a word on it
 
 /// Speed of a walk through rooms, whose turns at each goal are on the spot.
 constexpr double slower_by = 1.8;
@@ -53,6 +54,26 @@ class Surveyor {
     return !building_.stairs.empty() && !space_.path({plan_.storey, plan_.start_W}, *place).empty();
   }
 
+  /// Share of the floor of a room where a robot could be that it does not get to from the start.
+  [[nodiscard]] double share_out_of_reach(const bim::Room& room) const {
+    if (room.storey != plan_.storey) return 0.0;
+    const sim::ClearanceMap& floor = space_.storey(plan_.storey);
+    const int here = floor.region(plan_.start_W);
+    if (here < 0) return 0.0;
+    Eigen::AlignedBox2d box;
+    for (const Eigen::Vector2d& p : room.polygon) box.extend(p);
+    const double step = 2.0 * floor.grid().cell;
+    double all = 0.0, out = 0.0;
+    for (double y = box.min().y() + 0.5 * step; y < box.max().y(); y += step)
+      for (double x = box.min().x() + 0.5 * step; x < box.max().x(); x += step) {
+        const int region = floor.region({x, y});
+        if (region < 0 || !contains(room.polygon, {x, y})) continue;
+        ++all;
+        if (region != here) ++out;
+      }
+    return all > 0.0 ? out / all : 0.0;
+  }
+
   [[nodiscard]] RoomOutOfReach why_not(int index) {
     const bim::Room& room = building_.rooms[static_cast<std::size_t>(index)];
     RoomOutOfReach out{room.id, name_of(room), "", {}};
@@ -60,7 +81,10 @@ class Surveyor {
     const std::optional<std::size_t> goal = floor.freest_cell(room.polygon);
     if (goal && places_.has_floor(index) && floor.cell_clearance(*goal) > 0.0)
       out.blockages = blockages().before(floor.grid().center(*goal));
-    for (const sim::Blockage& blockage : out.blockages) out.why += (out.why.empty() ? "" : "; ") + blockage.text;
+    constexpr std::size_t most = 2;
+    for (std::size_t i = 0; i < std::min(most, out.blockages.size()); ++i)
+      out.why += (out.why.empty() ? "" : "; ") + out.blockages[i].text;
+    if (out.blockages.size() > most) out.why += "; and " + std::to_string(out.blockages.size() - most) + " more";
     if (out.why.empty()) out.why = places_.why_none(index);
     return out;
   }
@@ -137,6 +161,7 @@ WalkCoverage walk_coverage(const sim::MultiStoreyPlanner& space, const RoutePlan
       !sim::has_known_floor(building, plan.storey, space.storey(plan.storey).ground_W(), sim::RouteConfig());
   walk.planned_m = plan.length_m;
   walk.stairs_m = plan.stairs_m;
+  walk.storeys_out_of_reach = plan.storeys_out_of_reach;
   if (!plan.waypoints.empty()) walk.end_W = plan.waypoints.back().p_W.head<2>();
   for (const std::string& id : plan.rooms) {
     const bool is_room =
@@ -153,6 +178,8 @@ WalkCoverage walk_coverage(const sim::MultiStoreyPlanner& space, const RoutePlan
     const bool in_reach = entered || surveyor.in_reach(static_cast<int>(i));
     walk.on_route += entered ? 1 : 0;
     walk.in_reach += in_reach ? 1 : 0;
+    if (const double share = in_reach ? surveyor.share_out_of_reach(room) : 0.0; share > least_share_out)
+      walk.in_part.push_back({name_of(room), share});
     if (!in_reach)
       walk.out_of_reach.push_back(surveyor.why_not(static_cast<int>(i)));
     else if (!entered)
@@ -182,6 +209,10 @@ std::vector<std::string> walk_warnings(const WalkCoverage& walk) {
   if (walk.floor_assumed)
     warnings.push_back("neither slabs nor rooms say where the floor of " + walk.storey +
                        " is; it is taken to be level everywhere, and a slab in the building would say where it ends");
+  for (const std::string& storey : walk.storeys_out_of_reach) warnings.push_back("`storeys: all` leaves out " + storey);
+  for (const RoomInPart& room : walk.in_part)
+    warnings.push_back(std::to_string(std::lround(100.0 * room.share)) + " % of the floor of " + room.name +
+                       " where the robot could be is out of reach");
   if (2 * walk.in_reach < walk.rooms) {
     std::string text = "the start reaches only " + std::to_string(walk.in_reach) + " of the " +
                        std::to_string(walk.rooms) + " rooms on " + walk.storey;

@@ -22,16 +22,24 @@ struct RoomOutOfReach {
   std::vector<sim::Blockage> blockages;  ///< none where the room itself is too small
 };
 
+/// A room in reach of which a part is not.
+struct RoomInPart {
+  std::string name;
+  double share = 0.0;  ///< of its walkable floor that is out of reach
+};
+
 /// What of the start's storey a planned walk covers, and why no more. It follows from the building and the route alone.
 struct WalkCoverage {
-  std::string storey;                        ///< its name
-  int rooms = 0;                             ///< on the storey
-  int in_reach = 0;                          ///< of these, also over stairs and back
-  int on_route = 0;                          ///< of these, entered by the walk
-  std::vector<RoomOutOfReach> out_of_reach;  ///< in the order of the building
-  std::vector<std::string> left_out;         ///< names of rooms in reach that the walk does not enter
-  std::vector<std::string> route_rooms;      ///< ids of the rooms that the route names, each once
-  bool floor_assumed = false;                ///< neither slabs nor rooms say where it is
+  std::string storey;                             ///< its name
+  int rooms = 0;                                  ///< on the storey
+  int in_reach = 0;                               ///< of these, also over stairs and back
+  int on_route = 0;                               ///< of these, entered by the walk
+  std::vector<RoomOutOfReach> out_of_reach;       ///< in the order of the building
+  std::vector<std::string> storeys_out_of_reach;  ///< of a walk of all storeys, each with why
+  std::vector<RoomInPart> in_part;                ///< where the share is more than a tenth
+  std::vector<std::string> left_out;              ///< names of rooms in reach that the walk does not enter
+  std::vector<std::string> route_rooms;           ///< ids of the rooms that the route names, each once
+  bool floor_assumed = false;                     ///< neither slabs nor rooms say where it is
   double planned_m = 0.0;
   double stairs_m = 0.0;                            ///< of this over stairs
   Eigen::Vector2d end_W = Eigen::Vector2d::Zero();  ///< of the walk

@@ -7,6 +7,7 @@
 #include "bim/errors.h"
 #include "bim/model/boxes.h"
 #include "bim/model/stair_flight.h"
+#include "bim/model/through.h"
 #include "bim/model/walked_floors.h"
 #include "sim/robot/ground.h"
 #include "sim/robot/solid_boxes.h"
@@ -288,6 +289,7 @@ void add_sills(const bim::Building& building, double floor_z, const BuildingGrou
     if (o.kind == bim::OpeningKind::window || o.leaf == bim::Leaf::closed) continue;
     if (o.z0_m < floor_z + config.sill_min_m || o.z0_m > floor_z + collision.sill_max_m) continue;
     const bim::Wall& wall = building.walls[static_cast<std::size_t>(o.wall)];
+    if (!bim::goes_through(o, wall)) continue;
     const Eigen::Vector2d e = wall.direction();
     const Eigen::Vector2d center = wall.a + o.s_m * e + (wall.offset_m + 0.5 * wall.thickness_m) * wall.left();
     out.push_back(upright_box(center, std::atan2(e.y(), e.x()), {0.5 * o.width_m, 0.5 * wall.thickness_m},

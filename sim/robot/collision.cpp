@@ -5,7 +5,10 @@
 #include <cmath>
 #include <utility>
 
+#include "bim/model/through.h"
 #include "bim/model/walked_floors.h"
+#include "bim/model/wall_frame.h"
+#include "bim/model/wall_section.h"
 #include "sim/robot/solid_boxes.h"
 
 namespace plumbline::sim {
@@ -38,8 +41,10 @@ bool is_sill(const HeightRange& z, const std::vector<const bim::Opening*>& openi
   });
 }
 
-/// A closed leaf fills its opening.
-bool passable(const bim::Opening& opening) { return opening.leaf != bim::Leaf::closed; }
+/// A closed leaf fills its opening, and a niche is closed by its wall.
+bool passable(const bim::Opening& opening, const bim::Wall& wall) {
+  return opening.leaf != bim::Leaf::closed && bim::goes_through(opening, wall);
+}
 
 /// Positions along the wall where its elevation can change, ascending, with extra cuts every length_max_m.
 std::vector<double> wall_cuts(const bim::Wall& wall, const std::vector<const bim::Opening*>& openings,
@@ -77,12 +82,78 @@ std::vector<HeightRange> solid_heights(const bim::Wall& wall, const std::vector<
   return solid;
 }
 
+/// The parts of a cut beside a doorway of the wall.
+std::vector<bim::WallCut> beside(const std::vector<bim::WallCut>& cuts, const Eigen::AlignedBox2d& doorway) {
+  std::vector<bim::WallCut> rest;
+  for (const bim::WallCut& cut : cuts) {
+    double from = 0.0, to = 1.0;
+    for (int axis = 0; axis < 2; ++axis) {
+      const double a = cut.a[axis], d = cut.b[axis] - a, low = doorway.min()[axis], high = doorway.max()[axis];
+      if (std::abs(d) < 1e-9) {
+        if (a < low || a > high) to = -1.0;
+        continue;
+      }
+      from = std::max(from, std::min((low - a) / d, (high - a) / d));
+      to = std::min(to, std::max((low - a) / d, (high - a) / d));
+    }
+    if (from >= to) {
+      rest.push_back(cut);
+      continue;
+    }
+    const auto at = [&](double t) -> Eigen::Vector2d { return cut.a + t * (cut.b - cut.a); };
+    if (from > 0.0) rest.push_back({cut.a, at(from)});
+    if (to < 1.0) rest.push_back({at(to), cut.b});
+  }
+  return rest;
+}
+
+/// Thin boxes along the body's faces, in slices of the heights.
+void add_wall_body(const bim::Wall& wall, const std::vector<const bim::Opening*>& openings, const HeightRange& reach,
+                   const CollisionConfig& config, std::vector<CollisionBox>& boxes) {
+  const bim::WallFrame frame(wall);
+  const double yaw = std::atan2(wall.direction().y(), wall.direction().x());
+  const HeightRange z{std::max(reach.from, wall.z0_m), std::min(reach.to, wall.z1_m)};
+  // The lowest slice is of nothing but sills.
+  const double sill = std::clamp(reach.from - config.floor_gap_m + config.sill_max_m, z.from, z.to);
+  const std::vector<double> levels = {z.from, sill, 0.5 * (sill + z.to), z.to};
+  for (std::size_t i = 0; i + 1 < levels.size(); ++i) {
+    if (levels[i + 1] - levels[i] < 1e-3) continue;
+    const double middle = 0.5 * (levels[i] + levels[i + 1]);
+    std::vector<bim::WallCut> cuts = bim::section(wall, middle);
+    for (const bim::Opening* o : openings) {
+      const bool low = o->kind != bim::OpeningKind::window && o->z0_m <= sill;
+      if (o->z1_m < middle || (o->z0_m > middle && !low)) continue;
+      Interval across = bim::extent_across(frame, bim::solids_of(*o));
+      if (across.length() < 0.0) across = {wall.offset_m, wall.offset_m + wall.thickness_m};
+      const double half = 0.5 * o->width_m, past = 2.0 * config.shell_m;
+      cuts = beside(cuts, Eigen::AlignedBox2d(Eigen::Vector2d(o->s_m - half, across.low - past),
+                                              Eigen::Vector2d(o->s_m + half, across.high + past)));
+    }
+    for (const bim::WallCut& cut : cuts) {
+      const Eigen::Vector2d d = cut.b - cut.a, middle_W = 0.5 * (cut.a + cut.b);
+      const Eigen::Vector3d center = frame.to_world({middle_W.x(), middle_W.y(), middle});
+      boxes.push_back(upright_box(center.head<2>(), yaw + std::atan2(d.y(), d.x()),
+                                  {0.5 * d.norm() + config.shell_m, config.shell_m}, {levels[i], levels[i + 1]}));
+    }
+  }
+}
+
 void add_wall(const bim::Building& building, int index, const std::vector<HeightRange>& reaches,
               const CollisionConfig& config, std::vector<CollisionBox>& boxes) {
   const bim::Wall& wall = building.walls[static_cast<std::size_t>(index)];
   std::vector<const bim::Opening*> openings;
   for (const bim::Opening& o : building.openings)
-    if (o.wall == index && passable(o)) openings.push_back(&o);
+    if (o.wall == index && passable(o, wall)) openings.push_back(&o);
+
+  const bool straight = std::all_of(reaches.begin(), reaches.end(), [&](const HeightRange& reach) {
+    const Interval z{std::max(reach.from, wall.z0_m), std::min(reach.to, wall.z1_m)};
+    return z.length() <= 0.0 || bim::is_straight(wall, bim::openings_of(building, index), z);
+  });
+  if (!straight) {
+    for (const HeightRange& reach : reaches)
+      if (overlap({wall.z0_m, wall.z1_m}, reach)) add_wall_body(wall, openings, reach, config, boxes);
+    return;
+  }
 
   const Eigen::Vector2d e = wall.direction();
   const double across = wall.offset_m + 0.5 * wall.thickness_m;

@@ -28,6 +28,7 @@ struct CollisionConfig {
   double cell_m = 0.10;       ///< into cells of this size,
   double cells_max = 5e6;     ///< of which 200 m by 200 m and a margin are fewer
   double sill_max_m = 0.2;    ///< the wall under a door that ends so low is floor (see building_ground)
+  double shell_m = 0.02;      ///< half thickness of the boxes along the faces of a wall that is not straight
   double weld_m = 1e-5;       ///< vertices this close are joined for the test whether an obstacle is closed
 };
 
@@ -36,6 +37,7 @@ struct CollisionConfig {
 
 /// Boxes of what stands on the given storeys of the as-built building, ids ascending from 0: walls with their openings
 /// cut out (pieces beside the opening, lintel above, sill below), columns, stairs that are not walked, and obstacles.
+/// Walls whose bodies are curved or have gaps are the surfaces of these.
 [[nodiscard]] std::vector<CollisionBox> collision_boxes(const bim::Building& as_built, const std::vector<int>& storeys,
                                                         const CollisionConfig& config = {});
 

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "bim/config/tree.h"
+#include "bim/model/through.h"
 #include "sim/route/clearance_map.h"
 #include "sim/route/grid_search.h"
 #include "sim/route/obstacle_footprint.h"
@@ -106,6 +107,7 @@ struct Blockages::Impl {
     const bim::Opening& o = building.openings[index];
     if (o.wall < 0 || o.z0_m > floor_z + high_sill_m || o.z1_m < floor_z) return;
     const bim::Wall& wall = building.walls[static_cast<std::size_t>(o.wall)];
+    if (!bim::goes_through(o, wall)) return;
     const Eigen::Vector2d e = wall.direction(), left = wall.left();
     const double along = 0.5 * o.width_m, reach = 0.5 * space.grid().cell;
     const Eigen::Vector2d low = (wall.offset_m - reach) * left;

@@ -8,6 +8,7 @@
 
 #include "bim/mesh/solid.h"
 #include "bim/model/hull.h"
+#include "bim/model/through.h"
 
 namespace plumbline::sim {
 
@@ -98,6 +99,7 @@ std::vector<Gap> passable_gaps(const bim::Building& building, int wall_index, do
     if (opening.wall != wall_index || opening.kind == bim::OpeningKind::window) continue;
     if (opening.kind == bim::OpeningKind::door && opening.leaf == bim::Leaf::closed) continue;
     if (opening.z0_m > floor_z + config.sill_max_m || opening.z1_m < floor_z + config.head_min_m) continue;
+    if (!bim::goes_through(opening, wall)) continue;
     gaps.push_back(
         {wall.a, wall.direction(), opening.s_m - 0.5 * opening.width_m, opening.s_m + 0.5 * opening.width_m});
   }

@@ -52,6 +52,18 @@ Building twins(double shift_m) {
                  "  - {id: east, storey: ground, polygon: [[5, 0], [10, 0], [10, 6], [5, 6]]}\n");
 }
 
+/// Makes the floor of the east room of the twins lie higher.
+void raise_east(Building& building, double by_m) {
+  Slab slab;
+  slab.id = "raised";
+  slab.storey = 0;
+  slab.polygon.outer = {{5.1, 0.1}, {9.9, 0.1}, {9.9, 5.9}, {5.1, 5.9}};
+  slab.z0_m = -0.1;
+  slab.z1_m = by_m;
+  building.slabs.push_back(slab);
+  building.rooms[0].polygon = {{0.1, 0.1}, {4.9, 0.1}, {4.9, 5.9}, {0.1, 5.9}};
+}
+
 /// Boxes drawn at random: no symmetry.
 Building random_building(std::uint64_t seed) {
   const Stream stream(seed, "bim.generate");
@@ -71,6 +83,13 @@ bool has(const std::vector<BuildingSymmetry>& group, const Isometry2& g, double 
     const double turn = std::abs(std::remainder(symmetry.isometry.angle - g.angle, 2.0 * std::numbers::pi));
     return turn < angle_tol && (symmetry.isometry * probe - g * probe).norm() < shift_tol;
   });
+}
+
+TEST(Symmetry, HalvesAtDifferentHeightsAreNotAlike) {
+  Building building = twins(0.0);
+  ASSERT_FALSE(analyse_symmetry(building).building.empty());
+  raise_east(building, 0.4);
+  EXPECT_TRUE(analyse_symmetry(building).building.empty());
 }
 
 TEST(Symmetry, SquareHasThreeTurnsAndItsMirrorImagesApart) {

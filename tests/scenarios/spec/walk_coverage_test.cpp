@@ -108,6 +108,33 @@ TEST(WalkCoverage, NowhereToWalkIsRefusedWithWhatStopsTheRobot) {
   EXPECT_NE(text.find("door 'd0' is 0.5 m wide"), std::string::npos) << text;
 }
 
+TEST(WalkCoverage, AStoreyOutOfReachOfAWalkOfAllIsNamed) {
+  bim::Building building = row_of_rooms(3);
+  building.storeys.push_back({"upper", "upper", 3.0, 3.0, 0});
+  Route route;
+  route.storeys = RouteStoreys::all;
+  const auto warnings = [&] {
+    const sim::MultiStoreyPlanner space(building);
+    return walk_warnings(walk_coverage(space, plan_route(space, {}, route, {})));
+  };
+  ASSERT_EQ(warnings().size(), 1U);
+  EXPECT_EQ(warnings().front(), "`storeys: all` leaves out upper (0 rooms): the building has no stairs");
+  sim::add_obstacle(building, sim::rectangle({20, 20}, {21, 21}), 0.0, 1.0);
+  building.obstacles.back().kind = "ramp";
+  EXPECT_NE(warnings().front().find("has ramps and no stairs"), std::string::npos) << warnings().front();
+}
+
+TEST(WalkCoverage, APartOfARoomOutOfReachIsSaid) {
+  bim::Building building = row_of_rooms(3);
+  sim::add_obstacle(building, sim::rectangle({10.5, 0.0}, {10.7, 5.0}), 0.0, 1.0);
+  const WalkCoverage walk = coverage_of(building);
+  ASSERT_EQ(walk.in_part.size(), 1U);
+  EXPECT_EQ(walk.in_part.front().name, "r2");
+  EXPECT_GT(walk.in_part.front().share, 0.1);
+  ASSERT_FALSE(walk_warnings(walk).empty());
+  EXPECT_NE(walk_warnings(walk).front().find("% of the floor of r2"), std::string::npos);
+}
+
 TEST(RoomPlaces, ABasementOfOneRoomIsNoStartWhereAStoreyAboveHasMore) {
   bim::Building building = row_of_rooms(3);
   building.storeys.push_back({"cellar", "cellar", -3.0, 3.0, 0});

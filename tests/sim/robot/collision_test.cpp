@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "bim/errors.h"
 #include "bim/random/stream.h"
@@ -55,6 +56,56 @@ double total_volume(const std::vector<CollisionBox>& boxes) {
 
 bool in_opening(const bim::Opening& o, double s, double z) {
   return std::abs(s - o.s_m) < 0.5 * o.width_m && z > o.z0_m && z < o.z1_m;
+}
+
+/// An upright prism over a counter-clockwise outline that is star-shaped from its first corner.
+void add_prism(const Polygon2& outline, double z0, double z1, bim::Solid& solid) {
+  const int first = static_cast<int>(solid.vertices.size()), n = static_cast<int>(outline.size());
+  for (const double z : {z0, z1})
+    for (const Eigen::Vector2d& p : outline) solid.vertices.emplace_back(p.x(), p.y(), z);
+  for (int i = 0; i < n; ++i) {
+    const int a = first + i, b = first + (i + 1) % n;
+    solid.triangles.emplace_back(a, b, b + n);
+    solid.triangles.emplace_back(a, b + n, a + n);
+    if (i == 0 || i + 1 == n) continue;
+    solid.triangles.emplace_back(first, b, a);
+    solid.triangles.emplace_back(first + n, a + n, b + n);
+  }
+}
+
+TEST(Collision, AWallWithAGapInItsBodyIsOpenThere) {
+  bim::Building building = one_wall({0.0, 0.0}, {6.0, 0.0});
+  bim::Solid body;
+  add_prism({{0, -0.05}, {2, -0.05}, {2, 0.15}, {0, 0.15}}, 0.0, 3.0, body);
+  add_prism({{3.2, -0.05}, {6, -0.05}, {6, 0.15}, {3.2, 0.15}}, 0.0, 3.0, body);
+  building.walls[0].body = body;
+  const std::vector<CollisionBox> boxes = collision_boxes(building, {0});
+  for (const double z : {0.1, 0.5, 1.0}) {
+    EXPECT_FALSE(inside_any(boxes, {2.6, 0.05, z}));
+    EXPECT_TRUE(inside_any(boxes, {1.0, -0.05, z}));
+    EXPECT_TRUE(inside_any(boxes, {2.0, 0.05, z}));
+    EXPECT_TRUE(inside_any(boxes, {5.0, 0.15, z}));
+  }
+}
+
+TEST(Collision, ACurvedWallIsWhereItsBodyIs) {
+  // A bow from (0, 0) over (3, 1.5) to (6, 0), 0.2 m thick, with a door in its middle.
+  bim::Building building = one_wall({0.0, 0.0}, {6.0, 0.0});
+  bim::Wall& wall = building.walls[0];
+  bim::Solid body;
+  const auto at = [](int i) { return Eigen::Vector2d(0.5 * i, 1.5 * std::sin(std::numbers::pi * i / 12.0)); };
+  for (int i = 0; i < 12; ++i)
+    add_prism({at(i), at(i + 1), at(i + 1) + Eigen::Vector2d(0.0, 0.2), at(i) + Eigen::Vector2d(0.0, 0.2)}, 0.0, 3.0,
+              body);
+  wall.body = body;
+  wall.offset_m = 0.0;
+  wall.thickness_m = 1.7;
+  building.openings = {opening(3.0, 1.0, 0.0, 2.1)};
+  const std::vector<CollisionBox> boxes = collision_boxes(building, {0});
+  EXPECT_FALSE(inside_any(boxes, {3.0, 0.3, 0.5})) << "under the bow";
+  EXPECT_FALSE(inside_any(boxes, {3.0, 1.6, 0.5})) << "in the doorway";
+  EXPECT_TRUE(inside_any(boxes, {1.5, at(3).y(), 0.5}));
+  EXPECT_TRUE(inside_any(boxes, {4.5, at(9).y() + 0.2, 0.5}));
 }
 
 TEST(Collision, WallBoxesFillTheWallButNotItsOpenings) {

@@ -14,7 +14,9 @@
 #include "bim/formats/ifc/step/step_repair.h"
 #include "bim/formats/ifc/step/step_text.h"
 #include "bim/model/floors.h"
+#include "bim/model/odd_size.h"
 #include "bim/model/rooms.h"
+#include "bim/model/through.h"
 #include "bim/model/virtual_edges.h"
 
 namespace plumbline::bim {
@@ -41,6 +43,8 @@ std::string moved_text(const Eigen::Vector3d& move) {
 void warn_of_unresolved_doors(Building& building) {
   for (const Opening& opening : building.openings) {
     if (opening.kind != OpeningKind::door || (opening.rooms[0] != opening.rooms[1])) continue;
+    const bool in_wall = opening.wall >= 0;
+    if (in_wall && !goes_through(opening, building.walls[static_cast<std::size_t>(opening.wall)])) continue;
     const int room = opening.rooms[0];
     const std::string where =
         room < 0 ? "in no room" : "in the same room, " + building.rooms[static_cast<std::size_t>(room)].id;
@@ -118,6 +122,8 @@ Building read_ifc_text(std::string_view text, const std::string& file, const Ifc
   building.unit = unit_name(model.unit_m);
   check_substance(building, file);
   if (!model.has_unit) building.warnings.push_back({"", "assumed_unit", "the file gives no unit; metres assumed"});
+  if (const std::string odd = odd_size(building); !odd.empty())
+    building.warnings.push_back({"", "odd_size", odd + " The file says " + building.unit});
   if (model.move) building.warnings.push_back({"", "recentred", moved_text(*model.move)});
   const std::string read_as = schema_for_reader(checked.schema);
   if (read_as != said) building.warnings.push_back({"", "other_schema", said + " read as " + read_as});

@@ -155,6 +155,56 @@ void Interpreter::add_storeys() {
   });
   for (std::size_t i = 0; i < building_.storeys.size(); ++i)
     if (building_.storeys[i].step_id != 0) storeys_[building_.storeys[i].step_id] = static_cast<int>(i);
+  name_storeys_apart();
+}
+
+/// Storeys of several buildings get the names of these in front of theirs.
+void Interpreter::name_storeys_apart() {
+  std::map<std::int64_t, std::string> names;  // of the buildings, by STEP number
+  std::map<std::int64_t, std::string> ids;    // of the lowest storey of each
+  for (std::size_t i = 0; i < building_.storeys.size(); ++i) {
+    const StepProduct* product = find(building_.storeys[i].step_id);
+    if (product == nullptr || product->building == 0) continue;
+    buildings_[static_cast<int>(i)] = product->building;
+    names[product->building] = product->building_name;
+    ids.try_emplace(product->building, building_.storeys[i].id);
+  }
+  if (names.size() < 2) return;
+  std::map<std::string, int> times;
+  for (const auto& [step_id, name] : names) ++times[name];
+  std::string list;
+  for (auto& [step_id, name] : names) {
+    if (name.empty() || times[name] > 1) name += (name.empty() ? "building #" : " #") + std::to_string(step_id);
+    list += (list.empty() ? "'" : ", '") + name + "'";
+  }
+  for (const auto& [storey, step_id] : buildings_) {
+    Storey& named = building_.storeys[static_cast<std::size_t>(storey)];
+    named.name = names[step_id] + ": " + named.name;
+  }
+  building_.warnings.push_back(
+      {"", "several_buildings",
+       "the file has the buildings " + list +
+           "; their storeys have names of both, and a robot walks in one of them; a file each is clearer"});
+}
+
+bool Interpreter::same_building(int storey, int other) const {
+  const auto a = buildings_.find(storey), b = buildings_.find(other);
+  return a == buildings_.end() || b == buildings_.end() || a->second == b->second;
+}
+
+Building Interpreter::only_building_of(int storey) const {
+  Building only = building_;
+  const auto foreign = [&](const auto& element) {
+    return element.storey >= 0 && !same_building(storey, element.storey);
+  };
+  for (std::size_t i = 0; i < only.storeys.size(); ++i)
+    if (!same_building(storey, static_cast<int>(i))) only.storeys[i].kind = StoreyKind::foundation;
+  // Openings keep their walls, which only lose what they could enclose.
+  for (Wall& wall : only.walls)
+    if (foreign(wall)) wall.z1_m = wall.z0_m = -std::numeric_limits<double>::max();
+  std::erase_if(only.slabs, foreign);
+  std::erase_if(only.obstacles, foreign);
+  return only;
 }
 
 /// Levels at which walls begin, or without walls other elements, where they lie a storey's height apart.
@@ -188,8 +238,10 @@ void Interpreter::assume_storeys() {
 void Interpreter::set_heights() {
   for (std::size_t i = 0; i < building_.storeys.size(); ++i) {
     Storey& storey = building_.storeys[i];
-    const auto next = std::find_if(building_.storeys.begin(), building_.storeys.end(),
-                                   [&](const Storey& other) { return other.elevation_m > storey.elevation_m; });
+    const auto next = std::find_if(building_.storeys.begin(), building_.storeys.end(), [&](const Storey& other) {
+      return other.elevation_m > storey.elevation_m &&
+             same_building(static_cast<int>(i), static_cast<int>(&other - building_.storeys.data()));
+    });
     double top = storey.elevation_m;
     if (next != building_.storeys.end()) {
       top = next->elevation_m;
@@ -228,9 +280,30 @@ void Interpreter::sort_all() {
 void Interpreter::add_missing_rooms() {
   if (!building_.rooms.empty()) return;
   for (std::size_t i = 0; i < building_.storeys.size(); ++i) {
-    const std::vector<Room> rooms = infer_rooms(building_, static_cast<int>(i));
-    for (const Room& room : rooms)
+    const auto storey = static_cast<int>(i);
+    const bool several = std::any_of(buildings_.begin(), buildings_.end(),
+                                     [&](const auto& b) { return !same_building(storey, b.first); });
+    const std::vector<Room> rooms = infer_rooms(several ? only_building_of(storey) : building_, storey);
+    const auto stands_here = [&](const auto& element) { return element.storey == storey; };
+    const bool built = building_.storeys[i].kind == StoreyKind::habitable &&
+                       std::any_of(building_.walls.begin(), building_.walls.end(), stands_here) &&
+                       std::any_of(building_.slabs.begin(), building_.slabs.end(), stands_here);
+    if (rooms.empty() && built)
+      building_.warnings.push_back(
+          {building_.storeys[i].id, "no_rooms",
+           "the file has no spaces, and walls enclose no room on this storey; no walk goes there"});
+    for (const Room& room : rooms) {
       building_.warnings.push_back({room.id, "inferred_room", "the file has no spaces; walls enclose this"});
+      const bool holds_another = std::any_of(rooms.begin(), rooms.end(), [&](const Room& other) {
+        return signed_area(other.polygon) < signed_area(room.polygon) &&
+               contains(room.polygon, interior_point(other.polygon));
+      });
+      if (holds_another)
+        building_.warnings.push_back(
+            {room.id, "room_hole",
+             "other rooms stand free within it, and its outline holds them too; its area is too "
+             "large, and doors between them lead nowhere"});
+    }
     building_.rooms.insert(building_.rooms.end(), rooms.begin(), rooms.end());
   }
 }

@@ -69,6 +69,11 @@ class Interpreter {
   void place_stair(const StepProduct& product, Stair& stair);
   void add_obstacle(const StepProduct& product, const std::string& kind, const std::string& material, Solid body);
 
+  void name_storeys_apart();
+  /// False where both belong to buildings and these are not the same.
+  [[nodiscard]] bool same_building(int storey, int other) const;
+  /// The building as if that of a storey were the only one of the file.
+  [[nodiscard]] Building only_building_of(int storey) const;
   void set_heights();
   void add_missing_rooms();
   void add_materials();
@@ -82,6 +87,7 @@ class Interpreter {
   std::map<std::int64_t, const StepProduct*> products_;              ///< by STEP number
   std::map<std::int64_t, std::vector<const StepProduct*>> parts_;    ///< by STEP number of the whole
   std::map<std::int64_t, int> storeys_;                              ///< index by STEP number
+  std::map<int, std::int64_t> buildings_;                            ///< STEP number of the IfcBuilding by storey
   std::map<std::int64_t, int> walls_;                                ///< index by STEP number
   std::map<std::int64_t, std::vector<const StepProduct*>> cutters_;  ///< openings by STEP number of what they cut
   std::set<std::int64_t> cutters_used_;                              ///< STEP numbers of what was cut

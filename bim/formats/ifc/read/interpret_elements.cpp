@@ -75,7 +75,7 @@ void Interpreter::add_slabs() {
   }
   if (!building_.slabs.empty()) return;
   for (const StepProduct& product : model_.products)
-    if (is_nameless(product) && !product.ceiling) take_as_slab(product);
+    if (is_nameless(product)) take_as_slab(product);
 }
 
 bool Interpreter::is_nameless(const StepProduct& product) const {
@@ -89,6 +89,7 @@ bool Interpreter::is_nameless(const StepProduct& product) const {
 /// A flat element that is level on top.
 void Interpreter::take_as_slab(const StepProduct& product) {
   const LookalikeConfig config;
+  if (product.ceiling) return;
   Solid body = joined(uncut_solids(product));
   if (body.triangles.empty()) return;
   const Extent box = extent(body);
@@ -108,6 +109,9 @@ void Interpreter::take_as_slab(const StepProduct& product) {
       top.triangles.push_back(t);
   if (area(footprint(top)) < config.level_share * area(outline)) return;
   slab.storey = storey_index(product, slab.z0_m);
+  // A covering over one's head is a ceiling, whatever the file calls it.
+  const double elevation_m = building_.storeys[static_cast<std::size_t>(slab.storey)].elevation_m;
+  if (obstacle_kind(product.type) == "covering" && slab.z0_m > elevation_m + config.least_height_m) return;
   slab.body = std::move(body);
   taken_.insert(product.step_id);
   warn(product, "taken_as_slab", "the file has no IfcSlab; this lies like a floor");

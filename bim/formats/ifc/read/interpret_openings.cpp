@@ -5,6 +5,7 @@
 
 #include "bim/formats/ifc/read/interpret.h"
 #include "bim/geometry/polygon_boolean.h"
+#include "bim/model/through.h"
 #include "bim/model/wall_face.h"
 #include "bim/model/wall_frame.h"
 
@@ -96,6 +97,16 @@ void Interpreter::add_opening(const StepProduct& product, int wall, const std::v
   if (filling != nullptr) fill(opening, *filling);
   opening.solid = solids.front();
   opening.parts.assign(solids.begin() + 1, solids.end());
+  const Wall& host = building_.walls[static_cast<std::size_t>(wall)];
+  if (opening.kind == OpeningKind::door) {
+    const double short_m = extend_through(opening, host);
+    if (short_m > 0.0)
+      warn(*filling, "niche",
+           "its opening ends " + std::to_string(std::lround(short_m * 1e3)) +
+               " mm short of the faces of its wall, and is cut through");
+    else if (!goes_through(opening, host))
+      warn(*filling, "niche", "its opening does not go through its wall; it leads nowhere");
+  }
   building_.openings.push_back(std::move(opening));
 }
 

@@ -21,7 +21,8 @@ void Interpreter::read_reference_line(const StepProduct& product, const Solid& b
   if (product.axis_W.size() >= 2) {
     wall.a = on_plan(product.axis_W.front().head<2>());
     wall.b = on_plan(product.axis_W.back().head<2>());
-    if (product.axis_W.size() > 2) warn(product, "curved_axis", "the axis is taken as straight");
+    if (product.axis_W.size() > 2)
+      warn(product, "curved_axis", "the axis is taken as straight; what methods are told of it is wrong");
   }
   if (wall.length() >= shortest_line_m) return;
   const Eigen::Vector2d origin = product.X_WP.translation().head<2>();

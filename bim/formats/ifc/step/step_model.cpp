@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bim/formats/ifc/step/step_model.h"
 
+#include <ifcpp/IFC4/include/IfcBuilding.h>
 #include <ifcpp/IFC4/include/IfcBuildingStorey.h>
 #include <ifcpp/IFC4/include/IfcCovering.h>
 #include <ifcpp/IFC4/include/IfcCoveringTypeEnum.h>
@@ -77,6 +78,21 @@ std::int64_t storey_of(std::shared_ptr<IfcProduct> product) {
     product = parent_of(product);
   }
   return 0;
+}
+
+std::shared_ptr<IfcBuilding> building_of(std::shared_ptr<IfcProduct> storey) {
+  constexpr int most_steps = 12;
+  for (int step = 0; storey && step < most_steps; ++step) {
+    if (const auto building = std::dynamic_pointer_cast<IfcBuilding>(storey)) return building;
+    storey = parent_of(storey);
+  }
+  return nullptr;
+}
+
+bool is_ceiling(const IfcProduct& product) {
+  const auto* covering = dynamic_cast<const IfcCovering*>(&product);
+  return covering != nullptr && covering->m_PredefinedType &&
+         covering->m_PredefinedType->m_enum == IfcCoveringTypeEnum::ENUM_CEILING;
 }
 
 std::int64_t host_of(const std::shared_ptr<IfcProduct>& product, StepClass kind) {
@@ -208,9 +224,6 @@ class Reader {
     product.type = source->className();
     product.id = source->m_GlobalId ? utf8(source->m_GlobalId->m_value) : std::string();
     product.name = name_of(*source);
-    if (const auto covering = std::dynamic_pointer_cast<IfcCovering>(source))
-      product.ceiling =
-          covering->m_PredefinedType && covering->m_PredefinedType->m_enum == IfcCoveringTypeEnum::ENUM_CEILING;
     const ProductPose pose = placement(source->m_ObjectPlacement, model.unit_m);
     if (pose.malformed) fail(product.step_id, product.type + " has a placement that makes no sense");
     if (!pose.X_WP) {
@@ -223,6 +236,11 @@ class Reader {
     product.storey = kind == StepClass::storey ? product.step_id : storey_of(source);
     product.host = host_of(source, kind);
     product.whole = whole_of(*source);
+    product.ceiling = is_ceiling(*source);
+    if (const auto building = kind == StepClass::storey ? building_of(source) : nullptr) {
+      product.building = building->m_entity_id;
+      product.building_name = building->m_Name ? utf8(building->m_Name->m_value) : std::string();
+    }
     read_material(*source, model.unit_m, product);
     if (source->m_Representation) read_geometry(source, product);
     if (!within_reach(product)) fail(product.step_id, product.type + " is larger than 10 km or further than 10000 km");

@@ -33,8 +33,10 @@ struct StepProduct {
   std::int64_t storey = 0;                             ///< STEP number of the storey it belongs to, 0 for none
   std::int64_t host = 0;                               ///< opening: the element it voids; door or window: its opening
   std::int64_t whole = 0;                              ///< STEP number of the product it is a part of, 0 for none
-  bool ceiling = false;                                ///< a covering that is one
   bool has_body = false;                               ///< the file gives a body, whether or not it was read
+  bool ceiling = false;                                ///< a covering that the file calls a ceiling
+  std::int64_t building = 0;                           ///< storey: STEP number of its IfcBuilding, 0 for none
+  std::string building_name;                           ///< storey: of its IfcBuilding
   std::optional<StepLayers> layers;
   std::string material;                  ///< of the thickest layer
   std::vector<Eigen::Vector3d> axis_W;   ///< points of the Axis representation
