@@ -55,11 +55,13 @@ class Surveyor {
   }
 
   /// Share of the floor of a room where a robot could be that it does not get to from the start.
-  [[nodiscard]] double share_out_of_reach(const bim::Room& room) const {
-    if (room.storey != plan_.storey) return 0.0;
+  [[nodiscard]] double share_out_of_reach(int index) const {
+    const bim::Room& room = building_.rooms[static_cast<std::size_t>(index)];
     const sim::ClearanceMap& floor = space_.storey(plan_.storey);
     const int here = floor.region(plan_.start_W);
     if (here < 0) return 0.0;
+    // Another piece of the floor where the way leads over stairs and back.
+    const int place = in_reach(index) ? floor.region(places_.of(index)->p_W) : here;
     Eigen::AlignedBox2d box;
     for (const Eigen::Vector2d& p : room.polygon) box.extend(p);
     const double step = 2.0 * floor.grid().cell;
@@ -69,7 +71,7 @@ class Surveyor {
         const int region = floor.region({x, y});
         if (region < 0 || !contains(room.polygon, {x, y})) continue;
         ++all;
-        if (region != here) ++out;
+        if (region != here && region != place) ++out;
       }
     return all > 0.0 ? out / all : 0.0;
   }
@@ -178,7 +180,7 @@ WalkCoverage walk_coverage(const sim::MultiStoreyPlanner& space, const RoutePlan
     const bool in_reach = entered || surveyor.in_reach(static_cast<int>(i));
     walk.on_route += entered ? 1 : 0;
     walk.in_reach += in_reach ? 1 : 0;
-    if (const double share = in_reach ? surveyor.share_out_of_reach(room) : 0.0; share > least_share_out)
+    if (const double share = in_reach ? surveyor.share_out_of_reach(static_cast<int>(i)) : 0.0; share > least_share_out)
       walk.in_part.push_back({name_of(room), share});
     if (!in_reach)
       walk.out_of_reach.push_back(surveyor.why_not(static_cast<int>(i)));

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "bim/formats/plan_yaml/plan_yaml.h"
 #include "scenarios/spec/room_places.h"
 #include "tests/input_error.h"
 #include "tests/sim/route/floor_plan.h"
@@ -133,6 +134,38 @@ TEST(WalkCoverage, APartOfARoomOutOfReachIsSaid) {
   EXPECT_GT(walk.in_part.front().share, 0.1);
   ASSERT_FALSE(walk_warnings(walk).empty());
   EXPECT_NE(walk_warnings(walk).front().find("% of the floor of r2"), std::string::npos);
+}
+
+// Two halves without a door between them, each with a stair to the one room above.
+TEST(WalkCoverage, ARoomBehindTwoStairsIsNoFloorOutOfReach) {
+  std::string text = "plan: 1\nname: halves\nstoreys:\n";
+  text += "  - {id: ground, elevation_m: 0, height_m: 2.7}\n  - {id: upper, elevation_m: 3, height_m: 2.7}\nwalls:\n";
+  const auto wall = [&](const std::string& storey, const std::string& a, const std::string& b) {
+    text += "  - {id: " + storey + a.substr(1, 1) + a.substr(4, 1) + b.substr(1, 1) + ", storey: " + storey +
+            ", a: " + a + ", b: " + b + ", thickness_m: 0.2, just: right}\n";
+  };
+  for (const std::string storey : {"ground", "upper"}) {
+    wall(storey, "[0, 0]", "[9, 0]");
+    wall(storey, "[9, 0]", "[9, 8]");
+    wall(storey, "[9, 8]", "[0, 8]");
+    wall(storey, "[0, 8]", "[0, 0]");
+  }
+  wall("ground", "[0, 4]", "[9, 4]");
+  text += "rooms:\n  - {id: south, storey: ground, polygon: [[0, 0], [9, 0], [9, 3.8], [0, 3.8]]}\n";
+  text += "  - {id: north, storey: ground, polygon: [[0, 4], [9, 4], [9, 8], [0, 8]]}\n";
+  text += "  - {id: above, storey: upper, polygon: [[0, 0], [9, 0], [9, 8], [0, 8]]}\nstairs:\n";
+  for (const std::string y : {"1", "7"})
+    text += "  - {id: stair" + y + ", from: ground, to: upper, start: [2, " + y +
+            "], width_m: 1.0, rise_m: 0.18, run_m: 0.27}\n";
+  const bim::Building building = bim::read_plan_text(text, "halves.plan.yaml");
+  const sim::MultiStoreyPlanner space(building);
+  Start start;
+  start.room = "south";
+  const WalkCoverage walk = walk_coverage(space, plan_route(space, start, {}, {}));
+  EXPECT_EQ(walk.in_reach, 2);
+  EXPECT_TRUE(walk.in_part.empty());
+  for (const std::string& warning : walk_warnings(walk))
+    EXPECT_EQ(warning.find("out of reach"), std::string::npos) << warning;
 }
 
 TEST(RoomPlaces, ABasementOfOneRoomIsNoStartWhereAStoreyAboveHasMore) {
