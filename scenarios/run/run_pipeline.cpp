@@ -105,6 +105,7 @@ std::vector<MethodRecord> run_in_turn(const SensorSource& source,
     check_interrupt();
     records.push_back(method->finish());
   }
+  check_interrupt();  // it ends a process, which then counts as crashed
   return records;
 }
 

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "bim/errors.h"
+#include "scenarios/host/interrupt.h"
 #include "scenarios/spec/method_names.h"
 #include "slam/process/process_method.h"
 
@@ -60,6 +61,7 @@ slam::MethodRow row_for(const ProcessSpec& process) {
   slam::ProcessCommand command{process.name,   process.command, process.folder.value_or(""),
                                process.plan,   process.repeat,  process.start_s,
                                process.scan_s, process.finish_s};
+  command.go_on = check_interrupt;
   slam::MethodRow row;
   row.name = process.name;
   row.summary = "a process of the user's";

@@ -38,6 +38,8 @@ namespace {
 constexpr int child_stream = 3;
 constexpr int child_file = 4;
 constexpr std::size_t printed_max = 4096;
+constexpr int go_on_ms = 100;  ///< between two questions whether to go on
+constexpr int reap_ms = 10;    ///< between two looks at whether a process has ended
 
 std::string error_text(int error) { return std::strerror(error); }
 
@@ -148,8 +150,9 @@ void close_if_open(int& descriptor) {
 }  // namespace
 
 Child::Child(const std::vector<std::string>& command, const std::string& folder,
-             const std::vector<std::string>& variables, std::function<void(std::string_view)> printed, int inherited)
-    : mark_(new_mark()), on_printed_(std::move(printed)) {
+             const std::vector<std::string>& variables, std::function<void(std::string_view)> printed, int inherited,
+             std::function<void()> go_on)
+    : mark_(new_mark()), on_printed_(std::move(printed)), go_on_(std::move(go_on)) {
   const auto [own_stream, its_stream] = pipe_or_socket(true);
   const auto [own_output, its_output] = pipe_or_socket(false);
   stream_ = own_stream;
@@ -206,7 +209,9 @@ void Child::kill_all() const {
     for (const pid_t process : all) ::kill(process, SIGKILL);
     if (!any) break;
   }
-  ::kill(-pid_, SIGKILL);  // where /proc is missing
+  // Where /proc is missing. The number of one that has ended may be another group's.
+  std::error_code error;
+  if (!ended_ || !std::filesystem::exists("/proc/self/stat", error)) ::kill(-pid_, SIGKILL);
 }
 
 void Child::set_deadline(double seconds) {
@@ -254,8 +259,12 @@ void Child::receive(void* bytes, std::size_t size) {
 Child::Ready Child::wait_for(short events) {
   for (;;) {
     std::array<pollfd, 3> waits{{{stream_, events, 0}, {timer_, POLLIN, 0}, {output_, POLLIN, 0}}};
-    if (::poll(waits.data(), waits.size(), -1) < 0 && errno != EINTR)
-      throw EnvironmentError("no process can be waited for: " + error_text(errno));
+    if (go_on_) go_on_();
+    // Another thread may have got the signal, or it came just before: an interrupted poll alone would not tell.
+    if (::poll(waits.data(), waits.size(), go_on_ ? go_on_ms : -1) < 0) {
+      if (errno != EINTR) throw EnvironmentError("no process can be waited for: " + error_text(errno));
+      continue;
+    }
     if (waits[2].revents != 0) read_printed();
     if (waits[0].revents != 0) return Ready::stream;
     if (waits[1].revents != 0) return Ready::over;
@@ -282,12 +291,20 @@ bool Child::close_and_wait() {
     if (got == 0 || (got < 0 && errno != EAGAIN && errno != EINTR)) break;
     if (got < 0 && wait_for(POLLIN) == Ready::over) return false;
   }
-  constexpr int tries = 200;
-  for (int i = 0; i < tries && !ended_; ++i) {
-    ended_ = ::waitpid(pid_, &status_, WNOHANG) == pid_;
-    if (!ended_) ::poll(nullptr, 0, 10);
+  // It may go on without the stream, and print.
+  while (!reap()) {
+    if (go_on_) go_on_();
+    std::array<pollfd, 2> waits{{{timer_, POLLIN, 0}, {output_, POLLIN, 0}}};
+    if (::poll(waits.data(), waits.size(), reap_ms) <= 0) continue;
+    if (waits[1].revents != 0) read_printed();
+    if (waits[0].revents != 0) return false;
   }
   return ended_ && WIFEXITED(status_) && WEXITSTATUS(status_) == 0;
+}
+
+bool Child::reap() {
+  if (!ended_) ended_ = ::waitpid(pid_, &status_, WNOHANG) == pid_;
+  return ended_;
 }
 
 double Child::cpu_ms() const { return ended_ ? 0.0 : 1e3 * process_cpu_s(pid_); }
@@ -304,10 +321,7 @@ void Child::fail_as_it_ended() {
 // It may have closed the stream and gone on.
 std::string Child::how_it_ended() {
   constexpr int tries = 100;
-  for (int i = 0; i < tries && !ended_; ++i) {
-    ended_ = ::waitpid(pid_, &status_, WNOHANG) == pid_;
-    if (!ended_) ::poll(nullptr, 0, 10);
-  }
+  for (int i = 0; i < tries && !reap(); ++i) ::poll(nullptr, 0, reap_ms);
   if (!ended_) return "closed the connection";
   if (WIFSIGNALED(status_)) return "was ended by signal " + std::to_string(WTERMSIG(status_));
   return "exited with " + std::to_string(WEXITSTATUS(status_));

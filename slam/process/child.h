@@ -24,10 +24,11 @@ class ProcessFailure : public std::runtime_error {
 class Child {
  public:
   /// folder: its working directory. variables: NAME=VALUE, over those of this process. printed: gets what it prints, as
-  /// it comes. inherited: descriptor of this process that the child gets as descriptor 4; -1: none. Throws
-  /// ProcessFailure where the program cannot be started.
+  /// it comes. inherited: descriptor of this process that the child gets as descriptor 4; -1: none. go_on: called again
+  /// and again while the child is waited for; what it throws ends the waiting. Throws ProcessFailure where the program
+  /// cannot be started.
   Child(const std::vector<std::string>& command, const std::string& folder, const std::vector<std::string>& variables,
-        std::function<void(std::string_view)> printed = {}, int inherited = -1);
+        std::function<void(std::string_view)> printed = {}, int inherited = -1, std::function<void()> go_on = {});
   ~Child();
   Child(const Child&) = delete;
   Child(Child&&) = delete;
@@ -42,6 +43,8 @@ class Child {
   /// Closes the stream and waits for the process until the deadline; whether it ended by itself, with 0.
   [[nodiscard]] bool close_and_wait();
   [[nodiscard]] bool ended() const { return ended_; }
+  /// "exited with 7", a clause; of one that has closed the stream, after a moment for it to end.
+  [[nodiscard]] std::string how_it_ended();
 
   /// CPU time of the process itself so far, ms; 0 where the system does not tell.
   [[nodiscard]] double cpu_ms() const;
@@ -51,10 +54,11 @@ class Child {
  private:
   enum class Ready { stream, over };
   [[nodiscard]] Ready wait_for(short events);
+  /// Whether the process has ended; takes its status the first time.
+  bool reap();
   void read_printed();
   void kill_all() const;
   [[noreturn]] void fail_as_it_ended();
-  [[nodiscard]] std::string how_it_ended();
 
   std::string mark_;  ///< in the environment of all that it starts
   pid_t pid_ = -1;
@@ -64,6 +68,7 @@ class Child {
   int status_ = 0;
   std::string printed_;  ///< the last of it
   std::function<void(std::string_view)> on_printed_;
+  std::function<void()> go_on_;
 };
 
 }  // namespace plumbline::slam

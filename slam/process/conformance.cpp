@@ -227,6 +227,7 @@ std::optional<Finding> misunderstanding(const std::vector<StampedPose>& answered
 void check_conformance(ProcessCommand command, const std::shared_ptr<const bim::Plan>& plan, const Findings& found,
                        const std::function<void()>& go_on) {
   command.strict = true;
+  command.go_on = go_on;
   const TrialWalk walk = trial_walk();
   const Trial first = try_on(command, walk, input_of(walk, plan, false), go_on);
   if (first.wall_ms.empty() && !first.failure.empty()) return found({Kind::wrong, first.failure});

@@ -38,7 +38,8 @@ class Conversation {
   Conversation(const ProcessCommand& command, const MethodInput& input)
       : command_(command),
         memory_(2 * half_bytes),
-        child_(command.command, command.folder, environment_of(input), command.printed, memory_.descriptor()) {
+        child_(command.command, command.folder, environment_of(input), command.printed, memory_.descriptor(),
+               command.go_on) {
     child_.set_deadline(command.start_s);
     const std::string hello = greeting(command, input, memory_.bytes().size());
     send({wire::magic, static_cast<std::uint16_t>(wire::Type::hello), 0, hello.size()}, hello.data());
@@ -71,9 +72,10 @@ class Conversation {
   void end() {
     constexpr double strict_s = 5.0;
     child_.set_deadline(command_.strict ? strict_s : command_.finish_s);
-    if (!child_.close_and_wait() && command_.strict && !child_.ended())
-      throw ProcessFailure(
-          "did not end within 5 s of its last answer, or what it started did not; end when the connection is closed");
+    if (child_.close_and_wait() || !command_.strict) return;
+    if (child_.ended()) throw ProcessFailure(child_.how_it_ended() + " after its last answer, where 0 is due");
+    throw ProcessFailure(
+        "did not end within 5 s of its last answer, or what it started did not; end when the connection is closed");
   }
 
  private:

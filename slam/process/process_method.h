@@ -21,8 +21,10 @@ struct ProcessCommand {
   double start_s = 30.0;
   double scan_s = 10.0;
   double finish_s = 120.0;
-  bool strict = false;  ///< as conformance is: it must end within 5 s of its last answer, and send nothing reserved
+  bool strict =
+      false;  ///< as conformance is: it must end with 0 within 5 s of its last answer, and send nothing reserved
   std::function<void(std::string_view)> printed = {};  ///< gets what it prints, as it comes
+  std::function<void()> go_on = {};  ///< called while it is waited for; what it throws ends that, and the process
 };
 
 /// Runs the program and speaks with it in lock step, slam/process/client/plumbline_messages.h: a scan and what was

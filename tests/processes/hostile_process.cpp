@@ -159,6 +159,8 @@ int main(int argc, char** argv) {
         const wire::Estimate estimate{0, how == "no_poses" ? 1000ULL : 0ULL, 0};
         send(wire::Type::estimate, &estimate, sizeof estimate);
         if (how == "finish_stays") hang();
+        if (how == "finish_exits") return 7;
+        if (how == "finish_signal") std::raise(SIGSEGV);
         break;
       }
       default:

@@ -152,6 +152,8 @@ TEST_F(Process, ConformanceSaysWhatIsWrong) {
     EXPECT_NE(none.err.find("there is no program '" + name + "'"), std::string::npos) << none.err;
   }
   wrong({program("hostile_process"), "finish_stays"}, "did not end within 5 s of its last answer");
+  wrong({program("hostile_process"), "finish_exits"}, "exited with 7 after its last answer");
+  wrong({program("hostile_process"), "finish_signal"}, "was ended by signal 11 after its last answer");
   wrong({program("hostile_process"), "good"}, "its pose never changes");
   wrong({"'" + program("hostile_process") + "' nan"}, "at scan 11 (1.1 s): the pose is none");
   wrong({"--scan-s", "0.3", program("hostile_process"), "hang"}, "gave no answer within 0.3 s");
@@ -269,8 +271,10 @@ TEST_F(Process, ConformanceEndsItsMethodWhenItIsStopped) {
   Setting setting;
   setting.kill_when = [&] { return fs::exists(folder_ / "pid"); };
   setting.signal = SIGTERM;
-  const Outcome outcome = plumbline({"conformance", "--scan-s", "1", folder_ / "slow.sh"}, setting);
+  const auto before = std::chrono::steady_clock::now();
+  const Outcome outcome = plumbline({"conformance", "--scan-s", "100", folder_ / "slow.sh"}, setting);
   EXPECT_EQ(outcome.code, 128 + SIGTERM) << outcome.out << outcome.err;
+  EXPECT_LT(std::chrono::steady_clock::now() - before, std::chrono::seconds(50));
   std::string pid = read_file(folder_ / "pid");
   pid.erase(pid.find_last_not_of('\n') + 1);
   EXPECT_FALSE(runs(pid));

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/process/child.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+
+namespace plumbline::slam {
+namespace {
+
+std::vector<std::string> shell(const std::string& script) { return {"/bin/sh", "-c", script}; }
+
+double seconds_of(const std::function<void()>& work) {
+  const auto before = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
+}
+
+TEST(Child, WithoutItsStreamItHasUntilTheDeadline) {
+  Child slow(shell("exec 3>&-; sleep 2.5"), "", {});
+  slow.set_deadline(20.0);
+  EXPECT_TRUE(slow.close_and_wait());
+  EXPECT_TRUE(slow.ended());
+  Child slower(shell("exec 3>&-; sleep 100"), "", {});
+  slower.set_deadline(0.2);
+  EXPECT_LT(seconds_of([&] { EXPECT_FALSE(slower.close_and_wait()); }), 1.5);
+  EXPECT_FALSE(slower.ended());
+}
+
+TEST(Child, WhatItPrintsWithoutItsStreamDoesNotHoldItUp) {
+  Child child(shell("exec 3>&-; head -c 1000000 /dev/zero; echo; echo done"), "", {});
+  child.set_deadline(20.0);
+  EXPECT_TRUE(child.close_and_wait());
+  EXPECT_TRUE(child.ended());
+}
+
+TEST(Child, SaysHowItEnded) {
+  Child exits(shell("exit 7"), "", {}), killed(shell("kill -9 $$"), "", {});
+  for (Child* child : {&exits, &killed}) {
+    child->set_deadline(20.0);
+    EXPECT_FALSE(child->close_and_wait());
+    EXPECT_TRUE(child->ended());
+  }
+  EXPECT_EQ(exits.how_it_ended(), "exited with 7");
+  EXPECT_EQ(killed.how_it_ended(), "was ended by signal 9");
+}
+
+TEST(Child, WaitingForItEndsWhenItsParentMayNotGoOn) {
+  struct Stop {};
+  int asked = 0;
+  const auto go_on = [&] {
+    if (++asked > 3) throw Stop();
+  };
+  const double took = seconds_of([&] {
+    Child child(shell("sleep 100"), "", {}, {}, -1, go_on);
+    child.set_deadline(50.0);
+    char byte = 0;
+    EXPECT_THROW(child.receive(&byte, 1), Stop);
+    asked = 0;
+    EXPECT_THROW((void)child.close_and_wait(), Stop);
+  });
+  EXPECT_LT(took, 20.0);
+}
+
+}  // namespace
+}  // namespace plumbline::slam
