@@ -69,7 +69,8 @@ Head head_of(std::span<const std::uint8_t> bytes) {
 
 class McapReader final : public MessageSource {
  public:
-  explicit McapReader(const std::string& path) : mark_{path, 0, 0}, file_(open_input_file(path)) {
+  McapReader(const std::string& path, std::shared_ptr<std::size_t> open_bytes)
+      : mark_{path, 0, 0}, file_(open_input_file(path)), open_bytes_(std::move(open_bytes)) {
     guarded([&] {
       std::fseek(file_.stream.get(), 0, SEEK_END);
       size_ = static_cast<std::uint64_t>(std::ftell(file_.stream.get()));
@@ -86,8 +87,8 @@ class McapReader final : public MessageSource {
     wanted_.clear();
     for (const auto& [id, topic] : channels_)
       if (std::find(topics.begin(), topics.end(), topics_[topic].name) != topics.end()) wanted_.insert(id);
+    for (const auto& [key, block] : open_) *open_bytes_ -= block.bytes.size();
     open_.clear();
-    open_bytes_ = 0;
     next_block_ = 0;
   }
 
@@ -181,6 +182,8 @@ class McapReader final : public MessageSource {
     if (!chunk_channels_.empty() && chunks != chunk_channels_.size())
       throw InputError(
           {}, std::to_string(chunks) + " chunks where the index has " + std::to_string(chunk_channels_.size()));
+    for (Block& block : blocks_)
+      if (block.chunk && block.start == 0) block.start = first_time(block);  // some writers leave it out
     std::stable_sort(blocks_.begin(), blocks_.end(), [](const Block& a, const Block& b) { return a.start < b.start; });
   }
 
@@ -279,15 +282,18 @@ class McapReader final : public MessageSource {
   };
 
   bool find_next(RawMessage& message) {
-    for (; next_block_ < blocks_.size() && (open_.empty() || blocks_[next_block_].start <= open_.begin()->first.first);
-         ++next_block_)
+    // Of messages of one time the earlier in the file comes first: where all have one, one block is open.
+    const auto is_due = [&](const Block& block) {
+      return open_.empty() || std::pair(block.start, block.at) < open_.begin()->first;
+    };
+    for (; next_block_ < blocks_.size() && is_due(blocks_[next_block_]); ++next_block_)
       if (!may_skip(blocks_[next_block_].at)) open_block(blocks_[next_block_]);
     if (open_.empty()) return false;
     auto front = open_.extract(open_.begin());
     OpenBlock& block = front.mapped();
     take_message(record_in(block.bytes, block.messages[block.next].second).second, message);
     if (++block.next == block.messages.size()) {
-      open_bytes_ -= block.bytes.size();
+      *open_bytes_ -= block.bytes.size();
       return true;
     }
     front.key().first = block.messages[block.next].first;
@@ -298,27 +304,46 @@ class McapReader final : public MessageSource {
   void open_block(const Block& from) {
     OpenBlock block = read_block(from);
     if (block.messages.empty()) return;
-    open_bytes_ += block.bytes.size();
-    if (!open_.empty() && open_bytes_ > most_open_bytes)
+    *open_bytes_ += block.bytes.size();
+    if (*open_bytes_ > block.bytes.size() && *open_bytes_ > most_open_bytes)
       throw InputError({}, "messages that are out of the order of time over more than 1 GiB; `mcap sort` mends that");
     const std::pair key(block.messages.front().first, from.at);
     open_.emplace(key, std::move(block));
   }
 
-  [[nodiscard]] OpenBlock read_block(const Block& from) {
+  [[nodiscard]] Bytes bytes_of(const Block& from) {
     record_at_ = from.at;
+    return from.chunk ? chunk_of(read(from.at + mcap::head_bytes, from.end - from.at - mcap::head_bytes))
+                      : read(from.at, from.end - from.at);
+  }
+
+  /// 0 where it holds no message.
+  [[nodiscard]] Nanoseconds first_time(const Block& from) {
+    const Bytes bytes = bytes_of(from);
+    std::optional<Nanoseconds> first;
+    for (std::size_t at = 0; at < bytes.size();) {
+      const auto [head, content] = record_in(bytes, at);
+      if (head.op == Op::message) first = std::min(first.value_or(time_of(content)), time_of(content));
+      at += mcap::head_bytes + head.size;
+    }
+    return first.value_or(0);
+  }
+
+  static Nanoseconds time_of(std::span<const std::uint8_t> message) {
+    constexpr std::uint64_t channel_and_number = 6;
+    Values values(message);
+    static_cast<void>(values.take(channel_and_number));
+    return static_cast<Nanoseconds>(values.number<std::uint64_t>());
+  }
+
+  [[nodiscard]] OpenBlock read_block(const Block& from) {
     OpenBlock block;
-    block.bytes = from.chunk ? chunk_of(read(from.at + mcap::head_bytes, from.end - from.at - mcap::head_bytes))
-                             : read(from.at, from.end - from.at);
+    block.bytes = bytes_of(from);
     for (std::size_t at = 0; at < block.bytes.size();) {
       const auto [head, content] = record_in(block.bytes, at);
       if (head.op == Op::message) {
-        Values values(content);
-        const auto id = values.number<std::uint16_t>();
-        static_cast<void>(values.number<std::uint32_t>());
-        const auto time = static_cast<Nanoseconds>(values.number<std::uint64_t>());
-        static_cast<void>(values.number<std::uint64_t>());
-        if (wanted_.contains(id)) block.messages.emplace_back(time, at);
+        const Nanoseconds time = time_of(content);
+        if (wanted_.contains(Values(content).number<std::uint16_t>())) block.messages.emplace_back(time, at);
       }
       take_definition(head.op, content);
       at += mcap::head_bytes + head.size;
@@ -361,11 +386,14 @@ class McapReader final : public MessageSource {
   std::vector<Block> blocks_;    ///< by their start
   std::size_t next_block_ = 0;
   std::map<std::pair<Nanoseconds, std::uint64_t>, OpenBlock> open_;  ///< by the next message's time, then by place
-  std::size_t open_bytes_ = 0;
+  std::shared_ptr<std::size_t> open_bytes_;  ///< in `open_`, and in that of the bag's other files
 };
 
 }  // namespace
 
-std::unique_ptr<MessageSource> open_mcap(const std::string& path) { return std::make_unique<McapReader>(path); }
+std::unique_ptr<MessageSource> open_mcap(const std::string& path, std::shared_ptr<std::size_t> open_bytes) {
+  if (!open_bytes) open_bytes = std::make_shared<std::size_t>(0);
+  return std::make_unique<McapReader>(path, std::move(open_bytes));
+}
 
 }  // namespace plumbline::slam

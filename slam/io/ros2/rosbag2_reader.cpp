@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <map>
 #include <set>
+#include <string_view>
 #include <utility>
 
 #include "bim/config/input_file.h"
@@ -42,18 +43,20 @@ class DatabaseReader final : public MessageSource {
     sqlite3_limit(db, SQLITE_LIMIT_LENGTH, most_message_bytes);
     need_table("topics");
     need_table("messages");
+    need_row_numbers();
     read_topics();
   }
 
   [[nodiscard]] const std::vector<BagTopic>& topics() const override { return topics_; }
 
-  // The order first, of numbers alone: without an index on the time whole messages would be sorted.
+  // The order first, of numbers alone: without an index on the time whole messages would be sorted. Those of rows,
+  // since the column `id` of a table that was made by a query is no key: it may repeat, and is slow to look for.
   void select(const std::vector<std::string>& topics) override {
     wanted_.clear();
     for (const auto& [id, topic] : ids_)
       if (std::find(topics.begin(), topics.end(), topics_[topic].name) != topics.end()) wanted_.insert(id);
-    order_ = prepare("SELECT id FROM messages ORDER BY timestamp, id");
-    row_ = prepare("SELECT topic_id, timestamp, data FROM messages WHERE id = ?");
+    order_ = prepare("SELECT rowid FROM messages ORDER BY timestamp, rowid");
+    row_ = prepare("SELECT topic_id, timestamp, data FROM messages WHERE rowid = ?");
   }
 
   [[nodiscard]] Nanoseconds start() override {
@@ -111,6 +114,15 @@ class DatabaseReader final : public MessageSource {
     if (!step(found)) throw InputError(mark_, "is an SQLite file, but no rosbag2: it has no table '" + name + "'");
   }
 
+  void need_row_numbers() const {
+    sqlite3_stmt* raw = nullptr;
+    const int code = sqlite3_prepare_v2(db_.get(), "SELECT rowid FROM messages", -1, &raw, nullptr);
+    sqlite3_finalize(raw);
+    if (code == SQLITE_OK) return;
+    if (std::string_view(sqlite3_errmsg(db_.get())).find("rowid") == std::string_view::npos) fail();
+    throw InputError(mark_, "its table 'messages' is WITHOUT ROWID; copy its rows to a table that has one");
+  }
+
   void read_topics() {
     constexpr std::size_t most_topics = 65535;
     const Statement rows = prepare("SELECT id, name, type, serialization_format FROM topics ORDER BY id");
@@ -158,7 +170,7 @@ class Files final : public MessageSource {
     return least;
   }
   [[nodiscard]] bool next(RawMessage& message) override {
-    while (!waiting_.empty() && (fronts_.empty() || waiting_.begin()->first <= fronts_.begin()->first.first)) {
+    while (!waiting_.empty() && (fronts_.empty() || *waiting_.begin() < fronts_.begin()->first)) {
       const std::size_t file = waiting_.begin()->second;
       waiting_.erase(waiting_.begin());
       advance(file);
@@ -230,10 +242,11 @@ std::unique_ptr<MessageSource> open_rosbag2_folder(const std::string& folder) {
   if (zstd && (storage != "sqlite3" || text_or_empty(info, "compression_format") != "zstd"))
     throw InputError(info.mark, "messages compressed otherwise than by zstd in sqlite3 cannot be read");
   std::vector<std::unique_ptr<MessageSource>> files;
+  const auto open_bytes = std::make_shared<std::size_t>(0);
   for (const Tree& name : need(info, "relative_file_paths").as_list()) {
     const std::string file = path_of(folder, name);
     if (!fs::exists(file)) throw InputError(name.mark, "names '" + name.as_string() + "', which is missing");
-    files.push_back(storage == "mcap" ? open_mcap(file) : open_rosbag2_database(file, zstd));
+    files.push_back(storage == "mcap" ? open_mcap(file, open_bytes) : open_rosbag2_database(file, zstd));
   }
   if (files.empty()) throw InputError(info.mark, "names no file");
   return std::make_unique<Files>(std::move(files));
