@@ -130,11 +130,8 @@ void find_opening_rooms(Building& building, const AdjacencyConfig& config) {
     if (!goes_through(opening, wall)) continue;
     const Eigen::Vector2d on_line = wall.a + opening.s_m * wall.direction();
     // In a curved wall the opening's own depth says where its sides are.
-    const Interval depth = extent_across(WallFrame(wall), solids_of(opening));
-    const bool deep = depth.length() > 0.0;
-    const double wall_left = wall.offset_m + wall.thickness_m;
-    const double left = (deep ? std::min(wall_left, depth.high) : wall_left) + config.step_m,
-                 right = (deep ? std::max(wall.offset_m, depth.low) : wall.offset_m) - config.step_m;
+    const Interval depth = depth_in_wall(opening, wall);
+    const double left = depth.high + config.step_m, right = depth.low - config.step_m;
     const std::array<Eigen::Vector2d, 2> points = {on_line + left * wall.left(), on_line + right * wall.left()};
     const double z = opening.z0_m + config.above_sill_m;
     for (std::size_t side = 0; side < points.size(); ++side)

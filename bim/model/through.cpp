@@ -16,9 +16,16 @@ namespace plumbline::bim {
 
 namespace {
 
-/// Distances at which the line from p along d crosses the surface, ascending.
-std::vector<double> crossings(const Solid& solid, const Eigen::Vector3d& p, const Eigen::Vector3d& d) {
-  std::vector<double> at;
+struct Crossing {
+  double at = 0.0;  ///< distance along the line
+  int outward = 0;  ///< 1: the line leaves the solid here, -1: it enters
+
+  [[nodiscard]] friend bool operator<(const Crossing& a, const Crossing& b) { return a.at < b.at; }
+};
+
+/// Where the line from p along d crosses the surface, ascending.
+std::vector<Crossing> crossings_of(const Solid& solid, const Eigen::Vector3d& p, const Eigen::Vector3d& d) {
+  std::vector<Crossing> found;
   for (const Eigen::Vector3i& t : solid.triangles) {
     const auto corner = [&](int k) { return solid.vertices[static_cast<std::size_t>(t[k])]; };
     const Eigen::Vector3d u = corner(1) - corner(0), v = corner(2) - corner(0), q = d.cross(v);
@@ -26,9 +33,15 @@ std::vector<double> crossings(const Solid& solid, const Eigen::Vector3d& p, cons
     if (std::abs(det) < 1e-12) continue;
     const Eigen::Vector3d w = p - corner(0), r = w.cross(u);
     const double a = w.dot(q) / det, b = d.dot(r) / det;
-    if (a >= 0.0 && b >= 0.0 && a + b <= 1.0) at.push_back(v.dot(r) / det);
+    if (a >= 0.0 && b >= 0.0 && a + b <= 1.0) found.push_back({v.dot(r) / det, det < 0.0 ? 1 : -1});
   }
-  std::sort(at.begin(), at.end());
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+std::vector<double> crossings(const Solid& solid, const Eigen::Vector3d& p, const Eigen::Vector3d& d) {
+  std::vector<double> at;
+  for (const Crossing& crossing : crossings_of(solid, p, d)) at.push_back(crossing.at);
   return at;
 }
 
@@ -39,8 +52,16 @@ Interval across_of(const Wall& wall, const WallFrame& frame) {
 bool inside(const Solid& solid, const Eigen::Vector3d& p) {
   // Askew, so that it meets no edge between two triangles of a box.
   const Eigen::Vector3d d = Eigen::Vector3d(0.1234, 0.2345, 0.9642).normalized();
-  const std::vector<double> at = crossings(solid, p, d);
-  return std::count_if(at.begin(), at.end(), [](double s) { return s > 0.0; }) % 2 == 1;
+  int all = 0, beyond = 0;
+  std::size_t count = 0;
+  for (const Crossing& crossing : crossings_of(solid, p, d)) {
+    all += crossing.outward;
+    if (crossing.at <= 0.0) continue;
+    beyond += crossing.outward;
+    ++count;
+  }
+  // Parts may overlap, or one be given twice; where faces are turned over their number alone tells.
+  return all == 0 ? beyond != 0 : count % 2 == 1;
 }
 
 /// From a point in the opening there is a straight level way that leaves the opening outside the wall at both ends.
@@ -114,7 +135,7 @@ bool opens_on(const Opening& opening, const Wall& wall, int side, const ThroughC
 
 double extend_through(Opening& opening, const Wall& wall, const ThroughConfig& config) {
   std::vector<Solid> hole = solids_of(opening);
-  if (hole.empty() || !wall.body) return 0.0;
+  if (hole.empty() || !wall.body || goes_through(opening, wall, config)) return 0.0;
   const WallFrame frame(wall);
   const Interval depth = extent_across(frame, hole), y = extent_across(frame, {*wall.body});
   const double low = std::max(0.0, depth.low - y.low), high = std::max(0.0, y.high - depth.high);

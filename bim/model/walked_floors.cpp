@@ -8,6 +8,7 @@
 
 #include "bim/geometry/polygon_boolean.h"
 #include "bim/model/through.h"
+#include "bim/model/wall_frame.h"
 
 namespace plumbline::bim {
 
@@ -15,8 +16,8 @@ namespace {
 
 /// The stretch of its wall that an opening leaves.
 Polygon2 threshold(const Opening& opening, const Wall& wall) {
-  const Eigen::Vector2d e = wall.direction(), near = wall.offset_m * wall.left(),
-                        far = (wall.offset_m + wall.thickness_m) * wall.left();
+  const Interval depth = depth_in_wall(opening, wall);
+  const Eigen::Vector2d e = wall.direction(), near = depth.low * wall.left(), far = depth.high * wall.left();
   const Eigen::Vector2d a = wall.a + (opening.s_m - 0.5 * opening.width_m) * e,
                         b = wall.a + (opening.s_m + 0.5 * opening.width_m) * e;
   return {a + near, b + near, b + far, a + far};

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bim/model/wall_frame.h"
 
+#include <algorithm>
+
 namespace plumbline::bim {
 
 std::vector<Solid> solids_of(const Opening& opening) {
@@ -15,6 +17,13 @@ Interval extent_across(const WallFrame& frame, const std::vector<Solid>& solids)
   for (const Solid& solid : solids)
     for (const Eigen::Vector3d& p_W : solid.vertices) y.add(frame.to_wall(p_W).y());
   return y;
+}
+
+Interval depth_in_wall(const Opening& opening, const Wall& wall) {
+  const Interval whole{wall.offset_m, wall.offset_m + wall.thickness_m};
+  const Interval own = extent_across(WallFrame(wall), solids_of(opening));
+  const Interval depth{std::max(whole.low, own.low), std::min(whole.high, own.high)};
+  return depth.length() > 0.0 ? depth : whole;
 }
 
 std::vector<Polygon2> projected(const WallFrame& frame, const std::vector<Solid>& solids) {

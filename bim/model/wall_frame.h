@@ -39,6 +39,9 @@ class WallFrame {
 [[nodiscard]] std::vector<Solid> solids_of(const Opening& opening);
 /// Extent of solids across the wall.
 [[nodiscard]] Interval extent_across(const WallFrame& frame, const std::vector<Solid>& solids);
+/// Where an opening lies across its wall, no deeper than the wall: in a curved one that is far less than its extent. Of
+/// an opening without solids the wall's extent.
+[[nodiscard]] Interval depth_in_wall(const Opening& opening, const Wall& wall);
 /// The triangles of solids in the wall's elevation (x, z); their union is the silhouette.
 [[nodiscard]] std::vector<Polygon2> projected(const WallFrame& frame, const std::vector<Solid>& solids);
 

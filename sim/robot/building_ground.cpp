@@ -9,6 +9,7 @@
 #include "bim/model/stair_flight.h"
 #include "bim/model/through.h"
 #include "bim/model/walked_floors.h"
+#include "bim/model/wall_frame.h"
 #include "sim/robot/ground.h"
 #include "sim/robot/solid_boxes.h"
 
@@ -291,8 +292,9 @@ void add_sills(const bim::Building& building, double floor_z, const BuildingGrou
     const bim::Wall& wall = building.walls[static_cast<std::size_t>(o.wall)];
     if (!bim::goes_through(o, wall)) continue;
     const Eigen::Vector2d e = wall.direction();
-    const Eigen::Vector2d center = wall.a + o.s_m * e + (wall.offset_m + 0.5 * wall.thickness_m) * wall.left();
-    out.push_back(upright_box(center, std::atan2(e.y(), e.x()), {0.5 * o.width_m, 0.5 * wall.thickness_m},
+    const Interval depth = bim::depth_in_wall(o, wall);
+    const Eigen::Vector2d center = wall.a + o.s_m * e + (depth.low + 0.5 * depth.length()) * wall.left();
+    out.push_back(upright_box(center, std::atan2(e.y(), e.x()), {0.5 * o.width_m, 0.5 * depth.length()},
                               {floor_z - config.floor_body_m, o.z0_m}));
   }
 }

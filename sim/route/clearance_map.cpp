@@ -8,6 +8,8 @@
 #include <set>
 #include <utility>
 
+#include "bim/model/wall_frame.h"
+
 namespace plumbline::sim {
 
 namespace {
@@ -293,8 +295,8 @@ std::vector<double> clearances_over(const bim::Building& building, int storey, c
     const bim::Opening& o = solid.openings[i];
     if (o.wall < 0 || !(o.z0_m > ground + config.sill_max_m)) continue;
     const bim::Wall& wall = solid.walls[static_cast<std::size_t>(o.wall)];
-    const auto cell =
-        grid.find(wall.a + o.s_m * wall.direction() + (wall.offset_m + 0.5 * wall.thickness_m) * wall.left());
+    const Interval depth = bim::depth_in_wall(o, wall);
+    const auto cell = grid.find(wall.a + o.s_m * wall.direction() + (depth.low + 0.5 * depth.length()) * wall.left());
     if (cell && floor[*cell] != 0 && std::abs(static_cast<double>(heights[*cell]) - (o.z0_m - ground)) <= config.flat_m)
       doors_up.push_back(i);
   }

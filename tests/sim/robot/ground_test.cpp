@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 #include <string>
 
@@ -14,6 +15,7 @@
 #include "sim/robot/solid_boxes.h"
 #include "sim/route/pure_pursuit.h"
 #include "tests/data.h"
+#include "tests/sim/route/floor_plan.h"
 
 namespace plumbline::sim {
 namespace {
@@ -33,6 +35,30 @@ TEST(Ground, OneFloorIsEverywhere) {
     EXPECT_EQ(ground.height(x, 2.0, 4.0), 3.1);
     EXPECT_EQ(ground.plane_height({x, 2.0, 3.6}), 3.1);
   }
+}
+
+TEST(Ground, TheSillOfADoorInACurvedWallIsAsDeepAsItsOpening) {
+  bim::Building building = empty_storey();
+  // A bow from (0, 0) over (3, 1.5) to (6, 0), 0.2 m thick.
+  bim::Wall& wall = building.walls[static_cast<std::size_t>(add_wall(building, {0, 0}, {6, 0}))];
+  const auto at = [](int i) { return Eigen::Vector2d(0.5 * i, 1.5 * std::sin(std::numbers::pi * i / 12.0)); };
+  const Eigen::Vector2d thick(0.0, 0.2);
+  bim::Solid body;
+  for (int i = 0; i < 12; ++i) {
+    const bim::Solid part = prism({at(i), at(i + 1), at(i + 1) + thick, at(i) + thick}, 0.0, 3.0);
+    const int first = static_cast<int>(body.vertices.size());
+    body.vertices.insert(body.vertices.end(), part.vertices.begin(), part.vertices.end());
+    for (const Eigen::Vector3i& t : part.triangles) body.triangles.emplace_back(t.array() + first);
+  }
+  wall.body = body;
+  wall.offset_m = 0.0;
+  wall.thickness_m = 1.7;
+  bim::Opening& door = add_door(building, 0, 3.0, 1.0);
+  door.z0_m = 0.05;
+  door.solid = prism(rectangle({2.5, 1.3}, {3.5, 1.9}), 0.05, 2.1);
+  const Ground ground = building_ground(building, {0});
+  EXPECT_DOUBLE_EQ(ground.height(3.0, 1.6, 1.0), 0.05);
+  for (const double y : {0.2, 0.7, 1.2}) EXPECT_DOUBLE_EQ(ground.height(3.0, y, 1.0), 0.0) << y;
 }
 
 TEST(Ground, ATiltedBoxIsARamp) {

@@ -181,5 +181,22 @@ TEST(SunkenFloor, ABareSlabUnderACoveringIsNone) {
   }
 }
 
+// The wall reaches far beyond the door, as a curved one does.
+TEST(FloorStep, TheThresholdOfADoorIsAsDeepAsItsOpening) {
+  bim::Building building = split_level(0.3);
+  bim::Wall& wall = building.walls[0];
+  bim::Solid body = prism(rectangle({3.9, 0.0}, {4.1, 5.0}), 0.0, 3.0);
+  const bim::Solid far = prism(rectangle({2.0, 4.0}, {3.8, 4.2}), 0.0, 3.0);
+  for (const Eigen::Vector3i& t : far.triangles)
+    body.triangles.emplace_back(t.array() + static_cast<int>(body.vertices.size()));
+  body.vertices.insert(body.vertices.end(), far.vertices.begin(), far.vertices.end());
+  wall.body = body;
+  wall.thickness_m = 2.1;
+  building.openings.front().solid = prism(rectangle({3.8, 2.0}, {4.2, 3.0}), 0.3, 2.4);
+  const bim::WalkedFloors floors = bim::walked_floors(building, 0);
+  EXPECT_EQ(bim::height_at(floors, {4.0, 2.5}), 0.3);
+  EXPECT_EQ(bim::height_at(floors, {3.0, 2.5}), 0.0);
+}
+
 }  // namespace
 }  // namespace plumbline::sim

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bim/model/through.h"
+
+#include <gtest/gtest.h>
+
+#include "bim/model/wall_frame.h"
+#include "tests/bim/model/thick_wall.h"
+
+namespace plumbline::bim {
+namespace {
+
+TEST(Through, ANicheIsNoneInABodyGivenTwice) {
+  Wall wall = thick_wall();
+  EXPECT_TRUE(goes_through(thick_opening(-0.2, 0.2), wall));
+  EXPECT_FALSE(goes_through(thick_opening(-0.2, 0.02), wall));
+  const Solid once = *wall.body;
+  add_solid(once, *wall.body);
+  EXPECT_TRUE(goes_through(thick_opening(-0.2, 0.2), wall));
+  EXPECT_FALSE(goes_through(thick_opening(-0.2, 0.02), wall));
+}
+
+TEST(Through, ADoorThatEndsALittleShortIsExtended) {
+  Opening opening = thick_opening(-0.1, 0.07);
+  EXPECT_NEAR(extend_through(opening, thick_wall()), 0.03, 1e-9);
+  EXPECT_TRUE(goes_through(opening, thick_wall()));
+}
+
+TEST(Through, ABulgeElsewhereMakesNoOpeningShort) {
+  Wall wall = thick_wall();
+  add_solid(box_solid({3.0, 0.1, 0.0}, {3.5, 0.14, 3.0}), *wall.body);
+  Opening opening = thick_opening(-0.1, 0.1);
+  EXPECT_EQ(extend_through(opening, wall), 0.0);
+  EXPECT_EQ(extent_across(WallFrame(wall), solids_of(opening)).high, 0.1);
+}
+
+TEST(WallFrame, AnOpeningIsNoDeeperThanItselfAndItsWall) {
+  Wall curved = thick_wall();
+  curved.offset_m = 0.0;
+  curved.thickness_m = 3.0;
+  const Interval own = depth_in_wall(thick_opening(2.6, 3.2), curved);
+  EXPECT_DOUBLE_EQ(own.low, 2.6);
+  EXPECT_DOUBLE_EQ(own.high, 3.0);
+  Opening plain = thick_opening(2.6, 3.2);
+  plain.solid.reset();
+  EXPECT_DOUBLE_EQ(depth_in_wall(plain, curved).length(), 3.0);
+}
+
+}  // namespace
+}  // namespace plumbline::bim
