@@ -9,6 +9,7 @@
 #include "bim/mesh/solid.h"
 #include "bim/model/hull.h"
 #include "bim/model/through.h"
+#include "bim/model/wall_frame.h"
 
 namespace plumbline::sim {
 
@@ -91,6 +92,9 @@ ObstacleFootprint from_solid(const bim::Solid& solid, const Band& band, double w
   return footprint;
 }
 
+/// An opening that ends this far before a face of its wall is cut through it.
+constexpr double past_m = 0.05;
+
 std::vector<Gap> passable_gaps(const bim::Building& building, int wall_index, double floor_z,
                                const RouteConfig& config) {
   const bim::Wall& wall = building.walls[static_cast<std::size_t>(wall_index)];
@@ -100,34 +104,50 @@ std::vector<Gap> passable_gaps(const bim::Building& building, int wall_index, do
     if (opening.kind == bim::OpeningKind::door && opening.leaf == bim::Leaf::closed) continue;
     if (opening.z0_m > floor_z + config.sill_max_m || opening.z1_m < floor_z + config.head_min_m) continue;
     if (!bim::goes_through(opening, wall)) continue;
-    gaps.push_back(
-        {wall.a, wall.direction(), opening.s_m - 0.5 * opening.width_m, opening.s_m + 0.5 * opening.width_m});
+    Gap gap{wall.a, wall.direction(), opening.s_m - 0.5 * opening.width_m, opening.s_m + 0.5 * opening.width_m};
+    // Seen from above, as the edges are, also where the wall leans.
+    Interval own;
+    for (const bim::Solid& solid : bim::solids_of(opening))
+      for (const Eigen::Vector3d& p : solid.vertices) own.add(gap.left().dot(p.head<2>() - gap.a));
+    if (own.length() > 0.0) gap.across = {own.low - past_m, own.high + past_m};
+    gaps.push_back(gap);
   }
   return gaps;
 }
 
 /// Parts of a segment outside a gap.
 void cut_segment(const Segment2& segment, const Gap& gap, std::vector<Segment2>& parts) {
-  const double sa = gap.e.dot(segment.a - gap.a);
-  const double sb = gap.e.dot(segment.b - gap.a);
-  const auto at = [&](double s) -> Eigen::Vector2d {
-    return segment.a + (segment.b - segment.a) * ((s - sa) / (sb - sa));
+  const Eigen::Vector2d left = gap.left();
+  const double sa = gap.e.dot(segment.a - gap.a), sb = gap.e.dot(segment.b - gap.a);
+  const double ta = left.dot(segment.a - gap.a), tb = left.dot(segment.b - gap.a);
+  double from = 0.0, to = 1.0;  // shares of the segment between which it is in the gap
+  const auto limit = [&](double a, double b, double low, double high) {
+    if (std::max(a, b) <= low || std::min(a, b) >= high) to = -1.0;
+    if (a == b) return;
+    const double at_low = (low - a) / (b - a), at_high = (high - a) / (b - a);
+    from = std::max(from, std::min(at_low, at_high));
+    to = std::min(to, std::max(at_low, at_high));
   };
-  const double low = std::min(sa, sb);
-  const double high = std::max(sa, sb);
-  if (high <= gap.s0 || low >= gap.s1) {
+  limit(sa, sb, gap.s0, gap.s1);
+  limit(ta, tb, gap.across.low, gap.across.high);
+  if (from >= to) {
     parts.push_back(segment);
     return;
   }
-  const Eigen::Vector2d first = sa < sb ? segment.a : segment.b;
-  const Eigen::Vector2d last = sa < sb ? segment.b : segment.a;
-  if (low < gap.s0) parts.push_back({first, at(gap.s0)});
-  if (high > gap.s1) parts.push_back({at(gap.s1), last});
+  const auto at = [&](double share) -> Eigen::Vector2d { return segment.a + (segment.b - segment.a) * share; };
+  // In the direction of the wall.
+  if (sa < sb) {
+    if (from > 0.0) parts.push_back({segment.a, at(from)});
+    if (to < 1.0) parts.push_back({at(to), segment.b});
+  } else {
+    if (to < 1.0) parts.push_back({segment.b, at(to)});
+    if (from > 0.0) parts.push_back({at(from), segment.a});
+  }
 }
 
 /// Cuts a gap out of a wall's edges and adds its two reveals.
 void cut_gap(const Gap& gap, ObstacleFootprint& footprint) {
-  const Eigen::Vector2d left(-gap.e.y(), gap.e.x());
+  const Eigen::Vector2d left = gap.left();
   std::optional<double> low;
   std::optional<double> high;
   std::vector<Segment2> parts;
@@ -136,7 +156,7 @@ void cut_gap(const Gap& gap, ObstacleFootprint& footprint) {
     cut_segment(edge, gap, parts);
     if (parts.size() == before + 1 && parts.back().a == edge.a && parts.back().b == edge.b) continue;
     for (const Eigen::Vector2d& p : {edge.a, edge.b}) {
-      const double across = left.dot(p - gap.a);
+      const double across = std::clamp(left.dot(p - gap.a), gap.across.low, gap.across.high);
       low = low ? std::min(*low, across) : across;
       high = high ? std::max(*high, across) : across;
     }

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <string>
 #include <vector>
 
+#include "bim/geometry/interval.h"
 #include "bim/model/building.h"
 #include "sim/route/route.h"
 
@@ -15,16 +17,19 @@ struct Segment2 {
   Eigen::Vector2d b = Eigen::Vector2d::Zero();
 };
 
-/// Stretch of a wall that can be walked through: 0 < e.(p - a) - s0 < width.
+/// Stretch of a wall that can be walked through: from s0 to s1 along it, and as deep as its opening, since one wall may
+/// go round a room and have another side opposite.
 struct Gap {
   Eigen::Vector2d a = Eigen::Vector2d::Zero();
   Eigen::Vector2d e = Eigen::Vector2d::UnitX();  ///< unit
   double s0 = 0.0;
   double s1 = 0.0;
+  Interval across = {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
 
+  [[nodiscard]] Eigen::Vector2d left() const { return {-e.y(), e.x()}; }
   [[nodiscard]] bool holds(const Eigen::Vector2d& p) const {
-    const double s = e.dot(p - a);
-    return s > s0 && s < s1;
+    const double s = e.dot(p - a), t = left().dot(p - a);
+    return s > s0 && s < s1 && t > across.low && t < across.high;
   }
 };
 

@@ -207,6 +207,44 @@ TEST(ClearanceMap, WallsWithABodyAreAsGoodAsBoxes) {
   EXPECT_EQ(a.path(west, east), b.path(west, east));
 }
 
+/// One wall all round a room, with a door in its south side.
+bim::Building ring_with_door() {
+  bim::Building building = empty_storey();
+  bim::Wall& wall = building.walls[static_cast<std::size_t>(add_wall(building, {0, 0}, {4, 0}))];
+  bim::Solid body;
+  for (const Polygon2& side : {rectangle({0, 0}, {4, 0.2}), rectangle({0, 3.8}, {4, 4}),
+                               rectangle({0, 0.201}, {0.2, 3.799}), rectangle({3.8, 0.201}, {4, 3.799})}) {
+    const bim::Solid part = prism(side, 0.0, 3.0);
+    const int first = static_cast<int>(body.vertices.size());
+    body.vertices.insert(body.vertices.end(), part.vertices.begin(), part.vertices.end());
+    for (const Eigen::Vector3i& t : part.triangles) body.triangles.emplace_back(t.array() + first);
+  }
+  wall.body = body;
+  wall.offset_m = 0.0;
+  wall.thickness_m = 4.0;
+  add_door(building, 0, 2.0, 1.0).solid = prism(rectangle({1.5, -0.1}, {2.5, 0.3}), 0.0, 2.1);
+  bim::Slab slab;
+  slab.id = "slab";
+  slab.storey = 0;
+  slab.polygon.outer = rectangle({-4, -4}, {8, 8});
+  slab.z0_m = -0.2;
+  building.slabs.push_back(slab);
+  add_room(building, "yard", slab.polygon.outer);
+  return building;
+}
+
+TEST(ClearanceMap, ADoorInAWallThatGoesRoundOpensNoSideOpposite) {
+  const bim::Building building = ring_with_door();
+  const ClearanceMap space(building, 0);
+  EXPECT_GT(space.clearance({2.0, 0.1}), 0.4);
+  EXPECT_EQ(space.clearance({2.0, 3.9}), 0.0);
+  const std::vector<Eigen::Vector2d> path = space.path({2.0, 2.0}, {2.0, 6.0});
+  ASSERT_FALSE(path.empty());
+  double lowest = 2.0;
+  for (const Eigen::Vector2d& p : path) lowest = std::min(lowest, p.y());
+  EXPECT_LT(lowest, 0.0) << "not through the door";
+}
+
 TEST(ClearanceMap, TargetOfARoomIsItsFreestPoint) {
   bim::Building building = two_rooms();
   const ClearanceMap space(building, 0);
