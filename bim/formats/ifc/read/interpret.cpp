@@ -161,13 +161,11 @@ void Interpreter::add_storeys() {
 /// Storeys of several buildings get the names of these in front of theirs.
 void Interpreter::name_storeys_apart() {
   std::map<std::int64_t, std::string> names;  // of the buildings, by STEP number
-  std::map<std::int64_t, std::string> ids;    // of the lowest storey of each
   for (std::size_t i = 0; i < building_.storeys.size(); ++i) {
     const StepProduct* product = find(building_.storeys[i].step_id);
     if (product == nullptr || product->building == 0) continue;
     buildings_[static_cast<int>(i)] = product->building;
     names[product->building] = product->building_name;
-    ids.try_emplace(product->building, building_.storeys[i].id);
   }
   if (names.size() < 2) return;
   std::map<std::string, int> times;
