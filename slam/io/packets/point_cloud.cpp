@@ -141,6 +141,10 @@ class ClockChoice {
       if (const auto clock = fitting({&field_, unit, static_cast<double>(cloud_.stamp)}, 0.0)) return clock;
     return std::nullopt;
   }
+  /// All points at 0, as before a driver knows the time: that is from neither.
+  [[nodiscard]] bool is_without_times() const {
+    return extent(cloud_, {&field_, 1.0, 0.0}, points_) == std::pair(0.0, 0.0);
+  }
   /// From the stamp, in a unit by which the times are of a scan, 5 ms to 1 s long.
   [[nodiscard]] std::optional<PointClock> in_other_unit() const {
     constexpr double least_turn = 5e6;
@@ -170,7 +174,7 @@ PointClock clock_of(const PointCloud& cloud, const PointField& field, const std:
                     TimeBase base) {
   const ClockChoice choice(cloud, field, points);
   std::optional<PointClock> clock;
-  if (base != TimeBase::day) clock = choice.plain();
+  if (base != TimeBase::day || choice.is_without_times()) clock = choice.plain();
   if (!clock && base != TimeBase::stamp) clock = choice.of_day();
   if (!clock && base != TimeBase::day) clock = choice.in_other_unit();
   if (clock) return *clock;
@@ -262,6 +266,8 @@ bool TimeBaseSearch::add(const PointCloud& cloud) {
   const std::vector<CloudPoint> points = read_untimed(cloud);
   if (std::none_of(points.begin(), points.end(), [](const CloudPoint& point) { return point.valid; })) return true;
   const ClockChoice choice(cloud, *time, points);
+  constexpr int most_without_times = 100;  // of a recording that has none, not all is read
+  if (choice.is_without_times()) return ++without_times_ < most_without_times;
   const std::optional<PointClock> of_day = choice.of_day();
   const bool from_stamp = choice.plain() || choice.in_other_unit();
   if (of_day && from_stamp) {

@@ -51,6 +51,7 @@ class TimeBaseSearch {
   };
   std::optional<TimeBase> found_;
   std::optional<Seen> first_, last_;
+  int without_times_ = 0;  ///< clouds
 };
 
 /// What a cloud is written as.

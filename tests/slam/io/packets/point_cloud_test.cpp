@@ -218,18 +218,23 @@ TEST(PointCloud, AbsoluteAndRelativeTimesOfOtherTypes) {
   EXPECT_THROW(static_cast<void>(scan_of(cloud)), InputError);
 }
 
+/// Two points, a turn apart by the f64 field `timestamp`.
+PointCloud timed_cloud(double stamp_s, double first, double turn) {
+  PointCloud cloud = cloud_with({"x", "y", "z", "ring", "low", "high"}, {{1, 0, 0, 0, 0, 0}, {1, 0, 0, 1, 0, 0}});
+  cloud.fields.resize(4);
+  cloud.fields.push_back({"timestamp", 16, PointType::f64});
+  cloud.stamp = std::llround(stamp_s * 1e9);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const double t = first + turn * static_cast<double>(i);
+    std::memcpy(&cloud.data[24 * i + 16], &t, 8);
+  }
+  return cloud;
+}
+
 // A simulator's clock starts at 0, where a time of the day looks like one from the stamp.
 TEST(PointCloud, TheTimeBaseIsToldFromSeveralClouds) {
   const auto cloud_at = [](double stamp_s, bool of_day, double unit) {
-    PointCloud cloud = cloud_with({"x", "y", "z", "ring", "low", "high"}, {{1, 0, 0, 0, 0, 0}, {1, 0, 0, 1, 0, 0}});
-    cloud.fields.resize(4);
-    cloud.fields.push_back({"timestamp", 16, PointType::f64});
-    cloud.stamp = std::llround(stamp_s * 1e9);
-    for (std::size_t i = 0; i < 2; ++i) {
-      const double t = ((of_day ? stamp_s : 0.0) + 0.1 * static_cast<double>(i)) / unit;
-      std::memcpy(&cloud.data[24 * i + 16], &t, 8);
-    }
-    return cloud;
+    return timed_cloud(stamp_s, (of_day ? stamp_s : 0.0) / unit, 0.1 / unit);
   };
   for (const double unit : {1.0, 1e-9})
     for (const bool of_day : {true, false})
@@ -246,6 +251,23 @@ TEST(PointCloud, TheTimeBaseIsToldFromSeveralClouds) {
   TimeBaseSearch search;
   EXPECT_FALSE(search.add(cloud_with({"x", "y", "z", "time"}, {{1, 0, 0, 0}})));
   EXPECT_EQ(search.base(), TimeBase::unknown);
+}
+
+// Before a driver knows the time, it may write 0.
+TEST(PointCloud, ACloudWithoutTimesDecidesNoTimeBase) {
+  constexpr double today_s = 1.7e9;
+  const PointCloud empty = timed_cloud(today_s, 0.0, 0.0), good = timed_cloud(today_s + 0.1, today_s + 0.1, 0.1);
+  TimeBaseSearch search;
+  EXPECT_TRUE(search.add(empty));
+  EXPECT_FALSE(search.add(good));
+  EXPECT_EQ(search.base(), TimeBase::day);
+  EXPECT_NEAR(static_cast<double>(scan_of(good, search.base()).stamp - good.stamp), 0.1e9, 1e3);
+  EXPECT_EQ(scan_of(empty, search.base()).stamp, empty.stamp);
+  TimeBaseSearch never;
+  int asked = 0;
+  for (; asked < 1000 && never.add(empty); ++asked) continue;
+  EXPECT_LT(asked, 1000);
+  EXPECT_EQ(never.base(), TimeBase::unknown);
 }
 
 /// A cloud of a driver: its fields, and the time of two points 60 and 100 ms after `stamp` as `write` puts it.
