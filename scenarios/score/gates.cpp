@@ -38,6 +38,31 @@ std::string test_case(const std::string& class_name, const std::string& name, co
          "</failure>\n  </testcase>\n";
 }
 
+/// Whether the block of a metric was scored at all.
+bool has_block(std::string_view metric, const MethodScore& score) {
+  return (metric.starts_with("rooms.") && score.rooms) || (metric.starts_with("walls.") && score.walls) ||
+         (metric.starts_with("storeys.") && score.storeys) || (metric.starts_with("loops.") && score.loops) ||
+         (metric.starts_with("segmentation.") && score.segmentation);
+}
+
+/// Why a method that went to the end has no value of a metric, a clause; empty where none is known.
+std::string why_absent(std::string_view metric, const MethodScore& score) {
+  const bool never = score.localization && !score.localization->converged_at_s;
+  if (score.localization && metric.starts_with("localization."))
+    return never ? "it never converged on one pose" : std::string();
+  if (score.trajectory) {
+    if (metric == "ate_final_rmse_m") return "fewer than 95 % of the scans have a final pose";
+    if (metric == "rpe_1m_rmse_m") return "no 1 m of the walk has a pose at both ends";
+    if (metric.starts_with("drift_10m_")) return "no 10 m of the walk have a pose at both ends";
+  }
+  if (has_block(metric, score))
+    return metric.ends_with(".recall") ? "the walk has none that it could find" : "it found none";
+  // What it found stands in the plan's frame only from then on.
+  if (never && (metric.starts_with("map_") || metric.starts_with("rooms.") || metric.starts_with("walls.")))
+    return "it never converged on one pose";
+  return score.name + " has no such metric";
+}
+
 }  // namespace
 
 GateResult judge_gate(const GateSpec& gate, const std::string& method, std::optional<double> value, std::string but) {
@@ -60,11 +85,8 @@ std::vector<GateResult> judge_gates(const std::vector<GateSpec>& gates, const st
       but = !run_completed                                       ? "the run ended early"
             : score->verdict == "crashed"                        ? "the method crashed"
             : score->verdict == "lost" && !metric.also_when_lost ? "the method was lost"
-            : !value && gate.metric == "ate_final_rmse_m"        ? "fewer than 95 % of the scans have a final pose"
-                                                                 : "";
-      const bool of_localization = score->localization && gate.metric.starts_with("localization.");
-      if (!value && but.empty() && !of_localization) but = gate.method + " has no such metric";
-      if (!value && but.empty() && !score->localization->converged_at_s) but = "it never converged on one pose";
+            : value                                              ? ""
+                                                                 : why_absent(gate.metric, *score);
     }
     results.push_back(judge_gate(gate, gate.method, value, std::move(but)));
   }

@@ -76,6 +76,31 @@ TEST(Gates, PassOnlyOnAPresentMetricOfAWholeRun) {
             "localization.ape_rmse_m of vgicp is absent, must be <= 0.1");
 }
 
+TEST(Gates, SayTrulyWhyAMetricIsAbsent) {
+  const auto why = [](const std::string& metric, const MethodScore& score) {
+    return judge_gates({{metric, "vgicp", std::nullopt, 0.0}}, {score}, true).front().but;
+  };
+  MethodScore brief = good_slam();
+  brief.trajectory->rpe_1m_rmse_m.reset();
+  EXPECT_EQ(why("rpe_1m_rmse_m", brief), "no 1 m of the walk has a pose at both ends");
+  for (const char* metric : {"drift_10m_percent", "drift_10m_deg_per_m"})
+    EXPECT_EQ(why(metric, brief), "no 10 m of the walk have a pose at both ends");
+  EXPECT_EQ(why("ate_final_rmse_m", brief), "fewer than 95 % of the scans have a final pose");
+  brief.rooms.emplace();
+  EXPECT_EQ(why("rooms.precision", brief), "it found none");
+  EXPECT_EQ(why("rooms.recall", brief), "the walk has none that it could find");
+  EXPECT_EQ(why("walls.recall", brief), "vgicp has no such metric");
+  MethodScore localizer;
+  localizer.name = "vgicp";
+  localizer.verdict = "undecided";
+  localizer.localization.emplace();
+  for (const char* metric : {"rooms.recall", "walls.precision", "map_rmse_m"})
+    EXPECT_EQ(why(metric, localizer), "it never converged on one pose");
+  EXPECT_EQ(why("ate_final_rmse_m", localizer), "vgicp has no such metric");
+  localizer.localization->converged_at_s = 2.0;
+  EXPECT_EQ(why("rooms.recall", localizer), "vgicp has no such metric");
+}
+
 TEST(Gates, GiveFourDigitsAndMoreWhereTheLimitNeedsThem) {
   EXPECT_EQ(gate_value(0.028344707293047434, 0.001), "0.02834");
   EXPECT_EQ(gate_value(0.25000412, 0.25), "0.250004");
