@@ -11,6 +11,7 @@
 #include "bim/config/printable.h"
 #include "bim/config/tree.h"
 #include "bim/errors.h"
+#include "bim/median.h"
 #include "scenarios/host/files.h"
 #include "scenarios/host/manifest.h"
 #include "scenarios/host/terminal.h"
@@ -113,7 +114,7 @@ std::string words_of(const score::Silence& silence) {
 /// What gates may name, whether this estimate has it or not.
 const std::vector<std::string>& gate_names() {
   static const std::vector<std::string> names = [] {
-    std::vector<std::string> all = {"lost_share", "degenerate_share", "silence.silent_s"};
+    std::vector<std::string> all = {"coverage", "lost_share", "degenerate_share", "silence.silent_s"};
     TrajectoryScores every;
     every.path.straightness = 1.0;
     every.reference.emplace();
@@ -170,8 +171,10 @@ struct Covered {
 Covered covered(const Poses& poses, int scans, const Poses& reference) {
   Covered covered{poses.size(), static_cast<std::size_t>(std::max(scans, 0)), {}};
   if (reference.empty() || poses.empty()) return covered;
-  // The reference may begin and end between two poses.
-  const slam::Nanoseconds step = poses.size() < 2 ? 0 : poses[1].stamp - poses[0].stamp;
+  // The reference may begin and end between two poses; where a method was silent is no step.
+  std::vector<slam::Nanoseconds> steps;
+  for (std::size_t i = 1; i < poses.size(); ++i) steps.push_back(poses[i].stamp - poses[i - 1].stamp);
+  const slam::Nanoseconds step = steps.empty() ? 0 : upper_median(steps);
   const auto within = std::count_if(poses.begin(), poses.end(), [&](const slam::StampedPose& pose) {
     return pose.stamp >= reference.front().stamp - step && pose.stamp <= reference.back().stamp + step;
   });
@@ -179,9 +182,10 @@ Covered covered(const Poses& poses, int scans, const Poses& reference) {
   return covered;
 }
 
-/// Why a gate fails whatever its value is. What a method says of itself is judged however little it covers.
+/// Why a gate fails whatever its value is. What a method says of itself is judged however little it covers; its silence
+/// is not, which is measured where it has a pose.
 std::string but(const GateSpec& gate, const Covered& causal, const Covered& last) {
-  for (const char* name : {"lost_share", "degenerate_share", "poses", "final.poses"})
+  for (const char* name : {"coverage", "lost_share", "degenerate_share", "poses", "final.poses"})
     if (gate.metric == name) return {};
   return (gate.metric.starts_with("final.") ? last : causal).too_little();
 }

@@ -215,6 +215,7 @@ TEST_F(Recordings, AnEstimateWithoutARunIsScoredByAReference) {
   };
   EXPECT_EQ(with_gate("final.ate_aligned_rmse_m<=0.1").code, 0);
   EXPECT_EQ(with_gate("lost_share<=0").code, 0);
+  EXPECT_EQ(with_gate("coverage>=0.99").code, 0);
   const Outcome missed = with_gate("ate_aligned_rmse_m<=1e-9");
   EXPECT_EQ(missed.code, 1);
   EXPECT_NE(missed.out.find("FAILED: ate_aligned_rmse_m of vgicp is "), std::string::npos) << missed.out;
@@ -233,13 +234,22 @@ TEST_F(Recordings, AnEstimateWithoutARunIsScoredByAReference) {
       plumbline({"score", out, "--reference", folder_ / "half.tum", "--gate", "ate_aligned_rmse_m<=1"});
   EXPECT_EQ(half.code, 1) << half.err;
   EXPECT_NE(half.out.find(", but the reference covers 5"), std::string::npos) << half.out;
+  // A method that was silent after its first pose covers no more for it.
+  std::string gap = whole;
+  const std::size_t second = gap.find('\n') + 1;
+  gap.erase(second, gap.find('\n', second) + 1 - second);
+  write_file(out + "/vgicp.tum", gap);
+  const Outcome silent = plumbline({"score", out, "--reference", folder_ / "half.tum", "--unchecked"});
+  ASSERT_EQ(silent.code, 0) << silent.err;
+  EXPECT_NEAR(scores()["reference"]["share"].get<double>(), 0.5, 0.05);
   write_file(out + "/vgicp.tum", first_half(whole));
   const Outcome lost = plumbline({"score", out, "--reference", walk + "/truth.tum", "--unchecked", "--gate",
-                                  "ate_aligned_rmse_m<=1", "--gate", "lost_share<=0"});
+                                  "ate_aligned_rmse_m<=1", "--gate", "lost_share<=0", "--gate", "coverage>=0.1"});
   EXPECT_EQ(lost.code, 1) << lost.err;
   EXPECT_NE(lost.out.find("must be <= 1, but "), std::string::npos) << lost.out;
   EXPECT_NE(lost.out.find(" scans have a pose"), std::string::npos) << lost.out;
   EXPECT_NE(lost.out.find("passed: lost_share"), std::string::npos) << lost.out;
+  EXPECT_NE(lost.out.find("passed: coverage"), std::string::npos) << lost.out;
   fs::remove(out + "/vgicp.final.tum");
   write_file(out + "/vgicp.tum", whole);
   const Outcome missing = plumbline({"score", out});
