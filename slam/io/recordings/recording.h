@@ -27,7 +27,8 @@ struct Taken {
   MountSource mount = MountSource::unknown;  ///< unknown: R is the LiDAR's frame
 };
 
-/// Records of a simulated or a real robot, read as a stream: never more than one message of them is in memory.
+/// Records of a simulated or a real robot, read as a stream, in memory that hardly grows with its length. What comes
+/// late or out of order is waited for: some twenty scans of a bag, up to 1 GiB of chunks of an MCAP file.
 class Recording {
  public:
   virtual ~Recording() = default;

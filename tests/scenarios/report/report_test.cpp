@@ -280,6 +280,9 @@ TEST(Report, SaysThatNoMethodGaveAPose) {
   EXPECT_EQ(render_report(input).find("No method gave one pose."), std::string::npos);
   input.methods.front().samples.clear();
   EXPECT_NE(render_report(input).find("No method gave one pose."), std::string::npos);
+  std::erase_if(input.methods, [](const ReportMethod& method) { return method.name != "truth"; });
+  EXPECT_EQ(render_report(input).find("No method gave one pose."), std::string::npos);
+  EXPECT_NE(render_report(input).find("No method was run beside the truth"), std::string::npos);
 }
 
 TEST(Report, WorksWithoutAnyMethod) {
