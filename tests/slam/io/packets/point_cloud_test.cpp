@@ -258,16 +258,13 @@ TEST(PointCloud, ACloudWithoutTimesDecidesNoTimeBase) {
   constexpr double today_s = 1.7e9;
   const PointCloud empty = timed_cloud(today_s, 0.0, 0.0), good = timed_cloud(today_s + 0.1, today_s + 0.1, 0.1);
   TimeBaseSearch search;
-  EXPECT_TRUE(search.add(empty));
-  EXPECT_FALSE(search.add(good));
+  EXPECT_TRUE(search.add(empty) && !search.add(good));
   EXPECT_EQ(search.base(), TimeBase::day);
   EXPECT_NEAR(static_cast<double>(scan_of(good, search.base()).stamp - good.stamp), 0.1e9, 1e3);
   EXPECT_EQ(scan_of(empty, search.base()).stamp, empty.stamp);
-  TimeBaseSearch never;
   int asked = 0;
-  for (; asked < 1000 && never.add(empty); ++asked) continue;
+  for (TimeBaseSearch never; asked < 1000 && never.add(empty); ++asked) EXPECT_EQ(never.base(), TimeBase::unknown);
   EXPECT_LT(asked, 1000);
-  EXPECT_EQ(never.base(), TimeBase::unknown);
 }
 
 /// A cloud of a driver: its fields, and the time of two points 60 and 100 ms after `stamp` as `write` puts it.
