@@ -29,7 +29,7 @@ std::string words_of(const slam::Taken& taken, const ScansRead& scans, bool has_
   if (!taken.other_points.empty()) text += " (not " + list_of(taken.other_points) + ")";
   text += (text.empty() ? "" : ": ") + std::to_string(scans.count) + " scans, ";
   text += scans.rings > 1 ? std::to_string(scans.rings) + " rings, " : "no rings, ";
-  text += scans.timed ? "points with times" : "points without times, which are not deskewed";
+  text += scans.timed ? "points with times" : "points without times";
   if (!taken.frame.empty()) text += "; frame " + taken.frame;
   switch (taken.mount) {
     case slam::MountSource::description:

@@ -1,19 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <deque>
 #include <memory>
-#include <optional>
+#include <vector>
 
-#include "slam/io/method.h"
-#include "slam/odometry/clock_offset.h"
-#include "slam/odometry/compensation.h"
-#include "slam/odometry/lidar_odometry.h"
-#include "slam/scan/motion.h"
+#include "slam/odometry/scan_tracker.h"
+#include "slam/odometry/sweep_times.h"
 
 namespace plumbline::slam {
 
-/// From raw scans to poses in M: deskewing and LiDAR odometry, by odometry's motion or, where there is none, by the
-/// scans' own.
+/// From raw scans to poses in M: deskewing and LiDAR odometry. Scans without times are tracked as they are and, beside
+/// that, with times inferred from their azimuths, until it is known which of both is true.
 class FrontEnd {
  public:
   FrontEnd(const LidarOdometryConfig& config, const Calibration& calibration, bool has_odometry);
@@ -23,28 +21,34 @@ class FrontEnd {
   /// Of a scan that was deskewed by deskewed(); `scan` is replaced by one that was deskewed better where that is known.
   [[nodiscard]] Registration track(const Scan& raw, DeskewedScan& scan);
   /// The place of the map is known again, see LidarOdometry.
-  void locate_map() { odometry_->locate_map(); }
+  void locate_map();
   /// True once it is known that scans come deskewed; they are left as they are from then on.
-  [[nodiscard]] bool compensated() const { return compensation_.compensated(); }
+  [[nodiscard]] bool compensated() const;
+  /// Of scans without times: what is known of their sweeps.
+  [[nodiscard]] const SweepTimes& sweep_times() const { return sweep_times_; }
 
  private:
-  [[nodiscard]] Registration track_alone(const Scan& raw, DeskewedScan& scan);
-  /// Of the motion during a scan: what is known of it is its mean over an interval that may be longer.
-  [[nodiscard]] TwistSigma twist_sigma(const Scan& scan, bool stale) const;
-  void test_compensation(const Scan& raw, const Pose& step, Nanoseconds dt);
-  void test_clock(const Scan& raw);
-  [[nodiscard]] DeskewedScan deskewed_by(const Scan& scan, const Pose& step, Nanoseconds dt) const;
+  /// A tracker and the motion that it found to the last scan.
+  struct Tracking {
+    ScanTracker tracker;
+    Pose X_MR;
+    Pose step;
 
+    [[nodiscard]] Registration track(const Scan& scan, DeskewedScan& deskewed);
+  };
+  [[nodiscard]] bool uses_times() const { return timed_ && (!as_is_ || sweep_times_.are_inferred()); }
+  /// Keeps the scan until the length of a sweep is known; then the records so far are tracked with inferred times, too.
+  void begin_trial(const Scan& scan);
+  [[nodiscard]] Registration track_both(const Scan& raw, const Scan& timed, DeskewedScan& scan);
+
+  LidarOdometryConfig config_;
   Calibration calibration_;
   bool has_odometry_;
-  MotionBuffer motion_;
-  std::unique_ptr<LidarOdometry> odometry_;
-  CompensationTest compensation_;
-  ClockOffset clock_offset_;  ///< of odometry
-  Nanoseconds undone_offset_ = 0;
-  std::optional<Nanoseconds> stamp_;  ///< of the last scan
-  Pose X_MR_;                         ///< at that scan
-  std::optional<Scan> first_;         ///< of a map, until the second came: only then its motion is known
+  std::unique_ptr<Tracking> as_is_;  ///< until it is known that times are to be inferred
+  std::unique_ptr<Tracking> timed_;  ///< while that is tried, or known
+  SweepTimes sweep_times_;
+  std::deque<Odometry> first_odometry_;  ///< before timed_ began
+  std::vector<Scan> first_scans_;
 };
 
 }  // namespace plumbline::slam

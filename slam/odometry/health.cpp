@@ -16,19 +16,40 @@ bool within(const Pose& expected, const Pose& step, double way_m, double turn_ra
   return difference.t.norm() <= way_m && log_so3(difference.q).norm() <= turn_rad;
 }
 
+bool meets(const ExpectedMotion& motion, const Pose& step) {
+  constexpr double sigmas = 4.0;
+  constexpr double noise_m = 0.05, noise_rad = 0.02;  // registration's own scatter, which no motion explains
+  constexpr double most_m = 0.3, most_rad = 0.35;     // of an expectation that excludes something
+  if (std::isinf(motion.sigma_m)) return true;
+  return within(motion.step, step, std::min(most_m, sigmas * motion.sigma_m + noise_m),
+                std::min(most_rad, sigmas * motion.sigma_rad + noise_rad));
+}
+
 }  // namespace
 
 bool OdometryHealth::assess(const Registration& registration, const Pose& step, const ExpectedStep& expected) {
   const bool sound = step.t.allFinite() && step.q.coeffs().allFinite();
-  const bool good = sound && registration.matched >= least_matched() && is_plausible_step(step, expected) &&
+  const bool good = sound && registration.matched >= least_matched(registration, step, expected) &&
+                    is_plausible_step(step, expected) &&
                     (is_as_usual(registration) || is_expected_step(step, expected));
   good_ = good ? good_ + 1 : 0;
   bad_ = good ? 0 : bad_ + 1;
   if (bad_ >= config_.bad_scans) lost_ = true;
   if (good_ >= config_.good_scans) lost_ = false;
-  if (good) matched_.push_back(registration.matched);
-  if (matched_.size() > static_cast<std::size_t>(config_.recent_scans)) matched_.pop_front();
+  if (good) {
+    matched_.push_back(registration.matched);
+    residuals_.push_back(registration.residual_m);
+  }
+  if (matched_.size() > static_cast<std::size_t>(config_.recent_scans)) {
+    matched_.pop_front();
+    residuals_.pop_front();
+  }
   return good;
+}
+
+void OdometryHealth::restart() {
+  matched_.clear();
+  residuals_.clear();
 }
 
 double OdometryHealth::usual() const {
@@ -40,7 +61,17 @@ double OdometryHealth::usual_matched() const {
   return matched_.size() < enough ? 1.0 : usual();
 }
 
-double OdometryHealth::least_matched() const { return std::max(config_.min_matched, config_.usual_share * usual()); }
+double OdometryHealth::usual_residual() const {
+  return residuals_.empty() ? 0.0 : upper_median(std::vector<double>(residuals_.begin(), residuals_.end()));
+}
+
+double OdometryHealth::least_matched(const Registration& registration, const Pose& step,
+                                     const ExpectedStep& expected) const {
+  constexpr double about = 1.5;
+  const bool confirmed = registration.residual_m > 0.0 && registration.residual_m <= about * usual_residual() &&
+                         is_expected_step(step, expected);
+  return std::max(config_.min_matched, (confirmed ? config_.confirmed_share : config_.usual_share) * usual());
+}
 
 bool OdometryHealth::is_plausible_step(const Pose& step, const ExpectedStep& expected) const {
   const double dt_s = std::max(seconds(expected.dt), 0.0);
@@ -53,16 +84,8 @@ bool OdometryHealth::is_plausible_step(const Pose& step, const ExpectedStep& exp
 }
 
 bool OdometryHealth::is_expected_step(const Pose& step, const ExpectedStep& expected) {
-  constexpr double sigmas = 4.0;
-  constexpr double noise_m = 0.05, noise_rad = 0.02;  // registration's own scatter, which no motion explains
-  constexpr double most_m = 0.3, most_rad = 0.35;     // of an expectation that excludes something
-  const auto met = [&](const ExpectedMotion& motion) {
-    if (std::isinf(motion.sigma_m)) return true;
-    return within(motion.step, step, std::min(most_m, sigmas * motion.sigma_m + noise_m),
-                  std::min(most_rad, sigmas * motion.sigma_rad + noise_rad));
-  };
-  if (expected.odometry && met(*expected.odometry)) return true;
-  if (expected.continued && met(*expected.continued)) return true;
+  if (expected.odometry && meets(*expected.odometry, step)) return true;
+  if (expected.continued && meets(*expected.continued, step)) return true;
   return !expected.odometry && !expected.continued;
 }
 

@@ -13,6 +13,7 @@ namespace plumbline::slam {
 
 struct HealthConfig {
   double usual_share = 0.5;
+  double confirmed_share = 0.25;
   double min_matched = 0.15;
   int recent_scans = 20;
   double as_usual_share = 0.7;
@@ -35,6 +36,9 @@ struct HealthConfig {
     v("usual_share", usual_share,
       share_field(
           "share of what recent scans matched of their features, in the median, below which a scan does not fit"));
+    v("confirmed_share", confirmed_share,
+      share_field("the same for a scan whose step was expected and whose residual is as usual: behind a door little of "
+                  "a scan was seen before"));
     v("min_matched", min_matched,
       share_field("least share of a scan's features that must match the map, whatever is usual"));
     v("recent_scans", recent_scans, Field{.doc = "accepted scans that tell what is usual", .min = 1, .max = 1000});
@@ -107,7 +111,8 @@ class OdometryHealth {
     return registration.matched < config_.sure_share * usual() && !is_expected_step(step, expected);
   }
   /// Share below which a scan does not fit.
-  [[nodiscard]] double least_matched() const;
+  [[nodiscard]] double least_matched(const Registration& registration, const Pose& step,
+                                     const ExpectedStep& expected) const;
   /// Whether a robot can have made this step.
   [[nodiscard]] bool is_plausible_step(const Pose& step, const ExpectedStep& expected) const;
   /// Whether this step is within the errors of what let it expect. True where nothing did.
@@ -116,14 +121,16 @@ class OdometryHealth {
   /// True once after so many bad scans that the map is of no use.
   [[nodiscard]] bool wants_restart() const { return bad_ > 0 && bad_ % config_.restart_scans == 0; }
   /// A new map began: nothing is usual yet.
-  void restart() { matched_.clear(); }
+  void restart();
 
  private:
-  [[nodiscard]] double usual() const;  ///< 0 before any scan matched
+  [[nodiscard]] double usual() const;           ///< 0 before any scan matched
+  [[nodiscard]] double usual_residual() const;  ///< m; 0 before any scan matched
 
   HealthConfig config_;
-  std::deque<double> matched_;  ///< by accepted scans
-  int bad_ = 0, good_ = 0;      ///< in a row
+  std::deque<double> matched_;    ///< by accepted scans
+  std::deque<double> residuals_;  ///< of the same
+  int bad_ = 0, good_ = 0;        ///< in a row
   bool lost_ = false;
 };
 

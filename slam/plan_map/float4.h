@@ -9,6 +9,7 @@ namespace plumbline::slam {
 using Float4 = float __attribute__((vector_size(16)));
 /// All bits of a lane set or none, as comparisons give it.
 using Mask4 = int __attribute__((vector_size(16)));
+using Bits4 = unsigned __attribute__((vector_size(16)));
 
 [[nodiscard]] inline Float4 all(float value) { return Float4{value, value, value, value}; }
 [[nodiscard]] inline Float4 choose(Mask4 mask, Float4 yes, Float4 no) { return mask ? yes : no; }
@@ -34,8 +35,8 @@ inline constexpr float rounder = 12582912.0F;
   power = power * rest + 0.5F;
   power = power * rest + 1.0F;
   power = power * rest + 1.0F;
-  const Mask4 exponent = (reinterpret_cast<Mask4>(shifted) - 0x4B400000) << 23;
-  return reinterpret_cast<Float4>(reinterpret_cast<Mask4>(power) + exponent);
+  const Bits4 exponent = (reinterpret_cast<Bits4>(shifted) - 0x4B400000U) << 23;  // wraps where x is beyond
+  return reinterpret_cast<Float4>(reinterpret_cast<Bits4>(power) + exponent);
 }
 
 }  // namespace plumbline::slam

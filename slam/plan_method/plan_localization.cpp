@@ -42,8 +42,11 @@ PlanLocalization::PlanLocalization(std::string_view name, const MethodInput& inp
       clock_offset_(input.calibration),
       map_config_(map),
       cloud_(map) {
-  if (input.has_odometry) return;
   LidarOdometryConfig odometry;
+  if (input.has_odometry) {
+    if (config.scan_times) time_trial_.emplace(odometry, input.calibration, true);
+    return;
+  }
   odometry.vgicp.odometry_prior = odometry.vgicp.tilt_prior = false;
   lidar_odometry_.emplace(odometry, input.calibration, false);
 }
@@ -51,9 +54,12 @@ PlanLocalization::PlanLocalization(std::string_view name, const MethodInput& inp
 void PlanLocalization::on_odometry(const Odometry& odometry) {
   motion_.add(odometry);
   if (config_.scan_times) clock_offset_.add(odometry);
+  if (time_trial_) time_trial_->on_odometry(odometry);
 }
 
-Output PlanLocalization::on_scan(const Scan& scan) {
+Output PlanLocalization::on_scan(const Scan& raw) {
+  const std::optional<Scan> timed = sweep_times_.are_inferred() ? sweep_times_.with_times(raw) : std::nullopt;
+  const Scan& scan = timed ? *timed : raw;
   Output output;
   output.stamp = scan.stamp;
   Stopwatch stopwatch;
@@ -80,6 +86,7 @@ Output PlanLocalization::on_scan(const Scan& scan) {
   if (!lidar_odometry_) {
     motion_.forget_before(scan.stamp - 1'000'000'000);
     if (config_.scan_times) test_times(scan, X_OR);
+    if (time_trial_) try_times(raw);
   }
   return output;
 }
@@ -118,9 +125,19 @@ DeskewedScan PlanLocalization::deskewed(const Scan& scan) const {
   return out;
 }
 
+void PlanLocalization::try_times(const Scan& scan) {
+  if (!has_times(scan)) {
+    DeskewedScan deskewed = time_trial_->deskewed(scan);
+    (void)time_trial_->track(scan, deskewed);
+    sweep_times_ = time_trial_->sweep_times();
+    if (!sweep_times_.is_settled()) return;
+  }
+  time_trial_.reset();
+}
+
 void PlanLocalization::test_times(const Scan& scan, const Pose& X_OR) {
   constexpr Nanoseconds sweep = 100'000'000;
-  if (!compensation_.compensated() && !compensation_.is_settled()) {
+  if (!sweep_times_.are_inferred() && !compensation_.compensated() && !compensation_.is_settled()) {
     const Eigen::Vector3d way_R = (motion_.at(scan.stamp - sweep).inverse() * X_OR).t;
     compensation_.add(scan, input_.calibration.X_RL.q.conjugate() * way_R / seconds(sweep));
   }

@@ -124,6 +124,8 @@ class PlanLocalization : public Method {
   [[nodiscard]] DeskewedScan deskewed(const Scan& scan) const;
   /// Finds out, for the scans that follow, whether they come deskewed and how late odometry is.
   void test_times(const Scan& scan, const Pose& X_OR);
+  /// Finds out whether scans without times are raw.
+  void try_times(const Scan& scan);
 
   MethodInput input_;
   PlanMethodConfig config_;
@@ -132,6 +134,8 @@ class PlanLocalization : public Method {
   CompensationTest compensation_;  ///< of scans, where there is odometry
   ClockOffset clock_offset_;       ///< of odometry
   Nanoseconds undone_offset_ = 0;
+  SweepTimes sweep_times_;
+  std::optional<FrontEnd> time_trial_;      ///< of scans without times, where there is odometry
   ExtrapolationErrors extrapolation_;       ///< of odometry that is late
   std::optional<FrontEnd> lidar_odometry_;  ///< where the robot has no odometry
   std::optional<Eigen::Quaterniond> q_OM_;  ///< of its map's frame, once a scan was seen

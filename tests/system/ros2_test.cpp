@@ -99,7 +99,7 @@ TEST_F(Ros2, WhatWasTakenIsSaid) {
   const Outcome unknown = estimate(database, {"--without", "times"});
   EXPECT_EQ(unknown.code, 0) << unknown.err;
   EXPECT_NE(unknown.err.find("where the LiDAR sits on the robot is not known"), std::string::npos) << unknown.err;
-  EXPECT_NE(unknown.out.find("which are not deskewed"), std::string::npos) << unknown.out;
+  EXPECT_NE(unknown.out.find("points without times"), std::string::npos) << unknown.out;
 
   const Outcome recording = estimate(walk, {});
   EXPECT_NE(recording.out.find("49 scans, 16 rings, points with times; mount from the description; odometry\n"),

@@ -59,6 +59,28 @@ TEST(OdometryHealth, WhatIsUsualDecidesWhatFits) {
   EXPECT_FALSE(fits(0.2, 0.9 * config.min_matched)) << "hardly anything, whatever is usual";
 }
 
+// Behind a door most of a scan was never seen; what was fits as well as ever, and odometry agrees.
+TEST(OdometryHealth, BehindADoorLittleOfAScanMatches) {
+  const HealthConfig config;
+  const Pose step = Pose::from_xyz_yaw({0.1, 0.0, 0.0}, 0.0);
+  const auto fits = [&](double share, double residual_m, const Pose& by_odometry) {
+    OdometryHealth health(config);
+    const ExpectedStep expected{period, ExpectedMotion(by_odometry, 0.01, 0.01), std::nullopt};
+    const auto scan = [](double matched, double residual) {
+      Registration registration;
+      registration.matched = matched;
+      registration.residual_m = residual;
+      return registration;
+    };
+    for (int k = 0; k < config.recent_scans; ++k) EXPECT_TRUE(health.assess(scan(0.9, 0.008), by_odometry, expected));
+    return health.assess(scan(share, residual_m), step, expected);
+  };
+  EXPECT_TRUE(fits(0.4, 0.009, step));
+  EXPECT_FALSE(fits(0.4, 0.02, step)) << "what matches lies farther off than usual";
+  EXPECT_FALSE(fits(0.4, 0.009, Pose::from_xyz_yaw({0.4, 0.0, 0.0}, 0.0))) << "odometry does not agree";
+  EXPECT_FALSE(fits(0.2, 0.009, step)) << "hardly anything";
+}
+
 TEST(OdometryHealth, AStepIsComparedWithOdometryAndTheStepBefore) {
   const HealthConfig config;
   OdometryHealth health(config);
