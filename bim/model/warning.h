@@ -39,8 +39,7 @@ inline constexpr std::array<WarningRow, 55> warning_rows = {{
     {"levels_overlap", "a level is lower than its walls; they reach into the next one"},
     {"niche",
      "an opening does not go through its wall: it is cut in 3D and leads nowhere; that of a door up to 6 cm short is "
-     "cut "
-     "through"},
+     "cut through"},
     {"no_area", "a slab has no area on the plan; it is kept as an obstacle"},
     {"no_axis",
      "a wall has no reference line; its body's extent along the placement replaces it, or the wall is left out"},

@@ -109,8 +109,7 @@ std::string draw_errors(const ReportInput& input, double end_s) {
   const std::vector<PlotCurve> curves = error_curves(input, kinds.front());
   if (curves.empty())
     return "<section class=\"card\"><h2>Position error over time</h2><p class=\"facts\">No method was run beside the "
-           "truth, "
-           "which has no error.</p></section>";
+           "truth, which has no error.</p></section>";
   if (std::all_of(curves.begin(), curves.end(), [](const PlotCurve& curve) { return curve.points.empty(); }))
     return "<section class=\"card\"><h2>Position error over time</h2><p class=\"facts\">No method gave one "
            "pose.</p></section>";

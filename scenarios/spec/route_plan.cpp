@@ -13,6 +13,7 @@
 #include "scenarios/spec/named_places.h"
 #include "scenarios/spec/room_places.h"
 #include "scenarios/spec/start_check.h"
+#include "scenarios/spec/storeys_out_of_reach.h"
 #include "scenarios/spec/tour.h"
 #include "sim/route/blockage.h"
 #include "sim/route/neighbour_ways.h"
@@ -57,7 +58,7 @@ class Planner {
     FloorPoint at{storey_, plan.start_W};
     if (route.shuttle) return shuttle(route, at, plan);
     const bool all = route.rooms.size() == 1 && route.rooms.front() == all_rooms;
-    if (all && route.storeys == RouteStoreys::all) add_storeys_out_of_reach(at, plan);
+    if (all && route.storeys == RouteStoreys::all) plan.storeys_out_of_reach = storeys_out_of_reach(space_, at);
     if (all && building_.rooms.empty()) return walk_round(route.loop, plan);
     if (all) return walk_all(route, at, plan);
     for (int lap = 0; lap < route.loop; ++lap)
@@ -162,35 +163,8 @@ class Planner {
       why = ": " + open_them(doors);
     else if (from.storey != goal.storey)
       why = ", since it is on storey '" + building_.storeys[static_cast<std::size_t>(goal.storey)].id +
-            "': " + stairs_at_fault();
+            "': " + stairs_at_fault(space_);
     throw InputError(mark, "room '" + name + "' cannot be reached from " + point_text(from.p_W) + why);
-  }
-
-  /// Why the stairs of the building do not help.
-  [[nodiscard]] std::string stairs_at_fault() const {
-    std::string list;
-    for (const sim::StairWay& way : space_.stairs())
-      if (!way.fault.empty()) list += (list.empty() ? "" : ", ") + ("stair '" + way.id + "' " + way.fault);
-    if (!list.empty()) return list;
-    if (!building_.stairs.empty()) return "no stair that can be walked to leads there";
-    const bool ramp = std::any_of(building_.obstacles.begin(), building_.obstacles.end(),
-                                  [](const bim::Obstacle& obstacle) { return obstacle.kind == "ramp"; });
-    return ramp ? "the building has ramps and no stairs, and no walk takes a ramp from storey to storey"
-                : "the building has no stairs";
-  }
-
-  /// Storeys with something to walk on that a walk of all storeys does not get to.
-  void add_storeys_out_of_reach(const FloorPoint& at, RoutePlan& plan) const {
-    const std::vector<int> reached = space_.reachable_storeys(at);
-    for (int i = 0; i < static_cast<int>(building_.storeys.size()); ++i) {
-      const bim::Storey& storey = building_.storeys[static_cast<std::size_t>(i)];
-      if (std::binary_search(reached.begin(), reached.end(), i) || storey.kind != bim::StoreyKind::habitable) continue;
-      const auto rooms = std::count_if(building_.rooms.begin(), building_.rooms.end(),
-                                       [&](const bim::Room& candidate) { return candidate.storey == i; });
-      plan.storeys_out_of_reach.push_back((storey.name.empty() ? storey.id : storey.name) + " (" +
-                                          std::to_string(rooms) + (rooms == 1 ? " room): " : " rooms): ") +
-                                          stairs_at_fault());
-    }
   }
 
   /// Indices of the rooms that `all` means, without the one of the start.

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <optional>
 
 namespace plumbline::slam {
@@ -27,8 +28,9 @@ std::size_t bin_of(const Eigen::Vector2d& p) {
 
 /// Of nearly horizontal returns, the mean in each bin.
 std::vector<double> ranges_of(const Scan& scan) {
-  constexpr std::size_t most = 5'000;                    // several in each bin
-  const std::size_t stride = (scan.size() / most) | 1U;  // odd: else it would pass over rings
+  constexpr std::size_t most = 5'000;  // several in each bin
+  std::size_t stride = (scan.size() / most) | 1U;
+  while (std::gcd(stride, static_cast<std::size_t>(std::max(scan.rings, 1))) != 1) stride += 2;  // no ring is left out
   std::vector<double> sum(bins, 0.0);
   std::vector<int> number(bins, 0);
   for (std::size_t i = 0; i < scan.size(); i += stride) {
@@ -171,11 +173,12 @@ void ClockOffset::use(const Profile& before, const Profile& now) {
 
 bool ClockOffset::goes_straight() const {
   constexpr double most_rad = 0.05;  // more than a gait sways
-  if (places_.empty()) return false;
+  if (places_.size() < 2) return false;
   double least = places_.back().yaw, largest = least;
-  for (auto place = places_.rbegin(); place != places_.rend() && place->stamp >= places_.back().stamp - most; ++place) {
+  for (auto place = places_.rbegin(); place != places_.rend(); ++place) {
     least = std::min(least, place->yaw);
     largest = std::max(largest, place->yaw);
+    if (place->stamp <= places_.back().stamp - most) break;  // that of slow odometry, too
   }
   return largest - least < most_rad;
 }

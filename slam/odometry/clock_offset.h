@@ -15,7 +15,7 @@ namespace plumbline::slam {
 /// agrees with that at one offset only.
 class ClockOffset {
  public:
-  static constexpr Nanoseconds most = 300'000'000;      ///< either way
+  static constexpr Nanoseconds most = 300'000'000;      ///< that is tried, either way; found is what lies 50 ms within
   static constexpr Nanoseconds ignored = 15'000'000;    ///< what costs less than it may be wrong
   static constexpr Nanoseconds candidate = 10'000'000;  ///< between two that are tried
 

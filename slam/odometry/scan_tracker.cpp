@@ -110,8 +110,9 @@ void ScanTracker::test_clock(const Scan& raw) {
   clock_offset_.add(raw);
   // Of odometry that is later, most of a sweep's motion would be extrapolated: matching finds it better.
   constexpr double latest_sweeps = 0.6;
+  longest_sweep_ = std::max(longest_sweep_, sweep_time(raw));  // messages are not of one length
   const bool too_late =
-      static_cast<double>(clock_offset_.value()) > latest_sweeps * static_cast<double>(sweep_time(raw));
+      static_cast<double>(clock_offset_.value()) > latest_sweeps * static_cast<double>(longest_sweep_);
   // Returns of compensated scans are of the stamp, not of their own times.
   const Nanoseconds offset = compensated() || too_late ? 0 : clock_offset_.value();
   if (offset == undone_offset_) return;

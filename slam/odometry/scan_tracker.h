@@ -45,6 +45,7 @@ class ScanTracker {
   CompensationTest compensation_;
   ClockOffset clock_offset_;  ///< of odometry
   Nanoseconds undone_offset_ = 0;
+  Nanoseconds longest_sweep_ = 0;
   std::optional<Nanoseconds> stamp_;  ///< of the last scan
   Pose X_MR_;                         ///< at that scan
   std::optional<Scan> first_;         ///< of a map, until the second came: only then its motion is known

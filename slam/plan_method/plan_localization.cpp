@@ -148,7 +148,10 @@ void PlanLocalization::test_times(const Scan& scan, const Pose& X_OR) {
   if (offset == undone_offset_) return;
   undone_offset_ = offset;
   motion_.set_clock_offset(offset, scan.stamp);
-  extrapolation_.interrupt();
+  if (offset > 0)
+    extrapolation_.interrupt();
+  else
+    extrapolation_ = {};  // nothing is carried on
 }
 
 PlanScan PlanLocalization::prepare_scan(DeskewedScan scan, const Pose& X_OR) const {

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+// Buildings that are not as most are: curved walls, rooms within rooms, ceilings, sizes, several in a file.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "bim/geometry/polygon_boolean.h"
+#include "tests/bim/formats/ifc/read/reading.h"
+#include "tests/bim/formats/ifc/sketch.h"
+
+namespace plumbline::bim {
+namespace {
+
+/// A ring of facets as two half-circle walls, the first with a door in the middle; no spaces.
+Sketch rotunda() {
+  Sketch sketch;
+  sketch.storey(0);
+  sketch.slab({{-5, -5}, {5, -5}, {5, 5}, {-5, 5}}, -0.2, 0);
+  for (const double side : {-1.0, 1.0}) {
+    Polygon2 outline;
+    constexpr int facets = 24;
+    for (int i = 0; i <= 2 * facets + 1; ++i) {
+      const double radius = i <= facets ? 3.1 : 2.9;
+      const double angle = side * std::numbers::pi * (i <= facets ? i : 2 * facets + 1 - i) / facets;
+      outline.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
+    }
+    if (side < 0.0) std::reverse(outline.begin(), outline.end());
+    const std::string wall = sketch.element("IFCWALL", sketch.shape(sketch.prism(outline, 0, 3)), "$,$");
+    if (side > 0.0) sketch.door(sketch.opening(wall, sketch.box(-0.5, 2.6, 0, 0.5, 3.4, 2.1)));
+  }
+  return sketch;
+}
+
+TEST(CurvedWalls, EncloseTheRoomThatTheirBodiesDo) {
+  const Building building = read(rotunda());
+  ASSERT_EQ(building.rooms.size(), 1u);
+  EXPECT_NEAR(signed_area(building.rooms.front().polygon), std::numbers::pi * 2.9 * 2.9, 0.5);
+  ASSERT_EQ(building.openings.size(), 1u);
+  EXPECT_EQ(std::max(building.openings.front().rooms[0], building.openings.front().rooms[1]), 0);
+  EXPECT_EQ(std::min(building.openings.front().rooms[0], building.openings.front().rooms[1]), -1);
+  EXPECT_TRUE(building.rooms.front().virtual_edges.empty());
+}
+
+TEST(CurvedWalls, ARoomAroundAnotherSaysThatItHoldsIt) {
+  Sketch sketch = rotunda();
+  for (const double y : {-5.0, 5.0}) sketch.wall(-5, y, 10, 0.2, 3);
+  for (const double x : {-5.0, 5.0}) sketch.wall(x, -5, 10, 0.2, 3, true);
+  const Building building = read(sketch);
+  EXPECT_EQ(building.rooms.size(), 2u);
+  EXPECT_EQ(count(building, "room_hole"), 1);
+}
+
+TEST(Ceilings, AreNoFloors) {
+  for (const char* said : {".CEILING.", "$"}) {
+    Sketch sketch;
+    sketch.storey(0);
+    for (const double y : {0.0, 6.0}) sketch.wall(0, y, 8, 0.2, 3);
+    for (const double x : {0.0, 8.0}) sketch.wall(x, 0, 6, 0.2, 3, true);
+    sketch.element("IFCCOVERING", sketch.shape(sketch.box(0, 0, 2.5, 8, 6, 2.52)), std::string("$,") + said);
+    const Building building = read(sketch);
+    EXPECT_TRUE(building.slabs.empty()) << said;
+    EXPECT_EQ(building.obstacles.size(), 1u);
+    EXPECT_EQ(count(building, "no_floor"), 1);
+  }
+}
+
+TEST(Rooms, AStoreyWithoutAnySaysSo) {
+  Sketch sketch;
+  two_rooms(sketch);
+  sketch.storey(3);
+  sketch.slab({{0, 0}, {8, 0}, {8, 6}, {0, 6}}, 2.8, 3);
+  sketch.element("IFCWALL", sketch.wall_shape(sketch.box(0, -0.1, 3, 6, 0.1, 6), 6), "$,$");
+  const Building building = read(sketch);
+  EXPECT_EQ(count(building, "no_rooms"), 1);
+}
+
+TEST(Sizes, ThatNoBuildingHasAreDoubted) {
+  for (const double scale : {0.001, 1.0, 1000.0}) {
+    Sketch sketch;
+    sketch.storey(0);
+    sketch.slab({{0, 0}, {8 * scale, 0}, {8 * scale, 6 * scale}, {0, 6 * scale}}, -0.2 * scale, 0);
+    sketch.wall(0, 0, 8 * scale, 0.2 * scale, 3 * scale);
+    EXPECT_EQ(count(read(sketch), "odd_size"), scale == 1.0 ? 0 : 1) << scale;
+  }
+}
+
+TEST(Buildings, OfWhichThereAreTwoAreToldApart) {
+  Sketch sketch;
+  two_rooms(sketch);
+  sketch.building = sketch.rooted("IFCBUILDING", "'c',$,$,$,$,$,.ELEMENT.,$,$,$");
+  sketch.rooted("IFCRELAGGREGATES", "$,$," + sketch.project + ",(" + sketch.building + ")");
+  sketch.storey(0.5);
+  const auto shifted = [&](double x0, double y0, double x1, double y1) {
+    sketch.element("IFCWALL", sketch.shape(sketch.box(x0, y0, 0.5, x1, y1, 3.5)), "$,$");
+  };
+  sketch.slab({{20, 0}, {28, 0}, {28, 6}, {20, 6}}, 0.3, 0.5);
+  for (const double y : {0.0, 6.0}) shifted(20, y - 0.1, 28, y + 0.1);
+  for (const double x : {20.0, 28.0}) shifted(x - 0.1, 0, x + 0.1, 6);
+  const Building building = read(sketch);
+  EXPECT_EQ(count(building, "several_buildings"), 1);
+  ASSERT_EQ(building.storeys.size(), 2u);
+  EXPECT_EQ(building.storeys[0].name, "b: s");
+  EXPECT_EQ(building.storeys[1].name, "c: s");
+  EXPECT_EQ(building.storeys[0].height_m, 3.0) << "the other building's floor is no ceiling";
+  ASSERT_EQ(building.rooms.size(), 3u) << "each once";
+  EXPECT_EQ(std::count_if(building.rooms.begin(), building.rooms.end(), [](const Room& r) { return r.storey == 0; }),
+            2);
+}
+
+}  // namespace
+}  // namespace plumbline::bim
