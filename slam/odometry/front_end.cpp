@@ -34,7 +34,10 @@ Registration FrontEnd::track(const Scan& raw, DeskewedScan& scan) {
   const std::optional<Scan> with_times = sweep_times_.with_times(raw);
   const Scan& timed = with_times ? *with_times : raw;
   if (!with_times) sweep_times_.add_not_spinning();
-  return as_is_ ? track_both(raw, timed, scan) : timed_->track(timed, scan);
+  const Pose X_MT = X_MT_;
+  Registration result = as_is_ ? track_both(raw, timed, scan) : timed_->track(timed, scan);
+  result.X_MR = X_MT * result.X_MR;
+  return result;
 }
 
 void FrontEnd::locate_map() {
@@ -77,8 +80,14 @@ Registration FrontEnd::track_both(const Scan& raw, const Scan& timed, DeskewedSc
   const Registration as_is = as_is_->track(raw, used_times ? other : scan);
   const Registration by_times = timed_->track(timed, used_times ? scan : other);
   sweep_times_.compare({as_is, as_is_->step}, {by_times, timed_->step});
+  if (uses_times() != used_times) change_tracker(used_times ? by_times : as_is, used_times ? as_is : by_times);
   if (sweep_times_.is_settled()) (sweep_times_.are_inferred() ? as_is_ : timed_).reset();
   return used_times ? by_times : as_is;
+}
+
+void FrontEnd::change_tracker(const Registration& used, const Registration& next) {
+  // Both trackers begin at the first pose. Past a way that is not known, another one's frame is anywhere.
+  X_MT_ = next.displaced ? join_frames(X_MT_ * used.X_MR, next.X_MR) : Pose{};
 }
 
 }  // namespace plumbline::slam

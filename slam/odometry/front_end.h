@@ -40,12 +40,15 @@ class FrontEnd {
   /// Keeps the scan until the length of a sweep is known; then the records so far are tracked with inferred times, too.
   void begin_trial(const Scan& scan);
   [[nodiscard]] Registration track_both(const Scan& raw, const Scan& timed, DeskewedScan& scan);
+  /// After both tracked a scan, of which `used` gave the pose, and the other is used from the next one on.
+  void change_tracker(const Registration& used, const Registration& next);
 
   LidarOdometryConfig config_;
   Calibration calibration_;
   bool has_odometry_;
   std::unique_ptr<Tracking> as_is_;  ///< until it is known that times are to be inferred
   std::unique_ptr<Tracking> timed_;  ///< while that is tried, or known
+  Pose X_MT_;                        ///< the frame of the tracker that is used; identity unless a way is not known
   SweepTimes sweep_times_;
   std::deque<Odometry> first_odometry_;  ///< before timed_ began
   std::vector<Scan> first_scans_;
