@@ -21,7 +21,7 @@ class Faulty {
   Faulty(Building building, const Stream& stream, std::uint64_t tick)
       : building_(std::move(building)), stream_(stream), tick_(tick) {}
 
-  Building take() { return std::move(building_); }
+  FaultyBuilding take() { return {std::move(building_), std::move(element_), rise_m_}; }
 
   void split_level() {
     const int index = drawn(building_.rooms.size());
@@ -34,6 +34,8 @@ class Faulty {
     slab.polygon = {room.polygon, {}};
     slab.z0_m = room.z0_m;
     slab.z1_m = std::round((room.z0_m + rise) * 1e3) / 1e3;
+    element_ = room.id;
+    rise_m_ = slab.z1_m - room.z0_m;
     room.z0_m = slab.z1_m;
     for (Opening& opening : building_.openings) {
       if (opening.kind == OpeningKind::window || (opening.rooms[0] != index && opening.rooms[1] != index)) continue;
@@ -57,6 +59,7 @@ class Faulty {
     slab.storey = room.storey;
     const Eigen::Vector2d end(box.center().x(), box.max().y());
     slab.polygon = {{box.min(), {end.x(), box.min().y()}, end, {box.min().x(), box.max().y()}}, {}};
+    element_ = room.id;
     slab.z0_m = high - 0.15;
     slab.z1_m = high;
     building_.slabs.push_back(std::move(slab));
@@ -65,6 +68,7 @@ class Faulty {
   void overlapping_wall() {
     const int index = drawn_door();
     if (index < 0) return;
+    element_ = building_.openings[at(index)].id;
     Wall again = building_.walls[at(building_.openings[at(index)].wall)];
     again.id += "/overlapping_wall";
     again.offset_m -= 0.05;
@@ -76,6 +80,7 @@ class Faulty {
     const int index = drawn_door();
     if (index < 0) return;
     const Opening& door = building_.openings[at(index)];
+    element_ = door.id;
     const Wall& host = building_.walls[at(door.wall)];
     Wall wall = host;
     wall.id += "/crossing_wall";
@@ -99,6 +104,7 @@ class Faulty {
     if (pick < 0) return;
     const int index = outer[at(pick)];
     const Wall wall = building_.walls[at(index)];
+    element_ = wall.id;
     remove_wall(index);
     const int panels = std::max(1, static_cast<int>(std::round(wall.length() / 1.2)));
     const double middle = wall.offset_m + 0.5 * wall.thickness_m, pitch = wall.length() / panels;
@@ -169,11 +175,13 @@ class Faulty {
   const Stream& stream_;
   std::uint64_t tick_;
   std::uint32_t draws_ = 0;
+  std::string element_;
+  double rise_m_ = 0.0;
 };
 
 }  // namespace
 
-Building with_fault(Building building, BuildingFault fault, const Stream& stream, std::uint64_t tick) {
+FaultyBuilding with_fault(Building building, BuildingFault fault, const Stream& stream, std::uint64_t tick) {
   Faulty faulty(std::move(building), stream, tick);
   switch (fault) {
     case BuildingFault::split_level:

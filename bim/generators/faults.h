@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 #include <string_view>
 
 #include "bim/model/building.h"
@@ -21,9 +22,17 @@ enum class BuildingFault {
 inline constexpr std::array<std::string_view, 6> building_fault_names = {
     "split_level", "mezzanine", "overlapping_wall", "crossing_wall", "missing_slabs", "curtain_front"};
 
+struct FaultyBuilding {
+  Building building;
+  std::string element;  ///< id of the room, wall or door that has the fault; empty: the building has no place for it,
+                        ///< or all of it has
+  double rise_m = 0.0;  ///< of a split level, above the floor that the room had
+};
+
 /// The building with one fault, at a place and of a size that the stream draws at `tick`; the same building where it
 /// has no place for it. Written with write_ifc() and read again it is what a stranger's file would be. Elements made up
 /// have ids that end in the fault's name.
-[[nodiscard]] Building with_fault(Building building, BuildingFault fault, const Stream& stream, std::uint64_t tick);
+[[nodiscard]] FaultyBuilding with_fault(Building building, BuildingFault fault, const Stream& stream,
+                                        std::uint64_t tick);
 
 }  // namespace plumbline::bim

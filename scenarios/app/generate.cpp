@@ -152,17 +152,23 @@ int damage(const GenerateOptions& options) {
   bim::Building building = bim::load_building(options.building);
   const Stream stream(options.fault_seed, "bim.generate");
   const auto& names = bim::building_fault_names;
+  std::string lines;
   for (std::size_t i = 0; i < options.faults.size(); ++i) {
     const auto* name = std::find(names.begin(), names.end(), options.faults[i]);
     const std::uint64_t before = building.hash();
-    building = bim::with_fault(std::move(building), static_cast<bim::BuildingFault>(name - names.begin()), stream, i);
+    bim::FaultyBuilding faulty =
+        bim::with_fault(std::move(building), static_cast<bim::BuildingFault>(name - names.begin()), stream, i);
+    building = std::move(faulty.building);
     if (building.hash() == before)
       throw InputError({options.building, 0, 0},
                        "has no place for " + options.faults[i] + "; another fault or building");
+    lines += options.faults[i] + (faulty.element.empty() ? "" : " of " + faulty.element) +
+             (faulty.rise_m > 0.0 ? ", " + format_number(std::round(faulty.rise_m * 1e3) / 1e3) + " m up" : "") + "\n";
   }
   bim::IfcWriteConfig config;
   config.signature = false;
   write_file(options.out, bim::write_ifc(building, config));
+  print(lines);
   return 0;
 }
 

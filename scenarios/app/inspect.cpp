@@ -49,7 +49,13 @@ int inspect_walk(const InspectOptions& options) {
   if (bim::is_mesh_path(options.building))
     throw InputError({options.building, 0, 0}, "is a mesh, of which no rooms are known; name a plan or an .ifc");
   const bim::PlannedAndBuilt site = bim::load_planned_and_built(options.building);
-  write_file(options.walk, walk_page(site, std::filesystem::path(options.building).filename().string()));
+  const WalkPage page = walk_page(site, std::filesystem::path(options.building).filename().string());
+  write_file(options.walk, page.html);
+  if (options.json) {
+    print(write_json(Tree::map().set("storeys", page.storeys)) + "\n");
+    return 0;
+  }
+  for (const std::string& line : page.lines) print(line + "\n");
   print("page: " + options.walk + "\n");
   return 0;
 }
@@ -87,7 +93,7 @@ Command add_inspect(CommandLine& program) {
       program.add_command("inspect", "Lists what a building holds: storeys, rooms, walls, volumes, symmetry, warnings");
   line.option("BUILDING", options->building,
               "plan or traffic-editor plan (.yaml), .ifc, or mesh (.glb, .obj, .dae, .ply, .stl)");
-  line.flag("--json", options->json, "as JSON, every element");
+  line.flag("--json", options->json, "as JSON, every element; with --walk the rooms out of reach and why");
   line.flag("--as-built", options->as_built, "with its deviations, closed doors and window panes");
   line.option("--mesh", options->mesh, "writes the cut building as .glb, .obj or .ply");
   line.option("--walk", options->walk,

@@ -20,6 +20,7 @@ namespace {
 constexpr std::string_view floor_colour = "var(--reached)", elsewhere_colour = "var(--elsewhere)", red = "var(--never)",
                            walk_colour = "var(--walked)";
 constexpr int most_rows = 400;  ///< of floor drawn, so that a page of a large building opens
+constexpr std::size_t most_lines = 8;
 
 std::string name_of(const bim::Room& room) { return room.name.empty() ? room.id : room.name; }
 
@@ -108,7 +109,8 @@ class StoreyCard {
     input_.storeys.push_back({storey, name_, {}});
   }
 
-  [[nodiscard]] std::string html(int start_room) const {
+  /// Of a walk that begins in a room.
+  void add_to(WalkPage& page, int start_room) const {
     Start start;
     start.room = building_.rooms[static_cast<std::size_t>(start_room)].id;
     RoutePlan plan;
@@ -123,11 +125,27 @@ class StoreyCard {
       plan = plan_route(space_, start, stay, {});
     }
     const WalkCoverage walk = walk_coverage(space_, plan);
-    std::string out =
+    const std::vector<std::string> warnings = walk_warnings(walk);
+    Tree results = to_results(walk, warnings);
+    page.html +=
         "<section class=\"card\"><h2>" + svg::escape(name_) + "</h2>" + draw(plan, walk) + key() + "</section>\n";
-    if (!refused.empty()) out += "<p class=\"verdict bad\">" + svg::escape(refused) + "</p>";
-    const Tree results = to_results(walk, walk_warnings(walk));
-    return out + list_walk(&results) + "\n";
+    if (!refused.empty()) page.html += "<p class=\"verdict bad\">" + svg::escape(refused) + "</p>";
+    page.html += list_walk(&results) + "\n";
+    page.lines.push_back(name_ + ": " + (refused.empty() ? walk_sentence(walk) : refused));
+    for (const std::string& line : out_of_reach_lines(walk, most_lines))
+      page.lines.push_back("  out of reach: " + line);
+    for (const std::string& warning : warnings) page.lines.push_back("  warning: " + warning);
+    if (!refused.empty()) results.set("refused", refused);
+    page.storeys.push(std::move(results));
+  }
+
+  /// Where the robot can turn round in none of its rooms.
+  void add_without_start(WalkPage& page, std::ptrdiff_t rooms) const {
+    const std::string why = "The robot can turn round in none of its " + std::to_string(rooms) + " rooms.";
+    page.html += "<section class=\"card\"><h2>" + svg::escape(name_) + "</h2><p class=\"verdict bad\">" + why +
+                 "</p></section>\n";
+    page.lines.push_back(name_ + ": " + why);
+    page.storeys.push(Tree::map().set("storey", name_).set("refused", why));
   }
 
  private:
@@ -152,26 +170,26 @@ class StoreyCard {
 
 }  // namespace
 
-std::string walk_page(const bim::PlannedAndBuilt& site, const std::string& name) {
+WalkPage walk_page(const bim::PlannedAndBuilt& site, const std::string& name) {
   const bim::Building walked = walked_building(site);
   const sim::MultiStoreyPlanner space(walked);
   const RoomPlaces places(walked, space);
-  std::string page =
-      open_page(name) + "<header><h1>Where the robot can walk: " + svg::escape(name) + "</h1></header>\n";
+  WalkPage page;
+  page.html = open_page(name) + "<header><h1>Where the robot can walk: " + svg::escape(name) + "</h1></header>\n";
   for (std::size_t i = 0; i < walked.storeys.size(); ++i) {
     const int storey = static_cast<int>(i);
     const auto rooms = std::count_if(walked.rooms.begin(), walked.rooms.end(),
                                      [&](const bim::Room& room) { return room.storey == storey; });
     if (rooms == 0) continue;
+    const StoreyCard card(site, space, storey);
     const int start = places.start_on(storey).room;
     if (start >= 0)
-      page += StoreyCard(site, space, storey).html(start);
+      card.add_to(page, start);
     else
-      page += "<section class=\"card\"><h2>" + svg::escape(walked.storeys[i].name) +
-              "</h2><p class=\"verdict bad\">The robot can turn round in none of its " + std::to_string(rooms) +
-              " rooms.</p></section>\n";
+      card.add_without_start(page, rooms);
   }
-  return page + "</main><script>" + std::string(map_script()) + "</script></body></html>\n";
+  page.html += "</main><script>" + std::string(map_script()) + "</script></body></html>\n";
+  return page;
 }
 
 }  // namespace plumbline::scenarios

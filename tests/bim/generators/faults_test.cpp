@@ -37,7 +37,8 @@ int count(const Building& building, const std::string& kind) {
 class Faults : public testing::TestWithParam<int> {
  protected:
   [[nodiscard]] Building faulty(BuildingFault fault, std::string_view family = "corridor") const {
-    return with_fault(plain(family), fault, Stream(11, "bim.generate"), static_cast<std::uint64_t>(GetParam()));
+    return with_fault(plain(family), fault, Stream(11, "bim.generate"), static_cast<std::uint64_t>(GetParam()))
+        .building;
   }
 };
 

@@ -16,16 +16,16 @@ bim::PlannedAndBuilt site_with_door(double width_m) {
 }
 
 TEST(WalkPage, ShowsTheFloorTheWalkAndNoReasonsWhereNothingStopsTheRobot) {
-  const std::string page = walk_page(site_with_door(0.9), "two <rooms>");
+  const std::string page = walk_page(site_with_door(0.9), "two <rooms>").html;
   EXPECT_NE(page.find("Where the robot can walk: two &lt;rooms&gt;"), std::string::npos);
   EXPECT_NE(page.find("through 2 of its 2 rooms"), std::string::npos);
   EXPECT_NE(page.find("<polyline"), std::string::npos);
   EXPECT_EQ(page.find("Out of reach:"), std::string::npos);
-  EXPECT_EQ(page, walk_page(site_with_door(0.9), "two <rooms>"));
+  EXPECT_EQ(page, walk_page(site_with_door(0.9), "two <rooms>").html);
 }
 
 TEST(WalkPage, NamesWhatStopsTheRobotAtItsPlace) {
-  const std::string page = walk_page(site_with_door(0.5), "two rooms");
+  const std::string page = walk_page(site_with_door(0.5), "two rooms").html;
   EXPECT_NE(page.find("<b>west</b>: door 'd0' is 0.5 m wide"), std::string::npos) << page.substr(page.size() / 2);
   EXPECT_NE(page.find("<circle"), std::string::npos);
 }
