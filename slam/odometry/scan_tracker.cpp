@@ -31,7 +31,7 @@ void ScanTracker::on_odometry(const Odometry& odometry) {
 
 DeskewedScan ScanTracker::deskewed(const Scan& scan) const {
   const bool stale = !has_odometry_ || motion_.is_stale_at(scan.stamp);
-  DeskewedScan out = compensated() ? deskewed_by(scan, Pose{}, 1)
+  DeskewedScan out = compensated() ? as_deskewed(scan, calibration_)
                      : stale       ? deskewed_by(scan, odometry_->continued_step(scan.stamp),
                                            stamp_ ? std::max<Nanoseconds>(scan.stamp - *stamp_, 1) : 1)
                                    : deskew(scan, motion_, calibration_);

@@ -117,9 +117,7 @@ Pose PlanLocalization::track(const Scan& raw, DeskewedScan& scan) {
 
 DeskewedScan PlanLocalization::deskewed(const Scan& scan) const {
   if (!compensation_.compensated()) return deskew(scan, motion_, input_.calibration);
-  MotionBuffer still;
-  still.add({scan.stamp, Pose{}});
-  DeskewedScan out = deskew(scan, still, input_.calibration);
+  DeskewedScan out = as_deskewed(scan, input_.calibration);
   out.odometry_stale = motion_.is_stale_at(scan.stamp);
   out.odometry_age = motion_.age_at(scan.stamp);
   return out;

@@ -106,6 +106,12 @@ void correct_motion(DeskewedScan& scan, const Vector6d& twist) {
   }
 }
 
+DeskewedScan as_deskewed(const Scan& scan, const Calibration& calibration) {
+  MotionBuffer still;
+  still.add({scan.stamp, Pose{}});
+  return deskew(scan, still, calibration);
+}
+
 std::uint64_t digest(const DeskewedScan& scan) {
   Digest sum;
   sum.add(scan.stamp);

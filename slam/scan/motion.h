@@ -111,6 +111,9 @@ void correct_motion(DeskewedScan& scan, const Vector6d& twist);
 /// few columns that some rings do not have; a message's overlap is as wide.
 [[nodiscard]] DeskewedScan deskew(const Scan& scan, const MotionBuffer& motion, const Calibration& calibration);
 
+/// The same of a scan that comes deskewed: its returns are all of its stamp. Says nothing of odometry.
+[[nodiscard]] DeskewedScan as_deskewed(const Scan& scan, const Calibration& calibration);
+
 /// Of every eighth column's points; what differs elsewhere shows in the stages behind.
 [[nodiscard]] std::uint64_t digest(const DeskewedScan& scan);
 
