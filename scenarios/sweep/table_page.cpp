@@ -115,13 +115,12 @@ std::string heads(const std::vector<std::string>& names) {
   return out + "</tr>\n";
 }
 
-/// Columns that say something: variants and starts only where there are any.
+/// Columns that say something. Seconds stand in table.csv: metres are what a walk is compared by.
 std::vector<std::size_t> shown_columns(const std::vector<std::vector<std::string>>& lines) {
   std::vector<std::size_t> shown;
   for (std::size_t i = 0; i < lines.front().size(); ++i) {
-    const bool optional = lines.front()[i] == "variant" || lines.front()[i] == "start";
     const bool empty = std::all_of(lines.begin() + 1, lines.end(), [&](const auto& line) { return line[i] == "-"; });
-    if (!optional || !empty) shown.push_back(i);
+    if (!empty && lines.front()[i] != "identifiable at s") shown.push_back(i);
   }
   return shown;
 }

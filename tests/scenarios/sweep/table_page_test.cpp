@@ -33,6 +33,15 @@ TEST(SweepPage, PutsTheWorstRunFirst) {
   EXPECT_EQ(page.find("a<b"), std::string::npos);
 }
 
+TEST(SweepPage, ShowsColumnsThatSaySomething) {
+  const std::vector<SweepRow> rows = {row("1", "success", 0.01)};
+  const std::string page = table_html({"n", "s.yaml", {}, 0}, rows, cells_of(rows));
+  for (const char* head : {"success", "converged at m", "verdicts"})
+    EXPECT_EQ(occurrences(page, "<th>" + std::string(head) + "</th>"), 1U) << head;
+  for (const char* head : {"variant", "start", "honest", "identifiable at s"})
+    EXPECT_EQ(occurrences(page, "<th>" + std::string(head) + "</th>"), 0U) << head;
+}
+
 TEST(SweepPage, LinksARunWhosePageIsThere) {
   const std::vector<SweepRow> rows = {row("1", "success", 0.01), row("2", "late", 0.02)};
   const std::string page = table_html({"n", "s.yaml", {"a_b-2"}, 0}, rows, cells_of(rows));
