@@ -117,7 +117,7 @@ std::vector<MethodRow> odometry_and_slam() {
           OdometryKind::vgicp, &LidarOdometryConfig::vgicp,
           {.name = "vgicp",
            .summary =
-               "odometry of our front end with coarse voxels: VGICP on a sliding map, with legs where there are any"}),
+               "odometry of our front end with coarse voxels: VGICP on a sliding map, with leg odometry where given"}),
       odometry_alone<VgicpConfig>(
           OdometryKind::vgicp, &LidarOdometryConfig::vgicp,
           {.name = "vgicp_tuned",
@@ -178,7 +178,7 @@ std::vector<MethodRow> odometry_and_slam() {
                                           .variant = true}),
       with_config<HdlSlamConfig>({.name = "hdl_slam",
                                   .summary = "the graph of s_graphs_plus without walls, rooms and floor layer: its "
-                                             "odometry, with legs where there are any, floor planes, loops",
+                                             "odometry, with leg odometry where given, floor planes, loops",
                                   .make = make_hdl_slam_method,
                                   .standard = false}),
       with_config<SGraphsConfig>(
