@@ -36,7 +36,7 @@ struct HypothesisComparisonConfig {
     v("sigma_m", sigma_m,
       Field{.doc = "standard deviation across the face: range noise, registration and plan tolerance", .min = 1e-6});
     // Chosen on niches of 10 cm. At 4 cm five of five furnished walks with features of 5 cm were decided, too, but two
-    // in a ring were sure and wrong: where clutter draws the fitted pose aside, a wall seems to lie that much deeper.
+    // in a ring were false positives: where clutter draws the fitted pose aside, a wall seems to lie that much deeper.
     v("gate_m", gate_m,
       Field{.doc = "least difference of two predicted ranges for which a beam is evidence", .min = 0});
     v("min_incidence", min_incidence,

@@ -30,8 +30,8 @@ struct LoopConfig {
   void visit(V& v) {
     v("radius_m", radius_m,
       Field{.doc = "largest distance between the two keyframes of a loop candidate", .min = 0, .basic = true});
-    v("min_walked_m", min_walked_m, Field{.doc = "least way walked between the two keyframes", .min = 0});
-    v("min_since_last_m", min_since_last_m, Field{.doc = "least way walked since the last attempt", .min = 0});
+    v("min_walked_m", min_walked_m, Field{.doc = "least distance walked between the two keyframes", .min = 0});
+    v("min_since_last_m", min_since_last_m, Field{.doc = "least distance walked since the last attempt", .min = 0});
     v("map_keyframes", map_keyframes,
       Field{.doc = "neighbours on each side of the old keyframe that enter its map", .min = 0});
     v("voxel_m", voxel_m, Field{.doc = "voxel size of that map", .min = 0.05});

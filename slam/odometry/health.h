@@ -66,8 +66,7 @@ struct HealthConfig {
     v("restart_s", restart_s,
       Field{.doc = "or, without odometry, time lost after which it does", .min = 0.0, .max = 1e6});
     v("max_unobserved_m", max_unobserved_m,
-      Field{.doc = "standard deviation of the way gone where nothing measures it, above which the odometry is lost",
-            .min = 0.01});
+      Field{.doc = "standard deviation of unmeasured motion, above which the odometry is lost", .min = 0.01});
   }
 };
 

@@ -22,8 +22,8 @@ struct LoopDetectorConfig {
     v("on", on, Field{.doc = "close loops", .basic = true});
     v("distance_m", distance_m,
       Field{.doc = "largest horizontal distance of a candidate from the new keyframe", .min = 0.0, .basic = true});
-    v("walked_m", walked_m, Field{.doc = "least way walked between the two", .min = 0.0});
-    v("since_last_m", since_last_m, Field{.doc = "least way walked since the last loop closure", .min = 0.0});
+    v("walked_m", walked_m, Field{.doc = "least distance walked between the two", .min = 0.0});
+    v("since_last_m", since_last_m, Field{.doc = "least distance walked since the last loop closure", .min = 0.0});
     v("fitness_m2", fitness_m2,
       Field{.doc = "largest mean squared distance between the two clouds of a loop closure", .min = 0.0});
   }
