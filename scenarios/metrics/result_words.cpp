@@ -24,7 +24,8 @@ std::span<const ResultWord> result_words() {
       {place, to_string(V::overconfident),
        "several poses explain the scans, and the method gave one answer that was wrong or was not held"},
       {place, to_string(V::lucky),
-       "one right answer, held to the end, although the scans did not single it out; never counted as a success"},
+       "one right answer, held to the end, although the scans had not singled it out when it was given; never a "
+       "success"},
       {place, to_string(V::late), "no answer, or one held for less than 5 s or 1 m"},
       {place, to_string(V::lost),
        "the right answer was given and lost or given up, or the method reports LOST at the end"},
