@@ -45,6 +45,7 @@ PlanLocalization::PlanLocalization(std::string_view name, const MethodInput& inp
   LidarOdometryConfig odometry;
   if (input.has_odometry) {
     if (config.scan_times) time_trial_.emplace(odometry, input.calibration, true);
+    if (config.watch_odometry) watched_.emplace(input.calibration);
     return;
   }
   odometry.vgicp.odometry_prior = odometry.vgicp.tilt_prior = false;
@@ -63,8 +64,8 @@ Output PlanLocalization::on_scan(const Scan& raw) {
   Output output;
   output.stamp = scan.stamp;
   Stopwatch stopwatch;
-  DeskewedScan tracked;
-  const Pose X_OR = lidar_odometry_ ? track(scan, tracked) : motion_.at(scan.stamp);
+  std::optional<DeskewedScan> tracked;
+  const Pose X_OR = lidar_odometry_ ? track(scan, tracked.emplace()) : follow(scan, tracked);
   if (!X_OR_start_) X_OR_start_ = X_OR;
   const bool began_anew = !is_way_known_ && start_anew();
   if (began_anew) {
@@ -72,7 +73,7 @@ Output PlanLocalization::on_scan(const Scan& raw) {
     is_start_known_ = false;
   } else if (is_due(X_OR)) {
     ++tick_;
-    const PlanScan prepared_scan = prepare_scan(lidar_odometry_ ? std::move(tracked) : deskewed(scan), X_OR);
+    const PlanScan prepared_scan = prepare_scan(tracked ? std::move(*tracked) : deskewed(scan), X_OR);
     if (cloud_.add(prepared_scan.deskewed, X_OR)) cloud_stamps_.push_back(scan.stamp);
     record_stage("deskew", stopwatch, output);
     use_scan(prepared_scan, output);
@@ -85,7 +86,7 @@ Output PlanLocalization::on_scan(const Scan& raw) {
   trajectory_.add_scan(scan.stamp, X_OR);
   if (!lidar_odometry_) {
     motion_.forget_before(scan.stamp - 1'000'000'000);
-    if (config_.scan_times) test_times(scan, X_OR);
+    if (config_.scan_times && !(watched_ && watched_->is_by_scans())) test_times(scan, X_OR);
     if (time_trial_) try_times(raw);
   }
   return output;
@@ -113,6 +114,20 @@ Pose PlanLocalization::track(const Scan& raw, DeskewedScan& scan) {
   // Localization starts anew: what matters is whether the way from here on is known.
   if (!odometry.lost && odometry.displaced) lidar_odometry_->locate_map();
   return Pose{*q_OM_, Eigen::Vector3d::Zero()} * odometry.X_MR;
+}
+
+Pose PlanLocalization::follow(const Scan& raw, std::optional<DeskewedScan>& scan) {
+  if (!watched_) return motion_.at(raw.stamp);
+  WatchedOdometry::Tracked tracked = watched_->track(raw, motion_, undone_offset_);
+  is_way_known_ = tracked.is_way_known;
+  scan = std::move(tracked.deskewed);
+  if (!scan)
+    step_changes_ = {};
+  else if (!is_way_known_)
+    step_changes_.interrupt();
+  else
+    step_changes_.add(tracked.X_OR);
+  return tracked.X_OR;
 }
 
 DeskewedScan PlanLocalization::deskewed(const Scan& scan) const {

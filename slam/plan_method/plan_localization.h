@@ -17,6 +17,7 @@
 #include "slam/plan_method/extrapolation_errors.h"
 #include "slam/plan_method/prior_yaw.h"
 #include "slam/plan_method/step_changes.h"
+#include "slam/plan_method/watched_odometry.h"
 #include "slam/scan/map_cloud.h"
 
 namespace plumbline::slam {
@@ -41,6 +42,7 @@ struct PlanMethodConfig : PlanUpdateConfig {
   double yaw_drift = prior_yaw_drift;
   PlanIndexConfig index = {};
   bool scan_times = false;
+  bool watch_odometry = false;
 
   template <class V>
   void visit(V& v) {
@@ -50,6 +52,8 @@ struct PlanMethodConfig : PlanUpdateConfig {
     v("index", index);
     v("scan_times", scan_times,
       Field{.doc = "whether odometry's clock is set by how far scans turn, and scans that come deskewed are left so"});
+    v("watch_odometry", watch_odometry,
+      Field{.doc = "whether scan matching replaces odometry that is silent, or stands still while scans show motion"});
   }
 };
 
@@ -120,6 +124,9 @@ class PlanLocalization : public Method {
   /// R in O by scan matching, for a robot without odometry; the scan is deskewed. O stands on the first floor seen.
   /// Sets whether the way from the scan before is known.
   [[nodiscard]] Pose track(const Scan& raw, DeskewedScan& scan);
+  /// R in O by odometry, as long as that can be believed; the scan is deskewed where scan matching stands in. Sets
+  /// whether the way from the scan before is known.
+  [[nodiscard]] Pose follow(const Scan& raw, std::optional<DeskewedScan>& scan);
   /// By odometry.
   [[nodiscard]] DeskewedScan deskewed(const Scan& scan) const;
   /// Finds out, for the scans that follow, whether they come deskewed and how late odometry is.
@@ -138,6 +145,7 @@ class PlanLocalization : public Method {
   std::optional<FrontEnd> time_trial_;      ///< of scans without times, where there is odometry
   ExtrapolationErrors extrapolation_;       ///< of odometry that is late
   std::optional<FrontEnd> lidar_odometry_;  ///< where the robot has no odometry
+  std::optional<WatchedOdometry> watched_;  ///< where it has, and a method does not follow it blindly
   std::optional<Eigen::Quaterniond> q_OM_;  ///< of its map's frame, once a scan was seen
   StepChanges step_changes_;                ///< of scan matching
   bool is_way_known_ = true;                ///< from the scan before to this one

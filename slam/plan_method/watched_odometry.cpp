@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/plan_method/watched_odometry.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace plumbline::slam {
+
+namespace {
+
+constexpr std::size_t kept_scans = 8;
+
+/// Way and turn in one: a metre for a radian.
+double size_of(const Pose& step) { return step.t.norm() + log_so3(step.q).norm(); }
+
+}  // namespace
+
+WatchedOdometry::Tracked WatchedOdometry::track(const Scan& scan, const MotionBuffer& motion, Nanoseconds late) {
+  constexpr Nanoseconds longest = 300'000'000;  // over which a walking robot's velocity may be taken to go on
+  const Nanoseconds age = motion.age_at(scan.stamp);
+  const bool silent = motion.is_stale_at(scan.stamp) || age - std::max<Nanoseconds>(late, 0) > longest;
+  if (silent && !by_scans_ && !recent_.empty()) {
+    by_scans_ = begin();
+    why_ = Why::silent;
+    // From the last scan on whose motion was measured.
+    auto from = std::find_if(recent_.rbegin(), recent_.rend(),
+                             [&](const Seen& seen) { return seen.scan.stamp <= scan.stamp - age; });
+    if (from == recent_.rend()) --from;
+    for (auto seen = std::prev(from.base()); seen != recent_.end(); ++seen) {
+      DeskewedScan deskewed;
+      (void)match(*by_scans_, seen->scan, seen->X_OR, deskewed);
+    }
+  }
+  Tracked result = by_scans_ ? by_scans(scan, motion, silent) : by_odometry(scan, motion);
+  X_OR_ = result.X_OR;
+  X_BR_ = motion.at(scan.stamp);
+  return result;
+}
+
+WatchedOdometry::Matching WatchedOdometry::begin() const {
+  LidarOdometryConfig config;
+  config.vgicp.odometry_prior = config.vgicp.tilt_prior = false;
+  return {FrontEnd(config, calibration_, false), Pose{}, false};
+}
+
+Registration WatchedOdometry::match(Matching& matching, const Scan& scan, const Pose& X_OR,
+                                    DeskewedScan& deskewed) const {
+  deskewed = matching.front_end.deskewed(scan);
+  const Registration result = matching.front_end.track(scan, deskewed);
+  if (!matching.began) matching.X_OM = X_OR * result.X_MR.inverse();
+  matching.began = true;
+  return result;
+}
+
+WatchedOdometry::Tracked WatchedOdometry::by_odometry(const Scan& scan, const MotionBuffer& motion) {
+  Tracked result;
+  const Pose X_BR = motion.at(scan.stamp);
+  result.X_OR = X_OB_ ? *X_OB_ * X_BR : X_BR;
+  recent_.push_back({scan, result.X_OR});
+  if (recent_.size() > kept_scans) recent_.pop_front();
+  if (!stands_wrongly(scan, result.X_OR)) return result;
+  why_ = Why::standing;
+  // The scan has been matched already: this one goes by odometry, the next one by scans.
+  by_scans_ = std::exchange(beside_, std::nullopt);
+  return result;
+}
+
+bool WatchedOdometry::stands_wrongly(const Scan& scan, const Pose& X_OR) {
+  constexpr double still = 0.03;  // m and rad: more than odometry's noise
+  constexpr int enough = 6;       // scans, fewer than are kept
+  constexpr double went = 0.3;    // m and rad: more than registration errs by where people pass
+  constexpr int in_a_row = 3;
+  if (!X_OR_standing_ || size_of(X_OR_standing_->inverse() * X_OR) > still) {
+    X_OR_standing_ = X_OR;
+    standing_ = beside_moved_ = 0;
+    beside_.reset();
+    return false;
+  }
+  if (++standing_ < enough) return false;
+  DeskewedScan deskewed;
+  if (!beside_) {
+    beside_ = begin();
+    for (std::size_t i = recent_.size() - std::min<std::size_t>(recent_.size(), enough + 1); i + 1 < recent_.size();
+         ++i)
+      (void)match(*beside_, recent_[i].scan, recent_[i].X_OR, deskewed);
+  }
+  const Registration found = match(*beside_, scan, X_OR, deskewed);
+  const bool measured = found.accepted && !found.lost && !found.displaced && found.unobserved_directions == 0;
+  const bool moved = size_of(X_OR.inverse() * beside_->X_OM * found.X_MR) > went;
+  beside_moved_ = measured && moved ? beside_moved_ + 1 : 0;
+  return beside_moved_ >= in_a_row;
+}
+
+WatchedOdometry::Tracked WatchedOdometry::by_scans(const Scan& scan, const MotionBuffer& motion, bool silent) {
+  Tracked result;
+  result.deskewed.emplace();
+  const Registration found = match(*by_scans_, scan, X_OR_.value_or(Pose{}), *result.deskewed);
+  result.X_OR = by_scans_->X_OM * found.X_MR;
+  result.is_way_known = !found.lost && !found.displaced;
+  // Localization starts anew: what matters is whether the way from here on is known.
+  if (!found.lost && found.displaced) by_scans_->front_end.locate_map();
+  watch_return(scan, motion, result.X_OR, silent || !found.accepted);
+  return result;
+}
+
+void WatchedOdometry::watch_return(const Scan& scan, const MotionBuffer& motion, const Pose& X_OR, bool silent) {
+  constexpr double noise = 0.03, share = 0.2;  // m and rad; of the step
+  constexpr int enough = 10;
+  constexpr double enough_m = 0.3;  // of an odometry that stood
+  const Pose step = X_OR_->inverse() * X_OR, measured = X_BR_->inverse() * motion.at(scan.stamp);
+  const bool agrees = !silent && size_of(step.inverse() * measured) <= noise + share * size_of(step);
+  agreeing_ = agrees ? agreeing_ + 1 : 0;
+  agreed_m_ = agrees ? agreed_m_ + size_of(measured) : 0.0;
+  if (agreeing_ < enough || (why_ == Why::standing && agreed_m_ < enough_m)) return;
+  X_OB_ = join_frames(X_OR, motion.at(scan.stamp));
+  by_scans_.reset();
+  recent_.clear();
+  X_OR_standing_.reset();
+  agreeing_ = 0;
+  agreed_m_ = 0.0;
+}
+
+}  // namespace plumbline::slam

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <deque>
+#include <optional>
+
+#include "slam/odometry/front_end.h"
+#include "slam/scan/motion.h"
+
+namespace plumbline::slam {
+
+/// R in O from scan to scan: by odometry, and by scan matching where odometry is silent or stands still while the robot
+/// does not. Whoever localizes by odometry alone follows it wherever it stops.
+class WatchedOdometry {
+ public:
+  explicit WatchedOdometry(const Calibration& calibration) : calibration_(calibration) {}
+
+  struct Tracked {
+    Pose X_OR;
+    bool is_way_known = true;              ///< from the scan before: false where neither of both measures it
+    std::optional<DeskewedScan> deskewed;  ///< by scan matching, where that gave the pose
+  };
+  /// Of the next scan. late: the clock offset of odometry that `motion` undoes.
+  [[nodiscard]] Tracked track(const Scan& scan, const MotionBuffer& motion, Nanoseconds late);
+  /// Whether scan matching gave the pose of the last scan.
+  [[nodiscard]] bool is_by_scans() const { return by_scans_.has_value(); }
+
+ private:
+  /// Scan matching from a scan on at which R was X_OR.
+  struct Matching {
+    FrontEnd front_end;
+    Pose X_OM;
+    bool began = false;
+  };
+  struct Seen {
+    Scan scan;
+    Pose X_OR;
+  };
+  enum class Why { silent, standing };
+
+  [[nodiscard]] Matching begin() const;
+  /// Matches the scan; `X_OR` is where it was if it is the first.
+  Registration match(Matching& matching, const Scan& scan, const Pose& X_OR, DeskewedScan& deskewed) const;
+  [[nodiscard]] Tracked by_odometry(const Scan& scan, const MotionBuffer& motion);
+  [[nodiscard]] Tracked by_scans(const Scan& scan, const MotionBuffer& motion, bool silent);
+  /// Whether odometry has stood still for a while in which scans show that the robot went; then by_scans_ takes over.
+  [[nodiscard]] bool stands_wrongly(const Scan& scan, const Pose& X_OR);
+  void watch_return(const Scan& scan, const MotionBuffer& motion, const Pose& X_OR, bool silent);
+
+  Calibration calibration_;
+  std::optional<Pose> X_OB_;           ///< of odometry's own frame, which is moved where it takes over again
+  std::deque<Seen> recent_;            ///< the last scans whose poses odometry gave
+  std::optional<Pose> X_OR_standing_;  ///< where odometry stands
+  int standing_ = 0;                   ///< scans
+  std::optional<Matching> beside_;     ///< while odometry stands
+  int beside_moved_ = 0;               ///< scans in a row that show a robot that went
+  std::optional<Matching> by_scans_;   ///< while it replaces odometry
+  Why why_ = Why::silent;              ///< it does
+  std::optional<Pose> X_OR_, X_BR_;    ///< at the last scan: the robot's, and odometry's own
+  int agreeing_ = 0;                   ///< scans in a row at which odometry and scan matching agree on the step
+  double agreed_m_ = 0.0;              ///< way in them, turns at 1 m/rad
+};
+
+}  // namespace plumbline::slam
