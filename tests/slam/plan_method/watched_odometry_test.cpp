@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/plan_method/watched_odometry.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "tests/slam/synthetic.h"
+
+namespace plumbline::slam {
+namespace {
+
+struct Followed {
+  double worst_m = 0.0;  ///< farthest from the truth
+  int by_scans = 0;      ///< scans that scan matching gave the pose of
+  bool by_scans_at_end = false;
+  bool as_odometry = true;  ///< every pose is odometry's to the last bit
+  int unknown = 0;          ///< scans to which the way is not known
+};
+
+using Driver = std::function<void(Odometry record, MotionBuffer& motion)>;
+
+/// A walk of 12 s through the house, whose odometry a driver passes on.
+Followed follow(const Driver& driver, double blind_from_s = 1e9) {
+  synthetic::WalkConfig walk;
+  walk.speed_mps = 0.6;
+  walk.duration_s = 12.0;
+  walk.vibration = 0.3;
+  walk.odometry_sigma = walk.odometry_yaw_sigma = 0.0;
+  const synthetic::Recording recording =
+      synthetic::walk(synthetic::corridor_house(), synthetic::corridor_house_walk(), walk);
+  WatchedOdometry watched(recording.calibration);
+  MotionBuffer motion;
+  Followed result;
+  std::size_t record = 0;
+  std::optional<Pose> X_FO;  // truth's frame
+  for (std::size_t k = 0; k < recording.scans.size(); ++k) {
+    Scan scan = recording.scans[k];
+    for (; record < recording.odometry.size() && recording.odometry[record].stamp <= scan.stamp; ++record)
+      driver(recording.odometry[record], motion);
+    if (motion.empty()) continue;
+    if (seconds(scan.stamp) > blind_from_s) std::fill(scan.range_m.begin(), scan.range_m.end(), 0.0);
+    const WatchedOdometry::Tracked tracked = watched.track(scan, motion, 0);
+    if (!X_FO) X_FO = recording.truth[k].X_FR * tracked.X_OR.inverse();
+    result.worst_m = std::max(result.worst_m, ((*X_FO * tracked.X_OR).t - recording.truth[k].X_FR.t).norm());
+    result.by_scans += watched.is_by_scans() ? 1 : 0;
+    result.as_odometry = result.as_odometry && tracked.X_OR.t == motion.at(scan.stamp).t && !tracked.deskewed;
+    result.unknown += tracked.is_way_known ? 0 : 1;
+    motion.forget_before(scan.stamp - 1'000'000'000);
+  }
+  result.by_scans_at_end = watched.is_by_scans();
+  return result;
+}
+
+/// Passes on what was recorded outside of a gap.
+Driver silent(double from_s, double to_s) {
+  return [=](const Odometry& record, MotionBuffer& motion) {
+    if (seconds(record.stamp) < from_s || seconds(record.stamp) > to_s) motion.add(record);
+  };
+}
+
+/// In a gap stamps go on, and the pose stands.
+Driver standing(double from_s, double to_s) {
+  return [=, last = std::optional<Pose>()](Odometry record, MotionBuffer& motion) mutable {
+    if (seconds(record.stamp) < from_s || seconds(record.stamp) > to_s) last = record.X_OR;
+    record.X_OR = *last;
+    motion.add(record);
+  };
+}
+
+TEST(WatchedOdometry, IsOdometryWhereThatGoesOn) {
+  const Followed walked = follow(silent(100.0, 100.0));
+  EXPECT_TRUE(walked.as_odometry);
+  EXPECT_EQ(walked.by_scans, 0);
+  EXPECT_LT(walked.worst_m, 0.01);
+}
+
+// The robot goes 3.6 m in 6 s.
+TEST(WatchedOdometry, ScansTakeOverWhereItFallsSilentOrStands) {
+  for (const Driver& driver : {silent(6.0, 100.0), standing(6.0, 100.0)}) {
+    const Followed walked = follow(driver);
+    EXPECT_GT(walked.by_scans, 45);
+    EXPECT_TRUE(walked.by_scans_at_end);
+    EXPECT_EQ(walked.unknown, 0);
+    // Until it is noticed that odometry stands the pose does, too: by 0.3 m and three scans.
+    EXPECT_LT(walked.worst_m, 0.55);
+  }
+  EXPECT_LT(follow(silent(6.0, 100.0)).worst_m, 0.1);
+}
+
+TEST(WatchedOdometry, OdometryTakesOverAgain) {
+  for (const Driver& driver : {silent(4.0, 7.0), standing(4.0, 7.0)}) {
+    const Followed walked = follow(driver);
+    EXPECT_GT(walked.by_scans, 20);
+    EXPECT_FALSE(walked.by_scans_at_end);
+    EXPECT_EQ(walked.unknown, 0);
+    EXPECT_LT(walked.worst_m, 0.55);
+  }
+  EXPECT_LT(follow(silent(4.0, 7.0)).worst_m, 0.1);
+}
+
+TEST(WatchedOdometry, ARecordASecondIsTooFew) {
+  Nanoseconds next = 0;
+  const Followed walked = follow([&](const Odometry& record, MotionBuffer& motion) {
+    if (record.stamp < next) return;
+    next = record.stamp + 1'000'000'000;
+    motion.add(record);
+  });
+  EXPECT_GT(walked.by_scans, 90);
+  EXPECT_LT(walked.worst_m, 0.1);
+}
+
+TEST(WatchedOdometry, WithoutEitherTheWayIsNotKnown) { EXPECT_GT(follow(silent(6.0, 100.0), 6.0).unknown, 20); }
+
+// A robot that stands is no odometry that stands wrongly.
+TEST(WatchedOdometry, ARobotMayStand) {
+  synthetic::WalkConfig walk;
+  walk.duration_s = 6.0;
+  walk.speed_mps = 1e-6;
+  const synthetic::Recording recording =
+      synthetic::walk(synthetic::corridor_house(), synthetic::corridor_house_walk(), walk);
+  WatchedOdometry watched(recording.calibration);
+  MotionBuffer motion;
+  for (const Odometry& record : recording.odometry) {
+    Odometry still = record;
+    still.X_OR = recording.odometry.front().X_OR;
+    motion.add(still);
+  }
+  for (const Scan& scan : recording.scans) {
+    (void)watched.track(scan, motion, 0);
+    EXPECT_FALSE(watched.is_by_scans());
+  }
+}
+
+}  // namespace
+}  // namespace plumbline::slam
