@@ -13,6 +13,7 @@
 #include "bim/plan/plan.h"
 #include "bim/random/stream.h"
 #include "scenarios/app/commands.h"
+#include "scenarios/app/odometry_gaps.h"
 #include "scenarios/app/open_recording.h"
 #include "scenarios/app/poorer_recording.h"
 #include "scenarios/app/recording_summary.h"
@@ -176,6 +177,7 @@ struct Answer {
   MethodRecord record;  ///< on the recording's own clock
   ScansRead scans;
   double recorded_s = 0.0;  ///< from the first scan to the last
+  OdometryGaps gaps;
 };
 
 Answer run_method(slam::Recording& recording, const slam::MethodRow& row, const slam::MethodInput& input,
@@ -184,11 +186,13 @@ Answer run_method(slam::Recording& recording, const slam::MethodRow& row, const 
   std::optional<slam::Nanoseconds> first;
   slam::Nanoseconds last = 0;
   ScansRead scans;
+  OdometryGaps gaps;
   const SensorSource source = [&](slam::SensorFrame& frame) {
     if (!recording.next(frame)) return false;
     last = frame.scan.stamp;
     if (!first) first = last;
     scans.add(frame.scan);
+    gaps.add(frame);
     progress.at(slam::seconds(last));
     return true;
   };
@@ -199,7 +203,7 @@ Answer run_method(slam::Recording& recording, const slam::MethodRow& row, const 
   shift(record.estimate.trajectory, recording.origin());
   for (BeliefRecord& belief : record.beliefs) belief.stamp += recording.origin();
   for (score::LostSpan& span : record.lost) span = {span.from + recording.origin(), span.to + recording.origin()};
-  return {std::move(record), scans, slam::seconds(last - first.value_or(last))};
+  return {std::move(record), scans, slam::seconds(last - first.value_or(last)), gaps};
 }
 
 /// estimate.yaml: which walk the answer is of, and what it depends on besides recording and plan.
@@ -256,6 +260,8 @@ int estimate(EstimateArguments options, slam::MethodTable table) {
   const MethodRecord& record = answer.record;
   for (const std::string& said : warnings_of(*recording))
     print_note("plumbline: warning: " + options.input.recording + ": " + said);
+  if (const auto gaps = answer.gaps.warning(); gaps && recording->has_odometry() && choice.sensors == Sensors::all)
+    print_note("plumbline: warning: " + options.input.recording + ": " + *gaps);
   write_method(directory.staging(), record);
   write_file(directory.staging() + "/digests.csv", write_digests(record.digests));
   write_file(directory.staging() + "/estimate.yaml", describe(row, run_seed(options, recording->info()), *recording,
