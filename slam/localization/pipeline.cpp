@@ -51,7 +51,9 @@ class SGraphLocalization final : public PlanLocalization {
       : PlanLocalization("s_graph_localization", input, plan_config(config), config.map),
         config_(config),
         global_localizer_(config.search, input.seed),
-        monitor_(monitor_hypotheses(config)) {}
+        monitor_(monitor_hypotheses(config)) {
+    config_.scan.max_height_m = wall_height(*input.plan, config.scan);
+  }
 
   [[nodiscard]] Estimate finish() override;
 

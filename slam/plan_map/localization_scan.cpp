@@ -5,6 +5,9 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <utility>
+
+#include "bim/geometry/polygon.h"
 
 namespace plumbline::slam {
 
@@ -102,6 +105,24 @@ std::optional<WallObservation> wall_observation(const PlaneObservation& plane, c
 }
 
 }  // namespace
+
+double wall_height(const bim::Plan& plan, const LocalizationScanConfig& config) {
+  // A ceiling is hit at a glance: a degree of tilt moves a hit by metres, so it is no wall. Below it lie coverings.
+  constexpr double below_m = 0.08, share = 0.1;
+  std::vector<std::pair<double, double>> heights;  // of rooms, with their areas
+  double total = 0.0;
+  for (const bim::PlanRoom& room : plan.rooms) {
+    heights.emplace_back(room.z1 - room.z0, std::abs(signed_area(room.polygon)));
+    total += heights.back().second;
+  }
+  std::sort(heights.begin(), heights.end());
+  double area = 0.0;
+  for (const auto& [height, own] : heights) {
+    area += own;
+    if (area >= share * total) return std::min(config.max_height_m, height - below_m);
+  }
+  return config.max_height_m;
+}
 
 LocalizationScan make_localization_scan(const DeskewedScan& scan, const std::vector<PlaneObservation>& planes,
                                         const Pose& X_OR, const Calibration& calibration,

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bim/config/visit.h"
+#include "bim/plan/plan.h"
 #include "slam/plan_map/float4.h"
 #include "slam/plan_map/pose2.h"
 #include "slam/planes/plane_detector.h"
@@ -104,5 +105,9 @@ struct LocalizationScan {
     const DeskewedScan& scan, const std::vector<PlaneObservation>& planes, const Pose& X_OR,
     const Calibration& calibration, const LocalizationScanConfig& config,
     double height_tolerance_m = std::numeric_limits<double>::infinity());
+
+/// Height above the floor up to which returns are no ceiling's, m: at most the one configured, lower where the ceilings
+/// of a tenth of the rooms' area are.
+[[nodiscard]] double wall_height(const bim::Plan& plan, const LocalizationScanConfig& config);
 
 }  // namespace plumbline::slam
