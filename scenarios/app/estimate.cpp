@@ -210,7 +210,6 @@ Answer run_method(slam::Recording& recording, const slam::MethodRow& row, const 
 std::string describe(const slam::MethodRow& row, std::uint64_t seed, const slam::Recording& recording,
                      const slam::MethodInput& input, Sensors sensors, const Poverty& poverty, const ScansRead& scans) {
   const slam::RecordingInfo& info = recording.info();
-  const std::vector<std::string> left_out = recording.left_out();
   Tree tree = Tree::map();
   tree.set("estimate", 1).set("method", row.name).set("seed", static_cast<std::int64_t>(seed));
   if (sensors != Sensors::all) tree.set("sensors", names_of(sensors)[static_cast<std::size_t>(sensors)]);
@@ -219,9 +218,13 @@ std::string describe(const slam::MethodRow& row, std::uint64_t seed, const slam:
   if (poverty.no_rings) without.push("rings");
   if (poverty.no_times) without.push("times");
   if (poverty.no_rings || poverty.no_times) tree.set("without", without);
-  Tree late = Tree::list();
-  for (const std::string& said : left_out) late.push(said);
-  if (!left_out.empty()) tree.set("left_out", late);
+  const auto add = [&](const char* key, const std::vector<std::string>& sentences) {
+    Tree list = Tree::list();
+    for (const std::string& said : sentences) list.push(said);
+    if (!sentences.empty()) tree.set(key, list);
+  };
+  add("left_out", recording.left_out());
+  add("assumed", recording.assumed());
   tree.set("input", to_tree(recording.taken(), scans));
   if (info.walk) tree.set("walk", *info.walk);
   if (!input.config.is_null()) tree.set("config", input.config);

@@ -29,6 +29,7 @@ class PoorerRecording final : public slam::Recording {
   [[nodiscard]] slam::Nanoseconds origin() const override { return recording_->origin(); }
   [[nodiscard]] slam::Taken taken() const override { return recording_->taken(); }
   [[nodiscard]] std::vector<std::string> left_out() const override { return recording_->left_out(); }
+  [[nodiscard]] std::vector<std::string> assumed() const override { return recording_->assumed(); }
 
   [[nodiscard]] bool next(slam::SensorFrame& frame) override {
     slam::SensorFrame skipped, out;

@@ -62,6 +62,7 @@ Tree to_tree(const slam::Taken& taken, const ScansRead& scans) {
 
 std::vector<std::string> warnings_of(const slam::Recording& recording) {
   std::vector<std::string> all = recording.left_out();
+  for (const std::string& said : recording.assumed()) all.push_back(said);
   const slam::Taken taken = recording.taken();
   if (recording.has_odometry() && taken.mount == slam::MountSource::unknown)
     all.push_back("where the LiDAR sits on the robot is not known; its frame" +

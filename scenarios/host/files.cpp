@@ -140,7 +140,7 @@ constexpr std::array<FileRow, 12> estimate_files = {{
     {manifest_name, "a digest of every file as it was written; `score` compares them", false},
     {"estimate.yaml",
      "the recording, method and seed of the estimate, which `score` compares with the run; under `input` what was "
-     "read, under `left_out` what was not"},
+     "read, under `left_out` what was not, under `assumed` what its numbers were taken to mean"},
     {"score.json",
      "with `score`: path, share of scans after which the method was lost, errors by a reference, and whether it said "
      "so"},

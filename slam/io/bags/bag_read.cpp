@@ -87,7 +87,7 @@ class BagRecording final : public Recording {
       } else {
         find_mount();
       }
-      find_time_base();
+      find_times();
       source_->select(names);
     });
   }
@@ -106,6 +106,10 @@ class BagRecording final : public Recording {
       all.push_back(topics_.points + ": " + share_of(early_, scans_.read(), "scans") +
                     " left out: before the first odometry");
     return all;
+  }
+  [[nodiscard]] std::vector<std::string> assumed() const override {
+    if (times_.said.empty()) return {};
+    return {topics_.points + ": " + times_.said};
   }
   [[nodiscard]] Taken taken() const override {
     Taken taken{topics_.points, topics_.odometry, topics_.imu, {}, lidar_, mount_};
@@ -219,11 +223,14 @@ class BagRecording final : public Recording {
     }
   }
 
-  void find_time_base() {
+  void find_times() {
     source_->select({topics_.points});
     TimeBaseSearch search;
     for (RawMessage message; source_->next(message) && search.add(cloud_of(message).cloud);) continue;
-    time_base_ = search.base();
+    source_->select({topics_.points});
+    SweepLengthSearch lengths(search.base());
+    for (RawMessage message; source_->next(message) && lengths.add(cloud_of(message).cloud);) continue;
+    times_ = lengths.found();
   }
 
   [[nodiscard]] Imu imu_of(const ros::FramedImu& said) const {
@@ -306,7 +313,7 @@ class BagRecording final : public Recording {
   void read(const RawMessage& message) {
     const BagTopic& topic = topic_of(message);
     if (is_cloud(topic.type)) {
-      Scan scan = scan_of(cloud_of(message).cloud, time_base_);
+      Scan scan = scan_of(cloud_of(message).cloud, times_.times);
       scan.stamp = shifted(scan.stamp);
       scans_.add(scan, topics_.points);
     } else if (topic.type == odometry_type) {
@@ -345,7 +352,7 @@ class BagRecording final : public Recording {
   std::string base_;   ///< R; empty without odometry
   std::string lidar_;  ///< L
   MountSource mount_ = MountSource::unknown;
-  TimeBase time_base_ = TimeBase::unknown;
+  SweepTimes times_;
   RecordQueue<Scan> scans_;
   RecordQueue<Odometry> odometry_;
   RecordQueue<OdometryCovariance> covariances_;

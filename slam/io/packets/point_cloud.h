@@ -54,6 +54,38 @@ class TimeBaseSearch {
   int without_times_ = 0;  ///< clouds
 };
 
+/// How the times of a topic's points are read.
+struct PointTimes {
+  TimeBase base = TimeBase::unknown;
+  double unit_ns = 0.0;  ///< ns that a 1 means, from the stamp; 0: told from each cloud by the field's type
+};
+
+struct SweepTimes {
+  PointTimes times;
+  std::string said;  ///< what was assumed of the unit, or does not fit; empty where sweeps are as long as can be
+};
+
+/// Holds the length of a topic's sweeps against the spacing of its clouds. Where that is impossible, longer than 1.5
+/// times the spacing or shorter than 2 ms, times from 0 to 1 are shares of the spacing, and others are in the unit that
+/// makes sweeps 5 ms to 1.3 times the spacing long.
+class SweepLengthSearch {
+ public:
+  explicit SweepLengthSearch(TimeBase base) : base_(base) {}
+  /// The next cloud; false once no other is needed. Throws InputError as scan_of() does.
+  [[nodiscard]] bool add(const PointCloud& cloud);
+  [[nodiscard]] SweepTimes found() const;
+
+ private:
+  TimeBase base_;
+  std::optional<Nanoseconds> last_stamp_;
+  std::vector<double> spacings_ns_;
+  std::vector<double> lengths_ns_;  ///< as read without knowing the spacing
+  std::vector<double> spans_;       ///< in the field's own unit
+  bool shares_ = true;              ///< all go from 0 to 1, or from -1 to 0
+  bool from_stamp_ = true;          ///< no times of the day
+  int without_times_ = 0;           ///< clouds
+};
+
 /// What a cloud is written as.
 enum class CloudLayout {
   organised,  ///< a row a firing, sorted by ring, not-a-number where there is no return; `time` f32, s
@@ -68,13 +100,13 @@ enum class CloudLayout {
 /// and Livox write them: x, y, z (f32 or f64); intensity or reflectivity; ring or channel (else by the layout of an
 /// organised cloud, or by elevation where that is a VLP-16's; else the scan has one ring); t, time, timestamp or
 /// time_stamp: whole numbers in ns from the stamp, others in s from it, or as times of the day (f64) in the unit that
-/// puts them within 1 s of it, or in a unit by which they are 5 ms to 1 s long; `base` says which of the two, where
-/// both may be. Without times all points have the
+/// puts them within 1 s of it, or in a unit by which they are 5 ms to 1 s long; `times` says which, where
+/// several may be. Without times all points have the
 /// cloud's stamp: whether they are deskewed is not known, and undoing a motion twice is as bad as not at all. Columns
 /// are the rows or columns of an organised cloud, else found by time or azimuth; of one ring, a column a point. Points
 /// that are not finite, at the origin or beyond 1 km are no returns. Scan::stamp is the time of the last point; a cloud
 /// without points is a scan without columns at the cloud's. Throws InputError without a mark on a cloud without fields,
 /// of wrong size, with rings above 127 or times over more than 1 s.
-[[nodiscard]] Scan scan_of(const PointCloud& cloud, TimeBase base = TimeBase::unknown);
+[[nodiscard]] Scan scan_of(const PointCloud& cloud, const PointTimes& times = {});
 
 }  // namespace plumbline::slam

@@ -42,6 +42,8 @@ class Recording {
   [[nodiscard]] virtual Taken taken() const = 0;
   /// Of what could not be used so far and was left out, a sentence for each topic and reason.
   [[nodiscard]] virtual std::vector<std::string> left_out() const { return {}; }
+  /// What was assumed of its numbers, or does not fit together, a sentence each.
+  [[nodiscard]] virtual std::vector<std::string> assumed() const { return {}; }
 };
 
 /// Error message for odometry that overlaps no scan.

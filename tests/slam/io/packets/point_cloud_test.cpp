@@ -246,7 +246,7 @@ TEST(PointCloud, TheTimeBaseIsToldFromSeveralClouds) {
         const TimeBase base = search.base();
         EXPECT_EQ(base, of_day ? TimeBase::day : TimeBase::stamp) << unit << " " << clouds;
         const PointCloud cloud = cloud_at(0.4, of_day, unit);
-        EXPECT_NEAR(static_cast<double>(scan_of(cloud, base).stamp), 0.5e9, 1.0) << unit << " " << of_day;
+        EXPECT_NEAR(static_cast<double>(scan_of(cloud, {base, 0.0}).stamp), 0.5e9, 1.0) << unit << " " << of_day;
       }
   TimeBaseSearch search;
   EXPECT_FALSE(search.add(cloud_with({"x", "y", "z", "time"}, {{1, 0, 0, 0}})));
@@ -260,8 +260,8 @@ TEST(PointCloud, ACloudWithoutTimesDecidesNoTimeBase) {
   TimeBaseSearch search;
   EXPECT_TRUE(search.add(empty) && !search.add(good));
   EXPECT_EQ(search.base(), TimeBase::day);
-  EXPECT_NEAR(static_cast<double>(scan_of(good, search.base()).stamp - good.stamp), 0.1e9, 1e3);
-  EXPECT_EQ(scan_of(empty, search.base()).stamp, empty.stamp);
+  EXPECT_NEAR(static_cast<double>(scan_of(good, {search.base(), 0.0}).stamp - good.stamp), 0.1e9, 1e3);
+  EXPECT_EQ(scan_of(empty, {search.base(), 0.0}).stamp, empty.stamp);
   int asked = 0;
   for (TimeBaseSearch never; asked < 1000 && never.add(empty); ++asked) EXPECT_EQ(never.base(), TimeBase::unknown);
   EXPECT_LT(asked, 1000);

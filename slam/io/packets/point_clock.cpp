@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/io/packets/point_clock.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "bim/errors.h"
+#include "bim/median.h"
+#include "slam/io/packets/cloud_fields.h"
+
+namespace plumbline::slam {
+
+namespace {
+
+/// Least and greatest time of the returns, ns from the stamp; (0, 0) without one.
+std::pair<double, double> extent(const PointCloud& cloud, const PointClock& clock,
+                                 const std::vector<CloudPoint>& points) {
+  std::pair<double, double> found(std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!points[i].valid) continue;
+    const double t = clock.nanoseconds(bytes_of(cloud, i));
+    if (!std::isfinite(t)) return {-std::numeric_limits<double>::infinity(), 0.0};
+    found = {std::min(found.first, t), std::max(found.second, t)};
+  }
+  return found.first > found.second ? std::pair(0.0, 0.0) : found;
+}
+
+constexpr std::array<double, 4> units_ns = {1e9, 1e6, 1e3, 1.0};
+constexpr double least_turn = 5e6;  ///< ns
+
+/// The clocks by which a cloud's times may be read, those from the stamp and those of the day.
+class ClockChoice {
+ public:
+  ClockChoice(const PointCloud& cloud, const PointField& field, const std::vector<CloudPoint>& points)
+      : cloud_(cloud), field_(field), points_(points) {}
+
+  /// Whole numbers are ns; others s, where that fits.
+  [[nodiscard]] std::optional<PointClock> plain() const {
+    return fitting({&field_, whole() ? 1.0 : units_ns[0], 0.0}, 0.0);
+  }
+  /// In the unit that puts all returns within a second of the stamp.
+  [[nodiscard]] std::optional<PointClock> of_day() const {
+    if (field_.type != PointType::f64) return std::nullopt;
+    for (const double unit : units_ns)
+      if (const auto clock = fitting({&field_, unit, static_cast<double>(cloud_.stamp)}, 0.0)) return clock;
+    return std::nullopt;
+  }
+  /// All points at 0, as before a driver knows the time: that is from neither.
+  [[nodiscard]] bool is_without_times() const {
+    return extent(cloud_, {&field_, 1.0, 0.0}, points_) == std::pair(0.0, 0.0);
+  }
+  /// From the stamp, in a unit that is known.
+  [[nodiscard]] std::optional<PointClock> in_unit(double unit_ns) const {
+    return fitting({&field_, unit_ns, 0.0}, 0.0);
+  }
+  /// From the stamp, in a unit by which the times are of a scan, 5 ms to 1 s long.
+  [[nodiscard]] std::optional<PointClock> in_other_unit() const {
+    if (whole()) return std::nullopt;
+    for (const double unit : units_ns)
+      if (const auto clock = fitting({&field_, unit, 0.0}, least_turn)) return clock;
+    return std::nullopt;
+  }
+
+ private:
+  [[nodiscard]] bool whole() const { return field_.type != PointType::f32 && field_.type != PointType::f64; }
+  [[nodiscard]] std::optional<PointClock> fitting(const PointClock& clock, double least) const {
+    constexpr double longest = longest_sweep_ns;
+    const auto [first, last] = extent(cloud_, clock, points_);
+    const bool fits = std::abs(first) <= longest && std::abs(last) <= longest && last - first >= least;
+    return fits ? std::optional(clock) : std::nullopt;
+  }
+
+  const PointCloud& cloud_;
+  const PointField& field_;
+  const std::vector<CloudPoint>& points_;
+};
+
+std::optional<PointClock> find_clock(const PointCloud& cloud, const PointField& field,
+                                     const std::vector<CloudPoint>& points, const PointTimes& times) {
+  const ClockChoice choice(cloud, field, points);
+  if (times.unit_ns > 0.0) return choice.in_unit(times.unit_ns);
+  std::optional<PointClock> clock;
+  if (times.base != TimeBase::day || choice.is_without_times()) clock = choice.plain();
+  if (!clock && times.base != TimeBase::stamp) clock = choice.of_day();
+  if (!clock && times.base != TimeBase::day) clock = choice.in_other_unit();
+  return clock;
+}
+
+/// "100 ms"
+std::string in_ms(double ns) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.3g ms", 1e-6 * ns);
+  return text.data();
+}
+
+}  // namespace
+
+PointClock clock_of(const PointCloud& cloud, const PointField& field, const std::vector<CloudPoint>& points,
+                    const PointTimes& times) {
+  if (const std::optional<PointClock> clock = find_clock(cloud, field, points, times)) return *clock;
+  if (times.unit_ns > 0.0)
+    throw InputError({}, "field '" + field.name + "' is not within 1 s of the stamp in the unit of the first scans");
+  throw InputError({}, "field '" + field.name +
+                           "' is not within 1 s of the stamp, be it in s, ms, us or ns, from the stamp or of the day "
+                           "(whole numbers: ns from the stamp)");
+}
+
+bool TimeBaseSearch::add(const PointCloud& cloud) {
+  check_cloud(cloud);
+  const PointField* time = time_field(cloud);
+  if (time == nullptr || time->type != PointType::f64) found_ = TimeBase::unknown;
+  if (found_) return false;
+  const std::vector<CloudPoint> points = read_untimed(cloud);
+  if (std::none_of(points.begin(), points.end(), [](const CloudPoint& point) { return point.valid; })) return true;
+  const ClockChoice choice(cloud, *time, points);
+  constexpr int most_without_times = 100;  // of a recording that has none, not all is read
+  if (choice.is_without_times()) return ++without_times_ < most_without_times;
+  const std::optional<PointClock> of_day = choice.of_day();
+  const bool from_stamp = choice.plain() || choice.in_other_unit();
+  if (of_day && from_stamp) {
+    last_ = {cloud.stamp, extent(cloud, *of_day, points).first + of_day->zero_ns};
+    if (!first_) first_ = last_;
+    return true;
+  }
+  found_ = of_day ? TimeBase::day : from_stamp ? TimeBase::stamp : TimeBase::unknown;
+  return false;
+}
+
+TimeBase TimeBaseSearch::base() const {
+  if (found_) return *found_;
+  if (!first_ || last_->stamp <= first_->stamp) return TimeBase::unknown;
+  const double passed = static_cast<double>(last_->stamp - first_->stamp);
+  return std::abs(last_->first_ns - first_->first_ns - passed) < 0.5 * passed ? TimeBase::day : TimeBase::stamp;
+}
+
+bool SweepLengthSearch::add(const PointCloud& cloud) {
+  constexpr std::size_t enough = 20;
+  constexpr int most_without_times = 100;
+  check_cloud(cloud);
+  const PointField* time = time_field(cloud);
+  if (time == nullptr) return false;
+  if (last_stamp_ && cloud.stamp > *last_stamp_)
+    spacings_ns_.push_back(static_cast<double>(cloud.stamp - *last_stamp_));
+  last_stamp_ = cloud.stamp;
+  const std::vector<CloudPoint> points = read_untimed(cloud);
+  const auto [first, last] = extent(cloud, {time, 1.0, 0.0}, points);
+  if (!(last > first) || !std::isfinite(first)) return ++without_times_ < most_without_times;
+  const std::optional<PointClock> clock = find_clock(cloud, *time, points, {base_, 0.0});
+  const auto [from, to] = clock ? extent(cloud, *clock, points) : std::pair(0.0, 0.0);
+  from_stamp_ = from_stamp_ && (!clock || clock->zero_ns == 0.0);
+  lengths_ns_.push_back(clock ? to - from : std::numeric_limits<double>::infinity());
+  spans_.push_back(last - first);
+  constexpr double none = 1e-3, near = 0.1;  // of a sweep: beyond its ends, left out by blind sectors
+  const bool counts_up = first > -none && first < near && last < 1.0 + none;
+  const bool counts_down = last > -near && last < none && first > -1.0 - none;
+  shares_ = shares_ && (counts_up || counts_down) && last - first > 1.0 - 2.0 * near;
+  return spans_.size() < enough;
+}
+
+SweepTimes SweepLengthSearch::found() const {
+  constexpr std::size_t least_seen = 2;
+  constexpr double shortest = 2e6, too_long = 1.5, longest = 1.3, sparse = 1.0 / 3.0;  // ns; of the spacing
+  constexpr std::array<std::string_view, 4> names = {"s", "ms", "us", "ns"};
+  SweepTimes found{{base_, 0.0}, {}};
+  if (spacings_ns_.size() < least_seen || spans_.size() < least_seen) return found;
+  const double spacing = upper_median(spacings_ns_), length = upper_median(lengths_ns_), span = upper_median(spans_);
+  // Of a fast head only some sweeps may have been kept, so that a sweep may be much shorter than the spacing.
+  const bool is_long = length > too_long * spacing, is_short = length < shortest && length < sparse * spacing;
+  if (!is_long && !is_short) return found;
+  const std::string apart = "; clouds are " + in_ms(spacing) + " apart";
+  if (is_long && shares_ && from_stamp_) {
+    found.times.unit_ns = spacing;
+    found.said = "point times from 0 to 1 are taken as shares of a sweep of " + in_ms(spacing) + apart;
+    return found;
+  }
+  for (std::size_t i = 0; i < units_ns.size() && from_stamp_; ++i) {
+    const double sweep = span * units_ns[i];
+    if (sweep < least_turn || sweep > longest * spacing) continue;
+    found.times.unit_ns = units_ns[i];
+    found.said =
+        "point times are taken to be in " + std::string(names[i]) + ", by which a sweep lasts " + in_ms(sweep) + apart;
+    return found;
+  }
+  if (std::isfinite(length))
+    found.said = "points of a scan are measured over " + in_ms(length) + " by their times" + apart +
+                 "; one of the two is wrong, unless scans overlap or are flashes";
+  return found;
+}
+
+}  // namespace plumbline::slam

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "slam/io/packets/cloud_fields.h"
+
+namespace plumbline::slam {
+
+inline constexpr Nanoseconds longest_sweep_ns = 1'000'000'000;
+
+/// What the numbers of a time field mean.
+struct PointClock {
+  const PointField* field = nullptr;
+  double unit_ns = 1.0;
+  double zero_ns = 0.0;  ///< the cloud's stamp where the times are those of the day, else 0
+
+  [[nodiscard]] double nanoseconds(const std::uint8_t* point) const {
+    return unit_ns * number_at(point + field->offset, field->type) - zero_ns;
+  }
+};
+
+/// By which the times of a cloud's points are read. Throws InputError without a mark where none puts all returns within
+/// 1 s of the stamp.
+[[nodiscard]] PointClock clock_of(const PointCloud& cloud, const PointField& field,
+                                  const std::vector<CloudPoint>& points, const PointTimes& times);
+
+}  // namespace plumbline::slam

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+// The unit of point times, where the spacing of the clouds tells it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "slam/io/packets/point_cloud.h"
+
+namespace plumbline::slam {
+namespace {
+
+constexpr int points = 40;
+
+/// A turn of returns whose times go evenly from `first` to `last`.
+template <class T>
+PointCloud turn(double stamp_s, const std::string& name, PointType type, T first, T last) {
+  PointCloud cloud;
+  cloud.stamp = std::llround(1e9 * stamp_s);
+  cloud.fields = {{"x", 0, PointType::f32}, {"y", 4, PointType::f32}, {"z", 8, PointType::f32}, {name, 12, type}};
+  cloud.point_step = 12 + sizeof(T);
+  cloud.width = points;
+  cloud.height = 1;
+  cloud.row_step = cloud.width * cloud.point_step;
+  cloud.data.resize(cloud.row_step);
+  for (int i = 0; i < points; ++i) {
+    std::uint8_t* at = &cloud.data[static_cast<std::size_t>(i) * cloud.point_step];
+    const float xyz[3] = {5.0F, 0.1F * static_cast<float>(i), 0.0F};
+    const T time = static_cast<T>(first + (last - first) * static_cast<T>(i) / static_cast<T>(points - 1));
+    std::memcpy(at, xyz, sizeof xyz);
+    std::memcpy(at + 12, &time, sizeof time);
+  }
+  return cloud;
+}
+
+/// From clouds so many seconds apart.
+template <class T>
+SweepTimes found(double apart_s, const std::string& name, PointType type, T first, T last) {
+  SweepLengthSearch search(TimeBase::stamp);
+  for (int k = 0; k < 30 && search.add(turn(10.0 + apart_s * k, name, type, first, last)); ++k) continue;
+  return search.found();
+}
+
+double length_s(const PointCloud& cloud, const PointTimes& times) {
+  const Scan scan = scan_of(cloud, times);
+  return -1e-9 * *std::min_element(scan.offset_ns.begin(), scan.offset_ns.end());
+}
+
+TEST(SweepLength, SharesAreOfTheSpacing) {
+  const SweepTimes up = found(0.1, "time", PointType::f32, 0.0F, 1.0F);
+  EXPECT_NE(up.said.find("shares of a sweep of 100 ms"), std::string::npos) << up.said;
+  EXPECT_NEAR(length_s(turn(20.0, "time", PointType::f32, 0.0F, 1.0F), up.times), 0.1, 1e-6);
+  const SweepTimes down = found(0.05, "timestamp", PointType::f64, -1.0, -0.001);
+  EXPECT_NEAR(length_s(turn(20.0, "timestamp", PointType::f64, -1.0, -0.001), down.times), 0.05, 1e-3);
+}
+
+TEST(SweepLength, WholeNumbersMayBeMicroseconds) {
+  const SweepTimes us = found<std::uint32_t>(0.1, "t", PointType::u32, 0, 99'000);
+  EXPECT_EQ(us.times.unit_ns, 1e3) << us.said;
+  EXPECT_NE(us.said.find("in us, by which a sweep lasts 99 ms"), std::string::npos) << us.said;
+  EXPECT_NEAR(length_s(turn<std::uint32_t>(20.0, "t", PointType::u32, 0, 99'000), us.times), 0.099, 1e-6);
+  // Every fifth scan of such a bag.
+  EXPECT_EQ((found<std::uint32_t>(0.5, "t", PointType::u32, 0, 99'000).times.unit_ns), 1e3);
+}
+
+TEST(SweepLength, WhatCanBeIsLeftAsItIs) {
+  const auto expect_plain = [](const SweepTimes& times) {
+    EXPECT_EQ(times.times.unit_ns, 0.0) << times.said;
+    EXPECT_TRUE(times.said.empty()) << times.said;
+  };
+  expect_plain(found<std::uint32_t>(0.1, "t", PointType::u32, 0, 99'000'000));
+  expect_plain(found<std::uint32_t>(0.5, "t", PointType::u32, 0, 99'000'000));    // each fifth scan was kept
+  expect_plain(found<std::uint32_t>(0.0013, "t", PointType::u32, 0, 1'300'000));  // a packet each
+  expect_plain(found(0.1, "time", PointType::f32, -0.0998F, 0.0F));
+  expect_plain(found(0.1, "time", PointType::f32, 0.0F, 99'800.0F));  // us, as told without the spacing
+  expect_plain(found(1.0, "time", PointType::f32, 0.0F, 1.0F));       // a slow head
+  expect_plain(found(0.1, "time", PointType::f32, 0.0F, 0.0F));
+}
+
+TEST(SweepLength, WhatFitsNoUnitIsSaid) {
+  const SweepTimes overlapping = found(0.1, "time", PointType::f32, 0.0F, 0.5F);
+  EXPECT_EQ(overlapping.times.unit_ns, 0.0);
+  EXPECT_NE(overlapping.said.find("measured over 500 ms by their times; clouds are 100 ms apart"), std::string::npos)
+      << overlapping.said;
+  EXPECT_FALSE((found<std::uint32_t>(0.1, "t", PointType::u32, 0, 300).said.empty()));
+}
+
+}  // namespace
+}  // namespace plumbline::slam
