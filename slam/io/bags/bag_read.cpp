@@ -105,6 +105,9 @@ class BagRecording final : public Recording {
     if (early_ > 0)
       all.push_back(topics_.points + ": " + share_of(early_, scans_.read(), "scans") +
                     " left out: before the first odometry");
+    if (without_rings_ > 0)
+      all.push_back(topics_.points + ": " + share_of(without_rings_, scans_.read(), "scans") + " read " +
+                    std::string(one_ring_number));
     return all;
   }
   [[nodiscard]] std::vector<std::string> assumed() const override {
@@ -313,9 +316,10 @@ class BagRecording final : public Recording {
   void read(const RawMessage& message) {
     const BagTopic& topic = topic_of(message);
     if (is_cloud(topic.type)) {
-      Scan scan = scan_of(cloud_of(message).cloud, times_.times);
-      scan.stamp = shifted(scan.stamp);
-      scans_.add(scan, topics_.points);
+      CloudScan read = read_scan(cloud_of(message).cloud, times_.times);
+      without_rings_ += read.rings_left_out ? 1 : 0;
+      read.scan.stamp = shifted(read.scan.stamp);
+      scans_.add(read.scan, topics_.points);
     } else if (topic.type == odometry_type) {
       const ros::OdometryMessage said = ros::read_odometry(message.bytes, topic.encoding);
       if (!X_OB_) X_OB_ = start_of(said.X_OR.X);
@@ -352,7 +356,7 @@ class BagRecording final : public Recording {
   std::string base_;   ///< R; empty without odometry
   std::string lidar_;  ///< L
   MountSource mount_ = MountSource::unknown;
-  SweepTimes times_;
+  AssumedTimes times_;
   RecordQueue<Scan> scans_;
   RecordQueue<Odometry> odometry_;
   RecordQueue<OdometryCovariance> covariances_;
@@ -363,7 +367,8 @@ class BagRecording final : public Recording {
   std::optional<Pose> X_OB_;
   std::optional<double> gravity_;  ///< m/s^2 of the unit that the IMU's accelerations are in
   std::int64_t messages_ = 0;
-  std::int64_t early_ = 0;  ///< scans before the odometry
+  std::int64_t early_ = 0;          ///< scans before the odometry
+  std::int64_t without_rings_ = 0;  ///< scans
   bool started_ = false;
 };
 

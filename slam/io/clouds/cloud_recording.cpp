@@ -52,7 +52,9 @@ class CloudRecording final : public Recording {
     cloud.stamp = static_cast<Nanoseconds>(next_) * period_;
     frame = {};
     try {
-      frame.scan = scan_of(cloud);
+      CloudScan read = read_scan(cloud);
+      without_rings_ += read.rings_left_out ? 1 : 0;
+      frame.scan = std::move(read.scan);
     } catch (const InputError& error) {
       throw InputError({file, 0, 0}, error.what());
     }
@@ -69,6 +71,11 @@ class CloudRecording final : public Recording {
   [[nodiscard]] const RecordingInfo& info() const override { return info_; }
   [[nodiscard]] bool has_odometry() const override { return false; }
   [[nodiscard]] Nanoseconds origin() const override { return 0; }
+  [[nodiscard]] std::vector<std::string> left_out() const override {
+    if (without_rings_ == 0) return {};
+    return {std::to_string(without_rings_) + " of " + std::to_string(next_) + " scans read " +
+            std::string(one_ring_number)};
+  }
   [[nodiscard]] Taken taken() const override {
     Taken taken;
     taken.mount = mount_;
@@ -83,6 +90,7 @@ class CloudRecording final : public Recording {
   std::vector<std::string> names_;
   std::size_t next_ = 0;
   Nanoseconds last_ = -1;
+  std::size_t without_rings_ = 0;  ///< scans
 };
 
 }  // namespace

@@ -231,14 +231,34 @@ int without_rings(std::vector<CloudPoint>& points) {
   return static_cast<int>(points.size());
 }
 
+/// One ring for all returns, though they lie on many cones: a converter without rings fills the field so.
+bool is_one_ring_of_many(const std::vector<CloudPoint>& points) {
+  constexpr double widest_cone_deg = 2.0;  // of one laser, with the motion that deskewing undoes
+  std::vector<double> elevations;
+  const CloudPoint* first = nullptr;
+  for (const CloudPoint& point : points) {
+    if (!point.valid) continue;
+    if (first == nullptr) first = &point;
+    if (point.ring != first->ring) return false;
+    elevations.push_back(elevation_deg(point));
+  }
+  std::sort(elevations.begin(), elevations.end());
+  const std::size_t end = elevations.size() / 20;  // strays
+  return !elevations.empty() && elevations[elevations.size() - 1 - end] - elevations[end] > widest_cone_deg;
+}
+
 }  // namespace
 
 CloudOrder order_points(std::vector<CloudPoint>& points, const CloudLines& lines) {
-  if (!lines.named_rings && !rings_by_layout(points, lines) && !find_rings(points) && !find_cones(points))
-    return {1, without_rings(points)};
+  const bool left_out = lines.named_rings && is_one_ring_of_many(points);
+  for (CloudPoint& point : points)
+    if (left_out) point.ring = -1;
+  const bool named = lines.named_rings && !left_out;
+  if (!named && !rings_by_layout(points, lines) && !find_rings(points) && !find_cones(points))
+    return {1, without_rings(points), left_out};
   const int rings = ring_count(points);
   order_rings(points, rings);
-  return {rings, find_columns(points, lines, rings)};
+  return {rings, find_columns(points, lines, rings), left_out};
 }
 
 }  // namespace plumbline::slam

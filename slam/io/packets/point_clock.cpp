@@ -164,11 +164,11 @@ bool SweepLengthSearch::add(const PointCloud& cloud) {
   return spans_.size() < enough;
 }
 
-SweepTimes SweepLengthSearch::found() const {
+AssumedTimes SweepLengthSearch::found() const {
   constexpr std::size_t least_seen = 2;
   constexpr double shortest = 2e6, too_long = 1.5, longest = 1.3, sparse = 1.0 / 3.0;  // ns; of the spacing
   constexpr std::array<std::string_view, 4> names = {"s", "ms", "us", "ns"};
-  SweepTimes found{{base_, 0.0}, {}};
+  AssumedTimes found{{base_, 0.0}, {}};
   if (spacings_ns_.size() < least_seen || spans_.size() < least_seen) return found;
   const double spacing = upper_median(spacings_ns_), length = upper_median(lengths_ns_), span = upper_median(spans_);
   // Of a fast head only some sweeps may have been kept, so that a sweep may be much shorter than the spacing.

@@ -72,15 +72,17 @@ PointCloud cloud_of(const Scan& scan, CloudLayout layout) {
   return cloud;
 }
 
-Scan scan_of(const PointCloud& cloud, const PointTimes& times) {
+CloudScan read_scan(const PointCloud& cloud, const PointTimes& times) {
   check_cloud(cloud);
-  Scan scan;
+  CloudScan out;
+  Scan& scan = out.scan;
   scan.stamp = cloud.stamp;
-  if (cloud.width == 0 || cloud.height == 0) return scan;
+  if (cloud.width == 0 || cloud.height == 0) return out;
   std::vector<CloudPoint> points = read_points(cloud, times);
   const bool timed = time_field(cloud) != nullptr;
   const bool named_rings = ring_field(cloud) != nullptr;
-  const auto [rings, columns] = order_points(points, {cloud.width, cloud.height, named_rings, timed});
+  const auto [rings, columns, rings_left_out] = order_points(points, {cloud.width, cloud.height, named_rings, timed});
+  out.rings_left_out = rings_left_out;
   scan.rings = rings;
   scan.columns = columns;
 
@@ -113,7 +115,7 @@ Scan scan_of(const PointCloud& cloud, const PointTimes& times) {
     scan.point_L[slot] = point.p_L;
     scan.reflectivity[slot] = point.reflectivity;
   }
-  return scan;
+  return out;
 }
 
 }  // namespace plumbline::slam

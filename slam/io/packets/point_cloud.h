@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "slam/io/records.h"
@@ -60,7 +61,7 @@ struct PointTimes {
   double unit_ns = 0.0;  ///< ns that a 1 means, from the stamp; 0: told from each cloud by the field's type
 };
 
-struct SweepTimes {
+struct AssumedTimes {
   PointTimes times;
   std::string said;  ///< what was assumed of the unit, or does not fit; empty where sweeps are as long as can be
 };
@@ -73,7 +74,7 @@ class SweepLengthSearch {
   explicit SweepLengthSearch(TimeBase base) : base_(base) {}
   /// The next cloud; false once no other is needed. Throws InputError as scan_of() does.
   [[nodiscard]] bool add(const PointCloud& cloud);
-  [[nodiscard]] SweepTimes found() const;
+  [[nodiscard]] AssumedTimes found() const;
 
  private:
   TimeBase base_;
@@ -96,17 +97,29 @@ enum class CloudLayout {
 /// return slot, which is the cloud's stamp.
 [[nodiscard]] PointCloud cloud_of(const Scan& scan, CloudLayout layout);
 
+/// A cloud's scan.
+struct CloudScan {
+  Scan scan;
+  bool rings_left_out = false;  ///< the cloud's ring numbers, which are one for returns of many elevations
+};
+
 /// The scan of a cloud whose fields are found by name and type, as the drivers of Velodyne, Ouster, Hesai, RoboSense
-/// and Livox write them: x, y, z (f32 or f64); intensity or reflectivity; ring or channel (else by the layout of an
-/// organised cloud, or by elevation where that is a VLP-16's; else the scan has one ring); t, time, timestamp or
-/// time_stamp: whole numbers in ns from the stamp, others in s from it, or as times of the day (f64) in the unit that
-/// puts them within 1 s of it, or in a unit by which they are 5 ms to 1 s long; `times` says which, where
-/// several may be. Without times all points have the
-/// cloud's stamp: whether they are deskewed is not known, and undoing a motion twice is as bad as not at all. Columns
-/// are the rows or columns of an organised cloud, else found by time or azimuth; of one ring, a column a point. Points
-/// that are not finite, at the origin or beyond 1 km are no returns. Scan::stamp is the time of the last point; a cloud
-/// without points is a scan without columns at the cloud's. Throws InputError without a mark on a cloud without fields,
-/// of wrong size, with rings above 127 or times over more than 1 s.
-[[nodiscard]] Scan scan_of(const PointCloud& cloud, const PointTimes& times = {});
+/// and Livox write them: x, y, z (f32 or f64); intensity or reflectivity; ring or channel, unless it is one number for
+/// returns of many elevations (else by the layout of an organised cloud, or by elevation where that is a VLP-16's; else
+/// the scan has one ring); t, time, timestamp or time_stamp: whole numbers in ns from the stamp, others in s from it,
+/// or as times of the day (f64) in the unit that puts them within 1 s of it, or in a unit by which they are 5 ms to 1 s
+/// long; `times` says which, where several may be. Without times all points have the cloud's stamp: whether they are
+/// deskewed is not known, and undoing a motion twice is as bad as not at all. Columns are the rows or columns of an
+/// organised cloud, else found by time or azimuth; of one ring, a column a point. Points that are not finite, at the
+/// origin or beyond 1 km are no returns. Scan::stamp is the time of the last point; a cloud without points is a scan
+/// without columns at the cloud's. Throws InputError without a mark on a cloud without fields, of wrong size, with
+/// rings above 127 or times over more than 1 s.
+[[nodiscard]] CloudScan read_scan(const PointCloud& cloud, const PointTimes& times = {});
+[[nodiscard]] inline Scan scan_of(const PointCloud& cloud, const PointTimes& times = {}) {
+  return read_scan(cloud, times).scan;
+}
+
+/// What to say of scans whose ring numbers are left out.
+inline constexpr std::string_view one_ring_number = "without their ring numbers, which are one for all points";
 
 }  // namespace plumbline::slam

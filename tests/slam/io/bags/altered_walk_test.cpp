@@ -60,5 +60,19 @@ TEST_F(AlteredWalk, TimesFromZeroToOneAreSharesOfASweep) {
     EXPECT_NEAR(static_cast<double>(read_shares.frames[i].scan.stamp - plain.frames[i].scan.stamp), 0.0, 1e5);
 }
 
+TEST_F(AlteredWalk, RingsOfOneNumberAreLeftOutAndSaid) {
+  Alteration constant;
+  constant.cloud = [](int, PointCloud& cloud) {
+    change_field<std::uint16_t>(cloud, ring_offset, [](std::uint16_t) { return std::uint16_t{0}; });
+  };
+  const Read plain = read({}), altered = read(constant);
+  ASSERT_EQ(altered.left_out.size(), 1U);
+  EXPECT_EQ(altered.left_out[0],
+            "/velodyne_points: 4 of 4 scans read without their ring numbers, which are one for all points");
+  ASSERT_EQ(altered.frames.size(), plain.frames.size());
+  for (std::size_t i = 0; i < plain.frames.size(); ++i)
+    EXPECT_EQ(altered.frames[i].scan.point_L, plain.frames[i].scan.point_L);
+}
+
 }  // namespace
 }  // namespace plumbline::slam

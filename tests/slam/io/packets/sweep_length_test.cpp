@@ -36,7 +36,7 @@ PointCloud turn(double stamp_s, const std::string& name, PointType type, T first
 
 /// From clouds so many seconds apart.
 template <class T>
-SweepTimes found(double apart_s, const std::string& name, PointType type, T first, T last) {
+AssumedTimes found(double apart_s, const std::string& name, PointType type, T first, T last) {
   SweepLengthSearch search(TimeBase::stamp);
   for (int k = 0; k < 30 && search.add(turn(10.0 + apart_s * k, name, type, first, last)); ++k) continue;
   return search.found();
@@ -48,15 +48,15 @@ double length_s(const PointCloud& cloud, const PointTimes& times) {
 }
 
 TEST(SweepLength, SharesAreOfTheSpacing) {
-  const SweepTimes up = found(0.1, "time", PointType::f32, 0.0F, 1.0F);
+  const AssumedTimes up = found(0.1, "time", PointType::f32, 0.0F, 1.0F);
   EXPECT_NE(up.said.find("shares of a sweep of 100 ms"), std::string::npos) << up.said;
   EXPECT_NEAR(length_s(turn(20.0, "time", PointType::f32, 0.0F, 1.0F), up.times), 0.1, 1e-6);
-  const SweepTimes down = found(0.05, "timestamp", PointType::f64, -1.0, -0.001);
+  const AssumedTimes down = found(0.05, "timestamp", PointType::f64, -1.0, -0.001);
   EXPECT_NEAR(length_s(turn(20.0, "timestamp", PointType::f64, -1.0, -0.001), down.times), 0.05, 1e-3);
 }
 
 TEST(SweepLength, WholeNumbersMayBeMicroseconds) {
-  const SweepTimes us = found<std::uint32_t>(0.1, "t", PointType::u32, 0, 99'000);
+  const AssumedTimes us = found<std::uint32_t>(0.1, "t", PointType::u32, 0, 99'000);
   EXPECT_EQ(us.times.unit_ns, 1e3) << us.said;
   EXPECT_NE(us.said.find("in us, by which a sweep lasts 99 ms"), std::string::npos) << us.said;
   EXPECT_NEAR(length_s(turn<std::uint32_t>(20.0, "t", PointType::u32, 0, 99'000), us.times), 0.099, 1e-6);
@@ -65,7 +65,7 @@ TEST(SweepLength, WholeNumbersMayBeMicroseconds) {
 }
 
 TEST(SweepLength, WhatCanBeIsLeftAsItIs) {
-  const auto expect_plain = [](const SweepTimes& times) {
+  const auto expect_plain = [](const AssumedTimes& times) {
     EXPECT_EQ(times.times.unit_ns, 0.0) << times.said;
     EXPECT_TRUE(times.said.empty()) << times.said;
   };
@@ -79,7 +79,7 @@ TEST(SweepLength, WhatCanBeIsLeftAsItIs) {
 }
 
 TEST(SweepLength, WhatFitsNoUnitIsSaid) {
-  const SweepTimes overlapping = found(0.1, "time", PointType::f32, 0.0F, 0.5F);
+  const AssumedTimes overlapping = found(0.1, "time", PointType::f32, 0.0F, 0.5F);
   EXPECT_EQ(overlapping.times.unit_ns, 0.0);
   EXPECT_NE(overlapping.said.find("measured over 500 ms by their times; clouds are 100 ms apart"), std::string::npos)
       << overlapping.said;

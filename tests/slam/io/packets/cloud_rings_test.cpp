@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// Ring numbers of clouds, as drivers and converters write them.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "tests/slam/io/packets/made_cloud.h"
+
+namespace plumbline::slam {
+namespace {
+
+/// The scan with each return's ring as `number` has it, in the order of the points.
+std::vector<std::vector<float>> points_of(const Scan& scan, const std::function<int(int)>& number) {
+  std::vector<std::vector<float>> points;
+  const auto rings = static_cast<std::size_t>(scan.rings);
+  for (std::size_t i = 0; i < scan.size(); ++i)
+    if (scan.range_m[i] > 0.0)
+      points.push_back({static_cast<float>(scan.point_L[i].x()), static_cast<float>(scan.point_L[i].y()),
+                        static_cast<float>(scan.point_L[i].z()),
+                        static_cast<float>(number(static_cast<int>(i % rings))), scan.reflectivity[i]});
+  return points;
+}
+
+// PointXYZIRT has the field though its source had none.
+TEST(CloudRings, ARingThatIsTheSameForAllIsNone) {
+  const Scan scan = some_scan();
+  const PointCloud cloud = cloud_with({"x", "y", "z", "ring", "intensity"}, points_of(scan, [](int) { return 0; }));
+  const CloudScan read = read_scan(cloud);
+  EXPECT_TRUE(read.rings_left_out);
+  ASSERT_EQ(read.scan.columns, scan.columns);
+  expect_near(read.scan, scan);
+  EXPECT_FALSE(read_scan(cloud_of(scan, CloudLayout::dense)).rings_left_out);
+}
+
+TEST(CloudRings, AScannerOfOneRingKeepsIt) {
+  std::vector<std::vector<float>> points;
+  for (int k = 0; k < 360; ++k)
+    points.push_back({static_cast<float>(5 * std::cos(k * M_PI / 180)),
+                      static_cast<float>(5 * std::sin(k * M_PI / 180)), 0.001F * static_cast<float>(k % 7), 0});
+  const CloudScan read = read_scan(cloud_with({"x", "y", "z", "ring"}, points));
+  EXPECT_FALSE(read.rings_left_out);
+  EXPECT_EQ(read.scan.rings, 16);
+}
+
+}  // namespace
+}  // namespace plumbline::slam
