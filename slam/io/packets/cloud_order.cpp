@@ -87,20 +87,59 @@ int ring_count(const std::vector<CloudPoint>& points) {
   return most_cloud_rings;
 }
 
-/// Ring 0 is the lowest here; some drivers count from the top.
-void order_rings(std::vector<CloudPoint>& points, int rings) {
-  double rising = 0.0;
+/// Elevation of a ring that has returns.
+struct RingElevation {
+  int ring = 0;
+  double mean_deg = 0.0;
+};
+
+/// By ring.
+std::vector<RingElevation> elevations_of(const std::vector<CloudPoint>& points, int rings) {
   std::vector<double> sum(static_cast<std::size_t>(rings), 0.0), count(sum);
   for (const CloudPoint& point : points) {
     if (point.ring < 0 || !point.valid) continue;
     sum[static_cast<std::size_t>(point.ring)] += elevation_deg(point);
     count[static_cast<std::size_t>(point.ring)] += 1.0;
   }
-  for (std::size_t r = 1; r < sum.size(); ++r)
-    if (count[r] > 0.0 && count[r - 1] > 0.0) rising += sum[r] / count[r] > sum[r - 1] / count[r - 1] ? 1.0 : -1.0;
-  if (rising >= 0.0) return;
+  std::vector<RingElevation> seen;
+  for (int r = 0; r < rings; ++r)
+    if (const auto i = static_cast<std::size_t>(r); count[i] > 0.0) seen.push_back({r, sum[i] / count[i]});
+  return seen;
+}
+
+/// Where each ring goes.
+using RingPlaces = std::array<int, most_cloud_rings>;
+
+/// Nearly all rings rise with their places. Motion may exchange neighbours, of a scan that was deskewed.
+bool is_rising(const std::vector<RingElevation>& seen, const RingPlaces& places) {
+  constexpr double most_falling = 0.1;
+  const auto place = [&](std::size_t i) { return places[static_cast<std::size_t>(seen[i].ring)]; };
+  double falling = 0.0, pairs = 0.0;
+  for (std::size_t i = 0; i < seen.size(); ++i)
+    for (std::size_t k = i + 1; k < seen.size(); ++k, pairs += 1.0)
+      if ((place(i) < place(k)) != (seen[i].mean_deg <= seen[k].mean_deg)) falling += 1.0;
+  return falling <= most_falling * pairs;
+}
+
+/// Ring 0 is the lowest here; some drivers count from the top, or as a VLP-16's lasers fire.
+void order_rings(std::vector<CloudPoint>& points, int rings) {
+  const std::vector<RingElevation> seen = elevations_of(points, rings);
+  RingPlaces as_named{}, from_top{}, as_fired{};
+  for (int r = 0; r < rings; ++r) {
+    const auto i = static_cast<std::size_t>(r);
+    as_named[i] = r;
+    from_top[i] = rings - 1 - r;
+    as_fired[i] = rings == vlp16::rings ? vlp16::ring_of_laser(r) : r;
+  }
+  if (is_rising(seen, as_named)) return;
+  RingPlaces sorted = as_named;
+  std::vector<RingElevation> rising = seen;
+  std::stable_sort(rising.begin(), rising.end(),
+                   [](const RingElevation& a, const RingElevation& b) { return a.mean_deg < b.mean_deg; });
+  for (std::size_t i = 0; i < seen.size(); ++i) sorted[static_cast<std::size_t>(rising[i].ring)] = seen[i].ring;
+  const RingPlaces& places = is_rising(seen, from_top) ? from_top : is_rising(seen, as_fired) ? as_fired : sorted;
   for (CloudPoint& point : points)
-    if (point.ring >= 0) point.ring = rings - 1 - point.ring;
+    if (point.ring >= 0) point.ring = places[static_cast<std::size_t>(point.ring)];
 }
 
 /// Firing of each point from its time, for a VLP-16 with a time for every laser. False where times do not fit the

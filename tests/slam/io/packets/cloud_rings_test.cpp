@@ -43,5 +43,27 @@ TEST(CloudRings, AScannerOfOneRingKeepsIt) {
   EXPECT_EQ(read.scan.rings, 16);
 }
 
+TEST(CloudRings, RingsInAnyOrderAreSortedByElevation) {
+  const Scan scan = some_scan();
+  // As the lasers of a VLP-16 fire, from the top, and in no known order.
+  const auto laser_of_ring = [](int ring) { return ring < 8 ? 2 * ring : 2 * (ring - 8) + 1; };
+  const std::vector<std::function<int(int)>> numbers = {laser_of_ring, [](int ring) { return 15 - ring; },
+                                                        [](int ring) { return 7 * ring % 16; }};
+  for (const auto& number : numbers) {
+    const Scan again = scan_of(cloud_with({"x", "y", "z", "ring", "intensity"}, points_of(scan, number)));
+    ASSERT_EQ(again.columns, scan.columns);
+    expect_near(again, scan);
+  }
+  // Two lasers that see nothing do not move the others.
+  Scan fewer = scan;
+  for (std::size_t i = 0; i < fewer.size(); ++i)
+    if (i % 16 == 3 || i % 16 == 15) {
+      fewer.range_m[i] = 0.0;
+      fewer.point_L[i].setZero();
+      fewer.reflectivity[i] = 0.0F;
+    }
+  expect_near(scan_of(cloud_with({"x", "y", "z", "ring", "intensity"}, points_of(fewer, laser_of_ring))), fewer);
+}
+
 }  // namespace
 }  // namespace plumbline::slam
