@@ -4,12 +4,14 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <vector>
 
 #include "bim/config/input_file.h"
 #include "bim/errors.h"
 #include "slam/io/bags/bag.h"
+#include "slam/io/bags/bag_topics.h"
 #include "slam/io/bags/frame_tree.h"
 #include "slam/io/bags/odometry_motion.h"
 #include "slam/io/bags/record_queue.h"
@@ -25,12 +27,6 @@ namespace {
 
 constexpr std::size_t most_waiting = 20;    ///< scans that wait for slower topics
 constexpr std::int64_t many_records = 100;  ///< by which a clock that stands still is told from a slow start
-
-constexpr std::string_view cloud_type = "sensor_msgs/PointCloud2", odometry_type = "nav_msgs/Odometry",
-                           imu_type = "sensor_msgs/Imu", transforms_type = "tf2_msgs/TFMessage";
-
-bool is_livox(std::string_view type) { return type.starts_with("livox_") && type.ends_with("/CustomMsg"); }
-bool is_cloud(std::string_view type) { return type == cloud_type || is_livox(type); }
 
 enum class Kind { none, ros1, mcap, database, folder };
 
@@ -75,7 +71,7 @@ class BagRecording final : public Recording {
   BagRecording(const std::string& path, const BagTopics& topics, const RecordingInfo* info) : mark_{path, 0, 0} {
     guarded([&] {
       source_ = open_source(path);
-      choose_topics(topics);
+      topics_ = choose_topics(*source_, topics, mark_);
       std::vector<std::string> names = {topics_.points};
       if (!topics_.odometry.empty()) names.push_back(topics_.odometry);
       if (!topics_.imu.empty()) names.push_back(topics_.imu);
@@ -140,56 +136,41 @@ class BagRecording final : public Recording {
     }
   }
 
-  /// The first topic of a type, or none; truth is not looked for.
-  template <class Is>
-  [[nodiscard]] std::string first_topic(const Is& is) const {
-    for (const BagTopic& topic : source_->topics())
-      if (is(topic.type) && topic.encoding != Encoding::unknown && !topic.name.starts_with("/ground_truth"))
-        return topic.name;
-    return {};
-  }
-
-  void choose_topics(const BagTopics& topics) {
-    const auto odometry = [](std::string_view type) { return type == odometry_type; };
-    const auto imu = [](std::string_view type) { return type == imu_type; };
-    topics_ = topics;
-    if (topics_.points.empty()) topics_.points = first_topic(is_cloud);
-    if (topics_.odometry.empty()) topics_.odometry = first_topic(odometry);
-    if (topics_.imu.empty()) topics_.imu = first_topic(imu);
-    if (topics_.points.empty())
-      throw InputError(mark_, "a bag without sensor_msgs/PointCloud2 or Livox's CustomMsg" + packets());
-    check_topic(topics_.points, is_cloud, cloud_type);
-    if (!topics_.odometry.empty()) check_topic(topics_.odometry, odometry, odometry_type);
-    if (!topics_.imu.empty()) check_topic(topics_.imu, imu, imu_type);
-  }
-
-  /// What a driver records before it makes clouds.
-  [[nodiscard]] std::string packets() const {
-    for (const BagTopic& topic : source_->topics())
-      if (topic.type.ends_with("Packet") || topic.type.ends_with("PacketMsg") || topic.type.ends_with("UdpFrame") ||
-          topic.type == "velodyne_msgs/VelodyneScan")
-        return "; " + topic.name + " holds packets (" + topic.type + "), which the driver makes clouds of";
-    return {};
-  }
-
-  template <class Is>
-  void check_topic(const std::string& name, const Is& is, std::string_view type) const {
-    for (const BagTopic& topic : source_->topics()) {
-      if (topic.name != name) continue;
-      if (!is(topic.type)) throw InputError(mark_, name + " is of type " + topic.type + ", not " + std::string(type));
-      if (topic.encoding == Encoding::unknown)
-        throw InputError(mark_, name + " is of " + topic.type + " in another layout than ROS has");
-      return;
-    }
-    throw InputError(mark_, "a bag without messages on " + name);
-  }
-
   [[nodiscard]] const BagTopic& topic_of(const RawMessage& message) const { return source_->topics()[message.topic]; }
+
+  /// What a message has wrong is said with its topic's name.
+  template <class F>
+  [[nodiscard]] static auto named(const BagTopic& topic, const F& function) {
+    try {
+      return function();
+    } catch (const ros::ImpossibleNumber& error) {
+      throw ros::ImpossibleNumber({}, topic.name + ": " + error.what());
+    } catch (const InputError& error) {
+      throw InputError({}, topic.name + ": " + error.what());
+    }
+  }
+
+  /// Nothing where the message holds numbers that cannot be.
+  template <class F>
+  [[nodiscard]] static auto possible(const BagTopic& topic, const F& function) -> std::optional<decltype(function())> {
+    try {
+      return named(topic, function);
+    } catch (const ros::ImpossibleNumber&) {
+      return std::nullopt;
+    }
+  }
+
+  [[nodiscard]] std::optional<ros::OdometryMessage> odometry_of(const RawMessage& message) const {
+    const BagTopic& topic = topic_of(message);
+    return possible(topic, [&] { return ros::read_odometry(message.bytes, topic.encoding); });
+  }
 
   [[nodiscard]] ros::FramedCloud cloud_of(const RawMessage& message) const {
     const BagTopic& topic = topic_of(message);
-    return is_livox(topic.type) ? ros::read_livox(message.bytes, topic.encoding)
-                                : ros::read_cloud(message.bytes, topic.encoding);
+    return named(topic, [&] {
+      return is_livox(topic.type) ? ros::read_livox(message.bytes, topic.encoding)
+                                  : ros::read_cloud(message.bytes, topic.encoding);
+    });
   }
 
   /// Reads /tf_static and the frame of the odometry, which is R's; returns that of the clouds.
@@ -197,15 +178,15 @@ class BagRecording final : public Recording {
     RawMessage message;
     source_->select({"/tf_static"});
     while (source_->next(message))
-      if (topic_of(message).type == transforms_type)
+      if (is_transforms(topic_of(message).type))
         for (const ros::Transform& t : ros::read_transforms(message.bytes, topic_of(message).encoding)) frames_.add(t);
     std::string lidar;
     source_->select(names);
     bool any_cloud = false;
     while (source_->next(message)) {
       const BagTopic& topic = topic_of(message);
-      if (topic.type == odometry_type)
-        base_ = plain_frame(ros::read_odometry(message.bytes, topic.encoding).X_OR.child);
+      if (is_odometry(topic.type))
+        if (const auto odometry = odometry_of(message)) base_ = plain_frame(odometry->X_OR.child);
       if (is_cloud(topic.type)) lidar = plain_frame(cloud_of(message).frame);
       any_cloud = any_cloud || is_cloud(topic.type);
       if (!lidar.empty() && (!base_.empty() || topics_.odometry.empty())) break;
@@ -226,13 +207,20 @@ class BagRecording final : public Recording {
     }
   }
 
+  /// Until one says that no other is needed.
+  void show_clouds(const std::function<bool(const PointCloud&)>& add) {
+    source_->select({topics_.points});
+    for (RawMessage message; source_->next(message);) {
+      const PointCloud cloud = cloud_of(message).cloud;
+      if (!named(topic_of(message), [&] { return add(cloud); })) return;
+    }
+  }
+
   void find_times() {
-    source_->select({topics_.points});
     TimeBaseSearch search;
-    for (RawMessage message; source_->next(message) && search.add(cloud_of(message).cloud);) continue;
-    source_->select({topics_.points});
+    show_clouds([&](const PointCloud& cloud) { return search.add(cloud); });
     SweepLengthSearch lengths(search.base());
-    for (RawMessage message; source_->next(message) && lengths.add(cloud_of(message).cloud);) continue;
+    show_clouds([&](const PointCloud& cloud) { return lengths.add(cloud); });
     times_ = lengths.found();
   }
 
@@ -287,9 +275,12 @@ class BagRecording final : public Recording {
       throw InputError(mark_, topics_.points + ": " + share_of(scans_.lost(), scans_.read(), "scans") +
                                   " have a stamp that is no later than that of one before; at most half are left out");
     if (!has_odometry()) return;
+    if (2 * odometry_.lost() > odometry_.read() && odometry_.impossible() > 0)
+      throw InputError(mark_, topics_.odometry + ": " + share_of(odometry_.lost(), odometry_.read(), "records") +
+                                  " hold numbers that are no pose, or come late; at most half are left out");
     check_odometry(1);
     if (!started_) throw InputError(mark_, topics_.odometry + ": " + std::string(no_odometry));
-    if (odometry_stamp_ && first_scan_ && *odometry_stamp_ < *first_scan_)
+    if (odometry_.last() && first_scan_ && *odometry_.last() < *first_scan_)
       throw InputError(mark_, topics_.odometry + ": " + std::string(odometry_over));
   }
 
@@ -302,6 +293,7 @@ class BagRecording final : public Recording {
   [[nodiscard]] bool ready() const {
     if (scans_.records().empty()) return false;
     if (scans_.records().size() > most_waiting) return true;
+    if (scans_.records().size() == 1 && scans_.is_last_doubtful()) return false;
     const Nanoseconds t = scans_.records().front().stamp;
     return (topics_.odometry.empty() || odometry_.reaches(t)) && (topics_.imu.empty() || imu_.reaches(t));
   }
@@ -316,28 +308,42 @@ class BagRecording final : public Recording {
   void read(const RawMessage& message) {
     const BagTopic& topic = topic_of(message);
     if (is_cloud(topic.type)) {
-      CloudScan read = read_scan(cloud_of(message).cloud, times_.times);
+      const PointCloud cloud = cloud_of(message).cloud;
+      CloudScan read = named(topic, [&] { return read_scan(cloud, times_.times); });
       without_rings_ += read.rings_left_out ? 1 : 0;
       read.scan.stamp = shifted(read.scan.stamp);
       scans_.add(read.scan, topics_.points);
-    } else if (topic.type == odometry_type) {
-      const ros::OdometryMessage said = ros::read_odometry(message.bytes, topic.encoding);
-      if (!X_OB_) X_OB_ = start_of(said.X_OR.X);
-      const Nanoseconds stamp = shifted(said.X_OR.stamp);
-      const bool taken = odometry_.add({stamp, *X_OB_ * said.X_OR.X}, topics_.odometry);
-      check_odometry(many_records);
-      if (!taken) return;
-      const Nanoseconds dt = odometry_stamp_ ? stamp - *odometry_stamp_ : 0;
-      if (const auto covariance = increment_covariance(said, dt))
-        covariances_.add({stamp, *covariance}, topics_.odometry);
-      odometry_stamp_ = stamp;
-    } else if (topic.type == imu_type) {
-      Imu record = imu_of(ros::read_imu(message.bytes, topic.encoding));
-      record.stamp = shifted(record.stamp);
-      if (!gravity_) gravity_ = gravity_in(record);
-      record.linear_acceleration_R *= *gravity_;
-      imu_.add(record, topics_.imu);
+    } else if (is_odometry(topic.type)) {
+      if (const auto said = odometry_of(message))
+        take(*said);
+      else
+        odometry_.leave_out();
+    } else if (is_imu(topic.type)) {
+      if (const auto said = possible(topic, [&] { return ros::read_imu(message.bytes, topic.encoding); }))
+        take(*said);
+      else
+        imu_.leave_out();
     }
+  }
+
+  void take(const ros::OdometryMessage& said) {
+    if (!X_OB_) X_OB_ = start_of(said.X_OR.X);
+    const Nanoseconds stamp = shifted(said.X_OR.stamp);
+    const bool taken = odometry_.add({stamp, *X_OB_ * said.X_OR.X}, topics_.odometry);
+    check_odometry(many_records);
+    if (!taken) return;
+    covariances_.take_back_from(stamp);
+    const Nanoseconds dt = stamp - odometry_.before_last().value_or(stamp);
+    if (const auto covariance = increment_covariance(said, dt))
+      covariances_.add({stamp, *covariance}, topics_.odometry);
+  }
+
+  void take(const ros::FramedImu& said) {
+    Imu record = imu_of(said);
+    record.stamp = shifted(record.stamp);
+    if (!gravity_) gravity_ = gravity_in(record);
+    record.linear_acceleration_R *= *gravity_;
+    imu_.add(record, topics_.imu);
   }
 
   /// The bag's odometry frame B in O, which starts at the robot's first position and heading.
@@ -362,8 +368,7 @@ class BagRecording final : public Recording {
   RecordQueue<OdometryCovariance> covariances_;
   RecordQueue<Imu> imu_;
   std::optional<Nanoseconds> origin_;
-  std::optional<Nanoseconds> odometry_stamp_;  ///< of the last message
-  std::optional<Nanoseconds> first_scan_;      ///< when it began
+  std::optional<Nanoseconds> first_scan_;  ///< when it began
   std::optional<Pose> X_OB_;
   std::optional<double> gravity_;  ///< m/s^2 of the unit that the IMU's accelerations are in
   std::int64_t messages_ = 0;

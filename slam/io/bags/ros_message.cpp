@@ -123,14 +123,18 @@ class Reader {
   Eigen::Vector3d vector() {
     Eigen::Vector3d v;
     for (double& value : v) value = number<double>();
-    if (!v.allFinite()) throw InputError({}, "a vector that is not finite");
+    if (!v.allFinite()) throw ImpossibleNumber({}, "a vector that is not finite");
     return v;
   }
   Pose pose() {
     const Eigen::Vector3d t = vector();
     Eigen::Quaterniond q;
     for (double& value : q.coeffs()) value = number<double>();
-    return checked_pose(t, q, {});
+    try {
+      return checked_pose(t, q, {});
+    } catch (const InputError& error) {
+      throw ImpossibleNumber({}, error.what());
+    }
   }
   Matrix6d matrix() {
     Matrix6d m;

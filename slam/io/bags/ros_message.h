@@ -8,15 +8,21 @@
 #include <string_view>
 #include <vector>
 
+#include "bim/errors.h"
 #include "slam/io/packets/point_cloud.h"
 #include "slam/io/records.h"
 #include "slam/io/ros2/message_source.h"
 
 // Messages of ROS 1 and 2 as bytes: little endian, texts and lists with their length before them. CDR, of ROS 2, has a
 // head of 4 bytes, numbers at multiples of their size from there on, a 0 after each text, and no sequence number. Times
-// before 0 are written as 0. What reads throws InputError, without a mark, on bytes that end too early or numbers that
-// cannot be.
+// before 0 are written as 0. What reads throws InputError, without a mark, on bytes that end too early, and
+// ImpossibleNumber on numbers that cannot be.
 namespace plumbline::slam::ros {
+
+/// A message whose bytes are whole, but whose vector is not finite or whose quaternion is no rotation.
+class ImpossibleNumber : public InputError {
+  using InputError::InputError;
+};
 
 using Bytes = std::vector<std::uint8_t>;
 

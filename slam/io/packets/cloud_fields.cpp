@@ -114,9 +114,9 @@ std::vector<CloudPoint> read_untimed(const PointCloud& cloud) {
     }
     if (ring != nullptr) {
       const double value = number_at(bytes + ring->offset, ring->type);
-      if (!(value >= 0.0 && value < most_cloud_rings))
-        throw InputError({}, "point of a ring that is not within 0 to 127");
-      point.ring = static_cast<int>(value);
+      const bool is_ring = value >= 0.0 && value < most_cloud_rings;
+      if (!is_ring && point.valid) throw InputError({}, "point of a ring that is not within 0 to 127");
+      if (is_ring) point.ring = static_cast<int>(value);
     }
   }
   return points;

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "tests/folder.h"
@@ -72,6 +73,81 @@ TEST_F(AlteredWalk, RingsOfOneNumberAreLeftOutAndSaid) {
   ASSERT_EQ(altered.frames.size(), plain.frames.size());
   for (std::size_t i = 0; i < plain.frames.size(); ++i)
     EXPECT_EQ(altered.frames[i].scan.point_L, plain.frames[i].scan.point_L);
+}
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+template <class Records>
+std::size_t count(const std::vector<SensorFrame>& frames, Records records) {
+  std::size_t sum = 0;
+  for (const SensorFrame& frame : frames) sum += (frame.*records).size();
+  return sum;
+}
+
+TEST_F(AlteredWalk, RecordsThatAreNoPoseAreLeftOut) {
+  Alteration spoilt;
+  spoilt.odometry = [](int i, ros::OdometryMessage& message) {
+    if (i < 2) message.X_OR.X.q.coeffs().setZero();
+    if (i == 20) message.X_OR.X.t.y() = nan;
+  };
+  spoilt.imu = [](int i, ros::FramedImu& message) {
+    if (i == 30) message.imu.angular_velocity_R.x() = nan;
+  };
+  const Read plain = read({}), altered = read(spoilt);
+  const std::size_t all = count(plain.frames, &SensorFrame::odometry);
+  EXPECT_EQ(count(altered.frames, &SensorFrame::odometry), all - 3);
+  EXPECT_EQ(count(altered.frames, &SensorFrame::imu), count(plain.frames, &SensorFrame::imu) - 1);
+  ASSERT_EQ(altered.left_out.size(), 2U);
+  EXPECT_EQ(altered.left_out[0],
+            "/odom: 3 of " + std::to_string(all) + " records left out: numbers that are not finite, or no rotation");
+  EXPECT_EQ(altered.left_out[1].rfind("/imu/data: 1 of ", 0), 0U) << altered.left_out[1];
+  spoilt.odometry = [](int i, ros::OdometryMessage& message) {
+    if (i % 3 > 0) message.X_OR.X.t.x() = nan;
+  };
+  EXPECT_NE(input_error([&] { (void)read(spoilt); }).find("records hold numbers that are no pose"), std::string::npos);
+}
+
+TEST_F(AlteredWalk, RingsOfMissingReturnsAreNotBelieved) {
+  Alteration filled;
+  filled.cloud = [](int, PointCloud& cloud) {
+    for (std::size_t at = 0; at < cloud.data.size(); at += cloud.point_step) {
+      float x = 0.0F;
+      std::memcpy(&x, &cloud.data[at], sizeof x);
+      if (!std::isfinite(x)) cloud.data[at + ring_offset] = cloud.data[at + ring_offset + 1] = 0xff;
+    }
+  };
+  const Read plain = read({}), altered = read(filled);
+  ASSERT_EQ(altered.frames.size(), 4U);
+  EXPECT_EQ(altered.frames[2].scan.point_L, plain.frames[2].scan.point_L);
+  filled.cloud = [](int, PointCloud& cloud) {
+    change_field<std::uint16_t>(cloud, ring_offset, [](std::uint16_t) { return std::uint16_t{200}; });
+  };
+  const std::string complaint = input_error([&] { (void)read(filled); });
+  EXPECT_NE(complaint.find("/velodyne_points: point of a ring that is not within 0 to 127"), std::string::npos)
+      << complaint;
+}
+
+TEST_F(AlteredWalk, AStampFarAheadIsLeftOut) {
+  const Read plain = read({});
+  const std::size_t all = count(plain.frames, &SensorFrame::odometry);
+  for (const bool has_odometry : {true, false}) {
+    Alteration ahead;
+    ahead.has_odometry = has_odometry;
+    ahead.cloud = [](int i, PointCloud& cloud) { cloud.stamp += i == 1 ? 60'000'000'000 : 0; };
+    const Read altered = read(ahead);
+    ASSERT_EQ(altered.frames.size(), 3U) << has_odometry;
+    EXPECT_EQ(altered.frames[1].scan.stamp, plain.frames[2].scan.stamp);
+    ASSERT_EQ(altered.left_out.size(), 1U);
+    EXPECT_EQ(altered.left_out[0].rfind("/velodyne_points: 1 record left out, with stamps up to 59.9 s ahead", 0), 0U)
+        << altered.left_out[0];
+  }
+  Alteration odometry;
+  odometry.odometry = [](int i, ros::OdometryMessage& message) { message.X_OR.stamp += i == 15 ? 10'000'000'000 : 0; };
+  const Read altered = read(odometry);
+  EXPECT_EQ(altered.frames.size(), 4U);
+  EXPECT_EQ(count(altered.frames, &SensorFrame::odometry), all - 1);
+  EXPECT_EQ(altered.left_out.size(), 1U);
+  EXPECT_LE(count(altered.frames, &SensorFrame::covariances), all - 1);
 }
 
 }  // namespace

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/io/bags/bag_topics.h"
+
+#include <string>
+
+namespace plumbline::slam {
+
+namespace {
+
+constexpr std::string_view cloud_type = "sensor_msgs/PointCloud2", odometry_type = "nav_msgs/Odometry",
+                           imu_type = "sensor_msgs/Imu", transforms_type = "tf2_msgs/TFMessage";
+
+using IsType = bool (*)(std::string_view);
+
+/// The first topic of a type, or none; truth is not looked for.
+std::string first_topic(const MessageSource& source, IsType is) {
+  for (const BagTopic& topic : source.topics())
+    if (is(topic.type) && topic.encoding != Encoding::unknown && !topic.name.starts_with("/ground_truth"))
+      return topic.name;
+  return {};
+}
+
+/// What a driver records before it makes clouds.
+std::string packets(const MessageSource& source) {
+  for (const BagTopic& topic : source.topics())
+    if (topic.type.ends_with("Packet") || topic.type.ends_with("PacketMsg") || topic.type.ends_with("UdpFrame") ||
+        topic.type == "velodyne_msgs/VelodyneScan")
+      return "; " + topic.name + " holds packets (" + topic.type + "), which the driver makes clouds of";
+  return {};
+}
+
+void check_topic(const MessageSource& source, const std::string& name, IsType is, std::string_view type,
+                 const Mark& mark) {
+  for (const BagTopic& topic : source.topics()) {
+    if (topic.name != name) continue;
+    if (!is(topic.type)) throw InputError(mark, name + " is of type " + topic.type + ", not " + std::string(type));
+    if (topic.encoding == Encoding::unknown)
+      throw InputError(mark, name + " is of " + topic.type + " in another layout than ROS has");
+    return;
+  }
+  throw InputError(mark, "a bag without messages on " + name);
+}
+
+}  // namespace
+
+bool is_livox(std::string_view type) { return type.starts_with("livox_") && type.ends_with("/CustomMsg"); }
+bool is_cloud(std::string_view type) { return type == cloud_type || is_livox(type); }
+bool is_odometry(std::string_view type) { return type == odometry_type; }
+bool is_imu(std::string_view type) { return type == imu_type; }
+bool is_transforms(std::string_view type) { return type == transforms_type; }
+
+BagTopics choose_topics(const MessageSource& source, const BagTopics& asked, const Mark& mark) {
+  BagTopics topics = asked;
+  if (topics.points.empty()) topics.points = first_topic(source, is_cloud);
+  if (topics.odometry.empty()) topics.odometry = first_topic(source, is_odometry);
+  if (topics.imu.empty()) topics.imu = first_topic(source, is_imu);
+  if (topics.points.empty())
+    throw InputError(mark, "a bag without sensor_msgs/PointCloud2 or Livox's CustomMsg" + packets(source));
+  check_topic(source, topics.points, is_cloud, cloud_type, mark);
+  if (!topics.odometry.empty()) check_topic(source, topics.odometry, is_odometry, odometry_type, mark);
+  if (!topics.imu.empty()) check_topic(source, topics.imu, is_imu, imu_type, mark);
+  return topics;
+}
+
+}  // namespace plumbline::slam

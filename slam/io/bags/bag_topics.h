@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string_view>
+
+#include "bim/errors.h"
+#include "slam/io/bags/bag.h"
+#include "slam/io/ros2/message_source.h"
+
+namespace plumbline::slam {
+
+/// Types of messages, as bags name them.
+[[nodiscard]] bool is_livox(std::string_view type);
+[[nodiscard]] bool is_cloud(std::string_view type);  ///< PointCloud2 or Livox's
+[[nodiscard]] bool is_odometry(std::string_view type);
+[[nodiscard]] bool is_imu(std::string_view type);
+[[nodiscard]] bool is_transforms(std::string_view type);
+
+/// The topics to read: those asked for, else the first of each type, without truth; empty where there is none. Throws
+/// InputError at the mark where no topic holds clouds, or one asked for is not there or of another type.
+[[nodiscard]] BagTopics choose_topics(const MessageSource& source, const BagTopics& asked, const Mark& mark);
+
+}  // namespace plumbline::slam
