@@ -77,12 +77,12 @@ struct BagTopics {
 /// acceleration is within 15 % of 1 is taken to be in g, as Livox's. A record that comes
 /// later than newer ones of its topic, by at most a second, or has the stamp of the one before it, is left out and
 /// counted. So are one whose stamp leaps ahead of those around it, odometry and IMU that are not finite or no rotation,
-/// and scans before the odometry; the mount comes from /tf_static where `info` is null, and so does the
-/// IMU's attitude where it is there. What points' times count from is told once, from the first scans. A ROS 1 bag is
-/// checked as a whole first (check_bag), others as they are read. O is moved to the robot's first position and heading.
-/// Throws InputError when it is no bag, was not closed, holds no cloud, has a LiDAR or an IMU that /tf_static does not
-/// join to the robot, odometry that overlaps no scan or has one stamp, or loses more than half of its scans or odometry
-/// so.
+/// scans before the odometry, and an IMU that /tf_static does not join to the robot; the mount comes from /tf_static
+/// where `info` is null, and so does the IMU's attitude where it is there. What points' times count from is told once,
+/// from the first scans. A ROS 1 bag is checked as a whole first (check_bag), others as they are read. O is moved to
+/// the robot's first position and heading. Throws InputError when it is no bag, was not closed, holds no cloud, has a
+/// LiDAR that /tf_static does not join to the robot, odometry that overlaps no scan or has one stamp, or loses more
+/// than half of its scans or odometry so.
 [[nodiscard]] std::unique_ptr<Recording> open_bag(const std::string& path, const BagTopics& topics,
                                                   const RecordingInfo* info);
 

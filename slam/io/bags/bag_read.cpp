@@ -98,6 +98,9 @@ class BagRecording final : public Recording {
          {scans_.left_out(topics_.points, "scans"), odometry_.left_out(topics_.odometry, "records"),
           imu_.left_out(topics_.imu, "records")})
       all.insert(all.end(), said.begin(), said.end());
+    if (unjoined_imu_)
+      all.push_back(topics_.imu + " left out: in frame '" + *unjoined_imu_ + "', which /tf_static does not join to '" +
+                    base_ + "'; name another topic, or describe the recording: then the two are one");
     if (early_ > 0)
       all.push_back(topics_.points + ": " + share_of(early_, scans_.read(), "scans") +
                     " left out: before the first odometry");
@@ -111,7 +114,7 @@ class BagRecording final : public Recording {
     return {topics_.points + ": " + times_.said};
   }
   [[nodiscard]] Taken taken() const override {
-    Taken taken{topics_.points, topics_.odometry, topics_.imu, {}, lidar_, mount_};
+    Taken taken{topics_.points, topics_.odometry, unjoined_imu_ ? "" : topics_.imu, {}, lidar_, mount_};
     for (const BagTopic& topic : source_->topics())
       if (is_cloud(topic.type) && topic.name != topics_.points) taken.other_points.push_back(topic.name);
     return taken;
@@ -224,11 +227,10 @@ class BagRecording final : public Recording {
     times_ = lengths.found();
   }
 
-  [[nodiscard]] Imu imu_of(const ros::FramedImu& said) const {
-    if (const std::optional<Imu> imu = in_robot(said, frames_, base_)) return *imu;
-    if (described_) return said.imu;
-    throw InputError({}, topics_.imu + " is in frame '" + said.frame + "', which /tf_static does not join to '" +
-                             base_ + "'; name another topic, or describe the recording: then the two are one");
+  /// Nothing where it is not known how the IMU's axes lie.
+  [[nodiscard]] std::optional<Imu> imu_of(const ros::FramedImu& said) const {
+    const std::optional<Imu> imu = in_robot(said, frames_, base_);
+    return imu || !described_ ? imu : std::optional(said.imu);
   }
 
   bool next_scan(SensorFrame& frame) {
@@ -295,7 +297,8 @@ class BagRecording final : public Recording {
     if (scans_.records().size() > most_waiting) return true;
     if (scans_.records().size() == 1 && scans_.is_last_doubtful()) return false;
     const Nanoseconds t = scans_.records().front().stamp;
-    return (topics_.odometry.empty() || odometry_.reaches(t)) && (topics_.imu.empty() || imu_.reaches(t));
+    return (topics_.odometry.empty() || odometry_.reaches(t)) &&
+           (topics_.imu.empty() || unjoined_imu_ || imu_.reaches(t));
   }
 
   /// Moves a stamp to the recording's clock, which starts with the first record where the bag's is that of the day.
@@ -339,11 +342,15 @@ class BagRecording final : public Recording {
   }
 
   void take(const ros::FramedImu& said) {
-    Imu record = imu_of(said);
-    record.stamp = shifted(record.stamp);
-    if (!gravity_) gravity_ = gravity_in(record);
-    record.linear_acceleration_R *= *gravity_;
-    imu_.add(record, topics_.imu);
+    std::optional<Imu> record = imu_of(said);
+    if (!record) {
+      unjoined_imu_ = said.frame;
+      return;
+    }
+    record->stamp = shifted(record->stamp);
+    if (!gravity_) gravity_ = gravity_in(*record);
+    record->linear_acceleration_R *= *gravity_;
+    imu_.add(*record, topics_.imu);
   }
 
   /// The bag's odometry frame B in O, which starts at the robot's first position and heading.
@@ -368,7 +375,8 @@ class BagRecording final : public Recording {
   RecordQueue<OdometryCovariance> covariances_;
   RecordQueue<Imu> imu_;
   std::optional<Nanoseconds> origin_;
-  std::optional<Nanoseconds> first_scan_;  ///< when it began
+  std::optional<std::string> unjoined_imu_;  ///< frame that /tf_static does not join to R
+  std::optional<Nanoseconds> first_scan_;    ///< when it began
   std::optional<Pose> X_OB_;
   std::optional<double> gravity_;  ///< m/s^2 of the unit that the IMU's accelerations are in
   std::int64_t messages_ = 0;

@@ -150,5 +150,21 @@ TEST_F(AlteredWalk, AStampFarAheadIsLeftOut) {
   EXPECT_LE(count(altered.frames, &SensorFrame::covariances), all - 1);
 }
 
+TEST_F(AlteredWalk, AnImuThatIsNotJoinedIsLeftOut) {
+  Alteration loose;
+  loose.imu = [](int, ros::FramedImu& message) { message.frame = "imu_link"; };
+  const Read altered = read(loose);
+  EXPECT_EQ(altered.frames.size(), 4U);
+  EXPECT_EQ(count(altered.frames, &SensorFrame::imu), 0U);
+  EXPECT_EQ(altered.taken.imu, "");
+  ASSERT_EQ(altered.left_out.size(), 1U);
+  EXPECT_EQ(altered.left_out[0].rfind(
+                "/imu/data left out: in frame 'imu_link', which /tf_static does not join to 'base_link'", 0),
+            0U)
+      << altered.left_out[0];
+  loose.imu = [](int, ros::FramedImu& message) { message.imu.linear_acceleration_R.setConstant(nan); };
+  EXPECT_EQ(read(loose).frames.size(), 4U);
+}
+
 }  // namespace
 }  // namespace plumbline::slam
