@@ -8,6 +8,8 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <deque>
+#include <exception>
 #include <optional>
 #include <set>
 
@@ -90,10 +92,24 @@ Frame make_frame(unsigned port, std::span<const std::uint8_t> payload) {
 }  // namespace
 
 struct PcapReader::Impl {
+  /// A data packet that was read and not yet given out.
+  struct Waiting {
+    Vlp16Packet packet;
+    Nanoseconds captured = 0;
+    std::int64_t frame = 0;
+  };
+  static constexpr std::size_t window = 4;               ///< packets in which copies and swaps are looked for
+  static constexpr std::int64_t most_early_us = 20'000;  ///< of a swapped packet; beyond it a clock was set back
+
   Mark mark;
   Pcap capture;
   Link link = Link::ethernet;
   std::int64_t frames = 0;         ///< read so far, of any kind
+  std::deque<Waiting> waiting;     ///< in the order of the file
+  std::deque<Vlp16Packet> recent;  ///< the last that were read
+  bool ended = false;
+  std::exception_ptr broken;  ///< what ended it, to be thrown after what was read before
+  std::int64_t copies = 0, swaps = 0;
   std::set<unsigned> other_ports;  ///< destinations of other datagrams, the first few
   bool any = false;                ///< a data packet has come
   bool ours = false;               ///< stamps are the capture's own
@@ -103,8 +119,8 @@ struct PcapReader::Impl {
   Nanoseconds last_stamp = 0;
   Nanoseconds origin = 0;
 
-  [[noreturn]] void fail(const std::string& what) const {
-    throw InputError(mark, "frame " + std::to_string(frames) + ": " + what);
+  [[noreturn]] void fail(std::int64_t frame, const std::string& what) const {
+    throw InputError(mark, "frame " + std::to_string(frame) + ": " + what);
   }
 
   [[noreturn]] void fail_empty() const {
@@ -123,10 +139,72 @@ struct PcapReader::Impl {
     return std::nullopt;
   }
 
-  /// Stamp of a data packet captured at `captured`, in time order.
-  Nanoseconds stamp_of(const Vlp16Packet& packet, Nanoseconds captured) {
+  /// Reads the next data packet of the file; false at the end.
+  bool read(Waiting& out) {
+    pcap_pkthdr* header = nullptr;
+    const std::uint8_t* bytes = nullptr;
+    int status = 0;
+    while ((status = pcap_next_ex(capture.get(), &header, &bytes)) == 1) {
+      out.frame = ++frames;
+      const auto payload = data_payload({bytes, header->caplen});
+      if (!payload) continue;
+      if (payload->size() != vlp16::payload_bytes)
+        fail(frames, "a data packet of " + std::to_string(payload->size()) + " bytes; 1206 would be right");
+      std::copy_n(payload->begin(), out.packet.payload.size(), out.packet.payload.begin());
+      if (header->ts.tv_sec < 0 || header->ts.tv_sec > 4'500'000'000) fail(frames, "its time of capture is no time");
+      out.captured = std::int64_t{header->ts.tv_sec} * second_ns + header->ts.tv_usec;
+      return true;
+    }
+    if (status == PCAP_ERROR) throw InputError(mark, std::string("damaged capture: ") + pcap_geterr(capture.get()));
+    return false;
+  }
+
+  [[nodiscard]] bool is_copy(const Vlp16Packet& packet) const {
+    return std::any_of(recent.begin(), recent.end(), [&](const Vlp16Packet& r) { return r.payload == packet.payload; });
+  }
+
+  /// Fills the window.
+  void look_ahead() {
+    try {
+      while (!ended && waiting.size() < window) {
+        Waiting next;
+        ended = !read(next);
+        if (ended) break;
+        if (is_copy(next.packet)) {
+          ++copies;
+          continue;
+        }
+        recent.push_back(next.packet);
+        if (recent.size() > window) recent.pop_front();
+        waiting.push_back(next);
+      }
+    } catch (const InputError&) {
+      ended = true;
+      broken = std::current_exception();
+    }
+  }
+
+  /// Of the packets in the window the first by their own time; at least one waits.
+  Waiting take_first() {
+    const auto early_us = [&](const Waiting& one) {  // than the front, across the hour
+      const std::int64_t by = time_in_payload_us(waiting.front().packet) - time_in_payload_us(one.packet);
+      return by < -hour_us / 2 ? by + hour_us : by;
+    };
+    auto first = waiting.begin();
+    for (auto it = waiting.begin(); it != waiting.end(); ++it)
+      if (early_us(*it) > early_us(*first) && early_us(*it) < most_early_us) first = it;
+    if (first != waiting.begin()) ++swaps;
+    Waiting out = *first;
+    waiting.erase(first);
+    return out;
+  }
+
+  /// Stamp of a data packet, in time order.
+  Nanoseconds stamp_of(const Waiting& read) {
+    const auto& [packet, captured, frame] = read;
+    const auto fail_here = [&](const std::string& what) { fail(frame, what); };
     const std::int64_t us = time_in_payload_us(packet);
-    if (us >= hour_us) fail("its time, " + std::to_string(us) + " us, is beyond the hour");
+    if (us >= hour_us) fail_here("its time, " + std::to_string(us) + " us, is beyond the hour");
     if (!any) {
       ours = captured / 1000 % hour_us == us;
       origin = ours ? 0 : captured;
@@ -134,13 +212,14 @@ struct PcapReader::Impl {
     }
     if (us + hour_us / 2 < last_us) ++hours;
     last_us = us;
-    if (ours && captured / 1000 % hour_us != us) fail("its time of capture and its own time do not agree");
+    if (ours && captured / 1000 % hour_us != us) fail_here("its time of capture and its own time do not agree");
     const Nanoseconds stamp = ours ? captured : (us + hours * hour_us - first_us) * 1000;
     if (any && stamp <= last_stamp)
-      fail("its time lies " + std::to_string((last_stamp - stamp) / 1000) + " us before that of the packet before it");
+      fail_here("its time lies " + std::to_string((last_stamp - stamp) / 1000) +
+                " us before that of the packet before it");
     if (any && stamp - last_stamp > max_gap)
-      fail("the clock leaps by " + std::to_string((stamp - last_stamp) / 1'000'000) + " ms; at most " +
-           std::to_string(max_gap / 1'000'000) + " would be right, cut the capture there");
+      fail_here("the clock leaps by " + std::to_string((stamp - last_stamp) / 1'000'000) + " ms; at most " +
+                std::to_string(max_gap / 1'000'000) + " would be right, cut the capture there");
     return stamp;
   }
 };
@@ -163,27 +242,26 @@ PcapReader::~PcapReader() = default;
 
 Nanoseconds PcapReader::origin() const { return impl_->origin; }
 
+std::vector<std::string> PcapReader::left_out() const {
+  std::vector<std::string> said;
+  if (impl_->copies > 0) said.push_back(std::to_string(impl_->copies) + " packets left out: copies of others");
+  if (impl_->swaps > 0) said.push_back(std::to_string(impl_->swaps) + " packets that came late put in their order");
+  return said;
+}
+
 bool PcapReader::next(Vlp16Packet& packet) {
-  pcap_pkthdr* header = nullptr;
-  const std::uint8_t* bytes = nullptr;
-  int status = 0;
-  while ((status = pcap_next_ex(impl_->capture.get(), &header, &bytes)) == 1) {
-    ++impl_->frames;
-    const auto payload = impl_->data_payload({bytes, header->caplen});
-    if (!payload) continue;
-    if (payload->size() != vlp16::payload_bytes)
-      impl_->fail("a data packet of " + std::to_string(payload->size()) + " bytes; 1206 would be right");
-    std::copy_n(payload->begin(), packet.payload.size(), packet.payload.begin());
-    if (header->ts.tv_sec < 0 || header->ts.tv_sec > 4'500'000'000) impl_->fail("its time of capture is no time");
-    packet.stamp = impl_->stamp_of(packet, std::int64_t{header->ts.tv_sec} * second_ns + header->ts.tv_usec);
-    impl_->last_stamp = packet.stamp;
-    impl_->any = true;
-    return true;
+  impl_->look_ahead();
+  if (impl_->waiting.empty()) {
+    if (impl_->broken) std::rethrow_exception(impl_->broken);
+    if (!impl_->any) impl_->fail_empty();
+    return false;
   }
-  if (status == PCAP_ERROR)
-    throw InputError(impl_->mark, std::string("damaged capture: ") + pcap_geterr(impl_->capture.get()));
-  if (!impl_->any) impl_->fail_empty();
-  return false;
+  const Impl::Waiting first = impl_->take_first();
+  const Nanoseconds stamp = impl_->stamp_of(first);
+  packet = first.packet;
+  packet.stamp = impl_->last_stamp = stamp;
+  impl_->any = true;
+  return true;
 }
 
 struct PcapWriter::Impl {

@@ -22,12 +22,16 @@ class PcapReader {
   PcapReader(const PcapReader&) = delete;
   PcapReader& operator=(const PcapReader&) = delete;
 
-  /// The next data packet; false at the end. Throws InputError, with the packet's number in the file, where the capture
+  /// The next data packet; false at the end. A copy of one just before is left out, and one that comes up to three
+  /// packets late is put in its order. Throws InputError, with the packet's number in the file, where the capture
   /// is cut off or damaged, a data packet is short or its flags or product are not those of a known Velodyne LiDAR, its
   /// time goes back or leaps by more than `max_gap`, or the end comes without any data packet.
   [[nodiscard]] bool next(Vlp16Packet& packet);
   /// Time of the first packet on the clock of the computer that captured it; 0 for a capture of PcapWriter.
   [[nodiscard]] Nanoseconds origin() const;
+
+  /// Of copies and late packets so far, a sentence each.
+  [[nodiscard]] std::vector<std::string> left_out() const;
 
   /// A robot may be kidnapped for a minute; the sensor's own clock resolves gaps of up to half an hour.
   static constexpr Nanoseconds max_gap = 120'000'000'000;

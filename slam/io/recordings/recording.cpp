@@ -73,8 +73,11 @@ class PacketRecording final : public Recording {
   [[nodiscard]] Nanoseconds origin() const override { return pcap_.origin(); }
   [[nodiscard]] Taken taken() const override { return taken_of_; }
   [[nodiscard]] std::vector<std::string> left_out() const override {
-    if (early_ == 0) return {};
-    return {std::to_string(early_) + " of " + std::to_string(messages_) + " scans left out: before the first odometry"};
+    std::vector<std::string> said = pcap_.left_out();
+    if (early_ > 0)
+      said.push_back(std::to_string(early_) + " of " + std::to_string(messages_) +
+                     " scans left out: before the first odometry");
+    return said;
   }
 
   [[nodiscard]] bool next(SensorFrame& frame) override {

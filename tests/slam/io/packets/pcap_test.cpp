@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -10,6 +11,7 @@
 #include "bim/errors.h"
 #include "tests/data.h"
 #include "tests/folder.h"
+#include "tests/input_error.h"
 #include "tests/slam/io/packets/foreign_capture.h"
 #include "tests/slam/io/packets/packets.h"
 
@@ -109,6 +111,47 @@ TEST_F(PcapTest, ReadsTheCaptureOfARealSensor) {
   // Measured once on this capture: 34.7 % zero ranges, half of the others odd multiples of 2 mm.
   EXPECT_NEAR(static_cast<double>(returns) / static_cast<double>(scan.size()), 0.653, 0.001);
   EXPECT_NEAR(static_cast<double>(odd) / static_cast<double>(returns), 0.5, 0.05);
+}
+
+// As UDP gives them, and captures of two interfaces.
+TEST_F(PcapTest, CopiesAreLeftOutAndNeighboursPutInOrder) {
+  // Across the full hour of the packets' own clock.
+  const std::vector<Vlp16Packet> packets = turning_packets(60, 3'599'960'000'000);
+  std::vector<Vlp16Packet> arrived = packets;
+  std::swap(arrived[10], arrived[11]);
+  std::swap(arrived[29], arrived[30]);
+  std::rotate(arrived.begin() + 40, arrived.begin() + 41, arrived.begin() + 43);  // two late
+  arrived.insert(arrived.begin() + 50, arrived[49]);
+  arrived.insert(arrived.begin() + 20, arrived[18]);
+  write_pcap(file("udp.pcap"), arrived);
+  PcapReader reader(file("udp.pcap"));
+  std::vector<Vlp16Packet> again;
+  for (Vlp16Packet packet; reader.next(packet);) again.push_back(packet);
+  ASSERT_EQ(again.size(), packets.size());
+  for (std::size_t i = 0; i < again.size(); ++i) {
+    EXPECT_EQ(again[i].stamp, packets[i].stamp) << i;
+    EXPECT_EQ(again[i].payload, packets[i].payload) << i;
+  }
+  ASSERT_EQ(reader.left_out().size(), 2U);
+  EXPECT_EQ(reader.left_out()[0], "2 packets left out: copies of others");
+  write_pcap(file("good.pcap"), packets);
+  PcapReader good(file("good.pcap"));
+  for (Vlp16Packet packet; good.next(packet);) continue;
+  EXPECT_TRUE(good.left_out().empty());
+}
+
+TEST_F(PcapTest, APacketThatIsFarOutOfOrderIsRefused) {
+  std::vector<Vlp16Packet> packets = turning_packets(60);
+  std::rotate(packets.begin() + 20, packets.begin() + 21, packets.begin() + 30);
+  write_pcap(file("late.pcap"), packets);
+  const std::string complaint = input_error([&] { (void)read_pcap(file("late.pcap")); });
+  EXPECT_NE(complaint.find("us before that of the packet before it"), std::string::npos) << complaint;
+  packets = turning_packets(60, 1'000'000'000);
+  const std::vector<Vlp16Packet> earlier = turning_packets(60);
+  packets.insert(packets.end(), earlier.begin(), earlier.end());
+  write_pcap(file("two.pcap"), packets);
+  EXPECT_NE(input_error([&] { (void)read_pcap(file("two.pcap")); }).find("before that of the packet before it"),
+            std::string::npos);
 }
 
 TEST_F(PcapTest, RefusesWhatIsNoCapture) {
