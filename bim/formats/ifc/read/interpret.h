@@ -63,7 +63,8 @@ class Interpreter {
   void fill(Opening& opening, const StepProduct& filling) const;
   [[nodiscard]] bool fill_empty_opening(const StepProduct& filling, const Solid& body);
   [[nodiscard]] bool open_wall_for(const StepProduct& filling, const Solid& body);
-  [[nodiscard]] std::optional<Opening> opening_in(const Wall& wall, int index, const Opening& opening) const;
+  [[nodiscard]] std::optional<Opening> opening_in(const Wall& wall, int index, const Opening& opening,
+                                                  const Polygon2& doorway) const;
   [[nodiscard]] bool has_opening_at(int wall, const Opening& like) const;
   void add_stair_bodies(const StepProduct& product, Stair& stair);
   void place_stair(const StepProduct& product, Stair& stair);

@@ -5,8 +5,9 @@
 
 #include "bim/formats/ifc/read/interpret.h"
 #include "bim/geometry/polygon_boolean.h"
+#include "bim/model/body_section.h"
+#include "bim/model/extrude.h"
 #include "bim/model/through.h"
-#include "bim/model/wall_face.h"
 #include "bim/model/wall_frame.h"
 
 namespace plumbline::bim {
@@ -50,6 +51,19 @@ double common_area(const WallBox& a, const WallBox& b, double slack_m) {
 }
 
 double area(const WallBox& box) { return box.along.length() * box.height.length(); }
+
+/// What an opening leaves of its wall's rectangle on the plan; of a bent wall's, no more than it reaches.
+Polygon2 doorway_of(const Opening& opening, const Wall& host, double least_fill) {
+  const Eigen::Vector2d e = host.direction(), foot = host.a + opening.s_m * e;
+  const double half = 0.5 * opening.width_m;
+  Interval depth{host.offset_m, host.offset_m + host.thickness_m};
+  if (fill_of(host) < least_fill) depth = depth_in_wall(opening, host);
+  Polygon2 doorway;
+  for (const auto& [s, y] : {std::pair(-half, depth.low), std::pair(half, depth.low), std::pair(half, depth.high),
+                             std::pair(-half, depth.high)})
+    doorway.emplace_back(foot + s * e + y * host.left());
+  return doorway;
+}
 
 }  // namespace
 
@@ -217,17 +231,14 @@ void Interpreter::add_unlinked_fillings() {
 }
 
 /// The wall that a door of another stands in, opened for it: through its whole thickness where the two run along each
-/// other, otherwise as far as the opening reaches. Nullopt where the wall leaves most of the doorway free.
-std::optional<Opening> Interpreter::opening_in(const Wall& wall, int index, const Opening& opening) const {
+/// other, otherwise as far as the opening reaches. Nullopt where the wall's body leaves most of the doorway free.
+std::optional<Opening> Interpreter::opening_in(const Wall& wall, int index, const Opening& opening,
+                                               const Polygon2& doorway) const {
   constexpr double least_m = 0.03, least_height_m = 0.5, along = 0.1;
   if (wall.z0_m > opening.z1_m - least_height_m || wall.z1_m < opening.z0_m + least_height_m) return std::nullopt;
   const Wall& host = building_.walls[static_cast<std::size_t>(opening.wall)];
   const Eigen::Vector2d e = host.direction(), foot = host.a + opening.s_m * e;
   const double half = 0.5 * opening.width_m;
-  Polygon2 doorway;
-  for (const auto& [s, share] :
-       {std::pair(-half, 0.0), std::pair(half, 0.0), std::pair(half, 1.0), std::pair(-half, 1.0)})
-    doorway.emplace_back(foot + s * e + (host.offset_m + share * host.thickness_m) * host.left());
   Interval range, across;  // of the doorway, in the frame of the other wall
   for (const Eigen::Vector2d& p : doorway) {
     range.add(wall.direction().dot(p - wall.a));
@@ -236,11 +247,15 @@ std::optional<Opening> Interpreter::opening_in(const Wall& wall, int index, cons
   if (overlap(range, {0.0, wall.length()}) < least_m ||
       overlap(across, {wall.offset_m, wall.offset_m + wall.thickness_m}) < least_m)
     return std::nullopt;
-  Interval blocked;  // along the host
-  for (const PolygonWithHoles2& piece :
-       intersect(unite(std::vector<Polygon2>{doorway}), unite(std::vector<Polygon2>{footprint(wall)})))
-    for (const Eigen::Vector2d& p : piece.outer) blocked.add(e.dot(p - foot));
-  if (blocked.high < blocked.low) return std::nullopt;
+  const double middle_m = 0.5 * (std::max(wall.z0_m, opening.z0_m) + std::min(wall.z1_m, opening.z1_m));
+  Interval blocked, filled, deep;  // along the host, and along and across the other wall
+  for (const PolygonWithHoles2& piece : intersect(unite(std::vector<Polygon2>{doorway}), wall_section(wall, middle_m)))
+    for (const Eigen::Vector2d& p : piece.outer) {
+      blocked.add(e.dot(p - foot));
+      filled.add(wall.direction().dot(p - wall.a));
+      deep.add(wall.left().dot(p - wall.a));
+    }
+  if (blocked.high < blocked.low || filled.length() < least_m || deep.length() < least_m) return std::nullopt;
   if (std::max(blocked.low + half, half - blocked.high) >= config_.clear_share * opening.width_m) return std::nullopt;
   Opening other = opening;
   other.id = opening.id + "/" + wall.id;
@@ -251,7 +266,10 @@ std::optional<Opening> Interpreter::opening_in(const Wall& wall, int index, cons
   other.material.clear();
   other.s_m = snapped(0.5 * (range.low + range.high));
   other.width_m = snapped(range.length());
-  if (std::abs(e.dot(wall.left())) < along) {
+  // A rectangle would go through all that a bent wall has behind the doorway, too.
+  if (fill_of(wall) < config_.least_fill) {
+    if (!other.solid) other.solid = extrude(unite(std::vector<Polygon2>{doorway}), other.z0_m, other.z1_m);
+  } else if (std::abs(e.dot(wall.left())) < along) {
     other.solid.reset();
     other.parts.clear();
   }
@@ -271,10 +289,12 @@ void Interpreter::open_overlapping_walls() {
   for (std::size_t i = 0; i < count; ++i) {
     const Opening opening = building_.openings[i];
     if (opening.kind == OpeningKind::window) continue;
+    const Polygon2 doorway =
+        doorway_of(opening, building_.walls[static_cast<std::size_t>(opening.wall)], config_.least_fill);
     for (int w = 0; w < static_cast<int>(building_.walls.size()); ++w) {
       if (w == opening.wall) continue;
       const Wall& wall = building_.walls[static_cast<std::size_t>(w)];
-      std::optional<Opening> other = opening_in(wall, w, opening);
+      std::optional<Opening> other = opening_in(wall, w, opening, doorway);
       if (!other || has_opening_at(w, *other)) continue;
       building_.warnings.push_back({opening.filling_id.empty() ? opening.id : opening.filling_id, "walls_overlap",
                                     "stands in wall " + wall.id + " too, which is opened there"});
