@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 #include "bim/errors.h"
 
@@ -131,6 +132,25 @@ Polygon2 canonical_loop(Polygon2 loop) {
   return loop;
 }
 
+/// Rounding may move a vertex onto or over an edge. Such an edge is led through the vertex, where the ring can be
+/// split.
+Polygon2 led_through_near_vertices(const Polygon2& ring) {
+  Polygon2 led;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Eigen::Vector2d &a = ring[i], &b = ring[(i + 1) % ring.size()];
+    std::vector<std::pair<double, std::size_t>> on_edge;
+    for (std::size_t k = 0; k < ring.size(); ++k) {
+      const double s = (ring[k] - a).dot(b - a) / (b - a).squaredNorm();
+      if (s > 0.0 && s < 1.0 && ring[k] != a && ring[k] != b && segment_distance(a, b, ring[k]) <= boolean_grid_m)
+        on_edge.emplace_back(s, k);
+    }
+    std::sort(on_edge.begin(), on_edge.end());
+    led.push_back(a);
+    for (const auto& [s, k] : on_edge) led.push_back(ring[k]);
+  }
+  return led;
+}
+
 std::vector<Polygon2> canonical_loops(const ExactPolygon& polygon) {
   Polygon2 ring;
   for (const Kernel::Point_2& p : polygon.container())
@@ -138,7 +158,14 @@ std::vector<Polygon2> canonical_loops(const ExactPolygon& polygon) {
   std::vector<Polygon2> loops;
   for (Polygon2& loop : split_at_touching_vertices(snapped(ring))) {
     Polygon2 result = canonical_loop(std::move(loop));
-    if (!result.empty()) loops.push_back(std::move(result));
+    if (result.empty()) continue;
+    if (is_simple(result)) {
+      loops.push_back(std::move(result));
+      continue;
+    }
+    for (Polygon2& part : split_at_touching_vertices(led_through_near_vertices(result)))
+      if (Polygon2 simple = canonical_loop(std::move(part)); !simple.empty() && is_simple(simple))
+        loops.push_back(std::move(simple));
   }
   return loops;
 }

@@ -101,6 +101,32 @@ TEST(PolygonBoolean, InclusionExclusionAtRandom) {
   }
 }
 
+TEST(PolygonBoolean, RingsStaySimpleWhenTheirCornersAreRounded) {
+  const Stream stream(6, "bim.generate");
+  for (std::uint64_t tick = 0; tick < 400; ++tick) {
+    // A polygon, and boxes along its sides as walls are: wedges thinner than the grid remain between them.
+    constexpr int corners = 24;
+    Polygon2 outline;
+    std::vector<Polygon2> sides;
+    const double radius = 5.0 + 5.0 * stream.uniform(tick, 0, 0), turn = stream.uniform(tick, 0, 1);
+    const auto corner = [&](int i) -> Eigen::Vector2d {
+      const double angle = turn + 2.0 * 3.14159265358979 * (i % corners) / corners;
+      return radius * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+    };
+    for (int i = 0; i < corners; ++i) {
+      const Eigen::Vector2d a = corner(i), b = corner(i + 1), e = (b - a).normalized(), left(-e.y(), e.x());
+      outline.push_back(a);
+      sides.push_back({a - 0.15 * left, b - 0.15 * left, b + 0.15 * left, a + 0.15 * left});
+    }
+    const Region2 rest = subtract(unite(std::vector<Polygon2>{outline}), sides);
+    ASSERT_FALSE(rest.empty());
+    for (const PolygonWithHoles2& piece : rest) {
+      EXPECT_TRUE(is_simple(piece.outer)) << tick;
+      for (const Polygon2& hole : piece.holes) EXPECT_TRUE(is_simple(hole)) << tick;
+    }
+  }
+}
+
 TEST(PolygonBoolean, ResultDoesNotDependOnTheOrderOfTheParts) {
   const Stream stream(5, "bim.generate");
   for (std::uint64_t tick = 0; tick < 20; ++tick) {

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 
 #include "bim/errors.h"
 #include "bim/mesh/mesh.h"
@@ -230,6 +232,41 @@ TEST(PlanYamlErrors, Rooms) {
                     "no wall runs along");
   expect_plan_error(with("[[0, 0], [4, 0], [4, 5], [0, 5]]", "[[1, 0], [2, 0], [2, 0.05], [1, 0.05]]"), "15",
                     "inside walls");
+}
+
+/// A round hall of 24 walls with an annex before the first, whose outline runs through the corners of the hall.
+TEST(PlanYaml, RoundRoomsHaveSimpleOutlines) {
+  std::string walls, hall;
+  const auto corner = [](int i) {
+    const double angle = 2.0 * 3.14159265358979 * (i % 24) / 24;
+    char text[64];
+    std::snprintf(text, sizeof text, "[%.6f, %.6f]", 9.0 * std::cos(angle), 9.0 * std::sin(angle));
+    return std::string(text);
+  };
+  const auto wall = [&](const std::string& id, const std::string& a, const std::string& b, const std::string& thick) {
+    walls += "  - {id: " + id + ", storey: g, a: " + a + ", b: " + b + ", thickness_m: " + thick + "}\n";
+  };
+  for (int i = 0; i < 24; ++i) {
+    wall("w" + std::to_string(i), corner(i), corner(i + 1), "0.3");
+    hall += (i > 0 ? ", " : "") + corner(i);
+  }
+  const std::string s = "[9.261052, -1.98289]", se = "[14.218277, -1.330259]", ne = "[13.389504, 4.964892]",
+                    n = "[8.43228, 4.312261]";
+  wall("south", s, se, "0.2");
+  wall("east", se, ne, "0.2");
+  wall("north", ne, n, "0.2");
+  wall("left", corner(0), s, "0.2");
+  wall("right", n, corner(1), "0.2");
+  const Building building =
+      read_plan_text("plan: 1\nstoreys: [{id: g, height_m: 5}]\nwalls:\n" + walls +
+                         "openings:\n  - {id: d, wall: w0, s_m: 1.174736, width_m: 1.2}\nrooms:\n" +
+                         "  - {id: hall, storey: g, polygon: [" + hall + "]}\n  - {id: annex, storey: g, polygon: [" +
+                         s + ", " + se + ", " + ne + ", " + n + "]}\n",
+                     "round.yaml");
+  ASSERT_EQ(building.rooms.size(), 2U);
+  for (const Room& room : building.rooms) EXPECT_TRUE(is_simple(room.polygon)) << room.id;
+  EXPECT_EQ(std::max(building.openings[0].rooms[0], building.openings[0].rooms[1]), 1);
+  EXPECT_EQ(std::min(building.openings[0].rooms[0], building.openings[0].rooms[1]), 0);
 }
 
 TEST(PlanYamlErrors, WhatIsNotSimulated) { EXPECT_EQ(error_of(sound + "stairs: []\ndeviations: []\n"), "no error"); }
