@@ -19,7 +19,7 @@ void extend(Box3& box, const Solid& solid) {
   for (const Eigen::Vector3d& p : solid.vertices) box.extend(p);
 }
 
-Box3 box_of(const Wall& wall) {
+Box3 bounds_of(const Wall& wall) {
   Box3 box;
   if (wall.body) extend(box, *wall.body);
   if (wall.body) return box;
@@ -28,7 +28,7 @@ Box3 box_of(const Wall& wall) {
   return box;
 }
 
-Box3 box_of(const Stair& stair) {
+Box3 bounds_of(const Stair& stair) {
   Box3 box;
   for (const Solid& solid : stair.bodies) extend(box, solid);
   for (const StairFlight& flight : stair.flights)
@@ -94,8 +94,8 @@ void add_stair_ends(const Stair& stair, double floor_z_m, const WalkableConfig& 
 }  // namespace
 
 Surroundings::Surroundings(const Building& building) : building_(building) {
-  for (const Wall& wall : building.walls) walls_.push_back(box_of(wall));
-  for (const Stair& stair : building.stairs) stairs_.push_back(box_of(stair));
+  for (const Wall& wall : building.walls) walls_.push_back(bounds_of(wall));
+  for (const Stair& stair : building.stairs) stairs_.push_back(bounds_of(stair));
   for (const Slab& slab : building.slabs) {
     slabs_.emplace_back();
     if (slab.body) extend(slabs_.back(), *slab.body);

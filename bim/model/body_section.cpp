@@ -15,12 +15,12 @@ namespace {
 
 constexpr double touching_m = 1e-4;
 
-struct Edge {
+struct SectionEdge {
   Eigen::Vector2d a, b;  ///< material on the left
 };
 
-std::vector<Edge> edges_at(const Solid& body, double z) {
-  std::vector<Edge> edges;
+std::vector<SectionEdge> edges_at(const Solid& body, double z) {
+  std::vector<SectionEdge> edges;
   for (const Eigen::Vector3i& triangle : body.triangles) {
     const auto corner = [&](int k) -> const Eigen::Vector3d& {
       return body.vertices[static_cast<std::size_t>(triangle[k % 3])];
@@ -43,8 +43,8 @@ std::vector<Edge> edges_at(const Solid& body, double z) {
 }
 
 /// Edges shorter than `touching_m` would hide what goes on behind them.
-std::vector<Polygon2> rings_of(std::vector<Edge> edges) {
-  std::erase_if(edges, [](const Edge& edge) { return (edge.b - edge.a).norm() < 0.5 * touching_m; });
+std::vector<Polygon2> rings_of(std::vector<SectionEdge> edges) {
+  std::erase_if(edges, [](const SectionEdge& edge) { return (edge.b - edge.a).norm() < 0.5 * touching_m; });
   std::vector<Polygon2> rings;
   std::vector<bool> taken(edges.size(), false);
   for (std::size_t first = 0; first < edges.size(); ++first) {

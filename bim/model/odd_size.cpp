@@ -11,7 +11,12 @@ namespace plumbline::bim {
 std::string odd_size(const Building& building) {
   constexpr double least_m = 1.0, most_m = 5000.0;
   Eigen::AlignedBox2d box;
-  for (const Wall& wall : building.walls) box.extend(wall.a).extend(wall.b);
+  for (const Wall& wall : building.walls) {
+    if (!wall.body)
+      box.extend(wall.a).extend(wall.b);
+    else
+      for (const Eigen::Vector3d& p : wall.body->vertices) box.extend(p.head<2>());
+  }
   for (const Room& room : building.rooms)
     for (const Eigen::Vector2d& p : room.polygon) box.extend(p);
   for (const Slab& slab : building.slabs)

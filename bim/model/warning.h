@@ -16,13 +16,16 @@ struct WarningRow {
 };
 
 /// Every kind of warning that a reader or the mesh gives, by name.
-inline constexpr std::array<WarningRow, 55> warning_rows = {{
+inline constexpr std::array<WarningRow, 56> warning_rows = {{
     {"assumed_doorway", "a gap between two walls in line becomes a doorway with a lintel"},
     {"assumed_floor", "the drawing has no floor; everything within the outer walls gets one"},
     {"assumed_height", "the file gives no height of the storey; it is taken as 3 m"},
     {"assumed_storey", "the file has no storeys; levels at which walls begin are taken as such"},
     {"assumed_unit", "the file gives no unit of length; it is taken as metres"},
     {"bad_floor", "the outline of a floor crosses itself or has no area; the floor is left out"},
+    {"bent_wall",
+     "the body of a wall is bent or hollow on the plan: it becomes a wall for each straight piece, or stays one, of "
+     "which plans hold the rectangle around it while the LiDAR and the robot meet its body"},
     {"body_of_parts", "the element has no body of its own; those of its parts replace it"},
     {"curved_axis",
      "the axis of a wall is curved; plans hold the wall as straight, while the LiDAR and the robot meet its body"},
@@ -42,7 +45,7 @@ inline constexpr std::array<WarningRow, 55> warning_rows = {{
      "cut through"},
     {"no_area", "a slab has no area on the plan; it is kept as an obstacle"},
     {"no_axis",
-     "a wall has no reference line; its body's extent along the placement replaces it, or the wall is left out"},
+     "a wall has no reference line; its body's longer extent on the plan replaces it, or the wall is left out"},
     {"no_body", "the element has no body that can be read; it is left out, and an opening cuts nothing"},
     {"no_flights", "a stair has no steps in its body; it is a solid and cannot be climbed"},
     {"no_global_id", "an element has no GlobalId, or that of another; its number names it"},

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "bim/config/tree.h"
+#include "bim/model/body_section.h"
 #include "bim/model/stair_flight.h"
 #include "bim/model/through.h"
 
@@ -12,12 +13,15 @@ namespace plumbline::scenarios {
 
 namespace {
 
-/// In the plane, openings included.
+/// In the plane, openings included. Of a bent wall the body counts, not the rectangle around it.
 bool in_body(const bim::Wall& wall, const Eigen::Vector2d& p) {
   const double along = (p - wall.a).dot(wall.direction());
   const double across = (p - wall.a).dot(wall.left());
-  return along >= 0.0 && along <= wall.length() && across >= wall.offset_m &&
-         across <= wall.offset_m + wall.thickness_m;
+  if (along < 0.0 || along > wall.length() || across < wall.offset_m || across > wall.offset_m + wall.thickness_m)
+    return false;
+  if (!wall.body) return true;
+  const Region2 section = bim::wall_section(wall, 0.5 * (wall.z0_m + wall.z1_m));
+  return std::any_of(section.begin(), section.end(), [&](const auto& piece) { return contains(piece, p); });
 }
 
 /// Where in the plane a stair stands.

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "bim/load/load.h"
+#include "bim/model/extrude.h"
 #include "scenarios/spec/named_places.h"
 #include "tests/data.h"
 #include "tests/input_error.h"
@@ -187,6 +188,21 @@ TEST(RoutePlan, AClosedDoorBeyondTheStairIsNamed) {
     if (opening.id == "door_study") opening.leaf = bim::Leaf::closed;
   const std::string text = error_of(shut, in("living"), through({"study"}));
   EXPECT_NE(text.find("door 'door_study' on the way is closed"), std::string::npos) << text;
+}
+
+TEST(RoutePlan, AStartBesideABentWallsBodyIsInNoWall) {
+  bim::Building bent = house();
+  bim::Wall& wall = bent.walls.emplace_back(bent.walls.front());
+  wall.id = "bent";
+  wall.a = {6.0, 1.5};
+  wall.b = {9.0, 1.5};
+  wall.offset_m = -1.1;
+  wall.thickness_m = 2.2;
+  wall.body = bim::extrude(
+      unite(std::vector<Polygon2>{{{6.0, 0.4}, {9.0, 0.4}, {9.0, 2.6}, {8.9, 2.6}, {8.9, 0.5}, {6.0, 0.5}}}), 0.0, 2.7);
+  EXPECT_EQ(error_of(bent, at("ground", 7.0, 1.6), through({"hall"})).find("inside a wall"), std::string::npos);
+  EXPECT_NE(error_of(bent, at("ground", 7.0, 0.45), through({"hall"})).find("is inside a wall ('bent')"),
+            std::string::npos);
 }
 
 TEST(RoutePlan, StartsThatCannotBeAreRefused) {

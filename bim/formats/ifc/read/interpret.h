@@ -58,6 +58,8 @@ class Interpreter {
   void take_as_slab(const StepProduct& product);
   void read_reference_line(const StepProduct& product, const Solid& body, Wall& wall);
   void read_faces(const StepProduct& product, const Solid& body, Wall& wall);
+  /// Adds a wall with its body; one whose body is bent, as its straight pieces.
+  void add_straightened(const StepProduct& product, Wall wall);
   [[nodiscard]] std::vector<int> host_walls(const StepProduct& opening, const std::vector<Solid>& solids) const;
   void add_opening(const StepProduct& product, int wall, const std::vector<Solid>& solids, const StepProduct* filling);
   void fill(Opening& opening, const StepProduct& filling) const;
@@ -89,7 +91,7 @@ class Interpreter {
   std::map<std::int64_t, std::vector<const StepProduct*>> parts_;    ///< by STEP number of the whole
   std::map<std::int64_t, int> storeys_;                              ///< index by STEP number
   std::map<int, std::int64_t> buildings_;                            ///< STEP number of the IfcBuilding by storey
-  std::map<std::int64_t, int> walls_;                                ///< index by STEP number
+  std::map<std::int64_t, std::vector<int>> walls_;                   ///< indices by STEP number
   std::map<std::int64_t, std::vector<const StepProduct*>> cutters_;  ///< openings by STEP number of what they cut
   std::set<std::int64_t> cutters_used_;                              ///< STEP numbers of what was cut
   std::set<std::int64_t> taken_;  ///< STEP numbers of parts that went into their whole

@@ -67,22 +67,26 @@ Polygon2 doorway_of(const Opening& opening, const Wall& host, double least_fill)
 
 }  // namespace
 
-/// The wall that an opening is said to cut; where that is a group of walls, those of the group it reaches into, and
-/// where it is a part of a wall, that wall.
+/// The wall that an opening is said to cut; where that is several pieces or a group of walls, those that it reaches
+/// into, and where it is a part of a wall, that wall.
 std::vector<int> Interpreter::host_walls(const StepProduct& opening, const std::vector<Solid>& solids) const {
+  std::vector<int> reached;
+  const auto add_reached = [&](const std::vector<int>& walls) {
+    for (const int i : walls) {
+      const Wall& wall = building_.walls[static_cast<std::size_t>(i)];
+      if (common_area(box_in(wall, {*wall.body}), box_in(wall, solids), 0.0) > config_.least_cut_m2)
+        reached.push_back(i);
+    }
+  };
   for (const StepProduct* host = find(opening.host); host != nullptr; host = find(host->whole)) {
-    const auto wall = walls_.find(host->step_id);
-    if (wall != walls_.end()) return {wall->second};
-    std::vector<int> reached;
+    if (const auto own = walls_.find(host->step_id); own != walls_.end()) {
+      if (own->second.size() > 1) add_reached(own->second);
+      return reached.empty() ? std::vector<int>{own->second.front()} : reached;
+    }
     const auto parts = parts_.find(host->step_id);
     if (parts == parts_.end()) continue;
-    for (const StepProduct* part : parts->second) {
-      const auto found = walls_.find(part->step_id);
-      if (found == walls_.end()) continue;
-      const Wall& candidate = building_.walls[static_cast<std::size_t>(found->second)];
-      if (common_area(box_in(candidate, {*candidate.body}), box_in(candidate, solids), 0.0) > config_.least_cut_m2)
-        reached.push_back(found->second);
-    }
+    for (const StepProduct* part : parts->second)
+      if (const auto found = walls_.find(part->step_id); found != walls_.end()) add_reached(found->second);
     if (!reached.empty()) return reached;
   }
   return {};
