@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <tuple>
 
 #include "bim/config/tree.h"
@@ -12,6 +13,8 @@
 #include "bim/formats/ifc/read/storey_kinds.h"
 #include "bim/geometry/polygon_boolean.h"
 #include "bim/mesh/solid.h"
+#include "bim/model/body_section.h"
+#include "bim/model/extrude.h"
 #include "bim/model/infer_rooms.h"
 
 namespace plumbline::bim {
@@ -33,6 +36,27 @@ std::vector<int> sort_elements(std::vector<Element>& elements) {
   }
   elements = std::move(sorted);
   return place;
+}
+
+/// Upright layers of equal height as one body; where their faces lie on each other, joined ones would not close.
+/// Nullopt for other solids.
+std::optional<Solid> one_of_layers(const std::vector<Solid>& solids, double grid_m) {
+  constexpr double same = 0.01;
+  if (solids.size() < 2) return std::nullopt;
+  const Extent first = extent(solids.front());
+  std::vector<Polygon2> layers;
+  for (const Solid& solid : solids) {
+    const Extent box = extent(solid);
+    if (std::abs(box.low.z() - first.low.z()) > grid_m || std::abs(box.high.z() - first.high.z()) > grid_m)
+      return std::nullopt;
+    const Region2 section = body_section(solid, 0.5 * (box.low.z() + box.high.z()));
+    const double prism = area(section) * (box.high.z() - box.low.z());
+    if (section.size() != 1 || !section.front().holes.empty() || std::abs(prism - volume(solid)) > same * prism ||
+        area(footprint(solid)) > (1.0 + same) * area(section))
+      return std::nullopt;
+    layers.push_back(section.front().outer);
+  }
+  return extrude(unite(layers), first.low.z(), first.high.z());
 }
 
 }  // namespace
@@ -131,6 +155,8 @@ Solid Interpreter::body_of(const StepProduct& product) {
     for (const StepProduct* cutter : cutters->second)
       for (Solid& cut : solids_of(*cutter)) cuts.push_back(std::move(cut));
   }
+  if (cuts.empty() && product.kind == StepClass::wall && !product.has_body)
+    if (std::optional<Solid> wall = one_of_layers(solids, config_.grid_m)) return std::move(*wall);
   if (cuts.empty()) return joined(solids);
   std::vector<std::string> problems;
   for (Solid& solid : solids) solid = without(std::move(solid), cuts, problems);

@@ -139,6 +139,27 @@ TEST(BentWalls, CornersAndBranchesBecomeStraightWalls) {
   }
 }
 
+TEST(WallsOfLayers, ThatTouchAreOneBody) {
+  Sketch sketch;
+  sketch.storey(0);
+  sketch.slab({{0, 0}, {6, 0}, {6, 5}, {0, 5}}, -0.2, 0);
+  const std::string wall = sketch.element("IFCWALL", "$", "$,$");
+  std::string layers;
+  for (const auto& [y0, y1] : {std::pair(0.0, 0.05), std::pair(0.05, 0.25), std::pair(0.25, 0.3)})
+    layers += (layers.empty() ? "" : ",") +
+              sketch.rooted("IFCBUILDINGELEMENTPART",
+                            "'layer',$,$," + sketch.add("IFCLOCALPLACEMENT($," + sketch.frame(0, 0, 0) + ")") + "," +
+                                sketch.shape(sketch.box(0, y0, 0, 6, y1, 3)) + ",$,$");
+  sketch.rooted("IFCRELAGGREGATES", "$,$," + wall + ",(" + layers + ")");
+  sketch.door(sketch.opening(wall, sketch.box(2, -0.1, 0, 3, 0.4, 2)));
+  const Building building = read(sketch);
+  ASSERT_EQ(building.walls.size(), 1u);
+  EXPECT_NEAR(building.walls.front().thickness_m, 0.3, 1e-6);
+  const BuildingMesh mesh = build_mesh(building);
+  EXPECT_TRUE(mesh.elements.front().closed);
+  EXPECT_NEAR(mesh.elements.front().volume_m3, (6.0 * 3.0 - 2.0) * 0.3, 1e-3);
+}
+
 TEST(BentWalls, AreAsLargeAsTheirBodies) {
   Building building;
   Wall& wall = building.walls.emplace_back();
