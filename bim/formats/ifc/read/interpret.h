@@ -52,6 +52,8 @@ class Interpreter {
   [[nodiscard]] std::vector<Solid> solids_of(const StepProduct& product);
 
   void assume_storeys();
+  [[nodiscard]] bool makes_storey(const StepProduct& product, bool lookalikes) const;
+  void leave_out_empty_storeys();
   /// True for elements whose class does not say what they are for, with a body that is still free.
   [[nodiscard]] bool is_nameless(const StepProduct& product) const;
   void take_as_wall(const StepProduct& product);

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+// Levels that are no storeys, storeys beside each other, spaces that are no rooms and stairs under a slab.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/bim/formats/ifc/read/reading.h"
+#include "tests/bim/formats/ifc/sketch.h"
+
+namespace plumbline::bim {
+namespace {
+
+/// A box of walls with a slab under it and a wall between two rooms, from x0 on; 8 by 6 m.
+void add_house(Sketch& sketch, double x0, double z, double height) {
+  const auto wall = [&](double x, double y, double dx, double dy) {
+    const double length = std::max(dx, dy);
+    const std::string frame = dy > dx ? sketch.frame(x, y, z, "0.,0.,1.", "0.,1.,0.") : sketch.frame(x, y, z);
+    sketch.element("IFCWALL", sketch.wall_shape(sketch.box(0, -0.1, 0, length, 0.1, height), length), "$,$", frame);
+  };
+  sketch.slab({{x0, 0}, {x0 + 8, 0}, {x0 + 8, 6}, {x0, 6}}, z - 0.2, z);
+  for (const double y : {0.0, 6.0}) wall(x0, y, 8, 0);
+  for (const double x : {0.0, 3.0, 8.0}) wall(x0 + x, 0, 0, 6);
+}
+
+TEST(Levels, ALevelWithoutBuildingPartsIsLeftOut) {
+  Sketch plain, sills;
+  for (Sketch* sketch : {&plain, &sills}) {
+    sketch->storey(0);
+    add_house(*sketch, 0, 0, 2.8);
+    if (sketch == &sills) {
+      sketch->storey(0.9);
+      sketch->element("IFCFURNITURE", sketch->shape(sketch->box(1, 1, 0.9, 2, 2, 1.2)), "$,$");
+    }
+    sketch->storey(3);
+    add_house(*sketch, 0, 3, 2.8);
+  }
+  const Building with = read(sills), without = read(plain);
+  ASSERT_EQ(with.storeys.size(), 2u);
+  EXPECT_EQ(count(with, "empty_storey"), 1);
+  EXPECT_EQ(count(without, "empty_storey"), 0);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(with.storeys[i].height_m, without.storeys[i].height_m);
+    EXPECT_EQ(with.storeys[i].kind, StoreyKind::habitable);
+  }
+  ASSERT_EQ(with.rooms.size(), 4u);
+  EXPECT_EQ(std::count_if(with.rooms.begin(), with.rooms.end(), [](const Room& r) { return r.storey == 0; }), 2);
+  ASSERT_EQ(with.obstacles.size(), 1u);
+  EXPECT_EQ(with.obstacles.front().storey, 0) << "it stands on the storey below";
+}
+
+TEST(Levels, AFileOfEmptyLevelsKeepsThem) {
+  Sketch sketch;
+  sketch.storey(0);
+  sketch.element("IFCBUILDINGELEMENTPROXY", sketch.shape(sketch.box(0, 0, -0.2, 4, 4, 0)), "$,$");
+  sketch.storey(3);
+  sketch.element("IFCBUILDINGELEMENTPROXY", sketch.shape(sketch.box(0, 0, 2.8, 4, 4, 3)), "$,$");
+  const Building building = read(sketch);
+  EXPECT_EQ(building.storeys.size(), 2u);
+  EXPECT_EQ(count(building, "empty_storey"), 0);
+}
+
+TEST(Levels, WhatStandsOnALevelKeepsItThoughItNamesAnother) {
+  Sketch sketch;
+  sketch.storey(3);
+  sketch.storey(0);
+  add_house(sketch, 0, 0, 2.8);
+  add_house(sketch, 0, 3, 2.8);
+  const Building building = read(sketch);
+  EXPECT_EQ(count(building, "empty_storey"), 0);
+  ASSERT_EQ(building.storeys.size(), 2u);
+  EXPECT_EQ(building.rooms.size(), 4u);
+}
+
+}  // namespace
+}  // namespace plumbline::bim
