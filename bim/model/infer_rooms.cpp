@@ -112,6 +112,32 @@ double floor_of(const Polygon2& outline, const std::vector<FloorPiece>& pieces, 
   return best_z;
 }
 
+/// Length of a room's outline along the walls of each storey, m.
+std::vector<double> lengths_by_storey(const Building& building, const Room& room) {
+  std::vector<double> lengths(building.storeys.size(), 0.0);
+  for (const Wall& wall : building.walls)
+    if (wall.storey >= 0)
+      for (const int side : {0, 1}) lengths[static_cast<std::size_t>(wall.storey)] += shared_length(room, wall, side);
+  return lengths;
+}
+
+/// The storey that a room belongs to among those beside its own: the one with most of its walls, of equal ones the
+/// first.
+int owner_of(const Building& building, const Room& room, double beside_m) {
+  const auto beside = [&](std::size_t i) {
+    return std::abs(building.storeys[i].elevation_m -
+                    building.storeys[static_cast<std::size_t>(room.storey)].elevation_m) < beside_m;
+  };
+  int neighbours = 0;
+  for (std::size_t i = 0; i < building.storeys.size(); ++i) neighbours += beside(i) ? 1 : 0;
+  if (neighbours < 2) return room.storey;
+  const std::vector<double> lengths = lengths_by_storey(building, room);
+  int best = -1;
+  for (std::size_t i = 0; i < lengths.size(); ++i)
+    if (beside(i) && (best < 0 || lengths[i] > lengths[static_cast<std::size_t>(best)])) best = static_cast<int>(i);
+  return best;
+}
+
 }  // namespace
 
 std::vector<Room> infer_rooms(const Building& building, int storey, const RoomInferenceConfig& config) {
@@ -153,7 +179,7 @@ std::vector<Room> infer_rooms(const Building& building, int storey, const RoomIn
       room.polygon = outlines.front();
       room.z0_m = floor_of(room.polygon, floors, level);
       room.z1_m = level.elevation_m + level.height_m;
-      rooms.push_back(std::move(room));
+      if (owner_of(building, room, config.beside_m) == storey) rooms.push_back(std::move(room));
     }
   }
   return rooms;

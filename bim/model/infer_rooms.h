@@ -13,10 +13,12 @@ struct RoomInferenceConfig {
   double closing_m = 0.10;      ///< walls this close to each other are taken as joined
   double least_area_m2 = 0.5;   ///< smaller gaps between walls are no rooms
   double least_height_m = 2.0;  ///< lower storeys (foundations) have no rooms
+  double beside_m = 1.9;        ///< storeys this close in height lie beside each other: wings, half levels
 };
 
 /// The regions that the walls of a storey enclose, as rooms with walls and doors left closed: clear outlines, ids made
-/// of the storey's id and a count in canonical order. Open-plan divisions cannot be found.
+/// of the storey's id and a count in canonical order. Of storeys beside each other a room belongs to the one that most
+/// of its walls are on. Open-plan divisions cannot be found.
 [[nodiscard]] std::vector<Room> infer_rooms(const Building& building, int storey,
                                             const RoomInferenceConfig& config = {});
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -6,6 +7,7 @@
 
 #include "bim/config/tree.h"
 #include "bim/formats/ifc/read/interpret.h"
+#include "bim/model/wall_face.h"
 
 namespace plumbline::bim {
 namespace {
@@ -16,6 +18,29 @@ double foot_of(const StepProduct& product) {
   for (const Shape& shape : product.body)
     for (const Eigen::Vector3d& p : shape.base.points) foot = std::min(foot, (product.X_WP * p).z());
   return foot;
+}
+
+/// What the walls, slabs and rooms of a storey cover on the plan.
+Eigen::AlignedBox2d box_of_storey(const Building& building, int storey) {
+  Eigen::AlignedBox2d box;
+  const auto add = [&](const Polygon2& outline) {
+    for (const Eigen::Vector2d& p : outline) box.extend(p);
+  };
+  for (const Wall& wall : building.walls)
+    if (wall.storey == storey) add(footprint(wall));
+  for (const Slab& slab : building.slabs)
+    if (slab.storey == storey) add(slab.polygon.outer);
+  for (const Room& room : building.rooms)
+    if (room.storey == storey) add(room.polygon);
+  return box;
+}
+
+/// False for storeys beside each other, such as half levels.
+bool lie_over_each_other(const Eigen::AlignedBox2d& a, const Eigen::AlignedBox2d& b) {
+  constexpr double least_share = 0.1;
+  if (a.isEmpty() || b.isEmpty()) return true;
+  const Eigen::AlignedBox2d common = a.intersection(b);
+  return !common.isEmpty() && common.volume() > least_share * std::min(a.volume(), b.volume());
 }
 
 }  // namespace
@@ -176,11 +201,15 @@ void Interpreter::assume_storeys() {
 }
 
 void Interpreter::set_heights() {
+  std::vector<Eigen::AlignedBox2d> boxes;
+  for (std::size_t i = 0; i < building_.storeys.size(); ++i)
+    boxes.push_back(box_of_storey(building_, static_cast<int>(i)));
   for (std::size_t i = 0; i < building_.storeys.size(); ++i) {
     Storey& storey = building_.storeys[i];
     const auto next = std::find_if(building_.storeys.begin(), building_.storeys.end(), [&](const Storey& other) {
-      return other.elevation_m > storey.elevation_m &&
-             same_building(static_cast<int>(i), static_cast<int>(&other - building_.storeys.data()));
+      const auto k = static_cast<std::size_t>(&other - building_.storeys.data());
+      return other.elevation_m > storey.elevation_m && same_building(static_cast<int>(i), static_cast<int>(k)) &&
+             lie_over_each_other(boxes[i], boxes[k]);
     });
     double top = storey.elevation_m;
     if (next != building_.storeys.end()) {

@@ -71,5 +71,34 @@ TEST(Levels, WhatStandsOnALevelKeepsItThoughItNamesAnother) {
   EXPECT_EQ(building.rooms.size(), 4u);
 }
 
+TEST(Levels, RoomsOfWingsAtOneHeightAreFoundOnce) {
+  Sketch sketch;
+  sketch.storey(0);
+  add_house(sketch, 0, 0, 3);
+  sketch.storey(0.2);
+  add_house(sketch, 20, 0.2, 3);
+  const Building building = read(sketch);
+  ASSERT_EQ(building.rooms.size(), 4u);
+  for (const Room& room : building.rooms) EXPECT_EQ(room.storey, room.polygon.front().x() < 15.0 ? 0 : 1) << room.id;
+}
+
+TEST(Levels, HalfLevelsAreAsHighAsWhatLiesOverThem) {
+  Sketch sketch;
+  for (const int level : {0, 1, 2, 3}) {
+    sketch.storey(1.4 * level);
+    add_house(sketch, level % 2 == 0 ? 0.0 : 8.1, 1.4 * level, 2.6);
+  }
+  const Building building = read(sketch);
+  ASSERT_EQ(building.storeys.size(), 4u);
+  EXPECT_NEAR(building.storeys[0].height_m, 2.8, 1e-9);
+  EXPECT_NEAR(building.storeys[1].height_m, 2.8, 1e-9);
+  ASSERT_EQ(building.rooms.size(), 8u);
+  for (int storey = 0; storey < 4; ++storey)
+    EXPECT_EQ(std::count_if(building.rooms.begin(), building.rooms.end(),
+                            [&](const Room& room) { return room.storey == storey; }),
+              2)
+        << storey;
+}
+
 }  // namespace
 }  // namespace plumbline::bim
