@@ -16,7 +16,7 @@ struct WarningRow {
 };
 
 /// Every kind of warning that a reader or the mesh gives, by name.
-inline constexpr std::array<WarningRow, 57> warning_rows = {{
+inline constexpr std::array<WarningRow, 58> warning_rows = {{
     {"assumed_doorway", "a gap between two walls in line becomes a doorway with a lintel"},
     {"assumed_floor", "the drawing has no floor; everything within the outer walls gets one"},
     {"assumed_height", "the file gives no height of the storey; it is taken as 3 m"},
@@ -57,6 +57,7 @@ inline constexpr std::array<WarningRow, 57> warning_rows = {{
     {"no_plan", "a mesh has no rooms and walls; plan localization is refused"},
     {"no_rooms", "walls enclose no room over a floor; no walk goes to such a storey"},
     {"no_walls", "a level has no walls"},
+    {"not_a_room", "a space is a gross area, lies outside or covers the other spaces; it is left out"},
     {"not_aligned", "a level shares no fiducial with the lowest, or one that does not fit"},
     {"not_clipped", "what a body should be clipped by does not close; the body is larger than designed"},
     {"not_closed", "the surface of a body is not closed; openings of a wall are then cut out of its surface"},

@@ -15,6 +15,22 @@ const PolygonWithHoles2& largest(const std::vector<PolygonWithHoles2>& pieces) {
   });
 }
 
+/// A space that holds all others of its storey, which fill most of it: an area of the storey and no room.
+bool covers_the_others(const Room& room, const std::vector<Room>& rooms) {
+  constexpr double least_share = 0.95, least_filled = 0.5;
+  const double own = signed_area(room.polygon);
+  double filled = 0.0;
+  int others = 0;
+  for (const Room& other : rooms) {
+    if (&other == &room || other.storey != room.storey) continue;
+    const double area = signed_area(other.polygon);
+    if (area >= own || intersection_area(room.polygon, other.polygon) < least_share * area) return false;
+    filled += area;
+    ++others;
+  }
+  return others >= 2 && filled >= least_filled * own;
+}
+
 template <class Element>
 Element element_of(const StepProduct& product) {
   Element element;
@@ -26,8 +42,13 @@ Element element_of(const StepProduct& product) {
 }  // namespace
 
 void Interpreter::add_rooms() {
+  std::vector<std::string> left_out;
   for (const StepProduct& product : model_.products) {
     if (product.kind != StepClass::space) continue;
+    if (product.space_use != SpaceUse::room) {
+      left_out.push_back(product.name + (product.space_use == SpaceUse::gross ? " (gross area)" : " (outside)"));
+      continue;
+    }
     const Solid body = body_of(product);
     if (body.triangles.empty()) continue;
     const std::vector<PolygonWithHoles2> outline = footprint(body);
@@ -47,6 +68,16 @@ void Interpreter::add_rooms() {
     room.storey = storey_index(product, room.z0_m);
     building_.rooms.push_back(std::move(room));
   }
+  std::vector<bool> whole;
+  for (const Room& room : building_.rooms) whole.push_back(covers_the_others(room, building_.rooms));
+  for (std::size_t i = building_.rooms.size(); i-- > 0;) {
+    if (!whole[i]) continue;
+    left_out.push_back(building_.rooms[i].name + " (covers the others)");
+    building_.rooms.erase(building_.rooms.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+  std::string list;
+  for (const std::string& name : left_out) list += (list.empty() ? "" : ", ") + name;
+  if (!list.empty()) building_.warnings.push_back({"", "not_a_room", "spaces that are no rooms are left out: " + list});
 }
 
 void Interpreter::add_slabs() {

@@ -17,6 +17,7 @@
 #include <ifcpp/IFC4/include/IfcRelVoidsElement.h>
 #include <ifcpp/IFC4/include/IfcShapeRepresentation.h>
 #include <ifcpp/IFC4/include/IfcSpace.h>
+#include <ifcpp/IFC4/include/IfcSpaceTypeEnum.h>
 #include <ifcpp/IFC4/include/IfcSpatialElement.h>
 #include <ifcpp/IFC4/include/IfcUnitAssignment.h>
 #include <ifcpp/IFC4/include/IfcUnitEnum.h>
@@ -93,6 +94,19 @@ bool is_ceiling(const IfcProduct& product) {
   const auto* covering = dynamic_cast<const IfcCovering*>(&product);
   return covering != nullptr && covering->m_PredefinedType &&
          covering->m_PredefinedType->m_enum == IfcCoveringTypeEnum::ENUM_CEILING;
+}
+
+SpaceUse use_of(const IfcProduct& product) {
+  const auto* space = dynamic_cast<const IfcSpace*>(&product);
+  if (space == nullptr || !space->m_PredefinedType) return SpaceUse::room;
+  switch (space->m_PredefinedType->m_enum) {
+    case IfcSpaceTypeEnum::ENUM_GFA:
+      return SpaceUse::gross;
+    case IfcSpaceTypeEnum::ENUM_EXTERNAL:
+      return SpaceUse::outside;
+    default:
+      return SpaceUse::room;
+  }
 }
 
 std::int64_t host_of(const std::shared_ptr<IfcProduct>& product, StepClass kind) {
@@ -237,6 +251,7 @@ class Reader {
     product.host = host_of(source, kind);
     product.whole = whole_of(*source);
     product.ceiling = is_ceiling(*source);
+    product.space_use = use_of(*source);
     if (const auto building = kind == StepClass::storey ? building_of(source) : nullptr) {
       product.building = building->m_entity_id;
       product.building_name = building->m_Name ? utf8(building->m_Name->m_value) : std::string();

@@ -22,6 +22,13 @@ struct StepLayers {
   double thickness_m = 0.0;
 };
 
+/// What the file says that a space is.
+enum class SpaceUse {
+  room,
+  gross,   ///< an area that is counted, with the rooms and walls in it
+  outside  ///< a terrace, a balcony, a garden
+};
+
 /// A product as the file has it: relations resolved, geometry uncut, in W.
 struct StepProduct {
   std::int64_t step_id = 0;
@@ -34,9 +41,10 @@ struct StepProduct {
   std::int64_t host = 0;                               ///< opening: the element it voids; door or window: its opening
   std::int64_t whole = 0;                              ///< STEP number of the product it is a part of, 0 for none
   bool has_body = false;                               ///< the file gives a body, whether or not it was read
-  bool ceiling = false;                                ///< a covering that the file calls a ceiling
-  std::int64_t building = 0;                           ///< storey: STEP number of its IfcBuilding, 0 for none
-  std::string building_name;                           ///< storey: of its IfcBuilding
+  SpaceUse space_use = SpaceUse::room;
+  bool ceiling = false;       ///< a covering that the file calls a ceiling
+  std::int64_t building = 0;  ///< storey: STEP number of its IfcBuilding, 0 for none
+  std::string building_name;  ///< storey: of its IfcBuilding
   std::optional<StepLayers> layers;
   std::string material;                  ///< of the thickest layer
   std::vector<Eigen::Vector3d> axis_W;   ///< points of the Axis representation

@@ -100,5 +100,44 @@ TEST(Levels, HalfLevelsAreAsHighAsWhatLiesOverThem) {
         << storey;
 }
 
+std::string add_space(Sketch& sketch, const std::string& storey, const std::string& name, const Polygon2& outline,
+                      const std::string& type) {
+  const std::string at = sketch.add("IFCLOCALPLACEMENT($," + sketch.frame(0, 0, 0) + ")");
+  const std::string id =
+      sketch.rooted("IFCSPACE", "'" + name + "',$,$," + at + "," + sketch.shape(sketch.prism(outline, 0, 2.8)) +
+                                    ",$,.ELEMENT.," + type + ",$");
+  sketch.rooted("IFCRELAGGREGATES", "$,$," + storey + ",(" + id + ")");
+  return id;
+}
+
+TEST(Spaces, GrossAreasAndTerracesAreNoRooms) {
+  Sketch sketch;
+  const std::string storey = sketch.storey(0);
+  add_house(sketch, 0, 0, 2.8);
+  add_space(sketch, storey, "a", {{0.1, 0.1}, {2.9, 0.1}, {2.9, 5.9}, {0.1, 5.9}}, ".INTERNAL.");
+  add_space(sketch, storey, "b", {{3.1, 0.1}, {7.9, 0.1}, {7.9, 5.9}, {3.1, 5.9}}, "$");
+  add_space(sketch, storey, "gross", {{-0.1, -0.1}, {8.1, -0.1}, {8.1, 6.1}, {-0.1, 6.1}}, ".GFA.");
+  add_space(sketch, storey, "terrace", {{8.1, 0}, {12, 0}, {12, 6}, {8.1, 6}}, ".EXTERNAL.");
+  const Building building = read(sketch);
+  ASSERT_EQ(building.rooms.size(), 2u);
+  EXPECT_EQ(building.rooms[0].name, "a");
+  EXPECT_EQ(building.rooms[1].name, "b");
+  EXPECT_EQ(count(building, "not_a_room"), 1);
+}
+
+TEST(Spaces, OneThatCoversAllOthersIsNoRoom) {
+  for (const bool second : {true, false}) {
+    Sketch sketch;
+    const std::string storey = sketch.storey(0);
+    add_house(sketch, 0, 0, 2.8);
+    add_space(sketch, storey, "a", {{0.1, 0.1}, {2.9, 0.1}, {2.9, 5.9}, {0.1, 5.9}}, "$");
+    if (second) add_space(sketch, storey, "b", {{3.1, 0.1}, {7.9, 0.1}, {7.9, 5.9}, {3.1, 5.9}}, "$");
+    add_space(sketch, storey, "all", {{0.1, 0.1}, {7.9, 0.1}, {7.9, 5.9}, {0.1, 5.9}}, "$");
+    const Building building = read(sketch);
+    EXPECT_EQ(building.rooms.size(), 2u) << "a hall with one room in it is kept";
+    EXPECT_EQ(count(building, "not_a_room"), second ? 1 : 0);
+  }
+}
+
 }  // namespace
 }  // namespace plumbline::bim
