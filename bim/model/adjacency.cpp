@@ -44,6 +44,7 @@ std::vector<Adjacent> adjacency(const Building& building) {
   }
   for (const auto& [rooms, width_m] : open_edges) add(list, rooms.first, rooms.second, Passage::open_edge, "", width_m);
   for (const Stair& stair : building.stairs) {
+    if (stair.to < 0 && stair.rooms[1] < 0) continue;
     const double width_m = stair.flights.empty() ? 0.0 : stair.flights.front().width_m;
     add(list, stair.rooms[0], stair.rooms[1], Passage::stair, stair.id, width_m);
   }

@@ -247,6 +247,7 @@ void find_stair_rooms(Building& building, const AdjacencyConfig& config) {
     stair.rooms[0] = room_at_one_of(
         building, stair.from, {first.start - config.step_m * up_first, first.start + 0.5 * first.run_m * up_first},
         first.z0_m, config);
+    if (stair.to < 0) continue;
     stair.rooms[1] =
         room_at_one_of(building, stair.to, {top_edge + config.step_m * up_last, top_edge - 0.5 * last.run_m * up_last},
                        last.z0_m + last.steps * last.rise_m, config);

@@ -16,7 +16,7 @@ struct WarningRow {
 };
 
 /// Every kind of warning that a reader or the mesh gives, by name.
-inline constexpr std::array<WarningRow, 58> warning_rows = {{
+inline constexpr std::array<WarningRow, 59> warning_rows = {{
     {"assumed_doorway", "a gap between two walls in line becomes a doorway with a lintel"},
     {"assumed_floor", "the drawing has no floor; everything within the outer walls gets one"},
     {"assumed_height", "the file gives no height of the storey; it is taken as 3 m"},
@@ -53,6 +53,7 @@ inline constexpr std::array<WarningRow, 58> warning_rows = {{
     {"no_floor",
      "no slab lies under a storey or some of its rooms; the robot walks at the lower end of the rooms, the LiDAR sees "
      "no floor"},
+    {"no_headroom", "a slab lies so low over the steps of a stair that the robot does not pass; it is no way"},
     {"no_layers", "a wall has no material layers; offset and thickness are those of its body"},
     {"no_plan", "a mesh has no rooms and walls; plan localization is refused"},
     {"no_rooms", "walls enclose no room over a floor; no walk goes to such a storey"},

@@ -20,6 +20,7 @@ struct IfcConfig {
   double clear_share = 0.8;       ///< a doorway with less of its width free is opened in the walls that fill it
   double least_fill = 0.6;        ///< a wall whose body fills less of its rectangle on the plan is bent or hollow
   double filling_share = 0.5;     ///< ... or in an opening with more than this share of its box
+  double headroom_m = 1.2;        ///< that a robot needs over the steps of a stair
   double stair_reach_m = 0.1;     ///< the foot or head of a stair is this close to the floor of its storey
 };
 

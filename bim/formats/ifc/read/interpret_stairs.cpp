@@ -2,8 +2,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bim/config/tree.h"
 #include "bim/formats/ifc/read/interpret.h"
 #include "bim/formats/ifc/read/stair_recognition.h"
+#include "bim/geometry/interval.h"
 
 namespace plumbline::bim {
 namespace {
@@ -37,6 +39,39 @@ Levels levels_of(const Stair& stair) {
     levels.head_m = std::max(levels.head_m, landing.z_m);
   }
   return levels;
+}
+
+/// Whether the line from `low` to `high` over a point of the plan meets the body's surface.
+bool meets(const Solid& body, const Eigen::Vector2d& p, const Interval& z) {
+  return std::any_of(body.triangles.begin(), body.triangles.end(), [&](const Eigen::Vector3i& t) {
+    const auto corner = [&](int k) -> const Eigen::Vector3d& { return body.vertices[static_cast<std::size_t>(t[k])]; };
+    const Eigen::Vector3d n = (corner(1) - corner(0)).cross(corner(2) - corner(0));
+    if (std::abs(n.z()) < 1e-9) return false;
+    const Polygon2 triangle = {corner(0).head<2>(), corner(1).head<2>(), corner(2).head<2>()};
+    if (!contains(triangle, p)) return false;
+    const double at = corner(0).z() - n.head<2>().dot(p - corner(0).head<2>()) / n.z();
+    return at > z.low && at < z.high;
+  });
+}
+
+/// The first slab that lies low over several steps of a stair; over one or two it may be the floor at its head.
+const Slab* slab_over(const Stair& stair, const std::vector<Slab>& slabs, double headroom_m) {
+  constexpr int least_steps = 3;
+  constexpr double over_m = 0.05;
+  for (const Slab& slab : slabs) {
+    if (!slab.body) continue;
+    int low = 0;
+    for (const StairFlight& flight : stair.flights)
+      for (int k = 0; k < flight.steps; ++k) {
+        const Eigen::Vector2d ascent(std::cos(flight.yaw), std::sin(flight.yaw));
+        const double tread_m = flight.z0_m + (k + 1) * flight.rise_m;
+        const Interval room{tread_m + over_m, tread_m + headroom_m};
+        if (slab.z1_m < room.low || slab.z0_m > room.high) continue;
+        low += meets(*slab.body, flight.start + (k + 0.5) * flight.run_m * ascent, room) ? 1 : 0;
+      }
+    if (low >= least_steps) return &slab;
+  }
+  return nullptr;
 }
 
 }  // namespace
@@ -96,6 +131,12 @@ void Interpreter::place_stair(const StepProduct& product, Stair& stair) {
     warn(product, "stair_within", "leads from and to the same storey");
   }
   stair.to = to;
+  if (const Slab* slab = slab_over(stair, building_.slabs, config_.headroom_m)) {
+    stair.to = -1;
+    warn(product, "no_headroom",
+         "slab " + slab->id + " lies less than " + format_number(config_.headroom_m) +
+             " m over its steps and has no opening there; it is no way");
+  }
 }
 
 }  // namespace plumbline::bim
