@@ -16,7 +16,7 @@ struct WarningRow {
 };
 
 /// Every kind of warning that a reader or the mesh gives, by name.
-inline constexpr std::array<WarningRow, 59> warning_rows = {{
+inline constexpr std::array<WarningRow, 60> warning_rows = {{
     {"assumed_doorway", "a gap between two walls in line becomes a doorway with a lintel"},
     {"assumed_floor", "the drawing has no floor; everything within the outer walls gets one"},
     {"assumed_height", "the file gives no height of the storey; it is taken as 3 m"},
@@ -26,6 +26,7 @@ inline constexpr std::array<WarningRow, 59> warning_rows = {{
     {"bent_wall",
      "the body of a wall is bent or hollow on the plan: it becomes a wall for each straight piece, or stays one, of "
      "which plans hold the rectangle around it while the LiDAR and the robot meet its body"},
+    {"blocked_door", "another wall or a column stands in a doorway and leaves too little of it free"},
     {"body_of_parts", "the element has no body of its own; those of its parts replace it"},
     {"curved_axis",
      "the axis of a wall is curved; plans hold the wall as straight, while the LiDAR and the robot meet its body"},

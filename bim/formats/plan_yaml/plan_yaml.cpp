@@ -10,6 +10,7 @@
 #include "bim/formats/plan_yaml/plan_file.h"
 #include "bim/formats/plan_yaml/plan_stairs.h"
 #include "bim/geometry/polygon_boolean.h"
+#include "bim/model/blocked_doors.h"
 #include "bim/model/boxes.h"
 #include "bim/model/materials.h"
 #include "bim/model/rooms.h"
@@ -40,6 +41,7 @@ class PlanBuilder {
     find_stair_rooms(building_);
     check_rooms();
     add_stairs(plan_, tree_, building_);
+    warn_of_blocked_doors(building_);
     return std::move(building_);
   }
 

@@ -234,6 +234,11 @@ TEST(PlanYamlErrors, Rooms) {
                     "inside walls");
 }
 
+int plan_warnings(const Building& building, const std::string& kind) {
+  return static_cast<int>(std::count_if(building.warnings.begin(), building.warnings.end(),
+                                        [&](const Warning& warning) { return warning.kind == kind; }));
+}
+
 /// A round hall of 24 walls with an annex before the first, whose outline runs through the corners of the hall.
 TEST(PlanYaml, RoundRoomsHaveSimpleOutlines) {
   std::string walls, hall;
@@ -267,6 +272,23 @@ TEST(PlanYaml, RoundRoomsHaveSimpleOutlines) {
   for (const Room& room : building.rooms) EXPECT_TRUE(is_simple(room.polygon)) << room.id;
   EXPECT_EQ(std::max(building.openings[0].rooms[0], building.openings[0].rooms[1]), 1);
   EXPECT_EQ(std::min(building.openings[0].rooms[0], building.openings[0].rooms[1]), 0);
+}
+
+TEST(PlanYaml, ADoorThatAWallOrAColumnFillsIsSaid) {
+  const std::string wall = "thickness_m: 0.1}\n", door = "height_m: 2.1}\n";
+  const std::string second = "  - {id: second, storey: ground, a: [4, 0], b: [4, 5], " + wall;
+  EXPECT_EQ(plan_warnings(read_plan_text(sound, "p.yaml"), "blocked_door"), 0);
+  EXPECT_EQ(plan_warnings(read_plan_text(with(wall, wall + second), "p.yaml"), "blocked_door"), 1);
+  std::string both = with(wall, wall + second);
+  both.insert(both.find(door) + door.size(),
+              "  - {id: other, wall: second, kind: door, s_m: 2.5, width_m: 1, height_m: 2.1}\n");
+  EXPECT_EQ(plan_warnings(read_plan_text(both, "p.yaml"), "blocked_door"), 0) << "both leaves have the doorway";
+  const auto post_at = [&](const std::string& at) {
+    return plan_warnings(read_plan_text(with("at: [6, 4]", "at: " + at), "p.yaml"), "blocked_door");
+  };
+  EXPECT_EQ(post_at("[4.3, 2.5]"), 1);
+  EXPECT_EQ(post_at("[4.3, 3.0]"), 0) << "0.85 m of the doorway are free";
+  EXPECT_EQ(post_at("[5.0, 2.5]"), 0) << "it stands in the room";
 }
 
 TEST(PlanYamlErrors, WhatIsNotSimulated) { EXPECT_EQ(error_of(sound + "stairs: []\ndeviations: []\n"), "no error"); }
