@@ -113,7 +113,11 @@ Region2 wall_section(const Wall& wall, double z_m) {
 
 double fill_of(const Wall& wall) {
   const double rectangle = wall.length() * wall.thickness_m;
-  return wall.body && rectangle > 0.0 ? area(wall_section(wall, 0.5 * (wall.z0_m + wall.z1_m))) / rectangle : 1.0;
+  if (!wall.body || rectangle <= 0.0) return 1.0;
+  double most = 0.0;
+  for (const double share : {0.1, 0.5, 0.9})
+    most = std::max(most, area(wall_section(wall, wall.z0_m + share * (wall.z1_m - wall.z0_m))));
+  return most / rectangle;
 }
 
 }  // namespace plumbline::bim

@@ -14,7 +14,8 @@ namespace plumbline::bim {
 /// where the body has no section there. Does not look at the wall's heights.
 [[nodiscard]] Region2 wall_section(const Wall& wall, double z_m);
 
-/// Share of its rectangle on the plan that the wall's body fills half way up; 1 without a body.
+/// Share of its rectangle on the plan that the wall's body fills where it fills most, since a gable is short at the
+/// top; 1 without a body.
 [[nodiscard]] double fill_of(const Wall& wall);
 
 }  // namespace plumbline::bim

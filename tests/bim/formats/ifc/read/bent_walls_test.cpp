@@ -160,6 +160,20 @@ TEST(WallsOfLayers, ThatTouchAreOneBody) {
   EXPECT_NEAR(mesh.elements.front().volume_m3, (6.0 * 3.0 - 2.0) * 0.3, 1e-3);
 }
 
+TEST(BentWalls, GablesAreStraight) {
+  Sketch sketch;
+  sketch.storey(0);
+  sketch.slab({{0, 0}, {8, 0}, {8, 5}, {0, 5}}, -0.2, 0);
+  std::string body = sketch.box(0, 0, 0, 8, 0.2, 4);
+  for (const char* normal : {"-1.,0.,1.", "1.,0.,1."})
+    body = sketch.difference(body, sketch.half_space(sketch.frame(4, 0, 4, normal, "0.,1.,0.")));
+  sketch.element("IFCWALL", sketch.shape(body), "$,$");
+  const Building building = read(sketch);
+  ASSERT_EQ(building.walls.size(), 1u);
+  EXPECT_NEAR(volume_of_walls(building), 0.5 * 8 * 4 * 0.2, 0.01);
+  EXPECT_EQ(count(building, "bent_wall"), 0);
+}
+
 TEST(BentWalls, AreAsLargeAsTheirBodies) {
   Building building;
   Wall& wall = building.walls.emplace_back();
