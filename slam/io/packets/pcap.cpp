@@ -202,7 +202,7 @@ struct PcapReader::Impl {
   /// Stamp of a data packet, in time order.
   Nanoseconds stamp_of(const Waiting& read) {
     const auto& [packet, captured, frame] = read;
-    const auto fail_here = [&](const std::string& what) { fail(frame, what); };
+    const auto fail_here = [this, number = frame](const std::string& what) { fail(number, what); };
     const std::int64_t us = time_in_payload_us(packet);
     if (us >= hour_us) fail_here("its time, " + std::to_string(us) + " us, is beyond the hour");
     if (!any) {
