@@ -78,6 +78,43 @@ Float4 edge_tolerance_columns(Float4 distance, int columns, const HypothesisComp
   return choose(beams > 1.0F, choose(beams < most, beams, all(most)), all(1.0F));
 }
 
+/// Cost of the beams of a block, each at most as given, where the sensor is tilted up or down as far as its roll and
+/// pitch are uncertain: either side of a horizontal edge may be hit, as of a step, a sill or a lintel.
+Float4 tilted_cost(const LocalizationScan& scan, const PredictedScan& predicted, const BeamGridBlock& block,
+                   Float4 untilted, const HypothesisComparisonConfig& config) {
+  constexpr double fits = 0.5;  // a standard deviation
+  const double tilt = config.edge_tilts * scan.tilt_sigma;
+  const Eigen::Vector3d origin_I{predicted.sensor_I.x(), predicted.sensor_I.y(),
+                                 predicted.floor_z + scan.sensor_height};
+  std::array<SensorRay, 8> rays;
+  std::array<StructureHit, 8> hits;
+  std::array<std::size_t, 8> lane_of;
+  std::size_t count = 0;
+  double farthest = 0.0;
+  for (std::size_t k = 0; k < 4; ++k) {
+    if (block.range[k] <= 0.0F || untilted[k] <= fits) continue;
+    const Eigen::Vector2d direction = predicted.R_IH * Eigen::Vector2d(block.x[k], block.y[k]);
+    const double slope = block.slope[k], steepest = std::abs(slope) + tilt;
+    farthest = std::max(farthest, (block.range[k] + cast_beyond_m) * std::sqrt(1.0 + steepest * steepest));
+    for (const double tilted : {slope - tilt, slope + tilt}) {
+      rays[count] = {direction, tilted};
+      lane_of[count++] = k;
+    }
+  }
+  if (count == 0) return untilted;
+  predicted.storey->structure->cast(origin_I, std::span(rays).first(count), farthest, std::span(hits).first(count));
+  Float4 best = untilted;
+  for (std::size_t r = 0; r < count; ++r) {
+    const std::size_t k = lane_of[r];
+    PredictedBlock tilted;
+    tilted.expected[k] = block.range[k] + cast_beyond_m;
+    take(hits[r], rays[r].direction, k, tilted);
+    tilted.incidence[k] = std::max(tilted.incidence[k], static_cast<float>(config.min_incidence));
+    best[k] = std::min(best[k], cost(block.range, tilted, config)[k]);
+  }
+  return best;
+}
+
 /// Cost of the beams of block i, each by the best prediction among it and its neighbours on the ring.
 Float4 beam_cost(const LocalizationScan& scan, const PredictedScan& predicted, std::size_t i,
                  const HypothesisComparisonConfig& config) {
@@ -99,6 +136,7 @@ Float4 beam_cost(const LocalizationScan& scan, const PredictedScan& predicted, s
       best = choose(near & (scan.beam_grid.blocks[k].range > 0.0F) & (other < best), other, best);
     }
   }
+  if (scan.tilt_sigma > 0.0) best = tilted_cost(scan, predicted, scan.beam_grid.blocks[i], best, config);
   return predicted.cost[i] = best;
 }
 

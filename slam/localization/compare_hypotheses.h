@@ -22,6 +22,7 @@ struct HypothesisComparisonConfig {
   double weight = 0.05;
   double edge_m = 0.03;
   double edge_rad = 0.0015;
+  double edge_tilts = 2.0;
   double cause_cap = 8.0;
   double object_cap = 4.0;
   double outlined_cap = 6.0;
@@ -53,6 +54,8 @@ struct HypothesisComparisonConfig {
     // undecided at 5 cm; on 63 others it changed no verdict.
     v("edge_m", edge_m, Field{.doc = "tolerance of an edge of the plan to the side", .min = 0});
     v("edge_rad", edge_rad, Field{.doc = "tolerance of an edge of the plan in direction", .min = 0});
+    v("edge_tilts", edge_tilts,
+      plain_field("tolerance of an edge of the plan in height, in standard deviations of roll and pitch", {.min = 0}));
     v("cause_cap", cause_cap,
       plain_field("most evidence of one cause, such as a missing wall or an unplanned object", {.min = 0}));
     // Less than convergence.log_ratio: furniture that ends by chance where another pose has a wall decides nothing.

@@ -101,9 +101,10 @@ void SGraphLocalization::use_scan(const PlanScan& scan, Output& output) {
   if (scan.prior_yaw_I) doubted_yaw_ = ExpectedYaw{*scan.prior_yaw_I, scan.prior_yaw_sigma};
   const std::vector<PlaneObservation> planes = observe_planes(
       scan.deskewed, config_.planes, config_.ransac_without_rings, input().seed);  // [shaheer2023, eq. 3]
-  const LocalizationScan localization_scan = make_localization_scan(
+  LocalizationScan localization_scan = make_localization_scan(
       scan.deskewed, planes, scan.X_OR, input().calibration, config_.scan,
       has_floors_at_several_levels(index()) ? other_floor_m : std::numeric_limits<double>::infinity());
+  localization_scan.tilt_sigma = scan.tilt_sigma;
   record_stage("planes", stopwatch, output);
   output.digests.push_back({"planes", digest_of(localization_scan)});
   if (!tracker_)

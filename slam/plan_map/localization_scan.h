@@ -92,6 +92,7 @@ struct LocalizationScan {
   Nanoseconds stamp = 0;
   Pose X_OR;
   Eigen::Quaterniond q_HR;                             ///< roll and pitch, from gravity
+  double tilt_sigma = 0.0;                             ///< of either beyond what an IMU leaves, rad
   Eigen::Vector2d sensor_H = Eigen::Vector2d::Zero();  ///< position of L
   double sensor_height = 0.0;                          ///< of L above the floor, m
   std::vector<Beam> beams;                             ///< by azimuth of the scan

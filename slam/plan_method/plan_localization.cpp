@@ -173,6 +173,7 @@ PlanScan PlanLocalization::prepare_scan(DeskewedScan scan, const Pose& X_OR) con
   out.X_OR = X_OR;
   if (X_OR_update_) out.u = heading(*X_OR_update_).inverse() * heading(X_OR);
   out.q_HR = exp_so3({0.0, 0.0, -X_OR.yaw()}) * X_OR.q;
+  out.tilt_sigma = step_changes_.tilt_sigma();
   if (input_.prior.yaw_W && is_start_known_) {
     // Rounded, so that a plan moved as a whole gives the same numbers.
     const double yaw_I = std::round((*input_.prior.yaw_W - index_.X_WI.yaw()) * 1e9) * 1e-9;

@@ -63,6 +63,7 @@ struct PlanScan {
   Pose X_OR;                          ///< odometry at its stamp
   Pose2 u;                            ///< motion since the last update's scan, identity at the first
   Eigen::Quaterniond q_HR;            ///< roll and pitch, from gravity
+  double tilt_sigma = 0.0;            ///< of either where scan matching stands in for odometry, rad
   std::optional<double> prior_yaw_I;  ///< the prior yaw propagated by odometry
   double prior_yaw_sigma = 0.0;       ///< rad
   std::uint64_t tick = 0;             ///< counts the updates, from 1

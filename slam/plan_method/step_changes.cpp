@@ -2,6 +2,7 @@
 #include "slam/plan_method/step_changes.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace plumbline::slam {
 
@@ -14,6 +15,7 @@ void StepChanges::add(const Pose& X_MR) {
       const double share = 1.0 / scans_, yaw = wrap_angle(step.yaw() - last_step_->yaw());
       translation_m2_ += share * ((step.t - last_step_->t).head<2>().squaredNorm() - translation_m2_);
       yaw_rad2_ += share * (yaw * yaw - yaw_rad2_);
+      tilt_rad2_ += share * (log_so3(last_step_->q.conjugate() * step.q).head<2>().squaredNorm() - tilt_rad2_);
     }
     last_step_ = step;
   }
@@ -29,5 +31,7 @@ Eigen::Matrix3d StepChanges::covariance() const {
   const double axis_m2 = 0.5 * translation_m2_;
   return 0.25 * Eigen::Vector3d(axis_m2, axis_m2, yaw_rad2_).asDiagonal().toDenseMatrix();
 }
+
+double StepChanges::tilt_sigma() const { return 0.5 * std::sqrt(0.5 * tilt_rad2_); }
 
 }  // namespace plumbline::slam

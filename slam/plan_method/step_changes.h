@@ -20,11 +20,13 @@ class StepChanges {
 
   /// Of (x, y, yaw) at a sweep's end, over about the last 20 scans: m^2 and rad^2.
   [[nodiscard]] Eigen::Matrix3d covariance() const;
+  /// Standard deviation of roll, and of pitch, at a sweep's end, rad.
+  [[nodiscard]] double tilt_sigma() const;
 
  private:
   std::optional<Pose> last_X_MR_, last_step_;
   int scans_ = 0;
-  double translation_m2_ = 0.0, yaw_rad2_ = 0.0;  ///< mean squares of the changes
+  double translation_m2_ = 0.0, yaw_rad2_ = 0.0, tilt_rad2_ = 0.0;  ///< mean squares of the changes
 };
 
 }  // namespace plumbline::slam

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "bim/random/stream.h"
 #include "tests/slam/localization/house_plan.h"
 #include "tests/slam/localization/house_scan.h"
@@ -33,6 +35,13 @@ PairwiseLikelihoodRatio compare_here_and_there(const synthetic::House& planned, 
 double here_against_there(const synthetic::House& planned, const synthetic::House& built, const Pose& X_WR,
                           std::uint64_t seed) {
   return compare_here_and_there(planned, built, X_WR, seed).ratio;
+}
+
+HypothesisComparisonConfig capped_at(double object_cap, double cause_cap) {
+  HypothesisComparisonConfig config;
+  config.object_cap = config.outlined_cap = object_cap;
+  config.cause_cap = cause_cap;
+  return config;
 }
 
 /// What evidence counts for once it was seen ever so often.
@@ -113,6 +122,32 @@ TEST_P(CompareHypothesesAt, AWallThatStandsOutByTenCentimetresIsEvidence) {
   EXPECT_GT(here_against_there(house, house, somewhere(), 7), 2.0);
 }
 
+// A degree lifts a beam by half a step at 5 m, and the step behind the one that it should hit is a tread farther.
+TEST_P(CompareHypothesesAt, StepsSpeakForTheirStairFromASensorThatIsTilted) {
+  const synthetic::House without = synthetic::one_room(12.0, 4.0);
+  synthetic::House with = without;
+  for (int i = 0; i < 15; ++i)
+    with.boxes.push_back({{5.0 + 0.28 * i, 0.3, 0.0}, {5.0 + 0.28 * (i + 1), 1.5, 0.18 * (i + 1)}});
+  const PlanIndex stair = make_plan_index(synthetic::plan_of(with), "ground", {}),
+                  none = make_plan_index(synthetic::plan_of(without), "ground", {});
+  const double degree = std::numbers::pi / 180.0;
+  Pose X_WR = somewhere();
+  X_WR.q = exp_so3({0.0, -degree, 0.0}) * X_WR.q;
+  LocalizationScan scan = synthetic::house_scan(with, X_WR, Pose{}, 9).scan;
+  const auto compared = [&](double tilt_sigma) {
+    scan.tilt_sigma = tilt_sigma;
+    const auto seen = [&](const PlanIndex& index) {
+      return predict_scan(index.storeys.front(), heading(index.X_WI.inverse() * X_WR), scan, {});
+    };
+    return compare_hypotheses(scan, seen(stair), seen(none), {});
+  };
+  const PairwiseLikelihoodRatio level = compared(0.0), tilted = compared(0.5 * degree);
+  const HypothesisComparisonConfig uncapped = capped_at(1e9, 1e9);
+  EXPECT_GT(level.against_a.total(uncapped), 0.0);
+  EXPECT_LT(tilted.against_a.total(uncapped), 0.5 * level.against_a.total(uncapped));
+  EXPECT_GT(tilted.against_b.total(uncapped), 0.9 * level.against_b.total(uncapped));
+}
+
 TEST_P(CompareHypothesesAt, APredictedScanIsWhatTheGridGivesBeamByBeam) {
   const synthetic::House house = synthetic::corridor_house();
   const PlanIndex index = make_plan_index(synthetic::plan_of(house), "ground", {});
@@ -144,13 +179,6 @@ TEST_P(CompareHypothesesAt, APredictedScanIsWhatTheGridGivesBeamByBeam) {
     }
   EXPECT_GT(beams, 4000);
   EXPECT_LE(others, beams / 1000);
-}
-
-HypothesisComparisonConfig capped_at(double object_cap, double cause_cap) {
-  HypothesisComparisonConfig config;
-  config.object_cap = config.outlined_cap = object_cap;
-  config.cause_cap = cause_cap;
-  return config;
 }
 
 TEST(EvidenceByCause, NoCauseCountsForMoreThanTheCap) {

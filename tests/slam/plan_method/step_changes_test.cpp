@@ -39,6 +39,20 @@ TEST(StepChanges, TellIndependentErrorsOfTheEnds) {
   EXPECT_NEAR(std::sqrt(mean.z() / 1.5), sigma_rad, 0.05 * sigma_rad);
 }
 
+TEST(StepChanges, TellIndependentErrorsOfTheTilt) {
+  const double sigma_rad = 0.006;
+  const Stream stream(4, "slam.localize.init");
+  StepChanges changes;
+  double mean_square = 0.0;
+  constexpr std::uint32_t scans = 20000;
+  for (std::uint32_t i = 0; i < scans; ++i) {
+    const Eigen::Vector3d tilt(sigma_rad * stream.gauss(0, i, 0), sigma_rad * stream.gauss(0, i, 1), 0.0);
+    changes.add(Pose{exp_so3(tilt), Eigen::Vector3d::Zero()});
+    mean_square += changes.tilt_sigma() * changes.tilt_sigma() / scans;
+  }
+  EXPECT_NEAR(std::sqrt(mean_square / 1.5), sigma_rad, 0.05 * sigma_rad);
+}
+
 TEST(StepChanges, AWayThatIsNotKnownIsNoChange) {
   StepChanges changes;
   const Pose step = Pose::from_xyz_yaw({0.06, 0.0, 0.0}, 0.0);
