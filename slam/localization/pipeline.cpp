@@ -59,8 +59,16 @@ class SGraphLocalization final : public PlanLocalization {
 
  private:
   void use_scan(const PlanScan& scan, Output& output) override;
+  [[nodiscard]] bool follows_standing() const override { return tracker_.has_value(); }
+  void use_standing_scan(const PlanScan& scan, Output& output) override;
   [[nodiscard]] bool start_anew() override;
   void report(const Pose& X_OR, Output& output) override;
+  /// A scan's walls, and the scan as it is compared with the plan.
+  struct Observed {
+    std::vector<PlaneObservation> planes;
+    LocalizationScan scan;
+  };
+  [[nodiscard]] Observed observe(const PlanScan& scan, Stopwatch& stopwatch, Output& output);
   void localize(const LocalizationScan& scan, const StartPrior& start_prior,
                 const std::vector<PlaneObservation>& planes, Output& output);
   void track(const LocalizationScan& scan, const std::vector<PlaneObservation>& planes, Output& output);
@@ -99,18 +107,37 @@ void SGraphLocalization::use_scan(const PlanScan& scan, Output& output) {
   Stopwatch stopwatch;
   doubted_yaw_.reset();
   if (scan.prior_yaw_I) doubted_yaw_ = ExpectedYaw{*scan.prior_yaw_I, scan.prior_yaw_sigma};
-  const std::vector<PlaneObservation> planes = observe_planes(
-      scan.deskewed, config_.planes, config_.ransac_without_rings, input().seed);  // [shaheer2023, eq. 3]
-  LocalizationScan localization_scan = make_localization_scan(
-      scan.deskewed, planes, scan.X_OR, input().calibration, config_.scan,
-      has_floors_at_several_levels(index()) ? other_floor_m : std::numeric_limits<double>::infinity());
-  localization_scan.tilt_sigma = scan.tilt_sigma;
-  record_stage("planes", stopwatch, output);
-  output.digests.push_back({"planes", digest_of(localization_scan)});
+  const auto [planes, localization_scan] = observe(scan, stopwatch, output);
   if (!tracker_)
     localize(localization_scan, start_prior(scan), planes, output);  // particles to X_WO [shaheer2023, eq. 4-10]
   else
     track(localization_scan, planes, output);  // S-Graph on the plan's walls and rooms [shaheer2023, section 3.4]
+  walls_ = match_walls(localization_scan, planes);
+}
+
+SGraphLocalization::Observed SGraphLocalization::observe(const PlanScan& scan, Stopwatch& stopwatch, Output& output) {
+  Observed observed;
+  observed.planes = observe_planes(scan.deskewed, config_.planes, config_.ransac_without_rings,
+                                   input().seed);  // [shaheer2023, eq. 3]
+  observed.scan = make_localization_scan(
+      scan.deskewed, observed.planes, scan.X_OR, input().calibration, config_.scan,
+      has_floors_at_several_levels(index()) ? other_floor_m : std::numeric_limits<double>::infinity());
+  observed.scan.tilt_sigma = scan.tilt_sigma;
+  record_stage("planes", stopwatch, output);
+  output.digests.push_back({"planes", digest_of(observed.scan)});
+  return observed;
+}
+
+/// Scans from one place are not independent: they correct the tracked pose, and judge nothing.
+void SGraphLocalization::use_standing_scan(const PlanScan& scan, Output& output) {
+  Stopwatch stopwatch;
+  const auto [planes, localization_scan] = observe(scan, stopwatch, output);
+  if (const std::optional<TrackedPose> replaced = tracker_->update_standing(localization_scan, planes))
+    add_correction(replaced->stamp, replaced->X_IR * replaced->X_OR.inverse());
+  correct_by_beams(localization_scan);
+  X_IO_last_ = tracker_->X_IO();
+  output.digests.push_back({"tracking", Digest().add(tracker_->pose(scan.X_OR)).value()});
+  record_stage("tracking", stopwatch, output);
   walls_ = match_walls(localization_scan, planes);
 }
 

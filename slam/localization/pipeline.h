@@ -56,6 +56,7 @@ struct KidnapMonitorConfig {
 struct LocalizationConfig : PlanUpdateConfig {
   LocalizationConfig() {
     update_m = 0.2;           // scans from one position are not independent
+    update_s = 1.0;           // assumed
     index.furniture = false;  // it may have moved
   }
 

@@ -34,6 +34,7 @@ void PlanTracker::start(const LocalizationScan& scan, const std::vector<PlaneObs
   window_.assign(1, associate(scan, planes, X_IR));
   anchor_X_IR_ = X_IR;
   optimise();
+  measure_walls();
 }
 
 void PlanTracker::carry_anchor_covariance(const TrackedPose& from, const TrackedPose& to) {
@@ -75,7 +76,7 @@ std::vector<TrackedPose> PlanTracker::update(const LocalizationScan& scan,
                                              const std::vector<PlaneObservation>& planes) {
   window_.push_back(associate(scan, planes, pose(scan.X_OR)));
   std::vector<TrackedPose> left;
-  if (static_cast<int>(window_.size()) > config_.window) {
+  while (static_cast<int>(window_.size()) > config_.window) {
     left.push_back(window_.front());
     range_bias_.add(window_.front(), storey_, 1.0 / config_.window, config_);
     carry_anchor_covariance(window_[0], window_[1]);
@@ -83,7 +84,23 @@ std::vector<TrackedPose> PlanTracker::update(const LocalizationScan& scan,
     anchor_X_IR_ = window_.front().X_IR;
   }
   optimise();
+  measure_walls();
   return left;
+}
+
+std::optional<TrackedPose> PlanTracker::update_standing(const LocalizationScan& scan,
+                                                        const std::vector<PlaneObservation>& planes) {
+  TrackedPose newest = associate(scan, planes, pose(scan.X_OR));
+  std::optional<TrackedPose> replaced;
+  if (window_.back().waited_s > 0.0) {
+    replaced = std::move(window_.back());
+    window_.pop_back();
+  }
+  newest.waited_s = seconds(scan.stamp - window_.back().stamp);
+  window_.push_back(std::move(newest));
+  optimise();
+  covariance_ = covariance_of_newest(seen_walls(window_, storey_, range_bias_m_, config_));
+  return replaced;
 }
 
 void PlanTracker::change_storey(StoreyIndex storey) {
@@ -130,13 +147,17 @@ void PlanTracker::optimise() {
       add_ground(problem, i, window_[i], storey_, standing_m_, config_);
       if (i + 1 == window_.size()) continue;
       const Pose X_ij = window_[i].X_OR.inverse() * window_[i + 1].X_OR;
-      problem.add_between(i, pose_residual(window_[i].X_IR, window_[i + 1].X_IR, X_ij), odometry_sigmas(X_ij, config_));
+      problem.add_between(i, pose_residual(window_[i].X_IR, window_[i + 1].X_IR, X_ij),
+                          odometry_sigmas(X_ij, window_[i + 1].waited_s, config_));
     }
     const Eigen::VectorXd step = problem.solve();
     for (std::size_t i = 0; i < window_.size(); ++i)
       window_[i].X_IR = increment(window_[i].X_IR, step.segment<6>(6 * static_cast<Eigen::Index>(i)));
     range_bias_m_ += step[step.size() - 1];
   }
+}
+
+void PlanTracker::measure_walls() {
   const std::vector<SeenWall> walls = seen_walls(window_, storey_, range_bias_m_, config_);
   wall_variance_factor_.add(walls, {range_bias_.mean(), range_bias_.variance(), range_bias_m_}, config_);
   covariance_ = covariance_of_newest(walls);

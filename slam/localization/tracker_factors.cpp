@@ -142,11 +142,13 @@ void add_rooms(WindowProblem& problem, std::size_t i, const TrackedPose& pose, c
   }
 }
 
-Vector6d odometry_sigmas(const Pose& X_ij, const TrackerConfig& config) {
+Vector6d odometry_sigmas(const Pose& X_ij, double waited_s, const TrackerConfig& config) {
   const double walked = X_ij.t.norm();
   const double turned = log_so3(X_ij.q).norm();
-  const double trans = config.odometry_min_m + config.odometry_trans_per_m * walked;
-  const double rot = config.odometry_min_rad + config.odometry_rot_per_rad * turned;
+  const double trans =
+      config.odometry_min_m + config.odometry_trans_per_m * walked + config.odometry_standing_m_per_s * waited_s;
+  const double rot =
+      config.odometry_min_rad + config.odometry_rot_per_rad * turned + config.odometry_standing_rad_per_s * waited_s;
   Vector6d sigmas;
   sigmas << trans, trans, trans + config.odometry_height_per_m * walked, rot, rot, rot;
   return sigmas;

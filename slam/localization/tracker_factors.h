@@ -53,6 +53,7 @@ void add_ground(WindowProblem& problem, std::size_t i, const TrackedPose& pose, 
 /// walls, as seen and as planned. A range bias shifts both walls alike and cancels.
 void add_rooms(WindowProblem& problem, std::size_t i, const TrackedPose& pose, const StoreyIndex& storey,
                const TrackerConfig& config);
-[[nodiscard]] Vector6d odometry_sigmas(const Pose& X_ij, const TrackerConfig& config);
+/// Of a step, and of the time that the robot stood before its end.
+[[nodiscard]] Vector6d odometry_sigmas(const Pose& X_ij, double waited_s, const TrackerConfig& config);
 
 }  // namespace plumbline::slam

@@ -16,7 +16,9 @@ std::vector<SeenWall> seen_walls(const std::deque<TrackedPose>& window, const St
   std::map<int, SeenWall> walls;
   const TrackedPose& newest = window.back();
   for (auto it = window.rbegin(); it != window.rend(); ++it) {
-    const double drift = config.drift_per_m * (newest.X_OR.t - it->X_OR.t).norm();
+    const double waited_s = it == window.rbegin() ? 0.0 : newest.waited_s;
+    const double drift =
+        config.drift_per_m * (newest.X_OR.t - it->X_OR.t).norm() + config.odometry_standing_m_per_s * waited_s;
     for (const WallLink& link : it->walls) {
       const Eigen::Vector2d& n = storey.lines[static_cast<std::size_t>(link.line)].n;
       const Eigen::Vector2d arm = (it->X_IR * link.observed.centroid_R - newest.X_IR.t).head<2>();

@@ -78,6 +78,12 @@ Output PlanLocalization::on_scan(const Scan& raw) {
     record_stage("deskew", stopwatch, output);
     use_scan(prepared_scan, output);
     X_OR_update_ = X_OR;
+    used_ = scan.stamp;
+  } else if (is_due_standing(scan.stamp)) {
+    const PlanScan prepared_scan = prepare_scan(tracked ? std::move(*tracked) : deskewed(scan), X_OR);
+    record_stage("deskew", stopwatch, output);
+    use_standing_scan(prepared_scan, output);
+    used_ = scan.stamp;
   }
   report(X_OR, output);
   Digest digest;
@@ -102,6 +108,10 @@ bool PlanLocalization::is_due(const Pose& X_OR) const {
   if (!X_OR_update_) return true;
   const Pose2 u = heading(X_OR_update_->inverse() * X_OR);
   return u.t.norm() >= config_.update_m || std::abs(u.yaw) >= config_.update_rad;
+}
+
+bool PlanLocalization::is_due_standing(Nanoseconds stamp) const {
+  return config_.update_s > 0.0 && follows_standing() && seconds(stamp - used_) >= config_.update_s;
 }
 
 Pose PlanLocalization::track(const Scan& raw, DeskewedScan& scan) {

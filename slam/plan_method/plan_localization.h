@@ -26,6 +26,7 @@ namespace plumbline::slam {
 struct PlanUpdateConfig {
   double update_m = 0.25;
   double update_rad = 0.2;
+  double update_s = 0.0;
   int particles_shown = 500;
   double mass_shown = 0.02;
 
@@ -33,6 +34,8 @@ struct PlanUpdateConfig {
   void visit(V& v) {
     v("update_m", update_m, Field{.doc = "distance walked between two updates", .min = 0, .basic = true});
     v("update_rad", update_rad, Field{.doc = "or angle turned between two updates", .min = 0, .basic = true});
+    v("update_s", update_s,
+      Field{.doc = "or time since the last, for a robot that stands while its pose is tracked; 0: never", .min = 0});
     v("particles_shown", particles_shown, Field{.doc = "most particles that an output carries", .min = 1, .max = 500});
     v("mass_shown", mass_shown, share_field("least mass of a hypothesis that an output carries"));
   }
@@ -85,6 +88,10 @@ class PlanLocalization : public Method {
  protected:
   /// Uses a scan that is due; its stages go into the output's digests and times.
   virtual void use_scan(const PlanScan& scan, Output& output) = 0;
+  /// Whether a robot that stands is to be followed by scans, as its odometry may drift.
+  [[nodiscard]] virtual bool follows_standing() const { return false; }
+  /// Uses a scan of a robot that has stood since the last scan that was due, update_s after the one before.
+  virtual void use_standing_scan(const PlanScan& /*scan*/, Output& /*output*/) {}
   /// Called where the way to a scan is not known: scan matching is lost, or went on from elsewhere. True: the method
   /// starts anew at the next scan, without the prior yaw, which odometry carried on; false: it goes on as it was.
   [[nodiscard]] virtual bool start_anew() { return false; }
@@ -121,6 +128,7 @@ class PlanLocalization : public Method {
 
  private:
   [[nodiscard]] bool is_due(const Pose& X_OR) const;
+  [[nodiscard]] bool is_due_standing(Nanoseconds stamp) const;
   [[nodiscard]] PlanScan prepare_scan(DeskewedScan scan, const Pose& X_OR) const;
   /// R in O by scan matching, for a robot without odometry; the scan is deskewed. O stands on the first floor seen.
   /// Sets whether the way from the scan before is known.
@@ -152,6 +160,7 @@ class PlanLocalization : public Method {
   bool is_way_known_ = true;                ///< from the scan before to this one
   bool is_start_known_ = true;              ///< whether odometry leads back to the first scan
   std::optional<Pose> X_OR_start_, X_OR_update_;
+  Nanoseconds used_ = 0;  ///< stamp of the last scan that was used
   std::uint64_t tick_ = 0;
   CorrectedTrajectory trajectory_;
   MapCloudConfig map_config_;
