@@ -62,6 +62,8 @@ void check_kind(const std::string& recording) {
       throw InputError({recording, 0, 0},
                        "is a rosbag2 without metadata.yaml; run ros2 bag reindex on it, or give one "
                        "of its .db3 files");
+    if (const std::string why = slam::why_no_cloud_folder(recording); !why.empty())
+      throw InputError({recording, 0, 0}, "holds " + why);
     return;
   }
   if (slam::is_bag(recording)) return;

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -11,6 +12,7 @@
 #include "slam/io/clouds/cloud_file.h"
 #include "slam/io/packets/point_cloud.h"
 #include "tests/folder.h"
+#include "tests/slam/io/packets/made_cloud.h"
 #include "tests/slam/io/packets/packets.h"
 
 namespace plumbline::slam {
@@ -56,6 +58,92 @@ TEST(CloudRecording, AScanEachPeriodThatTheDescriptionTells) {
   EXPECT_EQ(second.scan.stamp - first.scan.stamp, 500'000'000);
   info.lidar.period_s = 0.05;  // and a turn of 0.1 s
   EXPECT_THROW((void)open_cloud_folder(folder.path(), &info)->next(first), InputError);
+}
+
+TEST(CloudRecording, OrdersNamesByTheirNumbers) {
+  const auto widths = [](const std::vector<std::string>& names) {
+    const Folder folder;
+    for (std::size_t i = 0; i < names.size(); ++i)  // the i-th name in the right order has i + 1 points
+      write_cloud_file(folder / names[i],
+                       cloud_with({"x", "y", "z"}, std::vector<std::vector<float>>(i + 1, {1, 2, 3})));
+    const auto recording = open_cloud_folder(folder.path());
+    std::vector<int> columns;
+    for (SensorFrame frame; recording->next(frame);) columns.push_back(frame.scan.columns);
+    return columns;
+  };
+  const std::vector<int> rising = {1, 2, 3, 4};
+  EXPECT_EQ(widths({"0.pcd", "2.pcd", "10.pcd", "100.pcd"}), rising);
+  EXPECT_EQ(widths({"s1_9.ply", "s1_10.ply", "s2_1.ply", "s10_0.ply"}), rising);
+  EXPECT_EQ(widths({"17.45.pcd", "17.5.pcd", "18.05.pcd", "18.1.pcd"}), rising) << "fractions of a second";
+  EXPECT_EQ(widths({"0007.pcd", "0010.pcd", "0100.pcd", "a.pcd"}), rising);
+}
+
+TEST(CloudRecording, TakesTimesFromZeroToOneAsSharesOfAPeriod) {
+  const Folder folder;
+  for (const char* name : {"0.pcd", "1.pcd", "2.pcd"}) {
+    std::vector<std::vector<float>> points;
+    for (int k = 0; k < 100; ++k) {
+      const float share = static_cast<float>(k) / 99.0F;
+      points.push_back({2.0F + share, 1.0F, 0.1F, share});
+    }
+    write_cloud_file(folder / name, cloud_with({"x", "y", "z", "time"}, points));
+  }
+  const auto recording = open_cloud_folder(folder.path());
+  ASSERT_EQ(recording->assumed().size(), 1U);
+  EXPECT_NE(recording->assumed().front().find("shares of a sweep of 100 ms"), std::string::npos);
+  SensorFrame frame;
+  for (int k = 0; k < 3; ++k) {
+    ASSERT_TRUE(recording->next(frame)) << k;
+    EXPECT_EQ(frame.scan.stamp, (k + 1) * 100'000'000);
+  }
+}
+
+TEST(CloudRecording, TimesThatRunOnAreTheScansOwn) {
+  const Folder folder;
+  constexpr int clouds = 30;
+  constexpr double apart_s = 0.15;  // not the period: by it, the last cloud would be 1.45 s late
+  for (int i = 0; i < clouds; ++i) {
+    PointCloud cloud;
+    cloud.fields = {
+        {"x", 0, PointType::f32}, {"y", 4, PointType::f32}, {"z", 8, PointType::f32}, {"t", 12, PointType::f64}};
+    cloud.point_step = 20;
+    cloud.width = 10;
+    cloud.height = 1;
+    cloud.row_step = 200;
+    cloud.data.resize(200);
+    for (std::size_t k = 0; k < 10; ++k) {
+      const float one = 1.0F + static_cast<float>(k);
+      const double t = apart_s * i + 0.01 * static_cast<double>(k);
+      for (std::size_t a = 0; a < 3; ++a) std::memcpy(&cloud.data[20 * k + 4 * a], &one, sizeof one);
+      std::memcpy(&cloud.data[20 * k + 12], &t, sizeof t);
+    }
+    write_cloud_file(folder / (std::to_string(i) + ".pcd"), cloud);
+  }
+  const auto recording = open_cloud_folder(folder.path());
+  SensorFrame frame;
+  for (int i = 0; i < clouds; ++i) {
+    ASSERT_TRUE(recording->next(frame)) << i;
+    EXPECT_NEAR(1e-9 * static_cast<double>(frame.scan.stamp), apart_s * i + 0.09, 1e-6) << i;
+  }
+}
+
+TEST(CloudRecording, SaysWhatKeepsAFolderFromBeingOne) {
+  const Folder folder;
+  EXPECT_EQ(why_no_cloud_folder(folder.path()), "");
+  write_clouds(folder, {"0.pcd", "1.pcd", "2.pcd"});
+  EXPECT_EQ(why_no_cloud_folder(folder.path()), "");
+  std::ofstream(folder / "timestamps.txt") << "0.0\n0.1\n0.2\n";
+  EXPECT_NE(why_no_cloud_folder(folder.path()).find("beside them 'timestamps.txt'"), std::string::npos);
+  std::filesystem::remove(folder / "timestamps.txt");
+  write_clouds(folder, {"0.ply"});
+  EXPECT_NE(why_no_cloud_folder(folder.path()).find("more than one ending"), std::string::npos);
+  for (const char* name : {"0.pcd", "1.pcd", "2.pcd", "0.ply"}) std::filesystem::remove(folder / name);
+  std::ofstream(folder / "0.bin") << "0123456789abcdef";
+  EXPECT_NE(why_no_cloud_folder(folder.path()).find("KITTI"), std::string::npos);
+  std::filesystem::remove(folder / "0.bin");
+  for (const char* name : {"a.json", "b.json"}) std::ofstream(folder / name) << "{}";
+  write_clouds(folder, {"map.ply"});
+  EXPECT_EQ(why_no_cloud_folder(folder.path()), "") << "a run's folder";
 }
 
 TEST(CloudRecording, TakesTheDescription) {
