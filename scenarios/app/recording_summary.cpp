@@ -38,6 +38,9 @@ std::string words_of(const slam::Taken& taken, const ScansRead& scans, bool has_
     case slam::MountSource::tf_static:
       text += "; mount from /tf_static";
       break;
+    case slam::MountSource::tf:
+      text += "; mount from /tf, where it never moves";
+      break;
     case slam::MountSource::unknown:
       text += "; no mount, so that the robot's frame is the LiDAR's";
   }

@@ -1,25 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
-#include <filesystem>
 #include <functional>
 #include <optional>
 #include <vector>
 
-#include "bim/config/input_file.h"
 #include "bim/errors.h"
 #include "slam/io/bags/bag.h"
+#include "slam/io/bags/bag_source.h"
 #include "slam/io/bags/bag_topics.h"
 #include "slam/io/bags/frame_tree.h"
 #include "slam/io/bags/odometry_motion.h"
 #include "slam/io/bags/record_queue.h"
-#include "slam/io/bags/ros1_source.h"
 #include "slam/io/bags/ros_message.h"
-#include "slam/io/ros2/mcap_format.h"
-#include "slam/io/ros2/mcap_reader.h"
-#include "slam/io/ros2/rosbag2_reader.h"
 
 namespace plumbline::slam {
 
@@ -27,44 +20,6 @@ namespace {
 
 constexpr std::size_t most_waiting = 20;    ///< scans that wait for slower topics
 constexpr std::int64_t many_records = 100;  ///< by which a clock that stands still is told from a slow start
-
-enum class Kind { none, ros1, mcap, database, folder };
-
-Kind kind_of(const std::string& path) {
-  namespace fs = std::filesystem;
-  std::error_code error;
-  if (fs::is_directory(path, error)) {
-    const std::string metadata = path + "/metadata.yaml";
-    if (!fs::exists(metadata, error)) return Kind::none;
-    constexpr std::uint64_t most_metadata_bytes = 16U << 20U;
-    return read_text_file(metadata, most_metadata_bytes).find("rosbag2_bagfile_information") != std::string::npos
-               ? Kind::folder
-               : Kind::none;
-  }
-  if (!fs::is_regular_file(path, error)) return Kind::none;
-  const InputFile file = open_input_file(path);
-  std::array<char, 16> start{};
-  const std::string_view bytes(start.data(), std::fread(start.data(), 1, start.size(), file.stream.get()));
-  if (bytes.starts_with("#ROSBAG V2.0")) return Kind::ros1;
-  if (bytes.starts_with(std::string_view("SQLite format 3", 16))) return Kind::database;
-  const std::string_view mcap(reinterpret_cast<const char*>(mcap::magic.data()), mcap::magic.size());
-  return bytes.starts_with(mcap) ? Kind::mcap : Kind::none;
-}
-
-std::unique_ptr<MessageSource> open_source(const std::string& path) {
-  switch (kind_of(path)) {
-    case Kind::mcap:
-      return open_mcap(path);
-    case Kind::database:
-      return open_rosbag2_database(path);
-    case Kind::folder:
-      return open_rosbag2_folder(path);
-    case Kind::ros1:
-    case Kind::none:
-      break;
-  }
-  return open_ros1_bag(path);
-}
 
 class BagRecording final : public Recording {
  public:
@@ -98,6 +53,10 @@ class BagRecording final : public Recording {
          {scans_.left_out(topics_.points, "scans"), odometry_.left_out(topics_.odometry, "records"),
           imu_.left_out(topics_.imu, "records")})
       all.insert(all.end(), said.begin(), said.end());
+    if (scan_frame_.others() > 0)
+      all.push_back(topics_.points + " left out: " + scan_frame_.others_of(scans_.read(), "scans"));
+    if (odometry_frame_.others() > 0)
+      all.push_back(topics_.odometry + " left out: " + odometry_frame_.others_of(odometry_.read(), "records"));
     if (unjoined_imu_)
       all.push_back(topics_.imu + " left out: in frame '" + *unjoined_imu_ + "', which /tf_static does not join to '" +
                     base_ + "'; name another topic, or describe the recording: then the two are one");
@@ -176,21 +135,27 @@ class BagRecording final : public Recording {
     });
   }
 
-  /// Reads /tf_static and the frame of the odometry, which is R's; returns that of the clouds.
-  [[nodiscard]] std::string find_frames(const std::vector<std::string>& names) {
-    RawMessage message;
-    source_->select({"/tf_static"});
-    while (source_->next(message))
+  template <class F>
+  void show_transforms(const std::string& topic, const F& add) {
+    source_->select({topic});
+    for (RawMessage message; source_->next(message);)
       if (is_transforms(topic_of(message).type))
-        for (const ros::Transform& t : ros::read_transforms(message.bytes, topic_of(message).encoding)) frames_.add(t);
+        for (const ros::Transform& t : ros::read_transforms(message.bytes, topic_of(message).encoding)) add(t);
+  }
+
+  /// Reads the static transforms and the frame of the odometry, which is R's; returns that of the clouds.
+  [[nodiscard]] std::string find_frames(const std::vector<std::string>& names) {
+    show_transforms(static_transforms(*source_, topics_.points), [&](const ros::Transform& t) { frames_.add(t); });
+    RawMessage message;
     std::string lidar;
     source_->select(names);
     bool any_cloud = false;
     while (source_->next(message)) {
       const BagTopic& topic = topic_of(message);
       if (is_odometry(topic.type))
-        if (const auto odometry = odometry_of(message)) base_ = plain_frame(odometry->X_OR.child);
-      if (is_cloud(topic.type)) lidar = plain_frame(cloud_of(message).frame);
+        if (const auto odometry = odometry_of(message); odometry && base_.empty())
+          base_ = plain_frame(odometry->X_OR.child);
+      if (is_cloud(topic.type) && lidar.empty()) lidar = plain_frame(cloud_of(message).frame);
       any_cloud = any_cloud || is_cloud(topic.type);
       if (!lidar.empty() && (!base_.empty() || topics_.odometry.empty())) break;
     }
@@ -200,9 +165,21 @@ class BagRecording final : public Recording {
 
   /// Without odometry R is the LiDAR's frame, unless the owner says otherwise.
   void find_mount() {
-    if (const std::optional<Pose> X_RL = frames_.find(lidar_, base_)) {
+    std::optional<Pose> X_RL = frames_.find(lidar_, base_);
+    mount_ = X_RL ? MountSource::tf_static : MountSource::unknown;
+    if (!X_RL && !lidar_.empty() && !base_.empty()) {
+      StillJoints joints;
+      show_transforms("/tf", [&](const ros::Transform& t) { joints.add(t); });
+      FrameTree all = frames_;
+      for (const ros::Transform& t : joints.found()) all.add(t);
+      X_RL = all.find(lidar_, base_);
+      if (X_RL) {
+        frames_ = all;
+        mount_ = MountSource::tf;
+      }
+    }
+    if (X_RL) {
       info_.mount = recording_info(0, {*X_RL, info_.mount.height_m}, {}).mount;
-      mount_ = MountSource::tf_static;
     } else if (!frames_.empty() && !lidar_.empty() && !base_.empty()) {
       throw InputError(mark_, topics_.points + " is in frame '" + lidar_ + "', which /tf_static does not join to '" +
                                   base_ +
@@ -213,9 +190,11 @@ class BagRecording final : public Recording {
   /// Until one says that no other is needed.
   void show_clouds(const std::function<bool(const PointCloud&)>& add) {
     source_->select({topics_.points});
+    OneFrame frame;
     for (RawMessage message; source_->next(message);) {
-      const PointCloud cloud = cloud_of(message).cloud;
-      if (!named(topic_of(message), [&] { return add(cloud); })) return;
+      const ros::FramedCloud said = cloud_of(message);
+      if (!frame.takes(said.frame)) continue;
+      if (!named(topic_of(message), [&] { return add(said.cloud); })) return;
     }
   }
 
@@ -276,7 +255,13 @@ class BagRecording final : public Recording {
     if (2 * scans_.lost() > scans_.read())
       throw InputError(mark_, topics_.points + ": " + share_of(scans_.lost(), scans_.read(), "scans") +
                                   " have a stamp that is no later than that of one before; at most half are left out");
+    if (scan_frame_.others() > scans_.read())
+      throw InputError(
+          mark_, topics_.points + ": " + scan_frame_.others_of(scans_.read(), "scans") + "; at most half are left out");
     if (!has_odometry()) return;
+    if (odometry_frame_.others() > odometry_.read())
+      throw InputError(mark_, topics_.odometry + ": " + odometry_frame_.others_of(odometry_.read(), "records") +
+                                  "; at most half are left out");
     if (2 * odometry_.lost() > odometry_.read() && odometry_.impossible() > 0)
       throw InputError(mark_, topics_.odometry + ": " + share_of(odometry_.lost(), odometry_.read(), "records") +
                                   " hold numbers that are no pose, or come late; at most half are left out");
@@ -311,8 +296,9 @@ class BagRecording final : public Recording {
   void read(const RawMessage& message) {
     const BagTopic& topic = topic_of(message);
     if (is_cloud(topic.type)) {
-      const PointCloud cloud = cloud_of(message).cloud;
-      CloudScan read = named(topic, [&] { return read_scan(cloud, times_.times); });
+      const ros::FramedCloud said = cloud_of(message);
+      if (!scan_frame_.takes(said.frame)) return;
+      CloudScan read = named(topic, [&] { return read_scan(said.cloud, times_.times); });
       without_rings_ += read.rings_left_out ? 1 : 0;
       read.scan.stamp = shifted(read.scan.stamp);
       scans_.add(read.scan, topics_.points);
@@ -330,6 +316,7 @@ class BagRecording final : public Recording {
   }
 
   void take(const ros::OdometryMessage& said) {
+    if (!odometry_frame_.takes(said.X_OR.child)) return;
     if (!X_OB_) X_OB_ = start_of(said.X_OR.X);
     const Nanoseconds stamp = shifted(said.X_OR.stamp);
     const bool taken = odometry_.add({stamp, *X_OB_ * said.X_OR.X}, topics_.odometry);
@@ -370,6 +357,7 @@ class BagRecording final : public Recording {
   std::string lidar_;  ///< L
   MountSource mount_ = MountSource::unknown;
   AssumedTimes times_;
+  OneFrame scan_frame_, odometry_frame_;
   RecordQueue<Scan> scans_;
   RecordQueue<Odometry> odometry_;
   RecordQueue<OdometryCovariance> covariances_;
@@ -386,8 +374,6 @@ class BagRecording final : public Recording {
 };
 
 }  // namespace
-
-bool is_bag(const std::string& path) { return kind_of(path) != Kind::none; }
 
 std::unique_ptr<Recording> open_bag(const std::string& path, const BagTopics& topics, const RecordingInfo* info) {
   return std::make_unique<BagRecording>(path, topics, info);

@@ -2,6 +2,7 @@
 #include "slam/io/bags/bag_topics.h"
 
 #include <string>
+#include <vector>
 
 namespace plumbline::slam {
 
@@ -60,6 +61,20 @@ BagTopics choose_topics(const MessageSource& source, const BagTopics& asked, con
   if (!topics.odometry.empty()) check_topic(source, topics.odometry, is_odometry, odometry_type, mark);
   if (!topics.imu.empty()) check_topic(source, topics.imu, is_imu, imu_type, mark);
   return topics;
+}
+
+std::string static_transforms(const MessageSource& source, std::string_view points) {
+  constexpr std::string_view plain = "/tf_static";
+  std::vector<std::string> all, beside_points;
+  for (const BagTopic& topic : source.topics()) {
+    if (!is_transforms(topic.type) || !topic.name.ends_with(plain)) continue;
+    if (topic.name == plain) return topic.name;
+    all.push_back(topic.name);
+    const std::size_t slash = topic.name.size() - plain.size();
+    if (points.starts_with(topic.name.substr(0, slash + 1))) beside_points.push_back(topic.name);
+  }
+  if (all.size() == 1) return all.front();
+  return beside_points.size() == 1 ? beside_points.front() : std::string();
 }
 
 }  // namespace plumbline::slam

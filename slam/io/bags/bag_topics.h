@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
 #include <string_view>
 
 #include "bim/errors.h"
@@ -19,5 +20,9 @@ namespace plumbline::slam {
 /// The topics to read: those asked for, else the first of each type, without truth; empty where there is none. Throws
 /// InputError at the mark where no topic holds clouds, or one asked for is not there or of another type.
 [[nodiscard]] BagTopics choose_topics(const MessageSource& source, const BagTopics& asked, const Mark& mark);
+
+/// The topic of transforms that stand still: /tf_static, else that of a robot's namespace, where there is one alone or
+/// one that the points are in, too. Empty where there is none.
+[[nodiscard]] std::string static_transforms(const MessageSource& source, std::string_view points);
 
 }  // namespace plumbline::slam

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slam/io/bags/frame_tree.h"
 
+#include "slam/io/bags/record_queue.h"
+
 namespace plumbline::slam {
 
 namespace {
@@ -39,6 +41,36 @@ std::optional<Pose> FrameTree::find_above(const std::string& frame, const std::s
     here = mount->second.parent;
   }
   return X;
+}
+
+void StillJoints::add(const ros::Transform& transform) {
+  constexpr double still_m = 1e-9, still_rad = 1e-9;
+  const auto [place, is_new] = joints_.try_emplace(plain_frame(transform.child), Joint{transform});
+  if (is_new) return;
+  Joint& joint = place->second;
+  const Pose& X = joint.first.X;
+  joint.repeated = true;
+  joint.moved = joint.moved || plain_frame(transform.parent) != plain_frame(joint.first.parent) ||
+                (transform.X.t - X.t).norm() > still_m || transform.X.q.angularDistance(X.q) > still_rad;
+}
+
+std::vector<ros::Transform> StillJoints::found() const {
+  std::vector<ros::Transform> still;
+  for (const auto& [child, joint] : joints_)
+    if (joint.repeated && !joint.moved) still.push_back(joint.first);
+  return still;
+}
+
+bool OneFrame::takes(const std::string& frame) {
+  const std::string name = plain_frame(frame);
+  if (frame_.empty()) frame_ = name;
+  if (name.empty() || name == frame_) return true;
+  if (others_++ == 0) other_ = name;
+  return false;
+}
+
+std::string OneFrame::others_of(std::int64_t taken, std::string_view what) const {
+  return share_of(others_, taken + others_, what) + " in frame '" + other_ + "', not in '" + frame_ + "' as the first";
 }
 
 std::optional<Imu> in_robot(const ros::FramedImu& said, const FrameTree& frames, const std::string& base) {

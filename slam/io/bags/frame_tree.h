@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "slam/io/bags/ros_message.h"
 
@@ -30,6 +33,36 @@ class FrameTree {
   };
 
   std::map<std::string, Mount> mounts_;  ///< by child
+};
+
+/// Joints on /tf that are published again and again and never move, as ROS 1 publishes mounts.
+class StillJoints {
+ public:
+  void add(const ros::Transform& transform);
+  [[nodiscard]] std::vector<ros::Transform> found() const;
+
+ private:
+  struct Joint {
+    ros::Transform first;
+    bool repeated = false;
+    bool moved = false;
+  };
+
+  std::map<std::string, Joint> joints_;  ///< by child
+};
+
+/// The frame of a topic's first record that names one. Records in another, as of a second sensor, are counted.
+class OneFrame {
+ public:
+  /// A record without a frame is taken.
+  [[nodiscard]] bool takes(const std::string& frame);
+  [[nodiscard]] std::int64_t others() const { return others_; }
+  /// "2 of 7 scans in frame 'rear', not in 'front' as the first". what: the records; taken: how many were.
+  [[nodiscard]] std::string others_of(std::int64_t taken, std::string_view what) const;
+
+ private:
+  std::string frame_, other_;
+  std::int64_t others_ = 0;
 };
 
 /// An IMU's measurements along the axes of R, whose frame is `base`; what its lever arm adds to the acceleration is

@@ -14,9 +14,9 @@
 namespace plumbline::slam {
 
 /// From where the LiDAR's pose on the robot is known.
-enum class MountSource { unknown, description, tf_static };
-[[nodiscard]] constexpr std::array<std::string_view, 3> names_of(MountSource) {
-  return {"unknown", "description", "tf_static"};
+enum class MountSource { unknown, description, tf_static, tf };
+[[nodiscard]] constexpr std::array<std::string_view, 4> names_of(MountSource) {
+  return {"unknown", "description", "tf_static", "tf"};
 }
 
 /// What of a recording is read. Topics and frames are a bag's, empty elsewhere.

@@ -15,16 +15,20 @@ struct Alteration {
   std::function<void(int, PointCloud&)> cloud = [](int, PointCloud&) {};
   std::function<void(int, ros::OdometryMessage&)> odometry = [](int, ros::OdometryMessage&) {};
   std::function<void(int, ros::FramedImu&)> imu = [](int, ros::FramedImu&) {};
+  std::function<std::string(int)> cloud_frame = [](int) { return "velodyne"; };
   bool has_odometry = true;
+  std::string transforms = "/tf_static";  ///< topic on which the mount is published with every scan
+  std::function<Pose(int)> mount = [](int) { return Pose{}; };
 };
 
 /// Writes the walk of four scans, recorded in the order of its own stamps, as a rosbag2.
 inline void write_altered(const std::string& path, const Alteration& alteration) {
   const auto sink = make_rosbag2_sink(path, "walk");
-  const ros::Transform mount{0, "base_link", "velodyne", Pose{}};
-  sink->write("/tf_static", MessageType::transforms, 0, ros::write_transforms({&mount, 1}, Encoding::cdr), true);
   int clouds = 0, odometry = 0, imu = 0;
   for (const SensorFrame& frame : walk_of_four_scans()) {
+    const ros::Transform mount{0, "base_link", "velodyne", alteration.mount(clouds)};
+    sink->write(alteration.transforms, MessageType::transforms, frame.scan.stamp,
+                ros::write_transforms({&mount, 1}, Encoding::cdr), true);
     for (const Odometry& record : frame.odometry) {
       if (!alteration.has_odometry) continue;
       ros::OdometryMessage message{{record.stamp, "odom", "base_link", record.X_OR}};
@@ -38,9 +42,10 @@ inline void write_altered(const std::string& path, const Alteration& alteration)
                   ros::write_imu(message.imu, message.frame, Encoding::cdr), false);
     }
     PointCloud cloud = cloud_of(frame.scan, CloudLayout::organised);
+    const std::string cloud_frame = alteration.cloud_frame(clouds);
     alteration.cloud(clouds++, cloud);
     sink->write("/velodyne_points", MessageType::cloud, frame.scan.stamp,
-                ros::write_cloud(cloud, "velodyne", Encoding::cdr), false);
+                ros::write_cloud(cloud, cloud_frame, Encoding::cdr), false);
   }
   sink->finish();
 }

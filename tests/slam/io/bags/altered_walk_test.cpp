@@ -18,6 +18,7 @@ struct Read {
   std::vector<SensorFrame> frames;
   std::vector<std::string> left_out, assumed;
   Taken taken;
+  Pose mount;
 };
 
 class AlteredWalk : public ::testing::Test {
@@ -31,6 +32,7 @@ class AlteredWalk : public ::testing::Test {
     out.left_out = recording->left_out();
     out.assumed = recording->assumed();
     out.taken = recording->taken();
+    out.mount = calibration_of(recording->info()).X_RL;
     return out;
   }
   static Nanoseconds length(const Scan& scan) {
@@ -164,6 +166,46 @@ TEST_F(AlteredWalk, AnImuThatIsNotJoinedIsLeftOut) {
       << altered.left_out[0];
   loose.imu = [](int, ros::FramedImu& message) { message.imu.linear_acceleration_R.setConstant(nan); };
   EXPECT_EQ(read(loose).frames.size(), 4U);
+}
+
+TEST_F(AlteredWalk, RecordsInAnotherFrameAreLeftOut) {
+  Alteration two;
+  two.cloud_frame = [](int i) { return i % 2 == 0 ? "velodyne" : "/rear"; };
+  const Read clouds = read(two);
+  EXPECT_EQ(clouds.frames.size(), 2U);
+  ASSERT_EQ(clouds.left_out.size(), 1U);
+  EXPECT_EQ(clouds.left_out[0],
+            "/velodyne_points left out: 2 of 4 scans in frame 'rear', not in 'velodyne' as the first");
+  two.cloud_frame = [](int i) { return i == 0 ? "velodyne" : "rear"; };
+  const std::string complaint = input_error([&] { (void)read(two); });
+  EXPECT_NE(complaint.find("3 of 4 scans in frame 'rear', not in 'velodyne' as the first; at most half"),
+            std::string::npos)
+      << complaint;
+  two.cloud_frame = [](int i) { return i == 0 ? "/velodyne" : "velodyne"; };
+  EXPECT_TRUE(read(two).left_out.empty());
+  const std::size_t all = count(read({}).frames, &SensorFrame::odometry);
+  Alteration odometry;
+  odometry.odometry = [](int i, ros::OdometryMessage& message) { message.X_OR.child = i == 5 ? "cart" : "base_link"; };
+  const Read other = read(odometry);
+  EXPECT_EQ(count(other.frames, &SensorFrame::odometry), all - 1);
+  ASSERT_EQ(other.left_out.size(), 1U);
+  EXPECT_NE(other.left_out[0].find("/odom left out: 1 of "), std::string::npos) << other.left_out[0];
+}
+
+TEST_F(AlteredWalk, AMountIsTakenFromWhereverItStandsStill) {
+  const Pose X_RL = Pose::from_xyz_yaw({0.1, -0.2, 0.3}, 1.0);
+  Alteration walk;
+  walk.mount = [&](int) { return X_RL; };
+  for (const auto& [topic, source] :
+       {std::pair("/tf_static", MountSource::tf_static), std::pair("/robot/tf_static", MountSource::tf_static),
+        std::pair("/tf", MountSource::tf)}) {
+    walk.transforms = topic;
+    const Read out = read(walk);
+    EXPECT_EQ(out.taken.mount, source) << topic;
+    EXPECT_LT((out.mount.t - X_RL.t).norm(), 1e-9) << topic;
+  }
+  walk.mount = [&](int i) { return Pose::from_xyz_yaw({0.1, -0.2, 0.3}, 1.0 + 1e-3 * i); };
+  EXPECT_EQ(read(walk).taken.mount, MountSource::unknown) << "a LiDAR that turns on the robot";
 }
 
 }  // namespace
