@@ -13,6 +13,7 @@
 #include "bim/plan/plan.h"
 #include "bim/random/stream.h"
 #include "scenarios/app/commands.h"
+#include "scenarios/app/odometry_axes.h"
 #include "scenarios/app/odometry_gaps.h"
 #include "scenarios/app/open_recording.h"
 #include "scenarios/app/poorer_recording.h"
@@ -178,6 +179,7 @@ struct Answer {
   ScansRead scans;
   double recorded_s = 0.0;  ///< from the first scan to the last
   OdometryGaps gaps;
+  OdometryAxes axes;
 };
 
 Answer run_method(slam::Recording& recording, const slam::MethodRow& row, const slam::MethodInput& input,
@@ -187,12 +189,14 @@ Answer run_method(slam::Recording& recording, const slam::MethodRow& row, const 
   slam::Nanoseconds last = 0;
   ScansRead scans;
   OdometryGaps gaps;
+  OdometryAxes axes;
   const SensorSource source = [&](slam::SensorFrame& frame) {
     if (!recording.next(frame)) return false;
     last = frame.scan.stamp;
     if (!first) first = last;
     scans.add(frame.scan);
     gaps.add(frame);
+    axes.add(frame);
     progress.at(slam::seconds(last));
     return true;
   };
@@ -203,7 +207,7 @@ Answer run_method(slam::Recording& recording, const slam::MethodRow& row, const 
   shift(record.estimate.trajectory, recording.origin());
   for (BeliefRecord& belief : record.beliefs) belief.stamp += recording.origin();
   for (score::LostSpan& span : record.lost) span = {span.from + recording.origin(), span.to + recording.origin()};
-  return {std::move(record), scans, slam::seconds(last - first.value_or(last)), gaps};
+  return {std::move(record), scans, slam::seconds(last - first.value_or(last)), gaps, axes};
 }
 
 /// estimate.yaml: which walk the answer is of, and what it depends on besides recording and plan.
@@ -263,8 +267,11 @@ int estimate(EstimateArguments options, slam::MethodTable table) {
   const MethodRecord& record = answer.record;
   for (const std::string& said : warnings_of(*recording))
     print_note("plumbline: warning: " + options.input.recording + ": " + said);
-  if (const auto gaps = answer.gaps.warning(); gaps && recording->has_odometry() && choice.sensors == Sensors::all)
-    print_note("plumbline: warning: " + options.input.recording + ": " + *gaps);
+  if (recording->has_odometry() && choice.sensors == Sensors::all) {
+    std::vector<std::string> said = answer.axes.warnings();
+    if (const auto gaps = answer.gaps.warning()) said.push_back(*gaps);
+    for (const std::string& one : said) print_note("plumbline: warning: " + options.input.recording + ": " + one);
+  }
   write_method(directory.staging(), record);
   write_file(directory.staging() + "/digests.csv", write_digests(record.digests));
   write_file(directory.staging() + "/estimate.yaml", describe(row, run_seed(options, recording->info()), *recording,

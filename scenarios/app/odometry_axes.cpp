@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenarios/app/odometry_axes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "bim/config/tree.h"
+#include "bim/geometry/pose.h"
+
+namespace plumbline::scenarios {
+
+/// About R's z axis, since the frame before.
+double OdometryAxes::gyro_turn_of(const slam::SensorFrame& frame) {
+  constexpr double longest_s = 0.1;  // a gap is no turn
+  double turn = 0.0;
+  for (const slam::Imu& imu : frame.imu) {
+    const double dt = last_imu_ ? slam::seconds(imu.stamp - *last_imu_) : 0.0;
+    turn += imu.angular_velocity_R.z() * std::min(dt, longest_s);
+    last_imu_ = imu.stamp;
+  }
+  return turn;
+}
+
+void OdometryAxes::add(const slam::SensorFrame& frame) {
+  const double gyro = gyro_turn_of(frame);
+  if (frame.odometry.empty()) return;
+  const slam::Odometry& newest = frame.odometry.back();
+  if (!start_tilt_deg_) {
+    const double up = (frame.odometry.front().X_OR.q * Eigen::Vector3d::UnitZ()).z();
+    start_tilt_deg_ = 180.0 / std::numbers::pi * std::acos(std::clamp(up, -1.0, 1.0));
+  }
+  if (last_ && !frame.imu.empty()) {
+    const double turn = log_so3(last_->X_OR.q.inverse() * newest.X_OR.q).z();
+    turned_ += std::abs(turn);
+    product_ += turn * gyro;
+    odometry_squares_ += turn * turn;
+    gyro_squares_ += gyro * gyro;
+  }
+  last_ = newest;
+}
+
+std::vector<std::string> OdometryAxes::warnings() const {
+  constexpr double most_tilt_deg = 60.0;                 // no robot on a floor starts so
+  constexpr double least_turned = 1.0, opposite = -0.5;  // rad; correlation
+  std::vector<std::string> all;
+  if (start_tilt_deg_.value_or(0.0) > most_tilt_deg)
+    all.push_back("odometry starts with the robot tilted by " + format_number(std::round(*start_tilt_deg_)) +
+                  " degrees: in one of its two frames z does not point up, which methods rely on");
+  if (turned_ > least_turned && product_ < opposite * std::sqrt(odometry_squares_ * gyro_squares_))
+    all.push_back(
+        "odometry turns against the gyro: one of the two is in other axes than its frame says, "
+        "such as NED or left-handed ones");
+  return all;
+}
+
+}  // namespace plumbline::scenarios
