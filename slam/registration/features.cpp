@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <utility>
 
@@ -18,12 +19,25 @@ constexpr std::size_t reach = 5;  // neighbours on each side that make a curvatu
 class Ring {
  public:
   Ring(const DeskewedScan& scan, int ring, const FeatureConfig& config) : ring_(ring), config_(config) {
+    constexpr int gap = 3;  // columns; one or two are lost here and there
+    int last = -1;
     for (int column = 0; column < scan.columns; ++column) {
       const auto i = static_cast<std::size_t>(column * scan.rings + ring);
-      if (scan.range_m[i] >= config.min_range_m && scan.range_m[i] <= config.max_range_m)
-        points_.push_back(scan.point_R[i]);
+      if (scan.range_m[i] < config.min_range_m || scan.range_m[i] > config.max_range_m) continue;
+      if (column - last > gap) first_after_gap_.push_back(points_.size());
+      last = column;
+      points_.push_back(scan.point_R[i]);
+      ranges_.push_back(scan.range_m[i]);
     }
   }
+
+  /// Ranges of the farther returns beside gaps, in which nothing came back.
+  void add_ranges_at_gaps(std::vector<double>& ranges) const {
+    for (const std::size_t i : first_after_gap_)
+      if (i > 0) ranges.push_back(std::max(ranges_[i - 1], ranges_[i]));
+  }
+  /// Returns about this far beside gaps are no edges.
+  void end_at(double reach_m) { reach_m_ = reach_m; }
 
   /// Edges alone unless `all`.
   void pick(Features& features, bool all) {
@@ -71,13 +85,20 @@ class Ring {
   void pick_edges(std::span<const std::size_t> order, std::size_t begin, std::vector<bool>& edge, Features& features) {
     int picked = 0;
     for (auto i = order.rbegin(); i != order.rend(); ++i) {
-      if (suppressed_[*i]) continue;
+      if (suppressed_[*i] || is_at_reach(*i)) continue;
       if (++picked > config_.less_sharp) break;
       if (picked <= config_.sharp) features.sharp.push_back({points_[*i], ring_});
       features.less_sharp.push_back({points_[*i], ring_});
       edge[*i - begin] = true;
       suppress_around(*i);
     }
+  }
+
+  [[nodiscard]] bool is_at_reach(std::size_t i) const {
+    constexpr double about = 0.9;
+    if (ranges_[i] < about * reach_m_) return false;
+    const auto next = std::lower_bound(first_after_gap_.begin(), first_after_gap_.end(), i + 1 - reach);
+    return next != first_after_gap_.end() && *next <= i + reach;
   }
 
   void pick_flat(std::span<const std::size_t> order, Features& features) {
@@ -106,7 +127,23 @@ class Ring {
   std::vector<Eigen::Vector3d> points_;
   std::vector<double> curvature_;
   std::vector<bool> suppressed_;
+  std::vector<double> ranges_;
+  std::vector<std::size_t> first_after_gap_;
+  double reach_m_ = std::numeric_limits<double>::infinity();
 };
+
+/// Where most gaps begin at one range, that is as far as the LiDAR reaches: the ends of surfaces there go along with it
+/// and are no edges. Infinite where that is not seen.
+double reach_of(const std::vector<Ring>& rings) {
+  constexpr std::size_t fewest = 8;
+  constexpr double about = 0.95;
+  std::vector<double> ranges;
+  for (const Ring& ring : rings) ring.add_ranges_at_gaps(ranges);
+  if (ranges.size() < fewest) return std::numeric_limits<double>::infinity();
+  const double farthest = *std::max_element(ranges.begin(), ranges.end());
+  const auto at_reach = std::count_if(ranges.begin(), ranges.end(), [&](double r) { return r > about * farthest; });
+  return 2 * static_cast<std::size_t>(at_reach) > ranges.size() ? farthest : std::numeric_limits<double>::infinity();
+}
 
 }  // namespace
 
@@ -118,8 +155,14 @@ Features find_features(const DeskewedScan& scan, const FeatureConfig& config) {
 }
 
 std::vector<FeaturePoint> find_edges(const DeskewedScan& scan, const FeatureConfig& config) {
+  std::vector<Ring> rings;
+  for (int ring = 0; ring < scan.rings; ++ring) rings.emplace_back(scan, ring, config);
+  const double reach_m = reach_of(rings);
   Features features;
-  for (int ring = 0; ring < scan.rings; ++ring) Ring(scan, ring, config).pick(features, false);
+  for (Ring& ring : rings) {
+    ring.end_at(reach_m);
+    ring.pick(features, false);
+  }
   return std::move(features.less_sharp);
 }
 

@@ -56,7 +56,8 @@ struct Features {
 /// with fewer than sectors * 11 returns gives none, nor does a scan of fewer than four rings.
 [[nodiscard]] Features find_features(const DeskewedScan& scan, const FeatureConfig& config);
 
-/// Edge points alone: the less sharp ones of find_features(), but flat points silence none of them.
+/// Edge points alone: the less sharp ones of find_features(), but flat points silence none of them, and ends of
+/// surfaces as far as the LiDAR reaches are left out.
 [[nodiscard]] std::vector<FeaturePoint> find_edges(const DeskewedScan& scan, const FeatureConfig& config);
 
 /// The first one in each voxel of leaf_m, in their order, in R.

@@ -51,6 +51,14 @@ std::vector<Pose> yaw_fan(const Pose& X_MR) {
   return fan;
 }
 
+/// A pose that differs from the expected one where surfaces leave it open. Where the robot comes to what it has not
+/// seen yet, as along a corridor, more of a scan matches the farther it is slid back.
+bool slides(const Registration& found, const Pose& expected, double sigma_m) {
+  constexpr double sigmas = 3.0;
+  const Vector6d off = log_se3(expected.inverse() * found.X_MR);
+  return off.dot(found.open * off) > sigmas * sigmas * sigma_m * sigma_m;
+}
+
 }  // namespace
 
 VgicpOdometry::VgicpOdometry(const VgicpConfig& config) : config_(config), edge_map_(config.edges) { set_scale(1.0); }
@@ -77,14 +85,15 @@ Registration VgicpOdometry::match(const DeskewedScan& scan, const OdometrySample
     // Along a degenerate direction one start matches as well as another: only clearly more matches are better, or as
     // many that leave less open. Surfaces that a scan does not meet where it starts count as open.
     constexpr double clearly = 1.1, as_usual = 0.8, hardly = 0.5, about = 0.9;
+    const bool measured = config_.odometry_prior && odometry.valid;
     const auto try_from = [&](std::span<const Pose> starts) {
       Registration again = align_finely(align_coarsely(starts).X_MR, prior, odometry);
       const bool tells_more = again.unobserved_directions < result.unobserved_directions;
       if (again.matched <= (tells_more ? about : clearly) * result.matched) return;
+      if (measured && slides(again, prediction.X_MR, odometry.sigma_m)) return;
       again.from_expected = is_near(again.X_MR, align_coarsely(starts_from_expected).X_MR);
       result = again;
     };
-    const bool measured = config_.odometry_prior && odometry.valid;
     const std::array<Pose, 3> starts = {prediction.X_MR, X_MR_, Pose{prediction.X_MR.q, X_MR_.t}};
     if (result.matched < as_usual * usual_matched || (!measured && result.unobserved_directions > 0))
       try_from(measured ? std::span<const Pose>(starts).first(1) : starts);
