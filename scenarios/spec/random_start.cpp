@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "bim/random/stream.h"
+#include "scenarios/spec/named_places.h"
+#include "scenarios/spec/room_places.h"
 #include "scenarios/spec/start_check.h"
 #include "sim/route/multi_storey_planner.h"
 
@@ -98,30 +101,25 @@ class StartSampler {
     }
   }
 
-  /// Tries places until one has a way to another room.
-  [[nodiscard]] DrawnStart start(RandomStart how, const bim::Building& building, const Mark& mark) const {
+  /// Tries places until one has a way to another room and to all goals; where none has, the first with a way to another
+  /// room.
+  [[nodiscard]] DrawnStart start(RandomStart how, const bim::Building& building,
+                                 const std::vector<sim::FloorPoint>& goals, const Mark& mark) const {
     constexpr std::uint64_t most_tries = 200;
-    constexpr double passage_share = 0.25;
     std::vector<Eigen::Vector2d> passages;
     if (how == RandomStart::anywhere) {
       passages = doorways_of(building, storey_, space_.storey(storey_));
       const std::vector<Eigen::Vector2d> ends = stair_ends_of(building, storey_, space_);
       passages.insert(passages.end(), ends.begin(), ends.end());
     }
+    std::optional<DrawnStart> cut_off;
     for (std::uint64_t i = 0; i < most_tries && rooms_.size() > 1; ++i) {
-      if (!passages.empty() && stream_.uniform(i, passage_lane) < passage_share) {
-        const Eigen::Vector2d& p = passages[one_of(passages.size(), i, passage_lane, 1)];
-        if (std::count_if(rooms_.begin(), rooms_.end(), [&](const OpenRoom& room) { return reaches(p, room); }) > 1)
-          return {p, true};
-        continue;
-      }
-      const std::size_t room = how == RandomStart::rooms ? one_of(rooms_.size(), i, start_lane) : room_by_area(i);
-      const std::vector<Eigen::Vector2d>& places = rooms_[room].places_W;
-      if (places.empty()) continue;
-      const Eigen::Vector2d& p = places[one_of(places.size(), i, start_lane, 1)];
-      for (std::size_t other = 0; other < rooms_.size(); ++other)
-        if (other != room && reaches(p, rooms_[other])) return {p, false};
+      const std::optional<DrawnStart> drawn = draw(how, passages, i);
+      if (!drawn) continue;
+      if (reaches_all(drawn->p_W, goals)) return *drawn;
+      if (!cut_off) cut_off = drawn;
     }
+    if (cut_off) return *cut_off;
     throw InputError(mark, "no place to draw on this storey from which another room can be reached");
   }
 
@@ -162,6 +160,31 @@ class StartSampler {
     return std::min(count - 1, static_cast<std::size_t>(u * static_cast<double>(count)));
   }
 
+  /// The i-th try, if it has a way to another room.
+  [[nodiscard]] std::optional<DrawnStart> draw(RandomStart how, const std::vector<Eigen::Vector2d>& passages,
+                                               std::uint64_t i) const {
+    constexpr double passage_share = 0.25;
+    if (!passages.empty() && stream_.uniform(i, passage_lane) < passage_share) {
+      const Eigen::Vector2d& p = passages[one_of(passages.size(), i, passage_lane, 1)];
+      if (std::count_if(rooms_.begin(), rooms_.end(), [&](const OpenRoom& room) { return reaches(p, room); }) > 1)
+        return DrawnStart{p, true};
+      return std::nullopt;
+    }
+    const std::size_t room = how == RandomStart::rooms ? one_of(rooms_.size(), i, start_lane) : room_by_area(i);
+    const std::vector<Eigen::Vector2d>& places = rooms_[room].places_W;
+    if (places.empty()) return std::nullopt;
+    const Eigen::Vector2d& p = places[one_of(places.size(), i, start_lane, 1)];
+    for (std::size_t other = 0; other < rooms_.size(); ++other)
+      if (other != room && reaches(p, rooms_[other])) return DrawnStart{p, false};
+    return std::nullopt;
+  }
+
+  [[nodiscard]] bool reaches_all(const Eigen::Vector2d& from, const std::vector<sim::FloorPoint>& goals) const {
+    return std::all_of(goals.begin(), goals.end(), [&](const sim::FloorPoint& goal) {
+      return !space_.path({storey_, from}, goal).empty();
+    });
+  }
+
   [[nodiscard]] std::size_t room_by_area(std::uint64_t tick) const {
     std::size_t all = 0;
     for (const OpenRoom& room : rooms_) all += room.places_W.size();
@@ -197,6 +220,25 @@ class StartSampler {
   std::vector<OpenRoom> rooms_;
 };
 
+/// Middles of the rooms that a route names, each once.
+std::vector<sim::FloorPoint> goals_of(const bim::Building& building, const Route& route, const RouteMarks& marks) {
+  std::vector<int> rooms;
+  if (route.shuttle) {
+    rooms.push_back(find_room(building, *route.shuttle, marks.route));
+  } else if (!route.random && route.rooms != Route().rooms) {
+    for (std::size_t i = 0; i < route.rooms.size(); ++i)
+      rooms.push_back(find_room(building, route.rooms[i], i < marks.rooms.size() ? marks.rooms[i] : marks.route));
+  }
+  std::sort(rooms.begin(), rooms.end());
+  rooms.erase(std::unique(rooms.begin(), rooms.end()), rooms.end());
+  const sim::MultiStoreyPlanner space(building);
+  const RoomPlaces places(building, space);
+  std::vector<sim::FloorPoint> goals;
+  for (const int room : rooms)
+    if (const std::optional<sim::FloorPoint>& goal = places.of(room)) goals.push_back(*goal);
+  return goals;
+}
+
 }  // namespace
 
 void sample_start(const bim::Building& building, Scenario& scenario, const RouteMarks& marks) {
@@ -204,7 +246,8 @@ void sample_start(const bim::Building& building, Scenario& scenario, const Route
   if (start.random) {
     const int storey = storey_of(building, start.storey, marks.start);
     const StartSampler sampler(building, storey, scenario.seed);
-    const DrawnStart drawn = sampler.start(*start.random, building, marks.start);
+    const DrawnStart drawn =
+        sampler.start(*start.random, building, goals_of(building, scenario.route, marks), marks.start);
     start.at = drawn.p_W;
     if (!start.yaw_deg && !drawn.narrow) start.yaw_deg = sampler.heading_deg();
     start.storey = building.storeys[static_cast<std::size_t>(storey)].id;

@@ -25,7 +25,8 @@ itself.
   storeys are reached over stairs that the robot can climb. `all` stays on the start's storey unless `storeys: all`.
 - `start: {random: rooms}`, `{random: anywhere}` and `route: {random: 5}` depend on the seed, so that every seed is
   another walk. The run directory's `scenario.yaml` holds the start and the route that were drawn. `anywhere` also draws
-  doorways and the ends of stairs, not their landings; there the robot faces its first goal.
+  doorways and the ends of stairs, not their landings; there the robot faces its first goal. The rooms that a route
+  names can be reached from a drawn place, where there is such a place.
 - Only the LiDAR sees `people` and `moving_doors`. The robot passes through them, no plan holds them, and what the LiDAR
   sees of them does not count as surface of the building. A moving door is open while the robot is near it.
 - `ground` and `pushes` make walking harder; `results.json` names a value other than the default. Nobody pushes on stairs

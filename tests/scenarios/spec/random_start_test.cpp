@@ -10,6 +10,7 @@
 #include "bim/load/load.h"
 #include "scenarios/spec/start_check.h"
 #include "tests/data.h"
+#include "tests/sim/route/floor_plan.h"
 
 namespace plumbline::scenarios {
 namespace {
@@ -116,6 +117,52 @@ TEST(StartSampler, ABuildingWithOneRoomIsRefused) {
   bim::Building building = house();
   std::erase_if(building.rooms, [](const bim::Room& room) { return room.id != "gallery"; });
   EXPECT_THROW(drawn(building, 1, RandomStart::rooms), InputError);
+}
+
+/// Two houses wall to wall, each of two rooms with a door between them.
+bim::Building two_houses() {
+  bim::Building building = sim::empty_storey();
+  const auto rooms = {"a0", "a1", "b0", "b1"};
+  double x = 0.0;
+  for (const char* room : rooms) {
+    sim::add_wall(building, {x, 0.0}, {x, 5.0});
+    sim::add_room(building, room, sim::rectangle({x + 0.1, 0.1}, {x + 3.9, 4.9}));
+    x += 4.0;
+  }
+  sim::add_wall(building, {x, 0.0}, {x, 5.0});
+  sim::add_wall(building, {0, 0}, {x, 0});
+  sim::add_wall(building, {x, 5}, {0, 5});
+  sim::add_door(building, 1, 2.5, 0.9);
+  sim::add_door(building, 3, 2.5, 0.9);
+  bim::Slab slab;
+  slab.id = "slab";
+  slab.storey = 0;
+  slab.polygon.outer = sim::rectangle({-0.1, -0.1}, {x + 0.1, 5.1});
+  building.slabs.push_back(slab);
+  return building;
+}
+
+TEST(StartSampler, TheRoomsThatARouteNamesCanBeReachedFromADrawnStart) {
+  const bim::Building building = two_houses();
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    Scenario scenario;
+    scenario.seed = seed;
+    scenario.start.random = RandomStart::rooms;
+    scenario.route.rooms = {"b1", "b0"};
+    sample_start(building, scenario, {});
+    EXPECT_GT(scenario.start.at->x(), 8.0) << seed;
+    EXPECT_GT(plan_route(building, scenario.start, scenario.route, {}).length_m, 0.5) << seed;
+  }
+}
+
+TEST(StartSampler, ARouteThroughBothHousesIsLeftToThePlannerToRefuse) {
+  const bim::Building building = two_houses();
+  Scenario scenario;
+  scenario.start.random = RandomStart::rooms;
+  scenario.route.rooms = {"a0", "b0"};
+  sample_start(building, scenario, {});
+  EXPECT_TRUE(scenario.start.at.has_value());
+  EXPECT_THROW(static_cast<void>(plan_route(building, scenario.start, scenario.route, {})), InputError);
 }
 
 }  // namespace
