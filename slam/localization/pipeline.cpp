@@ -92,6 +92,7 @@ class SGraphLocalization final : public PlanLocalization {
   State state_ = State::searching;
   double mass_ = 0.0;  ///< of the tracked hypothesis when it was announced
   int failed_updates_ = 0;
+  bool doubts_place_ = false;               ///< since a silence, until a scan fits: the robot may have been carried
   double fit_ = 0.0;                        ///< of the tracked pose, see FitConfig
   int storey_ = 0;                          ///< of the tracked hypothesis, index into PlanIndex::storeys
   std::optional<ExpectedYaw> doubted_yaw_;  ///< of the present scan: the robot may have been kidnapped and turned
@@ -106,6 +107,7 @@ class SGraphLocalization final : public PlanLocalization {
 void SGraphLocalization::use_scan(const PlanScan& scan, Output& output) {
   Stopwatch stopwatch;
   doubted_yaw_.reset();
+  doubts_place_ |= scan.after_silence;
   if (scan.prior_yaw_I) doubted_yaw_ = ExpectedYaw{*scan.prior_yaw_I, scan.prior_yaw_sigma};
   const auto [planes, localization_scan] = observe(scan, stopwatch, output);
   if (!tracker_)
@@ -156,6 +158,7 @@ void SGraphLocalization::start_tracking(const LocalizationScan& scan, const std:
   const PoseHypothesis& best = global_localizer_.hypotheses().front();
   mass_ = best.mass;
   failed_updates_ = 0;
+  doubts_place_ = false;
   fit_ = config_.monitor.misfit;
   storey_ = best.storey;
   monitor_.clear();
@@ -273,7 +276,9 @@ void SGraphLocalization::check_kidnap(const LocalizationScan& scan) {
       fit.penetration_ratio_other_walls() > config_.monitor.lost_penetration_ratio ? failed_updates_ + 1 : 0;
   const double limit = config_.monitor.misfit;
   fit_ = std::clamp(fit_ + config_.search.hypotheses.fit.of_scan(fit), -limit, limit);
-  const bool misfits = failed_updates_ >= config_.monitor.lost_updates || fit_ <= -limit;
+  const int lost_updates = doubts_place_ ? 1 : config_.monitor.lost_updates;
+  const bool misfits = failed_updates_ >= lost_updates || fit_ <= -limit;
+  if (fit.inliers >= config_.search.hypotheses.fit.inliers_min) doubts_place_ = false;
   if (!has_better_alternative(scan) && !misfits) return;
   tracker_.reset();  // with its window, which was refuted
   global_localizer_.restart();

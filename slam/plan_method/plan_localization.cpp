@@ -65,22 +65,24 @@ Output PlanLocalization::on_scan(const Scan& raw) {
   output.stamp = scan.stamp;
   Stopwatch stopwatch;
   std::optional<DeskewedScan> tracked;
+  const bool after_silence = is_after_silence(scan);
+  last_scan_ = scan.stamp;
   const Pose X_OR = lidar_odometry_ ? track(scan, tracked.emplace()) : follow(scan, tracked);
   if (!X_OR_start_) X_OR_start_ = X_OR;
   const bool began_anew = !is_way_known_ && start_anew();
   if (began_anew) {
     X_OR_update_.reset();
     is_start_known_ = false;
-  } else if (is_due(X_OR)) {
+  } else if (after_silence || is_due(X_OR)) {
     ++tick_;
-    const PlanScan prepared_scan = prepare_scan(tracked ? std::move(*tracked) : deskewed(scan), X_OR);
+    const PlanScan prepared_scan = prepare_scan(tracked ? std::move(*tracked) : deskewed(scan), X_OR, after_silence);
     if (cloud_.add(prepared_scan.deskewed, X_OR)) cloud_stamps_.push_back(scan.stamp);
     record_stage("deskew", stopwatch, output);
     use_scan(prepared_scan, output);
     X_OR_update_ = X_OR;
     used_ = scan.stamp;
   } else if (is_due_standing(scan.stamp)) {
-    const PlanScan prepared_scan = prepare_scan(tracked ? std::move(*tracked) : deskewed(scan), X_OR);
+    const PlanScan prepared_scan = prepare_scan(tracked ? std::move(*tracked) : deskewed(scan), X_OR, false);
     record_stage("deskew", stopwatch, output);
     use_standing_scan(prepared_scan, output);
     used_ = scan.stamp;
@@ -112,6 +114,11 @@ bool PlanLocalization::is_due(const Pose& X_OR) const {
 
 bool PlanLocalization::is_due_standing(Nanoseconds stamp) const {
   return config_.update_s > 0.0 && follows_standing() && seconds(stamp - used_) >= config_.update_s;
+}
+
+bool PlanLocalization::is_after_silence(const Scan& scan) const {
+  constexpr Nanoseconds least = 500'000'000;  // in which nobody lifts a robot and sets it down again
+  return last_scan_ && motion_.longest_gap(*last_scan_, scan.stamp) > std::max(least, motion_.max_age());
 }
 
 Pose PlanLocalization::track(const Scan& raw, DeskewedScan& scan) {
@@ -177,7 +184,7 @@ void PlanLocalization::test_times(const Scan& scan, const Pose& X_OR) {
     extrapolation_ = {};  // nothing is carried on
 }
 
-PlanScan PlanLocalization::prepare_scan(DeskewedScan scan, const Pose& X_OR) const {
+PlanScan PlanLocalization::prepare_scan(DeskewedScan scan, const Pose& X_OR, bool after_silence) const {
   PlanScan out;
   out.deskewed = std::move(scan);
   out.X_OR = X_OR;
@@ -191,6 +198,7 @@ PlanScan PlanLocalization::prepare_scan(DeskewedScan scan, const Pose& X_OR) con
     out.prior_yaw_sigma = input_.prior.yaw_sigma + config_.yaw_drift * seconds(out.deskewed.stamp);
   }
   out.tick = tick_;
+  out.after_silence = after_silence;
   return out;
 }
 

@@ -70,6 +70,7 @@ struct PlanScan {
   std::optional<double> prior_yaw_I;  ///< the prior yaw propagated by odometry
   double prior_yaw_sigma = 0.0;       ///< rad
   std::uint64_t tick = 0;             ///< counts the updates, from 1
+  bool after_silence = false;         ///< neither scans nor odometry were received for a while before it
 };
 
 /// What all localizations in a plan share: odometry, by scan matching where the robot has none, when a scan is used,
@@ -129,7 +130,9 @@ class PlanLocalization : public Method {
  private:
   [[nodiscard]] bool is_due(const Pose& X_OR) const;
   [[nodiscard]] bool is_due_standing(Nanoseconds stamp) const;
-  [[nodiscard]] PlanScan prepare_scan(DeskewedScan scan, const Pose& X_OR) const;
+  /// Whether neither scans nor odometry were received for a while before this scan: the robot may have been carried.
+  [[nodiscard]] bool is_after_silence(const Scan& scan) const;
+  [[nodiscard]] PlanScan prepare_scan(DeskewedScan scan, const Pose& X_OR, bool after_silence) const;
   /// R in O by scan matching, for a robot without odometry; the scan is deskewed. O stands on the first floor seen.
   /// Sets whether the way from the scan before is known.
   [[nodiscard]] Pose track(const Scan& raw, DeskewedScan& scan);
@@ -161,6 +164,7 @@ class PlanLocalization : public Method {
   bool is_start_known_ = true;              ///< whether odometry leads back to the first scan
   std::optional<Pose> X_OR_start_, X_OR_update_;
   Nanoseconds used_ = 0;  ///< stamp of the last scan that was used
+  std::optional<Nanoseconds> last_scan_;
   std::uint64_t tick_ = 0;
   CorrectedTrajectory trajectory_;
   MapCloudConfig map_config_;

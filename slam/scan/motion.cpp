@@ -94,6 +94,15 @@ Nanoseconds MotionBuffer::max_age() const {
   return std::clamp(period() + period() / 2, least_max_age, most_max_age) + late;
 }
 
+Nanoseconds MotionBuffer::longest_gap(Nanoseconds from, Nanoseconds to) const {
+  from += clock_offset_;
+  to += clock_offset_;
+  Nanoseconds longest = 0;
+  for (std::size_t i = 1; i < records_.size(); ++i)
+    longest = std::max(longest, std::min(records_[i].stamp, to) - std::max(records_[i - 1].stamp, from));
+  return longest;
+}
+
 void MotionBuffer::forget_before(Nanoseconds t) {
   if (records_.empty()) return;
   t = std::min(t + clock_offset_, records_.back().stamp - window);

@@ -38,6 +38,8 @@ class MotionBuffer {
     return records_.empty() ? 0 : std::max<Nanoseconds>(t + clock_offset_ - records_.back().stamp, 0);
   }
   [[nodiscard]] Nanoseconds max_age() const;
+  /// Longest time without a record between two times, of what lies between records.
+  [[nodiscard]] Nanoseconds longest_gap(Nanoseconds from, Nanoseconds to) const;
   /// Time between the two newest records, 0 before the second. Where stamps are uneven, the second largest of a
   /// second: bursts leave gaps again and again, a lost record one.
   [[nodiscard]] Nanoseconds period() const { return usual_.period; }

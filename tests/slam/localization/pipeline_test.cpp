@@ -253,7 +253,9 @@ TEST(SGraphLocalization, APlanWithoutRoomsIsRefused) {
 }
 
 /// The walk with the time from t0 to t1 cut out: odometry goes on as if nothing had happened, the robot is elsewhere.
-synthetic::Recording kidnapped(const synthetic::Recording& recording, Nanoseconds t0, Nanoseconds t1) {
+/// In the air there is nothing received for `silent`.
+synthetic::Recording kidnapped(const synthetic::Recording& recording, Nanoseconds t0, Nanoseconds t1,
+                               Nanoseconds silent = 0) {
   synthetic::Recording result;
   result.calibration = recording.calibration;
   Pose X_OR_t0, X_OR_t1;
@@ -264,12 +266,12 @@ synthetic::Recording kidnapped(const synthetic::Recording& recording, Nanosecond
   const Pose X_patch = X_OR_t0 * X_OR_t1.inverse();
   for (const Odometry& o : recording.odometry) {
     if (o.stamp <= t0) result.odometry.push_back(o);
-    if (o.stamp > t1) result.odometry.push_back({o.stamp - (t1 - t0), X_patch * o.X_OR});
+    if (o.stamp > t1) result.odometry.push_back({o.stamp - (t1 - t0) + silent, X_patch * o.X_OR});
   }
   for (std::size_t i = 0; i < recording.scans.size(); ++i) {
     Scan scan = recording.scans[i];
     if (scan.stamp > t0 && scan.stamp <= t1 + 200'000'000) continue;
-    if (scan.stamp > t1) scan.stamp -= t1 - t0;
+    if (scan.stamp > t1) scan.stamp -= t1 - t0 - silent;
     result.scans.push_back(scan);
     result.truth.push_back({scan.stamp, recording.truth[i].X_FR});
   }
@@ -299,6 +301,25 @@ TEST_P(KidnappedRobot, NoticesAndFindsItselfAgain) {
 
 // The prior heading is no evidence for a robot that was turned in the air.
 INSTANTIATE_TEST_SUITE_P(PriorHeading, KidnappedRobot, testing::Bool());
+
+TEST(SGraphLocalization, AfterASilenceOneScanThatContradictsIsEnough) {
+  const synthetic::Recording recording = kidnapped(short_walk(21.0), 6'000'000'000, 20'000'000'000, 1'000'000'000);
+  const Answers result = run(recording, input_for(recording, synthetic::plan_of(synthetic::corridor_house()), true));
+  double worst = -1.0;
+  for (std::size_t i = 0; i < result.outputs.size(); ++i)
+    if (const Output& output = result.outputs[i]; output.state == State::converged)
+      worst = std::max(worst, (output.X_FR->t - recording.truth[i].X_FR.t).norm());
+  EXPECT_NEAR(worst, 0.25, 0.25);  // it has converged, and nowhere else
+}
+
+TEST(SGraphLocalization, ASilenceInWhichTheRobotWasNotCarriedChangesNothing) {
+  synthetic::Recording recording = short_walk(9.0);
+  const auto is_lost = [](Nanoseconds stamp) { return stamp > 6'000'000'000 && stamp < 7'200'000'000; };
+  std::erase_if(recording.odometry, [&](const Odometry& o) { return is_lost(o.stamp); });
+  std::erase_if(recording.scans, [&](const Scan& scan) { return is_lost(scan.stamp - 100'000'000); });
+  const Answers result = run(recording, input_for(recording, synthetic::plan_of(synthetic::corridor_house()), true));
+  EXPECT_EQ(result.outputs.back().state, State::converged);
+}
 
 double distance_to_way(const Eigen::Vector2d& p, const std::vector<Eigen::Vector2d>& way) {
   double least = segment_distance(way[0], way[1], p);

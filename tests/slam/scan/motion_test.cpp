@@ -46,6 +46,17 @@ TEST(MotionBufferTest, ForgettingKeepsWhatLaterTimesNeed) {
   expect_pose_near(motion.at(20'000'000), straight(0.2), 1e-9);
 }
 
+TEST(MotionBufferTest, TellsTheLongestGapBetweenTwoTimes) {
+  MotionBuffer motion = buffer(1'000'000'000);
+  EXPECT_EQ(motion.longest_gap(200'000'000, 500'000'000), 10'000'000);
+  motion.add({2'500'000'000, straight(2.5)});
+  motion.add({2'510'000'000, straight(2.51)});
+  EXPECT_EQ(motion.longest_gap(900'000'000, 2'505'000'000), 1'500'000'000);
+  EXPECT_EQ(motion.longest_gap(2'200'000'000, 2'505'000'000), 300'000'000);
+  EXPECT_EQ(motion.longest_gap(2'505'000'000, 2'510'000'000), 5'000'000);
+  EXPECT_EQ(motion.longest_gap(3'000'000'000, 4'000'000'000), 0);  // nothing says that more is to come
+}
+
 // What was recorded at t is stamped t + offset: steps from a scan on are those of the robot, and its pose does not
 // jump.
 TEST(MotionBufferTest, AClockOffsetMovesTheStampsAndNotTheRobot) {
