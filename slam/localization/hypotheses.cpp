@@ -122,6 +122,13 @@ HypothesisSet::Trial HypothesisSet::try_pose(const PlanIndex& index, const Store
   return Trial::added;
 }
 
+// One scan of a turn may be off. It must not stand for others where all of them can be replayed.
+std::size_t HypothesisSet::replay_stride() const {
+  const auto stride = static_cast<std::size_t>(config_.replay_stride);
+  const std::size_t most = std::max<std::size_t>(1, static_cast<std::size_t>(config_.history) / stride);
+  return std::max<std::size_t>(1, (history_.size() + most - 1) / most);
+}
+
 const std::vector<HypothesisSet::ScanAtPose>& HypothesisSet::reference_scans(const PlanIndex& index) {
   const StoreyPose pose = hypotheses_[reference_].pose();
   const auto is_kept = [&](const ReplayedReference& kept) {
@@ -226,7 +233,7 @@ void HypothesisSet::update_agreement(const Agreement& latest, PoseHypothesis& hy
 
 void HypothesisSet::replay_agreement(const StoreyIndex& storey, const std::vector<ScanAtPose>& scans,
                                      PoseHypothesis& hypothesis) const {
-  const auto stride = static_cast<std::size_t>(config_.replay_stride);
+  const std::size_t stride = replay_stride();
   for (std::size_t k = scans.size(); k-- > 0;) {
     const LocalizationScan& scan = history_[history_.size() - 1 - k * stride].scan;
     const Agreement seen = agreement(storey, scans[k].X_IH, scan, likelihood_, refine_);
@@ -317,7 +324,7 @@ HypothesisSet::Replay HypothesisSet::replay(const PlanIndex& index, const Storey
   Pose2 X = pose.X_IH;
   Replay past;
   std::vector<int> crossed;
-  const auto stride = static_cast<std::size_t>(config_.replay_stride);
+  const std::size_t stride = replay_stride();
   for (std::size_t back = 0; back < history_.size(); ++back) {
     const HistoryStep& step = history_[history_.size() - 1 - back];
     const bool is_sampled = back % stride == 0;

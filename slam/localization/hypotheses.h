@@ -101,8 +101,11 @@ struct HypothesisConfig {
     v("history", history,
       Field{.doc = "scans kept to replay for a hypothesis that is added later", .min = 1, .max = 10000});
     v("replay_stride", replay_stride,
-      Field{
-          .doc = "every how many of these scans one is replayed, which stands for all of them", .min = 1, .max = 1000});
+      Field{.doc = "every how many scans of a full history one is replayed, which stands for all of them; fewer are "
+                   "left out of a "
+                   "shorter one",
+            .min = 1,
+            .max = 1000});
     v("ema_alpha", ema_alpha,
       share_field("weight of the newest scan in the moving average of the agreement", {.former = "newest"}));
     v("fit", fit, Field{.former = "cluttered_inliers"});
@@ -212,6 +215,8 @@ class HypothesisSet {
   enum class Trial { added, known, ruled_out };
   /// Adds a pose unless it is known or the kept history rules it out.
   Trial try_pose(const PlanIndex& index, const StoreyPose& pose, const Eigen::Matrix3d& covariance);
+  /// Every how many of the kept scans one is replayed: as many scans at most as of a full history.
+  [[nodiscard]] std::size_t replay_stride() const;
   /// The reference's replay, kept until the next scan.
   const std::vector<ScanAtPose>& reference_scans(const PlanIndex& index);
   /// True where the last scan is likelier at the first pose.

@@ -156,6 +156,45 @@ TEST(Hypotheses, ALateHypothesisReplaysTheWholeHistory) {
   EXPECT_NEAR(set.all()[0].mass, 0.5, 1e-6);
 }
 
+/// What a robot sees that is blindfolded.
+LocalizationScan blind(LocalizationScan scan) {
+  scan.beams.clear();
+  scan.walls.clear();
+  for (BeamGridBlock& block : scan.beam_grid.blocks) block.range = all(0.0F);
+  return scan;
+}
+
+/// Lead of the true pose over one elsewhere by a single scan after several that tell nothing; the other pose is tracked
+/// from the start, or added at the end.
+double lead_by_one_scan(bool late) {
+  const TwinRooms twins = twin_rooms_scans();
+  HypothesisConfig config;
+  config.drop_ratio = config.step_cap = 1e6;
+  HypothesisComparisonConfig comparison;
+  comparison.cause_cap = comparison.object_cap = comparison.outlined_cap = 1e6;
+  HypothesisSet set(config, {}, {}, comparison);
+  Pose2 elsewhere = twins.here;
+  elsewhere.t += Eigen::Vector2d(1.2, 0.9);
+  for (int i = 0; i < 5; ++i) {
+    set.predict_and_update(twins.index, {}, blind(twins.scans[0]));
+    if (i > 0) continue;
+    set.add(twins.index, std::vector<StoreyPose>{{0, twins.here, true}});
+    if (!late) set.add(twins.index, std::vector<StoreyPose>{{0, elsewhere, true}});
+  }
+  set.predict_and_update(twins.index, {}, twins.scans[0]);
+  if (late) set.add(twins.index, std::vector<StoreyPose>{{0, elsewhere, true}});
+  double least = 0.0;
+  for (const PoseHypothesis& hypothesis : set.all()) least = std::min(least, hypothesis.evidence);
+  return -least;
+}
+
+// A scan of a turn may be off. It must not stand for the two before it.
+TEST(Hypotheses, OneScanCountsOnceInAShortHistory) {
+  const double tracked = lead_by_one_scan(false);
+  EXPECT_GT(tracked, 1.0);
+  EXPECT_NEAR(lead_by_one_scan(true), tracked, 0.5 * tracked);
+}
+
 TEST(Hypotheses, AWallThatWasNotBuiltCountsOnlyOnce) {
   // Planned: a partition in the room where the robot stands, which is not there; and a twin room without one.
   synthetic::House planned = synthetic::twin_rooms();
