@@ -207,7 +207,8 @@ void ClockOffset::decide() {
     return;
   const double part = vertex(squares[best - 1], squares[best], squares[best + 1]);
   const Nanoseconds found = static_cast<Nanoseconds>(best) * candidate - most + std::llround(part * candidate);
-  if (std::abs(found - value_) >= ignored) value_ = found;
+  constexpr Nanoseconds better_by = 15'000'000;  // which costs little
+  if (std::abs(found - value_) >= (value_ == 0 ? ignored : better_by)) value_ = found;
 }
 
 }  // namespace plumbline::slam
