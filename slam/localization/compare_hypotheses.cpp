@@ -147,16 +147,37 @@ bool ends_in_opening(const PredictedScan& predicted, const PlanRay& ray, double 
                                                 range + config.sigma_m, predicted.cell);
 }
 
+OutlierCause unplanned_at(const Eigen::Vector2d& p_I, const HypothesisComparisonConfig& config) {
+  const Eigen::Vector2d cell = (p_I / config.clutter_cell_m).array().floor();
+  return {OutlierCause::Kind::unplanned, static_cast<int>(cell.x()), static_cast<int>(cell.y())};
+}
+
 OutlierCause cause_of(const Structure& structure, const PlanRay& ray, double range, const PredictedBlock& block,
                       std::size_t k, const HypothesisComparisonConfig& config) {
-  if (block.element[k] < 0) {
-    const Eigen::Vector2d cell = ((ray.origin + range * ray.direction) / config.clutter_cell_m).array().floor();
-    return {OutlierCause::Kind::unplanned, static_cast<int>(cell.x()), static_cast<int>(cell.y())};
-  }
+  if (block.element[k] < 0) return unplanned_at(ray.origin + range * ray.direction, config);
   if (static_cast<double>(block.expected[k]) >= range)
     return {OutlierCause::Kind::in_front_of_face, block.element[k], block.side[k]};
   const bool railing = structure.is_railing(block.element[k]);
   return {railing ? OutlierCause::Kind::between_bars : OutlierCause::Kind::not_built, block.element[k]};
+}
+
+/// The element that a beam passes is missing, and that explains where it ends: at the next face behind it.
+bool ends_at_next_face(const Structure& structure, const PlanRay& ray, double range, double passed_m,
+                       const HypothesisComparisonConfig& config) {
+  constexpr double past_m = 0.02;  // of the face that is passed, whose far side is passed, too
+  const auto near = [&](double distance) { return std::abs(distance - range) < 3.0 * config.sigma_m; };
+  double at_m = passed_m + past_m;
+  for (int face = 0; face < 3 && at_m < range + 3.0 * config.sigma_m; ++face) {
+    const Eigen::Vector2d from = ray.origin + at_m * ray.direction;
+    const SensorRay rest{ray.direction, ray.slope};
+    StructureHit hit;
+    structure.cast({from.x(), from.y(), ray.z + at_m * ray.slope}, std::span(&rest, 1), cast_beyond_m + range,
+                   std::span(&hit, 1));
+    if (hit.element < 0) return false;
+    if (near(at_m + hit.distance)) return true;
+    at_m += hit.distance + past_m;
+  }
+  return false;
 }
 
 /// Sums the evidence of neighbouring beams for one cause before the cause is looked up.
@@ -187,43 +208,6 @@ class EvidenceAccumulator {
   double sum_ = 0.0;
   Eigen::AlignedBox2d within_;
 };
-
-/// An object that was not planned, whatever it stands before.
-struct UnplannedObject {
-  double log_likelihood = 0.0;  ///< each cause's up to its cap
-  double length_m = 0.0;        ///< of what beams ended at
-  EvidenceByCause::Sum sum;     ///< not capped
-};
-
-bool is_outlined(const EvidenceByCause::Sum& sum, const HypothesisComparisonConfig& config) {
-  return sum.unexplained <= config.outline_share * sum.log_likelihood;
-}
-
-/// Most that an object counts for.
-double cap_of(const UnplannedObject& object, const HypothesisComparisonConfig& config) {
-  const double cap = std::max(1.0, object.length_m / config.object_m) * config.object_cap;
-  const bool outlined = object.length_m <= config.object_m && is_outlined(object.sum, config);
-  return outlined ? std::max(cap, config.outlined_cap) : cap;
-}
-
-/// Joins objects nearer than the gap, until none are.
-void join_near(std::vector<UnplannedObject>& objects, double gap) {
-  for (std::size_t i = 0; i < objects.size();) {
-    std::size_t k = i + 1;
-    while (k < objects.size() && objects[i].sum.within.exteriorDistance(objects[k].sum.within) > gap) ++k;
-    if (k == objects.size()) {
-      ++i;
-      continue;
-    }
-    objects[i].log_likelihood += objects[k].log_likelihood;
-    objects[i].length_m += objects[k].length_m;
-    objects[i].sum.log_likelihood += objects[k].sum.log_likelihood;
-    objects[i].sum.unexplained += objects[k].sum.unexplained;
-    objects[i].sum.within.extend(objects[k].sum.within);
-    objects.erase(objects.begin() + static_cast<std::ptrdiff_t>(k));
-    i = 0;
-  }
-}
 
 /// Adds to each object of `against` what ends next to it and is too short at the better pose, too: furniture is seldom
 /// as large as the plan's element that it is taken for.
@@ -310,44 +294,12 @@ double total_cost(const LocalizationScan& scan, const PredictedScan& predicted,
   return sum;
 }
 
-void EvidenceByCause::add(const OutlierCause& cause, double log_likelihood, const Eigen::AlignedBox2d& within) {
-  Sum& sum = sums_[cause];
-  sum.log_likelihood += log_likelihood;
-  sum.within.extend(within);
-}
-
-void EvidenceByCause::add(const EvidenceByCause& more, double scale) {
-  for (const auto& [cause, sum] : more.sums_) {
-    add(cause, scale * sum.log_likelihood, sum.within);
-    sums_[cause].unexplained += scale * sum.unexplained;
-  }
-}
-
-double EvidenceByCause::total(const HypothesisComparisonConfig& config) const {
-  double total = 0.0;
-  std::vector<UnplannedObject> objects;
-  for (const auto& [cause, sum] : sums_) {
-    if (cause.kind == OutlierCause::Kind::not_built)
-      total += std::min(sum.log_likelihood, config.cause_cap);
-    else if (cause.kind == OutlierCause::Kind::between_bars || sum.within.isEmpty())
-      total += std::min(sum.log_likelihood, config.object_cap);
-    else {
-      UnplannedObject object{0.0, sum.within.diagonal().norm(), sum};
-      object.log_likelihood =
-          std::min(sum.log_likelihood, is_outlined(sum, config) ? config.outlined_cap : config.object_cap);
-      objects.push_back(object);
-    }
-  }
-  join_near(objects, config.object_gap_m);
-  for (const UnplannedObject& object : objects) total += std::min(object.log_likelihood, cap_of(object, config));
-  return total;
-}
-
 PairwiseLikelihoodRatio compare_hypotheses(const LocalizationScan& scan, const PredictedScan& a, const PredictedScan& b,
                                            const HypothesisComparisonConfig& config) {
   PairwiseLikelihoodRatio result;
   {
     EvidenceAccumulator against_a(result.against_a), against_b(result.against_b);
+    EvidenceAccumulator ends_a(result.against_a), ends_b(result.against_b);
     for (std::size_t i = 0; i < scan.beam_grid.blocks.size(); ++i) {
       const BeamGridBlock& block = scan.beam_grid.blocks[i];
       const PredictedBlock &at_a = a.blocks[i], &at_b = b.blocks[i];
@@ -365,7 +317,12 @@ PairwiseLikelihoodRatio compare_hypotheses(const LocalizationScan& scan, const P
         const PlanRay ray = ray_of(worse, scan, block, k);
         if (expected > range && ends_in_opening(worse, ray, range, config)) continue;
         const OutlierCause cause = cause_of(*worse.storey->structure, ray, range, worse.blocks[i], k, config);
-        (gain > 0.0 ? against_b : against_a).add(cause, std::abs(gain), ray.origin + range * ray.direction);
+        const Eigen::Vector2d end_I = ray.origin + range * ray.direction;
+        const bool needs_two = cause.kind == OutlierCause::Kind::not_built &&
+                               !ends_at_next_face(*worse.storey->structure, ray, range, expected, config);
+        const double each = (needs_two ? 0.5 : 1.0) * std::abs(gain);
+        (gain > 0.0 ? against_b : against_a).add(cause, each, end_I);
+        if (needs_two) (gain > 0.0 ? ends_b : ends_a).add(unplanned_at(end_I, config), each, end_I);
         result.ratio += gain;
       }
     }

@@ -264,6 +264,27 @@ TEST(PairwiseLikelihoodRatio, OutsideOfThePlanEachThingSeenNeedsACauseOfItsOwn) 
   EXPECT_GT(said.against_b.total(config), 10.0 * config.object_cap);
 }
 
+// A gap in a wall explains that beams pass it, and not what they meet where the plan has nothing.
+TEST(PairwiseLikelihoodRatio, WhatStandsBehindAWallThatWasNotBuiltNeedsACauseOfItsOwn) {
+  synthetic::House built = synthetic::one_room(12.0, 4.0), planned = built;
+  built.boxes.push_back({{9.0, 0.0, 0.0}, {9.2, 4.0, 2.8}});
+  planned.boxes.push_back({{5.0, 0.0, 0.0}, {5.2, 4.0, 2.8}});
+  const HypothesisComparisonConfig config;
+  const Pose X_WR = Pose::from_xyz_yaw({2.0, 1.7, 0.46}, 0.1);
+  const auto against_plan = [&](const synthetic::House& world) {
+    const PlanIndex with = make_plan_index(synthetic::plan_of(planned), "ground", {}),
+                    right = make_plan_index(synthetic::plan_of(world), "ground", {});
+    const LocalizationScan scan = synthetic::house_scan(world, X_WR, Pose{}).scan;
+    const auto seen = [&](const PlanIndex& index) {
+      return predict_scan(index.storeys.front(), heading(index.X_WI.inverse() * X_WR), scan, config);
+    };
+    return in_the_end(compare_hypotheses(scan, seen(right), seen(with), config).against_b);
+  };
+  EXPECT_NEAR(against_plan(synthetic::one_room(12.0, 4.0)), config.cause_cap, 1e-9) << "beams end at the next wall";
+  // Four metres of something.
+  EXPECT_GT(against_plan(built), config.cause_cap + 3.0 * config.object_cap);
+}
+
 // Beams penetrate both of its faces, from either side.
 TEST(PairwiseLikelihoodRatio, AWallThatWasNotBuiltIsOneCauseFromBothSides) {
   const synthetic::House built = synthetic::one_room(8.0, 4.0);

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "slam/localization/compare_hypotheses.h"
+
+namespace plumbline::slam {
+
+namespace {
+
+/// An object that was not planned, whatever it stands before.
+struct UnplannedObject {
+  double log_likelihood = 0.0;  ///< each cause's up to its cap
+  double length_m = 0.0;        ///< of what beams ended at
+  EvidenceByCause::Sum sum;     ///< not capped
+};
+
+bool is_outlined(const EvidenceByCause::Sum& sum, const HypothesisComparisonConfig& config) {
+  return sum.unexplained <= config.outline_share * sum.log_likelihood;
+}
+
+/// Most that an object counts for.
+double cap_of(const UnplannedObject& object, const HypothesisComparisonConfig& config) {
+  const double cap = std::max(1.0, object.length_m / config.object_m) * config.object_cap;
+  const bool outlined = object.length_m <= config.object_m && is_outlined(object.sum, config);
+  return outlined ? std::max(cap, config.outlined_cap) : cap;
+}
+
+/// Joins objects nearer than the gap, until none are.
+void join_near(std::vector<UnplannedObject>& objects, double gap) {
+  for (std::size_t i = 0; i < objects.size();) {
+    std::size_t k = i + 1;
+    while (k < objects.size() && objects[i].sum.within.exteriorDistance(objects[k].sum.within) > gap) ++k;
+    if (k == objects.size()) {
+      ++i;
+      continue;
+    }
+    objects[i].log_likelihood += objects[k].log_likelihood;
+    objects[i].length_m += objects[k].length_m;
+    objects[i].sum.log_likelihood += objects[k].sum.log_likelihood;
+    objects[i].sum.unexplained += objects[k].sum.unexplained;
+    objects[i].sum.within.extend(objects[k].sum.within);
+    objects.erase(objects.begin() + static_cast<std::ptrdiff_t>(k));
+    i = 0;
+  }
+}
+
+}  // namespace
+
+void EvidenceByCause::add(const OutlierCause& cause, double log_likelihood, const Eigen::AlignedBox2d& within) {
+  Sum& sum = sums_[cause];
+  sum.log_likelihood += log_likelihood;
+  sum.within.extend(within);
+}
+
+void EvidenceByCause::add(const EvidenceByCause& more, double scale) {
+  for (const auto& [cause, sum] : more.sums_) {
+    add(cause, scale * sum.log_likelihood, sum.within);
+    sums_[cause].unexplained += scale * sum.unexplained;
+  }
+}
+
+double EvidenceByCause::total(const HypothesisComparisonConfig& config) const {
+  double total = 0.0;
+  std::vector<UnplannedObject> objects;
+  for (const auto& [cause, sum] : sums_) {
+    if (cause.kind == OutlierCause::Kind::not_built)
+      total += std::min(sum.log_likelihood, config.cause_cap);
+    else if (cause.kind == OutlierCause::Kind::between_bars || sum.within.isEmpty())
+      total += std::min(sum.log_likelihood, config.object_cap);
+    else {
+      UnplannedObject object{0.0, sum.within.diagonal().norm(), sum};
+      object.log_likelihood =
+          std::min(sum.log_likelihood, is_outlined(sum, config) ? config.outlined_cap : config.object_cap);
+      objects.push_back(object);
+    }
+  }
+  join_near(objects, config.object_gap_m);
+  for (const UnplannedObject& object : objects) total += std::min(object.log_likelihood, cap_of(object, config));
+  return total;
+}
+
+}  // namespace plumbline::slam
