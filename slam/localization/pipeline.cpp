@@ -42,7 +42,7 @@ HypothesisSet monitor_hypotheses(const LocalizationConfig& config) {
 }
 
 PlanMethodConfig plan_config(const LocalizationConfig& config) {
-  return {config, config.search.convergence.yaw_drift, config.index, true, true};
+  return {config, config.search.convergence.yaw_drift, config.index, config.update_s, true, true};
 }
 
 class SGraphLocalization final : public PlanLocalization {

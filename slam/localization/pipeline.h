@@ -56,10 +56,10 @@ struct KidnapMonitorConfig {
 struct LocalizationConfig : PlanUpdateConfig {
   LocalizationConfig() {
     update_m = 0.2;           // scans from one position are not independent
-    update_s = 1.0;           // assumed
     index.furniture = false;  // it may have moved
   }
 
+  double update_s = 1.0;  // assumed
   PlaneDetectorConfig planes;
   RinglessRansacConfig ransac_without_rings;
   LocalizationScanConfig scan;
@@ -72,6 +72,8 @@ struct LocalizationConfig : PlanUpdateConfig {
   template <class V>
   void visit(V& v) {
     PlanUpdateConfig::visit(v);
+    v("update_s", update_s,
+      Field{.doc = "or time since the last, for a robot that stands while its pose is tracked; 0: never", .min = 0});
     v("planes", planes);
     v("ransac_without_rings", ransac_without_rings, Field{.advanced = true});
     v("scan", scan, Field{.former = "view"});

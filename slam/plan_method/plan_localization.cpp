@@ -113,7 +113,7 @@ bool PlanLocalization::is_due(const Pose& X_OR) const {
 }
 
 bool PlanLocalization::is_due_standing(Nanoseconds stamp) const {
-  return config_.update_s > 0.0 && follows_standing() && seconds(stamp - used_) >= config_.update_s;
+  return config_.standing_update_s > 0.0 && follows_standing() && seconds(stamp - used_) >= config_.standing_update_s;
 }
 
 bool PlanLocalization::is_after_silence(const Scan& scan) const {

@@ -26,7 +26,6 @@ namespace plumbline::slam {
 struct PlanUpdateConfig {
   double update_m = 0.25;
   double update_rad = 0.2;
-  double update_s = 0.0;
   int particles_shown = 500;
   double mass_shown = 0.02;
 
@@ -34,8 +33,6 @@ struct PlanUpdateConfig {
   void visit(V& v) {
     v("update_m", update_m, Field{.doc = "distance walked between two updates", .min = 0, .basic = true});
     v("update_rad", update_rad, Field{.doc = "or angle turned between two updates", .min = 0, .basic = true});
-    v("update_s", update_s,
-      Field{.doc = "or time since the last, for a robot that stands while its pose is tracked; 0: never", .min = 0});
     v("particles_shown", particles_shown, Field{.doc = "most particles that an output carries", .min = 1, .max = 500});
     v("mass_shown", mass_shown, share_field("least mass of a hypothesis that an output carries"));
   }
@@ -44,6 +41,7 @@ struct PlanUpdateConfig {
 struct PlanMethodConfig : PlanUpdateConfig {
   double yaw_drift = prior_yaw_drift;
   PlanIndexConfig index = {};
+  double standing_update_s = 0.0;  ///< between scans that follow a robot that stands; 0: none do
   bool scan_times = false;
   bool watch_odometry = false;
 
@@ -91,7 +89,7 @@ class PlanLocalization : public Method {
   virtual void use_scan(const PlanScan& scan, Output& output) = 0;
   /// Whether a robot that stands is to be followed by scans, as its odometry may drift.
   [[nodiscard]] virtual bool follows_standing() const { return false; }
-  /// Uses a scan of a robot that has stood since the last scan that was due, update_s after the one before.
+  /// Uses a scan of a robot that has stood since the last scan that was due, standing_update_s after the one before.
   virtual void use_standing_scan(const PlanScan& /*scan*/, Output& /*output*/) {}
   /// Called where the way to a scan is not known: scan matching is lost, or went on from elsewhere. True: the method
   /// starts anew at the next scan, without the prior yaw, which odometry carried on; false: it goes on as it was.
