@@ -46,8 +46,7 @@ std::uint32_t checksum(std::uint32_t before, std::span<const std::uint8_t> bytes
 }
 
 Bytes record(Op op, std::span<const std::uint8_t> content) {
-  Bytes bytes;
-  put(bytes, static_cast<std::uint8_t>(op));
+  Bytes bytes{static_cast<std::uint8_t>(op)};
   put(bytes, std::uint64_t{content.size()});
   put_bytes(bytes, content);
   return bytes;
