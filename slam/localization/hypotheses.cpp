@@ -28,6 +28,16 @@ bool is_among(const std::vector<StoreyPose>& poses, const StoreyPose& pose) {
   });
 }
 
+/// The scan with every nth column of its beam grid.
+LocalizationScan thinned(const LocalizationScan& scan, int n) {
+  const int columns = scan.beam_grid.columns;
+  LocalizationScan thin = scan;
+  thin.beam_grid = {(columns + n - 1) / n, {}};
+  for (std::size_t i = 0; i < scan.beam_grid.blocks.size(); ++i)
+    if (static_cast<int>(i) % columns % n == 0) thin.beam_grid.blocks.push_back(scan.beam_grid.blocks[i]);
+  return thin;
+}
+
 }  // namespace
 
 double FitConfig::of_scan(const Agreement& seen) const {
@@ -42,7 +52,7 @@ double FitConfig::of_scan(const Agreement& seen) const {
 void HypothesisSet::predict_and_update(const PlanIndex& index, const Pose2& u, const LocalizationScan& scan) {
   replayed_reference_.reset();
   ruled_out_.clear();
-  history_.push_back({u, scan});
+  history_.push_back({u, scan, thinned(scan, config_.screening_columns)});
   if (static_cast<int>(history_.size()) > config_.history) history_.pop_front();
   const auto carry = [&](PoseHypothesis& hypothesis) {
     const StoreyIndex& storey = index.storeys[static_cast<std::size_t>(hypothesis.storey)];
@@ -60,7 +70,7 @@ void HypothesisSet::predict_and_update(const PlanIndex& index, const Pose2& u, c
   const ScanAtPose reference = carry(hypotheses_[reference_]);
   for (std::size_t i = 0; i < hypotheses_.size(); ++i) {
     if (i == reference_) continue;
-    accumulate_evidence(scan, carry(hypotheses_[i]), reference, hypotheses_[i].balance);
+    accumulate_evidence(scan, carry(hypotheses_[i]), reference, comparison_, hypotheses_[i].balance);
     hypotheses_[i].evidence = hypotheses_[i].balance.evidence(comparison_) + yaw_evidence(hypotheses_[i].X_IH);
   }
   rebase_reference(index);
@@ -105,7 +115,8 @@ HypothesisSet::Trial HypothesisSet::try_pose(const PlanIndex& index, const Store
   const int known = find(pose, config_.merge_m, config_.merge_rad);
   if (known >= 0 && !pose.exact && !fits_better(storey, pose.X_IH, hypotheses_[static_cast<std::size_t>(known)].X_IH))
     return Trial::known;
-  Replay past = hypotheses_.empty() ? replay(index, pose, {}) : replay(index, pose, reference_scans(index));
+  if (is_screened_out(index, pose)) return Trial::ruled_out;
+  Replay past = hypotheses_.empty() ? replay(index, pose, {}) : replay(index, pose, replayed_reference(index).scans);
   const double evidence = past.evidence + (hypotheses_.empty() ? 0.0 : yaw_evidence(pose.X_IH));
   if (past.evidence < -config_.drop_ratio) return Trial::ruled_out;
   const double margin = pose.exact ? 0.0 : config_.reference_switch_margin;
@@ -118,7 +129,7 @@ HypothesisSet::Trial HypothesisSet::try_pose(const PlanIndex& index, const Store
   hypothesis.balance = std::move(past.balance);
   hypothesis.evidence = evidence;
   replay_agreement(storey, past.scans, hypothesis);
-  if (hypotheses_.size() == 1) replayed_reference_ = {pose, std::move(past.scans)};
+  if (hypotheses_.size() == 1) replayed_reference_ = {pose, std::move(past.scans), {}};
   return Trial::added;
 }
 
@@ -129,14 +140,27 @@ std::size_t HypothesisSet::replay_stride() const {
   return std::max<std::size_t>(1, (history_.size() + most - 1) / most);
 }
 
-const std::vector<HypothesisSet::ScanAtPose>& HypothesisSet::reference_scans(const PlanIndex& index) {
+const HypothesisSet::ReplayedReference& HypothesisSet::replayed_reference(const PlanIndex& index) {
   const StoreyPose pose = hypotheses_[reference_].pose();
   const auto is_kept = [&](const ReplayedReference& kept) {
     return kept.pose.storey == pose.storey && kept.pose.X_IH.t == pose.X_IH.t && kept.pose.X_IH.yaw == pose.X_IH.yaw;
   };
   if (!replayed_reference_ || !is_kept(*replayed_reference_))
-    replayed_reference_ = {pose, replay(index, pose, {}).scans};
-  return replayed_reference_->scans;
+    replayed_reference_ = {pose, replay(index, pose, {}).scans, {}};
+  return *replayed_reference_;
+}
+
+const std::vector<HypothesisSet::ScanAtPose>& HypothesisSet::screening_of_reference(const PlanIndex& index) {
+  static_cast<void>(replayed_reference(index));
+  if (replayed_reference_->screening.empty())
+    replayed_reference_->screening = replay(index, replayed_reference_->pose, {}, Grid::screening).scans;
+  return replayed_reference_->screening;
+}
+
+bool HypothesisSet::is_screened_out(const PlanIndex& index, const StoreyPose& pose) {
+  if (hypotheses_.empty() || config_.screening_columns == 1) return false;
+  return replay(index, pose, screening_of_reference(index), Grid::screening).evidence <
+         -config_.drop_ratio - config_.screening_margin;
 }
 
 bool HypothesisSet::fits_better(const StoreyIndex& storey, const Pose2& X_IH, const Pose2& other) const {
@@ -251,7 +275,8 @@ void HypothesisSet::replay_best_agreement(const PlanIndex& index) {
 }
 
 void HypothesisSet::accumulate_evidence(const LocalizationScan& scan, const ScanAtPose& own,
-                                        const ScanAtPose& reference, EvidenceBalance& balance) const {
+                                        const ScanAtPose& reference, const HypothesisComparisonConfig& config,
+                                        EvidenceBalance& balance) const {
   const auto add_crossings = [&](const std::vector<int>& more, const std::vector<int>& than,
                                  EvidenceByCause& evidence) {
     for (std::size_t i = than.size(); i < more.size(); ++i)
@@ -259,7 +284,7 @@ void HypothesisSet::accumulate_evidence(const LocalizationScan& scan, const Scan
   };
   add_crossings(own.crossed, reference.crossed, balance.against);
   add_crossings(reference.crossed, own.crossed, balance.supporting);
-  const PairwiseLikelihoodRatio comparison = compare_hypotheses(scan, own.predicted, reference.predicted, comparison_);
+  const PairwiseLikelihoodRatio comparison = compare_hypotheses(scan, own.predicted, reference.predicted, config);
   const double size = std::abs(comparison.ratio);
   if (size <= config_.deadband) return;
   const double scale = own.represented_scans * std::min(size - config_.deadband, config_.step_cap) / size;
@@ -309,7 +334,7 @@ void HypothesisSet::reassess(const PlanIndex& index) {
 }
 
 void HypothesisSet::compare_all_with_reference(const PlanIndex& index) {
-  const std::vector<ScanAtPose>& scans = reference_scans(index);
+  const std::vector<ScanAtPose>& scans = replayed_reference(index).scans;
   for (PoseHypothesis& hypothesis : hypotheses_) {
     Replay past;
     if (&hypothesis != &hypotheses_[reference_]) past = replay(index, hypothesis.pose(), scans);
@@ -319,30 +344,34 @@ void HypothesisSet::compare_all_with_reference(const PlanIndex& index) {
 }
 
 HypothesisSet::Replay HypothesisSet::replay(const PlanIndex& index, const StoreyPose& pose,
-                                            const std::vector<ScanAtPose>& reference) const {
+                                            const std::vector<ScanAtPose>& reference, Grid grid) const {
   const StoreyIndex& storey = index.storeys[static_cast<std::size_t>(pose.storey)];
+  const bool screening = grid == Grid::screening;
+  const HypothesisComparisonConfig& comparison = screening ? screening_ : comparison_;
+  const double dropped = -config_.drop_ratio - (screening ? config_.screening_margin : 0.0);
+  const std::size_t stride = screening ? static_cast<std::size_t>(config_.replay_stride) : replay_stride();
   Pose2 X = pose.X_IH;
   Replay past;
   std::vector<int> crossed;
-  const std::size_t stride = replay_stride();
   for (std::size_t back = 0; back < history_.size(); ++back) {
     const HistoryStep& step = history_[history_.size() - 1 - back];
+    const LocalizationScan& scan = screening ? step.screening : step.scan;
     const bool is_sampled = back % stride == 0;
-    if (is_sampled) X = refine(storey, X, step.scan, likelihood_, tracking_refine_).X_IH;
+    if (is_sampled) X = refine(storey, X, scan, likelihood_, tracking_refine_).X_IH;
     const Pose2 before = X * step.u.inverse();
     add_crossed(storey, before, X, index.config.body_height_m, crossed);
     if (is_sampled) {
       const int represented_scans = static_cast<int>(std::min(stride, history_.size() - back));
-      past.scans.push_back({X, predict_scan(storey, X, step.scan, comparison_), std::move(crossed), represented_scans});
+      past.scans.push_back({X, predict_scan(storey, X, scan, comparison), std::move(crossed), represented_scans});
       crossed.clear();
     }
     X = before;
     const std::size_t k = past.scans.size() - 1;
     if (!is_sampled || k >= reference.size()) continue;
-    accumulate_evidence(step.scan, past.scans[k], reference[k], past.balance);
+    accumulate_evidence(scan, past.scans[k], reference[k], comparison, past.balance);
     past.scans[k].predicted = {};
     past.evidence = past.balance.evidence(comparison_);
-    if (past.evidence < -config_.drop_ratio) break;
+    if (past.evidence < dropped) break;
   }
   return past;
 }

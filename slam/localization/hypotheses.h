@@ -65,6 +65,8 @@ struct HypothesisConfig {
   double crossing_cost = 3.0;
   double reference_switch_margin = 1.0;
   double drop_ratio = 25.0;
+  int screening_columns = 8;
+  double screening_margin = 15.0;
   int history = 240;
   int replay_stride = 3;
   double ema_alpha = 0.15;
@@ -97,6 +99,14 @@ struct HypothesisConfig {
     // About three causes.
     v("drop_ratio", drop_ratio,
       plain_field("log-likelihood ratio to the best below which a hypothesis is dropped", {.min = 0}));
+    v("screening_columns", screening_columns,
+      Field{.doc = "every how many columns of the beam grid the kept scans are compared with first, before a pose is "
+                   "tried by all; 1: by all at once",
+            .min = 1,
+            .max = 100});
+    // A column then stands for its neighbours. Assumed; a walk through d6 keeps its hypotheses to the bit.
+    v("screening_margin", screening_margin,
+      plain_field("log-likelihood ratio below drop_ratio at which that look rules the pose out", {.min = 0}));
     // 50 m walked.
     v("history", history,
       Field{.doc = "scans kept to replay for a hypothesis that is added later", .min = 1, .max = 10000});
@@ -193,6 +203,7 @@ class HypothesisSet {
   struct HistoryStep {
     Pose2 u;  ///< motion that led to this scan
     LocalizationScan scan;
+    LocalizationScan screening;  ///< the same with a thinner beam grid
   };
   /// One scan as the plan predicts it at a pose.
   struct ScanAtPose {
@@ -209,7 +220,9 @@ class HypothesisSet {
   struct ReplayedReference {
     StoreyPose pose;
     std::vector<ScanAtPose> scans;
+    std::vector<ScanAtPose> screening;
   };
+  enum class Grid { whole, screening };
   /// The place along the direction that the fit of the last scan left open, if any.
   void slide_along_open_direction(const PlanIndex& index, PoseHypothesis& hypothesis) const;
   enum class Trial { added, known, ruled_out };
@@ -218,7 +231,11 @@ class HypothesisSet {
   /// Every how many of the kept scans one is replayed: as many scans at most as of a full history.
   [[nodiscard]] std::size_t replay_stride() const;
   /// The reference's replay, kept until the next scan.
-  const std::vector<ScanAtPose>& reference_scans(const PlanIndex& index);
+  const ReplayedReference& replayed_reference(const PlanIndex& index);
+  /// The same with the thinner beam grid.
+  const std::vector<ScanAtPose>& screening_of_reference(const PlanIndex& index);
+  /// True where a first look by few columns rules the pose out.
+  [[nodiscard]] bool is_screened_out(const PlanIndex& index, const StoreyPose& pose);
   /// True where the last scan is likelier at the first pose.
   [[nodiscard]] bool fits_better(const StoreyIndex& storey, const Pose2& X_IH, const Pose2& other) const;
   /// Adds the newest scan's agreement with the plan.
@@ -228,15 +245,15 @@ class HypothesisSet {
                         PoseHypothesis& hypothesis) const;
   /// Adds one scan's evidence for a hypothesis against the reference.
   void accumulate_evidence(const LocalizationScan& scan, const ScanAtPose& own, const ScanAtPose& reference,
-                           EvidenceBalance& balance) const;
+                           const HypothesisComparisonConfig& comparison, EvidenceBalance& balance) const;
   /// Compares all hypotheses with the best by all scans kept, once that is a new one: the evidence between two does not
   /// follow from the evidence of each against a third.
   void rebase_reference(const PlanIndex& index);
   void compare_all_with_reference(const PlanIndex& index);
   /// The kept scans along the odometry back from the pose at the last one, compared with the reference (when there is
-  /// one). Stops once the evidence has fallen below the drop ratio.
-  [[nodiscard]] Replay replay(const PlanIndex& index, const StoreyPose& pose,
-                              const std::vector<ScanAtPose>& reference) const;
+  /// one). Stops once the evidence has fallen below the ratio at which the pose is dropped.
+  [[nodiscard]] Replay replay(const PlanIndex& index, const StoreyPose& pose, const std::vector<ScanAtPose>& reference,
+                              Grid grid = Grid::whole) const;
   /// Log-likelihood ratio of a pose's yaw to the reference's by what is expected.
   [[nodiscard]] double yaw_evidence(const Pose2& X_IH) const;
   [[nodiscard]] int find(const StoreyPose& pose, double near_m, double near_rad) const;
@@ -246,6 +263,7 @@ class HypothesisSet {
   RefineConfig tracking_refine_;  ///< of a tracked one
   LikelihoodConfig likelihood_;
   HypothesisComparisonConfig comparison_;
+  HypothesisComparisonConfig screening_;  ///< of the thinner beam grid, where a beam stands for several
   std::vector<PoseHypothesis> hypotheses_;
   std::deque<HistoryStep> history_;
   std::optional<ReplayedReference> replayed_reference_;

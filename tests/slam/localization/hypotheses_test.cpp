@@ -132,6 +132,32 @@ TEST(Hypotheses, TheFitAlongThePathToThePresentPoseIsTheTrackedOneWhereThePoseWa
   EXPECT_EQ(set.all().front().scans, static_cast<int>(twins.scans.size()));
 }
 
+// Without a margin, since six scans make two looks.
+TEST(Hypotheses, AFirstLookByFewColumnsRulesOutNothingThatAllWouldKeep) {
+  const TwinRooms twins = twin_rooms_scans();
+  const auto hypotheses_after_trying_many = [&](int screening_columns) {
+    HypothesisConfig config;
+    config.screening_columns = screening_columns;
+    config.screening_margin = 0.0;
+    HypothesisSet set(config, {}, {}, {});
+    track_and_add_twin(twins, set);
+    std::vector<StoreyPose> poses;
+    for (int x = -2; x <= 8; ++x)
+      for (int y = -1; y <= 2; ++y)
+        for (int turn = 0; turn < 4; ++turn)
+          poses.push_back({0, twins.here * Pose2{{0.9 * x, 0.9 * y}, 1.57 * turn}, turn % 2 == 0});
+    set.add(twins.index, poses);
+    set.prune_and_normalize();
+    return set.all();
+  };
+  const std::vector<PoseHypothesis> all = hypotheses_after_trying_many(1), few = hypotheses_after_trying_many(8);
+  ASSERT_EQ(few.size(), all.size());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    EXPECT_EQ(few[i].X_IH.t, all[i].X_IH.t);
+    EXPECT_EQ(few[i].evidence, all[i].evidence);
+  }
+}
+
 TEST(Hypotheses, TwinsKeepEqualSharesAndOthersDie) {
   const TwinRooms twins = twin_rooms_scans();
   HypothesisSet set({}, {}, {}, {});
