@@ -8,6 +8,8 @@
 #include <numbers>
 #include <utility>
 
+#include "slam/localization/wall_crossing.h"
+
 namespace plumbline::slam {
 
 namespace {
@@ -15,8 +17,7 @@ namespace {
 /// Adds the wall or column that a step goes through, if any.
 void add_crossed(const StoreyIndex& storey, const Pose2& from, const Pose2& to, double body_height,
                  std::vector<int>& elements) {
-  const double from_z = storey.floor_at(from.t) + body_height, to_z = storey.floor_at(to.t) + body_height;
-  const int element = storey.structure->barrier({from.t.x(), from.t.y(), from_z}, {to.t.x(), to.t.y(), to_z});
+  const int element = crossed_element(storey, from, to, body_height);
   if (element >= 0) elements.push_back(element);
 }
 

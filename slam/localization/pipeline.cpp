@@ -9,6 +9,7 @@
 #include "bim/digest/digest.h"
 #include "slam/localization/associate.h"
 #include "slam/localization/observed_walls.h"
+#include "slam/localization/wall_crossing.h"
 #include "slam/localization/wall_matches.h"
 #include "slam/plan_method/plan_localization.h"
 
@@ -98,6 +99,7 @@ class SGraphLocalization final : public PlanLocalization {
   std::optional<ExpectedYaw> doubted_yaw_;  ///< of the present scan: the robot may have been kidnapped and turned
   HypothesisSet monitor_;                   ///< of the last scans; hypotheses only while a check runs
   double since_check_m_ = 0.0;
+  RoomExit room_exit_;
   Agreement agreement_;            ///< of the tracked hypothesis, moving average over scans
   std::optional<Pose> X_IO_last_;  ///< of the last tracking, also after it was lost
   ObservedWalls observed_walls_;
@@ -162,6 +164,7 @@ void SGraphLocalization::start_tracking(const LocalizationScan& scan, const std:
   fit_ = config_.monitor.misfit;
   storey_ = best.storey;
   monitor_.clear();
+  room_exit_.clear();
   since_check_m_ = 0.0;
   tracker_.emplace(config_.tracker, index().storeys[static_cast<std::size_t>(best.storey)],
                    input().calibration.sensor_height_m - input().calibration.X_RL.t.z());
@@ -221,6 +224,7 @@ void SGraphLocalization::follow_storey() {
     storey_ = storey_of_plan(i);
     tracker_->change_storey(index().storeys[static_cast<std::size_t>(storey_)]);
     monitor_.clear();
+    room_exit_.clear();
     since_check_m_ = 0.0;
     return;
   }
@@ -269,15 +273,17 @@ bool SGraphLocalization::is_tracked(const PoseHypothesis& hypothesis, const Loca
 
 /// Withdraws a convergence when the scans no longer fit the plan there.
 void SGraphLocalization::check_kidnap(const LocalizationScan& scan) {
-  const Agreement fit = agreement(tracker_->storey(), heading(tracker_->pose(scan.X_OR)), scan,
-                                  config_.search.likelihood, config_.search.refine);
+  const Pose2 X_IH = heading(tracker_->pose(scan.X_OR));
+  const Agreement fit = agreement(tracker_->storey(), X_IH, scan, config_.search.likelihood, config_.search.refine);
   agreement_.update_mean(fit, config_.search.hypotheses.ema_alpha);
   failed_updates_ =
       fit.penetration_ratio_other_walls() > config_.monitor.lost_penetration_ratio ? failed_updates_ + 1 : 0;
   const double limit = config_.monitor.misfit;
   fit_ = std::clamp(fit_ + config_.search.hypotheses.fit.of_scan(fit), -limit, limit);
   const int lost_updates = doubts_place_ ? 1 : config_.monitor.lost_updates;
-  const bool misfits = failed_updates_ >= lost_updates || fit_ <= -limit;
+  const bool has_left =
+      room_exit_.update(tracker_->storey(), X_IH, index().config.body_height_m) >= config_.monitor.outside_updates;
+  const bool misfits = failed_updates_ >= lost_updates || fit_ <= -limit || has_left;
   if (fit.inliers >= config_.search.hypotheses.fit.inliers_min) doubts_place_ = false;
   if (!has_better_alternative(scan) && !misfits) return;
   tracker_.reset();  // with its window, which was refuted

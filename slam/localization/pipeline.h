@@ -14,8 +14,8 @@
 namespace plumbline::slam {
 
 /// Withdraws a convergence when beams penetrate more of the plan than one wall that may be missing, and when another
-/// hypothesis explains the last scans better. It detects a kidnapped robot, or one that converged to the wrong
-/// one of two poses.
+/// hypothesis explains the last scans better, or when the robot leaves all rooms through a wall. It detects a kidnapped
+/// robot, one that converged to the wrong one of two poses, or the plan of another building.
 struct KidnapMonitorConfig {
   double lost_penetration_ratio = 0.15;
   int lost_updates = 8;
@@ -26,6 +26,7 @@ struct KidnapMonitorConfig {
   double penetration_ratio_margin = 0.03;
   double off_floor_m = 0.3;
   double misfit = 12.0;
+  int outside_updates = 4;
 
   template <class V>
   void visit(V& v) {
@@ -48,6 +49,11 @@ struct KidnapMonitorConfig {
                   {.former = "through_margin"}));
     v("misfit", misfit,
       plain_field("sum of scans that do not fit, less those that do, which withdraws a convergence", {.min = 0}));
+    // Thicker than any wall of a house, at update_m; assumed.
+    v("outside_updates", outside_updates,
+      Field{.doc = "scans in a row in no room of the plan, after the robot went through a wall, that withdraw a "
+                   "convergence",
+            .min = 1});
     v("off_floor_m", off_floor_m,
       Field{.doc = "height over or under a storey's floor from which the robot is on a stair", .min = 0.05});
   }
