@@ -81,6 +81,8 @@ std::optional<ProcessSpec> process_of(const std::string& text, const std::string
   ProcessSpec process;
   process.name = text.substr(0, equals);
   process.command = words_of(text.substr(equals + 1), {where, 0, 0});
+  if (process.command.empty() || process.command.front().empty())
+    throw InputError({where, 0, 0}, "names no program; say what starts your method, as in python3 my_slam.py");
   process.folder = folder;
   return process;
 }
@@ -94,7 +96,8 @@ void check_program(const std::vector<std::string>& command, const std::string& f
   if (name.find('/') != std::string::npos) {
     const std::filesystem::path path = std::filesystem::path(folder) / name;
     if (runs(path)) return;
-    throw InputError(mark, std::filesystem::exists(path) ? "'" + name + "' is no program: it may not be executed"
+    const std::string why = std::filesystem::is_directory(path) ? "it is a folder" : "it may not be executed";
+    throw InputError(mark, std::filesystem::exists(path) ? "'" + name + "' is no program: " + why
                                                          : "there is no program '" + name + "'");
   }
   const char* folders = std::getenv("PATH");

@@ -28,7 +28,8 @@ struct ProcessSpec {
     v("command", command,
       Field{.doc = "the program and its arguments; it is started in `folder`, and found in PATH where it has no slash",
             .required = true});
-    v("folder", folder, Field{.doc = "folder in which it is started; that of the scenario when not given"});
+    v("folder", folder,
+      Field{.doc = "folder in which it is started, relative to that of the file; that of the file when not given"});
     v("plan", plan, Field{.doc = "whether it localizes in the plan, which it then gets, and answers with hypotheses"});
     v("repeat", repeat,
       Field{.doc = "whether a second process gets the same; the method has crashed where it answers otherwise"});
@@ -39,7 +40,7 @@ struct ProcessSpec {
 };
 
 /// A method as the command line gives it: "NAME=PROGRAM ARGUMENT...", words apart by spaces, ' and " around words with
-/// spaces. Nothing where the text has no '='. Throws InputError at the option `where`.
+/// spaces. Nothing where the text has no '='. Throws InputError at the option `where`, also where no program is named.
 [[nodiscard]] std::optional<ProcessSpec> process_of(const std::string& text, const std::string& folder,
                                                     const std::string& where = "--method");
 

@@ -1,11 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenarios/spec/process_tree.h"
 
+#include <filesystem>
 #include <utility>
 
 #include "bim/errors.h"
 
 namespace plumbline::scenarios {
+
+namespace {
+
+/// What a process says, seen from the folder; a value that is no text stays, to be refused at its place.
+Tree folder_of(const Tree& process, const std::string& folder) {
+  const Tree* own = process.find("folder");
+  if (own == nullptr || own->is_null()) return folder;
+  if (!own->is_scalar()) return *own;
+  Tree whole = process_folder(own->as_string(), folder);
+  whole.mark = own->mark;
+  return whole;
+}
+
+}  // namespace
+
+std::string process_folder(const std::optional<std::string>& own, const std::string& folder) {
+  namespace fs = std::filesystem;
+  return own ? (fs::path(folder) / *own).lexically_normal().string() : folder;
+}
 
 Tree with_processes_apart(Tree scenario) {
   const Tree* methods = scenario.is_map() ? scenario.find("methods") : nullptr;
@@ -39,7 +59,7 @@ Tree with_process_folders(Tree scenario, const std::string& folder) {
   Tree processes = Tree::list();
   processes.mark = given->mark;
   for (Tree process : given->as_list()) {
-    if (process.is_map() && process.find("folder") == nullptr) process.set("folder", folder);
+    if (process.is_map()) process.set("folder", folder_of(process, folder));
     processes.push(std::move(process));
   }
   return std::move(scenario.set("processes", std::move(processes)));

@@ -12,6 +12,7 @@
 #include "scenarios/spec/library.h"
 #include "scenarios/spec/method_names.h"
 #include "scenarios/spec/moving.h"
+#include "scenarios/spec/process_tree.h"
 #include "scenarios/spec/random_start.h"
 #include "scenarios/spec/route_plan.h"
 #include "scenarios/spec/run_site.h"
@@ -138,8 +139,8 @@ std::shared_ptr<const ProcessTable> process_table(ScenarioText& text, const Over
                                                   const std::string& input_path, slam::MethodTable table) {
   std::vector<ProcessSpec>& processes = text.scenario.processes;
   std::vector<Mark> marks = marks_of(text.tree, {"processes"}, processes.size());
-  for (ProcessSpec& process : processes)
-    if (!process.folder) process.folder = fs::absolute(input_path).parent_path().lexically_normal().string();
+  const std::string folder = fs::absolute(input_path).parent_path().lexically_normal().string();
+  for (ProcessSpec& process : processes) process.folder = process_folder(process.folder, folder);
   processes.insert(processes.end(), overrides.processes.begin(), overrides.processes.end());
   marks.resize(processes.size(), Mark{"--method", 0, 0});
   return std::make_shared<const ProcessTable>(table, processes, marks);
@@ -248,6 +249,9 @@ void check_methods(const std::vector<std::string>& names, const std::vector<Mark
       check_sensors(choice, marks[i], table);
       continue;
     }
+    if (names[i].find('=') != std::string::npos)
+      throw InputError(marks[i],
+                       "'" + names[i] + "' is no name; a process is {name: NAME, command: [PROGRAM, ARGUMENT]}");
     const std::string close = did_you_mean(choice.method, known);
     std::string list;
     for (const std::string& name : known) list += (list.empty() ? "" : ", ") + name;

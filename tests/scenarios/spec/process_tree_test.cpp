@@ -20,11 +20,14 @@ TEST(ProcessTree, MethodsGivenAsMapsStandUnderProcesses) {
   EXPECT_THROW(with_processes_apart(read_yaml("methods: [{command: [./a]}]", "x")), InputError);
 }
 
-TEST(ProcessTree, AFolderThatIsGivenStays) {
-  const Tree tree = with_process_folders(
-      read_yaml("methods: [{name: a, command: [x]}, {name: b, command: [x], folder: own}]", "x"), "other");
-  EXPECT_EQ(tree.find("processes")->as_list()[0].find("folder")->as_string(), "other");
-  EXPECT_EQ(tree.find("processes")->as_list()[1].find("folder")->as_string(), "own");
+TEST(ProcessTree, AFolderThatIsGivenIsSeenFromTheScenarios) {
+  const Tree tree = with_process_folders(read_yaml("methods: [{name: a, command: [x]}, {name: b, command: [x], "
+                                                   "folder: own}, {name: c, command: [x], folder: /whole}]",
+                                                   "x"),
+                                         "/other");
+  EXPECT_EQ(tree.find("processes")->as_list()[0].find("folder")->as_string(), "/other");
+  EXPECT_EQ(tree.find("processes")->as_list()[1].find("folder")->as_string(), "/other/own");
+  EXPECT_EQ(tree.find("processes")->as_list()[2].find("folder")->as_string(), "/whole");
 }
 
 }  // namespace
