@@ -67,6 +67,21 @@ class Template {
     return tree;
   }
 
+  /// The scenario with the processes of the sweep beside its own.
+  void add(const Tree& processes) {
+    if (processes.as_list().empty()) return;
+    const Tree* own = tree_.find("processes");
+    Tree all = own != nullptr && own->is_list() ? *own : Tree::list();
+    for (const Tree& process : processes.as_list()) all.push(process);
+    tree_.set("processes", std::move(all));
+  }
+
+  /// The table with the scenario's processes; `mark` is where the sweep names the scenario.
+  [[nodiscard]] ProcessTable methods(slam::MethodTable table, const Mark& mark) const {
+    const std::vector<ProcessSpec> processes = check(tree_, {}, mark).processes;
+    return {table, processes, std::vector<Mark>(processes.size(), mark)};
+  }
+
   [[nodiscard]] std::string text(Tree tree) const { return write_yaml(tree.set("building", building_)); }
 
  private:
@@ -144,7 +159,7 @@ std::string file_name(const std::string& text) {
   return name;
 }
 
-void check(const SweepFile& file, const Tree& tree, slam::MethodTable table) {
+void check(const SweepFile& file, const Tree& tree) {
   check_name(file.name, tree.find("name") != nullptr ? tree.find("name")->mark : tree.mark);
   if (file.scenarios.empty()) throw InputError(tree.find("scenarios")->mark, "names no scenario; it must name one");
   const std::size_t each =
@@ -161,15 +176,26 @@ void check(const SweepFile& file, const Tree& tree, slam::MethodTable table) {
   for (std::size_t i = 0; i < file.scenarios.size(); ++i)
     if (!scenarios.insert(file_name(fs::path(file.scenarios[i]).stem().string())).second)
       throw InputError(mark_of(tree, "scenarios", i), "a scenario of this name is in the list already");
+}
+
+/// A method that a sweep names is known in each of its scenarios.
+void check_names(const SweepFile& file, const Tree& tree, slam::MethodTable table) {
   std::vector<Mark> marks;
   for (std::size_t i = 0; i < file.methods.size(); ++i) marks.push_back(mark_of(tree, "methods", i));
   check_methods(file.methods, marks, table);
 }
 
+/// The processes of a sweep, each with its folder.
+Tree processes_of(const Tree& sweep) {
+  const Tree* processes = sweep.find("processes");
+  return processes != nullptr && processes->is_list() ? *processes : Tree::list();
+}
+
 }  // namespace
 
 Sweep read_sweep(const std::string& path, int seeds, slam::MethodTable table) {
-  const Tree tree = read_yaml(read_text_file(path), path);
+  const std::string home = fs::absolute(path).parent_path().lexically_normal().string();
+  const Tree tree = with_process_folders(read_yaml(read_text_file(path), path), home);
   if (!tree.is_map() || tree.as_map().empty() || tree.as_map().front().first != "sweep")
     throw InputError({path, 1, 1}, "the first key of a sweep must be 'sweep: 1'");
   Sweep sweep;
@@ -177,16 +203,20 @@ Sweep read_sweep(const std::string& path, int seeds, slam::MethodTable table) {
   sweep.file_name = fs::path(path).filename().string();
   if (seeds > 0) sweep.file.seeds = sweep.seeds = seeds;
   const SweepFile& file = sweep.file;
-  check(file, tree, table);
+  check(file, tree);
   std::size_t text_bytes = 0;
   std::set<std::string> parts;
   const std::vector<SweepVariant> variants = file.variants.empty() ? std::vector<SweepVariant>(1) : file.variants;
   for (std::size_t i = 0; i < file.scenarios.size(); ++i) {
-    const Template scenario((fs::path(path).parent_path() / file.scenarios[i]).string(), mark_of(tree, "scenarios", i));
+    const Mark at = mark_of(tree, "scenarios", i);
+    Template scenario((fs::path(path).parent_path() / file.scenarios[i]).string(), at);
+    scenario.add(processes_of(tree));
+    const ProcessTable methods = scenario.methods(table, at);
+    check_names(file, tree, methods.table());
     for (std::size_t v = 0; v < variants.size(); ++v)
       for (std::size_t s = 0; s < std::max<std::size_t>(file.starts.size(), 1); ++s) {
         const Start* start = file.starts.empty() ? nullptr : &file.starts[s];
-        const Tree made = scenario.with(variants[v], start, file, mark_of(tree, "variants", v), table);
+        const Tree made = scenario.with(variants[v], start, file, mark_of(tree, "variants", v), methods.table());
         const std::string part = file_name(scenario.name()) +
                                  (file.variants.empty() ? "" : "-" + file_name(variants[v].name)) +
                                  (start == nullptr ? "" : "-start" + std::to_string(s + 1));

@@ -30,6 +30,7 @@ struct SweepFile {
   int seeds = 10;
   std::uint64_t first_seed = 1;
   std::vector<std::string> methods;
+  std::vector<ProcessSpec> processes;
   std::vector<Sensors> sensors;
   std::vector<Start> starts;
   std::vector<SweepVariant> variants;
@@ -40,7 +41,12 @@ struct SweepFile {
     v("scenarios", scenarios, Field{.doc = "paths of the scenarios, relative to the sweep's folder", .required = true});
     v("seeds", seeds, plain_field("number of seeds of each scenario", {.min = 1, .max = 100000}));
     v("first_seed", first_seed, plain_field("first seed; the others follow it", {.min = 0, .max = 9e18}));
-    v("methods", methods, Field{.doc = "names of the methods of every run; each scenario's own when none is named"});
+    v("methods", methods,
+      Field{.doc = "names of the methods of every run; each scenario's own when none is named; `{name: NAME, command: "
+                   "[PROGRAM, ARGUMENT]}` for a process of your own, as in a scenario"});
+    v("processes", processes,
+      Field{.doc = "methods that are programs of the user's, as in a scenario; they start in the sweep's folder when "
+                   "they say none"});
     v("sensors", sensors,
       Field{.doc = "what methods get in every run, as in a scenario: [all, lidar] runs each that can with LiDAR alone, "
                    "too; each scenario's own when not given"});

@@ -64,6 +64,33 @@ TEST_F(SweepFiles, AreReadFromTheCurrentFolder) {
   EXPECT_EQ(named->scenario_texts, whole.scenario_texts);
 }
 
+TEST_F(SweepFiles, ProcessesOfTheSweepAndOfItsScenariosAreMethods) {
+  std::ofstream(folder_ / "library/own.yaml")
+      << "scenario: 1\nbuilding: house.plan.yaml\nmethods: [{name: theirs, command: [./b]}]\n";
+  const Sweep sweep = read(
+      "sweep: 1\nscenarios: [library/own.yaml]\nseeds: 1\nsensors: [all, lidar]\n"
+      "methods: [vgicp, theirs, {name: mine, command: [./a], folder: slam}]\n");
+  ASSERT_EQ(sweep.scenario_texts.size(), 1U);
+  const Scenario scenario = read_scenario(sweep.scenario_texts[0], "made").scenario;
+  EXPECT_EQ(scenario.methods,
+            (std::vector<std::string>{"vgicp", "vgicp.lidar", "theirs", "theirs.lidar", "mine", "mine.lidar"}));
+  ASSERT_EQ(scenario.processes.size(), 2U);
+  EXPECT_EQ(scenario.processes[0].folder, folder_ / "library");
+  EXPECT_EQ(scenario.processes[1].folder, folder_ / "slam");
+}
+
+TEST_F(SweepFiles, AProcessThatAScenarioDoesNotHaveIsRefused) {
+  EXPECT_NE(error_of("sweep: 1\nscenarios: [library/house.yaml]\nmethods: [theirs]\n")
+                .find("sweep.yaml:3:11: unknown method 'theirs'"),
+            std::string::npos);
+  EXPECT_NE(error_of("sweep: 1\nscenarios: [library/house.yaml]\nmethods: ['mine=./a b']\n")
+                .find("sweep.yaml:3:11: 'mine=./a b' is no name; a process is {name: NAME, command:"),
+            std::string::npos);
+  EXPECT_NE(error_of("sweep: 1\nscenarios: [library/house.yaml]\nmethods: [{name: vgicp, command: [./a]}]\n")
+                .find("'vgicp' is in the table already"),
+            std::string::npos);
+}
+
 TEST_F(SweepFiles, FewerSeedsAreTheFirstOfMore) {
   const Sweep all = read(sweep_examples()[0]);
   const Sweep some = read(sweep_examples()[0], 7);
