@@ -60,6 +60,8 @@ class BagRecording final : public Recording {
     if (unjoined_imu_)
       all.push_back(topics_.imu + " left out: in frame '" + *unjoined_imu_ + "', which /tf_static does not join to '" +
                     base_ + "'; name another topic, or describe the recording: then the two are one");
+    if (const std::string tf = moving_transforms(*source_); topics_.odometry.empty() && !tf.empty())
+      all.push_back("no odometry: it is read from nav_msgs/Odometry, which the bag does not hold, and not from " + tf);
     if (early_ > 0)
       all.push_back(topics_.points + ": " + share_of(early_, scans_.read(), "scans") +
                     " left out: before the first odometry");

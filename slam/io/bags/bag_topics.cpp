@@ -9,7 +9,8 @@ namespace plumbline::slam {
 namespace {
 
 constexpr std::string_view cloud_type = "sensor_msgs/PointCloud2", odometry_type = "nav_msgs/Odometry",
-                           imu_type = "sensor_msgs/Imu", transforms_type = "tf2_msgs/TFMessage";
+                           imu_type = "sensor_msgs/Imu", transforms_type = "tf2_msgs/TFMessage",
+                           clock_type = "rosgraph_msgs/Clock";
 
 using IsType = bool (*)(std::string_view);
 
@@ -28,6 +29,24 @@ std::string packets(const MessageSource& source) {
         topic.type == "velodyne_msgs/VelodyneScan")
       return "; " + topic.name + " holds packets (" + topic.type + "), which the driver makes clouds of";
   return {};
+}
+
+/// What a bag without clouds has instead, as far as it may be of a LiDAR.
+std::string instead(const MessageSource& source) {
+  if (const std::string found = packets(source); !found.empty()) return found;
+  constexpr std::size_t most = 5;
+  std::string list;
+  std::size_t count = 0;
+  for (const BagTopic& topic : source.topics()) {
+    if (is_cloud(topic.type) && topic.encoding == Encoding::unknown)
+      return "; " + topic.name + " is of " + topic.type + " in another layout than ROS has";
+    if (is_odometry(topic.type) || is_imu(topic.type) || is_transforms(topic.type) || topic.type == clock_type)
+      continue;
+    if (++count <= most)
+      list += (list.empty() ? "" : ", ") + topic.name + " (" + (topic.type.empty() ? "no type" : topic.type) + ")";
+  }
+  if (list.empty()) return {};
+  return "; it holds " + list + (count > most ? " and " + std::to_string(count - most) + " more" : "");
 }
 
 void check_topic(const MessageSource& source, const std::string& name, IsType is, std::string_view type,
@@ -56,11 +75,18 @@ BagTopics choose_topics(const MessageSource& source, const BagTopics& asked, con
   if (topics.odometry.empty()) topics.odometry = first_topic(source, is_odometry);
   if (topics.imu.empty()) topics.imu = first_topic(source, is_imu);
   if (topics.points.empty())
-    throw InputError(mark, "a bag without sensor_msgs/PointCloud2 or Livox's CustomMsg" + packets(source));
+    throw InputError(mark, "a bag without sensor_msgs/PointCloud2 or Livox's CustomMsg" + instead(source));
   check_topic(source, topics.points, is_cloud, cloud_type, mark);
   if (!topics.odometry.empty()) check_topic(source, topics.odometry, is_odometry, odometry_type, mark);
   if (!topics.imu.empty()) check_topic(source, topics.imu, is_imu, imu_type, mark);
   return topics;
+}
+
+std::string moving_transforms(const MessageSource& source) {
+  for (const BagTopic& topic : source.topics())
+    if (is_transforms(topic.type) && topic.encoding != Encoding::unknown && topic.name.ends_with("/tf"))
+      return topic.name;
+  return {};
 }
 
 std::string static_transforms(const MessageSource& source, std::string_view points) {

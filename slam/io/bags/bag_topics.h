@@ -21,6 +21,9 @@ namespace plumbline::slam {
 /// InputError at the mark where no topic holds clouds, or one asked for is not there or of another type.
 [[nodiscard]] BagTopics choose_topics(const MessageSource& source, const BagTopics& asked, const Mark& mark);
 
+/// The topic of transforms that move, /tf or that of a robot's namespace. Empty where there is none.
+[[nodiscard]] std::string moving_transforms(const MessageSource& source);
+
 /// The topic of transforms that stand still: /tf_static, else that of a robot's namespace, where there is one alone or
 /// one that the points are in, too. Empty where there is none.
 [[nodiscard]] std::string static_transforms(const MessageSource& source, std::string_view points);

@@ -192,6 +192,21 @@ TEST_F(AlteredWalk, RecordsInAnotherFrameAreLeftOut) {
   EXPECT_NE(other.left_out[0].find("/odom left out: 1 of "), std::string::npos) << other.left_out[0];
 }
 
+TEST_F(AlteredWalk, OdometryOnTfAloneIsSaidToBeUnread) {
+  Alteration walk;
+  walk.has_odometry = false;
+  EXPECT_TRUE(read(walk).left_out.empty());
+  for (const char* topic : {"/tf", "/robot/tf"}) {
+    walk.transforms = topic;
+    const Read out = read(walk);
+    ASSERT_EQ(out.left_out.size(), 1U) << topic;
+    EXPECT_EQ(
+        out.left_out[0],
+        std::string("no odometry: it is read from nav_msgs/Odometry, which the bag does not hold, and not from ") +
+            topic);
+  }
+}
+
 TEST_F(AlteredWalk, AMountIsTakenFromWhereverItStandsStill) {
   const Pose X_RL = Pose::from_xyz_yaw({0.1, -0.2, 0.3}, 1.0);
   Alteration walk;

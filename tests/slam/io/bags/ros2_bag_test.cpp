@@ -279,6 +279,20 @@ TEST_F(Ros2Bag, ALidarThatIsNotJoinedToTheRobotIsRefused) {
   EXPECT_EQ(open_bag(database, {}, nullptr)->taken().mount, MountSource::unknown);
 }
 
+TEST_F(Ros2Bag, ABagWithoutCloudsIsSaidToHoldWhatItHolds) {
+  write_walk(file("walk"), BagFormat::rosbag2);
+  const std::string database = file("walk/walk_0.db3");
+  const auto with_type = [&](const std::string& type) {
+    run_sql(database, "UPDATE topics SET type = '" + type + "' WHERE name = '/velodyne_points';");
+  };
+  with_type("sensor_msgs/msg/LaserScan");
+  expect_complaint(database, "/velodyne_points (sensor_msgs/LaserScan)");
+  with_type("velodyne_msgs/msg/VelodyneScan");
+  expect_complaint(database, "; /velodyne_points holds packets (velodyne_msgs/VelodyneScan)");
+  with_type("");
+  expect_complaint(database, "/velodyne_points (no type)");
+}
+
 TEST_F(Ros2Bag, AFlippedByteInAChunkIsFound) {
   write_walk(file("a.mcap"), BagFormat::mcap);
   std::string spoilt = bytes(file("a.mcap"));
