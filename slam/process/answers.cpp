@@ -93,7 +93,8 @@ Output read_output(std::span<const std::byte> payload, Nanoseconds stamp, bool l
   if (head.has_pose > 1) throw ProcessFailure("has has_pose " + std::to_string(head.has_pose) + "; 0 or 1 is known");
   if (head.particles > max_particles) throw ProcessFailure("has more than 500 particles");
   if (head.hypotheses > 0 && !localization)
-    throw ProcessFailure("has hypotheses, which only a localization in a plan has: say plan: true in the scenario");
+    throw ProcessFailure(
+        "has hypotheses, which only a localization in a plan has: say plan: true in the scenario, or --plan");
   reader.expect_left(head.hypotheses * sizeof(wire::Hypothesis) + head.particles * sizeof(wire::Particle));
   Output output;
   output.stamp = stamp;

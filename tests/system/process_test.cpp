@@ -158,7 +158,7 @@ TEST_F(Process, ConformanceSaysWhatIsWrong) {
   wrong({"'" + program("hostile_process") + "' nan"}, "at scan 11 (1.1 s): the pose is none");
   wrong({"--scan-s", "0.3", program("hostile_process"), "hang"}, "gave no answer within 0.3 s");
   wrong({program("hostile_process"), "no_json"}, "what is no JSON");
-  for (const std::vector<std::string>& words : {std::vector<std::string>{}, {"--plam", "x"}})
+  for (const std::vector<std::string>& words : {std::vector<std::string>{}, {"--plam", "x"}, {""}, {" "}})
     EXPECT_EQ(tried(words).code, 2);
 
   const std::string python = "/usr/bin/python3";
@@ -175,9 +175,16 @@ TEST_F(Process, ConformanceSaysWhatIsWrong) {
   wrong(answering("np.diag([1, 1, -1, 1])"), "scales, shears or mirrors");
   wrong(answering("np.eye(4) * np.nan"), "must be finite");
   wrong(answering("no_such_name"), "NameError: name 'no_such_name' is not defined (m.py, line 3)");
+  wrong(answering("plumbline_client.Answer(np.eye(4), state='LOST')"), "or LOST, not 'LOST'");
+  wrong(answering("recording.robot_pose(np.eye(3))"), "not of shape (3, 3) (m.py, line 3)");
+  wrong(answering("plumbline_client.Answer(None, 1, [(0.5, np.eye(4))])"), "a hypothesis must be (mass, 4x4, 3x3");
   wrong(answering("recording.robot_pose(np.linalg.inv(recording.X_RL) @ np.linalg.inv(scan.odometry_pose()) @ "
                   "recording.X_RL)"),
         "the map in the robot");
+  write_file(folder_ / "m.py",
+             "import numpy as np, plumbline_client\nplumbline_client.run(lambda recording: lambda scan: np.eye(4), "
+             "lambda: [np.eye(4)])\n");
+  wrong({python, folder_ / "m.py"}, "what finish() returns must be (poses, points), not a list of 1");
   write_file(folder_ / "m.py", "import plumbline_client\nplumbline_client.run(lambda recording: None)\n");
   wrong({python, folder_ / "m.py"}, "start() must return the function that answers scans");
 }

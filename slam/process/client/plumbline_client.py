@@ -132,13 +132,26 @@ class Answer:
         self.pose, self.state, self.hypotheses, self.particles = pose, state, hypotheses, particles
 
     def pack(self, stamp_ns):
+        if self.state not in range(4):
+            raise ValueError(f"a state must be SEARCHING, AMBIGUOUS, CONVERGED or LOST, not {self.state!r}")
         numbers = [0.0] * 6 + [1.0] if self.pose is None else _numbers(self.pose)
         out = struct.pack("<qBBHI7d", stamp_ns, self.pose is not None, self.state, len(self.hypotheses),
                           len(self.particles), *numbers)
-        for mass, pose, covariance in self.hypotheses:
+        for hypothesis in self.hypotheses:
+            mass, pose, covariance = _parts(hypothesis, "a hypothesis", "mass", "4x4", "3x3 covariance of x, y, yaw")
             c = np.asarray(covariance, dtype=float)
+            if c.shape != (3, 3):
+                raise ValueError(f"the covariance of a hypothesis must be 3x3, of x, y and yaw, not of shape {c.shape}")
             out += _HYPOTHESIS.pack(mass, *_numbers(pose), c[0, 0], c[0, 1], c[0, 2], c[1, 1], c[1, 2], c[2, 2])
         return out + np.asarray(self.particles, "<f4").tobytes()
+
+
+def _parts(given, what, *names):
+    """As many values as there are names."""
+    if not isinstance(given, (tuple, list)) or len(given) != len(names):
+        raise TypeError(f"{what} must be ({', '.join(names)}), not a {type(given).__name__}"
+                        + (f" of {len(given)}" if isinstance(given, (tuple, list)) else ""))
+    return given
 
 
 def _checked(pose):
@@ -209,7 +222,8 @@ class _Stream:
 
 def _estimate(poses, points):
     trajectory = np.zeros(len(poses), _POSE)
-    for row, (stamp_ns, pose) in zip(trajectory, poses):
+    for row, stamped in zip(trajectory, poses):
+        stamp_ns, pose = _parts(stamped, "a pose of the trajectory", "stamp_ns", "4x4")
         numbers = _numbers(pose)
         row["stamp_ns"], row["t"], row["q"] = stamp_ns, numbers[:3], numbers[3:]
     cloud = np.ascontiguousarray(np.asarray(points, "<f4").reshape(-1, 3))
@@ -243,7 +257,7 @@ def run(start, finish=None):
                     poses.append((scan.stamp_ns, _checked(answer.pose).copy()))
                 stream.send(OUTPUT, answer.pack(scan.stamp_ns))
             elif kind == FINISH:
-                final, points = finish() if finish else (poses, ())
+                final, points = _parts(finish(), "what finish() returns", "poses", "points") if finish else (poses, ())
                 stream.send(ESTIMATE, _estimate(final, points))
     except BrokenPipeError:
         return
@@ -255,7 +269,8 @@ def _give_up(stream):
     """The whole trace where the process prints to, one line to plumbline."""
     traceback.print_exc()
     kind, error, trace = sys.exc_info()
-    where = traceback.extract_tb(trace)[-1]
-    text = f"{kind.__name__}: {error} ({os.path.basename(where.filename)}, line {where.lineno})"
+    own = [frame for frame in traceback.extract_tb(trace) if frame.filename != __file__]
+    where = f" ({os.path.basename(own[-1].filename)}, line {own[-1].lineno})" if own else ""  # none: an answer is at fault
+    text = f"{kind.__name__}: {error}{where}"
     stream.send(FAIL, text.replace("\n", " ").encode())
     return 1
