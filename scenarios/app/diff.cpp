@@ -8,6 +8,7 @@
 #include "bim/config/printable.h"
 #include "bim/config/tree.h"
 #include "scenarios/app/commands.h"
+#include "scenarios/host/manifest.h"
 #include "scenarios/host/terminal.h"
 #include "scenarios/run/digest_log.h"
 #include "scenarios/score/moment.h"
@@ -22,6 +23,17 @@ DigestLog load(const std::string& dir) {
   if (!std::filesystem::exists(path))
     throw InputError({dir, 0, 0}, "holds no digests.csv; name a directory that plumbline run or estimate wrote");
   return read_digests(read_text_file(path), path);
+}
+
+/// Digests are of what was computed: files that were altered since may differ although they are equal.
+void note_altered(const std::string& directory) {
+  std::string names;
+  if (std::filesystem::exists(directory + "/" + std::string(manifest_name)))
+    for (const std::string& name : altered_files(directory, {{"score.json"}, false}))
+      names += (names.empty() ? "" : ", ") + name;
+  if (names.empty()) return;
+  print_note("plumbline: warning: " + directory + ": altered since they were written: " + names +
+             "; only digests.csv is compared");
 }
 
 /// The page of A with that of B beside it, at the time at which they differ; nothing where one of them has none.
@@ -45,6 +57,7 @@ Command add_diff(CommandLine& program) {
   line.option("B", options->b, "run directory").takes("DIR").required();
   line.footer("Example: plumbline diff runs/quickstart-1 runs/quickstart-1-changed\nExit code 1 when they differ");
   return {line, [options] {
+            for (const std::string& directory : {options->a, options->b}) note_altered(directory);
             const auto difference = first_difference(load(options->a), load(options->b));
             if (!difference) {
               std::puts("equal");

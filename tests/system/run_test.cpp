@@ -171,6 +171,12 @@ TEST_F(ShortRun, AlteredFilesAreNamed) {
   // One method's poses under another's name; a truth that was cut.
   fs::copy_file(copy + "/truth.tum", copy + "/vgicp.tum", fs::copy_options::overwrite_existing);
   for (const char* command : {"score", "report", "replay"}) refused(command, "written: vgicp.tum;");
+  const Outcome diff = plumbline({"diff", dir(), copy});
+  EXPECT_EQ(diff.code, 0) << "its digests are as they were";
+  EXPECT_NE(diff.err.find(copy + ": altered since they were written: vgicp.tum; only digests.csv is compared"),
+            std::string::npos)
+      << diff.err;
+  EXPECT_EQ(diff.err.find(dir() + ": "), std::string::npos) << diff.err;
   const std::string truth = read_file(copy + "/truth.tum");
   write_file(copy + "/truth.tum", truth.substr(0, truth.rfind('\n', truth.size() - 2) + 1));
   refused("score", "written: truth.tum, vgicp.tum;");
