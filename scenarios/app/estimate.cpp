@@ -18,6 +18,7 @@
 #include "scenarios/app/open_recording.h"
 #include "scenarios/app/poorer_recording.h"
 #include "scenarios/app/recording_summary.h"
+#include "scenarios/app/scan_gaps.h"
 #include "scenarios/host/files.h"
 #include "scenarios/host/interrupt.h"
 #include "scenarios/host/progress.h"
@@ -180,6 +181,7 @@ struct Answer {
   double recorded_s = 0.0;  ///< from the first scan to the last
   OdometryGaps gaps;
   OdometryAxes axes;
+  ScanGaps scan_gaps;
 };
 
 Answer run_method(slam::Recording& recording, const slam::MethodRow& row, const slam::MethodInput& input,
@@ -190,12 +192,14 @@ Answer run_method(slam::Recording& recording, const slam::MethodRow& row, const 
   ScansRead scans;
   OdometryGaps gaps;
   OdometryAxes axes;
+  ScanGaps scan_gaps;
   const SensorSource source = [&](slam::SensorFrame& frame) {
     if (!recording.next(frame)) return false;
     last = frame.scan.stamp;
     if (!first) first = last;
     scans.add(frame.scan);
     gaps.add(frame);
+    scan_gaps.add(last);
     axes.add(frame);
     progress.at(slam::seconds(last));
     return true;
@@ -207,7 +211,19 @@ Answer run_method(slam::Recording& recording, const slam::MethodRow& row, const 
   shift(record.estimate.trajectory, recording.origin());
   for (BeliefRecord& belief : record.beliefs) belief.stamp += recording.origin();
   for (score::LostSpan& span : record.lost) span = {span.from + recording.origin(), span.to + recording.origin()};
-  return {std::move(record), scans, slam::seconds(last - first.value_or(last)), gaps, axes};
+  return {std::move(record), scans, slam::seconds(last - first.value_or(last)), gaps, axes, scan_gaps};
+}
+
+/// What of the records that the method got a user should know.
+std::vector<std::string> doubts_about(const Answer& answer, bool with_odometry) {
+  std::vector<std::string> all;
+  if (const auto gaps = answer.scan_gaps.warning()) all.push_back(*gaps);
+  if (!answer.record.crashed && answer.record.causal.empty())
+    all.push_back("the method gave no pose at any of " + std::to_string(answer.scans.count) + " scans");
+  if (!with_odometry) return all;
+  for (const std::string& said : answer.axes.warnings()) all.push_back(said);
+  if (const auto gaps = answer.gaps.warning()) all.push_back(*gaps);
+  return all;
 }
 
 /// estimate.yaml: which walk the answer is of, and what it depends on besides recording and plan.
@@ -267,11 +283,8 @@ int estimate(EstimateArguments options, slam::MethodTable table) {
   const MethodRecord& record = answer.record;
   for (const std::string& said : warnings_of(*recording))
     print_note("plumbline: warning: " + options.input.recording + ": " + said);
-  if (recording->has_odometry() && choice.sensors == Sensors::all) {
-    std::vector<std::string> said = answer.axes.warnings();
-    if (const auto gaps = answer.gaps.warning()) said.push_back(*gaps);
-    for (const std::string& one : said) print_note("plumbline: warning: " + options.input.recording + ": " + one);
-  }
+  for (const std::string& said : doubts_about(answer, recording->has_odometry() && choice.sensors == Sensors::all))
+    print_note("plumbline: warning: " + options.input.recording + ": " + said);
   write_method(directory.staging(), record);
   write_file(directory.staging() + "/digests.csv", write_digests(record.digests));
   write_file(directory.staging() + "/estimate.yaml", describe(row, run_seed(options, recording->info()), *recording,
