@@ -155,6 +155,8 @@ bool SweepLengthSearch::add(const PointCloud& cloud) {
   const std::optional<PointClock> clock = find_clock(cloud, *time, points, {base_, 0.0});
   const auto [from, to] = clock ? extent(cloud, *clock, points) : std::pair(0.0, 0.0);
   from_stamp_ = from_stamp_ && (!clock || clock->zero_ns == 0.0);
+  const bool is_float = time->type == PointType::f32 || time->type == PointType::f64;
+  unit_ns_ = is_float && clock && clock->unit_ns != units_ns[0] ? clock->unit_ns : 0.0;
   lengths_ns_.push_back(clock ? to - from : std::numeric_limits<double>::infinity());
   spans_.push_back(last - first);
   constexpr double none = 1e-3, near = 0.1;  // of a sweep: beyond its ends, left out by blind sectors
@@ -173,8 +175,17 @@ AssumedTimes SweepLengthSearch::found() const {
   const double spacing = upper_median(spacings_ns_), length = upper_median(lengths_ns_), span = upper_median(spans_);
   // Of a fast head only some sweeps may have been kept, so that a sweep may be much shorter than the spacing.
   const bool is_long = length > too_long * spacing, is_short = length < shortest && length < sparse * spacing;
-  if (!is_long && !is_short) return found;
   const std::string apart = "; clouds are " + in_ms(spacing) + " apart";
+  const auto taken_as = [&](std::size_t unit, double sweep_ns) {
+    return "point times are taken to be in " + std::string(names[unit]) + ", by which a sweep lasts " +
+           in_ms(sweep_ns) + apart;
+  };
+  if (!is_long && !is_short) {
+    const auto unit = std::find(units_ns.begin(), units_ns.end(), unit_ns_);
+    if (from_stamp_ && unit != units_ns.end())
+      found.said = taken_as(static_cast<std::size_t>(unit - units_ns.begin()), length);
+    return found;
+  }
   if (is_long && shares_ && from_stamp_) {
     found.times.unit_ns = spacing;
     found.said = "point times from 0 to 1 are taken as shares of a sweep of " + in_ms(spacing) + apart;
@@ -184,8 +195,7 @@ AssumedTimes SweepLengthSearch::found() const {
     const double sweep = span * units_ns[i];
     if (sweep < least_turn || sweep > longest * spacing) continue;
     found.times.unit_ns = units_ns[i];
-    found.said =
-        "point times are taken to be in " + std::string(names[i]) + ", by which a sweep lasts " + in_ms(sweep) + apart;
+    found.said = taken_as(i, sweep);
     return found;
   }
   if (std::isfinite(length))

@@ -84,6 +84,7 @@ class SweepLengthSearch {
   std::vector<double> spans_;       ///< in the field's own unit
   bool shares_ = true;              ///< all go from 0 to 1, or from -1 to 0
   bool from_stamp_ = true;          ///< no times of the day
+  double unit_ns_ = 0.0;            ///< of the last cloud's times, where they are neither s nor whole numbers; else 0
   int without_times_ = 0;           ///< clouds
 };
 

@@ -73,9 +73,16 @@ TEST(SweepLength, WhatCanBeIsLeftAsItIs) {
   expect_plain(found<std::uint32_t>(0.5, "t", PointType::u32, 0, 99'000'000));    // each fifth scan was kept
   expect_plain(found<std::uint32_t>(0.0013, "t", PointType::u32, 0, 1'300'000));  // a packet each
   expect_plain(found(0.1, "time", PointType::f32, -0.0998F, 0.0F));
-  expect_plain(found(0.1, "time", PointType::f32, 0.0F, 99'800.0F));  // us, as told without the spacing
-  expect_plain(found(1.0, "time", PointType::f32, 0.0F, 1.0F));       // a slow head
+  expect_plain(found(1.0, "time", PointType::f32, 0.0F, 1.0F));  // a slow head
   expect_plain(found(0.1, "time", PointType::f32, 0.0F, 0.0F));
+}
+
+TEST(SweepLength, AUnitThatIsToldWithoutTheSpacingIsSaid) {
+  const AssumedTimes us = found(0.1, "time", PointType::f32, 0.0F, 99'800.0F);
+  EXPECT_EQ(us.times.unit_ns, 0.0);
+  EXPECT_EQ(us.said, "point times are taken to be in us, by which a sweep lasts 99.8 ms; clouds are 100 ms apart");
+  const AssumedTimes ms = found(0.1, "t", PointType::f64, 0.0, 99.8);
+  EXPECT_EQ(ms.said, "point times are taken to be in ms, by which a sweep lasts 99.8 ms; clouds are 100 ms apart");
 }
 
 TEST(SweepLength, WhatFitsNoUnitIsSaid) {
