@@ -12,13 +12,15 @@ namespace plumbline::scenarios {
 namespace {
 
 std::string sentence(const Tree& walk) {
-  std::string text =
-      "Planned: " + svg::number(number_of(&walk, "planned_m").value_or(0.0), 1) + " m on " + text_of(walk, "storey");
+  std::string text = "Planned: " + svg::number(number_of(&walk, "planned_m").value_or(0.0), 1) + " m";
+  const std::string storey = text_of(walk, "storey");
   const Tree* rooms = walk.find("rooms");
-  if (rooms == nullptr) return text + "; no rooms are known there.";
+  if (rooms == nullptr) return text + " on " + storey + "; no rooms are known there.";
   const auto count = [&](const char* key) { return svg::number(number_of(rooms, key).value_or(0.0), 0); };
-  return text + ", through " + count("on_route") + " of its " + count("on_storey") + " rooms; " + count("in_reach") +
-         " are in reach.";
+  const auto elsewhere = number_of(rooms, "elsewhere");
+  text += " through " + count("on_route") + " of the " + count("on_storey") + " rooms on " + storey;
+  if (elsewhere) text += " and " + count("elsewhere") + (*elsewhere == 1.0 ? " room" : " rooms") + " of other storeys";
+  return text + "; " + count("in_reach") + " on " + storey + " are in reach.";
 }
 
 /// Rooms with the same reason stand together, in the order of the first.

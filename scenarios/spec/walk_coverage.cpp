@@ -174,7 +174,11 @@ WalkCoverage walk_coverage(const sim::MultiStoreyPlanner& space, const RoutePlan
   Surveyor surveyor(space, plan);
   for (std::size_t i = 0; i < building.rooms.size(); ++i) {
     const bim::Room& room = building.rooms[i];
-    if (room.storey != plan.storey) continue;
+    if (room.storey != plan.storey) {
+      const double floor_m = building.storeys[static_cast<std::size_t>(room.storey)].elevation_m;
+      walk.elsewhere += enters(plan.waypoints, room, floor_m) ? 1 : 0;
+      continue;
+    }
     ++walk.rooms;
     const bool entered = enters(plan.waypoints, room, storey.elevation_m);
     const bool in_reach = entered || surveyor.in_reach(static_cast<int>(i));
@@ -250,15 +254,21 @@ std::string walk_sentence(const WalkCoverage& walk) {
           (walk.rooms == 1 ? " room on " : " rooms on ") + walk.storey;
   if (walk.in_reach > walk.on_route && walk.in_reach < walk.rooms)
     text += ", of which " + std::to_string(walk.in_reach) + " are in reach";
+  if (walk.elsewhere > 0)
+    text +=
+        ", and " + std::to_string(walk.elsewhere) + (walk.elsewhere == 1 ? " room" : " rooms") + " of other storeys";
   return text;
 }
 
 Tree to_results(const WalkCoverage& walk, const std::vector<std::string>& warnings) {
   Tree tree = Tree::map();
   tree.set("storey", walk.storey).set("planned_m", walk.planned_m);
-  if (walk.rooms > 0)
-    tree.set("rooms",
-             Tree::map().set("on_storey", walk.rooms).set("in_reach", walk.in_reach).set("on_route", walk.on_route));
+  if (walk.rooms > 0) {
+    Tree rooms = Tree::map();
+    rooms.set("on_storey", walk.rooms).set("in_reach", walk.in_reach).set("on_route", walk.on_route);
+    if (walk.elsewhere > 0) rooms.set("elsewhere", walk.elsewhere);
+    tree.set("rooms", std::move(rooms));
+  }
   Tree out = Tree::list(), left = Tree::list(), said = Tree::list();
   for (const RoomOutOfReach& room : walk.out_of_reach)
     out.push(Tree::map().set("room", room.id).set("name", room.name).set("why", room.why));

@@ -34,6 +34,7 @@ struct WalkCoverage {
   int rooms = 0;                                  ///< on the storey
   int in_reach = 0;                               ///< of these, also over stairs and back
   int on_route = 0;                               ///< of these, entered by the walk
+  int elsewhere = 0;                              ///< rooms of other storeys that the walk enters
   std::vector<RoomOutOfReach> out_of_reach;       ///< in the order of the building
   std::vector<std::string> storeys_out_of_reach;  ///< of a walk of all storeys, each with why
   std::vector<RoomInPart> in_part;                ///< where the share is more than a tenth

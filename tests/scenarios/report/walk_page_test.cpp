@@ -18,7 +18,7 @@ bim::PlannedAndBuilt site_with_door(double width_m) {
 TEST(WalkPage, ShowsTheFloorTheWalkAndNoReasonsWhereNothingStopsTheRobot) {
   const std::string page = walk_page(site_with_door(0.9), "two <rooms>").html;
   EXPECT_NE(page.find("Where the robot can walk: two &lt;rooms&gt;"), std::string::npos);
-  EXPECT_NE(page.find("through 2 of its 2 rooms"), std::string::npos);
+  EXPECT_NE(page.find("through 2 of the 2 rooms on "), std::string::npos);
   EXPECT_NE(page.find("<polyline"), std::string::npos);
   EXPECT_EQ(page.find("Out of reach:"), std::string::npos);
   EXPECT_EQ(page, walk_page(site_with_door(0.9), "two <rooms>").html);
@@ -31,6 +31,18 @@ TEST(WalkPage, NamesWhatStopsTheRobotAtItsPlace) {
 }
 
 TEST(WalkList, IsEmptyWithoutTheBlock) { EXPECT_EQ(list_walk(nullptr), ""); }
+
+TEST(WalkList, CountsRoomsOfOtherStoreys) {
+  const Tree walk = read_json(
+      R"({"storey": "ground", "planned_m": 29.4, "rooms": {"on_storey": 4, "in_reach": 4, "on_route": 2, "elsewhere": 2},
+          "out_of_reach": [], "left_out": [], "warnings": []})",
+      "test");
+  const std::string html = list_walk(&walk);
+  EXPECT_NE(
+      html.find("29.4 m through 2 of the 4 rooms on ground and 2 rooms of other storeys; 4 on ground are in reach."),
+      std::string::npos)
+      << html;
+}
 
 TEST(WalkList, RoomsWithOneReasonStandTogether) {
   const Tree walk = read_json(

@@ -166,6 +166,9 @@ TEST(WalkCoverage, ARoomBehindTwoStairsIsNoFloorOutOfReach) {
   EXPECT_TRUE(walk.in_part.empty());
   for (const std::string& warning : walk_warnings(walk))
     EXPECT_EQ(warning.find("out of reach"), std::string::npos) << warning;
+  EXPECT_EQ(walk.elsewhere, 1);
+  EXPECT_NE(walk_sentence(walk).find("2 of the 2 rooms on ground, and 1 room of other storeys"), std::string::npos)
+      << walk_sentence(walk);
 }
 
 TEST(RoomPlaces, ABasementOfOneRoomIsNoStartWhereAStoreyAboveHasMore) {
