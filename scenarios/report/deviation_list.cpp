@@ -2,7 +2,9 @@
 #include "scenarios/report/deviation_list.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <string_view>
 #include <utility>
 
 #include "bim/model/hull.h"
@@ -42,9 +44,20 @@ Eigen::Vector2d middle_of(const Polygon2& polygon) {
   return sum / static_cast<double>(polygon.size());
 }
 
-std::string spaced(std::string text) {
-  std::replace(text.begin(), text.end(), '_', ' ');
-  return text;
+/// "move_wall" of "w3" as "wall w3 moved".
+std::string told(const std::string& op, const std::string& element) {
+  const std::size_t cut = op.find('_');
+  const std::string verb = op.substr(0, cut), kind = cut == std::string::npos ? "" : op.substr(cut + 1) + " ";
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 6> words = {
+      {{"move", "moved"},
+       {"remove", "not built"},
+       {"add", "added"},
+       {"tilt", "tilted"},
+       {"reshape", "with another outline"},
+       {"drop", "no longer a room of its own"}}};
+  for (const auto& [known, word] : words)
+    if (known == verb) return kind + element + " " + std::string(word);
+  return verb + " " + kind + element;
 }
 
 }  // namespace
@@ -73,7 +86,7 @@ std::vector<ReportDeviation> report_deviations(const bim::PlannedAndBuilt& site,
 }
 
 std::string describe(const ReportDeviation& deviation) {
-  std::string text = spaced(deviation.op) + " " + deviation.element;
+  std::string text = told(deviation.op, deviation.element);
   if (!deviation.planned_W.empty() && !deviation.built_W.empty()) {
     const Eigen::Vector2d moved = middle_of(deviation.built_W) - middle_of(deviation.planned_W);
     std::string by;

@@ -29,7 +29,7 @@ struct ElementOutline {
 /// What differs on a storey, in the order of the site. Rooms have no outlines here.
 [[nodiscard]] std::vector<ReportDeviation> report_deviations(const bim::PlannedAndBuilt& site, int storey);
 
-/// What differs, how far and which way, and since when it was in sight: "move wall w3: 0.2 m towards +x; in sight from
+/// What differs, how far and which way, and since when it was in sight: "wall w3 moved: 0.2 m towards +x; in sight from
 /// 3.5 s on".
 [[nodiscard]] std::string describe(const ReportDeviation& deviation);
 

@@ -48,7 +48,7 @@ TEST(ReportDeviations, ShowWhereThingsWerePlannedAndWhereTheyStand) {
 TEST(ReportDeviations, AreNamedOnThePage) {
   const std::vector<ReportDeviation> some =
       report_deviations(site_of("  - {op: move_wall, wall: p, by: [0.5, 0]}\n"), 0);
-  EXPECT_NE(list_deviations(some).find("<li>move wall p: 0.5 m towards +x</li>"), std::string::npos);
+  EXPECT_NE(list_deviations(some).find("<li>wall p moved: 0.5 m towards +x</li>"), std::string::npos);
   EXPECT_NE(draw_deviations(some).find("class=\"planned\""), std::string::npos);
   EXPECT_NE(draw_deviations(some).find("class=\"asbuilt\""), std::string::npos);
   EXPECT_TRUE(list_deviations({}).empty());
@@ -68,9 +68,11 @@ TEST(ReportDeviations, SayWhetherTheRobotCouldSeeThem) {
   std::vector<TruthSample> walk;
   for (int i = 0; i < 4; ++i) walk.push_back({1.0 + i, Pose::from_xyz_yaw({1.0, 3.5 + 0.01 * i, 0.3}, 0.0), 0.66});
   set_sights(building, walk, ground);
-  EXPECT_EQ(describe(ground[0]), "add clutter near; in sight from 1 s on");
-  EXPECT_EQ(describe(ground[1]), "add clutter hidden; never in sight of the robot");
-  EXPECT_EQ(describe(ground[2]), "move opening d: 0.4 m towards +y; in sight from 1 s on");
+  EXPECT_EQ(describe({"remove_wall", "w", {}, {}}), "wall w not built");
+  EXPECT_EQ(describe({"drop_room", "store", {}, {}}), "room store no longer a room of its own");
+  EXPECT_EQ(describe(ground[0]), "clutter near added; in sight from 1 s on");
+  EXPECT_EQ(describe(ground[1]), "clutter hidden added; never in sight of the robot");
+  EXPECT_EQ(describe(ground[2]), "opening d moved: 0.4 m towards +y; in sight from 1 s on");
 }
 
 }  // namespace
