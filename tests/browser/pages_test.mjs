@@ -96,6 +96,18 @@ async function everyPage(browser, url, name) {
 }
 
 async function report(browser, url, name) {
+  const ended = await browser.page(1200, 900);
+  await ended.open(url);
+  await ended.until("document.readyState === 'complete'");
+  const late = await ended.get(`(() => { const d = JSON.parse(document.getElementById("data").textContent), wrong = [];
+    for (const [m, track] of Object.entries(d.tracks)) {
+      const k = track.t.length - 1, now = document.getElementById("now-" + m);
+      if (!now || k < 0 || d.end - track.t[k] > 0.01) continue;
+      const cm = 100 * track.e[k], said = track.lost[k] ? "LOST" : cm < 100 ? cm.toFixed(1) + " cm" : track.e[k].toFixed(2) + " m";
+      if (!now.textContent.includes(said)) wrong.push(m + ": " + now.textContent + " for " + said);
+    }
+    return wrong; })()`);
+  check(name + ": opens at the end with the last answer of each method", late.length === 0, late);
   const page = await browser.page(1200, 900);
   await page.open(url + "#t=2.00");
   await page.until("document.readyState === 'complete'");

@@ -6,19 +6,21 @@
   var play = document.getElementById("play"), timer = null;
   var cursors = document.querySelectorAll(".cursor");
 
+  var half = 0.006; // times are whole hundredths of a second, the end is not
+
   function at(track, t) {
     var lo = 0, hi = track.t.length - 1;
     if (hi < 0 || t < track.t[0] - 0.2) return null;
     while (lo < hi) {
       var mid = (lo + hi + 1) >> 1;
-      if (track.t[mid] <= t) lo = mid; else hi = mid - 1;
+      if (track.t[mid] <= t + half) lo = mid; else hi = mid - 1;
     }
     return { k: lo, x: track.x[lo], y: track.y[lo], yaw: track.yaw[lo], s: track.s[lo], e: track.e ? track.e[lo] : 0,
              lost: track.lost ? track.lost[lo] === 1 : false };
   }
   function stateAt(name, t) {
     var list = data.states[name] || [], found = "";
-    list.forEach(function (change) { if (change[0] <= t) found = change[1]; });
+    list.forEach(function (change) { if (change[0] <= t + half) found = change[1]; });
     return found;
   }
   function said(name, t) {
@@ -35,7 +37,7 @@
       if (p && p.lost) return "LOST";
       if (p && t - data.tracks[series.name].t[p.k] < 1) v = data.tracks[series.name][series.column][p.k];
     } else {
-      series.steps.forEach(function (step) { if (step[0] <= t) v = step[1]; });
+      series.steps.forEach(function (step) { if (step[0] <= t + half) v = step[1]; });
     }
     return v === null ? "" : (plot.scale * v).toFixed(plot.decimals) + (plot.unit ? " " + plot.unit : "");
   }
