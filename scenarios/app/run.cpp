@@ -111,7 +111,8 @@ int run(const RunArguments& options, slam::MethodTable table) {
   directory.commit();
 
   if (!finished.record.failure.empty()) print_note(finished.record.failure);
-  print("report: " + printable(out) + "/report.html\n" + summarise(finished, score) + next_steps(out, finished, score));
+  print("report: " + printable(out) + "/report.html\n" + summarise(finished, score) +
+        next_steps(out, shows(score), finished, score));
   return exit_code(finished, score);
 }
 

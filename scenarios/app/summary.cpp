@@ -6,11 +6,13 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <set>
 #include <string_view>
 
 #include "bim/config/printable.h"
 #include "scenarios/host/files.h"
 #include "scenarios/host/terminal.h"
+#include "scenarios/report/method_cards.h"
 #include "scenarios/report/report_builder.h"
 #include "scenarios/score/moment.h"
 #include "scenarios/score/walk_end.h"
@@ -48,6 +50,26 @@ std::string row(const std::string& name, std::size_t width, const std::string& v
   return name + std::string(width - std::min(width, name.size()), ' ') + text;
 }
 
+/// The blocks of results.json that say which methods are bad and which are judged.
+Tree judging_blocks(const score::RunScore& score) {
+  Tree methods = Tree::map(), gates = Tree::list();
+  for (const score::MethodScore& method : score.methods) methods.set(method.name, score::to_results(method));
+  for (const score::GateResult& gate : score.gates) gates.push(score::to_results(gate));
+  return Tree::map().set("methods", std::move(methods)).set("gates", std::move(gates));
+}
+
+/// A line for the first failed gate of each method, or for each method that is bad and not judged.
+std::string looks(const std::string& page, const score::RunScore& score) {
+  std::string text;
+  std::set<std::string> named;
+  for (const score::GateResult& gate : score.gates)
+    if (!gate.passed && !gate.see.empty() && named.insert(gate.method).second)
+      text += "look:  " + page + gate.see + "\n";
+  for (const Unjudged& method : unjudged(judging_blocks(score)))
+    if (named.insert(method.method).second) text += "look:  " + page + "#m=" + score::in_link(method.method) + "\n";
+  return text;
+}
+
 }  // namespace
 
 std::string summarise(const FinishedRun& run, const score::RunScore& score) {
@@ -73,6 +95,8 @@ std::string summarise(const FinishedRun& run, const score::RunScore& score) {
     for (const Column& column : columns) text += cell(method, column);
     text += method.error.empty() ? "\n" : "  " + printable(method.error) + "\n";
   }
+  for (const Unjudged& method : unjudged(judging_blocks(score)))
+    text += "not judged: " + printable(method.method + ": " + method.what) + "\n";
   for (const score::GateResult& gate : score.gates)
     text += (gate.passed ? "passed: " : "FAILED: ") + score::describe(gate) + "\n";
   if (score.gates.empty()) return text + "no gates\n";
@@ -80,19 +104,22 @@ std::string summarise(const FinishedRun& run, const score::RunScore& score) {
   return text + "gates: " + std::to_string(passed) + " of " + std::to_string(score.gates.size()) + " passed\n";
 }
 
-std::string next_steps(const std::string& dir, const FinishedRun& run, const score::RunScore& score) {
-  if (exit_code(run, score) == 0) return "";
+std::string next_steps(const std::string& dir, bool has_replay, const FinishedRun& run, const score::RunScore& score) {
+  const std::string page = printable(dir) + "/replay.html", shown = looks(page, score);
+  const std::string folder = printable(shell_argument(dir));
+  if (exit_code(run, score) == 0) {
+    if (has_replay) return shown.empty() ? "look:  " + page + "\n" : shown;
+    return shown.empty() ? "" : "look:  plumbline report --3d " + folder + "\n";
+  }
   const auto failed =
       std::find_if(score.gates.begin(), score.gates.end(), [](const score::GateResult& gate) { return !gate.passed; });
   double at_s = score.duration_s;
-  std::string link;
-  if (run.record.failure.empty() && failed != score.gates.end()) {
-    at_s = score::telling_moment(run, score, *failed).value_or(at_s);
-    link = failed->see;
-  }
-  if (link.empty()) link = "#t=" + format_number(score::rounded_up(at_s, 10.0));
-  return "look:  " + printable(dir) + "/replay.html" + link + "\n" + "again: plumbline replay " +
-         printable(shell_argument(dir)) + " --until " + format_number(score::rounded_up(at_s, 10.0)) + "\n";
+  const bool by_gate = run.record.failure.empty() && failed != score.gates.end();
+  if (by_gate) at_s = score::telling_moment(run, score, *failed).value_or(at_s);
+  const std::string until = format_number(score::rounded_up(at_s, 10.0));
+  const bool has_link = by_gate && !failed->see.empty();
+  return (has_link ? shown : "look:  " + page + "#t=" + until + "\n" + (by_gate ? shown : "")) +
+         "again: plumbline replay " + folder + " --until " + until + "\n";
 }
 
 std::map<std::string, Tree> read_graphs(const std::string& dir, const FinishedRun& run) {

@@ -14,8 +14,11 @@ namespace plumbline::scenarios {
 /// says "gates: 3 of 4 passed" or "no gates".
 [[nodiscard]] std::string summarise(const FinishedRun& run, const score::RunScore& score);
 
-/// After a run that failed: which page shows where, and the command that stops there; nothing after any other.
-[[nodiscard]] std::string next_steps(const std::string& dir, const FinishedRun& run, const score::RunScore& score);
+/// Links to the replay page, one for each method that failed a gate or went wrong unjudged; after a run that failed
+/// also the command that stops there. Without the page, of a run that passed: the command that writes it, where
+/// something went wrong.
+[[nodiscard]] std::string next_steps(const std::string& dir, bool has_replay, const FinishedRun& run,
+                                     const score::RunScore& score);
 
 /// 0 all gates passed or none asked for, 1 a gate failed, 4 the scenario failed.
 [[nodiscard]] int exit_code(const FinishedRun& run, const score::RunScore& score);

@@ -274,6 +274,12 @@ std::string map_key(const ReportInput& input) {
   if (invented && !input.plan.rooms.empty())
     found +=
         area("fill=\"var(--wrong)\" fill-opacity=\".18\" stroke=\"var(--wrong)\"", "room found where there is none");
+  const bool deviates = std::any_of(input.storeys.begin(), input.storeys.end(),
+                                    [](const ReportStorey& storey) { return !storey.deviations.empty(); });
+  if (deviates)
+    found +=
+        area("fill=\"var(--asbuilt)\" fill-opacity=\".55\" stroke=\"var(--asbuilt)\"", "built otherwise than planned") +
+        area("fill=\"none\" stroke=\"var(--planned)\" stroke-dasharray=\"3 2\"", "planned and not built");
   return "<div class=\"key\">" +
          item("stroke=\"var(--wall)\" stroke-width=\"3\"", "wall of the building (faint: overhead)") +
          area("class=\"thing\"", "columns, furniture and other obstacles (dashed: with gaps)") +

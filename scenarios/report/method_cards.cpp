@@ -22,8 +22,8 @@ std::string length(double metres) { return metres < 1.0 ? centimetres(metres) : 
 
 /// A method's gates decide on its colour. Without any a verdict that says something of the answer does: `complete` does
 /// not.
-std::string judged(const ReportInput& input, const std::string& method, const std::string& verdict) {
-  const GateCount gates = gates_of(input, method);
+std::string judged(const Tree& results, const std::string& method, const std::string& verdict) {
+  const GateCount gates = gates_of(results, method);
   if (gates.passed < gates.all) return "bad";
   if (verdict == "success" || verdict == "honest_ambiguity") return "good";
   if (verdict != "complete") return "bad";
@@ -31,10 +31,24 @@ std::string judged(const ReportInput& input, const std::string& method, const st
 }
 
 std::string gates_sentence(const ReportInput& input, const std::string& method) {
-  const GateCount gates = gates_of(input, method);
+  const GateCount gates = gates_of(input.results, method);
   if (gates.all == 0) return "No gate judges it.";
   return std::to_string(gates.passed) + " of " + std::to_string(gates.all) +
          (gates.all == 1 ? " gate passed." : " gates passed.");
+}
+
+/// It was kidnapped, and from then on never right to the end.
+bool never_found_again(const Tree* where) {
+  return number_of(where, "kidnap_wrong_s").has_value() && !number_of(where, "kidnap_found_s");
+}
+
+bool is_gated(const Tree& results, const std::string& method, const std::string& metric) {
+  const Tree* gates = results.find("gates");
+  if (gates == nullptr) return false;
+  const Tree::List& list = gates->as_list();
+  return std::any_of(list.begin(), list.end(), [&](const Tree& gate) {
+    return text_of(gate, "method") == method && text_of(gate, "metric") == metric;
+  });
 }
 
 /// ", since ... (at 12.3 s)", or nothing.
@@ -93,7 +107,7 @@ std::string place_sentence(const std::string& verdict, const Tree* where) {
   if (verdict == "lost" || (verdict == "late" && failure != "undecided"))
     return "Converged after " + svg::number(*time, 1) + " s and withdrew its answer" + why_it_failed(where) + ".";
   std::string text = "Converged on the right pose after " + svg::number(*time, 1) + " s";
-  if (error) text += ", with an error of " + centimetres(*error) + " from then on (rms)";
+  if (error) text += ", with an error of " + length(*error) + " from then on (rms)";
   return text + (verdict == "late" ? "; too late to count: an answer must hold for 5 s and 1 m." : ".");
 }
 
@@ -112,12 +126,15 @@ std::string wrong_stretch(const ReportInput& input, const ReportMethod& method) 
   constexpr double degrees = 180.0 / std::numbers::pi;
   double most_m = 0.0, most_deg = 0.0;
   int stretches = 0;
+  double all_s = 0.0, before_s = 0.0;
   bool was_wrong = false;
   for (const ReportSample& sample : method.samples) {
     const double off_deg = degrees * std::abs(sample.yaw_error);
     const bool wrong = !sample.lost && (sample.error_m > limits.position_m || off_deg > limits.yaw_deg);
     if (wrong && !was_wrong && ++stretches == 1) first = &sample;
     if (wrong && stretches == 1) last = &sample;
+    if (wrong && was_wrong) all_s += sample.t_s - before_s;
+    before_s = sample.t_s;
     was_wrong = wrong;
     if (!wrong) continue;
     most_m = std::max(most_m, sample.error_m);
@@ -137,7 +154,8 @@ std::string wrong_stretch(const ReportInput& input, const ReportMethod& method) 
                      " off from t = " + svg::number(first->t_s, 1) + " s " +
                      (to_the_end ? "to the end" : "to t = " + svg::number(last->t_s, 1) + " s");
   if (stretches > 1)
-    text += stretches == 2 ? " and once more" : " and " + std::to_string(stretches - 1) + " times more";
+    text += (stretches == 2 ? " and once more, " : " and " + std::to_string(stretches - 1) + " times more, ") +
+            svg::number(all_s, 1) + " s in all";
   text += ", at most " + listed(length(most_m), " and ", svg::number(most_deg, 0) + "°") + ".";
   if (astray == nullptr) return text;
   const auto name = [&](int storey) { return input.plan.storeys[static_cast<std::size_t>(storey)].name; };
@@ -148,7 +166,10 @@ std::string wrong_stretch(const ReportInput& input, const ReportMethod& method) 
 /// What happened, in a sentence or two.
 std::string sentence(const ReportInput& input, const ReportMethod& method, const Tree* results) {
   const std::string verdict = results == nullptr ? "" : text_of(*results, "verdict");
-  if (verdict == "crashed") return "The method stopped with an error.";
+  if (verdict == "crashed") {
+    const std::string error = text_of(*results, "error");
+    return "The method stopped with an error" + (error.empty() ? "." : ": " + error);
+  }
   if (method.localization) {
     const Tree* where = results == nullptr ? nullptr : results->find("localization");
     const bool by_furniture = where != nullptr && where->find("evidence_by_furniture") != nullptr;
@@ -157,7 +178,7 @@ std::string sentence(const ReportInput& input, const ReportMethod& method, const
   }
   const auto error = number_of(results, "ate_aligned_rmse_m");
   if (!error) return "No trajectory that could be scored.";
-  std::string text = "Position error " + centimetres(*error) + " rms after alignment";
+  std::string text = "Position error " + length(*error) + " rms after alignment";
   const Tree* rooms = results->find("rooms");
   const auto visited = number_of(rooms, "visited");
   const auto recall = number_of(rooms, "recall");
@@ -169,9 +190,9 @@ std::string sentence(const ReportInput& input, const ReportMethod& method, const
 
 }  // namespace
 
-GateCount gates_of(const ReportInput& input, const std::string& method) {
+GateCount gates_of(const Tree& results, const std::string& method) {
   GateCount count;
-  const Tree* gates = input.results.find("gates");
+  const Tree* gates = results.find("gates");
   if (gates == nullptr) return count;
   for (const Tree& gate : gates->as_list()) {
     if (!method.empty() && text_of(gate, "method") != method) continue;
@@ -181,15 +202,19 @@ GateCount gates_of(const ReportInput& input, const std::string& method) {
   return count;
 }
 
-std::vector<std::string> unjudged(const ReportInput& input) {
-  std::vector<std::string> texts;
-  for (const ReportMethod& method : input.methods) {
-    const Tree* results = is_truth(method) ? nullptr : results_of(input, method.name);
-    const std::string verdict = results == nullptr ? "" : text_of(*results, "verdict");
-    if (results != nullptr && gates_of(input, method.name).all == 0 && judged(input, method.name, verdict) == "bad")
-      texts.push_back(method.name + ": " + verdict + ", not judged");
+std::vector<Unjudged> unjudged(const Tree& results) {
+  std::vector<Unjudged> found;
+  const Tree* methods = results.find("methods");
+  if (methods == nullptr) return found;
+  for (const auto& [name, block] : methods->as_map()) {
+    const std::string verdict = text_of(block, "verdict");
+    if (name == "truth") continue;
+    if (gates_of(results, name).all == 0 && judged(results, name, verdict) == "bad")
+      found.push_back({name, verdict});
+    else if (never_found_again(block.find("localization")) && !is_gated(results, name, "localization.kidnap_found_s"))
+      found.push_back({name, "not localized again after the kidnapping"});
   }
-  return texts;
+  return found;
 }
 
 std::string method_cards(const ReportInput& input) {
@@ -203,7 +228,7 @@ std::string method_cards(const ReportInput& input) {
     out += "<div class=\"method\" style=\"border-color:" + method_ink(method.ink) +
            "\"><h3><label><input type=\"checkbox\" checked data-layer=\"" + name + "\"> " + name +
            "</label> <button type=\"button\" class=\"only\" data-only=\"" + name +
-           "\">only</button> <span class=\"verdict " + judged(input, method.name, verdict) + "\">" +
+           "\">only</button> <span class=\"verdict " + judged(input.results, method.name, verdict) + "\">" +
            svg::escape(verdict) + "</span></h3><p>" + svg::escape(sentence(input, method, results)) + "</p><p>" +
            gates_sentence(input, method.name) + "</p><p id=\"now-" + name + "\"></p></div>";
   }

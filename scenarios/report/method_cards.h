@@ -14,10 +14,18 @@ struct GateCount {
 };
 
 /// Of one method, or of all where `method` is empty.
-[[nodiscard]] GateCount gates_of(const ReportInput& input, const std::string& method);
+[[nodiscard]] GateCount gates_of(const Tree& results, const std::string& method);
 
-/// Methods that no gate judges and whose verdict is not a good one: "amcl: overconfident, not judged".
-[[nodiscard]] std::vector<std::string> unjudged(const ReportInput& input);
+/// What went wrong with a method and is judged by no gate.
+struct Unjudged {
+  std::string method;
+  std::string what;  ///< its verdict, or what its verdict does not say
+  [[nodiscard]] std::string text() const { return method + ": " + what + ", not judged"; }
+};
+
+/// Methods without a gate whose verdict is not a good one, and those that were kidnapped and not localized again. Of
+/// results.json, of which gates and methods are enough.
+[[nodiscard]] std::vector<Unjudged> unjudged(const Tree& results);
 
 /// What each method did, in a sentence or two, its verdict and gates, and what it says at the time shown.
 [[nodiscard]] std::string method_cards(const ReportInput& input);

@@ -17,6 +17,7 @@
 #include "scenarios/report/results.h"
 #include "scenarios/report/svg.h"
 #include "scenarios/report/walk_list.h"
+#include "scenarios/score/moment.h"
 
 namespace plumbline::scenarios {
 
@@ -74,7 +75,7 @@ std::string failed_gates(const ReportInput& input) {
 }
 
 std::string header(const ReportInput& input) {
-  const GateCount gates = gates_of(input, "");
+  const GateCount gates = gates_of(input.results, "");
   const std::size_t count = gates.all, failed = gates.all - gates.passed;
   std::string badge = "<span class=\"badge\">no gates</span>";
   if (count > 0 && failed == 0)
@@ -87,8 +88,10 @@ std::string header(const ReportInput& input) {
   if (const Tree* failure = input.results.find("failure"))
     badge +=
         " <span class=\"badge bad\">the scenario failed</span> <span>" + svg::escape(failure->as_string()) + "</span>";
-  for (const std::string& text : unjudged(input))
-    badge += " <span class=\"badge bad\">" + svg::escape(text) + "</span>";
+  for (const Unjudged& method : unjudged(input.results))
+    badge += input.has_replay ? " <a class=\"badge bad\" href=\"replay.html#m=" + score::in_link(method.method) +
+                                    "\">" + svg::escape(method.text()) + "</a>"
+                              : " <span class=\"badge bad\">" + svg::escape(method.text()) + "</span>";
   std::string facts = "seed " + svg::escape(text_of(input.results, "seed"));
   if (const auto d = number_of(results, "duration_s")) facts += " · " + svg::number(*d, 1) + " s";
   if (const auto d = number_of(results, "distance_m")) facts += " · " + svg::number(*d, 1) + " m walked";

@@ -16,9 +16,13 @@ std::optional<double> number_of(const Tree* map, std::string_view key) {
 
 double start_s(const ReportInput& input) { return input.truth.empty() ? 0.0 : input.truth.front().t_s; }
 
-const Tree* results_of(const ReportInput& input, const std::string& method) {
-  const Tree* methods = input.results.find("methods");
+const Tree* results_of(const Tree& results, const std::string& method) {
+  const Tree* methods = results.find("methods");
   return methods == nullptr ? nullptr : methods->find(method);
+}
+
+const Tree* results_of(const ReportInput& input, const std::string& method) {
+  return results_of(input.results, method);
 }
 
 }  // namespace plumbline::scenarios

@@ -16,6 +16,7 @@ namespace plumbline::scenarios {
 /// Time of the first scan on the run's clock, from which results count: converged_at_s, identifiability, s.
 [[nodiscard]] double start_s(const ReportInput& input);
 /// Block of a method, or null.
+[[nodiscard]] const Tree* results_of(const Tree& results, const std::string& method);
 [[nodiscard]] const Tree* results_of(const ReportInput& input, const std::string& method);
 
 }  // namespace plumbline::scenarios

@@ -53,7 +53,7 @@ Plumb.placeLabels = (layer, moment, project) => {
 Plumb.App = class {
   constructor(data) {
     this.data = data;
-    this.t = 0;
+    this.t = data.scans.count ? data.scans.t[0] : 0; // before the first scan there is nothing to see
     this.m = "";
     this.at = "truth"; // whose pose the scan is drawn at: truth, or the chosen method
     this.colouring = "height";
@@ -82,7 +82,7 @@ Plumb.App = class {
         if (i >= 0 && wrong.t - track.t[i] > 0.05) marks.push({ t: track.t[i], label: "off by more than " + this.wrongFrom + " m", kind: "wrong", m: name });
       }
       for (let k = 0; k < track.t.length; ++k) {
-        const truth = track.e[k] > 0.5 && track.lost[k] < 0.5 ? Plumb.data.known(data.tracks.truth, track.t[k]) : null;
+        const truth = Plumb.data.isWrong(data, track, k) ? Plumb.data.known(data.tracks.truth, track.t[k]) : null;
         if (!truth || this.storeyOf(Plumb.data.poseAt(track, k)) === this.storeyOf(truth)) continue;
         marks.push({ t: track.t[k], label: "on the wrong storey", kind: "wrong", m: name });
         break;
@@ -120,8 +120,9 @@ Plumb.App = class {
     root.append(
       make("header", {}, make("h1", {}, run.name), make("span", { class: "badge " + badge[1] }, badge[0]),
         make("span", { class: "facts" }, "seed " + run.seed + " · " + this.data.end.toFixed(1) + " s · digest " + run.digest),
-        ...(failed.length ? [make("span", { class: "bad" }, this.gateLink(failed[0]), failed.length > 1 ? ", and " + (failed.length - 1) + " more" : "")] : []),
-        ...run.unjudged.map((text) => make("span", { class: "badge bad" }, text)),
+        ...failed.slice(0, 3).map((gate) => make("span", { class: "bad" }, this.gateLink(gate))),
+        ...(failed.length > 3 ? [make("span", { class: "bad" }, "and " + (failed.length - 3) + " more under Gates")] : []),
+        ...run.unjudged.map((one) => make("a", { class: "badge bad", href: "#m=" + encodeURIComponent(one.m) }, one.text)),
         make("a", { href: "report.html" }, "report")),
       make("main", {}, make("div", { id: "left" }, this.pictures, this.bar(), make("div", { id: "linebox" }, this.line)), this.panel()),
       this.help());
@@ -369,6 +370,8 @@ Plumb.App = class {
     for (const cell of document.querySelectorAll("[data-now]")) {
       const pose = moment.poses[cell.dataset.now];
       cell.textContent = cell.dataset.now === "truth" ? "" : Plumb.offText(pose);
+      const method = this.data.run.methods.find((m) => m.name === cell.dataset.now);
+      cell.classList.toggle("bad", !!pose && !!method && method.localizes && Plumb.data.isWrong(this.data, this.data.tracks[method.name], pose.i));
     }
     const parts = [];
     const scans = this.data.scans;

@@ -217,6 +217,9 @@ Plumb.data = (() => {
     return { ...poseAt(track, i), e: track.e[i], lost: track.lost[i] > 0.5, i };
   }
 
+  /** Whether a pose of a track is an answer that is too far off: LOST is none. */
+  const isWrong = (data, track, i) => track.e[i] > data.run.wrong * 1e-3 && track.lost[i] < 0.5;
+
   /** Poses at the first and the last firing of a scan that ended at t, or null. */
   function sweepPoses(track, t, span) {
     const i = lastAt(track.t, t + 0.02);
@@ -269,5 +272,5 @@ Plumb.data = (() => {
   }
 
   const states = ["SEARCHING", "AMBIGUOUS", "CONVERGED", "LOST"];
-  return { load, mapOf, known, sweepPoses, stateAt, setAt, patchFrom, particlesAt, lastAt, yawOf, poseAt, states, bytesOf };
+  return { load, mapOf, known, isWrong, sweepPoses, stateAt, setAt, patchFrom, particlesAt, lastAt, yawOf, poseAt, states, bytesOf };
 })();

@@ -80,7 +80,10 @@ void add_method_marks(const ReportMethod& method, const Tree* results, double st
     was_wrong = wrong;
   }
   if (const auto at = number_of(where, "failure_at_s")) {
-    marks.push(mark(*at, "failed: " + words_of(text_of(*where, "failure")), "failure", method.name));
+    const std::string failure = text_of(*where, "failure");
+    const bool too_late = failure == "undecided" && number_of(where, "converged_at_s");
+    marks.push(
+        mark(*at, "failed: " + (too_late ? "answered too late to count" : words_of(failure)), "failure", method.name));
   }
 }
 
@@ -89,6 +92,13 @@ Tree marks_of(const FinishedRun& run, const score::RunScore& score, const Report
   for (const PlotMark& common : common_marks(input)) marks.push(mark(common.t_s, common.label, "run"));
   for (const ReportMethod& method : input.methods)
     if (!is_truth(method)) add_method_marks(method, results_of(input, method.name), start_s(input), marks);
+  for (std::size_t i = 0; i < run.record.methods.size(); ++i) {
+    const MethodRecord& method = run.record.methods[i];
+    const double last_s = method.causal.empty() ? start_s(input) : slam::seconds(method.causal.back().stamp);
+    if (method.crashed) marks.push(mark(last_s, "crashed: " + score.methods[i].error, "failure", method.name));
+  }
+  if (!run.record.failure.empty() && !input.truth.empty())
+    marks.push(mark(input.truth.back().t_s, "the scenario failed: " + run.record.failure, "failure"));
   for (const score::GateResult& gate : score.gates)
     if (const auto at = gate.passed ? std::nullopt : score::telling_moment(run, score, gate))
       marks.push(mark(*at, "gate failed: " + gate.metric, "gate", gate.method));
@@ -123,7 +133,8 @@ Tree gates_of(const score::RunScore& score) {
 
 Tree unjudged_of(const ReportInput& input) {
   Tree list = Tree::list();
-  for (const std::string& text : unjudged(input)) list.push(text);
+  for (const Unjudged& method : unjudged(input.results))
+    list.push(Tree::map().set("m", method.method).set("text", method.text()));
   return list;
 }
 
@@ -184,6 +195,7 @@ Tree run_of(const FinishedRun& run, const score::RunScore& score, const ReportIn
       .set("digest", text_of(input.results, "digest"))
       .set("end", whole(input.truth.empty() ? 0.0 : input.truth.back().t_s, 0.001))
       .set("base", whole(score::base_height_m(), 0.001))
+      .set("wrong", whole(score::LocalizationRules().position_m, 0.001))
       .set("failure", run.record.failure)
       .set("methods", methods_of(run, input))
       .set("gates", gates_of(score))

@@ -43,10 +43,48 @@ TEST(Report, NamesABadMethodThatNoGateJudges) {
   EXPECT_NE(
       page.find("the scans favour it only marginally, since the true pose dropped out of the hypotheses (at 4 s)"),
       std::string::npos);
+  input.has_replay = true;
+  EXPECT_NE(
+      render_report(input).find("<a class=\"badge bad\" href=\"replay.html#m=m\">m: overconfident, not judged</a>"),
+      std::string::npos);
   where.set("hypotheses", 2);
   input.results.set("methods",
                     Tree(Tree::Map{{"m", Tree::map().set("verdict", "honest_ambiguity").set("localization", where)}}));
   EXPECT_NE(render_report(input).find("rightly: the scans favour one only marginally"), std::string::npos);
+}
+
+TEST(Report, NamesAMethodThatIsNotLocalizedAgainAfterAKidnappingUnlessAGateDoes) {
+  ReportInput input = localized();
+  input.kidnap = ReportKidnap{7.0, 9.0};
+  Tree where = Tree::map();
+  where.set("converged_at_s", 6.0).set("kidnap_wrong_s", 1.0);
+  const auto page = [&] {
+    input.results.set("methods",
+                      Tree(Tree::Map{{"m", Tree::map().set("verdict", "success").set("localization", where)}}));
+    return render_report(input);
+  };
+  const std::string badge = "m: not localized again after the kidnapping, not judged";
+  EXPECT_NE(page().find(badge), std::string::npos);
+  Tree gate = input.results.find("gates")->as_list().front();
+  input.results.set("gates", Tree(Tree::List{gate.set("metric", "localization.kidnap_found_s")}));
+  EXPECT_EQ(page().find(badge), std::string::npos);
+  where.set("kidnap_found_s", 1.0);
+  input.results.set("gates", Tree::list());
+  EXPECT_EQ(page().find(badge), std::string::npos);
+}
+
+TEST(Report, SaysWithWhichErrorAMethodStopped) {
+  ReportInput input = sample();
+  const Tree block = Tree::map().set("verdict", "crashed").set("error", "ValueError: <no plane>");
+  input.results.set("methods", Tree(Tree::Map{{"m", block}}));
+  EXPECT_NE(render_report(input).find("stopped with an error: ValueError: &lt;no plane&gt;"), std::string::npos);
+}
+
+TEST(Report, GivesAnErrorOfMetresInMetres) {
+  ReportInput input = sample();
+  const Tree block = Tree::map().set("verdict", "complete").set("ate_aligned_rmse_m", 2.926);
+  input.results.set("methods", Tree(Tree::Map{{"m", block}}));
+  EXPECT_NE(render_report(input).find("Position error 2.93 m rms"), std::string::npos);
 }
 
 TEST(Report, ColoursAVerdictByTheGates) {

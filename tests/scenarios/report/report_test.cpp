@@ -98,7 +98,8 @@ TEST(Report, SaysFromWhenToWhenAnAnswerWasWrongAndOnWhichStorey) {
   for (std::size_t i = 35; i < 45; ++i) samples[i].storey = 1;
   samples.back().error_m = 0.9;
   std::string page = render_report(input);
-  EXPECT_NE(page.find("More than 0.5 m off from " + at(30) + " to " + at(49) + " and once more, at most 2.5 m."),
+  EXPECT_NE(page.find("More than 0.5 m off from " + at(30) + " to " + at(49) +
+                      " and once more, 1.9 s in all, at most 2.5 m."),
             std::string::npos);
   EXPECT_NE(page.find("At " + at(35) + " it was on storey upper, the robot on ground."), std::string::npos);
   for (std::size_t i = 50; i < samples.size(); ++i) samples[i] = samples[49];
@@ -202,6 +203,10 @@ TEST(Report, GlossaryHoldsNoMarkdownAndNamesWhatPagesSay) {
 
 TEST(Report, ItsKeyNamesOnlyWhatSomeMethodFound) {
   ReportInput input = sample();
+  EXPECT_EQ(render_report(input).find("built otherwise than planned</span>"), std::string::npos);
+  input.storeys.front().deviations.emplace_back();
+  EXPECT_NE(render_report(input).find("built otherwise than planned</span>"), std::string::npos);
+  input = sample();
   EXPECT_EQ(render_report(input).find(" found</span>"), std::string::npos);
   input.methods.front().ink = 2;
   input.methods.front().walls.push_back({{0.0, 0.0}, {1.0, 0.0}, 0});

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenarios/app/summary.h"
+
+#include <gtest/gtest.h>
+
+namespace plumbline::scenarios {
+namespace {
+
+/// Two methods: one judged by a gate that fails at 4 s, one that no gate judges.
+struct Judged {
+  FinishedRun run;
+  score::RunScore score;
+  Judged() {
+    score.duration_s = 9.0;
+    for (const char* name : {"judged", "un judged"}) {
+      score::MethodScore& method = score.methods.emplace_back();
+      method.name = name;
+      method.verdict = "success";
+    }
+  }
+  void fail() {
+    score::GateResult& gate = score.gates.emplace_back();
+    gate.metric = "ate_rmse_m";
+    gate.method = "judged";
+    gate.see = "#t=4&m=judged";
+  }
+  std::string steps(bool has_replay) const { return next_steps("runs/a b", has_replay, run, score); }
+};
+
+TEST(NextSteps, OfARunThatPassedNameThePageWhereThereIsOne) {
+  const Judged judged;
+  EXPECT_EQ(judged.steps(false), "");
+  EXPECT_EQ(judged.steps(true), "look:  runs/a b/replay.html\n");
+}
+
+TEST(NextSteps, OfABadMethodThatNoGateJudgesLeadToIt) {
+  Judged judged;
+  judged.score.methods[1].verdict = "overconfident";
+  EXPECT_EQ(judged.steps(true), "look:  runs/a b/replay.html#m=un%20judged\n");
+  EXPECT_EQ(judged.steps(false), "look:  plumbline report --3d 'runs/a b'\n");
+  EXPECT_NE(summarise(judged.run, judged.score).find("\nnot judged: un judged: overconfident\nno gates\n"),
+            std::string::npos);
+}
+
+TEST(NextSteps, LeadToEveryMethodThatFailed) {
+  Judged judged;
+  judged.fail();
+  judged.fail();  // a second gate of the same method says nothing more
+  judged.score.methods[1].verdict = "late";
+  EXPECT_EQ(judged.steps(true),
+            "look:  runs/a b/replay.html#t=4&m=judged\nlook:  runs/a b/replay.html#m=un%20judged\n"
+            "again: plumbline replay 'runs/a b' --until 9\n");
+}
+
+TEST(NextSteps, OfAFallLeadToTheEnd) {
+  Judged judged;
+  judged.run.record.failure = "the robot fell";
+  EXPECT_EQ(judged.steps(true).rfind("look:  runs/a b/replay.html#t=9\n", 0), 0U);
+}
+
+}  // namespace
+}  // namespace plumbline::scenarios
