@@ -66,6 +66,9 @@ async function whole(browser) {
   equal("requests", page.requests.length, 1);
   equal("fetching is forbidden", await page.get("fetch('https://example.org').then(() => 'went', () => 'forbidden')"), "forbidden");
 
+  check("it opens where there is a scan to see", (await page.get("+document.body.dataset.t")) >= (await page.get("Plumb.app.data.scans.t[0]")) - 0.001,
+    await page.get("document.body.dataset.t"));
+
   // Time: a link, and the error as the trajectories say.
   const truth = tum("truth.tum"), loc = tum("s_graph_localization.tum"), end = results.duration_s, last = loc[loc.length - 1];
   await page.get(`Plumb.app.seek(${last[0] + 0.001})`);
@@ -222,6 +225,31 @@ async function whole(browser) {
   check("a method that names no walls has them by its scan", mixed.rows > 0 && mixed.apart && mixed.lines === mixed.rows && mixed.far < 0.05 && mixed.text.includes("names no walls"), mixed);
   equal("and none where it is right", mixed.after, "");
 
+  // What was built otherwise is named, too: half of the walls that are seen, as if the plan had not had them there.
+  const otherwise = await page.get(`(async () => {
+    const app = Plumb.app, track = app.data.tracks.vgicp, { scene, faces, storeys, scans } = app.data, whole = app.residuals;
+    await app.choose("vgicp");
+    await app.seek(app.data.end / 2);
+    const { cloud } = await app.cloudAt(app.t), seen = new Map();
+    for (const owner of whole.owners(cloud.points, cloud.count)) if (owner >= 0) seen.set(owner, (seen.get(owner) || 0) + 1);
+    const wall = whole.names[[...seen].sort((x, y) => y[1] - x[1])[0][0]], f = faces.find((face) => face.wall === wall);
+    const length = Math.hypot(f.q[0] - f.p[0], f.q[1] - f.p[1]), n = [-(f.q[1] - f.p[1]) / length, (f.q[0] - f.p[0]) / length];
+    const move = (d) => { for (const k of [0, 1]) for (let i = 0; i < track.t.length; ++i) track.p[k][i] += d * n[k]; track.e.fill(Math.abs(d)); };
+    const put = (p) => p.map((v, k) => v + 0.6 * n[k % 2]);
+    app.residuals = new Plumb.Residuals(faces.map((face) => (face.wall === wall ? { ...face, p: put(face.p), q: put(face.q) } : face)), storeys);
+    scene.deviations.push({ text: "moved", id: wall, s: app.moment.storey, planned: [], built: [f.p, f.q].map((p) => p.slice(0, 2).map((v) => 1e3 * v)) });
+    move(0.6);
+    await app.update();
+    const row = app.moment.confused.rows.find((r) => r.truly === wall), out = { row: row && [row.taken === wall, row.built], text: app.wrong.innerText };
+    move(-0.6);
+    track.e.fill(0);
+    scene.deviations.pop();
+    app.residuals = whole;
+    await app.choose("s_graph_localization");
+    return out;
+  })()`);
+  check("a wall that stands elsewhere than planned is named", JSON.stringify(otherwise.row) === "[true,true]" && otherwise.text.includes("built otherwise"), otherwise);
+
   // A method that names no walls has a mark where its wrong answer began to slide.
   const slid = await page.get(`(() => {
     const app = Plumb.app, { marks } = app.data.run, before = marks.length, track = app.data.tracks.vgicp, n = track.t.length, from = n >> 2, to = n >> 1;
@@ -241,6 +269,28 @@ async function whole(browser) {
   const marked = await page.get(`(() => { const app = Plumb.app, line = app.line2; line.layout(); return line.marks.map((m) =>
     [m.t, line.markAt((m.from + m.to) / 2, 15 * m.row + 8).t, m.label.startsWith(m.t.toFixed(2) + " s" + (m.m && app.data.run.methods.length > 1 ? " " + m.m : ""))]); })()`);
   check("labels of marks lead to their moments and give them", marked.length > 0 && marked.every(([t, at, said]) => t === at && said), marked);
+
+  const crowded = await page.get(`(() => { const app = Plumb.app, line = app.line2, { marks } = app.data.run;
+    for (let k = 0; k < 30; ++k) marks.push({ t: 0.5 * app.data.end, label: "one of thirty at once", kind: "run", m: "" });
+    line.layout();
+    const shown = line.marks.filter((m) => m.label !== ""), over = shown.filter((a, i) => shown.some((b, j) => j < i && a.row === b.row && a.from < b.to && a.to > b.from));
+    marks.length -= 30;
+    line.layout();
+    return { over: over.length, shown: shown.length }; })()`);
+  check("labels of marks never lie over each other", crowded.over === 0 && crowded.shown >= 5, crowded);
+
+  // A method that has one answer, and a wrong one, shows it: in the time line, beside its name.
+  const wrongly = await page.get(`(async () => { const app = Plumb.app, line = app.line2, name = "s_graph_localization", track = app.data.tracks[name];
+    const e = track.e.slice(), last = track.t[track.t.length - 1], cell = document.querySelector("[data-now=" + name + "]"), before = line.wrongStretches(name).length;
+    for (let i = 0; i < track.t.length; ++i) track.e[i] = i >= track.t.length - 3 ? 3 : 0.01;
+    await app.seek(last);
+    line.layout();
+    const out = { before, stretches: line.wrongStretches(name).map(([a, b]) => Math.round(a - line.x(track.t[track.t.length - 3]))), bad: cell.className };
+    track.e.set(e);
+    await app.seek(last);
+    line.layout();
+    return { ...out, after: cell.className }; })()`);
+  check("a wrong answer is marked in the time line and beside its name", wrongly.before === 0 && JSON.stringify(wrongly.stretches) === "[0]" && /bad/.test(wrongly.bad) && !/bad/.test(wrongly.after), wrongly);
 
   // A header that says what failed, a button for the keys, names of tables.
   const header = await page.get("document.querySelector('header').innerText");

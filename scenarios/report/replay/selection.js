@@ -14,7 +14,7 @@ Object.assign(Plumb.App.prototype, {
     this.wrong.replaceChildren(make("p", {}, pairs.title), make("table", { "aria-label": "walls that are taken for others" },
       make("thead", {}, make("tr", {}, make("th", {}, "taken for"), make("th", {}, "truly"))),
       make("tbody", {}, ...pairs.rows.map((row) => make("tr", {}, make("td", {}, link(row.taken), row.patches > 1 ? " (" + row.patches + " patches)" : ""),
-        make("td", {}, row.truly === row.taken ? "the same, elsewhere on it" : row.truly ? link(row.truly) : "no wall of the plan"))))));
+        make("td", {}, row.built ? link(row.truly) : row.truly === row.taken ? "the same, elsewhere on it" : row.truly ? link(row.truly) : "no wall of the plan", row.built ? ", built otherwise" : ""))))));
   },
 
   /** Whether a method ever says which walls it matched. */
@@ -47,10 +47,12 @@ Object.assign(Plumb.App.prototype, {
     const [at, truly] = clouds.map((cloud) => this.residuals.owners(cloud.points, cloud.count)), pairs = new Map();
     let walls = 0;
     truly.forEach((owner, i) => {
-      if (owner < 0) return;
+      const built = owner === -2 ? this.builtAt(clouds[1].points[3 * i], clouds[1].points[3 * i + 1], moment.storey) : null;
+      if (owner < 0 && !built) return;
       ++walls;
       if (at[i] < 0 || at[i] === owner) return;
-      const key = at[i] + " " + owner, pair = pairs.get(key) || { n: 0, taken: this.residuals.names[at[i]], truly: this.residuals.names[owner], from: [0, 0], to: [0, 0] };
+      const seen = built ? built.id : this.residuals.names[owner], key = at[i] + " " + owner + " " + seen;
+      const pair = pairs.get(key) || { n: 0, taken: this.residuals.names[at[i]], truly: seen, built: !!built, from: [0, 0], to: [0, 0] };
       pairs.set(key, pair);
       ++pair.n;
       for (const k of [0, 1]) {
@@ -61,6 +63,15 @@ Object.assign(Plumb.App.prototype, {
     const rows = [...pairs.values()].filter((pair) => pair.n >= 0.03 * walls).sort((a, b) => b.n - a.n).slice(0, 5);
     for (const row of rows) for (const end of [row.from, row.to]) end.forEach((sum, k) => { end[k] = sum / row.n; });
     return { title: this.m + " names no walls. At its pose the scan of " + scans.t[moment.scan].toFixed(2) + " s lies on others; most points first:", rows };
+  },
+
+  /** The deviation as built that a point of a storey lies on, in the plane, or null. */
+  builtAt(x, y, storey) {
+    const reach = Plumb.Residuals.most;
+    return this.data.scene.deviations.find((d) => d.s === storey && d.id && d.built.some((p, k) => {
+      const [a, b] = [p, d.built[(k + 1) % d.built.length]].map((corner) => corner.map((v) => v * 1e-3));
+      return this.residuals.toFace({ p: a, q: b }, x, y) < reach;
+    })) || null;
   },
 
   /** What is known of the chosen element now. */

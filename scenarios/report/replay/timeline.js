@@ -4,6 +4,9 @@
 "use strict";
 
 Plumb.Timeline = class {
+  static mostRows = 10; // of labels
+  static pale = "#F3B183"; // beside vermilion
+
   constructor(canvas, data, seek) {
     this.canvas = canvas;
     this.data = data;
@@ -89,17 +92,54 @@ Plumb.Timeline = class {
         let end = i;
         while (end + 1 < belief.states.length && belief.states[end + 1][1] === state) ++end;
         const last = this.x(end + 1 < belief.states.length ? belief.states[end + 1][0] * 1e-3 : this.data.end);
-        const label = Plumb.data.states[state] + (this.beliefs.length > 1 ? " · " + name : "");
+        const wrong = this.wrongStretches(name).reduce((sum, [a, b]) => sum + Math.max(0, Math.min(b, last) - Math.max(a, from)), 0);
+        const label = Plumb.data.states[state] + (wrong > 0.5 * (last - from) ? ", wrong" : "") + (this.beliefs.length > 1 ? " · " + name : "");
         if (!first) return;
         belief.labels = belief.labels || [];
         belief.labels.push([label, from, last, y]);
       });
+      g.fillStyle = this.hatch(g);
+      for (const [a, b] of this.wrongStretches(name)) g.fillRect(a, y, Math.max(1, b - a), 13);
       for (const [label, from, last, y2] of belief.labels || []) {
+        const width = g.measureText(label).width;
+        if (width + 8 >= last - from) continue;
+        g.fillStyle = Plumb.Timeline.pale;
+        if (label.includes(", wrong")) g.fillRect(from + 2, y2, width + 4, 13); // letters on strokes are hard to read
         g.fillStyle = "#111";
-        if (g.measureText(label).width + 8 < last - from) g.fillText(label, from + 4, y2 + 10);
+        g.fillText(label, from + 4, y2 + 10);
       }
       belief.labels = null;
     });
+  }
+
+  /** Where a method's answer was too far off, from and to in px: no state of its own says so. */
+  wrongStretches(name) {
+    const track = this.data.tracks[name], out = [];
+    for (let i = 0; track && i < track.t.length; ++i) {
+      if (!Plumb.data.isWrong(this.data, track, i)) continue;
+      const next = i + 1 < track.t.length && track.t[i + 1] - track.t[i] <= 1.0 ? track.t[i + 1] : Math.min(this.data.end, track.t[i] + 0.1);
+      const last = out[out.length - 1], from = this.x(track.t[i]), to = this.x(next);
+      if (last && from <= last[1] + 0.01) last[1] = to;
+      else out.push([from, to]);
+    }
+    return out;
+  }
+
+  /** Vermilion with pale strokes: told from LOST without colours, too. */
+  hatch(g) {
+    const tile = document.createElement("canvas"), t = tile.getContext("2d");
+    tile.width = tile.height = 8;
+    t.fillStyle = Plumb.colours.css(Plumb.colours.wrong);
+    t.fillRect(0, 0, 8, 8);
+    t.strokeStyle = Plumb.Timeline.pale;
+    t.lineWidth = 2;
+    for (const x of [-8, 0, 8]) {
+      t.beginPath();
+      t.moveTo(x - 1, 9);
+      t.lineTo(x + 9, -1);
+      t.stroke();
+    }
+    return g.createPattern(tile, "repeat");
   }
 
   /** Curves are cut off above the 99.5th percentile, so that one outlier does not flatten the rest. */
@@ -171,7 +211,7 @@ Plumb.Timeline = class {
     for (const t of this.data.scans.t) g.fillRect(this.x(t), this.plotBottom + 1, 0.8, 3);
   }
 
-  /** Marks with the row that their label stands in: labels never lie over each other. */
+  /** Marks with the row that their label stands in: labels never lie over each other. One without a free row has its line alone. */
   placedMarks() {
     const g = this.store.getContext("2d"), ends = [];
     g.font = "11px system-ui, sans-serif";
@@ -187,7 +227,8 @@ Plumb.Timeline = class {
       const width = g.measureText(label).width + 10, left = x + width > this.x1;
       const from = left ? x - width : x, to = left ? x : x + width;
       let row = 0;
-      while (row < 6 && (ends[row] || []).some(([a, b]) => from < b && to > a)) ++row;
+      while (row < Plumb.Timeline.mostRows && (ends[row] || []).some(([a, b]) => from < b && to > a)) ++row;
+      if (row === Plumb.Timeline.mostRows) return { ...mark, full, label: "", row: 0, left, from: x, to: x };
       (ends[row] = ends[row] || []).push([from, to]);
       return { ...mark, full, label, row, left, from, to };
     });
