@@ -59,10 +59,11 @@ std::string why_it_failed(const Tree* where) {
   if (failure == "depleted") why = "the true pose dropped out of the hypotheses";
   if (failure == "twin_preferred") why = "a pose aliased with the true one at the start was preferred";
   if (failure == "wrong_model") why = "a pose not aliased with the true one was preferred";
-  if (failure == "undecided") why = "the true pose remained one of several to the end";
+  if (failure == "undecided") why = "the true pose remained one of several";
   if (why.empty()) return "";
   const auto at = number_of(where, "failure_at_s");
-  return ", since " + why + (at ? " (at " + svg::number(*at, 1) + " s)" : "");
+  const std::string when = failure == "undecided" ? " (until " : " (at ";
+  return ", since " + why + (at ? when + svg::number(*at, 1) + " s)" : "");
 }
 
 /// What came of a kidnapping, as sentences of their own, or nothing. Durations and times of the run stand apart.

@@ -190,6 +190,14 @@ TEST(Report, SaysWhenARightPoseWasLost) {
             std::string::npos);
 }
 
+// The end that counts may be a kidnapping.
+TEST(Report, SaysUntilWhenATruePoseWasOneOfSeveral) {
+  ReportInput input = localized();
+  const Tree where = Tree::map().set("failure", "undecided").set("failure_at_s", 8.5);
+  input.results.set("methods", Tree(Tree::Map{{"m", Tree::map().set("verdict", "late").set("localization", where)}}));
+  EXPECT_NE(render_report(input).find("since the true pose remained one of several (until 8.5 s)."), std::string::npos);
+}
+
 TEST(Report, GlossaryHoldsNoMarkdownAndNamesWhatPagesSay) {
   const std::string page = render_report(sample());
   const std::string glossary =
