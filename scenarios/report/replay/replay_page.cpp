@@ -124,7 +124,7 @@ Tree methods_of(const FinishedRun& run, const ReportInput& input) {
   return list;
 }
 
-Tree gates_of(const score::RunScore& score) {
+Tree gate_list(const score::RunScore& score) {
   Tree list = Tree::list();
   for (const score::GateResult& gate : score.gates)
     list.push(Tree::map().set("text", score::describe(gate)).set("passed", gate.passed).set("link", gate.see));
@@ -198,7 +198,7 @@ Tree run_of(const FinishedRun& run, const score::RunScore& score, const ReportIn
       .set("wrong", whole(score::LocalizationRules().position_m, 0.001))
       .set("failure", run.record.failure)
       .set("methods", methods_of(run, input))
-      .set("gates", gates_of(score))
+      .set("gates", gate_list(score))
       .set("unjudged", unjudged_of(input))
       .set("marks", marks_of(run, score, input));
 }
