@@ -220,10 +220,4 @@ MethodTable methods() {
   return rows;
 }
 
-const MethodRow* find_method(std::string_view name, MethodTable table) {
-  for (const MethodRow& row : table)
-    if (row.name == name) return &row;
-  return nullptr;
-}
-
 }  // namespace plumbline::slam

@@ -45,7 +45,7 @@ Eigen::Vector2d middle_of(const Polygon2& polygon) {
 }
 
 /// "move_wall" of "w3" as "wall w3 moved".
-std::string told(const std::string& op, const std::string& element) {
+std::string in_words(const std::string& op, const std::string& element) {
   const std::size_t cut = op.find('_');
   const std::string verb = op.substr(0, cut), kind = cut == std::string::npos ? "" : op.substr(cut + 1) + " ";
   constexpr std::array<std::pair<std::string_view, std::string_view>, 6> words = {
@@ -86,7 +86,7 @@ std::vector<ReportDeviation> report_deviations(const bim::PlannedAndBuilt& site,
 }
 
 std::string describe(const ReportDeviation& deviation) {
-  std::string text = told(deviation.op, deviation.element);
+  std::string text = in_words(deviation.op, deviation.element);
   if (!deviation.planned_W.empty() && !deviation.built_W.empty()) {
     const Eigen::Vector2d moved = middle_of(deviation.built_W) - middle_of(deviation.planned_W);
     std::string by;

@@ -11,7 +11,7 @@ namespace plumbline::slam {
 
 namespace {
 
-constexpr std::size_t batch = 16;
+constexpr std::size_t batch = 16;          // rays cast in one call; a call of few clears as many
 constexpr double upright_max_slope = 0.5;  // of a normal
 
 /// Boxes around the parts of an element that hang together by their vertices.

@@ -1,20 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // What readers of sweeps name of processes. A fuzzer reads their entries and starts none.
-#include <algorithm>
-
 #include "bim/errors.h"
 #include "scenarios/host/interrupt.h"
-#include "slam/methods.h"
 #include "slam/process/process_method.h"
 
 namespace plumbline {
 
 namespace slam {
-
-const MethodRow* find_method(std::string_view name, MethodTable table) {
-  const auto row = std::find_if(table.begin(), table.end(), [&](const MethodRow& known) { return known.name == name; });
-  return row == table.end() ? nullptr : &*row;
-}
 
 std::unique_ptr<Method> make_process_method(const ProcessCommand& /*command*/, const MethodInput& /*input*/) {
   throw InternalError("a fuzzer starts no process");

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <vector>
+
+#include "bim/errors.h"
+#include "slam/io/bags/ros_message.h"
+#include "tests/input_error.h"
+
+namespace plumbline::slam {
+namespace {
+
+// Lengths that a program of ROS 2 gave for the same messages.
+TEST(Cdr, MessagesHaveTheLengthsOfRos2) {
+  EXPECT_EQ(ros::write_clock(5, Encoding::cdr).size(), 12U);
+  EXPECT_EQ(ros::write_imu({}, "base_link", Encoding::cdr).size(), 324U);
+  ros::OdometryMessage odometry;
+  odometry.X_OR.parent = "odom";
+  odometry.X_OR.child = "base_link";
+  EXPECT_EQ(ros::write_odometry(odometry, Encoding::cdr).size(), 724U);
+  PointCloud cloud;
+  cloud.width = 3;
+  cloud.height = 1;
+  cloud.point_step = 22;
+  cloud.row_step = 66;
+  cloud.data.resize(66);
+  for (const char* name : {"x", "y", "z", "intensity", "ring", "time"})
+    cloud.fields.push_back({name, 0, PointType::f32});
+  EXPECT_EQ(ros::write_cloud(cloud, "velodyne", Encoding::cdr).size(), 259U);
+}
+
+TEST(Cdr, EveryCutMessageIsRefused) {
+  const ros::Transform transform{7, "base_link", "velodyne", Pose::from_xyz_yaw({1, 2, 3}, 0.5)};
+  const ros::Bytes whole = ros::write_transforms({&transform, 1}, Encoding::cdr);
+  EXPECT_EQ(ros::read_transforms(whole, Encoding::cdr)[0].X.t, transform.X.t);
+  EXPECT_EQ(ros::read_transforms(whole, Encoding::cdr)[0].child, "velodyne");
+  for (std::size_t size = 0; size < whole.size(); ++size)
+    EXPECT_THROW((void)ros::read_transforms(std::span(whole).first(size), Encoding::cdr), InputError) << size;
+  ros::Bytes big_endian = whole;
+  big_endian[1] = 0;
+  EXPECT_NE(input_error([&] { (void)ros::read_transforms(big_endian, Encoding::cdr); }).find("little-endian CDR"),
+            std::string::npos);
+}
+
+TEST(Cdr, LivoxMessagesAreClouds) {
+  std::vector<std::uint8_t> m = {0, 1, 0, 0};
+  const auto put = [&](auto value) {
+    m.resize(4 + (m.size() - 4 + sizeof value - 1) / sizeof value * sizeof value);
+    m.resize(m.size() + sizeof value);
+    std::memcpy(&m[m.size() - sizeof value], &value, sizeof value);
+  };
+  put(std::int32_t{1});
+  put(std::uint32_t{0});
+  put(std::uint32_t{12});
+  for (const char c : "livox_frame") put(c);
+  put(std::uint64_t{2'000'000'000});
+  constexpr std::uint32_t points = 100;
+  put(points);
+  for (int i = 0; i < 4; ++i) put(std::uint8_t{0});
+  put(points);
+  for (std::uint32_t i = 0; i < points; ++i) {
+    put(400'000 * (i + 1));
+    for (const float value : {3.0F, 0.0F, 0.013F * static_cast<float>(i)}) put(value);
+    for (const int value : {200, 0, 1}) put(static_cast<std::uint8_t>(value));
+  }
+  const ros::FramedCloud cloud = ros::read_livox(m, Encoding::cdr);
+  EXPECT_EQ(cloud.frame, "livox_frame");
+  const Scan scan = scan_of(cloud.cloud);
+  EXPECT_EQ(scan.rings, 1);
+  EXPECT_EQ(scan.stamp, 2'040'000'000);
+  ASSERT_EQ(scan.size(), points);
+  EXPECT_EQ(scan.offset_ns[0], -39'600'000);
+  EXPECT_EQ(scan.point_L[99], Eigen::Vector3d(3.0, 0.0, static_cast<double>(0.013F * 99.0F)));
+  EXPECT_EQ(scan.reflectivity[1], 200.0F);
+  // Two more points than said before.
+  const std::uint32_t other = points + 2;
+  std::memcpy(&m[4 + 8 + 4 + 12 + 8], &other, sizeof other);
+  EXPECT_THROW((void)ros::read_livox(m, Encoding::cdr), InputError);
+}
+
+}  // namespace
+}  // namespace plumbline::slam
