@@ -17,6 +17,7 @@
 #include "bim/furniture/furnish.h"
 #include "bim/generators/faults.h"
 #include "bim/generators/generators.h"
+#include "bim/generators/mirror.h"
 #include "bim/load/load.h"
 #include "bim/random/stream.h"
 #include "scenarios/app/commands.h"
@@ -40,7 +41,8 @@ struct GenerateOptions {
   std::map<std::string, std::string> values;  ///< by "family key", as written
   bim::FurnishOptions furniture;
   std::vector<CommandLine> furnish;  ///< the command, once it is there
-  std::string building;              ///< to furnish or damage
+  std::vector<CommandLine> mirror;   ///< the command, once it is there
+  std::string building;              ///< to furnish, mirror or damage
   std::vector<CommandLine> damage;   ///< the command, once it is there
   std::vector<std::string> faults;
   std::uint64_t fault_seed = 1;
@@ -144,6 +146,14 @@ int furnish(const GenerateOptions& options) {
   return 0;
 }
 
+int mirror(const GenerateOptions& options) {
+  if (!is_ifc(options.out))
+    throw InputError({options.out, 0, 0}, "a mirror image is written as IFC; name a file that ends in .ifc");
+  refuse_to_replace(options.out, options.force);
+  write_file(options.out, bim::write_ifc(bim::mirrored(bim::load_building(options.building))));
+  return 0;
+}
+
 /// The building with faults as a file of another program would have them.
 int damage(const GenerateOptions& options) {
   if (!is_ifc(options.out))
@@ -174,6 +184,7 @@ int damage(const GenerateOptions& options) {
 
 int generate(const GenerateOptions& options) {
   if (options.furnish.front().asked()) return furnish(options);
+  if (options.mirror.front().asked()) return mirror(options);
   if (options.damage.front().asked()) return damage(options);
   std::string family = options.unknown_family;
   for (const CommandLine& line : options.families)
@@ -250,6 +261,15 @@ CommandLine add_furnish(CommandLine& program, const std::shared_ptr<GenerateOpti
   return line;
 }
 
+CommandLine add_mirror(CommandLine& program, const std::shared_ptr<GenerateOptions>& options) {
+  CommandLine line = program.add_command("mirror", "the mirror image of any building, as IFC: a wrong plan for a test");
+  line.option("BUILDING", options->building, "building: a plan or an IFC file").required();
+  line.option("-o,--out", options->out, "IFC file to write").required();
+  line.flag("--force", options->force, "replace files that are there");
+  line.footer("Example: plumbline generate mirror house.plan.yaml -o mirrored.ifc");
+  return line;
+}
+
 CommandLine add_damage(CommandLine& program, const std::shared_ptr<GenerateOptions>& options) {
   CommandLine line = program.add_command("damage", "gives any building the faults of real files, as IFC");
   line.option("BUILDING", options->building, "building: a plan or an IFC file").required();
@@ -273,6 +293,7 @@ Command add_generate(CommandLine& program) {
   CommandLine line = program.add_command("generate", "Makes a building that is hard to localize in");
   for (const bim::GeneratorRow& row : bim::generators()) options->families.push_back(add_family(line, row, options));
   options->furnish.push_back(add_furnish(line, options));
+  options->mirror.push_back(add_mirror(line, options));
   options->damage.push_back(add_damage(line, options));
   // A name that is no family is refused by the action, which lists the families.
   line.option("FAMILY", options->unknown_family).hidden();
