@@ -312,7 +312,7 @@ Command add_estimate(CommandLine& program, slam::MethodTable table) {
   line.option("RECORDING", options->input.recording,
               "directory written by simulate or run --record, capture of a Velodyne LiDAR (.pcap), bag of ROS 1 (.bag) "
               "or ROS "
-              "2 (.mcap, .db3, rosbag2 folder), or folder of point clouds (.pcd or .ply)")
+              "2 (.mcap, .db3, rosbag2 folder), or folder of point clouds (.pcd, .ply or KITTI's .bin)")
       .required();
   line.option("--description", options->input.description,
               "a recording.yaml with the LiDAR's mount, for a capture or bag, which has none");

@@ -12,6 +12,7 @@
 #include "slam/io/clouds/cloud_file.h"
 #include "slam/io/packets/point_cloud.h"
 #include "tests/folder.h"
+#include "tests/slam/io/clouds/bin_file.h"
 #include "tests/slam/io/packets/made_cloud.h"
 #include "tests/slam/io/packets/packets.h"
 
@@ -127,20 +128,83 @@ TEST(CloudRecording, TimesThatRunOnAreTheScansOwn) {
   }
 }
 
+std::vector<Nanoseconds> stamps_in(Recording& recording) {
+  std::vector<Nanoseconds> stamps;
+  for (SensorFrame frame; recording.next(frame);) stamps.push_back(frame.scan.stamp);
+  return stamps;
+}
+
+/// KITTI's layout, with so many clouds.
+void write_velodyne(const Folder& folder, int clouds) {
+  std::filesystem::create_directory(folder / "velodyne");
+  for (int i = 0; i < clouds; ++i)
+    write_floats(folder / ("velodyne/00000" + std::to_string(i) + ".bin"), {3, 4, 0, 0.5F, 5, 6, 0, 0.25F});
+}
+
+TEST(CloudRecording, ReadsKittisSequences) {
+  const Folder folder;
+  write_velodyne(folder, 3);
+  write_raw(folder / "times.txt", "0.000000e+00\n1.036224e-01\n2.072470e-01\n");
+  write_raw(folder / "calib.txt", "P0:\n");
+  for (const std::string& path : {folder.path(), folder / "velodyne", folder / "velodyne/"}) {
+    ASSERT_TRUE(is_cloud_folder(path)) << path;
+    const auto recording = open_cloud_folder(path);
+    EXPECT_EQ(stamps_in(*recording), (std::vector<Nanoseconds>{0, 103'622'400, 207'247'000}));
+    EXPECT_EQ(recording->origin(), 0);
+    EXPECT_TRUE(recording->left_out().empty());
+    EXPECT_TRUE(recording->assumed().empty());
+  }
+}
+
+TEST(CloudRecording, SaysThatTheRateOfBareCloudsIsNotKnown) {
+  const Folder folder;
+  write_velodyne(folder, 2);
+  const auto recording = open_cloud_folder(folder / "velodyne");
+  ASSERT_EQ(recording->assumed().size(), 1U);
+  EXPECT_NE(recording->assumed().front().find("one each 0.1 s is assumed"), std::string::npos);
+  EXPECT_EQ(stamps_in(*recording), (std::vector<Nanoseconds>{0, 100'000'000}));
+  RecordingInfo info;
+  info.lidar.period_s = 0.05;
+  const auto described = open_cloud_folder(folder / "velodyne", &info);
+  EXPECT_TRUE(described->assumed().empty());
+  EXPECT_EQ(stamps_in(*described), (std::vector<Nanoseconds>{0, 50'000'000}));
+}
+
+TEST(CloudRecording, KeepsTheClockOfTheDay) {
+  const Folder folder;
+  write_clouds(folder, {"0.pcd", "1.pcd"});
+  write_raw(folder / "timestamps.txt", "2011-09-26 13:02:25.5\n2011-09-26 13:02:25.75\n");
+  const auto recording = open_cloud_folder(folder.path());
+  const std::vector<Nanoseconds> stamps = stamps_in(*recording);
+  ASSERT_EQ(stamps.size(), 2U);
+  EXPECT_EQ(stamps[1] - stamps[0], 250'000'000);
+  EXPECT_LT(stamps[0], 200'000'000) << "the end of the first turn";
+  EXPECT_EQ(recording->origin(), 1'317'042'145'500'000'000);
+}
+
+TEST(CloudRecording, LeavesOutCloudsWhoseTimesGoBack) {
+  const Folder folder;
+  write_velodyne(folder, 5);
+  write_raw(folder / "times.txt", "1\n2\n1.5\n2\n3\n");
+  const auto recording = open_cloud_folder(folder.path());
+  EXPECT_EQ(stamps_in(*recording), (std::vector<Nanoseconds>{1'000'000'000, 2'000'000'000, 3'000'000'000}));
+  ASSERT_EQ(recording->left_out().size(), 1U);
+  EXPECT_EQ(recording->left_out().front().find("2 of 5 scans left out"), 0U);
+  write_raw(folder / "times.txt", "5\n4\n3\n2\n1\n");
+  EXPECT_THROW((void)stamps_in(*open_cloud_folder(folder.path())), InputError);
+}
+
 TEST(CloudRecording, SaysWhatKeepsAFolderFromBeingOne) {
   const Folder folder;
   EXPECT_EQ(why_no_cloud_folder(folder.path()), "");
   write_clouds(folder, {"0.pcd", "1.pcd", "2.pcd"});
   EXPECT_EQ(why_no_cloud_folder(folder.path()), "");
-  std::ofstream(folder / "timestamps.txt") << "0.0\n0.1\n0.2\n";
-  EXPECT_NE(why_no_cloud_folder(folder.path()).find("beside them 'timestamps.txt'"), std::string::npos);
-  std::filesystem::remove(folder / "timestamps.txt");
+  std::ofstream(folder / "calib.txt") << "P0\n";
+  EXPECT_NE(why_no_cloud_folder(folder.path()).find("beside them 'calib.txt'"), std::string::npos);
+  std::filesystem::remove(folder / "calib.txt");
   write_clouds(folder, {"0.ply"});
   EXPECT_NE(why_no_cloud_folder(folder.path()).find("more than one ending"), std::string::npos);
   for (const char* name : {"0.pcd", "1.pcd", "2.pcd", "0.ply"}) std::filesystem::remove(folder / name);
-  std::ofstream(folder / "0.bin") << "0123456789abcdef";
-  EXPECT_NE(why_no_cloud_folder(folder.path()).find("KITTI"), std::string::npos);
-  std::filesystem::remove(folder / "0.bin");
   for (const char* name : {"a.json", "b.json"}) std::ofstream(folder / name) << "{}";
   write_clouds(folder, {"map.ply"});
   EXPECT_EQ(why_no_cloud_folder(folder.path()), "") << "a run's folder";

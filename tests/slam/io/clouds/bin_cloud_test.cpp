@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/io/clouds/bin_cloud.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "bim/errors.h"
+#include "slam/io/packets/point_cloud.h"
+#include "tests/folder.h"
+#include "tests/input_error.h"
+#include "tests/slam/io/clouds/bin_file.h"
+
+namespace plumbline::slam {
+namespace {
+
+TEST(BinCloud, HoldsKittisPoints) {
+  const Folder folder;
+  const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
+  write_floats(folder / "0.bin", {1, 2, 3, 0.5F, nan, 1, 1, 0, 4, 5, 6, 1, inf, 0, 0, 0, 7, 8, 9, 0});
+  const Scan scan = scan_of(read_bin_cloud(folder / "0.bin"));
+  EXPECT_EQ(scan.rings, 1);
+  std::vector<double> xs;
+  for (std::size_t i = 0; i < scan.size(); ++i)
+    if (scan.range_m[i] > 0.0) xs.push_back(scan.point_L[i].x());
+  EXPECT_EQ(xs, (std::vector<double>{1, 4, 7}));
+}
+
+TEST(BinCloud, HoldsTheRingOfNuScenes) {
+  const Folder folder;
+  write_floats(folder / "0.pcd.bin", {1, 0, 0, 9, 0, 0, 1, 1, 9, 1});
+  const PointCloud cloud = read_bin_cloud(folder / "0.pcd.bin");
+  EXPECT_EQ(cloud.width, 2U);
+  EXPECT_EQ(cloud.fields.back().name, "ring");
+  EXPECT_GT(scan_of(cloud).rings, 1);
+}
+
+TEST(BinCloud, WhatCannotBePointsIsRefusedByName) {
+  const Folder folder;
+  const std::string file = folder / "0.bin";
+  const auto complaint = [&](const std::string& bytes) {
+    write_raw(file, bytes);
+    const std::string said = input_error([&] { (void)read_bin_cloud(file); });
+    EXPECT_EQ(said.find(file), 0U) << said;
+    return said;
+  };
+  EXPECT_NE(complaint("").find("is empty"), std::string::npos);
+  EXPECT_NE(complaint(std::string(20, '\0')).find("20 bytes are no whole points"), std::string::npos);
+  EXPECT_NE(complaint(std::string(160, 'x')).find("no coordinates in metres"), std::string::npos);
+  std::filesystem::resize_file(file, std::uintmax_t{1} << 40U);  // a hole
+  EXPECT_NE(input_error([&] { (void)read_bin_cloud(file); }).find("at most 64000000"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace plumbline::slam

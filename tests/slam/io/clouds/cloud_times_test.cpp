@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/io/clouds/cloud_times.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "bim/errors.h"
+#include "tests/folder.h"
+#include "tests/input_error.h"
+#include "tests/slam/io/clouds/bin_file.h"
+
+namespace plumbline::slam {
+namespace {
+
+TEST(CloudTimes, AreSecondsOrDates) {
+  const std::vector<Nanoseconds> read = read_cloud_times(
+      "0.000000e+00\n1.036224e-01\r\n\n1700000000.123456789\n2011-09-26 13:02:25.594360375\n1970-01-02T00:00:01\n",
+      "t");
+  EXPECT_EQ(read, (std::vector<Nanoseconds>{0, 103'622'400, 1'700'000'000'123'456'789, 1'317'042'145'594'360'375,
+                                            86'401'000'000'000}));
+}
+
+TEST(CloudTimes, OtherLinesAreRefusedByNumber) {
+  for (const char* line : {"x", "-1", "1 2", "nan", "1e300", "2011-13-26 13:02:25", "2011-02-30 13:02:25",
+                           "2011-09-26 25:02:25", "2011-09-26 13:02:99", "2011-09-26 13:02:", "2011-09-26 13:0-:25"})
+    EXPECT_EQ(input_error([&] { (void)read_cloud_times("0\n" + std::string(line) + "\n", "t.txt"); }).find("t.txt:2"),
+              0U)
+        << line;
+}
+
+TEST(CloudTimes, StandBesideTheCloudsOrTheirFolder) {
+  const Folder folder;
+  const std::string inner = folder / "velodyne";
+  std::filesystem::create_directory(inner);
+  EXPECT_FALSE(find_cloud_times(inner));
+  write_raw(folder / "timestamps.txt", "1\n");
+  for (const char* slash : {"", "/", "/."}) {
+    const auto above = find_cloud_times(inner + slash);
+    ASSERT_TRUE(above) << slash;
+    EXPECT_EQ(above->stamps, std::vector<Nanoseconds>{1'000'000'000}) << slash;
+  }
+  write_raw(inner + "/times.txt", "2\n");
+  EXPECT_EQ(find_cloud_times(inner)->stamps, std::vector<Nanoseconds>{2'000'000'000});
+}
+
+TEST(CloudTimes, AreTakenByNumberWhereCloudsAreMissing) {
+  const CloudTimes times{"times.txt", {0, 10, 20, 30}};
+  EXPECT_EQ(stamps_of({"a.bin", "b.bin", "c.bin", "d.bin"}, times), times.stamps);
+  EXPECT_EQ(stamps_of({"000000.bin", "000003.bin"}, times), (std::vector<Nanoseconds>{0, 30}));
+  for (const char* name : {"000004.bin", "a.bin", "99999999999999999999999.bin"})
+    EXPECT_EQ(input_error([&] { (void)stamps_of({name}, times); }).find("times.txt: holds 4 times for 1 clouds"), 0U);
+}
+
+}  // namespace
+}  // namespace plumbline::slam
