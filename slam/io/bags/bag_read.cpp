@@ -50,8 +50,8 @@ class BagRecording final : public Recording {
   [[nodiscard]] std::vector<std::string> left_out() const override {
     std::vector<std::string> all;
     for (const std::vector<std::string>& said :
-         {scans_.left_out(topics_.points, "scans"), odometry_.left_out(topics_.odometry, "records"),
-          imu_.left_out(topics_.imu, "records")})
+         {source_->left_out(), scans_.left_out(topics_.points, "scans"),
+          odometry_.left_out(topics_.odometry, "records"), imu_.left_out(topics_.imu, "records")})
       all.insert(all.end(), said.begin(), said.end());
     if (scan_frame_.others() > 0)
       all.push_back(topics_.points + " left out: " + scan_frame_.others_of(scans_.read(), "scans"));

@@ -12,6 +12,7 @@ inline constexpr std::uint64_t head_bytes = 9;     ///< of a record: opcode and 
 inline constexpr std::uint64_t footer_bytes = 20;  ///< without its head
 
 enum class Op : std::uint8_t {
+  none = 0x00,
   header = 0x01,
   footer = 0x02,
   schema = 0x03,

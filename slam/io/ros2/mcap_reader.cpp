@@ -14,12 +14,16 @@
 #include "bim/errors.h"
 #include "slam/io/ros2/compression.h"
 #include "slam/io/ros2/mcap_format.h"
+#include "slam/io/ros2/mcap_values.h"
 
 namespace plumbline::slam {
 
 namespace {
 
+using mcap::Head;
+using mcap::head_of;
 using mcap::Op;
+using mcap::Values;
 using Bytes = std::vector<std::uint8_t>;
 
 constexpr std::size_t most_name_bytes = 4096;
@@ -27,44 +31,6 @@ constexpr std::size_t most_open_bytes = std::size_t{1} << 30U;
 
 std::uint32_t checksum(std::uint32_t before, std::span<const std::uint8_t> bytes) {
   return static_cast<std::uint32_t>(::crc32_z(before, bytes.data(), bytes.size()));
-}
-
-/// Values one after the other, of a record.
-class Values {
- public:
-  explicit Values(std::span<const std::uint8_t> bytes) : rest_(bytes) {}
-
-  std::span<const std::uint8_t> take(std::uint64_t size) {
-    if (size > rest_.size()) throw InputError({}, "a record that says more than it holds");
-    const auto front = rest_.first(size);
-    rest_ = rest_.subspan(size);
-    return front;
-  }
-  template <class T>
-  T number() {
-    T value;
-    std::memcpy(&value, take(sizeof(T)).data(), sizeof(T));
-    return value;
-  }
-  std::string text() {
-    const auto bytes = take(number<std::uint32_t>());
-    return {bytes.begin(), bytes.end()};
-  }
-  [[nodiscard]] std::span<const std::uint8_t> rest() const { return rest_; }
-
- private:
-  std::span<const std::uint8_t> rest_;
-};
-
-struct Head {
-  Op op{};
-  std::uint64_t size = 0;
-};
-
-Head head_of(std::span<const std::uint8_t> bytes) {
-  Values values(bytes);
-  const auto op = values.number<std::uint8_t>();
-  return {static_cast<Op>(op), values.number<std::uint64_t>()};
 }
 
 class McapReader final : public MessageSource {
@@ -98,6 +64,11 @@ class McapReader final : public MessageSource {
     return found;
   }
 
+  [[nodiscard]] std::vector<std::string> left_out() const override {
+    if (!unclosed_) return {};
+    return {not_closed(rest_bytes_, size_)};
+  }
+
   [[nodiscard]] Nanoseconds start() override { return blocks_.empty() ? 0 : blocks_.front().start; }
 
  private:
@@ -119,15 +90,18 @@ class McapReader final : public MessageSource {
     return bytes;
   }
 
-  /// Magic at both ends, and the footer.
+  /// Magic at both ends, and the footer, which a file that was not closed lacks.
   void read_ends() {
     const std::uint64_t least = 2 * mcap::magic.size() + mcap::head_bytes + mcap::footer_bytes;
     const auto is_magic = [&](std::uint64_t at) {
       return std::ranges::equal(read(at, mcap::magic.size()), mcap::magic);
     };
-    if (size_ < least || !is_magic(size_ - mcap::magic.size()))
-      throw InputError(mark_, "an MCAP file that was not closed or is cut off; `mcap recover` may save it");
-    if (!is_magic(0)) throw InputError(mark_, "is no MCAP file");
+    if (size_ < mcap::magic.size() || !is_magic(0)) throw InputError(mark_, "is no MCAP file");
+    if (size_ < least || !is_magic(size_ - mcap::magic.size())) {
+      unclosed_ = true;
+      data_end_ = size_;
+      return;
+    }
     record_at_ = size_ - mcap::magic.size() - mcap::footer_bytes - mcap::head_bytes;
     const Bytes footer = read(record_at_, mcap::head_bytes + mcap::footer_bytes);
     const Head head = head_of(footer);
@@ -166,18 +140,22 @@ class McapReader final : public MessageSource {
   void find_blocks() {
     std::uint64_t at = mcap::magic.size();
     std::size_t chunks = 0;
-    while (at + mcap::head_bytes <= data_end_) {
+    bool ended = false;
+    while (!ended && at + mcap::head_bytes <= data_end_) {
       record_at_ = at;
       const Head head = head_of(read(at, mcap::head_bytes));
-      if (head.size > data_end_ - at - mcap::head_bytes)
-        throw InputError({}, "a record that goes beyond the data's end");
-      if (head.op == Op::data_end) break;
+      const bool is_whole = head.size <= data_end_ - at - mcap::head_bytes;
+      if (unclosed_ && (!is_whole || head.op == Op::none)) break;
+      if (!is_whole) throw InputError({}, "a record that goes beyond the data's end");
+      ended = head.op == Op::data_end;
+      if (ended) break;
       chunks += head.op == Op::chunk ? 1 : 0;
       if (head.op == Op::chunk || head.op == Op::message) add_block(head, at);
       const std::uint64_t content_at = at + mcap::head_bytes;
       at = content_at + head.size;
       if (head.op == Op::schema || head.op == Op::channel) take_definition(head.op, read(content_at, head.size));
     }
+    if (unclosed_) leave_out_rest(ended ? size_ : at);
     // What the index has and the data does not is lost.
     if (!chunk_channels_.empty() && chunks != chunk_channels_.size())
       throw InputError(
@@ -185,6 +163,20 @@ class McapReader final : public MessageSource {
     for (Block& block : blocks_)
       if (block.chunk && block.start == 0) block.start = first_time(block);  // some writers leave it out
     std::stable_sort(blocks_.begin(), blocks_.end(), [](const Block& a, const Block& b) { return a.start < b.start; });
+  }
+
+  /// Of a file that was not closed; its last chunk may have its length and not all of its bytes.
+  void leave_out_rest(std::uint64_t whole_until) {
+    if (!blocks_.empty() && blocks_.back().chunk) {
+      try {
+        static_cast<void>(first_time(blocks_.back()));
+      } catch (const InputError&) {
+        whole_until = blocks_.back().at;
+        blocks_.pop_back();
+      }
+    }
+    if (blocks_.empty()) throw InputError(mark_, "an MCAP file that was not closed and holds no whole message");
+    rest_bytes_ = size_ - whole_until;
   }
 
   void add_block(const Head& head, std::uint64_t at) {
@@ -377,6 +369,8 @@ class McapReader final : public MessageSource {
   InputFile file_;
   std::uint64_t size_ = 0, footer_at_ = 0, summary_at_ = 0, data_end_ = 0;
   std::uint32_t summary_crc_ = 0;
+  bool unclosed_ = false;         ///< the file has no end
+  std::uint64_t rest_bytes_ = 0;  ///< behind what is whole of such a file
   std::vector<BagTopic> topics_;
   std::map<std::uint16_t, std::string> schemas_;                     ///< names of types
   std::map<std::uint16_t, std::size_t> channels_;                    ///< to topics

@@ -36,7 +36,17 @@ class MessageSource {
   [[nodiscard]] virtual bool next(RawMessage& message) = 0;
   /// No message was recorded earlier.
   [[nodiscard]] virtual Nanoseconds start() = 0;
+  /// What of the file could not be read, a sentence each.
+  [[nodiscard]] virtual std::vector<std::string> left_out() const { return {}; }
 };
+
+/// What to say of a bag that was not closed, and of its last bytes.
+[[nodiscard]] inline std::string not_closed(std::uint64_t left_out, std::uint64_t all) {
+  const std::string said = "the bag was not closed or is cut off; ";
+  if (left_out == 0) return said + "all that it holds is read";
+  return said + "its last " + std::to_string(left_out) + " of " + std::to_string(all) +
+         " bytes hold no whole record and are left out";
+}
 
 /// A type's name as ROS 1 writes it: without "msg/" in the middle.
 [[nodiscard]] inline std::string plain_type(std::string_view type) {

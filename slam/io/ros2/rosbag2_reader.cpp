@@ -164,6 +164,13 @@ class Files final : public MessageSource {
     waiting_.clear();
     for (std::size_t i = 0; i < files_.size(); ++i) waiting_.emplace(files_[i]->start(), i);
   }
+  [[nodiscard]] std::vector<std::string> left_out() const override {
+    std::vector<std::string> all;
+    for (std::size_t i = 0; i < files_.size(); ++i)
+      for (const std::string& said : files_[i]->left_out())
+        all.push_back("file " + std::to_string(i + 1) + " of " + std::to_string(files_.size()) + ": " + said);
+    return all;
+  }
   [[nodiscard]] Nanoseconds start() override {
     Nanoseconds least = files_.front()->start();
     for (const auto& file : files_) least = std::min(least, file->start());

@@ -11,6 +11,7 @@
 
 #include "slam/io/ros2/ros2_writer.h"
 #include "tests/folder.h"
+#include "tests/input_error.h"
 
 namespace plumbline::slam {
 namespace {
@@ -86,6 +87,82 @@ TEST(McapReader, ChunksOfOneTimeAreOpenedOneAfterTheOther) {
     for (RawMessage message; source->next(message); ++next) EXPECT_EQ(message.bytes[0], next);
     EXPECT_EQ(next, count);
   }
+}
+
+/// An MCAP file of chunks with one message of 2 MB each, at 1, 2, 3.
+std::string three_chunks(const Folder& folder, const std::string& compression) {
+  const std::string file = folder / "whole.mcap";
+  const auto writer = make_mcap_writer(file, compression);
+  const auto topic = writer->add_topic({"/odom", "nav_msgs/msg/Odometry", "x", ""});
+  for (const int time : {1, 2, 3})
+    writer->write(topic, time, std::vector<std::uint8_t>(2'000'000, static_cast<std::uint8_t>(time)));
+  writer->finish();
+  return bytes(file);
+}
+
+struct Found {
+  std::vector<Nanoseconds> times;
+  std::string left_out;
+};
+
+Found read_cut(const Folder& folder, const std::string& mcap) {
+  const std::string file = folder / "cut.mcap";
+  write_bytes(file, mcap);
+  const auto source = open_mcap(file);
+  source->select({"/odom"});
+  Found found;
+  for (RawMessage message; source->next(message);) found.times.push_back(message.time);
+  for (const std::string& said : source->left_out()) found.left_out += said;
+  return found;
+}
+
+TEST(McapReader, AFileThatWasNotClosedIsReadAsFarAsItIsWhole) {
+  const Folder folder;
+  for (const char* compression : {"", "zstd", "lz4"}) {
+    std::string mcap = three_chunks(folder, compression);
+    EXPECT_EQ(read_cut(folder, mcap).left_out, "");
+    const std::vector<std::size_t> chunks = without_chunk_times(mcap);
+    ASSERT_EQ(chunks.size(), 3U);
+    const Found without_magic = read_cut(folder, mcap.substr(0, mcap.size() - 1));
+    EXPECT_EQ(without_magic.times, (std::vector<Nanoseconds>{1, 2, 3}));
+    EXPECT_NE(without_magic.left_out.find("all that it holds is read"), std::string::npos);
+    for (const std::size_t into : {std::size_t{0}, std::size_t{5}, std::size_t{60}, (mcap.size() - chunks[2]) / 8}) {
+      const Found cut = read_cut(folder, mcap.substr(0, chunks[2] + into));
+      EXPECT_EQ(cut.times, (std::vector<Nanoseconds>{1, 2})) << into;
+      if (into > 0) {
+        EXPECT_NE(cut.left_out.find("its last " + std::to_string(into) + " of "), std::string::npos) << cut.left_out;
+      }
+    }
+    std::string blank = mcap.substr(0, mcap.size() - 1);  // a file whose last bytes never came to the disk
+    std::fill(blank.begin() + static_cast<std::ptrdiff_t>(chunks[2] + 40), blank.end(), '\0');
+    EXPECT_EQ(read_cut(folder, blank).times, (std::vector<Nanoseconds>{1, 2}));
+  }
+}
+
+TEST(McapReader, AFileOfWhichNothingIsWholeIsRefused) {
+  const Folder folder;
+  std::string mcap = three_chunks(folder, "");
+  const std::size_t first = without_chunk_times(mcap).front();
+  for (const std::size_t size : {std::size_t{8}, std::size_t{12}, first, first + 1000})
+    EXPECT_NE(input_error([&] { (void)read_cut(folder, mcap.substr(0, size)); }).find("holds no whole message"),
+              std::string::npos)
+        << size;
+  EXPECT_NE(input_error([&] { (void)read_cut(folder, "short"); }).find("is no MCAP file"), std::string::npos);
+  std::string long_record = mcap.substr(0, first + 100);
+  const std::uint64_t length = std::uint64_t{1} << 60U;
+  std::memcpy(&long_record[first + 1], &length, sizeof length);
+  EXPECT_NE(input_error([&] { (void)read_cut(folder, long_record); }).find("holds no whole message"),
+            std::string::npos);
+}
+
+TEST(McapReader, ASpoiltChunkThatIsNotTheLastIsRefused) {
+  const Folder folder;
+  std::string mcap = three_chunks(folder, "");
+  const std::vector<std::size_t> chunks = without_chunk_times(mcap);
+  mcap.resize(mcap.size() - 1);
+  mcap[chunks[1] + 1000] ^= 1;
+  EXPECT_NE(input_error([&] { (void)read_cut(folder, mcap); }).find("a chunk whose checksum is wrong"),
+            std::string::npos);
 }
 
 }  // namespace
