@@ -13,6 +13,7 @@
 
 #include "bim/errors.h"
 #include "slam/io/bags/bag_check.h"
+#include "slam/io/bags/ros1_unindexed.h"
 #include "slam/io/bags/ros_message.h"
 #include "slam/io/packets/point_cloud.h"
 #include "slam/io/ros2/mcap_reader.h"
@@ -45,6 +46,12 @@ void read_all(plumbline::slam::MessageSource& source) {
   source.select(names);
   for (plumbline::slam::RawMessage message; source.next(message);) {
   }
+}
+
+/// Also as if it had no index.
+void read_bag(const std::string& file) {
+  read_all(*plumbline::slam::open_unindexed_bag(file, [](const auto&, auto) { return Encoding::ros1; }));
+  plumbline::slam::check_bag(file);
 }
 
 /// The first byte chooses the message.
@@ -90,7 +97,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         read_all(*plumbline::slam::open_rosbag2_folder(folder()));
         break;
       case 3:
-        plumbline::slam::check_bag(file_with("fuzz.bag", rest));
+        read_bag(file_with("fuzz.bag", rest));
         break;
       default:
         read_message(rest);

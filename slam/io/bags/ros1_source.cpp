@@ -15,13 +15,14 @@
 
 #include "bim/errors.h"
 #include "slam/io/bags/bag_check.h"
+#include "slam/io/bags/ros1_unindexed.h"
 
 namespace plumbline::slam {
 
 namespace {
 
-/// The checksum of the definition that we read, of a type that we read.
-std::optional<std::string> known_md5(const std::string& type) {
+/// Known where the definition is the one that we read, or the type is none that we do.
+Encoding encoding_of_type(const std::string& type, std::string_view md5) {
   namespace traits = ::ros::message_traits;
   static const std::map<std::string, std::string> known = {
       {traits::DataType<sensor_msgs::PointCloud2>::value(), traits::MD5Sum<sensor_msgs::PointCloud2>::value()},
@@ -30,22 +31,20 @@ std::optional<std::string> known_md5(const std::string& type) {
       {traits::DataType<tf2_msgs::TFMessage>::value(), traits::MD5Sum<tf2_msgs::TFMessage>::value()},
   };
   const auto found = known.find(type);
-  return found == known.end() ? std::nullopt : std::optional(found->second);
+  return found == known.end() || found->second == md5 ? Encoding::ros1 : Encoding::unknown;
 }
 
 class Ros1Source final : public MessageSource {
  public:
   explicit Ros1Source(const std::string& path) : mark_{path, 0, 0} {
     guarded([&] {
-      check_bag(path);
       bag_.open(path, rosbag::bagmode::Read);
       rosbag::View all(bag_);
       for (const rosbag::ConnectionInfo* connection : all.getConnections()) {
         if (ids_.contains(connection->topic)) continue;
-        const std::optional<std::string> md5 = known_md5(connection->datatype);
-        const bool known = !md5 || *md5 == connection->md5sum;
         ids_[connection->topic] = topics_.size();
-        topics_.push_back({connection->topic, connection->datatype, known ? Encoding::ros1 : Encoding::unknown});
+        topics_.push_back(
+            {connection->topic, connection->datatype, encoding_of_type(connection->datatype, connection->md5sum)});
       }
     });
   }
@@ -87,8 +86,6 @@ class Ros1Source final : public MessageSource {
       function();
     } catch (const InputError&) {
       throw;
-    } catch (const rosbag::BagUnindexedException&) {
-      throw InputError(mark_, "a bag that was not closed or is cut off; rosbag reindex may save it");
     } catch (const std::exception& error) {
       throw InputError(mark_, std::string("not a valid ROS 1 bag: ") + error.what());
     }
@@ -106,6 +103,11 @@ class Ros1Source final : public MessageSource {
 
 std::unique_ptr<MessageSource> open_ros1_bag(const std::string& path) {
   console_bridge::noOutputHandler();  // the library prints what it also throws
+  try {
+    check_bag(path);
+  } catch (const NoIndex&) {
+    return open_unindexed_bag(path, encoding_of_type);
+  }
   return std::make_unique<Ros1Source>(path);
 }
 

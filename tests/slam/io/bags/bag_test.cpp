@@ -218,7 +218,10 @@ TEST_F(BagTest, NamesWhatIsWrong) {
     fs::copy_file(path, file("cut.bag"), fs::copy_options::overwrite_existing);
     fs::resize_file(file("cut.bag"), static_cast<std::uintmax_t>(share * static_cast<double>(size)));
     const std::string text = complaint(file("cut.bag"));
-    EXPECT_EQ(text.rfind(file("cut.bag"), 0), 0U) << share << ": " << text;
+    if (share < 0.9)
+      EXPECT_EQ(text.rfind(file("cut.bag"), 0), 0U) << share << ": " << text;
+    else
+      EXPECT_EQ(text, "no error") << share << ": the index alone is cut";
   }
   for (SensorFrame& frame : frames)
     for (Odometry& record : frame.odometry) record.X_OR.t.x() = std::numeric_limits<double>::quiet_NaN();

@@ -153,7 +153,13 @@ TEST_F(Ros2Bag, NoByteOfAnMcapIsBelieved) {
   EXPECT_GT(found, static_cast<int>(whole.size()));
   for (std::size_t size = 0; size < whole.size(); ++size) {
     write_bytes(file("cut.mcap"), whole.substr(0, size));
-    EXPECT_THROW((void)messages("cut.mcap"), InputError) << size;
+    try {
+      const std::vector<ros::Bytes> some = messages("cut.mcap");
+      ASSERT_LE(some.size(), expected.size()) << size;
+      EXPECT_TRUE(std::equal(some.begin(), some.end(), expected.begin())) << size;
+    } catch (const InputError&) {
+      EXPECT_LT(size, whole.size() - 8) << "all but the end";
+    }
   }
 }
 

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/io/bags/ros1_unindexed.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "bim/errors.h"
+#include "bim/random/stream.h"
+#include "slam/io/bags/bag.h"
+#include "slam/io/bags/bag_source.h"
+#include "tests/folder.h"
+#include "tests/input_error.h"
+#include "tests/slam/io/bags/bag_of_four_scans.h"
+
+namespace plumbline::slam {
+namespace {
+
+template <class T>
+std::string raw_bytes(T value) {
+  std::string bytes(sizeof(T), '\0');
+  std::memcpy(bytes.data(), &value, sizeof(T));
+  return bytes;
+}
+std::string length(std::size_t value) { return raw_bytes(static_cast<std::uint32_t>(value)); }
+std::string header_field(const std::string& name, const std::string& value) {
+  return length(name.size() + 1 + value.size()) + name + "=" + value;
+}
+std::string bag_record(const std::string& header, const std::string& data) {
+  return length(header.size()) + header + length(data.size()) + data;
+}
+std::string kind(char code) { return header_field("op", std::string(1, code)); }
+
+/// The bag's head with an index at 0, as while a bag is being written.
+std::string open_head() {
+  return "#ROSBAG V2.0\n" +
+         bag_record(kind(3) + header_field("index_pos", raw_bytes(std::uint64_t{0})) +
+                        header_field("conn_count", length(0)) + header_field("chunk_count", length(0)),
+                    std::string(20, ' '));
+}
+std::string connection(const std::string& topic) {
+  return bag_record(kind(7) + header_field("conn", length(0)) + header_field("topic", topic),
+                    header_field("type", "x/Y") + header_field("md5sum", "0"));
+}
+std::string message(std::uint32_t s, std::uint32_t ns, const std::string& data) {
+  return bag_record(kind(2) + header_field("conn", length(0)) + header_field("time", raw_bytes(s) + raw_bytes(ns)),
+                    data);
+}
+std::string chunk(const std::string& records) {
+  return bag_record(kind(5) + header_field("compression", "none") + header_field("size", length(records.size())),
+                    records);
+}
+
+class UnindexedBagTest : public ::testing::Test {
+ protected:
+  std::string write(const std::string& bytes) {
+    std::ofstream(folder_ / "x.bag", std::ios::binary) << bytes;
+    return folder_ / "x.bag";
+  }
+  /// "time:data" of its messages, and what is left out.
+  std::string read(const std::string& bytes) {
+    const auto source = open_source(write(bytes));
+    source->select({"/t"});
+    std::string all;
+    for (RawMessage m; source->next(m);)
+      all += std::to_string(m.time) + ":" + std::string(m.bytes.begin(), m.bytes.end()) + " ";
+    return all + (source->left_out().empty() ? "" : source->left_out().front());
+  }
+  Folder folder_;
+};
+
+TEST_F(UnindexedBagTest, GivesWholeMessagesInTheOrderOfTime) {
+  const std::string two = chunk(connection("/t") + message(1, 5, "b") + message(0, 7, "a"));
+  EXPECT_EQ(read(open_head() + two),
+            "7:a 1000000005:b the bag was not closed or is cut off; all that it holds is read");
+  const std::string all = open_head() + two + chunk(message(2, 0, "c"));
+  EXPECT_EQ(read(all).find("7:a 1000000005:b 2000000000:c"), 0U);
+  const std::size_t last = chunk(message(2, 0, "c")).size();
+  for (std::size_t missing = 1; missing < last; ++missing) {
+    const std::string left = "its last " + std::to_string(last - missing) + " of ";
+    const std::string said = read(all.substr(0, all.size() - missing));
+    EXPECT_EQ(said.find("7:a 1000000005:b the bag"), 0U) << said;
+    EXPECT_NE(said.find(left), std::string::npos) << said;
+  }
+}
+
+TEST_F(UnindexedBagTest, TakesWhatTheChunkHoldsThatWasBeingWritten) {
+  const std::string open_chunk = chunk("") + connection("/t") + message(0, 1, "a") + message(0, 2, "b");
+  EXPECT_EQ(read(open_head() + open_chunk).find("1:a 2:b the bag"), 0U);
+  EXPECT_NE(read(open_head() + open_chunk + message(0, 3, "cut").substr(0, 20)).find("its last 20 of "),
+            std::string::npos);
+}
+
+TEST_F(UnindexedBagTest, OfDamagedChunksOnlyTheLastIsLeftOut) {
+  const std::string good = chunk(connection("/t") + message(0, 1, "a")), bad = chunk("no records");
+  EXPECT_EQ(read(open_head() + good + bad).find("1:a the bag was not closed or is cut off; its last "), 0U);
+  EXPECT_NE(input_error([&] {
+              (void)read(open_head() + good + bad + good);
+            }).find("a chunk with a record that is longer than the chunk"),
+            std::string::npos);
+}
+
+TEST_F(UnindexedBagTest, LengthsThatTheBagDoesNotHoldAreTheEnd) {
+  const std::string good = chunk(connection("/t") + message(0, 1, "a"));
+  EXPECT_EQ(read(open_head() + good + length(0xFFFFFFF0U) + "xxxx").find("1:a the bag"), 0U);
+  const std::string huge =
+      bag_record(kind(5) + header_field("compression", "lz4") + header_field("size", length(0x0FFFFFFFU)), "1234");
+  EXPECT_EQ(read(open_head() + good + huge).find("1:a the bag"), 0U);
+  for (const std::string& nothing : {std::string(), huge, std::string(40, '\0')})
+    EXPECT_NE(input_error([&] { (void)read(open_head() + nothing); }).find("without a whole message"),
+              std::string::npos);
+}
+
+TEST_F(UnindexedBagTest, ACutBagGivesTheScansThatItHolds) {
+  const std::string path = folder_ / "whole.bag";
+  write_walk(path, BagFormat::ros1);
+  std::ifstream stream(path, std::ios::binary);
+  const std::string whole{std::istreambuf_iterator<char>(stream), {}};
+  const auto scans_of = [&](const std::string& file) {
+    const auto recording = open_bag(file, {}, nullptr);
+    std::vector<Scan> scans;
+    for (SensorFrame frame; recording->next(frame);) scans.push_back(frame.scan);
+    return scans;
+  };
+  const std::vector<Scan> all = scans_of(path);
+  const std::vector<Scan> cut = scans_of(write(whole.substr(0, whole.size() - 40)));
+  ASSERT_EQ(cut.size(), all.size());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    EXPECT_EQ(cut[i].stamp, all[i].stamp);
+    EXPECT_EQ(cut[i].range_m, all[i].range_m);
+  }
+}
+
+// Cut anywhere or with any byte altered, it is read or refused.
+TEST_F(UnindexedBagTest, DamageIsNoCrash) {
+  const std::string path = folder_ / "whole.bag";
+  write_walk(path, BagFormat::ros1);
+  std::ifstream stream(path, std::ios::binary);
+  const std::string whole{std::istreambuf_iterator<char>(stream), {}};
+  const Stream random(3, "bim.generate");
+  std::uint64_t draws = 0;
+  const auto below = [&](std::size_t n) {
+    return static_cast<std::size_t>(random.uniform(draws++) * static_cast<double>(n));
+  };
+  for (int i = 0; i < 200; ++i) {
+    std::string bytes = whole.substr(0, below(whole.size()));
+    for (std::size_t k = below(4); k > 0 && !bytes.empty(); --k)
+      bytes[below(bytes.size())] = static_cast<char>(below(256));
+    const std::string file = write(bytes);
+    (void)input_error([&] {
+      const auto source = open_unindexed_bag(file, [](const auto&, auto) { return Encoding::ros1; });
+      source->select({"/velodyne_points"});
+      for (RawMessage m; source->next(m);) {
+      }
+    });
+  }
+}
+
+}  // namespace
+}  // namespace plumbline::slam
