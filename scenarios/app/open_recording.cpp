@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenarios/app/open_recording.h"
 
-#include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <utility>
@@ -10,6 +9,7 @@
 #include "scenarios/host/files.h"
 #include "scenarios/run/run_files.h"
 #include "slam/io/clouds/cloud_recording.h"
+#include "slam/io/ros2/bag_files.h"
 
 namespace plumbline::scenarios {
 
@@ -41,14 +41,6 @@ void check_no_topics(const RecordingArguments& arguments) {
     if (!value->empty()) throw InputError({name, 0, 0}, "is of bags; '" + arguments.recording + "' has no topics");
 }
 
-/// Databases in a folder without what says that they belong together.
-bool holds_databases(const std::string& folder) {
-  namespace fs = std::filesystem;
-  if (fs::exists(folder + "/metadata.yaml")) return false;
-  const fs::directory_iterator files(folder);
-  return std::any_of(begin(files), end(files), [](const auto& entry) { return entry.path().extension() == ".db3"; });
-}
-
 /// What is not there or only has the name of a bag is said before a reader of captures sees it.
 void check_kind(const std::string& recording) {
   namespace fs = std::filesystem;
@@ -58,10 +50,8 @@ void check_kind(const std::string& recording) {
                      "no such file; a recording directory, a capture (.pcap), a bag (.bag, .mcap, .db3 "
                      "or a rosbag2 folder) or a folder of point clouds would be right");
   if (fs::is_directory(recording, error)) {
-    if (holds_databases(recording))
-      throw InputError({recording, 0, 0},
-                       "is a rosbag2 without metadata.yaml; run ros2 bag reindex on it, or give one "
-                       "of its .db3 files");
+    if (const std::string several = slam::find_bag_files(recording).several; !several.empty())
+      throw InputError({recording, 0, 0}, "holds bags that are not one, " + several + "; give one of them");
     if (const std::string why = slam::why_no_cloud_folder(recording); !why.empty())
       throw InputError({recording, 0, 0}, "holds " + why);
     return;

@@ -125,7 +125,9 @@ TEST_F(Ros2, WhatIsNoneIsRefused) {
   refused("walk.mcap.zstd", "decompress it first");
   fs::create_directory(folder_ / "split");
   write_file(folder_ / "split/split_0.db3", "x");
-  refused("split", "a rosbag2 without metadata.yaml");
+  refused("split", "split_0.db3: is no rosbag2 that can be read");
+  write_file(folder_ / "split/other.db3", "x");
+  refused("split", "holds bags that are not one, 'other.db3' and 'split_0.db3'");
   const Outcome unused = plumbline({"simulate", "quickstart", "-o", folder_ / "walk", "--bag-truth"});
   EXPECT_EQ(unused.code, 2);
   EXPECT_NE(unused.err.find("--bag, --mcap or --rosbag2"), std::string::npos) << unused.err;

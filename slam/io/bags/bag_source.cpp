@@ -8,6 +8,7 @@
 
 #include "bim/config/input_file.h"
 #include "slam/io/bags/ros1_source.h"
+#include "slam/io/ros2/bag_files.h"
 #include "slam/io/ros2/mcap_format.h"
 #include "slam/io/ros2/mcap_reader.h"
 #include "slam/io/ros2/rosbag2_reader.h"
@@ -23,7 +24,7 @@ Kind kind_of(const std::string& path) {
   std::error_code error;
   if (fs::is_directory(path, error)) {
     const std::string metadata = path + "/metadata.yaml";
-    if (!fs::exists(metadata, error)) return Kind::none;
+    if (!fs::exists(metadata, error)) return find_bag_files(path).names.empty() ? Kind::none : Kind::folder;
     constexpr std::uint64_t most_metadata_bytes = 16U << 20U;
     return read_text_file(metadata, most_metadata_bytes).find("rosbag2_bagfile_information") != std::string::npos
                ? Kind::folder

@@ -4,15 +4,18 @@
 #include <sqlite3.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <map>
 #include <set>
+#include <span>
 #include <string_view>
 #include <utility>
 
 #include "bim/config/input_file.h"
 #include "bim/config/tree.h"
 #include "bim/errors.h"
+#include "slam/io/ros2/bag_files.h"
 #include "slam/io/ros2/compression.h"
 #include "slam/io/ros2/mcap_reader.h"
 
@@ -76,7 +79,7 @@ class DatabaseReader final : public MessageSource {
       const auto* bytes = static_cast<const std::uint8_t*>(sqlite3_column_blob(row_.get(), 2));
       const auto size = static_cast<std::size_t>(sqlite3_column_bytes(row_.get(), 2));
       if (size == 0) throw InputError(mark_, "a message without bytes");
-      if (zstd_)
+      if (zstd_ || is_zstd({bytes, size}))
         message.bytes = unpack_zstd({bytes, size});
       else
         message.bytes.assign(bytes, bytes + size);
@@ -87,6 +90,12 @@ class DatabaseReader final : public MessageSource {
   }
 
  private:
+  /// Without metadata.yaml nothing else says that messages are packed. CDR begins with 0.
+  [[nodiscard]] static bool is_zstd(std::span<const std::uint8_t> bytes) {
+    constexpr std::array<std::uint8_t, 4> magic = {0x28, 0xB5, 0x2F, 0xFD};
+    return bytes.size() >= magic.size() && std::ranges::equal(bytes.first(magic.size()), magic);
+  }
+
   [[noreturn]] void fail() const {
     throw InputError(
         mark_, std::string("is no rosbag2 that can be read: ") + (db_ ? sqlite3_errmsg(db_.get()) : "out of memory"));
@@ -146,7 +155,9 @@ class DatabaseReader final : public MessageSource {
 /// Several files of one bag, as one in the order of time. A file is begun when its first message may be the next.
 class Files final : public MessageSource {
  public:
-  explicit Files(std::vector<std::unique_ptr<MessageSource>> files) : files_(std::move(files)) {
+  /// said: what left_out() begins with.
+  explicit Files(std::vector<std::unique_ptr<MessageSource>> files, std::vector<std::string> said = {})
+      : files_(std::move(files)), said_(std::move(said)) {
     for (const auto& file : files_) {
       std::vector<std::size_t>& to = topic_of_.emplace_back();
       for (const BagTopic& topic : file->topics()) {
@@ -165,7 +176,7 @@ class Files final : public MessageSource {
     for (std::size_t i = 0; i < files_.size(); ++i) waiting_.emplace(files_[i]->start(), i);
   }
   [[nodiscard]] std::vector<std::string> left_out() const override {
-    std::vector<std::string> all;
+    std::vector<std::string> all = said_;
     for (std::size_t i = 0; i < files_.size(); ++i)
       for (const std::string& said : files_[i]->left_out())
         all.push_back("file " + std::to_string(i + 1) + " of " + std::to_string(files_.size()) + ": " + said);
@@ -199,6 +210,7 @@ class Files final : public MessageSource {
   }
 
   std::vector<std::unique_ptr<MessageSource>> files_;
+  std::vector<std::string> said_;
   std::vector<std::vector<std::size_t>> topic_of_;
   std::vector<BagTopic> topics_;
   std::set<std::pair<Nanoseconds, std::size_t>> waiting_;  ///< files that are not begun, by their start
@@ -224,6 +236,19 @@ std::string path_of(const std::string& folder, const Tree& name) {
   return (fs::path(folder) / relative).string();
 }
 
+/// Of a folder without metadata.yaml.
+std::unique_ptr<MessageSource> open_bag_files(const std::string& folder, const BagFiles& found) {
+  std::vector<std::unique_ptr<MessageSource>> files;
+  const auto open_bytes = std::make_shared<std::size_t>(0);
+  for (const std::string& name : found.names) {
+    const std::string file = folder + "/" + name;
+    files.push_back(name.ends_with(".mcap") ? open_mcap(file, open_bytes) : open_rosbag2_database(file));
+  }
+  std::vector<std::string> said;
+  if (!found.missing.empty()) said.push_back("the bag's file '" + found.missing + "' is missing");
+  return std::make_unique<Files>(std::move(files), std::move(said));
+}
+
 }  // namespace
 
 std::unique_ptr<MessageSource> open_rosbag2_database(const std::string& path, bool zstd) {
@@ -233,6 +258,7 @@ std::unique_ptr<MessageSource> open_rosbag2_database(const std::string& path, bo
 std::unique_ptr<MessageSource> open_rosbag2_folder(const std::string& folder) {
   constexpr std::uint64_t most_metadata_bytes = 16U << 20U;
   const std::string path = folder + "/metadata.yaml";
+  if (const BagFiles found = find_bag_files(folder); !found.names.empty()) return open_bag_files(folder, found);
   const Tree all = read_yaml(read_text_file(path, most_metadata_bytes), path);
   const Tree& info = need(all, "rosbag2_bagfile_information");
   const std::string storage = need(info, "storage_identifier").as_string();

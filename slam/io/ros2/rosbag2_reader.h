@@ -12,8 +12,9 @@ namespace plumbline::slam {
 /// is never written, nor is anything run that is stored in it; messages above 256 MiB are refused. Throws InputError.
 [[nodiscard]] std::unique_ptr<MessageSource> open_rosbag2_database(const std::string& path, bool zstd = false);
 
-/// Opens a rosbag2 folder by its metadata.yaml: the files that it names, in SQLite or MCAP, as one. Throws InputError,
-/// also where a file is missing, stands elsewhere than in the folder, or is compressed as a whole.
+/// Opens a rosbag2 folder by its metadata.yaml: the files that it names, in SQLite or MCAP, as one; without it, those
+/// of find_bag_files(). Throws InputError, also where a file is missing, stands elsewhere than in the folder, or is
+/// compressed as a whole.
 [[nodiscard]] std::unique_ptr<MessageSource> open_rosbag2_folder(const std::string& folder);
 
 }  // namespace plumbline::slam

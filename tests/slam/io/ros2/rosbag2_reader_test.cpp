@@ -3,6 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "slam/io/ros2/compression.h"
 #include "slam/io/ros2/ros2_writer.h"
 #include "tests/bag_database.h"
 #include "tests/folder.h"
@@ -39,6 +44,52 @@ TEST(Rosbag2Reader, MessagesAreFoundByTheirRows) {
           "data BLOB) WITHOUT ROWID;");
   const std::string complaint = input_error([&] { (void)messages(); });
   EXPECT_EQ(complaint.rfind(database + ": its table 'messages' is WITHOUT ROWID", 0), 0U) << complaint;
+}
+
+/// A bag of one message at each of these times, as SQLite.
+void write_database(const std::string& folder, const std::string& name, std::vector<int> times) {
+  const auto writer = make_rosbag2_writer(folder, name);
+  const auto topic = writer->add_topic({"/odom", "nav_msgs/msg/Odometry", "x", ""});
+  for (const int time : times)
+    writer->write(topic, time, std::vector<std::uint8_t>{0, static_cast<std::uint8_t>(time)});
+  writer->finish();
+}
+
+std::vector<Nanoseconds> times_in(MessageSource& source) {
+  source.select({"/odom"});
+  std::vector<Nanoseconds> times;
+  for (RawMessage message; source.next(message);) times.push_back(message.time);
+  return times;
+}
+
+TEST(Rosbag2Reader, FilesWithRunningNumbersAreOneBagWithoutMetadata) {
+  namespace fs = std::filesystem;
+  const Folder folder;
+  write_database(folder / "a", "walk", {2, 5});
+  write_database(folder / "b", "walk", {1, 7});
+  fs::remove(folder / "a/metadata.yaml");
+  EXPECT_EQ(times_in(*open_rosbag2_folder(folder / "a")), (std::vector<Nanoseconds>{2, 5}));
+  fs::rename(folder / "b/walk_0.db3", folder / "a/walk_10.db3");
+  const auto both = open_rosbag2_folder(folder / "a");
+  EXPECT_EQ(times_in(*both), (std::vector<Nanoseconds>{1, 2, 5, 7}));
+  ASSERT_EQ(both->left_out().size(), 1U);
+  EXPECT_EQ(both->left_out().front(), "the bag's file 'walk_1.db3' is missing");
+}
+
+TEST(Rosbag2Reader, MessagesArePackedWhereTheyLookSo) {
+  const Folder folder;
+  const std::vector<std::uint8_t> packed = pack("zstd", std::vector<std::uint8_t>(300, 7));
+  {
+    const auto writer = make_rosbag2_writer(folder / "a", "walk");
+    const auto topic = writer->add_topic({"/odom", "nav_msgs/msg/Odometry", "x", ""});
+    writer->write(topic, 1, packed);
+    writer->finish();
+  }
+  const auto source = open_rosbag2_database(folder / "a/walk_0.db3");
+  source->select({"/odom"});
+  RawMessage message;
+  ASSERT_TRUE(source->next(message));
+  EXPECT_EQ(message.bytes, std::vector<std::uint8_t>(300, 7));
 }
 
 }  // namespace
