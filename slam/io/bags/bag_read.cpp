@@ -13,6 +13,7 @@
 #include "slam/io/bags/odometry_motion.h"
 #include "slam/io/bags/record_queue.h"
 #include "slam/io/bags/ros_message.h"
+#include "slam/io/packets/point_units.h"
 
 namespace plumbline::slam {
 
@@ -71,8 +72,10 @@ class BagRecording final : public Recording {
     return all;
   }
   [[nodiscard]] std::vector<std::string> assumed() const override {
-    if (times_.said.empty()) return {};
-    return {topics_.points + ": " + times_.said};
+    std::vector<std::string> all = units_.said();
+    if (!times_.said.empty()) all.push_back(times_.said);
+    for (std::string& said : all) said = topics_.points + ": " + said;
+    return all;
   }
   [[nodiscard]] Taken taken() const override {
     Taken taken{topics_.points, topics_.odometry, unjoined_imu_ ? "" : topics_.imu, {}, lidar_, mount_};
@@ -302,6 +305,7 @@ class BagRecording final : public Recording {
       if (!scan_frame_.takes(said.frame)) return;
       CloudScan read = named(topic, [&] { return read_scan(said.cloud, times_.times); });
       without_rings_ += read.rings_left_out ? 1 : 0;
+      units_.add(read);
       read.scan.stamp = shifted(read.scan.stamp);
       scans_.add(read.scan, topics_.points);
     } else if (is_odometry(topic.type)) {
@@ -359,6 +363,7 @@ class BagRecording final : public Recording {
   std::string lidar_;  ///< L
   MountSource mount_ = MountSource::unknown;
   AssumedTimes times_;
+  PointUnits units_;
   OneFrame scan_frame_, odometry_frame_;
   RecordQueue<Scan> scans_;
   RecordQueue<Odometry> odometry_;

@@ -14,6 +14,7 @@
 #include "slam/io/clouds/bin_cloud.h"
 #include "slam/io/clouds/cloud_file.h"
 #include "slam/io/clouds/cloud_times.h"
+#include "slam/io/packets/point_units.h"
 
 namespace plumbline::slam {
 
@@ -123,6 +124,7 @@ class CloudRecording final : public Recording {
         continue;
       }
       without_rings_ += read.rings_left_out ? 1 : 0;
+      units_.add(read);
       last_ = read.scan.stamp;
       frame = {};
       frame.scan = std::move(read.scan);
@@ -141,7 +143,7 @@ class CloudRecording final : public Recording {
     return all;
   }
   [[nodiscard]] std::vector<std::string> assumed() const override {
-    std::vector<std::string> all;
+    std::vector<std::string> all = units_.said();
     if (!times_.said.empty()) all.push_back(times_.said);
     if (stamps_.empty() && mount_ == MountSource::unknown && is_bin_cloud(names_.front()))
       all.push_back(
@@ -218,6 +220,7 @@ class CloudRecording final : public Recording {
   Nanoseconds period_;
   std::vector<std::string> names_;
   AssumedTimes times_;
+  PointUnits units_;
   std::vector<Nanoseconds> stamps_;  ///< of the clouds, on their own clock; empty: not known
   Nanoseconds origin_ = 0;
   std::size_t next_ = 0;

@@ -75,6 +75,14 @@ const PointField* time_field(const PointCloud& cloud) {
   return find_field(cloud, {"t", "time", "timestamp", "time_stamp"});
 }
 
+bool is_in_mm(const PointCloud& cloud) {
+  const auto is_whole = [&](std::string_view name) {
+    const PointField* field = find_field(cloud, {name});
+    return field != nullptr && field->type >= PointType::i16 && field->type <= PointType::u32;
+  };
+  return is_whole("x") && is_whole("y") && is_whole("z");
+}
+
 void check_cloud(const PointCloud& cloud) {
   const std::uint64_t points = std::uint64_t{cloud.width} * cloud.height;
   if (points == 0 && !cloud.data.empty()) throw InputError({}, "point cloud with bytes and without points");
@@ -100,13 +108,14 @@ std::vector<CloudPoint> read_untimed(const PointCloud& cloud) {
                                                 &need_field(cloud, "z")};
   const PointField* intensity = find_field(cloud, {"intensity", "reflectivity"});
   const PointField* ring = ring_field(cloud);
+  const double unit_m = is_in_mm(cloud) ? 1e-3 : 1.0;
   std::vector<CloudPoint> points(std::size_t{cloud.width} * cloud.height);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const std::uint8_t* bytes = bytes_of(cloud, i);
     CloudPoint& point = points[i];
     for (int a = 0; a < 3; ++a)
       point.p_L[a] =
-          number_at(bytes + xyz[static_cast<std::size_t>(a)]->offset, xyz[static_cast<std::size_t>(a)]->type);
+          unit_m * number_at(bytes + xyz[static_cast<std::size_t>(a)]->offset, xyz[static_cast<std::size_t>(a)]->type);
     point.valid = point.p_L.allFinite() && point.p_L.norm() <= farthest_m && !point.p_L.isZero(0.0);
     if (intensity != nullptr) {
       const double value = number_at(bytes + intensity->offset, intensity->type);

@@ -17,6 +17,10 @@ namespace plumbline::slam {
 [[nodiscard]] const PointField* ring_field(const PointCloud& cloud);
 [[nodiscard]] const PointField* time_field(const PointCloud& cloud);
 
+/// Whether x, y and z are whole numbers of 16 or 32 bits. Whole metres would be no measurement: depth cameras and raw
+/// data of Livox have mm so.
+[[nodiscard]] bool is_in_mm(const PointCloud& cloud);
+
 /// Throws InputError without a mark where the bytes are not those of the points and fields.
 void check_cloud(const PointCloud& cloud);
 

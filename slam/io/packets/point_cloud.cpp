@@ -38,6 +38,17 @@ std::vector<CloudPoint> read_points(const PointCloud& cloud, const PointTimes& t
   return points;
 }
 
+bool is_far(const std::vector<CloudPoint>& points) {
+  constexpr double farthest_median_m = 500.0;
+  std::size_t returns = 0, far = 0;
+  for (const CloudPoint& point : points) {
+    if (!point.p_L.allFinite() || point.p_L.isZero(0.0)) continue;
+    ++returns;
+    far += point.p_L.norm() > farthest_median_m ? 1 : 0;
+  }
+  return 2 * far > returns;
+}
+
 }  // namespace
 
 PointCloud cloud_of(const Scan& scan, CloudLayout layout) {
@@ -79,6 +90,8 @@ CloudScan read_scan(const PointCloud& cloud, const PointTimes& times) {
   scan.stamp = cloud.stamp;
   if (cloud.width == 0 || cloud.height == 0) return out;
   std::vector<CloudPoint> points = read_points(cloud, times);
+  out.in_mm = is_in_mm(cloud);
+  out.far = is_far(points);
   const bool timed = time_field(cloud) != nullptr;
   const bool named_rings = ring_field(cloud) != nullptr;
   const auto [rings, columns, rings_left_out] = order_points(points, {cloud.width, cloud.height, named_rings, timed});

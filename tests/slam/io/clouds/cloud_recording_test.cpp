@@ -194,6 +194,16 @@ TEST(CloudRecording, LeavesOutCloudsWhoseTimesGoBack) {
   EXPECT_THROW((void)stamps_in(*open_cloud_folder(folder.path())), InputError);
 }
 
+TEST(CloudRecording, WarnsOfPointsThatAreTooFar) {
+  const Folder folder;
+  write_floats(folder / "0.bin", {3000, 4000, 10, 0, 30, 40, 10, 0, 700, 0, 0, 0});
+  write_raw(folder / "times.txt", "0\n");
+  const auto recording = open_cloud_folder(folder.path());
+  (void)stamps_in(*recording);
+  ASSERT_EQ(recording->assumed().size(), 1U);
+  EXPECT_NE(recording->assumed().front().find("divide them by 1000"), std::string::npos);
+}
+
 TEST(CloudRecording, SaysWhatKeepsAFolderFromBeingOne) {
   const Folder folder;
   EXPECT_EQ(why_no_cloud_folder(folder.path()), "");
