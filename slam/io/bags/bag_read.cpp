@@ -13,6 +13,7 @@
 #include "slam/io/bags/odometry_motion.h"
 #include "slam/io/bags/record_queue.h"
 #include "slam/io/bags/ros_message.h"
+#include "slam/io/bags/transform_odometry.h"
 #include "slam/io/packets/point_units.h"
 
 namespace plumbline::slam {
@@ -27,11 +28,9 @@ class BagRecording final : public Recording {
   BagRecording(const std::string& path, const BagTopics& topics, const RecordingInfo* info) : mark_{path, 0, 0} {
     guarded([&] {
       source_ = open_source(path);
+      if (topics.odometry.empty()) source_ = with_odometry_of_transforms(std::move(source_));
       topics_ = choose_topics(*source_, topics, mark_);
-      std::vector<std::string> names = {topics_.points};
-      if (!topics_.odometry.empty()) names.push_back(topics_.odometry);
-      if (!topics_.imu.empty()) names.push_back(topics_.imu);
-      lidar_ = find_frames(names);
+      lidar_ = find_frames(names());
       described_ = info != nullptr;
       if (info != nullptr) {
         info_ = *info;
@@ -40,7 +39,7 @@ class BagRecording final : public Recording {
         find_mount();
       }
       find_times();
-      source_->select(names);
+      source_->select(names());
     });
   }
 
@@ -62,7 +61,8 @@ class BagRecording final : public Recording {
       all.push_back(topics_.imu + " left out: in frame '" + *unjoined_imu_ + "', which /tf_static does not join to '" +
                     base_ + "'; name another topic, or describe the recording: then the two are one");
     if (const std::string tf = moving_transforms(*source_); topics_.odometry.empty() && !tf.empty())
-      all.push_back("no odometry: it is read from nav_msgs/Odometry, which the bag does not hold, and not from " + tf);
+      all.push_back("no odometry: no nav_msgs/Odometry, and on " + tf +
+                    " no moving odom -> base_link to which the LiDAR is joined");
     if (early_ > 0)
       all.push_back(topics_.points + ": " + share_of(early_, scans_.read(), "scans") +
                     " left out: before the first odometry");
@@ -101,6 +101,14 @@ class BagRecording final : public Recording {
       if (has_mark) throw;
       throw InputError(mark_, "message " + std::to_string(messages_) + ": " + error.what());
     }
+  }
+
+  /// Of the topics that are read.
+  [[nodiscard]] std::vector<std::string> names() const {
+    std::vector<std::string> all = {topics_.points};
+    for (const std::string* name : {&topics_.odometry, &topics_.imu})
+      if (!name->empty()) all.push_back(*name);
+    return all;
   }
 
   [[nodiscard]] const BagTopic& topic_of(const RawMessage& message) const { return source_->topics()[message.topic]; }
@@ -185,6 +193,9 @@ class BagRecording final : public Recording {
     }
     if (X_RL) {
       info_.mount = recording_info(0, {*X_RL, info_.mount.height_m}, {}).mount;
+    } else if (is_of_transforms(topics_.odometry)) {  // the LiDAR alone is enough
+      topics_.odometry.clear();
+      base_.clear();
     } else if (!frames_.empty() && !lidar_.empty() && !base_.empty()) {
       throw InputError(mark_, topics_.points + " is in frame '" + lidar_ + "', which /tf_static does not join to '" +
                                   base_ +

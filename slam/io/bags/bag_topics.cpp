@@ -82,6 +82,8 @@ BagTopics choose_topics(const MessageSource& source, const BagTopics& asked, con
   return topics;
 }
 
+bool holds_odometry(const MessageSource& source) { return !first_topic(source, is_odometry).empty(); }
+
 std::string moving_transforms(const MessageSource& source) {
   for (const BagTopic& topic : source.topics())
     if (is_transforms(topic.type) && topic.encoding != Encoding::unknown && topic.name.ends_with("/tf"))

@@ -21,6 +21,9 @@ namespace plumbline::slam {
 /// InputError at the mark where no topic holds clouds, or one asked for is not there or of another type.
 [[nodiscard]] BagTopics choose_topics(const MessageSource& source, const BagTopics& asked, const Mark& mark);
 
+/// Whether a topic that could be read holds odometry, which is no truth.
+[[nodiscard]] bool holds_odometry(const MessageSource& source);
+
 /// The topic of transforms that move, /tf or that of a robot's namespace. Empty where there is none.
 [[nodiscard]] std::string moving_transforms(const MessageSource& source);
 
