@@ -125,7 +125,7 @@ TEST_F(Ros2, WhatIsNoneIsRefused) {
   refused("walk.mcap.zstd", "decompress it first");
   fs::create_directory(folder_ / "split");
   write_file(folder_ / "split/split_0.db3", "x");
-  refused("split", "split_0.db3: is no rosbag2 that can be read");
+  refused("split", "it has no table");
   write_file(folder_ / "split/other.db3", "x");
   refused("split", "holds bags that are not one, 'other.db3' and 'split_0.db3'");
   const Outcome unused = plumbline({"simulate", "quickstart", "-o", folder_ / "walk", "--bag-truth"});

@@ -49,12 +49,12 @@ BagFiles find_bag_files(const std::string& folder) {
   }
   std::sort(parts.begin(), parts.end(),
             [](const Part& a, const Part& b) { return std::tie(a.number, a.name) < std::tie(b.number, b.name); });
-  for (const Part& part : parts)
-    if (parts.size() > 1 && (!part.number || part.bag != parts.front().bag)) {
-      const Part& other = &part == &parts.front() ? parts.back() : parts.front();
-      files.several = "'" + other.name.substr(0, 80) + "' and '" + part.name.substr(0, 80) + "'";
-      return files;
-    }
+  for (std::size_t i = 1; i < parts.size(); ++i) {
+    const Part &first = parts.front(), &other = parts[i];
+    if (first.number && other.number && other.bag == first.bag) continue;
+    files.several = "'" + first.name.substr(0, 80) + "' and '" + other.name.substr(0, 80) + "'";
+    return files;
+  }
   for (std::size_t i = 0; i < parts.size(); ++i) {
     if (files.missing.empty() && parts[i].number.value_or(0) > i)
       files.missing = parts[i].bag.substr(0, parts[i].bag.rfind('.')) + "_" + std::to_string(i) +

@@ -38,6 +38,11 @@ TEST(BagFiles, OfDifferentBagsAreNone) {
   }
 }
 
+TEST(BagFiles, TwoOfDifferentBagsAreNamed) {
+  EXPECT_EQ(found_among({"a_0.db3", "other.db3"}).several, "'other.db3' and 'a_0.db3'");
+  EXPECT_EQ(found_among({"a_0.db3", "b_1.db3"}).several, "'a_0.db3' and 'b_1.db3'");
+}
+
 TEST(BagFiles, AreNoneWhereTheFolderSaysWhatItIs) {
   for (const char* says : {"metadata.yaml", "recording.yaml"}) {
     EXPECT_TRUE(found_among({"a.mcap", says}).names.empty());
