@@ -8,6 +8,8 @@
 #include "bim/errors.h"
 #include "scenarios/host/files.h"
 #include "scenarios/run/run_files.h"
+#include "slam/io/clouds/bin_cloud.h"
+#include "slam/io/clouds/cloud_header.h"
 #include "slam/io/clouds/cloud_recording.h"
 #include "slam/io/ros2/bag_files.h"
 
@@ -64,6 +66,8 @@ void check_kind(const std::string& recording) {
     throw InputError({recording, 0, 0}, "is no ROS 1 bag; one begins with '#ROSBAG V2.0'");
   if (fs::path(recording).extension() == ".mcap" || fs::path(recording).extension() == ".db3")
     throw InputError({recording, 0, 0}, "is no ROS 2 bag; an MCAP or an SQLite file would be right");
+  if (slam::is_cloud_file(recording) || slam::is_bin_cloud(recording))
+    throw InputError({recording, 0, 0}, "is one scan; give the folder that holds it and others");
 }
 
 }  // namespace

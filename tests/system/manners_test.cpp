@@ -132,6 +132,10 @@ TEST_F(Manners, WhatIsNoBagIsSaidInWordsAboutBags) {
     EXPECT_NE(complaint("odd.bag").find("odd.bag: is no ROS 1 bag"), std::string::npos);
     EXPECT_EQ(complaint("odd.bag").find("pcap"), std::string::npos);
   }
+  for (const char* name : {"0.bin", "0.pcd"}) {
+    write_file(folder_ / name, "0123456789abcdef");
+    EXPECT_NE(complaint(name).find("is one scan; give the folder"), std::string::npos);
+  }
   // A record says that it has 2 GB.
   write_file(folder_ / "long.bag", "#ROSBAG V2.0\n" + std::string(60, 'x'));
   Setting little;

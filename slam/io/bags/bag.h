@@ -80,7 +80,8 @@ struct BagTopics {
 /// scans before the odometry, and an IMU that /tf_static does not join to the robot; the mount comes from /tf_static
 /// where `info` is null, and so does the IMU's attitude where it is there. What points' times count from is told once,
 /// from the first scans. A ROS 1 bag is checked as a whole first (check_bag), others as they are read. O is moved to
-/// the robot's first position and heading. Throws InputError when it is no bag, was not closed, holds no cloud, has a
+/// the robot's first position and heading. Without odometry a joint that moves on /tf stands for it, see
+/// with_odometry_of_transforms(), where the mount is known. Throws InputError when it is no bag, holds no cloud, has a
 /// LiDAR that /tf_static does not join to the robot, odometry that overlaps no scan or has one stamp, or loses more
 /// than half of its scans or odometry so.
 [[nodiscard]] std::unique_ptr<Recording> open_bag(const std::string& path, const BagTopics& topics,
