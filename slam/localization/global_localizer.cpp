@@ -105,7 +105,12 @@ void GlobalLocalizer::update_state(const PlanIndex& index, const StartPrior& sta
   failed_updates_ = fit.penetration_ratio_other_walls() > c.restart_penetration_ratio ? failed_updates_ + 1 : 0;
   if (failed_updates_ >= c.restart_updates) return restart();
 
-  const bool decisive = fits && best_is_decisive();
+  // Where the plan has no floor the leader says that the robot is outdoors, or that the plan is another building's.
+  const auto has_floor = [&] {
+    const PoseHypothesis& best = hypotheses.front();
+    return index.storeys[static_cast<std::size_t>(best.storey)].has_floor_at(best.X_IH.t);
+  };
+  const bool decisive = fits && best_is_decisive() && has_floor();
   converged_travel_m_ = decisive && converged_updates_ > 0 ? converged_travel_m_ + walked : 0.0;
   converged_updates_ = decisive ? converged_updates_ + 1 : 0;
   if (converged_updates_ < c.updates || converged_travel_m_ < c.travel_m) return;

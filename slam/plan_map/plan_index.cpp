@@ -240,6 +240,15 @@ int StoreyIndex::room_at(const Eigen::Vector2d& p) const {
   return -1;
 }
 
+bool StoreyIndex::has_floor_at(const Eigen::Vector2d& p_I) const {
+  constexpr double doorway_m = 0.3;  // from a room, in a wall of twice that
+  constexpr double reach_m = 0.3;    // up and down: uneven floors, thresholds
+  const double z = floor_at(p_I) + reach_m;
+  return structure->ground_below({p_I.x(), p_I.y(), z}, 2.0 * reach_m) || room_at(p_I) >= 0 ||
+         std::any_of(rooms.begin(), rooms.end(),
+                     [&](const LocalRoom& room) { return boundary_distance(room.polygon, p_I) <= doorway_m; });
+}
+
 double PlanIndex::free_area() const {
   double area = 0.0;
   for (const StoreyIndex& storey : storeys)

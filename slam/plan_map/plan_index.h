@@ -88,6 +88,8 @@ struct StoreyIndex {
   [[nodiscard]] std::vector<Plane> floor_planes() const;
   /// Room that holds p, or -1 (ties: lowest).
   [[nodiscard]] int room_at(const Eigen::Vector2d& p) const;
+  /// True in a room, in a doorway and wherever else the plan has something to stand on at the storey's height.
+  [[nodiscard]] bool has_floor_at(const Eigen::Vector2d& p_I) const;
 };
 
 /// The plan as the localization uses it. Everything stands in a frame I that the plan itself fixes: origin and x axis

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
+
+#include "slam/plan_map/plan_mesh.h"
 #include "tests/slam/localization/house_plan.h"
 #include "tests/slam/localization/house_scan.h"
 
@@ -57,6 +60,42 @@ TEST(GlobalLocalizer, KnowsNothingOfTheWayBeforeARestart) {
     for (std::size_t k = 0; k < a.size(); ++k) EXPECT_EQ(a[k].digest, b[k].digest) << a[k].stage << " " << i;
   }
   EXPECT_FALSE(stood.hypotheses().empty());
+}
+
+/// The plan's walls alone, without anything to stand on.
+std::shared_ptr<const Structure> without_slabs(const StoreyIndex& storey) {
+  bim::BuildingMesh mesh = plan_mesh(storey);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    if (mesh.elements[static_cast<std::size_t>(mesh.element[i])].kind == bim::ElementKind::slab) continue;
+    mesh.triangles[kept] = mesh.triangles[i];
+    mesh.element[kept++] = mesh.element[i];
+  }
+  mesh.triangles.resize(kept);
+  mesh.element.resize(kept);
+  return std::make_shared<const Structure>(mesh);
+}
+
+TEST(GlobalLocalizer, IsSureOnlyWhereThePlanHasAFloor) {
+  const synthetic::House house = synthetic::corridor_house();
+  PlanIndex index = make_plan_index(synthetic::plan_of(house), "ground", {});
+  const auto state_after_walk = [&] {
+    StartPrior start;
+    start.yaw_I = (index.X_WI.inverse() * Pose::from_xyz_yaw({0.0, 0.0, 0.0}, 0.3)).yaw();
+    GlobalLocalizer search({}, 7);
+    for (int i = 0; i < 24; ++i) {
+      const Pose X_WR = Pose::from_xyz_yaw({3.0 + 0.25 * i, 1.1, 0.46}, 0.3);
+      search.update(index, start, synthetic::house_scan(house, X_WR, X_WR).scan);
+    }
+    return search.state();
+  };
+  EXPECT_EQ(state_after_walk(), State::converged);
+  StoreyIndex& storey = index.storeys.front();
+  storey.structure = without_slabs(storey);
+  EXPECT_EQ(state_after_walk(), State::converged);  // a room needs no slab
+  storey.rooms.erase(storey.rooms.begin() +
+                     storey.room_at((index.X_WI.inverse() * Eigen::Vector3d(5.0, 1.1, 0.0)).head<2>()));
+  EXPECT_NE(state_after_walk(), State::converged);
 }
 
 }  // namespace

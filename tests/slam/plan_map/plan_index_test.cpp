@@ -7,6 +7,8 @@
 #include <array>
 
 #include "bim/errors.h"
+#include "bim/mesh/mesh.h"
+#include "bim/model/building.h"
 #include "bim/random/stream.h"
 #include "slam/plan_map/pose2.h"
 #include "tests/slam/localization/house_plan.h"
@@ -65,6 +67,27 @@ TEST(PlanIndex, KnowsTheFloorAtAPlaceHoweverThePlanIsMoved) {
     EXPECT_NEAR(index.storeys.front().floor_at(p_I.head<2>()) + index.X_WI.t.z(), expected_W, 2e-5) << x;
     EXPECT_EQ(moved.storeys.front().floor_at(p_I.head<2>()), index.storeys.front().floor_at(p_I.head<2>()));
   }
+}
+
+TEST(PlanIndex, HasFloorInRoomsAndDoorwaysAndWhereThereAreSlabs) {
+  bim::Building building;
+  building.storeys.push_back({"ground", "ground", 0.0, 3.0, 0, {}});
+  bim::Slab terrace;
+  terrace.id = "terrace";
+  terrace.storey = 0;
+  terrace.polygon.outer = {{6.0, 0.0}, {8.0, 0.0}, {8.0, 4.0}, {6.0, 4.0}};
+  building.slabs.push_back(terrace);
+  bim::Plan plan = synthetic::plan_of(synthetic::one_room(5.0, 4.0));
+  plan.structure = bim::build_mesh(building);
+  const PlanIndex index = make_plan_index(plan, "ground", {});
+  const auto has_floor_at = [&](double x, double y) {
+    return index.storeys.front().has_floor_at((index.X_WI.inverse() * Eigen::Vector3d(x, y, 0.0)).head<2>());
+  };
+  EXPECT_TRUE(has_floor_at(2.5, 2.0));
+  EXPECT_TRUE(has_floor_at(-0.2, 2.0));  // as in a doorway of a wall of 0.4 m
+  EXPECT_FALSE(has_floor_at(-1.0, 2.0));
+  EXPECT_TRUE(has_floor_at(7.0, 2.0));
+  EXPECT_FALSE(has_floor_at(9.0, 2.0));
 }
 
 TEST(PlanIndex, IsTheSameToTheBitForAMovedPlan) {
