@@ -19,6 +19,19 @@ namespace {
 /// pull the robot to where it was. Chosen on a corridor with 64 rings at 20 Hz: 1 slides 6 m, 2.5 errs by 3 cm.
 constexpr double lattice_slack = 2.5;
 
+/// Of a scan with more surfels so many are registered; all of them are mapped. Chosen on a hall of 60 x 40 m with 128
+/// rings at 5 Hz, whose scans have 20,000: time grows with their number, accuracy does not.
+constexpr std::size_t most_registered = 5000;
+
+/// At most so many of the surfels, evenly spread over the sweep.
+std::vector<Surfel> thinned(const std::vector<Surfel>& surfels, std::size_t most) {
+  if (surfels.size() <= most) return surfels;
+  std::vector<Surfel> kept;
+  kept.reserve(most);
+  for (std::size_t k = 0; k < most; ++k) kept.push_back(surfels[k * surfels.size() / most]);
+  return kept;
+}
+
 /// Median range of every eighth return, 0 without any.
 double median_range(const DeskewedScan& scan) {
   constexpr std::size_t stride = 8;
@@ -115,9 +128,10 @@ void VgicpOdometry::take_features(const DeskewedScan& scan) {
   edges_R_ = has_ring_image(scan) ? edge_points(scan, config_.edges) : std::vector<Eigen::Vector3d>();
   fine_ = registration_;
   if (!has_ring_image(scan)) fine_.sigma_tangent_m *= lattice_slack;
+  registered_ = thinned(scan_, most_registered);
   few_.clear();
-  for (std::size_t k = 0; k < scan_.size(); k += static_cast<std::size_t>(config_.coarse_share))
-    few_.push_back(scan_[k]);
+  for (std::size_t k = 0; k < registered_.size(); k += static_cast<std::size_t>(config_.coarse_share))
+    few_.push_back(registered_[k]);
 }
 
 void VgicpOdometry::correct_sweep(const DeskewedScan& scan, const std::optional<PosePrior>& prior,
@@ -125,7 +139,7 @@ void VgicpOdometry::correct_sweep(const DeskewedScan& scan, const std::optional<
   if (scan.time_s.empty() || !(scan.twist_sigma.mps > 0.0)) return;
   const std::array<RegistrationConfig, 2> configs = {fine_, coarser(registration_, maps_[1].voxel_m())};
   const Vector6d twist =
-      sweep_twist(scan_, std::span(maps_).first(configs.size()), result.X_MR, prior, scan.twist_sigma, configs);
+      sweep_twist(registered_, std::span(maps_).first(configs.size()), result.X_MR, prior, scan.twist_sigma, configs);
   DeskewedScan corrected = scan;
   correct_motion(corrected, twist);
   take_features(corrected);
@@ -149,7 +163,7 @@ Registration VgicpOdometry::align_finely(const Pose& start, const std::optional<
     const std::vector<loam::Match> lines = edge_map_.match(edges_R_, result.X_MR);
     const Pose before = result.X_MR;
     result = align(
-        scan_, maps_.front(), before, prior, fine_,
+        registered_, maps_.front(), before, prior, fine_,
         [&](const Pose& X_MR) {
           Normal6 terms = loam::linearize(lines, X_MR, config_.edges.huber_m);
           terms.h *= information;
