@@ -15,7 +15,6 @@ namespace plumbline::slam {
 namespace {
 
 constexpr int reach_columns = 3;       // columns used on each side of a return, spread over the radius
-constexpr int reach_rings = 1;         // rings used above and below
 constexpr double scan_rad = 6.336576;  // a scan's columns: one turn, rounded up to whole packets
 
 /// Scatter of a return's neighbours in the ring image.
@@ -36,7 +35,8 @@ class Neighbourhood {
     bool other_ring = false;
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     Eigen::Matrix3d outer = Eigen::Matrix3d::Zero();
-    for (int r = std::max(0, ring - reach_rings); r <= std::min(scan_.rings - 1, ring + reach_rings); ++r)
+    for (const int r : {ring_beside(column, ring, -1, step_m), ring, ring_beside(column, ring, 1, step_m)}) {
+      if (r < 0) continue;
       for (int k = -reach_columns; k <= reach_columns; ++k) {
         const int c = column + k * step;
         if (c < 0 || c >= scan_.columns) continue;
@@ -48,6 +48,7 @@ class Neighbourhood {
         sum += offset;
         outer += offset * offset.transpose();
       }
+    }
     if (n < config_.min_neighbours || !other_ring) return std::nullopt;
     const Eigen::Vector3d mean = sum / n;
     std::optional<Surfel> surfel = flat(p + mean, outer / n - mean * mean.transpose());
@@ -58,6 +59,20 @@ class Neighbourhood {
  private:
   [[nodiscard]] std::size_t index(int column, int ring) const {
     return static_cast<std::size_t>(column * scan_.rings + ring);
+  }
+
+  /// The next ring above or below or, where that returns from nearer than `spacing_m`, the first one beyond that does
+  /// not: near by, rings lie closer than range noise is wide. -1 where there is none.
+  [[nodiscard]] int ring_beside(int column, int ring, int side, double spacing_m) const {
+    const Eigen::Vector3d& p = scan_.point_R[index(column, ring)];
+    int beside = -1;
+    for (int r = ring + side; r >= 0 && r < scan_.rings; r += side) {
+      const std::size_t i = index(column, r);
+      if (scan_.range_m[i] <= 0.0 && beside >= 0) continue;
+      beside = r;
+      if (scan_.range_m[i] <= 0.0 || (scan_.point_R[i] - p).squaredNorm() >= spacing_m * spacing_m) break;
+    }
+    return beside;
   }
 
   [[nodiscard]] std::optional<Surfel> flat(const Eigen::Vector3d& mean, const Eigen::Matrix3d& scatter) const {
