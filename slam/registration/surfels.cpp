@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
+#include <vector>
 
 #include "slam/registration/cell_surfels.h"
 
@@ -16,12 +17,36 @@ namespace {
 
 constexpr int reach_columns = 3;       // columns used on each side of a return, spread over the radius
 constexpr double scan_rad = 6.336576;  // a scan's columns: one turn, rounded up to whole packets
+// Rings three standard deviations of range noise apart: seven returns on each side know the normal to 5 degrees.
+constexpr double apart_sigmas = 3.0;
+
+/// Standard deviation of ranges, m, from how a ring's next columns bend: surfaces hardly do within a step.
+double range_noise(const DeskewedScan& scan) {
+  constexpr int stride = 7;  // prime to common numbers of rings, so that all are among them
+  std::vector<double> bends;
+  const auto at = [&](int column, int ring) {
+    return scan.range_m[static_cast<std::size_t>(column * scan.rings + ring)];
+  };
+  for (int i = 0; i < (scan.columns - 2) * scan.rings; i += stride) {
+    const int column = i / scan.rings, ring = i % scan.rings;
+    const double a = at(column, ring), b = at(column + 1, ring), c = at(column + 2, ring);
+    if (a > 0.0 && b > 0.0 && c > 0.0) bends.push_back(std::abs(a - 2.0 * b + c));
+  }
+  if (bends.empty()) return 0.0;
+  const auto middle = bends.begin() + static_cast<std::ptrdiff_t>(bends.size() / 2);
+  std::nth_element(bends.begin(), middle, bends.end());
+  constexpr double median_of_unit_normal = 0.6745;
+  return *middle / (median_of_unit_normal * std::sqrt(6.0));
+}
 
 /// Scatter of a return's neighbours in the ring image.
 class Neighbourhood {
  public:
   Neighbourhood(const DeskewedScan& scan, const SurfelConfig& config)
-      : scan_(scan), config_(config), azimuth_step_rad_(scan_rad / scan.columns) {}
+      : scan_(scan),
+        config_(config),
+        azimuth_step_rad_(scan_rad / scan.columns),
+        apart_m_(std::min(config.radius_m / reach_columns, apart_sigmas * range_noise(scan))) {}
 
   [[nodiscard]] std::optional<Surfel> surfel(int column, int ring) const {
     const std::size_t centre = index(column, ring);
@@ -35,7 +60,7 @@ class Neighbourhood {
     bool other_ring = false;
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     Eigen::Matrix3d outer = Eigen::Matrix3d::Zero();
-    for (const int r : {ring_beside(column, ring, -1, step_m), ring, ring_beside(column, ring, 1, step_m)}) {
+    for (const int r : {ring_beside(column, ring, -1), ring, ring_beside(column, ring, 1)}) {
       if (r < 0) continue;
       for (int k = -reach_columns; k <= reach_columns; ++k) {
         const int c = column + k * step;
@@ -61,16 +86,16 @@ class Neighbourhood {
     return static_cast<std::size_t>(column * scan_.rings + ring);
   }
 
-  /// The next ring above or below or, where that returns from nearer than `spacing_m`, the first one beyond that does
-  /// not: near by, rings lie closer than range noise is wide. -1 where there is none.
-  [[nodiscard]] int ring_beside(int column, int ring, int side, double spacing_m) const {
+  /// The next ring above or below or, where that returns from nearer than `apart_m_`, the first one beyond that does
+  /// not. -1 where there is none.
+  [[nodiscard]] int ring_beside(int column, int ring, int side) const {
     const Eigen::Vector3d& p = scan_.point_R[index(column, ring)];
     int beside = -1;
     for (int r = ring + side; r >= 0 && r < scan_.rings; r += side) {
       const std::size_t i = index(column, r);
       if (scan_.range_m[i] <= 0.0 && beside >= 0) continue;
       beside = r;
-      if (scan_.range_m[i] <= 0.0 || (scan_.point_R[i] - p).squaredNorm() >= spacing_m * spacing_m) break;
+      if (scan_.range_m[i] <= 0.0 || (scan_.point_R[i] - p).squaredNorm() >= apart_m_ * apart_m_) break;
     }
     return beside;
   }
@@ -88,6 +113,7 @@ class Neighbourhood {
   const DeskewedScan& scan_;
   const SurfelConfig& config_;
   const double azimuth_step_rad_;  ///< between columns
+  const double apart_m_;           ///< least distance to other rings
 };
 
 std::vector<Surfel> surfels_of_cells(const DeskewedScan& scan, const SurfelConfig& config) {
