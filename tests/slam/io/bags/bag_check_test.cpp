@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
-#include <cstring>
 #include <fstream>
 #include <functional>
 
@@ -16,27 +15,17 @@
 #include "slam/io/bags/bag.h"
 #include "tests/folder.h"
 #include "tests/input_error.h"
+#include "tests/slam/io/bags/ros1_bytes.h"
 #include "tests/slam/io/packets/packets.h"
 
 namespace plumbline::slam {
 namespace {
 
-template <class T>
-std::string raw(T value) {
-  std::string bytes(sizeof(T), '\0');
-  std::memcpy(bytes.data(), &value, sizeof(T));
-  return bytes;
-}
-std::string u32(std::uint64_t value) { return raw(static_cast<std::uint32_t>(value)); }
-std::string u64(std::uint64_t value) { return raw(value); }
-
-std::string field(const std::string& name, const std::string& value) {
-  return u32(name.size() + 1 + value.size()) + name + "=" + value;
-}
-std::string record(const std::string& header, const std::string& data) {
-  return u32(header.size()) + header + u32(data.size()) + data;
-}
-std::string op(char code) { return field("op", std::string(1, code)); }
+using ros1_bytes::field;
+using ros1_bytes::op;
+using ros1_bytes::record;
+using ros1_bytes::u32;
+using ros1_bytes::u64;
 
 /// Everything that a bag of one chunk says about itself; each value may be spoilt.
 struct SmallBag {

@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cstring>
 #include <fstream>
 #include <iterator>
 #include <string>
@@ -16,43 +15,32 @@
 #include "tests/folder.h"
 #include "tests/input_error.h"
 #include "tests/slam/io/bags/bag_of_four_scans.h"
+#include "tests/slam/io/bags/ros1_bytes.h"
 
 namespace plumbline::slam {
 namespace {
 
-template <class T>
-std::string raw_bytes(T value) {
-  std::string bytes(sizeof(T), '\0');
-  std::memcpy(bytes.data(), &value, sizeof(T));
-  return bytes;
-}
-std::string length(std::size_t value) { return raw_bytes(static_cast<std::uint32_t>(value)); }
-std::string header_field(const std::string& name, const std::string& value) {
-  return length(name.size() + 1 + value.size()) + name + "=" + value;
-}
-std::string bag_record(const std::string& header, const std::string& data) {
-  return length(header.size()) + header + length(data.size()) + data;
-}
-std::string kind(char code) { return header_field("op", std::string(1, code)); }
+using ros1_bytes::field;
+using ros1_bytes::op;
+using ros1_bytes::raw;
+using ros1_bytes::record;
+using ros1_bytes::u32;
+using ros1_bytes::u64;
 
 /// The bag's head with an index at 0, as while a bag is being written.
 std::string open_head() {
   return "#ROSBAG V2.0\n" +
-         bag_record(kind(3) + header_field("index_pos", raw_bytes(std::uint64_t{0})) +
-                        header_field("conn_count", length(0)) + header_field("chunk_count", length(0)),
-                    std::string(20, ' '));
+         record(op(3) + field("index_pos", u64(0)) + field("conn_count", u32(0)) + field("chunk_count", u32(0)),
+                std::string(20, ' '));
 }
 std::string connection(const std::string& topic) {
-  return bag_record(kind(7) + header_field("conn", length(0)) + header_field("topic", topic),
-                    header_field("type", "x/Y") + header_field("md5sum", "0"));
+  return record(op(7) + field("conn", u32(0)) + field("topic", topic), field("type", "x/Y") + field("md5sum", "0"));
 }
 std::string message(std::uint32_t s, std::uint32_t ns, const std::string& data) {
-  return bag_record(kind(2) + header_field("conn", length(0)) + header_field("time", raw_bytes(s) + raw_bytes(ns)),
-                    data);
+  return record(op(2) + field("conn", u32(0)) + field("time", raw(s) + raw(ns)), data);
 }
 std::string chunk(const std::string& records) {
-  return bag_record(kind(5) + header_field("compression", "none") + header_field("size", length(records.size())),
-                    records);
+  return record(op(5) + field("compression", "none") + field("size", u32(records.size())), records);
 }
 
 class UnindexedBagTest : public ::testing::Test {
@@ -106,9 +94,8 @@ TEST_F(UnindexedBagTest, OfDamagedChunksOnlyTheLastIsLeftOut) {
 
 TEST_F(UnindexedBagTest, LengthsThatTheBagDoesNotHoldAreTheEnd) {
   const std::string good = chunk(connection("/t") + message(0, 1, "a"));
-  EXPECT_EQ(read(open_head() + good + length(0xFFFFFFF0U) + "xxxx").find("1:a the bag"), 0U);
-  const std::string huge =
-      bag_record(kind(5) + header_field("compression", "lz4") + header_field("size", length(0x0FFFFFFFU)), "1234");
+  EXPECT_EQ(read(open_head() + good + u32(0xFFFFFFF0U) + "xxxx").find("1:a the bag"), 0U);
+  const std::string huge = record(op(5) + field("compression", "lz4") + field("size", u32(0x0FFFFFFFU)), "1234");
   EXPECT_EQ(read(open_head() + good + huge).find("1:a the bag"), 0U);
   for (const std::string& nothing : {std::string(), huge, std::string(40, '\0')})
     EXPECT_NE(input_error([&] { (void)read(open_head() + nothing); }).find("without a whole message"),
