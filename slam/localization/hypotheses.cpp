@@ -53,7 +53,8 @@ double FitConfig::of_scan(const Agreement& seen) const {
 void HypothesisSet::predict_and_update(const PlanIndex& index, const Pose2& u, const LocalizationScan& scan) {
   replayed_reference_.reset();
   ruled_out_.clear();
-  history_.push_back({u, scan, thinned(scan, config_.screening_columns)});
+  const double share = history_.empty() ? 1.0 : config_.fit.share_of_scan(u.t.norm());
+  history_.push_back({u, scan, thinned(scan, config_.screening_columns), share});
   if (static_cast<int>(history_.size()) > config_.history) history_.pop_front();
   const auto carry = [&](PoseHypothesis& hypothesis) {
     const StoreyIndex& storey = index.storeys[static_cast<std::size_t>(hypothesis.storey)];
@@ -63,7 +64,7 @@ void HypothesisSet::predict_and_update(const PlanIndex& index, const Pose2& u, c
     const Refined refined = refine(storey, moved, scan, likelihood_, tracking_refine_);
     hypothesis.X_IH = own.X_IH = refined.X_IH;
     hypothesis.covariance = refined.covariance;
-    update_agreement(agreement(storey, refined.X_IH, scan, likelihood_, refine_), hypothesis);
+    update_agreement(agreement(storey, refined.X_IH, scan, likelihood_, refine_), share, hypothesis);
     own.predicted = predict_scan(storey, refined.X_IH, scan, comparison_);
     return own;
   };
@@ -248,12 +249,12 @@ void HypothesisSet::clear() {
   reference_ = 0;
 }
 
-void HypothesisSet::update_agreement(const Agreement& latest, PoseHypothesis& hypothesis) const {
+void HypothesisSet::update_agreement(const Agreement& latest, double share, PoseHypothesis& hypothesis) const {
   hypothesis.agreement.update_mean(latest, config_.ema_alpha);
-  const double fit = config_.fit.of_scan(latest);
+  const double fit = share * config_.fit.of_scan(latest);
   hypothesis.fit = std::clamp(hypothesis.fit + fit, -config_.fit.limit, config_.fit.limit);
   hypothesis.fit_sum += fit;
-  ++hypothesis.scans;
+  hypothesis.scans += share;
 }
 
 void HypothesisSet::replay_agreement(const StoreyIndex& storey, const std::vector<ScanAtPose>& scans,
@@ -263,15 +264,15 @@ void HypothesisSet::replay_agreement(const StoreyIndex& storey, const std::vecto
     const LocalizationScan& scan = history_[history_.size() - 1 - k * stride].scan;
     const Agreement seen = agreement(storey, scans[k].X_IH, scan, likelihood_, refine_);
     if (k + 1 == scans.size()) hypothesis.agreement = seen;
-    for (int i = 0; i < scans[k].represented_scans; ++i) update_agreement(seen, hypothesis);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(scans[k].represented_scans); ++i)
+      update_agreement(seen, history_[history_.size() - 1 - k * stride - i].share, hypothesis);
   }
 }
 
 void HypothesisSet::replay_best_agreement(const PlanIndex& index) {
   if (hypotheses_.empty() || history_.empty()) return;
   PoseHypothesis& best = hypotheses_.front();
-  best.fit = best.fit_sum = 0.0;
-  best.scans = 0;
+  best.fit = best.fit_sum = best.scans = 0.0;
   replay_agreement(index.storeys[static_cast<std::size_t>(best.storey)], replay(index, best.pose(), {}).scans, best);
 }
 

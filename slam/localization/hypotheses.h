@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <deque>
 #include <optional>
 #include <vector>
@@ -29,6 +30,7 @@ struct FitConfig {
   double misfit_scan = 3.0;
   double doubtful_scan = 0.5;
   double limit = 18.0;
+  double whole_step_m = 0.2;
 
   template <class V>
   void visit(V& v) {
@@ -47,9 +49,15 @@ struct FitConfig {
     v("misfit_scan", misfit_scan, plain_field("what such a scan counts against the pose", {.min = 0}));
     v("doubtful_scan", doubtful_scan, plain_field("what any other scan counts against it", {.min = 0}));
     v("limit", limit, plain_field("least and largest sum", {.min = 0}));
+    // Scans from one place are not independent. As update_m, so that every scan of a walking robot counts whole.
+    v("whole_step_m", whole_step_m,
+      Field{.doc = "distance from the last scan from which a scan counts whole; nearer ones in proportion",
+            .min = 0.01});
   }
   /// What one scan counts for.
   [[nodiscard]] double of_scan(const Agreement& seen) const;
+  /// How much of a scan counts. step_m: from the scan before.
+  [[nodiscard]] double share_of_scan(double step_m) const { return std::min(1.0, step_m / whole_step_m); }
 };
 
 struct HypothesisConfig {
@@ -149,7 +157,7 @@ struct PoseHypothesis {
   double mass = 0.0;        ///< share by evidence
   double fit = 0.0;         ///< sum over its scans within FitConfig::limit
   double fit_sum = 0.0;     ///< the same without the limit
-  int scans = 0;            ///< that it was compared with
+  double scans = 0.0;       ///< that it was compared with, each as far as it counts, see FitConfig::whole_step_m
   Agreement agreement;      ///< moving average over the last scans, see HypothesisConfig::ema_alpha
 
   [[nodiscard]] StoreyPose pose() const { return {storey, X_IH}; }
@@ -204,6 +212,7 @@ class HypothesisSet {
     Pose2 u;  ///< motion that led to this scan
     LocalizationScan scan;
     LocalizationScan screening;  ///< the same with a thinner beam grid
+    double share = 1.0;          ///< of it that counts for how well the plan fits
   };
   /// One scan as the plan predicts it at a pose.
   struct ScanAtPose {
@@ -238,8 +247,8 @@ class HypothesisSet {
   [[nodiscard]] bool is_screened_out(const PlanIndex& index, const StoreyPose& pose);
   /// True where the last scan is likelier at the first pose.
   [[nodiscard]] bool fits_better(const StoreyIndex& storey, const Pose2& X_IH, const Pose2& other) const;
-  /// Adds the newest scan's agreement with the plan.
-  void update_agreement(const Agreement& latest, PoseHypothesis& hypothesis) const;
+  /// Adds a scan's agreement with the plan. share: of it that counts.
+  void update_agreement(const Agreement& latest, double share, PoseHypothesis& hypothesis) const;
   /// The same for all scans kept.
   void replay_agreement(const StoreyIndex& storey, const std::vector<ScanAtPose>& scans,
                         PoseHypothesis& hypothesis) const;

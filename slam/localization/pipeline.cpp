@@ -94,7 +94,7 @@ class SGraphLocalization final : public PlanLocalization {
   double mass_ = 0.0;  ///< of the tracked hypothesis when it was announced
   int failed_updates_ = 0;
   bool doubts_place_ = false;               ///< since a silence, until a scan fits: the robot may have been carried
-  double fit_ = 0.0;                        ///< of the tracked pose, see FitConfig
+  double misfit_ = 0.0;                     ///< of the tracked pose, see KidnapMonitorConfig
   int storey_ = 0;                          ///< of the tracked hypothesis, index into PlanIndex::storeys
   std::optional<ExpectedYaw> doubted_yaw_;  ///< of the present scan: the robot may have been kidnapped and turned
   HypothesisSet monitor_;                   ///< of the last scans; hypotheses only while a check runs
@@ -161,7 +161,7 @@ void SGraphLocalization::start_tracking(const LocalizationScan& scan, const std:
   mass_ = best.mass;
   failed_updates_ = 0;
   doubts_place_ = false;
-  fit_ = config_.monitor.misfit;
+  misfit_ = 0.0;
   storey_ = best.storey;
   monitor_.clear();
   room_exit_.clear();
@@ -210,7 +210,7 @@ bool SGraphLocalization::is_on_floor() const {
 void SGraphLocalization::follow_storey() {
   if (is_on_floor()) return;
   failed_updates_ = 0;
-  fit_ = config_.monitor.misfit;  // the plan is compared at the height of a floor
+  misfit_ = 0.0;  // the plan is compared at the height of a floor
   const bim::Plan& plan = *input().plan;
   const double z_W = tracker_->feet_z() + index().X_WI.t.z();
   const Eigen::Vector2d p_W = (index().X_WI * tracker_->window().back().X_IR.t).head<2>();
@@ -278,12 +278,11 @@ void SGraphLocalization::check_kidnap(const LocalizationScan& scan) {
   agreement_.update_mean(fit, config_.search.hypotheses.ema_alpha);
   failed_updates_ =
       fit.penetration_ratio_other_walls() > config_.monitor.lost_penetration_ratio ? failed_updates_ + 1 : 0;
-  const double limit = config_.monitor.misfit;
-  fit_ = std::clamp(fit_ + config_.search.hypotheses.fit.of_scan(fit), -limit, limit);
+  misfit_ = std::max(0.0, misfit_ - config_.search.hypotheses.fit.of_scan(fit));
   const int lost_updates = doubts_place_ ? 1 : config_.monitor.lost_updates;
   const bool has_left =
       room_exit_.update(tracker_->storey(), X_IH, index().config.body_height_m) >= config_.monitor.outside_updates;
-  const bool misfits = failed_updates_ >= lost_updates || fit_ <= -limit || has_left;
+  const bool misfits = failed_updates_ >= lost_updates || misfit_ >= config_.monitor.misfit || has_left;
   if (fit.inliers >= config_.search.hypotheses.fit.inliers_min) doubts_place_ = false;
   if (!has_better_alternative(scan) && !misfits) return;
   tracker_.reset();  // with its window, which was refuted

@@ -100,5 +100,30 @@ TEST(GlobalLocalizer, IsSureOnlyWhereThePlanHasAFloor) {
   EXPECT_NE(state_after_walk(), State::converged);
 }
 
+// The moving average over the last scans forgets them: in a plan's mirror image a room like one of its own was enough.
+TEST(GlobalLocalizer, IsNotSureByTheLastScansAloneWhereThoseBeforeDidNotFit) {
+  const synthetic::House house = synthetic::corridor_house(), other = synthetic::one_room(30.0, 9.0);
+  const PlanIndex index = make_plan_index(synthetic::plan_of(house), "ground", {});
+  const auto state_after_walk = [&](int strange) {
+    constexpr int found_after = 3, steps = 36;
+    StartPrior start;
+    start.yaw_I = (index.X_WI.inverse() * Pose::from_xyz_yaw({0.0, 0.0, 0.0}, 0.3)).yaw();
+    GlobalLocalizer search({}, 7);
+    for (int i = 0; i < steps; ++i) {
+      const Pose X_WR = Pose::from_xyz_yaw({2.0 + 0.2 * i, 1.1, 0.46}, 0.3);
+      const bool fits = i < found_after || i >= found_after + strange;
+      search.update(index, start, synthetic::house_scan(fits ? house : other, X_WR, X_WR).scan);
+    }
+    EXPECT_EQ(search.hypotheses().size(), 1U);
+    EXPECT_LT((search.hypotheses().front().X_IH.t -
+               (index.X_WI.inverse() * Eigen::Vector3d(2.0 + 0.2 * (steps - 1), 1.1, 0.46)).head<2>())
+                  .norm(),
+              0.1);
+    return search.state();
+  };
+  EXPECT_EQ(state_after_walk(0), State::converged);
+  EXPECT_NE(state_after_walk(12), State::converged);
+}
+
 }  // namespace
 }  // namespace plumbline::slam

@@ -264,8 +264,9 @@ TEST(Hypotheses, ScansThatDidNotFitBeforeCount) {
       synthetic::house_scan(synthetic::one_room(9.0, 7.0), Pose::from_xyz_yaw({1.5, 5.8, 0.46}, 0.2), Pose{}).scan;
   const HypothesisConfig config;
   HypothesisSet set(config, {}, {}, {});
-  for (int i = 0; i < 20; ++i) set.predict_and_update(twins.index, {}, elsewhere);
-  set.predict_and_update(twins.index, {}, twins.scans[0]);
+  const Pose2 step{{config.fit.whole_step_m, 0.0}, 0.0};
+  for (int i = 0; i < 20; ++i) set.predict_and_update(twins.index, step, elsewhere);
+  set.predict_and_update(twins.index, step, twins.scans[0]);
   set.add(twins.index, std::vector<StoreyPose>{{0, twins.here}});
   ASSERT_EQ(set.all().size(), 1U);
   EXPECT_LT(set.all()[0].fit, -10.0);
@@ -324,6 +325,25 @@ TEST(Hypotheses, ReweightingGivesEachHypothesisItsMassAndNewParticles) {
   for (const LocalParticle& p : particles)
     if ((p.X_IH.t - twins.there.t).norm() < 0.5) mass += p.weight;
   EXPECT_NEAR(mass, 0.5, 0.01);
+}
+
+TEST(Hypotheses, TurningOnTheSpotAddsNothingToHowWellThePlanFits) {
+  const TwinRooms twins = twin_rooms_scans();
+  HypothesisConfig config;
+  config.replay_stride = 1;
+  HypothesisSet set(config, {}, {}, {});
+  track_and_add_twin(twins, set);
+  set.prune_and_normalize();
+  const PoseHypothesis walked = set.all().front();
+  for (int i = 0; i < 20; ++i) set.predict_and_update(twins.index, {}, twins.scans.back());
+  EXPECT_EQ(set.all().front().fit_sum, walked.fit_sum);
+  EXPECT_EQ(set.all().front().scans, walked.scans);
+  set.replay_best_agreement(twins.index);
+  EXPECT_NEAR(set.all().front().fit_sum, walked.fit_sum, 0.05 * walked.fit_sum);
+  EXPECT_EQ(set.all().front().scans, walked.scans);
+  const Pose2 half{{0.5 * config.fit.whole_step_m, 0.0}, 0.0};
+  set.predict_and_update(twins.index, half, twins.scans.back());
+  EXPECT_NEAR(set.all().front().scans, walked.scans + 0.5, 1e-9);
 }
 
 TEST(FitConfig, ScansThatPenetrateCountAgainstAPose) {
