@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <memory>
 
 #include "bim/errors.h"
@@ -35,6 +36,19 @@ std::string output_of(const std::string& command, int& code) {
   return text;
 }
 
+/// sbatch is there and takes no job: Slurm is not configured, not running, or does not want this one.
+class SbatchRefusal : public EnvironmentError {
+ public:
+  using EnvironmentError::EnvironmentError;
+};
+
+/// Removes a script that nobody took, and the folders that were made for it where they are empty.
+void remove_unused(const std::string& script, const std::vector<std::string>& made) {
+  std::error_code error;
+  std::filesystem::remove(script, error);
+  for (auto folder = made.rbegin(); folder != made.rend(); ++folder) std::filesystem::remove(*folder, error);
+}
+
 /// The job's number that sbatch --parsable gives: "123" or "123;cluster".
 std::string submit_script(const std::string& path, const std::string& options) {
   int code = 0;
@@ -42,8 +56,8 @@ std::string submit_script(const std::string& path, const std::string& options) {
   text.erase(std::find_if(text.begin(), text.end(), [](char c) { return c < '0' || c > '9'; }), text.end());
   if (code == 0 && !text.empty()) return text;
   constexpr int not_found = 127;
-  throw EnvironmentError(code == not_found ? "sbatch is not there; " + path + " can be submitted where it is"
-                                           : "sbatch refused " + path + " with " + std::to_string(code));
+  if (code == not_found) throw EnvironmentError("sbatch is not there; " + path + " can be submitted where it is");
+  throw SbatchRefusal("sbatch refused " + path + " with " + std::to_string(code));
 }
 
 }  // namespace
@@ -112,7 +126,7 @@ int longest_array() {
 }
 
 std::string submit(const SlurmJob& job) {
-  static_cast<void>(make_folders(job.out + ".shards", job.out));
+  const std::vector<std::string> made = make_folders(job.out + ".shards", job.out);
   const int longest = longest_array();
   std::string ids, said;
   for (int first = 0, part = 1; first < job.shards; first += longest, ++part) {
@@ -121,7 +135,19 @@ std::string submit(const SlurmJob& job) {
     const std::string path = job.out + ".shards/array" + (part == 1 ? "" : std::to_string(part)) + ".sbatch";
     const int tasks = std::min(longest, job.shards - first);
     write_file(path, array_script(one, tasks));
-    const std::string id = submit_script(path, "");
+    const std::string id = [&] {
+      try {
+        return submit_script(path, "");
+      } catch (const SbatchRefusal& refusal) {
+        if (!ids.empty())
+          throw EnvironmentError(std::string(refusal.what()) + "; jobs" + ids + " were submitted before");
+        remove_unused(path, made);
+        throw EnvironmentError(refusal.what() + std::string("; nothing was submitted and nothing is left behind. Where "
+                                                            "sinfo shows no nodes, Slurm is not configured here or "
+                                                            "does not run: without --slurm the sweep runs on this "
+                                                            "machine, and --shard I/N runs a part of it on another"));
+      }
+    }();
     ids += ":" + id;
     said += "job " + id + ": " + std::to_string(tasks) + " tasks, " + path + "\n";
   }

@@ -27,7 +27,8 @@ struct SlurmJob {
 /// Longest array that the cluster takes (MaxArraySize less one), or 1000 where it does not tell.
 [[nodiscard]] int longest_array();
 /// Writes the scripts into `out` and gives them to sbatch, the collector after all tasks have ended, however they did.
-/// Gives lines that say what was submitted. Throws EnvironmentError where sbatch cannot be run or refuses.
+/// Gives lines that say what was submitted. Throws EnvironmentError where sbatch cannot be run or refuses;
+/// where it refuses the first script, none is left.
 [[nodiscard]] std::string submit(const SlurmJob& job);
 
 }  // namespace plumbline::scenarios

@@ -123,6 +123,11 @@ TEST(Sweep, SlurmGetsAnArrayAndACollector) {
   for (const char* table : tables)
     EXPECT_TRUE(read_file(folder / ("whole/" + std::string(table))) == read_file((folder / "out it/") + table))
         << table;
+  write_file(folder / "bin/sbatch", "#!/bin/bash\necho 'sbatch: error: no slurm.conf' >&2\nexit 1\n");
+  const Outcome refused = plumbline({"sweep", sweep, "--slurm", "-o", folder / "in/refused"}, setting);
+  EXPECT_EQ(refused.code, 3);
+  EXPECT_NE(refused.err.find("without --slurm the sweep runs on this machine"), std::string::npos) << refused.err;
+  EXPECT_FALSE(fs::exists(folder / "in"));
   setting.env["PATH"] = folder / "nothing";  // where Slurm is installed it would be found
   const Outcome none = plumbline({"sweep", sweep, "--slurm", "-o", folder / "none"}, setting);
   EXPECT_EQ(none.code, 3);
