@@ -177,6 +177,16 @@ void report_poses(const Trial& trial, const Pose& X_RL, bool localization, const
                   rms)});
 }
 
+/// Of a trial without a plan, what a localization would do.
+void report_missing_plan(const Trial& trial, const Findings& found) {
+  const bool several = std::any_of(trial.outputs.begin(), trial.outputs.end(),
+                                   [](const Output& output) { return !output.hypotheses.empty(); });
+  if (several)
+    found({Kind::note, "answers with hypotheses, as a localization does; with --plan it gets the plan of the walk"});
+  else if (poses_of(trial).empty())
+    found({Kind::note, "got no plan; a method that localizes in one is tried with --plan"});
+}
+
 }  // namespace
 
 std::optional<Finding> misunderstanding(const std::vector<StampedPose>& answered, const Pose& X_RL, bool aligned) {
@@ -230,9 +240,11 @@ void check_conformance(ProcessCommand command, const std::shared_ptr<const bim::
   command.go_on = go_on;
   const TrialWalk walk = trial_walk();
   const Trial first = try_on(command, walk, input_of(walk, plan, false), go_on);
-  if (first.wall_ms.empty() && !first.failure.empty()) return found({Kind::wrong, first.failure});
-  found({Kind::fine, format("starts and greets in %.2f s", first.start_s)});
+  const bool started = !first.wall_ms.empty() || first.failure.empty();
+  if (started) found({Kind::fine, format("starts and greets in %.2f s", first.start_s)});
   if (!first.failure.empty()) found({Kind::wrong, first.failure});
+  if (plan == nullptr) report_missing_plan(first, found);
+  if (!started) return;
   report_speed(first, found);
   if (!first.failure.empty()) return;
   report_poses(first, walk.calibration.X_RL, plan != nullptr, found);

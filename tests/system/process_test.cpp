@@ -158,6 +158,8 @@ TEST_F(Process, ConformanceSaysWhatIsWrong) {
   wrong({"'" + program("hostile_process") + "' nan"}, "at scan 11 (1.1 s): the pose is none");
   wrong({"--scan-s", "0.3", program("hostile_process"), "hang"}, "gave no answer within 0.3 s");
   wrong({program("hostile_process"), "no_json"}, "what is no JSON");
+  wrong({program("hostile_process"), "no_json"}, "a method that localizes in one is tried with --plan");
+  EXPECT_EQ(good.out.find("--plan"), std::string::npos) << good.out;
   for (const std::vector<std::string>& words : {std::vector<std::string>{}, {"--plam", "x"}, {""}, {" "}})
     EXPECT_EQ(tried(words).code, 2);
 
