@@ -16,15 +16,32 @@ constexpr double mark_row_px = 15.0;           // height of a label above the dr
 /// Curves are cut off above this quantile of all values, so that one outlier does not flatten the rest.
 constexpr double shown_quantile = 0.995;
 
-double shown_max(const std::vector<PlotCurve>& curves) {
-  std::vector<double> values;
-  for (const auto& curve : curves)
-    for (const auto& p : curve.points)
-      if (!curve.disclaimed) values.push_back(std::abs(p.y()));
-  if (values.empty()) return 1.0;
-  std::sort(values.begin(), values.end());
-  const auto last = static_cast<double>(values.size() - 1);
-  return std::max(1e-3, 1.05 * values[static_cast<std::size_t>(shown_quantile * last)]);
+/// A scale by the worst curve flattens the good ones. By this, the curve of the median method takes at least a quarter
+/// of the height; those beyond are marked where they leave the scale.
+constexpr double times_median = 4.0;
+
+/// Of each curve that is an answer, what it exceeds hardly ever; in order.
+std::vector<double> extents_of(const std::vector<PlotCurve>& curves) {
+  std::vector<double> extents;
+  for (const auto& curve : curves) {
+    if (curve.disclaimed || curve.points.empty()) continue;
+    std::vector<double> values;
+    for (const auto& p : curve.points) values.push_back(std::abs(p.y()));
+    std::sort(values.begin(), values.end());
+    const auto last = static_cast<double>(values.size() - 1);
+    extents.push_back(values[static_cast<std::size_t>(shown_quantile * last)]);
+  }
+  std::sort(extents.begin(), extents.end());
+  return extents;
+}
+
+double shown_max(const std::vector<PlotCurve>& curves, bool counts) {
+  constexpr double least = 1e-3;
+  const std::vector<double> extents = extents_of(curves);
+  if (extents.empty()) return 1.0;
+  const double median = extents[(extents.size() - 1) / 2];  // of two in the middle the smaller
+  const bool by_median = !counts && median > least;
+  return std::max(least, 1.05 * (by_median ? std::min(extents.back(), times_median * median) : extents.back()));
 }
 
 struct Scale {
@@ -158,7 +175,7 @@ double round_step(double span, int count) {
 
 std::string draw_plot(const std::string& id, const std::vector<PlotCurve>& curves, double end_s,
                       const PlotExtras& extras) {
-  const double max = extras.max > 0.0 ? extras.max : shown_max(curves);
+  const double max = extras.max > 0.0 ? extras.max : shown_max(curves, extras.counts);
   const Scale scale{end_s, extras.both_ways ? -max : 0.0, max};
   const Values values = values_of(scale, extras);
   std::string lines = values.lines, over = values.numbers;

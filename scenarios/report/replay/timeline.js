@@ -142,13 +142,19 @@ Plumb.Timeline = class {
     return g.createPattern(tile, "repeat");
   }
 
-  /** Curves are cut off above the 99.5th percentile, so that one outlier does not flatten the rest. */
+  /** Curves are cut off above four times what the median method reaches, so that a bad one does not flatten the rest; of each its
+      99.5th percentile counts. As report.html has it. */
+  scaleOf(tracks) {
+    const extents = tracks.map((track) => track.e.filter((e, i) => track.lost[i] < 0.5).sort((a, b) => a - b)).filter((values) => values.length > 0)
+      .map((values) => values[Math.floor(0.995 * (values.length - 1))]).sort((a, b) => a - b);
+    if (extents.length === 0) return 0.01;
+    const median = extents[(extents.length - 1) >> 1], most = extents[extents.length - 1];
+    return Math.max(0.01, 1.1 * (median > 1e-3 ? Math.min(most, 4 * median) : most));
+  }
+
   drawErrors(g) {
     const shown = Object.entries(this.data.tracks).filter(([name]) => name !== "truth" && !this.hidden.has(name));
-    const values = [];
-    for (const [, track] of shown) for (let i = 0; i < track.t.length; ++i) if (track.lost[i] < 0.5) values.push(track.e[i]);
-    values.sort((a, b) => a - b);
-    this.top = Math.max(0.01, 1.1 * (values[Math.floor(0.995 * (values.length - 1))] || 0));
+    this.top = this.scaleOf(shown.map(([, track]) => track));
     const height = this.plotBottom - this.plotTop, y = (e) => this.plotBottom - height * Math.min(1, e / this.top);
     g.fillStyle = this.soft;
     g.strokeStyle = this.line;
@@ -235,7 +241,7 @@ Plumb.Timeline = class {
   }
 
   drawMarks(g, marks) {
-    const bad = ["wrong", "lost", "failure", "gate"];
+    const bad = ["wrong", "lost", "failure", "gate", "far", "slip"];
     for (const mark of marks) {
       const x = this.x(mark.t), y = 15 * mark.row + 11;
       g.strokeStyle = g.fillStyle = bad.includes(mark.kind) ? getComputedStyle(this.canvas).getPropertyValue("--bad").trim() : this.ink;

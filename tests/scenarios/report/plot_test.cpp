@@ -39,6 +39,21 @@ TEST(Plot, MarksWhereACurveLeavesTheScale) {
   EXPECT_NE(both.find(">-0.5<"), std::string::npos) << both;
 }
 
+TEST(Plot, HasAScaleInWhichTheGoodCurvesCanBeCompared) {
+  const auto curve = [](const char* name, double value) {
+    return PlotCurve{name, "#111", {{1.0, value}, {1.1, value}}};
+  };
+  const std::vector<PlotCurve> curves = {curve("a", 1.0), curve("b", 1.5), curve("c", 300.0)};
+  const std::string plot = draw_plot("p", curves, 20.0);
+  EXPECT_NE(plot.find(">6<"), std::string::npos) << plot;  // four times the median, and a line at its round numbers
+  EXPECT_EQ(plot.find(">100<"), std::string::npos) << plot;
+  EXPECT_EQ(occurrences(plot, "class=\"over layer-c\""), 1U);
+  EXPECT_EQ(occurrences(plot, "▲"), 1U);
+  PlotExtras counts;
+  counts.counts = true;
+  EXPECT_EQ(occurrences(draw_plot("p", curves, 20.0, counts), "▲"), 0U);
+}
+
 TEST(Plot, StepsAreRound) {
   EXPECT_DOUBLE_EQ(round_step(10.0, 5), 2.0);
   EXPECT_DOUBLE_EQ(round_step(0.9, 5), 0.2);
