@@ -111,8 +111,8 @@ std::string caption(const ReportWalls& walls, std::size_t index) {
 std::string recognised(const ReportInput& input, const ReportMethod& method, const MapBox& box) {
   constexpr std::size_t most = 3;  // hypotheses at one time, a map each
   if (method.recognised.empty()) return "";
-  std::string out =
-      "<section class=\"card\"><h2>Walls matched by " + svg::escape(method.name) + "</h2><div class=\"beliefs\">";
+  std::string out = "<details class=\"card fold\" open><summary>Walls matched by " + svg::escape(method.name) +
+                    "</summary><div class=\"beliefs\">";
   for (const ReportWalls& walls : method.recognised)
     for (std::size_t i = 0; i < std::min(most, walls.hypotheses.size()); ++i)
       out += "<div><p>" + svg::escape(caption(walls, i)) + "</p>" + open_map(box, "walls matched " + walls.label) +
@@ -120,14 +120,14 @@ std::string recognised(const ReportInput& input, const ReportMethod& method, con
   return out + "</div><div class=\"key\">" +
          swatch(right_colour, "observed wall (dark) and the wall of the plan it was matched with (light), right") +
          swatch(wrong_colour, "wrong: it was another wall, or none") +
-         "<span>arrow: pose of the hypothesis, ring: true position</span></div></section>";
+         "<span>arrow: pose of the hypothesis, ring: true position</span></div></details>";
 }
 
 std::string particles(const ReportInput& input, std::size_t index, const MapBox& box) {
   const ReportMethod& method = input.methods[index];
   if (method.beliefs.empty()) return "";
-  std::string out =
-      "<section class=\"card\"><h2>Particles of " + svg::escape(method.name) + "</h2><div class=\"beliefs\">";
+  std::string out = "<details class=\"card fold\" open><summary>Particles of " + svg::escape(method.name) +
+                    "</summary><div class=\"beliefs\">";
   for (const auto& belief : method.beliefs) {
     out += "<div><p>" + svg::escape(belief.label) + ", " + svg::number(belief.t_s, 1) + " s</p>" +
            open_map(box, "particles at " + belief.label) + draw_plan(input, belief.storey);
@@ -136,7 +136,7 @@ std::string particles(const ReportInput& input, std::size_t index, const MapBox&
           svg::circle({particle.x, particle.y}, 0.09, "fill=\"" + method_ink(method.ink) + "\" fill-opacity=\".55\"");
     out += ring(belief.truth) + "</svg></div>";
   }
-  return out + "</div><p class=\"facts\">Each dot is a particle; the ring is the true position.</p></section>";
+  return out + "</div><p class=\"facts\">Each dot is a particle; the ring is the true position.</p></details>";
 }
 
 /// First time from which on every other hypothesis left is marginal, where that is so at the end.

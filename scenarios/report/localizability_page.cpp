@@ -82,12 +82,14 @@ class ConditionPage {
     for (const Floor& floor : map.floors) input_.storeys.push_back({static_cast<int>(floor.storey), "", {}});
   }
 
-  [[nodiscard]] std::string card() const {
-    std::string out = "<section class=\"card\"><h2>" +
-                      std::string(compass_ ? "Heading known from a compass" : "Heading unknown") +
-                      "</h2><div class=\"maps\">";
+  /// folds: closed at first on a phone, where all of them would be many screens long.
+  [[nodiscard]] std::string card(bool folds) const {
+    const std::string title = compass_ ? "Heading known from a compass" : "Heading unknown";
+    std::string out = folds ? "<details class=\"card fold\" open><summary>" + title + "</summary><div class=\"maps\">"
+                            : "<section class=\"card\"><h2>" + title + "</h2><div class=\"maps\">";
     for (std::size_t f = 0; f < map_.floors.size(); ++f) out += "<div>" + draw(f) + "</div>";
-    return out + "</div>" + legend() + table() + list_alike(building_, shown_alike(map_, compass_)) + "</section>\n";
+    return out + "</div>" + legend() + storeys_table() + rooms_table() +
+           list_alike(building_, shown_alike(map_, compass_)) + (folds ? "</details>\n" : "</section>\n");
   }
 
  private:
@@ -109,24 +111,39 @@ class ConditionPage {
            draw_scale(bounds(input_)) + "</svg>";
   }
 
-  [[nodiscard]] std::string table() const {
-    std::string out =
-        "<div class=\"scroll\"><table class=\"stacked\" aria-label=\"places by storey and room\"><tr "
-        "class=\"heads\"><th></th><th class=\"num\">places</th><th "
-        "class=\"num\">one scan</th>"
-        "<th class=\"num\">a walk</th><th class=\"num\">median m</th><th class=\"num\">longest m</th>"
-        "<th class=\"num\">never</th><th class=\"num\">aliases, most</th></tr>";
+  /// rows: under the heads of their columns.
+  [[nodiscard]] static std::string table(const std::string& label, const std::string& rows) {
+    return "<div class=\"scroll\"><table class=\"stacked\" aria-label=\"" + label +
+           "\"><tr class=\"heads\"><th></th><th class=\"num\">places</th><th class=\"num\">one scan</th>"
+           "<th class=\"num\">a walk</th><th class=\"num\">median m</th><th class=\"num\">longest m</th>"
+           "<th class=\"num\">never</th><th class=\"num\">aliases, most</th></tr>" +
+           rows + "</table></div>";
+  }
+
+  [[nodiscard]] std::string storeys_table() const {
+    std::string rows;
     for (std::size_t f = 0; f < map_.floors.size(); ++f) {
       const bim::Storey& storey = building_.as_planned().storeys[map_.floors[f].storey];
-      out += share_row(name_of(storey), share_of(map_, compass_, [&](const MapCell& cell) { return cell.floor == f; }));
+      rows +=
+          share_row(name_of(storey), share_of(map_, compass_, [&](const MapCell& cell) { return cell.floor == f; }));
     }
+    return table("places by storey", rows);
+  }
+
+  [[nodiscard]] std::string rooms_table() const {
+    std::string rows;
+    int count = 0;
     for (const bim::Room& room : building_.as_planned().rooms) {
       const MapShare share = share_of(map_, compass_, [&](const MapCell& cell) {
         return static_cast<int>(map_.floors[cell.floor].storey) == room.storey && contains(room.polygon, cell.p_W);
       });
-      if (share.cells > 0) out += share_row(room.name.empty() ? room.id : room.name, share);
+      if (share.cells == 0) continue;
+      rows += share_row(room.name.empty() ? room.id : room.name, share);
+      ++count;
     }
-    return out + "</table></div>";
+    if (count == 0) return "";
+    return "<details class=\"fold\" open><summary>By room: " + std::to_string(count) + "</summary>" +
+           table("places by room", rows) + "</details>";
   }
 
   const RunBuilding& building_;
@@ -135,10 +152,12 @@ class ConditionPage {
   ReportInput input_;
 };
 
-std::string answer(const std::string& title, const RunBuilding& building, const BuildingMap& map) {
+/// first: of the page; what comes after it folds.
+std::string answer(const std::string& title, const RunBuilding& building, const BuildingMap& map, bool first) {
   std::string out = "<h2>" + title + "</h2>\n";
-  if (!map.options.compass_only) out += ConditionPage(building, map, false).card();
-  return out + ConditionPage(building, map, true).card();
+  const bool both = !map.options.compass_only;
+  if (both) out += ConditionPage(building, map, false).card(!first);
+  return out + ConditionPage(building, map, true).card(both || !first);
 }
 
 }  // namespace
@@ -149,9 +168,9 @@ std::string localizability_page(const RunBuilding& building, const std::string& 
                      "</h1><span class=\"facts\">a place every " + svg::number(map.options.step_m) +
                      " m, aliased poses on " + (map.options.across ? "all storeys" : "the same storey") +
                      "</span></header>\n";
-  page += answer("By the building alone", building, map);
+  page += answer("By the building alone", building, map, true);
   if (maps.with_furniture)
-    page += answer("With the furniture as planned", building, *maps.with_furniture);
+    page += answer("With the furniture as planned", building, *maps.with_furniture, false);
   else
     page +=
         "<p class=\"facts\">The plan has no furniture or other object that may have moved; the answer is the same with "

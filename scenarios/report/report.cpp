@@ -142,7 +142,8 @@ std::string numbers_table(const ReportInput& input) {
       if (std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(key);
   }
   std::string out =
-      "<section class=\"card\"><h2>All numbers</h2><div class=\"scroll\"><table class=\"stacked\" aria-label=\"all "
+      "<details class=\"card fold\" open><summary>All numbers</summary><div class=\"scroll\"><table class=\"stacked\" "
+      "aria-label=\"all "
       "numbers\"><tr "
       "class=\"heads\"><th></th>";
   for (const auto& method : input.methods) out += "<th class=\"num\">" + svg::escape(method.name) + "</th>";
@@ -158,7 +159,7 @@ std::string numbers_table(const ReportInput& input) {
     }
     out += "</tr>";
   }
-  return out + "</table></div></section>";
+  return out + "</table></div></details>";
 }
 
 }  // namespace

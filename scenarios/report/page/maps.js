@@ -24,6 +24,10 @@ var fitMaps = (function () {
   }
   function fitAll() { document.querySelectorAll(".map").forEach(fit); }
   window.addEventListener("resize", fitAll);
+  document.querySelectorAll("details.fold").forEach(function (fold) {
+    fold.open = innerWidth > 780;  // as the style has it: a phone
+    fold.addEventListener("toggle", fitAll);
+  });
   function zoom(map, by, x, y) {
     var view = map.viewBox.baseVal, whole = map.whole, width = Math.min(whole.width, Math.max(whole.width / 40, view.width / by));
     var share = width / view.width;
