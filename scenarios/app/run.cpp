@@ -83,11 +83,10 @@ int run(const RunArguments& options, slam::MethodTable table) {
   run_options.tick = [&](double t) { progress.at(t); };
   std::optional<Recorder> recorder;
   if (options.record) recorder.emplace(directory.staging() + "/" + std::string(recording_folder), resolved);
-  const bool may_show = options.replay || !resolved.scenario.gates.empty();
   ScanPacker scans = packer_of(resolved);
   run_options.observe = [&](const sim::WorldFrame& frame) {
     if (recorder) recorder->add(frame);
-    if (may_show) scans.add(frame.sensors.scan);
+    scans.add(frame.sensors.scan);
   };
   RunRecord record = execute(resolved, run_options);
   if (record.truth_W.empty())
@@ -97,9 +96,7 @@ int run(const RunArguments& options, slam::MethodTable table) {
   write_run_files(directory.staging(), resolved, record);
   if (recorder) recorder->finish();
   const FinishedRun finished = finished_run(resolved, std::move(record));
-  const auto shows = [&](const score::RunScore& scored) {
-    return may_show && (options.replay || exit_code(finished, scored) != 0);
-  };
+  const auto shows = [&](const score::RunScore& scored) { return options.replay || exit_code(finished, scored) != 0; };
   const score::RunScore score = score_and_report(directory.staging(), finished, shows);
   if (shows(score))
     write_file(directory.staging() + "/replay.html",
@@ -139,7 +136,7 @@ Command add_run(CommandLine& program, slam::MethodTable table) {
   line.option("--threads", options->threads, "threads [the CPUs allowed]").range(1, 1024);
   line.flag("--record", options->record, "also write the recording, as simulate does, into the folder recording");
   line.flag("--replay", options->replay,
-            "also write replay.html, the run in three dimensions; a run that fails a gate has it anyway");
+            "also write replay.html, the run in three dimensions; a run that fails has it anyway");
   line.flag("--force", options->force, "replace the run that stands in --out");
   line.footer(
       "Example: plumbline run quickstart --out runs/first\n"

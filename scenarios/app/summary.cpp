@@ -25,6 +25,7 @@ struct Column {
   const char* title;
   std::string_view metric;
   int decimals;
+  bool is_time = false;
 };
 constexpr std::array<Column, 7> columns = {{{"ATE m", "ate_aligned_rmse_m", 3},
                                             {"RPE/m", "rpe_1m_rmse_m", 3},
@@ -32,10 +33,12 @@ constexpr std::array<Column, 7> columns = {{{"ATE m", "ate_aligned_rmse_m", 3},
                                             {"mapped", "map_completeness", 2},
                                             {"rooms", "rooms.recall", 2},
                                             {"APE m", "localization.ape_rmse_m", 3},
-                                            {"found s", "localization.converged_at_s", 1}}};
+                                            {"found s", "localization.converged_at_s", 1, true}}};
 
-std::string cell(const score::MethodScore& score, const Column& column) {
-  const std::optional<double> value = score::find_metric(column.metric)->value(score);
+/// start_s: of the first scan; a time is shown on the run's clock, as on the pages, and its metric counts from there.
+std::string cell(const score::MethodScore& score, const Column& column, double start_s) {
+  std::optional<double> value = score::find_metric(column.metric)->value(score);
+  if (value && column.is_time) *value += start_s;
   char text[32];
   if (value)
     std::snprintf(text, sizeof(text), "%9.*f", column.decimals, *value);
@@ -70,6 +73,17 @@ std::string looks(const std::string& page, const score::RunScore& score) {
   return text;
 }
 
+/// The last scan that the method had which stopped first, s.
+std::optional<double> first_crash_s(const FinishedRun& run) {
+  std::optional<double> first;
+  for (const MethodRecord& method : run.record.methods) {
+    if (!method.crashed) continue;
+    const double at_s = method.causal.empty() ? 0.0 : slam::seconds(method.causal.back().stamp);
+    first = std::min(first.value_or(at_s), at_s);
+  }
+  return first;
+}
+
 }  // namespace
 
 std::string summarise(const FinishedRun& run, const score::RunScore& score) {
@@ -90,13 +104,14 @@ std::string summarise(const FinishedRun& run, const score::RunScore& score) {
     text += title;
   }
   text += "\n";
+  const double start_s = run.scans.empty() ? 0.0 : slam::seconds(run.scans.front());
   for (const score::MethodScore& method : score.methods) {
     text += row(method.name, width, method.verdict);
-    for (const Column& column : columns) text += cell(method, column);
+    for (const Column& column : columns) text += cell(method, column, start_s);
     text += method.error.empty() ? "\n" : "  " + printable(method.error) + "\n";
   }
   for (const Unjudged& method : unjudged(judging_blocks(score)))
-    text += "not judged: " + printable(method.method + ": " + method.what) + "\n";
+    text += (method.crashed() ? "FAILED: " : "not judged: ") + printable(method.method + ": " + method.what) + "\n";
   for (const score::GateResult& gate : score.gates)
     text += (gate.passed ? "passed: " : "FAILED: ") + score::describe(gate) + "\n";
   if (score.gates.empty()) return text + "no gates\n";
@@ -106,19 +121,23 @@ std::string summarise(const FinishedRun& run, const score::RunScore& score) {
 
 std::string next_steps(const std::string& dir, bool has_replay, const FinishedRun& run, const score::RunScore& score) {
   const std::string page = printable(dir) + "/replay.html", shown = looks(page, score);
-  const std::string folder = printable(shell_argument(dir));
+  const std::string folder = printable(shell_argument(dir)),
+                    make_page = "look:  plumbline report --3d " + folder + "\n";
   if (exit_code(run, score) == 0) {
     if (has_replay) return shown.empty() ? "look:  " + page + "\n" : shown;
-    return shown.empty() ? "" : "look:  plumbline report --3d " + folder + "\n";
+    return shown.empty() ? "" : make_page;
   }
   const auto failed =
       std::find_if(score.gates.begin(), score.gates.end(), [](const score::GateResult& gate) { return !gate.passed; });
   double at_s = score.duration_s;
-  const bool by_gate = run.record.failure.empty() && failed != score.gates.end();
+  const bool by_method = run.record.failure.empty(), by_gate = by_method && failed != score.gates.end();
   if (by_gate) at_s = score::telling_moment(run, score, *failed).value_or(at_s);
+  if (by_method && !by_gate) at_s = first_crash_s(run).value_or(at_s);
   const std::string until = format_number(score::rounded_up(at_s, 10.0));
-  const bool has_link = by_gate && !failed->see.empty();
-  return (has_link ? shown : "look:  " + page + "#t=" + until + "\n" + (by_gate ? shown : "")) +
+  const bool has_link = by_gate ? !failed->see.empty() : by_method && !shown.empty();
+  return (!has_replay ? make_page
+          : has_link  ? shown
+                      : "look:  " + page + "#t=" + until + "\n" + (by_method ? shown : "")) +
          "again: plumbline replay " + folder + " --until " + until + "\n";
 }
 

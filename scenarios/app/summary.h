@@ -15,12 +15,11 @@ namespace plumbline::scenarios {
 [[nodiscard]] std::string summarise(const FinishedRun& run, const score::RunScore& score);
 
 /// Links to the replay page, one for each method that failed a gate or went wrong unjudged; after a run that failed
-/// also the command that stops there. Without the page, of a run that passed: the command that writes it, where
-/// something went wrong.
+/// also the command that stops there. Without the page: the command that writes it, where something went wrong.
 [[nodiscard]] std::string next_steps(const std::string& dir, bool has_replay, const FinishedRun& run,
                                      const score::RunScore& score);
 
-/// 0 all gates passed or none asked for, 1 a gate failed, 4 the scenario failed.
+/// 0 all gates passed or none asked for, 1 a gate failed or a method crashed, 4 the scenario failed.
 [[nodiscard]] int exit_code(const FinishedRun& run, const score::RunScore& score);
 
 /// The graph files of a run's methods, by name.

@@ -14,6 +14,9 @@ struct TrajectoryRules {
   double min_coverage = 0.95;            ///< share of scans with a pose; below, a method is lost
   double rpe_distance_m = 1.0;           ///< walked between the two ends of a relative error
   double drift_distance_m = 10.0;        ///< walked between the two ends of a stretch whose drift is taken
+  /// An error beyond half of a door of 1 m is far off: such a pose stands in the jamb while the robot is in the middle
+  /// of the door, or behind a wall. The answer of a localization counts as wrong from there, too.
+  double far_off_m = 0.5;
 };
 
 /// True poses X_WR in time order, 100 Hz and at every scan, and the stamps of the scans.

@@ -50,12 +50,12 @@ PlotCurve consistent_poses(const ReportInput& input, double end_s) {
   return curve;
 }
 
-std::string identifiability_sentence(const Tree& known) {
+std::string identifiability_sentence(const Tree& known, double start_s) {
   std::string text = "the scans never distinguished the true pose from all others.";
   if (const auto at = number_of(&known, "at_s"))
     text = *at <= 0.0 ? "identifiable from the first scan on."
-                      : "identifiable after " + svg::number(*at, 1) + " s and " +
-                            svg::number(number_of(&known, "at_m").value_or(0.0), 1) + " m.";
+                      : "identifiable from t = " + svg::number(start_s + *at, 1) + " s on, after " +
+                            svg::number(number_of(&known, "at_m").value_or(0.0), 1) + " m walked.";
   if (const Tree* element = known.find("decided_by"))
     text += " Decided by " + text_of(*element, "element") +
             (element->find("missing")->as_bool() ? ", which would be visible from the last aliased pose and was not."
@@ -68,9 +68,9 @@ std::string identifiability_text(const ReportInput& input) {
   if (known == nullptr) return "";
   const auto line = [](const std::string& text) { return "<p class=\"facts\">" + svg::escape(text) + "</p>"; };
   const Tree* with_furniture = known->find("with_furniture");
-  std::string out = line("By the building alone: " + identifiability_sentence(*known));
+  std::string out = line("By the building alone: " + identifiability_sentence(*known, start_s(input)));
   if (with_furniture != nullptr)
-    out += line("With the furniture as planned: " + identifiability_sentence(*with_furniture));
+    out += line("With the furniture as planned: " + identifiability_sentence(*with_furniture, start_s(input)));
   const bool by_furniture = with_furniture != nullptr && number_of(with_furniture, "at_s") && !number_of(known, "at_s");
   return by_furniture ? out + line("Only furniture tells these apart; it may have moved.") : out;
 }
@@ -116,8 +116,9 @@ std::string draw_errors(const ReportInput& input, double end_s) {
   std::string out =
       "<section class=\"card\"><h2>Position error over time</h2>" + draw_kind(input, kinds.front(), end_s, false) +
       "<p class=\"facts\">Point at it for values, click to jump there; the legend gives the values at the "
-      "time shown. Triangles: beyond the scale. Dotted: the method says that it is lost.</p>"
-      "<details open><summary>By axis, heading, and over the last metre</summary><div class=\"pair\">";
+      "time shown. The scale ends at four times what the median method reaches, so that good ones can be compared; "
+      "triangles: beyond it. Dotted: the method says that it is lost.</p>"
+      "<details class=\"fold\" open><summary>By axis, heading, and over the last metre</summary><div class=\"pair\">";
   for (const ErrorKind& kind : std::span(kinds).subspan(1)) out += draw_kind(input, kind, end_s, true);
   return out + "</div></details></section>";
 }

@@ -15,11 +15,21 @@ namespace plumbline::scenarios {
 namespace {
 
 /// Words of pages that are neither verdicts nor metrics, and keys of results.json that no gate can ask for.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 4> terms = {
-    {{"consistent poses", "poses at which the plan explains all scans so far, the true one among them"},
+constexpr std::array<std::pair<std::string_view, std::string_view>, 7> terms = {
+    {{"t = 3.4 s",
+      "the run's clock, on which all time lines, marks, sentences and the terminal's `found s` are; its first scan is "
+      "there at 0.1 s or so. `localization.converged_at_s` and `localization.identifiable_at_s` count from that scan"},
+     {"consistent poses", "poses at which the plan explains all scans so far, the true one among them"},
      {"marginally identifiable",
       "the scans favour the true pose over every other, but not enough to exclude all of them; this is the evidence "
       "`weak`"},
+     {"far off",
+      "SLAM whose `ate_aligned_rmse_m` is above 0.5 m, half of a door of 1 m: such a pose may lie behind a wall. Where "
+      "no gate is on one of its `ate_*` metrics the header names it, and the exit code stays as it is"},
+     {"the last metre is off",
+      "SLAM is aligned over the whole run, which spreads an error over all of it; the error of the motion over the "
+      "last "
+      "metre walked says when it slipped"},
      {"localization.state", "state at the end of the run"},
      {"localization.with_furniture.*",
       "`identifiable`, `evidence` and the rest as above, with the furniture as planned in the plan"}}};

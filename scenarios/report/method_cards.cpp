@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "scenarios/metrics/localization_score.h"
+#include "scenarios/metrics/trajectory.h"
 #include "scenarios/report/map_drawing.h"
 #include "scenarios/report/palette.h"
 #include "scenarios/report/plot.h"
@@ -20,11 +21,30 @@ std::string centimetres(double metres) { return svg::number(100.0 * metres, 1) +
 
 std::string length(double metres) { return metres < 1.0 ? centimetres(metres) : svg::number(metres, 2) + " m"; }
 
+/// A gate on the position error stands for it.
+bool is_error_gated(const Tree& results, const std::string& method) {
+  const Tree* gates = results.find("gates");
+  if (gates == nullptr) return false;
+  const Tree::List& list = gates->as_list();
+  return std::any_of(list.begin(), list.end(), [&](const Tree& gate) {
+    return text_of(gate, "method") == method && text_of(gate, "metric").starts_with("ate_");
+  });
+}
+
+/// Error of a SLAM method that is far off and that no gate judges, m.
+std::optional<double> far_off(const Tree& results, const std::string& method, const Tree* block) {
+  if (block == nullptr || block->find("localization") != nullptr || is_error_gated(results, method))
+    return std::nullopt;
+  const auto error = number_of(block, "ate_aligned_rmse_m");
+  return error && *error > score::TrajectoryRules().far_off_m ? error : std::nullopt;
+}
+
 /// A method's gates decide on its colour. Without any a verdict that says something of the answer does: `complete` does
-/// not.
-std::string judged(const Tree& results, const std::string& method, const std::string& verdict) {
+/// not, but an error that is far off does.
+std::string judged(const Tree& results, const std::string& method, const Tree* block) {
+  const std::string verdict = block == nullptr ? "" : text_of(*block, "verdict");
   const GateCount gates = gates_of(results, method);
-  if (gates.passed < gates.all) return "bad";
+  if (gates.passed < gates.all || far_off(results, method, block)) return "bad";
   if (verdict == "success" || verdict == "honest_ambiguity") return "good";
   if (verdict != "complete") return "bad";
   return gates.all > 0 ? "good" : "open";
@@ -51,7 +71,7 @@ bool is_gated(const Tree& results, const std::string& method, const std::string&
   });
 }
 
-/// ", since ... (at 12.3 s)", or nothing.
+/// ", since ... (at t = 12.3 s)", or nothing.
 std::string why_it_failed(const Tree* where) {
   const std::string failure = where == nullptr ? "" : text_of(*where, "failure");
   std::string why;
@@ -62,7 +82,7 @@ std::string why_it_failed(const Tree* where) {
   if (failure == "undecided") why = "the true pose remained one of several";
   if (why.empty()) return "";
   const auto at = number_of(where, "failure_at_s");
-  const std::string when = failure == "undecided" ? " (until " : " (at ";
+  const std::string when = failure == "undecided" ? " (until t = " : " (at t = ";
   return ", since " + why + (at ? when + svg::number(*at, 1) + " s)" : "");
 }
 
@@ -81,8 +101,9 @@ std::string after_kidnap(const ReportInput& input, const Tree* where) {
                        : ", and it was not localized again for good.");
 }
 
-/// What a plan localization did; `where` is its block of numbers, may be null.
-std::string place_sentence(const std::string& verdict, const Tree* where) {
+/// What a plan localization did; `where` is its block of numbers, may be null. Times are on the run's clock, as marks
+/// have them; the block counts from the first scan.
+std::string place_sentence(const std::string& verdict, const Tree* where, double start_s) {
   const auto time = number_of(where, "converged_at_s");
   const auto error = number_of(where, "ape_rmse_m");
   const auto places = number_of(where, "hypotheses");
@@ -97,17 +118,18 @@ std::string place_sentence(const std::string& verdict, const Tree* where) {
            (is_marginal ? "the scans favour it only marginally" : "several explain the scans") + why_it_failed(where) +
            ".";
   if (!time) return "Never converged on one pose in the building" + why_it_failed(where) + ".";
+  const std::string when = " at t = " + svg::number(start_s + *time, 1) + " s";
   if (verdict == "lucky") return "Converged on the right pose before the scans distinguished it from others.";
   const std::string failure = text_of(*where, "failure");
   const auto failed_at = number_of(where, "failure_at_s");
   const bool is_wrong = verdict == "false_convergence";
   if (failure == "tracking_lost" && failed_at)
-    return "Converged on the right pose after " + svg::number(*time, 1) + " s, and lost it again at " +
-           svg::number(*failed_at, 1) + " s" + (is_wrong ? " without saying so." : ".");
+    return "Converged on the right pose" + when + ", and lost it again at t = " + svg::number(*failed_at, 1) + " s" +
+           (is_wrong ? " without saying so." : ".");
   if (is_wrong) return "Converged on a wrong pose" + why_it_failed(where) + ".";
   if (verdict == "lost" || (verdict == "late" && failure != "undecided"))
-    return "Converged after " + svg::number(*time, 1) + " s and withdrew its answer" + why_it_failed(where) + ".";
-  std::string text = "Converged on the right pose after " + svg::number(*time, 1) + " s";
+    return "Converged" + when + " and withdrew its answer" + why_it_failed(where) + ".";
+  std::string text = "Converged on the right pose" + when;
   if (error) text += ", with an error of " + length(*error) + " from then on (rms)";
   return text + (verdict == "late" ? "; too late to count: an answer must hold for 5 s and 1 m." : ".");
 }
@@ -120,9 +142,10 @@ int true_storey(const ReportInput& input, double t_s) {
 }
 
 /// From when to when its answers were first farther off than an answer may be, in position or heading, how often again,
-/// and on which wrong storey; or nothing. LOST is no answer.
+/// and on which wrong storey; or nothing. LOST is no answer. Of SLAM the heading counts as little as in its metrics.
 std::string wrong_stretch(const ReportInput& input, const ReportMethod& method) {
   const score::LocalizationRules limits;
+  const double limit_m = method.localization ? limits.position_m : score::TrajectoryRules().far_off_m;
   const ReportSample *first = nullptr, *last = nullptr, *astray = nullptr;
   constexpr double degrees = 180.0 / std::numbers::pi;
   double most_m = 0.0, most_deg = 0.0;
@@ -131,7 +154,7 @@ std::string wrong_stretch(const ReportInput& input, const ReportMethod& method) 
   bool was_wrong = false;
   for (const ReportSample& sample : method.samples) {
     const double off_deg = degrees * std::abs(sample.yaw_error);
-    const bool wrong = !sample.lost && (sample.error_m > limits.position_m || off_deg > limits.yaw_deg);
+    const bool wrong = !sample.lost && (sample.error_m > limit_m || (method.localization && off_deg > limits.yaw_deg));
     if (wrong && !was_wrong && ++stretches == 1) first = &sample;
     if (wrong && stretches == 1) last = &sample;
     if (wrong && was_wrong) all_s += sample.t_s - before_s;
@@ -146,12 +169,12 @@ std::string wrong_stretch(const ReportInput& input, const ReportMethod& method) 
   if (first == nullptr) return "";
   const bool to_the_end =
       last == &method.samples.back() && !input.truth.empty() && input.truth.back().t_s - last->t_s <= path_gap_s;
-  const bool in_position = most_m > limits.position_m, in_heading = most_deg > limits.yaw_deg;
+  const bool in_position = most_m > limit_m, in_heading = method.localization && most_deg > limits.yaw_deg;
   const auto listed = [&](const std::string& position, const std::string& word, const std::string& heading) {
     return (in_position ? position : "") + (in_position && in_heading ? word : "") + (in_heading ? heading : "");
   };
   std::string text = " More than " +
-                     listed(svg::number(limits.position_m, 1) + " m", " or ", svg::number(limits.yaw_deg, 0) + "°") +
+                     listed(svg::number(limit_m, 1) + " m", " or ", svg::number(limits.yaw_deg, 0) + "°") +
                      " off from t = " + svg::number(first->t_s, 1) + " s " +
                      (to_the_end ? "to the end" : "to t = " + svg::number(last->t_s, 1) + " s");
   if (stretches > 1)
@@ -174,7 +197,8 @@ std::string sentence(const ReportInput& input, const ReportMethod& method, const
   if (method.localization) {
     const Tree* where = results == nullptr ? nullptr : results->find("localization");
     const bool by_furniture = where != nullptr && where->find("evidence_by_furniture") != nullptr;
-    return place_sentence(verdict, where) + (input.kidnap ? after_kidnap(input, where) : wrong_stretch(input, method)) +
+    return place_sentence(verdict, where, start_s(input)) +
+           (input.kidnap ? after_kidnap(input, where) : wrong_stretch(input, method)) +
            (by_furniture ? " Only furniture tells these apart." : "");
   }
   const auto error = number_of(results, "ate_aligned_rmse_m");
@@ -186,7 +210,7 @@ std::string sentence(const ReportInput& input, const ReportMethod& method, const
   if (visited && recall)
     text += "; recognised " + svg::number(*recall * *visited, 0) + " of the " + svg::number(*visited, 0) +
             " rooms it was in";
-  return text + ".";
+  return text + "." + wrong_stretch(input, method);
 }
 
 }  // namespace
@@ -210,10 +234,15 @@ std::vector<Unjudged> unjudged(const Tree& results) {
   for (const auto& [name, block] : methods->as_map()) {
     const std::string verdict = text_of(block, "verdict");
     if (name == "truth") continue;
-    if (gates_of(results, name).all == 0 && judged(results, name, verdict) == "bad")
+    const auto error = far_off(results, name, &block);
+    if (verdict == "complete" && error)
+      found.push_back({name, "off by " + length(*error) + " rms"});
+    else if (gates_of(results, name).all == 0 && judged(results, name, &block) == "bad")
       found.push_back({name, verdict});
     else if (never_found_again(block.find("localization")) && !is_gated(results, name, "localization.kidnap_found_s"))
-      found.push_back({name, "not localized again after the kidnapping"});
+      found.push_back({name, number_of(block.find("localization"), "converged_at_s")
+                                 ? "not localized again after the kidnapping"
+                                 : "not localized after the kidnapping either"});
   }
   return found;
 }
@@ -229,7 +258,7 @@ std::string method_cards(const ReportInput& input) {
     out += "<div class=\"method\" style=\"border-color:" + method_ink(method.ink) +
            "\"><h3><label><input type=\"checkbox\" checked data-layer=\"" + name + "\"> " + name +
            "</label> <button type=\"button\" class=\"only\" data-only=\"" + name +
-           "\">only</button> <span class=\"verdict " + judged(input.results, method.name, verdict) + "\">" +
+           "\">only</button> <span class=\"verdict " + judged(input.results, method.name, results) + "\">" +
            svg::escape(verdict) + "</span></h3><p>" + svg::escape(sentence(input, method, results)) + "</p><p>" +
            gates_sentence(input, method.name) + "</p><p id=\"now-" + name + "\"></p></div>";
   }

@@ -224,7 +224,8 @@ Truth truth_of(const FinishedRun& run) {
 }  // namespace
 
 bool RunScore::passed() const {
-  return std::all_of(gates.begin(), gates.end(), [](const GateResult& gate) { return gate.passed; });
+  return std::all_of(gates.begin(), gates.end(), [](const GateResult& gate) { return gate.passed; }) &&
+         std::none_of(methods.begin(), methods.end(), [](const MethodScore& m) { return m.verdict == "crashed"; });
 }
 
 RunScore score_run(const FinishedRun& run) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every page but the replay keeps to, in a real browser: node pages_test.mjs PAGE... Contrast of all text in both schemes, a phone's
-// width without scrolling sideways, every control by keyboard, one request, no error; of a report also its plots and its time line.
+// What every page keeps to, in a real browser: node pages_test.mjs PAGE... Contrast of all text in both schemes, a phone's width without
+// scrolling sideways and not too many screens of it, every control by keyboard, one request, no error; of a report also its plots and its
+// time line, of a replay the marks of SLAM that is far off and its scale of errors. replay_test.mjs has the rest of the replay.
 // Prints a line a check; exit code 1 when one fails.
 import { resolve } from "node:path";
 import { pathToFileURL } from "node:url";
@@ -31,7 +32,7 @@ const faint = `(() => {
   let texts = 0;
   while (walker.nextNode()) {
     const text = walker.currentNode.textContent.trim(), e = walker.currentNode.parentElement;
-    if (!text || /^(SCRIPT|STYLE|title)$/.test(e.tagName) || e.closest(".over") || e.getClientRects().length === 0) continue;
+    if (!text || /^(SCRIPT|STYLE|title)$/.test(e.tagName) || e.closest(".over, #labels") || e.getClientRects().length === 0) continue;
     ++texts;
     const style = getComputedStyle(e), ink = parse(e.namespaceURI.endsWith("svg") ? style.fill : style.color);
     const [a, b] = [light(ink), light(under(e))].sort((x, y) => x - y), ratio = (b + 0.05) / (a + 0.05);
@@ -49,21 +50,26 @@ const sideways = `(() => {
   return wide.slice(0, 5);
 })()`;
 
+const loaded = "document.readyState === 'complete' && (!document.getElementById('app') || document.body.dataset.ready === '1')";
+/** What Tab stops at: of radio buttons of one name at one; what is not shown, at none. */
+const controls = `[...document.querySelectorAll("button, input, select, summary, a[href], .map, table.sorted th, #view")].filter((e) =>
+  e.getClientRects().length > 0 && !e.disabled && (e.type !== "radio" || e.checked))`;
+const screens = 9; // that a page is long on a phone, as it opens
+
 async function everyPage(browser, url, name) {
   for (const dark of [false, true]) {
     const page = await browser.page(1200, 900, { dark });
     await page.open(url);
-    await page.until("document.readyState === 'complete'");
+    await page.until(loaded);
     await page.get("document.querySelectorAll('details').forEach((d) => { d.open = true; })");
     const seen = await page.get(faint);
     check(name + ": text has a contrast of 4.5 in the " + (dark ? "dark" : "light") + " scheme", seen.texts > 5 && seen.found.length === 0, seen);
     check(name + ": one request, no error", page.requests.length === 1 && page.errors.length === 0, [page.requests, page.errors]);
-    const wanted = await page.get(`document.querySelectorAll("button, input, select, summary, a[href], .map, table.sorted th").length`);
+    const wanted = await page.get(controls + ".length");
     const reached = new Set();
     for (let i = 0; i < 2 * wanted + 20; ++i) {
       await page.key("Tab");
-      const at = await page.get(`(() => { const all = [...document.querySelectorAll("button, input, select, summary, a[href], .map, table.sorted th")];
-        return all.indexOf(document.activeElement); })()`);
+      const at = await page.get(controls + ".indexOf(document.activeElement)");
       if (at >= 0) reached.add(at);
       if (reached.size === wanted) break;
     }
@@ -79,7 +85,9 @@ async function everyPage(browser, url, name) {
   check(name + ": where columns are out of view a hint says so", hidden === 0, hidden);
   const phone = await browser.page(390, 844, { mobile: true });
   await phone.open(url);
-  await phone.until("document.readyState === 'complete'");
+  await phone.until(loaded);
+  const long = (await phone.get("document.documentElement.scrollHeight")) / 844;
+  check(name + ": is at most " + screens + " screens long on a phone", long <= screens, long);
   await phone.get("document.querySelectorAll('details').forEach((d) => { d.open = true; })");
   const cutOff = await phone.get(`[...document.querySelectorAll(".map text")].filter((t) => { if (t.getClientRects().length === 0) return false;
     const r = t.getBoundingClientRect(), m = t.closest(".map").getBoundingClientRect(); return r.left < m.left - 1 || r.right > m.right + 1; }).map((t) => t.textContent)`);
@@ -116,21 +124,45 @@ async function report(browser, url, name) {
   await page.key("ArrowRight");
   check(name + ": an arrow key steps", (await clock()) === "2.5 s", await clock());
   const data = await page.get("JSON.parse(document.getElementById('data').textContent)");
-  const methods = Object.keys(data.tracks).filter((m) => m !== "truth"), track = data.tracks[methods[0]];
+  const methods = Object.keys(data.tracks).filter((m) => m !== "truth");
+  const t = 0.5 * data.end, at = (m) => data.tracks[m].t.filter((v) => v <= t).length - 1;
+  const series = methods.findIndex((m) => at(m) >= 0 && t - data.tracks[m].t[at(m)] < 0.5), track = data.tracks[methods[series]];
   await page.get("document.getElementById('errors').scrollIntoView()");
   const box = await page.get("(() => { const b = document.querySelector('#errors .frame').getBoundingClientRect(); return [b.left, b.top, b.width, b.height]; })()");
-  const t = 0.5 * data.end, x = box[0] + 0.5 * box[2], y = box[1] + 0.5 * box[3];
+  const x = box[0] + 0.5 * box[2], y = box[1] + 0.5 * box[3];
   await page.send("Input.dispatchMouseEvent", { type: "mouseMoved", x, y });
-  const k = track.t.filter((v) => v <= t).length - 1, expected = methods[0] + ": " + (100 * track.e[k]).toFixed(1) + " cm";
+  const k = at(methods[series]), expected = methods[series] + ": " + (100 * track.e[k]).toFixed(1) + " cm";
   const tip = await page.get("document.querySelector('.tip').textContent");
   check(name + ": the tip over a plot names the error there", tip.includes(expected), [tip, expected]);
   await page.click(x, y);
   check(name + ": a click on a plot goes there", Math.abs(parseFloat(await clock()) - t) < 0.15, await clock());
-  const legend = await page.get("document.querySelector('#errors-x [data-series]').textContent");
+  const legend = await page.get("document.querySelector('#errors-x [data-series=\"" + series + "\"]').textContent");
   check(name + ": the legend holds the value of now", legend === (100 * track.ex[k]).toFixed(1) + " cm", [legend, track.ex[k]]);
   await page.get("document.getElementById('byerror').click()");
   const shown = await page.get("['.errorpath', '.path'].map((s) => getComputedStyle(document.querySelector(s)).display)");
   check(name + ": paths by error in place of paths by method", shown[0] !== "none" && shown[1] === "none", shown);
+}
+
+async function replay(browser, url, name) {
+  const page = await browser.page(1200, 900, { before: "globalThis.Plumb = { testing: true };" });
+  await page.open(url);
+  await page.until(loaded);
+  const far = await page.get(`(async () => { const app = Plumb.app, { run, tracks } = app.data, wrong = [];
+    for (const method of run.methods.filter((m) => !m.localizes)) {
+      const track = tracks[method.name], i = track.t.findIndex((t, k) => Plumb.data.isWrong(app.data, track, k));
+      const of = (kind) => run.marks.find((m) => m.m === method.name && m.kind === kind), first = i < 0 ? undefined : track.t[i];
+      if ((of("far") || {}).t !== first || Boolean(of("slip")) !== i >= 0) wrong.push([method.name, first, of("far"), of("slip")]);
+      if (i < 0) continue;
+      await app.seek(first + 0.001);
+      if (!document.querySelector("[data-now=" + method.name + "]").classList.contains("bad")) wrong.push(method.name + " has no colour");
+    }
+    return wrong; })()`);
+  check(name + ": SLAM has marks where it is first far off and where it slipped, and only then", far.length === 0, far);
+  const scale = await page.get(`(() => { const app = Plumb.app, line = app.line2;
+    const most = Object.entries(app.data.tracks).filter(([n]) => n !== "truth").map(([, t]) => Math.max(...t.e.filter((e, i) => t.lost[i] < 0.5))).filter(Number.isFinite).sort((a, b) => a - b);
+    return { top: line.top, most }; })()`);
+  const median = scale.most[(scale.most.length - 1) >> 1];
+  check(name + ": the median method takes a fifth of the height of the errors or more", scale.top <= Math.max(0.01, 5 * median), scale);
 }
 
 const browser = await Browser.start();
@@ -138,6 +170,7 @@ for (const file of process.argv.slice(2)) {
   const url = pathToFileURL(resolve(file)).href, name = file.replace(/.*\//, "");
   await everyPage(browser, url, name);
   if (name === "report.html") await report(browser, url, name);
+  if (name === "replay.html") await replay(browser, url, name);
 }
 await browser.close();
 process.exit(failures > 0 ? 1 : 0);

@@ -64,20 +64,67 @@ TEST_F(Pages, AnUnknownRunIsRefused) {
   EXPECT_NE(refused.err.find("--page: the sweep has no run 'short-9'"), std::string::npos) << refused.err;
 }
 
-TEST_F(Pages, KeepToContrastPhonesAndKeys) {
+/// What keeps a script for a browser from running here; empty where nothing does.
+std::string no_browser() {
   for (const std::string program : {"node", "chromium"})
     if (std::system(("command -v " + program + " >/dev/null 2>&1").c_str()) != 0)
-      GTEST_SKIP() << "no " << program << "; ci/setup full installs it";
+      return "no " + program + "; ci/setup full installs it";
+  return "";
+}
+
+/// What the script says of pages; empty where all keep to it.
+std::string faults_of(const std::vector<std::string>& pages, const std::string& log) {
+  std::string command = "node '" + project_file("tests/browser/pages_test.mjs") + "'";
+  for (const std::string& page : pages) command += " '" + page + "'";
+  return std::system((command + " >'" + log + "' 2>&1").c_str()) == 0 ? "" : read_file(log);
+}
+
+TEST_F(Pages, KeepToContrastPhonesAndKeys) {
+  if (const std::string missing = no_browser(); !missing.empty()) GTEST_SKIP() << missing;
   const Outcome identified =
       plumbline({"identify", *folder_ / "short.plan.yaml", "--step", "1", "-o", *folder_ / "i.html"});
   ASSERT_EQ(identified.code, 0) << identified.err;
   const Outcome walked = plumbline({"inspect", *folder_ / "short.plan.yaml", "--walk", *folder_ / "w.html"});
   ASSERT_EQ(walked.code, 0) << walked.err;
-  const std::string log = *folder_ / "pages.log";
-  const std::string command = "node '" + project_file("tests/browser/pages_test.mjs") + "' '" + out() +
-                              "/table.html' '" + (*folder_ / "i.html") + "' '" + (*folder_ / "w.html") + "' >'" + log +
-                              "' 2>&1";
-  EXPECT_EQ(std::system(command.c_str()), 0) << read_file(log);
+  EXPECT_EQ(faults_of({out() + "/table.html", *folder_ / "i.html", *folder_ / "w.html"}, *folder_ / "pages.log"), "");
+}
+
+// Of 22 rooms on two storeys.
+TEST_F(Pages, OfALargerBuildingFitAPhone) {
+  if (const std::string missing = no_browser(); !missing.empty()) GTEST_SKIP() << missing;
+  const std::string page = *folder_ / "house.html";
+  const Outcome identified =
+      plumbline({"identify", project_file("scenarios/library/house.plan.yaml"), "--step", "1", "-o", page});
+  ASSERT_EQ(identified.code, 0) << identified.err;
+  EXPECT_EQ(faults_of({page}, *folder_ / "house.log"), "");
+}
+
+TEST_F(Pages, OfSlamThatIsFarOffSaySo) {
+  const std::string stuck = fs::path(std::getenv("PLUMBLINE_BINARY")).parent_path() / "tests/hostile_process";
+  const std::string run = *folder_ / "far";
+  const Outcome far = plumbline(
+      {"run", *folder_ / "short.yaml", "--method", "odometry,stuck=" + stuck + " good", "--replay", "-o", run});
+  ASSERT_EQ(far.code, 0) << far.err;
+  EXPECT_NE(far.out.find("\nnot judged: stuck: off by "), std::string::npos) << far.out;
+  EXPECT_NE(far.out.find("look:  " + run + "/replay.html#m=stuck\n"), std::string::npos) << far.out;
+  EXPECT_NE(read_file(run + "/report.html").find("rms, not judged</a>"), std::string::npos);
+  if (const std::string missing = no_browser(); !missing.empty()) GTEST_SKIP() << missing;
+  EXPECT_EQ(faults_of({run + "/report.html", run + "/replay.html"}, *folder_ / "far.log"), "");
+}
+
+// Two flats that are alike, and a method that settles on one.
+TEST_F(Pages, OfALocalizationThatFailsKeepToThat) {
+  ASSERT_EQ(plumbline({"generate", "rot180", "-o", *folder_ / "alike.plan.yaml"}).code, 0);
+  write_file(*folder_ / "alike.yaml",
+             "scenario: 1\nname: alike\nbuilding: alike.plan.yaml\nstart: {room: living_a}\n"
+             "route: {rooms: [hall_a]}\nduration_s: 12\nprior: {yaw: unknown}\n"
+             "methods: [s_graph_localization, s_graph_localization_paper]\ngates:\n"
+             "  - {metric: localization.sure_and_wrong, method: s_graph_localization_paper, max: 0}\n");
+  const std::string run = *folder_ / "alike";
+  const Outcome failed = plumbline({"run", *folder_ / "alike.yaml", "-o", run});
+  ASSERT_EQ(failed.code, 1) << failed.out << failed.err;
+  if (const std::string missing = no_browser(); !missing.empty()) GTEST_SKIP() << missing;
+  EXPECT_EQ(faults_of({run + "/report.html", run + "/replay.html"}, *folder_ / "alike.log"), "");
 }
 
 }  // namespace

@@ -371,7 +371,7 @@ Plumb.App = class {
       const pose = moment.poses[cell.dataset.now];
       cell.textContent = cell.dataset.now === "truth" ? "" : Plumb.offText(pose);
       const method = this.data.run.methods.find((m) => m.name === cell.dataset.now);
-      cell.classList.toggle("bad", !!pose && !!method && method.localizes && Plumb.data.isWrong(this.data, this.data.tracks[method.name], pose.i));
+      cell.classList.toggle("bad", !!pose && !!method && Plumb.data.isWrong(this.data, this.data.tracks[method.name], pose.i));
     }
     const parts = [];
     const scans = this.data.scans;

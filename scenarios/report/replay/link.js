@@ -32,7 +32,7 @@ Object.assign(Plumb.App.prototype, {
   /** The mark where a failure begins to show, of one method or of the one that fails first; or none. */
   firstFailure(name) {
     const first = (kinds) => this.data.run.marks.find((m) => kinds.includes(m.kind) && (name === "" || m.m === name));
-    return first(["wrong"]) || first(["lost", "failure", "gate"]);
+    return first(["wrong"]) || first(["lost", "failure", "gate"]) || first(["slip"]) || first(["far"]);
   },
 
   writeLink() {

@@ -87,11 +87,34 @@ void add_method_marks(const ReportMethod& method, const Tree* results, double st
   }
 }
 
+/// Where SLAM, aligned over the whole run, is first far off; and since alignment spreads an error over the run, where
+/// its own motion over the last metre walked was off most.
+void add_slam_marks(const ReportMethod& method, Tree& marks) {
+  const ReportSample *first = nullptr, *slip = nullptr;
+  double most_m = 0.0;
+  for (const ReportSample& sample : method.samples) {
+    if (sample.lost) continue;
+    if (first == nullptr && sample.error_m > score::TrajectoryRules().far_off_m) first = &sample;
+    most_m = std::max(most_m, sample.error_m);
+    if (sample.relative_m && (slip == nullptr || *sample.relative_m > *slip->relative_m)) slip = &sample;
+  }
+  if (first == nullptr) return;
+  marks.push(mark(first->t_s,
+                  "off by more than " + svg::number(score::TrajectoryRules().far_off_m, 1) + " m, by " +
+                      svg::number(most_m, 2) + " m at most",
+                  "far", method.name));
+  if (slip != nullptr)
+    marks.push(mark(slip->t_s, "the last metre is off by " + svg::number(*slip->relative_m, 2) + " m, its most", "slip",
+                    method.name));
+}
+
 Tree marks_of(const FinishedRun& run, const score::RunScore& score, const ReportInput& input) {
   Tree marks = Tree::list();
   for (const PlotMark& common : common_marks(input)) marks.push(mark(common.t_s, common.label, "run"));
   for (const ReportMethod& method : input.methods)
     if (!is_truth(method)) add_method_marks(method, results_of(input, method.name), start_s(input), marks);
+  for (const ReportMethod& method : input.methods)
+    if (!is_truth(method) && !method.localization) add_slam_marks(method, marks);
   for (std::size_t i = 0; i < run.record.methods.size(); ++i) {
     const MethodRecord& method = run.record.methods[i];
     const double last_s = method.causal.empty() ? start_s(input) : slam::seconds(method.causal.back().stamp);

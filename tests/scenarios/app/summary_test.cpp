@@ -52,6 +52,43 @@ TEST(NextSteps, LeadToEveryMethodThatFailed) {
             "again: plumbline replay 'runs/a b' --until 9\n");
 }
 
+TEST(NextSteps, OfACrashLeadToTheMethodAndItsLastScan) {
+  Judged judged;
+  for (const char* name : {"judged", "un judged"}) judged.run.record.methods.emplace_back().name = name;
+  judged.run.record.methods[1].crashed = true;
+  judged.run.record.methods[1].causal = {{3'000'000'000, {}}};
+  judged.score.methods[1].verdict = "crashed";
+  EXPECT_EQ(exit_code(judged.run, judged.score), 1);
+  EXPECT_EQ(judged.steps(true),
+            "look:  runs/a b/replay.html#m=un%20judged\nagain: plumbline replay 'runs/a b' --until 3\n");
+  EXPECT_NE(summarise(judged.run, judged.score).find("\nFAILED: un judged: crashed\nno gates\n"), std::string::npos);
+}
+
+TEST(NextSteps, OfSlamThatIsFarOffLeadToIt) {
+  Judged judged;
+  judged.score.methods[1].verdict = "complete";
+  score::TrajectoryScore& off = judged.score.methods[1].trajectory.emplace();
+  off.ate_aligned_rmse_m = 2.0;
+  EXPECT_EQ(exit_code(judged.run, judged.score), 0);
+  EXPECT_EQ(judged.steps(true), "look:  runs/a b/replay.html#m=un%20judged\n");
+  EXPECT_NE(summarise(judged.run, judged.score).find("\nnot judged: un judged: off by 2 m rms\n"), std::string::npos);
+}
+
+TEST(NextSteps, NameNoPageThatIsNotThere) {
+  Judged judged;
+  judged.run.record.failure = "the robot fell";
+  EXPECT_EQ(judged.steps(false),
+            "look:  plumbline report --3d 'runs/a b'\nagain: plumbline replay 'runs/a b' --until 9\n");
+}
+
+TEST(Summary, GivesTheTimeOfConvergenceOnTheRunsClock) {
+  Judged judged;
+  judged.run.scans = {100'000'000, 200'000'000};
+  judged.score.methods[0].localization.emplace().converged_at_s = 3.3;
+  EXPECT_NE(summarise(judged.run, judged.score).find("      3.4\n"), std::string::npos)
+      << summarise(judged.run, judged.score);
+}
+
 TEST(NextSteps, OfAFallLeadToTheEnd) {
   Judged judged;
   judged.run.record.failure = "the robot fell";

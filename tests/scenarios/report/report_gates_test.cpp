@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "tests/scenarios/report/report_sample.h"
 
 namespace plumbline::scenarios {
@@ -41,7 +43,7 @@ TEST(Report, NamesABadMethodThatNoGateJudges) {
   const std::string page = render_report(input);
   EXPECT_NE(page.find("<span class=\"badge bad\">m: overconfident, not judged</span>"), std::string::npos);
   EXPECT_NE(
-      page.find("the scans favour it only marginally, since the true pose dropped out of the hypotheses (at 4 s)"),
+      page.find("the scans favour it only marginally, since the true pose dropped out of the hypotheses (at t = 4 s)"),
       std::string::npos);
   input.has_replay = true;
   EXPECT_NE(
@@ -65,12 +67,35 @@ TEST(Report, NamesAMethodThatIsNotLocalizedAgainAfterAKidnappingUnlessAGateDoes)
   };
   const std::string badge = "m: not localized again after the kidnapping, not judged";
   EXPECT_NE(page().find(badge), std::string::npos);
+  const Tree converged = std::exchange(where, Tree::map().set("kidnap_wrong_s", 1.0));  // it never was localized
+  EXPECT_NE(page().find("m: not localized after the kidnapping either, not judged"), std::string::npos);
+  where = converged;
   Tree gate = input.results.find("gates")->as_list().front();
   input.results.set("gates", Tree(Tree::List{gate.set("metric", "localization.kidnap_found_s")}));
   EXPECT_EQ(page().find(badge), std::string::npos);
   where.set("kidnap_found_s", 1.0);
   input.results.set("gates", Tree::list());
   EXPECT_EQ(page().find(badge), std::string::npos);
+}
+
+TEST(Report, NamesSlamThatIsFarOffUnlessAGateJudgesItsError) {
+  ReportInput input = sample();
+  for (ReportSample& s : input.methods.front().samples) s.error_m = s.t_s < 5.0 ? 0.08 : 0.8;
+  const auto page = [&](double error_m, const char* metric) {
+    const Tree block = Tree::map().set("verdict", "complete").set("ate_aligned_rmse_m", error_m);
+    input.results.set("methods", Tree(Tree::Map{{"m", block}}));
+    Tree gate = input.results.find("gates")->as_list().front();
+    input.results.set("gates", Tree(Tree::List{gate.set("metric", metric).set("passed", true)}));
+    return render_report(input);
+  };
+  const std::string badge = "<span class=\"badge bad\">m: off by 56 cm rms, not judged</span>";
+  const std::string far = page(0.56, "rooms.recall");
+  EXPECT_NE(far.find(badge), std::string::npos);
+  EXPECT_NE(far.find("<span class=\"verdict bad\">complete</span>"), std::string::npos);
+  EXPECT_NE(far.find("More than 0.5 m off from t = 5 s to the end, at most 80 cm."), std::string::npos);
+  EXPECT_NE(far.find("<code>far off</code>"), std::string::npos);
+  EXPECT_EQ(page(0.49, "rooms.recall").find(badge.substr(0, 28)), std::string::npos);
+  EXPECT_EQ(page(0.56, "ate_final_rmse_m").find("rms, not judged"), std::string::npos);
 }
 
 TEST(Report, SaysWithWhichErrorAMethodStopped) {

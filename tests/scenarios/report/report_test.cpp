@@ -125,7 +125,7 @@ TEST(Report, SaysWhenAnAnswersHeadingWasWrong) {
   results.set("localization",
               Tree::map().set("converged_at_s", 6.0).set("failure", "tracking_lost").set("failure_at_s", 9.5));
   input.results.set("methods", Tree(Tree::Map{{"m", results}}));
-  EXPECT_NE(render_report(input).find("Converged on the right pose after 6 s, and lost it again at 9.5 s without "
+  EXPECT_NE(render_report(input).find("Converged on the right pose at t = 6 s, and lost it again at t = 9.5 s without "
                                       "saying so."),
             std::string::npos);
 }
@@ -168,7 +168,8 @@ TEST(Report, CountsFromTheFirstScanAndMarksOnTheRunsClock) {
   const std::string page = render_report(input);
   EXPECT_NE(page.find("title=\"converged, 6.5 s\""), std::string::npos);
   EXPECT_NE(page.find("title=\"identifiable from here on, 3.5 s\""), std::string::npos);
-  EXPECT_NE(page.find("Converged on the right pose after 6 s"), std::string::npos);
+  EXPECT_NE(page.find("Converged on the right pose at t = 6.5 s"), std::string::npos);
+  EXPECT_NE(page.find("identifiable from t = 3.5 s on, after 1 m walked."), std::string::npos);
 }
 
 TEST(Report, SaysHowManyHypothesesHaveNoLineOfTheirOwn) {
@@ -186,7 +187,7 @@ TEST(Report, SaysWhenARightPoseWasLost) {
   Tree where = Tree::map();
   where.set("converged_at_s", 6.0).set("failure", "tracking_lost").set("failure_at_s", 8.5);
   input.results.set("methods", Tree(Tree::Map{{"m", Tree::map().set("verdict", "lost").set("localization", where)}}));
-  EXPECT_NE(render_report(input).find("Converged on the right pose after 6 s, and lost it again at 8.5 s."),
+  EXPECT_NE(render_report(input).find("Converged on the right pose at t = 6 s, and lost it again at t = 8.5 s."),
             std::string::npos);
 }
 
@@ -195,7 +196,8 @@ TEST(Report, SaysUntilWhenATruePoseWasOneOfSeveral) {
   ReportInput input = localized();
   const Tree where = Tree::map().set("failure", "undecided").set("failure_at_s", 8.5);
   input.results.set("methods", Tree(Tree::Map{{"m", Tree::map().set("verdict", "late").set("localization", where)}}));
-  EXPECT_NE(render_report(input).find("since the true pose remained one of several (until 8.5 s)."), std::string::npos);
+  EXPECT_NE(render_report(input).find("since the true pose remained one of several (until t = 8.5 s)."),
+            std::string::npos);
 }
 
 TEST(Report, GlossaryHoldsNoMarkdownAndNamesWhatPagesSay) {
