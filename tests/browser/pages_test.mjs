@@ -147,6 +147,9 @@ async function replay(browser, url, name) {
   const page = await browser.page(1200, 900, { before: "globalThis.Plumb = { testing: true };" });
   await page.open(url);
   await page.until(loaded);
+  const opened = await page.get(`(() => { const of = (kinds) => Plumb.app.data.run.marks.find((m) => kinds.includes(m.kind));
+    return { t: +document.body.dataset.t, slip: of(["wrong", "lost", "failure", "gate"]) ? undefined : (of(["slip"]) || {}).t }; })()`);
+  check(name + ": opens where SLAM slipped, where nothing else failed", opened.slip === undefined || Math.abs(opened.t - opened.slip) < 0.2, opened);
   const far = await page.get(`(async () => { const app = Plumb.app, { run, tracks } = app.data, wrong = [];
     for (const method of run.methods.filter((m) => !m.localizes)) {
       const track = tracks[method.name], i = track.t.findIndex((t, k) => Plumb.data.isWrong(app.data, track, k));
