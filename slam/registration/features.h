@@ -56,8 +56,9 @@ struct Features {
 /// with fewer than sectors * 11 returns gives none, nor does a scan of fewer than four rings.
 [[nodiscard]] Features find_features(const DeskewedScan& scan, const FeatureConfig& config);
 
-/// Edge points alone: the less sharp ones of find_features(), but flat points silence none of them, and ends of
-/// surfaces as far as the LiDAR reaches are left out.
+/// Edge points alone: the less sharp ones of find_features(), but flat points silence none of them, and what is no
+/// sharper than the scan's range noise is left out. So are ends of surfaces as far as the LiDAR reaches, and borders of
+/// shadows. What casts one ends on average half a step between returns beyond its last one: there the edge is.
 [[nodiscard]] std::vector<FeaturePoint> find_edges(const DeskewedScan& scan, const FeatureConfig& config);
 
 /// The first one in each voxel of leaf_m, in their order, in R.
