@@ -178,7 +178,7 @@ Registration align(std::span<const Surfel> surfels, const SurfelMap& map, const 
   if (!seen.degenerate_directions.empty()) {
     Matrix6d known = prior ? prior->information : Matrix6d(Matrix6d::Zero());
     if (additional) known += additional(result.X_MR).h;
-    constexpr double known_m = 0.01;  // a stray edge or two tell nothing
+    constexpr double known_m = 0.015;  // four edges of 3 cm; a stray one or two tell nothing
     for (const Vector6d& direction : seen.degenerate_directions)
       if (direction.dot(known * direction) * known_m * known_m < 1.0) ++result.unobserved_directions;
   }

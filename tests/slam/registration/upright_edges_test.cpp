@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "slam/registration/vgicp.h"
 #include "tests/slam/synthetic.h"
@@ -109,6 +110,20 @@ TEST(EdgePointsTest, AreNotBordersOfShadows) {
   EXPECT_NEAR(width_m, 1.0, 2.0 * step_rad * 0.6);
 }
 
+// Columns of a wall seen at a grazing angle are metres apart, and ever more so. That goes along with the robot.
+TEST(EdgePointsTest, AreNotUnevenStepsAlongAWall) {
+  constexpr double step_rad = 0.004;
+  DeskewedScan scan;
+  scan.rings = 1;
+  for (int column = 0; column < 700; ++column) {
+    const double azimuth = step_rad * (column - 350);
+    scan.range_m.push_back(1.0 / std::cos(azimuth));
+    scan.point_R.emplace_back(1.0, std::tan(azimuth), 0.0);
+  }
+  scan.columns = 700;
+  EXPECT_TRUE(edge_points(scan, {}).empty());
+}
+
 /// Error along a corridor whose ends are out of reach, after a walk of 6 m. Odometry reads 3 % too much.
 double error_along_m(bool edges, double range_sigma_m) {
   synthetic::House house = synthetic::one_room(80.0, 2.4);
@@ -136,10 +151,10 @@ double error_along_m(bool edges, double range_sigma_m) {
 // so with noise.
 TEST(EdgesInVgicpTest, HoldTheWayAlongABareCorridor) {
   const double without = error_along_m(false, 0.012);
-  for (const double range_sigma_m : {0.006, 0.012, 0.03}) {
+  for (const auto& [range_sigma_m, most_m] : {std::pair(0.006, 0.02), {0.012, 0.02}, {0.03, 0.04}}) {
     const double with = error_along_m(true, range_sigma_m);
     RecordProperty("with_" + std::to_string(static_cast<int>(1e3 * range_sigma_m)), std::to_string(with));
-    EXPECT_LT(with, 0.02) << range_sigma_m;
+    EXPECT_LT(with, most_m) << range_sigma_m;
     EXPECT_LT(with, 0.5 * without) << range_sigma_m;
   }
 }
