@@ -60,11 +60,14 @@ Registration ScanTracker::track(const Scan& raw, DeskewedScan& scan) {
 TwistSigma ScanTracker::twist_sigma(const Scan& scan, bool stale) const {
   // What a hand or robot accelerates by in passing, over half of the interval whose mean is known.
   constexpr double acceleration_mps2 = 2.0, turn_acceleration_radps2 = 4.0, most_s = 1.0;
-  constexpr double dense = 1.5;  // intervals that are about a scan each are followed from scan to scan
-  const Nanoseconds known = stale ? (stamp_ ? scan.stamp - *stamp_ : 0) : motion_.period();
-  if (static_cast<double>(known) < dense * static_cast<double>(sweep_time(scan))) return {};
+  const Nanoseconds known = stale ? (stamp_ ? scan.stamp - *stamp_ : 0) : motion_.period(), sweep = sweep_time(scan);
   const double half_s = 0.5 * std::min(seconds(known), most_s);
-  return {acceleration_mps2 * half_s, turn_acceleration_radps2 * half_s};
+  const TwistSigma sigma{acceleration_mps2 * half_s, turn_acceleration_radps2 * half_s};
+  // Intervals that are about a scan each are followed from scan to scan, unless one is so long that a hand bends it: at
+  // 10 Hz by 0.02 rad, at 5 Hz by 0.08.
+  constexpr double dense = 1.5, bent_rad = 0.03;
+  const bool apart = static_cast<double>(known) >= dense * static_cast<double>(sweep);
+  return apart || sigma.radps * seconds(sweep) > bent_rad ? sigma : TwistSigma{};
 }
 
 Registration ScanTracker::track_alone(const Scan& raw, DeskewedScan& scan) {
