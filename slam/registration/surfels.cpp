@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "slam/registration/cell_surfels.h"
@@ -160,7 +161,9 @@ const SurfelMap::Voxel* SurfelMap::find(const Eigen::Vector3d& p_M, const Eigen:
   std::array<Face, 3> faces = {Face{distance(inside.x()), {key.x + side(inside.x()), key.y, key.z}},
                                Face{distance(inside.y()), {key.x, key.y + side(inside.y()), key.z}},
                                Face{distance(inside.z()), {key.x, key.y, key.z + side(inside.z())}}};
-  std::stable_sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) { return a.distance < b.distance; });
+  // By insertion: std::stable_sort takes memory for each call.
+  for (std::size_t k = 1; k < faces.size(); ++k)
+    for (std::size_t i = k; i > 0 && faces[i].distance < faces[i - 1].distance; --i) std::swap(faces[i], faces[i - 1]);
   for (const Face& face : faces)
     if (const Voxel* voxel = at(face.beyond); agrees(voxel)) return voxel;
   return nullptr;

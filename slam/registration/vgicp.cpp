@@ -85,7 +85,7 @@ Registration VgicpOdometry::update(const DeskewedScan& scan, const Pose& X_OR) {
 
 Registration VgicpOdometry::match(const DeskewedScan& scan, const OdometrySample& odometry, double usual_matched) {
   follow_scale(scan);
-  take_features(scan);
+  scan_ = features_of(scan);
   Registration result;
   result.X_MR = X_MR_;
   if (ready()) {
@@ -123,29 +123,35 @@ bool VgicpOdometry::is_near(const Pose& a, const Pose& b) const {
   return difference.t.norm() < 0.5 * maps_.back().voxel_m() && log_so3(difference.q).norm() < turn_rad;
 }
 
-void VgicpOdometry::take_features(const DeskewedScan& scan) {
-  scan_ = make_surfels(scan, surfels_);
-  edges_R_ = has_ring_image(scan) ? edge_points(scan, config_.edges) : std::vector<Eigen::Vector3d>();
-  fine_ = registration_;
-  if (!has_ring_image(scan)) fine_.sigma_tangent_m *= lattice_slack;
-  registered_ = thinned(scan_, most_registered);
-  few_.clear();
-  for (std::size_t k = 0; k < registered_.size(); k += static_cast<std::size_t>(config_.coarse_share))
-    few_.push_back(registered_[k]);
+VgicpOdometry::ScanFeatures VgicpOdometry::features_of(const DeskewedScan& scan) const {
+  ScanFeatures out;
+  out.surfels = make_surfels(scan, surfels_);
+  out.fine = registration_;
+  if (has_ring_image(scan))
+    out.edges_R = edge_points(scan, config_.edges);
+  else
+    out.fine.sigma_tangent_m *= lattice_slack;
+  out.registered = thinned(out.surfels, most_registered);
+  for (std::size_t k = 0; k < out.registered.size(); k += static_cast<std::size_t>(config_.coarse_share))
+    out.few.push_back(out.registered[k]);
+  return out;
 }
 
 void VgicpOdometry::correct_sweep(const DeskewedScan& scan, const std::optional<PosePrior>& prior,
                                   const OdometrySample& odometry, Registration& result) {
   if (scan.time_s.empty() || !(scan.twist_sigma.mps > 0.0)) return;
-  const std::array<RegistrationConfig, 2> configs = {fine_, coarser(registration_, maps_[1].voxel_m())};
-  const Vector6d twist =
-      sweep_twist(registered_, std::span(maps_).first(configs.size()), result.X_MR, prior, scan.twist_sigma, configs);
+  const std::array<RegistrationConfig, 2> configs = {scan_.fine, coarser(registration_, maps_[1].voxel_m())};
+  const Vector6d twist = sweep_twist(scan_.registered, std::span(maps_).first(configs.size()), result.X_MR, prior,
+                                     scan.twist_sigma, configs);
   DeskewedScan corrected = scan;
   correct_motion(corrected, twist);
-  take_features(corrected);
+  ScanFeatures uncorrected = std::exchange(scan_, features_of(corrected));
   Registration again = align_finely(result.X_MR, prior, odometry);
   constexpr double about = 0.9;
-  if (again.matched < about * result.matched || again.residual_m > result.residual_m) return take_features(scan);
+  if (again.matched < about * result.matched || again.residual_m > result.residual_m) {
+    scan_ = std::move(uncorrected);
+    return;
+  }
   again.from_expected = result.from_expected;
   result = std::move(again);
   result.sweep_twist = twist;
@@ -160,10 +166,10 @@ Registration VgicpOdometry::align_finely(const Pose& start, const std::optional<
   Registration result;
   result.X_MR = start;
   for (int round = 0; round < rounds; ++round) {
-    const std::vector<loam::Match> lines = edge_map_.match(edges_R_, result.X_MR);
+    const std::vector<loam::Match> lines = edge_map_.match(scan_.edges_R, result.X_MR);
     const Pose before = result.X_MR;
     result = align(
-        registered_, maps_.front(), before, prior, fine_,
+        scan_.registered, maps_.front(), before, prior, scan_.fine,
         [&](const Pose& X_MR) {
           Normal6 terms = loam::linearize(lines, X_MR, config_.edges.huber_m);
           terms.h *= information;
@@ -184,7 +190,7 @@ Registration VgicpOdometry::align_coarsely(std::span<const Pose> starts) const {
     Registration found;
     found.X_MR = start;
     for (std::size_t level = maps_.size(); level-- > 1;)
-      found = align(few_, maps_[level], found.X_MR, std::nullopt, coarser(registration_, maps_[level].voxel_m()));
+      found = align(scan_.few, maps_[level], found.X_MR, std::nullopt, coarser(registration_, maps_[level].voxel_m()));
     if (found.matched > best.matched) best = found;
   }
   return best;
@@ -192,7 +198,7 @@ Registration VgicpOdometry::align_coarsely(std::span<const Pose> starts) const {
 
 void VgicpOdometry::commit(const Pose& X_MR, bool mapped) {
   X_MR_ = X_MR;
-  is_keyframe_ = mapped && !scan_.empty();
+  is_keyframe_ = mapped && !scan_.surfels.empty();
   if (is_keyframe_ && ready()) {
     const Pose X_KR = keyframes_.back().X_MR.inverse() * X_MR;
     is_keyframe_ =
@@ -258,9 +264,9 @@ PosePrior VgicpOdometry::predict(const DeskewedScan& scan, const OdometrySample&
 }
 
 void VgicpOdometry::insert(const Pose& X_MR) {
-  for (SurfelMap& map : maps_) map.add(scan_, X_MR);
-  edge_map_.add(std::move(edges_R_), X_MR, static_cast<std::size_t>(config_.map_keyframes));
-  keyframes_.push_back({std::move(scan_), X_MR});
+  for (SurfelMap& map : maps_) map.add(scan_.surfels, X_MR);
+  edge_map_.add(std::move(scan_.edges_R), X_MR, static_cast<std::size_t>(config_.map_keyframes));
+  keyframes_.push_back({std::move(scan_.surfels), X_MR});
   if (keyframes_.size() <= static_cast<std::size_t>(config_.map_keyframes)) return;
   for (SurfelMap& map : maps_) map.remove(keyframes_.front().surfels, keyframes_.front().X_MR);
   keyframes_.pop_front();

@@ -92,6 +92,14 @@ class VgicpOdometry {
   [[nodiscard]] bool is_keyframe() const { return is_keyframe_; }
 
  private:
+  /// Of one scan.
+  struct ScanFeatures {
+    std::vector<Surfel> surfels;
+    std::vector<Surfel> registered;  ///< those that are matched, evenly spread where there are many ...
+    std::vector<Surfel> few;         ///< ... and a share of these
+    std::vector<Eigen::Vector3d> edges_R;
+    RegistrationConfig fine;
+  };
   struct Keyframe {
     std::vector<Surfel> surfels;
     Pose X_MR;
@@ -103,7 +111,7 @@ class VgicpOdometry {
   /// Corrects the scan by the motion during it that its deskewing did not know, and places it again.
   void correct_sweep(const DeskewedScan& scan, const std::optional<PosePrior>& prior, const OdometrySample& odometry,
                      Registration& result);
-  void take_features(const DeskewedScan& scan);
+  [[nodiscard]] ScanFeatures features_of(const DeskewedScan& scan) const;
   [[nodiscard]] bool is_near(const Pose& a, const Pose& b) const;
   /// The start that leads to the most matches in coarse maps, and where it leads.
   [[nodiscard]] Registration align_coarsely(std::span<const Pose> starts) const;
@@ -115,14 +123,10 @@ class VgicpOdometry {
   VgicpConfig config_;
   SurfelConfig surfels_;             ///< at the scene's scale
   RegistrationConfig registration_;  ///< likewise
-  RegistrationConfig fine_;          ///< for the scan last matched
   std::vector<SurfelMap> maps_;      ///< finest first
   EdgeMap edge_map_;
   std::deque<Keyframe> keyframes_;
-  std::vector<Surfel> scan_;                ///< surfels of the scan last matched ...
-  std::vector<Surfel> registered_;          ///< ... those that are matched, evenly spread where there are many ...
-  std::vector<Surfel> few_;                 ///< ... a share of these ...
-  std::vector<Eigen::Vector3d> edges_R_;    ///< ... and its edge points
+  ScanFeatures scan_;                       ///< last matched
   double median_range_m_ = 0.0;             ///< low-pass filtered; 0 before the first scan
   std::optional<Nanoseconds> scale_stamp_;  ///< of the scan that it last followed
   double scale_ = 1.0;
