@@ -96,8 +96,8 @@ void GlobalLocalizer::update_state(const PlanIndex& index, const StartPrior& sta
 
   const Agreement& fit = hypotheses.front().agreement;
   const auto best_fits = [&] {
-    const bool now = fit.inliers >= c.inliers_min && fit.penetration_ratio <= c.max_penetration_ratio;
-    return (now || hypotheses.front().fit >= c.min_fit) && hypotheses.front().mean_fit() >= c.min_mean_fit;
+    const bool fits_now = fit.inliers >= c.inliers_min && fit.penetration_ratio <= c.max_penetration_ratio;
+    return (fits_now || hypotheses.front().fit >= c.min_fit) && hypotheses.front().mean_fit() >= c.min_mean_fit;
   };
   // While it was tracked it may have stood elsewhere.
   if (since_alternatives_m_ == 0.0 && best_is_decisive() && !best_fits()) hypotheses_.replay_best_agreement(index);

@@ -62,6 +62,13 @@ TEST(GlobalLocalizer, KnowsNothingOfTheWayBeforeARestart) {
   EXPECT_FALSE(stood.hypotheses().empty());
 }
 
+/// Of a robot that goes along the corridor at an angle of 0.3 rad.
+StartPrior known_heading(const PlanIndex& index) {
+  StartPrior start;
+  start.yaw_I = (index.X_WI.inverse() * Pose::from_xyz_yaw({0.0, 0.0, 0.0}, 0.3)).yaw();
+  return start;
+}
+
 /// The plan's walls alone, without anything to stand on.
 std::shared_ptr<const Structure> without_slabs(const StoreyIndex& storey) {
   bim::BuildingMesh mesh = plan_mesh(storey);
@@ -83,8 +90,7 @@ TEST(GlobalLocalizer, IsSureOnlyWhereThePlanHasAFloor) {
   // Found in the whole plan, as poses are sought in rooms, then followed in the other.
   const auto state_after_walk = [&] {
     constexpr int found_after = 3, steps = 24;
-    StartPrior start;
-    start.yaw_I = (whole.X_WI.inverse() * Pose::from_xyz_yaw({0.0, 0.0, 0.0}, 0.3)).yaw();
+    const StartPrior start = known_heading(whole);
     GlobalLocalizer search({}, 7);
     for (int i = 0; i < steps; ++i) {
       const Pose X_WR = Pose::from_xyz_yaw({3.0 + 0.25 * i, 1.1, 0.46}, 0.3);
@@ -106,8 +112,7 @@ TEST(GlobalLocalizer, IsNotSureByTheLastScansAloneWhereThoseBeforeDidNotFit) {
   const PlanIndex index = make_plan_index(synthetic::plan_of(house), "ground", {});
   const auto state_after_walk = [&](int strange) {
     constexpr int found_after = 3, steps = 36;
-    StartPrior start;
-    start.yaw_I = (index.X_WI.inverse() * Pose::from_xyz_yaw({0.0, 0.0, 0.0}, 0.3)).yaw();
+    const StartPrior start = known_heading(index);
     GlobalLocalizer search({}, 7);
     for (int i = 0; i < steps; ++i) {
       const Pose X_WR = Pose::from_xyz_yaw({2.0 + 0.2 * i, 1.1, 0.46}, 0.3);

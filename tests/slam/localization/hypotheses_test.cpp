@@ -46,6 +46,15 @@ void track_and_add_twin(const TwinRooms& twins, HypothesisSet& set) {
   set.add(twins.index, std::vector<StoreyPose>{{0, twin}});
 }
 
+/// The true pose, tracked, and its twin, for which every scan was replayed.
+HypothesisSet both_twins(const TwinRooms& twins) {
+  HypothesisConfig config;
+  config.replay_stride = 1;
+  HypothesisSet set(config, {}, {}, {});
+  track_and_add_twin(twins, set);
+  return set;
+}
+
 /// Adds a pose near the true one first and then others, at the first scan.
 void add_after_a_wrong_one(const TwinRooms& twins, const Eigen::Vector2d& off_H, const std::vector<StoreyPose>& others,
                            HypothesisSet& set) {
@@ -119,10 +128,7 @@ TEST(Hypotheses, AnAliasTakesThePlaceOfOneThatWasPulledAside) {
 
 TEST(Hypotheses, TheFitAlongThePathToThePresentPoseIsTheTrackedOneWhereThePoseWasRight) {
   const TwinRooms twins = twin_rooms_scans();
-  HypothesisConfig config;
-  config.replay_stride = 1;
-  HypothesisSet set(config, {}, {}, {});
-  track_and_add_twin(twins, set);
+  HypothesisSet set = both_twins(twins);
   set.prune_and_normalize();
   const PoseHypothesis tracked = set.all().front();
   set.replay_best_agreement(twins.index);
@@ -248,10 +254,7 @@ TEST(Hypotheses, AWallThatWasNotBuiltCountsOnlyOnce) {
 
 TEST(Hypotheses, ALateHypothesisFitsAsOftenAsATrackedOne) {
   const TwinRooms twins = twin_rooms_scans();
-  HypothesisConfig config;
-  config.replay_stride = 1;
-  HypothesisSet set(config, {}, {}, {});
-  track_and_add_twin(twins, set);
+  HypothesisSet set = both_twins(twins);
   ASSERT_EQ(set.all().size(), 2U);
   EXPECT_EQ(set.all()[0].scans, static_cast<int>(twins.scans.size()));
   EXPECT_EQ(set.all()[1].scans, static_cast<int>(twins.scans.size()));
@@ -329,10 +332,7 @@ TEST(Hypotheses, ReweightingGivesEachHypothesisItsMassAndNewParticles) {
 
 TEST(Hypotheses, TurningOnTheSpotAddsNothingToHowWellThePlanFits) {
   const TwinRooms twins = twin_rooms_scans();
-  HypothesisConfig config;
-  config.replay_stride = 1;
-  HypothesisSet set(config, {}, {}, {});
-  track_and_add_twin(twins, set);
+  HypothesisSet set = both_twins(twins);
   set.prune_and_normalize();
   const PoseHypothesis walked = set.all().front();
   for (int i = 0; i < 20; ++i) set.predict_and_update(twins.index, {}, twins.scans.back());
@@ -341,7 +341,7 @@ TEST(Hypotheses, TurningOnTheSpotAddsNothingToHowWellThePlanFits) {
   set.replay_best_agreement(twins.index);
   EXPECT_NEAR(set.all().front().fit_sum, walked.fit_sum, 0.05 * walked.fit_sum);
   EXPECT_EQ(set.all().front().scans, walked.scans);
-  const Pose2 half{{0.5 * config.fit.whole_step_m, 0.0}, 0.0};
+  const Pose2 half{{0.5 * FitConfig().whole_step_m, 0.0}, 0.0};
   set.predict_and_update(twins.index, half, twins.scans.back());
   EXPECT_NEAR(set.all().front().scans, walked.scans + 0.5, 1e-9);
 }
