@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "slam/localization/pipeline.h"
 #include "tests/slam/localization/house_plan.h"
@@ -65,6 +66,39 @@ TEST(Relocalization, ALidarAloneIsNotSureAfterAWayThatNothingMeasured) {
     EXPECT_TRUE(lost || blank_s < 2.0) << blank_s << " s";
     EXPECT_EQ(wrong, 0) << blank_s << " s";
   }
+}
+
+// All but every 23rd return are cut short, so that nothing contradicts the pose but that nothing confirms it.
+TEST(Relocalization, ScansOfWhichHardlyABeamMeetsItsFaceTakeAConvergenceBack) {
+  synthetic::WalkConfig config;
+  config.duration_s = 22.0;
+  const synthetic::House house = synthetic::corridor_house();
+  synthetic::Recording recording = synthetic::walk(house, synthetic::corridor_house_walk(), config);
+  const double from_s = 6.0, share = 0.4;
+  constexpr std::size_t kept = 23;
+  for (Scan& scan : recording.scans) {
+    if (seconds(scan.stamp) < from_s) continue;
+    for (std::size_t i = 0; i < scan.size(); ++i) {
+      if (i % kept == 0) continue;
+      scan.range_m[i] *= share;
+      scan.point_L[i] *= share;
+    }
+  }
+  const Walked walked = localize(std::move(recording), house, true, false);
+  std::optional<double> lost_m;
+  double m = 0.0;
+  bool converged = false;
+  for (std::size_t i = 1; i < walked.outputs.size() && !lost_m; ++i) {
+    const double t = seconds(walked.outputs[i].stamp);
+    converged = converged || (t < from_s && walked.outputs[i].state == State::converged);
+    if (t >= from_s) m += (walked.recording.truth[i].X_FR.t - walked.recording.truth[i - 1].X_FR.t).norm();
+    if (walked.outputs[i].state == State::lost) lost_m = m;
+  }
+  EXPECT_TRUE(converged);
+  ASSERT_TRUE(lost_m.has_value());
+  // Measured: 4.1 m, of 24 scans 0.2 m apart that each count half; 7.6 m where twice as many are needed.
+  EXPECT_GT(*lost_m, 3.0);
+  EXPECT_LT(*lost_m, 5.5);
 }
 
 /// A walk of which a part is seen in another house, which contradicts the plan.
