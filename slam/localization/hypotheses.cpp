@@ -104,25 +104,26 @@ void HypothesisSet::add(const PlanIndex& index, const std::vector<StoreyPose>& p
     const Refined refined = refine(storey, pose.X_IH, scan, likelihood_, pose.exact ? tracking_refine_ : refine_);
     // An alias keeps its share at exactly its pose; the scan, fitted from there, may pull it aside.
     if (pose.exact) try_pose(index, pose, refined.covariance);
-    const StoreyPose fitted{pose.storey, refined.X_IH};
-    if (is_among(ruled_out_, fitted)) continue;
-    if (try_pose(index, fitted, refined.covariance) == Trial::ruled_out) ruled_out_.push_back(fitted);
+    try_pose(index, {pose.storey, refined.X_IH}, refined.covariance);
   }
   rebase_reference(index);
 }
 
-HypothesisSet::Trial HypothesisSet::try_pose(const PlanIndex& index, const StoreyPose& pose,
-                                             const Eigen::Matrix3d& covariance) {
+void HypothesisSet::try_pose(const PlanIndex& index, const StoreyPose& pose, const Eigen::Matrix3d& covariance) {
   const StoreyIndex& storey = index.storeys[static_cast<std::size_t>(pose.storey)];
   const int known = find(pose, config_.merge_m, config_.merge_rad);
   if (known >= 0 && !pose.exact && !fits_better(storey, pose.X_IH, hypotheses_[static_cast<std::size_t>(known)].X_IH))
-    return Trial::known;
-  if (is_screened_out(index, pose)) return Trial::ruled_out;
-  Replay past = hypotheses_.empty() ? replay(index, pose, {}) : replay(index, pose, replayed_reference(index).scans);
+    return;
+  // A replay begins where the last scan fits, and many of these poses lead to one.
+  const StoreyPose start = fitted_to_last_scan(index, pose);
+  if (is_among(ruled_out_, start)) return;
+  const auto rule_out = [&] { ruled_out_.push_back(start); };
+  if (is_screened_out(index, start)) return rule_out();
+  Replay past = hypotheses_.empty() ? replay(index, start, {}) : replay(index, start, replayed_reference(index).scans);
   const double evidence = past.evidence + (hypotheses_.empty() ? 0.0 : yaw_evidence(pose.X_IH));
-  if (past.evidence < -config_.drop_ratio) return Trial::ruled_out;
+  if (past.evidence < -config_.drop_ratio) return rule_out();
   const double margin = pose.exact ? 0.0 : config_.reference_switch_margin;
-  if (known >= 0 && evidence <= hypotheses_[static_cast<std::size_t>(known)].evidence + margin) return Trial::known;
+  if (known >= 0 && evidence <= hypotheses_[static_cast<std::size_t>(known)].evidence + margin) return;
   PoseHypothesis& hypothesis = hypotheses_.emplace_back();
   hypothesis.id = next_id_++;
   hypothesis.storey = pose.storey;
@@ -132,7 +133,11 @@ HypothesisSet::Trial HypothesisSet::try_pose(const PlanIndex& index, const Store
   hypothesis.evidence = evidence;
   replay_agreement(storey, past.scans, hypothesis);
   if (hypotheses_.size() == 1) replayed_reference_ = {pose, std::move(past.scans), {}};
-  return Trial::added;
+}
+
+StoreyPose HypothesisSet::fitted_to_last_scan(const PlanIndex& index, const StoreyPose& pose) const {
+  const StoreyIndex& storey = index.storeys[static_cast<std::size_t>(pose.storey)];
+  return {pose.storey, refine(storey, pose.X_IH, history_.back().scan, likelihood_, tracking_refine_).X_IH};
 }
 
 // One scan of a turn may be off. It must not stand for others where all of them can be replayed.
@@ -148,20 +153,21 @@ const HypothesisSet::ReplayedReference& HypothesisSet::replayed_reference(const 
     return kept.pose.storey == pose.storey && kept.pose.X_IH.t == pose.X_IH.t && kept.pose.X_IH.yaw == pose.X_IH.yaw;
   };
   if (!replayed_reference_ || !is_kept(*replayed_reference_))
-    replayed_reference_ = {pose, replay(index, pose, {}).scans, {}};
+    replayed_reference_ = {pose, replay(index, fitted_to_last_scan(index, pose), {}).scans, {}};
   return *replayed_reference_;
 }
 
 const std::vector<HypothesisSet::ScanAtPose>& HypothesisSet::screening_of_reference(const PlanIndex& index) {
   static_cast<void>(replayed_reference(index));
   if (replayed_reference_->screening.empty())
-    replayed_reference_->screening = replay(index, replayed_reference_->pose, {}, Grid::screening).scans;
+    replayed_reference_->screening =
+        replay(index, fitted_to_last_scan(index, replayed_reference_->pose), {}, Grid::screening).scans;
   return replayed_reference_->screening;
 }
 
-bool HypothesisSet::is_screened_out(const PlanIndex& index, const StoreyPose& pose) {
+bool HypothesisSet::is_screened_out(const PlanIndex& index, const StoreyPose& start) {
   if (hypotheses_.empty() || config_.screening_columns == 1) return false;
-  return replay(index, pose, screening_of_reference(index), Grid::screening).evidence <
+  return replay(index, start, screening_of_reference(index), Grid::screening).evidence <
          -config_.drop_ratio - config_.screening_margin;
 }
 
@@ -273,7 +279,8 @@ void HypothesisSet::replay_best_agreement(const PlanIndex& index) {
   if (hypotheses_.empty() || history_.empty()) return;
   PoseHypothesis& best = hypotheses_.front();
   best.fit = best.fit_sum = best.scans = 0.0;
-  replay_agreement(index.storeys[static_cast<std::size_t>(best.storey)], replay(index, best.pose(), {}).scans, best);
+  replay_agreement(index.storeys[static_cast<std::size_t>(best.storey)],
+                   replay(index, fitted_to_last_scan(index, best.pose()), {}).scans, best);
 }
 
 void HypothesisSet::accumulate_evidence(const LocalizationScan& scan, const ScanAtPose& own,
@@ -339,27 +346,28 @@ void HypothesisSet::compare_all_with_reference(const PlanIndex& index) {
   const std::vector<ScanAtPose>& scans = replayed_reference(index).scans;
   for (PoseHypothesis& hypothesis : hypotheses_) {
     Replay past;
-    if (&hypothesis != &hypotheses_[reference_]) past = replay(index, hypothesis.pose(), scans);
+    if (&hypothesis != &hypotheses_[reference_])
+      past = replay(index, fitted_to_last_scan(index, hypothesis.pose()), scans);
     hypothesis.balance = std::move(past.balance);
     hypothesis.evidence = past.evidence + yaw_evidence(hypothesis.X_IH);
   }
 }
 
-HypothesisSet::Replay HypothesisSet::replay(const PlanIndex& index, const StoreyPose& pose,
+HypothesisSet::Replay HypothesisSet::replay(const PlanIndex& index, const StoreyPose& start,
                                             const std::vector<ScanAtPose>& reference, Grid grid) const {
-  const StoreyIndex& storey = index.storeys[static_cast<std::size_t>(pose.storey)];
+  const StoreyIndex& storey = index.storeys[static_cast<std::size_t>(start.storey)];
   const bool screening = grid == Grid::screening;
   const HypothesisComparisonConfig& comparison = screening ? screening_ : comparison_;
   const double dropped = -config_.drop_ratio - (screening ? config_.screening_margin : 0.0);
   const std::size_t stride = screening ? static_cast<std::size_t>(config_.replay_stride) : replay_stride();
-  Pose2 X = pose.X_IH;
+  Pose2 X = start.X_IH;
   Replay past;
   std::vector<int> crossed;
   for (std::size_t back = 0; back < history_.size(); ++back) {
     const HistoryStep& step = history_[history_.size() - 1 - back];
     const LocalizationScan& scan = screening ? step.screening : step.scan;
     const bool is_sampled = back % stride == 0;
-    if (is_sampled) X = refine(storey, X, scan, likelihood_, tracking_refine_).X_IH;
+    if (is_sampled && back > 0) X = refine(storey, X, scan, likelihood_, tracking_refine_).X_IH;
     const Pose2 before = X * step.u.inverse();
     add_crossed(storey, before, X, index.config.body_height_m, crossed);
     if (is_sampled) {

@@ -234,17 +234,17 @@ class HypothesisSet {
   enum class Grid { whole, screening };
   /// The place along the direction that the fit of the last scan left open, if any.
   void slide_along_open_direction(const PlanIndex& index, PoseHypothesis& hypothesis) const;
-  enum class Trial { added, known, ruled_out };
   /// Adds a pose unless it is known or the kept history rules it out.
-  Trial try_pose(const PlanIndex& index, const StoreyPose& pose, const Eigen::Matrix3d& covariance);
+  void try_pose(const PlanIndex& index, const StoreyPose& pose, const Eigen::Matrix3d& covariance);
   /// Every how many of the kept scans one is replayed: as many scans at most as of a full history.
   [[nodiscard]] std::size_t replay_stride() const;
   /// The reference's replay, kept until the next scan.
   const ReplayedReference& replayed_reference(const PlanIndex& index);
   /// The same with the thinner beam grid.
   const std::vector<ScanAtPose>& screening_of_reference(const PlanIndex& index);
-  /// True where a first look by few columns rules the pose out.
-  [[nodiscard]] bool is_screened_out(const PlanIndex& index, const StoreyPose& pose);
+  [[nodiscard]] StoreyPose fitted_to_last_scan(const PlanIndex& index, const StoreyPose& pose) const;
+  /// True where a first look by few columns rules out a pose that is fitted to the last scan.
+  [[nodiscard]] bool is_screened_out(const PlanIndex& index, const StoreyPose& start);
   /// True where the last scan is likelier at the first pose.
   [[nodiscard]] bool fits_better(const StoreyIndex& storey, const Pose2& X_IH, const Pose2& other) const;
   /// Adds a scan's agreement with the plan. share: of it that counts.
@@ -259,9 +259,9 @@ class HypothesisSet {
   /// follow from the evidence of each against a third.
   void rebase_reference(const PlanIndex& index);
   void compare_all_with_reference(const PlanIndex& index);
-  /// The kept scans along the odometry back from the pose at the last one, compared with the reference (when there is
-  /// one). Stops once the evidence has fallen below the ratio at which the pose is dropped.
-  [[nodiscard]] Replay replay(const PlanIndex& index, const StoreyPose& pose, const std::vector<ScanAtPose>& reference,
+  /// The kept scans along the odometry back from a pose fitted to the last one, compared with the reference (when there
+  /// is one). Stops once the evidence has fallen below the ratio at which the pose is dropped.
+  [[nodiscard]] Replay replay(const PlanIndex& index, const StoreyPose& start, const std::vector<ScanAtPose>& reference,
                               Grid grid = Grid::whole) const;
   /// Log-likelihood ratio of a pose's yaw to the reference's by what is expected.
   [[nodiscard]] double yaw_evidence(const Pose2& X_IH) const;
@@ -276,7 +276,7 @@ class HypothesisSet {
   std::vector<PoseHypothesis> hypotheses_;
   std::deque<HistoryStep> history_;
   std::optional<ReplayedReference> replayed_reference_;
-  std::vector<StoreyPose> ruled_out_;  ///< since the last scan
+  std::vector<StoreyPose> ruled_out_;  ///< since the last scan, fitted to it
   std::optional<ExpectedYaw> expected_yaw_;
   int next_id_ = 0;
   std::size_t reference_ = 0;  ///< hypothesis that the others are compared with
