@@ -8,6 +8,12 @@ int crossed_element(const StoreyIndex& storey, const Pose2& from, const Pose2& t
   return storey.structure->barrier({from.t.x(), from.t.y(), from_z}, {to.t.x(), to.t.y(), to_z});
 }
 
+void add_crossed_element(const StoreyIndex& storey, const Pose2& from, const Pose2& to, double body_height_m,
+                         std::vector<int>& elements) {
+  const int element = crossed_element(storey, from, to, body_height_m);
+  if (element >= 0) elements.push_back(element);
+}
+
 int RoomExit::update(const StoreyIndex& storey, const Pose2& X_IH, double body_height_m) {
   crossed_ = crossed_ || (last_ && crossed_element(storey, *last_, X_IH, body_height_m) >= 0);
   last_ = X_IH;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "slam/plan_map/plan_index.h"
 #include "slam/plan_map/pose2.h"
@@ -10,6 +11,9 @@ namespace plumbline::slam {
 
 /// The wall or column that a step goes through, or -1. body_height_m: of what may not pass, above the floor.
 [[nodiscard]] int crossed_element(const StoreyIndex& storey, const Pose2& from, const Pose2& to, double body_height_m);
+/// Adds that element, if any.
+void add_crossed_element(const StoreyIndex& storey, const Pose2& from, const Pose2& to, double body_height_m,
+                         std::vector<int>& elements);
 
 /// Tells when a tracked pose has left the plan's rooms through a wall. One wall may not have been built; but then there
 /// is a room behind it.
