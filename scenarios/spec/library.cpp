@@ -39,7 +39,9 @@ std::vector<std::string> scenario_files(const std::string& folder) {
 
 std::string find_input(const std::string& input) {
   std::error_code error;
-  if (fs::exists(input, error) || fs::path(input).has_extension()) return input;
+  // A run's folder may be called as its scenario.
+  const bool is_folder = fs::is_directory(input, error);
+  if (!is_folder && (fs::exists(input, error) || fs::path(input).has_extension())) return input;
   const std::string folder = library_folder();
   if (folder.empty()) return input;
   std::vector<std::string> found, names;
@@ -54,7 +56,7 @@ std::string find_input(const std::string& input) {
     throw InputError({input, 0, 0},
                      "is the name of several scenarios; say more of it, as in '" +
                          fs::path(found.front()).lexically_relative(folder).replace_extension().string() + "'");
-  if (const std::string close = did_you_mean(input, names); !close.empty())
+  if (const std::string close = is_folder ? "" : did_you_mean(input, names); !close.empty())
     throw InputError({input, 0, 0}, "is no file and no scenario of the library; did you mean '" + close + "'?");
   return input;
 }

@@ -147,6 +147,10 @@ TEST_F(Ros2, ScenariosOfTheLibraryAreFoundByName) {
   };
   for (const std::string input : {"quickstart", "t7", "s_graphs/t7"}) says(input, "no_such");
   says("quickstrat", "did you mean 'quickstart'?");
+  fs::create_directory(folder_ / "quickstart");
+  says("quickstart", "no_such");
+  fs::create_directory(folder_ / "quickstrat");
+  says("quickstrat", "is a directory");
   const Outcome doctor = plumbline({"doctor"}, elsewhere);
   EXPECT_EQ(doctor.code, 0) << doctor.out;
   for (const std::string words : {"scenarios", "clients", "all that the program itself needs is there"})
