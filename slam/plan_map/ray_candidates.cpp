@@ -29,6 +29,19 @@ Eigen::Vector2d direction_at(double pseudo) {
   return Eigen::Vector2d(x, y).normalized();
 }
 
+/// The directions between which the rays of each azimuth bin lie.
+struct BinEdges {
+  std::array<Eigen::Vector2d, RayCandidateTable::azimuth_bins_per_turn> left, right;
+
+  BinEdges() {
+    for (int k = 0; k < RayCandidateTable::azimuth_bins_per_turn; ++k) {
+      const auto bin = static_cast<std::size_t>(k);
+      left[bin] = direction_at((k - slack) / RayCandidateTable::azimuth_bins_per_quadrant);
+      right[bin] = direction_at((k + 1 + slack) / RayCandidateTable::azimuth_bins_per_quadrant);
+    }
+  }
+};
+
 double distance_to(const PlanSegment& segment, const Eigen::Vector2d& p) {
   const double s = std::clamp(segment.e.dot(p - segment.a), 0.0, segment.length);
   return (segment.a + s * segment.e - p).norm();
@@ -109,7 +122,7 @@ RayCandidateTable::RayCandidateTable(const std::vector<PlanSegment>& segments, c
   if (frame.size() > most_cells) return;
   first_.resize(frame.size() * azimuth_bins_per_turn);
   std::vector<Entry> by_distance(segments.size());
-  std::vector<Bin> bins;
+  std::vector<Bin> bins(azimuth_bins_per_turn);
   const double block = block_cells * frame.cell;
   for (int y = 0; y < frame.ny; y += block_cells)
     for (int x = 0; x < frame.nx; x += block_cells) {
@@ -142,7 +155,11 @@ double RayCandidateTable::clearance(int cell) const {
 
 void RayCandidateTable::fill_cell(const std::vector<PlanSegment>& segments, const Eigen::Vector2d& center, double cell,
                                   const std::vector<Entry>& by_distance, std::vector<Bin>& bins) {
-  bins.assign(azimuth_bins_per_turn, {});
+  static const BinEdges edges;
+  for (Bin& bin : bins) {
+    bin.entries.clear();
+    bin.complete = far_m;
+  }
   const Corners corners = corners_of(center, cell);
   double open_to = far_m;
   for (const Entry& next : by_distance) {
@@ -150,26 +167,31 @@ void RayCandidateTable::fill_cell(const std::vector<PlanSegment>& segments, cons
     const PlanSegment& segment = segments[static_cast<std::size_t>(next.segment)];
     const double least = distance_to(segment, center) - 0.71 * cell - 10.0 * slack;
     const Interval range = least <= 0.0 ? Interval{0.0, 4.0 - slack} : directions_to(segment, corners);
+    bool lessens = false;  // open_to
     const int last = static_cast<int>(std::floor(range.high * azimuth_bins_per_quadrant));
     for (int i = static_cast<int>(std::floor(range.low * azimuth_bins_per_quadrant)); i <= last; ++i) {
       const int k = (i + azimuth_bins_per_turn) % azimuth_bins_per_turn;
       Bin& bin = bins[static_cast<std::size_t>(k)];
       if (least > bin.complete || next.from > bin.complete) continue;
-      const Reach reach = reach_of(segment, corners, direction_at((k - slack) / azimuth_bins_per_quadrant),
-                                   direction_at((k + 1 + slack) / azimuth_bins_per_quadrant));
+      const Reach reach =
+          reach_of(segment, corners, edges.left[static_cast<std::size_t>(k)], edges.right[static_cast<std::size_t>(k)]);
       const double from = std::max({0.0, least, reach.from * (1.0 - slack) - slack});
       if (from > bin.complete) continue;
       bin.entries.push_back({next.segment, static_cast<float>(from - 10.0 * slack)});
+      lessens = lessens || bin.complete >= open_to;
       bin.complete = std::min(bin.complete, reach.by);
       if (bin.entries.size() >= longest_list) bin.complete = std::min(bin.complete, static_cast<double>(next.from));
     }
+    if (!lessens) continue;
     open_to = 0.0;
     for (const Bin& bin : bins) open_to = std::max(open_to, bin.complete);
   }
   for (Bin& bin : bins) {
     std::erase_if(bin.entries, [&](const Entry& entry) { return entry.from > bin.complete; });
-    std::stable_sort(bin.entries.begin(), bin.entries.end(),
-                     [](const Entry& a, const Entry& b) { return a.from < b.from; });
+    for (auto entry = bin.entries.begin(); entry != bin.entries.end(); ++entry)
+      std::rotate(std::upper_bound(bin.entries.begin(), entry, *entry,
+                                   [](const Entry& a, const Entry& b) { return a.from < b.from; }),
+                  entry, entry + 1);
     bin.entries.push_back({-1, static_cast<float>(bin.complete - 10.0 * slack)});
   }
 }
