@@ -10,6 +10,7 @@
 #include "bim/errors.h"
 #include "scenarios/app/commands.h"
 #include "scenarios/host/progress.h"
+#include "scenarios/spec/library.h"
 
 namespace plumbline::scenarios {
 
@@ -36,6 +37,10 @@ std::vector<BenchRow> measure(const BenchOptions& options) {
   const BenchPart& part = part_of(options.part);
   Progress progress("bench " + options.part, {0.0, "repetitions"});
   BenchSetting setting = options.setting;
+  if (setting.library.empty()) setting.library = library_folder();
+  if (setting.library.empty())
+    throw EnvironmentError(
+        "the scenarios that come with the program are not beside it; name their folder by --library");
   setting.step = [&, done = 0]() mutable { progress.at(done++); };
   return part.measure(setting);
 }
@@ -65,9 +70,9 @@ Command add_bench(CommandLine& program) {
   line.option("--repetitions", options->setting.repetitions, "of each figure; the median counts")
       .range(1, 1000)
       .shows_default();
-  line.option("--library", options->setting.library, "folder with quickstart.yaml and s_graphs/long.yaml")
-      .takes("DIR")
-      .shows_default();
+  line.option("--library", options->setting.library,
+              "folder with quickstart.yaml and s_graphs/long.yaml [that of the program]")
+      .takes("DIR");
   line.option("--data", options->setting.data_dir, "folder with ifc/duplex.ifc")
       .takes("DIR")
       .environment("PLUMBLINE_DATA");

@@ -33,8 +33,8 @@ struct BenchRow {
 
 struct BenchSetting {
   int repetitions = 5;
-  std::string library = "scenarios/library";  ///< folder with quickstart.yaml and s_graphs/long.yaml
-  std::function<void()> step = [] {};         ///< called before each repetition of what takes long
+  std::string library;                 ///< folder with quickstart.yaml and s_graphs/long.yaml
+  std::function<void()> step = [] {};  ///< called before each repetition of what takes long
   std::string data_dir;  ///< folder with ifc/duplex.ifc; empty: what needs it is left out, with a line to stderr
 };
 
