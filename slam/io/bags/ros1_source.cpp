@@ -107,6 +107,12 @@ std::unique_ptr<MessageSource> open_ros1_bag(const std::string& path) {
     check_bag(path);
   } catch (const NoIndex&) {
     return open_unindexed_bag(path, encoding_of_type);
+  } catch (const InputError&) {
+    try {
+      return open_unindexed_bag(path, encoding_of_type);
+    } catch (const InputError&) {  // the first complaint says more
+    }
+    throw;
   }
   return std::make_unique<Ros1Source>(path);
 }

@@ -7,6 +7,8 @@
 #include <deque>
 #include <map>
 #include <optional>
+#include <set>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -28,6 +30,7 @@ class UnindexedBag final : public MessageSource {
  public:
   UnindexedBag(const std::string& path, EncodingOfType encoding_of)
       : mark_{path, 0, 0}, file_(open_input_file(path)), encoding_of_(encoding_of) {
+    end_ = file_.bytes;
     try {
       find_messages();
     } catch (const InputError& error) {
@@ -63,7 +66,11 @@ class UnindexedBag final : public MessageSource {
 
   [[nodiscard]] Nanoseconds start() override { return messages_.front().time; }
   [[nodiscard]] std::vector<std::string> left_out() const override {
-    return {not_closed(file_.bytes - whole_until_, file_.bytes)};
+    if (!closed_ && lost_ == 0) return {not_closed(rest_, file_.bytes)};
+    const std::string said = closed_ ? "the bag is damaged" : "the bag was not closed or is cut off, and is damaged";
+    if (lost_ + rest_ == 0) return {said + " in its index; all messages are read"};
+    return {said + "; " + std::to_string(lost_ + rest_) + " of its " + std::to_string(file_.bytes) +
+            " bytes cannot be read and are left out" + (fault_.empty() ? "" : ", the first at " + fault_)};
   }
 
  private:
@@ -120,23 +127,88 @@ class UnindexedBag final : public MessageSource {
     }
   }
 
-  void find_messages() {
-    std::uint64_t at = ros1::first_record;
-    while (const auto head = head_at(at)) {
+  /// The index of a bag that was closed: its connections, and where its chunks are.
+  void read_index() {
+    constexpr std::size_t most_places = 1'000'000;
+    const auto bag = head_at(ros1::first_record);
+    if (!bag || kind_of(*bag) != Op::bag) return;
+    const Fields said = ros1::fields_of(bag->header);
+    if (!said.contains("index_pos")) return;
+    const auto index_at = ros1::value_of<std::uint64_t>(said, "index_pos");
+    if (index_at <= ros1::first_record) return;
+    std::uint64_t at = index_at;
+    for (auto head = head_at(at); head; head = head_at(at)) {
       const std::optional<Op> kind = kind_of(*head);
       if (!kind) break;
+      const std::uint64_t end = head->data_at + head->data_bytes;
+      if (*kind == Op::connection) add_connection_at(at, end);
+      if (*kind == Op::chunk_info && chunks_.size() < most_places)
+        chunks_.insert(ros1::value_of<std::uint64_t>(ros1::fields_of(head->header), "chunk_pos"));
+      at = end;
+    }
+    closed_ = at == file_.bytes;
+    if (closed_) end_ = index_at;
+  }
+
+  void add_connection_at(std::uint64_t at, std::uint64_t end) {
+    constexpr std::uint64_t most_bytes = std::uint64_t{1} << 24U;
+    if (end - at > most_bytes) return;
+    std::string bytes(static_cast<std::size_t>(end - at), '\0');
+    read(at, bytes.data(), bytes.size());
+    const ros1::Record record = ros1::record_at(bytes, 0);
+    add_connection(ros1::value_of<std::uint32_t>(record.fields, "conn"), record);
+  }
+
+  /// Where the records of a chunk begin that the file ends in, if they are not packed.
+  [[nodiscard]] std::optional<std::uint64_t> records_of_cut_chunk(std::uint64_t at) {
+    const auto header = length_at(at);
+    if (!header || *header > ros1::most_header_bytes || file_.bytes - at < 8 + *header) return std::nullopt;
+    Head head{std::string(static_cast<std::size_t>(*header), '\0'), at + 8 + *header, 0};
+    read(at + 4, head.header.data(), *header);
+    if (kind_of(head) != Op::chunk) return std::nullopt;
+    const Fields said = ros1::fields_of(head.header);
+    const auto compression = said.find("compression");
+    return compression != said.end() && compression->second == "none" ? std::optional(head.data_at) : std::nullopt;
+  }
+
+  void find_messages() {
+    try {
+      read_index();
+    } catch (const InputError&) {  // what it says up to there is enough
+    }
+    std::uint64_t at = ros1::first_record, whole_until = at;
+    while (at < end_) {
+      const auto head = head_at(at);
+      const std::optional<Op> kind = head ? kind_of(*head) : std::nullopt;
+      if (!kind) {
+        take_run();
+        const std::optional<std::uint64_t> next = go_on_after(at);
+        if (!next) break;
+        at = *next;
+        continue;
+      }
       const std::uint64_t end = head->data_at + head->data_bytes;
       if (*kind == Op::message || *kind == Op::connection) {
         add_to_run(at, end);
       } else {
         take_run();
         // One that was being written has no length yet; what it holds follows as if it stood in the file.
-        if (*kind == Op::chunk && head->data_bytes > 0) take(Block{head->data_at, head->data_bytes, head->header}, at);
+        if (*kind == Op::chunk && head->data_bytes > 0)
+          take(Block{head->data_at, head->data_bytes, head->header}, at, end);
       }
-      at = end;
+      at = whole_until = end;
     }
     take_run();
-    whole_until_ = failed_ ? failed_at_ : at;
+    rest_ = closed_ ? end_ - std::min(at, end_) : file_.bytes - failed_at_.value_or(whole_until);
+    if (closed_) lost_ += pending_;
+  }
+
+  /// Behind what is no record.
+  [[nodiscard]] std::optional<std::uint64_t> go_on_after(std::uint64_t at) {
+    const auto chunk = chunks_.upper_bound(at);
+    if (chunk == chunks_.end() || *chunk >= end_) return closed_ ? std::nullopt : records_of_cut_chunk(at);
+    leave_out(at, *chunk, "no record");
+    return *chunk;
   }
 
   void add_to_run(std::uint64_t at, std::uint64_t end) {
@@ -146,26 +218,29 @@ class UnindexedBag final : public MessageSource {
   }
   void take_run() {
     if (run_.bytes == 0) return;
-    const std::uint64_t at = run_.at;
-    take(std::exchange(run_, {}), at);
+    const Block run = std::exchange(run_, {});
+    take(run, run.at, run.at + run.bytes);
   }
 
-  /// Only the last may be damaged.
-  void take(Block block, std::uint64_t record_at) {
-    if (failed_) {
-      record_at_ = failed_at_;
-      throw InputError(*failed_);
-    }
+  void take(Block block, std::uint64_t record_at, std::uint64_t record_end) {
     record_at_ = record_at;
     const std::size_t known = messages_.size();
     blocks_.push_back(std::move(block));
     try {
       scan(static_cast<std::uint32_t>(blocks_.size() - 1));
+      lost_ += std::exchange(pending_, 0);
+      failed_at_.reset();
     } catch (const InputError& error) {
+      if (messages_.size() == most_messages) throw;
       messages_.resize(known);
-      failed_ = error;
-      failed_at_ = record_at;
+      leave_out(record_at, record_end, error.what());
     }
+  }
+
+  void leave_out(std::uint64_t at, std::uint64_t end, const std::string& why) {
+    if (fault_.empty()) fault_ = "byte " + std::to_string(at) + ": " + why;
+    if (!failed_at_) failed_at_ = at;
+    pending_ += end - at;
   }
 
   void scan(std::uint32_t block) {
@@ -188,8 +263,11 @@ class UnindexedBag final : public MessageSource {
   }
 
   void add_connection(std::uint32_t connection, const ros1::Record& record) {
+    const std::string topic(ros1::text_of(record.fields, "topic"));
+    const auto told = topic_of_.find(connection);
+    if (told != topic_of_.end() && topics_[told->second].name == topic) return;
     const Fields said = ros1::fields_of(record.data);
-    const std::string topic(ros1::text_of(record.fields, "topic")), type(ros1::text_of(said, "type"));
+    const std::string type(ros1::text_of(said, "type"));
     const auto known =
         std::find_if(topics_.begin(), topics_.end(), [&](const BagTopic& other) { return other.name == topic; });
     topic_of_[connection] = static_cast<std::uint32_t>(known - topics_.begin());
@@ -226,11 +304,15 @@ class UnindexedBag final : public MessageSource {
   std::vector<Message> messages_;  ///< by their time
   std::deque<Open> open_;
   Block run_;
-  std::optional<InputError> failed_;  ///< of the last block
-  std::uint64_t failed_at_ = 0;
-  std::uint64_t record_at_ = 0;    ///< of the block being read, for messages
-  std::uint64_t whole_until_ = 0;  ///< bytes of the file
-  std::vector<bool> wanted_;       ///< of the topics
+  std::set<std::uint64_t> chunks_;          ///< where they begin, as the index says
+  bool closed_ = false;                     ///< the index is whole
+  std::uint64_t end_ = 0;                   ///< of the records outside of the index
+  std::uint64_t record_at_ = 0;             ///< of the block being read, for messages
+  std::optional<std::uint64_t> failed_at_;  ///< since when nothing could be read
+  std::uint64_t pending_ = 0;               ///< bytes left out since then
+  std::uint64_t lost_ = 0, rest_ = 0;       ///< bytes left out before the last whole block, and behind it
+  std::string fault_;                       ///< the first, and where
+  std::vector<bool> wanted_;                ///< of the topics
   std::size_t next_ = 0;
 };
 

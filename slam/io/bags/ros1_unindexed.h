@@ -13,9 +13,9 @@ namespace plumbline::slam {
 using EncodingOfType = Encoding (*)(const std::string& type, std::string_view md5);
 
 /// Opens a ROS 1 bag without its index, of which every whole record is read: once to find the messages, then in their
-/// order. Every length is compared with the bytes that are there before anything is allocated. Memory: 32 bytes a
-/// message, at most 640 MB, and up to four chunks. Throws InputError, also where no message is whole and where a chunk
-/// that is not the last is damaged.
+/// order. Chunks and other pieces that are damaged are left out; what the index says of chunks tells where to go on.
+/// Every length is compared with the bytes that are there before anything is allocated. Memory: 32 bytes a message, at
+/// most 640 MB, and up to four chunks. Throws InputError, also where no message is whole.
 [[nodiscard]] std::unique_ptr<MessageSource> open_unindexed_bag(const std::string& path, EncodingOfType encoding_of);
 
 }  // namespace plumbline::slam

@@ -83,13 +83,65 @@ TEST_F(UnindexedBagTest, TakesWhatTheChunkHoldsThatWasBeingWritten) {
             std::string::npos);
 }
 
-TEST_F(UnindexedBagTest, OfDamagedChunksOnlyTheLastIsLeftOut) {
+TEST_F(UnindexedBagTest, DamagedChunksAreLeftOut) {
   const std::string good = chunk(connection("/t") + message(0, 1, "a")), bad = chunk("no records");
   EXPECT_EQ(read(open_head() + good + bad).find("1:a the bag was not closed or is cut off; its last "), 0U);
-  EXPECT_NE(input_error([&] {
-              (void)read(open_head() + good + bad + good);
-            }).find("a chunk with a record that is longer than the chunk"),
-            std::string::npos);
+  const std::string all = open_head() + good + bad + chunk(message(0, 2, "b"));
+  EXPECT_EQ(read(all), "1:a 2:b the bag was not closed or is cut off, and is damaged; " + std::to_string(bad.size()) +
+                           " of its " + std::to_string(all.size()) +
+                           " bytes cannot be read and are left out, the first at byte " +
+                           std::to_string(open_head().size() + good.size()) +
+                           ": a chunk with a record that is longer than the chunk");
+}
+
+TEST_F(UnindexedBagTest, TheLastChunkIsReadAsFarAsItIsThere) {
+  const std::string last = chunk(message(0, 2, "b") + message(0, 3, "c"));
+  const std::string all = open_head() + chunk(connection("/t") + message(0, 1, "a")) + last;
+  EXPECT_EQ(read(all.substr(0, all.size() - 1))
+                .find("1:a 2:b the bag was not closed or is cut off; its last " +
+                      std::to_string(message(0, 3, "c").size() - 1) + " of "),
+            0U);
+}
+
+/// A closed bag of chunks with one message each.
+struct ClosedBag {
+  std::vector<std::string> chunks = {chunk(connection("/t") + message(0, 1, "a")), chunk(message(0, 2, "b")),
+                                     chunk(message(0, 3, "c"))};
+
+  /// spoil: what is done to the chunks when all else is written.
+  template <class F>
+  [[nodiscard]] std::string bytes(const F& spoil) const {
+    const auto head = [&](std::uint64_t index_at) {
+      return "#ROSBAG V2.0\n" + record(op(3) + field("index_pos", u64(index_at)) + field("conn_count", u32(1)) +
+                                           field("chunk_count", u32(chunks.size())),
+                                       std::string(20, ' '));
+    };
+    std::string data, infos;
+    for (const std::string& one : chunks) {
+      infos += record(op(6) + field("ver", u32(1)) + field("chunk_pos", u64(head(0).size() + data.size())) +
+                          field("start_time", u64(1)) + field("end_time", u64(1)) + field("count", u32(1)),
+                      u32(0) + u32(1));
+      data +=
+          one + record(op(4) + field("ver", u32(1)) + field("conn", u32(0)) + field("count", u32(1)), u64(1) + u32(0));
+    }
+    const std::uint64_t index_at = head(0).size() + data.size();
+    spoil(data);
+    return head(index_at) + data + connection("/t") + infos;
+  }
+};
+
+TEST_F(UnindexedBagTest, AClosedBagWithADamagedChunkGivesTheOthers) {
+  const ClosedBag bag;
+  const std::size_t first = bag.chunks[0].size();
+  // In turn: the record that tells of the connection; a message; the length of a chunk's header.
+  EXPECT_EQ(read(bag.bytes([](std::string& data) { data[data.find("op=\x07")] = '?'; })).find("2:b 3:c the bag is "),
+            0U);
+  const std::string said = read(bag.bytes([&](std::string& data) { data[data.find("op=\x02", first)] = '?'; }));
+  EXPECT_EQ(said.find("1:a 3:c the bag is damaged; " + std::to_string(bag.chunks[1].size()) + " of its "), 0U) << said;
+  EXPECT_NE(said.find(" bytes cannot be read and are left out, the first at byte "), std::string::npos) << said;
+  const std::string long_header =
+      read(bag.bytes([&](std::string& data) { data[data.find("op=\x05", first) - 5] = '\x7f'; }));
+  EXPECT_EQ(long_header.find("1:a 3:c the bag is damaged; "), 0U) << long_header;
 }
 
 TEST_F(UnindexedBagTest, LengthsThatTheBagDoesNotHoldAreTheEnd) {
