@@ -4,6 +4,7 @@
 #include <lz4frame.h>
 #include <zstd.h>
 
+#include <algorithm>
 #include <memory>
 #include <string>
 
@@ -36,25 +37,49 @@ Bytes from_zstd(std::span<const std::uint8_t> bytes, std::uint64_t size) {
   return out;
 }
 
-Bytes from_lz4(std::span<const std::uint8_t> bytes, std::uint64_t size) {
-  constexpr std::uint64_t most_ratio = 255;  // of the format
-  check_size(size, bytes.size(), most_ratio);
+using Lz4Context = std::unique_ptr<LZ4F_dctx, decltype(&LZ4F_freeDecompressionContext)>;
+
+Lz4Context lz4_context() {
   LZ4F_dctx* context = nullptr;
   if (LZ4F_isError(LZ4F_createDecompressionContext(&context, LZ4F_VERSION)) != 0)
     throw EnvironmentError("no memory to unpack lz4 data");
-  const std::unique_ptr<LZ4F_dctx, decltype(&LZ4F_freeDecompressionContext)> owner(context,
-                                                                                   &LZ4F_freeDecompressionContext);
+  return {context, &LZ4F_freeDecompressionContext};
+}
+
+Bytes from_lz4(std::span<const std::uint8_t> bytes, std::uint64_t size) {
+  constexpr std::uint64_t most_ratio = 255;  // of the format
+  check_size(size, bytes.size(), most_ratio);
+  const Lz4Context context = lz4_context();
   Bytes out(size);
   std::size_t at = 0, from = 0, left = 1;
   while (left != 0 && from < bytes.size()) {
     std::size_t room = out.size() - at, taken = bytes.size() - from;
-    left = LZ4F_decompress(context, out.data() + at, &room, bytes.data() + from, &taken, nullptr);
+    left = LZ4F_decompress(context.get(), out.data() + at, &room, bytes.data() + from, &taken, nullptr);
     if (LZ4F_isError(left) != 0) throw InputError({}, std::string("damaged lz4 data: ") + LZ4F_getErrorName(left));
     if (room == 0 && taken == 0) break;
     at += room;
     from += taken;
   }
   if (left != 0 || at != size || from != bytes.size()) throw InputError({}, "lz4 data of another size than stated");
+  return out;
+}
+
+/// Room grows with what comes out, since nothing else bounds it. step: of input and output, returns what they were and
+/// whether it may go on.
+template <class Step>
+Bytes beginning(std::span<const std::uint8_t> bytes, std::uint64_t most, const Step& step) {
+  constexpr std::size_t piece = std::size_t{1} << 20U;
+  Bytes out;
+  std::size_t at = 0;
+  for (bool good = true; good && at < most;) {
+    out.resize(std::min<std::uint64_t>(most, at + piece));
+    std::size_t taken = bytes.size(), made = out.size() - at;
+    good = step(bytes.data(), taken, out.data() + at, made);
+    if (taken == 0 && made == 0) break;
+    bytes = bytes.subspan(taken);
+    at += made;
+  }
+  out.resize(at);
   return out;
 }
 
@@ -67,6 +92,32 @@ Bytes unpack(std::string_view compression, std::span<const std::uint8_t> bytes, 
     throw InputError({}, "a chunk compressed by '" + std::string(compression) + "'; none, zstd and lz4 are read");
   if (size != bytes.size()) throw InputError({}, "a chunk of another size than stated");
   return {bytes.begin(), bytes.end()};
+}
+
+Bytes unpack_beginning(std::string_view compression, std::span<const std::uint8_t> bytes, std::uint64_t size) {
+  const std::uint64_t most = std::min(size, most_unpacked_bytes);
+  if (compression.empty())
+    return {bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(std::min<std::uint64_t>(most, bytes.size()))};
+  if (compression == "zstd") {
+    const std::unique_ptr<ZSTD_DStream, decltype(&ZSTD_freeDStream)> stream(ZSTD_createDStream(), &ZSTD_freeDStream);
+    if (!stream) throw EnvironmentError("no memory to unpack zstd data");
+    return beginning(bytes, most,
+                     [&](const std::uint8_t* in, std::size_t& taken, std::uint8_t* out, std::size_t& made) {
+                       ZSTD_inBuffer from{in, taken, 0};
+                       ZSTD_outBuffer to{out, made, 0};
+                       const std::size_t left = ZSTD_decompressStream(stream.get(), &to, &from);
+                       taken = from.pos;
+                       made = to.pos;
+                       return left != 0 && ZSTD_isError(left) == 0;
+                     });
+  }
+  if (compression != "lz4") return {};
+  const Lz4Context context = lz4_context();
+  return beginning(bytes, most, [&](const std::uint8_t* in, std::size_t& taken, std::uint8_t* out, std::size_t& made) {
+    const std::size_t left = LZ4F_decompress(context.get(), out, &made, in, &taken, nullptr);
+    if (LZ4F_isError(left) != 0) taken = made = 0;
+    return left != 0 && LZ4F_isError(left) == 0;
+  });
 }
 
 Bytes unpack_zstd(std::span<const std::uint8_t> bytes) {

@@ -15,6 +15,9 @@ inline constexpr std::uint64_t most_unpacked_bytes = std::uint64_t{1} << 30U;
 /// Throws InputError without a mark, before it allocates, where the size is more than the bytes can hold.
 [[nodiscard]] std::vector<std::uint8_t> unpack(std::string_view compression, std::span<const std::uint8_t> bytes,
                                                std::uint64_t size);
+/// The same of bytes that are cut off, or damaged from some place on: what comes out before, at most `size` bytes.
+[[nodiscard]] std::vector<std::uint8_t> unpack_beginning(std::string_view compression,
+                                                         std::span<const std::uint8_t> bytes, std::uint64_t size);
 /// A zstd frame that says its own size.
 [[nodiscard]] std::vector<std::uint8_t> unpack_zstd(std::span<const std::uint8_t> bytes);
 /// The other way, with "", "zstd" or "lz4".

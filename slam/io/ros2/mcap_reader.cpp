@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slam/io/ros2/mcap_reader.h"
 
-#include <zlib.h>
-
 #include <algorithm>
 #include <cstring>
 #include <map>
@@ -12,7 +10,7 @@
 
 #include "bim/config/input_file.h"
 #include "bim/errors.h"
-#include "slam/io/ros2/compression.h"
+#include "slam/io/ros2/mcap_chunk.h"
 #include "slam/io/ros2/mcap_format.h"
 #include "slam/io/ros2/mcap_values.h"
 
@@ -23,15 +21,12 @@ namespace {
 using mcap::Head;
 using mcap::head_of;
 using mcap::Op;
+using mcap::record_in;
 using mcap::Values;
 using Bytes = std::vector<std::uint8_t>;
 
 constexpr std::size_t most_name_bytes = 4096;
 constexpr std::size_t most_open_bytes = std::size_t{1} << 30U;
-
-std::uint32_t checksum(std::uint32_t before, std::span<const std::uint8_t> bytes) {
-  return static_cast<std::uint32_t>(::crc32_z(before, bytes.data(), bytes.size()));
-}
 
 class McapReader final : public MessageSource {
  public:
@@ -66,7 +61,9 @@ class McapReader final : public MessageSource {
 
   [[nodiscard]] std::vector<std::string> left_out() const override {
     if (!unclosed_) return {};
-    return {not_closed(rest_bytes_, size_)};
+    if (messages_of_cut_ == 0) return {not_closed(rest_bytes_, size_)};
+    return {"the bag was not closed or is cut off; of its last chunk, " + std::to_string(rest_bytes_) + " of " +
+            std::to_string(size_) + " bytes, the first " + std::to_string(messages_of_cut_) + " messages are read"};
   }
 
   [[nodiscard]] Nanoseconds start() override { return blocks_.empty() ? 0 : blocks_.front().start; }
@@ -124,7 +121,7 @@ class McapReader final : public MessageSource {
     if (footer_at_ - summary_at_ > most_summary) throw InputError({}, "a summary of more than 256 MiB");
     const std::uint64_t checked = footer_at_ + mcap::head_bytes + mcap::footer_bytes - 4 - summary_at_;
     const Bytes bytes = read(summary_at_, checked);
-    if (summary_crc_ != 0 && checksum(0, bytes) != summary_crc_)
+    if (summary_crc_ != 0 && mcap::checksum(0, bytes) != summary_crc_)
       throw InputError({}, "a summary whose checksum is wrong");
     for (std::uint64_t at = 0; at < footer_at_ - summary_at_;) {
       record_at_ = summary_at_ + at;
@@ -145,7 +142,10 @@ class McapReader final : public MessageSource {
       record_at_ = at;
       const Head head = head_of(read(at, mcap::head_bytes));
       const bool is_whole = head.size <= data_end_ - at - mcap::head_bytes;
-      if (unclosed_ && (!is_whole || head.op == Op::none)) break;
+      if (unclosed_ && (!is_whole || head.op == Op::none)) {
+        if (head.op == Op::chunk) add_cut_chunk(at);
+        break;
+      }
       if (!is_whole) throw InputError({}, "a record that goes beyond the data's end");
       ended = head.op == Op::data_end;
       if (ended) break;
@@ -194,7 +194,20 @@ class McapReader final : public MessageSource {
       blocks_.back().end = end;
       blocks_.back().start = std::min(blocks_.back().start, start);
     } else {
-      blocks_.push_back({at, end, start, chunk});
+      blocks_.push_back({at, end, start, chunk, false});
+    }
+  }
+
+  /// That the file ends in; nothing where no message of it is whole.
+  void add_cut_chunk(std::uint64_t at) {
+    constexpr std::uint64_t most_bytes = std::uint64_t{1} << 30U;
+    if (size_ - at > most_bytes) return;
+    try {
+      Block block{at, size_, 0, true, true};
+      messages_of_cut_ = mcap::count_messages(bytes_of(block));
+      block.start = first_time(block);
+      if (messages_of_cut_ > 0) blocks_.push_back(block);
+    } catch (const InputError&) {  // not even its head
     }
   }
 
@@ -202,14 +215,6 @@ class McapReader final : public MessageSource {
   void read_all_channels() {
     for (const Block& block : blocks_)
       if (block.chunk) static_cast<void>(read_block(block));
-  }
-
-  static std::pair<Head, std::span<const std::uint8_t>> record_in(std::span<const std::uint8_t> bytes,
-                                                                  std::uint64_t at) {
-    const auto rest = bytes.subspan(at);
-    const Head head = head_of(rest);
-    if (head.size > rest.size() - mcap::head_bytes) throw InputError({}, "a record that goes beyond what it stands in");
-    return {head, rest.subspan(mcap::head_bytes, head.size)};
   }
 
   void take_definition(Op op, std::span<const std::uint8_t> content) {
@@ -264,6 +269,7 @@ class McapReader final : public MessageSource {
     std::uint64_t at = 0, end = 0;  ///< bytes of the file
     Nanoseconds start = 0;          ///< of its first message
     bool chunk = false;
+    bool cut = false;  ///< the file ends in it
   };
 
   /// What is left of a block.
@@ -305,8 +311,9 @@ class McapReader final : public MessageSource {
 
   [[nodiscard]] Bytes bytes_of(const Block& from) {
     record_at_ = from.at;
-    return from.chunk ? chunk_of(read(from.at + mcap::head_bytes, from.end - from.at - mcap::head_bytes))
-                      : read(from.at, from.end - from.at);
+    if (!from.chunk) return read(from.at, from.end - from.at);
+    const Bytes content = read(from.at + mcap::head_bytes, from.end - from.at - mcap::head_bytes);
+    return from.cut ? mcap::records_of_cut_chunk(content) : mcap::records_of_chunk(content);
   }
 
   /// 0 where it holds no message.
@@ -354,23 +361,13 @@ class McapReader final : public MessageSource {
     message.bytes.assign(values.rest().begin(), values.rest().end());
   }
 
-  static Bytes chunk_of(const Bytes& content) {
-    Values values(content);
-    static_cast<void>(values.take(16));
-    const auto size = values.number<std::uint64_t>();
-    const auto crc = values.number<std::uint32_t>();
-    const std::string compression = values.text();
-    Bytes chunk = unpack(compression, values.take(values.number<std::uint64_t>()), size);
-    if (crc != 0 && checksum(0, chunk) != crc) throw InputError({}, "a chunk whose checksum is wrong");
-    return chunk;
-  }
-
   Mark mark_;
   InputFile file_;
   std::uint64_t size_ = 0, footer_at_ = 0, summary_at_ = 0, data_end_ = 0;
   std::uint32_t summary_crc_ = 0;
-  bool unclosed_ = false;         ///< the file has no end
-  std::uint64_t rest_bytes_ = 0;  ///< behind what is whole of such a file
+  bool unclosed_ = false;            ///< the file has no end
+  std::uint64_t rest_bytes_ = 0;     ///< behind what is whole of such a file
+  std::size_t messages_of_cut_ = 0;  ///< that are whole in its last chunk
   std::vector<BagTopic> topics_;
   std::map<std::uint16_t, std::string> schemas_;                     ///< names of types
   std::map<std::uint16_t, std::size_t> channels_;                    ///< to topics

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <span>
 #include <string>
+#include <utility>
 
 #include "bim/errors.h"
 #include "slam/io/ros2/mcap_format.h"
@@ -47,6 +48,15 @@ struct Head {
   Values values(bytes);
   const auto op = values.number<std::uint8_t>();
   return {static_cast<Op>(op), values.number<std::uint64_t>()};
+}
+
+/// The record that begins there.
+[[nodiscard]] inline std::pair<Head, std::span<const std::uint8_t>> record_in(std::span<const std::uint8_t> bytes,
+                                                                              std::uint64_t at) {
+  const auto rest = bytes.subspan(at);
+  const Head head = head_of(rest);
+  if (head.size > rest.size() - head_bytes) throw InputError({}, "a record that goes beyond what it stands in");
+  return {head, rest.subspan(head_bytes, head.size)};
 }
 
 }  // namespace plumbline::slam::mcap

@@ -139,6 +139,39 @@ TEST(McapReader, AFileThatWasNotClosedIsReadAsFarAsItIsWhole) {
   }
 }
 
+TEST(McapReader, TheChunkThatAFileEndsInGivesItsWholeMessages) {
+  const Folder folder;
+  for (const char* compression : {"", "zstd", "lz4"}) {
+    const std::string file = folder / "whole.mcap";
+    constexpr int count = 20;
+    {
+      const auto writer = make_mcap_writer(file, compression);
+      const auto topic = writer->add_topic({"/odom", "nav_msgs/msg/Odometry", "x", ""});
+      std::vector<std::uint8_t> message(200'000);
+      std::uint32_t noise = 1;
+      for (int i = 0; i < count; ++i) {
+        for (std::uint8_t& byte : message)
+          byte = static_cast<std::uint8_t>((noise = noise * 1664525U + 1013904223U) >> 24U);
+        writer->write(topic, i + 1, message);
+      }
+      writer->finish();
+    }
+    std::string mcap = bytes(file);
+    const std::vector<std::size_t> chunks = without_chunk_times(mcap);
+    const std::size_t behind = chunks.size() > 1 ? chunks[1] : mcap.size(), into = (behind - chunks[0]) / 2;
+    const std::size_t whole = into / 200'100;
+    ASSERT_GE(whole, 2U);
+    const Found cut = read_cut(folder, mcap.substr(0, chunks[0] + into));
+    // Blocks of compressed data are up to 4 MB; what the last one holds cannot be had.
+    EXPECT_GE(cut.times.size(), *compression == '\0' ? whole : std::size_t{1}) << compression;
+    EXPECT_LE(cut.times.size(), whole) << compression;
+    for (std::size_t i = 0; i < cut.times.size(); ++i) EXPECT_EQ(cut.times[i], static_cast<Nanoseconds>(i + 1));
+    EXPECT_EQ(cut.left_out, "the bag was not closed or is cut off; of its last chunk, " + std::to_string(into) +
+                                " of " + std::to_string(chunks[0] + into) + " bytes, the first " +
+                                std::to_string(cut.times.size()) + " messages are read");
+  }
+}
+
 TEST(McapReader, AFileOfWhichNothingIsWholeIsRefused) {
   const Folder folder;
   std::string mcap = three_chunks(folder, "");
