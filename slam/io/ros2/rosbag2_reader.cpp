@@ -5,8 +5,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
 #include <filesystem>
+#include <limits>
 #include <map>
+#include <optional>
 #include <set>
 #include <span>
 #include <string_view>
@@ -35,11 +38,15 @@ class DatabaseReader final : public MessageSource {
     std::error_code error;
     if (fs::file_size(path + "-wal", error) > 0 && !error)
       throw InputError(mark_, "has messages that are still in " + path + "-wal; close the bag where it was recorded");
+    const InputFile file = open_input_file(path);
+    bytes_ = file.bytes;
+    cut_ = is_cut(file);
     sqlite3* db = nullptr;
     const int code = sqlite3_open_v2(path.c_str(), &db, SQLITE_OPEN_READONLY | SQLITE_OPEN_NOMUTEX, nullptr);
     db_.reset(db);
     if (code != SQLITE_OK) fail();
-    sqlite3_db_config(db, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
+    sqlite3_db_config(db, SQLITE_DBCONFIG_DEFENSIVE, cut_ ? 0 : 1, nullptr);
+    if (cut_) sqlite3_db_config(db, SQLITE_DBCONFIG_WRITABLE_SCHEMA, 1, nullptr);  // it refuses fewer pages otherwise
     sqlite3_db_config(db, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
     sqlite3_db_config(db, SQLITE_DBCONFIG_ENABLE_TRIGGER, 0, nullptr);
     sqlite3_db_config(db, SQLITE_DBCONFIG_ENABLE_VIEW, 0, nullptr);
@@ -48,6 +55,7 @@ class DatabaseReader final : public MessageSource {
     need_table("messages");
     need_row_numbers();
     read_topics();
+    if (cut_) find_rows();
   }
 
   [[nodiscard]] const std::vector<BagTopic>& topics() const override { return topics_; }
@@ -58,26 +66,42 @@ class DatabaseReader final : public MessageSource {
     wanted_.clear();
     for (const auto& [id, topic] : ids_)
       if (std::find(topics.begin(), topics.end(), topics_[topic].name) != topics.end()) wanted_.insert(id);
-    order_ = prepare("SELECT rowid FROM messages ORDER BY timestamp, rowid");
-    row_ = prepare("SELECT topic_id, timestamp, data FROM messages WHERE rowid = ?");
+    last_.reset();
+    next_row_ = lost_ = 0;
+    order_.reset();
+    if (!damaged_) order_ = prepare("SELECT rowid, timestamp, topic_id FROM messages ORDER BY timestamp, rowid");
+    row_ = prepare("SELECT data FROM messages WHERE rowid = ?");
   }
 
   [[nodiscard]] Nanoseconds start() override {
-    const Statement least = prepare("SELECT timestamp FROM messages ORDER BY timestamp LIMIT 1");
-    return step(least) ? sqlite3_column_int64(least.get(), 0) : 0;
+    if (!damaged_) {
+      const Statement least = prepare("SELECT timestamp FROM messages ORDER BY timestamp LIMIT 1");
+      const int code = sqlite3_step(least.get());
+      if (code == SQLITE_ROW) return sqlite3_column_int64(least.get(), 0);
+      if (code == SQLITE_DONE) return 0;
+      check_damaged(code);
+      find_rows();
+    }
+    return rows_.front().time;
   }
 
   [[nodiscard]] bool next(RawMessage& message) override {
-    while (order_ && step(order_)) {
+    while (const std::optional<Row> row = next_row()) {
+      if (!wanted_.contains(row->topic)) continue;
       sqlite3_reset(row_.get());
-      sqlite3_bind_int64(row_.get(), 1, sqlite3_column_int64(order_.get(), 0));
-      if (!step(row_)) throw InputError(mark_, "is damaged: its index names a message that it does not hold");
-      const sqlite3_int64 topic = sqlite3_column_int64(row_.get(), 0);
-      if (!wanted_.contains(topic)) continue;
-      message.topic = ids_.at(topic);
-      message.time = sqlite3_column_int64(row_.get(), 1);
-      const auto* bytes = static_cast<const std::uint8_t*>(sqlite3_column_blob(row_.get(), 2));
-      const auto size = static_cast<std::size_t>(sqlite3_column_bytes(row_.get(), 2));
+      sqlite3_bind_int64(row_.get(), 1, row->number);
+      const int code = sqlite3_step(row_.get());
+      if (code == SQLITE_DONE) throw InputError(mark_, "is damaged: its index names a message that it does not hold");
+      if (code != SQLITE_ROW) {
+        check_damaged(code);
+        if (!damaged_) find_rows();
+        ++lost_;
+        continue;
+      }
+      message.topic = ids_.at(row->topic);
+      message.time = row->time;
+      const auto* bytes = static_cast<const std::uint8_t*>(sqlite3_column_blob(row_.get(), 0));
+      const auto size = static_cast<std::size_t>(sqlite3_column_bytes(row_.get(), 0));
       if (size == 0) throw InputError(mark_, "a message without bytes");
       if (zstd_ || is_zstd({bytes, size}))
         message.bytes = unpack_zstd({bytes, size});
@@ -85,8 +109,14 @@ class DatabaseReader final : public MessageSource {
         message.bytes.assign(bytes, bytes + size);
       return true;
     }
-    order_.reset();  // a statement that has ended would begin again
     return false;
+  }
+
+  [[nodiscard]] std::vector<std::string> left_out() const override {
+    if (!damaged_) return {};
+    return {std::string("the bag is ") + (cut_ ? "cut off" : "damaged") + "; " + std::to_string(rows_.size()) +
+            " of its messages could be found" +
+            (lost_ == 0 ? "" : ", of which " + std::to_string(lost_) + " that are not whole are left out")};
   }
 
  private:
@@ -94,6 +124,78 @@ class DatabaseReader final : public MessageSource {
   [[nodiscard]] static bool is_zstd(std::span<const std::uint8_t> bytes) {
     constexpr std::array<std::uint8_t, 4> magic = {0x28, 0xB5, 0x2F, 0xFD};
     return bytes.size() >= magic.size() && std::ranges::equal(bytes.first(magic.size()), magic);
+  }
+
+  struct Row {
+    Nanoseconds time = 0;
+    sqlite3_int64 number = 0, topic = 0;
+
+    [[nodiscard]] auto operator<=>(const Row&) const = default;
+  };
+
+  /// Whether it has fewer pages than its head says.
+  [[nodiscard]] static bool is_cut(const InputFile& file) {
+    std::array<std::uint8_t, 100> head{};
+    if (std::fread(head.data(), 1, head.size(), file.stream.get()) != head.size()) return false;
+    const auto number = [&](std::size_t at, std::size_t size) {
+      std::uint64_t value = 0;
+      for (std::size_t i = 0; i < size; ++i) value = value << 8U | head[at + i];
+      return value;
+    };
+    const std::uint64_t page = number(16, 2) == 1 ? 65536 : number(16, 2), pages = number(28, 4);
+    return number(24, 4) == number(92, 4) && file.bytes < page * pages;  // other numbers of pages are not kept
+  }
+
+  void check_damaged(int code) const {
+    if ((code & 0xFF) != SQLITE_CORRUPT) fail();
+  }
+
+  /// In the order of time; nothing at the end.
+  [[nodiscard]] std::optional<Row> next_row() {
+    if (!damaged_ && order_) {
+      const int code = sqlite3_step(order_.get());
+      if (code == SQLITE_ROW) {
+        last_ = Row{sqlite3_column_int64(order_.get(), 1), sqlite3_column_int64(order_.get(), 0),
+                    sqlite3_column_int64(order_.get(), 2)};
+        return last_;
+      }
+      order_.reset();  // a statement that has ended would begin again
+      if (code == SQLITE_DONE) return std::nullopt;
+      check_damaged(code);
+      find_rows();
+    }
+    return next_row_ < rows_.size() ? std::optional(rows_[next_row_++]) : std::nullopt;
+  }
+
+  /// Of a damaged file: what its pages hold without its index. Behind a damaged page it is searched in leaps.
+  void find_rows() {
+    damaged_ = true;
+    constexpr std::uint64_t least_row_bytes = 8;
+    constexpr sqlite3_int64 most = std::numeric_limits<sqlite3_int64>::max();
+    const Statement scan =
+        prepare("SELECT timestamp, rowid, topic_id FROM messages NOT INDEXED WHERE rowid >= ? ORDER BY rowid");
+    sqlite3_int64 from = 0, leap = 1;
+    int code = SQLITE_CORRUPT;
+    while (code != SQLITE_DONE && rows_.size() < bytes_ / least_row_bytes) {
+      sqlite3_reset(scan.get());
+      sqlite3_bind_int64(scan.get(), 1, from);
+      while ((code = sqlite3_step(scan.get())) == SQLITE_ROW && rows_.size() < bytes_ / least_row_bytes) {
+        const Row row{sqlite3_column_int64(scan.get(), 0), sqlite3_column_int64(scan.get(), 1),
+                      sqlite3_column_int64(scan.get(), 2)};
+        if (row.number < from || row.number == most) break;
+        rows_.push_back(row);
+        from = row.number + 1;
+        leap = 1;
+      }
+      if (code != SQLITE_DONE && code != SQLITE_ROW) check_damaged(code);
+      if (from > most - leap || leap > most / 2) break;
+      from += leap;
+      leap *= 2;
+    }
+    if (rows_.empty()) throw InputError(mark_, "is damaged or cut off, and holds no whole message");
+    std::sort(rows_.begin(), rows_.end());
+    const auto next = last_ ? std::upper_bound(rows_.begin(), rows_.end(), *last_) : rows_.begin();
+    next_row_ = static_cast<std::size_t>(next - rows_.begin());
   }
 
   [[noreturn]] void fail() const {
@@ -150,6 +252,11 @@ class DatabaseReader final : public MessageSource {
   std::map<sqlite3_int64, std::size_t> ids_;  ///< to topics
   std::set<sqlite3_int64> wanted_;
   Statement order_{nullptr, &sqlite3_finalize}, row_{nullptr, &sqlite3_finalize};
+  std::optional<Row> last_;  ///< of order_
+  std::uint64_t bytes_ = 0;  ///< of the file
+  bool cut_ = false, damaged_ = false;
+  std::vector<Row> rows_;  ///< of a damaged file, by time
+  std::size_t next_row_ = 0, lost_ = 0;
 };
 
 /// Several files of one bag, as one in the order of time. A file is begun when its first message may be the next.

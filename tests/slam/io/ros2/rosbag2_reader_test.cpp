@@ -3,10 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <vector>
 
+#include "bim/config/input_file.h"
 #include "slam/io/ros2/compression.h"
 #include "slam/io/ros2/ros2_writer.h"
 #include "tests/bag_database.h"
@@ -90,6 +93,66 @@ TEST(Rosbag2Reader, MessagesArePackedWhereTheyLookSo) {
   RawMessage message;
   ASSERT_TRUE(source->next(message));
   EXPECT_EQ(message.bytes, std::vector<std::uint8_t>(300, 7));
+}
+
+/// A bag of `count` messages, each on pages of its own, and the bytes of its file.
+std::string long_database(const Folder& folder, int count) {
+  const auto writer = make_rosbag2_writer(folder / "long", "walk");
+  const auto topic = writer->add_topic({"/odom", "nav_msgs/msg/Odometry", "x", ""});
+  for (int i = 0; i < count; ++i)
+    writer->write(topic, i + 1, std::vector<std::uint8_t>(10'000, static_cast<std::uint8_t>(i)));
+  writer->finish();
+  return read_text_file(folder / "long/walk_0.db3");
+}
+
+struct Read {
+  std::vector<Nanoseconds> times;
+  std::string left_out;
+};
+Read read_database(const Folder& folder, const std::string& bytes) {
+  std::ofstream(folder / "spoilt.db3", std::ios::binary) << bytes;
+  const auto source = open_rosbag2_database(folder / "spoilt.db3");
+  Read read;
+  for (int pass = 0; pass < 2; ++pass) read.times = times_in(*source);
+  for (const std::string& said : source->left_out()) read.left_out += said;
+  EXPECT_EQ(source->start(), 1);
+  return read;
+}
+
+TEST(Rosbag2Reader, ACutFileGivesTheMessagesThatItHolds) {
+  const Folder folder;
+  constexpr int count = 400;
+  const std::string all = long_database(folder, count);
+  for (const std::size_t share : {3U, 5U, 9U}) {
+    const std::size_t size = all.size() * share / 10;
+    const Read cut = read_database(folder, all.substr(0, size));
+    const std::size_t whole = size / 12'500;  // three pages each, and the tree's
+    EXPECT_GT(cut.times.size(), whole * 9 / 10);
+    for (std::size_t i = 0; i < cut.times.size(); ++i) EXPECT_EQ(cut.times[i], static_cast<Nanoseconds>(i + 1));
+    EXPECT_EQ(cut.left_out.find("the bag is cut off; "), 0U) << cut.left_out;
+  }
+  EXPECT_NE(input_error([&] { (void)read_database(folder, all.substr(0, 5 * 4096)); }).find("holds no whole message"),
+            std::string::npos);
+}
+
+// A spoilt leaf of the tree, a spoilt chain of a message's bytes, and a spoilt index.
+TEST(Rosbag2Reader, WhatDamagedPagesHeldIsLeftOut) {
+  const Folder folder;
+  constexpr int count = 400;
+  const std::string all = long_database(folder, count);
+  EXPECT_EQ(read_database(folder, all).times.size(), static_cast<std::size_t>(count));
+  EXPECT_EQ(read_database(folder, all).left_out, "");
+  std::size_t damaged = 0;
+  for (std::size_t page = 10; page < all.size() / 4096; page += 37) {
+    std::string bytes = all;
+    std::fill_n(bytes.begin() + static_cast<std::ptrdiff_t>(page * 4096), 4096, '\xff');
+    const Read spoilt = read_database(folder, bytes);
+    damaged += spoilt.left_out.empty() ? 0 : 1;
+    EXPECT_GT(spoilt.times.size(), static_cast<std::size_t>(count) - 20) << page;
+    EXPECT_TRUE(std::is_sorted(spoilt.times.begin(), spoilt.times.end())) << page;
+    EXPECT_TRUE(spoilt.left_out.empty() || spoilt.left_out.starts_with("the bag is damaged; ")) << spoilt.left_out;
+  }
+  EXPECT_GT(damaged, 10U);
 }
 
 }  // namespace
