@@ -16,12 +16,13 @@ struct WarningRow {
 };
 
 /// Every kind of warning that a reader or the mesh gives, by name.
-inline constexpr std::array<WarningRow, 60> warning_rows = {{
+inline constexpr std::array<WarningRow, 62> warning_rows = {{
     {"assumed_doorway", "a gap between two walls in line becomes a doorway with a lintel"},
     {"assumed_floor", "the drawing has no floor; everything within the outer walls gets one"},
     {"assumed_height", "the file gives no height of the storey; it is taken as 3 m"},
     {"assumed_storey", "the file has no storeys; levels at which walls begin are taken as such"},
-    {"assumed_unit", "the file gives no unit of length; it is taken as metres"},
+    {"assumed_unit", "the file gives no unit of length, or one that cannot be right; its text says what is taken"},
+    {"assumed_up", "the mesh does not say which axis is up; by its extent and its floors it is y"},
     {"bad_floor", "the outline of a floor crosses itself or has no area; the floor is left out"},
     {"bent_wall",
      "the body of a wall is bent or hollow on the plan: it becomes a wall for each straight piece, or stays one, of "
@@ -37,7 +38,7 @@ inline constexpr std::array<WarningRow, 60> warning_rows = {{
     {"empty_storey", "a storey has no walls, slabs, spaces or stairs; it is left out"},
     {"filling_matched", "a door or window names no opening; it gets the one it stands in"},
     {"geometry", "a part of the element's geometry could not be read; the rest was"},
-    {"inferred_room", "the file has no spaces; the room is what walls enclose"},
+    {"inferred_room", "the file or the storey has no spaces; the room is what walls enclose"},
     {"layer_mismatch", "the material layers contradict the body of the wall; the body's faces count"},
     {"left_out", "the element is not part of the building model; its text says why"},
     {"makes_no_sense", "the element contradicts IFC; it is left out"},
@@ -82,6 +83,8 @@ inline constexpr std::array<WarningRow, 60> warning_rows = {{
     {"stair_ends", "the head of a stair reaches the floor of no storey"},
     {"stair_within", "a stair leads from and to the same storey"},
     {"storey_kinds", "no storey has contents; all are taken as habitable"},
+    {"storey_moved",
+     "nothing of a storey begins near the height that the file gives it; that of its walls and spaces counts"},
     {"taken_as_slab", "the storey has no slab; the element lies flat and is taken as one"},
     {"taken_as_wall", "the file has no walls; the element stands upright like one and is taken as one"},
     {"unknown_class", "entities of a class that is not read are left out"},

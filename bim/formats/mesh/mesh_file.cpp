@@ -12,6 +12,7 @@
 #include <cstring>
 #include <map>
 
+#include "bim/config/tree.h"
 #include "bim/errors.h"
 #include "bim/formats/mesh/ply_check.h"
 
@@ -212,13 +213,12 @@ void make_names_unique(std::vector<MeshPart>& parts) {
   }
 }
 
-void check_coordinates(const std::vector<MeshPart>& parts, const std::string& path, double furthest_m) {
+void check_coordinates(const std::vector<MeshPart>& parts, const std::string& path, double furthest) {
   for (const MeshPart& part : parts)
     for (const Eigen::Vector3d& p : part.solid.vertices)
-      if (!(p.cwiseAbs().maxCoeff() <= furthest_m))
-        throw InputError({path, 0, 0}, "'" + part.name +
-                                           "' reaches further than 100 km or is not a number; the unit of "
-                                           "a mesh is the metre");
+      if (!(p.cwiseAbs().maxCoeff() <= furthest))
+        throw InputError({path, 0, 0}, "'" + part.name + "' reaches further than " + format_number(furthest) +
+                                           " units of the file or is not a number");
 }
 
 }  // namespace
@@ -249,7 +249,7 @@ std::vector<MeshPart> read_mesh_parts(std::string_view bytes, const std::string&
   std::vector<MeshPart> parts = unpacked(unpacker);
   if (parts.empty()) throw InputError(mark, "no triangle in it; a world needs some to stand on");
   make_names_unique(parts);
-  check_coordinates(parts, path, config.furthest_m);
+  check_coordinates(parts, path, config.furthest);
   return parts;
 }
 

@@ -17,10 +17,10 @@ struct MeshFileConfig {
   std::size_t most_triangles = 3'000'000;
   std::size_t most_vertices = 6'000'000;
   SubprocessLimits subprocess;
-  double furthest_m = 1e5;  ///< coordinates beyond this are refused
+  double furthest = 1e6;  ///< coordinates beyond this, in the file's unit, are refused
 };
 
-/// One node of a mesh file with its own triangles, in W (z up), m.
+/// One node of a mesh file with its own triangles.
 struct MeshPart {
   std::string name;  ///< unique in its file
   Solid solid;
@@ -32,7 +32,8 @@ struct MeshPart {
 /// Reads a mesh by assimp, in a subprocess, since it does not survive every bad file. `bytes` is the file's content,
 /// `path` gives its kind and names it in errors. One part a node that has triangles, in the order of the file's tree;
 /// points and lines are left out. glTF and Collada are turned from their y up; the others say nothing of their axes
-/// and are taken as z up. Unit: metres. Throws InputError when it is none, has no triangle or passes a bound.
+/// and come as they stand, in the unit of the file (settle_axes). Throws InputError when it is none, has no triangle or
+/// passes a bound.
 [[nodiscard]] std::vector<MeshPart> read_mesh_parts(std::string_view bytes, const std::string& path,
                                                     const MeshFileConfig& config = {});
 

@@ -5,7 +5,9 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <map>
+#include <utility>
 
 #include "bim/config/tree.h"
 #include "bim/errors.h"
@@ -173,11 +175,9 @@ void add_slabs(const std::vector<MeshPart>& parts, const Eigen::AlignedBox3d& bo
 
 Building read_mesh_world(std::string_view bytes, const std::string& path, const MeshWorldConfig& config) {
   std::vector<MeshPart> parts = read_mesh_parts(bytes, path, config.file);
+  std::vector<Warning> assumed = settle_axes(parts, path, config.axes);
   for (MeshPart& part : parts) part.solid = welded(part.solid, config.weld_m);
   const Eigen::AlignedBox3d box = box_of(parts);
-  if (!box.isEmpty() && box.sizes().maxCoeff() > config.largest_m)
-    throw InputError({path, 0, 0},
-                     "larger than " + format_number(config.largest_m) + " m; the unit of a mesh is the metre");
 
   Building building;
   building.name = std::filesystem::path(path).stem().string();
@@ -191,6 +191,7 @@ Building read_mesh_world(std::string_view bytes, const std::string& path, const 
     if (!part.solid.triangles.empty())
       building.obstacles.push_back({std::move(part.name), "mesh", 0, std::move(part.solid)});
   building.warnings.push_back({"", "no_plan", "a mesh without rooms and walls; localization is not possible in it"});
+  std::move(assumed.begin(), assumed.end(), std::back_inserter(building.warnings));
   return building;
 }
 

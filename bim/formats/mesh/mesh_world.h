@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "bim/formats/mesh/mesh_axes.h"
 #include "bim/formats/mesh/mesh_file.h"
 #include "bim/model/building.h"
 
@@ -12,12 +13,12 @@ namespace plumbline::bim {
 /// How a storey is found in a mesh.
 struct MeshWorldConfig {
   MeshFileConfig file;
+  MeshAxesConfig axes;
   double weld_m = 1e-5;          ///< vertices this close are one, so that closed parts are seen to be closed
   double level = 0.98;           ///< z of a triangle's normal from which on it is floor (11 degrees)
   double layer_m = 0.1;          ///< heights this close are one floor
   double ground_share = 0.5;     ///< the lowest layer with this share of the largest one's area is the ground
   double cell_m = 0.1;           ///< of the grid on which the floor's outline is found
-  double largest_m = 400.0;      ///< extent beyond this is refused
   std::size_t most_runs = 4000;  ///< a floor of more rectangles than this is traced in coarser cells
   double under_m = 0.01;         ///< the slab lies this much under the mesh's own floor, so that no ray meets it
   double slab_m = 0.01;          ///< thickness of that slab
@@ -26,7 +27,7 @@ struct MeshWorldConfig {
 
 /// A mesh as a building without rooms: every part an obstacle named by its node, one storey, "ground", on the lowest
 /// large floor, and a slab under that floor, which says where there is something to stand on. Schema "mesh".
-/// Throws InputError as read_mesh_parts, and when nothing in it faces up.
+/// Throws InputError as read_mesh_parts and settle_axes, and when nothing in it faces up.
 [[nodiscard]] Building read_mesh_world(std::string_view bytes, const std::string& path,
                                        const MeshWorldConfig& config = {});
 

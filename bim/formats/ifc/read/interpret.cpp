@@ -13,6 +13,7 @@
 #include "bim/formats/ifc/read/storey_kinds.h"
 #include "bim/geometry/polygon_boolean.h"
 #include "bim/mesh/solid.h"
+#include "bim/model/blocked_doors.h"
 #include "bim/model/body_section.h"
 #include "bim/model/extrude.h"
 #include "bim/model/infer_rooms.h"
@@ -181,22 +182,34 @@ void Interpreter::sort_all() {
 }
 
 void Interpreter::add_missing_rooms() {
-  if (!building_.rooms.empty()) return;
+  const std::vector<Room> given = building_.rooms;
   for (std::size_t i = 0; i < building_.storeys.size(); ++i) {
     const auto storey = static_cast<int>(i);
+    const bool has_rooms =
+        std::any_of(given.begin(), given.end(), [&](const Room& room) { return room.storey == storey; });
+    // Where others have spaces, a foundation or an attic without them has none on purpose.
+    const bool missing = building_.storeys[i].kind == StoreyKind::habitable && has_door(building_, storey);
+    if (!given.empty() && (has_rooms || !missing)) continue;
     const bool several = std::any_of(buildings_.begin(), buildings_.end(),
                                      [&](const auto& b) { return !same_building(storey, b.first); });
-    const std::vector<Room> rooms = infer_rooms(several ? only_building_of(storey) : building_, storey);
+    std::vector<Room> rooms = infer_rooms(several ? only_building_of(storey) : building_, storey);
+    std::erase_if(rooms, [&](const Room& room) {
+      return std::any_of(given.begin(), given.end(), [&](const Room& other) {
+        return other.z0_m < room.z1_m && other.z1_m > room.z0_m &&
+               contains(other.polygon, interior_point(room.polygon));
+      });
+    });
     const auto stands_here = [&](const auto& element) { return element.storey == storey; };
     const bool built = building_.storeys[i].kind == StoreyKind::habitable &&
                        std::any_of(building_.walls.begin(), building_.walls.end(), stands_here) &&
                        std::any_of(building_.slabs.begin(), building_.slabs.end(), stands_here);
-    if (rooms.empty() && built)
+    if (rooms.empty() && built && given.empty())
       building_.warnings.push_back(
           {building_.storeys[i].id, "no_rooms",
            "the file has no spaces, and walls enclose no room on this storey; no walk goes there"});
+    const std::string no_spaces = " has no spaces; walls enclose this";
     for (const Room& room : rooms) {
-      building_.warnings.push_back({room.id, "inferred_room", "the file has no spaces; walls enclose this"});
+      building_.warnings.push_back({room.id, "inferred_room", (given.empty() ? "the file" : "the storey") + no_spaces});
       const bool holds_another = std::any_of(rooms.begin(), rooms.end(), [&](const Room& other) {
         return signed_area(other.polygon) < signed_area(room.polygon) &&
                contains(room.polygon, interior_point(other.polygon));
@@ -233,6 +246,7 @@ Building Interpreter::finish() {
   set_storey_kinds(building_);
   add_missing_rooms();
   add_materials();
+  warn_of_blocked_doors(building_);
   for (const auto& [host, cutters] : cutters_) {
     if (cutters_used_.contains(host)) continue;
     for (const StepProduct* cutter : cutters) warn(*cutter, "opening_unused", "what it should cut has no body");

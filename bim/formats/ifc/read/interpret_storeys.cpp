@@ -56,6 +56,7 @@ void Interpreter::add_storeys() {
     storey.step_id = product.step_id;
     building_.storeys.push_back(std::move(storey));
   }
+  move_storeys_to_their_walls();
   leave_out_empty_storeys();
   if (building_.storeys.empty()) assume_storeys();
   std::sort(building_.storeys.begin(), building_.storeys.end(), [](const Storey& a, const Storey& b) {
@@ -85,6 +86,35 @@ bool Interpreter::makes_storey(const StepProduct& product, bool lookalikes) cons
   }
   const std::string kind = obstacle_kind(product.type);
   return kind == "footing" || kind == "ramp" || (lookalikes && is_nameless(product));
+}
+
+/// Some programs leave every storey's placement at zero and place the elements themselves.
+void Interpreter::move_storeys_to_their_walls() {
+  struct Feet {
+    bool near = false;         ///< one of the storey's elements begins near its height
+    double lowest = INFINITY;  ///< of its walls and spaces
+  };
+  std::map<std::int64_t, double> heights;
+  for (const Storey& storey : building_.storeys) heights[storey.step_id] = storey.elevation_m;
+  std::map<std::int64_t, Feet> feet;
+  for (const StepProduct& product : model_.products) {
+    const auto height = heights.find(product.storey);
+    if (height == heights.end() || !makes_storey(product, false)) continue;
+    const double foot = foot_of(product);
+    if (!std::isfinite(foot)) continue;
+    Feet& of = feet[product.storey];
+    of.near = of.near || std::abs(foot - height->second) < config_.least_storey_m;
+    if (product.kind == StepClass::wall || product.kind == StepClass::space) of.lowest = std::min(of.lowest, foot);
+  }
+  for (Storey& storey : building_.storeys) {
+    const Feet& of = feet[storey.step_id];
+    if (of.near || !std::isfinite(of.lowest)) continue;
+    building_.warnings.push_back({storey.id, "storey_moved",
+                                  "the file says that it lies at " + format_number(storey.elevation_m) +
+                                      " m, and its walls and spaces begin at " + format_number(snapped(of.lowest)) +
+                                      " m"});
+    storey.elevation_m = snapped(of.lowest);
+  }
 }
 
 /// Programs write every level of a drawing as a storey, such as one for sills. Its elements go to the one below.

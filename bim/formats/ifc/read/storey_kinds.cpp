@@ -32,12 +32,22 @@ bool has_floor(const Building& building, int storey, const StoreyKindConfig& con
 
 }  // namespace
 
+bool has_door(const Building& building, int storey, const StoreyKindConfig& config) {
+  const double floor_m = building.storeys[static_cast<std::size_t>(storey)].elevation_m;
+  return std::any_of(building.openings.begin(), building.openings.end(), [&](const Opening& opening) {
+    return opening.kind == OpeningKind::door && opening.wall >= 0 &&
+           building.walls[static_cast<std::size_t>(opening.wall)].storey == storey &&
+           std::abs(opening.z0_m - floor_m) <= config.floor_m;
+  });
+}
+
 void set_storey_kinds(Building& building, const StoreyKindConfig& config) {
   const std::size_t n = building.storeys.size();
   std::vector<bool> upright(n), habitable(n);
   for (std::size_t i = 0; i < n; ++i) {
     upright[i] = has_upright(building, static_cast<int>(i), config);
-    habitable[i] = upright[i] && has_floor(building, static_cast<int>(i), config);
+    habitable[i] = upright[i] && (has_floor(building, static_cast<int>(i), config) ||
+                                  has_door(building, static_cast<int>(i), config));
   }
   if (std::none_of(habitable.begin(), habitable.end(), [](bool b) { return b; })) habitable = upright;
   const auto lowest = std::find(habitable.begin(), habitable.end(), true);

@@ -13,9 +13,12 @@ struct StoreyKindConfig {
   double least_m2 = 4.0;  ///< ... and has this area, at least
 };
 
-/// Fills Storey::kind. Habitable is what has upright elements and rooms or a floor between them; of the others those
-/// below the lowest habitable storey are foundations, the rest roofs. A building without rooms and floors is taken by
-/// its upright elements alone; one without those is habitable throughout, with a warning.
+/// Fills Storey::kind. Habitable is what has upright elements and rooms, a floor or a door at its height; of the others
+/// those below the lowest habitable storey are foundations, the rest roofs. A building without rooms and floors is
+/// taken by its upright elements alone; one without those is habitable throughout, with a warning.
 void set_storey_kinds(Building& building, const StoreyKindConfig& config = {});
+
+/// A door of the storey's walls begins at its height: people walk there.
+[[nodiscard]] bool has_door(const Building& building, int storey, const StoreyKindConfig& config = {});
 
 }  // namespace plumbline::bim

@@ -111,6 +111,57 @@ TEST(MeshFile, AbsurdCoordinatesAreRefused) {
   EXPECT_THROW((void)read_mesh_world("v 0 0 0\nv 1000 0 0\nv 1000 1000 0\nf 1 2 3\n", "a.obj"), InputError);
 }
 
+/// A box seen from inside and outside, as obj; `point` changes its corners.
+template <class Point>
+std::string hall(double x, double y, double z, Point&& point) {
+  std::string text;
+  for (int i = 0; i < 8; ++i) {
+    const Eigen::Vector3d p = point(Eigen::Vector3d((i & 1) * x, (i >> 1 & 1) * y, (i >> 2) * z));
+    text += "v " + std::to_string(p.x()) + " " + std::to_string(p.y()) + " " + std::to_string(p.z()) + "\n";
+  }
+  for (const char* face : {"1 3 4 2", "5 6 8 7", "1 2 6 5", "3 7 8 4", "1 5 7 3", "2 4 8 6"}) {
+    const std::string f = face;
+    text += "f " + f + "\nf " + std::string(f.rbegin(), f.rend()) + "\n";
+  }
+  return text;
+}
+
+std::vector<std::string> kinds_of(const Building& building) {
+  std::vector<std::string> kinds;
+  for (const Warning& warning : building.warnings) kinds.push_back(warning.kind);
+  return kinds;
+}
+
+using Kinds = std::vector<std::string>;
+
+TEST(MeshAxes, YUpIsTurned) {
+  const auto y_up = [](const Eigen::Vector3d& p) { return Eigen::Vector3d(p.x(), p.z(), -p.y()); };
+  const Building world = read_mesh_world(hall(12, 8, 3, y_up), "a.obj");
+  EXPECT_EQ(kinds_of(world), Kinds({"no_plan", "assumed_up"}));
+  EXPECT_NEAR(world.storeys.front().elevation_m, 0.0, 1e-6);
+  EXPECT_NEAR(world.storeys.front().height_m, 3.0, 1e-6);
+  ASSERT_EQ(world.slabs.size(), 1u);
+  EXPECT_NEAR(signed_area(world.slabs.front().polygon.outer), 96.0, 2.5);
+}
+
+/// Narrow and high buildings look alike when turned; what may be z up stays.
+TEST(MeshAxes, WhatMayBeZUpStays) {
+  const auto as_it_is = [](const Eigen::Vector3d& p) { return p; };
+  for (const auto& size : {Eigen::Vector3d(12, 8, 3), Eigen::Vector3d(50, 2.4, 3), Eigen::Vector3d(2.4, 50, 3),
+                           Eigen::Vector3d(5, 5, 9), Eigen::Vector3d(30, 1.5, 3)})
+    EXPECT_EQ(kinds_of(read_mesh_world(hall(size.x(), size.y(), size.z(), as_it_is), "a.obj")), Kinds({"no_plan"}))
+        << size.transpose();
+}
+
+TEST(MeshAxes, AMeshTooLargeForMetresIsInASmallerUnit) {
+  for (const double scale : {1000.0, 100.0, 1.0 / 0.0254}) {
+    const auto scaled = [&](const Eigen::Vector3d& p) { return Eigen::Vector3d(scale * p); };
+    const Building world = read_mesh_world(hall(12, 8, 3, scaled), "a.obj");
+    EXPECT_EQ(kinds_of(world), Kinds({"no_plan", "assumed_unit"}));
+    EXPECT_NEAR(world.storeys.front().height_m, 3.0, scale > 50.0 ? 1e-4 : 0.1) << scale;
+  }
+}
+
 TEST(MeshFile, NoTrianglesOrNoFloorIsSaid) {
   EXPECT_THROW((void)read_mesh_world("", "a.obj"), InputError);
   EXPECT_THROW((void)read_mesh_world("v 0 0 0\nv 1 0 0\nl 1 2\n", "a.obj"), InputError);

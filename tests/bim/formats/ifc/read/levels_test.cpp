@@ -12,13 +12,13 @@ namespace plumbline::bim {
 namespace {
 
 /// A box of walls with a slab under it and a wall between two rooms, from x0 on; 8 by 6 m.
-void add_house(Sketch& sketch, double x0, double z, double height) {
+void add_house(Sketch& sketch, double x0, double z, double height, bool slab = true) {
   const auto wall = [&](double x, double y, double dx, double dy) {
     const double length = std::max(dx, dy);
     const std::string frame = dy > dx ? sketch.frame(x, y, z, "0.,0.,1.", "0.,1.,0.") : sketch.frame(x, y, z);
     sketch.element("IFCWALL", sketch.wall_shape(sketch.box(0, -0.1, 0, length, 0.1, height), length), "$,$", frame);
   };
-  sketch.slab({{x0, 0}, {x0 + 8, 0}, {x0 + 8, 6}, {x0, 6}}, z - 0.2, z);
+  if (slab) sketch.slab({{x0, 0}, {x0 + 8, 0}, {x0 + 8, 6}, {x0, 6}}, z - 0.2, z);
   for (const double y : {0.0, 6.0}) wall(x0, y, 8, 0);
   for (const double x : {0.0, 3.0, 8.0}) wall(x0 + x, 0, 0, 6);
 }
@@ -101,6 +101,32 @@ TEST(Levels, HalfLevelsAreAsHighAsWhatLiesOverThem) {
         << storey;
 }
 
+TEST(Levels, AStoreyLiesWhereItsWallsStand) {
+  Sketch sketch;
+  for (const double z : {0.0, 3.0, 6.0}) {
+    sketch.storey(0);
+    add_house(sketch, 0, z, 2.8);
+  }
+  const Building building = read(sketch);
+  ASSERT_EQ(building.storeys.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_NEAR(building.storeys[i].elevation_m, 3.0 * static_cast<double>(i), 1e-9);
+    EXPECT_EQ(building.storeys[i].kind, StoreyKind::habitable);
+  }
+  EXPECT_EQ(building.rooms.size(), 6u);
+  EXPECT_EQ(count(building, "storey_moved"), 2);
+}
+
+TEST(Levels, AStoreyWithAFloorStaysThoughItsWallsAreHigh) {
+  Sketch sketch;
+  sketch.storey(0);
+  sketch.slab({{0, 0}, {8, 0}, {8, 6}, {0, 6}}, -0.2, 0);
+  add_house(sketch, 0, 2.5, 2.8, false);
+  const Building building = read(sketch);
+  EXPECT_EQ(building.storeys.front().elevation_m, 0.0);
+  EXPECT_EQ(count(building, "storey_moved"), 0);
+}
+
 std::string add_space(Sketch& sketch, const std::string& storey, const std::string& name, const Polygon2& outline,
                       const std::string& type) {
   const std::string at = sketch.add("IFCLOCALPLACEMENT($," + sketch.frame(0, 0, 0) + ")");
@@ -124,6 +150,26 @@ TEST(Spaces, GrossAreasAndTerracesAreNoRooms) {
   EXPECT_EQ(building.rooms[0].name, "a");
   EXPECT_EQ(building.rooms[1].name, "b");
   EXPECT_EQ(count(building, "not_a_room"), 1);
+}
+
+/// Only the ground floor has spaces, and the upper one has no slab either; its door says that people walk there.
+TEST(Spaces, AStoreyWithoutThemHasTheRoomsThatItsWallsEnclose) {
+  Sketch sketch;
+  const std::string ground = sketch.storey(0);
+  add_house(sketch, 0, 0, 2.8);
+  add_space(sketch, ground, "a", {{0.1, 0.1}, {2.9, 0.1}, {2.9, 5.9}, {0.1, 5.9}}, ".INTERNAL.");
+  add_space(sketch, ground, "b", {{3.1, 0.1}, {7.9, 0.1}, {7.9, 5.9}, {3.1, 5.9}}, ".INTERNAL.");
+  sketch.storey(3);
+  add_house(sketch, 0, 3, 2.8, false);
+  const std::string box = sketch.box(0, -0.1, 0, 6, 0.1, 2.8);
+  const std::string wall =
+      sketch.element("IFCWALL", sketch.wall_shape(box, 6), "$,$", sketch.frame(5.5, 0, 3, "0.,0.,1.", "0.,1.,0."));
+  sketch.door(sketch.opening(wall, sketch.box(5.3, 2, 3, 5.7, 3, 5.1)));
+  const Building building = read(sketch);
+  ASSERT_EQ(building.storeys.size(), 2u);
+  EXPECT_EQ(building.storeys[1].kind, StoreyKind::habitable);
+  EXPECT_EQ(building.rooms.size(), 5u);
+  EXPECT_EQ(count(building, "inferred_room"), 3);
 }
 
 TEST(Spaces, OneThatCoversAllOthersIsNoRoom) {

@@ -109,5 +109,30 @@ TEST(Buildings, OfWhichThereAreTwoAreToldApart) {
             2);
 }
 
+/// A wall along x with a door from 2 to 3 m, whose opening reaches 0.2 m beyond both of its faces.
+void add_wall_with_door(Sketch& sketch) {
+  sketch.storey(0);
+  sketch.slab({{0, -3}, {8, -3}, {8, 3}, {0, 3}}, -0.2, 0);
+  const std::string wall = sketch.wall(0, 0, 8, 0.2, 2.8);
+  sketch.door(sketch.opening(wall, sketch.box(2, -0.3, 0, 3, 0.3, 2.1)));
+}
+
+/// A wall drawn along the door's, across its doorway.
+TEST(StrangeBuildings, AWallInFrontOfADoorIsSaid) {
+  Sketch sketch;
+  add_wall_with_door(sketch);
+  sketch.wall(0, 0.25, 8, 0.3, 2.8);
+  const Building building = read(sketch);
+  EXPECT_EQ(building.openings.size(), 1u);
+  EXPECT_EQ(count(building, "blocked_door"), 1);
+}
+
+TEST(StrangeBuildings, AFreeDoorIsNotBlocked) {
+  Sketch sketch;
+  add_wall_with_door(sketch);
+  sketch.wall(3.1, 0.1, 3, 0.1, 2.8, true);
+  EXPECT_EQ(count(read(sketch), "blocked_door"), 0);
+}
+
 }  // namespace
 }  // namespace plumbline::bim
