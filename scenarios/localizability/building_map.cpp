@@ -169,6 +169,10 @@ class MapMaker {
 BuildingMap map_of(const RunBuilding& building, const BuildingMapOptions& options, PlanEvidence by) {
   MapMaker maker(building, options, by);
   BuildingMap map = options.budget_s ? maker.within(*options.budget_s) : maker.at(options.step_m);
+  if (map.floors.empty())
+    throw InputError({"BUILDING", 0, 0},
+                     "has no place in its rooms where the robot can stand; `inspect --walk` says "
+                     "what stops it, and a smaller --step finds smaller places");
   map.alike = maker.alike_in(map);
   return map;
 }

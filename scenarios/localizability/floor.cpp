@@ -174,6 +174,15 @@ SearchArea search_area(const bim::Building& building, std::size_t storey) {
     area.min = area.min.cwiseMin(wall.a).cwiseMin(wall.b);
     area.max = area.max.cwiseMax(wall.a).cwiseMax(wall.b);
   }
+  if (!area.empty()) return area;
+  // Glass fronts and proxies may enclose rooms where there is no wall.
+  for (const bim::Room& room : building.rooms) {
+    if (room.storey != static_cast<int>(storey)) continue;
+    for (const Eigen::Vector2d& p : room.polygon) {
+      area.min = area.min.cwiseMin(p);
+      area.max = area.max.cwiseMax(p);
+    }
+  }
   return area;
 }
 

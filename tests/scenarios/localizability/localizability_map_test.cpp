@@ -7,9 +7,11 @@
 #include <memory>
 #include <numbers>
 
+#include "bim/errors.h"
 #include "bim/formats/plan_yaml/plan_write.h"
 #include "bim/formats/plan_yaml/plan_yaml.h"
 #include "bim/generators/generators.h"
+#include "bim/geometry/polygon_boolean.h"
 #include "bim/model/extrude.h"
 #include "bim/model/permanence.h"
 #include "bim/symmetry/isometry.h"
@@ -255,6 +257,31 @@ TEST(LocalizabilityMap, EqualStoreysAreAliasedOnlyAcross) {
   const BuildingMap across = map_of(*building, options);
   EXPECT_GT(across.map.cells.size(), 5U);
   for (const MapCell& cell : across.map.cells) EXPECT_EQ(cell.compass.aliases, 2);
+}
+
+/// Panels enclose a room where there is no wall.
+TEST(LocalizabilityMap, AStoreyWithoutWallsIsMappedByItsRooms) {
+  bim::Building building = bim::read_plan_text(
+      "plan: 1\nstoreys: [{id: g}]\nwalls: [{id: w, storey: g, a: [0, 0], b: [8, 0]}]\n"
+      "rooms: [{id: r, storey: g, polygon: [[0, 0], [8, 0], [8, 6], [0, 6]]}]\n",
+      "front.plan.yaml");
+  const Polygon2 front{{0, 0}, {8, 0}, {8, 0.1}, {0, 0.1}};
+  building.obstacles.push_back(
+      {"panel", "curtain_panel", 0, bim::extrude(unite(std::vector<Polygon2>{front}), 0.0, 3.0)});
+  building.walls.clear();
+  for (bim::Room& room : building.rooms) room.walls.clear();
+  BuildingMapOptions options;
+  options.step_m = 2.0;
+  EXPECT_GT(map_of(RunBuilding(bim::PlannedAndBuilt{building, building, {}, true}), options).map.cells.size(), 6u);
+}
+
+TEST(LocalizabilityMap, NoPlaceAtAllIsSaid) {
+  const bim::Building closet = bim::read_plan_text(
+      "plan: 1\nstoreys: [{id: g}]\nwalls: [{id: w, storey: g, a: [0, 0], b: [0.6, 0]}]\n"
+      "rooms: [{id: r, storey: g, polygon: [[0, 0], [0.6, 0], [0.6, 0.6], [0, 0.6]]}]\n",
+      "closet.plan.yaml");
+  const RunBuilding building(bim::PlannedAndBuilt{closet, closet, {}, true});
+  EXPECT_THROW(static_cast<void>(map_of(building, {})), InputError);
 }
 
 TEST(LocalizabilityMap, ThreadsDoNotChangeAByte) {
