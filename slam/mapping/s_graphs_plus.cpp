@@ -8,7 +8,6 @@
 #include "slam/graph/graph_json.h"
 #include "slam/io/stopwatch.h"
 #include "slam/planes/level.h"
-#include "slam/planes/motion_covariance.h"
 #include "slam/planes/segmented_scan.h"
 
 namespace plumbline::slam {
@@ -177,7 +176,6 @@ std::vector<PlaneObservation> SGraphsPlus::planes_of(const DeskewedScan& scan) c
   else
     seen = observe_planes(scan, config_.planes, config_.ransac_without_rings, seed_);
   if (!config_.parts.walls) std::erase_if(seen, [](const PlaneObservation& o) { return !is_floor(o); });
-  add_motion_covariance(seen, scan);
   return seen;
 }
 
