@@ -276,7 +276,7 @@ TEST_F(Ros2Bag, WhatIsWrongWithARosbag2IsSaid) {
   expect_complaint(database, "close the bag where it was recorded");
   fs::remove(database + "-wal");
   const std::string whole = bytes(database);
-  write_bytes(file("cut.db3"), whole.substr(0, whole.size() / 2));
+  write_bytes(file("cut.db3"), whole.substr(0, 50));  // not even its header; rosbag2_reader_test cuts it elsewhere
   EXPECT_NE(complaint(file("cut.db3")), "no error");
   // What looks like a table may be a program.
   fs::copy_file(database, file("view.db3"));
