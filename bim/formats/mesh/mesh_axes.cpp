@@ -21,14 +21,6 @@ struct MeshUnit {
 };
 constexpr std::array<MeshUnit, 3> other_units{{{"millimetre", 0.001}, {"centimetre", 0.01}, {"inch", 0.0254}}};
 
-Eigen::AlignedBox3d used_box(const std::vector<MeshPart>& parts) {
-  Eigen::AlignedBox3d box;
-  for (const MeshPart& part : parts)
-    for (const Eigen::Vector3i& t : part.solid.triangles)
-      for (int k = 0; k < 3; ++k) box.extend(part.solid.vertices[static_cast<std::size_t>(t[k])]);
-  return box;
-}
-
 /// Area of the faces that lie across x, y and z.
 Eigen::Vector3d areas_across(const std::vector<MeshPart>& parts, double level) {
   Eigen::Vector3d areas = Eigen::Vector3d::Zero();
@@ -62,11 +54,10 @@ bool has_y_up(const std::vector<MeshPart>& parts, const Eigen::Vector3d& sizes, 
 
 std::vector<Warning> settle_axes(std::vector<MeshPart>& parts, const std::string& path, const MeshAxesConfig& config) {
   std::vector<Warning> warnings;
-  const Eigen::AlignedBox3d box = used_box(parts);
+  const Eigen::AlignedBox3d box = box_of(parts);
   if (box.isEmpty()) return warnings;
   Eigen::Vector3d sizes = box.sizes();
-  const bool silent = path.ends_with(".obj") || path.ends_with(".ply") || path.ends_with(".stl");
-  if (silent && has_y_up(parts, sizes, config)) {
+  if (!says_its_axes(path) && has_y_up(parts, sizes, config)) {
     change_points(parts, [](const Eigen::Vector3d& p) { return Eigen::Vector3d(p.x(), -p.z(), p.y()); });
     sizes = Eigen::Vector3d(sizes.x(), sizes.z(), sizes.y());
     warnings.push_back({"", "assumed_up",

@@ -223,6 +223,19 @@ void check_coordinates(const std::vector<MeshPart>& parts, const std::string& pa
 
 }  // namespace
 
+Eigen::AlignedBox3d box_of(const std::vector<MeshPart>& parts) {
+  Eigen::AlignedBox3d box;
+  for (const MeshPart& part : parts)
+    for (const Eigen::Vector3i& t : part.solid.triangles)
+      for (int k = 0; k < 3; ++k) box.extend(part.solid.vertices[static_cast<std::size_t>(t[k])]);
+  return box;
+}
+
+bool says_its_axes(std::string_view path) {
+  const Format* format = format_of(path);
+  return format != nullptr && format->y_up;
+}
+
 bool is_mesh_path(std::string_view path) { return format_of(path) != nullptr; }
 
 std::vector<MeshPart> read_mesh_parts(std::string_view bytes, const std::string& path, const MeshFileConfig& config) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <Eigen/Geometry>
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -28,6 +29,12 @@ struct MeshPart {
 
 /// True for the endings .obj, .dae, .glb, .ply and .stl.
 [[nodiscard]] bool is_mesh_path(std::string_view path);
+
+/// Box around all triangles.
+[[nodiscard]] Eigen::AlignedBox3d box_of(const std::vector<MeshPart>& parts);
+
+/// Whether files of this kind say which axis is up, by the ending of their path; glTF and Collada do.
+[[nodiscard]] bool says_its_axes(std::string_view path);
 
 /// Reads a mesh by assimp, in a subprocess, since it does not survive every bad file. `bytes` is the file's content,
 /// `path` gives its kind and names it in errors. One part a node that has triangles, in the order of the file's tree;

@@ -135,14 +135,6 @@ class FloorGrid {
   std::vector<char> covered_;
 };
 
-Eigen::AlignedBox3d box_of(const std::vector<MeshPart>& parts) {
-  Eigen::AlignedBox3d box;
-  for (const MeshPart& part : parts)
-    for (const Eigen::Vector3i& t : part.solid.triangles)
-      for (int k = 0; k < 3; ++k) box.extend(part.solid.vertices[static_cast<std::size_t>(t[k])]);
-  return box;
-}
-
 /// The floor's outline in cells, doubled until it is made of few enough rectangles.
 Region2 floor_region(const std::vector<MeshPart>& parts, const Eigen::AlignedBox3d& box, double floor_z,
                      const MeshWorldConfig& config) {
