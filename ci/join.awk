@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Groups sources to be compiled together, six at most, so that no two of a group name something alike for themselves
+# Groups sources to be compiled together, sixteen at most, so that no two of a group name something alike for themselves
 # alone (in an unnamed namespace). A source that names something like a type of a header stays by itself.
 # Usage: awk -f ci/join.awk HEADER... SOURCE...; prints a line SOURCE GROUP for each source.
 function name_of(line) {
@@ -36,14 +36,15 @@ FNR == 1 { files[++count] = FILENAME; inside = 0; names[FILENAME] = 0 }
 /^}  \/\/ namespace$/ { inside = 0 }
 inside && /^[A-Za-z\[]/ { own = name_of($0); if (own != "") name[FILENAME, ++names[FILENAME]] = own }
 END {
+  most = 16
   for (f = 1; f <= count; ++f) {
     file = files[f]
     alone = 0
     for (i = 1; i <= names[file]; ++i) if (name[file, i] in typed) alone = 1
     for (group = alone ? groups + 1 : 1; group <= groups; ++group)
-      if (size[group] < 6 && fits(file, group)) break
+      if (size[group] < most && fits(file, group)) break
     if (group > groups) groups = group
-    size[group] += alone ? 6 : 1
+    size[group] += alone ? most : 1
     for (i = 1; i <= names[file]; ++i) taken[group, name[file, i]] = 1
     print file, group
   }

@@ -9,23 +9,9 @@
 #include <fstream>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "bim/errors.h"
-#include "scenarios/spec/resolve.h"
 #include "scenarios/sweep/sweep_file.h"
-
-// The methods are not built here.
-plumbline::slam::MethodTable plumbline::slam::methods() { return {}; }
-
-namespace plumbline::scenarios {
-
-void check_methods(const std::vector<std::string>& names, const std::vector<Mark>& marks, slam::MethodTable /*table*/) {
-  for (std::size_t i = 0; i < names.size(); ++i)
-    if (names[i].empty()) throw InputError(marks.at(i), "no method");
-}
-
-}  // namespace plumbline::scenarios
 
 namespace {
 

@@ -2,6 +2,7 @@
 #include "tests/slam/synthetic.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -43,15 +44,49 @@ void add_wall(House& house, const Eigen::Vector2d& min, const Eigen::Vector2d& m
 
 Polygon2 rectangle(double x0, double y0, double x1, double y1) { return {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}; }
 
-/// Range from p along the unit direction v to the nearest surface, infinity when there is none.
-double cast(const House& house, const Eigen::Vector3d& p, const Eigen::Vector3d& v) {
+using Directions = std::array<Eigen::Vector3d, rings>;
+
+/// The boxes that rays from p along these directions may meet: those of which, in plan, a corner lies between the
+/// outermost ones or corners lie on both sides.
+void keep_ahead(const std::vector<Box>& boxes, const Eigen::Vector3d& p, const Directions& directions,
+                std::vector<const Box*>& ahead) {
+  constexpr double widest = 0.5, margin = 1e-6;
+  const auto cross = [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); };
+  const Eigen::Vector2d middle = directions[rings / 2].head<2>().normalized();
+  double left = 0.0, right = 0.0;  // tangents of the angles to the outermost ones
+  for (const Eigen::Vector3d& v : directions) {
+    const double forward = middle.dot(v.head<2>());
+    if (!(forward > margin)) left = right = 2.0 * widest;
+    left = std::max(left, cross(middle, v.head<2>()) / forward);
+    right = std::max(right, -cross(middle, v.head<2>()) / forward);
+  }
+  const bool any = std::max(left, right) > widest;
+  const Eigen::Vector2d normal(-middle.y(), middle.x());
+  const Eigen::Vector2d leftmost = middle + (left + margin) * normal, rightmost = middle - (right + margin) * normal;
+  ahead.clear();
+  for (const Box& box : boxes) {
+    bool beyond_left = true, beyond_right = true, behind = true;
+    for (const double x : {box.min.x(), box.max.x()})
+      for (const double y : {box.min.y(), box.max.y()}) {
+        const Eigen::Vector2d d(x - p.x(), y - p.y());
+        beyond_left = beyond_left && cross(leftmost, d) > 0.0;
+        beyond_right = beyond_right && cross(rightmost, d) < 0.0;
+        behind = behind && middle.dot(d) < 0.0;
+      }
+    if (any || !(beyond_left || beyond_right || behind)) ahead.push_back(&box);
+  }
+}
+
+/// Range from p along the unit direction v to the nearest of these boxes, floor or ceiling, infinity when there is
+/// none.
+double cast(const std::vector<const Box*>& boxes, double height_m, const Eigen::Vector3d& p, const Eigen::Vector3d& v) {
   double best = std::numeric_limits<double>::infinity();
   if (v.z() < 0.0) best = -p.z() / v.z();
-  if (v.z() > 0.0) best = (house.height_m - p.z()) / v.z();
+  if (v.z() > 0.0) best = (height_m - p.z()) / v.z();
   const Eigen::Array3d inverse = v.array().inverse();
-  for (const Box& box : house.boxes) {
-    const Eigen::Array3d a = (box.min - p).array() * inverse;
-    const Eigen::Array3d b = (box.max - p).array() * inverse;
+  for (const Box* box : boxes) {
+    const Eigen::Array3d a = (box->min - p).array() * inverse;
+    const Eigen::Array3d b = (box->max - p).array() * inverse;
     const double enter = a.min(b).maxCoeff();
     const double leave = a.max(b).minCoeff();
     if (enter > 0.0 && enter <= leave) best = std::min(best, enter);
@@ -101,22 +136,30 @@ Scan scan_message(const House& house, const std::function<Pose(double)>& X_WR_at
   scan.offset_ns.assign(n, 0);
   const Nanoseconds start = message * columns * firing_period;
   scan.stamp = start + (columns - 1) * firing_period + 15 * laser_period;
+  const Pose X_RL = calibration().X_RL;
+  Directions directions_L, directions_W;
+  std::vector<const Box*> ahead;
   for (int column = 0; column < columns; ++column) {
     const Nanoseconds t = start + column * firing_period;
     const auto firing = static_cast<std::uint64_t>(message * columns + column);
-    const Pose X_WL = X_WR_at(seconds(t)) * calibration().X_RL;
+    const Pose X_WL = X_WR_at(seconds(t)) * X_RL;
     for (int ring = 0; ring < rings; ++ring) {
-      const Nanoseconds t_laser = t + laser_of_ring(ring) * laser_period;
       const double azimuth =
-          -azimuth_per_firing *
-          (static_cast<double>(firing) + static_cast<double>(t_laser - t) / static_cast<double>(firing_period));
+          -azimuth_per_firing * (static_cast<double>(firing) + static_cast<double>(laser_of_ring(ring) * laser_period) /
+                                                                   static_cast<double>(firing_period));
       const double elevation = (2.0 * ring - 15.0) * rad;
-      const Eigen::Vector3d v_L(std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
-                                std::sin(elevation));
-      const auto i = static_cast<std::size_t>(column * rings + ring);
-      scan.offset_ns[i] = static_cast<std::int32_t>(t_laser - scan.stamp);
-      scan.range_m[i] = measure(cast(house, X_WL.t, X_WL.q * v_L), config, noise, firing, ring).range_m;
-      scan.point_L[i] = scan.range_m[i] * v_L;
+      const auto k = static_cast<std::size_t>(ring);
+      directions_L[k] = {std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
+                         std::sin(elevation)};
+      directions_W[k] = X_WL.q * directions_L[k];
+    }
+    keep_ahead(house.boxes, X_WL.t, directions_W, ahead);
+    for (int ring = 0; ring < rings; ++ring) {
+      const auto k = static_cast<std::size_t>(ring), i = static_cast<std::size_t>(column * rings + ring);
+      scan.offset_ns[i] = static_cast<std::int32_t>(t + laser_of_ring(ring) * laser_period - scan.stamp);
+      const double range = cast(ahead, house.height_m, X_WL.t, directions_W[k]);
+      scan.range_m[i] = measure(range, config, noise, firing, ring).range_m;
+      scan.point_L[i] = scan.range_m[i] * directions_L[k];
     }
   }
   return scan;

@@ -63,7 +63,7 @@ constexpr std::array<Definition, 26> definitions = {{
     {"nav_msgs/OccupancyGrid", "std_msgs/Header header\nMapMetaData info\nint8[] data\n"},
 }};
 
-std::string_view fields_of(std::string_view name) {
+std::string_view definition_fields(std::string_view name) {
   for (const Definition& definition : definitions)
     if (definition.name == name) return definition.fields;
   throw InternalError("no definition of " + std::string(name));
@@ -126,7 +126,7 @@ std::string ros2_definition(MessageType type) {
   std::string text;
   for (const std::string_view name : types_of(type)) {
     if (!text.empty()) text += std::string(80, '=') + "\nMSG: " + std::string(name) + "\n";
-    text += fields_of(name);
+    text += definition_fields(name);
   }
   return text;
 }

@@ -32,22 +32,22 @@ inline void print_row(const std::string& way, double mrays, const Digests& diges
 /// Expects another process to find what this one finds; gives what this one found.
 inline Digests expect_same_in_another_process(const std::function<Digests()>& digests) {
   int channel[2];
-  EXPECT_EQ(pipe(channel), 0);
-  const pid_t child = fork();
+  EXPECT_EQ(::pipe(channel), 0);
+  const pid_t child = ::fork();
   EXPECT_GE(child, 0);
   if (child == 0) {
     const std::string text = one_line(digests());
-    const bool written = write(channel[1], text.data(), text.size()) == static_cast<ssize_t>(text.size());
+    const bool written = ::write(channel[1], text.data(), text.size()) == static_cast<ssize_t>(text.size());
     _exit(written ? 0 : 1);
   }
-  close(channel[1]);
+  ::close(channel[1]);
   const Digests own = digests();
   std::array<char, 16> theirs{};
   int status = 1;
-  EXPECT_EQ(waitpid(child, &status, 0), child);
+  EXPECT_EQ(::waitpid(child, &status, 0), child);
   EXPECT_EQ(status, 0);
-  EXPECT_EQ(read(channel[0], theirs.data(), theirs.size()), 16);
-  close(channel[0]);
+  EXPECT_EQ(::read(channel[0], theirs.data(), theirs.size()), 16);
+  ::close(channel[0]);
   EXPECT_EQ(std::string(theirs.data(), theirs.size()), one_line(own));
   return own;
 }
