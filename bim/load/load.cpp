@@ -11,6 +11,7 @@
 #include "bim/formats/mesh/mesh_world.h"
 #include "bim/formats/plan_yaml/plan_yaml.h"
 #include "bim/formats/traffic_editor/traffic_editor.h"
+#include "bim/load/foreign_file.h"
 #include "bim/model/fillings.h"
 
 namespace plumbline::bim {
@@ -74,7 +75,9 @@ PlannedAndBuilt read_planned_and_built(const std::string& text, const std::strin
 }  // namespace
 
 std::string read_building_file(const std::string& path) {
-  return is_mesh_path(path) ? read_text_file(path, MeshFileConfig().most_bytes) : read_text_file(path);
+  std::string bytes = is_mesh_path(path) ? read_text_file(path, MeshFileConfig().most_bytes) : read_text_file(path);
+  refuse_foreign_file(bytes, path);
+  return bytes;
 }
 
 PlannedAndBuilt load_planned_and_built(const std::string& path, const BuildingOptions& options) {

@@ -8,6 +8,7 @@
 
 #include "bim/digest/digest.h"
 #include "bim/formats/mesh/mesh_file.h"
+#include "bim/load/foreign_file.h"
 #include "bim/random/stream.h"
 #include "scenarios/spec/library.h"
 #include "scenarios/spec/method_names.h"
@@ -47,6 +48,7 @@ ScenarioText default_scenario(const std::string& path) {
 ScenarioText read_input(const std::string& path) {
   if (bim::is_mesh_path(path)) return default_scenario(path);
   const std::string text = read_text_file(path);
+  bim::refuse_foreign_file(text, path);
   if (is_ifc(text) || fs::path(path).extension() == ".ifc") return default_scenario(path);
   const std::string kind = kind_of(text, path);
   if (kind == "plan") return default_scenario(path);

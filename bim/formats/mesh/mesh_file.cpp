@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <assimp/Importer.hpp>
+#include <cctype>
 #include <cstdint>
 #include <cstring>
 #include <map>
@@ -27,10 +28,14 @@ struct Format {
 constexpr std::array<Format, 5> formats{
     {{".obj", false}, {".dae", true}, {".glb", true}, {".ply", false}, {".stl", false}}};
 
-/// The format of a path, or nullptr.
+/// The format of a path, or nullptr. Some programs write endings in capitals.
 const Format* format_of(std::string_view path) {
-  for (const Format& format : formats)
-    if (path.ends_with(format.ending)) return &format;
+  const auto same = [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; };
+  for (const Format& format : formats) {
+    if (path.size() < format.ending.size()) continue;
+    const std::string_view tail = path.substr(path.size() - format.ending.size());
+    if (std::equal(tail.begin(), tail.end(), format.ending.begin(), same)) return &format;
+  }
   return nullptr;
 }
 

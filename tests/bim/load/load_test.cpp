@@ -10,6 +10,7 @@
 #include "bim/mesh/mesh.h"
 #include "bim/plan/plan.h"
 #include "tests/data.h"
+#include "tests/input_error.h"
 
 namespace plumbline::bim {
 namespace {
@@ -41,6 +42,16 @@ TEST(Load, RefusesWhatIsNoBuilding) {
   EXPECT_THROW((void)load_building(empty.path()), InputError);
   EXPECT_THROW((void)load_building(letter.path()), InputError);
   EXPECT_THROW((void)load_building(blank.path()), InputError);
+}
+
+TEST(Load, RefusesAnArchiveByWhatItIs) {
+  const TemporaryFile archive("house.ifczip", "PK\x03\x04 and more");
+  EXPECT_NE(input_error([&] { (void)load_building(archive.path()); }).find("is a zip archive"), std::string::npos);
+}
+
+TEST(Load, EndingsOfMeshesMayBeInCapitals) {
+  const TemporaryFile mesh("HALL.OBJ", "v 0 0 0\nv 9 0 0\nv 9 9 0\nf 1 2 3\n");
+  EXPECT_EQ(load_building(mesh.path()).schema, "mesh");
 }
 
 TEST(Load, TellsAPlanByItsContent) {
