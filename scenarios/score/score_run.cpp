@@ -70,10 +70,12 @@ void score_structure(const MethodRecord& method, const Pose& X_WF, const Referen
   if (!method.localization && !estimate.floors.empty())
     score.storeys = score_storeys(estimate, X_WF, reference.as_built, reference.truth);
   if (estimate.planes.empty()) return;
-  score.walls = score_walls(estimate, X_WF, reference.as_built, reference.surface_W);
+  const WallScore walls = score_walls(estimate, X_WF, reference.as_built, reference.surface_W);
+  // In a building of which no walls are known, a wall found is neither right nor wrong.
+  if (!reference.as_built.faces.empty()) score.walls = walls;
   if (method.localization && estimate.rooms.empty()) return;  // it is given the rooms
   if (!rooms_are_known(reference)) return;
-  score.rooms = score_rooms(estimate, X_WF, reference.as_built, *score.walls, reference.truth);
+  score.rooms = score_rooms(estimate, X_WF, reference.as_built, walls, reference.truth);
 }
 
 /// Absent of an outside trajectory.

@@ -39,6 +39,8 @@ std::vector<std::string> rooms_not_entered(const FinishedRun& run) {
 
 std::vector<std::string> warnings_of_walk(const FinishedRun& run) {
   std::vector<std::string> warnings = walk_warnings(run.walk);
+  if (run.building && run.building->variants().as_built.walls.empty())
+    warnings.push_back("no walls are known in the building: `walls.*` are not scored");
   if (run.scenario.kidnap || !run.record.failure.empty() || run.record.truth_W.empty()) return warnings;
   constexpr double before_s = 1.0;  // of the end of the time, at most: the last scan of a walk that is cut short
   if (slam::seconds(run.record.truth_W.back().stamp) < run.scenario.duration_s - before_s) return warnings;

@@ -212,6 +212,10 @@ double walk_length(double duration_s, double speed_mps) {
 
 std::vector<std::string> walk_warnings(const WalkCoverage& walk) {
   std::vector<std::string> warnings;
+  if (walk.rooms == 0 && walk.elsewhere == 0)
+    warnings.push_back("no rooms are known on " + walk.storey +
+                       ": the walk goes round its floor, methods that localize have nowhere to begin, and `rooms.*` "
+                       "are not scored");
   if (walk.floor_assumed)
     warnings.push_back("neither slabs nor rooms say where the floor of " + walk.storey +
                        " is; it is taken to be level everywhere, and a slab in the building would say where it ends");

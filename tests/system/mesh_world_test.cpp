@@ -32,13 +32,20 @@ TEST_F(MeshWorldRun, ListsItsElements) {
 
 TEST_F(MeshWorldRun, IsWalkedInBySlamAlone) {
   write_file(folder_ / "walk.yaml", "scenario: 1\nname: walk\nbuilding: q.glb\nduration_s: 25\n");
-  const Outcome outcome = plumbline({"run", folder_ / "walk.yaml", "--method", "vgicp", "--out", folder_ / "out"});
+  const Outcome outcome =
+      plumbline({"run", folder_ / "walk.yaml", "--method", "vgicp,s_graphs_plus", "--out", folder_ / "out"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const auto json = nlohmann::json::parse(read_file(folder_ / "out/results.json"));
   // It walks: 25 s at 0.6 m/s with turns; a box across a doorway would hold it back.
   EXPECT_GT(json["distance_m"].get<double>(), 8.0);
   // Measured 0.01 to 0.06 m over whole rounds.
   EXPECT_LT(json["methods"]["vgicp"]["ate_aligned_rmse_m"].get<double>(), 0.1);
+
+  // Of what is not known nothing is scored, and it is said.
+  EXPECT_FALSE(json["methods"]["s_graphs_plus"].contains("walls"));
+  EXPECT_FALSE(json["methods"]["s_graphs_plus"].contains("rooms"));
+  ASSERT_FALSE(json["walk"]["warnings"].empty());
+  EXPECT_EQ(json["walk"]["warnings"][0].get<std::string>().rfind("no rooms are known on ground: ", 0), 0U);
 
   // Nobody knows what else looks like it in a world without walls.
   ASSERT_EQ(plumbline({"score", folder_ / "out", "--estimate", "given=" + (folder_ / "out/truth.tum,frame=W")}).code,

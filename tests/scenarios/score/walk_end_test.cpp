@@ -36,5 +36,15 @@ TEST(WalkEnd, AWalkThatIsDoneHasNothingToSay) {
   EXPECT_TRUE(warnings_of_walk(walk_that_ended({3.8, 2.5}, 20.0)).empty()) << "the time was not up";
 }
 
+TEST(WalkEnd, WithoutWallsItIsSaidThatTheyAreNotScored) {
+  FinishedRun run = walk_that_ended({6.2, 2.5}, 29.9);
+  bim::Building open = run.building->variants().as_built;
+  open.walls.clear();
+  open.openings.clear();
+  run.building = std::make_shared<const RunBuilding>(bim::PlannedAndBuilt{open, open, {}, true});
+  EXPECT_EQ(warnings_of_walk(run),
+            std::vector<std::string>{"no walls are known in the building: `walls.*` are not scored"});
+}
+
 }  // namespace
 }  // namespace plumbline::scenarios::score

@@ -46,6 +46,16 @@ TEST(WalkCoverage, AWalkThroughAllRoomsHasNothingToSay) {
   EXPECT_TRUE(walk_warnings(walk).empty());
 }
 
+TEST(WalkCoverage, AStoreyWithoutRoomsSaysWhatIsNotScored) {
+  bim::Building building = row_of_rooms(2);
+  building.rooms.clear();
+  const std::vector<std::string> warnings = walk_warnings(coverage_of(building));
+  ASSERT_FALSE(warnings.empty());
+  EXPECT_EQ(warnings.front(),
+            "no rooms are known on ground: the walk goes round its floor, methods that localize have nowhere to begin, "
+            "and `rooms.*` are not scored");
+}
+
 TEST(WalkCoverage, RoomsBehindADoorSayWhichAndTheLargerPieceIsWalked) {
   bim::Building building = row_of_rooms(7);
   building.openings[1].width_m = 0.5;  // two rooms on this side, five beyond
