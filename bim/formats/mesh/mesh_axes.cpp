@@ -19,7 +19,8 @@ struct MeshUnit {
   std::string_view name;
   double metres;
 };
-constexpr std::array<MeshUnit, 3> other_units{{{"millimetre", 0.001}, {"centimetre", 0.01}, {"inch", 0.0254}}};
+constexpr std::array<MeshUnit, 4> other_units{
+    {{"millimetre", 0.001}, {"centimetre", 0.01}, {"inch", 0.0254}, {"foot", 0.3048}}};
 
 /// Area of the faces that lie across x, y and z.
 Eigen::Vector3d areas_across(const std::vector<MeshPart>& parts, double level) {
@@ -44,7 +45,7 @@ void change_points(std::vector<MeshPart>& parts, Change&& change) {
 
 /// A narrow building with z up has walls that look like floors with y up: both signs are asked for.
 bool has_y_up(const std::vector<MeshPart>& parts, const Eigen::Vector3d& sizes, const MeshAxesConfig& config) {
-  if (sizes.y() < config.lowest_m || sizes.y() > config.most_height_share * std::min(sizes.x(), sizes.z()))
+  if (sizes.y() < config.building.lowest_m || sizes.y() > config.most_height_share * std::min(sizes.x(), sizes.z()))
     return false;
   const Eigen::Vector3d areas = areas_across(parts, config.level);
   return areas.y() >= config.least_area_ratio * areas.z();
@@ -65,21 +66,17 @@ std::vector<Warning> settle_axes(std::vector<MeshPart>& parts, const std::string
                         "is turned to z up"});
   }
   double metres = 1.0;
-  if (sizes.maxCoeff() > config.largest_m) {
-    const auto fits = [&](const MeshUnit& unit) {
-      const Eigen::Vector3d in_m = sizes * unit.metres;
-      return in_m.maxCoeff() <= config.largest_m && in_m.head<2>().maxCoeff() >= config.shortest_m &&
-             in_m.z() >= config.lowest_m && in_m.z() <= config.highest_m;
-    };
+  if (sizes.maxCoeff() > config.building.largest_m) {
+    const auto fits = [&](const MeshUnit& unit) { return config.building.hold(sizes * unit.metres); };
     const auto* const unit = std::find_if(other_units.begin(), other_units.end(), fits);
     if (unit == other_units.end())
-      throw InputError({path, 0, 0}, "larger than " + format_number(config.largest_m) +
+      throw InputError({path, 0, 0}, "larger than " + format_number(config.building.largest_m) +
                                          " m; the unit of a mesh is the metre, and it is no building in millimetres, "
-                                         "centimetres or inches either");
+                                         "centimetres, inches or feet either");
     metres = unit->metres;
     change_points(parts, [&](const Eigen::Vector3d& p) { return Eigen::Vector3d(p * metres); });
     warnings.push_back({"", "assumed_unit",
-                        "it is " + format_number(sizes.maxCoeff()) +
+                        "it is " + format_number(std::round(sizes.maxCoeff())) +
                             " m large if its unit is the metre; it is taken "
                             "as drawn in the unit " +
                             std::string(unit->name)});

@@ -121,7 +121,6 @@ Building read_ifc_text(std::string_view text, const std::string& file, const Ifc
   building.schema = said;
   building.unit = unit_name(model.unit_m);
   check_substance(building, file);
-  if (!model.has_unit) building.warnings.push_back({"", "assumed_unit", "the file gives no unit; metres assumed"});
   if (const std::string odd = odd_size(building); !odd.empty())
     building.warnings.push_back({"", "odd_size", odd + " The file says " + building.unit});
   if (model.move) building.warnings.push_back({"", "recentred", moved_text(*model.move)});

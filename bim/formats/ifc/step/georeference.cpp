@@ -41,6 +41,18 @@ bool within_reach(const StepProduct& product, const GeoreferenceConfig& config) 
          (body.isEmpty() || body.sizes().maxCoeff() <= config.largest_m);
 }
 
+Eigen::Vector3d extent_of_building(const StepModel& model) {
+  Eigen::AlignedBox3d box;
+  for (const StepProduct& product : model.products) {
+    if (product.kind != StepClass::wall && product.kind != StepClass::slab && product.kind != StepClass::space)
+      continue;
+    for (const Shape& shape : product.body)
+      for (const Eigen::Vector3d& p : shape.base.points)
+        if (const Eigen::Vector3d p_W = product.X_WP * p; p_W.allFinite()) box.extend(p_W);
+  }
+  return box.isEmpty() ? Eigen::Vector3d::Constant(-1.0) : Eigen::Vector3d(box.sizes());
+}
+
 std::optional<Eigen::Vector3d> move_to_origin(StepModel& model, const GeoreferenceConfig& config) {
   std::array<std::vector<double>, 3> coordinates;
   for (const StepProduct& product : model.products) {

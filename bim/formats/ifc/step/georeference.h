@@ -18,6 +18,9 @@ struct GeoreferenceConfig {
 /// False where a coordinate is not a number or out of reach, or a body is too large.
 [[nodiscard]] bool within_reach(const StepProduct& product, const GeoreferenceConfig& config = {});
 
+/// Extents of what walls, floors and spaces hold, m; those of nothing are negative.
+[[nodiscard]] Eigen::Vector3d extent_of_building(const StepModel& model);
+
 /// Moves a model that stands far from the origin (in map coordinates) so that the median of its walls comes near it, by
 /// whole metres. The move, or nullopt where none was needed.
 [[nodiscard]] std::optional<Eigen::Vector3d> move_to_origin(StepModel& model, const GeoreferenceConfig& config = {});

@@ -27,10 +27,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <set>
 #include <string_view>
 
+#include "bim/config/tree.h"
 #include "bim/errors.h"
 #include "bim/formats/ifc/step/georeference.h"
 #include "bim/formats/ifc/step/scoped_silence.h"
@@ -45,6 +47,7 @@
 #include "bim/formats/ifc/step/step_placement.h"
 #include "bim/formats/ifc/step/step_repair.h"
 #include "bim/formats/ifc/step/step_validator.h"
+#include "bim/model/building_sizes.h"
 
 namespace plumbline::bim {
 namespace {
@@ -151,14 +154,14 @@ bool has_length_unit(const IfcProject& project) {
 
 class Reader {
  public:
-  Reader(const std::shared_ptr<BuildingModel>& model, const StepText& checked, const std::string& file)
-      : model_(model), validator_(checked, file), geometry_(model), checked_(checked), file_(file) {}
+  /// `bounded`: products out of reach are left out.
+  Reader(const std::shared_ptr<BuildingModel>& model, const StepText& checked, const std::string& file, bool bounded)
+      : model_(model), validator_(checked, file), geometry_(model), checked_(checked), file_(file), bounded_(bounded) {}
 
   StepModel read() {
     StepModel result;
     const std::shared_ptr<IfcProject> project = model_->getIfcProject();
     result.name = project && project->m_Name ? utf8(project->m_Name->m_value) : std::string();
-    result.has_unit = project && has_length_unit(*project);
     result.unit_m = model_->getUnitConverter()->getLengthInMeterFactor();
     result.optics = read_optics(*model_);
     for (const auto& [step_id, entity] : model_->getMapIfcEntities()) {
@@ -258,7 +261,8 @@ class Reader {
     }
     read_material(*source, model.unit_m, product);
     if (source->m_Representation) read_geometry(source, product);
-    if (!within_reach(product)) fail(product.step_id, product.type + " is larger than 10 km or further than 10000 km");
+    if (bounded_ && !within_reach(product))
+      fail(product.step_id, product.type + " is larger than 10 km or further than 10000 km");
     return product;
   }
 
@@ -286,7 +290,24 @@ class Reader {
   StepGeometry geometry_;
   const StepText& checked_;
   const std::string& file_;
+  bool bounded_;
 };
+
+/// The length of the file's unit, m, where the file does not give it: what is too large in metres and a building in
+/// millimetres is in these. Says so in `warnings`.
+double assumed_unit(const StepModel& in_metres, std::vector<Warning>& warnings) {
+  constexpr double most_m = 1000.0, millimetre = 0.001;
+  const Eigen::Vector3d sizes = extent_of_building(in_metres);
+  const double size = std::round(sizes.maxCoeff());
+  if (size <= most_m || !BuildingSizes{.largest_m = 5.0 * most_m, .shortest_m = 2.0}.hold(millimetre * sizes)) {
+    warnings.push_back({"", "assumed_unit", "the file gives no unit; metres assumed"});
+    return 1.0;
+  }
+  warnings.push_back({"", "assumed_unit",
+                      "the file gives no unit; it is " + format_number(size) +
+                          " m large if that is the metre, and is taken as drawn in millimetres"});
+  return millimetre;
+}
 
 /// Classes that IFC++ does not know, which it leaves out without a word.
 void warn_of_unknown(const BuildingModel& model, const std::string& text, const std::string& file, StepModel& result) {
@@ -306,7 +327,13 @@ StepModel read_step_model(const std::string& text, const StepText& checked, cons
   const std::string whole =
       with_plain_curves(with_known_classes(without_dangling(text, checked, file), checked, file), file);
   const std::shared_ptr<BuildingModel> model = parse_step(with_known_placements(whole, file), checked.schema, file);
-  StepModel result = Reader(model, checked, file).read();
+  const std::shared_ptr<IfcProject> project = model->getIfcProject();
+  std::vector<Warning> assumed;
+  if (!project || !has_length_unit(*project))
+    model->getUnitConverter()->setLengthInMeterFactor(
+        assumed_unit(Reader(model, checked, file, false).read(), assumed));
+  StepModel result = Reader(model, checked, file, true).read();
+  result.skipped.insert(result.skipped.end(), assumed.begin(), assumed.end());
   warn_of_unknown(*model, whole, file, result);
   if (!checked.dangling.empty()) {
     const auto& [number, target] = checked.dangling.front();

@@ -55,7 +55,6 @@ struct StepProduct {
 struct StepModel {
   std::string name;                        ///< of the project
   double unit_m = 1.0;                     ///< length of the file's unit
-  bool has_unit = true;                    ///< false: no length unit given, metres assumed
   std::vector<StepProduct> products;       ///< by GlobalId
   std::map<std::string, Material> optics;  ///< what the file says about light, by material name
   std::vector<Warning> skipped;            ///< products whose placement cannot be resolved
@@ -63,6 +62,7 @@ struct StepModel {
 };
 
 /// Reads checked STEP text through IFC++: entity graph, placements and uncut solids. Its booleans are never used.
+/// A file without a unit of length is in metres, or in millimetres where its extent says so.
 /// Throws InputError with the line of the entity where the file does not make sense.
 [[nodiscard]] StepModel read_step_model(const std::string& text, const StepText& checked, const std::string& file);
 

@@ -162,6 +162,13 @@ TEST(MeshAxes, AMeshTooLargeForMetresIsInASmallerUnit) {
   }
 }
 
+TEST(MeshAxes, FeetAreToldWhereNoSmallerUnitFits) {
+  const auto in_feet = [](const Eigen::Vector3d& p) { return Eigen::Vector3d(p / 0.3048); };
+  const Building world = read_mesh_world(hall(200, 100, 8, in_feet), "a.obj");
+  EXPECT_EQ(kinds_of(world), Kinds({"no_plan", "assumed_unit"}));
+  EXPECT_NEAR(world.storeys.front().height_m, 8.0, 1e-3);
+}
+
 TEST(MeshFile, NoTrianglesOrNoFloorIsSaid) {
   EXPECT_THROW((void)read_mesh_world("", "a.obj"), InputError);
   EXPECT_THROW((void)read_mesh_world("v 0 0 0\nv 1 0 0\nl 1 2\n", "a.obj"), InputError);

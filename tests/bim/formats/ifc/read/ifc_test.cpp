@@ -100,6 +100,22 @@ TEST(Ifc, FileWithoutUnitIsTakenInMetresAndSaysSo) {
   EXPECT_EQ(building.warnings.front().kind, "assumed_unit");
 }
 
+TEST(Ifc, FileWithoutUnitTooLargeForMetresIsInMillimetres) {
+  SmallIfc mm;
+  mm.unit = "#3=IFCSIUNIT(*,.TIMEUNIT.,$,.SECOND.);";
+  mm.scale = 1000.0;
+  mm.wall_location = "1000.,2000.,0.";
+  mm.axis_line = "(0.,0.),(4000.,0.)";
+  mm.profile_centre = "2000.,100.";
+  mm.thickness = "200.";
+  const Building building = read(mm);
+  EXPECT_EQ(building.unit, "mm");
+  expect_standard(building);
+  ASSERT_EQ(building.warnings.size(), 1u);
+  EXPECT_EQ(building.warnings.front().kind, "assumed_unit");
+  EXPECT_NE(building.warnings.front().text.find("4000 m large"), std::string::npos) << building.warnings.front().text;
+}
+
 /// The body lies at offset to offset + sense * thickness across the line: the reference line is not a face.
 TEST(Ifc, OffsetAndSenseSayWhereTheBodyLies) {
   struct Row {
