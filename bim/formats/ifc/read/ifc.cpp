@@ -15,6 +15,7 @@
 #include "bim/formats/ifc/step/step_text.h"
 #include "bim/model/floors.h"
 #include "bim/model/odd_size.h"
+#include "bim/model/permanence.h"
 #include "bim/model/rooms.h"
 #include "bim/model/through.h"
 #include "bim/model/virtual_edges.h"
@@ -54,7 +55,7 @@ void warn_of_unresolved_doors(Building& building) {
 }
 
 /// Refuses a file in which nothing can stand and says what it lacks.
-void check_substance(Building& building, const std::string& file) {
+void check_substance(const Building& building, const std::string& file) {
   const bool solid = !building.walls.empty() || !building.slabs.empty() || !building.rooms.empty() ||
                      !building.columns.empty() || !building.obstacles.empty() || !building.stairs.empty();
   if (!solid) {
@@ -74,8 +75,21 @@ void check_substance(Building& building, const std::string& file) {
                      "nothing in it says where one could stand: it has no IfcSlab, no IfcSpace and no "
                      "IfcWall, only " +
                          std::to_string(building.obstacles.size() + building.columns.size()) + " other elements");
-  if (building.walls.empty())
-    building.warnings.push_back({"", "no_walls", "the file has no IfcWall; methods that need a plan have none"});
+}
+
+/// What methods that localize see in a plan without walls is all that was built to stay.
+void warn_of_missing_walls(Building& building) {
+  if (!building.walls.empty()) return;
+  const auto others = std::count_if(building.obstacles.begin(), building.obstacles.end(),
+                                    [](const Obstacle& obstacle) { return !may_have_moved(obstacle); }) +
+                      static_cast<std::ptrdiff_t>(building.columns.size());
+  building.warnings.push_back(
+      {"", "no_walls",
+       others > 0
+           ? "the file has no IfcWall; methods that localize go by its other elements that stay where they are (" +
+                 std::to_string(others) + "), and `walls.*` are not scored"
+           : "the file has no IfcWall, nor any other element that stays where it is; methods that localize have "
+             "nothing to go by"});
 }
 
 void warn_of_missing_floors(Building& building) {
@@ -121,6 +135,7 @@ Building read_ifc_text(std::string_view text, const std::string& file, const Ifc
   building.schema = said;
   building.unit = unit_name(model.unit_m);
   check_substance(building, file);
+  warn_of_missing_walls(building);
   if (const std::string odd = odd_size(building); !odd.empty())
     building.warnings.push_back({"", "odd_size", odd + " The file says " + building.unit});
   if (model.move) building.warnings.push_back({"", "recentred", moved_text(*model.move)});

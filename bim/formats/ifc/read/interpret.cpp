@@ -200,13 +200,17 @@ void Interpreter::add_missing_rooms() {
       });
     });
     const auto stands_here = [&](const auto& element) { return element.storey == storey; };
+    const auto is_front = [&](const Obstacle& obstacle) {
+      return stands_here(obstacle) && obstacle.kind == "curtain_panel";
+    };
     const bool built = building_.storeys[i].kind == StoreyKind::habitable &&
-                       std::any_of(building_.walls.begin(), building_.walls.end(), stands_here) &&
+                       (std::any_of(building_.walls.begin(), building_.walls.end(), stands_here) ||
+                        std::any_of(building_.obstacles.begin(), building_.obstacles.end(), is_front)) &&
                        std::any_of(building_.slabs.begin(), building_.slabs.end(), stands_here);
     if (rooms.empty() && built && given.empty())
       building_.warnings.push_back(
           {building_.storeys[i].id, "no_rooms",
-           "the file has no spaces, and walls enclose no room on this storey; no walk goes there"});
+           "the file has no spaces, and walls enclose no room on this storey; no route of rooms goes there"});
     const std::string no_spaces = " has no spaces; walls enclose this";
     for (const Room& room : rooms) {
       building_.warnings.push_back({room.id, "inferred_room", (given.empty() ? "the file" : "the storey") + no_spaces});

@@ -116,11 +116,26 @@ TEST(Missing, CurtainFrontsAndSlabsAreABuilding) {
   const Building building = read_sketch(sketch);
   EXPECT_TRUE(building.walls.empty());
   EXPECT_EQ(building.obstacles.size(), 20u);
-  EXPECT_EQ(warnings_of(building, "no_walls"), 1);
+  const auto no_walls = std::find_if(building.warnings.begin(), building.warnings.end(),
+                                     [](const Warning& warning) { return warning.kind == "no_walls"; });
+  ASSERT_NE(no_walls, building.warnings.end());
+  EXPECT_NE(no_walls->text.find("methods that localize go by its other elements that stay where they are (20)"),
+            std::string::npos)
+      << no_walls->text;
   EXPECT_EQ(building.storeys.front().kind, StoreyKind::habitable);
   EXPECT_NEAR(building.storeys.front().height_m, 3.0, 1e-9);
   ASSERT_EQ(building.rooms.size(), 1u);
   EXPECT_NEAR(inner_area(building), 5.9 * 3.9, 0.3) << "bounded by the panels";
+}
+
+TEST(Missing, RoomsBetweenOpenFrontsAreSaidToBeMissing) {
+  Sketch sketch = hut({.wall = ""});
+  const std::string whole = sketch.element("IFCCURTAINWALL", "$", "$,$");
+  const std::string panel = sketch.element("IFCPLATE", sketch.shape(sketch.box(0, 0, 0, 6, 0.05, 3)), "$,$");
+  sketch.rooted("IFCRELAGGREGATES", "$,$," + whole + ",(" + panel + ")");
+  const Building building = read_sketch(sketch);
+  EXPECT_TRUE(building.rooms.empty());
+  EXPECT_EQ(warnings_of(building, "no_rooms"), 1);
 }
 
 TEST(Missing, InferredRoomsStandOnTheirFloor) {
