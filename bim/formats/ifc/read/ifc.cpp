@@ -126,6 +126,7 @@ Building read_ifc_text(std::string_view text, const std::string& file, const Ifc
   interpreter.open_overlapping_walls();
   interpreter.add_rooms();
   interpreter.add_slabs();
+  interpreter.split_storeys();
   interpreter.add_columns();
   interpreter.add_stairs();
   interpreter.add_obstacles();

@@ -31,6 +31,9 @@ class Interpreter {
   void add_rooms();
   /// Those of the file; without any, elements of no class of their own that lie like floors.
   void add_slabs();
+  /// Where rooms, or without any walls with doors, stand on floors of one storey far above each other, the upper ones
+  /// become storeys. What is added later goes to these by its height.
+  void split_storeys();
   void add_columns();
   void add_stairs();
   void add_obstacles();
@@ -57,6 +60,9 @@ class Interpreter {
   void move_storeys_to_their_walls();
   /// True for elements whose class does not say what they are for, with a body that is still free.
   [[nodiscard]] bool is_nameless(const StepProduct& product) const;
+  void move_up(int storey, double floor_m);
+  /// By height, with all that names one.
+  void sort_storeys();
   void take_as_wall(const StepProduct& product);
   void take_as_slab(const StepProduct& product);
   void read_reference_line(const StepProduct& product, const Solid& body, Wall& wall);
@@ -93,6 +99,7 @@ class Interpreter {
   std::map<std::int64_t, const StepProduct*> products_;              ///< by STEP number
   std::map<std::int64_t, std::vector<const StepProduct*>> parts_;    ///< by STEP number of the whole
   std::map<std::int64_t, int> storeys_;                              ///< index by STEP number
+  std::map<std::int64_t, std::vector<int>> uppers_;                  ///< split off a storey, by its STEP number
   std::map<int, std::int64_t> buildings_;                            ///< STEP number of the IfcBuilding by storey
   std::map<std::int64_t, std::vector<int>> walls_;                   ///< indices by STEP number
   std::map<std::int64_t, std::vector<const StepProduct*>> cutters_;  ///< openings by STEP number of what they cut

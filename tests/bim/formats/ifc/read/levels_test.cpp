@@ -101,6 +101,62 @@ TEST(Levels, HalfLevelsAreAsHighAsWhatLiesOverThem) {
         << storey;
 }
 
+/// A house of two floors that the file calls one storey: without spaces the upper one needs a door to count.
+TEST(Levels, FloorsFarAboveEachOtherAreStoreysOfTheirOwn) {
+  for (const bool door : {false, true}) {
+    Sketch sketch;
+    sketch.storey(0);
+    add_house(sketch, 0, 0, 2.8);
+    add_house(sketch, 0, 3, 2.8);
+    if (door) {
+      const std::string frame = sketch.frame(3, 3, 3);
+      const std::string wall =
+          sketch.element("IFCWALL", sketch.wall_shape(sketch.box(0, -0.1, 0, 5, 0.1, 2.8), 5), "$,$", frame);
+      sketch.door(sketch.opening(wall, sketch.box(5, 2.8, 3, 6, 3.2, 5)));
+    }
+    sketch.element("IFCCOLUMN", sketch.shape(sketch.box(1, 1, 3, 1.3, 1.3, 5.8)), "$,$");
+    const Building building = read(sketch);
+    EXPECT_EQ(count(building, "assumed_storey"), door ? 1 : 0);
+    ASSERT_EQ(building.storeys.size(), door ? 2u : 1u);
+    ASSERT_EQ(building.columns.size(), 1u);
+    if (!door) continue;
+    EXPECT_EQ(building.storeys[1].name, "s +3 m");
+    EXPECT_NEAR(building.storeys[1].elevation_m, 3.0, 1e-9);
+    EXPECT_NEAR(building.storeys[0].height_m, 3.0, 1e-9);
+    EXPECT_EQ(building.rooms.size(), 5u);
+    EXPECT_EQ(building.columns.front().storey, 1) << "what comes later goes by its height, too";
+    for (const Wall& wall : building.walls) EXPECT_EQ(wall.storey, wall.z0_m > 1.0 ? 1 : 0) << wall.id;
+    for (const Slab& slab : building.slabs) EXPECT_EQ(slab.storey, slab.z1_m > 1.0 ? 1 : 0) << slab.id;
+  }
+}
+
+TEST(Levels, SpacesOnAnUpperFloorOfAStoreyAreNamedAndMoved) {
+  for (const bool slab : {true, false}) {
+    Sketch sketch;
+    const std::string storey = sketch.storey(0);
+    add_house(sketch, 0, 0, 5);
+    if (slab) sketch.slab({{0, 0}, {3, 0}, {3, 6}, {0, 6}}, 2.3, 2.5);
+    std::string spaces;
+    for (const double z : {0.0, 2.5}) {
+      const std::string at = sketch.add("IFCLOCALPLACEMENT($," + sketch.frame(0, 0, 0) + ")");
+      spaces += (spaces.empty() ? "" : ",") +
+                sketch.rooted("IFCSPACE", "'" + std::string(z > 0 ? "gallery" : "hall") + "',$,$," + at + "," +
+                                              sketch.shape(sketch.box(0.1, 0.1, z, 2.9, 5.9, z + 2.2)) +
+                                              ",$,.ELEMENT.,.INTERNAL.,$");
+    }
+    sketch.rooted("IFCRELAGGREGATES", "$,$," + storey + ",(" + spaces + ")");
+    const Building building = read(sketch);
+    ASSERT_EQ(building.rooms.size(), 2u);
+    EXPECT_EQ(building.storeys.size(), slab ? 2u : 1u) << "a space over a ceiling stands on nothing";
+    for (const Warning& warning : building.warnings) {
+      if (warning.kind != "assumed_storey") continue;
+      EXPECT_NE(warning.text.find("'gallery'"), std::string::npos) << warning.text;
+    }
+    EXPECT_EQ(count(building, "assumed_storey"), slab ? 1 : 0);
+    for (const Room& room : building.rooms) EXPECT_EQ(room.storey, slab && room.name == "gallery" ? 1 : 0) << room.name;
+  }
+}
+
 TEST(Levels, AStoreyLiesWhereItsWallsStand) {
   Sketch sketch;
   for (const double z : {0.0, 3.0, 6.0}) {
