@@ -18,6 +18,8 @@ struct IfcConfig {
   double least_cut_m2 = 1e-3;     ///< an opening in a group of walls belongs to those it cuts more than this out of
   double near_wall_m = 0.25;      ///< a door or window without opening stands in a wall this close to it
   double clear_share = 0.8;       ///< a doorway with less of its width free is opened in the walls that fill it
+  double lining_m = 0.13;         ///< a wall this thin at most, along a face of another, lines it
+  double lining_gap_m = 0.05;     ///< ... this near to that face
   double least_fill = 0.6;        ///< a wall whose body fills less of its rectangle on the plan is bent or hollow
   double filling_share = 0.5;     ///< ... or in an opening with more than this share of its box
   double headroom_m = 1.2;        ///< that a robot needs over the steps of a stair

@@ -77,6 +77,7 @@ class Interpreter {
   [[nodiscard]] std::optional<Opening> opening_in(const Wall& wall, int index, const Opening& opening,
                                                   const Polygon2& doorway) const;
   [[nodiscard]] bool has_opening_at(int wall, const Opening& like) const;
+  [[nodiscard]] Solid opened_at_doors(const StepProduct& product, Solid covering);
   void add_stair_bodies(const StepProduct& product, Stair& stair);
   void place_stair(const StepProduct& product, Stair& stair);
   void add_obstacle(const StepProduct& product, const std::string& kind, const std::string& material, Solid body);

@@ -192,6 +192,7 @@ void Interpreter::add_obstacles() {
     Solid body = body_of(product);
     if (body.triangles.empty()) continue;
     std::string kind = obstacle_kind(product.type);
+    if (kind == "covering") body = opened_at_doors(product, std::move(body));
     if (in_curtain) kind = kind == "plate" ? "curtain_panel" : kind == "member" ? "mullion" : kind;
     const bool pane = kind == "curtain_panel" && (says_glass(product.material) || says_glass(product.name));
     add_obstacle(product, kind, pane ? "glass" : product.material, std::move(body));

@@ -52,12 +52,28 @@ double common_area(const WallBox& a, const WallBox& b, double slack_m) {
 
 double area(const WallBox& box) { return box.along.length() * box.height.length(); }
 
-/// What an opening leaves of its wall's rectangle on the plan; of a bent wall's, no more than it reaches.
-Polygon2 doorway_of(const Opening& opening, const Wall& host, double least_fill) {
+/// A thin straight wall along a face of another, such as its plasterboard: a door of that one is a door of both. Where
+/// it lies across the other; nullopt for a wall of its own.
+std::optional<Interval> lining_of(const Wall& host, const Wall& wall, const IfcConfig& config) {
+  constexpr double parallel = 0.02;
+  if (wall.thickness_m > config.lining_m || std::abs(host.direction().dot(wall.left())) > parallel) return std::nullopt;
+  Interval across;
+  for (const double side : {wall.offset_m, wall.offset_m + wall.thickness_m})
+    across.add(host.left().dot(0.5 * (wall.a + wall.b) + side * wall.left() - host.a));
+  if (gap(across, {host.offset_m, host.offset_m + host.thickness_m}) > config.lining_gap_m) return std::nullopt;
+  const bool straight = fill_of(wall) >= config.least_fill && fill_of(host) >= config.least_fill;
+  return straight ? std::optional(across) : std::nullopt;
+}
+
+/// What an opening leaves of its wall's rectangle on the plan, and of a lining's that lies across it so; of a bent
+/// wall's, no more than it reaches.
+Polygon2 doorway_of(const Opening& opening, const Wall& host, const std::optional<Interval>& lining,
+                    double least_fill) {
   const Eigen::Vector2d e = host.direction(), foot = host.a + opening.s_m * e;
   const double half = 0.5 * opening.width_m;
   Interval depth{host.offset_m, host.offset_m + host.thickness_m};
   if (fill_of(host) < least_fill) depth = depth_in_wall(opening, host);
+  if (lining) depth = {std::min(depth.low, lining->low), std::max(depth.high, lining->high)};
   Polygon2 doorway;
   for (const auto& [s, y] : {std::pair(-half, depth.low), std::pair(half, depth.low), std::pair(half, depth.high),
                              std::pair(-half, depth.high)})
@@ -239,6 +255,7 @@ void Interpreter::add_unlinked_fillings() {
 std::optional<Opening> Interpreter::opening_in(const Wall& wall, int index, const Opening& opening,
                                                const Polygon2& doorway) const {
   constexpr double least_m = 0.03, least_height_m = 0.5, along = 0.1;
+  const double least_deep_m = std::min(least_m, 0.5 * wall.thickness_m);
   if (wall.z0_m > opening.z1_m - least_height_m || wall.z1_m < opening.z0_m + least_height_m) return std::nullopt;
   const Wall& host = building_.walls[static_cast<std::size_t>(opening.wall)];
   const Eigen::Vector2d e = host.direction(), foot = host.a + opening.s_m * e;
@@ -249,7 +266,7 @@ std::optional<Opening> Interpreter::opening_in(const Wall& wall, int index, cons
     across.add(wall.left().dot(p - wall.a));
   }
   if (overlap(range, {0.0, wall.length()}) < least_m ||
-      overlap(across, {wall.offset_m, wall.offset_m + wall.thickness_m}) < least_m)
+      overlap(across, {wall.offset_m, wall.offset_m + wall.thickness_m}) < least_deep_m)
     return std::nullopt;
   const double middle_m = 0.5 * (std::max(wall.z0_m, opening.z0_m) + std::min(wall.z1_m, opening.z1_m));
   Interval blocked, filled, deep;  // along the host, and along and across the other wall
@@ -259,7 +276,7 @@ std::optional<Opening> Interpreter::opening_in(const Wall& wall, int index, cons
       filled.add(wall.direction().dot(p - wall.a));
       deep.add(wall.left().dot(p - wall.a));
     }
-  if (blocked.high < blocked.low || filled.length() < least_m || deep.length() < least_m) return std::nullopt;
+  if (blocked.high < blocked.low || filled.length() < least_m || deep.length() < least_deep_m) return std::nullopt;
   if (std::max(blocked.low + half, half - blocked.high) >= config_.clear_share * opening.width_m) return std::nullopt;
   Opening other = opening;
   other.id = opening.id + "/" + wall.id;
@@ -293,18 +310,54 @@ void Interpreter::open_overlapping_walls() {
   for (std::size_t i = 0; i < count; ++i) {
     const Opening opening = building_.openings[i];
     if (opening.kind == OpeningKind::window) continue;
-    const Polygon2 doorway =
-        doorway_of(opening, building_.walls[static_cast<std::size_t>(opening.wall)], config_.least_fill);
+    const Wall& host = building_.walls[static_cast<std::size_t>(opening.wall)];
+    const Polygon2 doorway = doorway_of(opening, host, std::nullopt, config_.least_fill);
+    const bool through = goes_through(opening, host);
     for (int w = 0; w < static_cast<int>(building_.walls.size()); ++w) {
       if (w == opening.wall) continue;
       const Wall& wall = building_.walls[static_cast<std::size_t>(w)];
-      std::optional<Opening> other = opening_in(wall, w, opening, doorway);
+      const std::optional<Interval> lining = through ? lining_of(host, wall, config_) : std::nullopt;
+      std::optional<Opening> other =
+          opening_in(wall, w, opening, lining ? doorway_of(opening, host, lining, config_.least_fill) : doorway);
       if (!other || has_opening_at(w, *other)) continue;
       building_.warnings.push_back({opening.filling_id.empty() ? opening.id : opening.filling_id, "walls_overlap",
-                                    "stands in wall " + wall.id + " too, which is opened there"});
+                                    lining ? "wall " + wall.id + " lines its wall, and is opened there"
+                                           : "stands in wall " + wall.id + " too, which is opened there"});
       building_.openings.push_back(std::move(*other));
     }
   }
+}
+
+/// A covering of a wall, drawn over its doors too, less these.
+Solid Interpreter::opened_at_doors(const StepProduct& product, Solid covering) {
+  constexpr double upright_m = 1.0, under_m = 0.01;  // what lies on the floor stays
+  const Extent box = extent(covering);
+  if (box.high.z() - box.low.z() < upright_m) return covering;
+  const double before_m = config_.lining_m + config_.lining_gap_m;
+  const Eigen::AlignedBox2d on_plan(Eigen::Vector2d(box.low.head<2>()), Eigen::Vector2d(box.high.head<2>()));
+  std::vector<Solid> cuts;
+  for (const Opening& opening : building_.openings) {
+    if (opening.kind == OpeningKind::window) continue;
+    const double low_m = opening.z0_m - under_m;
+    if (low_m > box.high.z() || opening.z1_m < box.low.z()) continue;
+    const Wall& host = building_.walls[static_cast<std::size_t>(opening.wall)];
+    const Interval across{host.offset_m - before_m, host.offset_m + host.thickness_m + before_m};
+    const Polygon2 doorway = doorway_of(opening, host, across, config_.least_fill);
+    Eigen::AlignedBox2d reach;
+    for (const Eigen::Vector2d& p : doorway) reach.extend(p);
+    if (!reach.intersects(on_plan) || !goes_through(opening, host)) continue;
+    const Region2 region = unite(std::vector<Polygon2>{doorway});
+    const Region2 common = intersect(
+        region, body_section(covering, 0.5 * (std::max(low_m, box.low.z()) + std::min(opening.z1_m, box.high.z()))));
+    if (common.empty()) continue;
+    cuts.push_back(extrude(region, low_m, opening.z1_m));
+    warn(product, "walls_overlap", "covers " + opening.id + ", and is opened there");
+  }
+  if (cuts.empty()) return covering;
+  std::vector<std::string> problems;
+  covering = without(std::move(covering), cuts, problems);
+  for (const std::string& problem : problems) warn(product, "not_cut", problem);
+  return covering;
 }
 
 }  // namespace plumbline::bim

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "bim/geometry/polygon_boolean.h"
+#include "bim/mesh/solid.h"
 #include "tests/bim/formats/ifc/read/reading.h"
 #include "tests/bim/formats/ifc/sketch.h"
 
@@ -125,6 +126,39 @@ TEST(StrangeBuildings, AWallInFrontOfADoorIsSaid) {
   const Building building = read(sketch);
   EXPECT_EQ(building.openings.size(), 1u);
   EXPECT_EQ(count(building, "blocked_door"), 1);
+}
+
+/// Plasterboard of its own before a wall with a door, on either side, with and without a gap.
+TEST(StrangeBuildings, ADoorOpensTheLiningOfItsWall) {
+  for (const double y : {0.15, -0.15, 0.17, 0.1125}) {
+    Sketch sketch;
+    add_wall_with_door(sketch);
+    sketch.wall(0, y, 8, y == 0.1125 ? 0.025 : 0.1, 2.8);
+    const Building building = read(sketch);
+    EXPECT_EQ(building.openings.size(), 2u) << y;
+    EXPECT_EQ(count(building, "walls_overlap"), 1) << y;
+    EXPECT_EQ(count(building, "blocked_door"), 0) << y;
+  }
+}
+
+TEST(StrangeBuildings, ADoorOpensTheCoveringOfItsWall) {
+  Sketch sketch;
+  add_wall_with_door(sketch);
+  sketch.element("IFCCOVERING", sketch.shape(sketch.box(0, 0.1, 0, 8, 0.12, 2.8)), "$,.CLADDING.");
+  sketch.element("IFCCOVERING", sketch.shape(sketch.box(0, 0.1, 0, 8, 3, 0.01)), "$,.FLOORING.");
+  const Building building = read(sketch);
+  EXPECT_EQ(count(building, "walls_overlap"), 1);
+  ASSERT_EQ(building.obstacles.size(), 2u);
+  EXPECT_NEAR(volume(building.obstacles[0].body) + volume(building.obstacles[1].body),
+              0.02 * (8 * 2.8 - 1 * 2.1) + 8 * 2.9 * 0.01, 1e-4);
+}
+
+TEST(StrangeBuildings, AThinWallApartFromTheDoorsStaysShut) {
+  Sketch sketch;
+  add_wall_with_door(sketch);
+  sketch.wall(0, 0.25, 8, 0.1, 2.8);
+  EXPECT_EQ(read(sketch).openings.size(), 1u);
+  EXPECT_EQ(count(read(sketch), "blocked_door"), 1);
 }
 
 TEST(StrangeBuildings, AFreeDoorIsNotBlocked) {
