@@ -188,6 +188,11 @@ WalkPage walk_page(const bim::PlannedAndBuilt& site, const std::string& name) {
     else
       card.add_without_start(page, rooms);
   }
+  if (page.lines.empty()) {
+    const std::string why = "No rooms are known on any storey; `run` walks round the floor.";
+    page.html += "<p class=\"verdict bad\">" + svg::marked_up(why) + "</p>";
+    page.lines.push_back(why);
+  }
   page.html += "</main><script>" + std::string(map_script()) + "</script></body></html>\n";
   return page;
 }

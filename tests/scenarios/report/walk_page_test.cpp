@@ -30,6 +30,16 @@ TEST(WalkPage, NamesWhatStopsTheRobotAtItsPlace) {
   EXPECT_NE(page.find("<circle"), std::string::npos);
 }
 
+TEST(WalkPage, ABuildingWithoutRoomsSaysSo) {
+  bim::PlannedAndBuilt site = site_with_door(0.9);
+  site.as_planned.rooms.clear();
+  site.as_built.rooms.clear();
+  const WalkPage page = walk_page(site, "no rooms");
+  ASSERT_EQ(page.lines.size(), 1U);
+  EXPECT_EQ(page.lines.front().rfind("No rooms are known", 0), 0U);
+  EXPECT_NE(page.html.find("No rooms are known"), std::string::npos);
+}
+
 TEST(WalkList, IsEmptyWithoutTheBlock) { EXPECT_EQ(list_walk(nullptr), ""); }
 
 TEST(WalkList, CountsRoomsOfOtherStoreys) {
