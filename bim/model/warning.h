@@ -16,7 +16,7 @@ struct WarningRow {
 };
 
 /// Every kind of warning that a reader or the mesh gives, by name.
-inline constexpr std::array<WarningRow, 62> warning_rows = {{
+inline constexpr std::array<WarningRow, 63> warning_rows = {{
     {"assumed_doorway", "a gap between two walls in line becomes a doorway with a lintel"},
     {"assumed_floor", "the drawing has no floor; everything within the outer walls gets one"},
     {"assumed_height", "the file gives no height of the storey; it is taken as 3 m"},
@@ -59,7 +59,7 @@ inline constexpr std::array<WarningRow, 62> warning_rows = {{
     {"no_layers", "a wall has no material layers; offset and thickness are those of its body"},
     {"no_plan", "a mesh has no rooms and walls; plan localization is refused"},
     {"no_rooms", "walls enclose no room over a floor; no walk goes to such a storey"},
-    {"no_walls", "a level has no walls"},
+    {"no_walls", "a level has no walls; localization goes by what else stays"},
     {"not_a_room", "a space is a gross area, lies outside or covers the other spaces; it is left out"},
     {"not_aligned", "a level shares no fiducial with the lowest, or one that does not fit"},
     {"not_clipped", "what a body should be clipped by does not close; the body is larger than designed"},
@@ -80,6 +80,7 @@ inline constexpr std::array<WarningRow, 62> warning_rows = {{
     {"several_buildings", "the file has several buildings; their storeys are told apart by their names"},
     {"skipped_placement", "the element stands on a grid or alignment that cannot be evaluated; it is left out"},
     {"slab_pieces", "a slab has several pieces; the robot walks on the largest only"},
+    {"split_storey", "floors of a storey lie far above each other; each is taken as a storey"},
     {"stair_ends", "the head of a stair reaches the floor of no storey"},
     {"stair_within", "a stair leads from and to the same storey"},
     {"storey_kinds", "no storey has contents; all are taken as habitable"},

@@ -30,7 +30,7 @@ std::vector<std::size_t> storeys_asked_for(const bim::Building& building, const 
   for (const std::string& id : known) list += (list.empty() ? "" : ", ") + id;
   if (options.storey)
     throw InputError({"--storey", 0, 0}, "there is no storey '" + *options.storey + "'; there are: " + list);
-  throw InputError({"BUILDING", 0, 0}, "has no storey with walls; it must have one");
+  throw InputError({"BUILDING", 0, 0}, "has no storey with rooms or walls; `identify` maps those");
 }
 
 Tree tree_of(const MapShare& share) {

@@ -98,7 +98,7 @@ void Interpreter::split_storeys() {
       upper.elevation_m = snapped(floors[k].z_m);
       upper.step_id = 0;
       building_.warnings.push_back(
-          {storey.id, "assumed_storey",
+          {storey.id, "split_storey",
            (floors[k].rooms.empty() ? "a floor with walls and doors" : "the floor of " + list_of(floors[k].rooms)) +
                " lies " + format_number(above_m) + " m above that of '" + storey.name +
                "'; it is taken as a storey, '" + upper.name + "'"});

@@ -116,7 +116,7 @@ TEST(Levels, FloorsFarAboveEachOtherAreStoreysOfTheirOwn) {
     }
     sketch.element("IFCCOLUMN", sketch.shape(sketch.box(1, 1, 3, 1.3, 1.3, 5.8)), "$,$");
     const Building building = read(sketch);
-    EXPECT_EQ(count(building, "assumed_storey"), door ? 1 : 0);
+    EXPECT_EQ(count(building, "split_storey"), door ? 1 : 0);
     ASSERT_EQ(building.storeys.size(), door ? 2u : 1u);
     ASSERT_EQ(building.columns.size(), 1u);
     if (!door) continue;
@@ -149,10 +149,10 @@ TEST(Levels, SpacesOnAnUpperFloorOfAStoreyAreNamedAndMoved) {
     ASSERT_EQ(building.rooms.size(), 2u);
     EXPECT_EQ(building.storeys.size(), slab ? 2u : 1u) << "a space over a ceiling stands on nothing";
     for (const Warning& warning : building.warnings) {
-      if (warning.kind != "assumed_storey") continue;
+      if (warning.kind != "split_storey") continue;
       EXPECT_NE(warning.text.find("'gallery'"), std::string::npos) << warning.text;
     }
-    EXPECT_EQ(count(building, "assumed_storey"), slab ? 1 : 0);
+    EXPECT_EQ(count(building, "split_storey"), slab ? 1 : 0);
     for (const Room& room : building.rooms) EXPECT_EQ(room.storey, slab && room.name == "gallery" ? 1 : 0) << room.name;
   }
 }
