@@ -89,8 +89,10 @@ Foreign markup(const std::string& head) {
   return {"XML", "give a plan, an IFC file in STEP text (.ifc) or a mesh"};
 }
 
-/// Nothing for JSON that may be a plan or a scenario, which are YAML.
+/// Nothing for what may be a plan or a scenario, which are YAML: its braces may be JSON's.
 Foreign in_json(const std::string& head) {
+  const std::size_t first = head.find_first_not_of("{[ \t\r\n");
+  if (first == std::string::npos || head[first] != '"') return {};
   if (holds_one_of(head, {"\"plan\"", "\"scenario\"", "\"levels\"", "\"sweep\""})) return {};
   if (holds_one_of(head, {"ifc"})) return {"IFC as JSON", "export the building as IFC in STEP text (.ifc)"};
   if (holds_one_of(head, {"\"asset\"", "\"bufferviews\"", "\"accessors\""}))

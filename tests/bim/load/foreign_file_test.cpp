@@ -42,7 +42,8 @@ TEST(ForeignFile, SaysWhatItIsAndWhatToDo) {
 
 TEST(ForeignFile, WhatMayBeABuildingPasses) {
   for (const char* text : {"ISO-10303-21;\nHEADER;", "plan: 1\n", "{\"plan\": 1, \"name\": \"an ifc\"}", "levels:\n",
-                           "", "Dear Sir or Madam", "[1, 2]"})
+                           "{scenario: 1, building: a.ifc}", "{\"building\": \"a.ifc\", \"scenario\": 1}", "",
+                           "Dear Sir or Madam", "[1, 2]"})
     EXPECT_EQ(refusal(text), "no error") << text;
 }
 

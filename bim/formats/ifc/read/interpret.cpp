@@ -95,17 +95,17 @@ void Interpreter::warn(const StepProduct& product, WarningKind kind, const std::
 
 int Interpreter::storey_index(const StepProduct& product, double z0_m) const {
   const auto named = storeys_.find(product.storey);
-  int index = named != storeys_.end() ? named->second : 0;
-  if (named != storeys_.end()) {
-    const auto uppers = uppers_.find(product.storey);
-    if (uppers == uppers_.end()) return index;
-    for (const int upper : uppers->second)
-      if (building_.storeys[static_cast<std::size_t>(upper)].elevation_m <= z0_m + config_.storey_below_m)
-        index = upper;
-    return index;
+  std::vector<int> above;
+  if (named == storeys_.end()) {
+    above.resize(building_.storeys.size());
+    std::iota(above.begin(), above.end(), 0);
+  } else if (const auto uppers = uppers_.find(product.storey); uppers != uppers_.end()) {
+    above = uppers->second;
   }
-  for (std::size_t i = 0; i < building_.storeys.size(); ++i)
-    if (building_.storeys[i].elevation_m <= z0_m + config_.storey_below_m) index = static_cast<int>(i);
+  int index = named != storeys_.end() ? named->second : 0;
+  for (const int storey : above)
+    if (building_.storeys[static_cast<std::size_t>(storey)].elevation_m <= z0_m + config_.storey_below_m)
+      index = storey;
   return index;
 }
 

@@ -61,15 +61,19 @@ TEST(Ifc, ReadsTheFixture) {
   EXPECT_TRUE(building.warnings.empty());
 }
 
-TEST(Ifc, UnitsScaleEverything) {
+SmallIfc drawn_in_millimetres(const std::string& unit) {
   SmallIfc mm;
-  mm.unit = "#3=IFCSIUNIT(*,.LENGTHUNIT.,.MILLI.,.METRE.);";
+  mm.unit = unit;
   mm.scale = 1000.0;
   mm.wall_location = "1000.,2000.,0.";
   mm.axis_line = "(0.,0.),(4000.,0.)";
   mm.profile_centre = "2000.,100.";
   mm.thickness = "200.";
-  const Building building = read(mm);
+  return mm;
+}
+
+TEST(Ifc, UnitsScaleEverything) {
+  const Building building = read(drawn_in_millimetres("#3=IFCSIUNIT(*,.LENGTHUNIT.,.MILLI.,.METRE.);"));
   EXPECT_EQ(building.unit, "mm");
   expect_standard(building);
 }
@@ -101,14 +105,7 @@ TEST(Ifc, FileWithoutUnitIsTakenInMetresAndSaysSo) {
 }
 
 TEST(Ifc, FileWithoutUnitTooLargeForMetresIsInMillimetres) {
-  SmallIfc mm;
-  mm.unit = "#3=IFCSIUNIT(*,.TIMEUNIT.,$,.SECOND.);";
-  mm.scale = 1000.0;
-  mm.wall_location = "1000.,2000.,0.";
-  mm.axis_line = "(0.,0.),(4000.,0.)";
-  mm.profile_centre = "2000.,100.";
-  mm.thickness = "200.";
-  const Building building = read(mm);
+  const Building building = read(drawn_in_millimetres("#3=IFCSIUNIT(*,.TIMEUNIT.,$,.SECOND.);"));
   EXPECT_EQ(building.unit, "mm");
   expect_standard(building);
   ASSERT_EQ(building.warnings.size(), 1u);
