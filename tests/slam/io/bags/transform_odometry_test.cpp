@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <string>
 #include <vector>
@@ -107,6 +109,81 @@ TEST(TransformOdometry, IsNotGuessed) {
     ASSERT_EQ(walk.left_out.size(), 1U) << i;
     EXPECT_NE(walk.left_out[0].find("no odometry"), std::string::npos) << walk.left_out[0];
   }
+}
+
+/// The robot's body over its footprint.
+Pose body_at(Nanoseconds stamp) {
+  const double phase = 2.0 * seconds(stamp);
+  return {Eigen::Quaterniond(Eigen::AngleAxisd(0.02 * std::sin(phase), Eigen::Vector3d::UnitY())),
+          {0.0, 0.01 * std::cos(phase), 0.3 + 0.01 * std::sin(phase)}};
+}
+
+/// The walk with its odometry as two joints. late: by how much the second's records are later; until: its last stamp.
+void write_two_joints(const std::string& path, const std::string& mount_on, Nanoseconds late, Nanoseconds until) {
+  const auto sink = make_rosbag2_sink(path, "walk");
+  const ros::Transform mount{0, mount_on, "velodyne", Pose{}};
+  sink->write("/tf_static", MessageType::transforms, 0, ros::write_transforms({&mount, 1}, Encoding::cdr), true);
+  for (const SensorFrame& frame : walk_of_four_scans()) {
+    for (const Odometry& record : frame.odometry) {
+      const ros::Transform correction{record.stamp, "map", "odom",
+                                      Pose::from_xyz_yaw({seconds(record.stamp), 0, 0}, 0)};
+      const ros::Transform first{record.stamp, "odom", "base_footprint", record.X_OR * body_at(record.stamp).inverse()};
+      const ros::Transform second{record.stamp + late, "base_footprint", "base_link", body_at(record.stamp + late)};
+      for (const ros::Transform* t : {&correction, &first, &second})
+        if (t != &second || t->stamp <= until)
+          sink->write("/tf", MessageType::transforms, record.stamp, ros::write_transforms({t, 1}, Encoding::cdr),
+                      false);
+    }
+    sink->write("/velodyne_points", MessageType::cloud, frame.scan.stamp,
+                ros::write_cloud(cloud_of(frame.scan, CloudLayout::organised), "velodyne", Encoding::cdr), false);
+  }
+  sink->finish();
+}
+
+TEST(TransformOdometry, TwoJointsThatMoveAreOne) {
+  constexpr Nanoseconds always = std::numeric_limits<Nanoseconds>::max();
+  const Folder folder;
+  write_altered(folder / "plain", {});
+  const Walk plain = read_walk(folder / "plain");
+  int trial = 0;
+  for (const Nanoseconds late : {0, 1'700'000}) {
+    const std::string path = folder / ("walk" + std::to_string(trial++));
+    write_two_joints(path, "base_link", late, always);
+    const Walk walk = read_walk(path);
+    EXPECT_EQ(walk.topic, "/tf: odom -> base_footprint -> base_link");
+    EXPECT_GE(walk.scans + (late == 0 ? 0 : 1), plain.scans);
+    ASSERT_GE(walk.odometry.size() + 4, plain.odometry.size());
+    const auto true_pose = [&](Nanoseconds stamp) {
+      const auto same = std::find_if(plain.odometry.begin(), plain.odometry.end(),
+                                     [&](const Odometry& other) { return other.stamp == stamp; });
+      EXPECT_NE(same, plain.odometry.end());
+      return same->X_OR;
+    };
+    const Odometry& start = walk.odometry.front();
+    for (const Odometry& record : walk.odometry) {
+      const Pose error =
+          (true_pose(start.stamp).inverse() * true_pose(record.stamp)).inverse() * (start.X_OR.inverse() * record.X_OR);
+      EXPECT_LT(error.t.norm(), late == 0 ? 1e-9 : 3e-4);
+      EXPECT_LT(error.q.angularDistance(Eigen::Quaterniond::Identity()), late == 0 ? 1e-7 : 3e-4);
+    }
+  }
+}
+
+TEST(TransformOdometry, TheFirstJointIsEnoughWhereTheLidarIsOnIt) {
+  const Folder folder;
+  write_two_joints(folder / "walk", "base_footprint", 0, std::numeric_limits<Nanoseconds>::max());
+  EXPECT_EQ(read_walk(folder / "walk").topic, "/tf: odom -> base_footprint");
+}
+
+TEST(TransformOdometry, RecordsWithoutTheSecondJointAreLeftOut) {
+  const Folder folder;
+  const std::vector<SensorFrame> frames = walk_of_four_scans();
+  write_two_joints(folder / "walk", "base_link", 0, frames[1].odometry.back().stamp);
+  const Walk walk = read_walk(folder / "walk");
+  ASSERT_EQ(walk.left_out.size(), 1U);
+  EXPECT_NE(walk.left_out[0].find(" records of odom -> base_footprint left out: no base_footprint -> base_link at "),
+            std::string::npos)
+      << walk.left_out[0];
 }
 
 TEST(TransformOdometry, OdometryOfATopicIsPreferred) {
