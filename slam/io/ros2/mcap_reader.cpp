@@ -12,6 +12,7 @@
 #include "bim/errors.h"
 #include "slam/io/ros2/mcap_chunk.h"
 #include "slam/io/ros2/mcap_format.h"
+#include "slam/io/ros2/mcap_losses.h"
 #include "slam/io/ros2/mcap_values.h"
 
 namespace plumbline::slam {
@@ -59,12 +60,7 @@ class McapReader final : public MessageSource {
     return found;
   }
 
-  [[nodiscard]] std::vector<std::string> left_out() const override {
-    if (!unclosed_) return {};
-    if (messages_of_cut_ == 0) return {not_closed(rest_bytes_, size_)};
-    return {"the bag was not closed or is cut off; of its last chunk, " + std::to_string(rest_bytes_) + " of " +
-            std::to_string(size_) + " bytes, the first " + std::to_string(messages_of_cut_) + " messages are read"};
-  }
+  [[nodiscard]] std::vector<std::string> left_out() const override { return losses_.lines(size_); }
 
   [[nodiscard]] Nanoseconds start() override { return blocks_.empty() ? 0 : blocks_.front().start; }
 
@@ -95,7 +91,7 @@ class McapReader final : public MessageSource {
     };
     if (size_ < mcap::magic.size() || !is_magic(0)) throw InputError(mark_, "is no MCAP file");
     if (size_ < least || !is_magic(size_ - mcap::magic.size())) {
-      unclosed_ = true;
+      losses_.unclosed = true;
       data_end_ = size_;
       return;
     }
@@ -136,32 +132,32 @@ class McapReader final : public MessageSource {
   /// Chunks, and messages that stand outside of any, in runs.
   void find_blocks() {
     std::uint64_t at = mcap::magic.size();
-    std::size_t chunks = 0;
     bool ended = false;
     while (!ended && at + mcap::head_bytes <= data_end_) {
       record_at_ = at;
       const Head head = head_of(read(at, mcap::head_bytes));
       const bool is_whole = head.size <= data_end_ - at - mcap::head_bytes;
-      if (unclosed_ && (!is_whole || head.op == Op::none)) {
+      if (losses_.unclosed && (!is_whole || head.op == Op::none)) {
         if (head.op == Op::chunk) add_cut_chunk(at);
         break;
       }
       if (!is_whole) throw InputError({}, "a record that goes beyond the data's end");
       ended = head.op == Op::data_end;
       if (ended) break;
-      chunks += head.op == Op::chunk ? 1 : 0;
+      losses_.chunks += head.op == Op::chunk ? 1 : 0;
       if (head.op == Op::chunk || head.op == Op::message) add_block(head, at);
       const std::uint64_t content_at = at + mcap::head_bytes;
       at = content_at + head.size;
       if (head.op == Op::schema || head.op == Op::channel) take_definition(head.op, read(content_at, head.size));
     }
-    if (unclosed_) leave_out_rest(ended ? size_ : at);
+    if (losses_.unclosed) leave_out_rest(ended ? size_ : at);
     // What the index has and the data does not is lost.
-    if (!chunk_channels_.empty() && chunks != chunk_channels_.size())
+    if (!chunk_channels_.empty() && losses_.chunks != chunk_channels_.size())
       throw InputError(
-          {}, std::to_string(chunks) + " chunks where the index has " + std::to_string(chunk_channels_.size()));
+          {}, std::to_string(losses_.chunks) + " chunks where the index has " + std::to_string(chunk_channels_.size()));
     for (Block& block : blocks_)
-      if (block.chunk && block.start == 0) block.start = first_time(block);  // some writers leave it out
+      if (block.chunk && block.start == 0)
+        block.start = first_time(whole_bytes_of(block));  // some writers leave it out
     std::stable_sort(blocks_.begin(), blocks_.end(), [](const Block& a, const Block& b) { return a.start < b.start; });
   }
 
@@ -169,14 +165,14 @@ class McapReader final : public MessageSource {
   void leave_out_rest(std::uint64_t whole_until) {
     if (!blocks_.empty() && blocks_.back().chunk) {
       try {
-        static_cast<void>(first_time(blocks_.back()));
+        static_cast<void>(first_time(bytes_of(blocks_.back())));
       } catch (const InputError&) {
         whole_until = blocks_.back().at;
         blocks_.pop_back();
       }
     }
     if (blocks_.empty()) throw InputError(mark_, "an MCAP file that was not closed and holds no whole message");
-    rest_bytes_ = size_ - whole_until;
+    losses_.rest_bytes = size_ - whole_until;
   }
 
   void add_block(const Head& head, std::uint64_t at) {
@@ -204,9 +200,9 @@ class McapReader final : public MessageSource {
     if (size_ - at > most_bytes) return;
     try {
       Block block{at, size_, 0, true, true};
-      messages_of_cut_ = mcap::count_messages(bytes_of(block));
-      block.start = first_time(block);
-      if (messages_of_cut_ > 0) blocks_.push_back(block);
+      losses_.messages_of_cut = mcap::count_messages(bytes_of(block));
+      block.start = first_time(bytes_of(block));
+      if (losses_.messages_of_cut > 0) blocks_.push_back(block);
     } catch (const InputError&) {  // not even its head
     }
   }
@@ -316,9 +312,22 @@ class McapReader final : public MessageSource {
     return from.cut ? mcap::records_of_cut_chunk(content) : mcap::records_of_chunk(content);
   }
 
-  /// 0 where it holds no message.
-  [[nodiscard]] Nanoseconds first_time(const Block& from) {
-    const Bytes bytes = bytes_of(from);
+  /// Nothing of a chunk that is damaged, unless no chunk is whole.
+  [[nodiscard]] Bytes whole_bytes_of(const Block& from) {
+    try {
+      Bytes bytes = bytes_of(from);
+      static_cast<void>(mcap::count_messages(bytes));  // every record ends where the next begins
+      return bytes;
+    } catch (const InputError&) {
+      if (!from.chunk) throw;
+      losses_.damaged[from.at] = from.end - from.at;
+      if (losses_.damaged.size() == losses_.chunks) throw;
+      return {};
+    }
+  }
+
+  /// 0 where they hold no message.
+  [[nodiscard]] static Nanoseconds first_time(const Bytes& bytes) {
     std::optional<Nanoseconds> first;
     for (std::size_t at = 0; at < bytes.size();) {
       const auto [head, content] = record_in(bytes, at);
@@ -337,7 +346,7 @@ class McapReader final : public MessageSource {
 
   [[nodiscard]] OpenBlock read_block(const Block& from) {
     OpenBlock block;
-    block.bytes = bytes_of(from);
+    block.bytes = whole_bytes_of(from);
     for (std::size_t at = 0; at < block.bytes.size();) {
       const auto [head, content] = record_in(block.bytes, at);
       if (head.op == Op::message) {
@@ -365,9 +374,7 @@ class McapReader final : public MessageSource {
   InputFile file_;
   std::uint64_t size_ = 0, footer_at_ = 0, summary_at_ = 0, data_end_ = 0;
   std::uint32_t summary_crc_ = 0;
-  bool unclosed_ = false;            ///< the file has no end
-  std::uint64_t rest_bytes_ = 0;     ///< behind what is whole of such a file
-  std::size_t messages_of_cut_ = 0;  ///< that are whole in its last chunk
+  mcap::Losses losses_;
   std::vector<BagTopic> topics_;
   std::map<std::uint16_t, std::string> schemas_;                     ///< names of types
   std::map<std::uint16_t, std::size_t> channels_;                    ///< to topics

@@ -188,12 +188,27 @@ TEST(McapReader, AFileOfWhichNothingIsWholeIsRefused) {
             std::string::npos);
 }
 
-TEST(McapReader, ASpoiltChunkThatIsNotTheLastIsRefused) {
+/// The same as a whole file, and as one that was not closed.
+TEST(McapReader, ADamagedChunkIsLeftOut) {
+  const Folder folder;
+  for (const char* compression : {"", "zstd", "lz4"}) {
+    std::string mcap = three_chunks(folder, compression);
+    std::string copy = mcap;
+    const std::vector<std::size_t> chunks = without_chunk_times(copy);
+    mcap[chunks[1] + (chunks[2] - chunks[1]) / 2] ^= 1;
+    for (const bool closed : {true, false}) {
+      const Found found = read_cut(folder, mcap.substr(0, mcap.size() - (closed ? 0 : 1)));
+      EXPECT_EQ(found.times, (std::vector<Nanoseconds>{1, 3})) << compression << closed;
+      EXPECT_NE(found.left_out.find("damaged chunks are left out: 1 of 3, "), std::string::npos) << found.left_out;
+    }
+  }
+}
+
+TEST(McapReader, AFileWhoseChunksAreAllDamagedIsRefused) {
   const Folder folder;
   std::string mcap = three_chunks(folder, "");
-  const std::vector<std::size_t> chunks = without_chunk_times(mcap);
-  mcap.resize(mcap.size() - 1);
-  mcap[chunks[1] + 1000] ^= 1;
+  std::string copy = mcap;
+  for (const std::size_t chunk : without_chunk_times(copy)) mcap[chunk + 1000] ^= 1;
   EXPECT_NE(input_error([&] { (void)read_cut(folder, mcap); }).find("a chunk whose checksum is wrong"),
             std::string::npos);
 }
