@@ -58,19 +58,23 @@ class Cells {
   /// Of a voxel and the six that share a face with it, about its centre.
   [[nodiscard]] Moments round(const VoxelKey& key) const {
     Moments sum;
-    const auto add = [&](const Eigen::Vector3i& step) {
-      const int slot = index_.find({key.x + step.x(), key.y + step.y(), key.z + step.z()});
-      if (slot >= 0) sum.add(cells_[static_cast<std::size_t>(slot)].moments.moved(size_ * step.cast<double>()));
-    };
-    add(Eigen::Vector3i::Zero());
+    if (const Cell* here = find(key)) sum = here->moments;
     for (int axis = 0; axis < 3; ++axis)
-      for (const int side : {-1, 1}) add(side * Eigen::Vector3i::Unit(axis));
+      for (const int side : {-1, 1}) {
+        const Eigen::Vector3i step = side * Eigen::Vector3i::Unit(axis);
+        if (const Cell* beside = find({key.x + step.x(), key.y + step.y(), key.z + step.z()}))
+          sum.add(beside->moments.moved_along(axis, size_ * side));
+      }
     return sum;
   }
 
  private:
   explicit Cells(double size) : size_(size) {}
 
+  [[nodiscard]] const Cell* find(const VoxelKey& key) const {
+    const int slot = index_.find(key);
+    return slot < 0 ? nullptr : &cells_[static_cast<std::size_t>(slot)];
+  }
   [[nodiscard]] std::size_t slot_of(const VoxelKey& key) {
     const auto slot = static_cast<std::size_t>(index_.insert(key));
     if (slot == cells_.size()) cells_.push_back({key, {}, 0.0});

@@ -33,6 +33,17 @@ struct Moments {
     const Eigen::Matrix3d mixed = sum * by.transpose();
     return {n, sum + n * by, outer + mixed + mixed.transpose() + n * by * by.transpose()};
   }
+  /// The same along one axis, to the last bit.
+  [[nodiscard]] Moments moved_along(int axis, double by) const {
+    Moments m = *this;
+    for (int i = 0; i < 3; ++i) {
+      m.outer(i, axis) += sum(i) * by;
+      m.outer(axis, i) += sum(i) * by;
+    }
+    m.outer(axis, axis) += n * by * by;
+    m.sum(axis) += n * by;
+    return m;
+  }
 };
 
 /// Moments while points are added, in scalars that stay in registers; to the last bit what Moments::add gives.

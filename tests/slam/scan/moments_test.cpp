@@ -55,6 +55,19 @@ TEST(MomentsTest, PoolingEqualsAddingAllPoints) {
 }
 
 // The spread of 400 fits is the predicted covariance; their sample variance scatters by sqrt(2 / 400) = 7 %.
+TEST(MomentsTest, AlongAnAxisTheyMoveAsAnyWay) {
+  const Stream random(15, "bim.generate");
+  for (std::uint64_t k = 0; k < 200; ++k) {
+    const Moments moments = patch(random, random_plane(random, k), k, 0.02);
+    const int axis = static_cast<int>(k % 3);
+    const double by = random.gauss(k, 5);
+    const Moments along = moments.moved_along(axis, by), moved = moments.moved(by * Eigen::Vector3d::Unit(axis));
+    EXPECT_EQ(along.n, moved.n);
+    EXPECT_EQ(along.sum, moved.sum);
+    EXPECT_EQ(along.outer, moved.outer);
+  }
+}
+
 TEST(MomentsTest, CovarianceIsTheSpreadOfFits) {
   const Stream random(13, "bim.generate");
   const Plane truth = random_plane(random, 1000);
