@@ -1,37 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bim/formats/mesh/ply_check.h"
 
-#include <array>
 #include <charconv>
 #include <cstdint>
 #include <vector>
 
 #include "bim/errors.h"
+#include "bim/ply_types.h"
 
 namespace plumbline::bim {
 
 namespace {
-
-struct Type {
-  std::string_view name;
-  std::uint64_t bytes;
-};
-constexpr std::array<Type, 16> types = {{{"char", 1},
-                                         {"int8", 1},
-                                         {"uchar", 1},
-                                         {"uint8", 1},
-                                         {"short", 2},
-                                         {"int16", 2},
-                                         {"ushort", 2},
-                                         {"uint16", 2},
-                                         {"int", 4},
-                                         {"int32", 4},
-                                         {"uint", 4},
-                                         {"uint32", 4},
-                                         {"float", 4},
-                                         {"float32", 4},
-                                         {"double", 8},
-                                         {"float64", 8}}};
 
 struct Element {
   Mark mark;
@@ -129,8 +108,7 @@ class Header {
   }
 
   [[nodiscard]] std::uint64_t size_of(std::string_view name) const {
-    for (const Type& type : types)
-      if (type.name == name) return type.bytes;
+    if (const std::uint32_t bytes = ply_type_bytes(name); bytes > 0) return bytes;
     fail("'" + std::string(name.substr(0, 40)) + "' is no type of a .ply file; float would be right");
   }
 

@@ -6,10 +6,10 @@
 #include <charconv>
 #include <cstring>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "bim/errors.h"
+#include "bim/ply_types.h"
 
 namespace plumbline::slam {
 
@@ -166,29 +166,6 @@ class PcdHeader {
   std::optional<std::uint32_t> width_, height_, points_;
 };
 
-/// Bytes of a PLY's number; 0 where there is no such type.
-std::uint32_t ply_size(std::string_view type) {
-  constexpr std::array<std::pair<std::string_view, std::uint32_t>, 16> sizes = {{{"char", 1},
-                                                                                 {"int8", 1},
-                                                                                 {"uchar", 1},
-                                                                                 {"uint8", 1},
-                                                                                 {"short", 2},
-                                                                                 {"int16", 2},
-                                                                                 {"ushort", 2},
-                                                                                 {"uint16", 2},
-                                                                                 {"int", 4},
-                                                                                 {"int32", 4},
-                                                                                 {"uint", 4},
-                                                                                 {"uint32", 4},
-                                                                                 {"float", 4},
-                                                                                 {"float32", 4},
-                                                                                 {"double", 8},
-                                                                                 {"float64", 8}}};
-  for (const auto& [name, size] : sizes)
-    if (name == type) return size;
-  return 0;
-}
-
 class PlyHeader {
  public:
   explicit PlyHeader(HeaderLines& lines) : lines_(lines) {}
@@ -251,7 +228,7 @@ class PlyHeader {
 
   void add_property(const Line& line) {
     if (element_ == Element::other) return;
-    const std::uint32_t size = line.words.size() == 3 ? ply_size(line.words[1]) : 0;
+    const std::uint32_t size = line.words.size() == 3 ? bim::ply_type_bytes(line.words[1]) : 0;
     if (element_ == Element::none || size == 0) lines_.fail("a property that is no plain number of vertices");
     const std::string_view name = line.words[2];
     if (names_.size() + 1 >= most_fields) lines_.fail("more than 63 properties");
