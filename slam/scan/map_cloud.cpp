@@ -114,6 +114,8 @@ CloudKeyframe thin_rings(const DeskewedScan& scan, const Pose& X_FR, const MapCl
     }
     close();
   }
+  cloud.points_R.shrink_to_fit();  // many of them are kept
+  cloud.lasers.shrink_to_fit();
   return cloud;
 }
 
