@@ -5,6 +5,15 @@
 
 namespace plumbline::slam::mcap {
 
+void Losses::add_damaged(std::uint64_t at, std::uint64_t bytes, const InputError& why) {
+  if (damaged.empty()) first_damage_ = why;
+  damaged[at] = bytes;
+}
+
+void Losses::refuse_if_all_is_damaged() const {
+  if (first_damage_ && !any_whole) throw InputError(*first_damage_);
+}
+
 std::vector<std::string> Losses::lines(std::uint64_t file_bytes) const {
   std::vector<std::string> lines;
   std::uint64_t damaged_bytes = 0;

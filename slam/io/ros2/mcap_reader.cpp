@@ -211,6 +211,7 @@ class McapReader final : public MessageSource {
   void read_all_channels() {
     for (const Block& block : blocks_)
       if (block.chunk) static_cast<void>(read_block(block));
+    losses_.refuse_if_all_is_damaged();
   }
 
   void take_definition(Op op, std::span<const std::uint8_t> content) {
@@ -282,6 +283,7 @@ class McapReader final : public MessageSource {
     };
     for (; next_block_ < blocks_.size() && is_due(blocks_[next_block_]); ++next_block_)
       if (!may_skip(blocks_[next_block_].at)) open_block(blocks_[next_block_]);
+    if (open_.empty()) losses_.refuse_if_all_is_damaged();
     if (open_.empty()) return false;
     auto front = open_.extract(open_.begin());
     OpenBlock& block = front.mapped();
@@ -312,16 +314,16 @@ class McapReader final : public MessageSource {
     return from.cut ? mcap::records_of_cut_chunk(content) : mcap::records_of_chunk(content);
   }
 
-  /// Nothing of a chunk that is damaged, unless no chunk is whole.
+  /// Nothing of a chunk that is damaged.
   [[nodiscard]] Bytes whole_bytes_of(const Block& from) {
     try {
       Bytes bytes = bytes_of(from);
       static_cast<void>(mcap::count_messages(bytes));  // every record ends where the next begins
+      losses_.any_whole = true;
       return bytes;
-    } catch (const InputError&) {
+    } catch (const InputError& error) {
       if (!from.chunk) throw;
-      losses_.damaged[from.at] = from.end - from.at;
-      if (losses_.damaged.size() == losses_.chunks) throw;
+      losses_.add_damaged(from.at, from.end - from.at, error);
       return {};
     }
   }

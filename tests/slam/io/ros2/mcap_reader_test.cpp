@@ -8,6 +8,7 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <utility>
 
 #include "slam/io/ros2/ros2_writer.h"
 #include "tests/folder.h"
@@ -209,6 +210,29 @@ TEST(McapReader, AFileWhoseChunksAreAllDamagedIsRefused) {
   std::string mcap = three_chunks(folder, "");
   std::string copy = mcap;
   for (const std::size_t chunk : without_chunk_times(copy)) mcap[chunk + 1000] ^= 1;
+  for (const bool closed : {true, false})
+    EXPECT_NE(input_error([&] {
+                (void)read_cut(folder, mcap.substr(0, mcap.size() - (closed ? 0 : 1)));
+              }).find("a chunk whose checksum is wrong"),
+              std::string::npos);
+}
+
+/// All that are asked for, beside a whole chunk that is not.
+TEST(McapReader, AFileWhoseChunksOfATopicAreAllDamagedIsRefused) {
+  const Folder folder;
+  const std::string file = folder / "two.mcap";
+  {
+    const auto writer = make_mcap_writer(file, "");
+    const auto odometry = writer->add_topic({"/odom", "nav_msgs/msg/Odometry", "x", ""});
+    const auto other = writer->add_topic({"/other", "nav_msgs/msg/Odometry", "x", ""});
+    for (const auto& [topic, time] : {std::pair(odometry, 1), std::pair(odometry, 2), std::pair(other, 3)})
+      writer->write(topic, time, std::vector<std::uint8_t>(2'000'000, 7));
+    writer->finish();
+  }
+  std::string mcap = bytes(file), copy = mcap;
+  const std::vector<std::size_t> chunks = without_chunk_times(copy);
+  ASSERT_EQ(chunks.size(), 3U);
+  for (const std::size_t k : {0, 1}) mcap[chunks[k] + 1000] ^= 1;
   EXPECT_NE(input_error([&] { (void)read_cut(folder, mcap); }).find("a chunk whose checksum is wrong"),
             std::string::npos);
 }
