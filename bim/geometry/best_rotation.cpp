@@ -13,4 +13,8 @@ Eigen::Matrix3d best_rotation(const Eigen::Matrix3d& sum_qp) {
   return svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
 }
 
+Eigen::Quaterniond rotation_between(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+  return Eigen::Quaterniond::FromTwoVectors(from, to);
+}
+
 }  // namespace plumbline

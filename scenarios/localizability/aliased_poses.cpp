@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenarios/localizability/aliased_poses.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <utility>
+
+#include "bim/geometry/symmetric.h"
 
 namespace plumbline::scenarios {
 
@@ -125,7 +126,7 @@ bool AliasFinder::refine(const RangeImage& seen, SensorPose& place) const {
     const PlaneFit fit = fit_planes(coarse_.directions(), seen, expected, place, gate);
     const double share = iteration < early ? 0.0 : iteration < late ? early_share : late_share;
     if (fit.near < share * fit.seen) return false;
-    const Eigen::Vector3d step = fit.H.ldlt().solve(-fit.g);
+    const Eigen::Vector3d step = solve_ldlt(fit.H, Eigen::Vector3d(-fit.g));
     if (!step.allFinite()) return false;
     place.position_W.head<2>() += step.head<2>();
     place.yaw = wrap_angle(place.yaw + step.z());

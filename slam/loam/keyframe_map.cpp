@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slam/loam/keyframe_map.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "bim/geometry/symmetric.h"
 #include "slam/loam/degeneracy.h"
 #include "slam/registration/match.h"
 #include "slam/scan/voxel.h"
@@ -100,7 +100,7 @@ MapAlignment KeyframeMap::align(const MapFeatures& features, const Pose& start) 
       const Normal6 normal = linearize(matches, X_MR, config_.huber_m > 0.0 ? config_.huber_m : never_m);
       if (!good) good = good_directions(normal.h, config_.least_eigenvalue);
       result.normal = normal.h;
-      step = -(normal.h + 1e-9 * Matrix6d::Identity()).ldlt().solve(normal.g);
+      step = -solve_ldlt(Matrix6d(normal.h + 1e-9 * Matrix6d::Identity()), normal.g);
       if (!step.allFinite()) return result;
       step = good->projection * step;
       X_MR = X_MR * exp_se3(step);

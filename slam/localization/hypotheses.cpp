@@ -2,12 +2,12 @@
 #include "slam/localization/hypotheses.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
+#include "bim/geometry/symmetric.h"
 #include "slam/localization/wall_crossing.h"
 
 namespace plumbline::slam {
@@ -241,9 +241,9 @@ void HypothesisSet::rebase_reference(const PlanIndex& index) {
 
 // Beams at the few faces across it are too few for Gauss-Newton, and enough to contradict a pose that is off.
 void HypothesisSet::slide_along_open_direction(const PlanIndex& index, PoseHypothesis& hypothesis) const {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(hypothesis.covariance.topLeftCorner<2, 2>());
-  if (std::sqrt(axes.eigenvalues()[1]) < config_.open_share * refine_.prior_sigma_m) return;
-  const Eigen::Vector2d along = axes.eigenvectors().col(1);
+  const auto axes = symmetric_eigen(Eigen::Matrix2d(hypothesis.covariance.topLeftCorner<2, 2>()));
+  if (std::sqrt(axes.values[1]) < config_.open_share * refine_.prior_sigma_m) return;
+  const Eigen::Vector2d along = axes.vectors.col(1);
   const StoreyIndex& storey = index.storeys[static_cast<std::size_t>(hypothesis.storey)];
   const LocalizationScan& scan = history_.back().scan;
   const auto cost_at = [&](double shift_m) {

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slam/localization/range_bias.h"
 
-#include <Eigen/Cholesky>
-
+#include "bim/geometry/symmetric.h"
 #include "slam/localization/tracker_factors.h"
 
 namespace plumbline::slam {
@@ -23,7 +22,7 @@ void RangeBias::add(const TrackedPose& pose, const StoreyIndex& storey, double s
   constexpr double pose_sigma_m = 0.5;
   H.topLeftCorner<6, 6>() += Matrix6d::Identity() / (pose_sigma_m * pose_sigma_m);
   const Vector6d H_pb = H.topRightCorner<6, 1>();
-  const Vector6d to_pose = H.topLeftCorner<6, 6>().ldlt().solve(H_pb);
+  const Vector6d to_pose = solve_ldlt(Matrix6d(H.topLeftCorner<6, 6>()), H_pb);
   const double information = share * (H(6, 6) - to_pose.dot(H_pb));
   if (information <= 0.0) return;
   const double measured = share * (b[6] - to_pose.dot(b.head<6>())) / information;

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slam/localization/refine.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <vector>
+
+#include "bim/geometry/symmetric.h"
 
 namespace plumbline::slam {
 
@@ -108,7 +109,7 @@ Refined refine(const StoreyIndex& storey, const Pose2& X_IH, const LocalizationS
   for (int i = 0; i < config.iterations; ++i) {
     NormalEquations equations = beam_equations(storey, result.X_IH, scan, gate, likelihood, config);
     add_prior(equations, X_IH, result.X_IH, config);
-    const Eigen::Vector3d step = equations.H.ldlt().solve(equations.b);
+    const Eigen::Vector3d step = solve_ldlt(equations.H, equations.b);
     result.X_IH.t += step.head<2>();
     result.X_IH.yaw = wrap_angle(result.X_IH.yaw + step.z());
     result.covariance = equations.H.inverse();

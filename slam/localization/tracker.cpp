@@ -2,12 +2,12 @@
 #include "slam/localization/tracker.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <utility>
 
+#include "bim/geometry/symmetric.h"
 #include "slam/graph/factors.h"
 #include "slam/localization/associate.h"
 #include "slam/localization/tracker_factors.h"
@@ -48,14 +48,14 @@ void PlanTracker::carry_anchor_covariance(const TrackedPose& from, const Tracked
     if (variance > least) P -= (variance - least) / (variance * variance) * Pn * Pn.transpose();
   }
   const double grown = config_.drift_per_m * (to.X_OR.t - from.X_OR.t).norm();
-  const double largest = Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(P).eigenvalues()[1];
+  const double largest = symmetric_eigen(P).values[1];
   P += (grown * grown + 2.0 * grown * std::sqrt(largest)) * Eigen::Matrix2d::Identity();
 }
 
 std::optional<Eigen::Vector2d> PlanTracker::open_direction() const {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(covariance_.topLeftCorner<2, 2>());
-  if (std::sqrt(axes.eigenvalues()[1]) < config_.anchor_sigma_m) return std::nullopt;
-  return axes.eigenvectors().col(1);
+  const auto axes = symmetric_eigen(Eigen::Matrix2d(covariance_.topLeftCorner<2, 2>()));
+  if (std::sqrt(axes.values[1]) < config_.anchor_sigma_m) return std::nullopt;
+  return axes.vectors.col(1);
 }
 
 // The odometry within the window is good: all of it is off alike.

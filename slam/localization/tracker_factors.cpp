@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slam/localization/tracker_factors.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
+#include "bim/geometry/symmetric.h"
 #include "slam/localization/associate.h"
 
 namespace plumbline::slam {
@@ -73,7 +73,7 @@ void WindowProblem::add_between(std::size_t i, const PoseResidual& residual, con
   b_.segment<12>(k) -= J.transpose() * e;
 }
 
-Eigen::VectorXd WindowProblem::solve() const { return H_.ldlt().solve(b_); }
+Eigen::VectorXd WindowProblem::solve() const { return solve_ldlt(H_, b_); }
 
 double bias_share(const PlaneObservation& observed) {
   const double range = observed.centroid_R.norm();

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slam/mapping/laser_range_calibration.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 
+#include "bim/geometry/symmetric.h"
 #include "slam/mapping/wall_faces.h"
 
 namespace plumbline::slam {
@@ -77,7 +77,7 @@ class Fit {
       A.noalias() -= (information / face.n) * face.c * face.c.transpose();
       rhs -= (information / face.n * face.e) * face.c;
     }
-    offset_m_ = (A + prior_information()).ldlt().solve(rhs);
+    offset_m_ = solve_ldlt(Eigen::MatrixXd(A + prior_information()), rhs);
     for (Face& face : sums) face.at_m = face.n > 0.0 ? (face.e - face.c.dot(offset_m_)) / face.n : 0.0;
     faces_ = std::move(sums);
   }

@@ -6,8 +6,10 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
+#include "bim/geometry/symmetric.h"
 #include "bim/median.h"
 
 namespace plumbline::slam {
@@ -76,6 +78,7 @@ Normal6 linearize(std::span<const Surfel> surfels, const SurfelMap& map, const P
   const double slack = config.sigma_tangent_m * config.sigma_tangent_m;
   const double stiff = slack - config.sigma_normal_m * config.sigma_normal_m;
   const double scale2 = config.cauchy_scale * config.cauchy_scale;
+  double terms = 1.0;
   Normal6 sum;
   for (const Surfel& surfel : surfels) {
     const Eigen::Vector3d arm_M = R_MR * surfel.mean_R;  // from the robot to the surfel
@@ -91,12 +94,14 @@ Normal6 linearize(std::span<const Surfel> surfels, const SurfelMap& map, const P
     const double squared = e.dot(weighted);
     const double w = 1.0 / (1.0 + squared / scale2);
     add_point(sum, arm_M, w * information, w * weighted);
-    sum.cost += 0.5 * scale2 * std::log1p(squared / scale2);
+    terms *= 1.0 + squared / scale2;  // one logarithm for many
+    if (terms > 1e100) sum.cost += 0.5 * scale2 * std::log(std::exchange(terms, 1.0));
     if (squared > 2.0 * scale2) continue;
     sum.inliers += 1.0;
     sum.squared += squared;
     sum.across.push_back(std::abs(normal_M.dot(e)));
   }
+  sum.cost += 0.5 * scale2 * std::log(terms);
   to_right_increment(sum, R_MR);
   return sum;
 }
@@ -132,11 +137,11 @@ Observability observability(std::span<const Surfel> surfels, const SurfelMap& ma
   Vector6d unit;
   unit << Eigen::Vector3d::Ones(), Eigen::Vector3d::Constant(1.0 / distance);
   const Matrix6d scaled = unit.asDiagonal() * sum.h * unit.asDiagonal() / static_cast<double>(distances.size());
-  const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(scaled);
-  result.least_eigenvalue = eigen.eigenvalues()(0);
-  for (int k = 0; k < 6 && eigen.eigenvalues()(k) < config.least_eigenvalue; ++k) {
-    const Vector6d direction = unit.cwiseProduct(eigen.eigenvectors().col(k));
-    const Vector6d part = eigen.eigenvectors().col(k).cwiseQuotient(unit);
+  const SymmetricEigen<6> eigen = symmetric_eigen(scaled);
+  result.least_eigenvalue = eigen.values(0);
+  for (int k = 0; k < 6 && eigen.values(k) < config.least_eigenvalue; ++k) {
+    const Vector6d direction = unit.cwiseProduct(eigen.vectors.col(k));
+    const Vector6d part = eigen.vectors.col(k).cwiseQuotient(unit);
     result.kept -= direction * part.transpose();
     result.degenerate += part * part.transpose();
     result.degenerate_directions.push_back(direction);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slam/scan/moments.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
+#include "bim/geometry/symmetric.h"
 #include "slam/scan/plane_observation.h"
 
 namespace plumbline::slam {
@@ -49,7 +49,7 @@ Plane refine_plane(const Moments& moments, const Plane& plane, double tilt_weigh
   const double v_z = rows(1, 2);
   h(1, 1) += tilt_weight * v_z * v_z;
   b(1) += tilt_weight * v_z * plane.n.z();
-  const Eigen::Vector3d step = -h.ldlt().solve(b);
+  const Eigen::Vector3d step = -solve_ldlt(h, b);
   const Eigen::Vector3d n =
       plane.n + rows.row(0).head<3>().transpose() * step(0) + rows.row(1).head<3>().transpose() * step(1);
   const double norm = n.norm();

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slam/baselines/hdl_slam_paper/floor_detection.h"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 
+#include "bim/geometry/symmetric.h"
 #include "slam/planes/sac_segmentation.h"
 #include "slam/scan/kd_tree.h"
 
@@ -27,8 +27,8 @@ std::vector<Eigen::Vector3d> upright(const std::vector<Eigen::Vector3d>& points,
       n += 1.0;
     }
     mean /= n;
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(squares / n - mean * mean.transpose());
-    if (std::abs(solver.eigenvectors()(2, 0)) > cos_limit) kept.push_back(p);
+    const Eigen::Matrix3d scatter = squares / n - mean * mean.transpose();
+    if (std::abs(symmetric_eigen(scatter).vectors(2, 0)) > cos_limit) kept.push_back(p);
   }
   return kept;
 }

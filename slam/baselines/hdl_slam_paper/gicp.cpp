@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
+#include "bim/geometry/symmetric.h"
 #include "slam/baselines/hdl_slam_paper/cloud_matcher.h"
 #include "slam/scan/kd_tree.h"
 
@@ -31,8 +30,8 @@ std::vector<Eigen::Matrix3d> discs(const KdTree& tree, int neighbours) {
       n += 1.0;
     }
     mean /= n;
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(squares / n - mean * mean.transpose());
-    const Eigen::Matrix3d V = solver.eigenvectors();
+    const Eigen::Matrix3d scatter = squares / n - mean * mean.transpose();
+    const Eigen::Matrix3d V = symmetric_eigen(scatter).vectors;
     covariances.push_back(V * Eigen::Vector3d(thin, 1.0, 1.0).asDiagonal() * V.transpose());
   }
   return covariances;
@@ -67,7 +66,8 @@ class Gicp final : public CloudMatcher {
       if (lambda < 0.0) lambda = 1e-9 * H.diagonal().maxCoeff();
       std::optional<Pose> step;
       for (int k = 0; k < most_tries && !step; ++k) {
-        const Pose tried = exp_se3(-(H + lambda * Matrix6d::Identity()).ldlt().solve(g));
+        const Matrix6d damped = H + lambda * Matrix6d::Identity();
+        const Pose tried = exp_se3(-solve_ldlt(damped, g));
         if (cost_of(points_S, pairs, match.X_TS * tried) < cost)
           step = tried;
         else

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bim/digest/digest.h"
+#include "bim/geometry/best_rotation.h"
 #include "slam/graph/keyframe_method.h"
 #include "slam/scan/kd_tree.h"
 #include "slam/scan/voxel.h"
@@ -138,7 +139,7 @@ void HdlSlamPaper::add_vertex(Nanoseconds stamp, const std::vector<Eigen::Vector
   if (graph().keyframes.empty()) {
     // M is level by the first floor, so that the one floor plane is, too.
     Pose X_MR;
-    if (floor_R) X_MR.q = Eigen::Quaterniond::FromTwoVectors(floor_R->n, Eigen::Vector3d::UnitZ());
+    if (floor_R) X_MR.q = rotation_between(floor_R->n, Eigen::Vector3d::UnitZ());
     graph().keyframes.push_back({stamp, X_MR, X_OR, 0});
     PlaneVertex floor;
     floor.plane_M = {Eigen::Vector3d::UnitZ(), floor_R ? floor_R->d : height_m_};

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <array>
 #include <cmath>
 
+#include "bim/geometry/symmetric.h"
 #include "slam/baselines/hdl_slam_paper/cloud_matcher.h"
 #include "slam/scan/voxel.h"
 
@@ -26,11 +25,11 @@ void complete(Cell& cell, int least_points) {
   cell.mean = cell.sum / cell.n;
   const Eigen::Matrix3d covariance =
       (cell.squares - cell.n * cell.mean * cell.mean.transpose()) / std::max(1.0, cell.n - 1.0);
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
-  Eigen::Vector3d values = solver.eigenvalues();
+  const SymmetricEigen<3> eigen = symmetric_eigen(covariance);
+  Eigen::Vector3d values = eigen.values;
   if (!(values[2] > 1e-12)) return;
   values = values.cwiseMax(least_eigenvalue_share * values[2]);
-  cell.information = solver.eigenvectors() * values.cwiseInverse().asDiagonal() * solver.eigenvectors().transpose();
+  cell.information = eigen.vectors * values.cwiseInverse().asDiagonal() * eigen.vectors.transpose();
   cell.valid = true;
 }
 
@@ -70,7 +69,7 @@ class Ndt final : public CloudMatcher {
     for (int i = 0; i < config_.max_iterations; ++i) {
       Matrix6d damped = score.hessian;
       damped.diagonal() += lambda * score.hessian.diagonal() + Vector6d::Constant(1e-9);
-      const Vector6d step = -damped.ldlt().solve(score.gradient);
+      const Vector6d step = -solve_ldlt(damped, score.gradient);
       if (!step.allFinite()) break;
       Pose moved = match.X_TS * exp_se3(step);
       moved.q.normalize();

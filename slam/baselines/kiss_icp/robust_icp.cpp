@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slam/baselines/kiss_icp/robust_icp.h"
 
-#include <Eigen/Cholesky>
 #include <cmath>
 #include <numbers>
+
+#include "bim/geometry/symmetric.h"
 
 namespace plumbline::slam::kiss {
 
@@ -39,7 +40,7 @@ struct PointToPoint {
     h.bottomRightCorner<3, 3>() = waa.trace() * Eigen::Matrix3d::Identity() - waa;
     Vector6d g;
     g << wr, wm;
-    return -h.ldlt().solve(g);
+    return -solve_ldlt(h, g);
   }
 };
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slam/baselines/lego_loam/two_step.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <array>
 #include <cmath>
@@ -9,6 +8,7 @@
 #include <numbers>
 #include <optional>
 
+#include "bim/geometry/symmetric.h"
 #include "slam/loam/degeneracy.h"
 
 namespace plumbline::slam::lego {
@@ -162,7 +162,7 @@ class Solver {
     }
     if (used < config_.least_matches) return std::nullopt;
     if (iteration == 0) good_ = loam::good_directions(H, config_.least_eigenvalue);
-    const Eigen::Vector3d step = -(H + 1e-12 * Eigen::Matrix3d::Identity()).ldlt().solve(g);
+    const Eigen::Vector3d step = -solve_ldlt(Eigen::Matrix3d(H + 1e-12 * Eigen::Matrix3d::Identity()), g);
     if (!step.allFinite()) return std::nullopt;
     return Eigen::Vector3d(config_.step_share * (good_.projection * step));
   }

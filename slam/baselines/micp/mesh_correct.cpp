@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slam/baselines/micp/mesh_correct.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "bim/geometry/best_rotation.h"
+#include "bim/geometry/symmetric.h"
 #include "slam/plan_map/plan_mesh.h"
 
 namespace plumbline::slam {
@@ -45,7 +45,7 @@ Pose gauss_newton(const Pairs& pairs, const Eigen::Vector3d& center) {
     H += J * J.transpose();
     b -= J * pairs.n[i].dot(pairs.p[i] - pairs.q[i]);
   }
-  const Vector6d step = H.ldlt().solve(b);
+  const Vector6d step = solve_ldlt(H, b);
   const Pose turn{exp_so3(step.tail<3>()), Eigen::Vector3d::Zero()};
   const Pose to_center{Eigen::Quaterniond::Identity(), center};
   const Pose shift{Eigen::Quaterniond::Identity(), step.head<3>()};

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slam/baselines/mloam/window.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <utility>
 
+#include "bim/geometry/symmetric.h"
 #include "slam/loam/degeneracy.h"
 #include "slam/registration/match.h"
 #include "slam/scan/voxel.h"
@@ -50,11 +49,11 @@ Matrix6d by_pivot(const Pose& X_Pk) { return -adjoint(X_Pk.inverse()); }
 
 Quadratic marginalized(const Quadratic& quadratic, Eigen::Index n) {
   const Eigen::Index rest = quadratic.g.size() - n;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(quadratic.H.topLeftCorner(n, n));
-  const double least = 1e-12 * std::max(1.0, solver.eigenvalues().cwiseAbs().maxCoeff());
+  const auto eigen = symmetric_eigen(Eigen::MatrixXd(quadratic.H.topLeftCorner(n, n)));
+  const double least = 1e-12 * std::max(1.0, eigen.values.cwiseAbs().maxCoeff());
   const Eigen::VectorXd inverse =
-      solver.eigenvalues().unaryExpr([&](double value) { return value > least ? 1.0 / value : 0.0; });
-  const Eigen::MatrixXd A = solver.eigenvectors() * inverse.asDiagonal() * solver.eigenvectors().transpose();
+      eigen.values.unaryExpr([&](double value) { return value > least ? 1.0 / value : 0.0; });
+  const Eigen::MatrixXd A = eigen.vectors * inverse.asDiagonal() * eigen.vectors.transpose();
   const Eigen::MatrixXd B = quadratic.H.bottomLeftCorner(rest, n);
   return {quadratic.H.bottomRightCorner(rest, rest) - B * A * B.transpose(),
           quadratic.g.tail(rest) - B * A * quadratic.g.head(n)};
@@ -127,7 +126,7 @@ bool Window::optimize() {
     last_ = std::move(sum);
     const Eigen::Index free = size - 6;
     const Eigen::MatrixXd H = last_.H.bottomRightCorner(free, free) + 1e-6 * Eigen::MatrixXd::Identity(free, free);
-    const Eigen::VectorXd step = -H.ldlt().solve(last_.g.tail(free));
+    const Eigen::VectorXd step = -solve_ldlt(H, Eigen::VectorXd(last_.g.tail(free)));
     if (!step.allFinite()) return false;
     for (std::size_t k = 1; k < n; ++k) {
       const Vector6d kept = good[k] * step.segment<6>(at(k - 1));

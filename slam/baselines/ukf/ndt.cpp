@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slam/baselines/ukf/ndt.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
+#include "bim/geometry/symmetric.h"
 #include "slam/scan/voxel.h"
 
 namespace plumbline::slam {
@@ -22,10 +21,9 @@ bool in_hole(const PlanSegment& segment, double s, double z) {
 }
 
 Eigen::Matrix3d information_of(const Eigen::Matrix3d& covariance) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(covariance);
-  const Eigen::Vector3d widened =
-      eigen.eigenvalues().cwiseMax(std::max(min_eigenvalue_ratio * eigen.eigenvalues().maxCoeff(), 1e-8));
-  return eigen.eigenvectors() * widened.cwiseInverse().asDiagonal() * eigen.eigenvectors().transpose();
+  const SymmetricEigen<3> eigen = symmetric_eigen(covariance);
+  const Eigen::Vector3d widened = eigen.values.cwiseMax(std::max(min_eigenvalue_ratio * eigen.values.maxCoeff(), 1e-8));
+  return eigen.vectors * widened.cwiseInverse().asDiagonal() * eigen.vectors.transpose();
 }
 
 }  // namespace
@@ -171,7 +169,7 @@ NdtMatch NdtMap::align(std::span<const Eigen::Vector3d> points_R, const Pose& st
     Matrix6d H = now.hessian;
     H.diagonal() *= 1.0 + damping;
     H.diagonal().array() += 1e-6;
-    const Vector6d step = -H.ldlt().solve(now.gradient);
+    const Vector6d step = -solve_ldlt(H, now.gradient);
     if (!step.allFinite()) break;
     const Pose next = match.X_IR * exp_se3(step);
     const NdtScore there = score(points_R, next);

@@ -2,18 +2,19 @@
 #include "slam/baselines/ukf/unscented.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+
+#include "bim/geometry/symmetric.h"
 
 namespace plumbline::slam {
 
 Eigen::MatrixXd square_root(const Eigen::MatrixXd& A) {
   const Eigen::LLT<Eigen::MatrixXd> root(A);
   if (root.info() == Eigen::Success) return root.matrixL();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(0.5 * (A + A.transpose()));
-  const double floor = std::max(1e-12 * eigen.eigenvalues().cwiseAbs().maxCoeff(), 1e-300);
-  return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(floor).cwiseSqrt().asDiagonal();
+  const auto eigen = symmetric_eigen(Eigen::MatrixXd(0.5 * (A + A.transpose())));
+  const double floor = std::max(1e-12 * eigen.values.cwiseAbs().maxCoeff(), 1e-300);
+  return eigen.vectors * eigen.values.cwiseMax(floor).cwiseSqrt().asDiagonal();
 }
 
 UnscentedFilter::UnscentedFilter(Eigen::VectorXd mean, Eigen::MatrixXd covariance, double lambda)

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "bim/geometry/pose.h"
 
 namespace plumbline {
@@ -17,6 +20,16 @@ TEST(BestRotation, TurnsThePointsOntoTheOthers) {
   }
   EXPECT_LT((best_rotation(sum) - R).norm(), 1e-12);
   EXPECT_NEAR(best_rotation(mirrored).determinant(), 1.0, 1e-12);  // never a reflection
+}
+
+TEST(RotationBetween, TurnsByTheAngleBetweenThem) {
+  const Eigen::Vector3d a(1.0, 2.0, -0.5);
+  for (const Eigen::Vector3d& b : {Eigen::Vector3d(0, 0, 3), {1, 2, -0.5}, {-1, -2, 0.5}, {0.3, -4, 1}}) {
+    const Eigen::Quaterniond q = rotation_between(a, b);
+    EXPECT_LT((q * a.normalized() - b.normalized()).norm(), 1e-12);
+    EXPECT_NEAR(q.angularDistance(Eigen::Quaterniond::Identity()),
+                std::acos(std::clamp(a.normalized().dot(b.normalized()), -1.0, 1.0)), 1e-7);
+  }
 }
 
 }  // namespace
