@@ -42,7 +42,8 @@ class Neighbourhood {
     int n = 0;
     bool other_ring = false;
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    Eigen::Matrix3d outer = Eigen::Matrix3d::Zero();
+    // Six sums stay in registers; a matrix is stored and loaded again for every neighbour.
+    double xx = 0.0, xy = 0.0, xz = 0.0, yy = 0.0, yz = 0.0, zz = 0.0;
     for (const int r : {ring_beside(column, ring, -1), ring, ring_beside(column, ring, 1)}) {
       if (r < 0) continue;
       for (int k = -reach_columns; k <= reach_columns; ++k) {
@@ -54,11 +55,18 @@ class Neighbourhood {
         ++n;
         other_ring |= r != ring;
         sum += offset;
-        outer += offset * offset.transpose();
+        xx += offset.x() * offset.x();
+        xy += offset.x() * offset.y();
+        xz += offset.x() * offset.z();
+        yy += offset.y() * offset.y();
+        yz += offset.y() * offset.z();
+        zz += offset.z() * offset.z();
       }
     }
     if (n < config_.min_neighbours || !other_ring) return std::nullopt;
     const Eigen::Vector3d mean = sum / n;
+    Eigen::Matrix3d outer;
+    outer << xx, xy, xz, xy, yy, yz, xz, yz, zz;
     std::optional<Surfel> surfel = flat(p + mean, outer / n - mean * mean.transpose());
     if (surfel && !scan_.time_s.empty()) surfel->time_s = scan_.time_s[centre];
     return surfel;
