@@ -2,7 +2,6 @@
 // The emulator held to what two real VLP-16 showed, docs/methods/lidar_model.md, on a furnished storey of the library.
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,6 +11,7 @@
 #include <optional>
 
 #include "bim/geometry/polygon.h"
+#include "bim/geometry/symmetric.h"
 #include "bim/load/load.h"
 #include "bim/median.h"
 #include "bim/mesh/mesh.h"
@@ -158,9 +158,9 @@ std::optional<double> plane_residual(std::vector<Eigen::Vector3d> points) {
     mean /= static_cast<double>(points.size());
     Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
     for (const Eigen::Vector3d& p : points) scatter += (p - mean) * (p - mean).transpose();
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(scatter);
-    const Eigen::Vector3d n = eigen.eigenvectors().col(0);
-    rms = std::sqrt(eigen.eigenvalues()(0) / static_cast<double>(points.size()));
+    const SymmetricEigen<3> eigen = symmetric_eigen(scatter);
+    const Eigen::Vector3d n = eigen.vectors.col(0);
+    rms = std::sqrt(eigen.values(0) / static_cast<double>(points.size()));
     std::erase_if(points, [&](const Eigen::Vector3d& p) { return std::abs(n.dot(p - mean)) > gate_m; });
   }
   return rms;

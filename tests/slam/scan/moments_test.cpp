@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 
+#include "bim/geometry/symmetric.h"
 #include "bim/random/stream.h"
 #include "slam/planes/plane_detector.h"
 
@@ -36,11 +36,11 @@ TEST(MomentsTest, RefiningFindsTheLeastSquaresPlane) {
     for (int i = 0; i < 4; ++i) plane = refine_plane(moments, plane, 0.0);
     const Eigen::Vector3d c = moments.mean();
     const Eigen::Matrix3d s = moments.outer / moments.n - c * c.transpose();
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(s);
-    const Eigen::Vector3d n = eigen.eigenvectors().col(0);
+    const SymmetricEigen<3> eigen = symmetric_eigen(s);
+    const Eigen::Vector3d n = eigen.vectors.col(0);
     EXPECT_LT((plane.n * std::copysign(1.0, plane.n.dot(n)) - n).norm(), 1e-5);
     EXPECT_NEAR(plane.distance(c), 0.0, 1e-6);
-    EXPECT_NEAR(plane_rms(moments, plane), std::sqrt(eigen.eigenvalues()(0)), 1e-7);
+    EXPECT_NEAR(plane_rms(moments, plane), std::sqrt(eigen.values(0)), 1e-7);
   }
 }
 
