@@ -27,6 +27,7 @@ TEST(RotationBetween, TurnsByTheAngleBetweenThem) {
   for (const Eigen::Vector3d& b : {Eigen::Vector3d(0, 0, 3), {1, 2, -0.5}, {-1, -2, 0.5}, {0.3, -4, 1}}) {
     const Eigen::Quaterniond q = rotation_between(a, b);
     EXPECT_LT((q * a.normalized() - b.normalized()).norm(), 1e-12);
+    // acos near -1 and 1 keeps half of the digits.
     EXPECT_NEAR(q.angularDistance(Eigen::Quaterniond::Identity()),
                 std::acos(std::clamp(a.normalized().dot(b.normalized()), -1.0, 1.0)), 1e-7);
   }
