@@ -77,7 +77,7 @@ std::vector<MethodRow> localizations() {
       localization<LocalizationPaperConfig>(
           make_s_graph_localization_paper,
           {.name = "s_graph_localization_paper",
-           .summary = "plan localization as printed: particles matched by walls of their room, then an S-Graph",
+           .summary = "plan localization as published: particles matched by walls of their room, then an S-Graph",
            .standard = false}),
       localization<LocalizationWithoutRoomsConfig>(
           make_s_graph_localization_paper,
@@ -152,7 +152,7 @@ std::vector<MethodRow> odometry_and_slam() {
            .variant = true}),
       with_config<MloamConfig>(
           {.name = "mloam",
-           .summary = "LiDAR alone: what one LiDAR leaves of M-LOAM, LOAM with a window of scans and a keyframe map",
+           .summary = "LiDAR alone: M-LOAM for one LiDAR, LOAM with a window of scans and a keyframe map",
            .make = make_by<MloamConfig, make_mloam>,
            .standard = false}),
       with_config<PclGicpMethodConfig>(
@@ -165,12 +165,11 @@ std::vector<MethodRow> odometry_and_slam() {
            .summary = "LiDAR odometry: PCL's own NDT against the latest keyframes, started by odometry",
            .make = make_by<PclNdtMethodConfig, make_pcl_ndt_method>,
            .standard = false}),
-      with_config<HdlSlamPaperConfig>(
-          {.name = "hdl_slam_paper",
-           .summary =
-               "LiDAR alone: HDL graph SLAM as its authors run it indoors, GICP to single keyframes, a floor, loops",
-           .make = make_by<HdlSlamPaperConfig, make_hdl_slam_paper>,
-           .standard = false}),
+      with_config<HdlSlamPaperConfig>({.name = "hdl_slam_paper",
+                                       .summary = "LiDAR alone: HDL graph SLAM, reimplemented with its authors' indoor "
+                                                  "settings, GICP to single keyframes, a floor, loops",
+                                       .make = make_by<HdlSlamPaperConfig, make_hdl_slam_paper>,
+                                       .standard = false}),
       with_config<HdlSlamPaperNdtConfig>({.name = "hdl_slam_paper_ndt",
                                           .summary = "hdl_slam_paper with NDT, which its code has by default",
                                           .make = make_by<HdlSlamPaperNdtConfig, make_hdl_slam_paper>,
@@ -199,7 +198,9 @@ std::vector<MethodRow> odometry_and_slam() {
            .standard = false}),
       with_config<SGraphsPlusPrintedConfig>(
           {.name = "s_graphs_plus_printed",
-           .summary = "s_graphs_plus_paper with rooms as printed: one keyframe's planes, by centre, a factor each look",
+           .summary =
+               "s_graphs_plus_paper with rooms as published: one keyframe's planes, matched by centre, one factor per "
+               "observation",
            .make = make_s_graphs_plus_printed_method,
            .standard = false,
            .variant = true}),

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
+#include <optional>
 #include <type_traits>
 
 #include "bim/config/schema.h"
@@ -42,7 +44,7 @@ class OptionLister {
   template <class T>
   void operator()(std::string_view key, const T& value, const Field& field = {}) {
     const SchemaField schema = schema_field(std::string(key), "", field);
-    OptionRow row{schema.key, "", schema.meaning, ""};
+    OptionRow row{schema.key, "", schema.meaning, "", ""};
     if (!schema.unit.empty() && schema.unit != "-") row.doc += ", " + schema.unit;
     if constexpr (std::is_enum_v<T>) {
       row.value = EnumNames<T>::names[static_cast<std::size_t>(value)];
@@ -53,6 +55,9 @@ class OptionLister {
       row.choices = "true | false";
     } else if constexpr (std::is_arithmetic_v<T>) {
       row.value = format_number(static_cast<double>(value));
+      row.type = std::is_integral_v<T> ? "integer" : "number";
+    } else if constexpr (std::is_same_v<T, std::optional<std::uint64_t>>) {
+      row.type = "integer";
     }
     rows.push_back(std::move(row));
   }

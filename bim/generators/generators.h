@@ -24,6 +24,7 @@ struct OptionRow {
   std::string value;  ///< default, empty for none
   std::string doc;
   std::string choices;  ///< of an enumeration or bool, "a | b", else empty
+  std::string type;     ///< "integer" or "number", else empty
 };
 
 /// Options of a family with their defaults. InputError for a name that is no family.

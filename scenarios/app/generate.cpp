@@ -234,6 +234,7 @@ CommandLine add_family(CommandLine& program, const bim::GeneratorRow& row,
     const std::string value = option.value.empty() ? "" : " [" + option.value + "]";
     Argument argument = line.option(flag_of(option.key), options->values[name + " " + option.key], option.doc + value);
     if (!option.choices.empty()) argument.takes(in_braces(option.choices));
+    if (!option.type.empty()) argument.takes(option.type == "integer" ? "UINT" : "FLOAT");
   }
   const auto density = line.option("--furnish", options->furniture.density,
                                    "share of each room's floor under furniture, as far as it stays walkable")

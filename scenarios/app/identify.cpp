@@ -109,7 +109,7 @@ Command add_identify(CommandLine& program) {
   CommandLine line =
       program.add_command("identify", "Maps where in a building a VLP-16 can be localized, and after what walk");
   line.option("BUILDING", options->building,
-              "plan or traffic-editor plan (.yaml) or .ifc; or a scenario, to judge its planned walks")
+              "plan or traffic-editor plan (.yaml) or .ifc; or a scenario, to analyse its planned walks")
       .required();
   options->step_option =
       line.option("--step", options->map.step_m, "spacing of the map's grid, m [0.5, or what --budget allows]")

@@ -69,15 +69,15 @@ std::vector<slam::MethodRow> with_ours(std::vector<slam::MethodRow> own_methods)
 
 CommandLine program_line() {
   CommandLine program(
-      "Walks a legged robot with an emulated VLP-16 through a building model and scores SLAM and "
-      "localization methods against ground truth.",
+      "Walks a legged robot with an emulated spinning LiDAR (VLP-16 by default) through a building model and scores "
+      "SLAM and localization methods against ground truth.",
       "plumbline");
   program.version(std::string("plumbline ") + PLUMBLINE_VERSION);
   program.needs_command();
   program.footer(
       "Example: plumbline run scenarios/library/quickstart.yaml --out runs/first\n"
-      "Exit codes: 0 gates passed, 1 a gate failed, 2 bad usage or input, 3 environment or internal error, "
-      "4 the robot fell or stalled");
+      "Exit codes: 0 success, 1 a gate failed, a method crashed or a comparison differs, 2 bad usage or input, "
+      "3 environment or internal error, 4 the robot fell or stalled, 130/143 interrupted");
   return program;
 }
 

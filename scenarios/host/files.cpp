@@ -142,8 +142,8 @@ constexpr std::array<FileRow, 12> estimate_files = {{
      "the recording, method and seed of the estimate, which `score` compares with the run; under `input` what was "
      "read, under `left_out` what was not, under `assumed` what its numbers were taken to mean"},
     {"score.json",
-     "with `score`: path, share of scans after which the method was lost, errors by a reference, and whether it said "
-     "so"},
+     "with `score`: path, share of the scans at which the method reported LOST, errors by a reference, and how soon it "
+     "reported LOST"},
     {"<method>.tum", "the causal trajectory", false},
     {"<method>.final.tum", "the trajectory after the last optimisation", false},
     {"<method>.map.ply", "the map", false},

@@ -32,20 +32,20 @@ struct FaultsSpec {
     v("clock_jitter_s", clock_jitter_s,
       Field{.doc = "standard deviation of these stamps, whose order stays", .min = 0.0, .max = 0.1});
     v("mount_error_m", mount_error_m,
-      Field{.doc = "distance of the LiDAR from where methods are told it sits, in a direction drawn from the seed",
+      Field{.doc = "error of the nominal position of the LiDAR, in a direction drawn from the seed",
             .min = 0.0,
             .max = 1.0});
     v("mount_error_deg", mount_error_deg,
-      Field{.doc = "angle of the LiDAR to what methods are told, about an axis drawn from the seed",
+      Field{.doc = "error of the nominal attitude of the LiDAR, about an axis drawn from the seed",
             .min = 0.0,
             .max = 30.0});
     v("mount_offset_m", mount_offset_m,
-      Field{.doc = "error of the told position [x, y, z] in the robot's frame, instead of a drawn one",
+      Field{.doc = "error of the nominal position [x, y, z] in the robot's frame, instead of a drawn one",
             .min = -1.0,
             .max = 1.0});
     v("mount_rotation_deg", mount_rotation_deg,
-      Field{.doc = "error of the told attitude as a rotation vector [x, y, z] in the LiDAR's frame, instead of a drawn "
-                   "one",
+      Field{.doc = "error of the nominal attitude as a rotation vector [x, y, z] in the LiDAR's frame, instead of a "
+                   "drawn one",
             .min = -30.0,
             .max = 30.0});
     v("gyro_bias_radps", gyro_bias_radps,

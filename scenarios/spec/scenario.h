@@ -135,8 +135,8 @@ struct PersonSpec {
             .max = 1e4});
     v("speed_mps", speed_mps,
       Field{.doc = "walking speed; a person stands while the robot is within 1 m", .min = 0.0, .max = 3.0});
-    v("radius_m", radius_m, Field{.doc = "radius of the upright capsule", .min = 0.05, .max = 0.5});
-    v("height_m", height_m, Field{.doc = "height of the upright capsule", .min = 1.05, .max = 2.5});
+    v("radius_m", radius_m, Field{.doc = "radius of the vertical capsule", .min = 0.05, .max = 0.5});
+    v("height_m", height_m, Field{.doc = "height of the vertical capsule", .min = 1.05, .max = 2.5});
   }
 };
 

@@ -31,13 +31,13 @@ itself.
   sees of them does not count as surface of the building. A moving door is open while the robot is near it.
 - `ground` and `pushes` make walking harder; `results.json` names a value other than the default. Nobody pushes on stairs
   and their landings unless `on_stairs`. A fall ends the run with exit code 4: the scenario failed, not a method.
-- `lidar: {preset: harsh}` and `faults: {preset: harsh}` make sensors wrong in ways that no method solves for: range
-  errors, dust, clocks, mount, IMU, slipping feet. Each size is a key. `results.json` names them; no method is told.
+- `lidar: {preset: harsh}` and `faults: {preset: harsh}` add calibration and environment errors: range errors, dust,
+  clocks, mount, IMU, slipping feet. Each size is a key. Methods are not told of them. `results.json` names them.
 - `plumbline methods` lists the methods; a scenario that names none runs the default ones. A gate has either `max` or
   `min` and bounds one of the [metrics](metrics.md).
 - Methods get LiDAR, leg odometry and IMU. `NAME.lidar` in `methods` is the same method with LiDAR alone, and so are
   `NAME.lidar` in gates, files and tables. `sensors: [all, lidar]` runs every method both ways, `sensors: lidar` with
-  LiDAR alone. Beside `all`, a method that needs odometry runs once; alone it is refused.
+  LiDAR alone. With `[all, lidar]` a method that needs odometry runs once, with all sensors; with `lidar` it is refused.
 
 )md";
 

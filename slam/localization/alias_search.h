@@ -28,7 +28,8 @@ struct AliasSearchConfig {
     v("spacing_m", spacing_m, Field{.doc = "distance between the places that are compared", .min = 0.1});
     v("max_places", max_places,
       Field{.doc = "most places; they stand farther apart where there would be more", .min = 100, .max = 200000});
-    v("azimuths", azimuths, Field{.doc = "rays of a level ring, by which places are compared", .min = 16, .max = 720});
+    v("azimuths", azimuths,
+      Field{.doc = "rays of the horizontal range profile by which positions are compared", .min = 16, .max = 720});
     v("range_max_m", range_max_m, Field{.doc = "range at which these rays end", .min = 1});
     v("room_tolerance_m", room_tolerance_m,
       Field{.doc = "largest distance of the outlines of two rooms that are alike", .min = 0});

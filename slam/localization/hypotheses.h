@@ -114,7 +114,7 @@ struct HypothesisConfig {
             .max = 100});
     // A column then stands for its neighbours. Assumed; a walk through d6 keeps its hypotheses to the bit.
     v("screening_margin", screening_margin,
-      plain_field("log-likelihood ratio below drop_ratio at which that look rules the pose out", {.min = 0}));
+      plain_field("log-likelihood ratio below drop_ratio at which the screening rules the pose out", {.min = 0}));
     // 50 m walked.
     v("history", history,
       Field{.doc = "scans kept to replay for a hypothesis that is added later", .min = 1, .max = 10000});

@@ -45,7 +45,7 @@ struct MirrorGhostConfig {
     v("wall_m", wall_m, Field{.doc = "largest distance of a mirror image from the wall it shows", .min = 0.01});
     v("sill_m", sill_m, Field{.doc = "height above the floor below which an opening's sill makes it a door", .min = 0});
     v("least_sill_m", least_sill_m,
-      Field{.doc = "least sill of a window, under which stray points pass", .min = 0.2, .max = 1.2});
+      Field{.doc = "least sill of a window, under which outlier points pass", .min = 0.2, .max = 1.2});
     // Of those just above it; the same share of all below it.
     v("under_sill", under_sill, share_field("largest share of a window's points that pass just below its sill"));
     v("share", share,
@@ -54,7 +54,7 @@ struct MirrorGhostConfig {
     v("solid_hits", solid_hits,
       Field{.doc = "returns from a wall's cell from which on nothing is seen through it", .min = 1});
     v("min_points", min_points,
-      Field{.doc = "least number of points seen through an opening that is judged", .min = 1});
+      Field{.doc = "least number of points seen through an opening that is tested", .min = 1});
   }
 };
 

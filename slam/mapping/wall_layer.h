@@ -52,7 +52,7 @@ struct WallLayerConfig {
   template <class V>
   void visit(V& v) {
     v("association", association,
-      Field{.doc = "gate of plane association: Mahalanobis distance, or angles and offset as printed"});
+      Field{.doc = "gate of plane association: Mahalanobis distance, or angles and offset as published"});
     // 3 degrees of freedom, 99.9 %.
     v("gate_chi2", gate_chi2, plain_field("largest squared Mahalanobis distance of an association", {.min = 0}));
     v("drift_m", drift_m,

@@ -41,7 +41,8 @@ struct HealthConfig {
                   "a scan was seen before"));
     v("min_matched", min_matched,
       share_field("least share of a scan's features that must match the map, whatever is usual"));
-    v("recent_scans", recent_scans, Field{.doc = "accepted scans that tell what is usual", .min = 1, .max = 1000});
+    v("recent_scans", recent_scans,
+      Field{.doc = "accepted scans whose median is the usual share of matches", .min = 1, .max = 1000});
     v("as_usual_share", as_usual_share,
       share_field("the same for a scan whose step neither odometry nor the motion before let expect"));
     v("sure_share", sure_share,

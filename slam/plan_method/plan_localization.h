@@ -52,7 +52,8 @@ struct PlanMethodConfig : PlanUpdateConfig {
       Field{.doc = "rate at which the standard deviation of the prior yaw grows", .unit = "rad/s", .min = 0});
     v("index", index);
     v("scan_times", scan_times,
-      Field{.doc = "whether odometry's clock is set by how far scans turn, and scans that come deskewed are left so"});
+      Field{.doc = "whether odometry's clock offset is estimated from the rotation between scans, and deskewed scans "
+                   "are left as they are"});
     v("watch_odometry", watch_odometry,
       Field{.doc = "whether scan matching replaces odometry that is silent, or stands still while scans show motion"});
   }

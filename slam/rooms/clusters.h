@@ -24,7 +24,7 @@ struct ClusterConfig {
 
   template <class V>
   void visit(V& v) {
-    v("cut", cut, Field{.doc = "how free space is split: watershed at passages, or at a fixed clearance as printed"});
+    v("cut", cut, Field{.doc = "how free space is split: watershed at passages, or at a fixed clearance as published"});
     // t_lambda of [lsg2022].
     v("threshold_m", threshold_m, Field{.doc = "clearance of the fixed cut", .min = 0});
     // [lsg2022]

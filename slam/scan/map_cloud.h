@@ -29,7 +29,7 @@ struct MapCloudConfig {
     v("voxel_m", voxel_m, Field{.doc = "voxel size of the map that is scored", .min = 0.005, .basic = true});
     // Beams split by an edge or scattered by a curved mirror.
     v("min_neighbours", min_neighbours,
-      Field{.doc = "least number of occupied voxels around a map point, of 124; else it is a stray", .min = 0});
+      Field{.doc = "least number of occupied voxels around a map point, of 124; else it is an outlier", .min = 0});
     v("dense_m", dense_m, Field{.doc = "range beyond which proportionally fewer neighbours are required", .min = 0});
   }
 };

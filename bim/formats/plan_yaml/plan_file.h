@@ -36,7 +36,7 @@ struct PlanFile {
     v("walls", walls, Field{.doc = "walls, at least one", .required = true});
     v("openings", openings, Field{.doc = "doors, windows and voids in walls"});
     v("rooms", rooms, Field{.doc = "rooms of the plan, known to methods"});
-    v("columns", columns, Field{.doc = "upright blocks, part of the structure"});
+    v("columns", columns, Field{.doc = "vertical blocks, part of the structure"});
     v("stairs", stairs, Field{.doc = "stairs, each from one storey to another"});
     v("clutter", clutter, Field{.doc = "planned furniture and other objects"});
     v("materials", materials, Field{.doc = "materials beside the presets"});

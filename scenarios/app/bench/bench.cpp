@@ -50,7 +50,7 @@ const std::vector<BenchPart>& bench_parts() {
        bench_slam},
       {"sim", "walking and scanning in 100 rooms, against real time, and the memory it takes", bench_sim},
       {"legs",
-       "laps of 120 s on several floors and stairs up and down, with a seed each: falls, errors of speed and way",
+       "laps of 120 s on several floors and stairs up and down, with a seed each: falls, speed and cross-track errors",
        bench_legs},
       {"walks",
        "default walks through hundreds of generated buildings with faults, and how planning grows with the floor",

@@ -100,7 +100,7 @@ struct HdlSlamPaperNdtConfig : HdlSlamPaperConfig {
   }
 };
 
-/// HDL graph SLAM [koide2019] as its authors run it indoors: scans are matched with single keyframes, a graph of
+/// HDL graph SLAM [koide2019] with its authors' indoor settings: scans are matched with single keyframes, a graph of
 /// keyframes is held by one floor and closed by loops. LiDAR alone: odometry and IMU are not used, scans are not
 /// deskewed. LOST where nothing of a scan lies near the keyframe; poses do not depend on it.
 [[nodiscard]] std::unique_ptr<Method> make_hdl_slam_paper(const MethodInput& input, const HdlSlamPaperConfig& config);
