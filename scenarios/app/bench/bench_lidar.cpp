@@ -61,7 +61,7 @@ BenchRow measure_scan(const BenchSetting& setting, const std::string& name, sim:
       X_WL.push_back(Pose::from_xyz_yaw({2.0, 4.5 + 0.5 * std::sin(walked), 0.65}, walked));
     }
     const slam::Stopwatch watch;
-    lidar.sweep(static_cast<std::int64_t>(k + 1) * firings, X_WL, sweep);
+    lidar.sweep(static_cast<std::int64_t>(k + 1) * std::int64_t{firings}, X_WL, sweep);
     if (k >= 0) times.push_back(watch.cpu_ms());
   }
   return make_row(name, "ms", times, BenchLimit{limit_ms});

@@ -16,7 +16,7 @@ constexpr std::size_t most_returns = 7296;  // of a scan: every fourth column of
 constexpr double full_turn = 2.0 * std::numbers::pi;
 
 std::uint16_t folded(int difference) {
-  const auto bits = static_cast<std::uint16_t>(difference);
+  const std::uint32_t bits = static_cast<std::uint16_t>(difference);
   return static_cast<std::uint16_t>((bits << 1U) ^ ((bits & 0x8000U) != 0 ? 0xFFFFU : 0U));
 }
 

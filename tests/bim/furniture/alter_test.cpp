@@ -84,7 +84,7 @@ INSTANTIATE_TEST_SUITE_P(Alter, AlterWorld,
 
 TEST_P(AlterWorld, StaysWalkableAndLeavesTheRestAlone) {
   const std::map<std::string, Obstacle> before = by_id(furnished());
-  for (const std::uint64_t seed : {1, 2, 3, 4}) {
+  for (const std::uint64_t seed : {1U, 2U, 3U, 4U}) {
     const Building b = altered(GetParam(), seed);
     expect_in_order(b);
     const std::map<std::string, Obstacle> after = by_id(b);

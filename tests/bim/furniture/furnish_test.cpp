@@ -145,7 +145,7 @@ TEST_P(FurnishDensity, PiecesAreInTheirRoomsAndApart) {
 
 TEST_P(FurnishDensity, DoorsStayConnected) {
   const Building b = building();
-  for (const std::uint64_t seed : {1, 2, 3}) {
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
     for (int storey = 0; storey < 2; ++storey) {
       Building floor = b;
       std::erase_if(floor.rooms, [&](const Room& room) { return room.storey != storey; });

@@ -17,7 +17,7 @@ TEST(ProcessTree, MethodsGivenAsMapsStandUnderProcesses) {
   EXPECT_EQ(tree.find("processes")->as_list()[0].find("name")->as_string(), "b");
   EXPECT_NE(tree.find("processes")->as_list()[1].find("command"), nullptr);
   EXPECT_EQ(with_processes_apart(read_yaml("methods: [vgicp]", "x")).find("processes"), nullptr);
-  EXPECT_THROW(with_processes_apart(read_yaml("methods: [{command: [./a]}]", "x")), InputError);
+  EXPECT_THROW((void)with_processes_apart(read_yaml("methods: [{command: [./a]}]", "x")), InputError);
 }
 
 TEST(ProcessTree, AFolderThatIsGivenIsSeenFromTheScenarios) {

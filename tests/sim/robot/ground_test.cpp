@@ -125,8 +125,8 @@ TEST(BuildingGround, TheFloorAroundOneWellLeavesItsNeighboursOpen) {
 }
 
 TEST(BuildingGround, AMissingStoreyIsBadInput) {
-  EXPECT_THROW(building_ground(house(), {0, 2}), InputError);
-  EXPECT_THROW(building_ground(house(), {}), InputError);
+  EXPECT_THROW((void)building_ground(house(), {0, 2}), InputError);
+  EXPECT_THROW((void)building_ground(house(), {}), InputError);
 }
 
 /// Ten steps up to a floor and back down.

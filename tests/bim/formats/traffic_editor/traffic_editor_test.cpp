@@ -170,7 +170,9 @@ TEST_P(TrafficEditorPlans, HaveEveryWallAndDoor) {
   if (const std::string why = data_missing(name); !why.empty()) GTEST_SKIP() << why;
   const Building building = load_building(path);
   const Tree file = read_yaml(read_text_file(path), path);
-  for (const auto& [level, tree] : file.find("levels")->as_map()) {
+  for (const auto& entry : file.find("levels")->as_map()) {
+    const std::string& level = entry.first;
+    const Tree& tree = entry.second;
     const auto of_level = [&](const auto& list, const std::string& part) {
       return std::count_if(list.begin(), list.end(),
                            [&](const auto& item) { return item.id.starts_with(level + "/" + part); });

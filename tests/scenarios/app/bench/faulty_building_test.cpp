@@ -35,7 +35,7 @@ TEST(FaultyBuilding, DefaultWalksCoverWhatCanBeReachedOrNameWhatStopsThem) {
 
 // Rooms beside a corridor without a floor: a ledge, or the corner between the edge and a doorway.
 TEST(FaultyBuilding, TheEdgeOfTheFloorIsNamedWhereItLeavesTooLittleRoom) {
-  for (const std::uint64_t k : {236, 376, 446, 651, 936, 1296, 1566}) {
+  for (const std::uint64_t k : {236U, 376U, 446U, 651U, 936U, 1296U, 1566U}) {
     const std::optional<FaultyBuilding> faulty = faulty_building(k);
     ASSERT_TRUE(faulty.has_value()) << k;
     const FaultyWalk walk = walk_through(*faulty);

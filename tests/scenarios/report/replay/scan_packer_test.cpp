@@ -42,7 +42,8 @@ std::vector<int> decoded(const ScanPacker& packer, std::size_t i) {
   const std::size_t n = bytes.size() / 2, kept = n / rings;
   std::vector<int> units(n);
   for (std::size_t k = 0; k < n; ++k) {
-    const unsigned folded = static_cast<unsigned char>(bytes[k]) | static_cast<unsigned char>(bytes[n + k]) << 8U;
+    const unsigned low = static_cast<unsigned char>(bytes[k]), high = static_cast<unsigned char>(bytes[n + k]);
+    const unsigned folded = low | high << 8U;
     const int difference = static_cast<std::int16_t>(folded >> 1U ^ (0U - (folded & 1U)));
     units[k] = (k % kept == 0 ? 0 : units[k - 1]) + difference;
   }

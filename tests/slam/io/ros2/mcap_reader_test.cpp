@@ -232,7 +232,7 @@ TEST(McapReader, AFileWhoseChunksOfATopicAreAllDamagedIsRefused) {
   std::string mcap = bytes(file), copy = mcap;
   const std::vector<std::size_t> chunks = without_chunk_times(copy);
   ASSERT_EQ(chunks.size(), 3U);
-  for (const std::size_t k : {0, 1}) mcap[chunks[k] + 1000] ^= 1;
+  for (const std::size_t k : {0U, 1U}) mcap[chunks[k] + 1000] ^= 1;
   EXPECT_NE(input_error([&] { (void)read_cut(folder, mcap); }).find("a chunk whose checksum is wrong"),
             std::string::npos);
 }
