@@ -36,19 +36,31 @@ std::optional<Beam> beam_to(const Eigen::Vector3d& p_R, const LocalizationScan& 
   return Beam{ray_H.head<2>() / range, range, ray_H.z() / range};
 }
 
+/// Slots as columns of several rings. Those of a scan without rings are dealt out in their order.
+struct SlotLayout {
+  int columns, rings;
+};
+
+SlotLayout layout_of(const DeskewedScan& scan) {
+  constexpr int least = 4, dealt = 16;
+  if (scan.rings >= least || scan.columns * scan.rings < dealt) return {scan.columns, scan.rings};
+  return {scan.columns * scan.rings / dealt, dealt};
+}
+
 /// One beam per step of the turn; the ring changes from step to step so that sills, heads of doors and low furniture
 /// are all hit. The nearest ring with a usable return is taken.
 std::vector<Beam> pick_beams(const DeskewedScan& scan, const LocalizationScan& out,
                              const LocalizationScanConfig& config) {
   std::vector<Beam> beams;
-  if (scan.columns == 0) return beams;
+  const auto [columns, rings] = layout_of(scan);
+  if (columns == 0) return beams;
   for (int k = 0; k < config.beams; ++k) {
-    const int column = static_cast<int>(static_cast<long>(k) * scan.columns / config.beams);
-    const int wanted = scan.rings / 2 - 1 + 2 * (k % 4);
-    for (int step = 0; step < scan.rings; ++step) {
+    const int column = static_cast<int>(static_cast<long>(k) * columns / config.beams);
+    const int wanted = rings / 2 - 1 + 2 * (k % 4);
+    for (int step = 0; step < rings; ++step) {
       const int ring = wanted + (step % 2 == 0 ? step / 2 : -(step + 1) / 2);
-      if (ring < 0 || ring >= scan.rings) continue;
-      const auto i = static_cast<std::size_t>(column * scan.rings + ring);
+      if (ring < 0 || ring >= rings) continue;
+      const auto i = static_cast<std::size_t>(column * rings + ring);
       if (scan.range_m[i] <= 0.0) continue;
       const std::optional<Beam> beam = beam_to(scan.point_R[i], out, scan.X_RL.t, config);
       if (!beam) continue;
@@ -61,14 +73,15 @@ std::vector<Beam> pick_beams(const DeskewedScan& scan, const LocalizationScan& o
 
 BeamGrid make_beam_grid(const DeskewedScan& scan, const LocalizationScan& out, const LocalizationScanConfig& config) {
   constexpr int wide = 4;
-  BeamGrid grid{std::min(config.grid_columns, scan.columns), {}};
-  const int rings = std::min(config.grid_rings, scan.rings);
+  const SlotLayout layout = layout_of(scan);
+  BeamGrid grid{std::min(config.grid_columns, layout.columns), {}};
+  const int rings = std::min(config.grid_rings, layout.rings);
   for (int first = 0; first < rings; first += wide)
     for (int c = 0; c < grid.columns; ++c) {
-      const int column = static_cast<int>(static_cast<long>(c) * scan.columns / grid.columns);
+      const int column = static_cast<int>(static_cast<long>(c) * layout.columns / grid.columns);
       BeamGridBlock& block = grid.blocks.emplace_back();
       for (int r = first; r < std::min(first + wide, rings); ++r) {
-        const auto i = static_cast<std::size_t>(column * scan.rings + r * scan.rings / rings);
+        const auto i = static_cast<std::size_t>(column * layout.rings + r * layout.rings / rings);
         if (scan.range_m[i] <= 0.0) continue;
         const std::optional<Beam> beam = beam_to(scan.point_R[i], out, scan.X_RL.t, config);
         if (!beam) continue;

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/slam/synthetic.h"
+
 namespace plumbline::slam {
 namespace {
 
@@ -25,6 +27,34 @@ TEST(WallHeight, StaysBelowLowCeilings) {
   EXPECT_EQ(wall_height(plan, config), config.max_height_m);
   plan.rooms.push_back(room_of_height(2.4, 20.0));
   EXPECT_NEAR(wall_height(plan, config), 2.32, 1e-12);
+}
+
+/// What a robot in the middle of a room sees; `rings`: false strips the scan of its order.
+LocalizationScan seen_in_a_room(bool rings) {
+  Scan scan = synthetic::standing_scan(synthetic::one_room(), Pose::from_xyz_yaw({3.0, 2.0, 0.5}, 0.3), {});
+  if (!rings) {
+    scan.columns *= scan.rings;
+    scan.rings = 1;
+  }
+  MotionBuffer motion;
+  motion.add({0, Pose{}});
+  return make_localization_scan(deskew(scan, motion, synthetic::calibration()), {}, Pose{}, synthetic::calibration(),
+                                {});
+}
+
+int returns_of(const BeamGrid& grid) {
+  int returns = 0;
+  for (const BeamGridBlock& block : grid.blocks)
+    for (int k = 0; k < 4; ++k) returns += block.range[k] > 0.0F ? 1 : 0;
+  return returns;
+}
+
+TEST(LocalizationScan, AScanWithoutRingsHasAsManyBeams) {
+  const LocalizationScan with = seen_in_a_room(true), without = seen_in_a_room(false);
+  ASSERT_GT(with.beams.size(), 100U);
+  EXPECT_GE(without.beams.size(), with.beams.size() * 9 / 10);
+  ASSERT_GT(returns_of(with.beam_grid), 1000);
+  EXPECT_GE(returns_of(without.beam_grid), returns_of(with.beam_grid) * 9 / 10);
 }
 
 }  // namespace
