@@ -206,7 +206,7 @@ class GuardedScanMatcher final : public LidarOdometry {
     if (result.accepted || !ready) accepted_stamp_ = stamp;
     X_MR_ = result.X_MR;
     stamp_ = stamp;
-    if (!frozen) moved_stamp_ = stamp;
+    if (!frozen || !ready) moved_stamp_ = stamp;  // where a map begins, a motion does
     result.began = !ready;
     matcher_.commit(X_MR_, result.accepted || !ready);
     result.began &= matcher_.ready();

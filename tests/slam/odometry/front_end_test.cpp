@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "tests/slam/synthetic.h"
 
@@ -262,6 +263,33 @@ TEST(FrontEnd, AfterScansWithoutReturnsThePlaceIsKnownOrLost) {
     for (const double blank_s : {0.5, 1.5, 3.0})
       EXPECT_LE(follow(in_house, 1, false, {.blank_from_s = 5.0, .blank_to_s = 5.0 + blank_s}).silent, 30)
           << blank_s << " s at " << speed_mps << " m/s";
+  }
+}
+
+// After 2 s without a map a new one begins, and with it the measured speed.
+TEST(FrontEnd, AFastVehicleIsFollowedAgainAfterALoss) {
+  for (const double speed_mps : {6.0, 9.0}) {
+    synthetic::House street = synthetic::one_room(80.0, 14.0);
+    for (double x = 3.0; x < 80.0; x += 7.0)
+      for (const double y : {2.0, 10.5}) street.boxes.push_back({{x, y, 0.0}, {x + 1.5, y + 1.5, 2.8}});
+    const Walked fast = walked(street, {{2.0, 7.0}, {78.0, 7.0}}, speed_mps, 8.0);
+    const synthetic::Recording& recording = fast.recording;
+    FrontEnd front_end(alone(), recording.calibration, false);
+    std::optional<std::size_t> again;
+    Pose X_MW;
+    for (std::size_t k = 0; k < recording.scans.size(); ++k) {
+      Scan scan = recording.scans[k];
+      const double t = seconds(scan.stamp);
+      if (t > 1.0 && t < 4.0) std::fill(scan.range_m.begin(), scan.range_m.end(), 0.0);
+      DeskewedScan deskewed = front_end.deskewed(scan);
+      const Registration odometry = front_end.track(scan, deskewed);
+      if (t < 4.5) continue;
+      if (!again) X_MW = odometry.X_MR * recording.truth[k].X_FR.inverse();
+      if (!again) again = k;
+      EXPECT_TRUE(odometry.accepted) << speed_mps << " m/s, at " << t << " s";
+      EXPECT_LT((odometry.X_MR.t - (X_MW * recording.truth[k].X_FR).t).norm(), 0.3) << speed_mps << " m/s, at " << t;
+    }
+    EXPECT_TRUE(again.has_value());
   }
 }
 
