@@ -204,7 +204,7 @@ void SGraphsPlus::add_keyframe_vertex(Nanoseconds stamp, const Registration& odo
                                       std::vector<PlaneObservation>& seen) {
   const Pose& X_OR = odometry.X_MR;
   if (graph_.keyframes.empty()) {
-    graph_.keyframes.push_back({stamp, Pose{level_by_floor(seen), Eigen::Vector3d::Zero()}, X_OR, 0});
+    graph_.keyframes.push_back({stamp, Pose{level_by_planes(seen), Eigen::Vector3d::Zero()}, X_OR, 0});
     return;
   }
   const KeyframeVertex& last = graph_.keyframes.back();

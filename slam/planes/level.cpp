@@ -4,18 +4,43 @@
 #include <algorithm>
 
 #include "bim/geometry/best_rotation.h"
+#include "bim/geometry/symmetric.h"
 
 namespace plumbline::slam {
 
+namespace {
+
+/// The direction that the walls' normals are across: least squares, each normal by the variance of its fit.
+std::optional<Eigen::Vector3d> up_by_walls(std::span<const PlaneObservation> seen) {
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+  for (const PlaneObservation& plane : seen) {
+    const double variance = plane.covariance(1, 1);
+    if (plane.vertical && variance > 0.0) information += plane.plane_R.n * plane.plane_R.n.transpose() / variance;
+  }
+  const auto [values, vectors] = symmetric_eigen(information);
+  // A quarter of the tilt at which a floor is none, FloorLayerConfig::level_rad. The middle value is the information on
+  // the tilt that is known less well: of walls of one direction there is none.
+  constexpr double most_sigma = 0.02;
+  if (values(1) < 1.0 / (most_sigma * most_sigma)) return std::nullopt;
+  const Eigen::Vector3d up = vectors.col(0);
+  return up.z() < 0.0 ? Eigen::Vector3d(-up) : up;
+}
+
+}  // namespace
+
 bool is_floor(const PlaneObservation& seen) { return !seen.vertical && seen.plane_R.n.z() > 0.0; }
 
-Eigen::Quaterniond level_by_floor(std::span<const PlaneObservation> seen) {
+std::optional<Eigen::Vector3d> up_by_planes(std::span<const PlaneObservation> seen) {
   const PlaneObservation* widest = nullptr;
   for (const PlaneObservation& plane : seen)
     if (!plane.vertical && (widest == nullptr || plane.points > widest->points)) widest = &plane;
-  if (widest == nullptr) return Eigen::Quaterniond::Identity();
-  const Eigen::Vector3d up_R = is_floor(*widest) ? widest->plane_R.n : Eigen::Vector3d(-widest->plane_R.n);
-  return rotation_between(up_R, Eigen::Vector3d::UnitZ());
+  if (widest == nullptr) return up_by_walls(seen);
+  return is_floor(*widest) ? widest->plane_R.n : Eigen::Vector3d(-widest->plane_R.n);
+}
+
+Eigen::Quaterniond level_by_planes(std::span<const PlaneObservation> seen) {
+  const std::optional<Eigen::Vector3d> up_R = up_by_planes(seen);
+  return up_R ? rotation_between(*up_R, Eigen::Vector3d::UnitZ()) : Eigen::Quaterniond::Identity();
 }
 
 }  // namespace plumbline::slam

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <optional>
 #include <span>
 
 #include "slam/scan/plane_observation.h"
@@ -10,8 +11,12 @@ namespace plumbline::slam {
 
 [[nodiscard]] bool is_floor(const PlaneObservation& seen);
 
-/// Attitude of R in a frame whose z axis stands on the first floor seen, so that walls are upright in it whatever the
-/// gait's phase or the sensor's mount; identity without a floor.
-[[nodiscard]] Eigen::Quaterniond level_by_floor(std::span<const PlaneObservation> seen);
+/// Unit normal in R of the widest floor or ceiling, upwards; of a scan with neither, the direction along all its walls,
+/// where those of two directions tell it.
+[[nodiscard]] std::optional<Eigen::Vector3d> up_by_planes(std::span<const PlaneObservation> seen);
+
+/// Attitude of R in a frame whose z axis is up by the planes seen, so that walls are vertical in it whatever the gait's
+/// phase or the sensor's mount; identity where they do not tell.
+[[nodiscard]] Eigen::Quaterniond level_by_planes(std::span<const PlaneObservation> seen);
 
 }  // namespace plumbline::slam
