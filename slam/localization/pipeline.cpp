@@ -166,8 +166,11 @@ void SGraphLocalization::start_tracking(const LocalizationScan& scan, const std:
   monitor_.clear();
   room_exit_.clear();
   since_check_m_ = 0.0;
+  // Of a recording whose owner did not say how high the LiDAR is, the floor tells.
+  const double calibrated = input().calibration.sensor_height_m;
+  const bool is_calibrated = std::abs(scan.sensor_height - calibrated) < 0.5 * config_.monitor.off_floor_m;
   tracker_.emplace(config_.tracker, index().storeys[static_cast<std::size_t>(best.storey)],
-                   input().calibration.sensor_height_m - input().calibration.X_RL.t.z());
+                   (is_calibrated ? calibrated : scan.sensor_height) - input().calibration.X_RL.t.z());
   tracker_->start(scan, planes, pose_in_I(best, scan), best.covariance.topLeftCorner<2, 2>());
   agreement_ = best.agreement;
   X_IO_last_ = tracker_->X_IO();

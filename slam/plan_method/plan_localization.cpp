@@ -8,6 +8,7 @@
 
 #include "bim/digest/digest.h"
 #include "bim/errors.h"
+#include "bim/geometry/best_rotation.h"
 #include "slam/planes/level.h"
 #include "slam/planes/observe.h"
 
@@ -67,6 +68,7 @@ Output PlanLocalization::on_scan(const Scan& raw) {
   std::optional<DeskewedScan> tracked;
   const bool after_silence = is_after_silence(scan);
   last_scan_ = scan.stamp;
+  if (!start_s_) start_s_ = std::floor(seconds(scan.stamp));  // no odd share of a second, so that little depends on it
   const Pose X_OR = lidar_odometry_ ? track(scan, tracked.emplace()) : follow(scan, tracked);
   if (!X_OR_start_) X_OR_start_ = X_OR;
   const bool began_anew = !is_way_known_ && start_anew();
@@ -123,14 +125,16 @@ bool PlanLocalization::is_after_silence(const Scan& scan) const {
 
 Pose PlanLocalization::track(const Scan& raw, DeskewedScan& scan) {
   scan = lidar_odometry_->deskewed(raw);
-  if (!q_OM_) q_OM_ = level_by_floor(observe_planes(scan, {}, RinglessRansacConfig(), input_.seed));
+  std::optional<Eigen::Vector3d> up_R;
+  if (!q_OM_) up_R = up_by_planes(observe_planes(scan, {}, RinglessRansacConfig(), input_.seed));
   const Registration odometry = lidar_odometry_->track(raw, scan);
+  if (up_R) q_OM_ = rotation_between(odometry.X_MR.q * *up_R, Eigen::Vector3d::UnitZ());
   is_way_known_ = !odometry.lost && !odometry.displaced;
   if (!is_way_known_) step_changes_.interrupt();
   step_changes_.add(odometry.X_MR);
   // Localization starts anew: what matters is whether the way from here on is known.
   if (!odometry.lost && odometry.displaced) lidar_odometry_->locate_map();
-  return Pose{*q_OM_, Eigen::Vector3d::Zero()} * odometry.X_MR;
+  return Pose{q_OM_.value_or(Eigen::Quaterniond::Identity()), Eigen::Vector3d::Zero()} * odometry.X_MR;
 }
 
 Pose PlanLocalization::follow(const Scan& raw, std::optional<DeskewedScan>& scan) {
@@ -195,7 +199,8 @@ PlanScan PlanLocalization::prepare_scan(DeskewedScan scan, const Pose& X_OR, boo
     // Rounded, so that a plan moved as a whole gives the same numbers.
     const double yaw_I = std::round((*input_.prior.yaw_W - index_.X_WI.yaw()) * 1e9) * 1e-9;
     out.prior_yaw_I = wrap_angle(yaw_I + X_OR.yaw() - X_OR_start_->yaw());
-    out.prior_yaw_sigma = input_.prior.yaw_sigma + config_.yaw_drift * seconds(out.deskewed.stamp);
+    out.prior_yaw_sigma =
+        input_.prior.yaw_sigma + config_.yaw_drift * (seconds(out.deskewed.stamp) - start_s_.value_or(0.0));
   }
   out.tick = tick_;
   out.after_silence = after_silence;

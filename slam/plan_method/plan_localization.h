@@ -157,13 +157,14 @@ class PlanLocalization : public Method {
   ExtrapolationErrors extrapolation_;       ///< of odometry that is late
   std::optional<FrontEnd> lidar_odometry_;  ///< where the robot has no odometry
   std::optional<WatchedOdometry> watched_;  ///< where it has, and a method does not follow it blindly
-  std::optional<Eigen::Quaterniond> q_OM_;  ///< of its map's frame, once a scan was seen
+  std::optional<Eigen::Quaterniond> q_OM_;  ///< of its map's frame, once a floor was seen
   StepChanges step_changes_;                ///< of scan matching
   bool is_way_known_ = true;                ///< from the scan before to this one
   bool is_start_known_ = true;              ///< whether odometry leads back to the first scan
   std::optional<Pose> X_OR_start_, X_OR_update_;
   Nanoseconds used_ = 0;  ///< stamp of the last scan that was used
   std::optional<Nanoseconds> last_scan_;
+  std::optional<double> start_s_;  ///< whole second of the first scan
   std::uint64_t tick_ = 0;
   CorrectedTrajectory trajectory_;
   MapCloudConfig map_config_;

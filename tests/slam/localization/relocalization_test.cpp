@@ -116,6 +116,34 @@ synthetic::Recording walk_with_strange_scans(const synthetic::House& house, cons
   return recording;
 }
 
+// A recording need not say how high the LiDAR is.
+TEST(Relocalization, AWrongHeightOfTheLidarHidesNoContradiction) {
+  const synthetic::House house = synthetic::one_room(5.0, 4.0);
+  synthetic::Recording recording = walk_with_strange_scans(house, synthetic::one_room(8.0, 7.0), 8.0, 14.0);
+  recording.calibration.sensor_height_m += 0.8;
+  const Walked walked = localize(std::move(recording), house, true, true);
+  bool converged = false, lost = false;
+  for (const Output& output : walked.outputs) {
+    converged = converged || (output.state == State::converged && seconds(output.stamp) < 8.0);
+    lost = lost || output.state == State::lost;
+  }
+  EXPECT_TRUE(converged);
+  EXPECT_TRUE(lost);
+}
+
+// A clock that counts from when a computer was started.
+TEST(Relocalization, ALateClockLeavesTheHeadingKnown) {
+  const synthetic::House house = synthetic::one_room(5.0, 4.0);
+  synthetic::Recording recording = walk_with_strange_scans(house, house, 0.0, 0.0);
+  constexpr Nanoseconds late = 3'600'000'000'000;
+  for (Scan& scan : recording.scans) scan.stamp += late;
+  for (Odometry& odometry : recording.odometry) odometry.stamp += late;
+  const Walked walked = localize(std::move(recording), house, true, true);
+  EXPECT_TRUE(std::any_of(walked.outputs.begin(), walked.outputs.end(),
+                          [](const Output& output) { return output.state == State::converged; }));
+  EXPECT_LT(walked.error_m(walked.outputs.size() - 1, *walked.outputs.back().X_FR), 0.1);
+}
+
 // A room of two proper turns: without the heading either is as likely.
 TEST(Relocalization, AKnownHeadingLeadsAfterTheRobotWasLost) {
   const synthetic::House house = synthetic::one_room(5.0, 4.0);
