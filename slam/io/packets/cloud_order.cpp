@@ -171,6 +171,7 @@ int columns_in_order(std::vector<CloudPoint>& points, const std::array<int, most
   int column = -1, last_place = 0;
   double azimuth = 0.0;
   for (CloudPoint& point : points) {
+    point.column = std::max(column, 0);
     if (!point.valid || point.ring < 0) continue;
     const double here = std::atan2(point.p_L.y(), point.p_L.x());
     const int here_place = place[static_cast<std::size_t>(point.ring)];
@@ -193,7 +194,8 @@ void columns_by_azimuth(std::vector<CloudPoint>& points, int rings) {
     by_laser[static_cast<std::size_t>(vlp16::ring_of_laser(k))] = k;
   // Other sensors' lasers may point degrees apart.
   const double azimuth_max = rings == vlp16::rings ? column_azimuth : std::numbers::pi;
-  if (columns_in_order(points, by_laser, azimuth_max) >= columns_in_order(points, by_ring, azimuth_max)) return;
+  const int columns_by_laser = columns_in_order(points, by_laser, azimuth_max);
+  if (columns_by_laser >= columns_in_order(points, by_ring, azimuth_max)) return;
   static_cast<void>(columns_in_order(points, by_laser, azimuth_max));
 }
 
@@ -201,6 +203,30 @@ int column_count(const std::vector<CloudPoint>& points) {
   int last = 0;
   for (const CloudPoint& point : points) last = std::max(last, point.column);
   return last + 1;
+}
+
+/// Clockwise from straight behind, in turns.
+double turn_of(const CloudPoint& point) {
+  return 0.5 - std::atan2(point.p_L.y(), point.p_L.x()) / (2.0 * std::numbers::pi);
+}
+
+/// The sector in which the points lie: where it begins and how wide it is, in turns. The whole turn where no quarter of
+/// it is free of points.
+std::pair<double, double> covered_sector(const std::vector<CloudPoint>& points) {
+  constexpr int bins = 360, least_free = bins / 4;
+  std::array<bool, bins> seen{};
+  for (const CloudPoint& point : points)
+    if (point.ring >= 0 && point.valid)
+      seen[static_cast<std::size_t>(std::clamp(static_cast<int>(turn_of(point) * bins), 0, bins - 1))] = true;
+  int free = 0, widest = 0, end = 0;
+  for (int i = 0; i < 2 * bins; ++i) {
+    free = seen[static_cast<std::size_t>(i % bins)] ? 0 : free + 1;
+    if (free <= widest || free > bins) continue;
+    widest = free;
+    end = i + 1;
+  }
+  if (widest < least_free || widest >= bins) return {0.0, 1.0};
+  return {static_cast<double>(end % bins) / bins, static_cast<double>(bins - widest) / bins};
 }
 
 /// Columns by azimuth alone, for points that come ring by ring or in no order: as many as the fullest ring has points,
@@ -213,14 +239,15 @@ void columns_by_angle(std::vector<CloudPoint>& points, int rings) {
   const int columns = fullest + fullest / 2 + 1;
   if (static_cast<std::uint64_t>(columns) * static_cast<std::uint64_t>(rings) > most_cloud_points)
     throw InputError({}, "point cloud with most of its points on one ring");
+  const auto [from, width] = covered_sector(points);
   std::vector<bool> taken(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rings), false);
   for (CloudPoint& point : points) {
     if (point.ring < 0 || !point.valid) {
       point.ring = -1;
       continue;
     }
-    const double turn = 0.5 - std::atan2(point.p_L.y(), point.p_L.x()) / (2.0 * std::numbers::pi);  // clockwise
-    const int column = std::clamp(static_cast<int>(turn * columns), 0, columns - 1);
+    const double turn = turn_of(point), place = (turn < from ? turn + 1.0 - from : turn - from) / width;
+    const int column = std::clamp(static_cast<int>(place * columns), 0, columns - 1);
     const auto slot = [&](int c) {
       return static_cast<std::size_t>(c % columns) * static_cast<std::size_t>(rings) +
              static_cast<std::size_t>(point.ring);

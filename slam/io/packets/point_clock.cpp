@@ -93,6 +93,11 @@ std::optional<PointClock> find_clock(const PointCloud& cloud, const PointField& 
   return clock;
 }
 
+constexpr int most_without_times = 100;  // of a recording that has none, not all is read
+
+/// Whatever its fields are.
+bool is_empty(const PointCloud& cloud) { return cloud.width == 0 || cloud.height == 0; }
+
 /// "100 ms"
 std::string in_ms(double ns) {
   std::array<char, 32> text{};
@@ -113,6 +118,7 @@ PointClock clock_of(const PointCloud& cloud, const PointField& field, const std:
 }
 
 bool TimeBaseSearch::add(const PointCloud& cloud) {
+  if (is_empty(cloud)) return ++without_times_ < most_without_times;
   check_cloud(cloud);
   const PointField* time = time_field(cloud);
   if (time == nullptr || time->type != PointType::f64) found_ = TimeBase::unknown;
@@ -120,7 +126,6 @@ bool TimeBaseSearch::add(const PointCloud& cloud) {
   const std::vector<CloudPoint> points = read_untimed(cloud);
   if (std::none_of(points.begin(), points.end(), [](const CloudPoint& point) { return point.valid; })) return true;
   const ClockChoice choice(cloud, *time, points);
-  constexpr int most_without_times = 100;  // of a recording that has none, not all is read
   if (choice.is_without_times()) return ++without_times_ < most_without_times;
   const std::optional<PointClock> of_day = choice.of_day();
   const bool from_stamp = choice.plain() || choice.in_other_unit();
@@ -142,7 +147,7 @@ TimeBase TimeBaseSearch::base() const {
 
 bool SweepLengthSearch::add(const PointCloud& cloud) {
   constexpr std::size_t enough = 20;
-  constexpr int most_without_times = 100;
+  if (is_empty(cloud)) return ++without_times_ < most_without_times;
   check_cloud(cloud);
   const PointField* time = time_field(cloud);
   if (time == nullptr) return false;
@@ -182,8 +187,10 @@ AssumedTimes SweepLengthSearch::found() const {
   };
   if (!is_long && !is_short) {
     const auto unit = std::find(units_ns.begin(), units_ns.end(), unit_ns_);
-    if (from_stamp_ && unit != units_ns.end())
+    if (from_stamp_ && unit != units_ns.end()) {
+      found.times.unit_ns = unit_ns_;
       found.said = taken_as(static_cast<std::size_t>(unit - units_ns.begin()), length);
+    }
     return found;
   }
   if (is_long && shares_ && from_stamp_) {

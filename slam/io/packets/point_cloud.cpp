@@ -122,6 +122,7 @@ CloudScan read_scan(const PointCloud& cloud, const PointTimes& times) {
     if (point.ring < 0) continue;
     const std::size_t slot =
         static_cast<std::size_t>(point.column) * static_cast<std::size_t>(rings) + static_cast<std::size_t>(point.ring);
+    if (!point.valid && scan.range_m[slot] > 0.0) continue;
     scan.offset_ns[slot] = static_cast<std::int32_t>(point.time - last);
     if (!point.valid) continue;
     scan.range_m[slot] = point.p_L.norm();

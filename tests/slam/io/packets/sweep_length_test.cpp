@@ -79,10 +79,25 @@ TEST(SweepLength, WhatCanBeIsLeftAsItIs) {
 
 TEST(SweepLength, AUnitThatIsToldWithoutTheSpacingIsSaid) {
   const AssumedTimes us = found(0.1, "time", PointType::f32, 0.0F, 99'800.0F);
-  EXPECT_EQ(us.times.unit_ns, 0.0);
+  EXPECT_EQ(us.times.unit_ns, 1e3);
   EXPECT_EQ(us.said, "point times are taken to be in us, by which a sweep lasts 99.8 ms; clouds are 100 ms apart");
   const AssumedTimes ms = found(0.1, "t", PointType::f64, 0.0, 99.8);
   EXPECT_EQ(ms.said, "point times are taken to be in ms, by which a sweep lasts 99.8 ms; clouds are 100 ms apart");
+  // A cloud of which nearly all is missing has no length by which to tell it.
+  EXPECT_NEAR(length_s(turn(20.0, "time", PointType::f32, 40'000.0F, 41'000.0F), us.times), 0.001, 1e-6);
+  EXPECT_NEAR(length_s(turn(20.0, "t", PointType::f64, 40.0, 41.0), ms.times), 0.001, 1e-6);
+}
+
+TEST(SweepLength, ACloudWithoutPointsTellsNothing) {
+  SweepLengthSearch search(TimeBase::stamp);
+  EXPECT_TRUE(search.add(PointCloud{}));
+  for (int k = 0; k < 30 && search.add(turn<std::uint32_t>(10.0 + 0.1 * k, "t", PointType::u32, 0, 99'000)); ++k)
+    continue;
+  EXPECT_EQ(search.found().times.unit_ns, 1e3) << search.found().said;
+  TimeBaseSearch base;
+  EXPECT_TRUE(base.add(PointCloud{}));
+  EXPECT_FALSE(base.add(turn(10.0, "timestamp", PointType::f64, 10.0, 10.1)));
+  EXPECT_EQ(base.base(), TimeBase::day);
 }
 
 TEST(SweepLength, WhatFitsNoUnitIsSaid) {
