@@ -184,7 +184,7 @@ class ProcessMethod final : public Method {
                           static_cast<std::uint32_t>(odometries_.size()),
                           static_cast<std::uint32_t>(scan.size()),
                           static_cast<std::uint16_t>(scan.rings),
-                          static_cast<std::uint16_t>(scan.columns),
+                          static_cast<std::uint16_t>(std::min(scan.columns, 65535)),
                           0};
     static_assert(sizeof(wire::Point) == sizeof(Eigen::Vector3d));
     const std::array<std::span<const std::byte>, 7> parts = {

@@ -201,6 +201,20 @@ TEST_F(Process, EstimateTakesOneToo) {
   EXPECT_EQ(read_file(folder_ / "mine/mine.tum"), read_file(folder_ / "built_in/vgicp.tum"));
 }
 
+// 64 rings of 1,024 columns, as one row of 65,536.
+TEST_F(Process, SeesAScanOfOneLongRow) {
+  const std::string input = scenario("  - odometry\nlidar: {model: os1_64}\n", "2");
+  ASSERT_EQ(plumbline({"simulate", input, "--mcap", "-o", folder_ / "rec"}).code, 0);
+  const auto estimate = [&](const std::string& method, const std::string& out) {
+    const Outcome outcome = plumbline({"estimate", folder_ / "rec/recording.mcap", "--sensors", "lidar", "--without",
+                                       "rings", "--method", method, "-o", folder_ / out});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+  };
+  estimate("vgicp", "built_in");
+  estimate("mine=" + program("process_vgicp"), "mine");
+  EXPECT_EQ(read_file(folder_ / "mine/mine.lidar.tum"), read_file(folder_ / "built_in/vgicp.lidar.tum"));
+}
+
 // All in one run: each crashes for its own reason, and who did right stands.
 TEST_F(Process, WhateverItDoesOnlyItselfHasCrashed) {
   const std::map<std::string, std::string> reasons = {

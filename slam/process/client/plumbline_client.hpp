@@ -173,7 +173,7 @@ class Client {
     const wire::Step& step = *view<wire::Step>(at, end, 1).data();
     scan_.stamp_ns = step.stamp_ns;
     scan_.rings = step.rings;
-    scan_.columns = step.columns;
+    scan_.columns = step.rings == 0 ? 0 : static_cast<int>(step.slots / step.rings);
     scan_.imu = view<wire::Imu>(at, end, step.imus);
     scan_.odometry = view<wire::Odometry>(at, end, step.odometries);
     scan_.range_m = view<double>(at, end, step.slots);

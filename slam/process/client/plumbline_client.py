@@ -81,7 +81,8 @@ class Scan:
     """One turn of the LiDAR, and what else was measured since the scan before. Copy what you keep."""
 
     def __init__(self, payload):
-        self.stamp_ns, imus, odometries, slots, self.rings, self.columns, _ = struct.unpack_from("<qIIIHHQ", payload)
+        self.stamp_ns, imus, odometries, slots, self.rings, _, _ = struct.unpack_from("<qIIIHHQ", payload)
+        self.columns = slots // max(1, self.rings)
         at = 32
         self.imu = np.frombuffer(payload, _IMU, imus, at)  # stamp_ns, angular_velocity, linear_acceleration, in R
         at += imus * _IMU.itemsize

@@ -44,7 +44,7 @@ struct Step {
   std::uint32_t odometries = 0;
   std::uint32_t slots = 0;
   std::uint16_t rings = 0;
-  std::uint16_t columns = 0;
+  std::uint16_t columns = 0;  ///< slots / rings, or the largest number where that is more
   std::uint64_t reserved = 0;
 };
 static_assert(sizeof(Step) == 32);
