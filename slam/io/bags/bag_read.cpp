@@ -63,6 +63,7 @@ class BagRecording final : public Recording {
     if (const std::string tf = moving_transforms(*source_); topics_.odometry.empty() && !tf.empty())
       all.push_back("no odometry: no nav_msgs/Odometry, and on " + tf +
                     " no moving odom -> base_link to which the LiDAR is joined");
+    if (impossible_fixed_ > 0) all.push_back(ros::impossible_transforms("/tf_static", impossible_fixed_));
     if (early_ > 0)
       all.push_back(topics_.points + ": " + share_of(early_, scans_.read(), "scans") +
                     " left out: before the first odometry");
@@ -148,17 +149,24 @@ class BagRecording final : public Recording {
     });
   }
 
+  /// Returns how many hold numbers that are no pose.
   template <class F>
-  void show_transforms(const std::string& topic, const F& add) {
+  std::size_t show_transforms(const std::string& topic, const F& add) {
     source_->select({topic});
-    for (RawMessage message; source_->next(message);)
-      if (is_transforms(topic_of(message).type))
-        for (const ros::Transform& t : ros::read_transforms(message.bytes, topic_of(message).encoding)) add(t);
+    std::size_t impossible = 0;
+    for (RawMessage message; source_->next(message);) {
+      if (!is_transforms(topic_of(message).type)) continue;
+      const ros::Transforms transforms = ros::read_transforms(message.bytes, topic_of(message).encoding);
+      impossible += transforms.impossible;
+      for (const ros::Transform& t : transforms.all) add(t);
+    }
+    return impossible;
   }
 
   /// Reads the static transforms and the frame of the odometry, which is R's; returns that of the clouds.
   [[nodiscard]] std::string find_frames(const std::vector<std::string>& names) {
-    show_transforms(static_transforms(*source_, topics_.points), [&](const ros::Transform& t) { frames_.add(t); });
+    const std::string fixed = static_transforms(*source_, topics_.points);
+    impossible_fixed_ = show_transforms(fixed, [&](const ros::Transform& t) { frames_.add(t); });
     RawMessage message;
     std::string lidar;
     source_->select(names);
@@ -182,7 +190,7 @@ class BagRecording final : public Recording {
     mount_ = X_RL ? MountSource::tf_static : MountSource::unknown;
     if (!X_RL && !lidar_.empty() && !base_.empty()) {
       StillJoints joints;
-      show_transforms("/tf", [&](const ros::Transform& t) { joints.add(t); });
+      static_cast<void>(show_transforms("/tf", [&](const ros::Transform& t) { joints.add(t); }));
       FrameTree all = frames_;
       for (const ros::Transform& t : joints.found()) all.add(t);
       X_RL = all.find(lidar_, base_);
@@ -334,7 +342,7 @@ class BagRecording final : public Recording {
 
   void take(const ros::OdometryMessage& said) {
     if (!odometry_frame_.takes(said.X_OR.child)) return;
-    if (!X_OB_) X_OB_ = start_of(said.X_OR.X);
+    if (!X_OB_) X_OB_ = start_of_odometry(said.X_OR.X);
     const Nanoseconds stamp = shifted(said.X_OR.stamp);
     const bool taken = odometry_.add({stamp, *X_OB_ * said.X_OR.X}, topics_.odometry);
     check_odometry(many_records);
@@ -355,13 +363,6 @@ class BagRecording final : public Recording {
     if (!gravity_) gravity_ = gravity_in(*record);
     record->linear_acceleration_R *= *gravity_;
     imu_.add(*record, topics_.imu);
-  }
-
-  /// The bag's odometry frame B in O, which starts at the robot's first position and heading.
-  static Pose start_of(const Pose& X_BR) {
-    const double yaw = X_BR.yaw();
-    const bool at_start = X_BR.t.norm() < 1e-9 && std::abs(yaw) < 1e-9;
-    return at_start ? Pose{} : Pose::from_xyz_yaw(X_BR.t, yaw).inverse();
   }
 
   Mark mark_;
@@ -386,8 +387,9 @@ class BagRecording final : public Recording {
   std::optional<Pose> X_OB_;
   std::optional<double> gravity_;  ///< m/s^2 of the unit that the IMU's accelerations are in
   std::int64_t messages_ = 0;
-  std::int64_t early_ = 0;          ///< scans before the odometry
-  std::int64_t without_rings_ = 0;  ///< scans
+  std::size_t impossible_fixed_ = 0;  ///< static transforms
+  std::int64_t early_ = 0;            ///< scans before the odometry
+  std::int64_t without_rings_ = 0;    ///< scans
   bool started_ = false;
 };
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slam/io/bags/odometry_motion.h"
 
+#include <cmath>
+
 namespace plumbline::slam {
 
 ros::OdometryMessage OdometryMotion::message(const Odometry& record, const std::optional<Matrix6d>& covariance) {
@@ -19,6 +21,12 @@ ros::OdometryMessage OdometryMotion::message(const Odometry& record, const std::
   }
   before_ = record;
   return message;
+}
+
+Pose start_of_odometry(const Pose& X_BR) {
+  const double yaw = X_BR.yaw();
+  const bool at_start = X_BR.t.norm() < 1e-9 && std::abs(yaw) < 1e-9;
+  return at_start ? Pose{} : Pose::from_xyz_yaw(X_BR.t, yaw).inverse();
 }
 
 std::optional<Matrix6d> increment_covariance(const ros::OdometryMessage& message, Nanoseconds dt) {

@@ -19,6 +19,9 @@ class OdometryMotion {
   Matrix6d covariance_R_ = Matrix6d::Zero();  ///< of the last pose, as a right increment
 };
 
+/// The bag's odometry frame B in O, which starts at the robot's first position and heading.
+[[nodiscard]] Pose start_of_odometry(const Pose& X_BR);
+
 /// Covariance of the motion in dt from that of the twist; none where the message holds no usable one.
 [[nodiscard]] std::optional<Matrix6d> increment_covariance(const ros::OdometryMessage& message, Nanoseconds dt);
 

@@ -127,9 +127,11 @@ class Reader {
     return v;
   }
   Pose pose() {
-    const Eigen::Vector3d t = vector();
+    Eigen::Vector3d t;
     Eigen::Quaterniond q;
+    for (double& value : t) value = number<double>();
     for (double& value : q.coeffs()) value = number<double>();
+    if (!t.allFinite()) throw ImpossibleNumber({}, "a vector that is not finite");
     try {
       return checked_pose(t, q, {});
     } catch (const InputError& error) {
@@ -346,14 +348,24 @@ FramedImu read_imu(std::span<const std::uint8_t> bytes, Encoding encoding) {
   return out;
 }
 
-std::vector<Transform> read_transforms(std::span<const std::uint8_t> bytes, Encoding encoding) {
+std::string impossible_transforms(const std::string& topic, std::size_t count) {
+  return topic + ": " + std::to_string(count) + " transforms left out: numbers that are not finite, or no rotation";
+}
+
+Transforms read_transforms(std::span<const std::uint8_t> bytes, Encoding encoding) {
   Reader in(bytes, encoding);
-  std::vector<Transform> out;
+  Transforms out;
   for (std::size_t left = in.length(76); left > 0; --left) {
-    Transform& transform = out.emplace_back();
+    Transform transform;
     transform.stamp = in.header(transform.parent);
     transform.child = in.text();
-    transform.X = in.pose();
+    try {
+      transform.X = in.pose();
+    } catch (const ImpossibleNumber&) {
+      ++out.impossible;
+      continue;
+    }
+    out.all.push_back(std::move(transform));
   }
   return out;
 }

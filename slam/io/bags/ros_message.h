@@ -87,8 +87,13 @@ struct FramedImu {
 [[nodiscard]] FramedCloud read_cloud(std::span<const std::uint8_t> bytes, Encoding encoding = Encoding::ros1);
 [[nodiscard]] OdometryMessage read_odometry(std::span<const std::uint8_t> bytes, Encoding encoding = Encoding::ros1);
 [[nodiscard]] FramedImu read_imu(std::span<const std::uint8_t> bytes, Encoding encoding = Encoding::ros1);
-[[nodiscard]] std::vector<Transform> read_transforms(std::span<const std::uint8_t> bytes,
-                                                     Encoding encoding = Encoding::ros1);
+/// tf2_msgs/TFMessage: joints whose numbers are no pose, as of a driver that has not begun, are only counted.
+struct Transforms {
+  std::vector<Transform> all;
+  std::size_t impossible = 0;
+};
+[[nodiscard]] std::string impossible_transforms(const std::string& topic, std::size_t count);
+[[nodiscard]] Transforms read_transforms(std::span<const std::uint8_t> bytes, Encoding encoding = Encoding::ros1);
 
 /// livox_ros_driver2/CustomMsg and its older names: points with times from a base in ns. A cloud without rings, since
 /// Livox's lines are none, of the time base as its stamp.

@@ -44,13 +44,8 @@ bool is_robot_joint(const std::string& parent, const std::string& child) {
   return space_P == space_C && P == "odom" && (C == "base_link" || C == "base_footprint");
 }
 
-/// Nothing where a message holds numbers that cannot be.
-std::optional<std::vector<ros::Transform>> transforms_of(const MessageSource& source, const RawMessage& message) {
-  try {
-    return ros::read_transforms(message.bytes, source.topics()[message.topic].encoding);
-  } catch (const ros::ImpossibleNumber&) {
-    return std::nullopt;
-  }
+ros::Transforms transforms_of(const MessageSource& source, const RawMessage& message) {
+  return ros::read_transforms(message.bytes, source.topics()[message.topic].encoding);
 }
 
 /// Whether a second joint lifts and tilts the robot over its footprint, as those of legged robots do.
@@ -74,7 +69,7 @@ SeenJoints see_joints(MessageSource& source, const std::string& topic) {
   SeenJoints children;
   source.select({topic});
   for (RawMessage message; source.next(message);)
-    for (const ros::Transform& t : transforms_of(source, message).value_or(std::vector<ros::Transform>())) {
+    for (const ros::Transform& t : transforms_of(source, message).all) {
       const auto [place, is_new] = children.try_emplace(plain_frame(t.child), SeenJoint{t});
       SeenJoint& seen = place->second;
       const Pose& X = seen.first.X;
@@ -94,8 +89,7 @@ std::set<std::string> frames_with_mounts(MessageSource& source, const SeenJoints
     if (is_transforms(topic.type) && topic.name.ends_with("/tf_static")) fixed.push_back(topic.name);
   source.select(fixed);
   for (RawMessage message; source.next(message);)
-    for (const ros::Transform& t : transforms_of(source, message).value_or(std::vector<ros::Transform>()))
-      parents.insert(plain_frame(t.parent));
+    for (const ros::Transform& t : transforms_of(source, message).all) parents.insert(plain_frame(t.parent));
   return parents;
 }
 
@@ -162,9 +156,7 @@ class TransformOdometry final : public MessageSource {
 
   [[nodiscard]] std::vector<std::string> left_out() const override {
     std::vector<std::string> all = source_->left_out();
-    if (impossible_ > 0)
-      all.push_back(transforms_ + ": " + std::to_string(impossible_) +
-                    " messages left out: numbers that are not finite, or no rotation");
+    if (impossible_ > 0) all.push_back(ros::impossible_transforms(transforms_, impossible_));
     constexpr std::size_t at_the_end = 10;  // that the second joint's last record was too early for is usual
     const std::size_t unjoined = unjoined_ + (firsts_.size() > at_the_end ? firsts_.size() : 0);
     if (unjoined > 0)
@@ -176,10 +168,9 @@ class TransformOdometry final : public MessageSource {
 
  private:
   void add_odometry(const RawMessage& message) {
-    const auto transforms = transforms_of(*source_, message);
-    impossible_ += transforms ? 0 : 1;
-    if (!transforms) return;
-    for (const ros::Transform& t : *transforms) {
+    const ros::Transforms transforms = transforms_of(*source_, message);
+    impossible_ += transforms.impossible;
+    for (const ros::Transform& t : transforms.all) {
       const std::string parent = plain_frame(t.parent), child = plain_frame(t.child);
       if (joint_.between.empty()) {
         if (parent == joint_.odom && child == joint_.base) give(t, message.time);

@@ -218,6 +218,14 @@ TEST_F(AlteredWalk, AMountIsTakenFromWhereverItStandsStill) {
     EXPECT_EQ(out.taken.mount, source) << topic;
     EXPECT_LT((out.mount.t - X_RL.t).norm(), 1e-9) << topic;
   }
+  // A joint that nobody has set.
+  walk.transforms = "/tf_static";
+  walk.mount = [&](int i) { return i == 1 ? Pose{Eigen::Quaterniond(0.0, 0.0, 0.0, 0.0), X_RL.t} : X_RL; };
+  const Read unset = read(walk);
+  EXPECT_LT((unset.mount.t - X_RL.t).norm(), 1e-9);
+  ASSERT_EQ(unset.left_out.size(), 1U);
+  EXPECT_NE(unset.left_out[0].find("/tf_static: 1 transforms left out"), std::string::npos) << unset.left_out[0];
+  walk.transforms = "/tf";
   walk.mount = [&](int i) { return Pose::from_xyz_yaw({0.1, -0.2, 0.3}, 1.0 + 1e-3 * i); };
   EXPECT_EQ(read(walk).taken.mount, MountSource::unknown) << "a LiDAR that turns on the robot";
 }

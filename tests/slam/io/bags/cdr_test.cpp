@@ -35,8 +35,8 @@ TEST(Cdr, MessagesHaveTheLengthsOfRos2) {
 TEST(Cdr, EveryCutMessageIsRefused) {
   const ros::Transform transform{7, "base_link", "velodyne", Pose::from_xyz_yaw({1, 2, 3}, 0.5)};
   const ros::Bytes whole = ros::write_transforms({&transform, 1}, Encoding::cdr);
-  EXPECT_EQ(ros::read_transforms(whole, Encoding::cdr)[0].X.t, transform.X.t);
-  EXPECT_EQ(ros::read_transforms(whole, Encoding::cdr)[0].child, "velodyne");
+  EXPECT_EQ(ros::read_transforms(whole, Encoding::cdr).all[0].X.t, transform.X.t);
+  EXPECT_EQ(ros::read_transforms(whole, Encoding::cdr).all[0].child, "velodyne");
   for (std::size_t size = 0; size < whole.size(); ++size)
     EXPECT_THROW((void)ros::read_transforms(std::span(whole).first(size), Encoding::cdr), InputError) << size;
   ros::Bytes big_endian = whole;

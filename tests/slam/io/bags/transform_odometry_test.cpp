@@ -201,7 +201,7 @@ TEST(TransformOdometry, LeavesOutWhatIsNoPose) {
   const Walk walk = read_walk(said);
   EXPECT_EQ(walk.odometry.size(), all - 1);
   ASSERT_EQ(walk.left_out.size(), 1U);
-  EXPECT_EQ(walk.left_out[0], "/tf: 1 messages left out: numbers that are not finite, or no rotation");
+  EXPECT_EQ(walk.left_out[0], "/tf: 1 transforms left out: numbers that are not finite, or no rotation");
 }
 
 }  // namespace
