@@ -34,6 +34,7 @@
 #include "slam/io/recordings/recording.h"
 #include "slam/io/stopwatch.h"
 #include "slam/methods.h"
+#include "slam/planes/mount_height.h"
 
 namespace plumbline::scenarios {
 
@@ -266,6 +267,15 @@ std::optional<ProcessTable> take_process(EstimateArguments& options, slam::Metho
   return ProcessTable(table, {*process}, {Mark{"--method", 0, 0}});
 }
 
+/// Height of the LiDAR above the floor by the first scans.
+std::optional<double> measured_height(const EstimateArguments& options, const slam::MethodInput& input) {
+  constexpr std::size_t enough = 10;
+  const std::unique_ptr<slam::Recording> again = poorer(open_any_recording(options.input), poverty_of(options));
+  std::vector<slam::Scan> scans;
+  for (slam::SensorFrame frame; scans.size() < enough && again->next(frame);) scans.push_back(std::move(frame.scan));
+  return slam::height_over_floor(scans, input.calibration, input.seed);
+}
+
 int estimate(EstimateArguments options, slam::MethodTable table) {
   const double start_s = slam::wall_s();
   const std::optional<ProcessTable> own = take_process(options, table);
@@ -275,7 +285,10 @@ int estimate(EstimateArguments options, slam::MethodTable table) {
   check_plan_options(options, row);
   const Poverty poverty = poverty_of(options);
   const std::unique_ptr<slam::Recording> recording = poorer(open_any_recording(options.input), poverty);
-  const slam::MethodInput input = make_input(options, row, *recording);
+  slam::MethodInput input = make_input(options, row, *recording);
+  const bool is_height_said = recording->info().mount.height_m.has_value();
+  const std::optional<double> height = is_height_said ? std::nullopt : measured_height(options, input);
+  if (height) input.calibration.sensor_height_m = *height;
 
   catch_interrupts();
   RunDirectory directory(options.out, DirectoryKind::estimate, options.force);
@@ -296,6 +309,9 @@ int estimate(EstimateArguments options, slam::MethodTable table) {
     return 1;
   }
   print(words_of(recording->taken(), answer.scans, recording->has_odometry()) + "\n");
+  if (!is_height_said)
+    std::printf("LiDAR %.2f m above the floor, %s; --description gives it\n", input.calibration.sensor_height_m,
+                height ? "by the first scans" : "as of the simulated robot, since the first scans show no floor");
   print(printable(options.out) + "/" + record.name + ".tum: " + std::to_string(record.causal.size()) + " poses\n");
   if (record.lost_scans > 0) std::printf("lost after %d of %d scans\n", record.lost_scans, record.scans);
   if (!record.beliefs.empty())

@@ -64,12 +64,9 @@ class BagRecording final : public Recording {
       all.push_back("no odometry: no nav_msgs/Odometry, and on " + tf +
                     " no moving odom -> base_link to which the LiDAR is joined");
     if (impossible_fixed_ > 0) all.push_back(ros::impossible_transforms("/tf_static", impossible_fixed_));
-    if (early_ > 0)
-      all.push_back(topics_.points + ": " + share_of(early_, scans_.read(), "scans") +
-                    " left out: before the first odometry");
-    if (without_rings_ > 0)
-      all.push_back(topics_.points + ": " + share_of(without_rings_, scans_.read(), "scans") + " read " +
-                    std::string(one_ring_number));
+    const auto scans = [&](std::int64_t n) { return topics_.points + ": " + share_of(n, scans_.read(), "scans"); };
+    if (early_ > 0) all.push_back(scans(early_) + " left out: before the first odometry");
+    if (without_rings_ > 0) all.push_back(scans(without_rings_) + " read " + std::string(one_ring_number));
     return all;
   }
   [[nodiscard]] std::vector<std::string> assumed() const override {
@@ -200,7 +197,8 @@ class BagRecording final : public Recording {
       }
     }
     if (X_RL) {
-      info_.mount = recording_info(0, {*X_RL, info_.mount.height_m}, {}).mount;
+      info_.mount = recording_info(0, {*X_RL, 0.0}, {}).mount;
+      info_.mount.height_m.reset();                   // no transform tells it
     } else if (is_of_transforms(topics_.odometry)) {  // the LiDAR alone is enough
       topics_.odometry.clear();
       base_.clear();

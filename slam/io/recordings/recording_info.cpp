@@ -36,7 +36,7 @@ Calibration calibration_of(const RecordingInfo& info) {
   Calibration calibration;
   calibration.X_RL =
       checked_pose(Eigen::Vector3d(info.mount.position_m.data()), quaternion(info.mount.quaternion_xyzw), {});
-  calibration.sensor_height_m = info.mount.height_m;
+  if (info.mount.height_m) calibration.sensor_height_m = *info.mount.height_m;
   return calibration;
 }
 

@@ -17,14 +17,17 @@ namespace plumbline::slam {
 struct MountSpec {
   std::vector<double> position_m = {0.0, 0.0, 0.0};
   std::vector<double> quaternion_xyzw = {0.0, 0.0, 0.0, 1.0};
-  double height_m = 0.66;
+  std::optional<double> height_m;
   template <class V>
   void visit(V& v) {
     v("position_m", position_m, Field{.doc = "origin of the LiDAR in the robot's frame: [x, y, z]"});
     v("quaternion_xyzw", quaternion_xyzw,
       Field{.doc = "attitude of the LiDAR in the robot's frame: [x, y, z, w], x forward, z up"});
     v("height_m", height_m,
-      Field{.doc = "height of the LiDAR above the floor when the robot stands", .min = 0.0, .max = 100.0});
+      Field{.doc =
+                "height of the LiDAR above the floor when the robot stands; measured by the first scans when not given",
+            .min = 0.0,
+            .max = 100.0});
   }
 };
 

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/planes/mount_height.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "bim/median.h"
+#include "slam/planes/level.h"
+#include "slam/planes/observe.h"
+
+namespace plumbline::slam {
+
+namespace {
+
+/// Of a road, which is no plane: the median of the lowest returns of squares of a metre round the LiDAR, where most lie
+/// about as deep. A tilt of the LiDAR cancels, all around.
+std::optional<double> height_by_lowest(const DeskewedScan& scan) {
+  constexpr double nearest_m = 1.5, farthest_m = 8.0, most_apart_m = 0.2;
+  constexpr std::size_t least = 24;
+  std::map<std::pair<int, int>, double> lowest;
+  for (std::size_t i = 0; i < scan.range_m.size(); ++i) {
+    const Eigen::Vector3d p_L = scan.point_R[i] - scan.X_RL.t;
+    const double range = p_L.head<2>().norm();
+    if (scan.range_m[i] <= 0.0 || range < nearest_m || range > farthest_m || p_L.z() > 0.0) continue;
+    const std::pair square(static_cast<int>(std::floor(p_L.x())), static_cast<int>(std::floor(p_L.y())));
+    const auto place = lowest.try_emplace(square, p_L.z()).first;
+    place->second = std::min(place->second, p_L.z());
+  }
+  if (lowest.size() < least) return std::nullopt;
+  std::vector<double> heights;
+  for (const auto& [square, z] : lowest) heights.push_back(-z);
+  const double middle = upper_median(heights);
+  const auto near = std::count_if(heights.begin(), heights.end(),
+                                  [&](double height) { return std::abs(height - middle) < most_apart_m; });
+  return 2 * static_cast<std::size_t>(near) > heights.size() ? std::optional(middle) : std::nullopt;
+}
+
+std::optional<double> height_in(const Scan& scan, const Calibration& calibration, std::uint64_t seed) {
+  const DeskewedScan raw = as_deskewed(scan, calibration);
+  const std::vector<PlaneObservation> seen = observe_planes(raw, {}, RinglessRansacConfig(), seed);
+  const std::optional<Eigen::Vector3d> up_R = up_by_planes(seen);
+  constexpr double most_tilt = 0.1;      // LocalizationScanConfig::floor_max_tilt_rad
+  constexpr double least_reach_m = 2.0;  // nearer lies the robot itself
+  const PlaneObservation* floor = nullptr;
+  for (const PlaneObservation& plane : seen) {
+    const Eigen::Vector3d& from_R = calibration.X_RL.t;
+    const bool is_around = std::max((plane.p0_R - from_R).norm(), (plane.p1_R - from_R).norm()) > least_reach_m;
+    if (is_floor(plane) && is_around && plane.plane_R.distance(from_R) > 0.0 && up_R &&
+        plane.plane_R.n.dot(*up_R) > std::cos(most_tilt) && (floor == nullptr || plane.points > floor->points))
+      floor = &plane;
+  }
+  return floor == nullptr ? height_by_lowest(raw) : std::optional(floor->plane_R.distance(calibration.X_RL.t));
+}
+
+}  // namespace
+
+std::optional<double> height_over_floor(std::span<const Scan> scans, const Calibration& calibration,
+                                        std::uint64_t seed) {
+  std::vector<double> heights;
+  for (const Scan& scan : scans)
+    if (const std::optional<double> height = height_in(scan, calibration, seed)) heights.push_back(*height);
+  if (heights.empty() || 3 * heights.size() < scans.size()) return std::nullopt;
+  return upper_median(heights);
+}
+
+}  // namespace plumbline::slam
