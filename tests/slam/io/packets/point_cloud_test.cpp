@@ -80,43 +80,6 @@ TEST(PointCloud, PointsMayComeRingByRing) {
   EXPECT_GE(returns(again), static_cast<long>(0.97 * static_cast<double>(returns(scan))));
 }
 
-TEST(PointCloud, PartOfATurnMayComeRingByRing) {
-  constexpr int columns = 400, rings = 16;
-  for (const double from : {-1.0, 2.6}) {  // ahead; across straight behind
-    std::vector<std::vector<float>> points;
-    for (int ring = 0; ring < rings; ++ring)
-      for (int k = 0; k < columns; ++k) {
-        const double azimuth = from + 2.0 * k / columns;
-        points.push_back({static_cast<float>(5.0 * std::cos(azimuth)), static_cast<float>(5.0 * std::sin(azimuth)),
-                          static_cast<float>(0.1 * ring), static_cast<float>(ring)});
-      }
-    const Scan scan = scan_of(cloud_with({"x", "y", "z", "ring"}, points));
-    EXPECT_EQ(std::count_if(scan.range_m.begin(), scan.range_m.end(), [](double range) { return range > 0.0; }),
-              columns * rings);
-    EXPECT_LT(scan.columns, 2 * columns);
-  }
-}
-
-// Points that are no return stand anywhere in the order.
-TEST(PointCloud, WhatIsNoReturnHasNoOnesTime) {
-  const float nan = std::numeric_limits<float>::quiet_NaN();
-  std::vector<std::vector<float>> points;
-  for (int k = 0; k < 200; ++k)
-    for (int ring = 0; ring < 8; ++ring) {
-      const double azimuth = 0.03 * k;
-      const bool missing = k > 0 && (k + ring) % 5 == 0;
-      points.push_back({missing ? nan : static_cast<float>(5.0 * std::cos(azimuth)),
-                        missing ? nan : static_cast<float>(-5.0 * std::sin(azimuth)), static_cast<float>(0.1 * ring),
-                        static_cast<float>(ring), static_cast<float>(0.0005 * k)});
-    }
-  const Scan scan = scan_of(cloud_with({"x", "y", "z", "ring", "time"}, points));
-  ASSERT_GE(scan.rings, 8);
-  for (int ring = 0; ring < 8; ++ring) {
-    ASSERT_GT(scan.range_m[static_cast<std::size_t>(ring)], 0.0);
-    EXPECT_NEAR(scan.offset_ns[static_cast<std::size_t>(ring)], -0.0995e9, 1e4) << ring;
-  }
-}
-
 TEST(PointCloud, RingsCountFromTheLowest) {
   std::vector<std::vector<float>> points;
   for (int ring = 0; ring < 32; ++ring)
