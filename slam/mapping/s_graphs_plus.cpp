@@ -167,6 +167,10 @@ void SGraphsPlus::keep_cloud(const DeskewedScan& scan) {
   if (!clouds_.empty() && (scans_[cloud_scans_.back()].X_OR.t - X_OR.t).norm() < config_.map.spacing_m) return;
   clouds_.push_back(thin_rings(scan, X_OR, config_.map));
   cloud_scans_.push_back(scans_.size() - 1);
+  if (point_count(clouds_) <= static_cast<std::size_t>(config_.map_points)) return;
+  config_.map.spacing_m *= 2.0;
+  keep_every_other(clouds_);
+  keep_every_other(cloud_scans_);
 }
 
 std::vector<PlaneObservation> SGraphsPlus::planes_of(const DeskewedScan& scan) const {

@@ -69,6 +69,7 @@ struct SGraphsPlusConfig {
   IncrementalConfig incremental;
   OptimizerConfig optimizer;
   MapCloudConfig map{.spacing_m = 0.14, .min_neighbours = 14};
+  int map_points = 30'000'000;  ///< 390 MB
   MirrorGhostConfig mirror_ghosts;
   LaserRangeCalibrationConfig laser_range_calibration;
 
@@ -100,6 +101,10 @@ struct SGraphsPlusConfig {
     v("incremental", incremental);
     v("optimizer", optimizer);
     v("map", map);
+    v("map_points", map_points,
+      Field{.doc = "most points of the scans kept for the map; at more, every other scan is dropped and the distance "
+                   "between them doubled",
+            .min = 1000});
     v("mirror_ghosts", mirror_ghosts, Field{.former = "reflections"});
     v("laser_range_calibration", laser_range_calibration, Field{.former = "range_offsets"});
   }

@@ -227,7 +227,7 @@ void FreeSpaceMap::carve(const FreeRays& rays, const Pose& X_MR) {
     low = low.cwiseMin(walls.back());
     high = high.cwiseMax(walls.back());
   }
-  grow(low, high);
+  if (!grow(low, high)) return;
   for (const Eigen::Vector2d& p : walls) ++walled_[*frame_.find(p)];
   for (std::size_t k = 0; k < ends.size(); ++k) {
     walk(frame_, origin, ends[k], [&](std::size_t cell) { ++passed_[cell]; });
@@ -250,7 +250,7 @@ FreeGrid FreeSpaceMap::seen_free() const {
   return grid;
 }
 
-void FreeSpaceMap::grow(const Eigen::Vector2d& low, const Eigen::Vector2d& high) {
+bool FreeSpaceMap::grow(const Eigen::Vector2d& low, const Eigen::Vector2d& high) {
   // Grown in blocks, so that a walk does not copy the grid at every keyframe; cells stay aligned to M's origin.
   constexpr double block_cells = 32.0;
   const double block = block_cells * frame_.cell;
@@ -261,11 +261,13 @@ void FreeSpaceMap::grow(const Eigen::Vector2d& low, const Eigen::Vector2d& high)
     new_low = new_low.cwiseMin(frame_.origin);
     new_high = new_high.cwiseMax(frame_.origin + frame_.cell * Eigen::Vector2d(frame_.nx, frame_.ny));
   }
+  const Eigen::Vector2d cells = (new_high - new_low) / frame_.cell;
+  if (!(cells.x() * cells.y() <= config_.max_cells)) return false;
   GridFrame grown = frame_;
   grown.origin = new_low;
   grown.nx = static_cast<int>(std::lround((new_high.x() - new_low.x()) / frame_.cell));
   grown.ny = static_cast<int>(std::lround((new_high.y() - new_low.y()) / frame_.cell));
-  if (grown.nx == frame_.nx && grown.ny == frame_.ny) return;
+  if (grown.nx == frame_.nx && grown.ny == frame_.ny) return true;
   std::vector<std::uint32_t> passed(grown.size(), 0), ended(grown.size(), 0), walled(grown.size(), 0);
   const int di = static_cast<int>(std::lround((frame_.origin.x() - new_low.x()) / frame_.cell));
   const int dj = static_cast<int>(std::lround((frame_.origin.y() - new_low.y()) / frame_.cell));
@@ -279,6 +281,7 @@ void FreeSpaceMap::grow(const Eigen::Vector2d& low, const Eigen::Vector2d& high)
   passed_ = std::move(passed);
   ended_ = std::move(ended);
   walled_ = std::move(walled);
+  return true;
 }
 
 }  // namespace plumbline::slam

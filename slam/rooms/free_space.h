@@ -24,6 +24,7 @@ struct FreeSpaceConfig {
   double wall_gate_m = 0.06;
   int wall_hits = 4;
   double island_m = 0.8;
+  int max_cells = 9'000'000;  ///< 300 x 300 m
 
   template <class V>
   void visit(V& v) {
@@ -46,6 +47,10 @@ struct FreeSpaceConfig {
     v("island_m", island_m,
       Field{.doc = "side of the largest free-standing obstacle, such as a column, that does not shape rooms",
             .min = 0});
+    v("max_cells", max_cells,
+      Field{.doc = "most cells of the free-space grid; scans that need more are left out, and no room is drawn there",
+            .min = 10'000,
+            .max = 1'000'000'000});
   }
 };
 
@@ -91,7 +96,8 @@ class FreeSpaceMap {
   [[nodiscard]] FreeGrid seen_free() const;
 
  private:
-  void grow(const Eigen::Vector2d& low, const Eigen::Vector2d& high);
+  /// False where the grid would have more than max_cells: then it stays as it is.
+  [[nodiscard]] bool grow(const Eigen::Vector2d& low, const Eigen::Vector2d& high);
 
   FreeSpaceConfig config_;
   GridFrame frame_;

@@ -83,6 +83,12 @@ void drop_strays(std::vector<Eigen::Vector3f>& points, const Voxels& voxels, con
 
 }  // namespace
 
+std::size_t point_count(std::span<const CloudKeyframe> keyframes) {
+  std::size_t count = 0;
+  for (const CloudKeyframe& keyframe : keyframes) count += keyframe.points_R.size();
+  return count;
+}
+
 std::vector<Eigen::Vector3f> thin_scan(const DeskewedScan& scan, const MapCloudConfig& config) {
   VoxelMeans voxels(config.voxel_m);
   for (std::size_t i = 0; i < scan.range_m.size(); ++i)

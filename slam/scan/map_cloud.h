@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "bim/config/visit.h"
@@ -51,6 +52,15 @@ struct CloudKeyframe {
 /// never strays: these are hit at a slant, where rings lie far apart. levels: those planes in F.
 [[nodiscard]] std::vector<Eigen::Vector3f> map_cloud(std::span<const CloudKeyframe> keyframes,
                                                      const MapCloudConfig& config, std::span<const Plane> levels = {});
+
+[[nodiscard]] std::size_t point_count(std::span<const CloudKeyframe> keyframes);
+
+/// Drops the second of each two.
+template <class T>
+void keep_every_other(std::vector<T>& all) {
+  for (std::size_t i = 1; 2 * i < all.size(); ++i) all[i] = std::move(all[2 * i]);
+  all.resize((all.size() + 1) / 2);
+}
 
 /// Keeps a scan each time the robot has gone spacing_m since the last one kept.
 class MapCloudRecorder {

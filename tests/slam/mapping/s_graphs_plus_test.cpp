@@ -131,6 +131,18 @@ TEST(SGraphsPlus, SurvivesTheMapsOriginAtARoomsCentre) {
   EXPECT_NEAR(std::abs(signed_area(r.estimate.rooms[0].polygon_F)), 24.0, 0.5);
 }
 
+TEST(SGraphsPlus, KeepsFewerScansForItsMapWhereTheyHoldTooManyPoints) {
+  synthetic::WalkConfig walk;
+  walk.duration_s = 8.0;
+  const std::vector<Eigen::Vector2d> way = {{1.0, 1.0}, {5.0, 1.0}, {5.0, 3.0}, {1.0, 3.0}};
+  const synthetic::Recording recording = synthetic::walk(synthetic::one_room(), way, walk);
+  SGraphsPlusConfig few;
+  few.map_points = 100'000;  // of some 20 to 30 scans of 10,000 and more
+  const std::size_t all = run(recording).estimate.map_F.size(), kept = run(recording, few).estimate.map_F.size();
+  EXPECT_LT(kept, all);
+  EXPECT_GT(kept, all / 2);
+}
+
 // Two scans behind glass, say. What follows is matched with the map of before: nothing about the way is unknown.
 TEST(SGraphsPlus, ScansThatDoNotFitLeaveTheWayToTheNextKeyframeMeasured) {
   synthetic::WalkConfig walk;

@@ -44,6 +44,20 @@ TEST(FreeSpace, IslandsAreWhatAFloodFillSaysOnRandomGrids) {
   }
 }
 
+// A pose far off must not ask for all the memory there is.
+TEST(FreeSpace, TheGridKeepsToItsMostCells) {
+  FreeRays rays;
+  rays.end_R = {{3.0, 0.0, 1.0}, {0.0, 3.0, 1.0}, {-3.0, 0.0, 1.0}};
+  rays.hit = {false, false, false};
+  FreeSpaceMap map{FreeSpaceConfig{}};
+  map.carve(rays, Pose{});
+  const FreeGrid before = map.seen_free();
+  for (const double x : {1e4, 1e12}) map.carve(rays, Pose::from_xyz_yaw({x, x, 0.0}, 0.0));
+  EXPECT_EQ(map.seen_free().free, before.free);
+  map.carve(rays, Pose::from_xyz_yaw({100.0, 0.0, 0.0}, 0.0));
+  EXPECT_GT(map.seen_free().free.size(), before.free.size());
+}
+
 // A window over a sill: beams pass, and come back from a mirror image far behind; the wall below is hit.
 TEST(FreeSpace, EndsAtAWallThatLightPassesOver) {
   FreeSpaceMap with_wall{FreeSpaceConfig{}}, without{FreeSpaceConfig{}};

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numeric>
+#include <vector>
 
 namespace plumbline::slam {
 namespace {
@@ -17,6 +19,16 @@ CloudKeyframe cloud() {
   for (int i = 0; i < 10; ++i)
     cloud.points_R.emplace_back(0.2F * static_cast<float>(i), -1.0F, 0.2F * static_cast<float>(i));
   return cloud;
+}
+
+TEST(MapCloud, EveryOtherIsKept) {
+  for (const int count : {0, 1, 2, 7, 8}) {
+    std::vector<int> all(static_cast<std::size_t>(count));
+    std::iota(all.begin(), all.end(), 0);
+    keep_every_other(all);
+    ASSERT_EQ(all.size(), static_cast<std::size_t>((count + 1) / 2));
+    for (std::size_t i = 0; i < all.size(); ++i) EXPECT_EQ(all[i], static_cast<int>(2 * i));
+  }
 }
 
 TEST(MapCloud, StraysAreDropped) {
