@@ -159,6 +159,41 @@ constexpr std::array<NewClass, 33> new_classes{{
     {"IFCDISTRIBUTIONBOARD", proxy, 8, 9},
 }};
 
+/// What a tessellation of IFC4X3 is in IFC4, which has no tags of points and the normals before the flag; empty where
+/// it is the same.
+std::string known_tessellation(std::string_view type, const std::vector<std::string_view>& items) {
+  if (type.starts_with("IFCCARTESIANPOINTLIST") && items.size() > 1)
+    return std::string(type) + "(" + std::string(items[0]) + ")";
+  if (type != "IFCTRIANGULATEDFACESET" || items.size() < 4) return {};
+  const auto begins = [&](std::size_t i, char c) {
+    const std::size_t first = items[i].find_first_not_of(" \n\r\t");
+    return first != std::string_view::npos && items[i][first] == c;
+  };
+  if (!begins(1, '.') && !begins(2, '(')) return {};
+  std::string known = std::string(type) + "(";
+  for (const std::size_t i : {std::size_t{0}, std::size_t{2}, std::size_t{1}}) known += std::string(items[i]) + ",";
+  for (std::size_t i = 3; i < items.size(); ++i) known += std::string(items[i]) + (i + 1 < items.size() ? "," : ")");
+  return known;
+}
+
+/// What an entity of IFC4X3 is in IFC4; empty where it is the same.
+std::string known_entity(std::string_view type, const std::vector<std::string_view>& items) {
+  const auto found =
+      std::find_if(new_classes.begin(), new_classes.end(), [&](const NewClass& row) { return row.type == type; });
+  if (found == new_classes.end()) return known_tessellation(type, items);
+  std::string known = std::string(found->known) + "(";
+  for (std::size_t i = 0; i < found->attributes; ++i) {
+    if (i > 0) known += ',';
+    known += i < found->shared && i < items.size() ? std::string(items[i]) : "$";
+  }
+  return known + ")";
+}
+
+bool may_differ(std::string_view type) {
+  return type.starts_with("IFCCARTESIANPOINTLIST") || type == "IFCTRIANGULATEDFACESET" ||
+         std::any_of(new_classes.begin(), new_classes.end(), [&](const NewClass& row) { return row.type == type; });
+}
+
 }  // namespace
 
 std::string without_dangling(const std::string& text, const StepText& checked, const std::string& file) {
@@ -180,19 +215,14 @@ std::string with_known_classes(const std::string& text, const StepText& checked,
   const StepEntities entities(text, file);
   Edits edits(text);
   for (const StepEntities::Entity& entity : entities.all()) {
-    const auto found = std::find_if(new_classes.begin(), new_classes.end(),
-                                    [&](const NewClass& row) { return row.type == entity.type; });
-    if (found == new_classes.end()) continue;
+    if (!may_differ(entity.type)) continue;
     const Attributes attributes = split(entity.attributes);
-    std::string known = std::string(found->known) + "(";
-    for (std::size_t i = 0; i < found->attributes; ++i) {
-      if (i > 0) known += ',';
-      known += i < found->shared && i < attributes.items.size() ? std::string(attributes.items[i]) : "$";
-    }
+    const std::string known = known_entity(entity.type, attributes.items);
+    if (known.empty()) continue;
     const char* begin = entity.type.data();
     const auto length = static_cast<std::size_t>(entity.attributes.data() + attributes.end - begin);
     const std::string breaks = line_breaks({begin, length});
-    edits.replace(begin, length, known + ")" + breaks.substr(std::min(breaks.size(), line_breaks(known).size())));
+    edits.replace(begin, length, known + breaks.substr(std::min(breaks.size(), line_breaks(known).size())));
   }
   return edits.done();
 }
