@@ -286,9 +286,17 @@ std::int64_t StepText::missing(std::int64_t step_id) const {
 std::string without_comments(std::string_view text) {
   std::string result(text.starts_with("\xEF\xBB\xBF") ? text.substr(3) : text);
   bool in_string = false;
+  std::size_t behind = 0;  // what was last and is no blank
   for (std::size_t at = 0; at < result.size(); ++at) {
     if (result[at] == '\'') in_string = !in_string;
-    if (in_string || result[at] != '/' || at + 1 >= result.size() || result[at + 1] != '*') continue;
+    if (result[at] == ';' && !in_string) {
+      std::swap(result[at], result[behind++]);
+      continue;
+    }
+    if (in_string || result[at] != '/' || at + 1 >= result.size() || result[at + 1] != '*') {
+      if (std::isspace(static_cast<unsigned char>(result[at])) == 0) behind = at + 1;
+      continue;
+    }
     const std::size_t end = std::min(result.find("*/", at + 2), result.size() - 2) + 2;
     for (; at < end; ++at) {
       if (result[at] != '\n') result[at] = ' ';

@@ -29,7 +29,8 @@ struct StepText {
   [[nodiscard]] std::int64_t missing(std::int64_t step_id) const;
 };
 
-/// The text with comments and a byte-order mark blanked out; lines stay where they are.
+/// The text with comments and a byte-order mark blanked out, and with semicolons right behind what they end; entities
+/// stay in their lines.
 [[nodiscard]] std::string without_comments(std::string_view text);
 
 /// Checks that the text is a whole, well-formed STEP file whose references never lead in a circle, so that the library

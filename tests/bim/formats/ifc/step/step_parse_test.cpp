@@ -31,6 +31,20 @@ TEST(SchemaForReader, OtherSchemasAreReadWithAWarning) {
   for (const Warning& warning : plain.warnings) EXPECT_NE(warning.kind, "other_schema");
 }
 
+TEST(Semicolons, MayStandApartFromWhatTheyEnd) {
+  const std::string text = small_ifc({});
+  const Building plain = read_ifc_text(text, "small.ifc");
+  for (const char* gap : {" ", "\n", " /* ; */ "}) {
+    std::string spaced = text;
+    const std::string put = gap;
+    for (std::size_t at = 0; (at = spaced.find(";\n", at)) != std::string::npos; at += put.size() + 1)
+      spaced.insert(at, put);
+    const Building building = read_ifc_text(spaced, "small.ifc");
+    EXPECT_EQ(building.hash(), plain.hash()) << gap;
+    EXPECT_EQ(building.warnings.size(), plain.warnings.size());
+  }
+}
+
 TEST(Names, AreReadInEveryEncodingThatProgramsWrite) {
   const auto storey_named = [](const std::string& written) {
     std::string text = small_ifc({});

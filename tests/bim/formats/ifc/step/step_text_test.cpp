@@ -31,6 +31,16 @@ TEST(StepText, FindsSchemaAndLines) {
 TEST(StepText, CommentsAreBlankedAndLinesStay) {
   EXPECT_EQ(without_comments("a/* x\n'*/b '/*c*/' /*"), "a    \n   b '/*c*/'   ");
   EXPECT_EQ(without_comments("\xEF\xBB\xBFISO"), "ISO");
+  EXPECT_EQ(without_comments("a /* ; */\n ;b' ;';; ; "), "a;       \n  b' ;';;;  ");
+}
+
+TEST(StepText, BlanksMayStandBeforeASemicolon) {
+  std::string spaced = header + "#2=IFCA('a ;')\n;\n#1=IFCB(#2) \t;\n" + footer;
+  for (std::size_t at = 0; (at = spaced.find(";\n", at)) != std::string::npos; at += 3) spaced.insert(at, " ");
+  const StepText text = check_step_text(without_comments(spaced), "f.ifc");
+  EXPECT_EQ(text.schema, "IFC4");
+  EXPECT_EQ(text.line(2), 8);
+  EXPECT_EQ(text.line(1), 10);
 }
 
 TEST(StepText, SaysWhereTheTextIsWrong) {
