@@ -24,6 +24,20 @@ bool within(const Eigen::AlignedBox3d& box, double furthest_m) {
          (box.min().cwiseAbs().maxCoeff() <= furthest_m && box.max().cwiseAbs().maxCoeff() <= furthest_m);
 }
 
+using Coordinates = std::array<std::vector<double>, 3>;
+
+/// Of one corner of each body, in W.
+template <class Counts>
+Coordinates corners_of(const StepModel& model, Counts&& counts) {
+  Coordinates coordinates;
+  for (const StepProduct& product : model.products) {
+    if (!counts(product) || product.body.empty() || product.body.front().base.points.empty()) continue;
+    const Eigen::Vector3d p_W = product.X_WP * product.body.front().base.points.front();
+    for (std::size_t axis = 0; axis < 3; ++axis) coordinates[axis].push_back(p_W[static_cast<Eigen::Index>(axis)]);
+  }
+  return coordinates;
+}
+
 }  // namespace
 
 bool within_reach(const StepProduct& product, const GeoreferenceConfig& config) {
@@ -54,12 +68,13 @@ Eigen::Vector3d extent_of_building(const StepModel& model) {
 }
 
 std::optional<Eigen::Vector3d> move_to_origin(StepModel& model, const GeoreferenceConfig& config) {
-  std::array<std::vector<double>, 3> coordinates;
-  for (const StepProduct& product : model.products) {
-    if (product.kind != StepClass::wall || product.body.empty() || product.body.front().base.points.empty()) continue;
-    const Eigen::Vector3d p_W = product.X_WP * product.body.front().base.points.front();
-    for (std::size_t axis = 0; axis < 3; ++axis) coordinates[axis].push_back(p_W[static_cast<Eigen::Index>(axis)]);
-  }
+  Coordinates coordinates =
+      corners_of(model, [](const StepProduct& product) { return product.kind == StepClass::wall; });
+  if (coordinates.front().empty())
+    coordinates = corners_of(model, [](const StepProduct& product) {
+      return product.kind == StepClass::slab || product.kind == StepClass::space || product.kind == StepClass::column;
+    });
+  if (coordinates.front().empty()) coordinates = corners_of(model, [](const StepProduct&) { return true; });
   if (coordinates.front().empty()) return std::nullopt;
   Eigen::Vector3d middle;
   for (std::size_t axis = 0; axis < 3; ++axis)

@@ -10,7 +10,7 @@ namespace plumbline::bim {
 
 /// How far coordinates may be from the origin.
 struct GeoreferenceConfig {
-  double furthest_m = 1e7;  ///< further out than any map grid
+  double furthest_m = 1e8;  ///< further out than any map grid, with the number of its zone before the easting
   double largest_m = 1e4;   ///< a body of this size is no building's
   double local_m = 5e3;     ///< a model whose middle is further out is moved: map coordinates
 };
@@ -22,7 +22,8 @@ struct GeoreferenceConfig {
 [[nodiscard]] Eigen::Vector3d extent_of_building(const StepModel& model);
 
 /// Moves a model that stands far from the origin (in map coordinates) so that the median of its walls comes near it, by
-/// whole metres. The move, or nullopt where none was needed.
+/// whole metres; without walls that of slabs, spaces and columns, and without these that of all bodies. The move, or
+/// nullopt where none was needed.
 [[nodiscard]] std::optional<Eigen::Vector3d> move_to_origin(StepModel& model, const GeoreferenceConfig& config = {});
 
 }  // namespace plumbline::bim

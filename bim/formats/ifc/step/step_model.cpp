@@ -262,7 +262,7 @@ class Reader {
     read_material(*source, model.unit_m, product);
     if (source->m_Representation) read_geometry(source, product);
     if (bounded_ && !within_reach(product))
-      fail(product.step_id, product.type + " is larger than 10 km or further than 10000 km");
+      fail(product.step_id, product.type + " is larger than 10 km or further than 100000 km");
     return product;
   }
 

@@ -50,14 +50,37 @@ TEST(Recentre, HeightsMoveApart) {
   EXPECT_EQ(*move, Eigen::Vector3d(0, 0, -8000));
 }
 
-TEST(Recentre, NeedsAWall) {
+TEST(Recentre, WithoutWallsGoesByWhatElseStandsThere) {
+  for (const StepClass kind : {StepClass::slab, StepClass::column, StepClass::space}) {
+    StepModel model;
+    for (const double x : {0.0, 3.0, 8.0}) {
+      model.products.push_back(wall_at({5.2e6 + x, 1, 0}));
+      model.products.back().kind = kind;
+    }
+    for (int i = 0; i < 9; ++i) {
+      model.products.push_back(wall_at({0, 0, 0}));
+      model.products.back().kind = StepClass::obstacle;
+    }
+    const std::optional<Eigen::Vector3d> move = move_to_origin(model);
+    ASSERT_TRUE(move.has_value());
+    EXPECT_EQ(*move, Eigen::Vector3d(-5200003, -1, 0));
+  }
+  StepModel model;  // nothing but other elements
+  model.products.push_back(wall_at({5.2e6, 1, 0}));
+  model.products.back().kind = StepClass::obstacle;
+  EXPECT_TRUE(move_to_origin(model).has_value());
+}
+
+TEST(Recentre, NeedsABody) {
   StepModel model;
   EXPECT_FALSE(move_to_origin(model).has_value());
 }
 
 TEST(WithinReach, BoundsPlacesAndSizes) {
   EXPECT_TRUE(within_reach(wall_at({9e6, -9e6, 0})));
-  EXPECT_FALSE(within_reach(wall_at({2e7, 0, 0})));
+  EXPECT_TRUE(within_reach(wall_at({32.5e6, 5.8e6, 0}))) << "EPSG:4647";
+  EXPECT_TRUE(within_reach(wall_at({38.5e6, 3.4e6, 0}))) << "CGCS2000, zone 38";
+  EXPECT_FALSE(within_reach(wall_at({2e8, 0, 0})));
   StepProduct large = wall_at({0, 0, 0});
   large.body.front().base.points.emplace_back(2e4, 0, 0);
   EXPECT_FALSE(within_reach(large));
