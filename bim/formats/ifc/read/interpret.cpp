@@ -113,7 +113,10 @@ std::vector<Solid> Interpreter::solids_of(const StepProduct& product) {
   std::vector<Solid> solids;
   for (const Shape& shape : product.body) {
     std::vector<std::string> problems;
-    Solid solid = solid_of(shape, problems);
+    int crossed = 0;
+    Solid solid = solid_of(shape, problems, crossed);
+    if (crossed > 0)
+      warn(product, "geometry", std::to_string(crossed) + " faces run across themselves; what they cover is a guess");
     for (const std::string& problem : problems) warn(product, "not_clipped", problem);
     if (!solid.triangles.empty()) solids.push_back(placed(product.X_WP, std::move(solid)));
   }

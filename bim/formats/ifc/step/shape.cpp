@@ -116,13 +116,18 @@ bool add_ears(Solid& solid, const Ring& ring, const Polygon2& flat) {
 /// Faces with more corners than this are not cut into ears, which takes the square of their number.
 constexpr std::size_t most_ears = 3000;
 
-void add_face(Solid& solid, const Ring& ring) {
-  if (ring.size() < 3) return;
+/// False where the face runs across itself, so that its triangles are a guess.
+bool add_face(Solid& solid, const Ring& ring) {
+  if (ring.size() < 3) return true;
   const Polygon2 flat = flattened(ring, vector_area(ring));
-  if (ring.size() == 3 || is_convex(flat)) return add_fan(solid, ring);
+  if (ring.size() == 3 || is_convex(flat)) {
+    add_fan(solid, ring);
+    return true;
+  }
   if (!is_simple(flat)) {
-    if (ring.size() > most_ears || !add_ears(solid, ring, flat)) add_fan(solid, ring);
-    return;
+    if (ring.size() <= most_ears && add_ears(solid, ring, flat)) return true;
+    add_fan(solid, ring);
+    return false;
   }
   const FlatMesh mesh = triangulate({PolygonWithHoles2{flat, {}}});
   std::vector<std::size_t> corner(mesh.points.size());
@@ -132,9 +137,47 @@ void add_face(Solid& solid, const Ring& ring) {
     const auto p = [&](std::size_t k) { return ring[corner[static_cast<std::size_t>(t.points[k])]]; };
     add_triangle(solid, p(0), p(1), p(2));
   }
+  return true;
 }
 
 }  // namespace
+
+bool add_triangles(Facets& facets, const std::vector<std::vector<int>>& loops) {
+  std::vector<Ring> rings;
+  for (const std::vector<int>& loop : loops) {
+    Ring& ring = rings.emplace_back();
+    for (const int i : loop) ring.push_back(facets.points[static_cast<std::size_t>(i)]);
+  }
+  const Eigen::Vector3d normal = vector_area(rings.front());
+  PolygonWithHoles2 face;
+  Polygon2 points;
+  std::vector<int> corners;
+  for (std::size_t k = 0; k < rings.size(); ++k) {
+    Polygon2 flat = flattened(rings[k], normal);
+    if (!is_simple(flat)) return false;
+    points.insert(points.end(), flat.begin(), flat.end());
+    corners.insert(corners.end(), loops[k].begin(), loops[k].end());
+    if ((signed_area(flat) > 0.0) != (k == 0)) std::reverse(flat.begin(), flat.end());
+    (k == 0 ? face.outer : face.holes.emplace_back()) = std::move(flat);
+  }
+  FlatMesh mesh;
+  try {
+    mesh = triangulate({face});
+  } catch (const InternalError&) {
+    return false;
+  }
+  std::vector<int> corner(mesh.points.size());
+  for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+    const auto found = std::find(points.begin(), points.end(), mesh.points[i]);
+    if (found == points.end()) return false;
+    corner[i] = corners[static_cast<std::size_t>(found - points.begin())];
+  }
+  for (const FlatTriangle& t : mesh.triangles) {
+    std::vector<int>& loop = facets.loops.emplace_back();
+    for (const int i : t.points) loop.push_back(corner[static_cast<std::size_t>(i)]);
+  }
+  return true;
+}
 
 Facets transformed(const Eigen::Affine3d& X, Facets facets) {
   for (Eigen::Vector3d& p : facets.points) p = X * p;
@@ -155,12 +198,17 @@ Solid placed(const Eigen::Affine3d& X_WP, Solid solid) {
   return canonical(solid, placed_grid_m);
 }
 
-Solid triangulated(const Facets& facets) {
+Solid triangulated(const Facets& facets, int& crossed) {
   Solid solid;
-  for (const std::vector<int>& loop : facets.loops) add_face(solid, canonical_ring(facets, loop));
+  for (const std::vector<int>& loop : facets.loops) crossed += add_face(solid, canonical_ring(facets, loop)) ? 0 : 1;
   solid = without_slivers(welded(solid, solid_grid_m), solid_grid_m);
   // Reversed input: mirrored bodies and files whose shells point inwards.
   return canonical(is_closed(solid) ? turned_outward(solid) : solid, solid_grid_m);
+}
+
+Solid triangulated(const Facets& facets) {
+  int crossed = 0;
+  return triangulated(facets, crossed);
 }
 
 namespace {
@@ -184,11 +232,18 @@ Solid without(Solid body, const std::vector<Solid>& cuts, std::vector<std::strin
   return after(body, steps, problems);
 }
 
-Solid solid_of(const Shape& shape, std::vector<std::string>& problems) {
+Solid solid_of(const Shape& shape, std::vector<std::string>& problems, int& crossed) {
   std::vector<BooleanStep> steps;
-  for (const Facets& facets : shape.within) steps.push_back({BooleanOperation::intersection, triangulated(facets)});
-  for (const Facets& facets : shape.minus) steps.push_back({BooleanOperation::difference, triangulated(facets)});
-  return after(triangulated(shape.base), steps, problems);
+  for (const Facets& facets : shape.within)
+    steps.push_back({BooleanOperation::intersection, triangulated(facets, crossed)});
+  for (const Facets& facets : shape.minus)
+    steps.push_back({BooleanOperation::difference, triangulated(facets, crossed)});
+  return after(triangulated(shape.base, crossed), steps, problems);
+}
+
+Solid solid_of(const Shape& shape, std::vector<std::string>& problems) {
+  int crossed = 0;
+  return solid_of(shape, problems, crossed);
 }
 
 Solid joined(const std::vector<Solid>& solids) {

@@ -35,13 +35,19 @@ inline constexpr double placed_grid_m = 1e-6;
 /// A solid of a product's frame in W, canonical.
 [[nodiscard]] Solid placed(const Eigen::Affine3d& X_WP, Solid solid);
 
+/// Adds the face with an outline, the first of the loops, and holes in it, the others, as triangles. False where these
+/// cross.
+[[nodiscard]] bool add_triangles(Facets& facets, const std::vector<std::vector<int>>& loops);
+
 /// Triangles of the facets in canonical form, whatever the order of points and loops: vertices on the grid, each once,
-/// sorted; triangles sorted; turned outward.
+/// sorted; triangles sorted; turned outward. `crossed` counts the faces that run across themselves.
+[[nodiscard]] Solid triangulated(const Facets& facets, int& crossed);
 [[nodiscard]] Solid triangulated(const Facets& facets);
 
 /// Body minus the cuts, one after the other, canonical. Adds to `problems` what could not be cut off.
 [[nodiscard]] Solid without(Solid body, const std::vector<Solid>& cuts, std::vector<std::string>& problems);
 /// The solid of a shape.
+[[nodiscard]] Solid solid_of(const Shape& shape, std::vector<std::string>& problems, int& crossed);
 [[nodiscard]] Solid solid_of(const Shape& shape, std::vector<std::string>& problems);
 
 /// Both as one mesh; they are not united.

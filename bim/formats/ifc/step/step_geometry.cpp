@@ -9,13 +9,16 @@
 #include <ifcpp/IFC4/include/IfcHalfSpaceSolid.h>
 #include <ifcpp/IFC4/include/IfcMappedItem.h>
 #include <ifcpp/IFC4/include/IfcPolygonalBoundedHalfSpace.h>
+#include <ifcpp/IFC4/include/IfcPolygonalFaceSet.h>
 #include <ifcpp/IFC4/include/IfcShapeRepresentation.h>
 #include <ifcpp/geometry/Carve/RepresentationConverter.h>
 #include <ifcpp/model/BuildingModel.h>
 
+#include <algorithm>
 #include <map>
 
 #include "bim/formats/ifc/step/half_space.h"
+#include "bim/formats/ifc/step/step_facets.h"
 
 namespace plumbline::bim {
 namespace {
@@ -71,7 +74,8 @@ void collect_diagnostic(void* diagnostics, std::shared_ptr<StatusCallback::Messa
 
 struct StepGeometry::Impl {
   explicit Impl(const std::shared_ptr<BuildingModel>& model)
-      : converter(std::make_shared<GeometrySettings>(), model->getUnitConverter()) {
+      : converter(std::make_shared<GeometrySettings>(), model->getUnitConverter()),
+        unit_m(model->getUnitConverter()->getLengthInMeterFactor()) {
     converter.getGeomSettings()->setHandleStyledItems(false);  // colours
     // Polygons in circles: 36 corners make them 0.5 % too small. Bars, pipes and handles are seen by nobody as round.
     converter.getGeomSettings()->setNumVerticesPerCircle(circle_corners);
@@ -127,6 +131,9 @@ struct StepGeometry::Impl {
       const auto root = std::dynamic_pointer_cast<IfcGeometricRepresentationItem>(solid->m_TreeRootExpression);
       return root ? convert_item(root, X, shapes) : report("a CSG solid lacks its tree");
     }
+    if (const auto faces = std::dynamic_pointer_cast<IfcPolygonalFaceSet>(item)) {
+      return add({polygonal_facets(*faces, unit_m, *diagnostics)}, *item, X, shapes);
+    }
     const auto data = std::make_shared<ItemShapeData>();
     const auto& solids = converter.getSolidConverter();
     if (const auto half_space = std::dynamic_pointer_cast<IfcHalfSpaceSolid>(item)) {
@@ -136,7 +143,17 @@ struct StepGeometry::Impl {
     } else {
       converter.convertIfcGeometricRepresentationItem(item, data);
     }
-    for (Facets& facets : facets_of(*data)) shapes.push_back({transformed(X, std::move(facets)), {}, {}});
+    add(facets_of(*data), *item, X, shapes);
+  }
+
+  void add(std::vector<Facets> parts, const IfcRepresentationItem& item, const Eigen::Affine3d& X,
+           std::vector<Shape>& shapes) {
+    std::erase_if(parts, [](const Facets& facets) { return facets.loops.empty(); });
+    if (parts.empty()) report("an item of the class " + std::string(item.className()) + " gives no surface");
+    const int unread = parts.empty() ? 0 : unread_faces(item);
+    if (unread > 0)
+      report(std::to_string(unread) + " faces have edges along curves that are not read, and are left out");
+    for (Facets& facets : parts) shapes.push_back({transformed(X, std::move(facets)), {}, {}});
   }
 
   Eigen::Affine3d frame_of(const std::shared_ptr<IfcAxis2Placement3D>& placement) {
@@ -223,9 +240,13 @@ struct StepGeometry::Impl {
     }
   }
 
-  void report(const std::string& text) { diagnostics->push_back(text); }
+  /// Once a product.
+  void report(const std::string& text) {
+    if (std::find(diagnostics->begin(), diagnostics->end(), text) == diagnostics->end()) diagnostics->push_back(text);
+  }
 
   RepresentationConverter converter;
+  double unit_m;
   std::map<int, std::vector<Shape>> converted;  ///< mapped representations by STEP number
   std::vector<std::string>* diagnostics = nullptr;
 };

@@ -72,6 +72,26 @@ TEST(Shape, BridgedFacesAreCutIntoEars) {
   }
 }
 
+TEST(Shape, FacesThatRunAcrossThemselvesAreCounted) {
+  Facets facets = box({0, 0, 0}, {1, 2, 3});
+  int crossed = 0;
+  (void)triangulated(facets, crossed);
+  EXPECT_EQ(crossed, 0);
+  facets.points = {{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {1, -1, 0}};
+  facets.loops = {{0, 1, 2, 3}};
+  (void)triangulated(facets, crossed);
+  EXPECT_EQ(crossed, 1);
+}
+
+TEST(Shape, HolesThatCrossTheOutlineAreNotCut) {
+  Facets facets;
+  facets.points = {{0, 0, 1}, {4, 0, 1}, {4, 4, 1}, {0, 4, 1}, {3, 1, 1}, {5, 1, 1}, {5, 2, 1}, {3, 2, 1}, {1, 1, 1}};
+  EXPECT_FALSE(add_triangles(facets, {{0, 1, 2, 3}, {4, 7, 6, 5}}));
+  EXPECT_TRUE(facets.loops.empty());
+  EXPECT_TRUE(add_triangles(facets, {{0, 1, 2, 3}, {8, 4, 7}}));
+  EXPECT_EQ(facets.loops.size(), 7u);
+}
+
 TEST(Shape, OrderOfPointsAndLoopsDoesNotShow) {
   const Facets straight = box({0, 0, 0}, {1, 2, 3});
   Facets turned = straight;
