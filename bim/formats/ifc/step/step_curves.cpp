@@ -3,15 +3,17 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <map>
 #include <numbers>
 #include <optional>
-#include <utility>
 #include <vector>
 
-#include "bim/config/tree.h"
+#include "bim/formats/ifc/step/step_conics.h"
+#include "bim/formats/ifc/step/step_edits.h"
 #include "bim/formats/ifc/step/step_entities.h"
+#include "bim/formats/ifc/step/step_splines.h"
+#include "bim/formats/ifc/step/step_units.h"
 
 namespace plumbline::bim {
 namespace {
@@ -19,19 +21,8 @@ namespace {
 using Kind = StepValue::Kind;
 using Line = std::vector<Eigen::Vector3d>;
 
-constexpr double corner_rad = std::numbers::pi / 18.0;
 /// Curves of more points than this are left to the reader.
 constexpr std::size_t most_points = 100'000;
-
-Eigen::Vector3d curve_point(const StepValue& list) {
-  Eigen::Vector3d p = Eigen::Vector3d::Zero();
-  const std::vector<StepValue>& items = list.as_list();
-  for (std::size_t i = 0; i < std::min<std::size_t>(items.size(), 3); ++i)
-    p[static_cast<Eigen::Index>(i)] = items[i].as_number();
-  return p;
-}
-
-int corners_of(double angle) { return std::max(2, static_cast<int>(std::ceil(std::abs(angle) / corner_rad - 1e-6))); }
 
 /// Points behind a up to c on the circle through a, b and c; c alone where these lie on a line.
 void add_arc(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c, Line& line) {
@@ -45,74 +36,49 @@ void add_arc(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Ve
   const Eigen::Vector3d from = a - middle, to = c - middle, axis = n.normalized();
   double angle = std::atan2(axis.dot(from.cross(to)), from.dot(to));
   if (angle <= 0.0) angle += 2.0 * std::numbers::pi;
-  const int count = corners_of(angle);
+  const int count = arc_pieces(angle);
   for (int i = 1; i < count; ++i) line.emplace_back(middle + Eigen::AngleAxisd(angle * i / count, axis) * from);
   line.push_back(c);
 }
 
-/// Directions of an IfcAxis2Placement2D or 3D: x in the first column.
-std::optional<Eigen::Affine3d> conic_frame(const StepEntities& entities, std::int64_t number) {
-  const StepEntities::Entity& entity = entities.entity(number);
-  const StepValue values = entities.attributes(entity);
-  const auto direction = [&](const StepValue& value, const Eigen::Vector3d& standard) -> Eigen::Vector3d {
-    if (value.kind != Kind::reference) return standard;
-    return curve_point(entities.attributes(value, "IFCDIRECTION").at(0));
-  };
-  Eigen::Vector3d z = Eigen::Vector3d::UnitZ(), x = Eigen::Vector3d::UnitX();
-  if (entity.type == "IFCAXIS2PLACEMENT3D") {
-    z = direction(values.at(1), z);
-    x = direction(values.at(2), z.cross(x).norm() > 1e-9 ? x : Eigen::Vector3d(Eigen::Vector3d::UnitZ()));
-  } else if (entity.type == "IFCAXIS2PLACEMENT2D") {
-    x = direction(values.at(1), x);
-  } else {
-    return std::nullopt;
-  }
-  const Eigen::Vector3d y = z.cross(x);
-  if (!(y.norm() > 1e-9)) return std::nullopt;
-  Eigen::Affine3d X = Eigen::Affine3d::Identity();
-  X.linear().col(2) = z.normalized();
-  X.linear().col(1) = y.normalized();
-  X.linear().col(0) = X.linear().col(1).cross(X.linear().col(2));
-  X.translation() = curve_point(entities.attributes(values.at(0), "IFCCARTESIANPOINT").at(0));
-  return X;
-}
-
-/// The point among the values that trim a curve.
-std::optional<Eigen::Vector3d> trimming_point(const StepEntities& entities, const StepValue& trims) {
+/// Where a trimmed curve begins or ends: the point among the values, or what `at` makes of the parameter.
+template <class At>
+std::optional<Eigen::Vector3d> trimming_point(const StepEntities& entities, const StepValue& trims, At&& at) {
   for (const StepValue& trim : trims.as_list())
-    if (trim.kind == Kind::reference) return curve_point(entities.attributes(trim, "IFCCARTESIANPOINT").at(0));
+    if (trim.kind == Kind::reference) return cartesian_point(entities, trim);
+  for (const StepValue& trim : trims.as_list())
+    if (trim.kind == Kind::typed) return at(trim.as_typed().as_number());
   return std::nullopt;
 }
 
-/// IfcTrimmedCurve over a circle or an ellipse, between two points.
-Line trimmed(const StepEntities& entities, const StepValue& values) {
-  const StepEntities::Entity& basis = entities.entity(values.at(0).as_reference());
-  const bool circle = basis.type == "IFCCIRCLE";
-  if (!circle && basis.type != "IFCELLIPSE") return {};
-  const auto first = trimming_point(entities, values.at(1)), last = trimming_point(entities, values.at(2));
-  const StepValue conic = entities.attributes(basis);
-  const std::optional<Eigen::Affine3d> X = conic_frame(entities, conic.at(0).as_reference());
-  if (!first || !last || !X) return {};
-  const double rx = conic.at(1).as_number(), ry = circle ? rx : conic.at(2).as_number();
-  if (!(rx > 0.0 && ry > 0.0)) return {};
-  const auto angle_of = [&](const Eigen::Vector3d& p) {
-    const Eigen::Vector3d q = X->inverse() * p;
-    return std::atan2(q.y() / ry, q.x() / rx);
+/// A line between points, or parameters in lengths of its vector.
+Line trimmed_line(const StepEntities& entities, const StepValue& values, const StepValue& line) {
+  const Eigen::Vector3d origin = cartesian_point(entities, line.at(0));
+  const StepValue vector = entities.attributes(line.at(1), "IFCVECTOR");
+  const Eigen::Vector3d along = step_point(entities.attributes(vector.at(0), "IFCDIRECTION").at(0)).normalized();
+  const auto at = [&](double u) {
+    return std::optional<Eigen::Vector3d>(origin + u * vector.at(1).as_number() * along);
   };
-  const bool forward = values.at(3).kind != Kind::enumeration || values.at(3).as_flag();
-  const double from = angle_of(*first);
-  double turn = angle_of(*last) - from;
-  constexpr double whole = 2.0 * std::numbers::pi;
-  while (forward && turn <= 1e-9) turn += whole;
-  while (!forward && turn >= -1e-9) turn -= whole;
-  const int count = corners_of(turn);
-  Line line = {*first};
-  for (int i = 1; i < count; ++i) {
-    const double angle = from + turn * i / count;
-    line.emplace_back(*X * Eigen::Vector3d(rx * std::cos(angle), ry * std::sin(angle), 0.0));
+  const auto first = trimming_point(entities, values.at(1), at), last = trimming_point(entities, values.at(2), at);
+  return first && last ? Line{*first, *last} : Line{};
+}
+
+/// IfcTrimmedCurve over a line, an ellipse, or between two points of a circle.
+Line trimmed(const StepEntities& entities, const StepValue& values, double angle_rad, bool& flat) {
+  const StepEntities::Entity& basis = entities.entity(values.at(0).as_reference());
+  if (basis.type == "IFCLINE") {
+    const StepValue line = entities.attributes(basis);
+    flat = entities.attributes(line.at(0), "IFCCARTESIANPOINT").at(0).as_list().size() == 2;
+    return trimmed_line(entities, values, line);
   }
-  line.push_back(*last);
-  return line;
+  const std::optional<StepConic> conic = conic_of(entities, basis);
+  if (!conic) return {};
+  flat = conic->flat;
+  const bool circle = basis.type == "IFCCIRCLE";
+  const auto at = [&](double u) { return circle ? std::nullopt : std::optional(conic->at(u * angle_rad)); };
+  const auto first = trimming_point(entities, values.at(1), at), last = trimming_point(entities, values.at(2), at);
+  if (!first || !last) return {};
+  return arc_between(*conic, *first, *last, values.at(3).kind != Kind::enumeration || values.at(3).as_flag());
 }
 
 /// IfcIndexedPolyCurve.
@@ -121,7 +87,7 @@ Line indexed(const StepEntities& entities, const StepValue& values, bool& flat) 
   flat = list.type == "IFCCARTESIANPOINTLIST2D";
   if (!flat && list.type != "IFCCARTESIANPOINTLIST3D") return {};
   Line points, line;
-  for (const StepValue& p : entities.attributes(list).at(0).as_list()) points.push_back(curve_point(p));
+  for (const StepValue& p : entities.attributes(list).at(0).as_list()) points.push_back(step_point(p));
   if (values.at(1).kind != Kind::list) return points;
   const auto at = [&](const StepValue& index) -> const Eigen::Vector3d& {
     const int i = index.as_integer();
@@ -146,9 +112,10 @@ Line indexed(const StepEntities& entities, const StepValue& values, bool& flat) 
 
 class Plain {
  public:
-  Plain(const std::string& text, const std::string& file) : text_(text), entities_(text, file) {
-    if (!entities_.all().empty()) next_ = entities_.all().back().number + 1;
-  }
+  Plain(const std::string& text, const std::string& file)
+      : entities_(text, file),
+        edits_(text, entities_),
+        angle_rad_(assigned_unit(entities_, "PLANEANGLEUNIT").value_or(1.0)) {}
 
   std::string read() {
     for (const StepEntities::Entity& entity : entities_.all()) {
@@ -157,16 +124,7 @@ class Plain {
       } catch (const InputError&) {  // what makes no sense is left to the reader, which says so of the element
       }
     }
-    if (replaced_.empty()) return text_;
-    std::string result;
-    std::size_t done = 0;
-    for (const auto& [begin, edit] : replaced_) {
-      result.append(text_, done, begin - done).append(edit.second);
-      done = edit.first;
-    }
-    result.append(text_, done, std::string::npos);
-    const std::size_t end = result.rfind("ENDSEC");
-    return end == std::string::npos ? text_ : result.insert(end, points_);
+    return edits_.done();
   }
 
  private:
@@ -176,49 +134,34 @@ class Plain {
     if (entity.type == "IFCINDEXEDPOLYCURVE") {
       line = indexed(entities_, entities_.attributes(entity), flat);
     } else if (entity.type == "IFCTRIMMEDCURVE") {
-      const StepValue values = entities_.attributes(entity);
-      line = trimmed(entities_, values);
-      const StepValue conic = entities_.attributes(values.at(0).as_reference());
-      flat = entities_.entity(conic.at(0).as_reference()).type == "IFCAXIS2PLACEMENT2D";
+      line = trimmed(entities_, entities_.attributes(entity), angle_rad_, flat);
+    } else if (entity.type.find("BSPLINECURVE") != std::string_view::npos || entity.type.ends_with("BEZIERCURVE")) {
+      line = spline_points(entities_, entity);
+      const StepValue first = entities_.attributes(entity).at(1).at(0);
+      flat = entities_.attributes(first, "IFCCARTESIANPOINT").at(0).as_list().size() == 2;
     }
-    if (line.size() < 2 || next_ + static_cast<std::int64_t>(line.size()) > most_number) return;
-    std::string polyline = "IFCPOLYLINE((";
-    for (std::size_t i = 0; i < line.size(); ++i) {
-      const Eigen::Vector3d& p = line[i];
-      points_ += "#" + std::to_string(next_) + "=IFCCARTESIANPOINT((" + real(p.x()) + "," + real(p.y()) +
-                 (flat ? "" : "," + real(p.z())) + "));\n";
-      polyline += (i > 0 ? ",#" : "#") + std::to_string(next_++);
-    }
-    const auto begin = static_cast<std::size_t>(entity.type.data() - text_.data());
-    const std::size_t end = text_.find(';', begin);
-    const std::string_view old(text_.data() + begin, end - begin);
-    polyline += "))" + std::string(static_cast<std::size_t>(std::count(old.begin(), old.end(), '\n')), '\n');
-    replaced_[begin] = {end, std::move(polyline)};
+    if (line.size() < 2 || !edits_.has_room(line.size())) return;
+    std::string polyline;
+    for (const Eigen::Vector3d& p : line)
+      polyline += (polyline.empty() ? "" : ",") +
+                  edits_.add("IFCCARTESIANPOINT((" + StepEdits::real(p.x()) + "," + StepEdits::real(p.y()) +
+                             (flat ? "" : "," + StepEdits::real(p.z())) + "))");
+    edits_.replace(entity, "IFCPOLYLINE((" + polyline + "))");
   }
 
-  static std::string real(double v) {
-    std::string text = format_number(v);
-    std::replace(text.begin(), text.end(), 'e', 'E');
-    const std::size_t exponent = std::min(text.find('E'), text.size());
-    if (text.find('.') == std::string::npos) text.insert(exponent, ".");
-    return text;
-  }
-
-  static constexpr std::int64_t most_number = 2'000'000'000;  // IFC++ keeps them in 32 bits
-
-  const std::string& text_;
   StepEntities entities_;
-  std::int64_t next_ = 1;
-  std::map<std::size_t, std::pair<std::size_t, std::string>> replaced_;  ///< end and new text by begin
-  std::string points_;
+  StepEdits edits_;
+  double angle_rad_;
 };
 
 }  // namespace
 
 std::string with_plain_curves(const std::string& text, const std::string& file) {
-  if (text.find("IFCINDEXEDPOLYCURVE") == std::string::npos && text.find("IFCTRIMMEDCURVE") == std::string::npos)
-    return text;
-  return Plain(text, file).read();
+  constexpr std::array<std::string_view, 4> types{"IFCINDEXEDPOLYCURVE", "IFCTRIMMEDCURVE", "BSPLINECURVE",
+                                                  "BEZIERCURVE"};
+  const bool any =
+      std::any_of(types.begin(), types.end(), [&](std::string_view t) { return text.find(t) != std::string::npos; });
+  return any ? Plain(text, file).read() : text;
 }
 
 }  // namespace plumbline::bim

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bim/formats/ifc/step/step_curves.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "tests/bim/formats/ifc/step/step_body.h"
+
+namespace plumbline::bim {
+namespace {
+
+/// A file with the prism of 1 m over the area that the curves enclose, each begun where the one before ends.
+std::string prism_text(Sketch& sketch, const std::vector<std::string>& curves) {
+  std::string segments;
+  for (const std::string& curve : curves)
+    segments += (segments.empty() ? "" : ",") + sketch.add("IFCCOMPOSITECURVESEGMENT(.CONTINUOUS.,.T.," + curve + ")");
+  const std::string outline = sketch.add("IFCCOMPOSITECURVE((" + segments + "),.F.)");
+  const std::string profile = sketch.add("IFCARBITRARYCLOSEDPROFILEDEF(.AREA.,$," + outline + ")");
+  sketch.element("IFCCOLUMN", sketch.shape(sketch.extruded(profile, 0, 1)), "$,$");
+  return sketch.text();
+}
+
+StepBody prism_of(Sketch& sketch, const std::vector<std::string>& curves) {
+  return body_in(prism_text(sketch, curves));
+}
+
+std::string line_through(Sketch& sketch, const std::vector<Eigen::Vector2d>& line) {
+  std::string points;
+  for (const Eigen::Vector2d& p : line) points += (points.empty() ? "" : ",") + sketch.point(p.x(), p.y());
+  return sketch.add("IFCPOLYLINE((" + points + "))");
+}
+
+std::string at_origin(Sketch& sketch) { return sketch.add("IFCAXIS2PLACEMENT2D(" + sketch.point(0, 0) + ",$)"); }
+
+/// The text with angles in degrees.
+std::string in_degrees(std::string text) {
+  const std::string old = "IFCUNITASSIGNMENT((";
+  text.insert(text.find(old) + old.size(), "#9001,");
+  text.insert(text.find("ENDSEC;\nEND-ISO"),
+              "#9001=IFCCONVERSIONBASEDUNIT(#9004,.PLANEANGLEUNIT.,'DEGREE',#9002);\n"
+              "#9002=IFCMEASUREWITHUNIT(IFCPLANEANGLEMEASURE(0.0174532925199433),#9003);\n"
+              "#9003=IFCSIUNIT(*,.PLANEANGLEUNIT.,$,.RADIAN.);\n#9004=IFCDIMENSIONALEXPONENTS(0,0,0,0,0,0,0);\n");
+  return text;
+}
+
+TEST(TrimmedCurves, OfEllipsesByParametersAreArcs) {
+  const double truth = std::numbers::pi * 2.0 * 1.0 / 4.0;
+  for (const bool degrees : {false, true}) {
+    Sketch sketch;
+    const std::string ellipse = sketch.add("IFCELLIPSE(" + at_origin(sketch) + ",2.,1.)");
+    const std::string end = degrees ? "90." : "1.5707963267948966";
+    const std::string arc = sketch.add("IFCTRIMMEDCURVE(" + ellipse + ",(IFCPARAMETERVALUE(0.)),(IFCPARAMETERVALUE(" +
+                                       end + ")),.T.,.PARAMETER.)");
+    const std::string text = prism_text(sketch, {arc, line_through(sketch, {{0, 1}, {0, 0}, {2, 0}})});
+    const StepBody body = body_in(degrees ? in_degrees(text) : text);
+    EXPECT_TRUE(body.closed());
+    EXPECT_NEAR(body.volume_m3() / truth, 1.0, 0.01) << degrees;
+  }
+}
+
+TEST(TrimmedCurves, OfLinesByParametersCountInTheirVectors) {
+  Sketch sketch;
+  const std::string vector = sketch.add("IFCVECTOR(" + sketch.add("IFCDIRECTION((2.,0.))") + ",3.)");
+  const std::string line = sketch.add("IFCLINE(" + sketch.point(1, 0) + "," + vector + ")");
+  const std::string cut =
+      sketch.add("IFCTRIMMEDCURVE(" + line + ",(IFCPARAMETERVALUE(1.)),(IFCPARAMETERVALUE(2.)),.T.,.PARAMETER.)");
+  std::string text = prism_text(sketch, {cut, line_through(sketch, {{7, 2}, {4, 2}})});
+  EXPECT_TRUE(body_in(text).closed());
+  EXPECT_NEAR(body_in(text).volume_m3(), 6.0, 1e-6);
+  const std::string metre = ".LENGTHUNIT.,$";
+  text.replace(text.find(metre), metre.size(), ".LENGTHUNIT.,.DECI.");
+  EXPECT_NEAR(body_in(text).volume_m3(), 6e-3, 1e-6);
+}
+
+TEST(Splines, WithKnotsAreAsHighAsTheirControlPointsSay) {
+  // Two spans of a cubic; its area and height are integrated from the basis functions.
+  Sketch sketch;
+  const std::string points = sketch.point(0, 0) + "," + sketch.point(0, 2) + "," + sketch.point(2, 3) + "," +
+                             sketch.point(4, 2) + "," + sketch.point(4, 0);
+  const std::string spline =
+      sketch.add("IFCBSPLINECURVEWITHKNOTS(3,(" + points + "),.UNSPECIFIED.,.F.,.F.,(4,1,4),(0.,1.,2.),.UNSPECIFIED.)");
+  const StepBody body = prism_of(sketch, {spline, line_through(sketch, {{4, 0}, {0, 0}})});
+  EXPECT_TRUE(body.closed());
+  EXPECT_NEAR(body.volume_m3() / 8.3000, 1.0, 0.01);
+  EXPECT_NEAR(body.box().max().y(), 2.50, 0.01);
+}
+
+TEST(Splines, OfBezierPiecesAreRead) {
+  Sketch sketch;
+  sketch.schema = "IFC2X3";
+  const std::string points =
+      sketch.point(0, 0) + "," + sketch.point(1, 2) + "," + sketch.point(2, 2) + "," + sketch.point(3, 0);
+  const std::string arch = sketch.add("IFCBEZIERCURVE(3,(" + points + "),.UNSPECIFIED.,.F.,.F.)");
+  EXPECT_NEAR(prism_of(sketch, {arch, line_through(sketch, {{3, 0}, {0, 0}})}).volume_m3(), 3.0, 0.04);
+}
+
+TEST(Splines, RationalOnesAreCircles) {
+  Sketch sketch;
+  const std::string points = sketch.point(1, 0) + "," + sketch.point(1, 1) + "," + sketch.point(0, 1) + "," +
+                             sketch.point(-1, 1) + "," + sketch.point(-1, 0);
+  const std::string half = sketch.add("IFCRATIONALBSPLINECURVEWITHKNOTS(2,(" + points +
+                                      "),.CIRCULAR_ARC.,.F.,.F.,(3,2,3),(0.,1.,2.),.UNSPECIFIED.,"
+                                      "(1.,0.7071067811865476,1.,0.7071067811865476,1.))");
+  const StepBody body = prism_of(sketch, {half, line_through(sketch, {{-1, 0}, {1, 0}})});
+  EXPECT_TRUE(body.closed());
+  EXPECT_NEAR(body.volume_m3() / (std::numbers::pi / 2.0), 1.0, 0.01);
+}
+
+}  // namespace
+}  // namespace plumbline::bim
