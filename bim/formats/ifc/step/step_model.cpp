@@ -38,6 +38,7 @@
 #include "bim/formats/ifc/step/scoped_silence.h"
 #include "bim/formats/ifc/step/step_body.h"
 #include "bim/formats/ifc/step/step_curves.h"
+#include "bim/formats/ifc/step/step_edge_loops.h"
 #include "bim/formats/ifc/step/step_entities.h"
 #include "bim/formats/ifc/step/step_geometry.h"
 #include "bim/formats/ifc/step/step_known_placements.h"
@@ -324,8 +325,8 @@ void warn_of_unknown(const BuildingModel& model, const std::string& text, const 
 
 StepModel read_step_model(const std::string& text, const StepText& checked, const std::string& file) {
   const ScopedSilence quiet;
-  const std::string whole =
-      with_plain_curves(with_known_classes(without_dangling(text, checked, file), checked, file), file);
+  const std::string known = with_known_classes(without_dangling(text, checked, file), checked, file);
+  const std::string whole = with_plain_loops(with_plain_curves(known, file), file);
   const std::shared_ptr<BuildingModel> model = parse_step(with_known_placements(whole, file), checked.schema, file);
   const std::shared_ptr<IfcProject> project = model->getIfcProject();
   std::vector<Warning> assumed;
