@@ -46,6 +46,7 @@
 #include "bim/formats/ifc/step/step_optics.h"
 #include "bim/formats/ifc/step/step_parse.h"
 #include "bim/formats/ifc/step/step_placement.h"
+#include "bim/formats/ifc/step/step_plain_shapes.h"
 #include "bim/formats/ifc/step/step_repair.h"
 #include "bim/formats/ifc/step/step_validator.h"
 #include "bim/model/building_sizes.h"
@@ -326,7 +327,7 @@ void warn_of_unknown(const BuildingModel& model, const std::string& text, const 
 StepModel read_step_model(const std::string& text, const StepText& checked, const std::string& file) {
   const ScopedSilence quiet;
   const std::string known = with_known_classes(without_dangling(text, checked, file), checked, file);
-  const std::string whole = with_plain_loops(with_plain_curves(known, file), file);
+  const std::string whole = with_plain_shapes(with_plain_loops(with_plain_curves(known, file), file), file);
   const std::shared_ptr<BuildingModel> model = parse_step(with_known_placements(whole, file), checked.schema, file);
   const std::shared_ptr<IfcProject> project = model->getIfcProject();
   std::vector<Warning> assumed;

@@ -19,10 +19,13 @@ namespace {
 
 /// Attributes of geometry that a file may leave open [iso2018, geometry, profile and topology resources]; EdgeStart
 /// and EdgeEnd of an oriented edge are derived.
-constexpr std::array<std::string_view, 36> optional_attributes{{"Axis",
+constexpr std::array<std::string_view, 43> optional_attributes{{"Axis",
                                                                 "Axis1",
                                                                 "Axis2",
                                                                 "Axis3",
+                                                                "BottomFlangeEdgeRadius",
+                                                                "BottomFlangeFilletRadius",
+                                                                "BottomFlangeSlope",
                                                                 "CentreOfGravityInX",
                                                                 "CentreOfGravityInY",
                                                                 "Closed",
@@ -51,10 +54,14 @@ constexpr std::array<std::string_view, 36> optional_attributes{{"Axis",
                                                                 "SelfIntersect",
                                                                 "StartParam",
                                                                 "TagList",
+                                                                "TopFlangeEdgeRadius",
+                                                                "TopFlangeFilletRadius",
+                                                                "TopFlangeSlope",
+                                                                "TopFlangeThickness",
                                                                 "WebEdgeRadius",
                                                                 "WebSlope",
-                                                                "Width",
-                                                                "WeightsData"}};
+                                                                "WeightsData",
+                                                                "Width"}};
 
 bool is_optional(std::string_view name) {
   return std::find(optional_attributes.begin(), optional_attributes.end(), name) != optional_attributes.end();
