@@ -48,6 +48,7 @@
 #include "bim/formats/ifc/step/step_placement.h"
 #include "bim/formats/ifc/step/step_plain_shapes.h"
 #include "bim/formats/ifc/step/step_repair.h"
+#include "bim/formats/ifc/step/step_units.h"
 #include "bim/formats/ifc/step/step_validator.h"
 #include "bim/model/building_sizes.h"
 
@@ -311,6 +312,15 @@ double assumed_unit(const StepModel& in_metres, std::vector<Warning>& warnings) 
   return millimetre;
 }
 
+/// IFC++ takes no heed of the prefix of what a unit is converted to.
+void set_converted_length(BuildingModel& model, const StepEntities& entities) {
+  constexpr double rounding = 1e-9;
+  const std::shared_ptr<UnitConverter>& converter = model.getUnitConverter();
+  const std::optional<double> unit_m = assigned_unit(entities, "LENGTHUNIT");
+  if (unit_m && std::abs(converter->getLengthInMeterFactor() - *unit_m) > rounding * *unit_m)
+    converter->setLengthInMeterFactor(*unit_m);
+}
+
 /// Classes that IFC++ does not know, which it leaves out without a word.
 void warn_of_unknown(const BuildingModel& model, const std::string& text, const std::string& file, StepModel& result) {
   const auto& known = model.getMapIfcEntities();
@@ -334,6 +344,7 @@ StepModel read_step_model(const std::string& text, const StepText& checked, cons
   if (!project || !has_length_unit(*project))
     model->getUnitConverter()->setLengthInMeterFactor(
         assumed_unit(Reader(model, checked, file, false).read(), assumed));
+  set_converted_length(*model, StepEntities(whole, file));
   StepModel result = Reader(model, checked, file, true).read();
   result.skipped.insert(result.skipped.end(), assumed.begin(), assumed.end());
   warn_of_unknown(*model, whole, file, result);
