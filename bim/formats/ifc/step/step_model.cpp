@@ -271,8 +271,18 @@ class Reader {
 
   void read_geometry(const std::shared_ptr<IfcProduct>& source, StepProduct& product) {
     product.has_body = has_body(*source, product.kind);
-    if (product.kind == StepClass::wall) read_axis(*source, validator_, geometry_, product);
+    if (product.kind == StepClass::wall) try_axis(*source, product);
     if (needs_geometry(source, product.kind)) read_body(*source, validator_, geometry_, product);
+  }
+
+  /// A wall without its Axis is located by its body.
+  void try_axis(const IfcProduct& source, StepProduct& product) {
+    try {
+      read_axis(source, validator_, geometry_, product);
+    } catch (const InputError& error) {
+      product.axis_W.clear();
+      product.diagnostics.push_back(std::string("its axis is left out: ") + error.what());
+    }
   }
 
   /// Rooms have a number for a name and say what they are in the long name: "Kitchen A102".
