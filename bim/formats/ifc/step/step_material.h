@@ -7,7 +7,8 @@ class IfcProduct;
 
 namespace plumbline::bim {
 
-/// Fills layers and material of a product from its IfcRelAssociatesMaterial, where it has one.
+/// Fills layers and material of a product from its IfcRelAssociatesMaterial, or else the material from that of its
+/// type.
 void read_material(const IfcProduct& source, double unit_m, StepProduct& product);
 
 }  // namespace plumbline::bim
