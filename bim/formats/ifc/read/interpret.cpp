@@ -97,12 +97,17 @@ int Interpreter::storey_index(const StepProduct& product, double z0_m) const {
   const auto named = storeys_.find(product.storey);
   std::vector<int> above;
   if (named == storeys_.end()) {
-    above.resize(building_.storeys.size());
-    std::iota(above.begin(), above.end(), 0);
+    const StepProduct* own = find(product.storey);  // a level that is left out
+    for (std::size_t i = 0; i < building_.storeys.size(); ++i) {
+      const auto of = buildings_.find(static_cast<int>(i));
+      const bool foreign =
+          own != nullptr && own->building != 0 && of != buildings_.end() && of->second != own->building;
+      if (!foreign) above.push_back(static_cast<int>(i));
+    }
   } else if (const auto uppers = uppers_.find(product.storey); uppers != uppers_.end()) {
     above = uppers->second;
   }
-  int index = named != storeys_.end() ? named->second : 0;
+  int index = named != storeys_.end() ? named->second : above.empty() ? 0 : above.front();
   for (const int storey : above)
     if (building_.storeys[static_cast<std::size_t>(storey)].elevation_m <= z0_m + config_.storey_below_m)
       index = storey;

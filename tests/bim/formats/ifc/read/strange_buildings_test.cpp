@@ -110,6 +110,21 @@ TEST(Buildings, OfWhichThereAreTwoAreToldApart) {
             2);
 }
 
+TEST(Buildings, KeepWhatStandsOnALevelOfTheirsThatIsLeftOut) {
+  Sketch sketch;
+  two_rooms(sketch);
+  sketch.storey(1.5);  // sills
+  sketch.element("IFCFURNISHINGELEMENT", sketch.shape(sketch.box(1, 1, 1.4, 2, 2, 1.8)), "$");
+  sketch.building = sketch.rooted("IFCBUILDING", "'c',$,$,$,$,$,.ELEMENT.,$,$,$");
+  sketch.rooted("IFCRELAGGREGATES", "$,$," + sketch.project + ",(" + sketch.building + ")");
+  sketch.storey(0.5);
+  sketch.element("IFCWALL", sketch.shape(sketch.box(20, 0, 0.5, 28, 0.2, 3.5)), "$,$");
+  const Building building = read(sketch);
+  ASSERT_EQ(building.storeys.size(), 2u);
+  ASSERT_EQ(building.obstacles.size(), 1u);
+  EXPECT_EQ(building.obstacles.front().storey, 0);
+}
+
 /// A wall along x with a door from 2 to 3 m, whose opening reaches 0.2 m beyond both of its faces.
 void add_wall_with_door(Sketch& sketch) {
   sketch.storey(0);
