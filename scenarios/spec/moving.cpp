@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "bim/errors.h"
+#include "scenarios/spec/named_places.h"
 #include "sim/route/route.h"
 
 namespace plumbline::scenarios {
@@ -21,24 +22,13 @@ Mark item_mark(const Tree& tree, std::string_view key, std::size_t i) {
   return list != nullptr && list->is_list() && i < list->as_list().size() ? list->as_list()[i].mark : tree.mark;
 }
 
-const bim::Room& room_named(const bim::Building& building, const std::string& name, int storey, const Mark& mark) {
-  std::vector<std::string> known;
-  for (const bim::Room& room : building.rooms) {
-    if (room.storey != storey) continue;
-    if (room.id == name || room.name == name) return room;
-    known.push_back(room.id);
-  }
-  const std::string close = did_you_mean(name, known);
-  throw InputError(mark, "no room '" + name + "' on the storey of the start" +
-                             (close.empty() ? "" : "; did you mean '" + close + "'?"));
-}
-
 /// The way from room to room through the free space, in the order of the list.
 std::vector<Eigen::Vector2d> walk_through(const bim::Building& building, const PersonSpec& person, int storey,
                                           const sim::ClearanceMap& free_space, const Mark& mark) {
   std::vector<Eigen::Vector2d> points;
   for (const std::string& name : person.rooms) {
-    const auto target = free_space.room_target(room_named(building, name, storey, mark).polygon);
+    const auto room = static_cast<std::size_t>(find_room_on(building, storey, name, mark));
+    const auto target = free_space.room_target(building.rooms[room].polygon);
     if (target.empty()) throw InputError(mark, "there is no room to stand in '" + name + "'");
     if (points.empty()) {
       points.push_back(target[0]);

@@ -18,14 +18,31 @@ std::string unknown(const std::string& kind, const std::string& name, const std:
   return message;
 }
 
+/// The first of this id among those that count, or else the only one of this name; -1 where there is none.
+template <class Place, class Counts>
+int index_of_named(const std::vector<Place>& places, const std::string& name, const std::string& kind, const Mark& mark,
+                   Counts&& counts) {
+  int found = -1, named = 0;
+  std::string ids;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (!counts(places[i])) continue;
+    if (places[i].id == name) return static_cast<int>(i);
+    if (places[i].name != name) continue;
+    if (named++ == 0) found = static_cast<int>(i);
+    ids += " " + places[i].id;
+  }
+  if (named > 1)
+    throw InputError(mark, "'" + name + "' is the name of several " + kind + "; name one of them by its id:" + ids);
+  return found;
+}
+
 }  // namespace
 
 int find_storey(const bim::Building& building, const std::string& name, const Mark& mark) {
+  const int found = index_of_named(building.storeys, name, "storeys", mark, [](const bim::Storey&) { return true; });
+  if (found >= 0) return found;
   std::vector<std::string> known;
-  for (std::size_t i = 0; i < building.storeys.size(); ++i) {
-    if (building.storeys[i].id == name || building.storeys[i].name == name) return static_cast<int>(i);
-    known.push_back(building.storeys[i].name.empty() ? building.storeys[i].id : building.storeys[i].name);
-  }
+  for (const bim::Storey& storey : building.storeys) known.push_back(storey.name.empty() ? storey.id : storey.name);
   throw InputError(mark, unknown("storey", name, known));
 }
 
@@ -33,12 +50,23 @@ int find_room(const bim::Building& building, const std::string& name, const Mark
   if (building.rooms.empty())
     throw InputError(mark, "there is no room '" + name + "': no rooms are known in this building; " +
                                "give a start by {at: [x, y]} and the route {rooms: all}");
+  const int found = index_of_named(building.rooms, name, "rooms", mark, [](const bim::Room&) { return true; });
+  if (found >= 0) return found;
   std::vector<std::string> known;
-  for (std::size_t i = 0; i < building.rooms.size(); ++i) {
-    if (building.rooms[i].id == name || building.rooms[i].name == name) return static_cast<int>(i);
-    known.push_back(building.rooms[i].id);
-  }
+  for (const bim::Room& room : building.rooms) known.push_back(room.id);
   throw InputError(mark, unknown("room", name, known));
+}
+
+int find_room_on(const bim::Building& building, int storey, const std::string& name, const Mark& mark) {
+  const auto counts = [&](const bim::Room& room) { return room.storey == storey; };
+  const int found = index_of_named(building.rooms, name, "rooms", mark, counts);
+  if (found >= 0) return found;
+  std::vector<std::string> known;
+  for (const bim::Room& room : building.rooms)
+    if (counts(room)) known.push_back(room.id);
+  const std::string close = did_you_mean(name, known);
+  throw InputError(mark, "no room '" + name + "' on the storey of the start" +
+                             (close.empty() ? "" : "; did you mean '" + close + "'?"));
 }
 
 }  // namespace plumbline::scenarios
