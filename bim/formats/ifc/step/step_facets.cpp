@@ -8,6 +8,7 @@
 #include <ifcpp/IFC4/include/IfcFace.h>
 #include <ifcpp/IFC4/include/IfcFaceBasedSurfaceModel.h>
 #include <ifcpp/IFC4/include/IfcFaceBound.h>
+#include <ifcpp/IFC4/include/IfcFaceSurface.h>
 #include <ifcpp/IFC4/include/IfcIndexedPolygonalFaceWithVoids.h>
 #include <ifcpp/IFC4/include/IfcLengthMeasure.h>
 #include <ifcpp/IFC4/include/IfcManifoldSolidBrep.h>
@@ -15,9 +16,11 @@
 #include <ifcpp/IFC4/include/IfcPositiveInteger.h>
 #include <ifcpp/IFC4/include/IfcShell.h>
 #include <ifcpp/IFC4/include/IfcShellBasedSurfaceModel.h>
+#include <ifcpp/IFC4/include/IfcSurface.h>
 
 #include <algorithm>
 #include <optional>
+#include <string_view>
 
 namespace plumbline::bim {
 namespace {
@@ -40,12 +43,25 @@ std::optional<std::vector<int>> loop_of(const Indices& indices, const Indices& b
   return loop.size() < 3 ? std::nullopt : std::optional(loop);
 }
 
-int faces_with_edges(const IfcConnectedFaceSet& faces) {
-  return static_cast<int>(std::count_if(faces.m_CfsFaces.begin(), faces.m_CfsFaces.end(), [](const auto& face) {
-    return face && std::any_of(face->m_Bounds.begin(), face->m_Bounds.end(), [](const auto& bound) {
-             return bound && std::dynamic_pointer_cast<IfcEdgeLoop>(bound->m_Bound);
-           });
-  }));
+bool has_edges(const IfcFace& face) {
+  return std::any_of(face.m_Bounds.begin(), face.m_Bounds.end(),
+                     [](const auto& bound) { return bound && std::dynamic_pointer_cast<IfcEdgeLoop>(bound->m_Bound); });
+}
+
+bool is_curved(const IfcFace& face) {
+  const auto* on_surface = dynamic_cast<const IfcFaceSurface*>(&face);
+  return on_surface != nullptr && on_surface->m_FaceSurface &&
+         std::string_view(on_surface->m_FaceSurface->className()) != "IfcPlane";
+}
+
+void count(const IfcConnectedFaceSet& faces, OddFaces& odd) {
+  for (const auto& face : faces.m_CfsFaces) {
+    if (!face) continue;
+    if (has_edges(*face))
+      ++odd.unread;
+    else if (is_curved(*face))
+      ++odd.curved;
+  }
 }
 
 }  // namespace
@@ -81,16 +97,17 @@ Facets polygonal_facets(const IfcPolygonalFaceSet& set, double unit_m, std::vect
   return facets;
 }
 
-int unread_faces(const IfcRepresentationItem& item) {
-  int count = 0;
+OddFaces odd_faces(const IfcRepresentationItem& item) {
+  OddFaces odd;
   if (const auto* brep = dynamic_cast<const IfcManifoldSolidBrep*>(&item); brep != nullptr && brep->m_Outer)
-    count += faces_with_edges(*brep->m_Outer);
+    count(*brep->m_Outer, odd);
   if (const auto* model = dynamic_cast<const IfcShellBasedSurfaceModel*>(&item))
     for (const auto& shell : model->m_SbsmBoundary)
-      if (const auto faces = std::dynamic_pointer_cast<IfcConnectedFaceSet>(shell)) count += faces_with_edges(*faces);
+      if (const auto faces = std::dynamic_pointer_cast<IfcConnectedFaceSet>(shell)) count(*faces, odd);
   if (const auto* model = dynamic_cast<const IfcFaceBasedSurfaceModel*>(&item))
-    for (const auto& faces : model->m_FbsmFaces) count += faces ? faces_with_edges(*faces) : 0;
-  return count;
+    for (const auto& faces : model->m_FbsmFaces)
+      if (faces) count(*faces, odd);
+  return odd;
 }
 
 }  // namespace plumbline::bim

@@ -15,7 +15,11 @@ namespace plumbline::bim {
 [[nodiscard]] Facets polygonal_facets(const IfcPolygonalFaceSet& set, double unit_m,
                                       std::vector<std::string>& problems);
 
-/// How many faces of an item are bounded by edges, of which IFC++ makes nothing.
-[[nodiscard]] int unread_faces(const IfcRepresentationItem& item);
+/// How many faces of an item are not read as they are meant.
+struct OddFaces {
+  int unread = 0;  ///< bounded by edges, of which IFC++ makes nothing
+  int curved = 0;  ///< read as flat between their edges
+};
+[[nodiscard]] OddFaces odd_faces(const IfcRepresentationItem& item);
 
 }  // namespace plumbline::bim

@@ -150,9 +150,10 @@ struct StepGeometry::Impl {
            std::vector<Shape>& shapes) {
     std::erase_if(parts, [](const Facets& facets) { return facets.loops.empty(); });
     if (parts.empty()) report("an item of the class " + std::string(item.className()) + " gives no surface");
-    const int unread = parts.empty() ? 0 : unread_faces(item);
-    if (unread > 0)
-      report(std::to_string(unread) + " faces have edges along curves that are not read, and are left out");
+    const OddFaces odd = parts.empty() ? OddFaces{} : odd_faces(item);
+    if (odd.unread > 0)
+      report(std::to_string(odd.unread) + " faces have edges along curves that are not read, and are left out");
+    if (odd.curved > 0) report(std::to_string(odd.curved) + " curved faces are read as flat between their edges");
     for (Facets& facets : parts) shapes.push_back({transformed(X, std::move(facets)), {}, {}});
   }
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <map>
 #include <numbers>
 
@@ -48,14 +49,18 @@ class Brep {
   std::string faces_;
 };
 
-TEST(EdgeLoops, OfStraightEdgesAreFaces) {
+/// A box of 6 m^3 whose last face lies on a surface of its own, with its first edge along a curve of another.
+StepBody box_with(const std::function<std::string(Sketch&)>& last_surface,
+                  const std::function<std::string(Sketch&)>& first_curve = {}) {
   Sketch sketch;
   Brep brep(sketch);
   std::vector<std::string> corners;
   for (int i = 0; i < 8; ++i) corners.push_back(brep.vertex({(i & 1) * 2.0, ((i >> 1) & 1) * 3.0, (i >> 2) * 1.0}));
   std::map<std::pair<int, int>, std::string> edges;
-  for (const std::vector<int>& face : std::vector<std::vector<int>>{
-           {0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}) {
+  if (first_curve) edges[{0, 2}] = brep.edge(corners[0], corners[2], first_curve(sketch));
+  const std::vector<std::vector<int>> faces = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
+                                               {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+  for (const std::vector<int>& face : faces) {
     std::vector<std::pair<std::string, bool>> loop;
     for (std::size_t k = 0; k < 4; ++k) {
       const int a = face[k], b = face[(k + 1) % 4];
@@ -64,12 +69,30 @@ TEST(EdgeLoops, OfStraightEdgesAreFaces) {
       if (edge.empty()) edge = brep.line(at(std::min(a, b)), at(std::max(a, b)));
       loop.emplace_back(edge, a < b);
     }
-    brep.face(brep.plane(), {brep.loop(loop)});
+    brep.face(face == faces.back() ? last_surface(sketch) : brep.plane(), {brep.loop(loop)});
   }
-  const StepBody body = body_of(sketch, brep.done());
+  return body_of(sketch, brep.done());
+}
+
+std::string plane(Sketch& sketch) { return sketch.add("IFCPLANE(" + sketch.frame(0, 0, 0) + ")"); }
+
+TEST(EdgeLoops, OfStraightEdgesAreFaces) {
+  const StepBody body = box_with(plane);
   EXPECT_TRUE(body.closed());
   EXPECT_NEAR(body.volume_m3(), 6.0, 1e-6);
   EXPECT_TRUE(body.problems.empty());
+}
+
+TEST(EdgeLoops, WhatIsNotReadOfThemIsSaid) {
+  const StepBody curved =
+      box_with([](Sketch& sketch) { return sketch.add("IFCCYLINDRICALSURFACE(" + sketch.frame(0, 0, 0) + ",2.)"); });
+  EXPECT_TRUE(curved.closed());
+  EXPECT_TRUE(says(curved, "1 curved faces are read as flat between their edges"));
+  const StepBody odd = box_with(plane, [](Sketch& sketch) {
+    return sketch.add("IFCOFFSETCURVE2D(" + sketch.polyline({{0, 0}, {1, 0}}) + ",1.,.F.)");
+  });
+  EXPECT_FALSE(odd.closed());
+  EXPECT_TRUE(says(odd, "2 faces have edges along curves that are not read, and are left out"));
 }
 
 /// A round column of radius 0.5 and 3 m height from one seam, or of two halves; with a bore of radius 0.2 or without.
