@@ -4,6 +4,7 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <optional>
 #include <string>
 
 #include "slam/io/ros2/compression.h"
@@ -67,6 +68,23 @@ std::size_t count_messages(std::span<const std::uint8_t> records) {
     at += head_bytes + head.size;
   }
   return count;
+}
+
+Nanoseconds time_of(std::span<const std::uint8_t> message) {
+  constexpr std::uint64_t channel_and_number = 6;
+  Values values(message);
+  static_cast<void>(values.take(channel_and_number));
+  return static_cast<Nanoseconds>(values.number<std::uint64_t>());
+}
+
+Nanoseconds first_time(std::span<const std::uint8_t> records) {
+  std::optional<Nanoseconds> first;
+  for (std::size_t at = 0; at < records.size();) {
+    const auto [head, content] = record_in(records, at);
+    if (head.op == Op::message) first = std::min(first.value_or(time_of(content)), time_of(content));
+    at += head_bytes + head.size;
+  }
+  return first.value_or(0);
 }
 
 }  // namespace plumbline::slam::mcap

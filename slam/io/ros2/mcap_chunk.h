@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "slam/io/records.h"
+
 /// Chunks of an MCAP file [mcap2024]. Functions throw InputError without a mark.
 namespace plumbline::slam::mcap {
 
@@ -19,5 +21,11 @@ namespace plumbline::slam::mcap {
 
 /// How many messages these records hold.
 [[nodiscard]] std::size_t count_messages(std::span<const std::uint8_t> records);
+
+/// Time of a message, whose content this is.
+[[nodiscard]] Nanoseconds time_of(std::span<const std::uint8_t> message);
+
+/// Of the earliest message; 0 where the records hold none.
+[[nodiscard]] Nanoseconds first_time(std::span<const std::uint8_t> records);
 
 }  // namespace plumbline::slam::mcap

@@ -19,10 +19,12 @@ namespace plumbline::slam {
 
 namespace {
 
+using mcap::first_time;
 using mcap::Head;
 using mcap::head_of;
 using mcap::Op;
 using mcap::record_in;
+using mcap::time_of;
 using mcap::Values;
 using Bytes = std::vector<std::uint8_t>;
 
@@ -109,7 +111,7 @@ class McapReader final : public MessageSource {
     data_end_ = summary_at_ == 0 ? footer_at_ : summary_at_;
   }
 
-  /// False where there is none that could be used.
+  /// False where there is none that could be used, or types of channels are missing.
   bool read_summary() {
     if (summary_at_ == 0 || summary_at_ == footer_at_) return false;
     record_at_ = summary_at_;
@@ -126,7 +128,7 @@ class McapReader final : public MessageSource {
       if (head.op == Op::chunk_index) take_chunk_index(content);
       at += mcap::head_bytes + head.size;
     }
-    return !channels_.empty();
+    return !channels_.empty() && untyped_.empty();
   }
 
   /// Chunks, and messages that stand outside of any, in runs.
@@ -224,18 +226,24 @@ class McapReader final : public MessageSource {
     if (op == Op::schema) {
       const auto id = values.number<std::uint16_t>();
       schemas_[id] = short_text();
+      std::erase_if(untyped_, [&](const auto& channel) {
+        if (channel.second == id) topics_[channels_.at(channel.first)].type = plain_type(schemas_[id]);
+        return channel.second == id;
+      });
     } else if (op == Op::channel) {
       const auto id = values.number<std::uint16_t>(), schema = values.number<std::uint16_t>();
       BagTopic topic;
       topic.name = short_text();
       const std::string encoding = short_text();
-      topic.type = plain_type(schemas_[schema]);
+      if (const auto type = schemas_.find(schema); type != schemas_.end()) topic.type = plain_type(type->second);
       topic.encoding = encoding == "cdr" ? Encoding::cdr : encoding == "ros1" ? Encoding::ros1 : Encoding::unknown;
       if (const auto known = channels_.find(id); known != channels_.end()) {
         if (topics_[known->second].name != topic.name)
           throw InputError({}, "channel " + std::to_string(id) + " is of two topics");
+        if (topics_[known->second].type.empty()) topics_[known->second].type = topic.type;
         return;
       }
+      if (schema != 0 && !schemas_.contains(schema)) untyped_[id] = schema;
       channels_[id] = topics_.size();
       topics_.push_back(std::move(topic));
     }
@@ -328,24 +336,6 @@ class McapReader final : public MessageSource {
     }
   }
 
-  /// 0 where they hold no message.
-  [[nodiscard]] static Nanoseconds first_time(const Bytes& bytes) {
-    std::optional<Nanoseconds> first;
-    for (std::size_t at = 0; at < bytes.size();) {
-      const auto [head, content] = record_in(bytes, at);
-      if (head.op == Op::message) first = std::min(first.value_or(time_of(content)), time_of(content));
-      at += mcap::head_bytes + head.size;
-    }
-    return first.value_or(0);
-  }
-
-  static Nanoseconds time_of(std::span<const std::uint8_t> message) {
-    constexpr std::uint64_t channel_and_number = 6;
-    Values values(message);
-    static_cast<void>(values.take(channel_and_number));
-    return static_cast<Nanoseconds>(values.number<std::uint64_t>());
-  }
-
   [[nodiscard]] OpenBlock read_block(const Block& from) {
     OpenBlock block;
     block.bytes = whole_bytes_of(from);
@@ -380,6 +370,7 @@ class McapReader final : public MessageSource {
   std::vector<BagTopic> topics_;
   std::map<std::uint16_t, std::string> schemas_;                     ///< names of types
   std::map<std::uint16_t, std::size_t> channels_;                    ///< to topics
+  std::map<std::uint16_t, std::uint16_t> untyped_;                   ///< channels, to their schemas, not yet known
   std::map<std::uint64_t, std::set<std::uint16_t>> chunk_channels_;  ///< by where the chunk begins
   std::set<std::uint16_t> wanted_;
   std::uint64_t record_at_ = 0;  ///< of the one being read, for messages

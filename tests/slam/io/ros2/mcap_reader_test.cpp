@@ -237,5 +237,29 @@ TEST(McapReader, AFileWhoseChunksOfATopicAreAllDamagedIsRefused) {
             std::string::npos);
 }
 
+/// A summary may repeat channels and leave out their schemas.
+TEST(McapReader, TypesThatTheSummaryLeavesOutComeFromTheChunks) {
+  const Folder folder;
+  const std::string mcap = three_chunks(folder, "zstd");
+  constexpr std::size_t magic = 8, head = 9, footer = 20;
+  const std::size_t footer_at = mcap.size() - magic - head - footer;
+  std::uint64_t summary_at = 0;
+  std::memcpy(&summary_at, &mcap[footer_at + head], sizeof summary_at);
+  std::string changed = mcap.substr(0, summary_at);
+  for (std::size_t at = summary_at; at < footer_at;) {
+    std::uint64_t size = 0;
+    std::memcpy(&size, &mcap[at + 1], sizeof size);
+    if (mcap[at] != '\x03') changed += mcap.substr(at, head + size);
+    at += head + size;
+  }
+  std::string end = mcap.substr(footer_at);
+  std::fill_n(end.begin() + head + 8, 12, '\0');  // no offsets, no checksum
+  ASSERT_LT(changed.size() + end.size(), mcap.size());
+  EXPECT_EQ(read_cut(folder, changed + end).times, (std::vector<Nanoseconds>{1, 2, 3}));
+  const auto source = open_mcap(folder / "cut.mcap");
+  ASSERT_EQ(source->topics().size(), 1U);
+  EXPECT_EQ(source->topics()[0].type, open_mcap(folder / "whole.mcap")->topics()[0].type);
+}
+
 }  // namespace
 }  // namespace plumbline::slam
