@@ -15,6 +15,7 @@
 
 #include "bim/config/input_file.h"
 #include "bim/errors.h"
+#include "slam/io/packets/data_senders.h"
 #include "slam/io/packets/position_packet.h"
 #include "slam/io/packets/udp_frame.h"
 #include "slam/io/second.h"
@@ -58,6 +59,19 @@ std::optional<Link> link_of(int type) {
     default:
       return std::nullopt;
   }
+}
+
+Pcap open_capture(const std::string& path, const Mark& mark, Link& link) {
+  InputFile file = open_input_file(path);
+  if (!file.regular) throw InputError(mark, "is no file; a pcap capture would be right");
+  std::array<char, PCAP_ERRBUF_SIZE> error{};
+  Pcap capture(pcap_fopen_offline_with_tstamp_precision(file.stream.get(), PCAP_TSTAMP_PRECISION_NANO, error.data()));
+  if (capture == nullptr) throw InputError(mark, std::string("no pcap capture: ") + error.data());
+  static_cast<void>(file.stream.release());  // closed with the capture
+  const std::optional<Link> known = link_of(pcap_datalink(capture.get()));
+  if (!known) throw InputError(mark, "frames of a link type that is not known; Ethernet would be right");
+  link = *known;
+  return capture;
 }
 
 std::uint16_t ip_checksum(const Frame& frame) {
@@ -109,11 +123,15 @@ struct PcapReader::Impl {
   std::deque<Vlp16Packet> recent;  ///< the last that were read
   bool ended = false;
   std::exception_ptr broken;  ///< what ended it, to be thrown after what was read before
-  std::int64_t copies = 0, swaps = 0;
+  std::int64_t taken = 0, copies = 0, swaps = 0;
   std::set<unsigned> other_ports;  ///< destinations of other datagrams, the first few
-  bool any = false;                ///< a data packet has come
-  bool ours = false;               ///< stamps are the capture's own
-  std::int64_t first_us = 0;       ///< clock of the first packet, of the last one
+  std::set<unsigned> data_ports;   ///< those of data packets, where none is the usual one
+  unsigned port = data_port;       ///< the one that is read
+  DataSenders senders;
+  bool cut_off = false;
+  bool any = false;           ///< a data packet has come
+  bool ours = false;          ///< stamps are the capture's own
+  std::int64_t first_us = 0;  ///< clock of the first packet, of the last one
   std::int64_t last_us = 0;
   std::int64_t hours = 0;
   Nanoseconds last_stamp = 0;
@@ -123,18 +141,44 @@ struct PcapReader::Impl {
     throw InputError(mark, "frame " + std::to_string(frame) + ": " + what);
   }
 
+  static std::string listed(const std::set<unsigned>& ports) {
+    std::string list;
+    for (const unsigned one : ports) list += (list.empty() ? "" : ", ") + std::to_string(one);
+    return list;
+  }
+
   [[noreturn]] void fail_empty() const {
-    std::string ports;
-    for (const unsigned port : other_ports) ports += (ports.empty() ? "" : ", ") + std::to_string(port);
     throw InputError(mark, "no Velodyne data packets (UDP port 2368) in the capture" +
-                               (ports.empty() ? "" : "; there is traffic to port " + ports));
+                               (data_ports.size() > 1
+                                    ? "; there are data packets to ports " + listed(data_ports) + ": keep one of them"
+                                : other_ports.empty() ? ""
+                                                      : "; there is traffic to port " + listed(other_ports)));
+  }
+
+  /// Takes the port that alone gets data packets, where nothing comes to the usual one.
+  void find_port(const std::string& path) {
+    constexpr std::size_t most_ports = 4;
+    Link link_again{};
+    const Pcap again = open_capture(path, mark, link_again);
+    pcap_pkthdr* header = nullptr;
+    const std::uint8_t* bytes = nullptr;
+    while (data_ports.size() < most_ports && pcap_next_ex(again.get(), &header, &bytes) == 1) {
+      const std::optional<UdpDatagram> datagram = find_udp({bytes, header->caplen}, link);
+      if (!datagram) continue;
+      if (datagram->port == data_port) {
+        data_ports.clear();
+        return;
+      }
+      if (is_velodyne_data(*datagram)) data_ports.insert(datagram->port);
+    }
+    if (data_ports.size() == 1) port = *data_ports.begin();
   }
 
   /// Data payload of a frame, or nothing where the frame is something else.
   std::optional<std::span<const std::uint8_t>> data_payload(std::span<const std::uint8_t> frame) {
     const std::optional<UdpDatagram> datagram = find_udp(frame, link);
     if (!datagram) return std::nullopt;
-    if (datagram->port == data_port) return datagram->payload;
+    if (senders.take(*datagram, port)) return datagram->payload;
     if (datagram->port != position_port && other_ports.size() < 4) other_ports.insert(datagram->port);
     return std::nullopt;
   }
@@ -153,9 +197,13 @@ struct PcapReader::Impl {
       std::copy_n(payload->begin(), out.packet.payload.size(), out.packet.payload.begin());
       if (header->ts.tv_sec < 0 || header->ts.tv_sec > 4'500'000'000) fail(frames, "its time of capture is no time");
       out.captured = std::int64_t{header->ts.tv_sec} * second_ns + header->ts.tv_usec;
+      ++taken;
       return true;
     }
-    if (status == PCAP_ERROR) throw InputError(mark, std::string("damaged capture: ") + pcap_geterr(capture.get()));
+    if (status != PCAP_ERROR) return false;
+    const std::string what = pcap_geterr(capture.get());
+    cut_off = taken > 0 && what.starts_with("truncated");
+    if (!cut_off) throw InputError(mark, "damaged capture: " + what);
     return false;
   }
 
@@ -226,16 +274,8 @@ struct PcapReader::Impl {
 
 PcapReader::PcapReader(const std::string& path) : impl_(std::make_unique<Impl>()) {
   impl_->mark = {path, 0, 0};
-  InputFile file = open_input_file(path);
-  if (!file.regular) throw InputError(impl_->mark, "is no file; a pcap capture would be right");
-  std::array<char, PCAP_ERRBUF_SIZE> error{};
-  impl_->capture.reset(
-      pcap_fopen_offline_with_tstamp_precision(file.stream.get(), PCAP_TSTAMP_PRECISION_NANO, error.data()));
-  if (impl_->capture != nullptr) static_cast<void>(file.stream.release());  // closed with the capture
-  if (impl_->capture == nullptr) throw InputError(impl_->mark, std::string("no pcap capture: ") + error.data());
-  const std::optional<Link> link = link_of(pcap_datalink(impl_->capture.get()));
-  if (!link) throw InputError(impl_->mark, "frames of a link type that is not known; Ethernet would be right");
-  impl_->link = *link;
+  impl_->capture = open_capture(path, impl_->mark, impl_->link);
+  impl_->find_port(path);
 }
 
 PcapReader::~PcapReader() = default;
@@ -246,8 +286,18 @@ std::vector<std::string> PcapReader::left_out() const {
   std::vector<std::string> said;
   if (impl_->copies > 0) said.push_back(std::to_string(impl_->copies) + " packets left out: copies of others");
   if (impl_->swaps > 0) said.push_back(std::to_string(impl_->swaps) + " packets that came late put in their order");
+  for (std::string& other : impl_->senders.left_out()) said.push_back(std::move(other));
+  if (impl_->cut_off) said.emplace_back("the capture is cut off; read as far as it is whole");
   return said;
 }
+
+std::vector<std::string> PcapReader::assumed() const {
+  if (impl_->port == data_port) return {};
+  const std::string port = std::to_string(impl_->port);
+  return {"no data packets come to port 2368; those to port " + port + " are read"};
+}
+
+bool PcapReader::is_cut_off() const { return impl_->cut_off; }
 
 bool PcapReader::next(Vlp16Packet& packet) {
   impl_->look_ahead();

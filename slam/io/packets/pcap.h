@@ -10,7 +10,8 @@
 
 namespace plumbline::slam {
 
-/// Reads the Velodyne data packets (UDP port 2368 over IPv4) of a capture one by one, in bounded memory. Position
+/// Reads the Velodyne data packets (UDP over IPv4) of a capture one by one, in bounded memory: those to port 2368 or,
+/// where nothing comes there, to the one port that gets such packets; of several LiDARs those of the first. Position
 /// packets and other traffic are left out. pcap and pcapng; Ethernet with or without VLAN tags, Linux cooked and raw IP
 /// frames. Stamps: a capture of PcapWriter gives back its own, to the nanosecond; any other starts at 0 and counts the
 /// packets' own microseconds, across full hours.
@@ -23,15 +24,20 @@ class PcapReader {
   PcapReader& operator=(const PcapReader&) = delete;
 
   /// The next data packet; false at the end. A copy of one just before is left out, and one that comes up to three
-  /// packets late is put in its order. Throws InputError, with the packet's number in the file, where the capture
-  /// is cut off or damaged, a data packet is short or its flags or product are not those of a known Velodyne LiDAR, its
-  /// time goes back or leaps by more than `max_gap`, or the end comes without any data packet.
+  /// packets late is put in its order. A capture that is cut off after its first data packet ends there. Throws
+  /// InputError, with the packet's number in the file, where the capture is damaged otherwise, a data packet is short
+  /// or its flags or product are not those of a known Velodyne LiDAR, its time goes back or leaps by more than
+  /// `max_gap`, or the end comes without any data packet.
   [[nodiscard]] bool next(Vlp16Packet& packet);
   /// Time of the first packet on the clock of the computer that captured it; 0 for a capture of PcapWriter.
   [[nodiscard]] Nanoseconds origin() const;
 
-  /// Of copies and late packets so far, a sentence each.
+  /// Of copies, late packets, other LiDARs and a cut so far, a sentence each.
   [[nodiscard]] std::vector<std::string> left_out() const;
+  /// Of a port that is not the usual one.
+  [[nodiscard]] std::vector<std::string> assumed() const;
+  /// Whether the capture ended within a packet.
+  [[nodiscard]] bool is_cut_off() const;
 
   /// A robot may be kidnapped for a minute; the sensor's own clock resolves gaps of up to half an hour.
   static constexpr Nanoseconds max_gap = 120'000'000'000;

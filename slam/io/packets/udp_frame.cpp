@@ -56,7 +56,9 @@ std::optional<UdpDatagram> find_udp(Bytes frame, Link link) {
   const Bytes udp = ip->subspan(header);
   const std::size_t length = big16(&udp[4]);
   if (length < udp_bytes) return std::nullopt;
-  return UdpDatagram{big16(&udp[2]), udp.subspan(udp_bytes, std::min(length, udp.size()) - udp_bytes)};
+  const std::uint32_t source = (big16(&(*ip)[12]) << 16U) | big16(&(*ip)[14]);
+  return UdpDatagram{source, big16(&udp[0]), big16(&udp[2]),
+                     udp.subspan(udp_bytes, std::min(length, udp.size()) - udp_bytes)};
 }
 
 }  // namespace plumbline::slam

@@ -12,6 +12,8 @@ enum class Link { ethernet, linux_cooked, linux_cooked_2, raw_ip };
 
 /// A UDP datagram inside a captured frame.
 struct UdpDatagram {
+  std::uint32_t source = 0;               ///< IPv4 address of the sender
+  unsigned source_port = 0;               ///< and its port
   unsigned port = 0;                      ///< destination
   std::span<const std::uint8_t> payload;  ///< as far as it was captured
 };

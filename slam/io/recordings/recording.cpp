@@ -80,6 +80,8 @@ class PacketRecording final : public Recording {
     return said;
   }
 
+  [[nodiscard]] std::vector<std::string> assumed() const override { return pcap_.assumed(); }
+
   [[nodiscard]] bool next(SensorFrame& frame) override {
     SensorFrame out;
     do {
@@ -127,7 +129,11 @@ class PacketRecording final : public Recording {
   }
 
   bool next_packet(Vlp16Packet& packet) {
-    if (ahead_.empty() && !pcap_.next(packet)) return false;
+    if (ahead_.empty() && !pcap_.next(packet)) {
+      // The digest of a simulated walk is that of the whole.
+      if (info_.walk && pcap_.is_cut_off()) throw InputError(mark_, "damaged capture: truncated");
+      return false;
+    }
     if (!ahead_.empty()) {
       packet = ahead_.front();
       ahead_.pop_front();

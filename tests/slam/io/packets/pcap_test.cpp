@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 
 #include "bim/errors.h"
 #include "tests/data.h"
@@ -40,6 +41,35 @@ std::vector<Vlp16Packet> some_packets() {
     packets.push_back(encode_packet(3'599'999'000'123 + p * 24 * vlp16::firing_period_ns, firings));
   }
   return packets;
+}
+
+/// All that is read of a capture and said of it, a line each.
+struct Read {
+  std::vector<Vlp16Packet> packets;
+  std::string said, assumed;
+};
+
+Read all_of(const std::string& path) {
+  PcapReader reader(path);
+  Read read;
+  for (Vlp16Packet packet; reader.next(packet);) read.packets.push_back(packet);
+  for (const std::string& line : reader.left_out()) read.said += line + "\n";
+  for (const std::string& line : reader.assumed()) read.assumed += line + "\n";
+  return read;
+}
+
+/// Changes the frames of the data packets of a capture of ours, each with its number.
+template <class Change>
+void change_data_frames(const std::string& path, Change&& change) {
+  std::ifstream in(path, std::ios::binary);
+  std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  std::size_t number = 0;
+  for (std::size_t at = 24; at < bytes.size();) {
+    const std::size_t size = at + 16 + 1248 <= bytes.size() && bytes[at + 8] == '\xe0' ? 1248 : 554;
+    if (size == 1248) change(number++, &bytes[at + 16]);
+    at += 16 + size;
+  }
+  std::ofstream(path, std::ios::binary) << bytes;
 }
 
 TEST_F(PcapTest, GivesBackWhatWasWritten) {
@@ -165,14 +195,73 @@ TEST_F(PcapTest, RefusesWhatIsNoCapture) {
   EXPECT_THROW((void)read_pcap(file("none.pcap")), InputError);
 }
 
-TEST_F(PcapTest, RefusesACaptureCutOffAnywhere) {
+TEST_F(PcapTest, RefusesACaptureCutOffBeforeItsFirstDataPacket) {
   write_pcap(file("whole.pcap"), some_packets());
-  for (const std::uintmax_t size :
-       {std::uintmax_t{10}, std::uintmax_t{30}, std::uintmax_t{700}, std::uintmax_t{5000}}) {
+  for (const std::uintmax_t size : {std::uintmax_t{10}, std::uintmax_t{30}, std::uintmax_t{600}, std::uintmax_t{700}}) {
     fs::copy_file(file("whole.pcap"), file("cut.pcap"), fs::copy_options::overwrite_existing);
     fs::resize_file(file("cut.pcap"), size);
     EXPECT_THROW((void)read_pcap(file("cut.pcap")), InputError) << size;
   }
+}
+
+TEST_F(PcapTest, ACaptureCutOffInAPacketIsReadAsFarAsItIsWhole) {
+  write_pcap(file("whole.pcap"), some_packets());
+  for (const std::uintmax_t less : {1U, 1240U, 1250U}) {
+    fs::copy_file(file("whole.pcap"), file("cut.pcap"), fs::copy_options::overwrite_existing);
+    fs::resize_file(file("cut.pcap"), fs::file_size(file("whole.pcap")) - less);
+    EXPECT_EQ(read_pcap(file("cut.pcap")).size(), 9U) << less;
+    EXPECT_EQ(all_of(file("cut.pcap")).said, "the capture is cut off; read as far as it is whole\n");
+  }
+}
+
+TEST_F(PcapTest, ACaptureThatIsDamagedOtherwiseIsRefused) {
+  write_pcap(file("bad.pcap"), some_packets());
+  std::fstream stream(file("bad.pcap"), std::ios::in | std::ios::out | std::ios::binary);
+  stream.seekp(24 + 16 + 554 + 5 * (16 + 1248) + 16 + 554 + 8);  // the length of the sixth data packet
+  stream.write("\xff\xff\xff\x7f", 4);
+  stream.close();
+  EXPECT_NE(input_error([&] { (void)read_pcap(file("bad.pcap")); }).find("damaged capture"), std::string::npos);
+}
+
+TEST_F(PcapTest, OfTwoSensorsTheFirstIsReadAndTheOtherNamed) {
+  const std::vector<Vlp16Packet> first = turning_packets(40), second = turning_packets(40, 500'000);
+  std::vector<Vlp16Packet> both;
+  for (std::size_t i = 0; i < first.size(); ++i) both.insert(both.end(), {first[i], second[i]});
+  write_pcap(file("two.pcap"), both);
+  for (const std::ptrdiff_t byte : {29, 35, 37}) {  // address, port of the sender; port of the receiver
+    fs::copy_file(file("two.pcap"), file("other.pcap"), fs::copy_options::overwrite_existing);
+    change_data_frames(file("other.pcap"), [&](std::size_t k, char* frame) { frame[byte] += k % 2 == 1 ? 1 : 0; });
+    const Read read = all_of(file("other.pcap"));
+    ASSERT_EQ(read.packets.size(), first.size()) << byte;
+    for (std::size_t i = 0; i < first.size(); ++i) EXPECT_EQ(read.packets[i].payload, first[i].payload) << i;
+    EXPECT_EQ(read.said, "40 data packets left out: from 192.168.1." + std::string(byte == 29 ? "202" : "201") + ":" +
+                             (byte == 35 ? "2369" : "2368") + " to port " + (byte == 37 ? "2369" : "2368") +
+                             "; those from 192.168.1.201:2368 to port 2368 are read\n");
+  }
+}
+
+TEST_F(PcapTest, APortThatAloneGetsDataPacketsIsTaken) {
+  const std::vector<Vlp16Packet> packets = turning_packets(40);
+  write_pcap(file("port.pcap"), packets);
+  const auto send_to = [&](int first, int second) {
+    change_data_frames(file("port.pcap"), [&](std::size_t k, char* frame) {
+      const int port = k % 2 == 0 ? first : second;
+      frame[36] = static_cast<char>(port >> 8);
+      frame[37] = static_cast<char>(port);
+    });
+  };
+  send_to(2370, 2370);
+  EXPECT_EQ(read_pcap(file("port.pcap")).size(), packets.size());
+  const Read read = all_of(file("port.pcap"));
+  EXPECT_EQ(read.said, "");
+  EXPECT_EQ(read.assumed, "no data packets come to port 2368; those to port 2370 are read\n");
+  send_to(2370, 2371);
+  EXPECT_NE(input_error([&] { (void)read_pcap(file("port.pcap")); }).find("data packets to ports 2370, 2371"),
+            std::string::npos);
+  send_to(2370, 2370);
+  change_data_frames(file("port.pcap"), [](std::size_t, char* frame) { frame[42 + 1205] = 0x41; });
+  EXPECT_NE(input_error([&] { (void)read_pcap(file("port.pcap")); }).find("there is traffic to port 2370"),
+            std::string::npos);
 }
 
 TEST_F(PcapTest, UnwritablePlaceIsAnEnvironmentError) {

@@ -27,6 +27,8 @@ Bytes joined(Bytes head, const Bytes& tail) {
 void expect_found(const Bytes& frame, Link link) {
   const auto datagram = find_udp(frame, link);
   ASSERT_TRUE(datagram.has_value());
+  EXPECT_EQ(datagram->source, 0x0a000001U);
+  EXPECT_EQ(datagram->source_port, 0x1234U);
   EXPECT_EQ(datagram->port, 2368U);
   EXPECT_EQ(Bytes(datagram->payload.begin(), datagram->payload.end()), (Bytes{7, 8, 9}));
 }

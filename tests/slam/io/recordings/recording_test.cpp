@@ -333,7 +333,27 @@ TEST_F(RecordingTest, NamesWhatIsWrongWithPackets) {
   write_pcap(bad, turning_packets(40));
   expect_complaint(bad, bad, "holds 40 data packets; one scan needs 76");
   fs::resize_file(bad, 24 + 20 * 1264 + 700);
-  expect_complaint(bad, bad, "damaged capture: truncated");
+  expect_complaint(bad, bad, "holds 18 data packets; one scan needs 76");
+}
+
+TEST_F(RecordingTest, ACutOffCaptureIsReadUnlessItsDigestIsKnown) {
+  for (const bool simulated : {false, true}) {
+    RecordingInfo info;
+    if (simulated) info.walk = "0123456789abcdef";
+    const std::string dir = path(simulated ? "simulated" : "real");
+    fs::create_directory(dir);
+    static_cast<void>(write_three(dir, info));
+    const std::string pcap = dir + "/lidar.pcap";
+    fs::resize_file(pcap, fs::file_size(pcap) - 1);
+    const auto recording = open_recording(dir, &info);
+    const std::string complaint = input_error([&] {
+      int scans = 0;
+      for (SensorFrame frame; recording->next(frame);) ++scans;
+      EXPECT_EQ(scans, 2);
+      EXPECT_EQ(recording->left_out(), std::vector<std::string>{"the capture is cut off; read as far as it is whole"});
+    });
+    EXPECT_EQ(complaint, simulated ? pcap + ": damaged capture: truncated" : "no error");
+  }
 }
 
 TEST_F(RecordingTest, NamesWhatIsWrongWithTheFilesBesides) {
