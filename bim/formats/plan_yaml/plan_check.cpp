@@ -141,6 +141,14 @@ void check_heights(const PlanFile& plan, const Places& places) {
   }
 }
 
+/// Of a storey and its copies the lowest; the storey itself before its copies.
+const PlanStoreyEntry& lowest_of_copies(const PlanFile& plan, const PlanStoreyEntry& storey) {
+  const PlanStoreyEntry* lowest = &storey;
+  for (const PlanStoreyEntry& other : plan.storeys)
+    if (other.copy_of == storey.id && storey_height(plan, other) < storey_height(plan, *lowest)) lowest = &other;
+  return *lowest;
+}
+
 void check_wall(const PlanFile& plan, std::size_t i, const Places& places) {
   const PlanWallEntry& wall = plan.walls[i];
   const std::size_t storey = refer(places.storeys, wall.storey, "storey", places.value("walls", i, "storey"));
@@ -148,11 +156,13 @@ void check_wall(const PlanFile& plan, std::size_t i, const Places& places) {
     throw InputError(places.value("walls", i, "b"), "wall " + in_quotes(wall.id) +
                                                         " has zero length; a and b must lie at least " +
                                                         metres(plan_length_min_m) + " apart");
-  const double height = storey_height(plan, plan.storeys[storey]);
+  const PlanStoreyEntry& lowest = lowest_of_copies(plan, plan.storeys[storey]);
+  const double height = storey_height(plan, lowest);
+  const std::string which =
+      lowest.id == wall.storey ? "its storey, " : in_quotes(lowest.id) + ", the copy of its storey, ";
   if (wall.height_m.value_or(height) > height + touching_m)
-    throw InputError(places.value("walls", i, "height_m"), "wall " + in_quotes(wall.id) +
-                                                               " is higher than its storey, " + metres(height) +
-                                                               "; it must fit below the ceiling");
+    throw InputError(places.value("walls", i, "height_m"), "wall " + in_quotes(wall.id) + " is higher than " + which +
+                                                               metres(height) + "; it must fit below the ceiling");
 }
 
 void check_opening(const PlanFile& plan, std::size_t i, const Places& places) {
@@ -168,11 +178,14 @@ void check_opening(const PlanFile& plan, std::size_t i, const Places& places) {
   if (opening.s_m < half - touching_m || opening.s_m > length - half + touching_m)
     throw InputError(at("s_m"), who + " reaches beyond its wall " + in_quotes(wall.id) + "; s_m must lie between " +
                                     metres(half) + " and " + metres(length - half));
-  const int storey = find_entry(plan.storeys, wall.storey);
-  const double height = wall.height_m.value_or(storey_height(plan, plan.storeys[static_cast<std::size_t>(storey)]));
+  const auto storey = static_cast<std::size_t>(find_entry(plan.storeys, wall.storey));
+  const PlanStoreyEntry& lowest = lowest_of_copies(plan, plan.storeys[storey]);
+  const double height = wall.height_m.value_or(storey_height(plan, lowest));
+  const std::string where =
+      wall.height_m || lowest.id == wall.storey ? "" : " on " + in_quotes(lowest.id) + ", the copy of its storey";
   if (opening.sill_m + opening.height_m > height + touching_m)
     throw InputError(at("height_m"), who + " ends at " + metres(opening.sill_m + opening.height_m) + ", its wall " +
-                                         in_quotes(wall.id) + " is only " + metres(height) + " high");
+                                         in_quotes(wall.id) + " is only " + metres(height) + " high" + where);
   if (opening.kind != OpeningKind::door && opening.leaf.value_or(Leaf::none) != Leaf::none)
     throw InputError(at("leaf"), who + " is not a door; only a door has a leaf");
 }

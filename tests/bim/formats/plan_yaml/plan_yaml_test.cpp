@@ -201,6 +201,20 @@ TEST(PlanYamlErrors, Storeys) {
                     "6", "copy itself");
 }
 
+TEST(PlanYamlErrors, WallsAndOpeningsFitTheLowestCopyOfTheirStorey) {
+  const auto copied = [](const std::string& from, const std::string& to) {
+    std::string text = with(from, to);
+    const std::string storey = "height_m: 3}\n";
+    return text.insert(text.find(storey) + storey.size(),
+                       "  - {id: low, elevation_m: 3.3, height_m: 2.4, copy_of: ground}\n");
+  };
+  EXPECT_EQ(error_of(copied("b: [8, 0],", "b: [8, 0], height_m: 2.4,")), "no error");
+  expect_plan_error(copied("b: [8, 0],", "b: [8, 0], height_m: 2.9,"), "7",
+                    "wall 'south' is higher than 'low', the copy of its storey, 2.4 m");
+  expect_plan_error(copied("width_m: 1, height_m: 2.1}", "width_m: 1, height_m: 2.8}"), "13",
+                    "its wall 'middle' is only 2.4 m high on 'low', the copy of its storey");
+}
+
 TEST(PlanYamlErrors, TooManyCorners) {
   std::string corners = "polygon: [";
   for (int i = 0; i <= 2000; ++i) corners += "[" + std::to_string(i) + ", 0], ";
