@@ -12,16 +12,22 @@ namespace plumbline::bim {
 
 /// When a mesh is taken as drawn in another unit than metres, or with y up.
 struct MeshAxesConfig {
-  BuildingSizes building;          ///< larger than these: another unit, in which they hold, or refused
+  BuildingSizes building;          ///< larger or higher than these: another unit, in which they hold
   double furthest_m = 1e5;         ///< coordinates beyond this are refused
   double level = 0.98;             ///< component of a normal from which on a face lies across an axis
   double most_height_share = 0.7;  ///< with y up its extent along y is at most this share of the others
   double least_area_ratio = 1.5;   ///< and this many times more of its faces lie across y than across z
+  double shortest_room_m = 2.0;    ///< a mesh whose storeys are of usual height may be this short
+  double lowest_storey_m = 2.2, highest_storey_m = 6.0, usual_storey_m = 3.0;
+  double thinnest_wall_m = 0.05, thickest_wall_m = 0.6;
+  double least_floor_share = 0.3;  ///< of the area of the largest floor, from which on a level is a floor
+  double least_wall_share = 0.02;  ///< of the faces across an axis, from which on one is of a wall
 };
 
 /// Turns the parts to z up and scales them to metres, in place. Y counts as up in formats that say nothing of it and
-/// where extents and faces both speak for it; a mesh too large for metres is in the first of millimetres, centimetres,
-/// inches and feet that make it a building. Returns what was assumed; throws InputError when no unit fits.
+/// where extents and faces both speak for it. A mesh too large or too high for metres is in the unit of millimetres,
+/// centimetres, inches and feet that makes it a building; of several in that whose walls and storeys are usual ones.
+/// Returns what was assumed; throws InputError when it is too large and no unit fits.
 std::vector<Warning> settle_axes(std::vector<MeshPart>& parts, const std::string& path,
                                  const MeshAxesConfig& config = {});
 

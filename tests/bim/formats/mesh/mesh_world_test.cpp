@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <tuple>
 
 #include "bim/errors.h"
 #include "bim/formats/plan_yaml/plan_yaml.h"
@@ -167,6 +169,76 @@ TEST(MeshAxes, FeetAreToldWhereNoSmallerUnitFits) {
   const Building world = read_mesh_world(hall(200, 100, 8, in_feet), "a.obj");
   EXPECT_EQ(kinds_of(world), Kinds({"no_plan", "assumed_unit"}));
   EXPECT_NEAR(world.storeys.front().height_m, 8.0, 1e-3);
+}
+
+TEST(MeshAxes, AMeshTooHighForMetresIsInASmallerUnit) {
+  for (const auto& [per_m, x, y] : {std::tuple(100.0, 3.8, 3.5), {1.0 / 0.0254, 9.5, 7.0}}) {
+    const auto scaled = [per = per_m](const Eigen::Vector3d& p) { return Eigen::Vector3d(per * p); };
+    const Building small = read_mesh_world(hall(x, y, 2.7, scaled), "a.obj");
+    EXPECT_EQ(kinds_of(small), Kinds({"no_plan", "assumed_unit"})) << per_m;
+    EXPECT_NEAR(small.storeys.front().height_m, 2.7, 0.01) << per_m;
+  }
+}
+
+/// Neither a house nor anything else: what it says stays.
+TEST(MeshAxes, AMeshTooHighForAnyUnitStaysInMetres) {
+  const auto as_it_is = [](const Eigen::Vector3d& p) { return p; };
+  const Building mast = read_mesh_world(hall(4, 4, 130, as_it_is), "a.obj");
+  EXPECT_EQ(kinds_of(mast), Kinds({"no_plan", "assumed_unit"}));
+  EXPECT_NEAR(mast.storeys.front().height_m, 130.0, 1e-3);
+}
+
+/// Floors and outer walls as boxes, in units of which one is `per_m` of a metre.
+std::string storeys_of(double x, double y, double storey, int storeys, double per_m) {
+  std::string text;
+  int corners = 0;
+  const auto box = [&](const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
+    for (int i = 0; i < 8; ++i) {
+      const Eigen::Vector3d p(i & 1 ? high.x() : low.x(), i & 2 ? high.y() : low.y(), i & 4 ? high.z() : low.z());
+      text += "v " + std::to_string(per_m * p.x()) + " " + std::to_string(per_m * p.y()) + " " +
+              std::to_string(per_m * p.z()) + "\n";
+    }
+    for (const auto& f :
+         {std::array{1, 3, 4, 2}, {5, 6, 8, 7}, {1, 2, 6, 5}, {3, 7, 8, 4}, {1, 5, 7, 3}, {2, 4, 8, 6}}) {
+      text += "f";
+      for (const int k : f) text += " " + std::to_string(corners + k);
+      text += "\n";
+    }
+    corners += 8;
+  };
+  const double top = storey * storeys;
+  for (int i = 0; i <= storeys; ++i) box({0, 0, storey * i - 0.2}, {x, y, storey * i});
+  box({0, 0, 0}, {0.2, y, top});
+  box({x - 0.2, 0, 0}, {x, y, top});
+  box({0, 0, 0}, {x, 0.2, top});
+  box({0, y - 0.2, 0}, {x, y, top});
+  return text;
+}
+
+/// In millimetres it would be a building, too, of storeys of 0.3 m.
+TEST(MeshAxes, StoreysTellTheUnitWhereSeveralFit) {
+  for (const double per_m : {100.0, 1000.0}) {
+    const Building world = read_mesh_world(storeys_of(60, 40, 3, 8, per_m), "a.obj");
+    double height = 0.0;
+    for (const Eigen::Vector3d& p : build_mesh(world).vertices) height = std::max(height, p.z());
+    EXPECT_NEAR(height, 24.0, 0.01) << per_m;
+  }
+}
+
+/// Its walls speak for centimetres, its height for millimetres.
+TEST(MeshAxes, WallsTellTheUnitOfAHighHallAndTheOthersAreNamed) {
+  const Building world = read_mesh_world(storeys_of(60, 40, 24, 1, 100.0), "a.obj");
+  const auto said = std::find_if(world.warnings.begin(), world.warnings.end(),
+                                 [](const Warning& w) { return w.kind == "assumed_unit"; });
+  ASSERT_NE(said, world.warnings.end());
+  EXPECT_NE(said->text.find("in the unit centimetre; in the unit inch or millimetre it "), std::string::npos)
+      << said->text;
+  EXPECT_NE(said->text.find("would be a building as well"), std::string::npos) << said->text;
+}
+
+TEST(MeshAxes, ATowerOfUsualStoreysStaysInMetres) {
+  const Building tower = read_mesh_world(storeys_of(40, 40, 3, 50, 1.0), "a.obj");
+  EXPECT_EQ(kinds_of(tower), Kinds({"no_plan"}));
 }
 
 TEST(MeshFile, NoTrianglesOrNoFloorIsSaid) {
