@@ -109,7 +109,8 @@ class TrafficBuilder {
       else
         building_.walls.push_back(std::move(wall));
     }
-    if (building_.walls.size() == first_wall_) warn(level.name, "no_walls", "the level has no walls");
+    first_lintel_ = building_.walls.size();
+    if (first_lintel_ == first_wall_) warn(level.name, "no_walls", "the level has no walls");
   }
 
   void add_opening(std::string id, OpeningKind kind, int wall, double s_m, double width_m) {
@@ -136,20 +137,61 @@ class TrafficBuilder {
         warn(id, "left_out", "the door has no width");
         continue;
       }
-      if (const std::optional<WallSpan> span = span_in_walls(door))
-        add_opening(id, OpeningKind::door, span->wall, 0.5 * (span->s0 + span->s1), span->s1 - span->s0);
-      else
+      const std::vector<WallSpan> spans = spans_in_walls(door);
+      if (spans.empty())
         add_filled_gap(id, OpeningKind::door, door);
+      else
+        open_walls(id, door, spans);
     }
   }
 
-  std::optional<WallSpan> span_in_walls(const Segment& door) const {
+  /// An opening in each of the walls.
+  void open_walls(const std::string& id, const Segment& door, const std::vector<WallSpan>& spans) {
+    double width = 0.0;
+    for (std::size_t k = 0; k < spans.size(); ++k) {
+      const WallSpan& span = spans[k];
+      width += span.s1 - span.s0;
+      add_opening(k == 0 ? id : id + "/" + std::to_string(k + 1), OpeningKind::door, span.wall,
+                  0.5 * (span.s0 + span.s1), span.s1 - span.s0);
+    }
+    const auto in_cm = [](double m) { return format_number(0.01 * std::round(100.0 * m)) + " m"; };
+    if (width < door.length() - config_.touching_m)
+      warn(id, "left_out",
+           "only " + in_cm(width) + " of the door's " + in_cm(door.length()) + " lie in walls; the rest is left out");
+  }
+
+  /// Parts of the door, the longest first, that lie in walls in line; none where they are less than half of it.
+  std::vector<WallSpan> spans_in_walls(const Segment& door) const {
+    std::vector<WallSpan> found, spans;
     for (std::size_t w = first_wall_; w < building_.walls.size(); ++w) {
       const Wall& wall = building_.walls[w];
-      if (const auto span = overlap_in_line({wall.a, wall.b}, door, config_))
-        return WallSpan{static_cast<int>(w), span->first, span->second};
+      const auto span = overlap_in_line({wall.a, wall.b}, door, config_);
+      // The wall over a gap is another door's, unless both are drawn over each other.
+      const double least_m = w < first_lintel_ ? config_.least_span_m : config_.least_in_walls * door.length();
+      if (span && span->second - span->first >= least_m)
+        found.push_back({static_cast<int>(w), span->first, span->second});
     }
-    return std::nullopt;
+    std::stable_sort(found.begin(), found.end(),
+                     [](const WallSpan& a, const WallSpan& b) { return a.s1 - a.s0 > b.s1 - b.s0; });
+    const Eigen::Vector2d along = (door.b - door.a) / door.length();
+    const auto on_door = [&](const WallSpan& span) {
+      const Wall& wall = building_.walls[static_cast<std::size_t>(span.wall)];
+      return std::minmax<double>({along.dot(wall.a + span.s0 * wall.direction() - door.a),
+                                  along.dot(wall.a + span.s1 * wall.direction() - door.a)});
+    };
+    double width = 0.0;
+    for (const WallSpan& span : found) {
+      // A second wall along the same part of the door stays closed.
+      const auto [from, to] = on_door(span);
+      const bool taken = std::any_of(spans.begin(), spans.end(), [&, from = from, to = to](const WallSpan& other) {
+        const auto [other_from, other_to] = on_door(other);
+        return std::min(to, other_to) - std::max(from, other_from) > 0.5 * (to - from);
+      });
+      if (taken) continue;
+      spans.push_back(span);
+      width += span.s1 - span.s0;
+    }
+    return width < config_.least_in_walls * door.length() ? std::vector<WallSpan>{} : spans;
   }
 
   /// A wall over the gap whose whole width is open up to the door's head, so that a lintel remains.
@@ -263,7 +305,8 @@ class TrafficBuilder {
   Building building_;
   int storey_ = 0;
   std::size_t first_wall_ = 0;  ///< of the level at hand
-  Region2 floor_;               ///< of the level at hand
+  std::size_t first_lintel_ = 0;
+  Region2 floor_;  ///< of the level at hand
 };
 
 }  // namespace

@@ -82,7 +82,7 @@ std::optional<std::pair<double, double>> overlap_in_line(const Segment& wall, co
     return std::nullopt;
   const double sa = e.dot(door.a - wall.a), sb = e.dot(door.b - wall.a);
   const double s0 = std::max(0.0, std::min(sa, sb)), s1 = std::min(wall.length(), std::max(sa, sb));
-  if (s1 - s0 < 0.5 * door.length()) return std::nullopt;
+  if (s1 - s0 < config.least_span_m) return std::nullopt;
   return std::pair(s0, s1);
 }
 

@@ -23,7 +23,7 @@ struct WallSpan {
   double s0 = 0.0, s1 = 0.0;
 };
 
-/// Where a door lies along a wall it is in line with, from the wall's a, when at least half of the door does.
+/// Where a door, or a part of it, lies along a wall it is in line with, from the wall's a.
 [[nodiscard]] std::optional<std::pair<double, double>> overlap_in_line(const Segment& wall, const Segment& door,
                                                                        const TrafficEditorConfig& config);
 

@@ -125,6 +125,32 @@ TEST(TrafficEditor, ShortEdgesDoNotOpenARoom) {
   EXPECT_EQ(read(text).rooms.size(), 2u);
 }
 
+/// A door over the vertex between two walls in line, in the middle of both and nearly all in one.
+TEST(TrafficEditor, ADoorOverTheVertexOfTwoWallsKeepsItsWidth) {
+  for (const double vertex : {120.0, 124.0, 128.0}) {
+    std::string text = replaced(two_rooms(), "- [1, 6, {}]\n      - [7, 4, {}]", "- [1, 13, {}]\n      - [13, 4, {}]");
+    text = replaced(text, "      - [120, 110, 0, kitchen]\n",
+                    "      - [120, 110, 0, kitchen]\n      - [140, " + std::to_string(vertex) + ", 0, \"\"]\n");
+    const Building building = read(text);
+    double width = 0.0;
+    for (const Opening& opening : building.openings)
+      if (opening.id.starts_with("L1/inner")) {
+        width += opening.width_m;
+        EXPECT_EQ((std::set<int>{opening.rooms[0], opening.rooms[1]}), (std::set<int>{0, 1})) << opening.id;
+      }
+    EXPECT_NEAR(width, 0.9, 1e-9) << vertex;
+    for (const MeshElement& element : build_mesh(building).elements) EXPECT_TRUE(element.closed) << element.id;
+  }
+}
+
+/// One that reaches beyond the end of its wall is narrower than drawn.
+TEST(TrafficEditor, ANarrowedDoorIsSaid) {
+  const std::string text = replaced(two_rooms(), "- [100, 120, 0, \"\"]", "- [100, 96, 0, \"\"]");
+  const std::string narrowed = replaced(text, "- [100, 129, 0, \"\"]", "- [100, 109, 0, \"\"]");
+  const Building building = read(narrowed);
+  EXPECT_EQ(warnings(building, "left_out"), warnings(read(two_rooms()), "left_out") + 1);
+}
+
 TEST(TrafficEditor, MetresNeedNoMeasurement) {
   std::string text = replaced(two_rooms(), "reference_image", "cartesian_meters");
   text = replaced(text, "      - [0, 2, {distance: [3, 8]}]", "      []");
