@@ -58,7 +58,7 @@ inline StepBody body_in(const std::string& text, const std::string& type = "IfcC
 }
 
 /// The body of a column whose only item is given.
-inline StepBody body_of(Sketch sketch, const std::string& item) {
+inline StepBody body_of(Sketch& sketch, const std::string& item) {
   sketch.element("IFCCOLUMN", sketch.shape(item), "$,$");
   return body_in(sketch.text());
 }
