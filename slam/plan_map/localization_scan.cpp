@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <numbers>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "bim/geometry/polygon.h"
 
@@ -14,12 +17,13 @@ namespace plumbline::slam {
 namespace {
 
 /// Height of R above the floor by the largest upward plane below the robot.
-std::optional<double> height_over_floor(const std::vector<PlaneObservation>& planes, const Eigen::Quaterniond& q_HR,
+std::optional<double> height_over_floor(const std::vector<PlaneObservation>& planes, const LocalizationScan& scan,
                                         double tilt) {
   std::optional<double> height;
   int most = 0;
   for (const PlaneObservation& plane : planes) {
-    if ((q_HR * plane.plane_R.n).z() < std::cos(tilt) || plane.plane_R.d < 0.1 || plane.points <= most) continue;
+    if ((scan.q_HR * plane.plane_R.n).z() < std::cos(tilt) || !scan.is_below(plane.plane_R) || plane.points <= most)
+      continue;
     most = plane.points;
     height = plane.plane_R.d;
   }
@@ -47,16 +51,60 @@ SlotLayout layout_of(const DeskewedScan& scan) {
   return {scan.columns * scan.rings / dealt, dealt};
 }
 
+/// Elevation of each ring, rad: the mean over some of the columns; none for a ring without returns there.
+std::vector<std::optional<double>> elevations(const DeskewedScan& scan) {
+  constexpr int most_columns = 32;
+  std::vector<std::optional<double>> all(static_cast<std::size_t>(scan.rings));
+  const Pose X_LR = scan.X_RL.inverse();
+  const int step = std::max(1, scan.columns / most_columns);
+  for (int ring = 0; ring < scan.rings; ++ring) {
+    double sum = 0.0;
+    int count = 0;
+    for (int column = 0; column < scan.columns; column += step) {
+      const auto i = static_cast<std::size_t>(column * scan.rings + ring);
+      if (scan.range_m[i] <= 0.0) continue;
+      const Eigen::Vector3d p_L = X_LR * scan.point_R[i];
+      sum += std::atan2(p_L.z(), p_L.head<2>().norm());
+      ++count;
+    }
+    if (count > 0) all[static_cast<std::size_t>(ring)] = sum / count;
+  }
+  return all;
+}
+
+/// The rings of which beams are taken in turn: those of a VLP-16 at -1, 3, 7 and 11 degrees, and whose elevations are
+/// nearest of other LiDARs.
+std::array<int, 4> beam_rings(const DeskewedScan& scan, const SlotLayout& layout) {
+  constexpr int vlp16_rings = 16;
+  std::array<int, 4> rings{};
+  for (int k = 0; k < 4; ++k) rings[static_cast<std::size_t>(k)] = layout.rings / 2 - 1 + 2 * k;
+  if (layout.rings == vlp16_rings) return rings;
+  const std::vector<std::optional<double>> known = elevations(scan);
+  for (int k = 0; k < 4; ++k) {
+    const double wanted = (4.0 * k - 1.0) * std::numbers::pi / 180.0;
+    double nearest = std::numeric_limits<double>::infinity();
+    for (int ring = 0; ring < scan.rings; ++ring) {
+      const std::optional<double>& elevation = known[static_cast<std::size_t>(ring)];
+      if (!elevation || std::abs(*elevation - wanted) >= nearest) continue;
+      nearest = std::abs(*elevation - wanted);
+      rings[static_cast<std::size_t>(k)] = ring;
+    }
+  }
+  return rings;
+}
+
 /// One beam per step of the turn; the ring changes from step to step so that sills, heads of doors and low furniture
 /// are all hit. The nearest ring with a usable return is taken.
 std::vector<Beam> pick_beams(const DeskewedScan& scan, const LocalizationScan& out,
                              const LocalizationScanConfig& config) {
   std::vector<Beam> beams;
-  const auto [columns, rings] = layout_of(scan);
+  const SlotLayout layout = layout_of(scan);
+  const auto [columns, rings] = layout;
   if (columns == 0) return beams;
+  const std::array<int, 4> in_turn = beam_rings(scan, layout);
   for (int k = 0; k < config.beams; ++k) {
     const int column = static_cast<int>(static_cast<long>(k) * columns / config.beams);
-    const int wanted = rings / 2 - 1 + 2 * (k % 4);
+    const int wanted = in_turn[static_cast<std::size_t>(k % 4)];
     for (int step = 0; step < rings; ++step) {
       const int ring = wanted + (step % 2 == 0 ? step / 2 : -(step + 1) / 2);
       if (ring < 0 || ring >= rings) continue;
@@ -121,10 +169,11 @@ std::optional<WallObservation> wall_observation(const PlaneObservation& plane, c
 
 double wall_height(const bim::Plan& plan, const LocalizationScanConfig& config) {
   // A ceiling is hit at a glance: a degree of tilt moves a hit by metres, so it is no wall. Below it lie coverings.
-  constexpr double below_m = 0.08, share = 0.1;
-  std::vector<std::pair<double, double>> heights;  // of rooms, with their areas
+  constexpr double below_m = 0.08, share = 0.1, person_m = 1.8;  // in lower ones, as ducts, no robot walks upright
+  std::vector<std::pair<double, double>> heights;                // of rooms, with their areas
   double total = 0.0;
   for (const bim::PlanRoom& room : plan.rooms) {
+    if (room.z1 - room.z0 < person_m) continue;
     heights.emplace_back(room.z1 - room.z0, std::abs(signed_area(room.polygon)));
     total += heights.back().second;
   }
@@ -146,7 +195,8 @@ LocalizationScan make_localization_scan(const DeskewedScan& scan, const std::vec
   out.q_HR = exp_so3({0.0, 0.0, -X_OR.yaw()}) * X_OR.q;
   const Eigen::Vector3d sensor_H = out.q_HR * scan.X_RL.t;
   out.sensor_H = sensor_H.head<2>();
-  const std::optional<double> height_R = height_over_floor(planes, out.q_HR, config.floor_max_tilt_rad);
+  out.sensor_R = scan.X_RL.t;
+  const std::optional<double> height_R = height_over_floor(planes, out, config.floor_max_tilt_rad);
   out.sensor_height = calibration.sensor_height_m;
   if (height_R && std::abs(*height_R + sensor_H.z() - calibration.sensor_height_m) <= height_tolerance_m)
     out.sensor_height = *height_R + sensor_H.z();

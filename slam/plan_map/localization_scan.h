@@ -94,10 +94,16 @@ struct LocalizationScan {
   Eigen::Quaterniond q_HR;                             ///< roll and pitch, from gravity
   double tilt_sigma = 0.0;                             ///< of either beyond what an IMU leaves, rad
   Eigen::Vector2d sensor_H = Eigen::Vector2d::Zero();  ///< position of L
+  Eigen::Vector3d sensor_R = Eigen::Vector3d::Zero();  ///< the same in R
   double sensor_height = 0.0;                          ///< of L above the floor, m
   std::vector<Beam> beams;                             ///< by azimuth of the scan
   BeamGrid beam_grid;
   std::vector<WallObservation> walls;  ///< in the order of the observations (largest first), at most max_walls
+
+  /// Whether a plane facing up may be the floor: R stands above it or, as the footprint, on it, and L well above.
+  [[nodiscard]] bool is_below(const Plane& plane_R) const {
+    return plane_R.d > 0.1 || (plane_R.d > -0.1 && plane_R.distance(sensor_R) > 0.15);
+  }
 };
 
 /// Gravity comes from the odometry's attitude, the height from the floor plane where one is seen, else from the

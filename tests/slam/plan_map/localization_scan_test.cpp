@@ -27,6 +27,8 @@ TEST(WallHeight, StaysBelowLowCeilings) {
   EXPECT_EQ(wall_height(plan, config), config.max_height_m);
   plan.rooms.push_back(room_of_height(2.4, 20.0));
   EXPECT_NEAR(wall_height(plan, config), 2.32, 1e-12);
+  plan.rooms.push_back(room_of_height(0.4, 500.0));  // below the floor, for pipes
+  EXPECT_NEAR(wall_height(plan, config), 2.32, 1e-12);
 }
 
 /// What a robot in the middle of a room sees; `rings`: false strips the scan of its order.
@@ -47,6 +49,37 @@ int returns_of(const BeamGrid& grid) {
   for (const BeamGridBlock& block : grid.blocks)
     for (int k = 0; k < 4; ++k) returns += block.range[k] > 0.0F ? 1 : 0;
   return returns;
+}
+
+/// A turn in a hall: rings at these elevations, in degrees.
+LocalizationScan seen_by_rings(const std::vector<double>& elevations_deg) {
+  DeskewedScan scan;
+  scan.columns = 360;
+  scan.rings = static_cast<int>(elevations_deg.size());
+  for (int column = 0; column < scan.columns; ++column)
+    for (const double elevation_deg : elevations_deg) {
+      const double azimuth = column * M_PI / 180.0, elevation = elevation_deg * M_PI / 180.0;
+      scan.point_R.emplace_back(4.0 * std::cos(azimuth), 4.0 * std::sin(azimuth), 4.0 * std::tan(elevation));
+      scan.range_m.push_back(scan.point_R.back().norm());
+    }
+  Calibration calibration;
+  calibration.sensor_height_m = 1.0;
+  return make_localization_scan(scan, {}, Pose{}, calibration, {});
+}
+
+// Whatever the LiDAR, some beams pass over low furniture.
+TEST(LocalizationScan, BeamsGoUpAsFarAsThoseOfSixteenRings) {
+  std::vector<double> vlp16, even64, hdl32;
+  for (int r = 0; r < 16; ++r) vlp16.push_back(2.0 * r - 15.0);
+  for (int r = 0; r < 64; ++r) even64.push_back(45.0 * r / 63.0 - 22.5);
+  for (int r = 0; r < 32; ++r) hdl32.push_back(4.0 / 3.0 * r - 30.67);
+  const LocalizationScan as_is = seen_by_rings(vlp16);
+  for (const auto& rings : {even64, hdl32}) {
+    const LocalizationScan seen = seen_by_rings(rings);
+    ASSERT_EQ(seen.beams.size(), as_is.beams.size());
+    for (std::size_t k = 0; k < seen.beams.size(); ++k)
+      EXPECT_NEAR(seen.beams[k].slope, as_is.beams[k].slope, 0.03) << k;
+  }
 }
 
 TEST(LocalizationScan, AScanWithoutRingsHasAsManyBeams) {
