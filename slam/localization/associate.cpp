@@ -86,7 +86,8 @@ std::vector<PlaneObservation> find_floor(const LocalizationScan& scan, const std
                                          const TrackerConfig& config) {
   std::vector<PlaneObservation> floor;
   for (const PlaneObservation& plane : planes) {
-    const bool below = plane.plane_R.d > 0.1 && (scan.q_HR * plane.plane_R.n).z() > std::cos(config.floor_max_tilt);
+    const bool below =
+        scan.is_below(plane.plane_R) && (scan.q_HR * plane.plane_R.n).z() > std::cos(config.floor_max_tilt);
     if (below && (floor.empty() || plane.points > floor.front().points)) floor.assign(1, plane);
   }
   return floor;

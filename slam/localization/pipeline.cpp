@@ -212,8 +212,12 @@ bool SGraphLocalization::is_on_floor() const {
 /// Changes to the storey whose floor the robot has reached by a stair.
 void SGraphLocalization::follow_storey() {
   if (is_on_floor()) return;
+  // The plan is compared at the height of a floor, and a history with a gap leads elsewhere.
   failed_updates_ = 0;
-  misfit_ = 0.0;  // the plan is compared at the height of a floor
+  misfit_ = 0.0;
+  monitor_.clear();
+  room_exit_.clear();
+  since_check_m_ = 0.0;
   const bim::Plan& plan = *input().plan;
   const double z_W = tracker_->feet_z() + index().X_WI.t.z();
   const Eigen::Vector2d p_W = (index().X_WI * tracker_->window().back().X_IR.t).head<2>();
@@ -226,9 +230,6 @@ void SGraphLocalization::follow_storey() {
       continue;
     storey_ = storey_of_plan(i);
     tracker_->change_storey(index().storeys[static_cast<std::size_t>(storey_)]);
-    monitor_.clear();
-    room_exit_.clear();
-    since_check_m_ = 0.0;
     return;
   }
 }

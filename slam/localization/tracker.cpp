@@ -60,14 +60,10 @@ std::optional<Eigen::Vector2d> PlanTracker::open_direction() const {
 
 // The odometry within the window is good: all of it is off alike.
 void PlanTracker::correct_along(const Eigen::Vector2d& direction_I, double off_m, double variance) {
-  const auto taken_in = [&](Eigen::Ref<Eigen::Matrix2d> P) {
-    const Eigen::Vector2d gain = P * direction_I / (direction_I.dot(P * direction_I) + variance);
-    P -= gain * (direction_I.transpose() * P);
-    return gain;
-  };
-  (void)taken_in(anchor_covariance_);
-  const Eigen::Vector2d gain = taken_in(covariance_.topLeftCorner<2, 2>());
-  const Eigen::Vector2d shift = gain * off_m;
+  anchor_covariance_ -=
+      gain_along(anchor_covariance_, direction_I, variance) * (direction_I.transpose() * anchor_covariance_);
+  const Eigen::Vector2d shift = gain_along(covariance_.topLeftCorner<2, 2>(), direction_I, variance) * off_m;
+  covariance_ = corrected_along(covariance_, direction_I, variance);
   for (TrackedPose& pose : window_) pose.X_IR.t.head<2>() += shift;
   anchor_X_IR_.t.head<2>() += shift;
 }

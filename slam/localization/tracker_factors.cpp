@@ -119,7 +119,11 @@ void add_planes(WindowProblem& problem, std::size_t i, const TrackedPose& pose, 
 
 void add_ground(WindowProblem& problem, std::size_t i, const TrackedPose& pose, const StoreyIndex& storey,
                 double standing_m, const TrackerConfig& config) {
-  const std::optional<double> ground = storey.structure->ground_below(pose.X_IR.t, standing_m + config.ground_gate_m);
+  // From above any step, also where R itself lies on the floor.
+  constexpr double least_m = 0.4;
+  const double lift = std::max(0.0, least_m - standing_m);
+  const std::optional<double> ground = storey.structure->ground_below(pose.X_IR.t + lift * Eigen::Vector3d::UnitZ(),
+                                                                      standing_m + lift + config.ground_gate_m);
   if (!ground) return;
   const double e = pose.X_IR.t.z() - standing_m - *ground;
   if (std::abs(e) > config.ground_gate_m) return;
@@ -140,6 +144,18 @@ void add_rooms(WindowProblem& problem, std::size_t i, const TrackedPose& pose, c
     const double variance = (fit + config.pair_sigma_m * config.pair_sigma_m) / std::min(a.weight, b.weight);
     problem.add(i, J, e, Eigen::VectorXd::Constant(1, std::sqrt(variance)), config.huber);
   }
+}
+
+Eigen::Vector2d gain_along(const Eigen::Matrix2d& covariance, const Eigen::Vector2d& direction, double variance) {
+  return covariance * direction / (direction.dot(covariance * direction) + variance);
+}
+
+Eigen::Matrix3d corrected_along(const Eigen::Matrix3d& covariance, const Eigen::Vector2d& direction, double variance) {
+  Eigen::Vector3d gain = Eigen::Vector3d::Zero();
+  gain.head<2>() = gain_along(covariance.topLeftCorner<2, 2>(), direction, variance);
+  const Eigen::RowVector3d H(direction.x(), direction.y(), 0.0);
+  const Eigen::Matrix3d kept = Eigen::Matrix3d::Identity() - gain * H;
+  return kept * covariance * kept.transpose() + variance * gain * gain.transpose();
 }
 
 Vector6d odometry_sigmas(const Pose& X_ij, double waited_s, const TrackerConfig& config) {

@@ -53,6 +53,12 @@ void add_ground(WindowProblem& problem, std::size_t i, const TrackedPose& pose, 
 /// walls, as seen and as planned. A range bias shifts both walls alike and cancels.
 void add_rooms(WindowProblem& problem, std::size_t i, const TrackedPose& pose, const StoreyIndex& storey,
                const TrackerConfig& config);
+/// Kalman gain of a measurement of the position along a direction.
+[[nodiscard]] Eigen::Vector2d gain_along(const Eigen::Matrix2d& covariance, const Eigen::Vector2d& direction,
+                                         double variance);
+/// Covariance of (x, y, yaw) after that measurement, which leaves the yaw as it is (Joseph's form, for any gain).
+[[nodiscard]] Eigen::Matrix3d corrected_along(const Eigen::Matrix3d& covariance, const Eigen::Vector2d& direction,
+                                              double variance);
 /// Of a step, and of the time that the robot stood before its end.
 [[nodiscard]] Vector6d odometry_sigmas(const Pose& X_ij, double waited_s, const TrackerConfig& config);
 

@@ -122,5 +122,34 @@ TEST_F(Recordings, AlongACorridorScansWithoutRingsAreTracked) {
   }
 }
 
+// As by odometry of base_footprint. A slab has an underside, too, onto which a pose must not sink.
+TEST_F(Recordings, ARobotWhoseFrameLiesOnTheFloorStaysOnIt) {
+  std::string scenario = read_file(input());
+  scenario.replace(scenario.find("duration_s: 5"), 13, "duration_s: 14");
+  write_file(folder_ / "walk.yaml", scenario);
+  write_file(folder_ / "short.plan.yaml", read_file(plan()));
+  const std::string good = folder_ / "good";
+  ASSERT_EQ(plumbline({"simulate", folder_ / "walk.yaml", "-o", good}).code, 0);
+  std::string text = read_file(good + "/recording.yaml");
+  const std::size_t at = text.find("position_m: [0, 0, 0.16]");
+  ASSERT_NE(at, std::string::npos) << text;
+  text.replace(at, 24, "position_m: [0, 0, 0.66]");
+  write_file(folder_ / "footprint.yaml", text);
+  const Outcome outcome = plumbline({"estimate", good + "/lidar.pcap", "--description", folder_ / "footprint.yaml",
+                                     "--method", "s_graph_localization", "--plan", plan(), "-o", folder_ / "out"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  std::istringstream poses(read_file(folder_ / "out/s_graph_localization.tum"));
+  int count = 0;
+  for (std::string line; std::getline(poses, line);) {
+    if (line.empty() || line.front() == '#') continue;
+    std::istringstream numbers(line);
+    double t = 0.0, x = 0.0, y = 0.0, z = 0.0;
+    numbers >> t >> x >> y >> z;
+    EXPECT_NEAR(z, 0.0, 0.06) << line;
+    ++count;
+  }
+  EXPECT_GT(count, 10);
+}
+
 }  // namespace
 }  // namespace plumbline::system_tests

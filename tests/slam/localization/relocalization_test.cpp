@@ -116,6 +116,27 @@ synthetic::Recording walk_with_strange_scans(const synthetic::House& house, cons
   return recording;
 }
 
+// Odometry of the footprint, as base_footprint of many robots.
+TEST(Relocalization, ARobotWhoseFrameLiesOnTheFloorStaysOnIt) {
+  synthetic::WalkConfig config;
+  config.duration_s = 20.0;
+  const synthetic::House house = synthetic::corridor_house();
+  synthetic::Recording recording = synthetic::walk(house, synthetic::corridor_house_walk(), config);
+  const double standing_m = recording.calibration.sensor_height_m - recording.calibration.X_RL.t.z();
+  const Pose X_RF{Eigen::Quaterniond::Identity(), -standing_m * Eigen::Vector3d::UnitZ()};
+  recording.calibration.X_RL = X_RF.inverse() * recording.calibration.X_RL;
+  for (Odometry& odometry : recording.odometry) odometry.X_OR = odometry.X_OR * X_RF;
+  for (StampedPose& pose : recording.truth) pose.X_FR = pose.X_FR * X_RF;
+  const Walked walked = localize(std::move(recording), house, true, false);
+  int converged = 0;
+  for (std::size_t i = 0; i < walked.outputs.size(); ++i) {
+    if (walked.outputs[i].state != State::converged) continue;
+    ++converged;
+    EXPECT_LT(walked.error_m(i, *walked.outputs[i].X_FR), 0.1) << i;
+  }
+  EXPECT_GT(converged, 100);
+}
+
 // A recording need not say how high the LiDAR is.
 TEST(Relocalization, AWrongHeightOfTheLidarHidesNoContradiction) {
   const synthetic::House house = synthetic::one_room(5.0, 4.0);

@@ -7,7 +7,10 @@
 #include <cmath>
 #include <optional>
 
+#include "bim/geometry/symmetric.h"
+#include "bim/random/stream.h"
 #include "slam/localization/associate.h"
+#include "slam/localization/tracker_factors.h"
 #include "tests/slam/localization/house_plan.h"
 #include "tests/slam/localization/house_scan.h"
 
@@ -224,6 +227,24 @@ TEST(Tracker, KnowsWhatNoWallHolds) {
   tracker.correct_along(*along, off_m, 1e-4);
   EXPECT_LT((walked.X_IR.back().t - tracker.pose(X_OR).t).norm(), 0.25 * std::abs(off_m) + 0.01);
   EXPECT_LT(along->dot(tracker.covariance().topLeftCorner<2, 2>() * *along), 1e-4);
+}
+
+// Where the open direction goes along with the yaw, as between walls that are not quite parallel.
+TEST(Tracker, AMeasurementAlongTheOpenDirectionLeavesACovariance) {
+  const Stream stream(9, "slam.localize.init");
+  for (std::uint64_t trial = 0; trial < 1000; ++trial) {
+    Eigen::Matrix3d A;
+    for (std::uint32_t k = 0; k < 9; ++k)
+      A(static_cast<int>(k) / 3, static_cast<int>(k) % 3) = stream.gauss(trial, 0, k);
+    const Eigen::Vector3d sizes(0.5, 0.01, 0.003);
+    const Eigen::Matrix3d P = sizes.asDiagonal() * (A * A.transpose()) * sizes.asDiagonal();
+    const double angle = stream.gauss(trial, 1, 0), sigma_m = 0.002 + 0.05 * std::abs(stream.gauss(trial, 1, 1));
+    const Eigen::Vector2d along(std::cos(0.1 * angle), std::sin(0.1 * angle));
+    const Eigen::Matrix3d after = corrected_along(P, along, sigma_m * sigma_m);
+    EXPECT_GT(symmetric_eigen(after).values.minCoeff(), -1e-12 * after.trace()) << trial;
+    EXPECT_LE(along.dot(after.topLeftCorner<2, 2>() * along), sigma_m * sigma_m * (1.0 + 1e-9)) << trial;
+    EXPECT_NEAR(after(2, 2), P(2, 2), 1e-12 * P(2, 2)) << trial;
+  }
 }
 
 TEST(Tracker, PairsOpposedWallsOfTheRoom) {
