@@ -118,12 +118,7 @@ class Plain {
         angle_rad_(assigned_unit(entities_, "PLANEANGLEUNIT").value_or(1.0)) {}
 
   std::string read() {
-    for (const StepEntities::Entity& entity : entities_.all()) {
-      try {
-        take(entity);
-      } catch (const InputError&) {  // what makes no sense is left to the reader, which says so of the element
-      }
-    }
+    take_each(entities_, [&](const StepEntities::Entity& entity) { take(entity); });
     return edits_.done();
   }
 

@@ -23,14 +23,14 @@ class EdgeLoops {
   EdgeLoops(const std::string& text, const std::string& file) : entities_(text, file), edits_(text, entities_) {}
 
   std::string read() {
-    take_all([&](const StepEntities::Entity& entity) {
+    take_each(entities_, [&](const StepEntities::Entity& entity) {
       if (entity.type == "IFCEDGELOOP") take_loop(entity);
     });
-    take_all([&](const StepEntities::Entity& entity) {
+    take_each(entities_, [&](const StepEntities::Entity& entity) {
       if (entity.type == "IFCADVANCEDFACE" || entity.type == "IFCFACESURFACE") take_face(entity);
     });
     if (!facets_.empty()) {
-      take_all([&](const StepEntities::Entity& entity) {
+      take_each(entities_, [&](const StepEntities::Entity& entity) {
         if (entity.type == "IFCCLOSEDSHELL" || entity.type == "IFCOPENSHELL" || entity.type == "IFCCONNECTEDFACESET")
           take_shell(entity);
       });
@@ -39,16 +39,6 @@ class EdgeLoops {
   }
 
  private:
-  template <class Take>
-  void take_all(Take&& take) {
-    for (const StepEntities::Entity& entity : entities_.all()) {
-      try {
-        take(entity);
-      } catch (const InputError&) {  // what makes no sense is left to the reader, which says so of the element
-      }
-    }
-  }
-
   [[nodiscard]] Eigen::Vector3d vertex(const StepValue& reference) const {
     return cartesian_point(entities_, entities_.attributes(reference, "IFCVERTEXPOINT").at(0));
   }

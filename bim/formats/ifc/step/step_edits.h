@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "bim/errors.h"
 #include "bim/formats/ifc/step/step_entities.h"
 
 namespace plumbline::bim {
@@ -37,6 +38,18 @@ class StepEdits {
   std::map<std::size_t, std::pair<std::size_t, std::string>> replaced_;  ///< end and new text by begin
   std::string added_;
 };
+
+/// Calls take(entity) for all of them. What makes no sense is left to the reader, which says so of the element.
+template <class Take>
+void take_each(const StepEntities& entities, Take&& take) {
+  for (const StepEntities::Entity& entity : entities.all()) {
+    try {
+      take(entity);
+    } catch (const InputError&) {
+      continue;
+    }
+  }
+}
 
 /// A value as a file has it: a reference, a number or an enumeration; "$" for others.
 [[nodiscard]] std::string step_argument(const StepValue& value);

@@ -58,12 +58,7 @@ class PlainShapes {
   PlainShapes(const std::string& text, const std::string& file) : entities_(text, file), edits_(text, entities_) {}
 
   std::string read() {
-    for (const StepEntities::Entity& entity : entities_.all()) {
-      try {
-        take(entity);
-      } catch (const InputError&) {  // what makes no sense is left to the reader, which says so of the element
-      }
-    }
+    take_each(entities_, [&](const StepEntities::Entity& entity) { take(entity); });
     return edits_.done();
   }
 
