@@ -18,6 +18,7 @@ namespace {
 /// Of a road, which is no plane: the median of the lowest returns of squares of a metre round the LiDAR, where most lie
 /// about as deep. A tilt of the LiDAR cancels, all around.
 std::optional<double> height_by_lowest(const DeskewedScan& scan) {
+  // Assumed; looked at on two recordings of streets, where 1.79 m came out for a LiDAR at 1.73 m.
   constexpr double nearest_m = 1.5, farthest_m = 8.0, most_apart_m = 0.2;
   constexpr std::size_t least = 24;
   std::map<std::pair<int, int>, double> lowest;
