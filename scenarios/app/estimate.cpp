@@ -172,10 +172,6 @@ slam::MethodInput make_input(const EstimateArguments& options, const slam::Metho
   return input;
 }
 
-void shift(std::vector<slam::StampedPose>& poses, slam::Nanoseconds by) {
-  for (slam::StampedPose& pose : poses) pose.stamp += by;
-}
-
 struct Answer {
   MethodRecord record;  ///< on the recording's own clock
   ScansRead scans;
@@ -208,10 +204,7 @@ Answer run_method(slam::Recording& recording, const slam::MethodRow& row, const 
   std::vector<std::unique_ptr<MethodRunner>> methods;
   methods.push_back(std::make_unique<MethodRunner>(row, input, sensors));
   MethodRecord record = std::move(run_pipeline(source, std::move(methods), {}).front());
-  shift(record.causal, recording.origin());
-  shift(record.estimate.trajectory, recording.origin());
-  for (BeliefRecord& belief : record.beliefs) belief.stamp += recording.origin();
-  for (score::LostSpan& span : record.lost) span = {span.from + recording.origin(), span.to + recording.origin()};
+  shift_times(record, recording.origin());
   return {std::move(record), scans, slam::seconds(last - first.value_or(last)), gaps, axes, scan_gaps};
 }
 

@@ -149,7 +149,7 @@ void add_map(const std::string& text, std::vector<MethodRecord>& outside) {
   if (method == outside.end())
     throw InputError(mark, "there is no --estimate '" + name + "' that it could be the map of");
   const std::string file = text.substr(equals + 1);
-  method->estimate.map_F = slam::points_of(slam::read_cloud_file(file));
+  method->estimate.map_F = slam::read_cloud_points(file);
   if (method->estimate.map_F.empty()) throw InputError({file, 0, 0}, "holds no point");
 }
 

@@ -43,7 +43,8 @@ std::vector<MetricRow> make_rows() {
        "RMS position error of the trajectory after the last optimisation, aligned; absent where fewer than 95 % of the "
        "scans have a pose in it",
        field(&S::trajectory, &T::ate_final_rmse_m)},
-      {"rpe_1m_rmse_m", "m", Better::lower, "RMS translation error of the relative pose over each metre walked",
+      {"rpe_1m_rmse_m", "m", Better::lower,
+       "RMS translation error of the relative pose over each metre walked, from poses at most 2 m apart",
        field(&S::trajectory, &T::rpe_1m_rmse_m)},
       {"drift_10m_percent", "%", Better::lower,
        "mean translation error over each 10 m walked, as a share of the distance",

@@ -101,13 +101,16 @@ std::optional<RelativeErrors> relative_errors(const std::vector<PosePair>& pairs
 
 std::optional<RelativeErrors> relative_errors(const std::vector<PosePair>& pairs, const std::vector<double>& walked,
                                               double distance_m) {
+  // Scans of a fast vehicle, or poses with a gap between them, may lie far beyond it.
+  constexpr double longest = 2.0;
   RelativeErrors errors;
   int count = 0;
   std::size_t j = 0;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const double goal = walked[pairs[i].scan] + distance_m;
-    while (j < pairs.size() && walked[pairs[j].scan] < goal) ++j;
+    const double from = walked[pairs[i].scan];
+    while (j < pairs.size() && walked[pairs[j].scan] < from + distance_m) ++j;
     if (j == pairs.size()) break;
+    if (walked[pairs[j].scan] > from + longest * distance_m) continue;
     const Pose error = motion_error(pairs[i], pairs[j]);
     errors.translation_rmse_m += error.t.squaredNorm();
     errors.translation_mean_m += error.t.norm();

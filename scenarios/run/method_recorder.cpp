@@ -5,6 +5,7 @@
 #include <exception>
 #include <utility>
 
+#include "bim/config/utf8.h"
 #include "bim/digest/digest.h"
 #include "bim/errors.h"
 #include "slam/io/pose_check.h"
@@ -70,7 +71,7 @@ void MethodRecorder::on_scan(slam::Nanoseconds stamp, const std::function<slam::
     keep(process());
   } catch (const std::exception& error) {
     record_.crashed = true;
-    record_.error = error.what();
+    record_.error = utf8_of_bytes(error.what());
   }
 }
 
@@ -126,7 +127,7 @@ MethodRecord MethodRecorder::finish(const std::function<slam::Estimate()>& estim
       record_.digests.push_back({last_stamp_, record_.name + "/estimate", digest_of(record_.estimate)});
     } catch (const std::exception& error) {
       record_.crashed = true;
-      record_.error = error.what();
+      record_.error = utf8_of_bytes(error.what());
     }
   }
   return std::move(record_);

@@ -2,6 +2,7 @@
 #include "scenarios/run/record.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace plumbline::scenarios {
 
@@ -18,6 +19,23 @@ bool said_lost(const MethodRecord& method, slam::Nanoseconds stamp) {
   if (belief != method.beliefs.end() && belief->stamp == stamp) return belief->state == slam::State::lost;
   return std::any_of(method.lost.begin(), method.lost.end(),
                      [&](const score::LostSpan& span) { return span.from <= stamp && stamp <= span.to; });
+}
+
+void shift_times(MethodRecord& method, slam::Nanoseconds by) {
+  slam::Estimate& estimate = method.estimate;
+  for (slam::StampedPose& pose : method.causal) pose.stamp += by;
+  for (slam::StampedPose& pose : estimate.trajectory) pose.stamp += by;
+  for (BeliefRecord& belief : method.beliefs) belief.stamp += by;
+  for (score::LostSpan& span : method.lost) span = {span.from + by, span.to + by};
+  if (estimate.loops)
+    for (slam::LoopEdge& loop : *estimate.loops) loop = {loop.from + by, loop.to + by, loop.X_FT};
+  for (slam::SegmentedScan& scan : estimate.segmented) scan.stamp += by;
+  const Tree* keyframes = estimate.graph.is_map() ? estimate.graph.find("keyframes") : nullptr;
+  if (keyframes == nullptr) return;
+  Tree later = Tree::list();
+  for (Tree keyframe : keyframes->as_list())
+    later.push(std::move(keyframe.set("stamp_ns", keyframe.find("stamp_ns")->as_int() + by)));
+  estimate.graph.set("keyframes", std::move(later));
 }
 
 }  // namespace plumbline::scenarios

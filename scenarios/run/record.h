@@ -49,6 +49,9 @@ struct MethodRecord {
 /// Whether a method said after a scan that it is lost: its pose there is no answer.
 [[nodiscard]] bool said_lost(const MethodRecord& method, slam::Nanoseconds stamp);
 
+/// Moves all times of what a method answered, those of its graph included.
+void shift_times(MethodRecord& method, slam::Nanoseconds by);
+
 /// Everything one run left behind, the ground truth with it, which is for scoring alone.
 struct RunRecord {
   std::vector<slam::StampedPose> truth_W;  ///< X_WR, 100 Hz and at every scan

@@ -239,6 +239,17 @@ void make_pages(const Sweep& sweep, const std::vector<SweepRow>& rows, const Swe
       });
 }
 
+/// Whether a run's page shows what the table says of it; one that was made before the scenario changed does not.
+bool is_page_of(const std::string& page, const std::string& result) {
+  if (!fs::exists(page + "/report.html") || !fs::exists(page + "/results.json")) return false;
+  const auto digest_of = [](const std::string& file) -> std::string {
+    const Tree tree = read_json(read_text_file(file), file);
+    const Tree* digest = tree.is_map() ? tree.find("digest") : nullptr;
+    return digest != nullptr ? digest->as_string() : "";
+  };
+  return digest_of(page + "/results.json") == digest_of(result);
+}
+
 /// The tables of results that are all there.
 std::string write_tables(const Sweep& sweep, const SweepFolder& folder, const std::string& out,
                          const PagesAsked& asked) {
@@ -253,7 +264,7 @@ std::string write_tables(const Sweep& sweep, const SweepFolder& folder, const st
   make_pages(sweep, rows, folder, asked);
   SweepPage page{sweep.file.name, sweep.file_name, {}, sweep.seeds};
   for (const SweepRun& run : sweep.runs)
-    if (fs::exists(folder.page(run.key) + "/report.html")) page.pages.insert(run.key);
+    if (is_page_of(folder.page(run.key), folder.result(run))) page.pages.insert(run.key);
   const std::vector<SweepCell> cells = cells_of(rows);
   const std::string text = table_text(cells);
   write_file(out + "/runs.csv", runs_csv(rows));

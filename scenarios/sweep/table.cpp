@@ -90,11 +90,18 @@ void conclude(const Samples& samples, SweepCell& cell) {
 
 std::string percent(double share) { return svg::number(100.0 * share, 0); }
 
+/// Neither all nor none where it is not.
+std::string percent(int k, int n) {
+  const double share = 100.0 * k / n;
+  return k > 0 && share < 1.0 ? svg::number(std::max(share, 0.1), 1)
+                              : svg::number(k < n ? std::min(share, 99.0) : share, 0);
+}
+
 /// "96 % [80, 99]"
 std::string share_text(int k, int n) {
   if (n == 0) return "-";
   const auto [low, high] = wilson95(k, n);
-  return percent(static_cast<double>(k) / n) + " % [" + percent(low) + ", " + percent(high) + "]";
+  return percent(k, n) + " % [" + percent(low) + ", " + percent(high) + "]";
 }
 
 /// "3/4"

@@ -24,8 +24,10 @@
 #include <iterator>
 #include <map>
 #include <set>
+#include <string_view>
 #include <utility>
 
+#include "bim/config/utf8.h"
 #include "bim/errors.h"
 #include "slam/io/stopwatch.h"
 
@@ -50,6 +52,16 @@ std::array<int, 2> pipe_or_socket(bool socket) {
       socket ? ::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) : ::pipe2(ends.data(), O_CLOEXEC);
   if (made != 0) throw EnvironmentError("no connection to a process can be made: " + error_text(errno));
   return ends;
+}
+
+/// The last line of printed bytes that may begin within a character. A progress bar ends its lines by \r.
+std::string last_line(std::string_view printed) {
+  constexpr std::string_view ends = "\r\n";
+  printed = printed.substr(0, printed.find_last_not_of(ends) + 1);
+  printed.remove_prefix(printed.find_last_of(ends) + 1);
+  const auto continues = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; };
+  while (!printed.empty() && continues(printed.front())) printed.remove_prefix(1);
+  return utf8_of_bytes(printed);
 }
 
 /// This process's environment with some variables set.
@@ -312,9 +324,7 @@ double Child::cpu_ms() const { return ended_ ? 0.0 : 1e3 * process_cpu_s(pid_); 
 void Child::fail_as_it_ended() {
   const std::string how = how_it_ended();
   if (output_ >= 0) read_printed();
-  std::string last = printed_;
-  while (!last.empty() && last.back() == '\n') last.pop_back();
-  last.erase(0, last.rfind('\n') + 1);
+  const std::string last = last_line(printed_);
   throw ProcessFailure(how + (last.empty() ? "" : "; the last it printed: " + last));
 }
 

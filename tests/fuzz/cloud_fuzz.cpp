@@ -18,7 +18,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       .write(reinterpret_cast<const char*>(data + 1), static_cast<std::streamsize>(size - 1));
   try {
     const plumbline::slam::PointCloud cloud = plumbline::slam::read_cloud_file(file);
-    (void)plumbline::slam::points_of(cloud);
+    (void)plumbline::slam::points_of(cloud, {});
     (void)plumbline::slam::scan_of(cloud);
   } catch (const plumbline::InputError&) {
   }

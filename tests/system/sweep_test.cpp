@@ -134,6 +134,28 @@ TEST(Sweep, SlurmGetsAnArrayAndACollector) {
   EXPECT_NE(none.err.find("sbatch is not there"), std::string::npos) << none.err;
 }
 
+TEST(Sweep, LinksNoPageOfAnEarlierScenario) {
+  if (!available()) GTEST_SKIP() << "PLUMBLINE_BINARY and PLUMBLINE_SOURCE are not set; run through ctest";
+  const Folder folder;
+  write_file(folder / "short.plan.yaml", read_file(project_file("tests/system/short.plan.yaml")));
+  const auto links_after = [&](const std::string& speed, std::vector<std::string> more) {
+    write_file(folder / "s.yaml",
+               "scenario: 1\nname: s\nbuilding: short.plan.yaml\nstart: {room: left}\n"
+               "duration_s: 2\nmethods: [odometry]\nspeed_mps: " +
+                   speed + "\n");
+    write_file(folder / "sweep.yaml", "sweep: 1\nscenarios: [s.yaml]\nseeds: 1\n");
+    std::vector<std::string> arguments = {"sweep", folder / "sweep.yaml", "-o", folder / "out"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome outcome = plumbline(arguments);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return read_file(folder / "out/table.html").find("pages/s-1/report.html") != std::string::npos;
+  };
+  EXPECT_TRUE(links_after("0.6", {"--page", "worst"}));
+  EXPECT_TRUE(links_after("0.6", {}));
+  EXPECT_FALSE(links_after("0.4", {}));
+  EXPECT_TRUE(links_after("0.4", {"--page", "worst"}));
+}
+
 TEST(Sweep, ASharedWalkGivesWhatSingleRunsGive) {
   if (!available()) GTEST_SKIP() << "PLUMBLINE_BINARY and PLUMBLINE_SOURCE are not set; run through ctest";
   const Folder folder;

@@ -28,8 +28,8 @@ std::vector<BenchRow> bench_registration(const BenchSetting& setting) {
     std::fputs("bench: no clouds/small_gicp_*.ply in the data folder; registration is left out\n", stderr);
     return {};
   }
-  const std::vector<Eigen::Vector3f> target = slam::points_of(slam::read_cloud_file(folder + "small_gicp_target.ply"));
-  const std::vector<Eigen::Vector3f> source = slam::points_of(slam::read_cloud_file(folder + "small_gicp_source.ply"));
+  const std::vector<Eigen::Vector3f> target = slam::read_cloud_points(folder + "small_gicp_target.ply");
+  const std::vector<Eigen::Vector3f> source = slam::read_cloud_points(folder + "small_gicp_source.ply");
   const auto error = [](const Pose& X) { return true_pose().inverse() * X; };
   std::vector<double> ours_ms, pcl_ms, faster;
   Pose ours, pcl;

@@ -16,8 +16,8 @@
 #include <utility>
 
 #include "bim/config/tree.h"
-#include "bim/errors.h"
 #include "slam/io/clouds/quiet_pcl.h"
+#include "slam/io/packets/cloud_fields.h"
 
 namespace plumbline::slam {
 
@@ -146,24 +146,30 @@ PointCloud cloud_of(const std::vector<Eigen::Vector3f>& points) {
   return cloud;
 }
 
-std::vector<Eigen::Vector3f> points_of(const PointCloud& cloud) {
+std::vector<Eigen::Vector3f> points_of(const PointCloud& cloud, const Mark& mark) {
   std::vector<Eigen::Vector3f> points;
   if (cloud.data.empty()) return points;
-  std::array<std::size_t, 3> offsets{};
+  std::array<const PointField*, 3> fields{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto is_axis = [&](const PointField& f) { return f.name == std::string_view("xyz").substr(axis, 1); };
     const auto field = std::find_if(cloud.fields.begin(), cloud.fields.end(), is_axis);
-    if (field == cloud.fields.end() || field->type != PointType::f32)
-      throw InputError({}, "a cloud of float x, y, z is expected");
-    offsets[axis] = field->offset;
+    if (field == cloud.fields.end() || (field->type != PointType::f32 && field->type != PointType::f64))
+      throw InputError(mark, "a cloud of x, y, z as float or double is expected");
+    fields[axis] = &*field;
   }
   for (std::size_t at = 0; at + cloud.point_step <= cloud.data.size(); at += cloud.point_step) {
     Eigen::Vector3f p;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      std::memcpy(p.data() + axis, &cloud.data[at + offsets[axis]], sizeof(float));
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      const PointField& field = *fields[static_cast<std::size_t>(axis)];
+      p[axis] = static_cast<float>(number_at(&cloud.data[at + field.offset], field.type));
+    }
     if (p.allFinite()) points.push_back(p);
   }
   return points;
+}
+
+std::vector<Eigen::Vector3f> read_cloud_points(const std::string& file) {
+  return points_of(read_cloud_file(file), {file, 0, 0});
 }
 
 }  // namespace plumbline::slam

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "bim/errors.h"
 #include "slam/io/clouds/cloud_header.h"
 #include "slam/io/packets/point_cloud.h"
 
@@ -20,7 +21,9 @@ void write_cloud_file(const std::string& file, const PointCloud& cloud);
 
 /// A cloud of float x, y, z without times. Throws InternalError at a point that is not finite.
 [[nodiscard]] PointCloud cloud_of(const std::vector<Eigen::Vector3f>& points);
-/// The finite points of a cloud. Throws InputError without a mark where x, y and z are not f32.
-[[nodiscard]] std::vector<Eigen::Vector3f> points_of(const PointCloud& cloud);
+/// The finite points of a cloud. Throws InputError at the mark where x, y and z are neither f32 nor f64.
+[[nodiscard]] std::vector<Eigen::Vector3f> points_of(const PointCloud& cloud, const Mark& mark);
+/// The finite points of a .pcd or .ply file.
+[[nodiscard]] std::vector<Eigen::Vector3f> read_cloud_points(const std::string& file);
 
 }  // namespace plumbline::slam

@@ -340,7 +340,11 @@ std::string path_of(const std::string& folder, const Tree& name) {
   const fs::path relative = name.as_string();
   const bool leaves = std::any_of(relative.begin(), relative.end(), [](const fs::path& part) { return part == ".."; });
   if (relative.is_absolute() || leaves) throw InputError(name.mark, "a file that is not in the bag's folder");
-  return (fs::path(folder) / relative).string();
+  const fs::path named = fs::path(folder) / relative;
+  if (fs::exists(named) || std::distance(relative.begin(), relative.end()) < 2) return named.string();
+  // Until version 3 of the metadata names began with the folder's own, as it was when the bag was recorded.
+  const fs::path in_folder = fs::path(folder) / relative.lexically_relative(*relative.begin());
+  return (fs::exists(in_folder) ? in_folder : named).string();
 }
 
 /// Of a folder without metadata.yaml.

@@ -142,6 +142,24 @@ TEST(Trajectory, DriftOverTenMetres) {
           ->drift_10m_percent);  // 9 m
 }
 
+TEST(Trajectory, ErrorsOverADistanceAreOfNoMuchLongerOne) {
+  // Ten metres from pose to pose: an error over them is none over a metre.
+  const Truth sparse = straight_walk(20, Eigen::Vector3d::Zero(), 10.0);
+  auto poses = moved(sparse, Pose());
+  for (std::size_t i = 0; i < poses.size(); ++i) poses[i].X_FR.t.x() *= 1.1;
+  const auto score = score_trajectory(sparse, poses, {});
+  ASSERT_TRUE(score);
+  EXPECT_FALSE(score->rpe_1m_rmse_m);
+  EXPECT_NEAR(score->drift_10m_percent.value(), 10.0, 1e-9);
+  // One gap takes nothing from the others.
+  Truth gap = straight_walk(101, Eigen::Vector3d::Zero(), 0.5);
+  gap.scans.erase(gap.scans.begin() + 40, gap.scans.begin() + 60);
+  gap.poses_W.erase(gap.poses_W.begin() + 40, gap.poses_W.begin() + 60);
+  poses = moved(gap, Pose());
+  for (slam::StampedPose& pose : poses) pose.X_FR.t.x() *= 1.1;
+  EXPECT_NEAR(score_trajectory(gap, poses, {})->rpe_1m_rmse_m.value(), 0.1, 1e-9);
+}
+
 TEST(Trajectory, AWrongTrajectoryScoresBadly) {
   const Truth truth = random_truth(11, 400);
   auto poses = moved(truth, Pose());

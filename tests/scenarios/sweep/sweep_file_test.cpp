@@ -79,6 +79,20 @@ TEST_F(SweepFiles, ProcessesOfTheSweepAndOfItsScenariosAreMethods) {
   EXPECT_EQ(scenario.processes[1].folder, folder_ / "slam");
 }
 
+TEST_F(SweepFiles, AChangedProgramIsAnotherInput) {
+  const auto digest_with = [&](const std::string& program) {
+    std::ofstream(folder_ / "mine.py") << program;
+    return read(
+               "sweep: 1\nscenarios: [library/house.yaml]\nseeds: 1\n"
+               "methods: [{name: mine, command: [python3, mine.py, --fast]}]\n")
+        .runs.at(0)
+        .input_digest;
+  };
+  const std::string first = digest_with("a = 1\n");
+  EXPECT_EQ(digest_with("a = 1\n"), first);
+  EXPECT_NE(digest_with("a = 2\n"), first);
+}
+
 TEST_F(SweepFiles, AProcessThatAScenarioDoesNotHaveIsRefused) {
   EXPECT_NE(error_of("sweep: 1\nscenarios: [library/house.yaml]\nmethods: [theirs]\n")
                 .find("sweep.yaml:3:11: unknown method 'theirs'"),

@@ -81,6 +81,21 @@ TEST(SweepTable, CountsSuccessOverWhatCanBeTold) {
   EXPECT_EQ(cells[1].median_error_m, 0.02);
 }
 
+TEST(SweepTable, NearlyAllIsNotAll) {
+  SweepCell cell;
+  cell.scenario = "a";
+  cell.method = "finder";
+  cell.runs = cell.judged = 300;
+  const auto text_with = [&](int succeeded) {
+    cell.succeeded = succeeded;
+    return table_text({cell});
+  };
+  EXPECT_NE(text_with(300).find("100 % ["), std::string::npos);
+  EXPECT_NE(text_with(299).find(" 99 % ["), std::string::npos) << text_with(299);
+  EXPECT_NE(text_with(1).find("0.3 % ["), std::string::npos) << text_with(1);
+  EXPECT_NE(text_with(0).find(" 0 % ["), std::string::npos);
+}
+
 TEST(SweepTable, AMedianOfMostlyNeverIsNever) {
   std::vector<SweepRow> all;
   for (const Tree& tree :

@@ -5,6 +5,8 @@
 
 #include <chrono>
 
+#include "bim/config/utf8.h"
+
 namespace plumbline::slam {
 namespace {
 
@@ -43,6 +45,29 @@ TEST(Child, SaysHowItEnded) {
   }
   EXPECT_EQ(exits.how_it_ended(), "exited with 7");
   EXPECT_EQ(killed.how_it_ended(), "was ended by signal 9");
+}
+
+TEST(Child, WhatItPrintedLastIsTextInUtf8) {
+  const auto failure_of = [](const std::string& script) -> std::string {
+    Child child(shell(script), "", {});
+    child.set_deadline(20.0);
+    char byte = 0;
+    try {
+      child.receive(&byte, 1);
+    } catch (const ProcessFailure& failure) {
+      return failure.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(failure_of("printf 'Fehler beim \\326ffnen\\n'; exit 3"),
+            "exited with 3; the last it printed: Fehler beim Öffnen");
+  EXPECT_EQ(failure_of("printf '10 %%\\r20 %%\\r\\n'; exit 3"), "exited with 3; the last it printed: 20 %");
+  // Only the end is kept, and may begin within a character.
+  for (const std::string before : {"", "x", "xx"}) {
+    const std::string said = failure_of("printf '" + before + "'; for i in $(seq 2000); do printf '█'; done; exit 3");
+    EXPECT_EQ(utf8_of_bytes(said), said);
+    EXPECT_NE(said.find("printed: █"), std::string::npos) << said.substr(0, 60);
+  }
 }
 
 TEST(Child, WaitingForItEndsWhenItsParentMayNotGoOn) {

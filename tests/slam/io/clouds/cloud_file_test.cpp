@@ -58,9 +58,9 @@ TEST_P(CloudFileTest, TheSamePointsAreTheSameBytes) {
 TEST_P(CloudFileTest, PointsComeBackToTheBit) {
   const std::vector<Eigen::Vector3f> points = {{1.5F, -2.0F, 1e-9F}, {0.0F, 3.25F, 1e9F}};
   write_cloud_file(file_, cloud_of(points));
-  EXPECT_EQ(points_of(read_cloud_file(file_)), points);
+  EXPECT_EQ(read_cloud_points(file_), points);
   write_cloud_file(file_, cloud_of(std::vector<Eigen::Vector3f>{}));
-  EXPECT_TRUE(points_of(read_cloud_file(file_)).empty());
+  EXPECT_TRUE(read_cloud_points(file_).empty());
   EXPECT_THROW((void)cloud_of(std::vector<Eigen::Vector3f>{{std::numeric_limits<float>::quiet_NaN(), 0, 0}}),
                InternalError);
 }
@@ -89,7 +89,7 @@ TEST(CloudFile, ReadsWhatOthersWrite) {
   const std::string fields =
       "VERSION .7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 2\nHEIGHT 1\nPOINTS 2\n";
   write_text(folder / "a.pcd", fields + "DATA ascii\n1 2 3\n4 5 6\n");
-  EXPECT_EQ(points_of(read_cloud_file(folder / "a.pcd")), expected);
+  EXPECT_EQ(read_cloud_points(folder / "a.pcd"), expected);
   // LZF, field by field: one run of 24 bytes as they are.
   std::string packed = fields + "DATA binary_compressed\n";
   for (const std::uint32_t size : {25U, 24U}) packed.append(reinterpret_cast<const char*>(&size), 4);
@@ -97,11 +97,11 @@ TEST(CloudFile, ReadsWhatOthersWrite) {
   for (const float value : {1.0F, 4.0F, 2.0F, 5.0F, 3.0F, 6.0F})
     packed.append(reinterpret_cast<const char*>(&value), 4);
   write_text(folder / "b.pcd", packed);
-  EXPECT_EQ(points_of(read_cloud_file(folder / "b.pcd")), expected);
+  EXPECT_EQ(read_cloud_points(folder / "b.pcd"), expected);
   write_text(folder / "c.ply",
              "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\n"
              "property uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n1 2 3 9 9 9\n4 5 6 9 9 9\n");
-  EXPECT_EQ(points_of(read_cloud_file(folder / "c.ply")), expected);
+  EXPECT_EQ(read_cloud_points(folder / "c.ply"), expected);
 }
 
 TEST(CloudFile, DamagedBodiesAreRefusedOrHoldNoPlace) {
@@ -116,7 +116,7 @@ TEST(CloudFile, DamagedBodiesAreRefusedOrHoldNoPlace) {
   }
   write_text(folder / "b.pcd", fields + "DATA ascii\n1 2 3\none two three\n");
   try {
-    const std::vector<Eigen::Vector3f> points = points_of(read_cloud_file(folder / "b.pcd"));
+    const std::vector<Eigen::Vector3f> points = read_cloud_points(folder / "b.pcd");
     ASSERT_FALSE(points.empty());
     EXPECT_EQ(points.front(), Eigen::Vector3f(1, 2, 3));
     if (points.size() > 1) {
@@ -126,10 +126,20 @@ TEST(CloudFile, DamagedBodiesAreRefusedOrHoldNoPlace) {
   }
 }
 
+TEST(CloudFile, PointsMayBeDoubles) {
+  const Folder folder;
+  std::string ply =
+      "ply\nformat binary_little_endian 1.0\nelement vertex 2\nproperty double x\nproperty double y\n"
+      "property double z\nend_header\n";
+  for (const double value : {1.0, 2.0, 3.0, 4.0, 5.0, 6.0}) ply.append(reinterpret_cast<const char*>(&value), 8);
+  write_text(folder / "a.ply", ply);
+  EXPECT_EQ(read_cloud_points(folder / "a.ply"), (std::vector<Eigen::Vector3f>{{1, 2, 3}, {4, 5, 6}}));
+}
+
 TEST(CloudFile, PointsNeedFloats) {
   PointCloud cloud = cloud_of(std::vector<Eigen::Vector3f>{{1, 2, 3}});
   cloud.fields[1].type = PointType::u32;
-  EXPECT_THROW((void)points_of(cloud), InputError);
+  EXPECT_THROW((void)points_of(cloud, {}), InputError);
 }
 
 }  // namespace

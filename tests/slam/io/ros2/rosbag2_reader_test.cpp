@@ -79,6 +79,18 @@ TEST(Rosbag2Reader, FilesWithRunningNumbersAreOneBagWithoutMetadata) {
   EXPECT_EQ(both->left_out().front(), "the bag's file 'walk_1.db3' is missing");
 }
 
+// As up to ROS 2 Eloquent, when names of files began with the folder's own.
+TEST(Rosbag2Reader, FilesMayBeNamedFromOutsideOfTheFolder) {
+  const Folder folder;
+  write_database(folder / "a", "walk", {2, 5});
+  const std::string path = folder / "a/metadata.yaml";
+  std::string metadata = read_text_file(path);
+  const std::size_t at = metadata.find("walk_0.db3");
+  ASSERT_NE(at, std::string::npos);
+  std::ofstream(path) << metadata.insert(at, "first_name/");
+  EXPECT_EQ(times_in(*open_rosbag2_folder(folder / "a")), (std::vector<Nanoseconds>{2, 5}));
+}
+
 TEST(Rosbag2Reader, MessagesArePackedWhereTheyLookSo) {
   const Folder folder;
   const std::vector<std::uint8_t> packed = pack("zstd", std::vector<std::uint8_t>(300, 7));
