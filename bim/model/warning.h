@@ -46,7 +46,7 @@ inline constexpr std::array<WarningRow, 63> warning_rows = {{
     {"niche",
      "an opening does not go through its wall: it is cut in 3D and leads nowhere; that of a door up to 6 cm short is "
      "cut through"},
-    {"no_area", "a slab has no area on the plan; it is kept as an obstacle"},
+    {"no_area", "a slab or a column has no area on the plan; it is kept as an obstacle"},
     {"no_axis",
      "a wall has no reference line; its body's longer extent on the plan replaces it, or the wall is left out"},
     {"no_body", "the element has no body that can be read; it is left out, and an opening cuts nothing"},
