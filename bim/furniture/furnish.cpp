@@ -34,6 +34,7 @@ class Site {
           space.add(std::move(footprint));
         space.keep_clear(keep_clear(*building, room, z, space.config()));
       }
+    space.leave_out_shut_off();
     return space;
   }
 
@@ -91,7 +92,7 @@ std::vector<FurniturePiece> furnish_pieces(const Building& building, const Furni
     RoomSpace space = site.space_of(room);
     Draws draws(stream, room.id);
     const LayoutOrder order{
-        options.density * signed_area(room.polygon),
+        options.density * space.floor_m2(),
         static_cast<int>(std::min<std::size_t>(LayoutOrder().pieces_max, pieces_max - pieces.size()))};
     for (FurniturePiece& piece : lay_out(room, space, order, draws)) {
       piece.room = static_cast<int>(r);

@@ -272,6 +272,29 @@ TEST(Furnish, OptionsHaveTheirRanges) {
     EXPECT_THROW((void)from_tree<FurnishOptions>(read_yaml(text, "f")), InputError) << text;
 }
 
+TEST(Furnish, NothingStandsWhereWallsShutTheRobotOut) {
+  Building b = single_room("lounge", 12.0, 10.0);
+  const Polygon2 core = {{2.0, 2.0}, {10.0, 2.0}, {10.0, 8.0}, {2.0, 8.0}};
+  for (std::size_t i = 0; i < 4; ++i) {
+    Wall wall = b.walls[0];
+    wall.id = "core" + std::to_string(i);
+    wall.a = core[i];
+    wall.b = core[(i + 1) % 4];
+    b.walls.push_back(wall);
+  }
+  const double around_m2 = signed_area(b.rooms[0].polygon) - signed_area(core);
+  for (const double density : {0.05, 0.15, 0.4}) {
+    const std::vector<FurniturePiece> pieces = furnish_pieces(b, options(density));
+    EXPECT_FALSE(pieces.empty());
+    for (const FurniturePiece& piece : pieces) EXPECT_FALSE(contains(core, piece.at)) << piece.at.transpose();
+    EXPECT_LT(share(b, pieces, 0) * signed_area(b.rooms[0].polygon), density * around_m2 + 2.0);
+  }
+  b.openings.clear();
+  const std::vector<FurniturePiece> pieces = furnish_pieces(b, options(0.15));
+  EXPECT_TRUE(std::any_of(pieces.begin(), pieces.end(), [&](const auto& piece) { return contains(core, piece.at); }))
+      << "nothing tells from where the robot comes";
+}
+
 TEST(Furnish, WhatIsHighUpOnAColumnTakesNoFloor) {
   Building b = single_room("hall", 12.0, 10.0);
   Column column;
