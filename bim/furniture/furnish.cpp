@@ -107,6 +107,15 @@ std::vector<FurniturePiece> furnish_pieces(const Building& building, const Furni
   return pieces;
 }
 
+std::optional<Warning> chairs_missing(const std::vector<FurniturePiece>& pieces, const FurnishOptions& options) {
+  const auto seated = std::count_if(pieces.begin(), pieces.end(),
+                                    [](const FurniturePiece& piece) { return piece.shape == FurnitureShape::person; });
+  if (seated >= options.people) return std::nullopt;
+  return Warning{"", "few_chairs",
+                 "only " + std::to_string(seated) + " of the " + std::to_string(options.people) +
+                     " people asked for sit, since the furniture has no more chairs; a higher density places more"};
+}
+
 std::vector<Obstacle> furnish(const Building& building, const FurnishOptions& options) {
   std::vector<Obstacle> obstacles;
   for (const FurniturePiece& piece : furnish_pieces(building, options)) obstacles.push_back(obstacle_of(piece));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "bim/config/visit.h"
@@ -45,6 +46,10 @@ struct FurnishSites {
 /// - The layout of a room depends on the seed, its id and what is in it alone.
 [[nodiscard]] std::vector<FurniturePiece> furnish_pieces(const Building& building, const FurnishOptions& options,
                                                          const FurnishSites& sites = {});
+
+/// "few_chairs" where not all people found a chair among the pieces.
+[[nodiscard]] std::optional<Warning> chairs_missing(const std::vector<FurniturePiece>& pieces,
+                                                    const FurnishOptions& options);
 
 /// Furniture for every room, as planned obstacles of kind "furniture", with ids "furniture_<n>" unused in the building.
 [[nodiscard]] std::vector<Obstacle> furnish(const Building& building, const FurnishOptions& options);
