@@ -141,6 +141,7 @@ class Alteration {
     for (Footprint& footprint : surroundings_.near(space.box(), room.z0_m, furniture_, space.config()))
       space.add(std::move(footprint));
     space.keep_clear(keep_clear(building_, room, room.z0_m, space.config()));
+    space.leave_out_shut_off();
     if (with_pieces)
       for (Piece& piece : furnished.pieces) piece.in_space = space.add(piece.footprint);
     return space;
@@ -242,7 +243,7 @@ class Alteration {
   void add_pieces(const FurnishedRoom& furnished, RoomSpace& space) {
     const Room& room = room_of_piece(furnished);
     Draws draws(stream_, room.id);
-    LayoutOrder order{signed_area(room.polygon), static_cast<int>(furnished.pieces.size())};
+    LayoutOrder order{space.floor_m2(), static_cast<int>(furnished.pieces.size())};
     for (FurniturePiece& piece : lay_out(room, space, order, draws)) add_new(furnished, std::move(piece));
   }
 
@@ -252,7 +253,7 @@ class Alteration {
     LayoutOrder order;
     for (const Piece& piece : furnished.pieces)
       if (!piece.footprint.parts.empty()) order.target_m2 += rectangle_of(piece).size.prod();
-    order.target_m2 = std::min(order.target_m2, signed_area(room.polygon));
+    order.target_m2 = std::min(order.target_m2, space.floor_m2());
     for (FurniturePiece& piece : lay_out(room, space, order, draws)) add_new(furnished, std::move(piece));
   }
 

@@ -34,6 +34,7 @@ class Site {
           space.add(std::move(footprint));
         space.keep_clear(keep_clear(*building, room, z, space.config()));
       }
+    space.leave_out_shut_off();
     return space;
   }
 
@@ -91,7 +92,7 @@ std::vector<FurniturePiece> furnish_pieces(const Building& building, const Furni
     RoomSpace space = site.space_of(room);
     Draws draws(stream, room.id);
     const LayoutOrder order{
-        options.density * signed_area(room.polygon),
+        options.density * space.floor_m2(),
         static_cast<int>(std::min<std::size_t>(LayoutOrder().pieces_max, pieces_max - pieces.size()))};
     for (FurniturePiece& piece : lay_out(room, space, order, draws)) {
       piece.room = static_cast<int>(r);
@@ -104,6 +105,15 @@ std::vector<FurniturePiece> furnish_pieces(const Building& building, const Furni
   if (sites.as_built != nullptr) ids.take(*sites.as_built);
   for (FurniturePiece& piece : pieces) piece.id = ids.next();
   return pieces;
+}
+
+std::optional<Warning> chairs_missing(const std::vector<FurniturePiece>& pieces, const FurnishOptions& options) {
+  const auto seated = std::count_if(pieces.begin(), pieces.end(),
+                                    [](const FurniturePiece& piece) { return piece.shape == FurnitureShape::person; });
+  if (seated >= options.people) return std::nullopt;
+  return Warning{"", "few_chairs",
+                 "only " + std::to_string(seated) + " of the " + std::to_string(options.people) +
+                     " people asked for sit, since the furniture has no more chairs; a higher density places more"};
 }
 
 std::vector<Obstacle> furnish(const Building& building, const FurnishOptions& options) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "bim/config/visit.h"
@@ -39,11 +40,16 @@ struct FurnishSites {
 /// - In front of doors, other passages and open edges, and before and behind stairs, the floor stays free.
 /// - On a grid of 0.1 m, what a robot of radius 0.4 m could reach in the room stays connected, and it can turn
 /// somewhere.
+/// - Floor that walls shut off from doors, passages and stairs, such as the inside of a shaft, gets none.
 /// - Density falls short where this leaves no place, and in rooms above 200 m x 200 m.
 /// - A person takes the place of a chair, so there are no more people than chairs.
 /// - The layout of a room depends on the seed, its id and what is in it alone.
 [[nodiscard]] std::vector<FurniturePiece> furnish_pieces(const Building& building, const FurnishOptions& options,
                                                          const FurnishSites& sites = {});
+
+/// "few_chairs" where not all people found a chair among the pieces.
+[[nodiscard]] std::optional<Warning> chairs_missing(const std::vector<FurniturePiece>& pieces,
+                                                    const FurnishOptions& options);
 
 /// Furniture for every room, as planned obstacles of kind "furniture", with ids "furniture_<n>" unused in the building.
 [[nodiscard]] std::vector<Obstacle> furnish(const Building& building, const FurnishOptions& options);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 #include <utility>
 
 namespace plumbline::bim {
@@ -78,6 +79,87 @@ void RoomSpace::keep_clear(std::vector<Polygon2> areas) {
   clear_.insert(clear_.end(), std::make_move_iterator(areas.begin()), std::make_move_iterator(areas.end()));
 }
 
+template <class Use>
+void RoomSpace::for_neighbours(std::size_t cell, const Use& use) const {
+  const auto [i, j] = grid_.column_and_row(cell);
+  for (const auto& [di, dj] : {std::array{1, 0}, {-1, 0}, {0, 1}, {0, -1}})
+    if (grid_.holds(i + di, j + dj)) use(grid_.index(i + di, j + dj));
+}
+
+template <class Use>
+void RoomSpace::for_free_neighbours(std::size_t cell, const Use& use) const {
+  for_neighbours(cell, [&](std::size_t next) {
+    if (free(next)) use(next);
+  });
+}
+
+/// Numbers of the pieces of floor on which the middle of something can stand, by cell; -1 elsewhere.
+std::vector<int> RoomSpace::standing_pieces() const {
+  constexpr float half_m = 0.15F;  // more than a cell, so that no piece reaches through a wall
+  std::vector<int> piece(grid_.size(), -1);
+  int count = 0;
+  for (std::size_t start = 0; start < grid_.size(); ++start) {
+    if (piece[start] >= 0 || clearance_[start] < half_m) continue;
+    std::vector<std::size_t> cells = {start};
+    piece[start] = count;
+    for (std::size_t k = 0; k < cells.size(); ++k)
+      for_neighbours(cells[k], [&](std::size_t next) {
+        if (piece[next] >= 0 || clearance_[next] < half_m) return;
+        piece[next] = count;
+        cells.push_back(next);
+      });
+    ++count;
+  }
+  return piece;
+}
+
+/// Where one enters over an area: its floor nearest to its first and last corners, since it may reach through a wall
+/// on the other side.
+std::optional<std::size_t> RoomSpace::cell_at_entry(const Polygon2& area, const std::vector<int>& piece) const {
+  std::optional<std::size_t> nearest;
+  double least = 0.0;
+  const CellRange range = cells_around(footprint_of(area).box);
+  for (int j = range.j0; j <= range.j1; ++j)
+    for (int i = range.i0; i <= range.i1; ++i) {
+      const std::size_t cell = grid_.index(i, j);
+      if (piece[cell] < 0 || !contains(area, grid_.center(i, j))) continue;
+      const double d = segment_distance(area.front(), area.back(), grid_.center(i, j));
+      if (nearest && d >= least) continue;
+      nearest = cell;
+      least = d;
+    }
+  return nearest;
+}
+
+void RoomSpace::leave_out_shut_off() {
+  const std::vector<int> piece = standing_pieces();
+  std::set<int> entered;
+  for (const Polygon2& area : clear_)
+    if (const auto cell = cell_at_entry(area, piece)) entered.insert(piece[*cell]);
+  if (entered.empty()) return;
+  std::vector<std::size_t> cells;
+  for (std::size_t cell = 0; cell < piece.size(); ++cell)
+    if (piece[cell] >= 0 && !entered.contains(piece[cell])) cells.push_back(cell);
+  if (cells.empty()) return;
+  shut_off_.assign(grid_.size(), 0);
+  for (const std::size_t cell : cells) shut_off_[cell] = 1;
+  // And the strip along what stands around it.
+  constexpr int strip_cells = 2;
+  for (int step = 0; step < strip_cells; ++step)
+    for (std::size_t k = 0, count = cells.size(); k < count; ++k)
+      for_neighbours(cells[k], [&](std::size_t next) {
+        if (shut_off_[next] != 0 || clearance_[next] <= 0.0F || piece[next] >= 0) return;
+        shut_off_[next] = 1;
+        cells.push_back(next);
+      });
+  for (const std::size_t cell : cells) set_clearance(cell, -1.0F);
+}
+
+double RoomSpace::floor_m2() const {
+  const auto cells = std::count(shut_off_.begin(), shut_off_.end(), 1);
+  return signed_area(outline_) - static_cast<double>(cells) * grid_.cell * grid_.cell;
+}
+
 int RoomSpace::add(Footprint footprint) {
   lower(footprint);
   standing_.push_back({std::move(footprint), true});
@@ -105,6 +187,9 @@ bool RoomSpace::holds(const Footprint& footprint) const {
   if (footprint.parts.empty()) return false;
   for (const Polygon2& part : footprint.parts)
     if (!contains(outline_, part.front())) return false;
+  if (!shut_off_.empty())
+    for (const Polygon2& part : footprint.parts)
+      if (const auto cell = grid_.find(footprint_of(part).box.center()); cell && shut_off_[*cell] != 0) return false;
   for (const Standing& other : standing_)
     if (other.there && nearer_than(footprint, other.footprint, config_.gap_m - rounding_m)) return false;
   for (const Polygon2& area : clear_)
@@ -127,16 +212,6 @@ bool RoomSpace::stays_walkable(const Footprint& footprint) {
     }
   if (turning_cells_ > 0 && turning <= 0) return false;
   return taken.empty() || connected_without(taken);
-}
-
-template <class Use>
-void RoomSpace::for_free_neighbours(std::size_t cell, const Use& use) const {
-  const auto [i, j] = grid_.column_and_row(cell);
-  for (const auto& [di, dj] : {std::array{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
-    if (!grid_.holds(i + di, j + dj)) continue;
-    const std::size_t next = grid_.index(i + di, j + dj);
-    if (free(next)) use(next);
-  }
 }
 
 /// Where a free part loses cells that hang together, its remains touch them. So it stays in one piece where all free

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "bim/furniture/footprint.h"
@@ -19,6 +20,9 @@ class RoomSpace {
   explicit RoomSpace(const Room& room, WalkableConfig config = {});
 
   void keep_clear(std::vector<Polygon2> areas);
+  /// Takes out floor that what stands there shuts off from every area kept clear, such as the inside of a shaft; none
+  /// where no area tells how the room is entered. To be called before furniture is added.
+  void leave_out_shut_off();
   /// Index of what was added; nothing is checked.
   int add(Footprint footprint);
   void remove(int index);
@@ -31,6 +35,8 @@ class RoomSpace {
   [[nodiscard]] double clearance(const Eigen::Vector2d& p) const;
   /// Any free cell, on a grid that is not too large.
   [[nodiscard]] bool walkable() const { return free_cells_ > 0; }
+  /// Of the room without what is left out, m^2.
+  [[nodiscard]] double floor_m2() const;
 
   /// Around the room's outline.
   [[nodiscard]] const Eigen::AlignedBox2d& box() const { return box_; }
@@ -48,9 +54,13 @@ class RoomSpace {
 
   [[nodiscard]] CellRange cells_around(const Eigen::AlignedBox2d& box) const;
   void find_inside(const Polygon2& outline);
+  [[nodiscard]] std::vector<int> standing_pieces() const;
+  [[nodiscard]] std::optional<std::size_t> cell_at_entry(const Polygon2& area, const std::vector<int>& piece) const;
   void lower(const Footprint& footprint);
   void set_clearance(std::size_t cell, float value);
   [[nodiscard]] bool free(std::size_t cell) const { return clearance_[cell] >= radius_; }
+  template <class Use>
+  void for_neighbours(std::size_t cell, const Use& use) const;
   template <class Use>
   void for_free_neighbours(std::size_t cell, const Use& use) const;
   [[nodiscard]] bool connected_without(const std::vector<std::size_t>& taken);
@@ -66,6 +76,7 @@ class RoomSpace {
   std::vector<Standing> standing_;
   std::vector<Polygon2> clear_;
   std::vector<float> clearance_;       ///< by cell; -1 outside
+  std::vector<char> shut_off_;         ///< by cell; empty: none is
   std::vector<std::uint32_t> marked_;  ///< by cell: the search that last saw it
   std::uint32_t search_ = 0;
   std::int64_t free_cells_ = 0, turning_cells_ = 0;

@@ -28,6 +28,15 @@ Box3 bounds_of(const Wall& wall) {
   return box;
 }
 
+Box3 bounds_of(const Column& column) {
+  Box3 box;
+  if (column.body) extend(box, *column.body);
+  if (column.body) return box;
+  for (const Eigen::Vector2d& p : column.footprint)
+    for (const double z : {column.z0_m, column.z1_m}) box.extend(Eigen::Vector3d(p.x(), p.y(), z));
+  return box;
+}
+
 Box3 bounds_of(const Stair& stair) {
   Box3 box;
   for (const Solid& solid : stair.bodies) extend(box, solid);
@@ -95,6 +104,7 @@ void add_stair_ends(const Stair& stair, double floor_z_m, const WalkableConfig& 
 
 Surroundings::Surroundings(const Building& building) : building_(building) {
   for (const Wall& wall : building.walls) walls_.push_back(bounds_of(wall));
+  for (const Column& column : building.columns) columns_.push_back(bounds_of(column));
   for (const Stair& stair : building.stairs) stairs_.push_back(bounds_of(stair));
   for (const Slab& slab : building.slabs) {
     slabs_.emplace_back();
@@ -115,8 +125,14 @@ std::vector<Footprint> Surroundings::near(const Eigen::AlignedBox2d& box, double
     if (!overlaps(box, z0, z1, walls_[i])) continue;
     add_if_any(wall.body ? footprint_of(*wall.body, z0, z1) : footprint_of(footprint(wall)), all);
   }
-  for (const Column& column : building_.columns)
-    if (column.z0_m < z1 && column.z1_m > z0) add_hull(column.footprint, all);
+  for (std::size_t i = 0; i < columns_.size(); ++i) {
+    const Column& column = building_.columns[i];
+    if (!overlaps(box, z0, z1, columns_[i])) continue;
+    if (column.body)
+      add_if_any(footprint_of(*column.body, z0, z1), all);
+    else
+      add_hull(column.footprint, all);
+  }
   for (std::size_t i = 0; i < stairs_.size(); ++i) {
     // At its head a stair ends level with the floor; its hole is below.
     if (!overlaps(box, floor_z_m - config.sill_max_m, z1, stairs_[i])) continue;

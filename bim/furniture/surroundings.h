@@ -37,7 +37,7 @@ class Surroundings {
 
  private:
   const Building& building_;
-  std::vector<Eigen::AlignedBox3d> walls_, obstacles_, stairs_, slabs_;
+  std::vector<Eigen::AlignedBox3d> walls_, columns_, obstacles_, stairs_, slabs_;
 };
 
 /// Areas that stay free: in front of doors and open edges, before and behind stairs. Convex.

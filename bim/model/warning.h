@@ -16,7 +16,7 @@ struct WarningRow {
 };
 
 /// Every kind of warning that a reader or the mesh gives, by name.
-inline constexpr std::array<WarningRow, 63> warning_rows = {{
+inline constexpr std::array<WarningRow, 64> warning_rows = {{
     {"assumed_doorway", "a gap between two walls in line becomes a doorway with a lintel"},
     {"assumed_floor", "the drawing has no floor; everything within the outer walls gets one"},
     {"assumed_height", "the file gives no height of the storey; it is taken as 3 m"},
@@ -36,6 +36,7 @@ inline constexpr std::array<WarningRow, 63> warning_rows = {{
     {"door_without_wall", "a door stands in no wall; its doorway stays open"},
     {"empty", "its openings leave nothing of a wall"},
     {"empty_storey", "a storey has no walls, slabs, spaces or stairs; it is left out"},
+    {"few_chairs", "the furniture that a scenario adds has fewer chairs than people; only so many sit"},
     {"filling_matched", "a door or window names no opening; it gets the one it stands in"},
     {"geometry", "a part of the element's geometry could not be read; the rest was"},
     {"inferred_room", "the file or the storey has no spaces; the room is what walls enclose"},
@@ -46,7 +47,7 @@ inline constexpr std::array<WarningRow, 63> warning_rows = {{
     {"niche",
      "an opening does not go through its wall: it is cut in 3D and leads nowhere; that of a door up to 6 cm short is "
      "cut through"},
-    {"no_area", "a slab has no area on the plan; it is kept as an obstacle"},
+    {"no_area", "a slab or a column has no area on the plan; it is kept as an obstacle"},
     {"no_axis",
      "a wall has no reference line; its body's longer extent on the plan replaces it, or the wall is left out"},
     {"no_body", "the element has no body that can be read; it is left out, and an opening cuts nothing"},

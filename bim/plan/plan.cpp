@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "bim/errors.h"
+#include "bim/geometry/polygon_boolean.h"
 #include "bim/mesh/solid.h"
 #include "bim/mesh/visible.h"
 #include "bim/model/boxes.h"
@@ -18,6 +19,8 @@
 namespace plumbline::bim {
 
 namespace {
+
+constexpr double filled_min = 0.9;  ///< least share of its upright prism that a solid of the plan fills
 
 /// The opening as a rectangle of one side, cut off where it reaches beyond the face.
 FaceHole hole_of(const Opening& opening, const Wall& wall, int side) {
@@ -105,7 +108,6 @@ void link_rooms(const Building& building, Plan& plan) {
 
 /// The obstacle as the upright prism around it, or nothing where it is mostly air: light passes under a table.
 std::optional<PlanSolid> solid_of(const Obstacle& obstacle) {
-  constexpr double filled_min = 0.9;
   if (!obstacle.planned || is_filling(obstacle) || obstacle.body.vertices.empty()) return std::nullopt;
   const auto [low, high] = std::minmax_element(obstacle.body.vertices.begin(), obstacle.body.vertices.end(),
                                                [](const auto& p, const auto& q) { return p.z() < q.z(); });
@@ -118,10 +120,23 @@ std::optional<PlanSolid> solid_of(const Obstacle& obstacle) {
   return solid;
 }
 
+/// Whether a column is the upright prism over what it covers, unlike one that leans or widens at its head. Of a body
+/// that does not close nobody knows.
+bool is_prism(const Column& column) {
+  if (!column.body || !is_closed(*column.body)) return true;
+  std::vector<Polygon2> tops;
+  for (const Eigen::Vector3i& t : column.body->triangles) {
+    Polygon2 seen;
+    for (const int i : t) seen.emplace_back(column.body->vertices[static_cast<std::size_t>(i)].head<2>());
+    if (signed_area(seen) > 0.0) tops.push_back(std::move(seen));
+  }
+  return volume(*column.body) >= filled_min * area(unite(tops)) * (column.z1_m - column.z0_m);
+}
+
 std::vector<PlanSolid> solids_of(const Building& building) {
   std::vector<PlanSolid> solids;
   for (const Column& column : building.columns) {
-    if (column.footprint.size() < 3) continue;
+    if (column.footprint.size() < 3 || !is_prism(column)) continue;
     solids.push_back({column.id, column.storey, column.footprint, column.z0_m, column.z1_m});
     if (signed_area(column.footprint) < 0.0) std::reverse(solids.back().outline.begin(), solids.back().outline.end());
   }

@@ -66,7 +66,8 @@ struct Plan {
   std::vector<PlanStorey> storeys;
   std::vector<PlanFace> faces;
   std::vector<PlanRoom> rooms;
-  std::vector<PlanSolid> solids;  ///< columns, then obstacles; those that fill their convex hull, unlike tables
+  std::vector<PlanSolid>
+      solids;  ///< columns that are upright prisms, then obstacles that fill their convex hull, unlike tables
   /// What was built to stay, as a LiDAR sees it: no furniture, no panes, doors open. Empty in a plan that was not made
   /// from a building; faces and solids stand for it there.
   BuildingMesh structure;

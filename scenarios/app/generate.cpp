@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -115,19 +116,25 @@ std::string scenario_for(const bim::GeneratedPlan& generated, const std::string&
 
 bool is_ifc(const std::string& path) { return fs::path(path).extension() == ".ifc"; }
 
+void warn_of_missing_chairs(const std::vector<bim::FurniturePiece>& pieces, const GenerateOptions& options) {
+  if (const std::optional<bim::Warning> missing = bim::chairs_missing(pieces, options.furniture))
+    print_note("plumbline: warning: " + options.building + ": " + missing->text);
+}
+
 /// The plan, or the building as IFC, with furniture.
 std::string furnished(const GenerateOptions& options) {
   bim::Building building = bim::load_building(options.building);
   if (building.rooms.empty()) throw InputError({options.building, 0, 0}, "has no rooms to furnish");
   if (is_ifc(options.out)) {
-    for (bim::Obstacle& piece : bim::furnish(building, options.furniture))
-      building.obstacles.push_back(std::move(piece));
+    const std::vector<bim::FurniturePiece> pieces = bim::furnish_pieces(building, options.furniture);
+    for (const bim::FurniturePiece& piece : pieces) building.obstacles.push_back(obstacle_of(piece));
+    warn_of_missing_chairs(pieces, options);
     return bim::write_ifc(building);
   }
   if (building.schema != "plan")
     throw InputError({options.out, 0, 0}, "only a plan can be written as a plan; name a file that ends in .ifc");
   bim::PlanFile plan = bim::plan_entries(read_yaml(read_text_file(options.building), options.building));
-  bim::furnish_plan(plan, options.furniture);
+  warn_of_missing_chairs(bim::furnish_plan(plan, options.furniture), options);
   return bim::write_plan(
       plan,
       "Made by: plumbline generate furnish " + fs::path(options.building).filename().string() + " --furnish " +

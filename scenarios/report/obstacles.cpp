@@ -30,6 +30,10 @@ std::vector<ReportObstacle> obstacles_of(const bim::Building& building, const bi
     if (stands_in_the_way(building, prism.storey, prism.z0, prism.z1))
       obstacles.push_back({prism.id, prism.storey, prism.outline, true});
   }
+  for (const bim::Column& column : building.columns)
+    if (!solid.contains(column.id) && column.footprint.size() >= 3 &&
+        stands_in_the_way(building, column.storey, column.z0_m, column.z1_m))
+      obstacles.push_back({column.id, column.storey, column.footprint, false});
   for (const bim::Obstacle& obstacle : building.obstacles) {
     const std::vector<Eigen::Vector3d>& corners = obstacle.body.vertices;
     if (solid.contains(obstacle.id) || bim::is_filling(obstacle) || corners.empty()) continue;

@@ -28,13 +28,14 @@ std::vector<Eigen::Vector2d> walk_through(const bim::Building& building, const P
   std::vector<Eigen::Vector2d> points;
   for (const std::string& name : person.rooms) {
     const auto room = static_cast<std::size_t>(find_room_on(building, storey, name, mark));
-    const auto target = free_space.room_target(building.rooms[room].polygon);
-    if (target.empty()) throw InputError(mark, "there is no room to stand in '" + name + "'");
+    const auto targets = free_space.room_targets(building.rooms[room].polygon);
+    if (targets.empty()) throw InputError(mark, "there is no room to stand in '" + name + "'");
     if (points.empty()) {
-      points.push_back(target[0]);
+      points.push_back(targets[0]);
       continue;
     }
-    const auto way = free_space.path(points.back(), target[0]);
+    const auto in_reach = free_space.reachable(points.back(), targets);
+    const auto way = free_space.path(points.back(), in_reach.empty() ? targets[0] : in_reach[0]);
     if (way.empty()) throw InputError(mark, "no person can walk from the room before to '" + name + "'");
     points.insert(points.end(), way.begin() + 1, way.end());
   }

@@ -95,7 +95,7 @@ class StartSampler {
       : storey_(storey), stream_(seed, "scenario.start"), space_(building) {
     for (const bim::Room& room : building.rooms) {
       if (room.storey != storey) continue;
-      const std::vector<Eigen::Vector2d> target = space_.storey(storey).room_target(room.polygon);
+      const std::vector<Eigen::Vector2d> target = space_.storey(storey).room_targets(room.polygon);
       if (!target.empty())
         rooms_.push_back({room.id, target.front(), places_in(building, room, space_.storey(storey))});
     }

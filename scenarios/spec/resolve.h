@@ -45,8 +45,8 @@ struct ResolvedScenario {
 [[nodiscard]] ResolvedScenario resolve(const std::string& input, const Overrides& overrides,
                                        slam::MethodTable table = slam::methods());
 
-/// What is to be said of a default walk before it begins: rooms out of reach and why, rooms left out, warnings. A line
-/// each.
+/// What is to be said of a default walk before it begins: people without chairs, rooms out of reach and why, rooms
+/// left out, warnings. A line each.
 [[nodiscard]] std::vector<std::string> walk_notes(const ResolvedScenario& resolved);
 
 /// Checks that methods are known, asked for once, and can do with the sensors that their labels name; `marks[i]` says

@@ -30,16 +30,23 @@ Eigen::Vector2d rounded(const Eigen::Vector2d& p) {
   return ((p * coordinate_steps).array().round() / coordinate_steps).matrix();
 }
 
-RoomPlaces::RoomPlaces(const bim::Building& as_built, const sim::MultiStoreyPlanner& space)
-    : building_(as_built), space_(space), places_(as_built.rooms.size()) {}
+RoomPlaces::RoomPlaces(const bim::Building& as_built, const sim::MultiStoreyPlanner& space,
+                       const std::optional<sim::FloorPoint>& from)
+    : building_(as_built), space_(space), from_(from), places_(as_built.rooms.size()) {}
 
 const std::optional<sim::FloorPoint>& RoomPlaces::of(int room) const {
   std::optional<std::optional<sim::FloorPoint>>& place = places_.at(static_cast<std::size_t>(room));
   if (place) return *place;
   const bim::Room& of = building_.rooms[static_cast<std::size_t>(room)];
-  const std::vector<Eigen::Vector2d> found = space_.storey(of.storey).room_target(of.polygon);
+  const std::vector<Eigen::Vector2d> found = space_.storey(of.storey).room_targets(of.polygon);
   place.emplace();
-  if (!found.empty()) *place = sim::FloorPoint{of.storey, rounded(found.front())};
+  if (found.empty()) return *place;
+  const auto point = [&](const Eigen::Vector2d& p) { return sim::FloorPoint{of.storey, rounded(p)}; };
+  const auto reached =
+      found.size() < 2 || !from_ ? found.begin() : std::find_if(found.begin(), found.end(), [&](const auto& p) {
+        return !space_.path(*from_, point(p)).empty();
+      });
+  *place = point(reached == found.end() ? found.front() : *reached);
   return *place;
 }
 

@@ -16,8 +16,10 @@ namespace plumbline::scenarios {
 /// The freest places of the rooms of a building, each looked for once.
 class RoomPlaces {
  public:
-  /// Both must outlive it.
-  RoomPlaces(const bim::Building& as_built, const sim::MultiStoreyPlanner& space);
+  /// Both must outlive it. Where the floor of a room falls into pieces, those that can be reached `from` a point go
+  /// before others.
+  RoomPlaces(const bim::Building& as_built, const sim::MultiStoreyPlanner& space,
+             const std::optional<sim::FloorPoint>& from = std::nullopt);
 
   /// Of the room with this index, if the robot can turn round in it.
   [[nodiscard]] const std::optional<sim::FloorPoint>& of(int room) const;
@@ -45,6 +47,7 @@ class RoomPlaces {
  private:
   const bim::Building& building_;
   const sim::MultiStoreyPlanner& space_;
+  std::optional<sim::FloorPoint> from_;
   mutable std::vector<std::optional<std::optional<sim::FloorPoint>>> places_;
 };
 

@@ -383,9 +383,9 @@ RoutePlan plan_route(const sim::MultiStoreyPlanner& space, const Start& start, c
   RoutePlan plan;
   const RoomPlaces places(space.building(), space);
   plan.storey = start_storey(space.building(), places, start, marks);
-  const Planner planner(space, places, plan.storey, marks, all_longest_m);
-  plan.start_W = planner.place(start);
-  planner.walk(route, plan);
+  plan.start_W = Planner(space, places, plan.storey, marks, all_longest_m).place(start);
+  const RoomPlaces in_reach(space.building(), space, sim::FloorPoint{plan.storey, plan.start_W});
+  Planner(space, in_reach, plan.storey, marks, all_longest_m).walk(route, plan);
   plan.length_m = sim::length(plan.waypoints);
   plan.stairs_m = sim::length_on_stairs(plan.waypoints);
   plan.yaw_deg = start.yaw_deg ? *start.yaw_deg : first_heading_deg(plan.waypoints);

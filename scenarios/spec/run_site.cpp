@@ -2,6 +2,8 @@
 #include "scenarios/spec/run_site.h"
 
 #include <algorithm>
+#include <optional>
+#include <utility>
 
 #include "bim/model/floors.h"
 
@@ -43,7 +45,11 @@ bim::PlannedAndBuilt load_site(const std::string& path, const Scenario& scenario
   const std::vector<bim::Slab> floors = bim::assumed_slabs(site.as_built);
   site.as_built.slabs.insert(site.as_built.slabs.end(), floors.begin(), floors.end());
   if (scenario.furnish) {
-    const Obstacles added = bim::furnish(site.as_planned, *scenario.furnish);
+    const std::vector<bim::FurniturePiece> pieces = bim::furnish_pieces(site.as_planned, *scenario.furnish);
+    Obstacles added;
+    for (const bim::FurniturePiece& piece : pieces) added.push_back(obstacle_of(piece));
+    if (std::optional<bim::Warning> missing = bim::chairs_missing(pieces, *scenario.furnish))
+      site.as_planned.warnings.push_back(std::move(*missing));
     check_ids(added, site.as_built, path);
     for (bim::Building* building : {&site.as_planned, &site.as_built})
       building->obstacles.insert(building->obstacles.end(), added.begin(), added.end());

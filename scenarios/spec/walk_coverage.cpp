@@ -44,7 +44,10 @@ bool enters(const std::vector<sim::Waypoint>& way, const bim::Room& room, double
 class Surveyor {
  public:
   Surveyor(const sim::MultiStoreyPlanner& space, const RoutePlan& plan)
-      : building_(space.building()), space_(space), plan_(plan), places_(space.building(), space) {}
+      : building_(space.building()),
+        space_(space),
+        plan_(plan),
+        places_(space.building(), space, sim::FloorPoint{plan.storey, plan.start_W}) {}
 
   [[nodiscard]] bool in_reach(int index) const {
     const std::optional<sim::FloorPoint>& place = places_.of(index);

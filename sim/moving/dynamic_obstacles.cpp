@@ -26,6 +26,12 @@ bool wanted_open(const SwingDoorConfig& door, double time_s, const Eigen::Vector
   return passed % 2 == 1;
 }
 
+/// Whether the robot is so near to a person, on the same floor, that the person stands still.
+bool is_near(const PersonConfig& config, const Eigen::Vector3d& person_W, const Eigen::Vector3d& robot_W) {
+  const Eigen::Vector3d apart = robot_W - person_W;
+  return std::abs(apart.z()) < config.height_m && apart.head<2>().norm() < DynamicObstacles::keep_away_m;
+}
+
 void forget(std::vector<bim::BodyStation>& stations, double time_s) {
   const auto after = std::upper_bound(stations.begin(), stations.end(), time_s,
                                       [](double t, const bim::BodyStation& s) { return t < s.time_s; });
@@ -90,8 +96,7 @@ void DynamicObstacles::step(slam::Nanoseconds stamp, const Eigen::Vector3d& robo
   const double elapsed_s = seconds(stamp - stamp_);
   stamp_ = stamp;
   for (Person& person : people_) {
-    const bool stands = (position(person) - robot_W).head<2>().norm() < keep_away_m;
-    if (!stands) walk(person, person.config.speed_mps * elapsed_s);
+    if (!is_near(person.config, position(person), robot_W)) walk(person, person.config.speed_mps * elapsed_s);
     person.body.stations.push_back({seconds(stamp), position(person), 0.0});
   }
   for (Door& door : doors_) {

@@ -36,7 +36,7 @@ struct SwingDoorConfig {
 /// on, people first.
 class DynamicObstacles {
  public:
-  static constexpr double keep_away_m = 1.0;  ///< people this near to the robot (in the plane) stand still
+  static constexpr double keep_away_m = 1.0;  ///< people this near to the robot on their floor stand still
 
   /// Throws InternalError on a person without points.
   DynamicObstacles(std::vector<PersonConfig> people, std::vector<SwingDoorConfig> doors, int first_element);

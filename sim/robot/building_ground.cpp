@@ -26,7 +26,84 @@ struct BuildingGroundConfig {
   double sill_min_m = 0.003;   ///< a lower sill is no sill
 };
 
-using Points = std::vector<Eigen::Vector2d>;
+/// Whether four corners make a rectangle.
+bool is_rectangle(const PolygonWithHoles2& polygon) {
+  const Polygon2& p = polygon.outer;
+  if (p.size() != 4 || !polygon.holes.empty()) return false;
+  return ((p[0] + p[2]) - (p[1] + p[3])).norm() < 1e-3 && std::abs((p[2] - p[0]).norm() - (p[3] - p[1]).norm()) < 1e-3;
+}
+
+/// The direction of a polygon's longest edge (ties: the first), less whole quarter turns.
+double yaw_of(const Polygon2& polygon) {
+  constexpr double level = 1e-9;
+  Eigen::Vector2d along = Eigen::Vector2d::UnitX();
+  double longest = 0.0;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Eigen::Vector2d edge = polygon[(i + 1) % polygon.size()] - polygon[i];
+    if (edge.norm() <= longest + level) continue;
+    longest = edge.norm();
+    along = edge.normalized();
+  }
+  while (along.x() <= level || along.y() < -level) along = {-along.y(), along.x()};
+  return along.y() < level ? 0.0 : std::atan2(along.y(), along.x());
+}
+
+PolygonWithHoles2 turned(PolygonWithHoles2 polygon, const Eigen::Rotation2Dd& turn) {
+  for (Eigen::Vector2d& p : polygon.outer) p = turn * p;
+  for (Polygon2& hole : polygon.holes)
+    for (Eigen::Vector2d& p : hole) p = turn * p;
+  return polygon;
+}
+
+/// Runs of cells along x inside a polygon; rows with the same runs are one rectangle.
+std::vector<Eigen::AlignedBox2d> rows_of(const PolygonWithHoles2& polygon, double cell_m) {
+  std::vector<Eigen::AlignedBox2d> out;
+  Eigen::AlignedBox2d box;
+  for (const Eigen::Vector2d& p : polygon.outer) box.extend(p);
+  const Eigen::Vector2i count = (box.sizes() / cell_m).array().ceil().cast<int>();
+  const Eigen::Vector2d cell = box.sizes().cwiseQuotient(count.cast<double>());
+  using Runs = std::vector<std::pair<int, int>>;
+  const auto runs_of = [&](int row) {
+    Runs runs;
+    for (int i = 0; i < count.x(); ++i) {
+      const Eigen::Vector2d p = box.min() + Eigen::Vector2d((i + 0.5) * cell.x(), (row + 0.5) * cell.y());
+      const auto in = [&](const Polygon2& ring) { return contains(ring, p); };
+      if (!in(polygon.outer) || std::any_of(polygon.holes.begin(), polygon.holes.end(), in)) continue;
+      if (!runs.empty() && runs.back().second == i)
+        ++runs.back().second;
+      else
+        runs.emplace_back(i, i + 1);
+    }
+    return runs;
+  };
+  Runs open;
+  int open_from = 0;
+  for (int row = 0; row <= count.y(); ++row) {
+    const Runs here = row < count.y() ? runs_of(row) : Runs{};
+    if (row < count.y() && here == open) continue;
+    for (const auto& [from, to] : open) {
+      const Eigen::Vector2d low = box.min() + Eigen::Vector2d(from * cell.x(), open_from * cell.y());
+      const Eigen::Vector2d high = box.min() + Eigen::Vector2d(to * cell.x(), row * cell.y());
+      out.emplace_back(low, high);
+    }
+    open = here;
+    open_from = row;
+  }
+  return out;
+}
+
+/// A level floor: the box over a rectangle, or cells along the longest edge of what is none.
+void add_level(const PolygonWithHoles2& polygon, const HeightRange& z, const BuildingGroundConfig& config,
+               std::vector<CollisionBox>& out) {
+  const double yaw = yaw_of(polygon.outer);
+  if (is_rectangle(polygon)) {
+    out.push_back(box_along(polygon.outer, yaw, z));
+    return;
+  }
+  const Eigen::Rotation2Dd turn(yaw);
+  for (const Eigen::AlignedBox2d& row : rows_of(turned(polygon, turn.inverse()), config.cell_m))
+    out.push_back(upright_box(turn * row.center(), yaw, 0.5 * row.sizes(), z));
+}
 
 /// Flights and landings of a stair as boxes one walks on.
 void add_steps(const bim::Stair& stair, const BuildingGroundConfig& config, std::vector<CollisionBox>& out) {
@@ -40,7 +117,7 @@ void add_steps(const bim::Stair& stair, const BuildingGroundConfig& config, std:
     }
   }
   for (const bim::Landing& landing : stair.landings)
-    out.push_back(bounding_box(landing.polygon, {landing.z_m - config.floor_body_m, landing.z_m}));
+    add_level({landing.polygon, {}}, {landing.z_m - config.floor_body_m, landing.z_m}, config, out);
 }
 
 /// Everything below the head of a stair that is not floor of the upper storey.
@@ -200,64 +277,17 @@ std::vector<std::vector<Well>> grouped(const std::vector<Well>& wells, double re
   return groups;
 }
 
-/// Whether four corners make a rectangle.
-bool is_rectangle(const PolygonWithHoles2& polygon) {
-  const Polygon2& p = polygon.outer;
-  if (p.size() != 4 || !polygon.holes.empty()) return false;
-  return ((p[0] + p[2]) - (p[1] + p[3])).norm() < 1e-3 && std::abs((p[2] - p[0]).norm() - (p[3] - p[1]).norm()) < 1e-3;
-}
-
-/// Runs of cells along x inside a polygon; rows with the same runs are one rectangle.
-std::vector<Eigen::AlignedBox2d> rows_of(const PolygonWithHoles2& polygon, double cell_m) {
-  std::vector<Eigen::AlignedBox2d> out;
-  Eigen::AlignedBox2d box;
-  for (const Eigen::Vector2d& p : polygon.outer) box.extend(p);
-  const Eigen::Vector2i count = (box.sizes() / cell_m).array().ceil().cast<int>();
-  const Eigen::Vector2d cell = box.sizes().cwiseQuotient(count.cast<double>());
-  using Runs = std::vector<std::pair<int, int>>;
-  const auto runs_of = [&](int row) {
-    Runs runs;
-    for (int i = 0; i < count.x(); ++i) {
-      const Eigen::Vector2d p = box.min() + Eigen::Vector2d((i + 0.5) * cell.x(), (row + 0.5) * cell.y());
-      const auto in = [&](const Polygon2& ring) { return contains(ring, p); };
-      if (!in(polygon.outer) || std::any_of(polygon.holes.begin(), polygon.holes.end(), in)) continue;
-      if (!runs.empty() && runs.back().second == i)
-        ++runs.back().second;
-      else
-        runs.emplace_back(i, i + 1);
-    }
-    return runs;
-  };
-  Runs open;
-  int open_from = 0;
-  for (int row = 0; row <= count.y(); ++row) {
-    const Runs here = row < count.y() ? runs_of(row) : Runs{};
-    if (row < count.y() && here == open) continue;
-    for (const auto& [from, to] : open) {
-      const Eigen::Vector2d low = box.min() + Eigen::Vector2d(from * cell.x(), open_from * cell.y());
-      const Eigen::Vector2d high = box.min() + Eigen::Vector2d(to * cell.x(), row * cell.y());
-      out.emplace_back(low, high);
-    }
-    open = here;
-    open_from = row;
-  }
-  return out;
-}
-
 /// A sloping floor as boxes that lean along its slope.
 void add_sloping(const bim::RaisedFloor& floor, const BuildingGroundConfig& config, std::vector<CollisionBox>& out) {
   const double yaw = std::atan2(floor.slope.y(), floor.slope.x()), tangent = floor.slope.norm(),
                secant = std::hypot(1.0, tangent);
   const Eigen::Rotation2Dd turn(yaw), back(-yaw);
-  PolygonWithHoles2 turned = floor.polygon;
-  for (Eigen::Vector2d& p : turned.outer) p = back * p;
-  for (Polygon2& hole : turned.holes)
-    for (Eigen::Vector2d& p : hole) p = back * p;
+  const PolygonWithHoles2 in_slope = turned(floor.polygon, back);
   const Eigen::Quaterniond q_WB = Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()) *
                                   Eigen::AngleAxisd(-std::atan(tangent), Eigen::Vector3d::UnitY());
-  const bool upright = is_rectangle(turned) && std::abs((turned.outer[1] - turned.outer[0]).prod()) < 1e-6;
+  const bool upright = is_rectangle(in_slope) && std::abs((in_slope.outer[1] - in_slope.outer[0]).prod()) < 1e-6;
   std::vector<Eigen::AlignedBox2d> rows =
-      upright ? std::vector{bim::box_of(turned.outer)} : rows_of(turned, config.cell_m);
+      upright ? std::vector{bim::box_of(in_slope.outer)} : rows_of(in_slope, config.cell_m);
   for (const Eigen::AlignedBox2d& row : rows) {
     const Eigen::Vector2d center = turn * row.center();
     CollisionBox box;
@@ -274,11 +304,8 @@ void add_raised(const bim::WalkedFloors& floors, const BuildingGroundConfig& con
     const HeightRange z{floors.ground_m - config.floor_body_m, floor.z_m};
     if (!floor.is_level())
       add_sloping(floor, config, out);
-    else if (is_rectangle(floor.polygon))
-      out.push_back(bounding_box(floor.polygon.outer, z));
     else
-      for (const Eigen::AlignedBox2d& row : rows_of(floor.polygon, config.cell_m))
-        out.push_back(upright_box(row.center(), 0.0, 0.5 * row.sizes(), z));
+      add_level(floor.polygon, z, config, out);
   }
 }
 

@@ -222,9 +222,12 @@ std::vector<CollisionBox> collision_boxes(const bim::Building& as_built, const s
   };
   for (std::size_t i = 0; i < as_built.walls.size(); ++i)
     add_wall(as_built, static_cast<int>(i), reaches, config, boxes);
-  for (const bim::Column& column : as_built.columns)
-    if (reached({column.z0_m, column.z1_m}))
+  for (const bim::Column& column : as_built.columns) {
+    if (column.body)
+      add_solid(*column.body);
+    else if (!column.footprint.empty() && reached({column.z0_m, column.z1_m}))
       boxes.push_back(bounding_box(column.footprint, {column.z0_m, column.z1_m}));
+  }
   for (const bim::Stair& stair : as_built.stairs)
     if (!is_walked(stair, storeys))
       for (const bim::Solid& body : stair.bodies) add_solid(body);

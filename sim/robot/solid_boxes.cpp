@@ -164,25 +164,29 @@ CollisionBox upright_box(const Eigen::Vector2d& center, double yaw, const Eigen:
   return box;
 }
 
+CollisionBox box_along(const std::vector<Eigen::Vector2d>& points, double yaw, const HeightRange& z) {
+  const Eigen::Vector2d ex(std::cos(yaw), std::sin(yaw));
+  const Eigen::Vector2d ey(-ex.y(), ex.x());
+  Eigen::Vector2d low(ex.dot(points[0]), ey.dot(points[0]));
+  Eigen::Vector2d high = low;
+  for (const Eigen::Vector2d& p : points) {
+    const Eigen::Vector2d local(ex.dot(p), ey.dot(p));
+    low = low.cwiseMin(local);
+    high = high.cwiseMax(local);
+  }
+  const Eigen::Vector2d mid = 0.5 * (low + high);
+  return upright_box(mid.x() * ex + mid.y() * ey, yaw, 0.5 * (high - low), z);
+}
+
 CollisionBox bounding_box(const std::vector<Eigen::Vector2d>& points, const HeightRange& z) {
   CollisionBox best;
   double best_area = -1.0;
   for (int i = 0; i < direction_count; ++i) {
-    const double yaw = i * 0.5 * std::numbers::pi / direction_count;
-    const Eigen::Vector2d ex(std::cos(yaw), std::sin(yaw));
-    const Eigen::Vector2d ey(-ex.y(), ex.x());
-    Eigen::Vector2d low(ex.dot(points[0]), ey.dot(points[0]));
-    Eigen::Vector2d high = low;
-    for (const Eigen::Vector2d& p : points) {
-      const Eigen::Vector2d local(ex.dot(p), ey.dot(p));
-      low = low.cwiseMin(local);
-      high = high.cwiseMax(local);
-    }
-    const double area = (high - low).prod();
+    const CollisionBox box = box_along(points, i * 0.5 * std::numbers::pi / direction_count, z);
+    const double area = 4.0 * box.half.head<2>().prod();
     if (best_area >= 0.0 && area >= best_area - 1e-9) continue;
     best_area = area;
-    const Eigen::Vector2d mid = 0.5 * (low + high);
-    best = upright_box(mid.x() * ex + mid.y() * ey, yaw, 0.5 * (high - low), z);
+    best = box;
   }
   return best;
 }

@@ -21,6 +21,9 @@ struct HeightRange {
 [[nodiscard]] CollisionBox upright_box(const Eigen::Vector2d& center, double yaw, const Eigen::Vector2d& half,
                                        const HeightRange& z);
 
+/// The smallest upright box over points whose x axis points along `yaw`. points must not be empty.
+[[nodiscard]] CollisionBox box_along(const std::vector<Eigen::Vector2d>& points, double yaw, const HeightRange& z);
+
 /// The smallest upright box over points, its direction one of 36 (ties: the first). points must not be empty.
 [[nodiscard]] CollisionBox bounding_box(const std::vector<Eigen::Vector2d>& points, const HeightRange& z);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <functional>
 #include <limits>
@@ -20,6 +21,17 @@ std::int64_t open_ground_cost(const GridFrame& grid, std::size_t from, std::size
   const auto [to_x, to_y] = grid.column_and_row(to);
   const std::int64_t dx = std::abs(from_x - to_x), dy = std::abs(from_y - to_y);
   return unit_cost * (straight_step * (std::max(dx, dy) - std::min(dx, dy)) + diagonal_step * std::min(dx, dy));
+}
+
+bool crosses_step(const ClearanceMap& space, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  const int count = 1 + static_cast<int>(2.0 * (b - a).norm() / space.grid().cell);
+  double before = space.height(a);
+  for (int i = 1; i <= count; ++i) {
+    const double here = space.height(a + (b - a) * (static_cast<double>(i) / count));
+    if (std::abs(here - before) > space.config().flat_m) return true;
+    before = here;
+  }
+  return false;
 }
 
 }  // namespace
@@ -115,7 +127,8 @@ bool ClearanceMap::clear_line(const Eigen::Vector2d& a, const Eigen::Vector2d& b
   return true;
 }
 
-/// Leaves out points as long as the straight line keeps the clearance that the path around them had, or enough.
+/// Leaves out points as long as the straight line keeps the clearance that the path around them had, or enough,
+/// and crosses no step: the robot has to line up with one.
 std::vector<Eigen::Vector2d> ClearanceMap::shortened(const std::vector<Eigen::Vector2d>& points) const {
   const double slack = 0.25 * config_.cell_m;  // a line off the cells' centres is a little nearer to a wall
   std::vector<Eigen::Vector2d> kept = {points.front()};
@@ -126,7 +139,7 @@ std::vector<Eigen::Vector2d> ClearanceMap::shortened(const std::vector<Eigen::Ve
     while (to + 1 < points.size()) {
       narrowest = std::min(narrowest, clearance(points[to + 1]));
       const double wanted = std::max(clearance_min(), std::min(narrowest - slack, config_.shortcut_m));
-      if (!clear_line(points[from], points[to + 1], wanted)) break;
+      if (!clear_line(points[from], points[to + 1], wanted) || crosses_step(*this, points[from], points[to + 1])) break;
       ++to;
     }
     kept.push_back(points[to]);

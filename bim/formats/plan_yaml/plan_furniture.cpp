@@ -22,19 +22,19 @@ PlanClutterEntry clutter_entry(const FurniturePiece& piece, const std::string& s
   return entry;
 }
 
-int furnish_plan(PlanFile& plan, const FurnishOptions& options) {
+std::vector<FurniturePiece> furnish_plan(PlanFile& plan, const FurnishOptions& options) {
   const PlanWithDeviations both = read_plan_with_deviations(write_plan(plan), plan.name);
   FurnishSites sites;
   sites.as_built = &both.as_built.building;
   for (const PlanStoreyEntry& storey : plan.storeys)
     sites.repeats.push_back(storey.copy_of.empty() ? -1 : find_entry(plan.storeys, storey.copy_of));
-  const std::vector<FurniturePiece> pieces = furnish_pieces(both.as_planned, options, sites);
+  std::vector<FurniturePiece> pieces = furnish_pieces(both.as_planned, options, sites);
   if (plan.clutter.size() + pieces.size() > plan_entries_max)
     throw InputError({plan.name, 0, 0}, "the plan would hold more than " + std::to_string(plan_entries_max) +
                                             " pieces of clutter; lower the density");
   for (const FurniturePiece& piece : pieces)
     plan.clutter.push_back(clutter_entry(piece, plan.storeys[static_cast<std::size_t>(piece.storey)].id));
-  return static_cast<int>(pieces.size());
+  return pieces;
 }
 
 }  // namespace plumbline::bim

@@ -11,9 +11,9 @@ namespace plumbline::bim {
 /// The piece as an entry of a plan, on the storey of that id.
 [[nodiscard]] PlanClutterEntry clutter_entry(const FurniturePiece& piece, const std::string& storey);
 
-/// Adds furniture to the clutter of a plan that follows the rules of plan files; the number of entries added. A storey
+/// Adds furniture to the clutter of a plan that follows the rules of plan files; what was added. A storey
 /// that copies another has its furniture, which is placed to suit both. What deviates as built is in the way too.
 /// Throws InputError where the plan cannot be built or would hold too many entries.
-int furnish_plan(PlanFile& plan, const FurnishOptions& options);
+std::vector<FurniturePiece> furnish_plan(PlanFile& plan, const FurnishOptions& options);
 
 }  // namespace plumbline::bim

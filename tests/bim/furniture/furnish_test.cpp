@@ -9,11 +9,14 @@
 #include <numbers>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bim/config/visit.h"
 #include "bim/errors.h"
 #include "bim/formats/plan_yaml/plan_yaml.h"
+#include "bim/furniture/room_space.h"
+#include "bim/model/extrude.h"
 #include "tests/bim/furniture/walkable.h"
 
 namespace plumbline::bim {
@@ -267,6 +270,48 @@ TEST(Furnish, OptionsHaveTheirRanges) {
   EXPECT_NO_THROW((void)from_tree<FurnishOptions>(read_yaml("{density: 0.4, seed: 3, people: 50}", "f")));
   for (const std::string text : {"{density: 0.41}", "{density: -0.1}", "{people: 51}", "{peopl: 1}"})
     EXPECT_THROW((void)from_tree<FurnishOptions>(read_yaml(text, "f")), InputError) << text;
+}
+
+TEST(Furnish, NothingStandsWhereWallsShutTheRobotOut) {
+  Building b = single_room("lounge", 12.0, 10.0);
+  const Polygon2 core = {{2.0, 2.0}, {10.0, 2.0}, {10.0, 8.0}, {2.0, 8.0}};
+  for (std::size_t i = 0; i < 4; ++i) {
+    Wall wall = b.walls[0];
+    wall.id = "core" + std::to_string(i);
+    wall.a = core[i];
+    wall.b = core[(i + 1) % 4];
+    b.walls.push_back(wall);
+  }
+  const double around_m2 = signed_area(b.rooms[0].polygon) - signed_area(core);
+  for (const double density : {0.05, 0.15, 0.4}) {
+    const std::vector<FurniturePiece> pieces = furnish_pieces(b, options(density));
+    EXPECT_FALSE(pieces.empty());
+    for (const FurniturePiece& piece : pieces) EXPECT_FALSE(contains(core, piece.at)) << piece.at.transpose();
+    EXPECT_LT(share(b, pieces, 0) * signed_area(b.rooms[0].polygon), density * around_m2 + 2.0);
+  }
+  b.openings.clear();
+  const std::vector<FurniturePiece> pieces = furnish_pieces(b, options(0.15));
+  EXPECT_TRUE(std::any_of(pieces.begin(), pieces.end(), [&](const auto& piece) { return contains(core, piece.at); }))
+      << "nothing tells from where the robot comes";
+}
+
+TEST(Furnish, WhatIsHighUpOnAColumnTakesNoFloor) {
+  Building b = single_room("hall", 12.0, 10.0);
+  Column column;
+  column.id = "mushroom";
+  column.storey = 0;
+  column.footprint = {{4, 3}, {8, 3}, {8, 7}, {4, 7}};
+  column.body = extrude({{{{5.8, 4.8}, {6.2, 4.8}, {6.2, 5.2}, {5.8, 5.2}}, {}}}, 0.0, 2.5);
+  const Solid head = extrude({{column.footprint, {}}}, 2.5, 3.0);
+  for (const Eigen::Vector3i& t : head.triangles)
+    column.body->triangles.emplace_back(t.array() + static_cast<int>(column.body->vertices.size()));
+  column.body->vertices.insert(column.body->vertices.end(), head.vertices.begin(), head.vertices.end());
+  b.columns.push_back(column);
+  RoomSpace space(b.rooms[0]);
+  for (Footprint& footprint : Surroundings(b).near(space.box(), 0.0, {}, space.config()))
+    space.add(std::move(footprint));
+  EXPECT_GT(space.clearance({5.0, 4.0}), 0.5);
+  EXPECT_LT(space.clearance({5.7, 5.0}), 0.2);
 }
 
 }  // namespace

@@ -274,5 +274,24 @@ TEST(Building, HashFollowsTheContentOnly) {
   EXPECT_NE(building.hash(), hash);
 }
 
+TEST(Plan, AColumnThatIsNoUprightPrismIsNoSolid) {
+  const std::vector<PolygonWithHoles2> square = {{{{2, 2}, {2.4, 2}, {2.4, 2.4}, {2, 2.4}}, {}}};
+  const std::vector<PolygonWithHoles2> tube = {{square[0].outer, {{{2.1, 2.1}, {2.1, 2.3}, {2.3, 2.3}, {2.3, 2.1}}}}};
+  Building building = two_rooms();
+  Column column;
+  column.storey = 0;
+  column.footprint = square[0].outer;
+  for (const auto& [id, outline] : {std::pair{"upright", square}, {"tube", tube}, {"leaning", square}}) {
+    column.id = id;
+    column.body = extrude(outline, 0.0, 3.0);
+    building.columns.push_back(column);
+  }
+  for (Eigen::Vector3d& p : building.columns.back().body->vertices) p.x() += 0.3 * p.z();
+  const Plan plan = make_plan(building);
+  ASSERT_EQ(plan.solids.size(), 2U);
+  EXPECT_EQ(plan.solids[0].id, "upright");
+  EXPECT_EQ(plan.solids[1].id, "tube");
+}
+
 }  // namespace
 }  // namespace plumbline::bim

@@ -103,6 +103,9 @@ TEST_F(GenerateCommand, FurnishesABuildingAsPlanAndAsIfc) {
   EXPECT_NE(read_text_file(folder_ / "full.plan.yaml").find("shape: person"), std::string::npos);
   ASSERT_EQ(run("furnish bare.plan.yaml --furnish 0.2 --seed 3 --people 2 -o full.ifc"), 0) << said_;
   EXPECT_EQ(bim::load_building(folder_ / "full.ifc").hash(), full.hash());
+  EXPECT_EQ(said_.find("people"), std::string::npos) << said_;
+  ASSERT_EQ(run("furnish bare.plan.yaml --furnish 0.05 --people 50 -o crowd.plan.yaml"), 0);
+  EXPECT_NE(said_.find("of the 50 people asked for sit"), std::string::npos) << said_;
   ASSERT_EQ(run("furnish full.ifc --furnish 0.1 -o fuller.ifc"), 0) << said_;
   EXPECT_GT(bim::load_building(folder_ / "fuller.ifc").obstacles.size(), full.obstacles.size());
   EXPECT_EQ(run("furnish full.ifc --furnish 0.1 -o fuller.plan.yaml"), 2);

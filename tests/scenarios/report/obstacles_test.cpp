@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "bim/formats/plan_yaml/plan_yaml.h"
+#include "bim/model/extrude.h"
 
 namespace plumbline::scenarios {
 namespace {
@@ -46,6 +47,20 @@ TEST(ReportObstacles, AreWhatTheRobotWouldWalkInto) {
   expect(1, "desk", 0, true, 2.0);
   expect(2, "bed", 1, true, 2.0);
   expect(3, "tent", 0, false, 0.5);
+}
+
+TEST(ReportObstacles, AColumnThatLeansDoesNotFillItsOutline) {
+  bim::Building building = bim::read_plan_text(
+      "plan: 1\nstoreys: [{id: g, height_m: 3}]\nwalls: [{id: s, storey: g, a: [0, 0], b: [8, 0]}]\n"
+      "columns: [{id: pillar, storey: g, at: [5, 3], size: [0.4, 0.4]}]\n",
+      "p.yaml");
+  bim::Column& pillar = building.columns[0];
+  pillar.body = bim::extrude({{pillar.footprint, {}}}, 0.0, 3.0);
+  for (Eigen::Vector3d& p : pillar.body->vertices) p.x() += 0.3 * p.z();
+  const std::vector<ReportObstacle> obstacles = obstacles_of(building, bim::make_plan(building));
+  ASSERT_EQ(obstacles.size(), 1U);
+  EXPECT_EQ(obstacles[0].id, "pillar");
+  EXPECT_FALSE(obstacles[0].filled);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "bim/formats/plan_yaml/plan_yaml.h"
 #include "bim/load/load.h"
 #include "bim/model/extrude.h"
 #include "scenarios/spec/named_places.h"
@@ -214,6 +215,39 @@ TEST(RoutePlan, StartsThatCannotBeAreRefused) {
   EXPECT_NE(refused(at("attic", 2.0, 2.0)).find("unknown storey 'attic'"), std::string::npos);
   EXPECT_NE(error_of(house(), in("living"), through({"studdy"})).find("did you mean 'study'"), std::string::npos);
   EXPECT_NE(error_of(house(), in("cellar"), through({"study"})).find("unknown room 'cellar'"), std::string::npos);
+}
+
+/// A hall around a core that no door leads to; the core has more floor than the hall around it.
+bim::Building around_a_core() {
+  bim::Building building = bim::read_plan_text(
+      "plan: 1\nstoreys: [{id: g}]\nwalls:\n"
+      "  - {id: s, storey: g, a: [0, 0], b: [14, 0]}\n"
+      "  - {id: e, storey: g, a: [14, 0], b: [14, 10]}\n"
+      "  - {id: n, storey: g, a: [14, 10], b: [0, 10]}\n"
+      "  - {id: w, storey: g, a: [0, 10], b: [0, 0]}\n"
+      "rooms: [{id: hall, storey: g, polygon: [[0, 0], [14, 0], [14, 10], [0, 10]]}]\n",
+      "core.plan.yaml");
+  // Only IFC has such rooms; plans are refused.
+  const Polygon2 core = {{1.5, 1.5}, {12.5, 1.5}, {12.5, 8.5}, {1.5, 8.5}};
+  for (std::size_t i = 0; i < core.size(); ++i) {
+    bim::Wall wall = building.walls[0];
+    wall.id = "core" + std::to_string(i);
+    wall.a = core[i];
+    wall.b = core[(i + 1) % core.size()];
+    building.walls.push_back(wall);
+  }
+  return building;
+}
+
+TEST(RoutePlan, OfARoomInPiecesTheOneOfTheStartIsTheGoal) {
+  const bim::Building building = around_a_core();
+  const auto in_core = [](const Eigen::Vector2d& p) { return contains({{1, 1}, {13, 1}, {13, 9}, {1, 9}}, p); };
+  for (const bool inside : {true, false}) {
+    const Start start = inside ? at("g", 3.0, 3.0) : at("g", 7.0, 0.8);
+    const RoutePlan plan = plan_route(building, start, through({"hall"}), {});
+    EXPECT_EQ(in_core(plan.waypoints.back().p_W.head<2>()), inside);
+  }
+  EXPECT_TRUE(in_core(plan_route(building, in("hall"), through({"hall"}), {}).start_W));
 }
 
 }  // namespace

@@ -56,6 +56,16 @@ TEST(RunSite, AFloorThatTheRobotStandsOnIsSeen) {
   EXPECT_EQ(building.mesh_as_built().elements.size(), building.mesh_as_planned().elements.size() + 1);
 }
 
+TEST(RunSite, SaysHowManyOfThePeopleSit) {
+  const auto said = [](const std::string& people) {
+    const bim::PlannedAndBuilt site = load_site(house(), with("furnish: {density: 0.2, people: " + people + "}\n"));
+    return std::any_of(site.as_planned.warnings.begin(), site.as_planned.warnings.end(),
+                       [](const bim::Warning& warning) { return warning.kind == "few_chairs"; });
+  };
+  EXPECT_FALSE(said("1"));
+  EXPECT_TRUE(said("50"));
+}
+
 TEST(RunSite, FurnitureIsAddedAsPlannedAndAsBuilt) {
   const bim::PlannedAndBuilt bare = load_site(house(), with(""));
   const bim::PlannedAndBuilt site = load_site(house(), with("furnish: {density: 0.15, seed: 3}\n"));

@@ -98,5 +98,14 @@ TEST(DynamicObstacles, ForgetsWhatIsPast) {
   }
 }
 
+TEST(DynamicObstacles, PeopleWalkOnWhileTheRobotIsOnAnotherStorey) {
+  DynamicObstacles things({person({{0, 0, 3}, {10, 0, 3}})}, {}, 0);
+  slam::Nanoseconds t = 0;
+  step_to(things, t, 5.0, {3.0, 0.5, 0.4});
+  EXPECT_NEAR(place(things).x(), 5.0, 0.01);
+  step_to(things, t, 8.0, {5.5, 0.0, 3.4});
+  EXPECT_NEAR(place(things).x(), 5.0, 0.01) << "on its own";
+}
+
 }  // namespace
 }  // namespace plumbline::sim

@@ -247,5 +247,38 @@ TEST(Collision, AnObstacleRoundACornerLeavesTheCornerFree) {
   }
 }
 
+bim::Building only_column(const bim::Solid& body) {
+  bim::Building building = one_wall({0.0, 0.0}, {1.0, 0.0});
+  building.walls.clear();
+  bim::Column column;
+  for (const auto& [x, y] : {std::pair{0.0, 0.0}, {2.0, 0.0}, {2.0, 2.0}, {0.0, 2.0}})
+    column.footprint.emplace_back(x, y);
+  column.body = body;
+  building.columns.push_back(column);
+  return building;
+}
+
+TEST(Collision, AColumnIsWhereItsBodyIs) {
+  // A head of 2 m by 2 m above the robot, and an L of 2 m and 0.3 m.
+  const bim::Solid stem = box_solid({0.8, 0.8, 0.0}, {1.2, 1.2, 2.5}), head = box_solid({0, 0, 2.5}, {2, 2, 3});
+  const std::vector<CollisionBox> mushroom = collision_boxes(only_column(joined(stem, head)), {0});
+  EXPECT_TRUE(inside_any(mushroom, {1.0, 1.0, 0.5}));
+  EXPECT_FALSE(inside_any(mushroom, {0.5, 1.0, 0.5}));
+  bim::Solid angle;
+  add_prism({{0, 0}, {2, 0}, {2, 0.3}, {0.3, 0.3}, {0.3, 2}, {0, 2}}, 0.0, 3.0, angle);
+  const std::vector<CollisionBox> corner = collision_boxes(only_column(angle), {0});
+  EXPECT_TRUE(inside_any(corner, {0.28, 1.5, 0.5}));
+  EXPECT_TRUE(inside_any(corner, {1.5, 0.28, 0.5}));
+  EXPECT_FALSE(inside_any(corner, {1.2, 1.2, 0.5}));
+}
+
+TEST(Collision, AColumnWithoutAnOutlineIsItsBodyOrNothing) {
+  bim::Building building = only_column(box_solid({0.8, 0.8, 0.0}, {1.2, 1.2, 3.0}));
+  building.columns[0].footprint.clear();
+  EXPECT_EQ(collision_boxes(building, {0}).size(), 1U);
+  building.columns[0].body.reset();
+  EXPECT_TRUE(collision_boxes(building, {0}).empty());
+}
+
 }  // namespace
 }  // namespace plumbline::sim

@@ -152,5 +152,48 @@ TEST(Robot, ClimbsAFlightAndComesDown) {
   EXPECT_NEAR(robot.X_WR().t.z(), 0.5, 0.1);
 }
 
+TEST(BuildingGround, ARaisedFloorAtAnyAngleEndsAtItsEdges) {
+  for (const double degrees : {1.1, 11.3, 46.0, 88.8}) {
+    const double yaw = degrees * std::numbers::pi / 180.0;
+    const Eigen::Rotation2Dd turn(yaw);
+    bim::Building building = empty_storey();
+    add_room(building, "hall", rectangle({-40, -40}, {40, 40}));
+    for (const auto& [id, floor, top] :
+         {std::tuple("floor", rectangle({-40, -40}, {40, 40}), 0.0), {"raised", rectangle({-15, -3}, {15, 3}), 0.2}}) {
+      bim::Slab slab;
+      slab.id = id;
+      slab.storey = 0;
+      for (const Eigen::Vector2d& p : floor) slab.polygon.outer.push_back(turn * p);
+      slab.z0_m = top - 0.2;
+      slab.z1_m = top;
+      building.slabs.push_back(slab);
+    }
+    const Ground ground = building_ground(building, {0});
+    for (const double x : {-15.02, -14.98, -5.0, 5.0, 14.98, 15.02})
+      for (const double y : {-3.02, -2.98, 2.98, 3.02}) {
+        const Eigen::Vector2d p = turn * Eigen::Vector2d(x, y);
+        const double z = std::abs(x) < 15.0 && std::abs(y) < 3.0 ? 0.2 : 0.0;
+        EXPECT_NEAR(ground.height(p.x(), p.y(), 1.0), z, 1e-9) << degrees << ": " << x << " " << y;
+      }
+  }
+}
+
+TEST(BuildingGround, ALandingRoundACornerLeavesTheCornerOpen) {
+  bim::Building building = house();
+  bim::Landing& landing = building.stairs[0].landings.at(0);
+  Eigen::AlignedBox2d box;
+  for (const Eigen::Vector2d& p : landing.polygon) box.extend(p);
+  const Eigen::Vector2d low = box.min(), high = box.max(), mid = box.center();
+  landing.polygon = {low, {high.x(), low.y()}, {high.x(), mid.y()}, mid, {mid.x(), high.y()}, {low.x(), high.y()}};
+  const Ground ground = building_ground(building, {0, 1});
+  const auto height = [&](double x, double y) {
+    const Eigen::Vector2d p = low + Eigen::Vector2d(x, y).cwiseProduct(high - low);
+    return ground.height(p.x(), p.y(), landing.z_m + 0.3);
+  };
+  for (const auto& [x, y] : {std::pair{0.25, 0.25}, {0.75, 0.25}, {0.25, 0.75}})
+    EXPECT_NEAR(height(x, y), landing.z_m, 1e-9) << x << " " << y;
+  EXPECT_LT(height(0.75, 0.75), landing.z_m - 0.1);
+}
+
 }  // namespace
 }  // namespace plumbline::sim

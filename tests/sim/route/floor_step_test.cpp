@@ -43,7 +43,7 @@ TEST(FloorStep, AStepThatIsTooHighIsNamedWithItsHeight) {
     const bim::Building building = split_level(rise);
     const ClearanceMap space(building, 0);
     EXPECT_TRUE(space.path(west, east).empty());
-    EXPECT_FALSE(space.room_target(building.rooms[1].polygon).empty()) << "one can stand there all the same";
+    EXPECT_FALSE(space.room_targets(building.rooms[1].polygon).empty()) << "one can stand there all the same";
     const std::vector<Blockage> found = Blockages(building, 0, space, west).before(east);
     ASSERT_EQ(found.size(), 1U) << rise;
     EXPECT_EQ(found.front().text.rfind("a step of " + std::to_string(rise).substr(0, 3), 0), 0U) << found.front().text;
@@ -196,6 +196,32 @@ TEST(FloorStep, TheThresholdOfADoorIsAsDeepAsItsOpening) {
   const bim::WalkedFloors floors = bim::walked_floors(building, 0);
   EXPECT_EQ(bim::height_at(floors, {4.0, 2.5}), 0.3);
   EXPECT_EQ(bim::height_at(floors, {3.0, 2.5}), 0.0);
+}
+
+TEST(FloorStep, NoShortcutLeadsOverAPodiumThatTheWayGoesRound) {
+  bim::Building building = empty_storey();
+  add_room(building, "hall", rectangle({0, 0}, {10, 8}));
+  for (const auto& [id, floor, top] :
+       {std::tuple("floor", rectangle({0, 0}, {10, 8}), 0.0), {"podium", rectangle({4, 3}, {6, 5}), 0.15}}) {
+    bim::Slab slab;
+    slab.id = id;
+    slab.storey = 0;
+    slab.polygon.outer = floor;
+    slab.z0_m = top - 0.15;
+    slab.z1_m = top;
+    building.slabs.push_back(slab);
+  }
+  const ClearanceMap space(building, 0);
+  ASSERT_NEAR(space.height({5, 4}), 0.15, 1e-6);
+  for (const double y : {4.0, 4.4, 4.8})
+    for (const PathPart& part : space.parts({1.5, y}, {8.5, y})) {
+      if (part.step) continue;
+      for (std::size_t i = 1; i < part.points.size(); ++i)
+        for (double share = 0.0; share <= 1.0; share += 0.01)
+          EXPECT_NEAR(space.height(part.points[i - 1] + share * (part.points[i] - part.points[i - 1])), part.height_m,
+                      1e-6)
+              << y;
+    }
 }
 
 }  // namespace

@@ -248,12 +248,12 @@ TEST(ClearanceMap, ADoorInAWallThatGoesRoundOpensNoSideOpposite) {
 TEST(ClearanceMap, TargetOfARoomIsItsFreestPoint) {
   bim::Building building = two_rooms();
   const ClearanceMap space(building, 0);
-  const auto target = space.room_target(building.rooms[0].polygon);
+  const auto target = space.room_targets(building.rooms[0].polygon);
   ASSERT_EQ(target.size(), 1U);
   EXPECT_TRUE(contains(building.rooms[0].polygon, target[0]));
   EXPECT_NEAR(space.clearance(target[0]), 1.9, 0.03);
   add_obstacle(building, rectangle({0.0, 0.0}, {4.0, 5.0}), 0.0, 1.0);
-  EXPECT_TRUE(ClearanceMap(building, 0).room_target(building.rooms[0].polygon).empty());
+  EXPECT_TRUE(ClearanceMap(building, 0).room_targets(building.rooms[0].polygon).empty());
 }
 
 TEST(ClearanceMap, ARoomInWhichTheRobotCannotTurnIsNoTarget) {
@@ -266,7 +266,7 @@ TEST(ClearanceMap, ARoomInWhichTheRobotCannotTurnIsNoTarget) {
     add_obstacle(filled, rectangle({0.0, 2.5 + 0.5 * lane}, {4.0, 5.0}), 0.0, 1.0);
     const ClearanceMap space(filled, 0);
     EXPECT_TRUE(space.free({2.0, 2.5})) << lane;
-    EXPECT_EQ(space.room_target(room).empty(), lane < 1.1) << lane;
+    EXPECT_EQ(space.room_targets(room).empty(), lane < 1.1) << lane;
   }
 }
 
@@ -276,10 +276,10 @@ TEST(ClearanceMap, OpenTargetIsTheFreestPointOfTheLargestPieceOfFloor) {
   add_obstacle(building, rectangle({0.0, 0.0}, {4.0, 1.2}), 0.0, 1.0);
   add_obstacle(building, rectangle({5.8, 2.3}, {6.2, 2.7}), 0.0, 1.0);
   const ClearanceMap space(building, 0);
-  const auto in_west = space.room_target(building.rooms[0].polygon);
+  const auto in_west = space.room_targets(building.rooms[0].polygon);
   const auto target = space.open_target();
   ASSERT_EQ(in_west.size(), 1U);
-  ASSERT_EQ(target, space.room_target(building.rooms[1].polygon));
+  ASSERT_EQ(target, space.room_targets(building.rooms[1].polygon));
   EXPECT_GT(space.clearance(in_west[0]), space.clearance(target[0]));
   add_obstacle(building, rectangle({0.0, 0.0}, {8.0, 5.0}), 0.0, 1.0);
   EXPECT_TRUE(ClearanceMap(building, 0).open_target().empty());
@@ -296,6 +296,42 @@ TEST(ClearanceMap, UnreachableOrOccupiedEndsGiveNoPath) {
   EXPECT_EQ(space.reachable(west, {east, beside, {4.0, 2.5}, {1000.0, 0.0}, west}),
             (std::vector<Eigen::Vector2d>{beside, west}));
   EXPECT_TRUE(space.reachable({0.2, 2.5}, {west}).empty());
+}
+
+/// A hall of 14 x 10 m of which walls shut off the middle, and a room east of it.
+bim::Building around_a_core(bool with_door) {
+  bim::Building building = empty_storey();
+  const auto ring = [&](const Eigen::Vector2d& low, const Eigen::Vector2d& high) {
+    const Polygon2 corners = rectangle(low, high);
+    for (std::size_t i = 0; i < 4; ++i) add_wall(building, corners[i], corners[(i + 1) % 4]);
+  };
+  ring({0, 0}, {14, 10});
+  ring({1.5, 1.5}, {12.5, 8.5});
+  ring({14, 0}, {18, 10});
+  for (const int wall : {1, 11})
+    if (with_door) add_door(building, wall, 5.0, 1.2);
+  add_room(building, "hall", rectangle({0.1, 0.1}, {13.9, 9.9}));
+  add_room(building, "east", rectangle({14.1, 0.1}, {17.9, 9.9}));
+  bim::Slab slab;
+  slab.id = "slab";
+  slab.storey = 0;
+  slab.polygon.outer = rectangle({0, 0}, {18, 10});
+  slab.z0_m = -0.2;
+  building.slabs.push_back(slab);
+  return building;
+}
+
+TEST(ClearanceMap, TheTargetOfARoomAroundAShaftLiesWhereADoorLeads) {
+  const Polygon2 core = rectangle({1.5, 1.5}, {12.5, 8.5});
+  for (const bool with_door : {true, false}) {
+    const bim::Building building = around_a_core(with_door);
+    const ClearanceMap space(building, 0);
+    const std::vector<Eigen::Vector2d> targets = space.room_targets(building.rooms[0].polygon);
+    ASSERT_EQ(targets.size(), 2U);
+    EXPECT_NE(contains(core, targets[0]), with_door) << "of two that nothing leads to, the larger";
+    EXPECT_NE(contains(core, targets[0]), contains(core, targets[1]));
+    EXPECT_EQ(space.freest_cell(building.rooms[0].polygon), space.grid().find(targets[0]));
+  }
 }
 
 }  // namespace

@@ -154,10 +154,15 @@ void Interpreter::add_columns() {
     if (product.kind != StepClass::column) continue;
     Solid body = body_of(product);
     if (body.triangles.empty()) continue;
+    const std::vector<PolygonWithHoles2> outline = footprint(body);
+    if (outline.empty()) {
+      warn(product, "no_area", "has no area on the plan; kept as an obstacle");
+      add_obstacle(product, "column", product.material, std::move(body));
+      continue;
+    }
     Column column = element_of<Column>(product);
     column.material = product.material;
-    const std::vector<PolygonWithHoles2> outline = footprint(body);
-    if (!outline.empty()) column.footprint = largest(outline).outer;
+    column.footprint = largest(outline).outer;
     const Extent box = extent(body);
     column.z0_m = snapped(box.low.z());
     column.z1_m = snapped(box.high.z());

@@ -96,9 +96,9 @@ TEST(PlanFurniture, UnknownShapesAreRefused) {
 
 TEST(PlanFurniture, AFurnishedPlanIsWrittenAndReadBack) {
   PlanFile furnished = plan();
-  const int added = furnish_plan(furnished, options(0.2));
-  EXPECT_GT(added, 10);
-  EXPECT_EQ(furnished.clutter.size(), static_cast<std::size_t>(added) + 1);
+  const std::size_t added = furnish_plan(furnished, options(0.2)).size();
+  EXPECT_GT(added, 10U);
+  EXPECT_EQ(furnished.clutter.size(), added + 1);
   const std::string text = write_plan(furnished, "furnished");
   const PlanFile again = plan_entries(read_yaml(text, "again.plan.yaml"));
   EXPECT_EQ(write_plan(again, "furnished"), text);

@@ -183,5 +183,17 @@ TEST(StrangeBuildings, AFreeDoorIsNotBlocked) {
   EXPECT_EQ(count(read(sketch), "blocked_door"), 0);
 }
 
+TEST(Columns, OneWithoutAreaOnThePlanIsAnObstacle) {
+  Sketch sketch;
+  two_rooms(sketch);
+  const std::vector<Eigen::Vector3d> face = {{2, 3, 0}, {2.3, 3, 0}, {2.3, 3, 3}, {2, 3, 3}};
+  sketch.element("IFCCOLUMN", sketch.shape(sketch.shell({face, {face.rbegin(), face.rend()}})), "$,$");
+  const Building building = read(sketch);
+  EXPECT_TRUE(building.columns.empty());
+  EXPECT_EQ(count(building, "no_area"), 1);
+  ASSERT_EQ(building.obstacles.size(), 1u);
+  EXPECT_EQ(building.obstacles[0].kind, "column");
+}
+
 }  // namespace
 }  // namespace plumbline::bim
