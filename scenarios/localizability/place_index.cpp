@@ -79,9 +79,9 @@ std::vector<std::pair<int, Eigen::Vector3d>> grid_of(const std::vector<SearchAre
       throw InputError({"identify", 0, 0}, "a storey of " + std::to_string(std::lround(s.max.x() - s.min.x())) + " x " +
                                                std::to_string(std::lround(s.max.y() - s.min.y())) +
                                                " m has too many places; it must be smaller");
-    for (double x = s.min.x() + 0.5 * spacing_m; x < s.max.x(); x += spacing_m)
-      for (double y = s.min.y() + 0.5 * spacing_m; y < s.max.y(); y += spacing_m)
-        grid.emplace_back(static_cast<int>(i), Eigen::Vector3d(x, y, s.sensor_z_W));
+    const std::vector<double> ys = s.lines(1, spacing_m);
+    for (const double x : s.lines(0, spacing_m))
+      for (const double y : ys) grid.emplace_back(static_cast<int>(i), Eigen::Vector3d(x, y, s.sensor_z_W));
   }
   return grid;
 }

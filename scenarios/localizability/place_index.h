@@ -6,18 +6,9 @@
 #include <vector>
 
 #include "scenarios/localizability/range_image.h"
+#include "scenarios/localizability/search_area.h"
 
 namespace plumbline::scenarios {
-
-/// Where candidates are searched for: the floor of one storey.
-struct SearchArea {
-  Eigen::Vector2d min = Eigen::Vector2d::Zero();
-  Eigen::Vector2d max = Eigen::Vector2d::Zero();
-  double sensor_z_W = 0.66;  ///< height of the sensor on this storey
-
-  /// There is no wall on the storey.
-  [[nodiscard]] bool empty() const { return min.x() > max.x(); }
-};
 
 /// What candidate places are compared by.
 struct Signature {

@@ -82,7 +82,7 @@ LocalizabilityInput input_of(const ResolvedScenario& resolved, int storey, const
       if (const SearchArea area = search_area(plan, i); !area.empty()) input.storeys.push_back(area);
   if (input.storeys.empty())
     throw InputError({resolved.scenario.building, 0, 0},
-                     "has no walls between which a pose could be searched for; a plan or an .ifc would be right");
+                     "has no walls or rooms in which a pose could be searched for; a plan or an .ifc would be right");
   return input;
 }
 
