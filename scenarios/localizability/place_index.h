@@ -20,6 +20,12 @@ struct Signature {
 /// Of the view from a place, whatever its heading.
 [[nodiscard]] Signature signature_of(const RangeImager& imager, const bim::RayScene& scene, const Eigen::Vector3d& p_W);
 
+/// A place whose view is like another.
+struct LikePlace {
+  SensorPose place;
+  int storey = 0;  ///< of the index
+};
+
 /// Grid of all places of a plan where a robot may stand, with their signatures.
 class PlaceIndex {
  public:
@@ -28,7 +34,7 @@ class PlaceIndex {
 
   /// Places of a storey (-1: of all) whose view, turned, is like `seen`, best first (ties: grid order, then turn): at
   /// most max_seeds. `yaw` is the heading at which `seen` was taken, the result holds the headings it would have there.
-  [[nodiscard]] std::vector<SensorPose> like(const Signature& seen, double yaw, int storey, bool yaw_known) const;
+  [[nodiscard]] std::vector<LikePlace> like(const Signature& seen, double yaw, int storey, bool yaw_known) const;
 
   [[nodiscard]] const RangeImager& imager() const { return imager_; }
   [[nodiscard]] const std::vector<SearchArea>& storeys() const { return storeys_; }

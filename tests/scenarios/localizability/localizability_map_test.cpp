@@ -40,7 +40,7 @@ class Direct {
  public:
   explicit Direct(const RunBuilding& building)
       : visible_(visible_building(building)),
-        z_(search_area(building.as_planned(), 0).sensor_z_W),
+        z_(search_area(building.as_planned(), 0).sensor_z_W({0.0, 0.0})),
         index_(visible_.planned.scene, {}, 1.0, 1),
         finder_(index_, visible_.planned.scene, visible_.planned.scene) {}
 

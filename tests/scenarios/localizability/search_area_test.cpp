@@ -44,6 +44,23 @@ TEST(SearchArea, GridsGoThroughTheCornerOfTheWalls) {
   EXPECT_EQ(area.lines(1, 1.0), (std::vector<double>{0.5, 1.5}));
 }
 
+TEST(SearchArea, TheSensorIsOverTheFloorAtItsPlace) {
+  bim::Building building = room_with_a_wall();
+  bim::Slab slab;
+  slab.id = "raised";
+  slab.storey = 0;
+  slab.polygon.outer = {{1.0, 1.0}, {4.0, 1.0}, {4.0, 5.0}, {1.0, 5.0}};
+  slab.z0_m = 0.0;
+  slab.z1_m = 0.235;
+  building.slabs.push_back(slab);
+  const SearchArea area = search_area(building, 0);
+  const double flat = area.sensor_z_W({6.0, 3.0});
+  EXPECT_NEAR(area.sensor_z_W({2.0, 3.0}) - flat, 0.235, 1e-9);
+  const std::vector<bim::WalkedFloors> floors = storey_floors(building);
+  EXPECT_NEAR(sensor_z_W(floors, {2.0, 3.0, 0.24}, 0.02) - flat, 0.235, 1e-9);
+  EXPECT_NEAR(sensor_z_W(floors, {2.0, 3.0, 0.1}, 0.02) - flat, 0.1, 1e-9);  // on a stair
+}
+
 TEST(SearchArea, IsEmptyWithoutWallsAndRooms) {
   bim::Building building = room_with_a_wall();
   building.rooms.clear();
