@@ -156,7 +156,7 @@ class Collector {
     }
     const Polygon2 rectangle = footprint(wall);
     if (area < complete * signed_area(rectangle)) return {rectangle};
-    return outlines;
+    return convex_parts(std::move(outlines));
   }
 
   /// The wall's length, divided where an opening begins or ends.

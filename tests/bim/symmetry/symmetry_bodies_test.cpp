@@ -70,5 +70,27 @@ TEST(SymmetryBodies, TouchingBodiesHaveNoSurfaceBetweenThem) {
   EXPECT_NEAR(surface, 6.0, 1e-4);
 }
 
+/// However a convex area is cut into triangles.
+TEST(SymmetryBodies, PartsOfAConvexAreaAreThatArea) {
+  const Eigen::Vector2d a(0.0, 0.0), b(4.0, 0.0), c(4.0, 0.2), d(0.0, 0.2), middle(2.0, 0.2);
+  for (const std::vector<Polygon2>& pieces :
+       {std::vector<Polygon2>{{a, b, c}, {a, c, d}}, std::vector<Polygon2>{{a, b, d}, {b, c, d}},
+        std::vector<Polygon2>{{a, b, middle}, {b, c, middle}, {a, middle, d}}}) {
+    const std::vector<Polygon2> parts = convex_parts(pieces);
+    ASSERT_EQ(parts.size(), 1U);
+    EXPECT_EQ(parts.front().size(), 4U);
+    EXPECT_NEAR(signed_area(parts.front()), 0.8, 1e-12);
+  }
+}
+
+TEST(SymmetryBodies, PartsOfAnAngleAreConvex) {
+  const Eigen::Vector2d a(0.0, 0.0), b(3.0, 0.0), c(3.0, 1.0), d(1.0, 1.0), e(1.0, 3.0), f(0.0, 3.0);
+  const std::vector<Polygon2> parts = convex_parts({{a, b, d}, {b, c, d}, {a, d, f}, {d, e, f}});
+  EXPECT_LE(parts.size(), 3U);
+  double sum = 0.0;
+  for (const Polygon2& part : parts) sum += signed_area(part);
+  EXPECT_NEAR(sum, 5.0, 1e-12);
+}
+
 }  // namespace
 }  // namespace plumbline::bim

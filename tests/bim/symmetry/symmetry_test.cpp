@@ -37,6 +37,15 @@ std::string room(double width, double depth) {
          format_number(width) + ", " + format_number(depth) + "], [0, " + format_number(depth) + "]]}]\n";
 }
 
+/// Underside and top of a quadrangle, cut from its first corner to its third.
+Solid body_over(const Polygon2& outline, double z0, double z1) {
+  Solid solid;
+  for (const double z : {z0, z1})
+    for (const Eigen::Vector2d& p : outline) solid.vertices.emplace_back(p.x(), p.y(), z);
+  solid.triangles = {{0, 2, 1}, {0, 3, 2}, {4, 5, 6}, {4, 6, 7}};
+  return solid;
+}
+
 /// Two rooms that a half turn swaps; the door in the south may be shifted from its place.
 Building twins(double shift_m) {
   return box(10, 6,
@@ -171,6 +180,32 @@ TEST(Symmetry, FoundIsometriesAreAGroupAndKeepTheBuilding) {
     ASSERT_EQ(again.building.size(), report.building.size());
     for (const BuildingSymmetry& b : report.building) EXPECT_TRUE(has(again.building, b.isometry, 1e-9, 1e-8));
   }
+}
+
+/// Walls of a model have bodies of triangles; those of two walls that overlap in a corner touch each other's faces.
+TEST(Symmetry, NeitherTrianglesNorTheOrderOfWallsMatter) {
+  constexpr double half_m = 0.18;
+  std::vector<int> order = {0, 1, 2, 3};
+  int cut = 0;
+  do {
+    Building building = box(9, 4, room(9, 4));
+    std::vector<Wall> walls;
+    for (const int i : order) walls.push_back(building.walls[static_cast<std::size_t>(i)]);
+    for (Wall& wall : walls) {
+      const Eigen::Vector2d e = wall.direction(), n(-e.y(), e.x());
+      // The long walls go through; the diagonal of each runs one way or the other.
+      const double beyond = wall.length() > 5.0 ? half_m : -half_m + 0.24;
+      const Eigen::Vector2d a = wall.a - beyond * e, b = wall.b + beyond * e;
+      Polygon2 outline = {a - half_m * n, b - half_m * n, b + half_m * n, a + half_m * n};
+      std::rotate(outline.begin(), outline.begin() + (++cut % 2), outline.end());
+      wall.thickness_m = 2.0 * half_m;
+      wall.body = body_over(outline, wall.z0_m, wall.z1_m);
+    }
+    building.walls = walls;
+    const SymmetryReport report = analyse_symmetry(building);
+    ASSERT_EQ(report.building.size(), 1U);
+    EXPECT_EQ(report.building.front().similarity.grade, SimilarityGrade::exact);
+  } while (std::next_permutation(order.begin(), order.end()));
 }
 
 TEST(Symmetry, RandomBuildingsHaveNone) {
