@@ -11,6 +11,7 @@
 #include "bim/formats/plan_yaml/plan_yaml.h"
 #include "bim/load/load.h"
 #include "bim/random/stream.h"
+#include "bim/symmetry/symmetry_bodies.h"
 #include "tests/bim/symmetry/moved.h"
 #include "tests/data.h"
 
@@ -99,6 +100,28 @@ TEST(Symmetry, HalvesAtDifferentHeightsAreNotAlike) {
   ASSERT_FALSE(analyse_symmetry(building).building.empty());
   raise_east(building, 0.4);
   EXPECT_TRUE(analyse_symmetry(building).building.empty());
+}
+
+/// A platform of the shape of a plus, with a pit in its middle.
+TEST(Symmetry, RaisedFloorsNeedNotBeConvex) {
+  Building building = box(6, 6, room(6, 6));
+  Slab slab;
+  slab.id = "plus";
+  slab.storey = 0;
+  slab.polygon.outer = {{2, 1}, {4, 1}, {4, 2}, {5, 2}, {5, 4}, {4, 4}, {4, 5}, {2, 5}, {2, 4}, {1, 4}, {1, 2}, {2, 2}};
+  slab.polygon.holes = {{{2.5, 2.5}, {2.5, 3.5}, {3.5, 3.5}, {3.5, 2.5}}};
+  slab.z0_m = -0.1;
+  slab.z1_m = 0.4;
+  building.slabs.push_back(slab);
+  const SymmetryBodies bodies = symmetry_bodies(building, 0);
+  double platform = 0.0;
+  for (const BodyPrism& prism : bodies.prisms)
+    if (bodies.elements[static_cast<std::size_t>(prism.element)].starts_with("floor"))
+      platform += signed_area(prism.outline);
+  EXPECT_NEAR(platform, 11.0, 1e-6);
+  const SymmetryReport report = analyse_symmetry(building);
+  ASSERT_EQ(report.building.size(), 3U);
+  for (const BuildingSymmetry& symmetry : report.building) EXPECT_EQ(symmetry.similarity.grade, SimilarityGrade::exact);
 }
 
 TEST(Symmetry, SquareHasThreeTurnsAndItsMirrorImagesApart) {
