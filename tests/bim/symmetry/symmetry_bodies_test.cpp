@@ -55,7 +55,7 @@ TEST(SymmetryBodies, SurfacesGoRoundTheUnionOnce) {
       for (const Polygon2& ring : rings)
         for (std::size_t k = 0; k < ring.size(); ++k) perimeter += (ring[(k + 1) % ring.size()] - ring[k]).norm();
     }
-    for (const SurfaceRect& rect : visible_surfaces(prisms, 1e-6, 1e-6)) surface += rect.area();
+    for (const SurfaceRect& rect : visible_surfaces(prisms, 1e-6, {1e-6, 1e-6})) surface += rect.area();
     // Slivers and touching depth cost micrometres at each of at most some hundred corners.
     EXPECT_NEAR(surface, 2.0 * perimeter, 0.01) << seed;
   }
@@ -65,7 +65,7 @@ TEST(SymmetryBodies, TouchingBodiesHaveNoSurfaceBetweenThem) {
   const Polygon2 left = {{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}};
   const Polygon2 right = {{1.0, 0.0}, {2.0, 0.0}, {2.0, 1.0}, {1.0, 1.0}};
   double surface = 0.0;
-  for (const SurfaceRect& rect : visible_surfaces({{left, 0.0, 1.0, 0}, {right, 0.0, 1.0, 1}}, 1e-6, 1e-6))
+  for (const SurfaceRect& rect : visible_surfaces({{left, 0.0, 1.0, 0}, {right, 0.0, 1.0, 1}}, 1e-6, {1e-6, 1e-6}))
     surface += rect.area();
   EXPECT_NEAR(surface, 6.0, 1e-4);
 }

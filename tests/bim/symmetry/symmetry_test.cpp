@@ -102,6 +102,24 @@ TEST(Symmetry, HalvesAtDifferentHeightsAreNotAlike) {
   EXPECT_TRUE(analyse_symmetry(building).building.empty());
 }
 
+/// One below what counts as exact.
+TEST(Symmetry, AStepOfMillimetresOnAWallIsNoDifference) {
+  for (const double step_m : {0.003, 0.1}) {
+    Building building = twins(0.0);
+    Wall cap = building.walls[0];
+    cap.id = "cap";
+    cap.thickness_m = 0.1;
+    cap.z0_m = 2.4;  // above the door
+    building.walls[0].z1_m = 2.5;
+    building.walls[2].z1_m = 2.5;
+    cap.z1_m = 2.5 + step_m;
+    building.walls.push_back(cap);
+    const SymmetryReport report = analyse_symmetry(building);
+    const bool exact = !report.building.empty() && report.building.front().similarity.grade == SimilarityGrade::exact;
+    EXPECT_EQ(exact, step_m < 0.006) << step_m;
+  }
+}
+
 /// A platform of the shape of a plus, with a pit in its middle.
 TEST(Symmetry, RaisedFloorsNeedNotBeConvex) {
   Building building = box(6, 6, room(6, 6));
