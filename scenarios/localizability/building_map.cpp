@@ -103,7 +103,8 @@ class MapMaker {
     for (const std::size_t storey : storeys_asked_for(building_.as_planned(), options_))
       result.floors.push_back(floor_of(building_.as_built(), storey, step_m));
     for (const Floor& floor : result.floors)
-      if (floor.cells_W.empty()) result.bare.push_back(floor.storey);
+      if (floor.cells_W.empty() && building_.as_planned().storeys[floor.storey].kind == bim::StoreyKind::habitable)
+        result.bare.push_back(floor.storey);  // nobody expects places on a roof
     std::erase_if(result.floors, [](const Floor& floor) { return floor.cells_W.empty(); });
     std::size_t places = 0;
     for (const Floor& floor : result.floors) places += floor.cells_W.size();
