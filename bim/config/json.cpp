@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cstdint>
+#include <functional>
+#include <limits>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <vector>
 
 #include "bim/config/tree.h"
 
@@ -17,8 +23,12 @@ Tree convert(const nlohmann::ordered_json& json, const Mark& mark, int depth) {
     case nlohmann::json::value_t::boolean:
       tree.value = json.get<bool>();
       break;
-    case nlohmann::json::value_t::number_integer:
     case nlohmann::json::value_t::number_unsigned:
+      if (json.get<std::uint64_t>() > static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max()))
+        throw InputError(mark, "the number " + std::to_string(json.get<std::uint64_t>()) +
+                                   " is too large; at most 9223372036854775807 would be right");
+      [[fallthrough]];
+    case nlohmann::json::value_t::number_integer:
       tree.value = json.get<std::int64_t>();
       break;
     case nlohmann::json::value_t::number_float:
@@ -41,6 +51,21 @@ Tree convert(const nlohmann::ordered_json& json, const Mark& mark, int depth) {
   tree.mark = mark;
   return tree;
 }
+
+/// Told what the parser comes to. Of two equal keys in a map it would keep one and say nothing.
+struct UniqueKeys {
+  Mark mark;
+  std::vector<std::set<std::string>> maps;  ///< keys of those that are open
+
+  bool operator()(int /*depth*/, nlohmann::ordered_json::parse_event_t event, const nlohmann::ordered_json& parsed) {
+    using Event = nlohmann::ordered_json::parse_event_t;
+    if (event == Event::object_start) maps.emplace_back();
+    if (event == Event::object_end) maps.pop_back();
+    if (event == Event::key && !maps.back().insert(parsed.get<std::string>()).second)
+      throw InputError(mark, "duplicate key '" + parsed.get<std::string>() + "'; each key may stand once");
+    return true;
+  }
+};
 
 std::string quoted(const std::string& text) {
   static constexpr char hex[] = "0123456789abcdef";
@@ -112,7 +137,8 @@ void write(const Tree& tree, int indent, int depth, std::string& out) {
 
 Tree read_json(std::string_view text, const std::string& file) {
   try {
-    return convert(nlohmann::ordered_json::parse(text.begin(), text.end()), {file, 0, 0}, 0);
+    UniqueKeys unique{{file, 0, 0}, {}};
+    return convert(nlohmann::ordered_json::parse(text.begin(), text.end(), std::ref(unique)), {file, 0, 0}, 0);
   } catch (const nlohmann::json::parse_error& error) {
     int line = 1;
     int col = 1;

@@ -270,6 +270,18 @@ PlanFile with_feature(const FloorTemplate& floor, const GeneratorOptions& option
                              (options.glass ? " or no glass" : ""));
 }
 
+/// Throws when what was asked for gives no plan that is right in itself, though each size is allowed.
+void check_readable(const FloorTemplate& floor, const GeneratorOptions& options, const Tree& tree) {
+  try {
+    (void)read_plan_text(write_plan(Tower(floor, options, nullptr, 0).build()), "its plan");
+  } catch (const InputError& error) {
+    const bool thin = options.facade_m < options.partition_m;
+    throw InputError(mark_of(tree, thin ? "facade_m" : ""),
+                     std::string("these sizes make no plan that can be read (") + error.what() + ")" +
+                         (thin ? "; a facade no thinner than the partitions would do" : ""));
+  }
+}
+
 }  // namespace
 
 std::span<const GeneratorRow> generators() { return rows; }
@@ -289,6 +301,7 @@ GeneratedPlan generate(std::string_view family, const Tree& options_tree) {
     check_feature(options, options_tree);
     FloorTemplate floor = entry.build(options, options_tree.mark);
     floor.name = std::string(family);
+    check_readable(floor, options, options_tree);
     GeneratedPlan generated;
     generated.plan = options.epsilon_m > 0.0 ? with_feature(floor, options, mark_of(options_tree, "feature"))
                                              : Tower(floor, options, nullptr, 0).build();

@@ -73,10 +73,10 @@ std::optional<Stretch> covered(const Eigen::Vector2d& p, const Eigen::Vector2d& 
   return stretch;
 }
 
-void subtract_patch(const Patch& taken, double sliver_m, std::vector<Patch>& patches) {
+void subtract_patch(const Patch& taken, const Slivers& slivers, std::vector<Patch>& patches) {
   std::vector<Patch> left;
   const auto keep = [&](double s0, double s1, double z0, double z1) {
-    if (s1 - s0 > sliver_m && z1 - z0 > sliver_m) left.push_back({s0, s1, z0, z1});
+    if (s1 - s0 > slivers.along_m && z1 - z0 > slivers.up_m) left.push_back({s0, s1, z0, z1});
   };
   for (const Patch& patch : patches) {
     const double s0 = std::max(patch.s0, taken.s0), s1 = std::min(patch.s1, taken.s1);
@@ -109,7 +109,8 @@ SurfaceRect moved(const Isometry2& g, const SurfaceRect& rect) {
   return image;
 }
 
-std::vector<SurfaceRect> visible_surfaces(const std::vector<BodyPrism>& prisms, double touch_m, double sliver_m) {
+std::vector<SurfaceRect> visible_surfaces(const std::vector<BodyPrism>& prisms, double touch_m,
+                                          const Slivers& slivers) {
   std::vector<Eigen::AlignedBox2d> boxes;
   for (const BodyPrism& prism : prisms) boxes.push_back(box_of(prism.outline));
   const BodyGrid grid(boxes);
@@ -121,7 +122,7 @@ std::vector<SurfaceRect> visible_surfaces(const std::vector<BodyPrism>& prisms, 
     for (std::size_t k = 0; k < prism.outline.size(); ++k) {
       const Eigen::Vector2d &p = prism.outline[k], &q = prism.outline[(k + 1) % prism.outline.size()];
       const double length = (q - p).norm();
-      if (length <= sliver_m) continue;
+      if (length <= slivers.along_m) continue;
       const Eigen::Vector2d e = (q - p) / length;
       std::vector<Patch> patches = {{0.0, length, prism.z0, prism.z1}};
       Eigen::AlignedBox2d box(Eigen::Vector2d(p.cwiseMin(q).array() - touch_m),
@@ -133,7 +134,7 @@ std::vector<SurfaceRect> visible_surfaces(const std::vector<BodyPrism>& prisms, 
         // Parts of one body meet exactly; a wide reach would swallow the sharp corners between them.
         const double reach_m = prisms[j].element == prism.element ? std::min(touch_m, joint_m) : touch_m;
         const auto part = covered(p, e, length, prisms[j].outline, reach_m, i > j);
-        if (part) subtract_patch({part->s0, part->s1, prisms[j].z0, prisms[j].z1}, sliver_m, patches);
+        if (part) subtract_patch({part->s0, part->s1, prisms[j].z0, prisms[j].z1}, slivers, patches);
       }
       for (const Patch& patch : patches)
         result.push_back({p + patch.s0 * e, p + patch.s1 * e, patch.z0, patch.z1, prism.element});

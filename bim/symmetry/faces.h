@@ -24,10 +24,17 @@ struct SurfaceRect {
 
 [[nodiscard]] SurfaceRect moved(const Isometry2& g, const SurfaceRect& rect);
 
+/// What is left of a surface and no larger than this is none.
+struct Slivers {
+  double along_m = 0.0;
+  double up_m =
+      0.0;  ///< two bodies that end nearly level leave a strip as long as they are, far from any other surface
+};
+
 /// Outer surfaces of all bodies: what another body covers or touches is left out; of two that lie flush the earlier
-/// body keeps its. Bodies closer than touch_m touch; strips narrower than sliver_m are dropped.
+/// body keeps its. Bodies closer than touch_m touch; slivers are dropped.
 [[nodiscard]] std::vector<SurfaceRect> visible_surfaces(const std::vector<BodyPrism>& prisms, double touch_m,
-                                                        double sliver_m);
+                                                        const Slivers& slivers);
 
 /// Distances to a set of surfaces.
 class SurfaceIndex {

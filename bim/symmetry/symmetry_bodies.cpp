@@ -7,6 +7,7 @@
 #include "bim/config/tree.h"
 #include "bim/mesh/solid.h"
 #include "bim/model/materials.h"
+#include "bim/model/triangulate.h"
 #include "bim/model/walked_floors.h"
 #include "bim/model/wall_face.h"
 
@@ -123,7 +124,14 @@ class Collector {
     for (const RaisedFloor& floor : floors.raised) {
       if (!floor.is_level()) continue;
       bodies_.elements.push_back("floor at " + format_number(std::round(floor.z_m * 1e2) / 1e2) + " m");
-      add(floor.polygon.outer, floor_z_, floor_z_ + floor.z_m - floors.ground_m);
+      const FlatMesh flat = triangulate({floor.polygon});
+      std::vector<Polygon2> triangles;
+      for (const FlatTriangle& t : flat.triangles) {
+        Polygon2& corners = triangles.emplace_back();
+        for (const int corner : t.points) corners.push_back(flat.points[static_cast<std::size_t>(corner)]);
+      }
+      for (const Polygon2& part : convex_parts(std::move(triangles)))
+        add(part, floor_z_, floor_z_ + floor.z_m - floors.ground_m);
     }
   }
 
@@ -156,7 +164,7 @@ class Collector {
     }
     const Polygon2 rectangle = footprint(wall);
     if (area < complete * signed_area(rectangle)) return {rectangle};
-    return outlines;
+    return convex_parts(std::move(outlines));
   }
 
   /// The wall's length, divided where an opening begins or ends.

@@ -42,6 +42,9 @@ struct SymmetryBodiesConfig {
 [[nodiscard]] Polygon2 clipped(const Polygon2& polygon, const Eigen::Vector2d& n, double d);
 /// Intersection of two convex counter-clockwise polygons.
 [[nodiscard]] Polygon2 convex_intersection(Polygon2 a, const Polygon2& b);
+/// Convex polygons that cover the same as pieces of an area which share whole sides: of an area that is convex and has
+/// no corner of a piece within it only one, however it was cut. The longest sides go first; of equal ones the first.
+[[nodiscard]] std::vector<Polygon2> convex_parts(std::vector<Polygon2> pieces);
 /// The bodies without their overlaps: no two share an inner point. Where two overlap the earlier keeps its place.
 [[nodiscard]] std::vector<BodyPrism> without_overlaps(const std::vector<BodyPrism>& prisms,
                                                       const SymmetryBodiesConfig& config = {});

@@ -144,7 +144,7 @@ void add_floor_edges(const Building& building, SymmetryBodies& bodies, std::vect
 }
 
 std::vector<SurfaceRect> surfaces_of(const Building& building, SymmetryBodies& bodies, const SymmetryConfig& config) {
-  std::vector<SurfaceRect> rects = visible_surfaces(bodies.prisms, config.touch_m, config.sliver_m);
+  std::vector<SurfaceRect> rects = visible_surfaces(bodies.prisms, config.touch_m, {config.sliver_m, config.exact_m});
   add_floor_edges(building, bodies, rects);
   return rects;
 }

@@ -114,7 +114,7 @@ std::vector<AliasFinder::View> AliasFinder::views_of(const SensorPose& place) co
   return {view(as_planned_), view(as_built_)};
 }
 
-bool AliasFinder::refine(const RangeImage& seen, SensorPose& place) const {
+bool AliasFinder::refine(const RangeImage& seen, const SearchArea& storey, SensorPose& place) const {
   constexpr double gate_min_m = 0.1, gate_factor = 0.7;
   // An alias may differ in about one beam of a hundred. On the way there more do, within a narrowing gate.
   constexpr int early = 3, late = 6;
@@ -129,6 +129,7 @@ bool AliasFinder::refine(const RangeImage& seen, SensorPose& place) const {
     const Eigen::Vector3d step = solve_ldlt(fit.H, Eigen::Vector3d(-fit.g));
     if (!step.allFinite()) return false;
     place.position_W.head<2>() += step.head<2>();
+    place.position_W.z() = storey.sensor_z_W(place.position_W.head<2>());
     place.yaw = wrap_angle(place.yaw + step.z());
     if (gate == gate_min_m && step.norm() < 1e-6) break;
     gate = std::max(gate_min_m, gate_factor * gate);
@@ -155,11 +156,11 @@ std::vector<FoundAlias> AliasFinder::find(const ReferenceScan& scan, const Alias
     };
     int in_vain = 0;
     work_ += index_.imager().directions().size() + coarse_.directions().size() + index_.size() / places_a_beam;
-    for (SensorPose place : index_.like(view.signature, scan.place.yaw, search.storey, search.yaw_known)) {
+    for (auto [place, storey] : index_.like(view.signature, scan.place.yaw, search.storey, search.yaw_known)) {
       if (near_any(taken, place, localizability_constants.basin_m, localizability_constants.basin_deg) ||
           is_tried(place))
         continue;
-      const bool sound = refine(view.image, place);
+      const bool sound = refine(view.image, index_.storeys()[static_cast<std::size_t>(storey)], place);
       if (!(search.thorough && is_tried(place)) && ++in_vain > give_up_after) break;
       tried.push_back(place);
       if (!sound) continue;

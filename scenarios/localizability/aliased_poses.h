@@ -63,7 +63,7 @@ class AliasFinder {
   [[nodiscard]] std::vector<View> views_of(const SensorPose& place) const;
   [[nodiscard]] bool is_loose(int element) const;
   [[nodiscard]] double evidence(const ReferenceScan& scan, std::size_t beam, double other_m) const;
-  [[nodiscard]] bool refine(const RangeImage& seen, SensorPose& place) const;
+  [[nodiscard]] bool refine(const RangeImage& seen, const SearchArea& storey, SensorPose& place) const;
 
   const PlaceIndex& index_;
   const bim::RayScene& as_planned_;

@@ -54,19 +54,19 @@ class AlikeFinder {
  private:
   [[nodiscard]] SensorPose place(std::size_t cell) const {
     const MapCell& c = map_.cells[cell];
-    return {{c.p_W.x(), c.p_W.y(), storeys_[floors_[c.floor].storey].sensor_z_W}, 0.0};
+    return {{c.p_W.x(), c.p_W.y(), storeys_[floors_[c.floor].storey].sensor_z_W(c.p_W)}, 0.0};
   }
   [[nodiscard]] SensorPose image(std::size_t isometry, const SensorPose& place) const {
     const Pose X = map_.isometries[isometry] * place.pose();
     return {X.t, X.yaw()};
   }
-  [[nodiscard]] int storey_at(double z_W) const {
+  [[nodiscard]] int storey_at(const Eigen::Vector3d& p_W) const {
     for (std::size_t s = 0; s < storeys_.size(); ++s)
-      if (std::abs(storeys_[s].sensor_z_W - z_W) < same_m) return static_cast<int>(s);
+      if (std::abs(storeys_[s].sensor_z_W(p_W.head<2>()) - p_W.z()) < same_m) return static_cast<int>(s);
     return -1;
   }
   [[nodiscard]] int room_at(const Eigen::Vector3d& p_W) const {
-    const int storey = storey_at(p_W.z());
+    const int storey = storey_at(p_W);
     for (std::size_t r = 0; r < plan_.rooms.size(); ++r)
       if (plan_.rooms[r].storey == storey && contains(plan_.rooms[r].polygon, p_W.head<2>()))
         return static_cast<int>(r);
@@ -77,7 +77,7 @@ class AlikeFinder {
     constexpr double near_m = 0.5;
     return std::any_of(map_.cells.begin(), map_.cells.end(), [&](const MapCell& cell) {
       return (cell.p_W - p_W.head<2>()).norm() < near_m &&
-             std::abs(storeys_[floors_[cell.floor].storey].sensor_z_W - p_W.z()) < near_m;
+             std::abs(storeys_[floors_[cell.floor].storey].sensor_z_W(cell.p_W) - p_W.z()) < near_m;
     });
   }
 

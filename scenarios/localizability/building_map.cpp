@@ -102,6 +102,9 @@ class MapMaker {
     result.options.step_m = step_m;
     for (const std::size_t storey : storeys_asked_for(building_.as_planned(), options_))
       result.floors.push_back(floor_of(building_.as_built(), storey, step_m));
+    for (const Floor& floor : result.floors)
+      if (floor.cells_W.empty() && building_.as_planned().storeys[floor.storey].kind == bim::StoreyKind::habitable)
+        result.bare.push_back(floor.storey);  // nobody expects places on a roof
     std::erase_if(result.floors, [](const Floor& floor) { return floor.cells_W.empty(); });
     std::size_t places = 0;
     for (const Floor& floor : result.floors) places += floor.cells_W.size();
@@ -144,7 +147,7 @@ class MapMaker {
   }
 
  private:
-  /// Of the rooms asked about, or of the boxes around the walls where there are none.
+  /// Of the rooms asked about, or of the search areas where there are none.
   [[nodiscard]] double floor_area() const {
     double area = 0.0;
     for (const std::size_t storey : storeys_asked_for(building_.as_planned(), options_)) {
@@ -239,6 +242,10 @@ void set_answers(const bim::Building& plan, const BuildingMap& map, Tree& tree) 
   Tree alike = Tree::list();
   for (const Alike& one : map.alike) alike.push(tree_of(plan, one));
   tree.set("storeys", storeys).set("rooms", rooms).set("cells", cells).set("alike", alike);
+  if (map.bare.empty()) return;
+  Tree bare = Tree::list();
+  for (const std::size_t storey : map.bare) bare.push(plan.storeys[storey].id);
+  tree.set("without_places", bare);
 }
 
 std::string table_of(const RunBuilding& building, const BuildingMap& map) {
@@ -256,6 +263,9 @@ std::string table_of(const RunBuilding& building, const BuildingMap& map) {
                     100.0 * s.never / all);
       text += line;
     }
+  for (const std::size_t storey : map.bare)
+    text += printable(name_of(building.as_planned().storeys[storey])) +
+            ": no place in its rooms where the robot can stand; `inspect --walk` says what stops it\n";
   return text;
 }
 

@@ -27,6 +27,7 @@ struct BuildingMapOptions {
 struct BuildingMap {
   BuildingMapOptions options;
   std::vector<Floor> floors;
+  std::vector<std::size_t> bare;  ///< storeys asked for without a place where the robot can stand
   LocalizabilityMap map;
   std::vector<Alike> alike;  ///< what looks alike in it, and what distinguishes it
 };
@@ -60,7 +61,7 @@ struct MapShare {
 
 /// identify --json: {step_m, across, storeys: [{id, unknown: {cells, one_look, walk, never, ...}, compass: {...}}],
 /// rooms: [...], cells: [...], alike: [{turned_deg, moved_m, places, rooms, element, missing, share, from}]} by the
-/// building alone; the same lists again in with_furniture, where that differs.
+/// building alone; the same lists again in with_furniture, where that differs. without_places: [id] of storeys, if any.
 [[nodiscard]] Tree localizability_json(const RunBuilding& building, const BuildingMaps& maps);
 /// A table an answer, a line a storey and condition.
 [[nodiscard]] std::string localizability_text(const RunBuilding& building, const BuildingMaps& maps);

@@ -12,7 +12,6 @@
 #include "bim/mesh/visible.h"
 #include "bim/model/permanence.h"
 #include "sim/route/route.h"
-#include "sim/world.h"
 
 namespace plumbline::scenarios {
 
@@ -51,8 +50,8 @@ struct Surroundings {
 Surroundings surroundings(const Floor& floor, const SearchArea& area, const sim::ClearanceMap& space) {
   Surroundings s;
   s.grid.cell = fine_m;
-  s.grid.origin = area.min;
-  const Eigen::Vector2d size = (area.max - area.min).cwiseMax(0.0) / fine_m;
+  s.grid.origin = area.corner - fine_m * ((area.corner - area.min) / fine_m).array().ceil().matrix();
+  const Eigen::Vector2d size = (area.max - s.grid.origin).cwiseMax(0.0) / fine_m;
   if (size.x() * size.y() > most_fine)
     throw InputError({"identify", 0, 0}, "a storey is too large; it must be smaller");
   s.grid.nx = static_cast<int>(std::ceil(size.x()));
@@ -164,28 +163,6 @@ VisibleBuilding visible_building(const RunBuilding& building, PlanEvidence by) {
   return visible;
 }
 
-SearchArea search_area(const bim::Building& building, std::size_t storey) {
-  SearchArea area;
-  area.sensor_z_W = building.storeys[storey].elevation_m + sim::World::calibration().sensor_height_m;
-  area.min = Eigen::Vector2d::Constant(1e9);
-  area.max = Eigen::Vector2d::Constant(-1e9);
-  for (const bim::Wall& wall : building.walls) {
-    if (wall.storey != static_cast<int>(storey)) continue;
-    area.min = area.min.cwiseMin(wall.a).cwiseMin(wall.b);
-    area.max = area.max.cwiseMax(wall.a).cwiseMax(wall.b);
-  }
-  if (!area.empty()) return area;
-  // Glass fronts and proxies may enclose rooms where there is no wall.
-  for (const bim::Room& room : building.rooms) {
-    if (room.storey != static_cast<int>(storey)) continue;
-    for (const Eigen::Vector2d& p : room.polygon) {
-      area.min = area.min.cwiseMin(p);
-      area.max = area.max.cwiseMax(p);
-    }
-  }
-  return area;
-}
-
 Floor floor_of(const bim::Building& as_built, std::size_t storey, double step_m) {
   Floor floor;
   floor.storey = storey;
@@ -193,8 +170,9 @@ Floor floor_of(const bim::Building& as_built, std::size_t storey, double step_m)
   if (area.empty()) return floor;
   const sim::ClearanceMap space(as_built, static_cast<int>(storey));
   const Rooms rooms(as_built, storey);
-  for (double x = area.min.x() + 0.5 * step_m; x < area.max.x(); x += step_m)
-    for (double y = area.min.y() + 0.5 * step_m; y < area.max.y(); y += step_m)
+  const std::vector<double> ys = area.lines(1, step_m);
+  for (const double x : area.lines(0, step_m))
+    for (const double y : ys)
       if (space.free({x, y}) && rooms.hold({x, y})) floor.cells_W.emplace_back(x, y);
   floor.links = links_of(floor, surroundings(floor, area, space));
   return floor;

@@ -34,9 +34,6 @@ struct VisibleBuilding {
 };
 [[nodiscard]] VisibleBuilding visible_building(const RunBuilding& building, PlanEvidence by = PlanEvidence::building);
 
-/// Box around the walls of a storey, or its rooms where it has no walls, with the sensor's height over its floor.
-[[nodiscard]] SearchArea search_area(const bim::Building& building, std::size_t storey);
-
 /// Two neighbouring cells of a floor and the way between them.
 struct FloorLink {
   std::size_t a = 0, b = 0;

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t most_ratios = std::size_t{1} << 27U;
 constexpr std::size_t block = 64;  ///< cells between two moments at which isometries are shared
-constexpr double height_m = 1e-3;  ///< heights of sensors on one storey differ by less
+constexpr double height_m = 1e-3;  ///< a sensor over the floor of a storey is no further off its height there
 
 /// Cells of a map, their scans and the isometries found so far.
 class Mapper {
@@ -53,14 +53,15 @@ class Mapper {
 
   [[nodiscard]] SensorPose place(std::size_t cell) const {
     const MapCell& c = map_.cells[cell];
-    const double z = input_.storeys[input_.floors[c.floor].storey].sensor_z_W;
+    const double z = input_.storeys[input_.floors[c.floor].storey].sensor_z_W(c.p_W);
     return {{c.p_W.x(), c.p_W.y(), z}, 0.0};
   }
 
   [[nodiscard]] bool on_a_storey_asked_for(std::size_t cell, const SensorPose& alias) const {
     const std::size_t own = input_.floors[map_.cells[cell].floor].storey;
     for (std::size_t s = 0; s < input_.storeys.size(); ++s)
-      if (std::abs(input_.storeys[s].sensor_z_W - alias.position_W.z()) < height_m) return input_.across || s == own;
+      if (std::abs(input_.storeys[s].sensor_z_W(alias.position_W.head<2>()) - alias.position_W.z()) < height_m)
+        return input_.across || s == own;
     return false;
   }
 

@@ -79,9 +79,9 @@ std::vector<std::pair<int, Eigen::Vector3d>> grid_of(const std::vector<SearchAre
       throw InputError({"identify", 0, 0}, "a storey of " + std::to_string(std::lround(s.max.x() - s.min.x())) + " x " +
                                                std::to_string(std::lround(s.max.y() - s.min.y())) +
                                                " m has too many places; it must be smaller");
-    for (double x = s.min.x() + 0.5 * spacing_m; x < s.max.x(); x += spacing_m)
-      for (double y = s.min.y() + 0.5 * spacing_m; y < s.max.y(); y += spacing_m)
-        grid.emplace_back(static_cast<int>(i), Eigen::Vector3d(x, y, s.sensor_z_W));
+    const std::vector<double> ys = s.lines(1, spacing_m);
+    for (const double x : s.lines(0, spacing_m))
+      for (const double y : ys) grid.emplace_back(static_cast<int>(i), Eigen::Vector3d(x, y, s.sensor_z_W({x, y})));
   }
   return grid;
 }
@@ -120,7 +120,7 @@ PlaceIndex::PlaceIndex(const bim::RayScene& plan, std::vector<SearchArea> storey
     if (entry.signature.standable) places_.push_back(std::move(entry));
 }
 
-std::vector<SensorPose> PlaceIndex::like(const Signature& seen, double yaw, int storey, bool yaw_known) const {
+std::vector<LikePlace> PlaceIndex::like(const Signature& seen, double yaw, int storey, bool yaw_known) const {
   std::vector<Seed> seeds;
   for (std::size_t i = 0; i < places_.size(); ++i) {
     if (storey >= 0 && places_[i].storey != storey) continue;
@@ -132,10 +132,13 @@ std::vector<SensorPose> PlaceIndex::like(const Signature& seen, double yaw, int 
   });
   if (seeds.size() > static_cast<std::size_t>(localizability_constants.max_seeds))
     seeds.resize(static_cast<std::size_t>(localizability_constants.max_seeds));
-  std::vector<SensorPose> places;
+  std::vector<LikePlace> candidates;
   const double beam = 2.0 * std::numbers::pi / imager_.azimuths();
-  for (const Seed& seed : seeds) places.push_back({places_[seed.place].p_W, wrap_angle(yaw + seed.turn * beam)});
-  return places;
+  for (const Seed& seed : seeds) {
+    const Entry& entry = places_[seed.place];
+    candidates.push_back({{entry.p_W, wrap_angle(yaw + seed.turn * beam)}, entry.storey});
+  }
+  return candidates;
 }
 
 }  // namespace plumbline::scenarios

@@ -6,18 +6,9 @@
 #include <vector>
 
 #include "scenarios/localizability/range_image.h"
+#include "scenarios/localizability/search_area.h"
 
 namespace plumbline::scenarios {
-
-/// Where candidates are searched for: the floor of one storey.
-struct SearchArea {
-  Eigen::Vector2d min = Eigen::Vector2d::Zero();
-  Eigen::Vector2d max = Eigen::Vector2d::Zero();
-  double sensor_z_W = 0.66;  ///< height of the sensor on this storey
-
-  /// There is no wall on the storey.
-  [[nodiscard]] bool empty() const { return min.x() > max.x(); }
-};
 
 /// What candidate places are compared by.
 struct Signature {
@@ -29,6 +20,12 @@ struct Signature {
 /// Of the view from a place, whatever its heading.
 [[nodiscard]] Signature signature_of(const RangeImager& imager, const bim::RayScene& scene, const Eigen::Vector3d& p_W);
 
+/// A place whose view is like another.
+struct LikePlace {
+  SensorPose place;
+  int storey = 0;  ///< of the index
+};
+
 /// Grid of all places of a plan where a robot may stand, with their signatures.
 class PlaceIndex {
  public:
@@ -37,7 +34,7 @@ class PlaceIndex {
 
   /// Places of a storey (-1: of all) whose view, turned, is like `seen`, best first (ties: grid order, then turn): at
   /// most max_seeds. `yaw` is the heading at which `seen` was taken, the result holds the headings it would have there.
-  [[nodiscard]] std::vector<SensorPose> like(const Signature& seen, double yaw, int storey, bool yaw_known) const;
+  [[nodiscard]] std::vector<LikePlace> like(const Signature& seen, double yaw, int storey, bool yaw_known) const;
 
   [[nodiscard]] const RangeImager& imager() const { return imager_; }
   [[nodiscard]] const std::vector<SearchArea>& storeys() const { return storeys_; }

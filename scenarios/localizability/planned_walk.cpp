@@ -16,11 +16,13 @@ namespace plumbline::scenarios {
 namespace {
 
 constexpr double sample_m = 0.1;
+constexpr double route_rounding_m = 0.02;  ///< the heights of a route are no further off those of the floors
 
 /// A robot that walks along the waypoints.
 class Walker {
  public:
-  explicit Walker(const sim::WorldConfig& world) : speed_mps_(world.speed_mps), duration_s_(world.duration_s) {}
+  Walker(const sim::WorldConfig& world, std::vector<bim::WalkedFloors> floors)
+      : floors_(std::move(floors)), speed_mps_(world.speed_mps), duration_s_(world.duration_s) {}
 
   void stand(const Eigen::Vector3d& floor_W, double yaw) {
     p_ = floor_W;
@@ -49,11 +51,9 @@ class Walker {
   [[nodiscard]] std::vector<TruthSample> samples() const { return samples_; }
 
  private:
-  void add() {
-    const double z = p_.z() + sim::World::calibration().sensor_height_m;
-    samples_.push_back({t_, Pose::from_xyz_yaw(p_, yaw_), z});
-  }
+  void add() { samples_.push_back({t_, Pose::from_xyz_yaw(p_, yaw_), sensor_z_W(floors_, p_, route_rounding_m)}); }
 
+  std::vector<bim::WalkedFloors> floors_;
   double speed_mps_;
   double duration_s_;
   double t_ = 0.0;
@@ -62,8 +62,8 @@ class Walker {
   std::vector<TruthSample> samples_;
 };
 
-std::vector<TruthSample> walk_in(const sim::WorldConfig& world) {
-  Walker walker(world);
+std::vector<TruthSample> walk_in(const bim::Building& plan, const sim::WorldConfig& world) {
+  Walker walker(world, storey_floors(plan));
   if (world.waypoints.empty()) return {};
   walker.stand(world.waypoints.front().p_W, world.start_yaw);
   for (const sim::Waypoint& waypoint : world.waypoints) walker.walk_to(waypoint.p_W);
@@ -82,7 +82,7 @@ LocalizabilityInput input_of(const ResolvedScenario& resolved, int storey, const
       if (const SearchArea area = search_area(plan, i); !area.empty()) input.storeys.push_back(area);
   if (input.storeys.empty())
     throw InputError({resolved.scenario.building, 0, 0},
-                     "has no walls between which a pose could be searched for; a plan or an .ifc would be right");
+                     "has no walls or rooms in which a pose could be searched for; a plan or an .ifc would be right");
   return input;
 }
 
@@ -132,14 +132,16 @@ void set_answers(const WalkAnswers& walk, Tree& tree) {
 
 }  // namespace
 
-std::vector<TruthSample> planned_walk(const ResolvedScenario& resolved) { return walk_in(resolved.world); }
+std::vector<TruthSample> planned_walk(const ResolvedScenario& resolved) {
+  return walk_in(resolved.building->as_planned(), resolved.world);
+}
 
 std::vector<TruthSample> planned_walk_after(const ResolvedScenario& resolved) {
   if (!resolved.world_after) return {};
   const std::vector<TruthSample> before = planned_walk(resolved);
   sim::WorldConfig world = *resolved.world_after;
   world.duration_s -= (before.empty() ? 0.0 : before.back().t_s) + resolved.scenario.kidnap->away_s;
-  return walk_in(world);
+  return walk_in(resolved.building->as_planned(), world);
 }
 
 std::vector<SeedAnswers> localizability_of_walks(const std::string& scenario, int seeds, int threads) {

@@ -127,6 +127,7 @@ class ConditionPage {
       rows +=
           share_row(name_of(storey), share_of(map_, compass_, [&](const MapCell& cell) { return cell.floor == f; }));
     }
+    for (const std::size_t storey : map_.bare) rows += share_row(name_of(building_.as_planned().storeys[storey]), {});
     return table("places by storey", rows);
   }
 

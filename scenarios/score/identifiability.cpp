@@ -7,20 +7,12 @@
 #include "scenarios/localizability/floor.h"
 #include "scenarios/localizability/localizability.h"
 #include "scenarios/metrics/storey.h"
-#include "sim/world.h"
 
 namespace plumbline::scenarios::score {
 
 namespace {
 
-/// Height of the levelled sensor: over the floor of a storey while the robot walks on one, its own on a stair.
-double sensor_z_W(const bim::Plan& plan, const Pose& X_WR) {
-  constexpr double on_floor_m = 0.15;  // the base of a walking robot stays this close to its height
-  const auto storey = static_cast<std::size_t>(storey_of_base(plan.storeys, X_WR.t.z()));
-  const double floor = plan.storeys[storey].elevation_m;
-  const double under = X_WR.t.z() - base_height_m();
-  return (std::abs(under - floor) < on_floor_m ? floor : under) + sim::World::calibration().sensor_height_m;
-}
+constexpr double on_floor_m = 0.15;  ///< the base of a walking robot stays this close to its height
 
 std::vector<AliasesLeft> places_left(const RunIdentifiability& run) {
   std::vector<AliasesLeft> places;
@@ -82,8 +74,12 @@ std::optional<Identifiability> identifiability_of(const FinishedRun& run, const 
     if (i == start || run.scenario.prior.storey == Knowledge::unknown)
       if (const SearchArea area = search_area(as_planned, i); !area.empty()) question.storeys.push_back(area);
   if (question.storeys.empty()) return std::nullopt;  // a mesh
-  for (const slam::Nanoseconds t : truth.scans)
-    question.samples.push_back({slam::seconds(t - truth.scans.front()), truth.at(t), sensor_z_W(plan, truth.at(t))});
+  const std::vector<bim::WalkedFloors> floors = storey_floors(as_planned);
+  for (const slam::Nanoseconds t : truth.scans) {
+    const Pose X_WR = truth.at(t);
+    const Eigen::Vector3d feet_W = X_WR.t - Eigen::Vector3d(0.0, 0.0, base_height_m());
+    question.samples.push_back({slam::seconds(t - truth.scans.front()), X_WR, sensor_z_W(floors, feet_W, on_floor_m)});
+  }
 
   Identifiability result{answer(building, PlanEvidence::building, question), std::nullopt, true};
   result.told_furniture = building.told_furniture() == ToldFurniture::as_planned;

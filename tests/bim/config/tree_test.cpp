@@ -91,5 +91,18 @@ TEST(Yaml, TextThatIsNotUtf8IsRefusedWhereItStands) {
     EXPECT_EQ(read_yaml("a: " + good, "x.yaml").find("a")->as_string(), good);
 }
 
+TEST(Json, WhatATreeCannotHoldIsRefused) {
+  EXPECT_EQ(write_json(read_json("9223372036854775807", "f")), "9223372036854775807");
+  EXPECT_THROW(static_cast<void>(read_json("{\"a\": 9223372036854775808}", "f")), InputError);
+  EXPECT_THROW(static_cast<void>(read_json("18446744073709551615", "f")), InputError);
+}
+
+TEST(Json, AKeyStandsOnceInAMap) {
+  EXPECT_EQ(write_json(read_json(R"({"a":{"a":1},"b":[{"a":1},{"a":2}]})", "f"), 0),
+            R"({"a":{"a":1},"b":[{"a":1},{"a":2}]})");
+  EXPECT_THROW(static_cast<void>(read_json(R"({"a":1,"b":2,"a":3})", "f")), InputError);
+  EXPECT_THROW(static_cast<void>(read_json(R"([{"c":{"a":1,"a":1}}])", "f")), InputError);
+}
+
 }  // namespace
 }  // namespace plumbline

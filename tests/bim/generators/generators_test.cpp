@@ -210,5 +210,15 @@ TEST(Families, DeviationsBreakAndCreateSymmetry) {
   EXPECT_TRUE(exactly_symmetric(created.as_built.building));
 }
 
+/// Rooms are clear of half an inner wall, so that a thin outer wall stands within them.
+TEST(Generators, SizesThatMakeNoReadablePlanAreRefused) {
+  Tree options = Tree::map();
+  options.set("facade_m", 0.1).set("partition_m", 0.27);
+  const std::string error = input_error([&] { static_cast<void>(generate("corridor", options)); });
+  EXPECT_NE(error.find("a facade no thinner than the partitions"), std::string::npos) << error;
+  options.set("facade_m", 0.27);
+  EXPECT_FALSE(generate("corridor", options).plan.walls.empty());
+}
+
 }  // namespace
 }  // namespace plumbline::bim

@@ -55,7 +55,7 @@ TEST(SymmetryBodies, SurfacesGoRoundTheUnionOnce) {
       for (const Polygon2& ring : rings)
         for (std::size_t k = 0; k < ring.size(); ++k) perimeter += (ring[(k + 1) % ring.size()] - ring[k]).norm();
     }
-    for (const SurfaceRect& rect : visible_surfaces(prisms, 1e-6, 1e-6)) surface += rect.area();
+    for (const SurfaceRect& rect : visible_surfaces(prisms, 1e-6, {1e-6, 1e-6})) surface += rect.area();
     // Slivers and touching depth cost micrometres at each of at most some hundred corners.
     EXPECT_NEAR(surface, 2.0 * perimeter, 0.01) << seed;
   }
@@ -65,9 +65,31 @@ TEST(SymmetryBodies, TouchingBodiesHaveNoSurfaceBetweenThem) {
   const Polygon2 left = {{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}};
   const Polygon2 right = {{1.0, 0.0}, {2.0, 0.0}, {2.0, 1.0}, {1.0, 1.0}};
   double surface = 0.0;
-  for (const SurfaceRect& rect : visible_surfaces({{left, 0.0, 1.0, 0}, {right, 0.0, 1.0, 1}}, 1e-6, 1e-6))
+  for (const SurfaceRect& rect : visible_surfaces({{left, 0.0, 1.0, 0}, {right, 0.0, 1.0, 1}}, 1e-6, {1e-6, 1e-6}))
     surface += rect.area();
   EXPECT_NEAR(surface, 6.0, 1e-4);
+}
+
+/// However a convex area is cut into triangles.
+TEST(SymmetryBodies, PartsOfAConvexAreaAreThatArea) {
+  const Eigen::Vector2d a(0.0, 0.0), b(4.0, 0.0), c(4.0, 0.2), d(0.0, 0.2), middle(2.0, 0.2);
+  for (const std::vector<Polygon2>& pieces :
+       {std::vector<Polygon2>{{a, b, c}, {a, c, d}}, std::vector<Polygon2>{{a, b, d}, {b, c, d}},
+        std::vector<Polygon2>{{a, b, middle}, {b, c, middle}, {a, middle, d}}}) {
+    const std::vector<Polygon2> parts = convex_parts(pieces);
+    ASSERT_EQ(parts.size(), 1U);
+    EXPECT_EQ(parts.front().size(), 4U);
+    EXPECT_NEAR(signed_area(parts.front()), 0.8, 1e-12);
+  }
+}
+
+TEST(SymmetryBodies, PartsOfAnAngleAreConvex) {
+  const Eigen::Vector2d a(0.0, 0.0), b(3.0, 0.0), c(3.0, 1.0), d(1.0, 1.0), e(1.0, 3.0), f(0.0, 3.0);
+  const std::vector<Polygon2> parts = convex_parts({{a, b, d}, {b, c, d}, {a, d, f}, {d, e, f}});
+  EXPECT_LE(parts.size(), 3U);
+  double sum = 0.0;
+  for (const Polygon2& part : parts) sum += signed_area(part);
+  EXPECT_NEAR(sum, 5.0, 1e-12);
 }
 
 }  // namespace

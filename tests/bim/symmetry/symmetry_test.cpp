@@ -11,6 +11,7 @@
 #include "bim/formats/plan_yaml/plan_yaml.h"
 #include "bim/load/load.h"
 #include "bim/random/stream.h"
+#include "bim/symmetry/symmetry_bodies.h"
 #include "tests/bim/symmetry/moved.h"
 #include "tests/data.h"
 
@@ -35,6 +36,15 @@ Building box(double width, double depth, const std::string& more) {
 std::string room(double width, double depth) {
   return "rooms: [{id: hall, storey: ground, polygon: [[0, 0], [" + format_number(width) + ", 0], [" +
          format_number(width) + ", " + format_number(depth) + "], [0, " + format_number(depth) + "]]}]\n";
+}
+
+/// Underside and top of a quadrangle, cut from its first corner to its third.
+Solid body_over(const Polygon2& outline, double z0, double z1) {
+  Solid solid;
+  for (const double z : {z0, z1})
+    for (const Eigen::Vector2d& p : outline) solid.vertices.emplace_back(p.x(), p.y(), z);
+  solid.triangles = {{0, 2, 1}, {0, 3, 2}, {4, 5, 6}, {4, 6, 7}};
+  return solid;
 }
 
 /// Two rooms that a half turn swaps; the door in the south may be shifted from its place.
@@ -90,6 +100,46 @@ TEST(Symmetry, HalvesAtDifferentHeightsAreNotAlike) {
   ASSERT_FALSE(analyse_symmetry(building).building.empty());
   raise_east(building, 0.4);
   EXPECT_TRUE(analyse_symmetry(building).building.empty());
+}
+
+/// One below what counts as exact.
+TEST(Symmetry, AStepOfMillimetresOnAWallIsNoDifference) {
+  for (const double step_m : {0.003, 0.1}) {
+    Building building = twins(0.0);
+    Wall cap = building.walls[0];
+    cap.id = "cap";
+    cap.thickness_m = 0.1;
+    cap.z0_m = 2.4;  // above the door
+    building.walls[0].z1_m = 2.5;
+    building.walls[2].z1_m = 2.5;
+    cap.z1_m = 2.5 + step_m;
+    building.walls.push_back(cap);
+    const SymmetryReport report = analyse_symmetry(building);
+    const bool exact = !report.building.empty() && report.building.front().similarity.grade == SimilarityGrade::exact;
+    EXPECT_EQ(exact, step_m < 0.006) << step_m;
+  }
+}
+
+/// A platform of the shape of a plus, with a pit in its middle.
+TEST(Symmetry, RaisedFloorsNeedNotBeConvex) {
+  Building building = box(6, 6, room(6, 6));
+  Slab slab;
+  slab.id = "plus";
+  slab.storey = 0;
+  slab.polygon.outer = {{2, 1}, {4, 1}, {4, 2}, {5, 2}, {5, 4}, {4, 4}, {4, 5}, {2, 5}, {2, 4}, {1, 4}, {1, 2}, {2, 2}};
+  slab.polygon.holes = {{{2.5, 2.5}, {2.5, 3.5}, {3.5, 3.5}, {3.5, 2.5}}};
+  slab.z0_m = -0.1;
+  slab.z1_m = 0.4;
+  building.slabs.push_back(slab);
+  const SymmetryBodies bodies = symmetry_bodies(building, 0);
+  double platform = 0.0;
+  for (const BodyPrism& prism : bodies.prisms)
+    if (bodies.elements[static_cast<std::size_t>(prism.element)].starts_with("floor"))
+      platform += signed_area(prism.outline);
+  EXPECT_NEAR(platform, 11.0, 1e-6);
+  const SymmetryReport report = analyse_symmetry(building);
+  ASSERT_EQ(report.building.size(), 3U);
+  for (const BuildingSymmetry& symmetry : report.building) EXPECT_EQ(symmetry.similarity.grade, SimilarityGrade::exact);
 }
 
 TEST(Symmetry, SquareHasThreeTurnsAndItsMirrorImagesApart) {
@@ -171,6 +221,32 @@ TEST(Symmetry, FoundIsometriesAreAGroupAndKeepTheBuilding) {
     ASSERT_EQ(again.building.size(), report.building.size());
     for (const BuildingSymmetry& b : report.building) EXPECT_TRUE(has(again.building, b.isometry, 1e-9, 1e-8));
   }
+}
+
+/// Walls of a model have bodies of triangles; those of two walls that overlap in a corner touch each other's faces.
+TEST(Symmetry, NeitherTrianglesNorTheOrderOfWallsMatter) {
+  constexpr double half_m = 0.18;
+  std::vector<int> order = {0, 1, 2, 3};
+  int cut = 0;
+  do {
+    Building building = box(9, 4, room(9, 4));
+    std::vector<Wall> walls;
+    for (const int i : order) walls.push_back(building.walls[static_cast<std::size_t>(i)]);
+    for (Wall& wall : walls) {
+      const Eigen::Vector2d e = wall.direction(), n(-e.y(), e.x());
+      // The long walls go through; the diagonal of each runs one way or the other.
+      const double beyond = wall.length() > 5.0 ? half_m : -half_m + 0.24;
+      const Eigen::Vector2d a = wall.a - beyond * e, b = wall.b + beyond * e;
+      Polygon2 outline = {a - half_m * n, b - half_m * n, b + half_m * n, a + half_m * n};
+      std::rotate(outline.begin(), outline.begin() + (++cut % 2), outline.end());
+      wall.thickness_m = 2.0 * half_m;
+      wall.body = body_over(outline, wall.z0_m, wall.z1_m);
+    }
+    building.walls = walls;
+    const SymmetryReport report = analyse_symmetry(building);
+    ASSERT_EQ(report.building.size(), 1U);
+    EXPECT_EQ(report.building.front().similarity.grade, SimilarityGrade::exact);
+  } while (std::next_permutation(order.begin(), order.end()));
 }
 
 TEST(Symmetry, RandomBuildingsHaveNone) {

@@ -40,7 +40,7 @@ class Direct {
  public:
   explicit Direct(const RunBuilding& building)
       : visible_(visible_building(building)),
-        z_(search_area(building.as_planned(), 0).sensor_z_W),
+        z_(search_area(building.as_planned(), 0).sensor_z_W({0.0, 0.0})),
         index_(visible_.planned.scene, {}, 1.0, 1),
         finder_(index_, visible_.planned.scene, visible_.planned.scene) {}
 
@@ -273,6 +273,46 @@ TEST(LocalizabilityMap, AStoreyWithoutWallsIsMappedByItsRooms) {
   BuildingMapOptions options;
   options.step_m = 2.0;
   EXPECT_GT(map_of(RunBuilding(bim::PlannedAndBuilt{building, building, {}, true}), options).map.cells.size(), 6u);
+}
+
+/// A wall that goes through two storeys belongs to the lower one.
+TEST(LocalizabilityMap, RoomsBeyondTheWallsOfTheirStoreyAreMapped) {
+  bim::Building building = bim::read_plan_text(
+      "plan: 1\nstoreys: [{id: g}, {id: u, elevation_m: 3, copy_of: g}]\nwalls:\n"
+      "  - {id: s, storey: g, a: [0, 0], b: [8, 0]}\n  - {id: e, storey: g, a: [8, 0], b: [8, 6]}\n"
+      "  - {id: n, storey: g, a: [8, 6], b: [0, 6]}\n  - {id: w, storey: g, a: [0, 6], b: [0, 0]}\n"
+      "  - {id: m, storey: g, a: [3.9, 3], b: [0, 3]}\n"
+      "rooms: [{id: r, storey: g, polygon: [[0, 0], [8, 0], [8, 6], [0, 6]]}]\n",
+      "tall.plan.yaml");
+  for (bim::Wall& wall : building.walls)
+    if (wall.storey == 1 && wall.id.find('m') == std::string::npos) wall.storey = 0;
+  for (bim::Room& room : building.rooms) room.walls.clear();
+  BuildingMapOptions options;
+  options.step_m = 1.0;
+  options.compass_only = true;
+  const RunBuilding tall(bim::PlannedAndBuilt{building, building, {}, true});
+  const BuildingMap map = map_of(tall, options);
+  ASSERT_EQ(map.floors.size(), 2U);
+  EXPECT_EQ(map.floors[0].cells_W.size(), map.floors[1].cells_W.size());
+  EXPECT_TRUE(map.bare.empty());
+  EXPECT_EQ(localizability_json(tall, {map, std::nullopt}).find("without_places"), nullptr);
+}
+
+TEST(LocalizabilityMap, AStoreyWithoutAPlaceIsNamed) {
+  const bim::Building building = bim::read_plan_text(
+      "plan: 1\nstoreys: [{id: g}, {id: closet, elevation_m: 3}]\nwalls:\n"
+      "  - {id: w, storey: g, a: [0, 0], b: [6, 0]}\n  - {id: v, storey: closet, a: [0, 0], b: [0.6, 0]}\n"
+      "rooms:\n  - {id: r, storey: g, polygon: [[0, 0], [6, 0], [6, 4], [0, 4]]}\n"
+      "  - {id: c, storey: closet, polygon: [[0, 0], [0.6, 0], [0.6, 0.6], [0, 0.6]]}\n",
+      "closet.plan.yaml");
+  BuildingMapOptions options;
+  options.step_m = 2.0;
+  options.compass_only = true;
+  const RunBuilding tall(bim::PlannedAndBuilt{building, building, {}, true});
+  const BuildingMaps maps{map_of(tall, options), std::nullopt};
+  EXPECT_EQ(maps.building.bare, std::vector<std::size_t>{1});
+  EXPECT_NE(localizability_text(tall, maps).find("closet: no place"), std::string::npos);
+  EXPECT_NE(write_json(localizability_json(tall, maps)).find("\"without_places\""), std::string::npos);
 }
 
 TEST(LocalizabilityMap, NoPlaceAtAllIsSaid) {

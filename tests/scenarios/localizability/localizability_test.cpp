@@ -19,7 +19,7 @@ RunIdentifiability identify(const bim::BuildingMesh& mesh, const Eigen::Vector2d
   LocalizabilityInput input;
   input.as_planned = &scene;
   input.as_built = &scene;
-  input.storeys = {{Eigen::Vector2d::Zero(), size, 0.66}};
+  input.storeys = {{Eigen::Vector2d::Zero(), size, {}}};
   input.yaw_known = yaw_known;
   std::vector<TruthSample> truth;
   double t = 0.0;

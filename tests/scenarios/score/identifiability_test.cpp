@@ -87,6 +87,31 @@ TEST(IdentifiabilityOfARun, ALongCorridorHasItsHalfTurnWhereverTheWalkBegins) {
   }
 }
 
+/// Rooms that all lie above their storey are as much alike as they were on it, though the robot's base bobs.
+TEST(IdentifiabilityOfARun, RaisedFloorsAreAsAlikeAsLevelOnes) {
+  constexpr double rise_m = 0.3;
+  bim::Building plan = furnished();
+  plan.obstacles.clear();
+  for (bim::Room& room : plan.rooms) {
+    bim::Slab slab;
+    slab.id = room.id + "/raised";
+    slab.storey = room.storey;
+    slab.polygon = {room.polygon, {}};
+    slab.z0_m = room.z0_m;
+    slab.z1_m = room.z0_m = rise_m;
+    plan.slabs.push_back(slab);
+  }
+  for (bim::Opening& opening : plan.openings)
+    if (opening.kind != bim::OpeningKind::window) opening.z0_m = rise_m;
+  FinishedRun run = walk_in(RunBuilding({plan, plan, {}, true}));
+  for (std::size_t i = 0; i < run.record.truth_W.size(); ++i)
+    run.record.truth_W[i].X_FR.t.z() += rise_m + (i % 2 == 0 ? 0.02 : -0.02);
+  const auto known = identifiability_of(run, {run.record.truth_W, run.scans, std::nullopt});
+  ASSERT_TRUE(known.has_value());
+  EXPECT_FALSE(known->identifiable);
+  EXPECT_EQ(known->others_W.size(), 1U);
+}
+
 TEST(IdentifiabilityOfARun, InstallationsCountAsBuilding) {
   bim::Building plan = furnished();
   plan.obstacles.front().kind = "sanitary_terminal";
