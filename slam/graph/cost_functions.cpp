@@ -83,22 +83,36 @@ class FourWallCost : public ceres::SizedCostFunction<2, 2, 4, 4, 4, 4> {
   Eigen::Matrix2d root_;
 };
 
+/// False where a residual has no value, which tells an optimizer to step back.
+template <class Evaluate>
+bool is_defined(const Evaluate& evaluate) {
+  try {
+    evaluate();
+  } catch (const UndefinedResidual&) {
+    return false;
+  }
+  return true;
+}
+
 class TwoWallCost : public ceres::SizedCostFunction<2, 2, 4, 4> {
  public:
   explicit TwoWallCost(const RoomFactor& f)
       : cluster_M_(f.cluster_M), z_M_(f.height_M), root_(square_root<2>(f.information)) {}
   bool Evaluate(double const* const* x, double* e, double** J) const override {
-    const TwoWallResidual r =
-        two_wall_residual(Map<const Eigen::Vector2d>(x[0]), to_plane(x[1]), to_plane(x[2]), cluster_M_, z_M_);
-    Map<Eigen::Vector2d>{e} = root_ * r.e;
-    if (J == nullptr) return true;
-    if (J[0] != nullptr) write<2, 2>(J[0], root_ * r.J_center);
-    for (int i = 0; i < 2; ++i)
-      if (J[i + 1] != nullptr) write<2, 4>(J[i + 1], root_ * r.J_plane[i]);
-    return true;
+    return is_defined([&] { evaluate(x, e, J); });
   }
 
  private:
+  void evaluate(double const* const* x, double* e, double** J) const {
+    const TwoWallResidual r =
+        two_wall_residual(Map<const Eigen::Vector2d>(x[0]), to_plane(x[1]), to_plane(x[2]), cluster_M_, z_M_);
+    Map<Eigen::Vector2d>{e} = root_ * r.e;
+    if (J == nullptr) return;
+    if (J[0] != nullptr) write<2, 2>(J[0], root_ * r.J_center);
+    for (int i = 0; i < 2; ++i)
+      if (J[i + 1] != nullptr) write<2, 4>(J[i + 1], root_ * r.J_plane[i]);
+  }
+
   Eigen::Vector2d cluster_M_;
   double z_M_;
   Eigen::Matrix2d root_;
@@ -113,18 +127,21 @@ class PolygonCost : public ceres::CostFunction {
     for (std::size_t i = 0; i < walls_; ++i) mutable_parameter_block_sizes()->push_back(4);
   }
   bool Evaluate(double const* const* x, double* e, double** J) const override {
+    return is_defined([&] { evaluate(x, e, J); });
+  }
+
+ private:
+  void evaluate(double const* const* x, double* e, double** J) const {
     std::vector<Plane> planes;
     for (std::size_t i = 0; i < walls_; ++i) planes.push_back(to_plane(x[i + 1]));
     const PolygonResidual r = polygon_residual(Map<const Eigen::Vector2d>(x[0]), planes, corners_, z_M_);
     Map<Eigen::Vector2d>{e} = root_ * r.e;
-    if (J == nullptr) return true;
+    if (J == nullptr) return;
     if (J[0] != nullptr) write<2, 2>(J[0], root_ * r.J_center);
     for (std::size_t i = 0; i < walls_; ++i)
       if (J[i + 1] != nullptr) write<2, 4>(J[i + 1], root_ * r.J_plane[i]);
-    return true;
   }
 
- private:
   std::vector<RoomCorner> corners_;
   double z_M_;
   Eigen::Matrix2d root_;

@@ -138,7 +138,7 @@ TwoWallResidual two_wall_residual(const Eigen::Vector2d& center_M, const Plane& 
   const OpposedResidual across = between(center_M, a, b);
   const Eigen::Vector2d sum = a.m - b.m;
   const double length = sum.norm();
-  if (length < 1e-6) throw InternalError("two-wall room of two walls with the same normal");
+  if (length < 1e-6) throw UndefinedResidual("two-wall room of two walls with the same normal");
   const Eigen::Vector2d n = sum / length;
   Eigen::Matrix2d turn;  // along = turn * n
   turn << 0.0, -1.0, 1.0, 0.0;
@@ -167,7 +167,8 @@ PolygonResidual polygon_residual(const Eigen::Vector2d& center_M, std::span<cons
   for (const RoomCorner& corner : corners) {
     Eigen::Matrix2d A;  // A p + (e_a, e_b) = 0
     for (int i = 0; i < 2; ++i) A.row(i) = lines[static_cast<std::size_t>(corner[static_cast<std::size_t>(i)])].m;
-    if (std::abs(A.determinant()) < least_sine) throw InternalError("a polygon room's corner between parallel walls");
+    if (std::abs(A.determinant()) < least_sine)
+      throw UndefinedResidual("a polygon room's corner between parallel walls");
     const Eigen::Matrix2d inverse = A.inverse();
     const auto line = [&](int i) { return lines[static_cast<std::size_t>(corner[static_cast<std::size_t>(i)])]; };
     const Eigen::Vector2d p = -(inverse * Eigen::Vector2d(line(0).e, line(1).e));

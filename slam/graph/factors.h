@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "bim/errors.h"
 #include "bim/geometry/plane.h"
 #include "slam/graph/graph.h"
 
@@ -57,12 +58,18 @@ struct FourWallResidual {
 [[nodiscard]] FourWallResidual four_wall_residual(const Eigen::Vector2d& center_M, const Plane* const planes_M[4],
                                                   double z_M);
 
+/// A residual without a value: walls that should meet or face each other are parallel or alike. An optimizer does not
+/// go there.
+class UndefinedResidual : public InternalError {
+  using InternalError::InternalError;
+};
+
 struct TwoWallResidual {
   Eigen::Vector2d e;  ///< across the walls, along them from the cluster's centre; m
   Eigen::Matrix2d J_center;
   Matrix23d J_plane[2];
 };
-/// [bavle2023, eq. 5, 8], cluster_M constant. Throws InternalError when the walls are not opposed at all (equal
+/// [bavle2023, eq. 5, 8], cluster_M constant. Throws UndefinedResidual when the walls are not opposed at all (equal
 /// normals).
 [[nodiscard]] TwoWallResidual two_wall_residual(const Eigen::Vector2d& center_M, const Plane& a_M, const Plane& b_M,
                                                 const Eigen::Vector2d& cluster_M, double z_M);
@@ -73,8 +80,8 @@ struct PolygonResidual {
   std::vector<Matrix23d> J_plane;  ///< in the order of planes_M
 };
 /// A room of any shape: its centre is the mean of the corners in which its walls meet, cut at height z_M. Moves with
-/// the walls, wherever the map's origin is. Throws InternalError when there is no corner or a corner's walls are
-/// parallel.
+/// the walls, wherever the map's origin is. Throws InternalError when there is no corner, UndefinedResidual when
+/// a corner's walls are parallel.
 [[nodiscard]] PolygonResidual polygon_residual(const Eigen::Vector2d& center_M, std::span<const Plane> planes_M,
                                                std::span<const RoomCorner> corners, double z_M);
 

@@ -8,6 +8,7 @@
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "bim/errors.h"
 #include "slam/graph/cost_functions.h"
@@ -34,7 +35,8 @@ struct Evaluation {
   std::array<std::array<double, max_rows * 7>, max_blocks> J{};
   std::array<int, max_blocks> columns{};
 
-  void at(const Term& term, const Values& values, bool with_jacobians) {
+  /// False where the term has no value there.
+  [[nodiscard]] bool at(const Term& term, const Values& values, bool with_jacobians) {
     std::array<const double*, max_blocks> x{};
     std::array<double*, max_blocks> jacobians{};
     rows = term.cost->num_residuals();
@@ -43,7 +45,7 @@ struct Evaluation {
       jacobians[i] = J[i].data();
       columns[i] = term.cost->parameter_block_sizes()[i];
     }
-    term.cost->Evaluate(x.data(), e.data(), with_jacobians ? jacobians.data() : nullptr);
+    return term.cost->Evaluate(x.data(), e.data(), with_jacobians ? jacobians.data() : nullptr);
   }
 };
 
@@ -208,7 +210,10 @@ double linearize(const std::vector<Term>& terms, const Values& values, const Ord
   double cost = 0.0;
   Evaluation evaluation;
   for (const Term& term : terms) {
-    evaluation.at(term, values, g != nullptr);
+    if (!evaluation.at(term, values, g != nullptr)) {
+      if (g == nullptr) return std::numeric_limits<double>::infinity();
+      throw InternalError("a factor of the graph has no value at its present estimate");
+    }
     const auto e = evaluation.e.head(evaluation.rows);
     const double norm = e.norm();
     const bool outlier = term.huber > 0.0 && norm > term.huber;

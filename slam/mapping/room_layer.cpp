@@ -17,6 +17,17 @@ int merge_root(const Graph& graph, int plane) {
   return plane;
 }
 
+/// False where walls of a room that should face each other, or meet, have become one.
+bool has_distinct_walls(const RoomFactor& factor) {
+  const auto plane = [&](int i) { return factor.planes[static_cast<std::size_t>(i)]; };
+  if (!factor.corners.empty())
+    return std::all_of(factor.corners.begin(), factor.corners.end(),
+                       [&](const RoomCorner& corner) { return plane(corner[0]) != plane(corner[1]); });
+  std::vector<int> planes = factor.planes;
+  std::sort(planes.begin(), planes.end());
+  return std::adjacent_find(planes.begin(), planes.end()) == planes.end();
+}
+
 }  // namespace
 
 void RoomLayer::add_scan(const Graph& graph, const DeskewedScan& scan, std::span<const PlaneObservation> seen) {
@@ -130,12 +141,15 @@ std::vector<SameWall> RoomLayer::find_revisited_walls(const Graph& graph, std::s
   return {};
 }
 
+// Rooms of free space are found anew on the robot's storey alone; those of others keep the walls that they were found
+// by.
 void RoomLayer::redirect_merged_planes(Graph& graph) {
+  for (RoomFactor& factor : graph.room_factors)
+    for (int& plane : factor.planes) plane = merge_root(graph, plane);
+  std::erase_if(graph.room_factors, [](const RoomFactor& factor) { return !has_distinct_walls(factor); });
   if (config_.source == RoomSource::free_space) return;
   for (RoomCandidate& room : candidates_)
     for (int& plane : room.planes) plane = merge_root(graph, plane);
-  for (RoomFactor& factor : graph.room_factors)
-    for (int& plane : factor.planes) plane = merge_root(graph, plane);
 }
 
 void RoomLayer::rebuild_free_space(const Graph& graph) {

@@ -76,8 +76,8 @@ class RoomLayer {
   /// that are the same, see same_walls(). Rooms of four or two walls only.
   [[nodiscard]] std::vector<SameWall> find_revisited_walls(const Graph& graph, std::span<const PlaneNode> seen_M,
                                                            const WallDistance& distance) const;
-  /// Names the planes that others have been merged into in those others' place, for RoomSource::keyframe; rooms from
-  /// free space are derived anew at each update().
+  /// Names the planes that others have been merged into in those others' place. A factor whose walls have become one is
+  /// dropped.
   void redirect_merged_planes(Graph& graph);
   /// Draws all free space again from the keyframes' present poses.
   void rebuild_free_space(const Graph& graph);

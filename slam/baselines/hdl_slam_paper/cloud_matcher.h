@@ -12,7 +12,8 @@ namespace plumbline::slam::hdl {
 /// What a registration found: the pose of the source S in the target T.
 struct CloudMatch {
   Pose X_TS;
-  bool converged = false;  ///< also at the most iterations, as in the reference; false: nothing of S lies near T
+  /// False: nothing of S lies near T; of GICP also at the most iterations, of NDT not, as in the references.
+  bool converged = false;
 };
 
 /// Registers one cloud with another, the target.
@@ -29,6 +30,7 @@ struct NdtConfig {
   double outlier_share = 0.55;
   int least_points = 6;
   int max_iterations = 64;
+  double step_m = 0.1;
   double epsilon = 0.01;
 
   template <class V>
@@ -38,6 +40,7 @@ struct NdtConfig {
       plain_field("share of points that are taken for outliers", {.min = 0.01, .max = 0.99}));
     v("least_points", least_points, Field{.doc = "least points of a cell", .min = 3});
     v("max_iterations", max_iterations, Field{.doc = "most iterations of a registration", .min = 1, .max = 10000});
+    v("step_m", step_m, Field{.doc = "longest step of an iteration", .unit = "m, rad", .min = 1e-6, .max = 10.0});
     v("epsilon", epsilon,
       Field{.doc = "length of a step below which the iteration stops", .unit = "m, rad", .min = 1e-9, .max = 1.0});
   }

@@ -59,7 +59,6 @@ class Gicp final : public CloudMatcher {
     for (int i = 0; i < config_.max_iterations; ++i) {
       const std::vector<Pairing> pairs = pair(points_S, source_discs, match.X_TS);
       if (pairs.empty()) return match;
-      match.converged = true;
       Matrix6d H = Matrix6d::Zero();
       Vector6d g = Vector6d::Zero();
       const double cost = linearize(points_S, pairs, match.X_TS, H, g);
@@ -68,16 +67,20 @@ class Gicp final : public CloudMatcher {
       for (int k = 0; k < most_tries && !step; ++k) {
         const Matrix6d damped = H + lambda * Matrix6d::Identity();
         const Pose tried = exp_se3(-solve_ldlt(damped, g));
-        if (cost_of(points_S, pairs, match.X_TS * tried) < cost)
+        if (cost_of(points_S, pairs, match.X_TS * tried) < cost) {
           step = tried;
-        else
-          lambda = std::max(1e-9, 10.0 * lambda);
+        } else if (is_small(tried)) {
+          match.converged = true;
+          return match;
+        }
+        if (!step) lambda = std::max(1e-9, 10.0 * lambda);
       }
       if (!step) break;
       lambda *= 0.1;
       match.X_TS = match.X_TS * *step;
       match.X_TS.q.normalize();
-      if (is_small(*step)) break;
+      match.converged = is_small(*step);
+      if (match.converged) break;
     }
     return match;
   }

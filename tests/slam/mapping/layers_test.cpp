@@ -159,6 +159,20 @@ TEST(RoomLayer, OfOneKeyframeFollowsItsWallsAndTheGraph) {
   EXPECT_NEAR(std::abs(signed_area(nodes[0].polygon_F)), 12.0, 1e-9);
 }
 
+// A wall of a storey that the robot has left may become one with another later on.
+TEST(RoomLayer, OfFreeSpaceFollowsMergedWalls) {
+  Graph graph = at(Pose());
+  graph.planes.resize(5);
+  graph.rooms.resize(2);
+  graph.room_factors.push_back({.room = 0, .planes = {0, 4, 2, 3}, .corners = {{0, 2}, {2, 1}, {1, 3}, {3, 0}}});
+  graph.room_factors.push_back({.room = 1, .planes = {1, 4}});
+  graph.planes[4].merged_into = 1;
+  RoomLayer rooms({});
+  rooms.redirect_merged_planes(graph);
+  ASSERT_EQ(graph.room_factors.size(), 1U) << "a room of one wall is none";
+  EXPECT_EQ(graph.room_factors[0].planes, (std::vector<int>{0, 1, 2, 3}));
+}
+
 // As printed: free space is cut into clusters, the planes are of the newest keyframe, each look adds a factor.
 TEST(RoomLayer, AsPrintedEachLookAddsAFactor) {
   Graph graph = at(Pose::from_xyz_yaw({2, 1.5, 0.46}, 0));

@@ -62,6 +62,19 @@ TEST_P(Matchers, FindsAKnownMotion) {
   EXPECT_LT(log_so3(off.q).norm(), 0.01);
 }
 
+// Most of a cell away, the first steps are short. No surface lies on the border of two cells.
+TEST(Ndt, ConvergesFromAFarGuess) {
+  const std::unique_ptr<CloudMatcher> ndt = make_ndt({.cell_m = 1.0});
+  const Pose aside = Pose::from_xyz_yaw({0.31, 0.27, 0.35}, 0.0);
+  ndt->set_target(moved(aside, corner(1)));
+  for (const double x : {-0.6, -0.4, 0.4, 0.6}) {
+    const Pose X_TS = Pose::from_xyz_yaw({x, 0.2, 0.0}, 0.05);
+    const Pose off = X_TS.inverse() * ndt->match(moved(X_TS.inverse() * aside, corner(2)), Pose()).X_TS;
+    EXPECT_LT(off.t.norm(), 0.03) << x;
+    EXPECT_LT(log_so3(off.q).norm(), 0.01) << x;
+  }
+}
+
 TEST_P(Matchers, WithoutPointsTheGuessStands) {
   const Pose guess = Pose::from_xyz_yaw({1.0, 2.0, 3.0}, 0.5);
   EXPECT_FALSE(matcher_->match(corner(1), guess).converged);
