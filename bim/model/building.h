@@ -186,9 +186,11 @@ struct Building {
   std::vector<Obstacle> obstacles;
   std::vector<Material> materials;
   std::vector<Warning> warnings;
+  /// Added to the file's coordinates, m: absent where they are those of W.
+  std::optional<Eigen::Vector3d> moved_by = {};
 
   /// Hash of the content: ids and geometry of every element in their order; not the building's name, its source's
-  /// unit and entity numbers, nor warnings.
+  /// unit, coordinates and entity numbers, nor warnings.
   [[nodiscard]] std::uint64_t hash() const;
 };
 

@@ -6,9 +6,13 @@
 #include <numbers>
 #include <optional>
 #include <string>
+#include <tuple>
+#include <utility>
 #include <vector>
 
+#include "bim/config/number_list.h"
 #include "bim/config/printable.h"
+#include "bim/config/schema.h"
 #include "bim/errors.h"
 #include "bim/plan/plan.h"
 #include "bim/random/stream.h"
@@ -83,10 +87,12 @@ Scenario scenario_of(const std::string& recording) {
   return fs::exists(path) ? read_scenario(read_text_file(path), path).scenario : Scenario();
 }
 
-/// The plan, with the furniture that the run's methods were told of, or as --plan-furniture says.
-std::shared_ptr<const bim::Plan> load_plan(const EstimateArguments& options, const slam::MethodRow& row,
-                                           const bim::BuildingOptions& taken) {
-  if (!row.needs_plan) return nullptr;
+using PlanAndMove = std::pair<std::shared_ptr<const bim::Plan>, std::optional<Eigen::Vector3d>>;
+
+/// The plan, with the furniture that the run's methods were told of, or as --plan-furniture says, and how far it was
+/// moved, see bim::Building.
+PlanAndMove load_plan(const EstimateArguments& options, const slam::MethodRow& row, const bim::BuildingOptions& taken) {
+  if (!row.needs_plan) return {};
   if (options.plan.empty())
     throw InputError({"--plan", 0, 0}, "is missing; method '" + options.method + "' localizes in a plan");
   Scenario scenario = scenario_of(options.input.recording);
@@ -95,7 +101,7 @@ std::shared_ptr<const bim::Plan> load_plan(const EstimateArguments& options, con
   const bool none = options.furniture_option->given() ? options.plan_furniture == names_of(ToldFurniture{}).front()
                                                       : scenario.plan.furniture == ToldFurniture::none;
   const RunBuilding building(load_site(options.plan, scenario), none ? ToldFurniture::none : ToldFurniture::as_planned);
-  return building.plan_as_planned();
+  return {building.plan_as_planned(), building.as_planned().moved_by};
 }
 
 /// What only localization takes is refused elsewhere: who gives it expects poses in the plan.
@@ -153,8 +159,9 @@ std::uint64_t run_seed(const EstimateArguments& options, const slam::RecordingIn
   return options.seed_option->given() ? options.seed : info.seed.value_or(options.seed);
 }
 
+/// moved_by: see load_plan().
 slam::MethodInput make_input(const EstimateArguments& options, const slam::MethodRow& row,
-                             const slam::Recording& recording) {
+                             const slam::Recording& recording, std::optional<Eigen::Vector3d>& moved_by) {
   const slam::RecordingInfo& info = recording.info();
   slam::MethodInput input;
   input.config = make_config(options, row);
@@ -164,7 +171,7 @@ slam::MethodInput make_input(const EstimateArguments& options, const slam::Metho
                                                           "' needs; vgicp and s_graphs_plus do without");
   input.seed = method_seed(run_seed(options, info), row.name);
   input.calibration = slam::calibration_of(info);
-  input.plan = load_plan(options, row, info.plan);
+  std::tie(input.plan, moved_by) = load_plan(options, row, info.plan);
   if (input.plan) {
     input.prior = make_prior(options, info, *input.plan);
     check_rooms(options, *input.plan, input.prior);
@@ -222,7 +229,8 @@ std::vector<std::string> doubts_about(const Answer& answer, bool with_odometry) 
 
 /// estimate.yaml: which walk the answer is of, and what it depends on besides recording and plan.
 std::string describe(const slam::MethodRow& row, std::uint64_t seed, const slam::Recording& recording,
-                     const slam::MethodInput& input, Sensors sensors, const Poverty& poverty, const ScansRead& scans) {
+                     const slam::MethodInput& input, Sensors sensors, const Poverty& poverty, const ScansRead& scans,
+                     const std::optional<Eigen::Vector3d>& moved_by) {
   const slam::RecordingInfo& info = recording.info();
   Tree tree = Tree::map();
   tree.set("estimate", 1).set("method", row.name).set("seed", static_cast<std::int64_t>(seed));
@@ -241,6 +249,7 @@ std::string describe(const slam::MethodRow& row, std::uint64_t seed, const slam:
   add("assumed", recording.assumed());
   tree.set("input", to_tree(recording.taken(), scans));
   if (info.walk) tree.set("walk", *info.walk);
+  if (moved_by) tree.set("plan_moved_by_m", number_list(*moved_by));
   if (!input.config.is_null()) tree.set("config", input.config);
   return write_yaml(tree);
 }
@@ -278,7 +287,12 @@ int estimate(EstimateArguments options, slam::MethodTable table) {
   check_plan_options(options, row);
   const Poverty poverty = poverty_of(options);
   const std::unique_ptr<slam::Recording> recording = poorer(open_any_recording(options.input), poverty);
-  slam::MethodInput input = make_input(options, row, *recording);
+  std::optional<Eigen::Vector3d> moved_by;
+  slam::MethodInput input = make_input(options, row, *recording, moved_by);
+  if (moved_by)
+    print_note("plumbline: warning: " + options.plan + ": " +
+               "its coordinates are those of a map; poses are in W, to which it is moved by " +
+               flow_text(number_list(*moved_by)) + " m");
   const bool is_height_said = recording->info().mount.height_m.has_value();
   const std::optional<double> height = is_height_said ? std::nullopt : measured_height(options, input);
   if (height) input.calibration.sensor_height_m = *height;
@@ -294,7 +308,7 @@ int estimate(EstimateArguments options, slam::MethodTable table) {
   write_method(directory.staging(), record);
   write_file(directory.staging() + "/digests.csv", write_digests(record.digests));
   write_file(directory.staging() + "/estimate.yaml", describe(row, run_seed(options, recording->info()), *recording,
-                                                              input, choice.sensors, poverty, answer.scans));
+                                                              input, choice.sensors, poverty, answer.scans, moved_by));
   write_file(directory.staging() + "/timings.json", write_cost(answer, start_s));
   directory.commit();
   if (record.crashed) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "bim/errors.h"
@@ -83,26 +84,32 @@ bool is_honest(const Belief& last, const Pose& X_WR_true, const std::vector<Pose
   return true_mass >= 0.5 / (static_cast<double>(others_W.size()) + 1.0);
 }
 
-/// Mean normalised estimation error squared over the converged scans that are right and have a covariance.
-std::optional<double> mean_nees(const Truth& truth, const std::vector<Belief>& beliefs,
-                                const LocalizationRules& rules) {
+struct Nees {
+  std::optional<double> mean;
+  std::optional<double> left_out;  ///< how many scans
+};
+
+/// Mean normalised estimation error squared over the converged scans that are right, less those without a covariance
+/// that is positive definite.
+Nees mean_nees(const Truth& truth, const std::vector<Belief>& beliefs, const LocalizationRules& rules) {
   double sum = 0.0;
-  int count = 0;
+  int count = 0, left_out = 0;
   for (const Belief& belief : beliefs) {
     if (belief.state != slam::State::converged || belief.hypotheses.empty()) continue;
     const slam::Hypothesis& best = *std::max_element(belief.hypotheses.begin(), belief.hypotheses.end(),
                                                      [](const auto& a, const auto& b) { return a.mass < b.mass; });
     const Pose X_WR_true = truth.at(belief.stamp);
-    const Eigen::LLT<Eigen::Matrix3d> root(best.covariance);
-    if (root.info() != Eigen::Success || !right(best.X_WR, X_WR_true, rules)) continue;
+    if (!right(best.X_WR, X_WR_true, rules)) continue;
     const Eigen::Vector3d e(best.X_WR.t.x() - X_WR_true.t.x(), best.X_WR.t.y() - X_WR_true.t.y(),
                             wrap_angle(best.X_WR.yaw() - X_WR_true.yaw()));
-    const double nees = e.dot(root.solve(e));
-    if (!std::isfinite(nees)) continue;
-    sum += nees;
-    ++count;
+    const Eigen::LLT<Eigen::Matrix3d> root(best.covariance);
+    const double nees = root.info() == Eigen::Success ? e.dot(root.solve(e)) : std::numeric_limits<double>::infinity();
+    const bool is_usable = std::isfinite(nees);
+    if (is_usable) sum += nees;
+    ++(is_usable ? count : left_out);
   }
-  return count > 0 ? std::optional(sum / count) : std::nullopt;
+  if (count + left_out == 0) return {};
+  return {count > 0 ? std::optional(sum / count) : std::nullopt, left_out};
 }
 
 double true_mass_of(const Belief& belief, const Pose& X_WR_true, const LocalizationRules& rules) {
@@ -241,7 +248,9 @@ LocalizationScore score_localization(const Truth& truth, const std::vector<Belie
   const std::vector<Pose> aliases = identifiability ? identifiability->aliases_at_start : std::vector<Pose>();
   if (course) score.aliased_error_rmse_m = aliased_error(truth, beliefs, course->first, aliases);
   if (!last.hypotheses.empty()) score.true_mass = true_mass_of(last, truth.at(last.stamp), rules);
-  score.nees = mean_nees(truth, beliefs, rules);
+  const Nees nees = mean_nees(truth, beliefs, rules);
+  score.nees = nees.mean;
+  score.nees_left_out = nees.left_out;
   if (const auto why = failure_of(truth, beliefs, score.verdict, aliases, rules)) {
     score.failure = why->failure;
     score.failure_at_s = slam::seconds(why->stamp);

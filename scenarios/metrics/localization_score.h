@@ -119,6 +119,7 @@ struct LocalizationScore {
   std::optional<double> aliased_error_rmse_m;
   std::optional<double> true_mass;  ///< share of the last hypotheses that are right
   std::optional<double> nees;       ///< mean of e' P^-1 e of (x, y, yaw) while converged and right; 3 where P is honest
+  std::optional<double> nees_left_out;       ///< scans that are converged and right, but without a usable covariance
   std::optional<double> handover_precision;  ///< see handover.h
   std::optional<Failure> failure;
   std::optional<double> failure_at_s;    ///< on the run's clock: `replay --until` stops there

@@ -152,6 +152,9 @@ std::vector<MetricRow> make_rows() {
        "mean normalised estimation error squared of (x, y, yaw) while converged and right; 3 where the covariance is "
        "consistent",
        field(&S::localization, &L::nees)},
+      {"localization.nees_left_out", "", Better::lower,
+       "scans while converged and right that `nees` leaves out, since their covariance is not positive definite",
+       field(&S::localization, &L::nees_left_out)},
       {"localization.handover_precision", "", Better::higher,
        "share of the wall patches, matched at the first convergence, whose wall is the right one; absent for methods "
        "that match no walls",

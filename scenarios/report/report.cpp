@@ -30,6 +30,17 @@ std::vector<ReportDeviation> all_deviations(const ReportInput& input) {
   return all;
 }
 
+/// " · building moved by -487659, -5412349, 0 m" where its file is in map coordinates.
+std::string moved_text(const ReportInput& input) {
+  const Tree* building = input.results.find("building");
+  const Tree* moved = building != nullptr ? building->find("moved_by_m") : nullptr;
+  if (moved == nullptr) return "";
+  std::string numbers;
+  for (const Tree& number : moved->as_list())
+    numbers += (numbers.empty() ? "" : ", ") + format_number(number.as_double());
+  return " · building moved by " + numbers + " m from its file's coordinates";
+}
+
 /// What methods were told of the furniture, and how it was built; nothing where there is none.
 std::string told_text(const ReportInput& input) {
   const Tree* told = input.results.find("told");
@@ -95,7 +106,7 @@ std::string header(const ReportInput& input) {
   std::string facts = "seed " + svg::escape(text_of(input.results, "seed"));
   if (const auto d = number_of(results, "duration_s")) facts += " · " + svg::number(*d, 1) + " s";
   if (const auto d = number_of(results, "distance_m")) facts += " · " + svg::number(*d, 1) + " m walked";
-  facts += told_text(input);
+  facts += told_text(input) + moved_text(input);
   return "<header><h1>" + svg::escape(text_of(input.results, "scenario")) + "</h1>" + badge + "<span class=\"facts\">" +
          facts + "</span>" + (input.has_replay ? "<a href=\"replay.html\">replay in three dimensions</a>" : "") +
          "</header>" + failed_gates(input);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "bim/config/number_list.h"
 #include "bim/digest/digest.h"
 #include "scenarios/host/files.h"
 #include "scenarios/metrics/storey.h"
@@ -123,7 +124,8 @@ bool is_asked_for(std::string_view metric, const MethodRecord& method) {
   if (metric.starts_with("loops.")) return estimate.loops.has_value() && !method.localization;
   if (metric.starts_with("segmentation.")) return !estimate.segmented.empty() && !method.localization;
   if (metric.starts_with("rooms.")) return !estimate.planes.empty() && !(method.localization && estimate.rooms.empty());
-  if (metric == "localization.nees" || metric == "localization.handover_precision") return !method.beliefs.empty();
+  if (metric.starts_with("localization.nees") || metric == "localization.handover_precision")
+    return !method.beliefs.empty();
   return metric.starts_with("localization.") == method.localization;
 }
 
@@ -272,6 +274,8 @@ std::string write_results(const FinishedRun& run, const RunScore& score) {
   for (const std::string& name : run.altered) altered.push(name);
   if (!run.altered.empty()) tree.set("unchecked", std::move(altered));
   tree.set("walk", to_results(run.walk, warnings_of_walk(run)));
+  if (const auto& moved = run.building->as_planned().moved_by)
+    tree.set("building", Tree::map().set("moved_by_m", number_list(*moved)));
   tree.set("sensors", sensors_of(run.scenario));
   if (run.building->plans_movables() || run.building->deviates()) tree.set("told", told_of(run));
   if (run.building->deviates()) tree.set("as_built", changes_of(run.building->variants()));

@@ -327,7 +327,7 @@ std::vector<std::string> walk_notes(const ResolvedScenario& resolved) {
   const WalkCoverage& walk = resolved.walk;
   std::vector<std::string> notes;
   for (const bim::Warning& warning : resolved.building->as_planned().warnings)
-    if (warning.kind == "few_chairs") notes.push_back("warning: " + warning.text);
+    if (warning.kind == "few_chairs" || warning.kind == "recentred") notes.push_back("warning: " + warning.text);
   if (resolved.own_route) {  // what else it says of its walk stands in results.json and on the page
     for (const std::string& storey : walk.storeys_out_of_reach)
       notes.push_back("warning: `storeys: all` leaves out " + storey);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <numbers>
 
 #include "tests/scenarios/metrics/straight_walk.h"
@@ -44,6 +45,24 @@ TEST(Localization, SuccessWithItsNumbers) {
   EXPECT_NEAR(*score.yaw_rmse_deg, 0.0, 1e-12);
   EXPECT_EQ(score.hypotheses, 1);
   EXPECT_FALSE(score.identifiable);
+}
+
+TEST(Localization, NeesLeavesOutWhatHasNoCovarianceAndSaysSo) {
+  auto beliefs = converges_at(40, 0.2);
+  for (std::size_t i = 40; i < beliefs.size(); ++i)
+    beliefs[i].hypotheses[0].covariance = Eigen::Vector3d(0.01, 0.04, 0.01).asDiagonal();
+  LocalizationScore score = judge(beliefs);
+  EXPECT_NEAR(score.nees.value(), 1.0, 1e-9);  // 0.2 m off where the standard deviation is 0.2 m
+  EXPECT_EQ(score.nees_left_out, 0.0);
+  beliefs[50].hypotheses[0].covariance = Eigen::Vector3d(0.01, -0.04, 0.01).asDiagonal();
+  beliefs[51].hypotheses[0].covariance.setConstant(std::numeric_limits<double>::quiet_NaN());
+  score = judge(beliefs);
+  EXPECT_NEAR(score.nees.value(), 1.0, 1e-9);
+  EXPECT_EQ(score.nees_left_out, 2.0);
+  score = judge(converges_at(40, 0.1));  // of zeros
+  EXPECT_FALSE(score.nees);
+  EXPECT_EQ(score.nees_left_out, static_cast<double>(scans - 40));
+  EXPECT_FALSE(judge(converges_at(scans, 0.1)).nees_left_out);
 }
 
 TEST(Localization, WrongSingleAnswerIsFalseConvergence) {

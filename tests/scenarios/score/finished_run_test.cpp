@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <memory>
 #include <vector>
 
 #include "bim/digest/digest.h"
@@ -34,6 +35,20 @@ TEST_F(FinishedRunTest, ScoresAndReportAreThoseOfItsDirectory) {
   const score::RunScore of_ended = score::score_run(ended), of_read = score::score_run(read);
   EXPECT_EQ(score::write_results(ended, of_ended), score::write_results(read, of_read));
   EXPECT_EQ(render_report(report_input(ended, of_ended)), render_report(report_input(read, of_read)));
+}
+
+TEST_F(FinishedRunTest, SaysHowFarTheBuildingWasMoved) {
+  ResolvedScenario resolved = short_run();
+  bim::Building building = resolved.building->as_planned();
+  building.moved_by = Eigen::Vector3d(-500000, -5000000, 0);
+  resolved.building = std::make_shared<const RunBuilding>(bim::PlannedAndBuilt{building, building, {}, true});
+  const FinishedRun run = finished_run(resolved, execute(resolved, {}));
+  const score::RunScore score = score::score_run(run);
+  const Tree results = read_json(score::write_results(run, score), "results");
+  ASSERT_NE(results.find("building"), nullptr);
+  EXPECT_EQ(write_json(*results.find("building"), 0), "{\"moved_by_m\":[-500000.0,-5000000.0,0.0]}");
+  EXPECT_NE(render_report(report_input(run, score)).find("building moved by -500000, -5000000, 0 m"),
+            std::string::npos);
 }
 
 /// Everything that a file rounds: it must be rounded in memory alike.

@@ -139,6 +139,7 @@ Building read_ifc_text(std::string_view text, const std::string& file, const Ifc
   warn_of_missing_walls(building);
   if (const std::string odd = odd_size(building); !odd.empty())
     building.warnings.push_back({"", "odd_size", odd + " The file says " + building.unit});
+  building.moved_by = model.move;
   if (model.move) building.warnings.push_back({"", "recentred", moved_text(*model.move)});
   const std::string read_as = schema_for_reader(checked.schema);
   if (read_as != said) building.warnings.push_back({"", "other_schema", said + " read as " + read_as});

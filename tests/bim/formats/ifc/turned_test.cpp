@@ -68,6 +68,7 @@ TEST_P(TurnedTest, IsReadTheSame) {
   for (const Warning& warning : moved.warnings) --kinds[warning.kind];
   const bool far = std::abs(GetParam().x) > 1e5;
   EXPECT_EQ(kinds["recentred"], far ? -1 : 0);
+  EXPECT_EQ(moved.moved_by.has_value(), far);
   for (const auto& [kind, difference] : kinds)
     EXPECT_TRUE(kind == "recentred" || difference == 0) << kind << ": " << difference;
 }
