@@ -34,7 +34,10 @@ Matrix6d step_information() {
 class LegoLoam final : public KeyframeMethod {
  public:
   LegoLoam(const MethodInput& input, const LegoLoamConfig& config)
-      : KeyframeMethod(input.calibration, config.map, config.loop.on), config_(config), map_(config.submap) {}
+      : KeyframeMethod(input.calibration, config.map, config.loop.on),
+        config_(config),
+        beams_(config.beam_model),
+        map_(config.submap) {}
 
  private:
   [[nodiscard]] ScanPlacement track(const Scan& scan, ScanStages& stages) override;
@@ -44,6 +47,7 @@ class LegoLoam final : public KeyframeMethod {
   void close_loop();
 
   LegoLoamConfig config_;
+  BeamsOfRecording beams_;
   FormerScan former_;
   Motion motion_;
   Pose X_MR_;
@@ -110,7 +114,7 @@ void LegoLoam::close_loop() {
 }
 
 ScanPlacement LegoLoam::track(const Scan& scan, ScanStages& stages) {
-  const SegmentedCloud cloud = segmented_cloud(scan, calibration().X_RL, config_.image);
+  const SegmentedCloud cloud = segmented_cloud(scan, calibration().X_RL, config_.image, beams_.of(scan));
   const Features features = find_features(cloud, config_.features);
   stages.end("features", Digest()
                              .add(static_cast<std::int64_t>(features.less_sharp.size()))

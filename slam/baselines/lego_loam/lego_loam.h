@@ -10,11 +10,13 @@
 #include "slam/graph/optimize.h"
 #include "slam/io/method.h"
 #include "slam/loam/keyframe_map.h"
+#include "slam/scan/beams.h"
 #include "slam/scan/map_cloud.h"
 
 namespace plumbline::slam {
 
 struct LegoLoamConfig {
+  Beams beam_model = Beams::automatic;
   lego::RangeImageConfig image;
   lego::FeatureConfig features;
   lego::TwoStepConfig odometry;
@@ -27,6 +29,7 @@ struct LegoLoamConfig {
 
   template <class V>
   void visit(V& v) {
+    v("beam_model", beam_model, beam_model_field);
     v("image", image);
     v("features", features);
     v("odometry", odometry);

@@ -26,6 +26,13 @@ TEST(LegoLoam, FollowsAWalk) {
   EXPECT_LT(indoor.height_m, 0.45);
 }
 
+TEST(LegoLoam, FollowsAWalkByScansWithoutRings) {
+  const auto method = make_lego_loam(synthetic::robot(), LegoLoamIndoorConfig());
+  const synthetic::WorstError worst = synthetic::worst_in_house(*method, 10.0, false);
+  EXPECT_LT(worst.across_m, 0.18);
+  EXPECT_LT(worst.height_m, 0.45);
+}
+
 TEST(LegoLoam, WithoutAFloorItSaysSo) {
   const auto method = make_lego_loam(synthetic::robot(), {});
   for (int k = 0; k < 3; ++k) {
