@@ -24,10 +24,10 @@ std::vector<Eigen::Vector3d> places(const std::vector<FormerPoint>& points) {
   return result;
 }
 
-/// Variances of the reference's factors: rotation 1e-6, translation 1e-8 across and 1e-6 along the way.
+/// Variances of the reference's factors: rotation 1e-6, translation 1e-8 forward and to the left and 1e-6 upwards.
 Matrix6d step_information() {
   Vector6d information;
-  information << 1e6, 1e8, 1e8, 1e6, 1e6, 1e6;
+  information << 1e8, 1e8, 1e6, 1e6, 1e6, 1e6;
   return information.asDiagonal();
 }
 

@@ -47,6 +47,21 @@ TEST(LegoLoam, WithoutAFloorItSaysSo) {
   }
 }
 
+// Upwards the reference's steps are the loosest.
+TEST(LegoLoam, StepsOfTheGraphWeighAsInTheReference) {
+  const auto method = make_lego_loam(synthetic::robot(), LegoLoamIndoorConfig());
+  (void)synthetic::worst_in_house(*method, 4.0);
+  const Tree graph = method->finish().graph;
+  const Tree* factors = graph.find("pose_factors");
+  ASSERT_NE(factors, nullptr);
+  ASSERT_FALSE(factors->as_list().empty());
+  const Tree* upper = factors->as_list().front().find("information");
+  ASSERT_NE(upper, nullptr);
+  // The diagonal of the upper triangle, row by row: x, y, z, then rotations.
+  const double expected[] = {1e8, 1e8, 1e6, 1e6, 1e6, 1e6};
+  for (std::size_t k = 0, i = 0; k < 6; i += 6 - k, ++k) EXPECT_EQ(upper->as_list()[i].as_double(), expected[k]) << k;
+}
+
 /// Clutter about a corner of the square, seen from X_WR.
 loam::MapFeatures view(const std::vector<Eigen::Vector3d>& world_W, const Pose& X_WR) {
   loam::MapFeatures features;
