@@ -49,7 +49,8 @@ struct LegoLoamIndoorConfig : LegoLoamConfig {
 };
 
 /// LeGO-LOAM [shan2018]: ground and segments of a range image, odometry in two steps, then a map of keyframes. LiDAR
-/// alone: odometry and IMU are not used. LOST where ground or edges do not tell the motion: the pose then stands.
+/// alone: odometry and IMU are not used. LOST where ground or edges do not tell the motion and the map does not tell
+/// the pose: it then moves only by what was told.
 [[nodiscard]] std::unique_ptr<Method> make_lego_loam(const MethodInput& input, const LegoLoamConfig& config);
 
 }  // namespace plumbline::slam
