@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slam/loam/aloam.h"
 
+#include <optional>
 #include <utility>
 
 namespace plumbline::slam::loam {
 
 Registration AloamOdometry::match(const DeskewedScan& scan, const OdometrySample& /*odometry*/,
                                   double /*usual_matched*/) {
-  scan_ = find_features(scan, config_.features);
+  const std::optional<DeskewedScan> in_rings = beams_.in_rings(scan);
+  scan_ = find_features(in_rings ? *in_rings : scan, config_.features);
   thinned_ = thin(scan_, config_.map);
   Registration result;
   result.X_MR = X_MR_;

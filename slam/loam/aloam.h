@@ -4,10 +4,12 @@
 #include "bim/config/visit.h"
 #include "slam/loam/feature_map.h"
 #include "slam/loam/scan_to_scan.h"
+#include "slam/scan/beams.h"
 
 namespace plumbline::slam::loam {
 
 struct AloamConfig {
+  Beams beam_model = Beams::automatic;
   FeatureConfig features;
   ScanToScanConfig scan_to_scan;
   MapConfig map;
@@ -15,6 +17,7 @@ struct AloamConfig {
 
   template <class V>
   void visit(V& v) {
+    v("beam_model", beam_model, beam_model_field);
     v("features", features);
     v("scan_to_scan", scan_to_scan);
     v("map", map);
@@ -26,7 +29,8 @@ struct AloamConfig {
 /// Odometry is not used.
 class AloamOdometry {
  public:
-  explicit AloamOdometry(const AloamConfig& config) : config_(config), map_(config.map) {}
+  explicit AloamOdometry(const AloamConfig& config)
+      : config_(config), beams_(config.beam_model, lowest_of_64), map_(config.map) {}
 
   /// Registers the scan. Odometry is not used.
   [[nodiscard]] Registration match(const DeskewedScan& scan, const OdometrySample& odometry,
@@ -39,7 +43,10 @@ class AloamOdometry {
   void reset_map();
 
  private:
+  static constexpr int lowest_of_64 = 13;  ///< as the reference, which uses the upper 51 of them
+
   AloamConfig config_;
+  BeamsOfRecording beams_;
   Features last_;
   Features scan_;  ///< of the scan last matched
   ThinFeatures thinned_;

@@ -2,12 +2,14 @@
 #include "slam/loam/floam.h"
 
 #include <algorithm>
+#include <optional>
 
 namespace plumbline::slam::loam {
 
 Registration FloamOdometry::match(const DeskewedScan& scan, const OdometrySample& /*odometry*/,
                                   double /*usual_matched*/) {
-  scan_ = thin(find_features(scan, config_.features), config_.map);
+  const std::optional<DeskewedScan> in_rings = beams_.in_rings(scan);
+  scan_ = thin(find_features(in_rings ? *in_rings : scan, config_.features), config_.map);
   Registration result;
   result.X_MR = X_MR_;
   if (!ready()) return result;

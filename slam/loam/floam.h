@@ -3,10 +3,12 @@
 
 #include "bim/config/visit.h"
 #include "slam/loam/feature_map.h"
+#include "slam/scan/beams.h"
 
 namespace plumbline::slam::loam {
 
 struct FloamConfig {
+  Beams beam_model = Beams::automatic;
   FeatureConfig features;
   MapConfig map;
   int first_rounds = 12;
@@ -14,6 +16,7 @@ struct FloamConfig {
 
   template <class V>
   void visit(V& v) {
+    v("beam_model", beam_model, beam_model_field);
     v("features", features);
     v("map", map);
     v("first_rounds", first_rounds,
@@ -26,7 +29,8 @@ struct FloamConfig {
 /// the robot. Odometry is not used.
 class FloamOdometry {
  public:
-  explicit FloamOdometry(const FloamConfig& config) : config_(config), map_(config.map), rounds_(config.first_rounds) {}
+  explicit FloamOdometry(const FloamConfig& config)
+      : config_(config), beams_(config.beam_model), map_(config.map), rounds_(config.first_rounds) {}
 
   /// Registers the scan. Odometry is not used.
   [[nodiscard]] Registration match(const DeskewedScan& scan, const OdometrySample& odometry,
@@ -40,6 +44,7 @@ class FloamOdometry {
 
  private:
   FloamConfig config_;
+  BeamsOfRecording beams_;
   FeatureMap map_;
   ThinFeatures scan_;  ///< of the scan last matched
   int rounds_;

@@ -61,6 +61,7 @@ DeskewedScan deskew(const Scan& scan, const MotionBuffer& motion, const Calibrat
   out.X_RL = calibration.X_RL;
   const bool timed = std::any_of(scan.offset_ns.begin(), scan.offset_ns.end(), [](auto offset) { return offset != 0; });
   if (timed) out.time_s.assign(scan.size(), 0.0F);
+  if (!has_rings(scan)) out.elevation.assign(scan.size(), 0.0);
   out.odometry_stale = motion.is_stale_at(scan.stamp);
   out.odometry_age = motion.age_at(scan.stamp);
 
@@ -84,6 +85,7 @@ DeskewedScan deskew(const Scan& scan, const MotionBuffer& motion, const Calibrat
       const std::size_t i = static_cast<std::size_t>(aligned) * rings + ring;
       out.range_m[i] = scan.range_m[first + ring];
       out.point_R[i] = R_RL * scan.point_L[first + ring] + X_RL.t;
+      if (!out.elevation.empty()) out.elevation[i] = elevation(scan.point_L[first + ring]);
       if (timed) out.time_s[i] = static_cast<float>(seconds(scan.offset_ns[first + ring]));
     }
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -98,12 +99,17 @@ struct DeskewedScan {
   Pose X_RL;                             ///< sensor in R
   bool odometry_stale = false;           ///< at stamp: nothing is known of the motion since its last record
   Nanoseconds odometry_age = 0;          ///< at stamp, of its last record: the motion since is extrapolated
+  std::vector<double> elevation;         ///< of a return in L as measured, rad; empty where the scan has rings
   std::vector<float> time_s;             ///< of a return after stamp, 0 or less; empty where returns have no times
   TwistSigma twist_sigma;                ///< of the motion during the scan that was undone
 };
 
 /// False: points in the order of a file, not of lasers.
+[[nodiscard]] inline bool has_rings(const Scan& scan) { return scan.rings >= 4; }
 [[nodiscard]] inline bool has_rings(const DeskewedScan& scan) { return scan.rings >= 4; }
+
+/// Angle above the horizontal of L, rad.
+[[nodiscard]] inline double elevation(const Eigen::Vector3d& p_L) { return std::atan2(p_L.z(), p_L.head<2>().norm()); }
 
 /// The same scan where the robot's motion during it was off by `twist` per second, (rho, phi) in R.
 void correct_motion(DeskewedScan& scan, const Vector6d& twist);

@@ -306,4 +306,20 @@ Scan standing_scan(const House& house, const Pose& X_WR, const WalkConfig& confi
       house, [&](double) { return X_WR; }, config, 0);
 }
 
+Scan without_rings(const Scan& scan) {
+  Scan out = scan;
+  out.rings = 1;
+  out.columns = scan.rings * scan.columns;
+  std::size_t to = 0;
+  for (int ring = scan.rings - 1; ring >= 0; --ring)
+    for (int column = 0; column < scan.columns; ++column, ++to) {
+      const auto from = static_cast<std::size_t>(column * scan.rings + ring);
+      out.range_m[to] = scan.range_m[from];
+      out.point_L[to] = scan.point_L[from];
+      if (!scan.reflectivity.empty()) out.reflectivity[to] = scan.reflectivity[from];
+      if (!scan.offset_ns.empty()) out.offset_ns[to] = scan.offset_ns[from];
+    }
+  return out;
+}
+
 }  // namespace plumbline::slam::synthetic

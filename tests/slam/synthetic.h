@@ -70,6 +70,8 @@ struct Recording {
                              const WalkConfig& config);
 /// One scan of a robot standing at X_WR.
 [[nodiscard]] Scan standing_scan(const House& house, const Pose& X_WR, const WalkConfig& config);
+/// The same returns as a file without ring numbers has them: those of a ring after those of the one above.
+[[nodiscard]] Scan without_rings(const Scan& scan);
 [[nodiscard]] Calibration calibration();
 
 }  // namespace plumbline::slam::synthetic

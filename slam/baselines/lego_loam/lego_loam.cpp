@@ -24,26 +24,30 @@ std::vector<Eigen::Vector3d> places(const std::vector<FormerPoint>& points) {
   return result;
 }
 
-/// Variances of the reference's factors: rotation 1e-6, translation 1e-8 across and 1e-6 along the way.
+/// Variances of the reference's factors: rotation 1e-6, translation 1e-8 forward and to the left and 1e-6 upwards.
 Matrix6d step_information() {
   Vector6d information;
-  information << 1e6, 1e8, 1e8, 1e6, 1e6, 1e6;
+  information << 1e8, 1e8, 1e6, 1e6, 1e6, 1e6;
   return information.asDiagonal();
 }
 
 class LegoLoam final : public KeyframeMethod {
  public:
   LegoLoam(const MethodInput& input, const LegoLoamConfig& config)
-      : KeyframeMethod(input.calibration, config.map, config.loop.on), config_(config), map_(config.submap) {}
+      : KeyframeMethod(input.calibration, config.map, config.loop.on),
+        config_(config),
+        beams_(config.beam_model),
+        map_(config.submap) {}
 
  private:
   [[nodiscard]] ScanPlacement track(const Scan& scan, ScanStages& stages) override;
   [[nodiscard]] bool advance(const Features& features);
-  void refine(Nanoseconds stamp, const std::vector<FormerPoint>& outliers);
+  [[nodiscard]] bool refine(Nanoseconds stamp, const std::vector<FormerPoint>& outliers, bool told);
   void add_keyframe(Nanoseconds stamp, loam::MapFeatures features);
   void close_loop();
 
   LegoLoamConfig config_;
+  BeamsOfRecording beams_;
   FormerScan former_;
   Motion motion_;
   Pose X_MR_;
@@ -53,37 +57,55 @@ class LegoLoam final : public KeyframeMethod {
   std::vector<Nanoseconds> keyframe_stamps_;
 };
 
-/// False where the scan does not tell the motion.
+/// The motion that one step alone tells is made; what the other one should tell stands.
+Motion told_of(const TwoStepResult& found) {
+  Motion motion;
+  if (found.by_ground) {
+    motion.rpy.head<2>() = found.motion.rpy.head<2>();
+    motion.t.z() = found.motion.t.z();
+  }
+  if (found.by_edges) {
+    motion.rpy.z() = found.motion.rpy.z();
+    motion.t.head<2>() = found.motion.t.head<2>();
+  }
+  return motion;
+}
+
+/// False where the scan does not tell all of the motion.
 bool LegoLoam::advance(const Features& features) {
   const bool first = keyframe_stamps_.empty();
   const TwoStepResult found = two_step(features, former_, motion_, config_.odometry);
   degenerate_ = found.degenerate;
-  const Pose X_LR = found.motion.at(1.0);
-  const Pose moved = X_MR_ * X_LR;
-  const bool told = found.by_ground && found.by_edges && X_LR.t.norm() < longest_step_m && moved.t.norm() < farthest_m;
-  motion_ = told ? found.motion : Motion();
-  if (told) X_MR_ = moved;
+  const Motion motion = told_of(found);
+  const Pose moved = X_MR_ * motion.at(1.0);
+  const bool possible = motion.t.norm() < longest_step_m && moved.t.norm() < farthest_m;
+  motion_ = possible ? motion : Motion();
+  if (possible) X_MR_ = moved;
   X_MR_.q.normalize();
   former_ = {at_end(features.less_sharp, motion_), at_end(features.less_flat, motion_)};
-  return told || first;
+  return first || (possible && found.by_ground && found.by_edges);
 }
 
-void LegoLoam::refine(Nanoseconds stamp, const std::vector<FormerPoint>& outliers) {
-  if (!keyframe_stamps_.empty() && seconds(stamp - mapped_) < config_.mapping_s) return;
+/// False where the map does not tell the pose, or is not asked. It gets no scan whose pose nothing told.
+bool LegoLoam::refine(Nanoseconds stamp, const std::vector<FormerPoint>& outliers, bool told) {
+  if (!keyframe_stamps_.empty() && seconds(stamp - mapped_) < config_.mapping_s) return false;
   mapped_ = stamp;
   loam::MapFeatures features{places(former_.edges), places(former_.flats)};
   const std::vector<Eigen::Vector3d> more = places(outliers);
   features.flats_R.insert(features.flats_R.end(), more.begin(), more.end());
   features = loam::thinned(features, config_.submap);
+  bool matched = false;
   if (map_.size() > 0) {
     const loam::MapAlignment found = map_.align(features, X_MR_);
-    if (found.found && (found.X_MR.t - X_MR_.t).norm() < longest_step_m) {
+    matched = found.found && (found.X_MR.t - X_MR_.t).norm() < longest_step_m;
+    if (matched) {
       X_MR_ = found.X_MR;
       degenerate_ = found.degenerate;
     }
-    if ((map_.pose(map_.size() - 1).t - X_MR_.t).norm() < config_.keyframe_distance_m) return;
+    if ((map_.pose(map_.size() - 1).t - X_MR_.t).norm() < config_.keyframe_distance_m) return matched;
   }
-  add_keyframe(stamp, std::move(features));
+  if (told || matched) add_keyframe(stamp, std::move(features));
+  return matched;
 }
 
 void LegoLoam::add_keyframe(Nanoseconds stamp, loam::MapFeatures features) {
@@ -110,7 +132,7 @@ void LegoLoam::close_loop() {
 }
 
 ScanPlacement LegoLoam::track(const Scan& scan, ScanStages& stages) {
-  const SegmentedCloud cloud = segmented_cloud(scan, calibration().X_RL, config_.image);
+  const SegmentedCloud cloud = segmented_cloud(scan, calibration().X_RL, config_.image, beams_.of(scan));
   const Features features = find_features(cloud, config_.features);
   stages.end("features", Digest()
                              .add(static_cast<std::int64_t>(features.less_sharp.size()))
@@ -118,12 +140,13 @@ ScanPlacement LegoLoam::track(const Scan& scan, ScanStages& stages) {
                              .value());
   const bool told = advance(features);
   stages.end("odometry", Digest().add(X_MR_).value());
-  if (told) refine(scan.stamp, at_end(cloud.outliers, motion_));
-  if (told) keep_if_far(not_deskewed(scan), X_MR_);
+  const bool matched = refine(scan.stamp, at_end(cloud.outliers, motion_), told);
+  const bool placed = told || matched;
+  if (placed) keep_if_far(not_deskewed(scan), X_MR_);
   stages.end("mapping", Digest().add(X_MR_).add(static_cast<std::int64_t>(map_.size())).value());
   // Keyframes keep the pose that they had at first as X_OR.
   const KeyframeVertex& last = graph().keyframes.back();
-  return {.X_OR = last.X_OR * last.X_MR.inverse() * X_MR_, .lost = !told, .degenerate_directions = degenerate_};
+  return {.X_OR = last.X_OR * last.X_MR.inverse() * X_MR_, .lost = !placed, .degenerate_directions = degenerate_};
 }
 
 }  // namespace

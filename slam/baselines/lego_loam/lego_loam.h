@@ -10,11 +10,13 @@
 #include "slam/graph/optimize.h"
 #include "slam/io/method.h"
 #include "slam/loam/keyframe_map.h"
+#include "slam/scan/beams.h"
 #include "slam/scan/map_cloud.h"
 
 namespace plumbline::slam {
 
 struct LegoLoamConfig {
+  Beams beam_model = Beams::automatic;
   lego::RangeImageConfig image;
   lego::FeatureConfig features;
   lego::TwoStepConfig odometry;
@@ -27,6 +29,7 @@ struct LegoLoamConfig {
 
   template <class V>
   void visit(V& v) {
+    v("beam_model", beam_model, beam_model_field);
     v("image", image);
     v("features", features);
     v("odometry", odometry);
@@ -46,7 +49,8 @@ struct LegoLoamIndoorConfig : LegoLoamConfig {
 };
 
 /// LeGO-LOAM [shan2018]: ground and segments of a range image, odometry in two steps, then a map of keyframes. LiDAR
-/// alone: odometry and IMU are not used. LOST where ground or edges do not tell the motion: the pose then stands.
+/// alone: odometry and IMU are not used. LOST where ground or edges do not tell the motion and the map does not tell
+/// the pose: it then moves only by what was told.
 [[nodiscard]] std::unique_ptr<Method> make_lego_loam(const MethodInput& input, const LegoLoamConfig& config);
 
 }  // namespace plumbline::slam

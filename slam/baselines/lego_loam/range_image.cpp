@@ -49,6 +49,37 @@ bool is_valid(const std::vector<Step>& cells, const RangeImageConfig& config) {
   return rows.size() >= static_cast<std::size_t>(config.least_rows);
 }
 
+double azimuth(const Eigen::Vector3d& p) { return std::atan2(p.y(), p.x()); }
+
+/// Of azimuth, from a return to the next one of its ring.
+std::vector<double> steps_of_columns(const Scan& scan) {
+  const auto rings = static_cast<std::size_t>(std::max(1, scan.rings));
+  std::vector<double> steps;
+  for (std::size_t i = 0; i + rings < scan.size(); ++i) {
+    if (!(scan.range_m[i] > 0.0) || !(scan.range_m[i + rings] > 0.0)) continue;
+    const double step =
+        std::abs(std::remainder(azimuth(scan.point_L[i + rings]) - azimuth(scan.point_L[i]), 2.0 * std::numbers::pi));
+    if (step > 0.0) steps.push_back(step);
+  }
+  return steps;
+}
+
+/// The same of returns in the order of a file.
+std::vector<double> steps_of_rings(const Scan& scan, Beams beams) {
+  std::vector<std::vector<double>> rings(static_cast<std::size_t>(rings_of(beams)));
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    const int ring = scan.range_m[i] > 0.0 ? ring_of(beams, elevation(scan.point_L[i])) : -1;
+    if (ring >= 0) rings[static_cast<std::size_t>(ring)].push_back(azimuth(scan.point_L[i]));
+  }
+  std::vector<double> steps;
+  for (std::vector<double>& ring : rings) {
+    std::sort(ring.begin(), ring.end());
+    for (std::size_t k = 1; k < ring.size(); ++k)
+      if (ring[k] > ring[k - 1]) steps.push_back(ring[k] - ring[k - 1]);
+  }
+  return steps;
+}
+
 }  // namespace
 
 int RangeImageConfig::ground_rows(int rings) const {
@@ -56,26 +87,22 @@ int RangeImageConfig::ground_rows(int rings) const {
   return std::min(rows, rings - 1);
 }
 
-int columns_of(const Scan& scan) {
+int columns_of(const Scan& scan, Beams beams) {
   constexpr int reference = 1800, least = 36, most = 20000;
-  const auto rings = static_cast<std::size_t>(std::max(1, scan.rings));
-  const auto azimuth = [&](std::size_t i) { return std::atan2(scan.point_L[i].y(), scan.point_L[i].x()); };
-  std::vector<double> steps;
-  for (std::size_t i = 0; i + rings < scan.size(); ++i) {
-    if (!(scan.range_m[i] > 0.0) || !(scan.range_m[i + rings] > 0.0)) continue;
-    const double step = std::abs(std::remainder(azimuth(i + rings) - azimuth(i), 2.0 * std::numbers::pi));
-    if (step > 0.0) steps.push_back(step);
-  }
+  std::vector<double> steps = beams == Beams::none ? steps_of_columns(scan) : steps_of_rings(scan, beams);
   if (steps.empty()) return reference;
   const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
   std::nth_element(steps.begin(), middle, steps.end());
-  const double beams = 2.0 * std::numbers::pi / *middle + 0.5;  // 1800 may come as 1799.99
-  const int columns = static_cast<int>(std::min(beams, static_cast<double>(most)));
+  const double of_turn = 2.0 * std::numbers::pi / *middle + 0.5;  // 1800 may come as 1799.99
+  const int columns = static_cast<int>(std::min(of_turn, static_cast<double>(most)));
   return columns >= 100 ? columns / 100 * 100 : std::max(columns, least);
 }
 
-RangeImage range_image(const Scan& scan, const Pose& X_RL, const RangeImageConfig& config) {
-  RangeImage image{std::max(1, scan.rings), config.columns > 0 ? config.columns : columns_of(scan), {}};
+RangeImage range_image(const Scan& scan, const Pose& X_RL, const RangeImageConfig& config, Beams beams) {
+  const bool by_beams = beams != Beams::none;
+  RangeImage image{by_beams ? rings_of(beams) : std::max(1, scan.rings),
+                   config.columns > 0 ? config.columns : columns_of(scan, beams),
+                   {}};
   image.cells.resize(static_cast<std::size_t>(image.rows) * static_cast<std::size_t>(image.columns));
   std::int32_t first_ns = 0;
   for (const std::int32_t offset : scan.offset_ns) first_ns = std::min(first_ns, offset);
@@ -87,7 +114,8 @@ RangeImage range_image(const Scan& scan, const Pose& X_RL, const RangeImageConfi
     if (first_ns < 0 && i < scan.offset_ns.size())
       point.share = std::clamp(1.0 - static_cast<double>(scan.offset_ns[i]) / first_ns, 0.0, 1.0);
     const double turn = std::atan2(p_L.y(), p_L.x()) / (2.0 * std::numbers::pi);
-    point.row = static_cast<int>(i % static_cast<std::size_t>(image.rows));
+    point.row = by_beams ? ring_of(beams, elevation(p_L)) : static_cast<int>(i % static_cast<std::size_t>(image.rows));
+    if (point.row < 0) continue;
     // Clockwise as the reference's, from behind.
     point.column = static_cast<int>(std::lround((0.5 - turn) * image.columns)) % image.columns;
     point.cell = Cell::open;
@@ -145,8 +173,8 @@ void mark_segments(RangeImage& image, const std::vector<double>& row_angles, con
     }
 }
 
-SegmentedCloud segmented_cloud(const Scan& scan, const Pose& X_RL, const RangeImageConfig& config) {
-  RangeImage image = range_image(scan, X_RL, config);
+SegmentedCloud segmented_cloud(const Scan& scan, const Pose& X_RL, const RangeImageConfig& config, Beams beams) {
+  RangeImage image = range_image(scan, X_RL, config, beams);
   SegmentedCloud cloud;
   cloud.rows.resize(static_cast<std::size_t>(image.rows));
   if (image.rows < 2) return cloud;

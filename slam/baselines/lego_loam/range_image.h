@@ -7,6 +7,7 @@
 #include "bim/config/visit.h"
 #include "bim/geometry/pose.h"
 #include "slam/io/records.h"
+#include "slam/scan/beams.h"
 
 namespace plumbline::slam::lego {
 
@@ -75,8 +76,10 @@ struct RangeImage {
 
 /// So many columns that neighbouring beams never leave one empty: by the scan's median step of azimuth, rounded down to
 /// a hundred as the reference's 1800 of a VLP-16 at 10 Hz; 1800 where a scan does not tell.
-[[nodiscard]] int columns_of(const Scan& scan);
-[[nodiscard]] RangeImage range_image(const Scan& scan, const Pose& X_RL, const RangeImageConfig& config);
+[[nodiscard]] int columns_of(const Scan& scan, Beams beams = Beams::none);
+/// beams: of a scan without rings.
+[[nodiscard]] RangeImage range_image(const Scan& scan, const Pose& X_RL, const RangeImageConfig& config,
+                                     Beams beams = Beams::none);
 /// Marks cells that lie level with the one above.
 void mark_ground(RangeImage& image, const RangeImageConfig& config);
 /// Whether ranges of two cells an angle apart, rad, are of one segment.
@@ -92,6 +95,7 @@ struct SegmentedCloud {
   std::vector<ImagePoint> outliers;           ///< every fifth column of clutter above the ground rows
   int ground = 0;                             ///< cells of ground
 };
-[[nodiscard]] SegmentedCloud segmented_cloud(const Scan& scan, const Pose& X_RL, const RangeImageConfig& config);
+[[nodiscard]] SegmentedCloud segmented_cloud(const Scan& scan, const Pose& X_RL, const RangeImageConfig& config,
+                                             Beams beams = Beams::none);
 
 }  // namespace plumbline::slam::lego

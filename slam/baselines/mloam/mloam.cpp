@@ -2,6 +2,7 @@
 #include "slam/baselines/mloam/mloam.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "bim/digest/digest.h"
@@ -39,6 +40,7 @@ class Mloam final : public OdometryMethod {
       : OdometryMethod(config.map),
         config_(with_scaled_thresholds(config, input.calibration)),
         calibration_(input.calibration),
+        beams_(config.beam_model),
         window_(config_.window),
         submap_(config_.submap) {}
 
@@ -55,7 +57,8 @@ class Mloam final : public OdometryMethod {
   }
 
   [[nodiscard]] OdometryAnswer track(const Scan& raw, DeskewedScan& scan) override {
-    loam::Features features = loam::find_features(scan, config_.features);
+    const std::optional<DeskewedScan> in_rings = beams_.in_rings(scan);
+    loam::Features features = loam::find_features(in_rings ? *in_rings : scan, config_.features);
     const bool first = trajectory().empty();
     OdometryAnswer answer{.X_MR = X_MR_};
     bool matched = first;
@@ -118,6 +121,7 @@ class Mloam final : public OdometryMethod {
 
   MloamConfig config_;
   Calibration calibration_;
+  BeamsOfRecording beams_;
   mloam::Window window_;
   loam::KeyframeMap submap_;
   loam::Features last_;

@@ -8,11 +8,13 @@
 #include "slam/loam/keyframe_map.h"
 #include "slam/loam/scan_to_scan.h"
 #include "slam/registration/features.h"
+#include "slam/scan/beams.h"
 #include "slam/scan/map_cloud.h"
 
 namespace plumbline::slam {
 
 struct MloamConfig {
+  Beams beam_model = Beams::automatic;
   loam::FeatureConfig features;
   loam::ScanToScanConfig tracker;
   mloam::WindowConfig window;
@@ -31,6 +33,7 @@ struct MloamConfig {
 
   template <class V>
   void visit(V& v) {
+    v("beam_model", beam_model, beam_model_field);
     v("features", features);
     v("tracker", tracker);
     v("window", window);

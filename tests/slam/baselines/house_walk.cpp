@@ -16,11 +16,11 @@ MethodInput robot() {
   return given;
 }
 
-WorstError worst_in_house(Method& method, double duration_s) {
+WorstError worst_in_house(Method& method, double duration_s, bool rings) {
   const Recording recording = walk(corridor_house(), corridor_house_walk(), {.duration_s = duration_s});
   WorstError worst;
   for (std::size_t k = 0; k < recording.scans.size(); ++k) {
-    const Output output = method.on_scan(recording.scans[k]);
+    const Output output = method.on_scan(rings ? recording.scans[k] : without_rings(recording.scans[k]));
     if (!output.X_FR) {
       ADD_FAILURE() << "scan " << k << " has no pose";
       continue;

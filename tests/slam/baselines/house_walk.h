@@ -13,6 +13,6 @@ struct WorstError {
   double m = 0.0, across_m = 0.0, height_m = 0.0;
 };
 /// Over that time in the corridor house, LiDAR alone. Every scan must get a pose, then and at the end.
-[[nodiscard]] WorstError worst_in_house(Method& method, double duration_s);
+[[nodiscard]] WorstError worst_in_house(Method& method, double duration_s, bool rings = true);
 
 }  // namespace plumbline::slam::synthetic

@@ -26,18 +26,76 @@ TEST(LegoLoam, FollowsAWalk) {
   EXPECT_LT(indoor.height_m, 0.45);
 }
 
+TEST(LegoLoam, FollowsAWalkByScansWithoutRings) {
+  const auto method = make_lego_loam(synthetic::robot(), LegoLoamIndoorConfig());
+  const synthetic::WorstError worst = synthetic::worst_in_house(*method, 10.0, false);
+  EXPECT_LT(worst.across_m, 0.18);
+  EXPECT_LT(worst.height_m, 0.45);
+}
+
+/// Seen from (x, 5) of a room, without what lies below the LiDAR.
+Scan without_a_floor(double x, int tenths_s) {
+  Scan scan = synthetic::standing_scan(synthetic::one_room(12.0, 10.0), Pose::from_xyz_yaw({x, 5.0, 0.46}, 0.0), {});
+  for (std::size_t i = 0; i < scan.size(); ++i)
+    if (scan.point_L[i].z() < 0.0) scan.range_m[i] = 0.0;
+  scan.stamp += 100'000'000 * tenths_s;
+  return scan;
+}
+
+// The map is asked each 0.3 s.
 TEST(LegoLoam, WithoutAFloorItSaysSo) {
   const auto method = make_lego_loam(synthetic::robot(), {});
   for (int k = 0; k < 3; ++k) {
-    Scan scan =
-        synthetic::standing_scan(synthetic::one_room(12.0, 10.0), Pose::from_xyz_yaw({6.0, 5.0, 0.46}, 0.0), {});
-    for (std::size_t i = 0; i < scan.size(); ++i)
-      if (scan.point_L[i].z() < 0.0) scan.range_m[i] = 0.0;
-    scan.stamp += 100'000'000 * k;
-    const Output output = method->on_scan(scan);
+    const Output output = method->on_scan(without_a_floor(6.0, k));
     EXPECT_EQ(output.state, k == 0 ? State::converged : State::lost);
-    EXPECT_EQ(output.X_FR->t, Eigen::Vector3d::Zero());
+    EXPECT_LT(output.X_FR->t.norm(), 0.02);
   }
+}
+
+TEST(LegoLoam, WithoutAFloorTheMapTellsThePose) {
+  const auto method = make_lego_loam(synthetic::robot(), {});
+  for (int k = 0; k < 8; ++k) {
+    const Output output = method->on_scan(without_a_floor(6.0 + 0.2 * k, 3 * k));
+    EXPECT_EQ(output.state, State::converged) << k;
+    EXPECT_LT((output.X_FR->t - Eigen::Vector3d(0.2 * k, 0.0, 0.0)).head<2>().norm(), 0.1) << k;
+  }
+}
+
+TEST(LegoLoam, WhatEdgesAloneTellIsKept) {
+  const auto method = make_lego_loam(synthetic::robot(), {});
+  for (int k = 0; k < 2; ++k) {
+    const Output output = method->on_scan(without_a_floor(6.0 + 0.1 * k, k));
+    EXPECT_EQ(output.state, k == 0 ? State::converged : State::lost);
+    EXPECT_NEAR(output.X_FR->t.x(), 0.1 * k, 0.05);
+    EXPECT_NEAR(output.X_FR->t.z(), 0.0, 1e-9);
+  }
+}
+
+TEST(LegoLoam, WithoutReturnsThePoseStands) {
+  const auto method = make_lego_loam(synthetic::robot(), {});
+  EXPECT_EQ(method->on_scan(without_a_floor(6.0, 0)).state, State::converged);
+  for (int k = 1; k < 8; ++k) {
+    Scan scan = without_a_floor(6.0, k);
+    scan.range_m.assign(scan.size(), 0.0);
+    const Output output = method->on_scan(scan);
+    EXPECT_EQ(output.state, State::lost) << k;
+    EXPECT_EQ(output.X_FR->t, Eigen::Vector3d::Zero()) << k;
+  }
+}
+
+// Upwards the reference's steps are the loosest.
+TEST(LegoLoam, StepsOfTheGraphWeighAsInTheReference) {
+  const auto method = make_lego_loam(synthetic::robot(), LegoLoamIndoorConfig());
+  (void)synthetic::worst_in_house(*method, 4.0);
+  const Tree graph = method->finish().graph;
+  const Tree* factors = graph.find("pose_factors");
+  ASSERT_NE(factors, nullptr);
+  ASSERT_FALSE(factors->as_list().empty());
+  const Tree* upper = factors->as_list().front().find("information");
+  ASSERT_NE(upper, nullptr);
+  // The diagonal of the upper triangle, row by row: x, y, z, then rotations.
+  const double expected[] = {1e8, 1e8, 1e6, 1e6, 1e6, 1e6};
+  for (std::size_t k = 0, i = 0; k < 6; i += 6 - k, ++k) EXPECT_EQ(upper->as_list()[i].as_double(), expected[k]) << k;
 }
 
 /// Clutter about a corner of the square, seen from X_WR.

@@ -50,6 +50,11 @@ TEST(Mloam, FollowsAWalk) {
   EXPECT_LT(synthetic::worst_in_house(*without, 10.0).m, 0.5);
 }
 
+TEST(Mloam, FollowsAWalkByScansWithoutRings) {
+  const auto method = make_mloam(synthetic::robot(), {});
+  EXPECT_LT(synthetic::worst_in_house(*method, 10.0, false).m, 0.5);
+}
+
 TEST(Mloam, WithoutReturnsThePoseStands) {
   const auto method = make_mloam(synthetic::robot(), {});
   const Scan scan = synthetic::standing_scan(synthetic::corridor_house(), Pose::from_xyz_yaw({3, 1, 0.46}, 0.0), {});
