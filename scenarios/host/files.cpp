@@ -97,7 +97,9 @@ constexpr std::array<FileRow, 20> run_files = {{
     {"report.html", "the report: maps, errors over time, verdicts, gates; it loads nothing from elsewhere"},
     {"replay.html",
      "with `--replay`, `report --3d` or a failed gate: the run in three dimensions at any of its times, in one file"},
-    {"results.json", "scores and gates; it appears last, so that its directory is complete"},
+    {"results.json",
+     "scores and gates; it appears last, so that its directory is complete. `building.moved_by_m`: added to the "
+     "coordinates of a building in map coordinates"},
     {"junit.xml", "gates and methods as JUnit test cases"},
     {"<method>.tum", "the causal trajectory: each pose as first given, one a scan; SLAM scores use it", false},
     {"<method>.final.tum", "the trajectory after the last optimisation", false},

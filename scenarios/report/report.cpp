@@ -37,7 +37,7 @@ std::string moved_text(const ReportInput& input) {
   if (moved == nullptr) return "";
   std::string numbers;
   for (const Tree& number : moved->as_list())
-    numbers += (numbers.empty() ? "" : ", ") + format_number(number.as_double());
+    numbers += (numbers.empty() ? "" : ", ") + svg::number(number.as_double(), 0);
   return " · building moved by " + numbers + " m from its file's coordinates";
 }
 

@@ -40,14 +40,14 @@ TEST_F(FinishedRunTest, ScoresAndReportAreThoseOfItsDirectory) {
 TEST_F(FinishedRunTest, SaysHowFarTheBuildingWasMoved) {
   ResolvedScenario resolved = short_run();
   bim::Building building = resolved.building->as_planned();
-  building.moved_by = Eigen::Vector3d(-500000, -5000000, 0);
+  building.moved_by = Eigen::Vector3d(-487659, -5412349, 0);
   resolved.building = std::make_shared<const RunBuilding>(bim::PlannedAndBuilt{building, building, {}, true});
   const FinishedRun run = finished_run(resolved, execute(resolved, {}));
   const score::RunScore score = score::score_run(run);
   const Tree results = read_json(score::write_results(run, score), "results");
   ASSERT_NE(results.find("building"), nullptr);
-  EXPECT_EQ(write_json(*results.find("building"), 0), "{\"moved_by_m\":[-500000.0,-5000000.0,0.0]}");
-  EXPECT_NE(render_report(report_input(run, score)).find("building moved by -500000, -5000000, 0 m"),
+  EXPECT_EQ(write_json(*results.find("building"), 0), "{\"moved_by_m\":[-487659,-5412349,0]}");
+  EXPECT_NE(render_report(report_input(run, score)).find("building moved by -487659, -5412349, 0 m"),
             std::string::npos);
 }
 
