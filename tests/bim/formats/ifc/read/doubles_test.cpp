@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Spaces that a file holds twice.
+// Spaces and elements that a file holds twice.
 #include <gtest/gtest.h>
+
+#include <algorithm>
 
 #include "bim/model/adjacency.h"
 #include "tests/bim/formats/ifc/read/reading.h"
@@ -64,6 +66,52 @@ TEST(Doubles, ACorridorAroundACoreIsNotInItsPlace) {
   const Building building = read(sketch);
   EXPECT_EQ(building.rooms.size(), 2U);
   EXPECT_EQ(count(building, "double_space"), 0);
+}
+
+TEST(Doubles, ElementsDrawnTwiceCountOnce) {
+  for (const double shift : {0.0, 5e-4, 0.01}) {
+    Sketch once, twice;
+    for (Sketch* sketch : {&once, &twice}) {
+      const std::string storey = sketch->storey(0);
+      sketch->slab({{0, 0}, {8, 0}, {8, 6}, {0, 6}}, -0.2, 0);
+      add_space(*sketch, storey, "west", sketch->box(0.1, 0.1, 0, 3.85, 5.9, 2.8));
+      add_space(*sketch, storey, "east", sketch->box(4.15, 0.1, 0, 7.9, 5.9, 2.8));
+      add_walls(*sketch, 0.0);
+      if (sketch == &twice) add_walls(*sketch, shift);
+    }
+    const Building single = read(once), both = read(twice);
+    EXPECT_EQ(count(single, "drawn_twice"), 0);
+    if (shift > 1e-3) {
+      EXPECT_EQ(both.walls.size(), 10U);
+      EXPECT_EQ(count(both, "drawn_twice"), 0);
+      continue;
+    }
+    EXPECT_EQ(count(both, "drawn_twice"), 7) << "five walls, an opening and its door";
+    EXPECT_EQ(both.walls.size(), single.walls.size());
+    EXPECT_EQ(both.openings.size(), single.openings.size());
+    EXPECT_EQ(both.warnings.size(), single.warnings.size() + 7);
+    ASSERT_EQ(both.rooms.size(), 2U);
+    EXPECT_EQ(adjacency(both).size(), 1U);
+    const auto named = std::find_if(both.warnings.begin(), both.warnings.end(), [&](const Warning& warning) {
+      return warning.kind == "drawn_twice" && warning.text.find(both.walls.front().id) != std::string::npos;
+    });
+    EXPECT_NE(named, both.warnings.end());
+  }
+}
+
+/// The first has no opening, and what is cut out of the other is cut out of it.
+TEST(Doubles, TheDoorOfTheOneThatIsLeftOutIsKept) {
+  Sketch sketch;
+  sketch.storey(0);
+  sketch.slab({{0, 0}, {8, 0}, {8, 6}, {0, 6}}, -0.2, 0);
+  sketch.wall(4, 0, 6, 0.3, 3, true);
+  add_walls(sketch, 0.0);
+  const Building building = read(sketch);
+  EXPECT_EQ(building.walls.size(), 5U);
+  ASSERT_EQ(building.openings.size(), 1U);
+  EXPECT_EQ(building.openings.front().kind, OpeningKind::door);
+  EXPECT_EQ(count(building, "drawn_twice"), 1);
+  EXPECT_EQ(count(building, "opening_unused"), 0);
 }
 
 }  // namespace
