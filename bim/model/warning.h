@@ -16,7 +16,7 @@ struct WarningRow {
 };
 
 /// Every kind of warning that a reader or the mesh gives, by name.
-inline constexpr std::array<WarningRow, 64> warning_rows = {{
+inline constexpr std::array<WarningRow, 66> warning_rows = {{
     {"assumed_doorway", "a gap between two walls in line becomes a doorway with a lintel"},
     {"assumed_floor", "the drawing has no floor; everything within the outer walls gets one"},
     {"assumed_height", "the file gives no height of the storey; it is taken as 3 m"},
@@ -34,6 +34,8 @@ inline constexpr std::array<WarningRow, 64> warning_rows = {{
     {"dangling", "an entity that the file refers to is not in it; what depends on it is left out"},
     {"door_unresolved", "a door has the same room, or none, on both sides; where it leads is unknown"},
     {"door_without_wall", "a door stands in no wall; its doorway stays open"},
+    {"double_space", "another space lies in the same place and is the room; it is left out"},
+    {"drawn_twice", "another element of the same class has the same body; one of them is left out"},
     {"empty", "its openings leave nothing of a wall"},
     {"empty_storey", "a storey has no walls, slabs, spaces or stairs; it is left out"},
     {"few_chairs", "the furniture that a scenario adds has fewer chairs than people; only so many sit"},

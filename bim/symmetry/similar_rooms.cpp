@@ -86,11 +86,13 @@ Deviation largest_deviation(const Interior& from, const Interior& to, const Isom
   Deviation largest;
   for (const SurfaceRect& rect : from.surfaces) {
     const SurfaceRect image = moved(g, rect);
+    // Of a column that the other room lacks, its size counts and not the way to the walls.
+    const double reach_m = std::min(config.reach_m, from.scene->size_m(rect.element));
     const int along = std::max(2, static_cast<int>(std::ceil(image.length() / config.sample_m)));
     for (int i = 0; i <= along; ++i) {
       const Eigen::Vector2d p = image.p + (image.q - image.p) * i / along;
       for (const double z : {image.z0, 0.5 * (image.z0 + image.z1), image.z1}) {
-        const double d = distance(to.surfaces, {p.x(), p.y(), z}, image.direction(), config.reach_m);
+        const double d = distance(to.surfaces, {p.x(), p.y(), z}, image.direction(), reach_m);
         if (d > largest.size_m) largest = {from.scene->element_id(rect.element), g.inverse() * p, d};
         if (d > config.near_m + config.sliver_m) return largest;
       }
@@ -108,6 +110,8 @@ Similarity compare_rooms(const Interior& from, const Interior& to, const Isometr
     similarity.deviation_m = std::max(similarity.deviation_m, deviation.size_m);
     if (deviation.size_m > config.exact_m) similarity.deviations.push_back(deviation);
   }
+  std::stable_sort(similarity.deviations.begin(), similarity.deviations.end(),
+                   [](const Deviation& a, const Deviation& b) { return a.size_m > b.size_m; });
   if (similarity.deviation_m > config.near_m + config.sliver_m) return similarity;
   similarity.iou = 1.0;
   if (similarity.deviation_m > config.exact_m) {

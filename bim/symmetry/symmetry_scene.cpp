@@ -25,18 +25,26 @@ struct Extent {
   }
 };
 
+std::vector<double> sizes_of(const std::vector<SurfaceRect>& rects, std::size_t elements) {
+  std::vector<Extent> extents(elements);
+  for (const SurfaceRect& rect : rects) {
+    Extent& extent = extents[static_cast<std::size_t>(rect.element)];
+    if (extent.box.isEmpty()) extent.along = rect.direction();
+    extent.add(rect.p);
+    extent.add(rect.q);
+  }
+  std::vector<double> sizes(elements, 0.0);
+  for (std::size_t i = 0; i < elements; ++i)
+    if (!extents[i].box.isEmpty()) sizes[i] = extents[i].box.sizes().maxCoeff();
+  return sizes;
+}
+
 /// Distance of each sample of one set of surfaces to another set, kept as the largest of each element.
 class Measure {
  public:
   Measure(const SymmetryScene& scene, const SymmetryConfig& config) : scene_(scene), config_(config) {
-    for (const SurfaceRect& rect : scene.surfaces().rects()) {
-      extents_.resize(std::max(extents_.size(), static_cast<std::size_t>(rect.element) + 1));
-      Extent& extent = extents_[static_cast<std::size_t>(rect.element)];
-      if (extent.box.isEmpty()) extent.along = rect.direction();
-      extent.add(rect.p);
-      extent.add(rect.q);
-    }
-    largest_.resize(extents_.size());
+    for (const SurfaceRect& rect : scene.surfaces().rects())
+      largest_.resize(std::max(largest_.size(), static_cast<std::size_t>(rect.element) + 1));
   }
 
   /// Measures every surface, taken through g, against `target`.
@@ -81,7 +89,7 @@ class Measure {
     const int up = std::max(2, static_cast<int>(std::ceil((image.z1 - image.z0) / config_.sample_up_m)));
     const auto element = static_cast<std::size_t>(rect.element);
     Deviation& largest = largest_[element];
-    const double size = std::min(config_.reach_m, extents_[element].box.sizes().maxCoeff());
+    const double size = std::min(config_.reach_m, scene_.size_m(rect.element));
     for (int i = 0; i <= along; ++i) {
       const Eigen::Vector2d p = image.p + (image.q - image.p) * i / along;
       for (int k = 0; k <= up; ++k) {
@@ -96,7 +104,6 @@ class Measure {
 
   const SymmetryScene& scene_;
   const SymmetryConfig& config_;
-  std::vector<Extent> extents_;
   std::vector<Deviation> largest_;
 };
 
@@ -156,6 +163,7 @@ SymmetryScene::SymmetryScene(const Building& building, int storey, const Symmetr
       disjoint_(without_overlaps(bodies_.prisms)),
       grid_(boxes_of(disjoint_)),
       surfaces_(surfaces_of(building, bodies_, config)),
+      sizes_m_(sizes_of(surfaces_.rects(), bodies_.elements.size())),
       volume_(volume(disjoint_)) {
   for (const BodyPrism& prism : disjoint_)
     centroid_ += signed_area(prism.outline) * (prism.z1 - prism.z0) * plumbline::centroid(prism.outline);

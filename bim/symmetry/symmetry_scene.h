@@ -19,6 +19,9 @@ class SymmetryScene {
   [[nodiscard]] const std::string& element_id(int element) const {
     return bodies_.elements[static_cast<std::size_t>(element)];
   }
+  /// Larger extent of an element in plan, m: a surface without counterpart deviates by no more, however far the nearest
+  /// one is.
+  [[nodiscard]] double size_m(int element) const { return sizes_m_[static_cast<std::size_t>(element)]; }
   [[nodiscard]] const SurfaceIndex& surfaces() const { return surfaces_; }
   [[nodiscard]] double volume_m3() const { return volume_; }
   [[nodiscard]] const Eigen::Vector2d& centroid() const { return centroid_; }
@@ -31,6 +34,7 @@ class SymmetryScene {
   std::vector<BodyPrism> disjoint_;
   BodyGrid grid_;
   SurfaceIndex surfaces_;
+  std::vector<double> sizes_m_;  ///< by element
   double volume_ = 0.0;
   Eigen::Vector2d centroid_ = Eigen::Vector2d::Zero();
 };

@@ -78,6 +78,7 @@ int identify(const IdentifyOptions& options) {
   const std::string page = page_path(options);
   const RunBuilding building(bim::load_planned_and_built(options.building));
   BuildingMapOptions map_options = options.map;
+  map_options.file = options.building;
   if (!options.storey.empty()) map_options.storey = options.storey;
   if (!options.step_option->given() || options.budget_option->given()) map_options.budget_s = options.budget_s;
   map_options.phase = [](const std::string& text) { print_note("identify: " + text); };

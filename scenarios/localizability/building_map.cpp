@@ -13,12 +13,22 @@ namespace plumbline::scenarios {
 
 namespace {
 
+/// Names, with ids where these do not tell the storeys apart.
+std::string names_of(const std::vector<bim::Storey>& storeys) {
+  std::string list;
+  for (const bim::Storey& storey : storeys) {
+    const auto same = std::count_if(storeys.begin(), storeys.end(),
+                                    [&](const bim::Storey& other) { return other.name == storey.name; });
+    list += (list.empty() ? "" : ", ") + printable(name_of(storey));
+    if (same > 1 && !storey.name.empty()) list += " (" + printable(storey.id) + ")";
+  }
+  return list;
+}
+
 std::vector<std::size_t> storeys_asked_for(const bim::Building& building, const BuildingMapOptions& options) {
   std::vector<std::size_t> found;
-  std::vector<std::string> known;
   for (std::size_t i = 0; i < building.storeys.size(); ++i) {
     const bim::Storey& storey = building.storeys[i];
-    known.push_back(storey.id);
     const auto on = [&](const auto& thing) { return thing.storey == static_cast<int>(i); };
     const bool rooms = std::any_of(building.rooms.begin(), building.rooms.end(), on);
     const bool walls = std::any_of(building.walls.begin(), building.walls.end(), on);
@@ -26,11 +36,10 @@ std::vector<std::size_t> storeys_asked_for(const bim::Building& building, const 
     if (options.storey ? *options.storey == storey.id || *options.storey == storey.name : habitable) found.push_back(i);
   }
   if (!found.empty()) return found;
-  std::string list;
-  for (const std::string& id : known) list += (list.empty() ? "" : ", ") + id;
   if (options.storey)
-    throw InputError({"--storey", 0, 0}, "there is no storey '" + *options.storey + "'; there are: " + list);
-  throw InputError({"BUILDING", 0, 0}, "has no storey with rooms or walls; `identify` maps those");
+    throw InputError({"--storey", 0, 0},
+                     "there is no storey '" + *options.storey + "'; there are: " + names_of(building.storeys));
+  throw InputError({options.file, 0, 0}, "has no storey with rooms or walls; `identify` maps those");
 }
 
 Tree tree_of(const MapShare& share) {
@@ -173,7 +182,7 @@ BuildingMap map_of(const RunBuilding& building, const BuildingMapOptions& option
   MapMaker maker(building, options, by);
   BuildingMap map = options.budget_s ? maker.within(*options.budget_s) : maker.at(options.step_m);
   if (map.floors.empty())
-    throw InputError({"BUILDING", 0, 0},
+    throw InputError({options.file, 0, 0},
                      "has no place in its rooms where the robot can stand; `inspect --walk` says "
                      "what stops it, and a smaller --step finds smaller places");
   map.alike = maker.alike_in(map);

@@ -13,6 +13,7 @@
 namespace plumbline::scenarios {
 
 struct BuildingMapOptions {
+  std::string file = "building";      ///< that errors name
   std::optional<std::string> storey;  ///< id or name; absent: every storey with rooms, or with walls where none has
   double step_m = 0.5;
   std::optional<double> budget_s;  ///< step_m grows until the map fits into this time on two cores (StepBudget)

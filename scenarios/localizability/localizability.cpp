@@ -53,7 +53,8 @@ void drop(std::vector<Followed>& followed, RunIdentifiability& run) {
 }
 
 void conclude(RunIdentifiability& run) {
-  run.identifiable = !run.steps.empty() && run.steps.back().alive.empty();
+  // Where nowhere was looked, that nothing was found says nothing.
+  run.identifiable = run.places > 0 && !run.steps.empty() && run.steps.back().alive.empty();
   if (!run.identifiable) return;
   std::size_t first = run.steps.size() - 1;
   while (first > 0 && run.steps[first - 1].alive.empty()) --first;
@@ -89,6 +90,7 @@ std::optional<double> RunIdentifiability::marginal_from_s() const {
 RunIdentifiability compute_localizability(const LocalizabilityInput& input, const std::vector<TruthSample>& truth) {
   RunIdentifiability run;
   const PlaceIndex index(*input.as_planned, input.storeys, localizability_constants.grid_m, input.threads);
+  run.places = index.size();
   const AliasFinder finder(index, *input.as_planned, *input.as_built, input.loose);
   std::vector<Followed> followed;
   for (const auto& [walked, sample] : stations(truth)) {

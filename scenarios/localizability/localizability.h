@@ -43,7 +43,8 @@ struct LocalizabilityStep {
 struct RunIdentifiability {
   std::vector<LocalizabilityStep> steps;
   std::optional<DecidingFeature> decided_by;  ///< of the last alias; absent when the first scan sufficed or nothing did
-  bool identifiable = false;                  ///< no alias is alive at the end
+  std::size_t places = 0;                     ///< of the plan where aliases were looked for
+  bool identifiable = false;                  ///< no alias is alive at the end, of those looked for at any place
   std::optional<double> identifiable_at_s;    ///< first time from which on none is
   std::optional<double> identifiable_at_m;
 

@@ -33,7 +33,8 @@ struct Question {
   std::vector<TruthSample> samples;
 };
 
-IdentifiabilityAnswer answer(const RunBuilding& building, PlanEvidence by, const Question& question) {
+/// Nullopt where the plan has no place to compare the run's with.
+std::optional<IdentifiabilityAnswer> answer(const RunBuilding& building, PlanEvidence by, const Question& question) {
   const VisibleBuilding visible = visible_building(building, by);
   LocalizabilityInput input;
   input.as_planned = &visible.planned.scene;
@@ -42,6 +43,7 @@ IdentifiabilityAnswer answer(const RunBuilding& building, PlanEvidence by, const
   input.storeys = question.storeys;
   input.yaw_known = question.yaw_known;
   const RunIdentifiability known = compute_localizability(input, question.samples);
+  if (known.places == 0) return std::nullopt;
   IdentifiabilityAnswer result;
   result.identifiable = known.identifiable;
   result.at_s = known.identifiable_at_s;
@@ -81,7 +83,9 @@ std::optional<Identifiability> identifiability_of(const FinishedRun& run, const 
     question.samples.push_back({slam::seconds(t - truth.scans.front()), X_WR, sensor_z_W(floors, feet_W, on_floor_m)});
   }
 
-  Identifiability result{answer(building, PlanEvidence::building, question), std::nullopt, true};
+  const std::optional<IdentifiabilityAnswer> by_building = answer(building, PlanEvidence::building, question);
+  if (!by_building) return std::nullopt;
+  Identifiability result{*by_building, std::nullopt, true};
   result.told_furniture = building.told_furniture() == ToldFurniture::as_planned;
   if (building.plans_movables()) result.with_furniture = answer(building, PlanEvidence::with_furniture, question);
   return result;

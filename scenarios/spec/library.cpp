@@ -56,9 +56,11 @@ std::string find_input(const std::string& input) {
     throw InputError({input, 0, 0},
                      "is the name of several scenarios; say more of it, as in '" +
                          fs::path(found.front()).lexically_relative(folder).replace_extension().string() + "'");
-  if (const std::string close = is_folder ? "" : did_you_mean(input, names); !close.empty())
-    throw InputError({input, 0, 0}, "is no file and no scenario of the library; did you mean '" + close + "'?");
-  return input;
+  if (is_folder) return input;
+  const std::string close = did_you_mean(input, names);
+  throw InputError({input, 0, 0}, "is no file and no scenario of the library; " +
+                                      (close.empty() ? std::string("`plumbline scenarios` lists those")
+                                                     : "did you mean '" + close + "'?"));
 }
 
 }  // namespace plumbline::scenarios

@@ -14,8 +14,8 @@ namespace plumbline::scenarios {
 [[nodiscard]] std::vector<std::string> scenario_files(const std::string& folder);
 
 /// What INPUT of a command names: itself where it is there; else the scenario of the library that has this name, with
-/// or without the folders before it, as in "quickstart" or "s_graphs/t7". INPUT again where none has. Throws InputError
-/// where several have, or one has a name that is close.
+/// or without the folders before it, as in "quickstart" or "s_graphs/t7". INPUT again where it says by an ending that
+/// it is a file, and without a library. Throws InputError where several have the name, or none.
 [[nodiscard]] std::string find_input(const std::string& input);
 
 }  // namespace plumbline::scenarios

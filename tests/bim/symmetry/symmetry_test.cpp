@@ -191,6 +191,27 @@ TEST(Symmetry, ShiftedDoorIsTheDeviation) {
   }
 }
 
+/// Though the walls are far from a column in mid-room: its size is what differs.
+TEST(Symmetry, RoomsThatDifferByAColumnAreNearlyAlike) {
+  for (const double size : {0.1, 0.2, 0.4}) {
+    Building building = twins(0.0);
+    const double low = 2.5 - 0.5 * size, high = 2.5 + 0.5 * size;
+    Column column;
+    column.id = "column";
+    column.storey = 0;
+    column.footprint = {{low, low}, {high, low}, {high, high}, {low, high}};
+    building.columns.push_back(column);
+    const SymmetryReport report = analyse_symmetry(building);
+    ASSERT_EQ(report.rooms.size(), 1U) << size;
+    ASSERT_EQ(report.rooms.front().rooms.size(), 2U);
+    const Similarity& similarity = report.rooms.front().rooms.back().similarity;
+    EXPECT_EQ(similarity.grade, SimilarityGrade::near);
+    EXPECT_NEAR(similarity.deviation_m, size, 1e-6);
+    ASSERT_FALSE(similarity.deviations.empty());
+    EXPECT_EQ(similarity.deviations.front().element, "column");
+  }
+}
+
 TEST(Symmetry, MovedBuildingHasTheConjugatedGroup) {
   const Stream stream(1, "bim.generate");
   for (std::uint64_t i = 0; i < 10; ++i) {

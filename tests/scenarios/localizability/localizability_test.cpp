@@ -61,6 +61,13 @@ TEST(Localizability, SquareHasThreeAliases) {
   EXPECT_EQ(run.steps.back().alive.size(), 3U);
 }
 
+TEST(Localizability, WhereNoPlaceWasLookedAtThePoseIsNotUnique) {
+  const auto run = identify(bim::box_room({6.0, 4.0, 3.0}), {0.1, 0.1}, false, walk({1.5, 1.2}, {2.0, 2.5}));
+  EXPECT_EQ(run.places, 0U);
+  EXPECT_FALSE(run.identifiable);
+  EXPECT_FALSE(run.identifiable_at_s.has_value());
+}
+
 TEST(Localizability, OnePillarBreaksTheSymmetry) {
   auto mesh = bim::box_room({6.0, 4.0, 3.0});
   add_box(mesh, {4.6, 0.4, 0.0}, {5.0, 0.8, 3.0});

@@ -58,6 +58,16 @@ TEST(IdentifiabilityOfARun, FurnitureCountsInTheSecondAnswerOnly) {
   }
 }
 
+/// Between walls so near to each other no robot stands: that no other place is found does not make one unique.
+TEST(IdentifiabilityOfARun, IsAbsentForAPlanWithoutPlaces) {
+  const bim::Building plan = bim::read_plan_text(
+      "plan: 1\nstoreys: [{id: g}]\nwalls:\n  - {id: s, storey: g, a: [0, 0], b: [4, 0]}\n"
+      "  - {id: n, storey: g, a: [4, 0.6], b: [0, 0.6]}\n"
+      "rooms: [{id: r, storey: g, polygon: [[0, 0], [4, 0], [4, 0.6], [0, 0.6]]}]\n",
+      "narrow.plan.yaml");
+  EXPECT_FALSE(answers_of(RunBuilding({plan, plan, {}, true})).has_value());
+}
+
 TEST(IdentifiabilityOfARun, IsOneAnswerWhereNothingMayHaveMoved) {
   bim::Building plan = furnished();
   plan.obstacles.clear();

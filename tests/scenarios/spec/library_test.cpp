@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What ships with the program: every plan is sound and closed, every scenario resolves.
+#include "scenarios/spec/library.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -51,6 +53,14 @@ TEST(Library, ScenariosResolve) {
     const ResolvedScenario resolved = resolve(path, overrides);
     EXPECT_GE(resolved.world.waypoints.size(), 2U) << path;
   }
+}
+
+TEST(Library, ANameOfNoScenarioIsRefusedWithWhereTheNamesAre) {
+  EXPECT_NE(input_error([] { static_cast<void>(find_input("quickstrt")); }).find("did you mean 'quickstart'?"),
+            std::string::npos);
+  EXPECT_EQ(input_error([] { static_cast<void>(find_input("nosuch")); }),
+            "nosuch: is no file and no scenario of the library; `plumbline scenarios` lists those");
+  EXPECT_EQ(find_input("nosuch.yaml"), "nosuch.yaml");
 }
 
 TEST(Library, TheHouseOfTheFirstSiteIsWhatOurWriterMakesOfItsPlan) {

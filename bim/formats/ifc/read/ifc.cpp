@@ -7,6 +7,7 @@
 
 #include "bim/config/tree.h"
 #include "bim/errors.h"
+#include "bim/formats/ifc/read/double_elements.h"
 #include "bim/formats/ifc/read/interpret.h"
 #include "bim/formats/ifc/roundtrip/roundtrip_reader.h"
 #include "bim/formats/ifc/roundtrip/roundtrip_signature.h"
@@ -116,7 +117,8 @@ Building read_ifc_text(std::string_view text, const std::string& file, const Ifc
   if (has_roundtrip_signature(text)) return read_roundtrip(clean, file);
   const std::string said = checked.schema;
   checked.schema = schema_of_entities(clean, checked, file);
-  const StepModel model = read_step_model(clean, checked, file);
+  StepModel model = read_step_model(clean, checked, file);
+  leave_out_doubles(model);
 
   Interpreter interpreter(model, config);
   interpreter.add_storeys();

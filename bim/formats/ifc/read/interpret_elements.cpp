@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 
 #include "bim/formats/ifc/read/interpret.h"
 #include "bim/formats/ifc/read/material_names.h"
 #include "bim/geometry/polygon_boolean.h"
+#include "bim/model/body_section.h"
 
 namespace plumbline::bim {
 namespace {
@@ -31,6 +34,68 @@ bool covers_the_others(const Room& room, const std::vector<Room>& rooms) {
   return others >= 2 && filled >= least_filled * own;
 }
 
+/// Whether two spaces are one place that the file holds twice: they stand on one floor and share most of the larger.
+/// Real rooms share no more than the walls between them, and one within a hall is much smaller than that; an outline to
+/// the axes of the walls around even a closet is less than twice as large as the closet.
+bool same_place(const Room& a, const Region2& outline_a, const Room& b, const Region2& outline_b) {
+  constexpr double least_share = 0.5, same_floor_m = 0.5;
+  if (a.storey != b.storey || std::abs(a.z0_m - b.z0_m) > same_floor_m || a.z0_m >= b.z1_m || b.z0_m >= a.z1_m)
+    return false;
+  const double larger = std::max(area(outline_a), area(outline_b));
+  Eigen::AlignedBox2d box_a, box_b;
+  for (const Eigen::Vector2d& p : a.polygon) box_a.extend(p);
+  for (const Eigen::Vector2d& p : b.polygon) box_b.extend(p);
+  if (!box_a.intersects(box_b) || box_a.intersection(box_b).volume() < least_share * larger) return false;
+  return area(intersect(outline_a, outline_b)) >= least_share * larger;
+}
+
+/// Area of an outline that lies in walls, m^2.
+double area_in_walls(const Room& room, const Region2& outline, const std::vector<Wall>& walls) {
+  Eigen::AlignedBox2d box;
+  for (const Eigen::Vector2d& p : room.polygon) box.extend(p);
+  double sum = 0.0;
+  for (const Wall& wall : walls) {
+    Eigen::AlignedBox2d on_plan;
+    for (const Eigen::Vector3d& p : wall.body->vertices) on_plan.extend(Eigen::Vector2d(p.head<2>()));
+    const double low = std::max(room.z0_m, wall.z0_m), high = std::min(room.z1_m, wall.z1_m);
+    if (low >= high || !box.intersects(on_plan)) continue;
+    sum += area(intersect(outline, wall_section(wall, 0.5 * (low + high))));
+  }
+  return sum;
+}
+
+/// Whether the second of two spaces in one place is the better room. It is the larger one, unless most of what that has
+/// more lies in walls, as where it goes on to their axes; of equal ones the first.
+bool second_is_the_room(const Room& a, const Region2& outline_a, const Room& b, const Region2& outline_b,
+                        const std::vector<Wall>& walls) {
+  constexpr double same_m2 = 0.01, most_share = 0.5;
+  const double more = area(outline_b) - area(outline_a);
+  if (std::abs(more) < same_m2) return false;
+  const double in_walls = area_in_walls(b, outline_b, walls) - area_in_walls(a, outline_a, walls);
+  const bool larger_is_net = in_walls / more < most_share;
+  return (more > 0.0) == larger_is_net;
+}
+
+/// Leaves one room a place.
+void leave_out_double_rooms(Building& building, const std::vector<Region2>& outlines) {
+  std::vector<Room>& rooms = building.rooms;
+  std::vector<bool> left_out(rooms.size(), false);
+  const auto named = [](const Room& room) { return "'" + room.name + "' (" + room.id + ")"; };
+  for (std::size_t i = 0; i < rooms.size(); ++i) {
+    for (std::size_t k = 0; k < i && !left_out[i]; ++k) {
+      if (left_out[k] || !same_place(rooms[k], outlines[k], rooms[i], outlines[i])) continue;
+      const bool second = second_is_the_room(rooms[k], outlines[k], rooms[i], outlines[i], building.walls);
+      const std::size_t room = second ? i : k, other = second ? k : i;
+      left_out[other] = true;
+      building.warnings.push_back({rooms[other].id, "double_space",
+                                   "space " + named(rooms[other]) + " lies where " + named(rooms[room]) +
+                                       " does, which is the room, and is left out"});
+    }
+  }
+  std::size_t at = 0;
+  std::erase_if(rooms, [&](const Room&) { return left_out[at++]; });
+}
+
 template <class Element>
 Element element_of(const StepProduct& product) {
   Element element;
@@ -43,6 +108,7 @@ Element element_of(const StepProduct& product) {
 
 void Interpreter::add_rooms() {
   std::vector<std::string> left_out;
+  std::vector<Region2> outlines;
   for (const StepProduct& product : model_.products) {
     if (product.kind != StepClass::space) continue;
     if (product.space_use != SpaceUse::room) {
@@ -67,6 +133,7 @@ void Interpreter::add_rooms() {
     room.z1_m = snapped(box.high.z());
     room.storey = storey_index(product, room.z0_m);
     building_.rooms.push_back(std::move(room));
+    outlines.push_back({piece});
   }
   std::vector<bool> whole;
   for (const Room& room : building_.rooms) whole.push_back(covers_the_others(room, building_.rooms));
@@ -74,7 +141,9 @@ void Interpreter::add_rooms() {
     if (!whole[i]) continue;
     left_out.push_back(building_.rooms[i].name + " (covers the others)");
     building_.rooms.erase(building_.rooms.begin() + static_cast<std::ptrdiff_t>(i));
+    outlines.erase(outlines.begin() + static_cast<std::ptrdiff_t>(i));
   }
+  leave_out_double_rooms(building_, outlines);
   std::string list;
   for (const std::string& name : left_out) list += (list.empty() ? "" : ", ") + name;
   if (!list.empty()) building_.warnings.push_back({"", "not_a_room", "spaces that are no rooms are left out: " + list});

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenarios/localizability/building_map.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "bim/formats/plan_yaml/plan_yaml.h"
+#include "bim/model/extrude.h"
+#include "tests/input_error.h"
+
+namespace plumbline::scenarios {
+namespace {
+
+/// A room of this depth between four walls.
+bim::Building room_of(double depth_m) {
+  const std::string y = std::to_string(depth_m);
+  return bim::read_plan_text(
+      "plan: 1\nstoreys: [{id: g}]\nwalls:\n  - {id: s, storey: g, a: [0, 0], b: [4, 0]}\n"
+      "  - {id: e, storey: g, a: [4, 0], b: [4, " +
+          y + "]}\n  - {id: n, storey: g, a: [4, " + y + "], b: [0, " + y + "]}\n  - {id: w, storey: g, a: [0, " + y +
+          "], b: [0, 0]}\nrooms: [{id: r, storey: g, polygon: [[0, 0], [4, 0], [4, " + y + "], [0, " + y + "]]}]\n",
+      "room.plan.yaml");
+}
+
+std::string refusal(const bim::Building& building, const BuildingMapOptions& options) {
+  const RunBuilding run({building, building, {}, true});
+  return input_error([&] { static_cast<void>(map_of(run, options)); });
+}
+
+TEST(BuildingMap, StoreysAreListedByNameAndByIdWhereNamesRepeat) {
+  bim::Building building = room_of(3.0);
+  bim::Storey storey = building.storeys.front();
+  building.storeys.front().name = "Ground";
+  for (const char* id : {"u1", "u2"}) {
+    storey.id = id;
+    storey.name = "Upper";
+    storey.elevation_m += 3.0;
+    building.storeys.push_back(storey);
+  }
+  BuildingMapOptions options;
+  options.storey = "Nope";
+  EXPECT_EQ(refusal(building, options),
+            "--storey: there is no storey 'Nope'; there are: Ground, Upper (u1), Upper (u2)");
+}
+
+TEST(BuildingMap, ARefusalNamesTheFile) {
+  BuildingMapOptions options;
+  options.file = "narrow.ifc";
+  EXPECT_EQ(refusal(room_of(0.6), options).find("narrow.ifc: has no place in its rooms"), 0U);
+}
+
+/// The straight rectangle of a wall around the whole room covers it; its body does not.
+TEST(BuildingMap, ARoundRoomOfOneWallHasPlacesAndIsNotUnique) {
+  bim::Building building = room_of(3.0);
+  Polygon2 outer, inner;
+  for (int i = 0; i < 36; ++i) {
+    const double angle = i * std::numbers::pi / 18.0;
+    const Eigen::Vector2d along(std::cos(angle), std::sin(angle));
+    outer.emplace_back(5.0 * along);
+    inner.emplace_back(4.8 * along);
+  }
+  building.walls.resize(1);
+  bim::Wall& wall = building.walls.front();
+  wall.a = {-5.0, 0.0};
+  wall.b = {5.0, 0.0};
+  wall.thickness_m = 10.0;
+  wall.offset_m = -5.0;
+  wall.body = bim::extrude({{outer, {inner}}}, 0.0, 3.0);
+  building.rooms.front().polygon = inner;
+  building.slabs.clear();
+  bim::Slab slab;
+  slab.id = "floor";
+  slab.storey = 0;
+  slab.polygon.outer = {{-5, -5}, {5, -5}, {5, 5}, {-5, 5}};
+  slab.z0_m = -0.2;
+  slab.z1_m = 0.0;
+  building.slabs.push_back(slab);
+  BuildingMapOptions options;
+  options.step_m = 2.0;
+  const BuildingMap map = map_of(RunBuilding({building, building, {}, true}), options);
+  EXPECT_GE(map.map.cells.size(), 9U);
+  for (const MapCell& cell : map.map.cells) EXPECT_FALSE(cell.unknown->walk_m.has_value()) << cell.p_W.transpose();
+}
+
+}  // namespace
+}  // namespace plumbline::scenarios
