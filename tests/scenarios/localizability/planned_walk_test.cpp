@@ -10,6 +10,8 @@
 #include "bim/formats/ifc/write/write_ifc.h"
 #include "bim/load/load.h"
 #include "tests/data.h"
+#include "tests/folder.h"
+#include "tests/scenarios/raised_rooms.h"
 
 namespace plumbline::scenarios {
 namespace {
@@ -69,19 +71,10 @@ TEST(PlannedWalk, AnswersSayWhatIsKnownBeforeAndAfter) {
 
 /// The heights of a route are rounded.
 TEST(PlannedWalk, OnARaisedFloorItsScansAreTakenAtTheHeightOfTheFloor) {
-  const std::string name = (fs::path(testing::TempDir()) / ("plumbline_raised" + std::to_string(::getpid()))).string();
+  const Folder folder;
+  const std::string name = folder / "raised";
   bim::Building plan = bim::load_building(project_file("tests/system/short.plan.yaml"));
-  for (bim::Room& room : plan.rooms) {
-    bim::Slab slab;
-    slab.id = room.id + "/raised";
-    slab.storey = room.storey;
-    slab.polygon = {room.polygon, {}};
-    slab.z0_m = room.z0_m;
-    slab.z1_m = room.z0_m = 0.235;
-    plan.slabs.push_back(slab);
-  }
-  for (bim::Opening& opening : plan.openings)
-    if (opening.kind != bim::OpeningKind::window) opening.z0_m = 0.235;
+  raise_rooms(plan, 0.235);
   std::ofstream(name + ".ifc") << bim::write_ifc(plan);
   std::ofstream(name + ".yaml") << "scenario: 1\nbuilding: " + name +
                                        ".ifc\nstart: {room: left}\nroute: {rooms: [hall]}\nspeed_mps: 0.5\n";
@@ -92,8 +85,6 @@ TEST(PlannedWalk, OnARaisedFloorItsScansAreTakenAtTheHeightOfTheFloor) {
   EXPECT_NEAR(area.sensor_z_W(walk.front().X_WR.t.head<2>()) - area.floors.ground_m, 0.895, 1e-6);
   for (const TruthSample& sample : walk)
     EXPECT_EQ(sample.sensor_z_W, area.sensor_z_W(sample.X_WR.t.head<2>())) << sample.X_WR.t.transpose();
-  fs::remove(name + ".ifc");
-  fs::remove(name + ".yaml");
 }
 
 }  // namespace

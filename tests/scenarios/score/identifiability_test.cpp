@@ -10,6 +10,7 @@
 #include "bim/generators/generators.h"
 #include "bim/model/extrude.h"
 #include "scenarios/metrics/storey.h"
+#include "tests/scenarios/raised_rooms.h"
 
 namespace plumbline::scenarios::score {
 namespace {
@@ -102,17 +103,7 @@ TEST(IdentifiabilityOfARun, RaisedFloorsAreAsAlikeAsLevelOnes) {
   constexpr double rise_m = 0.3;
   bim::Building plan = furnished();
   plan.obstacles.clear();
-  for (bim::Room& room : plan.rooms) {
-    bim::Slab slab;
-    slab.id = room.id + "/raised";
-    slab.storey = room.storey;
-    slab.polygon = {room.polygon, {}};
-    slab.z0_m = room.z0_m;
-    slab.z1_m = room.z0_m = rise_m;
-    plan.slabs.push_back(slab);
-  }
-  for (bim::Opening& opening : plan.openings)
-    if (opening.kind != bim::OpeningKind::window) opening.z0_m = rise_m;
+  raise_rooms(plan, rise_m);
   FinishedRun run = walk_in(RunBuilding({plan, plan, {}, true}));
   for (std::size_t i = 0; i < run.record.truth_W.size(); ++i)
     run.record.truth_W[i].X_FR.t.z() += rise_m + (i % 2 == 0 ? 0.02 : -0.02);
