@@ -34,6 +34,15 @@ bool on_stair(const bim::Stair& stair, const Eigen::Vector2d& p) {
                      [&](const bim::Landing& landing) { return contains(landing.polygon, p); });
 }
 
+/// Where a point given in map coordinates lies in a building that was moved to the origin; empty for other points.
+std::string moved_text(const bim::Building& building, const Eigen::Vector2d& at) {
+  if (!building.moved_by) return "";
+  const Eigen::Vector2d moved = at + building.moved_by->head<2>();
+  if (moved.norm() >= at.norm()) return "";
+  return "; the file's coordinates are those of a map and were moved: on the map's " + point_text(at) + " lies " +
+         point_text(moved);
+}
+
 }  // namespace
 
 bool on_a_stair(const bim::Building& building, int storey, const Eigen::Vector2d& p_W) {
@@ -66,7 +75,7 @@ void check_start(const sim::MultiStoreyPlanner& space, int storey, const Eigen::
   const bool has_rooms =
       std::any_of(building.rooms.begin(), building.rooms.end(), [&](const bim::Room& r) { return r.storey == storey; });
   if (has_rooms && !doorway && std::none_of(building.rooms.begin(), building.rooms.end(), in_room))
-    throw InputError(mark, start + " is outside every room; it must be in a room");
+    throw InputError(mark, start + " is outside every room; it must be in a room" + moved_text(building, at));
   if (!space.storey(storey).free(at))
     throw InputError(mark, start + " is in or too near to a wall or another thing (" +
                                format_number(std::round(space.storey(storey).clearance(at) * 1e4) / 1e4) +

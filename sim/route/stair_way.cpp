@@ -78,8 +78,8 @@ std::string turn(const bim::Stair& stair, const bim::StairFlight& lower, const b
   return "";
 }
 
-/// Possible obstacles of a stair: walls, columns and obstacles near it. Floors are cut for it already.
-bim::Building surroundings(const bim::Building& building, const Eigen::AlignedBox2d& box) {
+/// Possible obstacles of a stair: walls, columns, obstacles and other stairs near it. Floors are cut for it already.
+bim::Building surroundings(const bim::Building& building, const bim::Stair& stair, const Eigen::AlignedBox2d& box) {
   bim::Building near;
   const auto meets = [&](const std::vector<Eigen::Vector2d>& points) {
     Eigen::AlignedBox2d other;
@@ -100,11 +100,16 @@ bim::Building surroundings(const bim::Building& building, const Eigen::AlignedBo
   }
   for (const bim::Column& column : building.columns)
     if (meets(column.footprint)) near.columns.push_back(column);
-  for (const bim::Obstacle& obstacle : building.obstacles) {
+  const auto body_meets = [&](const bim::Solid& body) {
     std::vector<Eigen::Vector2d> seen;
-    for (const Eigen::Vector3d& p : obstacle.body.vertices) seen.emplace_back(p.head<2>());
-    if (meets(seen)) near.obstacles.push_back(obstacle);
-  }
+    for (const Eigen::Vector3d& p : body.vertices) seen.emplace_back(p.head<2>());
+    return meets(seen);
+  };
+  for (const bim::Obstacle& obstacle : building.obstacles)
+    if (body_meets(obstacle.body)) near.obstacles.push_back(obstacle);
+  for (const bim::Stair& other : building.stairs)
+    if (&other != &stair && std::any_of(other.bodies.begin(), other.bodies.end(), body_meets))
+      near.stairs.push_back(other);
   return near;
 }
 
@@ -156,7 +161,7 @@ std::string obstacle_fault(const bim::Building& building, const bim::Stair& stai
   Eigen::AlignedBox2d box;
   for (const Eigen::Vector3d& p : way.points) box.extend(Eigen::Vector2d(p.head<2>()));
   const Eigen::Vector2d margin = Eigen::Vector2d::Constant(2.0 * route.radius_m);
-  const bim::Building near = surroundings(building, {box.min() - margin, box.max() + margin});
+  const bim::Building near = surroundings(building, stair, {box.min() - margin, box.max() + margin});
   for (const Level& level : levels_of(stair, way.points, route))
     if (blocked(near, level, route, config))
       return "has less than " + metres(2.0 * route.radius_m) + " free near [" +

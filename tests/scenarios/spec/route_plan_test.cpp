@@ -84,6 +84,15 @@ TEST(RoutePlan, AllRoomsAreThoseOfTheStoreyUnlessAsked) {
   EXPECT_EQ(climbs(plan, -1.0), 1);
 }
 
+TEST(RoutePlan, AStartOnTheMapIsToldWhereItLiesInTheMovedBuilding) {
+  bim::Building building = house();
+  building.moved_by = Eigen::Vector3d(-691000.0, -5334000.0, 0.0);
+  const std::string error = error_of(building, at("ground", 691002.0, 5334003.0), {});
+  EXPECT_NE(error.find("outside every room"), std::string::npos) << error;
+  EXPECT_NE(error.find("on the map's [691002, 5334003] lies [2, 3]"), std::string::npos) << error;
+  EXPECT_EQ(error_of(building, at("ground", -30.0, 2.0), {}).find("map"), std::string::npos);
+}
+
 TEST(RoutePlan, ARouteOfAllIsTheRouteOfItsNames) {
   Route route;
   route.storeys = RouteStoreys::all;

@@ -11,6 +11,7 @@
 #include "bim/config/tree.h"
 #include "bim/errors.h"
 #include "bim/formats/plan_yaml/plan_yaml.h"
+#include "bim/model/extrude.h"
 #include "bim/random/stream.h"
 
 namespace plumbline::sim {
@@ -206,6 +207,25 @@ TEST(MultiStoreyPlanner, WhatEndsUnderTheFloorAboveIsNotInTheWayOfTheLastSteps) 
   EXPECT_EQ(MultiStoreyPlanner(tower).stairs().front().fault, "");
   tower.walls.back().z1_m = 3.6;
   EXPECT_NE(MultiStoreyPlanner(tower).stairs().front().fault, "");
+}
+
+TEST(MultiStoreyPlanner, AStairIsUnderTheStairAbove) {
+  bim::Building tower = building(straight);
+  tower.storeys.push_back(tower.storeys.back());
+  tower.storeys.back().id = "top";
+  tower.storeys.back().elevation_m = 6.0;
+  bim::Stair above = tower.stairs.front();
+  above.id = "above";
+  above.from = 1;
+  above.to = 2;
+  for (bim::StairFlight& flight : above.flights) flight.z0_m += 3.0;
+  for (bim::Solid& body : above.bodies)
+    for (Eigen::Vector3d& p : body.vertices) p.z() += 3.0;
+  tower.stairs.push_back(above);
+  EXPECT_EQ(MultiStoreyPlanner(tower).stairs().front().fault, "") << "a flight as thick as a slab leaves headroom";
+  const Polygon2 shaft{{1.6, 2.5}, {5.9, 2.5}, {5.9, 3.5}, {1.6, 3.5}};
+  tower.stairs.back().bodies.push_back(bim::extrude({{shaft, {}}}, 3.0, 4.0));
+  EXPECT_NE(MultiStoreyPlanner(tower).stairs().front().fault.find("free near"), std::string::npos);
 }
 
 TEST(MultiStoreyPlanner, AStairWithoutStepsIsABody) {

@@ -23,7 +23,7 @@ class WrittenReader {
   Building read() {
     building_.schema = "IFC4";
     building_.unit = "m";
-    read_name_and_materials();
+    read_head();
     read_storeys();
     read_rooms();
     read_walls();
@@ -41,9 +41,13 @@ class WrittenReader {
     throw InputError(product.attributes.mark, what);
   }
 
-  void read_name_and_materials() {
+  void read_head() {
     for (const StepEntities::Entity& entity : entities_.all()) {
       if (entity.type == "IFCBUILDING") building_.name = entities_.attributes(entity).at(2).as_text();
+      if (entity.type == "IFCMAPCONVERSION") {
+        const StepValue map = entities_.attributes(entity);
+        building_.moved_by = -Eigen::Vector3d(map.at(2).as_number(), map.at(3).as_number(), map.at(4).as_number());
+      }
       if (entity.type != "IFCMATERIALPROPERTIES") continue;
       const StepValue properties = entities_.attributes(entity);
       const auto value = [&](std::size_t at) {

@@ -68,7 +68,7 @@ void IfcDocument::add_owner() {
   owner_ = step_.add("IFCOWNERHISTORY", {ref(user), ref(application), none, ".NOCHANGE.", none, none, none, "0"});
 }
 
-void IfcDocument::add_contexts() {
+void IfcDocument::add_contexts(const Building& building) {
   const int origin = step_.add("IFCCARTESIANPOINT", {"(0.,0.,0.)"});
   world_ = step_.add("IFCAXIS2PLACEMENT3D", {ref(origin), none, none});
   context_ = step_.add("IFCGEOMETRICREPRESENTATIONCONTEXT",
@@ -81,6 +81,14 @@ void IfcDocument::add_contexts() {
   body_context_ = subcontext("Body", "MODEL_VIEW");
   axis_context_ = subcontext("Axis", "GRAPH_VIEW");
   footprint_context_ = subcontext("FootPrint", "PLAN_VIEW");
+  if (building.moved_by) add_map_conversion(*building.moved_by);
+}
+
+void IfcDocument::add_map_conversion(const Eigen::Vector3d& moved_by) {
+  const int map =
+      step_.add("IFCPROJECTEDCRS", {step_string("map of the file read"), none, none, none, none, none, none});
+  step_.add("IFCMAPCONVERSION", {ref(context_), ref(map), step_real(-moved_by.x()), step_real(-moved_by.y()),
+                                 step_real(-moved_by.z()), step_real(1.0), step_real(0.0), step_real(1.0)});
 }
 
 int IfcDocument::add_units() {
@@ -95,7 +103,7 @@ int IfcDocument::add_units() {
 
 void IfcDocument::add_head(const Building& building) {
   add_owner();
-  add_contexts();
+  add_contexts(building);
   const int assignment = add_units();
   const int project =
       step_.add("IFCPROJECT", {step_string(new_id({"project", "", "", -1})), ref(owner_), step_string(building.name),

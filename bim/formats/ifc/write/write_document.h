@@ -73,7 +73,9 @@ class IfcDocument {
 
  private:
   void add_owner();
-  void add_contexts();
+  void add_contexts(const Building& building);
+  /// Where the origin lies on the map that the building was moved from.
+  void add_map_conversion(const Eigen::Vector3d& moved_by);
   /// Number of the IfcUnitAssignment.
   int add_units();
   void add_head(const Building& building);

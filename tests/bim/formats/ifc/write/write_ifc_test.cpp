@@ -66,11 +66,19 @@ void expect_same_after_writing(const Building& building) {
   const Building back = read_ifc_text(text, "written.ifc");
   EXPECT_EQ(back.hash(), building.hash());
   EXPECT_EQ(back.name, building.name);
+  EXPECT_EQ(back.moved_by, building.moved_by);
   EXPECT_TRUE(back.warnings.empty());
   EXPECT_EQ(write_ifc(back), text);
 }
 
 TEST(WriteIfc, PlanComesBack) { expect_same_after_writing(small_plan()); }
+
+TEST(WriteIfc, PlaceOnTheMapComesBack) {
+  Building building = small_plan();
+  building.moved_by = Eigen::Vector3d(-691000.0, -5334000.0, -512.0);
+  expect_same_after_writing(building);
+  EXPECT_NE(write_ifc(building).find(",691000.,5334000.,512.,"), std::string::npos);
+}
 
 TEST(WriteIfc, RandomBuildingsComeBack) {
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
