@@ -12,6 +12,7 @@ namespace plumbline::scenarios {
 namespace {
 
 constexpr int stride = 5;                  ///< of the beams that tell clearly different views apart
+constexpr std::size_t most_composed = 64;  ///< aliases whose compositions are looked at; assumed
 constexpr std::size_t places_a_beam = 50;  ///< of the index compared in the time of a beam; assumed
 
 /// Gauss-Newton step on (x, y, yaw) of seen points against the planes that the plan's view predicts, and how many
@@ -47,11 +48,12 @@ PlaneFit fit_planes(const std::vector<Eigen::Vector3d>& directions, const RangeI
 }  // namespace
 
 AliasFinder::AliasFinder(const PlaceIndex& index, const bim::RayScene& as_planned, const bim::RayScene& as_built,
-                         std::span<const char> loose)
+                         std::span<const char> loose, std::span<const Pose> isometries)
     : index_(index),
       as_planned_(as_planned),
       as_built_(as_built),
       loose_(loose),
+      isometries_(isometries),
       coarse_(localizability_constants.refine_azimuths, localizability_constants.refine_elevations_deg) {}
 
 bool AliasFinder::is_loose(int element) const {
@@ -114,6 +116,23 @@ std::vector<AliasFinder::View> AliasFinder::views_of(const SensorPose& place) co
   return {view(as_planned_), view(as_built_)};
 }
 
+std::vector<SensorPose> AliasFinder::images_of(const SensorPose& place, int storey) const {
+  constexpr double floor_m = 0.3;  // storeys that are alike may lie this much off their distance; assumed
+  std::vector<SensorPose> images;
+  for (const Pose& isometry : isometries_) {
+    const Pose X = isometry * place.pose();
+    for (std::size_t s = 0; s < index_.storeys().size(); ++s) {
+      const SearchArea& area = index_.storeys()[s];
+      if (area.empty() || (storey >= 0 && static_cast<int>(s) != storey)) continue;
+      const double z = area.sensor_z_W(X.t.head<2>());
+      if (std::abs(z - X.t.z()) > floor_m) continue;
+      images.push_back({{X.t.x(), X.t.y(), z}, X.yaw()});
+      break;
+    }
+  }
+  return images;
+}
+
 bool AliasFinder::refine(const RangeImage& seen, const SearchArea& storey, SensorPose& place) const {
   constexpr double gate_min_m = 0.1, gate_factor = 0.7;
   // An alias may differ in about one beam of a hundred. On the way there more do, within a narrowing gate.
@@ -149,6 +168,37 @@ std::vector<FoundAlias> AliasFinder::find(const ReferenceScan& scan, const Alias
     return std::any_of(places.begin(), places.end(),
                        [&](const SensorPose& other) { return same_pose(place, other, metres, degrees); });
   };
+  const auto is_taken = [&](const SensorPose& place) {
+    const auto near = [&](const FoundAlias& alias) {
+      return same_pose(place, alias.place, localizability_constants.basin_m, localizability_constants.basin_deg);
+    };
+    return near_any(taken, place, localizability_constants.basin_m, localizability_constants.basin_deg) ||
+           std::any_of(aliases.begin(), aliases.end(), near);
+  };
+  constexpr double near_m = 0.3, near_deg = 6.0;
+  const auto judge = [&](const SensorPose& place) {
+    if (search.yaw_known &&
+        std::abs(wrap_angle(place.yaw - scan.place.yaw)) > localizability_constants.known_yaw_deg * rad_per_deg)
+      return false;
+    if (same_pose(place, scan.place, localizability_constants.distinct_m, localizability_constants.distinct_deg) ||
+        near_any(taken, place, near_m, near_deg))
+      return false;
+    // Of two that are near each other the better one stays: a search may end beside an exact image.
+    const auto near = std::find_if(aliases.begin(), aliases.end(), [&](const FoundAlias& alias) {
+      return same_pose(place, alias.place, near_m, near_deg);
+    });
+    if (near != aliases.end() && near->llr <= localizability_constants.marginal_llr) return false;
+    if (clearly_different(scan, place)) return false;
+    const double llr = this->llr(scan, place);
+    if (llr > (near == aliases.end() ? localizability_constants.drop_llr : near->llr)) return false;
+    if (near != aliases.end()) {
+      *near = {place, llr};
+      return false;
+    }
+    aliases.push_back({place, llr});
+    return true;
+  };
+  for (const SensorPose& image : images_of(scan.place, search.storey)) judge(image);
   for (const View& view : views_of(scan.place)) {
     std::vector<SensorPose> tried;
     const auto is_tried = [&](const SensorPose& place) {
@@ -157,27 +207,21 @@ std::vector<FoundAlias> AliasFinder::find(const ReferenceScan& scan, const Alias
     int in_vain = 0;
     work_ += index_.imager().directions().size() + coarse_.directions().size() + index_.size() / places_a_beam;
     for (auto [place, storey] : index_.like(view.signature, scan.place.yaw, search.storey, search.yaw_known)) {
-      if (near_any(taken, place, localizability_constants.basin_m, localizability_constants.basin_deg) ||
-          is_tried(place))
-        continue;
+      if (is_taken(place) || is_tried(place)) continue;
       const bool sound = refine(view.image, index_.storeys()[static_cast<std::size_t>(storey)], place);
       if (!(search.thorough && is_tried(place)) && ++in_vain > give_up_after) break;
       tried.push_back(place);
-      if (!sound) continue;
-      if (search.yaw_known &&
-          std::abs(wrap_angle(place.yaw - scan.place.yaw)) > localizability_constants.known_yaw_deg * rad_per_deg)
-        continue;
-      if (same_pose(place, scan.place, localizability_constants.distinct_m, localizability_constants.distinct_deg) ||
-          near_any(taken, place, 0.3, 6.0))
-        continue;
-      if (clearly_different(scan, place)) continue;
-      const double llr = this->llr(scan, place);
-      if (llr > localizability_constants.drop_llr) continue;
-      taken.push_back(place);
-      in_vain = 0;
-      aliases.push_back({place, llr});
+      if (sound && judge(place)) in_vain = 0;
     }
   }
+  // Isometries of a plan are a group: two that fit lead to others, which the search may have missed.
+  const Pose X_W0 = scan.place.pose().inverse();
+  for (std::size_t a = 0; a < aliases.size() && aliases.size() < most_composed; ++a)
+    for (std::size_t b = 0; b <= a; ++b) {
+      if (std::max(aliases[a].llr, aliases[b].llr) > localizability_constants.marginal_llr) continue;
+      const Pose X_Wa = aliases[a].place.pose(), X_Wb = aliases[b].place.pose();
+      for (const Pose& X : {X_Wa * X_W0 * X_Wb, X_Wb * X_W0 * X_Wa}) judge({X.t, X.yaw()});
+    }
   return aliases;
 }
 

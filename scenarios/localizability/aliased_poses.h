@@ -35,11 +35,11 @@ struct AliasSearch {
 /// refined on planes, judged by the log-likelihood ratio. Everything must outlive it. May be used by several threads.
 /// Where plan and building differ, what the plan predicts at the pose is searched for besides what is seen there:
 /// things that stand about hide what looks alike. `loose`: elements as built that may have moved and do not stand as
-/// planned.
+/// planned. `isometries`: of the plan; images under them are tried first, as they are.
 class AliasFinder {
  public:
   AliasFinder(const PlaceIndex& index, const bim::RayScene& as_planned, const bim::RayScene& as_built,
-              std::span<const char> loose = {});
+              std::span<const char> loose = {}, std::span<const Pose> isometries = {});
 
   [[nodiscard]] ReferenceScan scan_at(const SensorPose& place) const;
   /// Log-likelihood ratio of the pose of a scan over another pose.
@@ -63,12 +63,15 @@ class AliasFinder {
   [[nodiscard]] std::vector<View> views_of(const SensorPose& place) const;
   [[nodiscard]] bool is_loose(int element) const;
   [[nodiscard]] double evidence(const ReferenceScan& scan, std::size_t beam, double other_m) const;
+  /// Images of a place under the isometries that lie over a floor of the storeys searched.
+  [[nodiscard]] std::vector<SensorPose> images_of(const SensorPose& place, int storey) const;
   [[nodiscard]] bool refine(const RangeImage& seen, const SearchArea& storey, SensorPose& place) const;
 
   const PlaceIndex& index_;
   const bim::RayScene& as_planned_;
   const bim::RayScene& as_built_;
   std::span<const char> loose_;
+  std::span<const Pose> isometries_;
   RangeImager imager_;
   RangeImager coarse_;
   mutable std::atomic<std::uint64_t> work_ = 0;

@@ -96,6 +96,7 @@ class MapMaker {
     input_.as_planned = &visible_.planned.scene;
     input_.as_built = &visible_.as_built().scene;
     input_.loose = visible_.loose;
+    input_.isometries = visible_.isometries;
     input_.step_m = options.step_m;
     input_.across = options.across;
     input_.compass_only = options.compass_only;

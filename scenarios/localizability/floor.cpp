@@ -11,6 +11,7 @@
 #include "bim/geometry/grid_frame.h"
 #include "bim/mesh/visible.h"
 #include "bim/model/permanence.h"
+#include "scenarios/localizability/symmetric_images.h"
 #include "sim/route/route.h"
 
 namespace plumbline::scenarios {
@@ -156,7 +157,10 @@ VisibleBuilding visible_building(const RunBuilding& building, PlanEvidence by) {
   const bim::BuildingMesh planned = bim::visible_mesh(building.as_planned(), building.mesh_as_planned());
   const bool leaves_out = by == PlanEvidence::building && building.plans_movables();
   VisibleBuilding visible{
-      visible_scene(leaves_out ? without_movables(building.as_planned(), planned) : planned), std::nullopt, {}};
+      visible_scene(leaves_out ? without_movables(building.as_planned(), planned) : planned),
+      std::nullopt,
+      {},
+      storey_isometries(leaves_out ? bim::without_movables(building.as_planned()) : building.as_planned())};
   if (!building.deviates() && !leaves_out) return visible;
   visible.built.emplace(visible_scene(bim::visible_mesh(building.as_built(), building.mesh_as_built())));
   visible.loose = loose_elements(building, by);

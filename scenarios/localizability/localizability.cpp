@@ -91,7 +91,7 @@ RunIdentifiability compute_localizability(const LocalizabilityInput& input, cons
   RunIdentifiability run;
   const PlaceIndex index(*input.as_planned, input.storeys, localizability_constants.grid_m, input.threads);
   run.places = index.size();
-  const AliasFinder finder(index, *input.as_planned, *input.as_built, input.loose);
+  const AliasFinder finder(index, *input.as_planned, *input.as_built, input.loose, input.isometries);
   std::vector<Followed> followed;
   for (const auto& [walked, sample] : stations(truth)) {
     const SensorPose place = levelled(sample->X_WR, sample->sensor_z_W);

@@ -15,8 +15,9 @@ namespace plumbline::scenarios {
 struct LocalizabilityInput {
   const bim::RayScene* as_planned = nullptr;
   const bim::RayScene* as_built = nullptr;
-  std::span<const char> loose;      ///< by element as built: may have moved and does not stand as planned; empty: none
-  std::vector<SearchArea> storeys;  ///< those a robot with this prior may be on
+  std::span<const char> loose;       ///< by element as built: may have moved and does not stand as planned; empty: none
+  std::span<const Pose> isometries;  ///< of the plan: VisibleBuilding::isometries
+  std::vector<SearchArea> storeys;   ///< those a robot with this prior may be on
   bool yaw_known = false;
   int threads = 1;
 };

@@ -25,7 +25,8 @@ class Mapper {
   explicit Mapper(const LocalizabilityMapInput& input)
       : input_(input),
         own_index_(input.index == nullptr ? std::make_unique<PlaceIndex>(index_of(input)) : nullptr),
-        finder_(own_index_ ? *own_index_ : *input.index, *input.as_planned, *input.as_built, input.loose) {
+        finder_(own_index_ ? *own_index_ : *input.index, *input.as_planned, *input.as_built, input.loose,
+                input.isometries) {
     for (std::size_t f = 0; f < input.floors.size(); ++f)
       for (const Eigen::Vector2d& p : input.floors[f].cells_W) map_.cells.push_back({f, p, {}, {}, {}});
     if (map_.cells.size() <= most_map_cells) return;

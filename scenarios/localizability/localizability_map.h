@@ -14,12 +14,13 @@ namespace plumbline::scenarios {
 struct LocalizabilityMapInput {
   const bim::RayScene* as_planned = nullptr;
   const bim::RayScene* as_built = nullptr;
-  std::span<const char> loose;      ///< as in LocalizabilityInput
-  std::vector<SearchArea> storeys;  ///< of the building, all
-  std::vector<Floor> floors;        ///< those asked about
-  double step_m = 0.5;              ///< of the floors' cells
-  bool across = false;              ///< aliases on other storeys count: the storey is unknown
-  bool compass_only = false;        ///< aliases that a compass rules out are not searched for
+  std::span<const char> loose;       ///< as in LocalizabilityInput
+  std::span<const Pose> isometries;  ///< as in LocalizabilityInput
+  std::vector<SearchArea> storeys;   ///< of the building, all
+  std::vector<Floor> floors;         ///< those asked about
+  double step_m = 0.5;               ///< of the floors' cells
+  bool across = false;               ///< aliases on other storeys count: the storey is unknown
+  bool compass_only = false;         ///< aliases that a compass rules out are not searched for
   int threads = 1;
   std::function<void(std::size_t done, std::size_t all)> progress = {};  ///< called as cells are done; may be empty
   const PlaceIndex* index = nullptr;                                     ///< of all storeys; made where it is not given

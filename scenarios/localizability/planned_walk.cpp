@@ -76,6 +76,7 @@ LocalizabilityInput input_of(const ResolvedScenario& resolved, int storey, const
   input.as_planned = &visible.planned.scene;
   input.as_built = &visible.as_built().scene;
   input.loose = visible.loose;
+  input.isometries = visible.isometries;
   const bim::Building& plan = resolved.building->as_planned();
   for (std::size_t i = 0; i < plan.storeys.size(); ++i)
     if (static_cast<int>(i) == storey || resolved.scenario.prior.storey == Knowledge::unknown)

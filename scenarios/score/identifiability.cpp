@@ -40,6 +40,7 @@ std::optional<IdentifiabilityAnswer> answer(const RunBuilding& building, PlanEvi
   input.as_planned = &visible.planned.scene;
   input.as_built = &visible.as_built().scene;
   input.loose = visible.loose;
+  input.isometries = visible.isometries;
   input.storeys = question.storeys;
   input.yaw_known = question.yaw_known;
   const RunIdentifiability known = compute_localizability(input, question.samples);
