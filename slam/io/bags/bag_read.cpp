@@ -235,14 +235,14 @@ class BagRecording final : public Recording {
   }
 
   bool next_scan(SensorFrame& frame) {
+    SensorFrame out;
     for (fill(); !scans_.records().empty(); fill()) {
-      SensorFrame out;
       out.scan = scans_.take();
       if (!first_scan_) first_scan_ = out.scan.stamp + least_offset(out.scan);
       imu_.take_until(out.scan.stamp, out.imu);
       odometry_.take_until(out.scan.stamp, out.odometry);
       covariances_.take_until(out.scan.stamp, out.covariances);
-      started_ = started_ || !has_odometry() || !out.odometry.empty();
+      started_ = started_ || !has_odometry() || tells_motion(out.odometry, out.scan.stamp);
       early_ += started_ ? 0 : 1;
       if (!started_) continue;
       frame = std::move(out);

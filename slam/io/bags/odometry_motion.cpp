@@ -35,4 +35,9 @@ std::optional<Matrix6d> increment_covariance(const ros::OdometryMessage& message
   return twist * (seconds(dt) * seconds(dt));
 }
 
+bool tells_motion(const std::vector<Odometry>& records, Nanoseconds t) {
+  constexpr Nanoseconds at_once = 20'000'000;  // in which a walking robot moves 2 cm
+  return records.size() > 1 || (!records.empty() && t - records.back().stamp <= at_once);
+}
+
 }  // namespace plumbline::slam

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "slam/io/bags/ros_message.h"
 
@@ -24,5 +25,9 @@ class OdometryMotion {
 
 /// Covariance of the motion in dt from that of the twist; none where the message holds no usable one.
 [[nodiscard]] std::optional<Matrix6d> increment_covariance(const ros::OdometryMessage& message, Nanoseconds dt);
+
+/// Whether records, the oldest first, tell the motion up to t. One record alone, long before, tells where a scan began
+/// and nothing of how far the robot went during it.
+[[nodiscard]] bool tells_motion(const std::vector<Odometry>& records, Nanoseconds t);
 
 }  // namespace plumbline::slam

@@ -171,6 +171,26 @@ TEST_F(BagTest, ScansBeforeTheFirstOdometryAreLeftOut) {
   EXPECT_FALSE(recording->next(frame));
 }
 
+// One record a scan, at its begin: by the first alone the robot would stand still during the first scan.
+TEST_F(BagTest, AScanOfWhoseMotionNothingIsKnownIsLeftOut) {
+  std::vector<SensorFrame> frames = three_frames();
+  const auto keep = [&](std::size_t k, std::size_t record) {
+    frames[k].odometry = {frames[k].odometry.at(record)};
+    frames[k].covariances.clear();
+  };
+  keep(0, 0);
+  keep(1, frames[1].odometry.size() / 2);
+  write(file("slow.bag"), bag_profiles[0], frames);
+  const auto recording = open_bag(file("slow.bag"), {}, nullptr);
+  SensorFrame frame;
+  ASSERT_TRUE(recording->next(frame));
+  EXPECT_NEAR(static_cast<double>(frame.scan.stamp), static_cast<double>(frames[1].scan.stamp), 16.0);
+  EXPECT_EQ(frame.odometry.size(), 2U);
+  ASSERT_EQ(recording->left_out().size(), 1U);
+  EXPECT_NE(recording->left_out().front().find("1 of 1 scans left out"), std::string::npos)
+      << recording->left_out().front();
+}
+
 TEST_F(BagTest, OdometryThatNoScanMeetsIsRefused) {
   const std::vector<std::pair<Nanoseconds, std::string>> shifts = {
       {1'000'000'000'000, "/odom: no odometry at or before any scan"},
