@@ -68,14 +68,28 @@ Float4 cost(Float4 range, const PredictedBlock& hits, const HypothesisComparison
   return choose(squares < cap, squares, cap);
 }
 
-/// How many columns to either side may explain a beam, as an edge of the plan at this distance may be a little off.
-Float4 edge_tolerance_columns(Float4 distance, int columns, const HypothesisComparisonConfig& config) {
+/// How many columns to either side may explain a beam, as an edge of the plan at this distance may be a little off, and
+/// as the beam began beside the place that all are cast from.
+Float4 edge_tolerance_columns(Float4 distance, const BeamGridBlock& block, int columns,
+                              const HypothesisComparisonConfig& config) {
   const auto per_rad = static_cast<float>(columns / (2.0 * std::numbers::pi));
-  const Float4 beams =
-      whole_of((static_cast<float>(config.edge_m) / distance + static_cast<float>(config.edge_rad)) * per_rad);
+  const Float4 beams = whole_of((static_cast<float>(config.edge_m) / distance + static_cast<float>(config.edge_rad) +
+                                 block.aside * (1.0F / distance - 1.0F / block.range)) *
+                                per_rad);
   const int half_turn = columns / 2;
   const auto most = static_cast<float>(half_turn);
   return choose(beams > 1.0F, choose(beams < most, beams, all(most)), all(1.0F));
+}
+
+/// How far the face that a beam `shift` columns away hits is in the direction of the own one: the reciprocals of ranges
+/// to a plane are nearly linear in the angle, and the beam behind that one hits it, too. Else the neighbour's own
+/// range.
+Float4 extended(const PredictedBlock& near, const PredictedBlock& behind, int shift) {
+  const Float4 reciprocal = 1.0F / near.expected;
+  const Float4 own = reciprocal + static_cast<float>(shift) * (reciprocal - 1.0F / behind.expected);
+  const Mask4 same = (near.element >= 0) & (near.element == behind.element) & (near.side == behind.side);
+  const auto beyond = static_cast<float>(1.0 / 1000.0);
+  return choose(same & (own > beyond), 1.0F / own, near.expected);
 }
 
 /// Cost of the beams of a block, each at most as given, where the sensor is tilted up or down as far as its roll and
@@ -115,6 +129,37 @@ Float4 tilted_cost(const LocalizationScan& scan, const PredictedScan& predicted,
   return best;
 }
 
+/// Cost of the beams of a block, each at most as given, by the faces on either side of what may be an edge, as far as
+/// they go on in the beam's own direction. Neighbours on the ring that gave no return were not predicted.
+Float4 cost_beside(const LocalizationScan& scan, const PredictedScan& predicted, const BeamGridBlock& block,
+                   Float4 tolerance_columns, Float4 direct, const HypothesisComparisonConfig& config) {
+  constexpr double fits = 0.5;  // a standard deviation
+  constexpr double along_face = 1e-3;
+  const double z = predicted.floor_z + scan.sensor_height;
+  const double rad_per_column = 2.0 * std::numbers::pi / scan.beam_grid.columns;
+  Float4 best = direct;
+  for (std::size_t k = 0; k < 4; ++k) {
+    if (block.range[k] <= 0.0F || direct[k] <= fits) continue;
+    const Eigen::Vector2d own = predicted.R_IH * Eigen::Vector2d(block.x[k], block.y[k]);
+    const double slope = block.slope[k], angle = rad_per_column * tolerance_columns[k];
+    std::array<SensorRay, 2> rays;
+    std::array<StructureHit, 2> hits;
+    for (std::size_t r = 0; r < 2; ++r) rays[r] = {Eigen::Rotation2Dd(r == 0 ? angle : -angle) * own, slope};
+    predicted.storey->structure->cast({predicted.sensor_I.x(), predicted.sensor_I.y(), z}, rays,
+                                      (block.range[k] + cast_beyond_m) * std::sqrt(1.0 + slope * slope), hits);
+    for (std::size_t r = 0; r < 2; ++r) {
+      if (hits[r].element < 0 || !hits[r].upright) continue;
+      const double across = hits[r].n.dot(own), ratio = hits[r].n.dot(rays[r].direction) / across;
+      if (std::abs(across) < along_face || ratio <= 0.0) continue;
+      PredictedBlock face;
+      face.expected[k] = static_cast<float>(ratio * hits[r].distance);
+      face.incidence[k] = std::max(static_cast<float>(std::abs(across)), static_cast<float>(config.min_incidence));
+      best[k] = std::min(best[k], cost(block.range, face, config)[k]);
+    }
+  }
+  return best;
+}
+
 /// Cost of the beams of block i, each by the best prediction among it and its neighbours on the ring.
 Float4 beam_cost(const LocalizationScan& scan, const PredictedScan& predicted, std::size_t i,
                  const HypothesisComparisonConfig& config) {
@@ -124,18 +169,22 @@ Float4 beam_cost(const LocalizationScan& scan, const PredictedScan& predicted, s
   const Float4 range = scan.beam_grid.blocks[i].range;
   // A beam that passes an edge, as a baluster's, passes it at the distance expected.
   const Float4 expected = predicted.blocks[i].expected, nearer = choose(expected < range, expected, range);
-  const Float4 most = choose(range > 0.0F, edge_tolerance_columns(nearer, columns, config), all(0.0F));
+  const Float4 most =
+      choose(range > 0.0F, edge_tolerance_columns(nearer, scan.beam_grid.blocks[i], columns, config), all(0.0F));
   Float4 best = cost(range, predicted.blocks[i], config);
   for (int shift = 1;; ++shift) {
     const Mask4 near = most >= static_cast<float>(shift);
     if (lanes(near) == 0) break;
-    const int before = column - shift, after = column + shift;
-    for (const int neighbour : {before < 0 ? before + columns : before, after >= columns ? after - columns : after}) {
-      const auto k = static_cast<std::size_t>(first + neighbour);
-      const Float4 other = cost(range, predicted.blocks[k], config);
+    const auto on_ring = [&](int of_ring) { return static_cast<std::size_t>(first + (of_ring + columns) % columns); };
+    for (const int side : {-1, 1}) {
+      const std::size_t k = on_ring(column + side * shift);
+      PredictedBlock there = predicted.blocks[k];
+      there.expected = extended(there, predicted.blocks[on_ring(column + side * (shift + 1))], shift);
+      const Float4 other = cost(range, there, config);
       best = choose(near & (scan.beam_grid.blocks[k].range > 0.0F) & (other < best), other, best);
     }
   }
+  best = cost_beside(scan, predicted, scan.beam_grid.blocks[i], most, best, config);
   if (scan.tilt_sigma > 0.0) best = tilted_cost(scan, predicted, scan.beam_grid.blocks[i], best, config);
   return predicted.cost[i] = best;
 }

@@ -119,8 +119,27 @@ std::vector<Beam> pick_beams(const DeskewedScan& scan, const LocalizationScan& o
   return beams;
 }
 
+/// Mean velocity of the sensor in R during the scan, by how much the ranges to the sensor at the stamp differ from
+/// those measured, m/s; zero where returns have no times.
+Eigen::Vector3d velocity_during(const DeskewedScan& scan) {
+  Eigen::Matrix3d H = 1e-9 * Eigen::Matrix3d::Identity();
+  Eigen::Vector3d g = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < scan.time_s.size(); ++i) {
+    if (scan.range_m[i] <= 0.0) continue;
+    const Eigen::Vector3d ray_R = scan.point_R[i] - scan.X_RL.t;
+    const double range = ray_R.norm();
+    if (range <= 0.0) continue;
+    const Eigen::Vector3d J = static_cast<double>(scan.time_s[i]) / range * ray_R;
+    H += J * J.transpose();
+    g += J * (range - scan.range_m[i]);
+  }
+  const Eigen::Vector3d v = H.ldlt().solve(g);
+  return v.allFinite() ? v : Eigen::Vector3d::Zero();
+}
+
 BeamGrid make_beam_grid(const DeskewedScan& scan, const LocalizationScan& out, const LocalizationScanConfig& config) {
   constexpr int wide = 4;
+  const Eigen::Vector2d v_H = (out.q_HR * velocity_during(scan)).head<2>();
   const SlotLayout layout = layout_of(scan);
   BeamGrid grid{std::min(config.grid_columns, layout.columns), {}};
   const int rings = std::min(config.grid_rings, layout.rings);
@@ -138,6 +157,9 @@ BeamGrid make_beam_grid(const DeskewedScan& scan, const LocalizationScan& out, c
         block.y[k] = static_cast<float>(beam->direction_H.y());
         block.range[k] = static_cast<float>(beam->range);
         block.slope[k] = static_cast<float>(beam->slope);
+        if (scan.time_s.empty()) continue;
+        const Eigen::Vector2d& d = beam->direction_H;
+        block.aside[k] = static_cast<float>(std::abs((d.x() * v_H.y() - d.y() * v_H.x()) * scan.time_s[i]));
       }
     }
   return grid;

@@ -65,6 +65,7 @@ struct BeamGridBlock {
   Float4 x = all(1.0F), y = all(0.0F);  ///< unit directions in H
   Float4 range = all(0.0F);             ///< horizontal, m; 0: no return
   Float4 slope = all(0.0F);             ///< rise per horizontal metre
+  Float4 aside = all(0.0F);             ///< how far beside the line to the sensor at the stamp the beam began, m
 };
 
 /// Returns spread evenly over turn and rings.

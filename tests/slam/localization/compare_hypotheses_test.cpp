@@ -116,6 +116,21 @@ TEST_P(CompareHypothesesAt, APostNearByIsNoEvidenceForAPoseTwoCentimetresAside) 
     EXPECT_LT(compare_hypotheses(scan, predicted_at(0.0), predicted_at(aside_m), {}).ratio, 0.5) << aside_m;
 }
 
+// Beside the edge of a jamb near by, ranges to a wall seen at a grazing angle differ by half a metre from beam to beam.
+TEST(CompareHypotheses, AJambBeforeAGrazingWallIsNoEvidenceForAPoseTwoCentimetresAside) {
+  synthetic::House house = synthetic::one_room(12.0, 4.0);
+  house.boxes.push_back({{1.6, 0.2, 0.0}, {1.8, 0.86, 2.8}});
+  const Pose X_WR = Pose::from_xyz_yaw({1.0, 1.0, 0.46}, 0.3);
+  const PlanIndex index = make_plan_index(synthetic::plan_of(house), "ground", {});
+  const LocalizationScan scan = synthetic::house_scan(house, X_WR, Pose{}, 9).scan;
+  const auto predicted_at = [&](double aside_m) {
+    const Pose X = Pose::from_xyz_yaw(X_WR.t + Eigen::Vector3d(0.0, aside_m, 0.0), X_WR.yaw());
+    return predict_scan(index.storeys.front(), heading(index.X_WI.inverse() * X), scan, {});
+  };
+  for (const double aside_m : {-0.02, 0.02})
+    EXPECT_LT(compare_hypotheses(scan, predicted_at(0.0), predicted_at(aside_m), {}).ratio, 0.5) << aside_m;
+}
+
 TEST_P(CompareHypothesesAt, AWallThatStandsOutByTenCentimetresIsEvidence) {
   synthetic::House house = twins_;
   house.boxes.push_back({{4.9, 1.2, 0.0}, {5.0, 2.8, 2.8}});
