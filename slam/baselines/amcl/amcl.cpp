@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slam/baselines/amcl/amcl.h"
 
-#include "slam/particles/pose_clusters.h"
+#include "slam/baselines/amcl/amcl_convergence.h"
 
 namespace plumbline::slam {
 
@@ -12,7 +12,8 @@ class Amcl final : public PlanMethod {
   Amcl(const MethodInput& input, const AmclConfig& config)
       : PlanMethod("amcl", input, config.plan, config.map),
         config_(config),
-        filter_(config.filter, config.field, index(), input.seed) {
+        filter_(config.filter, config.field, index(), input.seed),
+        convergence_(config.filter) {
     clusters_.bin_m = config.filter.bin_m;
     clusters_.yaw_bins = config.filter.yaw_bins;
     clusters_.bin_share = 0.0;
@@ -20,10 +21,11 @@ class Amcl final : public PlanMethod {
 
  private:
   [[nodiscard]] PlanBelief update(const PlanScan& scan, Output& output) override;
-  [[nodiscard]] PlanBelief belief(const Eigen::Quaterniond& q_HR);
+  [[nodiscard]] PlanBelief belief(const PlanScan& scan);
 
   AmclConfig config_;
   AmclFilter filter_;
+  AmclConvergence convergence_;
   PoseClusterConfig clusters_;
   bool has_seen_ = false;
 };
@@ -41,20 +43,21 @@ PlanBelief Amcl::update(const PlanScan& scan, Output& output) {
   output.digests.push_back({"likelihood", digest_of(filter_.particles())});
   record_stage("likelihood", stopwatch, output);
   if (scan.tick % static_cast<std::uint64_t>(config_.filter.resample_interval) == 0) filter_.resample(scan.tick);
-  PlanBelief belief_now = belief(scan.q_HR);
+  PlanBelief belief_now = belief(scan);
   output.digests.push_back({"resample", digest_of(belief_now.particles)});
   record_stage("resample", stopwatch, output);
   return belief_now;
 }
 
-PlanBelief Amcl::belief(const Eigen::Quaterniond& q_HR) {
+PlanBelief Amcl::belief(const PlanScan& scan) {
   PlanBelief belief;
   belief.particles = filter_.particles();
   const Clustering clustering = find_clusters(belief.particles, clusters_);
   for (const PoseCluster& cluster : clustering.clusters)
     belief.hypotheses.push_back(
-        {cluster.mass, cluster.storey, pose_on_floor(cluster.storey, cluster.mean, q_HR), cluster.covariance});
-  if (!has_seen_ || !filter_.converged()) return belief;
+        {cluster.mass, cluster.storey, pose_on_floor(cluster.storey, cluster.mean, scan.q_HR), cluster.covariance});
+  if (has_seen_) convergence_.update(belief.particles, clustering, scan.u);
+  if (!convergence_.converged()) return belief;
   belief.state = State::converged;
   belief.hypotheses.front().covariance = moments_of(belief.particles).covariance;
   belief.X_IR = belief.hypotheses.front().X_IR;

@@ -35,8 +35,8 @@ struct AmclTunedConfig : AmclConfig {
 /// Adaptive Monte Carlo localization as nav2 does it, on the slice of the plan that an occupancy grid would be: planar
 /// scans cut from the LiDAR's, a likelihood field, KLD sampling. It starts uniform over free space. Its answer is the
 /// mean of the heaviest cluster with the covariance of the whole set; CONVERGED as long as filter.converged_by says so,
-/// SEARCHING otherwise, and never LOST, since AMCL has no such state. Throws InputError when there is no plan, no such
-/// storey, or no room in it.
+/// SEARCHING otherwise, and never LOST. These states are ours: nav2 has none. Throws InputError when there is no plan,
+/// no such storey, or no room in it.
 [[nodiscard]] std::unique_ptr<Method> make_amcl(const MethodInput& input, const AmclConfig& config = {});
 
 }  // namespace plumbline::slam

@@ -151,34 +151,4 @@ void AmclFilter::resample(std::uint64_t tick) {
   particles_ = std::move(drawn);
 }
 
-bool AmclFilter::converged() const {
-  const SetMoments moments = moments_of(particles_);
-  const bool one_storey = std::all_of(particles_.begin(), particles_.end(), [&](const LocalParticle& particle) {
-    return particle.storey == particles_.front().storey;
-  });
-  if (config_.converged_by == ConvergedBy::covariance)
-    return one_storey &&
-           moments.covariance.diagonal().head<2>().maxCoeff() <= config_.converged_sigma_m * config_.converged_sigma_m;
-  return one_storey && std::all_of(particles_.begin(), particles_.end(), [&](const LocalParticle& particle) {
-           return (particle.X_IH.t - moments.mean.t).cwiseAbs().maxCoeff() <= config_.converged_m;
-         });
-}
-
-SetMoments moments_of(const ParticleSet& particles) {
-  SetMoments moments;
-  double c = 0.0, s = 0.0;
-  for (const LocalParticle& particle : particles) {
-    moments.mean.t += particle.weight * particle.X_IH.t;
-    c += particle.weight * std::cos(particle.X_IH.yaw);
-    s += particle.weight * std::sin(particle.X_IH.yaw);
-  }
-  moments.mean.yaw = std::atan2(s, c);
-  for (const LocalParticle& particle : particles) {
-    Eigen::Vector3d e;
-    e << particle.X_IH.t - moments.mean.t, wrap_angle(particle.X_IH.yaw - moments.mean.yaw);
-    moments.covariance += particle.weight * e * e.transpose();
-  }
-  return moments;
-}
-
 }  // namespace plumbline::slam

@@ -17,13 +17,15 @@ enum class BeamModel { likelihood_field, likelihood_field_prob };
 [[nodiscard]] constexpr std::array<std::string_view, 2> names_of(BeamModel) {
   return {"likelihood_field", "likelihood_field_prob"};
 }
-/// What counts as one answer: nav2's own flag, every particle within converged_m of the mean in x and in y; or the
-/// covariance it publishes, as its users judge it: standard deviations of the set in x and in y of at most
-/// converged_sigma_m.
-enum class ConvergedBy { particles, covariance };
-[[nodiscard]] constexpr std::array<std::string_view, 2> names_of(ConvergedBy) { return {"particles", "covariance"}; }
+/// What counts as one answer. particles: nav2's own flag, every one within converged_m of the mean in x and in y.
+/// covariance: standard deviations of the whole set in x and in y of at most converged_sigma_m. cluster: the heaviest
+/// cluster, whose mean nav2 publishes, has nearly all of the mass and such deviations itself.
+enum class ConvergedBy { particles, covariance, cluster };
+[[nodiscard]] constexpr std::array<std::string_view, 3> names_of(ConvergedBy) {
+  return {"particles", "covariance", "cluster"};
+}
 
-/// Defaults: those of nav2's node [amcl2026].
+/// Defaults: those of nav2's node [amcl2026]. nav2 has no state, so what makes one here is assumed.
 struct AmclFilterConfig {
   double alpha1 = 0.2;
   double alpha2 = 0.2;
@@ -44,9 +46,11 @@ struct AmclFilterConfig {
   int resample_interval = 1;
   double bin_m = 0.5;
   int yaw_bins = 36;
-  ConvergedBy converged_by = ConvergedBy::covariance;
+  ConvergedBy converged_by = ConvergedBy::cluster;
   double converged_m = 0.5;
-  double converged_sigma_m = 0.25;
+  double converged_sigma_m = 0.5;
+  double converged_mass = 0.95;
+  double given_up_mass = 0.8;
 
   template <class V>
   void visit(V& v) {
@@ -82,12 +86,16 @@ struct AmclFilterConfig {
     v("bin_m", bin_m, Field{.doc = "bin size of the histogram that KLD sampling counts", .min = 0.05});
     v("yaw_bins", yaw_bins, Field{.doc = "yaw bins of a full turn in that histogram", .min = 4, .max = 3600});
     v("converged_by", converged_by,
-      Field{.doc = "convergence test: nav2's own flag, which the other defaults never raise, or the covariance"});
+      Field{.doc = "convergence test: nav2's own flag, which the other defaults never raise, the covariance of all "
+                   "particles, or the heaviest cluster"});
     v("converged_m", converged_m,
       Field{.doc = "largest distance of any particle from the mean, in x and in y, that counts as converged",
             .min = 0});
     v("converged_sigma_m", converged_sigma_m,
-      Field{.doc = "largest standard deviation in x and in y that counts as converged", .min = 0});
+      Field{.doc = "largest standard deviation in x and in y that counts as converged; assumed", .min = 0});
+    v("converged_mass", converged_mass,
+      share_field("least mass of the heaviest cluster that counts as converged; assumed"));
+    v("given_up_mass", given_up_mass, share_field("mass of that cluster below which it is given up again; assumed"));
   }
 };
 
@@ -112,8 +120,6 @@ class AmclFilter {
 
   [[nodiscard]] bool started() const { return !particles_.empty(); }
   [[nodiscard]] const ParticleSet& particles() const { return particles_; }
-  /// One answer, on one storey, by ConvergedBy; yaw does not count.
-  [[nodiscard]] bool converged() const;
   /// Share of uniform poses that the next resampling draws [thrun2005, section 8.3.3].
   [[nodiscard]] double random_share() const;
   /// Likelihood of a slice at a pose; 1 without beams.
@@ -131,12 +137,5 @@ class AmclFilter {
   double yaw_sigma_ = 0.0;
   double w_slow_ = 0.0, w_fast_ = 0.0;
 };
-
-/// Mean and covariance of (x, y, yaw) of a whole set, weights as they are; yaw is the circular mean.
-struct SetMoments {
-  Pose2 mean;
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-};
-[[nodiscard]] SetMoments moments_of(const ParticleSet& particles);
 
 }  // namespace plumbline::slam

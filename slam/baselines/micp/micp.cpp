@@ -21,6 +21,7 @@ struct Track {
   Pose X_IR;
   double inliers = 0.0;
   double evidence = 0.0;  ///< log-likelihood; only differences mean something
+  Pose correction;        ///< from where odometry put the robot at the last scan to where the beams did
 };
 
 /// A start and the mean error of the level ranges there.
@@ -133,10 +134,10 @@ void Micp::start(const PlanScan& scan, const MeshBeams& beams) {
   if (config_.start.given) {
     const MicpStart& given = config_.start;
     const Pose2 X_WH{{given.x_m, given.y_m}, wrap_angle(given.yaw_deg * pi / 180.0)};
-    first.push_back({0, pose_on_floor(0, heading(index().X_WI).inverse() * X_WH, scan.q_HR), 0.0, 0.0});
+    first.push_back({0, pose_on_floor(0, heading(index().X_WI).inverse() * X_WH, scan.q_HR), 0.0, 0.0, {}});
   } else {
     for (const Start& start : starts(scan)) {
-      const Track track{start.storey, pose_on_floor(start.storey, start.X_IH, scan.q_HR), 0.0, 0.0};
+      const Track track{start.storey, pose_on_floor(start.storey, start.X_IH, scan.q_HR), 0.0, 0.0, {}};
       const auto same = [&](const Track& other) { return near(track, other, config_.gap_m, config_.gap_rad); };
       if (std::none_of(first.begin(), first.end(), same)) first.push_back(track);
       if (static_cast<int>(first.size()) >= 2 * config_.candidates) break;
@@ -145,7 +146,8 @@ void Micp::start(const PlanScan& scan, const MeshBeams& beams) {
   for (Track& track : first) {
     const MeshCorrection correction = correctors_[static_cast<std::size_t>(track.storey)].correct(
         beams, track.X_IR, config_.start_casts, config_.correct.max_distance_m);
-    track = {track.storey, correction.X_IR, correction.inliers, -config_.evidence_rays * correction.cost};
+    track = {track.storey, correction.X_IR, correction.inliers, -config_.evidence_rays * correction.cost,
+             track.X_IR.inverse() * correction.X_IR};
   }
   tracks_ = std::move(first);
   prune_and_merge();
@@ -157,12 +159,14 @@ void Micp::track_hypotheses(const PlanScan& scan, const MeshBeams& beams) {
   const Pose u = X_OR_last_.inverse() * scan.X_OR;
   for (Track& track : tracks_) {
     track.X_IR = track.X_IR * u;
+    track.correction = {};
     if (static_cast<int>(beams.ends_R.size()) < min_beams) {
       track.inliers = 0.0;
       continue;
     }
     const MeshCorrection correction = correctors_[static_cast<std::size_t>(track.storey)].correct(
         beams, track.X_IR, config_.casts, config_.track_distance_m);
+    track.correction = track.X_IR.inverse() * correction.X_IR;
     track.X_IR = correction.X_IR;
     track.inliers = correction.inliers;
     track.evidence -= config_.evidence_rays * correction.cost;
@@ -190,11 +194,9 @@ PlanBelief Micp::belief() const {
   if (tracks_.empty()) return belief;
   double sum = 0.0;
   for (const Track& track : tracks_) sum += std::exp(track.evidence - tracks_.front().evidence);
-  // MICP-L publishes a covariance that is a parameter: 0.01 m and rad.
-  const Eigen::Matrix3d covariance = 0.01 * 0.01 * Eigen::Matrix3d::Identity();
   for (const Track& track : tracks_)
-    belief.hypotheses.push_back(
-        {std::exp(track.evidence - tracks_.front().evidence) / sum, track.storey, track.X_IR, covariance});
+    belief.hypotheses.push_back({std::exp(track.evidence - tracks_.front().evidence) / sum, track.storey, track.X_IR,
+                                 micp_covariance(track.correction, track.inliers, config_.pose_noise)});
   belief.state = bad_scans_ >= config_.lost_updates ? State::lost : was_single_ ? State::converged : State::ambiguous;
   if (was_single_) belief.X_IR = tracks_.front().X_IR;
   return belief;
@@ -218,6 +220,12 @@ PlanBelief Micp::update(const PlanScan& scan, Output& output) {
 }
 
 }  // namespace
+
+Eigen::Matrix3d micp_covariance(const Pose& correction, double inliers, double pose_noise) {
+  const double progress = std::exp(-10.0 * correction.t.norm()) * correction.q.w() * correction.q.w() * inliers;
+  const double variance = 1.0 - progress + pose_noise;
+  return Eigen::Vector3d(variance, variance, 0.25 * variance).asDiagonal();
+}
 
 std::unique_ptr<Method> make_micp(const MethodInput& input, const MicpConfig& config) {
   return std::make_unique<Micp>(input, config);

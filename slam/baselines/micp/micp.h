@@ -26,6 +26,11 @@ struct MicpStart {
   }
 };
 
+/// Covariance of (x, y, yaw) that MICP-L publishes: (1 - progress + pose_noise) for each coordinate of the position, in
+/// m^2, and a quarter of that for each angle. Progress is that of the correction in which a scan ended: the share of
+/// beams that agree, less for a shift or a turn.
+[[nodiscard]] Eigen::Matrix3d micp_covariance(const Pose& correction, double inliers, double pose_noise);
+
 struct MicpConfig {
   MicpStart start;
   double grid_m = 0.5;
@@ -40,6 +45,7 @@ struct MicpConfig {
   double drop_ratio = 10.0;
   double lost_inliers = 0.5;
   int lost_updates = 8;
+  double pose_noise = 0.01;
   ScanSliceConfig slice{.min_height_m = 0.5, .max_height_m = 0.9};
   MeshCorrectConfig correct;
   PlanMethodConfig plan{{.update_m = 0.1, .update_rad = 0.1}};
@@ -70,6 +76,10 @@ struct MicpConfig {
     v("lost_inliers", lost_inliers, share_field("share of agreeing beams below which a scan does not fit"));
     v("lost_updates", lost_updates,
       Field{.doc = "scans in a row without a fit after which the state is LOST", .min = 1});
+    v("pose_noise", pose_noise,
+      Field{.doc = "least variance of a coordinate of the position; a quarter of it for angles",
+            .unit = "m²",
+            .min = 1e-12});
     v("slice", slice);
     v("correct", correct);
     v("plan", plan);
@@ -80,7 +90,8 @@ struct MicpConfig {
 /// Mesh ICP: the pose is corrected so that beams cast in the plan agree with what was measured, in the style of MICP-L,
 /// from the start that is given. Where none is, level ranges of a grid over the rooms are compared with the scan's, the
 /// best poses are corrected and tracked side by side, AMBIGUOUS until the beams have ruled out all but one. LOST while
-/// the beams of scan after scan do not fit; nothing is searched for again. Throws InputError when there is no plan, no
+/// the beams of scan after scan do not fit; nothing is searched for again. Its covariance is MICP-L's: wide while
+/// corrections are large or beams do not agree. Throws InputError when there is no plan, no
 /// such storey, or no room in it.
 [[nodiscard]] std::unique_ptr<Method> make_micp(const MethodInput& input, const MicpConfig& config = {});
 

@@ -12,16 +12,17 @@
 
 namespace plumbline::slam {
 
-/// Defaults of resolution, neighbours and epsilon: those of hdl_localization [koide2019].
+/// Resolution, neighbours and thinning are hdl_localization's [koide2019]. Its epsilon of 0.01 is not: steps here are
+/// damped, so that a short one does not mean that the optimum is near.
 struct NdtConfig {
   double resolution_m = 1.0;
   double sample_m = 0.1;
-  double scan_voxel_m = 0.3;
+  double scan_voxel_m = 0.1;
   double min_range_m = 0.5;
   double max_range_m = 25.0;
   double outlier_ratio = 0.55;
-  int max_iterations = 30;
-  double epsilon = 0.01;
+  int max_iterations = 100;
+  double epsilon = 1e-4;
   double inlier_sigmas = 3.0;
   int max_voxels = 4'000'000;
 

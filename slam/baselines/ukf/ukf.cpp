@@ -14,8 +14,7 @@ namespace {
 using Eigen::VectorXd;
 
 // Position, velocity, quaternion (w, x, y, z), accelerometer and gyroscope bias.
-constexpr Eigen::Index p_at = 0, v_at = 3, q_at = 6, a_at = 10, g_at = 13, states = 16;
-constexpr double gravity = 9.80665;
+constexpr Eigen::Index p_at = 0, v_at = 3, q_at = 6, g_at = 13, states = 16;
 constexpr int min_points = 50;                     // of a scan that is used
 constexpr int min_ends = 30;                       // of a slice that is searched for
 constexpr Nanoseconds longest_step = 200'000'000;  // without IMU records the last are no guide
@@ -106,14 +105,13 @@ void Ukf::advance(Nanoseconds stamp, const Imu& imu) {
     drift(seconds(step));
 }
 
+/// By the gyro alone: the reference's accelerations are too noisy to help, so the velocity stays.
 void Ukf::predict(const Imu& imu, double dt) {
   filter_->predict(
       [&](const VectorXd& x) {
         VectorXd next = x;
         const Eigen::Quaterniond q = attitude(x);
         next.segment<3>(p_at) += dt * x.segment<3>(v_at);
-        next.segment<3>(v_at) +=
-            dt * (q * (imu.linear_acceleration_R - x.segment<3>(a_at)) - Eigen::Vector3d(0.0, 0.0, gravity));
         set_attitude(next, q * exp_so3(dt * (imu.angular_velocity_R - x.segment<3>(g_at))));
         return next;
       },

@@ -14,7 +14,7 @@ namespace plumbline::slam {
 
 /// The paper gives none of these numbers.
 struct PaperFilterConfig {
-  int particles = 4000;
+  int particles = 20000;
   double sigma_azimuth = 0.08;
   double sigma_elevation = 0.08;
   double sigma_offset_m = 0.25;

@@ -42,7 +42,11 @@ struct PaperSwitches {
     v("rooms", rooms,
       Field{.doc = "topological factor: match only against walls of the room a particle is in", .basic = true});
     v("increment", increment, Field{.doc = "eq. 5: x_t^-1 x_t-1; corrected: its inverse"});
-    v("weight", weight, Field{.doc = "eq. 8-9: signed, variance multiplies; corrected: squared, divided by it"});
+    // The factors of a scan's planes multiply either way.
+    v("weight", weight,
+      Field{.doc =
+                "eq. 8-9: signed, variance multiplies, mu of one dimension; corrected: Gaussian of three dimensions, "
+                "squared, divided by variances, with its determinant for mu"});
     v("planes", planes, Field{.doc = "dropped observations cost nothing; corrected: every plane counts, as a mixture"});
     v("faces", faces, Field{.doc = "eq. 2: second face (-n, d + T); corrected: where it is"});
     v("form", form, Field{.doc = "eq. 3: closest point, which has no side; corrected: normal towards the sensor"});

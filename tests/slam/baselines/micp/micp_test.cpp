@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "bim/errors.h"
 #include "tests/slam/baselines/plan_walk.h"
 #include "tests/slam/localization/house_plan.h"
@@ -43,6 +45,29 @@ TEST(Micp, IsLostWhereBeamsDoNotFit) {
   const auto answers = localize("micp", recording, synthetic::plan_of(synthetic::one_room(30.0, 25.0)), true,
                                 "lost_updates: 3\nplan: {update_m: 0}\nstart: {given: true, x_m: 15, y_m: 12}");
   EXPECT_EQ(answers.outputs.back().state, State::lost);
+}
+
+// variance = 1 - exp(-10 |t|) cos^2(angle / 2) inliers + pose_noise, a quarter of it for the yaw.
+TEST(Micp, CovarianceIsTheReferencesOwn) {
+  const Eigen::Matrix3d still = micp_covariance({}, 1.0, 0.01);
+  EXPECT_NEAR(still(0, 0), 0.01, 1e-12);
+  EXPECT_NEAR(still(1, 1), 0.01, 1e-12);
+  EXPECT_NEAR(still(2, 2), 0.0025, 1e-12);
+  EXPECT_EQ(still(0, 1), 0.0);
+  EXPECT_NEAR(micp_covariance({}, 0.7, 0.01)(0, 0), 0.31, 1e-12);
+  const Pose shift{Eigen::Quaterniond::Identity(), {0.0, 0.1, 0.0}};
+  EXPECT_NEAR(micp_covariance(shift, 1.0, 0.01)(0, 0), 1.01 - std::exp(-1.0), 1e-12);
+  const Pose turn{exp_so3({0.0, 0.0, 1.0}), Eigen::Vector3d::Zero()};
+  EXPECT_NEAR(micp_covariance(turn, 1.0, 0.01)(0, 0), 1.01 - std::pow(std::cos(0.5), 2), 1e-12);
+}
+
+TEST(Micp, CovarianceOfATrackIsThatOfItsCorrection) {
+  const synthetic::Recording recording = synthetic::biased_walk(4.0);
+  const auto answers = localize("micp", recording, synthetic::plan_of(synthetic::corridor_house()), true);
+  const Eigen::Matrix3d& P = answers.outputs.back().hypotheses.front().covariance;
+  EXPECT_GT(P(0, 0), 0.01) << "the noise of a pose";
+  EXPECT_LT(P(0, 0), 0.6) << "beams agree and corrections are centimetres";
+  EXPECT_DOUBLE_EQ(P(2, 2), 0.25 * P(0, 0));
 }
 
 TEST(Micp, SaysWhatIsMissing) { EXPECT_THROW(static_cast<void>(make_micp({})), InputError); }

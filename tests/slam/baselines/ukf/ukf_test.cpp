@@ -26,6 +26,23 @@ TEST(Ukf, StartsBySearchAndTracks) {
   }
 }
 
+/// Position error of a walk's answers, m rms.
+double rms(const synthetic::PlanWalkAnswers& answers, const synthetic::Recording& recording) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < answers.outputs.size(); ++i)
+    sum += (answers.outputs[i].X_FR.value().t - recording.truth[i].X_FR.t).squaredNorm();
+  return std::sqrt(sum / static_cast<double>(answers.outputs.size()));
+}
+
+// Through a door and round a room: a registration that stops early leaves the velocity of before the turn.
+TEST(Ukf, HoldsConstantVelocityThroughTurns) {
+  const synthetic::Recording recording = synthetic::biased_walk(12.0);
+  const bim::Plan plan = synthetic::plan_of(synthetic::corridor_house());
+  const auto answers = synthetic::localize("ukf", recording, plan, true, "motion: constant_velocity");
+  EXPECT_LT(rms(answers, recording), 0.10);
+  EXPECT_EQ(answers.outputs.back().state, State::converged);
+}
+
 /// An IMU without errors at 100 Hz, up to a time, s.
 std::vector<Imu> imu_of_walk(double until) {
   constexpr double h = 1e-3;
