@@ -6,45 +6,19 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <optional>
+#include <set>
 #include <tuple>
+#include <utility>
 
 #include "bim/geometry/polygon_boolean.h"
+#include "bim/model/body_section.h"
 #include "bim/model/boxes.h"
 #include "bim/model/hull.h"
+#include "bim/model/upward_faces.h"
 #include "bim/model/wall_face.h"
 
 namespace plumbline::bim {
 namespace {
-
-/// Faces of one plane, seen from above.
-struct Face {
-  double z0_m = 0.0;
-  Eigen::Vector2d slope = Eigen::Vector2d::Zero();
-  std::vector<Polygon2> triangles;
-};
-
-/// Upward faces of a body by plane: slope to a grid of 0.002, heights to 2 mm.
-std::vector<Face> upward_faces(const Solid& body, const FloorConfig& config) {
-  constexpr double grid = 2e-3;
-  std::map<std::array<std::int64_t, 3>, Face> planes;
-  for (const Eigen::Vector3i& t : body.triangles) {
-    const auto p = [&](int k) -> const Eigen::Vector3d& { return body.vertices[static_cast<std::size_t>(t[k])]; };
-    const Eigen::Vector3d n = (p(1) - p(0)).cross(p(2) - p(0));
-    if (!(n.z() > 0.0) || n.head<2>().norm() > config.steepest * n.z()) continue;
-    Eigen::Vector2d slope = -n.head<2>() / n.z();
-    if (slope.norm() <= config.level) slope.setZero();
-    const Eigen::Vector3d middle = (p(0) + p(1) + p(2)) / 3.0;
-    const double z0 = middle.z() - slope.dot(middle.head<2>());
-    const auto cell = [&](double v) { return static_cast<std::int64_t>(std::llround(v / grid)); };
-    Face& face = planes[{cell(slope.x()), cell(slope.y()), cell(z0)}];
-    if (face.triangles.empty()) face = {z0, slope, {}};
-    face.triangles.push_back({p(0).head<2>(), p(1).head<2>(), p(2).head<2>()});
-  }
-  std::vector<Face> faces;
-  for (auto& [key, face] : planes) faces.push_back(std::move(face));
-  return faces;
-}
 
 /// Everything in the box where a + b.p > 0, as a polygon; empty where that is nowhere.
 Polygon2 half_plane(const Eigen::AlignedBox2d& box, double a, const Eigen::Vector2d& b) {
@@ -84,6 +58,20 @@ Region2 less(const Region2& region, const Region2& cut) {
   return rest;
 }
 
+/// Whether a side of one of two convex polygons, counter-clockwise, parts them.
+bool part(const Polygon2& one, const Polygon2& other) {
+  constexpr double depth_m = 1e-6;  // less is no area on the grid of the booleans
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    const Eigen::Vector2d side = one[(i + 1) % one.size()] - one[i];
+    const Eigen::Vector2d out = Eigen::Vector2d(side.y(), -side.x()).normalized();
+    if (std::all_of(other.begin(), other.end(), [&](const auto& p) { return out.dot(p - one[i]) >= -depth_m; }))
+      return true;
+  }
+  return false;
+}
+
+constexpr double same_m = 1e-3;  ///< heights this close are one
+
 class Floors {
  public:
   Floors(const Building& building, const FloorConfig& config) : building_(building), config_(config) {}
@@ -91,14 +79,15 @@ class Floors {
   std::vector<FloorPiece> find() {
     for (std::size_t i = 0; i < building_.slabs.size(); ++i) {
       const Slab& slab = building_.slabs[i];
+      const auto element = static_cast<int>(i);
       if (slab.body)
-        add_body(FloorSource::slab, static_cast<int>(i), *slab.body, slab.z0_m);
+        add_body(FloorSource::slab, element, *slab.body);
       else
-        add(FloorSource::slab, static_cast<int>(i), slab.polygon, slab.z1_m, Eigen::Vector2d::Zero(), slab.z0_m);
+        add(FloorSource::slab, element, slab.polygon, {slab.z1_m, Eigen::Vector2d::Zero(), slab.z1_m, {}});
     }
     for (std::size_t i = 0; i < building_.obstacles.size(); ++i)
       if (building_.obstacles[i].kind == "ramp" || building_.obstacles[i].kind == "footing")
-        add_body(FloorSource::obstacle, static_cast<int>(i), building_.obstacles[i].body, std::nullopt);
+        add_body(FloorSource::obstacle, static_cast<int>(i), building_.obstacles[i].body);
     cut_covered();
     add_rooms();
     add_within_walls();
@@ -114,41 +103,52 @@ class Floors {
   }
 
  private:
-  void add(FloorSource source, int element, PolygonWithHoles2 polygon, double z0, const Eigen::Vector2d& slope,
-           std::optional<double> under) {
+  void add(FloorSource source, int element, PolygonWithHoles2 polygon, const UpwardFace& face) {
     if (polygon.outer.size() < 3 || area({polygon}) < config_.least_m2) return;
-    FloorPiece piece{source, element, -1, std::move(polygon), z0, slope};
+    FloorPiece piece{source, element, -1, std::move(polygon), face.z0_m, face.slope};
     boxes_.add(piece.polygon.outer);
-    under_.push_back(under);
+    hulls_.push_back(convex_hull(piece.polygon.outer));
+    tops_m_.push_back(face.top_m);
     pieces_.push_back(std::move(piece));
   }
 
-  void add_body(FloorSource source, int element, const Solid& body, std::optional<double> under) {
-    for (const Face& face : upward_faces(body, config_))
-      for (PolygonWithHoles2& polygon : unite(face.triangles))
-        add(source, element, std::move(polygon), face.z0_m, face.slope, under);
+  void add_body(FloorSource source, int element, const Solid& body) {
+    UpwardFaceConfig faces;
+    faces.steepest = config_.steepest;
+    faces.level = config_.level;
+    faces.least_m2 = config_.least_m2;
+    for (const UpwardFace& face : upward_faces(body, faces))
+      for (PolygonWithHoles2& polygon : unite(face.triangles)) add(source, element, std::move(polygon), face);
   }
 
-  /// Where b hides a: too little headroom under b, or a within the body whose top b is.
-  [[nodiscard]] Region2 hidden_by(const FloorPiece& a, const FloorPiece& b,
-                                  const std::optional<double>& b_under) const {
-    constexpr double same_m = 1e-3;
+  /// Where b hides a: too little headroom under b.
+  [[nodiscard]] Region2 hidden_by(const FloorPiece& a, const FloorPiece& b) const {
     const double dz = b.z0_m - a.z0_m;
     const Eigen::Vector2d dslope = b.slope - a.slope;
-    const bool inside = b_under && *b_under <= a.z0_m + same_m && a.slope.isZero(0.0);
-    if (dslope.isZero(0.0)) {
-      if (dz <= same_m || (dz >= config_.headroom_m && !inside)) return {};
-      return region_of(b.polygon);
-    }
-    Eigen::AlignedBox2d box = box_of(b.polygon.outer);
-    Region2 hidden = region_of(b.polygon);
+    if (dslope.isZero(0.0)) return dz > same_m && dz < config_.headroom_m ? region_of(b.polygon) : Region2{};
+    const Eigen::AlignedBox2d box = box_of(b.polygon.outer);
     const Polygon2 above = half_plane(box, dz - same_m, dslope);
-    if (above.empty()) return {};
-    hidden = intersect(hidden, unite(std::vector<Polygon2>{above}));
-    if (inside) return hidden;
     const Polygon2 low = half_plane(box, config_.headroom_m - dz, -dslope);
-    if (low.empty()) return {};
-    return intersect(hidden, unite(std::vector<Polygon2>{low}));
+    if (above.empty() || low.empty()) return {};
+    return intersect(intersect(region_of(b.polygon), unite(std::vector<Polygon2>{above})),
+                     unite(std::vector<Polygon2>{low}));
+  }
+
+  /// The slab that a may lie in: b is its top and higher than headroom above a, and it reaches down to a. -1: none.
+  [[nodiscard]] int may_hold(const FloorPiece& a, const FloorPiece& b) const {
+    if (b.source != FloorSource::slab || !a.slope.isZero(0.0)) return -1;
+    const bool high = std::any_of(b.polygon.outer.begin(), b.polygon.outer.end(),
+                                  [&](const auto& p) { return b.z_at(p) - a.z0_m >= config_.headroom_m; });
+    const bool deep = building_.slabs[static_cast<std::size_t>(b.element)].z0_m <= a.z0_m + same_m;
+    return high && deep ? b.element : -1;
+  }
+
+  /// The material of a slab right above a height, on the plan.
+  const Region2& within(int element, double z_m) {
+    const auto [at, fresh] = sections_.try_emplace({element, z_m});
+    const Slab& slab = building_.slabs[static_cast<std::size_t>(element)];
+    if (fresh) at->second = slab.body ? body_section(*slab.body, z_m + same_m) : region_of(slab.polygon);
+    return at->second;
   }
 
   void cut_covered() {
@@ -157,21 +157,29 @@ class Floors {
       const FloorPiece& a = pieces_[i];
       Region2 region = {a.polygon};
       bool whole = true;
+      std::set<int> holders;
       for (const int k : boxes_.near(a.polygon.outer, 0.0)) {
         const auto j = static_cast<std::size_t>(k);
-        // Of two faces at the same place the first one counts.
-        if (j == i) continue;
+        if (j == i || part(hulls_[i], hulls_[j]) || part(hulls_[j], hulls_[i])) continue;
         const FloorPiece& b = pieces_[j];
-        const bool same = j < i && std::abs(b.z0_m - a.z0_m) <= 1e-3 && (b.slope - a.slope).isZero(0.0);
-        const Region2 hidden = same ? region_of(b.polygon) : hidden_by(a, b, under_[j]);
+        if (const int holder = may_hold(a, b); holder >= 0) holders.insert(holder);
+        // Of two faces at the same place the first one counts.
+        const bool same = j < i && std::abs(b.z0_m - a.z0_m) <= same_m && (b.slope - a.slope).isZero(0.0);
+        const Region2 hidden = same ? region_of(b.polygon) : hidden_by(a, b);
         if (hidden.empty()) continue;
         region = less(region, hidden);
         whole = false;
       }
-      for (PolygonWithHoles2& part : region) {
-        if (!whole && area({part}) < config_.least_m2) continue;
+      for (const int holder : holders) {
+        const Region2& hidden = within(holder, tops_m_[i]);
+        if (hidden.empty()) continue;
+        region = less(region, hidden);
+        whole = false;
+      }
+      for (PolygonWithHoles2& rest_of_a : region) {
+        if (!whole && area({rest_of_a}) < config_.least_m2) continue;
         FloorPiece piece = a;
-        piece.polygon = std::move(part);
+        piece.polygon = std::move(rest_of_a);
         piece.storey = storey_of(piece);
         rest.push_back(std::move(piece));
       }
@@ -256,8 +264,10 @@ class Floors {
   const Building& building_;
   FloorConfig config_;
   std::vector<FloorPiece> pieces_;
-  BoxIndex boxes_;                            ///< of pieces_ before cutting
-  std::vector<std::optional<double>> under_;  ///< underside of the body of each
+  BoxIndex boxes_;                                      ///< of pieces_ before cutting
+  std::vector<Polygon2> hulls_;                         ///< of each of them
+  std::vector<double> tops_m_;                          ///< highest corner of each
+  std::map<std::pair<int, double>, Region2> sections_;  ///< by slab and height
 };
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "bim/geometry/interval.h"
 #include "bim/geometry/polygon_boolean.h"
@@ -141,6 +142,11 @@ int owner_of(const Building& building, const Room& room, double beside_m) {
 }  // namespace
 
 std::vector<Room> infer_rooms(const Building& building, int storey, const RoomInferenceConfig& config) {
+  return infer_rooms(building, storey, floor_pieces(building), config);
+}
+
+std::vector<Room> infer_rooms(const Building& building, int storey, const std::vector<FloorPiece>& all_floors,
+                              const RoomInferenceConfig& config) {
   const Storey& level = building.storeys[static_cast<std::size_t>(storey)];
   if (level.height_m < config.least_height_m) return {};
   const double slice_m = level.elevation_m + config.slice_m;
@@ -161,8 +167,9 @@ std::vector<Room> infer_rooms(const Building& building, int storey, const RoomIn
     }
   }
   add_fronts(building, slice_m, config.closing_m, walls);
-  std::vector<FloorPiece> floors = floor_pieces(building);
-  std::erase_if(floors, [&](const FloorPiece& piece) { return piece.storey != storey; });
+  std::vector<FloorPiece> floors;
+  std::copy_if(all_floors.begin(), all_floors.end(), std::back_inserter(floors),
+               [&](const FloorPiece& piece) { return piece.storey == storey; });
   for (const Wall& wall : walls) footprints.push_back(footprint(grown(wall, config.closing_m)));
   std::vector<Room> rooms;
   for (const PolygonWithHoles2& piece : unite(footprints)) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "bim/model/building.h"
+#include "bim/model/floors.h"
 
 namespace plumbline::bim {
 
@@ -18,7 +19,10 @@ struct RoomInferenceConfig {
 
 /// The regions that the walls of a storey enclose, as rooms with walls and doors left closed: clear outlines, ids made
 /// of the storey's id and a count in canonical order. Of storeys beside each other a room belongs to the one that most
-/// of its walls are on. Open-plan divisions cannot be found.
+/// of its walls are on. Open-plan divisions cannot be found. `floors`: floor_pieces of the building.
+[[nodiscard]] std::vector<Room> infer_rooms(const Building& building, int storey, const std::vector<FloorPiece>& floors,
+                                            const RoomInferenceConfig& config = {});
+/// The same where the floors are not at hand.
 [[nodiscard]] std::vector<Room> infer_rooms(const Building& building, int storey,
                                             const RoomInferenceConfig& config = {});
 

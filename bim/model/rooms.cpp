@@ -33,15 +33,21 @@ double common_height(const Room& room, const Wall& wall, const AdjacencyConfig& 
   return std::min({room.z1_m, room.z0_m + config.walking_m, wall.z1_m}) - std::max(room.z0_m, wall.z0_m);
 }
 
-/// The first of the given rooms that holds the point at the height z, or -1.
+/// The smallest of the given rooms that holds the point at the height z, or -1.
 int room_among(const Building& building, const std::vector<int>& rooms, const Eigen::Vector2d& p, double z,
                const AdjacencyConfig& config) {
+  int smallest = -1;
+  double least_m2 = 0.0;
   for (const int i : rooms) {
     const Room& room = building.rooms[static_cast<std::size_t>(i)];
     const bool at_height = z >= room.z0_m - config.below_floor_m && z <= room.z1_m;
-    if (at_height && contains(room.polygon, p)) return i;
+    if (!at_height || !contains(room.polygon, p)) continue;
+    const double area_m2 = std::abs(signed_area(room.polygon));
+    if (smallest >= 0 && area_m2 >= least_m2) continue;
+    smallest = i;
+    least_m2 = area_m2;
   }
-  return -1;
+  return smallest;
 }
 
 /// Those of the given walls whose sides a room's outline runs along.

@@ -36,14 +36,15 @@ struct AdjacencyConfig {
 /// none when walls cover it whole. `walls`: uncut walls of the same storey.
 [[nodiscard]] std::vector<Polygon2> clear_outlines(const Polygon2& outline, const std::vector<Wall>& walls);
 
-/// The first room that holds a point of the plan at the height above a sill or floor where rooms are looked up, or -1.
+/// The smallest room that holds a point of the plan at the height above a sill or floor where rooms are looked up, or
+/// -1: what stands free in a room lies within its outline. Of equal ones the first.
 [[nodiscard]] int room_at(const Building& building, const Eigen::Vector2d& p, double sill_m,
                           const AdjacencyConfig& config = {});
 
 /// Fills Room::walls of every room that names none.
 void find_room_walls(Building& building, const AdjacencyConfig& config = {});
 /// Fills Opening::rooms of every opening through its wall from the points in front of it on either side; of several
-/// rooms the first.
+/// rooms the smallest.
 void find_opening_rooms(Building& building, const AdjacencyConfig& config = {});
 
 }  // namespace plumbline::bim

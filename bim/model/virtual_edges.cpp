@@ -208,16 +208,22 @@ class EdgeFinder {
   AdjacencyConfig config_;
 };
 
-/// Room of a storey that holds a point, before any other that does.
+/// Smallest room of a storey that holds a point, before any other that does.
 int room_on(const Building& building, int storey, const Eigen::Vector2d& p, double floor_m,
             const AdjacencyConfig& config) {
+  int smallest = -1;
+  double least_m2 = 0.0;
   for (std::size_t i = 0; i < building.rooms.size(); ++i) {
     const Room& room = building.rooms[i];
     const double z = floor_m + config.above_sill_m;
     const bool at_height = z >= room.z0_m - config.below_floor_m && z <= room.z1_m;
-    if (room.storey == storey && at_height && contains(room.polygon, p)) return static_cast<int>(i);
+    if (room.storey != storey || !at_height || !contains(room.polygon, p)) continue;
+    const double area_m2 = std::abs(signed_area(room.polygon));
+    if (smallest >= 0 && area_m2 >= least_m2) continue;
+    smallest = static_cast<int>(i);
+    least_m2 = area_m2;
   }
-  return room_at(building, p, floor_m, config);
+  return smallest >= 0 ? smallest : room_at(building, p, floor_m, config);
 }
 
 /// The first of the points that lies in a room.

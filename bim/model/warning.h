@@ -16,13 +16,14 @@ struct WarningRow {
 };
 
 /// Every kind of warning that a reader or the mesh gives, by name.
-inline constexpr std::array<WarningRow, 66> warning_rows = {{
+inline constexpr std::array<WarningRow, 67> warning_rows = {{
     {"assumed_doorway", "a gap between two walls in line becomes a doorway with a lintel"},
     {"assumed_floor", "the drawing has no floor; everything within the outer walls gets one"},
+    {"assumed_ground", "the ground of the mesh slopes, or as much floor lies below it; its text says what is taken"},
     {"assumed_height", "the file gives no height of the storey; it is taken as 3 m"},
     {"assumed_storey", "the file has no storeys; levels at which walls begin are taken as such"},
     {"assumed_unit", "the file gives no unit of length, or one that cannot be right; its text says what is taken"},
-    {"assumed_up", "the mesh does not say which axis is up; by its extent and its floors it is y"},
+    {"assumed_up", "the mesh does not say which axis is up, and it may not be z; its text says what is taken"},
     {"bad_floor", "the outline of a floor crosses itself or has no area; the floor is left out"},
     {"bent_wall",
      "the body of a wall is bent or hollow on the plan: it becomes a wall for each straight piece, or stays one, of "

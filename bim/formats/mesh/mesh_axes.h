@@ -22,11 +22,19 @@ struct MeshAxesConfig {
   double thinnest_wall_m = 0.05, thickest_wall_m = 0.6;
   double least_floor_share = 0.3;  ///< of the area of the largest floor, from which on a level is a floor
   double least_wall_share = 0.02;  ///< of the faces across an axis, from which on one is of a wall
+  // Which axis is up (all assumed):
+  double least_ground_share = 0.5;  ///< of the largest floor's area that the lowest has
+  double least_cover = 0.95;        ///< share of the plan that floors cover from which on an axis may be up,
+  double better_cover = 0.02;       ///< and so much more than with z up
+  double side_share = 0.15;         ///< of an extent, within which faces close that side
+  double open_share = 0.25;         ///< a side with less of it covered is open
 };
 
 /// Turns the parts to z up and scales them to metres, in place. Y counts as up in formats that say nothing of it and
-/// where extents and faces both speak for it. A mesh too large or too high for metres is in the unit of millimetres,
-/// centimetres, inches and feet that makes it a building; of several in that whose walls and storeys are usual ones.
+/// where extents and faces both speak for it, unless that leaves a side of the mesh open or its storeys too low. A mesh
+/// too large or too high for metres is in the unit of millimetres, centimetres, inches and feet that makes it a
+/// building; of several in that whose walls and storeys are usual ones. So is one whose walls and storeys are both too
+/// large for metres and usual in another unit.
 /// Returns what was assumed; throws InputError when it is too large and no unit fits.
 std::vector<Warning> settle_axes(std::vector<MeshPart>& parts, const std::string& path,
                                  const MeshAxesConfig& config = {});

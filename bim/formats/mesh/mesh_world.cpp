@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <iterator>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "bim/config/tree.h"
@@ -18,49 +19,6 @@ namespace plumbline::bim {
 
 namespace {
 
-using Corners = std::array<Eigen::Vector3d, 3>;
-
-template <class Visit>
-void for_each_triangle(const std::vector<MeshPart>& parts, Visit&& visit) {
-  for (const MeshPart& part : parts)
-    for (const Eigen::Vector3i& t : part.solid.triangles) {
-      const auto& v = part.solid.vertices;
-      visit(Corners{v[static_cast<std::size_t>(t[0])], v[static_cast<std::size_t>(t[1])],
-                    v[static_cast<std::size_t>(t[2])]});
-    }
-}
-
-/// Area of a triangle that faces up, m^2; 0 of any other.
-double floor_area(const Corners& c, double level) {
-  const Eigen::Vector3d normal = (c[1] - c[0]).cross(c[2] - c[0]);
-  const double twice = normal.norm();
-  return twice > 0.0 && normal.z() >= level * twice ? 0.5 * twice : 0.0;
-}
-
-double height(const Corners& c) { return (c[0].z() + c[1].z() + c[2].z()) / 3.0; }
-
-/// Height of the lowest large floor: the mean of its layer, weighted by area.
-double ground_height(const std::vector<MeshPart>& parts, const std::string& path, const MeshWorldConfig& config) {
-  struct Layer {
-    double area = 0.0, moment = 0.0;
-  };
-  std::map<long, Layer> layers;
-  for_each_triangle(parts, [&](const Corners& c) {
-    const double area = floor_area(c, config.level);
-    if (area <= 0.0) return;
-    // Half a layer off, so that heights near 0, the commonest, fall into one.
-    Layer& layer = layers[std::lround(std::floor(height(c) / config.layer_m + 0.5))];
-    layer.area += area;
-    layer.moment += area * height(c);
-  });
-  double largest = 0.0;
-  for (const auto& [index, layer] : layers) largest = std::max(largest, layer.area);
-  for (const auto& [index, layer] : layers)
-    if (layer.area > 0.0 && layer.area >= config.ground_share * largest) return snap(layer.moment / layer.area);
-  throw InputError({path, 0, 0},
-                   "nothing in it faces up, so there is no floor; is z up, and do its faces turn outwards?");
-}
-
 /// Cells of a grid whose centres lie over floor, as rectangles joined to outlines.
 class FloorGrid {
  public:
@@ -71,7 +29,13 @@ class FloorGrid {
     covered_.assign(static_cast<std::size_t>(nx_) * static_cast<std::size_t>(ny_), 0);
   }
 
-  void add(const Corners& c) {
+  /// Where the triangle lies between two heights.
+  void add(const TriangleCorners& c, double low_z, double high_z) {
+    const Eigen::Vector3d normal = (c[1] - c[0]).cross(c[2] - c[0]);
+    const auto is_between = [&](double x, double y) {
+      const double z = c[0].z() - (normal.x() * (x - c[0].x()) + normal.y() * (y - c[0].y())) / normal.z();
+      return z >= low_z && z <= high_z;
+    };
     const auto [low_y, high_y] = std::minmax({c[0].y(), c[1].y(), c[2].y()});
     for (int y = index(low_y, 1); y <= index(high_y, 1); ++y) {
       double low = INFINITY, high = -INFINITY;
@@ -86,7 +50,7 @@ class FloorGrid {
       if (!(low <= high)) continue;
       for (int x = index(low, 0); x <= index(high, 0); ++x) {
         const double centre = origin_.x() + (x + 0.5) * cell_;
-        if (centre >= low && centre <= high) covered_[slot(x, y)] = 1;
+        if (centre >= low && centre <= high && is_between(centre, at)) covered_[slot(x, y)] = 1;
       }
     }
   }
@@ -135,32 +99,65 @@ class FloorGrid {
   std::vector<char> covered_;
 };
 
+bool is_ground(const TriangleCorners& c, const FloorFaces& floor, const MeshGround& ground) {
+  if (floor.area(c) <= 0.0) return false;
+  if (ground.slopes) return true;  // parts of it may be
+  const double z = mean_height(c);
+  return z >= ground.low_m && z <= ground.high_m;
+}
+
 /// The floor's outline in cells, doubled until it is made of few enough rectangles.
-Region2 floor_region(const std::vector<MeshPart>& parts, const Eigen::AlignedBox3d& box, double floor_z,
-                     const MeshWorldConfig& config) {
+Region2 floor_region(const std::vector<MeshPart>& parts, const Eigen::AlignedBox3d& box, const FloorFaces& floor,
+                     const MeshGround& ground, const MeshWorldConfig& config) {
+  constexpr double rounding_m = 1e-6;
+  const double low_z = ground.slopes ? ground.low_m - rounding_m : -INFINITY;
+  const double high_z = ground.slopes ? ground.high_m + rounding_m : INFINITY;
   for (double cell = config.cell_m;; cell *= 2.0) {
     FloorGrid grid(box, cell);
-    for_each_triangle(parts, [&](const Corners& c) {
-      if (floor_area(c, config.level) > 0.0 && std::abs(height(c) - floor_z) <= config.layer_m) grid.add(c);
+    for_each_triangle(parts, [&](const TriangleCorners& c) {
+      if (is_ground(c, floor, ground)) grid.add(c, low_z, high_z);
     });
     const std::vector<Polygon2> rectangles = grid.rectangles();
     if (rectangles.size() <= config.most_runs) return unite(rectangles);
   }
 }
 
-void add_slabs(const std::vector<MeshPart>& parts, const Eigen::AlignedBox3d& box, const MeshWorldConfig& config,
-               Building& building) {
-  const double floor_z = building.storeys.front().elevation_m;
+/// No point of the ground lies lower.
+double lowest_of(const std::vector<MeshPart>& parts, const FloorFaces& floor, const MeshGround& ground) {
+  if (ground.slopes) return ground.low_m;
+  double lowest = ground.z_m;
+  for_each_triangle(parts, [&](const TriangleCorners& c) {
+    if (is_ground(c, floor, ground)) lowest = std::min({lowest, c[0].z(), c[1].z(), c[2].z()});
+  });
+  return lowest;
+}
+
+void add_slabs(const std::vector<MeshPart>& parts, const Eigen::AlignedBox3d& box, const FloorFaces& floor,
+               const MeshGround& ground, const MeshWorldConfig& config, Building& building) {
+  const double lowest = lowest_of(parts, floor, ground);
   int number = 0;
-  for (const PolygonWithHoles2& piece : floor_region(parts, box, floor_z, config)) {
+  for (const PolygonWithHoles2& piece : floor_region(parts, box, floor, ground, config)) {
     Slab slab;
     slab.id = "floor/" + std::to_string(++number);
     slab.storey = 0;
     slab.polygon = piece;
-    slab.z1_m = floor_z - config.under_m;
+    slab.z1_m = lowest - config.under_m;
     slab.z0_m = slab.z1_m - config.slab_m;
     building.slabs.push_back(std::move(slab));
   }
+}
+
+void warn_of_ground(const MeshGround& ground, Building& building) {
+  const auto height = [](double z) { return format_number(std::round(100.0 * z) / 100.0) + " m"; };
+  if (ground.slopes)
+    building.warnings.push_back({"", "assumed_ground",
+                                 "its floor is not level, from " + height(ground.low_m) + " up to " +
+                                     height(ground.high_m) + "; the ground is taken as level at " + height(ground.z_m) +
+                                     ", their mean"});
+  if (ground.more_below)
+    building.warnings.push_back(
+        {"", "assumed_ground",
+         "the ground is taken at " + height(ground.z_m) + ", though as much of the mesh faces up below it"});
 }
 
 }  // namespace
@@ -175,15 +172,20 @@ Building read_mesh_world(std::string_view bytes, const std::string& path, const 
   building.name = std::filesystem::path(path).stem().string();
   building.schema = "mesh";
   building.unit = "m";
-  const double floor_z = ground_height(parts, path, config);
-  const double above = box.max().z() - floor_z;
-  building.storeys.push_back({"ground", "ground", floor_z, above > 0.0 ? above : config.height_m});
-  add_slabs(parts, box, config, building);
+  const FloorFaces floor(parts, config.ground);
+  const std::optional<MeshGround> ground = find_ground(parts, floor, config.ground);
+  if (!ground)
+    throw InputError({path, 0, 0},
+                     "nothing in it faces up, so there is no floor; is z up, and do its faces turn outwards?");
+  const double above = box.max().z() - ground->z_m;
+  building.storeys.push_back({"ground", "ground", ground->z_m, above > 0.0 ? above : config.height_m});
+  add_slabs(parts, box, floor, *ground, config, building);
   for (MeshPart& part : parts)
     if (!part.solid.triangles.empty())
       building.obstacles.push_back({std::move(part.name), "mesh", 0, std::move(part.solid)});
   building.warnings.push_back({"", "no_plan", "a mesh without rooms and walls; localization is not possible in it"});
   std::move(assumed.begin(), assumed.end(), std::back_inserter(building.warnings));
+  warn_of_ground(*ground, building);
   return building;
 }
 

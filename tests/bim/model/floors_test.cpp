@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <ctime>
 
 #include "bim/geometry/polygon_boolean.h"
 #include "bim/model/extrude.h"
@@ -135,6 +136,103 @@ TEST(Floors, ARoomSaysWhichStoreyAHalfLevelBelongsTo) {
   building.rooms = {room};
   EXPECT_NEAR(total(floor_pieces(building), 0), 9.0, 1e-6);
   EXPECT_NEAR(total(floor_pieces(building), 1), 9.0, 1e-6);
+}
+
+/// A plate between two heights of its upper face, at x = from and x = to, 6 m wide.
+Slab sloping(double from, double to, double z_from, double z_to, double thickness) {
+  Slab s = slab(box(from, 0, to, 6), std::min(z_from, z_to) - thickness, std::max(z_from, z_to));
+  Solid body;
+  for (const double down : {thickness, 0.0})
+    for (const double y : {0.0, 6.0}) {
+      body.vertices.emplace_back(from, y, z_from - down);
+      body.vertices.emplace_back(to, y, z_to - down);
+    }
+  body.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                    {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+  s.body = body;
+  return s;
+}
+
+Solid both(const Solid& one, const Solid& other) {
+  Solid joined = one;
+  const auto first = static_cast<int>(one.vertices.size());
+  joined.vertices.insert(joined.vertices.end(), other.vertices.begin(), other.vertices.end());
+  for (const Eigen::Vector3i& t : other.triangles) joined.triangles.emplace_back(t + Eigen::Vector3i::Constant(first));
+  return joined;
+}
+
+/// Its underside begins below the floor of the attic and lies 2 m above it at the ridge.
+TEST(Floors, APaneOfARoofLeavesTheAttic) {
+  Building building = two_storeys();
+  building.slabs = {with_body(slab(box(0, 0, 8, 6), 2.8, 3.0)), sloping(0, 8, 3.1, 5.5, 0.2)};
+  double attic = 0.0;
+  for (const FloorPiece& p : floor_pieces(building))
+    if (p.element == 0) attic += area({p.polygon});
+  // It begins where the pane's upper face is half a metre over it.
+  EXPECT_NEAR(attic, 48.0 - 6.0 * (0.5 - 0.1) / 0.3, 0.02);
+}
+
+TEST(Floors, ARampOfOneThicknessLeavesTheFloorUnderIt) {
+  Building building = two_storeys();
+  building.slabs = {with_body(slab(box(-2, 0, 12, 6), -0.2, 0.0)), sloping(0, 10, 0.2, 3.0, 0.2)};
+  EXPECT_NEAR(total(floor_pieces(building), 0), 14.0 * 6.0 + 10.0 * 6.0 - 6.0 * 0.3 / 0.28, 0.05);
+}
+
+TEST(Floors, TwoPlatesOfOneSlabAreTwoFloors) {
+  Building building = two_storeys();
+  Slab plates = slab(box(0, 0, 6, 4), -0.2, 3.0);
+  plates.body = both(extrude({plates.polygon}, -0.2, 0.0), extrude({plates.polygon}, 2.8, 3.0));
+  building.slabs = {plates};
+  EXPECT_NEAR(total(floor_pieces(building), 0), 24.0, 1e-6);
+  EXPECT_NEAR(total(floor_pieces(building), 1), 24.0, 1e-6);
+}
+
+TEST(Floors, AColumnInTheBodyOfADeckHidesOnlyWhatItStandsOn) {
+  Building building = two_storeys();
+  Slab deck = slab(box(0, 0, 6, 4), 0.0, 3.0);
+  deck.body = both(extrude({deck.polygon}, 2.8, 3.0), extrude({{box(2, 2, 2.4, 2.4), {}}}, 0.0, 2.8));
+  building.slabs = {with_body(slab(box(0, 0, 6, 4), -0.2, 0.0)), deck};
+  const std::vector<FloorPiece> pieces = floor_pieces(building);
+  EXPECT_NEAR(total(pieces, 0), 24.0 - 0.16, 1e-6);
+  EXPECT_NEAR(total(pieces, 1), 24.0, 1e-6);
+}
+
+/// An upper face of steps x steps squares in two triangles each, not level.
+Slab uneven(double size, int steps, double rise) {
+  Slab s = slab(box(0, 0, size, size), -0.3, rise);
+  Solid body;
+  for (int i = 0; i <= steps; ++i)
+    for (int j = 0; j <= steps; ++j)
+      body.vertices.emplace_back(size * i / steps, size * j / steps, rise * ((7 * i + 5 * j + i * j) % 11) / 11.0);
+  for (int i = 0; i < steps; ++i)
+    for (int j = 0; j < steps; ++j) {
+      const int a = i * (steps + 1) + j, b = a + steps + 1;
+      body.triangles.emplace_back(a, b, b + 1);
+      body.triangles.emplace_back(a, b + 1, a + 1);
+    }
+  s.body = body;
+  return s;
+}
+
+/// No triangle has the area that a floor has at least.
+TEST(Floors, AnUnevenSlabInSmallTrianglesIsAFloor) {
+  Building building = two_storeys();
+  building.slabs = {uneven(4.0, 80, 0.01)};
+  const std::vector<FloorPiece> pieces = floor_pieces(building);
+  EXPECT_NEAR(total(pieces, 0), 16.0, 0.1);
+  EXPECT_LT(pieces.size(), 200u);
+  for (const FloorPiece& piece : pieces) {
+    const Eigen::Vector2d p = piece.polygon.outer.front();
+    EXPECT_NEAR(piece.z_at(p), 0.005, 0.02);
+  }
+}
+
+TEST(Floors, AnUnevenSlabIsReadInTime) {
+  Building building = two_storeys();
+  building.slabs = {uneven(12.0, 40, 0.1)};
+  const std::clock_t begin = std::clock();
+  EXPECT_NEAR(total(floor_pieces(building), 0), 144.0, 1e-3);
+  EXPECT_LT(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC, 3.0);  // CPU time
 }
 
 TEST(AssumedSlabs, LieUnderRoomsOrBeyondWallsWhereAStoreyHasNone) {

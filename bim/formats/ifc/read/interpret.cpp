@@ -15,7 +15,9 @@
 #include "bim/mesh/solid.h"
 #include "bim/model/blocked_doors.h"
 #include "bim/model/body_section.h"
+#include "bim/model/boxes.h"
 #include "bim/model/extrude.h"
+#include "bim/model/floors.h"
 #include "bim/model/infer_rooms.h"
 
 namespace plumbline::bim {
@@ -37,6 +39,24 @@ std::vector<int> sort_elements(std::vector<Element>& elements) {
   }
   elements = std::move(sorted);
   return place;
+}
+
+/// Boxes this close to a point may hold it: outlines count as holding what is on them.
+constexpr double near_m = 1e-6;
+
+/// Which of the rooms hold smaller ones that stand free in them.
+std::vector<bool> rooms_around_others(const std::vector<Room>& rooms) {
+  const BoxIndex boxes = boxes_of(rooms);
+  std::vector<bool> around(rooms.size(), false);
+  for (const Room& room : rooms) {
+    const Eigen::Vector2d inner = interior_point(room.polygon);
+    for (const int i : boxes.near({inner}, near_m)) {
+      const Polygon2& outline = rooms[static_cast<std::size_t>(i)].polygon;
+      if (signed_area(room.polygon) < signed_area(outline) && contains(outline, inner))
+        around[static_cast<std::size_t>(i)] = true;
+    }
+  }
+  return around;
 }
 
 /// Upright layers of equal height as one body; where their faces lie on each other, joined ones would not close.
@@ -198,6 +218,8 @@ void Interpreter::sort_all() {
 
 void Interpreter::add_missing_rooms() {
   const std::vector<Room> given = building_.rooms;
+  const BoxIndex given_boxes = boxes_of(given);
+  std::optional<std::vector<FloorPiece>> floors;  // of the whole building, once it is known that rooms are missing
   for (std::size_t i = 0; i < building_.storeys.size(); ++i) {
     const auto storey = static_cast<int>(i);
     const bool has_rooms =
@@ -207,11 +229,16 @@ void Interpreter::add_missing_rooms() {
     if (!given.empty() && (has_rooms || !missing)) continue;
     const bool several = std::any_of(buildings_.begin(), buildings_.end(),
                                      [&](const auto& b) { return !same_building(storey, b.first); });
-    std::vector<Room> rooms = infer_rooms(several ? only_building_of(storey) : building_, storey);
+    if (!several && !floors) floors = floor_pieces(building_);
+    std::vector<Room> rooms =
+        several ? infer_rooms(only_building_of(storey), storey) : infer_rooms(building_, storey, *floors);
     std::erase_if(rooms, [&](const Room& room) {
-      return std::any_of(given.begin(), given.end(), [&](const Room& other) {
-        return other.z0_m < room.z1_m && other.z1_m > room.z0_m &&
-               contains(other.polygon, interior_point(room.polygon));
+      if (given.empty()) return false;
+      const Eigen::Vector2d inner = interior_point(room.polygon);
+      const std::vector<int> near = given_boxes.near({inner}, near_m);
+      return std::any_of(near.begin(), near.end(), [&](int k) {
+        const Room& other = given[static_cast<std::size_t>(k)];
+        return other.z0_m < room.z1_m && other.z1_m > room.z0_m && contains(other.polygon, inner);
       });
     });
     const auto stands_here = [&](const auto& element) { return element.storey == storey; };
@@ -227,17 +254,14 @@ void Interpreter::add_missing_rooms() {
           {building_.storeys[i].id, "no_rooms",
            "the file has no spaces, and walls enclose no room on this storey; no route of rooms goes there"});
     const std::string no_spaces = " has no spaces; walls enclose this";
-    for (const Room& room : rooms) {
-      building_.warnings.push_back({room.id, "inferred_room", (given.empty() ? "the file" : "the storey") + no_spaces});
-      const bool holds_another = std::any_of(rooms.begin(), rooms.end(), [&](const Room& other) {
-        return signed_area(other.polygon) < signed_area(room.polygon) &&
-               contains(room.polygon, interior_point(other.polygon));
-      });
-      if (holds_another)
+    const std::vector<bool> around = rooms_around_others(rooms);
+    for (std::size_t k = 0; k < rooms.size(); ++k) {
+      const std::string& id = rooms[k].id;
+      building_.warnings.push_back({id, "inferred_room", (given.empty() ? "the file" : "the storey") + no_spaces});
+      if (around[k])
         building_.warnings.push_back(
-            {room.id, "room_hole",
-             "other rooms stand free within it, and its outline holds them too; its area is too "
-             "large, and doors between them lead nowhere"});
+            {id, "room_hole",
+             "other rooms stand free within it, and its outline holds them too; its area is too large"});
     }
     building_.rooms.insert(building_.rooms.end(), rooms.begin(), rooms.end());
   }
