@@ -205,7 +205,7 @@ Answer run_method(slam::Recording& recording, const slam::MethodRow& row, const 
     gaps.add(frame);
     scan_gaps.add(last);
     axes.add(frame);
-    progress.at(slam::seconds(last));
+    progress.at(slam::seconds(last - *first));
     return true;
   };
   std::vector<std::unique_ptr<MethodRunner>> methods;
@@ -320,7 +320,7 @@ int estimate(EstimateArguments options, slam::MethodTable table) {
     std::printf("LiDAR %.2f m above the floor, %s; --description gives it\n", input.calibration.sensor_height_m,
                 height ? "by the first scans" : "as of the simulated robot, since the first scans show no floor");
   print(printable(options.out) + "/" + record.name + ".tum: " + std::to_string(record.causal.size()) + " poses\n");
-  if (record.lost_scans > 0) std::printf("lost after %d of %d scans\n", record.lost_scans, record.scans);
+  if (record.lost_scans > 0) std::printf("LOST at %d of %d scans\n", record.lost_scans, record.scans);
   if (!record.beliefs.empty())
     std::printf("%s at the end, %zu hypotheses\n", std::string(state_name(record.beliefs.back().state)).c_str(),
                 record.beliefs.back().hypotheses.size());

@@ -257,7 +257,7 @@ int score_estimate(const std::string& dir, const std::string& reference_file, co
 
   std::string text = method.name;
   if (method.scans > 0)
-    text += ": lost after " + std::to_string(method.lost_scans) + " of " + std::to_string(method.scans) + " scans";
+    text += ": LOST at " + std::to_string(method.lost_scans) + " of " + std::to_string(method.scans) + " scans";
   if (causal_covered.poses < causal_covered.scans) text += "; " + causal_covered.words_of_poses();
   if (!reference.empty()) text += "; reference: " + std::to_string(reference.size()) + " poses";
   if (causal_covered.reference_share.value_or(1.0) < 1.0) text += "; " + causal_covered.words_of_reference();

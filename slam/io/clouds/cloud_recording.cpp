@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -118,8 +119,8 @@ class CloudRecording final : public Recording {
                          "or --description, says what that is: lidar: {period_s: 0.2}");
       ++next_;
       read.scan.stamp -= origin_;
-      if (stamps_.empty()) read.scan.stamp = std::max(read.scan.stamp, last_ + 1);
-      if (read.scan.stamp <= last_) {
+      if (stamps_.empty()) read.scan.stamp = std::max(read.scan.stamp, last_.value_or(-1) + 1);
+      if (last_ && read.scan.stamp <= *last_) {
         check_late(++late_);
         continue;
       }
@@ -185,7 +186,7 @@ class CloudRecording final : public Recording {
   [[nodiscard]] CloudScan scan_at(std::size_t i) const {
     PointCloud cloud = cloud_at(i);
     // Times that run on through the clouds must not drift from stamps that are only made up.
-    if (stamps_.empty() && times_.times.base == TimeBase::day && last_ >= 0) cloud.stamp = last_;
+    if (stamps_.empty() && times_.times.base == TimeBase::day && last_) cloud.stamp = *last_;
     try {
       return read_scan(cloud, times_.times);
     } catch (const InputError& error) {
@@ -224,9 +225,9 @@ class CloudRecording final : public Recording {
   std::vector<Nanoseconds> stamps_;  ///< of the clouds, on their own clock; empty: not known
   Nanoseconds origin_ = 0;
   std::size_t next_ = 0;
-  Nanoseconds last_ = -1;
-  std::size_t late_ = 0;           ///< scans
-  std::size_t without_rings_ = 0;  ///< scans
+  std::optional<Nanoseconds> last_;  ///< stamp of the scan before
+  std::size_t late_ = 0;             ///< scans
+  std::size_t without_rings_ = 0;    ///< scans
 };
 
 }  // namespace

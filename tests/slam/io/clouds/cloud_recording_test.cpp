@@ -99,27 +99,30 @@ TEST(CloudRecording, TakesTimesFromZeroToOneAsSharesOfAPeriod) {
   }
 }
 
+/// Ten points with times of their own, 10 ms apart.
+PointCloud cloud_of_times(double first_s) {
+  PointCloud cloud;
+  cloud.fields = {
+      {"x", 0, PointType::f32}, {"y", 4, PointType::f32}, {"z", 8, PointType::f32}, {"t", 12, PointType::f64}};
+  cloud.point_step = 20;
+  cloud.width = 10;
+  cloud.height = 1;
+  cloud.row_step = 200;
+  cloud.data.resize(200);
+  for (std::size_t k = 0; k < 10; ++k) {
+    const float one = 1.0F + static_cast<float>(k);
+    const double t = first_s + 0.01 * static_cast<double>(k);
+    for (std::size_t a = 0; a < 3; ++a) std::memcpy(&cloud.data[20 * k + 4 * a], &one, sizeof one);
+    std::memcpy(&cloud.data[20 * k + 12], &t, sizeof t);
+  }
+  return cloud;
+}
+
 TEST(CloudRecording, TimesThatRunOnAreTheScansOwn) {
   const Folder folder;
   constexpr int clouds = 30;
   constexpr double apart_s = 0.15;  // not the period: by it, the last cloud would be 1.45 s late
-  for (int i = 0; i < clouds; ++i) {
-    PointCloud cloud;
-    cloud.fields = {
-        {"x", 0, PointType::f32}, {"y", 4, PointType::f32}, {"z", 8, PointType::f32}, {"t", 12, PointType::f64}};
-    cloud.point_step = 20;
-    cloud.width = 10;
-    cloud.height = 1;
-    cloud.row_step = 200;
-    cloud.data.resize(200);
-    for (std::size_t k = 0; k < 10; ++k) {
-      const float one = 1.0F + static_cast<float>(k);
-      const double t = apart_s * i + 0.01 * static_cast<double>(k);
-      for (std::size_t a = 0; a < 3; ++a) std::memcpy(&cloud.data[20 * k + 4 * a], &one, sizeof one);
-      std::memcpy(&cloud.data[20 * k + 12], &t, sizeof t);
-    }
-    write_cloud_file(folder / (std::to_string(i) + ".pcd"), cloud);
-  }
+  for (int i = 0; i < clouds; ++i) write_cloud_file(folder / (std::to_string(i) + ".pcd"), cloud_of_times(apart_s * i));
   const auto recording = open_cloud_folder(folder.path());
   SensorFrame frame;
   for (int i = 0; i < clouds; ++i) {
@@ -180,6 +183,21 @@ TEST(CloudRecording, KeepsTheClockOfTheDay) {
   EXPECT_EQ(stamps[1] - stamps[0], 250'000'000);
   EXPECT_LT(stamps[0], 200'000'000) << "the end of the first turn";
   EXPECT_EQ(recording->origin(), 1'317'042'145'500'000'000);
+}
+
+// As of drivers that stamp a turn at its end; the clock of the day starts at the first of the stamps.
+TEST(CloudRecording, TimesBeforeTheStampLoseNoScan) {
+  const Folder folder;
+  constexpr int clouds = 30;
+  std::string times;
+  for (int i = 0; i < clouds; ++i) {
+    write_cloud_file(folder / (std::to_string(i) + ".pcd"), cloud_of_times(-0.1));
+    times += std::to_string(1'600'000'000 + i) + ".5\n";
+  }
+  write_raw(folder / "times.txt", times);
+  const auto recording = open_cloud_folder(folder.path());
+  EXPECT_EQ(stamps_in(*recording).size(), static_cast<std::size_t>(clouds));
+  EXPECT_TRUE(recording->left_out().empty());
 }
 
 TEST(CloudRecording, LeavesOutCloudsWhoseTimesGoBack) {
