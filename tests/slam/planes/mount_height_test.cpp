@@ -54,6 +54,22 @@ TEST(MountHeight, OfARoadIsWhereTheLowestReturnsLie) {
   EXPECT_NEAR(*height, 1.4 + synthetic::calibration().X_RL.t.z() - 0.07, 0.08);
 }
 
+// More returns end on the desk than on the floor, which begins behind it.
+TEST(MountHeight, IsNotThatOverADesk) {
+  synthetic::House office = synthetic::one_room(14.0, 9.0);
+  office.boxes.push_back({{4.3, 1.5, 0.7}, {6.8, 4.5, 0.75}});
+  const double z_m = 0.9;
+  std::vector<Scan> scans;
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
+    synthetic::WalkConfig config;
+    config.seed = seed;
+    scans.push_back(synthetic::standing_scan(office, Pose::from_xyz_yaw({4.0, 3.0, z_m}, 0.3), config));
+  }
+  const std::optional<double> height = height_over_floor(scans, synthetic::calibration(), 1);
+  ASSERT_TRUE(height.has_value());
+  EXPECT_NEAR(*height, z_m + synthetic::calibration().X_RL.t.z(), 0.05);
+}
+
 TEST(MountHeight, IsUnknownWhereFewScansSeeAFloor) {
   std::vector<Scan> scans = scans_from(0.5, 0.0);
   for (Scan& scan : scans) std::fill(scan.range_m.begin(), scan.range_m.end(), 0.0);
