@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "bim/geometry/symmetric.h"
 #include "bim/random/stream.h"
 #include "tests/slam/localization/house_plan.h"
@@ -63,6 +65,31 @@ TEST(Ndt, BringsAScanBackToItsPlace) {
   }
   const Pose elsewhere = Pose::from_xyz_yaw({3.0, 1.2, 12.0}, 0.4);
   EXPECT_LT(map.inliers(points, elsewhere), 0.1);
+}
+
+// Where it ends, it would go no farther if it were started again there.
+TEST(Ndt, StopsAtTheOptimumAndNotBefore) {
+  const synthetic::House house = synthetic::corridor_house();
+  const StoreyIndex storey = synthetic::storey_of(synthetic::plan_of(house));
+  const Pose truth = Pose::from_xyz_yaw({3.0, 1.2, 0.5}, 0.4);
+  const Stream stream(6, "bim.generate");
+  const auto farthest = [&](const NdtConfig& config) {
+    const NdtMap map(storey, config);
+    const auto points = points_at(house, truth, config);
+    double way = 0.0;
+    for (std::uint64_t i = 0; i < 4; ++i) {
+      const Pose end = map.align(points, near(truth, stream, i, 0.25, 0.25)).X_IR;
+      NdtConfig fine = config;
+      fine.epsilon = 1e-6;
+      way = std::max(way, (NdtMap(storey, fine).align(points, end).X_IR.t - end.t).norm());
+    }
+    return way;
+  };
+  NdtConfig early;
+  early.epsilon = 0.01;
+  const double way = farthest({});
+  EXPECT_LT(way, 0.005);
+  EXPECT_LT(way, 0.5 * farthest(early));
 }
 
 TEST(Ndt, StaysWithinItsMemoryAndWithoutPointsStaysPut) {

@@ -39,7 +39,7 @@ TEST(Ukf, HoldsConstantVelocityThroughTurns) {
   const synthetic::Recording recording = synthetic::biased_walk(12.0);
   const bim::Plan plan = synthetic::plan_of(synthetic::corridor_house());
   const auto answers = synthetic::localize("ukf", recording, plan, true, "motion: constant_velocity");
-  EXPECT_LT(rms(answers, recording), 0.10);
+  EXPECT_LT(rms(answers, recording), 0.04);
   EXPECT_EQ(answers.outputs.back().state, State::converged);
 }
 
