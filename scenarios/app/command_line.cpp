@@ -230,7 +230,7 @@ void CommandLine::check_commands(const std::vector<std::string>& arguments) cons
     const std::vector<const CLI::Option*> options = line->get_options();
     const bool takes_words =
         std::any_of(options.begin(), options.end(), [](const CLI::Option* option) { return option->get_positional(); });
-    if (takes_words && std::find(known.begin(), known.end(), word) == known.end()) return;
+    if (takes_words && !line->get_allow_extras() && std::find(known.begin(), known.end(), word) == known.end()) return;
     if (std::find(known.begin(), known.end(), word) == known.end())
       throw InputError({name(), 0, 0},
                        "unknown command '" + word + "'" + guess_of(word, known) + "; see " + command + " --help");
