@@ -227,6 +227,10 @@ void CommandLine::check_commands(const std::vector<std::string>& arguments) cons
     std::vector<std::string> known;
     for (const CLI::App* below : line->get_subcommands(nullptr)) known.push_back(below->get_name());
     if (known.empty() || word.starts_with('-')) return;
+    const std::vector<const CLI::Option*> options = line->get_options();
+    const bool takes_words =
+        std::any_of(options.begin(), options.end(), [](const CLI::Option* option) { return option->get_positional(); });
+    if (takes_words && !line->get_allow_extras() && std::find(known.begin(), known.end(), word) == known.end()) return;
     if (std::find(known.begin(), known.end(), word) == known.end())
       throw InputError({name(), 0, 0},
                        "unknown command '" + word + "'" + guess_of(word, known) + "; see " + command + " --help");

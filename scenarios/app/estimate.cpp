@@ -21,10 +21,12 @@
 #include "scenarios/app/odometry_gaps.h"
 #include "scenarios/app/open_recording.h"
 #include "scenarios/app/poorer_recording.h"
+#include "scenarios/app/recording_check.h"
 #include "scenarios/app/recording_summary.h"
 #include "scenarios/app/scan_gaps.h"
 #include "scenarios/host/files.h"
 #include "scenarios/host/interrupt.h"
+#include "scenarios/host/manifest.h"
 #include "scenarios/host/progress.h"
 #include "scenarios/host/terminal.h"
 #include "scenarios/metrics/state_names.h"
@@ -58,6 +60,7 @@ struct EstimateArguments {
   double yaw_deg = 0.0;
   std::string storey;
   bool force = false;
+  bool unchecked = false;
   std::optional<Argument> seed_option;
   std::optional<Argument> yaw_option;
   std::optional<Argument> furniture_option;
@@ -230,7 +233,7 @@ std::vector<std::string> doubts_about(const Answer& answer, bool with_odometry) 
 /// estimate.yaml: which walk the answer is of, and what it depends on besides recording and plan.
 std::string describe(const slam::MethodRow& row, std::uint64_t seed, const slam::Recording& recording,
                      const slam::MethodInput& input, Sensors sensors, const Poverty& poverty, const ScansRead& scans,
-                     const std::optional<Eigen::Vector3d>& moved_by) {
+                     const std::optional<Eigen::Vector3d>& moved_by, const std::vector<std::string>& altered) {
   const slam::RecordingInfo& info = recording.info();
   Tree tree = Tree::map();
   tree.set("estimate", 1).set("method", row.name).set("seed", static_cast<std::int64_t>(seed));
@@ -245,6 +248,7 @@ std::string describe(const slam::MethodRow& row, std::uint64_t seed, const slam:
     for (const std::string& said : sentences) list.push(said);
     if (!sentences.empty()) tree.set(key, list);
   };
+  add("unchecked", altered);
   add("left_out", recording.left_out());
   add("assumed", recording.assumed());
   tree.set("input", to_tree(recording.taken(), scans));
@@ -286,6 +290,8 @@ int estimate(EstimateArguments options, slam::MethodTable table) {
   const slam::MethodRow& row = *row_of(choice.method, table);
   check_plan_options(options, row);
   const Poverty poverty = poverty_of(options);
+  const AlteredRecording altered = altered_in_recording(options.input.recording);
+  refuse_altered(altered.folder, altered.files, options.unchecked);
   const std::unique_ptr<slam::Recording> recording = poorer(open_any_recording(options.input), poverty);
   std::optional<Eigen::Vector3d> moved_by;
   slam::MethodInput input = make_input(options, row, *recording, moved_by);
@@ -307,8 +313,9 @@ int estimate(EstimateArguments options, slam::MethodTable table) {
     print_note("plumbline: warning: " + options.input.recording + ": " + said);
   write_method(directory.staging(), record);
   write_file(directory.staging() + "/digests.csv", write_digests(record.digests));
-  write_file(directory.staging() + "/estimate.yaml", describe(row, run_seed(options, recording->info()), *recording,
-                                                              input, choice.sensors, poverty, answer.scans, moved_by));
+  write_file(directory.staging() + "/estimate.yaml",
+             describe(row, run_seed(options, recording->info()), *recording, input, choice.sensors, poverty,
+                      answer.scans, moved_by, altered.files));
   write_file(directory.staging() + "/timings.json", write_cost(answer, start_s));
   directory.commit();
   if (record.crashed) {
@@ -371,6 +378,8 @@ Command add_estimate(CommandLine& program, slam::MethodTable table) {
                             .range(-360.0, 360.0);
   line.option("--storey", options->storey, "storey of the start [the recording's, else unknown]");
   line.flag("--force", options->force, "replace the estimate that stands in --out");
+  line.flag("--unchecked", options->unchecked,
+            "takes a recording whose files were altered since they were written; estimate.yaml names them");
   line.footer(
       "Example: plumbline estimate walk --method s_graphs_plus -o out\n"
       "         plumbline estimate walk --method s_graph_localization --plan house.plan.yaml -o out\n"

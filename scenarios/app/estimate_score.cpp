@@ -213,6 +213,17 @@ bool is_estimate_directory(const std::string& dir) {
   return fs::exists(dir + "/estimate.yaml") && !fs::exists(dir + "/scenario.yaml");
 }
 
+std::vector<std::string> unchecked_by_estimate(const std::string& dir) {
+  const std::string path = dir + "/estimate.yaml";
+  std::vector<std::string> names;
+  if (!std::filesystem::exists(path)) return names;
+  const Tree tree = read_yaml(read_text_file(path), path);
+  const Tree* list = tree.is_map() ? tree.find("unchecked") : nullptr;
+  if (list == nullptr || !list->is_list()) return names;
+  for (const Tree& name : list->as_list()) names.push_back(name.as_string());
+  return names;
+}
+
 int score_estimate(const std::string& dir, const std::string& reference_file, const std::vector<GateSpec>& gates,
                    bool unchecked) {
   check_names(gates);
@@ -234,7 +245,8 @@ int score_estimate(const std::string& dir, const std::string& reference_file, co
   tree.set("plumbline", PLUMBLINE_VERSION).set("method", method.name);
   Tree names = Tree::list();
   for (const std::string& name : altered) names.push(name);
-  if (!altered.empty()) tree.set("unchecked", std::move(names));
+  for (const std::string& name : unchecked_by_estimate(dir)) names.push("recording/" + name);
+  if (!names.as_list().empty()) tree.set("unchecked", std::move(names));
   if (method.scans > 0)
     tree.set("scans", method.scans)
         .set("coverage", static_cast<double>(method.causal.size()) / method.scans)

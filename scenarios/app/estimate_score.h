@@ -11,6 +11,9 @@ namespace plumbline::scenarios {
 /// Whether `plumbline estimate` wrote this directory.
 [[nodiscard]] bool is_estimate_directory(const std::string& dir);
 
+/// Files of the recording that `plumbline estimate --unchecked` took although they had been altered.
+[[nodiscard]] std::vector<std::string> unchecked_by_estimate(const std::string& dir);
+
 /// Scores what `plumbline estimate` left by itself and, where `reference` names a trajectory, by that. Writes
 /// score.json into `dir` and prints a table. Throws InputError, also where the two are of different times, and, unless
 /// `unchecked`, where files were altered since they were written.

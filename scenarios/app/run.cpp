@@ -14,6 +14,7 @@
 #include "scenarios/app/summary.h"
 #include "scenarios/host/files.h"
 #include "scenarios/host/interrupt.h"
+#include "scenarios/host/manifest.h"
 #include "scenarios/host/progress.h"
 #include "scenarios/host/terminal.h"
 #include "scenarios/report/replay/replay_page.h"
@@ -94,7 +95,10 @@ int run(const RunArguments& options, slam::MethodTable table) {
 
   progress.phase("scoring");
   write_run_files(directory.staging(), resolved, record);
-  if (recorder) recorder->finish();
+  if (recorder) {
+    recorder->finish();
+    write_manifest(directory.staging() + "/" + std::string(recording_folder));
+  }
   const FinishedRun finished = finished_run(resolved, std::move(record));
   const auto shows = [&](const score::RunScore& scored) { return options.replay || exit_code(finished, scored) != 0; };
   const score::RunScore score = score_and_report(directory.staging(), finished, shows);

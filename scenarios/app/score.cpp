@@ -45,28 +45,39 @@ void check_walk(const std::string& dir, const std::string& run_dir, const Finish
     throw InputError(walk->mark, "the estimate is of another run's recording; give one of " + run_dir);
 }
 
+/// An estimate of another program or of plumbline estimate.
+struct Outside {
+  MethodRecord method;
+  std::vector<std::string> altered;  ///< files that are not as they were written, as "NAME=FILE"
+};
+
 /// What `plumbline estimate` left: planes, rooms and map beside the trajectories.
-MethodRecord read_estimate_directory(const std::string& dir, const std::string& name, const std::string& run_dir,
-                                     const FinishedRun& run) {
+Outside read_estimate_directory(const std::string& dir, const std::string& name, const std::string& run_dir,
+                                const FinishedRun& run, bool unchecked) {
   const std::vector<std::string> methods = estimates_in(dir);
   if (methods.size() != 1)
     throw InputError({dir, 0, 0}, methods.empty() ? "holds no estimate; give what plumbline estimate wrote"
                                                   : "holds several estimates; give a directory of plumbline estimate");
+  const std::vector<std::string> altered =
+      altered_files(dir, {{"score.json", "report.html", "junit.xml", "results.json"}, false});
+  refuse_altered(dir, altered, unchecked);
   if (std::filesystem::exists(dir + "/estimate.yaml")) check_walk(dir, run_dir, run);
-  MethodRecord method = read_method(dir, methods.front());
-  method.name = name;
-  return method;
+  Outside outside{read_method(dir, methods.front()), {}};
+  outside.method.name = name;
+  for (const std::string& file : altered) outside.altered.push_back(name + "=" + file);
+  for (const std::string& file : unchecked_by_estimate(dir)) outside.altered.push_back(name + "=recording/" + file);
+  return outside;
 }
 
 /// NAME=DIR or NAME=FILE[,frame=W|M]
-MethodRecord read_outside(const std::string& text, const std::string& run_dir, const FinishedRun& run) {
+Outside read_outside(const std::string& text, const std::string& run_dir, const FinishedRun& run, bool unchecked) {
   const Mark mark{"--estimate", 0, 0};
   const std::size_t equals = text.find('=');
   std::string path = equals == std::string::npos ? "" : text.substr(equals + 1);
   MethodRecord method;
   method.name = text.substr(0, equals);
   if (is_plain_name(method.name) && std::filesystem::is_directory(path))
-    return read_estimate_directory(path, method.name, run_dir, run);
+    return read_estimate_directory(path, method.name, run_dir, run, unchecked);
   for (const auto& [end, world] : {std::pair{",frame=W", true}, std::pair{",frame=M", false}}) {
     if (!path.ends_with(end)) continue;
     path.resize(path.size() - std::string_view(end).size());
@@ -80,7 +91,26 @@ MethodRecord read_outside(const std::string& text, const std::string& run_dir, c
   method.estimate.frame = method.localization ? slam::Frame::world : slam::Frame::map;
   method.causal = slam::read_trajectory(read_text_file(path), path, run.scans);
   if (method.causal.empty()) throw InputError({path, 0, 0}, "holds no pose");
-  return method;
+  return {std::move(method), {}};
+}
+
+/// What the scores that stand say of outside estimates which stay: their files are in the manifest of the run since.
+std::vector<std::string> altered_before(const std::string& dir, const FinishedRun& run) {
+  std::vector<std::string> before;
+  const std::string path = dir + "/results.json";
+  if (!std::filesystem::exists(path)) return before;
+  Tree results;
+  try {
+    results = read_json(read_text_file(path), path);
+  } catch (const InputError&) {
+    return before;  // it is written anew
+  }
+  const Tree* names = results.is_map() ? results.find("unchecked") : nullptr;
+  if (names == nullptr || !names->is_list()) return before;
+  for (const Tree& name : names->as_list())
+    for (const MethodRecord& method : run.record.methods)
+      if (name.as_string().starts_with(method.name + "=")) before.push_back(name.as_string());
+  return before;
 }
 
 /// A trajectory on another clock, the commonest mistake, would pass for a lost one.
@@ -173,18 +203,20 @@ int score_again(const ScoreArguments& arguments) {
   FinishedRun run = read_run(dir);
   remove_abandoned(dir);
   std::vector<std::string> written = {"report.html", "junit.xml", "results.json"};
-  const std::vector<std::string> altered = altered_files(dir, {written, false});
+  std::vector<std::string> altered = altered_files(dir, {written, false});
   refuse_altered(dir, altered, unchecked);
   check_dropped(dropped, run);
   std::vector<MethodRecord> outside;
   for (const std::string& text : estimates) {
-    MethodRecord read = read_outside(text, dir, run);
+    Outside given = read_outside(text, dir, run, unchecked);
+    MethodRecord& read = given.method;
     check_stamps(text, read, run);
     if (std::any_of(outside.begin(), outside.end(), [&](const MethodRecord& m) { return m.name == read.name; }))
       throw InputError({"--estimate", 0, 0}, "'" + read.name + "' is given twice");
     read.gates = own_gates;
     for (GateSpec& gate : read.gates) gate.method = read.name;
     outside.push_back(std::move(read));
+    altered.insert(altered.end(), given.altered.begin(), given.altered.end());
     const auto& names = run.scenario.methods;
     if (outside.back().name == truth_method ||
         std::find(names.begin(), names.end(), outside.back().name) != names.end())
@@ -192,6 +224,12 @@ int score_again(const ScoreArguments& arguments) {
                        "'" + outside.back().name + "' is a method of this run; give another name");
   }
   for (const std::string& text : maps) add_map(text, outside);
+  for (const std::string& name : altered_before(dir, run)) {
+    const std::string method = name.substr(0, name.find('='));
+    const bool is_new =
+        std::any_of(outside.begin(), outside.end(), [&](const MethodRecord& m) { return m.name == method; });
+    if (!is_new && std::find(dropped.begin(), dropped.end(), method) == dropped.end()) altered.push_back(name);
+  }
   for (const std::string& name : dropped) remove_method(dir, name);
   for (const MethodRecord& method : outside) write_method(dir, method);
   if (!outside.empty() || !dropped.empty()) run = read_run(dir);

@@ -138,7 +138,7 @@ std::string next_steps(const std::string& dir, bool has_replay, const FinishedRu
   return (!has_replay ? make_page
           : has_link  ? shown
                       : "look:  " + page + "#t=" + until + "\n" + (by_method ? shown : "")) +
-         "again: plumbline replay " + folder + " --until " + until + "\n";
+         "again: plumbline replay " + folder + (at_s > 0.0 ? " --until " + until : "") + "\n";
 }
 
 std::map<std::string, Tree> read_graphs(const std::string& dir, const FinishedRun& run) {

@@ -112,6 +112,7 @@ int sweep(const SweepArguments& options, slam::MethodTable table) {
   }
   if (options.file.empty()) throw InputError({"SWEEP", 0, 0}, "is missing; name a sweep file");
   const Sweep sweep = read_sweep(options.file, options.seeds, table);
+  for (const std::string& note : sweep.notes) print_note("plumbline: warning: " + note);
   if (options.slurm) {
     if (!options.shard.empty()) throw InputError({"--shard", 0, 0}, "is chosen by the cluster with --slurm");
     return submit_to_slurm(options, sweep);

@@ -133,7 +133,7 @@ constexpr std::array<FileRow, 12> recording_files = {{
     {"recording.mcap", "the same data as ROS 2 records it (MCAP), with `--mcap`"},
     {"rosbag2", "the same data as ROS 2 records it (SQLite and metadata.yaml), with `--rosbag2`"},
     {"truth.tum", "true poses; `estimate` does not read them"},
-    {manifest_name, "a digest of every file as it was written", false},
+    {manifest_name, "a digest of every file as it was written; `estimate` compares those that it reads", false},
     {"scenario.yaml", "the resolved scenario"},
     {"building.*", "the building that the scenario names", false},
 }};
@@ -142,7 +142,9 @@ constexpr std::array<FileRow, 12> estimate_files = {{
     {manifest_name, "a digest of every file as it was written; `score` compares them", false},
     {"estimate.yaml",
      "the recording, method and seed of the estimate, which `score` compares with the run; under `input` what was "
-     "read, under `left_out` what was not, under `assumed` what its numbers were taken to mean"},
+     "read, under `left_out` what was not, under `assumed` what its numbers were taken to mean, under `unchecked` "
+     "files "
+     "of the recording that had been altered"},
     {"score.json",
      "with `score`: path, share of the scans at which the method reported LOST, errors by a reference, and how soon it "
      "reported LOST"},

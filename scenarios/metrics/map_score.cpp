@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "bim/errors.h"
+#include "scenarios/host/interrupt.h"
 
 namespace plumbline::scenarios::score {
 
@@ -74,6 +75,8 @@ MapScore score_map(const std::vector<Eigen::Vector3f>& map_F, const Pose& X_WF, 
     sum += d * d;
     if (d >= rules.cap_m) ++capped;
     map_W.push_back(p_W);
+    constexpr std::size_t often = 10'000;  // a large map takes minutes
+    if (map_W.size() % often == 0) check_interrupt();
   }
   const auto n = static_cast<double>(map_F.size());
   return {std::sqrt(sum / n), static_cast<double>(capped) / n, completeness(surface_W, map_W, rules.complete_within_m)};

@@ -10,6 +10,7 @@
 #include "bim/errors.h"
 #include "slam/io/pose_check.h"
 #include "slam/io/stopwatch.h"
+#include "slam/process/shortened.h"
 
 namespace plumbline::scenarios {
 
@@ -17,6 +18,8 @@ namespace {
 
 /// Particle sets and matched walls are large: between changes of the state one is kept every so often.
 constexpr slam::Nanoseconds detail_interval = 1'000'000'000;
+/// Results, reports and terminals show why a method crashed.
+constexpr std::size_t longest_error = 5000;
 
 Digest& add_pose(Digest& digest, const std::optional<Pose>& X) {
   digest.add(X ? 1 : 0);
@@ -71,7 +74,7 @@ void MethodRecorder::on_scan(slam::Nanoseconds stamp, const std::function<slam::
     keep(process());
   } catch (const std::exception& error) {
     record_.crashed = true;
-    record_.error = utf8_of_bytes(error.what());
+    record_.error = slam::shortened(utf8_of_bytes(error.what()), longest_error);
   }
 }
 
@@ -127,7 +130,7 @@ MethodRecord MethodRecorder::finish(const std::function<slam::Estimate()>& estim
       record_.digests.push_back({last_stamp_, record_.name + "/estimate", digest_of(record_.estimate)});
     } catch (const std::exception& error) {
       record_.crashed = true;
-      record_.error = utf8_of_bytes(error.what());
+      record_.error = slam::shortened(utf8_of_bytes(error.what()), longest_error);
     }
   }
   return std::move(record_);

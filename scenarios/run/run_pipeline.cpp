@@ -73,8 +73,14 @@ class MethodThread {
   }
 
  private:
+  /// The method goes before its thread: a process dies with that, and what it started could not be found then.
   void work() {
     set_float_mode();
+    go_through();
+    method_.reset();
+  }
+
+  void go_through() {
     while (const std::optional<Frame> frame = queue_.pop()) {
       if (abandoned_) return;
       const ScopedPermit permit(permits_);

@@ -2,6 +2,7 @@
 #include "scenarios/sweep/children.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <signal.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
@@ -39,7 +40,14 @@ class Running {
   Running() = default;
   Running(const Running&) = delete;
   Running& operator=(const Running&) = delete;
+  /// A child that is asked to stop ends its methods and all that those started; a killed one only the methods.
   ~Running() {
+    constexpr int tries = 500, pause_ms = 10;
+    for (const auto& [pid, index] : children_) ::kill(pid, SIGTERM);
+    for (int i = 0; i < tries && !children_.empty(); ++i) {
+      std::erase_if(children_, [](const auto& child) { return ::waitpid(child.first, nullptr, WNOHANG) != 0; });
+      if (!children_.empty()) ::poll(nullptr, 0, pause_ms);
+    }
     for (const auto& [pid, index] : children_) ::kill(pid, SIGKILL);
     for (const auto& [pid, index] : children_) ::waitpid(pid, nullptr, 0);
   }

@@ -11,6 +11,7 @@
 #include "scenarios/spec/method_names.h"
 #include "scenarios/spec/process_tree.h"
 #include "scenarios/spec/resolve.h"
+#include "scenarios/sweep/program_digest.h"
 #include "scenarios/sweep/shared_simulation.h"
 
 namespace plumbline::scenarios {
@@ -144,26 +145,6 @@ Mark mark_of(const Tree& tree, std::string_view key, std::size_t i) {
   return list->is_list() && i < list->as_list().size() ? list->as_list()[i].mark : list->mark;
 }
 
-/// The programs and scripts that a scenario's processes start, as far as their commands name files: a method that its
-/// author has changed is run again.
-std::uint64_t digest_of_programs(const Tree& scenario) {
-  constexpr std::uint64_t most_bytes = std::uint64_t{1} << 30U;
-  Digest digest;
-  const Tree* processes = scenario.find("processes");
-  if (processes == nullptr || !processes->is_list()) return digest.value();
-  for (const Tree& process : processes->as_list()) {
-    const Tree* command = process.is_map() ? process.find("command") : nullptr;
-    const Tree* folder = process.is_map() ? process.find("folder") : nullptr;
-    if (command == nullptr || !command->is_list()) continue;
-    for (const Tree& word : command->as_list()) {
-      const fs::path file = (folder != nullptr ? fs::path(folder->as_string()) : fs::path()) / word.as_string();
-      std::error_code none;
-      if (fs::is_regular_file(file, none)) digest.add(read_text_file(file.string(), most_bytes));
-    }
-  }
-  return digest.value();
-}
-
 /// The part of a scenario that decides about its simulation.
 Tree simulation_part(const Tree& scenario) {
   Tree part = Tree::map();
@@ -226,6 +207,7 @@ Sweep read_sweep(const std::string& path, int seeds, slam::MethodTable table) {
   check(file, tree);
   std::size_t text_bytes = 0;
   std::set<std::string> parts;
+  ProgramDigests programs;
   const std::vector<SweepVariant> variants = file.variants.empty() ? std::vector<SweepVariant>(1) : file.variants;
   for (std::size_t i = 0; i < file.scenarios.size(); ++i) {
     const Mark at = mark_of(tree, "scenarios", i);
@@ -244,7 +226,7 @@ Sweep read_sweep(const std::string& path, int seeds, slam::MethodTable table) {
           throw InputError(mark_of(tree, file.variants.empty() ? "scenarios" : "variants", v),
                            "two kinds of run are both called '" + part + "'; name one of them otherwise");
         Digest input = Digest().add(write_yaml(made)).add(scenario.building_bytes());
-        if (made.find("processes") != nullptr) input.add(digest_of_programs(made));
+        if (made.find("processes") != nullptr) input.add(programs.of(made));
         const Digest simulation = Digest().add(scenario.text(simulation_part(made))).add(scenario.building_bytes());
         sweep.scenario_texts.push_back(scenario.text(made));
         text_bytes += sweep.scenario_texts.back().size();
@@ -260,6 +242,7 @@ Sweep read_sweep(const std::string& path, int seeds, slam::MethodTable table) {
         }
       }
   }
+  sweep.notes = programs.notes();
   return sweep;
 }
 

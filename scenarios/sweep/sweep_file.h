@@ -73,7 +73,8 @@ struct Sweep {
   std::string file_name;                    ///< of the sweep file, without its folder
   std::vector<std::string> scenario_texts;  ///< for all seeds, the building by its whole path
   std::vector<SweepRun> runs;
-  int seeds = 0;  ///< asked for in place of the file's; 0: the file's
+  int seeds = 0;                   ///< asked for in place of the file's; 0: the file's
+  std::vector<std::string> notes;  ///< what a user should know of it, sentences
 };
 
 /// Reads a sweep and checks the form of every scenario it makes. seeds: so many of each, 0: as the file says. Throws

@@ -4,7 +4,6 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
-#include <spawn.h>
 #include <sys/socket.h>
 #include <sys/timerfd.h>
 #include <sys/wait.h>
@@ -30,6 +29,7 @@
 #include "bim/config/utf8.h"
 #include "bim/errors.h"
 #include "slam/io/stopwatch.h"
+#include "slam/process/spawn.h"
 
 extern char** environ;
 
@@ -37,11 +37,9 @@ namespace plumbline::slam {
 
 namespace {
 
-constexpr int child_stream = 3;
-constexpr int child_file = 4;
 constexpr std::size_t printed_max = 4096;
-constexpr int go_on_ms = 100;  ///< between two questions whether to go on
-constexpr int reap_ms = 10;    ///< between two looks at whether a process has ended
+constexpr int look_ms = 100;  ///< between two looks at whether the process is there, and we shall go on
+constexpr int reap_ms = 10;   ///< between two looks at whether a process has ended
 
 std::string error_text(int error) { return std::strerror(error); }
 
@@ -75,43 +73,6 @@ std::vector<std::string> environment_with(const std::vector<std::string>& variab
     if (!given) all.push_back(one);
   }
   return all;
-}
-
-std::vector<char*> pointers(const std::vector<std::string>& words) {
-  std::vector<char*> all;
-  for (const std::string& word : words) all.push_back(const_cast<char*>(word.c_str()));
-  all.push_back(nullptr);
-  return all;
-}
-
-/// Of posix_spawn, freed at the end.
-class SpawnPlan {
- public:
-  SpawnPlan() {
-    posix_spawn_file_actions_init(&actions);
-    posix_spawnattr_init(&attributes);
-  }
-  ~SpawnPlan() {
-    posix_spawn_file_actions_destroy(&actions);
-    posix_spawnattr_destroy(&attributes);
-  }
-  SpawnPlan(const SpawnPlan&) = delete;
-  SpawnPlan(SpawnPlan&&) = delete;
-  SpawnPlan& operator=(const SpawnPlan&) = delete;
-  SpawnPlan& operator=(SpawnPlan&&) = delete;
-
-  posix_spawn_file_actions_t actions;
-  posix_spawnattr_t attributes;
-};
-
-/// Signals that this program handles or ignores come to the child as to any other.
-void reset_signals(posix_spawnattr_t& attributes) {
-  sigset_t none, all;
-  sigemptyset(&none);
-  sigfillset(&all);
-  posix_spawnattr_setsigmask(&attributes, &none);
-  posix_spawnattr_setsigdefault(&attributes, &all);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSID | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
 }
 
 /// A variable that no other process has set, of this program or another one.
@@ -176,30 +137,17 @@ Child::Child(const std::vector<std::string>& command, const std::string& folder,
   ::setsockopt(stream_, SOL_SOCKET, SO_SNDBUF, &scan_bytes, sizeof scan_bytes);
   ::fcntl(output_, F_SETFL, O_NONBLOCK);
 
-  SpawnPlan plan;
-  posix_spawn_file_actions_addopen(&plan.actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_adddup2(&plan.actions, its_output, STDOUT_FILENO);
-  posix_spawn_file_actions_adddup2(&plan.actions, its_output, STDERR_FILENO);
-  // dup2 onto itself would leave it to be closed at exec.
-  const int above = ::fcntl(its_stream, F_DUPFD_CLOEXEC, child_stream + 1);
-  posix_spawn_file_actions_adddup2(&plan.actions, above, child_stream);
-  const int inherited_above = inherited < 0 ? -1 : ::fcntl(inherited, F_DUPFD_CLOEXEC, child_file + 1);
-  if (inherited >= 0) posix_spawn_file_actions_adddup2(&plan.actions, inherited_above, child_file);
-  posix_spawn_file_actions_addclosefrom_np(&plan.actions, (inherited < 0 ? child_stream : child_file) + 1);
-  if (!folder.empty()) posix_spawn_file_actions_addchdir_np(&plan.actions, folder.c_str());
-  reset_signals(plan.attributes);
   std::vector<std::string> marked = variables;
   marked.push_back(mark_);
-  const std::vector<std::string> environment = environment_with(marked);
-  const int failed = ::posix_spawnp(&pid_, command.front().c_str(), &plan.actions, &plan.attributes,
-                                    pointers(command).data(), pointers(environment).data());
+  try {
+    pid_ = spawn({command, folder, environment_with(marked), its_output, its_stream, inherited});
+  } catch (...) {
+    for (const int descriptor : {its_stream, its_output}) ::close(descriptor);
+    for (int* descriptor : {&stream_, &output_, &timer_}) close_if_open(*descriptor);
+    throw;
+  }
   ::close(its_stream);
   ::close(its_output);
-  ::close(above);
-  if (inherited_above >= 0) ::close(inherited_above);
-  if (failed == 0) return;
-  for (int* descriptor : {&stream_, &output_, &timer_}) close_if_open(*descriptor);
-  throw ProcessFailure("'" + command.front() + "' cannot be started: " + error_text(failed));
 }
 
 Child::~Child() {
@@ -242,7 +190,9 @@ void Child::send(const void* bytes, std::size_t size) {
       at += sent;
       size -= static_cast<std::size_t>(sent);
     } else if (sent < 0 && (errno == EAGAIN || errno == EINTR)) {
-      if (wait_for(POLLOUT) == Ready::over) throw ProcessFailure("took more than its time to read what it was sent");
+      const Ready ready = wait_for(POLLOUT);
+      if (ready == Ready::over) throw ProcessFailure("took more than its time to read what it was sent");
+      if (ready == Ready::ended) fail_as_it_ended();
     } else {
       fail_as_it_ended();
     }
@@ -257,7 +207,9 @@ void Child::receive(void* bytes, std::size_t size) {
       at += got;
       size -= static_cast<std::size_t>(got);
     } else if (got < 0 && (errno == EAGAIN || errno == EINTR)) {
-      if (wait_for(POLLIN) == Ready::over) {
+      const Ready ready = wait_for(POLLIN);
+      if (ready == Ready::ended) fail_as_it_ended();
+      if (ready == Ready::over) {
         char text[32];
         std::snprintf(text, sizeof text, "%g s", deadline_s_);
         throw ProcessFailure("gave no answer within " + std::string(text));
@@ -268,17 +220,20 @@ void Child::receive(void* bytes, std::size_t size) {
   }
 }
 
+// What it started may hold the stream open after its end: the last answers are there then, and no more will come.
 Child::Ready Child::wait_for(short events) {
   for (;;) {
     std::array<pollfd, 3> waits{{{stream_, events, 0}, {timer_, POLLIN, 0}, {output_, POLLIN, 0}}};
     if (go_on_) go_on_();
+    const bool gone = reap();
     // Another thread may have got the signal, or it came just before: an interrupted poll alone would not tell.
-    if (::poll(waits.data(), waits.size(), go_on_ ? go_on_ms : -1) < 0) {
+    if (::poll(waits.data(), waits.size(), gone ? 0 : look_ms) < 0) {
       if (errno != EINTR) throw EnvironmentError("no process can be waited for: " + error_text(errno));
       continue;
     }
     if (waits[2].revents != 0) read_printed();
     if (waits[0].revents != 0) return Ready::stream;
+    if (gone) return Ready::ended;
     if (waits[1].revents != 0) return Ready::over;
   }
 }
@@ -301,7 +256,10 @@ bool Child::close_and_wait() {
   for (;;) {
     const ssize_t got = ::recv(stream_, &byte, 1, 0);
     if (got == 0 || (got < 0 && errno != EAGAIN && errno != EINTR)) break;
-    if (got < 0 && wait_for(POLLIN) == Ready::over) return false;
+    if (got > 0) continue;
+    const Ready ready = wait_for(POLLIN);
+    if (ready == Ready::over) return false;
+    if (ready == Ready::ended) break;
   }
   // It may go on without the stream, and print.
   while (!reap()) {

@@ -19,8 +19,8 @@ class ProcessFailure : public std::runtime_error {
 };
 
 /// A child process and a stream to it, which is its file descriptor 3. Its standard input is empty; what it prints is
-/// kept, the last of it. It dies with this object, and all that it started with it, in
-/// whatever session: what has its environment, or descends from it.
+/// kept, the last of it. It dies with this object, and all that it started with it, in whatever session: what has its
+/// environment, or descends from it. It dies with the thread that made it, too, so that a killed program leaves none.
 class Child {
  public:
   /// folder: its working directory. variables: NAME=VALUE, over those of this process. printed: gets what it prints, as
@@ -52,7 +52,7 @@ class Child {
   [[nodiscard]] const std::string& printed() const { return printed_; }
 
  private:
-  enum class Ready { stream, over };
+  enum class Ready { stream, over, ended };
   [[nodiscard]] Ready wait_for(short events);
   /// Whether the process has ended; takes its status the first time.
   bool reap();

@@ -8,11 +8,13 @@
 #include <span>
 #include <utility>
 
+#include "bim/config/utf8.h"
 #include "slam/process/answers.h"
 #include "slam/process/child.h"
 #include "slam/process/client/plumbline_messages.h"
 #include "slam/process/greeting.h"
 #include "slam/process/shared_memory.h"
+#include "slam/process/shortened.h"
 
 namespace plumbline::slam {
 
@@ -31,6 +33,9 @@ struct Message {
 
 /// What stands in either half of the shared memory; most scans take 1.2 MB, the largest 10.
 constexpr std::size_t half_bytes = 32U << 20U;
+
+/// Characters of a reason to give up that are passed on: results, reports and terminals show it.
+constexpr std::size_t longest_reason = 2000;
 
 /// One process and what is said to it.
 class Conversation {
@@ -89,7 +94,8 @@ class Conversation {
     for (;;) {
       Message message = receive_one();
       if (message.type == wire::Type::log) continue;
-      if (message.type == wire::Type::fail) throw ProcessFailure("gave up: " + text_of(message.payload));
+      if (message.type == wire::Type::fail)
+        throw ProcessFailure("gave up: " + shortened(utf8_of_bytes(text_of(message.payload)), longest_reason));
       if (message.type == wanted) return std::move(message.payload);
       throw ProcessFailure("answered with a message of type " + std::to_string(static_cast<int>(message.type)) +
                            " where " + std::to_string(static_cast<int>(wanted)) + " is due");

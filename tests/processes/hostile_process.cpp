@@ -106,6 +106,10 @@ bool misbehave(const std::string& how, wire::Output& output) {
     const std::string why = "no wall in sight";
     send(wire::Type::fail, why.data(), why.size());
   }
+  if (how == "fails_at_length") {
+    const std::string why(5'000'000, 'x');
+    send(wire::Type::fail, why.data(), why.size());
+  }
   if (how == "stamp") ++output.stamp_ns;
   if (how == "nan") output.X_FR.t[0] = std::numeric_limits<double>::quiet_NaN();
   if (how == "quaternion") output.X_FR.q[3] = 0.9;

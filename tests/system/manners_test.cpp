@@ -50,8 +50,12 @@ TEST_F(Manners, HelpDoesNotHideAWrongCommand) {
   refuse({"bogus", "--help"}, "unknown command 'bogus'");
   refuse({"rnu", "-h"}, "did you mean 'run'?");
   refuse({"generate", "coridor", "--help"}, "did you mean 'corridor'?; see plumbline generate --help");
-  for (const std::vector<std::string>& right : std::vector<std::vector<std::string>>{
-           {"--help"}, {"run", "--help"}, {"run", "x.yaml", "--help"}, {"generate", "corridor", "--help"}})
+  for (const std::vector<std::string>& right : std::vector<std::vector<std::string>>{{"--help"},
+                                                                                     {"run", "--help"},
+                                                                                     {"run", "x.yaml", "--help"},
+                                                                                     {"generate", "corridor", "--help"},
+                                                                                     {"sweep", "s.yaml", "--help"},
+                                                                                     {"sweep", "collect", "--help"}})
     EXPECT_EQ(plumbline(right).code, 0) << right.front();
 }
 

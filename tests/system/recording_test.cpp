@@ -281,6 +281,56 @@ TEST_F(Recordings, AnEstimateWithoutARunIsScoredByAReference) {
   refused({"score", walk, "--reference", walk + "/truth.tum"}, "--reference");
 }
 
+// A number of the odometry, and then the poses of the estimate.
+TEST_F(Recordings, AlteredOnesAreTakenOnlyUnchecked) {
+  write_file(folder_ / "short.plan.yaml", read_file(plan()));
+  write_file(folder_ / "short.yaml", read_file(input()));
+  const std::string run = folder_ / "run", walk = run + "/recording", out = folder_ / "out";
+  ASSERT_EQ(plumbline({"run", folder_ / "short.yaml", "--record", "--out", run, "--method", "vgicp"}).code, 0);
+  const auto estimated = [&](const std::string& recording, const std::string& option) {
+    std::vector<std::string> words = {"estimate", recording, "--method", "odometry", "-o", out, "--force"};
+    if (!option.empty()) words.push_back(option);
+    return plumbline(words);
+  };
+  ASSERT_EQ(estimated(walk, "").code, 0);
+  const std::string text = read_file(walk + "/odometry.tum");
+  write_file(walk + "/odometry.tum", text.substr(0, text.rfind('\n', text.size() - 2) + 1));
+  for (const std::string& given : {walk, run}) {
+    const Outcome refused = estimated(given, "");
+    EXPECT_EQ(refused.code, 2);
+    EXPECT_NE(refused.err.find("altered since they were written: odometry.tum;"), std::string::npos) << refused.err;
+  }
+  EXPECT_EQ(estimated(walk, "--unchecked").code, 0);
+  EXPECT_NE(read_file(out + "/estimate.yaml").find("unchecked:"), std::string::npos);
+  fs::remove(walk + "/manifest.csv");
+  fs::remove(run + "/manifest.csv");
+  EXPECT_EQ(estimated(walk, "").code, 0);  // as one from elsewhere
+  write_file(walk + "/odometry.tum", text);
+
+  const auto scored = [&](const std::string& option) {
+    std::vector<std::string> words = {"score", run, "--estimate", "legs=" + out};
+    if (!option.empty()) words.push_back(option);
+    return plumbline(words);
+  };
+  ASSERT_EQ(plumbline({"run", folder_ / "short.yaml", "--out", run, "--method", "vgicp", "--force"}).code, 0);
+  ASSERT_EQ(plumbline({"simulate", folder_ / "short.yaml", "-o", folder_ / "again"}).code, 0);
+  ASSERT_EQ(estimated(folder_ / "again", "").code, 0);
+  ASSERT_EQ(scored("").code, 0);
+  fs::copy_file(run + "/truth.tum", out + "/odometry.tum", fs::copy_options::overwrite_existing);
+  const Outcome refused = scored("");
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.err.find(out + ": altered since they were written: odometry.tum;"), std::string::npos)
+      << refused.err;
+  const Outcome taken = scored("--unchecked");
+  EXPECT_EQ(taken.code, 0) << taken.err;
+  const auto unchecked = [&] { return nlohmann::json::parse(read_file(run + "/results.json"))["unchecked"]; };
+  EXPECT_EQ(unchecked(), nlohmann::json::array({"legs=odometry.tum"}));
+  ASSERT_EQ(plumbline({"score", run}).code, 0);
+  EXPECT_EQ(unchecked(), nlohmann::json::array({"legs=odometry.tum"}));  // it stays so
+  ASSERT_EQ(plumbline({"score", run, "--drop", "legs"}).code, 0);
+  EXPECT_TRUE(unchecked().is_null());
+}
+
 TEST_F(Recordings, AnEstimateOfAnotherRunsRecordingIsNotScored) {
   write_file(folder_ / "short.plan.yaml", read_file(plan()));
   write_file(folder_ / "short.yaml", read_file(input()));

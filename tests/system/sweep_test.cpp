@@ -4,8 +4,10 @@
 #include <signal.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
+#include <thread>
 
 #include "bim/config/tree.h"
 #include "tests/system/program.h"
@@ -90,6 +92,42 @@ TEST(Sweep, ShardsGiveTheTableOfTheWhole) {
   for (const char* wrong : {"0/2", "3/2", "1", "1/2x", "a/b", "-1/2", "1/0"})
     EXPECT_EQ(plumbline({"sweep", sweep, "--shard", wrong, "-o", folder / "no"}).code, 2) << wrong;
   EXPECT_FALSE(fs::exists(folder / "no"));
+}
+
+/// Whether a process is there and does something.
+bool runs(const std::string& pid) {
+  const std::string stat = "/proc/" + pid + "/stat";
+  return fs::exists(stat) && read_file(stat).find(") Z ") == std::string::npos;
+}
+
+// A method that hangs, with a process of its own that outlives a killed one.
+TEST(Sweep, LeavesNoMethodBehindWhateverEndsIt) {
+  if (!available()) GTEST_SKIP() << "PLUMBLINE_BINARY and PLUMBLINE_SOURCE are not set; run through ctest";
+  const Folder folder;
+  (void)six_runs(folder);
+  write_file(folder / "hangs.sh", "trap '' TERM\nsleep 300 3>&- &\necho $! > child\necho $$ > pid\nexec sleep 301\n");
+  write_file(folder / "hang.yaml",
+             "sweep: 1\nscenarios: [short.yaml]\nseeds: 1\n"
+             "methods: [{name: hangs, command: [/bin/sh, hangs.sh], start_s: 200}]\n");
+  for (const int signal : {SIGINT, SIGTERM, SIGKILL}) {
+    fs::remove(folder / "pid");
+    Setting setting;
+    setting.signal = signal;
+    setting.kill_when = [&] { return !read_file(folder / "pid").empty(); };
+    EXPECT_EQ(plumbline({"sweep", folder / "hang.yaml", "-o", folder / "out"}, setting).code, 128 + signal);
+    const auto pid_in = [&](const std::string& name) {
+      const std::string text = read_file(folder / name);
+      return text.substr(0, text.find('\n'));
+    };
+    const std::string child = pid_in("child"), method = pid_in("pid");
+    ASSERT_FALSE(method.empty());
+    for (int i = 0; i < 200 && runs(method); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    EXPECT_FALSE(runs(method)) << signal;
+    if (signal == SIGKILL)
+      ::kill(std::stoi(child), SIGKILL);  // nobody is left to end it
+    else
+      EXPECT_FALSE(runs(child)) << signal;
+  }
 }
 
 // With a stand-in for sbatch that runs what it is given at once, every task twice, as after the death of a node.

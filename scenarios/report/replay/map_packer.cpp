@@ -12,14 +12,17 @@ namespace {
 
 constexpr double unit_m = 0.01, finest_voxel_m = 0.1;
 constexpr double reach_m = 32767.0 * unit_m;
+constexpr std::size_t most_read = 200'000;  ///< points; a page shows a tenth of them
 
 using Voxels =
     std::map<std::array<int, 3>, Eigen::Vector3d>;  // by z, y, x: neighbours stand together, which deflates well
 
+/// Of a large map every so many points, the same ones each time.
 Voxels thinned(const std::vector<Eigen::Vector3f>& map_F, const Pose& X, double voxel_m) {
+  const std::size_t every = (map_F.size() + most_read - 1) / most_read;
   Voxels voxels;
-  for (const Eigen::Vector3f& p_F : map_F) {
-    const Eigen::Vector3d p = X * p_F.cast<double>();
+  for (std::size_t i = 0; i < map_F.size(); i += every) {
+    const Eigen::Vector3d p = X * map_F[i].cast<double>();
     if (!(p.cwiseAbs().maxCoeff() < reach_m)) continue;
     const Eigen::Vector3d cell = (p / voxel_m).array().floor();
     voxels.try_emplace({static_cast<int>(cell.z()), static_cast<int>(cell.y()), static_cast<int>(cell.x())}, p);

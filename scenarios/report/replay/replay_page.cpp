@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "scenarios/host/interrupt.h"
 #include "scenarios/metrics/result_words.h"
 #include "scenarios/metrics/storey.h"
 #include "scenarios/report/belief.h"
@@ -29,6 +30,7 @@ namespace {
 constexpr std::size_t scans_a_chunk = 10;
 
 std::string block(const std::string& id, std::string_view bytes) {
+  check_interrupt();
   return "<script type=\"text/plain\" id=\"" + id + "\">" + base64(deflated(bytes)) + "</script>\n";
 }
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "bim/model/rooms.h"
+#include "scenarios/host/interrupt.h"
 #include "scenarios/metrics/storey.h"
 #include "scenarios/report/replay/replay_scene.h"
 #include "scenarios/score/handover.h"
@@ -137,6 +138,7 @@ Tree belief_of(const MethodRecord& method, const FinishedRun& run, const score::
   constexpr std::size_t shown = 6;  // hypotheses; the page says how many more there are
   Tree sets = Tree::list(), particles = Tree::list();
   for (const std::size_t i : kept_of(method.beliefs)) {
+    check_interrupt();
     const BeliefRecord& belief = method.beliefs[i];
     const Pose X_WR = truth.at(belief.stamp);
     const Tree t = whole(slam::seconds(belief.stamp), ms);

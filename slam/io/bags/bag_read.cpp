@@ -10,6 +10,7 @@
 #include "slam/io/bags/bag_source.h"
 #include "slam/io/bags/bag_topics.h"
 #include "slam/io/bags/frame_tree.h"
+#include "slam/io/bags/numbered_messages.h"
 #include "slam/io/bags/odometry_motion.h"
 #include "slam/io/bags/record_queue.h"
 #include "slam/io/bags/ros_message.h"
@@ -29,6 +30,7 @@ class BagRecording final : public Recording {
     guarded([&] {
       source_ = open_source(path);
       if (topics.odometry.empty()) source_ = with_odometry_of_transforms(std::move(source_));
+      messages_ = NumberedMessages(*source_);
       topics_ = choose_topics(*source_, topics, mark_);
       lidar_ = find_frames(names());
       described_ = info != nullptr;
@@ -39,7 +41,7 @@ class BagRecording final : public Recording {
         find_mount();
       }
       find_times();
-      source_->select(names());
+      messages_.select(names());
     });
   }
 
@@ -89,7 +91,7 @@ class BagRecording final : public Recording {
   }
 
  private:
-  /// What messages themselves have wrong is said with the bag's name and the message's number.
+  /// What messages themselves have wrong is said with the bag's name.
   template <class F>
   void guarded(const F& function) {
     try {
@@ -97,7 +99,7 @@ class BagRecording final : public Recording {
     } catch (const InputError& error) {
       const bool has_mark = std::string_view(error.what()).starts_with(mark_.file);
       if (has_mark) throw;
-      throw InputError(mark_, "message " + std::to_string(messages_) + ": " + error.what());
+      throw InputError(mark_, error.what());
     }
   }
 
@@ -111,36 +113,13 @@ class BagRecording final : public Recording {
 
   [[nodiscard]] const BagTopic& topic_of(const RawMessage& message) const { return source_->topics()[message.topic]; }
 
-  /// What a message has wrong is said with its topic's name.
-  template <class F>
-  [[nodiscard]] static auto named(const BagTopic& topic, const F& function) {
-    try {
-      return function();
-    } catch (const ros::ImpossibleNumber& error) {
-      throw ros::ImpossibleNumber({}, topic.name + ": " + error.what());
-    } catch (const InputError& error) {
-      throw InputError({}, topic.name + ": " + error.what());
-    }
-  }
-
-  /// Nothing where the message holds numbers that cannot be.
-  template <class F>
-  [[nodiscard]] static auto possible(const BagTopic& topic, const F& function) -> std::optional<decltype(function())> {
-    try {
-      return named(topic, function);
-    } catch (const ros::ImpossibleNumber&) {
-      return std::nullopt;
-    }
-  }
-
   [[nodiscard]] std::optional<ros::OdometryMessage> odometry_of(const RawMessage& message) const {
-    const BagTopic& topic = topic_of(message);
-    return possible(topic, [&] { return ros::read_odometry(message.bytes, topic.encoding); });
+    return messages_.possible(message, [&] { return ros::read_odometry(message.bytes, topic_of(message).encoding); });
   }
 
   [[nodiscard]] ros::FramedCloud cloud_of(const RawMessage& message) const {
     const BagTopic& topic = topic_of(message);
-    return named(topic, [&] {
+    return messages_.named(message, [&] {
       return is_livox(topic.type) ? ros::read_livox(message.bytes, topic.encoding)
                                   : ros::read_cloud(message.bytes, topic.encoding);
     });
@@ -149,9 +128,9 @@ class BagRecording final : public Recording {
   /// Returns how many hold numbers that are no pose.
   template <class F>
   std::size_t show_transforms(const std::string& topic, const F& add) {
-    source_->select({topic});
+    messages_.select({topic});
     std::size_t impossible = 0;
-    for (RawMessage message; source_->next(message);) {
+    for (RawMessage message; messages_.next(message);) {
       if (!is_transforms(topic_of(message).type)) continue;
       const ros::Transforms transforms = ros::read_transforms(message.bytes, topic_of(message).encoding);
       impossible += transforms.impossible;
@@ -166,9 +145,9 @@ class BagRecording final : public Recording {
     impossible_fixed_ = show_transforms(fixed, [&](const ros::Transform& t) { frames_.add(t); });
     RawMessage message;
     std::string lidar;
-    source_->select(names);
+    messages_.select(names);
     bool any_cloud = false;
-    while (source_->next(message)) {
+    while (messages_.next(message)) {
       const BagTopic& topic = topic_of(message);
       if (is_odometry(topic.type))
         if (const auto odometry = odometry_of(message); odometry && base_.empty())
@@ -211,12 +190,12 @@ class BagRecording final : public Recording {
 
   /// Until one says that no other is needed.
   void show_clouds(const std::function<bool(const PointCloud&)>& add) {
-    source_->select({topics_.points});
+    messages_.select({topics_.points});
     OneFrame frame;
-    for (RawMessage message; source_->next(message);) {
+    for (RawMessage message; messages_.next(message);) {
       const ros::FramedCloud said = cloud_of(message);
       if (!frame.takes(said.frame)) continue;
-      if (!named(topic_of(message), [&] { return add(said.cloud); })) return;
+      if (!messages_.named(message, [&] { return add(said.cloud); })) return;
     }
   }
 
@@ -255,10 +234,7 @@ class BagRecording final : public Recording {
   /// Reads on until a scan is ready.
   void fill() {
     RawMessage message;
-    while (!ready() && source_->next(message)) {
-      ++messages_;
-      read(message);
-    }
+    while (!ready() && messages_.next(message)) read(message);
   }
 
   /// Livox's drivers give accelerations in g: what is near 1 at rest cannot be in m/s^2.
@@ -320,7 +296,7 @@ class BagRecording final : public Recording {
     if (is_cloud(topic.type)) {
       const ros::FramedCloud said = cloud_of(message);
       if (!scan_frame_.takes(said.frame)) return;
-      CloudScan read = named(topic, [&] { return read_scan(said.cloud, times_.times); });
+      CloudScan read = messages_.named(message, [&] { return read_scan(said.cloud, times_.times); });
       without_rings_ += read.rings_left_out ? 1 : 0;
       units_.add(read);
       read.scan.stamp = shifted(read.scan.stamp);
@@ -331,7 +307,7 @@ class BagRecording final : public Recording {
       else
         odometry_.leave_out();
     } else if (is_imu(topic.type)) {
-      if (const auto said = possible(topic, [&] { return ros::read_imu(message.bytes, topic.encoding); }))
+      if (const auto said = messages_.possible(message, [&] { return ros::read_imu(message.bytes, topic.encoding); }))
         take(*said);
       else
         imu_.leave_out();
@@ -365,6 +341,7 @@ class BagRecording final : public Recording {
 
   Mark mark_;
   std::unique_ptr<MessageSource> source_;
+  NumberedMessages messages_;
   BagTopics topics_;
   RecordingInfo info_;
   bool described_ = false;  ///< by its owner
@@ -383,8 +360,7 @@ class BagRecording final : public Recording {
   std::optional<std::string> unjoined_imu_;  ///< frame that /tf_static does not join to R
   std::optional<Nanoseconds> first_scan_;    ///< when it began
   std::optional<Pose> X_OB_;
-  std::optional<double> gravity_;  ///< m/s^2 of the unit that the IMU's accelerations are in
-  std::int64_t messages_ = 0;
+  std::optional<double> gravity_;     ///< m/s^2 of the unit that the IMU's accelerations are in
   std::size_t impossible_fixed_ = 0;  ///< static transforms
   std::int64_t early_ = 0;            ///< scans before the odometry
   std::int64_t without_rings_ = 0;    ///< scans

@@ -157,13 +157,15 @@ bool SweepLengthSearch::add(const PointCloud& cloud) {
   const std::vector<CloudPoint> points = read_untimed(cloud);
   const auto [first, last] = extent(cloud, {time, 1.0, 0.0}, points);
   if (!(last > first) || !std::isfinite(first)) return ++without_times_ < most_without_times;
-  const std::optional<PointClock> clock = find_clock(cloud, *time, points, {base_, 0.0});
+  const std::optional<PointClock> clock = find_clock(cloud, *time, points, {base_, 0.0, 0});
   const auto [from, to] = clock ? extent(cloud, *clock, points) : std::pair(0.0, 0.0);
   from_stamp_ = from_stamp_ && (!clock || clock->zero_ns == 0.0);
   const bool is_float = time->type == PointType::f32 || time->type == PointType::f64;
   unit_ns_ = is_float && clock && clock->unit_ns != units_ns[0] ? clock->unit_ns : 0.0;
   lengths_ns_.push_back(clock ? to - from : std::numeric_limits<double>::infinity());
   spans_.push_back(last - first);
+  ends_ns_.push_back(to);
+  ends_.push_back(last);
   constexpr double none = 1e-3, near = 0.1;  // of a sweep: beyond its ends, left out by blind sectors
   const bool counts_up = first > -none && first < near && last < 1.0 + none;
   const bool counts_down = last > -near && last < none && first > -1.0 - none;
@@ -172,10 +174,18 @@ bool SweepLengthSearch::add(const PointCloud& cloud) {
 }
 
 AssumedTimes SweepLengthSearch::found() const {
+  AssumedTimes found = unit_found();
+  const double unit_ns = found.times.unit_ns;
+  const double end_ns = ends_.empty() ? 0.0 : unit_ns > 0.0 ? unit_ns * upper_median(ends_) : upper_median(ends_ns_);
+  if (std::abs(end_ns) <= static_cast<double>(longest_sweep_ns)) found.times.end_ns = std::llround(end_ns);
+  return found;
+}
+
+AssumedTimes SweepLengthSearch::unit_found() const {
   constexpr std::size_t least_seen = 2;
   constexpr double shortest = 2e6, too_long = 1.5, longest = 1.3, sparse = 1.0 / 3.0;  // ns; of the spacing
   constexpr std::array<std::string_view, 4> names = {"s", "ms", "us", "ns"};
-  AssumedTimes found{{base_, 0.0}, {}};
+  AssumedTimes found{{base_, 0.0, 0}, {}};
   if (spacings_ns_.size() < least_seen || spans_.size() < least_seen) return found;
   const double spacing = upper_median(spacings_ns_), length = upper_median(lengths_ns_), span = upper_median(spans_);
   // Of a fast head only some sweeps may have been kept, so that a sweep may be much shorter than the spacing.

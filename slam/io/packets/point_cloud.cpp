@@ -88,7 +88,10 @@ CloudScan read_scan(const PointCloud& cloud, const PointTimes& times) {
   CloudScan out;
   Scan& scan = out.scan;
   scan.stamp = cloud.stamp;
-  if (cloud.width == 0 || cloud.height == 0) return out;
+  if (cloud.width == 0 || cloud.height == 0) {
+    scan.stamp += times.end_ns;
+    return out;
+  }
   std::vector<CloudPoint> points = read_points(cloud, times);
   out.in_mm = is_in_mm(cloud);
   out.far = is_far(points);

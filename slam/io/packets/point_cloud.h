@@ -59,6 +59,8 @@ class TimeBaseSearch {
 struct PointTimes {
   TimeBase base = TimeBase::unknown;
   double unit_ns = 0.0;  ///< ns that a 1 means, from the stamp; 0: told from each cloud by the field's type
+  Nanoseconds end_ns =
+      0;  ///< of most sweeps, from the cloud's stamp; that of one without points cannot be told from it
 };
 
 struct AssumedTimes {
@@ -77,11 +79,16 @@ class SweepLengthSearch {
   [[nodiscard]] AssumedTimes found() const;
 
  private:
+  /// Without the end of a sweep.
+  [[nodiscard]] AssumedTimes unit_found() const;
+
   TimeBase base_;
   std::optional<Nanoseconds> last_stamp_;
   std::vector<double> spacings_ns_;
   std::vector<double> lengths_ns_;  ///< as read without knowing the spacing
   std::vector<double> spans_;       ///< in the field's own unit
+  std::vector<double> ends_ns_;     ///< as read without knowing the spacing, from the stamp
+  std::vector<double> ends_;        ///< in the field's own unit
   bool shares_ = true;              ///< all go from 0 to 1, or from -1 to 0
   bool from_stamp_ = true;          ///< no times of the day
   double unit_ns_ = 0.0;            ///< of the last cloud's times, where they are neither s nor whole numbers; else 0

@@ -64,6 +64,15 @@ TEST(NextSteps, OfACrashLeadToTheMethodAndItsLastScan) {
   EXPECT_NE(summarise(judged.run, judged.score).find("\nFAILED: un judged: crashed\nno gates\n"), std::string::npos);
 }
 
+// No replay stops at 0.
+TEST(NextSteps, OfAMethodThatNeverStartedReplayAll) {
+  Judged judged;
+  for (const char* name : {"judged", "un judged"}) judged.run.record.methods.emplace_back().name = name;
+  judged.run.record.methods[1].crashed = true;
+  judged.score.methods[1].verdict = "crashed";
+  EXPECT_EQ(judged.steps(true), "look:  runs/a b/replay.html#m=un%20judged\nagain: plumbline replay 'runs/a b'\n");
+}
+
 TEST(NextSteps, OfSlamThatIsFarOffLeadToIt) {
   Judged judged;
   judged.score.methods[1].verdict = "complete";

@@ -108,6 +108,25 @@ TEST(Tracks, TurnTrueAndFalseWithTheHypothesis) {
   EXPECT_EQ(histories[1].room, "hall");
 }
 
+TEST(Tracks, OfVeryManyTheHeaviestAreFollowed) {
+  const score::Truth truth = walk(3);
+  constexpr int many = 20'000;
+  const std::vector<BeliefRecord> beliefs = believed(truth, [](std::size_t, const Pose& X_WR) {
+    std::vector<slam::Hypothesis> all;
+    for (int k = 0; k < many; ++k)
+      all.push_back(hypothesis(k == many - 1 ? 0.5 : 0.5 / (many - 1),
+                               Pose::from_xyz_yaw({k == many - 1 ? 0.0 : 10.0 + k, 0.0, 0.0}, 0.0) * X_WR));
+    return all;
+  });
+  const HypothesisHistories histories = hypothesis_histories(beliefs, truth, 6);
+  EXPECT_EQ(histories.left_out, static_cast<std::size_t>(many - 6));
+  ASSERT_EQ(histories.shown.size(), 6U);
+  EXPECT_TRUE(histories.shown[0].is_true);
+  EXPECT_EQ(histories.shown[0].points.front().y(), 0.5);
+  ASSERT_EQ(histories.others.size(), 3U);
+  for (const Eigen::Vector2d& p : histories.others) EXPECT_NEAR(p.y(), 0.5, 0.001);
+}
+
 TEST(Tracks, ALevelLineNeedsFewPointsAndLeavesNoGap) {
   const score::Truth truth = walk(100);
   std::vector<BeliefRecord> beliefs;

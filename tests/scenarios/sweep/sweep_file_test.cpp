@@ -93,6 +93,48 @@ TEST_F(SweepFiles, AChangedProgramIsAnotherInput) {
   EXPECT_NE(digest_with("a = 2\n"), first);
 }
 
+// What a script imports stands beside it; what programs write there is no part of it.
+TEST_F(SweepFiles, AChangedFileBesideAScriptIsAnotherInput) {
+  fs::create_directories(folder_ / "hp/part");
+  std::ofstream(folder_ / "hp/main.py") << "import helper\n";
+  const auto digest = [&] {
+    return read(
+               "sweep: 1\nscenarios: [library/house.yaml]\nseeds: 1\n"
+               "methods: [{name: mine, command: [/usr/bin/env, hp/main.py]}]\n")
+        .runs.at(0)
+        .input_digest;
+  };
+  const auto write = [&](const std::string& name, const std::string& text) {
+    fs::create_directories(fs::path(folder_ / name).parent_path());
+    std::ofstream(folder_ / name) << text;
+  };
+  std::string before = digest();
+  EXPECT_EQ(digest(), before);
+  for (const std::string name : {"hp/helper.py", "hp/part/inner.py"})
+    for (const std::string text : {"", "X = 0\n", "X = 1\n"}) {
+      write(name, text);
+      const std::string now = digest();
+      EXPECT_NE(now, before) << name << " " << text;
+      before = now;
+    }
+  for (const std::string name :
+       {"hp/__pycache__/helper.pyc", "hp/.git/index", "hp/mine.log", "hp/out/results/a.json", "hp/out/table.csv",
+        "hp/run/manifest.csv", "hp/run/results.json", "hp/out.shards/array.sh", "beside.py", "hp/other.yaml"}) {
+    write(name, name.ends_with(".yaml") ? "# more seeds\nsweep: 1\n" : "1\n");
+    EXPECT_EQ(digest(), before) << name;
+  }
+}
+
+TEST_F(SweepFiles, TheFolderOfAScriptIsWatchedUpToABound) {
+  std::ofstream(folder_ / "main.py") << "1\n";
+  for (int i = 0; i < 1000; ++i) std::ofstream(folder_ / ("n" + std::to_string(i))) << i;
+  const Sweep sweep = read(
+      "sweep: 1\nscenarios: [library/house.yaml]\nseeds: 1\n"
+      "methods: [{name: mine, command: [python3, main.py]}]\n");
+  ASSERT_EQ(sweep.notes.size(), 1U);
+  EXPECT_NE(sweep.notes.front().find("only its first 1000 files and 64 MB are watched"), std::string::npos);
+}
+
 TEST_F(SweepFiles, AProcessThatAScenarioDoesNotHaveIsRefused) {
   EXPECT_NE(error_of("sweep: 1\nscenarios: [library/house.yaml]\nmethods: [theirs]\n")
                 .find("sweep.yaml:3:11: unknown method 'theirs'"),

@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <chrono>
+#include <optional>
+#include <thread>
 
 #include "bim/config/utf8.h"
 
@@ -68,6 +71,48 @@ TEST(Child, WhatItPrintedLastIsTextInUtf8) {
     EXPECT_EQ(utf8_of_bytes(said), said);
     EXPECT_NE(said.find("printed: █"), std::string::npos) << said.substr(0, 60);
   }
+}
+
+// What it started holds the stream open.
+TEST(Child, ItsEndIsSeenWhateverItLeavesBehind) {
+  Child child(shell("sleep 100 & printf now >&3; exit 7"), "", {});
+  child.set_deadline(50.0);
+  std::array<char, 3> answer{};
+  const double took = seconds_of([&] {
+    child.receive(answer.data(), answer.size());  // what was sent before is read
+    try {
+      child.receive(answer.data(), 1);
+      ADD_FAILURE() << "got an answer";
+    } catch (const ProcessFailure& failure) {
+      EXPECT_STREQ(failure.what(), "exited with 7");
+    }
+  });
+  EXPECT_EQ(std::string(answer.data(), answer.size()), "now");
+  EXPECT_LT(took, 20.0);
+}
+
+TEST(Child, AMissingFolderIsNoMissingProgram) {
+  const auto failure_of = [](const std::vector<std::string>& command, const std::string& folder) -> std::string {
+    try {
+      const Child child(command, folder, {});
+    } catch (const ProcessFailure& failure) {
+      return failure.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(failure_of(shell("exit 0"), "/no/such"),
+            "cannot be started: its folder '/no/such' cannot be entered: No such file or directory");
+  EXPECT_EQ(failure_of({"no_such_program"}, ""), "'no_such_program' cannot be started: No such file or directory");
+  EXPECT_EQ(failure_of({"./child"}, "/"), "'./child' cannot be started: No such file or directory");
+}
+
+TEST(Child, EndsWithTheThreadThatMadeIt) {
+  std::optional<Child> child;
+  std::thread([&] { child.emplace(shell("sleep 100"), "", std::vector<std::string>()); }).join();
+  child->set_deadline(50.0);
+  char byte = 0;
+  EXPECT_LT(seconds_of([&] { EXPECT_THROW(child->receive(&byte, 1), ProcessFailure); }), 20.0);
+  EXPECT_EQ(child->how_it_ended(), "was ended by signal 9");
 }
 
 TEST(Child, WaitingForItEndsWhenItsParentMayNotGoOn) {

@@ -31,6 +31,16 @@ TEST(MapPacker, KeepsPointsWhereTheyAreToACentimetre) {
   EXPECT_LT((point_of(packed, 1) - Eigen::Vector3d(-2.0, -4.0, 3.5)).norm(), 0.01);
 }
 
+// Every fifth of a million points.
+TEST(MapPacker, ReadsEverySoManyOfALargeMap) {
+  std::vector<Eigen::Vector3f> map(1'000'000, Eigen::Vector3f(1.0F, 0.0F, 0.0F));
+  for (std::size_t i = 0; i < map.size(); ++i)
+    if (i % 5 != 0) map[i].x() = 2.0F;
+  const PackedMap packed = pack_map(map, Pose(), Eigen::Vector3d::Zero());
+  ASSERT_EQ(packed.count, 1U);
+  EXPECT_NEAR(point_of(packed, 0).x(), 1.0, 0.01);
+}
+
 TEST(MapPacker, ThinsUntilThereAreFewEnough) {
   std::vector<Eigen::Vector3f> map;
   const auto spread = [](int i, double step, double size) {

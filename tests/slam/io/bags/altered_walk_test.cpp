@@ -125,8 +125,31 @@ TEST_F(AlteredWalk, RingsOfMissingReturnsAreNotBelieved) {
     change_field<std::uint16_t>(cloud, ring_offset, [](std::uint16_t) { return std::uint16_t{200}; });
   };
   const std::string complaint = input_error([&] { (void)read(filled); });
-  EXPECT_NE(complaint.find("/velodyne_points: point of a ring that is not within 0 to 127"), std::string::npos)
+  EXPECT_NE(complaint.find("message 1 of topic '/velodyne_points': point of a ring that is not within 0 to 127"),
+            std::string::npos)
       << complaint;
+}
+
+TEST_F(AlteredWalk, AWrongMessageIsNamedByItsNumberOnItsTopic) {
+  Alteration cut;
+  cut.cloud = [](int i, PointCloud& cloud) {
+    if (i == 2) cloud.data.resize(cloud.data.size() / 2);
+  };
+  const std::string complaint = input_error([&] { (void)read(cut); });
+  EXPECT_NE(complaint.find(": message 3 of topic '/velodyne_points': "), std::string::npos) << complaint;
+}
+
+TEST_F(AlteredWalk, AScanWithoutPointsIsOfTheEndOfItsTurn) {
+  Alteration blind;
+  blind.cloud = [](int i, PointCloud& cloud) {
+    if (i != 2) return;
+    cloud.data.clear();
+    cloud.width = cloud.height = cloud.row_step = 0;
+  };
+  const Read plain = read({}), altered = read(blind);
+  ASSERT_EQ(altered.frames.size(), 4U);
+  EXPECT_EQ(altered.frames[2].scan.size(), 0U);
+  EXPECT_NEAR(seconds(altered.frames[2].scan.stamp), seconds(plain.frames[2].scan.stamp), 1e-3);
 }
 
 TEST_F(AlteredWalk, AStampFarAheadIsLeftOut) {
