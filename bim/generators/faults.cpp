@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "bim/geometry/polygon_boolean.h"
 #include "bim/model/boxes.h"
 #include "bim/model/extrude.h"
 
@@ -40,9 +41,10 @@ class Faulty {
     for (Opening& opening : building_.openings) {
       if (opening.kind == OpeningKind::window || (opening.rooms[0] != index && opening.rooms[1] != index)) continue;
       const double height = opening.z1_m - opening.z0_m;
-      const double top = building_.walls[at(opening.wall)].z1_m - 0.05;
       opening.z0_m = slab.z1_m;
-      opening.z1_m = std::min(slab.z1_m + height, top);
+      opening.z1_m = slab.z1_m + height;
+      if (opening.wall < 0) continue;
+      opening.z1_m = std::min(opening.z1_m, building_.walls[at(opening.wall)].z1_m - 0.05);
     }
     building_.slabs.push_back(std::move(slab));
   }
@@ -58,7 +60,10 @@ class Faulty {
     slab.id = room.id + "/mezzanine";
     slab.storey = room.storey;
     const Eigen::Vector2d end(box.center().x(), box.max().y());
-    slab.polygon = {{box.min(), {end.x(), box.min().y()}, end, {box.min().x(), box.max().y()}}, {}};
+    const Polygon2 left = {box.min(), {end.x(), box.min().y()}, end, {box.min().x(), box.max().y()}};
+    const Region2 half = intersect(unite(std::vector<Polygon2>{room.polygon}), unite(std::vector<Polygon2>{left}));
+    if (half.size() != 1) return;
+    slab.polygon = half.front();
     element_ = room.id;
     slab.z0_m = high - 0.15;
     slab.z1_m = high;
@@ -126,9 +131,10 @@ class Faulty {
                       : std::min(static_cast<int>(draw() * static_cast<double>(count)), static_cast<int>(count) - 1);
   }
   int drawn_door() {
-    std::vector<int> doors;
+    std::vector<int> doors;  // of walls
     for (std::size_t i = 0; i < building_.openings.size(); ++i)
-      if (building_.openings[i].kind == OpeningKind::door) doors.push_back(static_cast<int>(i));
+      if (building_.openings[i].kind == OpeningKind::door && building_.openings[i].wall >= 0)
+        doors.push_back(static_cast<int>(i));
     const int pick = drawn(doors.size());
     return pick < 0 ? -1 : doors[at(pick)];
   }

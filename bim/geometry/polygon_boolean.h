@@ -14,7 +14,8 @@ inline constexpr double boolean_grid_m = 1e-4;
 
 /// Pieces that share no inner point. Canonical: every ring starts at its lexicographically smallest vertex, holes and
 /// pieces are in lexicographic order, no vertex lies within a straight edge of its ring, and rings are simple (one that
-/// would touch itself in a vertex is split there).
+/// would touch itself in a vertex is split there). Rings do not cross, but may touch: so a corner may lie within an
+/// edge of another ring, to the last bit of its decimals.
 using Region2 = std::vector<PolygonWithHoles2>;
 
 /// The nearest point of a grid that is one over a whole number, m: divided by that number, so that the result is the

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "bim/mesh/corefine.h"
+#include "bim/mesh/shells.h"
 #include "bim/mesh/solid.h"
 #include "bim/mesh/surface_cut.h"
 
@@ -51,7 +52,7 @@ BooleanResult boolean_steps(const Solid& body, std::span<const BooleanStep> step
     return result;
   }
   if (whole) {
-    std::optional<Solid> rest = corefined(body, usable, grid_m);
+    std::optional<Solid> rest = corefined(shells_may_overlap(body, grid_m) ? *whole : body, usable, grid_m);
     if (!rest) rest = exact_boolean(*whole, usable, grid_m);
     if (rest) {
       result.solid = std::move(*rest);

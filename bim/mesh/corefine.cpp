@@ -14,6 +14,9 @@
 #include <exception>
 
 #include "bim/geometry/polygon_boolean.h"
+#include "bim/mesh/exact_boolean.h"
+#include "bim/mesh/shells.h"
+#include "bim/mesh/solid.h"
 
 namespace plumbline::bim {
 
@@ -74,6 +77,9 @@ std::optional<Solid> corefined(const Solid& first, const Solid& second, double g
 }  // namespace
 
 std::optional<Solid> repaired(const Solid& solid, double grid_m) {
+  // Joining points would make one surface of shells that touch, and a hollow of one within another.
+  if (shells_may_overlap(solid, grid_m))
+    if (const std::optional<Solid> whole = exact_boolean(solid, {}, grid_m)) return canonical(*whole, grid_m);
   const std::optional<Mesh> mesh = to_mesh(solid, grid_m);
   if (!mesh) return std::nullopt;
   return to_solid(*mesh);

@@ -11,7 +11,7 @@
 namespace plumbline::bim {
 
 /// A solid with unjoined or unevenly turned triangles made into one closed solid, outward; nullopt when its surface
-/// does not close. Coordinates are put on the grid.
+/// does not close. Closed shells that touch or overlap are united. Coordinates are put on the grid.
 [[nodiscard]] std::optional<Solid> repaired(const Solid& solid, double grid_m = MeshConfig{}.weld_m);
 
 /// True when triangles of a closed solid meet anywhere but in the edges and vertices that they share.

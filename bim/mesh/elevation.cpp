@@ -4,8 +4,10 @@
 #include <limits>
 #include <utility>
 
+#include "bim/errors.h"
 #include "bim/geometry/polygon_boolean.h"
 #include "bim/mesh/solid.h"
+#include "bim/mesh/straight_opening.h"
 #include "bim/mesh/wall_cut.h"
 #include "bim/model/extrude.h"
 #include "bim/model/wall_frame.h"
@@ -111,6 +113,8 @@ std::optional<Refusal> add_silhouette(const WallFrame& frame, const Opening& ope
   const Interval depth = extent_across(frame, solids);
   if (depth.low > y.low + config.depth_m || depth.high < y.high - config.depth_m)
     return Refusal{"niche", "opening '" + opening.id + "' does not go through the wall"};
+  if (!goes_straight_through(solids, frame, y, config))
+    return not_prismatic("opening '" + opening.id + "' does not go straight through the wall");
   return std::nullopt;
 }
 
@@ -171,12 +175,17 @@ std::variant<Solid, Refusal> cut_in_elevation(const Wall& wall, const std::vecto
   for (const Opening& opening : openings)
     if (const auto refusal = add_silhouette(frame, opening, elevation.y, config, silhouettes)) return *refusal;
   clear_of_ends(silhouettes, elevation, config.face_m);
-  elevation.region = subtract(elevation.region, silhouettes);
-  if (bends_in_a_mitre(elevation, config.face_m)) return not_prismatic("an opening reaches into a slanted end");
+  try {
+    elevation.region = subtract(elevation.region, silhouettes);
+    if (bends_in_a_mitre(elevation, config.face_m)) return not_prismatic("an opening reaches into a slanted end");
 
-  // Along the wall, then up, is counter-clockwise seen from the right of the wall: the face at y.low is the high cap.
-  return extrude_between(elevation.region, on_face(frame, elevation, elevation.y.high, elevation.x_high, config.face_m),
-                         on_face(frame, elevation, elevation.y.low, elevation.x_low, config.face_m));
+    // Along the wall, then up, is counter-clockwise seen from the right of the wall: the face at y.low is the high cap.
+    return extrude_between(elevation.region,
+                           on_face(frame, elevation, elevation.y.high, elevation.x_high, config.face_m),
+                           on_face(frame, elevation, elevation.y.low, elevation.x_low, config.face_m));
+  } catch (const InternalError&) {  // one wall must not end the whole file
+    return not_prismatic("the outlines of its openings cross");
+  }
 }
 
 }  // namespace plumbline::bim

@@ -9,10 +9,11 @@
 #include <algorithm>
 #include <cstddef>
 #include <exception>
-#include <numeric>
+#include <utility>
 #include <vector>
 
 #include "bim/mesh/corefine.h"
+#include "bim/mesh/shells.h"
 #include "bim/mesh/solid.h"
 
 namespace plumbline::bim {
@@ -24,38 +25,6 @@ using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 
 /// More triangles in an operand take seconds.
 constexpr std::size_t most_triangles = 4000;
-
-/// Shells of a closed mesh, by shared vertices.
-std::vector<Solid> shells(const Solid& solid) {
-  std::vector<int> root(solid.vertices.size());
-  std::iota(root.begin(), root.end(), 0);
-  const auto find = [&](int i) {
-    while (root[static_cast<std::size_t>(i)] != i) {
-      root[static_cast<std::size_t>(i)] = root[static_cast<std::size_t>(root[static_cast<std::size_t>(i)])];
-      i = root[static_cast<std::size_t>(i)];
-    }
-    return i;
-  };
-  for (const Eigen::Vector3i& t : solid.triangles)
-    for (int k = 1; k < 3; ++k) root[static_cast<std::size_t>(find(t[k]))] = find(t[0]);
-  std::vector<int> shell_of(solid.vertices.size(), -1), place(solid.vertices.size(), -1);
-  std::vector<Solid> result;
-  for (std::size_t i = 0; i < solid.vertices.size(); ++i) {
-    int& shell = shell_of[static_cast<std::size_t>(find(static_cast<int>(i)))];
-    if (shell < 0) {
-      shell = static_cast<int>(result.size());
-      result.emplace_back();
-    }
-    Solid& part = result[static_cast<std::size_t>(shell)];
-    place[i] = static_cast<int>(part.vertices.size());
-    part.vertices.push_back(solid.vertices[i]);
-  }
-  for (const Eigen::Vector3i& t : solid.triangles)
-    result[static_cast<std::size_t>(shell_of[static_cast<std::size_t>(find(t[0]))])].triangles.push_back(
-        t.unaryExpr([&](int i) { return place[static_cast<std::size_t>(i)]; }));
-  std::erase_if(result, [](const Solid& part) { return part.triangles.empty(); });
-  return result;
-}
 
 std::optional<Nef> shell_to_nef(const Solid& shell) {
   Mesh mesh;
@@ -69,25 +38,57 @@ std::optional<Nef> shell_to_nef(const Solid& shell) {
   return Nef(mesh);
 }
 
-/// The solid as the union of its shells, less those that bound a hollow in it.
-std::optional<Nef> to_nef(const Solid& solid, double grid_m) {
-  const std::optional<Solid> closed = repaired(solid, grid_m);
-  if (!closed || closed->triangles.size() > most_triangles) return std::nullopt;
-  std::optional<Nef> all;
-  std::vector<Nef> hollows;
-  for (const Solid& shell : shells(*closed)) {
-    if (runs_through_itself(shell)) return std::nullopt;
-    const double v = volume(shell);
-    if (v == 0.0) continue;
-    const std::optional<Nef> part = shell_to_nef(turned_outward(shell));
-    if (!part) return std::nullopt;
-    if (v < 0.0)
-      hollows.push_back(*part);
-    else
-      all = all ? *all + *part : *part;
+/// Closed shells on the grid, which may touch and overlap; empty when one does not close. What shares no vertex is kept
+/// apart before points that coincide are joined.
+std::vector<Solid> closed_shells(const Solid& solid, double grid_m) {
+  std::vector<Solid> parts = shells(shells_turned_outward(solid));
+  if (!std::all_of(parts.begin(), parts.end(), is_closed)) {
+    const std::optional<Solid> closed = repaired(solid, grid_m);
+    return closed ? shells(*closed) : std::vector<Solid>{};
   }
-  if (!all) return std::nullopt;
-  for (const Nef& hollow : hollows) *all -= hollow;
+  for (Solid& part : parts) {
+    const bool hollow = volume(part) < 0.0;
+    std::optional<Solid> closed = repaired(part, grid_m);
+    if (!closed) return {};
+    part = std::move(*closed);
+    if (hollow)
+      for (Eigen::Vector3i& t : part.triangles) std::swap(t[1], t[2]);
+  }
+  return parts;
+}
+
+/// The smallest outward shell around a hollow; shells are given by their volumes.
+int owner_of(const Solid& hollow, const std::vector<Solid>& parts, const std::vector<double>& volumes) {
+  int owner = -1;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (volumes[i] <= 0.0 || (owner >= 0 && volumes[i] >= volumes[static_cast<std::size_t>(owner)])) continue;
+    if (encloses(parts[i], hollow)) owner = static_cast<int>(i);
+  }
+  return owner;
+}
+
+/// The solid as the union of its outward shells, each less the hollows in it: so what lies in a hollow stays.
+std::optional<Nef> to_nef(const Solid& solid, double grid_m) {
+  const std::vector<Solid> parts = closed_shells(solid, grid_m);
+  std::size_t triangles = 0;
+  std::vector<double> volumes;
+  std::vector<std::optional<Nef>> bounded(parts.size());
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    triangles += parts[i].triangles.size();
+    if (triangles > most_triangles || runs_through_itself(parts[i])) return std::nullopt;
+    volumes.push_back(volume(parts[i]));
+    if (volumes[i] == 0.0) continue;
+    bounded[i] = shell_to_nef(turned_outward(parts[i]));
+    if (!bounded[i]) return std::nullopt;
+  }
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (volumes[i] >= 0.0) continue;
+    if (const int owner = owner_of(parts[i], parts, volumes); owner >= 0)
+      *bounded[static_cast<std::size_t>(owner)] -= *bounded[i];
+  }
+  std::optional<Nef> all;
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    if (volumes[i] > 0.0) all = all ? *all + *bounded[i] : *bounded[i];
   return all;
 }
 
@@ -116,6 +117,7 @@ std::optional<Solid> exact_boolean(const Solid& body, std::span<const BooleanSte
       if (!other) return std::nullopt;
       *rest = (step.operation == BooleanOperation::difference ? *rest - *other : *rest * *other).regularization();
     }
+    if (steps.empty()) *rest = rest->regularization();
     if (rest->is_empty()) return Solid{};
     Solid soup = welded(to_soup(*rest), grid_m);
     if (is_closed(soup)) return turned_outward(soup);

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bim/mesh/mesh.h"
 
+#include <algorithm>
+#include <array>
 #include <utility>
 
+#include "bim/mesh/exact_boolean.h"
+#include "bim/mesh/shells.h"
 #include "bim/mesh/solid.h"
 #include "bim/model/extrude.h"
 
@@ -10,11 +14,32 @@ namespace plumbline::bim {
 
 namespace {
 
-/// A body as it came: welded where its triangles were not joined, outward where it closes.
+/// Every edge is run through as often one way as the other, as in closed parts that touch.
+bool edges_cancel(const Solid& solid) {
+  std::vector<std::array<int, 3>> runs;
+  for (const Eigen::Vector3i& t : solid.triangles)
+    for (int k = 0; k < 3; ++k) {
+      const int from = t[k], to = t[(k + 1) % 3];
+      runs.push_back({std::min(from, to), std::max(from, to), from < to ? 1 : -1});
+    }
+  std::sort(runs.begin(), runs.end());
+  for (std::size_t i = 0; i < runs.size();) {
+    int sum = 0;
+    const std::size_t first = i;
+    for (; i < runs.size() && runs[i][0] == runs[first][0] && runs[i][1] == runs[first][1]; ++i) sum += runs[i][2];
+    if (sum != 0) return false;
+  }
+  return true;
+}
+
+/// A body as it came: welded where its triangles were not joined, taken apart again where that makes parts touch, and
+/// outward where it closes.
 CutWall taken_over(const std::string& id, const Solid& body, const MeshConfig& config) {
   Solid solid = is_closed(body) ? body : welded(body, config.weld_m);
+  if (!is_closed(solid) && edges_cancel(solid))
+    if (Solid apart = touching_parts_separated(solid); is_closed(apart)) solid = std::move(apart);
   const bool closed = is_closed(solid);
-  if (closed) solid = turned_outward(solid);
+  if (closed) solid = shells_turned_outward(solid);
   CutWall result{canonical(solid, config.grid_m), closed, {}};
   if (!closed) result.warnings.push_back({id, "not_closed", "the body's surface does not close"});
   return result;

@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bim/mesh/wall_cut.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <set>
 #include <utility>
 
 #include "bim/geometry/polygon_boolean.h"
 #include "bim/mesh/boolean.h"
 #include "bim/mesh/corefine.h"
 #include "bim/mesh/solid.h"
+#include "bim/mesh/straight_opening.h"
 #include "bim/model/extrude.h"
 #include "bim/model/wall_frame.h"
 
@@ -38,34 +44,6 @@ Polygon2 rectangle_of(const Opening& opening) {
   return {{x0, opening.z0_m}, {x1, opening.z0_m}, {x1, opening.z1_m}, {x0, opening.z1_m}};
 }
 
-/// Pushes what ends at a face of the wall out of it: rounding would otherwise leave a film across the opening.
-Solid overhanging(Solid cutter, const WallFrame& frame, const Interval& y, const MeshConfig& config) {
-  for (Eigen::Vector3d& p_W : cutter.vertices) {
-    Eigen::Vector3d p = frame.to_wall(p_W);
-    if (p.y() <= y.low + config.depth_m) p.y() = std::min(p.y(), y.low - config.margin_m);
-    if (p.y() >= y.high - config.depth_m) p.y() = std::max(p.y(), y.high + config.margin_m);
-    p_W = frame.to_world(p);
-  }
-  return cutter;
-}
-
-std::vector<Solid> cutters_of(const Opening& opening, const WallFrame& frame, const Interval& y,
-                              const MeshConfig& config) {
-  std::vector<Solid> cutters = solids_of(opening);
-  if (cutters.empty()) return {through_cutter(unite(std::vector<Polygon2>{rectangle_of(opening)}), frame, y, config)};
-  const Interval depth = extent_across(frame, cutters);
-  const bool through = depth.low <= y.low + config.depth_m && depth.high >= y.high - config.depth_m;
-  // Touching parts cut one by one would leave a film where they meet.
-  if (through && cutters.size() > 1) return {through_cutter(unite(projected(frame, cutters)), frame, y, config)};
-  for (Solid& cutter : cutters) cutter = overhanging(std::move(cutter), frame, y, config);
-  return cutters;
-}
-
-/// The uncut body of a wall as one solid.
-Solid whole_body(const Wall& wall, const MeshConfig& config) {
-  return wall.body ? *wall.body : std::get<Solid>(cut_in_elevation(wall, {}, config));
-}
-
 Solid in_wall(Solid solid, const WallFrame& frame) {
   for (Eigen::Vector3d& p : solid.vertices) p = frame.to_wall(p);
   return solid;
@@ -74,6 +52,85 @@ Solid in_wall(Solid solid, const WallFrame& frame) {
 Solid in_world(Solid solid, const WallFrame& frame) {
   for (Eigen::Vector3d& p : solid.vertices) p = frame.to_world(p);
   return solid;
+}
+
+/// Lengthens what ends at a face of the wall past it: rounding would otherwise leave a film across the opening. `side`
+/// is -1 at the low face, 1 at the high one; points are in the wall's frame.
+Solid lengthened(Solid cutter, double face, double side, const MeshConfig& config) {
+  const double past = face + side * config.margin_m;
+  const auto at_face = [&](int i) {
+    return side * (cutter.vertices[static_cast<std::size_t>(i)].y() - face) >= -config.depth_m;
+  };
+  const auto ends_here = [&](int i) {
+    return at_face(i) && side * (cutter.vertices[static_cast<std::size_t>(i)].y() - past) < 0.0;
+  };
+  // Moving the end of a side that is aslant would turn it: such a cutter goes on square to the face.
+  const bool aslant = std::any_of(cutter.triangles.begin(), cutter.triangles.end(), [&](const Eigen::Vector3i& t) {
+    if (!std::any_of(t.data(), t.data() + 3, ends_here) || std::all_of(t.data(), t.data() + 3, at_face)) return false;
+    const auto p = [&](int k) { return cutter.vertices[static_cast<std::size_t>(t[k])]; };
+    const Eigen::Vector3d n = (p(1) - p(0)).cross(p(2) - p(0));
+    return std::abs(n.y()) * config.margin_m > config.weld_m * n.norm();
+  });
+  if (!aslant) {
+    for (int i = 0; i < static_cast<int>(cutter.vertices.size()); ++i)
+      if (ends_here(i)) cutter.vertices[static_cast<std::size_t>(i)].y() = past;
+    return cutter;
+  }
+  std::map<int, int> beyond;  // the vertices of the end, once more past the face
+  std::set<std::array<int, 2>> edges;
+  const std::vector<Eigen::Vector3i> triangles = std::move(cutter.triangles);
+  cutter.triangles.clear();
+  for (const Eigen::Vector3i& t : triangles) {
+    if (!std::all_of(t.data(), t.data() + 3, at_face)) {
+      cutter.triangles.push_back(t);
+      continue;
+    }
+    for (int k = 0; k < 3; ++k) {
+      if (ends_here(t[k]) && !beyond.contains(t[k])) {
+        beyond[t[k]] = static_cast<int>(cutter.vertices.size());
+        const Eigen::Vector3d p = cutter.vertices[static_cast<std::size_t>(t[k])];
+        cutter.vertices.emplace_back(p.x(), past, p.z());
+      }
+      edges.insert({t[k], t[(k + 1) % 3]});
+    }
+    cutter.triangles.push_back(t.unaryExpr([&](int i) { return beyond.contains(i) ? beyond.at(i) : i; }));
+  }
+  const auto add = [&](int a, int b, int c) {
+    if (a != b && b != c && c != a) cutter.triangles.emplace_back(a, b, c);
+  };
+  for (const auto& [a, b] : edges) {
+    if (edges.contains({b, a})) continue;
+    const int a_past = beyond.contains(a) ? beyond.at(a) : a, b_past = beyond.contains(b) ? beyond.at(b) : b;
+    add(a, b, b_past);
+    add(a, b_past, a_past);
+  }
+  return cutter;
+}
+
+/// A cutter past both faces of the wall; in W, as it came.
+Solid overhanging(Solid cutter, const WallFrame& frame, const Interval& y, const MeshConfig& config) {
+  cutter = lengthened(lengthened(in_wall(std::move(cutter), frame), y.low, -1.0, config), y.high, 1.0, config);
+  return in_world(std::move(cutter), frame);
+}
+
+std::vector<Solid> cutters_of(const Opening& opening, const WallFrame& frame, const Interval& y,
+                              const MeshConfig& config) {
+  std::vector<Solid> cutters = solids_of(opening);
+  if (cutters.empty()) return {through_cutter(unite(std::vector<Polygon2>{rectangle_of(opening)}), frame, y, config)};
+  // Touching parts cut one by one would leave a film where they meet.
+  std::vector<Solid> straight, others;
+  const bool together = goes_straight_through(cutters, frame, y, config);
+  for (Solid& cutter : cutters)
+    (together || goes_straight_through({cutter}, frame, y, config) ? straight : others).push_back(std::move(cutter));
+  if (straight.size() > 1) straight = {through_cutter(unite(projected(frame, straight)), frame, y, config)};
+  straight.insert(straight.end(), others.begin(), others.end());
+  for (Solid& cutter : straight) cutter = overhanging(std::move(cutter), frame, y, config);
+  return straight;
+}
+
+/// The uncut body of a wall as one solid.
+Solid whole_body(const Wall& wall, const MeshConfig& config) {
+  return wall.body ? *wall.body : std::get<Solid>(cut_in_elevation(wall, {}, config));
 }
 
 /// The same opening as its outline in the wall's elevation, as deep as it is: for a body that does not close.

@@ -25,8 +25,8 @@ struct Refusal {
 };
 
 /// Cuts a wall in its elevation: silhouettes of the openings are subtracted from the wall's, and the rest is extruded
-/// through the thickness, between the two faces (a prismatic wall, whose ends may be mitred). An empty solid when
-/// nothing is left of the wall.
+/// through the thickness, between the two faces (a prismatic wall, whose ends may be mitred, and openings straight
+/// through it). An empty solid when nothing is left of the wall.
 [[nodiscard]] std::variant<Solid, Refusal> cut_in_elevation(const Wall& wall, const std::vector<Opening>& openings,
                                                             const MeshConfig& config);
 

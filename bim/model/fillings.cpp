@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bim/model/fillings.h"
 
+#include <Eigen/Core>
 #include <algorithm>
+#include <cmath>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "bim/geometry/polygon_boolean.h"
+#include "bim/model/body_section.h"
 #include "bim/model/extrude.h"
 #include "bim/model/materials.h"
 #include "bim/model/permanence.h"
@@ -18,15 +23,75 @@ namespace {
 
 constexpr std::string_view leaf_kind = "door_leaf";
 constexpr std::string_view pane_kind = "window_pane";
+
 /// Furniture, and coverings of floors and ceilings, which may not lie yet.
 bool is_left_out(const Obstacle& obstacle) {
   return permanence_of(obstacle) == Permanence::furniture || (obstacle.planned && obstacle.kind == "covering");
 }
 
-/// The opening's rectangle as a plate in the middle of its wall; it leans with the wall.
+/// Where a plate stands on the plan: its middle, the unit vector along it, and its length.
+struct PlatePlace {
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero(), along = Eigen::Vector2d::UnitX();
+  double length_m = 0.0;
+};
+
+/// The direction in which a polygon is longest: the principal axis of the second moments of its triangles.
+Eigen::Vector2d long_axis(const Polygon2& polygon) {
+  const Eigen::Vector2d middle = centroid(polygon);
+  Eigen::Matrix2d moments = Eigen::Matrix2d::Zero();
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Eigen::Vector2d a = polygon[i] - middle, b = polygon[(i + 1) % polygon.size()] - middle;
+    const double twice_area = a.x() * b.y() - a.y() * b.x();
+    moments += twice_area * (a * a.transpose() + b * b.transpose() + (a + b) * (a + b).transpose());
+  }
+  const double angle = 0.5 * std::atan2(2.0 * moments(0, 1), moments(0, 0) - moments(1, 1));
+  return {std::cos(angle), std::sin(angle)};
+}
+
+/// Along a wall where it passes a place: its section around there is longer than thick.
+Eigen::Vector2d tangent_at(const Region2& section, const Eigen::Vector2d& place) {
+  constexpr double around_m = 1.0;
+  const Eigen::Vector2d u(around_m, around_m), v(around_m, -around_m);
+  const Region2 near = intersect(section, unite(std::vector<Polygon2>{{place - u, place + v, place + u, place - v}}));
+  const auto here = std::find_if(near.begin(), near.end(), [&](const auto& piece) { return contains(piece, place); });
+  return long_axis(here == near.end() ? section.front().outer : here->outer);
+}
+
+/// In the middle of what an opening cuts out of a bent wall's body, halfway up: a plate in the middle of the wall's
+/// rectangle would hang in the room. Nullopt for a straight wall.
+std::optional<PlatePlace> place_in_bent_wall(const Opening& opening, const Wall& wall) {
+  constexpr double least_fill = 0.6;
+  const std::vector<Solid> hole = solids_of(opening);
+  if (hole.empty() || fill_of(wall) >= least_fill) return std::nullopt;
+  const double z = 0.5 * (opening.z0_m + opening.z1_m);
+  const Region2 section = wall_section(wall, z);
+  Region2 cut;
+  for (const Solid& part : hole)
+    for (const PolygonWithHoles2& piece : intersect(body_section(part, z), section)) cut.push_back(piece);
+  if (cut.empty()) return std::nullopt;
+  const Polygon2& largest = std::max_element(cut.begin(), cut.end(), [](const auto& p, const auto& q) {
+                              return signed_area(p.outer) < signed_area(q.outer);
+                            })->outer;
+  PlatePlace place;
+  place.middle = centroid(largest);
+  place.along = tangent_at(section, place.middle);
+  Interval extent;
+  for (const Eigen::Vector2d& p : largest) extent.add((p - place.middle).dot(place.along));
+  place.middle += 0.5 * (extent.low + extent.high) * place.along;
+  place.length_m = extent.length();
+  return place;
+}
+
+/// The opening's rectangle as a plate in the middle of its wall; it leans with a straight one.
 Solid plate(const Opening& opening, const Wall& wall, double thickness_m) {
-  const WallFrame frame(wall);
   const double half = 0.5 * std::min(thickness_m, wall.thickness_m);
+  if (const std::optional<PlatePlace> place = place_in_bent_wall(opening, wall)) {
+    const Eigen::Vector2d u = 0.5 * place->length_m * place->along,
+                          v(-half * place->along.y(), half * place->along.x());
+    const Eigen::Vector2d& m = place->middle;
+    return extrude({{{m - u - v, m + u - v, m + u + v, m - u + v}, {}}}, opening.z0_m, opening.z1_m);
+  }
+  const WallFrame frame(wall);
   const double middle = wall.offset_m + 0.5 * wall.thickness_m;
   const double s0 = opening.s_m - 0.5 * opening.width_m, s1 = opening.s_m + 0.5 * opening.width_m;
   const Polygon2 outline = {{s0, opening.z0_m}, {s1, opening.z0_m}, {s1, opening.z1_m}, {s0, opening.z1_m}};

@@ -88,6 +88,22 @@ bool free_at(const std::vector<Solid>& hole, const Solid& body, const Eigen::Vec
   return false;
 }
 
+/// The wall stands left of, right of or above the opening, at its depth: its body has been cut out there already.
+/// Beside an opening that misses the wall there is nothing.
+bool wall_stands_beside(const Opening& opening, const Interval& depth, const Wall& wall, const WallFrame& frame) {
+  constexpr double beside_m = 0.05;
+  const double half = 0.5 * opening.width_m + beside_m, middle = 0.5 * (opening.z0_m + opening.z1_m);
+  const Eigen::Vector3d d(wall.left().x(), wall.left().y(), 0.0);
+  for (const Eigen::Vector2d& p :
+       {Eigen::Vector2d(opening.s_m - half, middle), Eigen::Vector2d(opening.s_m + half, middle),
+        Eigen::Vector2d(opening.s_m, opening.z1_m + beside_m)}) {
+    const std::vector<double> at = crossings(*wall.body, frame.to_world({p.x(), depth.low, p.y()}), d);
+    for (std::size_t i = 0; i + 1 < at.size(); i += 2)
+      if (gap({at[i], at[i + 1]}, {0.0, depth.length()}) < 0.0) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 bool goes_through(const Opening& opening, const Wall& wall, const ThroughConfig& config) {
@@ -123,7 +139,7 @@ bool goes_through(const Opening& opening, const Wall& wall, const ThroughConfig&
         }
       }
     }
-  return 2 * free >= places;
+  return places > 0 ? 2 * free >= places : wall_stands_beside(opening, depth, wall, frame);
 }
 
 bool opens_on(const Opening& opening, const Wall& wall, int side, const ThroughConfig& config) {

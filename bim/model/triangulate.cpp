@@ -7,11 +7,14 @@
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 
 #include <algorithm>
+#include <cmath>
 #include <deque>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "bim/errors.h"
+#include "bim/geometry/snap_rounding.h"
 
 namespace plumbline::bim {
 
@@ -174,24 +177,59 @@ void sort_triangles(FlatMesh& mesh) {
   mesh.triangles = std::move(sorted);
 }
 
-}  // namespace
-
-FlatMesh triangulate(const Region2& region) {
-  Triangulation triangulation;
+/// False when rings cross, or one has a corner within an edge of another.
+bool insert(Triangulation& triangulation, const Region2& region) {
   try {
     for (const PolygonWithHoles2& piece : region) {
       insert_ring(triangulation, piece.outer);
       for (const Polygon2& hole : piece.holes) insert_ring(triangulation, hole);
     }
   } catch (const Triangulation::Intersection_of_constraints_exception&) {
-    throw InternalError("rings of a region cross each other");
+    return false;
   }
+  return true;
+}
+
+FlatMesh mesh_of(Triangulation& triangulation) {
   if (triangulation.dimension() < 2) return {};
   mark_levels(triangulation);
   FlatMesh mesh = inside_faces(triangulation);
   settle_ties(mesh);
   sort_triangles(mesh);
   return mesh;
+}
+
+/// The region with its rings led through the corners of others that lie within their edges, where rings touch. Whether
+/// they do is decided in whole steps of the grid: decimals have a last bit. Nullopt where a corner is not on the grid.
+std::optional<Region2> led_through_corners(Region2 region) {
+  bool on_grid = true;
+  const auto each = [&](const auto& change) {
+    for (PolygonWithHoles2& piece : region) {
+      for (Eigen::Vector2d& p : piece.outer) change(p);
+      for (Polygon2& hole : piece.holes)
+        for (Eigen::Vector2d& p : hole) change(p);
+    }
+  };
+  each([&](Eigen::Vector2d& p) {
+    on_grid = on_grid && p.x() == snap(p.x()) && p.y() == snap(p.y());
+    p = {std::round(p.x() / boolean_grid_m), std::round(p.y() / boolean_grid_m)};
+  });
+  if (!on_grid) return std::nullopt;
+  lead_through_corners(region);
+  each([](Eigen::Vector2d& p) { p = {snap(p.x() * boolean_grid_m), snap(p.y() * boolean_grid_m)}; });
+  return region;
+}
+
+}  // namespace
+
+FlatMesh triangulate(const Region2& region) {
+  Triangulation triangulation;
+  if (insert(triangulation, region)) return mesh_of(triangulation);
+  // A corner within an edge counts as a crossing, too.
+  const std::optional<Region2> led = led_through_corners(region);
+  Triangulation again;
+  if (!led || !insert(again, *led)) throw InternalError("rings of a region cross each other");
+  return mesh_of(again);
 }
 
 }  // namespace plumbline::bim

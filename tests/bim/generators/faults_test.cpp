@@ -63,6 +63,40 @@ TEST_P(Faults, AMezzanineIsAFloorOverAFloor) {
   EXPECT_GT(low, high);
 }
 
+TEST_P(Faults, AMezzanineStaysInATurnedRoom) {
+  Building turned;
+  turned.storeys.push_back({"g", "g"});
+  Room room;
+  room.id = "r";
+  room.storey = 0;
+  room.polygon = {{0, -4}, {3, 0}, {0, 4}, {-3, 0}};
+  turned.rooms = {room};
+  const FaultyBuilding made =
+      with_fault(turned, BuildingFault::mezzanine, Stream(11, "bim.generate"), static_cast<std::uint64_t>(GetParam()));
+  ASSERT_EQ(made.building.slabs.size(), 1U);
+  const Region2 slab = {made.building.slabs[0].polygon};
+  EXPECT_NEAR(area(slab), 12.0, 1e-9);
+  EXPECT_NEAR(area(intersect(slab, {{room.polygon, {}}})), 12.0, 1e-9);
+}
+
+TEST_P(Faults, OpeningsWithoutAWallAreLeftAlone) {
+  Building building = plain("corridor");
+  for (Opening& opening : building.openings)
+    if (opening.kind == OpeningKind::door) opening.wall = -1;
+  const Stream stream(11, "bim.generate");
+  const auto tick = static_cast<std::uint64_t>(GetParam());
+  for (const BuildingFault fault : {BuildingFault::overlapping_wall, BuildingFault::crossing_wall}) {
+    const FaultyBuilding made = with_fault(building, fault, stream, tick);
+    EXPECT_TRUE(made.element.empty());
+    EXPECT_EQ(made.building.walls.size(), building.walls.size());
+  }
+  const FaultyBuilding raised = with_fault(building, BuildingFault::split_level, stream, tick);
+  for (std::size_t i = 0; i < building.openings.size(); ++i) {
+    const Opening &before = building.openings[i], &after = raised.building.openings[i];
+    if (before.wall < 0) EXPECT_NEAR(after.z1_m - after.z0_m, before.z1_m - before.z0_m, 1e-12);
+  }
+}
+
 TEST_P(Faults, DoorsThatOverlapOtherWallsAreOpenedThere) {
   for (const BuildingFault fault : {BuildingFault::overlapping_wall, BuildingFault::crossing_wall}) {
     const Building before = through_ifc(plain("corridor")), read = through_ifc(faulty(fault));

@@ -7,7 +7,9 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <string>
 
+#include "bim/model/triangulate.h"
 #include "bim/random/stream.h"
 #include "tests/bim/geometry/rectangle.h"
 
@@ -124,6 +126,86 @@ TEST(PolygonBoolean, RingsStaySimpleWhenTheirCornersAreRounded) {
       EXPECT_TRUE(is_simple(piece.outer)) << tick;
       for (const Polygon2& hole : piece.holes) EXPECT_TRUE(is_simple(hole)) << tick;
     }
+  }
+}
+
+double perimeter(const Region2& region) {
+  double sum = 0.0;
+  const auto add = [&](const Polygon2& ring) {
+    for (std::size_t i = 0; i < ring.size(); ++i) sum += (ring[(i + 1) % ring.size()] - ring[i]).norm();
+  };
+  for (const PolygonWithHoles2& piece : region) {
+    add(piece.outer);
+    for (const Polygon2& hole : piece.holes) add(hole);
+  }
+  return sum;
+}
+
+/// Triangles of any shape in a square of the given size, or thin strips across it.
+std::vector<Polygon2> random_parts(const Stream& stream, std::uint64_t tick, double size_m, bool strips) {
+  std::uint32_t draws = 0;
+  const auto draw = [&](double low, double high) { return low + (high - low) * stream.uniform(tick, 0, draws++); };
+  std::vector<Polygon2> parts;
+  const int count = static_cast<int>(draw(5, 25));
+  for (int i = 0; i < count; ++i) {
+    const Eigen::Vector2d middle(draw(0, size_m), draw(0, size_m));
+    if (strips) {
+      const double angle = draw(0, 3.14159265358979), half = draw(0.3, 2.5) * size_m, width = draw(5e-4, 1e-2);
+      const Eigen::Vector2d e(std::cos(angle), std::sin(angle)), left(-e.y(), e.x());
+      parts.push_back({middle - half * e - width * left, middle + half * e - width * left,
+                       middle + half * e + width * left, middle - half * e + width * left});
+      continue;
+    }
+    Polygon2& triangle = parts.emplace_back();
+    for (int k = 0; k < 3; ++k)
+      triangle.emplace_back(middle + size_m * Eigen::Vector2d(draw(-0.33, 0.33), draw(-0.33, 0.33)));
+  }
+  return parts;
+}
+
+/// Areas agree within what rounding may move the rings, and regions can be used again and triangulated.
+void expect_consistent(const std::vector<Polygon2>& parts, const std::string& name) {
+  const std::vector<Polygon2> half(parts.begin(), parts.begin() + static_cast<std::ptrdiff_t>(parts.size() / 2));
+  const Region2 all = unite(parts), some = unite(half), rest = subtract(all, half), common = intersect(all, some);
+  const double slack = 2e-4 * (perimeter(all) + perimeter(some) + perimeter(rest) + perimeter(common)) + 1e-12;
+  EXPECT_NEAR(area(some) + area(rest), area(all), slack) << name;
+  EXPECT_NEAR(area(common), area(some), slack) << name;
+  for (const Region2& region : {all, some, rest, common}) {
+    double sum = 0.0;
+    const bim::FlatMesh mesh = bim::triangulate(region);
+    for (const bim::FlatTriangle& t : mesh.triangles) {
+      const auto p = [&](std::size_t k) { return mesh.points[static_cast<std::size_t>(t.points[k])]; };
+      sum += signed_area({p(0), p(1), p(2)});
+    }
+    EXPECT_NEAR(sum, area(region), 1e-9) << name;
+  }
+}
+
+TEST(PolygonBoolean, RegionsStayValidWhenTheirCornersAreRounded) {
+  const Stream stream(8, "bim.generate");
+  for (const double size_m : {3.0, 0.01, 0.003})
+    for (std::uint64_t tick = 0; tick < 60; ++tick)
+      expect_consistent(random_parts(stream, tick, size_m, false), std::to_string(size_m) + " " + std::to_string(tick));
+  for (std::uint64_t tick = 100; tick < 140; ++tick)
+    expect_consistent(random_parts(stream, tick, 3.0, true), "strips " + std::to_string(tick));
+}
+
+TEST(PolygonBoolean, AHoleThatRoundsOntoItsOutlineStaysAHole) {
+  const Region2 gable = unite(std::vector<Polygon2>{{{0, 0}, {8, 0}, {8, 2.7}, {4, 5.137}, {0, 2.7}}});
+  const auto roof = [](double x) { return 2.7 + std::min(x, 8.0 - x) * 2.437 / 4.0; };
+  const Stream stream(9, "bim.generate");
+  for (std::uint64_t tick = 0; tick < 300; ++tick) {
+    // Windows up to the roof, which overlap and leave wedges of the wall between them.
+    std::vector<Polygon2> windows;
+    std::uint32_t draws = 0;
+    const auto draw = [&](double low, double high) { return low + (high - low) * stream.uniform(tick, 0, draws++); };
+    for (int i = 0; i < 6; ++i) {
+      const double x = draw(0.3, 6.5), w = draw(0.5, 1.5), z = draw(0.1, 2.0);
+      const bool square = draw(0, 1) < 0.5;
+      windows.push_back({{x, z}, {x + w, z}, {x + w, square ? z + 1.0 : roof(x + w)}, {x, square ? z + 1.0 : roof(x)}});
+    }
+    const double left = area(gable) - area(intersect(gable, unite(windows)));
+    EXPECT_NEAR(area(subtract(gable, windows)), left, 0.01) << tick;
   }
 }
 

@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "bim/formats/plan_yaml/plan_yaml.h"
 #include "bim/mesh/mesh.h"
 #include "bim/mesh/visible.h"
+#include "bim/model/extrude.h"
 #include "bim/rays/ray_scene.h"
 
 namespace plumbline::bim {
@@ -64,6 +66,43 @@ TEST(Fillings, LeanWithTheirWall) {
   add_fillings(b);
   for (const Eigen::Vector3d& p : b.obstacles[1].body.vertices)
     EXPECT_NEAR(std::abs(p.y() - 0.05 * p.z()), 0.02, 1e-12);
+}
+
+TEST(Fillings, FollowACurvedWall) {
+  // An arc of 5 m radius about (4, 3), 0.3 m thick, over a chord of 8 m.
+  constexpr double radius = 5.0, half_angle = 0.9272952180016122;
+  const Eigen::Vector2d centre(4.0, 3.0);
+  const auto at = [&](double r, double angle) -> Eigen::Vector2d {
+    return centre + r * Eigen::Vector2d(std::sin(angle), -std::cos(angle));
+  };
+  Polygon2 outline;
+  for (int i = -12; i <= 12; ++i) outline.push_back(at(radius + 0.15, half_angle * i / 12));
+  for (int i = 12; i >= -12; --i) outline.push_back(at(radius - 0.15, half_angle * i / 12));
+  Building b = building();
+  Wall& wall = b.walls[0];
+  wall.offset_m = -2.15;
+  wall.thickness_m = 2.25;
+  wall.body = extrude(unite(std::vector<Polygon2>{outline}), 0.0, 3.0);
+  for (const auto& [angle, width] : {std::pair(0.0, 1.0), std::pair(0.6, 1.0), std::pair(0.6, 0.2)}) {
+    Opening window = b.openings[3];
+    window.wall = 0;
+    const Eigen::Vector2d out = at(1.0, angle) - centre, middle = at(radius, angle);
+    const Eigen::Vector2d along(-out.y(), out.x()), u = 0.3 * out, v = 0.5 * width * along;
+    window.s_m = middle.x();
+    window.width_m = width;
+    window.solid = extrude(
+        unite(std::vector<Polygon2>{{middle - u - v, middle + u - v, middle + u + v, middle - u + v}}), 1.0, 2.0);
+    Building one = b;
+    one.openings = {window};
+    one.obstacles.clear();
+    add_fillings(one);
+    ASSERT_EQ(one.obstacles.size(), 1U);
+    EXPECT_NEAR(volume(one.obstacles[0].body), width * 0.024, 1e-3);
+    for (const Eigen::Vector3d& p : one.obstacles[0].body.vertices) {
+      EXPECT_NEAR((p.head<2>() - middle).dot(out), 0.0, 0.05) << angle;
+      EXPECT_NEAR(std::abs((p.head<2>() - middle).dot(along)), 0.5 * width, 0.02) << angle;
+    }
+  }
 }
 
 TEST(Fillings, DoorsAndFurnitureAreTheScenariosChoice) {

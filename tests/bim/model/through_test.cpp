@@ -19,6 +19,22 @@ TEST(Through, ANicheIsNoneInABodyGivenTwice) {
   EXPECT_FALSE(goes_through(thick_opening(-0.2, 0.02), wall));
 }
 
+TEST(Through, AnOpeningThatMissesItsWallDoesNotGoThrough) {
+  EXPECT_FALSE(goes_through(thick_opening(0.5, 1.0), thick_wall()));
+  Opening above = thick_opening(-0.1, 0.05);
+  above.z0_m = 3.2;
+  above.z1_m = 5.3;
+  above.solid = box_solid({1.5, -0.1, 3.2}, {2.5, 0.05, 5.3});
+  EXPECT_FALSE(goes_through(above, thick_wall()));
+}
+
+TEST(Through, AnOpeningThatTheBodyHasAlreadyGoesThrough) {
+  Wall wall = thick_wall();
+  wall.body = box_solid({0.0, -0.1, 0.0}, {1.5, 0.1, 3.0});
+  add_solid(box_solid({2.5, -0.1, 0.0}, {4.0, 0.1, 3.0}), *wall.body);
+  EXPECT_TRUE(goes_through(thick_opening(-0.1, 0.05), wall));
+}
+
 TEST(Through, ADoorThatEndsALittleShortIsExtended) {
   Opening opening = thick_opening(-0.1, 0.07);
   EXPECT_NEAR(extend_through(opening, thick_wall()), 0.03, 1e-9);

@@ -42,6 +42,30 @@ WallBox box_in(const Wall& wall, const std::vector<Solid>& solids) {
   return box;
 }
 
+/// Ranges of what solids have within the thickness of a wall; of all of them where they miss it.
+WallBox box_within(const Wall& wall, const std::vector<Solid>& solids) {
+  const WallFrame frame(wall);
+  const Interval thickness{wall.offset_m, wall.offset_m + wall.thickness_m};
+  WallBox box;
+  const auto add = [&](const Eigen::Vector3d& p) {
+    box.along.add(p.x());
+    box.across.add(p.y());
+    box.height.add(p.z());
+  };
+  for (const Solid& solid : solids) {
+    const std::vector<Eigen::Vector3d> points = frame.to_wall(solid.vertices);
+    for (const Eigen::Vector3i& t : solid.triangles)
+      for (int k = 0; k < 3; ++k) {
+        const Eigen::Vector3d& p = points[static_cast<std::size_t>(t[k])];
+        const Eigen::Vector3d& q = points[static_cast<std::size_t>(t[(k + 1) % 3])];
+        if (p.y() >= thickness.low && p.y() <= thickness.high) add(p);
+        for (const double y : {thickness.low, thickness.high})
+          if ((p.y() < y) != (q.y() < y)) add(p + (y - p.y()) / (q.y() - p.y()) * (q - p));
+      }
+  }
+  return box.along.length() >= 0.0 ? box : box_in(wall, solids);
+}
+
 double overlap(const Interval& a, const Interval& b) { return std::max(0.0, -gap(a, b)); }
 
 /// Area that two boxes have in common in the wall's elevation, m^2; 0 where they lie apart across it.
@@ -117,7 +141,7 @@ void Interpreter::fill(Opening& opening, const StepProduct& filling) const {
 
 void Interpreter::add_opening(const StepProduct& product, int wall, const std::vector<Solid>& solids,
                               const StepProduct* filling) {
-  const WallBox box = box_in(building_.walls[static_cast<std::size_t>(wall)], solids);
+  const WallBox box = box_within(building_.walls[static_cast<std::size_t>(wall)], solids);
   Opening opening;
   opening.id = product.id;
   opening.step_id = product.step_id;

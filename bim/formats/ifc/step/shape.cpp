@@ -8,6 +8,7 @@
 #include "bim/errors.h"
 #include "bim/geometry/polygon_boolean.h"
 #include "bim/mesh/boolean.h"
+#include "bim/mesh/shells.h"
 #include "bim/mesh/solid.h"
 #include "bim/model/triangulate.h"
 
@@ -203,7 +204,7 @@ Solid triangulated(const Facets& facets, int& crossed) {
   for (const std::vector<int>& loop : facets.loops) crossed += add_face(solid, canonical_ring(facets, loop)) ? 0 : 1;
   solid = without_slivers(welded(solid, solid_grid_m), solid_grid_m);
   // Reversed input: mirrored bodies and files whose shells point inwards.
-  return canonical(is_closed(solid) ? turned_outward(solid) : solid, solid_grid_m);
+  return canonical(is_closed(solid) ? shells_turned_outward(solid) : solid, solid_grid_m);
 }
 
 Solid triangulated(const Facets& facets) {
