@@ -92,11 +92,15 @@ ExactSet common(const ExactSet& a, const ExactSet& b) {
   return result;
 }
 
-/// With the double nearest to each exact coordinate.
+/// The double nearest to an exact number: of one known to lie between two doubles, exact arithmetic says which.
+double nearest(const Kernel::FT& number) {
+  const auto [low, high] = CGAL::to_interval(number);
+  return low == high ? low : CGAL::to_double(number.exact());
+}
+
 Polygon2 nearest(const ExactPolygon& polygon) {
   Polygon2 ring;
-  for (const Kernel::Point_2& p : polygon.container())
-    ring.emplace_back(CGAL::to_double(p.x().exact()), CGAL::to_double(p.y().exact()));
+  for (const Kernel::Point_2& p : polygon.container()) ring.emplace_back(nearest(p.x()), nearest(p.y()));
   return ring;
 }
 

@@ -54,6 +54,7 @@ class Separation {
 
   /// Neighbours of a side that runs forward are the nearest ones that run back, going round through the material.
   void pair_up(const std::array<int, 2>& ends, std::vector<Side>& sides) {
+    constexpr double coincident = 1e-9;
     const auto p = [&](int i) -> const Eigen::Vector3d& { return soup_.vertices[static_cast<std::size_t>(i)]; };
     const Eigen::Vector3d axis = (p(ends[1]) - p(ends[0])).normalized();
     const Eigen::Vector3d u = axis.unitOrthogonal(), v = axis.cross(u);
@@ -71,8 +72,9 @@ class Separation {
       for (std::size_t i = 0; i < back.size(); ++i) {
         if (taken[i] != 0) continue;
         // The normal of a triangle that runs along the axis points to larger angles, its material lies at smaller ones.
+        // Between two that coincide there is none.
         double turn = at - back[i].first;
-        while (turn < 0.0) turn += 2.0 * M_PI;
+        while (turn < coincident) turn += 2.0 * M_PI;
         if (best == back.size() || turn < least) {
           best = i;
           least = turn;

@@ -86,6 +86,10 @@ TEST(Shells, PartsOfAMeshThatShareAnEdgeClose) {
   const MeshElement joined = element_of(welded(touching, 1e-6));
   EXPECT_TRUE(joined.closed);
   EXPECT_NEAR(joined.volume_m3, 2.0, 1e-9);
+  const MeshElement face_to_face =
+      element_of(welded(all_of({box_solid({0, 0, 0}, {2, 1, 1}), box_solid({0, 1, 0}, {1, 3, 1})}), 1e-6));
+  EXPECT_TRUE(face_to_face.closed);
+  EXPECT_NEAR(face_to_face.volume_m3, 4.0, 1e-9);
   const MeshElement mixed =
       element_of(all_of({box_solid({0, 0, 0}, {10, 10, 1}), turned_over(box_solid({20, 0, 0}, {21, 1, 1}))}));
   EXPECT_NEAR(mixed.volume_m3, 101.0, 1e-9);
