@@ -3,17 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include "bim/geometry/polygon_boolean.h"
+
 namespace plumbline {
 namespace {
-
-double area(const std::vector<PolygonWithHoles2>& pieces) {
-  double sum = 0.0;
-  for (const PolygonWithHoles2& piece : pieces) {
-    sum += signed_area(piece.outer);
-    for (const Polygon2& hole : piece.holes) sum += signed_area(hole);
-  }
-  return sum;
-}
 
 TEST(SnapRounding, RoundsEachVertexWhereThatKeepsTheRings) {
   const std::vector<PolygonWithHoles2> pieces = snap_rounded({{{0.2, 0.4}, {9.7, 0.1}, {10.3, 9.9}, {-0.1, 10.2}}});
