@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
+#include <cmath>
 #include <limits>
 
 #include "bim/errors.h"
@@ -135,7 +137,28 @@ bool has_owner(std::string_view attributes) {
   return at < attributes.size() && attributes[at] == '#';
 }
 
-/// #12 = IFCTHING(...)
+/// Whether every item of the lists between brackets is a finite number.
+bool holds_numbers(std::string_view attributes) {
+  std::size_t at = 0;
+  while (at < attributes.size()) {
+    const std::size_t begin = attributes.find_first_not_of(" \t\r\n(),", at);
+    if (begin == std::string_view::npos) return true;
+    at = std::min(attributes.find_first_of(" \t\r\n(),", begin), attributes.size());
+    std::string_view digits = attributes.substr(begin, at - begin);
+    if (digits.front() == '+') digits.remove_prefix(1);
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    if (error == std::errc::invalid_argument || end != digits.data() + digits.size() || !std::isfinite(value)) return false;
+  }
+  return true;
+}
+
+/// A point or direction with something else than numbers, which would be read as zeros.
+bool lacks_numbers(std::string_view keyword, std::string_view attributes) {
+  return (keyword == "IFCCARTESIANPOINT" || keyword == "IFCDIRECTION") && !holds_numbers(attributes);
+}
+
+/// #12 = IFCTHING(...); one that is a point or direction without numbers is as good as missing.
 bool read_entity(const Statement& statement, Graph& graph) {
   const std::string_view text = statement.text;
   if (text.empty() || text.front() != '#') return false;
@@ -147,9 +170,11 @@ bool read_entity(const Statement& statement, Graph& graph) {
   const std::size_t keyword = at;
   while (at < text.size() && (std::isalnum(static_cast<unsigned char>(text[at])) != 0 || text[at] == '_')) ++at;
   if (at == keyword) return false;
-  const bool owner = text.substr(keyword, at - keyword) == "IFCOWNERHISTORY";
+  const std::string_view name = text.substr(keyword, at - keyword);
+  const bool owner = name == "IFCOWNERHISTORY";
   at = skip_spaces(text, at);
   if (at >= text.size() || text[at] != '(' || text.back() != ')') return false;
+  if (lacks_numbers(name, text.substr(at))) return true;
   const std::size_t first = graph.refs.size();
   if (!collect_refs(text, at, graph.refs)) return false;
   graph.nodes.push_back({id, statement.line, first, graph.refs.size(), owner, has_owner(text.substr(at))});

@@ -172,6 +172,26 @@ TEST(Dangling, ReferencesCostWhatDependsOnThemAndNoMore) {
   EXPECT_EQ(warnings_of(building, "dangling"), 2);  // the wall, and that there are such references
 }
 
+// The coordinate would be read as zero, and the column would be another one.
+TEST(Dangling, APointWithoutNumbersIsAsGoodAsMissing) {
+  for (const std::string wrong : {"NAN", "ABC", "$", "'x'", ".T.", "1..2"}) {
+    Sketch sketch = hut({});
+    const std::string point = sketch.add("IFCCARTESIANPOINT((2.,2.,0.))");
+    const std::string frame = sketch.add("IFCAXIS2PLACEMENT3D(" + point + ",$,$)");
+    const std::string at = sketch.add("IFCLOCALPLACEMENT($," + frame + ")");
+    sketch.rooted("IFCCOLUMN", "'c',$,$," + at + "," + sketch.shape(sketch.box(0, 0, 0, 1, 1, 3)) + ",$,$");
+    EXPECT_EQ(read_sketch(sketch).columns.size(), 1U);
+    std::string text = sketch.text();
+    const std::string good = point + "=IFCCARTESIANPOINT((2.,2.";
+    ASSERT_NE(text.find(good), std::string::npos) << text.substr(0, 400);
+    text.replace(text.find(good) + good.size() - 2, 2, wrong);
+    const Building building = read_ifc_text(text, "s.ifc");
+    EXPECT_EQ(building.walls.size(), 4U) << wrong;
+    EXPECT_TRUE(building.columns.empty()) << wrong;
+    EXPECT_GE(warnings_of(building, "dangling"), 1) << wrong;
+  }
+}
+
 TEST(Dangling, APlacementThatStandsOnNothingIsNotPutAtTheOrigin) {
   Sketch sketch = hut({});
   const std::string at = sketch.add("IFCLOCALPLACEMENT(#9999," + sketch.frame(2, 2, 0) + ")");
