@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenarios/spec/named_places.h"
 
+#include <algorithm>
 #include <vector>
 
 #include "bim/config/tree.h"
@@ -14,7 +15,8 @@ std::string unknown(const std::string& kind, const std::string& name, const std:
   const std::string close = did_you_mean(name, known);
   if (!close.empty()) return "unknown " + kind + " '" + name + "'; did you mean '" + close + "'?";
   std::string message = "unknown " + kind + " '" + name + "'; the building has:";
-  for (const std::string& other : known) message += " " + other;
+  for (const std::string& other : known)
+    message += other.find(' ') == std::string::npos ? " " + other : " '" + other + "'";
   return message;
 }
 
@@ -36,6 +38,19 @@ int index_of_named(const std::vector<Place>& places, const std::string& name, co
   return found;
 }
 
+/// How the rooms that count can be named: by their names, and by their ids where these do not tell them apart.
+template <class Counts>
+std::vector<std::string> names_of(const std::vector<bim::Room>& rooms, Counts&& counts) {
+  std::vector<std::string> known;
+  for (const bim::Room& room : rooms) {
+    if (!counts(room)) continue;
+    const auto same =
+        std::count_if(rooms.begin(), rooms.end(), [&](const bim::Room& r) { return r.name == room.name; });
+    known.push_back(room.name.empty() || same > 1 ? room.id : room.name);
+  }
+  return known;
+}
+
 }  // namespace
 
 int find_storey(const bim::Building& building, const std::string& name, const Mark& mark) {
@@ -52,19 +67,14 @@ int find_room(const bim::Building& building, const std::string& name, const Mark
                                "give a start by {at: [x, y]} and the route {rooms: all}");
   const int found = index_of_named(building.rooms, name, "rooms", mark, [](const bim::Room&) { return true; });
   if (found >= 0) return found;
-  std::vector<std::string> known;
-  for (const bim::Room& room : building.rooms) known.push_back(room.id);
-  throw InputError(mark, unknown("room", name, known));
+  throw InputError(mark, unknown("room", name, names_of(building.rooms, [](const bim::Room&) { return true; })));
 }
 
 int find_room_on(const bim::Building& building, int storey, const std::string& name, const Mark& mark) {
   const auto counts = [&](const bim::Room& room) { return room.storey == storey; };
   const int found = index_of_named(building.rooms, name, "rooms", mark, counts);
   if (found >= 0) return found;
-  std::vector<std::string> known;
-  for (const bim::Room& room : building.rooms)
-    if (counts(room)) known.push_back(room.id);
-  const std::string close = did_you_mean(name, known);
+  const std::string close = did_you_mean(name, names_of(building.rooms, counts));
   throw InputError(mark, "no room '" + name + "' on the storey of the start" +
                              (close.empty() ? "" : "; did you mean '" + close + "'?"));
 }

@@ -234,7 +234,7 @@ std::vector<std::string> walk_warnings(const WalkCoverage& walk) {
   }
   if (walk.planned_m < short_m)
     warnings.push_back("the walk is only " + metres(walk.planned_m, 10.0) + " long; `route: {rooms: [...], loop: 3}` " +
-                       "in a scenario makes it longer, or a `start` on another storey");
+                       "in a scenario makes it longer, more `times` of a shuttle, or a `start` on another storey");
   return warnings;
 }
 

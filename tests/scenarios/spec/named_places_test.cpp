@@ -46,6 +46,15 @@ TEST(NamedPlaces, ANameOfSeveralIsRefusedWithTheirIds) {
             "s.yaml:3:5: 'floor' is the name of several storeys; name one of them by its id: a b");
 }
 
+TEST(NamedPlaces, AnUnknownRoomIsAnsweredWithNames) {
+  bim::Building building = twins();
+  building.rooms[0].name = "Living";
+  building.rooms[1].name = "Bath 2";
+  building.rooms[2].name = "";
+  EXPECT_NE(input_error([&] { (void)find_room(building, "Zzzzzzzzz", {}); }).find("has: Living 'Bath 2' b/room1"),
+            std::string::npos);
+}
+
 TEST(NamedPlaces, OnOneStoreyANameNeedsToBeItsOwnThereAlone) {
   const bim::Building building = twins();
   EXPECT_EQ(building.rooms.at(static_cast<std::size_t>(find_room_on(building, 0, "room 1", {}))).id, "a/room1");
