@@ -23,11 +23,12 @@ bool has_manifest(const fs::path& folder) {
 bool is_of(const std::string& name, const std::string& part) { return name == part || name.starts_with(part + "/"); }
 
 /// Whether a file of a recording folder matters where the folder is given. Truth and building may be changed and taken
-/// away: nothing reads them.
+/// away: nothing reads them. Without packets a bag is read, and nothing of what belongs to them.
 bool is_read(const std::string& name, const fs::path& folder) {
-  constexpr std::array<std::string_view, 5> always = {"lidar.pcap", "odometry.tum", "odometry_covariance.csv",
-                                                      "imu.csv", "recording.yaml"};
-  if (std::find(always.begin(), always.end(), name) != always.end()) return true;
+  constexpr std::array<std::string_view, 5> of_packets = {"lidar.pcap", "odometry.tum", "odometry_covariance.csv",
+                                                          "imu.csv", "recording.yaml"};
+  if (std::find(of_packets.begin(), of_packets.end(), name) != of_packets.end())
+    return fs::exists(folder / "lidar.pcap");
   if (!fs::exists(folder / name) || name == manifest_name || name == "truth.tum" || name.starts_with("building."))
     return false;
   const bool is_bag = is_of(name, "recording.bag") || is_of(name, "recording.mcap") || is_of(name, "rosbag2");

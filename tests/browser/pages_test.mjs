@@ -125,11 +125,14 @@ async function report(browser, url, name) {
   check(name + ": an arrow key steps", (await clock()) === "2.5 s", await clock());
   const data = await page.get("JSON.parse(document.getElementById('data').textContent)");
   const methods = Object.keys(data.tracks).filter((m) => m !== "truth");
-  const t = 0.5 * data.end, at = (m) => data.tracks[m].t.filter((v) => v <= t).length - 1;
-  const series = methods.findIndex((m) => at(m) >= 0 && t - data.tracks[m].t[at(m)] < 0.5), track = data.tracks[methods[series]];
+  const last = (m, t) => data.tracks[m].t.filter((v) => v <= t).length - 1;
+  const has = (m, t) => last(m, t) >= 0 && t - data.tracks[m].t[last(m, t)] < 0.5;
+  const share = [0.5, 0.6, 0.7, 0.8, 0.9].find((f) => methods.some((m) => has(m, f * data.end)));
+  const t = share * data.end, at = (m) => last(m, t);
+  const series = methods.findIndex((m) => has(m, t)), track = data.tracks[methods[series]];
   await page.get("document.getElementById('errors').scrollIntoView()");
   const box = await page.get("(() => { const b = document.querySelector('#errors .frame').getBoundingClientRect(); return [b.left, b.top, b.width, b.height]; })()");
-  const x = box[0] + 0.5 * box[2], y = box[1] + 0.5 * box[3];
+  const x = box[0] + share * box[2], y = box[1] + 0.5 * box[3];
   await page.send("Input.dispatchMouseEvent", { type: "mouseMoved", x, y });
   const k = at(methods[series]), expected = methods[series] + ": " + (100 * track.e[k]).toFixed(1) + " cm";
   const tip = await page.get("document.querySelector('.tip').textContent");
