@@ -68,6 +68,10 @@ bim::Building round_room() {
   wall.thickness_m = 10.0;
   wall.offset_m = -5.0;
   wall.body = bim::extrude({{outer, {inner}}}, 0.0, 3.0);
+  building.rooms.front() = {};
+  building.rooms.front().id = "r";
+  building.rooms.front().storey = 0;
+  building.rooms.front().z1_m = 3.0;
   building.rooms.front().polygon = inner;
   building.slabs.clear();
   bim::Slab slab;
