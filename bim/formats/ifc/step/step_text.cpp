@@ -148,7 +148,8 @@ bool holds_numbers(std::string_view attributes) {
     if (digits.front() == '+') digits.remove_prefix(1);
     double value = 0.0;
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-    if (error == std::errc::invalid_argument || end != digits.data() + digits.size() || !std::isfinite(value)) return false;
+    if (error == std::errc::invalid_argument || end != digits.data() + digits.size() || !std::isfinite(value))
+      return false;
   }
   return true;
 }
