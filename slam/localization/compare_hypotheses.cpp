@@ -135,27 +135,37 @@ Float4 cost_beside(const LocalizationScan& scan, const PredictedScan& predicted,
                    Float4 tolerance_columns, Float4 direct, const HypothesisComparisonConfig& config) {
   constexpr double fits = 0.5;  // a standard deviation
   constexpr double along_face = 1e-3;
-  const double z = predicted.floor_z + scan.sensor_height;
   const double rad_per_column = 2.0 * std::numbers::pi / scan.beam_grid.columns;
-  Float4 best = direct;
+  const Eigen::Vector3d origin_I{predicted.sensor_I.x(), predicted.sensor_I.y(),
+                                 predicted.floor_z + scan.sensor_height};
+  std::array<SensorRay, 8> rays;
+  std::array<StructureHit, 8> hits;
+  std::array<std::size_t, 8> lane_of;
+  std::array<Eigen::Vector2d, 4> own;
+  std::size_t count = 0;
+  double farthest = 0.0;
   for (std::size_t k = 0; k < 4; ++k) {
     if (block.range[k] <= 0.0F || direct[k] <= fits) continue;
-    const Eigen::Vector2d own = predicted.R_IH * Eigen::Vector2d(block.x[k], block.y[k]);
+    own[k] = predicted.R_IH * Eigen::Vector2d(block.x[k], block.y[k]);
     const double slope = block.slope[k], angle = rad_per_column * tolerance_columns[k];
-    std::array<SensorRay, 2> rays;
-    std::array<StructureHit, 2> hits;
-    for (std::size_t r = 0; r < 2; ++r) rays[r] = {Eigen::Rotation2Dd(r == 0 ? angle : -angle) * own, slope};
-    predicted.storey->structure->cast({predicted.sensor_I.x(), predicted.sensor_I.y(), z}, rays,
-                                      (block.range[k] + cast_beyond_m) * std::sqrt(1.0 + slope * slope), hits);
-    for (std::size_t r = 0; r < 2; ++r) {
-      if (hits[r].element < 0 || !hits[r].upright) continue;
-      const double across = hits[r].n.dot(own), ratio = hits[r].n.dot(rays[r].direction) / across;
-      if (std::abs(across) < along_face || ratio <= 0.0) continue;
-      PredictedBlock face;
-      face.expected[k] = static_cast<float>(ratio * hits[r].distance);
-      face.incidence[k] = std::max(static_cast<float>(std::abs(across)), static_cast<float>(config.min_incidence));
-      best[k] = std::min(best[k], cost(block.range, face, config)[k]);
+    farthest = std::max(farthest, (block.range[k] + cast_beyond_m) * std::sqrt(1.0 + slope * slope));
+    for (const double turned : {angle, -angle}) {
+      rays[count] = {Eigen::Rotation2Dd(turned) * own[k], slope};
+      lane_of[count++] = k;
     }
+  }
+  if (count == 0) return direct;
+  predicted.storey->structure->cast(origin_I, std::span(rays).first(count), farthest, std::span(hits).first(count));
+  Float4 best = direct;
+  for (std::size_t r = 0; r < count; ++r) {
+    const std::size_t k = lane_of[r];
+    if (hits[r].element < 0 || !hits[r].upright) continue;
+    const double across = hits[r].n.dot(own[k]), ratio = hits[r].n.dot(rays[r].direction) / across;
+    if (std::abs(across) < along_face || ratio <= 0.0) continue;
+    PredictedBlock face;
+    face.expected[k] = static_cast<float>(ratio * hits[r].distance);
+    face.incidence[k] = std::max(static_cast<float>(std::abs(across)), static_cast<float>(config.min_incidence));
+    best[k] = std::min(best[k], cost(block.range, face, config)[k]);
   }
   return best;
 }
