@@ -15,6 +15,8 @@ namespace {
 
 /// The plan is cast no farther than this beyond a return: the residual is at its cap there.
 constexpr float cast_beyond_m = 2.0F;
+/// Cost of a beam that needs no other explanation: a standard deviation.
+constexpr float fits = 0.5F;
 /// Neighbouring beams of a ring that are cast one after another.
 constexpr std::size_t columns_together = 8;
 /// Rays cast in one call, so that their memory stays near.
@@ -85,8 +87,7 @@ Float4 edge_tolerance_columns(Float4 distance, const BeamGridBlock& block, int c
 /// to a plane are nearly linear in the angle, and the beam behind that one hits it, too. Else the neighbour's own
 /// range.
 Float4 extended(const PredictedBlock& near, const PredictedBlock& behind, int shift) {
-  const Float4 reciprocal = 1.0F / near.expected;
-  const Float4 own = reciprocal + static_cast<float>(shift) * (reciprocal - 1.0F / behind.expected);
+  const Float4 own = near.reciprocal + static_cast<float>(shift) * (near.reciprocal - behind.reciprocal);
   const Mask4 same = (near.element >= 0) & (near.element == behind.element) & (near.side == behind.side);
   const auto beyond = static_cast<float>(1.0 / 1000.0);
   return choose(same & (own > beyond), 1.0F / own, near.expected);
@@ -96,7 +97,6 @@ Float4 extended(const PredictedBlock& near, const PredictedBlock& behind, int sh
 /// pitch are uncertain: either side of a horizontal edge may be hit, as of a step, a sill or a lintel.
 Float4 tilted_cost(const LocalizationScan& scan, const PredictedScan& predicted, const BeamGridBlock& block,
                    Float4 untilted, const HypothesisComparisonConfig& config) {
-  constexpr double fits = 0.5;  // a standard deviation
   const double tilt = config.edge_tilts * scan.tilt_sigma;
   const Eigen::Vector3d origin_I{predicted.sensor_I.x(), predicted.sensor_I.y(),
                                  predicted.floor_z + scan.sensor_height};
@@ -130,10 +130,10 @@ Float4 tilted_cost(const LocalizationScan& scan, const PredictedScan& predicted,
 }
 
 /// Cost of the beams of a block, each at most as given, by the faces on either side of what may be an edge, as far as
-/// they go on in the beam's own direction. Neighbours on the ring that gave no return were not predicted.
+/// they go on in the beam's own direction. For beams whose neighbours on the ring gave no return and were not
+/// predicted.
 Float4 cost_beside(const LocalizationScan& scan, const PredictedScan& predicted, const BeamGridBlock& block,
-                   Float4 tolerance_columns, Float4 direct, const HypothesisComparisonConfig& config) {
-  constexpr double fits = 0.5;  // a standard deviation
+                   int unpredicted, Float4 tolerance_columns, Float4 direct, const HypothesisComparisonConfig& config) {
   constexpr double along_face = 1e-3;
   const double rad_per_column = 2.0 * std::numbers::pi / scan.beam_grid.columns;
   const Eigen::Vector3d origin_I{predicted.sensor_I.x(), predicted.sensor_I.y(),
@@ -145,7 +145,7 @@ Float4 cost_beside(const LocalizationScan& scan, const PredictedScan& predicted,
   std::size_t count = 0;
   double farthest = 0.0;
   for (std::size_t k = 0; k < 4; ++k) {
-    if (block.range[k] <= 0.0F || direct[k] <= fits) continue;
+    if ((unpredicted & (1 << k)) == 0 || direct[k] <= fits) continue;
     own[k] = predicted.R_IH * Eigen::Vector2d(block.x[k], block.y[k]);
     const double slope = block.slope[k], angle = rad_per_column * tolerance_columns[k];
     farthest = std::max(farthest, (block.range[k] + cast_beyond_m) * std::sqrt(1.0 + slope * slope));
@@ -182,19 +182,22 @@ Float4 beam_cost(const LocalizationScan& scan, const PredictedScan& predicted, s
   const Float4 most =
       choose(range > 0.0F, edge_tolerance_columns(nearer, scan.beam_grid.blocks[i], columns, config), all(0.0F));
   Float4 best = cost(range, predicted.blocks[i], config);
+  int unpredicted = 0;  // lanes with a neighbour that gave no return
   for (int shift = 1;; ++shift) {
-    const Mask4 near = most >= static_cast<float>(shift);
+    const Mask4 near = (most >= static_cast<float>(shift)) & (best > fits);
     if (lanes(near) == 0) break;
     const auto on_ring = [&](int of_ring) { return static_cast<std::size_t>(first + (of_ring + columns) % columns); };
     for (const int side : {-1, 1}) {
       const std::size_t k = on_ring(column + side * shift);
+      const Mask4 seen = scan.beam_grid.blocks[k].range > 0.0F;
+      unpredicted |= lanes(near & ~seen);
       PredictedBlock there = predicted.blocks[k];
       there.expected = extended(there, predicted.blocks[on_ring(column + side * (shift + 1))], shift);
       const Float4 other = cost(range, there, config);
-      best = choose(near & (scan.beam_grid.blocks[k].range > 0.0F) & (other < best), other, best);
+      best = choose(near & seen & (other < best), other, best);
     }
   }
-  best = cost_beside(scan, predicted, scan.beam_grid.blocks[i], most, best, config);
+  if (unpredicted != 0) best = cost_beside(scan, predicted, scan.beam_grid.blocks[i], unpredicted, most, best, config);
   if (scan.tilt_sigma > 0.0) best = tilted_cost(scan, predicted, scan.beam_grid.blocks[i], best, config);
   return predicted.cost[i] = best;
 }
@@ -337,8 +340,10 @@ PredictedScan predict_scan(const StoreyIndex& storey, const Pose2& X_IH, const L
         }
   cast();
   const Float4 least = all(static_cast<float>(config.min_incidence));
-  for (PredictedBlock& block : predicted.blocks)
+  for (PredictedBlock& block : predicted.blocks) {
     block.incidence = choose(block.incidence > least, block.incidence, least);
+    block.reciprocal = 1.0F / block.expected;
+  }
   return predicted;
 }
 

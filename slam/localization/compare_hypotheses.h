@@ -85,6 +85,7 @@ struct HypothesisComparisonConfig {
 /// What the plan's structure predicts for four beams.
 struct PredictedBlock {
   Float4 expected = all(0.0F);    ///< horizontal range, m; where nothing is hit, how far was cast
+  Float4 reciprocal = all(0.0F);  ///< of expected, 1/m
   Float4 incidence = all(1.0F);   ///< cosine at the face hit, at least min_incidence; 1 where no upright face is
   Mask4 element{-1, -1, -1, -1};  ///< with the upright face that is hit, -1: none
   Mask4 side{0, 0, 0, 0};         ///< eighth of a turn that the face's normal points to
