@@ -101,8 +101,8 @@ class StartSampler {
     }
   }
 
-  /// Tries places until one has a way to another room and to all goals; where none has, the first with a way to another
-  /// room.
+  /// Tries places until one has a way to another room, if the storey has several, and to all goals; where none has, the
+  /// first with a way to another room.
   [[nodiscard]] DrawnStart start(RandomStart how, const bim::Building& building,
                                  const std::vector<sim::FloorPoint>& goals, const Mark& mark) const {
     constexpr std::uint64_t most_tries = 200;
@@ -113,7 +113,7 @@ class StartSampler {
       passages.insert(passages.end(), ends.begin(), ends.end());
     }
     std::optional<DrawnStart> cut_off;
-    for (std::uint64_t i = 0; i < most_tries && rooms_.size() > 1; ++i) {
+    for (std::uint64_t i = 0; i < most_tries && !rooms_.empty(); ++i) {
       const std::optional<DrawnStart> drawn = draw(how, passages, i);
       if (!drawn) continue;
       if (reaches_all(drawn->p_W, goals)) return *drawn;
@@ -128,6 +128,9 @@ class StartSampler {
   [[nodiscard]] std::vector<std::string> route(const Eigen::Vector2d& start, int count, const Mark& mark) const {
     std::vector<std::string> ids;
     if (rooms_.empty()) throw InputError(mark, "no room to draw on this storey");
+    if (rooms_.size() == 1)
+      throw InputError(mark,
+                       "this storey has one room, so there is no other to draw; route: {rooms: all} walks through it");
     std::size_t at = nearest(start);
     Eigen::Vector2d from = start;
     const std::uint64_t most_tries = 200 + static_cast<std::uint64_t>(count);
@@ -160,13 +163,14 @@ class StartSampler {
     return std::min(count - 1, static_cast<std::size_t>(u * static_cast<double>(count)));
   }
 
-  /// The i-th try, if it has a way to another room.
+  /// The i-th try, if it has a way to another room or the storey has only one.
   [[nodiscard]] std::optional<DrawnStart> draw(RandomStart how, const std::vector<Eigen::Vector2d>& passages,
                                                std::uint64_t i) const {
     constexpr double passage_share = 0.25;
     if (!passages.empty() && stream_.uniform(i, passage_lane) < passage_share) {
       const Eigen::Vector2d& p = passages[one_of(passages.size(), i, passage_lane, 1)];
-      if (std::count_if(rooms_.begin(), rooms_.end(), [&](const OpenRoom& room) { return reaches(p, room); }) > 1)
+      if (std::count_if(rooms_.begin(), rooms_.end(), [&](const OpenRoom& room) { return reaches(p, room); }) >=
+          static_cast<std::ptrdiff_t>(std::min<std::size_t>(2, rooms_.size())))
         return DrawnStart{p, true};
       return std::nullopt;
     }
@@ -174,6 +178,7 @@ class StartSampler {
     const std::vector<Eigen::Vector2d>& places = rooms_[room].places_W;
     if (places.empty()) return std::nullopt;
     const Eigen::Vector2d& p = places[one_of(places.size(), i, start_lane, 1)];
+    if (rooms_.size() == 1) return DrawnStart{p, false};
     for (std::size_t other = 0; other < rooms_.size(); ++other)
       if (other != room && reaches(p, rooms_[other])) return DrawnStart{p, false};
     return std::nullopt;

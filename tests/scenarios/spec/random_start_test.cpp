@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 #include <set>
+#include <string>
+#include <utility>
 
 #include "bim/load/load.h"
 #include "scenarios/spec/start_check.h"
@@ -113,10 +115,34 @@ TEST(StartSampler, TheSeedAloneDecides) {
   EXPECT_NE(*a.start.at, *drawn(building, 6, RandomStart::rooms).start.at);
 }
 
-TEST(StartSampler, ABuildingWithOneRoomIsRefused) {
+/// One room of the house and nothing else to go to.
+bim::Building gallery() {
   bim::Building building = house();
   std::erase_if(building.rooms, [](const bim::Room& room) { return room.id != "gallery"; });
-  EXPECT_THROW(drawn(building, 1, RandomStart::rooms), InputError);
+  return building;
+}
+
+TEST(StartSampler, OneRoomAloneHasStartsButNoRoomsToDrawARouteFrom) {
+  const bim::Building building = gallery();
+  std::set<std::pair<double, double>> places;
+  for (std::uint64_t seed = 1; seed <= 5; ++seed)
+    for (const RandomStart how : {RandomStart::rooms, RandomStart::anywhere}) {
+      Scenario scenario;
+      scenario.seed = seed;
+      scenario.start.random = how;
+      scenario.start.storey = "upper";
+      scenario.route.rooms = {"all"};
+      sample_start(building, scenario, {});
+      ASSERT_TRUE(contains(building.rooms.front().polygon, *scenario.start.at)) << seed;
+      places.insert({scenario.start.at->x(), scenario.start.at->y()});
+    }
+  EXPECT_EQ(places.size(), 5U);  // one a seed: in one room both draw alike
+  try {
+    drawn(building, 1, RandomStart::rooms);
+    FAIL() << "a route was drawn";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("route: {rooms: all}"), std::string::npos) << error.what();
+  }
 }
 
 /// Two houses wall to wall, each of two rooms with a door between them.
