@@ -82,15 +82,14 @@ std::vector<WallLink> associate_walls(const StoreyIndex& storey, const Localizat
   return links;
 }
 
-std::vector<PlaneObservation> find_floor(const LocalizationScan& scan, const std::vector<PlaneObservation>& planes,
-                                         const TrackerConfig& config) {
-  std::vector<PlaneObservation> floor;
-  for (const PlaneObservation& plane : planes) {
-    const bool below =
-        scan.is_below(plane.plane_R) && (scan.q_HR * plane.plane_R.n).z() > std::cos(config.floor_max_tilt);
-    if (below && (floor.empty() || plane.points > floor.front().points)) floor.assign(1, plane);
-  }
-  return floor;
+std::vector<PlaneObservation> level_planes_below(const LocalizationScan& scan,
+                                                 const std::vector<PlaneObservation>& planes,
+                                                 const TrackerConfig& config) {
+  std::vector<PlaneObservation> level;
+  for (const PlaneObservation& plane : planes)
+    if (scan.is_below(plane.plane_R) && (scan.q_HR * plane.plane_R.n).z() > std::cos(config.floor_max_tilt))
+      level.push_back(plane);
+  return level;
 }
 
 Plane nearest_floor(const StoreyIndex& storey, const PlaneObservation& observed, Pose X_IR, double standing_m,

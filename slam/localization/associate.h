@@ -22,10 +22,10 @@ namespace plumbline::slam {
 [[nodiscard]] Plane nearest_floor(const StoreyIndex& storey, const PlaneObservation& observed, Pose X_IR,
                                   double standing_m, const TrackerConfig& config);
 
-/// The largest upward plane under the robot, or nothing.
-[[nodiscard]] std::vector<PlaneObservation> find_floor(const LocalizationScan& scan,
-                                                       const std::vector<PlaneObservation>& planes,
-                                                       const TrackerConfig& config);
+/// Level planes under the robot: the floor, and tables beside it.
+[[nodiscard]] std::vector<PlaneObservation> level_planes_below(const LocalizationScan& scan,
+                                                               const std::vector<PlaneObservation>& planes,
+                                                               const TrackerConfig& config);
 
 /// Two opposed walls of the room the robot is in, as indices into TrackedPose::walls.
 struct WallPair {

@@ -116,11 +116,16 @@ TrackedPose PlanTracker::associate(const LocalizationScan& scan, const std::vect
   pose.X_IR = X_IR;
   pose.room = storey_.room_at(X_IR.t.head<2>());
   pose.walls = associate_walls(storey_, scan, planes, X_IR, covariance_.topLeftCorner<2, 2>(), config_);
-  pose.floor = find_floor(scan, planes, config_);
-  std::erase_if(pose.floor, [&](const PlaneObservation& floor) {
-    pose.floor_I = nearest_floor(storey_, floor, X_IR, standing_m_, config_);
-    return std::abs(plane_residual(X_IR, pose.floor_I, floor.plane_R).e[2]) > config_.floor_gate_m;
-  });
+  // Of what may be the floor, what lies nearest to where it is expected: a bench may hold more returns.
+  double least = config_.floor_gate_m;
+  for (const PlaneObservation& level : level_planes_below(scan, planes, config_)) {
+    const Plane floor_I = nearest_floor(storey_, level, X_IR, standing_m_, config_);
+    const double off = std::abs(plane_residual(X_IR, floor_I, level.plane_R).e[2]);
+    if (off > least) continue;
+    least = off;
+    pose.floor.assign(1, level);
+    pose.floor_I = floor_I;
+  }
   return pose;
 }
 

@@ -16,17 +16,27 @@ namespace plumbline::slam {
 
 namespace {
 
-/// Height of R above the floor by the largest upward plane below the robot.
+/// Height of R above the floor: by the lowest of the level planes below that hold a tenth of the returns of the
+/// largest, where it is no farther from the calibrated one than given. A table may hold more returns than the floor
+/// beside it, or hide it.
 std::optional<double> height_over_floor(const std::vector<PlaneObservation>& planes, const LocalizationScan& scan,
-                                        double tilt) {
-  std::optional<double> height;
+                                        double tilt, double calibrated_R, double tolerance_m) {
+  // No gait, crouch or hand lowers a LiDAR as far; seats are 0.4 m high, tables more.
+  constexpr double nearest_m = 0.3;
+  constexpr double least_share = 0.1;  // assumed
+  std::vector<const PlaneObservation*> level;
   int most = 0;
   for (const PlaneObservation& plane : planes) {
-    if ((scan.q_HR * plane.plane_R.n).z() < std::cos(tilt) || !scan.is_below(plane.plane_R) || plane.points <= most)
+    const double lower = plane.plane_R.d - calibrated_R;
+    if ((scan.q_HR * plane.plane_R.n).z() < std::cos(tilt) || !scan.is_below(plane.plane_R) || lower > tolerance_m ||
+        lower < -std::min(tolerance_m, nearest_m))
       continue;
-    most = plane.points;
-    height = plane.plane_R.d;
+    level.push_back(&plane);
+    most = std::max(most, plane.points);
   }
+  std::optional<double> height;
+  for (const PlaneObservation* plane : level)
+    if (plane->points >= least_share * most && (!height || plane->plane_R.d > *height)) height = plane->plane_R.d;
   return height;
 }
 
@@ -218,10 +228,10 @@ LocalizationScan make_localization_scan(const DeskewedScan& scan, const std::vec
   const Eigen::Vector3d sensor_H = out.q_HR * scan.X_RL.t;
   out.sensor_H = sensor_H.head<2>();
   out.sensor_R = scan.X_RL.t;
-  const std::optional<double> height_R = height_over_floor(planes, out, config.floor_max_tilt_rad);
-  out.sensor_height = calibration.sensor_height_m;
-  if (height_R && std::abs(*height_R + sensor_H.z() - calibration.sensor_height_m) <= height_tolerance_m)
-    out.sensor_height = *height_R + sensor_H.z();
+  const double calibrated_R = calibration.sensor_height_m - sensor_H.z();
+  out.sensor_height =
+      sensor_H.z() + height_over_floor(planes, out, config.floor_max_tilt_rad, calibrated_R, height_tolerance_m)
+                         .value_or(calibrated_R);
   out.beams = pick_beams(scan, out, config);
   out.beam_grid = make_beam_grid(scan, out, config);
   for (std::size_t i = 0; i < planes.size() && out.walls.size() < max_walls; ++i) {

@@ -108,7 +108,8 @@ struct LocalizationScan {
 };
 
 /// Gravity comes from the odometry's attitude, the height from the floor plane where one is seen, else from the
-/// calibration. height_tolerance_m: a floor that lies farther from the calibrated height is not the one below.
+/// calibration. height_tolerance_m: a floor that lies farther from the calibrated height is not the one below; a level
+/// plane 0.3 m over it is a table.
 [[nodiscard]] LocalizationScan make_localization_scan(
     const DeskewedScan& scan, const std::vector<PlaneObservation>& planes, const Pose& X_OR,
     const Calibration& calibration, const LocalizationScanConfig& config,

@@ -97,6 +97,19 @@ TEST(Tracker, PullsAWrongStartOntoThePlan) {
   EXPECT_LT(std::abs(wrap_angle(X_IR.yaw() - walked.X_IR.back().yaw())), 0.001);
 }
 
+TEST(Tracker, APalletWithMoreReturnsThanTheFloorIsNotTheFloor) {
+  Walked walked = walk_straight(1.0);
+  for (HouseScan& seen : walked.seen) {
+    PlaneObservation pallet;
+    pallet.plane_R = {Eigen::Vector3d::UnitZ(), standing_m - 0.2};
+    pallet.points = 100000;
+    seen.planes.push_back(pallet);
+  }
+  const PlanTracker tracker = track(walked, walked.X_IR.front());
+  ASSERT_EQ(tracker.window().back().floor.size(), 1U);
+  EXPECT_NEAR(tracker.window().back().floor.front().plane_R.d, standing_m, 0.02);
+}
+
 // Glass and frames stand a hand's breadth behind the face of their wall: a patch there is not the wall.
 TEST(Tracker, APatchInAnOpeningIsNotTheWall) {
   const Walked walked = walk_straight(1.0);

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+#include <vector>
+
 #include "tests/slam/synthetic.h"
 
 namespace plumbline::slam {
@@ -65,6 +68,31 @@ LocalizationScan seen_by_rings(const std::vector<double>& elevations_deg) {
   Calibration calibration;
   calibration.sensor_height_m = 1.0;
   return make_localization_scan(scan, {}, Pose{}, calibration, {});
+}
+
+/// Height found by level planes so far below R, each with its returns, of a LiDAR at R that stands 1 m high.
+double height_by(const std::vector<std::pair<double, int>>& below) {
+  std::vector<PlaneObservation> planes;
+  for (const auto& [down_m, points] : below) {
+    PlaneObservation plane;
+    plane.plane_R = {Eigen::Vector3d::UnitZ(), down_m};
+    plane.points = points;
+    planes.push_back(plane);
+  }
+  DeskewedScan scan;
+  scan.columns = scan.rings = 0;
+  Calibration calibration;
+  calibration.sensor_height_m = 1.0;
+  return make_localization_scan(scan, planes, Pose{}, calibration, {}).sensor_height;
+}
+
+TEST(LocalizationScan, ATableIsNoFloorHoweverManyReturnsItHolds) {
+  EXPECT_NEAR(height_by({{1.02, 100}}), 1.02, 1e-12);
+  EXPECT_NEAR(height_by({{0.6, 500}, {1.02, 100}}), 1.02, 1e-12);
+  EXPECT_NEAR(height_by({{0.85, 500}, {1.02, 100}}), 1.02, 1e-12) << "a pallet";
+  EXPECT_NEAR(height_by({{0.6, 500}}), 1.0, 1e-12) << "the floor is hidden";
+  EXPECT_NEAR(height_by({{1.7, 100}}), 1.7, 1e-12) << "carried higher than was said";
+  EXPECT_NEAR(height_by({{1.3, 5}, {1.02, 100}}), 1.02, 1e-12) << "a few returns by a mirror";
 }
 
 // Whatever the LiDAR, some beams pass over low furniture.
