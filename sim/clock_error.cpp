@@ -13,7 +13,7 @@ constexpr slam::Nanoseconds least_step = 1000;  ///< between the stamps of two r
 
 }  // namespace
 
-StampError::StampError(const ClockConfig& config, std::uint64_t seed, std::uint32_t lane)
+StampError::StampError(const ClockConfig& config, Seed seed, std::uint32_t lane)
     : config_(config), stream_(seed, "sim.faults.clock"), lane_(lane) {}
 
 std::optional<slam::Nanoseconds> StampError::stamp(std::int64_t step, slam::Nanoseconds true_stamp) {

@@ -20,7 +20,7 @@ struct ClockConfig {
 class StampError {
  public:
   /// lane: of this kind of records, so that kinds jitter independently.
-  StampError(const ClockConfig& config, std::uint64_t seed, std::uint32_t lane);
+  StampError(const ClockConfig& config, Seed seed, std::uint32_t lane);
 
   /// Stamp of the record that was truly taken at this physics step and time; none where it would be before the first.
   /// Call in the order of time, from step 0 on.

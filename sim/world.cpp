@@ -83,20 +83,20 @@ void take_until(Nanoseconds t, std::vector<Record>& pending, std::vector<Record>
 struct World::Impl {
   Impl(const WorldConfig& config_in, const bim::Building& as_built, const bim::BuildingMesh& mesh)
       : config(config_in),
+        seed(config.seed, config.part),
         floor(elevation(as_built, config.storey)),
         scene(make_scene(config.lidar, as_built, mesh)),
         dynamic_obstacles(config.people, config.doors, static_cast<int>(mesh.elements.size())),
         rooms(as_built),
-        lidar(config.lidar, config.rpm, config.seed, scene, surfaces_of(as_built, mesh, config.lidar.reflectivity),
-              &rooms),
+        lidar(config.lidar, config.rpm, seed, scene, surfaces_of(as_built, mesh, config.lidar.reflectivity), &rooms),
         X_WL(static_cast<std::size_t>(slam::firings_per_message(lidar.model(), config.rpm))),
         robot(start_pose(config, floor), building_ground(as_built, walked_storeys(config, as_built)),
-              collision_boxes(as_built, walked_storeys(config, as_built)), config.conditions, config.seed),
-        pursuit(pursuit_config(config), config.waypoints, config.seed),
-        sensors(config.odometry, config.seed, config.faults.imu, config.faults.slip),
+              collision_boxes(as_built, walked_storeys(config, as_built)), config.conditions, seed),
+        pursuit(pursuit_config(config), config.waypoints, seed),
+        sensors(config.odometry, seed, config.faults.imu, config.faults.slip),
         leg_odometry(leg_odometry_config(config.odometry, config.seed)),
-        odometry_stamps(config.faults.clock, config.seed, 0),
-        imu_stamps(config.faults.clock, config.seed, 1) {
+        odometry_stamps(config.faults.clock, seed, 0),
+        imu_stamps(config.faults.clock, seed, 1) {
     record(0);
   }
 
@@ -179,6 +179,7 @@ struct World::Impl {
   }
 
   WorldConfig config;
+  Seed seed;
   double floor;
   bim::RayScene scene;
   DynamicObstacles dynamic_obstacles;

@@ -19,6 +19,7 @@ namespace plumbline::sim {
 
 struct WorldConfig {
   std::uint64_t seed = 1;
+  std::uint32_t part = 0;  ///< of the run: the noise is another one, the instruments are the same
   LidarConfig lidar;
   double rpm = 600.0;
   bool vertical_offsets = true;  ///< of the lasers, in the driver's calibration

@@ -111,11 +111,17 @@ std::array<Double2, 2> cos_sin_turn(std::uint32_t bits_a, std::uint32_t bits_b) 
   return {Double2{turned[a & 3U][0], turned[b & 3U][1]}, Double2{turned[(a + 3U) & 3U][0], turned[(b + 3U) & 3U][1]}};
 }
 
+std::uint64_t key_of(const Seed& seed, std::string_view name) {
+  Digest digest = Digest().add(seed.run).add(name);
+  if (seed.part > 0) digest.add(static_cast<std::uint64_t>(seed.part));
+  return digest.value();
+}
+
 }  // namespace
 
 std::span<const std::string_view> stream_names() { return names; }
 
-Stream::Stream(std::uint64_t seed, std::string_view name) : key_(Digest().add(seed).add(name).value()) {
+Stream::Stream(Seed seed, std::string_view name) : key_(key_of(seed, name)) {
   if (std::find(names.begin(), names.end(), name) == names.end())
     throw InternalError("random stream '" + std::string(name) + "' is not in the list of streams");
 }

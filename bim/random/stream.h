@@ -11,12 +11,22 @@ namespace plumbline {
 /// Every random stream of the program, by name. Estimators may use "slam.*" only (ci/check_layers).
 [[nodiscard]] std::span<const std::string_view> stream_names();
 
+/// What the streams of a run are drawn from. Parts of a run differ in their noise; what is drawn once for all of it, as
+/// an instrument's calibration error, is drawn by `run` alone.
+struct Seed {
+  // NOLINTNEXTLINE(google-explicit-constructor): a number is the seed of a run with one part
+  Seed(std::uint64_t of_run, std::uint32_t of_part = 0) : run(of_run), part(of_part) {}
+
+  std::uint64_t run;
+  std::uint32_t part;
+};
+
 /// Counter-based random numbers (Philox4x32-10 [salmon2011]). A draw is addressed by (tick, lane, draw) and depends on
 /// nothing else, so neither order nor threads nor another consumer can change it.
 class Stream {
  public:
   /// name must stand in stream_names(), else InternalError.
-  Stream(std::uint64_t seed, std::string_view name);
+  Stream(Seed seed, std::string_view name);
 
   /// 64 random bits.
   [[nodiscard]] std::uint64_t bits(std::uint64_t tick, std::uint32_t lane = 0, std::uint32_t draw = 0) const;

@@ -27,6 +27,7 @@ void SimulatedRun::set_down() {
   begin_ = (last_stamp_ / ms + 1 + std::llround(1e3 * away_s)) * ms;
   X_OO_ = Pose::from_xyz_yaw(last_X_OR_.t, last_X_OR_.yaw());
   sim::WorldConfig after = *resolved_.world_after;
+  ++after.part;
   after.duration_s -= slam::seconds(*begin_);
   after.lidar.running_s += slam::seconds(*begin_);
   world_.emplace(after, resolved_.building->as_built(), resolved_.building->mesh_as_built());

@@ -11,7 +11,7 @@ constexpr std::uint8_t reflectivity_byte = 5;  ///< particles give back little
 
 }  // namespace
 
-Airborne::Airborne(const LidarConfig& config, std::uint64_t seed)
+Airborne::Airborne(const LidarConfig& config, Seed seed)
     : density_per_m_(config.airborne_per_m),
       reach_m_(config.airborne_reach_m),
       model_(slam::lidar_model(config.model)),

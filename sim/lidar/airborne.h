@@ -14,7 +14,7 @@ namespace plumbline::sim {
 /// 1 - exp(-density (R - least range)). Draws are addressed by firing and laser.
 class Airborne {
  public:
-  Airborne(const LidarConfig& config, std::uint64_t seed);
+  Airborne(const LidarConfig& config, Seed seed);
 
   /// Range of the first particle that a beam meets, m; none within reach.
   [[nodiscard]] std::optional<double> at(std::int64_t firing, std::size_t laser) const;

@@ -19,13 +19,13 @@ double calibrated_reflectivity(double strength, double cosine) {
 
 }  // namespace
 
-Detector::Detector(const LidarConfig& config, std::uint64_t seed)
+Detector::Detector(const LidarConfig& config, Seed seed)
     : config_(config),
       model_(slam::lidar_model(config.model)),
       dropout_(seed, "sim.lidar.dropout"),
       range_(seed, "sim.lidar.range"),
       reflectivity_(seed, "sim.lidar.reflectivity") {
-  const Stream bias(seed, "sim.lidar.bias");
+  const Stream bias(seed.run, "sim.lidar.bias");
   for (std::size_t k = 0; k < model_.lasers.size(); ++k)
     bias_m_.push_back(
         (config.unit_bias ? config.unit_bias_sigma_m * bias.gauss(0, 0) : 0.0) +

@@ -14,8 +14,8 @@ namespace plumbline::sim {
 /// firing, laser and the echo's rank alone, so that none moves another.
 class Detector {
  public:
-  /// Draws the unit's biases.
-  Detector(const LidarConfig& config, std::uint64_t seed);
+  /// Draws the unit's biases, the same for all parts of a run.
+  Detector(const LidarConfig& config, Seed seed);
 
   /// The echo of this rank (0 the nearest), or distance 0 where nothing is detected. strength: reflectivity of what
   /// the echo comes from, above 1 for a retro-reflector.

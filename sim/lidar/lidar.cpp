@@ -66,7 +66,7 @@ struct Lidar::Impl {
   std::vector<Echo> echoes;
   Light light;
 
-  Impl(const LidarConfig& config_in, double rpm, std::uint64_t seed, const bim::RayScene& scene_in,
+  Impl(const LidarConfig& config_in, double rpm, Seed seed, const bim::RayScene& scene_in,
        std::vector<Surface> surfaces_in, const RoomLookup* rooms_in);
 
   [[nodiscard]] std::size_t slot(std::size_t column, std::size_t laser) const {
@@ -83,7 +83,7 @@ struct Lidar::Impl {
   void pack(Sweep& sweep) const;
 };
 
-Lidar::Impl::Impl(const LidarConfig& config_in, double rpm, std::uint64_t seed, const bim::RayScene& scene_in,
+Lidar::Impl::Impl(const LidarConfig& config_in, double rpm, Seed seed, const bim::RayScene& scene_in,
                   std::vector<Surface> surfaces_in, const RoomLookup* rooms_in)
     : config(config_in),
       model(slam::lidar_model(config.model)),
@@ -284,9 +284,9 @@ void Lidar::Impl::pack(Sweep& sweep) const {
   }
 }
 
-Lidar::Lidar(LidarPreset preset, double rpm, std::uint64_t seed, const bim::RayScene& scene)
+Lidar::Lidar(LidarPreset preset, double rpm, Seed seed, const bim::RayScene& scene)
     : Lidar(lidar_config(preset), rpm, seed, scene) {}
-Lidar::Lidar(const LidarConfig& config, double rpm, std::uint64_t seed, const bim::RayScene& scene,
+Lidar::Lidar(const LidarConfig& config, double rpm, Seed seed, const bim::RayScene& scene,
              std::vector<Surface> surfaces, const RoomLookup* rooms)
     : impl_(std::make_unique<Impl>(config, rpm, seed, scene, std::move(surfaces), rooms)) {}
 Lidar::~Lidar() = default;

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "bim/random/stream.h"
 #include "bim/rays/ray_scene.h"
 #include "sim/lidar/lidar_config.h"
 #include "sim/lidar/room_lookup.h"
@@ -42,8 +43,8 @@ class Lidar {
  public:
   /// rpm from 300 to 1200. Surfaces by element; elements beyond them reflect config.reflectivity. Without rooms labels
   /// name none. Scene and rooms must outlive the sensor. Throws InputError on other speeds.
-  Lidar(LidarPreset preset, double rpm, std::uint64_t seed, const bim::RayScene& scene);
-  Lidar(const LidarConfig& config, double rpm, std::uint64_t seed, const bim::RayScene& scene,
+  Lidar(LidarPreset preset, double rpm, Seed seed, const bim::RayScene& scene);
+  Lidar(const LidarConfig& config, double rpm, Seed seed, const bim::RayScene& scene,
         std::vector<Surface> surfaces = {}, const RoomLookup* rooms = nullptr);
   ~Lidar();
 

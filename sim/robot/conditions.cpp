@@ -15,7 +15,7 @@ std::int64_t steps(double seconds, double step_s) { return std::max<std::int64_t
 
 }  // namespace
 
-Pushes::Pushes(const PushConfig& config, double step_s, std::uint64_t seed)
+Pushes::Pushes(const PushConfig& config, double step_s, Seed seed)
     : config_(config),
       span_steps_(steps(config.every_s, step_s)),
       push_steps_(steps(config.duration_s, step_s)),

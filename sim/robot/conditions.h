@@ -29,7 +29,7 @@ struct Conditions {
 class Pushes {
  public:
   /// step_s: of the physics.
-  Pushes(const PushConfig& config, double step_s, std::uint64_t seed);
+  Pushes(const PushConfig& config, double step_s, Seed seed);
 
   /// Force on the base at a step (from 0 on), N in W.
   [[nodiscard]] Eigen::Vector2d force_W(std::int64_t step) const;

@@ -55,7 +55,7 @@ std::vector<CollisionBox> joined(std::vector<CollisionBox> boxes, const Ground& 
 
 struct Robot::Impl {
   Impl(const Pose& X_WR_start, Ground ground_in, std::vector<CollisionBox> boxes, const Conditions& conditions,
-       std::uint64_t seed)
+       Seed seed)
       : ground(std::move(ground_in)),
         terrain([this](double x, double y, double z_max) { return ground.height(x, y, z_max); }),
         model_cfg{.friction = conditions.friction,
@@ -67,7 +67,7 @@ struct Robot::Impl {
         push_on_stairs(conditions.pushes.on_stairs) {
     if (conditions.terrain_noise_m > 0.0)
       terrain_noise.emplace(conditions.terrain_noise_m, X_WR_start.t.head<2>(), plate_geoms(*model, model_cfg.plates),
-                            seed);
+                            seed.run);
     place(X_WR_start);
     trot = std::make_unique<Trot>(TrotConfig{}, state(), mj_getTotalmass(model.get()), model_cfg.step_s);
     steps = -config.settle_steps;
@@ -167,7 +167,7 @@ struct Robot::Impl {
 };
 
 Robot::Robot(const Pose& X_WR_start, Ground ground, std::vector<CollisionBox> boxes, const Conditions& conditions,
-             std::uint64_t seed)
+             Seed seed)
     : impl_(std::make_unique<Impl>(X_WR_start, std::move(ground), std::move(boxes), conditions, seed)) {}
 
 Robot::~Robot() = default;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bim/geometry/pose.h"
+#include "bim/random/stream.h"
 #include "sim/robot/conditions.h"
 #include "sim/robot/ground.h"
 #include "sim/robot/types/command.h"
@@ -22,7 +23,7 @@ class Robot {
   /// X_WR_start is only that bound) and lets it settle for 0.5 s; time starts after that. boxes: the obstacles.
   /// seed: of what is random in the conditions.
   Robot(const Pose& X_WR_start, Ground ground, std::vector<CollisionBox> boxes, const Conditions& conditions = {},
-        std::uint64_t seed = 0);
+        Seed seed = 0);
   ~Robot();
   Robot(const Robot&) = delete;
   Robot& operator=(const Robot&) = delete;

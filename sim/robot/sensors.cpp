@@ -33,15 +33,15 @@ ProprioceptionNoise noise_of(OdometryPreset preset) {
   return noise;
 }
 
-ProprioceptiveSensors::ProprioceptiveSensors(OdometryPreset preset, std::uint64_t seed, const ImuError& imu,
+ProprioceptiveSensors::ProprioceptiveSensors(OdometryPreset preset, Seed seed, const ImuError& imu,
                                              const SlipConfig& slip)
     : noise_(noise_of(preset)),
-      imu_(draw(imu, seed)),
+      imu_(draw(imu, seed.run)),
       slips_(slip, step_s, seed),
       encoder_(seed, "sim.odometry.encoder"),
       velocity_(seed, "sim.odometry.velocity"),
       gyro_(seed, "sim.imu.gyro"),
-      bias_(seed, "sim.imu.bias"),
+      bias_(seed.run, "sim.imu.bias"),
       accelerometer_(seed, "sim.imu.accelerometer"),
       contact_(seed, "sim.odometry.contact"),
       gyro_bias_R_(noise_.gyro_bias * gauss3(bias_, 0)) {}

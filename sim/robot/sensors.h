@@ -48,8 +48,7 @@ struct SensorReading {
 /// Adds the preset's noise to the truth, and errors of the IMU and slipping feet where they are asked for.
 class ProprioceptiveSensors {
  public:
-  ProprioceptiveSensors(OdometryPreset preset, std::uint64_t seed, const ImuError& imu = {},
-                        const SlipConfig& slip = {});
+  ProprioceptiveSensors(OdometryPreset preset, Seed seed, const ImuError& imu = {}, const SlipConfig& slip = {});
 
   /// tick counts physics steps and must grow by one from call to call, since the gyro's bias walks.
   [[nodiscard]] SensorReading read(const Proprioception& truth, std::int64_t tick);

@@ -16,7 +16,7 @@ std::int64_t steps(double seconds, double step_s) { return std::max<std::int64_t
 
 }  // namespace
 
-Slips::Slips(const SlipConfig& config, double step_s, std::uint64_t seed)
+Slips::Slips(const SlipConfig& config, double step_s, Seed seed)
     : config_(config),
       span_steps_(steps(config.every_s, step_s)),
       slip_steps_(steps(config.duration_s, step_s)),

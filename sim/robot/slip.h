@@ -19,7 +19,7 @@ struct SlipConfig {
 class Slips {
  public:
   /// step_s: of the physics.
-  Slips(const SlipConfig& config, double step_s, std::uint64_t seed);
+  Slips(const SlipConfig& config, double step_s, Seed seed);
 
   /// Velocity of the standing feet over the ground at a step, m/s in R, level.
   [[nodiscard]] Eigen::Vector3d velocity_R(std::int64_t step) const;

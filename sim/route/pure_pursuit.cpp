@@ -16,7 +16,7 @@ constexpr double step_s = 1e-9 * static_cast<double>(Robot::step_ns);
 
 }  // namespace
 
-PurePursuit::PurePursuit(const PurePursuitConfig& config, std::vector<Waypoint> waypoints, std::uint64_t seed)
+PurePursuit::PurePursuit(const PurePursuitConfig& config, std::vector<Waypoint> waypoints, Seed seed)
     : config_(config),
       waypoints_(std::move(waypoints)),
       jitter_(seed, "sim.gait.command"),

@@ -47,7 +47,7 @@ struct PurePursuitConfig {
 /// Path tracker: walks the robot along waypoints, the first of which is the start.
 class PurePursuit {
  public:
-  PurePursuit(const PurePursuitConfig& config, std::vector<Waypoint> waypoints, std::uint64_t seed);
+  PurePursuit(const PurePursuitConfig& config, std::vector<Waypoint> waypoints, Seed seed);
 
   /// Command for the robot at X_WR; tick counts physics steps of step_s. A zero command when done. Throws
   /// ScenarioFailure "the robot stalled ..." when it does not follow its command.

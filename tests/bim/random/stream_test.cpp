@@ -32,6 +32,16 @@ TEST(Stream, DependsOnSeedNameAndAddressOnly) {
   EXPECT_EQ(all.size(), 6U);
 }
 
+TEST(Stream, PartsOfARunDifferAndTheFirstIsTheRun) {
+  const Stream run(5, "sim.lidar.range"), first(Seed{5, 0}, "sim.lidar.range"), second(Seed{5, 1}, "sim.lidar.range"),
+      other(6, "sim.lidar.range");
+  for (std::uint64_t tick = 0; tick < 50; ++tick) {
+    EXPECT_EQ(first.bits(tick), run.bits(tick));
+    EXPECT_NE(second.bits(tick), run.bits(tick));
+    EXPECT_NE(second.bits(tick), other.bits(tick));
+  }
+}
+
 TEST(Stream, GaussHasUnitMoments) {
   const Stream stream(3, "sim.lidar.range");
   constexpr int n = 200000;

@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 
 #include "tests/data.h"
 
@@ -76,6 +78,31 @@ TEST(SimulatedRun, AKidnappedRobotWalksOnFromElsewhereAndItsSensorsNoticeNoMore)
       EXPECT_EQ(us, packet.stamp / 1000);
     }
   }
+}
+
+TEST(SimulatedRun, NoiseDoesNotBeginAnewWhereARobotIsSetDown) {
+  const sim::WorldConfig start = resolved_with("").world;
+  std::ostringstream kidnap;
+  kidnap << "kidnap: {after_s: 1.5, away_s: 1, to: {at: [" << start.start_W.x() << ", " << start.start_W.y()
+         << "], yaw_deg: " << start.start_yaw * 180.0 / M_PI << "}}\n";
+  const std::vector<sim::WorldFrame> frames = frames_of(resolved_with(kidnap.str()));
+  std::size_t down = 1;
+  while (down < frames.size() && frames[down].sensors.scan.stamp - frames[down - 1].sensors.scan.stamp < 500'000'000)
+    ++down;
+  ASSERT_LT(down, frames.size());
+  const sim::WorldFrame &first = frames.front(), &again = frames[down];
+  ASSERT_LT((again.truth.poses.front().X_WR.t - first.truth.poses.front().X_WR.t).norm(), 0.01);
+  EXPECT_GT((again.sensors.imu.front().angular_velocity_R - first.sensors.imu.front().angular_velocity_R).norm(), 1e-6);
+  ASSERT_EQ(again.sensors.scan.range_m.size(), first.sensors.scan.range_m.size());
+  std::size_t seen = 0, same = 0;
+  for (std::size_t i = 0; i < first.sensors.scan.range_m.size(); ++i) {
+    if (first.sensors.scan.range_m[i] <= 0.0) continue;
+    ++seen;
+    same += again.sensors.scan.range_m[i] == first.sensors.scan.range_m[i];
+  }
+  // Ranges come in steps of 2 mm, and their noise is 8 mm or more: a tenth may be equal by chance.
+  ASSERT_GT(seen, 1000U);
+  EXPECT_LT(same, seen / 5);
 }
 
 TEST(SimulatedRun, TheDrawOfThePlaceIsKeptInTheScenario) {
