@@ -16,7 +16,13 @@ namespace {
 struct Heading {
   double angle = 0.0;
   double area = 0.0;
+  double longest_m = 0.0;
 };
+
+/// How far the directions of two like surfaces of this length may differ, rad: their ends match within match_m.
+double slack_of(double length_m, const SymmetryConfig& config) {
+  return std::clamp(config.match_m / length_m, config.direction, config.direction_max);
+}
 
 double heading_of(const SurfaceRect& rect, bool mirrored) {
   const Eigen::Vector2d e = rect.direction();
@@ -26,7 +32,8 @@ double heading_of(const SurfaceRect& rect, bool mirrored) {
 
 std::vector<Heading> headings_of(const SymmetryScene& scene, bool mirrored, const SymmetryConfig& config) {
   std::vector<Heading> all;
-  for (const SurfaceRect& rect : scene.surfaces().rects()) all.push_back({heading_of(rect, mirrored), rect.area()});
+  for (const SurfaceRect& rect : scene.surfaces().rects())
+    all.push_back({heading_of(rect, mirrored), rect.area(), rect.length()});
   std::stable_sort(all.begin(), all.end(), [](const Heading& a, const Heading& b) { return a.angle < b.angle; });
   std::vector<Heading> joined;
   for (const Heading& heading : all) {
@@ -36,6 +43,7 @@ std::vector<Heading> headings_of(const SymmetryScene& scene, bool mirrored, cons
     }
     Heading& last = joined.back();
     last.area += heading.area;
+    last.longest_m = std::max(last.longest_m, heading.longest_m);
     last.angle += (heading.angle - last.angle) * heading.area / last.area;
   }
   if (joined.size() < 2) return joined;
@@ -45,6 +53,7 @@ std::vector<Heading> headings_of(const SymmetryScene& scene, bool mirrored, cons
     Heading& first = joined.front();
     const Heading& last = joined.back();
     first.area += last.area;
+    first.longest_m = std::max(first.longest_m, last.longest_m);
     first.angle = wrap_angle(first.angle - gap * last.area / first.area);
     joined.pop_back();
     std::stable_sort(joined.begin(), joined.end(),
@@ -53,21 +62,24 @@ std::vector<Heading> headings_of(const SymmetryScene& scene, bool mirrored, cons
   return joined;
 }
 
+/// Area of the headings within `slack` of an angle.
+double area_near(const std::vector<Heading>& headings, double angle, double slack) {
+  double area = 0.0;
+  for (const double way_round : {-2.0, 0.0, 2.0}) {
+    const double sought = angle + way_round * std::numbers::pi;
+    auto found = std::lower_bound(headings.begin(), headings.end(), sought - slack,
+                                  [](const Heading& h, double value) { return h.angle < value; });
+    for (; found != headings.end() && found->angle <= sought + slack; ++found) area += found->area;
+  }
+  return area;
+}
+
 /// Area of the headings that a turn puts onto headings of the other list.
 double common_area(const std::vector<Heading>& from, const std::vector<Heading>& to, double turn,
                    const SymmetryConfig& config) {
   double sum = 0.0;
-  for (const Heading& heading : from) {
-    const double angle = wrap_angle(heading.angle + turn);
-    double there = 0.0;
-    for (const double way_round : {-2.0, 0.0, 2.0}) {
-      const double sought = angle + way_round * std::numbers::pi;
-      auto found = std::lower_bound(to.begin(), to.end(), sought - config.direction,
-                                    [](const Heading& h, double value) { return h.angle < value; });
-      for (; found != to.end() && found->angle <= sought + config.direction; ++found) there += found->area;
-    }
-    sum += std::min(heading.area, there);
-  }
+  for (const Heading& heading : from)
+    sum += std::min(heading.area, area_near(to, wrap_angle(heading.angle + turn), slack_of(heading.longest_m, config)));
   return sum;
 }
 
@@ -81,9 +93,14 @@ std::vector<double> turns_between(const SymmetryScene& from, const SymmetryScene
   for (const Heading& heading : a) total += heading.area;
   const auto by_area = [](const Heading& h, const Heading& k) { return h.area < k.area; };
   const Heading& main = *std::max_element(a.begin(), a.end(), by_area);  // of equal ones the lowest angle
+  const double slack = slack_of(main.longest_m, config);
+  // Rounded coordinates turn opposite walls into two headings, each off by the slack, or leave them one.
+  const double around_main = area_near(a, main.angle, slack);
   for (const Heading& heading : b) {
     const double turn = wrap_angle(heading.angle - main.angle);
-    if (heading.area < config.direction_share * main.area) continue;
+    if (heading.area < config.direction_share * main.area &&
+        area_near(b, heading.angle, 2.0 * slack) < config.direction_share * around_main)
+      continue;
     if (common_area(a, b, turn, config) >= config.direction_share * total) turns.push_back(turn);
   }
   std::sort(turns.begin(), turns.end());
@@ -111,7 +128,7 @@ std::vector<Vote> votes_for(const SymmetryScene& from, const SymmetryScene& to, 
       const SurfaceRect& other = to.surfaces().rects()[static_cast<std::size_t>(i)];
       const Eigen::Vector2d target = 0.5 * (other.p + other.q);
       const bool like = (target - middle).lpNorm<Eigen::Infinity>() <= config.shift_max_m &&
-                        (other.direction() - image.direction()).norm() <= config.direction &&
+                        (other.direction() - image.direction()).norm() <= slack_of(image.length(), config) &&
                         std::abs(other.length() - image.length()) <= config.match_m &&
                         std::abs(other.z0 - image.z0) <= config.match_m &&
                         std::abs(other.z1 - image.z1) <= config.match_m;
@@ -193,10 +210,17 @@ std::optional<Isometry2> settled(const SymmetryScene& from, const SymmetryScene&
 
 std::vector<Isometry2> candidates(const SymmetryScene& from, const SymmetryScene& to, bool mirrored,
                                   const SymmetryConfig& config) {
+  constexpr double same = 1e-6;  // m and rad, rounding of a fit
   std::vector<Isometry2> result;
   for (const double turn : turns_between(from, to, mirrored, config)) {
     const Isometry2 about = Isometry2::taking(turn, mirrored, from.centroid(), to.centroid());
-    if (const auto g = settled(from, to, about, config)) result.push_back(*g);
+    const auto g = settled(from, to, about, config);
+    if (!g) continue;
+    const bool known = std::any_of(result.begin(), result.end(), [&](const Isometry2& other) {
+      return std::abs(wrap_angle(other.angle - g->angle)) < same &&
+             (other * from.centroid() - *g * from.centroid()).norm() < same;
+    });
+    if (!known) result.push_back(*g);
   }
   return result;
 }

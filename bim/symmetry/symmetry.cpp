@@ -5,18 +5,26 @@
 #include <cmath>
 #include <numbers>
 
+#include "bim/geometry/pose.h"
 #include "bim/symmetry/symmetry_scene.h"
 
 namespace plumbline::bim {
 
 namespace {
 
-/// A turn below this about a shift below this is the identity: what a storey's own rounding amounts to.
-constexpr double identity_angle = 1e-3;
+constexpr double half_turn_rounding = 1e-3;  ///< rad, what a storey's own rounding amounts to
 
+/// A turn that directions of surfaces do not show, about a small shift.
 bool is_identity(const Isometry2& g, const SymmetryScene& scene, const SymmetryConfig& config) {
-  return !g.mirrored && std::abs(g.angle) < identity_angle &&
+  return !g.mirrored && std::abs(g.angle) < config.direction_max &&
          (g * scene.centroid() - scene.centroid()).norm() < config.near_m;
+}
+
+/// The same motion, found from two surfaces whose directions are rounded.
+bool is_same(const StoreySymmetry& a, const StoreySymmetry& b, const SymmetryScene& from,
+             const SymmetryConfig& config) {
+  return std::abs(wrap_angle(a.isometry.angle - b.isometry.angle)) < config.direction_max &&
+         (a.isometry * from.centroid() - b.isometry * from.centroid()).norm() < config.match_m;
 }
 
 /// Storeys that a robot may walk on and see something.
@@ -33,17 +41,38 @@ std::vector<SymmetryScene> scenes_of(const Building& building, const SymmetryCon
   return scenes;
 }
 
+/// Adds a motion where it holds; of two that are the same the one that deviates less stays.
+void try_motion(const SymmetryScene& from, const SymmetryScene& to, const Isometry2& g, const SymmetryConfig& config,
+                std::vector<StoreySymmetry>& found) {
+  if (&from == &to && is_identity(g, from, config)) return;
+  const Similarity similarity = compare(from, to, g, config);
+  if (similarity.grade == SimilarityGrade::different) return;
+  const StoreySymmetry fresh{from.storey(), to.storey(), g, similarity};
+  const auto same = std::find_if(found.begin(), found.end(),
+                                 [&](const StoreySymmetry& other) { return is_same(other, fresh, from, config); });
+  if (same == found.end())
+    found.push_back(fresh);
+  else if (similarity.deviation_m < same->similarity.deviation_m)
+    *same = fresh;
+}
+
 std::vector<StoreySymmetry> found_between(const SymmetryScene& from, const SymmetryScene& to, bool mirrored,
                                           const SymmetryConfig& config) {
   std::vector<StoreySymmetry> found;
-  for (const Isometry2& g : candidates(from, to, mirrored, config)) {
-    if (&from == &to && is_identity(g, from, config)) continue;
-    const Similarity similarity = compare(from, to, g, config);
-    if (similarity.grade != SimilarityGrade::different) found.push_back({from.storey(), to.storey(), g, similarity});
+  for (const Isometry2& g : candidates(from, to, mirrored, config)) try_motion(from, to, g, config, found);
+  if (&from == &to && !mirrored) {
+    // Rounded directions may show a turn and not its inverse.
+    const std::vector<StoreySymmetry> shown = found;
+    for (const StoreySymmetry& symmetry : shown) {
+      const StoreySymmetry inverse{symmetry.from, symmetry.to, symmetry.isometry.inverse(), {}};
+      const auto same = [&](const StoreySymmetry& other) { return is_same(other, inverse, from, config); };
+      if (std::none_of(found.begin(), found.end(), same)) try_motion(from, to, inverse.isometry, config, found);
+    }
   }
   // A half turn is one of +pi, whichever way it was rounded.
   for (StoreySymmetry& symmetry : found)
-    if (symmetry.isometry.angle < identity_angle - std::numbers::pi) symmetry.isometry.angle += 2.0 * std::numbers::pi;
+    if (symmetry.isometry.angle < half_turn_rounding - std::numbers::pi)
+      symmetry.isometry.angle += 2.0 * std::numbers::pi;
   std::stable_sort(found.begin(), found.end(), [](const StoreySymmetry& a, const StoreySymmetry& b) {
     return a.isometry.angle < b.isometry.angle;
   });

@@ -11,17 +11,19 @@ namespace plumbline::bim {
 
 /// Thresholds of the analysis.
 struct SymmetryConfig {
-  double exact_m = 6e-3;         ///< deviations up to this are `exact`: the range noise of a VLP-16 at its best
-  double near_m = 0.5;           ///< deviations up to this, together with iou_min: `near`
-  double iou_min = 0.95;         ///< share of the volume in common, of what either holds
-  double touch_m = 0.012;        ///< a gap this narrow is no gap: a beam is as wide
-  double sliver_m = 1e-3;        ///< surfaces this narrow are rounding
-  double sample_m = 0.1;         ///< spacing of the points at which a surface without counterpart is measured
-  double sample_up_m = 0.5;      ///< ... and upwards
-  double reach_m = 2.0;          ///< larger deviations count as this
-  double shift_max_m = 1.0;      ///< how far a small difference moves the centre of a storey
-  double direction = 2e-3;       ///< rad, surfaces this close run the same way
-  double match_m = 0.02;         ///< lengths and heights of two matching surfaces differ by this at most
+  double exact_m = 6e-3;        ///< deviations up to this are `exact`: the range noise of a VLP-16 at its best
+  double near_m = 0.5;          ///< deviations up to this, together with iou_min: `near`
+  double iou_min = 0.95;        ///< share of the volume in common, of what either holds
+  double iou_thin_min = 0.8;    ///< of it where deviations are up to match_m: walls of 0.1 m that are 1 cm off
+  double touch_m = 0.012;       ///< a gap this narrow is no gap: a beam is as wide
+  double sliver_m = 1e-3;       ///< surfaces this narrow are rounding
+  double sample_m = 0.1;        ///< spacing of the points at which a surface without counterpart is measured
+  double sample_up_m = 0.5;     ///< ... and upwards
+  double reach_m = 2.0;         ///< larger deviations count as this
+  double shift_max_m = 1.0;     ///< how far a small difference moves the centre of a storey
+  double direction = 2e-3;      ///< rad, surfaces this close run the same way
+  double direction_max = 0.02;  ///< rad, and short ones up to this, as far as match_m at their ends turns them; assumed
+  double match_m = 0.02;        ///< lengths and heights of two matching surfaces differ by this at most
   double direction_share = 0.8;  ///< share of the surface whose directions a turn must map onto each other
   double room_share = 0.95;      ///< of two similar rooms: smaller area over larger
   double through_m = 0.06;       ///< distance in front of a surface at which its room is looked up

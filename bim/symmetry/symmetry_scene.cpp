@@ -108,7 +108,9 @@ class Measure {
 };
 
 SimilarityGrade grade_of(double iou, double deviation_m, const SymmetryConfig& config) {
-  if (iou < config.iou_min || deviation_m > config.near_m + config.sliver_m) return SimilarityGrade::different;
+  // Thin walls have little in common long before a beam tells them apart.
+  const double least = deviation_m <= config.match_m ? std::min(config.iou_min, config.iou_thin_min) : config.iou_min;
+  if (iou < least || deviation_m > config.near_m + config.sliver_m) return SimilarityGrade::different;
   return deviation_m <= config.exact_m ? SimilarityGrade::exact : SimilarityGrade::near;
 }
 
@@ -196,7 +198,7 @@ Similarity compare(const SymmetryScene& from, const SymmetryScene& to, const Iso
   const double shared = to.shared_volume(from, g);
   const double both = from.volume_m3() + to.volume_m3() - shared;
   similarity.iou = both > 0.0 ? std::min(1.0, shared / both) : 0.0;
-  if (similarity.iou < config.iou_min) return similarity;
+  if (similarity.iou < std::min(config.iou_min, config.iou_thin_min)) return similarity;
   Measure there(from, config), back(to, config);
   there.against(to.surfaces(), g);
   back.against(from.surfaces(), g.inverse());

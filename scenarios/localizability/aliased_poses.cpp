@@ -76,15 +76,18 @@ double AliasFinder::evidence(const ReferenceScan& scan, std::size_t beam, double
   return beam_evidence(scan.range_m[beam], own_m, other_m, !scan.loose.empty() && scan.loose[beam]);
 }
 
+double AliasFinder::evidence(const ReferenceScan& scan, std::size_t beam, const SensorPose& other,
+                             double other_m) const {
+  const double own_m = scan.predicted_m.empty() ? scan.range_m[beam] : scan.predicted_m[beam];
+  return beam_evidence(as_planned_, other, imager_.directions()[beam], scan.range_m[beam], own_m, other_m,
+                       !scan.loose.empty() && scan.loose[beam]);
+}
+
 double AliasFinder::llr(const ReferenceScan& scan, const SensorPose& other) const {
   work_ += imager_.directions().size();
   const std::vector<double> expected = imager_.cast(as_planned_, other).range_m;
   double sum = 0.0;
-  for (std::size_t i = 0; i < expected.size(); ++i) {
-    const double own_m = scan.predicted_m.empty() ? scan.range_m[i] : scan.predicted_m[i];
-    sum += beam_evidence(as_planned_, other, imager_.directions()[i], scan.range_m[i], own_m, expected[i],
-                         !scan.loose.empty() && scan.loose[i]);
-  }
+  for (std::size_t i = 0; i < expected.size(); ++i) sum += evidence(scan, i, other, expected[i]);
   return sum;
 }
 
@@ -102,9 +105,15 @@ bool AliasFinder::clearly_different(const ReferenceScan& scan, const SensorPose&
     rays.push_back({other.position_W, other.pose().q * imager_.directions()[4 * n + a]});
   std::vector<bim::Hit> hits(rays.size());
   as_planned_.cast(rays, localizability_constants.range_max_m, hits);
+  constexpr double enough = sure * localizability_constants.drop_llr / (8.0 * stride);
   double sum = 0.0;
   for (std::size_t i = 0; i < hits.size(); ++i) sum += evidence(scan, 4 * n + i * stride, hits[i].range_m);
-  return sum * 8.0 * stride > sure * localizability_constants.drop_llr;
+  if (sum <= enough) return false;
+  // Those that run along edges tell nothing.
+  sum = 0.0;
+  for (std::size_t i = 0; i < hits.size() && sum <= enough; ++i)
+    sum += evidence(scan, 4 * n + i * stride, other, hits[i].range_m);
+  return sum > enough;
 }
 
 std::vector<AliasFinder::View> AliasFinder::views_of(const SensorPose& place) const {

@@ -63,6 +63,9 @@ class AliasFinder {
   [[nodiscard]] std::vector<View> views_of(const SensorPose& place) const;
   [[nodiscard]] bool is_loose(int element) const;
   [[nodiscard]] double evidence(const ReferenceScan& scan, std::size_t beam, double other_m) const;
+  /// The same where other_m may be that of a beam next to this one.
+  [[nodiscard]] double evidence(const ReferenceScan& scan, std::size_t beam, const SensorPose& other,
+                                double other_m) const;
   /// Images of a place under the isometries that lie over a floor of the storeys searched.
   [[nodiscard]] std::vector<SensorPose> images_of(const SensorPose& place, int storey) const;
   [[nodiscard]] bool refine(const RangeImage& seen, const SearchArea& storey, SensorPose& place) const;

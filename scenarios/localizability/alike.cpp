@@ -26,7 +26,7 @@ class AlikeFinder {
         floors_(floors),
         map_(map) {}
 
-  [[nodiscard]] std::vector<Alike> find(std::size_t most) const {
+  [[nodiscard]] AlikePlaces find(std::size_t most) const {
     std::vector<std::vector<std::size_t>> cells(map_.isometries.size());
     for (std::size_t c = 0; c < map_.cells.size(); ++c)
       for (const CellAlias& alias : map_.cells[c].aliases) cells[alias.isometry].push_back(c);
@@ -35,9 +35,9 @@ class AlikeFinder {
     std::stable_sort(order.begin(), order.end(),
                      [&](std::size_t a, std::size_t b) { return cells[a].size() > cells[b].size(); });
     std::vector<std::size_t> taken;
-    std::vector<Alike> out;
+    AlikePlaces out;
     for (const std::size_t g : order) {
-      if (out.size() == most || cells[g].empty()) break;
+      if (out.others == most_others || cells[g].empty()) break;
       const SensorPose first = place(cells[g].front());
       const auto alike = [&](std::size_t t) {
         const Pose back = map_.isometries[t].inverse() * first.pose();  // from the images to the places is the same
@@ -46,7 +46,10 @@ class AlikeFinder {
       };
       if (std::any_of(taken.begin(), taken.end(), alike)) continue;
       taken.push_back(g);
-      out.push_back(describe(g, cells[g]));
+      if (out.motions.size() < most)
+        out.motions.push_back(describe(g, cells[g]));
+      else
+        ++out.others;
     }
     return out;
   }
@@ -154,9 +157,9 @@ class AlikeFinder {
 
 }  // namespace
 
-std::vector<Alike> alike_places(const bim::Building& plan, const VisibleBuilding& visible,
-                                const std::vector<SearchArea>& storeys, const std::vector<Floor>& floors,
-                                const LocalizabilityMap& map, std::size_t most) {
+AlikePlaces alike_places(const bim::Building& plan, const VisibleBuilding& visible,
+                         const std::vector<SearchArea>& storeys, const std::vector<Floor>& floors,
+                         const LocalizabilityMap& map, std::size_t most) {
   return AlikeFinder(plan, visible, storeys, floors, map).find(most);
 }
 

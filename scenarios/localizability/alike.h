@@ -29,9 +29,16 @@ struct Alike {
   std::optional<Distinction> distinguished;  ///< absent where no place on the floors does
 };
 
-/// The motions with most places, at most `most` of them; those that do nearly the same count once.
-[[nodiscard]] std::vector<Alike> alike_places(const bim::Building& plan, const VisibleBuilding& visible,
-                                              const std::vector<SearchArea>& storeys, const std::vector<Floor>& floors,
-                                              const LocalizabilityMap& map, std::size_t most = 8);
+/// The motions with most places; those that do nearly the same count once.
+struct AlikePlaces {
+  std::vector<Alike> motions;
+  std::size_t others = 0;  ///< with no more places than the last one listed; at most most_others are counted
+};
+inline constexpr std::size_t most_others = 99;
+
+/// At most `most` motions are described.
+[[nodiscard]] AlikePlaces alike_places(const bim::Building& plan, const VisibleBuilding& visible,
+                                       const std::vector<SearchArea>& storeys, const std::vector<Floor>& floors,
+                                       const LocalizabilityMap& map, std::size_t most = 8);
 
 }  // namespace plumbline::scenarios

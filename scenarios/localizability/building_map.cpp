@@ -130,7 +130,7 @@ class MapMaker {
     return result;
   }
 
-  [[nodiscard]] std::vector<Alike> alike_in(const BuildingMap& map) const {
+  [[nodiscard]] AlikePlaces alike_in(const BuildingMap& map) const {
     return alike_places(building_.as_planned(), visible_, input_.storeys, map.floors, map.map);
   }
 
@@ -250,8 +250,9 @@ void set_answers(const bim::Building& plan, const BuildingMap& map, Tree& tree) 
     cells.push(std::move(one));
   }
   Tree alike = Tree::list();
-  for (const Alike& one : map.alike) alike.push(tree_of(plan, one));
+  for (const Alike& one : map.alike.motions) alike.push(tree_of(plan, one));
   tree.set("storeys", storeys).set("rooms", rooms).set("cells", cells).set("alike", alike);
+  if (map.alike.others > 0) tree.set("alike_more", static_cast<int>(map.alike.others));
   if (map.bare.empty()) return;
   Tree bare = Tree::list();
   for (const std::size_t storey : map.bare) bare.push(plan.storeys[storey].id);

@@ -30,7 +30,7 @@ struct BuildingMap {
   std::vector<Floor> floors;
   std::vector<std::size_t> bare;  ///< storeys asked for without a place where the robot can stand
   LocalizabilityMap map;
-  std::vector<Alike> alike;  ///< what looks alike in it, and what distinguishes it
+  AlikePlaces alike;  ///< what looks alike in it, and what distinguishes it
 };
 
 /// Where the pose can be known from LiDAR scans of the building as built and its plan. Throws InputError.

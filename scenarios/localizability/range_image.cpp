@@ -2,6 +2,7 @@
 #include "scenarios/localizability/range_image.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -68,10 +69,22 @@ double beam_evidence(const bim::RayScene& as_planned, const SensorPose& other, c
   if (least < negligible || !std::isfinite(range)) return least;
   const double turn = localizability_constants.model_sigma_m / std::max(range, 0.1);
   const Eigen::Vector3d left = Eigen::Vector3d::UnitZ().cross(direction).normalized(), up = direction.cross(left);
-  for (const Eigen::Vector3d& side : {left, Eigen::Vector3d(-left), up, Eigen::Vector3d(-up)}) {
-    const Eigen::Vector3d beside = other.pose().q * (direction + turn * side).normalized();
-    const bim::Hit hit = as_planned.cast({other.position_W, beside, 0.0}, localizability_constants.range_max_m);
+  bool passes = other_m > seen_m;
+  std::array<Eigen::Vector3d, 4> beside = {left, -left, up, -up};
+  for (Eigen::Vector3d& side : beside) {
+    side = other.pose().q * (direction + turn * side).normalized();
+    const bim::Hit hit = as_planned.cast({other.position_W, side, 0.0}, localizability_constants.range_max_m);
     least = std::min(least, beam_evidence(seen_m, own_m, hit.range_m, loose));
+    passes = passes || hit.range_m > seen_m;
+  }
+  if (least < negligible || !passes || !std::isfinite(seen_m)) return std::max(least, 0.0);
+  // Along a row of edges the beam may pass those before and end on this one.
+  const double start_m =
+      std::max(seen_m - localizability_constants.residual_cap_sigma * localizability_constants.model_sigma_m, 0.0);
+  for (const Eigen::Vector3d& side : beside) {
+    const bim::Hit hit =
+        as_planned.cast({other.position_W + start_m * side, side, 0.0}, localizability_constants.range_max_m);
+    least = std::min(least, beam_evidence(seen_m, own_m, start_m + hit.range_m, loose));
   }
   return std::max(least, 0.0);
 }

@@ -41,10 +41,11 @@ std::string distinction_text(const std::optional<Distinction>& by) {
 
 }  // namespace
 
-std::vector<Alike> shown_alike(const BuildingMap& map, bool compass) {
-  std::vector<Alike> shown;
-  for (const Alike& one : map.alike)
-    if (one.compass || !compass) shown.push_back(one);
+AlikePlaces shown_alike(const BuildingMap& map, bool compass) {
+  if (!compass) return map.alike;
+  AlikePlaces shown;
+  for (const Alike& one : map.alike.motions)
+    if (one.compass) shown.motions.push_back(one);
   return shown;
 }
 
@@ -71,7 +72,8 @@ std::string motion_text(const Pose& transform) {
   return "turned by " + svg::number(std::abs(turned), 0) + "° about " + point(centre) + higher;
 }
 
-std::string list_alike(const RunBuilding& building, const std::vector<Alike>& alike) {
+std::string list_alike(const RunBuilding& building, const AlikePlaces& places) {
+  const std::vector<Alike>& alike = places.motions;
   if (alike.empty()) return "<p class=\"facts\">No two places look alike.</p>";
   const bim::Building& plan = building.as_planned();
   std::string out =
@@ -87,10 +89,14 @@ std::string list_alike(const RunBuilding& building, const std::vector<Alike>& al
            std::to_string(one.places) + "</td><td class=\"plain\">" + svg::escape(distinction_text(one.distinguished)) +
            "</td></tr>";
   }
-  return out + "</table></div>";
+  out += "</table></div>";
+  if (places.others == 0) return out;
+  return out + "<p class=\"facts\">And " + (places.others == most_others ? "at least " : "") +
+         std::to_string(places.others) + " more, with no more places each.</p>";
 }
 
-std::string draw_deciding(const RunBuilding& building, const std::vector<Alike>& alike, int storey) {
+std::string draw_deciding(const RunBuilding& building, const AlikePlaces& places, int storey) {
+  const std::vector<Alike>& alike = places.motions;
   std::string out;
   std::set<std::string> drawn;
   for (std::size_t i = 0; i < alike.size(); ++i) {

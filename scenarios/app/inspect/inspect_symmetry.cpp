@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenarios/app/inspect/inspect_symmetry.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -99,6 +100,40 @@ std::string similarity_text(const Similarity& similarity) {
   return others == 0 ? text : text + " and in " + std::to_string(others) + " more";
 }
 
+constexpr std::size_t most_listed = 6;  ///< lines in a row that are read; assumed
+constexpr std::size_t few = 3;          ///< of a longer list that forms no group
+
+std::string others_text(std::size_t count, const std::string& what) {
+  return std::to_string(count) + " more " + what + " (--json lists them)";
+}
+
+std::string fold_step(const std::vector<Isometry2>& turns) {
+  return fixed_point(360.0 / static_cast<double>(turns.size() + 1), 2);
+}
+
+/// The centre of a group of turns that is complete but for the identity; absent where they are none.
+std::optional<Eigen::Vector2d> fold_centre(const std::vector<Isometry2>& turns) {
+  constexpr double same_m = 0.05, same_rad = 0.02;  // fits to rounded coordinates differ; assumed
+  const double step = 2.0 * std::numbers::pi / static_cast<double>(turns.size() + 1);
+  std::vector<int> multiples;
+  std::optional<Eigen::Vector2d> first;
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  for (const Isometry2& turn : turns) {
+    const auto centre = turn.mirrored ? std::nullopt : turn.centre();
+    if (!centre || (first && (*centre - *first).norm() > same_m)) return std::nullopt;
+    if (!first) first = centre;
+    const double times = (turn.angle < 0.0 ? turn.angle + 2.0 * std::numbers::pi : turn.angle) / step;
+    if (std::abs(times - std::round(times)) * step > same_rad) return std::nullopt;
+    multiples.push_back(static_cast<int>(std::lround(times)));
+    sum += *centre;
+  }
+  std::sort(multiples.begin(), multiples.end());
+  for (std::size_t i = 0; i < multiples.size(); ++i)
+    if (multiples[i] != static_cast<int>(i) + 1) return std::nullopt;
+  if (turns.empty()) return std::nullopt;
+  return Eigen::Vector2d(sum / static_cast<double>(turns.size()));
+}
+
 std::string rooms_text(const bim::Building& building, const bim::RoomClass& like) {
   std::string text;
   for (const bim::SimilarRoom& room : like.rooms) {
@@ -107,9 +142,50 @@ std::string rooms_text(const bim::Building& building, const bim::RoomClass& like
       text += " (off by " + fixed_point(room.similarity.deviation_m, 3) + " m in " +
               printable(room.similarity.deviations.front().element) + ")";
   }
-  for (const Isometry2& turn : like.turns)
-    text += "; each also turned by " + fixed_point(turn.angle * degrees, 0) + " deg";
+  if (like.turns.empty()) return text;
+  if (like.turns.size() > most_listed && fold_centre(like.turns))
+    return text + "; each " + std::to_string(like.turns.size() + 1) + "-fold, turned by multiples of " +
+           fold_step(like.turns) + " deg";
+  const std::size_t listed = like.turns.size() > most_listed ? few : like.turns.size();
+  for (std::size_t i = 0; i < listed; ++i)
+    text += "; each also turned by " + fixed_point(like.turns[i].angle * degrees, 0) + " deg";
+  return listed == like.turns.size() ? text : text + "; and " + others_text(like.turns.size() - listed, "turns");
+}
+
+/// One line for each motion; of more than most_listed one for the group they form, or the first few and how many more.
+template <typename Symmetry>
+std::string motions_text(const std::string& what, const std::vector<Symmetry>& symmetries) {
+  std::string text;
+  std::vector<Isometry2> motions;
+  for (const Symmetry& symmetry : symmetries) motions.push_back(symmetry.isometry);
+  const bool many = symmetries.size() > most_listed;
+  if (const auto about = many ? fold_centre(motions) : std::nullopt) {
+    const auto worse = [](const Symmetry& a, const Symmetry& b) {
+      return a.similarity.deviation_m < b.similarity.deviation_m;
+    };
+    const Symmetry& worst = *std::max_element(symmetries.begin(), symmetries.end(), worse);
+    return "  " + what + ": " + std::to_string(motions.size() + 1) + "-fold about " + place(*about) +
+           ", turns by multiples of " + fold_step(motions) + " deg, the least alike " +
+           similarity_text(worst.similarity) + "\n";
+  }
+  const std::size_t listed = many ? few : symmetries.size();
+  for (std::size_t i = 0; i < listed; ++i)
+    text += "  " + what + ": " + motion(motions[i]) + ", " + similarity_text(symmetries[i].similarity) + "\n";
+  if (many)
+    text += "  " + what + ": " +
+            others_text(symmetries.size() - listed, motions.front().mirrored ? "mirror images" : "motions") + "\n";
   return text;
+}
+
+/// The part of a list between the same two storeys, in their order.
+std::vector<std::vector<bim::StoreySymmetry>> by_storeys(const std::vector<bim::StoreySymmetry>& symmetries) {
+  std::vector<std::vector<bim::StoreySymmetry>> parts;
+  for (const bim::StoreySymmetry& symmetry : symmetries) {
+    if (parts.empty() || parts.back().front().from != symmetry.from || parts.back().front().to != symmetry.to)
+      parts.emplace_back();
+    parts.back().push_back(symmetry);
+  }
+  return parts;
 }
 
 }  // namespace
@@ -132,21 +208,16 @@ Tree symmetry_json(const bim::Building& building, const bim::SymmetryReport& rep
 std::string symmetry_text(const bim::Building& building, const bim::SymmetryReport& report) {
   const auto storey = [&](int i) { return name_of(building.storeys[static_cast<std::size_t>(i)]); };
   std::string text;
-  for (const bim::BuildingSymmetry& symmetry : report.building)
-    text += "  whole building: " + motion(symmetry.isometry) + ", " + similarity_text(symmetry.similarity) + "\n";
-  for (const bim::StoreySymmetry& symmetry : report.storeys)
-    text += "  " + storey(symmetry.from) + ": " + motion(symmetry.isometry) + ", " +
-            similarity_text(symmetry.similarity) + "\n";
-  for (const bim::StoreySymmetry& symmetry : report.copies)
-    text += "  " + storey(symmetry.to) + " like " + storey(symmetry.from) + ": " + motion(symmetry.isometry) + ", " +
-            similarity_text(symmetry.similarity) + "\n";
+  text += motions_text("whole building", report.building);
+  for (const auto& part : by_storeys(report.storeys)) text += motions_text(storey(part.front().from), part);
+  for (const auto& part : by_storeys(report.copies))
+    text += motions_text(storey(part.front().to) + " like " + storey(part.front().from), part);
   for (const bim::RoomClass& like : report.rooms)
     text += std::string(like.rooms.back().similarity.grade == SimilarityGrade::exact ? "  rooms alike: "
                                                                                      : "  rooms nearly alike: ") +
             rooms_text(building, like) + "\n";
-  for (const bim::StoreySymmetry& symmetry : report.reflections)
-    text += "  no confusion for a robot: " + storey(symmetry.from) + ", " + motion(symmetry.isometry) + ", " +
-            similarity_text(symmetry.similarity) + "\n";
+  for (const auto& part : by_storeys(report.reflections))
+    text += motions_text("no confusion for a robot: " + storey(part.front().from), part);
   return "symmetry\n" +
          (text.empty() ? "  none: no turn or shift maps the building, a storey or a room onto another\n" : text);
 }

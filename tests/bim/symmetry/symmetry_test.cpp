@@ -156,6 +156,39 @@ TEST(Symmetry, SquareHasThreeTurnsAndItsMirrorImagesApart) {
   for (const StoreySymmetry& reflection : report.reflections) EXPECT_TRUE(reflection.isometry.mirrored);
 }
 
+/// A round hall of straight walls, its corners rounded as files round them.
+Building round_hall(int walls, double radius, double first, double rounding_m) {
+  std::vector<Eigen::Vector2d> corners;
+  for (int i = 0; i < walls; ++i) {
+    const double angle = 2.0 * half_turn * (i + first) / walls;
+    const Eigen::Vector2d p = radius * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+    corners.emplace_back((p / rounding_m).array().round() * rounding_m);
+  }
+  std::string text = "plan: 1\nname: hall\nstoreys: [{id: ground, elevation_m: 0, height_m: 3}]\nwalls:\n";
+  std::string polygon;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    text += wall("w" + std::to_string(i), corners[i], corners[(i + 1) % corners.size()]);
+    polygon += (i == 0 ? "[" : ", [") + format_number(corners[i].x()) + ", " + format_number(corners[i].y()) + "]";
+  }
+  return read_plan_text(text + "rooms: [{id: hall, storey: ground, polygon: [" + polygon + "]}]\n", "hall.plan.yaml");
+}
+
+TEST(Symmetry, RoundHallWithRoundedCornersHasAllItsTurns) {
+  struct Hall {
+    int walls;
+    double radius, first, rounding_m;
+  };
+  for (const Hall& hall :
+       {Hall{36, 8.0, 0.0, 0.001}, {24, 6.0, 0.123, 0.01}, {36, 6.0, 0.5, 0.01}, {24, 10.0, 0.123, 0.01}}) {
+    const SymmetryReport report = analyse_symmetry(round_hall(hall.walls, hall.radius, hall.first, hall.rounding_m));
+    const std::string which = std::to_string(hall.walls) + " walls, radius " + format_number(hall.radius);
+    EXPECT_EQ(report.building.size(), static_cast<std::size_t>(hall.walls - 1)) << which;
+    for (int k = 1; k < hall.walls; ++k)
+      EXPECT_TRUE(has(report.building, Isometry2::turn(2.0 * half_turn * k / hall.walls, {0, 0}), 0.01, 0.02))
+          << which << ", turn " << k;
+  }
+}
+
 TEST(Symmetry, OneDoorLeavesOneMirrorImageAndNoTurn) {
   const SymmetryReport report =
       analyse_symmetry(box(6, 6, "openings: [{id: d, wall: s, kind: door, s_m: 3, width_m: 1}]\n" + room(6, 6)));

@@ -32,21 +32,21 @@ BuildingMap map_at(const RunBuilding& building, double step_m) {
 TEST(Alike, NothingDistinguishesTwoFlatsOfWhichOneIsTheOtherTurned) {
   const RunBuilding building = generated("rot180", "{}");
   const BuildingMap map = map_at(building, 1.5);
-  ASSERT_EQ(map.alike.size(), 1U);
-  EXPECT_NEAR(std::abs(map.alike[0].transform.yaw()), std::numbers::pi, 1e-3);
-  EXPECT_EQ(map.alike[0].places, static_cast<int>(map.map.cells.size()));
-  EXPECT_FALSE(map.alike[0].distinguished);
-  EXPECT_TRUE(shown_alike(map, true).empty());
+  ASSERT_EQ(map.alike.motions.size(), 1U);
+  EXPECT_NEAR(std::abs(map.alike.motions[0].transform.yaw()), std::numbers::pi, 1e-3);
+  EXPECT_EQ(map.alike.motions[0].places, static_cast<int>(map.map.cells.size()));
+  EXPECT_FALSE(map.alike.motions[0].distinguished);
+  EXPECT_TRUE(shown_alike(map, true).motions.empty());
   EXPECT_NE(list_alike(building, map.alike).find("nothing on these floors"), std::string::npos);
 }
 
 TEST(Alike, AMovedDoorDistinguishesTheHalvesOfACorridor) {
   const RunBuilding building = generated("corridor", "{rooms: 4, sides: both, feature: door_shift, epsilon_m: 0.5}");
   const BuildingMap map = map_at(building, 1.0);
-  const auto turned = std::find_if(map.alike.begin(), map.alike.end(), [](const Alike& one) {
+  const auto turned = std::find_if(map.alike.motions.begin(), map.alike.motions.end(), [](const Alike& one) {
     return std::abs(std::abs(one.transform.yaw()) - std::numbers::pi) < 1e-3 && one.places > 40;
   });
-  ASSERT_NE(turned, map.alike.end());
+  ASSERT_NE(turned, map.alike.motions.end());
   ASSERT_TRUE(turned->distinguished);
   // The wall with the shifted door, or the end of the corridor where the turned one has another length.
   EXPECT_EQ(turned->distinguished->element.rfind("corridor-room_", 0), 0U) << turned->distinguished->element;
@@ -58,10 +58,10 @@ TEST(Alike, AMovedDoorDistinguishesTheHalvesOfACorridor) {
 
 TEST(Alike, AMotionAndItsInverseAreOne) {
   const BuildingMap map = map_at(generated("corridor", "{rooms: 4}"), 1.0);
-  ASSERT_GE(map.alike.size(), 2U);
-  for (std::size_t i = 0; i < map.alike.size(); ++i)
+  ASSERT_GE(map.alike.motions.size(), 2U);
+  for (std::size_t i = 0; i < map.alike.motions.size(); ++i)
     for (std::size_t k = 0; k < i; ++k) {
-      const Pose both = map.alike[i].transform * map.alike[k].transform;
+      const Pose both = map.alike.motions[i].transform * map.alike.motions[k].transform;
       EXPECT_GT(both.t.head<2>().norm() + std::abs(both.yaw()), 0.1) << i << " undoes " << k;
     }
 }

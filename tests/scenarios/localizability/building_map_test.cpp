@@ -103,6 +103,27 @@ TEST(BuildingMap, ARoundRoomHasAllTheAliasesOfItsTurns) {
   ASSERT_FALSE(map.map.cells.empty());
   for (const MapCell& cell : map.map.cells)
     if (cell.p_W.norm() > 1.0) EXPECT_GE(cell.aliases.size(), 33U) << cell.p_W.transpose();
+  // 17 turns with their inverses and the half turn.
+  EXPECT_EQ(map.alike.motions.size(), 8U);
+  EXPECT_GE(map.alike.others, 9U);
+}
+
+/// Rows of pillars along whose faces beams of many places run exactly: rounding says which of them a beam meets.
+TEST(BuildingMap, NoPlaceOfASquareHallWithRowsOfPillarsIsUnique) {
+  std::string text =
+      "plan: 1\nname: hall\nstoreys: [{id: g, elevation_m: 0, height_m: 3}]\nwalls:\n"
+      "  - {id: s, storey: g, a: [0, 0], b: [6, 0]}\n  - {id: e, storey: g, a: [6, 0], b: [6, 6]}\n"
+      "  - {id: n, storey: g, a: [6, 6], b: [0, 6]}\n  - {id: w, storey: g, a: [0, 6], b: [0, 0]}\n"
+      "rooms: [{id: r, storey: g, polygon: [[0, 0], [6, 0], [6, 6], [0, 6]]}]\ncolumns:\n";
+  for (const std::string x : {"1.5", "3", "4.5"})
+    for (const std::string y : {"1.5", "3", "4.5"})
+      text += "  - {id: c" + x + "_" + y + ", storey: g, at: [" + x + ", " + y + "], size: [0.5, 0.5]}\n";
+  const bim::Building building = bim::read_plan_text(text, "hall.plan.yaml");
+  BuildingMapOptions options;
+  options.step_m = 0.5;  // places 0.25 m off, in line with faces of pillars
+  const BuildingMap map = map_of(RunBuilding({building, building, {}, true}), options);
+  ASSERT_GT(map.map.cells.size(), 40U);
+  for (const MapCell& cell : map.map.cells) EXPECT_FALSE(cell.unknown->walk_m.has_value()) << cell.p_W.transpose();
 }
 
 }  // namespace

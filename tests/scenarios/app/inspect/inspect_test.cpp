@@ -3,7 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "bim/formats/plan_yaml/plan_yaml.h"
+#include "scenarios/app/inspect/inspect_symmetry.h"
 
 namespace plumbline::scenarios {
 namespace {
@@ -103,6 +107,54 @@ TEST_F(InspectTest, TextListsSolidsByKindAndWhatIsNotAsPlanned) {
   const std::string built = inspect_text(building_, mesh_, {{"move_wall", "w1"}, {"drop_room", "west"}});
   EXPECT_NE(built.find("not as planned  element"), std::string::npos) << built;
   EXPECT_NE(built.find("move_wall       w1"), std::string::npos) << built;
+}
+
+/// Walls along a regular polygon around (0, 0).
+bim::Building polygon_hall(int corners) {
+  std::string text = "plan: 1\nname: hall\nstoreys: [{id: g, elevation_m: 0, height_m: 3}]\nwalls:\n";
+  std::string room;
+  const auto corner = [&](int i) {
+    const double angle = 2.0 * std::numbers::pi * i / corners;
+    return "[" + format_number(8.0 * std::cos(angle)) + ", " + format_number(8.0 * std::sin(angle)) + "]";
+  };
+  for (int i = 0; i < corners; ++i) {
+    text += "  - {id: w" + std::to_string(i) + ", storey: g, a: " + corner(i) + ", b: " + corner(i + 1) + "}\n";
+    room += (i == 0 ? "" : ", ") + corner(i);
+  }
+  return bim::read_plan_text(text + "rooms: [{id: r, storey: g, polygon: [" + room + "]}]\n", "hall.plan.yaml");
+}
+
+int lines_with(const std::string& text, const std::string& part) {
+  int count = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
+  return count;
+}
+
+TEST(InspectSymmetry, ManyTurnsAboutOnePointAreOneLine) {
+  const bim::Building building = polygon_hall(24);
+  const bim::SymmetryReport report = bim::analyse_symmetry(building);
+  ASSERT_EQ(report.building.size(), 23U);
+  const std::string text = symmetry_text(building, report);
+  EXPECT_EQ(lines_with(text, "whole building: 24-fold about (0.00, 0.00), turns by multiples of 15.00 deg"), 1) << text;
+  EXPECT_EQ(lines_with(text, "\n  whole building"), 1) << text;
+  EXPECT_EQ(lines_with(text, "mirror image at"), 3) << text;
+  EXPECT_EQ(lines_with(text, "21 more mirror images (--json lists them)"), 1) << text;
+}
+
+TEST(InspectSymmetry, TurnsThatFormNoGroupAreCounted) {
+  const bim::Building building = polygon_hall(24);
+  bim::SymmetryReport report = bim::analyse_symmetry(building);
+  report.building.erase(report.building.begin() + 7);
+  const std::string text = symmetry_text(building, report);
+  EXPECT_EQ(lines_with(text, "whole building: turn by"), 3) << text;
+  EXPECT_EQ(lines_with(text, "whole building: 19 more motions (--json lists them)"), 1) << text;
+}
+
+TEST(InspectSymmetry, FewTurnsAreListed) {
+  const bim::Building building = polygon_hall(4);
+  const std::string text = symmetry_text(building, bim::analyse_symmetry(building));
+  EXPECT_EQ(lines_with(text, "whole building: turn by"), 3) << text;
+  EXPECT_EQ(lines_with(text, "mirror image at"), 4) << text;
 }
 
 }  // namespace
