@@ -50,7 +50,7 @@ int room_of(const Building& building, const Eigen::AlignedBox3d& box) {
   for (std::size_t r = 0; r < building.rooms.size(); ++r) {
     const Room& room = building.rooms[r];
     if (box.min().z() < room.z0_m - below_m || box.min().z() > room.z1_m) continue;
-    if (contains(room.polygon, center)) return static_cast<int>(r);
+    if (room.contains(center)) return static_cast<int>(r);
   }
   return -1;
 }

@@ -22,20 +22,21 @@ RoomSpace::RoomSpace(const Room& room, WalkableConfig config)
   grid_ = {box_.min(), config_.cell_m, static_cast<int>(cells.x()) + 1, static_cast<int>(cells.y()) + 1};
   clearance_.assign(grid_.size(), -1.0F);
   marked_.assign(grid_.size(), 0);
-  find_inside(outline_);
-  for (std::size_t i = 0; i < outline_.size(); ++i)
-    add(footprint_of(Polygon2{outline_[i], outline_[(i + 1) % outline_.size()]}));
+  find_inside(room);
+  for (const Polygon2* rim : room.rims())
+    for (std::size_t i = 0; i < rim->size(); ++i) add(footprint_of(Polygon2{(*rim)[i], (*rim)[(i + 1) % rim->size()]}));
 }
 
 /// Cells whose centre lies inside, by the crossings of each row.
-void RoomSpace::find_inside(const Polygon2& outline) {
+void RoomSpace::find_inside(const Room& room) {
   for (int j = 0; j < grid_.ny; ++j) {
     const double y = grid_.center(0, j).y();
     std::vector<double> crossings;
-    for (std::size_t k = 0; k < outline.size(); ++k) {
-      const Eigen::Vector2d &a = outline[k], &b = outline[(k + 1) % outline.size()];
-      if ((a.y() <= y) != (b.y() <= y)) crossings.push_back(a.x() + (y - a.y()) / (b.y() - a.y()) * (b.x() - a.x()));
-    }
+    for (const Polygon2* rim : room.rims())
+      for (std::size_t k = 0; k < rim->size(); ++k) {
+        const Eigen::Vector2d &a = (*rim)[k], &b = (*rim)[(k + 1) % rim->size()];
+        if ((a.y() <= y) != (b.y() <= y)) crossings.push_back(a.x() + (y - a.y()) / (b.y() - a.y()) * (b.x() - a.x()));
+      }
     std::sort(crossings.begin(), crossings.end());
     for (std::size_t k = 0; k + 1 < crossings.size(); k += 2) {
       const int first = std::max(0, static_cast<int>(std::ceil((crossings[k] - grid_.origin.x()) / grid_.cell - 0.5)));

@@ -53,7 +53,7 @@ class RoomSpace {
   };
 
   [[nodiscard]] CellRange cells_around(const Eigen::AlignedBox2d& box) const;
-  void find_inside(const Polygon2& outline);
+  void find_inside(const Room& room);
   [[nodiscard]] std::vector<int> standing_pieces() const;
   [[nodiscard]] std::optional<std::size_t> cell_at_entry(const Polygon2& area, const std::vector<int>& piece) const;
   void lower(const Footprint& footprint);

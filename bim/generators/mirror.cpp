@@ -49,6 +49,7 @@ void mirror(Opening& opening) {
 
 void mirror(Room& room) {
   mirror(room.polygon);
+  for (Polygon2& hole : room.holes) mirror(hole);
   for (VirtualEdge& edge : room.virtual_edges) {
     mirror(edge.a);
     mirror(edge.b);

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bim/model/building.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "bim/digest/digest.h"
 #include "bim/model/fillings.h"
 
@@ -47,6 +50,7 @@ void add(Digest& digest, const Opening& opening) {
 void add(Digest& digest, const Room& room) {
   digest.add(room.id).add(room.storey).add(room.z0_m).add(room.z1_m);
   add(digest, room.polygon);
+  for (const Polygon2& hole : room.holes) add(digest, hole);
   digest.add(static_cast<int>(room.walls.size()));
   for (const int wall : room.walls) digest.add(wall);
   digest.add(static_cast<int>(room.virtual_edges.size()));
@@ -104,6 +108,31 @@ void add_all(Digest& digest, const std::vector<Element>& elements) {
 }
 
 }  // namespace
+
+bool Room::contains(const Eigen::Vector2d& p) const {
+  constexpr double rim_m = 1e-9;
+  return plumbline::contains(polygon, p) && std::none_of(holes.begin(), holes.end(), [&](const Polygon2& hole) {
+           return plumbline::contains(hole, p) && plumbline::boundary_distance(hole, p) > rim_m;
+         });
+}
+
+double Room::area_m2() const {
+  double area = std::abs(signed_area(polygon));
+  for (const Polygon2& hole : holes) area -= std::abs(signed_area(hole));
+  return area;
+}
+
+double Room::boundary_distance(const Eigen::Vector2d& p) const {
+  double least = INFINITY;
+  for (const Polygon2* rim : rims()) least = std::min(least, plumbline::boundary_distance(*rim, p));
+  return least;
+}
+
+std::vector<const Polygon2*> Room::rims() const {
+  std::vector<const Polygon2*> found = {&polygon};
+  for (const Polygon2& hole : holes) found.push_back(&hole);
+  return found;
+}
 
 std::uint64_t Building::hash() const {
   Digest digest;

@@ -95,6 +95,17 @@ struct Room {
   std::vector<int> walls;  ///< indices of bounding walls, ascending
   std::vector<VirtualEdge> virtual_edges;
   std::int64_t step_id = 0;
+  std::vector<Polygon2> holes;  ///< clockwise: what the room goes round and is not it; their rims bound it as well
+
+  /// True inside or within 1e-9 m of the outline or the rim of a hole.
+  [[nodiscard]] bool contains(const Eigen::Vector2d& p) const;
+  /// Without the holes.
+  [[nodiscard]] double area_m2() const;
+  /// Distance to the outline or the rim of a hole, m.
+  [[nodiscard]] double boundary_distance(const Eigen::Vector2d& p) const;
+  [[nodiscard]] PolygonWithHoles2 outline() const { return {polygon, holes}; }
+  /// The outline, then the rims of the holes: the room lies left of their edges.
+  [[nodiscard]] std::vector<const Polygon2*> rims() const;
 };
 
 struct Slab {

@@ -191,7 +191,7 @@ class Floors {
     const Eigen::Vector2d p = interior_point(piece.polygon.outer);
     const double z = piece.z_at(p);
     for (const Room& room : building_.rooms)
-      if (std::abs(room.z0_m - z) <= config_.at_room_m && contains(room.polygon, p)) return room.storey;
+      if (std::abs(room.z0_m - z) <= config_.at_room_m && room.contains(p)) return room.storey;
     int found = -1;
     const double unbounded = config_.sunken_m;
     for (std::size_t i = 0; i < building_.storeys.size(); ++i) {
@@ -214,7 +214,7 @@ class Floors {
     for (int i = 0; i < across * across; ++i) {
       const Eigen::Array2d share((i % across + 0.5) / across, (i / across + 0.5) / across);
       const Eigen::Vector2d p = box.min() + (share * box.sizes().array()).matrix();
-      if (!contains(room.polygon, p)) continue;
+      if (!room.contains(p)) continue;
       ++inside;
       carried += std::any_of(near.begin(), near.end(), [&](int k) {
         const FloorPiece& piece = pieces_[static_cast<std::size_t>(k)];
@@ -231,12 +231,8 @@ class Floors {
     for (std::size_t i = 0; i < building_.rooms.size(); ++i) {
       const Room& room = building_.rooms[i];
       if (room.polygon.size() < 3 || share_on_floor(room, boxes) >= config_.covered_share) continue;
-      pieces_.push_back({FloorSource::room,
-                         static_cast<int>(i),
-                         room.storey,
-                         {room.polygon, {}},
-                         room.z0_m,
-                         Eigen::Vector2d::Zero()});
+      pieces_.push_back(
+          {FloorSource::room, static_cast<int>(i), room.storey, room.outline(), room.z0_m, Eigen::Vector2d::Zero()});
     }
   }
 

@@ -34,6 +34,11 @@ Permanence permanence_of(const Obstacle& obstacle) {
 
 bool may_have_moved(const Obstacle& obstacle) { return permanence_of(obstacle) >= Permanence::furniture; }
 
+bool is_gone(const Obstacle& planned, const Building& as_built) {
+  return std::none_of(as_built.obstacles.begin(), as_built.obstacles.end(),
+                      [&](const Obstacle& obstacle) { return obstacle.id == planned.id; });
+}
+
 Building without_movables(Building building) {
   std::erase_if(building.obstacles, may_have_moved);
   return building;

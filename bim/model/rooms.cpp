@@ -41,8 +41,8 @@ int room_among(const Building& building, const std::vector<int>& rooms, const Ei
   for (const int i : rooms) {
     const Room& room = building.rooms[static_cast<std::size_t>(i)];
     const bool at_height = z >= room.z0_m - config.below_floor_m && z <= room.z1_m;
-    if (!at_height || !contains(room.polygon, p)) continue;
-    const double area_m2 = std::abs(signed_area(room.polygon));
+    if (!at_height || !room.contains(p)) continue;
+    const double area_m2 = room.area_m2();
     if (smallest >= 0 && area_m2 >= least_m2) continue;
     smallest = i;
     least_m2 = area_m2;
@@ -74,10 +74,10 @@ double shared_length(const Room& room, const Wall& wall, int side, const Adjacen
   if (common_height(room, wall, config) <= config.z_overlap_m) return 0.0;
   const FaceLine face = face_line(wall, side);
   double length = 0.0;
-  // The room lies left of its counter-clockwise edges, free space left of the face: both run the same way.
-  for (std::size_t i = 0; i < room.polygon.size(); ++i)
-    length += overlap(face.p0, face.p1, room.polygon[i], room.polygon[(i + 1) % room.polygon.size()], 1, config.gap_m,
-                      config.tilt);
+  // The room lies left of its edges, free space left of the face: both run the same way.
+  for (const Polygon2* rim : room.rims())
+    for (std::size_t i = 0; i < rim->size(); ++i)
+      length += overlap(face.p0, face.p1, (*rim)[i], (*rim)[(i + 1) % rim->size()], 1, config.gap_m, config.tilt);
   return length;
 }
 
@@ -95,10 +95,12 @@ std::vector<int> bounding_sides(const Room& room, const Wall& wall, const Adjace
 double open_length(const Room& a, const Room& b, const AdjacencyConfig& config) {
   if (std::min(a.z1_m, b.z1_m) - std::max(a.z0_m, b.z0_m) <= config.z_overlap_m) return 0.0;
   double length = 0.0;
-  for (std::size_t i = 0; i < a.polygon.size(); ++i)
-    for (std::size_t j = 0; j < b.polygon.size(); ++j)
-      length += overlap(a.polygon[i], a.polygon[(i + 1) % a.polygon.size()], b.polygon[j],
-                        b.polygon[(j + 1) % b.polygon.size()], -1, config.virtual_gap_m, config.tilt);
+  for (const Polygon2* p : a.rims())
+    for (const Polygon2* q : b.rims())
+      for (std::size_t i = 0; i < p->size(); ++i)
+        for (std::size_t j = 0; j < q->size(); ++j)
+          length += overlap((*p)[i], (*p)[(i + 1) % p->size()], (*q)[j], (*q)[(j + 1) % q->size()], -1,
+                            config.virtual_gap_m, config.tilt);
   return length;
 }
 

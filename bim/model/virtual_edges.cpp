@@ -140,10 +140,11 @@ class EdgeFinder {
 
   [[nodiscard]] std::vector<VirtualEdge> find() const {
     std::vector<VirtualEdge> edges;
-    for (std::size_t i = 0; i < room_.polygon.size(); ++i) {
-      const Edge edge{room_.polygon[i], room_.polygon[(i + 1) % room_.polygon.size()]};
-      for (const Stretch& stretch : open_stretches(edge)) add(edge, stretch, edges);
-    }
+    for (const Polygon2* rim : room_.rims())
+      for (std::size_t i = 0; i < rim->size(); ++i) {
+        const Edge edge{(*rim)[i], (*rim)[(i + 1) % rim->size()]};
+        for (const Stretch& stretch : open_stretches(edge)) add(edge, stretch, edges);
+      }
     return edges;
   }
 
@@ -164,13 +165,15 @@ class EdgeFinder {
     for (const int i : near_rooms_) {
       const Room& other = building_.rooms[static_cast<std::size_t>(i)];
       const bool meet = i != index_ && common_height(room_, other.z0_m, other.z1_m, config_) > config_.z_overlap_m;
-      for (std::size_t k = 0; meet && k < other.polygon.size(); ++k) {
-        const auto shared = along(edge, {other.polygon[k], other.polygon[(k + 1) % other.polygon.size()]});
-        if (!shared) continue;
-        for (const Stretch& part : rest)
-          emit(edge, {std::max(part.from, shared->from), std::min(part.to, shared->to)}, i, edges);
-        rest = without(rest, *shared);
-      }
+      if (!meet) continue;
+      for (const Polygon2* rim : other.rims())
+        for (std::size_t k = 0; k < rim->size(); ++k) {
+          const auto shared = along(edge, {(*rim)[k], (*rim)[(k + 1) % rim->size()]});
+          if (!shared) continue;
+          for (const Stretch& part : rest)
+            emit(edge, {std::max(part.from, shared->from), std::min(part.to, shared->to)}, i, edges);
+          rest = without(rest, *shared);
+        }
     }
     for (const Stretch& part : rest) emit(edge, part, beyond(edge, part), edges);
   }
@@ -217,8 +220,8 @@ int room_on(const Building& building, int storey, const Eigen::Vector2d& p, doub
     const Room& room = building.rooms[i];
     const double z = floor_m + config.above_sill_m;
     const bool at_height = z >= room.z0_m - config.below_floor_m && z <= room.z1_m;
-    if (room.storey != storey || !at_height || !contains(room.polygon, p)) continue;
-    const double area_m2 = std::abs(signed_area(room.polygon));
+    if (room.storey != storey || !at_height || !room.contains(p)) continue;
+    const double area_m2 = room.area_m2();
     if (smallest >= 0 && area_m2 >= least_m2) continue;
     smallest = static_cast<int>(i);
     least_m2 = area_m2;

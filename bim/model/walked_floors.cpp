@@ -66,7 +66,7 @@ double ground_of(const Building& building, int storey, const std::vector<FloorPi
     const Eigen::Vector2d p = interior_point(piece.polygon.outer);
     const bool in_room = std::any_of(building.rooms.begin(), building.rooms.end(), [&](const Room& room) {
       return room.storey == storey && is_sunken(piece.z0_m, elevation, room, config) &&
-             (contains(room.polygon, p) || contains(piece.polygon.outer, interior_point(room.polygon)));
+             (room.contains(p) || contains(piece.polygon.outer, interior_point(room.polygon)));
     });
     if (in_room) ground = piece.z0_m;
   }

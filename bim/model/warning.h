@@ -76,7 +76,7 @@ inline constexpr std::array<WarningRow, 67> warning_rows = {{
     {"other_schema",
      "the file has another version of IFC than IFC2X3 and IFC4, or not the one that it says; the nearer one is used"},
     {"recentred", "the coordinates are those of a map; the building is moved to the origin"},
-    {"room_hole", "the outline of a room has holes; they are filled"},
+    {"room_hole", "other rooms stand in a room that walls enclose; its outline goes round them"},
     {"room_pieces", "the outline of a room has several pieces; the largest is the room"},
     {"scale_spread", "the measurements of a level disagree; their mean is used"},
     {"second_filling", "another door or window fills the same opening already"},

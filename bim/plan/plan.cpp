@@ -62,6 +62,7 @@ PlanRoom room_of(const Room& room, int index) {
   result.name = room.id;
   result.storey = room.storey;
   result.polygon = room.polygon;
+  result.holes = room.holes;
   result.z0 = room.z0_m;
   result.z1 = room.z1_m;
   return result;
@@ -233,6 +234,8 @@ Plan transformed(const Plan& plan_W, const Pose& X_VW) {
   }
   for (PlanRoom& room : plan_V.rooms) {
     for (Eigen::Vector2d& p : room.polygon) p = moved(X_VW, p);
+    for (Polygon2& hole : room.holes)
+      for (Eigen::Vector2d& p : hole) p = moved(X_VW, p);
     room.z0 += rise;
     room.z1 += rise;
   }

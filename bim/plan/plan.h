@@ -41,6 +41,7 @@ struct PlanRoom {
   double z1 = 3.0;
   std::vector<int> faces;       ///< bounding faces, ascending
   std::vector<int> neighbours;  ///< rooms reached through a door or void, ascending
+  std::vector<Polygon2> holes;  ///< as bim::Room has them
 };
 
 struct PlanStorey {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "bim/geometry/polygon_boolean.h"
 #include "bim/geometry/pose.h"
 #include "bim/symmetry/symmetry_scene.h"
 
@@ -13,6 +14,7 @@ namespace {
 /// The inside of a room: its outline and the surfaces that face it.
 struct Interior {
   int room = -1;
+  const Room* of = nullptr;
   const SymmetryScene* scene = nullptr;
   Polygon2 outline;
   double area_m2 = 0.0;
@@ -25,15 +27,16 @@ void add_stretches(const SurfaceRect& rect, const SymmetryConfig& config, Interi
   const Eigen::Vector2d e = rect.direction(), step = config.through_m * Eigen::Vector2d(e.y(), -e.x());
   const Eigen::Vector2d p = rect.p + step, d = rect.q - rect.p;
   std::vector<double> cuts = {0.0, 1.0};
-  for (std::size_t k = 0; k < interior.outline.size(); ++k) {
-    const Eigen::Vector2d& a = interior.outline[k];
-    const Eigen::Vector2d b = interior.outline[(k + 1) % interior.outline.size()] - a;
-    const double det = d.x() * -b.y() + d.y() * b.x();
-    if (det == 0.0) continue;
-    const Eigen::Vector2d w = a - p;
-    const double s = (w.x() * -b.y() + w.y() * b.x()) / det, u = (d.x() * w.y() - d.y() * w.x()) / det;
-    if (u >= 0.0 && u <= 1.0 && s > 0.0 && s < 1.0) cuts.push_back(s);
-  }
+  for (const Polygon2* rim : interior.of->rims())
+    for (std::size_t k = 0; k < rim->size(); ++k) {
+      const Eigen::Vector2d& a = (*rim)[k];
+      const Eigen::Vector2d b = (*rim)[(k + 1) % rim->size()] - a;
+      const double det = d.x() * -b.y() + d.y() * b.x();
+      if (det == 0.0) continue;
+      const Eigen::Vector2d w = a - p;
+      const double s = (w.x() * -b.y() + w.y() * b.x()) / det, u = (d.x() * w.y() - d.y() * w.x()) / det;
+      if (u >= 0.0 && u <= 1.0 && s > 0.0 && s < 1.0) cuts.push_back(s);
+    }
   std::sort(cuts.begin(), cuts.end());
   double begin = -1.0;
   const auto close = [&](double end) {
@@ -42,7 +45,7 @@ void add_stretches(const SurfaceRect& rect, const SymmetryConfig& config, Interi
     interior.surface_m2 += interior.surfaces.back().area();
   };
   for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
-    const bool inside = contains(interior.outline, p + 0.5 * (cuts[i] + cuts[i + 1]) * d);
+    const bool inside = interior.of->contains(p + 0.5 * (cuts[i] + cuts[i + 1]) * d);
     if (inside && begin < 0.0) begin = cuts[i];
     if (!inside) {
       close(cuts[i]);
@@ -56,8 +59,9 @@ Interior interior_of(const Building& building, int room, const SymmetryScene& sc
   Interior interior;
   interior.room = room;
   interior.scene = &scene;
-  interior.outline = building.rooms[static_cast<std::size_t>(room)].polygon;
-  interior.area_m2 = signed_area(interior.outline);
+  interior.of = &building.rooms[static_cast<std::size_t>(room)];
+  interior.outline = interior.of->polygon;
+  interior.area_m2 = interior.of->area_m2();
   Eigen::AlignedBox2d box;
   for (const Eigen::Vector2d& p : interior.outline) box.extend(p);
   box.min().array() -= config.through_m;
@@ -101,6 +105,16 @@ Deviation largest_deviation(const Interior& from, const Interior& to, const Isom
   return largest;
 }
 
+PolygonWithHoles2 image_of(const Isometry2& g, const Room& room) {
+  PolygonWithHoles2 image{g * room.polygon, {}};
+  for (const Polygon2& hole : room.holes) {
+    // Images are counter-clockwise.
+    Polygon2 rim = g * Polygon2(hole.rbegin(), hole.rend());
+    image.holes.emplace_back(rim.rbegin(), rim.rend());
+  }
+  return image;
+}
+
 Similarity compare_rooms(const Interior& from, const Interior& to, const Isometry2& g, const SymmetryConfig& config) {
   Similarity similarity;
   std::vector<Deviation> deviations = {largest_deviation(from, to, g, config)};
@@ -115,7 +129,9 @@ Similarity compare_rooms(const Interior& from, const Interior& to, const Isometr
   if (similarity.deviation_m > config.near_m + config.sliver_m) return similarity;
   similarity.iou = 1.0;
   if (similarity.deviation_m > config.exact_m) {
-    const double shared = intersection_area(g * from.outline, to.outline);
+    const bool solid = from.of->holes.empty() && to.of->holes.empty();
+    const double shared = solid ? intersection_area(g * from.outline, to.outline)
+                                : area(intersect({image_of(g, *from.of)}, {to.of->outline()}));
     similarity.iou = std::min(1.0, shared / (from.area_m2 + to.area_m2 - shared));
   }
   const bool exact = similarity.deviation_m <= config.exact_m;

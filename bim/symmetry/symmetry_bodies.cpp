@@ -62,8 +62,7 @@ double clear_height(const Building& building, int storey) {
   double total = 0.0;
   for (const Room& room : building.rooms) {
     if (room.storey != storey) continue;
-    heights.emplace_back(room.z1_m - building.storeys[static_cast<std::size_t>(storey)].elevation_m,
-                         signed_area(room.polygon));
+    heights.emplace_back(room.z1_m - building.storeys[static_cast<std::size_t>(storey)].elevation_m, room.area_m2());
     total += heights.back().second;
   }
   std::sort(heights.begin(), heights.end());

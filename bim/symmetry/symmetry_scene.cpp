@@ -137,7 +137,7 @@ void add_floor_edges(const Building& building, SymmetryBodies& bodies, std::vect
   const double floor = building.storeys[static_cast<std::size_t>(bodies.storey)].elevation_m;
   const auto in_room = [&](const Eigen::Vector2d& p) {
     return std::any_of(building.rooms.begin(), building.rooms.end(),
-                       [&](const Room& room) { return room.storey == bodies.storey && contains(room.polygon, p); });
+                       [&](const Room& room) { return room.storey == bodies.storey && room.contains(p); });
   };
   for (const Slab& slab : building.slabs) {
     bodies.elements.push_back(slab.id);

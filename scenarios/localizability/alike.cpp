@@ -71,8 +71,7 @@ class AlikeFinder {
   [[nodiscard]] int room_at(const Eigen::Vector3d& p_W) const {
     const int storey = storey_at(p_W);
     for (std::size_t r = 0; r < plan_.rooms.size(); ++r)
-      if (plan_.rooms[r].storey == storey && contains(plan_.rooms[r].polygon, p_W.head<2>()))
-        return static_cast<int>(r);
+      if (plan_.rooms[r].storey == storey && plan_.rooms[r].contains(p_W.head<2>())) return static_cast<int>(r);
     return -1;
   }
   /// A robot can stand there: a place of the map is near.

@@ -164,7 +164,7 @@ class MapMaker {
       const SearchArea& box = input_.storeys[storey];
       double rooms = 0.0;
       for (const bim::Room& room : building_.as_planned().rooms)
-        if (room.storey == static_cast<int>(storey)) rooms += std::abs(signed_area(room.polygon));
+        if (room.storey == static_cast<int>(storey)) rooms += room.area_m2();
       area += rooms > 0.0 ? rooms : box.empty() ? 0.0 : (box.max - box.min).prod();
     }
     return area;
@@ -191,7 +191,7 @@ BuildingMap map_of(const RunBuilding& building, const BuildingMapOptions& option
 }
 
 BuildingMaps maps_of(const RunBuilding& building, const BuildingMapOptions& options) {
-  if (!building.plans_movables()) return {map_of(building, options, PlanEvidence::building), std::nullopt};
+  if (!building.movables_tell()) return {map_of(building, options, PlanEvidence::building), std::nullopt};
   BuildingMapOptions first = options;
   if (options.budget_s) first.budget_s = 0.5 * *options.budget_s;
   BuildingMaps maps{map_of(building, first, PlanEvidence::building), std::nullopt};
@@ -236,7 +236,7 @@ void set_answers(const bim::Building& plan, const BuildingMap& map, Tree& tree) 
                      .set("answers", conditions(map, [&](const MapCell& cell) { return cell.floor == f; })));
   for (const bim::Room& room : plan.rooms) {
     const auto in_room = [&](const MapCell& cell) {
-      return static_cast<int>(map.floors[cell.floor].storey) == room.storey && contains(room.polygon, cell.p_W);
+      return static_cast<int>(map.floors[cell.floor].storey) == room.storey && room.contains(cell.p_W);
     };
     if (share_of(map, true, in_room).cells == 0) continue;
     rooms.push(Tree::map().set("id", room.id).set("answers", conditions(map, in_room)));

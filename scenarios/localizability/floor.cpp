@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <queue>
 #include <string>
@@ -27,16 +28,16 @@ class Rooms {
  public:
   Rooms(const bim::Building& building, std::size_t storey) {
     for (const bim::Room& room : building.rooms)
-      if (room.storey == static_cast<int>(storey)) polygons_.push_back(room.polygon);
+      if (room.storey == static_cast<int>(storey)) rooms_.push_back(&room);
   }
   [[nodiscard]] bool hold(const Eigen::Vector2d& p) const {
-    return polygons_.empty() || std::any_of(polygons_.begin(), polygons_.end(), [&](const Polygon2& polygon) {
-             return contains(polygon, p) || boundary_distance(polygon, p) <= threshold_m;
+    return rooms_.empty() || std::any_of(rooms_.begin(), rooms_.end(), [&](const bim::Room* room) {
+             return room->contains(p) || room->boundary_distance(p) <= threshold_m;
            });
   }
 
  private:
-  std::vector<Polygon2> polygons_;
+  std::vector<const bim::Room*> rooms_;
 };
 
 constexpr std::size_t no_owner = static_cast<std::size_t>(-1);
@@ -107,13 +108,26 @@ bool is_movable(const bim::Building& building, const bim::MeshElement& element) 
          bim::may_have_moved(building.obstacles[static_cast<std::size_t>(element.index)]);
 }
 
-/// The mesh without what may have moved; elements keep their numbers.
-bim::BuildingMesh without_movables(const bim::Building& building, const bim::BuildingMesh& mesh) {
+using IsLeftOut = std::function<bool(const bim::Obstacle& planned)>;
+
+/// What of the plan does not count in an answer.
+IsLeftOut left_out(const RunBuilding& building, PlanEvidence by) {
+  if (by == PlanEvidence::building) return bim::may_have_moved;
+  if (by == PlanEvidence::whole_plan || !building.deviates()) return [](const bim::Obstacle&) { return false; };
+  return [&](const bim::Obstacle& planned) {
+    return bim::may_have_moved(planned) && bim::is_gone(planned, building.as_built());
+  };
+}
+
+/// The mesh without some obstacles; elements keep their numbers.
+bim::BuildingMesh without(const IsLeftOut& is_left_out, const bim::Building& building, const bim::BuildingMesh& mesh) {
   bim::BuildingMesh kept{mesh.vertices, {}, {}, mesh.elements, mesh.warnings};
   for (bim::MeshElement& element : kept.elements) {
     const int first = element.first_triangle;
     element.first_triangle = static_cast<int>(kept.triangles.size());
-    if (is_movable(building, element)) element.triangle_count = 0;
+    if (element.kind == bim::ElementKind::obstacle &&
+        is_left_out(building.obstacles[static_cast<std::size_t>(element.index)]))
+      element.triangle_count = 0;
     const auto from = mesh.triangles.begin() + first;
     kept.triangles.insert(kept.triangles.end(), from, from + element.triangle_count);
     const auto number = static_cast<int>(&element - kept.elements.data());
@@ -138,7 +152,7 @@ std::map<std::string, const bim::Obstacle*> movables_of(const bim::Building& bui
 
 std::vector<char> loose_elements(const RunBuilding& building, PlanEvidence by) {
   std::map<std::string, const bim::Obstacle*> counted;
-  if (by == PlanEvidence::with_furniture) counted = movables_of(building.as_planned());
+  if (by != PlanEvidence::building) counted = movables_of(building.as_planned());
   const bim::Building& as_built = building.as_built();
   std::vector<char> loose;
   for (const bim::MeshElement& element : building.mesh_as_built().elements) {
@@ -155,12 +169,13 @@ std::vector<char> loose_elements(const RunBuilding& building, PlanEvidence by) {
 
 VisibleBuilding visible_building(const RunBuilding& building, PlanEvidence by) {
   const bim::BuildingMesh planned = bim::visible_mesh(building.as_planned(), building.mesh_as_planned());
-  const bool leaves_out = by == PlanEvidence::building && building.plans_movables();
-  VisibleBuilding visible{
-      visible_scene(leaves_out ? without_movables(building.as_planned(), planned) : planned),
-      std::nullopt,
-      {},
-      storey_isometries(leaves_out ? bim::without_movables(building.as_planned()) : building.as_planned())};
+  const IsLeftOut is_left_out = left_out(building, by);
+  bim::Building counted = building.as_planned();
+  const bool leaves_out = std::erase_if(counted.obstacles, is_left_out) > 0;
+  VisibleBuilding visible{visible_scene(leaves_out ? without(is_left_out, building.as_planned(), planned) : planned),
+                          std::nullopt,
+                          {},
+                          storey_isometries(counted)};
   if (!building.deviates() && !leaves_out) return visible;
   visible.built.emplace(visible_scene(bim::visible_mesh(building.as_built(), building.mesh_as_built())));
   visible.loose = loose_elements(building, by);

@@ -20,8 +20,9 @@ struct VisibleScene {
 
 /// By what of a plan a pose is asked for.
 enum class PlanEvidence {
-  building,       ///< by what was built: the plan without what may have moved
-  with_furniture  ///< by the plan as it is
+  building,        ///< by what was built: the plan without what may have moved
+  with_furniture,  ///< by the plan without furniture that is gone: what is not there tells no pose from another
+  whole_plan       ///< by the plan as it is
 };
 
 /// The building as planned, as far as it counts, and as built, with everything.

@@ -109,7 +109,7 @@ SeedAnswers answer(const std::string& scenario, std::uint64_t seed) {
   overrides.methods = std::vector<std::string>{"truth"};
   const ResolvedScenario resolved = resolve(scenario, overrides);
   SeedAnswers answers{answer_by(resolved, PlanEvidence::building), std::nullopt};
-  if (resolved.building->plans_movables()) answers.with_furniture = answer_by(resolved, PlanEvidence::with_furniture);
+  if (resolved.building->movables_tell()) answers.with_furniture = answer_by(resolved, PlanEvidence::with_furniture);
   return answers;
 }
 

@@ -30,7 +30,7 @@ struct WalkAnswers {
 /// The same by the building alone and with the furniture as planned.
 struct SeedAnswers {
   WalkAnswers building;
-  std::optional<WalkAnswers> with_furniture;  ///< absent where nothing planned may have moved: the same
+  std::optional<WalkAnswers> with_furniture;  ///< absent as in Identifiability
 };
 
 /// The answers of the seeds 1 to `seeds` of a scenario file.

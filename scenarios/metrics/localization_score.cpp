@@ -167,8 +167,8 @@ void set_identifiability(const Identifiability& known, const Truth& truth, const
   const IdentifiabilityAnswer& other = *known.with_furniture;
   score.with_furniture = WithFurniture{other.identifiable, evidence_of(other, truth, rules), other.at_s, other.at_m,
                                        static_cast<int>(other.others_W.size())};
-  score.evidence_by_furniture = known.told_furniture && score.evidence == Evidence::ambiguous &&
-                                score.with_furniture->evidence == Evidence::unique;
+  score.evidence_by_furniture =
+      score.evidence == Evidence::ambiguous && score.with_furniture->evidence == Evidence::unique;
 }
 
 /// What came of a kidnapping. Time in which the robot stands counts too.

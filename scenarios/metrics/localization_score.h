@@ -59,8 +59,9 @@ struct IdentifiabilityAnswer {
 /// Both answers: by the building alone, which verdicts use, since what may have moved never makes a single answer right
 /// by itself; and with the furniture as planned. A run is scored without it where it has not been computed.
 struct Identifiability : IdentifiabilityAnswer {
-  std::optional<IdentifiabilityAnswer> with_furniture;  ///< absent where nothing planned may have moved: the same
-  bool told_furniture = true;                           ///< methods got the furniture as planned
+  /// Absent where it is the same, since nothing planned may have moved or all of it is gone, and where methods are not
+  /// told of it.
+  std::optional<IdentifiabilityAnswer> with_furniture;
 };
 
 enum class LocalizationVerdict { success, false_convergence, overconfident, honest_ambiguity, late, lost, lucky };
@@ -111,8 +112,8 @@ struct LocalizationScore {
   std::optional<Evidence> evidence;
   std::optional<double> identifiable_at_s;
   std::optional<double> identifiable_at_m;
-  std::optional<WithFurniture> with_furniture;  ///< absent where nothing planned may have moved
-  /// Only furniture tells the poses apart, and the method was told of it: the building alone is ambiguous.
+  std::optional<WithFurniture> with_furniture;  ///< absent as in Identifiability
+  /// Only furniture tells the poses apart: the building alone is ambiguous.
   bool evidence_by_furniture = false;
   /// As ape_rmse_m, each pose held against the nearest of the true one and its aliases at the start: a small value
   /// beside a large ape_rmse_m means that an aliased pose was tracked.

@@ -54,7 +54,7 @@ void set_sights(const RunBuilding& building, const std::vector<TruthSample>& wal
   const auto drawn = [](const ReportDeviation& d) { return !d.planned_W.empty() || !d.built_W.empty(); };
   if (std::none_of(deviations.begin(), deviations.end(), drawn)) return;
   for (ReportDeviation& deviation : deviations) deviation.judged = drawn(deviation);
-  const VisibleBuilding visible = visible_building(building, PlanEvidence::with_furniture);
+  const VisibleBuilding visible = visible_building(building, PlanEvidence::whole_plan);
   const RangeImager imager;
   const TruthSample* last = nullptr;
   for (const TruthSample& sample : walk) {

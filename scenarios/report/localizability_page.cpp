@@ -136,7 +136,7 @@ class ConditionPage {
     int count = 0;
     for (const bim::Room& room : building_.as_planned().rooms) {
       const MapShare share = share_of(map_, compass_, [&](const MapCell& cell) {
-        return static_cast<int>(map_.floors[cell.floor].storey) == room.storey && contains(room.polygon, cell.p_W);
+        return static_cast<int>(map_.floors[cell.floor].storey) == room.storey && room.contains(cell.p_W);
       });
       if (share.cells == 0) continue;
       rows += share_row(room.name.empty() ? room.id : room.name, share);

@@ -86,9 +86,8 @@ std::optional<Identifiability> identifiability_of(const FinishedRun& run, const 
 
   const std::optional<IdentifiabilityAnswer> by_building = answer(building, PlanEvidence::building, question);
   if (!by_building) return std::nullopt;
-  Identifiability result{*by_building, std::nullopt, true};
-  result.told_furniture = building.told_furniture() == ToldFurniture::as_planned;
-  if (building.plans_movables()) result.with_furniture = answer(building, PlanEvidence::with_furniture, question);
+  Identifiability result{*by_building, std::nullopt};
+  if (building.movables_tell()) result.with_furniture = answer(building, PlanEvidence::with_furniture, question);
   return result;
 }
 

@@ -28,7 +28,7 @@ std::vector<std::string> rooms_not_entered(const FinishedRun& run) {
     const bool entered =
         std::any_of(run.record.truth_W.begin(), run.record.truth_W.end(), [&](const slam::StampedPose& pose) {
           const double above = pose.X_FR.t.z() - room->z0_m;
-          return above > 0.0 && above < on_storey_m && contains(room->polygon, Eigen::Vector2d(pose.X_FR.t.head<2>()));
+          return above > 0.0 && above < on_storey_m && room->contains(Eigen::Vector2d(pose.X_FR.t.head<2>()));
         });
     if (!entered) names.push_back(room->name.empty() ? room->id : room->name);
   }

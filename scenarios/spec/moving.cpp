@@ -28,7 +28,7 @@ std::vector<Eigen::Vector2d> walk_through(const bim::Building& building, const P
   std::vector<Eigen::Vector2d> points;
   for (const std::string& name : person.rooms) {
     const auto room = static_cast<std::size_t>(find_room_on(building, storey, name, mark));
-    const auto targets = free_space.room_targets(building.rooms[room].polygon);
+    const auto targets = free_space.room_targets(building.rooms[room]);
     if (targets.empty()) throw InputError(mark, "there is no room to stand in '" + name + "'");
     if (points.empty()) {
       points.push_back(targets[0]);

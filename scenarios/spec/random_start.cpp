@@ -42,7 +42,7 @@ std::vector<Eigen::Vector2d> places_in(const bim::Building& building, const bim:
   for (double x = box.min().x() + 0.5 * cell_m; x < box.max().x(); x += cell_m)
     for (double y = box.min().y() + 0.5 * cell_m; y < box.max().y(); y += cell_m) {
       const Eigen::Vector2d p(on_grid(x), on_grid(y));
-      if (contains(polygon, p) && space.clearance(p) >= turn_m && !on_a_stair(building, room.storey, p))
+      if (room.contains(p) && space.clearance(p) >= turn_m && !on_a_stair(building, room.storey, p))
         places.push_back(p);
     }
   return places;
@@ -69,9 +69,8 @@ std::vector<Eigen::Vector2d> stair_ends_of(const bim::Building& building, int st
   std::vector<Eigen::Vector2d> places;
   const auto add = [&](const Eigen::Vector3d& point) {
     const Eigen::Vector2d p(on_grid(point.x()), on_grid(point.y()));
-    const bool in_room = std::any_of(building.rooms.begin(), building.rooms.end(), [&](const bim::Room& room) {
-      return room.storey == storey && contains(room.polygon, p);
-    });
+    const bool in_room = std::any_of(building.rooms.begin(), building.rooms.end(),
+                                     [&](const bim::Room& room) { return room.storey == storey && room.contains(p); });
     if (in_room && space.storey(storey).free(p) && !on_a_stair(building, storey, p)) places.push_back(p);
   };
   for (const sim::StairWay& way : space.stairs()) {
@@ -95,7 +94,7 @@ class StartSampler {
       : storey_(storey), stream_(seed, "scenario.start"), space_(building) {
     for (const bim::Room& room : building.rooms) {
       if (room.storey != storey) continue;
-      const std::vector<Eigen::Vector2d> target = space_.storey(storey).room_targets(room.polygon);
+      const std::vector<Eigen::Vector2d> target = space_.storey(storey).room_targets(room);
       if (!target.empty())
         rooms_.push_back({room.id, target.front(), places_in(building, room, space_.storey(storey))});
     }

@@ -6,6 +6,8 @@
 #include <map>
 
 #include "bim/config/tree.h"
+#include "bim/geometry/polygon_boolean.h"
+#include "bim/model/steep_floors.h"
 #include "sim/route/clearance_map.h"
 
 namespace plumbline::scenarios {
@@ -38,7 +40,7 @@ const std::optional<sim::FloorPoint>& RoomPlaces::of(int room) const {
   std::optional<std::optional<sim::FloorPoint>>& place = places_.at(static_cast<std::size_t>(room));
   if (place) return *place;
   const bim::Room& of = building_.rooms[static_cast<std::size_t>(room)];
-  const std::vector<Eigen::Vector2d> found = space_.storey(of.storey).room_targets(of.polygon);
+  const std::vector<Eigen::Vector2d> found = space_.storey(of.storey).room_targets(of);
   place.emplace();
   if (found.empty()) return *place;
   const auto point = [&](const Eigen::Vector2d& p) { return sim::FloorPoint{of.storey, rounded(p)}; };
@@ -60,7 +62,7 @@ bool RoomPlaces::has_floor(int room) const {
   double cells = 0.0, with_floor = 0.0;
   for (double y = box.min().y(); y <= box.max().y(); y += cell)
     for (double x = box.min().x(); x <= box.max().x(); x += cell) {
-      if (!contains(of.polygon, {x, y})) continue;
+      if (!of.contains({x, y})) continue;
       ++cells;
       if (const auto at = floor.grid().find({x, y}); at && floor.has_floor(*at)) ++with_floor;
     }
@@ -70,9 +72,14 @@ bool RoomPlaces::has_floor(int room) const {
 std::string RoomPlaces::why_none(int room) const {
   const bim::Room& of = building_.rooms[static_cast<std::size_t>(room)];
   const sim::ClearanceMap& floor = space_.storey(of.storey);
-  const std::optional<std::size_t> freest = floor.freest_cell(of.polygon);
+  const std::optional<std::size_t> freest = floor.freest_cell(of);
   if (!freest) return "it is smaller than the robot";
-  if (!has_floor(room)) return "there is no floor in it near the level of its storey";
+  if (!has_floor(room)) {
+    const Eigen::Vector2d p = interior_point(of.polygon);
+    for (const bim::SteepFloor& floor : bim::steep_floors(building_, of.storey, of.z0_m))
+      if (contains(floor.polygon, p)) return bim::too_steep_text(floor);
+    return "there is no floor in it near the level of its storey";
+  }
   const auto metres = [](double x) { return format_number(std::round(x * 1e2) / 1e2) + " m"; };
   return "it has no place where the robot can turn round: " + metres(2.0 * floor.cell_clearance(*freest)) +
          " are free, and it needs " + metres(2.0 * floor.config().turn_m);
@@ -81,9 +88,8 @@ std::string RoomPlaces::why_none(int room) const {
 std::string RoomPlaces::why_nowhere() const {
   if (building_.rooms.empty()) return "it has no rooms";
   const auto largest =
-      std::max_element(building_.rooms.begin(), building_.rooms.end(), [](const bim::Room& a, const bim::Room& b) {
-        return std::abs(signed_area(a.polygon)) < std::abs(signed_area(b.polygon));
-      });
+      std::max_element(building_.rooms.begin(), building_.rooms.end(),
+                       [](const bim::Room& a, const bim::Room& b) { return a.area_m2() < b.area_m2(); });
   return "room '" + largest->id + "': " + why_none(static_cast<int>(largest - building_.rooms.begin())) +
          (building_.rooms.size() > 1 ? "; it is the largest of " + std::to_string(building_.rooms.size()) + " rooms"
                                      : "");
@@ -97,7 +103,7 @@ RoomPlaces::Start RoomPlaces::start_on(int storey) const {
   std::map<int, Piece> pieces;
   for (std::size_t i = 0; i < building_.rooms.size(); ++i) {
     if (building_.rooms[i].storey != storey || !of(static_cast<int>(i))) continue;
-    const double area = std::abs(signed_area(building_.rooms[i].polygon));
+    const double area = building_.rooms[i].area_m2();
     Piece& piece = pieces[space_.storey(storey).region(of(static_cast<int>(i))->p_W)];
     ++piece.start.rooms;
     piece.area_m2 += area;

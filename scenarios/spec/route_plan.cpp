@@ -105,8 +105,8 @@ class Planner {
     const sim::Blockages blockages(building_, storey_, space, start_W);
     std::string list;
     for (const bim::Room& other : building_.rooms) {
-      if (other.storey != storey_ || contains(other.polygon, start_W)) continue;
-      const std::optional<std::size_t> goal = space.freest_cell(other.polygon);
+      if (other.storey != storey_ || other.contains(start_W)) continue;
+      const std::optional<std::size_t> goal = space.freest_cell(other);
       if (!goal) continue;
       for (const sim::Blockage& blockage : blockages.before(space.grid().center(*goal)))
         list += (list.empty() ? ": on the way to room '" + other.id + "' " : "; ") + blockage.text;
@@ -175,7 +175,7 @@ class Planner {
     for (std::size_t i = 0; i < building_.rooms.size(); ++i) {
       const bim::Room& candidate = building_.rooms[i];
       if (!std::binary_search(storeys.begin(), storeys.end(), candidate.storey)) continue;
-      if (candidate.storey == at.storey && contains(candidate.polygon, at.p_W)) continue;
+      if (candidate.storey == at.storey && candidate.contains(at.p_W)) continue;
       if (places_.of(static_cast<int>(i))) found.push_back(static_cast<int>(i));
     }
     return found;
@@ -289,7 +289,7 @@ class Planner {
 
   void return_home(const FloorPoint& start, FloorPoint& at, RoutePlan& plan) const {
     for (const bim::Room& home : building_.rooms) {
-      if (home.storey != start.storey || !contains(home.polygon, start.p_W)) continue;
+      if (home.storey != start.storey || !home.contains(start.p_W)) continue;
       if (!places_.of(static_cast<int>(&home - building_.rooms.data()))) return;
       walk_to(home.id, marks_.route, at, plan);
       plan.rooms.push_back(home.id);

@@ -33,6 +33,14 @@ bool RunBuilding::plans_movables() const {
   return std::any_of(building_.as_planned.obstacles.begin(), building_.as_planned.obstacles.end(), bim::may_have_moved);
 }
 
+bool RunBuilding::movables_tell() const {
+  return told_ == ToldFurniture::as_planned &&
+         std::any_of(building_.as_planned.obstacles.begin(), building_.as_planned.obstacles.end(),
+                     [&](const bim::Obstacle& obstacle) {
+                       return bim::may_have_moved(obstacle) && !bim::is_gone(obstacle, building_.as_built);
+                     });
+}
+
 const bim::BuildingMesh& RunBuilding::mesh_as_built() const {
   const auto assumed = [](const bim::Slab& slab) { return slab.assumed; };
   if (!deviates() && std::none_of(building_.as_built.slabs.begin(), building_.as_built.slabs.end(), assumed))

@@ -27,6 +27,8 @@ class RunBuilding {
   [[nodiscard]] ToldFurniture told_furniture() const { return told_; }
   /// Whether anything of the plan may have moved, told to methods or not.
   [[nodiscard]] bool plans_movables() const;
+  /// Whether what may have moved can tell methods anything: they are told of it, and not all of it is gone.
+  [[nodiscard]] bool movables_tell() const;
 
   /// What methods may know of the building. Walls, rooms and storeys are those of the whole plan, whatever is told of
   /// the furniture.

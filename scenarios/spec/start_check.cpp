@@ -71,7 +71,7 @@ void check_start(const sim::MultiStoreyPlanner& space, int storey, const Eigen::
   for (const bim::Stair& stair : building.stairs)
     if ((stair.from == storey || stair.to == storey) && on_stair(stair, at))
       throw InputError(mark, start + " is on stair '" + stair.id + "'; it must be on the floor of a storey");
-  const auto in_room = [&](const bim::Room& r) { return r.storey == storey && contains(r.polygon, at); };
+  const auto in_room = [&](const bim::Room& r) { return r.storey == storey && r.contains(at); };
   const bool has_rooms =
       std::any_of(building.rooms.begin(), building.rooms.end(), [&](const bim::Room& r) { return r.storey == storey; });
   if (has_rooms && !doorway && std::none_of(building.rooms.begin(), building.rooms.end(), in_room))

@@ -28,13 +28,13 @@ std::string metres(double x, double steps = 1e2) { return format_number(std::rou
 std::string name_of(const bim::Room& room) { return room.name.empty() ? room.id : room.name; }
 
 bool enters(const std::vector<sim::Waypoint>& way, const bim::Room& room, double floor_z) {
-  if (way.size() == 1) return contains(room.polygon, Eigen::Vector2d(way.front().p_W.head<2>()));
+  if (way.size() == 1) return room.contains(Eigen::Vector2d(way.front().p_W.head<2>()));
   for (std::size_t i = 1; i < way.size(); ++i) {
     const Eigen::Vector3d &a = way[i - 1].p_W, &b = way[i].p_W;
     const int count = 1 + static_cast<int>((b - a).norm() / sample_m);
     for (int k = 0; k <= count; ++k) {
       const Eigen::Vector3d p = a + (b - a) * (static_cast<double>(k) / count);
-      if (std::abs(p.z() - floor_z) < 1.0 && contains(room.polygon, Eigen::Vector2d(p.head<2>()))) return true;
+      if (std::abs(p.z() - floor_z) < 1.0 && room.contains(Eigen::Vector2d(p.head<2>()))) return true;
     }
   }
   return false;
@@ -72,7 +72,7 @@ class Surveyor {
     for (double y = box.min().y() + 0.5 * step; y < box.max().y(); y += step)
       for (double x = box.min().x() + 0.5 * step; x < box.max().x(); x += step) {
         const int region = floor.region({x, y});
-        if (region < 0 || !contains(room.polygon, {x, y})) continue;
+        if (region < 0 || !room.contains({x, y})) continue;
         ++all;
         if (region != here && region != place) ++out;
       }
@@ -83,7 +83,7 @@ class Surveyor {
     const bim::Room& room = building_.rooms[static_cast<std::size_t>(index)];
     RoomOutOfReach out{room.id, name_of(room), "", {}};
     const sim::ClearanceMap& floor = space_.storey(plan_.storey);
-    const std::optional<std::size_t> goal = floor.freest_cell(room.polygon);
+    const std::optional<std::size_t> goal = floor.freest_cell(room);
     if (goal && places_.has_floor(index) && floor.cell_clearance(*goal) > 0.0)
       out.blockages = blockages().before(floor.grid().center(*goal));
     constexpr std::size_t most = 2;

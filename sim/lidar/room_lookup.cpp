@@ -41,8 +41,8 @@ RoomLookup::RoomLookup(const bim::Building& building) : rooms_(building.rooms) {
 }
 
 void RoomLookup::add_room(std::int32_t room, std::vector<std::vector<Entry>>& cells) const {
-  const Polygon2& polygon = rooms_[static_cast<std::size_t>(room)].polygon;
-  const Eigen::AlignedBox2d box = box_of(polygon);
+  const bim::Room& of = rooms_[static_cast<std::size_t>(room)];
+  const Eigen::AlignedBox2d box = box_of(of.polygon);
   if (box.isEmpty()) return;
   const Eigen::Vector2i low = ((box.min() - origin_W_) / cell_m_).array().floor().cast<int>();
   const Eigen::Vector2i high = ((box.max() - origin_W_) / cell_m_).array().floor().cast<int>();
@@ -50,8 +50,8 @@ void RoomLookup::add_room(std::int32_t room, std::vector<std::vector<Entry>>& ce
   for (int y = low.y(); y <= high.y(); ++y)
     for (int x = low.x(); x <= high.x(); ++x) {
       const Eigen::Vector2d centre = origin_W_ + cell_m_ * (Eigen::Vector2d(x, y) + Eigen::Vector2d::Constant(0.5));
-      const bool crossed = boundary_distance(polygon, centre) <= half_diagonal;
-      if (crossed || contains(polygon, centre))
+      const bool crossed = of.boundary_distance(centre) <= half_diagonal;
+      if (crossed || of.contains(centre))
         cells[static_cast<std::size_t>(y) * static_cast<std::size_t>(cells_.x()) + static_cast<std::size_t>(x)]
             .push_back({room, !crossed});
     }
@@ -70,7 +70,7 @@ std::int32_t RoomLookup::at(const Eigen::Vector3d& p_W) const {
   for (auto i = static_cast<std::size_t>(first_[c]); i < static_cast<std::size_t>(first_[c + 1]); ++i) {
     const bim::Room& room = rooms_[static_cast<std::size_t>(entries_[i].room)];
     if (p_W.z() < room.z0_m - height_tolerance_m || p_W.z() > room.z1_m + height_tolerance_m) continue;
-    if (entries_[i].whole || contains(room.polygon, p_W.head<2>())) return entries_[i].room;
+    if (entries_[i].whole || room.contains(p_W.head<2>())) return entries_[i].room;
   }
   return -1;
 }

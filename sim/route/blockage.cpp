@@ -10,6 +10,8 @@
 #include <utility>
 
 #include "bim/config/tree.h"
+#include "bim/geometry/polygon_boolean.h"
+#include "bim/model/steep_floors.h"
 #include "bim/model/through.h"
 #include "sim/route/clearance_map.h"
 #include "sim/route/grid_search.h"
@@ -19,7 +21,7 @@ namespace plumbline::sim {
 
 namespace {
 
-/// What a tenth of a cell on the way costs: whatever is cleared more easily is cleared first, unless it is much longer.
+/// What a tenth of a cell on the way costs: what is cleared more easily comes first, unless it is much longer.
 constexpr std::int64_t free_cost = 1;
 constexpr std::int64_t narrow_cost = 30;      // and so much more where nothing is clear
 constexpr std::int64_t opening_cost = 300;    // a door that is closed, a window
@@ -39,7 +41,7 @@ std::string_view kind_of(const bim::Opening& opening) {
 }
 
 BlockageKind kind_of(const std::string& name) {
-  for (const char* built : {"wall", "slab", "column", "stair", "door", "window", "opening", "step", "the edge"})
+  for (const char* built : {"wall", "slab", "column", "stair", "door", "window", "opening", "step", "ramp", "the edge"})
     if (name.rfind(built, 0) == 0) return BlockageKind::structure;
   return BlockageKind::furniture;
 }
@@ -59,6 +61,7 @@ struct Blockages::Impl {
         floor_z(space_in.ground_W()),
         space(space_in),
         footprints(find_obstacle_footprints(building, floor_z, space.config())),
+        steep(bim::steep_floors(building, storey, floor_z)),
         opening(space.grid().size(), -1),
         solid(space.grid().size(), -1),
         cost(space.grid().size(), std::numeric_limits<std::int32_t>::max()),
@@ -189,8 +192,20 @@ struct Blockages::Impl {
         step + " has less than " + metres(space.config().step_before_min_m) + " of free floor before or behind it", p};
   }
 
+  /// The sloping floor that a stretch leads over, where neither a wall nor a shut door is in the way.
+  [[nodiscard]] std::optional<Blockage> too_steep(const std::vector<std::size_t>& stretch) const {
+    const auto is_shut_off = [&](std::size_t cell) { return opening[cell] < 0 ? in_wall(cell) : is_shut(cell); };
+    if (std::any_of(stretch.begin(), stretch.end(), is_shut_off)) return std::nullopt;
+    for (const std::size_t cell : stretch)
+      for (const bim::SteepFloor& floor : steep)
+        if (const Eigen::Vector2d p = space.grid().center(cell); contains(floor.polygon, p))
+          return Blockage{BlockageKind::structure, floor.name, bim::too_steep_text(floor), p};
+    return std::nullopt;
+  }
+
   /// Everything in a stretch of the way that has to be cleared, each thing once.
   [[nodiscard]] std::vector<Blockage> describe(const std::vector<std::size_t>& stretch) const {
+    if (std::optional<Blockage> slope = too_steep(stretch)) return {*slope};
     std::vector<Blockage> found;
     std::set<std::pair<int, std::int32_t>> named;
     std::size_t floorless = 0;
@@ -308,18 +323,23 @@ struct Blockages::Impl {
     if (o.width_m < needed)
       return {BlockageKind::structure, name,
               name + " is " + metres(o.width_m) + " wide, and the robot needs " + metres(needed), p};
-    const std::string near = nearest(p, 1).front();
-    return {kind_of(near), name, name + " leaves " + free_and_needed(cell) + " (" + near + " is in it)", p};
+    const std::string own = "wall '" + building.walls[static_cast<std::size_t>(o.wall)].id + "'";
+    // The door is wide enough: its own wall is beside the way, and what else is near is in it.
+    const std::vector<std::string> around = nearest(p, 3, needed);
+    const auto other = std::find_if(around.begin(), around.end(), [&](const std::string& it) { return it != own; });
+    const std::string& near = other == around.end() ? around.front() : *other;
+    return {kind_of(near), name, name + " leaves " + free_and_needed(cell) + " (" + near + " is in the way)", p};
   }
 
-  /// Names of the nearest obstacles, by distance (ties: the one listed first).
-  [[nodiscard]] std::vector<std::string> nearest(const Eigen::Vector2d& p, std::size_t count) const {
+  /// Names of the nearest obstacles, by distance (ties: the one listed first); after the first none beyond `within_m`.
+  [[nodiscard]] std::vector<std::string> nearest(const Eigen::Vector2d& p, std::size_t count,
+                                                 double within_m = std::numeric_limits<double>::infinity()) const {
     std::vector<std::pair<double, std::size_t>> by_distance;
     for (std::size_t i = 0; i < footprints.size(); ++i) by_distance.emplace_back(distance(footprints[i], p), i);
-    count = std::min(count, by_distance.size());
-    std::partial_sort(by_distance.begin(), by_distance.begin() + static_cast<std::ptrdiff_t>(count), by_distance.end());
+    std::sort(by_distance.begin(), by_distance.end());
     std::vector<std::string> names;
-    for (std::size_t i = 0; i < count; ++i) names.push_back(footprints[by_distance[i].second].name);
+    for (const auto& [distance_m, i] : by_distance)
+      if (names.empty() || (names.size() < count && distance_m <= within_m)) names.push_back(footprints[i].name);
     if (names.empty()) names.emplace_back("the edge of the floor");
     return names;
   }
@@ -347,12 +367,12 @@ struct Blockages::Impl {
 
   static constexpr std::size_t least_gap = 4;  ///< cells without a floor in a row that count
   static constexpr double high_sill_m = 1.2;   ///< what begins higher is no way for a robot by any name
-
   const bim::Building& building;
   int storey;
   double floor_z;
   const ClearanceMap& space;
   std::vector<ObstacleFootprint> footprints;
+  std::vector<bim::SteepFloor> steep;
   std::vector<std::int32_t> opening;  ///< index by cell, -1 for none
   std::vector<std::int32_t> solid;    ///< footprint by cell, -1 for none
   std::vector<std::int32_t> cost;

@@ -214,7 +214,7 @@ std::vector<char> floor_cells(const bim::Building& building, int storey, double 
   }
   if (!any)
     for (const bim::Room& room : building.rooms)
-      if (room.storey == storey) fill_cells(grid, outline_of({room.polygon, {}}), set);
+      if (room.storey == storey) fill_cells(grid, outline_of(room.outline()), set);
   if (!has_known_floor(building, storey, ground_W, config)) std::fill(cells.begin(), cells.end(), char{1});
   const int reach = static_cast<int>(config.floor_gap_m / grid.cell + 0.5);
   cells = spread(grid, spread(grid, std::move(cells), 1, reach), 0, reach);

@@ -89,9 +89,9 @@ double ClearanceMap::clearance(const Eigen::Vector2d& p) const {
 bool ClearanceMap::free(const Eigen::Vector2d& p) const { return clearance(p) >= clearance_min(); }
 
 template <class Use>
-void ClearanceMap::for_cells_around(const Polygon2& room, const Use& use) const {
+void ClearanceMap::for_cells_around(const bim::Room& room, const Use& use) const {
   Eigen::AlignedBox2d box;
-  for (const Eigen::Vector2d& p : room) box.extend(p);
+  for (const Eigen::Vector2d& p : room.polygon) box.extend(p);
   if (box.isEmpty() || grid_.size() == 0) return;
   for (int j = std::max(0, grid_.row(box.min().y())); j <= std::min(grid_.ny - 1, grid_.row(box.max().y())); ++j)
     for (int i = std::max(0, grid_.column(box.min().x())); i <= std::min(grid_.nx - 1, grid_.column(box.max().x()));
@@ -99,17 +99,17 @@ void ClearanceMap::for_cells_around(const Polygon2& room, const Use& use) const 
       use(grid_.index(i, j));
 }
 
-std::optional<std::size_t> ClearanceMap::freest_cell(const Polygon2& room) const {
+std::optional<std::size_t> ClearanceMap::freest_cell(const bim::Room& room) const {
   if (const std::vector<std::size_t> cells = target_cells(room); !cells.empty()) return cells.front();
   std::optional<std::size_t> best;
   for_cells_around(room, [&](std::size_t cell) {
     if (best && clearance_[cell] <= clearance_[*best]) return;
-    if (contains(room, grid_.center(cell))) best = cell;
+    if (room.contains(grid_.center(cell))) best = cell;
   });
   return best;
 }
 
-std::vector<std::size_t> ClearanceMap::target_cells(const Polygon2& room) const {
+std::vector<std::size_t> ClearanceMap::target_cells(const bim::Room& room) const {
   struct Piece {
     std::size_t freest = 0;
     std::ptrdiff_t here = 0;       // cells in the room
@@ -120,14 +120,14 @@ std::vector<std::size_t> ClearanceMap::target_cells(const Polygon2& room) const 
     if (!turnable(cell)) return;
     const auto known = pieces.find(regions()[cell]);
     if (known != pieces.end() && clearance_[cell] <= clearance_[known->second.freest]) return;
-    if (contains(room, grid_.center(cell))) pieces[regions()[cell]].freest = cell;
+    if (room.contains(grid_.center(cell))) pieces[regions()[cell]].freest = cell;
   });
   if (pieces.size() > 1) {
     for (const int region : regions())
       if (const auto found = pieces.find(region); found != pieces.end()) ++found->second.elsewhere;
     for_cells_around(room, [&](std::size_t cell) {
       const auto found = pieces.find(regions()[cell]);
-      if (found == pieces.end() || !contains(room, grid_.center(cell))) return;
+      if (found == pieces.end() || !room.contains(grid_.center(cell))) return;
       ++found->second.here;
       --found->second.elsewhere;
     });
@@ -142,7 +142,7 @@ std::vector<std::size_t> ClearanceMap::target_cells(const Polygon2& room) const 
   return cells;
 }
 
-std::vector<Eigen::Vector2d> ClearanceMap::room_targets(const Polygon2& room) const {
+std::vector<Eigen::Vector2d> ClearanceMap::room_targets(const bim::Room& room) const {
   std::vector<Eigen::Vector2d> points;
   for (const std::size_t cell : target_cells(room)) points.push_back(grid_.center(cell));
   return points;

@@ -86,10 +86,10 @@ class ClearanceMap {
   /// Of each piece of walkable floor in a room the point with the most clearance (ties: lowest cell), but none where
   /// the robot cannot turn round: a robot that enters such a room cannot leave it. First comes a piece that leads out
   /// of the room, of such the one with the most floor in it: the outline of a room around a shaft holds the shaft.
-  [[nodiscard]] std::vector<Eigen::Vector2d> room_targets(const Polygon2& room) const;
+  [[nodiscard]] std::vector<Eigen::Vector2d> room_targets(const bim::Room& room) const;
   /// The cell of the first of these; where there is none, that with the most clearance, which is too little; none where
   /// no cell's centre lies in the room.
-  [[nodiscard]] std::optional<std::size_t> freest_cell(const Polygon2& room) const;
+  [[nodiscard]] std::optional<std::size_t> freest_cell(const bim::Room& room) const;
   /// The freest place of the largest connected walkable area, for buildings without rooms.
   [[nodiscard]] std::vector<Eigen::Vector2d> open_target() const;
 
@@ -109,8 +109,8 @@ class ClearanceMap {
     return clearance_[cell] >= config_.turn_m - 0.5 * config_.cell_m;
   }
   template <class Use>
-  void for_cells_around(const Polygon2& room, const Use& use) const;
-  [[nodiscard]] std::vector<std::size_t> target_cells(const Polygon2& room) const;
+  void for_cells_around(const bim::Room& room, const Use& use) const;
+  [[nodiscard]] std::vector<std::size_t> target_cells(const bim::Room& room) const;
   /// Removes floor that is enclosed by hollow obstacles, such as the inside of a cupboard.
   void close_pockets(const std::vector<Polygon2>& hollow_obstacles);
   /// Cells that can be walked to from this one, in the order found; marks them.

@@ -28,7 +28,7 @@ SimulatedWalk walk_quickstart(std::uint64_t seed, const std::vector<std::string>
   for (const std::string& name : rooms) {
     const auto room = std::find_if(building.rooms.begin(), building.rooms.end(),
                                    [&](const bim::Room& candidate) { return candidate.id == name; });
-    targets.push_back(space.room_targets(room->polygon).at(0));
+    targets.push_back(space.room_targets(*room).at(0));
   }
   sim::WorldConfig config;
   config.seed = seed;

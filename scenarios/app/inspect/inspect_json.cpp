@@ -167,7 +167,7 @@ class Inspector {
     for (std::size_t i = 0; i < building_.rooms.size(); ++i) {
       const bim::Room& room = building_.rooms[i];
       Tree tree = head(room.id, room.step_id, room.storey);
-      const double area = signed_area(room.polygon);
+      const double area = room.area_m2();
       Eigen::AlignedBox3d box;
       for (const Eigen::Vector2d& p : room.polygon) {
         box.extend(Eigen::Vector3d(p.x(), p.y(), room.z0_m));
@@ -175,6 +175,11 @@ class Inspector {
       }
       tree.set("name", room.name).set("area_m2", area).set("volume_m3", area * (room.z1_m - room.z0_m));
       tree.set("closed", true).set("bbox", box_tree(box)).set("polygon", polygon_tree(room.polygon));
+      if (!room.holes.empty()) {
+        Tree holes = Tree::list();
+        for (const Polygon2& hole : room.holes) holes.push(polygon_tree(hole));
+        tree.set("holes", std::move(holes));
+      }
       Tree faces = Tree::list();
       for (const int face_index : plan_.rooms[i].faces) {
         const bim::PlanFace& face = plan_.faces[static_cast<std::size_t>(face_index)];

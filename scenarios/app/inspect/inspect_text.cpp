@@ -141,7 +141,7 @@ std::string room_table(const Building& building) {
     const bim::Room& room = building.rooms[i];
     const std::string neighbours = leads_to(building, pairs, static_cast<int>(i));
     const bim::Storey& storey = building.storeys[static_cast<std::size_t>(room.storey)];
-    table.add({label(room.name, room.id), label(storey.name, storey.id), fixed_point(signed_area(room.polygon), 1),
+    table.add({label(room.name, room.id), label(storey.name, storey.id), fixed_point(room.area_m2(), 1),
                fixed_point(room.z1_m - room.z0_m, 2), std::to_string(plan.rooms[i].faces.size()), neighbours});
   }
   return table.text();
@@ -193,7 +193,7 @@ std::string warning_lines(const Building& building, const BuildingMesh& mesh) {
 
 std::string totals(const Building& building, const BuildingMesh& mesh) {
   double area = 0.0, volume = 0.0;
-  for (const bim::Room& room : building.rooms) area += signed_area(room.polygon);
+  for (const bim::Room& room : building.rooms) area += room.area_m2();
   std::size_t closed = 0;
   for (const bim::MeshElement& element : mesh.elements) {
     if (element.closed) ++closed;

@@ -141,7 +141,7 @@ TEST(Localization, FurnitureIsNotedAndMakesNoAnswerRight) {
   EXPECT_EQ(told.with_furniture->aliases, 0);
   EXPECT_TRUE(told.evidence_by_furniture);
   EXPECT_EQ(judge(converges_at(40, 3.0), known).verdict, LocalizationVerdict::overconfident);
-  known.told_furniture = false;
+  known.with_furniture.reset();  // methods were not told of it
   EXPECT_EQ(judge(converges_at(40, 0.0), known).verdict, LocalizationVerdict::lucky);
   EXPECT_FALSE(judge(converges_at(40, 0.0), known).evidence_by_furniture);
 }

@@ -9,6 +9,7 @@
 #include "bim/formats/plan_yaml/plan_yaml.h"
 #include "bim/generators/generators.h"
 #include "bim/model/extrude.h"
+#include "bim/symmetry/symmetry.h"
 #include "scenarios/metrics/storey.h"
 #include "tests/scenarios/raised_rooms.h"
 
@@ -26,6 +27,15 @@ bim::Building furnished() {
   cupboard.body = bim::extrude({outline}, 0.0, 1.9);
   building.obstacles.push_back(std::move(cupboard));
   return building;
+}
+
+/// The half turn that takes the floor onto itself.
+Pose half_turn_of(const bim::Building& plan) {
+  bim::Building bare = plan;
+  bare.obstacles.clear();
+  const bim::SymmetryReport report = bim::analyse_symmetry(bare);
+  const bim::Isometry2& g = report.building.at(0).isometry;
+  return Pose::from_xyz_yaw({g.t.x(), g.t.y(), 0.0}, g.angle);
 }
 
 /// A walk of 2 m in the room of the cupboard.
@@ -53,10 +63,40 @@ TEST(IdentifiabilityOfARun, FurnitureCountsInTheSecondAnswerOnly) {
     EXPECT_FALSE(known->identifiable);
     ASSERT_EQ(known->others_W.size(), 1U);
     EXPECT_FALSE(known->marginal_from_s.has_value());
-    ASSERT_TRUE(known->with_furniture.has_value());
-    EXPECT_TRUE(known->with_furniture->identifiable);
-    EXPECT_EQ(known->told_furniture, told == ToldFurniture::as_planned);
+    ASSERT_EQ(known->with_furniture.has_value(), told == ToldFurniture::as_planned);
+    if (known->with_furniture) EXPECT_TRUE(known->with_furniture->identifiable);
   }
+}
+
+/// Nobody knows the pose by a piece that only the plan has.
+TEST(IdentifiabilityOfARun, FurnitureThatIsGoneTellsNothing) {
+  const bim::Building plan = furnished();
+  bim::Building built = plan;
+  built.obstacles.front().id = "another";
+  built.obstacles.front().planned = false;
+  const bim::PlannedAndBuilt all_gone{
+      plan, built, {{"remove_furniture", "cupboard"}, {"add_furniture", "another"}}, true};
+  auto known = answers_of(RunBuilding(all_gone));
+  ASSERT_TRUE(known.has_value());
+  EXPECT_FALSE(known->identifiable);
+  EXPECT_FALSE(known->with_furniture.has_value());
+
+  // Its image under the half turn would have to be seen from the other pose, where the plan has the gone piece.
+  bim::PlannedAndBuilt one_gone{plan, plan, {{"remove_furniture", "cupboard"}}, true};
+  const bim::Obstacle& cupboard = plan.obstacles.front();
+  const Pose half_turn = half_turn_of(plan);
+  bim::Obstacle gone = cupboard, twin = cupboard;
+  gone.id = "gone";
+  twin.id = "twin";
+  for (Eigen::Vector3d& p : twin.body.vertices) p = half_turn * p;
+  for (Eigen::Vector3d& p : gone.body.vertices) p = half_turn * (p + Eigen::Vector3d(0.0, -2.0, 0.0));
+  one_gone.as_planned.obstacles = {cupboard, twin, gone};
+  one_gone.as_built.obstacles = {cupboard, twin};
+  one_gone.changes = {{"remove_furniture", "gone"}};
+  known = answers_of(RunBuilding(one_gone));
+  ASSERT_TRUE(known.has_value());
+  ASSERT_TRUE(known->with_furniture.has_value());
+  EXPECT_FALSE(known->with_furniture->identifiable);
 }
 
 /// Between walls so near to each other no robot stands: that no other place is found does not make one unique.

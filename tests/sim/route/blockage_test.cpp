@@ -91,6 +91,46 @@ TEST(Blockage, FurnitureBeforeADoorIsNamed) {
   EXPECT_EQ(found.front().kind, BlockageKind::furniture);
 }
 
+// The jambs of the door were named, which leave 0.9 m.
+TEST(Blockage, AColumnBeforeADoorIsNamed) {
+  for (const double half : {0.15, 0.3}) {
+    bim::Building building = two_rooms();
+    add_door(building, 0, 2.5, 0.9);
+    bim::Column column;
+    column.id = "c";
+    column.storey = 0;
+    column.footprint = rectangle({4.15, 2.5 - half}, {4.45, 2.5 + half});
+    column.z1_m = 3.0;
+    building.columns.push_back(column);
+    const std::vector<Blockage> found = between_rooms(building);
+    ASSERT_FALSE(found.empty());
+    EXPECT_NE(text_of(found).find("column 'c'"), std::string::npos) << text_of(found);
+    EXPECT_EQ(text_of(found).find("(wall"), std::string::npos) << text_of(found);
+  }
+}
+
+/// A ramp up to the door, over the whole width of the room.
+TEST(Blockage, ARampThatIsTooSteepSaysSo) {
+  for (const double rise : {0.3, 0.6}) {
+    bim::Building building = two_rooms();
+    add_door(building, 0, 2.5, 0.9);
+    bim::Obstacle ramp;
+    ramp.id = "r";
+    ramp.kind = "ramp";
+    ramp.storey = 0;
+    ramp.body = prism(rectangle({4.5, 0.1}, {5.7, 4.9}), 0.0, 1.0);
+    for (Eigen::Vector3d& p : ramp.body.vertices) p.z() = p.z() > 0.5 ? (p.x() > 5.0 ? rise : 0.0) : -0.2;
+    building.obstacles.push_back(ramp);
+    bim::Obstacle landing = ramp;
+    landing.id = "l";
+    landing.kind = "footing";
+    landing.body = prism(rectangle({5.7, 0.1}, {7.9, 4.9}), -0.2, rise);
+    building.obstacles.push_back(landing);
+    EXPECT_EQ(text_of(between_rooms(building)), rise < 0.5 ? "ramp 'r' rises by 25 %, and the robot walks up to 20 %"
+                                                           : "ramp 'r' rises by 50 %, and the robot walks up to 20 %");
+  }
+}
+
 TEST(Blockage, TheEndOfTheFloorIsNamed) {
   bim::Building building = two_rooms();
   add_door(building, 0, 2.5, 0.9);

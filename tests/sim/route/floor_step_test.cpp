@@ -43,7 +43,7 @@ TEST(FloorStep, AStepThatIsTooHighIsNamedWithItsHeight) {
     const bim::Building building = split_level(rise);
     const ClearanceMap space(building, 0);
     EXPECT_TRUE(space.path(west, east).empty());
-    EXPECT_FALSE(space.room_targets(building.rooms[1].polygon).empty()) << "one can stand there all the same";
+    EXPECT_FALSE(space.room_targets(building.rooms[1]).empty()) << "one can stand there all the same";
     const std::vector<Blockage> found = Blockages(building, 0, space, west).before(east);
     ASSERT_EQ(found.size(), 1U) << rise;
     EXPECT_EQ(found.front().text.rfind("a step of " + std::to_string(rise).substr(0, 3), 0), 0U) << found.front().text;

@@ -29,7 +29,7 @@ void expect_all_rooms_reached(const bim::Building& building) {
     std::vector<Eigen::Vector2d> targets;
     for (const bim::Room& room : building.rooms) {
       if (room.storey != static_cast<int>(storey)) continue;
-      const std::vector<Eigen::Vector2d> target = map.room_targets(room.polygon);
+      const std::vector<Eigen::Vector2d> target = map.room_targets(room);
       ASSERT_FALSE(target.empty()) << room.id;
       targets.push_back(target.front());
     }

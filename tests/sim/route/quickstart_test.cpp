@@ -38,7 +38,7 @@ TEST_F(QuickstartRoutes, EveryRoomIsReachedFromEveryOther) {
   ASSERT_GE(building_.rooms.size(), 7U);
   std::vector<Eigen::Vector2d> targets;
   for (const bim::Room& room : building_.rooms) {
-    const auto target = space.room_targets(room.polygon);
+    const auto target = space.room_targets(room);
     ASSERT_EQ(target.size(), 1U) << room.id;
     targets.push_back(target[0]);
   }
@@ -62,8 +62,8 @@ TEST_F(QuickstartRoutes, EveryRoomIsReachedFromEveryOther) {
 TEST_F(QuickstartRoutes, AreTheSameTwice) {
   const ClearanceMap first(building_, 0);
   const ClearanceMap second(building_, 0);
-  const Eigen::Vector2d a = first.room_targets(building_.rooms.front().polygon).at(0);
-  const Eigen::Vector2d b = first.room_targets(building_.rooms.back().polygon).at(0);
+  const Eigen::Vector2d a = first.room_targets(building_.rooms.front()).at(0);
+  const Eigen::Vector2d b = first.room_targets(building_.rooms.back()).at(0);
   EXPECT_EQ(first.path(a, b), second.path(a, b));
   EXPECT_EQ(first.path(a, b), first.path(a, b));
 }

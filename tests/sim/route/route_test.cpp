@@ -248,17 +248,17 @@ TEST(ClearanceMap, ADoorInAWallThatGoesRoundOpensNoSideOpposite) {
 TEST(ClearanceMap, TargetOfARoomIsItsFreestPoint) {
   bim::Building building = two_rooms();
   const ClearanceMap space(building, 0);
-  const auto target = space.room_targets(building.rooms[0].polygon);
+  const auto target = space.room_targets(building.rooms[0]);
   ASSERT_EQ(target.size(), 1U);
   EXPECT_TRUE(contains(building.rooms[0].polygon, target[0]));
   EXPECT_NEAR(space.clearance(target[0]), 1.9, 0.03);
   add_obstacle(building, rectangle({0.0, 0.0}, {4.0, 5.0}), 0.0, 1.0);
-  EXPECT_TRUE(ClearanceMap(building, 0).room_targets(building.rooms[0].polygon).empty());
+  EXPECT_TRUE(ClearanceMap(building, 0).room_targets(building.rooms[0]).empty());
 }
 
 TEST(ClearanceMap, ARoomInWhichTheRobotCannotTurnIsNoTarget) {
   const bim::Building building = two_rooms();
-  const Polygon2 room = building.rooms[0].polygon;
+  const bim::Room room = building.rooms[0];
   // Two boxes leave a lane along the middle of the room, which is walked through but not turned in.
   for (const double lane : {0.95, 1.2}) {
     bim::Building filled = building;
@@ -276,10 +276,10 @@ TEST(ClearanceMap, OpenTargetIsTheFreestPointOfTheLargestPieceOfFloor) {
   add_obstacle(building, rectangle({0.0, 0.0}, {4.0, 1.2}), 0.0, 1.0);
   add_obstacle(building, rectangle({5.8, 2.3}, {6.2, 2.7}), 0.0, 1.0);
   const ClearanceMap space(building, 0);
-  const auto in_west = space.room_targets(building.rooms[0].polygon);
+  const auto in_west = space.room_targets(building.rooms[0]);
   const auto target = space.open_target();
   ASSERT_EQ(in_west.size(), 1U);
-  ASSERT_EQ(target, space.room_targets(building.rooms[1].polygon));
+  ASSERT_EQ(target, space.room_targets(building.rooms[1]));
   EXPECT_GT(space.clearance(in_west[0]), space.clearance(target[0]));
   add_obstacle(building, rectangle({0.0, 0.0}, {8.0, 5.0}), 0.0, 1.0);
   EXPECT_TRUE(ClearanceMap(building, 0).open_target().empty());
@@ -326,11 +326,11 @@ TEST(ClearanceMap, TheTargetOfARoomAroundAShaftLiesWhereADoorLeads) {
   for (const bool with_door : {true, false}) {
     const bim::Building building = around_a_core(with_door);
     const ClearanceMap space(building, 0);
-    const std::vector<Eigen::Vector2d> targets = space.room_targets(building.rooms[0].polygon);
+    const std::vector<Eigen::Vector2d> targets = space.room_targets(building.rooms[0]);
     ASSERT_EQ(targets.size(), 2U);
     EXPECT_NE(contains(core, targets[0]), with_door) << "of two that nothing leads to, the larger";
     EXPECT_NE(contains(core, targets[0]), contains(core, targets[1]));
-    EXPECT_EQ(space.freest_cell(building.rooms[0].polygon), space.grid().find(targets[0]));
+    EXPECT_EQ(space.freest_cell(building.rooms[0]), space.grid().find(targets[0]));
   }
 }
 

@@ -238,7 +238,7 @@ void Interpreter::add_missing_rooms() {
       const std::vector<int> near = given_boxes.near({inner}, near_m);
       return std::any_of(near.begin(), near.end(), [&](int k) {
         const Room& other = given[static_cast<std::size_t>(k)];
-        return other.z0_m < room.z1_m && other.z1_m > room.z0_m && contains(other.polygon, inner);
+        return other.z0_m < room.z1_m && other.z1_m > room.z0_m && other.contains(inner);
       });
     });
     const auto stands_here = [&](const auto& element) { return element.storey == storey; };

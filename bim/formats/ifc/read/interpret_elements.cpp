@@ -18,16 +18,21 @@ const PolygonWithHoles2& largest(const std::vector<PolygonWithHoles2>& pieces) {
   });
 }
 
+double shared_area(const Room& a, const Room& b) {
+  if (a.holes.empty() && b.holes.empty()) return intersection_area(a.polygon, b.polygon);
+  return area(intersect({a.outline()}, {b.outline()}));
+}
+
 /// A space that holds all others of its storey, which fill most of it: an area of the storey and no room.
 bool covers_the_others(const Room& room, const std::vector<Room>& rooms) {
   constexpr double least_share = 0.95, least_filled = 0.5;
-  const double own = signed_area(room.polygon);
+  const double own = room.area_m2();
   double filled = 0.0;
   int others = 0;
   for (const Room& other : rooms) {
     if (&other == &room || other.storey != room.storey) continue;
-    const double area = signed_area(other.polygon);
-    if (area >= own || intersection_area(room.polygon, other.polygon) < least_share * area) return false;
+    const double area = other.area_m2();
+    if (area >= own || shared_area(room, other) < least_share * area) return false;
     filled += area;
     ++others;
   }
@@ -124,10 +129,10 @@ void Interpreter::add_rooms() {
     }
     if (outline.size() > 1) warn(product, "room_pieces", "its outline has several pieces; the largest is the room");
     const PolygonWithHoles2& piece = largest(outline);
-    if (!piece.holes.empty()) warn(product, "room_hole", "holes of its outline are filled");
     Room room = element_of<Room>(product);
     room.name = product.name;
     room.polygon = piece.outer;
+    room.holes = piece.holes;
     const Extent box = extent(body);
     room.z0_m = snapped(box.low.z());
     room.z1_m = snapped(box.high.z());

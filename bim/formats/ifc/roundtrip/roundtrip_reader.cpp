@@ -95,7 +95,9 @@ class WrittenReader {
       room.id = product.text("Id");
       room.name = product.name();
       room.storey = storey_of(product);
-      room.polygon = products_.footprint(product).outer;
+      const PolygonWithHoles2 outline = products_.footprint(product);
+      room.polygon = outline.outer;
+      room.holes = outline.holes;
       room.z0_m = product.real("Floor");
       room.z1_m = product.real("Ceiling");
       room.step_id = product.number;

@@ -53,7 +53,7 @@ StepProperty ElementWriter::storey_property(const std::string& name, int storey)
 
 void ElementWriter::add_rooms() {
   for (const Room& room : building_.rooms) {
-    const PolygonWithHoles2 outline{room.polygon, {}};
+    const PolygonWithHoles2 outline = room.outline();
     const int shape = ShapeWriter(document_).footprint(outline).body(Prism{outline, room.z0_m, room.z1_m}).finish();
     const int number = document_.add_product("IFCSPACE", {"space", room.id, room.name, room.storey}, shape,
                                              {none, ".ELEMENT.", ".INTERNAL.", step_real(room.z0_m)});

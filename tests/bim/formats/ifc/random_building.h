@@ -31,7 +31,7 @@ class RandomBuilding {
       b.walls.push_back({id("w", i), text(), of(b.storeys.size()), point(), point(), number(), number(), number(),
                          number(), number(), material(), maybe_solid(), 0});
     for (int i = 0, n = whole(4); i < n; ++i)
-      b.rooms.push_back({id("r", i), text(), whole(storeys), ring(), number(), number(), {}, {}, 0});
+      b.rooms.push_back({id("r", i), text(), whole(storeys), ring(), number(), number(), {}, {}, 0, {}});
     for (Room& room : b.rooms) {
       for (int w = 0; w < static_cast<int>(b.walls.size()); ++w)
         if (whole(2) == 0) room.walls.push_back(w);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "bim/formats/ifc/write/write_ifc.h"
 #include "bim/geometry/polygon_boolean.h"
 #include "bim/mesh/solid.h"
 #include "tests/bim/formats/ifc/read/reading.h"
@@ -51,6 +52,69 @@ TEST(CurvedWalls, ARoomAroundAnotherSaysThatItHoldsIt) {
   const Building building = read(sketch);
   EXPECT_EQ(building.rooms.size(), 2u);
   EXPECT_EQ(count(building, "room_hole"), 1);
+}
+
+/// A corridor of 1.8 m around a core of 8 by 6 m, as a space with a void in it, and the core as a space of its own.
+Sketch corridor_around_a_core() {
+  Sketch sketch;
+  const std::string storey = sketch.storey(0);
+  sketch.slab({{-0.1, -0.1}, {12.1, -0.1}, {12.1, 10.1}, {-0.1, 10.1}}, -0.2, 0);
+  const auto enclose = [&](double x0, double y0, double x1, double y1) {
+    for (const double y : {y0, y1}) sketch.wall(x0, y, x1 - x0, 0.2, 3);
+    for (const double x : {x0, x1}) sketch.wall(x, y0, y1 - y0, 0.2, 3, true);
+  };
+  enclose(0, 0, 12, 10);
+  enclose(2, 2, 10, 8);
+  const auto space = [&](const std::string& name, const std::string& profile) {
+    const std::string at = sketch.add("IFCLOCALPLACEMENT($," + sketch.frame(0, 0, 0) + ")");
+    const std::string id =
+        sketch.rooted("IFCSPACE", "'" + name + "',$,$," + at + "," + sketch.shape(sketch.extruded(profile, 0, 2.8)) +
+                                      ",$,.ELEMENT.,.INTERNAL.,$");
+    sketch.rooted("IFCRELAGGREGATES", "$,$," + storey + ",(" + id + ")");
+  };
+  const std::string outer = sketch.polyline({{0.1, 0.1}, {11.9, 0.1}, {11.9, 9.9}, {0.1, 9.9}});
+  const std::string inner = sketch.polyline({{1.9, 1.9}, {10.1, 1.9}, {10.1, 8.1}, {1.9, 8.1}});
+  space("corridor", sketch.add("IFCARBITRARYPROFILEDEFWITHVOIDS(.AREA.,$," + outer + ",(" + inner + "))"));
+  space("core", sketch.add("IFCARBITRARYCLOSEDPROFILEDEF(.AREA.,$," +
+                           sketch.polyline({{2.1, 2.1}, {9.9, 2.1}, {9.9, 7.9}, {2.1, 7.9}}) + ")"));
+  return sketch;
+}
+
+TEST(Rooms, ASpaceThatIsARingKeepsItsHole) {
+  const Building building = read(corridor_around_a_core());
+  ASSERT_EQ(building.rooms.size(), 2u);
+  const Room& corridor = building.rooms[0];
+  ASSERT_EQ(corridor.holes.size(), 1u);
+  EXPECT_NEAR(corridor.area_m2(), 11.8 * 9.8 - 8.2 * 6.2, 1e-3);
+  EXPECT_TRUE(corridor.contains({1.0, 5.0}));
+  EXPECT_FALSE(corridor.contains({6.0, 5.0}));
+  EXPECT_NEAR(corridor.boundary_distance({1.0, 5.0}), 0.9, 1e-3);
+  EXPECT_EQ(corridor.walls.size(), 8u) << "those of the core face it, too";
+  EXPECT_EQ(building.rooms[1].walls.size(), 4u);
+  EXPECT_EQ(count(building, "room_hole"), 0);
+  EXPECT_TRUE(corridor.virtual_edges.empty());
+}
+
+TEST(Rooms, ARingIsWrittenAndReadAgain) {
+  const Building building = read(corridor_around_a_core());
+  const Building again = read_ifc_text(write_ifc(building), "again.ifc");
+  EXPECT_EQ(again.hash(), building.hash());
+  ASSERT_EQ(again.rooms.size(), 2u);
+  EXPECT_EQ(again.rooms[0].holes.size(), 1u);
+}
+
+/// The standard asks for a positive depth; files with a negative one mean the other way.
+TEST(Extrusions, OfNegativeDepthGoTheOtherWay) {
+  Sketch sketch;
+  two_rooms(sketch);
+  sketch.slab({{8, 0}, {12, 0}, {12, 6}, {8, 6}}, 0, -0.2);
+  const Building building = read(sketch);
+  ASSERT_EQ(building.slabs.size(), 2u);
+  for (const Slab& slab : building.slabs) {
+    EXPECT_NEAR(slab.z0_m, -0.2, 1e-9);
+    EXPECT_NEAR(slab.z1_m, 0.0, 1e-9);
+    if (slab.body) EXPECT_NEAR(volume(*slab.body), area({slab.polygon}) * 0.2, 1e-6);
+  }
 }
 
 TEST(Ceilings, AreNoFloors) {
