@@ -123,8 +123,8 @@ Scan scan_of_ground(const Pose& X_WR, Nanoseconds stamp) {
         return p.z() - ground(p.x(), p.y());
       };
       // Ground and ray together close by less than a metre a metre.
-      double above = least_m, below = most_m + stride_m;
-      while (above < most_m && below > most_m) {
+      double above = least_m, below = least_m;
+      while (above < most_m && below == least_m) {
         const double next = above + std::max(stride_m, over(above));
         (over(next) > 0.0 ? above : below) = next;
       }
