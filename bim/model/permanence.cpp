@@ -39,9 +39,4 @@ bool is_gone(const Obstacle& planned, const Building& as_built) {
                       [&](const Obstacle& obstacle) { return obstacle.id == planned.id; });
 }
 
-Building without_movables(Building building) {
-  std::erase_if(building.obstacles, may_have_moved);
-  return building;
-}
-
 }  // namespace plumbline::bim

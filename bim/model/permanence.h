@@ -25,7 +25,5 @@ enum class Permanence {
 [[nodiscard]] bool may_have_moved(const Obstacle& obstacle);
 /// Nothing of this id stands in the building as built: it was taken away, or another piece stands instead.
 [[nodiscard]] bool is_gone(const Obstacle& planned, const Building& as_built);
-/// The building without what may have moved: what its structure alone tells.
-[[nodiscard]] Building without_movables(Building building);
 
 }  // namespace plumbline::bim

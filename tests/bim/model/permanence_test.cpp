@@ -29,15 +29,20 @@ TEST(Permanence, FollowsTheKindAndWhetherItWasPlanned) {
   }
 }
 
-TEST(Permanence, WithoutMovablesKeepsWhatWasBuilt) {
-  Building building;
-  for (const char* kind : {"railing", "furniture", "sanitary_terminal", "box"})
-    building.obstacles.push_back(obstacle(kind));
-  building.obstacles.push_back(obstacle("railing", false));
-  const Building left = without_movables(building);
-  ASSERT_EQ(left.obstacles.size(), 2U);
-  EXPECT_EQ(left.obstacles[0].kind, "railing");
-  EXPECT_EQ(left.obstacles[1].kind, "sanitary_terminal");
+TEST(Permanence, WhatWasBuiltHasNotMoved) {
+  for (const char* kind : {"railing", "sanitary_terminal"}) EXPECT_FALSE(may_have_moved(obstacle(kind))) << kind;
+  for (const char* kind : {"furniture", "box"}) EXPECT_TRUE(may_have_moved(obstacle(kind))) << kind;
+  EXPECT_TRUE(may_have_moved(obstacle("railing", false))) << "not planned";
+}
+
+TEST(Permanence, WhatHasNoCounterpartIsGone) {
+  Building as_built;
+  as_built.obstacles.push_back(obstacle("box"));
+  as_built.obstacles.back().id = "a";
+  Obstacle planned = as_built.obstacles.back();
+  EXPECT_FALSE(is_gone(planned, as_built));
+  planned.id = "b";
+  EXPECT_TRUE(is_gone(planned, as_built));
 }
 
 }  // namespace
