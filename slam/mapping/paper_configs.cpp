@@ -52,6 +52,7 @@ SGraphsPlusPaperConfig::SGraphsPlusPaperConfig() {
   mirror_ghosts.remove = false;
   laser_range_calibration.correct = false;
   planes.laser_sigma_m = 0.0;
+  level_agreement.drop = false;
   floors.room_sigma_m = sigma(1e-4);
   loop.radius_m = 1.0;
   loop.min_walked_m = 3.0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slam/mapping/s_graphs_plus.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 
 #include "bim/digest/digest.h"
@@ -74,6 +75,7 @@ SGraphsPlus::SGraphsPlus(const MethodInput& input, const SGraphsPlusConfig& conf
       walls_(config.walls),
       rooms_(with_mount(config.rooms, input.calibration)),
       floors_(config.floors),
+      level_agreement_(config.level_agreement),
       loop_(config.loop),
       back_end_(config.incremental, config.optimizer) {
   config_.floors.robot_height_m = input.calibration.sensor_height_m - input.calibration.X_RL.t.z();
@@ -209,15 +211,20 @@ void SGraphsPlus::add_keyframe_vertex(Nanoseconds stamp, const Registration& odo
   const Pose& X_OR = odometry.X_MR;
   if (graph_.keyframes.empty()) {
     graph_.keyframes.push_back({stamp, Pose{level_by_planes(seen), Eigen::Vector3d::Zero()}, X_OR, 0});
+    level_agreement_.add_step({}, Matrix6d::Zero());
+    level_agreement_.drop_contradicted(seen);
     return;
   }
   const KeyframeVertex& last = graph_.keyframes.back();
   const Pose step = last.X_OR.inverse() * X_OR;
   const Pose X_MR = last.X_MR * step;
+  const Matrix6d information = step_information(odometry, step.t.norm());
+  level_agreement_.add_step(step, information.llt().solve(Matrix6d::Identity()));
+  level_agreement_.drop_contradicted(seen);
   drop_tilted_planes(seen, X_MR, config_.floors);
   const int from = static_cast<int>(graph_.keyframes.size()) - 1;
   walked_m_ += step.t.norm();
-  graph_.pose_factors.push_back({from, from + 1, step, step_information(odometry, step.t.norm()), false});
+  graph_.pose_factors.push_back({from, from + 1, step, information, false});
   dead_reckoning_variance_.reset();
   map_began_ = false;
   odometry_valid_ = true;

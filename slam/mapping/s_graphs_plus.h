@@ -13,6 +13,7 @@
 #include "slam/loop/loop_closure.h"
 #include "slam/mapping/floor_layer.h"
 #include "slam/mapping/laser_range_calibration.h"
+#include "slam/mapping/level_agreement.h"
 #include "slam/mapping/mirror_ghosts.h"
 #include "slam/mapping/room_layer.h"
 #include "slam/mapping/wall_layer.h"
@@ -65,6 +66,7 @@ struct SGraphsPlusConfig {
   WallLayerConfig walls;
   RoomLayerConfig rooms;
   FloorLayerConfig floors;
+  LevelAgreementConfig level_agreement;
   LoopConfig loop;
   IncrementalConfig incremental;
   OptimizerConfig optimizer;
@@ -97,6 +99,7 @@ struct SGraphsPlusConfig {
     v("walls", walls);
     v("rooms", rooms);
     v("floors", floors);
+    v("level_agreement", level_agreement);
     v("loop", loop);
     v("incremental", incremental);
     v("optimizer", optimizer);
@@ -161,7 +164,7 @@ class SGraphsPlus : public Method {
   [[nodiscard]] bool is_keyframe(const Pose& X_OR) const;
   void add_keyframe(const DeskewedScan& scan, const Registration& odometry, Output& output);
   [[nodiscard]] std::vector<PlaneObservation> planes_of(const DeskewedScan& scan) const;
-  /// Drops from what was seen the planes that are neither walls nor level.
+  /// Drops from what was seen the planes that are neither walls nor level, or contradict the odometry.
   void add_keyframe_vertex(Nanoseconds stamp, const Registration& odometry, std::vector<PlaneObservation>& seen);
   /// Of a keyframe's step from the last one over `way_m`.
   [[nodiscard]] Matrix6d step_information(const Registration& odometry, double way_m) const;
@@ -184,6 +187,7 @@ class SGraphsPlus : public Method {
   WallLayer walls_;
   RoomLayer rooms_;
   FloorLayer floors_;
+  LevelAgreement level_agreement_;
   LoopClosure loop_;
   Graph graph_;
   IncrementalOptimizer back_end_;

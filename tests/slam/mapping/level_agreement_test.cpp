@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/mapping/level_agreement.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "slam/mapping/s_graphs_plus.h"
+#include "tests/slam/mapping/seen_planes.h"
+
+namespace plumbline::slam {
+namespace {
+
+constexpr double step_m = 0.6;
+
+Matrix6d step_covariance(double sigma_m = 0.006, double sigma_rad = 0.002) {
+  Vector6d sigmas;
+  sigmas << Eigen::Vector3d::Constant(sigma_m), Eigen::Vector3d::Constant(sigma_rad);
+  return sigmas.cwiseAbs2().asDiagonal();
+}
+
+/// How many of these floors, one of each keyframe, stay; each as a plane in M, of a robot that goes along x. The gait
+/// rolls it from keyframe to keyframe.
+int kept(LevelAgreement& agreement, const std::vector<Plane>& floors_M, const Matrix6d& covariance) {
+  int kept = 0;
+  Pose former;
+  for (std::size_t k = 0; k < floors_M.size(); ++k) {
+    const double roll = k % 2 == 0 ? 0.01 : -0.01;
+    const Pose X_MR{exp_so3({roll, 0.0, 0.0}), {step_m * static_cast<double>(k), 0.0, 0.5}};
+    agreement.add_step(former.inverse() * X_MR, covariance);
+    former = X_MR;
+    PlaneObservation seen = see_floor(X_MR, 0.0);
+    seen.plane_R = X_MR.inverse() * floors_M[k];
+    std::vector<PlaneObservation> planes = {see(X_MR, {-50, -2}, {50, -2}), seen};
+    agreement.drop_contradicted(planes);
+    EXPECT_TRUE(planes[0].vertical) << "walls are not its concern";
+    kept += static_cast<int>(planes.size()) - 1;
+  }
+  return kept;
+}
+
+Plane level(double height) { return {Eigen::Vector3d::UnitZ(), -height}; }
+
+/// The tangent plane of ground of this height at x.
+template <class Height>
+Plane tangent(const Height& height, double x) {
+  const double slope = (height(x + 1e-4) - height(x - 1e-4)) / 2e-4;
+  const Eigen::Vector3d n = Eigen::Vector3d(-slope, 0.0, 1.0).normalized();
+  return {n, -n.dot(Eigen::Vector3d(x, 0.0, height(x)))};
+}
+
+TEST(LevelAgreement, KeepsAFloorAndDropsWhatAFitFindsOnMounds) {
+  std::vector<Plane> flat, mounds;
+  for (int k = 0; k < 60; ++k) {
+    flat.push_back(level(0.0));
+    mounds.push_back(tangent([](double x) { return 0.3 * std::sin(x / 3.0); }, step_m * k));
+  }
+  LevelAgreement of_flat{{}}, of_mounds{{}};
+  EXPECT_EQ(kept(of_flat, flat, step_covariance()), 60);
+  EXPECT_LT(kept(of_mounds, mounds, step_covariance()), 10);
+}
+
+TEST(LevelAgreement, OneTableAmongFloorsCostsNoFloor) {
+  std::vector<Plane> floors(30, level(0.0));
+  floors[12] = level(0.2);
+  LevelAgreement agreement{{}};
+  EXPECT_EQ(kept(agreement, floors, step_covariance()), 29);
+}
+
+TEST(LevelAgreement, ContradictsNothingThatOdometryIsNotSureOf) {
+  std::vector<Plane> floors;
+  for (int k = 0; k < 30; ++k) floors.push_back(level(0.015 * k));
+  LevelAgreement sure{{}}, unsure{{}};
+  EXPECT_LT(kept(sure, floors, step_covariance()), 10) << "a ramp of 2.5 %, whose floors all seem level";
+  EXPECT_EQ(kept(unsure, floors, step_covariance(0.05, 0.02)), 30);
+}
+
+TEST(LevelAgreement, JudgesCeilingsApartFromFloors) {
+  LevelAgreement agreement{{}};
+  int floors = 0, ceilings = 0;
+  for (int k = 0; k < 30; ++k) {
+    const Pose X_MR = Pose::from_xyz_yaw({step_m * k, 0.0, 0.5}, 0.0);
+    agreement.add_step(k == 0 ? Pose{} : Pose::from_xyz_yaw({step_m, 0.0, 0.0}, 0.0), step_covariance());
+    PlaneObservation crown = see_floor(X_MR, 0.0);
+    crown.plane_R = X_MR.inverse() * Plane{-Eigen::Vector3d::UnitZ(), 3.0 + 0.2 * (k % 2)};
+    std::vector<PlaneObservation> planes = {see_floor(X_MR, 0.0), crown};
+    agreement.drop_contradicted(planes);
+    for (const PlaneObservation& plane : planes) (plane.plane_R.n.z() > 0.0 ? floors : ceilings) += 1;
+  }
+  EXPECT_EQ(floors, 30);
+  EXPECT_LT(ceilings, 6);
+}
+
+TEST(LevelAgreement, ThePublishedMethodsKeepEveryFloor) {
+  EXPECT_FALSE(SGraphsPlusPaperConfig().level_agreement.drop);
+  EXPECT_FALSE(SGraphs2022Config().level_agreement.drop);
+  EXPECT_TRUE(SGraphsPlusConfig().level_agreement.drop);
+  const std::vector<Plane> floors = {level(0.0), level(0.2), level(0.0), level(0.2), level(0.0), level(0.2)};
+  LevelAgreement off{{.drop = false}};
+  EXPECT_EQ(kept(off, floors, step_covariance()), 6);
+}
+
+/// Open ground with mounds, a metre from foot to crown.
+double ground(double x, double y) { return 0.5 * std::sin(x / 2.5) * std::cos(y / 3.0); }
+
+/// 16 rings from X_WR, without noise; nothing beyond 30 m.
+Scan scan_of_ground(const Pose& X_WR, Nanoseconds stamp) {
+  constexpr int columns = 360;
+  constexpr double least_m = 0.4, most_m = 30.0, stride_m = 0.1;
+  Scan scan;
+  scan.stamp = stamp;
+  scan.columns = columns;
+  for (int column = 0; column < columns; ++column)
+    for (int ring = 0; ring < scan.rings; ++ring) {
+      const double azimuth = -2.0 * M_PI * column / columns, elevation = (2.0 * ring - 15.0) * M_PI / 180.0;
+      const Eigen::Vector3d d_R(std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
+                                std::sin(elevation));
+      const auto over = [&](double range) {
+        const Eigen::Vector3d p = X_WR * Eigen::Vector3d(range * d_R);
+        return p.z() - ground(p.x(), p.y());
+      };
+      // Ground and ray together close by less than a metre a metre.
+      double above = least_m, below = 0.0;
+      while (above < most_m && below == 0.0) {
+        const double next = above + std::max(stride_m, over(above));
+        (over(next) > 0.0 ? above : below) = next;
+      }
+      for (int halving = 0; halving < 12 && below > 0.0; ++halving) {
+        const double middle = 0.5 * (above + below);
+        (over(middle) > 0.0 ? above : below) = middle;
+      }
+      const double range = below > 0.0 ? above : 0.0;
+      scan.range_m.push_back(range);
+      scan.point_L.push_back(range * d_R);
+      scan.offset_ns.push_back(0);
+    }
+  return scan;
+}
+
+/// Largest error of the pose on a walk over mounds with an odometry that makes none, m.
+double worst_error_on_mounds(const SGraphsPlusConfig& config) {
+  MethodInput input;
+  input.calibration.sensor_height_m = 0.8;
+  SGraphsPlus method(input, config);
+  Pose X_WR0;
+  double worst_m = 0.0;
+  for (int k = 0; k < 120; ++k) {
+    const double x = 0.15 * k, y = 0.5, d = 0.3;
+    const Eigen::Vector3d ahead(2.0 * d, 0.0, ground(x + d, y) - ground(x - d, y));
+    const Eigen::Vector3d left(0.0, 2.0 * d, ground(x, y + d) - ground(x, y - d));
+    Eigen::Matrix3d R;
+    R.col(0) = ahead.normalized();
+    R.col(2) = ahead.cross(left).normalized();
+    R.col(1) = R.col(2).cross(R.col(0));
+    const Pose X_WR{Eigen::Quaterniond(R), {x, y, ground(x, y) + 0.8}};
+    if (k == 0) X_WR0 = X_WR;
+    const Nanoseconds stamp = 100'000'000LL * (k + 1);
+    method.on_odometry({stamp, X_WR0.inverse() * X_WR});
+    const Output output = method.on_scan(scan_of_ground(X_WR, stamp));
+    const Pose X_OM{method.graph().keyframes.front().X_MR.q.conjugate(), Eigen::Vector3d::Zero()};
+    worst_m = std::max(worst_m, ((X_OM * *output.X_FR).t - (X_WR0.inverse() * X_WR).t).norm());
+  }
+  return worst_m;
+}
+
+// Measured: 3 cm more with every floor that a fit finds there than without any, 5 mm more with those that agree.
+TEST(SGraphsPlus, OpenGroundIsNoFloorThatTheMapIsPulledTo) {
+  SGraphsPlusConfig without_floors;
+  without_floors.level_agreement.drop = true;
+  without_floors.level_agreement.usual_chi2 = without_floors.level_agreement.contradicted_share = 0.0;
+  EXPECT_LT(worst_error_on_mounds({}), worst_error_on_mounds(without_floors) + 0.015);
+}
+
+}  // namespace
+}  // namespace plumbline::slam
