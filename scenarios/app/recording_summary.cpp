@@ -41,6 +41,9 @@ std::string words_of(const slam::Taken& taken, const ScansRead& scans, bool has_
     case slam::MountSource::tf:
       text += "; mount from /tf, where it never moves";
       break;
+    case slam::MountSource::same_frame:
+      text += ", which is the robot's, so that no mount is needed";
+      break;
     case slam::MountSource::unknown:
       text += "; no mount, so that the robot's frame is the LiDAR's";
   }

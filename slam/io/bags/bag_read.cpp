@@ -163,7 +163,8 @@ class BagRecording final : public Recording {
   /// Without odometry R is the LiDAR's frame, unless the owner says otherwise.
   void find_mount() {
     std::optional<Pose> X_RL = frames_.find(lidar_, base_);
-    mount_ = X_RL ? MountSource::tf_static : MountSource::unknown;
+    if (X_RL && lidar_ != base_) mount_ = MountSource::tf_static;
+    if (X_RL && lidar_ == base_ && !base_.empty()) mount_ = MountSource::same_frame;
     if (!X_RL && !lidar_.empty() && !base_.empty()) {
       StillJoints joints;
       static_cast<void>(show_transforms("/tf", [&](const ros::Transform& t) { joints.add(t); }));

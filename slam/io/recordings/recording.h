@@ -14,9 +14,9 @@
 namespace plumbline::slam {
 
 /// From where the LiDAR's pose on the robot is known.
-enum class MountSource { unknown, description, tf_static, tf };
-[[nodiscard]] constexpr std::array<std::string_view, 4> names_of(MountSource) {
-  return {"unknown", "description", "tf_static", "tf"};
+enum class MountSource { unknown, description, tf_static, tf, same_frame };
+[[nodiscard]] constexpr std::array<std::string_view, 5> names_of(MountSource) {
+  return {"unknown", "description", "tf_static", "tf", "same_frame"};
 }
 
 /// What of a recording is read. Topics and frames are a bag's, empty elsewhere.

@@ -229,6 +229,19 @@ TEST_F(AlteredWalk, TransformsWithoutOdometryAreSaidToBeUnread) {
   }
 }
 
+TEST_F(AlteredWalk, CloudsInTheRobotsFrameNeedNoMount) {
+  Alteration walk;
+  walk.cloud_frame = [](int) { return "base_link"; };
+  walk.mount = [](int) { return Pose::from_xyz_yaw({0.1, -0.2, 0.3}, 1.0); };
+  const Read out = read(walk);
+  EXPECT_EQ(out.taken.mount, MountSource::same_frame);
+  EXPECT_EQ(out.mount.t, Eigen::Vector3d(0, 0, 0));
+  // Frames without names tell nothing.
+  walk.cloud_frame = [](int) { return ""; };
+  walk.odometry = [](int, ros::OdometryMessage& message) { message.X_OR.child.clear(); };
+  EXPECT_EQ(read(walk).taken.mount, MountSource::unknown);
+}
+
 TEST_F(AlteredWalk, AMountIsTakenFromWhereverItStandsStill) {
   const Pose X_RL = Pose::from_xyz_yaw({0.1, -0.2, 0.3}, 1.0);
   Alteration walk;
