@@ -108,13 +108,23 @@ class GuardedScanMatcher final : public LidarOdometry {
 
   [[nodiscard]] Registration update(const DeskewedScan& scan, const Pose& X_OR) override {
     OdometrySample sample = increments_.to(X_OR, scan, health_, continued(scan.stamp));
-    if (!sample.valid && started_) {
+    if (const std::optional<Pose> step = resumed_step(scan, X_OR)) {
+      sample.step = *step;
+      sample.valid = true;
+      sample.sigma_m = measured_sigma_m;
+      unmeasured_ = measured_by_odometry_->unmeasured;
+    } else if (!sample.valid && started_) {
       sample.step = continued_pose(scan.stamp);
       sample.sigma_m = continued_sigma(scan.stamp - stamp_);
     }
     Registration result = matcher_.match(scan, sample, health_.usual_matched());
     result.odometry_valid = sample.valid;
-    return keep(scan.stamp, std::move(result), sample);
+    result = keep(scan.stamp, std::move(result), sample);
+    if (sample.valid)
+      measured_by_odometry_ = MeasuredByOdometry{stamp_, X_MR_, X_OR, unmeasured_};
+    else if (result.accepted || result.began)
+      measured_by_odometry_.reset();
+    return result;
   }
 
   [[nodiscard]] Registration update_alone(const DeskewedScan& scan, const DeskewAgain& again) override {
@@ -165,6 +175,26 @@ class GuardedScanMatcher final : public LidarOdometry {
     return motion_.over(stamp - moved_stamp_).value_or(Pose{});
   }
 
+  /// Up to where odometry has measured the way.
+  struct MeasuredByOdometry {
+    Nanoseconds stamp = 0;
+    Pose X_MR, X_OR;
+    UnmeasuredWay unmeasured;
+  };
+
+  /// Of an odometry that pauses, as one slower than scans does, where no scan has measured the way meanwhile.
+  [[nodiscard]] std::optional<Pose> resumed_step(const DeskewedScan& scan, const Pose& X_OR) const {
+    if (!measured_by_odometry_ || measured_by_odometry_->stamp == stamp_ || scan.odometry_stale) return std::nullopt;
+    const Pose way = measured_by_odometry_->X_OR.inverse() * X_OR;
+    const ExpectedStep unknown{scan.stamp - measured_by_odometry_->stamp, std::nullopt, std::nullopt};
+    if (!health_.is_plausible_step(way, unknown)) return std::nullopt;
+    return X_MR_.inverse() * measured_by_odometry_->X_MR * way;
+  }
+  /// Whether a map would begin at a pose that odometry will soon know better.
+  [[nodiscard]] bool awaits_odometry(Nanoseconds stamp, const OdometrySample& sample) const {
+    return measured_by_odometry_ && !sample.valid && stamp - measured_by_odometry_->stamp < config_.health.restart_ns();
+  }
+
   /// With a first scan in place of the one that began the map.
   void begin_anew(const DeskewedScan& first) {
     matcher_.reset_map();
@@ -203,12 +233,13 @@ class GuardedScanMatcher final : public LidarOdometry {
       unmeasured_.measure_acceleration(motion_.sigma_m(), moved);
     if (!result.accepted && sample.valid && ready && dt > 0) motion_.add(sample.step, dt);
     if (ready) speed_mps_ = motion_.speed_mps();
-    if (result.accepted || !ready) accepted_stamp_ = stamp;
+    const bool begins = !ready && !awaits_odometry(stamp, sample);
+    if (result.accepted || begins) accepted_stamp_ = stamp;
     X_MR_ = result.X_MR;
     stamp_ = stamp;
-    if (!frozen || !ready) moved_stamp_ = stamp;  // where a map begins, a motion does
-    result.began = !ready;
-    matcher_.commit(X_MR_, result.accepted || !ready);
+    if (!frozen || begins) moved_stamp_ = stamp;  // where a map begins, a motion does
+    result.began = begins;
+    matcher_.commit(X_MR_, result.accepted || begins);
     result.began &= matcher_.ready();
     if (result.began) unmeasured_.begin_map();
     had_map_ |= matcher_.ready();
@@ -260,6 +291,7 @@ class GuardedScanMatcher final : public LidarOdometry {
   Nanoseconds stamp_ = 0;
   Nanoseconds moved_stamp_ = 0;  ///< of the last scan that X_MR_ was moved at
   Nanoseconds accepted_stamp_ = 0;
+  std::optional<MeasuredByOdometry> measured_by_odometry_;  ///< nothing once scans have measured the way since
 };
 
 class DeadReckoning final : public LidarOdometry {

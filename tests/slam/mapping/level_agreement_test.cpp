@@ -123,16 +123,16 @@ Scan scan_of_ground(const Pose& X_WR, Nanoseconds stamp) {
         return p.z() - ground(p.x(), p.y());
       };
       // Ground and ray together close by less than a metre a metre.
-      double above = least_m, below = least_m;
-      while (above < most_m && below == least_m) {
+      double above = least_m, below = 0.0;
+      while (above < most_m && below == 0.0) {
         const double next = above + std::max(stride_m, over(above));
         (over(next) > 0.0 ? above : below) = next;
       }
-      for (int halving = 0; halving < 12 && above < most_m; ++halving) {
+      for (int halving = 0; halving < 12 && below > 0.0; ++halving) {
         const double middle = 0.5 * (above + below);
         (over(middle) > 0.0 ? above : below) = middle;
       }
-      const double range = above < most_m ? above : 0.0;
+      const double range = below > 0.0 ? above : 0.0;
       scan.range_m.push_back(range);
       scan.point_L.push_back(range * d_R);
       scan.offset_ns.push_back(0);
@@ -166,11 +166,12 @@ double worst_error_on_mounds(const SGraphsPlusConfig& config) {
   return worst_m;
 }
 
-// Measured: with every floor that a fit finds there, 8 cm more than without any.
+// Measured: 3 cm more with every floor that a fit finds there than without any, 5 mm more with those that agree.
 TEST(SGraphsPlus, OpenGroundIsNoFloorThatTheMapIsPulledTo) {
   SGraphsPlusConfig without_floors;
+  without_floors.level_agreement.drop = true;
   without_floors.level_agreement.usual_chi2 = without_floors.level_agreement.contradicted_share = 0.0;
-  EXPECT_LT(worst_error_on_mounds({}), worst_error_on_mounds(without_floors) + 0.02);
+  EXPECT_LT(worst_error_on_mounds({}), worst_error_on_mounds(without_floors) + 0.015);
 }
 
 }  // namespace

@@ -199,6 +199,21 @@ TEST(FrontEnd, SlowOdometryIsNoWorseThanNone) {
   }
 }
 
+// Between its records it is silent for longer than its motion can be extrapolated; each one tells the whole way since
+// the last. Measured: 0.05 and 0.27 m while blind, 0.04 and 0.56 m at the end; 6.4 and 8.8 m where that way is left
+// out.
+TEST(FrontEnd, WhileScansDoNotFitThePoseGoesOnWithAnOdometryHoweverSlow) {
+  const Walked in_house = walked_through_the_house(1.0, 20.0);
+  for (const Nanoseconds period : {100'000'000, 1'000'000'000}) {
+    const Honest blind = follow(in_house, 1, true, {.odometry_period = period, .blank_from_s = 6.0});
+    EXPECT_LT(blind.last_m, 1.5) << period << ": a second's way, and what it turns in that";
+    EXPECT_EQ(blind.silent, 0) << period;
+    const Honest sees_again =
+        follow(in_house, 1, true, {.odometry_period = period, .blank_from_s = 6.0, .blank_to_s = 16.0});
+    EXPECT_LT(sees_again.last_m, 1.0) << period << ": where the map began, odometry was extrapolated";
+  }
+}
+
 TEST(FrontEnd, OdometryOfAnotherClockIsFollowed) {
   const Walked in_house = walked_through_the_house(1.0, 25.0);
   const auto house_walk = [&](const Given& given) { return follow(in_house, 1, true, given); };
