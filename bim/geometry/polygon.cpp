@@ -107,6 +107,19 @@ double boundary_distance(const Polygon2& polygon, const Eigen::Vector2d& p) {
   return best;
 }
 
+double boundary_distance(const Polygon2& outline, std::span<const Polygon2> holes, const Eigen::Vector2d& p) {
+  double best = boundary_distance(outline, p);
+  for (const Polygon2& hole : holes) best = std::min(best, boundary_distance(hole, p));
+  return best;
+}
+
+bool contains(const Polygon2& outline, std::span<const Polygon2> holes, const Eigen::Vector2d& p) {
+  constexpr double rim_m = 1e-9;
+  return contains(outline, p) && std::none_of(holes.begin(), holes.end(), [&](const Polygon2& hole) {
+           return contains(hole, p) && boundary_distance(hole, p) > rim_m;
+         });
+}
+
 bool contains(const Polygon2& polygon, const Eigen::Vector2d& p) {
   bool inside = false;
   for (std::size_t i = 0; i < polygon.size(); ++i) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <span>
 #include <vector>
 
 namespace plumbline {
@@ -22,6 +23,10 @@ struct PolygonWithHoles2 {
 [[nodiscard]] bool contains(const Polygon2& polygon, const Eigen::Vector2d& p);
 /// Distance to the boundary, m, whether p is inside or outside.
 [[nodiscard]] double boundary_distance(const Polygon2& polygon, const Eigen::Vector2d& p);
+/// The same of an outline with holes, whose rims are boundary as well.
+[[nodiscard]] bool contains(const Polygon2& outline, std::span<const Polygon2> holes, const Eigen::Vector2d& p);
+[[nodiscard]] double boundary_distance(const Polygon2& outline, std::span<const Polygon2> holes,
+                                       const Eigen::Vector2d& p);
 /// Distance of p to the segment a-b, m.
 [[nodiscard]] double segment_distance(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& p);
 /// True when no two edges touch except neighbours in their common vertex, and the area is not 0.

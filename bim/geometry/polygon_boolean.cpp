@@ -165,9 +165,7 @@ double area(const Region2& region) {
 }
 
 bool contains(const PolygonWithHoles2& polygon, const Eigen::Vector2d& p) {
-  if (!contains(polygon.outer, p)) return false;
-  return std::none_of(polygon.holes.begin(), polygon.holes.end(),
-                      [&](const Polygon2& hole) { return contains(hole, p) && boundary_distance(hole, p) > 1e-9; });
+  return contains(polygon.outer, polygon.holes, p);
 }
 
 double intersection_area(const Polygon2& a, const Polygon2& b) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bim/model/building.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "bim/digest/digest.h"
@@ -109,12 +108,7 @@ void add_all(Digest& digest, const std::vector<Element>& elements) {
 
 }  // namespace
 
-bool Room::contains(const Eigen::Vector2d& p) const {
-  constexpr double rim_m = 1e-9;
-  return plumbline::contains(polygon, p) && std::none_of(holes.begin(), holes.end(), [&](const Polygon2& hole) {
-           return plumbline::contains(hole, p) && plumbline::boundary_distance(hole, p) > rim_m;
-         });
-}
+bool Room::contains(const Eigen::Vector2d& p) const { return plumbline::contains(polygon, holes, p); }
 
 double Room::area_m2() const {
   double area = std::abs(signed_area(polygon));
@@ -123,9 +117,7 @@ double Room::area_m2() const {
 }
 
 double Room::boundary_distance(const Eigen::Vector2d& p) const {
-  double least = INFINITY;
-  for (const Polygon2* rim : rims()) least = std::min(least, plumbline::boundary_distance(*rim, p));
-  return least;
+  return plumbline::boundary_distance(polygon, holes, p);
 }
 
 std::vector<const Polygon2*> Room::rims() const {

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <tuple>
 
-#include "bim/geometry/polygon_boolean.h"
 #include "scenarios/metrics/storey.h"
 #include "scenarios/metrics/structure.h"
 
@@ -54,13 +53,6 @@ bool same_storey(const slam::Estimate& estimate, const slam::RoomNode& node, con
   return storey_of_height(plan.storeys, z_W) == room.storey;
 }
 
-/// Distance to the outline or the rim of a hole, m.
-double rim_distance(const bim::PlanRoom& room, const Eigen::Vector2d& p) {
-  double least = boundary_distance(room.polygon, p);
-  for (const Polygon2& hole : room.holes) least = std::min(least, boundary_distance(hole, p));
-  return least;
-}
-
 /// Both faces of a corridor matched, and the centre in the middle between them, within the room along it.
 bool corridor_matches(const slam::Estimate& estimate, const slam::RoomNode& node, const Pose& X_WF,
                       const bim::Plan& plan, const bim::PlanRoom& room, const WallScore& walls,
@@ -86,9 +78,8 @@ std::vector<int> visited_rooms(const bim::Plan& as_built, const Truth& truth, co
     slam::Nanoseconds since = -1;
     for (const slam::StampedPose& pose : truth.poses_W) {
       const Eigen::Vector3d& t = pose.X_FR.t;
-      const bool inside = t.z() >= room.z0 && t.z() <= room.z1 &&
-                          contains(PolygonWithHoles2{room.polygon, room.holes}, t.head<2>()) &&
-                          rim_distance(room, t.head<2>()) >= rules.visit_inside_m;
+      const bool inside = t.z() >= room.z0 && t.z() <= room.z1 && contains(room.polygon, room.holes, t.head<2>()) &&
+                          boundary_distance(room.polygon, room.holes, t.head<2>()) >= rules.visit_inside_m;
       if (!inside) {
         since = -1;
         continue;
