@@ -30,10 +30,12 @@ void LevelAgreement::drop_contradicted(std::vector<PlaneObservation>& seen) {
     if (plane.vertical) return false;
     newest.push_back({plane, keyframe_, {}, Matrix6d::Zero()});
     std::deque<bool>& recent = contradictions_[is_floor(plane) ? 0 : 1];
-    recent.push_back(is_contradicted(plane));
+    const std::vector<double> chi2s = chi2_to_latest(plane);
+    recent.push_back(!chi2s.empty() && !(upper_median(chi2s) <= config_.usual_chi2));
     if (recent.size() > most) recent.pop_front();
     const auto count = static_cast<double>(std::count(recent.begin(), recent.end(), true));
-    return recent.back() || count > config_.contradicted_share * static_cast<double>(most);
+    const bool unconfirmed = !is_floor(plane) && chi2s.empty();
+    return recent.back() || unconfirmed || count > config_.contradicted_share * static_cast<double>(most);
   });
   latest_.insert(latest_.end(), newest.begin(), newest.end());
 }
@@ -44,15 +46,15 @@ double LevelAgreement::chi2(const Look& former, const PlaneResidual& r, const Pl
   return r.e.dot(S.llt().solve(r.e));
 }
 
-bool LevelAgreement::is_contradicted(const PlaneObservation& level) const {
-  std::vector<double> compared;
+std::vector<double> LevelAgreement::chi2_to_latest(const PlaneObservation& level) const {
+  std::vector<double> chi2s;
   for (const Look& former : latest_) {
     if (is_floor(former.level) != is_floor(level)) continue;
     const PlaneResidual r = plane_residual(former.X_KR, former.level.plane_R, level.plane_R);
     if (std::abs(r.e.z()) > config_.near_m || r.e.head<2>().norm() > config_.near_rad) continue;
-    compared.push_back(chi2(former, r, level));
+    chi2s.push_back(chi2(former, r, level));
   }
-  return !compared.empty() && !(upper_median(std::move(compared)) <= config_.usual_chi2);
+  return chi2s;
 }
 
 }  // namespace plumbline::slam

@@ -47,7 +47,8 @@ class LevelAgreement {
 
   /// A new keyframe begins, a step after the one before. covariance: of its right increment (translation, rotation).
   void add_step(const Pose& step, const Matrix6d& covariance);
-  /// Drops floors and ceilings of the new keyframe that contradict those before.
+  /// Drops floors and ceilings of the new keyframe that contradict those before, and ceilings that none before
+  /// confirms.
   void drop_contradicted(std::vector<PlaneObservation>& seen);
 
  private:
@@ -61,7 +62,8 @@ class LevelAgreement {
 
   /// r: of the former look and the level. By the covariances of both and of the way between them.
   [[nodiscard]] static double chi2(const Look& former, const PlaneResidual& r, const PlaneObservation& level);
-  [[nodiscard]] bool is_contradicted(const PlaneObservation& level) const;
+  /// To each of the latest that may be the same surface.
+  [[nodiscard]] std::vector<double> chi2_to_latest(const PlaneObservation& level) const;
 
   LevelAgreementConfig config_;
   int keyframe_ = -1;

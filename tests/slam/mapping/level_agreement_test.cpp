@@ -94,6 +94,24 @@ TEST(LevelAgreement, JudgesCeilingsApartFromFloors) {
   EXPECT_LT(ceilings, 6);
 }
 
+// The crown of a tree is seen once, a ceiling from keyframe to keyframe.
+TEST(LevelAgreement, UsesNoCeilingThatNothingConfirms) {
+  LevelAgreement agreement{{}};
+  std::vector<int> kept;
+  for (int k = 0; k < 40; ++k) {
+    const Pose X_MR = Pose::from_xyz_yaw({step_m * k, 0.0, 0.5}, 0.0);
+    agreement.add_step(k == 0 ? Pose{} : Pose::from_xyz_yaw({step_m, 0.0, 0.0}, 0.0), step_covariance());
+    std::vector<PlaneObservation> planes;
+    if (k % 12 == 0 || k > 36) {
+      planes.push_back(see_floor(X_MR, 0.0));
+      planes.back().plane_R = X_MR.inverse() * Plane{-Eigen::Vector3d::UnitZ(), 3.0};
+    }
+    agreement.drop_contradicted(planes);
+    if (!planes.empty()) kept.push_back(k);
+  }
+  EXPECT_EQ(kept, (std::vector<int>{37, 38, 39}));
+}
+
 TEST(LevelAgreement, ThePublishedMethodsKeepEveryFloor) {
   EXPECT_FALSE(SGraphsPlusPaperConfig().level_agreement.drop);
   EXPECT_FALSE(SGraphs2022Config().level_agreement.drop);
