@@ -130,18 +130,37 @@ std::optional<Eigen::Vector3d> normal_at(const Cells& cells, const VoxelKey& key
   return normal_of(beyond, config.max_thickness_m, 4.0 * flatness);
 }
 
+/// Whether the points of a voxel and of those round it lie neither in a plane nor, as seen, in a line. Few do not tell.
+bool is_rough(const Cells& cells, const VoxelKey& key, const CellSurfels& config) {
+  constexpr double few = 4.0;
+  const Moments round = cells.round(key);
+  if (round.n < few) return true;
+  if (config.sensor && is_line_of_sight(round, cells.centre(key) - *config.sensor)) return false;
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
+  eigen.computeDirect(round.covariance(), Eigen::EigenvaluesOnly);
+  return eigen.eigenvalues()(1) > config.max_thickness_m * config.max_thickness_m;
+}
+
 }  // namespace
 
 std::vector<Surfel> cell_surfels(std::span<const Eigen::Vector3f> points, const CellSurfels& config,
                                  std::span<const float> times_s) {
+  return cell_surfaces(points, config, times_s).surfels;
+}
+
+Surfaces cell_surfaces(std::span<const Eigen::Vector3f> points, const CellSurfels& config,
+                       std::span<const float> times_s) {
   const Cells cells(points, times_s, config);
   const std::optional<Cells> larger = config.sensor ? std::optional(cells.doubled()) : std::nullopt;
-  std::vector<Surfel> surfels;
-  for (const Cell& cell : cells.all())
+  Surfaces result;
+  for (const Cell& cell : cells.all()) {
+    const Eigen::Vector3d mean = cells.centre(cell.key) + cell.moments.mean();
     if (const std::optional<Eigen::Vector3d> normal = normal_at(cells, cell.key, larger, config))
-      surfels.push_back(
-          {cells.centre(cell.key) + cell.moments.mean(), *normal, static_cast<float>(cell.time_s / cell.moments.n)});
-  return surfels;
+      result.surfels.push_back({mean, *normal, static_cast<float>(cell.time_s / cell.moments.n)});
+    else if (is_rough(cells, cell.key, config))
+      result.rough_R.push_back(mean);
+  }
+  return result;
 }
 
 }  // namespace plumbline::slam

@@ -24,5 +24,8 @@ struct CellSurfels {
 /// surface: the normal is then that of voxels twice as large, or there is none. The same where points are too few.
 [[nodiscard]] std::vector<Surfel> cell_surfels(std::span<const Eigen::Vector3f> points, const CellSurfels& config,
                                                std::span<const float> times_s = {});
+/// The same, and points without a surface: see Surfaces.
+[[nodiscard]] Surfaces cell_surfaces(std::span<const Eigen::Vector3f> points, const CellSurfels& config,
+                                     std::span<const float> times_s = {});
 
 }  // namespace plumbline::slam

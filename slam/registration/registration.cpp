@@ -151,8 +151,8 @@ Observability observability(std::span<const Surfel> surfels, const SurfelMap& ma
 
 Registration align(std::span<const Surfel> surfels, const SurfelMap& map, const Pose& start,
                    const std::optional<PosePrior>& prior, const RegistrationConfig& config,
-                   const AdditionalFactors& additional, double degenerate_sigma_m,
-                   const std::optional<Pose>& expected) {
+                   const AdditionalFactors& additional, double degenerate_sigma_m, const std::optional<Pose>& expected,
+                   const AdditionalFactors& where_degenerate) {
   Registration result;
   result.X_MR = start;
   const Observability seen = observability(surfels, map, start, config);
@@ -170,6 +170,12 @@ Registration align(std::span<const Surfel> surfels, const SurfelMap& map, const 
       const Normal6 terms = additional(result.X_MR);
       normal.h += terms.h;
       normal.g += terms.g;
+    }
+    if (where_degenerate && !seen.degenerate_directions.empty()) {
+      const Normal6 more = where_degenerate(result.X_MR);
+      const Matrix6d onto = Matrix6d::Identity() - seen.kept;
+      normal.h += onto.transpose() * more.h * onto;
+      normal.g += onto.transpose() * more.g;
     }
     result.information = normal.h;
     if (!seen.degenerate_directions.empty()) add_prior(normal, hold, result.X_MR);

@@ -62,12 +62,13 @@ struct PosePrior {
 
 struct Registration {
   Pose X_MR;
-  Matrix6d information = Matrix6d::Zero();  ///< Gauss-Newton Hessian of surfels and edges, without priors, of the right
-                                            ///< increment (rho in m, phi in rad); counts every surfel as independent
-  Matrix6d open = Matrix6d::Zero();         ///< information of 1 / m^2 in the degenerate directions alone
-  double matched = 0.0;           ///< share of the surfels that fall into a voxel and are not outliers, 0 to 1
-  double rms = 0.0;               ///< of the inliers' Mahalanobis distances; 0.3 to 0.8 for a good match
-  double residual_m = 0.0;        ///< 1.4826 times the median distance of inliers from the surfaces they meet
+  Matrix6d information =
+      Matrix6d::Zero();  ///< Gauss-Newton Hessian of surfels, edges and rough points, without priors, of the right
+                         ///< increment (rho in m, phi in rad); counts every surfel as independent
+  Matrix6d open = Matrix6d::Zero();  ///< information of 1 / m^2 in the degenerate directions alone
+  double matched = 0.0;              ///< share of the surfels that fall into a voxel and are not outliers, 0 to 1
+  double rms = 0.0;                  ///< of the inliers' Mahalanobis distances; 0.3 to 0.8 for a good match
+  double residual_m = 0.0;           ///< 1.4826 times the median distance of inliers from the surfaces they meet
   double least_eigenvalue = 1.0;  ///< of the normals' Hessian per surfel, rotations times the surfels' median distance
   int degenerate_directions = 0;  ///< that surfaces leave open: edges, odometry or the start decided there
   int unobserved_directions = 0;  ///< of those, the ones in which neither edges nor odometry tell anything
@@ -111,11 +112,13 @@ struct Observability {
 /// the mean of the voxel it falls in, plus the prior and `additional` if any, by Gauss-Newton on SE(3) from `start`. In
 /// directions that are degenerate at the start surfels count for nothing: what they pull along their own surfaces would
 /// hold the robot where it was. There the pose is kept to `expected`, else the start, within degenerate_sigma_m
-/// (rotations: at the surfels' median distance), unless prior or `additional` know better.
+/// (rotations: at the surfels' median distance), unless prior or `additional` know better, or `where_degenerate`, whose
+/// factors count in these directions alone. They leave them unobserved: whoever gives them is not sure of them.
 [[nodiscard]] Registration align(std::span<const Surfel> surfels, const SurfelMap& map, const Pose& start,
                                  const std::optional<PosePrior>& prior, const RegistrationConfig& config,
                                  const AdditionalFactors& additional = {}, double degenerate_sigma_m = 0.1,
-                                 const std::optional<Pose>& expected = std::nullopt);
+                                 const std::optional<Pose>& expected = std::nullopt,
+                                 const AdditionalFactors& where_degenerate = {});
 
 /// Adds a point at arm_M from the robot, displaced by e: weighted information W and W e, axes of M.
 void add_point(Normal6& sum, const Eigen::Vector3d& arm_M, const Eigen::Matrix3d& weight,

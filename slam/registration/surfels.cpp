@@ -72,9 +72,47 @@ class Neighbourhood {
     return surfel;
   }
 
+  /// Of a return without a surfel, see Surfaces.
+  [[nodiscard]] bool is_rough(int column, int ring) const {
+    const double range = scan_.range_m[index(column, ring)];
+    const int step = std::max(1, static_cast<int>(config_.radius_m / reach_columns / (range * azimuth_step_rad_)));
+    return stands_up(column, ring, step) && faces_sensor(column, ring, step);
+  }
+
  private:
   [[nodiscard]] std::size_t index(int column, int ring) const {
     return static_cast<std::size_t>(column * scan_.rings + ring);
+  }
+
+  /// A return of the next rings lies more above or below it than beside it.
+  [[nodiscard]] bool stands_up(int column, int ring, int step) const {
+    const Eigen::Vector3d& p = scan_.point_R[index(column, ring)];
+    for (const int beside : {ring - 1, ring + 1})
+      for (const int c : {column - step, column, column + step}) {
+        if (beside < 0 || beside >= scan_.rings || c < 0 || c >= scan_.columns) continue;
+        const std::size_t i = index(c, beside);
+        const Eigen::Vector3d offset = scan_.point_R[i] - p;
+        const double gap = std::max(config_.radius_m, config_.ring_gap_per_m * scan_.range_m[i]);
+        if (scan_.range_m[i] > 0.0 && std::abs(offset.z()) > offset.head<2>().norm() && offset.norm() < gap)
+          return true;
+      }
+    return false;
+  }
+
+  /// Its ring goes on less than twice as far along the beam as across it, or ends here. Not borders of shadows, which
+  /// nearer returns cast.
+  [[nodiscard]] bool faces_sensor(int column, int ring, int step) const {
+    constexpr double most_slope = 2.0;  // 63 degrees from facing: assumed
+    const double range = scan_.range_m[index(column, ring)];
+    std::vector<double> beside;
+    for (const int c : {column - step, column + step}) {
+      const double r = c < 0 || c >= scan_.columns ? 0.0 : scan_.range_m[index(c, ring)];
+      if (r > 0.0 && r < range - config_.radius_m) return false;
+      if (r > 0.0 && r <= range + config_.radius_m) beside.push_back(r);
+    }
+    if (beside.empty()) return true;
+    const double along = beside.size() == 2 ? 0.5 * (beside[1] - beside[0]) : beside[0] - range;
+    return std::abs(along) <= most_slope * step * azimuth_step_rad_ * range;
   }
 
   /// The next ring above or below or, where that returns from nearer than `apart_m_`, the first one beyond that does
@@ -107,7 +145,7 @@ class Neighbourhood {
   const double apart_m_;           ///< least distance to other rings
 };
 
-std::vector<Surfel> surfels_of_cells(const DeskewedScan& scan, const SurfelConfig& config) {
+Surfaces surfaces_of_cells(const DeskewedScan& scan, const SurfelConfig& config) {
   std::vector<Eigen::Vector3f> points;
   std::vector<float> times;
   points.reserve(scan.range_m.size());
@@ -117,7 +155,7 @@ std::vector<Surfel> surfels_of_cells(const DeskewedScan& scan, const SurfelConfi
     points.push_back(scan.point_R[i].cast<float>());
     if (!scan.time_s.empty()) times.push_back(scan.time_s[i]);
   }
-  return cell_surfels(points, {config.voxel_m, config.min_neighbours, config.max_thickness_m, scan.X_RL.t}, times);
+  return cell_surfaces(points, {config.voxel_m, config.min_neighbours, config.max_thickness_m, scan.X_RL.t}, times);
 }
 
 }  // namespace
@@ -129,19 +167,26 @@ bool has_ring_image(const DeskewedScan& scan) {
 }
 
 std::vector<Surfel> make_surfels(const DeskewedScan& scan, const SurfelConfig& config) {
-  if (!has_ring_image(scan)) return surfels_of_cells(scan, config);
+  return find_surfaces(scan, config).surfels;
+}
+
+Surfaces find_surfaces(const DeskewedScan& scan, const SurfelConfig& config) {
+  if (!has_ring_image(scan)) return surfaces_of_cells(scan, config);
   const Neighbourhood neighbourhood(scan, config);
   VoxelIndex seen;
-  std::vector<Surfel> surfels;
+  Surfaces result;
   for (int column = 0; column < scan.columns; ++column)
     for (int ring = 0; ring < scan.rings; ++ring) {
       const auto i = static_cast<std::size_t>(column * scan.rings + ring);
       if (scan.range_m[i] < config.min_range_m || scan.range_m[i] > config.max_range_m) continue;
       const int before = seen.size();
       if (seen.insert(VoxelKey::of(scan.point_R[i], config.voxel_m)) < before) continue;
-      if (const std::optional<Surfel> surfel = neighbourhood.surfel(column, ring)) surfels.push_back(*surfel);
+      if (const std::optional<Surfel> surfel = neighbourhood.surfel(column, ring))
+        result.surfels.push_back(*surfel);
+      else if (neighbourhood.is_rough(column, ring))
+        result.rough_R.push_back(scan.point_R[i]);
     }
-  return surfels;
+  return result;
 }
 
 const SurfelMap::Voxel* SurfelMap::at(const VoxelKey& key) const {

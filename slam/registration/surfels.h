@@ -51,6 +51,16 @@ struct Surfel {
 /// order. Of many rings or without any: one a voxel, from its returns and those of the voxels round it.
 [[nodiscard]] std::vector<Surfel> make_surfels(const DeskewedScan& scan, const SurfelConfig& config);
 
+/// The same, and points without a surfel, one a voxel. Of few rings: what stands up and faces the sensor or stands
+/// alone, as leaves, posts and far walls do; of a wall that is seen at a grazing angle the last returns go along with
+/// the robot, and of the ground the rings do. Of many rings or none: what lies in no plane and no line of sight, and
+/// what is seen by three returns or fewer.
+struct Surfaces {
+  std::vector<Surfel> surfels;
+  std::vector<Eigen::Vector3d> rough_R;
+};
+[[nodiscard]] Surfaces find_surfaces(const DeskewedScan& scan, const SurfelConfig& config);
+
 /// Gaussian voxel map in M: each voxel pools the surfels that fell into it.
 class SurfelMap {
  public:

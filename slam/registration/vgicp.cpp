@@ -23,12 +23,16 @@ constexpr double lattice_slack = 2.5;
 /// rings at 5 Hz, whose scans have 20,000: time grows with their number, accuracy does not.
 constexpr std::size_t most_registered = 5000;
 
-/// At most so many of the surfels, evenly spread over the sweep.
-std::vector<Surfel> thinned(const std::vector<Surfel>& surfels, std::size_t most) {
-  if (surfels.size() <= most) return surfels;
-  std::vector<Surfel> kept;
+/// Of a scan's rough points so many are matched and mapped: assumed.
+constexpr std::size_t most_rough = 1000;
+
+/// At most so many of a scan's surfels or points, evenly spread over the sweep.
+template <class T>
+std::vector<T> thinned(const std::vector<T>& all, std::size_t most) {
+  if (all.size() <= most) return all;
+  std::vector<T> kept;
   kept.reserve(most);
-  for (std::size_t k = 0; k < most; ++k) kept.push_back(surfels[k * surfels.size() / most]);
+  for (std::size_t k = 0; k < most; ++k) kept.push_back(all[k * all.size() / most]);
   return kept;
 }
 
@@ -125,7 +129,9 @@ bool VgicpOdometry::is_near(const Pose& a, const Pose& b) const {
 
 VgicpOdometry::ScanFeatures VgicpOdometry::features_of(const DeskewedScan& scan) const {
   ScanFeatures out;
-  out.surfels = make_surfels(scan, surfels_);
+  Surfaces surfaces = find_surfaces(scan, surfels_);
+  out.surfels = std::move(surfaces.surfels);
+  if (config_.rough_points) out.rough_R = thinned(surfaces.rough_R, most_rough);
   out.fine = registration_;
   if (has_ring_image(scan))
     out.edges_R = edge_points(scan, config_.edges);
@@ -157,29 +163,51 @@ void VgicpOdometry::correct_sweep(const DeskewedScan& scan, const std::optional<
   result.sweep_twist = twist;
 }
 
+AdditionalFactors VgicpOdometry::edges_near(const Pose& X_MR) const {
+  const double information = 1.0 / (config_.edges.sigma_m * config_.edges.sigma_m);
+  return [lines = edge_map_.match(scan_.edges_R, X_MR), information, huber_m = config_.edges.huber_m](const Pose& X) {
+    Normal6 terms = loam::linearize(lines, X, huber_m);
+    terms.h *= information;
+    terms.g *= information;
+    return terms;
+  };
+}
+
 Registration VgicpOdometry::align_finely(const Pose& start, const std::optional<PosePrior>& prior,
                                          const OdometrySample& odometry) const {
   // Lines are searched at the start. Odometry's error is below the spacing of columns; without it they are searched
   // again where they led.
   const int rounds = odometry.valid ? 1 : 3;
-  const double information = 1.0 / (config_.edges.sigma_m * config_.edges.sigma_m);
   Registration result;
   result.X_MR = start;
   for (int round = 0; round < rounds; ++round) {
-    const std::vector<loam::Match> lines = edge_map_.match(scan_.edges_R, result.X_MR);
     const Pose before = result.X_MR;
-    result = align(
-        scan_.registered, maps_.front(), before, prior, scan_.fine,
-        [&](const Pose& X_MR) {
-          Normal6 terms = loam::linearize(lines, X_MR, config_.edges.huber_m);
-          terms.h *= information;
-          terms.g *= information;
-          return terms;
-        },
-        odometry.sigma_m, start);
+    result =
+        align(scan_.registered, maps_.front(), before, prior, scan_.fine, edges_near(before), odometry.sigma_m, start);
     if ((result.X_MR.t - before.t).norm() < 0.1 * config_.edges.leaf_m) break;
   }
-  return result;
+  if (result.unobserved_directions == 0 || rough_map_.empty()) return result;
+  return align_rough_points(std::move(result), start, prior, odometry);
+}
+
+Registration VgicpOdometry::align_rough_points(Registration found, const Pose& expected,
+                                               const std::optional<PosePrior>& prior,
+                                               const OdometrySample& odometry) const {
+  // As many points as this meet the map where the motion is known; elsewhere they are sought farther off first. Both
+  // assumed, looked at on four open fields and lc1.
+  constexpr double usual_share = 0.3;
+  constexpr int doublings = 3, rounds = 3;
+  const double reach_m = 3.0 * surfels_.voxel_m;
+  const auto near = static_cast<double>(rough_map_.match(scan_.rough_R, found.X_MR, reach_m).size());
+  const bool is_near = near >= usual_share * static_cast<double>(scan_.rough_R.size());
+  for (int k = is_near ? 0 : -doublings; k < rounds; ++k) {
+    const double within_m = reach_m * std::exp2(std::max(0, -k));
+    const std::vector<RoughMatch> matches = rough_map_.match(scan_.rough_R, found.X_MR, within_m);
+    found =
+        align(scan_.registered, maps_.front(), found.X_MR, prior, scan_.fine, edges_near(found.X_MR), odometry.sigma_m,
+              expected, [&](const Pose& X_MR) { return linearize(matches, X_MR, within_m / 3.0); });
+  }
+  return found;
 }
 
 Registration VgicpOdometry::align_coarsely(std::span<const Pose> starts) const {
@@ -210,6 +238,7 @@ void VgicpOdometry::commit(const Pose& X_MR, bool mapped) {
 void VgicpOdometry::reset_map() {
   keyframes_.clear();
   edge_map_ = EdgeMap(config_.edges);
+  rough_map_ = {};
   set_scale(scale_);
 }
 
@@ -266,6 +295,8 @@ PosePrior VgicpOdometry::predict(const DeskewedScan& scan, const OdometrySample&
 void VgicpOdometry::insert(const Pose& X_MR) {
   for (SurfelMap& map : maps_) map.add(scan_.surfels, X_MR);
   edge_map_.add(std::move(scan_.edges_R), X_MR, static_cast<std::size_t>(config_.map_keyframes));
+  if (config_.rough_points)
+    rough_map_.add(std::move(scan_.rough_R), X_MR, static_cast<std::size_t>(config_.map_keyframes));
   keyframes_.push_back({std::move(scan_.surfels), X_MR});
   if (keyframes_.size() <= static_cast<std::size_t>(config_.map_keyframes)) return;
   for (SurfelMap& map : maps_) map.remove(keyframes_.front().surfels, keyframes_.front().X_MR);

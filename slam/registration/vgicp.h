@@ -9,6 +9,7 @@
 #include "bim/config/visit.h"
 #include "bim/geometry/pose.h"
 #include "slam/registration/registration.h"
+#include "slam/registration/rough_points.h"
 #include "slam/registration/surfels.h"
 #include "slam/registration/upright_edges.h"
 
@@ -20,6 +21,7 @@ struct VgicpConfig {
   /// landing for one surface: with voxels of 0.5 m and agreement 0.5 the attitude was lost there.
   RegistrationConfig registration{.sigma_tangent_m = 0.2, .min_normal_agreement = 0.9, .cauchy_scale = 1.5};
   EdgeConfig edges;
+  bool rough_points = true;
   double map_voxel_m = 0.2;
   double keyframe_distance_m = 0.5;
   double keyframe_angle_rad = 0.35;
@@ -41,6 +43,8 @@ struct VgicpConfig {
     v("surfels", surfels);
     v("registration", registration);
     v("edges", edges);
+    v("rough_points", rough_points,
+      Field{.doc = "match points without a surface, as of leaves, in directions that nothing else measures"});
     v("map_voxel_m", map_voxel_m, Field{.doc = "voxel size of the local map", .min = 0.05, .basic = true});
     v("keyframe_distance_m", keyframe_distance_m,
       Field{.doc = "distance after which a scan enters the local map", .min = 0.01, .basic = true});
@@ -68,6 +72,7 @@ struct CoarseVgicpConfig : VgicpConfig {
     map_voxel_m = 0.5;
     registration = {.sigma_tangent_m = 0.5, .min_normal_agreement = 0.8, .cauchy_scale = 2.0};
     edges.enabled = false;
+    rough_points = false;
   }
 };
 
@@ -98,6 +103,7 @@ class VgicpOdometry {
     std::vector<Surfel> registered;  ///< those that are matched, evenly spread where there are many ...
     std::vector<Surfel> few;         ///< ... and a share of these
     std::vector<Eigen::Vector3d> edges_R;
+    std::vector<Eigen::Vector3d> rough_R;
     RegistrationConfig fine;
   };
   struct Keyframe {
@@ -108,6 +114,12 @@ class VgicpOdometry {
   [[nodiscard]] PosePrior predict(const DeskewedScan& scan, const OdometrySample& odometry) const;
   [[nodiscard]] Registration align_finely(const Pose& start, const std::optional<PosePrior>& prior,
                                           const OdometrySample& odometry) const;
+  /// Factors of the scan's edges and the lines of the map that they are near to there.
+  [[nodiscard]] AdditionalFactors edges_near(const Pose& X_MR) const;
+  /// Goes on from a place whose unobserved directions rough points may tell.
+  [[nodiscard]] Registration align_rough_points(Registration found, const Pose& expected,
+                                                const std::optional<PosePrior>& prior,
+                                                const OdometrySample& odometry) const;
   /// Corrects the scan by the motion during it that its deskewing did not know, and places it again.
   void correct_sweep(const DeskewedScan& scan, const std::optional<PosePrior>& prior, const OdometrySample& odometry,
                      Registration& result);
@@ -125,6 +137,7 @@ class VgicpOdometry {
   RegistrationConfig registration_;  ///< likewise
   std::vector<SurfelMap> maps_;      ///< finest first
   EdgeMap edge_map_;
+  RoughMap rough_map_;
   std::deque<Keyframe> keyframes_;
   ScanFeatures scan_;                       ///< last matched
   double median_range_m_ = 0.0;             ///< low-pass filtered; 0 before the first scan

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "bim/random/stream.h"
+#include "slam/registration/rough_points.h"
 #include "slam/registration/vgicp.h"
 #include "tests/slam/synthetic.h"
 
@@ -273,6 +274,32 @@ TEST(Observability, ADegenerateDirectionKeepsTheStart) {
   EXPECT_NEAR(found.X_MR.t.x(), 0.07, 0.01);
   EXPECT_NEAR(found.X_MR.t.y(), 0.0, 0.01);
   EXPECT_NEAR(found.X_MR.yaw(), 0.0, 0.005);
+}
+
+// They find the place along the corridor, change nothing across it, and leave it unobserved.
+TEST(Observability, WhatIsNotSureCountsWhereNothingElseDoes) {
+  const Stream random(46, "bim.generate");
+  const std::vector<Surfel> surfels = corridor_surfels(random, false);
+  SurfelMap map(0.2);
+  map.add(surfels, Pose{});
+  std::vector<Eigen::Vector3d> points;
+  for (std::uint64_t k = 0; k < 200; ++k)
+    points.emplace_back(16.0 * random.uniform(k, 5) - 8.0, 2.0 * random.uniform(k, 6) - 1.0,
+                        2.0 * random.uniform(k, 7) - 1.0);
+  RoughMap rough;
+  rough.add(points, Pose{}, 20);
+  for (Eigen::Vector3d& p_R : points) p_R.y() += 0.1;  // a push across, to which surfels do not yield
+  const Pose start = Pose::from_xyz_yaw({0.07, 0.04, 0.0}, 0.01);
+  const auto place = [&](bool with) {
+    const std::vector<RoughMatch> matches = rough.match(points, start, 0.6);
+    return align(surfels, map, start, std::nullopt, {}, {}, 0.1, std::nullopt,
+                 with ? [&](const Pose& X_MR) { return linearize(matches, X_MR, 0.2); } : AdditionalFactors{});
+  };
+  EXPECT_NEAR(place(false).X_MR.t.x(), 0.07, 0.01);
+  const Registration found = place(true);
+  EXPECT_NEAR(found.X_MR.t.x(), 0.0, 0.02);
+  EXPECT_NEAR(found.X_MR.t.y(), 0.0, 0.01);
+  EXPECT_EQ(found.unobserved_directions, 1);
 }
 
 }  // namespace
