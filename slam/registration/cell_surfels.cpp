@@ -130,11 +130,12 @@ std::optional<Eigen::Vector3d> normal_at(const Cells& cells, const VoxelKey& key
   return normal_of(beyond, config.max_thickness_m, 4.0 * flatness);
 }
 
-/// Whether the points of a voxel and of those round it lie neither in a plane nor, as seen, in a line. Few do not tell.
+/// Whether the points of a voxel and of those round it lie neither in a plane nor, as seen, in a line. Few do not tell:
+/// along a bare tunnel they go along with the robot.
 bool is_rough(const Cells& cells, const VoxelKey& key, const CellSurfels& config) {
   constexpr double few = 4.0;
   const Moments round = cells.round(key);
-  if (round.n < few) return true;
+  if (round.n < few) return false;
   if (config.sensor && is_line_of_sight(round, cells.centre(key) - *config.sensor)) return false;
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
   eigen.computeDirect(round.covariance(), Eigen::EigenvaluesOnly);

@@ -53,8 +53,7 @@ struct Surfel {
 
 /// The same, and points without a surfel, one a voxel. Of few rings: what stands up and faces the sensor or stands
 /// alone, as leaves, posts and far walls do; of a wall that is seen at a grazing angle the last returns go along with
-/// the robot, and of the ground the rings do. Of many rings or none: what lies in no plane and no line of sight, and
-/// what is seen by three returns or fewer.
+/// the robot, and of the ground the rings do. Of many rings or none: what lies in no plane and no line of sight.
 struct Surfaces {
   std::vector<Surfel> surfels;
   std::vector<Eigen::Vector3d> rough_R;
