@@ -62,9 +62,9 @@ struct PosePrior {
 
 struct Registration {
   Pose X_MR;
-  Matrix6d information =
-      Matrix6d::Zero();  ///< Gauss-Newton Hessian of surfels, edges and rough points, without priors, of the right
-                         ///< increment (rho in m, phi in rad); counts every surfel as independent
+  /// Gauss-Newton Hessian of surfels, edges and rough points, without priors, of the right increment (rho in m, phi in
+  /// rad); counts every one as independent.
+  Matrix6d information = Matrix6d::Zero();
   Matrix6d open = Matrix6d::Zero();  ///< information of 1 / m^2 in the degenerate directions alone
   double matched = 0.0;              ///< share of the surfels that fall into a voxel and are not outliers, 0 to 1
   double rms = 0.0;                  ///< of the inliers' Mahalanobis distances; 0.3 to 0.8 for a good match

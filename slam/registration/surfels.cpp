@@ -84,7 +84,7 @@ class Neighbourhood {
     return static_cast<std::size_t>(column * scan_.rings + ring);
   }
 
-  /// A return of the next rings lies more above or below it than beside it.
+  /// A return of the next rings lies more above or below it than beside it, in the robot's frame.
   [[nodiscard]] bool stands_up(int column, int ring, int step) const {
     const Eigen::Vector3d& p = scan_.point_R[index(column, ring)];
     for (const int beside : {ring - 1, ring + 1})
@@ -104,15 +104,17 @@ class Neighbourhood {
   [[nodiscard]] bool faces_sensor(int column, int ring, int step) const {
     constexpr double most_slope = 2.0;  // 63 degrees from facing: assumed
     const double range = scan_.range_m[index(column, ring)];
-    std::vector<double> beside;
-    for (const int c : {column - step, column + step}) {
+    int sides = 0;
+    double along = 0.0;  // from the column before to the one after
+    for (const int side : {-1, 1}) {
+      const int c = column + side * step;
       const double r = c < 0 || c >= scan_.columns ? 0.0 : scan_.range_m[index(c, ring)];
       if (r > 0.0 && r < range - config_.radius_m) return false;
-      if (r > 0.0 && r <= range + config_.radius_m) beside.push_back(r);
+      if (r <= 0.0 || r > range + config_.radius_m) continue;
+      ++sides;
+      along += side * (r - range);
     }
-    if (beside.empty()) return true;
-    const double along = beside.size() == 2 ? 0.5 * (beside[1] - beside[0]) : beside[0] - range;
-    return std::abs(along) <= most_slope * step * azimuth_step_rad_ * range;
+    return std::abs(along) <= most_slope * sides * step * azimuth_step_rad_ * range;
   }
 
   /// The next ring above or below or, where that returns from nearer than `apart_m_`, the first one beyond that does

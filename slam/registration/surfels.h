@@ -51,13 +51,14 @@ struct Surfel {
 /// order. Of many rings or without any: one a voxel, from its returns and those of the voxels round it.
 [[nodiscard]] std::vector<Surfel> make_surfels(const DeskewedScan& scan, const SurfelConfig& config);
 
-/// The same, and points without a surfel, one a voxel. Of few rings: what stands up and faces the sensor or stands
-/// alone, as leaves, posts and far walls do; of a wall that is seen at a grazing angle the last returns go along with
-/// the robot, and of the ground the rings do. Of many rings or none: what lies in no plane and no line of sight.
+/// Surfels of a scan, and points without one, at most one a voxel.
 struct Surfaces {
   std::vector<Surfel> surfels;
   std::vector<Eigen::Vector3d> rough_R;
 };
+/// Rough points of few rings are those that stand up and face the sensor or stand alone, as leaves, posts and far walls
+/// do: rings on the ground, and a wall's last returns at a grazing angle, go along with the robot. Those of many rings
+/// or of none lie in no plane and no line of sight.
 [[nodiscard]] Surfaces find_surfaces(const DeskewedScan& scan, const SurfelConfig& config);
 
 /// Gaussian voxel map in M: each voxel pools the surfels that fell into it.

@@ -186,7 +186,7 @@ Registration VgicpOdometry::align_finely(const Pose& start, const std::optional<
         align(scan_.registered, maps_.front(), before, prior, scan_.fine, edges_near(before), odometry.sigma_m, start);
     if ((result.X_MR.t - before.t).norm() < 0.1 * config_.edges.leaf_m) break;
   }
-  if (result.unobserved_directions == 0 || rough_map_.empty()) return result;
+  if (result.unobserved_directions == 0 || scan_.rough_R.empty() || rough_map_.empty()) return result;
   return align_rough_points(std::move(result), start, prior, odometry);
 }
 
