@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <optional>
 #include <utility>
 
@@ -206,7 +207,8 @@ class GuardedScanMatcher final : public LidarOdometry {
     const bool ready = matcher_.ready();
     const Nanoseconds dt = stamp - stamp_, moved = stamp - moved_stamp_;
     const Pose step = X_MR_.inverse() * result.X_MR;
-    const ExpectedStep expected{stamp - accepted_stamp_,
+    // An earlier keyframe tells what nothing measured since, all of it in one step.
+    const ExpectedStep expected{stamp - (result.correlated ? measured_stamp_ : accepted_stamp_),
                                 sample.valid ? std::optional(expected_of(sample)) : std::nullopt, continued(stamp)};
     // A handful of surfels tell nothing.
     constexpr int all_directions = 6;
@@ -228,13 +230,17 @@ class GuardedScanMatcher final : public LidarOdometry {
       const double sigma_m = std::max(unmeasured_.open_m(), continued_sigma(dt));
       result.information += result.open / (sigma_m * sigma_m);
     }
-    if (result.accepted && moved > 0) motion_.add(step, moved);
+    if (result.accepted && moved > 0) add_motion(result, step, stamp);
+    if (result.accepted && result.correlated && result.unobserved_directions == 0)
+      measure_from_keyframe(result.correlated->keyframe_stamp);
     if (result.accepted && moved > 0 && result.unobserved_directions == 0)
       unmeasured_.measure_acceleration(motion_.sigma_m(), moved);
     if (!result.accepted && sample.valid && ready && dt > 0) motion_.add(sample.step, dt);
     if (ready) speed_mps_ = motion_.speed_mps();
     const bool begins = !ready && !awaits_odometry(stamp, sample);
     if (result.accepted || begins) accepted_stamp_ = stamp;
+    const bool tells_all = result.unobserved_directions == 0 || sample.valid;
+    if ((result.accepted && tells_all) || begins) measured_stamp_ = stamp;
     X_MR_ = result.X_MR;
     stamp_ = stamp;
     if (!frozen || begins) moved_stamp_ = stamp;  // where a map begins, a motion does
@@ -242,6 +248,8 @@ class GuardedScanMatcher final : public LidarOdometry {
     matcher_.commit(X_MR_, result.accepted || begins);
     result.began &= matcher_.ready();
     if (result.began) unmeasured_.begin_map();
+    if constexpr (requires { matcher_.is_keyframe(); })
+      if (matcher_.is_keyframe()) remember_keyframe(stamp);
     had_map_ |= matcher_.ready();
     if (!matcher_.ready()) (void)health_.assess(Registration{}, sample.step, expected);  // nothing to begin a map with
     started_ = true;
@@ -249,6 +257,29 @@ class GuardedScanMatcher final : public LidarOdometry {
     result.lost = health_.lost() || unmeasured_.lost();
     result.displaced = unmeasured_.displaced();
     return result;
+  }
+
+  void add_motion(const Registration& result, const Pose& step, Nanoseconds stamp) {
+    const ExpectedStep usual{stamp - accepted_stamp_, std::nullopt, continued(stamp)};
+    if (!result.correlated || OdometryHealth::is_expected_step(step, usual)) {
+      motion_.add(step, stamp - moved_stamp_);
+      return;
+    }
+    // The step makes up for what was not measured, or for what keyframes are off by; the way since one is a motion.
+    motion_.clear();
+    if (const Nanoseconds dt = stamp - result.correlated->keyframe_stamp; dt > 0)
+      motion_.add(result.correlated->X_KR, dt);
+  }
+
+  void remember_keyframe(Nanoseconds stamp) {
+    constexpr std::size_t most = 1000;  // more than a local map has
+    at_keyframes_.push_back({stamp, unmeasured_});
+    if (at_keyframes_.size() > most) at_keyframes_.pop_front();
+  }
+  void measure_from_keyframe(Nanoseconds stamp) {
+    const auto is_it = [&](const AtKeyframe& at) { return at.stamp == stamp; };
+    const auto at = std::find_if(at_keyframes_.rbegin(), at_keyframes_.rend(), is_it);
+    if (at != at_keyframes_.rend()) unmeasured_.measure_from(at->unmeasured);
   }
 
   struct Measured {
@@ -291,6 +322,12 @@ class GuardedScanMatcher final : public LidarOdometry {
   Nanoseconds stamp_ = 0;
   Nanoseconds moved_stamp_ = 0;  ///< of the last scan that X_MR_ was moved at
   Nanoseconds accepted_stamp_ = 0;
+  Nanoseconds measured_stamp_ = 0;  ///< of the last scan whose whole motion was measured
+  struct AtKeyframe {
+    Nanoseconds stamp = 0;
+    UnmeasuredWay unmeasured;
+  };
+  std::deque<AtKeyframe> at_keyframes_;
   std::optional<MeasuredByOdometry> measured_by_odometry_;  ///< nothing once scans have measured the way since
 };
 

@@ -42,6 +42,12 @@ void UnmeasuredWay::begin_map() {
   frozen_m_ = 0.0;
 }
 
+void UnmeasuredWay::measure_from(const UnmeasuredWay& then) {
+  open_s_ = std::min(open_s_, then.open_s_);
+  frozen_m_ = std::min(frozen_m_, then.frozen_m_);
+  map_m_ = std::min(map_m_, then.map_m_);
+}
+
 // A speed that random accelerations change, integrated.
 double UnmeasuredWay::open_m() const {
   return frozen_m_ + acceleration_mps2_ * std::sqrt(correlation_s * open_s_ * open_s_ * open_s_ / 3.0);

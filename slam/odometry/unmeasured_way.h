@@ -32,6 +32,8 @@ class UnmeasuredWay {
   void add_doubtful(double way_m) { map_m_ = std::max(map_m_, way_m); }
   /// A new map begins here.
   void begin_map();
+  /// A scan that is placed against an earlier one, when this was `then`: it is known as well as that one was.
+  void measure_from(const UnmeasuredWay& then);
   /// Something outside, as a loop closure, says where the map is.
   void locate_map() { map_m_ = 0.0; }
 

@@ -191,7 +191,8 @@ Registration align(std::span<const Surfel> surfels, const SurfelMap& map, const 
     if (additional) known += additional(result.X_MR).h;
     constexpr double known_m = 0.015;  // four edges of 3 cm; a stray one or two tell nothing
     for (const Vector6d& direction : seen.degenerate_directions)
-      if (direction.dot(known * direction) * known_m * known_m < 1.0) ++result.unobserved_directions;
+      if (direction.dot(known * direction) * known_m * known_m < 1.0) result.unobserved.push_back(direction);
+    result.unobserved_directions = static_cast<int>(result.unobserved.size());
   }
   if (!surfels.empty()) result.matched = normal.inliers / static_cast<double>(surfels.size());
   if (!normal.across.empty()) result.residual_m = 1.4826 * upper_median(normal.across);

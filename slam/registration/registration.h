@@ -8,6 +8,7 @@
 
 #include "bim/config/visit.h"
 #include "bim/geometry/pose.h"
+#include "slam/io/records.h"
 #include "slam/registration/surfels.h"
 
 namespace plumbline::slam {
@@ -60,6 +61,13 @@ struct PosePrior {
   std::optional<TiltPrior> tilt;
 };
 
+/// From a keyframe K, of this stamp, to where a scan was placed by correlation with it.
+struct CorrelatedStep {
+  Nanoseconds keyframe_stamp = 0;
+  Pose X_KR;
+  std::vector<Vector6d> movements;  ///< increments that it tells
+};
+
 struct Registration {
   Pose X_MR;
   /// Gauss-Newton Hessian of surfels, edges and rough points, without priors, of the right increment (rho in m, phi in
@@ -71,8 +79,10 @@ struct Registration {
   double residual_m = 0.0;           ///< 1.4826 times the median distance of inliers from the surfaces they meet
   double least_eigenvalue = 1.0;  ///< of the normals' Hessian per surfel, rotations times the surfels' median distance
   int degenerate_directions = 0;  ///< that surfaces leave open: edges, odometry or the start decided there
-  int unobserved_directions = 0;  ///< of those, the ones in which neither edges nor odometry tell anything
-  Vector6d sweep_twist = Vector6d::Zero();  ///< by which the scan's deskewing was corrected, see sweep_twist()
+  int unobserved_directions = 0;  ///< of those, the ones in which neither edges nor odometry tell anything ...
+  std::vector<Vector6d> unobserved;          ///< ... as unit increments of X_MR, before a correlation
+  std::optional<CorrelatedStep> correlated;  ///< where they were told by an earlier keyframe
+  Vector6d sweep_twist = Vector6d::Zero();   ///< by which the scan's deskewing was corrected, see sweep_twist()
   int iterations = 0;
   bool converged = false;
   bool from_expected = false;  ///< the expected pose leads here, too: no other start was needed

@@ -92,32 +92,45 @@ Registration VgicpOdometry::match(const DeskewedScan& scan, const OdometrySample
   scan_ = features_of(scan);
   Registration result;
   result.X_MR = X_MR_;
+  const bool measured = config_.odometry_prior && odometry.valid;
   if (ready()) {
     const PosePrior prediction = predict(scan, odometry);
     const bool any = config_.odometry_prior || config_.tilt_prior;
     const std::optional<PosePrior> prior = any ? std::optional(prediction) : std::nullopt;
-    result = align_finely(prediction.X_MR, prior, odometry);
+    result = align_surfaces(prediction.X_MR, prior, odometry);
+    std::optional<Registration> correlated;
+    if (config_.correlation && !measured && result.unobserved_directions > 0)
+      correlated = align_correlated(scan, result, prior, odometry);
+    result =
+        correlated ? *std::move(correlated) : with_rough_points(std::move(result), prediction.X_MR, prior, odometry);
     result.from_expected = true;
     const auto starts_from_expected = std::span<const Pose>(&prediction.X_MR, 1);
     // Along a degenerate direction one start matches as well as another: only clearly more matches are better, or as
     // many that leave less open. Surfaces that a scan does not meet where it starts count as open.
     constexpr double clearly = 1.1, as_usual = 0.8, hardly = 0.5, about = 0.9;
-    const bool measured = config_.odometry_prior && odometry.valid;
     const auto try_from = [&](std::span<const Pose> starts) {
       Registration again = align_finely(align_coarsely(starts).X_MR, prior, odometry);
       const bool tells_more = again.unobserved_directions < result.unobserved_directions;
       if (again.matched <= (tells_more ? about : clearly) * result.matched) return;
-      if (measured && slides(again, prediction.X_MR, odometry.sigma_m)) return;
+      if (result.correlated && again.unobserved_directions > 0) return;
+      // What nothing measures is as well where it was expected.
+      constexpr double least_slack_m = 0.1;
+      const double slack_m = measured ? odometry.sigma_m : std::max(least_slack_m, odometry.sigma_m);
+      if ((measured || again.unobserved_directions > 0) && slides(again, prediction.X_MR, slack_m)) return;
       again.from_expected = is_near(again.X_MR, align_coarsely(starts_from_expected).X_MR);
       result = again;
     };
     const std::array<Pose, 3> starts = {prediction.X_MR, X_MR_, Pose{prediction.X_MR.q, X_MR_.t}};
-    if (result.matched < as_usual * usual_matched || (!measured && result.unobserved_directions > 0))
+    const bool is_open = !measured && result.unobserved_directions > 0 && !result.correlated;
+    if (result.matched < as_usual * usual_matched || is_open)
       try_from(measured ? std::span<const Pose>(starts).first(1) : starts);
     if (result.matched < (measured ? hardly : as_usual) * usual_matched) try_from(yaw_fan(X_MR_));
     correct_sweep(scan, prior, odometry, result);
   }
   if (!q_OM_) q_OM_ = odometry.q_OR;
+  stamp_ = scan.stamp;
+  is_measured_ = measured || result.unobserved_directions == 0;
+  if (config_.correlation && (!ready() || is_new_view(result.X_MR))) scan_.returns_R = returns_of(scan);
   return result;
 }
 
@@ -152,13 +165,16 @@ void VgicpOdometry::correct_sweep(const DeskewedScan& scan, const std::optional<
   DeskewedScan corrected = scan;
   correct_motion(corrected, twist);
   ScanFeatures uncorrected = std::exchange(scan_, features_of(corrected));
-  Registration again = align_finely(result.X_MR, prior, odometry);
+  Registration again = result.correlated ? align_known(result.X_MR, result.correlated->movements, prior, odometry)
+                                         : align_finely(result.X_MR, prior, odometry);
   constexpr double about = 0.9;
   if (again.matched < about * result.matched || again.residual_m > result.residual_m) {
     scan_ = std::move(uncorrected);
     return;
   }
   again.from_expected = result.from_expected;
+  again.correlated = std::move(result.correlated);
+  if (again.correlated) again.correlated->X_KR = again.correlated->X_KR * (result.X_MR.inverse() * again.X_MR);
   result = std::move(again);
   result.sweep_twist = twist;
 }
@@ -175,6 +191,11 @@ AdditionalFactors VgicpOdometry::edges_near(const Pose& X_MR) const {
 
 Registration VgicpOdometry::align_finely(const Pose& start, const std::optional<PosePrior>& prior,
                                          const OdometrySample& odometry) const {
+  return with_rough_points(align_surfaces(start, prior, odometry), start, prior, odometry);
+}
+
+Registration VgicpOdometry::align_surfaces(const Pose& start, const std::optional<PosePrior>& prior,
+                                           const OdometrySample& odometry) const {
   // Lines are searched at the start. Odometry's error is below the spacing of columns; without it they are searched
   // again where they led.
   const int rounds = odometry.valid ? 1 : 3;
@@ -186,28 +207,86 @@ Registration VgicpOdometry::align_finely(const Pose& start, const std::optional<
         align(scan_.registered, maps_.front(), before, prior, scan_.fine, edges_near(before), odometry.sigma_m, start);
     if ((result.X_MR.t - before.t).norm() < 0.1 * config_.edges.leaf_m) break;
   }
-  if (result.unobserved_directions == 0 || scan_.rough_R.empty() || rough_map_.empty()) return result;
-  return align_rough_points(std::move(result), start, prior, odometry);
+  return result;
 }
 
-Registration VgicpOdometry::align_rough_points(Registration found, const Pose& expected,
-                                               const std::optional<PosePrior>& prior,
-                                               const OdometrySample& odometry) const {
+std::vector<double> VgicpOdometry::rough_reaches(const Pose& X_MR) const {
   // As many points as this meet the map where the motion is known; elsewhere they are sought farther off first. Both
   // assumed, looked at on four open fields and lc1.
   constexpr double usual_share = 0.3;
   constexpr int doublings = 3, rounds = 3;
   const double reach_m = 3.0 * surfels_.voxel_m;
-  const auto near = static_cast<double>(rough_map_.match(scan_.rough_R, found.X_MR, reach_m).size());
+  const auto near = static_cast<double>(rough_map_.match(scan_.rough_R, X_MR, reach_m).size());
   const bool is_near = near >= usual_share * static_cast<double>(scan_.rough_R.size());
-  for (int k = is_near ? 0 : -doublings; k < rounds; ++k) {
-    const double within_m = reach_m * std::exp2(std::max(0, -k));
+  std::vector<double> reaches;
+  for (int k = is_near ? 0 : -doublings; k < rounds; ++k) reaches.push_back(reach_m * std::exp2(std::max(0, -k)));
+  return reaches;
+}
+
+Registration VgicpOdometry::with_rough_points(Registration found, const Pose& expected,
+                                              const std::optional<PosePrior>& prior,
+                                              const OdometrySample& odometry) const {
+  if (found.unobserved_directions == 0 || scan_.rough_R.empty() || rough_map_.empty()) return found;
+  const std::vector<double> reaches_m = rough_reaches(found.X_MR);
+  return with_rough_points_within(reaches_m, std::move(found), expected, prior, odometry);
+}
+
+Registration VgicpOdometry::with_rough_points_within(std::span<const double> reaches_m, Registration found,
+                                                     const Pose& expected, const std::optional<PosePrior>& prior,
+                                                     const OdometrySample& odometry) const {
+  if (found.unobserved_directions == 0 || scan_.rough_R.empty() || rough_map_.empty()) return found;
+  for (const double within_m : reaches_m) {
     const std::vector<RoughMatch> matches = rough_map_.match(scan_.rough_R, found.X_MR, within_m);
     found =
         align(scan_.registered, maps_.front(), found.X_MR, prior, scan_.fine, edges_near(found.X_MR), odometry.sigma_m,
               expected, [&](const Pose& X_MR) { return linearize(matches, X_MR, within_m / 3.0); });
   }
   return found;
+}
+
+const VgicpOdometry::Keyframe& VgicpOdometry::keyframe_apart_from(const Pose& X_MR) const {
+  constexpr double apart_m = 1.2, far_m = 3.6;
+  const Keyframe* latest = nullptr;
+  for (auto keyframe = keyframes_.rbegin(); keyframe != keyframes_.rend(); ++keyframe) {
+    const double way_m = (keyframe->X_MR.t - X_MR.t).norm();
+    if (way_m >= apart_m && way_m <= far_m && keyframe->measured) return *keyframe;
+    if (way_m >= apart_m && latest == nullptr) latest = &*keyframe;
+  }
+  return latest == nullptr ? keyframes_.back() : *latest;
+}
+
+std::vector<Eigen::Vector3d> VgicpOdometry::returns_of(const DeskewedScan& scan) const {
+  return thinned_returns(scan, surfels_.min_range_m, surfels_.max_range_m);
+}
+
+std::optional<Registration> VgicpOdometry::align_correlated(const DeskewedScan& scan, const Registration& found,
+                                                            const std::optional<PosePrior>& prior,
+                                                            const OdometrySample& odometry) const {
+  constexpr double window_m = 2.4, largest_scale = 2.0;  // a car's first step; more takes the square of the time
+  constexpr double least_share = 0.5;                    // of what matched: surfaces that go along match as well
+  const Keyframe& keyframe = keyframe_apart_from(found.X_MR);
+  const std::vector<Vector6d> searched = movements(found.unobserved);
+  const std::optional<Pose> X_KR = correlate(keyframe.returns, standing_returns(returns_of(scan), scan_.surfels),
+                                             keyframe.X_MR.inverse() * found.X_MR, scan.X_RL.t, searched,
+                                             window_m * std::min(scale_, largest_scale));
+  if (!X_KR) return std::nullopt;
+  Registration again = align_known(keyframe.X_MR * *X_KR, searched, prior, odometry);
+  if (again.matched < least_share * found.matched) return std::nullopt;
+  again.correlated = CorrelatedStep{keyframe.stamp, keyframe.X_MR.inverse() * again.X_MR, searched};
+  return again;
+}
+
+Registration VgicpOdometry::align_known(const Pose& expected, std::span<const Vector6d> movements,
+                                        const std::optional<PosePrior>& prior, const OdometrySample& odometry) const {
+  constexpr double sigma_m = 0.1;                               // a third of a voxel of the correlation
+  constexpr std::array<double, 3> reaches_m = {0.3, 0.3, 0.3};  // of rough points: a voxel
+  OdometrySample known = odometry;
+  known.sigma_m = sigma_m;
+  Registration result =
+      with_rough_points_within(reaches_m, align_surfaces(expected, prior, known), expected, prior, known);
+  result.information += result.open / (sigma_m * sigma_m);
+  result.unobserved_directions = directions_beside(result.unobserved, movements);
+  return result;
 }
 
 Registration VgicpOdometry::align_coarsely(std::span<const Pose> starts) const {
@@ -227,12 +306,13 @@ Registration VgicpOdometry::align_coarsely(std::span<const Pose> starts) const {
 void VgicpOdometry::commit(const Pose& X_MR, bool mapped) {
   X_MR_ = X_MR;
   is_keyframe_ = mapped && !scan_.surfels.empty();
-  if (is_keyframe_ && ready()) {
-    const Pose X_KR = keyframes_.back().X_MR.inverse() * X_MR;
-    is_keyframe_ =
-        X_KR.t.norm() >= config_.keyframe_distance_m * scale_ || log_so3(X_KR.q).norm() >= config_.keyframe_angle_rad;
-  }
+  if (is_keyframe_ && ready()) is_keyframe_ = is_new_view(X_MR);
   if (is_keyframe_) insert(X_MR_);
+}
+
+bool VgicpOdometry::is_new_view(const Pose& X_MR) const {
+  const Pose X_KR = keyframes_.back().X_MR.inverse() * X_MR;
+  return X_KR.t.norm() >= config_.keyframe_distance_m * scale_ || log_so3(X_KR.q).norm() >= config_.keyframe_angle_rad;
 }
 
 void VgicpOdometry::reset_map() {
@@ -297,7 +377,7 @@ void VgicpOdometry::insert(const Pose& X_MR) {
   edge_map_.add(std::move(scan_.edges_R), X_MR, static_cast<std::size_t>(config_.map_keyframes));
   if (config_.rough_points)
     rough_map_.add(std::move(scan_.rough_R), X_MR, static_cast<std::size_t>(config_.map_keyframes));
-  keyframes_.push_back({std::move(scan_.surfels), X_MR});
+  keyframes_.push_back({std::move(scan_.surfels), X_MR, stamp_, is_measured_, ReturnVoxels(scan_.returns_R)});
   if (keyframes_.size() <= static_cast<std::size_t>(config_.map_keyframes)) return;
   for (SurfelMap& map : maps_) map.remove(keyframes_.front().surfels, keyframes_.front().X_MR);
   keyframes_.pop_front();

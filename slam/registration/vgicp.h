@@ -8,6 +8,7 @@
 
 #include "bim/config/visit.h"
 #include "bim/geometry/pose.h"
+#include "slam/registration/correlation.h"
 #include "slam/registration/registration.h"
 #include "slam/registration/rough_points.h"
 #include "slam/registration/surfels.h"
@@ -22,6 +23,7 @@ struct VgicpConfig {
   RegistrationConfig registration{.sigma_tangent_m = 0.2, .min_normal_agreement = 0.9, .cauchy_scale = 1.5};
   EdgeConfig edges;
   bool rough_points = true;
+  bool correlation = true;
   double map_voxel_m = 0.2;
   double keyframe_distance_m = 0.5;
   double keyframe_angle_rad = 0.35;
@@ -45,6 +47,9 @@ struct VgicpConfig {
     v("edges", edges);
     v("rough_points", rough_points,
       Field{.doc = "match points without a surface, as of leaves, in directions that nothing else measures"});
+    v("correlation", correlation,
+      Field{.doc = "search in these directions for where returns that stand on the ground meet those of an earlier "
+                   "keyframe"});
     v("map_voxel_m", map_voxel_m, Field{.doc = "voxel size of the local map", .min = 0.05, .basic = true});
     v("keyframe_distance_m", keyframe_distance_m,
       Field{.doc = "distance after which a scan enters the local map", .min = 0.01, .basic = true});
@@ -73,6 +78,7 @@ struct CoarseVgicpConfig : VgicpConfig {
     registration = {.sigma_tangent_m = 0.5, .min_normal_agreement = 0.8, .cauchy_scale = 2.0};
     edges.enabled = false;
     rough_points = false;
+    correlation = false;
   }
 };
 
@@ -104,22 +110,46 @@ class VgicpOdometry {
     std::vector<Surfel> few;         ///< ... and a share of these
     std::vector<Eigen::Vector3d> edges_R;
     std::vector<Eigen::Vector3d> rough_R;
+    std::vector<Eigen::Vector3d> returns_R;  ///< thinned, where they were asked for
     RegistrationConfig fine;
   };
   struct Keyframe {
     std::vector<Surfel> surfels;
     Pose X_MR;
+    Nanoseconds stamp = 0;
+    bool measured = false;  ///< in all directions
+    ReturnVoxels returns;
   };
 
   [[nodiscard]] PosePrior predict(const DeskewedScan& scan, const OdometrySample& odometry) const;
+  /// By surfels and edges; align_finely() also by rough points, in directions that these leave open.
+  [[nodiscard]] Registration align_surfaces(const Pose& start, const std::optional<PosePrior>& prior,
+                                            const OdometrySample& odometry) const;
   [[nodiscard]] Registration align_finely(const Pose& start, const std::optional<PosePrior>& prior,
                                           const OdometrySample& odometry) const;
   /// Factors of the scan's edges and the lines of the map that they are near to there.
   [[nodiscard]] AdditionalFactors edges_near(const Pose& X_MR) const;
-  /// Goes on from a place whose unobserved directions rough points may tell.
-  [[nodiscard]] Registration align_rough_points(Registration found, const Pose& expected,
-                                                const std::optional<PosePrior>& prior,
-                                                const OdometrySample& odometry) const;
+  /// Goes on from a place whose unobserved directions rough points may tell, sought as far as they seem to be off, or
+  /// within these reaches in turn.
+  [[nodiscard]] Registration with_rough_points(Registration found, const Pose& expected,
+                                               const std::optional<PosePrior>& prior,
+                                               const OdometrySample& odometry) const;
+  [[nodiscard]] Registration with_rough_points_within(std::span<const double> reaches_m, Registration found,
+                                                      const Pose& expected, const std::optional<PosePrior>& prior,
+                                                      const OdometrySample& odometry) const;
+  [[nodiscard]] std::vector<double> rough_reaches(const Pose& X_MR) const;
+  /// Goes on from a place whose unobserved directions an earlier keyframe may tell.
+  [[nodiscard]] std::optional<Registration> align_correlated(const DeskewedScan& scan, const Registration& found,
+                                                             const std::optional<PosePrior>& prior,
+                                                             const OdometrySample& odometry) const;
+  /// From a place that tells these movements.
+  [[nodiscard]] Registration align_known(const Pose& expected, std::span<const Vector6d> movements,
+                                         const std::optional<PosePrior>& prior, const OdometrySample& odometry) const;
+  /// The latest keyframe that is far enough from there to tell a motion from a standstill, if possible one that was
+  /// measured; else the latest.
+  [[nodiscard]] const Keyframe& keyframe_apart_from(const Pose& X_MR) const;
+  [[nodiscard]] std::vector<Eigen::Vector3d> returns_of(const DeskewedScan& scan) const;
+  [[nodiscard]] bool is_new_view(const Pose& X_MR) const;
   /// Corrects the scan by the motion during it that its deskewing did not know, and places it again.
   void correct_sweep(const DeskewedScan& scan, const std::optional<PosePrior>& prior, const OdometrySample& odometry,
                      Registration& result);
@@ -139,7 +169,9 @@ class VgicpOdometry {
   EdgeMap edge_map_;
   RoughMap rough_map_;
   std::deque<Keyframe> keyframes_;
-  ScanFeatures scan_;                       ///< last matched
+  ScanFeatures scan_;                       ///< last matched ...
+  Nanoseconds stamp_ = 0;                   ///< ... its stamp ...
+  bool is_measured_ = false;                ///< ... and whether its whole pose was measured
   double median_range_m_ = 0.0;             ///< low-pass filtered; 0 before the first scan
   std::optional<Nanoseconds> scale_stamp_;  ///< of the scan that it last followed
   double scale_ = 1.0;

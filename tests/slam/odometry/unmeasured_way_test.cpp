@@ -94,5 +94,19 @@ TEST(UnmeasuredWay, ANewMapDoesNotKnowWhereItIs) {
   EXPECT_FALSE(standing.displaced()) << "a second without scans of a robot that stood";
 }
 
+TEST(UnmeasuredWay, AScanPlacedAgainstAnEarlierOneIsKnownAsWellAsThatWas) {
+  UnmeasuredWay way(limit_m);
+  way.add_open(period(2.0));
+  const UnmeasuredWay then = way;
+  while (!way.displaced()) way.add_open(period(2.0));
+  const UnmeasuredWay now = way;
+  way.measure_from(then);
+  EXPECT_EQ(way.open_m(), then.open_m());
+  EXPECT_FALSE(way.lost());
+  EXPECT_FALSE(way.displaced());
+  way.measure_from(now);
+  EXPECT_EQ(way.open_m(), then.open_m()) << "a worse one takes nothing away";
+}
+
 }  // namespace
 }  // namespace plumbline::slam
