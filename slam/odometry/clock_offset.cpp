@@ -19,42 +19,57 @@ constexpr double flat = 0.09;      ///< sine of a return's elevation
 constexpr double nearest_m = 0.5;  ///< nearer is the robot itself
 constexpr double upright = 0.95;   ///< cosine of the sensor's tilt
 constexpr int fewest_bins = bins / 4;
-constexpr double differs = 0.2;  ///< of two ranges' logarithms: another surface
+constexpr double longest_s = 1.0;  ///< a sweep, or from one to the next
+constexpr double differs = 0.2;    ///< of two ranges' logarithms: another surface
 
 int wrapped(int bin) { return ((bin % bins) + bins) % bins; }
 std::size_t bin_of(const Eigen::Vector2d& p) {
   return static_cast<std::size_t>(wrapped(static_cast<int>(std::floor(std::atan2(p.y(), p.x()) / bin_rad))));
 }
 
-/// Of nearly horizontal returns, the mean in each bin.
-std::vector<double> ranges_of(const Scan& scan) {
+/// By azimuth.
+struct Bins {
+  std::vector<double> range_m = std::vector<double>(bins, 0.0);  ///< 0: nothing
+  std::vector<double> time_s = std::vector<double>(bins, 0.0);
+};
+
+/// Of nearly horizontal returns, the means in each bin; times from the stamp.
+Bins bins_of(const Scan& scan) {
   constexpr std::size_t most = 5'000;  // several in each bin
   std::size_t stride = (scan.size() / most) | 1U;
   while (std::gcd(stride, static_cast<std::size_t>(std::max(scan.rings, 1))) != 1) stride += 2;  // no ring is left out
-  std::vector<double> sum(bins, 0.0);
+  Bins means;
   std::vector<int> number(bins, 0);
   for (std::size_t i = 0; i < scan.size(); i += stride) {
     const Eigen::Vector3d& p = scan.point_L[i];
     const double range = p.head<2>().norm();
     if (!(scan.range_m[i] > nearest_m) || !(range > nearest_m) || !(std::abs(p.z()) < flat * range)) continue;
     const std::size_t bin = bin_of(p.head<2>());
-    sum[bin] += range;
+    means.range_m[bin] += range;
+    means.time_s[bin] += seconds(scan.offset_ns[i]);
     ++number[bin];
   }
-  for (std::size_t bin = 0; bin < bins; ++bin)
-    if (number[bin] > 0) sum[bin] /= number[bin];
-  return sum;
+  for (std::size_t bin = 0; bin < bins; ++bin) {
+    if (number[bin] == 0) continue;
+    means.range_m[bin] /= number[bin];
+    means.time_s[bin] /= number[bin];
+  }
+  return means;
 }
 
-/// The same seen from `t` away, without a turn.
-std::vector<double> moved_by(const std::vector<double>& range_m, const Eigen::Vector2d& t) {
-  std::vector<double> moved(bins, 0.0);
+/// The same seen a while later, without a turn: `way_at` says from where, by the time of a return.
+template <class WayAt>
+Bins moved_by(const std::vector<double>& range_m, const std::vector<double>& time_s, const WayAt& way_at) {
+  Bins moved;
   for (std::size_t bin = 0; bin < bins; ++bin) {
     if (range_m[bin] <= 0.0) continue;
     const double azimuth = (static_cast<double>(bin) + 0.5) * bin_rad;
-    const Eigen::Vector2d p = range_m[bin] * Eigen::Vector2d(std::cos(azimuth), std::sin(azimuth)) - t;
-    double& there = moved[bin_of(p)];
-    there = there > 0.0 ? std::min(there, p.norm()) : p.norm();
+    const Eigen::Vector2d p =
+        range_m[bin] * Eigen::Vector2d(std::cos(azimuth), std::sin(azimuth)) - way_at(time_s[bin]);
+    const std::size_t to = bin_of(p);
+    if (moved.range_m[to] > 0.0 && moved.range_m[to] <= p.norm()) continue;
+    moved.range_m[to] = p.norm();
+    moved.time_s[to] = time_s[bin];
   }
   return moved;
 }
@@ -99,6 +114,38 @@ std::optional<double> turn_between(const std::vector<double>& before, const std:
   return (from + static_cast<int>(best) + vertex(costs[best - 1], costs[best], costs[best + 1])) * bin_rad;
 }
 
+/// Of a pair of scans: bins before that are seen now, too, and how far each moves on by odometry, in bins.
+struct PredictedTurn {
+  std::vector<double> before;  ///< logarithms of ranges
+  std::vector<double> to_bin;
+  double mean_rad = 0.0;
+};
+
+/// Mean difference where the sensor turned by so many bins more than predicted.
+double difference(const PredictedTurn& predicted, const std::vector<double>& now, int more) {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < predicted.before.size(); ++k) {
+    const double at = predicted.to_bin[k] - more, left = std::floor(at), part = at - left;
+    const int bin = wrapped(static_cast<int>(left));
+    const double a = now[static_cast<std::size_t>(bin)], b = now[static_cast<std::size_t>(wrapped(bin + 1))];
+    const double seen = (1.0 - part) * a + part * b;
+    sum += std::isfinite(seen) ? std::min(std::abs(predicted.before[k] - seen), differs) : differs;
+  }
+  return sum / static_cast<double>(predicted.before.size());
+}
+
+/// By how much more than predicted the sensor turned, rad: within a few bins of `turn_rad`, where the scans differ
+/// least.
+double more_than(const PredictedTurn& predicted, const std::vector<double>& now, double turn_rad) {
+  constexpr int about = 3;
+  std::array<double, 2 * about + 1> differences{};
+  const int first = static_cast<int>(std::lround((turn_rad - predicted.mean_rad) / bin_rad)) - about;
+  for (std::size_t k = 0; k < differences.size(); ++k)
+    differences[k] = difference(predicted, now, first + static_cast<int>(k));
+  const auto best = std::min_element(differences.begin() + 1, differences.end() - 1);
+  return (first + static_cast<int>(best - differences.begin()) + vertex(*(best - 1), *best, *(best + 1))) * bin_rad;
+}
+
 }  // namespace
 
 ClockOffset::ClockOffset(const Calibration& calibration) : calibration_(calibration) {}
@@ -123,8 +170,18 @@ void ClockOffset::add(const Scan& scan) {
     returns += 1.0;
   }
   if (sum_ns == 0.0) return;
-  profiles_.push_back({scan.stamp + std::llround(sum_ns / returns), ranges_of(scan)});
-  while (profiles_.size() > 1 && !places_.empty() && places_.back().stamp >= profiles_[1].time + most) {
+  const double mean_s = 1e-9 * sum_ns / returns;
+  Bins means = bins_of(scan);
+  double farthest_s = 0.0;
+  for (std::size_t bin = 0; bin < bins; ++bin) {
+    means.time_s[bin] = means.range_m[bin] > 0.0 ? means.time_s[bin] - mean_s : 0.0;
+    farthest_s = std::max(farthest_s, std::abs(means.time_s[bin]));
+  }
+  if (farthest_s > longest_s) return;
+  profiles_.push_back({scan.stamp + std::llround(1e9 * mean_s), std::move(means.range_m), std::move(means.time_s),
+                       std::llround(1e9 * farthest_s)});
+  while (profiles_.size() > 1 && !places_.empty() &&
+         places_.back().stamp >= profiles_[1].time + profiles_[1].farthest + most) {
     use(profiles_[0], profiles_[1]);
     profiles_.pop_front();
   }
@@ -141,14 +198,29 @@ ClockOffset::Place ClockOffset::place_at(Nanoseconds t) const {
   return {t, a.t_OL + part * (b.t_OL - a.t_OL), a.yaw + part * (b.yaw - a.yaw)};
 }
 
+std::vector<std::array<double, ClockOffset::candidates>> ClockOffset::yaws_of(
+    Nanoseconds time, const std::vector<double>& offset_s) const {
+  const auto [first, last] = std::minmax_element(offset_s.begin(), offset_s.end());
+  const Nanoseconds start = time + std::llround(1e9 * *first) - most;
+  std::vector<double> grid(candidates + static_cast<std::size_t>(1e9 * (*last - *first) / candidate) + 2);
+  for (std::size_t k = 0; k < grid.size(); ++k) grid[k] = place_at(start + static_cast<Nanoseconds>(k) * candidate).yaw;
+  std::vector<std::array<double, candidates>> yaws(offset_s.size());
+  for (std::size_t bin = 0; bin < offset_s.size(); ++bin) {
+    const double at = 1e9 * (offset_s[bin] - *first) / candidate;
+    const auto k = static_cast<std::size_t>(at);
+    const double part = at - static_cast<double>(k);
+    for (std::size_t j = 0; j < candidates; ++j) yaws[bin][j] = (1.0 - part) * grid[k + j] + part * grid[k + j + 1];
+  }
+  return yaws;
+}
+
 void ClockOffset::use(const Profile& before, const Profile& now) {
-  constexpr Nanoseconds longest = 1'000'000'000;
   constexpr double least_spread_rad = 0.02;  // of odometry's turns by offset: else they tell no offset
   constexpr double margin_rad = 0.05;
   constexpr double off_rad = 0.05;  // a turn that was not found
   constexpr double forget = 0.995;
-  if (places_.size() < 2 || places_.front().stamp > before.time - most || now.time <= before.time ||
-      now.time - before.time > longest)
+  if (places_.size() < 2 || places_.front().stamp > before.time - before.farthest - most || now.time <= before.time ||
+      seconds(now.time - before.time) > longest_s)
     return;
   std::array<double, candidates> turns{};
   for (std::size_t j = 0; j < candidates; ++j) {
@@ -157,16 +229,36 @@ void ClockOffset::use(const Profile& before, const Profile& now) {
   }
   const auto [least, largest] = std::minmax_element(turns.begin(), turns.end());
   if (*largest - *least < least_spread_rad || *largest - *least > std::numbers::pi) return;
-  const Place from = place_at(before.time + value_);
-  const Eigen::Vector2d way = Eigen::Rotation2Dd(-from.yaw) * (place_at(now.time + value_).t_OL - from.t_OL);
-  const std::optional<double> turn = turn_between(logarithms(moved_by(before.range_m, way)), logarithms(now.range_m),
-                                                  *least - margin_rad, *largest + margin_rad);
+  Bins moved = moved_by(before.range_m, before.offset_s, [&](double offset_s) {
+    const Nanoseconds offset = value_ + std::llround(1e9 * offset_s);
+    const Place from = place_at(before.time + offset), to = place_at(now.time + offset);
+    return Eigen::Vector2d(Eigen::Rotation2Dd(-from.yaw) * (to.t_OL - from.t_OL));
+  });
+  const std::vector<double> before_log = logarithms(std::move(moved.range_m)), now_log = logarithms(now.range_m);
+  const std::optional<double> turn = turn_between(before_log, now_log, *least - margin_rad, *largest + margin_rad);
   if (!turn) return;
   if (*turn < *least - off_rad || *turn > *largest + off_rad) return;
-  seen2_ = forget * seen2_ + *turn * *turn;
+  const int turned = static_cast<int>(std::lround(*turn / bin_rad));
+  const auto from_yaw = yaws_of(before.time, moved.time_s), to_yaw = yaws_of(now.time, now.offset_s);
+  std::array<double, candidates> seen{}, told{};
   for (std::size_t j = 0; j < candidates; ++j) {
-    both_[j] = forget * both_[j] + *turn * turns[j];
-    told2_[j] = forget * told2_[j] + turns[j] * turns[j];
+    PredictedTurn predicted;
+    for (int bin = 0; bin < bins; ++bin) {
+      const auto here = static_cast<std::size_t>(bin), there = static_cast<std::size_t>(wrapped(bin - turned));
+      if (!std::isfinite(before_log[here]) || !std::isfinite(now_log[there])) continue;
+      const double turns = to_yaw[there][j] - from_yaw[here][j];
+      predicted.before.push_back(before_log[here]);
+      predicted.to_bin.push_back(bin - turns / bin_rad);
+      predicted.mean_rad += turns;
+    }
+    predicted.mean_rad /= static_cast<double>(predicted.before.size());
+    told[j] = predicted.mean_rad;
+    seen[j] = told[j] + more_than(predicted, now_log, *turn);
+  }
+  for (std::size_t j = 0; j < candidates; ++j) {
+    seen2_[j] = forget * seen2_[j] + seen[j] * seen[j];
+    both_[j] = forget * both_[j] + seen[j] * told[j];
+    told2_[j] = forget * told2_[j] + told[j] * told[j];
   }
   pairs_ = forget * pairs_ + 1.0;
 }
@@ -188,7 +280,7 @@ bool ClockOffset::goes_straight() const {
 double ClockOffset::left_at(std::size_t j) const {
   constexpr double most_scale = 0.05;
   const double scale = told2_[j] > 0.0 ? std::clamp(both_[j] / told2_[j], 1.0 - most_scale, 1.0 + most_scale) : 1.0;
-  return std::max(0.0, seen2_ - 2.0 * scale * both_[j] + scale * scale * told2_[j]);
+  return std::max(0.0, seen2_[j] - 2.0 * scale * both_[j] + scale * scale * told2_[j]);
 }
 
 void ClockOffset::decide() {

@@ -16,9 +16,8 @@ namespace plumbline::slam {
 class ClockOffset {
  public:
   static constexpr Nanoseconds most = 300'000'000;  ///< that is tried, either way; found is what lies 50 ms within
-  /// What costs less than it may be wrong: where what tells the turn is seen in one part of the sweep, its time is not
-  /// the mean of all returns'. 25 ms off in one of 49 furnished walks.
-  static constexpr Nanoseconds ignored = 30'000'000;
+  /// What costs less than it may be wrong: by 11 ms in the middle of a wide hall, elsewhere by 5 ms.
+  static constexpr Nanoseconds ignored = 15'000'000;
   static constexpr Nanoseconds candidate = 10'000'000;  ///< between two that are tried
 
   explicit ClockOffset(const Calibration& calibration);
@@ -39,12 +38,18 @@ class ClockOffset {
     Eigen::Vector2d t_OL;
     double yaw = 0.0;  ///< of L, unwrapped
   };
+  /// Horizontal ranges by azimuth.
   struct Profile {
-    Nanoseconds time = 0;         ///< mean of its returns'
-    std::vector<double> range_m;  ///< horizontal, by azimuth; 0: nothing
+    Nanoseconds time = 0;          ///< mean of its returns'
+    std::vector<double> range_m;   ///< 0: nothing
+    std::vector<double> offset_s;  ///< of the returns in a bin, from `time` ...
+    Nanoseconds farthest = 0;      ///< ... and at most
   };
 
   [[nodiscard]] Place place_at(Nanoseconds t) const;
+  /// Odometry's yaw where the returns of each bin were seen, at each offset that is tried, rad.
+  [[nodiscard]] std::vector<std::array<double, candidates>> yaws_of(Nanoseconds time,
+                                                                    const std::vector<double>& offset_s) const;
   void use(const Profile& before, const Profile& now);
   /// Sum of squares that is left between turns at an offset, rad^2.
   [[nodiscard]] double left_at(std::size_t candidate) const;
@@ -54,9 +59,9 @@ class ClockOffset {
   Calibration calibration_;
   std::deque<Place> places_;
   std::deque<Profile> profiles_;  ///< until odometry of all candidates is there
-  // Sums over pairs of scans, rad^2: of the turn seen and that of odometry at each offset.
-  double seen2_ = 0.0, pairs_ = 0.0;
-  std::array<double, candidates> both_{}, told2_{};
+  // Sums over pairs of scans at each offset, rad^2: of the turn seen and that of odometry.
+  double pairs_ = 0.0;
+  std::array<double, candidates> seen2_{}, both_{}, told2_{};
   Nanoseconds value_ = 0;
 };
 
