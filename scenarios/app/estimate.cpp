@@ -21,6 +21,7 @@
 #include "scenarios/app/odometry_gaps.h"
 #include "scenarios/app/open_recording.h"
 #include "scenarios/app/poorer_recording.h"
+#include "scenarios/app/poverty_options.h"
 #include "scenarios/app/recording_check.h"
 #include "scenarios/app/recording_summary.h"
 #include "scenarios/app/scan_gaps.h"
@@ -53,8 +54,7 @@ struct EstimateArguments {
   std::string plan_furniture = "as_planned";
   std::string config;
   std::string sensors = "all";
-  int every = 1;
-  std::vector<std::string> without;
+  PovertyOptions poverty;
   std::string out;
   std::uint64_t seed = 1;
   double yaw_deg = 0.0;
@@ -128,13 +128,6 @@ void check_rooms(const EstimateArguments& options, const bim::Plan& plan, const 
   throw InputError({options.plan, 0, 0}, "has no rooms" +
                                              (prior.storey ? " on storey '" + *prior.storey + "'" : std::string()) +
                                              ", and method '" + options.method + "' starts from rooms; add rooms");
-}
-
-Poverty poverty_of(const EstimateArguments& options) {
-  const auto without = [&](const char* what) {
-    return std::find(options.without.begin(), options.without.end(), what) != options.without.end();
-  };
-  return {options.every, without("rings"), without("times")};
 }
 
 /// The prior of the recording, with that of the command line over it.
@@ -238,11 +231,7 @@ std::string describe(const slam::MethodRow& row, std::uint64_t seed, const slam:
   Tree tree = Tree::map();
   tree.set("estimate", 1).set("method", row.name).set("seed", static_cast<std::int64_t>(seed));
   if (sensors != Sensors::all) tree.set("sensors", names_of(sensors)[static_cast<std::size_t>(sensors)]);
-  if (poverty.every != 1) tree.set("every", poverty.every);
-  Tree without = Tree::list();
-  if (poverty.no_rings) without.push("rings");
-  if (poverty.no_times) without.push("times");
-  if (poverty.no_rings || poverty.no_times) tree.set("without", without);
+  describe(poverty, tree);
   const auto add = [&](const char* key, const std::vector<std::string>& sentences) {
     Tree list = Tree::list();
     for (const std::string& said : sentences) list.push(said);
@@ -276,7 +265,7 @@ std::optional<ProcessTable> take_process(EstimateArguments& options, slam::Metho
 /// Height of the LiDAR above the floor by the first scans.
 std::optional<double> measured_height(const EstimateArguments& options, const slam::MethodInput& input) {
   constexpr std::size_t enough = 10;
-  const std::unique_ptr<slam::Recording> again = poorer(open_any_recording(options.input), poverty_of(options));
+  const std::unique_ptr<slam::Recording> again = poorer(open_any_recording(options.input), options.poverty.value());
   std::vector<slam::Scan> scans;
   for (slam::SensorFrame frame; scans.size() < enough && again->next(frame);) scans.push_back(std::move(frame.scan));
   return slam::height_over_floor(scans, input.calibration, input.seed);
@@ -289,7 +278,7 @@ int estimate(EstimateArguments options, slam::MethodTable table) {
   const MethodChoice choice = find_choice(options, table);
   const slam::MethodRow& row = *row_of(choice.method, table);
   check_plan_options(options, row);
-  const Poverty poverty = poverty_of(options);
+  const Poverty poverty = options.poverty.value();
   const AlteredRecording altered = altered_in_recording(options.input.recording);
   refuse_altered(altered.folder, altered.files, options.unchecked);
   const std::unique_ptr<slam::Recording> recording = poorer(open_any_recording(options.input), poverty);
@@ -357,13 +346,7 @@ Command add_estimate(CommandLine& program, slam::MethodTable table) {
                   "what the method gets: all records, or lidar, without odometry and IMU; names its files NAME.lidar "
                   "[all]")
           .one_of({"all", "lidar"});
-  line.option("--every", options->every, "uses every Nth scan, with all odometry and IMU in between [1]")
-      .range(1, 1000);
-  line.option("--without", options->without,
-              "what scans shall lack, of rings and times: rings makes one ring of all, times gives every return the "
-              "scan's stamp")
-      .one_of({"rings", "times"})
-      .delimiter(',');
+  options->poverty.declare(line);
   line.option("--plan", options->plan, "building, for methods that localize in a plan");
   options->furniture_option =
       line.option("--plan-furniture", options->plan_furniture,

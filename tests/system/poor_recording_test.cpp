@@ -86,6 +86,16 @@ TEST_F(Recordings, EveryNthScanAndPlainerScansAreEstimatesOfTheSameWalk) {
   EXPECT_EQ(nlohmann::json::parse(read_file(poor + "/score.json"))["silence"]["silent_s"], 0.0);
   refuse({walk, "--method", "vgicp", "--every", "0"}, "plumbline: --every", "estimate --help");
   refuse({walk, "--method", "vgicp", "--without", "points"}, "plumbline: --without", "estimate --help");
+  refuse({walk, "--method", "vgicp", "--max-range", "0"}, "plumbline: --max-range", "estimate --help");
+  const std::string thin = folder_ / "thin";
+  ASSERT_EQ(plumbline({"estimate", walk, "--method", "vgicp", "--max-range", "6", "--one-of", "2", "--beams", "8", "-o",
+                       thin})
+                .code,
+            0);
+  const std::string thinned = read_file(thin + "/estimate.yaml");
+  for (const char* word : {"max_range_m: 6", "one_of: 2", "beams: 8"})
+    EXPECT_NE(thinned.find(word), std::string::npos) << thinned;
+  EXPECT_NE(read_file(thin + "/vgicp.tum"), read_file(whole + "/vgicp.tum"));
 }
 
 TEST_F(Recordings, ALidarThatSendsNoPacketsIsRecordedAsABag) {

@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
 #include <utility>
+#include <vector>
 
 namespace plumbline::scenarios {
 namespace {
@@ -106,6 +109,65 @@ TEST(PoorerRecording, WithoutTimesEveryReturnHasTheStampOfTheScan) {
   EXPECT_EQ(frame.scan.stamp, whole.stamp);
   EXPECT_EQ(frame.scan.point_L, whole.point_L);
   EXPECT_EQ(frame.scan.offset_ns, std::vector<std::int32_t>(24, 0));
+}
+
+/// Indices of returns that are kept; those that are not leave their slots empty.
+std::vector<int> kept(const slam::SensorFrame& frame) {
+  EXPECT_TRUE(frame.packets.empty()) << "they would tell";
+  EXPECT_EQ(frame.scan.size(), 24U);
+  std::vector<int> all;
+  for (std::size_t i = 0; i < frame.scan.size(); ++i) {
+    EXPECT_EQ(frame.scan.range_m[i] > 0.0, !frame.scan.point_L[i].isZero(0.0));
+    if (frame.scan.range_m[i] > 0.0) all.push_back(static_cast<int>(i));
+  }
+  return all;
+}
+
+TEST(PoorerRecording, ReturnsFartherThanItsRangeAreLost) {
+  EXPECT_EQ(kept(read(1, {.within_m = 5.0}).front()), (std::vector<int>{1, 2, 3, 4}));
+}
+
+TEST(PoorerRecording, OfThreeReturnsOneIsDrawnTheSameEachTime) {
+  const auto some = read(40, {.one_of = 3}), again = read(40, {.one_of = 3});
+  std::size_t number = 0;
+  for (std::size_t f = 0; f < some.size(); ++f) {
+    EXPECT_EQ(kept(some[f]), kept(again[f]));
+    number += kept(some[f]).size();
+  }
+  EXPECT_NE(kept(some[0]), kept(some[1]));
+  // Of 760 returns; four standard deviations.
+  EXPECT_NEAR(static_cast<double>(number), 760.0 / 3.0, 4.0 * std::sqrt(760.0 * 2.0 / 9.0));
+}
+
+TEST(PoorerRecording, BeamsAreSpreadOverTheElevations) {
+  class Fan final : public slam::Recording {
+   public:
+    [[nodiscard]] bool next(slam::SensorFrame& frame) override {
+      frame = {};
+      for (int tenths = -100; tenths <= 100; ++tenths) {
+        const double elevation = 0.1 * tenths * std::numbers::pi / 180.0;
+        frame.scan.range_m.push_back(10.0);
+        frame.scan.point_L.emplace_back(10.0 * std::cos(elevation), 0.0, 10.0 * std::sin(elevation));
+        frame.scan.offset_ns.push_back(0);
+      }
+      return true;
+    }
+    [[nodiscard]] const slam::RecordingInfo& info() const override { return info_; }
+    [[nodiscard]] bool has_odometry() const override { return false; }
+    [[nodiscard]] slam::Taken taken() const override { return {}; }
+    [[nodiscard]] slam::Nanoseconds origin() const override { return 0; }
+
+   private:
+    slam::RecordingInfo info_;
+  };
+  const auto recording = poorer(std::make_unique<Fan>(), {.beams = 3});
+  slam::SensorFrame frame;
+  ASSERT_TRUE(recording->next(frame));
+  std::vector<int> tenths;
+  for (int i = 0; i <= 200; ++i)
+    if (frame.scan.range_m[static_cast<std::size_t>(i)] > 0.0) tenths.push_back(i - 100);
+  // Thirds of -9 to 9 degrees, and 0.12 degrees about the middle of each.
+  EXPECT_EQ(tenths, (std::vector<int>{-61, -60, -59, -1, 0, 1, 59, 60, 61}));
 }
 
 TEST(PoorerRecording, ARecordingOfWhichNothingIsKeptBackIsItself) {

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenarios/app/poverty_options.h"
+
+#include <algorithm>
+
+namespace plumbline::scenarios {
+
+void PovertyOptions::declare(CommandLine& line) {
+  constexpr int most = 1000;
+  constexpr double farthest_m = 10'000.0;
+  line.option("--every", every, "uses every Nth scan, with all odometry and IMU in between [1]").range(1, most);
+  line.option("--without", without,
+              "what scans shall lack, of rings and times: rings makes one ring of all, times gives every return the "
+              "scan's stamp")
+      .one_of({"rings", "times"})
+      .delimiter(',');
+  line.option("--max-range", max_range_m, "leaves out returns farther than so many metres [none]")
+      .range(0.1, farthest_m);
+  line.option("--beams", beams, "uses the returns in so many narrow cones, as of a LiDAR with fewer rings [all]")
+      .range(1, most);
+  line.option("--one-of", one_of, "uses one of so many returns, drawn at random [1]").range(1, most);
+}
+
+Poverty PovertyOptions::value() const {
+  const auto lacks = [&](const char* what) { return std::find(without.begin(), without.end(), what) != without.end(); };
+  return {.every = every,
+          .no_rings = lacks("rings"),
+          .no_times = lacks("times"),
+          .within_m = max_range_m,
+          .one_of = one_of,
+          .beams = beams};
+}
+
+void describe(const Poverty& poverty, Tree& tree) {
+  if (poverty.every != 1) tree.set("every", poverty.every);
+  Tree without = Tree::list();
+  if (poverty.no_rings) without.push("rings");
+  if (poverty.no_times) without.push("times");
+  if (poverty.no_rings || poverty.no_times) tree.set("without", without);
+  if (poverty.within_m > 0.0) tree.set("max_range_m", poverty.within_m);
+  if (poverty.beams != 0) tree.set("beams", poverty.beams);
+  if (poverty.one_of != 1) tree.set("one_of", poverty.one_of);
+}
+
+}  // namespace plumbline::scenarios

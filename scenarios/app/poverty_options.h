@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bim/config/tree.h"
+#include "scenarios/app/command_line.h"
+#include "scenarios/app/poorer_recording.h"
+
+namespace plumbline::scenarios {
+
+/// What the command line says of a poorer sensor.
+struct PovertyOptions {
+  int every = 1;
+  std::vector<std::string> without;
+  double max_range_m = 0.0;
+  int one_of = 1;
+  int beams = 0;
+
+  void declare(CommandLine& line);
+  [[nodiscard]] Poverty value() const;
+};
+
+/// What differs from the recording, as keys of estimate.yaml.
+void describe(const Poverty& poverty, Tree& tree);
+
+}  // namespace plumbline::scenarios
