@@ -57,7 +57,7 @@ class Interpreter {
   void assume_storeys();
   [[nodiscard]] bool makes_storey(const StepProduct& product, bool lookalikes) const;
   void leave_out_empty_storeys();
-  void move_storeys_to_their_walls();
+  void move_storeys_to_their_floors();
   /// True for elements whose class does not say what they are for, with a body that is still free.
   [[nodiscard]] bool is_nameless(const StepProduct& product) const;
   void move_up(int storey, double floor_m);

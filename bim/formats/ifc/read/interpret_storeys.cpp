@@ -7,18 +7,11 @@
 
 #include "bim/config/tree.h"
 #include "bim/formats/ifc/read/interpret.h"
+#include "bim/formats/ifc/read/said_floor.h"
 #include "bim/model/wall_face.h"
 
 namespace plumbline::bim {
 namespace {
-
-/// Lowest point of what the bodies of a product are extruded or joined from, m in W; infinite without any.
-double foot_of(const StepProduct& product) {
-  double foot = std::numeric_limits<double>::infinity();
-  for (const Shape& shape : product.body)
-    for (const Eigen::Vector3d& p : shape.base.points) foot = std::min(foot, (product.X_WP * p).z());
-  return foot;
-}
 
 /// What the walls, slabs and rooms of a storey cover on the plan.
 Eigen::AlignedBox2d box_of_storey(const Building& building, int storey) {
@@ -56,7 +49,7 @@ void Interpreter::add_storeys() {
     storey.step_id = product.step_id;
     building_.storeys.push_back(std::move(storey));
   }
-  move_storeys_to_their_walls();
+  move_storeys_to_their_floors();
   leave_out_empty_storeys();
   if (building_.storeys.empty()) assume_storeys();
   std::sort(building_.storeys.begin(), building_.storeys.end(), [](const Storey& a, const Storey& b) {
@@ -88,32 +81,47 @@ bool Interpreter::makes_storey(const StepProduct& product, bool lookalikes) cons
   return kind == "footing" || kind == "ramp" || (lookalikes && is_nameless(product));
 }
 
-/// Some programs leave every storey's placement at zero and place the elements themselves.
-void Interpreter::move_storeys_to_their_walls() {
+/// Some programs leave every storey's placement at zero and place the elements themselves; others get it wrong.
+void Interpreter::move_storeys_to_their_floors() {
   struct Feet {
     bool near = false;         ///< one of the storey's elements begins near its height
     double lowest = INFINITY;  ///< of its walls and spaces
+    FloorHints hints;
   };
   std::map<std::int64_t, double> heights;
   for (const Storey& storey : building_.storeys) heights[storey.step_id] = storey.elevation_m;
   std::map<std::int64_t, Feet> feet;
   for (const StepProduct& product : model_.products) {
     const auto height = heights.find(product.storey);
-    if (height == heights.end() || !makes_storey(product, false)) continue;
+    if (height == heights.end()) continue;
+    Feet& of = feet[product.storey];
+    if (product.kind == StepClass::door) {
+      const StepProduct* opening = find(product.host);  // a door in one has no body of its own
+      const double sill = foot_of(opening != nullptr ? *opening : product);
+      if (std::isfinite(sill)) of.hints.doors.push_back(sill);
+    }
+    // Landings and flights lie at any height; the slabs of a roof are none to stand on.
+    if (!within(product, StepClass::stair) && !within(product, StepClass::roof))
+      add_hints(product, height->second, of.hints);
+    if (!makes_storey(product, false)) continue;
     const double foot = foot_of(product);
     if (!std::isfinite(foot)) continue;
-    Feet& of = feet[product.storey];
     of.near = of.near || std::abs(foot - height->second) < config_.least_storey_m;
     if (product.kind == StepClass::wall || product.kind == StepClass::space) of.lowest = std::min(of.lowest, foot);
   }
   for (Storey& storey : building_.storeys) {
     const Feet& of = feet[storey.step_id];
-    if (of.near || !std::isfinite(of.lowest)) continue;
+    std::vector<double> others;
+    for (const auto& [step_id, height_m] : heights)
+      if (step_id != storey.step_id) others.push_back(height_m);
+    std::optional<double> floor_m = said_floor(of.hints, storey.elevation_m, others);
+    if (!floor_m && !of.near && std::isfinite(of.lowest)) floor_m = of.lowest;
+    if (!floor_m) continue;
     building_.warnings.push_back({storey.id, "storey_moved",
                                   "the file says that it lies at " + format_number(storey.elevation_m) +
-                                      " m, and its walls and spaces begin at " + format_number(snapped(of.lowest)) +
-                                      " m"});
-    storey.elevation_m = snapped(of.lowest);
+                                      " m, and its slabs, spaces and walls that its floor does at " +
+                                      format_number(snapped(*floor_m)) + " m"});
+    storey.elevation_m = snapped(*floor_m);
   }
 }
 

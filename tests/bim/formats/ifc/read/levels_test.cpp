@@ -23,6 +23,13 @@ void add_house(Sketch& sketch, double x0, double z, double height, bool slab = t
   for (const double x : {0.0, 3.0, 8.0}) wall(x0 + x, 0, 0, 6);
 }
 
+void add_room_at(Sketch& sketch, const std::string& storey, const Polygon2& outline, double z) {
+  const std::string at = sketch.add("IFCLOCALPLACEMENT($," + sketch.frame(0, 0, 0) + ")");
+  const std::string space = sketch.rooted(
+      "IFCSPACE", "'r',$,$," + at + "," + sketch.shape(sketch.prism(outline, z, z + 2.8)) + ",$,.ELEMENT.,$,$");
+  sketch.rooted("IFCRELAGGREGATES", "$,$," + storey + ",(" + space + ")");
+}
+
 TEST(Levels, ALevelWithoutBuildingPartsIsLeftOut) {
   Sketch plain, sills;
   for (Sketch* sketch : {&plain, &sills}) {
@@ -180,6 +187,92 @@ TEST(Levels, AStoreyWithAFloorStaysThoughItsWallsAreHigh) {
   add_house(sketch, 0, 2.5, 2.8, false);
   const Building building = read(sketch);
   EXPECT_EQ(building.storeys.front().elevation_m, 0.0);
+  EXPECT_EQ(count(building, "storey_moved"), 0);
+}
+
+/// The house stands at -0.6; only its storey is said to be elsewhere.
+TEST(Levels, AStoreyLiesWhereItsFloorIs) {
+  for (const double said : {-2.0, -1.6, -0.9, -0.3, 0.1, 0.3, 1.0, 1.4, 2.9}) {
+    Sketch sketch;
+    const std::string storey = sketch.storey(said);
+    add_house(sketch, 0, -0.6, 3);
+    add_room_at(sketch, storey, {{0.1, 0.1}, {2.9, 0.1}, {2.9, 5.9}, {0.1, 5.9}}, -0.6);
+    add_room_at(sketch, storey, {{3.1, 0.1}, {7.9, 0.1}, {7.9, 5.9}, {3.1, 5.9}}, -0.6);
+    const Building building = read(sketch);
+    ASSERT_EQ(building.storeys.size(), 1u) << said;
+    EXPECT_NEAR(building.storeys.front().elevation_m, -0.6, 1e-9) << said;
+    EXPECT_EQ(building.storeys.front().kind, StoreyKind::habitable);
+    EXPECT_EQ(count(building, "storey_moved"), 1) << said;
+    EXPECT_EQ(count(building, "storey_kinds") + count(building, "no_floor"), 0) << said;
+  }
+}
+
+TEST(Levels, ASlabAloneSaysWhereTheFloorIs) {
+  Sketch sketch;
+  sketch.storey(-4.1);
+  sketch.slab({{0, 0}, {8, 0}, {8, 6}, {0, 6}}, -5.1, -4.9);
+  const Building building = read(sketch);
+  EXPECT_NEAR(building.storeys.front().elevation_m, -4.9, 1e-9);
+  EXPECT_EQ(count(building, "storey_moved"), 1);
+}
+
+/// Slabs of the same size under and over the rooms, and some walls that begin at the height of the storey.
+TEST(Levels, ACeilingIsNoFloor) {
+  for (const bool ceiling : {true, false}) {
+    Sketch sketch;
+    sketch.storey(0);
+    add_house(sketch, 0, -1.4, 2.5);
+    if (ceiling) sketch.slab({{0, 0}, {8, 0}, {8, 6}, {0, 6}}, 1.1, 1.3);
+    for (const double y : {1.0, 2.0, 3.0, 4.0}) sketch.wall(3, y, 5, 0.2, 1.1);
+    const Building building = read(sketch);
+    EXPECT_NEAR(building.storeys.front().elevation_m, -1.4, 1e-9);
+    EXPECT_EQ(count(building, "storey_moved"), 1);
+  }
+}
+
+/// One part of the floor at the height of the storey, and a larger one lower or higher.
+TEST(Levels, AStoreyOfSeveralLevelsStays) {
+  for (const double other : {-1.2, -0.6, 0.4, 1.2}) {
+    Sketch sketch;
+    sketch.storey(0);
+    sketch.slab({{0, 0}, {5, 0}, {5, 6}, {0, 6}}, other - 0.2, other);
+    sketch.slab({{5, 0}, {8, 0}, {8, 6}, {5, 6}}, -0.2, 0);
+    add_house(sketch, 0, std::min(other, 0.0), 3, false);
+    const Building building = read(sketch);
+    EXPECT_EQ(building.storeys.front().elevation_m, 0.0) << other;
+    EXPECT_EQ(count(building, "storey_moved"), 0) << other;
+  }
+}
+
+/// Its covering is not drawn; doors and spaces stand on it.
+TEST(Levels, ABareSlabUnderADoorOrASpaceMovesNoStorey) {
+  for (const bool door : {true, false}) {
+    Sketch sketch;
+    const std::string storey = sketch.storey(0);
+    add_house(sketch, 0, -0.2, 3);
+    if (door) {
+      const std::string wall = sketch.element("IFCWALL", sketch.wall_shape(sketch.box(0, -0.1, 0, 5, 0.1, 2.8), 5),
+                                              "$,$", sketch.frame(3, 3, -0.2));
+      sketch.door(sketch.opening(wall, sketch.box(5, 2.8, 0, 6, 3.2, 2)));
+    } else {
+      add_room_at(sketch, storey, {{0.1, 0.1}, {2.9, 0.1}, {2.9, 5.9}, {0.1, 5.9}}, 0);
+    }
+    const Building building = read(sketch);
+    EXPECT_EQ(building.storeys.front().elevation_m, 0.0);
+    EXPECT_EQ(count(building, "storey_moved"), 0);
+  }
+}
+
+/// A slab of the floor above that a program gives to the storey below.
+TEST(Levels, ASlabAloneMovesNoStoreyToAnother) {
+  Sketch sketch;
+  sketch.storey(-1);
+  sketch.slab({{0, 0}, {8, 0}, {8, 6}, {0, 6}}, -0.2, 0);
+  sketch.storey(0.1);
+  add_house(sketch, 0, 0.1, 3, false);
+  const Building building = read(sketch);
+  ASSERT_EQ(building.storeys.size(), 2u);
+  EXPECT_EQ(building.storeys.front().elevation_m, -1.0);
   EXPECT_EQ(count(building, "storey_moved"), 0);
 }
 
