@@ -78,11 +78,28 @@ std::shared_ptr<IfcProduct> parent_of(const std::shared_ptr<IfcProduct>& product
   return nullptr;
 }
 
-std::int64_t storey_of(std::shared_ptr<IfcProduct> product) {
+/// What spaces and storeys are contained in, by STEP number; the schema has them aggregated instead.
+using Containers = std::map<std::int64_t, std::shared_ptr<IfcProduct>>;
+
+Containers containers_of(const BuildingModel& model) {
+  Containers containers;
+  for (const auto& [step_id, entity] : model.getMapIfcEntities()) {
+    const auto relation = std::dynamic_pointer_cast<IfcRelContainedInSpatialStructure>(entity);
+    if (!relation || !relation->m_RelatingStructure) continue;
+    for (const auto& part : relation->m_RelatedElements)
+      if (std::dynamic_pointer_cast<IfcSpatialElement>(part))
+        containers.try_emplace(part->m_entity_id, relation->m_RelatingStructure);
+  }
+  return containers;
+}
+
+/// By what it hangs on, `contained` also by what it is contained in; that goes first.
+std::int64_t storey_of(std::shared_ptr<IfcProduct> product, const Containers& contained) {
   constexpr int most_steps = 12;  // window, opening, wall, ... storey; more is a loop of relations
   for (int step = 0; product && step < most_steps; ++step) {
     if (std::dynamic_pointer_cast<IfcBuildingStorey>(product)) return product->m_entity_id;
-    product = parent_of(product);
+    const auto in = contained.find(product->m_entity_id);
+    product = in != contained.end() ? in->second : parent_of(product);
   }
   return 0;
 }
@@ -159,7 +176,13 @@ class Reader {
  public:
   /// `bounded`: products out of reach are left out.
   Reader(const std::shared_ptr<BuildingModel>& model, const StepText& checked, const std::string& file, bool bounded)
-      : model_(model), validator_(checked, file), geometry_(model), checked_(checked), file_(file), bounded_(bounded) {}
+      : model_(model),
+        validator_(checked, file),
+        geometry_(model),
+        contained_(containers_of(*model)),
+        checked_(checked),
+        file_(file),
+        bounded_(bounded) {}
 
   StepModel read() {
     StepModel result;
@@ -253,7 +276,8 @@ class Reader {
       return std::nullopt;
     }
     product.X_WP = *pose.X_WP;
-    product.storey = kind == StepClass::storey ? product.step_id : storey_of(source);
+    product.storey = storey_of(source, {});
+    if (product.storey == 0) product.storey = storey_of(source, contained_);
     product.host = host_of(source, kind);
     product.whole = whole_of(*source);
     product.ceiling = is_ceiling(*source);
@@ -301,6 +325,7 @@ class Reader {
   std::shared_ptr<BuildingModel> model_;
   StepValidator validator_;
   StepGeometry geometry_;
+  Containers contained_;
   const StepText& checked_;
   const std::string& file_;
   bool bounded_;

@@ -276,6 +276,24 @@ TEST(Levels, ASlabAloneMovesNoStoreyToAnother) {
   EXPECT_EQ(count(building, "storey_moved"), 0);
 }
 
+/// Some programs write containment where the standard has aggregation.
+TEST(Spaces, OneThatIsContainedInAStoreyBelongsToIt) {
+  Sketch sketch;
+  sketch.storey(0);
+  add_house(sketch, 0, 0, 2.8);
+  const std::string upper = sketch.storey(3);
+  add_house(sketch, 0, 3, 2.8);
+  const std::string at = sketch.add("IFCLOCALPLACEMENT($," + sketch.frame(0, 0, 0) + ")");
+  // By its height it would be a room of the lower storey.
+  const std::string space = sketch.rooted(
+      "IFCSPACE", "'a',$,$," + at + "," + sketch.shape(sketch.box(0.1, 0.1, 2.4, 2.9, 5.9, 5.6)) + ",$,.ELEMENT.,$,$");
+  sketch.rooted("IFCRELCONTAINEDINSPATIALSTRUCTURE", "$,$,(" + space + ")," + upper);
+  const Building building = read(sketch);
+  ASSERT_EQ(building.storeys.size(), 2u);
+  ASSERT_EQ(building.rooms.size(), 1u);
+  EXPECT_EQ(building.rooms.front().storey, 1);
+}
+
 std::string add_space(Sketch& sketch, const std::string& storey, const std::string& name, const Polygon2& outline,
                       const std::string& type) {
   const std::string at = sketch.add("IFCLOCALPLACEMENT($," + sketch.frame(0, 0, 0) + ")");
