@@ -5,11 +5,35 @@
 #include <ifcpp/reader/ReaderSTEP.h>
 
 #include <cstdint>
+#include <string_view>
 
 #include "bim/config/utf8.h"
 #include "bim/errors.h"
 
 namespace plumbline::bim {
+namespace {
+
+/// IFC++ takes what looks like the beginning of a comment for one in strings, too, and keeps a quote doubled: there the
+/// star and the quote are written as their codes.
+std::string with_plain_strings(std::string_view text) {
+  constexpr std::string_view comment = "/*", star = "/\\X\\2A", quotes = "''", quote = "\\X\\27", shifted = "\\S\\";
+  std::string result;
+  bool in_string = false;
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    const std::string_view rest = text.substr(at);
+    if (in_string && (rest.starts_with(comment) || rest.starts_with(quotes))) {
+      const bool escape = !result.ends_with(shifted);  // or what is behind it, one character
+      result += rest.starts_with(comment) ? star : escape ? quote : quotes;
+      ++at;
+      continue;
+    }
+    if (text[at] == '\'') in_string = !in_string;
+    result += text[at];
+  }
+  return result;
+}
+
+}  // namespace
 
 std::string schema_for_reader(const std::string& schema) {
   if (schema == "IFC2X3" || schema == "IFC4") return schema;
@@ -21,7 +45,7 @@ std::shared_ptr<BuildingModel> parse_step(const std::string& text, const std::st
   auto model = std::make_shared<BuildingModel>();
   try {
     ReaderSTEP reader;
-    std::string content = text;
+    std::string content = with_plain_strings(text);
     // It reads files of no other schema than these two, and identifies them by this name.
     const std::size_t header = content.find("FILE_SCHEMA");
     const std::size_t begin = header == std::string::npos ? header : content.find('\'', header);

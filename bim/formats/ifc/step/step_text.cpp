@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::string_view opening_line = "ISO-10303-21";
 constexpr std::string_view closing_line = "END-ISO-10303-21";
+constexpr std::string_view comment_begin = "/*", comment_end = "*/";
 
 /// A statement up to its semicolon, without it.
 struct Statement {
@@ -39,6 +40,7 @@ class StatementReader {
       if (c == '(' && ++depth > limits_.nesting) fail("brackets nested deeper than " + std::to_string(limits_.nesting));
       if (c == ')' && --depth < 0) fail("a closing bracket without its opening one");
       if (c == ';') fail("a semicolon within brackets");
+      if (text_.substr(at_).starts_with(comment_begin)) fail_open_comment();
       if (c == '\'') {
         skip_string();
       } else {
@@ -54,6 +56,8 @@ class StatementReader {
   }
 
   [[noreturn]] void fail(const std::string& what) const { throw InputError({file_, line_, 0}, what); }
+
+  [[noreturn]] void fail_open_comment() const { fail("a comment begins here and does not end"); }
 
   [[noreturn]] void fail_cut() const {
     const bool line_begun = !text_.empty() && text_.back() != '\n';
@@ -319,11 +323,14 @@ std::string without_comments(std::string_view text) {
       std::swap(result[at], result[behind++]);
       continue;
     }
-    if (in_string || result[at] != '/' || at + 1 >= result.size() || result[at + 1] != '*') {
+    if (in_string || !std::string_view(result).substr(at).starts_with(comment_begin)) {
       if (std::isspace(static_cast<unsigned char>(result[at])) == 0) behind = at + 1;
       continue;
     }
-    const std::size_t end = std::min(result.find("*/", at + 2), result.size() - 2) + 2;
+    const std::size_t found = result.find(comment_end, at + comment_begin.size());
+    const bool open = found == std::string::npos;
+    const std::size_t end = open ? result.size() : found + comment_end.size();
+    if (open) at += comment_begin.size();
     for (; at < end; ++at) {
       if (result[at] != '\n') result[at] = ' ';
     }
@@ -338,6 +345,7 @@ StepText check_step_text(std::string_view text, const std::string& file, const S
     throw InputError({file, 0, 0}, "the file is empty; an IFC file begins with " + std::string(opening_line) + ";");
   }
   const std::string_view start = text.substr(skip_spaces(text, 0)).substr(0, opening_line.size());
+  if (start.starts_with(comment_begin)) reader.fail_open_comment();
   if (!opening_line.starts_with(start)) {
     reader.fail("not an IFC file: it should begin with " + std::string(opening_line) + ";, not with " + excerpt(start));
   }

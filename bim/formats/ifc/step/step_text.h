@@ -30,7 +30,7 @@ struct StepText {
 };
 
 /// The text with comments and a byte-order mark blanked out, and with semicolons right behind what they end; entities
-/// stay in their lines.
+/// stay in their lines. Of a comment that does not end its beginning stays, which check_step_text() refuses.
 [[nodiscard]] std::string without_comments(std::string_view text);
 
 /// Checks that the text is a whole, well-formed STEP file whose references never lead in a circle, so that the library

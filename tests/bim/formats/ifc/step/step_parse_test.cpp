@@ -57,5 +57,31 @@ TEST(Names, AreReadInEveryEncodingThatProgramsWrite) {
   EXPECT_EQ(storey_named("\\X2\\D83CDFE0\\X0\\"), "🏠");
 }
 
+TEST(Names, MayHoldWhatIsACommentOrAnEndElsewhere) {
+  const std::string plain = small_ifc({});
+  const Building expected = read_ifc_text(plain, "small.ifc");
+  for (const char* name : {"North /* brick", "/*", "*/ x", "/**/", "//*/", "it''s /* so", "''", "''''/*", "a;b",
+                           "#7=IFCWALL();", "(,", "ENDSEC;", "Mur /*ä"}) {
+    std::string text = plain;
+    text.replace(text.find("'ground'"), 8, std::string("'") + name + "'");
+    // A real comment behind the name would end a false one in it.
+    text.insert(text.find("#50="), "/* it's a 'comment'\n*/");
+    const Building building = read_ifc_text(text, "small.ifc");
+    EXPECT_EQ(building.walls.size(), expected.walls.size()) << name;
+    EXPECT_EQ(building.openings.size(), expected.openings.size()) << name;
+    std::string meant = name;
+    for (std::size_t at = 0; (at = meant.find("''", at)) != std::string::npos; ++at) meant.erase(at, 1);
+    EXPECT_EQ(building.storeys.at(0).name, meant);
+  }
+}
+
+TEST(GlobalIds, MayHoldWhatIsACommentElsewhere) {
+  std::string text = small_ifc({});
+  text.replace(text.find("'0000000000000000000006'"), 24, "'8S->gp2th5t|/*qOAt0@'");
+  const Building building = read_ifc_text(text, "small.ifc");
+  ASSERT_EQ(building.walls.size(), 1u);
+  EXPECT_EQ(building.walls.front().id, "8S->gp2th5t|/*qOAt0@");
+}
+
 }  // namespace
 }  // namespace plumbline::bim

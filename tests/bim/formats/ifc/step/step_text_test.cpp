@@ -29,9 +29,23 @@ TEST(StepText, FindsSchemaAndLines) {
 }
 
 TEST(StepText, CommentsAreBlankedAndLinesStay) {
-  EXPECT_EQ(without_comments("a/* x\n'*/b '/*c*/' /*"), "a    \n   b '/*c*/'   ");
+  EXPECT_EQ(without_comments("a/* x\n'*/b '/*c*/' /**/"), "a    \n   b '/*c*/'     ");
   EXPECT_EQ(without_comments("\xEF\xBB\xBFISO"), "ISO");
   EXPECT_EQ(without_comments("a /* ; */\n ;b' ;';; ; "), "a;       \n  b' ;';;;  ");
+}
+
+TEST(StepText, CommentsBeginOutsideOfStringsOnly) {
+  for (const char* text : {"a('/*');", "a('''/*');", "a('*/','/*');", "a('/*','*/');", "a('it''s /* ''*/');"})
+    EXPECT_EQ(without_comments(text), text);
+  EXPECT_EQ(without_comments("a('''') /* it's\n'/* */ b('/*')"), "a('''')        \n       b('/*')");
+}
+
+TEST(StepText, ACommentThatDoesNotEndIsNamedWhereItBegins) {
+  const auto open = [](const std::string& text) { return message_of(without_comments(text)); };
+  EXPECT_EQ(open(header + "#1=IFCA();\n/* #2=IFCB();\n" + footer), "f.ifc:9: a comment begins here and does not end");
+  EXPECT_EQ(open(header + "#1=IFCA(1.,\n/*/2.);\n" + footer), "f.ifc:9: a comment begins here and does not end");
+  EXPECT_EQ(open("\n/* by hand\n" + header + footer), "f.ifc:2: a comment begins here and does not end");
+  EXPECT_EQ(open(header + footer + "/* the end"), "no error");
 }
 
 TEST(StepText, BlanksMayStandBeforeASemicolon) {
