@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "bim/mesh/corefine.h"
+#include "bim/mesh/membrane.h"
 #include "bim/mesh/shells.h"
 #include "bim/mesh/solid.h"
 #include "bim/mesh/surface_cut.h"
@@ -33,6 +34,30 @@ std::optional<Solid> corefined(Solid body, std::span<const BooleanStep> steps, d
   return body;
 }
 
+/// By corefinement, where that gives up in exact arithmetic.
+std::optional<Solid> taken(const Solid& body, const Solid& whole, std::span<const BooleanStep> steps, double grid_m) {
+  std::optional<Solid> rest = corefined(shells_may_overlap(body, grid_m) ? whole : body, steps, grid_m);
+  return rest ? rest : exact_boolean(whole, steps, grid_m);
+}
+
+std::vector<BooleanStep> widened(std::span<const BooleanStep> steps, double grid_m) {
+  // Rounding moves a face by less than one step, so what should coincide lies less than two apart: before and after.
+  const double by_m = 4.0 * grid_m;
+  std::vector<BooleanStep> result(steps.begin(), steps.end());
+  for (BooleanStep& step : result) step.other = canonical(widened(step.other, by_m), grid_m);
+  return result;
+}
+
+/// Cuts that end on a face of the body may leave a skin without thickness, or a surface that meets itself in an edge
+/// and so does not close; slightly wider ones do not.
+std::optional<Solid> taken_cleanly(const Solid& body, const Solid& whole, std::span<const BooleanStep> steps,
+                                   double grid_m) {
+  std::optional<Solid> rest = taken(body, whole, steps, grid_m);
+  if (rest && !has_membrane(*rest, grid_m)) return rest;
+  std::optional<Solid> clean = taken(body, whole, widened(steps, grid_m), grid_m);
+  return clean && (!rest || !has_membrane(*clean, grid_m)) ? clean : rest;
+}
+
 }  // namespace
 
 BooleanResult boolean_steps(const Solid& body, std::span<const BooleanStep> steps, double grid_m) {
@@ -52,9 +77,7 @@ BooleanResult boolean_steps(const Solid& body, std::span<const BooleanStep> step
     return result;
   }
   if (whole) {
-    std::optional<Solid> rest = corefined(shells_may_overlap(body, grid_m) ? *whole : body, usable, grid_m);
-    if (!rest) rest = exact_boolean(*whole, usable, grid_m);
-    if (rest) {
+    if (std::optional<Solid> rest = taken_cleanly(body, *whole, usable, grid_m)) {
       result.solid = std::move(*rest);
       return result;
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bim/mesh/solid.h"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <map>
@@ -161,6 +162,31 @@ Solid without_slivers(Solid solid, double grid_m) {
     }
   }
   return solid;
+}
+
+Solid widened(const Solid& closed, double by_m) {
+  constexpr double same_plane = 1e-6, most = 10.0;
+  std::vector<std::vector<Eigen::Vector3d>> normals(closed.vertices.size());
+  for (const Eigen::Vector3i& t : closed.triangles) {
+    const auto p = [&](int k) -> const Eigen::Vector3d& { return closed.vertices[static_cast<std::size_t>(t[k])]; };
+    const Eigen::Vector3d n = (p(1) - p(0)).cross(p(2) - p(0)).normalized();
+    if (n.isZero()) continue;
+    for (const int i : t) {
+      std::vector<Eigen::Vector3d>& own = normals[static_cast<std::size_t>(i)];
+      if (std::none_of(own.begin(), own.end(), [&](const Eigen::Vector3d& m) { return (m - n).norm() < same_plane; }))
+        own.push_back(n);
+    }
+  }
+  Solid result = closed;
+  for (std::size_t i = 0; i < normals.size(); ++i) {
+    if (normals[i].empty()) continue;
+    Eigen::MatrixXd planes(static_cast<Eigen::Index>(normals[i].size()), 3);
+    for (std::size_t k = 0; k < normals[i].size(); ++k) planes.row(static_cast<Eigen::Index>(k)) = normals[i][k];
+    const Eigen::VectorXd wanted = Eigen::VectorXd::Constant(planes.rows(), by_m);
+    const Eigen::Vector3d move = planes.completeOrthogonalDecomposition().solve(wanted);
+    result.vertices[i] += move * std::min(1.0, most * by_m / move.norm());
+  }
+  return result;
 }
 
 }  // namespace plumbline::bim

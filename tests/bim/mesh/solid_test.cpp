@@ -51,5 +51,15 @@ TEST(WithoutSlivers, LeavesSoundTrianglesAlone) {
   EXPECT_EQ(without_slivers(solid, grid_m).triangles, solid.triangles);
 }
 
+TEST(Widened, MovesAllFacesOutward) {
+  Solid prism;
+  prism.vertices = {{0, 0, 0}, {3, 0, 0}, {0, 4, 0}, {0, 0, 1}, {3, 0, 1}, {0, 4, 1}};
+  prism.triangles = {{0, 2, 1}, {3, 4, 5}, {0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4}, {2, 0, 3}, {2, 3, 5}};
+  const Solid wide = widened(prism, 0.1);
+  EXPECT_TRUE(is_closed(wide));
+  EXPECT_NEAR(volume(wide), 6.0 * 1.1 * 1.1 * 1.2, 1e-9);  // the inscribed circle of the outline has a radius of 1
+  EXPECT_TRUE(widened({}, 0.1).vertices.empty());
+}
+
 }  // namespace
 }  // namespace plumbline::bim
