@@ -168,6 +168,16 @@ class StoreyCard {
   ReportInput input_;
 };
 
+/// Why the default walk of a building without rooms is refused; empty where it is not.
+std::string why_no_round(const sim::MultiStoreyPlanner& space) {
+  try {
+    (void)plan_route(space, {}, {}, {});
+    return "";
+  } catch (const InputError& error) {
+    return error.what();
+  }
+}
+
 }  // namespace
 
 WalkPage walk_page(const bim::PlannedAndBuilt& site, const std::string& name) {
@@ -189,7 +199,9 @@ WalkPage walk_page(const bim::PlannedAndBuilt& site, const std::string& name) {
       card.add_without_start(page, rooms);
   }
   if (page.lines.empty()) {
-    const std::string why = "No rooms are known on any storey; `run` walks round the floor.";
+    const std::string refused = walked.rooms.empty() ? why_no_round(space) : "";
+    const std::string why = refused.empty() ? "No rooms are known on any storey; `run` walks round the floor."
+                                            : "No rooms are known on any storey, and `run` refuses: " + refused;
     page.html += "<p class=\"verdict bad\">" + svg::marked_up(why) + "</p>";
     page.lines.push_back(why);
   }

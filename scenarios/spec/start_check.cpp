@@ -76,9 +76,14 @@ void check_start(const sim::MultiStoreyPlanner& space, int storey, const Eigen::
       std::any_of(building.rooms.begin(), building.rooms.end(), [&](const bim::Room& r) { return r.storey == storey; });
   if (has_rooms && !doorway && std::none_of(building.rooms.begin(), building.rooms.end(), in_room))
     throw InputError(mark, start + " is outside every room; it must be in a room" + moved_text(building, at));
-  if (!space.storey(storey).free(at))
+  const sim::ClearanceMap& floor = space.storey(storey);
+  if (const auto cell = floor.grid().find(at); !cell || !floor.has_floor(*cell))
+    throw InputError(mark, start + " is not on the floor: no slab lies there near the height of its storey, " +
+                               format_number(building.storeys[static_cast<std::size_t>(storey)].elevation_m) + " m" +
+                               moved_text(building, at));
+  if (!floor.free(at))
     throw InputError(mark, start + " is in or too near to a wall or another thing (" +
-                               format_number(std::round(space.storey(storey).clearance(at) * 1e4) / 1e4) +
+                               format_number(std::round(floor.clearance(at) * 1e4) / 1e4) +
                                " m clear); the robot needs more room around it");
 }
 

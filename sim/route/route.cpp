@@ -16,9 +16,11 @@ namespace plumbline::sim {
 namespace {
 
 constexpr double margin_m = 1.0;            // around the rooms: their walls, and a step outside
+constexpr double thin_m = 2.0;              // walls within so little stand on one side of the floor
 constexpr double cells_max = 16'777'216.0;  // 2^24, 200 m x 200 m of 5 cm cells
 
-/// Grid over the rooms of a storey, or over its walls where there are no rooms, or over its floor without either.
+/// Grid over the rooms of a storey, or over its walls where there are no rooms, or over its floor where these stand in
+/// one line or not at all.
 GridFrame make_grid(const bim::Building& building, int storey, double cell) {
   Eigen::AlignedBox2d box;
   for (const bim::Room& room : building.rooms)
@@ -28,7 +30,7 @@ GridFrame make_grid(const bim::Building& building, int storey, double cell) {
     for (const bim::Wall& wall : building.walls)
       if (wall.storey == storey) box.extend(wall.a).extend(wall.b);
   }
-  if (box.isEmpty()) {
+  if (box.isEmpty() || box.sizes().minCoeff() < thin_m) {
     for (const bim::Slab& slab : building.slabs)
       for (const Eigen::Vector2d& p : slab.polygon.outer)
         if (slab.storey == storey) box.extend(p);

@@ -30,6 +30,17 @@ TEST(WalkPage, NamesWhatStopsTheRobotAtItsPlace) {
   EXPECT_NE(page.find("<circle"), std::string::npos);
 }
 
+TEST(WalkPage, ABuildingWithoutRoomsPromisesNoWalkThatRunRefuses) {
+  bim::PlannedAndBuilt site = site_with_door(0.9);
+  for (bim::Building* building : {&site.as_planned, &site.as_built}) {
+    building->rooms.clear();
+    sim::add_obstacle(*building, sim::rectangle({-50, -50}, {50, 50}), 0.0, 1.0);
+  }
+  const WalkPage page = walk_page(site, "full");
+  ASSERT_EQ(page.lines.size(), 1U);
+  EXPECT_NE(page.lines.front().find("`run` refuses: "), std::string::npos) << page.lines.front();
+}
+
 TEST(WalkPage, ABuildingWithoutRoomsSaysSo) {
   bim::PlannedAndBuilt site = site_with_door(0.9);
   site.as_planned.rooms.clear();

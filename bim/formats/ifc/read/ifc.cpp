@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "bim/config/tree.h"
@@ -94,10 +95,24 @@ void warn_of_missing_walls(Building& building) {
 }
 
 void warn_of_missing_floors(Building& building) {
+  constexpr double over_head_m = 1.8;
   std::map<int, std::pair<int, int>> lacking;  // storey to rooms without slab, and whether it has nothing at all
+  std::map<int, double> lowest_m;              // of the pieces of a storey
   for (const FloorPiece& piece : floor_pieces(building)) {
+    if (piece.storey >= 0) {
+      double& lowest = lowest_m.try_emplace(piece.storey, std::numeric_limits<double>::infinity()).first->second;
+      for (const Eigen::Vector2d& p : piece.polygon.outer) lowest = std::min(lowest, piece.z_at(p));
+    }
     if (piece.source == FloorSource::room) ++lacking[piece.storey].first;
     if (piece.source == FloorSource::walls) ++lacking[piece.storey].second;
+  }
+  for (const auto& [index, lowest] : lowest_m) {
+    const Storey& storey = building.storeys[static_cast<std::size_t>(index)];
+    if (lacking.contains(index) || lowest <= storey.elevation_m + over_head_m) continue;
+    building.warnings.push_back(
+        {storey.id, "no_floor",
+         "its slabs lie " + format_number(std::round(1e2 * (lowest - storey.elevation_m)) / 1e2) +
+             " m and more above it and are no floor; what is under them, or near its walls, is taken as floor"});
   }
   for (const auto& [index, rooms] : lacking) {
     const Storey& storey = building.storeys[static_cast<std::size_t>(index)];

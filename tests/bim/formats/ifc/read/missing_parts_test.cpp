@@ -78,6 +78,16 @@ TEST(Missing, ASuspendedCeilingIsNoFloor) {
   EXPECT_EQ(warnings_of(building, "no_floor"), 1);
 }
 
+TEST(Missing, ARoofAloneIsNoFloorAndItIsSaid) {
+  Sketch sketch;
+  sketch.storey(0);
+  sketch.wall(0, 0, 8, 0.2, 3);
+  sketch.slab({{0, 0}, {8, 0}, {8, 5}, {0, 5}}, 3, 3.25);
+  const Building building = read_sketch(sketch);
+  EXPECT_EQ(building.storeys.front().elevation_m, 0.0);
+  EXPECT_EQ(warnings_of(building, "no_floor"), 1);
+}
+
 TEST(Missing, WithoutSlabsTheRoomsCarryAndItIsSaid) {
   const Building building = read_sketch(hut({.slab = ""}));
   EXPECT_EQ(warnings_of(building, "no_floor"), 1);
