@@ -18,16 +18,17 @@ struct Candidate {
   double distance_m = std::numeric_limits<double>::infinity();  ///< distance to the walk so far
 };
 
-/// Those of a grid over the box that can be walked to.
+/// Those of a grid over the box that can be walked to and left again: from most of them the walk goes back.
 std::vector<Candidate> places_in_reach(const sim::ClearanceMap& space, const Eigen::AlignedBox2d& bounds,
                                        const Eigen::Vector2d& start, const ExplorationConfig& config) {
   const double step = std::max(config.step_m, std::sqrt(bounds.volume() / config.most_places));
   const Eigen::Vector2d size = bounds.sizes();
+  const double turn_m = space.config().turn_m - 0.5 * space.config().cell_m;
   Path grid;
   for (int iy = 0; (iy + 0.5) * step < size.y(); ++iy)
     for (int ix = 0; (ix + 0.5) * step < size.x(); ++ix) {
       const Eigen::Vector2d p = bounds.min() + step * Eigen::Vector2d(ix + 0.5, iy + 0.5);
-      if (space.free(p)) grid.push_back(p);
+      if (space.clearance(p) >= turn_m) grid.push_back(p);
     }
   std::vector<Candidate> places;
   for (const Eigen::Vector2d& p : space.reachable(start, grid)) places.push_back({p});
@@ -47,6 +48,19 @@ double length(const Path& path) {
 }
 
 }  // namespace
+
+Eigen::AlignedBox2d floor_box(const bim::Building& building, int storey) {
+  constexpr double beside_m = 1.0;  // of a wall that stands alone
+  Eigen::AlignedBox2d box;
+  for (const bim::Slab& slab : building.slabs)
+    for (const Eigen::Vector2d& p : slab.polygon.outer)
+      if (slab.storey == storey) box.extend(p);
+  if (!box.isEmpty()) return box;
+  for (const bim::Wall& wall : building.walls)
+    if (wall.storey == storey) box.extend(wall.a).extend(wall.b);
+  if (box.isEmpty() || box.sizes().minCoeff() >= beside_m) return box;
+  return {Eigen::Vector2d(box.min().array() - beside_m), Eigen::Vector2d(box.max().array() + beside_m)};
+}
 
 std::vector<Eigen::Vector2d> exploration_route(const sim::ClearanceMap& space, const Eigen::AlignedBox2d& bounds,
                                                const Eigen::Vector2d& start, const ExplorationConfig& config) {

@@ -77,18 +77,6 @@ class Planner {
 
   [[nodiscard]] const bim::Room& room(int index) const { return building_.rooms[static_cast<std::size_t>(index)]; }
 
-  /// Box around the floor of the start's storey, or around its walls where there is none.
-  [[nodiscard]] Eigen::AlignedBox2d floor_box() const {
-    Eigen::AlignedBox2d box;
-    for (const bim::Slab& slab : building_.slabs)
-      for (const Eigen::Vector2d& p : slab.polygon.outer)
-        if (slab.storey == storey_) box.extend(p);
-    if (!box.isEmpty()) return box;
-    for (const bim::Wall& wall : building_.walls)
-      if (wall.storey == storey_) box.extend(wall.a).extend(wall.b);
-    return box;
-  }
-
   /// Where no rooms are known.
   [[nodiscard]] Eigen::Vector2d freest_place() const {
     const std::vector<Eigen::Vector2d> found = space_.storey(storey_).open_target();
@@ -112,16 +100,22 @@ class Planner {
         list += (list.empty() ? ": on the way to room '" + other.id + "' " : "; ") + blockage.text;
       if (!list.empty()) break;
     }
-    return list + "; give a start: {storey: ..., at: [x, y]} from where the robot can walk";
+    const std::string start = "give a start: {storey: ..., at: [x, y]} ";
+    if (!list.empty()) return list + "; " + start + "from where the robot can walk";
+    return ": the robot needs " + format_number(2.0 * sim::RouteConfig().turn_m) +
+           " m to turn round, and this piece of floor has no two places for that; clear it, or " + start +
+           "on a larger one";
   }
 
   /// Where no rooms are known, or none but the one of the start is in reach.
   void walk_round(int laps, RoutePlan& plan) const {
-    const Eigen::AlignedBox2d box = floor_box();
-    const Path round = box.isEmpty() ? Path{}
-                                     : sim::with_clearance(space_.storey(storey_),
-                                                           exploration_route(space_.storey(storey_), box, plan.start_W),
-                                                           plan.waypoints.front().p_W.z());
+    const Eigen::AlignedBox2d box = floor_box(building_, storey_);
+    const sim::ClearanceMap& space = space_.storey(storey_);
+    Path round;
+    for (const ExplorationConfig& config : {ExplorationConfig(), small_floor_exploration()})
+      if (!box.isEmpty() && sim::length(round) < walk_min_m)
+        round = sim::with_clearance(space, exploration_route(space, box, plan.start_W, config),
+                                    plan.waypoints.front().p_W.z());
     if (sim::length(round) < walk_min_m)
       throw InputError(marks_.route,
                        "there is nowhere to walk to from " + point_text(plan.start_W) + what_stops(plan.start_W));

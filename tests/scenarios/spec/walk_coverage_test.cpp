@@ -119,6 +119,73 @@ TEST(WalkCoverage, NowhereToWalkIsRefusedWithWhatStopsTheRobot) {
   EXPECT_NE(text.find("door 'd0' is 0.5 m wide"), std::string::npos) << text;
 }
 
+/// One room with so much clear floor, on a slab.
+bim::Building room_of(double length, double width) {
+  bim::Building building = sim::empty_storey();
+  const Polygon2 corners = sim::rectangle({0, 0}, {length + 0.2, width + 0.2});
+  for (std::size_t i = 0; i < 4; ++i) sim::add_wall(building, corners[i], corners[(i + 1) % 4]);
+  sim::add_room(building, "r", sim::rectangle({0.1, 0.1}, {length + 0.1, width + 0.1}));
+  bim::Slab slab;
+  slab.id = "slab";
+  slab.storey = 0;
+  slab.polygon.outer = corners;
+  building.slabs.push_back(slab);
+  return building;
+}
+
+TEST(WalkCoverage, ASmallRoomIsWalkedIn) {
+  for (const auto& [length, width] : {std::pair{3.6, 2.6}, {2.4, 2.2}, {4.5, 4.0}}) {
+    const WalkCoverage walk = coverage_of(room_of(length, width));
+    EXPECT_GT(walk.planned_m, 1.5) << length;
+    EXPECT_EQ(walk.on_route, 1);
+  }
+}
+
+/// A gap that the robot fits into and in which it cannot turn, between a desk and two walls.
+TEST(WalkCoverage, AWalkTurnsBackOnlyWhereThereIsRoom) {
+  const double turn_m = sim::RouteConfig().turn_m - sim::RouteConfig().cell_m;
+  bim::Building building = room_of(9.0, 5.0);
+  sim::add_obstacle(building, sim::rectangle({5.0, 0.1 + 0.875}, {9.1, 1.8}), 0.0, 0.8);
+  const sim::MultiStoreyPlanner space(building);
+  const RoutePlan plan = plan_route(space, {}, {}, {});
+  const std::vector<sim::Waypoint>& way = plan.waypoints;
+  int back = 0;
+  for (std::size_t i = 1; i + 1 < way.size(); ++i) {
+    const Eigen::Vector2d in = (way[i].p_W - way[i - 1].p_W).head<2>(), out = (way[i + 1].p_W - way[i].p_W).head<2>();
+    if (in.dot(out) > -0.7 * in.norm() * out.norm()) continue;
+    ++back;
+    EXPECT_GE(space.storey(0).clearance(way[i].p_W.head<2>()), turn_m) << way[i].p_W.transpose();
+  }
+  EXPECT_GT(back, 0);
+}
+
+TEST(WalkCoverage, AStartBesideTheFloorSaysSo) {
+  bim::Building building = room_of(4.0, 4.0);
+  building.rooms.clear();
+  Start start;
+  start.storey = building.storeys.front().id;
+  start.at = Eigen::Vector2d(-0.8, 2.0);
+  const std::string text = input_error([&] { (void)plan_route(sim::MultiStoreyPlanner(building), start, {}, {}); });
+  EXPECT_NE(text.find("is not on the floor"), std::string::npos) << text;
+}
+
+/// Walls along one side only, and a roof over the floor.
+TEST(WalkCoverage, AFloorBesideOneWallIsWalkedUnderItsRoof) {
+  bim::Building building = sim::empty_storey();
+  sim::add_wall(building, {0, 0}, {8, 0});
+  bim::Slab roof;
+  roof.id = "roof";
+  roof.storey = 0;
+  roof.polygon.outer = sim::rectangle({0, 0}, {8, 5});
+  roof.z0_m = 3.0;
+  roof.z1_m = 3.2;
+  building.slabs.push_back(roof);
+  const RoutePlan plan = plan_route(sim::MultiStoreyPlanner(building), {}, {}, {});
+  EXPECT_GT(plan.length_m, 5.0);
+  for (const sim::Waypoint& waypoint : plan.waypoints)
+    EXPECT_TRUE(contains(roof.polygon.outer, waypoint.p_W.head<2>())) << waypoint.p_W.transpose();
+}
+
 TEST(WalkCoverage, AStoreyOutOfReachOfAWalkOfAllIsNamed) {
   bim::Building building = row_of_rooms(3);
   building.storeys.push_back({"upper", "upper", 3.0, 3.0, 0});
