@@ -41,10 +41,10 @@ slam::SensorFrame frame_at(int i) {
 
 class Walk final : public slam::Recording {
  public:
-  explicit Walk(int scans) : scans_(scans) {}
+  explicit Walk(int scans, slam::SensorFrame (*frame)(int) = frame_at) : scans_(scans), frame_(frame) {}
   [[nodiscard]] bool next(slam::SensorFrame& frame) override {
     if (at_ == scans_) return false;
-    frame = frame_at(at_++);
+    frame = frame_(at_++);
     return true;
   }
   [[nodiscard]] const slam::RecordingInfo& info() const override { return info_; }
@@ -54,6 +54,7 @@ class Walk final : public slam::Recording {
 
  private:
   int scans_, at_ = 0;
+  slam::SensorFrame (*frame_)(int);
   slam::RecordingInfo info_;
 };
 
@@ -139,28 +140,20 @@ TEST(PoorerRecording, OfThreeReturnsOneIsDrawnTheSameEachTime) {
   EXPECT_NEAR(static_cast<double>(number), 760.0 / 3.0, 4.0 * std::sqrt(760.0 * 2.0 / 9.0));
 }
 
-TEST(PoorerRecording, BeamsAreSpreadOverTheElevations) {
-  class Fan final : public slam::Recording {
-   public:
-    [[nodiscard]] bool next(slam::SensorFrame& frame) override {
-      frame = {};
-      for (int tenths = -100; tenths <= 100; ++tenths) {
-        const double elevation = 0.1 * tenths * std::numbers::pi / 180.0;
-        frame.scan.range_m.push_back(10.0);
-        frame.scan.point_L.emplace_back(10.0 * std::cos(elevation), 0.0, 10.0 * std::sin(elevation));
-        frame.scan.offset_ns.push_back(0);
-      }
-      return true;
-    }
-    [[nodiscard]] const slam::RecordingInfo& info() const override { return info_; }
-    [[nodiscard]] bool has_odometry() const override { return false; }
-    [[nodiscard]] slam::Taken taken() const override { return {}; }
-    [[nodiscard]] slam::Nanoseconds origin() const override { return 0; }
+/// A return each tenth of a degree, 10 degrees up and down.
+slam::SensorFrame fan(int) {
+  slam::SensorFrame frame;
+  for (int tenths = -100; tenths <= 100; ++tenths) {
+    const double elevation = 0.1 * tenths * std::numbers::pi / 180.0;
+    frame.scan.range_m.push_back(10.0);
+    frame.scan.point_L.emplace_back(10.0 * std::cos(elevation), 0.0, 10.0 * std::sin(elevation));
+    frame.scan.offset_ns.push_back(0);
+  }
+  return frame;
+}
 
-   private:
-    slam::RecordingInfo info_;
-  };
-  const auto recording = poorer(std::make_unique<Fan>(), {.beams = 3});
+TEST(PoorerRecording, BeamsAreSpreadOverTheElevations) {
+  const auto recording = poorer(std::make_unique<Walk>(1, fan), {.beams = 3});
   slam::SensorFrame frame;
   ASSERT_TRUE(recording->next(frame));
   std::vector<int> tenths;
