@@ -70,14 +70,15 @@ double offset_variance(const PlaneObservation& seen, const Eigen::Vector3d& p_R)
   return J.dot(seen.covariance * J);
 }
 
-/// Are two wall patches of one scan two faces? Compared where the shorter one is.
+/// Are two wall patches of one scan two faces? Compared at the middle of either: the tilt of a low strip, such as a
+/// sill, hardly determines where its plane is above it.
 bool are_separate_faces(const PlaneObservation& a, const PlaneObservation& b, double chi2) {
   if (!a.vertical || !b.vertical) return false;
-  const bool a_longer = (a.p1_R - a.p0_R).squaredNorm() >= (b.p1_R - b.p0_R).squaredNorm();
-  const PlaneObservation &longer = a_longer ? a : b, &shorter = a_longer ? b : a;
-  const Eigen::Vector3d& p = shorter.centroid_R;
-  const double offset = longer.plane_R.distance(p);
-  return offset * offset > chi2 * (offset_variance(longer, p) + offset_variance(shorter, p));
+  const auto are_separate_at = [&](const Eigen::Vector3d& p_R) {
+    const double offset = a.plane_R.distance(p_R) - b.plane_R.distance(p_R);
+    return offset * offset > chi2 * (offset_variance(a, p_R) + offset_variance(b, p_R));
+  };
+  return are_separate_at(a.centroid_R) || are_separate_at(b.centroid_R);
 }
 
 }  // namespace
