@@ -172,8 +172,15 @@ std::variant<Solid, Refusal> cut_in_elevation(const Wall& wall, const std::vecto
   Elevation elevation = std::get<Elevation>(std::move(outline));
 
   std::vector<Polygon2> silhouettes;
-  for (const Opening& opening : openings)
-    if (const auto refusal = add_silhouette(frame, opening, elevation.y, config, silhouettes)) return *refusal;
+  std::optional<Refusal> refused;
+  for (const Opening& opening : openings) {
+    const auto refusal = add_silhouette(frame, opening, elevation.y, config, silhouettes);
+    if (refusal && refused && refusal->kind.name() == refused->kind.name())
+      refused->more.push_back(refusal->text);
+    else if (refusal && !refused)
+      refused = refusal;
+  }
+  if (refused) return *refused;
   clear_of_ends(silhouettes, elevation, config.face_m);
   try {
     elevation.region = subtract(elevation.region, silhouettes);

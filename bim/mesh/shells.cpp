@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <numeric>
 #include <utility>
@@ -111,6 +112,41 @@ Solid shells_turned_outward(const Solid& solid) {
   for (Eigen::Vector3i& t : result.triangles)
     if (turned[static_cast<std::size_t>(numbers[static_cast<std::size_t>(t[0])])] != 0) std::swap(t[1], t[2]);
   return result;
+}
+
+Solid turned_alike(const Solid& solid) {
+  std::map<std::pair<int, int>, std::vector<std::size_t>> sides;
+  for (std::size_t t = 0; t < solid.triangles.size(); ++t)
+    for (int k = 0; k < 3; ++k) {
+      const int a = solid.triangles[t][k], b = solid.triangles[t][(k + 1) % 3];
+      sides[{std::min(a, b), std::max(a, b)}].push_back(t);
+    }
+  if (std::any_of(sides.begin(), sides.end(), [](const auto& side) { return side.second.size() != 2; })) return solid;
+  Solid result = solid;
+  const auto runs = [&](std::size_t t, int a, int b) {
+    const Eigen::Vector3i& triangle = result.triangles[t];
+    for (int k = 0; k < 3; ++k)
+      if (triangle[k] == a && triangle[(k + 1) % 3] == b) return true;
+    return false;
+  };
+  std::vector<char> seen(solid.triangles.size(), 0);
+  for (std::size_t first = 0; first < seen.size(); ++first) {
+    std::vector<std::size_t> open;
+    if (std::exchange(seen[first], char{1}) == 0) open.push_back(first);
+    while (!open.empty()) {
+      const std::size_t t = open.back();
+      open.pop_back();
+      for (int k = 0; k < 3; ++k) {
+        const int a = result.triangles[t][k], b = result.triangles[t][(k + 1) % 3];
+        const std::vector<std::size_t>& both = sides[{std::min(a, b), std::max(a, b)}];
+        const std::size_t next = both[0] == t ? both[1] : both[0];
+        if (std::exchange(seen[next], char{1}) != 0) continue;
+        if (runs(next, a, b)) std::swap(result.triangles[next][1], result.triangles[next][2]);
+        open.push_back(next);
+      }
+    }
+  }
+  return is_closed(result) ? shells_turned_outward(result) : solid;
 }
 
 bool shells_may_overlap(const Solid& solid, double grid_m) {

@@ -17,6 +17,10 @@ namespace plumbline::bim {
 /// points outward, in a solid whose volume is positive.
 [[nodiscard]] Solid shells_turned_outward(const Solid& solid);
 
+/// A surface of whose triangles some are turned over against their neighbours, turned alike and outward; unchanged
+/// where an edge is not shared by just two, or where they cannot be alike.
+[[nodiscard]] Solid turned_alike(const Solid& solid);
+
 /// Whether a mesh is several closed shells that each bound material and may overlap or touch, as the items of a body
 /// do.
 [[nodiscard]] bool shells_may_overlap(const Solid& solid, double grid_m);

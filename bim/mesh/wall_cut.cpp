@@ -205,6 +205,7 @@ CutWall cut_wall(const Wall& wall, const std::vector<Opening>& openings, const M
   }
   const Refusal& refusal = std::get<Refusal>(flat);
   CutWall cut = cut_in_space(wall, openings, config);
+  for (const std::string& text : refusal.more) cut.warnings.push_back({wall.id, refusal.kind, text + "; cut in 3D"});
   cut.warnings.insert(cut.warnings.begin(), {wall.id, refusal.kind, refusal.text + "; cut in 3D"});
   return cut;
 }

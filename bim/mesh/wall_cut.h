@@ -22,6 +22,7 @@ struct MeshConfig {
 struct Refusal {
   WarningKind kind;  ///< not_prismatic | niche
   std::string text;
+  std::vector<std::string> more = {};  ///< texts of the same kind about further openings
 };
 
 /// Cuts a wall in its elevation: silhouettes of the openings are subtracted from the wall's, and the rest is extruded

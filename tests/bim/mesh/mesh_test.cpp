@@ -261,6 +261,9 @@ TEST(WallCut, NicheGoesTo3D) {
   const Wall wall = with_body(wall_of(4.0, 0.3), 0.0);
   Opening niche = hole(1, 2, 1, 2);
   niche.solid = box({1, 0.05, 1}, {2, 0.15, 2});  // ends exactly on the face: no film may stay
+  Opening beside = hole(3, 3.5, 1, 2);
+  beside.solid = box({3, 0.05, 1}, {3.5, 0.15, 2});
+  EXPECT_EQ(cut_wall(wall, {niche, beside}, {}).warnings.size(), 2u);  // each is said
   const CutWall result = cut_wall(wall, {niche}, {});
   ASSERT_EQ(result.warnings.size(), 1U);
   EXPECT_EQ(result.warnings[0].kind, "niche");

@@ -75,6 +75,24 @@ TEST(Shells, AreTurnedOneByOne) {
   EXPECT_DOUBLE_EQ(volume(shells_turned_outward(all_of({turned_over(big), within}))), 98.0);
 }
 
+TEST(TurnedAlike, ClosesASurfaceWithSomeFacesTurnedOver) {
+  const Solid hollow =
+      all_of({box_solid({0, 0, 0}, {3, 2, 1}), turned_over(box_solid({1, 0.5, 0.25}, {2, 1.5, 0.75}))});
+  for (const std::size_t step : {2u, 3u, 5u, 7u}) {
+    Solid mixed = hollow;
+    for (std::size_t t = 0; t < mixed.triangles.size(); t += step)
+      std::swap(mixed.triangles[t][1], mixed.triangles[t][2]);
+    ASSERT_FALSE(is_closed(mixed));
+    const Solid alike = turned_alike(mixed);
+    EXPECT_TRUE(is_closed(alike));
+    EXPECT_DOUBLE_EQ(std::abs(volume(shells(alike)[0])), 6.0);
+    EXPECT_GT(volume(alike), 0.0);
+  }
+  Solid open = box_solid({0, 0, 0}, {3, 2, 1});
+  open.triangles.pop_back();
+  EXPECT_EQ(turned_alike(open).triangles, open.triangles);
+}
+
 MeshElement element_of(const Solid& body) {
   Building building;
   building.obstacles = {{"o", "box", 0, body}};

@@ -56,8 +56,15 @@ void warn_of_unresolved_doors(Building& building) {
   }
 }
 
+[[noreturn]] void fail_without_ground(const std::string& file, std::size_t others) {
+  throw InputError({file, 0, 0},
+                   "nothing in it says where one could stand: it has no IfcSlab, no IfcSpace and no "
+                   "IfcWall, only " +
+                       std::to_string(others) + " other elements");
+}
+
 /// Refuses a file in which nothing can stand and says what it lacks.
-void check_substance(const Building& building, const std::string& file) {
+void check_substance(const Building& building, const StepModel& model, const std::string& file) {
   const bool solid = !building.walls.empty() || !building.slabs.empty() || !building.rooms.empty() ||
                      !building.columns.empty() || !building.obstacles.empty() || !building.stairs.empty();
   if (!solid) {
@@ -65,6 +72,11 @@ void check_substance(const Building& building, const std::string& file) {
       return warning.kind == "dangling" || warning.kind == "makes_no_sense" || warning.kind == "skipped_placement" ||
              warning.kind == "no_body" || warning.kind == "unknown_class";
     });
+    const auto fillings = std::count_if(model.products.begin(), model.products.end(), [](const StepProduct& product) {
+      return product.has_body && (product.kind == StepClass::door || product.kind == StepClass::window);
+    });
+    if (reason == building.warnings.end() && fillings > 0)
+      fail_without_ground(file, static_cast<std::size_t>(fillings));
     const std::string left_out =
         reason == building.warnings.end() ? std::string() : "; the first that was left out: " + reason->text;
     throw InputError({file, 0, 0},
@@ -73,10 +85,7 @@ void check_substance(const Building& building, const std::string& file) {
                          left_out);
   }
   if (building.slabs.empty() && building.rooms.empty() && building.walls.empty())
-    throw InputError({file, 0, 0},
-                     "nothing in it says where one could stand: it has no IfcSlab, no IfcSpace and no "
-                     "IfcWall, only " +
-                         std::to_string(building.obstacles.size() + building.columns.size()) + " other elements");
+    fail_without_ground(file, building.obstacles.size() + building.columns.size());
 }
 
 /// What methods that localize see in a plan without walls is all that was built to stay.
@@ -152,7 +161,7 @@ Building read_ifc_text(std::string_view text, const std::string& file, const Ifc
   building.name = model.name;
   building.schema = said;
   building.unit = unit_name(model.unit_m);
-  check_substance(building, file);
+  check_substance(building, model, file);
   warn_of_missing_walls(building);
   if (const std::string odd = odd_size(building); !odd.empty())
     building.warnings.push_back({"", "odd_size", odd + " The file says " + building.unit});

@@ -203,8 +203,8 @@ Solid triangulated(const Facets& facets, int& crossed) {
   Solid solid;
   for (const std::vector<int>& loop : facets.loops) crossed += add_face(solid, canonical_ring(facets, loop)) ? 0 : 1;
   solid = without_slivers(welded(solid, solid_grid_m), solid_grid_m);
-  // Reversed input: mirrored bodies and files whose shells point inwards.
-  return canonical(is_closed(solid) ? shells_turned_outward(solid) : solid, solid_grid_m);
+  // Reversed input: mirrored bodies and files whose shells point inwards, or some of whose faces do.
+  return canonical(is_closed(solid) ? shells_turned_outward(solid) : turned_alike(solid), solid_grid_m);
 }
 
 Solid triangulated(const Facets& facets) {

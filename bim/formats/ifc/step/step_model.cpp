@@ -268,7 +268,7 @@ class Reader {
     product.id = source->m_GlobalId ? utf8(source->m_GlobalId->m_value) : std::string();
     product.name = name_of(*source);
     const ProductPose pose = placement(source->m_ObjectPlacement, model.unit_m);
-    if (pose.malformed) fail(product.step_id, product.type + " has a placement that makes no sense");
+    if (!pose.fault.empty()) fail(product.step_id, product.type + " " + pose.fault);
     if (!pose.X_WP) {
       model.skipped.push_back({product.id, "skipped_placement",
                                product.type + " #" + std::to_string(product.step_id) +

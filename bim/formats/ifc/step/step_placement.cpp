@@ -72,13 +72,16 @@ ProductPose placement(const std::shared_ptr<IfcObjectPlacement>& object_placemen
       continue;
     }
     const auto local = std::dynamic_pointer_cast<IfcLocalPlacement>(at);
+    if (local && !local->m_RelativePlacement)
+      return {std::nullopt,
+              "has a placement, #" + std::to_string(local->m_entity_id) + ", without its RelativePlacement"};
     const std::optional<Eigen::Affine3d> in_parent =
         local ? relative(local->m_RelativePlacement, unit_m) : std::nullopt;
-    if (!in_parent) return {std::nullopt, true};
+    if (!in_parent) return {std::nullopt, "has a placement that makes no sense"};
     X = *in_parent * X;
     at = local->m_PlacementRelTo;
   }
-  return {X, false};
+  return {X, ""};
 }
 
 }  // namespace plumbline::bim

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <memory>
 #include <optional>
+#include <string>
 
 class IfcObjectPlacement;
 
@@ -12,10 +13,10 @@ namespace plumbline::bim {
 /// Pose of a product in W, or why there is none.
 struct ProductPose {
   std::optional<Eigen::Affine3d> X_WP;  ///< m
-  bool malformed = false;               ///< an axis has no direction, or a coordinate is missing or not a number
+  std::string fault;  ///< what makes no sense: an axis has no direction, a coordinate is missing or not a number
 };
 
-/// Follows the chain of local and grid placements; identity without a placement. No pose, though nothing is malformed,
+/// Follows the chain of local and grid placements; identity without a placement. No pose, though there is no fault,
 /// where a grid has no intersection that can be found.
 [[nodiscard]] ProductPose placement(const std::shared_ptr<IfcObjectPlacement>& object_placement, double unit_m);
 

@@ -206,6 +206,15 @@ TEST(Ifc, BadPlacementIsNamedByItsLine) {
   EXPECT_NE(message.find("small.ifc:22: #40"), std::string::npos) << message;
 }
 
+TEST(Ifc, APlacementWithoutItsRelativeOneIsNamed) {
+  std::string text = small_ifc({});
+  const std::string whole = "#41=IFCLOCALPLACEMENT(#31,#42)";
+  text.replace(text.find(whole), whole.size(), "#41=IFCLOCALPLACEMENT(#31,$)");
+  EXPECT_NE(message_of(text).find("#40: IfcWall has a placement, #41, without its RelativePlacement"),
+            std::string::npos)
+      << message_of(text);
+}
+
 TEST(Ifc, NothingToWalkInIsRefused) {
   std::string text = small_ifc({});
   const auto rename = [&](const std::string& from, const std::string& to) {

@@ -166,6 +166,10 @@ TEST(Missing, EverythingIsRefusedWithWhatWouldBeRight) {
   beams.element("IFCBEAM", beams.shape(beams.box(0, 0, 3, 5, 0.2, 3.3)), "$,$");
   EXPECT_NE(input_error([&] { (void)read_sketch(beams); }).find("no IfcSlab, no IfcSpace and no IfcWall"),
             std::string::npos);
+  Sketch door;
+  door.storey(0);
+  door.element("IFCDOOR", door.shape(door.box(0, 0, 0, 1, 0.1, 2)), "$,$,$,$,$,$");
+  EXPECT_NE(input_error([&] { (void)read_sketch(door); }).find("no IfcWall, only 1 other elements"), std::string::npos);
 }
 
 TEST(Dangling, ReferencesCostWhatDependsOnThemAndNoMore) {

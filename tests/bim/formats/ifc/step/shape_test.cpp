@@ -31,6 +31,17 @@ double volume_of(const Shape& shape, std::size_t problems = 0) {
   return volume(solid);
 }
 
+TEST(Triangulated, TurnsFacesAlike) {
+  for (std::size_t turned = 0; turned < 6; ++turned) {
+    Facets facets = box({0, 0, 0}, {1, 2, 3});
+    std::reverse(facets.loops[turned].begin(), facets.loops[turned].end());
+    std::reverse(facets.loops[2].begin(), facets.loops[2].end());
+    const Solid solid = triangulated(facets);
+    EXPECT_TRUE(is_closed(solid)) << turned;
+    EXPECT_NEAR(volume(solid), 6.0, 1e-9) << turned;
+  }
+}
+
 TEST(Shape, IsWhatItHasInCommonWithTheOthersLessTheCuts) {
   Shape shape{box({0, 0, 0}, {2, 2, 2}), {}};
   EXPECT_NEAR(volume_of(shape), 8.0, 1e-9);
