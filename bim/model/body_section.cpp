@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -76,10 +77,105 @@ std::vector<Polygon2> rings_of(std::vector<SectionEdge> edges) {
   return rings;
 }
 
+using Step = std::pair<double, double>;  ///< a point in steps of the grid of the booleans
+
+Polygon2 in_steps_of_grid(const Polygon2& ring) {
+  Polygon2 steps;
+  for (const Eigen::Vector2d& p : ring) {
+    const Eigen::Vector2d q = (p / boolean_grid_m).array().round();
+    if (steps.empty() || steps.back() != q) steps.push_back(q);
+  }
+  while (steps.size() > 1 && steps.back() == steps.front()) steps.pop_back();
+  return steps;
+}
+
+/// What the booleans would leave out: it passes a point twice or runs back along itself.
+bool touches_itself(const Polygon2& ring) {
+  const Polygon2 steps = in_steps_of_grid(ring);
+  return steps.size() >= 3 && !is_simple(steps);
+}
+
+/// Edges from point to point, cut where another one ends on them. Two that run against each other, as along the seam of
+/// a ring, bound nothing.
+std::map<Step, std::vector<Step>> bounding_edges(const std::vector<SectionEdge>& edges) {
+  std::vector<Polygon2> ends;
+  std::vector<Eigen::Vector2d> corners;
+  for (const SectionEdge& edge : edges) {
+    ends.push_back(in_steps_of_grid({edge.a, edge.b}));
+    corners.insert(corners.end(), ends.back().begin(), ends.back().end());
+  }
+  const auto before = [](const Eigen::Vector2d& p, const Eigen::Vector2d& q) {
+    return Step(p.x(), p.y()) < Step(q.x(), q.y());
+  };
+  std::sort(corners.begin(), corners.end(), before);
+  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  std::map<std::pair<Step, Step>, int> times;  // less those the other way
+  for (const Polygon2& edge : ends) {
+    if (edge.size() < 2) continue;
+    const Eigen::Vector2d e = (edge[1] - edge[0]).normalized();
+    std::vector<std::pair<double, Step>> points;
+    for (const Eigen::Vector2d& p : corners) {
+      const Eigen::Vector2d d = p - edge[0];
+      const double along = e.dot(d), across = e.x() * d.y() - e.y() * d.x();
+      if (along >= 0.0 && e.dot(edge[1] - p) >= 0.0 && std::abs(across) <= 1.0)
+        points.emplace_back(along, Step(p.x(), p.y()));
+    }
+    std::sort(points.begin(), points.end());
+    for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+      const auto &p = points[i].second, &q = points[i + 1].second;
+      times[std::minmax(p, q)] += p < q ? 1 : -1;
+    }
+  }
+  std::map<Step, std::vector<Step>> next;
+  for (const auto& [edge, sum] : times)
+    if (sum != 0) next[sum > 0 ? edge.first : edge.second].push_back(sum > 0 ? edge.second : edge.first);
+  return next;
+}
+
+/// The same edges as rings that pass no point twice: one that would is two.
+std::vector<Polygon2> rings_apart(const std::vector<SectionEdge>& edges) {
+  std::map<Step, std::vector<Step>> next = bounding_edges(edges);
+  const auto to_left = [](const Step& from, const Step& at, const Step& to) {
+    const Eigen::Vector2d d(at.first - from.first, at.second - from.second),
+        e(to.first - at.first, to.second - at.second);
+    return std::atan2(d.x() * e.y() - d.y() * e.x(), d.dot(e));
+  };
+  std::vector<Polygon2> rings;
+  for (auto& [start, unused] : next) {
+    std::vector<Step> path = {start};
+    while (!path.empty()) {
+      std::vector<Step>& ends = next[path.back()];
+      if (ends.empty()) {
+        path.pop_back();
+        continue;
+      }
+      // Sharpest to the left, so that parts that meet in a corner stay parts.
+      auto chosen = ends.begin();
+      for (auto end = ends.begin(); path.size() > 1 && end != ends.end(); ++end)
+        if (to_left(path[path.size() - 2], path.back(), *end) > to_left(path[path.size() - 2], path.back(), *chosen))
+          chosen = end;
+      const Step end = *chosen;
+      ends.erase(chosen);
+      const auto loop = std::find(path.begin(), path.end(), end);
+      if (loop == path.end()) {
+        path.push_back(end);
+        continue;
+      }
+      Polygon2& ring = rings.emplace_back();
+      for (auto p = loop; p != path.end(); ++p)
+        ring.emplace_back(snap(p->first * boolean_grid_m), snap(p->second * boolean_grid_m));
+      path.erase(loop + 1, path.end());
+    }
+  }
+  return rings;
+}
+
 }  // namespace
 
 Region2 body_section(const Solid& body, double z_m) {
-  std::vector<Polygon2> rings = rings_of(edges_at(body, z_m));
+  const std::vector<SectionEdge> edges = edges_at(body, z_m);
+  std::vector<Polygon2> rings = rings_of(edges);
+  if (std::any_of(rings.begin(), rings.end(), touches_itself)) rings = rings_apart(edges);
   double sum = 0.0;
   for (const Polygon2& ring : rings) sum += signed_area(ring);
   const double outward = sum < 0.0 ? -1.0 : 1.0;  // of a body whose faces are turned over all rings run backwards

@@ -112,6 +112,45 @@ TEST(BentWalls, ARingBecomesItsFourSides) {
   }
 }
 
+/// A ring of four sides whose surface is closed but touches itself: the last side ends on the first.
+std::string ring_with_a_seam(Sketch& sketch) {
+  const Polygon2 outer = {{0, 0}, {4, 0}, {4, 3}, {0, 3}, {0, 0.2}};
+  const Polygon2 inner = {{0, 0.2}, {3.8, 0.2}, {3.8, 2.8}, {0.2, 2.8}, {0.2, 0.2}};
+  std::string points, faces;
+  for (const Polygon2& outline : {outer, inner})
+    for (const double z : {0.0, 3.0})
+      for (const Eigen::Vector2d& p : outline)
+        points += (points.empty() ? "(" : ",(") + Sketch::n(p.x()) + "," + Sketch::n(p.y()) + "," + Sketch::n(z) + ")";
+  const auto face = [&](int a, int b, int c, int d) {
+    faces += (faces.empty() ? "" : ",") +
+             sketch.add("IFCINDEXEDPOLYGONALFACE((" + std::to_string(a) + "," + std::to_string(b) + "," +
+                        std::to_string(c) + "," + std::to_string(d) + "))");
+  };
+  for (int i = 1; i <= 4; ++i) {
+    face(i + 6, i + 5, i, i + 1);
+    face(i + 16, i + 11, i + 10, i + 15);
+    face(i + 1, i, i + 10, i + 11);
+    face(i + 5, i + 6, i + 16, i + 15);
+  }
+  face(1, 6, 16, 11);
+  face(10, 5, 15, 20);
+  const std::string list = sketch.add("IFCCARTESIANPOINTLIST3D((" + points + "))");
+  return sketch.add("IFCPOLYGONALFACESET(" + list + ",$,(" + faces + "),$)");
+}
+
+TEST(BentWalls, ARingWithASeamBecomesItsFourSides) {
+  Sketch sketch;
+  sketch.storey(0);
+  sketch.slab({{0, 0}, {4, 0}, {4, 3}, {0, 3}}, -0.2, 0);
+  sketch.element("IFCWALL", sketch.shape(ring_with_a_seam(sketch)), "$,$");
+  const Building building = read(sketch);
+  ASSERT_EQ(building.walls.size(), 4u);
+  for (const Wall& wall : building.walls) EXPECT_NEAR(wall.thickness_m, 0.2, 1e-3) << wall.id;
+  EXPECT_NEAR(volume_of_walls(building), (4 * 3 - 3.6 * 2.6) * 3, 1e-3);
+  ASSERT_EQ(building.rooms.size(), 1u);
+  EXPECT_EQ(building.rooms.front().walls.size(), 4u);
+}
+
 TEST(BentWalls, CornersAndBranchesBecomeStraightWalls) {
   const Polygon2 corner = {{0, 0}, {6, 0}, {6, 0.2}, {0.2, 0.2}, {0.2, 5}, {0, 5}};
   const Polygon2 branch = {{0, 0}, {6, 0}, {6, 0.2}, {3.1, 0.2}, {3.1, 4}, {2.9, 4}, {2.9, 0.2}, {0, 0.2}};
