@@ -8,6 +8,8 @@
 #include <set>
 #include <utility>
 
+#include "bim/geometry/interval.h"
+#include "bim/model/floors.h"
 #include "bim/model/wall_frame.h"
 
 namespace plumbline::sim {
@@ -190,14 +192,41 @@ void keep_inside(const bim::Building& building, double floor_z, const GridFrame&
     if (covered[i] == 0) floor[i] = 0;
 }
 
+/// Heights of a slab's top at which it carries the robot.
+struct FloorBand {
+  double low = 0.0, high = 0.0;
+
+  FloorBand(double ground_W, const RouteConfig& config)
+      : low(ground_W - config.floor_below_m), high(ground_W + config.band_low_m) {}
+  [[nodiscard]] bool holds(double z) const { return z >= low && z <= high; }
+};
+
+/// Faces in the band of slabs whose highest corner lies over it: an uneven top is floor where it is low enough.
+std::vector<bim::FloorPiece> low_faces(const bim::Building& building, const FloorBand& band) {
+  const auto reaches_over = [&](const bim::Slab& slab) {
+    return !slab.assumed && slab.body && slab.z1_m > band.high && slab.z0_m < band.high;
+  };
+  // Looking for floors costs more than the rest; the tops of most slabs are level.
+  if (std::none_of(building.slabs.begin(), building.slabs.end(), reaches_over)) return {};
+  std::vector<bim::FloorPiece> pieces = bim::floor_pieces(building);
+  std::erase_if(pieces, [&](const bim::FloorPiece& piece) {
+    if (piece.source != bim::FloorSource::slab ||
+        !reaches_over(building.slabs[static_cast<std::size_t>(piece.element)]))
+      return true;
+    Interval z;
+    for (const Eigen::Vector2d& p : piece.polygon.outer) z.add(piece.z_at(p));
+    return z.high < band.low || z.low > band.high;
+  });
+  return pieces;
+}
+
 }  // namespace
 
 bool has_known_floor(const bim::Building& building, int storey, double ground_W, const RouteConfig& config) {
+  const FloorBand band(ground_W, config);
   return std::any_of(building.slabs.begin(), building.slabs.end(),
-                     [&](const bim::Slab& slab) {
-                       return !slab.assumed && slab.z1_m <= ground_W + config.band_low_m &&
-                              slab.z1_m >= ground_W - config.floor_below_m;
-                     }) ||
+                     [&](const bim::Slab& slab) { return !slab.assumed && band.holds(slab.z1_m); }) ||
+         !low_faces(building, band).empty() ||
          std::any_of(building.rooms.begin(), building.rooms.end(),
                      [&](const bim::Room& room) { return room.storey == storey; });
 }
@@ -206,10 +235,17 @@ std::vector<char> floor_cells(const bim::Building& building, int storey, double 
                               const RouteConfig& config) {
   std::vector<char> cells(grid.size(), 0);
   const auto set = [&](std::size_t cell) { cells[cell] = 1; };
+  const FloorBand band(ground_W, config);
   bool any = false;
   for (const bim::Slab& slab : building.slabs) {
-    if (slab.z1_m > ground_W + config.band_low_m || slab.z1_m < ground_W - config.floor_below_m) continue;
+    if (!band.holds(slab.z1_m)) continue;
     fill_cells(grid, outline_of(slab.polygon), set);
+    any = true;
+  }
+  for (const bim::FloorPiece& piece : low_faces(building, band)) {
+    fill_cells(grid, outline_of(piece.polygon), [&](std::size_t cell) {
+      if (band.holds(piece.z_at(grid.center(cell)))) cells[cell] = 1;
+    });
     any = true;
   }
   if (!any)
