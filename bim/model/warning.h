@@ -89,7 +89,7 @@ inline constexpr std::array<WarningRow, 67> warning_rows = {{
     {"stair_within", "a stair leads from and to the same storey"},
     {"storey_kinds", "no storey has contents; all are taken as habitable"},
     {"storey_moved",
-     "the file gives a storey a height at which its floor is not; that of its slabs, spaces or walls counts"},
+     "the file gives a storey no height, or one at which its floor is not; that of its slabs, spaces or walls counts"},
     {"taken_as_slab", "the storey has no slab; the element lies flat and is taken as one"},
     {"taken_as_wall", "the file has no walls; the element is vertical like one and is read as one"},
     {"unknown_class", "entities of a class that is not read are left out"},

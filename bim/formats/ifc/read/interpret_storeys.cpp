@@ -117,10 +117,13 @@ void Interpreter::move_storeys_to_their_floors() {
     std::optional<double> floor_m = said_floor(of.hints, storey.elevation_m, others);
     if (!floor_m && !of.near && std::isfinite(of.lowest)) floor_m = of.lowest;
     if (!floor_m) continue;
-    building_.warnings.push_back({storey.id, "storey_moved",
-                                  "the file says that it lies at " + format_number(storey.elevation_m) +
-                                      " m, and its slabs, spaces and walls that its floor does at " +
-                                      format_number(snapped(*floor_m)) + " m"});
+    const StepProduct* product = find(storey.step_id);
+    const std::string said =
+        product != nullptr && !product->placed
+            ? "the file gives it no placement; its slabs, spaces and walls say that its floor lies at "
+            : "the file says that it lies at " + format_number(storey.elevation_m) +
+                  " m, and its slabs, spaces and walls that its floor does at ";
+    building_.warnings.push_back({storey.id, "storey_moved", said + format_number(snapped(*floor_m)) + " m"});
     storey.elevation_m = snapped(*floor_m);
   }
 }

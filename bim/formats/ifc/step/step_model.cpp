@@ -275,6 +275,7 @@ class Reader {
                                    ": stands on a grid or an alignment that cannot be evaluated, and is left out"});
       return std::nullopt;
     }
+    product.placed = source->m_ObjectPlacement != nullptr;
     product.X_WP = *pose.X_WP;
     product.storey = storey_of(source, {});
     if (product.storey == 0) product.storey = storey_of(source, contained_);

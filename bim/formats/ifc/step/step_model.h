@@ -36,6 +36,7 @@ struct StepProduct {
   std::string type;  ///< IFC class, such as IfcWallStandardCase
   std::string id;    ///< GlobalId
   std::string name;
+  bool placed = true;                                  ///< the file gives it a placement
   Eigen::Affine3d X_WP = Eigen::Affine3d::Identity();  ///< placement
   std::int64_t storey = 0;                             ///< STEP number of the storey it belongs to, 0 for none
   std::int64_t host = 0;                               ///< opening: the element it voids; door or window: its opening

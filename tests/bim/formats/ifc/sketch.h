@@ -101,7 +101,11 @@ class Sketch {
   }
   std::string storey(double z) {
     const std::string at = add("IFCLOCALPLACEMENT(" + place_ + "," + frame(0, 0, z) + ")");
-    const std::string id = rooted("IFCBUILDINGSTOREY", "'s',$,$," + at + ",$,$,.ELEMENT.," + n(z));
+    return storey(at, n(z));
+  }
+  /// With its placement and elevation, either of which may be "$".
+  std::string storey(const std::string& at, const std::string& elevation) {
+    const std::string id = rooted("IFCBUILDINGSTOREY", "'s',$,$," + at + ",$,$,.ELEMENT.," + elevation);
     rooted("IFCRELAGGREGATES", "$,$," + building + ",(" + id + ")");
     storey_ = id;
     return id;

@@ -157,6 +157,28 @@ TEST(Missing, InferredRoomsStandOnTheirFloor) {
   EXPECT_EQ(warnings_of(building, "no_floor"), 0);
 }
 
+TEST(Missing, AStoreyWithoutPlacementIsNotSaidToLieAnywhere) {
+  for (const bool placed : {false, true}) {
+    Sketch sketch;
+    if (placed)
+      sketch.storey(0);
+    else
+      sketch.storey("$", "$");
+    sketch.slab({{0, 0}, {8, 0}, {8, 6}, {0, 6}}, 37.8, 38.0);
+    for (const double y : {0.0, 5.9})
+      sketch.element("IFCWALL", sketch.shape(sketch.box(0, y, 38.0, 8, y + 0.1, 41.0)), "$,$");
+    const Building building = read_sketch(sketch);
+    ASSERT_EQ(building.storeys.size(), 1u);
+    EXPECT_NEAR(building.storeys.front().elevation_m, 38.0, 1e-9);
+    const auto moved = std::find_if(building.warnings.begin(), building.warnings.end(),
+                                    [](const Warning& warning) { return warning.kind == "storey_moved"; });
+    ASSERT_NE(moved, building.warnings.end());
+    EXPECT_EQ(moved->text.find("says that it lies at 0 m") != std::string::npos, placed) << moved->text;
+    EXPECT_EQ(moved->text.find("gives it no placement") != std::string::npos, !placed) << moved->text;
+    EXPECT_NE(moved->text.find("at 38 m"), std::string::npos) << moved->text;
+  }
+}
+
 TEST(Missing, EverythingIsRefusedWithWhatWouldBeRight) {
   Sketch nothing;
   nothing.storey(0);
