@@ -15,6 +15,7 @@
 #include "bim/mesh/solid.h"
 #include "bim/mesh/straight_opening.h"
 #include "bim/model/extrude.h"
+#include "bim/model/through.h"
 #include "bim/model/wall_frame.h"
 
 namespace plumbline::bim {
@@ -207,6 +208,11 @@ CutWall cut_wall(const Wall& wall, const std::vector<Opening>& openings, const M
   CutWall cut = cut_in_space(wall, openings, config);
   for (const std::string& text : refusal.more) cut.warnings.push_back({wall.id, refusal.kind, text + "; cut in 3D"});
   cut.warnings.insert(cut.warnings.begin(), {wall.id, refusal.kind, refusal.text + "; cut in 3D"});
+  if (refusal.kind.name() == "niche") return cut;
+  for (const Opening& opening : openings)
+    if (!goes_through(opening, wall))
+      cut.warnings.push_back(
+          {wall.id, "niche", "opening '" + opening.id + "' does not go through the wall; cut in 3D"});
   return cut;
 }
 

@@ -64,7 +64,8 @@ bool inside(const Solid& solid, const Eigen::Vector3d& p) {
   return all == 0 ? beyond != 0 : count % 2 == 1;
 }
 
-/// From a point in the opening there is a straight level way that leaves the opening outside the wall at both ends.
+/// From a point in the opening there is a straight level way that leaves the opening outside the wall at both ends, and
+/// not just into a cavity of it.
 bool free_at(const std::vector<Solid>& hole, const Solid& body, const Eigen::Vector3d& p, const Wall& wall,
              const ThroughConfig& config) {
   constexpr int steps = 5;
@@ -80,6 +81,10 @@ bool free_at(const std::vector<Solid>& hole, const Solid& body, const Eigen::Vec
             for (const double s : crossings(part, p, sign * d))
               if (s > end && inside(part, p + sign * (0.5 * (end + s)) * d)) end = s, grown = true;
         if (inside(body, p + sign * (end + config.depth_m) * d)) return false;
+        const double behind = end + config.behind_m / std::cos(yaw - normal);
+        const std::vector<double> at = crossings(body, p, sign * d);
+        if (std::any_of(at.begin(), at.end(), [&](double s) { return s > end + config.depth_m && s < behind; }))
+          return false;
       }
       return true;
     }();

@@ -8,6 +8,7 @@ namespace plumbline::bim {
 struct ThroughConfig {
   double depth_m = 2e-3;   ///< an opening that stops this much before a face still goes through
   double short_m = 0.06;   ///< a door's opening that ends up to this short of the faces is meant to go through
+  double behind_m = 0.3;   ///< material this near behind an opening closes it; cavities have up to 0.2 m (assumed)
   double widest_deg = 75;  ///< between the way through a curved wall and the normal of its reference line
 };
 

@@ -19,6 +19,24 @@ TEST(Through, ANicheIsNoneInABodyGivenTwice) {
   EXPECT_FALSE(goes_through(thick_opening(-0.2, 0.02), wall));
 }
 
+/// A leaf of 0.2 m and a panel before it, so far apart.
+Wall layered_wall(double cavity_m) {
+  Wall wall = thick_wall();
+  add_solid(box_solid({0.0, 0.1 + cavity_m, 0.0}, {4.0, 0.15 + cavity_m, 3.0}), *wall.body);
+  wall.thickness_m = 0.25 + cavity_m;
+  return wall;
+}
+
+TEST(Through, ACavityOfALayeredWallIsNotOutside) {
+  for (const double cavity_m : {0.01, 0.02, 0.1, 0.2}) {
+    EXPECT_FALSE(goes_through(thick_opening(-0.2, 0.1), layered_wall(cavity_m))) << cavity_m;
+    EXPECT_FALSE(goes_through(thick_opening(-0.2, 0.1 + 0.5 * cavity_m), layered_wall(cavity_m))) << cavity_m;
+    EXPECT_TRUE(goes_through(thick_opening(-0.2, 0.5), layered_wall(cavity_m))) << cavity_m;
+  }
+  // A wall that stands round a room is no layer.
+  EXPECT_TRUE(goes_through(thick_opening(-0.2, 0.2), layered_wall(2.0)));
+}
+
 TEST(Through, AnOpeningThatMissesItsWallDoesNotGoThrough) {
   EXPECT_FALSE(goes_through(thick_opening(0.5, 1.0), thick_wall()));
   Opening above = thick_opening(-0.1, 0.05);
