@@ -20,12 +20,20 @@ bool meets(const ExpectedMotion& motion, const Pose& step) {
   constexpr double sigmas = 4.0;
   constexpr double noise_m = 0.05, noise_rad = 0.02;  // registration's own scatter, which no motion explains
   constexpr double most_m = 0.3, most_rad = 0.35;     // of an expectation that excludes something
+  constexpr double most_of_way = 0.03;                // of a long way, which starts in a direction known to 2 degrees
   if (std::isinf(motion.sigma_m)) return true;
-  return within(motion.step, step, std::min(most_m, sigmas * motion.sigma_m + noise_m),
+  const double most_way_m = std::max(most_m, most_of_way * motion.step.t.norm());
+  return within(motion.step, step, std::min(most_way_m, sigmas * motion.sigma_m + noise_m),
                 std::min(most_rad, sigmas * motion.sigma_rad + noise_rad));
 }
 
 }  // namespace
+
+double surprise_m(const Pose& step, const Pose& expected) {
+  constexpr double near_m = 3.0;
+  const Pose difference = expected.inverse() * step;
+  return difference.t.norm() + near_m * log_so3(difference.q).norm();
+}
 
 bool OdometryHealth::assess(const Registration& registration, const Pose& step, const ExpectedStep& expected) {
   const bool sound = step.t.allFinite() && step.q.coeffs().allFinite();

@@ -28,6 +28,7 @@ struct HealthConfig {
   int restart_scans = 20;
   double restart_s = 2.0;
   double max_unobserved_m = 1.0;
+  double measuring_share = 0.5;
 
   [[nodiscard]] Nanoseconds restart_ns() const { return static_cast<Nanoseconds>(restart_s * 1e9); }
 
@@ -68,6 +69,10 @@ struct HealthConfig {
       Field{.doc = "or, without odometry, time lost after which it does", .min = 0.0, .max = 1e6});
     v("max_unobserved_m", max_unobserved_m,
       Field{.doc = "standard deviation of unmeasured motion, above which the odometry is lost", .min = 0.01});
+    // Chosen on 24 walks without odometry whose usual shares are 0.35 to 0.50 (4, all off by metres), 0.42 (1, LOST
+    // anyway) and 0.59 to 0.98.
+    v("measuring_share", measuring_share,
+      share_field("usual share of matches below which scans without odometry do not measure the motion"));
   }
 };
 
@@ -90,6 +95,9 @@ struct ExpectedStep {
   std::optional<ExpectedMotion> continued;  ///< as if the motion before went on
 };
 
+/// By how far a step is not the one that was expected: as far as a point of the scene that is next to the robot.
+[[nodiscard]] double surprise_m(const Pose& step, const Pose& expected);
+
 /// Whether scan matching is trusted: for each scan at once, and as a state with hysteresis. All that it compares with
 /// comes from the scans before: no sensor's noise, no robot's speed.
 class OdometryHealth {
@@ -100,6 +108,9 @@ class OdometryHealth {
   [[nodiscard]] bool assess(const Registration& registration, const Pose& step, const ExpectedStep& expected);
   /// Share of its features that a scan matches as a rule; 1 before enough of them did.
   [[nodiscard]] double usual_matched() const;
+  /// Whether scans, matched as is usual, measure a motion by themselves. Where most of what they see contradicts the
+  /// map, as among vehicles that move along or rows of leaves, a pose that fits the rest may be any.
+  [[nodiscard]] bool measures() const { return usual_matched() >= config_.measuring_share; }
   /// Whether a scan matches about as much as is usual.
   [[nodiscard]] bool is_as_usual(const Registration& registration) const {
     return registration.matched >= config_.as_usual_share * usual();

@@ -39,13 +39,6 @@ double continued_sigma(Nanoseconds dt) {
   return std::max(least_m, acceleration_mps2 * seconds(dt) * seconds(dt));
 }
 
-/// By how far a step is not the one that was expected: as far as a point of the scene that is next to the robot.
-double surprise_m(const Pose& step, const Pose& expected) {
-  constexpr double near_m = 3.0;
-  const Pose difference = expected.inverse() * step;
-  return difference.t.norm() + near_m * log_so3(difference.q).norm();
-}
-
 /// What odometry errs by as a rule: feet and wheels slip by some of their way.
 ExpectedMotion expected_of(const OdometrySample& odometry) {
   constexpr double least_m = 0.01, per_m = 0.1, least_rad = 0.01, per_rad = 0.1;
@@ -135,6 +128,7 @@ class GuardedScanMatcher final : public LidarOdometry {
     sample.sigma_m = continued_sigma(scan.stamp - stamp_);
     const Pose expected = sample.step;
     Registration result = matcher_.match(scan, sample, health_.usual_matched());
+    const bool from_expected = result.from_expected;  // later rounds start where it led
     // A scan deskewed by a motion that it did not make is bent. What a lost robot did meanwhile is no motion of a scan.
     constexpr int most_rounds = 3;
     for (int round = 0; round < most_rounds && matcher_.ready() && again && moved_stamp_ == stamp_; ++round) {
@@ -151,6 +145,7 @@ class GuardedScanMatcher final : public LidarOdometry {
       result.deskewed_again = round + 1;
     }
     sample.step = expected;
+    result.from_expected &= from_expected;
     result.odometry_valid = false;
     return keep(scan.stamp, std::move(result), sample);
   }
@@ -217,10 +212,14 @@ class GuardedScanMatcher final : public LidarOdometry {
     // The first scan of a map is placed by dead reckoning.
     result.accepted = ready && health_.assess(result, step, expected);
     const bool frozen = !result.accepted && !sample.valid && health_.lost();  // nothing measures where it goes on to
-    if (had_map_) account_for_way(dt, result, {as_usual, sample.valid, frozen || !ready});
+    const bool measures = sample.valid || health_.measures();
+    if (had_map_) account_for_way(dt, result, {as_usual, sample.valid, frozen || !ready, measures});
     // Where the last scan was in its place, an alias is what another start leads to.
     const bool continues = result.from_expected && accepted_stamp_ == stamp_;
-    if (had_map_ && result.accepted && !sample.valid && !continues && health_.is_doubtful(result, step, expected))
+    constexpr int most_steps = 3;  // of the one before; in a longer gap the scene may have become another
+    const bool surprises_after_gap = dt > most_steps * dt_ && !OdometryHealth::is_expected_step(step, expected);
+    const bool doubtful = surprises_after_gap || health_.is_doubtful(result, step, expected);
+    if (had_map_ && result.accepted && !sample.valid && !continues && doubtful)
       unmeasured_.add_doubtful(surprise_m(step, sample.step));
     if (!result.accepted) {
       result.X_MR = frozen ? X_MR_ : X_MR_ * sample.step;
@@ -233,16 +232,17 @@ class GuardedScanMatcher final : public LidarOdometry {
     if (result.accepted && moved > 0) add_motion(result, step, stamp);
     if (result.accepted && result.correlated && result.unobserved_directions == 0)
       measure_from_keyframe(result.correlated->keyframe_stamp);
-    if (result.accepted && moved > 0 && result.unobserved_directions == 0)
+    if (result.accepted && moved > 0 && result.unobserved_directions == 0 && measures)
       unmeasured_.measure_acceleration(motion_.sigma_m(), moved);
     if (!result.accepted && sample.valid && ready && dt > 0) motion_.add(sample.step, dt);
     if (ready) speed_mps_ = motion_.speed_mps();
     const bool begins = !ready && !awaits_odometry(stamp, sample);
     if (result.accepted || begins) accepted_stamp_ = stamp;
-    const bool tells_all = result.unobserved_directions == 0 || sample.valid;
+    const bool tells_all = (result.unobserved_directions == 0 && measures) || sample.valid;
     if ((result.accepted && tells_all) || begins) measured_stamp_ = stamp;
     X_MR_ = result.X_MR;
     stamp_ = stamp;
+    dt_ = dt;
     if (!frozen || begins) moved_stamp_ = stamp;  // where a map begins, a motion does
     result.began = begins;
     matcher_.commit(X_MR_, result.accepted || begins);
@@ -283,14 +283,14 @@ class GuardedScanMatcher final : public LidarOdometry {
   }
 
   struct Measured {
-    bool as_usual, by_odometry, frozen;
+    bool as_usual, by_odometry, frozen, measures;
   };
 
   void account_for_way(Nanoseconds dt, const Registration& result, const Measured& measured) {
-    if (result.accepted && result.unobserved_directions == 0) {
+    if (result.accepted && result.unobserved_directions == 0 && measured.measures) {
       unmeasured_.add_measured(dt, measured.as_usual);
     } else if (!measured.by_odometry) {
-      if (result.accepted)
+      if (result.accepted && measured.measures)
         unmeasured_.add_open(dt);
       else if (measured.frozen)
         unmeasured_.add_frozen(dt, speed_mps_);
@@ -317,10 +317,10 @@ class GuardedScanMatcher final : public LidarOdometry {
   bool started_ = false;  ///< a scan came ...
   bool had_map_ = false;  ///< ... and one that could begin a map
   Pose X_MR_;
-  MotionPrediction motion_;  ///< from the accepted scans
-  double speed_mps_ = 0.0;   ///< when a map was last there
-  Nanoseconds stamp_ = 0;
-  Nanoseconds moved_stamp_ = 0;  ///< of the last scan that X_MR_ was moved at
+  MotionPrediction motion_;         ///< from the accepted scans
+  double speed_mps_ = 0.0;          ///< when a map was last there
+  Nanoseconds stamp_ = 0, dt_ = 0;  ///< of the last scan, and since the one before
+  Nanoseconds moved_stamp_ = 0;     ///< of the last scan that X_MR_ was moved at
   Nanoseconds accepted_stamp_ = 0;
   Nanoseconds measured_stamp_ = 0;  ///< of the last scan whose whole motion was measured
   struct AtKeyframe {

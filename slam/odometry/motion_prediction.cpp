@@ -31,12 +31,14 @@ void MotionPrediction::add(const Pose& step, Nanoseconds dt) {
 
 std::optional<Pose> MotionPrediction::over(Nanoseconds dt) const {
   if (rates_.empty()) return std::nullopt;
-  constexpr double most_steps = 3.0;
-  const double time_s = std::min(seconds(dt), most_steps * seconds(rates_.back().dt));
+  constexpr double most_steps = 3.0, acceleration_mps2 = 2.0;
+  const double most_s = most_steps * seconds(rates_.back().dt);
   Vector6d step;
   step.head<3>() = mean(windows[least(translation_errors_)]).head<3>();
   step.tail<3>() = mean(windows[least(rotation_errors_)]).tail<3>();
-  return exp_se3(step * time_s);
+  step.head<3>() *= std::min(seconds(dt), std::max(most_s, step.head<3>().norm() / acceleration_mps2));
+  step.tail<3>() *= std::min(seconds(dt), most_s);
+  return exp_se3(step);
 }
 
 double MotionPrediction::sigma_m() const { return std::sqrt(translation_errors_[least(translation_errors_)]); }

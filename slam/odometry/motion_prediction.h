@@ -17,7 +17,8 @@ class MotionPrediction {
  public:
   /// R's step over the time dt > 0.
   void add(const Pose& step, Nanoseconds dt);
-  /// Nothing before the first step. Farther ahead than three of the last steps noise dominates: no farther.
+  /// Nothing before the first step. Farther ahead than three of the last steps noise dominates: no farther, but for the
+  /// way of a vehicle, up to the time in which it would stop at 2 m/s^2.
   [[nodiscard]] std::optional<Pose> over(Nanoseconds dt) const;
   /// Root mean square error of such predictions of late, translation in m and rotation in rad.
   [[nodiscard]] double sigma_m() const;

@@ -113,6 +113,29 @@ TEST(OdometryHealth, ASurpriseTakesAsManyMatchesAsUsual) {
   EXPECT_TRUE(health.assess(matched(0.5), step(1.5, 0.0), {5 * period, step(1.4, 0.0), {}})) << "of unknown error";
 }
 
+// 13 m of way in a gap, in a direction that a swaying body tells within 2 degrees.
+TEST(OdometryHealth, OfALongWayThreePercentMayBeMissed) {
+  const auto step = [](double x) { return Pose::from_xyz_yaw({x, 0.0, 0.0}, 0.0); };
+  const auto expects = [&](double x, double off_m) {
+    return OdometryHealth::is_expected_step(step(x + off_m), {period, std::nullopt, ExpectedMotion(step(x), 1.0, 0.1)});
+  };
+  EXPECT_TRUE(expects(13.0, 0.36));
+  EXPECT_FALSE(expects(13.0, 0.45));
+  EXPECT_FALSE(expects(2.0, 0.36));
+}
+
+TEST(OdometryHealth, ScansThatMostlyContradictTheMapMeasureNothing) {
+  const HealthConfig config;
+  const auto measures = [&](double usual, int scans) {
+    OdometryHealth health(config);
+    for (int k = 0; k < scans; ++k) EXPECT_TRUE(health.assess(matched(usual), {}, {period, Pose{}, {}}));
+    return health.measures();
+  };
+  EXPECT_TRUE(measures(0.6, config.recent_scans));
+  EXPECT_FALSE(measures(0.4, config.recent_scans));
+  EXPECT_TRUE(measures(0.4, 2)) << "nothing is usual yet";
+}
+
 struct Tracked {
   double worst_m = 0.0;  ///< farthest from the truth
   bool lost = false;     ///< ever
