@@ -208,6 +208,9 @@ MapBox bounds(const ReportInput& input) {
     box.add(face.p0);
     box.add(face.p1);
   }
+  for (const auto& room : input.plan.rooms)  // a building may have no walls
+    if (is_shown(input, room.storey))
+      for (const auto& p : room.polygon) box.add(p);
   for (const ReportObstacle& obstacle : input.obstacles)  // of a mesh there are no faces
     if (input.plan.faces.empty() && is_shown(input, obstacle.storey))
       for (const auto& p : obstacle.outline_W) box.add(p);

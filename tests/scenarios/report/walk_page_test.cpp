@@ -30,6 +30,17 @@ TEST(WalkPage, NamesWhatStopsTheRobotAtItsPlace) {
   EXPECT_NE(page.find("<circle"), std::string::npos);
 }
 
+TEST(WalkPage, AMapOfRoomsWithoutWallsHasTheirSize) {
+  bim::PlannedAndBuilt site = site_with_door(0.9);
+  for (bim::Building* building : {&site.as_planned, &site.as_built}) {
+    building->walls.clear();
+    building->openings.clear();
+  }
+  const std::string page = walk_page(site, "open").html;
+  EXPECT_EQ(page.find("99999999"), std::string::npos) << "bounds of nothing";
+  EXPECT_NE(page.find("class=\"room\""), std::string::npos);
+}
+
 TEST(WalkPage, ABuildingWithoutRoomsPromisesNoWalkThatRunRefuses) {
   bim::PlannedAndBuilt site = site_with_door(0.9);
   for (bim::Building* building : {&site.as_planned, &site.as_built}) {

@@ -216,16 +216,22 @@ Building Interpreter::only_building_of(int storey) const {
   return only;
 }
 
-/// Levels at which walls begin, or without walls other elements, where they lie a storey's height apart.
+/// Levels at which walls begin, without walls tops of slabs, without these lower ends of other elements, where they lie
+/// a storey's height apart.
 void Interpreter::assume_storeys() {
-  std::vector<double> feet;
-  for (const bool walls : {true, false}) {
-    for (const StepProduct& product : model_.products) {
-      if (walls != (product.kind == StepClass::wall) || product.kind == StepClass::hidden) continue;
-      if (const double foot = foot_of(product); std::isfinite(foot)) feet.push_back(foot);
-    }
-    if (!feet.empty()) break;
+  std::vector<double> walls, slabs, others;
+  for (const StepProduct& product : model_.products) {
+    if (product.kind == StepClass::hidden) continue;
+    const double foot = foot_of(product);
+    if (!std::isfinite(foot)) continue;
+    if (product.kind == StepClass::wall)
+      walls.push_back(foot);
+    else if (product.kind == StepClass::slab)
+      slabs.push_back(top_of(product));
+    else
+      others.push_back(foot);
   }
+  std::vector<double> feet = !walls.empty() ? walls : !slabs.empty() ? slabs : others;
   std::sort(feet.begin(), feet.end());
   for (const double foot : feet) {
     if (!building_.storeys.empty() && foot < building_.storeys.back().elevation_m + config_.least_storey_m) continue;

@@ -76,6 +76,13 @@ double foot_of(const StepProduct& product) {
   return foot;
 }
 
+double top_of(const StepProduct& product) {
+  double top = -std::numeric_limits<double>::infinity();
+  for (const Shape& shape : product.body)
+    for (const Eigen::Vector3d& p : shape.base.points) top = std::max(top, (product.X_WP * p).z());
+  return top;
+}
+
 void add_hints(const StepProduct& product, double storey_m, FloorHints& hints) {
   constexpr double steepest = 0.40;  // a steeper face is no floor
   const double foot = foot_of(product);

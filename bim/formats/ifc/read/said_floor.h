@@ -45,5 +45,7 @@ void add_hints(const StepProduct& product, double storey_m, FloorHints& hints);
 
 /// Lowest point of what the bodies of a product are extruded or joined from, m in W; infinite without any.
 [[nodiscard]] double foot_of(const StepProduct& product);
+/// Likewise its highest point; minus infinity without a body.
+[[nodiscard]] double top_of(const StepProduct& product);
 
 }  // namespace plumbline::bim

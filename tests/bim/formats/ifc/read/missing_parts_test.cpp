@@ -107,6 +107,17 @@ TEST(Missing, StoreysAreWhereWallsBegin) {
   EXPECT_EQ(warnings_of(building, "assumed_storey"), 2);
 }
 
+TEST(Missing, WithoutWallsStoreysAreOnSlabs) {
+  Sketch sketch;
+  for (const double top : {0.0, 3.5})
+    sketch.element("IFCSLAB", sketch.shape(sketch.box(0, 0, top - 0.3, 6, 4, top)), "$,$");
+  sketch.element("IFCCOLUMN", sketch.shape(sketch.box(2, 2, 0, 2.3, 2.3, 3.2)), "$");
+  const Building building = read_sketch(sketch);
+  ASSERT_EQ(building.storeys.size(), 2u);
+  EXPECT_NEAR(building.storeys[0].elevation_m, 0.0, 1e-9);
+  EXPECT_NEAR(building.storeys[1].elevation_m, 3.5, 1e-9);
+}
+
 TEST(Missing, CurtainFrontsAndSlabsAreABuilding) {
   Sketch sketch = hut({.wall = ""});
   const auto front = [&](double x, double y, bool along_y, int panels) {
