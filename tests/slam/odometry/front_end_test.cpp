@@ -312,7 +312,7 @@ TEST(FrontEnd, AVehicleIsFollowedOverAGapOrLost) {
     for (double x = 3.0; x < 154.0; x += 4.0 + 5.0 * random.uniform(k++, 3))
       for (const double y : {1.5, 12.0})
         street.boxes.push_back({{x, y, 0.0}, {x + 1.0 + random.uniform(k, 0), y + 1.5, 1.0 + random.uniform(k, 1)}});
-    const Walked fast = walked(street, {{4.0, 7.0}, {150.0, 7.0}}, 8.0, 9.0);
+    const Walked fast = walked(street, {{4.0, 7.0}, {150.0, 7.0}}, 8.0, 6.0);
     const Honest gap = follow(fast, 1, false, {.missing_from_s = 3.0, .missing_to_s = 4.6});
     EXPECT_EQ(gap.silent, 0) << "off by " << gap.worst_m << " m, seed " << seed;
   }
