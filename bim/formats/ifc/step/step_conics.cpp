@@ -10,7 +10,7 @@ namespace {
 
 using Kind = StepValue::Kind;
 
-constexpr double corner_rad = std::numbers::pi / 18.0;
+constexpr double corner_rad = std::numbers::pi / 18.0, finest_rad = std::numbers::pi / 360.0;
 
 /// Directions of an IfcAxis2Placement2D or 3D: x in the first column.
 std::optional<Eigen::Affine3d> frame_at(const StepEntities& entities, const StepEntities::Entity& entity) {
@@ -72,16 +72,19 @@ std::optional<StepConic> conic_of(const StepEntities& entities, const StepEntiti
   return StepConic{*X, rx, ry, placement.type == "IFCAXIS2PLACEMENT2D"};
 }
 
-int arc_pieces(double angle) { return std::max(2, static_cast<int>(std::ceil(std::abs(angle) / corner_rad - 1e-6))); }
+int arc_pieces(double angle, double radius, double depth) {
+  const double piece = std::clamp(std::sqrt(8.0 * depth / radius), finest_rad, corner_rad);
+  return std::max(2, static_cast<int>(std::ceil(std::abs(angle) / piece - 1e-6)));
+}
 
 std::vector<Eigen::Vector3d> arc_between(const StepConic& conic, const Eigen::Vector3d& first,
-                                         const Eigen::Vector3d& last, bool forward) {
+                                         const Eigen::Vector3d& last, bool forward, double depth) {
   const double from = conic.angle_of(first);
   double turn = conic.angle_of(last) - from;
   constexpr double whole = 2.0 * std::numbers::pi;
   while (forward && turn <= 1e-9) turn += whole;
   while (!forward && turn >= -1e-9) turn -= whole;
-  const int count = arc_pieces(turn);
+  const int count = arc_pieces(turn, std::max(conic.rx, conic.ry), depth);
   std::vector<Eigen::Vector3d> line = {first};
   for (int i = 1; i < count; ++i) line.push_back(conic.at(from + turn * i / count));
   line.push_back(last);

@@ -28,12 +28,16 @@ struct StepConic {
 /// Nullopt for entities of other types and such as make no sense.
 [[nodiscard]] std::optional<StepConic> conic_of(const StepEntities& entities, const StepEntities::Entity& entity);
 
-/// How many pieces stand for an arc of an angle: one for each 10 degrees, two at least.
-[[nodiscard]] int arc_pieces(double angle);
+/// How deep a piece may cut into its arc, m. A LiDAR's noise hides it, also where IFC++ makes a piece or two less.
+inline constexpr double arc_depth_m = 1.5e-3;
+
+/// How many pieces stand for an arc of an angle: one for each 10 degrees, two at least; more where they would cut
+/// deeper than `depth`, which is in the unit of the radius, but at most two for each degree.
+[[nodiscard]] int arc_pieces(double angle, double radius, double depth);
 
 /// From the point first to the point last on the conic; a whole turn where they are the same. Forward is
 /// counter-clockwise about its z axis.
 [[nodiscard]] std::vector<Eigen::Vector3d> arc_between(const StepConic& conic, const Eigen::Vector3d& first,
-                                                       const Eigen::Vector3d& last, bool forward);
+                                                       const Eigen::Vector3d& last, bool forward, double depth);
 
 }  // namespace plumbline::bim

@@ -25,7 +25,7 @@ using Line = std::vector<Eigen::Vector3d>;
 constexpr std::size_t most_points = 100'000;
 
 /// Points behind a up to c on the circle through a, b and c; c alone where these lie on a line.
-void add_arc(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c, Line& line) {
+void add_arc(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c, double depth, Line& line) {
   const Eigen::Vector3d u = b - a, v = c - a, n = u.cross(v);
   if (n.norm() <= 1e-9 * u.norm() * v.norm() || v.isZero(0.0)) {
     line.push_back(c);
@@ -36,7 +36,7 @@ void add_arc(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Ve
   const Eigen::Vector3d from = a - middle, to = c - middle, axis = n.normalized();
   double angle = std::atan2(axis.dot(from.cross(to)), from.dot(to));
   if (angle <= 0.0) angle += 2.0 * std::numbers::pi;
-  const int count = arc_pieces(angle);
+  const int count = arc_pieces(angle, from.norm(), depth);
   for (int i = 1; i < count; ++i) line.emplace_back(middle + Eigen::AngleAxisd(angle * i / count, axis) * from);
   line.push_back(c);
 }
@@ -63,8 +63,9 @@ Line trimmed_line(const StepEntities& entities, const StepValue& values, const S
   return first && last ? Line{*first, *last} : Line{};
 }
 
-/// IfcTrimmedCurve over a line, an ellipse, or between two points of a circle.
-Line trimmed(const StepEntities& entities, const StepValue& values, double angle_rad, bool& flat) {
+/// IfcTrimmedCurve over a line, an ellipse or a circle.
+Line trimmed(const StepEntities& entities, const StepValue& values, std::optional<double> angle_rad, double depth,
+             bool& flat) {
   const StepEntities::Entity& basis = entities.entity(values.at(0).as_reference());
   if (basis.type == "IFCLINE") {
     const StepValue line = entities.attributes(basis);
@@ -75,14 +76,20 @@ Line trimmed(const StepEntities& entities, const StepValue& values, double angle
   if (!conic) return {};
   flat = conic->flat;
   const bool circle = basis.type == "IFCCIRCLE";
-  const auto at = [&](double u) { return circle ? std::nullopt : std::optional(conic->at(u * angle_rad)); };
+  // The reader guesses the unit of angle where the file gives none, and cuts small circles finely enough.
+  const double whole = 2.0 * std::numbers::pi;
+  const bool small = arc_pieces(whole, conic->rx, depth) == arc_pieces(whole, depth, depth);
+  const auto at = [&](double u) {
+    const bool left = circle && (small || (!angle_rad && std::abs(u) > whole));
+    return left ? std::nullopt : std::optional(conic->at(u * angle_rad.value_or(1.0)));
+  };
   const auto first = trimming_point(entities, values.at(1), at), last = trimming_point(entities, values.at(2), at);
   if (!first || !last) return {};
-  return arc_between(*conic, *first, *last, values.at(3).kind != Kind::enumeration || values.at(3).as_flag());
+  return arc_between(*conic, *first, *last, values.at(3).kind != Kind::enumeration || values.at(3).as_flag(), depth);
 }
 
 /// IfcIndexedPolyCurve.
-Line indexed(const StepEntities& entities, const StepValue& values, bool& flat) {
+Line indexed(const StepEntities& entities, const StepValue& values, double depth, bool& flat) {
   const StepEntities::Entity& list = entities.entity(values.at(0).as_reference());
   flat = list.type == "IFCCARTESIANPOINTLIST2D";
   if (!flat && list.type != "IFCCARTESIANPOINTLIST3D") return {};
@@ -101,7 +108,7 @@ Line indexed(const StepEntities& entities, const StepValue& values, bool& flat) 
     if (indices.empty()) continue;
     if (line.empty()) line.push_back(at(indices[0]));
     if (segment.text == "IFCARCINDEX" && indices.size() == 3) {
-      add_arc(at(indices[0]), at(indices[1]), at(indices[2]), line);
+      add_arc(at(indices[0]), at(indices[1]), at(indices[2]), depth, line);
     } else {
       for (std::size_t i = 1; i < indices.size(); ++i) line.push_back(at(indices[i]));
     }
@@ -115,7 +122,8 @@ class Plain {
   Plain(const std::string& text, const std::string& file)
       : entities_(text, file),
         edits_(text, entities_),
-        angle_rad_(assigned_unit(entities_, "PLANEANGLEUNIT").value_or(1.0)) {}
+        angle_rad_(assigned_unit(entities_, "PLANEANGLEUNIT")),
+        depth_(arc_depth_m / assigned_unit(entities_, "LENGTHUNIT").value_or(1.0)) {}
 
   std::string read() {
     take_each(entities_, [&](const StepEntities::Entity& entity) { take(entity); });
@@ -127,11 +135,11 @@ class Plain {
     Line line;
     bool flat = false;
     if (entity.type == "IFCINDEXEDPOLYCURVE") {
-      line = indexed(entities_, entities_.attributes(entity), flat);
+      line = indexed(entities_, entities_.attributes(entity), depth_, flat);
     } else if (entity.type == "IFCTRIMMEDCURVE") {
-      line = trimmed(entities_, entities_.attributes(entity), angle_rad_, flat);
+      line = trimmed(entities_, entities_.attributes(entity), angle_rad_, depth_, flat);
     } else if (entity.type.find("BSPLINECURVE") != std::string_view::npos || entity.type.ends_with("BEZIERCURVE")) {
-      line = spline_points(entities_, entity);
+      line = spline_points(entities_, entity, depth_);
       const StepValue first = entities_.attributes(entity).at(1).at(0);
       flat = entities_.attributes(first, "IFCCARTESIANPOINT").at(0).as_list().size() == 2;
     }
@@ -146,7 +154,8 @@ class Plain {
 
   StepEntities entities_;
   StepEdits edits_;
-  double angle_rad_;
+  std::optional<double> angle_rad_;
+  double depth_;  ///< in the file's unit
 };
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "bim/formats/ifc/step/step_conics.h"
 #include "bim/formats/ifc/step/step_edits.h"
 #include "bim/formats/ifc/step/step_entities.h"
+#include "bim/formats/ifc/step/step_units.h"
 
 namespace plumbline::bim {
 namespace {
@@ -20,7 +21,10 @@ bool flag(const StepValue& value) { return value.kind != Kind::enumeration || va
 
 class EdgeLoops {
  public:
-  EdgeLoops(const std::string& text, const std::string& file) : entities_(text, file), edits_(text, entities_) {}
+  EdgeLoops(const std::string& text, const std::string& file)
+      : entities_(text, file),
+        edits_(text, entities_),
+        depth_(arc_depth_m / assigned_unit(entities_, "LENGTHUNIT").value_or(1.0)) {}
 
   std::string read() {
     take_each(entities_, [&](const StepEntities::Entity& entity) {
@@ -48,7 +52,7 @@ class EdgeLoops {
                                           const Eigen::Vector3d& last, bool forward) const {
     if (curve.type == "IFCLINE") return Line{first, last};
     if (const std::optional<StepConic> conic = conic_of(entities_, curve))
-      return arc_between(*conic, first, last, forward);
+      return arc_between(*conic, first, last, forward, depth_);
     const StepValue values = entities_.attributes(curve);
     if (curve.type == "IFCSURFACECURVE" || curve.type == "IFCSEAMCURVE" || curve.type == "IFCINTERSECTIONCURVE")
       return along(entities_.entity(values.at(0).as_reference()), first, last, forward);
@@ -141,6 +145,7 @@ class EdgeLoops {
 
   StepEntities entities_;
   StepEdits edits_;
+  double depth_;                                     ///< of pieces of arcs, in the file's unit
   std::map<std::int64_t, std::vector<Line>> edges_;  ///< of the loops taken, by their numbers
   std::map<std::int64_t, std::string> facets_;       ///< of the faces taken
   std::size_t corners_ = 0;

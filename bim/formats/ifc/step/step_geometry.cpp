@@ -1,23 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bim/formats/ifc/step/step_geometry.h"
 
+#include <ifcpp/IFC4/include/IfcAxis1Placement.h>
 #include <ifcpp/IFC4/include/IfcBoolean.h>
 #include <ifcpp/IFC4/include/IfcBooleanResult.h>
+#include <ifcpp/IFC4/include/IfcCartesianPoint.h>
 #include <ifcpp/IFC4/include/IfcCsgPrimitive3D.h>
 #include <ifcpp/IFC4/include/IfcCsgSolid.h>
+#include <ifcpp/IFC4/include/IfcDirection.h>
 #include <ifcpp/IFC4/include/IfcElementarySurface.h>
 #include <ifcpp/IFC4/include/IfcHalfSpaceSolid.h>
 #include <ifcpp/IFC4/include/IfcMappedItem.h>
 #include <ifcpp/IFC4/include/IfcPolygonalBoundedHalfSpace.h>
 #include <ifcpp/IFC4/include/IfcPolygonalFaceSet.h>
+#include <ifcpp/IFC4/include/IfcRevolvedAreaSolid.h>
 #include <ifcpp/IFC4/include/IfcShapeRepresentation.h>
 #include <ifcpp/geometry/Carve/RepresentationConverter.h>
 #include <ifcpp/model/BuildingModel.h>
 
 #include <algorithm>
 #include <map>
+#include <numbers>
 
 #include "bim/formats/ifc/step/half_space.h"
+#include "bim/formats/ifc/step/step_conics.h"
 #include "bim/formats/ifc/step/step_facets.h"
 
 namespace plumbline::bim {
@@ -58,6 +64,12 @@ Eigen::Affine3d to_eigen(const carve::math::Matrix& matrix) {
 constexpr int circle_corners = 36, thin_circle_corners = 14;
 constexpr double thin_radius_m = 0.05;
 
+/// Of a circle; a multiple of four, so that it is as wide as it should be along both axes.
+int corners_of_circle(double radius_m) {
+  if (radius_m < thin_radius_m) return thin_circle_corners;
+  return (arc_pieces(2.0 * std::numbers::pi, radius_m, arc_depth_m) + 3) / 4 * 4;
+}
+
 /// IFC++ reports by callback only.
 void collect_diagnostic(void* diagnostics, std::shared_ptr<StatusCallback::Message> message) {
   if (!message) return;
@@ -79,8 +91,7 @@ struct StepGeometry::Impl {
     converter.getGeomSettings()->setHandleStyledItems(false);  // colours
     // Polygons in circles: 36 corners make them 0.5 % too small. Bars, pipes and handles are seen by nobody as round.
     converter.getGeomSettings()->setNumVerticesPerCircle(circle_corners);
-    converter.getGeomSettings()->setNumVerticesPerCircleGivenRadius(
-        [](double radius_m) { return radius_m < thin_radius_m ? thin_circle_corners : circle_corners; });
+    converter.getGeomSettings()->setNumVerticesPerCircleGivenRadius(corners_of_circle);
   }
 
   void convert(const std::shared_ptr<IfcRepresentation>& representation, const Eigen::Affine3d& X,
@@ -142,8 +153,35 @@ struct StepGeometry::Impl {
       solids->convertIfcCsgPrimitive3D(primitive, data);
     } else {
       converter.convertIfcGeometricRepresentationItem(item, data);
+      if (const auto revolved = std::dynamic_pointer_cast<IfcRevolvedAreaSolid>(item)) revolve_finely(revolved, *data);
     }
     add(facets_of(*data), *item, X, shapes);
+  }
+
+  /// Again with as many corners as its radius asks for: IFC++ turns by steps of one angle whatever the radius.
+  void revolve_finely(const std::shared_ptr<IfcRevolvedAreaSolid>& solid, ItemShapeData& data) {
+    if (!solid->m_Axis || !solid->m_Axis->m_Location) return;
+    const auto location = std::dynamic_pointer_cast<IfcCartesianPoint>(solid->m_Axis->m_Location);
+    if (!location) return;
+    const Eigen::Affine3d X = frame_of(solid->m_Position);
+    Eigen::Vector3d origin = Eigen::Vector3d::Zero(), axis = Eigen::Vector3d::UnitZ();
+    for (std::size_t i = 0; i < std::min<std::size_t>(location->m_Coordinates.size(), 3); ++i)
+      origin[static_cast<Eigen::Index>(i)] = unit_m * location->m_Coordinates[i]->m_value;
+    if (const auto& direction = solid->m_Axis->m_Axis)
+      for (std::size_t i = 0; i < std::min<std::size_t>(direction->m_DirectionRatios.size(), 3); ++i)
+        axis[static_cast<Eigen::Index>(i)] = direction->m_DirectionRatios[i]->m_value;
+    axis.normalize();
+    double radius_m = 0.0;
+    for (const Facets& facets : facets_of(data))
+      for (const Eigen::Vector3d& p : facets.points)
+        radius_m = std::max(radius_m, (X.inverse() * p - origin).cross(axis).norm());
+    const int corners = corners_of_circle(radius_m);
+    if (corners <= circle_corners) return;
+    const auto fine = std::make_shared<ItemShapeData>();
+    converter.getGeomSettings()->setNumVerticesPerCircle(corners);
+    converter.convertIfcGeometricRepresentationItem(solid, fine);
+    converter.getGeomSettings()->setNumVerticesPerCircle(circle_corners);
+    data = *fine;
   }
 
   void add(std::vector<Facets> parts, const IfcRepresentationItem& item, const Eigen::Affine3d& X,

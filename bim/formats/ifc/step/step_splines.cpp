@@ -8,7 +8,7 @@
 namespace plumbline::bim {
 namespace {
 
-constexpr std::size_t pieces_per_span = 9, most_degree = 20, most_control_points = 10'000;
+constexpr std::size_t pieces_per_span = 9, most_pieces_per_span = 144, most_degree = 20, most_control_points = 10'000;
 
 struct Spline {
   std::size_t degree = 0;
@@ -33,6 +33,21 @@ struct Spline {
       }
     }
     return d[degree].hnormalized();
+  }
+
+  /// How many between two knots cut no deeper than `depth`, by the middle of each; within bounds.
+  [[nodiscard]] std::size_t pieces(double low, double high, std::size_t span, double depth) const {
+    if (degree == 1) return 1;
+    for (std::size_t count = pieces_per_span; count < most_pieces_per_span; count *= 2) {
+      const double step = (high - low) / static_cast<double>(count);
+      double deepest = 0.0;
+      for (std::size_t i = 0; i < count; ++i) {
+        const double u = low + step * static_cast<double>(i);
+        deepest = std::max(deepest, (at(u + 0.5 * step, span) - 0.5 * (at(u, span) + at(u + step, span))).norm());
+      }
+      if (deepest <= depth) return count;
+    }
+    return most_pieces_per_span;
   }
 };
 
@@ -60,7 +75,8 @@ std::vector<double> knots_of(const StepValue& multiplicities, const StepValue& v
 
 }  // namespace
 
-std::vector<Eigen::Vector3d> spline_points(const StepEntities& entities, const StepEntities::Entity& entity) {
+std::vector<Eigen::Vector3d> spline_points(const StepEntities& entities, const StepEntities::Entity& entity,
+                                           double depth) {
   const bool bezier = entity.type.ends_with("BEZIERCURVE"), rational = entity.type.starts_with("IFCRATIONAL");
   if (!bezier && !entity.type.ends_with("BSPLINECURVEWITHKNOTS")) return {};
   const StepValue values = entities.attributes(entity);
@@ -76,11 +92,11 @@ std::vector<Eigen::Vector3d> spline_points(const StepEntities& entities, const S
   spline.knots = bezier ? bezier_knots(spline.degree, points.size()) : knots_of(values.at(5), values.at(6));
   if (!spline.sound()) return {};
   std::vector<Eigen::Vector3d> line;
-  const std::size_t pieces = spline.degree == 1 ? 1 : pieces_per_span;
   for (std::size_t span = spline.degree; span < spline.control.size(); ++span) {
     const double low = spline.knots[span], high = spline.knots[span + 1];
     if (!(high > low)) continue;
     if (line.empty()) line.push_back(spline.at(low, span));
+    const std::size_t pieces = spline.pieces(low, high, span, depth);
     for (std::size_t i = 1; i <= pieces; ++i)
       line.push_back(spline.at(low + (high - low) * static_cast<double>(i) / static_cast<double>(pieces), span));
   }

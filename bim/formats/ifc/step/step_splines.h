@@ -8,8 +8,9 @@
 
 namespace plumbline::bim {
 
-/// Points of an IfcBSplineCurveWithKnots, rational or not, nine a span. Empty where its knots make no sense.
+/// Points of an IfcBSplineCurveWithKnots, rational or not: nine pieces a span, more where these would
+/// cut deeper than `depth`. Empty where its knots make no sense.
 [[nodiscard]] std::vector<Eigen::Vector3d> spline_points(const StepEntities& entities,
-                                                         const StepEntities::Entity& spline);
+                                                         const StepEntities::Entity& spline, double depth);
 
 }  // namespace plumbline::bim

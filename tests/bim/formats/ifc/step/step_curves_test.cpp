@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 
 #include "tests/bim/formats/ifc/step/step_body.h"
@@ -71,6 +72,103 @@ TEST(TrimmedCurves, OfLinesByParametersCountInTheirVectors) {
   const std::string metre = ".LENGTHUNIT.,$";
   text.replace(text.find(metre), metre.size(), ".LENGTHUNIT.,.DECI.");
   EXPECT_NEAR(body_in(text).volume_m3(), 6e-3, 1e-6);
+}
+
+/// Furthest that a face of a prism about the z axis lies inside the circle through its corners.
+double furthest_inside(const StepBody& body, double radius_m) {
+  double inside = 0.0;
+  for (const Solid& solid : body.solids)
+    for (const Eigen::Vector3i& t : solid.triangles)
+      for (int k = 0; k < 3; ++k) {
+        const Eigen::Vector3d& p = solid.vertices[static_cast<std::size_t>(t[k])];
+        const Eigen::Vector3d& q = solid.vertices[static_cast<std::size_t>(t[(k + 1) % 3])];
+        const bool rim =
+            std::abs(p.head<2>().norm() - radius_m) < 1e-6 && std::abs(q.head<2>().norm() - radius_m) < 1e-6;
+        const double angle = std::atan2(p.x() * q.y() - p.y() * q.x(), p.head<2>().dot(q.head<2>()));
+        if (rim && std::abs(p.z() - q.z()) < 1e-6 && std::abs(angle) < 0.5)
+          inside = std::max(inside, radius_m - 0.5 * (p + q).head<2>().norm());
+      }
+  return inside;
+}
+
+constexpr double most_inside_m = 2e-3;
+
+TEST(Arcs, LargeOnesAreCutByTheirDepth) {
+  constexpr double r = 8.0, half = 0.7071067811865476 * r;
+  for (const char* kind : {"points", "parameters", "indices"}) {
+    Sketch sketch;
+    const std::string way = kind, circle = sketch.add("IFCCIRCLE(" + at_origin(sketch) + ",8.)");
+    std::string arc;
+    if (way == "indices") {
+      const std::string list =
+          sketch.add("IFCCARTESIANPOINTLIST2D(((8.,0.),(" + Sketch::n(half) + "," + Sketch::n(half) + "),(0.,8.)),$)");
+      arc = sketch.add("IFCINDEXEDPOLYCURVE(" + list + ",(IFCARCINDEX((1,2,3))),.F.)");
+    } else {
+      const bool points = way == "points";
+      const std::string from = points ? sketch.point(r, 0) : "IFCPARAMETERVALUE(0.)";
+      const std::string to = points ? sketch.point(0, r) : "IFCPARAMETERVALUE(1.5707963267948966)";
+      arc = sketch.add("IFCTRIMMEDCURVE(" + circle + ",(" + from + "),(" + to + "),.T.," +
+                       (points ? ".CARTESIAN.)" : ".PARAMETER.)"));
+    }
+    const StepBody body = prism_of(sketch, {arc, line_through(sketch, {{0, r}, {0, 0}, {r, 0}})});
+    EXPECT_TRUE(body.closed()) << kind;
+    EXPECT_GT(furthest_inside(body, r), 1e-4) << kind;
+    EXPECT_LT(furthest_inside(body, r), most_inside_m) << kind;
+  }
+}
+
+TEST(Arcs, LargeCirclesAreCutByTheirDepthInEveryUnit) {
+  for (const bool milli : {false, true}) {
+    Sketch sketch;
+    const double scale = milli ? 1e3 : 1.0;
+    const std::string profile =
+        sketch.add("IFCCIRCLEPROFILEDEF(.AREA.,$," + at_origin(sketch) + "," + Sketch::n(8.0 * scale) + ")");
+    sketch.element("IFCCOLUMN", sketch.shape(sketch.extruded(profile, 0, scale)), "$,$");
+    std::string text = sketch.text();
+    const std::string metre = ".LENGTHUNIT.,$";
+    if (milli) text.replace(text.find(metre), metre.size(), ".LENGTHUNIT.,.MILLI.");
+    const StepBody body = body_in(text);
+    EXPECT_TRUE(body.closed());
+    EXPECT_GT(furthest_inside(body, 8.0), 1e-4);
+    EXPECT_LT(furthest_inside(body, 8.0), most_inside_m);
+  }
+}
+
+TEST(Arcs, RevolvedAreasAreCutByTheirDepth) {
+  Sketch sketch;
+  const std::string at = sketch.add("IFCAXIS2PLACEMENT2D(" + sketch.point(7.9, 0.5) + ",$)");
+  const std::string profile = sketch.add("IFCRECTANGLEPROFILEDEF(.AREA.,$," + at + ",0.2,1.)");
+  const std::string axis =
+      sketch.add("IFCAXIS1PLACEMENT(" + sketch.point(0, 0, 0) + "," + sketch.add("IFCDIRECTION((0.,1.,0.))") + ")");
+  // The profile's y axis is up.
+  const std::string solid =
+      sketch.add("IFCREVOLVEDAREASOLID(" + profile + "," + sketch.frame(0, 0, 0, "0.,-1.,0.", "1.,0.,0.") + "," + axis +
+                 ",1.5707963267948966)");
+  const StepBody body = body_of(sketch, solid);
+  EXPECT_TRUE(body.closed());
+  EXPECT_GT(furthest_inside(body, 8.0), 1e-4);
+  EXPECT_LT(furthest_inside(body, 8.0), most_inside_m);
+}
+
+TEST(Arcs, OfAnyRadiusHaveABoundedNumberOfPieces) {
+  Sketch sketch;
+  const std::string profile = sketch.add("IFCCIRCLEPROFILEDEF(.AREA.,$," + at_origin(sketch) + ",4000.)");
+  const StepBody body = body_of(sketch, sketch.extruded(profile, 0, 1));
+  ASSERT_EQ(body.solids.size(), 1U);
+  EXPECT_EQ(body.solids[0].vertices.size(), 2 * 720U);
+}
+
+TEST(Splines, LargeOnesAreCutByTheirDepth) {
+  constexpr double r = 8.0;
+  Sketch sketch;
+  const std::string points = sketch.point(r, 0) + "," + sketch.point(r, r) + "," + sketch.point(0, r);
+  const std::string quarter = sketch.add("IFCRATIONALBSPLINECURVEWITHKNOTS(2,(" + points +
+                                         "),.CIRCULAR_ARC.,.F.,.F.,(3,3),(0.,1.),.UNSPECIFIED.,"
+                                         "(1.,0.7071067811865476,1.))");
+  const StepBody body = prism_of(sketch, {quarter, line_through(sketch, {{0, r}, {0, 0}, {r, 0}})});
+  EXPECT_TRUE(body.closed());
+  EXPECT_GT(furthest_inside(body, r), 1e-4);
+  EXPECT_LT(furthest_inside(body, r), most_inside_m);
 }
 
 TEST(Splines, WithKnotsAreAsHighAsTheirControlPointsSay) {
