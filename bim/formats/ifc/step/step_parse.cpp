@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <string_view>
+#include <utility>
 
 #include "bim/config/utf8.h"
 #include "bim/errors.h"
@@ -13,19 +14,42 @@
 namespace plumbline::bim {
 namespace {
 
-/// IFC++ takes what looks like the beginning of a comment for one in strings, too, and keeps a quote doubled: there the
-/// star and the quote are written as their codes.
+/// "\X\hh" for the escape "\S\c" or "\\" at the beginning of `rest`, and how long that is; 0 for all else, such as the
+/// single backslashes of a path.
+std::pair<std::string, std::size_t> as_code(std::string_view rest) {
+  if (rest.starts_with("\\\\")) return {"\\X\\5C", 2};
+  if (rest.size() >= 4 && (rest[1] == 'X' || rest[1] == 'P') && rest[3] == '\\')
+    return {std::string(rest.substr(0, 4)), 4};
+  if (rest.starts_with("\\X\\")) return {std::string(rest.substr(0, 3)), 3};
+  if (rest.starts_with("\\'")) return {"\\X\\5C", 1};  // the end of a path, not a quote
+  if (!rest.starts_with("\\S\\") || rest.size() < 4) return {};
+  const char c = rest[3];
+  const bool quote = c == '\'';
+  if (c < ' ' || c > '~' || (quote && !rest.substr(3).starts_with("''"))) return {};
+  const unsigned code = static_cast<unsigned char>(c) + 0x80U;
+  const auto digit = [](unsigned v) { return "0123456789ABCDEF"[v & 15U]; };
+  return {std::string("\\X\\") + digit(code >> 4U) + digit(code), quote ? 5 : 4};
+}
+
+/// IFC++ takes what looks like the beginning of a comment for one in strings, too, keeps quotes and backslashes
+/// doubled, and does not decode "\S\c" before another backslash: there these are written as their codes.
 std::string with_plain_strings(std::string_view text) {
-  constexpr std::string_view comment = "/*", star = "/\\X\\2A", quotes = "''", quote = "\\X\\27", shifted = "\\S\\";
+  constexpr std::string_view comment = "/*", star = "/\\X\\2A", quotes = "''", quote = "\\X\\27";
   std::string result;
   bool in_string = false;
   for (std::size_t at = 0; at < text.size(); ++at) {
     const std::string_view rest = text.substr(at);
     if (in_string && (rest.starts_with(comment) || rest.starts_with(quotes))) {
-      const bool escape = !result.ends_with(shifted);  // or what is behind it, one character
-      result += rest.starts_with(comment) ? star : escape ? quote : quotes;
+      result += rest.starts_with(comment) ? star : quote;
       ++at;
       continue;
+    }
+    if (in_string && text[at] == '\\') {
+      if (const auto [code, length] = as_code(rest); length > 0) {
+        result += code;
+        at += length - 1;
+        continue;
+      }
     }
     if (text[at] == '\'') in_string = !in_string;
     result += text[at];

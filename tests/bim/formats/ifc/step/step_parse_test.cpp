@@ -83,5 +83,31 @@ TEST(GlobalIds, MayHoldWhatIsACommentElsewhere) {
   EXPECT_EQ(building.walls.front().id, "8S->gp2th5t|/*qOAt0@");
 }
 
+TEST(Names, WithEscapesBehindEachOtherAreDecoded) {
+  const auto storey_named = [](const std::string& written) {
+    std::string text = small_ifc({});
+    text.replace(text.find("'ground'"), 8, "'" + written + "'");
+    return read_ifc_text(text, "small.ifc").storeys.at(0).name;
+  };
+  EXPECT_EQ(storey_named("P\\S\\D\\S\\DPISTE"), "PÄÄPISTE");
+  EXPECT_EQ(storey_named("\\X\\C4\\S\\D\\X\\D6\\S\\*"), "ÄÄÖª");
+  EXPECT_EQ(storey_named("\\S\\d\\X2\\00DF\\X0\\x"), "äßx");
+  EXPECT_EQ(storey_named("\\S\\''4"), "§4");
+  EXPECT_EQ(storey_named("\\S\\\\\\S\\a"), "Üá");
+  EXPECT_EQ(storey_named("C:\\\\Users\\\\x.ifc"), "C:\\Users\\x.ifc");
+  EXPECT_EQ(storey_named("C:\\\\S\\\\D\\\\X\\\\41"), "C:\\S\\D\\X\\41");
+  EXPECT_EQ(storey_named("\\\\X2\\\\00DF"), "\\X2\\00DF");
+}
+
+TEST(Names, MayBePathsWithSingleBackslashes) {
+  const auto storey_named = [](const std::string& written) {
+    std::string text = small_ifc({});
+    text.replace(text.find("'ground'"), 8, "'" + written + "'");
+    return read_ifc_text(text, "small.ifc").storeys.at(0).name;
+  };
+  for (const char* path : {"C:\\Users\\Sam\\x.ifc", "D:\\Plan\\Xaver\\Site.ifc", "a\\", "C:\\S"})
+    EXPECT_EQ(storey_named(path), path);
+}
+
 }  // namespace
 }  // namespace plumbline::bim
