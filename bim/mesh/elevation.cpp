@@ -108,9 +108,10 @@ std::optional<Refusal> add_silhouette(const WallFrame& frame, const Opening& ope
     silhouettes.push_back(rectangle(opening.s_m - half, opening.s_m + half, opening.z0_m, opening.z1_m));
     return std::nullopt;
   }
+  const Interval depth = extent_across(frame, solids);
+  if (depth.low >= y.high || depth.high <= y.low) return std::nullopt;  // beside the wall
   const std::vector<Polygon2> flat = projected(frame, solids);
   silhouettes.insert(silhouettes.end(), flat.begin(), flat.end());
-  const Interval depth = extent_across(frame, solids);
   if (depth.low > y.low + config.depth_m || depth.high < y.high - config.depth_m)
     return Refusal{"niche", "opening '" + opening.id + "' does not go through the wall"};
   if (!goes_straight_through(solids, frame, y, config))

@@ -271,14 +271,27 @@ TEST(WallCut, NicheGoesTo3D) {
   EXPECT_NEAR(volume(result.solid), 12.0 * 0.3 - 0.1, 1e-6);
 }
 
+TEST(WallCut, AnOpeningBesideTheWallCutsNothing) {
+  RandomWall r = random_wall(Stream(7, "bim.generate"), 0);
+  r.wall.body = cut(r.wall, {});
+  Opening beside = hole(0, 1, 0, 1);
+  beside.solid = box({900, 900, 0}, {901, 901, 1});
+  const CutWall result = cut_wall(r.wall, {beside}, {});
+  EXPECT_TRUE(result.warnings.empty());
+  EXPECT_NEAR(volume(result.solid), volume(*r.wall.body), 1e-9);
+}
+
 TEST(WallCut, ThreeDAndElevationAgreeAtRandom) {
   const Stream stream(7, "bim.generate");
   for (std::uint64_t tick = 0; tick < 40; ++tick) {
     RandomWall r = random_wall(stream, tick);
     r.wall.body = cut(r.wall, {});
-    // A niche of no effect (in free air beside the wall) forces the whole wall through corefinement.
+    // A niche of no effect (in free air behind the end of the wall) forces the whole wall through corefinement.
     Opening outside = hole(0, 1, 0, 1);
-    outside.solid = box({900, 900, 900}, {901, 901, 901});
+    const double t = r.wall.thickness_m, far_m = 900.0;
+    const Eigen::Vector2d at = r.wall.a + far_m * r.wall.direction() + (r.wall.offset_m + 0.5 * t) * r.wall.left();
+    const Eigen::Vector3d middle(at.x(), at.y(), far_m), half = Eigen::Vector3d::Constant(0.1 * t);
+    outside.solid = box(middle - half, middle + half);
     std::vector<Opening> openings = r.openings;
     openings.push_back(outside);
     const CutWall result = cut_wall(r.wall, openings, {});

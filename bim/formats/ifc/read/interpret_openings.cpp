@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "bim/formats/ifc/read/interpret.h"
+#include "bim/formats/ifc/read/wall_box.h"
 #include "bim/geometry/polygon_boolean.h"
 #include "bim/model/body_section.h"
 #include "bim/model/extrude.h"
@@ -22,59 +23,6 @@ std::map<std::int64_t, const StepProduct*> fillings(const StepModel& model) {
   }
   return by_opening;
 }
-
-/// Ranges of a solid in the frame of a wall: along, across, upright.
-struct WallBox {
-  Interval along, across, height;
-};
-
-WallBox box_in(const Wall& wall, const std::vector<Solid>& solids) {
-  const WallFrame frame(wall);
-  WallBox box;
-  for (const Solid& solid : solids) {
-    for (const Eigen::Vector3d& p_W : solid.vertices) {
-      const Eigen::Vector3d p = frame.to_wall(p_W);
-      box.along.add(p.x());
-      box.across.add(p.y());
-      box.height.add(p.z());
-    }
-  }
-  return box;
-}
-
-/// Ranges of what solids have within the thickness of a wall; of all of them where they miss it.
-WallBox box_within(const Wall& wall, const std::vector<Solid>& solids) {
-  const WallFrame frame(wall);
-  const Interval thickness{wall.offset_m, wall.offset_m + wall.thickness_m};
-  WallBox box;
-  const auto add = [&](const Eigen::Vector3d& p) {
-    box.along.add(p.x());
-    box.across.add(p.y());
-    box.height.add(p.z());
-  };
-  for (const Solid& solid : solids) {
-    const std::vector<Eigen::Vector3d> points = frame.to_wall(solid.vertices);
-    for (const Eigen::Vector3i& t : solid.triangles)
-      for (int k = 0; k < 3; ++k) {
-        const Eigen::Vector3d& p = points[static_cast<std::size_t>(t[k])];
-        const Eigen::Vector3d& q = points[static_cast<std::size_t>(t[(k + 1) % 3])];
-        if (p.y() >= thickness.low && p.y() <= thickness.high) add(p);
-        for (const double y : {thickness.low, thickness.high})
-          if ((p.y() < y) != (q.y() < y)) add(p + (y - p.y()) / (q.y() - p.y()) * (q - p));
-      }
-  }
-  return box.along.length() >= 0.0 ? box : box_in(wall, solids);
-}
-
-double overlap(const Interval& a, const Interval& b) { return std::max(0.0, -gap(a, b)); }
-
-/// Area that two boxes have in common in the wall's elevation, m^2; 0 where they lie apart across it.
-double common_area(const WallBox& a, const WallBox& b, double slack_m) {
-  if (overlap({a.across.low - slack_m, a.across.high + slack_m}, b.across) <= 0.0) return 0.0;
-  return overlap(a.along, b.along) * overlap(a.height, b.height);
-}
-
-double area(const WallBox& box) { return box.along.length() * box.height.length(); }
 
 /// A thin straight wall along a face of another, such as its plasterboard: a door of that one is a door of both. Where
 /// it lies across the other; nullopt for a wall of its own.
@@ -156,7 +104,10 @@ void Interpreter::add_opening(const StepProduct& product, int wall, const std::v
   opening.solid = solids.front();
   opening.parts.assign(solids.begin() + 1, solids.end());
   const Wall& host = building_.walls[static_cast<std::size_t>(wall)];
-  if (opening.kind == OpeningKind::door) {
+  if (common_area(box_in(host, {*host.body}), box_in(host, solids), 0.0) <= 0.0) {
+    warn(filling != nullptr ? *filling : product, "opening_unused",
+         filling != nullptr ? "its opening misses its wall and cuts nothing" : "misses its wall and cuts nothing");
+  } else if (opening.kind == OpeningKind::door) {
     const double short_m = extend_through(opening, host);
     if (short_m > 0.0)
       warn(*filling, "niche",
@@ -228,7 +179,7 @@ bool Interpreter::open_wall_for(const StepProduct& filling, const Solid& body) {
     deepest = depth;
   }
   if (best < 0) return false;
-  const WallBox box = box_in(building_.walls[static_cast<std::size_t>(best)], {body});
+  const WallBox box = said_box(filling, building_.walls[static_cast<std::size_t>(best)], {body});
   Opening opening;
   opening.id = filling.id;
   opening.step_id = filling.step_id;

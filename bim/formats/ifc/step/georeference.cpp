@@ -85,6 +85,7 @@ std::optional<Eigen::Vector3d> move_to_origin(StepModel& model, const Georeferen
   if (move.isZero(0.0)) return std::nullopt;
   for (StepProduct& product : model.products) {
     product.X_WP.translation() += move;
+    if (product.elevation_m) *product.elevation_m += move.z();
     for (Eigen::Vector3d& p : product.axis_W) p += move;
   }
   return move;

@@ -3,8 +3,6 @@
 
 #include <ifcpp/IFC4/include/IfcBuilding.h>
 #include <ifcpp/IFC4/include/IfcBuildingStorey.h>
-#include <ifcpp/IFC4/include/IfcCovering.h>
-#include <ifcpp/IFC4/include/IfcCoveringTypeEnum.h>
 #include <ifcpp/IFC4/include/IfcGloballyUniqueId.h>
 #include <ifcpp/IFC4/include/IfcLabel.h>
 #include <ifcpp/IFC4/include/IfcNamedUnit.h>
@@ -16,8 +14,6 @@
 #include <ifcpp/IFC4/include/IfcRelFillsElement.h>
 #include <ifcpp/IFC4/include/IfcRelVoidsElement.h>
 #include <ifcpp/IFC4/include/IfcShapeRepresentation.h>
-#include <ifcpp/IFC4/include/IfcSpace.h>
-#include <ifcpp/IFC4/include/IfcSpaceTypeEnum.h>
 #include <ifcpp/IFC4/include/IfcSpatialElement.h>
 #include <ifcpp/IFC4/include/IfcUnitAssignment.h>
 #include <ifcpp/IFC4/include/IfcUnitEnum.h>
@@ -48,6 +44,7 @@
 #include "bim/formats/ifc/step/step_placement.h"
 #include "bim/formats/ifc/step/step_plain_shapes.h"
 #include "bim/formats/ifc/step/step_repair.h"
+#include "bim/formats/ifc/step/step_said.h"
 #include "bim/formats/ifc/step/step_units.h"
 #include "bim/formats/ifc/step/step_validator.h"
 #include "bim/model/building_sizes.h"
@@ -111,25 +108,6 @@ std::shared_ptr<IfcBuilding> building_of(std::shared_ptr<IfcProduct> storey) {
     storey = parent_of(storey);
   }
   return nullptr;
-}
-
-bool is_ceiling(const IfcProduct& product) {
-  const auto* covering = dynamic_cast<const IfcCovering*>(&product);
-  return covering != nullptr && covering->m_PredefinedType &&
-         covering->m_PredefinedType->m_enum == IfcCoveringTypeEnum::ENUM_CEILING;
-}
-
-SpaceUse use_of(const IfcProduct& product) {
-  const auto* space = dynamic_cast<const IfcSpace*>(&product);
-  if (space == nullptr || !space->m_PredefinedType) return SpaceUse::room;
-  switch (space->m_PredefinedType->m_enum) {
-    case IfcSpaceTypeEnum::ENUM_GFA:
-      return SpaceUse::gross;
-    case IfcSpaceTypeEnum::ENUM_EXTERNAL:
-      return SpaceUse::outside;
-    default:
-      return SpaceUse::room;
-  }
 }
 
 std::int64_t host_of(const std::shared_ptr<IfcProduct>& product, StepClass kind) {
@@ -266,7 +244,6 @@ class Reader {
     product.kind = kind;
     product.type = source->className();
     product.id = source->m_GlobalId ? utf8(source->m_GlobalId->m_value) : std::string();
-    product.name = name_of(*source);
     const ProductPose pose = placement(source->m_ObjectPlacement, model.unit_m);
     if (!pose.fault.empty()) fail(product.step_id, product.type + " " + pose.fault);
     if (!pose.X_WP) {
@@ -281,16 +258,17 @@ class Reader {
     if (product.storey == 0) product.storey = storey_of(source, contained_);
     product.host = host_of(source, kind);
     product.whole = whole_of(*source);
-    product.ceiling = is_ceiling(*source);
-    product.space_use = use_of(*source);
+    read_said(*source, model.unit_m, product);
     if (const auto building = kind == StepClass::storey ? building_of(source) : nullptr) {
       product.building = building->m_entity_id;
       product.building_name = building->m_Name ? utf8(building->m_Name->m_value) : std::string();
     }
     read_material(*source, model.unit_m, product);
     if (source->m_Representation) read_geometry(source, product);
-    if (bounded_ && !within_reach(product))
+    if (bounded_ && !within_reach(product)) {
+      ++model.out_of_reach;
       fail(product.step_id, product.type + " is larger than 10 km or further than 100000 km");
+    }
     return product;
   }
 
@@ -308,15 +286,6 @@ class Reader {
       product.axis_W.clear();
       product.diagnostics.push_back(std::string("its axis is left out: ") + error.what());
     }
-  }
-
-  /// Rooms have a number for a name and say what they are in the long name: "Kitchen A102".
-  static std::string name_of(const IfcProduct& source) {
-    const std::string name = source.m_Name ? utf8(source.m_Name->m_value) : std::string();
-    const auto* space = dynamic_cast<const IfcSpace*>(&source);
-    if (space == nullptr || !space->m_LongName) return name;
-    const std::string long_name = utf8(space->m_LongName->m_value);
-    return name.empty() || name == long_name ? long_name : long_name + " " + name;
   }
 
   [[noreturn]] void fail(std::int64_t step_id, const std::string& what) const {
@@ -365,7 +334,9 @@ void warn_of_unknown(const BuildingModel& model, const std::string& text, const 
   for (const StepEntities::Entity& entity : entities.all())
     if (!known.contains(static_cast<int>(entity.number))) ++unknown[std::string(entity.type)];
   for (const auto& [type, count] : unknown)
-    result.skipped.push_back({"", "unknown_class", std::to_string(count) + " of the class " + type + " are not read"});
+    result.skipped.push_back(
+        {"", "unknown_class",
+         std::to_string(count) + " of the class " + type + (count == 1 ? " is" : " are") + " not read"});
 }
 
 }  // namespace
@@ -389,7 +360,8 @@ StepModel read_step_model(const std::string& text, const StepText& checked, cons
     result.skipped.push_back({"", "dangling",
                               "line " + std::to_string(checked.line(number)) + ": #" + std::to_string(number) +
                                   " refers to #" + std::to_string(target) + ", which is not in the file; " +
-                                  std::to_string(checked.dangling.size()) + " such references in all"});
+                                  std::to_string(checked.dangling.size()) +
+                                  (checked.dangling.size() == 1 ? " such reference" : " such references") + " in all"});
   }
   result.move = move_to_origin(result);
   return result;

@@ -43,9 +43,11 @@ struct StepProduct {
   std::int64_t whole = 0;                              ///< STEP number of the product it is a part of, 0 for none
   bool has_body = false;                               ///< the file gives a body, whether or not it was read
   SpaceUse space_use = SpaceUse::room;
-  bool ceiling = false;       ///< a covering that the file calls a ceiling
-  std::int64_t building = 0;  ///< storey: STEP number of its IfcBuilding, 0 for none
-  std::string building_name;  ///< storey: of its IfcBuilding
+  bool ceiling = false;                  ///< a covering that the file calls a ceiling
+  std::int64_t building = 0;             ///< storey: STEP number of its IfcBuilding, 0 for none
+  std::string building_name;             ///< storey: of its IfcBuilding
+  std::optional<double> elevation_m;     ///< storey: its Elevation
+  double width_m = 0.0, height_m = 0.0;  ///< door or window: what it says it is overall, 0 for nothing
   std::optional<StepLayers> layers;
   std::string material;                  ///< of the thickest layer
   std::vector<Eigen::Vector3d> axis_W;   ///< points of the Axis representation
@@ -58,6 +60,7 @@ struct StepModel {
   double unit_m = 1.0;                     ///< length of the file's unit
   std::vector<StepProduct> products;       ///< by GlobalId
   std::map<std::string, Material> optics;  ///< what the file says about light, by material name
+  int out_of_reach = 0;                    ///< products that are left out since they are too large or too far out
   std::vector<Warning> skipped;            ///< products whose placement cannot be resolved
   std::optional<Eigen::Vector3d> move;     ///< from the file's world to W, where it stands in map coordinates
 };

@@ -26,7 +26,7 @@ TEST(Openings, ADoorBesideItsWallLeadsNowhere) {
   ASSERT_EQ(building.openings.size(), 1U);
   EXPECT_EQ(building.openings[0].rooms[0], -1);
   EXPECT_EQ(building.openings[0].rooms[1], -1);
-  EXPECT_EQ(count(building, "niche"), 1);
+  EXPECT_EQ(count(building, "opening_unused"), 1);
 }
 
 }  // namespace

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "bim/formats/ifc/step/step_model.h"
+
+class IfcProduct;
+
+namespace plumbline::bim {
+
+/// What the attributes of a product say of it by themselves: its name, what a space or covering is for, the elevation
+/// of a storey, the size of a door or window.
+void read_said(const IfcProduct& source, double unit_m, StepProduct& product);
+
+}  // namespace plumbline::bim
