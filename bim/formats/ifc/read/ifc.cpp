@@ -60,18 +60,32 @@ void warn_of_unresolved_doors(Building& building) {
   throw InputError({file, 0, 0},
                    "nothing in it says where one could stand: it has no IfcSlab, no IfcSpace and no "
                    "IfcWall, only " +
-                       std::to_string(others) + " other elements");
+                       std::to_string(others) + (others == 1 ? " other element" : " other elements"));
+}
+
+[[noreturn]] void fail_as_too_large(const Building& building, int count, const std::string& file) {
+  throw InputError({file, 0, 0}, std::to_string(count) + (count == 1 ? " element is" : " elements are") +
+                                     " larger than 10 km or further out than 100000 km, and nothing else in it says "
+                                     "where one could stand; the file says " +
+                                     building.unit + ": is the unit right?");
 }
 
 /// Refuses a file in which nothing can stand and says what it lacks.
 void check_substance(const Building& building, const StepModel& model, const std::string& file) {
   const bool solid = !building.walls.empty() || !building.slabs.empty() || !building.rooms.empty() ||
                      !building.columns.empty() || !building.obstacles.empty() || !building.stairs.empty();
+  const bool ground = !building.slabs.empty() || !building.rooms.empty() || !building.walls.empty();
+  if (!ground && model.out_of_reach > 0) fail_as_too_large(building, model.out_of_reach, file);
   if (!solid) {
-    const auto reason = std::find_if(building.warnings.begin(), building.warnings.end(), [](const Warning& warning) {
-      return warning.kind == "dangling" || warning.kind == "makes_no_sense" || warning.kind == "skipped_placement" ||
-             warning.kind == "no_body" || warning.kind == "unknown_class";
+    // What is said of an element tells more than what is said of a class.
+    auto reason = std::find_if(building.warnings.begin(), building.warnings.end(), [](const Warning& warning) {
+      return !warning.element.empty() && (warning.kind == "dangling" || warning.kind == "makes_no_sense" ||
+                                          warning.kind == "skipped_placement" || warning.kind == "no_body");
     });
+    if (reason == building.warnings.end())
+      reason = std::find_if(building.warnings.begin(), building.warnings.end(), [](const Warning& warning) {
+        return warning.kind == "dangling" || warning.kind == "unknown_class";
+      });
     const auto fillings = std::count_if(model.products.begin(), model.products.end(), [](const StepProduct& product) {
       return product.has_body && (product.kind == StepClass::door || product.kind == StepClass::window);
     });
@@ -84,8 +98,7 @@ void check_substance(const Building& building, const StepModel& model, const std
                      "be read" +
                          left_out);
   }
-  if (building.slabs.empty() && building.rooms.empty() && building.walls.empty())
-    fail_without_ground(file, building.obstacles.size() + building.columns.size());
+  if (!ground) fail_without_ground(file, building.obstacles.size() + building.columns.size());
 }
 
 /// What methods that localize see in a plan without walls is all that was built to stay.
@@ -127,8 +140,9 @@ void warn_of_missing_floors(Building& building) {
     const Storey& storey = building.storeys[static_cast<std::size_t>(index)];
     building.warnings.push_back(
         {storey.id, "no_floor",
-         rooms.second > 0
-             ? "the storey has neither slabs nor rooms; all within its walls is taken as floor"
+         rooms.second > 0 ? "the storey has neither slabs nor rooms; all within its walls is taken as floor"
+         : rooms.first == 1
+             ? "1 of its rooms has no slab; its lower end is the floor"
              : std::to_string(rooms.first) + " of its rooms have no slab; their lower ends are the floor"});
   }
 }

@@ -202,7 +202,7 @@ TEST(Missing, EverythingIsRefusedWithWhatWouldBeRight) {
   Sketch door;
   door.storey(0);
   door.element("IFCDOOR", door.shape(door.box(0, 0, 0, 1, 0.1, 2)), "$,$,$,$,$,$");
-  EXPECT_NE(input_error([&] { (void)read_sketch(door); }).find("no IfcWall, only 1 other elements"), std::string::npos);
+  EXPECT_NE(input_error([&] { (void)read_sketch(door); }).find("no IfcWall, only 1 other element"), std::string::npos);
 }
 
 TEST(Dangling, ReferencesCostWhatDependsOnThemAndNoMore) {
