@@ -287,12 +287,21 @@ void Interpreter::add_materials() {
 Building Interpreter::finish() {
   set_heights();
   set_storey_kinds(building_);
+  // Nothing stands on a roof that the height of its storey would matter to.
+  std::erase_if(building_.warnings, [&](const Warning& warning) {
+    return warning.kind == "assumed_height" &&
+           std::any_of(building_.storeys.begin(), building_.storeys.end(), [&](const Storey& storey) {
+             return storey.id == warning.element && storey.kind == StoreyKind::roof;
+           });
+  });
   add_missing_rooms();
   add_materials();
   warn_of_blocked_doors(building_);
   for (const auto& [host, cutters] : cutters_) {
     if (cutters_used_.contains(host)) continue;
-    for (const StepProduct* cutter : cutters) warn(*cutter, "opening_unused", "what it should cut has no body");
+    for (const StepProduct* cutter : cutters)
+      warn(*cutter, "opening_unused",
+           host == 0 ? "no IfcRelVoidsElement says what it cuts" : "what it should cut has no body");
   }
   sort_all();
   return std::move(building_);

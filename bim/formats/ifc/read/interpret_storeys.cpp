@@ -44,8 +44,9 @@ void Interpreter::add_storeys() {
     Storey storey;
     storey.id = product.id;
     storey.name = product.name;
-    // The attribute Elevation may be null or stale; the placement is what the elements hang on.
-    storey.elevation_m = snapped(product.X_WP.translation().z());
+    // The attribute Elevation may be null or stale; the placement is what the elements hang on, where there is one.
+    const double placed_m = product.X_WP.translation().z();
+    storey.elevation_m = snapped(product.placed ? placed_m : product.elevation_m.value_or(placed_m));
     storey.step_id = product.step_id;
     building_.storeys.push_back(std::move(storey));
   }
@@ -119,7 +120,7 @@ void Interpreter::move_storeys_to_their_floors() {
     if (!floor_m) continue;
     const StepProduct* product = find(storey.step_id);
     const std::string said =
-        product != nullptr && !product->placed
+        product != nullptr && !product->placed && !product->elevation_m
             ? "the file gives it no placement; its slabs, spaces and walls say that its floor lies at "
             : "the file says that it lies at " + format_number(storey.elevation_m) +
                   " m, and its slabs, spaces and walls that its floor does at ";

@@ -128,6 +128,7 @@ void Interpreter::read_faces(const StepProduct& product, const Solid& body, Wall
   layers.add(side * (product.layers->offset_m + product.layers->sense * product.layers->thickness_m));
   const double off = std::max(std::abs(layers.low - across.low), std::abs(layers.high - across.high));
   if (off > config_.layer_match_m) {
+    if (product.axis_W.size() > 2) return;  // what the body is compared with is the rectangle around it
     return warn(product, "layer_mismatch",
                 "layers and body differ by " + std::to_string(std::lround(off * 1e3)) + " mm; the body counts");
   }
