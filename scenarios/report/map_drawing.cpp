@@ -208,7 +208,7 @@ MapBox bounds(const ReportInput& input) {
     box.add(face.p0);
     box.add(face.p1);
   }
-  for (const auto& room : input.plan.rooms)  // a building may have no walls
+  for (const bim::PlanRoom& room : input.plan.rooms)  // a file may have rooms and no walls
     if (is_shown(input, room.storey))
       for (const auto& p : room.polygon) box.add(p);
   for (const ReportObstacle& obstacle : input.obstacles)  // of a mesh there are no faces

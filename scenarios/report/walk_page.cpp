@@ -55,6 +55,15 @@ std::string draw_floor(const sim::ClearanceMap& space, const Eigen::Vector2d& st
   return path(rows[1], elsewhere_colour) + path(rows[0], floor_colour);
 }
 
+/// Floor that is reached from the start may lie outside the walls, and where there are none.
+void add_floor(const sim::ClearanceMap& space, const Eigen::Vector2d& start_W, MapBox& box) {
+  const GridFrame& grid = space.grid();
+  const int here = space.region(start_W);
+  for (int j = 0; here >= 0 && j < grid.ny; ++j)
+    for (int i = 0; i < grid.nx; ++i)
+      if (space.region(grid.center(i, j)) == here) box.add(grid.center(i, j));
+}
+
 /// Red over rooms out of reach, and a mark where the way to each of them is blocked; reasons show on hovering.
 std::string draw_reasons(const bim::Building& building, const WalkCoverage& walk) {
   std::string out;
@@ -154,7 +163,9 @@ class StoreyCard {
     for (const sim::Waypoint& waypoint : plan.waypoints) way.emplace_back(waypoint.p_W.head<2>());
     const std::string drawn = draw_plan(input_, storey_);
     const std::size_t walls = std::min(drawn.find("<line"), drawn.size());
-    return open_map(bounds(input_), "where the robot can walk on " + name_) + drawn.substr(0, walls) +
+    MapBox box = bounds(input_);
+    add_floor(space_.storey(storey_), plan.start_W, box);
+    return open_map(box, "where the robot can walk on " + name_) + drawn.substr(0, walls) +
            draw_floor(space_.storey(storey_), plan.start_W) + draw_reasons(building_, walk) + drawn.substr(walls) +
            svg::polyline(way, "fill=\"none\" stroke=\"" + std::string(walk_colour) + "\" stroke-width=\".09\"") +
            svg::circle(plan.start_W, 0.22, "fill=\"" + std::string(walk_colour) + "\"") +
