@@ -17,6 +17,7 @@
 #include "scenarios/host/files.h"
 #include "scenarios/host/terminal.h"
 #include "scenarios/report/walk_page.h"
+#include "scenarios/spec/run_site.h"
 
 namespace plumbline::scenarios {
 
@@ -48,7 +49,7 @@ int inspect_walk(const InspectOptions& options) {
     throw InputError({options.walk, 0, 0}, "must be a page; name a file that ends in .html");
   if (bim::is_mesh_path(options.building))
     throw InputError({options.building, 0, 0}, "is a mesh, of which no rooms are known; name a plan or an .ifc");
-  const bim::PlannedAndBuilt site = bim::load_planned_and_built(options.building);
+  const bim::PlannedAndBuilt site = load_site(options.building, Scenario());  // as `run` has it
   const WalkPage page = walk_page(site, std::filesystem::path(options.building).filename().string());
   write_file(options.walk, page.html);
   if (options.json) {

@@ -348,5 +348,27 @@ TEST(WalkedFloors, ARobotOnARampIsLocalizedAtItsHeight) {
   EXPECT_LT(method["localization"]["ape_rmse_m"], 0.1);
 }
 
+TEST(Walk, IsPlannedAlikeByInspectAndByRunWithoutSlabs) {
+  if (!available()) GTEST_SKIP() << "PLUMBLINE_BINARY and PLUMBLINE_SOURCE are not set; run through ctest";
+  const Folder folder;
+  write_file(folder / "room.plan.yaml",
+             "plan: 1\nstoreys: [{id: g}]\nwalls:\n  - {id: s, storey: g, a: [0, 0], b: [3.2, 0]}\n"
+             "  - {id: e, storey: g, a: [3.2, 0], b: [3.2, 3.2]}\n  - {id: n, storey: g, a: [3.2, 3.2], b: [0, 3.2]}\n"
+             "  - {id: w, storey: g, a: [0, 3.2], b: [0, 0]}\n"
+             "rooms: [{id: r, storey: g, polygon: [[0, 0], [3.2, 0], [3.2, 3.2], [0, 3.2]]}]\n");
+  ASSERT_EQ(plumbline({"inspect", folder / "room.plan.yaml", "--ifc", folder / "whole.ifc"}).code, 0);
+  std::istringstream whole(read_file(folder / "whole.ifc"));
+  std::string bare, line;
+  while (std::getline(whole, line))
+    if (line.find("IFCSLAB(") == std::string::npos) bare += line + "\n";
+  write_file(folder / "bare.ifc", bare);
+  const Outcome inspected = plumbline({"inspect", folder / "bare.ifc", "--walk", folder / "walk.html"});
+  const Outcome walked = plumbline({"run", folder / "bare.ifc", "--method", "truth", "--out", folder / "out"});
+  const std::size_t at = walked.out.find("planned walk: ");
+  ASSERT_NE(at, std::string::npos) << walked.out << walked.err;
+  const std::string planned = walked.out.substr(at + 14, walked.out.find('\n', at) - at - 14);
+  EXPECT_NE(inspected.out.find("g: " + planned + "\n"), std::string::npos) << planned << " in " << inspected.out;
+}
+
 }  // namespace
 }  // namespace plumbline::system_tests
