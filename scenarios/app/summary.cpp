@@ -61,6 +61,27 @@ Tree judging_blocks(const score::RunScore& score) {
   return Tree::map().set("methods", std::move(methods)).set("gates", std::move(gates));
 }
 
+/// Says that a method's answer was sure and wrong, where none of its gates fails and none asks for that; else empty.
+std::string sure_and_wrong(const score::MethodScore& method, const std::vector<score::GateResult>& gates) {
+  constexpr std::string_view metric = "localization.sure_and_wrong";
+  if (!method.localization || !score::is_sure_and_wrong(method.localization->verdict)) return "";
+  if (std::any_of(gates.begin(), gates.end(), [&](const score::GateResult& gate) {
+        return gate.method == method.name && (!gate.passed || gate.metric == metric);
+      }))
+    return "";
+  const score::LocalizationRules rules;
+  const double off_m = method.localization->ape_rmse_m.value_or(0.0);
+  const double off_deg = method.localization->yaw_rmse_deg.value_or(0.0);
+  std::string what = "on one pose, which the scans do not distinguish from others";  // a guess, which may be right
+  if (method.localization->verdict == score::LocalizationVerdict::false_convergence || off_m > rules.position_m ||
+      off_deg > rules.yaw_deg) {
+    char off[48];
+    std::snprintf(off, sizeof(off), ", %.3g m and %.3g deg off rms", off_m, off_deg);
+    what = std::string("on a wrong pose") + off;
+  }
+  return method.name + ": CONVERGED " + what + "; no gate asks for it: " + std::string(metric) + "<=0";
+}
+
 /// A line for the first failed gate of each method, or for each method that is bad and not judged.
 std::string looks(const std::string& page, const score::RunScore& score) {
   std::string text;
@@ -112,6 +133,9 @@ std::string summarise(const FinishedRun& run, const score::RunScore& score) {
   }
   for (const Unjudged& method : unjudged(judging_blocks(score)))
     text += (method.crashed() ? "FAILED: " : "not judged: ") + printable(method.method + ": " + method.what) + "\n";
+  for (const score::MethodScore& method : score.methods)
+    if (const std::string said = sure_and_wrong(method, score.gates); !said.empty())
+      text += "warning: " + printable(said) + "\n";
   for (const score::GateResult& gate : score.gates)
     text += (gate.passed ? "passed: " : "FAILED: ") + score::describe(gate) + "\n";
   if (score.gates.empty()) return text + "no gates\n";

@@ -104,5 +104,31 @@ TEST(NextSteps, OfAFallLeadToTheEnd) {
   EXPECT_EQ(judged.steps(true).rfind("look:  runs/a b/replay.html#t=9\n", 0), 0U);
 }
 
+TEST(Summary, WarnsOfAnAnswerThatIsSureAndWrongWhereNoGateAsksForIt) {
+  Judged judged;
+  score::LocalizationScore& where = judged.score.methods[1].localization.emplace();
+  const auto says = [&](const std::string& text) {
+    return summarise(judged.run, judged.score).find("warning: un judged: CONVERGED " + text) != std::string::npos;
+  };
+  where.verdict = score::LocalizationVerdict::success;
+  EXPECT_FALSE(says(""));
+  where.verdict = score::LocalizationVerdict::overconfident;
+  where.ape_rmse_m = 15.46;
+  where.yaw_rmse_deg = 90.2;
+  const std::string gate = "; no gate asks for it: localization.sure_and_wrong<=0\n";
+  EXPECT_TRUE(says("on a wrong pose, 15.5 m and 90.2 deg off rms" + gate)) << summarise(judged.run, judged.score);
+  where.ape_rmse_m = where.yaw_rmse_deg = 0.1;
+  EXPECT_TRUE(says("on one pose, which the scans do not distinguish from others" + gate));
+  where.verdict = score::LocalizationVerdict::false_convergence;
+  EXPECT_TRUE(says("on a wrong pose, "));
+  score::GateResult& asked = judged.score.gates.emplace_back();
+  asked.method = "un judged";
+  asked.metric = "ate_rmse_m";
+  asked.passed = true;
+  EXPECT_TRUE(says("")) << "the gate asks for another thing";
+  asked.metric = "localization.sure_and_wrong";
+  EXPECT_FALSE(says(""));
+}
+
 }  // namespace
 }  // namespace plumbline::scenarios
