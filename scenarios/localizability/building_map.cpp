@@ -239,7 +239,7 @@ void set_answers(const bim::Building& plan, const BuildingMap& map, Tree& tree) 
       return static_cast<int>(map.floors[cell.floor].storey) == room.storey && room.contains(cell.p_W);
     };
     if (share_of(map, true, in_room).cells == 0) continue;
-    rooms.push(Tree::map().set("id", room.id).set("answers", conditions(map, in_room)));
+    rooms.push(Tree::map().set("id", room.id).set("name", room.name).set("answers", conditions(map, in_room)));
   }
   for (const MapCell& cell : map.map.cells) {
     Tree one = Tree::map();
@@ -293,9 +293,19 @@ Tree localizability_json(const RunBuilding& building, const BuildingMaps& maps) 
   return tree.set("with_furniture", std::move(with_furniture));
 }
 
+std::string scanned_text(const RunBuilding& building) {
+  const auto count =  // rooms follow from the rest
+      std::ranges::count_if(building.variants().changes,
+                            [](const bim::Change& change) { return !change.op.ends_with("_room"); });
+  if (count == 0) return "";
+  return "The scans are of the building as built, which differs from its plan in " + std::to_string(count) +
+         (count == 1 ? " element." : " elements.");
+}
+
 std::string localizability_text(const RunBuilding& building, const BuildingMaps& maps) {
-  std::string text = "a place every " + format_number(maps.building.options.step_m) + " m\nBy the building alone:\n" +
-                     table_of(building, maps.building);
+  const std::string scanned = scanned_text(building);
+  std::string text = "a place every " + format_number(maps.building.options.step_m) + " m\n" + scanned +
+                     (scanned.empty() ? "" : "\n") + "By the building alone:\n" + table_of(building, maps.building);
   if (!maps.with_furniture)
     return text + "The plan has no furniture or other object that may have moved; the answer is the same with it.\n";
   return text + "With the furniture as planned:\n" + table_of(building, *maps.with_furniture);

@@ -64,6 +64,8 @@ struct MapShare {
 /// rooms: [...], cells: [...], alike: [{turned_deg, moved_m, places, rooms, element, missing, share, from}]} by the
 /// building alone; the same lists again in with_furniture, where that differs. without_places: [id] of storeys, if any.
 [[nodiscard]] Tree localizability_json(const RunBuilding& building, const BuildingMaps& maps);
+/// Which building the scans are of, a sentence; empty where it is built as planned.
+[[nodiscard]] std::string scanned_text(const RunBuilding& building);
 /// A table an answer, a line a storey and condition.
 [[nodiscard]] std::string localizability_text(const RunBuilding& building, const BuildingMaps& maps);
 

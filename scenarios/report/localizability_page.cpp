@@ -169,6 +169,8 @@ std::string localizability_page(const RunBuilding& building, const std::string& 
                      "</h1><span class=\"facts\">a place every " + svg::number(map.options.step_m) +
                      " m, aliased poses on " + (map.options.across ? "all storeys" : "the same storey") +
                      "</span></header>\n";
+  if (const std::string scanned = scanned_text(building); !scanned.empty())
+    page += "<p class=\"facts\">" + scanned + "</p>\n";
   page += answer("By the building alone", building, map, true);
   if (maps.with_furniture)
     page += answer("With the furniture as planned", building, *maps.with_furniture, false);

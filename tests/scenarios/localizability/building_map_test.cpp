@@ -126,5 +126,18 @@ TEST(BuildingMap, NoPlaceOfASquareHallWithRowsOfPillarsIsUnique) {
   for (const MapCell& cell : map.map.cells) EXPECT_FALSE(cell.unknown->walk_m.has_value()) << cell.p_W.transpose();
 }
 
+TEST(BuildingMap, SaysThatTheScansAreOfTheBuildingAsBuilt) {
+  const bim::Building room = room_of(3.0);
+  EXPECT_EQ(scanned_text(RunBuilding({room, room, {}, true})), "");
+  const RunBuilding altered({room, room, {{"remove_wall", "stub"}, {"reshape_room", "r"}}, true});
+  BuildingMapOptions options;
+  options.step_m = 1.0;
+  const BuildingMaps maps{map_of(altered, options), std::nullopt};
+  EXPECT_NE(localizability_text(altered, maps)
+                .find("\nThe scans are of the building as built, which differs from its plan in 1 element.\n"),
+            std::string::npos)
+      << localizability_text(altered, maps);
+}
+
 }  // namespace
 }  // namespace plumbline::scenarios
