@@ -32,6 +32,10 @@ Eigen::Vector2d rounded(const Eigen::Vector2d& p) {
   return ((p * coordinate_steps).array().round() / coordinate_steps).matrix();
 }
 
+std::string quoted(const bim::Room& room) {
+  return "'" + room.id + "'" + (room.name.empty() || room.name == room.id ? "" : " (" + room.name + ")");
+}
+
 RoomPlaces::RoomPlaces(const bim::Building& as_built, const sim::MultiStoreyPlanner& space,
                        const std::optional<sim::FloorPoint>& from)
     : building_(as_built), space_(space), from_(from), places_(as_built.rooms.size()) {}
@@ -90,7 +94,7 @@ std::string RoomPlaces::why_nowhere() const {
   const auto largest =
       std::max_element(building_.rooms.begin(), building_.rooms.end(),
                        [](const bim::Room& a, const bim::Room& b) { return a.area_m2() < b.area_m2(); });
-  return "room '" + largest->id + "': " + why_none(static_cast<int>(largest - building_.rooms.begin())) +
+  return "room " + quoted(*largest) + ": " + why_none(static_cast<int>(largest - building_.rooms.begin())) +
          (building_.rooms.size() > 1 ? "; it is the largest of " + std::to_string(building_.rooms.size()) + " rooms"
                                      : "");
 }

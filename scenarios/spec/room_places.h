@@ -13,6 +13,9 @@ namespace plumbline::scenarios {
 /// Start points are written with four decimals, 0.1 mm, so that a resolved file reads well.
 [[nodiscard]] Eigen::Vector2d rounded(const Eigen::Vector2d& p);
 
+/// A room in a message: "'2cXV28' (Kitchen)", its id and, where that is another, its name.
+[[nodiscard]] std::string quoted(const bim::Room& room);
+
 /// The freest places of the rooms of a building, each looked for once.
 class RoomPlaces {
  public:

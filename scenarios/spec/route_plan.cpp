@@ -15,7 +15,7 @@
 #include "scenarios/spec/start_check.h"
 #include "scenarios/spec/storeys_out_of_reach.h"
 #include "scenarios/spec/tour.h"
-#include "sim/route/blockage.h"
+#include "scenarios/spec/why_no_way.h"
 #include "sim/route/neighbour_ways.h"
 
 namespace plumbline::scenarios {
@@ -87,26 +87,6 @@ class Planner {
     return rounded(found.front());
   }
 
-  /// What stops the robot on the way to the first of the other rooms of its storey.
-  [[nodiscard]] std::string what_stops(const Eigen::Vector2d& start_W) const {
-    const sim::ClearanceMap& space = space_.storey(storey_);
-    const sim::Blockages blockages(building_, storey_, space, start_W);
-    std::string list;
-    for (const bim::Room& other : building_.rooms) {
-      if (other.storey != storey_ || other.contains(start_W)) continue;
-      const std::optional<std::size_t> goal = space.freest_cell(other);
-      if (!goal) continue;
-      for (const sim::Blockage& blockage : blockages.before(space.grid().center(*goal)))
-        list += (list.empty() ? ": on the way to room '" + other.id + "' " : "; ") + blockage.text;
-      if (!list.empty()) break;
-    }
-    const std::string start = "give a start: {storey: ..., at: [x, y]} ";
-    if (!list.empty()) return list + "; " + start + "from where the robot can walk";
-    return ": the robot needs " + format_number(2.0 * sim::RouteConfig().turn_m) +
-           " m to turn round, and this piece of floor has no two places for that; clear it, or " + start +
-           "on a larger one";
-  }
-
   /// Where no rooms are known, or none but the one of the start is in reach.
   void walk_round(int laps, RoutePlan& plan) const {
     const Eigen::AlignedBox2d box = floor_box(building_, storey_);
@@ -117,8 +97,8 @@ class Planner {
         round = sim::with_clearance(space, exploration_route(space, box, plan.start_W, config),
                                     plan.waypoints.front().p_W.z());
     if (sim::length(round) < walk_min_m)
-      throw InputError(marks_.route,
-                       "there is nowhere to walk to from " + point_text(plan.start_W) + what_stops(plan.start_W));
+      throw InputError(marks_.route, "there is nowhere to walk to from " + point_text(plan.start_W) +
+                                         why_nowhere_to_walk(space_, {storey_, plan.start_W}));
     for (int lap = 0; lap < laps; ++lap) append(round, plan);
     plan.rooms = {std::string(all_rooms)};
   }
@@ -132,7 +112,7 @@ class Planner {
   [[nodiscard]] FloorPoint target(int index, const Mark& mark) const {
     const std::optional<FloorPoint>& found = places_.of(index);
     if (!found)
-      throw InputError(mark, "room '" + room(index).id + "' has no place where the robot can turn round; it needs " +
+      throw InputError(mark, "room " + quoted(room(index)) + " has no place where the robot can turn round; it needs " +
                                  format_number(2.0 * sim::RouteConfig().turn_m) + " m");
     return *found;
   }
@@ -151,14 +131,8 @@ class Planner {
 
   [[noreturn]] void refuse(const std::string& name, const FloorPoint& from, const FloorPoint& goal,
                            const Mark& mark) const {
-    const std::vector<std::string> doors = closed_doors_between(building_, from, goal);
-    std::string why = "; is every door on the way at least 0.9 m wide, and nothing in it?";
-    if (!doors.empty())
-      why = ": " + open_them(doors);
-    else if (from.storey != goal.storey)
-      why = ", since it is on storey '" + building_.storeys[static_cast<std::size_t>(goal.storey)].id +
-            "': " + stairs_at_fault(space_);
-    throw InputError(mark, "room '" + name + "' cannot be reached from " + point_text(from.p_W) + why);
+    throw InputError(mark, "room " + quoted(room(find_room(building_, name, mark))) + " cannot be reached from " +
+                               point_text(from.p_W) + why_no_way(space_, from, goal));
   }
 
   /// Indices of the rooms that `all` means, without the one of the start.
@@ -298,7 +272,7 @@ class Planner {
     const Eigen::Vector2d axis = long_axis(room(index).polygon);
     const std::array<FloorPoint, 2> ends = {last_free(middle, axis), last_free(middle, -axis)};
     if ((ends[0].p_W - ends[1].p_W).norm() < shuttle_min_m)
-      throw InputError(marks_.route, "room '" + room(index).id + "' is too small to walk to and fro in: " +
+      throw InputError(marks_.route, "room " + quoted(room(index)) + " is too small to walk to and fro in: " +
                                          format_number(round_coordinate((ends[0].p_W - ends[1].p_W).norm())) +
                                          " m; it must be at least " + format_number(shuttle_min_m) + " m");
     for (int i = 0; i < 2 * route.times; ++i) {

@@ -259,5 +259,17 @@ TEST(RoutePlan, OfARoomInPiecesTheOneOfTheStartIsTheGoal) {
   EXPECT_TRUE(in_core(plan_route(building, in("hall"), through({"hall"}), {}).start_W));
 }
 
+TEST(RoutePlan, ARoomBehindAHoleInTheFloorSaysSo) {
+  bim::Building building = house();
+  const int kitchen = find_room(building, "kitchen", {});
+  building.rooms[static_cast<std::size_t>(kitchen)].name = "Galley";
+  Polygon2 hole = building.rooms[static_cast<std::size_t>(find_room(building, "hall", {}))].polygon;
+  for (bim::Slab& slab : building.slabs)
+    if (slab.storey == 0) slab.polygon.holes.push_back({hole.rbegin(), hole.rend()});
+  const std::string error = error_of(building, in("living"), through({"kitchen"}));
+  EXPECT_EQ(error.rfind("room 'kitchen' (Galley) cannot be reached from [", 0), 0U) << error;
+  EXPECT_NE(error.find("there is no floor near ["), std::string::npos) << error;
+}
+
 }  // namespace
 }  // namespace plumbline::scenarios
