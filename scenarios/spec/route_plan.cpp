@@ -27,7 +27,7 @@ using Path = std::vector<sim::Waypoint>;
 
 constexpr std::string_view all_rooms = "all";
 constexpr double shuttle_min_m = 0.5;  ///< of a way worth walking to and fro
-constexpr double walk_min_m = 0.5;     ///< no shorter walk is one
+constexpr double walk_min_m = 1.0;     ///< no shorter walk through all rooms, or round the floor, is one
 
 double round_coordinate(double x) { return rounded({x, 0.0}).x(); }
 
@@ -93,10 +93,10 @@ class Planner {
     const sim::ClearanceMap& space = space_.storey(storey_);
     Path round;
     for (const ExplorationConfig& config : {ExplorationConfig(), small_floor_exploration()})
-      if (!box.isEmpty() && sim::length(round) < walk_min_m)
+      if (!box.isEmpty() && is_too_short(round))
         round = sim::with_clearance(space, exploration_route(space, box, plan.start_W, config),
                                     plan.waypoints.front().p_W.z());
-    if (sim::length(round) < walk_min_m)
+    if (is_too_short(round))
       throw InputError(marks_.route, "there is nowhere to walk to from " + point_text(plan.start_W) +
                                          why_nowhere_to_walk(space_, {storey_, plan.start_W}));
     for (int lap = 0; lap < laps; ++lap) append(round, plan);
@@ -115,6 +115,11 @@ class Planner {
       throw InputError(mark, "room " + quoted(room(index)) + " has no place where the robot can turn round; it needs " +
                                  format_number(2.0 * sim::RouteConfig().turn_m) + " m");
     return *found;
+  }
+
+  [[nodiscard]] static bool is_too_short(const Path& path) {
+    constexpr double rounding_m = 1e-6;
+    return sim::length(path) < walk_min_m - rounding_m;
   }
 
   static void append(const Path& path, RoutePlan& plan) {
@@ -191,11 +196,13 @@ class Planner {
     const FloorPoint start = at;
     const std::vector<int> others = rooms_of_all(route, at);
     if (!walk_nearest_first(others, at, plan)) walk_tour(others, start, at, plan);
-    if (plan.rooms.empty()) {
+    if (!plan.rooms.empty()) return_home(start, at, plan);
+    if (is_too_short(plan.waypoints)) {  // of rooms whose freest places lie at a corner that they share
+      plan.waypoints.resize(1);
+      plan.rooms.clear();
       refuse_when_shut_in(others, start);
       return walk_round(route.loop, plan);
     }
-    return_home(start, at, plan);
     for (int lap = 1; lap < route.loop; ++lap)
       for (const std::string& name : std::vector<std::string>(plan.rooms)) walk_to(name, marks_.route, at, plan);
   }

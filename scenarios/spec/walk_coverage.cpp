@@ -15,7 +15,8 @@ namespace plumbline::scenarios {
 
 namespace {
 
-constexpr double sample_m = 0.25;        ///< of the walk, for the rooms it enters
+constexpr double sample_m = 0.1;         ///< of the walk, for the rooms it enters
+constexpr double well_inside_m = 0.5;    ///< a room, as `rooms.visited` has it
 constexpr double short_m = 10.0;         ///< a shorter walk shows little
 constexpr double least_share_out = 0.1;  ///< of a room's walkable floor, for a word on it
 
@@ -27,14 +28,18 @@ std::string metres(double x, double steps = 1e2) { return format_number(std::rou
 
 std::string name_of(const bim::Room& room) { return room.name.empty() ? room.id : room.name; }
 
-bool enters(const std::vector<sim::Waypoint>& way, const bim::Room& room, double floor_z) {
-  if (way.size() == 1) return room.contains(Eigen::Vector2d(way.front().p_W.head<2>()));
+/// Whether a walk gets so far into a room.
+bool enters(const std::vector<sim::Waypoint>& way, const bim::Room& room, double floor_z, double inside_m) {
+  const auto is_in = [&](const Eigen::Vector2d& p) {
+    return room.contains(p) && room.boundary_distance(p) >= inside_m;
+  };
+  if (way.size() == 1) return is_in(way.front().p_W.head<2>());
   for (std::size_t i = 1; i < way.size(); ++i) {
     const Eigen::Vector3d &a = way[i - 1].p_W, &b = way[i].p_W;
     const int count = 1 + static_cast<int>((b - a).norm() / sample_m);
     for (int k = 0; k <= count; ++k) {
       const Eigen::Vector3d p = a + (b - a) * (static_cast<double>(k) / count);
-      if (std::abs(p.z() - floor_z) < 1.0 && room.contains(Eigen::Vector2d(p.head<2>()))) return true;
+      if (std::abs(p.z() - floor_z) < 1.0 && is_in(p.head<2>())) return true;
     }
   }
   return false;
@@ -48,6 +53,14 @@ class Surveyor {
         space_(space),
         plan_(plan),
         places_(space.building(), space, sim::FloorPoint{plan.storey, plan.start_W}) {}
+
+  /// Well inside, or as far as the robot fits into it: a walk along a common edge is in neither room.
+  [[nodiscard]] bool is_entered(int index) const {
+    const bim::Room& room = building_.rooms[static_cast<std::size_t>(index)];
+    const double floor_z = building_.storeys[static_cast<std::size_t>(room.storey)].elevation_m;
+    if (!enters(plan_.waypoints, room, floor_z, 0.0)) return false;
+    return enters(plan_.waypoints, room, floor_z, depth(room) - space_.storey(room.storey).grid().cell);
+  }
 
   [[nodiscard]] bool in_reach(int index) const {
     const std::optional<sim::FloorPoint>& place = places_.of(index);
@@ -95,6 +108,16 @@ class Surveyor {
   }
 
  private:
+  /// How far inside a room the robot can be, up to well inside, m.
+  [[nodiscard]] double depth(const bim::Room& room) const {
+    const sim::ClearanceMap& floor = space_.storey(room.storey);
+    double deepest_m = 0.0;
+    for (std::size_t cell = 0; cell < floor.grid().size() && deepest_m < well_inside_m; ++cell)
+      if (const Eigen::Vector2d p = floor.grid().center(cell); floor.passable(cell) && room.contains(p))
+        deepest_m = std::max(deepest_m, room.boundary_distance(p));
+    return std::min(deepest_m, well_inside_m);
+  }
+
   [[nodiscard]] const sim::Blockages& blockages() {
     if (!blockages_)
       blockages_ =
@@ -178,12 +201,11 @@ WalkCoverage walk_coverage(const sim::MultiStoreyPlanner& space, const RoutePlan
   for (std::size_t i = 0; i < building.rooms.size(); ++i) {
     const bim::Room& room = building.rooms[i];
     if (room.storey != plan.storey) {
-      const double floor_m = building.storeys[static_cast<std::size_t>(room.storey)].elevation_m;
-      walk.elsewhere += enters(plan.waypoints, room, floor_m) ? 1 : 0;
+      walk.elsewhere += surveyor.is_entered(static_cast<int>(i)) ? 1 : 0;
       continue;
     }
     ++walk.rooms;
-    const bool entered = enters(plan.waypoints, room, storey.elevation_m);
+    const bool entered = surveyor.is_entered(static_cast<int>(i));
     const bool in_reach = entered || surveyor.in_reach(static_cast<int>(i));
     walk.on_route += entered ? 1 : 0;
     walk.in_reach += in_reach ? 1 : 0;
@@ -191,8 +213,10 @@ WalkCoverage walk_coverage(const sim::MultiStoreyPlanner& space, const RoutePlan
       walk.in_part.push_back({name_of(room), share});
     if (!in_reach)
       walk.out_of_reach.push_back(surveyor.why_not(static_cast<int>(i)));
-    else if (!entered)
+    else if (!entered) {
       walk.left_out.push_back(name_of(room));
+      walk.at_edge += std::find(walk.route_rooms.begin(), walk.route_rooms.end(), room.id) != walk.route_rooms.end();
+    }
   }
   return walk;
 }

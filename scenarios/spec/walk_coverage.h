@@ -39,6 +39,7 @@ struct WalkCoverage {
   std::vector<std::string> storeys_out_of_reach;  ///< of a walk of all storeys, each with why
   std::vector<RoomInPart> in_part;                ///< where the share is more than a tenth
   std::vector<std::string> left_out;              ///< names of rooms in reach that the walk does not enter
+  std::size_t at_edge = 0;                        ///< of these, named by the route, which passes their edge
   std::vector<std::string> route_rooms;           ///< ids of the rooms that the route names, each once
   bool floor_assumed = false;                     ///< neither slabs nor rooms say where it is
   double planned_m = 0.0;

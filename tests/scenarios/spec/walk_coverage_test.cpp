@@ -267,5 +267,35 @@ TEST(RoomPlaces, ABasementOfOneRoomIsNoStartWhereAStoreyAboveHasMore) {
   EXPECT_EQ(RoomPlaces(alone, shut).start_storey(), 1);
 }
 
+/// Two rooms side by side on one slab with walls around both and none between them.
+bim::Building open_rooms(double length, double width) {
+  bim::Building building = room_of(length, 2.0 * width);
+  building.rooms.clear();
+  for (int i = 0; i < 2; ++i)
+    sim::add_room(building, "r" + std::to_string(i),
+                  sim::rectangle({0.1, 0.1 + width * i}, {length + 0.1, 0.1 + width * (i + 1)}));
+  return building;
+}
+
+TEST(WalkCoverage, ARoomIsEnteredWhereTheRobotIsWellInside) {
+  const bim::Building building = open_rooms(6.0, 3.0);
+  const sim::MultiStoreyPlanner space(building);
+  RoutePlan along;
+  along.storey = 0;
+  along.start_W = {1.0, 3.2};
+  along.waypoints = {{{1.0, 3.2, 0.0}}, {{5.0, 3.2, 0.0}}};
+  EXPECT_EQ(walk_coverage(space, along).on_route, 0) << "a walk along the edge that they share";
+  along.waypoints.push_back({{5.0, 4.0, 0.0}});
+  EXPECT_EQ(walk_coverage(space, along).on_route, 1);
+  EXPECT_EQ(coverage_of(building).on_route, 2);
+}
+
+// In rooms this narrow the places to turn round lie so near to each other that to go through both is no walk.
+TEST(WalkCoverage, AWalkOfLessThanAMetreIsNone) {
+  EXPECT_GT(coverage_of(open_rooms(6.0, 0.65)).planned_m, 8.0);
+  const std::string text = input_error([] { (void)coverage_of(open_rooms(1.4, 0.65)); });
+  EXPECT_NE(text.find("there is nowhere to walk to from ["), std::string::npos) << text;
+}
+
 }  // namespace
 }  // namespace plumbline::scenarios
